@@ -1,0 +1,33 @@
+/// The one executable. Each subcommand is declared here and lives in a file of its own.
+#include <CLI/CLI.hpp>
+#include <exception>
+
+#include "app/verify_command.h"
+
+int main(int argc, char** argv) {
+  CLI::App app("Ostium: an endovascular simulator. Training and research, not for decisions on a patient.", "ostium");
+  app.set_version_flag("--version", OSTIUM_VERSION);
+  app.require_subcommand(1);
+  app.footer("Exit codes: 0 done, 1 failed or did not hold, 2 usage, 3 bad input.");
+
+  ostium::VerifyOptions verify;
+  CLI::App* verify_app = app.add_subcommand("verify", "Run the physics gates: value, reference, tolerance, pass");
+  verify_app->add_option("--only", verify.only, "Only gates whose name begins with this")->type_name("GATE");
+  verify_app->add_flag("--quick", verify.quick, "Fewer elements and cases, the same tolerances");
+  verify_app->add_flag("--json", verify.json, "Machine-readable, see data/schemas/verify.schema.json");
+  verify_app->add_flag("--list", verify.list, "Name the gates and what they compare, without running them");
+  verify_app->footer("Examples:\n  ostium verify\n  ostium verify --only rod-static\n  ostium verify --quick --json > gates.json");
+
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : 2;
+  }
+  try {
+    if (*verify_app) return ostium::verify_command(verify);
+  } catch (const std::exception& error) {
+    std::cerr << "ostium: " << error.what() << "\n";
+    return 3;
+  }
+  return 2;
+}

@@ -1,0 +1,40 @@
+#pragma once
+/// The physics gates of `ostium verify`. Each compares what ships, at the settings that ship, with a closed form, an
+/// independent solver or a published measurement; never with earlier output of our own.
+///
+/// Adding one: a source file here with a function of this shape, its line in gates.cpp, and its row in the README of
+/// the folder whose law it tests.
+#include <string>
+#include <vector>
+
+#include "data/gate_report.h"
+
+namespace ostium::verify {
+
+struct Gate {
+  const char* name;   ///< its results' names begin with it
+  const char* what;   ///< one line: what is compared with what
+  std::vector<GateResult> (*run)(bool quick);  ///< quick: fewer elements or cases, the same tolerances
+};
+
+/// All gates, in the order in which they run.
+const std::vector<Gate>& gates();
+
+/// Gates that `--only only` asks for: those whose name begins with it or that it begins with; all if it is empty.
+std::vector<Gate> selected(const std::string& only);
+
+/// Results of one gate that `only` asks for: those whose name begins with it.
+std::vector<GateResult> run(const Gate& gate, const std::string& only, bool quick);
+
+// --- rods --------------------------------------------------------------------------------------------------------
+std::vector<GateResult> rod_swing(bool quick);
+std::vector<GateResult> rod_static(bool quick);
+std::vector<GateResult> rod_torsion(bool quick);
+std::vector<GateResult> rod_euler(bool quick);
+std::vector<GateResult> rod_greenhill(bool quick);
+std::vector<GateResult> rod_ring(bool quick);
+std::vector<GateResult> rod_link(bool quick);
+std::vector<GateResult> rod_momentum(bool quick);
+std::vector<GateResult> rod_section(bool quick);
+
+}  // namespace ostium::verify

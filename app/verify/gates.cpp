@@ -1,0 +1,35 @@
+#include "app/verify/gate.h"
+
+namespace ostium::verify {
+
+const std::vector<Gate>& gates() {
+  static const std::vector<Gate> all = {
+      {"rod-swing", "clamped steel wire released from rest, against converged integrators", rod_swing},
+      {"rod-static", "cantilever under its own weight, against the exact elastica", rod_static},
+      {"rod-torsion", "base turned by 180 degrees in 0.1 s, against quasi-static torsion", rod_torsion},
+      {"rod-euler", "buckling load of a cantilever, against Euler", rod_euler},
+      {"rod-greenhill", "buckling moment of a twisted clamped rod, against Greenhill", rod_greenhill},
+      {"rod-ring", "twist at which a ring leaves its plane, against Michell and Zajac", rod_ring},
+      {"rod-link", "link number of a writhing ring, against Calugareanu's theorem", rod_link},
+      {"rod-momentum", "free rod, against conservation of momentum", rod_momentum},
+      {"rod-section", "a section boundary swept through an element, against a boundary-value solution", rod_section},
+  };
+  return all;
+}
+
+std::vector<Gate> selected(const std::string& only) {
+  std::vector<Gate> out;
+  for (const Gate& gate : gates()) {
+    const std::string name = gate.name;
+    if (only.starts_with(name) || name.starts_with(only)) out.push_back(gate);
+  }
+  return out;
+}
+
+std::vector<GateResult> run(const Gate& gate, const std::string& only, bool quick) {
+  std::vector<GateResult> results = gate.run(quick);
+  std::erase_if(results, [&](const GateResult& r) { return !r.gate.starts_with(only); });
+  return results;
+}
+
+}  // namespace ostium::verify

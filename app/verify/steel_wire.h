@@ -1,0 +1,59 @@
+#pragma once
+/// The wire of the rod gates: 1 m, radius 0.45 mm, E 60 GPa, nu 0.3, 6500 kg/m3, straight, along x from the origin.
+#include "core/inputs.h"
+#include "core/statics.h"
+#include "core/step.h"
+
+namespace ostium::verify {
+
+struct WireOptions {
+  int elements = 100;
+  double E_Pa = 60e9;
+  double length_m = 1;
+  bool gravity = true;  ///< along -z
+};
+
+/// A model with one wire, its state and its working memory.
+struct Bench {
+  explicit Bench(Model m, EndState base);
+
+  void step();
+  RodEquilibrium settle();
+  bool is_unstable();  ///< the present shape, taken as an equilibrium
+  RodState& rod() { return state.rods[0]; }
+  Eigen::Vector3d tip() const { return state.rods[0].position[model.rods[0].elements]; }
+
+  Model model;
+  State state;
+  Scratch scratch;
+  Inputs inputs;  ///< base clamped, tip free, no load
+  StepReport report;
+};
+
+RodDescription steel_wire(const WireOptions& options);
+Bench steel_bench(const WireOptions& options);
+
+/// A frame with d3 along x, d1 along -z, d2 along y.
+EndState along_x();
+/// `end` turned about the world axis through its origin.
+Eigen::Vector4d turned_frame(const Eigen::Vector4d& q_W, const Eigen::Vector3d& rotation_W_rad);
+
+/// Lays a rod along a curve: element j gets the given frame; nodes are strung from the base. Sets both ends' poses, the
+/// tip's to `tip_q_W`, and clears motion and forces.
+void lay_out(const Rod& rod, const std::vector<Eigen::Vector4d>& q_W, const Eigen::Vector4d& tip_q_W, RodState& state);
+
+/// Lays a rod into a plane circle through its base, closed, its tip frame turned by `twist_rad` about the tangent against
+/// its base frame and the twist spread evenly.
+void lay_out_ring(const Rod& rod, double twist_rad, RodState& state);
+
+/// The least x in [stable, unstable] at which `is_unstable(x)` holds, to the given fraction, by bisection.
+template <class F>
+double critical(double stable, double unstable, double fraction, F&& is_unstable) {
+  while (unstable - stable > fraction * unstable) {
+    const double middle = 0.5 * (stable + unstable);
+    (is_unstable(middle) ? unstable : stable) = middle;
+  }
+  return 0.5 * (stable + unstable);
+}
+
+}  // namespace ostium::verify

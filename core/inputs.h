@@ -1,0 +1,34 @@
+#pragma once
+/// The only door into a running simulation: one struct a step, whoever fills it (device, script, replay, test).
+#include <Eigen/Core>
+#include <vector>
+
+namespace ostium {
+
+/// How one end of a rod is held. An end that is let go of and held again is held where it is then.
+enum class Hold : unsigned char {
+  free,     ///< not at all
+  pinned,   ///< its position
+  clamped,  ///< its position and material frame
+  guided,   ///< its material frame, and its position across the frame's d3; it slides along d3
+};
+
+/// What moves a held end. Rates, so that any command is continuous; beyond tunables.h's limits they are shortened to
+/// the limit, not-a-number counts as zero, and the step's report says so.
+struct EndDrive {
+  Hold hold = Hold::free;
+  Eigen::Vector3d velocity_W_m_s = Eigen::Vector3d::Zero();
+  Eigen::Vector3d turn_rate_W_rad_s = Eigen::Vector3d::Zero();
+};
+
+struct RodInputs {
+  EndDrive base{Hold::clamped};
+  EndDrive tip{Hold::free};
+  Eigen::Vector3d tip_force_W_N = Eigen::Vector3d::Zero();  ///< dead load on the distal tip
+};
+
+struct Inputs {
+  std::vector<RodInputs> rods;  ///< one per rod of the model, in its order
+};
+
+}  // namespace ostium

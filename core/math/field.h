@@ -1,0 +1,92 @@
+#pragma once
+/// A field along a rod: K numbers at each node, joint or element, stored component by component so that four
+/// neighbours load into one register.
+#include <Eigen/Core>
+#include <cstddef>
+#include <vector>
+
+#include "core/math/lanes.h"
+
+namespace ostium {
+
+/// Storage length for `count` entries: whole registers, and one register of padding behind them. Nothing but the chain
+/// solver reads or writes the padding.
+inline int padded(int count) { return (count + lane_count - 1) / lane_count * lane_count + lane_count; }
+
+/// `size()` entries of K doubles. Component c of entry i is `at(c)[i]`, with i < stride(). Allocates in `resize` only.
+template <int K>
+class Field {
+ public:
+  Field() = default;
+  explicit Field(int size) { resize(size); }
+
+  void resize(int size) {
+    size_ = size;
+    stride_ = padded(size);
+    data_.assign(static_cast<std::size_t>(K) * stride_, 0.0);
+  }
+  int size() const { return size_; }
+  int stride() const { return stride_; }
+
+  double* at(int component) { return data_.data() + static_cast<std::ptrdiff_t>(component) * stride_; }
+  const double* at(int component) const { return data_.data() + static_cast<std::ptrdiff_t>(component) * stride_; }
+
+  Eigen::Matrix<double, K, 1> operator[](int i) const {
+    Eigen::Matrix<double, K, 1> value;
+    for (int c = 0; c < K; ++c) value[c] = at(c)[i];
+    return value;
+  }
+  void set(int i, const Eigen::Matrix<double, K, 1>& value) {
+    for (int c = 0; c < K; ++c) at(c)[i] = value[c];
+  }
+  void fill(const Eigen::Matrix<double, K, 1>& value) {
+    for (int i = 0; i < stride_; ++i) set(i, value);
+  }
+
+  /// All numbers, padding included.
+  std::vector<double>& raw() { return data_; }
+  const std::vector<double>& raw() const { return data_; }
+
+ private:
+  int size_ = 0, stride_ = 0;
+  std::vector<double> data_;
+};
+
+/// Calls f(Lanes{}, i) for whole registers of [begin, end) and f(double{}, i) for each entry that is left. Both do the
+/// same operations in the same order, so an entry's result does not depend on which of them computes it.
+template <class F>
+void for_packs(int begin, int end, F&& f) {
+  int i = begin;
+  for (; i + lane_count <= end; i += lane_count) f(Lanes{}, i);
+  for (; i < end; ++i) f(double{}, i);
+}
+
+// --- registers out of fields and back --------------------------------------------------------------------------------
+template <class T>
+V3<T> load3(const Field<3>& f, int i) {
+  return {load<T>(f.at(0) + i), load<T>(f.at(1) + i), load<T>(f.at(2) + i)};
+}
+template <class T>
+Q4<T> load4(const Field<4>& f, int i) {
+  return {load<T>(f.at(0) + i), load<T>(f.at(1) + i), load<T>(f.at(2) + i), load<T>(f.at(3) + i)};
+}
+template <class T>
+S3<T> load6(const Field<6>& f, int i) {
+  return {load<T>(f.at(0) + i), load<T>(f.at(1) + i), load<T>(f.at(2) + i),
+          load<T>(f.at(3) + i), load<T>(f.at(4) + i), load<T>(f.at(5) + i)};
+}
+template <class T>
+void store3(Field<3>& f, int i, const V3<T>& a) {
+  store(f.at(0) + i, a.x), store(f.at(1) + i, a.y), store(f.at(2) + i, a.z);
+}
+template <class T>
+void store4(Field<4>& f, int i, const Q4<T>& a) {
+  store(f.at(0) + i, a.w), store(f.at(1) + i, a.x), store(f.at(2) + i, a.y), store(f.at(3) + i, a.z);
+}
+template <class T>
+void store6(Field<6>& f, int i, const S3<T>& a) {
+  store(f.at(0) + i, a.xx), store(f.at(1) + i, a.xy), store(f.at(2) + i, a.xz);
+  store(f.at(3) + i, a.yy), store(f.at(4) + i, a.yz), store(f.at(5) + i, a.zz);
+}
+
+}  // namespace ostium

@@ -1,0 +1,108 @@
+#include "core/rod/elasticity.h"
+
+#include "core/math/rotation.h"
+
+namespace ostium {
+
+namespace {
+
+/// One joint between frames a (proximal) and b (distal).
+///
+/// Its strain is the rotation vector theta of R_a^T R_b over the cell's length, the mean Darboux vector. A turn phi of
+/// the frames changes it by d(theta) = J^-1(theta) R_a^T (phi_b - phi_a), with the inverse left Jacobian of SO(3)
+///   J^-1 = I - [theta]x / 2 + c [theta]x^2,  c = 1/12 + theta^2 / 720 + ...
+/// (Sola, Deray, Atchuthan 2018, eq. 146), so the moment in the world is R_a J^-T m. Its tangent is taken at the mid
+/// frame; the moment turning with the mean of both frames gives the term [m]x / 2 that `Chain` couples by.
+template <class T>
+struct Joint {
+  S3<T> stiffness;  ///< world frame, N m/rad
+  V3<T> moment;     ///< world frame, N m
+  V3<T> strain;     ///< material frame, 1/m
+};
+
+template <class T, class Law>
+Joint<T> joint(const Law& law, const V3<T>& rest, T length, const Q4<T>& a, Q4<T> b, int i, T damping_s, T rate_scale,
+               const V3<T>& strain_offset) {
+  const Q4<T> relative = conjugate(a) * b;
+  const V3<T> theta = rotation_vector(relative);
+  const T per_length = 1.0 / length;
+  Joint<T> out;
+  out.strain = per_length * theta;
+
+  auto [m, C] = law.template operator()<T>(out.strain - rest, i);
+  // Kelvin-Voigt: C (u + tau du/dt), with du/dt = rate_scale u - strain_offset (BDF2).
+  m = madd(damping_s, C * (rate_scale * out.strain - strain_offset), m);
+  C = madd(damping_s, rate_scale, T{} + 1.0) * C;
+
+  const T theta2 = dot(theta, theta);
+  const T c = madd(theta2, T{} + 1.0 / 720.0, T{} + 1.0 / 12.0);
+  const V3<T> tm = cross(theta, m);
+  out.moment = matrix(a) * (m + madd(T{} + 0.5, tm, c * cross(theta, tm)));
+
+  const T sign = with_sign(T{} + 1.0, relative.w);  // q and -q are one rotation
+  const M3<T> R = matrix(normalised(Q4<T>{madd(sign, b.w, a.w), madd(sign, b.x, a.x), madd(sign, b.y, a.y), madd(sign, b.z, a.z)}));
+  out.stiffness = per_length * symmetric_times_transpose(R * C, R);
+  return out;
+}
+
+void clear_joint(Chain& chain, int i) {
+  store6(chain.joint_stiffness, i, S3<double>{});
+  store3(chain.joint_moment, i, V3<double>{});
+}
+
+Q4<double> frame(const EndState& end) { return {end.q_W[0], end.q_W[1], end.q_W[2], end.q_W[3]}; }
+
+}  // namespace
+
+void linearise_joints(const Rod& rod, const RodState& state, EndJoints ends, double step_s, RodScratch& scratch) {
+  const int N = rod.elements;
+  const bool damped = rod.damping.material_time_s > 0 && step_s > 0;
+  const double tau = damped ? rod.damping.material_time_s : 0.0;
+  const double rate_scale = damped ? 1.5 / step_s : 0.0;
+  Chain& chain = scratch.chain;
+
+  std::visit(
+      [&](const auto& law) {
+        const auto between = [&]<class T>(int i, const Q4<T>& a, const Q4<T>& b) {
+          V3<T> offset{};
+          if (damped)
+            offset = splat<T>(0.5 / step_s) * (splat<T>(4) * load3<T>(state.strain, i) - load3<T>(state.strain_before, i));
+          const Joint<T> j = joint<T>(law, load3<T>(rod.rest_curvature, i), load<T>(rod.joint_length.at(0) + i), a, b, i,
+                                      splat<T>(tau), splat<T>(rate_scale), offset);
+          store6(chain.joint_stiffness, i, j.stiffness);
+          store3(chain.joint_moment, i, j.moment);
+          if (damped) store3(scratch.strain, i, j.strain);
+        };
+        for_packs(1, N, [&]<class T>(T, int i) {
+          between.template operator()<T>(i, load4<T>(scratch.orientation, i - 1), load4<T>(scratch.orientation, i));
+        });
+        clear_joint(chain, 0), clear_joint(chain, N);
+        if (ends.base) between.template operator()<double>(0, frame(state.base), load4<double>(scratch.orientation, 0));
+        if (ends.tip) between.template operator()<double>(N, load4<double>(scratch.orientation, N - 1), frame(state.tip));
+      },
+      rod.law);
+}
+
+void assemble_elements(const Rod& rod, RodScratch& scratch) {
+  Chain& chain = scratch.chain;
+  for_packs(0, rod.elements, [&]<class T>(T, int j) {
+    const T length = load<T>(rod.length.at(0) + j);
+    const V3<T> d3 = director3(load4<T>(scratch.orientation, j));
+    const V3<T> n = load3<T>(scratch.force, j);
+
+    // Geometric stiffness, the second variation of -n . l d3: l ((n . d3) I - (n d3^T + d3 n^T) / 2).
+    const T tension = length * dot(n, d3), half = -0.5 * length;
+    const S3<T> geometric{madd(half, 2.0 * n.x * d3.x, tension),
+                          half * madd(n.x, d3.y, n.y * d3.x),
+                          half * madd(n.x, d3.z, n.z * d3.x),
+                          madd(half, 2.0 * n.y * d3.y, tension),
+                          half * madd(n.y, d3.z, n.z * d3.y),
+                          madd(half, 2.0 * n.z * d3.z, tension)};
+    store6(chain.stiffness, j, load6<T>(chain.joint_stiffness, j) + load6<T>(chain.joint_stiffness, j + 1) + geometric);
+    store3(chain.torque, j, load3<T>(chain.joint_moment, j + 1) - load3<T>(chain.joint_moment, j));
+    store3(chain.arm, j, length * d3);
+    store3(chain.gap, j, load3<T>(scratch.target, j) - load3<T>(scratch.target, j + 1) + length * d3);
+  });
+}
+
+}  // namespace ostium

@@ -1,0 +1,22 @@
+#pragma once
+/// Elasticity of a rod, linearised about the current iterate.
+#include "core/rod/rod.h"
+#include "core/scratch.h"
+#include "core/state.h"
+
+namespace ostium {
+
+/// Whether the frame of an end is joined to what holds it.
+struct EndJoints {
+  bool base = false, tip = false;
+};
+
+/// Moments and stiffness of all joints: writes chain.joint_stiffness and chain.joint_moment (world frame) and, with
+/// material damping, scratch.strain. Ends without a joint get zeros. `step_s` = 0: no damping (statics).
+void linearise_joints(const Rod& rod, const RodState& state, EndJoints ends, double step_s, RodScratch& scratch);
+
+/// Gathers the elements' rows from their joints: writes chain.arm, stiffness, torque (without inertia) and gap. The
+/// geometric stiffness comes from scratch.force.
+void assemble_elements(const Rod& rod, RodScratch& scratch);
+
+}  // namespace ostium

@@ -1,0 +1,30 @@
+#pragma once
+/// Inertia, weight and drag of a rod over one step, and what its integrator remembers.
+#include "core/inputs.h"
+#include "core/rod/rod.h"
+#include "core/scratch.h"
+#include "core/state.h"
+
+namespace ostium {
+
+/// Where nodes would go without internal force, and how they yield to it: writes scratch.target and chain.compliance.
+void predict_nodes(const Rod& rod, const RodState& state, const Eigen::Vector3d& gravity_W, const Eigen::Vector3d& tip_force_W,
+                   double step_s, RodScratch& scratch);
+
+/// Extrapolates the frames at constant rate: writes scratch.orientation, turn and force.
+void predict_elements(const Rod& rod, const RodState& state, RodScratch& scratch);
+
+/// Adds the elements' rotary inertia to chain.stiffness.
+void add_rotary_inertia(const Rod& rod, double step_s, RodScratch& scratch);
+
+/// Adds the torque of the elements' angular acceleration, from the last step's turn to the iterate's, to chain.torque;
+/// after add_rotary_inertia.
+void add_rotary_torque(const Rod& rod, const RodState& state, double step_s, RodScratch& scratch);
+
+/// Moves the iterate into the state, with the velocities that belong to it.
+void commit(const Rod& rod, const RodScratch& scratch, double step_s, RodState& state);
+
+/// Keeps the shape and forgets all motion.
+void halt(const Rod& rod, RodState& state);
+
+}  // namespace ostium

@@ -1,0 +1,80 @@
+#include "core/rod/iterate.h"
+
+#include <cmath>
+#include <limits>
+
+#include "core/math/rotation.h"
+
+namespace ostium {
+
+namespace {
+
+/// The largest of a quantity over a field, and a sum that is finite only if all of it is.
+struct Extent {
+  Lanes packed_largest{}, packed_sum{};
+  double single_largest = 0, single_sum = 0;
+
+  void take(Lanes square) { packed_largest = ostium::largest(packed_largest, square), packed_sum = packed_sum + square; }
+  void take(double square) { single_largest = ostium::largest(single_largest, square), single_sum += square; }
+  double largest() const { return std::sqrt(ostium::largest(horizontal_max(packed_largest), single_largest)); }
+  bool finite() const { return std::isfinite(packed_sum[0] + packed_sum[1] + packed_sum[2] + packed_sum[3] + single_sum); }
+};
+
+template <class T>
+V3<T> blend(T fraction, const V3<T>& from, const V3<T>& to) {
+  return madd(fraction, to - from, from);
+}
+
+}  // namespace
+
+double largest_turn(const Rod& rod, const Chain& chain) {
+  Extent turns;
+  for_packs(0, rod.elements, [&]<class T>(T, int j) {
+    const V3<T> phi = load3<T>(chain.turn, j);
+    turns.take(dot(phi, phi));
+  });
+  return turns.finite() ? turns.largest() : std::numeric_limits<double>::quiet_NaN();
+}
+
+IterateChange update_iterate(const Rod& rod, double max_turn_rad, RodScratch& scratch) {
+  const int N = rod.elements;
+  const Chain& chain = scratch.chain;
+
+  Extent turns, forces;
+  for_packs(0, N, [&]<class T>(T, int j) {
+    const V3<T> phi = load3<T>(chain.turn, j), n = load3<T>(chain.force, j);
+    turns.take(dot(phi, phi)), forces.take(dot(n, n));
+  });
+  IterateChange change;
+  change.finite = turns.finite() && forces.finite();
+  if (!change.finite) return change;
+  change.turn_rad = turns.largest();
+  const double fraction = change.turn_rad > max_turn_rad ? max_turn_rad / change.turn_rad : 1.0;
+
+  for_packs(0, N, [&]<class T>(T, int j) {
+    const V3<T> phi = splat<T>(fraction) * load3<T>(chain.turn, j);
+    store4(scratch.orientation, j, turned(phi, load4<T>(scratch.orientation, j)));
+    store3(scratch.turn, j, load3<T>(scratch.turn, j) + phi);
+    store3(scratch.force, j, blend(splat<T>(fraction), load3<T>(scratch.force, j), load3<T>(chain.force, j)));
+  });
+
+  // Node i gets the force of its distal element less that of its proximal one.
+  const auto node = [&]<class T>(T, int i, const V3<T>& force) {
+    store3(scratch.position, i, load3<T>(scratch.target, i) + load6<T>(chain.compliance, i) * force);
+  };
+  node(double{}, 0, load3<double>(scratch.force, 0));
+  for_packs(1, N, [&]<class T>(T t, int i) { node(t, i, load3<T>(scratch.force, i) - load3<T>(scratch.force, i - 1)); });
+  node(double{}, N, V3<double>{} - load3<double>(scratch.force, N - 1));
+
+  Extent stretch;
+  for_packs(0, N, [&]<class T>(T, int j) {
+    const T per_length = 1.0 / load<T>(rod.length.at(0) + j);
+    const V3<T> edge = load3<T>(scratch.position, j + 1) - load3<T>(scratch.position, j);
+    const V3<T> defect = per_length * edge - director3(load4<T>(scratch.orientation, j));
+    stretch.take(dot(defect, defect));
+  });
+  change.stretch = stretch.largest();
+  return change;
+}
+
+}  // namespace ostium

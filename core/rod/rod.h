@@ -1,0 +1,35 @@
+#pragma once
+/// A rod cut into elements: the const part of its mechanics.
+///
+///   node 0   element 0   node 1   element 1  ...   node N        base = node 0, distal tip = node N
+///     o---------------------o---------------------...o
+///   joint 0               joint 1                  joint N
+///
+/// Nodes carry mass and position, elements a material frame, joints the bending and twisting between two elements.
+/// Joint i sits at node i; its cell reaches from the middle of element i - 1 to the middle of element i, and half an
+/// element at the ends, where the rod is joined to whatever holds it.
+#include "core/rod/moment_law.h"
+#include "core/rod/section.h"
+
+namespace ostium {
+
+struct Rod {
+  int elements = 0;               ///< N
+  Field<1> length;                ///< m, (#elements)
+  Field<1> mass;                  ///< kg, (#nodes): half of each adjacent element
+  Field<2> rotary_inertia;        ///< kg m2, (#elements): about a transverse axis, about d3
+  Field<1> joint_length;          ///< m, (#joints)
+  Field<3> rest_curvature;        ///< 1/m, (#joints), average over the cell
+  MomentLaw law;                  ///< (#joints), averaged over the cell
+  Damping damping;
+  double total_length_m = 0;      ///< of the elements
+  double total_mass_kg = 0;
+
+  int nodes() const { return elements + 1; }
+};
+
+/// Cuts a description into elements. Properties that vary inside a cell are averaged: compliance and rest curvature by
+/// their integrals over the cell (so that angles add up exactly), mass by its own. Throws as `check` does.
+Rod make_rod(const RodDescription& description);
+
+}  // namespace ostium

@@ -1,0 +1,77 @@
+#include "core/rod/section.h"
+
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+
+namespace ostium {
+
+namespace {
+
+[[noreturn]] void refuse(const RodDescription& d, std::size_t section, const std::string& what) {
+  throw std::invalid_argument("rod \"" + d.name + "\", section " + std::to_string(section) + ": " + what);
+}
+
+void require_positive(const RodDescription& d, std::size_t section, const char* name, double value) {
+  if (!(value > 0) || !std::isfinite(value))
+    refuse(d, section, std::string(name) + " is " + std::to_string(value) + "; it must be positive and finite");
+}
+
+}  // namespace
+
+std::vector<double> equal_elements(const std::vector<Section>& sections, int count) {
+  const double length = sections.empty() ? 0 : sections.back().to_tip_m;
+  return std::vector<double>(count, length / count);
+}
+
+Section round_section(double from_tip_m, double to_tip_m, double radius_m, double inner_radius_m, double E_Pa, double nu,
+                      double kg_per_m3) {
+  const double fourth = std::pow(radius_m, 4) - std::pow(inner_radius_m, 4);
+  const double area = std::numbers::pi * (radius_m * radius_m - inner_radius_m * inner_radius_m);
+  Section s;
+  s.from_tip_m = from_tip_m, s.to_tip_m = to_tip_m;
+  s.EI1_N_m2 = s.EI2_N_m2 = E_Pa * std::numbers::pi / 4 * fourth;
+  s.GJ_N_m2 = E_Pa / (2 * (1 + nu)) * std::numbers::pi / 2 * fourth;
+  s.kg_per_m = kg_per_m3 * area;
+  s.radius_m = radius_m, s.inner_radius_m = inner_radius_m;
+  return s;
+}
+
+void check(const RodDescription& d) {
+  constexpr double gap_tolerance_m = 1e-9;
+  if (d.sections.empty()) throw std::invalid_argument("rod \"" + d.name + "\" has no section; give at least one");
+  double reached = 0;
+  for (std::size_t i = 0; i < d.sections.size(); ++i) {
+    const Section& s = d.sections[i];
+    if (!(s.to_tip_m > s.from_tip_m))
+      refuse(d, i, "reaches from " + std::to_string(s.from_tip_m) + " m to " + std::to_string(s.to_tip_m) +
+                       " m from the tip; its length must be positive");
+    if (std::fabs(s.from_tip_m - reached) > gap_tolerance_m)
+      refuse(d, i, "begins " + std::to_string(s.from_tip_m) + " m from the tip, but the one before it ends at " +
+                       std::to_string(reached) + " m; sections run from the tip backwards without gap or overlap");
+    require_positive(d, i, "EI1", s.EI1_N_m2);
+    require_positive(d, i, "EI2", s.EI2_N_m2);
+    require_positive(d, i, "GJ", s.GJ_N_m2);
+    require_positive(d, i, "weight per length", s.kg_per_m);
+    require_positive(d, i, "radius", s.radius_m);
+    if (!(s.inner_radius_m >= 0 && s.inner_radius_m < s.radius_m))
+      refuse(d, i, "inner radius is " + std::to_string(s.inner_radius_m) + " m; it must lie between 0 and the outer radius");
+    if (!s.rest_curvature_per_m.allFinite()) refuse(d, i, "rest curvature is not finite");
+    reached = s.to_tip_m;
+  }
+  const auto in_name = [&](const std::string& what) { return std::invalid_argument("rod \"" + d.name + "\": " + what); };
+  if (d.element_lengths_m.size() < 16 || d.element_lengths_m.size() > 4096)
+    throw in_name(std::to_string(d.element_lengths_m.size()) + " elements; 16 to 4096 are possible");
+  double total = 0;
+  for (double length : d.element_lengths_m) {
+    if (!(length > 0) || !std::isfinite(length)) throw in_name("an element's length must be positive and finite");
+    total += length;
+  }
+  if (total > reached * (1 + 1e-12) + gap_tolerance_m)
+    throw in_name("its elements are " + std::to_string(total) + " m long together, its sections only " + std::to_string(reached));
+  const Damping& loss = d.damping;
+  if (!(loss.drag_across_N_s_m2 >= 0 && loss.drag_along_N_s_m2 >= 0 && loss.material_time_s >= 0))
+    throw in_name("damping must not be negative");
+}
+
+}  // namespace ostium

@@ -1,0 +1,54 @@
+#pragma once
+/// What an instrument is made of, as a catalogue or a measurement states it.
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+namespace ostium {
+
+/// A stretch of an instrument with uniform properties. SI.
+struct Section {
+  double from_tip_m = 0;         ///< where it begins, measured from the distal tip along the rod; >= 0
+  double to_tip_m = 0;           ///< where it ends; > from_tip_m
+  double EI1_N_m2 = 0;           ///< bending stiffness about director d1; > 0
+  double EI2_N_m2 = 0;           ///< bending stiffness about director d2; > 0
+  double GJ_N_m2 = 0;            ///< torsional stiffness; > 0
+  double kg_per_m = 0;           ///< weight; > 0
+  double radius_m = 0;           ///< outer radius; > 0
+  double inner_radius_m = 0;     ///< of the lumen; 0 for a wire
+  /// Darboux vector of the unloaded shape in the material frame, 1/m: d_i' = u x d_i towards the tip, so that u1 > 0
+  /// turns d3 towards -d2, u2 > 0 turns d3 towards d1, and u3 is a twist.
+  Eigen::Vector3d rest_curvature_per_m = Eigen::Vector3d::Zero();
+};
+
+/// Drag of the surrounding fluid and loss in the material. All zero by default.
+struct Damping {
+  /// Force per length and velocity across and along the rod, N s/m2. A slender rod in blood (3.5 mPa s) takes
+  /// 4 pi mu / (ln(2 l / r)) and half of it: about 0.007 and 0.0035 (Cox 1970, J Fluid Mech 44:791).
+  double drag_across_N_s_m2 = 0;
+  double drag_along_N_s_m2 = 0;
+  /// Kelvin-Voigt: moment = stiffness (strain + time x strain rate). Polymer shafts: of the order of 1 ms (estimate).
+  double material_time_s = 0;
+};
+
+/// A rod as it is asked for.
+struct RodDescription {
+  std::string name;
+  std::vector<Section> sections;          ///< from the distal tip backwards, without gaps
+  std::vector<double> element_lengths_m;  ///< from the base to the tip, 16 to 4,096 of them; their sum is at most the
+                                          ///< sections' length (what is longer stays behind the base)
+  Damping damping;
+};
+
+/// `count` equal elements over the whole length of the sections.
+std::vector<double> equal_elements(const std::vector<Section>& sections, int count);
+
+/// A round solid section of one material: EI = E pi (ro^4 - ri^4) / 4, GJ = E / (2 (1 + nu)) pi (ro^4 - ri^4) / 2.
+Section round_section(double from_tip_m, double to_tip_m, double radius_m, double inner_radius_m, double E_Pa, double nu,
+                      double kg_per_m3);
+
+/// Throws std::invalid_argument naming the rod, the section and the value that is wrong: a gap or overlap, a negative
+/// length, a stiffness, weight or radius that is not positive and finite.
+void check(const RodDescription& description);
+
+}  // namespace ostium

@@ -1,0 +1,29 @@
+#pragma once
+/// Working memory of a step. May be destroyed, or made anew, between any two steps.
+#include "core/inputs.h"
+#include "core/model.h"
+#include "core/solve/chain.h"
+
+namespace ostium {
+
+struct RodScratch {
+  RodInputs inputs;       ///< of this step, within limits
+  bool fresh = false;     ///< the first step after an end was held or let go
+  bool done = false;      ///< the iterate is good enough
+  Chain chain;            ///< the linear system and its solution
+  Field<3> target;        ///< m, (#nodes): where a node would go if the rod exerted no force on it
+  Field<4> orientation;   ///< (#elements): the iterate
+  Field<3> turn;          ///< rad, (#elements): the iterate's turn since the beginning of the step
+  Field<3> force;         ///< N, (#elements): the iterate
+  Field<3> position;      ///< m, (#nodes): the iterate
+  Field<3> strain;        ///< 1/m, (#joints): the iterate, with material damping only
+};
+
+struct Scratch {
+  explicit Scratch(const Model& model);
+
+  std::vector<RodScratch> rods;
+  ChainFactors factors;
+};
+
+}  // namespace ostium

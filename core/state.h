@@ -1,0 +1,82 @@
+#pragma once
+/// All that is needed to go on bit-identically: what the integrator remembers, warm starts included. Its fields are
+/// listed once, in `for_each_field`; hash, save, compare and print use that list.
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/model.h"
+
+namespace ostium {
+
+/// One end of a rod, as it is or was held.
+struct EndState {
+  Eigen::Vector3d p_W = Eigen::Vector3d::Zero();  ///< m
+  Eigen::Vector4d q_W = {1, 0, 0, 0};             ///< material frame, quaternion w x y z
+  double hold = -1;                               ///< the Hold of the last step, as a number; -1: none yet
+};
+
+struct RodState {
+  Field<3> position;         ///< m, (#nodes)
+  Field<3> position_before;  ///< one step earlier
+  Field<3> velocity;         ///< m/s, (#nodes)
+  Field<3> velocity_before;
+  Field<4> orientation;      ///< unit quaternion w x y z, material to world, (#elements)
+  Field<3> turn;             ///< rad, world frame, (#elements): of the last step
+  Field<3> turn_before;
+  Field<3> force;            ///< N, world frame, (#elements): internal, distal on proximal
+  Field<3> strain;           ///< 1/m, material frame, (#joints), Darboux vector; empty without material damping
+  Field<3> strain_before;
+  EndState base, tip;
+};
+
+struct State {
+  std::uint64_t step = 0;
+  std::vector<RodState> rods;
+};
+
+/// Rods straight from their base poses along d3 and at rest; `bases[i]` belongs to rod i.
+State make_state(const Model& model, const std::vector<EndState>& bases);
+/// The same with every rod in its unloaded shape.
+State make_state_at_rest_shape(const Model& model, const std::vector<EndState>& bases);
+
+/// Calls visit(name, first, count) with `count` doubles for each field of each rod, in a fixed order. `S` is State or
+/// const State. The step number is not among them.
+template <class S, class Visit>
+void for_each_field(S& state, Visit&& visit) {
+  for (auto& rod : state.rods) {
+    const auto components = [&](const char* name, auto& field) {
+      for (int c = 0; c < static_cast<int>(field.raw().size()) / std::max(field.stride(), 1); ++c)
+        visit(name, field.at(c), field.size());
+    };
+    components("position", rod.position);
+    components("position_before", rod.position_before);
+    components("velocity", rod.velocity);
+    components("velocity_before", rod.velocity_before);
+    components("orientation", rod.orientation);
+    components("turn", rod.turn);
+    components("turn_before", rod.turn_before);
+    components("force", rod.force);
+    components("strain", rod.strain);
+    components("strain_before", rod.strain_before);
+    for (auto* end : {&rod.base, &rod.tip}) {
+      visit("end.p_W", end->p_W.data(), 3);
+      visit("end.q_W", end->q_W.data(), 4);
+      visit("end.hold", &end->hold, 1);
+    }
+  }
+}
+
+/// 64-bit hash of the step number and every field (XXH3 over their bytes: -0 and 0 differ).
+std::uint64_t hash(const State& state);
+
+/// Numbers of a state in the order of the list, the step number first; and back. `restore` wants a state of the same
+/// model (made by make_state) and throws std::invalid_argument if the count differs, leaving the state untouched.
+std::vector<double> save(const State& state);
+void restore(const std::vector<double>& saved, State& state);
+
+/// "rod 0, velocity[12]: 0.1 != 0.2" for the first difference, or empty if the states are bit-identical.
+std::string first_difference(const State& a, const State& b);
+
+}  // namespace ostium

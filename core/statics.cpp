@@ -1,0 +1,144 @@
+#include "core/statics.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/math/rotation.h"
+#include "core/rod/elasticity.h"
+#include "core/rod/ends.h"
+#include "core/rod/inertia.h"
+#include "core/rod/iterate.h"
+#include "core/step.h"
+#include "core/tunables.h"
+
+namespace ostium {
+
+namespace {
+
+/// A time long against the rod's slowest motion, so that inertia hardly matters any more.
+double longest_time(const Rod& rod) {
+  double compliance = 0;  // of bending, integrated: L / EI
+  std::visit(
+      [&](const auto& law) {
+        for (int i = 0; i < rod.nodes(); ++i) {
+          const S3<double> C = law.template operator()<double>(V3<double>{}, i).tangent;
+          compliance += rod.joint_length.at(0)[i] / std::min(C.xx, C.yy);
+        }
+      },
+      rod.law);
+  return tunables::static_time_ratio * std::sqrt(rod.total_mass_kg * rod.total_length_m * rod.total_length_m * compliance);
+}
+
+/// Nodes stay near the iterate: r = p + (time^2 / m) (f + internal force), p the last iterate.
+void stay_near(const Rod& rod, const Eigen::Vector3d& gravity_W, const Eigen::Vector3d& tip_force_W, double time_s,
+               RodScratch& s) {
+  const double time2 = time_s * time_s;
+  const V3<double> fall = from_eigen(time2 * gravity_W);
+  for_packs(0, rod.nodes(), [&]<class T>(T, int i) {
+    store6(s.chain.compliance, i, (time2 / load<T>(rod.mass.at(0) + i)) * identity3<T>());
+    store3(s.target, i, load3<T>(s.position, i) + V3<T>{splat<T>(fall.x), splat<T>(fall.y), splat<T>(fall.z)});
+  });
+  const int N = rod.elements;
+  s.target.set(N, s.target[N] + time2 / rod.mass.at(0)[N] * tip_force_W);
+}
+
+void start_at(const Rod& rod, const RodState& state, RodScratch& s) {
+  for_packs(0, rod.nodes(), [&]<class T>(T, int i) { store3(s.position, i, load3<T>(state.position, i)); });
+  for_packs(0, rod.elements, [&]<class T>(T, int j) {
+    store4(s.orientation, j, load4<T>(state.orientation, j));
+    store3(s.turn, j, V3<T>{});
+    store3(s.force, j, load3<T>(state.force, j));
+  });
+}
+
+/// Nodes along the iterate's tangents from the held end on: inextensible to the last bit.
+void string_nodes(const Rod& rod, const RodState& state, bool from_base, RodScratch& s) {
+  const int N = rod.elements;
+  V3<double> r = from_eigen(from_base ? state.base.p_W : state.tip.p_W);
+  for (int k = 0; k <= N; ++k) {
+    const int node = from_base ? k : N - k, element = from_base ? k : N - k - 1;
+    store3(s.position, node, r);
+    if (k == N) break;
+    const double step = from_base ? rod.length.at(0)[element] : -rod.length.at(0)[element];
+    r = madd(step, director3(load4<double>(s.orientation, element)), r);
+  }
+}
+
+/// Solves one Newton step from the iterate.
+void solve_step(const Rod& rod, const Eigen::Vector3d& gravity_W, const RodState& state, double time_s, RodScratch& s,
+                ChainFactors& factors) {
+  stay_near(rod, gravity_W, s.inputs.tip_force_W_N, time_s, s);
+  hold_ends(rod, s.inputs, state, s);
+  linearise_joints(rod, state, joints_of(s.inputs), 0, s);
+  assemble_elements(rod, s);
+  add_rotary_inertia(rod, time_s, s);
+  solve(s.chain, nullptr, factors);
+}
+
+RodEquilibrium settle(const Rod& rod, const Eigen::Vector3d& gravity_W, const RodState& state, RodScratch& s,
+                      ChainFactors& factors) {
+  const bool from_base = s.inputs.base.hold != Hold::free && s.inputs.base.hold != Hold::guided;
+  RodEquilibrium out;
+  if (!from_base && s.inputs.tip.hold == Hold::free) return out;  // it would fall for ever
+
+  const double longest = longest_time(rod);
+  double time_s = longest / 100;
+  start_at(rod, state, s);
+  while (out.iterations < tunables::max_static_iterations && !out.converged) {
+    ++out.iterations;
+    solve_step(rod, gravity_W, state, time_s, s, factors);
+    out.negative_directions = negative_directions(s.chain, factors);
+    out.turn_rad = largest_turn(rod, s.chain);
+    out.converged = time_s == longest && out.turn_rad < tunables::static_tolerance_rad;
+
+    // A long step, or one that may lead uphill, reaches beyond the linear model: try again with less time.
+    const bool trusted = out.turn_rad < tunables::max_turn_rad && out.negative_directions == 0;
+    if (!out.converged && !trusted) {
+      time_s /= 4;
+      continue;
+    }
+    if (!update_iterate(rod, tunables::max_turn_rad, s).finite) return out;
+    string_nodes(rod, state, from_base, s);
+    time_s = std::min(longest, time_s * (out.turn_rad < 0.1 ? 8 : 1.5));
+  }
+  return out;
+}
+
+void take(const Rod& rod, const RodScratch& s, RodState& state) {
+  for_packs(0, rod.nodes(), [&]<class T>(T, int i) { store3(state.position, i, load3<T>(s.position, i)); });
+  for_packs(0, rod.elements, [&]<class T>(T, int j) {
+    store4(state.orientation, j, load4<T>(s.orientation, j));
+    store3(state.force, j, load3<T>(s.force, j));
+  });
+  rest(rod, s.inputs, state);
+}
+
+}  // namespace
+
+void find_equilibrium(const Model& model, const Inputs& inputs, State& state, Scratch& scratch,
+                      std::vector<RodEquilibrium>& report) {
+  report.resize(model.rods.size());
+  for (std::size_t r = 0; r < model.rods.size(); ++r) {
+    std::uint32_t trouble = 0;
+    RodScratch& s = scratch.rods[r];
+    s.inputs = limited(inputs.rods[r], trouble);
+    report[r] = settle(model.rods[r], model.gravity_W, state.rods[r], s, scratch.factors);
+    if (report[r].converged) take(model.rods[r], s, state.rods[r]);
+  }
+}
+
+int negative_directions(const Model& model, const Inputs& inputs, const State& state, std::size_t r, Scratch& scratch) {
+  std::uint32_t trouble = 0;
+  RodScratch& s = scratch.rods[r];
+  const Rod& rod = model.rods[r];
+  s.inputs = limited(inputs.rods[r], trouble);
+  start_at(rod, state.rods[r], s);
+  // The first solve finds the internal forces, the second counts with the stiffness that they make.
+  for (int pass = 0; pass < 2; ++pass) {
+    solve_step(rod, model.gravity_W, state.rods[r], longest_time(rod), s, scratch.factors);
+    for_packs(0, rod.elements, [&]<class T>(T, int j) { store3(s.force, j, load3<T>(s.chain.force, j)); });
+  }
+  return negative_directions(s.chain, scratch.factors);
+}
+
+}  // namespace ostium
