@@ -16,7 +16,8 @@ int main(int argc, char** argv) {
   verify_app->add_flag("--quick", verify.quick, "Fewer elements and cases, the same tolerances");
   verify_app->add_flag("--json", verify.json, "Machine-readable, see data/schemas/verify.schema.json");
   verify_app->add_flag("--list", verify.list, "Name the gates and what they compare, without running them");
-  verify_app->footer("Examples:\n  ostium verify\n  ostium verify --only rod-static\n  ostium verify --quick --json > gates.json");
+  verify_app->footer(
+      "Examples:\n  ostium verify\n  ostium verify --only rod-static\n  ostium verify --quick --json > gates.json");
 
   try {
     app.parse(argc, argv);

@@ -6,17 +6,31 @@
 
 namespace ostium {
 
+/// How a step's acceleration follows from its positions; see inertia.cpp.
+enum class TimeScheme {
+  bdf2,       ///< second-order backward differences: every ordinary step
+  fresh,      ///< constant acceleration: the first step after an end was held or let go
+  from_rest,  ///< backward Euler without velocity: a step that has no other solution
+};
+
+/// Whether the stiffness includes that of the internal forces. Without it Newton's method converges linearly, but its
+/// matrix is positive definite whatever the rod is pushed with.
+enum class GeometricStiffness { with, without };
+
+enum class Progress { open, done, failed };
+
 struct RodScratch {
-  RodInputs inputs;       ///< of this step, within limits
-  bool fresh = false;     ///< the first step after an end was held or let go
-  bool done = false;      ///< the iterate is good enough
-  Chain chain;            ///< the linear system and its solution
-  Field<3> target;        ///< m, (#nodes): where a node would go if the rod exerted no force on it
-  Field<4> orientation;   ///< (#elements): the iterate
-  Field<3> turn;          ///< rad, (#elements): the iterate's turn since the beginning of the step
-  Field<3> force;         ///< N, (#elements): the iterate
-  Field<3> position;      ///< m, (#nodes): the iterate
-  Field<3> strain;        ///< 1/m, (#joints): the iterate, with material damping only
+  RodInputs inputs;  ///< of this step, within limits
+  TimeScheme scheme = TimeScheme::bdf2;
+  Progress progress = Progress::open;
+  GeometricStiffness geometric = GeometricStiffness::with;
+  Chain chain;           ///< the linear system and its solution
+  Field<3> target;       ///< m, (#nodes): where a node would go if the rod exerted no force on it
+  Field<4> orientation;  ///< (#elements): the iterate
+  Field<3> turn;         ///< rad, (#elements): the iterate's turn since the beginning of the step
+  Field<3> force;        ///< N, (#elements): the iterate
+  Field<3> position;     ///< m, (#nodes): the iterate
+  Field<3> strain;       ///< 1/m, (#joints): the iterate, with material damping only
 };
 
 struct Scratch {

@@ -51,27 +51,31 @@ RodState lay_out(const Rod& rod, const EndState& base, Strain&& strain) {
 State make_state(const Model& model, const std::vector<EndState>& bases) {
   State state;
   for (std::size_t r = 0; r < model.rods.size(); ++r)
-    state.rods.push_back(lay_out(model.rods[r], bases.at(r), [](int) -> Eigen::Vector3d { return Eigen::Vector3d::Zero(); }));
+    state.rods.push_back(
+        lay_out(model.rods[r], bases.at(r), [](int) -> Eigen::Vector3d { return Eigen::Vector3d::Zero(); }));
   return state;
 }
 
 State make_state_at_rest_shape(const Model& model, const std::vector<EndState>& bases) {
   State state;
   for (std::size_t r = 0; r < model.rods.size(); ++r)
-    state.rods.push_back(lay_out(model.rods[r], bases.at(r),
-                                 [&](int i) -> Eigen::Vector3d { return model.rods[r].rest_curvature[i]; }));
+    state.rods.push_back(
+        lay_out(model.rods[r], bases.at(r), [&](int i) -> Eigen::Vector3d { return model.rods[r].rest_curvature[i]; }));
   return state;
 }
 
 std::uint64_t hash(const State& state) {
   std::uint64_t h = state.step;
-  for_each_field(state, [&](const char*, const double* first, int count) { h = XXH3_64bits_withSeed(first, count * sizeof(double), h); });
+  for_each_field(state, [&](const char*, const double* first, int count) {
+    h = XXH3_64bits_withSeed(first, count * sizeof(double), h);
+  });
   return h;
 }
 
 std::vector<double> save(const State& state) {
   std::vector<double> out{std::bit_cast<double>(state.step)};
-  for_each_field(state, [&](const char*, const double* first, int count) { out.insert(out.end(), first, first + count); });
+  for_each_field(state,
+                 [&](const char*, const double* first, int count) { out.insert(out.end(), first, first + count); });
   return out;
 }
 
@@ -83,7 +87,9 @@ void restore(const std::vector<double>& saved, State& state) {
                                 std::to_string(wanted));
   const double* from = saved.data();
   state.step = std::bit_cast<std::uint64_t>(*from++);
-  for_each_field(state, [&](const char*, double* first, int count) { from = (std::copy(from, from + count, first), from + count); });
+  for_each_field(state, [&](const char*, double* first, int count) {
+    from = (std::copy(from, from + count, first), from + count);
+  });
 }
 
 std::string first_difference(const State& a, const State& b) {
@@ -102,7 +108,8 @@ std::string first_difference(const State& a, const State& b) {
       if (count != other_count) found = where + ": sizes differ";
       for (int i = 0; i < count && found.empty(); ++i)
         if (std::bit_cast<std::uint64_t>(first[i]) != std::bit_cast<std::uint64_t>(other[i]))
-          found = where + "[" + std::to_string(i) + "]: " + std::to_string(first[i]) + " != " + std::to_string(other[i]);
+          found =
+              where + "[" + std::to_string(i) + "]: " + std::to_string(first[i]) + " != " + std::to_string(other[i]);
     });
     if (!found.empty()) return found;
   }

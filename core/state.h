@@ -22,11 +22,11 @@ struct RodState {
   Field<3> position_before;  ///< one step earlier
   Field<3> velocity;         ///< m/s, (#nodes)
   Field<3> velocity_before;
-  Field<4> orientation;      ///< unit quaternion w x y z, material to world, (#elements)
-  Field<3> turn;             ///< rad, world frame, (#elements): of the last step
+  Field<4> orientation;  ///< unit quaternion w x y z, material to world, (#elements)
+  Field<3> turn;         ///< rad, world frame, (#elements): of the last step
   Field<3> turn_before;
-  Field<3> force;            ///< N, world frame, (#elements): internal, distal on proximal
-  Field<3> strain;           ///< 1/m, material frame, (#joints), Darboux vector; empty without material damping
+  Field<3> force;   ///< N, world frame, (#elements): internal, distal on proximal
+  Field<3> strain;  ///< 1/m, material frame, (#joints), Darboux vector; empty without material damping
   Field<3> strain_before;
   EndState base, tip;
 };

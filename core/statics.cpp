@@ -26,7 +26,8 @@ double longest_time(const Rod& rod) {
         }
       },
       rod.law);
-  return tunables::static_time_ratio * std::sqrt(rod.total_mass_kg * rod.total_length_m * rod.total_length_m * compliance);
+  return tunables::static_time_ratio *
+         std::sqrt(rod.total_mass_kg * rod.total_length_m * rod.total_length_m * compliance);
 }
 
 /// Nodes stay near the iterate: r = p + (time^2 / m) (f + internal force), p the last iterate.
@@ -43,25 +44,13 @@ void stay_near(const Rod& rod, const Eigen::Vector3d& gravity_W, const Eigen::Ve
 }
 
 void start_at(const Rod& rod, const RodState& state, RodScratch& s) {
+  s.geometric = GeometricStiffness::with;
   for_packs(0, rod.nodes(), [&]<class T>(T, int i) { store3(s.position, i, load3<T>(state.position, i)); });
   for_packs(0, rod.elements, [&]<class T>(T, int j) {
     store4(s.orientation, j, load4<T>(state.orientation, j));
     store3(s.turn, j, V3<T>{});
     store3(s.force, j, load3<T>(state.force, j));
   });
-}
-
-/// Nodes along the iterate's tangents from the held end on: inextensible to the last bit.
-void string_nodes(const Rod& rod, const RodState& state, bool from_base, RodScratch& s) {
-  const int N = rod.elements;
-  V3<double> r = from_eigen(from_base ? state.base.p_W : state.tip.p_W);
-  for (int k = 0; k <= N; ++k) {
-    const int node = from_base ? k : N - k, element = from_base ? k : N - k - 1;
-    store3(s.position, node, r);
-    if (k == N) break;
-    const double step = from_base ? rod.length.at(0)[element] : -rod.length.at(0)[element];
-    r = madd(step, director3(load4<double>(s.orientation, element)), r);
-  }
 }
 
 /// Solves one Newton step from the iterate.
@@ -87,20 +76,20 @@ RodEquilibrium settle(const Rod& rod, const Eigen::Vector3d& gravity_W, const Ro
   while (out.iterations < tunables::max_static_iterations && !out.converged) {
     ++out.iterations;
     solve_step(rod, gravity_W, state, time_s, s, factors);
-    out.negative_directions = negative_directions(s.chain, factors);
     out.turn_rad = largest_turn(rod, s.chain);
     out.converged = time_s == longest && out.turn_rad < tunables::static_tolerance_rad;
 
     // A long step, or one that may lead uphill, reaches beyond the linear model: try again with less time.
-    const bool trusted = out.turn_rad < tunables::max_turn_rad && out.negative_directions == 0;
+    const bool trusted = out.turn_rad < tunables::max_turn_rad && s.chain.definite;
     if (!out.converged && !trusted) {
       time_s /= 4;
       continue;
     }
     if (!update_iterate(rod, tunables::max_turn_rad, s).finite) return out;
-    string_nodes(rod, state, from_base, s);
+    string_nodes(rod, s.orientation, from_eigen(from_base ? state.base.p_W : state.tip.p_W), from_base, s.position);
     time_s = std::min(longest, time_s * (out.turn_rad < 0.1 ? 8 : 1.5));
   }
+  out.negative_directions = negative_directions(s.chain, factors);
   return out;
 }
 

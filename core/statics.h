@@ -10,13 +10,13 @@ namespace ostium {
 struct RodEquilibrium {
   bool converged = false;
   int iterations = 0;
-  double turn_rad = 0;           ///< largest turn of an element in the last iteration
+  double turn_rad = 0;  ///< largest turn of an element in the last iteration
   /// Independent motions that would lower the energy: 0 if the equilibrium is stable, 1 just behind a buckling load.
   int negative_directions = 0;
 };
 
-/// Puts each rod of `state` into the equilibrium that continues from its shape, at rest. Ends are held where `state` has
-/// them, loads are those of `inputs`; drive rates and drag play no part.
+/// Puts each rod of `state` into the equilibrium that continues from its shape, at rest. Ends are held where `state`
+/// has them, loads are those of `inputs`; drive rates and drag play no part.
 ///
 /// Newton's method with a proximal term (as backward Euler would, with steps that grow without bound), so a far start
 /// converges as well, downhill, like a heavily damped motion. Does not allocate. Where it does not converge, `state` is

@@ -17,24 +17,30 @@ bool fits(const Model& model, const Inputs& inputs, const State& state, const Sc
   const std::size_t rods = model.rods.size();
   if (inputs.rods.size() != rods || state.rods.size() != rods || scratch.rods.size() != rods) return false;
   for (std::size_t r = 0; r < rods; ++r)
-    if (state.rods[r].force.size() != model.rods[r].elements || scratch.rods[r].chain.elements != model.rods[r].elements)
+    if (state.rods[r].force.size() != model.rods[r].elements ||
+        scratch.rods[r].chain.elements != model.rods[r].elements)
       return false;
   return true;
+}
+
+void predict(const Model& model, const Rod& rod, const RodState& state, TimeScheme scheme, RodScratch& s) {
+  s.scheme = scheme;
+  s.progress = Progress::open;
+  s.geometric = scheme == TimeScheme::from_rest ? GeometricStiffness::without : GeometricStiffness::with;
+  predict_nodes(rod, state, model.gravity_W, s.inputs.tip_force_W_N, model.step_s, s);
+  hold_ends(rod, s.inputs, state, s);
+  predict_elements(rod, state, s);
 }
 
 void begin(const Model& model, const Inputs& inputs, State& state, Scratch& scratch, StepReport& report) {
   report.rods.resize(model.rods.size());
   for (std::size_t r = 0; r < model.rods.size(); ++r) {
-    const Rod& rod = model.rods[r];
     RodScratch& s = scratch.rods[r];
     report.rods[r] = {};
     s.inputs = limited(inputs.rods[r], report.rods[r].trouble);
-    s.fresh = take_hold(s.inputs, state.rods[r]);
+    const bool jump = take_hold(s.inputs, state.rods[r]);
     drive_ends(s.inputs, model.step_s, state.rods[r]);
-    predict_nodes(rod, state.rods[r], model.gravity_W, s.inputs.tip_force_W_N, model.step_s, s);
-    hold_ends(rod, s.inputs, state.rods[r], s);
-    predict_elements(rod, state.rods[r], s);
-    s.done = false;
+    predict(model, model.rods[r], state.rods[r], jump ? TimeScheme::fresh : TimeScheme::bdf2, s);
   }
 }
 
@@ -45,11 +51,11 @@ void linearise(const Rod& rod, const RodState& state, double step_s, RodScratch&
   add_rotary_torque(rod, state, step_s, s);
 }
 
-/// Rods that are not done yet, two at a time: a register has lanes for two.
+/// Open rods, two at a time: a register has lanes for two.
 void solve_open(Scratch& scratch) {
   RodScratch* waiting = nullptr;
   for (RodScratch& s : scratch.rods) {
-    if (s.done) continue;
+    if (s.progress != Progress::open) continue;
     if (!waiting) {
       waiting = &s;
       continue;
@@ -61,19 +67,63 @@ void solve_open(Scratch& scratch) {
 }
 
 void take_solution(const Rod& rod, RodScratch& s, RodReport& report) {
-  const IterateChange change = update_iterate(rod, tunables::max_turn_rad, s);
   ++report.iterations;
-  if (!change.finite) report.trouble |= solve_failed;
-  else report.stretch = change.stretch;
-  s.done = !change.finite || change.stretch <= tunables::stretch_tolerance;
+  // A rod pushed beyond what it bears for a step would be solved onto the ridge between its ways of buckling.
+  if (!s.chain.definite && s.geometric == GeometricStiffness::with) {
+    s.geometric = GeometricStiffness::without;
+    return;
+  }
+  const IterateChange change = update_iterate(rod, tunables::max_turn_rad, s);
+  report.stretch = change.stretch;
+  if (!change.finite)
+    s.progress = Progress::failed;
+  else if (change.turn_rad <= tunables::max_turn_rad && change.stretch <= tunables::stretch_tolerance)
+    s.progress = Progress::done;
 }
 
-void finish(const Rod& rod, const Model& model, const RodScratch& s, RodState& state, RodReport& report) {
-  if (!s.done) report.trouble |= not_converged;
-  if (report.trouble & solve_failed)
-    halt(rod, state);
-  else
+bool any(const Scratch& scratch, Progress progress) {
+  return std::any_of(scratch.rods.begin(), scratch.rods.end(),
+                     [&](const RodScratch& s) { return s.progress == progress; });
+}
+
+void iterate(const Model& model, const State& state, Scratch& scratch, StepReport& report) {
+  for (int i = 0; i < tunables::max_newton_iterations && any(scratch, Progress::open); ++i) {
+    for (std::size_t r = 0; r < model.rods.size(); ++r)
+      if (scratch.rods[r].progress == Progress::open)
+        linearise(model.rods[r], state.rods[r], model.step_s, scratch.rods[r]);
+    solve_open(scratch);
+    for (std::size_t r = 0; r < model.rods.size(); ++r)
+      if (scratch.rods[r].progress == Progress::open) take_solution(model.rods[r], scratch.rods[r], report.rods[r]);
+  }
+}
+
+bool usable(const RodScratch& s, const RodReport& report) {
+  return s.progress != Progress::failed && report.stretch <= tunables::usable_stretch;
+}
+
+/// Rods that move too violently for a step give up their velocity.
+void retry_from_rest(const Model& model, const State& state, Scratch& scratch, StepReport& report) {
+  bool any_left = false;
+  for (std::size_t r = 0; r < model.rods.size(); ++r) {
+    if (usable(scratch.rods[r], report.rods[r])) {
+      if (scratch.rods[r].progress == Progress::open) report.rods[r].trouble |= not_converged;
+      scratch.rods[r].progress = Progress::done;
+      continue;
+    }
+    any_left = true;
+    report.rods[r].trouble |= motion_lost;
+    predict(model, model.rods[r], state.rods[r], TimeScheme::from_rest, scratch.rods[r]);
+  }
+  if (any_left) iterate(model, state, scratch, report);
+}
+
+void finish(const Model& model, const Rod& rod, const RodScratch& s, RodState& state, RodReport& report) {
+  if (s.progress == Progress::open) report.trouble |= not_converged;
+  if (s.progress == Progress::failed) report.trouble |= no_solution;
+  if (usable(s, report))
     commit(rod, s, model.step_s, state);
+  else
+    commit_frames_at_rest(rod, s, state);
   follow_free_ends(rod, s.inputs, state);
   report.base_force_W_N = -state.force[0] - rod.mass.at(0)[0] * model.gravity_W;
   report.base_torque_W_Nm = -s.chain.joint_moment[0];
@@ -95,26 +145,18 @@ Scratch::Scratch(const Model& model) {
     s.force.resize(N);
     if (rod.damping.material_time_s > 0) s.strain.resize(N + 1);
   }
-  factors.resize(chain_blocks(longest));
+  factors.resize(longest);
 }
 
 void step(const Model& model, const Inputs& inputs, State& state, Scratch& scratch, StepReport& report) {
   assert(fits(model, inputs, state, scratch));
   begin(model, inputs, state, scratch, report);
-  for (int iteration = 0; iteration < tunables::max_newton_iterations; ++iteration) {
-    for (std::size_t r = 0; r < model.rods.size(); ++r)
-      if (!scratch.rods[r].done) linearise(model.rods[r], state.rods[r], model.step_s, scratch.rods[r]);
-    solve_open(scratch);
-    bool done = true;
-    for (std::size_t r = 0; r < model.rods.size(); ++r) {
-      if (!scratch.rods[r].done) take_solution(model.rods[r], scratch.rods[r], report.rods[r]);
-      done = done && scratch.rods[r].done;
-    }
-    if (done) break;
-  }
+  iterate(model, state, scratch, report);
+  if (any(scratch, Progress::open) || any(scratch, Progress::failed)) retry_from_rest(model, state, scratch, report);
+
   report.trouble = 0;
   for (std::size_t r = 0; r < model.rods.size(); ++r) {
-    finish(model.rods[r], model, scratch.rods[r], state.rods[r], report.rods[r]);
+    finish(model, model.rods[r], scratch.rods[r], state.rods[r], report.rods[r]);
     report.trouble |= report.rods[r].trouble;
   }
   ++state.step;

@@ -11,18 +11,19 @@ namespace ostium {
 
 /// What a step had to give way on; bits of StepReport::trouble.
 enum Trouble : std::uint32_t {
-  drive_limited = 1u << 0,    ///< a drive was faster than tunables.h allows, and was shortened
-  drive_not_finite = 1u << 1, ///< a drive or load was not a number, and was taken as zero
-  load_limited = 1u << 2,     ///< a tip load was larger than tunables.h allows, and was shortened
-  not_converged = 1u << 3,    ///< the iterations ran out; the shape is the last one, `stretch` says how far off
-  solve_failed = 1u << 4,     ///< the system had no finite solution; the rod kept its shape and lost its velocity
+  drive_limited = 1u << 0,     ///< a drive was faster than tunables.h allows, and was shortened
+  drive_not_finite = 1u << 1,  ///< a drive or load was not a number, and was taken as zero
+  load_limited = 1u << 2,      ///< a tip load was larger than tunables.h allows, and was shortened
+  not_converged = 1u << 3,     ///< the iterations ran out: `stretch` is above its tolerance, later steps take it back
+  motion_lost = 1u << 4,       ///< the rod moved too violently for a step, and went on from rest
+  no_solution = 1u << 5,       ///< the system had no finite solution: the rod kept its shape, at rest
 };
 
 struct RodReport {
-  Eigen::Vector3d base_force_W_N = Eigen::Vector3d::Zero();    ///< what holds the base exerts on the rod
+  Eigen::Vector3d base_force_W_N = Eigen::Vector3d::Zero();  ///< what holds the base exerts on the rod
   Eigen::Vector3d base_torque_W_Nm = Eigen::Vector3d::Zero();
   int iterations = 0;
-  double stretch = 0;    ///< largest |(r_j+1 - r_j) / l_j - d3_j| over the elements after the step
+  double stretch = 0;  ///< largest |(r_j+1 - r_j) / l_j - d3_j| over the elements after the step
   std::uint32_t trouble = 0;
 };
 
@@ -38,8 +39,8 @@ struct StepReport {
 /// iteration). Cost is linear in the elements.
 ///
 /// `inputs.rods`, `state.rods` and `scratch` must fit the model (asserted). Never throws; does not allocate after the
-/// first call with the same `report`. Bit-identical for the same arguments, whatever `scratch` held. Different states may
-/// be stepped by different threads at once.
+/// first call with the same `report`. Bit-identical for the same arguments, whatever `scratch` held. Different states
+/// may be stepped by different threads at once.
 void step(const Model& model, const Inputs& inputs, State& state, Scratch& scratch, StepReport& report);
 
 }  // namespace ostium

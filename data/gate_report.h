@@ -6,13 +6,13 @@
 namespace ostium {
 
 struct GateResult {
-  std::string gate;        ///< name, as `ostium verify --only` takes it
-  double value = 0;        ///< what we got
-  double reference = 0;    ///< what the closed form, solver or measurement says
-  double tolerance = 0;    ///< largest |value - reference| that passes; >= 0
-  std::string unit;        ///< of all three; "1" where there is none
+  std::string gate;      ///< name, as `ostium verify --only` takes it
+  double value = 0;      ///< what we got
+  double reference = 0;  ///< what the closed form, solver or measurement says
+  double tolerance = 0;  ///< largest |value - reference| that passes; >= 0
+  std::string unit;      ///< of all three; "1" where there is none
 
-  bool pass() const;       ///< false if the value is not a number
+  bool pass() const;  ///< false if the value is not a number
 };
 
 bool all_pass(const std::vector<GateResult>& results);

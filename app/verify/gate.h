@@ -12,8 +12,8 @@
 namespace ostium::verify {
 
 struct Gate {
-  const char* name;   ///< its results' names begin with it
-  const char* what;   ///< one line: what is compared with what
+  const char* name;                            ///< its results' names begin with it
+  const char* what;                            ///< one line: what is compared with what
   std::vector<GateResult> (*run)(bool quick);  ///< quick: fewer elements or cases, the same tolerances
 };
 
@@ -28,6 +28,8 @@ std::vector<GateResult> run(const Gate& gate, const std::string& only, bool quic
 
 // --- rods --------------------------------------------------------------------------------------------------------
 std::vector<GateResult> rod_swing(bool quick);
+/// The first gate alone, at any number of elements: what a speed is reported beside.
+GateResult swing_tip(int elements);
 std::vector<GateResult> rod_static(bool quick);
 std::vector<GateResult> rod_torsion(bool quick);
 std::vector<GateResult> rod_euler(bool quick);

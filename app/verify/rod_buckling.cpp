@@ -1,5 +1,5 @@
-/// Loads at which straight or circular equilibria lose their stability: those at which the engine's linear system gets a
-/// direction of negative stiffness, found by bisection. (That the step itself leaves them there is a test of `core`.)
+/// Loads at which straight or circular equilibria lose their stability: those at which the engine's linear system gets
+/// a direction of negative stiffness, found by bisection. (That the step itself leaves them there is a test of `core`.)
 #include <cmath>
 #include <numbers>
 
@@ -28,8 +28,8 @@ std::vector<GateResult> rod_euler(bool) {
   return {{"rod-euler", load_N, euler_N, 0.01 * euler_N, "N"}};
 }
 
-/// Both ends clamped, the far one sliding along the axis, and turned against each other: M L / EI = 8.987, the first root
-/// of tan(x) = x, x = M L / 2 EI (Greenhill 1883).
+/// Both ends clamped, the far one sliding along the axis, and turned against each other: M L / EI = 8.987, the first
+/// root of tan(x) = x, x = M L / 2 EI (Greenhill 1883).
 std::vector<GateResult> rod_greenhill(bool) {
   constexpr int elements = 100;
   Bench bench = steel_bench({.elements = elements, .gravity = false});
@@ -48,8 +48,8 @@ std::vector<GateResult> rod_greenhill(bool) {
 }
 
 /// A naturally straight rod bent into a circle and closed with a twist: the plane circle is stable up to
-/// 2 pi sqrt(3) EI / GJ (Michell 1889, Zajac 1962). The ring is held by its closing section, which takes its rigid motions
-/// away and nothing else: a ring in equilibrium needs no force from there.
+/// 2 pi sqrt(3) EI / GJ (Michell 1889, Zajac 1962). The ring is held by its closing section, which takes its rigid
+/// motions away and nothing else: a ring in equilibrium needs no force from there.
 std::vector<GateResult> rod_ring(bool) {
   constexpr int elements = 128;
   Bench bench = steel_bench({.elements = elements, .gravity = false});

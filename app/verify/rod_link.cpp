@@ -28,8 +28,8 @@ double writhe(const std::vector<Vector3d>& p) {
       const Vector3d r13 = r3 - r1, r14 = r4 - r1, r23 = r3 - r2, r24 = r4 - r2, r34 = r4 - r3, r12 = r2 - r1;
       const double side = r34.cross(r12).dot(r13);
       if (side == 0 || j == i - 1 || (i == n - 1 && j == 0)) continue;
-      const Vector3d n1 = r13.cross(r14).normalized(), n2 = r14.cross(r24).normalized(), n3 = r24.cross(r23).normalized(),
-                     n4 = r23.cross(r13).normalized();
+      const Vector3d n1 = r13.cross(r14).normalized(), n2 = r14.cross(r24).normalized(),
+                     n3 = r24.cross(r23).normalized(), n4 = r23.cross(r13).normalized();
       const double area = safe_asin(n1.dot(n2)) + safe_asin(n2.dot(n3)) + safe_asin(n3.dot(n4)) + safe_asin(n4.dot(n1));
       sum += std::copysign(area, side);
     }
@@ -41,7 +41,8 @@ double closest_approach(const RodState& rod) {
   const int N = rod.orientation.size(), apart = N / 10;
   double least = 1e9;
   for (int i = 0; i < N; ++i)
-    for (int j = i + apart; j < N && j <= i + N - apart; ++j) least = std::min(least, (rod.position[i] - rod.position[j]).norm());
+    for (int j = i + apart; j < N && j <= i + N - apart; ++j)
+      least = std::min(least, (rod.position[i] - rod.position[j]).norm());
   return least;
 }
 

@@ -1,6 +1,6 @@
 /// A boundary between a soft and a stiff section, swept in small steps through one element, moves the tip smoothly.
-/// Reference: the plane elastica with piecewise stiffness, EI(s) theta' = M, M' = -w (L - s) cos(theta), M(L) = 0, solved as a
-/// boundary-value problem by shooting with Runge-Kutta steps that end on the boundary.
+/// Reference: the plane elastica with piecewise stiffness, EI(s) theta' = M, M' = -w (L - s) cos(theta), M(L) = 0,
+/// solved as a boundary-value problem by shooting with Runge-Kutta steps that end on the boundary.
 #include <algorithm>
 #include <cmath>
 
@@ -12,8 +12,8 @@ namespace ostium::verify {
 namespace {
 
 struct Cantilever {
-  double length, boundary;  // m; the boundary measured from the base
-  double EI_base, EI_tip;   // N m2
+  double length, boundary;         // m; the boundary measured from the base
+  double EI_base, EI_tip;          // N m2
   double weight_base, weight_tip;  // N/m
 
   double load_beyond(double s) const {  // of everything distal to s
@@ -38,8 +38,8 @@ Shot shoot(const Cantilever& c, double moment_at_base) {
     };
     for (int i = 0; i < steps; ++i) {
       const double s = from + i * h;
-      const Shot k1 = slope(s, y), k2 = slope(s + h / 2, along(y, k1, h / 2)), k3 = slope(s + h / 2, along(y, k2, h / 2)),
-                 k4 = slope(s + h, along(y, k3, h));
+      const Shot k1 = slope(s, y), k2 = slope(s + h / 2, along(y, k1, h / 2)),
+                 k3 = slope(s + h / 2, along(y, k2, h / 2)), k4 = slope(s + h, along(y, k3, h));
       y = along(along(along(along(y, k1, h / 6), k2, h / 3), k3, h / 3), k4, h / 6);
     }
   };
@@ -68,14 +68,16 @@ std::vector<GateResult> rod_section(bool quick) {
     RodDescription wire;
     wire.name = "two sections";
     // A fifth of the diameter makes 1/625 of the stiffness: the joint at the boundary must not jump.
-    wire.sections = {round_section(0, soft_m, 0.09e-3, 0, 60e9, 0.3, 6500), round_section(soft_m, length, 0.45e-3, 0, 60e9, 0.3, 6500)};
+    wire.sections = {round_section(0, soft_m, 0.09e-3, 0, 60e9, 0.3, 6500),
+                     round_section(soft_m, length, 0.45e-3, 0, 60e9, 0.3, 6500)};
     wire.element_lengths_m = equal_elements(wire.sections, elements);
     Model model;
     model.rods.push_back(make_rod(wire));
     Bench bench(std::move(model), along_x());
     bench.settle();
     const Section &tip = wire.sections[0], &base = wire.sections[1];
-    const Shot exact = solve({length, length - soft_m, base.EI1_N_m2, tip.EI1_N_m2, base.kg_per_m * g, tip.kg_per_m * g});
+    const Shot exact =
+        solve({length, length - soft_m, base.EI1_N_m2, tip.EI1_N_m2, base.kg_per_m * g, tip.kg_per_m * g});
     worst_mm = std::max(worst_mm, 1e3 * (bench.tip() - Eigen::Vector3d(exact.x, 0, -exact.drop)).norm());
   }
   return {{"rod-section", worst_mm, 0, 0.02, "mm"}};

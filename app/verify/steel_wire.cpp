@@ -43,8 +43,8 @@ EndState along_x() {
 Eigen::Vector4d turned_frame(const Eigen::Vector4d& q_W, const Eigen::Vector3d& rotation_W_rad) {
   const double angle = rotation_W_rad.norm();
   if (angle == 0) return q_W;
-  const Eigen::Quaterniond q = Eigen::AngleAxisd(angle, rotation_W_rad / angle) *
-                               Eigen::Quaterniond(q_W[0], q_W[1], q_W[2], q_W[3]);
+  const Eigen::Quaterniond q =
+      Eigen::AngleAxisd(angle, rotation_W_rad / angle) * Eigen::Quaterniond(q_W[0], q_W[1], q_W[2], q_W[3]);
   return {q.w(), q.x(), q.y(), q.z()};
 }
 

@@ -42,8 +42,8 @@ Eigen::Vector4d turned_frame(const Eigen::Vector4d& q_W, const Eigen::Vector3d& 
 /// tip's to `tip_q_W`, and clears motion and forces.
 void lay_out(const Rod& rod, const std::vector<Eigen::Vector4d>& q_W, const Eigen::Vector4d& tip_q_W, RodState& state);
 
-/// Lays a rod into a plane circle through its base, closed, its tip frame turned by `twist_rad` about the tangent against
-/// its base frame and the twist spread evenly.
+/// Lays a rod into a plane circle through its base, closed, its tip frame turned by `twist_rad` about the tangent
+/// against its base frame and the twist spread evenly.
 void lay_out_ring(const Rod& rod, double twist_rad, RodState& state);
 
 /// The least x in [stable, unstable] at which `is_unstable(x)` holds, to the given fraction, by bisection.

@@ -9,8 +9,8 @@
 
 namespace ostium {
 
-/// Storage length for `count` entries: whole registers, and one register of padding behind them. Nothing but the chain
-/// solver reads or writes the padding.
+/// Storage length for `count` entries: whole registers, and four entries of padding behind them that no kernel touches
+/// but the chain solver.
 inline int padded(int count) { return (count + lane_count - 1) / lane_count * lane_count + lane_count; }
 
 /// `size()` entries of K doubles. Component c of entry i is `at(c)[i]`, with i < stride(). Allocates in `resize` only.

@@ -28,6 +28,8 @@ inline Lanes with_sign(Lanes a, Lanes b) {
 }
 inline double largest(double a, double b) { return a > b ? a : b; }
 inline Lanes largest(Lanes a, Lanes b) { return _mm256_max_pd(a, b); }
+inline double least(double a, double b) { return a < b ? a : b; }
+inline Lanes least(Lanes a, Lanes b) { return _mm256_min_pd(a, b); }
 inline double magnitude(double a) { return std::fabs(a); }
 inline Lanes magnitude(Lanes a) { return _mm256_andnot_pd(_mm256_set1_pd(-0.0), a); }
 inline double horizontal_max(double a) { return a; }
@@ -166,7 +168,8 @@ S3<T> symmetric_times_transpose(const M3<T>& a, const M3<T>& b) {
 /// Inverse by cofactors; the caller knows that `s` is not singular.
 template <class T>
 S3<T> inverse(const S3<T>& s) {
-  const T cxx = nmadd(s.yz, s.yz, s.yy * s.zz), cxy = nmadd(s.xy, s.zz, s.xz * s.yz), cxz = nmadd(s.xz, s.yy, s.xy * s.yz);
+  const T cxx = nmadd(s.yz, s.yz, s.yy * s.zz), cxy = nmadd(s.xy, s.zz, s.xz * s.yz),
+          cxz = nmadd(s.xz, s.yy, s.xy * s.yz);
   const T scale = 1.0 / madd(s.xx, cxx, madd(s.xy, cxy, s.xz * cxz));
   return {scale * cxx,
           scale * cxy,

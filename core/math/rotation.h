@@ -26,7 +26,8 @@ Q4<T> normalised(const Q4<T>& q) {
 /// Third director, the rod's tangent.
 template <class T>
 V3<T> director3(const Q4<T>& q) {
-  return {2.0 * madd(q.x, q.z, q.w * q.y), 2.0 * nmadd(q.w, q.x, q.y * q.z), nmadd(q.x + q.x, q.x, nmadd(q.y + q.y, q.y, T{} + 1.0))};
+  return {2.0 * madd(q.x, q.z, q.w * q.y), 2.0 * nmadd(q.w, q.x, q.y * q.z),
+          nmadd(q.x + q.x, q.x, nmadd(q.y + q.y, q.y, T{} + 1.0))};
 }
 template <class T>
 M3<T> matrix(const Q4<T>& q) {

@@ -40,7 +40,8 @@ Joint<T> joint(const Law& law, const V3<T>& rest, T length, const Q4<T>& a, Q4<T
   out.moment = matrix(a) * (m + madd(T{} + 0.5, tm, c * cross(theta, tm)));
 
   const T sign = with_sign(T{} + 1.0, relative.w);  // q and -q are one rotation
-  const M3<T> R = matrix(normalised(Q4<T>{madd(sign, b.w, a.w), madd(sign, b.x, a.x), madd(sign, b.y, a.y), madd(sign, b.z, a.z)}));
+  const M3<T> R =
+      matrix(normalised(Q4<T>{madd(sign, b.w, a.w), madd(sign, b.x, a.x), madd(sign, b.y, a.y), madd(sign, b.z, a.z)}));
   out.stiffness = per_length * symmetric_times_transpose(R * C, R);
   return out;
 }
@@ -66,9 +67,10 @@ void linearise_joints(const Rod& rod, const RodState& state, EndJoints ends, dou
         const auto between = [&]<class T>(int i, const Q4<T>& a, const Q4<T>& b) {
           V3<T> offset{};
           if (damped)
-            offset = splat<T>(0.5 / step_s) * (splat<T>(4) * load3<T>(state.strain, i) - load3<T>(state.strain_before, i));
-          const Joint<T> j = joint<T>(law, load3<T>(rod.rest_curvature, i), load<T>(rod.joint_length.at(0) + i), a, b, i,
-                                      splat<T>(tau), splat<T>(rate_scale), offset);
+            offset =
+                splat<T>(0.5 / step_s) * (splat<T>(4) * load3<T>(state.strain, i) - load3<T>(state.strain_before, i));
+          const Joint<T> j = joint<T>(law, load3<T>(rod.rest_curvature, i), load<T>(rod.joint_length.at(0) + i), a, b,
+                                      i, splat<T>(tau), splat<T>(rate_scale), offset);
           store6(chain.joint_stiffness, i, j.stiffness);
           store3(chain.joint_moment, i, j.moment);
           if (damped) store3(scratch.strain, i, j.strain);
@@ -78,27 +80,27 @@ void linearise_joints(const Rod& rod, const RodState& state, EndJoints ends, dou
         });
         clear_joint(chain, 0), clear_joint(chain, N);
         if (ends.base) between.template operator()<double>(0, frame(state.base), load4<double>(scratch.orientation, 0));
-        if (ends.tip) between.template operator()<double>(N, load4<double>(scratch.orientation, N - 1), frame(state.tip));
+        if (ends.tip)
+          between.template operator()<double>(N, load4<double>(scratch.orientation, N - 1), frame(state.tip));
       },
       rod.law);
 }
 
 void assemble_elements(const Rod& rod, RodScratch& scratch) {
   Chain& chain = scratch.chain;
+  const double with_force = scratch.geometric == GeometricStiffness::with ? 1 : 0;
   for_packs(0, rod.elements, [&]<class T>(T, int j) {
     const T length = load<T>(rod.length.at(0) + j);
     const V3<T> d3 = director3(load4<T>(scratch.orientation, j));
-    const V3<T> n = load3<T>(scratch.force, j);
+    const V3<T> n = splat<T>(with_force) * load3<T>(scratch.force, j);
 
     // Geometric stiffness, the second variation of -n . l d3: l ((n . d3) I - (n d3^T + d3 n^T) / 2).
     const T tension = length * dot(n, d3), half = -0.5 * length;
-    const S3<T> geometric{madd(half, 2.0 * n.x * d3.x, tension),
-                          half * madd(n.x, d3.y, n.y * d3.x),
-                          half * madd(n.x, d3.z, n.z * d3.x),
-                          madd(half, 2.0 * n.y * d3.y, tension),
-                          half * madd(n.y, d3.z, n.z * d3.y),
-                          madd(half, 2.0 * n.z * d3.z, tension)};
-    store6(chain.stiffness, j, load6<T>(chain.joint_stiffness, j) + load6<T>(chain.joint_stiffness, j + 1) + geometric);
+    const S3<T> force_stiffness{madd(half, 2.0 * n.x * d3.x, tension), half * madd(n.x, d3.y, n.y * d3.x),
+                                half * madd(n.x, d3.z, n.z * d3.x),    madd(half, 2.0 * n.y * d3.y, tension),
+                                half * madd(n.y, d3.z, n.z * d3.y),    madd(half, 2.0 * n.z * d3.z, tension)};
+    store6(chain.stiffness, j,
+           load6<T>(chain.joint_stiffness, j) + load6<T>(chain.joint_stiffness, j + 1) + force_stiffness);
     store3(chain.torque, j, load3<T>(chain.joint_moment, j + 1) - load3<T>(chain.joint_moment, j));
     store3(chain.arm, j, length * d3);
     store3(chain.gap, j, load3<T>(scratch.target, j) - load3<T>(scratch.target, j + 1) + length * d3);

@@ -15,8 +15,7 @@ struct EndJoints {
 /// material damping, scratch.strain. Ends without a joint get zeros. `step_s` = 0: no damping (statics).
 void linearise_joints(const Rod& rod, const RodState& state, EndJoints ends, double step_s, RodScratch& scratch);
 
-/// Gathers the elements' rows from their joints: writes chain.arm, stiffness, torque (without inertia) and gap. The
-/// geometric stiffness comes from scratch.force.
+/// Gathers the elements' rows from their joints: writes chain.arm, stiffness, torque (without inertia) and gap.
 void assemble_elements(const Rod& rod, RodScratch& scratch);
 
 }  // namespace ostium

@@ -46,7 +46,8 @@ void hold(Hold hold, const EndState& end, int node, RodScratch& scratch) {
     const Vector3d a = to_eigen(director3(Q4<double>{end.q_W[0], end.q_W[1], end.q_W[2], end.q_W[3]}));
     target += a * a.dot(scratch.target[node] - end.p_W);
     const double p = a.dot(to_eigen(load6<double>(scratch.chain.compliance, node) * from_eigen(a)));
-    P = {p * a.x() * a.x(), p * a.x() * a.y(), p * a.x() * a.z(), p * a.y() * a.y(), p * a.y() * a.z(), p * a.z() * a.z()};
+    P = {p * a.x() * a.x(), p * a.x() * a.y(), p * a.x() * a.z(),
+         p * a.y() * a.y(), p * a.y() * a.z(), p * a.z() * a.z()};
   }
   store6(scratch.chain.compliance, node, P);
   scratch.target.set(node, target);

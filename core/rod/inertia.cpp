@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/math/rotation.h"
+#include "core/rod/iterate.h"
 
 namespace ostium {
 
@@ -10,17 +11,22 @@ namespace {
 
 /// How acceleration and velocity follow from the new position r:  a = A (r - r_a),  v = B (r - r_v).
 ///
-/// BDF2:   v = (3 r - 4 r_n + r_n-1) / 2h,  a = (3 v - 4 v_n + v_n-1) / 2h, so
-///         r_v = (4 r_n - r_n-1) / 3,  r_a = r_v + (2h / 3) (4 v_n - v_n-1) / 3,  A = 9 / 4h^2,  B = 3 / 2h.
-/// First step after a jump in the forces, where that history would make the motion lag by h: constant acceleration,
-///         r = r_n + h v_n + h^2 a / 2,  v = v_n + h a, so
-///         r_v = r_n + h v_n / 2,  r_a = r_n + h v_n,  A = 2 / h^2,  B = 2 / h.
-struct TimeScheme {
-  bool fresh;
+/// bdf2:       v = (3 r - 4 r_n + r_n-1) / 2h,  a = (3 v - 4 v_n + v_n-1) / 2h, so
+///             r_v = (4 r_n - r_n-1) / 3,  r_a = r_v + (2h / 3) (4 v_n - v_n-1) / 3,  A = 9 / 4h^2,  B = 3 / 2h.
+/// fresh:      r = r_n + h v_n + h^2 a / 2,  v = v_n + h a, so  r_v = r_n + h v_n / 2,  r_a = r_n + h v_n,  A = 2 /
+/// h^2,
+///             B = 2 / h. After a jump in the forces, bdf2 would carry on with accelerations that are no more, and lag
+///             by h.
+/// from_rest:  v = (r - r_n) / h,  a = v / h.
+struct Inertia {
+  TimeScheme scheme;
   double step_s;
 
-  double A() const { return fresh ? 2 / (step_s * step_s) : 9 / (4 * step_s * step_s); }
-  double B() const { return fresh ? 2 / step_s : 3 / (2 * step_s); }
+  double A() const {
+    const double scale = scheme == TimeScheme::bdf2 ? 9.0 / 4 : scheme == TimeScheme::fresh ? 2 : 1;
+    return scale / (step_s * step_s);
+  }
+  double B() const { return (scheme == TimeScheme::bdf2 ? 3.0 / 2 : scheme == TimeScheme::fresh ? 2 : 1) / step_s; }
 
   template <class T>
   static V3<T> extrapolated(const Field<3>& now, const Field<3>& before, int i) {
@@ -28,13 +34,16 @@ struct TimeScheme {
   }
   template <class T>
   V3<T> r_v(const RodState& s, int i) const {
-    if (fresh) return madd(splat<T>(step_s / 2), load3<T>(s.velocity, i), load3<T>(s.position, i));
-    return extrapolated<T>(s.position, s.position_before, i);
+    if (scheme == TimeScheme::bdf2) return extrapolated<T>(s.position, s.position_before, i);
+    if (scheme == TimeScheme::from_rest) return load3<T>(s.position, i);
+    return madd(splat<T>(step_s / 2), load3<T>(s.velocity, i), load3<T>(s.position, i));
   }
   template <class T>
   V3<T> r_a(const RodState& s, const V3<T>& r_v, int i) const {
-    if (fresh) return madd(splat<T>(step_s / 2), load3<T>(s.velocity, i), r_v);
-    return madd(splat<T>(2.0 / 3 * step_s), extrapolated<T>(s.velocity, s.velocity_before, i), r_v);
+    if (scheme == TimeScheme::bdf2)
+      return madd(splat<T>(2.0 / 3 * step_s), extrapolated<T>(s.velocity, s.velocity_before, i), r_v);
+    if (scheme == TimeScheme::from_rest) return r_v;
+    return madd(splat<T>(step_s / 2), load3<T>(s.velocity, i), r_v);
   }
 };
 
@@ -43,31 +52,31 @@ struct TimeScheme {
 /// A node's balance  m a + D v = f + (internal force)  reads  r = target + P (internal force)  with
 ///   P = (A m + B D)^-1,   target = r_a + P (f + B D (r_v - r_a)).
 /// D is the drag of the node's cell, along and across the tangent t, so P = p_across (I - t t^T) + p_along t t^T.
-void predict_nodes(const Rod& rod, const RodState& state, const Eigen::Vector3d& gravity_W, const Eigen::Vector3d& tip_force_W,
-                   double step_s, RodScratch& scratch) {
-  const TimeScheme scheme{scratch.fresh, step_s};
+void predict_nodes(const Rod& rod, const RodState& state, const Eigen::Vector3d& gravity_W,
+                   const Eigen::Vector3d& tip_force_W, double step_s, RodScratch& scratch) {
+  const Inertia inertia{scratch.scheme, step_s};
   const Damping& loss = rod.damping;
   const bool drag = loss.drag_across_N_s_m2 > 0 || loss.drag_along_N_s_m2 > 0;
   const int N = rod.elements;
   const auto node = [&]<class T>(T, int i) {
-    const V3<T> r_v = scheme.r_v<T>(state, i), r_a = scheme.r_a<T>(state, r_v, i);
+    const V3<T> r_v = inertia.r_v<T>(state, i), r_a = inertia.r_a<T>(state, r_v, i);
     const T mass = load<T>(rod.mass.at(0) + i);
     V3<T> force{mass * gravity_W.x(), mass * gravity_W.y(), mass * gravity_W.z()};
     if constexpr (sizeof(T) == sizeof(double)) {
       if (i == N) force = force + from_eigen(tip_force_W);
     }
-    const T inertia = scheme.A() * mass;
-    S3<T> P{1.0 / inertia, T{}, T{}, 1.0 / inertia, T{}, 1.0 / inertia};
+    const T m = inertia.A() * mass;
+    S3<T> P{1.0 / m, T{}, T{}, 1.0 / m, T{}, 1.0 / m};
     if (drag) {
-      const T cell = scheme.B() * load<T>(rod.joint_length.at(0) + i);
+      const T cell = inertia.B() * load<T>(rod.joint_length.at(0) + i);
       const T across = cell * loss.drag_across_N_s_m2, along = cell * loss.drag_along_N_s_m2;
       V3<T> t = load3<T>(state.position, std::min(i + 1, N)) - load3<T>(state.position, std::max(i - 1, 0));
       t = (1.0 / square_root(dot(t, t))) * t;
       const V3<T> slip = r_v - r_a;
       force = force + madd((along - across) * dot(t, slip), t, across * slip);
-      const T p_across = 1.0 / (inertia + across), p = 1.0 / (inertia + along) - p_across;
-      P = {madd(p * t.x, t.x, p_across), p * t.x * t.y, p * t.x * t.z, madd(p * t.y, t.y, p_across), p * t.y * t.z,
-           madd(p * t.z, t.z, p_across)};
+      const T p_across = 1.0 / (m + across), p = 1.0 / (m + along) - p_across;
+      P = {madd(p * t.x, t.x, p_across), p * t.x * t.y, p * t.x * t.z,
+           madd(p * t.y, t.y, p_across), p * t.y * t.z, madd(p * t.z, t.z, p_across)};
     }
     store6(scratch.chain.compliance, i, P);
     store3(scratch.target, i, r_a + P * force);
@@ -78,8 +87,10 @@ void predict_nodes(const Rod& rod, const RodState& state, const Eigen::Vector3d&
 }
 
 void predict_elements(const Rod& rod, const RodState& state, RodScratch& scratch) {
+  const bool moving = scratch.scheme != TimeScheme::from_rest;
   for_packs(0, rod.elements, [&]<class T>(T, int j) {
-    const V3<T> turn = splat<T>(2) * load3<T>(state.turn, j) - load3<T>(state.turn_before, j);
+    V3<T> turn{};
+    if (moving) turn = splat<T>(2) * load3<T>(state.turn, j) - load3<T>(state.turn_before, j);
     store4(scratch.orientation, j, turned(turn, load4<T>(state.orientation, j)));
     store3(scratch.turn, j, turn);
     store3(scratch.force, j, load3<T>(state.force, j));
@@ -93,17 +104,16 @@ S3<T> rotary_inertia(const Rod& rod, const RodScratch& scratch, double scale, in
   const T transverse = scale * load<T>(rod.rotary_inertia.at(0) + j);
   const T polar = scale * load<T>(rod.rotary_inertia.at(1) + j) - transverse;
   const V3<T> d3 = director3(load4<T>(scratch.orientation, j)), pd = polar * d3;
-  return {madd(pd.x, d3.x, transverse), pd.x * d3.y, pd.x * d3.z, madd(pd.y, d3.y, transverse), pd.y * d3.z,
-          madd(pd.z, d3.z, transverse)};
+  return {madd(pd.x, d3.x, transverse), pd.x * d3.y, pd.x * d3.z,
+          madd(pd.y, d3.y, transverse), pd.y * d3.z, madd(pd.z, d3.z, transverse)};
 }
 }  // namespace
 
 void add_rotary_inertia(const Rod& rod, double step_s, RodScratch& scratch) {
   Field<6>& K = scratch.chain.stiffness;
   const double scale = 1 / (step_s * step_s);
-  for_packs(0, rod.elements, [&]<class T>(T, int j) {
-    store6(K, j, load6<T>(K, j) + rotary_inertia<T>(rod, scratch, scale, j));
-  });
+  for_packs(0, rod.elements,
+            [&]<class T>(T, int j) { store6(K, j, load6<T>(K, j) + rotary_inertia<T>(rod, scratch, scale, j)); });
 }
 
 /// Angular momentum by backward Euler, omega = turn / h: against bending, J_t is (radius / element length)^2 of the
@@ -119,10 +129,10 @@ void add_rotary_torque(const Rod& rod, const RodState& state, double step_s, Rod
 }
 
 void commit(const Rod& rod, const RodScratch& scratch, double step_s, RodState& state) {
-  const TimeScheme scheme{scratch.fresh, step_s};
+  const Inertia inertia{scratch.scheme, step_s};
   for_packs(0, rod.nodes(), [&]<class T>(T, int i) {
     const V3<T> next = load3<T>(scratch.position, i);
-    const V3<T> v = splat<T>(scheme.B()) * (next - scheme.r_v<T>(state, i));
+    const V3<T> v = splat<T>(inertia.B()) * (next - inertia.r_v<T>(state, i));
     store3(state.position_before, i, load3<T>(state.position, i));
     store3(state.position, i, next);
     store3(state.velocity_before, i, load3<T>(state.velocity, i));
@@ -139,6 +149,15 @@ void commit(const Rod& rod, const RodScratch& scratch, double step_s, RodState& 
       store3(state.strain_before, i, load3<T>(state.strain, i));
       store3(state.strain, i, load3<T>(scratch.strain, i));
     });
+}
+
+void commit_frames_at_rest(const Rod& rod, const RodScratch& scratch, RodState& state) {
+  for_packs(0, rod.elements, [&]<class T>(T, int j) {
+    store4(state.orientation, j, load4<T>(scratch.orientation, j));
+    store3(state.force, j, V3<T>{});
+  });
+  string_nodes(rod, state.orientation, from_eigen(state.base.p_W), true, state.position);
+  halt(rod, state);
 }
 
 void halt(const Rod& rod, RodState& state) {

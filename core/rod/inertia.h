@@ -8,10 +8,10 @@
 namespace ostium {
 
 /// Where nodes would go without internal force, and how they yield to it: writes scratch.target and chain.compliance.
-void predict_nodes(const Rod& rod, const RodState& state, const Eigen::Vector3d& gravity_W, const Eigen::Vector3d& tip_force_W,
-                   double step_s, RodScratch& scratch);
+void predict_nodes(const Rod& rod, const RodState& state, const Eigen::Vector3d& gravity_W,
+                   const Eigen::Vector3d& tip_force_W, double step_s, RodScratch& scratch);
 
-/// Extrapolates the frames at constant rate: writes scratch.orientation, turn and force.
+/// Extrapolates the frames' turn linearly (not at all from rest): writes scratch.orientation, turn and force.
 void predict_elements(const Rod& rod, const RodState& state, RodScratch& scratch);
 
 /// Adds the elements' rotary inertia to chain.stiffness.
@@ -23,6 +23,9 @@ void add_rotary_torque(const Rod& rod, const RodState& state, double step_s, Rod
 
 /// Moves the iterate into the state, with the velocities that belong to it.
 void commit(const Rod& rod, const RodScratch& scratch, double step_s, RodState& state);
+
+/// Takes over the iterate's frames alone, strings the nodes along them from the base, and forgets motion and forces.
+void commit_frames_at_rest(const Rod& rod, const RodScratch& scratch, RodState& state);
 
 /// Keeps the shape and forgets all motion.
 void halt(const Rod& rod, RodState& state);

@@ -14,10 +14,14 @@ struct Extent {
   Lanes packed_largest{}, packed_sum{};
   double single_largest = 0, single_sum = 0;
 
-  void take(Lanes square) { packed_largest = ostium::largest(packed_largest, square), packed_sum = packed_sum + square; }
+  void take(Lanes square) {
+    packed_largest = ostium::largest(packed_largest, square), packed_sum = packed_sum + square;
+  }
   void take(double square) { single_largest = ostium::largest(single_largest, square), single_sum += square; }
   double largest() const { return std::sqrt(ostium::largest(horizontal_max(packed_largest), single_largest)); }
-  bool finite() const { return std::isfinite(packed_sum[0] + packed_sum[1] + packed_sum[2] + packed_sum[3] + single_sum); }
+  bool finite() const {
+    return std::isfinite(packed_sum[0] + packed_sum[1] + packed_sum[2] + packed_sum[3] + single_sum);
+  }
 };
 
 template <class T>
@@ -26,6 +30,17 @@ V3<T> blend(T fraction, const V3<T>& from, const V3<T>& to) {
 }
 
 }  // namespace
+
+void string_nodes(const Rod& rod, const Field<4>& orientation, V3<double> end, bool from_base, Field<3>& position) {
+  const int N = rod.elements;
+  for (int k = 0; k <= N; ++k) {
+    const int node = from_base ? k : N - k, element = from_base ? k : N - k - 1;
+    store3(position, node, end);
+    if (k == N) break;
+    const double length = from_base ? rod.length.at(0)[element] : -rod.length.at(0)[element];
+    end = madd(length, director3(load4<double>(orientation, element)), end);
+  }
+}
 
 double largest_turn(const Rod& rod, const Chain& chain) {
   Extent turns;
@@ -63,7 +78,8 @@ IterateChange update_iterate(const Rod& rod, double max_turn_rad, RodScratch& sc
     store3(scratch.position, i, load3<T>(scratch.target, i) + load6<T>(chain.compliance, i) * force);
   };
   node(double{}, 0, load3<double>(scratch.force, 0));
-  for_packs(1, N, [&]<class T>(T t, int i) { node(t, i, load3<T>(scratch.force, i) - load3<T>(scratch.force, i - 1)); });
+  for_packs(1, N,
+            [&]<class T>(T t, int i) { node(t, i, load3<T>(scratch.force, i) - load3<T>(scratch.force, i - 1)); });
   node(double{}, N, V3<double>{} - load3<double>(scratch.force, N - 1));
 
   Extent stretch;

@@ -6,10 +6,13 @@
 namespace ostium {
 
 struct IterateChange {
-  bool finite = true;     ///< false: the solution was not a number, and the iterate is as it was
-  double turn_rad = 0;    ///< largest turn of an element
-  double stretch = 0;     ///< largest |(r_j+1 - r_j) / l_j - d3_j|: what the linearised constraint left
+  bool finite = true;   ///< false: the solution was not a number, and the iterate is as it was
+  double turn_rad = 0;  ///< largest turn of an element
+  double stretch = 0;   ///< largest |(r_j+1 - r_j) / l_j - d3_j|: what the linearised constraint left
 };
+
+/// Nodes along the tangents of `orientation`, from `end` at the base or at the tip: inextensible to the last bit.
+void string_nodes(const Rod& rod, const Field<4>& orientation, V3<double> end, bool from_base, Field<3>& position);
 
 /// Largest turn of an element in the chain's solution; not a number if the solution is none.
 double largest_turn(const Rod& rod, const Chain& chain);

@@ -14,15 +14,15 @@
 namespace ostium {
 
 struct Rod {
-  int elements = 0;               ///< N
-  Field<1> length;                ///< m, (#elements)
-  Field<1> mass;                  ///< kg, (#nodes): half of each adjacent element
-  Field<2> rotary_inertia;        ///< kg m2, (#elements): about a transverse axis, about d3
-  Field<1> joint_length;          ///< m, (#joints)
-  Field<3> rest_curvature;        ///< 1/m, (#joints), average over the cell
-  MomentLaw law;                  ///< (#joints), averaged over the cell
+  int elements = 0;         ///< N
+  Field<1> length;          ///< m, (#elements)
+  Field<1> mass;            ///< kg, (#nodes): half of each adjacent element
+  Field<2> rotary_inertia;  ///< kg m2, (#elements): about a transverse axis, about d3
+  Field<1> joint_length;    ///< m, (#joints)
+  Field<3> rest_curvature;  ///< 1/m, (#joints), average over the cell
+  MomentLaw law;            ///< (#joints), averaged over the cell
   Damping damping;
-  double total_length_m = 0;      ///< of the elements
+  double total_length_m = 0;  ///< of the elements
   double total_mass_kg = 0;
 
   int nodes() const { return elements + 1; }

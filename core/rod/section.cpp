@@ -24,8 +24,8 @@ std::vector<double> equal_elements(const std::vector<Section>& sections, int cou
   return std::vector<double>(count, length / count);
 }
 
-Section round_section(double from_tip_m, double to_tip_m, double radius_m, double inner_radius_m, double E_Pa, double nu,
-                      double kg_per_m3) {
+Section round_section(double from_tip_m, double to_tip_m, double radius_m, double inner_radius_m, double E_Pa,
+                      double nu, double kg_per_m3) {
   const double fourth = std::pow(radius_m, 4) - std::pow(inner_radius_m, 4);
   const double area = std::numbers::pi * (radius_m * radius_m - inner_radius_m * inner_radius_m);
   Section s;
@@ -44,22 +44,27 @@ void check(const RodDescription& d) {
   for (std::size_t i = 0; i < d.sections.size(); ++i) {
     const Section& s = d.sections[i];
     if (!(s.to_tip_m > s.from_tip_m))
-      refuse(d, i, "reaches from " + std::to_string(s.from_tip_m) + " m to " + std::to_string(s.to_tip_m) +
-                       " m from the tip; its length must be positive");
+      refuse(d, i,
+             "reaches from " + std::to_string(s.from_tip_m) + " m to " + std::to_string(s.to_tip_m) +
+                 " m from the tip; its length must be positive");
     if (std::fabs(s.from_tip_m - reached) > gap_tolerance_m)
-      refuse(d, i, "begins " + std::to_string(s.from_tip_m) + " m from the tip, but the one before it ends at " +
-                       std::to_string(reached) + " m; sections run from the tip backwards without gap or overlap");
+      refuse(d, i,
+             "begins " + std::to_string(s.from_tip_m) + " m from the tip, but the one before it ends at " +
+                 std::to_string(reached) + " m; sections run from the tip backwards without gap or overlap");
     require_positive(d, i, "EI1", s.EI1_N_m2);
     require_positive(d, i, "EI2", s.EI2_N_m2);
     require_positive(d, i, "GJ", s.GJ_N_m2);
     require_positive(d, i, "weight per length", s.kg_per_m);
     require_positive(d, i, "radius", s.radius_m);
     if (!(s.inner_radius_m >= 0 && s.inner_radius_m < s.radius_m))
-      refuse(d, i, "inner radius is " + std::to_string(s.inner_radius_m) + " m; it must lie between 0 and the outer radius");
+      refuse(d, i,
+             "inner radius is " + std::to_string(s.inner_radius_m) + " m; it must lie between 0 and the outer radius");
     if (!s.rest_curvature_per_m.allFinite()) refuse(d, i, "rest curvature is not finite");
     reached = s.to_tip_m;
   }
-  const auto in_name = [&](const std::string& what) { return std::invalid_argument("rod \"" + d.name + "\": " + what); };
+  const auto in_name = [&](const std::string& what) {
+    return std::invalid_argument("rod \"" + d.name + "\": " + what);
+  };
   if (d.element_lengths_m.size() < 16 || d.element_lengths_m.size() > 4096)
     throw in_name(std::to_string(d.element_lengths_m.size()) + " elements; 16 to 4096 are possible");
   double total = 0;
@@ -68,7 +73,8 @@ void check(const RodDescription& d) {
     total += length;
   }
   if (total > reached * (1 + 1e-12) + gap_tolerance_m)
-    throw in_name("its elements are " + std::to_string(total) + " m long together, its sections only " + std::to_string(reached));
+    throw in_name("its elements are " + std::to_string(total) + " m long together, its sections only " +
+                  std::to_string(reached));
   const Damping& loss = d.damping;
   if (!(loss.drag_across_N_s_m2 >= 0 && loss.drag_along_N_s_m2 >= 0 && loss.material_time_s >= 0))
     throw in_name("damping must not be negative");

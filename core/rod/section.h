@@ -8,14 +8,14 @@ namespace ostium {
 
 /// A stretch of an instrument with uniform properties. SI.
 struct Section {
-  double from_tip_m = 0;         ///< where it begins, measured from the distal tip along the rod; >= 0
-  double to_tip_m = 0;           ///< where it ends; > from_tip_m
-  double EI1_N_m2 = 0;           ///< bending stiffness about director d1; > 0
-  double EI2_N_m2 = 0;           ///< bending stiffness about director d2; > 0
-  double GJ_N_m2 = 0;            ///< torsional stiffness; > 0
-  double kg_per_m = 0;           ///< weight; > 0
-  double radius_m = 0;           ///< outer radius; > 0
-  double inner_radius_m = 0;     ///< of the lumen; 0 for a wire
+  double from_tip_m = 0;      ///< where it begins, measured from the distal tip along the rod; >= 0
+  double to_tip_m = 0;        ///< where it ends; > from_tip_m
+  double EI1_N_m2 = 0;        ///< bending stiffness about director d1; > 0
+  double EI2_N_m2 = 0;        ///< bending stiffness about director d2; > 0
+  double GJ_N_m2 = 0;         ///< torsional stiffness; > 0
+  double kg_per_m = 0;        ///< weight; > 0
+  double radius_m = 0;        ///< outer radius; > 0
+  double inner_radius_m = 0;  ///< of the lumen; 0 for a wire
   /// Darboux vector of the unloaded shape in the material frame, 1/m: d_i' = u x d_i towards the tip, so that u1 > 0
   /// turns d3 towards -d2, u2 > 0 turns d3 towards d1, and u3 is a twist.
   Eigen::Vector3d rest_curvature_per_m = Eigen::Vector3d::Zero();
@@ -44,8 +44,8 @@ struct RodDescription {
 std::vector<double> equal_elements(const std::vector<Section>& sections, int count);
 
 /// A round solid section of one material: EI = E pi (ro^4 - ri^4) / 4, GJ = E / (2 (1 + nu)) pi (ro^4 - ri^4) / 2.
-Section round_section(double from_tip_m, double to_tip_m, double radius_m, double inner_radius_m, double E_Pa, double nu,
-                      double kg_per_m3);
+Section round_section(double from_tip_m, double to_tip_m, double radius_m, double inner_radius_m, double E_Pa,
+                      double nu, double kg_per_m3);
 
 /// Throws std::invalid_argument naming the rod, the section and the value that is wrong: a gap or overlap, a negative
 /// length, a stiffness, weight or radius that is not positive and finite.

@@ -3,75 +3,105 @@
 #include <algorithm>
 #include <cassert>
 
+#include "core/tunables.h"
+
 namespace ostium {
 
 namespace {
 
 constexpr int halves = 2;
 
-/// The element and node indices a lane visits: from one end of one chain towards its middle.
+int middle(const Chain& chain) { return chain.elements / 2; }
+
+/// The way of one lane: from one end of one chain towards its middle. A lane with fewer elements starts later, and
+/// idles until then.
 struct Walk {
   const Chain* chain;
   bool forward;  ///< from the base
-  int blocks;    ///< how many elements before the middle one
+  int blocks;    ///< elements before the middle
+  int wait;      ///< steps before the first
 
-  int element(int t) const { return forward ? t : chain->elements - 1 - t; }
-  int node_behind(int t) const { return forward ? t : chain->elements - t; }
-  int node_ahead(int t) const { return forward ? t + 1 : chain->elements - 1 - t; }
+  int element(int t) const { return forward ? t - wait : chain->elements - 1 - (t - wait); }
 };
 
-int middle(const Chain& chain) { return chain.elements / 2; }
+/// The entry, in a field's padding, of a regular block without coupling: K and the compliance behind are identities,
+/// all else is zero.
+int idle_entry(const Chain& chain, bool forward) { return chain.stiffness.stride() - (forward ? 4 : 2); }
 
-/// Reads one block of four chains. A lane whose half is shorter starts later, and reads a regular block without
-/// coupling from its padding until then.
-class Gather {
+void write_idle_entries(Chain& chain) {
+  for (bool forward : {true, false}) {
+    const int i = idle_entry(chain, forward);
+    store6(chain.stiffness, i, identity3<double>());
+    store6(chain.compliance, forward ? i : i + 1, identity3<double>());
+  }
+}
+
+/// Numbers that an elimination step reads: those of its element, of the node behind it and of the node ahead.
+enum Number {
+  at_K = 0,
+  at_arm = 6,
+  at_torque = 9,
+  at_gap = 12,
+  at_P_behind = 15,
+  at_H = 21,
+  at_m = 27,
+  at_P_ahead = 30,
+  numbers = 36
+};
+
+/// The four lanes of a solve, and what they read at a step.
+class Walks {
  public:
-  Gather(const Chain& first, const Chain* second) {
-    const Chain& other = second ? *second : first;
+  Walks(const Chain& first, const Chain& second) {
     for (int l = 0; l < lane_count; ++l) {
-      const Chain& chain = l < halves ? first : other;
       const bool forward = l % halves == 0;
-      walk_[l] = {&chain, forward, forward ? middle(chain) : chain.elements - 1 - middle(chain)};
-      sign_[l] = forward ? 1.0 : -1.0;
+      const Chain& chain = l < halves ? first : second;
+      lanes_[l] = {&chain, forward, forward ? middle(chain) : chain.elements - 1 - middle(chain), 0};
+      direction_[l] = forward ? 1.0 : -1.0;
+      steps_ = std::max(steps_, lanes_[l].blocks);
     }
-    for (const Walk& w : walk_) steps_ = std::max(steps_, w.blocks);
+    for (int l = 0; l < lane_count; ++l) {
+      lanes_[l].wait = steps_ - lanes_[l].blocks;
+      // Seen from an element, the node behind is its own when walking forward, the next one when walking back.
+      const Chain& c = *lanes_[l].chain;
+      const int behind = lanes_[l].forward ? 0 : 1, ahead = 1 - behind;
+      const auto from = [&](int number, const auto& field, int components, int shift) {
+        for (int k = 0; k < components; ++k) source_[number + k][l] = field.at(k) + shift;
+      };
+      from(at_K, c.stiffness, 6, 0);
+      from(at_arm, c.arm, 3, 0);
+      from(at_torque, c.torque, 3, 0);
+      from(at_gap, c.gap, 3, 0);
+      from(at_P_behind, c.compliance, 6, behind);
+      from(at_H, c.joint_stiffness, 6, ahead);
+      from(at_m, c.joint_moment, 3, ahead);
+      from(at_P_ahead, c.compliance, 6, ahead);
+    }
   }
 
   int steps() const { return steps_; }
-  Lanes direction() const { return sign_; }
-  const Walk& walk(int lane) const { return walk_[lane]; }
-  /// Block that lane l visits at step t, or -1.
-  int block(int lane, int t) const { return t - (steps_ - walk_[lane].blocks); }
+  Lanes direction() const { return direction_; }
+  const Walk& lane(int l) const { return lanes_[l]; }
 
+  /// Where the lanes are at step t.
   void move_to(int t) {
-    for (int l = 0; l < lane_count; ++l) {
-      const int b = block(l, t), pad = walk_[l].chain->stiffness.stride() - 1;
-      element_[l] = b < 0 ? pad : walk_[l].element(b);
-      behind_[l] = b < 0 ? pad : walk_[l].node_behind(b);
-      ahead_[l] = b < 0 ? pad - 1 : walk_[l].node_ahead(b);
-      // A joint's fields live at its node.
-    }
+    for (int l = 0; l < lane_count; ++l)
+      at_[l] = t < lanes_[l].wait ? idle_entry(*lanes_[l].chain, lanes_[l].forward) : lanes_[l].element(t);
   }
-  V3<Lanes> at_element(Field<3> Chain::*f) const { return {get(f, 0, element_), get(f, 1, element_), get(f, 2, element_)}; }
-  V3<Lanes> at_node_ahead(Field<3> Chain::*f) const { return {get(f, 0, ahead_), get(f, 1, ahead_), get(f, 2, ahead_)}; }
-  S3<Lanes> at_element(Field<6> Chain::*f) const { return symmetric(f, element_); }
-  S3<Lanes> at_node_ahead(Field<6> Chain::*f) const { return symmetric(f, ahead_); }
-  S3<Lanes> at_node_behind(Field<6> Chain::*f) const { return symmetric(f, behind_); }
+  Lanes read(int n) const {
+    return Lanes{source_[n][0][at_[0]], source_[n][1][at_[1]], source_[n][2][at_[2]], source_[n][3][at_[3]]};
+  }
+  V3<Lanes> vector(Number n) const { return {read(n), read(n + 1), read(n + 2)}; }
+  S3<Lanes> symmetric(Number n) const {
+    return {read(n), read(n + 1), read(n + 2), read(n + 3), read(n + 4), read(n + 5)};
+  }
 
  private:
-  template <int K>
-  Lanes get(Field<K> Chain::*f, int c, const int (&i)[lane_count]) const {
-    return Lanes{(walk_[0].chain->*f).at(c)[i[0]], (walk_[1].chain->*f).at(c)[i[1]], (walk_[2].chain->*f).at(c)[i[2]],
-                 (walk_[3].chain->*f).at(c)[i[3]]};
-  }
-  S3<Lanes> symmetric(Field<6> Chain::*f, const int (&i)[lane_count]) const {
-    return {get(f, 0, i), get(f, 1, i), get(f, 2, i), get(f, 3, i), get(f, 4, i), get(f, 5, i)};
-  }
-
-  Walk walk_[lane_count];
-  Lanes sign_{};
+  Walk lanes_[lane_count];
+  Lanes direction_{};
   int steps_ = 0;
-  int element_[lane_count], behind_[lane_count], ahead_[lane_count];
+  const double* source_[numbers][lane_count];
+  int at_[lane_count];
 };
 
 /// Block row of one element: [K G; G^T -A] and its right-hand side.
@@ -84,27 +114,42 @@ struct Row {
 };
 template <class T>
 Row<T> operator+(const Row<T>& a, const Row<T>& b) {
-  return {a.K + b.K, {a.G.r0 + b.G.r0, a.G.r1 + b.G.r1, a.G.r2 + b.G.r2}, a.A + b.A, a.torque + b.torque, a.gap + b.gap};
+  return {
+      a.K + b.K, {a.G.r0 + b.G.r0, a.G.r1 + b.G.r1, a.G.r2 + b.G.r2}, a.A + b.A, a.torque + b.torque, a.gap + b.gap};
 }
 template <class T>
-Row<T> row(const S3<T>& K, const V3<T>& d, const S3<T>& A, const V3<T>& torque, const V3<T>& gap) {
+Row<T> row(const S3<T>& K, const V3<T>& d, const S3<T>& P_sum, const V3<T>& torque, const V3<T>& gap) {
+  const V3<T> e = splat<T>(tunables::axial_give_per_N_m) * d;
+  const S3<T> A{madd(e.x, d.x, P_sum.xx), madd(e.x, d.y, P_sum.xy), madd(e.x, d.z, P_sum.xz),
+                madd(e.y, d.y, P_sum.yy), madd(e.y, d.z, P_sum.yz), madd(e.z, d.z, P_sum.zz)};
   return {K, {{T{}, d.z, -d.y}, {-d.z, T{}, d.x}, {d.y, -d.x, T{}}}, A, torque, gap};  // G = -[d]x
 }
 
 /// D^-1 (torque, gap) for D = [K G; G^T -A].
 template <class T>
-void apply_inverse(const S3<T>& S_inv, const S3<T>& A_inv, const M3<T>& W, const V3<T>& torque, const V3<T>& gap, V3<T>& turn,
-                   V3<T>& force) {
+void apply_inverse(const S3<T>& S_inv, const S3<T>& A_inv, const M3<T>& W, const V3<T>& torque, const V3<T>& gap,
+                   V3<T>& turn, V3<T>& force) {
   turn = S_inv * (torque + W * gap);
   force = transpose_times(W, turn) - A_inv * gap;
 }
 
+/// Positive where a symmetric matrix is positive definite, else not: the least of its leading minors.
+template <class T>
+T least_minor(const S3<T>& s) {
+  const T second = nmadd(s.xy, s.xy, s.xx * s.yy);
+  const T third = madd(s.xx, nmadd(s.yz, s.yz, s.yy * s.zz),
+                       madd(s.xy, nmadd(s.xy, s.zz, s.xz * s.yz), s.xz * nmadd(s.xz, s.yy, s.xy * s.yz)));
+  return least(s.xx, least(second, third));
+}
+
 /// Eliminates a row; returns what it leaves on the next one, -E^T D^-1 E and -E^T D^-1 b with
 /// E = diag(turn_coupling, force_coupling).
-Row<Lanes> eliminate(const Row<Lanes>& r, ChainBlock& block) {
+Row<Lanes> eliminate(const Row<Lanes>& r, ChainBlock& block, Lanes& minor) {
   const S3<Lanes> A_inv = inverse(r.A);
   const M3<Lanes> W = r.G * A_inv;
-  const S3<Lanes> S_inv = inverse(r.K + symmetric_times_transpose(W, r.G));
+  const S3<Lanes> S = r.K + symmetric_times_transpose(W, r.G);
+  minor = least(minor, least_minor(S));
+  const S3<Lanes> S_inv = inverse(S);
   block.S_inv = S_inv, block.A_inv = A_inv, block.W = W;
   block.torque = r.torque, block.gap = r.gap;
 
@@ -113,7 +158,8 @@ Row<Lanes> eliminate(const Row<Lanes>& r, ChainBlock& block) {
   const M3<Lanes> SC = S_inv * C;
   const M3<Lanes> WP = W * P;
   const M3<Lanes> SWP = S_inv * WP;
-  const M3<Lanes> AP{A_inv * V3<Lanes>{P.xx, P.xy, P.xz}, A_inv * V3<Lanes>{P.xy, P.yy, P.yz}, A_inv * V3<Lanes>{P.xz, P.yz, P.zz}};
+  const M3<Lanes> AP{A_inv * V3<Lanes>{P.xx, P.xy, P.xz}, A_inv * V3<Lanes>{P.xy, P.yy, P.yz},
+                     A_inv * V3<Lanes>{P.xz, P.yz, P.zz}};
   const M3<Lanes> P_rows{{P.xx, P.xy, P.xz}, {P.xy, P.yy, P.yz}, {P.xz, P.yz, P.zz}};
   Row<Lanes> left;
   left.K = S3<Lanes>{} - symmetric_transpose_times(C, SC);
@@ -127,12 +173,13 @@ Row<Lanes> eliminate(const Row<Lanes>& r, ChainBlock& block) {
   return left;
 }
 
-template <class T>
-T lane_of(const T&, int);
 V3<double> lane_of(const V3<Lanes>& a, int l) { return {a.x[l], a.y[l], a.z[l]}; }
 S3<double> lane_of(const S3<Lanes>& a, int l) { return {a.xx[l], a.xy[l], a.xz[l], a.yy[l], a.yz[l], a.zz[l]}; }
 Row<double> lane_of(const Row<Lanes>& r, int l) {
-  return {lane_of(r.K, l), {lane_of(r.G.r0, l), lane_of(r.G.r1, l), lane_of(r.G.r2, l)}, lane_of(r.A, l), lane_of(r.torque, l),
+  return {lane_of(r.K, l),
+          {lane_of(r.G.r0, l), lane_of(r.G.r1, l), lane_of(r.G.r2, l)},
+          lane_of(r.A, l),
+          lane_of(r.torque, l),
           lane_of(r.gap, l)};
 }
 void set_lane(V3<Lanes>& a, int l, const V3<double>& b) { a.x[l] = b.x, a.y[l] = b.y, a.z[l] = b.z; }
@@ -142,6 +189,74 @@ Row<double> middle_row(const Chain& c) {
   return row(load6<double>(c.stiffness, m), load3<double>(c.arm, m),
              load6<double>(c.compliance, m) + load6<double>(c.compliance, m + 1), load3<double>(c.torque, m),
              load3<double>(c.gap, m));
+}
+
+void set_lane(S3<Lanes>& a, int l, const S3<double>& b) {
+  a.xx[l] = b.xx, a.xy[l] = b.xy, a.xz[l] = b.xz, a.yy[l] = b.yy, a.yz[l] = b.yz, a.zz[l] = b.zz;
+}
+
+/// Towards the middle: fills the blocks, returns what all lanes leave on their middle element.
+[[gnu::flatten]] Row<Lanes> eliminate_halves(Walks& walks, ChainFactors& factors, Lanes& minor) {
+  const Lanes half = 0.5 * walks.direction();
+  Row<Lanes> carried{};
+  for (int t = 0; t < walks.steps(); ++t) {
+    walks.move_to(t);
+    ChainBlock& block = factors.blocks[t];
+    const S3<Lanes> H = walks.symmetric(at_H);
+    const V3<Lanes> m = half * walks.vector(at_m);
+    block.turn_coupling = {
+        {-H.xx, -H.xy - m.z, m.y - H.xz}, {m.z - H.xy, -H.yy, -H.yz - m.x}, {-H.xz - m.y, m.x - H.yz, -H.zz}};
+    block.force_coupling = walks.symmetric(at_P_ahead);
+    const Row<Lanes> own =
+        row(walks.symmetric(at_K), walks.vector(at_arm), walks.symmetric(at_P_behind) + block.force_coupling,
+            walks.vector(at_torque), walks.vector(at_gap));
+    carried = eliminate(own + carried, block, minor);
+  }
+  return carried;
+}
+
+/// Solves a chain's middle element, and hands its solution to both lanes.
+void solve_middle(Chain& chain, int front, const Row<Lanes>& carried, const Lanes& minor, ChainBlock& block,
+                  V3<Lanes>& turn, V3<Lanes>& force) {
+  const Row<double> r = middle_row(chain) + lane_of(carried, front) + lane_of(carried, front + 1);
+  const S3<double> A_inv = inverse(r.A);
+  const M3<double> W = r.G * A_inv;
+  const S3<double> S = r.K + symmetric_times_transpose(W, r.G);
+  const S3<double> S_inv = inverse(S);
+  chain.definite = minor[front] > 0 && minor[front + 1] > 0 && least_minor(S) > 0;
+  V3<double> phi, n;
+  apply_inverse(S_inv, A_inv, W, r.torque, r.gap, phi, n);
+  store3(chain.turn, middle(chain), phi);
+  store3(chain.force, middle(chain), n);
+  for (int l : {front, front + 1}) {
+    set_lane(turn, l, phi), set_lane(force, l, n);
+    set_lane(block.S_inv, l, S_inv), set_lane(block.A_inv, l, A_inv);
+  }
+}
+
+/// From the middle back to the ends.
+[[gnu::flatten]] void substitute_back(const Walks& walks, const ChainFactors& factors, Chain* const (&chains)[2],
+                                      V3<Lanes> turn, V3<Lanes> force) {
+  const int lanes = chains[1] ? lane_count : halves;
+  for (int t = walks.steps() - 1; t >= 0; --t) {
+    const ChainBlock& b = factors.blocks[t];
+    apply_inverse<Lanes>(b.S_inv, b.A_inv, b.W, b.torque - b.turn_coupling * turn, b.gap - b.force_coupling * force,
+                         turn, force);
+    for (int l = 0; l < lanes; ++l) {
+      if (t < walks.lane(l).wait) continue;
+      const int j = walks.lane(l).element(t);
+      store3(chains[l / halves]->turn, j, lane_of(turn, l));
+      store3(chains[l / halves]->force, j, lane_of(force, l));
+    }
+  }
+}
+
+/// Number of negative eigenvalues of a symmetric 3 x 3 matrix, by the signs of its pivots.
+int negatives(const S3<double>& s) {
+  const double first = s.xx, second = s.yy - s.xy * s.xy / s.xx;
+  const double yz = s.yz - s.xy * s.xz / s.xx;
+  const double third = s.zz - s.xz * s.xz / s.xx - yz * yz / second;
+  return (first < 0) + (second < 0) + (third < 0);
 }
 
 }  // namespace
@@ -157,91 +272,33 @@ Chain::Chain(int elements)
       gap(elements + 1),
       turn(elements + 1),
       force(elements + 1) {
-  // The regular block without coupling that a lane reads before its turn.
-  const int pad = stiffness.stride() - 1;
-  store6(stiffness, pad, identity3<double>());
-  store6(compliance, pad, identity3<double>());
+  write_idle_entries(*this);
 }
 
 void solve(Chain& first, Chain* second, ChainFactors& factors) {
-  Gather gather(first, second);
-  const int steps = gather.steps();
-  assert(static_cast<int>(factors.size()) > steps);
-  const Lanes half = 0.5 * gather.direction();
+  assert(static_cast<int>(factors.blocks.size()) > std::max(first.elements, second ? second->elements : 0) / 2);
+  Walks walks(first, second ? *second : first);
+  Lanes minor = splat<Lanes>(1);
+  const Row<Lanes> carried = eliminate_halves(walks, factors, minor);
 
-  Row<Lanes> carried{};
-  for (int t = 0; t < steps; ++t) {
-    ChainBlock& block = factors[t];
-    gather.move_to(t);
-    const S3<Lanes> H = gather.at_node_ahead(&Chain::joint_stiffness);
-    const V3<Lanes> m = half * gather.at_node_ahead(&Chain::joint_moment);
-    block.turn_coupling = {{-H.xx, -H.xy - m.z, m.y - H.xz}, {m.z - H.xy, -H.yy, -H.yz - m.x}, {-H.xz - m.y, m.x - H.yz, -H.zz}};
-    block.force_coupling = gather.at_node_ahead(&Chain::compliance);
-    const Row<Lanes> own =
-        row(gather.at_element(&Chain::stiffness), gather.at_element(&Chain::arm),
-            gather.at_node_behind(&Chain::compliance) + block.force_coupling, gather.at_element(&Chain::torque),
-            gather.at_element(&Chain::gap));
-    carried = eliminate(own + carried, block);
-  }
-
-  V3<Lanes> turn, force;
-  Chain* const chains[] = {&first, second};
-  for (int c = 0; c < 2; ++c) {
-    if (!chains[c]) continue;
-    const int front = halves * c, back = front + 1;
-    const Row<double> r = middle_row(*chains[c]) + lane_of(carried, front) + lane_of(carried, back);
-    const S3<double> A_inv = inverse(r.A);
-    const M3<double> W = r.G * A_inv;
-    const S3<double> S_inv = inverse(r.K + symmetric_times_transpose(W, r.G));
-    V3<double> phi, n;
-    apply_inverse(S_inv, A_inv, W, r.torque, r.gap, phi, n);
-    store3(chains[c]->turn, middle(*chains[c]), phi);
-    store3(chains[c]->force, middle(*chains[c]), n);
-    for (int l : {front, back}) set_lane(turn, l, phi), set_lane(force, l, n);
-    // The middle's pivots, for negative_directions.
-    for (int l : {front, back}) {
-      S3<Lanes>&S = factors[steps].S_inv, &A = factors[steps].A_inv;
-      S.xx[l] = S_inv.xx, S.xy[l] = S_inv.xy, S.xz[l] = S_inv.xz, S.yy[l] = S_inv.yy, S.yz[l] = S_inv.yz, S.zz[l] = S_inv.zz;
-      A.xx[l] = A_inv.xx, A.xy[l] = A_inv.xy, A.xz[l] = A_inv.xz, A.yy[l] = A_inv.yy, A.yz[l] = A_inv.yz, A.zz[l] = A_inv.zz;
-    }
-  }
-
-  const int lanes = second ? lane_count : halves;
-  for (int t = steps - 1; t >= 0; --t) {
-    const ChainBlock& b = factors[t];
-    apply_inverse(b.S_inv, b.A_inv, b.W, b.torque - b.turn_coupling * turn, b.gap - b.force_coupling * force, turn, force);
-    for (int l = 0; l < lanes; ++l) {
-      const int block = gather.block(l, t);
-      if (block < 0) continue;
-      Chain& chain = *chains[l / halves];
-      const int j = gather.walk(l).element(block);
-      store3(chain.turn, j, lane_of(turn, l));
-      store3(chain.force, j, lane_of(force, l));
-    }
-  }
+  V3<Lanes> turn{}, force{};
+  ChainBlock& middle_block = factors.blocks[walks.steps()];
+  solve_middle(first, 0, carried, minor, middle_block, turn, force);
+  if (second) solve_middle(*second, halves, carried, minor, middle_block, turn, force);
+  substitute_back(walks, factors, {&first, second}, turn, force);
 }
-
-namespace {
-/// Number of negative eigenvalues of a symmetric 3 x 3 matrix, by the signs of its pivots.
-int negatives(const S3<double>& s) {
-  const double first = s.xx, second = s.yy - s.xy * s.xy / s.xx;
-  const double yz = s.yz - s.xy * s.xz / s.xx;
-  const double third = s.zz - s.xz * s.xz / s.xx - yz * yz / second;
-  return (first < 0) + (second < 0) + (third < 0);
-}
-}  // namespace
 
 int negative_directions(const Chain& chain, const ChainFactors& factors) {
   // Inertia of the whole system: it has 3 N negative eigenvalues for its 3 N constraint forces; more are unstable.
-  const Gather gather(chain, nullptr);
+  const Walks walks(chain, chain);
   int negative = 0;
   const auto count = [&](int t, int l) {
-    negative += negatives(lane_of(factors[t].S_inv, l)) + 3 - negatives(lane_of(factors[t].A_inv, l));
+    negative += negatives(lane_of(factors.blocks[t].S_inv, l)) + 3 - negatives(lane_of(factors.blocks[t].A_inv, l));
   };
-  for (int t = 0; t < gather.steps(); ++t)
+  for (int t = 0; t < walks.steps(); ++t)
     for (int l = 0; l < halves; ++l)
-      if (gather.block(l, t) >= 0) count(t, l);
-  count(gather.steps(), 0);
+      if (t >= walks.lane(l).wait) count(t, l);
+  count(walks.steps(), 0);
   return negative - 3 * chain.elements;
 }
 

@@ -9,11 +9,14 @@
 ///   K_j phi_j - [d_j]x n_j + (-H_j+1 + [m_j+1]x / 2) phi_j+1 + (-H_j - [m_j]x / 2) phi_j-1 = torque_j
 ///   [d_j]x phi_j - (P_j + P_j+1) n_j + P_j+1 n_j+1 + P_j n_j-1                             = gap_j
 ///
-/// A node that is held in a direction has a P without that direction, whatever its mass: rigid constraints at nodes cost
-/// nothing and leave the system well conditioned.
+/// plus, in A_j = P_j + P_j+1, the give c d d^T of tunables.h: without it, the tension between two held ends of a
+/// straight rod would be anything.
 ///
-/// Method: block LDL^T from both ends towards the middle (a twisted factorisation). The two halves of a
-/// rod, and of a second rod, run side by side in the four lanes of a register, so two rods cost as much as one.
+/// A node that is held in a direction has a P without that direction, whatever its mass: rigid constraints at nodes
+/// cost nothing and leave the system well conditioned.
+///
+/// Method: block LDL^T from both ends towards the middle (a twisted factorisation). The two halves of a rod, and of a
+/// second rod, run side by side in the four lanes of a register, so two rods cost as much as one.
 #include "core/math/field.h"
 
 namespace ostium {
@@ -21,7 +24,7 @@ namespace ostium {
 struct Chain {
   explicit Chain(int elements = 0);
 
-  int elements = 0;         ///< N
+  int elements = 0;  ///< N
   // --- the system; every field has N + 1 entries, so that all share one stride
   Field<6> stiffness;        ///< K_j, N m/rad, (#elements)
   Field<6> joint_stiffness;  ///< H_i, N m/rad, (#nodes); inner joints couple, 1 <= i < N
@@ -31,27 +34,32 @@ struct Chain {
   Field<3> torque;           ///< N m, (#elements)
   Field<3> gap;              ///< m, (#elements)
   // --- the solution
-  Field<3> turn;             ///< phi_j, rad, (#elements)
-  Field<3> force;            ///< n_j, N, (#elements)
+  Field<3> turn;         ///< phi_j, rad, (#elements)
+  Field<3> force;        ///< n_j, N, (#elements)
+  bool definite = true;  ///< every motion that the constraints leave costs energy; else the solution leads to a saddle
 };
 
 /// What is eliminated at one element, in four chains side by side.
 struct ChainBlock {
-  S3<Lanes> S_inv;        ///< inverse of K + G A^-1 G^T
+  S3<Lanes> S_inv;  ///< inverse of K + G A^-1 G^T
   S3<Lanes> A_inv;
-  M3<Lanes> W;            ///< G A^-1
+  M3<Lanes> W;  ///< G A^-1
   M3<Lanes> turn_coupling;
   S3<Lanes> force_coupling;
   V3<Lanes> torque, gap;
 };
-/// The factors of one solve. Scratch: any content is fine on entry.
-using ChainFactors = std::vector<ChainBlock>;
-/// Blocks needed for chains of at most `elements`.
-inline int chain_blocks(int elements) { return elements / 2 + 1; }
 
-/// Solves one chain, or two at once (`second` may be null; it may be shorter or longer). `factors` holds at least
-/// chain_blocks(longer). A chain's solution does not depend, to the last bit, on what shares the call. Does not
-/// allocate; two threads may solve different chains with different factors.
+/// Working memory of a solve: any content is fine on entry. Afterwards it holds the pivots.
+struct ChainFactors {
+  std::vector<ChainBlock> blocks;
+
+  /// Makes room for two chains of at most `elements` each.
+  void resize(int elements) { blocks.resize(elements / 2 + 1); }
+};
+
+/// Solves one chain, or two at once (`second` may be null; it may be shorter or longer); `factors` has room for the
+/// longer. A chain's solution does not depend, to the last bit, on what shares the call. Does not allocate. Two threads
+/// may solve different chains with different factors.
 void solve(Chain& first, Chain* second, ChainFactors& factors);
 
 /// Number of directions in which the system of the last `solve(chain, nullptr, factors)` has negative stiffness, on

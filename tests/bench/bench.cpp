@@ -1,0 +1,85 @@
+/// `ostium-bench`: how long a simulated millisecond takes, beside the gate it was reached with and beside the
+/// yardstick.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "tests/bench/corde.h"
+#include "tests/bench/rows.h"
+
+namespace {
+
+using namespace ostium::bench;
+
+/// The thesis' explicit CoRdE with 512 elements at real stiffness and its own largest stable step.
+double yardstick_ms(bool quick) {
+  CordeSettings settings;
+  settings.step_s = largest_stable_step(settings, quick ? 0.002 : 0.02);
+  return cpu_ms_per_simulated_ms(settings, quick ? 0.005 : 0.05);
+}
+
+std::string processor() {
+  std::ifstream info("/proc/cpuinfo");
+  for (std::string line; std::getline(info, line);)
+    if (line.starts_with("model name")) return line.substr(line.find(':') + 2);
+  return "unknown";
+}
+
+void print_json(const std::vector<Row>& rows, double yardstick) {
+  nlohmann::ordered_json out;
+  out["machine"] = {
+      {"processor", processor()}, {"cores", std::thread::hardware_concurrency()}, {"compiler", "g++ " __VERSION__}};
+  out["rows"] = nlohmann::json::array();
+  for (const Row& r : rows)
+    out["rows"].push_back({{"name", r.name},
+                           {"ms", r.ms},
+                           {"p999_ms", r.p999_ms},
+                           {"yardstick_ms", yardstick},
+                           {"gate", {{"name", r.gate.name}, {"value", r.gate.value}, {"pass", r.gate.pass}}}});
+  fmt::print("{}\n", out.dump(2));
+}
+
+void print_table(const std::vector<Row>& rows, double yardstick) {
+  fmt::print("{:<16} {:>9} {:>9} {:>10} {:>7}   {}\n", "ms of CPU", "mean", "p99.9", "yardstick", "ratio", "gate");
+  for (const Row& r : rows)
+    fmt::print("{:<16} {:>9.4f} {:>9.4f} {:>10.2f} {:>7.0f}   {} {:.3g} mm {}\n", r.name, r.ms, r.p999_ms, yardstick,
+               yardstick / r.ms, r.gate.name, r.gate.value, r.gate.pass ? "pass" : "FAIL");
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  bool json = false, quick = false, growth_only = false, stretch_only = false;
+  CLI::App app("Times the step: CPU time of one simulated millisecond, beside its accuracy gate and the yardstick.",
+               "ostium-bench");
+  app.add_flag("--json", json, "Machine-readable: {\"machine\", \"rows\"}");
+  app.add_flag("--quick", quick, "A tenth of the simulated time, for a test");
+  app.add_flag("--growth", growth_only, "Instead: time against the number of elements, 16 to 4,096");
+  app.add_flag("--stretch", stretch_only, "Instead: the stretch table of the thesis' figure 3.6 (about two minutes)");
+  app.footer("Examples:\n  ostium-bench\n  ostium-bench --json > bench.json\n  ostium-bench --growth");
+  CLI11_PARSE(app, argc, argv);
+
+  const Duration duration = quick ? Duration{100, 1000} : Duration{};
+  if (stretch_only) {
+    print_stretch_table(quick);
+    return 0;
+  }
+  if (growth_only) {
+    fmt::print("{:>9} {:>10} {:>12}\n", "elements", "ms", "ns/element");
+    for (const GrowthPoint& p : growth({100, quick ? 200 : 2000}))
+      fmt::print("{:>9} {:>10.4f} {:>12.1f}\n", p.elements, p.ms, 1e6 * p.ms / p.elements);
+    return 0;
+  }
+  if (!json) fmt::print(stderr, "yardstick: finding its largest stable step ...\n");
+  const double yardstick = yardstick_ms(quick);
+  std::vector<Row> rows;
+  for (auto [name, elements] : {std::pair{"rod-512-free", 512}, std::pair{"rod-4096-free", 4096}}) {
+    if (!json) fmt::print(stderr, "{} ...\n", name);
+    rows.push_back(free_rod(name, elements, duration));
+  }
+  json ? print_json(rows, yardstick) : print_table(rows, yardstick);
+  return 0;
+}

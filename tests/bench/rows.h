@@ -1,0 +1,39 @@
+#pragma once
+/// Rows of `ostium-bench`: the whole tick of the step, timed as CPU time of the thread that works, beside the accuracy
+/// gate that the same settings reach.
+#include <string>
+#include <vector>
+
+namespace ostium::bench {
+
+struct Row {
+  std::string name;
+  double ms = 0;       ///< CPU time of a simulated millisecond, mean
+  double p999_ms = 0;  ///< its 99.9th percentile
+  struct {
+    std::string name;
+    double value = 0;
+    bool pass = false;
+  } gate;
+};
+
+struct Duration {
+  int warm_up_steps = 500;
+  int steps = 10'000;
+};
+
+/// One rod of `elements`, clamped, swinging freely under its own weight (verification: rod-swing). The tick is drive,
+/// step and state hash.
+Row free_rod(const std::string& name, int elements, const Duration& duration);
+
+/// Mean CPU time, ms per step, of free rods from 16 to 4,096 elements.
+struct GrowthPoint {
+  int elements;
+  double ms;
+};
+std::vector<GrowthPoint> growth(const Duration& duration);
+
+/// The thesis' stretch experiment (its figure 3.6) with the yardstick, and ours beside it. Printed as it is computed.
+void print_stretch_table(bool quick);
+
+}  // namespace ostium::bench

@@ -1,0 +1,132 @@
+#include "core/solve/chain.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Dense>
+#include <random>
+
+#include "core/tunables.h"
+
+namespace ostium {
+namespace {
+
+using Eigen::Matrix3d;
+using Eigen::MatrixXd;
+using Eigen::Vector3d;
+using Eigen::VectorXd;
+
+/// A random chain and the same system as a dense matrix.
+struct RandomChain {
+  RandomChain(int N, unsigned seed, double softening = 0)
+      : chain(N), matrix(MatrixXd::Zero(6 * N, 6 * N)), right(6 * N) {
+    std::mt19937 generator(seed);
+    std::normal_distribution<> normal;
+    const auto vector = [&]() -> Vector3d { return {normal(generator), normal(generator), normal(generator)}; };
+    const auto spd = [&] {
+      Matrix3d a;
+      a << vector(), vector(), vector();
+      return Matrix3d(a * a.transpose());
+    };
+    const auto six = [](const Matrix3d& m) {
+      Eigen::Matrix<double, 6, 1> v;
+      v << m(0, 0), m(0, 1), m(0, 2), m(1, 1), m(1, 2), m(2, 2);
+      return v;
+    };
+    const auto cross = [](const Vector3d& d) {
+      Matrix3d m;
+      m << 0, -d.z(), d.y(), d.z(), 0, -d.x(), -d.y(), d.x(), 0;
+      return m;
+    };
+    std::vector<Matrix3d> P, H;
+    std::vector<Vector3d> m;
+    for (int i = 0; i <= N; ++i) {
+      P.push_back(i == 0 ? Matrix3d(Matrix3d::Zero()) : spd());  // the base is held
+      H.push_back(spd());
+      m.push_back(vector());
+      chain.compliance.set(i, six(P[i]));
+      chain.joint_stiffness.set(i, six(H[i]));
+      chain.joint_moment.set(i, m[i]);
+    }
+    for (int j = 0; j < N; ++j) {
+      const Matrix3d K = H[j] + H[j + 1] + 3 * spd() - softening * Matrix3d::Identity();
+      const Vector3d d = vector(), torque = vector(), gap = vector();
+      chain.stiffness.set(j, six(K));
+      chain.arm.set(j, d);
+      chain.torque.set(j, torque);
+      chain.gap.set(j, gap);
+      const int at = 6 * j;
+      matrix.block<3, 3>(at, at) = K;
+      matrix.block<3, 3>(at, at + 3) = -cross(d);
+      matrix.block<3, 3>(at + 3, at) = cross(d);
+      matrix.block<3, 3>(at + 3, at + 3) = -(P[j] + P[j + 1] + tunables::axial_give_per_N_m * d * d.transpose());
+      if (j + 1 < N) {
+        matrix.block<3, 3>(at, at + 6) = -H[j + 1] + 0.5 * cross(m[j + 1]);
+        matrix.block<3, 3>(at + 3, at + 9) = P[j + 1];
+      }
+      if (j > 0) {
+        matrix.block<3, 3>(at, at - 6) = -H[j] - 0.5 * cross(m[j]);
+        matrix.block<3, 3>(at + 3, at - 3) = P[j];
+      }
+      right.segment<3>(at) = torque;
+      right.segment<3>(at + 3) = gap;
+    }
+  }
+
+  VectorXd solution() const {
+    VectorXd x(right.size());
+    for (int j = 0; j < chain.elements; ++j)
+      x.segment<3>(6 * j) = chain.turn[j], x.segment<3>(6 * j + 3) = chain.force[j];
+    return x;
+  }
+  double relative_error() const {
+    const VectorXd exact = matrix.fullPivLu().solve(right);
+    return (solution() - exact).norm() / exact.norm();
+  }
+
+  Chain chain;
+  MatrixXd matrix;
+  VectorXd right;
+};
+
+ChainFactors factors_for(int elements) {
+  ChainFactors f;
+  f.resize(elements);
+  return f;
+}
+
+TEST(Chain, SolvesWhatADenseSolverSolves) {
+  for (int N : {16, 17, 30, 33}) {
+    RandomChain random(N, N);
+    ASSERT_LT((random.matrix - random.matrix.transpose()).norm(), 1e-12);
+    ChainFactors factors = factors_for(N);
+    solve(random.chain, nullptr, factors);
+    EXPECT_LT(random.relative_error(), 1e-8) << N;
+  }
+}
+
+TEST(Chain, SolutionDoesNotDependOnItsCompany) {
+  for (int other : {16, 31, 64}) {
+    RandomChain alone(33, 1), together(33, 1), company(other, 2);
+    ChainFactors factors = factors_for(64);
+    solve(alone.chain, nullptr, factors);
+    solve(together.chain, &company.chain, factors);
+    EXPECT_EQ(alone.solution(), together.solution()) << other;
+    EXPECT_LT(company.relative_error(), 1e-8);
+    solve(company.chain, &together.chain, factors);
+    EXPECT_EQ(alone.solution(), together.solution()) << other;
+  }
+}
+
+TEST(Chain, CountsNegativeDirectionsLikeEigenvalues) {
+  for (double softening : {0.0, 3.0, 8.0, 20.0}) {
+    RandomChain random(20, 5, softening);
+    ChainFactors factors = factors_for(20);
+    solve(random.chain, nullptr, factors);
+    const VectorXd eigenvalues =
+        Eigen::SelfAdjointEigenSolver<MatrixXd>(random.matrix, Eigen::EigenvaluesOnly).eigenvalues();
+    EXPECT_EQ(negative_directions(random.chain, factors), (eigenvalues.array() < 0).count() - 3 * 20) << softening;
+  }
+}
+
+}  // namespace
+}  // namespace ostium

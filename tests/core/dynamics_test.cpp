@@ -1,0 +1,200 @@
+/// Motion against closed forms that are not among the gates of `ostium verify`.
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <numbers>
+
+#include "app/verify/steel_wire.h"
+
+namespace ostium {
+namespace {
+
+using Eigen::Vector3d;
+using verify::along_x;
+using verify::Bench;
+using verify::steel_bench;
+using verify::steel_wire;
+constexpr double pi = std::numbers::pi;
+
+const Section& section(const RodDescription& wire) { return wire.sections[0]; }
+
+Bench bench_of(const RodDescription& wire, bool gravity) {
+  Model model;
+  model.rods.push_back(make_rod(wire));
+  if (!gravity) model.gravity_W.setZero();
+  return Bench(std::move(model), along_x());
+}
+
+/// Euler-Bernoulli cantilever, first mode: omega = 1.8751^2 sqrt(EI / (rho A L^4)).
+TEST(Motion, FirstBendingFrequencyOfACantilever) {
+  const RodDescription wire = steel_wire({.elements = 100});
+  Bench bench = bench_of(wire, false);
+  for (int i = 0; i <= 100; ++i) bench.rod().velocity.set(i, Vector3d(0, 1e-4 * i * i, 0));
+  std::vector<double> crossings_s;
+  double before = 0;
+  for (int ms = 1; ms <= 9000; ++ms) {
+    bench.step();
+    const double now = bench.rod().position[100].y();
+    if (before < 0 && now >= 0) crossings_s.push_back(1e-3 * (ms - 1 + before / (before - now)));
+    before = now;
+  }
+  ASSERT_GE(crossings_s.size(), 3u);
+  const double period = (crossings_s.back() - crossings_s.front()) / static_cast<double>(crossings_s.size() - 1);
+  const double omega = 1.8751 * 1.8751 * std::sqrt(section(wire).EI1_N_m2 / section(wire).kg_per_m);
+  EXPECT_NEAR(2 * pi / period, omega, 0.01 * omega);
+}
+
+/// Without loss the scheme's own is small: a slow swing keeps its height.
+TEST(Motion, SwingKeepsItsEnergy) {
+  Bench bench = steel_bench({.elements = 100, .E_Pa = 200e9, .length_m = 0.4});
+  double lowest = 0, highest_later = -1;
+  for (int ms = 1; ms <= 3000; ++ms) {
+    bench.step();
+    lowest = std::min(lowest, bench.tip().z());
+    if (ms > 2000) highest_later = std::max(highest_later, bench.tip().z());
+  }
+  EXPECT_LT(lowest, -0.03);
+  EXPECT_NEAR(highest_later, 0, 0.05 * -lowest);
+}
+
+/// A free rod sinks through a fluid at m g = c_n L v across, and at m g = c_t L v along itself.
+TEST(Damping, DragGivesTerminalVelocity) {
+  for (bool across : {true, false}) {
+    RodDescription wire = steel_wire({.elements = 32, .E_Pa = 200e9, .length_m = 0.1});
+    wire.damping.drag_across_N_s_m2 = 0.7, wire.damping.drag_along_N_s_m2 = 0.35;
+    Bench bench = bench_of(wire, true);
+    bench.inputs.rods[0].base.hold = Hold::free;
+    if (!across) bench.model.gravity_W = Vector3d(9.81, 0, 0);
+    for (int ms = 0; ms < 300; ++ms) bench.step();
+    const double c = across ? 0.7 : 0.35;
+    EXPECT_NEAR(bench.rod().velocity[16].norm(), section(wire).kg_per_m * 9.81 / c, 1e-3 * 0.06) << across;
+  }
+}
+
+/// Kelvin-Voigt: the first mode decays as exp(-tau omega^2 t / 2).
+TEST(Damping, MaterialLossDampsLikeKelvinVoigt) {
+  RodDescription wire = steel_wire({.elements = 64, .length_m = 0.3});
+  const double omega = std::pow(1.8751 / 0.3, 2) * std::sqrt(section(wire).EI1_N_m2 / section(wire).kg_per_m);
+  wire.damping.material_time_s = 0.05 / omega;  // 2.5 % of critical
+  Bench bench = bench_of(wire, false);
+  // The static shape under a tip load is 97 % first mode.
+  bench.inputs.rods[0].tip_force_W_N = Vector3d(0, 1e-3, 0);
+  ASSERT_TRUE(bench.settle().converged);
+  for (int i = 0; i <= 64; ++i) bench.rod().strain.set(i, Vector3d::Zero());
+  bench.inputs.rods[0].tip_force_W_N.setZero();
+  std::vector<double> peaks;
+  double last = 0, now = 0;
+  for (int ms = 0; ms < 3000; ++ms) {
+    bench.step();
+    const double next = bench.tip().y();
+    if (now > last && now >= next && now > 0) peaks.push_back(now);
+    last = now, now = next;
+  }
+  ASSERT_GE(peaks.size(), 6u);
+  const double decrement = std::log(peaks[1] / peaks[5]) / 4;  // per period: pi tau omega
+  EXPECT_NEAR(decrement, pi * 0.05, 0.05 * pi * 0.05);
+}
+
+/// The dynamic step leaves a column there where the linear system says: just beyond Euler's load, not before.
+TEST(Buckling, StepLeavesAColumnBeyondEulersLoad) {
+  const double euler_N = std::pow(pi / 2, 2) * section(steel_wire({})).EI1_N_m2;
+  const auto farthest = [&](double load) {
+    Bench bench = steel_bench({.elements = 64, .gravity = false});
+    bench.inputs.rods[0].tip_force_W_N = Vector3d(-load * euler_N, 0, 0);
+    for (int i = 0; i <= 64; ++i) bench.rod().velocity.set(i, Vector3d(0, 1e-7 * i * i, 0));  // 0.4 mm/s at the tip
+    double worst = 0;
+    for (int ms = 0; ms < 20000; ++ms) {
+      bench.step();
+      worst = std::max(worst, std::fabs(bench.tip().y()));
+    }
+    return worst;
+  };
+  EXPECT_LT(farthest(0.95), 2e-3);
+  EXPECT_GT(farthest(1.05), 0.05);
+}
+
+/// Bending and twist are coupled: a twisted rod whose ends come together throws a loop. (Later on it passes through
+/// itself, which nothing hinders here, and has two turns less.)
+TEST(Looping, SlackTwistedEndsFormALoop) {
+  const auto most_backwards = [](double turns) {
+    RodDescription wire = steel_wire({.elements = 100});
+    wire.damping.drag_across_N_s_m2 = wire.damping.drag_along_N_s_m2 = 0.05;
+    Bench bench = bench_of(wire, false);
+    RodInputs& in = bench.inputs.rods[0];
+    in.tip.hold = Hold::clamped;
+    for (int i = 40; i < 60; ++i) bench.rod().velocity.set(i, Vector3d(0, 1e-3, 0));
+    in.tip.turn_rate_W_rad_s = Vector3d(turns * pi, 0, 0);
+    for (int ms = 0; ms < 2000; ++ms) bench.step();
+    in.tip.turn_rate_W_rad_s.setZero();
+    in.tip.velocity_W_m_s = Vector3d(-0.1, 0, 0);
+    double most = 1;
+    for (int ms = 0; ms < 3000; ++ms) {
+      bench.step();
+      for (int i = 0; i < 100; ++i)
+        most = std::min(most, (bench.rod().position[i + 1] - bench.rod().position[i]).normalized().x());
+    }
+    EXPECT_LT(bench.report.rods[0].stretch, 1e-6);
+    return most;
+  };
+  EXPECT_GT(most_backwards(0), 0.2);   // without twist: one plane arch
+  EXPECT_LT(most_backwards(4), -0.5);  // four turns: somewhere the rod runs backwards
+}
+
+/// A straight wire pushed against a fixed end gives way sideways within a step or two, with a force of newtons, as
+/// dynamic buckling has it; an implicit step could also stay straight, with any force.
+TEST(Buckling, PushedStraightWireGivesWayAtOnce) {
+  for (double disturbance_m_s : {1e-3, 1e-6}) {
+    Bench bench = steel_bench({.elements = 100, .gravity = false});
+    RodInputs& in = bench.inputs.rods[0];
+    in.tip.hold = Hold::clamped;
+    for (int i = 40; i < 60; ++i) bench.rod().velocity.set(i, Vector3d(0, disturbance_m_s, 0));
+    in.tip.velocity_W_m_s = Vector3d(-0.1, 0, 0);
+    int troubled = 0;
+    double force = 0;
+    for (int ms = 0; ms < 300; ++ms) {
+      bench.step();
+      troubled += bench.report.trouble != 0;
+      force = std::max(force, bench.report.rods[0].base_force_W_N.norm());
+    }
+    EXPECT_LE(troubled, 5);
+    EXPECT_LT(force, 50);
+    EXPECT_NEAR(bench.tip().x(), 0.97, 1e-9);
+    EXPECT_LT(bench.report.rods[0].stretch, 1e-7);
+  }
+}
+
+/// The tension between the held ends of a straight rod is the force that holds it, not noise.
+TEST(Hold, StraightRodBetweenTwoClampsIsAtRest) {
+  Bench bench = steel_bench({.elements = 128, .gravity = false});
+  bench.inputs.rods[0].tip.hold = Hold::clamped;
+  bench.inputs.rods[0].base.turn_rate_W_rad_s = Vector3d(1, 0, 0);
+  for (int ms = 0; ms < 500; ++ms) {
+    bench.step();
+    EXPECT_LT(bench.report.rods[0].base_force_W_N.norm(), 1e-3) << ms;
+  }
+}
+
+TEST(Hold, GuidedEndSlidesAlongItsAxisOnly) {
+  Bench bench = steel_bench({.elements = 64});
+  bench.inputs.rods[0].tip.hold = Hold::guided;
+  for (int ms = 0; ms < 3000; ++ms) bench.step();
+  EXPECT_LT(bench.tip().x(), 1 - 1e-4);  // it sags, so the far end comes closer
+  EXPECT_LT(std::hypot(bench.tip().y(), bench.tip().z()), 1e-12);
+}
+
+TEST(Reaction, HandCarriesTheWeightAtRest) {
+  Bench bench = steel_bench({.elements = 64, .length_m = 0.3});
+  ASSERT_TRUE(bench.settle().converged);
+  bench.step();
+  const double weight = bench.model.rods[0].total_mass_kg * 9.81;
+  EXPECT_LT((bench.report.rods[0].base_force_W_N - Vector3d(0, 0, weight)).norm(), 1e-6 * weight);
+  // Torque about the base: the weight acts at the centre of mass.
+  Vector3d moment = Vector3d::Zero();
+  for (int i = 0; i <= 64; ++i)
+    moment += bench.rod().position[i].cross(bench.model.rods[0].mass.at(0)[i] * bench.model.gravity_W);
+  EXPECT_LT((bench.report.rods[0].base_torque_W_Nm + moment).norm(), 1e-6 * moment.norm());
+}
+
+}  // namespace
+}  // namespace ostium

@@ -1,0 +1,254 @@
+/// What the step promises, whatever the physics: it is a pure function of model, inputs and state.
+#include "core/step.h"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <cstdlib>
+#include <limits>
+#include <memory>
+#include <new>
+#include <numbers>
+#include <stdexcept>
+#include <thread>
+
+#include "app/verify/steel_wire.h"
+
+// Counts every allocation of this program.
+namespace {
+std::atomic<long> allocations{0};
+}
+extern "C" void* __libc_malloc(std::size_t);
+extern "C" void* malloc(std::size_t size) {
+  ++allocations;
+  return __libc_malloc(size);
+}
+
+namespace ostium {
+namespace {
+
+using Eigen::Vector3d;
+using verify::along_x;
+using verify::steel_wire;
+
+/// Three unlike rods, so that full and half registers and a lonely third are all exercised.
+Model three_rods() {
+  Model model;
+  RodDescription damped = steel_wire({.elements = 61, .E_Pa = 5e9, .length_m = 0.4});
+  damped.damping = {0.007, 0.0035, 1e-3};
+  RodDescription curved = steel_wire({.elements = 33, .E_Pa = 20e9, .length_m = 0.2});
+  curved.sections[0].rest_curvature_per_m = Vector3d(3, -5, 2);
+  for (const RodDescription& d : {steel_wire({.elements = 100}), damped, curved}) model.rods.push_back(make_rod(d));
+  return model;
+}
+
+State straight(const Model& model) { return make_state(model, std::vector<EndState>(model.rods.size(), along_x())); }
+
+/// A busy hand: pushes, turns, lets go and holds again.
+Inputs busy_inputs(const Model& model, int step) {
+  Inputs inputs;
+  inputs.rods.resize(model.rods.size());
+  for (std::size_t r = 0; r < inputs.rods.size(); ++r) {
+    RodInputs& in = inputs.rods[r];
+    const double t = 1e-3 * step, phase = 10 * t + static_cast<double>(r);
+    in.base.velocity_W_m_s = Vector3d(0.1 * std::sin(phase), 0.05 * std::cos(3 * phase), 0);
+    in.base.turn_rate_W_rad_s = Vector3d(20 * std::sin(2 * phase), 1, 0);
+    in.tip_force_W_N = Vector3d(0, 0.01 * std::sin(phase), 0);
+    if (step % 100 > 50) in.tip.hold = r == 0 ? Hold::clamped : r == 1 ? Hold::pinned : Hold::guided;
+  }
+  return inputs;
+}
+
+void run(const Model& model, int from, int to, State& state, Scratch& scratch) {
+  StepReport report;
+  for (int i = from; i < to; ++i) step(model, busy_inputs(model, i), state, scratch, report);
+}
+
+TEST(Step, SameInputsGiveTheSameBits) {
+  const Model model = three_rods();
+  State a = straight(model), b = straight(model);
+  Scratch scratch_a(model), scratch_b(model);
+  run(model, 0, 300, a, scratch_a);
+  run(model, 0, 300, b, scratch_b);
+  EXPECT_EQ(first_difference(a, b), "");
+  EXPECT_EQ(hash(a), hash(b));
+}
+
+TEST(Step, SameBitsOnTwoThreadsAtOnce) {
+  const Model model = three_rods();
+  State states[2] = {straight(model), straight(model)};
+  std::thread threads[2];
+  for (int i = 0; i < 2; ++i)
+    threads[i] = std::thread([&, i] {
+      Scratch scratch(model);
+      run(model, 0, 300, states[i], scratch);
+    });
+  for (std::thread& t : threads) t.join();
+  EXPECT_EQ(first_difference(states[0], states[1]), "");
+}
+
+TEST(Step, ARunResumedFromASavedStateGoesOnBitIdentically) {
+  const Model model = three_rods();
+  State uninterrupted = straight(model);
+  Scratch kept(model);
+  run(model, 0, 300, uninterrupted, kept);
+
+  State first = straight(model);
+  auto scratch = std::make_unique<Scratch>(model);
+  run(model, 0, 137, first, *scratch);
+  const std::vector<double> saved = save(first);
+  scratch.reset();
+  State resumed = straight(model);
+  restore(saved, resumed);
+  Scratch fresh(model);
+  run(model, 137, 300, resumed, fresh);
+  EXPECT_EQ(first_difference(uninterrupted, resumed), "");
+  EXPECT_EQ(hash(uninterrupted), hash(resumed));
+}
+
+TEST(Step, ARodDoesNotNoticeTheOthers) {
+  const Model all = three_rods();
+  State together = straight(all);
+  Scratch scratch(all);
+  run(all, 0, 200, together, scratch);
+  for (std::size_t r = 0; r < all.rods.size(); ++r) {
+    Model one = all;
+    one.rods = {all.rods[r]};
+    State alone = straight(one);
+    Scratch own(one);
+    StepReport report;
+    for (int i = 0; i < 200; ++i) {
+      Inputs inputs;
+      inputs.rods = {busy_inputs(all, i).rods[r]};
+      step(one, inputs, alone, own, report);
+    }
+    EXPECT_EQ(first_difference(alone, State{200, {together.rods[r]}}), "") << r;
+  }
+}
+
+TEST(Step, DoesNotAllocate) {
+  const Model model = three_rods();
+  State state = straight(model);
+  Scratch scratch(model);
+  StepReport report;
+  std::vector<RodEquilibrium> equilibria;
+  const Inputs busy = busy_inputs(model, 80);
+  step(model, busy, state, scratch, report);
+  find_equilibrium(model, busy, state, scratch, equilibria);
+  const long before = allocations;
+  for (int i = 0; i < 100; ++i) step(model, busy, state, scratch, report);
+  find_equilibrium(model, busy, state, scratch, equilibria);
+  EXPECT_NE(hash(state), 0u);
+  EXPECT_EQ(allocations - before, 0);
+  const auto witness = std::make_unique<int>(1);  // the counter does count
+  EXPECT_GT(allocations - before, 0);
+}
+
+TEST(Step, StatesOfAnotherModelAreRefusedWhole) {
+  const Model model = three_rods();
+  State state = straight(model);
+  std::vector<double> saved = save(state);
+  saved.pop_back();
+  const std::uint64_t before = hash(state);
+  EXPECT_THROW(restore(saved, state), std::invalid_argument);
+  EXPECT_EQ(hash(state), before);
+}
+
+TEST(Step, DifferencesAreNamed) {
+  const Model model = three_rods();
+  State a = straight(model), b = a;
+  b.rods[1].velocity.at(2)[7] = 1e-300;
+  EXPECT_EQ(first_difference(a, b).substr(0, 18), "rod 1, velocity[7]");
+  EXPECT_NE(hash(a), hash(b));
+}
+
+// --- bad input -------------------------------------------------------------------------------------------------------
+
+bool finite(const State& state) {
+  bool all = true;
+  for_each_field(state, [&](const char*, const double* first, int count) {
+    for (int i = 0; i < count; ++i) all = all && std::isfinite(first[i]);
+  });
+  return all;
+}
+
+TEST(BadInput, AbsurdDrivesAreLimitedAndFlagged) {
+  const double inf = std::numeric_limits<double>::infinity(), nan = std::numeric_limits<double>::quiet_NaN();
+  struct Case {
+    const char* name;
+    Vector3d velocity, turn_rate, force;
+    std::uint32_t trouble;
+  };
+  const Vector3d zero = Vector3d::Zero();
+  const Case cases[] = {
+      {"100 m/s", {100, 0, 0}, zero, zero, drive_limited},
+      {"100 m/s sideways", {0, 70, 70}, zero, zero, drive_limited},
+      {"1e300 m/s", {-1e300, 1e300, 0}, zero, zero, drive_limited},
+      {"NaN", {nan, 0, 0}, zero, zero, drive_not_finite},
+      {"infinite turn", zero, {0, inf, 0}, zero, drive_not_finite},
+      {"1e6 turns/s", zero, {6e6, 0, 0}, zero, drive_limited},
+      {"a ton on the tip", zero, zero, {0, 0, -1e4}, load_limited},
+      {"NaN on the tip", zero, zero, {0, nan, 0}, drive_not_finite},
+  };
+  const Model model = three_rods();
+  for (const Case& c : cases) {
+    State state = straight(model);
+    Scratch scratch(model);
+    StepReport report;
+    Inputs inputs;
+    inputs.rods.resize(3);
+    inputs.rods[0].base.velocity_W_m_s = c.velocity;
+    inputs.rods[0].base.turn_rate_W_rad_s = c.turn_rate;
+    inputs.rods[0].tip_force_W_N = c.force;
+    for (int i = 0; i < 300; ++i) {
+      step(model, inputs, state, scratch, report);
+      ASSERT_TRUE(report.trouble & c.trouble) << c.name;
+      ASSERT_TRUE(finite(state)) << c.name << ", step " << i;
+    }
+    EXPECT_EQ(report.rods[1].trouble, 0u) << c.name << ": the other rods are not concerned";
+    // And it recovers.
+    inputs = {};
+    inputs.rods.resize(3);
+    for (int i = 0; i < 2000; ++i) step(model, inputs, state, scratch, report);
+    EXPECT_TRUE(finite(state)) << c.name;
+    EXPECT_EQ(report.trouble, 0u) << c.name;
+    EXPECT_LT(report.rods[0].stretch, 1e-6) << c.name;
+  }
+}
+
+TEST(BadInput, AllHoldsThrownAtRandomStayFinite) {
+  const Model model = three_rods();
+  State state = straight(model);
+  Scratch scratch(model);
+  StepReport report;
+  std::uint64_t random = 1;
+  const auto next = [&] { return (random = random * 6364136223846793005ull + 1442695040888963407ull) >> 33; };
+  Inputs inputs;
+  inputs.rods.resize(3);
+  for (int i = 0; i < 3000; ++i) {
+    if (i % 20 == 0)
+      for (RodInputs& in : inputs.rods)
+        for (EndDrive* d : {&in.base, &in.tip}) {
+          d->hold = static_cast<Hold>(next() % 4);
+          d->velocity_W_m_s = Vector3d::Constant(static_cast<double>(next() % 5) - 2);
+          d->turn_rate_W_rad_s = Vector3d(0, static_cast<double>(next() % 400) - 200, 0);
+        }
+    step(model, inputs, state, scratch, report);
+    ASSERT_TRUE(finite(state)) << i;
+  }
+}
+
+TEST(BadInput, ModelsOutOfRangeAreRefused) {
+  Model model;
+  EXPECT_THROW(check(model), std::invalid_argument);
+  model = three_rods();
+  EXPECT_NO_THROW(check(model));
+  model.step_s = 0;
+  EXPECT_THROW(check(model), std::invalid_argument);
+  model.step_s = 1e-3;
+  model.gravity_W.x() = NAN;
+  EXPECT_THROW(check(model), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace ostium
