@@ -55,7 +55,8 @@ Q4<double> frame(const EndState& end) { return {end.q_W[0], end.q_W[1], end.q_W[
 
 }  // namespace
 
-void linearise_joints(const Rod& rod, const RodState& state, EndJoints ends, double step_s, RodScratch& scratch) {
+[[gnu::flatten]] void linearise_joints(const Rod& rod, const RodState& state, EndJoints ends, double step_s,
+                                       RodScratch& scratch) {
   const int N = rod.elements;
   const bool damped = rod.damping.material_time_s > 0 && step_s > 0;
   const double tau = damped ? rod.damping.material_time_s : 0.0;
@@ -86,7 +87,7 @@ void linearise_joints(const Rod& rod, const RodState& state, EndJoints ends, dou
       rod.law);
 }
 
-void assemble_elements(const Rod& rod, RodScratch& scratch) {
+[[gnu::flatten]] void assemble_elements(const Rod& rod, RodScratch& scratch) {
   Chain& chain = scratch.chain;
   const double with_force = scratch.geometric == GeometricStiffness::with ? 1 : 0;
   for_packs(0, rod.elements, [&]<class T>(T, int j) {

@@ -1,0 +1,25 @@
+#pragma once
+/// A plain SVG drawing of polylines, in millimetres, for the pictures of the README pages.
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+namespace ostium::pictures {
+
+class Drawing {
+ public:
+  Drawing(double width_mm, double height_mm) : width_(width_mm), height_(height_mm) {}
+
+  void line(const std::vector<Eigen::Vector2d>& points_mm, const std::string& colour, double thickness_mm);
+  void cross(const Eigen::Vector2d& at_mm, const std::string& colour);
+  void text(const Eigen::Vector2d& at_mm, const std::string& words, double size_mm = 3.5);
+
+  /// Throws std::runtime_error naming the file if it cannot be written whole.
+  void write(const std::string& path) const;
+
+ private:
+  double width_, height_;
+  std::string body_;
+};
+
+}  // namespace ostium::pictures
