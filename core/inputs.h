@@ -22,6 +22,8 @@ struct EndDrive {
 };
 
 struct RodInputs {
+  /// Length pushed in at the introducer, the base's pose, per time; negative: drawn back. Only a clamped base feeds.
+  double feed_m_s = 0;
   EndDrive base{Hold::clamped};
   EndDrive tip{Hold::free};
   Eigen::Vector3d tip_force_W_N = Eigen::Vector3d::Zero();  ///< dead load on the distal tip

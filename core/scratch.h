@@ -20,6 +20,7 @@ enum class GeometricStiffness { with, without };
 enum class Progress { open, done, failed };
 
 struct RodScratch {
+  Rod inside;        ///< the part of the rod that is inside its introducer
   RodInputs inputs;  ///< of this step, within limits
   TimeScheme scheme = TimeScheme::bdf2;
   Progress progress = Progress::open;

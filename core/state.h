@@ -18,6 +18,9 @@ struct EndState {
 };
 
 struct RodState {
+  double inserted_m = 0;     ///< length from the introducer to the tip
+  double slack_m = 0;        ///< what the base element is longer than inserted_m has it; fades, see introducer.h
+  double first = 0;          ///< the first element that takes part, as a number; fields before it are stale
   Field<3> position;         ///< m, (#nodes)
   Field<3> position_before;  ///< one step earlier
   Field<3> velocity;         ///< m/s, (#nodes)
@@ -31,21 +34,28 @@ struct RodState {
   EndState base, tip;
 };
 
+inline int first_element(const RodState& rod) { return static_cast<int>(rod.first); }
+
 struct State {
   std::uint64_t step = 0;
   std::vector<RodState> rods;
 };
 
-/// Rods straight from their base poses along d3 and at rest; `bases[i]` belongs to rod i.
-State make_state(const Model& model, const std::vector<EndState>& bases);
+/// Rods straight from their base poses along d3 and at rest; `bases[i]` belongs to rod i, and so does `inserted_m[i]`,
+/// the length beyond the base (whole rods if empty; at least least_inserted_m of introducer.h).
+State make_state(const Model& model, const std::vector<EndState>& bases, const std::vector<double>& inserted_m = {});
 /// The same with every rod in its unloaded shape.
-State make_state_at_rest_shape(const Model& model, const std::vector<EndState>& bases);
+State make_state_at_rest_shape(const Model& model, const std::vector<EndState>& bases,
+                               const std::vector<double>& inserted_m = {});
 
 /// Calls visit(name, first, count) with `count` doubles for each field of each rod, in a fixed order. `S` is State or
 /// const State. The step number is not among them.
 template <class S, class Visit>
 void for_each_field(S& state, Visit&& visit) {
   for (auto& rod : state.rods) {
+    visit("inserted_m", &rod.inserted_m, 1);
+    visit("slack_m", &rod.slack_m, 1);
+    visit("first", &rod.first, 1);
     const auto components = [&](const char* name, auto& field) {
       for (int c = 0; c < static_cast<int>(field.raw().size()) / std::max(field.stride(), 1); ++c)
         visit(name, field.at(c), field.size());

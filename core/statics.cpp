@@ -7,6 +7,7 @@
 #include "core/rod/elasticity.h"
 #include "core/rod/ends.h"
 #include "core/rod/inertia.h"
+#include "core/rod/introducer.h"
 #include "core/rod/iterate.h"
 #include "core/step.h"
 #include "core/tunables.h"
@@ -20,7 +21,7 @@ double longest_time(const Rod& rod) {
   double compliance = 0;  // of bending, integrated: L / EI
   std::visit(
       [&](const auto& law) {
-        for (int i = 0; i < rod.nodes(); ++i) {
+        for (int i = rod.first; i < rod.nodes(); ++i) {
           const S3<double> C = law.template operator()<double>(V3<double>{}, i).tangent;
           compliance += rod.joint_length.at(0)[i] / std::min(C.xx, C.yy);
         }
@@ -35,7 +36,7 @@ void stay_near(const Rod& rod, const Eigen::Vector3d& gravity_W, const Eigen::Ve
                RodScratch& s) {
   const double time2 = time_s * time_s;
   const V3<double> fall = from_eigen(time2 * gravity_W);
-  for_packs(0, rod.nodes(), [&]<class T>(T, int i) {
+  for_packs(rod.first, rod.nodes(), [&]<class T>(T, int i) {
     store6(s.chain.compliance, i, (time2 / load<T>(rod.mass.at(0) + i)) * identity3<T>());
     store3(s.target, i, load3<T>(s.position, i) + V3<T>{splat<T>(fall.x), splat<T>(fall.y), splat<T>(fall.z)});
   });
@@ -45,8 +46,8 @@ void stay_near(const Rod& rod, const Eigen::Vector3d& gravity_W, const Eigen::Ve
 
 void start_at(const Rod& rod, const RodState& state, RodScratch& s) {
   s.geometric = GeometricStiffness::with;
-  for_packs(0, rod.nodes(), [&]<class T>(T, int i) { store3(s.position, i, load3<T>(state.position, i)); });
-  for_packs(0, rod.elements, [&]<class T>(T, int j) {
+  for_packs(rod.first, rod.nodes(), [&]<class T>(T, int i) { store3(s.position, i, load3<T>(state.position, i)); });
+  for_packs(rod.first, rod.elements, [&]<class T>(T, int j) {
     store4(s.orientation, j, load4<T>(state.orientation, j));
     store3(s.turn, j, V3<T>{});
     store3(s.force, j, load3<T>(state.force, j));
@@ -94,8 +95,8 @@ RodEquilibrium settle(const Rod& rod, const Eigen::Vector3d& gravity_W, const Ro
 }
 
 void take(const Rod& rod, const RodScratch& s, RodState& state) {
-  for_packs(0, rod.nodes(), [&]<class T>(T, int i) { store3(state.position, i, load3<T>(s.position, i)); });
-  for_packs(0, rod.elements, [&]<class T>(T, int j) {
+  for_packs(rod.first, rod.nodes(), [&]<class T>(T, int i) { store3(state.position, i, load3<T>(s.position, i)); });
+  for_packs(rod.first, rod.elements, [&]<class T>(T, int j) {
     store4(state.orientation, j, load4<T>(s.orientation, j));
     store3(state.force, j, load3<T>(s.force, j));
   });
@@ -111,21 +112,23 @@ void find_equilibrium(const Model& model, const Inputs& inputs, State& state, Sc
     std::uint32_t trouble = 0;
     RodScratch& s = scratch.rods[r];
     s.inputs = limited(inputs.rods[r], trouble);
-    report[r] = settle(model.rods[r], model.gravity_W, state.rods[r], s, scratch.factors);
-    if (report[r].converged) take(model.rods[r], s, state.rods[r]);
+    cut_at_introducer(model.rods[r], state.rods[r], s.inside);
+    report[r] = settle(s.inside, model.gravity_W, state.rods[r], s, scratch.factors);
+    if (report[r].converged) take(s.inside, s, state.rods[r]);
   }
 }
 
 int negative_directions(const Model& model, const Inputs& inputs, const State& state, std::size_t r, Scratch& scratch) {
   std::uint32_t trouble = 0;
   RodScratch& s = scratch.rods[r];
-  const Rod& rod = model.rods[r];
+  const Rod& rod = s.inside;
   s.inputs = limited(inputs.rods[r], trouble);
+  cut_at_introducer(model.rods[r], state.rods[r], s.inside);
   start_at(rod, state.rods[r], s);
   // The first solve finds the internal forces, the second counts with the stiffness that they make.
   for (int pass = 0; pass < 2; ++pass) {
     solve_step(rod, model.gravity_W, state.rods[r], longest_time(rod), s, scratch.factors);
-    for_packs(0, rod.elements, [&]<class T>(T, int j) { store3(s.force, j, load3<T>(s.chain.force, j)); });
+    for_packs(rod.first, rod.elements, [&]<class T>(T, int j) { store3(s.force, j, load3<T>(s.chain.force, j)); });
   }
   return negative_directions(s.chain, scratch.factors);
 }

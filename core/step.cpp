@@ -6,6 +6,7 @@
 #include "core/rod/elasticity.h"
 #include "core/rod/ends.h"
 #include "core/rod/inertia.h"
+#include "core/rod/introducer.h"
 #include "core/rod/iterate.h"
 #include "core/tunables.h"
 
@@ -40,7 +41,9 @@ void begin(const Model& model, const Inputs& inputs, State& state, Scratch& scra
     s.inputs = limited(inputs.rods[r], report.rods[r].trouble);
     const bool jump = take_hold(s.inputs, state.rods[r]);
     drive_ends(s.inputs, model.step_s, state.rods[r]);
-    predict(model, model.rods[r], state.rods[r], jump ? TimeScheme::fresh : TimeScheme::bdf2, s);
+    feed(model.rods[r], s.inputs, model.step_s, state.rods[r], report.rods[r].trouble);
+    cut_at_introducer(model.rods[r], state.rods[r], s.inside);
+    predict(model, s.inside, state.rods[r], jump ? TimeScheme::fresh : TimeScheme::bdf2, s);
   }
 }
 
@@ -90,10 +93,11 @@ void iterate(const Model& model, const State& state, Scratch& scratch, StepRepor
   for (int i = 0; i < tunables::max_newton_iterations && any(scratch, Progress::open); ++i) {
     for (std::size_t r = 0; r < model.rods.size(); ++r)
       if (scratch.rods[r].progress == Progress::open)
-        linearise(model.rods[r], state.rods[r], model.step_s, scratch.rods[r]);
+        linearise(scratch.rods[r].inside, state.rods[r], model.step_s, scratch.rods[r]);
     solve_open(scratch);
     for (std::size_t r = 0; r < model.rods.size(); ++r)
-      if (scratch.rods[r].progress == Progress::open) take_solution(model.rods[r], scratch.rods[r], report.rods[r]);
+      if (scratch.rods[r].progress == Progress::open)
+        take_solution(scratch.rods[r].inside, scratch.rods[r], report.rods[r]);
   }
 }
 
@@ -112,7 +116,7 @@ void retry_from_rest(const Model& model, const State& state, Scratch& scratch, S
     }
     any_left = true;
     report.rods[r].trouble |= motion_lost;
-    predict(model, model.rods[r], state.rods[r], TimeScheme::from_rest, scratch.rods[r]);
+    predict(model, scratch.rods[r].inside, state.rods[r], TimeScheme::from_rest, scratch.rods[r]);
   }
   if (any_left) iterate(model, state, scratch, report);
 }
@@ -125,8 +129,11 @@ void finish(const Model& model, const Rod& rod, const RodScratch& s, RodState& s
   else
     commit_frames_at_rest(rod, s, state);
   follow_free_ends(rod, s.inputs, state);
-  report.base_force_W_N = -state.force[0] - rod.mass.at(0)[0] * model.gravity_W;
-  report.base_torque_W_Nm = -s.chain.joint_moment[0];
+  report.base_force_W_N = -state.force[rod.first] - rod.mass.at(0)[rod.first] * model.gravity_W;
+  report.base_torque_W_Nm = -s.chain.joint_moment[rod.first];
+  const Eigen::Vector3d along = axis(state.base);
+  report.push_N = along.dot(report.base_force_W_N);
+  report.torque_Nm = along.dot(report.base_torque_W_Nm);
 }
 
 }  // namespace
@@ -137,6 +144,7 @@ Scratch::Scratch(const Model& model) {
     const int N = rod.elements;
     longest = std::max(longest, N);
     RodScratch& s = rods.emplace_back();
+    s.inside = rod;
     s.chain = Chain(N);
     s.target.resize(N + 1);
     s.position.resize(N + 1);
@@ -156,7 +164,7 @@ void step(const Model& model, const Inputs& inputs, State& state, Scratch& scrat
 
   report.trouble = 0;
   for (std::size_t r = 0; r < model.rods.size(); ++r) {
-    finish(model, model.rods[r], scratch.rods[r], state.rods[r], report.rods[r]);
+    finish(model, scratch.rods[r].inside, scratch.rods[r], state.rods[r], report.rods[r]);
     report.trouble |= report.rods[r].trouble;
   }
   ++state.step;

@@ -76,11 +76,13 @@ Q4<double> frame(const EndState& end) { return {end.q_W[0], end.q_W[1], end.q_W[
           store3(chain.joint_moment, i, j.moment);
           if (damped) store3(scratch.strain, i, j.strain);
         };
-        for_packs(1, N, [&]<class T>(T, int i) {
+        for_packs(rod.first + 1, N, [&]<class T>(T, int i) {
           between.template operator()<T>(i, load4<T>(scratch.orientation, i - 1), load4<T>(scratch.orientation, i));
         });
-        clear_joint(chain, 0), clear_joint(chain, N);
-        if (ends.base) between.template operator()<double>(0, frame(state.base), load4<double>(scratch.orientation, 0));
+        clear_joint(chain, rod.first), clear_joint(chain, N);
+        if (ends.base)
+          between.template operator()<double>(rod.first, frame(state.base),
+                                              load4<double>(scratch.orientation, rod.first));
         if (ends.tip)
           between.template operator()<double>(N, load4<double>(scratch.orientation, N - 1), frame(state.tip));
       },
@@ -89,8 +91,9 @@ Q4<double> frame(const EndState& end) { return {end.q_W[0], end.q_W[1], end.q_W[
 
 [[gnu::flatten]] void assemble_elements(const Rod& rod, RodScratch& scratch) {
   Chain& chain = scratch.chain;
+  chain.first = rod.first;
   const double with_force = scratch.geometric == GeometricStiffness::with ? 1 : 0;
-  for_packs(0, rod.elements, [&]<class T>(T, int j) {
+  for_packs(rod.first, rod.elements, [&]<class T>(T, int j) {
     const T length = load<T>(rod.length.at(0) + j);
     const V3<T> d3 = director3(load4<T>(scratch.orientation, j));
     const V3<T> n = splat<T>(with_force) * load3<T>(scratch.force, j);

@@ -61,6 +61,7 @@ RodInputs limited(const RodInputs& asked, std::uint32_t& trouble) {
     d->velocity_W_m_s = within(d->velocity_W_m_s, tunables::max_drive_speed_m_s, drive_limited, trouble);
     d->turn_rate_W_rad_s = within(d->turn_rate_W_rad_s, tunables::max_drive_turn_rad_s, drive_limited, trouble);
   }
+  out.feed_m_s = within(Vector3d(asked.feed_m_s, 0, 0), tunables::max_drive_speed_m_s, drive_limited, trouble).x();
   out.tip_force_W_N = within(out.tip_force_W_N, tunables::max_load_N, load_limited, trouble);
   return out;
 }
@@ -80,7 +81,7 @@ void drive_ends(const RodInputs& inputs, double step_s, RodState& state) {
 }
 
 void hold_ends(const Rod& rod, const RodInputs& inputs, const RodState& state, RodScratch& scratch) {
-  hold(inputs.base.hold, state.base, 0, scratch);
+  hold(inputs.base.hold, state.base, rod.first, scratch);
   hold(inputs.tip.hold, state.tip, rod.elements, scratch);
 }
 
@@ -89,7 +90,7 @@ void follow_free_ends(const Rod& rod, const RodInputs& inputs, RodState& state) 
     if (hold == Hold::free || hold == Hold::guided) end.p_W = state.position[node];
     if (!joined(hold)) end.q_W = state.orientation[element];
   };
-  follow(inputs.base.hold, 0, 0, state.base);
+  follow(inputs.base.hold, rod.first, rod.first, state.base);
   follow(inputs.tip.hold, rod.elements, rod.elements - 1, state.tip);
 }
 

@@ -70,7 +70,7 @@ void predict_nodes(const Rod& rod, const RodState& state, const Eigen::Vector3d&
     if (drag) {
       const T cell = inertia.B() * load<T>(rod.joint_length.at(0) + i);
       const T across = cell * loss.drag_across_N_s_m2, along = cell * loss.drag_along_N_s_m2;
-      V3<T> t = load3<T>(state.position, std::min(i + 1, N)) - load3<T>(state.position, std::max(i - 1, 0));
+      V3<T> t = load3<T>(state.position, std::min(i + 1, N)) - load3<T>(state.position, std::max(i - 1, rod.first));
       t = (1.0 / square_root(dot(t, t))) * t;
       const V3<T> slip = r_v - r_a;
       force = force + madd((along - across) * dot(t, slip), t, across * slip);
@@ -81,14 +81,14 @@ void predict_nodes(const Rod& rod, const RodState& state, const Eigen::Vector3d&
     store6(scratch.chain.compliance, i, P);
     store3(scratch.target, i, r_a + P * force);
   };
-  node(double{}, 0);
-  for_packs(1, N, node);
+  node(double{}, rod.first);
+  for_packs(rod.first + 1, N, node);
   node(double{}, N);
 }
 
 void predict_elements(const Rod& rod, const RodState& state, RodScratch& scratch) {
   const bool moving = scratch.scheme != TimeScheme::from_rest;
-  for_packs(0, rod.elements, [&]<class T>(T, int j) {
+  for_packs(rod.first, rod.elements, [&]<class T>(T, int j) {
     V3<T> turn{};
     if (moving) turn = splat<T>(2) * load3<T>(state.turn, j) - load3<T>(state.turn_before, j);
     store4(scratch.orientation, j, turned(turn, load4<T>(state.orientation, j)));
@@ -112,7 +112,7 @@ S3<T> rotary_inertia(const Rod& rod, const RodScratch& scratch, double scale, in
 void add_rotary_inertia(const Rod& rod, double step_s, RodScratch& scratch) {
   Field<6>& K = scratch.chain.stiffness;
   const double scale = 1 / (step_s * step_s);
-  for_packs(0, rod.elements,
+  for_packs(rod.first, rod.elements,
             [&]<class T>(T, int j) { store6(K, j, load6<T>(K, j) + rotary_inertia<T>(rod, scratch, scale, j)); });
 }
 
@@ -122,7 +122,7 @@ void add_rotary_inertia(const Rod& rod, double step_s, RodScratch& scratch) {
 void add_rotary_torque(const Rod& rod, const RodState& state, double step_s, RodScratch& scratch) {
   Field<3>& torque = scratch.chain.torque;
   const double scale = 1 / (step_s * step_s);
-  for_packs(0, rod.elements, [&]<class T>(T, int j) {
+  for_packs(rod.first, rod.elements, [&]<class T>(T, int j) {
     const V3<T> change = load3<T>(scratch.turn, j) - load3<T>(state.turn, j);
     store3(torque, j, load3<T>(torque, j) - rotary_inertia<T>(rod, scratch, scale, j) * change);
   });
@@ -130,7 +130,7 @@ void add_rotary_torque(const Rod& rod, const RodState& state, double step_s, Rod
 
 void commit(const Rod& rod, const RodScratch& scratch, double step_s, RodState& state) {
   const Inertia inertia{scratch.scheme, step_s};
-  for_packs(0, rod.nodes(), [&]<class T>(T, int i) {
+  for_packs(rod.first, rod.nodes(), [&]<class T>(T, int i) {
     const V3<T> next = load3<T>(scratch.position, i);
     const V3<T> v = splat<T>(inertia.B()) * (next - inertia.r_v<T>(state, i));
     store3(state.position_before, i, load3<T>(state.position, i));
@@ -138,21 +138,21 @@ void commit(const Rod& rod, const RodScratch& scratch, double step_s, RodState& 
     store3(state.velocity_before, i, load3<T>(state.velocity, i));
     store3(state.velocity, i, v);
   });
-  for_packs(0, rod.elements, [&]<class T>(T, int j) {
+  for_packs(rod.first, rod.elements, [&]<class T>(T, int j) {
     store4(state.orientation, j, load4<T>(scratch.orientation, j));
     store3(state.turn_before, j, load3<T>(state.turn, j));
     store3(state.turn, j, load3<T>(scratch.turn, j));
     store3(state.force, j, load3<T>(scratch.force, j));
   });
   if (state.strain.size() > 0)
-    for_packs(0, rod.nodes(), [&]<class T>(T, int i) {
+    for_packs(rod.first, rod.nodes(), [&]<class T>(T, int i) {
       store3(state.strain_before, i, load3<T>(state.strain, i));
       store3(state.strain, i, load3<T>(scratch.strain, i));
     });
 }
 
 void commit_frames_at_rest(const Rod& rod, const RodScratch& scratch, RodState& state) {
-  for_packs(0, rod.elements, [&]<class T>(T, int j) {
+  for_packs(rod.first, rod.elements, [&]<class T>(T, int j) {
     store4(state.orientation, j, load4<T>(scratch.orientation, j));
     store3(state.force, j, V3<T>{});
   });
@@ -161,12 +161,12 @@ void commit_frames_at_rest(const Rod& rod, const RodScratch& scratch, RodState& 
 }
 
 void halt(const Rod& rod, RodState& state) {
-  for_packs(0, rod.nodes(), [&]<class T>(T, int i) {
+  for_packs(rod.first, rod.nodes(), [&]<class T>(T, int i) {
     store3(state.position_before, i, load3<T>(state.position, i));
     store3(state.velocity, i, V3<T>{});
     store3(state.velocity_before, i, V3<T>{});
   });
-  for_packs(0, rod.elements, [&]<class T>(T, int j) {
+  for_packs(rod.first, rod.elements, [&]<class T>(T, int j) {
     store3(state.turn, j, V3<T>{});
     store3(state.turn_before, j, V3<T>{});
   });

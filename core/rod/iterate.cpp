@@ -33,10 +33,10 @@ V3<T> blend(T fraction, const V3<T>& from, const V3<T>& to) {
 
 void string_nodes(const Rod& rod, const Field<4>& orientation, V3<double> end, bool from_base, Field<3>& position) {
   const int N = rod.elements;
-  for (int k = 0; k <= N; ++k) {
-    const int node = from_base ? k : N - k, element = from_base ? k : N - k - 1;
+  for (int k = 0; k <= N - rod.first; ++k) {
+    const int node = from_base ? rod.first + k : N - k, element = from_base ? node : node - 1;
     store3(position, node, end);
-    if (k == N) break;
+    if (k == N - rod.first) break;
     const double length = from_base ? rod.length.at(0)[element] : -rod.length.at(0)[element];
     end = madd(length, director3(load4<double>(orientation, element)), end);
   }
@@ -44,7 +44,7 @@ void string_nodes(const Rod& rod, const Field<4>& orientation, V3<double> end, b
 
 double largest_turn(const Rod& rod, const Chain& chain) {
   Extent turns;
-  for_packs(0, rod.elements, [&]<class T>(T, int j) {
+  for_packs(rod.first, rod.elements, [&]<class T>(T, int j) {
     const V3<T> phi = load3<T>(chain.turn, j);
     turns.take(dot(phi, phi));
   });
@@ -56,7 +56,7 @@ IterateChange update_iterate(const Rod& rod, double max_turn_rad, RodScratch& sc
   const Chain& chain = scratch.chain;
 
   Extent turns, forces;
-  for_packs(0, N, [&]<class T>(T, int j) {
+  for_packs(rod.first, N, [&]<class T>(T, int j) {
     const V3<T> phi = load3<T>(chain.turn, j), n = load3<T>(chain.force, j);
     turns.take(dot(phi, phi)), forces.take(dot(n, n));
   });
@@ -66,7 +66,7 @@ IterateChange update_iterate(const Rod& rod, double max_turn_rad, RodScratch& sc
   change.turn_rad = turns.largest();
   const double fraction = change.turn_rad > max_turn_rad ? max_turn_rad / change.turn_rad : 1.0;
 
-  for_packs(0, N, [&]<class T>(T, int j) {
+  for_packs(rod.first, N, [&]<class T>(T, int j) {
     const V3<T> phi = splat<T>(fraction) * load3<T>(chain.turn, j);
     store4(scratch.orientation, j, turned(phi, load4<T>(scratch.orientation, j)));
     store3(scratch.turn, j, load3<T>(scratch.turn, j) + phi);
@@ -77,13 +77,13 @@ IterateChange update_iterate(const Rod& rod, double max_turn_rad, RodScratch& sc
   const auto node = [&]<class T>(T, int i, const V3<T>& force) {
     store3(scratch.position, i, load3<T>(scratch.target, i) + load6<T>(chain.compliance, i) * force);
   };
-  node(double{}, 0, load3<double>(scratch.force, 0));
-  for_packs(1, N,
+  node(double{}, rod.first, load3<double>(scratch.force, rod.first));
+  for_packs(rod.first + 1, N,
             [&]<class T>(T t, int i) { node(t, i, load3<T>(scratch.force, i) - load3<T>(scratch.force, i - 1)); });
   node(double{}, N, V3<double>{} - load3<double>(scratch.force, N - 1));
 
   Extent stretch;
-  for_packs(0, N, [&]<class T>(T, int j) {
+  for_packs(rod.first, N, [&]<class T>(T, int j) {
     const T per_length = 1.0 / load<T>(rod.length.at(0) + j);
     const V3<T> edge = load3<T>(scratch.position, j + 1) - load3<T>(scratch.position, j);
     const V3<T> defect = per_length * edge - director3(load4<T>(scratch.orientation, j));

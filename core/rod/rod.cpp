@@ -1,7 +1,6 @@
 #include "core/rod/rod.h"
 
 #include <algorithm>
-#include <numeric>
 
 namespace ostium {
 
@@ -32,50 +31,71 @@ Integrals integrate(const std::vector<Section>& sections, double a, double b) {
   return sum;
 }
 
+void set_stiffness(MomentLaw& law, int joint, const Eigen::Vector3d& stiffness_N_m2) {
+  std::visit([&](auto& l) { l.stiffness.set(joint, stiffness_N_m2); }, law);
+}
+
+/// Element j, reaching from `base_from_tip` to its distal node.
+void set_element(Rod& rod, int j, double base_from_tip) {
+  const Integrals element = integrate(rod.sections, rod.node_from_tip_m[j + 1], base_from_tip);
+  rod.length.at(0)[j] = base_from_tip - rod.node_from_tip_m[j + 1];
+  rod.rotary_inertia.at(0)[j] = element.transverse_inertia;
+  rod.rotary_inertia.at(1)[j] = element.polar_inertia;
+}
+
+/// The cell of node i, `from_tip` away from the tip: half an element to each side, if there is one.
+void set_cell(Rod& rod, int i, double from_tip) {
+  const double towards_base = i > rod.first ? rod.length.at(0)[i - 1] / 2 : 0;
+  const double towards_tip = i < rod.elements ? rod.length.at(0)[i] / 2 : 0;
+  const Integrals cell = integrate(rod.sections, from_tip - towards_tip, from_tip + towards_base);
+  const double length = towards_base + towards_tip;
+  rod.joint_length.at(0)[i] = length;
+  rod.mass.at(0)[i] = cell.mass;
+  rod.rest_curvature.set(i, cell.rest_angle / length);
+  set_stiffness(rod.law, i, length * cell.compliance.cwiseInverse());
+}
+
 }  // namespace
 
 Rod make_rod(const RodDescription& description) {
   check(description);
   const auto& lengths = description.element_lengths_m;
-  const auto& sections = description.sections;
   const int N = static_cast<int>(lengths.size());
 
   Rod rod;
   rod.elements = N;
   rod.damping = description.damping;
+  rod.sections = description.sections;
   rod.length.resize(N);
   rod.rotary_inertia.resize(N);
   rod.mass.resize(N + 1);
   rod.joint_length.resize(N + 1);
   rod.rest_curvature.resize(N + 1);
-  LinearElastic law;
-  law.stiffness.resize(N + 1);
-  // Padding must not divide by zero.
-  std::fill(rod.joint_length.raw().begin(), rod.joint_length.raw().end(), 1.0);
+  rod.law = LinearElastic{Field<3>(N + 1)};
 
-  rod.total_length_m = std::accumulate(lengths.begin(), lengths.end(), 0.0);
-  std::vector<double> node_from_tip(N + 1);
-  node_from_tip[N] = 0;
-  for (int j = N - 1; j >= 0; --j) node_from_tip[j] = node_from_tip[j + 1] + lengths[j];
-
-  for (int j = 0; j < N; ++j) {
-    const Integrals element = integrate(sections, node_from_tip[j + 1], node_from_tip[j]);
-    rod.length.at(0)[j] = lengths[j];
-    rod.rotary_inertia.at(0)[j] = element.transverse_inertia;
-    rod.rotary_inertia.at(1)[j] = element.polar_inertia;
-    rod.total_mass_kg += element.mass;
-  }
-  for (int i = 0; i <= N; ++i) {
-    const double towards_base = i > 0 ? lengths[i - 1] / 2 : 0, towards_tip = i < N ? lengths[i] / 2 : 0;
-    const Integrals cell = integrate(sections, node_from_tip[i] - towards_tip, node_from_tip[i] + towards_base);
-    const double length = towards_base + towards_tip;
-    rod.joint_length.at(0)[i] = length;
-    rod.mass.at(0)[i] = cell.mass;
-    rod.rest_curvature.set(i, cell.rest_angle / length);
-    law.stiffness.set(i, length * cell.compliance.cwiseInverse());
-  }
-  rod.law = std::move(law);
+  rod.node_from_tip_m.assign(N + 1, 0.0);
+  for (int j = N - 1; j >= 0; --j) rod.node_from_tip_m[j] = rod.node_from_tip_m[j + 1] + lengths[j];
+  rod.total_length_m = rod.node_from_tip_m[0];
+  rod.total_mass_kg = integrate(rod.sections, 0, rod.total_length_m).mass;
+  for (int j = 0; j < N; ++j) set_element(rod, j, rod.node_from_tip_m[j]);
+  for (int i = 0; i <= N; ++i) set_cell(rod, i, rod.node_from_tip_m[i]);
   return rod;
+}
+
+void cut(const Rod& whole, double inserted_m, int first, Rod& inside) {
+  if (inserted_m == inside.total_length_m && first == inside.first) return;
+  // What the last cut changed: its first element, and the cells of that element's nodes.
+  const int last = inside.first;
+  inside.first = 0;
+  set_element(inside, last, whole.node_from_tip_m[last]);
+  for (int i : {last, last + 1}) set_cell(inside, i, whole.node_from_tip_m[i]);
+
+  inside.first = first;
+  inside.total_length_m = inserted_m;
+  inside.total_mass_kg = integrate(whole.sections, 0, inserted_m).mass;
+  set_element(inside, first, inserted_m);
+  set_cell(inside, first, inserted_m);
+  set_cell(inside, first + 1, whole.node_from_tip_m[first + 1]);
 }
 
 }  // namespace ostium

@@ -1,7 +1,7 @@
 #pragma once
 /// A rod cut into elements: the const part of its mechanics.
 ///
-///   node 0   element 0   node 1   element 1  ...   node N        base = node 0, distal tip = node N
+///   node 0   element 0   node 1   element 1  ...   node N        base = node `first`, distal tip = node N
 ///     o---------------------o---------------------...o
 ///   joint 0               joint 1                  joint N
 ///
@@ -15,6 +15,7 @@ namespace ostium {
 
 struct Rod {
   int elements = 0;         ///< N
+  int first = 0;            ///< elements before this one are outside the introducer and take no part
   Field<1> length;          ///< m, (#elements)
   Field<1> mass;            ///< kg, (#nodes): half of each adjacent element
   Field<2> rotary_inertia;  ///< kg m2, (#elements): about a transverse axis, about d3
@@ -22,8 +23,11 @@ struct Rod {
   Field<3> rest_curvature;  ///< 1/m, (#joints), average over the cell
   MomentLaw law;            ///< (#joints), averaged over the cell
   Damping damping;
-  double total_length_m = 0;  ///< of the elements
+  double total_length_m = 0;  ///< of the elements that take part
   double total_mass_kg = 0;
+
+  std::vector<Section> sections;        ///< as described
+  std::vector<double> node_from_tip_m;  ///< (#nodes), falling to 0
 
   int nodes() const { return elements + 1; }
 };
@@ -31,5 +35,10 @@ struct Rod {
 /// Cuts a description into elements. Properties that vary inside a cell are averaged: compliance and rest curvature by
 /// their integrals over the cell (so that angles add up exactly), mass by its own. Throws as `check` does.
 Rod make_rod(const RodDescription& description);
+
+/// Makes `inside`, a copy of `whole` that may have been cut before, the part of it that reaches `inserted_m` from the
+/// tip: `first` becomes its first element, as long as is left of the length. Touches the numbers near the base only;
+/// does not allocate.
+void cut(const Rod& whole, double inserted_m, int first, Rod& inside);
 
 }  // namespace ostium

@@ -11,7 +11,7 @@ namespace {
 
 constexpr int halves = 2;
 
-int middle(const Chain& chain) { return chain.elements / 2; }
+int middle(const Chain& chain) { return (chain.first + chain.elements) / 2; }
 
 /// The way of one lane: from one end of one chain towards its middle. A lane with fewer elements starts later, and
 /// idles until then.
@@ -21,7 +21,7 @@ struct Walk {
   int blocks;    ///< elements before the middle
   int wait;      ///< steps before the first
 
-  int element(int t) const { return forward ? t - wait : chain->elements - 1 - (t - wait); }
+  int element(int t) const { return forward ? chain->first + t - wait : chain->elements - 1 - (t - wait); }
 };
 
 /// The entry, in a field's padding, of a regular block without coupling: K and the compliance behind are identities,
@@ -56,7 +56,7 @@ class Walks {
     for (int l = 0; l < lane_count; ++l) {
       const bool forward = l % halves == 0;
       const Chain& chain = l < halves ? first : second;
-      lanes_[l] = {&chain, forward, forward ? middle(chain) : chain.elements - 1 - middle(chain), 0};
+      lanes_[l] = {&chain, forward, forward ? middle(chain) - chain.first : chain.elements - 1 - middle(chain), 0};
       direction_[l] = forward ? 1.0 : -1.0;
       steps_ = std::max(steps_, lanes_[l].blocks);
     }
@@ -299,7 +299,7 @@ int negative_directions(const Chain& chain, const ChainFactors& factors) {
     for (int l = 0; l < halves; ++l)
       if (t >= walks.lane(l).wait) count(t, l);
   count(walks.steps(), 0);
-  return negative - 3 * chain.elements;
+  return negative - 3 * (chain.elements - chain.first);
 }
 
 }  // namespace ostium

@@ -25,6 +25,7 @@ struct Chain {
   explicit Chain(int elements = 0);
 
   int elements = 0;  ///< N
+  int first = 0;     ///< the system is that of elements first to N - 1, nodes first to N; at least 3 elements
   // --- the system; every field has N + 1 entries, so that all share one stride
   Field<6> stiffness;        ///< K_j, N m/rad, (#elements)
   Field<6> joint_stiffness;  ///< H_i, N m/rad, (#nodes); inner joints couple, 1 <= i < N

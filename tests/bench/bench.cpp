@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
+#include "app/verify/gate.h"
 #include "tests/bench/corde.h"
 #include "tests/bench/rows.h"
 
@@ -53,12 +54,15 @@ void print_table(const std::vector<Row>& rows, double yardstick) {
 
 int main(int argc, char** argv) {
   bool json = false, quick = false, growth_only = false, stretch_only = false;
+  int feed_trips = 0;
   CLI::App app("Times the step: CPU time of one simulated millisecond, beside its accuracy gate and the yardstick.",
                "ostium-bench");
   app.add_flag("--json", json, "Machine-readable: {\"machine\", \"rows\"}");
   app.add_flag("--quick", quick, "A tenth of the simulated time, for a test");
   app.add_flag("--growth", growth_only, "Instead: time against the number of elements, 16 to 4,096");
   app.add_flag("--stretch", stretch_only, "Instead: the stretch table of the thesis' figure 3.6 (about two minutes)");
+  app.add_option("--feed", feed_trips,
+                 "Instead: feed a wire 1 m in and out so often, and compare its rest (100: three minutes)");
   app.footer("Examples:\n  ostium-bench\n  ostium-bench --json > bench.json\n  ostium-bench --growth");
   CLI11_PARSE(app, argc, argv);
 
@@ -66,6 +70,11 @@ int main(int argc, char** argv) {
   if (stretch_only) {
     print_stretch_table(quick);
     return 0;
+  }
+  if (feed_trips > 0) {
+    const auto results = ostium::verify::feed_round_trips(feed_trips, 1.0);
+    for (const ostium::GateResult& r : results) fmt::print("{}\n", ostium::table_line(r));
+    return ostium::all_pass(results) ? 0 : 1;
   }
   if (growth_only) {
     fmt::print("{:>9} {:>10} {:>12}\n", "elements", "ms", "ns/element");

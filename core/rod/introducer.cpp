@@ -1,0 +1,127 @@
+#include "core/rod/introducer.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/math/rotation.h"
+#include "core/step.h"
+
+namespace ostium {
+
+namespace {
+
+using Eigen::Vector3d;
+
+// Fractions of an element at which it enters and leaves; apart, so that a trembling hand does not change elements.
+constexpr double enters_at = 0.6, leaves_at = 0.4;
+constexpr int least_elements = 3;
+constexpr double slack_kept = 0.8;  // of the slack, per step
+
+Q4<double> frame(const EndState& end) { return {end.q_W[0], end.q_W[1], end.q_W[2], end.q_W[3]}; }
+
+/// q turned by theta in its own material frame.
+Q4<double> turned_by(const Q4<double>& q, const V3<double>& theta) {
+  const Vector3d t = to_eigen(theta);
+  const double angle = t.norm();
+  if (angle == 0) return q;
+  return from_eigen((to_eigen(q) * Eigen::AngleAxisd(angle, t / angle)).normalized());
+}
+
+/// Length of the base element.
+double base_length(const Rod& rod, const RodState& s) {
+  return s.inserted_m + s.slack_m - rod.node_from_tip_m[first_element(s) + 1];
+}
+
+/// The base element splits: what is more than its own length becomes a new base element. Curvature at the base and
+/// behind the element stays what it was; in between it is interpolated.
+void enter_element(const Rod& rod, const RodInputs& inputs, double step_s, RodState& s) {
+  const int old = first_element(s), base = old - 1;
+  const double before = base_length(rod, s), own = rod.length.at(0)[old], after = before - own;
+  const double next = rod.length.at(0)[old + 1];
+
+  const Q4<double> clamp = frame(s.base), q_old = load4<double>(s.orientation, old),
+                   q_next = load4<double>(s.orientation, old + 1);
+  const V3<double> base_curvature = (2 / before) * rotation_vector(conjugate(clamp) * q_old);
+  const V3<double> next_curvature = (2 / (before + next)) * rotation_vector(conjugate(q_old) * q_next);
+  const Q4<double> q_base = turned_by(clamp, (after / 2) * base_curvature);
+  store4(s.orientation, base, q_base);
+  const Q4<double> q_split = turned_by(q_next, (-(own + next) / 2) * next_curvature);
+  store4(s.orientation, old, q_split);
+
+  // The new node between them moves as the material there does.
+  const double part = after / before;
+  const Vector3d feed_velocity = inputs.base.velocity_W_m_s + inputs.feed_m_s * axis(s.base);
+  const auto blend = [&](const Vector3d& distal) -> Vector3d {
+    return feed_velocity + part * (distal - feed_velocity);
+  };
+  const Vector3d base_axis = to_eigen(director3(q_base)), split_axis = to_eigen(director3(q_split));
+  const double slack = split_axis.dot(s.position[old + 1] - s.base.p_W - after * base_axis) - own;
+  const Vector3d r = s.base.p_W + (after + slack) * base_axis;
+  s.slack_m += slack;
+  s.velocity.set(old, blend(s.velocity[old + 1]));
+  s.velocity_before.set(old, blend(s.velocity_before[old + 1]));
+  const Vector3d last_move = s.position[old + 1] - s.position_before[old + 1];
+  const Vector3d fed = step_s * feed_velocity;
+  s.position.set(old, r);
+  s.position_before.set(old, r - (fed + part * (last_move - fed)));
+  s.position.set(base, s.base.p_W);
+  s.position_before.set(base, s.base.p_W);
+  for (Field<3>* f : {&s.velocity, &s.velocity_before}) f->set(base, Vector3d::Zero());
+  for (Field<3>* f : {&s.turn, &s.turn_before, &s.force}) f->set(base, (*f)[old]);
+  if (s.strain.size() > 0)
+    for (Field<3>* f : {&s.strain, &s.strain_before}) {
+      f->set(base, (*f)[old]);
+      f->set(old, 0.5 * ((*f)[old] + (*f)[old + 1]));
+    }
+  s.first = base;
+}
+
+/// The base element and the next become one, along the chord from the introducer to the far node of the next.
+void leave_element(const Rod& rod, RodState& s) {
+  const int next = first_element(s) + 1;
+  const Q4<double> q = load4<double>(s.orientation, next);
+  const Vector3d chord = s.position[next + 1] - s.base.p_W;
+  s.slack_m = chord.norm() - (s.inserted_m - rod.node_from_tip_m[next + 1]);
+  const Eigen::Quaterniond onto_chord = Eigen::Quaterniond::FromTwoVectors(to_eigen(director3(q)), chord);
+  store4(s.orientation, next, from_eigen((onto_chord * to_eigen(q)).normalized()));
+  s.position.set(next, s.base.p_W);
+  s.position_before.set(next, s.base.p_W);
+  for (Field<3>* f : {&s.velocity, &s.velocity_before}) f->set(next, Vector3d::Zero());
+  if (s.strain.size() > 0)
+    for (Field<3>* f : {&s.strain, &s.strain_before}) f->set(next, (*f)[next - 1]);
+  s.first = next;
+}
+
+}  // namespace
+
+Vector3d axis(const EndState& end) { return to_eigen(director3(frame(end))); }
+
+double least_inserted_m(const Rod& rod) { return rod.node_from_tip_m[rod.elements - least_elements]; }
+
+int first_element_for(const Rod& rod, double inserted_m) {
+  int first = 0;
+  while (first < rod.elements - least_elements &&
+         inserted_m - rod.node_from_tip_m[first + 1] < leaves_at * rod.length.at(0)[first])
+    ++first;
+  return first;
+}
+
+void cut_at_introducer(const Rod& rod, const RodState& state, Rod& inside) {
+  cut(rod, state.inserted_m + state.slack_m, first_element(state), inside);
+}
+
+void feed(const Rod& rod, const RodInputs& inputs, double step_s, RodState& s, std::uint32_t& trouble) {
+  if (inputs.base.hold != Hold::clamped || (inputs.feed_m_s == 0 && s.slack_m == 0)) return;
+  // First the elements, while positions and length belong to one moment.
+  const auto first = [&] { return first_element(s); };
+  while (first() > 0 && base_length(rod, s) > rod.length.at(0)[first()] + enters_at * rod.length.at(0)[first() - 1])
+    enter_element(rod, inputs, step_s, s);
+  while (first() < rod.elements - least_elements && base_length(rod, s) < leaves_at * rod.length.at(0)[first()])
+    leave_element(rod, s);
+  s.slack_m = std::fabs(s.slack_m) > 1e-15 ? slack_kept * s.slack_m : 0;
+  const double asked = s.inserted_m + step_s * inputs.feed_m_s;
+  s.inserted_m = std::clamp(asked, least_inserted_m(rod), rod.total_length_m);
+  if (s.inserted_m != asked) trouble |= feed_stopped;
+}
+
+}  // namespace ostium

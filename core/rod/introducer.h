@@ -1,0 +1,34 @@
+#pragma once
+/// Feeding: a clamped base is an introducer that an instrument is pushed and turned through. What is still outside is
+/// not simulated.
+///
+/// The introducer stands still (or moves as the base does); material passes it. The base element reaches from there to
+/// its distal node, so its length changes all the time: between 0.4 of its own length and its own plus 0.6 of the one
+/// before. Beyond that an element enters or leaves. Curvature, force and velocity at the base are carried over, so that
+/// neither shape nor force jumps; the last cause of a jump, that two chords of an arc are longer than one, is put into
+/// the base element's length as a slack of nanometres, which fades within some 10 ms.
+#include <cstdint>
+
+#include "core/inputs.h"
+#include "core/rod/rod.h"
+#include "core/state.h"
+
+namespace ostium {
+
+/// Least length that stays inside: that of the three distal elements.
+double least_inserted_m(const Rod& rod);
+
+/// The first element inside when `inserted_m` of a rod is, if it has not been fed yet.
+int first_element_for(const Rod& rod, double inserted_m);
+
+/// Feeds for one step: writes state.inserted_m and first, and the fields of elements that enter or leave. At the end of
+/// the instrument it stops, and says so in `trouble`.
+void feed(const Rod& rod, const RodInputs& inputs, double step_s, RodState& state, std::uint32_t& trouble);
+
+/// Makes `inside` the part of `rod` that `state` has inside the introducer.
+void cut_at_introducer(const Rod& rod, const RodState& state, Rod& inside);
+
+/// Director d3 of an end's frame: the direction of advance.
+Eigen::Vector3d axis(const EndState& end);
+
+}  // namespace ostium
