@@ -13,17 +13,19 @@ enum class TimeScheme {
   from_rest,  ///< backward Euler without velocity: a step that has no other solution
 };
 
-/// Whether the stiffness includes that of the internal forces. Without it Newton's method converges linearly, but its
-/// matrix is positive definite whatever the rod is pushed with.
+/// Whether the stiffness includes that of the internal forces and moments. Without it Newton's method converges linearly,
+/// but its matrix is positive definite whatever the rod is pushed or twisted with.
 enum class GeometricStiffness { with, without };
 
-enum class Progress { open, done, failed };
+/// Of a rod's iterations in a step: going on, converged, near enough when they ran out, without a finite solution.
+enum class Progress { open, done, given_up, failed };
 
 struct RodScratch {
   Rod inside;        ///< the part of the rod that is inside its introducer
   RodInputs inputs;  ///< of this step, within limits
   TimeScheme scheme = TimeScheme::bdf2;
   Progress progress = Progress::open;
+  double defect = 0;  ///< what the iterate leaves of inextensibility
   GeometricStiffness geometric = GeometricStiffness::with;
   Chain chain;           ///< the linear system and its solution
   Field<3> target;       ///< m, (#nodes): where a node would go if the rod exerted no force on it

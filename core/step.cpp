@@ -14,7 +14,7 @@ namespace ostium {
 
 namespace {
 
-bool fits(const Model& model, const Inputs& inputs, const State& state, const Scratch& scratch) {
+[[maybe_unused]] bool fits(const Model& model, const Inputs& inputs, const State& state, const Scratch& scratch) {
   const std::size_t rods = model.rods.size();
   if (inputs.rods.size() != rods || state.rods.size() != rods || scratch.rods.size() != rods) return false;
   for (std::size_t r = 0; r < rods; ++r)
@@ -78,9 +78,13 @@ void take_solution(const Rod& rod, RodScratch& s, RodReport& report) {
   }
   const IterateChange change = update_iterate(rod, tunables::max_turn_rad, s);
   report.stretch = change.stretch;
+  s.defect = change.defect;
+  // The defect is quadratic in the turn of this iteration, so a small one says that the moments balance, too. A large
+  // give is a rod that has not buckled yet, or cannot.
+  const bool whole = change.turn_rad <= tunables::max_turn_rad;
   if (!change.finite)
     s.progress = Progress::failed;
-  else if (change.turn_rad <= tunables::max_turn_rad && change.stretch <= tunables::stretch_tolerance)
+  else if (whole && change.defect <= tunables::stretch_tolerance && change.stretch <= tunables::pulled_apart_stretch)
     s.progress = Progress::done;
 }
 
@@ -101,34 +105,25 @@ void iterate(const Model& model, const State& state, Scratch& scratch, StepRepor
   }
 }
 
-bool usable(const RodScratch& s, const RodReport& report) {
-  return s.progress != Progress::failed && report.stretch <= tunables::usable_stretch;
-}
+bool usable(const RodScratch& s) { return s.progress != Progress::failed && s.defect <= tunables::usable_stretch; }
 
 /// Rods that move too violently for a step give up their velocity.
-void retry_from_rest(const Model& model, const State& state, Scratch& scratch, StepReport& report) {
-  bool any_left = false;
+void retry_from_rest(const Model& model, State& state, Scratch& scratch, StepReport& report) {
   for (std::size_t r = 0; r < model.rods.size(); ++r) {
-    if (usable(scratch.rods[r], report.rods[r])) {
-      if (scratch.rods[r].progress == Progress::open) report.rods[r].trouble |= not_converged;
-      scratch.rods[r].progress = Progress::done;
+    RodScratch& s = scratch.rods[r];
+    if (usable(s)) {
+      if (s.progress == Progress::open) s.progress = Progress::given_up;
       continue;
     }
-    any_left = true;
     report.rods[r].trouble |= motion_lost;
-    predict(model, scratch.rods[r].inside, state.rods[r], TimeScheme::from_rest, scratch.rods[r]);
+    halt(s.inside, state.rods[r]);
+    predict(model, s.inside, state.rods[r], TimeScheme::from_rest, s);
   }
-  if (any_left) iterate(model, state, scratch, report);
+  iterate(model, state, scratch, report);
 }
 
-void finish(const Model& model, const Rod& rod, const RodScratch& s, RodState& state, RodReport& report) {
-  if (s.progress == Progress::open) report.trouble |= not_converged;
-  if (s.progress == Progress::failed) report.trouble |= no_solution;
-  if (usable(s, report))
-    commit(rod, s, model.step_s, state);
-  else
-    commit_frames_at_rest(rod, s, state);
-  follow_free_ends(rod, s.inputs, state);
+void report_forces(const Model& model, const Rod& rod, const RodScratch& s, const RodState& state, RodReport& report) {
+  if (s.inputs.base.hold == Hold::free) return;
   report.base_force_W_N = -state.force[rod.first] - rod.mass.at(0)[rod.first] * model.gravity_W;
   report.base_torque_W_Nm = -s.chain.joint_moment[rod.first];
   const Eigen::Vector3d along = axis(state.base);
@@ -136,9 +131,30 @@ void finish(const Model& model, const Rod& rod, const RodScratch& s, RodState& s
   report.torque_Nm = along.dot(report.base_torque_W_Nm);
 }
 
+void finish(const Model& model, const Rod& rod, RodScratch& s, RodState& state, RodReport& report) {
+  if (s.progress == Progress::failed)
+    report.trouble |= no_solution;
+  else if (s.progress != Progress::done)
+    report.trouble |= s.defect <= tunables::stretch_tolerance ? pulled_apart : not_converged;
+  if (largest_joint_angle(rod, s) > tunables::overturned_joint_rad) report.trouble |= joint_overturned;
+
+  // Strains and moments of the frames that are committed, not of those that were linearised about.
+  if (state.strain.size() > 0)
+    linearise_joints(rod, state, joints_of(s.inputs), model.step_s, s);
+  else
+    linearise_end_joints(rod, state, joints_of(s.inputs), model.step_s, s);
+  if (usable(s))
+    commit(rod, s, model.step_s, state);
+  else
+    commit_frames_at_rest(rod, s, state);
+  follow_free_ends(rod, s.inputs, state);
+  report_forces(model, rod, s, state, report);
+}
+
 }  // namespace
 
 Scratch::Scratch(const Model& model) {
+  check(model);
   int longest = 0;
   for (const Rod& rod : model.rods) {
     const int N = rod.elements;

@@ -17,6 +17,8 @@ enum Trouble : std::uint32_t {
   not_converged = 1u << 3,     ///< the iterations ran out: `stretch` is above its tolerance, later steps take it back
   motion_lost = 1u << 4,       ///< the rod moved too violently for a step, and went on from rest
   feed_stopped = 1u << 6,      ///< no more of the instrument is left to push in, or to draw back
+  pulled_apart = 1u << 7,      ///< held ends pull a taut rod apart: their forces are those of no real rod
+  joint_overturned = 1u << 8,  ///< two elements are at an angle near pi, where twist would slip: take shorter elements
   no_solution = 1u << 5,       ///< the system had no finite solution: the rod kept its shape, at rest
 };
 

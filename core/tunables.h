@@ -2,27 +2,28 @@
 /// Every tolerance and limit of the engine, on one page. SI.
 namespace ostium::tunables {
 
-// --- what an operator's hand, or a script, may ask for; beyond it a drive is limited and flagged
-// ----------------------
+// What an operator's hand, or a script, may ask for; beyond it a drive is limited and flagged.
 inline constexpr double max_drive_speed_m_s = 2.0;     // ten times the fastest scripted hand
 inline constexpr double max_drive_turn_rad_s = 200.0;  // 32 turns a second
-inline constexpr double max_load_N = 100.0;            // per component of a tip load
+inline constexpr double max_load_N = 100.0;            // of a tip load
 
-// --- inextensibility
-// -------------------------------------------------------------------------------------------------- Strain per tension
-// and element length. At 2 mm, 1 N stretches a rod by 1e-9: a thousandth of the least that a gate sees, and 25,000
-// times stiffer than a steel wire of 0.9 mm is.
-inline constexpr double axial_give_per_N_m = 5e-7;
+// Inextensibility: strain per tension and element length. At 2 mm, 1 N stretches a rod by 1e-10: a thousandth of the
+// least that a gate sees, and 250,000 times stiffer than a steel wire of 0.9 mm is.
+inline constexpr double axial_give_per_N_m = 5e-8;
+inline constexpr double pulled_apart_stretch = 1e-6;  // only ends that pull a taut rod apart make it give so much
 
-// --- Newton iterations of one step --------------------------------------------------------------------------------
-inline constexpr double stretch_tolerance = 2e-8;  // largest |r' - d3| over the elements; 1e-7 is the gate
-inline constexpr double usable_stretch = 1e-2;     // with more, a step is tried again from rest
+// Newton iterations of one step.
+inline constexpr double stretch_tolerance = 8e-8;      // largest |r' - d3| over the elements; 1e-7 is the gate
+inline constexpr double usable_stretch = 1e-2;         // with more, a step is tried again from rest
 inline constexpr int max_newton_iterations = 8;
-inline constexpr double max_turn_rad = 0.5;  // of an element in one iteration; longer ones are shortened
+inline constexpr double max_turn_rad = 0.5;            // of an element in one iteration; longer ones are shortened
+inline constexpr double overturned_joint_rad = 2.5;    // an angle between elements that is about to pass pi
+inline constexpr double longest_return_m = 2e-3;       // per step, of an end that was pulled off its hold
 
-// --- static equilibrium ---------------------------------------------------------------------------------------------
-inline constexpr double static_tolerance_rad = 1e-9;  // largest turn of the last iteration; Newton squares it
-inline constexpr double static_time_ratio = 100;      // of the last proximal time to the slowest motion's
+// Static equilibrium.
+inline constexpr double static_tolerance_rad = 1e-9;   // largest turn of the last iteration; Newton squares it
+inline constexpr double static_closure = 1e-9;         // largest distance of an end from its hold, of the rod's length
+inline constexpr double static_time_ratio = 100;       // of the last proximal time to the slowest motion's
 inline constexpr int max_static_iterations = 400;
 
 }  // namespace ostium::tunables

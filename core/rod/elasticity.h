@@ -15,6 +15,13 @@ struct EndJoints {
 /// material damping, scratch.strain. Ends without a joint get zeros. `step_s` = 0: no damping (statics).
 void linearise_joints(const Rod& rod, const RodState& state, EndJoints ends, double step_s, RodScratch& scratch);
 
+/// The same for the joints at the two ends alone.
+void linearise_end_joints(const Rod& rod, const RodState& state, EndJoints ends, double step_s, RodScratch& scratch);
+
+/// Largest angle of an inner joint of the iterate. At pi, a joint would take the shorter way back: elements are too long
+/// for the bending or twist that they are to carry.
+double largest_joint_angle(const Rod& rod, const RodScratch& scratch);
+
 /// Gathers the elements' rows from their joints: writes chain.arm, stiffness, torque (without inertia) and gap.
 void assemble_elements(const Rod& rod, RodScratch& scratch);
 

@@ -41,6 +41,12 @@ void drive(const EndDrive& drive, double step_s, EndState& end) {
 void hold(Hold hold, const EndState& end, int node, RodScratch& scratch) {
   if (hold == Hold::free) return;
   Vector3d target = end.p_W;
+  // From rest, an end that has been pulled off its hold comes back no faster than a hand would bring it.
+  if (scratch.scheme == TimeScheme::from_rest) {
+    const Vector3d away = end.p_W - scratch.target[node];
+    if (away.norm() > tunables::longest_return_m)
+      target = scratch.target[node] + tunables::longest_return_m * away.normalized();
+  }
   S3<double> P{};
   if (hold == Hold::guided) {
     const Vector3d a = to_eigen(director3(Q4<double>{end.q_W[0], end.q_W[1], end.q_W[2], end.q_W[3]}));

@@ -156,8 +156,19 @@ void commit_frames_at_rest(const Rod& rod, const RodScratch& scratch, RodState& 
     store4(state.orientation, j, load4<T>(scratch.orientation, j));
     store3(state.force, j, V3<T>{});
   });
-  string_nodes(rod, state.orientation, from_eigen(state.base.p_W), true, state.position);
+  const double free = static_cast<double>(Hold::free);
+  const bool from_base = state.base.hold != free || state.tip.hold == free;
+  const Eigen::Vector3d end = state.base.hold != free  ? state.base.p_W
+                              : state.tip.hold != free ? state.tip.p_W
+                                                       : state.position[rod.first];
+  string_nodes(rod, state.orientation, from_eigen(end), from_base, state.position);
+  take_strain(rod, scratch, state);
   halt(rod, state);
+}
+
+void take_strain(const Rod& rod, const RodScratch& scratch, RodState& state) {
+  if (state.strain.size() == 0) return;
+  for_packs(rod.first, rod.nodes(), [&]<class T>(T, int i) { store3(state.strain, i, load3<T>(scratch.strain, i)); });
 }
 
 void halt(const Rod& rod, RodState& state) {
@@ -165,6 +176,7 @@ void halt(const Rod& rod, RodState& state) {
     store3(state.position_before, i, load3<T>(state.position, i));
     store3(state.velocity, i, V3<T>{});
     store3(state.velocity_before, i, V3<T>{});
+    if (state.strain.size() > 0) store3(state.strain_before, i, load3<T>(state.strain, i));
   });
   for_packs(rod.first, rod.elements, [&]<class T>(T, int j) {
     store3(state.turn, j, V3<T>{});

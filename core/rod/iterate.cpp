@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "core/math/rotation.h"
+#include "core/tunables.h"
 
 namespace ostium {
 
@@ -82,14 +83,18 @@ IterateChange update_iterate(const Rod& rod, double max_turn_rad, RodScratch& sc
             [&]<class T>(T t, int i) { node(t, i, load3<T>(scratch.force, i) - load3<T>(scratch.force, i - 1)); });
   node(double{}, N, V3<double>{} - load3<double>(scratch.force, N - 1));
 
-  Extent stretch;
+  Extent stretch, defects;
   for_packs(rod.first, N, [&]<class T>(T, int j) {
-    const T per_length = 1.0 / load<T>(rod.length.at(0) + j);
+    const T length = load<T>(rod.length.at(0) + j);
     const V3<T> edge = load3<T>(scratch.position, j + 1) - load3<T>(scratch.position, j);
-    const V3<T> defect = per_length * edge - director3(load4<T>(scratch.orientation, j));
-    stretch.take(dot(defect, defect));
+    const V3<T> d3 = director3(load4<T>(scratch.orientation, j));
+    const V3<T> strain = (1.0 / length) * edge - d3;
+    const T give = tunables::axial_give_per_N_m * length * dot(load3<T>(scratch.force, j), d3);
+    const V3<T> defect = madd(-give, d3, strain);
+    stretch.take(dot(strain, strain)), defects.take(dot(defect, defect));
   });
   change.stretch = stretch.largest();
+  change.defect = defects.largest();
   return change;
 }
 

@@ -8,7 +8,8 @@ namespace ostium {
 struct IterateChange {
   bool finite = true;   ///< false: the solution was not a number, and the iterate is as it was
   double turn_rad = 0;  ///< largest turn of an element
-  double stretch = 0;   ///< largest |(r_j+1 - r_j) / l_j - d3_j|: what the linearised constraint left
+  double stretch = 0;   ///< largest |(r_j+1 - r_j) / l_j - d3_j|
+  double defect = 0;    ///< the same without the give of tunables.h: what the linearised constraint left
 };
 
 /// Nodes along the tangents of `orientation`, from `end` at the base or at the tip: inextensible to the last bit.
