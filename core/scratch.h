@@ -13,8 +13,8 @@ enum class TimeScheme {
   from_rest,  ///< backward Euler without velocity: a step that has no other solution
 };
 
-/// Whether the stiffness includes that of the internal forces and moments. Without it Newton's method converges linearly,
-/// but its matrix is positive definite whatever the rod is pushed or twisted with.
+/// Whether the stiffness includes that of the internal forces and moments. Without it Newton's method converges
+/// linearly, but its matrix is positive definite whatever the rod is pushed or twisted with.
 enum class GeometricStiffness { with, without };
 
 /// Of a rod's iterations in a step: going on, converged, near enough when they ran out, without a finite solution.

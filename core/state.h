@@ -2,7 +2,6 @@
 /// All that is needed to go on bit-identically: what the integrator remembers, warm starts included. Its fields are
 /// listed once, in `for_each_field`; hash, save, compare and print use that list.
 #include <cstdint>
-#include <span>
 #include <string>
 #include <vector>
 

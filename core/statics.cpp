@@ -46,6 +46,7 @@ void stay_near(const Rod& rod, const Eigen::Vector3d& gravity_W, const Eigen::Ve
 
 void start_at(const Rod& rod, const RodState& state, RodScratch& s) {
   s.geometric = GeometricStiffness::with;
+  s.scheme = TimeScheme::bdf2;
   for_packs(rod.first, rod.nodes(), [&]<class T>(T, int i) { store3(s.position, i, load3<T>(state.position, i)); });
   for_packs(rod.first, rod.elements, [&]<class T>(T, int j) {
     store4(s.orientation, j, load4<T>(state.orientation, j));
@@ -65,41 +66,74 @@ void solve_step(const Rod& rod, const Eigen::Vector3d& gravity_W, const RodState
   solve(s.chain, nullptr, factors);
 }
 
+/// Where nodes are strung from: the base, unless only the tip is held in place. A guided end has slid to the iterate.
+struct Anchor {
+  bool from_base;
+  bool exists;
+
+  explicit Anchor(const RodInputs& inputs) {
+    const auto fixed = [](Hold h) { return h == Hold::clamped || h == Hold::pinned; };
+    const bool base_held = inputs.base.hold != Hold::free;
+    exists = base_held || inputs.tip.hold != Hold::free;
+    from_base = base_held && (fixed(inputs.base.hold) || !fixed(inputs.tip.hold));
+  }
+  V3<double> of(const Rod& rod, const RodScratch& s) const {
+    return load3<double>(s.position, from_base ? rod.first : rod.elements);
+  }
+};
+
+/// Distance of the strung nodes from where the end opposite to the anchor is held.
+double closure(const Rod& rod, const RodState& state, const RodInputs& inputs, const Anchor& anchor,
+               const RodScratch& s) {
+  const Hold hold = anchor.from_base ? inputs.tip.hold : inputs.base.hold;
+  if (hold == Hold::free) return 0;
+  const EndState& end = anchor.from_base ? state.tip : state.base;
+  Eigen::Vector3d off = s.position[anchor.from_base ? rod.elements : rod.first] - end.p_W;
+  if (hold == Hold::guided) off -= axis(end) * axis(end).dot(off);
+  return off.norm();
+}
+
 RodEquilibrium settle(const Rod& rod, const Eigen::Vector3d& gravity_W, const RodState& state, RodScratch& s,
                       ChainFactors& factors) {
-  const bool from_base = s.inputs.base.hold != Hold::free && s.inputs.base.hold != Hold::guided;
+  const Anchor anchor(s.inputs);
   RodEquilibrium out;
-  if (!from_base && s.inputs.tip.hold == Hold::free) return out;  // it would fall for ever
+  if (!anchor.exists) return out;  // it would fall for ever
 
   const double longest = longest_time(rod);
-  double time_s = longest / 100;
+  double time_s = longest / 100, growth = 8;
   start_at(rod, state, s);
   while (out.iterations < tunables::max_static_iterations && !out.converged) {
     ++out.iterations;
     solve_step(rod, gravity_W, state, time_s, s, factors);
     out.turn_rad = largest_turn(rod, s.chain);
-    out.converged = time_s == longest && out.turn_rad < tunables::static_tolerance_rad;
+    out.converged = time_s == longest && out.turn_rad < tunables::static_tolerance_rad &&
+                    closure(rod, state, s.inputs, anchor, s) < tunables::static_closure * rod.total_length_m;
 
-    // A long step, or one that may lead uphill, reaches beyond the linear model: try again with less time.
+    // A long step, or one that may lead uphill, reaches beyond the linear model: try again with less time, and be
+    // slower to take more.
     const bool trusted = out.turn_rad < tunables::max_turn_rad && s.chain.definite;
     if (!out.converged && !trusted) {
       time_s /= 4;
+      growth = 1.5;
       continue;
     }
     if (!update_iterate(rod, tunables::max_turn_rad, s).finite) return out;
-    string_nodes(rod, s.orientation, from_eigen(from_base ? state.base.p_W : state.tip.p_W), from_base, s.position);
-    time_s = std::min(longest, time_s * (out.turn_rad < 0.1 ? 8 : 1.5));
+    string_nodes(rod, s.orientation, anchor.of(rod, s), anchor.from_base, s.position);
+    time_s = std::min(longest, time_s * (out.turn_rad < 0.1 ? growth : 1.5));
+    growth = std::min(8.0, growth * 1.3);
   }
   out.negative_directions = negative_directions(s.chain, factors);
   return out;
 }
 
-void take(const Rod& rod, const RodScratch& s, RodState& state) {
+void take(const Rod& rod, RodScratch& s, RodState& state) {
   for_packs(rod.first, rod.nodes(), [&]<class T>(T, int i) { store3(state.position, i, load3<T>(s.position, i)); });
   for_packs(rod.first, rod.elements, [&]<class T>(T, int j) {
     store4(state.orientation, j, load4<T>(s.orientation, j));
     store3(state.force, j, load3<T>(s.force, j));
   });
+  linearise_joints(rod, state, joints_of(s.inputs), 0, s);
+  take_strain(rod, s, state);
   rest(rod, s.inputs, state);
 }
 
@@ -114,6 +148,7 @@ void find_equilibrium(const Model& model, const Inputs& inputs, State& state, Sc
     s.inputs = limited(inputs.rods[r], trouble);
     cut_at_introducer(model.rods[r], state.rods[r], s.inside);
     report[r] = settle(s.inside, model.gravity_W, state.rods[r], s, scratch.factors);
+    report[r].trouble = trouble;
     if (report[r].converged) take(s.inside, s, state.rods[r]);
   }
 }

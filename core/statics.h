@@ -1,5 +1,7 @@
 #pragma once
 /// Static equilibrium on the mechanics of `step`: what a rod comes to rest in.
+#include <cstdint>
+
 #include "core/inputs.h"
 #include "core/model.h"
 #include "core/scratch.h"
@@ -13,6 +15,7 @@ struct RodEquilibrium {
   double turn_rad = 0;  ///< largest turn of an element in the last iteration
   /// Independent motions that would lower the energy: 0 if the equilibrium is stable, 1 just behind a buckling load.
   int negative_directions = 0;
+  std::uint32_t trouble = 0;  ///< what of the inputs was limited: bits of Trouble (step.h)
 };
 
 /// Puts each rod of `state` into the equilibrium that continues from its shape, at rest. Ends are held where `state`

@@ -13,17 +13,17 @@ inline constexpr double axial_give_per_N_m = 5e-8;
 inline constexpr double pulled_apart_stretch = 1e-6;  // only ends that pull a taut rod apart make it give so much
 
 // Newton iterations of one step.
-inline constexpr double stretch_tolerance = 8e-8;      // largest |r' - d3| over the elements; 1e-7 is the gate
-inline constexpr double usable_stretch = 1e-2;         // with more, a step is tried again from rest
+inline constexpr double stretch_tolerance = 8e-8;  // largest |r' - d3| over the elements; 1e-7 is the gate
+inline constexpr double usable_stretch = 1e-2;     // with more, a step is tried again from rest
 inline constexpr int max_newton_iterations = 8;
-inline constexpr double max_turn_rad = 0.5;            // of an element in one iteration; longer ones are shortened
-inline constexpr double overturned_joint_rad = 2.5;    // an angle between elements that is about to pass pi
-inline constexpr double longest_return_m = 2e-3;       // per step, of an end that was pulled off its hold
+inline constexpr double max_turn_rad = 0.5;          // of an element in one iteration; longer ones are shortened
+inline constexpr double overturned_joint_rad = 2.5;  // an angle between elements that is about to pass pi
+inline constexpr double longest_return_m = 2e-3;     // per step, of an end that was pulled off its hold
 
 // Static equilibrium.
-inline constexpr double static_tolerance_rad = 1e-9;   // largest turn of the last iteration; Newton squares it
-inline constexpr double static_closure = 1e-9;         // largest distance of an end from its hold, of the rod's length
-inline constexpr double static_time_ratio = 100;       // of the last proximal time to the slowest motion's
+inline constexpr double static_tolerance_rad = 1e-9;  // largest turn of the last iteration; Newton squares it
+inline constexpr double static_closure = 1e-9;        // largest distance of an end from its hold, of the rod's length
+inline constexpr double static_time_ratio = 100;      // of the last proximal time to the slowest motion's
 inline constexpr int max_static_iterations = 400;
 
 }  // namespace ostium::tunables

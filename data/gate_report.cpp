@@ -26,6 +26,12 @@ std::string to_json(const std::vector<GateResult>& results) {
   return array.dump(2);
 }
 
+std::string names_to_json(const std::vector<std::pair<std::string, std::string>>& gates) {
+  auto array = nlohmann::ordered_json::array();
+  for (const auto& [name, what] : gates) array.push_back({{"gate", name}, {"what", what}});
+  return array.dump(2);
+}
+
 std::string table_heading() {
   return fmt::format("{:<36} {:>14} {:>14} {:>12} {:<6} {}", "gate", "value", "reference", "tolerance", "unit", "");
 }

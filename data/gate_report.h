@@ -1,6 +1,7 @@
 #pragma once
 /// What a physics gate found, and how it is written down.
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace ostium {
@@ -20,6 +21,9 @@ bool all_pass(const std::vector<GateResult>& results);
 /// Array of {"gate", "value", "reference", "tolerance", "unit", "pass"} (data/schemas/verify.schema.json). A value that
 /// is not finite becomes null.
 std::string to_json(const std::vector<GateResult>& results);
+
+/// Array of {"gate", "what"}.
+std::string names_to_json(const std::vector<std::pair<std::string, std::string>>& gates);
 
 /// One line of a table, without line end; `table_heading` is its first line.
 std::string table_line(const GateResult& result);

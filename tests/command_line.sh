@@ -19,6 +19,9 @@ expect 0 "0\." "$ostium" --version
 expect 0 "pass" "$ostium" verify --only rod-static-0.4m-100
 expect 0 '"pass": true' "$ostium" verify --only rod-static --json
 expect 0 "elastica" "$ostium" verify --list
+expect 0 '"what"' "$ostium" verify --list --json
 expect 2 "no gate begins" "$ostium" verify --only no-such-gate
+expect 2 "no gate begins" "$ostium" verify --only rod-staticX
+expect 1 "could not be written" bash -c "'$ostium' verify --only rod-static --json > /dev/full"
 expect 2 "not expected" "$ostium" verify --quik
 expect 2 "subcommand" "$ostium"

@@ -30,8 +30,6 @@ inline double largest(double a, double b) { return a > b ? a : b; }
 inline Lanes largest(Lanes a, Lanes b) { return _mm256_max_pd(a, b); }
 inline double least(double a, double b) { return a < b ? a : b; }
 inline Lanes least(Lanes a, Lanes b) { return _mm256_min_pd(a, b); }
-inline double magnitude(double a) { return std::fabs(a); }
-inline Lanes magnitude(Lanes a) { return _mm256_andnot_pd(_mm256_set1_pd(-0.0), a); }
 inline double horizontal_max(double a) { return a; }
 inline double horizontal_max(Lanes a) { return largest(largest(a[0], a[1]), largest(a[2], a[3])); }
 
@@ -128,11 +126,6 @@ template <class T>
 V3<T> transpose_times(const M3<T>& m, const V3<T>& a) {
   return madd(a.x, m.r0, madd(a.y, m.r1, a.z * m.r2));
 }
-/// a^T m, as a vector: one row of a product.
-template <class T>
-V3<T> row_times(const V3<T>& a, const S3<T>& s) {
-  return s * a;
-}
 template <class T>
 M3<T> operator*(const M3<T>& m, const S3<T>& s) {
   return {s * m.r0, s * m.r1, s * m.r2};
@@ -141,10 +134,6 @@ template <class T>
 M3<T> operator*(const S3<T>& s, const M3<T>& m) {
   return {madd(s.xx, m.r0, madd(s.xy, m.r1, s.xz * m.r2)), madd(s.xy, m.r0, madd(s.yy, m.r1, s.yz * m.r2)),
           madd(s.xz, m.r0, madd(s.yz, m.r1, s.zz * m.r2))};
-}
-template <class T>
-M3<T> transpose(const M3<T>& m) {
-  return {{m.r0.x, m.r1.x, m.r2.x}, {m.r0.y, m.r1.y, m.r2.y}, {m.r0.z, m.r1.z, m.r2.z}};
 }
 /// transpose(a) b
 template <class T>

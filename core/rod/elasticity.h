@@ -18,8 +18,8 @@ void linearise_joints(const Rod& rod, const RodState& state, EndJoints ends, dou
 /// The same for the joints at the two ends alone.
 void linearise_end_joints(const Rod& rod, const RodState& state, EndJoints ends, double step_s, RodScratch& scratch);
 
-/// Largest angle of an inner joint of the iterate. At pi, a joint would take the shorter way back: elements are too long
-/// for the bending or twist that they are to carry.
+/// Largest angle of an inner joint of the iterate. At pi, a joint would take the shorter way back: elements are too
+/// long for the bending or twist that they are to carry.
 double largest_joint_angle(const Rod& rod, const RodScratch& scratch);
 
 /// Gathers the elements' rows from their joints: writes chain.arm, stiffness, torque (without inertia) and gap.

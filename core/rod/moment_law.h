@@ -6,7 +6,7 @@
 ///   double energy(const V3<double>& strain, int joint) const;   // per length, J/m
 /// where `strain` = u - u_rest (1/m, material axes d1, d2, d3), T is double or four neighbouring joints side by side,
 /// and the tangent is symmetric and positive definite. Adding one: a header here, its name in `MomentLaw` below, the
-/// branch in section.cpp that chooses it, and its test.
+/// branch in rod.cpp that chooses it, and its test.
 #include <variant>
 
 #include "core/math/field.h"

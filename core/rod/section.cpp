@@ -1,6 +1,7 @@
 #include "core/rod/section.h"
 
 #include <cmath>
+#include <cstdio>
 #include <numbers>
 #include <stdexcept>
 
@@ -8,13 +9,24 @@ namespace ostium {
 
 namespace {
 
+/// A number as a person would write it: 1.00000005, not 1.000000.
+std::string text(double value) {
+  char buffer[32];
+  std::snprintf(buffer, sizeof buffer, "%.9g", value);
+  return buffer;
+}
+
 [[noreturn]] void refuse(const RodDescription& d, std::size_t section, const std::string& what) {
   throw std::invalid_argument("rod \"" + d.name + "\", section " + std::to_string(section) + ": " + what);
 }
 
-void require_positive(const RodDescription& d, std::size_t section, const char* name, double value) {
-  if (!(value > 0) || !std::isfinite(value))
-    refuse(d, section, std::string(name) + " is " + std::to_string(value) + "; it must be positive and finite");
+/// Far outside what any instrument has, and inside what the arithmetic bears.
+void require_between(const RodDescription& d, std::size_t section, const char* name, double value, double least,
+                     double most, const char* unit) {
+  if (!(value >= least && value <= most))
+    refuse(d, section,
+           std::string(name) + " is " + text(value) + " " + unit + "; it must be positive and finite, between " +
+               text(least) + " and " + text(most));
 }
 
 }  // namespace
@@ -45,20 +57,19 @@ void check(const RodDescription& d) {
     const Section& s = d.sections[i];
     if (!(s.to_tip_m > s.from_tip_m))
       refuse(d, i,
-             "reaches from " + std::to_string(s.from_tip_m) + " m to " + std::to_string(s.to_tip_m) +
+             "reaches from " + text(s.from_tip_m) + " m to " + text(s.to_tip_m) +
                  " m from the tip; its length must be positive");
     if (std::fabs(s.from_tip_m - reached) > gap_tolerance_m)
       refuse(d, i,
-             "begins " + std::to_string(s.from_tip_m) + " m from the tip, but the one before it ends at " +
-                 std::to_string(reached) + " m; sections run from the tip backwards without gap or overlap");
-    require_positive(d, i, "EI1", s.EI1_N_m2);
-    require_positive(d, i, "EI2", s.EI2_N_m2);
-    require_positive(d, i, "GJ", s.GJ_N_m2);
-    require_positive(d, i, "weight per length", s.kg_per_m);
-    require_positive(d, i, "radius", s.radius_m);
+             "begins " + text(s.from_tip_m) + " m from the tip, but the one before it ends at " + text(reached) +
+                 " m; sections run from the tip backwards without gap or overlap");
+    require_between(d, i, "EI1", s.EI1_N_m2, 1e-12, 1e3, "N m2");
+    require_between(d, i, "EI2", s.EI2_N_m2, 1e-12, 1e3, "N m2");
+    require_between(d, i, "GJ", s.GJ_N_m2, 1e-12, 1e3, "N m2");
+    require_between(d, i, "weight per length", s.kg_per_m, 1e-9, 1e3, "kg/m");
+    require_between(d, i, "radius", s.radius_m, 1e-6, 0.1, "m");
     if (!(s.inner_radius_m >= 0 && s.inner_radius_m < s.radius_m))
-      refuse(d, i,
-             "inner radius is " + std::to_string(s.inner_radius_m) + " m; it must lie between 0 and the outer radius");
+      refuse(d, i, "inner radius is " + text(s.inner_radius_m) + " m; it must lie between 0 and the outer radius");
     if (!s.rest_curvature_per_m.allFinite()) refuse(d, i, "rest curvature is not finite");
     reached = s.to_tip_m;
   }
@@ -73,11 +84,10 @@ void check(const RodDescription& d) {
     total += length;
   }
   if (total > reached * (1 + 1e-12) + gap_tolerance_m)
-    throw in_name("its elements are " + std::to_string(total) + " m long together, its sections only " +
-                  std::to_string(reached));
+    throw in_name("its elements are " + text(total) + " m long together, its sections only " + text(reached));
   const Damping& loss = d.damping;
-  if (!(loss.drag_across_N_s_m2 >= 0 && loss.drag_along_N_s_m2 >= 0 && loss.material_time_s >= 0))
-    throw in_name("damping must not be negative");
+  for (double value : {loss.drag_across_N_s_m2, loss.drag_along_N_s_m2, loss.material_time_s})
+    if (!(value >= 0 && value <= 1e6)) throw in_name("damping is " + text(value) + "; it must lie between 0 and 1e6");
 }
 
 }  // namespace ostium

@@ -81,7 +81,6 @@ TEST(Damping, MaterialLossDampsLikeKelvinVoigt) {
   // The static shape under a tip load is 97 % first mode.
   bench.inputs.rods[0].tip_force_W_N = Vector3d(0, 1e-3, 0);
   ASSERT_TRUE(bench.settle().converged);
-  for (int i = 0; i <= 64; ++i) bench.rod().strain.set(i, Vector3d::Zero());
   bench.inputs.rods[0].tip_force_W_N.setZero();
   std::vector<double> peaks;
   double last = 0, now = 0;
@@ -173,6 +172,56 @@ TEST(Hold, StraightRodBetweenTwoClampsIsAtRest) {
     bench.step();
     EXPECT_LT(bench.report.rods[0].base_force_W_N.norm(), 1e-3) << ms;
   }
+}
+
+/// More damping is more rest: a hanging wire ends still, whatever its loss.
+TEST(Damping, MaterialLossBringsToRest) {
+  for (double tau : {0.01, 0.03}) {
+    RodDescription wire = steel_wire({.elements = 64, .length_m = 0.3});
+    wire.damping.material_time_s = tau;
+    Bench bench = bench_of(wire, true);
+    for (int ms = 0; ms < 4000; ++ms) bench.step();
+    EXPECT_LT(bench.rod().velocity[64].norm(), 1e-4) << tau;
+    EXPECT_EQ(bench.report.trouble, 0u);
+  }
+}
+
+/// A hand that turns a weightless wire feels the moment of the shape that there is.
+TEST(Reaction, TorqueIsThatOfTheCommittedShape) {
+  Bench bench = steel_bench({.elements = 100, .gravity = false});
+  bench.inputs.rods[0].base.turn_rate_W_rad_s = Vector3d(30, 0, 0);
+  const double GJ = section(steel_wire({})).GJ_N_m2;
+  for (int ms = 0; ms < 100; ++ms) {
+    bench.step();
+    const Eigen::Vector4d a = bench.rod().base.q_W, b = bench.rod().orientation[0];
+    const Eigen::Quaterniond turned =
+        Eigen::Quaterniond(b[0], b[1], b[2], b[3]) * Eigen::Quaterniond(a[0], a[1], a[2], a[3]).conjugate();
+    const double twist = 2 * std::atan2(turned.x(), turned.w()) / 0.005;  // over half an element
+    EXPECT_NEAR(bench.report.rods[0].torque_Nm, -GJ * twist, 1e-12) << ms;
+  }
+}
+
+/// A free rod in free fall has nothing to hold it.
+TEST(Reaction, AFreeBaseFeelsNothing) {
+  Bench bench = steel_bench({.elements = 16});
+  bench.inputs.rods[0].base.hold = Hold::free;
+  for (int ms = 0; ms < 10; ++ms) bench.step();
+  EXPECT_EQ(bench.report.rods[0].base_force_W_N.norm(), 0);
+}
+
+/// Ordinary tensions converge in one iteration, whatever the elements.
+TEST(Tension, IsNoTrouble) {
+  for (int elements : {16, 100, 667})
+    for (double newtons : {1.0, 20.0, 100.0}) {
+      Bench bench = steel_bench({.elements = elements});
+      bench.inputs.rods[0].tip_force_W_N = Vector3d(newtons, 0, 0);
+      ASSERT_TRUE(bench.settle().converged);
+      for (int ms = 0; ms < 50; ++ms) {
+        bench.step();
+        ASSERT_EQ(bench.report.trouble, 0u) << elements << " elements, " << newtons << " N";
+        ASSERT_LE(bench.report.rods[0].iterations, 2);
+      }
+    }
 }
 
 TEST(Hold, GuidedEndSlidesAlongItsAxisOnly) {

@@ -95,6 +95,34 @@ TEST(Statics, ClampedAtBothEnds) {
   EXPECT_NEAR(bench.report.rods[0].base_torque_W_Nm.norm(), w * 0.04 / 12, 1e-3 * w * 0.04 / 12);
 }
 
+/// Both ends slide, along different lines: each must stay on its own.
+TEST(Statics, TwoGuidedEndsStayOnTheirLines) {
+  Bench bench = bench_of(steel_wire({.elements = 200, .length_m = 0.3}));
+  RodState& rod = bench.rod();
+  bench.inputs.rods[0].base.hold = Hold::guided;
+  bench.inputs.rods[0].tip.hold = Hold::guided;
+  rod.tip.q_W = verify::turned_frame(along_x().q_W, Vector3d(0, std::numbers::pi / 2, 0));  // d3 along -z
+  ASSERT_TRUE(bench.settle().converged);
+  EXPECT_LT(rod.position[0].tail<2>().norm(), 1e-9);  // on x
+  EXPECT_NEAR(bench.tip().x(), 0.3, 1e-9);            // on a vertical
+  EXPECT_NEAR(bench.tip().y(), 0, 1e-9);
+  const Vector3d tip = bench.tip();
+  for (int ms = 0; ms < 100; ++ms) bench.step();
+  EXPECT_LT((bench.tip() - tip).norm(), 1e-8);
+}
+
+/// A damped rod in equilibrium is at rest, too.
+TEST(Statics, DampedEquilibriumStays) {
+  RodDescription wire = steel_wire({.elements = 200, .length_m = 0.3});
+  wire.damping.material_time_s = 1e-3;
+  wire.sections[0].rest_curvature_per_m = Vector3d(4, 6, 1);
+  Bench bench = bench_of(wire, true);
+  ASSERT_TRUE(bench.settle().converged);
+  const Vector3d tip = bench.tip();
+  for (int ms = 0; ms < 100; ++ms) bench.step();
+  EXPECT_LT((bench.tip() - tip).norm(), 1e-9);
+}
+
 TEST(Statics, WhatFallsForEverIsNotFound) {
   Bench bench = bench_of(steel_wire({.elements = 32}), true);
   bench.inputs.rods[0].base.hold = Hold::free;
