@@ -37,6 +37,7 @@ struct RodScratch {
 };
 
 struct Scratch {
+  /// Throws as check(model) does.
   explicit Scratch(const Model& model);
 
   std::vector<RodScratch> rods;

@@ -19,14 +19,8 @@ namespace {
 /// A time long against the rod's slowest motion, so that inertia hardly matters any more.
 double longest_time(const Rod& rod) {
   double compliance = 0;  // of bending, integrated: L / EI
-  std::visit(
-      [&](const auto& law) {
-        for (int i = rod.first; i < rod.nodes(); ++i) {
-          const S3<double> C = law.template operator()<double>(V3<double>{}, i).tangent;
-          compliance += rod.joint_length.at(0)[i] / std::min(C.xx, C.yy);
-        }
-      },
-      rod.law);
+  for (int i = rod.first; i < rod.nodes(); ++i)
+    compliance += rod.joint_length.at(0)[i] / stiffness_at_rest(rod, i).head<2>().minCoeff();
   return tunables::static_time_ratio *
          std::sqrt(rod.total_mass_kg * rod.total_length_m * rod.total_length_m * compliance);
 }
@@ -122,7 +116,7 @@ RodEquilibrium settle(const Rod& rod, const Eigen::Vector3d& gravity_W, const Ro
     time_s = std::min(longest, time_s * (out.turn_rad < 0.1 ? growth : 1.5));
     growth = std::min(8.0, growth * 1.3);
   }
-  out.negative_directions = negative_directions(s.chain, factors);
+  out.negative_directions = negative_pivots(s.chain, factors);
   return out;
 }
 
@@ -165,7 +159,7 @@ int negative_directions(const Model& model, const Inputs& inputs, const State& s
     solve_step(rod, model.gravity_W, state.rods[r], longest_time(rod), s, scratch.factors);
     for_packs(rod.first, rod.elements, [&]<class T>(T, int j) { store3(s.force, j, load3<T>(s.chain.force, j)); });
   }
-  return negative_directions(s.chain, scratch.factors);
+  return negative_pivots(s.chain, scratch.factors);
 }
 
 }  // namespace ostium

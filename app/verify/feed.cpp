@@ -56,8 +56,7 @@ std::vector<GateResult> feed_round_trips(int trips, double length_m) {
 GateResult feed_ripple() {
   const double curvature = 10;
   Bench bench = introducer(curvature);
-  const double scale_N =
-      0.5 * std::get<LinearElastic>(bench.model.rods[0].law).stiffness.at(0)[1] * curvature * curvature;
+  const double scale_N = 0.5 * stiffness_at_rest(bench.model.rods[0], 1)[0] * curvature * curvature;
   double last = 0, before_last = 0, worst = 0;
   bench.inputs.rods[0].feed_m_s = speed_m_s;
   for (int ms = 0; ms < 2000; ++ms) {

@@ -2,8 +2,8 @@
 /// The physics gates of `ostium verify`. Each compares what ships, at the settings that ship, with a closed form, an
 /// independent solver or a published measurement; never with earlier output of our own.
 ///
-/// Adding one: a source file here with a function of this shape, its line in gates.cpp, and its row in the README of
-/// the folder whose law it tests.
+/// Adding one: a source file here with a function of this shape, its declaration below, its line in gates.cpp and its
+/// name in tests/CMakeLists.txt.
 #include <string>
 #include <vector>
 

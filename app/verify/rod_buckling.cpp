@@ -12,8 +12,8 @@ namespace {
 
 constexpr double bisect_to = 1e-4;
 
-double bending_stiffness(const Rod& rod) { return std::get<LinearElastic>(rod.law).stiffness.at(0)[1]; }
-double torsional_stiffness(const Rod& rod) { return std::get<LinearElastic>(rod.law).stiffness.at(2)[1]; }
+double bending_stiffness(const Rod& rod) { return stiffness_at_rest(rod, 1)[0]; }
+double torsional_stiffness(const Rod& rod) { return stiffness_at_rest(rod, 1)[2]; }
 
 }  // namespace
 

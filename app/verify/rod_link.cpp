@@ -75,8 +75,8 @@ std::vector<GateResult> rod_link(bool quick) {
   const int elements = quick ? 100 : 160;
   Bench bench = steel_bench({.elements = elements, .gravity = false});
   const Rod& rod = bench.model.rods[0];
-  const auto& stiffness = std::get<LinearElastic>(rod.law).stiffness;
-  const double twist_rad = 1.3 * 2 * pi * std::sqrt(3.0) * stiffness.at(0)[1] / stiffness.at(2)[1];
+  const Vector3d stiffness = stiffness_at_rest(rod, 1);
+  const double twist_rad = 1.3 * 2 * pi * std::sqrt(3.0) * stiffness[0] / stiffness[2];
   lay_out_ring(rod, twist_rad, bench.rod());
   bench.inputs.rods[0].tip.hold = Hold::clamped;
   bench.inputs.rods[0].base.hold = Hold::clamped;

@@ -11,13 +11,14 @@ namespace {
 
 /// How acceleration and velocity follow from the new position r:  a = A (r - r_a),  v = B (r - r_v).
 ///
-/// bdf2:       v = (3 r - 4 r_n + r_n-1) / 2h,  a = (3 v - 4 v_n + v_n-1) / 2h, so
-///             r_v = (4 r_n - r_n-1) / 3,  r_a = r_v + (2h / 3) (4 v_n - v_n-1) / 3,  A = 9 / 4h^2,  B = 3 / 2h.
-/// fresh:      r = r_n + h v_n + h^2 a / 2,  v = v_n + h a, so  r_v = r_n + h v_n / 2,  r_a = r_n + h v_n,  A = 2 /
-/// h^2,
-///             B = 2 / h. After a jump in the forces, bdf2 would carry on with accelerations that are no more, and lag
-///             by h.
-/// from_rest:  v = (r - r_n) / h,  a = v / h.
+/// bdf2:       v = (3 r - 4 r_n + r_n-1) / 2h,  a = (3 v - 4 v_n + v_n-1) / 2h, so with
+///             r_v = (4 r_n - r_n-1) / 3  and  r_a = r_v + (2h / 3) (4 v_n - v_n-1) / 3:
+///             A = 9 / 4h^2,  B = 3 / 2h.
+/// fresh:      r = r_n + h v_n + h^2 a / 2,  v = v_n + h a, so with  r_v = r_n + h v_n / 2  and  r_a = r_n + h v_n:
+///             A = 2 / h^2,  B = 2 / h.
+///             After a jump in the forces, bdf2 would carry on accelerations that are no more, and lag by h.
+/// from_rest:  v = (r - r_n) / h,  a = v / h:
+///             A = 1 / h^2,  B = 1 / h.
 struct Inertia {
   TimeScheme scheme;
   double step_s;

@@ -31,10 +31,6 @@ Integrals integrate(const std::vector<Section>& sections, double a, double b) {
   return sum;
 }
 
-void set_stiffness(MomentLaw& law, int joint, const Eigen::Vector3d& stiffness_N_m2) {
-  std::visit([&](auto& l) { l.stiffness.set(joint, stiffness_N_m2); }, law);
-}
-
 /// Element j, reaching from `base_from_tip` to its distal node.
 void set_element(Rod& rod, int j, double base_from_tip) {
   const Integrals element = integrate(rod.sections, rod.node_from_tip_m[j + 1], base_from_tip);
@@ -52,7 +48,7 @@ void set_cell(Rod& rod, int i, double from_tip) {
   rod.joint_length.at(0)[i] = length;
   rod.mass.at(0)[i] = cell.mass;
   rod.rest_curvature.set(i, cell.rest_angle / length);
-  set_stiffness(rod.law, i, length * cell.compliance.cwiseInverse());
+  std::visit([&](auto& law) { law.set_cell(i, length, cell.compliance); }, rod.law);
 }
 
 }  // namespace
@@ -80,6 +76,12 @@ Rod make_rod(const RodDescription& description) {
   for (int j = 0; j < N; ++j) set_element(rod, j, rod.node_from_tip_m[j]);
   for (int i = 0; i <= N; ++i) set_cell(rod, i, rod.node_from_tip_m[i]);
   return rod;
+}
+
+Eigen::Vector3d stiffness_at_rest(const Rod& rod, int joint) {
+  const S3<double> C = std::visit(
+      [&](const auto& law) { return law.template operator()<double>(V3<double>{}, joint).tangent; }, rod.law);
+  return {C.xx, C.yy, C.zz};
 }
 
 void cut(const Rod& whole, double inserted_m, int first, Rod& inside) {

@@ -36,6 +36,9 @@ struct Rod {
 /// their integrals over the cell (so that angles add up exactly), mass by its own. Throws as `check` does.
 Rod make_rod(const RodDescription& description);
 
+/// EI1, EI2 and GJ of a joint's cell for small strains, N m2.
+Eigen::Vector3d stiffness_at_rest(const Rod& rod, int joint);
+
 /// Makes `inside`, a copy of `whole` that may have been cut before, the part of it that reaches `inserted_m` from the
 /// tip: `first` becomes its first element, as long as is left of the length. Touches the numbers near the base only;
 /// does not allocate.

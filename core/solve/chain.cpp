@@ -26,6 +26,7 @@ struct Walk {
 
 /// The entry, in a field's padding, of a regular block without coupling: K and the compliance behind are identities,
 /// all else is zero.
+/// There are two, as behind is ahead for lanes that walk the other way; `padded` leaves four entries for them.
 int idle_entry(const Chain& chain, bool forward) { return chain.stiffness.stride() - (forward ? 4 : 2); }
 
 void write_idle_entries(Chain& chain) {
@@ -288,7 +289,7 @@ void solve(Chain& first, Chain* second, ChainFactors& factors) {
   substitute_back(walks, factors, {&first, second}, turn, force);
 }
 
-int negative_directions(const Chain& chain, const ChainFactors& factors) {
+int negative_pivots(const Chain& chain, const ChainFactors& factors) {
   // Inertia of the whole system: it has 3 N negative eigenvalues for its 3 N constraint forces; more are unstable.
   const Walks walks(chain, chain);
   int negative = 0;

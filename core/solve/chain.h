@@ -66,6 +66,6 @@ void solve(Chain& first, Chain* second, ChainFactors& factors);
 /// Number of directions in which the system of the last `solve(chain, nullptr, factors)` has negative stiffness, on
 /// the space of motions that its constraints leave (Sylvester's law of inertia, from the pivots): 0 where an
 /// equilibrium is stable.
-int negative_directions(const Chain& chain, const ChainFactors& factors);
+int negative_pivots(const Chain& chain, const ChainFactors& factors);
 
 }  // namespace ostium

@@ -124,7 +124,7 @@ TEST(Chain, CountsNegativeDirectionsLikeEigenvalues) {
     solve(random.chain, nullptr, factors);
     const VectorXd eigenvalues =
         Eigen::SelfAdjointEigenSolver<MatrixXd>(random.matrix, Eigen::EigenvaluesOnly).eigenvalues();
-    EXPECT_EQ(negative_directions(random.chain, factors), (eigenvalues.array() < 0).count() - 3 * 20) << softening;
+    EXPECT_EQ(negative_pivots(random.chain, factors), (eigenvalues.array() < 0).count() - 3 * 20) << softening;
   }
 }
 

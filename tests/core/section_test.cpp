@@ -68,7 +68,7 @@ TEST(Rod, ElementsShareMassAndComplianceWithoutLoss) {
   double mass = 0, compliance = 0, inertia = 0;
   for (int i = 0; i <= rod.elements; ++i) {
     mass += rod.mass.at(0)[i];
-    compliance += rod.joint_length.at(0)[i] / std::get<LinearElastic>(rod.law).stiffness[i].x();
+    compliance += rod.joint_length.at(0)[i] / stiffness_at_rest(rod, i).x();
   }
   for (int j = 0; j < rod.elements; ++j) inertia += rod.rotary_inertia.at(1)[j];
   const Section &tip = d.sections[0], &shaft = d.sections[1];

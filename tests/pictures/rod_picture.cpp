@@ -41,8 +41,8 @@ void falling_wire(Drawing& drawing) {
 void writhing_ring(Drawing& drawing) {
   verify::Bench bench = verify::steel_bench({.elements = 128, .gravity = false});
   const Rod& rod = bench.model.rods[0];
-  const auto& stiffness = std::get<LinearElastic>(rod.law).stiffness;
-  const double critical = 2 * std::numbers::pi * std::sqrt(3.0) * stiffness.at(0)[1] / stiffness.at(2)[1];
+  const Vector3d stiffness = stiffness_at_rest(rod, 1);
+  const double critical = 2 * std::numbers::pi * std::sqrt(3.0) * stiffness[0] / stiffness[2];
   verify::lay_out_ring(rod, 1.3 * critical, bench.rod());
   bench.inputs.rods[0].tip.hold = Hold::clamped;
   for (int i = 32; i < 64; ++i) bench.rod().velocity.set(i, Vector3d(0, 0.01, 0));

@@ -1,0 +1,27 @@
+#pragma once
+/// m_k = K_k (u_k - u_rest,k), with K = (EI1, EI2, GJ) (Kirchhoff's rod; thesis, eq. 3).
+#include "core/math/field.h"
+#include "core/rod/moment_response.h"
+
+namespace ostium {
+
+struct LinearElastic {
+  Field<3> stiffness;  ///< N m2, (#joints)
+
+  template <class T>
+  MomentResponse<T> operator()(const V3<T>& strain, int joint) const {
+    const V3<T> K = load3<T>(stiffness, joint);
+    return {{K.x * strain.x, K.y * strain.y, K.z * strain.z}, {K.x, T{}, T{}, K.y, T{}, K.z}};
+  }
+
+  double energy(const V3<double>& strain, int joint) const {
+    return 0.5 * dot(strain, (*this).operator()<double>(strain, joint).moment);
+  }
+
+  /// A joint's cell with these integrals of (1/EI1, 1/EI2, 1/GJ) over its length.
+  void set_cell(int joint, double length_m, const Eigen::Vector3d& compliance) {
+    stiffness.set(joint, length_m * compliance.cwiseInverse());
+  }
+};
+
+}  // namespace ostium
