@@ -16,16 +16,17 @@ enum Trouble : std::uint32_t {
   load_limited = 1u << 2,      ///< a tip load was larger than tunables.h allows, and was shortened
   not_converged = 1u << 3,     ///< the iterations ran out: `stretch` is above its tolerance, later steps take it back
   motion_lost = 1u << 4,       ///< the rod moved too violently for a step, and went on from rest
+  no_solution = 1u << 5,       ///< the system had no finite solution: the rod kept its shape, at rest
   feed_stopped = 1u << 6,      ///< no more of the instrument is left to push in, or to draw back
   pulled_apart = 1u << 7,      ///< held ends pull a taut rod apart: their forces are those of no real rod
   joint_overturned = 1u << 8,  ///< two elements are at an angle near pi, where twist would slip: take shorter elements
-  no_solution = 1u << 5,       ///< the system had no finite solution: the rod kept its shape, at rest
 };
 
 struct RodReport {
   double push_N = 0;     ///< along the base's d3, what the fingers push the instrument with
   double torque_Nm = 0;  ///< about it, right-handed, what they turn it with
-  Eigen::Vector3d base_force_W_N = Eigen::Vector3d::Zero();  ///< what holds the base exerts on the rod
+  /// What holds the base exerts on the rod; zero if nothing does. Without the inertia of the half element at the base.
+  Eigen::Vector3d base_force_W_N = Eigen::Vector3d::Zero();
   Eigen::Vector3d base_torque_W_Nm = Eigen::Vector3d::Zero();
   int iterations = 0;
   double stretch = 0;  ///< largest |(r_j+1 - r_j) / l_j - d3_j| over the elements after the step
