@@ -5,7 +5,9 @@
 #include <cmath>
 #include <filesystem>
 #include <numbers>
+#include <stdexcept>
 
+#include "core/rod/rod.h"
 #include "data/instrument_keys.h"
 
 namespace ostium {
@@ -193,6 +195,15 @@ void read_clearance(const JsonObject& group, Instrument& instrument) {
   }
 }
 
+/// Core has limits of its own, on numbers that are of the right sign and still no instrument's.
+void require_rod(const JsonObject& root, const Instrument& instrument) {
+  try {
+    make_rod(rod_description(instrument, equal_elements(instrument.sections, 64)));
+  } catch (const std::invalid_argument& error) {
+    root["sections"].fail(std::string("sections make no rod: ") + error.what());
+  }
+}
+
 Instrument read(const JsonValue& file) {
   const JsonObject root(file, keys::instrument);
   Instrument instrument;
@@ -218,6 +229,7 @@ Instrument read(const JsonValue& file) {
     read_wire_lumen(JsonObject(root["wire_lumen"], keys::wire_lumen), instrument);
   }
   if (root.has("clearance")) read_clearance(JsonObject(root["clearance"], keys::clearance), instrument);
+  require_rod(root, instrument);
   return instrument;
 }
 

@@ -87,6 +87,11 @@ TEST(InstrumentErrors, NumbersThatCannotBe) {
   expect_words(refusal(R"("length_mm": 10 )", R"("length_mm": 1000 )"), {":18: shape.pieces is", "not longer"});
 }
 
+TEST(InstrumentErrors, WhatCoreDoesNotTakeIsRefusedHereToo) {
+  expect_words(refusal(R"("EI_Nmm2": 30,)", R"("EI_Nmm2": 1e30,)"),
+               {"folder/hook.json:10: sections make no rod", "EI1"});
+}
+
 TEST(InstrumentErrors, EveryGroupOfNumbersNeedsItsSource) {
   // One group after the other loses its source (the keys come in alphabetical order here, so lines are of no interest).
   const auto whole = nlohmann::json::parse(small_catheter);
