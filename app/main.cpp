@@ -2,6 +2,7 @@
 #include <CLI/CLI.hpp>
 #include <exception>
 
+#include "app/instruments_command.h"
 #include "app/verify_command.h"
 
 int main(int argc, char** argv) {
@@ -19,6 +20,16 @@ int main(int argc, char** argv) {
   verify_app->footer(
       "Examples:\n  ostium verify\n  ostium verify --only rod-static\n  ostium verify --quick --json > gates.json");
 
+  ostium::InstrumentsOptions instruments;
+  CLI::App* instruments_app =
+      app.add_subcommand("instruments", "What instruments there are, how stiff, and where from");
+  instruments_app->add_option("name", instruments.name, "One of them, in detail and with its sources")
+      ->type_name("NAME");
+  instruments_app->add_flag("--json", instruments.json, "Machine-readable, see data/schemas/instruments.schema.json");
+  instruments_app->add_option("--picture", instruments.picture, "Draw them at rest")->type_name("FILE.svg");
+  instruments_app->footer(
+      "Examples:\n  ostium instruments\n  ostium instruments guide-jl4-6f\n  ostium instruments --picture all.svg");
+
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -26,6 +37,7 @@ int main(int argc, char** argv) {
   }
   try {
     if (*verify_app) return ostium::verify_command(verify);
+    if (*instruments_app) return ostium::instruments_command(instruments);
   } catch (const std::exception& error) {
     std::cerr << "ostium: " << error.what() << "\n";
     return 3;

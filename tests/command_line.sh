@@ -25,3 +25,11 @@ expect 2 "no gate begins" "$ostium" verify --only rod-staticX
 expect 1 "could not be written" bash -c "'$ostium' verify --only rod-static --json > /dev/full"
 expect 2 "not expected" "$ostium" verify --quik
 expect 2 "subcommand" "$ostium"
+
+expect 0 "Examples" "$ostium" instruments --help
+expect 0 "guide-jl4-6f" "$ostium" instruments
+expect 0 "sources:" "$ostium" instruments guide-jl4-6f
+expect 0 '"EI1_Nmm2"' "$ostium" instruments wire-014-workhorse --json
+expect 3 "there is no instrument" "$ostium" instruments no-such-thing
+expect 3 "cannot be written" "$ostium" instruments --picture /nowhere/all.svg
+expect 3 "OSTIUM_DATA" env OSTIUM_DATA=/nowhere "$ostium" instruments

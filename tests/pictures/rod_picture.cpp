@@ -5,14 +5,13 @@
 #include <numbers>
 
 #include "app/verify/steel_wire.h"
-#include "tests/pictures/svg.h"
+#include "data/svg.h"
 
 namespace {
 
 using namespace ostium;
 using Eigen::Vector2d;
 using Eigen::Vector3d;
-using pictures::Drawing;
 
 template <class Project>
 std::vector<Vector2d> projected(const RodState& rod, Project&& project) {

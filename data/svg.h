@@ -1,17 +1,20 @@
 #pragma once
-/// A plain SVG drawing of polylines, in millimetres, for the pictures of the README pages.
+/// A plain SVG drawing in millimetres, for the pictures of the README pages and of `ostium instruments --picture`.
 #include <Eigen/Core>
 #include <string>
 #include <vector>
 
-namespace ostium::pictures {
+namespace ostium {
 
+/// x to the right, y downwards, mm. What is drawn later covers what was drawn before.
 class Drawing {
  public:
   Drawing(double width_mm, double height_mm) : width_(width_mm), height_(height_mm) {}
 
-  void line(const std::vector<Eigen::Vector2d>& points_mm, const std::string& colour, double thickness_mm);
+  void line(const std::vector<Eigen::Vector2d>& points_mm, const std::string& colour, double thickness_mm,
+            bool round_ends = true);
   void cross(const Eigen::Vector2d& at_mm, const std::string& colour);
+  void rectangle(const Eigen::Vector2d& corner_mm, const Eigen::Vector2d& size_mm, const std::string& colour);
   void text(const Eigen::Vector2d& at_mm, const std::string& words, double size_mm = 3.5);
 
   /// Throws std::runtime_error naming the file if it cannot be written whole.
@@ -22,4 +25,4 @@ class Drawing {
   std::string body_;
 };
 
-}  // namespace ostium::pictures
+}  // namespace ostium
