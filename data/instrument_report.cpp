@@ -2,12 +2,16 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <numbers>
 
 namespace ostium {
 
 namespace {
+
+/// What rounds to zero in four digits prints without a sign.
+double unsigned_zero(double x) { return std::fabs(x) < 5e-5 ? 0.0 : x; }
 
 constexpr double m_in_mm = 1e3, N_m2_in_N_mm2 = 1e6, inch = 0.0254, degree = std::numbers::pi / 180;
 
@@ -72,7 +76,9 @@ std::string instrument_details(const Instrument& i) {
     out += fmt::format("{:>7.1f} .. {:>6.1f} {:>9.3g} {:>9.3g} {:>8.3g} {:>8.3g}", s.from_tip_m * m_in_mm,
                        s.to_tip_m * m_in_mm, EI_Nmm2(s), s.GJ_N_m2 * N_m2_in_N_mm2, s.kg_per_m * 1e3,
                        2 * s.radius_m * m_in_mm);
-    out += u.isZero() ? "\n" : fmt::format("  {:.4f}, {:.4f}, {:.4f}\n", u.x(), u.y(), u.z());
+    out += u.isZero() ? "\n"
+                      : fmt::format("  {:.4f}, {:.4f}, {:.4f}\n", unsigned_zero(u.x()), unsigned_zero(u.y()),
+                                    unsigned_zero(u.z()));
   }
   if (!i.shape.empty()) out += "\nshape at rest, from the tip:\n" + shape_lines(i.shape);
   if (i.shapeable_tip)

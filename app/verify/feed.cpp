@@ -18,9 +18,7 @@ Bench introducer(double curvature_per_m) {
   RodDescription wire = steel_wire({.elements = 600, .length_m = 1.2});
   wire.sections[0].rest_curvature_per_m = Eigen::Vector3d(0, curvature_per_m, 0);
   wire.damping.drag_across_N_s_m2 = wire.damping.drag_along_N_s_m2 = 0.05;
-  Model model;
-  model.rods.push_back(make_rod(wire));
-  Bench bench(std::move(model), along_x());
+  Bench bench = bench_of(wire);
   bench.state = make_state(bench.model, {along_x()}, {start_m});
   bench.settle();
   return bench;

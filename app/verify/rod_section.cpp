@@ -71,9 +71,7 @@ std::vector<GateResult> rod_section(bool quick) {
     wire.sections = {round_section(0, soft_m, 0.09e-3, 0, 60e9, 0.3, 6500),
                      round_section(soft_m, length, 0.45e-3, 0, 60e9, 0.3, 6500)};
     wire.element_lengths_m = equal_elements(wire.sections, elements);
-    Model model;
-    model.rods.push_back(make_rod(wire));
-    Bench bench(std::move(model), along_x());
+    Bench bench = bench_of(wire);
     bench.settle();
     const Section &tip = wire.sections[0], &base = wire.sections[1];
     const Shot exact =

@@ -27,12 +27,14 @@ RodDescription steel_wire(const WireOptions& o) {
   return wire;
 }
 
-Bench steel_bench(const WireOptions& o) {
+Bench bench_of(const RodDescription& rod, bool gravity) {
   Model model;
-  model.rods.push_back(make_rod(steel_wire(o)));
-  if (!o.gravity) model.gravity_W.setZero();
+  model.rods.push_back(make_rod(rod));
+  if (!gravity) model.gravity_W.setZero();
   return Bench(std::move(model), along_x());
 }
+
+Bench steel_bench(const WireOptions& o) { return bench_of(steel_wire(o), o.gravity); }
 
 EndState along_x() {
   EndState end;

@@ -32,6 +32,8 @@ struct Bench {
 
 RodDescription steel_wire(const WireOptions& options);
 Bench steel_bench(const WireOptions& options);
+/// One rod of any description, along x.
+Bench bench_of(const RodDescription& rod, bool gravity = true);
 
 /// A frame with d3 along x, d1 along -z, d2 along y.
 EndState along_x();

@@ -13,18 +13,12 @@ namespace {
 using Eigen::Vector3d;
 using verify::along_x;
 using verify::Bench;
+using verify::bench_of;
 using verify::steel_bench;
 using verify::steel_wire;
 constexpr double pi = std::numbers::pi;
 
 const Section& section(const RodDescription& wire) { return wire.sections[0]; }
-
-Bench bench_of(const RodDescription& wire, bool gravity) {
-  Model model;
-  model.rods.push_back(make_rod(wire));
-  if (!gravity) model.gravity_W.setZero();
-  return Bench(std::move(model), along_x());
-}
 
 /// Euler-Bernoulli cantilever, first mode: omega = 1.8751^2 sqrt(EI / (rho A L^4)).
 TEST(Motion, FirstBendingFrequencyOfACantilever) {

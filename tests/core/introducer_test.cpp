@@ -17,10 +17,7 @@ using verify::Bench;
 using verify::steel_wire;
 
 Bench introducer(const RodDescription& wire, double inserted_m, bool gravity = true) {
-  Model model;
-  model.rods.push_back(make_rod(wire));
-  if (!gravity) model.gravity_W.setZero();
-  Bench bench(std::move(model), along_x());
+  Bench bench = verify::bench_of(wire, gravity);
   bench.state = make_state(bench.model, {along_x()}, {inserted_m});
   return bench;
 }

@@ -14,14 +14,8 @@ namespace {
 using Eigen::Vector3d;
 using verify::along_x;
 using verify::Bench;
+using verify::bench_of;
 using verify::steel_wire;
-
-Bench bench_of(const RodDescription& wire, bool gravity = false) {
-  Model model;
-  model.rods.push_back(make_rod(wire));
-  if (!gravity) model.gravity_W.setZero();
-  return Bench(std::move(model), along_x());
-}
 
 /// Constant rest curvature and twist without load make a helix of radius k / (k^2 + t^2) and pitch 2 pi t / (k^2 +
 /// t^2).
@@ -29,7 +23,7 @@ TEST(Statics, RestCurvatureAndTwistMakeAHelix) {
   RodDescription wire = steel_wire({.elements = 400, .length_m = 0.5});
   const double k = 40, t = 15, u = std::hypot(k, t);
   wire.sections[0].rest_curvature_per_m = Vector3d(0, k, t);
-  Bench bench = bench_of(wire);
+  Bench bench = bench_of(wire, false);
   ASSERT_TRUE(bench.settle().converged);
   // In the base frame the curve turns about the axis u = (0, k, t) / |u|: integrate d3 exactly.
   const Vector3d axis = Vector3d(0, k, t) / u, d3 = Vector3d::UnitZ();
@@ -45,7 +39,7 @@ TEST(Statics, SignsOfRestCurvatureAreThoseOfTheFormat) {
   for (int axis : {0, 1}) {
     RodDescription wire = steel_wire({.elements = 32, .length_m = 0.1});
     wire.sections[0].rest_curvature_per_m[axis] = 2;
-    Bench bench = bench_of(wire);
+    Bench bench = bench_of(wire, false);
     ASSERT_TRUE(bench.settle().converged);
     const Eigen::Vector4d q = along_x().q_W;
     const Vector3d local = Eigen::Quaterniond(q[0], q[1], q[2], q[3]).conjugate() * bench.tip();
@@ -59,7 +53,7 @@ TEST(Statics, BendingStiffnessDependsOnTheAxis) {
   RodDescription wire = steel_wire({.elements = 128, .length_m = 0.2});
   Section& s = wire.sections[0];
   s.EI2_N_m2 = 0.25 * s.EI1_N_m2;
-  Bench bench = bench_of(wire);
+  Bench bench = bench_of(wire, false);
   const double P = 1e-3, L = 0.2;
   bench.inputs.rods[0].tip_force_W_N = Vector3d(0, P, 0);  // bends about z, d1
   ASSERT_TRUE(bench.settle().converged);
@@ -97,7 +91,7 @@ TEST(Statics, ClampedAtBothEnds) {
 
 /// Both ends slide, along different lines: each must stay on its own.
 TEST(Statics, TwoGuidedEndsStayOnTheirLines) {
-  Bench bench = bench_of(steel_wire({.elements = 200, .length_m = 0.3}));
+  Bench bench = bench_of(steel_wire({.elements = 200, .length_m = 0.3}), false);
   RodState& rod = bench.rod();
   bench.inputs.rods[0].base.hold = Hold::guided;
   bench.inputs.rods[0].tip.hold = Hold::guided;
