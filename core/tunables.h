@@ -12,6 +12,9 @@ inline constexpr double max_load_N = 100.0;            // of a tip load
 inline constexpr double axial_give_per_N_m = 5e-8;
 inline constexpr double pulled_apart_stretch = 1e-6;  // only ends that pull a taut rod apart make it give so much
 
+// Most that a joint's cell may turn at rest: with more, elements are too long for the shape.
+inline constexpr double max_rest_angle_rad = 2.0;
+
 // Newton iterations of one step.
 inline constexpr double stretch_tolerance = 8e-8;  // largest |r' - d3| over the elements; 1e-7 is the gate
 inline constexpr double usable_stretch = 1e-2;     // with more, a step is tried again from rest
@@ -22,7 +25,7 @@ inline constexpr double longest_return_m = 2e-3;     // per step, of an end that
 
 // Static equilibrium.
 inline constexpr double static_tolerance_rad = 1e-9;  // largest turn of the last iteration; Newton squares it
-inline constexpr double static_closure = 1e-9;        // largest distance of an end from its hold, of the rod's length
+inline constexpr double static_closure = 1e-7;        // largest distance of an end from its hold, of the rod's length
 inline constexpr double static_time_ratio = 100;      // of the last proximal time to the slowest motion's
 inline constexpr int max_static_iterations = 400;
 

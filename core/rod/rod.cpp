@@ -1,6 +1,9 @@
 #include "core/rod/rod.h"
 
 #include <algorithm>
+#include <stdexcept>
+
+#include "core/tunables.h"
 
 namespace ostium {
 
@@ -74,7 +77,14 @@ Rod make_rod(const RodDescription& description) {
   rod.total_length_m = rod.node_from_tip_m[0];
   rod.total_mass_kg = integrate(rod.sections, 0, rod.total_length_m).mass;
   for (int j = 0; j < N; ++j) set_element(rod, j, rod.node_from_tip_m[j]);
-  for (int i = 0; i <= N; ++i) set_cell(rod, i, rod.node_from_tip_m[i]);
+  for (int i = 0; i <= N; ++i) {
+    set_cell(rod, i, rod.node_from_tip_m[i]);
+    if (rod.rest_curvature[i].norm() * rod.joint_length.at(0)[i] > tunables::max_rest_angle_rad)
+      throw std::invalid_argument("rod \"" + description.name +
+                                  "\": its elements are too long for the curvature at rest " +
+                                  std::to_string(1e3 * rod.node_from_tip_m[i]) +
+                                  " mm from the tip (more than 2 rad between two of them); take shorter ones there");
+  }
   return rod;
 }
 

@@ -33,7 +33,8 @@ struct Rod {
 };
 
 /// Cuts a description into elements. Properties that vary inside a cell are averaged: compliance and rest curvature by
-/// their integrals over the cell (so that angles add up exactly), mass by its own. Throws as `check` does.
+/// their integrals over the cell (so that angles add up exactly), mass by its own. Throws as `check` does, and if
+/// elements are too long for the rest curvature (tunables.h).
 Rod make_rod(const RodDescription& description);
 
 /// EI1, EI2 and GJ of a joint's cell for small strains, N m2.
