@@ -198,7 +198,7 @@ void read_clearance(const JsonObject& group, Instrument& instrument) {
 /// Core has limits of its own, on numbers that are of the right sign and still no instrument's.
 void require_rod(const JsonObject& root, const Instrument& instrument) {
   try {
-    make_rod(rod_description(instrument, equal_elements(instrument.sections, 64)));
+    check(rod_description(instrument, equal_elements(instrument.sections, 64)));
   } catch (const std::invalid_argument& error) {
     root["sections"].fail(std::string("sections make no rod: ") + error.what());
   }
