@@ -56,7 +56,7 @@ void writhing_ring(Drawing& drawing) {
       return Vector2d(centre.x() + 95 * (q.x() + 0.35 * q.y()), centre.y() - 95 * (0.85 * q.z() + 0.45 * q.y()));
     };
     drawing.line(projected(bench.rod(), project), "#245", 0.9);
-    drawing.text(centre + Vector2d(-5, 21), std::to_string(ms) + " ms", 3);
+    drawing.text(centre + Vector2d(-5, 24), std::to_string(ms) + " ms", 3);
   }
 }
 
