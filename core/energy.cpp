@@ -14,11 +14,10 @@ Energy energy(const Model& model, const Inputs& inputs, const State& state, std:
 
   Energy out;
   const EndJoints ends = joints_of(inputs.rods[r]);
-  const auto frame = [](const EndState& e) { return Q4<double>{e.q_W[0], e.q_W[1], e.q_W[2], e.q_W[3]}; };
   for (int i = rod.first; i <= N; ++i) {
     if ((i == rod.first && !ends.base) || (i == N && !ends.tip)) continue;
-    const Q4<double> a = i == rod.first ? frame(s.base) : load4<double>(s.orientation, i - 1);
-    const Q4<double> b = i == N ? frame(s.tip) : load4<double>(s.orientation, i);
+    const Q4<double> a = i == rod.first ? s.base.frame() : load4<double>(s.orientation, i - 1);
+    const Q4<double> b = i == N ? s.tip.frame() : load4<double>(s.orientation, i);
     const double length = rod.joint_length.at(0)[i];
     const V3<double> strain = (1 / length) * rotation_vector(conjugate(a) * b) - load3<double>(rod.rest_curvature, i);
     out.elastic_J += length * std::visit([&](const auto& law) { return law.energy(strain, i); }, rod.law);

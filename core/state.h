@@ -14,6 +14,8 @@ struct EndState {
   Eigen::Vector3d p_W = Eigen::Vector3d::Zero();  ///< m
   Eigen::Vector4d q_W = {1, 0, 0, 0};             ///< material frame, quaternion w x y z
   double hold = -1;                               ///< the Hold of the last step, as a number; -1: none yet
+
+  Q4<double> frame() const { return {q_W[0], q_W[1], q_W[2], q_W[3]}; }
 };
 
 struct RodState {

@@ -49,8 +49,6 @@ Joint<T> joint(const Law& law, const V3<T>& rest, T length, const Q4<T>& a, Q4<T
   return out;
 }
 
-Q4<double> frame(const EndState& end) { return {end.q_W[0], end.q_W[1], end.q_W[2], end.q_W[3]}; }
-
 /// Linearises joints of one rod in one step.
 template <class Law>
 class Joints {
@@ -88,8 +86,8 @@ class Joints {
   void at_ends(EndJoints ends) {
     const int first = rod_.first, N = rod_.elements;
     none_at(first), none_at(N);
-    if (ends.base) between<double>(first, frame(state_.base), load4<double>(scratch_.orientation, first));
-    if (ends.tip) between<double>(N, load4<double>(scratch_.orientation, N - 1), frame(state_.tip));
+    if (ends.base) between<double>(first, state_.base.frame(), load4<double>(scratch_.orientation, first));
+    if (ends.tip) between<double>(N, load4<double>(scratch_.orientation, N - 1), state_.tip.frame());
   }
 
  private:

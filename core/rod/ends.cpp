@@ -30,11 +30,10 @@ bool joined(Hold hold) { return hold == Hold::clamped || hold == Hold::guided; }
 void drive(const EndDrive& drive, double step_s, EndState& end) {
   if (drive.hold == Hold::free) return;
   end.p_W += step_s * drive.velocity_W_m_s;
-  const Q4<double> q{end.q_W[0], end.q_W[1], end.q_W[2], end.q_W[3]};
   const Vector3d turn = step_s * drive.turn_rate_W_rad_s;
   const double angle = turn.norm();
   if (angle == 0) return;
-  const Eigen::Quaterniond rotated = Eigen::AngleAxisd(angle, turn / angle) * to_eigen(q);
+  const Eigen::Quaterniond rotated = Eigen::AngleAxisd(angle, turn / angle) * to_eigen(end.frame());
   end.q_W = Eigen::Vector4d(rotated.w(), rotated.x(), rotated.y(), rotated.z()).normalized();
 }
 
@@ -49,7 +48,7 @@ void hold(Hold hold, const EndState& end, int node, RodScratch& scratch) {
   }
   S3<double> P{};
   if (hold == Hold::guided) {
-    const Vector3d a = to_eigen(director3(Q4<double>{end.q_W[0], end.q_W[1], end.q_W[2], end.q_W[3]}));
+    const Vector3d a = to_eigen(director3(end.frame()));
     target += a * a.dot(scratch.target[node] - end.p_W);
     const double p = a.dot(to_eigen(load6<double>(scratch.chain.compliance, node) * from_eigen(a)));
     P = {p * a.x() * a.x(), p * a.x() * a.y(), p * a.x() * a.z(),

@@ -17,8 +17,6 @@ constexpr double enters_at = 0.6, leaves_at = 0.4;
 constexpr int least_elements = 3;
 constexpr double slack_kept = 0.8;  // of the slack, per step
 
-Q4<double> frame(const EndState& end) { return {end.q_W[0], end.q_W[1], end.q_W[2], end.q_W[3]}; }
-
 /// q turned by theta in its own material frame.
 Q4<double> turned_by(const Q4<double>& q, const V3<double>& theta) {
   const Vector3d t = to_eigen(theta);
@@ -39,7 +37,7 @@ void enter_element(const Rod& rod, const RodInputs& inputs, double step_s, RodSt
   const double before = base_length(rod, s), own = rod.length.at(0)[old], after = before - own;
   const double next = rod.length.at(0)[old + 1];
 
-  const Q4<double> clamp = frame(s.base), q_old = load4<double>(s.orientation, old),
+  const Q4<double> clamp = s.base.frame(), q_old = load4<double>(s.orientation, old),
                    q_next = load4<double>(s.orientation, old + 1);
   const V3<double> base_curvature = (2 / before) * rotation_vector(conjugate(clamp) * q_old);
   const V3<double> next_curvature = (2 / (before + next)) * rotation_vector(conjugate(q_old) * q_next);
@@ -94,7 +92,7 @@ void leave_element(const Rod& rod, RodState& s) {
 
 }  // namespace
 
-Vector3d axis(const EndState& end) { return to_eigen(director3(frame(end))); }
+Vector3d axis(const EndState& end) { return to_eigen(director3(end.frame())); }
 
 double least_inserted_m(const Rod& rod) { return rod.node_from_tip_m[rod.elements - least_elements]; }
 

@@ -42,6 +42,7 @@ Inputs busy_inputs(const Model& model, int step) {
     in.base.velocity_W_m_s = Vector3d(0.1 * std::sin(phase), 0.05 * std::cos(3 * phase), 0);
     in.base.turn_rate_W_rad_s = Vector3d(20 * std::sin(2 * phase), 1, 0);
     in.tip_force_W_N = Vector3d(0, 0.01 * std::sin(phase), 0);
+    in.feed_m_s = -0.1 * std::cos(4 * phase);
     if (step % 100 > 50) in.tip.hold = r == 0 ? Hold::clamped : r == 1 ? Hold::pinned : Hold::guided;
   }
   return inputs;
@@ -255,20 +256,13 @@ TEST(BadInput, AllHoldsThrownAtRandomStayFinite) {
 TEST(BadInput, OverTwistedSlackRodRecovers) {
   RodDescription wire = steel_wire({.elements = 200, .length_m = 0.3});
   wire.damping.drag_across_N_s_m2 = 0.007, wire.damping.drag_along_N_s_m2 = 0.0035;
-  Model model;
-  model.gravity_W.setZero();
-  model.rods.push_back(make_rod(wire));
-  State state = straight(model);
-  Scratch scratch(model);
-  StepReport report;
-  Inputs inputs;
-  inputs.rods.resize(1);
-  RodInputs& in = inputs.rods[0];
+  verify::Bench bench = verify::bench_of(wire, false);
+  RodInputs& in = bench.inputs.rods[0];
   const auto run = [&](int ms) {
     int troubled = 0;
     for (int i = 0; i < ms; ++i) {
-      step(model, inputs, state, scratch, report);
-      troubled += report.trouble != 0;
+      bench.step();
+      troubled += bench.report.trouble != 0;
     }
     return troubled;
   };
@@ -281,36 +275,29 @@ TEST(BadInput, OverTwistedSlackRodRecovers) {
   in.tip.turn_rate_W_rad_s.setZero();
   run(500);
   EXPECT_EQ(run(1000), 0);
-  EXPECT_LT((state.rods[0].position[200] - state.rods[0].tip.p_W).norm(), 1e-9);
+  EXPECT_LT((bench.tip() - bench.rod().tip.p_W).norm(), 1e-9);
 }
 
 TEST(BadInput, PullingATautRodApartAndOverturningJointsAreFlagged) {
-  Model model;
-  model.gravity_W.setZero();
-  model.rods.push_back(make_rod(steel_wire({.elements = 16})));
-  State state = straight(model);
-  Scratch scratch(model);
-  StepReport report;
-  Inputs inputs;
-  inputs.rods.resize(1);
-  RodInputs& in = inputs.rods[0];
+  verify::Bench bench = verify::steel_bench({.elements = 16, .gravity = false});
+  RodInputs& in = bench.inputs.rods[0];
   in.tip.hold = Hold::clamped;
   in.tip.velocity_W_m_s = Vector3d(1e-3, 0, 0);
-  for (int ms = 0; ms < 20; ++ms) step(model, inputs, state, scratch, report);
-  EXPECT_TRUE(report.trouble & pulled_apart);
+  for (int ms = 0; ms < 20; ++ms) bench.step();
+  EXPECT_TRUE(bench.report.trouble & pulled_apart);
   in.tip.velocity_W_m_s = Vector3d(-1e-3, 0, 0);
-  for (int ms = 0; ms < 20; ++ms) step(model, inputs, state, scratch, report);
+  for (int ms = 0; ms < 20; ++ms) bench.step();
   in.tip.velocity_W_m_s.setZero();
-  for (int ms = 0; ms < 200; ++ms) step(model, inputs, state, scratch, report);
-  EXPECT_EQ(report.trouble, 0u);
+  for (int ms = 0; ms < 200; ++ms) bench.step();
+  EXPECT_EQ(bench.report.trouble, 0u);
 
   in.tip.hold = Hold::guided;
   in.tip_force_W_N = Vector3d(60, 0, 0);
   in.tip.turn_rate_W_rad_s = Vector3d(20 * std::numbers::pi, 0, 0);
   bool flagged = false;
   for (int ms = 0; ms < 790; ++ms) {  // 7.9 turns: pi per joint is at 8
-    step(model, inputs, state, scratch, report);
-    flagged = flagged || report.trouble & joint_overturned;
+    bench.step();
+    flagged = flagged || bench.report.trouble & joint_overturned;
   }
   EXPECT_TRUE(flagged);
 }
