@@ -1,14 +1,40 @@
 #include "core/model.h"
 
 #include <stdexcept>
+#include <string>
 
 namespace ostium {
+
+namespace {
+
+void check_nestings(const Model& model) {
+  const int rods = static_cast<int>(model.rods.size());
+  std::vector<int> outers(model.rods.size(), 0);
+  for (std::size_t i = 0; i < model.nestings.size(); ++i) {
+    const Nesting& n = model.nestings[i];
+    const auto refuse = [&](const std::string& what) {
+      throw std::invalid_argument("model: nesting " + std::to_string(i) + " (rod " + std::to_string(n.inner) + " in rod " +
+                                  std::to_string(n.outer) + "): " + what);
+    };
+    if (n.outer < 0 || n.inner >= rods || n.outer >= n.inner)
+      refuse("there are " + std::to_string(rods) + " rods, and the outer one must come before the inner one");
+    if (!(n.lumen_m > 0)) refuse("its lumen must be longer than 0");
+    if (!(n.friction >= 0 && n.friction <= 1)) refuse("friction must lie between 0 and 1");
+    if (++outers[n.inner] > max_outer_rods) refuse("a rod can run in at most three others");
+    const double room = tightest_clearance_m(model.rods[n.outer], model.rods[n.inner], n.lumen_m);
+    if (!(room > 0))
+      refuse("the inner one is too thick for the lumen, by " + std::to_string(-1e3 * room) + " mm of radius");
+  }
+}
+
+}  // namespace
 
 void check(const Model& model) {
   if (model.rods.empty()) throw std::invalid_argument("model: it has no rod; give at least one");
   if (!model.gravity_W.allFinite()) throw std::invalid_argument("model: gravity is not finite");
   if (!(model.step_s > 0 && model.step_s <= 0.01))
     throw std::invalid_argument("model: the step is " + std::to_string(model.step_s) + " s; it must lie in (0, 0.01]");
+  check_nestings(model);
 }
 
 }  // namespace ostium

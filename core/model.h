@@ -2,17 +2,21 @@
 /// Everything about a simulation that does not change while it runs. Const after loading; shared freely by threads.
 #include <vector>
 
+#include "core/binding/nesting.h"
 #include "core/rod/rod.h"
 
 namespace ostium {
 
 struct Model {
   std::vector<Rod> rods;
+  std::vector<Nesting> nestings;
   Eigen::Vector3d gravity_W = Eigen::Vector3d(0, 0, -9.81);  ///< m/s2
   double step_s = 1e-3;                                      ///< (0, 0.01]
 };
 
-/// Throws std::invalid_argument if there is no rod, gravity is not finite or the step is out of range.
+/// Throws std::invalid_argument if there is no rod, gravity is not finite, the step is out of range, or a nesting names
+/// rods that there are not, an outer rod behind its inner one, more than three outer rods for one, a friction outside 0
+/// to 1, or an inner rod too thick for the lumen.
 void check(const Model& model);
 
 }  // namespace ostium

@@ -1,5 +1,6 @@
 #pragma once
 /// Working memory of a step. May be destroyed, or made anew, between any two steps.
+#include "core/binding/binding_scratch.h"
 #include "core/inputs.h"
 #include "core/model.h"
 #include "core/solve/chain.h"
@@ -41,6 +42,8 @@ struct Scratch {
   explicit Scratch(const Model& model);
 
   std::vector<RodScratch> rods;
+  std::vector<BindingScratch> bindings;  ///< one per rod
+  std::vector<std::vector<int>> groups;  ///< rods that can be solved at once; outer rods in earlier groups
   ChainFactors factors;
 };
 

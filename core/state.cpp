@@ -61,6 +61,14 @@ State lay_out_all(const Model& model, const std::vector<EndState>& bases, const 
     const Rod& rod = model.rods[r];
     state.rods.push_back(lay_out(rod, bases.at(r), inserted_m.empty() ? rod.total_length_m : inserted_m.at(r), strain));
   }
+  for (const Nesting& n : model.nestings) {
+    RodState& outer = state.rods[n.outer];
+    RodState& inner = state.rods[n.inner];
+    for (int r : {n.outer, n.inner}) state.rods[r].acceleration.resize(model.rods[r].nodes());
+    outer.inner_force.resize(model.rods[n.outer].nodes());
+    for (Field<3>* f : {&inner.contact_force, &inner.offset, &inner.offset_before}) f->resize(model.rods[n.inner].nodes());
+  }
+  state.nestings.resize(model.nestings.size());
   return state;
 }
 
@@ -105,28 +113,35 @@ void restore(const std::vector<double>& saved, State& state) {
   });
 }
 
+namespace {
+std::string first_difference_in(const std::string& part, const State& a, const State& b) {
+  std::vector<std::pair<const double*, int>> others;
+  for_each_field(b, [&](const char*, const double* first, int count) { others.emplace_back(first, count); });
+  std::size_t next = 0;
+  std::string found;
+  for_each_field(a, [&](const char* name, const double* first, int count) {
+    const auto [other, other_count] = others[next++];
+    if (!found.empty()) return;
+    const std::string where = part + ", " + name;
+    if (count != other_count) found = where + ": sizes differ";
+    for (int i = 0; i < count && found.empty(); ++i)
+      if (std::bit_cast<std::uint64_t>(first[i]) != std::bit_cast<std::uint64_t>(other[i]))
+        found = where + "[" + std::to_string(i) + "]: " + std::to_string(first[i]) + " != " + std::to_string(other[i]);
+  });
+  return found;
+}
+}  // namespace
+
 std::string first_difference(const State& a, const State& b) {
   if (a.rods.size() != b.rods.size()) return "number of rods";
+  if (a.nestings.size() != b.nestings.size()) return "number of nestings";
   if (a.step != b.step) return "step: " + std::to_string(a.step) + " != " + std::to_string(b.step);
-  for (std::size_t r = 0; r < a.rods.size(); ++r) {
-    State one_a{0, {a.rods[r]}}, one_b{0, {b.rods[r]}};
-    std::vector<std::pair<const double*, int>> others;
-    for_each_field(one_b, [&](const char*, const double* first, int count) { others.emplace_back(first, count); });
-    std::size_t next = 0;
-    std::string found;
-    for_each_field(one_a, [&](const char* name, const double* first, int count) {
-      const auto [other, other_count] = others[next++];
-      if (!found.empty()) return;
-      const std::string where = "rod " + std::to_string(r) + ", " + name;
-      if (count != other_count) found = where + ": sizes differ";
-      for (int i = 0; i < count && found.empty(); ++i)
-        if (std::bit_cast<std::uint64_t>(first[i]) != std::bit_cast<std::uint64_t>(other[i]))
-          found =
-              where + "[" + std::to_string(i) + "]: " + std::to_string(first[i]) + " != " + std::to_string(other[i]);
-    });
-    if (!found.empty()) return found;
-  }
-  return {};
+  std::string found;
+  for (std::size_t r = 0; r < a.rods.size() && found.empty(); ++r)
+    found = first_difference_in("rod " + std::to_string(r), {0, {a.rods[r]}, {}}, {0, {b.rods[r]}, {}});
+  for (std::size_t n = 0; n < a.nestings.size() && found.empty(); ++n)
+    found = first_difference_in("nesting " + std::to_string(n), {0, {}, {a.nestings[n]}}, {0, {}, {b.nestings[n]}});
+  return found;
 }
 
 }  // namespace ostium

@@ -32,14 +32,24 @@ struct RodState {
   Field<3> force;   ///< N, world frame, (#elements): internal, distal on proximal
   Field<3> strain;  ///< 1/m, material frame, (#joints), Darboux vector; empty without material damping
   Field<3> strain_before;
+  Field<3> acceleration;   ///< m/s2, (#nodes); empty if it is in no nesting
+  Field<3> inner_force;    ///< N, (#nodes), of the rods inside it; empty if none can be
+  Field<3> contact_force;  ///< N, (#nodes), on the rod around it, and
+  Field<3> offset;         ///< m, (#nodes), from the middle of that rod's lumen; zero outside. Empty if it can be in none
+  Field<3> offset_before;
   EndState base, tip;
 };
 
 inline int first_element(const RodState& rod) { return static_cast<int>(rod.first); }
 
+struct NestingState {
+  Eigen::Vector3d rim_force_W_N = Eigen::Vector3d::Zero();  ///< of the inner rod on the outer one's tip
+};
+
 struct State {
   std::uint64_t step = 0;
   std::vector<RodState> rods;
+  std::vector<NestingState> nestings;
 };
 
 /// Rods straight from their base poses along d3 and at rest; `bases[i]` belongs to rod i, and so does `inserted_m[i]`,
@@ -71,12 +81,18 @@ void for_each_field(S& state, Visit&& visit) {
     components("force", rod.force);
     components("strain", rod.strain);
     components("strain_before", rod.strain_before);
+    components("acceleration", rod.acceleration);
+    components("inner_force", rod.inner_force);
+    components("contact_force", rod.contact_force);
+    components("offset", rod.offset);
+    components("offset_before", rod.offset_before);
     for (auto* end : {&rod.base, &rod.tip}) {
       visit("end.p_W", end->p_W.data(), 3);
       visit("end.q_W", end->q_W.data(), 4);
       visit("end.hold", &end->hold, 1);
     }
   }
+  for (auto& nesting : state.nestings) visit("rim_force_W_N", nesting.rim_force_W_N.data(), 3);
 }
 
 /// 64-bit hash of the step number and every field (XXH3 over their bytes: -0 and 0 differ).

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 
+#include "core/binding/binding.h"
 #include "core/rod/elasticity.h"
 #include "core/rod/ends.h"
 #include "core/rod/inertia.h"
@@ -24,13 +25,23 @@ namespace {
   return true;
 }
 
-void predict(const Model& model, const Rod& rod, const RodState& state, TimeScheme scheme, RodScratch& s) {
+/// Where nodes of rod `r` go without internal force, and how they yield to it.
+void constrain(const Model& model, const State& state, std::size_t r, Scratch& scratch) {
+  RodScratch& s = scratch.rods[r];
+  predict_nodes(s.inside, state.rods[r], model.gravity_W, s.inputs.tip_force_W_N, model.step_s, s);
+  feel_inner_rods(model, state, r, scratch);
+  tie_to_bores(r, scratch);
+  hold_ends(s.inside, s.inputs, state.rods[r], s);
+}
+
+void predict(const Model& model, const State& state, std::size_t r, TimeScheme scheme, Scratch& scratch) {
+  RodScratch& s = scratch.rods[r];
   s.scheme = scheme;
   s.progress = Progress::open;
   s.geometric = scheme == TimeScheme::from_rest ? GeometricStiffness::without : GeometricStiffness::with;
-  predict_nodes(rod, state, model.gravity_W, s.inputs.tip_force_W_N, model.step_s, s);
-  hold_ends(rod, s.inputs, state, s);
-  predict_elements(rod, state, s);
+  predict_elements(s.inside, state.rods[r], s);
+  find_bores(model, state, r, scratch);
+  constrain(model, state, r, scratch);
 }
 
 void begin(const Model& model, const Inputs& inputs, State& state, Scratch& scratch, StepReport& report) {
@@ -39,32 +50,51 @@ void begin(const Model& model, const Inputs& inputs, State& state, Scratch& scra
     RodScratch& s = scratch.rods[r];
     report.rods[r] = {};
     s.inputs = limited(inputs.rods[r], report.rods[r].trouble);
-    const bool jump = take_hold(s.inputs, state.rods[r]);
+    s.scheme = take_hold(s.inputs, state.rods[r]) ? TimeScheme::fresh : TimeScheme::bdf2;
     drive_ends(s.inputs, model.step_s, state.rods[r]);
     feed(model.rods[r], s.inputs, model.step_s, state.rods[r], report.rods[r].trouble);
     cut_at_introducer(model.rods[r], state.rods[r], s.inside);
-    predict(model, s.inside, state.rods[r], jump ? TimeScheme::fresh : TimeScheme::bdf2, s);
   }
 }
 
-void linearise(const Rod& rod, const RodState& state, double step_s, RodScratch& s) {
-  linearise_joints(rod, state, joints_of(s.inputs), step_s, s);
+void linearise(const State& state, double step_s, std::size_t r, Scratch& scratch) {
+  RodScratch& s = scratch.rods[r];
+  const Rod& rod = s.inside;
+  linearise_joints(rod, state.rods[r], joints_of(s.inputs), step_s, s);
+  lend_to_joints(rod, scratch.bindings[r], s);
   assemble_elements(rod, s);
+  lend_to_elements(rod, scratch.bindings[r], s);
   add_rotary_inertia(rod, step_s, s);
-  add_rotary_torque(rod, state, step_s, s);
+  add_rotary_torque(rod, state.rods[r], step_s, s);
 }
 
-/// Open rods, two at a time: a register has lanes for two.
-void solve_open(Scratch& scratch) {
+using Group = std::vector<int>;
+
+/// Solves a rod that is in others, until its ties hold where it pushes and nowhere else.
+void solve_inner(int r, Scratch& scratch) {
+  RodScratch& s = scratch.rods[r];
+  const int rims = rim_count(scratch, r);
+  do {
+    for (int k = 0; k < rims; ++k) solve(s.chain, rim_load(r, k, scratch), scratch.factors);
+    if (rims == 0) solve(s.chain, nullptr, scratch.factors);
+    take_rim_loads(r, scratch);
+  } while (change_ties(r, scratch));
+}
+
+/// Open rods of a group; those that are in no other two at a time, as a register has lanes for two.
+void solve_open(const Group& group, Scratch& scratch) {
   RodScratch* waiting = nullptr;
-  for (RodScratch& s : scratch.rods) {
+  for (int r : group) {
+    RodScratch& s = scratch.rods[r];
     if (s.progress != Progress::open) continue;
-    if (!waiting) {
+    if (is_inner(scratch, r)) {
+      solve_inner(r, scratch);
+    } else if (!waiting) {
       waiting = &s;
-      continue;
+    } else {
+      solve(waiting->chain, &s.chain, scratch.factors);
+      waiting = nullptr;
     }
-    solve(waiting->chain, &s.chain, scratch.factors);
-    waiting = nullptr;
   }
   if (waiting) solve(waiting->chain, nullptr, scratch.factors);
 }
@@ -88,18 +118,16 @@ void take_solution(const Rod& rod, RodScratch& s, RodReport& report) {
     s.progress = Progress::done;
 }
 
-bool any(const Scratch& scratch, Progress progress) {
-  return std::any_of(scratch.rods.begin(), scratch.rods.end(),
-                     [&](const RodScratch& s) { return s.progress == progress; });
+bool any(const Group& group, const Scratch& scratch, Progress progress) {
+  return std::any_of(group.begin(), group.end(), [&](int r) { return scratch.rods[r].progress == progress; });
 }
 
-void iterate(const Model& model, const State& state, Scratch& scratch, StepReport& report) {
-  for (int i = 0; i < tunables::max_newton_iterations && any(scratch, Progress::open); ++i) {
-    for (std::size_t r = 0; r < model.rods.size(); ++r)
-      if (scratch.rods[r].progress == Progress::open)
-        linearise(scratch.rods[r].inside, state.rods[r], model.step_s, scratch.rods[r]);
-    solve_open(scratch);
-    for (std::size_t r = 0; r < model.rods.size(); ++r)
+void iterate(const Model& model, const State& state, const Group& group, Scratch& scratch, StepReport& report) {
+  for (int i = 0; i < tunables::max_newton_iterations && any(group, scratch, Progress::open); ++i) {
+    for (int r : group)
+      if (scratch.rods[r].progress == Progress::open) linearise(state, model.step_s, r, scratch);
+    solve_open(group, scratch);
+    for (int r : group)
       if (scratch.rods[r].progress == Progress::open)
         take_solution(scratch.rods[r].inside, scratch.rods[r], report.rods[r]);
   }
@@ -108,8 +136,9 @@ void iterate(const Model& model, const State& state, Scratch& scratch, StepRepor
 bool usable(const RodScratch& s) { return s.progress != Progress::failed && s.defect <= tunables::usable_stretch; }
 
 /// Rods that move too violently for a step give up their velocity.
-void retry_from_rest(const Model& model, State& state, Scratch& scratch, StepReport& report) {
-  for (std::size_t r = 0; r < model.rods.size(); ++r) {
+void retry_from_rest(const Model& model, State& state, const Group& group, Scratch& scratch, StepReport& report) {
+  if (!any(group, scratch, Progress::open) && !any(group, scratch, Progress::failed)) return;
+  for (int r : group) {
     RodScratch& s = scratch.rods[r];
     if (usable(s)) {
       if (s.progress == Progress::open) s.progress = Progress::given_up;
@@ -117,9 +146,9 @@ void retry_from_rest(const Model& model, State& state, Scratch& scratch, StepRep
     }
     report.rods[r].trouble |= motion_lost;
     halt(s.inside, state.rods[r]);
-    predict(model, s.inside, state.rods[r], TimeScheme::from_rest, s);
+    predict(model, state, r, TimeScheme::from_rest, scratch);
   }
-  iterate(model, state, scratch, report);
+  iterate(model, state, group, scratch, report);
 }
 
 void report_forces(const Model& model, const Rod& rod, const RodScratch& s, const RodState& state, RodReport& report) {
@@ -156,14 +185,18 @@ void finish(const Model& model, const Rod& rod, RodScratch& s, RodState& state, 
 void step(const Model& model, const Inputs& inputs, State& state, Scratch& scratch, StepReport& report) {
   assert(fits(model, inputs, state, scratch));
   begin(model, inputs, state, scratch, report);
-  iterate(model, state, scratch, report);
-  if (any(scratch, Progress::open) || any(scratch, Progress::failed)) retry_from_rest(model, state, scratch, report);
+  for (const Group& group : scratch.groups) {
+    for (int r : group) predict(model, state, r, scratch.rods[r].scheme, scratch);
+    iterate(model, state, group, scratch, report);
+    retry_from_rest(model, state, group, scratch, report);
+  }
 
   report.trouble = 0;
   for (std::size_t r = 0; r < model.rods.size(); ++r) {
     finish(model, scratch.rods[r].inside, scratch.rods[r], state.rods[r], report.rods[r]);
     report.trouble |= report.rods[r].trouble;
   }
+  commit_binding(model, scratch, state);
   ++state.step;
 }
 

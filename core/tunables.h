@@ -23,6 +23,13 @@ inline constexpr double max_turn_rad = 0.5;          // of an element in one ite
 inline constexpr double overturned_joint_rad = 2.5;  // an angle between elements that is about to pass pi
 inline constexpr double longest_return_m = 2e-3;     // per step, of an end that was pulled off its hold
 
+// Binding of nested rods.
+inline constexpr double bore_N_m2 = 1e9;   // stiffness of a lumen's wall, per length: a polymer of 1 GPa
+inline constexpr double press_N_m = 1e3;  // how soft the bore's wall is thought, to tell who stays pressed against it
+inline constexpr double loose_m = 2e-6;   // most that a node may leave its bore by before it is tied in the same step
+inline constexpr double least_pull_N = 1e-3;  // of a tie that is let go in the same step
+inline constexpr int max_tie_changes = 6;     // of a rod in one step
+
 // Static equilibrium.
 inline constexpr double static_tolerance_rad = 1e-9;  // largest turn of the last iteration; Newton squares it
 inline constexpr double static_closure = 1e-7;        // largest distance of an end from its hold, of the rod's length

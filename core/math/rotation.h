@@ -29,6 +29,12 @@ V3<T> director3(const Q4<T>& q) {
   return {2.0 * madd(q.x, q.z, q.w * q.y), 2.0 * nmadd(q.w, q.x, q.y * q.z),
           nmadd(q.x + q.x, q.x, nmadd(q.y + q.y, q.y, T{} + 1.0))};
 }
+/// First director.
+template <class T>
+V3<T> director1(const Q4<T>& q) {
+  return {nmadd(q.y + q.y, q.y, nmadd(q.z + q.z, q.z, T{} + 1.0)), 2.0 * madd(q.x, q.y, q.w * q.z),
+          2.0 * nmadd(q.w, q.y, q.x * q.z)};
+}
 template <class T>
 M3<T> matrix(const Q4<T>& q) {
   const T x2 = q.x + q.x, y2 = q.y + q.y, z2 = q.z + q.z, one = T{} + 1.0;

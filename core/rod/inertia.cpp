@@ -87,6 +87,16 @@ void predict_nodes(const Rod& rod, const RodState& state, const Eigen::Vector3d&
   node(double{}, N);
 }
 
+double acceleration_per_move(TimeScheme scheme, double step_s) { return Inertia{scheme, step_s}.A(); }
+
+void keep_acceleration(const Rod& rod, const RodState& state, double step_s, TimeScheme scheme, Field<3>& position) {
+  const Inertia inertia{scheme, step_s};
+  for_packs(rod.first, rod.nodes(), [&]<class T>(T, int i) {
+    const V3<T> r_a = inertia.r_a<T>(state, inertia.r_v<T>(state, i), i);
+    store3(position, i, madd(splat<T>(1 / inertia.A()), load3<T>(state.acceleration, i), r_a));
+  });
+}
+
 void predict_elements(const Rod& rod, const RodState& state, RodScratch& scratch) {
   const bool moving = scratch.scheme != TimeScheme::from_rest;
   for_packs(rod.first, rod.elements, [&]<class T>(T, int j) {
@@ -133,7 +143,9 @@ void commit(const Rod& rod, const RodScratch& scratch, double step_s, RodState& 
   const Inertia inertia{scratch.scheme, step_s};
   for_packs(rod.first, rod.nodes(), [&]<class T>(T, int i) {
     const V3<T> next = load3<T>(scratch.position, i);
-    const V3<T> v = splat<T>(inertia.B()) * (next - inertia.r_v<T>(state, i));
+    const V3<T> r_v = inertia.r_v<T>(state, i), v = splat<T>(inertia.B()) * (next - r_v);
+    if (state.acceleration.size() > 0)
+      store3(state.acceleration, i, splat<T>(inertia.A()) * (next - inertia.r_a<T>(state, r_v, i)));
     store3(state.position_before, i, load3<T>(state.position, i));
     store3(state.position, i, next);
     store3(state.velocity_before, i, load3<T>(state.velocity, i));
@@ -177,6 +189,7 @@ void halt(const Rod& rod, RodState& state) {
     store3(state.position_before, i, load3<T>(state.position, i));
     store3(state.velocity, i, V3<T>{});
     store3(state.velocity_before, i, V3<T>{});
+    if (state.acceleration.size() > 0) store3(state.acceleration, i, V3<T>{});
     if (state.strain.size() > 0) store3(state.strain_before, i, load3<T>(state.strain, i));
   });
   for_packs(rod.first, rod.elements, [&]<class T>(T, int j) {

@@ -11,6 +11,12 @@ namespace ostium {
 void predict_nodes(const Rod& rod, const RodState& state, const Eigen::Vector3d& gravity_W,
                    const Eigen::Vector3d& tip_force_W, double step_s, RodScratch& scratch);
 
+/// Acceleration per displacement of a node's new position, 1/s2.
+double acceleration_per_move(TimeScheme scheme, double step_s);
+
+/// Where nodes would be after the step if they kept state.acceleration.
+void keep_acceleration(const Rod& rod, const RodState& state, double step_s, TimeScheme scheme, Field<3>& position);
+
 /// Extrapolates the frames' turn linearly (not at all from rest): writes scratch.orientation, turn and force.
 void predict_elements(const Rod& rod, const RodState& state, RodScratch& scratch);
 

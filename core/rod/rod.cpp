@@ -54,6 +54,20 @@ void set_cell(Rod& rod, int i, double from_tip) {
   std::visit([&](auto& law) { law.set_cell(i, length, cell.compliance); }, rod.law);
 }
 
+/// The thickest beside a node, the narrowest along an element.
+void set_radii(Rod& rod) {
+  for (int j = 0; j < rod.elements; ++j) {
+    double radius = 0, bore = 1;
+    for (const Section& s : rod.sections)
+      if (s.from_tip_m < rod.node_from_tip_m[j] && s.to_tip_m > rod.node_from_tip_m[j + 1]) {
+        radius = std::max(radius, s.radius_m);
+        bore = std::min(bore, s.inner_radius_m);
+      }
+    rod.bore.at(0)[j] = bore;
+    for (int i : {j, j + 1}) rod.radius.at(0)[i] = std::max(rod.radius.at(0)[i], radius);
+  }
+}
+
 }  // namespace
 
 Rod make_rod(const RodDescription& description) {
@@ -70,6 +84,9 @@ Rod make_rod(const RodDescription& description) {
   rod.mass.resize(N + 1);
   rod.joint_length.resize(N + 1);
   rod.rest_curvature.resize(N + 1);
+  rod.bending.resize(N + 1);
+  rod.radius.resize(N + 1);
+  rod.bore.resize(N);
   rod.law = LinearElastic{Field<3>(N + 1)};
 
   rod.node_from_tip_m.assign(N + 1, 0.0);
@@ -77,8 +94,10 @@ Rod make_rod(const RodDescription& description) {
   rod.total_length_m = rod.node_from_tip_m[0];
   rod.total_mass_kg = integrate(rod.sections, 0, rod.total_length_m).mass;
   for (int j = 0; j < N; ++j) set_element(rod, j, rod.node_from_tip_m[j]);
+  set_radii(rod);
   for (int i = 0; i <= N; ++i) {
     set_cell(rod, i, rod.node_from_tip_m[i]);
+    rod.bending.at(0)[i] = stiffness_at_rest(rod, i).head<2>().maxCoeff();
     if (rod.rest_curvature[i].norm() * rod.joint_length.at(0)[i] > tunables::max_rest_angle_rad)
       throw std::invalid_argument("rod \"" + description.name +
                                   "\": its elements are too long for the curvature at rest " +

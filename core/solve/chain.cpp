@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cassert>
+#include <tuple>
+#include <utility>
 
 #include "core/tunables.h"
 
@@ -12,6 +14,17 @@ namespace {
 constexpr int halves = 2;
 
 int middle(const Chain& chain) { return (chain.first + chain.elements) / 2; }
+
+/// What two lanes solve: the matrix of a chain with its own right-hand side or another.
+struct Problem {
+  const Chain* chain;
+  const Field<3>*torque, *gap;
+  Field<3>*turn = nullptr, *force = nullptr;
+
+  explicit Problem(const Chain& c) : chain(&c), torque(&c.torque), gap(&c.gap) {}  // to look at
+  explicit Problem(Chain& c) : chain(&c), torque(&c.torque), gap(&c.gap), turn(&c.turn), force(&c.force) {}
+  Problem(const Chain& c, ChainLoad& l) : chain(&c), torque(&l.torque), gap(&l.gap), turn(&l.turn), force(&l.force) {}
+};
 
 /// The way of one lane: from one end of one chain towards its middle. A lane with fewer elements starts later, and
 /// idles until then.
@@ -53,10 +66,10 @@ enum Number {
 /// The four lanes of a solve, and what they read at a step.
 class Walks {
  public:
-  Walks(const Chain& first, const Chain& second) {
+  Walks(const Problem& first, const Problem& second) {
     for (int l = 0; l < lane_count; ++l) {
       const bool forward = l % halves == 0;
-      const Chain& chain = l < halves ? first : second;
+      const Chain& chain = *(l < halves ? first : second).chain;
       lanes_[l] = {&chain, forward, forward ? middle(chain) - chain.first : chain.elements - 1 - middle(chain), 0};
       direction_[l] = forward ? 1.0 : -1.0;
       steps_ = std::max(steps_, lanes_[l].blocks);
@@ -64,15 +77,16 @@ class Walks {
     for (int l = 0; l < lane_count; ++l) {
       lanes_[l].wait = steps_ - lanes_[l].blocks;
       // Seen from an element, the node behind is its own when walking forward, the next one when walking back.
-      const Chain& c = *lanes_[l].chain;
+      const Problem& problem = l < halves ? first : second;
+      const Chain& c = *problem.chain;
       const int behind = lanes_[l].forward ? 0 : 1, ahead = 1 - behind;
       const auto from = [&](int number, const auto& field, int components, int shift) {
         for (int k = 0; k < components; ++k) source_[number + k][l] = field.at(k) + shift;
       };
       from(at_K, c.stiffness, 6, 0);
       from(at_arm, c.arm, 3, 0);
-      from(at_torque, c.torque, 3, 0);
-      from(at_gap, c.gap, 3, 0);
+      from(at_torque, *problem.torque, 3, 0);
+      from(at_gap, *problem.gap, 3, 0);
       from(at_P_behind, c.compliance, 6, behind);
       from(at_H, c.joint_stiffness, 6, ahead);
       from(at_m, c.joint_moment, 3, ahead);
@@ -185,11 +199,12 @@ Row<double> lane_of(const Row<Lanes>& r, int l) {
 }
 void set_lane(V3<Lanes>& a, int l, const V3<double>& b) { a.x[l] = b.x, a.y[l] = b.y, a.z[l] = b.z; }
 
-Row<double> middle_row(const Chain& c) {
+Row<double> middle_row(const Problem& p) {
+  const Chain& c = *p.chain;
   const int m = middle(c);
   return row(load6<double>(c.stiffness, m), load3<double>(c.arm, m),
-             load6<double>(c.compliance, m) + load6<double>(c.compliance, m + 1), load3<double>(c.torque, m),
-             load3<double>(c.gap, m));
+             load6<double>(c.compliance, m) + load6<double>(c.compliance, m + 1), load3<double>(*p.torque, m),
+             load3<double>(*p.gap, m));
 }
 
 void set_lane(S3<Lanes>& a, int l, const S3<double>& b) {
@@ -216,29 +231,29 @@ void set_lane(S3<Lanes>& a, int l, const S3<double>& b) {
   return carried;
 }
 
-/// Solves a chain's middle element, and hands its solution to both lanes.
-void solve_middle(Chain& chain, int front, const Row<Lanes>& carried, const Lanes& minor, ChainBlock& block,
+/// Solves a chain's middle element, and hands its solution to both lanes; false if the matrix is not definite.
+bool solve_middle(const Problem& problem, int front, const Row<Lanes>& carried, const Lanes& minor, ChainBlock& block,
                   V3<Lanes>& turn, V3<Lanes>& force) {
-  const Row<double> r = middle_row(chain) + lane_of(carried, front) + lane_of(carried, front + 1);
+  const Row<double> r = middle_row(problem) + lane_of(carried, front) + lane_of(carried, front + 1);
   const S3<double> A_inv = inverse(r.A);
   const M3<double> W = r.G * A_inv;
   const S3<double> S = r.K + symmetric_times_transpose(W, r.G);
   const S3<double> S_inv = inverse(S);
-  chain.definite = minor[front] > 0 && minor[front + 1] > 0 && least_minor(S) > 0;
   V3<double> phi, n;
   apply_inverse(S_inv, A_inv, W, r.torque, r.gap, phi, n);
-  store3(chain.turn, middle(chain), phi);
-  store3(chain.force, middle(chain), n);
+  store3(*problem.turn, middle(*problem.chain), phi);
+  store3(*problem.force, middle(*problem.chain), n);
   for (int l : {front, front + 1}) {
     set_lane(turn, l, phi), set_lane(force, l, n);
     set_lane(block.S_inv, l, S_inv), set_lane(block.A_inv, l, A_inv);
   }
+  return minor[front] > 0 && minor[front + 1] > 0 && least_minor(S) > 0;
 }
 
 /// From the middle back to the ends.
-[[gnu::flatten]] void substitute_back(const Walks& walks, const ChainFactors& factors, Chain* const (&chains)[2],
-                                      V3<Lanes> turn, V3<Lanes> force) {
-  const int lanes = chains[1] ? lane_count : halves;
+[[gnu::flatten]] void substitute_back(const Walks& walks, const ChainFactors& factors, const Problem& first,
+                                      const Problem* second, V3<Lanes> turn, V3<Lanes> force) {
+  const int lanes = second ? lane_count : halves;
   for (int t = walks.steps() - 1; t >= 0; --t) {
     const ChainBlock& b = factors.blocks[t];
     apply_inverse<Lanes>(b.S_inv, b.A_inv, b.W, b.torque - b.turn_coupling * turn, b.gap - b.force_coupling * force,
@@ -246,8 +261,9 @@ void solve_middle(Chain& chain, int front, const Row<Lanes>& carried, const Lane
     for (int l = 0; l < lanes; ++l) {
       if (t < walks.lane(l).wait) continue;
       const int j = walks.lane(l).element(t);
-      store3(chains[l / halves]->turn, j, lane_of(turn, l));
-      store3(chains[l / halves]->force, j, lane_of(force, l));
+      const Problem& problem = l < halves ? first : *second;
+      store3(*problem.turn, j, lane_of(turn, l));
+      store3(*problem.force, j, lane_of(force, l));
     }
   }
 }
@@ -258,6 +274,23 @@ int negatives(const S3<double>& s) {
   const double yz = s.yz - s.xy * s.xz / s.xx;
   const double third = s.zz - s.xz * s.xz / s.xx - yz * yz / second;
   return (first < 0) + (second < 0) + (third < 0);
+}
+
+/// Whether the matrices are definite.
+std::pair<bool, bool> solve(const Problem& first, const Problem* second, ChainFactors& factors) {
+  assert(static_cast<int>(factors.blocks.size()) >
+         std::max(first.chain->elements, second ? second->chain->elements : 0) / 2);
+  Walks walks(first, second ? *second : first);
+  Lanes minor = splat<Lanes>(1);
+  const Row<Lanes> carried = eliminate_halves(walks, factors, minor);
+
+  V3<Lanes> turn{}, force{};
+  std::pair<bool, bool> definite{true, true};
+  ChainBlock& middle_block = factors.blocks[walks.steps()];
+  definite.first = solve_middle(first, 0, carried, minor, middle_block, turn, force);
+  if (second) definite.second = solve_middle(*second, halves, carried, minor, middle_block, turn, force);
+  substitute_back(walks, factors, first, second, turn, force);
+  return definite;
 }
 
 }  // namespace
@@ -277,21 +310,23 @@ Chain::Chain(int elements)
 }
 
 void solve(Chain& first, Chain* second, ChainFactors& factors) {
-  assert(static_cast<int>(factors.blocks.size()) > std::max(first.elements, second ? second->elements : 0) / 2);
-  Walks walks(first, second ? *second : first);
-  Lanes minor = splat<Lanes>(1);
-  const Row<Lanes> carried = eliminate_halves(walks, factors, minor);
+  const Problem one(first);
+  if (!second) {
+    first.definite = solve(one, nullptr, factors).first;
+    return;
+  }
+  const Problem two(*second);
+  std::tie(first.definite, second->definite) = solve(one, &two, factors);
+}
 
-  V3<Lanes> turn{}, force{};
-  ChainBlock& middle_block = factors.blocks[walks.steps()];
-  solve_middle(first, 0, carried, minor, middle_block, turn, force);
-  if (second) solve_middle(*second, halves, carried, minor, middle_block, turn, force);
-  substitute_back(walks, factors, {&first, second}, turn, force);
+void solve(Chain& chain, ChainLoad& load, ChainFactors& factors) {
+  const Problem more(chain, load);
+  chain.definite = solve(Problem(chain), &more, factors).first;
 }
 
 int negative_pivots(const Chain& chain, const ChainFactors& factors) {
   // Inertia of the whole system: it has 3 N negative eigenvalues for its 3 N constraint forces; more are unstable.
-  const Walks walks(chain, chain);
+  const Walks walks(Problem{chain}, Problem{chain});
   int negative = 0;
   const auto count = [&](int t, int l) {
     negative += negatives(lane_of(factors.blocks[t].S_inv, l)) + 3 - negatives(lane_of(factors.blocks[t].A_inv, l));

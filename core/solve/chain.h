@@ -40,6 +40,14 @@ struct Chain {
   bool definite = true;  ///< every motion that the constraints leave costs energy; else the solution leads to a saddle
 };
 
+/// One more right-hand side of a chain, and the solution that belongs to it.
+struct ChainLoad {
+  explicit ChainLoad(int elements = 0) : torque(elements + 1), gap(elements + 1), turn(elements), force(elements) {}
+
+  Field<3> torque, gap;  ///< (#elements)
+  Field<3> turn, force;  ///< (#elements)
+};
+
 /// What is eliminated at one element, in four chains side by side.
 struct ChainBlock {
   S3<Lanes> S_inv;  ///< inverse of K + G A^-1 G^T
@@ -62,6 +70,9 @@ struct ChainFactors {
 /// longer. A chain's solution does not depend, to the last bit, on what shares the call. Does not allocate. Two threads
 /// may solve different chains with different factors.
 void solve(Chain& first, Chain* second, ChainFactors& factors);
+
+/// Solves one chain, to the same bits, and for one more right-hand side in the lanes that are left.
+void solve(Chain& chain, ChainLoad& load, ChainFactors& factors);
 
 /// Number of directions in which the system of the last `solve(chain, nullptr, factors)` has negative stiffness, on
 /// the space of motions that its constraints leave (Sylvester's law of inertia, from the pivots): 0 where an

@@ -1,0 +1,548 @@
+#include "core/binding/binding.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/math/rotation.h"
+#include "core/rod/inertia.h"
+#include "core/solve/node_spring.h"
+#include "core/tunables.h"
+
+namespace ostium {
+
+namespace {
+
+constexpr double infinite = std::numeric_limits<double>::infinity();
+
+/// Distance from the introducer to node i, along the rod.
+double depth(const Rod& inside, int i) { return i == inside.first ? 0 : inside.total_length_m - inside.node_from_tip_m[i]; }
+
+/// A point of the centreline through the nodes, smooth where the polygon has corners.
+struct CentrelinePoint {
+  V3<double> p, tangent;
+};
+
+/// Curvature vector of the polygon at inner node i.
+V3<double> curvature(const Rod& rod, const RodScratch& s, int i) {
+  i = std::clamp(i, rod.first + 1, rod.elements - 1);
+  return (1 / rod.joint_length.at(0)[i]) *
+         (director3(load4<double>(s.orientation, i)) - director3(load4<double>(s.orientation, i - 1)));
+}
+
+CentrelinePoint centreline(const Rod& rod, const RodScratch& s, const Field<3>& position, int element, double along) {
+  const V3<double> a = load3<double>(position, element), b = load3<double>(position, element + 1);
+  const double length = rod.length.at(0)[element];
+  const V3<double> k = 0.5 * (curvature(rod, s, element) + curvature(rod, s, element + 1));
+  CentrelinePoint out;
+  out.p = madd(-0.5 * along * (1 - along) * length * length, k, madd(along, b - a, a));
+  V3<double> t = madd((along - 0.5) * length * length, k, b - a);
+  out.tangent = (1 / std::sqrt(dot(t, t))) * t;
+  return out;
+}
+
+V3<double> across(const V3<double>& tangent, const V3<double>& v) { return madd(-dot(tangent, v), tangent, v); }
+
+/// What a rod's cross-section lends: half an infinite beam on its own inertia resists a force and a turn at its end
+/// with less than these (a beam on an elastic foundation; Hetenyi 1946).
+struct EndImpedance {
+  double force_N_m, turn_Nm_rad;
+  EndImpedance(double EI, double inertia_N_m2, double length) {
+    const double beta = std::pow(inertia_N_m2 / (4 * EI), 0.25);
+    force_N_m = std::min(2 * EI * beta * beta * beta, 4 * inertia_N_m2 * length);
+    turn_Nm_rad = std::min(EI * beta, 4. / 3 * inertia_N_m2 * length * length * length);
+  }
+};
+
+/// How the inner rod would move in the step if its acceleration, and how fast it crosses its bore, stayed as they are:
+/// what its outer rod would do that followed it. Written to `moves`.
+void moves_of_inner(const Rod& inner, const RodState& state, double step_s, TimeScheme scheme, Field<3>& moves) {
+  keep_acceleration(inner, state, step_s, scheme, moves);
+  for_packs(inner.first, inner.nodes(), [&]<class T>(T, int i) {
+    const V3<T> crossing = load3<T>(state.offset, i) - load3<T>(state.offset_before, i);
+    store3(moves, i, load3<T>(moves, i) - load3<T>(state.position, i) - crossing);
+  });
+}
+
+void lend(const Rod& outer, const RodState& inner_state, const Rod& inner, const Field<3>& moves, double lumen_m,
+          double inertia, BindingScratch& b) {
+  int k = inner.first;
+  const double outer_tip = outer.total_length_m, inner_tip = inner.total_length_m;
+  const auto add_spring = [&](int i, double spring, const V3<double>& move) {
+    b.spring.at(0)[i] += spring;
+    store3(b.pull, i, madd(spring, move, load3<double>(b.pull, i)));
+  };
+  for (int i = outer.first; i < outer.nodes(); ++i) {
+    const double at = depth(outer, i);
+    if (at < outer_tip - lumen_m) continue;
+    if (at > inner_tip) break;
+    while (k + 1 < inner.elements && depth(inner, k + 1) <= at) ++k;
+    const double behind = depth(inner, k), part = largest(0, least(1, (at - behind) / (depth(inner, k + 1) - behind)));
+    const V3<double> move = madd(part, load3<double>(moves, k + 1), (1 - part) * load3<double>(moves, k));
+    const double cell = outer.joint_length.at(0)[i];
+    const double inner_inertia = inertia * inner.mass.at(0)[k] / inner.joint_length.at(0)[k];
+    const double EI = inner.bending.at(0)[k];
+    add_spring(i, inner_inertia * cell, move);
+    b.bending.at(0)[i] += EI / cell;
+    const double tension = dot(load3<double>(inner_state.force, k), director3(load4<double>(inner_state.orientation, k)));
+    if (i < outer.elements && tension > 0) b.turning.at(0)[i] += outer.length.at(0)[i] * tension;
+    if (i == outer.elements && inner_tip > outer_tip) {
+      const EndImpedance beyond(EI, inner_inertia, inner_tip - outer_tip);
+      add_spring(i, beyond.force_N_m, move);
+      b.tip_turning += beyond.turn_Nm_rad;
+      const V3<double> turn = 2.0 * load3<double>(inner_state.turn, k) - load3<double>(inner_state.turn_before, k);
+      b.tip_torque = madd(beyond.turn_Nm_rad, turn, b.tip_torque);
+    }
+  }
+}
+
+}  // namespace
+
+void feel_inner_rods(const Model& model, const State& state, std::size_t r, Scratch& scratch) {
+  BindingScratch& b = scratch.bindings[r];
+  if (b.bending.size() == 0) return;
+  RodScratch& s = scratch.rods[r];
+  const Rod& rod = s.inside;
+  for (Field<1>* f : {&b.bending, &b.turning, &b.spring}) std::fill(f->raw().begin(), f->raw().end(), 0.0);
+  std::fill(b.pull.raw().begin(), b.pull.raw().end(), 0.0);
+  b.tip_turning = 0, b.tip_torque = {};
+  const double inertia = acceleration_per_move(s.scheme, model.step_s);
+  for (const Nesting& n : model.nestings) {
+    if (n.outer != static_cast<int>(r)) continue;
+    const Rod& inner = scratch.rods[n.inner].inside;
+    Field<3>& moves = scratch.bindings[n.inner].moves;
+    moves_of_inner(inner, state.rods[n.inner], model.step_s, s.scheme, moves);
+    lend(rod, state.rods[n.inner], inner, moves, n.lumen_m, inertia, b);
+  }
+
+  for (int i = rod.first; i < rod.nodes(); ++i) {
+    S3<double> P = load6<double>(s.chain.compliance, i);
+    V3<double> target = load3<double>(s.target, i);
+    target = target + P * load3<double>(state.rods[r].inner_force, i);
+    const double softness = 1 / b.spring.at(0)[i];
+    const M3<double> R = matrix(load4<double>(state.rods[r].orientation, std::min(i, rod.elements - 1)));
+    const V3<double> d1{R.r0.x, R.r1.x, R.r2.x}, d2{R.r0.y, R.r1.y, R.r2.y};
+    V3<double> place = load3<double>(state.rods[r].position, i);
+    if (b.spring.at(0)[i] > 0) place = madd(softness, load3<double>(b.pull, i), place);
+    tie(d1, dot(d1, place), softness, P, target);
+    tie(d2, dot(d2, place), softness, P, target);
+    store6(s.chain.compliance, i, P);
+    store3(s.target, i, target);
+  }
+}
+
+namespace {
+/// Of a turn across the axis d: stiffness (I - d d^T).
+template <class T>
+S3<T> across_axis(T stiffness, const V3<T>& d) {
+  const V3<T> e = stiffness * d;
+  return {nmadd(e.x, d.x, stiffness), T{} - e.x * d.y, T{} - e.x * d.z,
+          nmadd(e.y, d.y, stiffness), T{} - e.y * d.z, nmadd(e.z, d.z, stiffness)};
+}
+}  // namespace
+
+void lend_to_joints(const Rod& rod, const BindingScratch& b, RodScratch& s) {
+  if (b.bending.size() == 0) return;
+  Chain& chain = s.chain;
+  const auto joint = [&]<class T>(T, int i, const V3<T>& turn_before) {
+    const S3<T> H = across_axis(load<T>(b.bending.at(0) + i), director3(load4<T>(s.orientation, i)));
+    store6(chain.joint_stiffness, i, load6<T>(chain.joint_stiffness, i) + H);
+    store3(chain.joint_moment, i, load3<T>(chain.joint_moment, i) + H * (load3<T>(s.turn, i) - turn_before));
+  };
+  if (s.inputs.base.hold == Hold::clamped) joint(double{}, rod.first, V3<double>{});
+  for_packs(rod.first + 1, rod.elements, [&]<class T>(T t, int i) { joint(t, i, load3<T>(s.turn, i - 1)); });
+}
+
+void lend_to_elements(const Rod& rod, const BindingScratch& b, RodScratch& s) {
+  if (b.bending.size() == 0) return;
+  Chain& chain = s.chain;
+  for_packs(rod.first, rod.elements, [&]<class T>(T, int j) {
+    const S3<T> K = across_axis(load<T>(b.turning.at(0) + j), director3(load4<T>(s.orientation, j)));
+    store6(chain.stiffness, j, load6<T>(chain.stiffness, j) + K);
+    store3(chain.torque, j, load3<T>(chain.torque, j) - K * load3<T>(s.turn, j));
+  });
+  if (b.tip_turning == 0) return;
+  const int tip = rod.elements - 1;
+  const S3<double> K = across_axis(b.tip_turning, director3(load4<double>(s.orientation, tip)));
+  store6(chain.stiffness, tip, load6<double>(chain.stiffness, tip) + K);
+  store3(chain.torque, tip, load3<double>(chain.torque, tip) - K * load3<double>(s.turn, tip) + b.tip_torque);
+}
+
+namespace {
+
+/// Nodes as if they went on as they moved.
+void guess(const RodState& last, RodScratch& s) {
+  for_packs(s.inside.first, s.inside.nodes(), [&]<class T>(T, int i) {
+    const V3<T> r_n = load3<T>(last.position, i);
+    const V3<T> move = s.scheme == TimeScheme::from_rest ? V3<T>{} : r_n - load3<T>(last.position_before, i);
+    store3(s.position, i, r_n + move);
+  });
+}
+
+V3<double> node_force(const Field<3>& force, int first, int elements, int i) {
+  V3<double> f{};
+  if (i < elements) f = load3<double>(force, i);
+  if (i > first) f = f - load3<double>(force, i - 1);
+  return f;
+}
+
+/// Moves where node i would go without internal force, and keeps the chain's gaps in step.
+void move_target(int i, const V3<double>& move, RodScratch& s) {
+  Field<3>& gap = s.chain.gap;
+  if (i > s.chain.first) store3(gap, i - 1, load3<double>(gap, i - 1) - move);
+  if (i < s.chain.elements) store3(gap, i, load3<double>(gap, i) + move);
+  store3(s.target, i, load3<double>(s.target, i) + move);
+}
+
+/// Direction in which a node, or a point at a rim, is pressed against the bore, and whether it is: its offset, and how
+/// far the force that it exerted would have pressed it into a soft wall.
+V3<double> pressed(const V3<double>& offset, const V3<double>& force) {
+  if (dot(force, offset) <= 0) return offset;  // it was held back, not pressed
+  return madd(1 / tunables::press_N_m, force, offset);
+}
+
+class Enclosing {
+ public:
+  Enclosing(const Rod& inner, const Rod& outer, const RodScratch& outer_s, const Nesting& nesting, int index,
+            const Field<3>& position, BindingScratch& b)
+      : inner_(inner), outer_(outer), outer_s_(outer_s), nesting_(nesting), index_(index), position_(position), b_(b) {}
+
+  /// Finds the nodes in this lumen; returns the last of them, or -1.
+  int find(int last_free) {
+    const double begin = outer_.total_length_m - nesting_.lumen_m;
+    int element = outer_.first, last = -1;
+    for (int i = inner_.first + 1; i <= last_free; ++i) {
+      const double at = depth(inner_, i);
+      if (at < begin) continue;
+      if (last < 0)
+        while (element + 1 < outer_.elements && depth(outer_, element + 1) < at - 2 * outer_.length.at(0)[element]) ++element;
+      const V3<double> r = load3<double>(position_, i);
+      double along = project(r, element);
+      while (along > 1 && element + 1 < outer_.elements) along = project(r, ++element);
+      if (along > 1) break;  // beyond the tip
+      if (b_.nesting[i] < 0 && along >= 0) {
+        b_.nesting[i] = index_, b_.element[i] = element, b_.along.at(0)[i] = along;
+      }
+      if (b_.nesting[i] < 0) b_.nesting[i] = index_, b_.element[i] = element, b_.along.at(0)[i] = 0;
+      last = i;
+    }
+    return last;
+  }
+
+ private:
+  double project(const V3<double>& r, int element) const {
+    const V3<double> a = load3<double>(outer_s_.position, element), d = load3<double>(outer_s_.position, element + 1) - a;
+    return dot(r - a, d) / dot(d, d);
+  }
+
+  const Rod &inner_, &outer_;
+  const RodScratch& outer_s_;
+  const Nesting& nesting_;
+  int index_;
+  const Field<3>& position_;
+  BindingScratch& b_;
+};
+
+/// Ties node i along `normal`. Its force turns with it about the lumen's centre, which stays it like a pendulum.
+void set_tie(int i, const V3<double>& normal, double force_N, BindingScratch& b) {
+  store3(b.normal, i, normal);
+  b.softness.at(0)[i] = b.wall.at(0)[i];
+  b.stay.at(0)[i] = largest(0, force_N) / largest(b.room.at(0)[i], 1e-9);
+}
+
+void find_ties(const Model& model, const Rod& rod, const RodState& state, const Scratch& scratch, BindingScratch& b) {
+  for (int i = rod.first; i < rod.nodes(); ++i) {
+    b.softness.at(0)[i] = infinite, b.stay.at(0)[i] = 0;
+    if (b.nesting[i] < 0) continue;
+    const RodScratch& outer = scratch.rods[model.nestings[b.nesting[i]].outer];
+    const int element = b.element[i];
+    const CentrelinePoint c = centreline(outer.inside, outer, outer.position, element, b.along.at(0)[i]);
+    store3(b.centre, i, c.p);
+    store3(b.tangent, i, c.tangent);
+    b.wall.at(0)[i] = 1 / (tunables::bore_N_m2 * rod.joint_length.at(0)[i]);
+    b.room.at(0)[i] = outer.inside.bore.at(0)[element] - rod.radius.at(0)[i];
+    const V3<double> force = across(c.tangent, load3<double>(state.contact_force, i));
+    const V3<double> now = load3<double>(state.offset, i), next = now + (now - load3<double>(state.offset_before, i));
+    const V3<double> press = pressed(across(c.tangent, next), force);
+    const double reach = std::sqrt(dot(press, press));
+    if (i > b.last || !(reach > b.room.at(0)[i])) continue;
+    const V3<double> n = (1 / reach) * press;
+    set_tie(i, n, dot(force, n), b);
+  }
+}
+
+void find_rim(const Model& model, const State& state, int index, int node, const Rod& rod, const Field<3>& position,
+              Scratch& scratch, BindingScratch& b, RodScratch& s) {
+  const Nesting& nesting = model.nestings[index];
+  const RodScratch& outer = scratch.rods[nesting.outer];
+  const Rod& tube = outer.inside;
+  Rim& rim = b.rims[b.rim_count];
+  rim.nesting = index, rim.node = node;
+  const CentrelinePoint tip = centreline(tube, outer, outer.position, tube.elements - 1, 1);
+  const V3<double> a = load3<double>(position, node), d = load3<double>(position, node + 1) - a;
+  rim.along = std::clamp(dot(tip.tangent, tip.p - a) / dot(tip.tangent, d), 0.0, 1.0);
+  const V3<double> point = centreline(rod, s, position, node, rim.along).p;
+  const V3<double> bulge = point - madd(rim.along, d, a);
+  rim.centre = tip.p - bulge;
+  rim.tangent = tip.tangent;
+  rim.room = tube.bore.at(0)[tube.elements - 1] - rod.radius.at(0)[node];
+  rim.wall = 2 / (tunables::bore_N_m2 * rod.length.at(0)[node]);
+  rim.force_N = 0;
+  // It is pressed as it was, there or at the node that has just left.
+  V3<double> press = from_eigen(state.nestings[index].rim_force_W_N) +
+                     load3<double>(state.rods[nesting.inner].contact_force, node + 1);
+  if (dot(press, press) == 0) press = point - tip.p;
+  press = across(tip.tangent, press);
+  const double reach = std::sqrt(dot(press, press));
+  rim.normal = reach > 0 ? (1 / reach) * press : director1(load4<double>(outer.orientation, tube.elements - 1));
+  ++b.rim_count;
+}
+
+}  // namespace
+
+void find_bores(const Model& model, const State& state, std::size_t r, Scratch& scratch) {
+  BindingScratch& b = scratch.bindings[r];
+  if (b.nesting.empty()) return;
+  RodScratch& s = scratch.rods[r];
+  guess(state.rods[r], s);
+  const Field<3>& position = s.position;
+  const Rod& rod = s.inside;
+  std::fill(b.nesting.begin(), b.nesting.end(), -1);
+  b.rim_count = 0;
+  // The last rod's lumen first: it is the innermost.
+  for (int index = static_cast<int>(model.nestings.size()) - 1; index >= 0; --index) {
+    const Nesting& nesting = model.nestings[index];
+    if (nesting.inner != static_cast<int>(r)) continue;
+    const RodScratch& outer = scratch.rods[nesting.outer];
+    Enclosing lumen(rod, outer.inside, outer, nesting, index, position, b);
+    const int last = lumen.find(rod.elements);
+    if (last >= 0 && last < rod.elements && b.nesting[last] == index && b.nesting[last + 1] < 0)
+      find_rim(model, state, index, last, rod, position, scratch, b, s);
+  }
+  b.last = s.inputs.tip.hold == Hold::free ? rod.elements : rod.elements - 1;
+  find_ties(model, rod, state.rods[r], scratch, b);
+}
+
+namespace {
+
+/// Puts node i back to where it is free, and ties it again if it is tied; keeps the chain's gaps in step.
+void renew_node(int i, BindingScratch& b, RodScratch& s) {
+  S3<double> P = load6<double>(b.free_compliance, i);
+  V3<double> target = load3<double>(b.free_target, i);
+  if (b.softness.at(0)[i] < infinite) {
+    const V3<double> n = load3<double>(b.normal, i), e = cross(load3<double>(b.tangent, i), n);
+    const V3<double> centre = load3<double>(b.centre, i);
+    tie(n, dot(n, centre) + b.room.at(0)[i], b.softness.at(0)[i], P, target);
+    tie(e, dot(e, centre), 1 / b.stay.at(0)[i], P, target);
+  }
+  move_target(i, target - load3<double>(s.target, i), s);
+  store6(s.chain.compliance, i, P);
+}
+
+}  // namespace
+
+void tie_to_bores(std::size_t r, Scratch& scratch) {
+  BindingScratch& b = scratch.bindings[r];
+  if (b.nesting.empty()) return;
+  RodScratch& s = scratch.rods[r];
+  for (int k = 0; k < b.rim_count; ++k) b.rims[k].force_N = 0;
+  b.free_compliance = s.chain.compliance;
+  b.free_target = s.target;
+  b.changes = 0;
+  for (int i = s.inside.first; i < s.inside.nodes(); ++i)
+    if (b.softness.at(0)[i] < infinite) renew_node(i, b, s);
+}
+
+bool change_ties(std::size_t r, Scratch& scratch) {
+  BindingScratch& b = scratch.bindings[r];
+  if (b.nesting.empty() || b.changes >= tunables::max_tie_changes) return false;
+  RodScratch& s = scratch.rods[r];
+  const Chain& chain = s.chain;
+  const auto solved = [&](int i) {
+    return load3<double>(s.target, i) +
+           load6<double>(chain.compliance, i) * node_force(chain.force, chain.first, chain.elements, i);
+  };
+  const bool may_release = b.changes < tunables::max_tie_changes / 2;  // later on, so that no node comes and goes
+  bool any = false;
+  for (int i = chain.first; i <= b.last; ++i) {
+    if (b.nesting[i] < 0) continue;
+    const V3<double> offset = across(load3<double>(b.tangent, i), solved(i) - load3<double>(b.centre, i));
+    const double room = b.room.at(0)[i];
+    if (b.softness.at(0)[i] < infinite) {
+      const double force = (dot(load3<double>(b.normal, i), offset) - room) / b.softness.at(0)[i];
+      if (!may_release || force > -tunables::least_pull_N) continue;
+      b.softness.at(0)[i] = infinite;
+    } else {
+      const double reach = std::sqrt(dot(offset, offset));
+      if (!(reach > room + tunables::loose_m)) continue;
+      set_tie(i, (1 / reach) * offset, 0, b);
+    }
+    renew_node(i, b, s);
+    any = true;
+  }
+  for (int k = 0; k < b.rim_count; ++k) {
+    Rim& rim = b.rims[k];
+    const V3<double> point = (1 - rim.along) * solved(rim.node) + rim.along * solved(rim.node + 1);
+    const V3<double> offset = across(rim.tangent, point - rim.centre);
+    const double reach = std::sqrt(dot(offset, offset));
+    if (!(reach > rim.room + rim.wall * rim.force_N + tunables::loose_m)) continue;
+    rim.normal = (1 / reach) * offset;
+    any = true;
+  }
+  if (!any) return false;
+  ++b.changes;
+  for (int k = 0; k < b.rim_count; ++k) {
+    Rim& rim = b.rims[k];
+    rim.force_N = 0;
+    for (int i : {rim.node, rim.node + 1}) renew_node(i, b, s);
+  }
+  return true;
+}
+
+bool is_inner(const Scratch& scratch, std::size_t r) { return !scratch.bindings[r].nesting.empty(); }
+
+int rim_count(const Scratch& scratch, std::size_t r) { return scratch.bindings[r].rim_count; }
+
+namespace {
+/// What a unit force along the rim's normal moves nodes by, at its two nodes, without internal force.
+struct RimPush {
+  V3<double> before, after;
+  RimPush(const Rim& rim, const Chain& chain)
+      : before((1 - rim.along) * (load6<double>(chain.compliance, rim.node) * rim.normal)),
+        after(rim.along * (load6<double>(chain.compliance, rim.node + 1) * rim.normal)) {}
+};
+
+/// Along the rim's normal, of its point, when nodes are at `target` + P (internal force).
+double rim_move(const Rim& rim, const Chain& chain, const Field<3>& force, const V3<double>& before,
+                const V3<double>& after) {
+  const auto node = [&](int i, const V3<double>& target) {
+    return dot(rim.normal, target + load6<double>(chain.compliance, i) * node_force(force, chain.first, chain.elements, i));
+  };
+  return (1 - rim.along) * node(rim.node, before) + rim.along * node(rim.node + 1, after);
+}
+}  // namespace
+
+ChainLoad& rim_load(std::size_t r, int k, Scratch& scratch) {
+  BindingScratch& b = scratch.bindings[r];
+  const Chain& chain = scratch.rods[r].chain;
+  ChainLoad& load = b.rim_loads[k];
+  const Rim& rim = b.rims[k];
+  std::fill(load.torque.raw().begin(), load.torque.raw().end(), 0.0);
+  std::fill(load.gap.raw().begin(), load.gap.raw().end(), 0.0);
+  const RimPush push(rim, chain);
+  const auto add = [&](int j, const V3<double>& u) {
+    if (j >= chain.first && j < chain.elements) store3(load.gap, j, load3<double>(load.gap, j) + u);
+  };
+  add(rim.node - 1, V3<double>{} - push.before);
+  add(rim.node, push.before - push.after);
+  add(rim.node + 1, push.after);
+  return load;
+}
+
+void take_rim_loads(std::size_t r, Scratch& scratch) {
+  BindingScratch& b = scratch.bindings[r];
+  RodScratch& s = scratch.rods[r];
+  Chain& chain = s.chain;
+  double at[max_outer_rods], yield[max_outer_rods][max_outer_rods], change[max_outer_rods] = {};
+  for (int k = 0; k < b.rim_count; ++k) {
+    const Rim& rim = b.rims[k];
+    at[k] = rim_move(rim, chain, chain.force, load3<double>(s.target, rim.node), load3<double>(s.target, rim.node + 1));
+    for (int l = 0; l < b.rim_count; ++l) {
+      const RimPush push(b.rims[l], chain);
+      const auto pushed = [&](int node) {
+        return node == b.rims[l].node ? push.before : node == b.rims[l].node + 1 ? push.after : V3<double>{};
+      };
+      yield[k][l] = rim_move(rim, chain, b.rim_loads[l].force, pushed(rim.node), pushed(rim.node + 1));
+    }
+  }
+  // Forces push inwards only: Gauss-Seidel over one to three numbers.
+  for (int sweep = 0; sweep < (b.rim_count > 1 ? 50 : 1); ++sweep)
+    for (int k = 0; k < b.rim_count; ++k) {
+      Rim& rim = b.rims[k];
+      double point = at[k];
+      for (int l = 0; l < b.rim_count; ++l) point -= yield[k][l] * change[l];
+      const double place = dot(rim.normal, rim.centre) + rim.room;
+      change[k] = largest(-rim.force_N, change[k] + (point - place - rim.wall * (rim.force_N + change[k])) / (yield[k][k] + rim.wall));
+    }
+  for (int k = 0; k < b.rim_count; ++k) {
+    Rim& rim = b.rims[k];
+    if (change[k] == 0) continue;
+    const RimPush push(rim, chain);
+    move_target(rim.node, -change[k] * push.before, s);
+    move_target(rim.node + 1, -change[k] * push.after, s);
+    rim.force_N += change[k];
+    const ChainLoad& load = b.rim_loads[k];
+    for_packs(chain.first, chain.elements, [&]<class T>(T, int j) {
+      const T c = splat<T>(-change[k]);
+      store3(chain.turn, j, madd(c, load3<T>(load.turn, j), load3<T>(chain.turn, j)));
+      store3(chain.force, j, madd(c, load3<T>(load.force, j), load3<T>(chain.force, j)));
+    });
+  }
+}
+
+namespace {
+/// Forces of the ties in the iterate, on the outer rods.
+void measure_ties(const Rod& rod, const RodScratch& s, const BindingScratch& b, RodState& state) {
+  for (int i = rod.first; i < rod.nodes(); ++i) {
+    V3<double> f{}, offset{};
+    const V3<double> tangent = load3<double>(b.tangent, i);
+    if (b.nesting[i] >= 0) offset = across(tangent, load3<double>(s.position, i) - load3<double>(b.centre, i));
+    store3(state.offset_before, i, load3<double>(state.offset, i));
+    store3(state.offset, i, offset);
+    if (b.softness.at(0)[i] < infinite) {
+      const V3<double> n = load3<double>(b.normal, i), e = cross(tangent, n);
+      f = madd((dot(n, offset) - b.room.at(0)[i]) / b.softness.at(0)[i], n, (b.stay.at(0)[i] * dot(e, offset)) * e);
+    }
+    store3(state.contact_force, i, f);
+  }
+}
+}  // namespace
+
+namespace {
+/// A node that has just met the bore goes on as it moved in this step: second-order differences would throw it back at
+/// half the speed that it came with.
+void land(const Rod& rod, double step_s, const BindingScratch& b, RodState& state) {
+  for (int i = rod.first; i < rod.nodes(); ++i) {
+    const V3<double> last = load3<double>(state.contact_force, i);
+    if (b.softness.at(0)[i] == infinite || dot(last, last) > 0) continue;
+    const V3<double> n = load3<double>(b.normal, i);
+    const double u = dot(n, load3<double>(state.position, i) - load3<double>(state.position_before, i)) / step_s;
+    for (Field<3>* v : {&state.velocity, &state.velocity_before}) {
+      const V3<double> was = load3<double>(*v, i);
+      store3(*v, i, madd(u - dot(n, was), n, was));
+    }
+  }
+}
+}  // namespace
+
+void commit_binding(const Model& model, const Scratch& scratch, State& state) {
+  if (model.nestings.empty()) return;
+  for (RodState& rod : state.rods) std::fill(rod.inner_force.raw().begin(), rod.inner_force.raw().end(), 0.0);
+  for (NestingState& n : state.nestings) n.rim_force_W_N.setZero();
+  for (std::size_t r = 0; r < model.rods.size(); ++r) {
+    const BindingScratch& b = scratch.bindings[r];
+    if (b.nesting.empty()) continue;
+    Field<3>& contact_force = state.rods[r].contact_force;
+    land(scratch.rods[r].inside, model.step_s, b, state.rods[r]);
+    measure_ties(scratch.rods[r].inside, scratch.rods[r], b, state.rods[r]);
+    const auto give = [&](int outer, int node, double part, const V3<double>& force) {
+      Field<3>& inner_force = state.rods[outer].inner_force;
+      store3(inner_force, node, madd(part, force, load3<double>(inner_force, node)));
+    };
+    for (int i = scratch.rods[r].inside.first; i <= model.rods[r].elements; ++i) {
+      if (b.softness.at(0)[i] == infinite) continue;
+      const int outer = model.nestings[b.nesting[i]].outer, element = b.element[i];
+      const V3<double> force = load3<double>(contact_force, i);
+      give(outer, element, 1 - b.along.at(0)[i], force);
+      give(outer, element + 1, b.along.at(0)[i], force);
+    }
+    for (int k = 0; k < b.rim_count; ++k) {
+      const Rim& rim = b.rims[k];
+      const int outer = model.nestings[rim.nesting].outer;
+      give(outer, model.rods[outer].elements, 1, rim.force_N * rim.normal);
+      state.nestings[rim.nesting].rim_force_W_N = to_eigen(rim.force_N * rim.normal);
+    }
+  }
+}
+
+}  // namespace ostium

@@ -1,0 +1,48 @@
+#pragma once
+/// The binding of nested instruments: an inner rod stays within the bore of its outer one, and both feel it.
+///
+/// Outer rods are solved first, then what is inside them. The outer rod counts with the force of its inner ones as it
+/// was in the last step, and with how that force will change while they follow: their mass, bending stiffness and
+/// tension are lent to it. Then each inner rod is solved within the outer rod's new shape: where a node would leave the
+/// bore it is tied to the bore's wall (a spring of 10 MN/m), across the lumen's curved centreline, not its polygon. The
+/// force that this takes is the outer rod's in the next step. At rest both balance to the last bit; in motion the outer
+/// rod is late by a step in what it was not lent, the inner rod's rattling within its clearance.
+///
+/// An inner rod that leaves at the outer's tip is also held at the rim, which lies between two of its nodes.
+#include "core/model.h"
+#include "core/scratch.h"
+#include "core/state.h"
+
+namespace ostium {
+
+/// Lets rod `r` feel what is inside it: changes its scratch.target and chain.compliance, and prepares lend_*.
+void feel_inner_rods(const Model& model, const State& state, std::size_t r, Scratch& scratch);
+
+/// Adds to joints and elements of rod `r` what its inner rods lend it; after linearise_joints and assemble_elements.
+void lend_to_joints(const Rod& rod, const BindingScratch& binding, RodScratch& s);
+void lend_to_elements(const Rod& rod, const BindingScratch& binding, RodScratch& s);
+
+/// Finds, from the outer rods' iterates, in which bore each node of rod `r` is and which nodes are pressed against it.
+void find_bores(const Model& model, const State& state, std::size_t r, Scratch& scratch);
+
+/// Ties these nodes to their bores: changes scratch.target and chain.compliance of rod `r`.
+void tie_to_bores(std::size_t r, Scratch& scratch);
+
+/// After a solve: lets nodes go that their tie pulls, and ties those that left their bore. True if there are any: then
+/// the chain, which is adapted, is to be solved again.
+bool change_ties(std::size_t r, Scratch& scratch);
+
+/// Whether rod `r` can be in others.
+bool is_inner(const Scratch& scratch, std::size_t r);
+
+/// How many rims rod `r` may have to be held at.
+int rim_count(const Scratch& scratch, std::size_t r);
+/// A unit force on the rod at rim `k`, as a further load of the rod's chain.
+ChainLoad& rim_load(std::size_t r, int k, Scratch& scratch);
+/// Adds to the chain's solution what the rims take, once all rim_loads are solved.
+void take_rim_loads(std::size_t r, Scratch& scratch);
+
+/// Moves the forces between nested rods into the state; after all commits.
+void commit_binding(const Model& model, const Scratch& scratch, State& state);
+
+}  // namespace ostium
