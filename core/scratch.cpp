@@ -8,7 +8,12 @@ namespace {
 
 void resize_outer(const Rod& rod, BindingScratch& b) {
   b.bending.resize(rod.nodes());
-  b.turning.resize(rod.elements);
+  b.damping.resize(rod.nodes());
+  b.inner_turn.resize(rod.elements);
+  b.moment.resize(rod.nodes());
+  b.gone_on.resize(rod.nodes());
+  b.force.resize(rod.elements);
+  b.torque.resize(rod.elements);
   b.spring.resize(rod.nodes());
   b.pull.resize(rod.nodes());
 }

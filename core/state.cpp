@@ -64,7 +64,10 @@ State lay_out_all(const Model& model, const std::vector<EndState>& bases, const 
   for (const Nesting& n : model.nestings) {
     RodState& outer = state.rods[n.outer];
     RodState& inner = state.rods[n.inner];
-    for (int r : {n.outer, n.inner}) state.rods[r].acceleration.resize(model.rods[r].nodes());
+    for (int r : {n.outer, n.inner}) {
+      state.rods[r].moment.resize(model.rods[r].nodes());
+      state.rods[r].acceleration.resize(model.rods[r].nodes());
+    }
     outer.inner_force.resize(model.rods[n.outer].nodes());
     for (Field<3>* f : {&inner.contact_force, &inner.offset, &inner.offset_before}) f->resize(model.rods[n.inner].nodes());
   }

@@ -32,7 +32,8 @@ struct RodState {
   Field<3> force;   ///< N, world frame, (#elements): internal, distal on proximal
   Field<3> strain;  ///< 1/m, material frame, (#joints), Darboux vector; empty without material damping
   Field<3> strain_before;
-  Field<3> acceleration;   ///< m/s2, (#nodes); empty if it is in no nesting
+  Field<3> moment;         ///< N m, world frame, (#joints), distal on proximal, and
+  Field<3> acceleration;   ///< m/s2, (#nodes); both empty if it is in no nesting
   Field<3> inner_force;    ///< N, (#nodes), of the rods inside it; empty if none can be
   Field<3> contact_force;  ///< N, (#nodes), on the rod around it, and
   Field<3> offset;         ///< m, (#nodes), from the middle of that rod's lumen; zero outside. Empty if it can be in none
@@ -81,6 +82,7 @@ void for_each_field(S& state, Visit&& visit) {
     components("force", rod.force);
     components("strain", rod.strain);
     components("strain_before", rod.strain_before);
+    components("moment", rod.moment);
     components("acceleration", rod.acceleration);
     components("inner_force", rod.inner_force);
     components("contact_force", rod.contact_force);

@@ -42,6 +42,7 @@ void predict(const Model& model, const State& state, std::size_t r, TimeScheme s
   predict_elements(s.inside, state.rods[r], s);
   find_bores(model, state, r, scratch);
   constrain(model, state, r, scratch);
+  lend_to_force(state.rods[r], s.inside, scratch.bindings[r], s);
 }
 
 void begin(const Model& model, const Inputs& inputs, State& state, Scratch& scratch, StepReport& report) {
@@ -160,7 +161,7 @@ void report_forces(const Model& model, const Rod& rod, const RodScratch& s, cons
   report.torque_Nm = along.dot(report.base_torque_W_Nm);
 }
 
-void finish(const Model& model, const Rod& rod, RodScratch& s, RodState& state, RodReport& report) {
+void finish(const Model& model, const Rod& rod, const BindingScratch& binding, RodScratch& s, RodState& state, RodReport& report) {
   if (s.progress == Progress::failed)
     report.trouble |= no_solution;
   else if (s.progress != Progress::done)
@@ -168,10 +169,12 @@ void finish(const Model& model, const Rod& rod, RodScratch& s, RodState& state, 
   if (largest_joint_angle(rod, s) > tunables::overturned_joint_rad) report.trouble |= joint_overturned;
 
   // Strains and moments of the frames that are committed, not of those that were linearised about.
-  if (state.strain.size() > 0)
+  if (state.strain.size() > 0 || state.moment.size() > 0)
     linearise_joints(rod, state, joints_of(s.inputs), model.step_s, s);
   else
     linearise_end_joints(rod, state, joints_of(s.inputs), model.step_s, s);
+  take_back_force(rod, binding, s);
+  if (state.moment.size() > 0) state.moment = s.chain.joint_moment;
   if (usable(s))
     commit(rod, s, model.step_s, state);
   else
@@ -193,7 +196,7 @@ void step(const Model& model, const Inputs& inputs, State& state, Scratch& scrat
 
   report.trouble = 0;
   for (std::size_t r = 0; r < model.rods.size(); ++r) {
-    finish(model, scratch.rods[r].inside, scratch.rods[r], state.rods[r], report.rods[r]);
+    finish(model, scratch.rods[r].inside, scratch.bindings[r], scratch.rods[r], state.rods[r], report.rods[r]);
     report.trouble |= report.rods[r].trouble;
   }
   commit_binding(model, scratch, state);

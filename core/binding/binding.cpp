@@ -65,9 +65,11 @@ void moves_of_inner(const Rod& inner, const RodState& state, double step_s, Time
 }
 
 void lend(const Rod& outer, const RodState& inner_state, const Rod& inner, const Field<3>& moves, double lumen_m,
-          double inertia, BindingScratch& b) {
+          double inertia, double rate, BindingScratch& b) {
+  const double damping = rate * inner.damping.material_time_s;
   int k = inner.first;
   const double outer_tip = outer.total_length_m, inner_tip = inner.total_length_m;
+  const auto add = [](Field<3>& field, int i, const V3<double>& x) { store3(field, i, load3<double>(field, i) + x); };
   const auto add_spring = [&](int i, double spring, const V3<double>& move) {
     b.spring.at(0)[i] += spring;
     store3(b.pull, i, madd(spring, move, load3<double>(b.pull, i)));
@@ -80,14 +82,25 @@ void lend(const Rod& outer, const RodState& inner_state, const Rod& inner, const
     const double behind = depth(inner, k), part = largest(0, least(1, (at - behind) / (depth(inner, k + 1) - behind)));
     const V3<double> move = madd(part, load3<double>(moves, k + 1), (1 - part) * load3<double>(moves, k));
     const double cell = outer.joint_length.at(0)[i];
-    const double inner_inertia = inertia * inner.mass.at(0)[k] / inner.joint_length.at(0)[k];
+    const double inner_inertia =
+        inertia * inner.mass.at(0)[k] / inner.joint_length.at(0)[k] + rate * inner.damping.drag_across_N_s_m2;
     const double EI = inner.bending.at(0)[k];
     add_spring(i, inner_inertia * cell, move);
     b.bending.at(0)[i] += EI / cell;
-    const double tension = dot(load3<double>(inner_state.force, k), director3(load4<double>(inner_state.orientation, k)));
-    if (i < outer.elements && tension > 0) b.turning.at(0)[i] += outer.length.at(0)[i] * tension;
+    add(b.moment, i, madd(part, load3<double>(inner_state.moment, k + 1), (1 - part) * load3<double>(inner_state.moment, k)));
+    if (i < outer.elements) {
+      const double middle = at + outer.length.at(0)[i] / 2;
+      int j = k;
+      while (j + 1 < inner.elements && depth(inner, j + 1) <= middle) ++j;
+      if (middle <= inner_tip) add(b.force, i, load3<double>(inner_state.force, j));
+    }
+    if (damping > 0) {
+      b.damping.at(0)[i] += damping * EI / cell;
+      const int j = std::min(i, outer.elements - 1);
+      store3(b.inner_turn, j, load3<double>(inner_state.turn, k));
+    }
     if (i == outer.elements && inner_tip > outer_tip) {
-      const EndImpedance beyond(EI, inner_inertia, inner_tip - outer_tip);
+      const EndImpedance beyond((1 + damping) * EI, inner_inertia, inner_tip - outer_tip);
       add_spring(i, beyond.force_N_m, move);
       b.tip_turning += beyond.turn_Nm_rad;
       const V3<double> turn = 2.0 * load3<double>(inner_state.turn, k) - load3<double>(inner_state.turn_before, k);
@@ -103,8 +116,8 @@ void feel_inner_rods(const Model& model, const State& state, std::size_t r, Scra
   if (b.bending.size() == 0) return;
   RodScratch& s = scratch.rods[r];
   const Rod& rod = s.inside;
-  for (Field<1>* f : {&b.bending, &b.turning, &b.spring}) std::fill(f->raw().begin(), f->raw().end(), 0.0);
-  std::fill(b.pull.raw().begin(), b.pull.raw().end(), 0.0);
+  for (Field<1>* f : {&b.bending, &b.damping, &b.spring}) std::fill(f->raw().begin(), f->raw().end(), 0.0);
+  for (Field<3>* f : {&b.pull, &b.moment, &b.force}) std::fill(f->raw().begin(), f->raw().end(), 0.0);
   b.tip_turning = 0, b.tip_torque = {};
   const double inertia = acceleration_per_move(s.scheme, model.step_s);
   for (const Nesting& n : model.nestings) {
@@ -112,13 +125,16 @@ void feel_inner_rods(const Model& model, const State& state, std::size_t r, Scra
     const Rod& inner = scratch.rods[n.inner].inside;
     Field<3>& moves = scratch.bindings[n.inner].moves;
     moves_of_inner(inner, state.rods[n.inner], model.step_s, s.scheme, moves);
-    lend(rod, state.rods[n.inner], inner, moves, n.lumen_m, inertia, b);
+    lend(rod, state.rods[n.inner], inner, moves, n.lumen_m, inertia, velocity_per_move(s.scheme, model.step_s), b);
   }
 
   for (int i = rod.first; i < rod.nodes(); ++i) {
     S3<double> P = load6<double>(s.chain.compliance, i);
     V3<double> target = load3<double>(s.target, i);
-    target = target + P * load3<double>(state.rods[r].inner_force, i);
+    V3<double> force = load3<double>(state.rods[r].inner_force, i);
+    if (i > rod.first) force = force + load3<double>(b.force, i - 1);
+    if (i < rod.elements) force = force - load3<double>(b.force, i);
+    target = target + P * force;
     const double softness = 1 / b.spring.at(0)[i];
     const M3<double> R = matrix(load4<double>(state.rods[r].orientation, std::min(i, rod.elements - 1)));
     const V3<double> d1{R.r0.x, R.r1.x, R.r2.x}, d2{R.r0.y, R.r1.y, R.r2.y};
@@ -141,31 +157,73 @@ S3<T> across_axis(T stiffness, const V3<T>& d) {
 }
 }  // namespace
 
+namespace {
+/// m turned by the small rotation vector phi.
+template <class T>
+V3<T> rotated(const V3<T>& phi, const V3<T>& m) {
+  const V3<T> c = cross(phi, m);
+  return m + madd(splat<T>(0.5), cross(phi, c), c);
+}
+}  // namespace
+
+void lend_to_force(const RodState& state, const Rod& rod, BindingScratch& b, RodScratch& s) {
+  if (b.bending.size() == 0) return;
+  for_packs(rod.first, rod.elements, [&]<class T>(T, int j) {
+    const V3<T> n = load3<T>(b.force, j);
+    store3(s.force, j, load3<T>(s.force, j) + n);
+    const V3<T> d = load<T>(rod.length.at(0) + j) * director3(load4<T>(state.orientation, j));
+    store3(b.torque, j, load3<T>(b.moment, j) - load3<T>(b.moment, j + 1) - cross(d, n));
+  });
+  // The part of material damping is like a stiffness, less what it does where the inner rods go on as they turned.
+  for_packs(rod.first + 1, rod.elements, [&]<class T>(T, int i) {
+    const T viscous = load<T>(b.damping.at(0) + i);
+    const V3<T> before = load3<T>(b.inner_turn, i - 1), after = load3<T>(b.inner_turn, i);
+    const V3<T> d3 = director3(load4<T>(state.orientation, i));
+    const V3<T> v = viscous * cross(director3(load4<T>(state.orientation, i - 1)), d3);
+    const V3<T> gone_on = rotated(splat<T>(0.5) * (before + after), v) + across_axis(viscous, d3) * (after - before);
+    store3(b.moment, i, load3<T>(b.moment, i) + v);
+    store3(b.gone_on, i, gone_on);
+  });
+}
+
+void take_back_force(const Rod& rod, const BindingScratch& b, RodScratch& s) {
+  if (b.bending.size() == 0) return;
+  for_packs(rod.first, rod.elements,
+            [&]<class T>(T, int j) { store3(s.force, j, load3<T>(s.force, j) - load3<T>(b.force, j)); });
+}
+
 void lend_to_joints(const Rod& rod, const BindingScratch& b, RodScratch& s) {
   if (b.bending.size() == 0) return;
   Chain& chain = s.chain;
   const auto joint = [&]<class T>(T, int i, const V3<T>& turn_before) {
-    const S3<T> H = across_axis(load<T>(b.bending.at(0) + i), director3(load4<T>(s.orientation, i)));
+    const V3<T> d3 = director3(load4<T>(s.orientation, i)), turn = load3<T>(s.turn, i);
+    const S3<T> H = across_axis(load<T>(b.bending.at(0) + i) + load<T>(b.damping.at(0) + i), d3);
     store6(chain.joint_stiffness, i, load6<T>(chain.joint_stiffness, i) + H);
-    store3(chain.joint_moment, i, load3<T>(chain.joint_moment, i) + H * (load3<T>(s.turn, i) - turn_before));
+    const V3<T> moment = rotated(splat<T>(0.5) * (turn + turn_before), load3<T>(b.moment, i));
+    store3(chain.joint_moment, i,
+           load3<T>(chain.joint_moment, i) + moment + H * (turn - turn_before) - load3<T>(b.gone_on, i));
   };
-  if (s.inputs.base.hold == Hold::clamped) joint(double{}, rod.first, V3<double>{});
-  for_packs(rod.first + 1, rod.elements, [&]<class T>(T t, int i) { joint(t, i, load3<T>(s.turn, i - 1)); });
+  if (s.inputs.base.hold == Hold::clamped)
+    joint(double{}, rod.first, V3<double>{});
+  else
+    store3(chain.joint_moment, rod.first, load3<double>(b.moment, rod.first));
+  for_packs(rod.first + 1, rod.elements,
+            [&]<class T>(T t, int i) { joint(t, i, load3<T>(s.turn, i - 1)); });
+  const int N = rod.elements;
+  store3(chain.joint_moment, N, load3<double>(chain.joint_moment, N) + load3<double>(b.moment, N));
 }
 
 void lend_to_elements(const Rod& rod, const BindingScratch& b, RodScratch& s) {
   if (b.bending.size() == 0) return;
   Chain& chain = s.chain;
-  for_packs(rod.first, rod.elements, [&]<class T>(T, int j) {
-    const S3<T> K = across_axis(load<T>(b.turning.at(0) + j), director3(load4<T>(s.orientation, j)));
-    store6(chain.stiffness, j, load6<T>(chain.stiffness, j) + K);
-    store3(chain.torque, j, load3<T>(chain.torque, j) - K * load3<T>(s.turn, j));
-  });
+  for_packs(rod.first, rod.elements,
+            [&]<class T>(T, int j) { store3(chain.torque, j, load3<T>(chain.torque, j) + load3<T>(b.torque, j)); });
   if (b.tip_turning == 0) return;
   const int tip = rod.elements - 1;
   const S3<double> K = across_axis(b.tip_turning, director3(load4<double>(s.orientation, tip)));
   store6(chain.stiffness, tip, load6<double>(chain.stiffness, tip) + K);
-  store3(chain.torque, tip, load3<double>(chain.torque, tip) - K * load3<double>(s.turn, tip) + b.tip_torque);
+  const V3<double> lead = (1 / b.tip_turning) * b.tip_torque - load3<double>(s.turn, tip);
+  store3(chain.torque, tip, load3<double>(chain.torque, tip) + K * lead);
 }
 
 namespace {
@@ -197,7 +255,7 @@ void move_target(int i, const V3<double>& move, RodScratch& s) {
 /// Direction in which a node, or a point at a rim, is pressed against the bore, and whether it is: its offset, and how
 /// far the force that it exerted would have pressed it into a soft wall.
 V3<double> pressed(const V3<double>& offset, const V3<double>& force) {
-  if (dot(force, offset) <= 0) return offset;  // it was held back, not pressed
+  if (dot(force, offset) < 0) return offset;  // it was held back, not pressed
   return madd(1 / tunables::press_N_m, force, offset);
 }
 
@@ -250,7 +308,8 @@ void set_tie(int i, const V3<double>& normal, double force_N, BindingScratch& b)
   b.stay.at(0)[i] = largest(0, force_N) / largest(b.room.at(0)[i], 1e-9);
 }
 
-void find_ties(const Model& model, const Rod& rod, const RodState& state, const Scratch& scratch, BindingScratch& b) {
+void find_ties(const Model& model, const Rod& rod, const RodState& state, const std::vector<NestingState>& nestings,
+               const Scratch& scratch, BindingScratch& b) {
   for (int i = rod.first; i < rod.nodes(); ++i) {
     b.softness.at(0)[i] = infinite, b.stay.at(0)[i] = 0;
     if (b.nesting[i] < 0) continue;
@@ -261,8 +320,11 @@ void find_ties(const Model& model, const Rod& rod, const RodState& state, const 
     store3(b.tangent, i, c.tangent);
     b.wall.at(0)[i] = 1 / (tunables::bore_N_m2 * rod.joint_length.at(0)[i]);
     b.room.at(0)[i] = outer.inside.bore.at(0)[element] - rod.radius.at(0)[i];
-    const V3<double> force = across(c.tangent, load3<double>(state.contact_force, i));
     const V3<double> now = load3<double>(state.offset, i), next = now + (now - load3<double>(state.offset_before, i));
+    V3<double> force = load3<double>(state.contact_force, i);
+    // A node that has just come in was pressed as the rim was.
+    if (dot(now, now) == 0) force = from_eigen(nestings[b.nesting[i]].rim_force_W_N);
+    force = across(c.tangent, force);
     const V3<double> press = pressed(across(c.tangent, next), force);
     const double reach = std::sqrt(dot(press, press));
     if (i > b.last || !(reach > b.room.at(0)[i])) continue;
@@ -291,8 +353,10 @@ void find_rim(const Model& model, const State& state, int index, int node, const
   // It is pressed as it was, there or at the node that has just left.
   V3<double> press = from_eigen(state.nestings[index].rim_force_W_N) +
                      load3<double>(state.rods[nesting.inner].contact_force, node + 1);
-  if (dot(press, press) == 0) press = point - tip.p;
   press = across(tip.tangent, press);
+  rim.edge = d;
+  rim.stay = std::sqrt(dot(press, press)) / rim.room;
+  if (rim.stay == 0) press = across(tip.tangent, point - tip.p);
   const double reach = std::sqrt(dot(press, press));
   rim.normal = reach > 0 ? (1 / reach) * press : director1(load4<double>(outer.orientation, tube.elements - 1));
   ++b.rim_count;
@@ -320,7 +384,7 @@ void find_bores(const Model& model, const State& state, std::size_t r, Scratch& 
       find_rim(model, state, index, last, rod, position, scratch, b, s);
   }
   b.last = s.inputs.tip.hold == Hold::free ? rod.elements : rod.elements - 1;
-  find_ties(model, rod, state.rods[r], scratch, b);
+  find_ties(model, rod, state.rods[r], state.nestings, scratch, b);
 }
 
 namespace {
@@ -334,6 +398,14 @@ void renew_node(int i, BindingScratch& b, RodScratch& s) {
     const V3<double> centre = load3<double>(b.centre, i);
     tie(n, dot(n, centre) + b.room.at(0)[i], b.softness.at(0)[i], P, target);
     tie(e, dot(e, centre), 1 / b.stay.at(0)[i], P, target);
+  }
+  for (int k = 0; k < b.rim_count; ++k) {
+    const Rim& rim = b.rims[k];
+    if (i != rim.node && i != rim.node + 1) continue;
+    const double part = i == rim.node ? 1 - rim.along : rim.along;
+    const V3<double> e = cross(rim.tangent, rim.normal);
+    const V3<double> beside = i == rim.node ? -rim.along * rim.edge : (1 - rim.along) * rim.edge;
+    tie(e, dot(e, rim.centre + beside), 1 / (part * rim.stay), P, target);
   }
   move_target(i, target - load3<double>(s.target, i), s);
   store6(s.chain.compliance, i, P);
@@ -351,6 +423,8 @@ void tie_to_bores(std::size_t r, Scratch& scratch) {
   b.changes = 0;
   for (int i = s.inside.first; i < s.inside.nodes(); ++i)
     if (b.softness.at(0)[i] < infinite) renew_node(i, b, s);
+  for (int k = 0; k < b.rim_count; ++k)
+    for (int i : {b.rims[k].node, b.rims[k].node + 1}) renew_node(i, b, s);
 }
 
 bool change_ties(std::size_t r, Scratch& scratch) {
@@ -368,15 +442,19 @@ bool change_ties(std::size_t r, Scratch& scratch) {
     if (b.nesting[i] < 0) continue;
     const V3<double> offset = across(load3<double>(b.tangent, i), solved(i) - load3<double>(b.centre, i));
     const double room = b.room.at(0)[i];
+    const double reach = std::sqrt(dot(offset, offset));
+    double force = 0;
     if (b.softness.at(0)[i] < infinite) {
-      const double force = (dot(load3<double>(b.normal, i), offset) - room) / b.softness.at(0)[i];
-      if (!may_release || force > -tunables::least_pull_N) continue;
-      b.softness.at(0)[i] = infinite;
-    } else {
-      const double reach = std::sqrt(dot(offset, offset));
-      if (!(reach > room + tunables::loose_m)) continue;
-      set_tie(i, (1 / reach) * offset, 0, b);
+      force = (dot(load3<double>(b.normal, i), offset) - room) / b.softness.at(0)[i];
+      if (may_release && force < -tunables::least_pull_N) {
+        b.softness.at(0)[i] = infinite;
+        renew_node(i, b, s);
+        any = true;
+        continue;
+      }
     }
+    if (!(reach > room + largest(0, force) * b.wall.at(0)[i] + tunables::loose_m)) continue;
+    set_tie(i, (1 / reach) * offset, force, b);
     renew_node(i, b, s);
     any = true;
   }
@@ -387,6 +465,7 @@ bool change_ties(std::size_t r, Scratch& scratch) {
     const double reach = std::sqrt(dot(offset, offset));
     if (!(reach > rim.room + rim.wall * rim.force_N + tunables::loose_m)) continue;
     rim.normal = (1 / reach) * offset;
+    rim.stay = rim.force_N / rim.room;
     any = true;
   }
   if (!any) return false;
@@ -539,8 +618,13 @@ void commit_binding(const Model& model, const Scratch& scratch, State& state) {
     for (int k = 0; k < b.rim_count; ++k) {
       const Rim& rim = b.rims[k];
       const int outer = model.nestings[rim.nesting].outer;
-      give(outer, model.rods[outer].elements, 1, rim.force_N * rim.normal);
-      state.nestings[rim.nesting].rim_force_W_N = to_eigen(rim.force_N * rim.normal);
+      const Field<3>& position = scratch.rods[r].position;
+      const V3<double> point =
+          madd(rim.along, load3<double>(position, rim.node + 1) - load3<double>(position, rim.node), load3<double>(position, rim.node));
+      const V3<double> e = cross(rim.tangent, rim.normal);
+      const V3<double> force = madd(rim.force_N, rim.normal, (rim.stay * dot(e, point - rim.centre)) * e);
+      give(outer, model.rods[outer].elements, 1, force);
+      state.nestings[rim.nesting].rim_force_W_N = to_eigen(force);
     }
   }
 }

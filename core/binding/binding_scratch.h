@@ -17,6 +17,8 @@ struct Rim {
   V3<double> centre;   ///< m, of the outer's tip, less the bulge of the rod's centreline over its polygon there
   V3<double> tangent;
   double room = 0;  ///< m, clearance: normal . (point of the polygon - centre) is to be at most this
+  V3<double> edge;  ///< m, from `node` to the next
+  double stay = 0;  ///< N/m of the tie across normal and tangent: the force turns with the point, like a pendulum
   double wall = 0;     ///< m/N, compliance of the bore's wall
   double force_N = 0;  ///< along `normal` on the outer rod; the part that the iterate's targets contain
 };
@@ -24,7 +26,12 @@ struct Rim {
 struct BindingScratch {
   // --- as an outer rod: what the inner ones lend it
   Field<1> bending;   ///< N m2/m, (#joints)
-  Field<1> turning;   ///< N m/rad, (#elements): of tension
+  Field<1> damping;   ///< N m2/m, (#joints): of material damping
+  Field<3> gone_on;     ///< N m, (#joints): of material damping if the inner rods went on as they turned
+  Field<3> inner_turn;  ///< rad, (#elements), of the inner rod's elements there in the last step
+  Field<3> moment;      ///< N m, (#joints), and
+  Field<3> force;       ///< N, (#elements), of the inner rods in the last step
+  Field<3> torque;      ///< N m, (#elements): what takes their balance in the last step out of the equations
   double tip_turning = 0;  ///< N m/rad, of the last element: of what lies beyond the tip
   V3<double> tip_torque;   ///< N m: tip_turning times the turn of what lies beyond
   Field<1> spring;    ///< N/m, (#nodes): of the inner rods' inertia

@@ -89,6 +89,8 @@ void predict_nodes(const Rod& rod, const RodState& state, const Eigen::Vector3d&
 
 double acceleration_per_move(TimeScheme scheme, double step_s) { return Inertia{scheme, step_s}.A(); }
 
+double velocity_per_move(TimeScheme scheme, double step_s) { return Inertia{scheme, step_s}.B(); }
+
 void keep_acceleration(const Rod& rod, const RodState& state, double step_s, TimeScheme scheme, Field<3>& position) {
   const Inertia inertia{scheme, step_s};
   for_packs(rod.first, rod.nodes(), [&]<class T>(T, int i) {

@@ -14,6 +14,9 @@ void predict_nodes(const Rod& rod, const RodState& state, const Eigen::Vector3d&
 /// Acceleration per displacement of a node's new position, 1/s2.
 double acceleration_per_move(TimeScheme scheme, double step_s);
 
+/// Velocity per displacement, 1/s.
+double velocity_per_move(TimeScheme scheme, double step_s);
+
 /// Where nodes would be after the step if they kept state.acceleration.
 void keep_acceleration(const Rod& rod, const RodState& state, double step_s, TimeScheme scheme, Field<3>& position);
 

@@ -71,6 +71,7 @@ void enter_element(const Rod& rod, const RodInputs& inputs, double step_s, RodSt
       f->set(base, (*f)[old]);
       f->set(old, 0.5 * ((*f)[old] + (*f)[old + 1]));
     }
+  if (s.moment.size() > 0) s.moment.set(base, s.moment[old]);
   if (s.acceleration.size() > 0) s.acceleration.set(old, part * s.acceleration[old + 1]);
   for (Field<3>* f : {&s.acceleration, &s.inner_force, &s.contact_force, &s.offset, &s.offset_before})
     if (f->size() > 0) f->set(base, Vector3d::Zero());
