@@ -6,16 +6,20 @@ namespace ostium {
 
 namespace {
 
-void resize_outer(const Rod& rod, BindingScratch& b) {
-  b.bending.resize(rod.nodes());
-  b.damping.resize(rod.nodes());
-  b.inner_turn.resize(rod.elements);
-  b.moment.resize(rod.nodes());
-  b.gone_on.resize(rod.nodes());
-  b.force.resize(rod.elements);
-  b.torque.resize(rod.elements);
-  b.spring.resize(rod.nodes());
-  b.pull.resize(rod.nodes());
+void resize_outer(const Rod& rod, RodScratch& s, BindingScratch& b) {
+  const int N = rod.elements + max_beyond;
+  b.whole.length.resize(N);
+  b.beyond_position.resize(max_beyond + 1);
+  for (Field<1>* f : {&b.depth, &b.cell, &b.bending, &b.damping, &b.spring}) f->resize(N + 1);
+  for (Field<3>* f : {&b.moment, &b.gone_on, &b.pull}) f->resize(N + 1);
+  for (Field<3>* f : {&b.force, &b.torque, &b.inner_turn}) f->resize(N);
+  b.orientation.resize(N);
+  b.own_compliance.resize(N + 1);
+  b.own_target.resize(N + 1);
+  s.chain = Chain(N);
+  for (Field<3>* f : {&s.target, &s.position}) f->resize(N + 1);
+  for (Field<3>* f : {&s.turn, &s.force}) f->resize(N);
+  s.orientation.resize(N);
 }
 
 void resize_inner(const Rod& rod, BindingScratch& b) {
@@ -24,9 +28,6 @@ void resize_inner(const Rod& rod, BindingScratch& b) {
   b.element.resize(nodes);
   for (Field<3>* f : {&b.centre, &b.tangent, &b.normal, &b.moves}) f->resize(nodes);
   for (Field<1>* f : {&b.along, &b.room, &b.wall, &b.softness, &b.stay}) f->resize(nodes);
-  b.free_compliance.resize(nodes);
-  b.free_target.resize(nodes);
-  b.rim_loads.assign(max_outer_rods, ChainLoad(rod.elements));
 }
 
 }  // namespace
@@ -36,7 +37,6 @@ Scratch::Scratch(const Model& model) {
   int longest = 0;
   for (const Rod& rod : model.rods) {
     const int N = rod.elements;
-    longest = std::max(longest, N);
     RodScratch& s = rods.emplace_back();
     s.inside = rod;
     s.chain = Chain(N);
@@ -47,7 +47,6 @@ Scratch::Scratch(const Model& model) {
     s.force.resize(N);
     if (rod.damping.material_time_s > 0) s.strain.resize(N + 1);
   }
-  factors.resize(longest);
 
   bindings.resize(rods.size());
   std::vector<std::size_t> group(rods.size(), 0);
@@ -56,11 +55,20 @@ Scratch::Scratch(const Model& model) {
       if (n.inner != static_cast<int>(r)) continue;
       group[r] = std::max(group[r], group[n.outer] + 1);
       resize_inner(model.rods[r], bindings[r]);
-      resize_outer(model.rods[n.outer], bindings[n.outer]);
+      resize_outer(model.rods[n.outer], rods[n.outer], bindings[n.outer]);
     }
     groups.resize(std::max(groups.size(), group[r] + 1));
     groups[group[r]].push_back(static_cast<int>(r));
   }
+  for (std::size_t r = 0; r < rods.size(); ++r) {
+    const int solved = rods[r].chain.elements;  // with what protrudes
+    longest = std::max(longest, solved);
+    if (bindings[r].nesting.empty()) continue;
+    bindings[r].free_compliance.resize(solved + 1);
+    bindings[r].free_target.resize(solved + 1);
+    bindings[r].rim_loads.assign(max_outer_rods, ChainLoad(solved));
+  }
+  factors.resize(longest);
 }
 
 }  // namespace ostium

@@ -20,7 +20,7 @@ namespace {
   if (inputs.rods.size() != rods || state.rods.size() != rods || scratch.rods.size() != rods) return false;
   for (std::size_t r = 0; r < rods; ++r)
     if (state.rods[r].force.size() != model.rods[r].elements ||
-        scratch.rods[r].chain.elements != model.rods[r].elements)
+        scratch.rods[r].inside.elements != model.rods[r].elements)
       return false;
   return true;
 }
@@ -42,7 +42,7 @@ void predict(const Model& model, const State& state, std::size_t r, TimeScheme s
   predict_elements(s.inside, state.rods[r], s);
   find_bores(model, state, r, scratch);
   constrain(model, state, r, scratch);
-  lend_to_force(state.rods[r], s.inside, scratch.bindings[r], s);
+  lend_to_force(state, r, scratch);
 }
 
 void begin(const Model& model, const Inputs& inputs, State& state, Scratch& scratch, StepReport& report) {
@@ -62,9 +62,9 @@ void linearise(const State& state, double step_s, std::size_t r, Scratch& scratc
   RodScratch& s = scratch.rods[r];
   const Rod& rod = s.inside;
   linearise_joints(rod, state.rods[r], joints_of(s.inputs), step_s, s);
-  lend_to_joints(rod, scratch.bindings[r], s);
-  assemble_elements(rod, s);
-  lend_to_elements(rod, scratch.bindings[r], s);
+  lend_to_joints(scratch.bindings[r], s);
+  assemble_elements(solved_rod(scratch, r), s);
+  lend_to_elements(scratch.bindings[r], s);
   add_rotary_inertia(rod, step_s, s);
   add_rotary_torque(rod, state.rods[r], step_s, s);
 }
@@ -130,7 +130,7 @@ void iterate(const Model& model, const State& state, const Group& group, Scratch
     solve_open(group, scratch);
     for (int r : group)
       if (scratch.rods[r].progress == Progress::open)
-        take_solution(scratch.rods[r].inside, scratch.rods[r], report.rods[r]);
+        take_solution(solved_rod(scratch, r), scratch.rods[r], report.rods[r]);
   }
 }
 
@@ -173,8 +173,10 @@ void finish(const Model& model, const Rod& rod, const BindingScratch& binding, R
     linearise_joints(rod, state, joints_of(s.inputs), model.step_s, s);
   else
     linearise_end_joints(rod, state, joints_of(s.inputs), model.step_s, s);
-  take_back_force(rod, binding, s);
-  if (state.moment.size() > 0) state.moment = s.chain.joint_moment;
+  take_own_force(rod, binding, s, state);
+  if (state.moment.size() > 0)
+    for_packs(rod.first, rod.nodes(),
+              [&]<class T>(T, int i) { store3(state.moment, i, load3<T>(s.chain.joint_moment, i)); });
   if (usable(s))
     commit(rod, s, model.step_s, state);
   else

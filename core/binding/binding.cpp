@@ -43,17 +43,6 @@ CentrelinePoint centreline(const Rod& rod, const RodScratch& s, const Field<3>& 
 
 V3<double> across(const V3<double>& tangent, const V3<double>& v) { return madd(-dot(tangent, v), tangent, v); }
 
-/// What a rod's cross-section lends: half an infinite beam on its own inertia resists a force and a turn at its end
-/// with less than these (a beam on an elastic foundation; Hetenyi 1946).
-struct EndImpedance {
-  double force_N_m, turn_Nm_rad;
-  EndImpedance(double EI, double inertia_N_m2, double length) {
-    const double beta = std::pow(inertia_N_m2 / (4 * EI), 0.25);
-    force_N_m = std::min(2 * EI * beta * beta * beta, 4 * inertia_N_m2 * length);
-    turn_Nm_rad = std::min(EI * beta, 4. / 3 * inertia_N_m2 * length * length * length);
-  }
-};
-
 /// How the inner rod would move in the step if its acceleration, and how fast it crosses its bore, stayed as they are:
 /// what its outer rod would do that followed it. Written to `moves`.
 void moves_of_inner(const Rod& inner, const RodState& state, double step_s, TimeScheme scheme, Field<3>& moves) {
@@ -62,50 +51,77 @@ void moves_of_inner(const Rod& inner, const RodState& state, double step_s, Time
     const V3<T> crossing = load3<T>(state.offset, i) - load3<T>(state.offset_before, i);
     store3(moves, i, load3<T>(moves, i) - load3<T>(state.position, i) - crossing);
   });
+  // What protrudes crosses no bore, but goes along with what is inside.
+  int last = inner.elements;
+  while (last > inner.first && dot(load3<double>(state.offset, last), load3<double>(state.offset, last)) == 0) --last;
+  const V3<double> crossing = load3<double>(state.offset, last) - load3<double>(state.offset_before, last);
+  for (int i = last + 1; i <= inner.elements; ++i) store3(moves, i, load3<double>(moves, i) - crossing);
+}
+
+/// Makes `b.whole` the outer rod and what protrudes from its tip of the first inner rod that does, up to tunables.h.
+void extend(const Model& model, const State& state, std::size_t r, Scratch& scratch, BindingScratch& b) {
+  const Rod& rod = scratch.rods[r].inside;
+  const int N = rod.elements;
+  Rod& whole = b.whole;
+  whole.first = rod.first, whole.elements = N;
+  for (int i = rod.first; i <= N; ++i) {
+    b.depth.at(0)[i] = depth(rod, i);
+    b.cell.at(0)[i] = rod.joint_length.at(0)[i];
+    if (i < N) whole.length.at(0)[i] = rod.length.at(0)[i];
+  }
+  b.beyond = -1;
+  if (scratch.rods[r].inputs.tip.hold != Hold::free) return;
+  for (const Nesting& n : model.nestings) {
+    if (n.outer != static_cast<int>(r)) continue;
+    const Rod& inner = scratch.rods[n.inner].inside;
+    int k = inner.first + 1;
+    while (k <= inner.elements && depth(inner, k) < rod.total_length_m + 0.3 * inner.length.at(0)[k - 1]) ++k;
+    if (k > inner.elements) continue;
+    b.beyond = n.inner, b.beyond_node = k;
+    V3<double> p = load3<double>(state.rods[r].position, N);
+    for (int e = N; k <= inner.elements && e < N + max_beyond; ++e, ++k) {
+      b.depth.at(0)[e + 1] = depth(inner, k);
+      const double length = b.depth.at(0)[e + 1] - b.depth.at(0)[e];
+      whole.length.at(0)[e] = length;
+      b.cell.at(0)[e] = (whole.length.at(0)[e - 1] + length) / 2;
+      b.cell.at(0)[e + 1] = length / 2;
+      p = madd(length, director3(load4<double>(state.rods[n.inner].orientation, k - 1)), p);
+      store3(b.beyond_position, e + 1 - N, p);
+      whole.elements = e + 1;
+    }
+    return;
+  }
 }
 
 void lend(const Rod& outer, const RodState& inner_state, const Rod& inner, const Field<3>& moves, double lumen_m,
           double inertia, double rate, BindingScratch& b) {
   const double damping = rate * inner.damping.material_time_s;
   int k = inner.first;
-  const double outer_tip = outer.total_length_m, inner_tip = inner.total_length_m;
+  const double inner_tip = inner.total_length_m;
   const auto add = [](Field<3>& field, int i, const V3<double>& x) { store3(field, i, load3<double>(field, i) + x); };
-  const auto add_spring = [&](int i, double spring, const V3<double>& move) {
-    b.spring.at(0)[i] += spring;
-    store3(b.pull, i, madd(spring, move, load3<double>(b.pull, i)));
-  };
-  for (int i = outer.first; i < outer.nodes(); ++i) {
-    const double at = depth(outer, i);
-    if (at < outer_tip - lumen_m) continue;
-    if (at > inner_tip) break;
+  for (int i = outer.first; i < b.whole.nodes(); ++i) {
+    const double at = b.depth.at(0)[i];
+    if (at < outer.total_length_m - lumen_m) continue;
+    if (at > inner_tip * (1 + 1e-12)) break;
     while (k + 1 < inner.elements && depth(inner, k + 1) <= at) ++k;
     const double behind = depth(inner, k), part = largest(0, least(1, (at - behind) / (depth(inner, k + 1) - behind)));
-    const V3<double> move = madd(part, load3<double>(moves, k + 1), (1 - part) * load3<double>(moves, k));
-    const double cell = outer.joint_length.at(0)[i];
-    const double inner_inertia =
-        inertia * inner.mass.at(0)[k] / inner.joint_length.at(0)[k] + rate * inner.damping.drag_across_N_s_m2;
-    const double EI = inner.bending.at(0)[k];
-    add_spring(i, inner_inertia * cell, move);
-    b.bending.at(0)[i] += EI / cell;
-    add(b.moment, i, madd(part, load3<double>(inner_state.moment, k + 1), (1 - part) * load3<double>(inner_state.moment, k)));
-    if (i < outer.elements) {
-      const double middle = at + outer.length.at(0)[i] / 2;
-      int j = k;
-      while (j + 1 < inner.elements && depth(inner, j + 1) <= middle) ++j;
-      if (middle <= inner_tip) add(b.force, i, load3<double>(inner_state.force, j));
-    }
-    if (damping > 0) {
-      b.damping.at(0)[i] += damping * EI / cell;
-      const int j = std::min(i, outer.elements - 1);
-      store3(b.inner_turn, j, load3<double>(inner_state.turn, k));
-    }
-    if (i == outer.elements && inner_tip > outer_tip) {
-      const EndImpedance beyond((1 + damping) * EI, inner_inertia, inner_tip - outer_tip);
-      add_spring(i, beyond.force_N_m, move);
-      b.tip_turning += beyond.turn_Nm_rad;
-      const V3<double> turn = 2.0 * load3<double>(inner_state.turn, k) - load3<double>(inner_state.turn_before, k);
-      b.tip_torque = madd(beyond.turn_Nm_rad, turn, b.tip_torque);
-    }
+    const auto here = [&](const Field<3>& field) {
+      return madd(part, load3<double>(field, k + 1), (1 - part) * load3<double>(field, k));
+    };
+    const double cell = b.cell.at(0)[i];
+    const double line_mass = inner.mass.at(0)[k] / inner.joint_length.at(0)[k];
+    const double spring = cell * (inertia * line_mass + rate * inner.damping.drag_across_N_s_m2);
+    b.spring.at(0)[i] += spring;
+    add(b.pull, i, spring * here(moves));
+    b.bending.at(0)[i] += inner.bending.at(0)[k] / cell;
+    b.damping.at(0)[i] += damping * inner.bending.at(0)[k] / cell;
+    add(b.moment, i, here(inner_state.moment));
+    if (i == b.whole.elements) break;
+    const double middle = at + b.whole.length.at(0)[i] / 2;
+    int j = k;
+    while (j + 1 < inner.elements && depth(inner, j + 1) <= middle) ++j;
+    if (middle <= inner_tip) add(b.force, i, load3<double>(inner_state.force, j));
+    store3(b.inner_turn, i, load3<double>(inner_state.turn, j));
   }
 }
 
@@ -115,33 +131,54 @@ void feel_inner_rods(const Model& model, const State& state, std::size_t r, Scra
   BindingScratch& b = scratch.bindings[r];
   if (b.bending.size() == 0) return;
   RodScratch& s = scratch.rods[r];
+  const RodState& own = state.rods[r];
   const Rod& rod = s.inside;
+  const int N = rod.elements;
   for (Field<1>* f : {&b.bending, &b.damping, &b.spring}) std::fill(f->raw().begin(), f->raw().end(), 0.0);
   for (Field<3>* f : {&b.pull, &b.moment, &b.force}) std::fill(f->raw().begin(), f->raw().end(), 0.0);
-  b.tip_turning = 0, b.tip_torque = {};
+  b.own_compliance = s.chain.compliance;
+  b.own_target = s.target;
+  extend(model, state, r, scratch, b);
   const double inertia = acceleration_per_move(s.scheme, model.step_s);
+  V3<double> slide{};
   for (const Nesting& n : model.nestings) {
     if (n.outer != static_cast<int>(r)) continue;
     const Rod& inner = scratch.rods[n.inner].inside;
     Field<3>& moves = scratch.bindings[n.inner].moves;
     moves_of_inner(inner, state.rods[n.inner], model.step_s, s.scheme, moves);
     lend(rod, state.rods[n.inner], inner, moves, n.lumen_m, inertia, velocity_per_move(s.scheme, model.step_s), b);
+    if (n.inner != b.beyond) continue;
+    // What protrudes is strung from the outer rod's tip: it goes along with it as far as it slides through it.
+    const V3<double> t = director3(load4<double>(own.orientation, N - 1));
+    const V3<double> tip_move = load3<double>(own.position, N) - load3<double>(own.position_before, N);
+    slide = dot(t, tip_move - load3<double>(moves, b.beyond_node)) * t;
   }
 
-  for (int i = rod.first; i < rod.nodes(); ++i) {
-    S3<double> P = load6<double>(s.chain.compliance, i);
-    V3<double> target = load3<double>(s.target, i);
-    V3<double> force = load3<double>(state.rods[r].inner_force, i);
-    if (i > rod.first) force = force + load3<double>(b.force, i - 1);
-    if (i < rod.elements) force = force - load3<double>(b.force, i);
-    target = target + P * force;
+  for (int i = rod.first; i < b.whole.nodes(); ++i) {
     const double softness = 1 / b.spring.at(0)[i];
-    const M3<double> R = matrix(load4<double>(state.rods[r].orientation, std::min(i, rod.elements - 1)));
-    const V3<double> d1{R.r0.x, R.r1.x, R.r2.x}, d2{R.r0.y, R.r1.y, R.r2.y};
-    V3<double> place = load3<double>(state.rods[r].position, i);
-    if (b.spring.at(0)[i] > 0) place = madd(softness, load3<double>(b.pull, i), place);
-    tie(d1, dot(d1, place), softness, P, target);
-    tie(d2, dot(d2, place), softness, P, target);
+    V3<double> force{};
+    if (i <= N) force = madd(tunables::repaid, load3<double>(own.owed_force, i), load3<double>(own.inner_force, i));
+    if (i > rod.first) force = force + load3<double>(b.force, i - 1);
+    if (i < b.whole.elements) force = force - load3<double>(b.force, i);
+    S3<double> P;
+    V3<double> target;
+    if (i <= N) {
+      P = load6<double>(s.chain.compliance, i);
+      target = load3<double>(s.target, i) + P * force;
+      const M3<double> R = matrix(load4<double>(own.orientation, std::min(i, N - 1)));
+      const V3<double> d1{R.r0.x, R.r1.x, R.r2.x}, d2{R.r0.y, R.r1.y, R.r2.y};
+      V3<double> place = load3<double>(own.position, i);
+      if (b.spring.at(0)[i] > 0) place = madd(softness, load3<double>(b.pull, i), place);
+      tie(d1, dot(d1, place), softness, P, target);
+      tie(d2, dot(d2, place), softness, P, target);
+    } else {
+      // Beyond the tip there is the inner rod alone, and it may slide.
+      const V3<double> t = director3(load4<double>(state.rods[b.beyond].orientation, b.beyond_node + i - N - 2));
+      const double more = 1e3 * softness;
+      P = {softness + more * t.x * t.x, more * t.x * t.y, more * t.x * t.z,
+           softness + more * t.y * t.y, more * t.y * t.z, softness + more * t.z * t.z};
+      target = madd(softness, load3<double>(b.pull, i), load3<double>(b.beyond_position, i - N) + slide) + P * force;
+    }
     store6(s.chain.compliance, i, P);
     store3(s.target, i, target);
   }
@@ -166,35 +203,75 @@ V3<T> rotated(const V3<T>& phi, const V3<T>& m) {
 }
 }  // namespace
 
-void lend_to_force(const RodState& state, const Rod& rod, BindingScratch& b, RodScratch& s) {
+void lend_to_force(const State& state, std::size_t r, Scratch& scratch) {
+  BindingScratch& b = scratch.bindings[r];
   if (b.bending.size() == 0) return;
-  for_packs(rod.first, rod.elements, [&]<class T>(T, int j) {
-    const V3<T> n = load3<T>(b.force, j);
-    store3(s.force, j, load3<T>(s.force, j) + n);
-    const V3<T> d = load<T>(rod.length.at(0) + j) * director3(load4<T>(state.orientation, j));
-    store3(b.torque, j, load3<T>(b.moment, j) - load3<T>(b.moment, j + 1) - cross(d, n));
-  });
+  RodScratch& s = scratch.rods[r];
+  const RodState& own = state.rods[r];
+  const int N = s.inside.elements;
+  for (int j = b.whole.first; j < b.whole.elements; ++j) {
+    const V3<double> n = load3<double>(b.force, j);
+    Q4<double> q;
+    if (j < N) {
+      q = load4<double>(own.orientation, j);
+      store3(s.force, j, load3<double>(s.force, j) + n);
+    } else {
+      const RodState& inner = state.rods[b.beyond];
+      const int k = b.beyond_node + j - N - 1;
+      q = load4<double>(inner.orientation, k);
+      V3<double> turn{};
+      if (s.scheme != TimeScheme::from_rest) turn = 2.0 * load3<double>(inner.turn, k) - load3<double>(inner.turn_before, k);
+      store4(s.orientation, j, turned(turn, q));
+      store3(s.turn, j, turn);
+      store3(s.force, j, n);
+    }
+    store4(b.orientation, j, q);
+    const V3<double> d = b.whole.length.at(0)[j] * director3(q);
+    store3(b.torque, j, load3<double>(b.moment, j) - load3<double>(b.moment, j + 1) - cross(d, n));
+  }
   // The part of material damping is like a stiffness, less what it does where the inner rods go on as they turned.
-  for_packs(rod.first + 1, rod.elements, [&]<class T>(T, int i) {
+  for_packs(b.whole.first + 1, b.whole.elements, [&]<class T>(T, int i) {
     const T viscous = load<T>(b.damping.at(0) + i);
     const V3<T> before = load3<T>(b.inner_turn, i - 1), after = load3<T>(b.inner_turn, i);
-    const V3<T> d3 = director3(load4<T>(state.orientation, i));
-    const V3<T> v = viscous * cross(director3(load4<T>(state.orientation, i - 1)), d3);
+    const V3<T> d3 = director3(load4<T>(b.orientation, i));
+    const V3<T> v = viscous * cross(director3(load4<T>(b.orientation, i - 1)), d3);
     const V3<T> gone_on = rotated(splat<T>(0.5) * (before + after), v) + across_axis(viscous, d3) * (after - before);
     store3(b.moment, i, load3<T>(b.moment, i) + v);
     store3(b.gone_on, i, gone_on);
   });
 }
 
-void take_back_force(const Rod& rod, const BindingScratch& b, RodScratch& s) {
+void take_own_force(const Rod& rod, const BindingScratch& b, RodScratch& s, RodState& state) {
   if (b.bending.size() == 0) return;
-  for_packs(rod.first, rod.elements,
-            [&]<class T>(T, int j) { store3(s.force, j, load3<T>(s.force, j) - load3<T>(b.force, j)); });
+  // Along the rod, what the inner rods do not bear; across it, what its own moments ask for.
+  for_packs(rod.first, rod.elements, [&]<class T>(T, int j) {
+    const V3<T> d3 = director3(load4<T>(s.orientation, j)), n = load3<T>(s.force, j) - load3<T>(b.force, j);
+    const V3<T> moment = load3<T>(s.chain.joint_moment, j + 1) - load3<T>(s.chain.joint_moment, j);
+    store3(s.force, j, madd(dot(n, d3), d3, (1.0 / load<T>(rod.length.at(0) + j)) * cross(d3, moment)));
+  });
+  // What it took to move a node so, and was not its own: less than it owes the inner rods, or more.
+  for (int i = rod.first + 1; i <= rod.elements; ++i) {
+    const S3<double> stiffness = inverse(load6<double>(b.own_compliance, i));
+    V3<double> taken = stiffness * (load3<double>(s.position, i) - load3<double>(b.own_target, i));
+    if (i < rod.elements) taken = taken - load3<double>(s.force, i);
+    taken = taken + load3<double>(s.force, i - 1);
+    const V3<double> t = director3(load4<double>(s.orientation, std::min(i, rod.elements - 1)));
+    store3(state.owed_force, i, load3<double>(state.owed_force, i) - across(t, taken));
+  }
 }
 
-void lend_to_joints(const Rod& rod, const BindingScratch& b, RodScratch& s) {
+const Rod& solved_rod(const Scratch& scratch, std::size_t r) {
+  return scratch.bindings[r].bending.size() > 0 ? scratch.bindings[r].whole : scratch.rods[r].inside;
+}
+
+void lend_to_joints(const BindingScratch& b, RodScratch& s) {
   if (b.bending.size() == 0) return;
+  const Rod& rod = b.whole;
   Chain& chain = s.chain;
+  for (int i = s.inside.nodes(); i < rod.nodes(); ++i) {
+    store6(chain.joint_stiffness, i, S3<double>{});
+    store3(chain.joint_moment, i, V3<double>{});
+  }
   const auto joint = [&]<class T>(T, int i, const V3<T>& turn_before) {
     const V3<T> d3 = director3(load4<T>(s.orientation, i)), turn = load3<T>(s.turn, i);
     const S3<T> H = across_axis(load<T>(b.bending.at(0) + i) + load<T>(b.damping.at(0) + i), d3);
@@ -207,23 +284,22 @@ void lend_to_joints(const Rod& rod, const BindingScratch& b, RodScratch& s) {
     joint(double{}, rod.first, V3<double>{});
   else
     store3(chain.joint_moment, rod.first, load3<double>(b.moment, rod.first));
-  for_packs(rod.first + 1, rod.elements,
-            [&]<class T>(T t, int i) { joint(t, i, load3<T>(s.turn, i - 1)); });
-  const int N = rod.elements;
-  store3(chain.joint_moment, N, load3<double>(chain.joint_moment, N) + load3<double>(b.moment, N));
+  for_packs(rod.first + 1, rod.elements, [&]<class T>(T t, int i) { joint(t, i, load3<T>(s.turn, i - 1)); });
+  const int tip = rod.elements;
+  store3(chain.joint_moment, tip, load3<double>(chain.joint_moment, tip) + load3<double>(b.moment, tip));
 }
 
-void lend_to_elements(const Rod& rod, const BindingScratch& b, RodScratch& s) {
+void lend_to_elements(const BindingScratch& b, RodScratch& s) {
   if (b.bending.size() == 0) return;
   Chain& chain = s.chain;
-  for_packs(rod.first, rod.elements,
+  for_packs(b.whole.first, b.whole.elements,
             [&]<class T>(T, int j) { store3(chain.torque, j, load3<T>(chain.torque, j) + load3<T>(b.torque, j)); });
-  if (b.tip_turning == 0) return;
-  const int tip = rod.elements - 1;
-  const S3<double> K = across_axis(b.tip_turning, director3(load4<double>(s.orientation, tip)));
-  store6(chain.stiffness, tip, load6<double>(chain.stiffness, tip) + K);
-  const V3<double> lead = (1 / b.tip_turning) * b.tip_torque - load3<double>(s.turn, tip);
-  store3(chain.torque, tip, load3<double>(chain.torque, tip) + K * lead);
+  // Nothing else would hold what is beyond the tip against spinning.
+  for (int j = s.inside.elements; j < b.whole.elements; ++j) {
+    const V3<double> d3 = director3(load4<double>(s.orientation, j)), e = b.bending.at(0)[j] * d3;
+    store6(chain.stiffness, j, load6<double>(chain.stiffness, j) +
+                                   S3<double>{e.x * d3.x, e.x * d3.y, e.x * d3.z, e.y * d3.y, e.y * d3.z, e.z * d3.z});
+  }
 }
 
 namespace {
@@ -605,8 +681,12 @@ void commit_binding(const Model& model, const Scratch& scratch, State& state) {
     land(scratch.rods[r].inside, model.step_s, b, state.rods[r]);
     measure_ties(scratch.rods[r].inside, scratch.rods[r], b, state.rods[r]);
     const auto give = [&](int outer, int node, double part, const V3<double>& force) {
-      Field<3>& inner_force = state.rods[outer].inner_force;
-      store3(inner_force, node, madd(part, force, load3<double>(inner_force, node)));
+      const RodScratch& o = scratch.rods[outer];
+      const V3<double> t = director3(load4<double>(o.orientation, std::min(node, o.inside.elements - 1)));
+      RodState& to = state.rods[outer];
+      store3(to.inner_force, node, madd(part, force, load3<double>(to.inner_force, node)));
+      if (node > o.inside.first)
+        store3(to.owed_force, node, madd(part, across(t, force), load3<double>(to.owed_force, node)));
     };
     for (int i = scratch.rods[r].inside.first; i <= model.rods[r].elements; ++i) {
       if (b.softness.at(0)[i] == infinite) continue;

@@ -18,12 +18,15 @@ namespace ostium {
 /// Lets rod `r` feel what is inside it: changes its scratch.target and chain.compliance, and prepares lend_*.
 void feel_inner_rods(const Model& model, const State& state, std::size_t r, Scratch& scratch);
 
-/// Adds the inner rods' internal force to the iterate's, so that it turns with rod `r`; and takes it back.
-void lend_to_force(const RodState& state, const Rod& rod, BindingScratch& binding, RodScratch& s);
-void take_back_force(const Rod& rod, const BindingScratch& binding, RodScratch& s);
-/// Adds to joints and elements of rod `r` what its inner rods lend it; after linearise_joints and assemble_elements.
-void lend_to_joints(const Rod& rod, const BindingScratch& binding, RodScratch& s);
-void lend_to_elements(const Rod& rod, const BindingScratch& binding, RodScratch& s);
+/// Adds the inner rods' internal force to the iterate's, so that it turns with rod `r`; and takes it back, noting what the inner rods
+/// seemed to exert.
+void lend_to_force(const State& state, std::size_t r, Scratch& scratch);
+void take_own_force(const Rod& rod, const BindingScratch& binding, RodScratch& s, RodState& state);
+/// Adds to joints and elements what the inner rods lend; after linearise_joints and assemble_elements.
+void lend_to_joints(const BindingScratch& binding, RodScratch& s);
+void lend_to_elements(const BindingScratch& binding, RodScratch& s);
+/// What rod `r`'s chain stands for: the rod inside its introducer, and what protrudes from its tip.
+const Rod& solved_rod(const Scratch& scratch, std::size_t r);
 
 /// Finds, from the outer rods' iterates, in which bore each node of rod `r` is and which nodes are pressed against it.
 void find_bores(const Model& model, const State& state, std::size_t r, Scratch& scratch);

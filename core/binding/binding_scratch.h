@@ -8,6 +8,9 @@
 
 namespace ostium {
 
+/// Most elements of an inner rod that are solved with its outer rod, beyond the tip.
+inline constexpr int max_beyond = 64;
+
 /// Where an inner rod leaves an outer one: between two of its nodes.
 struct Rim {
   int nesting = -1;
@@ -25,6 +28,14 @@ struct Rim {
 
 struct BindingScratch {
   // --- as an outer rod: what the inner ones lend it
+  Rod whole;        ///< it and what protrudes from its tip; lengths and numbers alone
+  int beyond = -1;  ///< the rod that protrudes
+  int beyond_node = 0;         ///< its first node behind the tip, node N + 1 of `whole`
+  Field<3> beyond_position;    ///< m, (#nodes beyond the tip), strung from there, before the step
+  Field<1> depth, cell;        ///< m, (#nodes of `whole`), from the introducer; half an element to each side
+  Field<6> own_compliance;     ///< (#nodes), as they would be without inner rods
+  Field<3> own_target;
+  Field<4> orientation;        ///< (#elements of `whole`), before the step
   Field<1> bending;   ///< N m2/m, (#joints)
   Field<1> damping;   ///< N m2/m, (#joints): of material damping
   Field<3> gone_on;     ///< N m, (#joints): of material damping if the inner rods went on as they turned
@@ -32,8 +43,6 @@ struct BindingScratch {
   Field<3> moment;      ///< N m, (#joints), and
   Field<3> force;       ///< N, (#elements), of the inner rods in the last step
   Field<3> torque;      ///< N m, (#elements): what takes their balance in the last step out of the equations
-  double tip_turning = 0;  ///< N m/rad, of the last element: of what lies beyond the tip
-  V3<double> tip_torque;   ///< N m: tip_turning times the turn of what lies beyond
   Field<1> spring;    ///< N/m, (#nodes): of the inner rods' inertia
   Field<3> pull;      ///< N, (#nodes): springs times the moves that the inner rods would make of themselves
 

@@ -132,7 +132,7 @@ double largest_joint_angle(const Rod& rod, const RodScratch& scratch) {
 
 [[gnu::flatten]] void assemble_elements(const Rod& rod, RodScratch& scratch) {
   Chain& chain = scratch.chain;
-  chain.first = rod.first;
+  chain.first = rod.first, chain.elements = rod.elements;
   const double with_force = scratch.geometric == GeometricStiffness::with ? 1 : 0;
   for_packs(rod.first, rod.elements, [&]<class T>(T, int j) {
     const T length = load<T>(rod.length.at(0) + j);
