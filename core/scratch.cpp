@@ -16,6 +16,9 @@ void resize_outer(const Rod& rod, RodScratch& s, BindingScratch& b) {
   b.orientation.resize(N);
   b.own_compliance.resize(N + 1);
   b.own_target.resize(N + 1);
+  b.given.resize(rod.nodes());
+  b.owed.resize(rod.nodes());
+  b.own_force.resize(rod.elements);
   s.chain = Chain(N);
   for (Field<3>* f : {&s.target, &s.position}) f->resize(N + 1);
   for (Field<3>* f : {&s.turn, &s.force}) f->resize(N);
@@ -26,7 +29,7 @@ void resize_inner(const Rod& rod, BindingScratch& b) {
   const int nodes = rod.nodes();
   b.nesting.resize(nodes);
   b.element.resize(nodes);
-  for (Field<3>* f : {&b.centre, &b.tangent, &b.normal, &b.moves}) f->resize(nodes);
+  for (Field<3>* f : {&b.centre, &b.tangent, &b.normal, &b.moves, &b.force_on_outer}) f->resize(nodes);
   for (Field<1>* f : {&b.along, &b.room, &b.wall, &b.softness, &b.stay}) f->resize(nodes);
 }
 

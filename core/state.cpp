@@ -68,7 +68,7 @@ State lay_out_all(const Model& model, const std::vector<EndState>& bases, const 
       state.rods[r].moment.resize(model.rods[r].nodes());
       state.rods[r].acceleration.resize(model.rods[r].nodes());
     }
-    for (Field<3>* f : {&outer.inner_force, &outer.owed_force}) f->resize(model.rods[n.outer].nodes());
+    outer.inner_force.resize(model.rods[n.outer].nodes());
     for (Field<3>* f : {&inner.contact_force, &inner.offset, &inner.offset_before}) f->resize(model.rods[n.inner].nodes());
   }
   state.nestings.resize(model.nestings.size());

@@ -35,7 +35,6 @@ struct RodState {
   Field<3> moment;         ///< N m, world frame, (#joints), distal on proximal, and
   Field<3> acceleration;   ///< m/s2, (#nodes); both empty if it is in no nesting
   Field<3> inner_force;    ///< N, (#nodes), of the rods inside it; empty if none can be
-  Field<3> owed_force;     ///< N, (#nodes): what they exerted in all steps, less what was taken for it so far
   Field<3> contact_force;  ///< N, (#nodes), on the rod around it, and
   Field<3> offset;         ///< m, (#nodes), from the middle of that rod's lumen; zero outside. Empty if it can be in none
   Field<3> offset_before;
@@ -86,7 +85,6 @@ void for_each_field(S& state, Visit&& visit) {
     components("moment", rod.moment);
     components("acceleration", rod.acceleration);
     components("inner_force", rod.inner_force);
-    components("owed_force", rod.owed_force);
     components("contact_force", rod.contact_force);
     components("offset", rod.offset);
     components("offset_before", rod.offset_before);

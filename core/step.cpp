@@ -1,3 +1,5 @@
+#include <cstdio>
+#include <cstdlib>
 #include "core/step.h"
 
 #include <algorithm>
@@ -173,7 +175,7 @@ void finish(const Model& model, const Rod& rod, const BindingScratch& binding, R
     linearise_joints(rod, state, joints_of(s.inputs), model.step_s, s);
   else
     linearise_end_joints(rod, state, joints_of(s.inputs), model.step_s, s);
-  take_own_force(rod, binding, s, state);
+  take_own_force(rod, binding, s);
   if (state.moment.size() > 0)
     for_packs(rod.first, rod.nodes(),
               [&]<class T>(T, int i) { store3(state.moment, i, load3<T>(s.chain.joint_moment, i)); });
@@ -194,6 +196,25 @@ void step(const Model& model, const Inputs& inputs, State& state, Scratch& scrat
     for (int r : group) predict(model, state, r, scratch.rods[r].scheme, scratch);
     iterate(model, state, group, scratch, report);
     retry_from_rest(model, state, group, scratch, report);
+  }
+  measure_binding(model, scratch);
+  scratch.sweeps = 1;
+  for (int sweep = 1; sweep < tunables::max_sweeps; ++sweep) {
+    bool again = false;
+    for (std::size_t r = 0; r < model.rods.size(); ++r)
+      if (scratch.rods[r].progress == Progress::done && balance(r, model.step_s, state.rods[r], scratch)) {
+        scratch.rods[r].progress = Progress::open;
+        again = true;
+      }
+    if (getenv("MM")) { const auto& b = scratch.bindings[0]; int at=0; double w=0; for(int i=0;i<b.owed.size();++i){ double g=b.owed[i].norm(); if(g>w){w=g;at=i;} } fprintf(stderr,"  sweep %d mm %.3g at %d (%.3g %.3g %.3g) given %.3g pos err\n",sweep,b.mismatch,at,b.owed[at][0],b.owed[at][1],b.owed[at][2],b.given[at].norm()); }
+    if (!again) break;
+    ++scratch.sweeps;
+    for (const Group& group : scratch.groups) {
+      for (int r : group)
+        if (is_inner(scratch, r)) predict(model, state, r, scratch.rods[r].scheme, scratch);
+      iterate(model, state, group, scratch, report);
+    }
+    measure_binding(model, scratch);
   }
 
   report.trouble = 0;

@@ -5,6 +5,8 @@
 #include <limits>
 
 #include "core/math/rotation.h"
+#include "core/rod/elasticity.h"
+#include "core/rod/ends.h"
 #include "core/rod/inertia.h"
 #include "core/solve/node_spring.h"
 #include "core/tunables.h"
@@ -157,7 +159,7 @@ void feel_inner_rods(const Model& model, const State& state, std::size_t r, Scra
   for (int i = rod.first; i < b.whole.nodes(); ++i) {
     const double softness = 1 / b.spring.at(0)[i];
     V3<double> force{};
-    if (i <= N) force = madd(tunables::repaid, load3<double>(own.owed_force, i), load3<double>(own.inner_force, i));
+    if (i <= N) force = load3<double>(own.inner_force, i);
     if (i > rod.first) force = force + load3<double>(b.force, i - 1);
     if (i < b.whole.elements) force = force - load3<double>(b.force, i);
     S3<double> P;
@@ -220,7 +222,13 @@ void lend_to_force(const State& state, std::size_t r, Scratch& scratch) {
       const int k = b.beyond_node + j - N - 1;
       q = load4<double>(inner.orientation, k);
       V3<double> turn{};
-      if (s.scheme != TimeScheme::from_rest) turn = 2.0 * load3<double>(inner.turn, k) - load3<double>(inner.turn_before, k);
+      if (s.scheme != TimeScheme::from_rest) {
+        turn = 2.0 * load3<double>(inner.turn, k) - load3<double>(inner.turn_before, k);
+        // It spins as the outer rod's tip does: a spin of its own would not bend it, but would look like it.
+        const V3<double> d3 = director3(q);
+        const double spin = dot(director3(load4<double>(own.orientation, N - 1)), load3<double>(s.turn, N - 1));
+        turn = madd(spin - dot(d3, turn), d3, turn);
+      }
       store4(s.orientation, j, turned(turn, q));
       store3(s.turn, j, turn);
       store3(s.force, j, n);
@@ -241,7 +249,7 @@ void lend_to_force(const State& state, std::size_t r, Scratch& scratch) {
   });
 }
 
-void take_own_force(const Rod& rod, const BindingScratch& b, RodScratch& s, RodState& state) {
+void take_own_force(const Rod& rod, const BindingScratch& b, RodScratch& s) {
   if (b.bending.size() == 0) return;
   // Along the rod, what the inner rods do not bear; across it, what its own moments ask for.
   for_packs(rod.first, rod.elements, [&]<class T>(T, int j) {
@@ -249,15 +257,6 @@ void take_own_force(const Rod& rod, const BindingScratch& b, RodScratch& s, RodS
     const V3<T> moment = load3<T>(s.chain.joint_moment, j + 1) - load3<T>(s.chain.joint_moment, j);
     store3(s.force, j, madd(dot(n, d3), d3, (1.0 / load<T>(rod.length.at(0) + j)) * cross(d3, moment)));
   });
-  // What it took to move a node so, and was not its own: less than it owes the inner rods, or more.
-  for (int i = rod.first + 1; i <= rod.elements; ++i) {
-    const S3<double> stiffness = inverse(load6<double>(b.own_compliance, i));
-    V3<double> taken = stiffness * (load3<double>(s.position, i) - load3<double>(b.own_target, i));
-    if (i < rod.elements) taken = taken - load3<double>(s.force, i);
-    taken = taken + load3<double>(s.force, i - 1);
-    const V3<double> t = director3(load4<double>(s.orientation, std::min(i, rod.elements - 1)));
-    store3(state.owed_force, i, load3<double>(state.owed_force, i) - across(t, taken));
-  }
 }
 
 const Rod& solved_rod(const Scratch& scratch, std::size_t r) {
@@ -636,24 +635,6 @@ void take_rim_loads(std::size_t r, Scratch& scratch) {
 }
 
 namespace {
-/// Forces of the ties in the iterate, on the outer rods.
-void measure_ties(const Rod& rod, const RodScratch& s, const BindingScratch& b, RodState& state) {
-  for (int i = rod.first; i < rod.nodes(); ++i) {
-    V3<double> f{}, offset{};
-    const V3<double> tangent = load3<double>(b.tangent, i);
-    if (b.nesting[i] >= 0) offset = across(tangent, load3<double>(s.position, i) - load3<double>(b.centre, i));
-    store3(state.offset_before, i, load3<double>(state.offset, i));
-    store3(state.offset, i, offset);
-    if (b.softness.at(0)[i] < infinite) {
-      const V3<double> n = load3<double>(b.normal, i), e = cross(tangent, n);
-      f = madd((dot(n, offset) - b.room.at(0)[i]) / b.softness.at(0)[i], n, (b.stay.at(0)[i] * dot(e, offset)) * e);
-    }
-    store3(state.contact_force, i, f);
-  }
-}
-}  // namespace
-
-namespace {
 /// A node that has just met the bore goes on as it moved in this step: second-order differences would throw it back at
 /// half the speed that it came with.
 void land(const Rod& rod, double step_s, const BindingScratch& b, RodState& state) {
@@ -670,42 +651,96 @@ void land(const Rod& rod, double step_s, const BindingScratch& b, RodState& stat
 }
 }  // namespace
 
+namespace {
+
+/// Force of node i's tie in the iterate, on the outer rod.
+V3<double> tie_force(const RodScratch& s, const BindingScratch& b, int i) {
+  if (b.softness.at(0)[i] == infinite) return {};
+  const V3<double> tangent = load3<double>(b.tangent, i), n = load3<double>(b.normal, i), e = cross(tangent, n);
+  const V3<double> offset = across(tangent, load3<double>(s.position, i) - load3<double>(b.centre, i));
+  return madd((dot(n, offset) - b.room.at(0)[i]) / b.softness.at(0)[i], n, (b.stay.at(0)[i] * dot(e, offset)) * e);
+}
+
+V3<double> rim_force(const RodScratch& s, const Rim& rim) {
+  const V3<double> before = load3<double>(s.position, rim.node), after = load3<double>(s.position, rim.node + 1);
+  const V3<double> e = cross(rim.tangent, rim.normal);
+  return madd(rim.force_N, rim.normal, (rim.stay * dot(e, madd(rim.along, after - before, before) - rim.centre)) * e);
+}
+
+}  // namespace
+
+void measure_binding(const Model& model, Scratch& scratch) {
+  for (BindingScratch& b : scratch.bindings) std::fill(b.given.raw().begin(), b.given.raw().end(), 0.0);
+  for (std::size_t r = 0; r < model.rods.size(); ++r) {
+    BindingScratch& b = scratch.bindings[r];
+    if (b.nesting.empty()) continue;
+    const RodScratch& s = scratch.rods[r];
+    const auto give = [&](int outer, int node, double part, const V3<double>& force) {
+      Field<3>& given = scratch.bindings[outer].given;
+      store3(given, node, madd(part, force, load3<double>(given, node)));
+    };
+    for (int i = s.inside.first; i < s.inside.nodes(); ++i) {
+      const V3<double> force = tie_force(s, b, i);
+      store3(b.force_on_outer, i, force);
+      if (b.softness.at(0)[i] == infinite) continue;
+      const int outer = model.nestings[b.nesting[i]].outer;
+      give(outer, b.element[i], 1 - b.along.at(0)[i], force);
+      give(outer, b.element[i] + 1, b.along.at(0)[i], force);
+    }
+    for (int k = 0; k < b.rim_count; ++k) {
+      const int outer = model.nestings[b.rims[k].nesting].outer;
+      give(outer, model.rods[outer].elements, 1, rim_force(s, b.rims[k]));
+    }
+  }
+}
+
+bool balance(std::size_t r, double step_s, const RodState& state, Scratch& scratch) {
+  BindingScratch& b = scratch.bindings[r];
+  if (b.bending.size() == 0) return false;
+  RodScratch& s = scratch.rods[r];
+  const Rod& rod = s.inside;
+  linearise_joints(rod, state, joints_of(s.inputs), step_s, s);
+  for_packs(rod.first, rod.elements, [&]<class T>(T, int j) {
+    const V3<T> d3 = director3(load4<T>(s.orientation, j)), n = load3<T>(s.force, j) - load3<T>(b.force, j);
+    const V3<T> moment = load3<T>(s.chain.joint_moment, j + 1) - load3<T>(s.chain.joint_moment, j);
+    store3(b.own_force, j, madd(dot(n, d3), d3, (1.0 / load<T>(rod.length.at(0) + j)) * cross(d3, moment)));
+  });
+  double worst = 0;
+  for (int i = rod.first + 1; i <= rod.elements; ++i) {
+    V3<double> taken = inverse(load6<double>(b.own_compliance, i)) * (load3<double>(s.position, i) - load3<double>(b.own_target, i));
+    if (i < rod.elements) taken = taken - load3<double>(b.own_force, i);
+    taken = taken + load3<double>(b.own_force, i - 1);
+    const V3<double> t = director3(load4<double>(s.orientation, std::min(i, rod.elements - 1)));
+    const V3<double> owed = across(t, load3<double>(b.given, i) - taken);
+    store3(b.owed, i, owed);
+    worst = largest(worst, std::sqrt(dot(owed, owed)));
+  }
+  b.mismatch = worst;
+  if (worst < tunables::balance_N) return false;
+  for (int i = rod.first + 1; i <= rod.elements; ++i)
+    store3(s.target, i, load3<double>(s.target, i) + load6<double>(s.chain.compliance, i) * load3<double>(b.owed, i));
+  return true;
+}
+
 void commit_binding(const Model& model, const Scratch& scratch, State& state) {
   if (model.nestings.empty()) return;
-  for (RodState& rod : state.rods) std::fill(rod.inner_force.raw().begin(), rod.inner_force.raw().end(), 0.0);
   for (NestingState& n : state.nestings) n.rim_force_W_N.setZero();
   for (std::size_t r = 0; r < model.rods.size(); ++r) {
     const BindingScratch& b = scratch.bindings[r];
+    RodState& to = state.rods[r];
+    for (int i = 0; i < to.inner_force.size(); ++i) store3(to.inner_force, i, load3<double>(b.given, i));
     if (b.nesting.empty()) continue;
-    Field<3>& contact_force = state.rods[r].contact_force;
-    land(scratch.rods[r].inside, model.step_s, b, state.rods[r]);
-    measure_ties(scratch.rods[r].inside, scratch.rods[r], b, state.rods[r]);
-    const auto give = [&](int outer, int node, double part, const V3<double>& force) {
-      const RodScratch& o = scratch.rods[outer];
-      const V3<double> t = director3(load4<double>(o.orientation, std::min(node, o.inside.elements - 1)));
-      RodState& to = state.rods[outer];
-      store3(to.inner_force, node, madd(part, force, load3<double>(to.inner_force, node)));
-      if (node > o.inside.first)
-        store3(to.owed_force, node, madd(part, across(t, force), load3<double>(to.owed_force, node)));
-    };
-    for (int i = scratch.rods[r].inside.first; i <= model.rods[r].elements; ++i) {
-      if (b.softness.at(0)[i] == infinite) continue;
-      const int outer = model.nestings[b.nesting[i]].outer, element = b.element[i];
-      const V3<double> force = load3<double>(contact_force, i);
-      give(outer, element, 1 - b.along.at(0)[i], force);
-      give(outer, element + 1, b.along.at(0)[i], force);
+    land(scratch.rods[r].inside, model.step_s, b, to);
+    for (int i = scratch.rods[r].inside.first; i < model.rods[r].nodes(); ++i) {
+      V3<double> offset{};
+      if (b.nesting[i] >= 0)
+        offset = across(load3<double>(b.tangent, i), load3<double>(to.position, i) - load3<double>(b.centre, i));
+      store3(to.offset_before, i, load3<double>(to.offset, i));
+      store3(to.offset, i, offset);
+      store3(to.contact_force, i, load3<double>(b.force_on_outer, i));
     }
-    for (int k = 0; k < b.rim_count; ++k) {
-      const Rim& rim = b.rims[k];
-      const int outer = model.nestings[rim.nesting].outer;
-      const Field<3>& position = scratch.rods[r].position;
-      const V3<double> point =
-          madd(rim.along, load3<double>(position, rim.node + 1) - load3<double>(position, rim.node), load3<double>(position, rim.node));
-      const V3<double> e = cross(rim.tangent, rim.normal);
-      const V3<double> force = madd(rim.force_N, rim.normal, (rim.stay * dot(e, point - rim.centre)) * e);
-      give(outer, model.rods[outer].elements, 1, force);
-      state.nestings[rim.nesting].rim_force_W_N = to_eigen(force);
-    }
+    for (int k = 0; k < b.rim_count; ++k)
+      state.nestings[b.rims[k].nesting].rim_force_W_N = to_eigen(rim_force(scratch.rods[r], b.rims[k]));
   }
 }
 

@@ -21,7 +21,7 @@ void feel_inner_rods(const Model& model, const State& state, std::size_t r, Scra
 /// Adds the inner rods' internal force to the iterate's, so that it turns with rod `r`; and takes it back, noting what the inner rods
 /// seemed to exert.
 void lend_to_force(const State& state, std::size_t r, Scratch& scratch);
-void take_own_force(const Rod& rod, const BindingScratch& binding, RodScratch& s, RodState& state);
+void take_own_force(const Rod& rod, const BindingScratch& binding, RodScratch& s);
 /// Adds to joints and elements what the inner rods lend; after linearise_joints and assemble_elements.
 void lend_to_joints(const BindingScratch& binding, RodScratch& s);
 void lend_to_elements(const BindingScratch& binding, RodScratch& s);
@@ -47,6 +47,11 @@ int rim_count(const Scratch& scratch, std::size_t r);
 ChainLoad& rim_load(std::size_t r, int k, Scratch& scratch);
 /// Adds to the chain's solution what the rims take, once all rim_loads are solved.
 void take_rim_loads(std::size_t r, Scratch& scratch);
+
+/// Measures what the ties and rims of the iterate exert.
+void measure_binding(const Model& model, Scratch& scratch);
+/// Compares that with what rod `r` was moved by, and corrects its targets if they differ: then solve it again.
+bool balance(std::size_t r, double step_s, const RodState& state, Scratch& scratch);
 
 /// Moves the forces between nested rods into the state; after all commits.
 void commit_binding(const Model& model, const Scratch& scratch, State& state);

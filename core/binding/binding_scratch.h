@@ -35,6 +35,8 @@ struct BindingScratch {
   Field<1> depth, cell;        ///< m, (#nodes of `whole`), from the introducer; half an element to each side
   Field<6> own_compliance;     ///< (#nodes), as they would be without inner rods
   Field<3> own_target;
+  Field<3> given, owed, own_force;
+  double mismatch = 0;
   Field<4> orientation;        ///< (#elements of `whole`), before the step
   Field<1> bending;   ///< N m2/m, (#joints)
   Field<1> damping;   ///< N m2/m, (#joints): of material damping
@@ -61,6 +63,7 @@ struct BindingScratch {
   int changes = 0;   ///< of ties in this step
   Field<6> free_compliance;  ///< as they would be without ties
   Field<3> free_target;
+  Field<3> force_on_outer;
   Rim rims[max_outer_rods];  ///< the first `rim_count` are in use
   int rim_count = 0;
   std::vector<ChainLoad> rim_loads;

@@ -73,7 +73,7 @@ void enter_element(const Rod& rod, const RodInputs& inputs, double step_s, RodSt
     }
   if (s.moment.size() > 0) s.moment.set(base, s.moment[old]);
   if (s.acceleration.size() > 0) s.acceleration.set(old, part * s.acceleration[old + 1]);
-  for (Field<3>* f : {&s.acceleration, &s.inner_force, &s.owed_force, &s.contact_force, &s.offset, &s.offset_before})
+  for (Field<3>* f : {&s.acceleration, &s.inner_force, &s.contact_force, &s.offset, &s.offset_before})
     if (f->size() > 0) f->set(base, Vector3d::Zero());
   s.first = base;
 }
@@ -91,7 +91,7 @@ void leave_element(const Rod& rod, RodState& s) {
   for (Field<3>* f : {&s.velocity, &s.velocity_before}) f->set(next, Vector3d::Zero());
   if (s.strain.size() > 0)
     for (Field<3>* f : {&s.strain, &s.strain_before}) f->set(next, (*f)[next - 1]);
-  for (Field<3>* f : {&s.acceleration, &s.inner_force, &s.owed_force, &s.contact_force, &s.offset, &s.offset_before})
+  for (Field<3>* f : {&s.acceleration, &s.inner_force, &s.contact_force, &s.offset, &s.offset_before})
     if (f->size() > 0) f->set(next, Vector3d::Zero());
   s.first = next;
 }
