@@ -10,14 +10,14 @@ void resize_outer(const Rod& rod, RodScratch& s, BindingScratch& b) {
   const int N = rod.elements + max_beyond;
   b.whole.length.resize(N);
   b.beyond_position.resize(max_beyond + 1);
-  for (Field<1>* f : {&b.depth, &b.cell, &b.bending, &b.damping, &b.spring}) f->resize(N + 1);
+  for (Field<1>* f : {&b.depth, &b.cell, &b.bending, &b.spinning, &b.damping, &b.spring}) f->resize(N + 1);
   for (Field<3>* f : {&b.moment, &b.gone_on, &b.pull}) f->resize(N + 1);
   for (Field<3>* f : {&b.force, &b.torque, &b.inner_turn}) f->resize(N);
   b.orientation.resize(N);
   b.own_compliance.resize(N + 1);
   b.own_target.resize(N + 1);
   b.given.resize(rod.nodes());
-  b.owed.resize(rod.nodes());
+  for (Field<3>* f : {&b.owed, &b.owed_before, &b.more, &b.correction}) f->resize(rod.nodes());
   b.own_force.resize(rod.elements);
   s.chain = Chain(N);
   for (Field<3>* f : {&s.target, &s.position}) f->resize(N + 1);
@@ -29,8 +29,8 @@ void resize_inner(const Rod& rod, BindingScratch& b) {
   const int nodes = rod.nodes();
   b.nesting.resize(nodes);
   b.element.resize(nodes);
-  for (Field<3>* f : {&b.centre, &b.tangent, &b.normal, &b.moves, &b.force_on_outer}) f->resize(nodes);
-  for (Field<1>* f : {&b.along, &b.room, &b.wall, &b.softness, &b.stay}) f->resize(nodes);
+  for (Field<3>* f : {&b.centre, &b.tangent, &b.normal, &b.moves, &b.start, &b.on_outer, &b.force_on_outer}) f->resize(nodes);
+  for (Field<1>* f : {&b.along, &b.room, &b.wall, &b.film, &b.softness, &b.stay}) f->resize(nodes);
 }
 
 }  // namespace

@@ -1,5 +1,3 @@
-#include <cstdio>
-#include <cstdlib>
 #include "core/step.h"
 
 #include <algorithm>
@@ -42,6 +40,7 @@ void predict(const Model& model, const State& state, std::size_t r, TimeScheme s
   s.progress = Progress::open;
   s.geometric = scheme == TimeScheme::from_rest ? GeometricStiffness::without : GeometricStiffness::with;
   predict_elements(s.inside, state.rods[r], s);
+  forget_corrections(scratch.bindings[r]);
   find_bores(model, state, r, scratch);
   constrain(model, state, r, scratch);
   lend_to_force(state, r, scratch);
@@ -187,6 +186,34 @@ void finish(const Model& model, const Rod& rod, const BindingScratch& binding, R
   report_forces(model, rod, s, state, report);
 }
 
+/// Solves outer and inner rods in turn until what the one takes for the other's force is it.
+void balance_nests(const Model& model, const State& state, Scratch& scratch, StepReport& report) {
+  scratch.sweeps = 1;
+  measure_binding(model, scratch);
+  while (scratch.sweeps < tunables::max_sweeps) {
+    bool again = false;
+    for (std::size_t r = 0; r < model.rods.size(); ++r) {
+      RodScratch& s = scratch.rods[r];
+      if (s.progress != Progress::done || !balance(r, scratch.sweeps, model.step_s, state.rods[r], scratch)) continue;
+      s.progress = Progress::open;
+      again = true;
+    }
+    if (!again) return;
+    ++scratch.sweeps;
+    for (const Group& group : scratch.groups) {
+      for (int r : group) {
+        RodScratch& s = scratch.rods[r];
+        if (!is_inner(scratch, r) || s.progress == Progress::failed) continue;
+        move_bores(model, state, r, scratch);
+        constrain(model, state, r, scratch);
+        s.progress = Progress::open;
+      }
+      iterate(model, state, group, scratch, report);
+    }
+    measure_binding(model, scratch);
+  }
+}
+
 }  // namespace
 
 void step(const Model& model, const Inputs& inputs, State& state, Scratch& scratch, StepReport& report) {
@@ -197,25 +224,7 @@ void step(const Model& model, const Inputs& inputs, State& state, Scratch& scrat
     iterate(model, state, group, scratch, report);
     retry_from_rest(model, state, group, scratch, report);
   }
-  measure_binding(model, scratch);
-  scratch.sweeps = 1;
-  for (int sweep = 1; sweep < tunables::max_sweeps; ++sweep) {
-    bool again = false;
-    for (std::size_t r = 0; r < model.rods.size(); ++r)
-      if (scratch.rods[r].progress == Progress::done && balance(r, model.step_s, state.rods[r], scratch)) {
-        scratch.rods[r].progress = Progress::open;
-        again = true;
-      }
-    if (getenv("MM")) { const auto& b = scratch.bindings[0]; int at=0; double w=0; for(int i=0;i<b.owed.size();++i){ double g=b.owed[i].norm(); if(g>w){w=g;at=i;} } fprintf(stderr,"  sweep %d mm %.3g at %d (%.3g %.3g %.3g) given %.3g pos err\n",sweep,b.mismatch,at,b.owed[at][0],b.owed[at][1],b.owed[at][2],b.given[at].norm()); }
-    if (!again) break;
-    ++scratch.sweeps;
-    for (const Group& group : scratch.groups) {
-      for (int r : group)
-        if (is_inner(scratch, r)) predict(model, state, r, scratch.rods[r].scheme, scratch);
-      iterate(model, state, group, scratch, report);
-    }
-    measure_binding(model, scratch);
-  }
+  balance_nests(model, state, scratch, report);
 
   report.trouble = 0;
   for (std::size_t r = 0; r < model.rods.size(); ++r) {

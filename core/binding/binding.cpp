@@ -51,13 +51,13 @@ void moves_of_inner(const Rod& inner, const RodState& state, double step_s, Time
   keep_acceleration(inner, state, step_s, scheme, moves);
   for_packs(inner.first, inner.nodes(), [&]<class T>(T, int i) {
     const V3<T> crossing = load3<T>(state.offset, i) - load3<T>(state.offset_before, i);
-    store3(moves, i, load3<T>(moves, i) - load3<T>(state.position, i) - crossing);
+    store3(moves, i, load3<T>(moves, i) - load3<T>(state.position, i) - splat<T>(tunables::crossing) * crossing);
   });
   // What protrudes crosses no bore, but goes along with what is inside.
   int last = inner.elements;
   while (last > inner.first && dot(load3<double>(state.offset, last), load3<double>(state.offset, last)) == 0) --last;
   const V3<double> crossing = load3<double>(state.offset, last) - load3<double>(state.offset_before, last);
-  for (int i = last + 1; i <= inner.elements; ++i) store3(moves, i, load3<double>(moves, i) - crossing);
+  for (int i = last + 1; i <= inner.elements; ++i) store3(moves, i, load3<double>(moves, i) - tunables::crossing * crossing);
 }
 
 /// Makes `b.whole` the outer rod and what protrudes from its tip of the first inner rod that does, up to tunables.h.
@@ -159,7 +159,7 @@ void feel_inner_rods(const Model& model, const State& state, std::size_t r, Scra
   for (int i = rod.first; i < b.whole.nodes(); ++i) {
     const double softness = 1 / b.spring.at(0)[i];
     V3<double> force{};
-    if (i <= N) force = load3<double>(own.inner_force, i);
+    if (i <= N) force = load3<double>(own.inner_force, i) + load3<double>(b.correction, i);
     if (i > rod.first) force = force + load3<double>(b.force, i - 1);
     if (i < b.whole.elements) force = force - load3<double>(b.force, i);
     S3<double> P;
@@ -188,6 +188,11 @@ void feel_inner_rods(const Model& model, const State& state, std::size_t r, Scra
 
 namespace {
 /// Of a turn across the axis d: stiffness (I - d d^T).
+template <class T>
+S3<T> along_axis(T stiffness, const V3<T>& d) {
+  const V3<T> e = stiffness * d;
+  return {e.x * d.x, e.x * d.y, e.x * d.z, e.y * d.y, e.y * d.z, e.z * d.z};
+}
 template <class T>
 S3<T> across_axis(T stiffness, const V3<T>& d) {
   const V3<T> e = stiffness * d;
@@ -224,7 +229,6 @@ void lend_to_force(const State& state, std::size_t r, Scratch& scratch) {
       V3<double> turn{};
       if (s.scheme != TimeScheme::from_rest) {
         turn = 2.0 * load3<double>(inner.turn, k) - load3<double>(inner.turn_before, k);
-        // It spins as the outer rod's tip does: a spin of its own would not bend it, but would look like it.
         const V3<double> d3 = director3(q);
         const double spin = dot(director3(load4<double>(own.orientation, N - 1)), load3<double>(s.turn, N - 1));
         turn = madd(spin - dot(d3, turn), d3, turn);
@@ -237,6 +241,9 @@ void lend_to_force(const State& state, std::size_t r, Scratch& scratch) {
     const V3<double> d = b.whole.length.at(0)[j] * director3(q);
     store3(b.torque, j, load3<double>(b.moment, j) - load3<double>(b.moment, j + 1) - cross(d, n));
   }
+  // What protrudes spins with the outer rod's tip: a spin of its own would not bend it, but would look like it.
+  std::fill(b.spinning.raw().begin(), b.spinning.raw().end(), 0.0);
+  for (int i = N; i < b.whole.elements; ++i) b.spinning.at(0)[i] = 10 * b.bending.at(0)[i];
   // The part of material damping is like a stiffness, less what it does where the inner rods go on as they turned.
   for_packs(b.whole.first + 1, b.whole.elements, [&]<class T>(T, int i) {
     const T viscous = load<T>(b.damping.at(0) + i);
@@ -273,7 +280,8 @@ void lend_to_joints(const BindingScratch& b, RodScratch& s) {
   }
   const auto joint = [&]<class T>(T, int i, const V3<T>& turn_before) {
     const V3<T> d3 = director3(load4<T>(s.orientation, i)), turn = load3<T>(s.turn, i);
-    const S3<T> H = across_axis(load<T>(b.bending.at(0) + i) + load<T>(b.damping.at(0) + i), d3);
+    const S3<T> H = across_axis(load<T>(b.bending.at(0) + i) + load<T>(b.damping.at(0) + i), d3) +
+                    along_axis(load<T>(b.spinning.at(0) + i), d3);
     store6(chain.joint_stiffness, i, load6<T>(chain.joint_stiffness, i) + H);
     const V3<T> moment = rotated(splat<T>(0.5) * (turn + turn_before), load3<T>(b.moment, i));
     store3(chain.joint_moment, i,
@@ -293,12 +301,6 @@ void lend_to_elements(const BindingScratch& b, RodScratch& s) {
   Chain& chain = s.chain;
   for_packs(b.whole.first, b.whole.elements,
             [&]<class T>(T, int j) { store3(chain.torque, j, load3<T>(chain.torque, j) + load3<T>(b.torque, j)); });
-  // Nothing else would hold what is beyond the tip against spinning.
-  for (int j = s.inside.elements; j < b.whole.elements; ++j) {
-    const V3<double> d3 = director3(load4<double>(s.orientation, j)), e = b.bending.at(0)[j] * d3;
-    store6(chain.stiffness, j, load6<double>(chain.stiffness, j) +
-                                   S3<double>{e.x * d3.x, e.x * d3.y, e.x * d3.z, e.y * d3.y, e.y * d3.z, e.z * d3.z});
-  }
 }
 
 namespace {
@@ -384,7 +386,7 @@ void set_tie(int i, const V3<double>& normal, double force_N, BindingScratch& b)
 }
 
 void find_ties(const Model& model, const Rod& rod, const RodState& state, const std::vector<NestingState>& nestings,
-               const Scratch& scratch, BindingScratch& b) {
+               const Scratch& scratch, double inertia, BindingScratch& b) {
   for (int i = rod.first; i < rod.nodes(); ++i) {
     b.softness.at(0)[i] = infinite, b.stay.at(0)[i] = 0;
     if (b.nesting[i] < 0) continue;
@@ -393,6 +395,8 @@ void find_ties(const Model& model, const Rod& rod, const RodState& state, const 
     const CentrelinePoint c = centreline(outer.inside, outer, outer.position, element, b.along.at(0)[i]);
     store3(b.centre, i, c.p);
     store3(b.tangent, i, c.tangent);
+    store3(b.start, i, load3<double>(state.offset, i));
+    b.film.at(0)[i] = tunables::rattle * inertia * rod.mass.at(0)[i];
     b.wall.at(0)[i] = 1 / (tunables::bore_N_m2 * rod.joint_length.at(0)[i]);
     b.room.at(0)[i] = outer.inside.bore.at(0)[element] - rod.radius.at(0)[i];
     const V3<double> now = load3<double>(state.offset, i), next = now + (now - load3<double>(state.offset_before, i));
@@ -421,6 +425,7 @@ void find_rim(const Model& model, const State& state, int index, int node, const
   const V3<double> point = centreline(rod, s, position, node, rim.along).p;
   const V3<double> bulge = point - madd(rim.along, d, a);
   rim.centre = tip.p - bulge;
+  rim.tip = tip.p;
   rim.tangent = tip.tangent;
   rim.room = tube.bore.at(0)[tube.elements - 1] - rod.radius.at(0)[node];
   rim.wall = 2 / (tunables::bore_N_m2 * rod.length.at(0)[node]);
@@ -459,15 +464,28 @@ void find_bores(const Model& model, const State& state, std::size_t r, Scratch& 
       find_rim(model, state, index, last, rod, position, scratch, b, s);
   }
   b.last = s.inputs.tip.hold == Hold::free ? rod.elements : rod.elements - 1;
-  find_ties(model, rod, state.rods[r], state.nestings, scratch, b);
+  find_ties(model, rod, state.rods[r], state.nestings, scratch, acceleration_per_move(s.scheme, model.step_s), b);
 }
 
 namespace {
+
+/// A direction across the unit vector t.
+V3<double> beside(const V3<double>& t) {
+  const V3<double> axis = std::fabs(t.x) < 0.6 ? V3<double>{1, 0, 0} : V3<double>{0, 1, 0};
+  const V3<double> u = cross(t, axis);
+  return (1 / std::sqrt(dot(u, u))) * u;
+}
 
 /// Puts node i back to where it is free, and ties it again if it is tied; keeps the chain's gaps in step.
 void renew_node(int i, BindingScratch& b, RodScratch& s) {
   S3<double> P = load6<double>(b.free_compliance, i);
   V3<double> target = load3<double>(b.free_target, i);
+  if (b.nesting[i] >= 0 && i <= b.last) {
+    const V3<double> u = beside(load3<double>(b.tangent, i)), w = cross(load3<double>(b.tangent, i), u);
+    const V3<double> place = load3<double>(b.centre, i) + load3<double>(b.start, i);
+    tie(u, dot(u, place), 1 / b.film.at(0)[i], P, target);
+    tie(w, dot(w, place), 1 / b.film.at(0)[i], P, target);
+  }
   if (b.softness.at(0)[i] < infinite) {
     const V3<double> n = load3<double>(b.normal, i), e = cross(load3<double>(b.tangent, i), n);
     const V3<double> centre = load3<double>(b.centre, i);
@@ -497,7 +515,7 @@ void tie_to_bores(std::size_t r, Scratch& scratch) {
   b.free_target = s.target;
   b.changes = 0;
   for (int i = s.inside.first; i < s.inside.nodes(); ++i)
-    if (b.softness.at(0)[i] < infinite) renew_node(i, b, s);
+    if (b.nesting[i] >= 0) renew_node(i, b, s);
   for (int k = 0; k < b.rim_count; ++k)
     for (int i : {b.rims[k].node, b.rims[k].node + 1}) renew_node(i, b, s);
 }
@@ -655,10 +673,12 @@ namespace {
 
 /// Force of node i's tie in the iterate, on the outer rod.
 V3<double> tie_force(const RodScratch& s, const BindingScratch& b, int i) {
-  if (b.softness.at(0)[i] == infinite) return {};
+  if (b.nesting[i] < 0 || i > b.last) return {};
   const V3<double> tangent = load3<double>(b.tangent, i), n = load3<double>(b.normal, i), e = cross(tangent, n);
   const V3<double> offset = across(tangent, load3<double>(s.position, i) - load3<double>(b.centre, i));
-  return madd((dot(n, offset) - b.room.at(0)[i]) / b.softness.at(0)[i], n, (b.stay.at(0)[i] * dot(e, offset)) * e);
+  const V3<double> film = b.film.at(0)[i] * (offset - across(tangent, load3<double>(b.start, i)));
+  if (b.softness.at(0)[i] == infinite) return film;
+  return film + madd((dot(n, offset) - b.room.at(0)[i]) / b.softness.at(0)[i], n, (b.stay.at(0)[i] * dot(e, offset)) * e);
 }
 
 V3<double> rim_force(const RodScratch& s, const Rim& rim) {
@@ -668,6 +688,8 @@ V3<double> rim_force(const RodScratch& s, const Rim& rim) {
 }
 
 }  // namespace
+
+void forget_corrections(BindingScratch& b) { std::fill(b.correction.raw().begin(), b.correction.raw().end(), 0.0); }
 
 void measure_binding(const Model& model, Scratch& scratch) {
   for (BindingScratch& b : scratch.bindings) std::fill(b.given.raw().begin(), b.given.raw().end(), 0.0);
@@ -682,19 +704,24 @@ void measure_binding(const Model& model, Scratch& scratch) {
     for (int i = s.inside.first; i < s.inside.nodes(); ++i) {
       const V3<double> force = tie_force(s, b, i);
       store3(b.force_on_outer, i, force);
-      if (b.softness.at(0)[i] == infinite) continue;
+      store3(b.on_outer, i, force);
+      if (b.nesting[i] < 0) continue;
       const int outer = model.nestings[b.nesting[i]].outer;
       give(outer, b.element[i], 1 - b.along.at(0)[i], force);
       give(outer, b.element[i] + 1, b.along.at(0)[i], force);
     }
     for (int k = 0; k < b.rim_count; ++k) {
-      const int outer = model.nestings[b.rims[k].nesting].outer;
-      give(outer, model.rods[outer].elements, 1, rim_force(s, b.rims[k]));
+      const Rim& rim = b.rims[k];
+      const int outer = model.nestings[rim.nesting].outer;
+      const V3<double> force = rim_force(s, rim);
+      give(outer, model.rods[outer].elements, 1, force);
+      store3(b.on_outer, rim.node, madd(1 - rim.along, force, load3<double>(b.on_outer, rim.node)));
+      store3(b.on_outer, rim.node + 1, madd(rim.along, force, load3<double>(b.on_outer, rim.node + 1)));
     }
   }
 }
 
-bool balance(std::size_t r, double step_s, const RodState& state, Scratch& scratch) {
+bool balance(std::size_t r, int sweep, double step_s, const RodState& state, Scratch& scratch) {
   BindingScratch& b = scratch.bindings[r];
   if (b.bending.size() == 0) return false;
   RodScratch& s = scratch.rods[r];
@@ -705,21 +732,61 @@ bool balance(std::size_t r, double step_s, const RodState& state, Scratch& scrat
     const V3<T> moment = load3<T>(s.chain.joint_moment, j + 1) - load3<T>(s.chain.joint_moment, j);
     store3(b.own_force, j, madd(dot(n, d3), d3, (1.0 / load<T>(rod.length.at(0) + j)) * cross(d3, moment)));
   });
-  double worst = 0;
+  double worst = 0, largest_given = 0, projection = 0, change = 0;
   for (int i = rod.first + 1; i <= rod.elements; ++i) {
     V3<double> taken = inverse(load6<double>(b.own_compliance, i)) * (load3<double>(s.position, i) - load3<double>(b.own_target, i));
     if (i < rod.elements) taken = taken - load3<double>(b.own_force, i);
     taken = taken + load3<double>(b.own_force, i - 1);
+    if (!b.nesting.empty()) taken = taken + load3<double>(b.on_outer, i);
     const V3<double> t = director3(load4<double>(s.orientation, std::min(i, rod.elements - 1)));
-    const V3<double> owed = across(t, load3<double>(b.given, i) - taken);
+    const V3<double> owed = across(t, load3<double>(b.given, i) - taken), before = load3<double>(b.owed, i);
+    const V3<double> difference = owed - before;
+    projection += dot(difference, owed), change += dot(difference, difference);
+    store3(b.owed_before, i, before);
     store3(b.owed, i, owed);
     worst = largest(worst, std::sqrt(dot(owed, owed)));
+    largest_given = largest(largest_given, std::sqrt(dot(load3<double>(b.given, i), load3<double>(b.given, i))));
   }
   b.mismatch = worst;
-  if (worst < tunables::balance_N) return false;
-  for (int i = rod.first + 1; i <= rod.elements; ++i)
-    store3(s.target, i, load3<double>(s.target, i) + load6<double>(s.chain.compliance, i) * load3<double>(b.owed, i));
+  if (worst < largest(tunables::balance_N, tunables::balance_part * largest_given)) return false;
+  // Anderson's mixing with one step of memory.
+  const double mix = sweep > 1 && change > 0 ? std::clamp(projection / change, -3.0, 0.9) : 0;
+  for (int i = rod.first + 1; i <= rod.elements; ++i) {
+    const V3<double> owed = load3<double>(b.owed, i);
+    V3<double> more = owed;
+    if (sweep > 1) more = owed - mix * (load3<double>(b.more, i) + owed - load3<double>(b.owed_before, i));
+    store3(b.more, i, more);
+    store3(b.correction, i, load3<double>(b.correction, i) + more);
+    store3(s.target, i, load3<double>(s.target, i) + load6<double>(s.chain.compliance, i) * more);
+  }
   return true;
+}
+
+void move_bores(const Model& model, const State& state, std::size_t r, Scratch& scratch) {
+  BindingScratch& b = scratch.bindings[r];
+  RodScratch& s = scratch.rods[r];
+  const Rod& rod = s.inside;
+  for (int i = rod.first; i < rod.nodes(); ++i) {
+    if (b.nesting[i] < 0) continue;
+    const RodScratch& outer = scratch.rods[model.nestings[b.nesting[i]].outer];
+    const CentrelinePoint c = centreline(outer.inside, outer, outer.position, b.element[i], b.along.at(0)[i]);
+    store3(b.centre, i, c.p);
+    store3(b.tangent, i, c.tangent);
+    if (b.softness.at(0)[i] == infinite) continue;
+    const V3<double> n = across(c.tangent, load3<double>(b.normal, i));
+    store3(b.normal, i, (1 / std::sqrt(dot(n, n))) * n);
+  }
+  for (int k = 0; k < b.rim_count; ++k) {
+    Rim& rim = b.rims[k];
+    const RodScratch& outer = scratch.rods[model.nestings[rim.nesting].outer];
+    const CentrelinePoint tip = centreline(outer.inside, outer, outer.position, outer.inside.elements - 1, 1);
+    rim.centre = rim.centre + (tip.p - rim.tip);
+    rim.tip = tip.p;
+    rim.tangent = tip.tangent;
+    const V3<double> n = across(tip.tangent, rim.normal);
+    rim.normal = (1 / std::sqrt(dot(n, n))) * n;
+  }
+  (void)state;
 }
 
 void commit_binding(const Model& model, const Scratch& scratch, State& state) {
@@ -737,7 +804,8 @@ void commit_binding(const Model& model, const Scratch& scratch, State& state) {
         offset = across(load3<double>(b.tangent, i), load3<double>(to.position, i) - load3<double>(b.centre, i));
       store3(to.offset_before, i, load3<double>(to.offset, i));
       store3(to.offset, i, offset);
-      store3(to.contact_force, i, load3<double>(b.force_on_outer, i));
+      const V3<double> film = b.nesting[i] < 0 || i > b.last ? V3<double>{} : b.film.at(0)[i] * (offset - across(load3<double>(b.tangent, i), load3<double>(b.start, i)));
+      store3(to.contact_force, i, load3<double>(b.force_on_outer, i) - film);
     }
     for (int k = 0; k < b.rim_count; ++k)
       state.nestings[b.rims[k].nesting].rim_force_W_N = to_eigen(rim_force(scratch.rods[r], b.rims[k]));

@@ -48,10 +48,15 @@ ChainLoad& rim_load(std::size_t r, int k, Scratch& scratch);
 /// Adds to the chain's solution what the rims take, once all rim_loads are solved.
 void take_rim_loads(std::size_t r, Scratch& scratch);
 
+/// Before a step, and before it is tried again.
+void forget_corrections(BindingScratch& binding);
 /// Measures what the ties and rims of the iterate exert.
 void measure_binding(const Model& model, Scratch& scratch);
 /// Compares that with what rod `r` was moved by, and corrects its targets if they differ: then solve it again.
-bool balance(std::size_t r, double step_s, const RodState& state, Scratch& scratch);
+bool balance(std::size_t r, int sweep, double step_s, const RodState& state, Scratch& scratch);
+
+/// Lets the bores of rod `r` follow the outer rods' new iterates; ties stay.
+void move_bores(const Model& model, const State& state, std::size_t r, Scratch& scratch);
 
 /// Moves the forces between nested rods into the state; after all commits.
 void commit_binding(const Model& model, const Scratch& scratch, State& state);

@@ -20,6 +20,7 @@ struct Rim {
   V3<double> centre;   ///< m, of the outer's tip, less the bulge of the rod's centreline over its polygon there
   V3<double> tangent;
   double room = 0;  ///< m, clearance: normal . (point of the polygon - centre) is to be at most this
+  V3<double> tip;
   V3<double> edge;  ///< m, from `node` to the next
   double stay = 0;  ///< N/m of the tie across normal and tangent: the force turns with the point, like a pendulum
   double wall = 0;     ///< m/N, compliance of the bore's wall
@@ -35,10 +36,11 @@ struct BindingScratch {
   Field<1> depth, cell;        ///< m, (#nodes of `whole`), from the introducer; half an element to each side
   Field<6> own_compliance;     ///< (#nodes), as they would be without inner rods
   Field<3> own_target;
-  Field<3> given, owed, own_force;
+  Field<3> given, owed, owed_before, more, correction, own_force;
   double mismatch = 0;
   Field<4> orientation;        ///< (#elements of `whole`), before the step
   Field<1> bending;   ///< N m2/m, (#joints)
+  Field<1> spinning;  ///< N m/rad, (#joints)
   Field<1> damping;   ///< N m2/m, (#joints): of material damping
   Field<3> gone_on;     ///< N m, (#joints): of material damping if the inner rods went on as they turned
   Field<3> inner_turn;  ///< rad, (#elements), of the inner rod's elements there in the last step
@@ -56,6 +58,8 @@ struct BindingScratch {
   Field<3> centre;           ///< m, of the lumen beside the node
   Field<3> tangent, normal;
   Field<1> room;      ///< m, clearance
+  Field<1> film;      ///< N/m
+  Field<3> start;     ///< m
   Field<1> wall;      ///< m/N, compliance of the bore's wall
   Field<1> softness;  ///< m/N of the tie along `normal`; infinite: not tied
   Field<1> stay;      ///< N/m of the tie across it
@@ -63,7 +67,7 @@ struct BindingScratch {
   int changes = 0;   ///< of ties in this step
   Field<6> free_compliance;  ///< as they would be without ties
   Field<3> free_target;
-  Field<3> force_on_outer;
+  Field<3> force_on_outer, on_outer;
   Rim rims[max_outer_rods];  ///< the first `rim_count` are in use
   int rim_count = 0;
   std::vector<ChainLoad> rim_loads;
