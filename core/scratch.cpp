@@ -29,8 +29,8 @@ void resize_inner(const Rod& rod, BindingScratch& b) {
   const int nodes = rod.nodes();
   b.nesting.resize(nodes);
   b.element.resize(nodes);
-  for (Field<3>* f : {&b.centre, &b.tangent, &b.normal, &b.moves, &b.start, &b.on_outer, &b.force_on_outer}) f->resize(nodes);
-  for (Field<1>* f : {&b.along, &b.room, &b.wall, &b.film, &b.softness, &b.stay}) f->resize(nodes);
+  for (Field<3>* f : {&b.centre, &b.tangent, &b.normal, &b.moves, &b.on_outer, &b.force_on_outer}) f->resize(nodes);
+  for (Field<1>* f : {&b.along, &b.room, &b.wall, &b.softness, &b.stay}) f->resize(nodes);
 }
 
 }  // namespace

@@ -204,7 +204,7 @@ void balance_nests(const Model& model, const State& state, Scratch& scratch, Ste
       for (int r : group) {
         RodScratch& s = scratch.rods[r];
         if (!is_inner(scratch, r) || s.progress == Progress::failed) continue;
-        move_bores(model, state, r, scratch);
+        move_bores(model, r, scratch);
         constrain(model, state, r, scratch);
         s.progress = Progress::open;
       }

@@ -56,7 +56,7 @@ void measure_binding(const Model& model, Scratch& scratch);
 bool balance(std::size_t r, int sweep, double step_s, const RodState& state, Scratch& scratch);
 
 /// Lets the bores of rod `r` follow the outer rods' new iterates; ties stay.
-void move_bores(const Model& model, const State& state, std::size_t r, Scratch& scratch);
+void move_bores(const Model& model, std::size_t r, Scratch& scratch);
 
 /// Moves the forces between nested rods into the state; after all commits.
 void commit_binding(const Model& model, const Scratch& scratch, State& state);

@@ -58,8 +58,6 @@ struct BindingScratch {
   Field<3> centre;           ///< m, of the lumen beside the node
   Field<3> tangent, normal;
   Field<1> room;      ///< m, clearance
-  Field<1> film;      ///< N/m
-  Field<3> start;     ///< m
   Field<1> wall;      ///< m/N, compliance of the bore's wall
   Field<1> softness;  ///< m/N of the tie along `normal`; infinite: not tied
   Field<1> stay;      ///< N/m of the tie across it
