@@ -13,8 +13,8 @@ void check_nestings(const Model& model) {
   for (std::size_t i = 0; i < model.nestings.size(); ++i) {
     const Nesting& n = model.nestings[i];
     const auto refuse = [&](const std::string& what) {
-      throw std::invalid_argument("model: nesting " + std::to_string(i) + " (rod " + std::to_string(n.inner) + " in rod " +
-                                  std::to_string(n.outer) + "): " + what);
+      throw std::invalid_argument("model: nesting " + std::to_string(i) + " (rod " + std::to_string(n.inner) +
+                                  " in rod " + std::to_string(n.outer) + "): " + what);
     };
     if (n.outer < 0 || n.inner >= rods || n.outer >= n.inner)
       refuse("there are " + std::to_string(rods) + " rods, and the outer one must come before the inner one");

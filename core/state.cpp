@@ -69,7 +69,8 @@ State lay_out_all(const Model& model, const std::vector<EndState>& bases, const 
       state.rods[r].acceleration.resize(model.rods[r].nodes());
     }
     outer.inner_force.resize(model.rods[n.outer].nodes());
-    for (Field<3>* f : {&inner.contact_force, &inner.offset, &inner.offset_before}) f->resize(model.rods[n.inner].nodes());
+    for (Field<3>* f : {&inner.contact_force, &inner.offset, &inner.offset_before})
+      f->resize(model.rods[n.inner].nodes());
   }
   state.nestings.resize(model.nestings.size());
   return state;

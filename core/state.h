@@ -36,7 +36,7 @@ struct RodState {
   Field<3> acceleration;   ///< m/s2, (#nodes); both empty if it is in no nesting
   Field<3> inner_force;    ///< N, (#nodes), of the rods inside it; empty if none can be
   Field<3> contact_force;  ///< N, (#nodes), on the rod around it, and
-  Field<3> offset;         ///< m, (#nodes), from the middle of that rod's lumen; zero outside. Empty if it can be in none
+  Field<3> offset;  ///< m, (#nodes), from the middle of that rod's lumen; zero outside. Empty if it can be in none
   Field<3> offset_before;
   EndState base, tip;
 };

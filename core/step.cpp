@@ -162,7 +162,8 @@ void report_forces(const Model& model, const Rod& rod, const RodScratch& s, cons
   report.torque_Nm = along.dot(report.base_torque_W_Nm);
 }
 
-void finish(const Model& model, const Rod& rod, const BindingScratch& binding, RodScratch& s, RodState& state, RodReport& report) {
+void finish(const Model& model, const Rod& rod, const BindingScratch& binding, RodScratch& s, RodState& state,
+            RodReport& report) {
   if (s.progress == Progress::failed)
     report.trouble |= no_solution;
   else if (s.progress != Progress::done)
@@ -214,6 +215,17 @@ void balance_nests(const Model& model, const State& state, Scratch& scratch, Ste
   }
 }
 
+bool lost_in_nest(const Model& model, StepReport& report) {
+  bool lost = false;
+  for (const Nesting& n : model.nestings)
+    for (int r : {n.outer, n.inner})
+      lost |= (report.rods[r].trouble & (motion_lost | no_solution | not_converged | joint_overturned)) != 0;
+  if (lost)
+    for (const Nesting& n : model.nestings)
+      for (int r : {n.outer, n.inner}) report.rods[r].trouble |= motion_lost;
+  return lost;
+}
+
 }  // namespace
 
 void step(const Model& model, const Inputs& inputs, State& state, Scratch& scratch, StepReport& report) {
@@ -232,6 +244,7 @@ void step(const Model& model, const Inputs& inputs, State& state, Scratch& scrat
     report.trouble |= report.rods[r].trouble;
   }
   commit_binding(model, scratch, state);
+  if (lost_in_nest(model, report)) calm_nests(model, scratch, state);
   ++state.step;
 }
 

@@ -25,12 +25,12 @@ inline constexpr double longest_return_m = 2e-3;     // per step, of an end that
 
 // Binding of nested rods.
 inline constexpr double bore_N_m2 = 1e9;   // stiffness of a lumen's wall, per length: a polymer of 1 GPa
-inline constexpr double press_N_m = 1e3;  // how soft the bore's wall is thought, to tell who stays pressed against it
-inline constexpr double balance_N = 5e-3;     // force between nested rods that may be left open at a node, or
+inline constexpr double press_N_m = 1e3;   // how soft the bore's wall is thought, to tell who stays pressed against it
+inline constexpr double balance_N = 5e-3;  // force between nested rods that may be left open at a node, or
 inline constexpr double balance_part = 0.01;  // this part of the largest
 inline constexpr int max_sweeps = 12;         // over nested rods in one step
 inline constexpr double least_beyond = 0.3;   // of an element that protrudes: less counts as inside
-inline constexpr double loose_m = 2e-6;   // most that a node may leave its bore by before it is tied in the same step
+inline constexpr double loose_m = 2e-6;  // most that a node may leave its bore by before it is tied in the same step
 inline constexpr double least_pull_N = 1e-3;  // of a tie that is let go in the same step
 inline constexpr int max_tie_changes = 6;     // of a rod in one step
 

@@ -39,6 +39,9 @@ std::vector<GateResult> rod_link(bool quick);
 std::vector<GateResult> rod_momentum(bool quick);
 std::vector<GateResult> rod_section(bool quick);
 
+// --- nesting ------------------------------------------------------------------------------------------------------
+std::vector<GateResult> nesting(bool quick);
+
 // --- driving -----------------------------------------------------------------------------------------------------
 std::vector<GateResult> feed(bool quick);
 /// Its first part with any number of trips: fed `length_m` in and out so often.

@@ -13,6 +13,7 @@ const std::vector<Gate>& gates() {
       {"rod-link", "link number of a writhing ring, against Calugareanu's theorem", rod_link},
       {"rod-momentum", "free rod, against conservation of momentum", rod_momentum},
       {"rod-section", "a section boundary swept through an element, against a boundary-value solution", rod_section},
+      {"nesting", "a rod inside another: shape, snap, push, clearance, against closed forms", nesting},
       {"feed", "a wire fed in and out through its introducer, against where it was", feed},
   };
   return all;

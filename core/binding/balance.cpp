@@ -7,6 +7,7 @@
 #include "core/math/rotation.h"
 #include "core/rod/elasticity.h"
 #include "core/rod/ends.h"
+#include "core/rod/inertia.h"
 #include "core/tunables.h"
 
 namespace ostium {
@@ -91,7 +92,8 @@ bool balance(std::size_t r, int sweep, double step_s, const RodState& state, Scr
   });
   double worst = 0, largest_given = 0, projection = 0, change = 0;
   for (int i = rod.first + 1; i <= rod.elements; ++i) {
-    V3<double> taken = inverse(load6<double>(b.own_compliance, i)) * (load3<double>(s.position, i) - load3<double>(b.own_target, i));
+    V3<double> taken =
+        inverse(load6<double>(b.own_compliance, i)) * (load3<double>(s.position, i) - load3<double>(b.own_target, i));
     if (i < rod.elements) taken = taken - load3<double>(b.own_force, i);
     taken = taken + load3<double>(b.own_force, i - 1);
     if (!b.nesting.empty()) taken = taken + load3<double>(b.on_outer, i);
@@ -139,6 +141,18 @@ void commit_binding(const Model& model, const Scratch& scratch, State& state) {
     for (int k = 0; k < b.rim_count; ++k)
       state.nestings[b.rims[k].nesting].rim_force_W_N = to_eigen(rim_force(scratch.rods[r], b.rims[k]));
   }
+}
+
+void calm_nests(const Model& model, const Scratch& scratch, State& state) {
+  for (const Nesting& n : model.nestings)
+    for (int r : {n.outer, n.inner}) {
+      RodState& rod = state.rods[r];
+      halt(scratch.rods[r].inside, rod);
+      for (Field<3>* f : {&rod.inner_force, &rod.contact_force, &rod.force, &rod.moment})
+        std::fill(f->raw().begin(), f->raw().end(), 0.0);
+      rod.offset_before = rod.offset;
+    }
+  for (NestingState& n : state.nestings) n.rim_force_W_N.setZero();
 }
 
 }  // namespace ostium

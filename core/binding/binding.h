@@ -18,8 +18,8 @@ namespace ostium {
 /// Lets rod `r` feel what is inside it: changes its scratch.target and chain.compliance, and prepares lend_*.
 void feel_inner_rods(const Model& model, const State& state, std::size_t r, Scratch& scratch);
 
-/// Adds the inner rods' internal force to the iterate's, so that it turns with rod `r`; and takes it back, noting what the inner rods
-/// seemed to exert.
+/// Adds the inner rods' internal force to the iterate's, so that it turns with rod `r`; and takes it back, noting what
+/// the inner rods seemed to exert.
 void lend_to_force(const State& state, std::size_t r, Scratch& scratch);
 void take_own_force(const Rod& rod, const BindingScratch& binding, RodScratch& s);
 /// Adds to joints and elements what the inner rods lend; after linearise_joints and assemble_elements.
@@ -60,5 +60,7 @@ void move_bores(const Model& model, std::size_t r, Scratch& scratch);
 
 /// Moves the forces between nested rods into the state; after all commits.
 void commit_binding(const Model& model, const Scratch& scratch, State& state);
+/// Makes nested rods go on from rest, without the forces between them: after a step that they could not follow.
+void calm_nests(const Model& model, const Scratch& scratch, State& state);
 
 }  // namespace ostium

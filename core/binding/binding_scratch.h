@@ -14,41 +14,41 @@ inline constexpr int max_beyond = 64;
 /// Where an inner rod leaves an outer one: between two of its nodes.
 struct Rim {
   int nesting = -1;
-  int node = 0;        ///< the one before
-  double along = 0;    ///< 0 at `node`, 1 at the next
-  V3<double> normal;   ///< from the outer's tip outwards
-  V3<double> centre;   ///< m, of the outer's tip, less the bulge of the rod's centreline over its polygon there
+  int node = 0;       ///< the one before
+  double along = 0;   ///< 0 at `node`, 1 at the next
+  V3<double> normal;  ///< from the outer's tip outwards
+  V3<double> centre;  ///< m, of the outer's tip, less the bulge of the rod's centreline over its polygon there
   V3<double> tangent;
   double room = 0;  ///< m, clearance: normal . (point of the polygon - centre) is to be at most this
   V3<double> tip;
-  V3<double> edge;  ///< m, from `node` to the next
-  double stay = 0;  ///< N/m of the tie across normal and tangent: the force turns with the point, like a pendulum
+  V3<double> edge;     ///< m, from `node` to the next
+  double stay = 0;     ///< N/m of the tie across normal and tangent: the force turns with the point, like a pendulum
   double wall = 0;     ///< m/N, compliance of the bore's wall
   double force_N = 0;  ///< along `normal` on the outer rod; the part that the iterate's targets contain
 };
 
 struct BindingScratch {
   // --- as an outer rod: what the inner ones lend it
-  Rod whole;        ///< it and what protrudes from its tip; lengths and numbers alone
-  int beyond = -1;  ///< the rod that protrudes
-  int beyond_node = 0;         ///< its first node behind the tip, node N + 1 of `whole`
-  Field<3> beyond_position;    ///< m, (#nodes beyond the tip), strung from there, before the step
-  Field<1> depth, cell;        ///< m, (#nodes of `whole`), from the introducer; half an element to each side
-  Field<6> own_compliance;     ///< (#nodes), as they would be without inner rods
+  Rod whole;                 ///< it and what protrudes from its tip; lengths and numbers alone
+  int beyond = -1;           ///< the rod that protrudes
+  int beyond_node = 0;       ///< its first node behind the tip, node N + 1 of `whole`
+  Field<3> beyond_position;  ///< m, (#nodes beyond the tip), strung from there, before the step
+  Field<1> depth, cell;      ///< m, (#nodes of `whole`), from the introducer; half an element to each side
+  Field<6> own_compliance;   ///< (#nodes), as they would be without inner rods
   Field<3> own_target;
   Field<3> given, owed, owed_before, more, correction, own_force;
   double mismatch = 0;
-  Field<4> orientation;        ///< (#elements of `whole`), before the step
-  Field<1> bending;   ///< N m2/m, (#joints)
-  Field<1> spinning;  ///< N m/rad, (#joints)
-  Field<1> damping;   ///< N m2/m, (#joints): of material damping
-  Field<3> gone_on;     ///< N m, (#joints): of material damping if the inner rods went on as they turned
-  Field<3> inner_turn;  ///< rad, (#elements), of the inner rod's elements there in the last step
-  Field<3> moment;      ///< N m, (#joints), and
-  Field<3> force;       ///< N, (#elements), of the inner rods in the last step
-  Field<3> torque;      ///< N m, (#elements): what takes their balance in the last step out of the equations
-  Field<1> spring;    ///< N/m, (#nodes): of the inner rods' inertia
-  Field<3> pull;      ///< N, (#nodes): springs times the moves that the inner rods would make of themselves
+  Field<4> orientation;  ///< (#elements of `whole`), before the step
+  Field<1> bending;      ///< N m2/m, (#joints)
+  Field<1> spinning;     ///< N m/rad, (#joints)
+  Field<1> damping;      ///< N m2/m, (#joints): of material damping
+  Field<3> gone_on;      ///< N m, (#joints): of material damping if the inner rods went on as they turned
+  Field<3> inner_turn;   ///< rad, (#elements), of the inner rod's elements there in the last step
+  Field<3> moment;       ///< N m, (#joints), and
+  Field<3> force;        ///< N, (#elements), of the inner rods in the last step
+  Field<3> torque;       ///< N m, (#elements): what takes their balance in the last step out of the equations
+  Field<1> spring;       ///< N/m, (#nodes): of the inner rods' inertia
+  Field<3> pull;         ///< N, (#nodes): springs times the moves that the inner rods would make of themselves
 
   // --- as an inner rod
   Field<3> moves;            ///< m, (#nodes): see moves_of_inner
@@ -57,12 +57,12 @@ struct BindingScratch {
   Field<1> along;            ///< on that element, 0 to 1
   Field<3> centre;           ///< m, of the lumen beside the node
   Field<3> tangent, normal;
-  Field<1> room;      ///< m, clearance
-  Field<1> wall;      ///< m/N, compliance of the bore's wall
-  Field<1> softness;  ///< m/N of the tie along `normal`; infinite: not tied
-  Field<1> stay;      ///< N/m of the tie across it
-  int last = 0;      ///< node that can be tied
-  int changes = 0;   ///< of ties in this step
+  Field<1> room;             ///< m, clearance
+  Field<1> wall;             ///< m/N, compliance of the bore's wall
+  Field<1> softness;         ///< m/N of the tie along `normal`; infinite: not tied
+  Field<1> stay;             ///< N/m of the tie across it
+  int last = 0;              ///< node that can be tied
+  int changes = 0;           ///< of ties in this step
   Field<6> free_compliance;  ///< as they would be without ties
   Field<3> free_target;
   Field<3> force_on_outer, on_outer;

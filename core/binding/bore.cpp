@@ -57,7 +57,8 @@ class Enclosing {
       const double at = depth(inner_, i);
       if (at < begin) continue;
       if (last < 0)
-        while (element + 1 < outer_.elements && depth(outer_, element + 1) < at - 2 * outer_.length.at(0)[element]) ++element;
+        while (element + 1 < outer_.elements && depth(outer_, element + 1) < at - 2 * outer_.length.at(0)[element])
+          ++element;
       const V3<double> r = load3<double>(position_, i);
       double along = project(r, element);
       while (along > 1 && element + 1 < outer_.elements) along = project(r, ++element);
@@ -73,7 +74,8 @@ class Enclosing {
 
  private:
   double project(const V3<double>& r, int element) const {
-    const V3<double> a = load3<double>(outer_s_.position, element), d = load3<double>(outer_s_.position, element + 1) - a;
+    const V3<double> a = load3<double>(outer_s_.position, element),
+                     d = load3<double>(outer_s_.position, element + 1) - a;
     return dot(r - a, d) / dot(d, d);
   }
 
@@ -280,7 +282,8 @@ struct RimPush {
 double rim_move(const Rim& rim, const Chain& chain, const Field<3>& force, const V3<double>& before,
                 const V3<double>& after) {
   const auto node = [&](int i, const V3<double>& target) {
-    return dot(rim.normal, target + load6<double>(chain.compliance, i) * node_force(force, chain.first, chain.elements, i));
+    return dot(rim.normal,
+               target + load6<double>(chain.compliance, i) * node_force(force, chain.first, chain.elements, i));
   };
   return (1 - rim.along) * node(rim.node, before) + rim.along * node(rim.node + 1, after);
 }
@@ -326,7 +329,8 @@ void take_rim_loads(std::size_t r, Scratch& scratch) {
       double point = at[k];
       for (int l = 0; l < b.rim_count; ++l) point -= yield[k][l] * change[l];
       const double place = dot(rim.normal, rim.centre) + rim.room;
-      change[k] = largest(-rim.force_N, change[k] + (point - place - rim.wall * (rim.force_N + change[k])) / (yield[k][k] + rim.wall));
+      change[k] = largest(
+          -rim.force_N, change[k] + (point - place - rim.wall * (rim.force_N + change[k])) / (yield[k][k] + rim.wall));
     }
   for (int k = 0; k < b.rim_count; ++k) {
     Rim& rim = b.rims[k];

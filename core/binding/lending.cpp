@@ -45,7 +45,9 @@ void extend(const Model& model, const State& state, std::size_t r, Scratch& scra
     if (n.outer != static_cast<int>(r)) continue;
     const Rod& inner = scratch.rods[n.inner].inside;
     int k = inner.first + 1;
-    while (k <= inner.elements && depth(inner, k) < rod.total_length_m + tunables::least_beyond * inner.length.at(0)[k - 1]) ++k;
+    while (k <= inner.elements &&
+           depth(inner, k) < rod.total_length_m + tunables::least_beyond * inner.length.at(0)[k - 1])
+      ++k;
     if (k > inner.elements) continue;
     b.beyond = n.inner, b.beyond_node = k;
     V3<double> p = load3<double>(state.rods[r].position, N);

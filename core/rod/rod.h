@@ -22,9 +22,9 @@ struct Rod {
   Field<1> joint_length;    ///< m, (#joints)
   Field<3> rest_curvature;  ///< 1/m, (#joints), average over the cell
   MomentLaw law;            ///< (#joints), averaged over the cell
-  Field<1> bending;  ///< N m2, (#joints): the larger of EI1 and EI2, for small strains
-  Field<1> radius;   ///< m, outer, (#nodes)
-  Field<1> bore;     ///< m, inner radius, (#elements): the least; 0: solid
+  Field<1> bending;         ///< N m2, (#joints): the larger of EI1 and EI2, for small strains
+  Field<1> radius;          ///< m, outer, (#nodes)
+  Field<1> bore;            ///< m, inner radius, (#elements): the least; 0: solid
   Damping damping;
   double total_length_m = 0;  ///< of the elements that take part
   double total_mass_kg = 0;

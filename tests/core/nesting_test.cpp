@@ -1,0 +1,161 @@
+/// Rods inside each other: what the binding promises whatever the physics, and what it balances.
+#include "core/binding/nesting.h"
+
+#include <gtest/gtest.h>
+
+#include <stdexcept>
+
+#include "app/verify/nesting.h"
+#include "app/verify/steel_wire.h"
+#include "core/step.h"
+#include "tests/core/allocations.h"
+
+namespace ostium {
+namespace {
+
+using Eigen::Vector3d;
+using verify::along_x;
+
+RodDescription rod(double length_m, double EI_N_m2, double radius_m, double bore_m, int elements) {
+  RodDescription d;
+  d.name = "rod";
+  Section s;
+  s.to_tip_m = length_m;
+  s.EI1_N_m2 = s.EI2_N_m2 = EI_N_m2;
+  s.GJ_N_m2 = EI_N_m2 / 1.3;
+  s.kg_per_m = 4e-3;
+  s.radius_m = radius_m, s.inner_radius_m = bore_m;
+  d.sections = {s};
+  d.element_lengths_m = equal_elements(d.sections, elements);
+  d.damping = {0.007, 0.0035, 1e-3};
+  return d;
+}
+
+/// A catheter that is curved at its tip, and a wire in it that protrudes.
+Model catheter_and_wire() {
+  RodDescription catheter = rod(0.25, 1.5e-3, 0.9e-3, 0.6e-3, 125);
+  Section tip = catheter.sections[0];
+  tip.to_tip_m = 0.04, tip.rest_curvature_per_m = {0, 20, 0};
+  catheter.sections[0].from_tip_m = 0.04;
+  catheter.sections.insert(catheter.sections.begin(), tip);
+  Model model;
+  model.rods = {make_rod(catheter), make_rod(rod(0.35, 1e-3, 0.45e-3, 0, 150))};
+  model.nestings = coaxial({0, 1});
+  return model;
+}
+
+State at_start(const Model& model) { return make_state(model, {along_x(), along_x()}, {0.24, 0.3}); }
+
+Inputs hand(int step) {
+  Inputs inputs;
+  inputs.rods.resize(2);
+  const double t = 1e-3 * step;
+  inputs.rods[0].feed_m_s = 0.02 * std::sin(9 * t);
+  inputs.rods[1].feed_m_s = 0.05 * std::sin(5 * t);
+  inputs.rods[1].base.turn_rate_W_rad_s = Vector3d(6, 0, 0);
+  return inputs;
+}
+
+TEST(Nesting, WithoutTheBindingEveryGateFails) {
+  for (const GateResult& gate : verify::nesting_with(true, false)) EXPECT_FALSE(gate.pass()) << gate.gate;
+}
+
+TEST(Nesting, ANestThatCannotBeIsRefused) {
+  const auto refused = [](const std::vector<Nesting>& nestings, const char* why) {
+    Model model = catheter_and_wire();
+    model.nestings = nestings;
+    try {
+      check(model);
+      ADD_FAILURE() << "not refused: " << why;
+    } catch (const std::invalid_argument& error) {
+      EXPECT_NE(std::string(error.what()).find(why), std::string::npos) << error.what();
+    }
+  };
+  refused({{.outer = 1, .inner = 0}}, "outer one must come before");
+  refused({{.outer = 0, .inner = 2}}, "there are 2 rods");
+  refused({{.outer = 0, .inner = 1, .lumen_m = 0}}, "lumen must be longer");
+  refused({{.outer = 0, .inner = 1, .friction = 1.5}}, "friction must lie");
+
+  Model thick = catheter_and_wire();
+  thick.rods[1] = make_rod(rod(0.35, 1e-3, 0.65e-3, 0, 150));
+  EXPECT_THROW(check(thick), std::invalid_argument);
+}
+
+TEST(Nesting, AStepDoesNotDependOnWhatScratchHeld) {
+  const Model model = catheter_and_wire();
+  State kept = at_start(model), fresh = at_start(model);
+  Scratch scratch(model);
+  StepReport report;
+  for (int n = 0; n < 200; ++n) {
+    step(model, hand(n), kept, scratch, report);
+    Scratch other(model);
+    step(model, hand(n), fresh, other, report);
+    ASSERT_EQ(first_difference(kept, fresh), "") << n;
+  }
+}
+
+TEST(Nesting, ASavedStateGoesOnBitIdentically) {
+  const Model model = catheter_and_wire();
+  State a = at_start(model);
+  Scratch scratch(model);
+  StepReport report;
+  for (int n = 0; n < 150; ++n) step(model, hand(n), a, scratch, report);
+  State b = at_start(model);
+  restore(save(a), b);
+  for (int n = 150; n < 300; ++n) {
+    step(model, hand(n), a, scratch, report);
+    step(model, hand(n), b, scratch, report);
+  }
+  EXPECT_EQ(first_difference(a, b), "");
+  EXPECT_EQ(hash(a), hash(b));
+}
+
+TEST(Nesting, AStepDoesNotAllocate) {
+  const Model model = catheter_and_wire();
+  State state = at_start(model);
+  Scratch scratch(model);
+  StepReport report;
+  const std::vector<Inputs> inputs = {hand(100), hand(500), hand(900)};
+  step(model, inputs[0], state, scratch, report);
+  const long before = allocations();
+  for (int n = 0; n < 300; ++n) step(model, inputs[n / 100], state, scratch, report);
+  EXPECT_EQ(allocations() - before, 0);
+}
+
+// What one rod exerts on the other it gets back: the introducer bears the weight of both, and no more.
+TEST(Nesting, AtRestTheBasesBearTheWeightOfBoth) {
+  Model model = catheter_and_wire();
+  for (Rod& r : model.rods) r.damping = {1, 0.5, 2e-3};
+  State state = make_state(model, {along_x(), along_x()});
+  Scratch scratch(model);
+  StepReport report;
+  Inputs inputs;
+  inputs.rods.resize(2);
+  for (int n = 0; n < 6000; ++n) step(model, inputs, state, scratch, report);
+  const double weight = 9.81 * (model.rods[0].total_mass_kg + model.rods[1].total_mass_kg);
+  const Vector3d borne = report.rods[0].base_force_W_N + report.rods[1].base_force_W_N;
+  EXPECT_NEAR(borne.z() / weight, 1, 0.005);
+  EXPECT_NEAR(borne.x() / weight, 0, 0.005);
+  EXPECT_GT(state.rods[1].contact_force[100].norm() + state.nestings[0].rim_force_W_N.norm(), 0);
+}
+
+// Drawn back over a held wire, without friction, a straight catheter leaves it where it is.
+TEST(Nesting, ACatheterIsDrawnBackOverAHeldWire) {
+  Model model;
+  model.rods = {make_rod(rod(0.25, 1.5e-3, 0.9e-3, 0.6e-3, 125)), make_rod(rod(0.35, 1e-3, 0.45e-3, 0, 150))};
+  model.nestings = coaxial({0, 1});
+  model.gravity_W.setZero();
+  State state = make_state(model, {along_x(), along_x()});
+  Scratch scratch(model);
+  StepReport report;
+  Inputs inputs;
+  inputs.rods.resize(2);
+  inputs.rods[0].feed_m_s = -0.05;
+  const Vector3d tip = state.rods[1].position[150];
+  for (int n = 0; n < 4000; ++n) step(model, inputs, state, scratch, report);
+  EXPECT_LT(state.rods[0].inserted_m, 0.051);
+  EXPECT_LT((state.rods[1].position[150] - tip).norm(), 0.5e-3);
+}
+
+}  // namespace
+}  // namespace ostium
