@@ -205,9 +205,17 @@ GateResult containment(bool quick, bool bound) {
 
 }  // namespace
 
+namespace {
+GateResult first_pair(bool bound) {
+  return aligned_pair("nesting-pair-100", 1e-3, 2e-3, 10, 5, 0.05e-3, 100, 0.5, bound);
+}
+}  // namespace
+
+GateResult nesting_pair() { return first_pair(true); }
+
 std::vector<GateResult> nesting_with(bool quick, bool bound) {
   return {
-      aligned_pair("nesting-pair-100", 1e-3, 2e-3, 10, 5, 0.05e-3, 100, 0.5, bound),
+      first_pair(bound),
       aligned_pair("nesting-pair-300", 2e-3, 1e-3, 20, 8, 0.1e-3, 300, 0.5, bound),
       snap(quick, bound),
       push(bound),

@@ -4,6 +4,9 @@
 
 namespace ostium::verify {
 
+/// Each result stands for itself; `quick` takes fewer cases.
+/// The first of them alone.
+GateResult nesting_pair();
 std::vector<GateResult> nesting_with(bool quick, bool bound);
 
 }  // namespace ostium::verify

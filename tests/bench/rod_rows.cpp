@@ -4,6 +4,7 @@
 #include <numeric>
 
 #include "app/verify/gate.h"
+#include "app/verify/nesting.h"
 #include "app/verify/steel_wire.h"
 #include "tests/bench/rows.h"
 
@@ -17,22 +18,30 @@ double thread_cpu_ms() {
   return 1e3 * static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_nsec);
 }
 
-/// Times of single ticks of a swinging rod.
-std::vector<double> swing_ticks(int elements, const Duration& duration) {
-  verify::Bench bench = verify::steel_bench({.elements = elements});
-  std::vector<double> ticks;
-  ticks.reserve(duration.steps);
+/// Times of single ticks; `tick` returns the state's hash.
+template <class Tick>
+std::vector<double> ticks(const Duration& duration, Tick&& tick) {
+  std::vector<double> times;
+  times.reserve(duration.steps);
   std::uint64_t hashes = 0;
   for (int i = 0; i < duration.warm_up_steps + duration.steps; ++i) {
     const double start = thread_cpu_ms();
-    bench.step();
-    hashes ^= hash(bench.state);
+    hashes ^= tick();
     const double end = thread_cpu_ms();
-    if (i >= duration.warm_up_steps) ticks.push_back(end - start);
+    if (i >= duration.warm_up_steps) times.push_back(end - start);
   }
   volatile std::uint64_t keep = hashes;
   (void)keep;
-  return ticks;
+  return times;
+}
+
+/// Of a swinging rod.
+std::vector<double> swing_ticks(int elements, const Duration& duration) {
+  verify::Bench bench = verify::steel_bench({.elements = elements});
+  return ticks(duration, [&] {
+    bench.step();
+    return hash(bench.state);
+  });
 }
 
 double mean(const std::vector<double>& x) {
@@ -50,11 +59,63 @@ double percentile(std::vector<double> x, double fraction) {
 Row free_rod(const std::string& name, int elements, const Duration& duration) {
   Row row;
   row.name = name;
-  const std::vector<double> ticks = swing_ticks(elements, duration);
-  row.ms = mean(ticks);
-  row.p999_ms = percentile(ticks, 0.999);
+  const std::vector<double> times = swing_ticks(elements, duration);
+  row.ms = mean(times);
+  row.p999_ms = percentile(times, 0.999);
   const GateResult gate = verify::swing_tip(elements);
-  row.gate = {gate.gate, gate.value, gate.pass()};
+  row.gate = {gate.gate, gate.value, gate.unit, gate.pass()};
+  return row;
+}
+
+namespace {
+
+Model nested(int rods, int elements) {
+  struct Tube {
+    double length_m, EI_N_m2, radius_m, bore_m, kg_per_m;
+  };
+  const std::vector<Tube> tubes = {
+      {0.95, 4e-3, 1.2e-3, 1.0e-3, 6e-3}, {1.0, 2e-3, 0.9e-3, 0.65e-3, 4e-3}, {1.05, 1.5e-3, 0.45e-3, 0, 3e-3}};
+  Model model;
+  std::vector<int> all;
+  for (std::size_t i = tubes.size() - rods; i < tubes.size(); ++i) {
+    const Tube& t = tubes[i];
+    RodDescription d;
+    d.name = "tube";
+    d.sections = {{.to_tip_m = t.length_m,
+                   .EI1_N_m2 = t.EI_N_m2,
+                   .EI2_N_m2 = t.EI_N_m2,
+                   .GJ_N_m2 = t.EI_N_m2 / 1.3,
+                   .kg_per_m = t.kg_per_m,
+                   .radius_m = t.radius_m,
+                   .inner_radius_m = t.bore_m}};
+    d.element_lengths_m = equal_elements(d.sections, elements);
+    d.damping = {0.007, 0.0035, 1e-3};
+    all.push_back(static_cast<int>(model.rods.size()));
+    model.rods.push_back(make_rod(d));
+  }
+  model.nestings = coaxial(all);
+  return model;
+}
+
+}  // namespace
+
+Row nested_rods(const std::string& name, int rods, int elements, const Duration& duration) {
+  const Model model = nested(rods, elements);
+  State state = make_state(model, std::vector<EndState>(rods, verify::along_x()));
+  Scratch scratch(model);
+  StepReport report;
+  Inputs inputs;
+  inputs.rods.resize(rods);
+  Row row;
+  row.name = name;
+  const std::vector<double> times = ticks(duration, [&] {
+    step(model, inputs, state, scratch, report);
+    return hash(state);
+  });
+  row.ms = mean(times);
+  row.p999_ms = percentile(times, 0.999);
+  const GateResult gate = verify::nesting_pair();
+  row.gate = {gate.gate, gate.value, gate.unit, gate.pass()};
   return row;
 }
 

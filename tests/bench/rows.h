@@ -13,6 +13,7 @@ struct Row {
   struct {
     std::string name;
     double value = 0;
+    std::string unit = "mm";
     bool pass = false;
   } gate;
 };
@@ -25,6 +26,10 @@ struct Duration {
 /// One rod of `elements`, clamped, swinging freely under its own weight (verification: rod-swing). The tick is drive,
 /// step and state hash.
 Row free_rod(const std::string& name, int elements, const Duration& duration);
+
+/// Two or three coaxial rods of `elements` each and 1 m, the inner ones 50 mm longer than those around them, clamped,
+/// swinging under their weight with the damping of the catalogue's shafts (verification: nesting-pair).
+Row nested_rods(const std::string& name, int rods, int elements, const Duration& duration);
 
 /// Mean CPU time, ms per step, of free rods from 16 to 4,096 elements.
 struct GrowthPoint {
