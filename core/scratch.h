@@ -44,7 +44,7 @@ struct Scratch {
   std::vector<RodScratch> rods;
   std::vector<BindingScratch> bindings;  ///< one per rod
   std::vector<std::vector<int>> groups;  ///< rods that can be solved at once; outer rods in earlier groups
-  int sweeps = 0;
+  int sweeps = 0;                        ///< turns that nested rods took in the last step
   ChainFactors factors;
 };
 

@@ -192,19 +192,20 @@ void balance_nests(const Model& model, const State& state, Scratch& scratch, Ste
   scratch.sweeps = 1;
   measure_binding(model, scratch);
   while (scratch.sweeps < tunables::max_sweeps) {
-    bool again = false;
-    for (std::size_t r = 0; r < model.rods.size(); ++r) {
+    // From the inside outwards: what an outer rod is to feel is right only once its inner ones are.
+    int corrected = -1;
+    for (int r = static_cast<int>(model.rods.size()) - 1; r >= 0 && corrected < 0; --r) {
       RodScratch& s = scratch.rods[r];
-      if (s.progress != Progress::done || !balance(r, scratch.sweeps, model.step_s, state.rods[r], scratch)) continue;
+      if (s.progress != Progress::done || !balance(r, model.step_s, state.rods[r], scratch)) continue;
       s.progress = Progress::open;
-      again = true;
+      corrected = r;
     }
-    if (!again) return;
+    if (corrected < 0) return;
     ++scratch.sweeps;
     for (const Group& group : scratch.groups) {
       for (int r : group) {
         RodScratch& s = scratch.rods[r];
-        if (!is_inner(scratch, r) || s.progress == Progress::failed) continue;
+        if (r < corrected || !is_inner(scratch, r) || s.progress == Progress::failed) continue;
         move_bores(model, r, scratch);
         constrain(model, state, r, scratch);
         s.progress = Progress::open;

@@ -47,7 +47,10 @@ V3<double> rim_force(const RodScratch& s, const Rim& rim) {
 
 }  // namespace
 
-void forget_corrections(BindingScratch& b) { std::fill(b.correction.raw().begin(), b.correction.raw().end(), 0.0); }
+void forget_corrections(BindingScratch& b) {
+  b.corrections = 0;
+  std::fill(b.correction.raw().begin(), b.correction.raw().end(), 0.0);
+}
 
 void measure_binding(const Model& model, Scratch& scratch) {
   for (BindingScratch& b : scratch.bindings) std::fill(b.given.raw().begin(), b.given.raw().end(), 0.0);
@@ -79,7 +82,7 @@ void measure_binding(const Model& model, Scratch& scratch) {
   }
 }
 
-bool balance(std::size_t r, int sweep, double step_s, const RodState& state, Scratch& scratch) {
+bool balance(std::size_t r, double step_s, const RodState& state, Scratch& scratch) {
   BindingScratch& b = scratch.bindings[r];
   if (b.bending.size() == 0) return false;
   RodScratch& s = scratch.rods[r];
@@ -109,15 +112,16 @@ bool balance(std::size_t r, int sweep, double step_s, const RodState& state, Scr
   b.mismatch = worst;
   if (worst < largest(tunables::balance_N, tunables::balance_part * largest_given)) return false;
   // Anderson's mixing with one step of memory.
-  const double mix = sweep > 1 && change > 0 ? std::clamp(projection / change, -3.0, 0.9) : 0;
+  const double mix = b.corrections > 0 && change > 0 ? std::clamp(projection / change, -3.0, 0.9) : 0;
   for (int i = rod.first + 1; i <= rod.elements; ++i) {
     const V3<double> owed = load3<double>(b.owed, i);
     V3<double> more = owed;
-    if (sweep > 1) more = owed - mix * (load3<double>(b.more, i) + owed - load3<double>(b.owed_before, i));
+    if (b.corrections > 0) more = owed - mix * (load3<double>(b.more, i) + owed - load3<double>(b.owed_before, i));
     store3(b.more, i, more);
     store3(b.correction, i, load3<double>(b.correction, i) + more);
     store3(s.target, i, load3<double>(s.target, i) + load6<double>(s.chain.compliance, i) * more);
   }
+  ++b.corrections;
   return true;
 }
 

@@ -1,14 +1,16 @@
 #pragma once
 /// The binding of nested instruments: an inner rod stays within the bore of its outer one, and both feel it.
 ///
-/// Outer rods are solved first, then what is inside them. The outer rod counts with the force of its inner ones as it
-/// was in the last step, and with how that force will change while they follow: their mass, bending stiffness and
-/// tension are lent to it. Then each inner rod is solved within the outer rod's new shape: where a node would leave the
-/// bore it is tied to the bore's wall (a spring of 10 MN/m), across the lumen's curved centreline, not its polygon. The
-/// force that this takes is the outer rod's in the next step. At rest both balance to the last bit; in motion the outer
-/// rod is late by a step in what it was not lent, the inner rod's rattling within its clearance.
+/// Rods are solved in turn, the outer one first, and again until each takes for the other's force what it is:
+/// - the outer rod as if what is inside it went along with it (lending.cpp): it is lent the inner rods' mass, bending
+///   stiffness, moment and force, and, beyond its tip, the inner rod itself. All of this is counted from where the
+///   inner rods were in the last step, so at rest nothing is left of it but the force that they exert;
+/// - each inner rod within the outer one's new shape (bore.cpp): where a node would leave the bore it is tied to the
+///   wall, a stiff spring towards the lumen's curved centreline; an active set, settled within the solve. At the tip of
+///   the outer rod it is held at the rim, which lies between two of its nodes;
+/// - then what ties and rims exert is compared with what the outer rod was moved by (balance.cpp).
 ///
-/// An inner rod that leaves at the outer's tip is also held at the rim, which lies between two of its nodes.
+/// Mostly once is enough while hands move; a quick release takes several turns. Not yet: friction.
 #include "core/model.h"
 #include "core/scratch.h"
 #include "core/state.h"
@@ -53,7 +55,7 @@ void forget_corrections(BindingScratch& binding);
 /// Measures what the ties and rims of the iterate exert.
 void measure_binding(const Model& model, Scratch& scratch);
 /// Compares that with what rod `r` was moved by, and corrects its targets if they differ: then solve it again.
-bool balance(std::size_t r, int sweep, double step_s, const RodState& state, Scratch& scratch);
+bool balance(std::size_t r, double step_s, const RodState& state, Scratch& scratch);
 
 /// Lets the bores of rod `r` follow the outer rods' new iterates; ties stay.
 void move_bores(const Model& model, std::size_t r, Scratch& scratch);

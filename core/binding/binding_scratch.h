@@ -19,8 +19,8 @@ struct Rim {
   V3<double> normal;  ///< from the outer's tip outwards
   V3<double> centre;  ///< m, of the outer's tip, less the bulge of the rod's centreline over its polygon there
   V3<double> tangent;
-  double room = 0;  ///< m, clearance: normal . (point of the polygon - centre) is to be at most this
-  V3<double> tip;
+  double room = 0;     ///< m, clearance: normal . (point of the polygon - centre) is to be at most this
+  V3<double> tip;      ///< m, of the outer rod
   V3<double> edge;     ///< m, from `node` to the next
   double stay = 0;     ///< N/m of the tie across normal and tangent: the force turns with the point, like a pendulum
   double wall = 0;     ///< m/N, compliance of the bore's wall
@@ -28,27 +28,31 @@ struct Rim {
 };
 
 struct BindingScratch {
-  // --- as an outer rod: what the inner ones lend it
-  Rod whole;                 ///< it and what protrudes from its tip; lengths and numbers alone
-  int beyond = -1;           ///< the rod that protrudes
-  int beyond_node = 0;       ///< its first node behind the tip, node N + 1 of `whole`
-  Field<3> beyond_position;  ///< m, (#nodes beyond the tip), strung from there, before the step
-  Field<1> depth, cell;      ///< m, (#nodes of `whole`), from the introducer; half an element to each side
-  Field<6> own_compliance;   ///< (#nodes), as they would be without inner rods
-  Field<3> own_target;
-  Field<3> given, owed, owed_before, more, correction, own_force;
-  double mismatch = 0;
-  Field<4> orientation;  ///< (#elements of `whole`), before the step
-  Field<1> bending;      ///< N m2/m, (#joints)
-  Field<1> spinning;     ///< N m/rad, (#joints)
-  Field<1> damping;      ///< N m2/m, (#joints): of material damping
-  Field<3> gone_on;      ///< N m, (#joints): of material damping if the inner rods went on as they turned
-  Field<3> inner_turn;   ///< rad, (#elements), of the inner rod's elements there in the last step
-  Field<3> moment;       ///< N m, (#joints), and
-  Field<3> force;        ///< N, (#elements), of the inner rods in the last step
-  Field<3> torque;       ///< N m, (#elements): what takes their balance in the last step out of the equations
-  Field<1> spring;       ///< N/m, (#nodes): of the inner rods' inertia
-  Field<3> pull;         ///< N, (#nodes): springs times the moves that the inner rods would make of themselves
+  // --- as an outer rod
+  Rod whole;                  ///< it and what protrudes from its tip: its lengths and numbers alone
+  int beyond = -1;            ///< the rod that protrudes
+  int beyond_node = 0;        ///< its first node beyond the tip, which is node N + 1 of `whole`
+  Field<3> beyond_position;   ///< m, (#nodes beyond the tip), strung from the tip as they were before the step
+  Field<1> depth, cell;       ///< m, (#nodes of `whole`): from the introducer; half an element to each side
+  Field<4> orientation;       ///< (#elements of `whole`), before the step
+  Field<6> own_compliance;    ///< (#nodes), and
+  Field<3> own_target;        ///< without inner rods
+  Field<1> bending, damping;  ///< N m/rad, (#joints): lent, of elasticity and of material damping
+  Field<1> spinning;          ///< N m/rad, (#joints): makes what protrudes spin with the tip
+  Field<3> inner_turn;        ///< rad, (#elements), of the inner rods in the last step
+  Field<3> gone_on;           ///< N m, (#joints): the moment of material damping if they went on turning so
+  Field<3> moment;            ///< N m, (#joints), and
+  Field<3> force;             ///< N, (#elements), of the inner rods in the last step
+  Field<3> torque;            ///< N m, (#elements): takes their balance in the last step out of the equations
+  Field<1> spring;            ///< N/m, (#nodes): their inertia, and
+  Field<3> pull;              ///< N, (#nodes): times how they would move of themselves
+  Field<3> given;             ///< N, (#nodes): what they exert in the iterates
+  Field<3> owed,
+      owed_before;  ///< N, (#nodes): that, less what the iterate was moved by; of this turn and the one before
+  Field<3> more, correction;  ///< N, (#nodes): what was added to the forces for it, last and in all
+  Field<3> own_force;         ///< N, (#elements): without the inner rods'
+  int corrections = 0;
+  double mismatch = 0;  ///< N, the largest of `owed`
 
   // --- as an inner rod
   Field<3> moves;            ///< m, (#nodes): see moves_of_inner
@@ -65,7 +69,8 @@ struct BindingScratch {
   int changes = 0;           ///< of ties in this step
   Field<6> free_compliance;  ///< as they would be without ties
   Field<3> free_target;
-  Field<3> force_on_outer, on_outer;
+  Field<3> force_on_outer;   ///< N, (#nodes), of the tie, and
+  Field<3> on_outer;         ///< with the rims' share
   Rim rims[max_outer_rods];  ///< the first `rim_count` are in use
   int rim_count = 0;
   std::vector<ChainLoad> rim_loads;

@@ -158,7 +158,7 @@ void feel_inner_rods(const Model& model, const State& state, std::size_t r, Scra
 
 namespace {
 
-/// Of a turn across the axis d: stiffness (I - d d^T).
+/// Stiffness against a turn about the axis d, and against one across it.
 template <class T>
 S3<T> along_axis(T stiffness, const V3<T>& d) {
   const V3<T> e = stiffness * d;
