@@ -133,17 +133,18 @@ double largest_jump_deg(double ratio, bool bound) {
   return largest * 180 / pi;
 }
 
+/// L sqrt((1 + nu) k1 k2) / (pi / 2) at which it begins to jump.
 GateResult snap(bool quick, bool bound) {
   // Just below the critical length the tip turns by up to 10 degrees, just above it jumps by 70.
   double smooth = 0.94, jumps = 1.06;
   constexpr double jump_deg = 25;
   const bool bracketed = largest_jump_deg(smooth, bound) < jump_deg && largest_jump_deg(jumps, bound) > jump_deg;
-  if (!bracketed) return {"nesting-snap", 0, 1, 0.03, "L sqrt((1 + nu) k1 k2) / (pi / 2)"};
+  if (!bracketed) return {"nesting-snap", 0, 1, 0.03, "1"};
   while (jumps - smooth > (quick ? 0.03 : 0.01)) {
     const double middle = (smooth + jumps) / 2;
     (largest_jump_deg(middle, bound) > jump_deg ? jumps : smooth) = middle;
   }
-  return {"nesting-snap", (smooth + jumps) / 2, 1, 0.03, "L sqrt((1 + nu) k1 k2) / (pi / 2)"};
+  return {"nesting-snap", (smooth + jumps) / 2, 1, 0.03, "1"};
 }
 
 GateResult push(bool bound) {
@@ -165,11 +166,9 @@ GateResult push(bool bound) {
     sum += pair.report.rods[1].push_N;
     ++count;
   }
-  // Its curvature is between that along the outer and along the inner side of the bend.
-  const double least = EI / (2 * (R + clearance) * (R + clearance)),
-               most = EI / (2 * (R - clearance) * (R - clearance));
-  const double mean = sum / count, nearest = std::clamp(mean, least, most);
-  return {"nesting-push", mean, nearest, 0.03 * nearest, "N"};
+  // Along the outer or the inner side of the bend, k = 1 / (R +- c): here 0.4 % about the middle.
+  const double reference = EI / (2 * R * R);
+  return {"nesting-push", sum / count, reference, 0.03 * reference, "N"};
 }
 
 /// Fed and rolled like a hand does; how far any node of the inner rod leaves the bore.
