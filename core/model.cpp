@@ -19,7 +19,6 @@ void check_nestings(const Model& model) {
     if (n.outer < 0 || n.inner >= rods || n.outer >= n.inner)
       refuse("there are " + std::to_string(rods) + " rods, and the outer one must come before the inner one");
     if (!(n.lumen_m > 0)) refuse("its lumen must be longer than 0");
-    if (!(n.friction >= 0 && n.friction <= 1)) refuse("friction must lie between 0 and 1");
     if (++outers[n.inner] > max_outer_rods) refuse("a rod can run in at most three others");
     const double room = tightest_clearance_m(model.rods[n.outer], model.rods[n.inner], n.lumen_m);
     if (!(room > 0))

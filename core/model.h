@@ -15,8 +15,8 @@ struct Model {
 };
 
 /// Throws std::invalid_argument if there is no rod, gravity is not finite, the step is out of range, or a nesting names
-/// rods that there are not, an outer rod behind its inner one, more than three outer rods for one, a friction outside 0
-/// to 1, or an inner rod too thick for the lumen.
+/// rods that there are not, an outer rod behind its inner one, more than three outer rods for one, or an
+/// inner rod too thick for the lumen.
 void check(const Model& model);
 
 }  // namespace ostium

@@ -175,7 +175,7 @@ void finish(const Model& model, const Rod& rod, const BindingScratch& binding, R
     linearise_joints(rod, state, joints_of(s.inputs), model.step_s, s);
   else
     linearise_end_joints(rod, state, joints_of(s.inputs), model.step_s, s);
-  take_own_force(rod, binding, s);
+  own_force(rod, binding, s, s.force);
   if (state.moment.size() > 0)
     for_packs(rod.first, rod.nodes(),
               [&]<class T>(T, int i) { store3(state.moment, i, load3<T>(s.chain.joint_moment, i)); });

@@ -88,11 +88,7 @@ bool balance(std::size_t r, double step_s, const RodState& state, Scratch& scrat
   RodScratch& s = scratch.rods[r];
   const Rod& rod = s.inside;
   linearise_joints(rod, state, joints_of(s.inputs), step_s, s);
-  for_packs(rod.first, rod.elements, [&]<class T>(T, int j) {
-    const V3<T> d3 = director3(load4<T>(s.orientation, j)), n = load3<T>(s.force, j) - load3<T>(b.force, j);
-    const V3<T> moment = load3<T>(s.chain.joint_moment, j + 1) - load3<T>(s.chain.joint_moment, j);
-    store3(b.own_force, j, madd(dot(n, d3), d3, (1.0 / load<T>(rod.length.at(0) + j)) * cross(d3, moment)));
-  });
+  own_force(rod, b, s, b.own_force);
   double worst = 0, largest_given = 0, projection = 0, change = 0;
   for (int i = rod.first + 1; i <= rod.elements; ++i) {
     V3<double> taken =

@@ -20,10 +20,10 @@ namespace ostium {
 /// Lets rod `r` feel what is inside it: changes its scratch.target and chain.compliance, and prepares lend_*.
 void feel_inner_rods(const Model& model, const State& state, std::size_t r, Scratch& scratch);
 
-/// Adds the inner rods' internal force to the iterate's, so that it turns with rod `r`; and takes it back, noting what
-/// the inner rods seemed to exert.
+/// Adds the inner rods' internal force to the iterate's, so that it turns with rod `r`.
 void lend_to_force(const State& state, std::size_t r, Scratch& scratch);
-void take_own_force(const Rod& rod, const BindingScratch& binding, RodScratch& s);
+/// The rod's own internal force in the iterate; wants chain.joint_moment to be its own. `force` may be s.force.
+void own_force(const Rod& rod, const BindingScratch& binding, const RodScratch& s, Field<3>& force);
 /// Adds to joints and elements what the inner rods lend; after linearise_joints and assemble_elements.
 void lend_to_joints(const BindingScratch& binding, RodScratch& s);
 void lend_to_elements(const BindingScratch& binding, RodScratch& s);

@@ -226,13 +226,13 @@ void lend_to_force(const State& state, std::size_t r, Scratch& scratch) {
   });
 }
 
-void take_own_force(const Rod& rod, const BindingScratch& b, RodScratch& s) {
+void own_force(const Rod& rod, const BindingScratch& b, const RodScratch& s, Field<3>& force) {
   if (b.bending.size() == 0) return;
   // Along the rod, what the inner rods do not bear; across it, what its own moments ask for.
   for_packs(rod.first, rod.elements, [&]<class T>(T, int j) {
     const V3<T> d3 = director3(load4<T>(s.orientation, j)), n = load3<T>(s.force, j) - load3<T>(b.force, j);
     const V3<T> moment = load3<T>(s.chain.joint_moment, j + 1) - load3<T>(s.chain.joint_moment, j);
-    store3(s.force, j, madd(dot(n, d3), d3, (1.0 / load<T>(rod.length.at(0) + j)) * cross(d3, moment)));
+    store3(force, j, madd(dot(n, d3), d3, (1.0 / load<T>(rod.length.at(0) + j)) * cross(d3, moment)));
   });
 }
 

@@ -4,11 +4,10 @@
 
 namespace ostium {
 
-std::vector<Nesting> coaxial(const std::vector<int>& rods, double friction) {
+std::vector<Nesting> coaxial(const std::vector<int>& rods) {
   std::vector<Nesting> out;
   for (std::size_t inner = 1; inner < rods.size(); ++inner)
-    for (std::size_t outer = 0; outer < inner; ++outer)
-      out.push_back({.outer = rods[outer], .inner = rods[inner], .friction = friction});
+    for (std::size_t outer = 0; outer < inner; ++outer) out.push_back({.outer = rods[outer], .inner = rods[inner]});
   return out;
 }
 

@@ -18,11 +18,10 @@ struct Nesting {
   /// How far back from the outer's tip its lumen holds the inner instrument, m. A rapid-exchange shaft: 0.25. Behind
   /// this the inner one runs outside, free of it.
   double lumen_m = 1e3;
-  double friction = 0;  ///< Coulomb's coefficient, 0 to 1, along the lumen and around it
 };
 
 /// Nestings of coaxial instruments, rods[0] the outermost: one for each pair.
-std::vector<Nesting> coaxial(const std::vector<int>& rods, double friction = 0);
+std::vector<Nesting> coaxial(const std::vector<int>& rods);
 
 /// Room of rod `inner` in the lumen of `outer` where it is tightest, m: negative if it does not fit, or has no lumen.
 double tightest_clearance_m(const Rod& outer, const Rod& inner, double lumen_m);

@@ -74,7 +74,6 @@ TEST(Nesting, ANestThatCannotBeIsRefused) {
   refused({{.outer = 1, .inner = 0}}, "outer one must come before");
   refused({{.outer = 0, .inner = 2}}, "there are 2 rods");
   refused({{.outer = 0, .inner = 1, .lumen_m = 0}}, "lumen must be longer");
-  refused({{.outer = 0, .inner = 1, .friction = 1.5}}, "friction must lie");
 
   Model thick = catheter_and_wire();
   thick.rods[1] = make_rod(rod(0.35, 1e-3, 0.65e-3, 0, 150));
