@@ -156,5 +156,36 @@ TEST(Nesting, ACatheterIsDrawnBackOverAHeldWire) {
   EXPECT_LT((state.rods[1].position[150] - tip).norm(), 0.5e-3);
 }
 
+// A rapid-exchange shaft holds the wire over its last 10 cm here; behind them, both run side by side in the guide.
+TEST(Nesting, ARapidExchangeShaftRidesOnTheWireOverItsLastStretch) {
+  Model model;
+  model.rods = {make_rod(rod(0.5, 1e-3, 1e-3, 0.9e-3, 250)), make_rod(rod(0.55, 1e-4, 0.45e-3, 0.2e-3, 275)),
+                make_rod(rod(0.6, 4e-5, 0.178e-3, 0, 300))};
+  model.nestings = {{0, 1}, {0, 2}, {.outer = 1, .inner = 2, .lumen_m = 0.1}};
+  model.gravity_W.setZero();
+  State state = make_state(model, {along_x(), along_x(), along_x()}, {0.45, 0.40, 0.42});
+  Scratch scratch(model);
+  StepReport report;
+  Inputs inputs;
+  inputs.rods.resize(3);
+  for (int n = 0; n < 1000; ++n) {
+    inputs.rods[1].feed_m_s = 0.03 * std::sin(2e-3 * n);
+    inputs.rods[2].feed_m_s = 0.05 * std::sin(1.5e-3 * n);
+    inputs.rods[2].base.turn_rate_W_rad_s = Vector3d(5, 0, 0);
+    step(model, inputs, state, scratch, report);
+    ASSERT_EQ(report.trouble, 0u) << n;
+  }
+  const BindingScratch& binding = scratch.bindings[2];
+  const double shaft_tip = state.rods[1].inserted_m, wire = state.rods[2].inserted_m;
+  for (int i = first_element(state.rods[2]) + 1; i < model.rods[2].nodes(); ++i) {
+    const double depth = wire - model.rods[2].node_from_tip_m[i];
+    const bool in_shaft = depth > shaft_tip - 0.1 && depth < shaft_tip;
+    const double near_an_end = std::min(std::fabs(depth - shaft_tip), std::fabs(depth - shaft_tip + 0.1));
+    if (near_an_end < 0.003) continue;
+    ASSERT_EQ(binding.nesting[i], in_shaft ? 2 : 1) << i;
+    EXPECT_LT(state.rods[2].offset[i].norm(), binding.room.at(0)[i] + 0.02e-3) << i;
+  }
+}
+
 }  // namespace
 }  // namespace ostium
