@@ -191,7 +191,7 @@ void finish(const Model& model, const Rod& rod, const BindingScratch& binding, R
 void balance_nests(const Model& model, const State& state, Scratch& scratch, StepReport& report) {
   scratch.sweeps = 1;
   measure_binding(model, scratch);
-  while (scratch.sweeps < tunables::max_sweeps) {
+  while (true) {
     // From the inside outwards: what an outer rod is to feel is right only once its inner ones are.
     int corrected = -1;
     for (int r = static_cast<int>(model.rods.size()) - 1; r >= 0 && corrected < 0; --r) {
@@ -201,6 +201,11 @@ void balance_nests(const Model& model, const State& state, Scratch& scratch, Ste
       corrected = r;
     }
     if (corrected < 0) return;
+    if (scratch.sweeps == tunables::max_sweeps) {
+      scratch.rods[corrected].progress = Progress::done;  // as it was before it was to be corrected again
+      report.rods[corrected].trouble |= nest_unbalanced;
+      return;
+    }
     ++scratch.sweeps;
     for (const Group& group : scratch.groups) {
       for (int r : group) {
@@ -224,6 +229,7 @@ bool lost_in_nest(const Model& model, StepReport& report) {
   if (lost)
     for (const Nesting& n : model.nestings)
       for (int r : {n.outer, n.inner}) report.rods[r].trouble |= motion_lost;
+  if (lost) report.trouble |= motion_lost;
   return lost;
 }
 

@@ -105,7 +105,6 @@ bool balance(std::size_t r, double step_s, const RodState& state, Scratch& scrat
     worst = largest(worst, std::sqrt(dot(owed, owed)));
     largest_given = largest(largest_given, std::sqrt(dot(load3<double>(b.given, i), load3<double>(b.given, i))));
   }
-  b.mismatch = worst;
   if (worst < largest(tunables::balance_N, tunables::balance_part * largest_given)) return false;
   // Anderson's mixing with one step of memory.
   const double mix = b.corrections > 0 && change > 0 ? std::clamp(projection / change, -3.0, 0.9) : 0;

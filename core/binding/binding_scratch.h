@@ -51,8 +51,7 @@ struct BindingScratch {
       owed_before;  ///< N, (#nodes): that, less what the iterate was moved by; of this turn and the one before
   Field<3> more, correction;  ///< N, (#nodes): what was added to the forces for it, last and in all
   Field<3> own_force;         ///< N, (#elements): without the inner rods'
-  int corrections = 0;
-  double mismatch = 0;  ///< N, the largest of `owed`
+  int corrections = 0;        ///< so far in this step
 
   // --- as an inner rod
   Field<3> moves;            ///< m, (#nodes): see moves_of_inner

@@ -63,10 +63,10 @@ class Enclosing {
       double along = project(r, element);
       while (along > 1 && element + 1 < outer_.elements) along = project(r, ++element);
       if (along > 1) break;  // beyond the tip
-      if (b_.nesting[i] < 0 && along >= 0) {
-        b_.nesting[i] = index_, b_.element[i] = element, b_.along.at(0)[i] = along;
+      if (b_.nesting[i] < 0) {
+        b_.nesting[i] = index_, b_.element[i] = element;
+        b_.along.at(0)[i] = largest(0, along);  // on the outside of a bend, a node may be beside no element
       }
-      if (b_.nesting[i] < 0) b_.nesting[i] = index_, b_.element[i] = element, b_.along.at(0)[i] = 0;
       last = i;
     }
     return last;
