@@ -13,6 +13,7 @@ Energy energy(const Model& model, const Inputs& inputs, const State& state, std:
   const int N = rod.elements;
 
   Energy out;
+  if (!rod.in_body()) return out;
   const EndJoints ends = joints_of(inputs.rods[r]);
   for (int i = rod.first; i <= N; ++i) {
     if ((i == rod.first && !ends.base) || (i == N && !ends.tip)) continue;

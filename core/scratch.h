@@ -18,8 +18,9 @@ enum class TimeScheme {
 /// linearly, but its matrix is positive definite whatever the rod is pushed or twisted with.
 enum class GeometricStiffness { with, without };
 
-/// Of a rod's iterations in a step: going on, converged, near enough when they ran out, without a finite solution.
-enum class Progress { open, done, given_up, failed };
+/// Of a rod's iterations in a step: going on, converged, near enough when they ran out, without a finite solution; the
+/// rod is not in the body.
+enum class Progress { open, done, given_up, failed, absent };
 
 struct RodScratch {
   Rod inside;        ///< the part of the rod that is inside its introducer

@@ -141,6 +141,11 @@ void find_equilibrium(const Model& model, const Inputs& inputs, State& state, Sc
     RodScratch& s = scratch.rods[r];
     s.inputs = limited(inputs.rods[r], trouble);
     cut_at_introducer(model.rods[r], state.rods[r], s.inside);
+    if (!s.inside.in_body()) {
+      report[r] = {};
+      report[r].converged = true;
+      continue;
+    }
     report[r] = settle(s.inside, model.gravity_W, state.rods[r], s, scratch.factors);
     report[r].trouble = trouble;
     if (report[r].converged) take(s.inside, s, state.rods[r]);
@@ -153,6 +158,7 @@ int negative_directions(const Model& model, const Inputs& inputs, const State& s
   const Rod& rod = s.inside;
   s.inputs = limited(inputs.rods[r], trouble);
   cut_at_introducer(model.rods[r], state.rods[r], s.inside);
+  if (!rod.in_body()) return 0;
   start_at(rod, state.rods[r], s);
   // The first solve finds the internal forces, the second counts with the stiffness that they make.
   for (int pass = 0; pass < 2; ++pass) {

@@ -36,8 +36,9 @@ void constrain(const Model& model, const State& state, std::size_t r, Scratch& s
 
 void predict(const Model& model, const State& state, std::size_t r, TimeScheme scheme, Scratch& scratch) {
   RodScratch& s = scratch.rods[r];
+  s.progress = s.inside.in_body() ? Progress::open : Progress::absent;
+  if (s.progress == Progress::absent) return;
   s.scheme = scheme;
-  s.progress = Progress::open;
   s.geometric = scheme == TimeScheme::from_rest ? GeometricStiffness::without : GeometricStiffness::with;
   predict_elements(s.inside, state.rods[r], s);
   forget_corrections(scratch.bindings[r]);
@@ -135,7 +136,9 @@ void iterate(const Model& model, const State& state, const Group& group, Scratch
   }
 }
 
-bool usable(const RodScratch& s) { return s.progress != Progress::failed && s.defect <= tunables::usable_stretch; }
+bool usable(const RodScratch& s) {
+  return s.progress == Progress::absent || (s.progress != Progress::failed && s.defect <= tunables::usable_stretch);
+}
 
 /// Rods that move too violently for a step give up their velocity.
 void retry_from_rest(const Model& model, State& state, const Group& group, Scratch& scratch, StepReport& report) {
@@ -164,6 +167,7 @@ void report_forces(const Model& model, const Rod& rod, const RodScratch& s, cons
 
 void finish(const Model& model, const Rod& rod, const BindingScratch& binding, RodScratch& s, RodState& state,
             RodReport& report) {
+  if (s.progress == Progress::absent) return;
   if (s.progress == Progress::failed)
     report.trouble |= no_solution;
   else if (s.progress != Progress::done)
@@ -210,7 +214,8 @@ void balance_nests(const Model& model, const State& state, Scratch& scratch, Ste
     for (const Group& group : scratch.groups) {
       for (int r : group) {
         RodScratch& s = scratch.rods[r];
-        if (r < corrected || !is_inner(scratch, r) || s.progress == Progress::failed) continue;
+        if (r < corrected || !is_inner(scratch, r)) continue;
+        if (s.progress == Progress::failed || s.progress == Progress::absent) continue;
         move_bores(model, r, scratch);
         constrain(model, state, r, scratch);
         s.progress = Progress::open;
@@ -221,14 +226,16 @@ void balance_nests(const Model& model, const State& state, Scratch& scratch, Ste
   }
 }
 
-bool lost_in_nest(const Model& model, StepReport& report) {
+bool lost_in_nest(const Model& model, const Scratch& scratch, StepReport& report) {
   bool lost = false;
   for (const Nesting& n : model.nestings)
-    for (int r : {n.outer, n.inner})
-      lost |= (report.rods[r].trouble & (motion_lost | no_solution | not_converged | joint_overturned)) != 0;
+    if (is_bound(n, scratch))
+      for (int r : {n.outer, n.inner})
+        lost |= (report.rods[r].trouble & (motion_lost | no_solution | not_converged | joint_overturned)) != 0;
   if (lost)
     for (const Nesting& n : model.nestings)
-      for (int r : {n.outer, n.inner}) report.rods[r].trouble |= motion_lost;
+      if (is_bound(n, scratch))
+        for (int r : {n.outer, n.inner}) report.rods[r].trouble |= motion_lost;
   if (lost) report.trouble |= motion_lost;
   return lost;
 }
@@ -251,7 +258,7 @@ void step(const Model& model, const Inputs& inputs, State& state, Scratch& scrat
     report.trouble |= report.rods[r].trouble;
   }
   commit_binding(model, scratch, state);
-  if (lost_in_nest(model, report)) calm_nests(model, scratch, state);
+  if (lost_in_nest(model, scratch, report)) calm_nests(model, scratch, state);
   ++state.step;
 }
 

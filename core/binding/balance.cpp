@@ -58,6 +58,7 @@ void measure_binding(const Model& model, Scratch& scratch) {
     BindingScratch& b = scratch.bindings[r];
     if (b.nesting.empty()) continue;
     const RodScratch& s = scratch.rods[r];
+    if (!s.inside.in_body()) continue;
     const auto give = [&](int outer, int node, double part, const V3<double>& force) {
       Field<3>& given = scratch.bindings[outer].given;
       store3(given, node, madd(part, force, load3<double>(given, node)));
@@ -126,6 +127,7 @@ void commit_binding(const Model& model, const Scratch& scratch, State& state) {
   for (std::size_t r = 0; r < model.rods.size(); ++r) {
     const BindingScratch& b = scratch.bindings[r];
     RodState& to = state.rods[r];
+    if (!scratch.rods[r].inside.in_body()) continue;
     for (int i = 0; i < to.inner_force.size(); ++i) store3(to.inner_force, i, load3<double>(b.given, i));
     if (b.nesting.empty()) continue;
     land(scratch.rods[r].inside, model.step_s, b, to);
@@ -145,6 +147,7 @@ void commit_binding(const Model& model, const Scratch& scratch, State& state) {
 void calm_nests(const Model& model, const Scratch& scratch, State& state) {
   for (const Nesting& n : model.nestings)
     for (int r : {n.outer, n.inner}) {
+      if (!is_bound(n, scratch)) continue;
       RodState& rod = state.rods[r];
       halt(scratch.rods[r].inside, rod);
       for (Field<3>* f : {&rod.inner_force, &rod.contact_force, &rod.force, &rod.moment})

@@ -17,6 +17,9 @@
 
 namespace ostium {
 
+/// Whether both rods of a nesting are in the body.
+bool is_bound(const Nesting& nesting, const Scratch& scratch);
+
 /// Lets rod `r` feel what is inside it: changes its scratch.target and chain.compliance, and prepares lend_*.
 void feel_inner_rods(const Model& model, const State& state, std::size_t r, Scratch& scratch);
 

@@ -163,7 +163,7 @@ void find_bores(const Model& model, const State& state, std::size_t r, Scratch& 
   // The last rod's lumen first: it is the innermost.
   for (int index = static_cast<int>(model.nestings.size()) - 1; index >= 0; --index) {
     const Nesting& nesting = model.nestings[index];
-    if (nesting.inner != static_cast<int>(r)) continue;
+    if (nesting.inner != static_cast<int>(r) || !is_bound(nesting, scratch)) continue;
     const RodScratch& outer = scratch.rods[nesting.outer];
     Enclosing lumen(rod, outer.inside, outer, nesting, index, position, b);
     const int last = lumen.find(rod.elements);

@@ -42,7 +42,7 @@ void extend(const Model& model, const State& state, std::size_t r, Scratch& scra
   b.beyond = -1;
   if (scratch.rods[r].inputs.tip.hold != Hold::free) return;
   for (const Nesting& n : model.nestings) {
-    if (n.outer != static_cast<int>(r)) continue;
+    if (n.outer != static_cast<int>(r) || !is_bound(n, scratch)) continue;
     const Rod& inner = scratch.rods[n.inner].inside;
     int k = inner.first + 1;
     while (k <= inner.elements &&
@@ -99,6 +99,10 @@ void lend(const Rod& outer, const RodState& inner_state, const Rod& inner, const
 
 }  // namespace
 
+bool is_bound(const Nesting& nesting, const Scratch& scratch) {
+  return scratch.rods[nesting.outer].inside.in_body() && scratch.rods[nesting.inner].inside.in_body();
+}
+
 void feel_inner_rods(const Model& model, const State& state, std::size_t r, Scratch& scratch) {
   BindingScratch& b = scratch.bindings[r];
   if (b.bending.size() == 0) return;
@@ -114,7 +118,7 @@ void feel_inner_rods(const Model& model, const State& state, std::size_t r, Scra
   const double inertia = acceleration_per_move(s.scheme, model.step_s);
   V3<double> slide{};
   for (const Nesting& n : model.nestings) {
-    if (n.outer != static_cast<int>(r)) continue;
+    if (n.outer != static_cast<int>(r) || !is_bound(n, scratch)) continue;
     const Rod& inner = scratch.rods[n.inner].inside;
     Field<3>& moves = scratch.bindings[n.inner].moves;
     moves_of_inner(inner, state.rods[n.inner], model.step_s, s.scheme, moves);

@@ -96,13 +96,41 @@ void leave_element(const Rod& rod, RodState& s) {
   s.first = next;
 }
 
+/// The tip appears behind the introducer, unloaded and carried along by the hand.
+void appear(const Rod& rod, const RodInputs& inputs, double step_s, RodState& s) {
+  const int first = rod.elements - least_elements, N = rod.elements;
+  s.first = first, s.slack_m = 0;
+  const Vector3d velocity = inputs.base.velocity_W_m_s + inputs.feed_m_s * axis(s.base);
+  Q4<double> q = s.base.frame();
+  Vector3d p = s.base.p_W;
+  for (int i = first; i <= N; ++i) {
+    const Vector3d moves = i == first ? Vector3d::Zero() : velocity;
+    s.position.set(i, p);
+    s.position_before.set(i, p - step_s * moves);
+    for (Field<3>* f : {&s.velocity, &s.velocity_before}) f->set(i, moves);
+    if (s.strain.size() > 0)
+      for (Field<3>* f : {&s.strain, &s.strain_before}) f->set(i, i < N ? rod.rest_curvature[i] : Vector3d(0, 0, 0));
+    if (i == N) break;
+    const double length = i == first ? base_length(rod, s) : rod.length.at(0)[i];
+    q = turned_by(q, (i == first ? length / 2 : rod.joint_length.at(0)[i]) * load3<double>(rod.rest_curvature, i));
+    store4(s.orientation, i, q);
+    for (Field<3>* f : {&s.turn, &s.turn_before, &s.force}) f->set(i, Vector3d::Zero());
+    p += length * to_eigen(director3(q));
+  }
+  for (Field<3>* f : {&s.moment, &s.acceleration, &s.inner_force, &s.contact_force, &s.offset, &s.offset_before})
+    std::fill(f->raw().begin(), f->raw().end(), 0.0);
+}
+
 }  // namespace
+
+bool in_body(const Rod& rod, const RodState& state) { return first_element(state) < rod.elements; }
 
 Vector3d axis(const EndState& end) { return to_eigen(director3(end.frame())); }
 
 double least_inserted_m(const Rod& rod) { return rod.node_from_tip_m[rod.elements - least_elements]; }
 
 int first_element_for(const Rod& rod, double inserted_m) {
+  if (inserted_m < least_inserted_m(rod)) return rod.elements;
   int first = 0;
   while (first < rod.elements - least_elements &&
          inserted_m - rod.node_from_tip_m[first + 1] < leaves_at * rod.length.at(0)[first])
@@ -118,14 +146,22 @@ void feed(const Rod& rod, const RodInputs& inputs, double step_s, RodState& s, s
   if (inputs.base.hold != Hold::clamped || (inputs.feed_m_s == 0 && s.slack_m == 0)) return;
   // First the elements, while positions and length belong to one moment.
   const auto first = [&] { return first_element(s); };
-  while (first() > 0 && base_length(rod, s) > rod.length.at(0)[first()] + enters_at * rod.length.at(0)[first() - 1])
-    enter_element(rod, inputs, step_s, s);
-  while (first() < rod.elements - least_elements && base_length(rod, s) < leaves_at * rod.length.at(0)[first()])
-    leave_element(rod, s);
+  if (in_body(rod, s)) {
+    while (first() > 0 && base_length(rod, s) > rod.length.at(0)[first()] + enters_at * rod.length.at(0)[first() - 1])
+      enter_element(rod, inputs, step_s, s);
+    while (first() < rod.elements - least_elements && base_length(rod, s) < leaves_at * rod.length.at(0)[first()])
+      leave_element(rod, s);
+  }
   s.slack_m = std::fabs(s.slack_m) > 1e-15 ? slack_kept * s.slack_m : 0;
   const double asked = s.inserted_m + step_s * inputs.feed_m_s;
-  s.inserted_m = std::clamp(asked, least_inserted_m(rod), rod.total_length_m);
+  s.inserted_m = std::clamp(asked, 0.0, rod.total_length_m);
   if (s.inserted_m != asked) trouble |= feed_stopped;
+  // Apart, so that a trembling hand does not take it out and in.
+  if (s.inserted_m < least_inserted_m(rod))
+    s.first = rod.elements, s.slack_m = 0;
+  else if (!in_body(rod, s) &&
+           s.inserted_m > least_inserted_m(rod) + rod.length.at(0)[rod.elements - least_elements] / 10)
+    appear(rod, inputs, step_s, s);
 }
 
 }  // namespace ostium

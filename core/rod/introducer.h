@@ -7,6 +7,10 @@
 /// before. Beyond that an element enters or leaves. Curvature, force and velocity at the base are carried over, so that
 /// neither shape nor force jumps; the last cause of a jump, that two chords of an arc are longer than one, is put into
 /// the base element's length as a slack of nanometres, which fades within some 10 ms.
+///
+/// An instrument of which less than three elements are inside is not in the body: it takes part in nothing, and its tip
+/// is within the introducer. Fed on, it appears there in its unloaded shape; so one instrument is exchanged for
+/// another.
 #include <cstdint>
 
 #include "core/inputs.h"
@@ -15,14 +19,17 @@
 
 namespace ostium {
 
-/// Least length that stays inside: that of the three distal elements.
+/// With less than this inserted, that of the three distal elements, a rod is not in the body.
 double least_inserted_m(const Rod& rod);
 
-/// The first element inside when `inserted_m` of a rod is, if it has not been fed yet.
+/// Whether a rod takes part.
+bool in_body(const Rod& rod, const RodState& state);
+
+/// The first element inside when `inserted_m` of a rod is, if it has not been fed yet; N: not in the body.
 int first_element_for(const Rod& rod, double inserted_m);
 
-/// Feeds for one step: writes state.inserted_m and first, and the fields of elements that enter or leave. At the end of
-/// the instrument it stops, and says so in `trouble`.
+/// Feeds for one step: writes state.inserted_m and first, and the fields of elements that enter or leave. At both ends
+/// of the instrument it stops, and says so in `trouble`.
 void feed(const Rod& rod, const RodInputs& inputs, double step_s, RodState& state, std::uint32_t& trouble);
 
 /// Makes `inside` the part of `rod` that `state` has inside the introducer.

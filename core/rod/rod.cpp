@@ -118,12 +118,15 @@ void cut(const Rod& whole, double inserted_m, int first, Rod& inside) {
   // What the last cut changed: its first element, and the cells of that element's nodes.
   const int last = inside.first;
   inside.first = 0;
-  set_element(inside, last, whole.node_from_tip_m[last]);
-  for (int i : {last, last + 1}) set_cell(inside, i, whole.node_from_tip_m[i]);
+  if (last < whole.elements) {
+    set_element(inside, last, whole.node_from_tip_m[last]);
+    for (int i : {last, last + 1}) set_cell(inside, i, whole.node_from_tip_m[i]);
+  }
 
   inside.first = first;
   inside.total_length_m = inserted_m;
   inside.total_mass_kg = integrate(whole.sections, 0, inserted_m).mass;
+  if (first == whole.elements) return;
   set_element(inside, first, inserted_m);
   set_cell(inside, first, inserted_m);
   set_cell(inside, first + 1, whole.node_from_tip_m[first + 1]);

@@ -15,7 +15,7 @@ namespace ostium {
 
 struct Rod {
   int elements = 0;         ///< N
-  int first = 0;            ///< elements before this one are outside the introducer and take no part
+  int first = 0;            ///< elements before this one are outside the introducer and take no part; N: all
   Field<1> length;          ///< m, (#elements)
   Field<1> mass;            ///< kg, (#nodes): half of each adjacent element
   Field<2> rotary_inertia;  ///< kg m2, (#elements): about a transverse axis, about d3
@@ -33,6 +33,7 @@ struct Rod {
   std::vector<double> node_from_tip_m;  ///< (#nodes), falling to 0
 
   int nodes() const { return elements + 1; }
+  bool in_body() const { return first < elements; }
 };
 
 /// Cuts a description into elements. Properties that vary inside a cell are averaged: compliance and rest curvature by
@@ -44,8 +45,8 @@ Rod make_rod(const RodDescription& description);
 Eigen::Vector3d stiffness_at_rest(const Rod& rod, int joint);
 
 /// Makes `inside`, a copy of `whole` that may have been cut before, the part of it that reaches `inserted_m` from the
-/// tip: `first` becomes its first element, as long as is left of the length. Touches the numbers near the base only;
-/// does not allocate.
+/// tip: `first` becomes its first element, as long as is left of the length; N: none of it is inside. Touches the
+/// numbers near the base only; does not allocate.
 void cut(const Rod& whole, double inserted_m, int first, Rod& inside);
 
 }  // namespace ostium

@@ -7,6 +7,7 @@
 
 #include "app/verify/nesting.h"
 #include "app/verify/steel_wire.h"
+#include "core/rod/introducer.h"
 #include "core/step.h"
 #include "tests/core/allocations.h"
 
@@ -154,6 +155,42 @@ TEST(Nesting, ACatheterIsDrawnBackOverAHeldWire) {
   for (int n = 0; n < 4000; ++n) step(model, inputs, state, scratch, report);
   EXPECT_LT(state.rods[0].inserted_m, 0.051);
   EXPECT_LT((state.rods[1].position[150] - tip).norm(), 0.5e-3);
+}
+
+// One catheter is withdrawn whole over a held wire with a bent tip, and another is advanced over it.
+TEST(Nesting, ACatheterIsExchangedOverAHeldWire) {
+  Model model;
+  RodDescription wire = rod(0.35, 1e-3, 0.45e-3, 0, 175);
+  Section tip = wire.sections[0];
+  tip.to_tip_m = wire.sections[0].from_tip_m = 0.05;
+  tip.rest_curvature_per_m = {0, 30, 0};
+  wire.sections.insert(wire.sections.begin(), tip);
+  model.rods = {make_rod(rod(0.25, 1.5e-3, 0.9e-3, 0.6e-3, 125)), make_rod(rod(0.2, 3e-3, 1e-3, 0.7e-3, 100)),
+                make_rod(wire)};
+  model.nestings = {{0, 2}, {1, 2}};
+  model.gravity_W.setZero();
+  State state = make_state_at_rest_shape(model, {along_x(), along_x(), along_x()}, {0.15, 0, 0.25});
+  Scratch scratch(model);
+  StepReport report;
+  Inputs inputs;
+  inputs.rods.resize(3);
+  const Vector3d p = state.rods[2].position[175];
+  double moved = 0;
+  const auto fed = [&](int catheter, double feed_m_s, int steps) {
+    inputs.rods[catheter].feed_m_s = feed_m_s;
+    for (int n = 0; n < steps; ++n) {
+      step(model, inputs, state, scratch, report);
+      EXPECT_EQ(report.trouble, 0u) << n;
+      moved = std::max(moved, (state.rods[2].position[175] - p).norm());
+    }
+    inputs.rods[catheter].feed_m_s = 0;
+  };
+  fed(0, -0.05, 2980);
+  EXPECT_FALSE(in_body(model.rods[0], state.rods[0]));
+  fed(1, 0.05, 3000);
+  EXPECT_NEAR(state.rods[1].inserted_m, 0.15, 1e-9);
+  EXPECT_LT(moved, 0.5e-3);
+  EXPECT_EQ(scratch.bindings[2].nesting[120], 1);
 }
 
 // A rapid-exchange shaft holds the wire over its last 10 cm here; behind them, both run side by side in the guide.
