@@ -20,6 +20,7 @@ void check_nestings(const Model& model) {
       refuse("there are " + std::to_string(rods) + " rods, and the outer one must come before the inner one");
     if (!(n.lumen_m > 0)) refuse("its lumen must be longer than 0");
     if (++outers[n.inner] > max_outer_rods) refuse("a rod can run in at most three others");
+    if (!(n.friction >= 0 && n.friction <= 2)) refuse("its friction must be within 0 to 2");
     const double room = tightest_clearance_m(model.rods[n.outer], model.rods[n.inner], n.lumen_m);
     if (!(room > 0))
       refuse("the inner one is too thick for the lumen, by " + std::to_string(-1e3 * room) + " mm of radius");

@@ -30,7 +30,10 @@ void resize_inner(const Rod& rod, BindingScratch& b) {
   b.nesting.resize(nodes);
   b.element.resize(nodes);
   for (Field<3>* f : {&b.centre, &b.tangent, &b.normal, &b.moves, &b.on_outer, &b.force_on_outer}) f->resize(nodes);
-  for (Field<1>* f : {&b.along, &b.room, &b.wall, &b.softness, &b.stay}) f->resize(nodes);
+  for (Field<1>* f : {&b.along, &b.room, &b.wall, &b.softness, &b.stay, &b.slide_stiffness}) f->resize(nodes);
+  b.slide_place.resize(nodes);
+  b.turn_stiffness.resize(rod.elements);
+  b.turn_torque.resize(rod.elements);
 }
 
 }  // namespace

@@ -71,6 +71,8 @@ State lay_out_all(const Model& model, const std::vector<EndState>& bases, const 
     outer.inner_force.resize(model.rods[n.outer].nodes());
     for (Field<3>* f : {&inner.contact_force, &inner.offset, &inner.offset_before})
       f->resize(model.rods[n.inner].nodes());
+    inner.slip.resize(model.rods[n.inner].nodes());
+    outer.inner_drag.resize(model.rods[n.outer].elements);
   }
   state.nestings.resize(model.nestings.size());
   return state;

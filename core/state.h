@@ -38,6 +38,8 @@ struct RodState {
   Field<3> contact_force;  ///< N, (#nodes), on the rod around it, and
   Field<3> offset;  ///< m, (#nodes), from the middle of that rod's lumen; zero outside. Empty if it can be in none
   Field<3> offset_before;
+  Field<2> slip;  ///< m, (#nodes): elastic part of its sliding along that lumen and around in it, see solve/friction.h
+  Field<2> inner_drag;  ///< N along and N m about d3, (#elements), of friction of the rods inside it; smoothed
   EndState base, tip;
 };
 
@@ -88,6 +90,8 @@ void for_each_field(S& state, Visit&& visit) {
     components("contact_force", rod.contact_force);
     components("offset", rod.offset);
     components("offset_before", rod.offset_before);
+    components("slip", rod.slip);
+    components("inner_drag", rod.inner_drag);
     for (auto* end : {&rod.base, &rod.tip}) {
       visit("end.p_W", end->p_W.data(), 3);
       visit("end.q_W", end->q_W.data(), 4);

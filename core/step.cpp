@@ -43,6 +43,7 @@ void predict(const Model& model, const State& state, std::size_t r, TimeScheme s
   predict_elements(s.inside, state.rods[r], s);
   forget_corrections(scratch.bindings[r]);
   find_bores(model, state, r, scratch);
+  find_slides(model, state, r, scratch);
   constrain(model, state, r, scratch);
   lend_to_force(state, r, scratch);
 }
@@ -69,6 +70,8 @@ void linearise(const State& state, double step_s, std::size_t r, Scratch& scratc
   lend_to_elements(scratch.bindings[r], s);
   add_rotary_inertia(rod, step_s, s);
   add_rotary_torque(rod, state.rods[r], step_s, s);
+  turn_with_bore(r, scratch);
+  take_drag(state.rods[r], s);
 }
 
 using Group = std::vector<int>;
@@ -217,6 +220,7 @@ void balance_nests(const Model& model, const State& state, Scratch& scratch, Ste
         if (r < corrected || !is_inner(scratch, r)) continue;
         if (s.progress == Progress::failed || s.progress == Progress::absent) continue;
         move_bores(model, r, scratch);
+        move_slides(model, state, r, scratch);
         constrain(model, state, r, scratch);
         s.progress = Progress::open;
       }
@@ -257,6 +261,7 @@ void step(const Model& model, const Inputs& inputs, State& state, Scratch& scrat
     finish(model, scratch.rods[r].inside, scratch.bindings[r], scratch.rods[r], state.rods[r], report.rods[r]);
     report.trouble |= report.rods[r].trouble;
   }
+  commit_slides(model, scratch, state);
   commit_binding(model, scratch, state);
   if (lost_in_nest(model, scratch, report)) calm_nests(model, scratch, state);
   ++state.step;

@@ -32,6 +32,8 @@ inline constexpr int max_sweeps = 12;         // over nested rods in one step
 inline constexpr double least_beyond = 0.3;   // of an element that protrudes: less counts as inside
 inline constexpr double loose_m = 2e-6;  // most that a node may leave its bore by before it is tied in the same step
 inline constexpr double least_pull_N = 1e-3;  // of a tie that is let go in the same step
+inline constexpr double bore_slip_m = 20e-6;  // elastic, of friction in a bore
+inline constexpr double drag_share = 0.2;     // of friction that the outer rod takes over in a step
 inline constexpr int max_tie_changes = 6;     // of a rod in one step
 
 // Static equilibrium.

@@ -202,6 +202,30 @@ GateResult containment(bool quick, bool bound) {
   return {"nesting-containment", 1e3 * worst, 0, 0.02, "mm"};
 }
 
+/// A catheter, soft and straight by itself, is drawn back over a stiff bent wire that is held: how far the wire's tip
+/// leaves its own shape, or the catheter's tip the wire.
+GateResult draw_back(bool quick, bool bound) {
+  constexpr double wire = 0.45e-3, clearance = 0.05e-3, k = 0.4;
+  const auto catheter = [&](double curvature) {
+    return uniform({0.2, 4e-4, curvature, 0.8e-3, wire + clearance, 3e-3}, 100, 1);
+  };
+  Pair pair(catheter(k), uniform({0.25, 1e-2, k, wire, 0, 5e-3}, 125, 1), bound, {0.15, 0.2});
+  pair.model.rods[0] = make_rod(catheter(0));
+  pair.scratch = Scratch(pair.model);
+  const Vector3d tip = pair.state.rods[1].position[125];
+  pair.step(quick ? 1000 : 3000);
+  pair.inputs.rods[0].feed_m_s = -0.05;
+  double worst = 0;
+  while (pair.state.rods[0].inserted_m > 0.05) {
+    pair.step();
+    bool beyond = false;
+    const Vector3d catheter_tip = pair.state.rods[0].position[100];
+    worst = std::max({worst, (pair.state.rods[1].position[125] - tip).norm(),
+                      distance_to_centreline(pair.model.rods[1], pair.state.rods[1], catheter_tip, beyond)});
+  }
+  return {"nesting-draw-back", 1e3 * worst, 0, 0.5, "mm"};
+}
+
 }  // namespace
 
 namespace {
@@ -219,6 +243,7 @@ std::vector<GateResult> nesting_with(bool quick, bool bound) {
       snap(quick, bound),
       push(bound),
       containment(quick, bound),
+      draw_back(quick, bound),
       aligned_pair("nesting-stiff-wire", 5e-4, 6e-3, 25, 0, 0.1e-3, 150, 2, bound),
       aligned_pair("nesting-soft-wire", 5e-3, 1e-4, 25, 0, 0.1e-3, 150, 2, bound),
   };

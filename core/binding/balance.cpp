@@ -152,6 +152,7 @@ void calm_nests(const Model& model, const Scratch& scratch, State& state) {
       halt(scratch.rods[r].inside, rod);
       for (Field<3>* f : {&rod.inner_force, &rod.contact_force, &rod.force, &rod.moment})
         std::fill(f->raw().begin(), f->raw().end(), 0.0);
+      for (Field<2>* f : {&rod.slip, &rod.inner_drag}) std::fill(f->raw().begin(), f->raw().end(), 0.0);
       rod.offset_before = rod.offset;
     }
   for (NestingState& n : state.nestings) n.rim_force_W_N.setZero();

@@ -10,7 +10,7 @@
 ///   the outer rod it is held at the rim, which lies between two of its nodes;
 /// - then what ties and rims exert is compared with what the outer rod was moved by (balance.cpp).
 ///
-/// Mostly once is enough while hands move; a quick release takes several turns. Not yet: friction.
+/// Mostly once is enough while hands move; a quick release takes several turns. Friction is in slide.cpp.
 #include "core/model.h"
 #include "core/scratch.h"
 #include "core/state.h"
@@ -35,6 +35,18 @@ const Rod& solved_rod(const Scratch& scratch, std::size_t r);
 
 /// Finds, from the outer rods' iterates, in which bore each node of rod `r` is and which nodes are pressed against it.
 void find_bores(const Model& model, const State& state, std::size_t r, Scratch& scratch);
+
+/// Prepares the friction of these nodes, from how the iterates slide.
+void find_slides(const Model& model, const State& state, std::size_t r, Scratch& scratch);
+/// Lets it follow the outer rods' new iterates; how stiff it is stays.
+void move_slides(const Model& model, const State& state, std::size_t r, Scratch& scratch);
+/// Adds to rod `r`'s equations what its bores turn it with; and what the rods inside it drag node i by along it, and
+/// turn it with. After linearise_joints and assemble_elements.
+void turn_with_bore(std::size_t r, Scratch& scratch);
+V3<double> drag_on_node(const RodState& outer, const Rod& inside, int i);
+void take_drag(const RodState& outer, RodScratch& s);
+/// Moves slips and drags into the state.
+void commit_slides(const Model& model, const Scratch& scratch, State& state);
 
 /// Ties these nodes to their bores: changes scratch.target and chain.compliance of rod `r`.
 void tie_to_bores(std::size_t r, Scratch& scratch);

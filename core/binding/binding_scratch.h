@@ -64,6 +64,11 @@ struct BindingScratch {
   Field<1> wall;             ///< m/N, compliance of the bore's wall
   Field<1> softness;         ///< m/N of the tie along `normal`; infinite: not tied
   Field<1> stay;             ///< N/m of the tie across it
+  bool slides = false;       ///< with friction
+  Field<1> slide_stiffness;  ///< N/m of friction, (#nodes)
+  Field<2> slide_place;      ///< m, along the tangent and around: where it pulls the node to, (#nodes)
+  Field<1> turn_stiffness;   ///< N m/rad of friction, (#elements), and
+  Field<1> turn_torque;      ///< N m, without a turn
   int last = 0;              ///< node that can be tied
   int changes = 0;           ///< of ties in this step
   Field<6> free_compliance;  ///< as they would be without ties

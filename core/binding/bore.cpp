@@ -186,6 +186,8 @@ void renew_node(int i, BindingScratch& b, RodScratch& s) {
     tie(n, dot(n, centre) + b.room.at(0)[i], b.softness.at(0)[i], P, target);
     tie(e, dot(e, centre), 1 / b.stay.at(0)[i], P, target);
   }
+  if (b.slide_stiffness.at(0)[i] > 0)
+    tie(load3<double>(b.tangent, i), b.slide_place.at(0)[i], 1 / b.slide_stiffness.at(0)[i], P, target);
   for (int k = 0; k < b.rim_count; ++k) {
     const Rim& rim = b.rims[k];
     if (i != rim.node && i != rim.node + 1) continue;
@@ -209,7 +211,7 @@ void tie_to_bores(std::size_t r, Scratch& scratch) {
   b.free_target = s.target;
   b.changes = 0;
   for (int i = s.inside.first; i < s.inside.nodes(); ++i)
-    if (b.softness.at(0)[i] < infinite) renew_node(i, b, s);
+    if (b.softness.at(0)[i] < infinite || b.slide_stiffness.at(0)[i] > 0) renew_node(i, b, s);
   for (int k = 0; k < b.rim_count; ++k)
     for (int i : {b.rims[k].node, b.rims[k].node + 1}) renew_node(i, b, s);
 }

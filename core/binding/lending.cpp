@@ -133,7 +133,7 @@ void feel_inner_rods(const Model& model, const State& state, std::size_t r, Scra
   for (int i = rod.first; i < b.whole.nodes(); ++i) {
     const double softness = 1 / b.spring.at(0)[i];
     V3<double> force{};
-    if (i <= N) force = load3<double>(own.inner_force, i) + load3<double>(b.correction, i);
+    if (i <= N) force = load3<double>(own.inner_force, i) + load3<double>(b.correction, i) + drag_on_node(own, rod, i);
     if (i > rod.first) force = force + load3<double>(b.force, i - 1);
     if (i < b.whole.elements) force = force - load3<double>(b.force, i);
     S3<double> P;

@@ -18,6 +18,7 @@ struct Nesting {
   /// How far back from the outer's tip its lumen holds the inner instrument, m. A rapid-exchange shaft: 0.25. Behind
   /// this the inner one runs outside, free of it.
   double lumen_m = 1e3;
+  double friction = 0;  ///< coefficient between the two, static and kinetic
 };
 
 /// Nestings of coaxial instruments, rods[0] the outermost: one for each pair.

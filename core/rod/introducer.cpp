@@ -75,6 +75,8 @@ void enter_element(const Rod& rod, const RodInputs& inputs, double step_s, RodSt
   if (s.acceleration.size() > 0) s.acceleration.set(old, part * s.acceleration[old + 1]);
   for (Field<3>* f : {&s.acceleration, &s.inner_force, &s.contact_force, &s.offset, &s.offset_before})
     if (f->size() > 0) f->set(base, Vector3d::Zero());
+  for (Field<2>* f : {&s.slip, &s.inner_drag})
+    if (f->size() > 0) f->set(base, Eigen::Vector2d::Zero());
   s.first = base;
 }
 
@@ -119,6 +121,7 @@ void appear(const Rod& rod, const RodInputs& inputs, double step_s, RodState& s)
   }
   for (Field<3>* f : {&s.moment, &s.acceleration, &s.inner_force, &s.contact_force, &s.offset, &s.offset_before})
     std::fill(f->raw().begin(), f->raw().end(), 0.0);
+  for (Field<2>* f : {&s.slip, &s.inner_drag}) std::fill(f->raw().begin(), f->raw().end(), 0.0);
 }
 
 }  // namespace

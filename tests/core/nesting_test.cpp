@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+#include <numbers>
 #include <stdexcept>
 
 #include "app/verify/nesting.h"
@@ -155,6 +158,60 @@ TEST(Nesting, ACatheterIsDrawnBackOverAHeldWire) {
   for (int n = 0; n < 4000; ++n) step(model, inputs, state, scratch, report);
   EXPECT_LT(state.rods[0].inserted_m, 0.051);
   EXPECT_LT((state.rods[1].position[150] - tip).norm(), 0.5e-3);
+}
+
+// A soft wire in a catheter that is bent by a right angle and hardly gives: the rope on a drum (Euler, Eytelwein).
+TEST(Nesting, FrictionInABentCatheterIsThatOfARopeOnADrum) {
+  constexpr double friction = 0.2, tension = 1, angle = std::numbers::pi / 2, length = 0.2, radius = 0.45e-3;
+  const auto bent = [&](RodDescription d) {
+    for (Section& s : d.sections) s.rest_curvature_per_m = {0, angle / length, 0};
+    return make_rod(d);
+  };
+  const RodDescription wire = rod(length + 0.05, 2e-5, radius, 0, 250);
+  Model model;
+  model.rods = {bent(rod(length, 1, 1.2e-3, 0.5e-3, 200)), bent(wire)};
+  model.nestings = {{.outer = 0, .inner = 1, .friction = friction}};
+  model.gravity_W.setZero();
+  for (Rod& r : model.rods) r.damping = {1, 0.5, 1e-3};
+  State state = make_state_at_rest_shape(model, {along_x(), along_x()});
+  model.rods[1] = make_rod(wire);  // laid into the catheter bent, but straight by itself
+  model.rods[1].damping = model.rods[0].damping;
+  Scratch scratch(model);
+  StepReport report;
+  Inputs inputs;
+  inputs.rods.resize(2);
+  double load = 0;
+  const auto run = [&](int steps) {
+    for (int n = 0; n < steps; ++n) {
+      load = std::min(tension, load + 0.01);
+      inputs.rods[1].tip_force_W_N = Vector3d(0, 0, -load);
+      step(model, inputs, state, scratch, report);
+      ASSERT_EQ(report.trouble, 0u) << n;
+    }
+  };
+  const auto pull = [&] { return -report.rods[1].push_N / tension; };
+  run(1000);
+  inputs.rods[1].feed_m_s = -0.01;
+  run(1000);
+  EXPECT_NEAR(pull(), std::exp(friction * angle), 0.03);
+  const double other_hand = report.rods[0].push_N;  // what the wire bears more, the catheter pushes back
+  EXPECT_NEAR(other_hand / tension, std::exp(friction * angle), 0.03);
+  inputs.rods[1].feed_m_s = 0;
+  run(500);
+  EXPECT_NEAR(pull(), std::exp(friction * angle), 0.03) << "it sticks";
+  inputs.rods[1].feed_m_s = 0.01;
+  run(1000);
+  EXPECT_NEAR(pull(), std::exp(-friction * angle), 0.03);
+  inputs.rods[1].feed_m_s = 0;
+  inputs.rods[1].base.turn_rate_W_rad_s = Vector3d(1, 0, 0);
+  run(2500);
+  EXPECT_NEAR(pull(), 1, 0.01) << "turning, it does not resist a pull";
+  const double torque = friction * radius * tension * angle;
+  EXPECT_NEAR(report.rods[1].torque_Nm / torque, 1, 0.04);
+  EXPECT_NEAR(-report.rods[0].torque_Nm / torque, 1, 0.05);
+  inputs.rods[1].base.turn_rate_W_rad_s.setZero();
+  run(500);
+  EXPECT_NEAR(report.rods[1].torque_Nm / torque, 1, 0.04) << "it holds the torque";
 }
 
 // One catheter is withdrawn whole over a held wire with a bent tip, and another is advanced over it.
