@@ -3,6 +3,8 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "core/surface/surface.h"
+
 namespace ostium {
 
 /// How one end of a rod is held. An end that is let go of and held again is held where it is then.
@@ -30,7 +32,8 @@ struct RodInputs {
 };
 
 struct Inputs {
-  std::vector<RodInputs> rods;  ///< one per rod of the model, in its order
+  std::vector<RodInputs> rods;          ///< one per rod of the model, in its order
+  std::vector<SurfaceMotion> surfaces;  ///< of its surfaces; those that are missing stand still
 };
 
 }  // namespace ostium

@@ -4,12 +4,15 @@
 
 #include "core/binding/nesting.h"
 #include "core/rod/rod.h"
+#include "core/surface/surface.h"
 
 namespace ostium {
 
 struct Model {
   std::vector<Rod> rods;
   std::vector<Nesting> nestings;
+  std::vector<Surface> surfaces;  ///< the walls; instruments are inside them
+  bool sweep = true;              ///< contact sees what is between both ends of a step; false for a test alone
   Eigen::Vector3d gravity_W = Eigen::Vector3d(0, 0, -9.81);  ///< m/s2
   double step_s = 1e-3;                                      ///< (0, 0.01]
 };

@@ -36,6 +36,19 @@ void resize_inner(const Rod& rod, BindingScratch& b) {
   b.turn_torque.resize(rod.elements);
 }
 
+void resize_contact(const Model& model, const Rod& rod, ContactScratch& c) {
+  if (model.surfaces.empty()) return;
+  const int nodes = rod.nodes();
+  c.walls.resize(nodes);
+  c.held.resize(nodes);
+  c.rubs.resize(nodes);
+  for (Field<1>* f : {&c.travel, &c.stiffness}) f->resize(nodes);
+  for (Field<3>* f : {&c.along, &c.across, &c.from}) f->resize(nodes);
+  std::size_t clusters = 0;
+  for (const Surface& surface : model.surfaces) clusters = std::max(clusters, surface.clusters.size());
+  c.clusters.reserve(clusters);
+}
+
 }  // namespace
 
 Scratch::Scratch(const Model& model) {
@@ -55,6 +68,8 @@ Scratch::Scratch(const Model& model) {
   }
 
   bindings.resize(rods.size());
+  contacts.resize(rods.size());
+  for (const Surface& surface : model.surfaces) surfaces.emplace_back(surface);
   std::vector<std::size_t> group(rods.size(), 0);
   for (std::size_t r = 0; r < rods.size(); ++r) {
     for (const Nesting& n : model.nestings) {
@@ -69,6 +84,11 @@ Scratch::Scratch(const Model& model) {
   for (std::size_t r = 0; r < rods.size(); ++r) {
     const int solved = rods[r].chain.elements;  // with what protrudes
     longest = std::max(longest, solved);
+    resize_contact(model, model.rods[r], contacts[r]);
+    if (!contacts[r].walls.empty()) {
+      contacts[r].free_compliance.resize(solved + 1);
+      contacts[r].free_target.resize(solved + 1);
+    }
     if (bindings[r].nesting.empty()) continue;
     bindings[r].free_compliance.resize(solved + 1);
     bindings[r].free_target.resize(solved + 1);

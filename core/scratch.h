@@ -1,9 +1,11 @@
 #pragma once
 /// Working memory of a step. May be destroyed, or made anew, between any two steps.
 #include "core/binding/binding_scratch.h"
+#include "core/contact/contact_scratch.h"
 #include "core/inputs.h"
 #include "core/model.h"
 #include "core/solve/chain.h"
+#include "core/surface/pose.h"
 
 namespace ostium {
 
@@ -44,6 +46,8 @@ struct Scratch {
 
   std::vector<RodScratch> rods;
   std::vector<BindingScratch> bindings;  ///< one per rod
+  std::vector<ContactScratch> contacts;  ///< one per rod
+  std::vector<SurfacePose> surfaces;     ///< one per surface
   std::vector<std::vector<int>> groups;  ///< rods that can be solved at once; outer rods in earlier groups
   int sweeps = 0;                        ///< turns that nested rods took in the last step
   ChainFactors factors;

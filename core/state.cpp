@@ -74,6 +74,11 @@ State lay_out_all(const Model& model, const std::vector<EndState>& bases, const 
     inner.slip.resize(model.rods[n.inner].nodes());
     outer.inner_drag.resize(model.rods[n.outer].elements);
   }
+  if (!model.surfaces.empty())
+    for (std::size_t r = 0; r < model.rods.size(); ++r) {
+      state.rods[r].wall_force.resize(model.rods[r].nodes());
+      state.rods[r].wall_slip.resize(model.rods[r].nodes());
+    }
   state.nestings.resize(model.nestings.size());
   return state;
 }

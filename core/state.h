@@ -40,6 +40,8 @@ struct RodState {
   Field<3> offset_before;
   Field<2> slip;  ///< m, (#nodes): elastic part of its sliding along that lumen and around in it, see solve/friction.h
   Field<2> inner_drag;  ///< N along and N m about d3, (#elements), of friction of the rods inside it; smoothed
+  Field<3> wall_force;  ///< N, (#nodes), normal force of the walls on it; empty if there are none
+  Field<2> wall_slip;   ///< m, (#nodes): elastic part of its sliding along and around there
   EndState base, tip;
 };
 
@@ -92,6 +94,8 @@ void for_each_field(S& state, Visit&& visit) {
     components("offset_before", rod.offset_before);
     components("slip", rod.slip);
     components("inner_drag", rod.inner_drag);
+    components("wall_force", rod.wall_force);
+    components("wall_slip", rod.wall_slip);
     for (auto* end : {&rod.base, &rod.tip}) {
       visit("end.p_W", end->p_W.data(), 3);
       visit("end.q_W", end->q_W.data(), 4);

@@ -4,11 +4,13 @@
 #include <cassert>
 
 #include "core/binding/binding.h"
+#include "core/contact/contact.h"
 #include "core/rod/elasticity.h"
 #include "core/rod/ends.h"
 #include "core/rod/inertia.h"
 #include "core/rod/introducer.h"
 #include "core/rod/iterate.h"
+#include "core/rod/nodes.h"
 #include "core/tunables.h"
 
 namespace ostium {
@@ -31,6 +33,7 @@ void constrain(const Model& model, const State& state, std::size_t r, Scratch& s
   predict_nodes(s.inside, state.rods[r], model.gravity_W, s.inputs.tip_force_W_N, model.step_s, s);
   feel_inner_rods(model, state, r, scratch);
   tie_to_bores(r, scratch);
+  tie_to_walls(state, r, scratch);
   hold_ends(s.inside, s.inputs, state.rods[r], s);
 }
 
@@ -42,7 +45,9 @@ void predict(const Model& model, const State& state, std::size_t r, TimeScheme s
   s.geometric = scheme == TimeScheme::from_rest ? GeometricStiffness::without : GeometricStiffness::with;
   predict_elements(s.inside, state.rods[r], s);
   forget_corrections(scratch.bindings[r]);
+  guess_nodes(state.rods[r], s);
   find_bores(model, state, r, scratch);
+  find_walls(model, state, r, scratch);
   find_slides(model, state, r, scratch);
   constrain(model, state, r, scratch);
   lend_to_force(state, r, scratch);
@@ -50,6 +55,7 @@ void predict(const Model& model, const State& state, std::size_t r, TimeScheme s
 
 void begin(const Model& model, const Inputs& inputs, State& state, Scratch& scratch, StepReport& report) {
   report.rods.resize(model.rods.size());
+  move_walls(model, inputs, scratch);
   for (std::size_t r = 0; r < model.rods.size(); ++r) {
     RodScratch& s = scratch.rods[r];
     report.rods[r] = {};
@@ -72,29 +78,33 @@ void linearise(const State& state, double step_s, std::size_t r, Scratch& scratc
   add_rotary_torque(rod, state.rods[r], step_s, s);
   turn_with_bore(r, scratch);
   take_drag(state.rods[r], s);
+  turn_at_walls(r, scratch);
 }
 
 using Group = std::vector<int>;
 
-/// Solves a rod that is in others, until its ties hold where it pushes and nowhere else.
-void solve_inner(int r, Scratch& scratch) {
+/// Solves a rod that something holds, until its ties hold where it pushes and nowhere else.
+void solve_held(const Model& model, const State& state, int r, Scratch& scratch) {
   RodScratch& s = scratch.rods[r];
   const int rims = rim_count(scratch, r);
-  do {
+  bool again = true;
+  while (again) {
     for (int k = 0; k < rims; ++k) solve(s.chain, rim_load(r, k, scratch), scratch.factors);
     if (rims == 0) solve(s.chain, nullptr, scratch.factors);
     take_rim_loads(r, scratch);
-  } while (change_ties(r, scratch));
+    again = change_ties(r, scratch);
+    again |= change_walls(model, state, r, scratch);
+  }
 }
 
-/// Open rods of a group; those that are in no other two at a time, as a register has lanes for two.
-void solve_open(const Group& group, Scratch& scratch) {
+/// Open rods of a group; those that nothing holds two at a time, as a register has lanes for two.
+void solve_open(const Model& model, const State& state, const Group& group, Scratch& scratch) {
   RodScratch* waiting = nullptr;
   for (int r : group) {
     RodScratch& s = scratch.rods[r];
     if (s.progress != Progress::open) continue;
-    if (is_inner(scratch, r)) {
-      solve_inner(r, scratch);
+    if (is_inner(scratch, r) || !model.surfaces.empty()) {
+      solve_held(model, state, r, scratch);
     } else if (!waiting) {
       waiting = &s;
     } else {
@@ -132,7 +142,7 @@ void iterate(const Model& model, const State& state, const Group& group, Scratch
   for (int i = 0; i < tunables::max_newton_iterations && any(group, scratch, Progress::open); ++i) {
     for (int r : group)
       if (scratch.rods[r].progress == Progress::open) linearise(state, model.step_s, r, scratch);
-    solve_open(group, scratch);
+    solve_open(model, state, group, scratch);
     for (int r : group)
       if (scratch.rods[r].progress == Progress::open)
         take_solution(solved_rod(scratch, r), scratch.rods[r], report.rods[r]);
@@ -263,6 +273,7 @@ void step(const Model& model, const Inputs& inputs, State& state, Scratch& scrat
   }
   commit_slides(model, scratch, state);
   commit_binding(model, scratch, state);
+  commit_walls(model, scratch, state, report.touches);
   if (lost_in_nest(model, scratch, report)) calm_nests(model, scratch, state);
   ++state.step;
 }

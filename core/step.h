@@ -34,8 +34,17 @@ struct RodReport {
   std::uint32_t trouble = 0;
 };
 
+/// Where a node touches a wall.
+struct Touch {
+  int rod = 0, node = 0;
+  Eigen::Vector3d p_W;           ///< m
+  Eigen::Vector3d normal_W_N;    ///< force of the wall on the rod: pushing, and
+  Eigen::Vector3d friction_W_N;  ///< rubbing
+};
+
 struct StepReport {
   std::vector<RodReport> rods;  ///< kept by the caller and reused; sized at the first step
+  std::vector<Touch> touches;   ///< at walls, by rod and node
   std::uint32_t trouble = 0;    ///< of all rods
 };
 

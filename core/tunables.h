@@ -36,6 +36,18 @@ inline constexpr double bore_slip_m = 20e-6;  // elastic, of friction in a bore
 inline constexpr double drag_share = 0.2;     // of friction that the outer rod takes over in a step
 inline constexpr int max_tie_changes = 6;     // of a rod in one step
 
+// Contact with walls.
+inline constexpr double wall_N_m2 = 1e8;        // stiffness of a rigid wall, per length
+inline constexpr double wall_slack_m = 0.1e-3;  // that a node may go beyond where it is expected before it is followed
+inline constexpr double slid_far_m = 0.15e-3;   // along a wall: on a radius of 1.5 mm, 7 um beside its plane
+inline constexpr double wall_pull_N = 1e-5;     // of a tie that is let go in the same step
+inline constexpr double wall_loose_m = 0.1e-6;  // behind a wall before a node is tied in the same step
+inline constexpr double followed_m = 5e-6;      // behind a wall that was found on the way
+inline constexpr double same_wall = 0.999;      // cosine between planes that stand for one another
+inline constexpr double most_curved_wall_per_m = 2e4;
+inline constexpr double wall_slip_m = 20e-6;  // elastic, of friction
+inline constexpr int max_wall_changes = 10;   // of a rod in one step
+
 // Static equilibrium.
 inline constexpr double static_tolerance_rad = 1e-9;  // largest turn of the last iteration; Newton squares it
 inline constexpr double static_closure = 1e-7;        // largest distance of an end from its hold, of the rod's length

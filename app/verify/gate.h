@@ -42,6 +42,9 @@ std::vector<GateResult> rod_section(bool quick);
 // --- nesting ------------------------------------------------------------------------------------------------------
 std::vector<GateResult> nesting(bool quick);
 
+// --- contact ------------------------------------------------------------------------------------------------------
+std::vector<GateResult> contact(bool quick);
+
 // --- driving -----------------------------------------------------------------------------------------------------
 std::vector<GateResult> feed(bool quick);
 /// Its first part with any number of trips: fed `length_m` in and out so often.

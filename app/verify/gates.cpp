@@ -14,6 +14,7 @@ const std::vector<Gate>& gates() {
       {"rod-momentum", "free rod, against conservation of momentum", rod_momentum},
       {"rod-section", "a section boundary swept through an element, against a boundary-value solution", rod_section},
       {"nesting", "a rod inside another: shape, snap, push, clearance, against closed forms", nesting},
+      {"contact", "rods and walls: friction, sliding, buckling in a tube, against closed forms", contact},
       {"feed", "a wire fed in and out through its introducer, against where it was", feed},
   };
   return all;

@@ -4,30 +4,15 @@
 
 #include "core/binding/binding.h"
 #include "core/binding/geometry.h"
+#include "core/contact/contact.h"
 #include "core/math/rotation.h"
 #include "core/rod/elasticity.h"
 #include "core/rod/ends.h"
 #include "core/rod/inertia.h"
+#include "core/rod/nodes.h"
 #include "core/tunables.h"
 
 namespace ostium {
-
-namespace {
-/// A node that has just met the bore goes on as it moved in this step: second-order differences would throw it back at
-/// half the speed that it came with.
-void land(const Rod& rod, double step_s, const BindingScratch& b, RodState& state) {
-  for (int i = rod.first; i < rod.nodes(); ++i) {
-    const V3<double> last = load3<double>(state.contact_force, i);
-    if (b.softness.at(0)[i] == infinite || dot(last, last) > 0) continue;
-    const V3<double> n = load3<double>(b.normal, i);
-    const double u = dot(n, load3<double>(state.position, i) - load3<double>(state.position_before, i)) / step_s;
-    for (Field<3>* v : {&state.velocity, &state.velocity_before}) {
-      const V3<double> was = load3<double>(*v, i);
-      store3(*v, i, madd(u - dot(n, was), n, was));
-    }
-  }
-}
-}  // namespace
 
 namespace {
 
@@ -87,6 +72,7 @@ bool balance(std::size_t r, double step_s, const RodState& state, Scratch& scrat
   BindingScratch& b = scratch.bindings[r];
   if (b.bending.size() == 0) return false;
   RodScratch& s = scratch.rods[r];
+  ContactScratch& contact = scratch.contacts[r];
   const Rod& rod = s.inside;
   linearise_joints(rod, state, joints_of(s.inputs), step_s, s);
   own_force(rod, b, s, b.own_force);
@@ -97,6 +83,7 @@ bool balance(std::size_t r, double step_s, const RodState& state, Scratch& scrat
     if (i < rod.elements) taken = taken - load3<double>(b.own_force, i);
     taken = taken + load3<double>(b.own_force, i - 1);
     if (!b.nesting.empty()) taken = taken + load3<double>(b.on_outer, i);
+    if (!contact.walls.empty()) taken = taken - wall_force(s, contact, i);
     const V3<double> t = director3(load4<double>(s.orientation, std::min(i, rod.elements - 1)));
     const V3<double> owed = across(t, load3<double>(b.given, i) - taken), before = load3<double>(b.owed, i);
     const V3<double> difference = owed - before;
@@ -116,6 +103,9 @@ bool balance(std::size_t r, double step_s, const RodState& state, Scratch& scrat
     store3(b.more, i, more);
     store3(b.correction, i, load3<double>(b.correction, i) + more);
     store3(s.target, i, load3<double>(s.target, i) + load6<double>(s.chain.compliance, i) * more);
+    if (!contact.walls.empty())
+      store3(contact.free_target, i,
+             load3<double>(contact.free_target, i) + load6<double>(contact.free_compliance, i) * more);
   }
   ++b.corrections;
   return true;
@@ -130,8 +120,9 @@ void commit_binding(const Model& model, const Scratch& scratch, State& state) {
     if (!scratch.rods[r].inside.in_body()) continue;
     for (int i = 0; i < to.inner_force.size(); ++i) store3(to.inner_force, i, load3<double>(b.given, i));
     if (b.nesting.empty()) continue;
-    land(scratch.rods[r].inside, model.step_s, b, to);
     for (int i = scratch.rods[r].inside.first; i < model.rods[r].nodes(); ++i) {
+      const V3<double> last = load3<double>(to.contact_force, i);
+      if (b.softness.at(0)[i] < infinite && dot(last, last) == 0) land(i, load3<double>(b.normal, i), model.step_s, to);
       V3<double> offset{};
       if (b.nesting[i] >= 0)
         offset = across(load3<double>(b.tangent, i), load3<double>(to.position, i) - load3<double>(b.centre, i));

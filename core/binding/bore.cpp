@@ -5,36 +5,13 @@
 #include "core/binding/binding.h"
 #include "core/binding/geometry.h"
 #include "core/math/rotation.h"
+#include "core/rod/nodes.h"
 #include "core/solve/node_spring.h"
 #include "core/tunables.h"
 
 namespace ostium {
 
 namespace {
-
-/// Nodes as if they went on as they moved.
-void guess(const RodState& last, RodScratch& s) {
-  for_packs(s.inside.first, s.inside.nodes(), [&]<class T>(T, int i) {
-    const V3<T> r_n = load3<T>(last.position, i);
-    const V3<T> move = s.scheme == TimeScheme::from_rest ? V3<T>{} : r_n - load3<T>(last.position_before, i);
-    store3(s.position, i, r_n + move);
-  });
-}
-
-V3<double> node_force(const Field<3>& force, int first, int elements, int i) {
-  V3<double> f{};
-  if (i < elements) f = load3<double>(force, i);
-  if (i > first) f = f - load3<double>(force, i - 1);
-  return f;
-}
-
-/// Moves where node i would go without internal force, and keeps the chain's gaps in step.
-void move_target(int i, const V3<double>& move, RodScratch& s) {
-  Field<3>& gap = s.chain.gap;
-  if (i > s.chain.first) store3(gap, i - 1, load3<double>(gap, i - 1) - move);
-  if (i < s.chain.elements) store3(gap, i, load3<double>(gap, i) + move);
-  store3(s.target, i, load3<double>(s.target, i) + move);
-}
 
 /// Direction in which a node, or a point at a rim, is pressed against the bore, and whether it is: its offset, and how
 /// far the force that it exerted would have pressed it into a soft wall.
@@ -149,13 +126,19 @@ void find_rim(const Model& model, const State& state, int index, int node, const
   ++b.rim_count;
 }
 
+/// What is in a bore, and what the rim holds, no wall does.
+void hold_enclosed(ContactScratch& contact, const BindingScratch& b, const Rod& rod) {
+  if (contact.held.empty()) return;
+  for (int i = rod.first; i < rod.nodes(); ++i) contact.held[i] = b.nesting[i] >= 0;
+  for (int k = 0; k < b.rim_count; ++k) contact.held[b.rims[k].node + 1] = true;
+}
+
 }  // namespace
 
 void find_bores(const Model& model, const State& state, std::size_t r, Scratch& scratch) {
   BindingScratch& b = scratch.bindings[r];
   if (b.nesting.empty()) return;
   RodScratch& s = scratch.rods[r];
-  guess(state.rods[r], s);
   const Field<3>& position = s.position;
   const Rod& rod = s.inside;
   std::fill(b.nesting.begin(), b.nesting.end(), -1);
@@ -170,6 +153,7 @@ void find_bores(const Model& model, const State& state, std::size_t r, Scratch& 
     if (last >= 0 && last < rod.elements && b.nesting[last] == index && b.nesting[last + 1] < 0)
       find_rim(model, state, index, last, rod, position, scratch, b, s);
   }
+  hold_enclosed(scratch.contacts[r], b, rod);
   b.last = s.inputs.tip.hold == Hold::free ? rod.elements : rod.elements - 1;
   find_ties(model, rod, state.rods[r], state.nestings, scratch, b);
 }
@@ -221,15 +205,11 @@ bool change_ties(std::size_t r, Scratch& scratch) {
   if (b.nesting.empty() || b.changes >= tunables::max_tie_changes) return false;
   RodScratch& s = scratch.rods[r];
   const Chain& chain = s.chain;
-  const auto solved = [&](int i) {
-    return load3<double>(s.target, i) +
-           load6<double>(chain.compliance, i) * node_force(chain.force, chain.first, chain.elements, i);
-  };
   const bool may_release = b.changes < tunables::max_tie_changes / 2;  // later on, so that no node comes and goes
   bool any = false;
   for (int i = chain.first; i <= b.last; ++i) {
     if (b.nesting[i] < 0) continue;
-    const V3<double> offset = across(load3<double>(b.tangent, i), solved(i) - load3<double>(b.centre, i));
+    const V3<double> offset = across(load3<double>(b.tangent, i), solved_position(s, i) - load3<double>(b.centre, i));
     const double room = b.room.at(0)[i];
     const double reach = std::sqrt(dot(offset, offset));
     double force = 0;
@@ -249,7 +229,8 @@ bool change_ties(std::size_t r, Scratch& scratch) {
   }
   for (int k = 0; k < b.rim_count; ++k) {
     Rim& rim = b.rims[k];
-    const V3<double> point = (1 - rim.along) * solved(rim.node) + rim.along * solved(rim.node + 1);
+    const V3<double> point =
+        (1 - rim.along) * solved_position(s, rim.node) + rim.along * solved_position(s, rim.node + 1);
     const V3<double> offset = across(rim.tangent, point - rim.centre);
     const double reach = std::sqrt(dot(offset, offset));
     if (!(reach > rim.room + rim.wall * rim.force_N + tunables::loose_m)) continue;

@@ -1,0 +1,23 @@
+#pragma once
+/// Tubes as walls, for the gates and the benchmark: triangles round a centreline.
+#include <functional>
+
+#include "core/surface/surface.h"
+
+namespace ostium::verify {
+
+/// A point of a centreline, and the radius there.
+struct TubePoint {
+  Eigen::Vector3d p_W = Eigen::Vector3d::Zero();  ///< m
+  double radius_m = 0;
+};
+
+/// A closed tube along the points, `around` vertices to a ring, with a fan over either end.
+SurfaceDescription tube(const std::vector<TubePoint>& points, int around);
+
+/// Points of an arc of the angle, rad, about the y axis, that starts at the origin along x and turns towards z, between
+/// two straight pieces; `spacing_m` apart.
+std::vector<TubePoint> bend(double bend_radius_m, double angle, double lead_m, double trail_m, double radius_m,
+                            double spacing_m);
+
+}  // namespace ostium::verify

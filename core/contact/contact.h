@@ -1,0 +1,39 @@
+#pragma once
+/// Contact of rods with walls that move.
+///
+/// Nodes are balls of the rod's radius. What of a wall a node can reach in a step is found at the beginning of the
+/// step, when the node is inside the lumen for certain: each piece of wall becomes a plane there, which the wall
+/// carries to the end of the step (walls.cpp). A node that would end behind a plane is tied to it, a spring as stiff as
+/// the wall; an active set, settled within the rod's solve (planes.cpp). After a solve the path of nodes that went far
+/// is followed through the triangles, and walls that they passed or meet there are planes, too: nothing gets through.
+/// Friction is a spring that slips (friction.cpp): along the rod and around it, with its torque.
+#include "core/model.h"
+#include "core/scratch.h"
+#include "core/state.h"
+#include "core/step.h"
+
+namespace ostium {
+
+/// At the beginning of a step, once: where the walls are.
+void move_walls(const Model& model, const Inputs& inputs, Scratch& scratch);
+
+/// Finds the walls that rod `r` can reach, from its guess of the iterate.
+void find_walls(const Model& model, const State& state, std::size_t r, Scratch& scratch);
+
+/// Ties nodes to the walls that they are expected to touch: changes scratch.target and chain.compliance.
+void tie_to_walls(const State& state, std::size_t r, Scratch& scratch);
+
+/// After a solve: lets nodes go that their wall would pull, ties those that are behind one. True if there are any: then
+/// the chain, which is adapted, is to be solved again.
+bool change_walls(const Model& model, const State& state, std::size_t r, Scratch& scratch);
+
+/// Adds the torque of friction; after linearise_joints and assemble_elements.
+void turn_at_walls(std::size_t r, Scratch& scratch);
+
+/// Force of the walls on node i, in the iterate, N.
+V3<double> wall_force(const RodScratch& s, const ContactScratch& c, int i);
+
+/// Moves forces and slips into the state; after all commits.
+void commit_walls(const Model& model, const Scratch& scratch, State& state, std::vector<Touch>& touches);
+
+}  // namespace ostium

@@ -1,0 +1,48 @@
+#pragma once
+/// Working memory of contact, per rod.
+#include <vector>
+
+#include "core/math/field.h"
+
+namespace ostium {
+
+inline constexpr int max_planes = 6;  ///< at one node
+
+/// A wall beside a node, as a plane that moves with it: normal . r >= place.
+struct WallPlane {
+  V3<double> normal;     ///< into the lumen
+  double place = 0;      ///< m, of the node's centre when it touches
+  double softness = 0;   ///< m/N of the wall
+  V3<double> across;     ///< round the instrument: rod's tangent x normal
+  double beside = 0;     ///< m: across . r where it was, carried along by the wall
+  double curvature = 0;  ///< 1/m, of the wall's hollow towards `across`, for the node's centre
+  double stay = 0;       ///< N/m of the tie along `across`: in a hollow, the force turns with the node, like a pendulum
+  V3<double> carried;    ///< m, how far the wall beside it moves in the step
+  double friction = 0;
+  double gap = 0;  ///< m, at the beginning of the step; negative: it pressed into a soft wall
+  bool active = false;
+};
+
+/// What is near a node, at most.
+struct NodeWalls {
+  int count = 0;
+  WallPlane planes[max_planes];
+};
+
+struct ContactScratch {
+  std::vector<NodeWalls> walls;  ///< (#nodes)
+  std::vector<char> held;        ///< (#nodes): something else holds it, no wall does
+  Field<1> travel;               ///< m, (#nodes): how far it may go within the walls that were found
+  int changes = 0;               ///< of planes in this step
+  Field<6> free_compliance;      ///< (#nodes), as they would be without walls
+  Field<3> free_target;
+  // --- friction, at nodes
+  std::vector<char> rubs;  ///< whether there is any
+  Field<1> stiffness;      ///< N/m
+  Field<3> along, across;  ///< unit vectors
+  Field<3> from;           ///< m, where it would not pull the node at all
+  // --- queries
+  std::vector<int> clusters;
+};
+
+}  // namespace ostium

@@ -1,0 +1,132 @@
+/// Ties to walls: an active set, settled within the solve.
+#include <algorithm>
+#include <cmath>
+
+#include "core/contact/contact.h"
+#include "core/contact/friction.h"
+#include "core/contact/walls.h"
+#include "core/math/rotation.h"
+#include "core/rod/nodes.h"
+#include "core/solve/node_spring.h"
+#include "core/tunables.h"
+
+namespace ostium {
+
+namespace {
+
+/// Puts node i back to where it is free, and ties it to its active planes.
+void renew_node(int i, const ContactScratch& c, RodScratch& s) {
+  S3<double> P = load6<double>(c.free_compliance, i);
+  V3<double> target = load3<double>(c.free_target, i);
+  const NodeWalls& walls = c.walls[i];
+  for (int k = 0; k < walls.count; ++k) {
+    const WallPlane& w = walls.planes[k];
+    if (!w.active) continue;
+    tie(w.normal, w.place, w.softness, P, target);
+    if (w.stay > 0) tie(w.across, w.beside, 1 / w.stay, P, target);
+  }
+  if (c.rubs[i]) rub(i, c, s, P, target);
+  move_target(i, target - load3<double>(s.target, i), s);
+  store6(s.chain.compliance, i, P);
+}
+
+double push_N(const WallPlane& w, const V3<double>& p) { return (w.place - dot(w.normal, p)) / w.softness; }
+
+}  // namespace
+
+void tie_to_walls(const State& state, std::size_t r, Scratch& scratch) {
+  ContactScratch& c = scratch.contacts[r];
+  if (c.walls.empty()) return;
+  RodScratch& s = scratch.rods[r];
+  const RodState& own = state.rods[r];
+  c.free_compliance = s.chain.compliance;
+  c.free_target = s.target;
+  c.changes = 0;
+  for (int i = s.inside.first; i < s.inside.nodes(); ++i) {
+    NodeWalls& walls = c.walls[i];
+    c.rubs[i] = false;
+    if (c.held[i] || walls.count == 0) continue;
+    const V3<double> force = load3<double>(own.wall_force, i), expected = load3<double>(s.position, i);
+    bool any = false;
+    for (int k = 0; k < walls.count; ++k) {
+      WallPlane& w = walls.planes[k];
+      const double pressed = largest(0, dot(force, w.normal));
+      w.active = dot(w.normal, expected) - pressed / tunables::press_N_m < w.place;
+      w.stay = w.active ? pressed * w.curvature : 0;
+      w.beside = dot(w.across, load3<double>(own.position, i) + w.carried);
+      any = any || w.active;
+    }
+    find_rubbing(own, i, walls, s, c);
+    if (any || c.rubs[i]) renew_node(i, c, s);
+  }
+}
+
+bool change_walls(const Model& model, const State& state, std::size_t r, Scratch& scratch) {
+  ContactScratch& c = scratch.contacts[r];
+  if (c.walls.empty() || c.changes >= tunables::max_wall_changes) return false;
+  RodScratch& s = scratch.rods[r];
+  const RodState& own = state.rods[r];
+  const bool may_release = c.changes < tunables::max_wall_changes / 2;  // later on, so that no node comes and goes
+  bool any = false;
+  for (int i = first_free(s); i <= last_free(s); ++i) {
+    if (c.held[i]) continue;
+    NodeWalls& walls = c.walls[i];
+    const V3<double> p = solved_position(s, i);
+    bool changed = false;
+    for (int k = 0; k < walls.count; ++k) {
+      WallPlane& w = walls.planes[k];
+      if (w.active ? may_release && push_N(w, p) < -tunables::wall_pull_N
+                   : dot(w.normal, p) < w.place - tunables::wall_loose_m) {
+        w.active = !w.active, w.stay = 0;
+        changed = true;
+      }
+    }
+    if (!changed && model.sweep) {
+      const V3<double> moved = p - load3<double>(own.position, i);
+      const V3<double> slid = walls.count > 0 ? moved - walls.planes[0].carried : moved;
+      const double far = walls.count > 0 ? least(c.travel.at(0)[i], tunables::slid_far_m) : c.travel.at(0)[i];
+      if (dot(slid, slid) > far * far) changed = follow(model, own, i, p, scratch, s, c);
+    }
+    if (changed) renew_node(i, c, s);
+    any = any || changed;
+  }
+  c.changes += any;
+  return any;
+}
+
+V3<double> wall_force(const RodScratch& s, const ContactScratch& c, int i) {
+  V3<double> force{};
+  const V3<double> p = load3<double>(s.position, i);
+  const NodeWalls& walls = c.walls[i];
+  for (int k = 0; k < walls.count; ++k) {
+    const WallPlane& w = walls.planes[k];
+    if (!w.active) continue;
+    force = madd(push_N(w, p), w.normal, force);
+    force = madd(w.stay * (w.beside - dot(w.across, p)), w.across, force);
+  }
+  return force;
+}
+
+void commit_walls(const Model& model, const Scratch& scratch, State& state, std::vector<Touch>& touches) {
+  touches.clear();
+  if (model.surfaces.empty()) return;
+  for (std::size_t r = 0; r < model.rods.size(); ++r) {
+    const RodScratch& s = scratch.rods[r];
+    const ContactScratch& c = scratch.contacts[r];
+    RodState& own = state.rods[r];
+    for (int i = 0; i < model.rods[r].nodes(); ++i) {
+      const bool free = i < s.inside.first || c.held[i] || c.walls[i].count == 0;
+      const V3<double> force = free ? V3<double>{} : wall_force(s, c, i), last = load3<double>(own.wall_force, i);
+      const double push = std::sqrt(dot(force, force));
+      if (push > 0 && dot(last, last) == 0) land(i, (1 / push) * force, model.step_s, own);
+      const V3<double> rubbed = free ? V3<double>{} : take_rubbing(i, s, c, own);
+      if (free) own.wall_slip.set(i, {0, 0});
+      store3(own.wall_force, i, force);
+      if (push > 0)
+        touches.push_back({static_cast<int>(r), i, own.position[i] - s.inside.radius.at(0)[i] / push * to_eigen(force),
+                           to_eigen(force), to_eigen(rubbed)});
+    }
+  }
+}
+
+}  // namespace ostium

@@ -1,0 +1,246 @@
+/// Which walls a node can reach.
+#include "core/contact/walls.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/contact/contact.h"
+#include "core/math/rotation.h"
+#include "core/surface/triangle.h"
+#include "core/tunables.h"
+
+namespace ostium {
+
+namespace {
+
+constexpr int block = 8;  ///< nodes that share a query
+
+double norm(const V3<double>& v) { return std::sqrt(dot(v, v)); }
+
+double distance(const V3<double>& p, const V3<double>& low, const V3<double>& high) {
+  const auto outside = [](double x, double a, double b) { return largest(0, largest(a - x, x - b)); };
+  return norm({outside(p.x, low.x, high.x), outside(p.y, low.y, high.y), outside(p.z, low.z, high.z)});
+}
+
+/// Where a ball is seen from a wall: at one of both ends of the step.
+struct View {
+  V3<double> centre;
+  double radius, reach;
+  V3<double> tangent;  ///< of the rod
+  double cell;         ///< m, length of rod that the node stands for
+};
+
+/// A point of a triangle, at both ends of the step.
+struct Foot {
+  V3<double> now, before, after;
+};
+
+/// Inside a triangle its own normal tells the side; at its rim, the mean of those around.
+V3<double> outward(const Surface& surface, const Surface::Cluster& c, const Surface::Triangle& t,
+                   const TrianglePoint& w, const V3<double>& out) {
+  const bool face = w.u > 0 && w.v > 0 && w.u + w.v < 1;
+  if (face) return out;
+  const auto corner = [&](int k) {
+    const V3<float>& n = surface.corner_normals[c.first_corner + t.corner[k]];
+    return V3<double>{n.x, n.y, n.z};
+  };
+  return madd(w.v, corner(2), madd(w.u, corner(1), (1 - w.u - w.v) * corner(0)));
+}
+
+WallPlane plane_of(const Surface& surface, const View& view, const V3<double>& normal, double gap, const Foot& foot) {
+  WallPlane plane;
+  plane.gap = gap;
+  plane.normal = normal;
+  plane.place = dot(normal, foot.after) + view.radius;
+  plane.carried = foot.after - foot.before;
+  plane.friction = surface.friction;
+  plane.softness = 1 / (view.cell * (surface.stiffness_N_m2 > 0 ? surface.stiffness_N_m2 : tunables::wall_N_m2));
+  const V3<double> e = cross(view.tangent, normal);
+  const double length = norm(e);
+  if (length > 1e-3) plane.across = (1 / length) * e;
+  return plane;
+}
+
+/// Keeps the planes of one node: the nearest, and those that face elsewhere.
+void keep(const WallPlane& plane, NodeWalls& walls) {
+  int at = walls.count;
+  while (at > 0 && walls.planes[at - 1].gap > plane.gap) --at;
+  for (int k = 0; k < at; ++k)
+    if (dot(walls.planes[k].normal, plane.normal) > tunables::same_wall) return;
+  // It stands for those further away that face as it does.
+  WallPlane behind[max_planes];
+  const int others = walls.count - at;
+  std::copy(walls.planes + at, walls.planes + walls.count, behind);
+  walls.count = at;
+  if (walls.count < max_planes) walls.planes[walls.count++] = plane;
+  for (int k = 0; k < others && walls.count < max_planes; ++k)
+    if (dot(behind[k].normal, plane.normal) <= tunables::same_wall) walls.planes[walls.count++] = behind[k];
+}
+
+/// Adds what of a cluster is within reach, seen with the corners `now`.
+void look(const Surface& surface, int cluster, const ClusterPose& pose, const std::vector<V3<double>>& now,
+          const View& view, NodeWalls& walls) {
+  const Surface::Cluster& c = surface.clusters[cluster];
+  for (int k = c.first_triangle; k < c.first_triangle + c.triangles; ++k) {
+    const Surface::Triangle& t = surface.triangles[k];
+    const V3<double>&a = now[t.corner[0]], &b = now[t.corner[1]], &d = now[t.corner[2]];
+    const V3<double> out = cross(b - a, d - a);
+    const double height = dot(view.centre - a, out), area2 = dot(out, out);
+    if (height * height > view.reach * view.reach * area2 || !(area2 > 0)) continue;
+    const TrianglePoint w = nearest(view.centre, a, b, d);
+    const V3<double> foot = at(w, a, b, d), away = view.centre - foot;
+    const double apart = norm(away);
+    if (apart > view.reach) continue;
+    const bool behind = dot(away, outward(surface, c, t, w, out)) > 0;
+    const double gap = behind ? -apart : apart;
+    const V3<double> normal = apart > 1e-9 ? (1 / gap) * away : (-1 / std::sqrt(area2)) * out;
+    const auto moment = [&](const std::vector<V3<double>>& corners) {
+      return at(w, corners[t.corner[0]], corners[t.corner[1]], corners[t.corner[2]]);
+    };
+    WallPlane plane = plane_of(surface, view, normal, gap, {foot, moment(pose.before), moment(pose.after)});
+    const double bend = curvature_towards(plane.across, t, a, b, d);
+    if (bend > 0) plane.curvature = least(1 / largest(1 / bend - view.radius, 1e-9), tunables::most_curved_wall_per_m);
+    keep(plane, walls);
+  }
+}
+
+V3<double> tangent_at(const Rod& rod, const RodState& state, int i) {
+  const V3<double> t = director3(load4<double>(state.orientation, std::max(i - 1, rod.first))) +
+                       director3(load4<double>(state.orientation, std::min(i, rod.elements - 1)));
+  return (1 / norm(t)) * t;
+}
+
+View view_of(const Rod& rod, const RodState& state, int i, const V3<double>& centre, double travel) {
+  const double radius = rod.radius.at(0)[i];
+  return {centre, radius, radius + travel, tangent_at(rod, state, i), rod.joint_length.at(0)[i]};
+}
+
+/// Walls that the node's centre is behind do not hold it, unless it is its own that gives way: the nearest.
+void drop_walls_seen_from_behind(NodeWalls& walls) {
+  int own = 0, count = 0;
+  for (int k = 1; k < walls.count; ++k)
+    if (std::fabs(walls.planes[k].gap) < std::fabs(walls.planes[own].gap)) own = k;
+  for (int k = 0; k < walls.count; ++k)
+    if (k == own || walls.planes[k].gap > 0) walls.planes[count++] = walls.planes[k];
+  walls.count = count;
+}
+
+struct Bounds {
+  V3<double> low{1e9, 1e9, 1e9}, high{-1e9, -1e9, -1e9};
+  void take(const V3<double>& p, double reach) {
+    low = {least(low.x, p.x - reach), least(low.y, p.y - reach), least(low.z, p.z - reach)};
+    high = {largest(high.x, p.x + reach), largest(high.y, p.y + reach), largest(high.z, p.z + reach)};
+  }
+};
+
+/// The first triangle that the path leaves the lumen through, as a plane; seen with the corners of the step's end.
+bool first_exit(const Model& model, const V3<double>& from, const V3<double>& to, View view, Scratch& scratch,
+                std::vector<int>& clusters, WallPlane& exit) {
+  double first = 2;
+  Bounds bounds;
+  bounds.take(from, 0), bounds.take(to, 0);
+  for (std::size_t k = 0; k < model.surfaces.size(); ++k) {
+    const Surface& surface = model.surfaces[k];
+    find_clusters(surface, bounds.low, bounds.high, scratch.surfaces[k], clusters);
+    for (int cluster : clusters) {
+      const ClusterPose& pose = corners_of(surface, cluster, scratch.surfaces[k]);
+      const Surface::Cluster& c = surface.clusters[cluster];
+      for (int j = c.first_triangle; j < c.first_triangle + c.triangles; ++j) {
+        const auto& corner = surface.triangles[j].corner;
+        const V3<double>&a = pose.after[corner[0]], &b = pose.after[corner[1]], &d = pose.after[corner[2]];
+        double part;
+        if (!leaves_through(from, to, a, b, d, part) || part >= first) continue;
+        first = part;
+        const V3<double> out = cross(b - a, d - a), foot = madd(part, to - from, from);
+        const double area = norm(out);
+        exit = plane_of(surface, view, (-1 / area) * out, (dot(a - to, out)) / area,
+                        {foot, foot - (pose.after[corner[0]] - pose.before[corner[0]]), foot});
+      }
+    }
+  }
+  return first <= 1;
+}
+
+}  // namespace
+
+void move_walls(const Model& model, const Inputs& inputs, Scratch& scratch) {
+  for (std::size_t k = 0; k < model.surfaces.size(); ++k)
+    set_motion(model.surfaces[k], k < inputs.surfaces.size() ? inputs.surfaces[k] : SurfaceMotion{},
+               scratch.surfaces[k]);
+}
+
+void find_walls(const Model& model, const State& state, std::size_t r, Scratch& scratch) {
+  if (model.surfaces.empty()) return;
+  RodScratch& s = scratch.rods[r];
+  ContactScratch& c = scratch.contacts[r];
+  const Rod& rod = s.inside;
+  const RodState& own = state.rods[r];
+  for (int i = rod.first; i < rod.nodes(); ++i) c.walls[i].count = 0;
+  for (int begin = first_free(s); begin <= last_free(s); begin += block) {
+    const int end = std::min(begin + block, last_free(s) + 1);
+    Bounds bounds;
+    bool any = false;
+    for (int i = begin; i < end; ++i) {
+      if (c.held[i]) continue;
+      any = true;
+      const V3<double> p = load3<double>(own.position, i);
+      const double expected = model.sweep ? norm(load3<double>(s.position, i) - p) : 0;
+      c.travel.at(0)[i] = expected + tunables::wall_slack_m;
+      bounds.take(p, rod.radius.at(0)[i] + c.travel.at(0)[i]);
+    }
+    if (!any) continue;
+    for (std::size_t k = 0; k < model.surfaces.size(); ++k) {
+      const Surface& surface = model.surfaces[k];
+      find_clusters(surface, bounds.low, bounds.high, scratch.surfaces[k], c.clusters);
+      for (int cluster : c.clusters) {
+        const ClusterPose& pose = corners_of(surface, cluster, scratch.surfaces[k]);
+        for (int i = begin; i < end; ++i) {
+          const V3<double> p = load3<double>(own.position, i);
+          const double travel = c.travel.at(0)[i] + pose.largest_move;
+          if (c.held[i] || distance(p, pose.low, pose.high) > rod.radius.at(0)[i] + travel) continue;
+          look(surface, cluster, pose, pose.before, view_of(rod, own, i, p, travel), c.walls[i]);
+        }
+      }
+    }
+    for (int i = begin; i < end; ++i) drop_walls_seen_from_behind(c.walls[i]);
+  }
+}
+
+bool follow(const Model& model, const RodState& own, int i, const V3<double>& to, Scratch& scratch, RodScratch& s,
+            ContactScratch& c) {
+  NodeWalls& walls = c.walls[i];
+  const V3<double> start = load3<double>(own.position, i);
+  const V3<double> from = walls.count > 0 ? start + walls.planes[0].carried : start;
+  const View view = view_of(s.inside, own, i, to, tunables::wall_slack_m);
+  NodeWalls met;
+  WallPlane exit;
+  if (first_exit(model, from, to, view, scratch, c.clusters, exit)) {
+    met.planes[met.count++] = exit;
+  } else {
+    Bounds bounds;
+    bounds.take(to, view.reach);
+    for (std::size_t k = 0; k < model.surfaces.size(); ++k) {
+      const Surface& surface = model.surfaces[k];
+      find_clusters(surface, bounds.low, bounds.high, scratch.surfaces[k], c.clusters);
+      for (int cluster : c.clusters) {
+        const ClusterPose& pose = corners_of(surface, cluster, scratch.surfaces[k]);
+        look(surface, cluster, pose, pose.after, view, met);
+      }
+    }
+    drop_walls_seen_from_behind(met);
+  }
+  bool any = false;
+  for (int k = 0; k < met.count; ++k) {
+    WallPlane& plane = met.planes[k];
+    if (!(dot(plane.normal, to) < plane.place - tunables::followed_m)) continue;
+    plane.active = true, any = true;
+    // It replaces one that faces as it does, or else the last.
+    int at = 0;
+    while (at < walls.count && !(dot(walls.planes[at].normal, plane.normal) > tunables::same_wall)) ++at;
+    if (at == walls.count && walls.count < max_planes) ++walls.count;
+    walls.planes[std::min(at, max_planes - 1)] = plane;
+  }
+  return any;
+}
+
+}  // namespace ostium

@@ -1,0 +1,17 @@
+#pragma once
+/// Which walls a node can reach; for contact alone.
+#include "core/scratch.h"
+#include "core/state.h"
+
+namespace ostium {
+
+/// The first and the last node that walls may hold: those that are held are not.
+inline int first_free(const RodScratch& s) { return s.inside.first + (s.inputs.base.hold == Hold::free ? 0 : 1); }
+inline int last_free(const RodScratch& s) { return s.inside.elements - (s.inputs.tip.hold == Hold::free ? 0 : 1); }
+
+/// Follows node i on its way through the step to `to`, m: walls that it left the lumen through, or meets at the end,
+/// are added to c.walls as active planes. True if there are any.
+bool follow(const Model& model, const RodState& own, int i, const V3<double>& to, Scratch& scratch, RodScratch& s,
+            ContactScratch& c);
+
+}  // namespace ostium

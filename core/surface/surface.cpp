@@ -1,0 +1,219 @@
+#include "core/surface/surface.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <numeric>
+#include <stdexcept>
+#include <string>
+
+namespace ostium {
+
+namespace {
+
+using Eigen::Vector3d;
+
+void check(const SurfaceDescription& d) {
+  const auto refuse = [](const std::string& what) { throw std::invalid_argument("surface: " + what); };
+  if (d.frames.empty() || d.frames[0].empty() || d.triangles.empty()) refuse("it has no triangles");
+  if (!(d.stiffness_N_m2 >= 0 && std::isfinite(d.stiffness_N_m2))) refuse("its stiffness must not be negative");
+  if (!(d.friction >= 0 && d.friction <= 2)) refuse("its friction must be within 0 to 2");
+  const int vertices = static_cast<int>(d.frames[0].size());
+  for (std::size_t f = 0; f < d.frames.size(); ++f) {
+    if (d.frames[f].size() != d.frames[0].size())
+      refuse("frame " + std::to_string(f) + " has " + std::to_string(d.frames[f].size()) + " vertices, frame 0 has " +
+             std::to_string(vertices));
+    for (int v = 0; v < vertices; ++v)
+      if (!d.frames[f][v].allFinite())
+        refuse("vertex " + std::to_string(v) + " of frame " + std::to_string(f) + " is not finite");
+  }
+  for (std::size_t t = 0; t < d.triangles.size(); ++t)
+    for (int v : d.triangles[t])
+      if (v < 0 || v >= vertices) refuse("triangle " + std::to_string(t) + " names vertex " + std::to_string(v));
+}
+
+int wrapped(int frame, int frames) { return ((frame % frames) + frames) % frames; }
+
+/// Vertex normals of the first frame, outwards, weighted by the angles of the triangles.
+std::vector<Vector3d> vertex_normals(const SurfaceDescription& d) {
+  const auto& p = d.frames[0];
+  std::vector<Vector3d> normals(p.size(), Vector3d::Zero());
+  for (const auto& t : d.triangles) {
+    const Vector3d n = (p[t[1]] - p[t[0]]).cross(p[t[2]] - p[t[0]]).normalized();
+    for (int k = 0; k < 3; ++k) {
+      const Vector3d e = p[t[(k + 1) % 3]] - p[t[k]], f = p[t[(k + 2) % 3]] - p[t[k]];
+      normals[t[k]] += std::atan2(e.cross(f).norm(), e.dot(f)) * n;
+    }
+  }
+  for (Vector3d& n : normals) n.normalize();
+  return normals;
+}
+
+/// The shape operator of a triangle from its vertex normals, in the basis u along its first edge, v across it.
+std::array<float, 3> shape_operator(const SurfaceDescription& d, const std::vector<Vector3d>& normals,
+                                    const std::array<int, 3>& t) {
+  const auto& p = d.frames[0];
+  const Vector3d e1 = p[t[1]] - p[t[0]], e2 = p[t[2]] - p[t[0]], n = e1.cross(e2);
+  if (!(n.norm() > 1e-14)) return {0, 0, 0};
+  const Vector3d u = e1.normalized(), v = n.normalized().cross(u);
+  Eigen::Matrix2d edges, turns;
+  edges << e1.dot(u), e2.dot(u), e1.dot(v), e2.dot(v);
+  const Vector3d n1 = normals[t[1]] - normals[t[0]], n2 = normals[t[2]] - normals[t[0]];
+  turns << n1.dot(u), n2.dot(u), n1.dot(v), n2.dot(v);
+  const Eigen::Matrix2d S = turns * edges.inverse();  // outward normals open up where the lumen is hollow
+  return {static_cast<float>(S(0, 0)), static_cast<float>((S(0, 1) + S(1, 0)) / 2), static_cast<float>(S(1, 1))};
+}
+
+class Builder {
+ public:
+  explicit Builder(const SurfaceDescription& d) : d_(d), normals_(vertex_normals(d)), order_(d.triangles.size()) {
+    out_.frames = static_cast<int>(d.frames.size());
+    out_.stiffness_N_m2 = d.stiffness_N_m2, out_.friction = d.friction;
+    std::iota(order_.begin(), order_.end(), 0);
+    centres_.resize(d.triangles.size(), Vector3d::Zero());
+    for (std::size_t t = 0; t < d.triangles.size(); ++t)
+      for (const auto& frame : d.frames)
+        for (int v : d.triangles[t]) centres_[t] += frame[v];
+    split(0, static_cast<int>(order_.size()));
+    lay_out_corners();
+    make_boxes();
+  }
+  Surface take() { return std::move(out_); }
+
+ private:
+  /// The tree over order_[begin, end).
+  void split(int begin, int end) {
+    const std::size_t node = out_.nodes.size();
+    out_.nodes.emplace_back();
+    if (end - begin <= cluster_size) {
+      out_.nodes[node].cluster = static_cast<int>(out_.clusters.size());
+      add_cluster(begin, end);
+    } else {
+      Vector3d low = Vector3d::Constant(1e300), high = -low;
+      for (int k = begin; k < end; ++k)
+        low = low.cwiseMin(centres_[order_[k]]), high = high.cwiseMax(centres_[order_[k]]);
+      int axis = 0;
+      (high - low).maxCoeff(&axis);
+      const int middle = begin + (end - begin) / 2;
+      std::nth_element(order_.begin() + begin, order_.begin() + middle, order_.begin() + end,
+                       [&](int a, int b) { return std::pair(centres_[a][axis], a) < std::pair(centres_[b][axis], b); });
+      split(begin, middle);
+      split(middle, end);
+    }
+    out_.nodes[node].skip = static_cast<int>(out_.nodes.size());
+  }
+
+  void add_cluster(int begin, int end) {
+    std::sort(order_.begin() + begin, order_.begin() + end);
+    Surface::Cluster c;
+    c.first_triangle = static_cast<int>(out_.triangles.size()), c.triangles = end - begin;
+    c.first_corner = static_cast<int>(corner_vertex_.size());
+    std::map<int, int> corner;
+    for (int k = begin; k < end; ++k) {
+      Surface::Triangle triangle;
+      triangle.id = order_[k];
+      triangle.curvature = shape_operator(d_, normals_, d_.triangles[order_[k]]);
+      for (int j = 0; j < 3; ++j) {
+        const int v = d_.triangles[order_[k]][j];
+        const auto [it, fresh] = corner.try_emplace(v, static_cast<int>(corner.size()));
+        if (fresh) corner_vertex_.push_back(v);
+        triangle.corner[j] = static_cast<unsigned char>(it->second);
+      }
+      out_.triangles.push_back(triangle);
+    }
+    c.corners = static_cast<int>(corner.size());
+    out_.largest_cluster = std::max(out_.largest_cluster, c.corners);
+    out_.clusters.push_back(c);
+  }
+
+  void lay_out_corners() {
+    out_.corners = static_cast<int>(corner_vertex_.size());
+    out_.corner_frames.resize(std::size_t{3} * out_.frames * out_.corners);
+    float* to = out_.corner_frames.data();
+    for (const auto& frame : d_.frames)
+      for (int axis = 0; axis < 3; ++axis)
+        for (int v : corner_vertex_) *to++ = static_cast<float>(frame[v][axis]);
+    for (int v : corner_vertex_) {
+      const Eigen::Vector3f n = normals_[v].cast<float>();
+      out_.corner_normals.push_back({n[0], n[1], n[2]});
+    }
+  }
+
+  void make_boxes() {
+    const int nodes = static_cast<int>(out_.nodes.size());
+    out_.boxes.resize(std::size_t{1} * out_.frames * nodes);
+    for (int k = 0; k < out_.frames; ++k) {
+      Box* boxes = &out_.boxes[std::size_t{1} * k * nodes];
+      for (int n = nodes - 1; n >= 0; --n) {
+        const Surface::Node& node = out_.nodes[n];
+        if (node.cluster >= 0) {
+          boxes[n] = leaf_box(out_.clusters[node.cluster], k);
+          continue;
+        }
+        const Box &a = boxes[n + 1], &b = boxes[out_.nodes[n + 1].skip];
+        for (int axis = 0; axis < 3; ++axis)
+          boxes[n].low[axis] = std::min(a.low[axis], b.low[axis]),
+          boxes[n].high[axis] = std::max(a.high[axis], b.high[axis]);
+      }
+    }
+  }
+
+  Box leaf_box(const Surface::Cluster& c, int interval) const {
+    constexpr float large = std::numeric_limits<float>::max(), rounding = 1e-6f;
+    Box box{{large, large, large}, {-large, -large, -large}};
+    const auto value = [&](int frame, int axis, int corner) {
+      return out_.corner_frames[(std::size_t{3} * wrapped(frame, out_.frames) + axis) * out_.corners + corner];
+    };
+    for (int axis = 0; axis < 3; ++axis)
+      for (int i = c.first_corner; i < c.first_corner + c.corners; ++i) {
+        const float p0 = value(interval - 1, axis, i), p1 = value(interval, axis, i), p2 = value(interval + 1, axis, i),
+                    p3 = value(interval + 2, axis, i);
+        for (const float b : {p1, p1 + (p2 - p0) / 6, p2 - (p3 - p1) / 6, p2})
+          box.low[axis] = std::min(box.low[axis], b - rounding),
+          box.high[axis] = std::max(box.high[axis], b + rounding);
+      }
+    return box;
+  }
+
+  const SurfaceDescription& d_;
+  std::vector<Vector3d> normals_;
+  std::vector<int> order_;
+  std::vector<Vector3d> centres_;
+  std::vector<int> corner_vertex_;
+  Surface out_;
+};
+
+}  // namespace
+
+Surface make_surface(const SurfaceDescription& description) {
+  check(description);
+  return Builder(description).take();
+}
+
+std::array<double, 4> frame_weights(double x) {
+  const double x2 = x * x, x3 = x2 * x;
+  return {(-x3 + 2 * x2 - x) / 2, (3 * x3 - 5 * x2 + 2) / 2, (-3 * x3 + 4 * x2 + x) / 2, (x3 - x2) / 2};
+}
+
+Eigen::Vector3d vertex_at(const SurfaceDescription& d, int vertex, double frame) {
+  const int frames = static_cast<int>(d.frames.size());
+  if (frames == 1) return d.frames[0][vertex];
+  const double k = std::floor(frame);
+  const std::array<double, 4> w = frame_weights(frame - k);
+  Vector3d p = Vector3d::Zero();
+  for (int j = 0; j < 4; ++j)
+    p += w[j] * d.frames[wrapped(static_cast<int>(std::fmod(k, frames)) + j - 1, frames)][vertex];
+  return p;
+}
+
+double curvature_towards(const V3<double>& e, const Surface::Triangle& triangle, const V3<double>& a,
+                         const V3<double>& b, const V3<double>& c) {
+  const V3<double> e1 = b - a, n = cross(e1, c - a), w = cross(n, e1);
+  const double eu = dot(e, e1) / std::sqrt(dot(e1, e1)), ev = dot(e, w) / std::sqrt(dot(w, w));
+  const auto& s = triangle.curvature;
+  return s[0] * eu * eu + 2 * s[1] * eu * ev + s[2] * ev * ev;
+}
+
+}  // namespace ostium

@@ -1,0 +1,80 @@
+#pragma once
+/// A wall: triangles that move through the frames of a cycle. Const once made; the truth that contact is tested
+/// against.
+///
+/// Between frames a vertex moves on a periodic Catmull-Rom spline, so its velocity is continuous. Triangles lie in
+/// clusters of up to 16, the leaves of a tree of boxes. The boxes hold what is in them during a whole interval between
+/// two frames (they are those of the spline's Bezier points), so they are made once and never refitted; positions are
+/// computed in clusters near an instrument alone.
+#include <Eigen/Core>
+#include <array>
+#include <vector>
+
+#include "core/math/lanes.h"
+
+namespace ostium {
+
+struct SurfaceDescription {
+  /// Vertices, m: one frame if it stands still; else those of one cycle, evenly spaced in time.
+  std::vector<std::vector<Eigen::Vector3d>> frames;
+  std::vector<std::array<int, 3>> triangles;  ///< counter-clockwise as seen from outside of the lumen
+  /// Force per length of instrument and depth, N/m2, that pushes the wall outwards; 0: rigid.
+  double stiffness_N_m2 = 0;
+  double friction = 0;  ///< against instruments, static and kinetic
+};
+
+inline constexpr int cluster_size = 16;  ///< triangles
+
+struct Box {
+  std::array<float, 3> low, high;
+};
+
+struct Surface {
+  struct Cluster {
+    int first_triangle = 0, triangles = 0;
+    int first_corner = 0, corners = 0;  ///< its own copies of the vertices, in `corner_frames`
+  };
+  struct Node {    ///< of the tree, depth first: the first child follows its parent
+    int skip = 0;  ///< where to go on when the box is missed
+    int cluster = -1;
+  };
+  struct Triangle {
+    std::array<unsigned char, 3> corner;  ///< of its cluster
+    std::array<float, 3> curvature;       ///< 1/m: a, b, c of the shape operator, see curvature_towards
+    int id = 0;                           ///< as described
+  };
+
+  std::vector<Cluster> clusters;
+  std::vector<Triangle> triangles;
+  int frames = 0;
+  std::vector<float> corner_frames;       ///< [frame][x, y, z][corner]
+  std::vector<V3<float>> corner_normals;  ///< [corner], outwards, of the first frame: they tell sides, no more
+  int corners = 0;
+  std::vector<Node> nodes;
+  std::vector<Box> boxes;  ///< [interval][node]
+  double stiffness_N_m2 = 0, friction = 0;
+  int largest_cluster = 0;  ///< corners
+};
+
+/// Throws std::invalid_argument if there is no triangle or frame, a triangle names a vertex that there is not, frames
+/// differ in length, or a number is not finite or negative.
+Surface make_surface(const SurfaceDescription& description);
+
+/// Where in its cycle a surface is at both ends of a step, in frames: any numbers, taken modulo the number of frames,
+/// at most one frame apart. And by how much all of it is shifted, m (breathing).
+struct SurfaceMotion {
+  double frame_before = 0, frame_after = 0;
+  Eigen::Vector3d shift_before_W = Eigen::Vector3d::Zero(), shift_after_W = Eigen::Vector3d::Zero();
+};
+
+/// Position of a vertex of `description` at a moment of the cycle, m: what contact takes for the truth.
+Eigen::Vector3d vertex_at(const SurfaceDescription& description, int vertex, double frame);
+
+/// Weights of the frames k - 1, k, k + 1, k + 2 at k + x.
+std::array<double, 4> frame_weights(double x);
+
+/// Normal curvature towards the unit tangent e, 1/m, positive where the wall is hollow as seen from the lumen.
+double curvature_towards(const V3<double>& e, const Surface::Triangle& triangle, const V3<double>& a,
+                         const V3<double>& b, const V3<double>& c);
+
+}  // namespace ostium
