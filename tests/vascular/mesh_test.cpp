@@ -1,0 +1,97 @@
+/// Meshes survive their way through files; what cannot be a surface is refused.
+#include "vascular/mesh.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <numbers>
+
+#include "tests/vascular/shapes.h"
+
+namespace ostium {
+namespace {
+
+std::string temporary(const std::string& name) {
+  return (std::filesystem::path(testing::TempDir()) / ("ostium_" + name)).string();
+}
+
+std::string written(const std::string& name, const std::string& text) {
+  const std::string path = temporary(name);
+  std::ofstream(path) << text;
+  return path;
+}
+
+std::string refusal(const std::string& path) {
+  try {
+    read_mesh(path, LengthUnit::millimetre);
+  } catch (const MeshError& error) {
+    return error.what();
+  }
+  return "accepted";
+}
+
+TEST(Mesh, VolumeAndAreaOfACube) {
+  const Mesh cube = test::cube(0.02);
+  EXPECT_NEAR(volume_m3(cube), 8e-6, 1e-18);
+  EXPECT_NEAR(area_m2(cube), 6 * 4e-4, 1e-15);
+}
+
+TEST(Mesh, EveryFormatBringsBackWhatWasWritten) {
+  const Mesh sphere = test::sphere(0.01, 24);
+  for (const char* name : {"a.obj", "a.stl", "a.ply"}) {
+    write_mesh(temporary(name), sphere, LengthUnit::millimetre);
+    const MeshFile back = read_mesh(temporary(name), LengthUnit::millimetre);
+    EXPECT_EQ(back.mesh.vertices.size(), sphere.vertices.size()) << name;
+    EXPECT_EQ(back.mesh.triangles.size(), sphere.triangles.size()) << name;
+    EXPECT_EQ(back.dropped_triangles, 0) << name;
+    // Single precision: 2^-24 relative.
+    EXPECT_NEAR(volume_m3(back.mesh), volume_m3(sphere), 1e-6 * volume_m3(sphere)) << name;
+  }
+}
+
+TEST(Mesh, UnitsAreThoseThatAreNamed) {
+  write_mesh(temporary("unit.obj"), test::cube(0.02), LengthUnit::millimetre);
+  EXPECT_NEAR(volume_m3(read_mesh(temporary("unit.obj"), LengthUnit::centimetre).mesh), 8e-3, 1e-9);
+}
+
+TEST(Mesh, CornersWithinTheToleranceBecomeOne) {
+  // A tetrahedron whose corners are written slightly differently each time (0.0002 mm apart), and a sliver.
+  const std::string path = written("weld.obj",
+                                   "v 0 0 0\nv 0 10 0\nv 10 0 0\nv 0 0 10\nv 0.0002 0 0\nv 10 0.0002 0\n"
+                                   "f 1 2 3\nf 5 3 4\nf 1 4 2\nf 6 2 4\nf 1 5 4\n");
+  const MeshFile file = read_mesh(path, LengthUnit::millimetre);
+  EXPECT_EQ(file.mesh.vertices.size(), 4u);
+  EXPECT_EQ(file.mesh.triangles.size(), 4u);
+  EXPECT_EQ(file.welded_vertices, 2);
+  EXPECT_EQ(file.dropped_triangles, 1);
+  EXPECT_NEAR(volume_m3(file.mesh), 1e-6 / 6, 1e-10);
+}
+
+TEST(Mesh, ASequenceKeepsItsVerticesWhereverTheyMove) {
+  // In the second frame two vertices meet, which must not make them one.
+  const std::string a = written("0.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n");
+  const std::string b = written("1.obj", "v 0 0 0\nv 1 0 0\nv 1 0 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n");
+  const std::vector<Mesh> frames = read_mesh_sequence({a, b}, LengthUnit::metre);
+  ASSERT_EQ(frames.size(), 2u);
+  EXPECT_EQ(frames[0].vertices.size(), 4u);
+  EXPECT_EQ(frames[1].vertices.size(), 4u);
+  EXPECT_EQ(frames[0].triangles, frames[1].triangles);
+  EXPECT_NEAR(volume_m3(frames[0]), 1.0 / 6, 1e-12);
+  const std::string c = written("2.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  EXPECT_THROW(read_mesh_sequence({a, c}, LengthUnit::metre), MeshError);
+}
+
+TEST(Mesh, WhatIsNoSurfaceIsRefused) {
+  EXPECT_NE(refusal("/nowhere.obj").find("is no file"), std::string::npos);
+  EXPECT_NE(refusal(written("text.stl", "hello")).find("cannot be read as a mesh"), std::string::npos);
+  EXPECT_NE(refusal(written("empty.obj", "v 0 0 0\nv 1 0 0\n")).find(".obj"), std::string::npos);
+  EXPECT_NE(refusal(written("line.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nl 1 2\n")).find("no points or lines"),
+            std::string::npos);
+  EXPECT_NE(refusal(written("nan.obj", "v nan 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")).find("finite"), std::string::npos);
+  EXPECT_THROW(write_mesh(temporary("a.docx"), test::cube(1), LengthUnit::metre), MeshError);
+  EXPECT_THROW(write_mesh("/nowhere/a.obj", test::cube(1), LengthUnit::metre), MeshError);
+}
+
+}  // namespace
+}  // namespace ostium
