@@ -10,9 +10,10 @@
 namespace ostium {
 
 struct ContourSettings {
-  double cells_per_radius = 2;  ///< at a radius of 1 mm; grows with the radius' root, so that large vessels are rounder
-  double finest_m = 0.25e-3;    ///< no cell is smaller
-  int relaxations = 3;          ///< rounds of evening out the triangles
+  double cells_per_radius =
+      1.6;                    ///< at a radius of 1 mm; grows with the radius' root, so that large vessels are rounder
+  double finest_m = 0.25e-3;  ///< no cell is smaller
+  int relaxations = 3;        ///< rounds of evening out the triangles
 };
 
 struct Contour {

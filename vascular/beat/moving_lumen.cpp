@@ -1,0 +1,170 @@
+#include "vascular/beat/moving_lumen.h"
+
+#include <algorithm>
+#include <numeric>
+
+#include "vascular/beat/heart_cycle.h"
+
+namespace ostium {
+
+namespace {
+
+constexpr double junction_m = 5e-3;  // a branch's own motion begins within so much of its parent's wall
+constexpr double root_end_m = 20e-3, ascending_end_m = 105e-3;  // arc lengths along the aorta: moves whole, is still
+
+/// The rotation nearest to `F` (Higham's iteration; F is near one).
+Eigen::Matrix3d rotation_in(Eigen::Matrix3d F) {
+  for (int i = 0; i < 5; ++i) F = 0.5 * (F + F.inverse().transpose());
+  return F;
+}
+
+bool of_heart(const Anatomy& anatomy, int tube) {
+  const auto names = {"LAD", "left sinus", "right sinus", "non-coronary sinus"};
+  for (int t = tube; t > 0; t = anatomy.tubes[t].parent) {
+    const std::string& name = anatomy.tubes[t].name;
+    if (std::find(names.begin(), names.end(), name) != names.end()) return true;
+    const NamedBranch* rca = find_branch(anatomy, "RCA");
+    if (rca && rca->tube == t) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+/// The tissue around a node goes to `centre`, turned and sheared by `F`.
+struct TubeMotion::Tissue {
+  Eigen::Vector3d centre;
+  Eigen::Matrix3d F;
+};
+
+TubeMotion::Tissue TubeMotion::tissue(int t, const TubeNode& node, const HeartMotion& motion, int frame) const {
+  const double c = contraction(static_cast<double>(frame) / beat_frames);
+  Tissue result{node.p, Eigen::Matrix3d::Identity()};
+  if (t == 0) {
+    result.centre += (1 - smooth_step(root_end_m, ascending_end_m, node.s_m)) * motion.root_displacement(c);
+    return result;
+  }
+  constexpr double h = 0.5e-3;
+  result.centre += motion.displacement(node.p, c);
+  for (int axis = 0; axis < 3; ++axis) {
+    const Eigen::Vector3d step = h * Eigen::Vector3d::Unit(axis);
+    result.F.col(axis) += (motion.displacement(node.p + step, c) - motion.displacement(node.p - step, c)) / (2 * h);
+  }
+  // A branch leaves its parent as one piece with it.
+  const Tube &tube = anatomy_.tubes[t], &parent = anatomy_.tubes[tube.parent];
+  const double origin = nearest_s(parent, tube.nodes.front().p), radius = parent.at(origin).radius_m;
+  const double own = smooth_step(1.2 * radius, 1.2 * radius + junction_m, node.s_m);
+  if (own < 1 && moves_[tube.parent]) {
+    const Pose pose = pose_at(tube.parent, origin, frame);
+    const Eigen::Matrix3d turn = pose.turn.cast<double>();
+    result.centre = own * result.centre + (1 - own) * (pose.centre + turn * (node.p - parent.at(origin).p));
+    result.F = own * result.F + (1 - own) * turn;
+  }
+  return result;
+}
+
+TubeMotion::TubeMotion(const Anatomy& anatomy, const HeartMotion& motion) : anatomy_(anatomy) {
+  for (int t = 0; t < static_cast<int>(anatomy.tubes.size()); ++t) {
+    const Tube& tube = anatomy.tubes[t];
+    moves_.push_back(t == 0 || of_heart(anatomy, t));
+    poses_.emplace_back();
+    if (!moves_.back()) continue;
+    const std::size_t n = tube.nodes.size();
+    poses_.back().resize(beat_frames * n);
+    std::vector<Tissue> around(n);
+    for (int f = 0; f < beat_frames; ++f) {
+      for (std::size_t i = 0; i < n; ++i) around[i] = tissue(t, tube.nodes[i], motion, f);
+      for (std::size_t i = 0; i < n; ++i) {
+        // The turn of the tissue, then the least one that takes the tangent to where the centreline went.
+        const Eigen::Matrix3d turn = rotation_in(around[i].F);
+        const std::size_t a = i ? i - 1 : 0, b = std::min(i + 1, n - 1);
+        const Eigen::Vector3d before = tube.nodes[b].p - tube.nodes[a].p, after = around[b].centre - around[a].centre;
+        const Eigen::Matrix3d along = Eigen::Quaterniond::FromTwoVectors(turn * before, after).toRotationMatrix();
+        poses_.back()[static_cast<std::size_t>(f) * n + i] = {(along * turn).cast<float>(), around[i].centre};
+      }
+    }
+  }
+}
+
+TubeMotion::Pose TubeMotion::pose_at(int tube, double s_m, int frame) const {
+  const std::vector<TubeNode>& nodes = anatomy_.tubes[tube].nodes;
+  const auto above = std::upper_bound(nodes.begin() + 1, nodes.end() - 1, s_m,
+                                      [](double s, const TubeNode& node) { return s < node.s_m; });
+  const std::size_t j = static_cast<std::size_t>(above - nodes.begin()), i = j - 1;
+  const double w = std::clamp((s_m - nodes[i].s_m) / (nodes[j].s_m - nodes[i].s_m), 0.0, 1.0);
+  const Pose* poses = &poses_[tube][static_cast<std::size_t>(frame) * nodes.size()];
+  return {static_cast<float>(1 - w) * poses[i].turn + static_cast<float>(w) * poses[j].turn,
+          (1 - w) * poses[i].centre + w * poses[j].centre};
+}
+
+Eigen::Vector3d TubeMotion::centre(int tube, double s_m, int frame) const {
+  return moves_[tube] ? pose_at(tube, s_m, frame).centre : anatomy_.tubes[tube].at(s_m).p;
+}
+
+Eigen::Vector3d TubeMotion::carried(const Eigen::Vector3d& p, const std::vector<TubeShare>& shares, int frame) const {
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (const TubeShare& share : shares) {
+    if (!moves_[share.tube]) {
+      sum += share.weight * p;
+      continue;
+    }
+    const Pose pose = pose_at(share.tube, share.s_m, frame);
+    sum += share.weight * (pose.centre + pose.turn.cast<double>() * (p - anatomy_.tubes[share.tube].at(share.s_m).p));
+  }
+  return sum;
+}
+
+double TubeMotion::breath_share(int tube, double s_m) const {
+  if (!moves_[tube]) return 0;
+  return tube == 0 ? 1 - smooth_step(root_end_m, ascending_end_m, s_m) : 1;
+}
+
+Eigen::Vector3d MovingLumen::position(std::size_t vertex, double phase, double depth) const {
+  const Eigen::Vector3d p = vertex < moving ? beat.position(vertex, phase) : still[vertex - moving];
+  return p + depth * breath[vertex];
+}
+
+Mesh MovingLumen::at(double phase, double depth) const {
+  Mesh mesh{.vertices = {}, .triangles = triangles};
+  mesh.vertices.reserve(vertices());
+  for (std::size_t i = 0; i < vertices(); ++i) mesh.vertices.push_back(position(i, phase, depth));
+  return mesh;
+}
+
+MovingLumen make_moving_lumen(const HeartMotion& motion, const TubeMotion& tubes, Contour contour) {
+  const std::size_t n = contour.mesh.vertices.size();
+  const auto moves = [&](int v) {
+    for (const TubeShare& s : contour.shares[v])
+      if (tubes.moves(s.tube) && tubes.breath_share(s.tube, s.s_m) > 0) return true;
+    return false;
+  };
+  std::vector<int> order(n);
+  std::iota(order.begin(), order.end(), 0);
+  const auto first_still = std::stable_partition(order.begin(), order.end(), moves);
+  std::vector<int> new_index(n);
+  for (std::size_t i = 0; i < n; ++i) new_index[order[i]] = static_cast<int>(i);
+
+  MovingLumen lumen;
+  lumen.moving = static_cast<std::size_t>(first_still - order.begin());
+  lumen.triangles = std::move(contour.mesh.triangles);
+  for (auto& triangle : lumen.triangles)
+    for (int& v : triangle) v = new_index[v];
+  lumen.shares.reserve(n);
+  std::vector<std::vector<Eigen::Vector3d>> frames(beat_frames, std::vector<Eigen::Vector3d>(lumen.moving));
+  for (std::size_t i = 0; i < n; ++i) {
+    const Eigen::Vector3d p = contour.mesh.vertices[order[i]];
+    lumen.shares.push_back(std::move(contour.shares[order[i]]));
+    const std::vector<TubeShare>& shares = lumen.shares.back();
+    if (i >= lumen.moving)
+      lumen.still.push_back(p);
+    else
+      for (int f = 0; f < beat_frames; ++f) frames[f][i] = tubes.carried(p, shares, f);
+    double breath = 0;
+    for (const TubeShare& s : shares) breath += s.weight * tubes.breath_share(s.tube, s.s_m);
+    lumen.breath.push_back(breath * motion.breath_displacement(p, 1));
+  }
+  lumen.beat = PeriodicPoints(frames);
+  return lumen;
+}
+
+}  // namespace ostium

@@ -1,0 +1,53 @@
+#pragma once
+/// The lumen of an anatomy as a surface that beats and breathes, and its centrelines with it.
+#include "vascular/anatomy/anatomy.h"
+#include "vascular/beat/heart_motion.h"
+#include "vascular/beat/periodic_points.h"
+#include "vascular/shape/contour.h"
+
+namespace ostium {
+
+/// How the tubes' own frames move: a vessel's cross-sections stay as they are, carried and turned with its centreline.
+class TubeMotion {
+ public:
+  TubeMotion(const Anatomy& anatomy, const HeartMotion& motion);
+
+  /// Whether any part of it moves.
+  bool moves(int tube) const { return moves_[static_cast<std::size_t>(tube)]; }
+  /// Where the point of the lumen that is at `p` at end-diastole goes in a frame of the beat.
+  Eigen::Vector3d carried(const Eigen::Vector3d& p, const std::vector<TubeShare>& shares, int frame) const;
+  /// Where a point of a tube's centreline goes.
+  Eigen::Vector3d centre(int tube, double s_m, int frame) const;
+  /// Share of the breath's motion that a point of a tube has: 1 at the heart, 0 in the arch.
+  double breath_share(int tube, double s_m) const;
+
+ private:
+  struct Pose {
+    Eigen::Matrix3f turn;
+    Eigen::Vector3d centre;
+  };
+  const Anatomy& anatomy_;
+  std::vector<bool> moves_;
+  std::vector<std::vector<Pose>> poses_;  ///< of each tube: frame by node
+  struct Tissue;
+  Tissue tissue(int tube, const TubeNode& node, const HeartMotion& motion, int frame) const;
+  Pose pose_at(int tube, double s_m, int frame) const;
+};
+
+struct MovingLumen {
+  std::vector<std::array<int, 3>> triangles;
+  std::vector<std::vector<TubeShare>> shares;  ///< of each vertex: the moving ones first
+  std::size_t moving = 0;                      ///< vertices [0, moving) beat
+  PeriodicPoints beat;                         ///< of these
+  std::vector<Eigen::Vector3d> still;          ///< of the others
+  std::vector<Eigen::Vector3d> breath;         ///< displacement of each vertex at the top of a breath
+
+  std::size_t vertices() const { return breath.size(); }
+  /// `depth`: breath_depth, 0 without breathing.
+  Eigen::Vector3d position(std::size_t vertex, double phase, double depth) const;
+  Mesh at(double phase, double depth) const;
+};
+
+MovingLumen make_moving_lumen(const HeartMotion& motion, const TubeMotion& tubes, Contour contour);
+
+}  // namespace ostium
