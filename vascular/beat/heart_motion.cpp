@@ -32,11 +32,11 @@ double smooth_step(double low, double high, double x) {
   return t * t * t * (10 - 15 * t + 6 * t * t);
 }
 
-Eigen::Vector3d HeartMotion::root_displacement(double contraction) const {
-  return contraction * root_descent * (marks_.p_lv_apex - marks_.p_lv_base).normalized();
+Eigen::Vector3d HeartMotion::root_displacement() const {
+  return root_descent * (marks_.p_lv_apex - marks_.p_lv_base).normalized();
 }
 
-Eigen::Vector3d HeartMotion::displacement(const Eigen::Vector3d& p, double contraction) const {
+Eigen::Vector3d HeartMotion::displacement(const Eigen::Vector3d& p) const {
   const Eigen::Vector3d axis = marks_.p_lv_apex - marks_.p_lv_base, along = axis.normalized();
   const double s = (p - marks_.p_lv_base).dot(along) / axis.norm();
   const Eigen::Vector3d across = p - marks_.p_lv_base - (p - marks_.p_lv_base).dot(along) * along;
@@ -52,13 +52,13 @@ Eigen::Vector3d HeartMotion::displacement(const Eigen::Vector3d& p, double contr
   // Seen from the apex, that is, against `along`.
   const double twist = base_twist + (apex_twist - base_twist) * std::clamp(s, 0.0, 1.0);
   const Eigen::Vector3d sideways = above * twist * across.cross(along);
-  const Eigen::Vector3d of_wall = contraction * (axial * along - inwards * outwards + sideways);
+  const Eigen::Vector3d of_wall = axial * along - inwards * outwards + sideways;
 
   // Near the root its own motion takes over.
   const double height = std::clamp((p - marks_.p_annulus).dot(marks_.root_axis), 0.0, 25 * mm);
   const double from_root = (p - marks_.p_annulus - height * marks_.root_axis).norm();
   const double share = smooth_step(root_radius, root_influence, from_root);
-  return share * of_wall + (1 - share) * root_displacement(contraction);
+  return share * of_wall + (1 - share) * root_displacement();
 }
 
 Eigen::Vector3d HeartMotion::breath_displacement(const Eigen::Vector3d& p, double depth) const {

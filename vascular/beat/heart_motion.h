@@ -13,11 +13,12 @@ class HeartMotion {
  public:
   explicit HeartMotion(const Landmarks& landmarks) : marks_(landmarks) {}
 
-  /// Displacement in metres of a point that is at `p` at end-diastole. `contraction` in [0, 1].
-  Eigen::Vector3d displacement(const Eigen::Vector3d& p, double contraction) const;
+  /// Displacement in metres, at end-systole, of a point that is at `p` at end-diastole. Between, every point goes there
+  /// and back along a straight line, by heart_cycle.h's contraction.
+  Eigen::Vector3d displacement(const Eigen::Vector3d& p) const;
 
   /// Of the aortic root as a whole.
-  Eigen::Vector3d root_displacement(double contraction) const;
+  Eigen::Vector3d root_displacement() const;
 
   /// The heart in a breath of that depth (Shechter 2004: 4.9 mm down, 1.3 mm forward, tilted by 1.5 degrees).
   Eigen::Vector3d breath_displacement(const Eigen::Vector3d& p, double depth) const;

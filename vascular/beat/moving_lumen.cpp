@@ -31,36 +31,57 @@ bool of_heart(const Anatomy& anatomy, int tube) {
 
 }  // namespace
 
-/// The tissue around a node goes to `centre`, turned and sheared by `F`.
-struct TubeMotion::Tissue {
-  Eigen::Vector3d centre;
-  Eigen::Matrix3d F;
+/// How a branch's first stretch hangs together with its parent.
+struct TubeMotion::Origin {
+  int parent;
+  double s_m, radius_m;
+  Eigen::Vector3d p;
 };
 
-TubeMotion::Tissue TubeMotion::tissue(int t, const TubeNode& node, const HeartMotion& motion, int frame) const {
-  const double c = contraction(static_cast<double>(frame) / beat_frames);
-  Tissue result{node.p, Eigen::Matrix3d::Identity()};
-  if (t == 0) {
-    result.centre += (1 - smooth_step(root_end_m, ascending_end_m, node.s_m)) * motion.root_displacement(c);
-    return result;
-  }
+/// How the tissue around each node moves to end-systole: by `shift`, with the gradient `slope`.
+struct TubeMotion::Tissue {
+  Eigen::Vector3d shift;
+  Eigen::Matrix3d slope;
+};
+
+TubeMotion::Tissue TubeMotion::tissue(int tube, const TubeNode& node, const HeartMotion& motion) const {
+  if (tube == 0)
+    return {(1 - smooth_step(root_end_m, ascending_end_m, node.s_m)) * motion.root_displacement(),
+            Eigen::Matrix3d::Zero()};
   constexpr double h = 0.5e-3;
-  result.centre += motion.displacement(node.p, c);
+  Tissue result{motion.displacement(node.p), {}};
   for (int axis = 0; axis < 3; ++axis) {
     const Eigen::Vector3d step = h * Eigen::Vector3d::Unit(axis);
-    result.F.col(axis) += (motion.displacement(node.p + step, c) - motion.displacement(node.p - step, c)) / (2 * h);
-  }
-  // A branch leaves its parent as one piece with it.
-  const Tube &tube = anatomy_.tubes[t], &parent = anatomy_.tubes[tube.parent];
-  const double origin = nearest_s(parent, tube.nodes.front().p), radius = parent.at(origin).radius_m;
-  const double own = smooth_step(1.2 * radius, 1.2 * radius + junction_m, node.s_m);
-  if (own < 1 && moves_[tube.parent]) {
-    const Pose pose = pose_at(tube.parent, origin, frame);
-    const Eigen::Matrix3d turn = pose.turn.cast<double>();
-    result.centre = own * result.centre + (1 - own) * (pose.centre + turn * (node.p - parent.at(origin).p));
-    result.F = own * result.F + (1 - own) * turn;
+    result.slope.col(axis) = (motion.displacement(node.p + step) - motion.displacement(node.p - step)) / (2 * h);
   }
   return result;
+}
+
+void TubeMotion::set_frame(int t, int frame, const std::vector<Tissue>& tissues, const Origin* origin) {
+  const std::vector<TubeNode>& nodes = anatomy_.tubes[t].nodes;
+  const std::size_t n = nodes.size();
+  const double c = contraction(static_cast<double>(frame) / beat_frames);
+  Pose* poses = &poses_[t][static_cast<std::size_t>(frame) * n];
+  std::vector<Eigen::Matrix3d> F(n);
+  for (std::size_t i = 0; i < n; ++i) {
+    poses[i].centre = nodes[i].p + c * tissues[i].shift;
+    F[i] = Eigen::Matrix3d::Identity() + c * tissues[i].slope;
+    if (!origin) continue;
+    // A branch leaves its parent as one piece with it.
+    const double wall = 1.2 * origin->radius_m, own = smooth_step(wall, wall + junction_m, nodes[i].s_m);
+    if (own == 1) continue;
+    const Pose pose = pose_at(origin->parent, origin->s_m, frame);
+    const Eigen::Matrix3d turn = pose.turn.cast<double>();
+    poses[i].centre = own * poses[i].centre + (1 - own) * (pose.centre + turn * (nodes[i].p - origin->p));
+    F[i] = own * F[i] + (1 - own) * turn;
+  }
+  for (std::size_t i = 0; i < n; ++i) {
+    // The turn of the tissue, then the least one that takes the tangent to where the centreline went.
+    const Eigen::Matrix3d turn = rotation_in(F[i]);
+    const std::size_t a = i ? i - 1 : 0, b = std::min(i + 1, n - 1);
+    const Eigen::Vector3d before = nodes[b].p - nodes[a].p, after = poses[b].centre - poses[a].centre;
+    poses[i].turn = (Eigen::Quaterniond::FromTwoVectors(turn * before, after).toRotationMatrix() * turn).cast<float>();
+  }
 }
 
 TubeMotion::TubeMotion(const Anatomy& anatomy, const HeartMotion& motion) : anatomy_(anatomy) {
@@ -69,20 +90,16 @@ TubeMotion::TubeMotion(const Anatomy& anatomy, const HeartMotion& motion) : anat
     moves_.push_back(t == 0 || of_heart(anatomy, t));
     poses_.emplace_back();
     if (!moves_.back()) continue;
-    const std::size_t n = tube.nodes.size();
-    poses_.back().resize(beat_frames * n);
-    std::vector<Tissue> around(n);
-    for (int f = 0; f < beat_frames; ++f) {
-      for (std::size_t i = 0; i < n; ++i) around[i] = tissue(t, tube.nodes[i], motion, f);
-      for (std::size_t i = 0; i < n; ++i) {
-        // The turn of the tissue, then the least one that takes the tangent to where the centreline went.
-        const Eigen::Matrix3d turn = rotation_in(around[i].F);
-        const std::size_t a = i ? i - 1 : 0, b = std::min(i + 1, n - 1);
-        const Eigen::Vector3d before = tube.nodes[b].p - tube.nodes[a].p, after = around[b].centre - around[a].centre;
-        const Eigen::Matrix3d along = Eigen::Quaterniond::FromTwoVectors(turn * before, after).toRotationMatrix();
-        poses_.back()[static_cast<std::size_t>(f) * n + i] = {(along * turn).cast<float>(), around[i].centre};
-      }
+    std::vector<Tissue> tissues;
+    for (const TubeNode& node : tube.nodes) tissues.push_back(tissue(t, node, motion));
+    poses_.back().resize(beat_frames * tube.nodes.size());
+    Origin origin{};
+    if (t > 0) {
+      const double s = nearest_s(anatomy.tubes[tube.parent], tube.nodes.front().p);
+      const TubeNode at = anatomy.tubes[tube.parent].at(s);
+      origin = {tube.parent, s, at.radius_m, at.p};
     }
+    for (int f = 0; f < beat_frames; ++f) set_frame(t, f, tissues, t > 0 && moves_[tube.parent] ? &origin : nullptr);
   }
 }
 

@@ -30,7 +30,9 @@ class TubeMotion {
   std::vector<bool> moves_;
   std::vector<std::vector<Pose>> poses_;  ///< of each tube: frame by node
   struct Tissue;
-  Tissue tissue(int tube, const TubeNode& node, const HeartMotion& motion, int frame) const;
+  struct Origin;
+  Tissue tissue(int tube, const TubeNode& node, const HeartMotion& motion) const;
+  void set_frame(int tube, int frame, const std::vector<Tissue>& tissues, const Origin* origin);
   Pose pose_at(int tube, double s_m, int frame) const;
 };
 

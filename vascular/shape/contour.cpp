@@ -3,10 +3,6 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
-#include <cmath>
-#include <numeric>
-#include <unordered_map>
-#include <unordered_set>
 
 #include "vascular/shape/contour_octree.h"
 
@@ -22,11 +18,11 @@ constexpr int most_attempts = 4;
 
 /// Vertices move towards the middle of their neighbours, along the surface.
 void even_out(const TubeUnion& lumen, const Near& near, const std::vector<Quad>& quads,
-              std::vector<Eigen::Vector3d>& vertices) {
+              std::vector<Eigen::Vector3d>& vertices, std::vector<Eigen::Vector3d>& outwards) {
   const std::size_t n = vertices.size();
   std::vector<Eigen::Vector3d> sum(n, Eigen::Vector3d::Zero());
   std::vector<double> weight(n, 0);
-  for (const auto& quad : quads)
+  for (const Quad& quad : quads)
     for (int k = 0; k < 4; ++k) {
       const int i = quad[k], j = quad[(k + 1) % 4];
       if (i == j) continue;
@@ -34,28 +30,29 @@ void even_out(const TubeUnion& lumen, const Near& near, const std::vector<Quad>&
       sum[j] += vertices[i], weight[j] += 1;
     }
   for (std::size_t i = 0; i < n; ++i) {
-    Eigen::Vector3d normal;
-    lumen.value(vertices[i], *near[i], &normal);
-    normal.normalize();
     Eigen::Vector3d move = 0.5 * (sum[i] / weight[i] - vertices[i]);
-    move -= move.dot(normal) * normal;
-    vertices[i] = onto_surface(lumen, *near[i], vertices[i] + move, 1);
+    move -= move.dot(outwards[i]) * outwards[i];
+    vertices[i] = onto_surface(lumen, *near[i], vertices[i] + move, 1, outwards[i]);
   }
 }
 
+long edge_key(int i, int j) { return static_cast<long>(std::min(i, j)) << 32 | std::max(i, j); }
+
 /// Two triangles a quadrilateral, split along its shorter diagonal, unless an edge is there already.
 std::vector<std::array<int, 3>> split(const std::vector<Quad>& quads, const std::vector<Eigen::Vector3d>& vertices) {
-  std::unordered_set<long> edges;
-  const auto key = [](int i, int j) { return static_cast<long>(std::min(i, j)) << 32 | std::max(i, j); };
-  for (const auto& q : quads)
-    for (int k = 0; k < 4; ++k) edges.insert(key(q[k], q[(k + 1) % 4]));
+  std::vector<long> edges;
+  edges.reserve(4 * quads.size());
+  for (const Quad& q : quads)
+    for (int k = 0; k < 4; ++k) edges.push_back(edge_key(q[k], q[(k + 1) % 4]));
+  std::sort(edges.begin(), edges.end());
+  const auto there = [&](int i, int j) { return std::binary_search(edges.begin(), edges.end(), edge_key(i, j)); };
   std::vector<std::array<int, 3>> triangles;
-  for (auto q : quads) {
+  triangles.reserve(2 * quads.size());
+  for (Quad q : quads) {
     if (q[0] != q[1] && q[1] != q[2] && q[2] != q[3] && q[3] != q[0]) {
       const bool shorter = (vertices[q[1]] - vertices[q[3]]).norm() < (vertices[q[0]] - vertices[q[2]]).norm();
-      const bool first = edges.count(key(q[0], q[2])), second = edges.count(key(q[1], q[3]));
+      const bool first = there(q[0], q[2]), second = there(q[1], q[3]);
       if (first != second ? first : shorter) std::rotate(q.begin(), q.begin() + 1, q.end());
-      edges.insert(key(q[0], q[2]));
     }
     for (const std::array<int, 3>& t : {std::array<int, 3>{q[0], q[1], q[2]}, std::array<int, 3>{q[0], q[2], q[3]}})
       if (t[0] != t[1] && t[1] != t[2] && t[2] != t[0]) triangles.push_back(t);
@@ -63,38 +60,29 @@ std::vector<std::array<int, 3>> split(const std::vector<Quad>& quads, const std:
   return triangles;
 }
 
-/// Vertices around which the contour is no surface or is folded: its cells are too coarse there.
-std::vector<int> faulty(const TubeUnion& lumen, const Near& near, const Mesh& mesh) {
-  std::vector<int> faults;
-  std::unordered_map<long, int> uses;
+/// Vertices around which the contour is no surface or is folded, and their neighbours (or the step in size would only
+/// move): the cells are too coarse there.
+std::vector<int> faulty(const Mesh& mesh, const std::vector<Eigen::Vector3d>& outwards) {
+  std::vector<bool> fault(mesh.vertices.size()), near_fault(mesh.vertices.size());
+  std::vector<long> edges;
+  edges.reserve(3 * mesh.triangles.size());
   for (const auto& t : mesh.triangles)
-    for (int k = 0; k < 3; ++k) {
-      const int i = t[k], j = t[(k + 1) % 3];
-      if (++uses[static_cast<long>(std::min(i, j)) << 32 | std::max(i, j)] == 3) faults.insert(faults.end(), {i, j});
-    }
-  std::vector<Eigen::Vector3d> outwards(mesh.vertices.size());
-  for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
-    lumen.value(mesh.vertices[i], *near[i], &outwards[i]);
-    outwards[i].normalize();
-  }
+    for (int k = 0; k < 3; ++k) edges.push_back(edge_key(t[k], t[(k + 1) % 3]));
+  std::sort(edges.begin(), edges.end());
+  for (std::size_t i = 2; i < edges.size(); ++i)
+    if (edges[i] == edges[i - 2]) fault[edges[i] >> 32] = fault[edges[i] & 0xffffffff] = true;
   for (const auto& [a, b, c] : mesh.triangles) {
     const Eigen::Vector3d normal =
         (mesh.vertices[b] - mesh.vertices[a]).cross(mesh.vertices[c] - mesh.vertices[a]).normalized();
-    for (int v : {a, b, c})
-      if (normal.dot(outwards[v]) < least_cosine) {
-        faults.insert(faults.end(), {a, b, c});
-        break;
-      }
+    if (std::min({normal.dot(outwards[a]), normal.dot(outwards[b]), normal.dot(outwards[c])}) < least_cosine)
+      fault[a] = fault[b] = fault[c] = true;
   }
-  // Their neighbours too, or the step in size would only move.
-  std::vector<bool> fault(mesh.vertices.size()), near_fault(mesh.vertices.size());
-  for (int v : faults) fault[v] = true;
   for (const auto& [a, b, c] : mesh.triangles)
     if (fault[a] || fault[b] || fault[c]) near_fault[a] = near_fault[b] = near_fault[c] = true;
-  faults.clear();
+  std::vector<int> result;
   for (std::size_t v = 0; v < near_fault.size(); ++v)
-    if (near_fault[v]) faults.push_back(static_cast<int>(v));
-  return faults;
+    if (near_fault[v]) result.push_back(static_cast<int>(v));
+  return result;
 }
 
 }  // namespace
@@ -103,17 +91,18 @@ Contour contour(const TubeUnion& lumen, const ContourSettings& settings) {
   Contour result;
   Mesh& mesh = result.mesh;
   Near near;
+  std::vector<Eigen::Vector3d> outwards;
   for (int attempt = 0; attempt < most_attempts; ++attempt) {
     ContourOctree tree(lumen, settings, 0.37 * attempt);
     bool sound = false;
     for (int round = 0; round < most_refinements && !sound; ++round) {
-      const std::vector<Quad> quads = tree.extract(mesh.vertices, near);
+      const std::vector<Quad> quads = tree.extract(mesh.vertices, outwards, near);
       mesh.triangles = split(quads, mesh.vertices);
-      std::vector<int> faults = faulty(lumen, near, mesh);
+      std::vector<int> faults = faulty(mesh, outwards);
       if (faults.empty()) {
-        for (int i = 0; i < settings.relaxations; ++i) even_out(lumen, near, quads, mesh.vertices);
+        for (int i = 0; i < settings.relaxations; ++i) even_out(lumen, near, quads, mesh.vertices, outwards);
         mesh.triangles = split(quads, mesh.vertices);
-        faults = faulty(lumen, near, mesh);
+        faults = faulty(mesh, outwards);
       }
       sound = faults.empty();
       if (!sound && !tree.refine(faults)) break;

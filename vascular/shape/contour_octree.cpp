@@ -35,13 +35,14 @@ ContourOctree::ContourOctree(const TubeUnion& lumen, const ContourSettings& sett
   grow(0, all);
 }
 
-std::vector<Quad> ContourOctree::extract(std::vector<Eigen::Vector3d>& places,
+std::vector<Quad> ContourOctree::extract(std::vector<Eigen::Vector3d>& places, std::vector<Eigen::Vector3d>& outwards,
                                          std::vector<const std::vector<int>*>& near) {
   for (Vertex& v : vertices_) v.index = -1;
   quads_.clear();
   used_.clear();
   cell_edges(0);
   places.clear();
+  outwards.clear();
   near.clear();
   for (Quad& quad : quads_)
     for (int& v : quad) {
@@ -49,9 +50,11 @@ std::vector<Quad> ContourOctree::extract(std::vector<Eigen::Vector3d>& places,
       if (vertex.index < 0) {
         vertex.index = static_cast<int>(used_.size());
         used_.push_back(v);
-        if (!vertex.placed) vertex.sum = onto_surface(lumen_, vertex.segments, vertex.sum / vertex.count, 2);
+        if (!vertex.placed)
+          vertex.sum = onto_surface(lumen_, vertex.segments, vertex.sum / vertex.count, 2, vertex.outwards);
         vertex.placed = true;
         places.push_back(vertex.sum);
+        outwards.push_back(vertex.outwards);
         near.push_back(&vertex.segments);
       }
       v = vertex.index;
@@ -71,6 +74,11 @@ bool ContourOctree::refine(const std::vector<int>& vertices) {
   return halved;
 }
 
+std::array<int, 3> ContourOctree::corner(const Cell& cell, int k) {
+  const auto o = offset(k);
+  return {cell.corner[0] + o[0] * cell.size, cell.corner[1] + o[1] * cell.size, cell.corner[2] + o[2] * cell.size};
+}
+
 Eigen::Vector3d ContourOctree::position(const std::array<int, 3>& at) const {
   return origin_ + unit_m_ * Eigen::Vector3d(at[0], at[1], at[2]);
 }
@@ -81,9 +89,8 @@ double ContourOctree::wanted_size(double radius_m) const {
 }
 
 void ContourOctree::grow(int c, const std::vector<int>& candidates) {
-  const std::array<int, 3> corner = cells_[c].corner;
   const double edge = cells_[c].size * unit_m_, reach = edge * std::sqrt(3.0) / 2;
-  const Eigen::Vector3d middle = position(corner) + Eigen::Vector3d::Constant(edge / 2);
+  const Eigen::Vector3d middle = position(cells_[c].corner) + Eigen::Vector3d::Constant(edge / 2);
   std::vector<double> d(candidates.size()), radius(candidates.size());
   double least = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < candidates.size(); ++i) {
@@ -94,17 +101,27 @@ void ContourOctree::grow(int c, const std::vector<int>& candidates) {
   for (std::size_t i = 0; i < candidates.size(); ++i)
     margin = std::max(margin, lumen_.tubes()[lumen_.segments()[candidates[i]].tube].blend * radius[i]);
   if (least > lipschitz * reach + margin / 6) return;
+  // A tube matters if it may be blended with the nearest one, a segment of it if it may be the tube's nearest.
   std::vector<int> near;
   double wanted = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i < candidates.size(); ++i) {
-    if (d[i] > least + 2 * lipschitz * reach + margin) continue;
-    near.push_back(candidates[i]);
-    if (std::fabs(d[i]) < reach + radius[i] / 2) wanted = std::min(wanted, wanted_size(radius[i]));
+  for (std::size_t first = 0, last = 0; first < candidates.size(); first = last) {
+    const int tube = lumen_.segments()[candidates[first]].tube;
+    double of_tube = std::numeric_limits<double>::infinity();
+    for (; last < candidates.size() && lumen_.segments()[candidates[last]].tube == tube; ++last)
+      of_tube = std::min(of_tube, d[last]);
+    if (of_tube > least + 2 * lipschitz * reach + margin) continue;
+    for (std::size_t i = first; i < last; ++i) {
+      if (d[i] > of_tube + 2 * lipschitz * reach) continue;
+      near.push_back(candidates[i]);
+      if (std::fabs(d[i]) < reach + radius[i] / 2) wanted = std::min(wanted, wanted_size(radius[i]));
+    }
   }
   if (std::fabs(lumen_.value(middle, near)) > lipschitz * reach) return;
   if (edge <= settings_.finest_m || edge <= 1.4 * wanted) {  // sizes are powers of two: on average as wanted
     cells_[c].vertex = static_cast<int>(vertices_.size());
-    vertices_.push_back({.cell = c, .segments = std::move(near)});
+    Vertex vertex{.cell = c, .segments = std::move(near)};
+    for (int k = 0; k < 8; ++k) vertex.corners[k] = value_at(corner(cells_[c], k), vertex.segments);
+    vertices_.push_back(std::move(vertex));
   } else {
     divide(c, near);
   }
@@ -176,15 +193,12 @@ void ContourOctree::emit(const std::array<int, 4>& around, int axis, const std::
     if (cells_[around[k]].size < cells_[around[smallest]].size) smallest = k;
   }
   const Cell& cell = cells_[around[smallest]];
-  std::array<int, 3> from = cell.corner;
-  if (!(smallest & 1)) from[sides[0]] += cell.size;
-  if (!(smallest & 2)) from[sides[1]] += cell.size;
-  std::array<int, 3> to = from;
-  to[axis] += cell.size;
-  const std::vector<int>& near = vertices_[cell.vertex].segments;
-  const double f0 = value_at(from, near), f1 = value_at(to, near);
+  const int from = ((smallest & 1) ? 0 : 1 << sides[0]) | ((smallest & 2) ? 0 : 1 << sides[1]), to = from | 1 << axis;
+  const std::array<double, 8>& corners = vertices_[cell.vertex].corners;
+  const double f0 = corners[from], f1 = corners[to];
   if ((f0 < 0) == (f1 < 0)) return;
-  const Eigen::Vector3d p = position(from) + f0 / (f0 - f1) * (position(to) - position(from));
+  const Eigen::Vector3d p0 = position(corner(cell, from)), p1 = position(corner(cell, to));
+  const Eigen::Vector3d p = p0 + f0 / (f0 - f1) * (p1 - p0);
   std::array<int, 4> v;
   for (int k = 0; k < 4; ++k) v[k] = cells_[around[k]].vertex;
   // Each cell counts once, though it may lie on two sides of the edge.
@@ -201,13 +215,15 @@ void ContourOctree::emit(const std::array<int, 4>& around, int axis, const std::
   quads_.push_back(ring);
 }
 
-Eigen::Vector3d onto_surface(const TubeUnion& lumen, const std::vector<int>& near, Eigen::Vector3d p, int steps) {
+Eigen::Vector3d onto_surface(const TubeUnion& lumen, const std::vector<int>& near, Eigen::Vector3d p, int steps,
+                             Eigen::Vector3d& outwards) {
+  Eigen::Vector3d gradient = Eigen::Vector3d::Zero();
   for (int i = 0; i < steps; ++i) {
-    Eigen::Vector3d gradient;
     const double f = lumen.value(p, near, &gradient);
     const double g2 = gradient.squaredNorm();
     if (g2 > 1e-4) p -= f / std::max(g2, 0.25) * gradient;
   }
+  outwards = gradient.normalized();
   return p;
 }
 

@@ -19,7 +19,8 @@ class ContourOctree {
 
   /// The dual contour. `places` and `near` are filled for each of its vertices: a point of the surface in its cell, and
   /// the segments that decide the surface there (valid until the next call of refine).
-  std::vector<Quad> extract(std::vector<Eigen::Vector3d>& places, std::vector<const std::vector<int>*>& near);
+  std::vector<Quad> extract(std::vector<Eigen::Vector3d>& places, std::vector<Eigen::Vector3d>& outwards,
+                            std::vector<const std::vector<int>*>& near);
 
   /// Halves the cells of some vertices of the last contour. False if none of them can be halved.
   bool refine(const std::vector<int>& vertices);
@@ -37,9 +38,12 @@ class ContourOctree {
     Eigen::Vector3d sum = Eigen::Vector3d::Zero();  ///< of crossings of the surface with edges
     int count = 0;
     bool placed = false;  ///< `sum` is now a point of the surface
-    int index = -1;       ///< in the last contour
+    Eigen::Vector3d outwards = Eigen::Vector3d::Zero();
+    std::array<double, 8> corners{};  ///< the union's function there
+    int index = -1;                   ///< in the last contour
   };
 
+  static std::array<int, 3> corner(const Cell& cell, int k);
   Eigen::Vector3d position(const std::array<int, 3>& at) const;
   double wanted_size(double radius_m) const;
   double value_at(const std::array<int, 3>& at, const std::vector<int>& near);
@@ -69,7 +73,8 @@ class ContourOctree {
   std::unordered_map<long, double> values_;
 };
 
-/// Newton steps along the gradient.
-Eigen::Vector3d onto_surface(const TubeUnion& lumen, const std::vector<int>& near, Eigen::Vector3d p, int steps);
+/// Newton steps along the gradient; `outwards` becomes the unit normal of the last.
+Eigen::Vector3d onto_surface(const TubeUnion& lumen, const std::vector<int>& near, Eigen::Vector3d p, int steps,
+                             Eigen::Vector3d& outwards);
 
 }  // namespace ostium
