@@ -2,6 +2,8 @@
 #include <CLI/CLI.hpp>
 #include <exception>
 
+#include "app/cases_command.h"
+#include "app/check_command.h"
 #include "app/instruments_command.h"
 #include "app/verify_command.h"
 
@@ -30,6 +32,24 @@ int main(int argc, char** argv) {
   instruments_app->footer(
       "Examples:\n  ostium instruments\n  ostium instruments guide-jl4-6f\n  ostium instruments --picture all.svg");
 
+  ostium::CasesOptions cases;
+  CLI::App* cases_app = app.add_subcommand("cases", "What cases there are to rehearse");
+  cases_app->add_option("name", cases.name, "One of them, with its card and its arteries")->type_name("NAME");
+  cases_app->add_flag("--json", cases.json, "Machine-readable, see data/schemas/cases.schema.json");
+  cases_app->add_option("--export", cases.folder, "Write the beating lumen (24 OBJ) and centrelines (JSON, VTP) there")
+      ->type_name("DIR");
+  cases_app->footer(
+      "Examples:\n  ostium cases\n  ostium cases rca-mid-focal\n  ostium cases rca-mid-focal --export out/rca");
+
+  ostium::CheckOptions check;
+  CLI::App* check_app = app.add_subcommand("check", "What is wrong with a mesh: holes, folds, crossings, and where");
+  check_app->add_option("mesh", check.files, "OBJ, STL, PLY, ...")->type_name("MESH")->required();
+  check_app->add_option("--units", check.unit, "What a number in the file means")
+      ->check(CLI::IsMember({"mm", "cm", "m"}))
+      ->capture_default_str();
+  check_app->add_flag("--json", check.json, "Machine-readable");
+  check_app->footer("Examples:\n  ostium check aorta.stl\n  ostium check --units m --json lumen.obj");
+
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -37,6 +57,8 @@ int main(int argc, char** argv) {
   }
   try {
     if (*verify_app) return ostium::verify_command(verify);
+    if (*cases_app) return ostium::cases_command(cases);
+    if (*check_app) return ostium::check_command(check);
     if (*instruments_app) return ostium::instruments_command(instruments);
   } catch (const std::exception& error) {
     std::cerr << "ostium: " << error.what() << "\n";

@@ -124,13 +124,6 @@ bool cross(const Mesh& mesh, const std::array<int, 3>& s, const std::array<int, 
   return one_way(s, t) || one_way(t, s);
 }
 
-void check_crossings(const Mesh& mesh, SurfaceReport& report) {
-  BoxTree(mesh).for_each_pair([&](int i, int j) {
-    const auto &s = mesh.triangles[i], &t = mesh.triangles[j];
-    if (cross(mesh, s, t)) report.crossings.add((mesh.vertices[s[0]] + mesh.vertices[t[0]]) / 2);
-  });
-}
-
 void describe_fault(std::string& text, const char* what, const SurfaceFault& fault) {
   if (!fault.count) return;
   const Eigen::Vector3d p_mm = mm_from_patient(fault.where.front());
@@ -148,6 +141,14 @@ bool SurfaceReport::sound() const {
   return closed() && !pinched_vertices.count && !slivers.count && !inverted.count && !crossings.count && triangles > 0;
 }
 
+std::vector<std::array<int, 2>> crossing_triangles(const Mesh& mesh) {
+  std::vector<std::array<int, 2>> pairs;
+  BoxTree(mesh).for_each_pair([&](int i, int j) {
+    if (cross(mesh, mesh.triangles[i], mesh.triangles[j])) pairs.push_back({i, j});
+  });
+  return pairs;
+}
+
 SurfaceReport check_surface(const Mesh& mesh, bool cavities) {
   SurfaceReport report;
   report.vertices = static_cast<int>(mesh.vertices.size());
@@ -162,7 +163,8 @@ SurfaceReport check_surface(const Mesh& mesh, bool cavities) {
   check_edges(mesh, edges, report, connected);
   check_vertices(mesh, edges, report);
   check_components(mesh, cavities, report, connected);
-  check_crossings(mesh, report);
+  for (const auto& [i, j] : crossing_triangles(mesh))
+    report.crossings.add((mesh.vertices[mesh.triangles[i][0]] + mesh.vertices[mesh.triangles[j][0]]) / 2);
   return report;
 }
 

@@ -3,6 +3,7 @@
 ///
 /// Everything that moves inside a surface needs it closed and facing outwards: inside and outside, path lengths of
 /// X-rays, volumes. Triangles face outwards when they run counter-clockwise as seen from outside.
+#include <array>
 #include <string>
 #include <vector>
 
@@ -36,6 +37,9 @@ struct SurfaceReport {
 
 /// Components inside others (a cavity) may face inwards only if `cavities`.
 SurfaceReport check_surface(const Mesh& mesh, bool cavities = false);
+
+/// Pairs of triangles that cross each other. Sharing a vertex or touching is no crossing.
+std::vector<std::array<int, 2>> crossing_triangles(const Mesh& mesh);
 
 /// One line a fault, in millimetres, with its first place; "sound" if there is none.
 std::string describe(const SurfaceReport& report);

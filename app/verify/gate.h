@@ -50,4 +50,12 @@ std::vector<GateResult> feed(bool quick);
 /// Its first part with any number of trips: fed `length_m` in and out so often.
 std::vector<GateResult> feed_round_trips(int trips, double length_m);
 
+// --- anatomy -----------------------------------------------------------------------------------------------------
+std::vector<GateResult> anatomy_lengths(bool quick);
+std::vector<GateResult> anatomy_diameters(bool quick);
+std::vector<GateResult> anatomy_angles(bool quick);
+std::vector<GateResult> anatomy_dodge(bool quick);
+std::vector<GateResult> anatomy_motion(bool quick);
+std::vector<GateResult> anatomy_surface(bool quick);
+
 }  // namespace ostium::verify

@@ -16,6 +16,12 @@ const std::vector<Gate>& gates() {
       {"nesting", "a rod inside another: shape, snap, push, clearance, against closed forms", nesting},
       {"contact", "rods and walls: friction, sliding, buckling in a tube, against closed forms", contact},
       {"feed", "a wire fed in and out through its introducer, against where it was", feed},
+      {"anatomy-lengths", "arteries, ostia and arch, against CT and Dodge 1988", anatomy_lengths},
+      {"anatomy-diameters", "the surface's diameters, against Dodge 1992, Hager 2002 and CT", anatomy_diameters},
+      {"anatomy-angles", "the left main's bifurcation and the annulus, against CT", anatomy_angles},
+      {"anatomy-dodge", "coronary points in eight views, against Dodge 1988", anatomy_dodge},
+      {"anatomy-motion", "speeds and rest of the arteries, against Mao 2000 and Wang 1999", anatomy_motion},
+      {"anatomy-surface", "the beating surface, closed and uncrossed; tree radii against it", anatomy_surface},
   };
   return all;
 }

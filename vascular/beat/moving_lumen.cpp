@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <stdexcept>
 
 #include "vascular/beat/heart_cycle.h"
 
@@ -10,7 +11,7 @@ namespace ostium {
 namespace {
 
 constexpr double junction_m = 5e-3;  // a branch's own motion begins within so much of its parent's wall
-constexpr double root_end_m = 20e-3, ascending_end_m = 105e-3;  // arc lengths along the aorta: moves whole, is still
+constexpr double root_end_m = 20e-3, ascending_end_m = 75e-3;  // arc lengths along the aorta: moves whole, is still
 
 /// The rotation nearest to `F` (Higham's iteration; F is near one).
 Eigen::Matrix3d rotation_in(Eigen::Matrix3d F) {
@@ -136,29 +137,40 @@ double TubeMotion::breath_share(int tube, double s_m) const {
   return tube == 0 ? 1 - smooth_step(root_end_m, ascending_end_m, s_m) : 1;
 }
 
-Eigen::Vector3d MovingLumen::position(std::size_t vertex, double phase, double depth) const {
+Eigen::Vector3d MovingLumen::healthy(std::size_t vertex, double phase, double depth) const {
   const Eigen::Vector3d p = vertex < moving ? beat.position(vertex, phase) : still[vertex - moving];
   return p + depth * breath[vertex];
 }
 
-Mesh MovingLumen::at(double phase, double depth) const {
+Eigen::Vector3d MovingLumen::diseased(std::size_t i, double phase, double depth) const {
+  return diseased_beat.position(i, phase) + depth * breath[narrowed[i]];
+}
+
+Mesh MovingLumen::at(double phase, double depth, double opened) const {
   Mesh mesh{.vertices = {}, .triangles = triangles};
   mesh.vertices.reserve(vertices());
-  for (std::size_t i = 0; i < vertices(); ++i) mesh.vertices.push_back(position(i, phase, depth));
+  for (std::size_t i = 0; i < vertices(); ++i) mesh.vertices.push_back(healthy(i, phase, depth));
+  for (std::size_t i = 0; i < narrowed.size(); ++i) {
+    Eigen::Vector3d& p = mesh.vertices[narrowed[i]];
+    p = opened * p + (1 - opened) * diseased(i, phase, depth);
+  }
   return mesh;
 }
 
-MovingLumen make_moving_lumen(const HeartMotion& motion, const TubeMotion& tubes, Contour contour) {
+MovingLumen make_moving_lumen(const Anatomy& anatomy, const std::vector<Lesion>& lesions, const HeartMotion& motion,
+                              const TubeMotion& tubes, Contour contour) {
+  for (const Lesion& lesion : lesions)
+    if (const int tube = find_branch(anatomy, lesion.branch)->tube; tube == 0 || !tubes.moves(tube))
+      throw std::invalid_argument("there is no lesion model for " + lesion.branch + "; expected a coronary artery");
   const std::size_t n = contour.mesh.vertices.size();
   const auto moves = [&](int v) {
     for (const TubeShare& s : contour.shares[v])
-      if (tubes.moves(s.tube) && tubes.breath_share(s.tube, s.s_m) > 0) return true;
+      if (tubes.breath_share(s.tube, s.s_m) > 0) return true;
     return false;
   };
-  std::vector<int> order(n);
+  std::vector<int> order(n), new_index(n);
   std::iota(order.begin(), order.end(), 0);
   const auto first_still = std::stable_partition(order.begin(), order.end(), moves);
-  std::vector<int> new_index(n);
   for (std::size_t i = 0; i < n; ++i) new_index[order[i]] = static_cast<int>(i);
 
   MovingLumen lumen;
@@ -166,21 +178,27 @@ MovingLumen make_moving_lumen(const HeartMotion& motion, const TubeMotion& tubes
   lumen.triangles = std::move(contour.mesh.triangles);
   for (auto& triangle : lumen.triangles)
     for (int& v : triangle) v = new_index[v];
-  lumen.shares.reserve(n);
   std::vector<std::vector<Eigen::Vector3d>> frames(beat_frames, std::vector<Eigen::Vector3d>(lumen.moving));
+  std::vector<std::vector<Eigen::Vector3d>> diseased_frames(beat_frames);
   for (std::size_t i = 0; i < n; ++i) {
     const Eigen::Vector3d p = contour.mesh.vertices[order[i]];
     lumen.shares.push_back(std::move(contour.shares[order[i]]));
     const std::vector<TubeShare>& shares = lumen.shares.back();
-    if (i >= lumen.moving)
-      lumen.still.push_back(p);
-    else
-      for (int f = 0; f < beat_frames; ++f) frames[f][i] = tubes.carried(p, shares, f);
     double breath = 0;
     for (const TubeShare& s : shares) breath += s.weight * tubes.breath_share(s.tube, s.s_m);
     lumen.breath.push_back(breath * motion.breath_displacement(p, 1));
+    if (i >= lumen.moving) {
+      lumen.still.push_back(p);
+      continue;
+    }
+    for (int f = 0; f < beat_frames; ++f) frames[f][i] = tubes.carried(p, shares, f);
+    const Eigen::Vector3d q = ostium::diseased(anatomy, lesions, p, shares);
+    if (q == p) continue;
+    lumen.narrowed.push_back(static_cast<int>(i));
+    for (int f = 0; f < beat_frames; ++f) diseased_frames[f].push_back(tubes.carried(q, shares, f));
   }
   lumen.beat = PeriodicPoints(frames);
+  lumen.diseased_beat = PeriodicPoints(diseased_frames);
   return lumen;
 }
 

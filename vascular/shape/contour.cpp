@@ -5,6 +5,7 @@
 #include <array>
 
 #include "vascular/shape/contour_octree.h"
+#include "vascular/surface_check.h"
 
 namespace ostium {
 
@@ -61,8 +62,8 @@ std::vector<std::array<int, 3>> split(const std::vector<Quad>& quads, const std:
 }
 
 /// Vertices around which the contour is no surface or is folded, and their neighbours (or the step in size would only
-/// move): the cells are too coarse there.
-std::vector<int> faulty(const Mesh& mesh, const std::vector<Eigen::Vector3d>& outwards) {
+/// move): the cells are too coarse there. Looking for crossings takes as long as all else.
+std::vector<int> faulty(const Mesh& mesh, const std::vector<Eigen::Vector3d>& outwards, bool crossings) {
   std::vector<bool> fault(mesh.vertices.size()), near_fault(mesh.vertices.size());
   std::vector<long> edges;
   edges.reserve(3 * mesh.triangles.size());
@@ -77,6 +78,10 @@ std::vector<int> faulty(const Mesh& mesh, const std::vector<Eigen::Vector3d>& ou
     if (std::min({normal.dot(outwards[a]), normal.dot(outwards[b]), normal.dot(outwards[c])}) < least_cosine)
       fault[a] = fault[b] = fault[c] = true;
   }
+  if (crossings)
+    for (const auto& pair : crossing_triangles(mesh))
+      for (int t : pair)
+        for (int v : mesh.triangles[t]) fault[v] = true;
   for (const auto& [a, b, c] : mesh.triangles)
     if (fault[a] || fault[b] || fault[c]) near_fault[a] = near_fault[b] = near_fault[c] = true;
   std::vector<int> result;
@@ -98,11 +103,11 @@ Contour contour(const TubeUnion& lumen, const ContourSettings& settings) {
     for (int round = 0; round < most_refinements && !sound; ++round) {
       const std::vector<Quad> quads = tree.extract(mesh.vertices, outwards, near);
       mesh.triangles = split(quads, mesh.vertices);
-      std::vector<int> faults = faulty(mesh, outwards);
+      std::vector<int> faults = faulty(mesh, outwards, false);
       if (faults.empty()) {
         for (int i = 0; i < settings.relaxations; ++i) even_out(lumen, near, quads, mesh.vertices, outwards);
         mesh.triangles = split(quads, mesh.vertices);
-        faults = faulty(mesh, outwards);
+        faults = faulty(mesh, outwards, true);
       }
       sound = faults.empty();
       if (!sound && !tree.refine(faults)) break;

@@ -10,9 +10,8 @@
 namespace ostium {
 
 struct ContourSettings {
-  double cells_per_radius =
-      1.6;                    ///< at a radius of 1 mm; grows with the radius' root, so that large vessels are rounder
-  double finest_m = 0.25e-3;  ///< no cell is smaller
+  double cell_at_1_mm_m = 0.7e-3;  ///< largest cell at a radius of 1 mm; grows with the radius to the power 3/4
+  double finest_m = 0.34e-3;  ///< no cell is smaller, except where the surface asks for it; the others are 2^n as large
   int relaxations = 3;        ///< rounds of evening out the triangles
 };
 

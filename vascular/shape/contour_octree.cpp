@@ -84,8 +84,7 @@ Eigen::Vector3d ContourOctree::position(const std::array<int, 3>& at) const {
 }
 
 double ContourOctree::wanted_size(double radius_m) const {
-  const double relative = std::sqrt(std::max(1.0, radius_m / 1e-3));
-  return radius_m / (settings_.cells_per_radius * relative);
+  return settings_.cell_at_1_mm_m * std::pow(radius_m / 1e-3, 0.75);
 }
 
 void ContourOctree::grow(int c, const std::vector<int>& candidates) {
@@ -117,7 +116,7 @@ void ContourOctree::grow(int c, const std::vector<int>& candidates) {
     }
   }
   if (std::fabs(lumen_.value(middle, near)) > lipschitz * reach) return;
-  if (edge <= settings_.finest_m || edge <= 1.4 * wanted) {  // sizes are powers of two: on average as wanted
+  if (edge <= settings_.finest_m || edge <= wanted) {
     cells_[c].vertex = static_cast<int>(vertices_.size());
     Vertex vertex{.cell = c, .segments = std::move(near)};
     for (int k = 0; k < 8; ++k) vertex.corners[k] = value_at(corner(cells_[c], k), vertex.segments);

@@ -1,0 +1,62 @@
+#include "app/cases_command.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <filesystem>
+
+#include "data/case.h"
+#include "data/load_error.h"
+#include "data/tree_file.h"
+#include "vascular/mesh.h"
+
+namespace ostium {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+void say(const std::string& what) {
+  if (isatty(STDERR_FILENO)) fmt::print(stderr, "{:<78}\r", what);
+}
+
+/// 24 surfaces of the beat, and the tree in each of them.
+void write_case(const Case& c, const std::string& folder) {
+  say("building " + c.name);
+  const Patient patient = make_patient(c.anatomy, c.lesions);
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error) throw LoadError(fmt::format("{}: cannot be made ({}); expected a folder", folder, error.message()));
+  for (int f = 0; f < beat_frames; ++f) {
+    say(fmt::format("frame {} of {}", f + 1, beat_frames));
+    const fs::path base = folder;
+    write_mesh((base / fmt::format("lumen-{:02}.obj", f)).string(),
+               patient.lumen.at(static_cast<double>(f) / beat_frames, 0), LengthUnit::millimetre);
+    write_tree((base / fmt::format("tree-{:02}.json", f)).string(), patient.tree_frames[static_cast<std::size_t>(f)]);
+    write_tree((base / fmt::format("tree-{:02}.vtp", f)).string(), patient.tree_frames[static_cast<std::size_t>(f)]);
+  }
+  say("");
+  fmt::print("{}: {} triangles and {} spheres in each of {} frames\n", folder, patient.lumen.triangles.size(),
+             patient.tree.spheres(), beat_frames);
+}
+
+}  // namespace
+
+int cases_command(const CasesOptions& options) {
+  const std::vector<Case> cases = options.name.empty() ? load_cases() : std::vector<Case>{find_case(options.name)};
+  if (!options.folder.empty()) {
+    if (options.name.empty())
+      throw LoadError("--export writes one case; name it, for example: ostium cases rca-mid-focal --export DIR");
+    write_case(cases.front(), options.folder);
+  } else if (options.json) {
+    fmt::print("{}\n", to_json(cases));
+  } else if (!options.name.empty()) {
+    fmt::print("{}", case_details(cases.front()));
+  } else {
+    fmt::print("{}\n", case_heading());
+    for (const Case& c : cases) fmt::print("{}\n", case_line(c));
+  }
+  return 0;
+}
+
+}  // namespace ostium

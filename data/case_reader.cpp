@@ -1,0 +1,102 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <numbers>
+#include <stdexcept>
+
+#include "data/case.h"
+#include "data/case_keys.h"
+#include "data/catalogue.h"
+#include "vascular/beat/heart_cycle.h"
+
+namespace ostium {
+
+namespace {
+
+namespace fs = std::filesystem;
+namespace keys = case_keys;
+
+bool read_boolean(const JsonObject& object, const std::string& key) {
+  if (object[key].type != JsonValue::Type::boolean) object.refuse(key);
+  return object[key].number != 0;
+}
+
+CaseCard read_card(const JsonObject& card) {
+  return {card.text("history"), card.text("ecg"), card.text("planned_access")};
+}
+
+void read_anatomy(const JsonObject& anatomy, Case& c) {
+  const auto dominance = static_cast<Dominance>(anatomy.choice("dominance", {"right", "left", "balanced"}));
+  const auto access = static_cast<Access>(anatomy.choice("access", {"femoral", "radial"}));
+  const double seed = anatomy.not_negative("seed");
+  if (seed != std::floor(seed) || seed > 1e15) anatomy.refuse("seed");
+  c.seed = static_cast<std::uint64_t>(seed);
+  c.anatomy = person(c.seed, mean_of(dominance, access));
+}
+
+Lesion read_lesion(const JsonObject& entry, const Anatomy& anatomy) {
+  Lesion lesion{.branch = entry.text("branch"),
+                .from_m = entry.not_negative("from_mm") * 1e-3,
+                .length_m = entry.positive("length_mm") * 1e-3,
+                .stenosis = entry.positive("stenosis_percent") / 100,
+                .eccentric = entry.choice("shape", {"concentric", "eccentric"}) == 1,
+                .calcified = read_boolean(entry, "calcified")};
+  if (entry.has("side_deg")) {
+    if (!lesion.eccentric) entry.refuse("side_deg");
+    lesion.side_rad = entry.number("side_deg") * std::numbers::pi / 180;
+  }
+  try {
+    check(anatomy, lesion);
+  } catch (const std::invalid_argument& error) {
+    entry.value().fail(fmt::format("{}: {}", entry.value().path, error.what()));
+  }
+  return lesion;
+}
+
+Case read(const JsonValue& file) {
+  const JsonObject root(file, keys::root);
+  Case c;
+  if (root.text("schema") != "ostium-case/1") root.refuse("schema");
+  c.name = root.text("name");
+  if (c.name != fs::path(*file.file).stem().string()) root.refuse("name");
+  c.title = root.text("title");
+  c.card = read_card(JsonObject(root["card"], keys::card));
+  read_anatomy(JsonObject(root["anatomy"], keys::anatomy), c);
+  c.rate_1_min = root.positive("heart_rate_1_min");
+  if (c.rate_1_min < least_rate_1_min || c.rate_1_min > highest_rate_1_min) root.refuse("heart_rate_1_min");
+  const Anatomy anatomy = build_anatomy(c.anatomy);
+  for (const JsonValue& value : root.list("lesions"))
+    c.lesions.push_back(read_lesion(JsonObject(value, keys::lesion), anatomy));
+  return c;
+}
+
+}  // namespace
+
+Case read_case(const std::string& file, const std::string& text) { return read(parse_json(file, text)); }
+
+Case load_case(const std::string& file) { return read(load_json(file)); }
+
+std::vector<Case> load_cases() {
+  const fs::path folder = fs::path(data_folder()) / "cases";
+  std::vector<fs::path> files;
+  std::error_code error;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder, error))
+    if (entry.path().extension() == ".json") files.push_back(entry.path());
+  if (files.empty()) throw LoadError(folder.string() + ": has no case; expected a folder with at least one NAME.json");
+  std::vector<Case> cases;
+  for (const fs::path& file : files) cases.push_back(load_case(file.string()));
+  std::sort(cases.begin(), cases.end(), [](const Case& a, const Case& b) { return a.name < b.name; });
+  return cases;
+}
+
+Case find_case(const std::string& name) {
+  const fs::path folder = fs::path(data_folder()) / "cases", file = folder / (name + ".json");
+  if (fs::is_regular_file(file)) return load_case(file.string());
+  std::string known;
+  for (const Case& c : load_cases()) known += "\n  " + c.name;
+  throw LoadError(fmt::format("there is no case \"{}\"; expected one of:{}", name, known));
+}
+
+}  // namespace ostium

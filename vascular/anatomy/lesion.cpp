@@ -1,0 +1,101 @@
+#include "vascular/anatomy/lesion.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+
+namespace ostium {
+
+namespace {
+
+constexpr double mm = 1e-3;
+constexpr double shoulder = 0.3;  // share of the length in which the narrowing sets in, at either end
+
+/// 0 at the ends, 1 between the shoulders, with a continuous slope.
+double depth_at(const Lesion& lesion, double from_branch_m) {
+  const double x = (from_branch_m - lesion.from_m) / lesion.length_m, end = std::min(x, 1 - x);
+  if (end <= 0) return 0;
+  return end >= shoulder ? 1 : (1 - std::cos(std::numbers::pi * end / shoulder)) / 2;
+}
+
+std::string names(const Anatomy& anatomy) {
+  std::string all;
+  for (const NamedBranch& branch : anatomy.branches) all += (all.empty() ? "" : ", ") + branch.name;
+  return all;
+}
+
+}  // namespace
+
+Lesion typical(LesionType type, const std::string& branch, double from_m) {
+  Lesion lesion{.branch = branch, .from_m = from_m};
+  switch (type) {
+    case LesionType::A:
+      lesion.length_m = 8 * mm, lesion.stenosis = 0.70;
+      break;
+    case LesionType::B:
+      lesion.length_m = 15 * mm, lesion.stenosis = 0.75, lesion.eccentric = true;
+      break;
+    case LesionType::C:
+      lesion.length_m = 28 * mm, lesion.stenosis = 0.80, lesion.calcified = true;
+      break;
+  }
+  return lesion;
+}
+
+LesionType type_of(const Lesion& lesion) {
+  if (lesion.length_m > 20 * mm) return LesionType::C;
+  return lesion.length_m >= 10 * mm || lesion.eccentric || lesion.calcified ? LesionType::B : LesionType::A;
+}
+
+void check(const Anatomy& anatomy, const Lesion& lesion) {
+  const NamedBranch* branch = find_branch(anatomy, lesion.branch);
+  if (!branch)
+    throw std::invalid_argument(
+        fmt::format("there is no branch \"{}\"; expected one of {}", lesion.branch, names(anatomy)));
+  if (!(lesion.stenosis > 0 && lesion.stenosis <= 0.95))
+    throw std::invalid_argument(fmt::format("a stenosis of {:g} % of the diameter; expected more than 0 and at most 95",
+                                            100 * lesion.stenosis));
+  if (!(lesion.length_m > 0 && lesion.from_m >= 0 && lesion.from_m + lesion.length_m <= branch->length_m()))
+    throw std::invalid_argument(fmt::format(
+        "a lesion from {:g} to {:g} mm of {}; expected it within the branch's {:.1f} mm", lesion.from_m / mm,
+        (lesion.from_m + lesion.length_m) / mm, lesion.branch, branch->length_m() / mm));
+}
+
+Narrowing narrowing_at(const Anatomy& anatomy, const std::vector<Lesion>& lesions, int tube, double s_m) {
+  Narrowing total;
+  for (const Lesion& lesion : lesions) {
+    const NamedBranch& branch = *find_branch(anatomy, lesion.branch);
+    if (branch.tube != tube) continue;
+    const double lost = lesion.stenosis * depth_at(lesion, s_m - branch.from_m);
+    if (lost == 0) continue;
+    const TubeNode node = anatomy.tubes[tube].at(s_m);
+    if (lesion.eccentric) {
+      const Landmarks& marks = anatomy.landmarks;
+      const Eigen::Vector3d along = anatomy.tubes[tube].tangent(s_m);
+      Eigen::Vector3d to_heart = (marks.p_lv_base + marks.p_lv_apex) / 2 - node.p;
+      to_heart = (to_heart - to_heart.dot(along) * along).normalized();
+      const Eigen::Vector3d plaque =
+          std::cos(lesion.side_rad) * to_heart + std::sin(lesion.side_rad) * to_heart.cross(along);
+      total.shift -= total.scale * lost * node.radius_m * plaque;
+    }
+    total.scale *= 1 - lost;
+  }
+  return total;
+}
+
+Eigen::Vector3d diseased(const Anatomy& anatomy, const std::vector<Lesion>& lesions, const Eigen::Vector3d& p,
+                         const std::vector<TubeShare>& shares) {
+  Eigen::Vector3d moved = p;
+  for (const TubeShare& share : shares) {
+    const Narrowing narrowing = narrowing_at(anatomy, lesions, share.tube, share.s_m);
+    if (narrowing.none()) continue;
+    const Eigen::Vector3d arm = p - anatomy.tubes[share.tube].at(share.s_m).p;
+    moved += share.weight * (narrowing.shift + (narrowing.scale - 1) * arm);
+  }
+  return moved;
+}
+
+}  // namespace ostium

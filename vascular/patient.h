@@ -1,0 +1,20 @@
+#pragma once
+/// A patient: the anatomy, its lesions, and how both beat. Const after it is made.
+#include "vascular/anatomy/lesion.h"
+#include "vascular/beat/moving_lumen.h"
+#include "vascular/tree/sphere_tree.h"
+
+namespace ostium {
+
+struct Patient {
+  Anatomy anatomy;
+  std::vector<Lesion> lesions;
+  MovingLumen lumen;                    ///< of the healthy wall; where lesions are, of the diseased one too
+  SphereTree tree;                      ///< of the diseased lumen, at end-diastole
+  std::vector<SphereTree> tree_frames;  ///< the same, carried along the beat: beat_frames of them
+};
+
+/// Takes about 2 s. Throws std::invalid_argument, as build_anatomy and check(Lesion) do.
+Patient make_patient(const AnatomyParameters& parameters, const std::vector<Lesion>& lesions);
+
+}  // namespace ostium
