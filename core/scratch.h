@@ -28,6 +28,7 @@ struct RodScratch {
   Rod inside;        ///< the part of the rod that is inside its introducer
   RodInputs inputs;  ///< of this step, within limits
   TimeScheme scheme = TimeScheme::bdf2;
+  double step_s = 0;  ///< of this try; less than the model's where a rod comes to rest
   Progress progress = Progress::open;
   double defect = 0;  ///< what the iterate leaves of inextensibility
   GeometricStiffness geometric = GeometricStiffness::with;

@@ -30,10 +30,10 @@ namespace {
 /// Where nodes of rod `r` go without internal force, and how they yield to it.
 void constrain(const Model& model, const State& state, std::size_t r, Scratch& scratch) {
   RodScratch& s = scratch.rods[r];
-  predict_nodes(s.inside, state.rods[r], model.gravity_W, s.inputs.tip_force_W_N, model.step_s, s);
+  predict_nodes(s.inside, state.rods[r], model.gravity_W, s.inputs.tip_force_W_N, s.step_s, s);
   feel_inner_rods(model, state, r, scratch);
   tie_to_bores(r, scratch);
-  tie_to_walls(state, r, scratch);
+  tie_to_walls(r, scratch);
   hold_ends(s.inside, s.inputs, state.rods[r], s);
 }
 
@@ -47,7 +47,7 @@ void predict(const Model& model, const State& state, std::size_t r, TimeScheme s
   forget_corrections(scratch.bindings[r]);
   guess_nodes(state.rods[r], s);
   find_bores(model, state, r, scratch);
-  find_walls(model, state, r, scratch);
+  expect_touches(state, r, scratch);
   find_slides(model, state, r, scratch);
   constrain(model, state, r, scratch);
   lend_to_force(state, r, scratch);
@@ -55,11 +55,11 @@ void predict(const Model& model, const State& state, std::size_t r, TimeScheme s
 
 void begin(const Model& model, const Inputs& inputs, State& state, Scratch& scratch, StepReport& report) {
   report.rods.resize(model.rods.size());
-  move_walls(model, inputs, scratch);
   for (std::size_t r = 0; r < model.rods.size(); ++r) {
     RodScratch& s = scratch.rods[r];
     report.rods[r] = {};
     s.inputs = limited(inputs.rods[r], report.rods[r].trouble);
+    s.step_s = model.step_s;
     s.scheme = take_hold(s.inputs, state.rods[r]) ? TimeScheme::fresh : TimeScheme::bdf2;
     drive_ends(s.inputs, model.step_s, state.rods[r]);
     feed(model.rods[r], s.inputs, model.step_s, state.rods[r], report.rods[r].trouble);
@@ -67,8 +67,20 @@ void begin(const Model& model, const Inputs& inputs, State& state, Scratch& scra
   }
 }
 
-void linearise(const State& state, double step_s, std::size_t r, Scratch& scratch) {
+void meet_walls(const Model& model, const Inputs& inputs, const State& state, Scratch& scratch) {
+  move_walls(model, inputs, scratch);
+  for (std::size_t r = 0; r < model.rods.size(); ++r) {
+    if (!scratch.rods[r].inside.in_body()) continue;
+    guess_nodes(state.rods[r], scratch.rods[r]);
+    hold_enclosed(model, r, scratch);
+    find_walls(model, state, r, scratch);
+    expect_touches(state, r, scratch);
+  }
+}
+
+void linearise(const State& state, std::size_t r, Scratch& scratch) {
   RodScratch& s = scratch.rods[r];
+  const double step_s = s.step_s;
   const Rod& rod = s.inside;
   linearise_joints(rod, state.rods[r], joints_of(s.inputs), step_s, s);
   lend_to_joints(scratch.bindings[r], s);
@@ -141,7 +153,7 @@ bool any(const Group& group, const Scratch& scratch, Progress progress) {
 void iterate(const Model& model, const State& state, const Group& group, Scratch& scratch, StepReport& report) {
   for (int i = 0; i < tunables::max_newton_iterations && any(group, scratch, Progress::open); ++i) {
     for (int r : group)
-      if (scratch.rods[r].progress == Progress::open) linearise(state, model.step_s, r, scratch);
+      if (scratch.rods[r].progress == Progress::open) linearise(state, r, scratch);
     solve_open(model, state, group, scratch);
     for (int r : group)
       if (scratch.rods[r].progress == Progress::open)
@@ -153,20 +165,26 @@ bool usable(const RodScratch& s) {
   return s.progress == Progress::absent || (s.progress != Progress::failed && s.defect <= tunables::usable_stretch);
 }
 
-/// Rods that move too violently for a step give up their velocity.
+/// Rods that move too violently for a step give up their velocity; then, if there are walls, most of the time to move
+/// in: so little moves that it can be solved, and no node has to be put anywhere.
 void retry_from_rest(const Model& model, State& state, const Group& group, Scratch& scratch, StepReport& report) {
-  if (!any(group, scratch, Progress::open) && !any(group, scratch, Progress::failed)) return;
-  for (int r : group) {
-    RodScratch& s = scratch.rods[r];
-    if (usable(s)) {
-      if (s.progress == Progress::open) s.progress = Progress::given_up;
-      continue;
+  const double shares[] = {1, 0.1, 0.01};
+  for (const double share : shares) {
+    if (!any(group, scratch, Progress::open) && !any(group, scratch, Progress::failed)) return;
+    if (share < 1 && model.surfaces.empty()) return;
+    for (int r : group) {
+      RodScratch& s = scratch.rods[r];
+      if (usable(s)) {
+        if (s.progress == Progress::open) s.progress = Progress::given_up;
+        continue;
+      }
+      report.rods[r].trouble |= motion_lost;
+      halt(s.inside, state.rods[r]);
+      s.step_s = share * model.step_s;
+      predict(model, state, r, TimeScheme::from_rest, scratch);
     }
-    report.rods[r].trouble |= motion_lost;
-    halt(s.inside, state.rods[r]);
-    predict(model, state, r, TimeScheme::from_rest, scratch);
+    iterate(model, state, group, scratch, report);
   }
-  iterate(model, state, group, scratch, report);
 }
 
 void report_forces(const Model& model, const Rod& rod, const RodScratch& s, const RodState& state, RodReport& report) {
@@ -200,6 +218,7 @@ void finish(const Model& model, const Rod& rod, const BindingScratch& binding, R
     commit(rod, s, model.step_s, state);
   else
     commit_frames_at_rest(rod, s, state);
+  if (s.step_s < model.step_s) halt(rod, state);
   follow_free_ends(rod, s.inputs, state);
   report_forces(model, rod, s, state, report);
 }
@@ -245,7 +264,7 @@ bool lost_in_nest(const Model& model, const Scratch& scratch, StepReport& report
   for (const Nesting& n : model.nestings)
     if (is_bound(n, scratch))
       for (int r : {n.outer, n.inner})
-        lost |= (report.rods[r].trouble & (motion_lost | no_solution | not_converged | joint_overturned)) != 0;
+        lost |= (report.rods[r].trouble & (motion_lost | no_solution | joint_overturned)) != 0;
   if (lost)
     for (const Nesting& n : model.nestings)
       if (is_bound(n, scratch))
@@ -259,6 +278,7 @@ bool lost_in_nest(const Model& model, const Scratch& scratch, StepReport& report
 void step(const Model& model, const Inputs& inputs, State& state, Scratch& scratch, StepReport& report) {
   assert(fits(model, inputs, state, scratch));
   begin(model, inputs, state, scratch, report);
+  meet_walls(model, inputs, state, scratch);
   for (const Group& group : scratch.groups) {
     for (int r : group) predict(model, state, r, scratch.rods[r].scheme, scratch);
     iterate(model, state, group, scratch, report);

@@ -70,7 +70,7 @@ void measure_binding(const Model& model, Scratch& scratch) {
 
 bool balance(std::size_t r, double step_s, const RodState& state, Scratch& scratch) {
   BindingScratch& b = scratch.bindings[r];
-  if (b.bending.size() == 0) return false;
+  if (b.bending.size() == 0 || !b.carries) return false;
   RodScratch& s = scratch.rods[r];
   ContactScratch& contact = scratch.contacts[r];
   const Rod& rod = s.inside;

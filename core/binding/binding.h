@@ -20,6 +20,9 @@ namespace ostium {
 /// Whether both rods of a nesting are in the body.
 bool is_bound(const Nesting& nesting, const Scratch& scratch);
 
+/// Before walls are found: holds the nodes of rod `r` that are in bores, so that no wall does.
+void hold_enclosed(const Model& model, std::size_t r, Scratch& scratch);
+
 /// Lets rod `r` feel what is inside it: changes its scratch.target and chain.compliance, and prepares lend_*.
 void feel_inner_rods(const Model& model, const State& state, std::size_t r, Scratch& scratch);
 

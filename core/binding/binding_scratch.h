@@ -29,6 +29,7 @@ struct Rim {
 
 struct BindingScratch {
   // --- as an outer rod
+  bool carries = false;       ///< a rod that is in the body, too
   Rod whole;                  ///< it and what protrudes from its tip: its lengths and numbers alone
   int beyond = -1;            ///< the rod that protrudes
   int beyond_node = 0;        ///< its first node beyond the tip, which is node N + 1 of `whole`

@@ -127,13 +127,29 @@ void find_rim(const Model& model, const State& state, int index, int node, const
 }
 
 /// What is in a bore, and what the rim holds, no wall does.
-void hold_enclosed(ContactScratch& contact, const BindingScratch& b, const Rod& rod) {
+void hold(ContactScratch& contact, const BindingScratch& b, const Rod& rod) {
   if (contact.held.empty()) return;
-  for (int i = rod.first; i < rod.nodes(); ++i) contact.held[i] = b.nesting[i] >= 0;
+  for (int i = rod.first; i < rod.nodes(); ++i)
+    if (b.nesting[i] >= 0) contact.held[i] = true;
   for (int k = 0; k < b.rim_count; ++k) contact.held[b.rims[k].node + 1] = true;
 }
 
 }  // namespace
+
+void hold_enclosed(const Model& model, std::size_t r, Scratch& scratch) {
+  ContactScratch& contact = scratch.contacts[r];
+  if (contact.held.empty()) return;
+  const Rod& rod = scratch.rods[r].inside;
+  std::fill(contact.held.begin(), contact.held.end(), 0);
+  for (const Nesting& n : model.nestings) {
+    if (n.inner != static_cast<int>(r) || !is_bound(n, scratch)) continue;
+    const double tip = scratch.rods[n.outer].inside.total_length_m;
+    for (int i = rod.first; i < rod.nodes(); ++i) {
+      const double at = depth(rod, i), one_more = i > rod.first ? rod.length.at(0)[i - 1] : 0;
+      if (at >= tip - n.lumen_m && at - one_more <= tip) contact.held[i] = true;
+    }
+  }
+}
 
 void find_bores(const Model& model, const State& state, std::size_t r, Scratch& scratch) {
   BindingScratch& b = scratch.bindings[r];
@@ -153,7 +169,7 @@ void find_bores(const Model& model, const State& state, std::size_t r, Scratch& 
     if (last >= 0 && last < rod.elements && b.nesting[last] == index && b.nesting[last + 1] < 0)
       find_rim(model, state, index, last, rod, position, scratch, b, s);
   }
-  hold_enclosed(scratch.contacts[r], b, rod);
+  hold(scratch.contacts[r], b, rod);
   b.last = s.inputs.tip.hold == Hold::free ? rod.elements : rod.elements - 1;
   find_ties(model, rod, state.rods[r], state.nestings, scratch, b);
 }

@@ -117,8 +117,10 @@ void feel_inner_rods(const Model& model, const State& state, std::size_t r, Scra
   extend(model, state, r, scratch, b);
   const double inertia = acceleration_per_move(s.scheme, model.step_s);
   V3<double> slide{};
+  b.carries = false;
   for (const Nesting& n : model.nestings) {
     if (n.outer != static_cast<int>(r) || !is_bound(n, scratch)) continue;
+    b.carries = true;
     const Rod& inner = scratch.rods[n.inner].inside;
     Field<3>& moves = scratch.bindings[n.inner].moves;
     moves_of_inner(inner, state.rods[n.inner], model.step_s, s.scheme, moves);

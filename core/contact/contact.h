@@ -17,11 +17,15 @@ namespace ostium {
 /// At the beginning of a step, once: where the walls are.
 void move_walls(const Model& model, const Inputs& inputs, Scratch& scratch);
 
-/// Finds the walls that rod `r` can reach, from its guess of the iterate.
+/// Finds the walls that rod `r` can reach, from its guess of the iterate; nodes that are held (ContactScratch) have
+/// none.
 void find_walls(const Model& model, const State& state, std::size_t r, Scratch& scratch);
 
-/// Ties nodes to the walls that they are expected to touch: changes scratch.target and chain.compliance.
-void tie_to_walls(const State& state, std::size_t r, Scratch& scratch);
+/// Says which of them it is expected to touch, and prepares friction.
+void expect_touches(const State& state, std::size_t r, Scratch& scratch);
+
+/// Ties nodes to these: changes scratch.target and chain.compliance.
+void tie_to_walls(std::size_t r, Scratch& scratch);
 
 /// After a solve: lets nodes go that their wall would pull, ties those that are behind one. True if there are any: then
 /// the chain, which is adapted, is to be solved again.

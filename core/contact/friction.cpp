@@ -82,15 +82,17 @@ void turn_at_walls(std::size_t r, Scratch& scratch) {
   }
 }
 
-V3<double> take_rubbing(int i, const RodScratch& s, const ContactScratch& c, RodState& own) {
-  if (!c.rubs[i]) {
-    own.wall_slip.set(i, {0, 0});
-    return {};
-  }
-  const Slip slip = slip_in(s, c, i), keep = kept(slip, tunables::wall_slip_m);
-  own.wall_slip.set(i, {keep.along, keep.around});
+V3<double> rubbing_force(int i, const RodScratch& s, const ContactScratch& c) {
+  if (!c.rubs[i]) return {};
+  const Slip slip = slip_in(s, c, i);
   const double k = -c.stiffness.at(0)[i];
   return madd(k * slip.along, load3<double>(c.along, i), (k * slip.around) * load3<double>(c.across, i));
+}
+
+void take_rubbing(int i, const RodScratch& s, const ContactScratch& c, RodState& own) {
+  Slip slip;
+  if (c.rubs[i]) slip = kept(slip_in(s, c, i), tunables::wall_slip_m);
+  own.wall_slip.set(i, {slip.along, slip.around});
 }
 
 }  // namespace ostium

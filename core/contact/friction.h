@@ -11,7 +11,10 @@ void find_rubbing(const RodState& own, int i, const NodeWalls& walls, const RodS
 /// Ties the node, r = target + P (internal force), by it.
 void rub(int i, const ContactScratch& c, const RodScratch& s, S3<double>& P, V3<double>& target);
 
-/// Keeps the slip, and returns the force on the node, N.
-V3<double> take_rubbing(int i, const RodScratch& s, const ContactScratch& c, RodState& own);
+/// Force on node i in the iterate, N.
+V3<double> rubbing_force(int i, const RodScratch& s, const ContactScratch& c);
+
+/// Keeps the slip.
+void take_rubbing(int i, const RodScratch& s, const ContactScratch& c, RodState& own);
 
 }  // namespace ostium

@@ -30,35 +30,47 @@ void renew_node(int i, const ContactScratch& c, RodScratch& s) {
   store6(s.chain.compliance, i, P);
 }
 
+bool is_touched(const ContactScratch& c, int i) {
+  if (c.held[i]) return false;
+  bool any = c.rubs[i];
+  for (int k = 0; k < c.walls[i].count; ++k) any = any || c.walls[i].planes[k].active;
+  return any;
+}
+
 double push_N(const WallPlane& w, const V3<double>& p) { return (w.place - dot(w.normal, p)) / w.softness; }
 
 }  // namespace
 
-void tie_to_walls(const State& state, std::size_t r, Scratch& scratch) {
+void expect_touches(const State& state, std::size_t r, Scratch& scratch) {
   ContactScratch& c = scratch.contacts[r];
   if (c.walls.empty()) return;
-  RodScratch& s = scratch.rods[r];
+  const RodScratch& s = scratch.rods[r];
   const RodState& own = state.rods[r];
-  c.free_compliance = s.chain.compliance;
-  c.free_target = s.target;
-  c.changes = 0;
   for (int i = s.inside.first; i < s.inside.nodes(); ++i) {
     NodeWalls& walls = c.walls[i];
     c.rubs[i] = false;
-    if (c.held[i] || walls.count == 0) continue;
+    if (walls.count == 0) continue;
     const V3<double> force = load3<double>(own.wall_force, i), expected = load3<double>(s.position, i);
-    bool any = false;
     for (int k = 0; k < walls.count; ++k) {
       WallPlane& w = walls.planes[k];
       const double pressed = largest(0, dot(force, w.normal));
       w.active = dot(w.normal, expected) - pressed / tunables::press_N_m < w.place;
       w.stay = w.active ? pressed * w.curvature : 0;
       w.beside = dot(w.across, load3<double>(own.position, i) + w.carried);
-      any = any || w.active;
     }
     find_rubbing(own, i, walls, s, c);
-    if (any || c.rubs[i]) renew_node(i, c, s);
   }
+}
+
+void tie_to_walls(std::size_t r, Scratch& scratch) {
+  ContactScratch& c = scratch.contacts[r];
+  if (c.walls.empty()) return;
+  RodScratch& s = scratch.rods[r];
+  c.free_compliance = s.chain.compliance;
+  c.free_target = s.target;
+  c.changes = 0;
+  for (int i = s.inside.first; i < s.inside.nodes(); ++i)
+    if (is_touched(c, i)) renew_node(i, c, s);
 }
 
 bool change_walls(const Model& model, const State& state, std::size_t r, Scratch& scratch) {
@@ -94,7 +106,8 @@ bool change_walls(const Model& model, const State& state, std::size_t r, Scratch
   return any;
 }
 
-V3<double> wall_force(const RodScratch& s, const ContactScratch& c, int i) {
+namespace {
+V3<double> pushing_force(const RodScratch& s, const ContactScratch& c, int i) {
   V3<double> force{};
   const V3<double> p = load3<double>(s.position, i);
   const NodeWalls& walls = c.walls[i];
@@ -107,6 +120,12 @@ V3<double> wall_force(const RodScratch& s, const ContactScratch& c, int i) {
   return force;
 }
 
+}  // namespace
+
+V3<double> wall_force(const RodScratch& s, const ContactScratch& c, int i) {
+  return pushing_force(s, c, i) + rubbing_force(i, s, c);
+}
+
 void commit_walls(const Model& model, const Scratch& scratch, State& state, std::vector<Touch>& touches) {
   touches.clear();
   if (model.surfaces.empty()) return;
@@ -114,13 +133,17 @@ void commit_walls(const Model& model, const Scratch& scratch, State& state, std:
     const RodScratch& s = scratch.rods[r];
     const ContactScratch& c = scratch.contacts[r];
     RodState& own = state.rods[r];
+    const bool lost = s.progress == Progress::failed || s.defect > tunables::usable_stretch;
     for (int i = 0; i < model.rods[r].nodes(); ++i) {
-      const bool free = i < s.inside.first || c.held[i] || c.walls[i].count == 0;
-      const V3<double> force = free ? V3<double>{} : wall_force(s, c, i), last = load3<double>(own.wall_force, i);
+      const bool free = lost || i < s.inside.first || c.held[i] || c.walls[i].count == 0;
+      const V3<double> force = free ? V3<double>{} : pushing_force(s, c, i), last = load3<double>(own.wall_force, i);
       const double push = std::sqrt(dot(force, force));
       if (push > 0 && dot(last, last) == 0) land(i, (1 / push) * force, model.step_s, own);
-      const V3<double> rubbed = free ? V3<double>{} : take_rubbing(i, s, c, own);
-      if (free) own.wall_slip.set(i, {0, 0});
+      const V3<double> rubbed = free ? V3<double>{} : rubbing_force(i, s, c);
+      if (free)
+        own.wall_slip.set(i, {0, 0});
+      else
+        take_rubbing(i, s, c, own);
       store3(own.wall_force, i, force);
       if (push > 0)
         touches.push_back({static_cast<int>(r), i, own.position[i] - s.inside.radius.at(0)[i] / push * to_eigen(force),

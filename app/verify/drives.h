@@ -1,0 +1,49 @@
+#pragma once
+/// Instruments driven through a vessel by scripts and at random, and how well the wall held them: the contact gates,
+/// the soak and the benchmark.
+#include <cstdint>
+
+#include "app/verify/judge.h"
+#include "app/verify/test_vessel.h"
+#include "core/step.h"
+
+namespace ostium::verify {
+
+/// A guide catheter and a coronary wire of the catalogue in the test vessel, or the wire alone.
+class Rehearsal {
+ public:
+  Rehearsal(const TestVessel& vessel, bool with_guide, bool sweep = true);
+
+  /// Lays the wire along the way into a branch, at rest, `inserted_m` long.
+  void lay_wire(const std::vector<Eigen::Vector3d>& way_W, double inserted_m);
+
+  /// One step at a heart rate, 1/min.
+  void step(double beats_per_min);
+
+  int wire() const { return static_cast<int>(model.rods.size()) - 1; }
+
+  Model model;
+  State state;
+  Scratch scratch;
+  Inputs inputs;
+  StepReport report;
+  double frame = 0;  ///< of the vessel's cycle, after the last step
+};
+
+struct Holding {
+  double deepest_m = 0;  ///< that a node's ball got into the wall
+  int escapes = 0;       ///< nodes whose middle was outside
+  long troubled = 0;     ///< steps with trouble other than a stopped feed
+};
+
+/// Looks at all nodes by the triangles; `winding` also tells whether those near the wall are inside.
+void judge(const Rehearsal& run, Judge& judge, bool winding, Holding& holding);
+
+/// Wire and guide advanced at 5 cm/s, turned, drawn back and advanced again, at the heart rate.
+Holding scripted_procedure(const TestVessel& vessel, double beats_per_min, double seconds);
+
+/// One random drive: speeds to 20 cm/s and 10 turns/s, redrawn every 0.1 to 1 s, 60 to 180 beats/min; a drive of an odd
+/// seed starts with the wire in a branch.
+Holding random_drive(const TestVessel& vessel, std::uint64_t seed, double seconds, bool sweep = true);
+
+}  // namespace ostium::verify
