@@ -4,6 +4,7 @@
 
 #include "app/cases_command.h"
 #include "app/check_command.h"
+#include "app/frame_command.h"
 #include "app/instruments_command.h"
 #include "app/verify_command.h"
 
@@ -49,6 +50,55 @@ int main(int argc, char** argv) {
       ->capture_default_str();
   check_app->add_flag("--json", check.json, "Machine-readable");
   check_app->footer("Examples:\n  ostium check aorta.stl\n  ostium check --units m --json lumen.obj");
+  ostium::FrameOptions frame;
+  CLI::App* frame_app = app.add_subcommand("frame", "One X-ray picture, or a short run of them");
+  frame_app->add_option("of", frame.of, "What is in the beam: phantom (fluoro's test chest, no anatomy)")
+      ->capture_default_str();
+  frame_app->add_option("--view", frame.view, "Standard view, see `ostium views`")->capture_default_str();
+  frame_app->add_option("--lao", frame.lao_deg, "Instead of the view's angle, degrees; negative: RAO");
+  frame_app->add_option("--cran", frame.cran_deg, "Instead of the view's angle, degrees; negative: caudal");
+  frame_app->add_option("--sid", frame.sid_mm, "Source to detector, mm")->capture_default_str();
+  frame_app->add_option("--field", frame.field_mm, "Side of the detector's field, mm: 200, 160, 130")
+      ->check(CLI::Range(50.0, 400.0))
+      ->capture_default_str();
+  frame_app->add_option("--table", frame.table_mm, "Isocentre in the patient: left, head, front, mm")
+      ->expected(3)
+      ->delimiter(',');
+  frame_app->add_option("--shutters", frame.shutters, "Left, right, top, bottom, from the middle; 0.5 is open")
+      ->expected(4)
+      ->delimiter(',');
+  frame_app->add_option("--pixels", frame.pixels, "Along a side")
+      ->check(CLI::IsMember({64, 128, 256, 512, 768, 1024}))
+      ->capture_default_str();
+  frame_app->add_flag("--cine", frame.cine, "Cine dose instead of fluoroscopy");
+  frame_app->add_option("--rate", frame.frames_per_s, "Frames a second: 3.75, 7.5, 15, 30")->capture_default_str();
+  frame_app->add_option("--frames", frame.frames, "So many; of a still picture the last is shown (8)")
+      ->check(CLI::Range(1, 10'000));
+  frame_app->add_option("--fill", frame.fill, "Coronary full of contrast")
+      ->check(CLI::IsMember({"none", "left", "right"}))
+      ->capture_default_str();
+  frame_app->add_option("--stenosis", frame.stenosis_percent, "Of LAD and RCA, by diameter, %")
+      ->check(CLI::Range(0.0, 99.0))
+      ->capture_default_str();
+  frame_app->add_option("--guide", frame.guide, "Where guide and wire are")
+      ->check(CLI::IsMember({"left", "right", "none"}))
+      ->capture_default_str();
+  frame_app->add_option("--seed", frame.seed, "Of the noise")->capture_default_str();
+  frame_app->add_option("--renderer", frame.renderer, "What draws path lengths")
+      ->check(CLI::IsMember({"scanline", "osmesa"}))
+      ->capture_default_str();
+  frame_app->add_flag("--overlay", frame.overlay, "Angles, rate, times and dose on the picture (not in DICOM)");
+  frame_app->add_flag("--json", frame.json, "Exposure and dose, machine-readable");
+  frame_app->add_option("-o,--out", frame.out, "FILE.png, FILE.dcm or FILE.mp4")->capture_default_str();
+  frame_app->footer(
+      "Examples:\n  ostium frame --view spider --fill left -o spider.png\n"
+      "  ostium frame --lao -30 --cran -20 --cine --pixels 1024 --fill left --overlay -o cine.png\n"
+      "  ostium frame --view lao --fill right --guide right --frames 15 -o run.dcm");
+
+  bool views_json = false;
+  CLI::App* views_app = app.add_subcommand("views", "The standard views of coronary angiography");
+  views_app->add_flag("--json", views_json, "Machine-readable");
+  views_app->footer("Examples:\n  ostium views\n  ostium views --json");
 
   try {
     app.parse(argc, argv);
@@ -59,6 +109,8 @@ int main(int argc, char** argv) {
     if (*verify_app) return ostium::verify_command(verify);
     if (*cases_app) return ostium::cases_command(cases);
     if (*check_app) return ostium::check_command(check);
+    if (*views_app) return ostium::views_command(views_json);
+    if (*frame_app) return ostium::frame_command(frame);
     if (*instruments_app) return ostium::instruments_command(instruments);
   } catch (const std::exception& error) {
     std::cerr << "ostium: " << error.what() << "\n";

@@ -2,22 +2,40 @@
 
 #include <Eigen/Geometry>
 #include <cmath>
+#include <numbers>
+#include <stdexcept>
+#include <string>
 
 namespace ostium {
 
 namespace {
 
-/// Image axes: right lies in the transverse plane, up completes right x up = towards the detector.
-struct ImageAxes {
-  Eigen::Vector3d right, up, outwards;
-
-  explicit ImageAxes(const CArm& arm)
-      : right(std::cos(arm.lao_rad), 0, -std::sin(arm.lao_rad)), outwards(towards_detector(arm)) {
-    up = outwards.cross(right);
-  }
-};
+void require(double value, double least, double most, double unit, const char* what, const char* unit_name) {
+  if (value >= least - 1e-9 && value <= most + 1e-9) return;
+  const auto text = [&](double x) {
+    const std::string number = std::to_string(std::round(x / unit * 10) / 10);
+    return number.substr(0, number.find('.') + 2);
+  };
+  throw std::invalid_argument(std::string("C-arm: ") + what + " " + text(value) + " " + unit_name +
+                              " cannot be reached; it goes from " + text(least) + " to " + text(most) + " " +
+                              unit_name);
+}
 
 }  // namespace
+
+ImageAxes::ImageAxes(const CArm& arm)
+    : right(std::cos(arm.lao_rad), 0, -std::sin(arm.lao_rad)), outwards(towards_detector(arm)) {
+  up = outwards.cross(right);
+}
+
+void require_reachable(const CArm& arm, const CArmLimits& limits) {
+  constexpr double degree = std::numbers::pi / 180;
+  require(arm.lao_rad, -limits.lao_rad, limits.lao_rad, degree, "LAO/RAO angle", "degrees");
+  require(arm.cran_rad, -limits.cran_rad, limits.cran_rad, degree, "cranial/caudal angle", "degrees");
+  require(arm.source_to_detector_m, limits.shortest_sid_m, limits.longest_sid_m, 0.01, "SID", "cm");
+  require(arm.source_to_isocentre_m, 0.5, arm.source_to_detector_m - 0.05, 0.01, "source to isocentre", "cm");
+  if (!arm.p_PI.allFinite()) throw std::invalid_argument("C-arm: the isocentre is not a number");
+}
 
 Eigen::Vector3d towards_detector(const CArm& arm) {
   return {std::sin(arm.lao_rad) * std::cos(arm.cran_rad), std::sin(arm.cran_rad),

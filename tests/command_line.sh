@@ -33,3 +33,32 @@ expect 0 '"EI1_Nmm2"' "$ostium" instruments wire-014-workhorse --json
 expect 3 "there is no instrument" "$ostium" instruments no-such-thing
 expect 3 "cannot be written" "$ostium" instruments --picture /nowhere/all.svg
 expect 3 "OSTIUM_DATA" env OSTIUM_DATA=/nowhere "$ostium" instruments
+
+dir=$(mktemp -d)
+trap 'rm -rf "$dir"' EXIT
+frame() { "$ostium" frame --pixels 128 "$@"; }
+export -f frame
+export ostium
+expect 0 "Examples" "$ostium" frame --help
+expect 0 "kV" frame --view spider --fill left --overlay -o "$dir/frame.png"
+expect 0 '"dap_per_frame_Gy_cm2"' frame --json -o "$dir/frame.png"
+expect 0 "run.dcm" frame --frames 3 --fill right --guide right -o "$dir/run.dcm"
+expect 3 "there is no view" frame --view upwards -o "$dir/frame.png"
+expect 3 "from -120.0 to 120.0 degrees" frame --lao 150 -o "$dir/frame.png"
+expect 3 "from 85.0 to 125.0 cm" frame --sid 1400 -o "$dir/frame.png"
+expect 3 "3.75, 7.5, 15 and 30" frame --rate 12 -o "$dir/frame.png"
+expect 3 "shutter" frame --shutters 0.5,0.5,0,0.5 -o "$dir/frame.png"
+expect 3 "cannot be written" frame -o /nowhere/frame.png
+expect 3 "cannot be written" frame -o /nowhere/frame.dcm
+expect 3 "png, .dcm and .mp4" frame -o "$dir/frame.jpg"
+expect 3 "no \"rca-mid-focal\" to image" frame rca-mid-focal -o "$dir/frame.png"
+expect 2 "not in" frame --pixels 100 -o "$dir/frame.png"
+if command -v ffmpeg >/dev/null; then
+  expect 0 "loop.mp4" frame --frames 5 -o "$dir/loop.mp4"
+  ln -s /dev/full "$dir/full.mp4"
+  expect 1 "the video ended" frame --frames 5 -o "$dir/full.mp4"
+fi
+expect 1 "ffmpeg cannot be run" env PATH=/nowhere "$ostium" frame --pixels 128 --frames 2 -o "$dir/none.mp4"
+
+expect 0 "spider" "$ostium" views
+expect 0 '"lao_deg"' "$ostium" views --json

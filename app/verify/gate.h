@@ -57,5 +57,14 @@ std::vector<GateResult> anatomy_angles(bool quick);
 std::vector<GateResult> anatomy_dodge(bool quick);
 std::vector<GateResult> anatomy_motion(bool quick);
 std::vector<GateResult> anatomy_surface(bool quick);
+// --- the X-ray picture -------------------------------------------------------------------------------------------
+std::vector<GateResult> xray_thickness(bool quick);
+std::vector<GateResult> xray_spectrum(bool quick);
+std::vector<GateResult> xray_wedge(bool quick);
+std::vector<GateResult> xray_scatter(bool quick);
+std::vector<GateResult> xray_noise(bool quick);
+std::vector<GateResult> xray_edge(bool quick);
+std::vector<GateResult> xray_lag(bool quick);
+std::vector<GateResult> xray_stenosis(bool quick);
 
 }  // namespace ostium::verify

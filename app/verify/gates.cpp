@@ -22,6 +22,14 @@ const std::vector<Gate>& gates() {
       {"anatomy-dodge", "coronary points in eight views, against Dodge 1988", anatomy_dodge},
       {"anatomy-motion", "speeds and rest of the arteries, against Mao 2000 and Wang 1999", anatomy_motion},
       {"anatomy-surface", "the beating surface, closed and uncrossed; tree radii against it", anatomy_surface},
+      {"xray-thickness", "X-ray path lengths of a sphere, a cylinder and a slab, against closed forms", xray_thickness},
+      {"xray-spectrum", "the tube's beam, against standard radiation qualities (IEC 61267)", xray_spectrum},
+      {"xray-wedge", "attenuation at five energies, against the sum in steps of 1 keV", xray_wedge},
+      {"xray-scatter", "scatter behind slabs, against photon transport", xray_scatter},
+      {"xray-noise", "noise behind water, against counting statistics", xray_noise},
+      {"xray-edge", "width of a slanted edge, against the blur that was set", xray_edge},
+      {"xray-lag", "a wire that appears, against the step response", xray_lag},
+      {"xray-stenosis", "a 60 % stenosis measured back from the picture", xray_stenosis},
   };
   return all;
 }

@@ -39,22 +39,24 @@ void print_json(const std::vector<Row>& rows, double yardstick) {
         {{"name", r.name},
          {"ms", r.ms},
          {"p999_ms", r.p999_ms},
-         {"yardstick_ms", yardstick},
+         {"yardstick_ms", r.yardstick_ms > 0 ? r.yardstick_ms : yardstick},
          {"gate", {{"name", r.gate.name}, {"value", r.gate.value}, {"unit", r.gate.unit}, {"pass", r.gate.pass}}}});
   fmt::print("{}\n", out.dump(2));
 }
 
 void print_table(const std::vector<Row>& rows, double yardstick) {
+  const auto of = [&](const Row& r) { return r.yardstick_ms > 0 ? r.yardstick_ms : yardstick; };
   fmt::print("{:<16} {:>9} {:>9} {:>10} {:>7}   {}\n", "ms of CPU", "mean", "p99.9", "yardstick", "ratio", "gate");
   for (const Row& r : rows)
-    fmt::print("{:<16} {:>9.4f} {:>9.4f} {:>10.2f} {:>7.0f}   {} {:.3g} {} {}\n", r.name, r.ms, r.p999_ms, yardstick,
-               yardstick / r.ms, r.gate.name, r.gate.value, r.gate.unit, r.gate.pass ? "pass" : "FAIL");
+    fmt::print("{:<16} {:>9.4f} {:>9.4f} {:>10.2f} {:>7.0f}   {} {:.3g} {} {}\n", r.name, r.ms, r.p999_ms, of(r),
+               of(r) / r.ms, r.gate.name, r.gate.value, r.gate.unit, r.gate.pass ? "pass" : "FAIL");
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  bool json = false, quick = false, growth_only = false, stretch_only = false;
+  bool json = false, quick = false, growth_only = false, stretch_only = false, frames_only = false;
+  double late_s = 0;
   int feed_trips = 0;
   CLI::App app("Times the step: CPU time of one simulated millisecond, beside its accuracy gate and the yardstick.",
                "ostium-bench");
@@ -64,12 +66,25 @@ int main(int argc, char** argv) {
   app.add_flag("--stretch", stretch_only, "Instead: the stretch table of the thesis' figure 3.6 (about two minutes)");
   app.add_option("--feed", feed_trips,
                  "Instead: feed a wire 1 m in and out so often, and compare its rest (100: three minutes)");
+  app.add_flag("--frames", frames_only, "Instead: the X-ray frames alone");
+  app.add_option("--late", late_s, "Instead: so many seconds of a 1 kHz loop, alone and beside frames");
   app.footer("Examples:\n  ostium-bench\n  ostium-bench --json > bench.json\n  ostium-bench --growth");
   CLI11_PARSE(app, argc, argv);
 
   const Duration duration = quick ? Duration{100, 1000} : Duration{};
   if (stretch_only) {
     print_stretch_table(quick);
+    return 0;
+  }
+  if (late_s > 0) {
+    print_late_ticks(late_s);
+    return 0;
+  }
+  if (frames_only) {
+    const std::vector<Row> frames{frame_row("frame-512", 512, false, quick),
+                                  frame_row("frame-512-rotating", 512, true, quick),
+                                  frame_row("frame-1024", 1024, false, quick)};
+    json ? print_json(frames, 0) : print_table(frames, 0);
     return 0;
   }
   if (feed_trips > 0) {
@@ -93,6 +108,10 @@ int main(int argc, char** argv) {
   if (!json) fmt::print(stderr, "nested rods ...\n");
   rows.push_back(nested_rods("pair-2x512-free", 2, 512, duration));
   rows.push_back(nested_rods("three-3x512-free", 3, 512, duration));
+  if (!json) fmt::print(stderr, "frames ...\n");
+  rows.push_back(frame_row("frame-512", 512, false, quick));
+  rows.push_back(frame_row("frame-512-rotating", 512, true, quick));
+  rows.push_back(frame_row("frame-1024", 1024, false, quick));
   json ? print_json(rows, yardstick) : print_table(rows, yardstick);
   return 0;
 }

@@ -8,8 +8,9 @@ namespace ostium::bench {
 
 struct Row {
   std::string name;
-  double ms = 0;       ///< CPU time of a simulated millisecond, mean
-  double p999_ms = 0;  ///< its 99.9th percentile
+  double ms = 0;            ///< CPU time of a simulated millisecond, mean
+  double p999_ms = 0;       ///< its 99.9th percentile
+  double yardstick_ms = 0;  ///< where it has one of its own
   struct {
     std::string name;
     double value = 0;
@@ -40,5 +41,12 @@ std::vector<GrowthPoint> growth(const Duration& duration);
 
 /// The thesis' stretch experiment (its figure 3.6) with the yardstick, and ours beside it. Printed as it is computed.
 void print_stretch_table(bool quick);
+
+/// CPU time of one fluoroscopy frame from scene to grey levels (`ms`; p999_ms is the slowest of 150), beside the
+/// angle-opacity shader. `rotating`: the C-arm turns between frames, so that nothing can be kept.
+Row frame_row(const std::string& name, int pixels, bool rotating, bool quick);
+
+/// How many ticks of a 1 kHz loop are late, alone and with another thread drawing frames. Printed.
+void print_late_ticks(double seconds);
 
 }  // namespace ostium::bench

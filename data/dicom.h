@@ -1,0 +1,20 @@
+#pragma once
+/// X-ray angiography as DICOM keeps it (X-Ray Angiographic Image Storage; PS3.3 A.14), through DCMTK.
+#include <string>
+
+#include "fluoro/fluoroscope.h"
+
+namespace ostium {
+
+struct DicomPatient {
+  std::string name = "Ostium^Simulated";
+  std::string id = "OSTIUM";
+  std::string series = "Simulated coronary angiography";
+};
+
+/// A run of one or more frames of one size: 8 bits as displayed, with positioner angles, SID, pixel spacing at the
+/// detector, frame time, tube voltage and dose-area product. Throws LoadError naming the file if it cannot be written;
+/// what was begun is removed.
+void write_dicom(const std::string& file, const CineRun& run, const DicomPatient& patient = {});
+
+}  // namespace ostium

@@ -1,0 +1,15 @@
+#pragma once
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <string>
+
+namespace ostium {
+
+/// Removes what was begun and cannot be finished; never a device such as /dev/full, nor a link to one.
+inline void remove_unfinished(const std::string& file) {
+  struct stat status {};
+  if (lstat(file.c_str(), &status) == 0 && S_ISREG(status.st_mode)) unlink(file.c_str());
+}
+
+}  // namespace ostium

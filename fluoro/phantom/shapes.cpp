@@ -1,0 +1,165 @@
+#include "fluoro/phantom/shapes.h"
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <numbers>
+
+namespace ostium::phantom {
+
+using Eigen::Index;
+using Eigen::Matrix3Xd;
+using Eigen::Vector3d;
+constexpr double pi = std::numbers::pi;
+
+namespace {
+
+/// Rings of `sides` vertices one after another, closed at both ends by a vertex each, which come last.
+Triangles rings_with_poles(int rings, int sides) {
+  Triangles out(3, 2 * sides * rings);
+  const int first_pole = rings * sides, last_pole = first_pole + 1;
+  Index n = 0;
+  for (int j = 0; j < sides; ++j) {
+    const int k = (j + 1) % sides, last = (rings - 1) * sides;
+    out.col(n++) << first_pole, k, j;
+    out.col(n++) << last_pole, last + j, last + k;
+    for (int i = 0; i + 1 < rings; ++i) {
+      out.col(n++) << i * sides + j, i * sides + k, (i + 1) * sides + k;
+      out.col(n++) << i * sides + j, (i + 1) * sides + k, (i + 1) * sides + j;
+    }
+  }
+  return out;
+}
+
+Surface surface(Triangles triangles, const Matrix3Xd& p_P) {
+  return {std::make_shared<const Triangles>(std::move(triangles)), p_P.cast<float>()};
+}
+
+/// Where the rings of a tube are: along the line, and for a round end on a few points of a half circle beyond it.
+struct Ring {
+  Index point;        // of the line
+  double beyond = 0;  // in radii, outwards
+  double shrunk = 1;
+};
+
+std::vector<Ring> rings_of(Index points, bool round_ends) {
+  constexpr int cap = 4;
+  std::vector<Ring> rings;
+  if (round_ends)
+    for (int i = 1; i < cap; ++i) rings.push_back({0, -std::cos(i * pi / 2 / cap), std::sin(i * pi / 2 / cap)});
+  for (Index i = 0; i < points; ++i) rings.push_back({i});
+  if (round_ends)
+    for (int i = cap - 1; i > 0; --i)
+      rings.push_back({points - 1, std::cos(i * pi / 2 / cap), std::sin(i * pi / 2 / cap)});
+  return rings;
+}
+
+Vector3d tangent(const Matrix3Xd& line, Index i) {
+  const Index last = line.cols() - 1;
+  return (line.col(std::min(i + 1, last)) - line.col(std::max<Index>(i - 1, 0))).normalized();
+}
+
+}  // namespace
+
+Surface star(const Vector3d& centre, const std::function<double(const Vector3d&)>& radius, int rings,
+             const Vector3d& axis) {
+  const int sides = 2 * rings;
+  const Eigen::Quaterniond turn = Eigen::Quaterniond::FromTwoVectors(Vector3d::UnitZ(), axis);
+  Matrix3Xd p(3, rings * sides + 2);
+  const auto at = [&](const Vector3d& direction) -> Vector3d {
+    const Vector3d d = turn * direction;
+    return centre + radius(d) * d;
+  };
+  for (int i = 0; i < rings; ++i)
+    for (int j = 0; j < sides; ++j) {
+      const double polar = pi * (i + 1) / (rings + 1), azimuth = 2 * pi * j / sides;
+      p.col(i * sides + j) =
+          at({std::sin(polar) * std::cos(azimuth), -std::sin(polar) * std::sin(azimuth), -std::cos(polar)});
+    }
+  p.col(rings * sides) = at(-Vector3d::UnitZ());
+  p.col(rings * sides + 1) = at(Vector3d::UnitZ());
+  Triangles t = rings_with_poles(rings, sides);
+  t.row(1).swap(t.row(2));  // the azimuth runs the other way here
+  return surface(std::move(t), p);
+}
+
+Surface ellipsoid(const Vector3d& centre, const Vector3d& semi_axes, int rings, const Eigen::Matrix3d& axes,
+                  double exponent) {
+  const auto radius = [&](const Vector3d& d) {
+    const Vector3d local = (axes.transpose() * d).cwiseAbs().cwiseQuotient(semi_axes);
+    return std::pow(local.array().pow(exponent).sum(), -1 / exponent);
+  };
+  return star(centre, radius, rings, axes.col(1));
+}
+
+Surface brick(const Vector3d& least, const Vector3d& most) {
+  Matrix3Xd p(3, 8);
+  for (int i = 0; i < 8; ++i)
+    p.col(i) << (i & 1 ? most : least).x(), (i & 2 ? most : least).y(), (i & 4 ? most : least).z();
+  Triangles t(3, 12);
+  t << 0, 0, 4, 4, 0, 0, 2, 2, 0, 0, 1, 1,  //
+      2, 3, 5, 7, 1, 5, 6, 7, 4, 6, 3, 7,   //
+      3, 1, 7, 6, 5, 4, 7, 3, 6, 2, 7, 5;
+  return surface(std::move(t), p);
+}
+
+Surface tube(const Matrix3Xd& line, const Eigen::VectorXd& radius_m, int sides, bool round_ends, double flatness,
+             const Vector3d& normal) {
+  const std::vector<Ring> rings = rings_of(line.cols(), round_ends);
+  const auto count = static_cast<Index>(rings.size());
+  Matrix3Xd p(3, count * sides + 2);
+  Vector3d across = normal;
+  if (across.cross(tangent(line, 0)).norm() < 1e-3) across = normal.unitOrthogonal();
+  for (Index i = 0; i < count; ++i) {
+    const Ring& ring = rings[static_cast<std::size_t>(i)];
+    const Vector3d along = tangent(line, ring.point);
+    across = (across - across.dot(along) * along).normalized();  // carried along: no twist
+    const Vector3d beside = along.cross(across);
+    const double radius = radius_m[ring.point];
+    for (int j = 0; j < sides; ++j) {
+      const double angle = 2 * pi * j / sides;
+      p.col(i * sides + j) = line.col(ring.point) +
+                             radius * (ring.beyond * along +
+                                       ring.shrunk * (std::cos(angle) * flatness * across + std::sin(angle) * beside));
+    }
+  }
+  const Index last = line.cols() - 1;
+  p.col(count * sides) = line.col(0) - (round_ends ? radius_m[0] : 0) * tangent(line, 0);
+  p.col(count * sides + 1) = line.col(last) + (round_ends ? radius_m[last] : 0) * tangent(line, last);
+  return surface(rings_with_poles(static_cast<int>(count), sides), p);
+}
+
+Eigen::Matrix3Xf tube_centres(const Matrix3Xd& line, int sides, bool round_ends) {
+  const std::vector<Ring> rings = rings_of(line.cols(), round_ends);
+  Eigen::Matrix3Xf out(3, static_cast<Index>(rings.size()) * sides + 2);
+  Index n = 0;
+  for (const Ring& ring : rings)
+    for (int j = 0; j < sides; ++j) out.col(n++) = line.col(ring.point).cast<float>();
+  out.col(n++) = line.col(0).cast<float>();
+  out.col(n) = line.col(line.cols() - 1).cast<float>();
+  return out;
+}
+
+Matrix3Xd smooth_line(const std::vector<Vector3d>& through, double spacing_m) {
+  std::vector<Vector3d> out;
+  const auto at = [&](std::size_t i) { return through[std::min(i, through.size() - 1)]; };
+  for (std::size_t i = 0; i + 1 < through.size(); ++i) {
+    const Vector3d b = at(i), c = at(i + 1), a = i ? at(i - 1) : Vector3d(2 * b - c),
+                   d = i + 2 < through.size() ? at(i + 2) : Vector3d(2 * c - b);
+    const int steps = std::max(1, static_cast<int>(std::ceil((c - b).norm() / spacing_m)));
+    for (int k = 0; k < steps; ++k) {
+      const double t = double(k) / steps;
+      out.push_back(0.5 *
+                    (2 * b + t * (c - a) + t * t * (2 * a - 5 * b + 4 * c - d) + t * t * t * (3 * b - a - 3 * c + d)));
+    }
+  }
+  out.push_back(through.back());
+  Matrix3Xd line(3, static_cast<Index>(out.size()));
+  for (std::size_t i = 0; i < out.size(); ++i) line.col(static_cast<Index>(i)) = out[i];
+  return line;
+}
+
+Body body(const std::string& name, const Surface& surface, Tissue inside, Tissue within) {
+  return {name, surface.triangles, surface.p_P, inside, within, {}};
+}
+
+}  // namespace ostium::phantom

@@ -1,0 +1,36 @@
+#pragma once
+/// Closed surfaces from closed forms, for fluoro's tests and pictures. Frame P, metres.
+#include <functional>
+
+#include "fluoro/scene.h"
+
+namespace ostium::phantom {
+
+struct Surface {
+  std::shared_ptr<const Triangles> triangles;
+  Eigen::Matrix3Xf p_P;
+};
+
+/// What lies nearer to `centre` than radius(direction), a unit vector: 4 rings^2 triangles, poles along `axis`.
+Surface star(const Eigen::Vector3d& centre, const std::function<double(const Eigen::Vector3d&)>& radius, int rings,
+             const Eigen::Vector3d& axis = Eigen::Vector3d::UnitY());
+
+/// Semi-axes along the columns of `axes`. The exponent makes it boxier: 2 is an ellipsoid, 6 nearly a brick.
+Surface ellipsoid(const Eigen::Vector3d& centre, const Eigen::Vector3d& semi_axes, int rings,
+                  const Eigen::Matrix3d& axes = Eigen::Matrix3d::Identity(), double exponent = 2);
+
+/// A brick; two opposite faces may be planes of a slab.
+Surface brick(const Eigen::Vector3d& least, const Eigen::Vector3d& most);
+
+/// A tube round a line, flat or round at its ends: `radius_m` at each point, across `normal` scaled by `flatness`.
+Surface tube(const Eigen::Matrix3Xd& line, const Eigen::VectorXd& radius_m, int sides, bool round_ends = true,
+             double flatness = 1, const Eigen::Vector3d& normal = Eigen::Vector3d::UnitY());
+/// The point of the line that each of the tube's vertices belongs to.
+Eigen::Matrix3Xf tube_centres(const Eigen::Matrix3Xd& line, int sides, bool round_ends = true);
+
+/// A smooth line through `through` (Catmull-Rom), a point every `spacing_m`.
+Eigen::Matrix3Xd smooth_line(const std::vector<Eigen::Vector3d>& through, double spacing_m);
+
+Body body(const std::string& name, const Surface& surface, Tissue inside, Tissue within);
+
+}  // namespace ostium::phantom

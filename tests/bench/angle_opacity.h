@@ -1,0 +1,24 @@
+#pragma once
+/// The yardstick for frames: the picture of P. Korzeniowski's thesis (2015), whose opacity grows with the angle between
+/// surface and line of sight. Every triangle is drawn every frame, blended into 8 bits, by OSMesa in the calling
+/// thread.
+#include <memory>
+#include <span>
+
+#include "fluoro/path_lengths.h"
+
+namespace ostium::bench {
+
+class AngleOpacity {
+ public:
+  explicit AngleOpacity(std::vector<Body> bodies);
+  ~AngleOpacity();
+  /// Draws and reads back; returns the mean grey level, so that nothing is left out.
+  double draw(const View& view);
+
+ private:
+  struct Context;
+  std::unique_ptr<Context> context_;
+};
+
+}  // namespace ostium::bench

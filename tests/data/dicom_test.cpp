@@ -1,0 +1,98 @@
+#include "data/dicom.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cstdio>
+#include <filesystem>
+#include <numbers>
+
+#include "data/load_error.h"
+#include "data/png.h"
+
+namespace ostium {
+namespace {
+
+struct Outcome {
+  int code = -1;
+  std::string words;
+};
+
+Outcome run(const std::string& command) {
+  Outcome out;
+  FILE* pipe = popen((command + " 2>&1").c_str(), "r");
+  std::array<char, 4096> buffer;
+  while (std::size_t n = std::fread(buffer.data(), 1, buffer.size(), pipe)) out.words.append(buffer.data(), n);
+  out.code = pclose(pipe);
+  return out;
+}
+
+bool there_is(const char* program) { return run(std::string("command -v ") + program).code == 0; }
+
+CineRun ramp(std::size_t frames, int width, int height) {
+  constexpr double degree = std::numbers::pi / 180;
+  CineRun out;
+  out.view.arm.lao_rad = -30 * degree;
+  out.view.arm.cran_rad = -20 * degree;
+  out.view.pixels = width;
+  out.programme = cine(15);
+  out.exposure.tube.peak_kV = 78;
+  for (std::size_t f = 0; f < frames; ++f) {
+    Picture picture{width, height, std::vector<std::uint8_t>(std::size_t(width * height))};
+    for (std::size_t i = 0; i < picture.grey.size(); ++i) picture.grey[i] = std::uint8_t(i + 10 * f);
+    out.frames.push_back(picture);
+  }
+  return out;
+}
+
+std::string file_for(const std::string& name) { return (std::filesystem::temp_directory_path() / name).string(); }
+
+TEST(Dicom, OneFrameAndManyPassTheStandardsValidator) {
+  if (!there_is("dciodvfy")) GTEST_SKIP() << "dciodvfy (dicom3tools) is not installed";
+  for (std::size_t frames : {1u, 4u}) {
+    const std::string file = file_for("ostium-dicom-test.dcm");
+    write_dicom(file, ramp(frames, 64, 64));
+    const Outcome checked = run("dciodvfy " + file);
+    EXPECT_EQ(checked.words.find("Error"), std::string::npos) << checked.words;
+    EXPECT_NE(checked.words.find("XAImage"), std::string::npos) << checked.words;
+    std::filesystem::remove(file);
+  }
+}
+
+TEST(Dicom, DcmdumpReadsTheGeometryBack) {
+  if (!there_is("dcmdump")) GTEST_SKIP() << "dcmdump (dcmtk) is not installed";
+  const std::string file = file_for("ostium-dicom-geometry.dcm");
+  write_dicom(file, ramp(3, 50, 25));  // an odd number of bytes
+  const Outcome dumped = run("dcmdump " + file);
+  EXPECT_EQ(dumped.code, 0);
+  for (const char* expected :
+       {"(0018,1510) DS [-30]", "(0018,1511) DS [-20]", "(0018,1110) DS [1100]", "(0018,1111) DS [765]",
+        "(0018,1164) DS [4\\4]", "(0018,1063) DS [66.6667]", "(0028,0008) IS [3]", "(0018,0060) DS [78]",
+        "(0018,1155) CS [GR]", "(0028,0009) AT (0018,1063)", "=XRayAngiographicImageStorage"})
+    EXPECT_NE(dumped.words.find(expected), std::string::npos) << expected << "\n" << dumped.words;
+  std::filesystem::remove(file);
+}
+
+TEST(Dicom, PixelsSurvive) {
+  if (!there_is("dcmdump")) GTEST_SKIP() << "dcmdump (dcmtk) is not installed";
+  const std::string file = file_for("ostium-dicom-pixels.dcm");
+  write_dicom(file, ramp(1, 4, 2));
+  EXPECT_NE(run("dcmdump " + file).words.find("00\\01\\02\\03\\04\\05\\06\\07"), std::string::npos);
+  std::filesystem::remove(file);
+}
+
+TEST(Dicom, WhatCannotBeWrittenIsNamed) {
+  try {
+    write_dicom("/nowhere/run.dcm", ramp(1, 8, 8));
+    FAIL();
+  } catch (const LoadError& error) {
+    EXPECT_NE(std::string(error.what()).find("/nowhere/run.dcm"), std::string::npos);
+  }
+  EXPECT_THROW(write_png("/nowhere/frame.png", ramp(1, 8, 8).frames[0]), LoadError);
+  EXPECT_THROW(write_png("/dev/full", ramp(1, 8, 8).frames[0]), LoadError);
+  EXPECT_THROW(write_dicom("/dev/full", ramp(1, 8, 8)), LoadError);
+  EXPECT_TRUE(std::filesystem::is_character_file("/dev/full"));  // what is no file of ours is left alone
+}
+
+}  // namespace
+}  // namespace ostium
