@@ -88,7 +88,7 @@ int main(int argc, char** argv) {
       ->check(CLI::IsMember({"scanline", "osmesa"}))
       ->capture_default_str();
   frame_app->add_flag("--overlay", frame.overlay, "Angles, rate, times and dose on the picture (not in DICOM)");
-  frame_app->add_flag("--json", frame.json, "Exposure and dose, machine-readable");
+  frame_app->add_flag("--json", frame.json, "Exposure and dose, machine-readable, see data/schemas/frame.schema.json");
   frame_app->add_option("-o,--out", frame.out, "FILE.png, FILE.dcm or FILE.mp4")->capture_default_str();
   frame_app->footer(
       "Examples:\n  ostium frame --view spider --fill left -o spider.png\n"
@@ -97,7 +97,7 @@ int main(int argc, char** argv) {
 
   bool views_json = false;
   CLI::App* views_app = app.add_subcommand("views", "The standard views of coronary angiography");
-  views_app->add_flag("--json", views_json, "Machine-readable");
+  views_app->add_flag("--json", views_json, "Machine-readable, see data/schemas/views.schema.json");
   views_app->footer("Examples:\n  ostium views\n  ostium views --json");
 
   try {

@@ -46,7 +46,7 @@ struct Node {
 
 struct Ring {
   double outer = 0, inner = 0, filling = 1;
-  PerEnergy mu;  // 1/m
+  PerEnergy mu{};  // 1/m
 };
 
 /// What a ring's piece is made from: its ends, and at each end the direction that splits pixels with its neighbour.
@@ -70,15 +70,18 @@ class Painter {
                 along_m};
   }
 
-  void paint(const Piece& piece, const Ring& ring) {
+  /// All rings are drawn with the same pixels: what these have in common is computed once.
+  void paint(const Piece& piece, std::span<const Ring> rings) {
+    double outermost = 0;
+    for (const Ring& ring : rings) outermost = std::max(outermost, ring.outer);
     const Eigen::Vector2d run = piece.to.at - piece.from.at;
     const Eigen::Vector3d axis = piece.to.ray - piece.from.ray, ray = (piece.from.ray + piece.to.ray).normalized();
     const double pixel_m = 0.5 * (piece.from.pixel_m + piece.to.pixel_m);
     const double across_ray_m = std::max((axis - axis.dot(ray) * ray).norm(), 0.02 * pixel_m);
-    const double longer = ring.filling * axis.norm() / across_ray_m;
+    const double longer = axis.norm() / across_ray_m;
     const Eigen::Vector2d along = run.norm() > 1e-9 ? Eigen::Vector2d(run.normalized()) : piece.split_from;
     const Eigen::Vector2d beside(-along.y(), along.x());
-    const double reach = ring.outer / pixel_m + 1;  // pixels
+    const double reach = outermost / pixel_m + 1;  // pixels
     const auto bound = [&](double a, double b, double by) {
       return std::pair(std::max(0, int(std::floor(std::min(a, b) - by))),
                        std::min(view_.pixels - 1, int(std::ceil(std::max(a, b) + by))));
@@ -105,10 +108,12 @@ class Painter {
             share_beyond(pixel - piece.from.at, piece.split_from) - share_beyond(pixel - piece.to.at, piece.split_to);
         if (!(share > 0)) continue;
         const double d = (pixel - piece.from.at).dot(beside) * pixel_m;
-        if (std::fabs(d) > ring.outer + 0.5 * pixel_m) continue;
-        const double chord = mean_chord(ring.outer, d, pixel_m) - mean_chord(ring.inner, d, pixel_m);
-        const auto m = static_cast<float>(share * longer * chord);
-        for (std::size_t b = 0; b < energies; ++b) out_.optical_depth[b](row, column) += m * ring.mu[b];
+        for (const Ring& ring : rings) {
+          if (std::fabs(d) > ring.outer + 0.5 * pixel_m) continue;
+          const double chord = mean_chord(ring.outer, d, pixel_m) - mean_chord(ring.inner, d, pixel_m);
+          const auto m = static_cast<float>(share * longer * ring.filling * chord);
+          for (std::size_t b = 0; b < energies; ++b) out_.optical_depth[b](row, column) += m * ring.mu[b];
+        }
       }
     }
   }
@@ -135,41 +140,59 @@ Node between(const Node& a, const Node& b, double along_m) {
   return {a.at + t * (b.at - a.at), a.ray + t * (b.ray - a.ray), a.pixel_m + t * (b.pixel_m - a.pixel_m), along_m};
 }
 
-void draw_shaft(const Beam& beam, const Shaft& shaft, Painter& painter) {
-  std::vector<std::optional<Node>> nodes;
+using Nodes = std::vector<std::optional<Node>>;
+
+Nodes nodes_of(const Shaft& shaft, const Painter& painter) {
+  Nodes nodes;
   double along = 0;
   for (Eigen::Index i = 0; i < shaft.p_P.cols(); ++i) {
     if (i) along += (shaft.p_P.col(i) - shaft.p_P.col(i - 1)).norm();
     nodes.push_back(painter.node(shaft.p_P.col(i), along));
   }
-  const std::size_t last = nodes.size() - 1;
-  for (std::size_t i = 0; i < last; ++i) {
+  return nodes;
+}
+
+/// Across the bisector of the two pieces that meet at a joint; across the piece itself (direction `own`) at an end.
+Eigen::Vector2d split_at(const Nodes& nodes, std::size_t joint, const Eigen::Vector2d& own) {
+  if (joint == 0 || joint + 1 == nodes.size() || !nodes[joint - 1] || !nodes[joint + 1]) return own;
+  const Eigen::Vector2d sum =
+      direction(*nodes[joint - 1], *nodes[joint], own) + direction(*nodes[joint], *nodes[joint + 1], own);
+  return sum.norm() > 0.2 ? Eigen::Vector2d(sum.normalized()) : own;
+}
+
+/// What fills the bore between two points; outer radius 0 if nothing does.
+Ring bore_of(const Beam& beam, const Shaft& shaft, Eigen::Index from) {
+  if (shaft.lumen_iodine_kg_m3.size() == 0) return {};
+  const double kg_m3 = 0.5 * (shaft.lumen_iodine_kg_m3[from] + shaft.lumen_iodine_kg_m3[from + 1]);
+  if (!(kg_m3 > 0)) return {};
+  Ring bore{shaft.lumen_radius_m, 0, 1, beam.mu(Material::iodine)};
+  for (float& m : bore.mu) m *= static_cast<float>(kg_m3);
+  return bore;
+}
+
+void draw_shaft(const Beam& beam, const Shaft& shaft, Painter& painter) {
+  const Nodes nodes = nodes_of(shaft, painter);
+  std::vector<Ring> whole;  // rings that go through all of a piece
+  for (std::size_t i = 0; i + 1 < nodes.size(); ++i) {
     if (!nodes[i] || !nodes[i + 1] || !(nodes[i + 1]->along_m > nodes[i]->along_m)) continue;
     const Node &a = *nodes[i], &b = *nodes[i + 1];
     const Eigen::Vector2d own = direction(a, b, Eigen::Vector2d::UnitX());
-    const auto split = [&](std::size_t joint) -> Eigen::Vector2d {  // across the bisector of the two pieces that meet
-      if (joint == 0 || joint == last || !nodes[joint - 1] || !nodes[joint + 1]) return own;
-      const Eigen::Vector2d sum =
-          direction(*nodes[joint - 1], *nodes[joint], own) + direction(*nodes[joint], *nodes[joint + 1], own);
-      return sum.norm() > 0.2 ? Eigen::Vector2d(sum.normalized()) : own;
-    };
-    const Eigen::Vector2d split_a = split(i), split_b = split(i + 1);
+    const Eigen::Vector2d split_a = split_at(nodes, i, own), split_b = split_at(nodes, i + 1, own);
+    whole.clear();
+    if (const Ring bore = bore_of(beam, shaft, static_cast<Eigen::Index>(i)); bore.outer > 0) whole.push_back(bore);
     for (const OpaqueSection& s : shaft.sections) {
       const double from = std::max(a.along_m, s.from_tip_m), to = std::min(b.along_m, s.to_tip_m);
       if (!(to > from)) continue;
+      const Ring ring{s.outer_radius_m, s.inner_radius_m, s.filling, beam.mu(s.material)};
       const bool cut_a = from > a.along_m, cut_b = to < b.along_m;
-      painter.paint({cut_a ? between(a, b, from) : a, cut_b ? between(a, b, to) : b, cut_a ? own : split_a,
-                     cut_b ? own : split_b},
-                    {s.outer_radius_m, s.inner_radius_m, s.filling, beam.mu(s.material)});
+      if (!cut_a && !cut_b)
+        whole.push_back(ring);
+      else
+        painter.paint({cut_a ? between(a, b, from) : a, cut_b ? between(a, b, to) : b, cut_a ? own : split_a,
+                       cut_b ? own : split_b},
+                      {&ring, 1});
     }
-    if (shaft.lumen_iodine_kg_m3.size()) {
-      const auto at = static_cast<Eigen::Index>(i);
-      const auto kg_m3 = static_cast<float>(0.5 * (shaft.lumen_iodine_kg_m3[at] + shaft.lumen_iodine_kg_m3[at + 1]));
-      if (!(kg_m3 > 0)) continue;
-      Ring bore{shaft.lumen_radius_m, 0, 1, beam.mu(Material::iodine)};
-      for (float& m : bore.mu) m *= kg_m3;
-      painter.paint({a, b, split_a, split_b}, bore);
-    }
+    if (!whole.empty()) painter.paint({a, b, split_a, split_b}, whole);
   }
 }
 
