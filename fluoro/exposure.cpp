@@ -63,7 +63,7 @@ Programme fluoroscopy(double frames_per_s) { return {.frames_per_s = frames_per_
 Programme cine(double frames_per_s) {
   return {.mode = Mode::cine,
           .frames_per_s = frames_per_s,
-          .detector_dose_nGy = 300,  // estimate: a patient of 21 cm then gets 150 mGy/min at 15 frames/s
+          .detector_dose_nGy = 300,  // estimate: 21 cm of patient then get 180 mGy/min at 15 frames/s
           .copper_mm = 0.1,
           .lag = 0.05,
           .kerma_limit_Gy_s = 0.02};
