@@ -1,0 +1,161 @@
+/// Cases that ship load; what is wrong in a case file is named with what exists. Trees survive their files.
+#include "data/case.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <sstream>
+
+#include "data/case_keys.h"
+#include "data/catalogue.h"
+#include "data/load_error.h"
+#include "data/tree_file.h"
+#include "data/tree_keys.h"
+
+namespace ostium {
+namespace {
+
+namespace fs = std::filesystem;
+
+const std::string small_case = R"({
+  "schema": "ostium-case/1",
+  "name": "small",
+  "title": "A test",
+  "card": { "history": "none", "ecg": "none", "planned_access": "Right femoral" },
+  "anatomy": { "dominance": "right", "access": "femoral", "seed": 0 },
+  "heart_rate_1_min": 70,
+  "lesions": [
+    { "branch": "RCA", "from_mm": 40, "length_mm": 9, "stenosis_percent": 70, "shape": "concentric", "calcified": false }
+  ]
+})";
+
+std::string refusal(const std::string& from, const std::string& to) {
+  std::string text = small_case;
+  const auto at = text.find(from);
+  EXPECT_NE(at, std::string::npos) << from;
+  text.replace(at, from.size(), to);
+  try {
+    read_case("folder/small.json", text);
+  } catch (const LoadError& error) {
+    return error.what();
+  }
+  return "accepted";
+}
+
+void expect_words(const std::string& message, std::initializer_list<const char*> words) {
+  for (const char* word : words) EXPECT_NE(message.find(word), std::string::npos) << message << "\n  lacks: " << word;
+}
+
+TEST(Case, TheTenOfTheProductAreThere) {
+  std::set<std::string> names;
+  for (const Case& c : load_cases()) {
+    names.insert(c.name);
+    EXPECT_FALSE(c.lesions.empty()) << c.name;
+    EXPECT_FALSE(c.card.history.empty() || c.card.ecg.empty() || c.card.planned_access.empty()) << c.name;
+    EXPECT_EQ(c.name.ends_with("-radial"), c.anatomy.access == Access::radial) << c.name;
+  }
+  for (const char* name :
+       {"rca-mid-focal", "lad-proximal-eccentric", "lcx-tubular", "left-main-shaft", "rca-diffuse"}) {
+    EXPECT_TRUE(names.count(name)) << name;
+    EXPECT_TRUE(names.count(std::string(name) + "-radial")) << name;
+  }
+  EXPECT_EQ(nlohmann::json::parse(to_json(load_cases())).size(), names.size());
+}
+
+TEST(Case, ALesionThatDoesNotFitIsRefusedWithWhatExists) {
+  EXPECT_EQ(refusal("A test", "Another test"), "accepted");
+  expect_words(refusal("\"length_mm\": 9", "\"length_mm\": 90"),
+               {"folder/small.json:9: lesions[0]", "from 40 to 130 mm of RCA", "within the branch's 101."});
+  expect_words(refusal("\"stenosis_percent\": 70", "\"stenosis_percent\": 120"),
+               {"folder/small.json:9: lesions[0]", "120 %", "at most 95"});
+  expect_words(refusal("\"RCA\"", "\"RAC\""),
+               {"folder/small.json:9: lesions[0]", "no branch \"RAC\"", "LAD", "LCx", "RCA", "PDA"});
+}
+
+TEST(Case, OtherMistakesAreNamed) {
+  expect_words(refusal("\"right\"", "\"middle\""), {"small.json:6: anatomy.dominance is \"middle\"", "balanced"});
+  expect_words(refusal("\"seed\": 0", "\"seed\": 1.5"), {"small.json:6: anatomy.seed is 1.5", "whole number"});
+  expect_words(refusal("\"heart_rate_1_min\": 70", "\"heart_rate_1_min\": 300"), {"small.json:7:", "40 to 180"});
+  expect_words(refusal("\"calcified\": false", "\"calcified\": 0"), {"small.json:9:", "true or false"});
+  expect_words(refusal("\"calcified\": false", "\"calcified\": false, \"side_deg\": 3"), {"eccentric ones only"});
+  expect_words(refusal("\"name\": \"small\"", "\"name\": \"big\""), {"small.json:3: name is \"big\""});
+  expect_words(refusal("\"title\"", "\"titel\""), {"titel is not a key of the case", "title"});
+  try {
+    find_case("rca-mid");
+    FAIL();
+  } catch (const LoadError& error) {
+    expect_words(error.what(), {"no case \"rca-mid\"", "rca-mid-focal"});
+  }
+}
+
+void expect_same_keys(const char* schema_file, const std::vector<const JsonObjectKeys*>& all) {
+  const auto schema = nlohmann::json::parse(std::ifstream(fs::path(data_folder()) / "schemas" / schema_file));
+  EXPECT_EQ(schema["$defs"].size(), all.size());
+  for (const JsonObjectKeys* known : all) {
+    const auto& definition = schema["$defs"][known->object];
+    std::set<std::string> keys, required, schema_keys, schema_required;
+    for (const JsonKey& key : known->keys) {
+      keys.insert(key.name);
+      if (key.required) required.insert(key.name);
+    }
+    for (const auto& [key, value] : definition["properties"].items()) schema_keys.insert(key);
+    for (const auto& key : definition["required"]) schema_required.insert(key);
+    EXPECT_EQ(keys, schema_keys);
+    EXPECT_EQ(required, schema_required);
+  }
+}
+
+TEST(Case, SchemasHaveTheKeysOfTheReaders) {
+  expect_same_keys("case.schema.json", case_keys::all);
+  expect_same_keys("tree.schema.json", tree_keys::all);
+}
+
+SphereTree fork() {
+  SphereTree tree;
+  tree.branches.push_back({"trunk", -1, -1, {{{0.01, 0.02, 0.03}, 2e-3, 0}, {{0.014, 0.023, 0.03}, 1.5e-3, 5e-3}}});
+  tree.branches.push_back({"twig", 0, 1, {{{0.014, 0.023, 0.031}, 1e-3, 0}}});
+  return tree;
+}
+
+TEST(TreeFile, JsonBringsBackTheTree) {
+  const SphereTree back = read_tree("t.json", tree_to_json(fork()));
+  ASSERT_EQ(back.branches.size(), 2u);
+  EXPECT_EQ(back.branches[1].name, "twig");
+  EXPECT_EQ(back.branches[1].parent, 0);
+  EXPECT_EQ(back.branches[1].parent_sphere, 1);
+  EXPECT_LT((back.branches[0].spheres[1].p - Eigen::Vector3d(0.014, 0.023, 0.03)).norm(), 1e-7);  // 0.0001 mm written
+  EXPECT_NEAR(back.branches[0].spheres[1].s_m, 5e-3, 1e-7);
+  EXPECT_NEAR(back.branches[0].spheres[1].radius_m, 1.5e-3, 1e-7);
+}
+
+TEST(TreeFile, ABrokenTreeIsRefusedByLine) {
+  const auto broken = [](const std::string& from, const std::string& to) -> std::string {
+    std::string text = tree_to_json(fork());
+    text.replace(text.find(from), from.size(), to);
+    try {
+      read_tree("t.json", text);
+    } catch (const LoadError& error) {
+      return error.what();
+    }
+    return "accepted";
+  };
+  EXPECT_NE(broken("\"parent\": 0", "\"parent\": 1").find("earlier branch"), std::string::npos);
+  EXPECT_NE(broken("\"parent_sphere\": 1", "\"parent_sphere\": 2").find("sphere of the parent"), std::string::npos);
+  EXPECT_NE(broken("2.0000]", "0]").find("t.json:5"), std::string::npos);
+  EXPECT_THROW(write_tree("tree.txt", fork()), LoadError);
+  EXPECT_THROW(write_tree("/nowhere/tree.json", fork()), LoadError);
+}
+
+TEST(TreeFile, VtkHasALineABranchInLps) {
+  const std::string vtp = tree_to_vtp(fork());
+  EXPECT_NE(vtp.find("NumberOfPoints=\"4\""), std::string::npos);  // the twig's line begins on its parent's sphere
+  EXPECT_NE(vtp.find("NumberOfLines=\"2\""), std::string::npos);
+  EXPECT_NE(vtp.find("MaximumInscribedSphereRadius"), std::string::npos);
+  EXPECT_NE(vtp.find("10.0000 -30.0000 20.0000"), std::string::npos);  // left, back, head
+}
+
+}  // namespace
+}  // namespace ostium
