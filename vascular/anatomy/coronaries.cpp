@@ -6,6 +6,7 @@
 /// which there is no number, taper from about 2 mm (septals 1.5 to 2.0 mm).
 #include <cassert>
 #include <cmath>
+#include <numbers>
 #include <random>
 
 #include "vascular/anatomy/builder.h"
@@ -206,15 +207,22 @@ class Coronaries {
     builder_.add(name, builder_.tube(parent), wandering(from_right(rows), 2), 0.8);
   }
 
-  /// Moves the points from `first` on by what is left of the scatter between people.
+  /// Bends the course by what is left of the scatter between people: two waves along it, from its point `first` on.
   std::vector<CoursePoint> wandering(std::vector<CoursePoint> course, std::size_t first) {
-    for (std::size_t i = first; i < course.size(); ++i)
-      for (int axis = 0; axis < 3; ++axis) {
-        // The sum of four uniform numbers has variance 1/3.
-        double sum = -2;
-        for (int n = 0; n < 4; ++n) sum += static_cast<double>(engine_() >> 11) / 9007199254740992.0;
-        course[i].p[axis] += p_.course_wander_m * std::sqrt(3.0) * sum;
-      }
+    const auto deviate = [&] {  // the sum of four uniform numbers has variance 1/3
+      double sum = -2;
+      for (int n = 0; n < 4; ++n) sum += static_cast<double>(engine_() >> 11) / 9007199254740992.0;
+      return std::sqrt(3.0) * sum;
+    };
+    std::vector<double> length(course.size(), 0);
+    for (std::size_t i = first + 1; i < course.size(); ++i)
+      length[i] = length[i - 1] + (course[i].p - course[i - 1].p).norm();
+    for (int wave = 1; wave <= 2; ++wave) {
+      const double x = deviate(), y = deviate(), z = deviate();
+      for (std::size_t i = first; i < course.size(); ++i)
+        course[i].p += p_.course_wander_m * std::sin(std::numbers::pi * wave * length[i] / length.back()) *
+                       Eigen::Vector3d(x, y, z);
+    }
     return course;
   }
 

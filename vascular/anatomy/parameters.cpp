@@ -39,7 +39,7 @@ AnatomyParameters person(std::uint64_t seed, const AnatomyParameters& base) {
   Deviates draw(seed);
   p.heart_scale *= 1 + 0.06 * draw.normal();
   for (int i = 0; i < 3; ++i) p.heart_turn_rad[i] += 0.08 * draw.normal();
-  p.course_wander_m = 1.2e-3;
+  p.course_wander_m = 2e-3;
   p.wander_seed = seed;
   const double count = draw.uniform();
   p.diagonals = count < 0.14 ? 1 : count < 0.76 ? 2 : 3;
