@@ -3,12 +3,14 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <filesystem>
 
 #include "data/case.h"
 #include "data/load_error.h"
 #include "data/tree_file.h"
 #include "vascular/mesh.h"
+#include "vascular/thorax/thorax.h"
 
 namespace ostium {
 
@@ -20,7 +22,7 @@ void say(const std::string& what) {
   if (isatty(STDERR_FILENO)) fmt::print(stderr, "{:<78}\r", what);
 }
 
-/// 24 surfaces of the beat, and the tree in each of them.
+/// 24 surfaces of the beat, the tree in each of them, and what else an X-ray meets.
 void write_case(const Case& c, const std::string& folder) {
   say("building " + c.name);
   const Patient patient = make_patient(c.anatomy, c.lesions);
@@ -35,9 +37,16 @@ void write_case(const Case& c, const std::string& folder) {
     write_tree((base / fmt::format("tree-{:02}.json", f)).string(), patient.tree_frames[static_cast<std::size_t>(f)]);
     write_tree((base / fmt::format("tree-{:02}.vtp", f)).string(), patient.tree_frames[static_cast<std::size_t>(f)]);
   }
+  const std::vector<XrayBody> bodies = make_thorax(patient.anatomy);
+  for (const XrayBody& body : bodies) {
+    std::string name = body.name;
+    std::replace(name.begin(), name.end(), ' ', '-');
+    std::erase(name, ',');
+    write_mesh((fs::path(folder) / ("body-" + name + ".obj")).string(), body.mesh, LengthUnit::millimetre);
+  }
   say("");
-  fmt::print("{}: {} triangles and {} spheres in each of {} frames\n", folder, patient.lumen.triangles.size(),
-             patient.tree.spheres(), beat_frames);
+  fmt::print("{}: {} triangles and {} spheres in each of {} frames, {} bodies\n", folder,
+             patient.lumen.triangles.size(), patient.tree.spheres(), beat_frames, bodies.size());
 }
 
 }  // namespace

@@ -1,0 +1,82 @@
+/// Bodies of the X-ray: closed, nested, of a person's size.
+#include "vascular/thorax/thorax.h"
+
+#include <gtest/gtest.h>
+
+#include <map>
+#include <numbers>
+
+#include "vascular/box_tree.h"
+#include "vascular/surface_check.h"
+#include "vascular/thorax/shapes.h"
+
+namespace ostium {
+namespace {
+
+TEST(Shapes, VolumesOfEllipsoidRodAndNet) {
+  constexpr double pi = std::numbers::pi;
+  const Mesh e = superellipsoid({0.1, 0, 0}, {0.03, 0.02, 0.01}, 2, Eigen::Matrix3d::Identity(), 40);
+  EXPECT_TRUE(check_surface(e).sound());
+  EXPECT_NEAR(volume_m3(e) / (4.0 / 3 * pi * 6e-6), 1, 0.01);
+  const Mesh rod = swept_ellipse({{0, 0, 0}, {0.05, 0, 0}, {0.1, 0, 0}}, 4e-3, 2e-3, Eigen::Vector3d::UnitY());
+  EXPECT_TRUE(check_surface(rod).sound());
+  // A cylinder of 0.1 m with caps 2 mm high; 16 corners cut off (2 pi / 16)^2 / 6.
+  EXPECT_NEAR(volume_m3(rod) / (pi * 8e-6 * (0.1 + 4.0 / 3 * 2e-3)), 1, 0.04);
+  const auto ball = [](const Eigen::Vector3d& p) { return p.norm() - 0.02; };
+  const Mesh net = surface_net(ball, Eigen::Vector3d::Constant(-0.02517), Eigen::Vector3d::Constant(0.0253), 1e-3);
+  EXPECT_TRUE(check_surface(net).sound()) << describe(check_surface(net));
+  EXPECT_NEAR(volume_m3(net) / (4.0 / 3 * pi * 8e-6), 1, 0.01);
+}
+
+TEST(Shapes, ANetOfSharpCrevicesIsStillASurface) {
+  // Two cones that touch in their tips: everywhere two sheets in a cell.
+  const auto cones = [](const Eigen::Vector3d& p) {
+    return std::max(std::hypot(p.x(), p.y()) - std::fabs(p.z()), p.norm() - 0.02);
+  };
+  const SurfaceReport r =
+      check_surface(surface_net(cones, Eigen::Vector3d::Constant(-0.0251), Eigen::Vector3d::Constant(0.0253), 1e-3));
+  EXPECT_TRUE(r.closed()) << describe(r);
+  EXPECT_EQ(r.pinched_vertices.count, 0);
+}
+
+TEST(Thorax, EveryBodyIsClosedAndOfItsSize) {
+  std::map<std::string, double> mL;
+  for (std::uint64_t seed : {0, 2}) {
+    for (const XrayBody& body : make_thorax(build_anatomy(person(seed, {})))) {
+      const SurfaceReport r = check_surface(body.mesh);
+      EXPECT_TRUE(r.closed()) << body.name << "\n" << describe(r);
+      EXPECT_EQ(r.inverted.count, 0) << body.name;
+      for (double contraction : {0.0, 1.0}) EXPECT_TRUE(check_surface(at(body, contraction, 1)).closed()) << body.name;
+      if (seed == 0) mL[body.name] = 1e6 * r.volume_m3;
+    }
+  }
+  EXPECT_GT(mL["lungs"], 4000);  // total capacity 6 L, functional residual 3 L
+  EXPECT_LT(mL["lungs"], 6500);
+  EXPECT_LT(mL["ribs, inside"], mL["ribs"]);
+  EXPECT_LT(mL["spine, inside"], mL["spine"]);
+}
+
+TEST(Thorax, SpongyBoneLiesInsideItsCortex) {
+  const std::vector<XrayBody> bodies = make_thorax(build_anatomy({}));
+  const auto find = [&](const std::string& name) -> const Mesh& {
+    for (const XrayBody& body : bodies)
+      if (body.name == name) return body.mesh;
+    throw std::runtime_error(name);
+  };
+  for (const char* name : {"ribs", "spine", "sternum and shoulders"}) {
+    const Mesh &outer = find(name), &inner = find(std::string(name) + ", inside");
+    const BoxTree cortex(outer);
+    double least = 1;
+    for (std::size_t i = 0; i < inner.vertices.size(); i += 37) {
+      const BoxTree::Nearest near = cortex.nearest(inner.vertices[i], 0.02);
+      const auto& [a, b, c] = outer.triangles[static_cast<std::size_t>(near.triangle)];
+      const Eigen::Vector3d normal =
+          (outer.vertices[b] - outer.vertices[a]).cross(outer.vertices[c] - outer.vertices[a]).normalized();
+      least = std::min(least, -(inner.vertices[i] - near.point).dot(normal));
+    }
+    EXPECT_GT(least, 0.2e-3) << name;
+  }
+}
+
+}  // namespace
+}  // namespace ostium

@@ -1,0 +1,280 @@
+#include "vascular/thorax/thorax.h"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <numbers>
+
+#include "vascular/beat/heart_motion.h"
+#include "vascular/shape/contour.h"
+#include "vascular/thorax/shapes.h"
+
+namespace ostium {
+
+namespace {
+
+constexpr double mm = 1e-3, degree = std::numbers::pi / 180;
+constexpr double middle_x = -6 * mm;  // the sagittal plane: the left ostium lies a little left of it
+
+Eigen::Vector3d at_mm(double x, double y, double z) { return Eigen::Vector3d(x, y, z) * mm; }
+
+/// Middles of the vertebral bodies from T1 to L3, and half their heights.
+struct Vertebra {
+  double y_mm, half_height_mm;
+};
+constexpr Vertebra vertebrae[] = {{118, 8.5},   {96, 9},     {73, 9.2},   {50, 9.5},    {28, 9.8},
+                                  {4, 10},      {-20, 10.2}, {-44, 10.4}, {-68, 10.6},  {-93, 11},
+                                  {-119, 11.5}, {-146, 12},  {-176, 13},  {-208, 13.5}, {-242, 14}};
+
+double spine_z_mm(double y_mm) { return -89 + 12 * std::pow((y_mm + 10) / 190, 2); }
+
+/// The rib cage as an ellipse at each height: half width and half depth.
+double cage_width_mm(double y_mm) { return 147 * std::sqrt(std::max(0.05, 1 - std::pow((y_mm + 90) / 245, 2))); }
+double cage_depth_mm(double y_mm) { return 103 * std::sqrt(std::max(0.05, 1 - std::pow((y_mm + 70) / 260, 2))); }
+constexpr double cage_z_mm = -8;
+
+/// The heart as spheres along chambers; negative inside. `wall_m` thick walls leave the blood.
+class Heart {
+ public:
+  explicit Heart(const Anatomy& anatomy) {
+    const Landmarks& m = anatomy.landmarks;
+    const Eigen::Vector3d axis = m.p_lv_apex - m.p_lv_base;
+    const Eigen::Vector3d groove = m.right_groove, front = axis.normalized().cross(groove);
+    const auto along = [&](double s, double right_mm, double front_mm) {
+      return Eigen::Vector3d(m.p_lv_base + s * axis + right_mm * mm * groove + front_mm * mm * front);
+    };
+    const auto add = [&](const char* name, const std::vector<CoursePoint>& course) {
+      tubes_.push_back(make_tube(name, static_cast<int>(tubes_.size()) - 1, course));
+      tubes_.back().blend = 0.5;
+    };
+    // Radii of the outer wall by fraction of the axis: Cardiac Atlas Project, mean of 2,291 people.
+    add("left ventricle", {{along(0.12, 0, 0), 33 * mm},
+                           {along(0.35, 0, 0), 34.4 * mm},
+                           {along(0.55, 0, 0), 31 * mm},
+                           {along(0.85, -2, 0), 16 * mm}});
+    add("right ventricle",
+        {{along(0.05, 34, 2), 22 * mm}, {along(0.35, 30, -8), 22 * mm}, {along(0.75, 18, -10), 13 * mm}});
+    add("left atrium", {{along(-0.28, -2, 14), 24 * mm}, {along(-0.30, 8, 22), 22 * mm}});
+    add("right atrium", {{along(-0.22, 44, 8), 21 * mm}, {along(-0.30, 38, 18), 22 * mm}});
+    shape_ = std::make_unique<TubeUnion>(tubes_);
+    for (int i = 0; i < static_cast<int>(shape_->segments().size()); ++i) all_.push_back(i);
+  }
+  double distance(const Eigen::Vector3d& p) const { return shape_->value(p, all_); }
+  Eigen::AlignedBox3d box() const {
+    Eigen::AlignedBox3d b;
+    for (const Tube& tube : tubes_)
+      for (const TubeNode& node : tube.nodes)
+        for (double r : {-1.4, 1.4}) b.extend(node.p + Eigen::Vector3d::Constant(r * node.radius_m));
+    return b;
+  }
+
+ private:
+  std::vector<Tube> tubes_;
+  std::unique_ptr<TubeUnion> shape_;
+  std::vector<int> all_;
+};
+
+void add_bone(std::vector<XrayBody>& bodies, const std::string& name, Mesh outer, Mesh inner) {
+  bodies.push_back({name, BodyTissue::cortical_bone, BodyTissue::soft_tissue, std::move(outer), {}, {}});
+  bodies.push_back({name + ", inside", BodyTissue::spongy_bone, BodyTissue::cortical_bone, std::move(inner), {}, {}});
+}
+
+void add_spine(std::vector<XrayBody>& bodies) {
+  Mesh outer, inner;
+  const auto block = [&](const Eigen::Vector3d& p, const Eigen::Vector3d& half, double exponent,
+                         const Eigen::Matrix3d& axes = Eigen::Matrix3d::Identity(), double shell = 1.2 * mm) {
+    append(outer, superellipsoid(p, half, exponent, axes, 12));
+    append(inner, superellipsoid(p, half.array() - shell, exponent, axes, 12));
+  };
+  for (const Vertebra& v : vertebrae) {
+    const double z = spine_z_mm(v.y_mm), wide = 13.5 + 0.4 * v.half_height_mm;
+    block(middle_x * Eigen::Vector3d::UnitX() + at_mm(0, v.y_mm, z), at_mm(wide, v.half_height_mm, 14), 4);
+    for (double side : {-1.0, 1.0}) {
+      // Pedicle seen end on, and transverse process.
+      block(middle_x * Eigen::Vector3d::UnitX() + at_mm(11 * side, v.y_mm + 3, z - 20), at_mm(4, 6, 5), 2);
+      const Eigen::Matrix3d tilt = Eigen::AngleAxisd(-25 * degree * side, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+      block(middle_x * Eigen::Vector3d::UnitX() + at_mm(27 * side, v.y_mm + 1, z - 29), at_mm(13, 4.5, 4), 2, tilt);
+    }
+    const Eigen::Matrix3d down = Eigen::AngleAxisd(-35 * degree, Eigen::Vector3d::UnitX()).toRotationMatrix();
+    block(middle_x * Eigen::Vector3d::UnitX() + at_mm(0, v.y_mm - 12, z - 38), at_mm(3, 6, 15), 2, down);
+  }
+  add_bone(bodies, "spine", outer, inner);
+}
+
+void add_ribs(std::vector<XrayBody>& bodies) {
+  Mesh outer, inner;
+  for (int rib = 1; rib <= 11; ++rib) {
+    const double y0 = vertebrae[rib - 1].y_mm + 6, last_deg = rib == 1 ? 140 : rib < 8 ? 150 : 165 - 5.0 * rib;
+    const double drop = std::min(30 + 9.0 * rib, 95.0);
+    for (double side : {-1.0, 1.0}) {
+      std::vector<Eigen::Vector3d> line;
+      for (int i = 0; i <= 48; ++i) {
+        const double t = i / 48.0, theta = (14 + (last_deg - 14) * t) * degree, y = y0 - drop * std::pow(t, 1.25);
+        const double width = cage_width_mm(y) + 2, depth = cage_depth_mm(y) + 2;
+        line.push_back(middle_x * Eigen::Vector3d::UnitX() +
+                       at_mm(side * width * std::sin(theta), y, cage_z_mm - depth * std::cos(theta)));
+      }
+      const double tall = (rib == 1 ? 5.5 : 6.5) * mm, thick = 3.6 * mm, shell = 0.9 * mm;
+      append(outer, swept_ellipse(line, tall, thick, Eigen::Vector3d::UnitY()));
+      append(inner,
+             swept_ellipse({line.begin() + 1, line.end() - 1}, tall - shell, thick - shell, Eigen::Vector3d::UnitY()));
+    }
+  }
+  add_bone(bodies, "ribs", outer, inner);
+}
+
+void add_front(std::vector<XrayBody>& bodies) {
+  Mesh outer, inner;
+  const auto plate = [&](const Eigen::Vector3d& p, const Eigen::Vector3d& half, const Eigen::Matrix3d& axes, double e) {
+    append(outer, superellipsoid(p, half, e, axes));
+    append(inner, superellipsoid(p, half.array() - 1.1 * mm, e, axes));
+  };
+  const Eigen::Matrix3d lean = Eigen::AngleAxisd(-18 * degree, Eigen::Vector3d::UnitX()).toRotationMatrix();
+  const Eigen::Vector3d x = middle_x * Eigen::Vector3d::UnitX();
+  plate(x + at_mm(0, 58, 70), at_mm(26, 24, 6), lean, 3);     // manubrium
+  plate(x + at_mm(0, -22, 93), at_mm(17, 50, 5.5), lean, 3);  // body
+  for (double side : {-1.0, 1.0}) {
+    std::vector<Eigen::Vector3d> line;
+    for (int i = 0; i <= 20; ++i) {
+      const double t = i / 20.0;
+      line.push_back(x +
+                     at_mm(side * (24 + 130 * t), 88 + 22 * t, 58 - 70 * t + 14 * std::sin(2 * std::numbers::pi * t)));
+    }
+    append(outer, swept_ellipse(line, 6.5 * mm, 5.5 * mm, Eigen::Vector3d::UnitY()));
+    append(inner, swept_ellipse({line.begin() + 1, line.end() - 1}, 5.2 * mm, 4.2 * mm, Eigen::Vector3d::UnitY()));
+    // Shoulder blade: a thin plate behind.
+    const Eigen::Matrix3d turn = Eigen::AngleAxisd(35 * degree * side, Eigen::Vector3d::UnitY()).toRotationMatrix();
+    plate(x + at_mm(side * 108, 30, -112), at_mm(38, 72, 3.2), turn, 2.5);
+  }
+  add_bone(bodies, "sternum and shoulders", outer, inner);
+}
+
+/// Height of the diaphragm: two domes, the right one higher, with the heart's bed between.
+double diaphragm_mm(double x_mm, double z_mm) {
+  const double right = std::exp(-std::pow((x_mm + 82) / 68, 2)), left = std::exp(-std::pow((x_mm - 78) / 62, 2));
+  return -158 + 70 * right + 58 * left - 50 * std::pow((z_mm - 5) / 100, 2);
+}
+
+/// Smooth minimum: the crevice between two solids is filled over about `k`.
+double joined(double a, double b, double k) {
+  const double h = std::max(k - std::fabs(a - b), 0.0) / k;
+  return std::min(a, b) - h * h * h * k / 6;
+}
+
+void add_lungs(std::vector<XrayBody>& bodies, const Heart& heart, const std::vector<TubeUnion>& vessels,
+               const HeartMotion& motion) {
+  std::vector<std::vector<int>> all;
+  for (const TubeUnion& vessel : vessels) {
+    all.emplace_back();
+    for (int i = 0; i < static_cast<int>(vessel.segments().size()); ++i) all.back().push_back(i);
+  }
+  const auto lung = [&](const Eigen::Vector3d& p) {
+    const Eigen::Vector3d q = p / mm;
+    const double x = q.x() - middle_x / mm, z = q.z() - cage_z_mm;
+    const double width = cage_width_mm(q.y()) - 5, depth = cage_depth_mm(q.y()) - 5;
+    const double cage = (std::sqrt(x * x / (width * width) + z * z / (depth * depth)) - 1) * std::min(width, depth);
+    const double base = diaphragm_mm(q.x(), q.z()) - q.y();
+    // The mediastinum: gullet, spine, great vessels, heart; wider above.
+    double solid = std::fabs(x) - 17 - 12 * smooth_step(30, 100, q.y());
+    solid = joined(solid, heart.distance(p) / mm - 3, 40);
+    for (std::size_t v = 0; v < vessels.size(); ++v) solid = joined(solid, vessels[v].value(p, all[v]) / mm - 3, 12);
+    return mm * std::max({cage, base, -solid, q.y() - 122});
+  };
+  XrayBody body{"lungs",
+                BodyTissue::lung,
+                BodyTissue::soft_tissue,
+                surface_net(lung, at_mm(-165, -200, -125), at_mm(155, 130, 110), 4 * mm),
+                {},
+                {}};
+  for (const Eigen::Vector3d& p : body.mesh.vertices) {
+    const double near = 1 - smooth_step(2 * mm, 30 * mm, std::fabs(heart.distance(p)));
+    body.beat.push_back(near > 0 ? Eigen::Vector3d(near * motion.displacement(p)) : Eigen::Vector3d::Zero());
+    // The diaphragm goes 18 mm down: the heart follows it by 0.27 (Keegan 2002).
+    body.breath.push_back(at_mm(0, -18 * (1 - smooth_step(-100 * mm, 40 * mm, p.y())), 0));
+  }
+  bodies.push_back(std::move(body));
+}
+
+/// The pulmonary trunk with its branches, and the venae cavae.
+std::vector<std::vector<Tube>> great_vessels() {
+  return {
+      {make_tube("pulmonary trunk", -1,
+                 {{at_mm(8, -14, 44), 13 * mm},
+                  {at_mm(14, 12, 26), 13 * mm},
+                  {at_mm(10, 26, 2), 12 * mm},
+                  {at_mm(-6, 22, -18), 10 * mm},
+                  {at_mm(-48, 10, -28), 8 * mm}}),
+       make_tube("left pulmonary artery", 0,
+                 {{at_mm(12, 26, 4), 11 * mm}, {at_mm(24, 30, -22), 9.5 * mm}, {at_mm(48, 14, -42), 7.5 * mm}})},
+      {make_tube("superior vena cava", -1,
+                 {{at_mm(-48, 78, -2), 9 * mm}, {at_mm(-49, 40, -2), 10 * mm}, {at_mm(-50, 6, 0), 10.5 * mm}})},
+      {make_tube("inferior vena cava", -1,
+                 {{at_mm(-38, -62, -4), 12 * mm}, {at_mm(-34, -85, -16), 12 * mm}, {at_mm(-30, -130, -34), 11 * mm}})}};
+}
+
+void add_blood(std::vector<XrayBody>& bodies, const Heart& heart, const std::vector<TubeUnion>& vessels,
+               const HeartMotion& motion) {
+  const Eigen::AlignedBox3d box = heart.box();
+  const auto pool = [&](const Eigen::Vector3d& p) { return heart.distance(p) + 7 * mm; };
+  XrayBody body{"blood in the heart",
+                BodyTissue::blood,
+                BodyTissue::soft_tissue,
+                surface_net(pool, box.min(), box.max(), 3 * mm),
+                {},
+                {}};
+  for (const Eigen::Vector3d& p : body.mesh.vertices) {
+    body.beat.push_back(motion.displacement(p));
+    body.breath.push_back(motion.breath_displacement(p, 1));
+  }
+  bodies.push_back(std::move(body));
+  Mesh great;
+  for (const TubeUnion& vessel : vessels) append(great, contour(vessel).mesh);
+  bodies.push_back({"great vessels", BodyTissue::blood, BodyTissue::soft_tissue, std::move(great), {}, {}});
+}
+
+void add_trunk(std::vector<XrayBody>& bodies) {
+  bodies.push_back(
+      {"trunk",
+       BodyTissue::soft_tissue,
+       BodyTissue::air,
+       superellipsoid(at_mm(middle_x / mm, -70, -12), at_mm(182, 420, 128), 2.7, Eigen::Matrix3d::Identity(), 48),
+       {},
+       {}});
+}
+
+/// Every fourth node: enough for the dent that a vessel makes in the lung.
+Tube coarse(const Tube& tube) {
+  Tube few{.name = tube.name, .nodes = {}};
+  for (std::size_t i = 0; i < tube.nodes.size(); i += 4)
+    if (tube.nodes[i].p.y() > -170 * mm) few.nodes.push_back(tube.nodes[i]);
+  return few;
+}
+
+}  // namespace
+
+std::vector<XrayBody> make_thorax(const Anatomy& anatomy) {
+  const Heart heart(anatomy);
+  const HeartMotion motion(anatomy.landmarks);
+  std::vector<XrayBody> bodies;
+  add_trunk(bodies);
+  const std::vector<std::vector<Tube>> tubes = great_vessels();
+  const std::vector<TubeUnion> vessels(tubes.begin(), tubes.end());
+  const std::vector<Tube> aorta = {coarse(anatomy.tubes.front())};
+  std::vector<TubeUnion> displacing = vessels;
+  displacing.emplace_back(aorta);
+  add_lungs(bodies, heart, displacing, motion);
+  add_blood(bodies, heart, vessels, motion);
+  add_spine(bodies);
+  add_ribs(bodies);
+  add_front(bodies);
+  return bodies;
+}
+
+Mesh at(const XrayBody& body, double contraction, double breath_depth) {
+  Mesh mesh = body.mesh;
+  for (std::size_t i = 0; i < body.beat.size(); ++i) mesh.vertices[i] += contraction * body.beat[i];
+  for (std::size_t i = 0; i < body.breath.size(); ++i) mesh.vertices[i] += breath_depth * body.breath[i];
+  return mesh;
+}
+
+}  // namespace ostium
