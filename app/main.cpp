@@ -3,6 +3,7 @@
 #include <exception>
 
 #include "app/cases_command.h"
+#include "app/centreline_command.h"
 #include "app/check_command.h"
 #include "app/frame_command.h"
 #include "app/instruments_command.h"
@@ -100,6 +101,20 @@ int main(int argc, char** argv) {
   views_app->add_flag("--json", views_json, "Machine-readable, see data/schemas/views.schema.json");
   views_app->footer("Examples:\n  ostium views\n  ostium views --json");
 
+  ostium::CentrelineCommandOptions centreline;
+  CLI::App* centreline_app = app.add_subcommand("centreline", "The centreline-sphere tree of a closed mesh");
+  centreline_app->add_option("mesh", centreline.mesh, "OBJ, STL, PLY, ...")->type_name("MESH")->required();
+  centreline_app->add_option("--units", centreline.unit, "What a number in the file means")
+      ->check(CLI::IsMember({"mm", "cm", "m"}))
+      ->capture_default_str();
+  centreline_app->add_option("--start", centreline.start, "Where to begin; else at the widest end")->type_name("X,Y,Z");
+  centreline_app->add_option("--end", centreline.ends, "Where branches end; else all that stand out")
+      ->type_name("X,Y,Z");
+  centreline_app->add_option("-o,--output", centreline.output, "A file that ends in .json or .vtp")->required();
+  centreline_app->footer(
+      "Examples:\n  ostium centreline coronaries.stl -o tree.json\n"
+      "  ostium centreline aorta.obj --start 0,120,-30 --end 5,-200,-40 --end -60,-380,10 -o tree.vtp");
+
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -108,6 +123,7 @@ int main(int argc, char** argv) {
   try {
     if (*verify_app) return ostium::verify_command(verify);
     if (*cases_app) return ostium::cases_command(cases);
+    if (*centreline_app) return ostium::centreline_command(centreline);
     if (*check_app) return ostium::check_command(check);
     if (*views_app) return ostium::views_command(views_json);
     if (*frame_app) return ostium::frame_command(frame);

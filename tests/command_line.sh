@@ -62,3 +62,19 @@ expect 1 "ffmpeg cannot be run" env PATH=/nowhere "$ostium" frame --pixels 128 -
 
 expect 0 "spider" "$ostium" views
 expect 0 '"lao_deg"' "$ostium" views --json
+expect 0 "Examples" "$ostium" cases --help
+expect 0 "rca-mid-focal-radial" "$ostium" cases
+expect 0 "Judkins right 4" "$ostium" cases rca-mid-focal
+expect 0 '"stenosis_percent": 70' "$ostium" cases rca-mid-focal --json
+expect 3 "there is no case" "$ostium" cases no-such-case
+folder=$(mktemp -d)
+trap 'rm -rf "$folder"' EXIT
+printf 'v 0 0 0\nv 9 0 0\nv 0 9 0\nv 0 0 9\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n' >"$folder/whole.obj"
+printf 'v 0 0 0\nv 9 0 0\nv 0 9 0\nv 0 0 9\nf 1 3 2\nf 1 2 4\nf 2 3 4\n' >"$folder/open.obj"
+expect 0 "sound" "$ostium" check "$folder/whole.obj"
+expect 1 "3 open edges" "$ostium" check "$folder/open.obj"
+expect 1 '"sound": false' "$ostium" check --json --units cm "$folder/open.obj"
+expect 3 "is no file" "$ostium" check "$folder/none.obj"
+expect 0 "branches" "$ostium" centreline "$folder/whole.obj" -o "$folder/tree.json"
+expect 3 "three numbers" "$ostium" centreline "$folder/whole.obj" --start 1,2 -o "$folder/tree.json"
+expect 3 "no format of a tree" "$ostium" centreline "$folder/whole.obj" -o "$folder/tree.txt"
