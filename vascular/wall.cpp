@@ -1,0 +1,15 @@
+#include "vascular/wall.h"
+
+namespace ostium {
+
+SurfaceDescription wall_of(const MovingLumen& lumen, double opened) {
+  SurfaceDescription wall;
+  for (int f = 0; f < beat_frames; ++f)
+    wall.frames.push_back(lumen.at(static_cast<double>(f) / beat_frames, 0, opened).vertices);
+  wall.triangles = lumen.triangles;
+  return wall;
+}
+
+double frame_at(double phase) { return beat_frames * phase; }
+
+}  // namespace ostium
