@@ -25,6 +25,20 @@ double leaves_at(const std::vector<Tube>& tubes, int t) {
   return tubes[t].length_m();
 }
 
+/// Whether arteries from tube `first` on touch others than where they leave them: walls that meet would beat through
+/// each other.
+bool arteries_touch(const std::vector<Tube>& tubes, int first) {
+  constexpr double gap_m = 0.6e-3, junction_m = 8e-3;
+  for (int a = first; a < static_cast<int>(tubes.size()); ++a)
+    for (int b = first; b < a; ++b)
+      for (const TubeNode& p : tubes[a].nodes)
+        for (const TubeNode& q : tubes[b].nodes)
+          if ((p.p - q.p).squaredNorm() < std::pow(p.radius_m + q.radius_m + gap_m, 2) && p.s_m > junction_m &&
+              (tubes[a].parent == b || q.s_m > junction_m))
+            return true;
+  return false;
+}
+
 void check(const AnatomyParameters& p) {
   const auto require = [](bool holds, const char* what) {
     if (!holds) throw std::invalid_argument(std::string("anatomy: ") + what);
@@ -74,8 +88,23 @@ int AnatomyBuilder::tube(const std::string& branch) const {
   return found->tube;
 }
 
+namespace {
+Anatomy build_once(const AnatomyParameters& parameters);
+}
+
 Anatomy build_anatomy(const AnatomyParameters& parameters) {
   check(parameters);
+  Anatomy anatomy = build_once(parameters);
+  AnatomyParameters calmer = parameters;
+  for (int i = 0; i < 5 && arteries_touch(anatomy.tubes, find_branch(anatomy, "LM")->tube); ++i) {
+    calmer.course_wander_m = i < 4 ? calmer.course_wander_m / 2 : 0;
+    anatomy = build_once(calmer);
+  }
+  return anatomy;
+}
+
+namespace {
+Anatomy build_once(const AnatomyParameters& parameters) {
   Anatomy anatomy;
   const Root root = make_root(parameters);
   Landmarks& marks = anatomy.landmarks;
@@ -101,6 +130,7 @@ Anatomy build_anatomy(const AnatomyParameters& parameters) {
   marks.right_groove = (groove - groove.dot(along) * along).normalized();
   return anatomy;
 }
+}  // namespace
 
 const NamedBranch* find_branch(const Anatomy& anatomy, const std::string& name) {
   for (const NamedBranch& branch : anatomy.branches)

@@ -36,7 +36,8 @@ struct Anatomy {
   Landmarks landmarks;
 };
 
-/// Throws std::invalid_argument if the parameters are outside what they say.
+/// Where arteries would touch that do not branch, the courses wander less. Throws std::invalid_argument if the
+/// parameters are outside what they say.
 Anatomy build_anatomy(const AnatomyParameters& parameters);
 
 /// Null if there is none of that name.
