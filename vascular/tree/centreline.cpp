@@ -73,7 +73,15 @@ class Skeleton {
       strand.leaves_at = static_cast<int>(std::find(parent.begin(), parent.end(), v) - parent.begin());
     }
     for (int s : strand.voxels) owner_[s] = static_cast<int>(strands_.size());
-    for (int s : strand.voxels) come_near(s);
+    // Not from every voxel: neighbours come near to much the same.
+    int last = -1;
+    for (int s : strand.voxels) {
+      near_[s] = true;
+      if (last >= 0 && s != strand.voxels.back() &&
+          (voxels_.place(s) - voxels_.place(last)).norm() < voxels_.to_wall_m(s) / 3)
+        continue;
+      come_near(last = s);
+    }
     strands_.push_back(std::move(strand));
   }
 
