@@ -1,0 +1,38 @@
+#pragma once
+/// An independent solver for nested instruments that share one centreline, or for one: the differential equations of
+/// Rucker, Jones, Webster (2010, IEEE Trans Robot 26:769) integrated by adaptive Runge-Kutta steps (GSL, rk8pd) from
+/// the base, with what is unknown there found by shooting. Rotation matrices, arc length, no elements: nothing of
+/// `core` but its structs goes in.
+#include <Eigen/Core>
+#include <vector>
+
+#include "core/rod/section.h"
+
+namespace ostium::boundary_value {
+
+struct Tube {
+  std::vector<Section> sections;  ///< from its tip backwards, EI1 = EI2
+  double inserted_m = 0;
+  double roll_rad = 0;
+  double shaft_rad_per_Nm = 0;
+};
+
+struct Problem {
+  std::vector<Tube> tubes;  ///< outermost first
+  Eigen::Vector3d base_p = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d base_R = Eigen::Matrix3d::Identity();  ///< unrolled
+  Eigen::Vector3d gravity = Eigen::Vector3d::Zero();
+  Eigen::Vector3d tip_force = Eigen::Vector3d::Zero();
+};
+
+struct Solution {
+  bool converged = false;
+  double mismatch = 0;                 ///< of the tip's conditions, N m
+  std::vector<Eigen::Vector3d> curve;  ///< m, evenly spaced from base to tip
+  Eigen::Matrix3d tip_R;               ///< of the last tube
+};
+
+/// From the unloaded, uncurved instrument, load and curvature growing in `stages`; `points` along the curve.
+Solution solve(const Problem& problem, int points = 201, int stages = 8);
+
+}  // namespace ostium::boundary_value
