@@ -7,6 +7,7 @@
 #include "app/check_command.h"
 #include "app/frame_command.h"
 #include "app/instruments_command.h"
+#include "app/predict_command.h"
 #include "app/verify_command.h"
 
 int main(int argc, char** argv) {
@@ -114,6 +115,15 @@ int main(int argc, char** argv) {
   centreline_app->footer(
       "Examples:\n  ostium centreline coronaries.stl -o tree.json\n"
       "  ostium centreline aorta.obj --start 0,120,-30 --end 5,-200,-40 --end -60,-380,10 -o tree.vtp");
+  ostium::PredictOptions predict;
+  CLI::App* predict_app =
+      app.add_subcommand("predict", "The static shapes that a measured set declares, nothing fitted");
+  predict_app->add_option("set", predict.set, "The set's folder, or its measurement.json")
+      ->required()
+      ->type_name("SET");
+  predict_app->add_option("-o,--out", predict.folder, "Where prediction.json and prediction.csv go")->type_name("DIR");
+  predict_app->add_flag("--json", predict.json, "Print prediction.json, see data/schemas/prediction.schema.json");
+  predict_app->footer("Examples:\n  ostium predict my-wire\n  ostium predict my-wire/measurement.json -o shapes");
 
   try {
     app.parse(argc, argv);
@@ -127,6 +137,7 @@ int main(int argc, char** argv) {
     if (*check_app) return ostium::check_command(check);
     if (*views_app) return ostium::views_command(views_json);
     if (*frame_app) return ostium::frame_command(frame);
+    if (*predict_app) return ostium::predict_command(predict);
     if (*instruments_app) return ostium::instruments_command(instruments);
   } catch (const std::exception& error) {
     std::cerr << "ostium: " << error.what() << "\n";

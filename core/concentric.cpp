@@ -121,17 +121,44 @@ void turn_carrier(const Concentric& nest, const EndState& base, const Concentric
   held.q_W = {q.w(), q.x(), q.y(), q.z()};
 }
 
-/// The carrier's moments at its joints, material frame; none at the free tip.
-Eigen::Matrix3Xd moments(const Rod& rod, const RodState& state) {
-  Eigen::Matrix3Xd m = Eigen::Matrix3Xd::Zero(3, rod.nodes());
+Eigen::Quaterniond quaternion(const Eigen::Vector4d& q) { return {q[0], q[1], q[2], q[3]}; }
+Eigen::Vector4d coefficients(const Eigen::Quaterniond& q) { return {q.w(), q.x(), q.y(), q.z()}; }
+Eigen::Quaterniond rotation(const Eigen::Vector3d& vector) {
+  const double angle = vector.norm();
+  if (angle == 0) return Eigen::Quaterniond::Identity();
+  return Eigen::Quaterniond(Eigen::AngleAxisd(angle, vector / angle));
+}
+
+/// The carrier's Darboux vectors at its joints; none at the free tip.
+Eigen::Matrix3Xd strains(const Rod& rod, const RodState& state) {
+  Eigen::Matrix3Xd u = Eigen::Matrix3Xd::Zero(3, rod.nodes());
   Q4<double> before = state.base.frame();
   for (int k = 0; k < rod.elements; ++k) {
     const Q4<double> here = load4<double>(state.orientation, k);
-    const Eigen::Vector3d u = to_eigen(rotation_vector(conjugate(before) * here)) / rod.joint_length.at(0)[k];
-    m.col(k) = stiffness_at_rest(rod, k).cwiseProduct(u - rod.rest_curvature[k]);
+    u.col(k) = to_eigen(rotation_vector(conjugate(before) * here)) / rod.joint_length.at(0)[k];
     before = here;
   }
-  return m;
+  return u;
+}
+
+/// Column of `values`, given at `at` (rising), at x: linear in between.
+Eigen::VectorXd between(const Eigen::VectorXd& at, const Eigen::MatrixXd& values, double x) {
+  const Eigen::Index last = values.cols() - 1;
+  const Eigen::Index i =
+      std::clamp<Eigen::Index>(std::upper_bound(at.data(), at.data() + last + 1, x) - at.data(), 1, last);
+  const double t = std::clamp((x - at[i - 1]) / (at[i] - at[i - 1]), 0.0, 1.0);
+  return (1 - t) * values.col(i - 1) + t * values.col(i);
+}
+
+/// Distances from the base, of the length, of the joints and of the middles of the elements.
+Eigen::VectorXd joint_fractions(const Rod& rod) {
+  Eigen::VectorXd at(rod.elements);
+  for (int k = 0; k < rod.elements; ++k) at[k] = 1 - rod.node_from_tip_m[k] / rod.total_length_m;
+  return at;
+}
+Eigen::VectorXd element_fractions(const Rod& rod) {
+  return joint_fractions(rod) +
+         Eigen::Map<const Eigen::VectorXd>(rod.length.at(0), rod.elements) / (2 * rod.total_length_m);
 }
 
 }  // namespace
@@ -155,6 +182,23 @@ Concentric make_concentric(const ConcentricDescription& d, const Eigen::Vector3d
   return nest;
 }
 
+std::vector<double> concentric_elements(const std::vector<ConcentricPart>& parts, double longest_m,
+                                        double longest_rad) {
+  double length = 0;
+  for (const ConcentricPart& part : parts) length = std::max(length, part.inserted_m);
+  const std::vector<double> at = boundaries(parts, length);
+  std::vector<double> elements;
+  for (std::size_t b = 0; b + 1 < at.size(); ++b) {
+    double longest = std::min(longest_m, length / 16);
+    for (const ConcentricPart& part : parts)
+      if (const Section* s = section_at(part, 0.5 * (at[b] + at[b + 1])))
+        longest = std::min(longest, longest_rad / std::max(s->rest_curvature_per_m.norm(), 1e-6));
+    const int count = static_cast<int>(std::ceil((at[b + 1] - at[b]) / longest - 1e-9));
+    elements.insert(elements.end(), count, (at[b + 1] - at[b]) / count);
+  }
+  return elements;
+}
+
 ConcentricState straight_state(const Concentric& nest, const EndState& base) {
   const int n = static_cast<int>(nest.parts.size()), N = nest.carrier.rods[0].elements;
   ConcentricState state;
@@ -169,6 +213,56 @@ ConcentricState straight_state(const Concentric& nest, const EndState& base) {
   return state;
 }
 
+ConcentricState carried_over(const Concentric& nest, const EndState& base, const Concentric& before_nest,
+                             const ConcentricState& before) {
+  ConcentricState state = straight_state(nest, base);
+  const Rod &rod = nest.carrier.rods[0], &rod_before = before_nest.carrier.rods[0];
+  for (Eigen::Index i = 0; i < state.base_roll_rad.size(); ++i)
+    state.base_roll_rad[i] += before.base_roll_rad[i] - before_nest.parts[i].roll_rad;
+  Rod turned = rod;
+  RodState& carrier = state.carrier.rods[0];
+  turn_carrier(nest, base, state, turned, carrier.base);
+
+  const Eigen::VectorXd joints_before = joint_fractions(rod_before), elements_before = element_fractions(rod_before);
+  const Eigen::VectorXd joints = joint_fractions(rod), elements = element_fractions(rod);
+  const Eigen::MatrixXd strain = strains(rod_before, before.carrier.rods[0]).leftCols(rod_before.elements);
+  const Eigen::MatrixXd moment = before.moment_N_m.leftCols(rod_before.elements);
+  Eigen::Quaterniond q = quaternion(carrier.base.q_W);
+  Eigen::Vector3d p = base.p_W;
+  for (int j = 0; j < rod.elements; ++j) {
+    const Eigen::Vector3d u = between(joints_before, strain, joints[j]);
+    q = (q * rotation(u * rod.joint_length.at(0)[j])).normalized();
+    carrier.orientation.set(j, coefficients(q));
+    carrier.position.set(j, p);
+    p += rod.length.at(0)[j] * (q * Eigen::Vector3d::UnitZ());
+    state.moment_N_m.col(j) = between(joints_before, moment, joints[j]);
+    // Relative to what its drive was turned by, so that a part that is turned further takes its angles along.
+    const auto drives = [](const Concentric& n, int i) { return n.parts[i].roll_rad - n.parts[n.reference].roll_rad; };
+    const Eigen::VectorXd roll = between(elements_before, before.roll_rad, elements[j]);
+    for (int i = 0; i < static_cast<int>(nest.parts.size()); ++i)
+      state.roll_rad(i, j) =
+          roll[i] +
+          (nest.reference == before_nest.reference ? drives(nest, i) - drives(before_nest, i) : -roll[nest.reference]);
+  }
+  carrier.position.set(rod.elements, p);
+  carrier.position_before = carrier.position;
+  return state;
+}
+
+Eigen::Vector4d tip_frame(const Concentric& nest, const ConcentricState& state, int part) {
+  const Rod& whole = nest.carrier.rods[0];
+  const RodState& carrier = state.carrier.rods[0];
+  const int last = std::max(nest.last_element[part], 0);
+  Rod rod = whole;
+  set_concentric_rest_curvature(nest, state, rod);
+  // The frame is that of the element's middle; beyond it the cell of the next joint goes on as at rest.
+  const double from_base = whole.total_length_m - 0.5 * (whole.node_from_tip_m[last] + whole.node_from_tip_m[last + 1]);
+  const Eigen::Vector3d u = rod.rest_curvature[last + 1];
+  return coefficients((quaternion(carrier.orientation[last]) * rotation(u * (nest.parts[part].inserted_m - from_base)) *
+                       Eigen::AngleAxisd(state.roll_rad(part, last), Eigen::Vector3d::UnitZ()))
+                          .normalized());
+}
+
 ConcentricEquilibrium find_equilibrium(const Concentric& nest, const EndState& base,
                                        const Eigen::Vector3d& tip_force_W_N, ConcentricState& state) {
   Model carrier = nest.carrier;
@@ -179,19 +273,25 @@ ConcentricEquilibrium find_equilibrium(const Concentric& nest, const EndState& b
   std::vector<RodEquilibrium> report;
 
   const bool turns = nest.parts.size() > 1 || nest.parts[0].shaft_rad_per_Nm > 0;
+  if (!turns) state.base_roll_rad[0] = nest.parts[0].roll_rad;
   ConcentricEquilibrium out;
   while (out.rounds < tunables::max_concentric_rounds && !out.converged) {
     ++out.rounds;
     const TwistSolution twist = turns ? solve_twist(nest, state) : TwistSolution{};
     out.turn_rad = twist.turn_rad;
     if (!twist.converged) return out;
+    out.converged = out.rounds > 1 && out.turn_rad < tunables::concentric_tolerance_rad;
+    if (out.converged) break;  // the carrier has the shape that these angles make
     turn_carrier(nest, base, state, carrier.rods[0], state.carrier.rods[0].base);
     scratch.rods[0].inside.rest_curvature = carrier.rods[0].rest_curvature;
     find_equilibrium(carrier, inputs, state.carrier, scratch, report);
     if (!report[0].converged) return out;
-    state.moment_N_m = moments(carrier.rods[0], state.carrier.rods[0]);
-    out.converged = !turns || (out.rounds > 1 && out.turn_rad < tunables::concentric_tolerance_rad);
-    out.negative_directions = report[0].negative_directions + twist.negative_directions;
+    const Eigen::Matrix3Xd strain = strains(carrier.rods[0], state.carrier.rods[0]);
+    for (int k = 0; k < carrier.rods[0].elements; ++k)
+      state.moment_N_m.col(k) = stiffness_at_rest(carrier.rods[0], k)
+                                    .cwiseProduct(Eigen::Vector3d(strain.col(k)) - carrier.rods[0].rest_curvature[k]);
+    out.converged = !turns;
+    out.negative_directions = report[0].negative_directions;
   }
   const Rod& rod = carrier.rods[0];
   const Eigen::Vector3d load = rod.total_mass_kg * carrier.gravity_W + tip_force_W_N;

@@ -58,15 +58,27 @@ struct ConcentricState {
   Eigen::Matrix3Xd moment_N_m;    ///< (3, #joints): the carrier's, material frame
 };
 
+/// Elements for these parts, ending where sections do: none longer than `longest_m`, none that turns by more than
+/// `longest_rad` at rest, at least 16.
+std::vector<double> concentric_elements(const std::vector<ConcentricPart>& parts, double longest_m, double longest_rad);
+
 /// Straight from the base, every part turned as its drive is.
 ConcentricState straight_state(const Concentric& nest, const EndState& base);
+
+/// The shape of another nest of the same parts (`before`, of `before_nest`) carried over to this one: strains and
+/// angles at the same fraction of the length, from the base on. Where to continue from, no equilibrium.
+ConcentricState carried_over(const Concentric& nest, const EndState& base, const Concentric& before_nest,
+                             const ConcentricState& before);
+
+/// Material frame at the tip of a part, w x y z.
+Eigen::Vector4d tip_frame(const Concentric& nest, const ConcentricState& state, int part);
 
 struct ConcentricEquilibrium {
   bool converged = false;
   int rounds = 0;               ///< of angles and carrier in turn
   double turn_rad = 0;          ///< largest change of an angle in the last round
   double base_push_N = 0;       ///< force along the base's d3 that holds the nest there
-  int negative_directions = 0;  ///< of the carrier (statics.h), and of the angles
+  int negative_directions = 0;  ///< of the carrier (statics.h); those of the angles are left before they are taken
 };
 
 /// Puts `state` into the equilibrium that continues from its shape. `base` is the unrolled base frame. Where it does

@@ -32,20 +32,18 @@ class Twist {
     n_ = static_cast<int>(nest.parts.size());
     N_ = nest.carrier.rods[0].elements;
     unknowns_ = n_;
-    first_.assign(n_, -1);
-    for (int i = 0; i < n_; ++i) {
-      if (i == nest.reference) continue;
-      first_[i] = unknowns_;
-      unknowns_ += nest.last_element[i] + 1;
-    }
+    index_.setConstant(n_, N_, -1);
+    for (int j = 0; j < N_; ++j)
+      for (int i = 0; i < n_; ++i)
+        if (i != nest.reference && j <= nest.last_element[i]) index_(i, j) = unknowns_++;
   }
 
   VectorXd gather(const ConcentricState& state) const {
     VectorXd x(unknowns_);
     x.head(n_) = state.base_roll_rad;
-    for (int i = 0; i < n_; ++i)
-      if (first_[i] >= 0)
-        x.segment(first_[i], nest_.last_element[i] + 1) = state.roll_rad.row(i).head(nest_.last_element[i] + 1);
+    for (int j = 0; j < N_; ++j)
+      for (int i = 0; i < n_; ++i)
+        if (index_(i, j) >= 0) x[index_(i, j)] = state.roll_rad(i, j);
     return x;
   }
 
@@ -59,7 +57,7 @@ class Twist {
   Angle side(int part, int j) const {
     if (part == nest_.reference) return {};
     if (j < 0) return {part, nest_.reference};
-    return {first_[part] + j, -1};
+    return {index_(part, j), -1};
   }
 
   /// Of the carrier at joint k.
@@ -78,8 +76,9 @@ class Twist {
   /// Turns parts a little against each other, the more the further from the base: off a shape that is balanced but
   /// unstable, as two tubes bent straight against each other are.
   void disturb(VectorXd& x) const {
-    for (int i = 0; i < n_; ++i)
-      for (int j = 0; first_[i] >= 0 && j <= nest_.last_element[i]; ++j) x[first_[i] + j] += 1e-3 * (j + 1) / N_;
+    for (int j = 0; j < N_; ++j)
+      for (int i = 0; i < n_; ++i)
+        if (index_(i, j) >= 0) x[index_(i, j)] += 1e-3 * (j + 1) / N_;
   }
 
   /// Energy; its gradient and Hessian where asked for.
@@ -201,7 +200,7 @@ class Twist {
   const Concentric& nest_;
   const Eigen::Matrix3Xd& moment_;
   int n_ = 0, N_ = 0, unknowns_ = 0;
-  std::vector<int> first_;  ///< unknown of each part's element 0
+  Eigen::MatrixXi index_;  ///< (#parts, #elements): unknown, -1 if none; neighbours along the rod are neighbours here
 };
 
 }  // namespace
@@ -211,7 +210,7 @@ TwistSolution solve_twist(const Concentric& nest, ConcentricState& state) {
   VectorXd x = twist.gather(state), gradient;
   const VectorXd start = x;
   Eigen::SparseMatrix<double> hessian;
-  Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factors;
+  Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>, Eigen::Lower, Eigen::NaturalOrdering<int>> factors;
   TwistSolution out;
   out.converged = false;
   double energy = twist.energy(x, &gradient, &hessian), shift = 0;
@@ -219,8 +218,7 @@ TwistSolution solve_twist(const Concentric& nest, ConcentricState& state) {
   for (int iteration = 0; iteration < tunables::max_static_iterations && !out.converged; ++iteration) {
     factors.setShift(shift);
     factors.compute(hessian);
-    out.negative_directions = static_cast<int>((factors.vectorD().array() <= 0).count());
-    if (factors.info() != Eigen::Success || out.negative_directions > 0) {  // not downhill
+    if (factors.info() != Eigen::Success || (factors.vectorD().array() <= 0).any()) {  // not downhill
       if (gradient.cwiseAbs().maxCoeff() < 1e-12 * typical) {
         twist.disturb(x);
         energy = twist.energy(x, &gradient, &hessian);

@@ -13,11 +13,10 @@ namespace ostium {
 
 struct TwistSolution {
   bool converged = true;
-  double turn_rad = 0;          ///< largest change of an angle
-  int negative_directions = 0;  ///< motions of the angles that would lower the energy
+  double turn_rad = 0;  ///< largest change of an angle
 };
 
-/// Newton's method, downhill from the angles in `state`.
+/// Newton's method, downhill from the angles in `state`, to a minimum.
 TwistSolution solve_twist(const Concentric& nest, ConcentricState& state);
 
 /// Gives the carrier, if there are several parts, the rest curvature that the angles in `state` make.

@@ -1,0 +1,51 @@
+#include "data/effects/stress_relaxation.h"
+
+#include <cmath>
+
+namespace ostium {
+
+namespace {
+
+bool curved(const std::vector<Section>& sections) {
+  for (const Section& s : sections)
+    if (!s.rest_curvature_per_m.isZero()) return true;
+  return false;
+}
+
+std::string why_not(const MeasurementSet& set, std::optional<int> instrument) {
+  bool timed = false, heat_set = false;
+  for (const Experiment& e : set.experiments) timed = timed || e.elapsed_s.value_or(0) > 0;
+  for (std::size_t i = 0; i < set.instruments.size(); ++i)
+    if (!instrument || *instrument == static_cast<int>(i)) heat_set = heat_set || curved(set.instruments[i].sections);
+  if (!timed) return "no experiment gives elapsed_s";
+  if (!heat_set) return "no instrument that could relax is curved at rest";
+  return set.instruments.size() > 1 || !set.gravity_m_s2.isZero()
+             ? ""
+             : "without a load or another instrument a modulus does not show";
+}
+
+void apply(const ActiveEffect& effect, const MeasurementSet&, const Experiment& e, Setup& setup) {
+  const auto& v = effect.values;
+  const double t = e.elapsed_s.value_or(0);
+  const double left = 1 - v[0] * -std::expm1(-t / v[1]) - v[2] * -std::expm1(-t / v[3]);
+  for (std::size_t i = 0; i < setup.nest.parts.size(); ++i) {
+    auto& sections = setup.nest.parts[i].sections;
+    if ((effect.instrument && *effect.instrument != static_cast<int>(i)) || !curved(sections)) continue;
+    for (Section& s : sections) s.EI1_N_m2 *= left, s.EI2_N_m2 *= left, s.GJ_N_m2 *= left;
+  }
+}
+
+}  // namespace
+
+Effect stress_relaxation() {
+  return {"stress_relaxation",
+          "relaxation of the heat-set instrument",
+          {{"fraction_1", "1", "part of the modulus that the fast branch loses", 0.1, 0.1, 0, 0.45, false},
+           {"time_1_s", "s", "time constant of the fast branch", 60, 0.7, 5, 300, true},
+           {"fraction_2", "1", "part of the modulus that the slow branch loses", 0.1, 0.1, 0, 0.45, false},
+           {"time_2_s", "s", "time constant of the slow branch", 900, 0.7, 300, 20000, true}},
+          why_not,
+          apply};
+}
+
+}  // namespace ostium

@@ -1,0 +1,191 @@
+#include "data/fit/fit.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "data/fit/least_squares.h"
+
+namespace ostium {
+
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+std::vector<double> packed(const Shape& shape) {
+  std::vector<double> out = {shape.converged ? 1.0 : 0.0, shape.base_push_N};
+  for (int i = 0; i < 4; ++i) out.push_back(shape.tip_q[i]);
+  for (const Eigen::Vector3d& p : shape.points_m) out.insert(out.end(), {p.x(), p.y(), p.z()});
+  return out;
+}
+
+Shape unpacked(const std::vector<double>& in) {
+  Shape shape;
+  shape.converged = in[0] != 0;
+  shape.base_push_N = in[1];
+  for (int i = 0; i < 4; ++i) shape.tip_q[i] = in[2 + i];
+  for (std::size_t i = 6; i + 2 < in.size(); i += 3) shape.points_m.emplace_back(in[i], in[i + 1], in[i + 2]);
+  return shape;
+}
+
+/// Of the finite differences, in the optimiser's numbers.
+double step_of(const Parameter& p) { return p.logarithmic ? 1e-4 : 1e-4 * std::max(p.spread, 1e-3); }
+
+/// One fit: its residuals are the misfits over sigma, and the distances from the priors over their spreads.
+class Problem {
+ public:
+  Problem(const Forward& forward, const Parameters& parameters, const std::vector<int>& chosen, double sigma_m)
+      : forward_(forward), parameters_(parameters), chosen_(chosen), sigma_(sigma_m) {
+    for (int e : chosen) {
+      const Experiment& experiment = forward.set().experiments[e];
+      rows_ += experiment.kind == Experiment::Kind::radius ? 1 : 3 * static_cast<int>(experiment.points_m.size());
+    }
+  }
+
+  int data_rows() const { return rows_; }
+
+  LeastSquares least_squares(const VectorXd& start) const {
+    LeastSquares problem;
+    const auto& list = parameters_.list();
+    problem.residuals = rows_ + parameters_.size();
+    problem.start = start;
+    problem.least.resize(parameters_.size()), problem.most.resize(parameters_.size());
+    for (int i = 0; i < parameters_.size(); ++i) {
+      problem.least[i] = list[i].logarithmic ? std::log(list[i].least) : list[i].least;
+      problem.most[i] = list[i].logarithmic ? std::log(list[i].most) : list[i].most;
+    }
+    problem.start = start.cwiseMax(problem.least).cwiseMin(problem.most);
+    problem.evaluate = [this](const VectorXd& x, VectorXd& r, MatrixXd* J) { return evaluate(x, r, J); };
+    return problem;
+  }
+
+  bool evaluate(const VectorXd& x, VectorXd& residuals, MatrixXd* jacobian) const {
+    const int shapes = jacobian ? parameters_.shape_parameters() : 0;
+    std::vector<Changes> changes = {parameters_.changes(x)};
+    for (int i = 0; i < shapes; ++i)
+      for (double sign : {1.0, -1.0}) changes.push_back(parameters_.changes(moved(x, i, sign)));
+    const auto found = forward_.shapes(changes, chosen_);
+    residuals.resize(rows_ + x.size());
+    if (!data(found[0], parameters_.view(x), residuals)) return false;
+    const VectorXd prior = parameters_.start();
+    for (int i = 0; i < x.size(); ++i) residuals[rows_ + i] = (x[i] - prior[i]) / parameters_.list()[i].spread;
+    if (!jacobian) return true;
+
+    jacobian->setZero(residuals.size(), x.size());
+    VectorXd up(residuals.size()), down(residuals.size());
+    for (int i = 0; i < x.size(); ++i) {
+      const bool moves = i < shapes;
+      const VectorXd above = moved(x, i, 1), below = moved(x, i, -1);
+      if (!data(moves ? found[1 + 2 * i] : found[0], parameters_.view(above), up)) return false;
+      if (!data(moves ? found[2 + 2 * i] : found[0], parameters_.view(below), down)) return false;
+      jacobian->col(i).head(rows_) = (up - down).head(rows_) / (above[i] - below[i]);
+      (*jacobian)(rows_ + i, i) = 1 / parameters_.list()[i].spread;
+    }
+    return true;
+  }
+
+ private:
+  /// x with its i-th number a step to one side, but within its range.
+  VectorXd moved(VectorXd x, int i, double sign) const {
+    const Parameter& p = parameters_.list()[i];
+    const double least = p.logarithmic ? std::log(p.least) : p.least, most = p.logarithmic ? std::log(p.most) : p.most;
+    x[i] = std::clamp(x[i] + sign * step_of(p), least, most);
+    return x;
+  }
+
+  bool data(const std::vector<Shape>& shapes, const View& view, VectorXd& residuals) const {
+    int row = 0;
+    for (std::size_t k = 0; k < chosen_.size(); ++k) {
+      if (!shapes[k].converged) return false;
+      const VectorXd off = misfit(forward_.set().experiments[chosen_[k]], shapes[k], view);
+      residuals.segment(row, off.size()) = off / sigma_;
+      row += static_cast<int>(off.size());
+    }
+    return residuals.head(row).allFinite();
+  }
+
+  const Forward& forward_;
+  const Parameters& parameters_;
+  const std::vector<int>& chosen_;
+  double sigma_;
+  int rows_ = 0;
+};
+
+LeastSquaresResult best_of(const Problem& problem, const std::vector<VectorXd>& starts) {
+  std::optional<LeastSquaresResult> best;
+  for (const VectorXd& start : starts) {
+    const LeastSquares least_squares = problem.least_squares(start);
+    VectorXd r;
+    if (!problem.evaluate(least_squares.start, r, nullptr)) continue;
+    const LeastSquaresResult found = minimise(least_squares);
+    if (!best || found.cost < best->cost * (1 - 1e-9)) best = found;
+  }
+  if (!best) throw std::runtime_error("no static shape was found at the parameters a fit starts from");
+  return *best;
+}
+
+}  // namespace
+
+std::vector<std::vector<Shape>> Forward::shapes(const std::vector<Changes>& changes,
+                                                const std::vector<int>& chosen) const {
+  const std::size_t n = chosen.size();
+  const auto found = workers_.map(changes.size() * n, [&](std::size_t job) {
+    const int e = chosen[job % n];
+    try {
+      return packed(shape_from(setup_of(set_, set_.experiments[e], changes[job / n]), anchors_[e]));
+    } catch (const std::invalid_argument&) {
+      return packed(Shape{});  // with these numbers it is no rod any more
+    }
+  });
+  std::vector<std::vector<Shape>> shapes(changes.size());
+  for (std::size_t job = 0; job < found.size(); ++job) shapes[job / n].push_back(unpacked(found[job]));
+  return shapes;
+}
+
+double Fit::informed(int i) const {
+  return std::clamp(1 - covariance(i, i) / (prior_sigma[i] * prior_sigma[i]), 0.0, 1.0);
+}
+
+Fit fit(const Forward& forward, const Parameters& parameters, const FitOptions& options) {
+  Fit out;
+  for (int e : options.experiments) out.measured += static_cast<double>(numbers_measured(forward.set().experiments[e]));
+  std::vector<VectorXd> starts = options.starts;
+  // Without a known noise, that of the residuals; the weight of the priors follows it, so a few times over.
+  double sigma = options.sigma_m.value_or(1e-3);
+  const int rounds = options.sigma_m ? 1 : 4;
+  for (int round = 0; round < rounds; ++round) {
+    const Problem problem(forward, parameters, options.experiments, sigma);
+    const LeastSquaresResult found = best_of(problem, starts);
+    VectorXd r;
+    MatrixXd J;
+    if (!problem.evaluate(found.x, r, &J)) throw std::runtime_error("no static shape was found where a fit ended");
+    const int n = problem.data_rows();
+    const MatrixXd JtJ = J.transpose() * J;
+    out.covariance = JtJ.completeOrthogonalDecomposition().pseudoInverse();
+    out.parameters_used = (out.covariance * (J.topRows(n).transpose() * J.topRows(n))).trace();
+    out.chi2 = r.head(n).squaredNorm();
+    out.converged = found.converged;
+    out.x = found.x;
+    out.sigma_m = sigma;
+    starts = {found.x};
+    if (round + 1 < rounds) sigma = std::max(sigma * std::sqrt(out.chi2 / out.degrees_of_freedom()), 1e-9);
+  }
+  out.prior_sigma.resize(parameters.size());
+  for (int i = 0; i < parameters.size(); ++i) out.prior_sigma[i] = parameters.list()[i].spread;
+  out.misfits = misfits(forward, parameters, out.x, options.experiments);
+  return out;
+}
+
+std::vector<VectorXd> misfits(const Forward& forward, const Parameters& parameters, const VectorXd& x,
+                              const std::vector<int>& chosen) {
+  const auto shapes = forward.shapes({parameters.changes(x)}, chosen)[0];
+  std::vector<VectorXd> out;
+  for (std::size_t k = 0; k < chosen.size(); ++k)
+    out.push_back(shapes[k].converged ? misfit(forward.set().experiments[chosen[k]], shapes[k], parameters.view(x))
+                                      : VectorXd());
+  return out;
+}
+
+}  // namespace ostium

@@ -1,0 +1,53 @@
+#pragma once
+/// Fits a model to the experiments of a set: weighted least squares with priors.
+#include "data/fit/parameters.h"
+#include "data/fit/workers.h"
+
+namespace ostium {
+
+/// Shapes of a set's experiments for any parameters, each from its anchor, so that no result depends on which came
+/// before it.
+class Forward {
+ public:
+  Forward(const MeasurementSet& set, const Workers& workers, std::vector<Anchor> anchors)
+      : set_(set), workers_(workers), anchors_(std::move(anchors)) {}
+
+  const MeasurementSet& set() const { return set_; }
+  /// shapes[v][k]: of experiment chosen[k] under changes[v].
+  std::vector<std::vector<Shape>> shapes(const std::vector<Changes>& changes, const std::vector<int>& chosen) const;
+
+ private:
+  const MeasurementSet& set_;
+  const Workers& workers_;
+  std::vector<Anchor> anchors_;
+};
+
+struct Fit {
+  bool converged = false;
+  Eigen::VectorXd x;             ///< of the parameters
+  Eigen::MatrixXd covariance;    ///< of x, for the sigma that it was fitted with
+  double sigma_m = 0;            ///< noise that the data were weighted with
+  double chi2 = 0;               ///< of the data fitted
+  double measured = 0;           ///< independent numbers fitted
+  double parameters_used = 0;    ///< as many of the parameters as the data decide, not the priors
+  double informed(int i) const;  ///< 1: the data alone decide parameter i, 0: its prior
+  Eigen::VectorXd prior_sigma;
+  std::vector<Eigen::VectorXd> misfits;  ///< of the experiments fitted
+
+  double degrees_of_freedom() const { return std::max(measured - parameters_used, 1.0); }
+};
+
+struct FitOptions {
+  std::vector<int> experiments;         ///< which to fit
+  std::optional<double> sigma_m;        ///< of the noise; none: taken from what the fit leaves
+  std::vector<Eigen::VectorXd> starts;  ///< where to begin; the best end counts
+};
+
+/// Throws std::runtime_error if the model has no shapes at any start.
+Fit fit(const Forward& forward, const Parameters& parameters, const FitOptions& options);
+
+/// Misfits of `chosen` at x; empty where there is no shape.
+std::vector<Eigen::VectorXd> misfits(const Forward& forward, const Parameters& parameters, const Eigen::VectorXd& x,
+                                     const std::vector<int>& chosen);
+
+}  // namespace ostium

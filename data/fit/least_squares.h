@@ -1,0 +1,25 @@
+#pragma once
+/// Nonlinear least squares with bounds (Ceres Solver, trust region).
+#include <Eigen/Core>
+#include <functional>
+#include <optional>
+
+namespace ostium {
+
+struct LeastSquares {
+  int residuals = 0;
+  Eigen::VectorXd start, least, most;
+  /// Residuals at x and, if asked for, their Jacobian; false where there is no solution.
+  std::function<bool(const Eigen::VectorXd& x, Eigen::VectorXd& residuals, Eigen::MatrixXd* jacobian)> evaluate;
+};
+
+struct LeastSquaresResult {
+  bool converged = false;
+  int iterations = 0;
+  double cost = 0;  ///< half the sum of squares
+  Eigen::VectorXd x;
+};
+
+LeastSquaresResult minimise(const LeastSquares& problem);
+
+}  // namespace ostium

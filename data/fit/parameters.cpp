@@ -1,0 +1,165 @@
+#include "data/fit/parameters.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/Dense>
+#include <cmath>
+#include <numbers>
+
+namespace ostium {
+
+namespace {
+
+using Eigen::Vector3d;
+using Eigen::VectorXd;
+
+constexpr double mm = 1e-3, degree = std::numbers::pi / 180;
+
+/// A declared stiffness is known to perhaps 30 %.
+constexpr double stiffness_spread = 0.3, least_scale = 0.1, most_scale = 10;
+/// Weak: they only decide what the data leave open.
+constexpr double rotation_spread_deg = 60, translation_spread_mm = 300, offset_spread_mm = 15;
+constexpr double most_rotation_deg = 170, most_translation_mm = 2000, most_offset_mm = 60;
+
+double inner(const Parameter& p, double value) { return p.logarithmic ? std::log(value) : value; }
+
+Eigen::Quaterniond rotation(const Vector3d& vector) {
+  const double angle = vector.norm();
+  if (angle == 0) return Eigen::Quaterniond::Identity();
+  return Eigen::Quaterniond(Eigen::AngleAxisd(angle, vector / angle));
+}
+
+}  // namespace
+
+Parameters::Parameters(const MeasurementSet& set, const std::vector<ActiveEffect>& declared,
+                       const std::vector<ActiveEffect>& tried)
+    : declared_(declared) {
+  add_stiffness(set);
+  for (const ActiveEffect& effect : tried) add_effect(effect);
+  shape_parameters_ = size();
+  add_view(set.imaging);
+}
+
+void Parameters::add_stiffness(const MeasurementSet& set) {
+  for (std::size_t i = 0; i < set.instruments.size(); ++i) {
+    const MeasuredInstrument& instrument = set.instruments[i];
+    std::vector<int> scales;
+    const int first = size();
+    for (std::size_t s = 0; s < instrument.sections.size(); ++s) {
+      const Section& section = instrument.sections[s];
+      int same = -1;
+      for (std::size_t t = 0; t < s && same < 0; ++t)
+        if (instrument.sections[t].EI1_N_m2 == section.EI1_N_m2 && instrument.sections[t].GJ_N_m2 == section.GJ_N_m2)
+          same = scales[t];
+      if (same < 0) {
+        same = size();
+        list_.push_back({fmt::format("EI_scale[{}][{}]", i, s),
+                         fmt::format("stiffness of {}, {:g} to {:g} mm from the tip", instrument.name,
+                                     section.from_tip_m / mm, section.to_tip_m / mm),
+                         "1", 1, stiffness_spread, least_scale, most_scale, true, true});
+      }
+      scales.push_back(same);
+    }
+    if (size() == first + 1) {
+      list_[first].name = fmt::format("EI_scale[{}]", i);
+      list_[first].label = "stiffness of " + instrument.name;
+    }
+    scale_of_.push_back(scales);
+  }
+}
+
+void Parameters::add_effect(const ActiveEffect& effect) {
+  first_of_tried_.push_back(size());
+  tried_.push_back(effect);
+  for (const EffectParameter& p : effect.effect->parameters) {
+    std::string name = effect.effect->id;
+    if (effect.instrument) name += fmt::format("[{}]", *effect.instrument);
+    list_.push_back({name + "." + p.name, p.what, p.unit, p.prior, p.spread, p.least, p.most, p.logarithmic, true});
+  }
+}
+
+void Parameters::add_view(const Imaging& imaging) {
+  const auto three = [&](const std::string& name, const std::string& label, const std::string& unit, double spread,
+                         double most) {
+    for (const char* axis : {"x", "y", "z"})
+      list_.push_back({name + axis + "_" + unit, label + " " + axis, unit, 0, spread, -most, most, false, false});
+  };
+  if (imaging.registration_free) {
+    registration_ = size();
+    three("registration.r", "turn of the measuring frame about", "deg", rotation_spread_deg, most_rotation_deg);
+    three("registration.", "shift of the measuring frame along", "mm", translation_spread_mm, most_translation_mm);
+  }
+  if (imaging.tip_offset_free) {
+    offset_ = size();
+    three("tip_offset.", "tracked point off the tip along director", "mm", offset_spread_mm, most_offset_mm);
+  }
+}
+
+VectorXd Parameters::start() const {
+  VectorXd x(size());
+  for (int i = 0; i < size(); ++i) x[i] = inner(list_[i], list_[i].start);
+  return x;
+}
+
+double Parameters::value(int i, double x) const { return list_[i].logarithmic ? std::exp(x) : x; }
+double Parameters::sigma(int i, double x, double sigma_x) const {
+  return list_[i].logarithmic ? std::exp(x) * sigma_x : sigma_x;
+}
+
+Changes Parameters::changes(const VectorXd& x) const {
+  Changes changes;
+  for (const auto& scales : scale_of_) {
+    changes.stiffness_scale.emplace_back();
+    for (int index : scales) changes.stiffness_scale.back().push_back(value(index, x[index]));
+  }
+  changes.effects = declared_;
+  for (std::size_t e = 0; e < tried_.size(); ++e) {
+    changes.effects.push_back(tried_[e]);
+    for (std::size_t p = 0; p < tried_[e].effect->parameters.size(); ++p) {
+      const int index = first_of_tried_[e] + static_cast<int>(p);
+      changes.effects.back().values[p] = value(index, x[index]);
+    }
+  }
+  return changes;
+}
+
+View Parameters::view(const VectorXd& x) const {
+  View view = nominal_;
+  if (registration_ >= 0) {
+    const Vector3d turn = x.segment<3>(registration_) * degree, shift = x.segment<3>(registration_ + 3) * mm;
+    view.R = rotation(turn) * nominal_.R;
+    view.t_m = nominal_.t_m + shift;
+  }
+  if (offset_ >= 0) view.tip_offset_m = x.segment<3>(offset_) * mm;
+  return view;
+}
+
+View registered(const MeasurementSet& set, const std::vector<Shape>& shapes) {
+  View view;
+  if (!set.imaging.registration_free) return view;
+  std::vector<Vector3d> model, measured;
+  for (std::size_t e = 0; e < shapes.size(); ++e) {
+    const auto& points = set.experiments[e].points_m;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const double fraction = points.size() == 1 ? 1 : static_cast<double>(i) / static_cast<double>(points.size() - 1);
+      const auto& curve = shapes[e].points_m;
+      model.push_back(curve[static_cast<std::size_t>(std::lround(fraction * static_cast<double>(curve.size() - 1)))]);
+      measured.push_back(points[i]);
+    }
+  }
+  if (model.empty()) return view;
+  const auto n = static_cast<double>(model.size());
+  Vector3d mean_model = Vector3d::Zero(), mean_measured = Vector3d::Zero();
+  for (std::size_t i = 0; i < model.size(); ++i) mean_model += model[i] / n, mean_measured += measured[i] / n;
+  Eigen::Matrix3d H = Eigen::Matrix3d::Zero();
+  for (std::size_t i = 0; i < model.size(); ++i)
+    H += (model[i] - mean_model) * (measured[i] - mean_measured).transpose();
+  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(H, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  Eigen::Matrix3d V = svd.matrixV();
+  if ((V * svd.matrixU().transpose()).determinant() < 0) V.col(2) *= -1;
+  view.R = Eigen::Quaterniond(V * svd.matrixU().transpose());
+  view.t_m = mean_measured - view.R * mean_model;
+  return view;
+}
+
+}  // namespace ostium

@@ -1,0 +1,56 @@
+#pragma once
+/// What a fit may change: one scale per distinct section stiffness, what `imaging` leaves free, and the parameters of
+/// the effects that are tried. Nothing else.
+#include "data/effects/effect.h"
+#include "data/fit/view.h"
+
+namespace ostium {
+
+struct Parameter {
+  std::string name;   ///< as in explanation.json: "EI_scale[0]", "registration.x_mm", "shaft_torsion.compliance"
+  std::string label;  ///< in words
+  std::string unit;   ///< "1" if there is none
+  double start = 0;   ///< also the middle of the prior
+  double spread = 0;  ///< of the prior: standard deviation, of the logarithm if `logarithmic`
+  double least = 0, most = 0;
+  bool logarithmic = false;
+  bool moves_shape = true;  ///< false: changes only how the shape appears
+};
+
+/// Parameters as a vector of numbers for an optimiser: logarithms where they are logarithmic.
+class Parameters {
+ public:
+  Parameters(const MeasurementSet& set, const std::vector<ActiveEffect>& declared,
+             const std::vector<ActiveEffect>& tried);
+
+  const std::vector<Parameter>& list() const { return list_; }
+  int size() const { return static_cast<int>(list_.size()); }
+  Eigen::VectorXd start() const;
+  double value(int i, double x) const;  ///< of parameter i
+  double sigma(int i, double x, double sigma_x) const;
+  /// The part of x that moves shapes comes first; so many.
+  int shape_parameters() const { return shape_parameters_; }
+
+  Changes changes(const Eigen::VectorXd& x) const;
+  View view(const Eigen::VectorXd& x) const;
+  /// The frame that `view` counts from.
+  void set_nominal_view(const View& view) { nominal_ = view; }
+
+ private:
+  void add_stiffness(const MeasurementSet& set);
+  void add_effect(const ActiveEffect& effect);
+  void add_view(const Imaging& imaging);
+
+  std::vector<Parameter> list_;
+  int shape_parameters_ = 0;
+  std::vector<std::vector<int>> scale_of_;  ///< per instrument and section: index of its scale
+  std::vector<ActiveEffect> declared_, tried_;
+  std::vector<int> first_of_tried_;
+  int registration_ = -1, offset_ = -1;  ///< index of the first of six, of three
+  View nominal_;
+};
+
+/// The registration that lays predicted points over measured ones best (Kabsch 1976), without a tip offset.
+View registered(const MeasurementSet& set, const std::vector<Shape>& shapes);
+
+}  // namespace ostium

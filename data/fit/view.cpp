@@ -1,0 +1,46 @@
+#include "data/fit/view.h"
+
+#include <cmath>
+
+namespace ostium {
+
+Eigen::Vector3d tracked_tip(const Shape& shape, const View& view) {
+  const Eigen::Vector4d& q = shape.tip_q;
+  return view(shape.points_m.back() + Eigen::Quaterniond(q[0], q[1], q[2], q[3]) * view.tip_offset_m);
+}
+
+Eigen::VectorXd misfit(const Experiment& e, const Shape& shape, const View& view) {
+  if (e.kind == Experiment::Kind::radius)
+    return Eigen::VectorXd::Constant(1, e.radius_m - radius_of_curvature(shape.points_m));
+  if (e.kind == Experiment::Kind::tip) return e.points_m[0] - tracked_tip(shape, view);
+  Eigen::VectorXd off(3 * e.points_m.size());
+  for (std::size_t i = 0; i < e.points_m.size(); ++i) {
+    const Eigen::Vector3d p = view.R.conjugate() * (e.points_m[i] - view.t_m);
+    off.segment<3>(3 * static_cast<Eigen::Index>(i)) = view.R * (p - nearest_point(shape.points_m, p));
+  }
+  return off;
+}
+
+std::size_t distances(const Experiment& e) { return e.kind == Experiment::Kind::radius ? 1 : e.points_m.size(); }
+
+std::size_t numbers_measured(const Experiment& e) {
+  switch (e.kind) {
+    case Experiment::Kind::centreline:
+      return 2 * e.points_m.size();
+    case Experiment::Kind::tip:
+      return 3;
+    default:
+      return 1;
+  }
+}
+
+double rms(const std::vector<const Experiment*>& experiments, const std::vector<Eigen::VectorXd>& misfits) {
+  double sum = 0, count = 0;
+  for (std::size_t i = 0; i < experiments.size(); ++i) {
+    sum += misfits[i].squaredNorm();
+    count += static_cast<double>(distances(*experiments[i]));
+  }
+  return count > 0 ? std::sqrt(sum / count) : 0;
+}
+
+}  // namespace ostium

@@ -1,0 +1,35 @@
+#pragma once
+/// One experiment as the static solver takes it: what the set declares, with what a fit or an effect changes in it.
+#include "core/concentric.h"
+#include "data/measured/measurement_set.h"
+
+namespace ostium {
+
+struct Effect;
+
+/// An effect that is switched on.
+struct ActiveEffect {
+  const Effect* effect = nullptr;
+  std::optional<int> instrument;  ///< none: all that it can act on
+  std::vector<double> values;     ///< of effect->parameters
+};
+
+/// What differs from the declaration.
+struct Changes {
+  std::vector<std::vector<double>> stiffness_scale;  ///< per instrument and section; empty: 1
+  std::vector<ActiveEffect> effects;
+};
+
+struct Setup {
+  ConcentricDescription nest;
+  EndState base;  ///< unrolled
+  Eigen::Vector3d gravity_m_s2 = Eigen::Vector3d::Zero(), tip_force_N = Eigen::Vector3d::Zero();
+};
+
+/// Throws LoadError naming the experiment where changed numbers make no rod any more.
+Setup setup_of(const MeasurementSet& set, const Experiment& experiment, const Changes& changes);
+
+/// Refuses sets that the static model does not know yet: those in a vessel.
+void require_static(const MeasurementSet& set);
+
+}  // namespace ostium

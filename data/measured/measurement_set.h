@@ -1,0 +1,72 @@
+#pragma once
+/// A measured set: one instrument, or a few nested ones, measured several times. SI inside; the file's schema is
+/// data/schemas/measurement.schema.json.
+#include <optional>
+
+#include "core/state.h"
+#include "data/load_error.h"
+
+namespace ostium {
+
+struct MeasuredInstrument {
+  std::string name;
+  double length_m = 0;
+  double radius_m = 0, inner_radius_m = 0;
+  std::vector<Section> sections;  ///< from the distal tip backwards
+};
+
+/// Where one instrument was put.
+struct Placement {
+  double inserted_m = 0;  ///< from the base to its tip
+  double roll_rad = 0;    ///< as commanded, right-handed about the base's d3; whole turns count
+  double shaft_m = 0;     ///< straight, between the drive that rolls it and the base
+};
+
+struct Experiment {
+  std::string id;
+  std::string place;                                     ///< "experiments[3]", for messages
+  EndState base;                                         ///< d3 = tangent, d1 = up made orthogonal to it; unrolled
+  std::vector<Placement> set;                            ///< one per instrument
+  std::vector<std::optional<Eigen::Vector2d>> specimen;  ///< rest curvature, 1/m, in place of what is not zero
+  Eigen::Vector3d tip_force_N = Eigen::Vector3d::Zero();
+  std::optional<double> proximal_force_N;
+  std::optional<double> elapsed_s;
+  std::string group;  ///< empty: none
+
+  enum class Kind { centreline, tip, radius };
+  Kind kind = Kind::centreline;
+  std::vector<Eigen::Vector3d> points_m;  ///< base to tip; one for a tip
+  double radius_m = 0;
+};
+
+struct Imaging {
+  std::optional<double> noise_sigma_m;  ///< per coordinate
+  bool registration_free = false;       ///< measured = R model + t
+  bool tip_offset_free = false;         ///< tracked = tip + R_tip o
+};
+
+struct Vessel {
+  std::string mesh, units;
+  double friction = 0;
+};
+
+/// An effect that the file says the model is to include.
+struct DeclaredEffect {
+  std::string id;
+  std::optional<int> instrument;  ///< none: all that it can act on
+  std::vector<std::pair<std::string, double>> parameters;
+  std::string place;  ///< "FILE:LINE: effects[0]", for messages
+};
+
+struct MeasurementSet {
+  std::string file;
+  std::string title, source;
+  std::vector<MeasuredInstrument> instruments;  ///< outermost first
+  Eigen::Vector3d gravity_m_s2 = Eigen::Vector3d::Zero();
+  std::optional<Vessel> vessel;
+  Imaging imaging;
+  std::vector<DeclaredEffect> effects;
+  std::vector<Experiment> experiments;
+};
+
+}  // namespace ostium
