@@ -6,6 +6,7 @@
 #include "app/centreline_command.h"
 #include "app/check_command.h"
 #include "app/frame_command.h"
+#include "app/explain_command.h"
 #include "app/instruments_command.h"
 #include "app/predict_command.h"
 #include "app/verify_command.h"
@@ -115,6 +116,7 @@ int main(int argc, char** argv) {
   centreline_app->footer(
       "Examples:\n  ostium centreline coronaries.stl -o tree.json\n"
       "  ostium centreline aorta.obj --start 0,120,-30 --end 5,-200,-40 --end -60,-380,10 -o tree.vtp");
+
   ostium::PredictOptions predict;
   CLI::App* predict_app =
       app.add_subcommand("predict", "The static shapes that a measured set declares, nothing fitted");
@@ -124,6 +126,23 @@ int main(int argc, char** argv) {
   predict_app->add_option("-o,--out", predict.folder, "Where prediction.json and prediction.csv go")->type_name("DIR");
   predict_app->add_flag("--json", predict.json, "Print prediction.json, see data/schemas/prediction.schema.json");
   predict_app->footer("Examples:\n  ostium predict my-wire\n  ostium predict my-wire/measurement.json -o shapes");
+
+  ostium::ExplainCommandOptions explain;
+  CLI::App* explain_app =
+      app.add_subcommand("explain", "Fits a measured set, says what is left, and what an effect would change");
+  explain_app->add_option("set", explain.set, "The set's folder, or its measurement.json")
+      ->required()
+      ->type_name("SET");
+  explain_app->add_option("-o,--out", explain.folder, "Where explanation.json, explanation.html and amended/ go")
+      ->type_name("DIR");
+  explain_app->add_option("--try", explain.tries, "An effect to switch on; with + between them, several together")
+      ->type_name("EFFECT");
+  explain_app->add_option("--threads", explain.threads, "Threads of each rank; 0: one for each core")
+      ->check(CLI::Range(0, 1024));
+  explain_app->add_flag("--json", explain.json, "Print explanation.json, see data/schemas/explanation.schema.json");
+  explain_app->footer(
+      "Examples:\n  ostium explain my-wire -o found\n  ostium explain my-tubes --try shaft_torsion -o found\n"
+      "  mpirun -n 8 ostium explain my-tubes --try shaft_torsion[0] --threads 1 -o found");
 
   try {
     app.parse(argc, argv);
@@ -137,6 +156,7 @@ int main(int argc, char** argv) {
     if (*check_app) return ostium::check_command(check);
     if (*views_app) return ostium::views_command(views_json);
     if (*frame_app) return ostium::frame_command(frame);
+    if (*explain_app) return ostium::explain_command(explain);
     if (*predict_app) return ostium::predict_command(predict);
     if (*instruments_app) return ostium::instruments_command(instruments);
   } catch (const std::exception& error) {

@@ -43,4 +43,10 @@ double rms(const std::vector<const Experiment*>& experiments, const std::vector<
   return count > 0 ? std::sqrt(sum / count) : 0;
 }
 
+double rms(const MeasurementSet& set, const std::vector<Eigen::VectorXd>& misfits) {
+  std::vector<const Experiment*> all;
+  for (const Experiment& e : set.experiments) all.push_back(&e);
+  return rms(all, misfits);
+}
+
 }  // namespace ostium

@@ -29,5 +29,7 @@ std::size_t numbers_measured(const Experiment& experiment);
 
 /// Root mean square distance over these experiments, m; `misfits` belong to them.
 double rms(const std::vector<const Experiment*>& experiments, const std::vector<Eigen::VectorXd>& misfits);
+/// ... over all experiments of the set.
+double rms(const MeasurementSet& set, const std::vector<Eigen::VectorXd>& misfits);
 
 }  // namespace ostium

@@ -1,0 +1,161 @@
+#include "data/fit/study.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "data/fit/folds.h"
+
+namespace ostium {
+
+namespace {
+
+using Eigen::VectorXd;
+
+constexpr int further_starts = 3;
+constexpr double another_branch_m = 0.1e-3;  // tips further apart than this are on other branches
+
+std::vector<int> everyone(const MeasurementSet& set) {
+  std::vector<int> all(set.experiments.size());
+  std::iota(all.begin(), all.end(), 0);
+  return all;
+}
+
+/// Spread over the prior's middle, low-discrepancy (Halton), so that a rugged landscape is not taken for its first
+/// valley.
+std::vector<VectorXd> starts_of(const Parameters& parameters, int count) {
+  std::vector<VectorXd> starts = {parameters.start()};
+  constexpr int primes[] = {2, 3, 5, 7, 11, 13, 17, 19, 23, 29};
+  for (int k = 1; k <= count; ++k) {
+    VectorXd x = parameters.start();
+    for (int i = 0; i < std::min(parameters.shape_parameters(), 10); ++i) {
+      double h = 0, f = 1;
+      for (int n = k; n > 0; n /= primes[i]) h += (f /= primes[i]) * (n % primes[i]);
+      x[i] += parameters.list()[i].spread * 2 * (2 * h - 1);
+    }
+    starts.push_back(x);
+  }
+  return starts;
+}
+
+}  // namespace
+
+Study::Study(const MeasurementSet& set, const Workers& workers, const std::vector<ActiveEffect>& tried,
+             const std::function<void(const std::string&)>& progress)
+    : set_(set),
+      workers_(workers),
+      all_(everyone(set)),
+      parameters_(set, declared_effects(set), tried),
+      tried_(tried),
+      progress_(progress) {
+  for (const ActiveEffect& effect : tried_) {
+    name_ += (name_.empty() ? "" : " + ") + effect.effect->id;
+    if (effect.instrument) name_ += fmt::format("[{}]", *effect.instrument);
+  }
+  if (name_.empty()) name_ = "declared model";
+}
+
+void Study::say(const std::string& what) const {
+  if (progress_) progress_(name_ + ": " + what);
+}
+
+FittedModel Study::run(std::optional<double> noise_m) {
+  say("walking through the experiments");
+  anchor(parameters_.start());
+  say("fit");
+  FitOptions options{all_, noise_m, starts_of(parameters_, further_starts)};
+  fit_ = fit(*forward_, parameters_, options);
+  const std::vector<std::string> others = on_other_branches();
+  if (!others.empty()) {
+    say("fit once more: the walk leads to another branch");
+    options.starts = {fit_.x};
+    fit_ = fit(*forward_, parameters_, options);
+  }
+  FittedModel model = report();
+  model.other_branches = others;
+  model.held_out_misfits = held_out(options);
+  if (!model.held_out_misfits.empty()) model.rms_held_out_m = rms(set_, model.held_out_misfits);
+  return model;
+}
+
+std::vector<VectorXd> Study::misfits_at_start() const {
+  return misfits(*forward_, parameters_, parameters_.start(), all_);
+}
+
+void Study::judge(FittedModel& model, const Noise& noise) const {
+  const double squares_m2 = fit_.chi2 * fit_.sigma_m * fit_.sigma_m, n = fit_.measured;
+  model.degrees_of_freedom = fit_.degrees_of_freedom();
+  if (!noise.sigma_m) {
+    model.bic = n * std::log(std::max(squares_m2, 1e-30) / n) + fit_.parameters_used * std::log(n);
+    return;
+  }
+  const double chi2 = squares_m2 / (*noise.sigma_m * *noise.sigma_m);
+  model.chi2_per_dof = chi2 / model.degrees_of_freedom;
+  model.bic = chi2 + fit_.parameters_used * std::log(n);
+  // What a model leaves beyond a declared noise makes its numbers less sure; without one the fit has reckoned with it.
+  if (noise.declared)
+    for (FittedParameter& p : model.parameters) p.sigma *= std::max(1.0, std::sqrt(*model.chi2_per_dof));
+}
+
+void Study::anchor(const VectorXd& x) {
+  std::vector<Anchor> anchors = walk(set_, parameters_.changes(x));
+  for (std::size_t e = 0; e < anchors.size(); ++e)
+    if (!anchors[e].converged)
+      throw LoadError(fmt::format("{}: {} (\"{}\"): no static shape was found; is its load more than it can bear?",
+                                  set_.file, set_.experiments[e].place, set_.experiments[e].id));
+  forward_.emplace(set_, workers_, std::move(anchors));
+  if (viewed_) return;
+  viewed_ = true;
+  parameters_.set_nominal_view(registered(set_, forward_->shapes({parameters_.changes(x)}, all_)[0]));
+}
+
+std::vector<std::string> Study::on_other_branches() {
+  const auto fitted = forward_->shapes({parameters_.changes(fit_.x)}, all_)[0];
+  anchor(fit_.x);
+  const auto walked = forward_->shapes({parameters_.changes(fit_.x)}, all_)[0];
+  std::vector<std::string> others;
+  for (std::size_t e = 0; e < all_.size(); ++e)
+    if ((fitted[e].points_m.back() - walked[e].points_m.back()).norm() > another_branch_m)
+      others.push_back(set_.experiments[e].id);
+  return others;
+}
+
+FittedModel Study::report() const {
+  FittedModel model;
+  for (const ActiveEffect& effect : tried_) model.effects.push_back(effect.effect->id);
+  for (int i = 0; i < parameters_.size(); ++i)
+    model.parameters.push_back({parameters_.list()[i], parameters_.value(i, fit_.x[i]),
+                                parameters_.sigma(i, fit_.x[i], std::sqrt(fit_.covariance(i, i))), fit_.informed(i)});
+  model.changes = parameters_.changes(fit_.x);
+  model.view = parameters_.view(fit_.x);
+  model.rms_m = rms(set_, fit_.misfits);
+  model.converged = fit_.converged;
+  model.shapes = forward_->shapes({model.changes}, all_)[0];
+  model.misfits = fit_.misfits;
+  for (int e : all_) model.experiment_rms_m.push_back(rms({&set_.experiments[e]}, {fit_.misfits[e]}));
+  model.correlation = correlation_along(set_, fit_.misfits);
+  model.dependences = dependences(set_, fit_.misfits, model.view);
+  return model;
+}
+
+std::vector<VectorXd> Study::held_out(FitOptions options) const {
+  const auto folds = folds_of(set_);
+  std::vector<VectorXd> out(folds.empty() ? 0 : all_.size());
+  for (std::size_t f = 0; f < folds.size(); ++f) {
+    say(fmt::format("fold {} of {}", f + 1, folds.size()));
+    options.experiments.clear();
+    for (int e : all_)
+      if (std::find(folds[f].begin(), folds[f].end(), e) == folds[f].end()) options.experiments.push_back(e);
+    options.starts = {parameters_.start(), fit_.x};
+    const auto off = misfits(*forward_, parameters_, fit(*forward_, parameters_, options).x, folds[f]);
+    for (std::size_t k = 0; k < off.size(); ++k) {
+      if (off[k].size() == 0) return {};
+      out[folds[f][k]] = off[k];
+    }
+  }
+  return out;
+}
+
+}  // namespace ostium

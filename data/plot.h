@@ -1,0 +1,56 @@
+#pragma once
+/// Small plots as SVG text, for pages that people read.
+#include <Eigen/Core>
+#include <cmath>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace ostium {
+
+/// `words` as text in HTML and SVG.
+std::string escaped(const std::string& words);
+
+class Plot {
+ public:
+  Plot(std::string title, std::string x_label, std::string y_label, double width = 460, double height = 300);
+
+  using Points = std::vector<Eigen::Vector2d>;
+  void line(const Points& points, const std::string& colour, double width = 1.6, const std::string& dashes = "");
+  void dots(const Points& points, const std::string& colour, double radius = 2.2);
+  /// A line across the whole plot at y, with words at its right end.
+  void level(double y, const std::string& words);
+  /// Vertical bars from zero: one for each value and series, side by side, named below.
+  void bars(const std::vector<std::string>& names, const std::vector<std::vector<double>>& series,
+            const std::vector<std::string>& colours);
+  void legend(const std::string& words, const std::string& colour, bool dot = false, const std::string& dashes = "");
+  /// One unit of x as long as one of y.
+  void equal_scales() { equal_ = true; }
+  void y_from_zero() { include_.push_back({NAN, 0}); }
+
+  std::string svg() const;
+
+ private:
+  struct Item {
+    Points points;
+    std::string colour, dashes;
+    double size;
+    bool dots;
+  };
+  struct Entry {
+    std::string words, colour, dashes;
+    bool dot;
+  };
+  std::string title_, x_label_, y_label_;
+  double width_, height_;
+  bool equal_ = false;
+  std::vector<Item> items_;
+  std::vector<std::pair<double, std::string>> levels_;
+  std::vector<Entry> legend_;
+  std::vector<std::string> bar_names_;
+  std::vector<std::vector<double>> bar_values_;
+  std::vector<std::string> bar_colours_;
+  std::vector<Eigen::Vector2d> include_;
+};
+
+}  // namespace ostium
