@@ -98,8 +98,9 @@ Explanation explain(const MeasurementSet& set, const ExplainOptions& options) {
   out.noise = noise_of(set, closest->misfits);
   declared.judge(out.declared, out.noise);
   for (std::size_t i = 0; i < studies.size(); ++i) studies[i].judge(out.candidates[i], out.noise);
-  std::stable_sort(out.candidates.begin(), out.candidates.end(),
-                   [](const FittedModel& a, const FittedModel& b) { return a.bic < b.bic; });
+  // Not stable_sort: its buffer does not know of the alignment that Eigen asks for (g++ 12).
+  std::sort(out.candidates.begin(), out.candidates.end(),
+            [](const FittedModel& a, const FittedModel& b) { return a.bic < b.bic; });
 
   // Without a known noise nobody can say that a model fits to it: then what predicts better wins.
   const bool fits = is_noise(out.declared, out.noise);

@@ -113,16 +113,20 @@ class Problem {
   int rows_ = 0;
 };
 
-LeastSquaresResult best_of(const Problem& problem, const std::vector<VectorXd>& starts) {
-  std::optional<LeastSquaresResult> best;
-  for (const VectorXd& start : starts) {
-    const LeastSquares least_squares = problem.least_squares(start);
+/// Screens the starts by what they cost, and goes downhill from the best `most` of them.
+LeastSquaresResult best_of(const Problem& problem, const std::vector<VectorXd>& starts, std::size_t most) {
+  std::vector<std::pair<double, std::size_t>> costs;
+  for (std::size_t i = 0; i < starts.size(); ++i) {
     VectorXd r;
-    if (!problem.evaluate(least_squares.start, r, nullptr)) continue;
-    const LeastSquaresResult found = minimise(least_squares);
+    if (problem.evaluate(problem.least_squares(starts[i]).start, r, nullptr)) costs.emplace_back(r.squaredNorm(), i);
+  }
+  if (costs.empty()) throw std::runtime_error("no static shape was found at the parameters a fit starts from");
+  std::sort(costs.begin(), costs.end());
+  std::optional<LeastSquaresResult> best;
+  for (std::size_t k = 0; k < std::min(costs.size(), most); ++k) {
+    const LeastSquaresResult found = minimise(problem.least_squares(starts[costs[k].second]));
     if (!best || found.cost < best->cost * (1 - 1e-9)) best = found;
   }
-  if (!best) throw std::runtime_error("no static shape was found at the parameters a fit starts from");
   return *best;
 }
 
@@ -157,7 +161,7 @@ Fit fit(const Forward& forward, const Parameters& parameters, const FitOptions& 
   const int rounds = options.sigma_m ? 1 : 4;
   for (int round = 0; round < rounds; ++round) {
     const Problem problem(forward, parameters, options.experiments, sigma);
-    const LeastSquaresResult found = best_of(problem, starts);
+    const LeastSquaresResult found = best_of(problem, starts, options.descents);
     VectorXd r;
     MatrixXd J;
     if (!problem.evaluate(found.x, r, &J)) throw std::runtime_error("no static shape was found where a fit ended");

@@ -40,7 +40,8 @@ struct Fit {
 struct FitOptions {
   std::vector<int> experiments;         ///< which to fit
   std::optional<double> sigma_m;        ///< of the noise; none: taken from what the fit leaves
-  std::vector<Eigen::VectorXd> starts;  ///< where to begin; the best end counts
+  std::vector<Eigen::VectorXd> starts;  ///< where to begin
+  std::size_t descents = 1;             ///< from so many of the starts, those that cost least; the best end counts
 };
 
 /// Throws std::runtime_error if the model has no shapes at any start.

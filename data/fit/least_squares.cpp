@@ -43,7 +43,7 @@ LeastSquaresResult minimise(const LeastSquares& problem) {
   ceres::Solver::Options options;
   options.linear_solver_type = ceres::DENSE_QR;
   options.max_num_iterations = 60;
-  options.function_tolerance = 1e-9;
+  options.function_tolerance = 1e-8;
   options.parameter_tolerance = 1e-8;
   options.gradient_tolerance = 1e-12;
   options.logging_type = ceres::SILENT;

@@ -14,7 +14,8 @@ namespace {
 
 using Eigen::VectorXd;
 
-constexpr int further_starts = 3;
+constexpr int further_starts = 7;
+constexpr std::size_t descents = 2;
 constexpr double another_branch_m = 0.1e-3;  // tips further apart than this are on other branches
 
 std::vector<int> everyone(const MeasurementSet& set) {
@@ -65,7 +66,7 @@ FittedModel Study::run(std::optional<double> noise_m) {
   say("walking through the experiments");
   anchor(parameters_.start());
   say("fit");
-  FitOptions options{all_, noise_m, starts_of(parameters_, further_starts)};
+  FitOptions options{all_, noise_m, starts_of(parameters_, further_starts), descents};
   fit_ = fit(*forward_, parameters_, options);
   const std::vector<std::string> others = on_other_branches();
   if (!others.empty()) {
@@ -142,6 +143,7 @@ FittedModel Study::report() const {
 
 std::vector<VectorXd> Study::held_out(FitOptions options) const {
   const auto folds = folds_of(set_);
+  options.descents = 1;
   std::vector<VectorXd> out(folds.empty() ? 0 : all_.size());
   for (std::size_t f = 0; f < folds.size(); ++f) {
     say(fmt::format("fold {} of {}", f + 1, folds.size()));

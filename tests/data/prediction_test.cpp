@@ -1,0 +1,131 @@
+/// Predictions against the boundary-value solver, through the file format.
+#include "data/forward/prediction.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <numbers>
+
+#include "data/measured/measurement_reader.h"
+#include "tests/support/synthetic_set.h"
+
+namespace ostium {
+namespace {
+
+using Eigen::Vector3d;
+
+MeasurementSet through_file(const MeasurementSet& set) {
+  return read_measurement("set/measurement.json", synthetic::to_json(set));
+}
+
+/// Largest distance at the same arc length, mm.
+double furthest_mm(const Shape& shape, const boundary_value::Solution& exact, double length_m) {
+  double worst = 0, s = 0;
+  for (std::size_t i = 0; i < shape.points_m.size(); ++i) {
+    if (i > 0) s += (shape.points_m[i] - shape.points_m[i - 1]).norm();
+    const double at = s / length_m * static_cast<double>(exact.curve.size() - 1);
+    const auto k = std::min(static_cast<std::size_t>(at), exact.curve.size() - 2);
+    const Vector3d q = exact.curve[k] + (at - static_cast<double>(k)) * (exact.curve[k + 1] - exact.curve[k]);
+    worst = std::max(worst, 1e3 * (shape.points_m[i] - q).norm());
+  }
+  return worst;
+}
+
+TEST(Prediction, CurvedRolledLoadedWiresAreWithinATenthOfAMillimetreOfTheBoundaryValueSolution) {
+  const MeasurementSet set = through_file(synthetic::free_wire(12));
+  const auto predictions = predict(set);
+  ASSERT_EQ(predictions.size(), 12u);
+  for (std::size_t e = 0; e < predictions.size(); ++e) {
+    const auto exact = boundary_value::solve(synthetic::problem_of(set, set.experiments[e], {}), 2001);
+    ASSERT_TRUE(exact.converged);
+    EXPECT_LT(furthest_mm(predictions[e].shape, exact, set.experiments[e].set[0].inserted_m), 0.02) << e;
+    EXPECT_LT(*predictions[e].rms_to_measured_m, 0.02e-3) << e;
+  }
+}
+
+TEST(Prediction, SoAreNestedTubesAtTheirTips) {
+  MeasurementSet set = synthetic::two_tubes(8);
+  set.imaging.registration_free = set.imaging.tip_offset_free = false;
+  for (const Prediction& p : predict(through_file(set))) EXPECT_LT(*p.rms_to_measured_m, 0.02e-3) << p.id;
+  set.imaging.tip_offset_free = true;
+  for (const Prediction& p : predict(through_file(set))) EXPECT_FALSE(p.rms_to_measured_m);
+}
+
+/// An effect that the file declares: shafts that twist as their GJ says.
+TEST(Prediction, DeclaredEffectsAreInTheModel) {
+  MeasurementSet set = synthetic::two_tubes(6);
+  set.imaging.registration_free = set.imaging.tip_offset_free = false;
+  synthetic::Truth truth;
+  truth.shaft_compliance = 1.4;
+  synthetic::measure(set, truth);
+  double rigid = 0;
+  for (const Prediction& p : predict(through_file(set))) rigid = std::max(rigid, *p.rms_to_measured_m);
+  EXPECT_GT(rigid, 1e-3);
+  auto file = nlohmann::json::parse(synthetic::to_json(set));
+  file["effects"] = {{{"id", "shaft_torsion"}, {"parameters", {{"compliance", 1.4}}}}};
+  for (const Prediction& p : predict(read_measurement("m.json", file.dump())))
+    EXPECT_LT(*p.rms_to_measured_m, 0.02e-3) << p.id;
+}
+
+/// Two tubes wound up against each other have two stable shapes; which one is found depends on where they come from.
+TEST(Prediction, ContinuesFromTheExperimentBefore) {
+  MeasurementSet set = synthetic::two_tubes(1);
+  set.imaging.registration_free = set.imaging.tip_offset_free = false;
+  Experiment e = set.experiments[0];
+  const auto with_roll = [&](double deg) {
+    Experiment x = e;
+    x.id = std::to_string(deg);
+    x.set = {{0.14, 0, 0}, {0.14, deg * std::numbers::pi / 180, 0}};
+    return x;
+  };
+  // Curved over their whole length, L k sqrt(1 + nu) = 2.2: they snap some way beyond 180 degrees, not at it.
+  for (MeasuredInstrument& i : set.instruments)
+    for (Section& s : i.sections) s.rest_curvature_per_m = {0, 13.5, 0};
+  set.experiments = {with_roll(0), with_roll(190)};
+  const auto forwards = predict(through_file(set));
+  set.experiments = {with_roll(360), with_roll(190)};
+  const auto backwards = predict(through_file(set));
+  // The same drives, mirror images of each other but for 10 degrees.
+  EXPECT_GT((forwards[1].shape.points_m.back() - backwards[1].shape.points_m.back()).norm(), 5e-3);
+}
+
+TEST(Prediction, FilesHaveTheSchema) {
+  const MeasurementSet set = through_file(synthetic::free_wire(2));
+  const auto predictions = predict(set);
+  const auto json = nlohmann::json::parse(to_json(predictions));
+  EXPECT_EQ(json["schema"], "ostium-prediction/1");
+  ASSERT_EQ(json["experiments"].size(), 2u);
+  const auto& points = json["experiments"][1]["centreline_mm"];
+  Vector3d before = Vector3d::Zero();
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const Vector3d p(points[i][0], points[i][1], points[i][2]);
+    if (i > 0) {
+      EXPECT_LE((p - before).norm(), 2.0);
+    }
+    before = p;
+  }
+  EXPECT_NEAR((before - 1e3 * predictions[1].shape.points_m.back()).norm(), 0, 1e-5);
+  EXPECT_TRUE(json["experiments"][0]["rms_to_measured_mm"].is_number());
+  EXPECT_EQ(to_csv(predictions).substr(0, 30), "experiment,s_mm,x_mm,y_mm,z_mm");
+}
+
+TEST(Prediction, WhatIsNotKnownYetIsSaid) {
+  auto file = nlohmann::json::parse(synthetic::to_json(synthetic::free_wire(1)));
+  file["environment"]["vessel"] = {{"mesh", "a.stl"}, {"units", "mm"}, {"friction", 0.05}};
+  EXPECT_THROW(predict(read_measurement("m.json", file.dump())), LoadError);
+}
+
+TEST(Shape, RadiusOfAnArcAndDistancesBeyondTheEnds) {
+  std::vector<Vector3d> arc;
+  for (int i = 0; i <= 40; ++i) arc.push_back({0.16 * std::sin(0.01 * i), 0.3, 0.16 * (1 - std::cos(0.01 * i))});
+  EXPECT_NEAR(radius_of_curvature(arc), 0.16, 1e-9);
+  const std::vector<Vector3d> line = {{0, 0, 0}, {0, 0, 0.1}, {0, 0, 0.2}};
+  EXPECT_TRUE(std::isinf(radius_of_curvature(line)));
+  EXPECT_LT((nearest_point(line, {0.01, 0, 0.5}) - Vector3d(0, 0, 0.5)).norm(), 1e-12);
+  EXPECT_LT((nearest_point(line, {0.01, 0, -0.5}) - Vector3d(0, 0, -0.5)).norm(), 1e-12);
+  EXPECT_LT((nearest_point(line, {0.01, 0, 0.05}) - Vector3d(0, 0, 0.05)).norm(), 1e-12);
+}
+
+}  // namespace
+}  // namespace ostium

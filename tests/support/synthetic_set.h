@@ -1,0 +1,35 @@
+#pragma once
+/// Measured sets made by the boundary-value solver, with noise: what the fit is held to.
+#include <Eigen/Geometry>
+
+#include "data/measured/measurement_set.h"
+#include "tests/support/boundary_value.h"
+
+namespace ostium::synthetic {
+
+/// How the world differs from what a set declares.
+struct Truth {
+  std::vector<std::vector<double>> stiffness_scale;  ///< per instrument and section
+  double shaft_compliance = 0;                       ///< of the shafts against what their GJ says
+  Eigen::Quaterniond R = Eigen::Quaterniond::Identity();
+  Eigen::Vector3d t_m = Eigen::Vector3d::Zero(), tip_offset_m = Eigen::Vector3d::Zero();
+  double sigma_m = 0;
+  unsigned seed = 1;
+};
+
+/// The boundary-value problem of an experiment.
+boundary_value::Problem problem_of(const MeasurementSet& set, const Experiment& experiment, const Truth& truth);
+
+/// Fills in what would be measured: centrelines (a point every `spacing_m`) or tips, as each experiment's kind says.
+void measure(MeasurementSet& set, const Truth& truth, double spacing_m = 5e-3);
+
+/// A wire with a soft curved tip, 120 to 300 mm of it inserted level, rolled, some of it with a load at its tip.
+MeasurementSet free_wire(int experiments);
+
+/// Two tubes with curved ends and shafts behind the base, tips tracked in a frame of their own.
+MeasurementSet two_tubes(int experiments);
+
+/// The file that says it.
+std::string to_json(const MeasurementSet& set);
+
+}  // namespace ostium::synthetic
