@@ -4,13 +4,14 @@
 
 #include <algorithm>
 
+#include "data/effects/roll_loss.h"
 #include "data/effects/shaft_torsion.h"
 #include "data/effects/stress_relaxation.h"
 
 namespace ostium {
 
 const std::vector<Effect>& effects() {
-  static const std::vector<Effect> all = {shaft_torsion(), stress_relaxation()};
+  static const std::vector<Effect> all = {shaft_torsion(), roll_loss(), stress_relaxation()};
   return all;
 }
 

@@ -36,9 +36,22 @@ ActiveEffect parsed(const std::string& word, const MeasurementSet& set) {
   return active;
 }
 
-/// An effect counts if it predicts what it has not seen better, and pays for its numbers (Kass, Raftery 1995, J Am Stat
-/// Assoc 90:773: a difference of 6 in BIC is strong evidence).
+/// A difference in BIC that is strong evidence (Kass, Raftery 1995, J Am Stat Assoc 90:773).
 constexpr double strong_evidence = 6;
+
+/// By BIC; first, of those that the best has no strong evidence against, the one with the fewest parameters.
+void put_best_first(std::vector<FittedModel>& candidates) {
+  // Not stable_sort: its buffer does not know of the alignment that Eigen asks for (g++ 12).
+  std::sort(candidates.begin(), candidates.end(),
+            [](const FittedModel& a, const FittedModel& b) { return a.bic < b.bic; });
+  if (candidates.empty()) return;
+  auto best = candidates.begin();
+  for (auto c = best; c != candidates.end() && c->bic < candidates.front().bic + strong_evidence; ++c)
+    if (c->parameters.size() < best->parameters.size()) best = c;
+  std::rotate(candidates.begin(), best, best + 1);
+}
+
+/// An effect counts if it predicts what it has not seen better, and pays for its numbers.
 bool wins(const FittedModel& candidate, const FittedModel& declared, const Noise& noise) {
   const bool held_out = candidate.rms_held_out_m && declared.rms_held_out_m &&
                         *candidate.rms_held_out_m < 0.95 * *declared.rms_held_out_m;
@@ -98,9 +111,7 @@ Explanation explain(const MeasurementSet& set, const ExplainOptions& options) {
   out.noise = noise_of(set, closest->misfits);
   declared.judge(out.declared, out.noise);
   for (std::size_t i = 0; i < studies.size(); ++i) studies[i].judge(out.candidates[i], out.noise);
-  // Not stable_sort: its buffer does not know of the alignment that Eigen asks for (g++ 12).
-  std::sort(out.candidates.begin(), out.candidates.end(),
-            [](const FittedModel& a, const FittedModel& b) { return a.bic < b.bic; });
+  put_best_first(out.candidates);
 
   // Without a known noise nobody can say that a model fits to it: then what predicts better wins.
   const bool fits = is_noise(out.declared, out.noise);

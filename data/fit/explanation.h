@@ -22,7 +22,8 @@ struct FittedParameter {
 
 /// One model: what is declared, or that with effects.
 struct FittedModel {
-  std::vector<std::string> effects;
+  std::string name;                  ///< "shaft_torsion + roll_loss[0]", or "what is declared"
+  std::vector<std::string> effects;  ///< ids, each once
   std::vector<FittedParameter> parameters;
   Changes changes;
   View view;

@@ -32,7 +32,7 @@ std::string number(const std::optional<double>& value, double unit = 1, const ch
 }
 
 std::string model_row(const FittedModel& m, double declared_bic) {
-  return "<tr><td>" + escaped(name_of(m)) + "</td>" + cell(number(m.rms_m, mm)) + cell(number(m.rms_held_out_m, mm)) +
+  return "<tr><td>" + escaped(m.name) + "</td>" + cell(number(m.rms_m, mm)) + cell(number(m.rms_held_out_m, mm)) +
          cell(number(m.chi2_per_dof)) + cell(fmt::format("{:+.1f}", m.bic - declared_bic)) + "</tr>\n";
 }
 
@@ -109,10 +109,9 @@ std::string to_html(const MeasurementSet& set, const Explanation& x) {
   out += "</ul>\n<h2>Models</h2>\n" + models(x) + plots(set, x);
   out += "<h2>What the residual of the declared model goes with</h2>\n" + dependence_table(x.declared);
   for (const FittedModel& c : x.candidates)
-    out += "<h2>What the residual with " + escaped(name_of(c)) + " goes with</h2>\n" + dependence_table(c);
+    out += "<h2>What the residual with " + escaped(c.name) + " goes with</h2>\n" + dependence_table(c);
   out += "<h2>Parameters of the declared model</h2>\n" + parameters(x.declared);
-  for (const FittedModel& c : x.candidates)
-    out += "<h2>Parameters with " + escaped(name_of(c)) + "</h2>\n" + parameters(c);
+  for (const FittedModel& c : x.candidates) out += "<h2>Parameters with " + escaped(c.name) + "</h2>\n" + parameters(c);
   return out +
          "<p class=\"source\">Made by ostium explain. For training and research, not for decisions on a "
          "patient.</p>\n</body></html>\n";

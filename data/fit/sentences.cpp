@@ -25,7 +25,7 @@ std::string of_verdict(const Explanation& x) {
     case Verdict::effect:
       return fmt::format(
           "What is declared does not explain the measurements; with {} it does better on data it has not seen{}.",
-          name_of(x.candidates.front()),
+          x.candidates.front().name,
           x.noise.sigma_m ? ", and what is left is noise"
                           : ". The noise is unknown, so this rests on "
                             "held-out error and BIC alone");
@@ -51,7 +51,7 @@ void of_curvature(const MeasurementSet& set, const Explanation& x, std::vector<s
   if (nominal.empty()) return;
   std::string words = "In curvature: nothing fitted " + nominal;
   const auto add = [&](const FittedModel& m) {
-    words += "; " + name_of(m) + ", fitted, " + in_curvature(set, m.misfits);
+    words += "; " + m.name + ", fitted, " + in_curvature(set, m.misfits);
     if (!m.held_out_misfits.empty()) words += " (" + in_curvature(set, m.held_out_misfits) + " held out)";
   };
   add(x.declared);
@@ -112,19 +112,13 @@ void of_residual(const FittedModel& m, std::vector<std::string>& out) {
 
 }  // namespace
 
-std::string name_of(const FittedModel& model) {
-  std::string name;
-  for (const std::string& effect : model.effects) name += (name.empty() ? "" : " + ") + effect;
-  return name.empty() ? "what is declared" : name;
-}
-
 std::vector<std::string> sentences(const MeasurementSet& set, const Explanation& x) {
   std::vector<std::string> out = {of_verdict(x)};
   out.push_back(fmt::format("{}: {:.3g} mm. Declared model, fitted: {:.3g} mm, {}.",
                             set.imaging.registration_free ? "Nothing fitted but the measuring frame" : "Nothing fitted",
                             x.rms_nominal_m / mm, x.declared.rms_m / mm, held_out(x.declared)));
   for (const FittedModel& c : x.candidates)
-    out.push_back(fmt::format("With {}: {:.3g} mm, {}; BIC changes by {:+.1f}.", name_of(c), c.rms_m / mm, held_out(c),
+    out.push_back(fmt::format("With {}: {:.3g} mm, {}; BIC changes by {:+.1f}.", c.name, c.rms_m / mm, held_out(c),
                               c.bic - x.declared.bic));
   of_curvature(set, x, out);
   of_noise(x, out);

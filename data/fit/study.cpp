@@ -55,7 +55,7 @@ Study::Study(const MeasurementSet& set, const Workers& workers, const std::vecto
     name_ += (name_.empty() ? "" : " + ") + effect.effect->id;
     if (effect.instrument) name_ += fmt::format("[{}]", *effect.instrument);
   }
-  if (name_.empty()) name_ = "declared model";
+  if (name_.empty()) name_ = "what is declared";
 }
 
 void Study::say(const std::string& what) const {
@@ -125,7 +125,10 @@ std::vector<std::string> Study::on_other_branches() {
 
 FittedModel Study::report() const {
   FittedModel model;
-  for (const ActiveEffect& effect : tried_) model.effects.push_back(effect.effect->id);
+  model.name = name_;
+  for (const ActiveEffect& effect : tried_)
+    if (std::find(model.effects.begin(), model.effects.end(), effect.effect->id) == model.effects.end())
+      model.effects.push_back(effect.effect->id);
   for (int i = 0; i < parameters_.size(); ++i)
     model.parameters.push_back({parameters_.list()[i], parameters_.value(i, fit_.x[i]),
                                 parameters_.sigma(i, fit_.x[i], std::sqrt(fit_.covariance(i, i))), fit_.informed(i)});
