@@ -22,7 +22,7 @@ h1 { font-size: 22px; margin: 0 0 4px; } h2 { font-size: 17px; margin: 28px 0 8p
 .verdict.explained { border-color: #009e73; } .verdict.effect { border-color: #0072b2; }
 .verdict.unexplained { border-color: #d55e00; }
 table { border-collapse: collapse; font-size: 14px; } th { text-align: left; font-weight: 600; }
-th, td { padding: 3px 14px 3px 0; border-bottom: 1px solid #e4e4e4; } td.n { text-align: right; font-variant-numeric: tabular-nums; }
+th { vertical-align: bottom; } th, td { padding: 3px 14px 3px 0; border-bottom: 1px solid #e4e4e4; } td.n { text-align: right; font-variant-numeric: tabular-nums; }
 tr.weak td { color: #888; } svg { max-width: 100%; height: auto; margin: 4px 6px 4px 0; }
 )";
 
@@ -41,8 +41,8 @@ std::string models(const Explanation& x) {
       "<table><tr><th>model</th><th>all data, mm</th><th>held out, mm</th><th>chi&sup2; per degree of "
       "freedom</th><th>BIC "
       "against declared</th></tr>\n";
-  out += "<tr><td>nothing fitted but the measuring frame, if it is free</td>" + cell(number(x.rms_nominal_m, mm)) +
-         cell("") + cell("") + cell("") + "</tr>\n";
+  out += "<tr><td>as declared, nothing fitted</td>" + cell(number(x.rms_nominal_m, mm)) + cell("") + cell("") +
+         cell("") + "</tr>\n";
   out += model_row(x.declared, x.declared.bic);
   for (const FittedModel& c : x.candidates) out += model_row(c, x.declared.bic);
   return out + "</table>\n";

@@ -62,7 +62,8 @@ std::string shapes_plot(const MeasurementSet& set, const Explanation& x, int whi
   for (std::size_t e = 0; e < set.experiments.size(); ++e) {
     plot.line(seen(x.declared.shapes[e].points_m, length, across), before_colour, 1.1);
     if (has_after(x)) plot.line(seen(after(x).shapes[e].points_m, length, across), after_colour, 1.3);
-    plot.dots(seen(in_set(set.experiments[e], shown.view), length, across), measured_colour, 2.2);
+    const bool tip = set.experiments[e].kind == Experiment::Kind::tip;
+    plot.dots(seen(in_set(set.experiments[e], shown.view), length, across), measured_colour, tip ? 2.2 : 1.3);
     // A tracked point lies off the tip: what joins it to the model's is part of the model.
     if (set.experiments[e].kind == Experiment::Kind::tip && set.imaging.tip_offset_free) {
       const Vector3d tracked = shown.view.R.conjugate() * (tracked_tip(shown.shapes[e], shown.view) - shown.view.t_m);

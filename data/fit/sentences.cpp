@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <utility>
 
 namespace ostium {
 
@@ -107,6 +108,14 @@ void of_residual(const FittedModel& m, std::vector<std::string>& out) {
     out.push_back(common ? fmt::format("{:.0f} % of the residual is {}.", 100 * d.share, d.on)
                          : fmt::format("{:.0f} % of the residual's scatter goes with {}.", 100 * d.share, d.on));
   }
+  static const std::vector<std::pair<std::string, std::string>> meanings = {
+      {"material", "What is left turns with the roll: it is in the instrument, not in the room."},
+      {"lab",
+       "What is left stays where it is whatever the roll: it is in the room, as a load, a weight or a frame is."},
+      {"time", "What is left changes with time."},
+      {"image", "What is left goes with the place alone, as a scale or distortion of the picture would."}};
+  for (const auto& [frame, words] : meanings)
+    if (m.dependences.signature.frame == frame) out.push_back(words);
   if (told == 0) out.push_back("The residual goes with nothing that was varied.");
 }
 
