@@ -78,11 +78,11 @@ struct ConcentricEquilibrium {
   int rounds = 0;               ///< of angles and carrier in turn
   double turn_rad = 0;          ///< largest change of an angle in the last round
   double base_push_N = 0;       ///< force along the base's d3 that holds the nest there
-  int negative_directions = 0;  ///< of the carrier (statics.h); those of the angles are left before they are taken
+  int negative_directions = 0;  ///< of the carrier (statics.h); not 0 if it found no way down
 };
 
-/// Puts `state` into the equilibrium that continues from its shape. `base` is the unrolled base frame. Where it does
-/// not converge, `state` is not an equilibrium and the report says so.
+/// Puts `state` into the stable equilibrium that continues from its shape; what is balanced but unstable is left.
+/// `base` is the unrolled base frame. Where it does not converge, `state` is not an equilibrium and the report says so.
 ConcentricEquilibrium find_equilibrium(const Concentric& nest, const EndState& base,
                                        const Eigen::Vector3d& tip_force_W_N, ConcentricState& state);
 

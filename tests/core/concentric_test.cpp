@@ -70,13 +70,13 @@ double distance_mm(const boundary_value::Problem& p, int elements, ConcentricEqu
 TEST(Concentric, TwoTubesTurnedAgainstEachOther) {
   for (double roll : {0.0, 0.5, 1.3, 2.2})
     for (double shaft : {0.0, 30.0})
-      EXPECT_LT(distance_mm(two_tubes(roll, shaft, Vector3d::Zero(), false), 150), 0.02) << roll << " " << shaft;
+      EXPECT_LT(distance_mm(two_tubes(roll, shaft, Vector3d::Zero(), false), 150), 0.005) << roll << " " << shaft;
 }
 
 TEST(Concentric, TheSameWithLoads) {
   ConcentricEquilibrium report;
   for (double shaft : {0.0, 30.0}) {
-    EXPECT_LT(distance_mm(two_tubes(1.0, shaft, {0.05, -0.08, 0.03}, true), 150, &report), 0.02);
+    EXPECT_LT(distance_mm(two_tubes(1.0, shaft, {0.05, -0.08, 0.03}, true), 150, &report), 0.005);
     EXPECT_LT(report.rounds, 30);
   }
 }
@@ -92,7 +92,7 @@ TEST(Concentric, OneWire) {
     for (Section& s : p.tubes[0].sections) s.kg_per_m = 8e-4 / 10;
     p.gravity = {-9.81, 0, 0};
     p.tip_force = {0, 1e-4, -0.5e-4};
-    EXPECT_LT(distance_mm(p, 250), 0.1) << roll;
+    EXPECT_LT(distance_mm(p, 250), 0.01) << roll;
   }
 }
 
@@ -101,7 +101,7 @@ TEST(Concentric, ALoadTurnsTheShaftOfOneWire) {
   p.tubes = {
       {{stretch(0, 0.05, 2e-3, {0, 20, 0}, 1e-3, 0), stretch(0.05, 0.1, 2e-3, {0, 0, 0}, 1e-3, 0)}, 0.1, 0.3, 100}};
   p.tip_force = {0, 0.1, 0};
-  EXPECT_LT(distance_mm(p, 100), 0.02);
+  EXPECT_LT(distance_mm(p, 100), 0.005);
   // It does turn: with a rigid shaft the curve is another.
   boundary_value::Problem rigid = p;
   rigid.tubes[0].shaft_rad_per_Nm = 0;
@@ -120,6 +120,22 @@ TEST(Concentric, OpposedTubesLeaveTheirUnstableBalance) {
   ConcentricState state = straight_state(nest, {});
   ASSERT_TRUE(find_equilibrium(nest, {}, Vector3d::Zero(), state).converged);
   EXPECT_GT(std::fabs(state.roll_rad(0, 63) - state.roll_rad(0, 0)), 0.5);
+}
+
+/// A wire standing upright buckles under its weight if w L^3 / EI > 7.84 (Greenhill 1881): then it is found leaning.
+TEST(Concentric, AnUprightWireBucklesWhenItIsTooLong) {
+  for (const auto& [ratio, leans] : {std::pair{7.6, false}, std::pair{9.0, true}}) {
+    boundary_value::Tube wire{{stretch(0, 0.3, 1e-5, {0, 0, 0}, 0.2e-3, 0)}, 0.3, 0, 0};
+    wire.sections[0].kg_per_m = ratio * 1e-5 / (0.3 * 0.3 * 0.3) / 9.81;
+    ConcentricDescription d{"wire", {{wire.sections, 0.3, 0, 0}}, std::vector<double>(200, 0.3 / 200)};
+    const Concentric nest = make_concentric(d, {0, 0, -9.81});
+    ConcentricState state = straight_state(nest, {});
+    const ConcentricEquilibrium found = find_equilibrium(nest, {}, Vector3d::Zero(), state);
+    ASSERT_TRUE(found.converged);
+    EXPECT_EQ(found.negative_directions, 0);
+    const Vector3d tip = state.carrier.rods[0].position[200];
+    EXPECT_EQ(tip.head<2>().norm() > 0.02, leans) << tip.transpose();
+  }
 }
 
 /// Rods of their own, bound with 0.01 mm of clearance, come to rest on the same curve.
@@ -150,7 +166,7 @@ TEST(Concentric, AgreesWithTheBindingOfRods) {
   ConcentricState together = straight_state(nest, {});
   ASSERT_TRUE(find_equilibrium(nest, {}, Vector3d::Zero(), together).converged);
   for (int rod : {0, 1})
-    EXPECT_LT((state.rods[rod].position[elements] - together.carrier.rods[0].position[elements]).norm(), 0.3e-3);
+    EXPECT_LT((state.rods[rod].position[elements] - together.carrier.rods[0].position[elements]).norm(), 0.1e-3);
 }
 
 TEST(Concentric, WhatIsNoNestIsRefused) {

@@ -90,6 +90,23 @@ TEST(Prediction, ContinuesFromTheExperimentBefore) {
   EXPECT_GT((forwards[1].shape.points_m.back() - backwards[1].shape.points_m.back()).norm(), 5e-3);
 }
 
+/// Of an aligned pair, by hand: (E1 I1 k1 + E2 I2 k2) / (E1 I1 + E2 I2), with the curvature of the specimen at hand.
+TEST(Prediction, RadiusOfAPairIsThatOfACompositeBeam) {
+  MeasurementSet set = synthetic::two_tubes(1);
+  set.imaging = {};
+  Experiment e = set.experiments[0];
+  e.kind = Experiment::Kind::radius;
+  e.points_m.clear();
+  e.set = {{0.05, 0.7, 0}, {0.05, 0.7, 0}};
+  e.specimen = {Eigen::Vector2d(0, 9.5), {}};
+  e.radius_m = 0.1;
+  const ostium::Setup setup = setup_of(set, e, {});
+  set.experiments = {e};
+  const double k = (5500 * 9.5 + 2650 * 12.7) / (5500 + 2650);
+  EXPECT_NEAR(radius_of_curvature(shape_from(setup, walk(set, {})[0]).points_m) * k, 1, 1e-3);
+  EXPECT_NEAR(*predict(set)[0].rms_to_measured_m, std::fabs(0.1 - 1 / k), 1e-4);
+}
+
 TEST(Prediction, FilesHaveTheSchema) {
   const MeasurementSet set = through_file(synthetic::free_wire(2));
   const auto predictions = predict(set);
