@@ -1,6 +1,6 @@
 #pragma once
 /// One experiment as the static solver takes it: what the set declares, with what a fit or an effect changes in it.
-#include "core/concentric.h"
+#include "core/concentric/concentric.h"
 #include "data/measured/measurement_set.h"
 
 namespace ostium {

@@ -1,6 +1,6 @@
 /// Nested instruments on one centreline against a boundary-value solver, and against the binding of rods with
 /// clearance.
-#include "core/concentric.h"
+#include "core/concentric/concentric.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "core/concentric_twist.h"
+#include "core/concentric/twist.h"
 
 #include <Eigen/SparseCholesky>
 #include <algorithm>

@@ -7,7 +7,7 @@
 ///   sum_i (b_i - r_i)^2 / 2 C_i - M_z(0) b_ref
 ///   - integral of |sum_i EI_i Rz(a_i) k_i + M_xy|^2 / (2 sum EI_i)
 ///   + integral of sum_i GJ_i a_i'^2 / 2 - (sum_i GJ_i a_i' - M_z)^2 / (2 sum GJ_i)
-#include "core/concentric.h"
+#include "core/concentric/concentric.h"
 
 namespace ostium {
 
