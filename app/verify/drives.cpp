@@ -16,8 +16,7 @@ using Eigen::Vector3d;
 namespace {
 
 constexpr double pi = std::numbers::pi;
-constexpr double wire_friction = 0.05,
-             guide_friction = 0.1;
+constexpr double wire_friction = 0.05, guide_friction = 0.1;
 
 /// 1 mm over the last 150 mm, growing to 4 mm.
 std::vector<double> element_lengths(double length_m) {

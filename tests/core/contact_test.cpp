@@ -1,0 +1,171 @@
+#include "core/contact/contact.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <numbers>
+#include <random>
+
+#include "app/verify/drives.h"
+#include "app/verify/steel_wire.h"
+#include "app/verify/tube.h"
+#include "core/math/rotation.h"
+#include "core/surface/pose.h"
+#include "core/surface/triangle.h"
+#include "tests/core/allocations.h"
+
+namespace ostium {
+namespace {
+
+using Eigen::Vector3d;
+using verify::along_x;
+
+constexpr double pi = std::numbers::pi;
+
+SurfaceDescription straight_tube(double radius_m) {
+  std::vector<verify::TubePoint> points;
+  for (int i = -2; i <= 30; ++i) points.push_back({Vector3d(0.01 * i, 0, 0), radius_m});
+  return verify::tube(points, 48);
+}
+
+TEST(Triangle, TheNearestPointIsNoFartherThanAnyOther) {
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> u(-1, 1);
+  const auto any = [&] { return V3<double>{u(random), u(random), u(random)}; };
+  for (int n = 0; n < 200; ++n) {
+    const V3<double> a = any(), b = any(), c = any(), x = any();
+    const auto apart = [&](const TrianglePoint& w) {
+      const V3<double> d = at(w, a, b, c) - x;
+      return std::sqrt(dot(d, d));
+    };
+    const TrianglePoint w = nearest(x, a, b, c);
+    EXPECT_GE(w.u, 0);
+    EXPECT_GE(w.v, 0);
+    EXPECT_LE(w.u + w.v, 1 + 1e-12);
+    double best = 1e9;
+    for (int i = 0; i <= 60; ++i)
+      for (int j = 0; i + j <= 60; ++j) best = std::min(best, apart({i / 60.0, j / 60.0}));
+    EXPECT_LE(apart(w), best + 1e-12);
+    EXPECT_GE(apart(w), best - 0.05);
+  }
+}
+
+TEST(Surface, ATubeIsAsHollowAsItsRadiusSays) {
+  const SurfaceDescription d = straight_tube(2e-3);
+  const Surface surface = make_surface(d);
+  for (const Surface::Triangle& t : surface.triangles) {
+    const auto& corner = d.triangles[t.id];
+    const auto p = [&](int k) { return from_eigen(d.frames[0][corner[k]]); };
+    const Vector3d middle = (d.frames[0][corner[0]] + d.frames[0][corner[1]] + d.frames[0][corner[2]]) / 3;
+    if (middle.x() < 0.05 || middle.x() > 0.25) continue;  // the ends are flat
+    const Vector3d around = Vector3d::UnitX().cross(Vector3d(0, middle.y(), middle.z()).normalized());
+    EXPECT_NEAR(curvature_towards(from_eigen(around), t, p(0), p(1), p(2)), 500, 10);
+    EXPECT_NEAR(curvature_towards(V3<double>{1, 0, 0}, t, p(0), p(1), p(2)), 0, 10);
+  }
+}
+
+/// The boxes hold a cluster through all of an interval, so a query misses nothing.
+TEST(Surface, AQueryFindsWhatIsNearAtAnyMoment) {
+  const verify::TestVessel vessel = verify::test_vessel();
+  const Surface surface = make_surface(vessel.wall);
+  SurfacePose pose(surface);
+  std::vector<int> found;
+  found.reserve(surface.clusters.size());
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> u(0, 1);
+  for (int n = 0; n < 300; ++n) {
+    SurfaceMotion motion;
+    motion.frame_before = 24 * u(random), motion.frame_after = motion.frame_before + u(random);
+    set_motion(surface, motion, pose);
+    const auto& corner = vessel.wall.triangles[random() % vessel.wall.triangles.size()];
+    const Vector3d p = vertex_at(vessel.wall, corner[0], n % 2 ? motion.frame_before : motion.frame_after);
+    const V3<double> q = from_eigen(p), pad{1e-4, 1e-4, 1e-4};
+    find_clusters(surface, q - pad, q + pad, pose, found);
+    double nearest_m = 1;
+    for (int c : found)
+      for (const auto* corners : {&corners_of(surface, c, pose).before, &corners_of(surface, c, pose).after})
+        for (const V3<double>& x : *corners) nearest_m = std::min(nearest_m, std::sqrt(dot(x - q, x - q)));
+    EXPECT_LT(nearest_m, 1e-6) << n;
+  }
+}
+
+TEST(Surface, RefusesWhatIsNoWall) {
+  SurfaceDescription none;
+  EXPECT_THROW(make_surface(none), std::invalid_argument);
+  SurfaceDescription wrong = straight_tube(2e-3);
+  wrong.triangles[7][1] = 100'000;
+  EXPECT_THROW(make_surface(wrong), std::invalid_argument);
+  SurfaceDescription uneven = straight_tube(2e-3);
+  uneven.frames.push_back(uneven.frames[0]);
+  uneven.frames[1].pop_back();
+  EXPECT_THROW(make_surface(uneven), std::invalid_argument);
+  SurfaceDescription infinite = straight_tube(2e-3);
+  infinite.frames[0][3].x() = std::nan("");
+  EXPECT_THROW(make_surface(infinite), std::invalid_argument);
+}
+
+/// A soft wall gives way by force over stiffness.
+TEST(Contact, ASoftWallYields) {
+  SurfaceDescription wall = straight_tube(2e-3);
+  wall.stiffness_N_m2 = 2e4;
+  Model model;
+  RodDescription d = verify::steel_wire({.elements = 100, .length_m = 0.2});
+  d.damping.drag_across_N_s_m2 = 1;
+  model.rods = {make_rod(d)};
+  model.surfaces = {make_surface(wall)};
+  State state = make_state(model, {along_x()});
+  Inputs inputs;
+  inputs.rods.resize(1);
+  inputs.rods[0].base.hold = Hold::free;
+  Scratch scratch(model);
+  StepReport report;
+  for (int n = 0; n < 4000; ++n) step(model, inputs, state, scratch, report);
+  const double yields = d.sections[0].kg_per_m * 9.81 / wall.stiffness_N_m2, radius = d.sections[0].radius_m;
+  EXPECT_NEAR(state.rods[0].position[50].z(), -(2e-3 * std::cos(pi / 48) - radius + yields), 5e-6);
+  double borne = 0;
+  for (const Touch& t : report.touches) borne += t.normal_W_N.z();
+  EXPECT_NEAR(borne / (model.rods[0].total_mass_kg * 9.81), 1, 0.01);
+}
+
+TEST(Contact, AStepDoesNotAllocateAndIsBitIdentical) {
+  const verify::TestVessel vessel = verify::test_vessel();
+  verify::Rehearsal a(vessel, false), b(vessel, false);
+  for (verify::Rehearsal* run : {&a, &b}) {
+    run->lay_wire(vessel.ways_W[0], 0.42);
+    run->inputs.rods[0].feed_m_s = 0.02;
+    run->inputs.rods[0].base.turn_rate_W_rad_s = Vector3d(6, 0, 0);
+  }
+  for (int n = 0; n < 300; ++n) a.step(75), b.step(75);
+  EXPECT_EQ(hash(a.state), hash(b.state));
+  b.scratch = Scratch(b.model);  // nothing is lost with it
+  long allocated = 0;
+  for (int n = 0; n < 300; ++n) {
+    const long before = allocations();
+    a.step(75);
+    allocated += allocations() - before;
+    b.step(75);
+  }
+  EXPECT_EQ(first_difference(a.state, b.state), "");
+  EXPECT_LT(allocated, 10) << "the list of touches grows at first";
+}
+
+/// A wire in a branch that beats, driven at random; whether it is still inside is for the triangles to say.
+TEST(Contact, AWireStaysInABeatingBranch) {
+  const verify::TestVessel vessel = verify::test_vessel();
+  const verify::Holding held = verify::random_drive(vessel, 5, 2);
+  EXPECT_EQ(held.escapes, 0);
+  EXPECT_LT(held.deepest_m, 0.178e-3);
+}
+
+/// The same without what is between both ends of a step: wires escape.
+TEST(Contact, WithoutTheSweepWiresEscape) {
+  const verify::TestVessel vessel = verify::test_vessel();
+  int escapes = 0;
+  for (int seed : {1, 3, 5})
+    escapes += verify::random_drive(vessel, static_cast<std::uint64_t>(seed), 2, false).escapes;
+  EXPECT_GT(escapes, 0);
+}
+
+}  // namespace
+}  // namespace ostium
