@@ -46,7 +46,7 @@ inline constexpr double followed_m = 5e-6;      // behind a wall that was found 
 inline constexpr double same_wall = 0.999;      // cosine between planes that stand for one another
 inline constexpr double most_curved_wall_per_m = 2e4;
 inline constexpr double wall_slip_m = 20e-6;  // elastic, of friction
-inline constexpr int max_wall_changes = 10;   // of a rod in one step
+inline constexpr int max_wall_changes = 40;   // of a rod in one step
 
 // Static equilibrium.
 inline constexpr double static_tolerance_rad = 1e-9;  // largest turn of the last iteration; Newton squares it

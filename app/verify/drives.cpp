@@ -101,6 +101,17 @@ void Rehearsal::lay_wire(const std::vector<Vector3d>& way_W, double inserted_m) 
   Rod whole = rod;
   cut(rod, inserted_m, first_element(s), whole);
   lay_out(whole, frames, frames.back(), s);
+  settle();
+}
+
+void Rehearsal::settle() {
+  // The way has corners that a wire does not: in honey it comes to lean on the walls without leaping at them.
+  Model honey = model;
+  for (Rod& rod : honey.rods) rod.damping.drag_across_N_s_m2 = rod.damping.drag_along_N_s_m2 = 50;
+  scratch = Scratch(honey);
+  const Inputs still{std::vector<RodInputs>(model.rods.size()), {{.frame_before = frame, .frame_after = frame}}};
+  for (int n = 0; n < 1000; ++n) ostium::step(honey, still, state, scratch, report);
+  scratch = Scratch(model);
 }
 
 void Rehearsal::step(double beats_per_min) {

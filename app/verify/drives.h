@@ -14,7 +14,8 @@ class Rehearsal {
  public:
   Rehearsal(const TestVessel& vessel, bool with_guide, bool sweep = true);
 
-  /// Lays the wire along the way into a branch, at rest, `inserted_m` long.
+  /// Lays the wire along the way into a branch, `inserted_m` long, and lets it come to rest there; the vessel stands
+  /// still.
   void lay_wire(const std::vector<Eigen::Vector3d>& way_W, double inserted_m);
 
   /// One step at a heart rate, 1/min.
@@ -28,6 +29,9 @@ class Rehearsal {
   Inputs inputs;
   StepReport report;
   double frame = 0;  ///< of the vessel's cycle, after the last step
+
+ private:
+  void settle();
 };
 
 struct Holding {
