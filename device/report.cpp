@@ -1,6 +1,6 @@
 #include "device/report.h"
 
-#include <type_traits>
+#include "device/bytes.h"
 
 namespace ostium {
 
@@ -9,31 +9,34 @@ namespace {
 constexpr std::uint8_t in_type = 0x01, out_type = 0x81;
 constexpr std::uint16_t status_bits = 0b11111, out_flag_bits = 0b11;
 
-template <class T>
-T get(std::span<const std::uint8_t> bytes, std::size_t at) {
-  std::make_unsigned_t<T> value = 0;
-  for (std::size_t i = 0; i < sizeof(T); ++i)
-    value =
-        static_cast<std::make_unsigned_t<T>>(value | static_cast<std::make_unsigned_t<T>>(bytes[at + i]) << (8 * i));
-  return static_cast<T>(value);
-}
-
-template <class T>
-void put(std::span<std::uint8_t> bytes, std::size_t at, T value) {
-  const auto raw = static_cast<std::make_unsigned_t<T>>(value);
-  for (std::size_t i = 0; i < sizeof(T); ++i) bytes[at + i] = static_cast<std::uint8_t>(raw >> (8 * i));
-}
-
-bool begins(std::span<const std::uint8_t> bytes, std::size_t length, std::uint8_t type) {
-  return bytes.size() == length && bytes[0] == type && bytes[1] == device_protocol_version;
+Flaw first_flaw(std::span<const std::uint8_t> bytes, std::size_t length, std::uint8_t type) {
+  if (bytes.empty()) return Flaw::length;
+  if (bytes[0] != type) return Flaw::type;
+  if (bytes.size() != length) return Flaw::length;
+  if (bytes[1] != device_protocol_version) return Flaw::version;
+  return Flaw::none;
 }
 
 }  // namespace
 
+Flaw flaw_of_in_report(std::span<const std::uint8_t> bytes) {
+  if (const Flaw flaw = first_flaw(bytes, in_report_bytes, in_type); flaw != Flaw::none) return flaw;
+  if (get<std::uint16_t>(bytes, 2) & ~status_bits) return Flaw::reserved_bits;
+  for (std::size_t k = 0; k < 4; ++k)
+    if (bytes[52 + k] > static_cast<std::uint8_t>(Tool::second_wire)) return Flaw::tool;
+  return Flaw::none;
+}
+
+Flaw flaw_of_out_report(std::span<const std::uint8_t> bytes) {
+  if (const Flaw flaw = first_flaw(bytes, out_report_bytes, out_type); flaw != Flaw::none) return flaw;
+  if ((get<std::uint16_t>(bytes, 12) & ~out_flag_bits) || get<std::uint16_t>(bytes, 14) != 0)
+    return Flaw::reserved_bits;
+  return Flaw::none;
+}
+
 std::optional<InReport> parse_in_report(std::span<const std::uint8_t> bytes) {
-  if (!begins(bytes, in_report_bytes, in_type)) return {};
+  if (flaw_of_in_report(bytes) != Flaw::none) return {};
   const auto status = get<std::uint16_t>(bytes, 2);
-  if (status & ~status_bits) return {};
   InReport r;
   r.armed = status & 1, r.watchdog = status & 2, r.emergency_stop = status & 4, r.over_temperature = status & 8;
   r.calibrated = status & 16;
@@ -45,7 +48,6 @@ std::optional<InReport> parse_in_report(std::span<const std::uint8_t> bytes) {
     r.insertion[k] = get<std::int32_t>(bytes, 16 + 4 * k);
     r.roll[k] = get<std::int32_t>(bytes, 32 + 4 * k);
     r.quality[k] = bytes[48 + k];
-    if (bytes[52 + k] > static_cast<std::uint8_t>(Tool::second_wire)) return {};
     r.tool[k] = static_cast<Tool>(bytes[52 + k]);
   }
   r.pressure = get<std::int16_t>(bytes, 56);
@@ -56,9 +58,8 @@ std::optional<InReport> parse_in_report(std::span<const std::uint8_t> bytes) {
 }
 
 std::optional<OutReport> parse_out_report(std::span<const std::uint8_t> bytes) {
-  if (!begins(bytes, out_report_bytes, out_type)) return {};
+  if (flaw_of_out_report(bytes) != Flaw::none) return {};
   const auto flags = get<std::uint16_t>(bytes, 12);
-  if ((flags & ~out_flag_bits) || get<std::uint16_t>(bytes, 14) != 0) return {};
   OutReport r;
   r.sequence = get<std::uint16_t>(bytes, 2);
   for (std::size_t k = 0; k < 4; ++k) r.clamp[k] = get<std::uint16_t>(bytes, 4 + 2 * k);

@@ -39,8 +39,14 @@ struct OutReport {
   bool arm = false, identify = false;
 };
 
-/// Empty if the bytes break a rule of the protocol: length, type, version, a reserved status bit, an unknown tool. Such
-/// a report is to be ignored whole, and counted by the caller.
+/// What rule of the protocol bytes break, the first of them.
+enum class Flaw : std::uint8_t { none, type, length, version, reserved_bits, tool };
+
+Flaw flaw_of_in_report(std::span<const std::uint8_t> bytes);
+Flaw flaw_of_out_report(std::span<const std::uint8_t> bytes);
+
+/// Empty if there is a flaw: such a report is to be ignored whole, and counted by the caller. (Flaw::type alone may be
+/// a report of a later protocol, and is no sign of damage.)
 std::optional<InReport> parse_in_report(std::span<const std::uint8_t> bytes);
 std::optional<OutReport> parse_out_report(std::span<const std::uint8_t> bytes);
 

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cstdlib>
 #include <random>
 #include <vector>
 
@@ -75,20 +77,63 @@ TEST(Report, OutReportsGoThereAndBack) {
   EXPECT_FALSE(parse_out_report(bytes));
 }
 
-/// Any bytes: no crash, and what is taken keeps every rule, for it writes itself back to the same bytes.
-TEST(Report, RandomBytesKeepTheRules) {
-  std::mt19937 generator(1);
-  int taken = 0;
-  for (int i = 0; i < 200'000; ++i) {
+TEST(Report, SaysWhichRuleIsBroken) {
+  const auto flaw = [](std::size_t at, std::uint8_t value) {
     Bytes bytes = by_hand();
-    for (int k = 0; k < 3; ++k) bytes[generator() % bytes.size()] = static_cast<std::uint8_t>(generator());
-    if (const auto r = parse_in_report(bytes)) {
-      const auto again = bytes_of(*r);
-      ASSERT_EQ(Bytes(again.begin(), again.end()), bytes);
-      ++taken;
-    }
+    bytes[at] = value;
+    return flaw_of_in_report(bytes);
+  };
+  EXPECT_EQ(flaw(0, 0x02), Flaw::type);
+  EXPECT_EQ(flaw(1, 2), Flaw::version);
+  EXPECT_EQ(flaw(2, 0x20), Flaw::reserved_bits);
+  EXPECT_EQ(flaw(53, 5), Flaw::tool);
+  const Bytes whole = by_hand();
+  EXPECT_EQ(flaw_of_in_report(std::span(whole).first(63)), Flaw::length);
+  EXPECT_EQ(flaw_of_in_report({}), Flaw::length);
+  EXPECT_EQ(flaw_of_out_report(by_hand()), Flaw::type);
+}
+
+/// The rules, said a second time and differently: by the protocol's table alone.
+bool keeps_rules_in(const Bytes& b) {
+  return b.size() == 64 && b[0] == 1 && b[1] == 1 && b[2] < 32 && b[3] == 0 && b[52] < 5 && b[53] < 5 && b[54] < 5 &&
+         b[55] < 5;
+}
+bool keeps_rules_out(const Bytes& b) {
+  return b.size() == 16 && b[0] == 0x81 && b[1] == 1 && b[12] < 4 && b[13] == 0 && b[14] == 0 && b[15] == 0;
+}
+
+/// Reports of any length, mostly nearly right. What is taken is just what keeps the rules, and writes itself back.
+/// OSTIUM_FUZZ_REPORTS=10000000 for the long run.
+TEST(Report, RandomBytesKeepTheRules) {
+  const char* wanted = std::getenv("OSTIUM_FUZZ_REPORTS");
+  const long reports = wanted ? std::atol(wanted) : 1'000'000;
+  std::mt19937_64 generator(1);
+  const Bytes in = by_hand();
+  const auto out = bytes_of(OutReport{7, {1, 2, 3, 4}, true, true});
+  long taken[2] = {}, refused = 0;
+  Bytes bytes;
+  for (long i = 0; i < reports; ++i) {
+    const auto dice = generator();
+    if (dice & 1)
+      bytes = in;
+    else
+      bytes.assign(out.begin(), out.end());
+    if ((dice >> 1 & 15) == 0) bytes.resize(dice >> 8 & 127, 0);
+    const bool wild = (dice >> 5 & 7) == 0;
+    for (std::size_t k = 0; k < (wild ? bytes.size() : bytes.empty() ? 0 : 3); ++k)
+      bytes[wild ? k : generator() % bytes.size()] = static_cast<std::uint8_t>(generator());
+    const auto in_read = parse_in_report(bytes);
+    const auto out_read = parse_out_report(bytes);
+    ASSERT_EQ(in_read.has_value(), keeps_rules_in(bytes));
+    ASSERT_EQ(out_read.has_value(), keeps_rules_out(bytes));
+    ASSERT_EQ(in_read.has_value(), flaw_of_in_report(bytes) == Flaw::none);
+    ASSERT_TRUE(!in_read || std::ranges::equal(bytes_of(*in_read), bytes));
+    ASSERT_TRUE(!out_read || std::ranges::equal(bytes_of(*out_read), bytes));
+    taken[0] += in_read.has_value(), taken[1] += out_read.has_value(), refused += !in_read && !out_read;
   }
-  EXPECT_GT(taken, 100'000);
+  EXPECT_GT(taken[0], reports / 5);
+  EXPECT_GT(taken[1], reports / 20);
+  EXPECT_GT(refused, reports / 5);
 }
 
 }  // namespace
