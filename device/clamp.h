@@ -1,0 +1,68 @@
+#pragma once
+/// Force feedback: what each clamp has to hold, from what the simulated instrument resists its base's movement with.
+///
+/// A clamp is a brake: it resists pushing and turning alike, it cannot push back. So it closes only against the
+/// direction in which the hand last went, and only as far as the instrument resists that direction:
+///   level_N = |(max(0, s push), max(0, c torque / r))|,  s, c: signs of the last push and turn, r: the tool's radius.
+/// A brake takes energy and never gives any, so nothing can build up; what could go wrong is a clamp that opens and
+/// closes by turns (a buzz), because its release lets the hand spring. So a direction counts as changed only after some
+/// movement the other way, more than sensor noise and delay can make, the level's rise and fall are limited, and
+/// it rests while the load changes by less than a hand feels.
+#include <array>
+#include <cstdint>
+
+#include "device/calibration.h"
+#include "device/hands.h"
+#include "device/report.h"
+
+namespace ostium {
+
+struct ClampSettings {
+  std::array<double, tools> radius_m{1.0e-3, 0.18e-3, 0.5e-3, 0.18e-3};  ///< of each tool where it is clamped
+  double most_N = 8;                                                     ///< whatever the simulation says
+  double rise_N_s = 100, fall_N_s = 400;
+  double reversal_mm = 0.3, reversal_deg = 6;  ///< movement the other way that changes the direction
+  double least_felt = 0.1;  ///< part of a force whose change a hand does not feel (Weber's law): the level rests there
+  double stale_s = 0.03;    ///< loads older than this open the clamps
+};
+
+/// On one instrument, from the step's RodReport: what its base is pushed and turned with.
+struct ClampLoad {
+  double push_N = 0, torque_Nm = 0;
+};
+
+/// The direction of a movement that wavers.
+struct Direction {
+  int sign = 0;  ///< 0: has not moved yet
+  double turned_at = 0, position = 0;
+};
+
+struct ClampState {
+  std::array<Direction, tools> along{}, around{};
+  std::array<double, tools> level_N{};
+  std::array<bool, tools> moving{};  ///< the level is on its way to another, not resting
+  std::uint16_t sequence = 0;        ///< of the last OUT report
+  std::uint16_t arm_sequence = 0;    ///< of the one that raised ARM
+  bool arm = false;                  ///< as last sent
+  bool stopped = false;              ///< the box was stopped: it is not armed again before `arm` was withdrawn
+};
+
+/// What the clamps are to do now.
+struct ClampRequest {
+  bool arm = false;  ///< the operator wants to feel forces
+  std::array<ClampLoad, tools> load{};
+  double load_age_s = 0;  ///< since the step that gave the loads
+  bool paused = false;    ///< the simulation stands: clamps open, so that the operator can draw back
+};
+
+/// Advances each tool's level by the box's time between two reports. Loads that are not numbers count as zero. A tool
+/// that is not seen is let go of at once.
+void advance_clamps(const ClampSettings& settings, const ClampRequest& request, const Movements& movements,
+                    ClampState& state);
+
+/// The next OUT report: levels in parts of each track's full scale, and ARM, which is lowered and raised again if the
+/// box has opened its clamps (watchdog).
+OutReport clamp_report(const ClampRequest& request, const Calibration& calibration, const InReport& report,
+                       ClampState& state);
+
+}  // namespace ostium
