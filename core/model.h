@@ -12,7 +12,7 @@ struct Model {
   std::vector<Rod> rods;
   std::vector<Nesting> nestings;
   std::vector<Surface> surfaces;  ///< the walls; instruments are inside them
-  bool sweep = true;              ///< contact sees what is between both ends of a step; false for a test alone
+  bool sweep = true;              ///< contact sees all of a step; false: what is touched as it begins. For a test alone
   Eigen::Vector3d gravity_W = Eigen::Vector3d(0, 0, -9.81);  ///< m/s2
   double step_s = 1e-3;                                      ///< (0, 0.01]
 };

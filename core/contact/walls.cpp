@@ -184,8 +184,8 @@ void find_walls(const Model& model, const State& state, std::size_t r, Scratch& 
       if (c.held[i]) continue;
       any = true;
       const V3<double> p = load3<double>(own.position, i);
-      const double expected = model.sweep ? norm(load3<double>(s.position, i) - p) : 0;
-      c.travel.at(0)[i] = expected + tunables::wall_slack_m;
+      const double expected = norm(load3<double>(s.position, i) - p);
+      c.travel.at(0)[i] = model.sweep ? expected + tunables::wall_slack_m : 0;
       bounds.take(p, rod.radius.at(0)[i] + c.travel.at(0)[i]);
     }
     if (!any) continue;
@@ -196,7 +196,7 @@ void find_walls(const Model& model, const State& state, std::size_t r, Scratch& 
         const ClusterPose& pose = corners_of(surface, cluster, scratch.surfaces[k]);
         for (int i = begin; i < end; ++i) {
           const V3<double> p = load3<double>(own.position, i);
-          const double travel = c.travel.at(0)[i] + pose.largest_move;
+          const double travel = c.travel.at(0)[i] + (model.sweep ? pose.largest_move : 0);
           if (c.held[i] || distance(p, pose.low, pose.high) > rod.radius.at(0)[i] + travel) continue;
           look(surface, cluster, pose, pose.before, view_of(rod, own, i, p, travel), c.walls[i]);
         }
