@@ -8,6 +8,7 @@
 
 #include "core/binding/binding.h"
 #include "core/math/rotation.h"
+#include "core/rod/nodes.h"
 #include "core/solve/friction.h"
 #include "core/tunables.h"
 
@@ -17,15 +18,6 @@ namespace {
 
 V3<double> material_move(const RodScratch& s, const RodState& state, int i) {
   return load3<double>(s.position, i) - load3<double>(state.position, i);
-}
-
-double spin(const RodScratch& s, int element) {
-  return dot(director3(load4<double>(s.orientation, element)), load3<double>(s.turn, element));
-}
-
-double spin_of_node(const RodScratch& s, int i) {
-  const Rod& rod = s.inside;
-  return (spin(s, std::max(i - 1, rod.first)) + spin(s, std::min(i, rod.elements - 1))) / 2;
 }
 
 /// Force that pressed node i against its bore, or against the rim behind it, in the last step.

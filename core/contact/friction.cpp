@@ -10,6 +10,7 @@
 
 #include "core/contact/contact.h"
 #include "core/math/rotation.h"
+#include "core/rod/nodes.h"
 #include "core/solve/friction.h"
 #include "core/solve/node_spring.h"
 #include "core/tunables.h"
@@ -18,16 +19,8 @@ namespace ostium {
 
 namespace {
 
-double spin(const RodScratch& s, int element) {
-  return dot(director3(load4<double>(s.orientation, element)), load3<double>(s.turn, element));
-}
-
 /// m, of the rod's surface about its middle at node i.
-double turned(const RodScratch& s, int i) {
-  const Rod& rod = s.inside;
-  const double turn = (spin(s, std::max(i - 1, rod.first)) + spin(s, std::min(i, rod.elements - 1))) / 2;
-  return rod.radius.at(0)[i] * turn;
-}
+double turned(const RodScratch& s, int i) { return s.inside.radius.at(0)[i] * spin_of_node(s, i); }
 
 Slip slip_in(const RodScratch& s, const ContactScratch& c, int i) {
   const V3<double> slid = load3<double>(s.position, i) - load3<double>(c.from, i);

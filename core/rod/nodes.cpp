@@ -1,6 +1,19 @@
 #include "core/rod/nodes.h"
 
+#include <algorithm>
+
+#include "core/math/rotation.h"
+
 namespace ostium {
+
+double spin(const RodScratch& s, int element) {
+  return dot(director3(load4<double>(s.orientation, element)), load3<double>(s.turn, element));
+}
+
+double spin_of_node(const RodScratch& s, int i) {
+  const Rod& rod = s.inside;
+  return (spin(s, std::max(i - 1, rod.first)) + spin(s, std::min(i, rod.elements - 1))) / 2;
+}
 
 void move_target(int i, const V3<double>& move, RodScratch& s) {
   Field<3>& gap = s.chain.gap;

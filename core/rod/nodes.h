@@ -20,6 +20,11 @@ inline V3<double> solved_position(const RodScratch& s, int i) {
          load6<double>(chain.compliance, i) * node_force(chain.force, chain.first, chain.elements, i);
 }
 
+/// How far an element has turned about its d3 in the iterate, rad.
+double spin(const RodScratch& s, int element);
+/// How far node i has turned about the rod in the iterate, rad: the mean of its two elements.
+double spin_of_node(const RodScratch& s, int i);
+
 /// Moves where node i would go without internal force, and keeps the chain's gaps in step.
 void move_target(int i, const V3<double>& move, RodScratch& s);
 

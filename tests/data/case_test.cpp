@@ -14,6 +14,7 @@
 #include "data/load_error.h"
 #include "data/tree_file.h"
 #include "data/tree_keys.h"
+#include "tests/data/refusals.h"
 
 namespace ostium {
 namespace {
@@ -43,10 +44,6 @@ std::string refusal(const std::string& from, const std::string& to) {
     return error.what();
   }
   return "accepted";
-}
-
-void expect_words(const std::string& message, std::initializer_list<const char*> words) {
-  for (const char* word : words) EXPECT_NE(message.find(word), std::string::npos) << message << "\n  lacks: " << word;
 }
 
 TEST(Case, TheTenOfTheProductAreThere) {
@@ -96,15 +93,7 @@ void expect_same_keys(const char* schema_file, const std::vector<const JsonObjec
   EXPECT_EQ(schema["$defs"].size(), all.size());
   for (const JsonObjectKeys* known : all) {
     const auto& definition = schema["$defs"][known->object];
-    std::set<std::string> keys, required, schema_keys, schema_required;
-    for (const JsonKey& key : known->keys) {
-      keys.insert(key.name);
-      if (key.required) required.insert(key.name);
-    }
-    for (const auto& [key, value] : definition["properties"].items()) schema_keys.insert(key);
-    for (const auto& key : definition["required"]) schema_required.insert(key);
-    EXPECT_EQ(keys, schema_keys);
-    EXPECT_EQ(required, schema_required);
+    expect_keys_of(definition, *known);
   }
 }
 

@@ -16,6 +16,7 @@
 #include "data/instrument_picture.h"
 #include "data/instrument_report.h"
 #include "tests/data/instrument_files.h"
+#include "tests/data/refusals.h"
 
 namespace ostium {
 namespace {
@@ -143,15 +144,7 @@ TEST(Catalogue, ReaderAndSchemaKnowTheSameKeys) {
     ASSERT_EQ(objects.erase(known->object), 1u);
     const auto& definition = schema["$defs"][known->object];
     EXPECT_EQ(definition["additionalProperties"], false);
-    std::set<std::string> keys, required, schema_keys, schema_required;
-    for (const JsonKey& key : known->keys) {
-      keys.insert(key.name);
-      if (key.required) required.insert(key.name);
-    }
-    for (const auto& [key, value] : definition["properties"].items()) schema_keys.insert(key);
-    for (const auto& key : definition["required"]) schema_required.insert(key);
-    EXPECT_EQ(keys, schema_keys);
-    EXPECT_EQ(required, schema_required);
+    expect_keys_of(definition, *known);
   }
   EXPECT_TRUE(objects.empty()) << "the reader does not know " << *objects.begin();
   EXPECT_EQ(schema["$defs"]["instrument"]["properties"]["kind"]["enum"], instrument_kinds());

@@ -11,6 +11,7 @@
 #include "data/effects/effect.h"
 #include "data/measured/measurement_keys.h"
 #include "data/measured/measurement_reader.h"
+#include "tests/data/refusals.h"
 #include "tests/support/synthetic_set.h"
 
 namespace ostium {
@@ -27,10 +28,6 @@ std::string refusal(const Json& file) {
     return error.what();
   }
   return "accepted";
-}
-
-void expect_words(const std::string& message, std::initializer_list<const char*> words) {
-  for (const char* word : words) EXPECT_NE(message.find(word), std::string::npos) << message << "\n  lacks: " << word;
 }
 
 TEST(Measurement, TheSetItselfIsFineAndRead) {
@@ -161,15 +158,7 @@ TEST(Measurement, SchemasHaveTheKeysAndRangesOfTheReader) {
   for (const JsonObjectKeys* known : measurement_keys::all) {
     SCOPED_TRACE(known->object);
     const auto& definition = schema["$defs"][known->object];
-    std::set<std::string> keys, required, schema_keys, schema_required;
-    for (const JsonKey& key : known->keys) {
-      keys.insert(key.name);
-      if (key.required) required.insert(key.name);
-    }
-    for (const auto& [key, value] : definition["properties"].items()) schema_keys.insert(key);
-    for (const auto& key : definition["required"]) schema_required.insert(key);
-    EXPECT_EQ(keys, schema_keys);
-    EXPECT_EQ(required, schema_required);
+    expect_keys_of(definition, *known);
   }
   const auto ranges = schema_of("effects")["$defs"];
   EXPECT_EQ(ranges.size(), effects().size());
