@@ -1,100 +1,109 @@
 #include "core/scratch.h"
 
 #include <algorithm>
+#include <variant>
 
 namespace ostium {
 
+void resize(RodScratch& s, int elements, int rolls, bool damped) {
+  s.chain = Chain(elements, rolls);
+  s.target.resize(elements + 1);
+  s.position.resize(elements + 1);
+  s.orientation.resize(elements);
+  s.turn.resize(elements);
+  s.force.resize(elements);
+  if (damped) s.strain.resize(elements + 1);
+}
+
 namespace {
 
-void resize_outer(const Rod& rod, RodScratch& s, BindingScratch& b) {
-  const int N = rod.elements + max_beyond;
-  b.whole.length.resize(N);
-  b.beyond_position.resize(max_beyond + 1);
-  for (Field<1>* f : {&b.depth, &b.cell, &b.bending, &b.spinning, &b.damping, &b.spring}) f->resize(N + 1);
-  for (Field<3>* f : {&b.moment, &b.gone_on, &b.pull}) f->resize(N + 1);
-  for (Field<3>* f : {&b.force, &b.torque, &b.inner_turn}) f->resize(N);
-  b.orientation.resize(N);
-  b.own_compliance.resize(N + 1);
-  b.own_target.resize(N + 1);
-  b.given.resize(rod.nodes());
-  for (Field<3>* f : {&b.owed, &b.owed_before, &b.more, &b.correction}) f->resize(rod.nodes());
-  b.own_force.resize(rod.elements);
-  s.chain = Chain(N);
-  for (Field<3>* f : {&s.target, &s.position}) f->resize(N + 1);
-  for (Field<3>* f : {&s.turn, &s.force}) f->resize(N);
-  s.orientation.resize(N);
-}
-
-void resize_inner(const Rod& rod, BindingScratch& b) {
-  const int nodes = rod.nodes();
-  b.nesting.resize(nodes);
-  b.element.resize(nodes);
-  for (Field<3>* f : {&b.centre, &b.tangent, &b.normal, &b.moves, &b.on_outer, &b.force_on_outer}) f->resize(nodes);
-  for (Field<1>* f : {&b.along, &b.room, &b.wall, &b.softness, &b.stay, &b.slide_stiffness}) f->resize(nodes);
-  b.slide_place.resize(nodes);
-  b.turn_stiffness.resize(rod.elements);
-  b.turn_torque.resize(rod.elements);
-}
-
-void resize_contact(const Model& model, const Rod& rod, ContactScratch& c) {
+void resize_contact(const Model& model, int elements, ContactScratch& c) {
   if (model.surfaces.empty()) return;
-  const int nodes = rod.nodes();
+  const int nodes = elements + 1;
   c.walls.resize(nodes);
-  c.held.resize(nodes);
   c.rubs.resize(nodes);
   for (Field<1>* f : {&c.travel, &c.stiffness}) f->resize(nodes);
   for (Field<3>* f : {&c.along, &c.across, &c.from}) f->resize(nodes);
+  c.free_compliance.resize(nodes);
+  c.free_target.resize(nodes);
   std::size_t clusters = 0;
   for (const Surface& surface : model.surfaces) clusters = std::max(clusters, surface.clusters.size());
   c.clusters.reserve(clusters);
 }
 
+void resize_layer(int elements, int own_nodes, Layer& l) {
+  const int nodes = elements + 1;
+  for (Field<1>* f : {&l.mass, &l.polar, &l.spin_before, &l.room, &l.grip, &l.drag, &l.along}) f->resize(nodes);
+  for (Field<3>* f : {&l.rest, &l.turn, &l.moment, &l.before, &l.after, &l.force, &l.press, &l.lean}) f->resize(nodes);
+  l.orientation.resize(nodes);
+  l.rolling.resize(nodes);
+  l.slip.resize(nodes);
+  l.from_own.resize(nodes);
+  l.to_nodes.resize(own_nodes);
+  l.to_elements.resize(own_nodes);
+  l.host.resize(nodes);
+}
+
+/// For the rods that may be around or inside rod `lead`.
+void resize_nest(const Model& model, int lead, Nest& nest) {
+  std::vector<int> members{lead};
+  for (const Nesting& n : model.nestings)
+    if (n.outer == lead) members.push_back(n.inner);
+  nest.members.reserve(max_layers);
+  if (members.size() == 1) return;
+  // One element more for each end that lies within an element of the rod around it.
+  int elements = 0, own_nodes = 0;
+  bool damped = false;
+  for (int r : members) {
+    elements += model.rods[r].elements + 1;
+    own_nodes = std::max(own_nodes, model.rods[r].nodes());
+    damped = damped || model.rods[r].damping.material_time_s > 0;
+  }
+  const int layers = std::min<int>(static_cast<int>(members.size()), max_layers);
+  resize(nest.s, elements, layers - 1, damped);
+  nest.spans.reserve(layers);
+  nest.layers.resize(layers);
+  for (Layer& layer : nest.layers) {
+    resize_layer(elements, own_nodes, layer);
+    layer.law = model.rods[lead].law;
+    std::visit([&](auto& law) { law.resize(elements + 1); }, layer.law);
+  }
+  Rod& chain = nest.s.inside;
+  for (Field<1>* f : {&chain.length, &chain.mass, &chain.joint_length, &chain.radius}) f->resize(elements + 1);
+  chain.rotary_inertia.resize(elements);
+  RodState& own = nest.own;
+  for (Field<3>* f : {&own.position, &own.position_before, &own.velocity, &own.velocity_before})
+    f->resize(elements + 1);
+  for (Field<3>* f : {&own.turn, &own.turn_before, &own.force}) f->resize(elements);
+  own.orientation.resize(elements);
+  if (damped)
+    for (Field<3>* f : {&own.strain, &own.strain_before}) f->resize(elements + 1);
+  if (!model.surfaces.empty()) own.wall_force.resize(elements + 1), own.wall_slip.resize(elements + 1);
+  resize_contact(model, elements, nest.contact);
+  nest.depth.resize(elements + 1);
+  nest.tangent.resize(elements + 1);
+  nest.bend.resize(elements + 1);
+}
+
 }  // namespace
 
-Scratch::Scratch(const Model& model) {
+Scratch::Scratch(const Model& model) : rods(model.rods.size()), contacts(model.rods.size()), nests(model.rods.size()) {
   check(model);
-  int longest = 0;
-  for (const Rod& rod : model.rods) {
-    const int N = rod.elements;
-    RodScratch& s = rods.emplace_back();
-    s.inside = rod;
-    s.chain = Chain(N);
-    s.target.resize(N + 1);
-    s.position.resize(N + 1);
-    s.orientation.resize(N);
-    s.turn.resize(N);
-    s.force.resize(N);
-    if (rod.damping.material_time_s > 0) s.strain.resize(N + 1);
-  }
-
-  bindings.resize(rods.size());
-  contacts.resize(rods.size());
+  lead.resize(model.rods.size());
+  was_in_body.resize(model.rods.size());
+  fed_m.resize(model.rods.size());
+  bodies.reserve(model.rods.size());
   for (const Surface& surface : model.surfaces) surfaces.emplace_back(surface);
-  std::vector<std::size_t> group(rods.size(), 0);
-  for (std::size_t r = 0; r < rods.size(); ++r) {
-    for (const Nesting& n : model.nestings) {
-      if (n.inner != static_cast<int>(r)) continue;
-      group[r] = std::max(group[r], group[n.outer] + 1);
-      resize_inner(model.rods[r], bindings[r]);
-      resize_outer(model.rods[n.outer], rods[n.outer], bindings[n.outer]);
-    }
-    groups.resize(std::max(groups.size(), group[r] + 1));
-    groups[group[r]].push_back(static_cast<int>(r));
+  for (std::size_t r = 0; r < model.rods.size(); ++r) {
+    const Rod& rod = model.rods[r];
+    rods[r].inside = rod;
+    resize(rods[r], rod.elements, 0, rod.damping.material_time_s > 0);
+    resize_contact(model, rod.elements, contacts[r]);
+    factors.resize(rod.elements);
+    resize_nest(model, static_cast<int>(r), nests[r]);
+    const Chain& chain = nests[r].s.chain;
+    for (int rolls = 1; rolls <= static_cast<int>(chain.rolls.size()); ++rolls) factors.resize(chain.elements, rolls);
   }
-  for (std::size_t r = 0; r < rods.size(); ++r) {
-    const int solved = rods[r].chain.elements;  // with what protrudes
-    longest = std::max(longest, solved);
-    resize_contact(model, model.rods[r], contacts[r]);
-    if (!contacts[r].walls.empty()) {
-      contacts[r].free_compliance.resize(solved + 1);
-      contacts[r].free_target.resize(solved + 1);
-    }
-    if (bindings[r].nesting.empty()) continue;
-    bindings[r].free_compliance.resize(solved + 1);
-    bindings[r].free_target.resize(solved + 1);
-    bindings[r].rim_loads.assign(max_outer_rods, ChainLoad(solved));
-  }
-  factors.resize(longest);
 }
 
 }  // namespace ostium

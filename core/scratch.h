@@ -1,56 +1,25 @@
 #pragma once
 /// Working memory of a step. May be destroyed, or made anew, between any two steps.
-#include "core/binding/binding_scratch.h"
-#include "core/contact/contact_scratch.h"
-#include "core/inputs.h"
+#include <vector>
+
+#include "core/binding/nest_scratch.h"
 #include "core/model.h"
-#include "core/solve/chain.h"
 #include "core/surface/pose.h"
 
 namespace ostium {
-
-/// How a step's acceleration follows from its positions; see inertia.cpp.
-enum class TimeScheme {
-  bdf2,       ///< second-order backward differences: every ordinary step
-  fresh,      ///< constant acceleration: the first step after an end was held or let go
-  from_rest,  ///< backward Euler without velocity: a step that has no other solution
-};
-
-/// Whether the stiffness includes that of the internal forces and moments. Without it Newton's method converges
-/// linearly, but its matrix is positive definite whatever the rod is pushed or twisted with.
-enum class GeometricStiffness { with, without };
-
-/// Of a rod's iterations in a step: going on, converged, near enough when they ran out, without a finite solution; the
-/// rod is not in the body.
-enum class Progress { open, done, given_up, failed, absent };
-
-struct RodScratch {
-  Rod inside;        ///< the part of the rod that is inside its introducer
-  RodInputs inputs;  ///< of this step, within limits
-  TimeScheme scheme = TimeScheme::bdf2;
-  double step_s = 0;  ///< of this try; less than the model's where a rod comes to rest
-  Progress progress = Progress::open;
-  double defect = 0;  ///< what the iterate leaves of inextensibility
-  GeometricStiffness geometric = GeometricStiffness::with;
-  Chain chain;           ///< the linear system and its solution
-  Field<3> target;       ///< m, (#nodes): where a node would go if the rod exerted no force on it
-  Field<4> orientation;  ///< (#elements): the iterate
-  Field<3> turn;         ///< rad, (#elements): the iterate's turn since the beginning of the step
-  Field<3> force;        ///< N, (#elements): the iterate
-  Field<3> position;     ///< m, (#nodes): the iterate
-  Field<3> strain;       ///< 1/m, (#joints): the iterate, with material damping only
-};
 
 struct Scratch {
   /// Throws as check(model) does.
   explicit Scratch(const Model& model);
 
-  std::vector<RodScratch> rods;
-  std::vector<BindingScratch> bindings;  ///< one per rod
-  std::vector<ContactScratch> contacts;  ///< one per rod
+  std::vector<RodScratch> rods;          ///< one per rod; solved with it while it is in no nest
+  std::vector<ContactScratch> contacts;  ///< one per rod, the same
+  std::vector<Nest> nests;               ///< one per rod, for when it is the outermost of one
+  std::vector<Body> bodies;              ///< of this step, by their outermost rods
+  std::vector<int> lead;                 ///< (#rods): the outermost rod of its body
+  std::vector<char> was_in_body;         ///< (#rods), before this step
+  std::vector<double> fed_m;             ///< (#rods), pushed in in this step
   std::vector<SurfacePose> surfaces;     ///< one per surface
-  std::vector<std::vector<int>> groups;  ///< rods that can be solved at once; outer rods in earlier groups
-  int sweeps = 0;                        ///< turns that nested rods took in the last step
   ChainFactors factors;
 };
 

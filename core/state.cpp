@@ -20,6 +20,7 @@ RodState lay_out(const Rod& whole, const EndState& base, double inserted_m, Stra
   RodState s;
   s.inserted_m = inserted_m;
   s.first = first_element_for(whole, inserted_m);
+  s.exposed = whole.elements;
   const int first = first_element(s);
   Rod rod = whole;
   cut(whole, inserted_m, first, rod);
@@ -62,24 +63,15 @@ State lay_out_all(const Model& model, const std::vector<EndState>& bases, const 
     state.rods.push_back(lay_out(rod, bases.at(r), inserted_m.empty() ? rod.total_length_m : inserted_m.at(r), strain));
   }
   for (const Nesting& n : model.nestings) {
-    RodState& outer = state.rods[n.outer];
     RodState& inner = state.rods[n.inner];
-    for (int r : {n.outer, n.inner}) {
-      state.rods[r].moment.resize(model.rods[r].nodes());
-      state.rods[r].acceleration.resize(model.rods[r].nodes());
-    }
-    outer.inner_force.resize(model.rods[n.outer].nodes());
-    for (Field<3>* f : {&inner.contact_force, &inner.offset, &inner.offset_before})
-      f->resize(model.rods[n.inner].nodes());
+    for (Field<3>* f : {&inner.contact_force, &inner.offset}) f->resize(model.rods[n.inner].nodes());
     inner.slip.resize(model.rods[n.inner].nodes());
-    outer.inner_drag.resize(model.rods[n.outer].elements);
   }
   if (!model.surfaces.empty())
     for (std::size_t r = 0; r < model.rods.size(); ++r) {
       state.rods[r].wall_force.resize(model.rods[r].nodes());
       state.rods[r].wall_slip.resize(model.rods[r].nodes());
     }
-  state.nestings.resize(model.nestings.size());
   return state;
 }
 
@@ -145,13 +137,10 @@ std::string first_difference_in(const std::string& part, const State& a, const S
 
 std::string first_difference(const State& a, const State& b) {
   if (a.rods.size() != b.rods.size()) return "number of rods";
-  if (a.nestings.size() != b.nestings.size()) return "number of nestings";
   if (a.step != b.step) return "step: " + std::to_string(a.step) + " != " + std::to_string(b.step);
   std::string found;
   for (std::size_t r = 0; r < a.rods.size() && found.empty(); ++r)
-    found = first_difference_in("rod " + std::to_string(r), {0, {a.rods[r]}, {}}, {0, {b.rods[r]}, {}});
-  for (std::size_t n = 0; n < a.nestings.size() && found.empty(); ++n)
-    found = first_difference_in("nesting " + std::to_string(n), {0, {}, {a.nestings[n]}}, {0, {}, {b.nestings[n]}});
+    found = first_difference_in("rod " + std::to_string(r), {0, {a.rods[r]}}, {0, {b.rods[r]}});
   return found;
 }
 

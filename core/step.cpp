@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cassert>
 
-#include "core/binding/binding.h"
+#include "core/binding/nest.h"
 #include "core/contact/contact.h"
 #include "core/rod/elasticity.h"
 #include "core/rod/ends.h"
@@ -27,34 +27,9 @@ namespace {
   return true;
 }
 
-/// Where nodes of rod `r` go without internal force, and how they yield to it.
-void constrain(const Model& model, const State& state, std::size_t r, Scratch& scratch) {
-  RodScratch& s = scratch.rods[r];
-  predict_nodes(s.inside, state.rods[r], model.gravity_W, s.inputs.tip_force_W_N, s.step_s, s);
-  feel_inner_rods(model, state, r, scratch);
-  tie_to_bores(r, scratch);
-  tie_to_walls(r, scratch);
-  hold_ends(s.inside, s.inputs, state.rods[r], s);
-}
-
-void predict(const Model& model, const State& state, std::size_t r, TimeScheme scheme, Scratch& scratch) {
-  RodScratch& s = scratch.rods[r];
-  s.progress = s.inside.in_body() ? Progress::open : Progress::absent;
-  if (s.progress == Progress::absent) return;
-  s.scheme = scheme;
-  s.geometric = scheme == TimeScheme::from_rest ? GeometricStiffness::without : GeometricStiffness::with;
-  predict_elements(s.inside, state.rods[r], s);
-  forget_corrections(scratch.bindings[r]);
-  guess_nodes(state.rods[r], s);
-  find_bores(model, state, r, scratch);
-  expect_touches(state, r, scratch);
-  find_slides(model, state, r, scratch);
-  constrain(model, state, r, scratch);
-  lend_to_force(state, r, scratch);
-}
-
 void begin(const Model& model, const Inputs& inputs, State& state, Scratch& scratch, StepReport& report) {
   report.rods.resize(model.rods.size());
+  report.touches.clear();
   for (std::size_t r = 0; r < model.rods.size(); ++r) {
     RodScratch& s = scratch.rods[r];
     report.rods[r] = {};
@@ -62,61 +37,83 @@ void begin(const Model& model, const Inputs& inputs, State& state, Scratch& scra
     s.step_s = model.step_s;
     s.scheme = take_hold(s.inputs, state.rods[r]) ? TimeScheme::fresh : TimeScheme::bdf2;
     drive_ends(s.inputs, model.step_s, state.rods[r]);
+    scratch.was_in_body[r] = in_body(model.rods[r], state.rods[r]);
+    scratch.fed_m[r] = -state.rods[r].inserted_m;
     feed(model.rods[r], s.inputs, model.step_s, state.rods[r], report.rods[r].trouble);
+    scratch.fed_m[r] += state.rods[r].inserted_m;
     cut_at_introducer(model.rods[r], state.rods[r], s.inside);
   }
 }
 
-void meet_walls(const Model& model, const Inputs& inputs, const State& state, Scratch& scratch) {
+void meet_walls(const Model& model, const Inputs& inputs, Scratch& scratch) {
   move_walls(model, inputs, scratch);
-  for (std::size_t r = 0; r < model.rods.size(); ++r) {
-    if (!scratch.rods[r].inside.in_body()) continue;
-    guess_nodes(state.rods[r], scratch.rods[r]);
-    hold_enclosed(model, r, scratch);
-    find_walls(model, state, r, scratch);
-    expect_touches(state, r, scratch);
+  for (const Body& body : scratch.bodies) {
+    guess_nodes(*body.own, *body.s);
+    find_walls(model, body, scratch);
   }
 }
 
-void linearise(const State& state, std::size_t r, Scratch& scratch) {
-  RodScratch& s = scratch.rods[r];
-  const double step_s = s.step_s;
-  const Rod& rod = s.inside;
-  linearise_joints(rod, state.rods[r], joints_of(s.inputs), step_s, s);
-  lend_to_joints(scratch.bindings[r], s);
-  assemble_elements(solved_rod(scratch, r), s);
-  lend_to_elements(scratch.bindings[r], s);
-  add_rotary_inertia(rod, step_s, s);
-  add_rotary_torque(rod, state.rods[r], step_s, s);
-  turn_with_bore(r, scratch);
-  take_drag(state.rods[r], s);
-  turn_at_walls(r, scratch);
+/// Where nodes go without internal force, and how they yield to it.
+void constrain(const Model& model, const Scratch& scratch, const Body& body) {
+  RodScratch& s = *body.s;
+  const auto move = [&](int rod, int begin, int end) {
+    predict_nodes(s.inside, model.rods[rod].damping, begin, end, *body.own, model.gravity_W, s.step_s, s);
+    add_load(end - 1, scratch.rods[rod].inputs.tip_force_W_N, s);
+  };
+  if (body.nest)
+    for (const Span& span : body.nest->spans)
+      move(span.rod, span.at > 0 ? span.at + 1 : 0, span.at + span.elements + 1);
+  else
+    move(body.lead, s.inside.first, s.inside.nodes());
+  tie_to_walls(body);
+  hold_ends(s.inside, s.inputs, *body.own, s);
 }
 
-using Group = std::vector<int>;
-
-/// Solves a rod that something holds, until its ties hold where it pushes and nowhere else.
-void solve_held(const Model& model, const State& state, int r, Scratch& scratch) {
-  RodScratch& s = scratch.rods[r];
-  const int rims = rim_count(scratch, r);
-  bool again = true;
-  while (again) {
-    for (int k = 0; k < rims; ++k) solve(s.chain, rim_load(r, k, scratch), scratch.factors);
-    if (rims == 0) solve(s.chain, nullptr, scratch.factors);
-    take_rim_loads(r, scratch);
-    again = change_ties(r, scratch);
-    again |= change_walls(model, state, r, scratch);
+void predict(const Model& model, const State& state, const Scratch& scratch, const Body& body, TimeScheme scheme) {
+  RodScratch& s = *body.s;
+  s.progress = Progress::open;
+  s.scheme = scheme;
+  s.geometric = scheme == TimeScheme::from_rest ? GeometricStiffness::without : GeometricStiffness::with;
+  predict_elements(s.inside, *body.own, s);
+  if (body.nest) {
+    predict_layers(state, *body.nest);
+    find_slides(model, state, *body.nest);
   }
+  guess_nodes(*body.own, s);
+  expect_touches(body);
+  constrain(model, scratch, body);
 }
 
-/// Open rods of a group; those that nothing holds two at a time, as a register has lanes for two.
-void solve_open(const Model& model, const State& state, const Group& group, Scratch& scratch) {
+void linearise(const State& state, const Body& body) {
+  RodScratch& s = *body.s;
+  if (body.nest)
+    linearise_layers(state, *body.nest);
+  else
+    linearise_joints(s.inside, *body.own, joints_of(s.inputs), s.step_s, s);
+  assemble_elements(s.inside, s);
+  add_rotary_inertia(s.inside, s.step_s, s);
+  add_rotary_torque(s.inside, *body.own, s.step_s, s);
+  if (body.nest) {
+    add_roll_inertia(*body.nest);
+    turn_in_bores(*body.nest);
+  }
+  turn_at_walls(body);
+}
+
+/// Solves a body that walls hold, until its ties hold where it pushes and nowhere else.
+void solve_held(const Model& model, const Body& body, Scratch& scratch) {
+  do solve(body.s->chain, nullptr, scratch.factors);
+  while (change_walls(model, body, scratch));
+}
+
+/// Bodies that are open; lone rods in the open two at a time, as a register has lanes for two.
+void solve_open(const Model& model, Scratch& scratch) {
   RodScratch* waiting = nullptr;
-  for (int r : group) {
-    RodScratch& s = scratch.rods[r];
+  for (const Body& body : scratch.bodies) {
+    RodScratch& s = *body.s;
     if (s.progress != Progress::open) continue;
-    if (is_inner(scratch, r) || !model.surfaces.empty()) {
-      solve_held(model, state, r, scratch);
+    if (body.nest || !model.surfaces.empty()) {
+      solve_held(model, body, scratch);
     } else if (!waiting) {
       waiting = &s;
     } else {
@@ -127,14 +124,16 @@ void solve_open(const Model& model, const State& state, const Group& group, Scra
   if (waiting) solve(waiting->chain, nullptr, scratch.factors);
 }
 
-void take_solution(const Rod& rod, RodScratch& s, RodReport& report) {
+void take_solution(const Body& body, RodReport& report) {
+  RodScratch& s = *body.s;
   ++report.iterations;
   // A rod pushed beyond what it bears for a step would be solved onto the ridge between its ways of buckling.
   if (!s.chain.definite && s.geometric == GeometricStiffness::with) {
     s.geometric = GeometricStiffness::without;
     return;
   }
-  const IterateChange change = update_iterate(rod, tunables::max_turn_rad, s);
+  const IterateChange change = update_iterate(s.inside, tunables::max_turn_rad, s);
+  if (body.nest && change.finite) update_layers(change.fraction, *body.nest);
   report.stretch = change.stretch;
   s.defect = change.defect;
   // The defect is quadratic in the turn of this iteration, so a small one says that the moments balance, too. A large
@@ -146,131 +145,110 @@ void take_solution(const Rod& rod, RodScratch& s, RodReport& report) {
     s.progress = Progress::done;
 }
 
-bool any(const Group& group, const Scratch& scratch, Progress progress) {
-  return std::any_of(group.begin(), group.end(), [&](int r) { return scratch.rods[r].progress == progress; });
+bool any(const Scratch& scratch, Progress progress) {
+  return std::any_of(scratch.bodies.begin(), scratch.bodies.end(),
+                     [&](const Body& body) { return body.s->progress == progress; });
 }
 
-void iterate(const Model& model, const State& state, const Group& group, Scratch& scratch, StepReport& report) {
-  for (int i = 0; i < tunables::max_newton_iterations && any(group, scratch, Progress::open); ++i) {
-    for (int r : group)
-      if (scratch.rods[r].progress == Progress::open) linearise(state, r, scratch);
-    solve_open(model, state, group, scratch);
-    for (int r : group)
-      if (scratch.rods[r].progress == Progress::open)
-        take_solution(solved_rod(scratch, r), scratch.rods[r], report.rods[r]);
+void iterate(const Model& model, const State& state, Scratch& scratch, StepReport& report) {
+  for (int i = 0; i < tunables::max_newton_iterations && any(scratch, Progress::open); ++i) {
+    for (const Body& body : scratch.bodies)
+      if (body.s->progress == Progress::open) linearise(state, body);
+    solve_open(model, scratch);
+    for (const Body& body : scratch.bodies)
+      if (body.s->progress == Progress::open) take_solution(body, report.rods[body.lead]);
   }
 }
 
-bool usable(const RodScratch& s) {
-  return s.progress == Progress::absent || (s.progress != Progress::failed && s.defect <= tunables::usable_stretch);
-}
+bool usable(const RodScratch& s) { return s.progress != Progress::failed && s.defect <= tunables::usable_stretch; }
 
-/// Rods that move too violently for a step give up their velocity; then, if there are walls, most of the time to move
+/// Bodies that move too violently for a step give up their velocity; then, if there are walls, most of the time to move
 /// in: so little moves that it can be solved, and no node has to be put anywhere.
-void retry_from_rest(const Model& model, State& state, const Group& group, Scratch& scratch, StepReport& report) {
+void retry_from_rest(const Model& model, const State& state, Scratch& scratch, StepReport& report) {
   const double shares[] = {1, 0.1, 0.01};
   for (const double share : shares) {
-    if (!any(group, scratch, Progress::open) && !any(group, scratch, Progress::failed)) return;
+    if (!any(scratch, Progress::open) && !any(scratch, Progress::failed)) return;
     if (share < 1 && model.surfaces.empty()) return;
-    for (int r : group) {
-      RodScratch& s = scratch.rods[r];
+    for (const Body& body : scratch.bodies) {
+      RodScratch& s = *body.s;
       if (usable(s)) {
         if (s.progress == Progress::open) s.progress = Progress::given_up;
         continue;
       }
-      report.rods[r].trouble |= motion_lost;
-      halt(s.inside, state.rods[r]);
+      report.rods[body.lead].trouble |= motion_lost;
+      halt(s.inside, *body.own);
       s.step_s = share * model.step_s;
-      predict(model, state, r, TimeScheme::from_rest, scratch);
+      predict(model, state, scratch, body, TimeScheme::from_rest);
     }
-    iterate(model, state, group, scratch, report);
+    iterate(model, state, scratch, report);
   }
 }
 
-void report_forces(const Model& model, const Rod& rod, const RodScratch& s, const RodState& state, RodReport& report) {
-  if (s.inputs.base.hold == Hold::free) return;
-  report.base_force_W_N = -state.force[rod.first] - rod.mass.at(0)[rod.first] * model.gravity_W;
-  report.base_torque_W_Nm = -s.chain.joint_moment[rod.first];
-  const Eigen::Vector3d along = axis(state.base);
-  report.push_N = along.dot(report.base_force_W_N);
-  report.torque_Nm = along.dot(report.base_torque_W_Nm);
+void report_base(const EndState& base, const Eigen::Vector3d& force_W_N, const Eigen::Vector3d& torque_W_Nm,
+                 RodReport& report) {
+  report.base_force_W_N = force_W_N;
+  report.base_torque_W_Nm = torque_W_Nm;
+  const Eigen::Vector3d along = axis(base);
+  report.push_N = along.dot(force_W_N);
+  report.torque_Nm = along.dot(torque_W_Nm);
 }
 
-void finish(const Model& model, const Rod& rod, const BindingScratch& binding, RodScratch& s, RodState& state,
-            RodReport& report) {
-  if (s.progress == Progress::absent) return;
+void report_forces(const Model& model, const Body& body, RodReport& report) {
+  const RodScratch& s = *body.s;
+  if (s.inputs.base.hold == Hold::free) return;
+  const int first = s.inside.first;
+  report_base(body.own->base, -body.own->force[first] - s.inside.mass.at(0)[first] * model.gravity_W,
+              -s.chain.joint_moment[first], report);
+}
+
+/// The iterate becomes the body's state.
+void finish(const Model& model, const State& state, const Body& body, StepReport& report) {
+  RodScratch& s = *body.s;
+  const Rod& rod = s.inside;
+  RodState& own = *body.own;
+  std::uint32_t& trouble = report.rods[body.lead].trouble;
   if (s.progress == Progress::failed)
-    report.trouble |= no_solution;
+    trouble |= no_solution;
   else if (s.progress != Progress::done)
-    report.trouble |= s.defect <= tunables::stretch_tolerance ? pulled_apart : not_converged;
-  if (largest_joint_angle(rod, s) > tunables::overturned_joint_rad) report.trouble |= joint_overturned;
+    trouble |= s.defect <= tunables::stretch_tolerance ? pulled_apart : not_converged;
+  const double angle = body.nest ? largest_layer_angle(*body.nest) : largest_joint_angle(rod, s);
+  if (angle > tunables::overturned_joint_rad) trouble |= joint_overturned;
 
   // Strains and moments of the frames that are committed, not of those that were linearised about.
-  if (state.strain.size() > 0 || state.moment.size() > 0)
-    linearise_joints(rod, state, joints_of(s.inputs), model.step_s, s);
+  if (body.nest)
+    measure_layers(state, *body.nest);
+  else if (own.strain.size() > 0)
+    linearise_joints(rod, own, joints_of(s.inputs), model.step_s, s);
   else
-    linearise_end_joints(rod, state, joints_of(s.inputs), model.step_s, s);
-  own_force(rod, binding, s, s.force);
-  if (state.moment.size() > 0)
-    for_packs(rod.first, rod.nodes(),
-              [&]<class T>(T, int i) { store3(state.moment, i, load3<T>(s.chain.joint_moment, i)); });
+    linearise_end_joints(rod, own, joints_of(s.inputs), model.step_s, s);
   if (usable(s))
-    commit(rod, s, model.step_s, state);
+    commit(rod, s, model.step_s, own);
   else
-    commit_frames_at_rest(rod, s, state);
-  if (s.step_s < model.step_s) halt(rod, state);
-  follow_free_ends(rod, s.inputs, state);
-  report_forces(model, rod, s, state, report);
+    commit_frames_at_rest(rod, s, own);
+  if (s.step_s < model.step_s) halt(rod, own);
+  commit_walls(model, body, report.touches);
 }
 
-/// Solves outer and inner rods in turn until what the one takes for the other's force is it.
-void balance_nests(const Model& model, const State& state, Scratch& scratch, StepReport& report) {
-  scratch.sweeps = 1;
-  measure_binding(model, scratch);
-  while (true) {
-    // From the inside outwards: what an outer rod is to feel is right only once its inner ones are.
-    int corrected = -1;
-    for (int r = static_cast<int>(model.rods.size()) - 1; r >= 0 && corrected < 0; --r) {
-      RodScratch& s = scratch.rods[r];
-      if (s.progress != Progress::done || !balance(r, model.step_s, state.rods[r], scratch)) continue;
-      s.progress = Progress::open;
-      corrected = r;
-    }
-    if (corrected < 0) return;
-    if (scratch.sweeps == tunables::max_sweeps) {
-      scratch.rods[corrected].progress = Progress::done;  // as it was before it was to be corrected again
-      report.rods[corrected].trouble |= nest_unbalanced;
-      return;
-    }
-    ++scratch.sweeps;
-    for (const Group& group : scratch.groups) {
-      for (int r : group) {
-        RodScratch& s = scratch.rods[r];
-        if (r < corrected || !is_inner(scratch, r)) continue;
-        if (s.progress == Progress::failed || s.progress == Progress::absent) continue;
-        move_bores(model, r, scratch);
-        move_slides(model, state, r, scratch);
-        constrain(model, state, r, scratch);
-        s.progress = Progress::open;
-      }
-      iterate(model, state, group, scratch, report);
-    }
-    measure_binding(model, scratch);
+/// A nest's state goes back to its rods.
+void unnest(const Model& model, const Body& body, State& state, Scratch& scratch, StepReport& report) {
+  Nest& nest = *body.nest;
+  find_centreline(nest);
+  find_layer_forces(model, nest);
+  take_apart(nest, state);
+  spread(model, nest, state);
+  commit_slides(model, nest, state);
+  const RodReport whole = report.rods[body.lead];
+  for (int k = 0; k < nest.layer_count; ++k) {
+    const int r = nest.layers[k].rod;
+    RodReport& own = report.rods[r];
+    own.iterations = whole.iterations, own.stretch = whole.stretch;
+    own.trouble |=
+        whole.trouble & ~static_cast<std::uint32_t>(feed_stopped | drive_limited | drive_not_finite | load_limited);
+    follow_free_ends(scratch.rods[r].inside, scratch.rods[r].inputs, state.rods[r]);
+    Eigen::Vector3d force_W_N, torque_W_Nm;
+    base_load(model, nest, k, force_W_N, torque_W_Nm);
+    report_base(state.rods[r].base, force_W_N, torque_W_Nm, own);
   }
-}
-
-bool lost_in_nest(const Model& model, const Scratch& scratch, StepReport& report) {
-  bool lost = false;
-  for (const Nesting& n : model.nestings)
-    if (is_bound(n, scratch))
-      for (int r : {n.outer, n.inner})
-        lost |= (report.rods[r].trouble & (motion_lost | no_solution | joint_overturned)) != 0;
-  if (lost)
-    for (const Nesting& n : model.nestings)
-      if (is_bound(n, scratch))
-        for (int r : {n.outer, n.inner}) report.rods[r].trouble |= motion_lost;
-  if (lost) report.trouble |= motion_lost;
-  return lost;
 }
 
 }  // namespace
@@ -278,23 +256,23 @@ bool lost_in_nest(const Model& model, const Scratch& scratch, StepReport& report
 void step(const Model& model, const Inputs& inputs, State& state, Scratch& scratch, StepReport& report) {
   assert(fits(model, inputs, state, scratch));
   begin(model, inputs, state, scratch, report);
-  meet_walls(model, inputs, state, scratch);
-  for (const Group& group : scratch.groups) {
-    for (int r : group) predict(model, state, r, scratch.rods[r].scheme, scratch);
-    iterate(model, state, group, scratch, report);
-    retry_from_rest(model, state, group, scratch, report);
-  }
-  balance_nests(model, state, scratch, report);
+  arrange(model, scratch.was_in_body, state, scratch);
+  meet_walls(model, inputs, scratch);
+  for (const Body& body : scratch.bodies) predict(model, state, scratch, body, body.s->scheme);
+  iterate(model, state, scratch, report);
+  retry_from_rest(model, state, scratch, report);
 
-  report.trouble = 0;
-  for (std::size_t r = 0; r < model.rods.size(); ++r) {
-    finish(model, scratch.rods[r].inside, scratch.bindings[r], scratch.rods[r], state.rods[r], report.rods[r]);
-    report.trouble |= report.rods[r].trouble;
+  for (const Body& body : scratch.bodies) {
+    finish(model, state, body, report);
+    if (body.nest) {
+      unnest(model, body, state, scratch, report);
+    } else {
+      follow_free_ends(body.s->inside, body.s->inputs, *body.own);
+      report_forces(model, body, report.rods[body.lead]);
+    }
   }
-  commit_slides(model, scratch, state);
-  commit_binding(model, scratch, state);
-  commit_walls(model, scratch, state, report.touches);
-  if (lost_in_nest(model, scratch, report)) calm_nests(model, scratch, state);
+  report.trouble = 0;
+  for (const RodReport& rod : report.rods) report.trouble |= rod.trouble;
   ++state.step;
 }
 

@@ -20,7 +20,6 @@ enum Trouble : std::uint32_t {
   feed_stopped = 1u << 6,      ///< no more of the instrument is left to push in, or to draw back
   pulled_apart = 1u << 7,      ///< held ends pull a taut rod apart: their forces are those of no real rod
   joint_overturned = 1u << 8,  ///< two elements are at an angle near pi, where twist would slip: take shorter elements
-  nest_unbalanced = 1u << 9,   ///< nested rods did not agree on the force between them: the outer one took another
 };
 
 struct RodReport {

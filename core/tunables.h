@@ -24,19 +24,15 @@ inline constexpr double overturned_joint_rad = 2.5;  // an angle between element
 inline constexpr double longest_return_m = 2e-3;     // per step, of an end that was pulled off its hold
 
 // Binding of nested rods.
-inline constexpr double bore_N_m2 = 1e9;   // stiffness of a lumen's wall, per length: a polymer of 1 GPa
-inline constexpr double press_N_m = 1e3;   // how soft the bore's wall is thought, to tell who stays pressed against it
-inline constexpr double balance_N = 5e-3;  // force between nested rods that may be left open at a node, or
-inline constexpr double balance_part = 0.01;  // this part of the largest
-inline constexpr int max_sweeps = 12;         // over nested rods in one step
-inline constexpr double least_beyond = 0.3;   // of an element that protrudes: less counts as inside
-inline constexpr double loose_m = 2e-6;  // most that a node may leave its bore by before it is tied in the same step
-inline constexpr double least_pull_N = 1e-3;  // of a tie that is let go in the same step
-inline constexpr double bore_slip_m = 20e-6;  // elastic, of friction in a bore
-inline constexpr double drag_share = 0.2;     // of friction that the outer rod takes over in a step
-inline constexpr int max_tie_changes = 6;     // of a rod in one step
+inline constexpr double bore_slip_m = 20e-6;   // elastic, of friction in a bore
+inline constexpr double leaning_N_m = 0.01;    // force per length that presses an inner rod halfway to its bore's side
+inline constexpr double bore_smooth_m = 5e-3;  // along a bore, of what presses an inner rod against it
+inline constexpr double leaning_steps = 20;    // it takes to follow
+inline constexpr double least_cover = 0.02;    // of a joint's cell: less of a layer counts as this
+inline constexpr double torn_part = 0.5;       // of an element: more, and what protrudes is strung anew
 
 // Contact with walls.
+inline constexpr double press_N_m = 1e3;        // how soft a wall is thought, to tell who stays pressed against it
 inline constexpr double wall_N_m2 = 1e8;        // stiffness of a rigid wall, per length
 inline constexpr double wall_slack_m = 0.1e-3;  // that a node may go beyond where it is expected before it is followed
 inline constexpr double slid_far_m = 0.15e-3;   // along a wall: on a radius of 1.5 mm, 7 um beside its plane

@@ -17,27 +17,23 @@ namespace ostium {
 /// At the beginning of a step, once: where the walls are.
 void move_walls(const Model& model, const Inputs& inputs, Scratch& scratch);
 
-/// Finds the walls that rod `r` can reach, from its guess of the iterate; nodes that are held (ContactScratch) have
-/// none.
-void find_walls(const Model& model, const State& state, std::size_t r, Scratch& scratch);
+/// Finds the walls that a body can reach, from its guess of the iterate.
+void find_walls(const Model& model, const Body& body, Scratch& scratch);
 
 /// Says which of them it is expected to touch, and prepares friction.
-void expect_touches(const State& state, std::size_t r, Scratch& scratch);
+void expect_touches(const Body& body);
 
 /// Ties nodes to these: changes scratch.target and chain.compliance.
-void tie_to_walls(std::size_t r, Scratch& scratch);
+void tie_to_walls(const Body& body);
 
 /// After a solve: lets nodes go that their wall would pull, ties those that are behind one. True if there are any: then
 /// the chain, which is adapted, is to be solved again.
-bool change_walls(const Model& model, const State& state, std::size_t r, Scratch& scratch);
+bool change_walls(const Model& model, const Body& body, Scratch& scratch);
 
 /// Adds the torque of friction; after linearise_joints and assemble_elements.
-void turn_at_walls(std::size_t r, Scratch& scratch);
+void turn_at_walls(const Body& body);
 
-/// Force of the walls on node i, in the iterate, N.
-V3<double> wall_force(const RodScratch& s, const ContactScratch& c, int i);
-
-/// Moves forces and slips into the state; after all commits.
-void commit_walls(const Model& model, const Scratch& scratch, State& state, std::vector<Touch>& touches);
+/// Moves forces and slips into the body's state, and adds its touches; after the commit.
+void commit_walls(const Model& model, const Body& body, std::vector<Touch>& touches);
 
 }  // namespace ostium

@@ -31,7 +31,6 @@ struct NodeWalls {
 
 struct ContactScratch {
   std::vector<NodeWalls> walls;  ///< (#nodes)
-  std::vector<char> held;        ///< (#nodes): something else holds it, no wall does
   Field<1> travel;               ///< m, (#nodes): how far it may go within the walls that were found
   int changes = 0;               ///< of planes in this step
   Field<6> free_compliance;      ///< (#nodes), as they would be without walls

@@ -55,10 +55,10 @@ void rub(int i, const ContactScratch& c, const RodScratch& s, S3<double>& P, V3<
   tie(across, dot(across, from) + turned(s, i), softness, P, target);
 }
 
-void turn_at_walls(std::size_t r, Scratch& scratch) {
-  ContactScratch& c = scratch.contacts[r];
+void turn_at_walls(const Body& body) {
+  const ContactScratch& c = *body.contact;
   if (c.walls.empty()) return;
-  RodScratch& s = scratch.rods[r];
+  RodScratch& s = *body.s;
   const Rod& rod = s.inside;
   Chain& chain = s.chain;
   for (int i = rod.first; i < rod.nodes(); ++i) {

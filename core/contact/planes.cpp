@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/binding/nest.h"
 #include "core/contact/contact.h"
 #include "core/contact/friction.h"
 #include "core/contact/walls.h"
@@ -31,7 +32,6 @@ void renew_node(int i, const ContactScratch& c, RodScratch& s) {
 }
 
 bool is_touched(const ContactScratch& c, int i) {
-  if (c.held[i]) return false;
   bool any = c.rubs[i];
   for (int k = 0; k < c.walls[i].count; ++k) any = any || c.walls[i].planes[k].active;
   return any;
@@ -41,11 +41,11 @@ double push_N(const WallPlane& w, const V3<double>& p) { return (w.place - dot(w
 
 }  // namespace
 
-void expect_touches(const State& state, std::size_t r, Scratch& scratch) {
-  ContactScratch& c = scratch.contacts[r];
+void expect_touches(const Body& body) {
+  ContactScratch& c = *body.contact;
   if (c.walls.empty()) return;
-  const RodScratch& s = scratch.rods[r];
-  const RodState& own = state.rods[r];
+  const RodScratch& s = *body.s;
+  const RodState& own = *body.own;
   for (int i = s.inside.first; i < s.inside.nodes(); ++i) {
     NodeWalls& walls = c.walls[i];
     c.rubs[i] = false;
@@ -62,10 +62,10 @@ void expect_touches(const State& state, std::size_t r, Scratch& scratch) {
   }
 }
 
-void tie_to_walls(std::size_t r, Scratch& scratch) {
-  ContactScratch& c = scratch.contacts[r];
+void tie_to_walls(const Body& body) {
+  ContactScratch& c = *body.contact;
   if (c.walls.empty()) return;
-  RodScratch& s = scratch.rods[r];
+  RodScratch& s = *body.s;
   c.free_compliance = s.chain.compliance;
   c.free_target = s.target;
   c.changes = 0;
@@ -73,15 +73,14 @@ void tie_to_walls(std::size_t r, Scratch& scratch) {
     if (is_touched(c, i)) renew_node(i, c, s);
 }
 
-bool change_walls(const Model& model, const State& state, std::size_t r, Scratch& scratch) {
-  ContactScratch& c = scratch.contacts[r];
+bool change_walls(const Model& model, const Body& body, Scratch& scratch) {
+  ContactScratch& c = *body.contact;
   if (c.walls.empty() || c.changes >= tunables::max_wall_changes) return false;
-  RodScratch& s = scratch.rods[r];
-  const RodState& own = state.rods[r];
+  RodScratch& s = *body.s;
+  const RodState& own = *body.own;
   const bool may_release = c.changes < tunables::max_wall_changes / 2;  // later on, so that no node comes and goes
   bool any = false;
   for (int i = first_free(s); i <= last_free(s); ++i) {
-    if (c.held[i]) continue;
     NodeWalls& walls = c.walls[i];
     const V3<double> p = solved_position(s, i);
     bool changed = false;
@@ -122,33 +121,27 @@ V3<double> pushing_force(const RodScratch& s, const ContactScratch& c, int i) {
 
 }  // namespace
 
-V3<double> wall_force(const RodScratch& s, const ContactScratch& c, int i) {
-  return pushing_force(s, c, i) + rubbing_force(i, s, c);
-}
-
-void commit_walls(const Model& model, const Scratch& scratch, State& state, std::vector<Touch>& touches) {
-  touches.clear();
-  if (model.surfaces.empty()) return;
-  for (std::size_t r = 0; r < model.rods.size(); ++r) {
-    const RodScratch& s = scratch.rods[r];
-    const ContactScratch& c = scratch.contacts[r];
-    RodState& own = state.rods[r];
-    const bool lost = s.progress == Progress::failed || s.defect > tunables::usable_stretch;
-    for (int i = 0; i < model.rods[r].nodes(); ++i) {
-      const bool free = lost || i < s.inside.first || c.held[i] || c.walls[i].count == 0;
-      const V3<double> force = free ? V3<double>{} : pushing_force(s, c, i), last = load3<double>(own.wall_force, i);
-      const double push = std::sqrt(dot(force, force));
-      if (push > 0 && dot(last, last) == 0) land(i, (1 / push) * force, model.step_s, own);
-      const V3<double> rubbed = free ? V3<double>{} : rubbing_force(i, s, c);
-      if (free)
-        own.wall_slip.set(i, {0, 0});
-      else
-        take_rubbing(i, s, c, own);
-      store3(own.wall_force, i, force);
-      if (push > 0)
-        touches.push_back({static_cast<int>(r), i, own.position[i] - s.inside.radius.at(0)[i] / push * to_eigen(force),
-                           to_eigen(force), to_eigen(rubbed)});
-    }
+void commit_walls(const Model& model, const Body& body, std::vector<Touch>& touches) {
+  const ContactScratch& c = *body.contact;
+  if (c.walls.empty()) return;
+  const RodScratch& s = *body.s;
+  RodState& own = *body.own;
+  const bool lost = s.progress == Progress::failed || s.defect > tunables::usable_stretch;
+  for (int i = s.inside.first; i < s.inside.nodes(); ++i) {
+    const bool free = lost || c.walls[i].count == 0;
+    const V3<double> force = free ? V3<double>{} : pushing_force(s, c, i), last = load3<double>(own.wall_force, i);
+    const double push = std::sqrt(dot(force, force));
+    if (push > 0 && dot(last, last) == 0) land(i, (1 / push) * force, model.step_s, own);
+    const V3<double> rubbed = free ? V3<double>{} : rubbing_force(i, s, c);
+    if (free)
+      own.wall_slip.set(i, {0, 0});
+    else
+      take_rubbing(i, s, c, own);
+    store3(own.wall_force, i, force);
+    if (push == 0) continue;
+    const NodeOfRod node = node_of_rod(body, i);
+    touches.push_back({node.rod, node.node, own.position[i] - s.inside.radius.at(0)[i] / push * to_eigen(force),
+                       to_eigen(force), to_eigen(rubbed)});
   }
 }
 

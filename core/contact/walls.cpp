@@ -169,26 +169,22 @@ void move_walls(const Model& model, const Inputs& inputs, Scratch& scratch) {
                scratch.surfaces[k]);
 }
 
-void find_walls(const Model& model, const State& state, std::size_t r, Scratch& scratch) {
+void find_walls(const Model& model, const Body& body, Scratch& scratch) {
   if (model.surfaces.empty()) return;
-  RodScratch& s = scratch.rods[r];
-  ContactScratch& c = scratch.contacts[r];
+  RodScratch& s = *body.s;
+  ContactScratch& c = *body.contact;
   const Rod& rod = s.inside;
-  const RodState& own = state.rods[r];
+  const RodState& own = *body.own;
   for (int i = rod.first; i < rod.nodes(); ++i) c.walls[i].count = 0;
   for (int begin = first_free(s); begin <= last_free(s); begin += block) {
     const int end = std::min(begin + block, last_free(s) + 1);
     Bounds bounds;
-    bool any = false;
     for (int i = begin; i < end; ++i) {
-      if (c.held[i]) continue;
-      any = true;
       const V3<double> p = load3<double>(own.position, i);
       const double expected = norm(load3<double>(s.position, i) - p);
       c.travel.at(0)[i] = model.sweep ? expected + tunables::wall_slack_m : 0;
       bounds.take(p, rod.radius.at(0)[i] + c.travel.at(0)[i]);
     }
-    if (!any) continue;
     for (std::size_t k = 0; k < model.surfaces.size(); ++k) {
       const Surface& surface = model.surfaces[k];
       find_clusters(surface, bounds.low, bounds.high, scratch.surfaces[k], c.clusters);
@@ -197,7 +193,7 @@ void find_walls(const Model& model, const State& state, std::size_t r, Scratch& 
         for (int i = begin; i < end; ++i) {
           const V3<double> p = load3<double>(own.position, i);
           const double travel = c.travel.at(0)[i] + (model.sweep ? pose.largest_move : 0);
-          if (c.held[i] || distance(p, pose.low, pose.high) > rod.radius.at(0)[i] + travel) continue;
+          if (distance(p, pose.low, pose.high) > rod.radius.at(0)[i] + travel) continue;
           look(surface, cluster, pose, pose.before, view_of(rod, own, i, p, travel), c.walls[i]);
         }
       }

@@ -5,7 +5,7 @@
 
 namespace ostium {
 
-/// The first and the last node that walls may hold: those that are held are not.
+/// The first and the last node that walls may hold.
 inline int first_free(const RodScratch& s) { return s.inside.first + (s.inputs.base.hold == Hold::free ? 0 : 1); }
 inline int last_free(const RodScratch& s) { return s.inside.elements - (s.inputs.tip.hold == Hold::free ? 0 : 1); }
 

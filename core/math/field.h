@@ -2,6 +2,7 @@
 /// A field along a rod: K numbers at each node, joint or element, stored component by component so that four
 /// neighbours load into one register.
 #include <Eigen/Core>
+#include <algorithm>
 #include <cstddef>
 #include <vector>
 
@@ -51,6 +52,12 @@ class Field {
   int size_ = 0, stride_ = 0;
   std::vector<double> data_;
 };
+
+/// Entries begin to end - 1 of one field into another, there from `at` on.
+template <int K>
+void copy_entries(const Field<K>& from, int begin, int end, Field<K>& to, int at) {
+  for (int c = 0; c < K; ++c) std::copy(from.at(c) + begin, from.at(c) + end, to.at(c) + at);
+}
 
 /// Calls f(Lanes{}, i) for whole registers of [begin, end) and f(double{}, i) for each entry that is left. Both do the
 /// same operations in the same order, so an entry's result does not depend on which of them computes it.

@@ -53,19 +53,15 @@ struct Inertia {
 /// A node's balance  m a + D v = f + (internal force)  reads  r = target + P (internal force)  with
 ///   P = (A m + B D)^-1,   target = r_a + P (f + B D (r_v - r_a)).
 /// D is the drag of the node's cell, along and across the tangent t, so P = p_across (I - t t^T) + p_along t t^T.
-void predict_nodes(const Rod& rod, const RodState& state, const Eigen::Vector3d& gravity_W,
-                   const Eigen::Vector3d& tip_force_W, double step_s, RodScratch& scratch) {
+void predict_nodes(const Rod& rod, const Damping& loss, int begin, int end, const RodState& state,
+                   const Eigen::Vector3d& gravity_W, double step_s, RodScratch& scratch) {
   const Inertia inertia{scratch.scheme, step_s};
-  const Damping& loss = rod.damping;
   const bool drag = loss.drag_across_N_s_m2 > 0 || loss.drag_along_N_s_m2 > 0;
   const int N = rod.elements;
   const auto node = [&]<class T>(T, int i) {
     const V3<T> r_v = inertia.r_v<T>(state, i), r_a = inertia.r_a<T>(state, r_v, i);
     const T mass = load<T>(rod.mass.at(0) + i);
     V3<T> force{mass * gravity_W.x(), mass * gravity_W.y(), mass * gravity_W.z()};
-    if constexpr (sizeof(T) == sizeof(double)) {
-      if (i == N) force = force + from_eigen(tip_force_W);
-    }
     const T m = inertia.A() * mass;
     S3<T> P{1.0 / m, T{}, T{}, 1.0 / m, T{}, 1.0 / m};
     if (drag) {
@@ -82,21 +78,14 @@ void predict_nodes(const Rod& rod, const RodState& state, const Eigen::Vector3d&
     store6(scratch.chain.compliance, i, P);
     store3(scratch.target, i, r_a + P * force);
   };
-  node(double{}, rod.first);
-  for_packs(rod.first + 1, N, node);
-  node(double{}, N);
+  if (begin == rod.first) node(double{}, rod.first);
+  for_packs(std::max(begin, rod.first + 1), std::min(end, N), node);
+  if (end == N + 1) node(double{}, N);
 }
 
-double acceleration_per_move(TimeScheme scheme, double step_s) { return Inertia{scheme, step_s}.A(); }
-
-double velocity_per_move(TimeScheme scheme, double step_s) { return Inertia{scheme, step_s}.B(); }
-
-void keep_acceleration(const Rod& rod, const RodState& state, double step_s, TimeScheme scheme, Field<3>& position) {
-  const Inertia inertia{scheme, step_s};
-  for_packs(rod.first, rod.nodes(), [&]<class T>(T, int i) {
-    const V3<T> r_a = inertia.r_a<T>(state, inertia.r_v<T>(state, i), i);
-    store3(position, i, madd(splat<T>(1 / inertia.A()), load3<T>(state.acceleration, i), r_a));
-  });
+void add_load(int node, const Eigen::Vector3d& force_W_N, RodScratch& scratch) {
+  const V3<double> move = load6<double>(scratch.chain.compliance, node) * from_eigen(force_W_N);
+  store3(scratch.target, node, load3<double>(scratch.target, node) + move);
 }
 
 void predict_elements(const Rod& rod, const RodState& state, RodScratch& scratch) {
@@ -146,8 +135,6 @@ void commit(const Rod& rod, const RodScratch& scratch, double step_s, RodState& 
   for_packs(rod.first, rod.nodes(), [&]<class T>(T, int i) {
     const V3<T> next = load3<T>(scratch.position, i);
     const V3<T> r_v = inertia.r_v<T>(state, i), v = splat<T>(inertia.B()) * (next - r_v);
-    if (state.acceleration.size() > 0)
-      store3(state.acceleration, i, splat<T>(inertia.A()) * (next - inertia.r_a<T>(state, r_v, i)));
     store3(state.position_before, i, load3<T>(state.position, i));
     store3(state.position, i, next);
     store3(state.velocity_before, i, load3<T>(state.velocity, i));
@@ -191,7 +178,6 @@ void halt(const Rod& rod, RodState& state) {
     store3(state.position_before, i, load3<T>(state.position, i));
     store3(state.velocity, i, V3<T>{});
     store3(state.velocity_before, i, V3<T>{});
-    if (state.acceleration.size() > 0) store3(state.acceleration, i, V3<T>{});
     if (state.strain.size() > 0) store3(state.strain_before, i, load3<T>(state.strain, i));
   });
   for_packs(rod.first, rod.elements, [&]<class T>(T, int j) {

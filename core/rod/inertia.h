@@ -7,18 +7,13 @@
 
 namespace ostium {
 
-/// Where nodes would go without internal force, and how they yield to it: writes scratch.target and chain.compliance.
-void predict_nodes(const Rod& rod, const RodState& state, const Eigen::Vector3d& gravity_W,
-                   const Eigen::Vector3d& tip_force_W, double step_s, RodScratch& scratch);
+/// Where nodes begin to end - 1 would go without internal force, and how they yield to it: writes scratch.target and
+/// chain.compliance. `loss` is their drag.
+void predict_nodes(const Rod& rod, const Damping& loss, int begin, int end, const RodState& state,
+                   const Eigen::Vector3d& gravity_W, double step_s, RodScratch& scratch);
 
-/// Acceleration per displacement of a node's new position, 1/s2.
-double acceleration_per_move(TimeScheme scheme, double step_s);
-
-/// Velocity per displacement, 1/s.
-double velocity_per_move(TimeScheme scheme, double step_s);
-
-/// Where nodes would be after the step if they kept state.acceleration.
-void keep_acceleration(const Rod& rod, const RodState& state, double step_s, TimeScheme scheme, Field<3>& position);
+/// A dead load on a node, after predict_nodes.
+void add_load(int node, const Eigen::Vector3d& force_W_N, RodScratch& scratch);
 
 /// Extrapolates the frames' turn linearly (not at all from rest): writes scratch.orientation, turn and force.
 void predict_elements(const Rod& rod, const RodState& state, RodScratch& scratch);

@@ -61,11 +61,17 @@ IterateChange update_iterate(const Rod& rod, double max_turn_rad, RodScratch& sc
     const V3<T> phi = load3<T>(chain.turn, j), n = load3<T>(chain.force, j);
     turns.take(dot(phi, phi)), forces.take(dot(n, n));
   });
+  for (int m = 0; m < chain.roll_count; ++m)
+    for_packs(rod.first, N, [&]<class T>(T, int j) {
+      const T psi = load<T>(chain.rolls[m].turn.at(0) + j);
+      turns.take(psi * psi);
+    });
   IterateChange change;
   change.finite = turns.finite() && forces.finite();
   if (!change.finite) return change;
   change.turn_rad = turns.largest();
-  const double fraction = change.turn_rad > max_turn_rad ? max_turn_rad / change.turn_rad : 1.0;
+  if (change.turn_rad > max_turn_rad) change.fraction = max_turn_rad / change.turn_rad;
+  const double fraction = change.fraction;
 
   for_packs(rod.first, N, [&]<class T>(T, int j) {
     const V3<T> phi = splat<T>(fraction) * load3<T>(chain.turn, j);

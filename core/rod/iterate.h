@@ -7,7 +7,8 @@ namespace ostium {
 
 struct IterateChange {
   bool finite = true;   ///< false: the solution was not a number, and the iterate is as it was
-  double turn_rad = 0;  ///< largest turn of an element
+  double turn_rad = 0;  ///< largest turn of an element, or roll
+  double fraction = 1;  ///< of the solution that was taken
   double stretch = 0;   ///< largest |(r_j+1 - r_j) / l_j - d3_j|
   double defect = 0;    ///< the same without the give of tunables.h: what the linearised constraint left
 };

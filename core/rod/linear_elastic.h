@@ -22,6 +22,12 @@ struct LinearElastic {
   void set_cell(int joint, double length_m, const Eigen::Vector3d& compliance) {
     stiffness.set(joint, length_m * compliance.cwiseInverse());
   }
+
+  void resize(int joints) { stiffness.resize(joints); }
+  /// Joints `from` to `to` of another rod with this law.
+  void copy(const LinearElastic& other, int from, int to, int joint) {
+    copy_entries(other.stiffness, from, to, stiffness, joint);
+  }
 };
 
 }  // namespace ostium

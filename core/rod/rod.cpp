@@ -9,34 +9,9 @@ namespace ostium {
 
 namespace {
 
-/// Integrals over a stretch of the rod, a <= distance from the tip <= b.
-struct Integrals {
-  double mass = 0, transverse_inertia = 0, polar_inertia = 0;
-  Eigen::Vector3d compliance = Eigen::Vector3d::Zero();  ///< of (1/EI1, 1/EI2, 1/GJ)
-  Eigen::Vector3d rest_angle = Eigen::Vector3d::Zero();  ///< of the rest curvature
-};
-
-Integrals integrate(const std::vector<Section>& sections, double a, double b) {
-  Integrals sum;
-  for (const Section& s : sections) {
-    // The outermost section reaches as far as asked for: the check has allowed for rounding only.
-    const double end = &s == &sections.back() ? std::max(s.to_tip_m, b) : s.to_tip_m;
-    const double length = std::min(b, end) - std::max(a, s.from_tip_m);
-    if (length <= 0) continue;
-    // Second moment of a round section about a diameter, per unit of area: (ro^2 + ri^2) / 4.
-    const double gyration2 = (s.radius_m * s.radius_m + s.inner_radius_m * s.inner_radius_m) / 4;
-    sum.mass += length * s.kg_per_m;
-    sum.transverse_inertia += length * s.kg_per_m * gyration2;
-    sum.polar_inertia += length * s.kg_per_m * gyration2 * 2;
-    sum.compliance += length * Eigen::Vector3d(1 / s.EI1_N_m2, 1 / s.EI2_N_m2, 1 / s.GJ_N_m2);
-    sum.rest_angle += length * s.rest_curvature_per_m;
-  }
-  return sum;
-}
-
 /// Element j, reaching from `base_from_tip` to its distal node.
 void set_element(Rod& rod, int j, double base_from_tip) {
-  const Integrals element = integrate(rod.sections, rod.node_from_tip_m[j + 1], base_from_tip);
+  const SectionIntegrals element = integrate(rod.sections, rod.node_from_tip_m[j + 1], base_from_tip);
   rod.length.at(0)[j] = base_from_tip - rod.node_from_tip_m[j + 1];
   rod.rotary_inertia.at(0)[j] = element.transverse_inertia;
   rod.rotary_inertia.at(1)[j] = element.polar_inertia;
@@ -46,7 +21,7 @@ void set_element(Rod& rod, int j, double base_from_tip) {
 void set_cell(Rod& rod, int i, double from_tip) {
   const double towards_base = i > rod.first ? rod.length.at(0)[i - 1] / 2 : 0;
   const double towards_tip = i < rod.elements ? rod.length.at(0)[i] / 2 : 0;
-  const Integrals cell = integrate(rod.sections, from_tip - towards_tip, from_tip + towards_base);
+  const SectionIntegrals cell = integrate(rod.sections, from_tip - towards_tip, from_tip + towards_base);
   const double length = towards_base + towards_tip;
   rod.joint_length.at(0)[i] = length;
   rod.mass.at(0)[i] = cell.mass;

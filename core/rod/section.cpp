@@ -1,5 +1,6 @@
 #include "core/rod/section.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <numbers>
@@ -88,6 +89,25 @@ void check(const RodDescription& d) {
   const Damping& loss = d.damping;
   for (double value : {loss.drag_across_N_s_m2, loss.drag_along_N_s_m2, loss.material_time_s})
     if (!(value >= 0 && value <= 1e6)) throw in_name("damping is " + text(value) + "; it must lie between 0 and 1e6");
+}
+
+SectionIntegrals integrate(const std::vector<Section>& sections, double a, double b, std::size_t from) {
+  SectionIntegrals sum;
+  for (std::size_t k = from; k < sections.size() && (k == from || sections[k].from_tip_m < b); ++k) {
+    const Section& s = sections[k];
+    // The outermost section reaches as far as asked for: the check has allowed for rounding only.
+    const double end = k + 1 == sections.size() ? std::max(s.to_tip_m, b) : s.to_tip_m;
+    const double length = std::min(b, end) - std::max(a, s.from_tip_m);
+    if (length <= 0) continue;
+    // Second moment of a round section about a diameter, per unit of area: (ro^2 + ri^2) / 4.
+    const double gyration2 = (s.radius_m * s.radius_m + s.inner_radius_m * s.inner_radius_m) / 4;
+    sum.mass += length * s.kg_per_m;
+    sum.transverse_inertia += length * s.kg_per_m * gyration2;
+    sum.polar_inertia += length * s.kg_per_m * gyration2 * 2;
+    sum.compliance += length * Eigen::Vector3d(1 / s.EI1_N_m2, 1 / s.EI2_N_m2, 1 / s.GJ_N_m2);
+    sum.rest_angle += length * s.rest_curvature_per_m;
+  }
+  return sum;
 }
 
 }  // namespace ostium

@@ -43,6 +43,16 @@ struct RodDescription {
 /// `count` equal elements over the whole length of the sections.
 std::vector<double> equal_elements(const std::vector<Section>& sections, int count);
 
+/// Integrals over a stretch of a rod.
+struct SectionIntegrals {
+  double mass = 0, transverse_inertia = 0, polar_inertia = 0;
+  Eigen::Vector3d compliance = Eigen::Vector3d::Zero();  ///< of (1/EI1, 1/EI2, 1/GJ)
+  Eigen::Vector3d rest_angle = Eigen::Vector3d::Zero();  ///< of the rest curvature
+};
+
+/// Over a <= distance from the tip <= b. `from`: the first section that can reach beyond a.
+SectionIntegrals integrate(const std::vector<Section>& sections, double a, double b, std::size_t from = 0);
+
 /// A round solid section of one material: EI = E pi (ro^4 - ri^4) / 4, GJ = E / (2 (1 + nu)) pi (ro^4 - ri^4) / 2.
 Section round_section(double from_tip_m, double to_tip_m, double radius_m, double inner_radius_m, double E_Pa,
                       double nu, double kg_per_m3);

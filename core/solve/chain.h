@@ -12,17 +12,42 @@
 /// plus, in A_j = P_j + P_j+1, the give c d d^T of tunables.h: without it, the tension between two held ends of a
 /// straight rod would be anything.
 ///
+/// Where rods run inside one another, elements also have rolls: turns psi of further frames about d3, one `Roll` each,
+/// that only joints couple, among themselves and to the turns. A roll m adds to the energy, element by element and
+/// joint by joint,
+///   k psi_j^2 / 2 + psi_j b_j . phi_j - torque psi_j + phi_j . u_j+1 psi_j+1 + psi_j w_j+1 . phi_j+1
+///   + c_j+1 psi_j psi_j+1 + beside_j psi_j (roll m - 1)_j
+///
 /// A node that is held in a direction has a P without that direction, whatever its mass: rigid constraints at nodes
 /// cost nothing and leave the system well conditioned.
 ///
 /// Method: block LDL^T from both ends towards the middle (a twisted factorisation). The two halves of a rod, and of a
 /// second rod, run side by side in the four lanes of a register, so two rods cost as much as one.
+#include <memory>
+#include <vector>
+
 #include "core/math/field.h"
 
 namespace ostium {
 
+/// Most rolls of a chain.
+inline constexpr int max_rolls = 3;
+
+struct Roll {
+  explicit Roll(int elements);
+
+  Field<1> stiffness;  ///< k_j, N m/rad, (#elements), > 0
+  Field<1> beside;     ///< N m/rad, (#elements)
+  Field<3> with_turn;  ///< b_j, N m/rad, (#elements)
+  Field<3> ahead;      ///< u_i, N m/rad, (#nodes): of the element before joint i and the roll behind it
+  Field<3> behind;     ///< w_i, N m/rad, (#nodes): of the roll before it and the element behind
+  Field<1> both;       ///< c_i, N m/rad, (#nodes)
+  Field<1> torque;     ///< N m, (#elements)
+  Field<1> turn;       ///< the solution psi_j, rad, (#elements)
+};
+
 struct Chain {
-  explicit Chain(int elements = 0);
+  explicit Chain(int elements = 0, int rolls = 0);
 
   int elements = 0;  ///< N
   int first = 0;     ///< the system is that of elements first to N - 1, nodes first to N; at least 3 elements
@@ -34,49 +59,46 @@ struct Chain {
   Field<6> compliance;       ///< P_i, m/N, (#nodes), positive semi-definite, P_j + P_j+1 regular
   Field<3> torque;           ///< N m, (#elements)
   Field<3> gap;              ///< m, (#elements)
+  std::vector<Roll> rolls;   ///< at most max_rolls; the first `roll_count` are in use
+  int roll_count = 0;
   // --- the solution
   Field<3> turn;         ///< phi_j, rad, (#elements)
   Field<3> force;        ///< n_j, N, (#elements)
   bool definite = true;  ///< every motion that the constraints leave costs energy; else the solution leads to a saddle
 };
 
-/// One more right-hand side of a chain, and the solution that belongs to it.
-struct ChainLoad {
-  explicit ChainLoad(int elements = 0) : torque(elements + 1), gap(elements + 1), turn(elements), force(elements) {}
-
-  Field<3> torque, gap;  ///< (#elements)
-  Field<3> turn, force;  ///< (#elements)
-};
-
-/// What is eliminated at one element, in four chains side by side.
-struct ChainBlock {
-  S3<Lanes> S_inv;  ///< inverse of K + G A^-1 G^T
-  S3<Lanes> A_inv;
-  M3<Lanes> W;  ///< G A^-1
-  M3<Lanes> turn_coupling;
-  S3<Lanes> force_coupling;
-  V3<Lanes> torque, gap;
-};
+/// What is eliminated at one element, in four chains side by side, each with R rolls.
+template <int R>
+struct ChainBlock;
 
 /// Working memory of a solve: any content is fine on entry. Afterwards it holds the pivots.
-struct ChainFactors {
-  std::vector<ChainBlock> blocks;
+class ChainFactors {
+ public:
+  ChainFactors();
+  ~ChainFactors();
+  ChainFactors(ChainFactors&&) noexcept;
+  ChainFactors& operator=(ChainFactors&&) noexcept;
 
-  /// Makes room for two chains of at most `elements` each.
-  void resize(int elements) { blocks.resize(elements / 2 + 1); }
+  /// Makes room for two chains of at most `elements` and `rolls` each.
+  void resize(int elements, int rolls = 0);
+  template <int R>
+  std::vector<ChainBlock<R>>& blocks();
+  template <int R>
+  const std::vector<ChainBlock<R>>& blocks() const;
+
+ private:
+  struct Blocks;
+  std::unique_ptr<Blocks> blocks_;
 };
 
-/// Solves one chain, or two at once (`second` may be null; it may be shorter or longer); `factors` has room for the
-/// longer. A chain's solution does not depend, to the last bit, on what shares the call. Does not allocate. Two threads
-/// may solve different chains with different factors.
+/// Solves one chain, or two at once (`second` may be null; it may be shorter or longer, with as many rolls); `factors`
+/// has room for the longer. A chain's solution does not depend, to the last bit, on what shares the call. Does not
+/// allocate. Two threads may solve different chains with different factors.
 void solve(Chain& first, Chain* second, ChainFactors& factors);
-
-/// Solves one chain, to the same bits, and for one more right-hand side in the lanes that are left.
-void solve(Chain& chain, ChainLoad& load, ChainFactors& factors);
 
 /// Number of directions in which the system of the last `solve(chain, nullptr, factors)` has negative stiffness, on
 /// the space of motions that its constraints leave (Sylvester's law of inertia, from the pivots): 0 where an
-/// equilibrium is stable.
+/// equilibrium is stable. Of a chain without rolls.
 int negative_pivots(const Chain& chain, const ChainFactors& factors);
 
 }  // namespace ostium

@@ -17,8 +17,8 @@ using Eigen::VectorXd;
 
 /// A random chain and the same system as a dense matrix.
 struct RandomChain {
-  RandomChain(int N, unsigned seed, double softening = 0)
-      : chain(N), matrix(MatrixXd::Zero(6 * N, 6 * N)), right(6 * N) {
+  RandomChain(int N, unsigned seed, double softening = 0, int rolls = 0)
+      : chain(N, rolls), matrix(MatrixXd::Zero((6 + rolls) * N, (6 + rolls) * N)), right((6 + rolls) * N) {
     std::mt19937 generator(seed);
     std::normal_distribution<> normal;
     const auto vector = [&]() -> Vector3d { return {normal(generator), normal(generator), normal(generator)}; };
@@ -70,12 +70,34 @@ struct RandomChain {
       right.segment<3>(at) = torque;
       right.segment<3>(at + 3) = gap;
     }
+    const auto couple = [&](int a, int b, double c) { matrix(a, b) = matrix(b, a) = c; };
+    for (int n = 0; n < rolls; ++n) {
+      Roll& roll = chain.rolls[n];
+      const auto at = [&](int j) { return 6 * N + n * N + j; };
+      for (int j = 0; j < N; ++j) {
+        const Vector3d b = vector();
+        roll.stiffness.at(0)[j] = matrix(at(j), at(j)) = 40;
+        roll.with_turn.set(j, b);
+        for (int k = 0; k < 3; ++k) couple(6 * j + k, at(j), b[k]);
+        roll.torque.at(0)[j] = right[at(j)] = normal(generator);
+        if (n > 0) couple(at(j) - N, at(j), roll.beside.at(0)[j] = normal(generator));
+        if (j == 0) continue;
+        const Vector3d u = vector(), w = vector();
+        roll.ahead.set(j, u), roll.behind.set(j, w);
+        for (int k = 0; k < 3; ++k) couple(6 * (j - 1) + k, at(j), u[k]), couple(at(j - 1), 6 * j + k, w[k]);
+        couple(at(j - 1), at(j), roll.both.at(0)[j] = normal(generator));
+      }
+    }
   }
 
   VectorXd solution() const {
     VectorXd x(right.size());
-    for (int j = 0; j < chain.elements; ++j)
+    const int N = chain.elements;
+    for (int j = 0; j < N; ++j) {
       x.segment<3>(6 * j) = chain.turn[j], x.segment<3>(6 * j + 3) = chain.force[j];
+      for (std::size_t m = 0; m < chain.rolls.size(); ++m)
+        x[6 * N + static_cast<int>(m) * N + j] = chain.rolls[m].turn.at(0)[j];
+    }
     return x;
   }
   double relative_error() const {
@@ -88,9 +110,9 @@ struct RandomChain {
   VectorXd right;
 };
 
-ChainFactors factors_for(int elements) {
+ChainFactors factors_for(int elements, int rolls = 0) {
   ChainFactors f;
-  f.resize(elements);
+  f.resize(elements, rolls);
   return f;
 }
 
@@ -102,6 +124,25 @@ TEST(Chain, SolvesWhatADenseSolverSolves) {
     solve(random.chain, nullptr, factors);
     EXPECT_LT(random.relative_error(), 1e-8) << N;
   }
+}
+
+TEST(Chain, SolvesRollsWithTheTurns) {
+  for (int rolls : {1, 2, 3})
+    for (int N : {16, 33}) {
+      RandomChain random(N, 7 * N, 0, rolls);
+      ASSERT_LT((random.matrix - random.matrix.transpose()).norm(), 1e-12);
+      ChainFactors factors = factors_for(N, rolls);
+      solve(random.chain, nullptr, factors);
+      EXPECT_LT(random.relative_error(), 1e-8) << rolls << " rolls, " << N;
+    }
+}
+
+TEST(Chain, ARollWithNegativeStiffnessIsNotDefinite) {
+  RandomChain random(20, 5, 0, 2);
+  ChainFactors factors = factors_for(20, 2);
+  random.chain.rolls[1].stiffness.at(0)[7] = -100;
+  solve(random.chain, nullptr, factors);
+  EXPECT_FALSE(random.chain.definite);
 }
 
 TEST(Chain, SolutionDoesNotDependOnItsCompany) {

@@ -111,7 +111,7 @@ TEST(Step, ARodDoesNotNoticeTheOthers) {
       inputs.rods = {busy_inputs(all, i).rods[r]};
       step(one, inputs, alone, own, report);
     }
-    EXPECT_EQ(first_difference(alone, State{200, {together.rods[r]}, {}}), "") << r;
+    EXPECT_EQ(first_difference(alone, State{200, {together.rods[r]}}), "") << r;
   }
 }
 

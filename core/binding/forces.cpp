@@ -1,0 +1,120 @@
+/// What inner rods exert on their bores, and on fingers.
+///
+/// The moments of a layer ask for a force across it, n = T d3 + (d3 x (m_i+1 - m_i)) / l. Along it the balance of its
+/// nodes gives T, from where the rod ends or leaves its bore back to the introducer: the bore only presses across, and
+/// rubs. What is left of the balance across is what the bore exerts. In a bend without friction T so grows by EI k^2
+/// / 2.
+#include <cmath>
+
+#include "core/binding/nest.h"
+#include "core/math/rotation.h"
+#include "core/tunables.h"
+
+namespace ostium {
+
+void find_centreline(Nest& nest) {
+  const Rod& chain = nest.s.inside;
+  const Field<4>& q = nest.own.orientation;
+  for_packs(1, chain.elements, [&]<class T>(T, int i) {
+    const V3<T> a = director3(load4<T>(q, i - 1)), b = director3(load4<T>(q, i)), sum = a + b;
+    store3(nest.tangent, i, (1.0 / square_root(dot(sum, sum))) * sum);
+    store3(nest.bend, i, (1.0 / load<T>(chain.joint_length.at(0) + i)) * (b - a));
+  });
+  const int N = chain.elements;
+  store3(nest.tangent, 0, director3(load4<double>(q, 0)));
+  store3(nest.tangent, N, director3(load4<double>(q, N - 1)));
+  store3(nest.bend, 0, load3<double>(nest.bend, 1));
+  store3(nest.bend, N, load3<double>(nest.bend, N - 1));
+}
+
+namespace {
+
+/// What bends a layer asks for pairs of opposite forces where curvature jumps, an element apart. Its clearance lets a
+/// real rod take a longer lever: spread over some of it.
+void smoothen(const Nest& nest, int last, Field<3>& force) {
+  const double* cell = nest.s.inside.joint_length.at(0);
+  const double* depth = nest.depth.at(0);
+  const auto follow = [&](int i, int from) {
+    const double step = std::fabs(depth[i] - depth[from]), part = step / (step + tunables::bore_smooth_m);
+    const V3<double> a = load3<double>(force, from);
+    store3(force, i, madd(part, load3<double>(force, i) - a, a));
+  };
+  for (int i = 0; i <= last; ++i) store3(force, i, (1 / cell[i]) * load3<double>(force, i));
+  for (int i = 1; i <= last; ++i) follow(i, i - 1);
+  for (int i = last - 1; i >= 0; --i) follow(i, i + 1);
+  for (int i = 0; i <= last; ++i) store3(force, i, cell[i] * load3<double>(force, i));
+}
+
+V3<double> across(const V3<double>& t, const V3<double>& v) { return madd(-dot(t, v), t, v); }
+
+}  // namespace
+
+void find_layer_forces(const Model& model, Nest& nest) {
+  const Rod& chain = nest.s.inside;
+  const V3<double> gravity = from_eigen(model.gravity_W);
+  for (int k = nest.layer_count - 1; k >= 1; --k) {
+    Layer& layer = nest.layers[k];
+    const int last = layer.covered;
+    // What it is held back with where it ends or leaves: along d3, and across.
+    V3<double> d3_beyond = load3<double>(nest.tangent, last), across_beyond{};
+    double tension = 0;
+    if (layer.end > 0) {
+      V3<double> force = load3<double>(nest.own.force, last);
+      for (int inner = k + 1; inner < nest.layer_count; ++inner)
+        if (nest.layers[inner].covered > last) force = force - load3<double>(nest.layers[inner].force, last);
+      d3_beyond = director3(load4<double>(nest.own.orientation, last));
+      tension = dot(d3_beyond, force), across_beyond = across(d3_beyond, force);
+    }
+
+    for_packs(0, last, [&]<class T>(T, int e) {
+      const V3<T> d3 = director3(load4<T>(nest.own.orientation, e));
+      const V3<T> step = load3<T>(layer.moment, e + 1) - load3<T>(layer.moment, e);
+      store3(layer.force, e, (1.0 / load<T>(chain.length.at(0) + e)) * cross(d3, step));
+    });
+    store3(layer.force, last, across_beyond);
+    const auto asked = [&]<class T>(T, int i) {
+      const V3<T> acceleration =
+          splat<T>(1 / nest.step_s) * (load3<T>(nest.own.velocity, i) - load3<T>(nest.own.velocity_before, i));
+      const V3<T> g{splat<T>(gravity.x), splat<T>(gravity.y), splat<T>(gravity.z)};
+      const V3<T> inert = load<T>(layer.mass.at(0) + i) * (acceleration - g);
+      store3(layer.press, i, inert + load3<T>(layer.force, i - 1) - load3<T>(layer.force, i));
+    };
+    for_packs(1, last + 1, asked);
+    store3(layer.press, 0, V3<double>{});
+    for_packs(1, last + 1, [&]<class T>(T, int i) {
+      store(layer.along.at(0) + i, dot(load3<T>(nest.tangent, i), load3<T>(layer.press, i)));
+    });
+    smoothen(nest, last, layer.press);
+
+    V3<double> d3_i = d3_beyond;
+    for (int i = last; i >= 1; --i) {
+      const V3<double> t = load3<double>(nest.tangent, i), d3 = director3(load4<double>(nest.own.orientation, i - 1));
+      const V3<double> bent = across(t, load3<double>(layer.press, i));
+      const double cosine = dot(t, d3), sum = tension * dot(t, d3_i) - layer.along.at(0)[i];
+      double before = sum / cosine;
+      V3<double> press = bent + across(t, before * d3 - tension * d3_i);
+      if (layer.slides) {
+        const double share = rubbed_along(model, nest, layer, i);
+        for (int round = 0; round < 2 && share != 0; ++round) {
+          before = (sum + share * std::sqrt(dot(press, press))) / cosine;
+          press = bent + across(t, before * d3 - tension * d3_i);
+        }
+      }
+      store3(layer.press, i, press);
+      store3(layer.force, i - 1, madd(before, d3, load3<double>(layer.force, i - 1)));
+      tension = before, d3_i = d3;
+    }
+  }
+}
+
+void base_load(const Model& model, const Nest& nest, int k, Eigen::Vector3d& force_W_N, Eigen::Vector3d& moment_W_Nm) {
+  const Layer& layer = nest.layers[k];
+  V3<double> force = k > 0 ? load3<double>(layer.force, 0) : load3<double>(nest.own.force, 0);
+  if (k == 0)
+    for (int inner = 1; inner < nest.layer_count; ++inner)
+      if (nest.layers[inner].covered > 0) force = force - load3<double>(nest.layers[inner].force, 0);
+  force_W_N = -to_eigen(force) - layer.mass.at(0)[0] * model.gravity_W;
+  moment_W_Nm = -layer.moment[0];
+}
+
+}  // namespace ostium
