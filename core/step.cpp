@@ -100,10 +100,15 @@ void linearise(const State& state, const Body& body) {
   turn_at_walls(body);
 }
 
+/// Whether the solution is near enough to be taken as it is, and to tell by it which walls are touched.
+bool is_near(const RodScratch& s) {
+  return s.chain.definite && largest_turn(s.inside, s.chain) <= tunables::max_turn_rad;
+}
+
 /// Solves a body that walls hold, until its ties hold where it pushes and nowhere else.
 void solve_held(const Model& model, const Body& body, Scratch& scratch) {
   do solve(body.s->chain, nullptr, scratch.factors);
-  while (change_walls(model, body, scratch));
+  while (is_near(*body.s) && change_walls(model, body, scratch));
 }
 
 /// Bodies that are open; lone rods in the open two at a time, as a register has lanes for two.
@@ -162,24 +167,29 @@ void iterate(const Model& model, const State& state, Scratch& scratch, StepRepor
 
 bool usable(const RodScratch& s) { return s.progress != Progress::failed && s.defect <= tunables::usable_stretch; }
 
+/// Whether its ties to walls are settled, too.
+bool settled(const Body& body) { return usable(*body.s) && behind_walls(body) <= tunables::usable_depth_m; }
+
 /// Bodies that move too violently for a step give up their velocity; then, if there are walls, most of the time to move
-/// in: so little moves that it can be solved, and no node has to be put anywhere.
+/// in: so little moves that it can mostly be solved.
 void retry_from_rest(const Model& model, const State& state, Scratch& scratch, StepReport& report) {
   const double shares[] = {1, 0.1, 0.01};
   for (const double share : shares) {
-    if (!any(scratch, Progress::open) && !any(scratch, Progress::failed)) return;
     if (share < 1 && model.surfaces.empty()) return;
+    bool again = false;
     for (const Body& body : scratch.bodies) {
       RodScratch& s = *body.s;
-      if (usable(s)) {
+      if (settled(body)) {
         if (s.progress == Progress::open) s.progress = Progress::given_up;
         continue;
       }
+      again = true;
       report.rods[body.lead].trouble |= motion_lost;
       halt(s.inside, *body.own);
       s.step_s = share * model.step_s;
       predict(model, state, scratch, body, TimeScheme::from_rest);
     }
+    if (!again) return;
     iterate(model, state, scratch, report);
   }
 }
@@ -214,6 +224,9 @@ void finish(const Model& model, const State& state, const Body& body, StepReport
   const double angle = body.nest ? largest_layer_angle(*body.nest) : largest_joint_angle(rod, s);
   if (angle > tunables::overturned_joint_rad) trouble |= joint_overturned;
 
+  const bool solved = usable(s);
+  if (!solved) string_iterate(rod, own, s);
+
   // Strains and moments of the frames that are committed, not of those that were linearised about.
   if (body.nest)
     measure_layers(state, *body.nest);
@@ -221,12 +234,13 @@ void finish(const Model& model, const State& state, const Body& body, StepReport
     linearise_joints(rod, own, joints_of(s.inputs), model.step_s, s);
   else
     linearise_end_joints(rod, own, joints_of(s.inputs), model.step_s, s);
-  if (usable(s))
+  if (solved) {
     commit(rod, s, model.step_s, own);
-  else
-    commit_frames_at_rest(rod, s, own);
-  if (s.step_s < model.step_s) halt(rod, own);
-  commit_walls(model, body, report.touches);
+    if (s.step_s < model.step_s) halt(rod, own);
+    commit_walls(model, body, report.touches);
+  } else {
+    commit_at_rest(rod, s, own);
+  }
 }
 
 /// A nest's state goes back to its rods.

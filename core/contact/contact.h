@@ -30,6 +30,9 @@ void tie_to_walls(const Body& body);
 /// the chain, which is adapted, is to be solved again.
 bool change_walls(const Model& model, const Body& body, Scratch& scratch);
 
+/// How far the iterate is behind walls that do not hold it, m: more than little if the ties were not settled.
+double behind_walls(const Body& body);
+
 /// Adds the torque of friction; after linearise_joints and assemble_elements.
 void turn_at_walls(const Body& body);
 

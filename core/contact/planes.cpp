@@ -105,6 +105,18 @@ bool change_walls(const Model& model, const Body& body, Scratch& scratch) {
   return any;
 }
 
+double behind_walls(const Body& body) {
+  const ContactScratch& c = *body.contact;
+  if (c.walls.empty()) return 0;
+  double most = 0;
+  for (int i = first_free(*body.s); i <= last_free(*body.s); ++i)
+    for (int k = 0; k < c.walls[i].count; ++k) {
+      const WallPlane& w = c.walls[i].planes[k];
+      if (!w.active) most = largest(most, w.place - dot(w.normal, load3<double>(body.s->position, i)));
+    }
+  return most;
+}
+
 namespace {
 V3<double> pushing_force(const RodScratch& s, const ContactScratch& c, int i) {
   V3<double> force{};
@@ -126,9 +138,8 @@ void commit_walls(const Model& model, const Body& body, std::vector<Touch>& touc
   if (c.walls.empty()) return;
   const RodScratch& s = *body.s;
   RodState& own = *body.own;
-  const bool lost = s.progress == Progress::failed || s.defect > tunables::usable_stretch;
   for (int i = s.inside.first; i < s.inside.nodes(); ++i) {
-    const bool free = lost || c.walls[i].count == 0;
+    const bool free = c.walls[i].count == 0;
     const V3<double> force = free ? V3<double>{} : pushing_force(s, c, i), last = load3<double>(own.wall_force, i);
     const double push = std::sqrt(dot(force, force));
     if (push > 0 && dot(last, last) == 0) land(i, (1 / push) * force, model.step_s, own);

@@ -161,6 +161,21 @@ bool first_exit(const Model& model, const V3<double>& from, const V3<double>& to
   return first <= 1;
 }
 
+/// Where a wall that was met on the way goes: in place of one that faces as it does, or where there is room, or in
+/// place of the one that is farthest away. -1: nowhere.
+int slot_for(const WallPlane& plane, const V3<double>& to, const bool* taken, const NodeWalls& walls) {
+  int farthest = -1;
+  double most = 0;
+  for (int k = 0; k < walls.count; ++k) {
+    const WallPlane& w = walls.planes[k];
+    if (dot(w.normal, plane.normal) > tunables::same_wall) return k;
+    const double away = dot(w.normal, to) - w.place;
+    if (taken[k] || (farthest >= 0 && away < most)) continue;
+    farthest = k, most = away;
+  }
+  return walls.count < max_planes ? walls.count : farthest;
+}
+
 }  // namespace
 
 void move_walls(const Model& model, const Inputs& inputs, Scratch& scratch) {
@@ -225,16 +240,19 @@ bool follow(const Model& model, const RodState& own, int i, const V3<double>& to
     }
     drop_walls_seen_from_behind(met);
   }
-  bool any = false;
+  bool any = false, taken[max_planes] = {};
   for (int k = 0; k < met.count; ++k) {
     WallPlane& plane = met.planes[k];
-    if (!(dot(plane.normal, to) < plane.place - tunables::followed_m)) continue;
-    plane.active = true, any = true;
-    // It replaces one that faces as it does, or else the last.
-    int at = 0;
-    while (at < walls.count && !(dot(walls.planes[at].normal, plane.normal) > tunables::same_wall)) ++at;
-    if (at == walls.count && walls.count < max_planes) ++walls.count;
-    walls.planes[std::min(at, max_planes - 1)] = plane;
+    const double behind = plane.place - dot(plane.normal, to);
+    if (!(behind > tunables::followed_m)) continue;
+    const int at = slot_for(plane, to, taken, walls);
+    if (at < 0) continue;
+    WallPlane& old = walls.planes[at];
+    // The same once more, which gives by what the node presses it with.
+    if (at < walls.count && old.active && old.place - dot(old.normal, to) > behind - tunables::followed_m) continue;
+    plane.active = true, any = taken[at] = true;
+    old = plane;
+    walls.count = std::max(walls.count, at + 1);
   }
   return any;
 }

@@ -153,17 +153,22 @@ void commit(const Rod& rod, const RodScratch& scratch, double step_s, RodState& 
     });
 }
 
-void commit_frames_at_rest(const Rod& rod, const RodScratch& scratch, RodState& state) {
-  for_packs(rod.first, rod.elements, [&]<class T>(T, int j) {
-    store4(state.orientation, j, load4<T>(scratch.orientation, j));
-    store3(state.force, j, V3<T>{});
-  });
+void string_iterate(const Rod& rod, const RodState& state, RodScratch& scratch) {
   const double free = static_cast<double>(Hold::free);
   const bool from_base = state.base.hold != free || state.tip.hold == free;
   const Eigen::Vector3d end = state.base.hold != free  ? state.base.p_W
                               : state.tip.hold != free ? state.tip.p_W
                                                        : state.position[rod.first];
-  string_nodes(rod, state.orientation, from_eigen(end), from_base, state.position);
+  string_nodes(rod, scratch.orientation, from_eigen(end), from_base, scratch.position);
+}
+
+void commit_at_rest(const Rod& rod, const RodScratch& scratch, RodState& state) {
+  for_packs(rod.first, rod.nodes(),
+            [&]<class T>(T, int i) { store3(state.position, i, load3<T>(scratch.position, i)); });
+  for_packs(rod.first, rod.elements, [&]<class T>(T, int j) {
+    store4(state.orientation, j, load4<T>(scratch.orientation, j));
+    store3(state.force, j, V3<T>{});
+  });
   take_strain(rod, scratch, state);
   halt(rod, state);
 }

@@ -28,9 +28,11 @@ void add_rotary_torque(const Rod& rod, const RodState& state, double step_s, Rod
 /// Moves the iterate into the state, with the velocities that belong to it.
 void commit(const Rod& rod, const RodScratch& scratch, double step_s, RodState& state);
 
-/// Takes over the iterate's frames and strains alone, strings the nodes along them from the end that is held (the base
-/// before the tip), and forgets motion and forces.
-void commit_frames_at_rest(const Rod& rod, const RodScratch& scratch, RodState& state);
+/// Strings the iterate's nodes along its frames, from the end that is held (the base before the tip).
+void string_iterate(const Rod& rod, const RodState& state, RodScratch& scratch);
+
+/// Takes over the iterate's frames and nodes, and forgets motion and forces.
+void commit_at_rest(const Rod& rod, const RodScratch& scratch, RodState& state);
 
 /// Takes over the iterate's strains; without material damping there are none.
 void take_strain(const Rod& rod, const RodScratch& scratch, RodState& state);
