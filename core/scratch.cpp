@@ -92,7 +92,7 @@ Scratch::Scratch(const Model& model) : rods(model.rods.size()), contacts(model.r
   lead.resize(model.rods.size());
   was_in_body.resize(model.rods.size());
   fed_m.resize(model.rods.size());
-  bodies.reserve(model.rods.size());
+  strands.reserve(model.rods.size());
   for (const Surface& surface : model.surfaces) surfaces.emplace_back(surface);
   for (std::size_t r = 0; r < model.rods.size(); ++r) {
     const Rod& rod = model.rods[r];

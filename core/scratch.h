@@ -15,8 +15,8 @@ struct Scratch {
   std::vector<RodScratch> rods;          ///< one per rod; solved with it while it is in no nest
   std::vector<ContactScratch> contacts;  ///< one per rod, the same
   std::vector<Nest> nests;               ///< one per rod, for when it is the outermost of one
-  std::vector<Body> bodies;              ///< of this step, by their outermost rods
-  std::vector<int> lead;                 ///< (#rods): the outermost rod of its body
+  std::vector<Strand> strands;           ///< of this step, by their outermost rods
+  std::vector<int> lead;                 ///< (#rods): the outermost rod of its strand
   std::vector<char> was_in_body;         ///< (#rods), before this step
   std::vector<double> fed_m;             ///< (#rods), pushed in in this step
   std::vector<SurfacePose> surfaces;     ///< one per surface

@@ -47,57 +47,57 @@ void begin(const Model& model, const Inputs& inputs, State& state, Scratch& scra
 
 void meet_walls(const Model& model, const Inputs& inputs, Scratch& scratch) {
   move_walls(model, inputs, scratch);
-  for (const Body& body : scratch.bodies) {
-    guess_nodes(*body.own, *body.s);
-    find_walls(model, body, scratch);
+  for (const Strand& strand : scratch.strands) {
+    guess_nodes(*strand.own, *strand.s);
+    find_walls(model, strand, scratch);
   }
 }
 
 /// Where nodes go without internal force, and how they yield to it.
-void constrain(const Model& model, const Scratch& scratch, const Body& body) {
-  RodScratch& s = *body.s;
+void constrain(const Model& model, const Scratch& scratch, const Strand& strand) {
+  RodScratch& s = *strand.s;
   const auto move = [&](int rod, int begin, int end) {
-    predict_nodes(s.inside, model.rods[rod].damping, begin, end, *body.own, model.gravity_W, s.step_s, s);
+    predict_nodes(s.inside, model.rods[rod].damping, begin, end, *strand.own, model.gravity_W, s.step_s, s);
     add_load(end - 1, scratch.rods[rod].inputs.tip_force_W_N, s);
   };
-  if (body.nest)
-    for (const Span& span : body.nest->spans)
+  if (strand.nest)
+    for (const Span& span : strand.nest->spans)
       move(span.rod, span.at > 0 ? span.at + 1 : 0, span.at + span.elements + 1);
   else
-    move(body.lead, s.inside.first, s.inside.nodes());
-  tie_to_walls(body);
-  hold_ends(s.inside, s.inputs, *body.own, s);
+    move(strand.lead, s.inside.first, s.inside.nodes());
+  tie_to_walls(strand);
+  hold_ends(s.inside, s.inputs, *strand.own, s);
 }
 
-void predict(const Model& model, const State& state, const Scratch& scratch, const Body& body, TimeScheme scheme) {
-  RodScratch& s = *body.s;
+void predict(const Model& model, const State& state, const Scratch& scratch, const Strand& strand, TimeScheme scheme) {
+  RodScratch& s = *strand.s;
   s.progress = Progress::open;
   s.scheme = scheme;
   s.geometric = scheme == TimeScheme::from_rest ? GeometricStiffness::without : GeometricStiffness::with;
-  predict_elements(s.inside, *body.own, s);
-  if (body.nest) {
-    predict_layers(state, *body.nest);
-    find_slides(model, state, *body.nest);
+  predict_elements(s.inside, *strand.own, s);
+  if (strand.nest) {
+    predict_layers(state, *strand.nest);
+    find_slides(model, state, *strand.nest);
   }
-  guess_nodes(*body.own, s);
-  expect_touches(body);
-  constrain(model, scratch, body);
+  guess_nodes(*strand.own, s);
+  expect_touches(strand);
+  constrain(model, scratch, strand);
 }
 
-void linearise(const State& state, const Body& body) {
-  RodScratch& s = *body.s;
-  if (body.nest)
-    linearise_layers(state, *body.nest);
+void linearise(const State& state, const Strand& strand) {
+  RodScratch& s = *strand.s;
+  if (strand.nest)
+    linearise_layers(state, *strand.nest);
   else
-    linearise_joints(s.inside, *body.own, joints_of(s.inputs), s.step_s, s);
+    linearise_joints(s.inside, *strand.own, joints_of(s.inputs), s.step_s, s);
   assemble_elements(s.inside, s);
   add_rotary_inertia(s.inside, s.step_s, s);
-  add_rotary_torque(s.inside, *body.own, s.step_s, s);
-  if (body.nest) {
-    add_roll_inertia(*body.nest);
-    turn_in_bores(*body.nest);
+  add_rotary_torque(s.inside, *strand.own, s.step_s, s);
+  if (strand.nest) {
+    add_roll_inertia(*strand.nest);
+    turn_in_bores(*strand.nest);
   }
-  turn_at_walls(body);
+  turn_at_walls(strand);
 }
 
 /// Whether the solution is near enough to be taken as it is, and to tell by it which walls are touched.
@@ -105,20 +105,20 @@ bool is_near(const RodScratch& s) {
   return s.chain.definite && largest_turn(s.inside, s.chain) <= tunables::max_turn_rad;
 }
 
-/// Solves a body that walls hold, until its ties hold where it pushes and nowhere else.
-void solve_held(const Model& model, const Body& body, Scratch& scratch) {
-  do solve(body.s->chain, nullptr, scratch.factors);
-  while (is_near(*body.s) && change_walls(model, body, scratch));
+/// Solves a strand that walls hold, until its ties hold where it pushes and nowhere else.
+void solve_held(const Model& model, const Strand& strand, Scratch& scratch) {
+  do solve(strand.s->chain, nullptr, scratch.factors);
+  while (is_near(*strand.s) && change_walls(model, strand, scratch));
 }
 
-/// Bodies that are open; lone rods in the open two at a time, as a register has lanes for two.
+/// Strands that are open; lone rods in the open two at a time, as a register has lanes for two.
 void solve_open(const Model& model, Scratch& scratch) {
   RodScratch* waiting = nullptr;
-  for (const Body& body : scratch.bodies) {
-    RodScratch& s = *body.s;
+  for (const Strand& strand : scratch.strands) {
+    RodScratch& s = *strand.s;
     if (s.progress != Progress::open) continue;
-    if (body.nest || !model.surfaces.empty()) {
-      solve_held(model, body, scratch);
+    if (strand.nest || !model.surfaces.empty()) {
+      solve_held(model, strand, scratch);
     } else if (!waiting) {
       waiting = &s;
     } else {
@@ -129,8 +129,8 @@ void solve_open(const Model& model, Scratch& scratch) {
   if (waiting) solve(waiting->chain, nullptr, scratch.factors);
 }
 
-void take_solution(const Body& body, RodReport& report) {
-  RodScratch& s = *body.s;
+void take_solution(const Strand& strand, RodReport& report) {
+  RodScratch& s = *strand.s;
   ++report.iterations;
   // A rod pushed beyond what it bears for a step would be solved onto the ridge between its ways of buckling.
   if (!s.chain.definite && s.geometric == GeometricStiffness::with) {
@@ -138,7 +138,7 @@ void take_solution(const Body& body, RodReport& report) {
     return;
   }
   const IterateChange change = update_iterate(s.inside, tunables::max_turn_rad, s);
-  if (body.nest && change.finite) update_layers(change.fraction, *body.nest);
+  if (strand.nest && change.finite) update_layers(change.fraction, *strand.nest);
   report.stretch = change.stretch;
   s.defect = change.defect;
   // The defect is quadratic in the turn of this iteration, so a small one says that the moments balance, too. A large
@@ -151,43 +151,43 @@ void take_solution(const Body& body, RodReport& report) {
 }
 
 bool any(const Scratch& scratch, Progress progress) {
-  return std::any_of(scratch.bodies.begin(), scratch.bodies.end(),
-                     [&](const Body& body) { return body.s->progress == progress; });
+  return std::any_of(scratch.strands.begin(), scratch.strands.end(),
+                     [&](const Strand& strand) { return strand.s->progress == progress; });
 }
 
 void iterate(const Model& model, const State& state, Scratch& scratch, StepReport& report) {
   for (int i = 0; i < tunables::max_newton_iterations && any(scratch, Progress::open); ++i) {
-    for (const Body& body : scratch.bodies)
-      if (body.s->progress == Progress::open) linearise(state, body);
+    for (const Strand& strand : scratch.strands)
+      if (strand.s->progress == Progress::open) linearise(state, strand);
     solve_open(model, scratch);
-    for (const Body& body : scratch.bodies)
-      if (body.s->progress == Progress::open) take_solution(body, report.rods[body.lead]);
+    for (const Strand& strand : scratch.strands)
+      if (strand.s->progress == Progress::open) take_solution(strand, report.rods[strand.lead]);
   }
 }
 
 bool usable(const RodScratch& s) { return s.progress != Progress::failed && s.defect <= tunables::usable_stretch; }
 
 /// Whether its ties to walls are settled, too.
-bool settled(const Body& body) { return usable(*body.s) && behind_walls(body) <= tunables::usable_depth_m; }
+bool settled(const Strand& strand) { return usable(*strand.s) && behind_walls(strand) <= tunables::usable_depth_m; }
 
-/// Bodies that move too violently for a step give up their velocity; then, if there are walls, most of the time to move
-/// in: so little moves that it can mostly be solved.
+/// Strands that move too violently for a step give up their velocity; then, if there are walls, most of the time to
+/// move in: so little moves that it can mostly be solved.
 void retry_from_rest(const Model& model, const State& state, Scratch& scratch, StepReport& report) {
   const double shares[] = {1, 0.1, 0.01};
   for (const double share : shares) {
     if (share < 1 && model.surfaces.empty()) return;
     bool again = false;
-    for (const Body& body : scratch.bodies) {
-      RodScratch& s = *body.s;
-      if (settled(body)) {
+    for (const Strand& strand : scratch.strands) {
+      RodScratch& s = *strand.s;
+      if (settled(strand)) {
         if (s.progress == Progress::open) s.progress = Progress::given_up;
         continue;
       }
       again = true;
-      report.rods[body.lead].trouble |= motion_lost;
-      halt(s.inside, *body.own);
+      report.rods[strand.lead].trouble |= motion_lost;
+      halt(s.inside, *strand.own);
       s.step_s = share * model.step_s;
-      predict(model, state, scratch, body, TimeScheme::from_rest);
+      predict(model, state, scratch, strand, TimeScheme::from_rest);
     }
     if (!again) return;
     iterate(model, state, scratch, report);
@@ -203,33 +203,33 @@ void report_base(const EndState& base, const Eigen::Vector3d& force_W_N, const E
   report.torque_Nm = along.dot(torque_W_Nm);
 }
 
-void report_forces(const Model& model, const Body& body, RodReport& report) {
-  const RodScratch& s = *body.s;
+void report_forces(const Model& model, const Strand& strand, RodReport& report) {
+  const RodScratch& s = *strand.s;
   if (s.inputs.base.hold == Hold::free) return;
   const int first = s.inside.first;
-  report_base(body.own->base, -body.own->force[first] - s.inside.mass.at(0)[first] * model.gravity_W,
+  report_base(strand.own->base, -strand.own->force[first] - s.inside.mass.at(0)[first] * model.gravity_W,
               -s.chain.joint_moment[first], report);
 }
 
-/// The iterate becomes the body's state.
-void finish(const Model& model, const State& state, const Body& body, StepReport& report) {
-  RodScratch& s = *body.s;
+/// The iterate becomes the strand's state.
+void finish(const Model& model, const State& state, const Strand& strand, StepReport& report) {
+  RodScratch& s = *strand.s;
   const Rod& rod = s.inside;
-  RodState& own = *body.own;
-  std::uint32_t& trouble = report.rods[body.lead].trouble;
+  RodState& own = *strand.own;
+  std::uint32_t& trouble = report.rods[strand.lead].trouble;
   if (s.progress == Progress::failed)
     trouble |= no_solution;
   else if (s.progress != Progress::done)
     trouble |= s.defect <= tunables::stretch_tolerance ? pulled_apart : not_converged;
-  const double angle = body.nest ? largest_layer_angle(*body.nest) : largest_joint_angle(rod, s);
+  const double angle = strand.nest ? largest_layer_angle(*strand.nest) : largest_joint_angle(rod, s);
   if (angle > tunables::overturned_joint_rad) trouble |= joint_overturned;
 
   const bool solved = usable(s);
   if (!solved) string_iterate(rod, own, s);
 
   // Strains and moments of the frames that are committed, not of those that were linearised about.
-  if (body.nest)
-    measure_layers(state, *body.nest);
+  if (strand.nest)
+    measure_layers(state, *strand.nest);
   else if (own.strain.size() > 0)
     linearise_joints(rod, own, joints_of(s.inputs), model.step_s, s);
   else
@@ -237,21 +237,21 @@ void finish(const Model& model, const State& state, const Body& body, StepReport
   if (solved) {
     commit(rod, s, model.step_s, own);
     if (s.step_s < model.step_s) halt(rod, own);
-    commit_walls(model, body, report.touches);
+    commit_walls(model, strand, report.touches);
   } else {
     commit_at_rest(rod, s, own);
   }
 }
 
 /// A nest's state goes back to its rods.
-void unnest(const Model& model, const Body& body, State& state, Scratch& scratch, StepReport& report) {
-  Nest& nest = *body.nest;
+void unnest(const Model& model, const Strand& strand, State& state, Scratch& scratch, StepReport& report) {
+  Nest& nest = *strand.nest;
   find_centreline(nest);
   find_layer_forces(model, nest);
   take_apart(nest, state);
   spread(model, nest, state);
   commit_slides(model, nest, state);
-  const RodReport whole = report.rods[body.lead];
+  const RodReport whole = report.rods[strand.lead];
   for (int k = 0; k < nest.layer_count; ++k) {
     const int r = nest.layers[k].rod;
     RodReport& own = report.rods[r];
@@ -272,17 +272,17 @@ void step(const Model& model, const Inputs& inputs, State& state, Scratch& scrat
   begin(model, inputs, state, scratch, report);
   arrange(model, scratch.was_in_body, state, scratch);
   meet_walls(model, inputs, scratch);
-  for (const Body& body : scratch.bodies) predict(model, state, scratch, body, body.s->scheme);
+  for (const Strand& strand : scratch.strands) predict(model, state, scratch, strand, strand.s->scheme);
   iterate(model, state, scratch, report);
   retry_from_rest(model, state, scratch, report);
 
-  for (const Body& body : scratch.bodies) {
-    finish(model, state, body, report);
-    if (body.nest) {
-      unnest(model, body, state, scratch, report);
+  for (const Strand& strand : scratch.strands) {
+    finish(model, state, strand, report);
+    if (strand.nest) {
+      unnest(model, strand, state, scratch, report);
     } else {
-      follow_free_ends(body.s->inside, body.s->inputs, *body.own);
-      report_forces(model, body, report.rods[body.lead]);
+      follow_free_ends(strand.s->inside, strand.s->inputs, *strand.own);
+      report_forces(model, strand, report.rods[strand.lead]);
     }
   }
   report.trouble = 0;

@@ -25,8 +25,8 @@ bool is_nested(const Model& model, int outer, int inner) {
 }
 
 /// Each rod goes with the last one around it, if all who go with that hold it.
-void find_bodies(const Model& model, State& state, Scratch& scratch) {
-  scratch.bodies.clear();
+void find_strands(const Model& model, State& state, Scratch& scratch) {
+  scratch.strands.clear();
   const int rods = static_cast<int>(model.rods.size());
   for (int r = 0; r < rods; ++r) {
     scratch.nests[r].members.clear();
@@ -46,8 +46,8 @@ void find_bodies(const Model& model, State& state, Scratch& scratch) {
     if (nest.members.empty()) continue;
     const bool alone = nest.members.size() == 1;
     if (alone) state.rods[r].exposed = state.rods[r].first;
-    scratch.bodies.push_back({r, alone ? &scratch.rods[r] : &nest.s, alone ? &state.rods[r] : &nest.own,
-                              alone ? &scratch.contacts[r] : &nest.contact, alone ? nullptr : &nest});
+    scratch.strands.push_back({r, alone ? &scratch.rods[r] : &nest.s, alone ? &state.rods[r] : &nest.own,
+                               alone ? &scratch.contacts[r] : &nest.contact, alone ? nullptr : &nest});
   }
 }
 
@@ -352,14 +352,14 @@ double middle_of_own(const Rod& rod, const RodState& s, int j, double reach_m) {
 }
 
 void arrange(const Model& model, const std::vector<char>& was_in_body, State& state, Scratch& scratch) {
-  find_bodies(model, state, scratch);
-  for (Body& body : scratch.bodies) {
-    if (!body.nest) continue;
-    Nest& nest = *body.nest;
+  find_strands(model, state, scratch);
+  for (Strand& strand : scratch.strands) {
+    if (!strand.nest) continue;
+    Nest& nest = *strand.nest;
     nest.step_s = model.step_s;
-    if (!was_in_body[body.lead])
-      lay_over(scratch.rods[body.lead].inside, model.rods[nest.members[1]], state.rods[nest.members[1]],
-               state.rods[body.lead]);
+    if (!was_in_body[strand.lead])
+      lay_over(scratch.rods[strand.lead].inside, model.rods[nest.members[1]], state.rods[nest.members[1]],
+               state.rods[strand.lead]);
     lay_spans(model, scratch, state, nest);
     lay_layers(model, scratch, nest);
     gather(state, scratch, nest);
@@ -386,11 +386,11 @@ void take_apart(const Nest& nest, State& state) {
     });
 }
 
-NodeOfRod node_of_rod(const Body& body, int i) {
-  if (!body.nest) return {body.lead, i};
-  for (const Span& span : body.nest->spans)
+NodeOfRod node_of_rod(const Strand& strand, int i) {
+  if (!strand.nest) return {strand.lead, i};
+  for (const Span& span : strand.nest->spans)
     if (i <= span.at + span.elements) return {span.rod, span.first + i - span.at};
-  return {body.lead, i};
+  return {strand.lead, i};
 }
 
 }  // namespace ostium

@@ -24,18 +24,19 @@
 
 namespace ostium {
 
-/// Says which rods are a body, by themselves or as a nest, and puts the chains of nests together. After feeding;
+/// Says which rods are a strand, by themselves or as a nest, and puts the chains of nests together. After feeding;
 /// `was_in_body[r]`: before that.
 void arrange(const Model& model, const std::vector<char>& was_in_body, State& state, Scratch& scratch);
 
-// --- arrange.cpp, of one nest, whose outermost rod is body.lead ------------------------------------------------------
+// --- arrange.cpp, of one nest, whose outermost rod is strand.lead
+// ------------------------------------------------------
 /// Hands what the step left in the chain's state back to the rods; after the commit.
 void take_apart(const Nest& nest, State& state);
-/// The rod and its node that node i of a body is.
+/// The rod and its node that node i of a strand is.
 struct NodeOfRod {
   int rod, node;
 };
-NodeOfRod node_of_rod(const Body& body, int i);
+NodeOfRod node_of_rod(const Strand& strand, int i);
 /// Distance from the introducer to the middle of a rod's element j, m; `reach_m`: where it leaves the rods around it.
 double middle_of_own(const Rod& rod, const RodState& state, int j, double reach_m);
 

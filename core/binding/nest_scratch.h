@@ -80,7 +80,7 @@ struct Nest {
 };
 
 /// What is solved as one: a lone rod, or a nest.
-struct Body {
+struct Strand {
   int lead = 0;  ///< its (outermost) rod
   RodScratch* s = nullptr;
   RodState* own = nullptr;

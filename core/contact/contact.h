@@ -17,26 +17,26 @@ namespace ostium {
 /// At the beginning of a step, once: where the walls are.
 void move_walls(const Model& model, const Inputs& inputs, Scratch& scratch);
 
-/// Finds the walls that a body can reach, from its guess of the iterate.
-void find_walls(const Model& model, const Body& body, Scratch& scratch);
+/// Finds the walls that a strand can reach, from its guess of the iterate.
+void find_walls(const Model& model, const Strand& strand, Scratch& scratch);
 
 /// Says which of them it is expected to touch, and prepares friction.
-void expect_touches(const Body& body);
+void expect_touches(const Strand& strand);
 
 /// Ties nodes to these: changes scratch.target and chain.compliance.
-void tie_to_walls(const Body& body);
+void tie_to_walls(const Strand& strand);
 
 /// After a solve: lets nodes go that their wall would pull, ties those that are behind one. True if there are any: then
 /// the chain, which is adapted, is to be solved again.
-bool change_walls(const Model& model, const Body& body, Scratch& scratch);
+bool change_walls(const Model& model, const Strand& strand, Scratch& scratch);
 
 /// How far the iterate is behind walls that do not hold it, m: more than little if the ties were not settled.
-double behind_walls(const Body& body);
+double behind_walls(const Strand& strand);
 
 /// Adds the torque of friction; after linearise_joints and assemble_elements.
-void turn_at_walls(const Body& body);
+void turn_at_walls(const Strand& strand);
 
-/// Moves forces and slips into the body's state, and adds its touches; after the commit.
-void commit_walls(const Model& model, const Body& body, std::vector<Touch>& touches);
+/// Moves forces and slips into the strand's state, and adds its touches; after the commit.
+void commit_walls(const Model& model, const Strand& strand, std::vector<Touch>& touches);
 
 }  // namespace ostium

@@ -55,10 +55,10 @@ void rub(int i, const ContactScratch& c, const RodScratch& s, S3<double>& P, V3<
   tie(across, dot(across, from) + turned(s, i), softness, P, target);
 }
 
-void turn_at_walls(const Body& body) {
-  const ContactScratch& c = *body.contact;
+void turn_at_walls(const Strand& strand) {
+  const ContactScratch& c = *strand.contact;
   if (c.walls.empty()) return;
-  RodScratch& s = *body.s;
+  RodScratch& s = *strand.s;
   const Rod& rod = s.inside;
   Chain& chain = s.chain;
   for (int i = rod.first; i < rod.nodes(); ++i) {

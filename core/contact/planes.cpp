@@ -41,11 +41,11 @@ double push_N(const WallPlane& w, const V3<double>& p) { return (w.place - dot(w
 
 }  // namespace
 
-void expect_touches(const Body& body) {
-  ContactScratch& c = *body.contact;
+void expect_touches(const Strand& strand) {
+  ContactScratch& c = *strand.contact;
   if (c.walls.empty()) return;
-  const RodScratch& s = *body.s;
-  const RodState& own = *body.own;
+  const RodScratch& s = *strand.s;
+  const RodState& own = *strand.own;
   for (int i = s.inside.first; i < s.inside.nodes(); ++i) {
     NodeWalls& walls = c.walls[i];
     c.rubs[i] = false;
@@ -62,10 +62,10 @@ void expect_touches(const Body& body) {
   }
 }
 
-void tie_to_walls(const Body& body) {
-  ContactScratch& c = *body.contact;
+void tie_to_walls(const Strand& strand) {
+  ContactScratch& c = *strand.contact;
   if (c.walls.empty()) return;
-  RodScratch& s = *body.s;
+  RodScratch& s = *strand.s;
   c.free_compliance = s.chain.compliance;
   c.free_target = s.target;
   c.changes = 0;
@@ -73,11 +73,11 @@ void tie_to_walls(const Body& body) {
     if (is_touched(c, i)) renew_node(i, c, s);
 }
 
-bool change_walls(const Model& model, const Body& body, Scratch& scratch) {
-  ContactScratch& c = *body.contact;
+bool change_walls(const Model& model, const Strand& strand, Scratch& scratch) {
+  ContactScratch& c = *strand.contact;
   if (c.walls.empty() || c.changes >= tunables::max_wall_changes) return false;
-  RodScratch& s = *body.s;
-  const RodState& own = *body.own;
+  RodScratch& s = *strand.s;
+  const RodState& own = *strand.own;
   const bool may_release = c.changes < tunables::max_wall_changes / 2;  // later on, so that no node comes and goes
   bool any = false;
   for (int i = first_free(s); i <= last_free(s); ++i) {
@@ -105,14 +105,14 @@ bool change_walls(const Model& model, const Body& body, Scratch& scratch) {
   return any;
 }
 
-double behind_walls(const Body& body) {
-  const ContactScratch& c = *body.contact;
+double behind_walls(const Strand& strand) {
+  const ContactScratch& c = *strand.contact;
   if (c.walls.empty()) return 0;
   double most = 0;
-  for (int i = first_free(*body.s); i <= last_free(*body.s); ++i)
+  for (int i = first_free(*strand.s); i <= last_free(*strand.s); ++i)
     for (int k = 0; k < c.walls[i].count; ++k) {
       const WallPlane& w = c.walls[i].planes[k];
-      if (!w.active) most = largest(most, w.place - dot(w.normal, load3<double>(body.s->position, i)));
+      if (!w.active) most = largest(most, w.place - dot(w.normal, load3<double>(strand.s->position, i)));
     }
   return most;
 }
@@ -133,11 +133,11 @@ V3<double> pushing_force(const RodScratch& s, const ContactScratch& c, int i) {
 
 }  // namespace
 
-void commit_walls(const Model& model, const Body& body, std::vector<Touch>& touches) {
-  const ContactScratch& c = *body.contact;
+void commit_walls(const Model& model, const Strand& strand, std::vector<Touch>& touches) {
+  const ContactScratch& c = *strand.contact;
   if (c.walls.empty()) return;
-  const RodScratch& s = *body.s;
-  RodState& own = *body.own;
+  const RodScratch& s = *strand.s;
+  RodState& own = *strand.own;
   for (int i = s.inside.first; i < s.inside.nodes(); ++i) {
     const bool free = c.walls[i].count == 0;
     const V3<double> force = free ? V3<double>{} : pushing_force(s, c, i), last = load3<double>(own.wall_force, i);
@@ -150,7 +150,7 @@ void commit_walls(const Model& model, const Body& body, std::vector<Touch>& touc
       take_rubbing(i, s, c, own);
     store3(own.wall_force, i, force);
     if (push == 0) continue;
-    const NodeOfRod node = node_of_rod(body, i);
+    const NodeOfRod node = node_of_rod(strand, i);
     touches.push_back({node.rod, node.node, own.position[i] - s.inside.radius.at(0)[i] / push * to_eigen(force),
                        to_eigen(force), to_eigen(rubbed)});
   }

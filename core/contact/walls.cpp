@@ -184,12 +184,12 @@ void move_walls(const Model& model, const Inputs& inputs, Scratch& scratch) {
                scratch.surfaces[k]);
 }
 
-void find_walls(const Model& model, const Body& body, Scratch& scratch) {
+void find_walls(const Model& model, const Strand& strand, Scratch& scratch) {
   if (model.surfaces.empty()) return;
-  RodScratch& s = *body.s;
-  ContactScratch& c = *body.contact;
+  RodScratch& s = *strand.s;
+  ContactScratch& c = *strand.contact;
   const Rod& rod = s.inside;
-  const RodState& own = *body.own;
+  const RodState& own = *strand.own;
   for (int i = rod.first; i < rod.nodes(); ++i) c.walls[i].count = 0;
   for (int begin = first_free(s); begin <= last_free(s); begin += block) {
     const int end = std::min(begin + block, last_free(s) + 1);
