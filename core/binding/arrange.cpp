@@ -235,6 +235,23 @@ void copy_law(const MomentLaw& from, int begin, int end, MomentLaw& to, int at) 
       to);
 }
 
+/// Whether the rods lie against each other as they did; where they are, and what their cells have, follows from
+/// this alone.
+bool lie_as_before(const State& state, Nest& nest) {
+  bool same = true;
+  for (int k = 0; k < max_layers; ++k) {
+    Laid now;
+    if (k < nest.layer_count) {
+      const Layer& layer = nest.layers[k];
+      const RodState& own = state.rods[layer.rod];
+      now = {layer.rod, first_element(own), static_cast<int>(own.exposed), layer.inserted_m};
+    }
+    same = same && now == nest.laid[k];
+    nest.laid[k] = now;
+  }
+  return same;
+}
+
 /// What each rod has, cell by cell.
 void lay_layers(const Model& model, const Scratch& scratch, Nest& nest) {
   Rod& chain = nest.s.inside;
@@ -244,7 +261,6 @@ void lay_layers(const Model& model, const Scratch& scratch, Nest& nest) {
     layer.damping_s = rod.damping.material_time_s;
     layer.viscous = layer.damping_s / nest.step_s;
     const bool protrudes = layer.end > 0;
-    if (!protrudes) end_inside(nest, layer);
     // From here on the cells are the rod's own.
     int own = layer.covered < chain.elements ? layer.covered - 1 : chain.elements;
     if (protrudes) {
@@ -361,20 +377,24 @@ void arrange(const Model& model, const std::vector<char>& was_in_body, State& st
       lay_over(scratch.rods[strand.lead].inside, model.rods[nest.members[1]], state.rods[nest.members[1]],
                state.rods[strand.lead]);
     lay_spans(model, scratch, state, nest);
-    lay_layers(model, scratch, nest);
+    nest.moved = !lie_as_before(state, nest);
+    for (int k = 0; k < nest.layer_count; ++k)
+      if (nest.layers[k].end == 0) end_inside(nest, nest.layers[k]);
+    if (nest.moved) lay_layers(model, scratch, nest);
     gather(state, scratch, nest);
     nest.s.chain.roll_count = nest.layer_count - 1;
     for (int k = 1; k < nest.layer_count; ++k) {
       Layer& layer = nest.layers[k];
       const Rod& rod = model.rods[layer.rod];
       const RodState& own = state.rods[layer.rod];
+      layer.base_turn = from_eigen(nest.step_s * scratch.rods[layer.rod].inputs.base.turn_rate_W_rad_s);
+      if (!nest.moved) continue;
       const double reach = nest.depth.at(0)[layer.covered];
       int hint = first_element(own);
       for (int e = 0; e < layer.covered; ++e)
         place((nest.depth.at(0)[e] + nest.depth.at(0)[e + 1]) / 2, rod.elements - 1, hint,
               [&](int j) { return middle_of_own(rod, own, j, reach); }, e, layer.from_own);
       find_hosts(model, nest, k);
-      layer.base_turn = from_eigen(nest.step_s * scratch.rods[layer.rod].inputs.base.turn_rate_W_rad_s);
     }
   }
 }

@@ -5,6 +5,7 @@
 ///   phi    gets H, m as ever,
 ///   psi_e  gets  b = H d3,  k = d3 . H d3  from both of its joints and  torque = d3 . (m_e+1 - m_e),
 ///   (e, e+1) couple by  X = -H + [m]x / 2:  u = X d3_e+1,  w = X^T d3_e,  c = d3_e . X d3_e+1.
+#include <algorithm>
 #include <cmath>
 
 #include "core/binding/nest.h"
@@ -62,9 +63,26 @@ Joint<T> damped_joint(const Law& law, const Nest& nest, const Layer& layer, int 
   return out;
 }
 
+/// Where nothing of a layer's roll is written: at the base if it is not held, and from where it ends or has left.
+void clear(int covered, int elements, Layer& layer, Roll& roll) {
+  const auto none = [](auto& field, int i) {
+    for (int c = 0; c * field.stride() < static_cast<int>(field.raw().size()); ++c) field.at(c)[i] = 0;
+  };
+  const auto joint = [&](int i) {
+    none(roll.ahead, i), none(roll.behind, i), none(roll.both, i);
+    none(layer.before, i), none(layer.after, i), none(layer.rolling, i);
+  };
+  joint(0);
+  for (int i = covered; i <= elements; ++i) {
+    joint(i);
+    none(roll.with_turn, i), none(roll.torque, i);
+  }
+  std::fill(roll.beside.raw().begin(), roll.beside.raw().end(), 0.0);
+}
+
 }  // namespace
 
-void predict_layers(const State& state, Nest& nest) {
+[[gnu::flatten]] void predict_layers(const State& state, Nest& nest) {
   const Field<4>& chain = nest.own.orientation;
   for (int k = 1; k < nest.layer_count; ++k) {
     Layer& layer = nest.layers[k];
@@ -93,7 +111,7 @@ void predict_layers(const State& state, Nest& nest) {
   }
 }
 
-void linearise_layers(const State& state, Nest& nest) {
+[[gnu::flatten]] void linearise_layers(const State& state, Nest& nest) {
   Chain& chain = nest.s.chain;
   const int elements = nest.s.inside.elements;
   const double geometric = nest.s.geometric == GeometricStiffness::with ? 0.5 : 0;
@@ -104,12 +122,7 @@ void linearise_layers(const State& state, Nest& nest) {
   for (int k = 0; k < nest.layer_count; ++k) {
     Layer& layer = nest.layers[k];
     Roll* roll = layer.roll < 0 ? nullptr : &chain.rolls[layer.roll];
-    if (roll) {
-      for (Field<3>* f : {&roll->ahead, &roll->behind, &roll->with_turn, &layer.before, &layer.after})
-        std::fill(f->raw().begin(), f->raw().begin() + 3 * f->stride(), 0.0);
-      for (Field<1>* f : {&roll->both, &roll->torque, &roll->beside}) std::fill(f->raw().begin(), f->raw().end(), 0.0);
-      std::fill(layer.rolling.raw().begin(), layer.rolling.raw().end(), 0.0);
-    }
+    if (roll) clear(layer.covered, elements, layer, *roll);
     std::visit(
         [&](const auto& law) {
           for_joints(state, nest, layer, [&]<class T>(T, int i, const Q4<T>& a, const Q4<T>& b, bool inside) {
@@ -166,7 +179,7 @@ void add_roll_inertia(Nest& nest) {
   }
 }
 
-void update_layers(double fraction, Nest& nest) {
+[[gnu::flatten]] void update_layers(double fraction, Nest& nest) {
   const Chain& chain = nest.s.chain;
   for (int k = 1; k < nest.layer_count; ++k) {
     Layer& layer = nest.layers[k];
@@ -204,7 +217,7 @@ double largest_layer_angle(const Nest& nest) {
   return 2 * std::asin(std::sqrt(std::min(1.0, most)));
 }
 
-void measure_layers(const State& state, Nest& nest) {
+[[gnu::flatten]] void measure_layers(const State& state, Nest& nest) {
   if (nest.s.strain.size() > 0) {
     store3(nest.s.strain, 0, V3<double>{});
     for (const Span& span : nest.spans) store3(nest.s.strain, span.at + span.elements, V3<double>{});

@@ -65,11 +65,20 @@ struct Layer {
   Field<3> lean;          ///< m, (#nodes), where its bore's clearance lets it lie
 };
 
+/// How a layer lay in the chain when its cells were cut.
+struct Laid {
+  int rod = -1, first = 0, exposed = 0;
+  double inserted_m = 0;
+  bool operator==(const Laid&) const = default;
+};
+
 struct Nest {
   std::vector<int> members;  ///< outermost first; a nest if there is more than one
   std::vector<Span> spans;
   int layer_count = 0;
   std::vector<Layer> layers;  ///< as members
+  Laid laid[max_layers];
+  bool moved = true;  ///< the rods do not lie against each other as they did: places and cells are new
   double step_s = 0;
   RodScratch s;  ///< of the chain
   RodState own;  ///< the chain's, between arrange and take_apart

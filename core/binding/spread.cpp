@@ -108,14 +108,14 @@ void take_strains(const Rod& rod, int from, int to, RodState& own) {
 
 }  // namespace
 
-void spread(const Model& model, Nest& nest, State& state) {
+[[gnu::flatten]] void spread(const Model& model, Nest& nest, State& state) {
   constexpr int near = 6;
   for (int k = 1; k < nest.layer_count; ++k) {
     Layer& layer = nest.layers[k];
     const Rod& rod = model.rods[layer.rod];
     RodState& own = state.rods[layer.rod];
     const int first = first_element(own), exposed = static_cast<int>(own.exposed), N = rod.elements;
-    locate(rod, own, nest, layer);
+    if (nest.moved) locate(rod, own, nest, layer);
     find_lean(nest, layer);
     lay_elements(nest, layer, first, std::min(exposed, N), own);
     const int nodes = std::min(exposed, N) + 1;
