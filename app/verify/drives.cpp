@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <random>
 
@@ -136,19 +137,22 @@ void judge(const Rehearsal& run, Judge& judge, bool winding, Holding& holding) {
   }
 }
 
+void follow_script(double t_s, Rehearsal& run) {
+  const double cycle = std::fmod(t_s, 24);
+  RodInputs &guide = run.inputs.rods[0], &wire = run.inputs.rods[1];
+  wire.feed_m_s = cycle < 9 ? 0.05 : cycle < 12 ? 0.05 * std::sin(2 * pi * cycle) : cycle < 21 ? -0.05 : 0;
+  guide.feed_m_s = cycle < 1 ? 0 : cycle < 8.5 ? 0.05 : cycle < 12 ? 0 : cycle < 19.5 ? -0.05 : 0;
+  wire.base.turn_rate_W_rad_s = Vector3d(2 * pi * std::sin(pi * cycle), 0, 0);
+  guide.base.turn_rate_W_rad_s = Vector3d(cycle > 7 && cycle < 9 ? 1.5 : 0, 0, 0);
+}
+
 Holding scripted_procedure(const TestVessel& vessel, double beats_per_min, double seconds) {
   Rehearsal run(vessel, true);
   Judge truth(vessel.wall);
   Holding holding;
   const int steps = static_cast<int>(1e3 * seconds);
   for (int n = 0; n < steps; ++n) {
-    const double t = 1e-3 * n, cycle = std::fmod(t, 24);
-    // The wire leads the guide; both to the root, then the wire on into a branch, to and fro, and all of it back.
-    RodInputs &guide = run.inputs.rods[0], &wire = run.inputs.rods[1];
-    wire.feed_m_s = cycle < 9 ? 0.05 : cycle < 12 ? 0.05 * std::sin(2 * pi * cycle) : cycle < 21 ? -0.05 : 0;
-    guide.feed_m_s = cycle < 1 ? 0 : cycle < 8.5 ? 0.05 : cycle < 12 ? 0 : cycle < 19.5 ? -0.05 : 0;
-    wire.base.turn_rate_W_rad_s = Vector3d(2 * pi * std::sin(pi * cycle), 0, 0);
-    guide.base.turn_rate_W_rad_s = Vector3d(cycle > 7 && cycle < 9 ? 1.5 : 0, 0, 0);
+    follow_script(1e-3 * n, run);
     run.step(beats_per_min);
     if (run.report.trouble & ~static_cast<unsigned>(feed_stopped)) ++holding.troubled;
     if (n % 20 == 19) judge(run, truth, n % 2000 == 1999 || n + 1 == steps, holding);
@@ -181,6 +185,21 @@ Holding random_drive(const TestVessel& vessel, std::uint64_t seed, double second
     if (n % 50 == 49) judge(run, truth, n % 1000 == 999 || n + 1 == steps, holding);
   }
   return holding;
+}
+
+std::vector<GateResult> contact_in_vessel(bool quick) {
+  const TestVessel vessel = test_vessel();
+  // A node outside is not a depth: then nothing passes.
+  const auto depth_mm = [](const Holding& holding) {
+    return holding.escapes > 0 ? std::numeric_limits<double>::infinity() : 1e3 * holding.deepest_m;
+  };
+  std::vector<GateResult> out{
+      {"contact-vessel-script", depth_mm(scripted_procedure(vessel, 75, quick ? 3 : 24)), 0, 0.05, "mm"}};
+  const int drives = quick ? 2 : 12;
+  for (int seed = 0; seed < drives; ++seed)
+    out.push_back({"contact-vessel-drive-" + std::to_string(seed),
+                   depth_mm(random_drive(vessel, static_cast<std::uint64_t>(seed), quick ? 1.5 : 5)), 0, 0.178, "mm"});
+  return out;
 }
 
 }  // namespace ostium::verify

@@ -6,6 +6,7 @@
 #include "app/verify/judge.h"
 #include "app/verify/test_vessel.h"
 #include "core/step.h"
+#include "data/gate_report.h"
 
 namespace ostium::verify {
 
@@ -43,11 +44,18 @@ struct Holding {
 /// Looks at all nodes by the triangles; `winding` also tells whether those near the wall are inside.
 void judge(const Rehearsal& run, Judge& judge, bool winding, Holding& holding);
 
-/// Wire and guide advanced at 5 cm/s, turned, drawn back and advanced again, at the heart rate.
+/// What hands do at `t_s` of the scripted procedure: wire and guide advanced at 5 cm/s, turned, drawn back and advanced
+/// again, every 24 s. The wire leads, and goes on into a branch.
+void follow_script(double t_s, Rehearsal& run);
+
+/// The scripted procedure at a heart rate.
 Holding scripted_procedure(const TestVessel& vessel, double beats_per_min, double seconds);
 
 /// One random drive: speeds to 20 cm/s and 10 turns/s, redrawn every 0.1 to 1 s, 60 to 180 beats/min; a drive of an odd
 /// seed starts with the wire in a branch.
 Holding random_drive(const TestVessel& vessel, std::uint64_t seed, double seconds, bool sweep = true);
+
+/// The contact gates in the test vessel: the scripted procedure and random drives.
+std::vector<GateResult> contact_in_vessel(bool quick);
 
 }  // namespace ostium::verify

@@ -1,3 +1,4 @@
+#include "app/verify/drives.h"
 #include "app/verify/gate.h"
 
 namespace ostium::verify {
@@ -15,6 +16,8 @@ const std::vector<Gate>& gates() {
       {"rod-section", "a section boundary swept through an element, against a boundary-value solution", rod_section},
       {"nesting", "a rod inside another: shape, snap, push, clearance, against closed forms", nesting},
       {"contact", "rods and walls: friction, sliding, buckling in a tube, against closed forms", contact},
+      {"contact-vessel", "guide and wire in a beating vessel, by script and at random: how deep walls let them in",
+       contact_in_vessel},
       {"feed", "a wire fed in and out through its introducer, against where it was", feed},
       {"anatomy-lengths", "arteries, ostia and arch, against CT and Dodge 1988", anatomy_lengths},
       {"anatomy-diameters", "the surface's diameters, against Dodge 1992, Hager 2002 and CT", anatomy_diameters},

@@ -56,7 +56,8 @@ void print_table(const std::vector<Row>& rows, double yardstick) {
 
 int main(int argc, char** argv) {
   bool json = false, quick = false, growth_only = false, stretch_only = false, frames_only = false;
-  double late_s = 0;
+  double late_s = 0, soak_min = 0;
+  int drives = 0;
   int feed_trips = 0;
   CLI::App app("Times the step: CPU time of one simulated millisecond, beside its accuracy gate and the yardstick.",
                "ostium-bench");
@@ -68,6 +69,9 @@ int main(int argc, char** argv) {
                  "Instead: feed a wire 1 m in and out so often, and compare its rest (100: three minutes)");
   app.add_flag("--frames", frames_only, "Instead: the X-ray frames alone");
   app.add_option("--late", late_s, "Instead: so many seconds of a 1 kHz loop, alone and beside frames");
+  app.add_option("--drives", drives,
+                 "Instead: so many random drives through the beating test vessel (10 take a minute)");
+  app.add_option("--soak", soak_min, "Instead: so many simulated minutes of the scripted procedure there");
   app.footer("Examples:\n  ostium-bench\n  ostium-bench --json > bench.json\n  ostium-bench --growth");
   CLI11_PARSE(app, argc, argv);
 
@@ -76,6 +80,8 @@ int main(int argc, char** argv) {
     print_stretch_table(quick);
     return 0;
   }
+  if (drives > 0) return print_drives(drives) ? 0 : 1;
+  if (soak_min > 0) return print_soak(soak_min) ? 0 : 1;
   if (late_s > 0) {
     print_late_ticks(late_s);
     return 0;
@@ -108,6 +114,8 @@ int main(int argc, char** argv) {
   if (!json) fmt::print(stderr, "nested rods ...\n");
   rows.push_back(nested_rods("pair-2x512-free", 2, 512, duration));
   rows.push_back(nested_rods("three-3x512-free", 3, 512, duration));
+  if (!json) fmt::print(stderr, "guide and wire in a vessel ...\n");
+  rows.push_back(vessel_pair("pair-in-vessel", quick));
   if (!json) fmt::print(stderr, "frames ...\n");
   rows.push_back(frame_row("frame-512", 512, false, quick));
   rows.push_back(frame_row("frame-512-rotating", 512, true, quick));

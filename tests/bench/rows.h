@@ -32,6 +32,14 @@ Row free_rod(const std::string& name, int elements, const Duration& duration);
 /// swinging under their weight with the damping of the catalogue's shafts (verification: nesting-pair).
 Row nested_rods(const std::string& name, int rods, int elements, const Duration& duration);
 
+/// Guide and wire of the catalogue in the beating test vessel, by the scripted procedure of app/verify/drives.h.
+Row vessel_pair(const std::string& name, bool quick);
+
+/// Random drives 0 to count - 1 of 5 s, and how the wall held them; or the scripted procedure, over and over, with
+/// energy and memory, a line a minute. Printed; false if any wire got out, or deeper than the gates allow.
+bool print_drives(int count);
+bool print_soak(double minutes);
+
 /// Mean CPU time, ms per step, of free rods from 16 to 4,096 elements.
 struct GrowthPoint {
   int elements;

@@ -1,0 +1,113 @@
+#include <fmt/format.h>
+#include <time.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <numeric>
+
+#include "app/verify/drives.h"
+#include "core/energy.h"
+#include "tests/bench/rows.h"
+
+namespace ostium::bench {
+
+namespace {
+
+constexpr double beats_per_min = 75;
+constexpr double procedure_m = 0.05e-3, drive_m = 0.178e-3;  // that the gates allow
+
+double thread_cpu_ms() {
+  timespec t;
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
+  return 1e3 * static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_nsec);
+}
+
+/// MiB that the process holds.
+double memory_MiB() {
+  std::ifstream file("/proc/self/statm");
+  long size = 0, resident = 0;
+  file >> size >> resident;
+  return static_cast<double>(resident) * 4096 / (1 << 20);
+}
+
+double kinetic_J(const verify::Rehearsal& run) {
+  double sum = 0;
+  for (std::size_t r = 0; r < run.model.rods.size(); ++r) sum += energy(run.model, run.inputs, run.state, r).kinetic_J;
+  return sum;
+}
+
+}  // namespace
+
+Row vessel_pair(const std::string& name, bool quick) {
+  const verify::TestVessel vessel = verify::test_vessel();
+  verify::Rehearsal run(vessel, true);
+  verify::Judge truth(vessel.wall);
+  verify::Holding holding;
+  std::vector<double> times;
+  const int steps = quick ? 2'000 : 24'000;
+  for (int n = 0; n < steps; ++n) {
+    verify::follow_script(1e-3 * n, run);
+    const double start = thread_cpu_ms();
+    run.step(beats_per_min);
+    times.push_back(thread_cpu_ms() - start);
+    if (n % 20 == 19) verify::judge(run, truth, false, holding);
+  }
+  Row row;
+  row.name = name;
+  row.ms = std::accumulate(times.begin(), times.end(), 0.0) / static_cast<double>(times.size());
+  const auto nth = times.begin() + static_cast<std::ptrdiff_t>(0.999 * static_cast<double>(times.size() - 1));
+  std::nth_element(times.begin(), nth, times.end());
+  row.p999_ms = *nth;
+  row.gate = {"contact-vessel-script", 1e3 * holding.deepest_m, "mm",
+              holding.escapes == 0 && holding.deepest_m < procedure_m};
+  return row;
+}
+
+bool print_drives(int count) {
+  const verify::TestVessel vessel = verify::test_vessel();
+  double deepest = 0;
+  int escapes = 0, worst = 0;
+  for (int seed = 0; seed < count; ++seed) {
+    const verify::Holding holding = verify::random_drive(vessel, static_cast<std::uint64_t>(seed), 5);
+    if (holding.deepest_m > deepest) deepest = holding.deepest_m, worst = seed;
+    escapes += holding.escapes;
+    if (holding.escapes > 0 || holding.deepest_m > drive_m || (seed + 1) % 10 == 0 || seed + 1 == count) {
+      fmt::print("drive {:4}: {:.4f} mm, {} outside, {} steps in trouble; so far {:.4f} mm (drive {}), {} outside\n",
+                 seed, 1e3 * holding.deepest_m, holding.escapes, holding.troubled, 1e3 * deepest, worst, escapes);
+      std::fflush(stdout);
+    }
+  }
+  return escapes == 0 && deepest < drive_m;
+}
+
+bool print_soak(double minutes) {
+  const verify::TestVessel vessel = verify::test_vessel();
+  verify::Rehearsal run(vessel, true);
+  verify::Judge truth(vessel.wall);
+  verify::Holding all;
+  double first_MiB = 0;
+  bool bounded = true;
+  const long steps = std::lround(60e3 * minutes);
+  for (long minute = 0; minute * 60'000 < steps; ++minute) {
+    verify::Holding holding;
+    double energy_J = 0;
+    for (long n = minute * 60'000; n < std::min(steps, (minute + 1) * 60'000); ++n) {
+      verify::follow_script(1e-3 * static_cast<double>(n), run);
+      run.step(beats_per_min);
+      energy_J = std::max(energy_J, kinetic_J(run));
+      if (run.report.trouble & ~static_cast<unsigned>(feed_stopped)) ++holding.troubled;
+      if (n % 20 == 19) verify::judge(run, truth, n % 2000 == 1999, holding);
+    }
+    if (minute == 0) first_MiB = memory_MiB();
+    fmt::print("minute {:3}: {:.4f} mm, {} outside, {} steps in trouble, kinetic energy up to {:.2g} mJ, {:.0f} MiB\n",
+               minute + 1, 1e3 * holding.deepest_m, holding.escapes, holding.troubled, 1e3 * energy_J, memory_MiB());
+    std::fflush(stdout);
+    all.deepest_m = std::max(all.deepest_m, holding.deepest_m);
+    all.escapes += holding.escapes;
+    bounded = bounded && energy_J < 1;
+  }
+  return bounded && all.escapes == 0 && all.deepest_m < procedure_m && memory_MiB() < first_MiB + 8;
+}
+
+}  // namespace ostium::bench
