@@ -98,6 +98,49 @@ BoxTree::Nearest BoxTree::nearest(const Eigen::Vector3d& p, double limit_m) cons
   return best;
 }
 
+std::vector<BoxTree::Hit> BoxTree::hits(const Eigen::Vector3d& p, const Eigen::Vector3d& along, double limit_m) const {
+  std::vector<Hit> found;
+  const auto missed = [&](const Eigen::AlignedBox3d& box) {
+    double from = 0, to = limit_m;
+    for (int axis = 0; axis < 3; ++axis) {
+      const double inverse = 1 / along[axis];
+      double a = (box.min()[axis] - p[axis]) * inverse, b = (box.max()[axis] - p[axis]) * inverse;
+      if (a > b) std::swap(a, b);
+      if (a > from) from = a;  // not a number, where the ray lies in a side: no limit
+      if (b < to) to = b;
+    }
+    return from > to;
+  };
+  std::vector<int> todo;
+  if (!nodes_.empty()) todo.push_back(0);
+  while (!todo.empty()) {
+    const int n = todo.back();
+    todo.pop_back();
+    const Node& node = nodes_[n];
+    if (missed(node.box)) continue;
+    if (node.right >= 0) {
+      todo.push_back(n + 1);
+      todo.push_back(node.right);
+      continue;
+    }
+    for (int i = node.first; i < node.last; ++i) {
+      // Moeller and Trumbore, J Graph Tools 1997;2:21.
+      const auto& [a, b, c] = mesh_.triangles[order_[i]];
+      const Eigen::Vector3d ab = mesh_.vertices[b] - mesh_.vertices[a], ac = mesh_.vertices[c] - mesh_.vertices[a];
+      const Eigen::Vector3d q = along.cross(ac);
+      const double determinant = ab.dot(q);
+      if (determinant == 0) continue;
+      const Eigen::Vector3d ap = p - mesh_.vertices[a], r = ap.cross(ab);
+      const double u = ap.dot(q) / determinant, v = along.dot(r) / determinant, t = ac.dot(r) / determinant;
+      if (u >= 0 && v >= 0 && u + v <= 1 && t > 0 && t < limit_m) found.push_back({t, order_[i]});
+    }
+  }
+  std::sort(found.begin(), found.end(), [](const Hit& a, const Hit& b) {
+    return a.distance_m < b.distance_m || (a.distance_m == b.distance_m && a.triangle < b.triangle);
+  });
+  return found;
+}
+
 Eigen::Vector3d nearest_on_triangle(const Eigen::Vector3d& p, const Eigen::Vector3d& a, const Eigen::Vector3d& b,
                                     const Eigen::Vector3d& c) {
   const Eigen::Vector3d ab = b - a, ac = c - a;

@@ -24,6 +24,13 @@ class BoxTree {
   /// The nearest point of the surface that is nearer than `limit_m`; triangle -1 if there is none.
   Nearest nearest(const Eigen::Vector3d& p, double limit_m) const;
 
+  struct Hit {
+    double distance_m = 0;
+    int triangle = -1;
+  };
+  /// Triangles that the ray from `p` along the unit vector `along` goes through within `limit_m`, the nearest first.
+  std::vector<Hit> hits(const Eigen::Vector3d& p, const Eigen::Vector3d& along, double limit_m) const;
+
  private:
   struct Node {
     Eigen::AlignedBox3d box;

@@ -19,21 +19,21 @@ struct MeshError : std::runtime_error {
 };
 
 /// What a number in a file means: metres per unit.
-enum class LengthUnit { millimetre, centimetre, metre };
+enum class LengthUnit { millimetre, centimetre, metre, inch };
 double metres(LengthUnit unit);
 
 struct MeshFile {
   Mesh mesh;
   int welded_vertices = 0;    ///< corners that became one with an earlier one, beyond exact copies
   int dropped_triangles = 0;  ///< those of which two corners became one
+  int skipped_faces = 0;      ///< points and lines
 };
 
 /// Corners nearer than this are one vertex.
 constexpr double default_weld_m = 1e-6;
 
 /// Reads any format of assimp (OBJ, STL, PLY, glTF, Collada, ...); the file's parts become one mesh, axes stay as they
-/// are. Throws MeshError if the file cannot be read, holds no triangle, a point or line, or a number that is not
-/// finite.
+/// are. Throws MeshError if the file cannot be read, holds no triangle, or a number that is not finite.
 MeshFile read_mesh(const std::string& path, LengthUnit unit, double weld_m = default_weld_m);
 
 /// The same shape in several positions: file by file the same triangles in the same order. What is welded is decided by

@@ -16,7 +16,7 @@ namespace {
 
 using Corners = std::vector<Eigen::Vector3d>;  // three a triangle
 
-Corners read_corners(const std::string& path, LengthUnit unit) {
+Corners read_corners(const std::string& path, LengthUnit unit, int* skipped = nullptr) {
   if (!std::filesystem::is_regular_file(path)) throw MeshError(path + ": is no file; expected a mesh (OBJ, STL, PLY)");
   Assimp::Importer importer;
   importer.SetPropertyBool(AI_CONFIG_PP_PTV_KEEP_HIERARCHY, false);
@@ -27,10 +27,10 @@ Corners read_corners(const std::string& path, LengthUnit unit) {
     const aiMesh& part = *scene->mMeshes[m];
     for (unsigned f = 0; f < part.mNumFaces; ++f) {
       const aiFace& face = part.mFaces[f];
-      if (face.mNumIndices != 3)
-        throw MeshError(
-            fmt::format("{}: part {} (\"{}\"), face {} has {} corners; expected faces only, no points or lines", path,
-                        m, part.mName.C_Str(), f, face.mNumIndices));
+      if (face.mNumIndices < 3) {
+        if (skipped) ++*skipped;
+        continue;
+      }
       for (unsigned k = 0; k < 3; ++k) {
         const aiVector3D& p = part.mVertices[face.mIndices[k]];
         corners.push_back(metres(unit) * Eigen::Vector3d(p.x, p.y, p.z));
@@ -81,11 +81,24 @@ std::string format_id(const std::string& path) {
 }  // namespace
 
 double metres(LengthUnit unit) {
-  return unit == LengthUnit::millimetre ? 1e-3 : unit == LengthUnit::centimetre ? 1e-2 : 1;
+  switch (unit) {
+    case LengthUnit::millimetre:
+      return 1e-3;
+    case LengthUnit::centimetre:
+      return 1e-2;
+    case LengthUnit::inch:
+      return 25.4e-3;
+    case LengthUnit::metre:
+      break;
+  }
+  return 1;
 }
 
 MeshFile read_mesh(const std::string& path, LengthUnit unit, double weld_m) {
-  return from_corners(read_corners(path, unit), weld_m);
+  int skipped = 0;
+  MeshFile file = from_corners(read_corners(path, unit, &skipped), weld_m);
+  file.skipped_faces = skipped;
+  return file;
 }
 
 std::vector<Mesh> read_mesh_sequence(const std::vector<std::string>& paths, LengthUnit unit, double weld_m) {

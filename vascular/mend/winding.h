@@ -1,0 +1,31 @@
+#pragma once
+/// How often a surface runs around a point: 1 inside a closed surface that faces outwards, 0 outside, 2 where two
+/// overlap, and something between near what is open (Jacobson et al., ACM TOG 2013;32:33). Far triangles are taken
+/// together as dipoles (Barill et al., ACM TOG 2018;37:43).
+#include "vascular/mesh.h"
+
+namespace ostium {
+
+class WindingNumber {
+ public:
+  /// Keeps a reference to `mesh`.
+  explicit WindingNumber(const Mesh& mesh);
+  double at(const Eigen::Vector3d& p) const;
+  bool inside(const Eigen::Vector3d& p) const { return at(p) > 0.5; }
+
+ private:
+  struct Node {
+    Eigen::Vector3d middle, dipole;  ///< of its triangles, by area; sum of areas times normals
+    double reach;                    ///< no triangle of it is farther from the middle
+    int first, last, right;          ///< triangles order_[first..last); second child, -1: a leaf
+  };
+  int build(int first, int last);
+  double triangle_at(int t, const Eigen::Vector3d& p) const;
+
+  const Mesh& mesh_;
+  std::vector<int> order_;
+  std::vector<Eigen::Vector3d> middles_;
+  std::vector<Node> nodes_;
+};
+
+}  // namespace ostium
