@@ -32,6 +32,7 @@ struct Landmarks {
 
 struct Anatomy {
   std::vector<Tube> tubes;  ///< parents before children; the first is the aorta
+  bool aorta = true;        ///< false: there is none (someone's coronary arteries alone), each tree has its own root
   std::vector<NamedBranch> branches;
   Landmarks landmarks;
 };

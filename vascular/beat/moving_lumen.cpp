@@ -19,9 +19,11 @@ Eigen::Matrix3d rotation_in(Eigen::Matrix3d F) {
   return F;
 }
 
+bool is_aorta(const Anatomy& anatomy, int tube) { return anatomy.aorta && tube == 0; }
+
 bool of_heart(const Anatomy& anatomy, int tube) {
-  const auto names = {"LAD", "left sinus", "right sinus", "non-coronary sinus"};
-  for (int t = tube; t > 0; t = anatomy.tubes[t].parent) {
+  const auto names = {"LAD", "LCx", "left sinus", "right sinus", "non-coronary sinus"};
+  for (int t = tube; t >= 0 && !is_aorta(anatomy, t); t = anatomy.tubes[t].parent) {
     const std::string& name = anatomy.tubes[t].name;
     if (std::find(names.begin(), names.end(), name) != names.end()) return true;
     const NamedBranch* rca = find_branch(anatomy, "RCA");
@@ -46,7 +48,7 @@ struct TubeMotion::Tissue {
 };
 
 TubeMotion::Tissue TubeMotion::tissue(int tube, const TubeNode& node, const HeartMotion& motion) const {
-  if (tube == 0)
+  if (is_aorta(anatomy_, tube))
     return {(1 - smooth_step(root_end_m, ascending_end_m, node.s_m)) * motion.root_displacement(),
             Eigen::Matrix3d::Zero()};
   constexpr double h = 0.5e-3;
@@ -88,19 +90,20 @@ void TubeMotion::set_frame(int t, int frame, const std::vector<Tissue>& tissues,
 TubeMotion::TubeMotion(const Anatomy& anatomy, const HeartMotion& motion) : anatomy_(anatomy) {
   for (int t = 0; t < static_cast<int>(anatomy.tubes.size()); ++t) {
     const Tube& tube = anatomy.tubes[t];
-    moves_.push_back(t == 0 || of_heart(anatomy, t));
+    moves_.push_back(is_aorta(anatomy, t) || of_heart(anatomy, t));
     poses_.emplace_back();
     if (!moves_.back()) continue;
     std::vector<Tissue> tissues;
     for (const TubeNode& node : tube.nodes) tissues.push_back(tissue(t, node, motion));
     poses_.back().resize(beat_frames * tube.nodes.size());
     Origin origin{};
-    if (t > 0) {
+    const bool branch = tube.parent >= 0;
+    if (branch) {
       const double s = nearest_s(anatomy.tubes[tube.parent], tube.nodes.front().p);
       const TubeNode at = anatomy.tubes[tube.parent].at(s);
       origin = {tube.parent, s, at.radius_m, at.p};
     }
-    for (int f = 0; f < beat_frames; ++f) set_frame(t, f, tissues, t > 0 && moves_[tube.parent] ? &origin : nullptr);
+    for (int f = 0; f < beat_frames; ++f) set_frame(t, f, tissues, branch && moves_[tube.parent] ? &origin : nullptr);
   }
 }
 
@@ -134,7 +137,7 @@ Eigen::Vector3d TubeMotion::carried(const Eigen::Vector3d& p, const std::vector<
 
 double TubeMotion::breath_share(int tube, double s_m) const {
   if (!moves_[tube]) return 0;
-  return tube == 0 ? 1 - smooth_step(root_end_m, ascending_end_m, s_m) : 1;
+  return is_aorta(anatomy_, tube) ? 1 - smooth_step(root_end_m, ascending_end_m, s_m) : 1;
 }
 
 Eigen::Vector3d MovingLumen::healthy(std::size_t vertex, double phase, double depth) const {
@@ -160,7 +163,7 @@ Mesh MovingLumen::at(double phase, double depth, double opened) const {
 MovingLumen make_moving_lumen(const Anatomy& anatomy, const std::vector<Lesion>& lesions, const HeartMotion& motion,
                               const TubeMotion& tubes, Contour contour) {
   for (const Lesion& lesion : lesions)
-    if (const int tube = find_branch(anatomy, lesion.branch)->tube; tube == 0 || !tubes.moves(tube))
+    if (const int tube = find_branch(anatomy, lesion.branch)->tube; is_aorta(anatomy, tube) || !tubes.moves(tube))
       throw std::invalid_argument("there is no lesion model for " + lesion.branch + "; expected a coronary artery");
   const std::size_t n = contour.mesh.vertices.size();
   const auto moves = [&](int v) {

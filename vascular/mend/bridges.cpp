@@ -58,7 +58,7 @@ double radius_at(const SphereTree& tree, const Eigen::Vector3d& p) {
   double radius = 0;
   for (const TreeBranch& branch : tree.branches)
     for (const TreeSphere& s : branch.spheres)
-      if ((s.p - p).norm() < 1.7 * s.radius_m) radius = std::max(radius, s.radius_m);
+      if ((s.p - p).norm() < 2.5 * s.radius_m) radius = std::max(radius, s.radius_m);
   return radius;
 }
 

@@ -26,7 +26,7 @@ constexpr double mm = 1e-3;
 constexpr double least_voxel_m = 0.12e-3, most_voxel_m = 0.4e-3;
 constexpr double voxels_across = 3.5;      // of the narrowest vessels
 constexpr double most_wall_voxels = 1.5e6;  // of the level set's surface
-constexpr double crumb_m3 = 0.5e-9;        // lumens smaller than this are left out
+constexpr double crumb_m3 = 8e-9;         // lumens smaller than this are left out
 constexpr int smoothing_rounds = 12;
 constexpr int calibre_stride = 4, most_uncrossings = 12;
 constexpr double cell_at_1_mm_m = 0.6e-3;  // as the contour of our own anatomy has it
@@ -53,7 +53,7 @@ class Mender {
     }
     if (lumens.empty())
       throw MeshError("nothing closed comes out of the mesh; expected the wall of a vessel, with openings narrower than itself");
-    if (left_out_ > 0) note("crumb left out (smaller than 0.5 mm3)", left_out_, {});
+    if (left_out_ > 0) note("crumb left out (smaller than 8 mm3)", left_out_, {});
     for (const Mesh& part : lumens) append(result_.lumen, finished(part, lumens.size()));
     result_.lumens = static_cast<int>(lumens.size());
     return std::move(result_);
