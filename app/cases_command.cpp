@@ -25,7 +25,7 @@ void say(const std::string& what) {
 /// 24 surfaces of the beat, the tree in each of them, and what else an X-ray meets.
 void write_case(const Case& c, const std::string& folder) {
   say("building " + c.name);
-  const Patient patient = make_patient(c.anatomy, c.lesions);
+  const Patient patient = patient_of(c);
   std::error_code error;
   fs::create_directories(folder, error);
   if (error) throw LoadError(fmt::format("{}: cannot be made ({}); expected a folder", folder, error.message()));

@@ -1,5 +1,6 @@
 #pragma once
 /// A case: a patient to rehearse on.
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -12,11 +13,18 @@ struct CaseCard {
   std::string history, ecg, planned_access;
 };
 
+/// Someone's own vessels, as `ostium import` wrote them.
+struct ImportedVessels {
+  Anatomy anatomy;
+  Mesh lumen;  ///< patient frame, end-diastole
+};
+
 struct Case {
   std::string name;  ///< the file's name without .json
   std::string title;
   CaseCard card;
-  AnatomyParameters anatomy;
+  AnatomyParameters anatomy;                         ///< of a built anatomy
+  std::shared_ptr<const ImportedVessels> imported;  ///< or these; null: the anatomy is built
   std::uint64_t seed = 0;  ///< of the person; 0: the mean
   double rate_1_min = 70;  ///< heart beats
   std::vector<Lesion> lesions;
@@ -27,9 +35,21 @@ struct Case {
 Case read_case(const std::string& file, const std::string& text);
 Case load_case(const std::string& file);
 
-/// All of data/cases, or one of them; throws LoadError also for a name that is none, with those that are.
+/// All of data/cases; with those that were imported under a name (`imported_folder`).
 std::vector<Case> load_cases();
+
+/// By name; or by a path: a case file, or an imported case's folder. Throws LoadError, for a name that is none with those
+/// that are.
 Case find_case(const std::string& name);
+
+/// Where imported cases without a path go: $OSTIUM_CASES, else $XDG_DATA_HOME/ostium/cases, else
+/// ~/.local/share/ostium/cases.
+std::string imported_folder();
+
+/// The vessels, beating, with the case's lesions: built, or as they were imported. Every command makes its patient here.
+Patient patient_of(const Case& c);
+/// The vessels at rest, without lesions.
+Anatomy anatomy_of(const Case& c);
 
 /// A table's line, and everything as JSON (data/schemas/cases.schema.json).
 std::string case_heading();

@@ -10,7 +10,8 @@ inline const JsonObjectKeys root = {"case",
                                      {"name", true, "the file's name without .json"},
                                      {"title", true, "what people call it, a text"},
                                      {"card", true, "what the operator is told, an object"},
-                                     {"anatomy", true, "whose vessels, an object"},
+                                     {"anatomy", false, "whose vessels, an object; or imported"},
+                                     {"imported", false, "someone's own vessels, an object; or anatomy"},
                                      {"heart_rate_1_min", true, "beats a minute, 40 to 180"},
                                      {"lesions", true, "narrowings, a list"}}};
 
@@ -23,6 +24,11 @@ inline const JsonObjectKeys anatomy = {
      {"access", true, "where the sheath is"},
      {"seed", true, "a whole number, >= 0: which person; 0 is the mean of the literature"}}};
 
+inline const JsonObjectKeys imported = {
+    "imported",
+    {{"anatomy", true, "tubes and landmarks, a file's name beside this one"},
+     {"lumen", true, "the closed surface, patient frame, mm: a file's name beside this one (PLY, OBJ, STL)"}}};
+
 inline const JsonObjectKeys lesion = {
     "lesion",
     {{"branch", true, "the name of a coronary artery"},
@@ -33,6 +39,6 @@ inline const JsonObjectKeys lesion = {
      {"side_deg", false, "an eccentric plaque's side in degrees, 0 towards the heart; for eccentric ones only"},
      {"calcified", true, "true or false"}}};
 
-inline const std::vector<const JsonObjectKeys*> all = {&root, &card, &anatomy, &lesion};
+inline const std::vector<const JsonObjectKeys*> all = {&root, &card, &anatomy, &imported, &lesion};
 
 }  // namespace ostium::case_keys

@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <filesystem>
 #include <numbers>
 #include <stdexcept>
 
+#include "data/anatomy_file.h"
 #include "data/case.h"
 #include "data/case_keys.h"
 #include "data/catalogue.h"
@@ -55,6 +57,24 @@ Lesion read_lesion(const JsonObject& entry, const Anatomy& anatomy) {
   return lesion;
 }
 
+/// Both files lie beside the case's.
+void read_imported(const JsonObject& imported, const fs::path& folder, Case& c) {
+  const auto beside = [&](const std::string& key) {
+    const std::string name = imported.text(key);
+    if (name != fs::path(name).filename().string()) imported.refuse(key);
+    return (folder / name).string();
+  };
+  ImportedVessels vessels;
+  vessels.anatomy = load_anatomy(beside("anatomy"));
+  const std::string lumen = beside("lumen");
+  try {
+    vessels.lumen = read_mesh(lumen, LengthUnit::millimetre, 0).mesh;
+  } catch (const MeshError& error) {
+    imported[std::string("lumen")].fail(error.what());
+  }
+  c.imported = std::make_shared<const ImportedVessels>(std::move(vessels));
+}
+
 Case read(const JsonValue& file) {
   const JsonObject root(file, keys::root);
   Case c;
@@ -63,13 +83,24 @@ Case read(const JsonValue& file) {
   if (c.name != fs::path(*file.file).stem().string()) root.refuse("name");
   c.title = root.text("title");
   c.card = read_card(JsonObject(root["card"], keys::card));
-  read_anatomy(JsonObject(root["anatomy"], keys::anatomy), c);
+  if (root.has("anatomy") == root.has("imported"))
+    file.fail("the case has both \"anatomy\" and \"imported\", or neither; expected one of them");
+  if (root.has("anatomy"))
+    read_anatomy(JsonObject(root["anatomy"], keys::anatomy), c);
+  else
+    read_imported(JsonObject(root["imported"], keys::imported), fs::path(*file.file).parent_path(), c);
   c.rate_1_min = root.positive("heart_rate_1_min");
   if (c.rate_1_min < least_rate_1_min || c.rate_1_min > highest_rate_1_min) root.refuse("heart_rate_1_min");
-  const Anatomy anatomy = build_anatomy(c.anatomy);
+  const Anatomy anatomy = anatomy_of(c);
   for (const JsonValue& value : root.list("lesions"))
     c.lesions.push_back(read_lesion(JsonObject(value, keys::lesion), anatomy));
   return c;
+}
+
+/// An imported case's folder has its name.
+fs::path case_file_in(const fs::path& folder) {
+  const fs::path named = folder.has_filename() ? folder : folder.parent_path();
+  return folder / (fs::absolute(named).filename().string() + ".json");
 }
 
 }  // namespace
@@ -85,6 +116,8 @@ std::vector<Case> load_cases() {
   for (const fs::directory_entry& entry : fs::directory_iterator(folder, error))
     if (entry.path().extension() == ".json") files.push_back(entry.path());
   if (files.empty()) throw LoadError(folder.string() + ": has no case; expected a folder with at least one NAME.json");
+  for (const fs::directory_entry& entry : fs::directory_iterator(imported_folder(), error))
+    if (const fs::path file = case_file_in(entry.path()); fs::is_regular_file(file)) files.push_back(file);
   std::vector<Case> cases;
   for (const fs::path& file : files) cases.push_back(load_case(file.string()));
   std::sort(cases.begin(), cases.end(), [](const Case& a, const Case& b) { return a.name < b.name; });
@@ -92,11 +125,30 @@ std::vector<Case> load_cases() {
 }
 
 Case find_case(const std::string& name) {
-  const fs::path folder = fs::path(data_folder()) / "cases", file = folder / (name + ".json");
-  if (fs::is_regular_file(file)) return load_case(file.string());
+  const fs::path shipped = fs::path(data_folder()) / "cases" / (name + ".json");
+  for (const fs::path& file :
+       {shipped, case_file_in(fs::path(imported_folder()) / name), case_file_in(name), fs::path(name)})
+    if (fs::is_regular_file(file)) return load_case(file.string());
   std::string known;
   for (const Case& c : load_cases()) known += "\n  " + c.name;
-  throw LoadError(fmt::format("there is no case \"{}\"; expected one of:{}", name, known));
+  throw LoadError(fmt::format("there is no case \"{}\"; expected a case's file or folder, or one of:{}", name, known));
 }
+
+std::string imported_folder() {
+  const auto set = [](const char* variable) {
+    const char* value = std::getenv(variable);
+    return std::string(value ? value : "");
+  };
+  if (!set("OSTIUM_CASES").empty()) return set("OSTIUM_CASES");
+  const fs::path home = set("XDG_DATA_HOME").empty() ? fs::path(set("HOME")) / ".local" / "share" : fs::path(set("XDG_DATA_HOME"));
+  return (home / "ostium" / "cases").string();
+}
+
+Patient patient_of(const Case& c) {
+  return c.imported ? make_patient(c.imported->anatomy, c.imported->lumen, c.lesions)
+                    : make_patient(c.anatomy, c.lesions);
+}
+
+Anatomy anatomy_of(const Case& c) { return c.imported ? c.imported->anatomy : build_anatomy(c.anatomy); }
 
 }  // namespace ostium

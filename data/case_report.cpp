@@ -13,6 +13,13 @@ const char* const dominances[] = {"right", "left", "balanced"};
 const char* const accesses[] = {"femoral", "radial"};
 const char* const types[] = {"A", "B", "C"};
 
+std::string access_text(const Case& c) {
+  return c.imported ? "imported" : accesses[static_cast<int>(c.anatomy.access)];
+}
+std::string dominance_text(const Case& c) {
+  return c.imported ? "imported" : dominances[static_cast<int>(c.anatomy.dominance)];
+}
+
 std::string lesion_text(const Lesion& lesion) {
   return fmt::format("{} at {:.0f} mm: {:.0f} % over {:.0f} mm, {}{}, type {}", lesion.branch, lesion.from_m * per_mm,
                      100 * lesion.stenosis, lesion.length_m * per_mm, lesion.eccentric ? "eccentric" : "concentric",
@@ -26,8 +33,7 @@ std::string case_heading() { return fmt::format("{:<32} {:<8} {:<9} {}", "case",
 std::string case_line(const Case& c) {
   std::string lesions;
   for (const Lesion& lesion : c.lesions) lesions += (lesions.empty() ? "" : "; ") + lesion_text(lesion);
-  return fmt::format("{:<32} {:<8} {:<9} {}", c.name, accesses[static_cast<int>(c.anatomy.access)],
-                     dominances[static_cast<int>(c.anatomy.dominance)], lesions);
+  return fmt::format("{:<32} {:<8} {:<9} {}", c.name, access_text(c), dominance_text(c), lesions);
 }
 
 std::string case_details(const Case& c) {
@@ -35,7 +41,7 @@ std::string case_details(const Case& c) {
       fmt::format("{}: {}\n  history  {}\n  ECG      {}\n  access   {}\n  heart    {:.0f} beats a minute\n", c.name,
                   c.title, c.card.history, c.card.ecg, c.card.planned_access, c.rate_1_min);
   for (const Lesion& lesion : c.lesions) text += "  lesion   " + lesion_text(lesion) + "\n";
-  const Anatomy anatomy = build_anatomy(c.anatomy);
+  const Anatomy anatomy = anatomy_of(c);
   text += fmt::format("  {:<22} {:>9} {:>12} {:>10}\n", "branch", "length mm", "proximal mm", "distal mm");
   for (const NamedBranch& b : anatomy.branches)
     if (b.length_m() > 0)
@@ -59,8 +65,8 @@ std::string to_json(const std::vector<Case>& cases) {
                          {"type", types[static_cast<int>(type_of(l))]}});
     all.push_back({{"name", c.name},
                    {"title", c.title},
-                   {"access", accesses[static_cast<int>(c.anatomy.access)]},
-                   {"dominance", dominances[static_cast<int>(c.anatomy.dominance)]},
+                   {"access", access_text(c)},
+                   {"dominance", dominance_text(c)},
                    {"seed", c.seed},
                    {"heart_rate_1_min", c.rate_1_min},
                    {"history", c.card.history},

@@ -1,19 +1,34 @@
 #include "vascular/patient.h"
 
+#include "vascular/import/shares.h"
 #include "vascular/shape/contour.h"
 
 namespace ostium {
 
-Patient make_patient(const AnatomyParameters& parameters, const std::vector<Lesion>& lesions) {
-  Patient patient{.anatomy = build_anatomy(parameters), .lesions = lesions, .lumen = {}, .tree = {}, .tree_frames = {}};
+namespace {
+
+void make_beat(Patient& patient, Contour wall) {
   const Anatomy& anatomy = patient.anatomy;
-  for (const Lesion& lesion : lesions) check(anatomy, lesion);
-  const TubeUnion tubes(anatomy.tubes);
   const HeartMotion motion(anatomy.landmarks);
   const TubeMotion tube_motion(anatomy, motion);
-  patient.lumen = make_moving_lumen(anatomy, lesions, motion, tube_motion, contour(tubes));
-  patient.tree = tree_of(anatomy, lesions, patient.lumen.at(0, 0));
+  patient.lumen = make_moving_lumen(anatomy, patient.lesions, motion, tube_motion, std::move(wall));
+  patient.tree = tree_of(anatomy, patient.lesions, patient.lumen.at(0, 0));
   for (int f = 0; f < beat_frames; ++f) patient.tree_frames.push_back(carried(patient.tree, anatomy, tube_motion, f));
+}
+
+}  // namespace
+
+Patient make_patient(const AnatomyParameters& parameters, const std::vector<Lesion>& lesions) {
+  Patient patient{.anatomy = build_anatomy(parameters), .lesions = lesions, .lumen = {}, .tree = {}, .tree_frames = {}};
+  for (const Lesion& lesion : lesions) check(patient.anatomy, lesion);
+  make_beat(patient, contour(TubeUnion(patient.anatomy.tubes)));
+  return patient;
+}
+
+Patient make_patient(const Anatomy& anatomy, const Mesh& lumen, const std::vector<Lesion>& lesions) {
+  Patient patient{.anatomy = anatomy, .lesions = lesions, .lumen = {}, .tree = {}, .tree_frames = {}};
+  for (const Lesion& lesion : lesions) check(anatomy, lesion);
+  make_beat(patient, {.mesh = lumen, .shares = shares_of(lumen, anatomy.tubes)});
   return patient;
 }
 

@@ -17,4 +17,8 @@ struct Patient {
 /// Takes about 2 s. Throws std::invalid_argument, as build_anatomy and check(Lesion) do.
 Patient make_patient(const AnatomyParameters& parameters, const std::vector<Lesion>& lesions);
 
+/// Of someone's own lumen: `anatomy` runs through it (import/recognise.h), `lumen` is closed, in the patient frame, at
+/// end-diastole, and its triangles stay as they are. Throws std::invalid_argument as check(Lesion) does.
+Patient make_patient(const Anatomy& anatomy, const Mesh& lumen, const std::vector<Lesion>& lesions);
+
 }  // namespace ostium

@@ -124,20 +124,27 @@ class Recogniser {
     Part& part = parts_.front();
     if (part.widest_m < aorta_radius_m) return;
     has_aorta_ = true;
-    double best = 1e9;
-    int root = -1;
+    struct Way {
+      double unlike, length;
+      int root;
+    };
+    std::vector<Way> found;
     const std::vector<Course> candidates = with_wide_ends(part.courses);
     for (int from = -1; from < static_cast<int>(candidates.size()); ++from) {
       const std::vector<Course> ways = courses_from(candidates, from);
-      if (ways.empty() || wide_at_start(ways[0]) < aorta_radius_m) continue;
+      if (ways.empty() || widest_at_end(candidates, from) < aorta_radius_m) continue;
       double longest = 0;
       for (const Course& way : ways) longest = std::max(longest, way.length_m());
-      for (const Course& way : ways) {
-        Similarity fit;
-        if (way.length_m() < 0.6 * longest) continue;
-        if (const double unlike = unlike_aorta(way, fit); unlike < best) best = unlike, root = from;
-      }
+      Similarity fit;
+      for (const Course& way : ways)
+        if (way.length_m() >= 0.6 * longest) found.push_back({unlike_aorta(way, fit), way.length_m(), from});
     }
+    double best = 1e9, farthest = 0;
+    int root = -1;
+    for (const Way& way : found) best = std::min(best, way.unlike);
+    // Of several that are much the same, the one that begins deepest in the root.
+    for (const Way& way : found)
+      if (way.unlike < best + 4 * mm && way.length > farthest) farthest = way.length, root = way.root;
     if (root >= 0) {
       say("looking for centrelines from the aortic root");
       part.root = to_the_end(candidates[static_cast<std::size_t>(root)], part.mesh);
@@ -187,10 +194,12 @@ class Recogniser {
     return hits.empty() ? last.p : Eigen::Vector3d(last.p + std::max(0.0, hits[0].distance_m - 2 * mm) * along);
   }
 
-  static double wide_at_start(const Course& course) {
+  /// Within 30 mm of the end of a course, or of the root (-1).
+  static double widest_at_end(const std::vector<Course>& courses, int from) {
+    const Course& course = courses[static_cast<std::size_t>(std::max(from, 0))];
     double widest = 0;
     for (const TreeSphere& sphere : course.spheres)
-      if (sphere.s_m < 30 * mm) widest = std::max(widest, sphere.radius_m);
+      if ((from < 0 ? sphere.s_m : course.length_m() - sphere.s_m) < 30 * mm) widest = std::max(widest, sphere.radius_m);
     return widest;
   }
 
@@ -309,6 +318,7 @@ class Recogniser {
     result_.heart = true;
     result_.heart_rms_m = best.fit.rms_m;
     heart_fit_ = best.fit;
+    if (best.left >= 0 && !best.circumflex) find_circumflex(trunks[static_cast<std::size_t>(best.left)], best);
     if (best.left >= 0) {
       const Trunk& left = trunks[best.left];
       parts_[left.part].root = left.root;
@@ -324,6 +334,20 @@ class Recogniser {
     }
     if (best.left < 0) result_.notes.push_back("no left coronary artery was recognised");
     if (best.right < 0) result_.notes.push_back("no right coronary artery was recognised");
+  }
+
+  /// One that is not like the mean, but nearer to it than all others.
+  void find_circumflex(const Trunk& left, HeartFit& best) const {
+    double nearest = 25 * mm;
+    for (std::size_t c = 0; c < left.courses.size(); ++c) {
+      if (c == best.lad || left.courses[best.lad].parts_from(left.courses[c]) > 45 * mm) continue;
+      std::vector<Eigen::Vector3d> ours, theirs;
+      add_pairs(mean_.lcx, left.courses[c], ours, theirs);
+      double sum = 0;
+      for (std::size_t i = 0; i < ours.size(); ++i) sum += (best.fit * ours[i] - theirs[i]).squaredNorm();
+      const double off = std::sqrt(sum / static_cast<double>(ours.size()));
+      if (off < nearest) nearest = off, best.lcx = c, best.circumflex = true;
+    }
   }
 
   /// From the mean anatomy's frame to the file's.
