@@ -1,9 +1,16 @@
 #include "app/check_command.h"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <nlohmann/json.hpp>
 
+#include "data/load_error.h"
+#include "data/mesh_picture.h"
+#include "vascular/mend/calibre.h"
+#include "vascular/mend/double_wall.h"
+#include "vascular/mend/smooth.h"
+#include "vascular/mend/units.h"
 #include "vascular/mesh.h"
 #include "vascular/patient_frame.h"
 #include "vascular/surface_check.h"
@@ -21,51 +28,184 @@ nlohmann::ordered_json fault_json(const SurfaceFault& fault) {
   return {{"count", fault.count}, {"where_mm", where}};
 }
 
-nlohmann::ordered_json report_json(const std::string& file, const MeshFile& mesh, const SurfaceReport& r) {
-  return {{"file", file},
+/// All that is known of one file.
+struct Checked {
+  std::string file;
+  MeshFile mesh;
+  UnitGuess unit;
+  bool unit_said = false;
+  SurfaceReport report;
+  std::vector<Opening> ends, holes, pinholes;
+  DoubleWall wall;
+  std::size_t flipped = 0, inverted = 0;
+  Roughness rough;
+  std::vector<double> diameters;  ///< percentiles 2, 25, 50, 75, 98, m
+};
+
+constexpr double shares[] = {0.02, 0.25, 0.5, 0.75, 0.98};
+
+Checked look_at(const std::string& file, const CheckOptions& options) {
+  Checked c{.file = file, .mesh = {}, .unit = {}, .report = {}, .ends = {}, .holes = {}, .pinholes = {}, .wall = {},
+            .rough = {}, .diameters = {}};
+  const auto say = [&](const char* what) {
+    if (isatty(STDERR_FILENO)) fmt::print(stderr, "\r\033[K{}: {}", file, what);
+  };
+  say("reading");
+  c.unit = guess_unit(read_mesh(file, LengthUnit::metre, 0).mesh);
+  c.unit_said = options.unit != "auto";
+  if (c.unit_said) {
+    const double ratio = metres(unit_named(options.unit)) / metres(c.unit.unit);
+    c.unit.unit = unit_named(options.unit), c.unit.extent_m *= ratio, c.unit.calibre_m *= ratio;
+  } else if (!c.unit.vessel) {
+    // As most files are.
+    const double ratio = 1e-3 / metres(c.unit.unit);
+    c.unit.unit = LengthUnit::millimetre, c.unit.extent_m *= ratio, c.unit.calibre_m *= ratio;
+  }
+  c.mesh = read_mesh(file, c.unit.unit);
+  say("looking for faults");
+  c.report = check_surface(c.mesh.mesh);
+  Mesh turned = c.mesh.mesh;
+  Sheets sheets = sheets_of(turned);
+  const Orientation orientation = orient(turned, sheets);
+  c.flipped = orientation.flipped.size();
+  c.inverted = orientation.inverted.size();
+  for (const Opening& opening : openings_of(turned, sheets))
+    (opening.end ? c.ends : opening.pinhole() ? c.pinholes : c.holes).push_back(opening);
+  say("looking for double walls");
+  c.wall = find_double_wall(turned, sheets);
+  c.rough = roughness(turned);
+  const BoxTree tree(turned);
+  const std::vector<double> all = calibres(turned, tree, 1 + static_cast<int>(turned.triangles.size() / 20'000));
+  for (double share : shares) c.diameters.push_back(percentile(all, share));
+  say("");
+  return c;
+}
+
+bool sound(const Checked& c) { return c.report.sound() && !c.wall.triangles; }
+
+nlohmann::ordered_json openings_json(const std::vector<Opening>& openings) {
+  nlohmann::ordered_json list = nlohmann::ordered_json::array();
+  for (const Opening& o : openings) {
+    const Eigen::Vector3d p = mm_from_patient(o.middle);
+    list.push_back({{"edges", o.half_edges.size()}, {"diameter_mm", 1e3 * o.diameter_m}, {"where_mm", {p.x(), p.y(), p.z()}}});
+  }
+  return list;
+}
+
+nlohmann::ordered_json report_json(const Checked& c) {
+  const SurfaceReport& r = c.report;
+  return {{"file", c.file},
+          {"unit", name_of(c.unit.unit)},
+          {"unit_said", c.unit_said},
+          {"unit_certain", c.unit.certain},
+          {"extent_mm", 1e3 * c.unit.extent_m},
           {"vertices", r.vertices},
           {"triangles", r.triangles},
           {"components", r.components},
           {"volume_mL", 1e6 * r.volume_m3},
           {"area_cm2", 1e4 * r.area_m2},
-          {"welded_vertices", mesh.welded_vertices},
-          {"dropped_triangles", mesh.dropped_triangles},
+          {"welded_vertices", c.mesh.welded_vertices},
+          {"dropped_triangles", c.mesh.dropped_triangles},
+          {"skipped_faces", c.mesh.skipped_faces},
+          {"open_ends", openings_json(c.ends)},
+          {"holes", openings_json(c.holes)},
+          {"pinholes", openings_json(c.pinholes)},
           {"open_edges", fault_json(r.open_edges)},
           {"branching_edges", fault_json(r.branching_edges)},
           {"flipped_edges", fault_json(r.flipped_edges)},
+          {"flipped_triangles", c.flipped},
+          {"inverted_pieces", c.inverted},
           {"pinched_vertices", fault_json(r.pinched_vertices)},
           {"slivers", fault_json(r.slivers)},
           {"inverted", fault_json(r.inverted)},
           {"crossings", fault_json(r.crossings)},
-          {"sound", r.sound()}};
+          {"double_wall", {{"triangles", c.wall.triangles}, {"thickness_mm", 1e3 * c.wall.thickness_m}}},
+          {"roughness_mm", 1e3 * c.rough.height_m},
+          {"diameter_mm",
+           {{"2 %", 1e3 * c.diameters[0]},
+            {"25 %", 1e3 * c.diameters[1]},
+            {"50 %", 1e3 * c.diameters[2]},
+            {"75 %", 1e3 * c.diameters[3]},
+            {"98 %", 1e3 * c.diameters[4]}}},
+          {"sound", sound(c)}};
+}
+
+void print_openings(const char* what, const std::vector<Opening>& openings) {
+  for (std::size_t i = 0; i < openings.size() && i < SurfaceFault::places_kept; ++i) {
+    const Eigen::Vector3d p = mm_from_patient(openings[i].middle);
+    fmt::print("{}: {} edges, {:.2f} mm wide, at {:.2f} {:.2f} {:.2f} mm\n", what, openings[i].half_edges.size(),
+               1e3 * openings[i].diameter_m, p.x(), p.y(), p.z());
+  }
+  if (openings.size() > SurfaceFault::places_kept)
+    fmt::print("... and {} more such\n", openings.size() - SurfaceFault::places_kept);
+}
+
+void print(const Checked& c) {
+  const SurfaceReport& r = c.report;
+  fmt::print("{}: {} triangles, {} vertices, {} component{}, {:.2f} mL, {:.1f} cm2\n", c.file, r.triangles, r.vertices,
+             r.components, r.components == 1 ? "" : "s", 1e6 * r.volume_m3, 1e4 * r.area_m2);
+  fmt::print("units: {}, {}; {:.1f} mm long\n", name_of(c.unit.unit),
+             c.unit_said        ? "as you said"
+             : !c.unit.vessel   ? "as most are, but no unit makes a vessel of it"
+             : c.unit.certain   ? "guessed, no other makes a vessel of it"
+                                : "guessed, others are possible: confirm with --units",
+             1e3 * c.unit.extent_m);
+  fmt::print("vessels: {:.2f} mm wide at most of the wall (2 % below {:.2f}, 98 % below {:.2f})\n", 1e3 * c.diameters[2],
+             1e3 * c.diameters[0], 1e3 * c.diameters[4]);
+  if (c.mesh.welded_vertices || c.mesh.dropped_triangles || c.mesh.skipped_faces)
+    fmt::print("mended: {} vertices welded, {} triangles without width dropped, {} points and lines left out\n",
+               c.mesh.welded_vertices, c.mesh.dropped_triangles, c.mesh.skipped_faces);
+  print_openings("open end", c.ends);
+  print_openings("hole", c.holes);
+  print_openings("pinhole", c.pinholes);
+  if (c.flipped) fmt::print("{} triangles face another way than most of their piece\n", c.flipped);
+  if (c.inverted) fmt::print("{} piece{} inwards\n", c.inverted, c.inverted == 1 ? " faces" : "s face");
+  if (c.wall.triangles) {
+    const Eigen::Vector3d p = mm_from_patient(c.wall.where);
+    fmt::print("double wall: {} triangles are of an outer one, {:.2f} mm outside, the first at {:.2f} {:.2f} {:.2f} mm\n",
+               c.wall.triangles, 1e3 * c.wall.thickness_m, p.x(), p.y(), p.z());
+  }
+  if (c.rough.noisy(c.diameters[2] / 2)) fmt::print("rough: vertices stand out by {:.2f} mm\n", 1e3 * c.rough.height_m);
+  fmt::print("{}", describe(r));
+}
+
+void draw(const Checked& c, const std::string& picture) {
+  std::vector<Eigen::Vector3d> rgb(c.mesh.mesh.vertices.size(), Eigen::Vector3d(205, 200, 192));
+  for (std::size_t t = 0; t < c.wall.outer.size(); ++t)
+    if (c.wall.outer[t])
+      for (int v : c.mesh.mesh.triangles[t]) rgb[static_cast<std::size_t>(v)] = {225, 196, 120};
+  std::vector<PictureMark> marks;
+  const auto openings = [&](const std::vector<Opening>& all, const char* what, const Eigen::Vector3d& colour) {
+    for (const Opening& o : all) marks.push_back({o.middle, fmt::format("{} {:.1f} mm", what, 1e3 * o.diameter_m), colour});
+  };
+  openings(c.ends, "end", {20, 110, 200});
+  openings(c.holes, "hole", {210, 100, 20});
+  openings(c.pinholes, "pinhole", {210, 30, 30});
+  for (const Eigen::Vector3d& p : c.report.crossings.where) marks.push_back({p, "", {170, 40, 170}});
+  for (const Eigen::Vector3d& p : c.report.branching_edges.where) marks.push_back({p, "branching", {30, 140, 60}});
+  draw_mesh(picture, c.mesh.mesh, rgb, marks,
+            c.file.substr(c.file.rfind('/') + 1) +
+                ": blue open ends, orange holes, red pinholes, violet crossings, green branching edges, yellow outer wall");
 }
 
 }  // namespace
 
 int check_command(const CheckOptions& options) {
-  const LengthUnit unit = options.unit == "m"    ? LengthUnit::metre
-                          : options.unit == "cm" ? LengthUnit::centimetre
-                                                 : LengthUnit::millimetre;
-  bool sound = true;
+  if (!options.picture.empty() && options.files.size() != 1)
+    throw LoadError("--picture draws one mesh; name one file");
+  bool all_sound = true;
   nlohmann::ordered_json all = nlohmann::ordered_json::array();
   for (const std::string& file : options.files) {
-    const MeshFile mesh = read_mesh(file, unit);
-    const SurfaceReport report = check_surface(mesh.mesh);
-    sound = sound && report.sound();
-    if (options.json) {
-      all.push_back(report_json(file, mesh, report));
-      continue;
-    }
-    fmt::print("{}: {} triangles, {} vertices, {} component{}, {:.2f} mL, {:.1f} cm2\n", file, report.triangles,
-               report.vertices, report.components, report.components == 1 ? "" : "s", 1e6 * report.volume_m3,
-               1e4 * report.area_m2);
-    if (mesh.welded_vertices || mesh.dropped_triangles)
-      fmt::print("mended: {} vertices welded, {} triangles without width dropped\n", mesh.welded_vertices,
-                 mesh.dropped_triangles);
-    fmt::print("{}", describe(report));
+    const Checked checked = look_at(file, options);
+    all_sound = all_sound && sound(checked);
+    if (options.json)
+      all.push_back(report_json(checked));
+    else
+      print(checked);
+    if (!options.picture.empty()) draw(checked, options.picture);
   }
   if (options.json) fmt::print("{}\n", all.dump(2));
-  return sound ? 0 : 1;
+  return all_sound ? 0 : 1;
 }
 
 }  // namespace ostium

@@ -6,8 +6,9 @@ namespace ostium {
 
 struct CheckOptions {
   std::vector<std::string> files;
-  std::string unit = "mm";  ///< mm, cm or m
+  std::string unit = "auto";  ///< auto, mm, cm, m or in
   bool json = false;
+  std::string picture;  ///< .png or .svg; empty: none
 };
 
 /// `ostium check`. Exit code 0 if all meshes are sound, 1 if not; throws MeshError.

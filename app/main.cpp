@@ -7,6 +7,7 @@
 #include "app/check_command.h"
 #include "app/explain_command.h"
 #include "app/frame_command.h"
+#include "app/import_command.h"
 #include "app/instruments_command.h"
 #include "app/predict_command.h"
 #include "app/verify_command.h"
@@ -48,11 +49,49 @@ int main(int argc, char** argv) {
   ostium::CheckOptions check;
   CLI::App* check_app = app.add_subcommand("check", "What is wrong with a mesh: holes, folds, crossings, and where");
   check_app->add_option("mesh", check.files, "OBJ, STL, PLY, ...")->type_name("MESH")->required();
-  check_app->add_option("--units", check.unit, "What a number in the file means")
-      ->check(CLI::IsMember({"mm", "cm", "m"}))
+  check_app->add_option("--units", check.unit, "What a number in the file means; auto guesses and says so")
+      ->check(CLI::IsMember({"auto", "mm", "cm", "m", "in"}))
       ->capture_default_str();
   check_app->add_flag("--json", check.json, "Machine-readable");
-  check_app->footer("Examples:\n  ostium check aorta.stl\n  ostium check --units m --json lumen.obj");
+  check_app->add_option("--picture", check.picture, "The mesh with its faults (one file only)")
+      ->type_name("FILE.png|FILE.svg");
+  check_app->footer(
+      "Examples:\n  ostium check aorta.stl --picture faults.svg\n  ostium check --units m --json lumen.obj");
+
+  ostium::ImportOptions import;
+  CLI::App* import_app =
+      app.add_subcommand("import", "Anyone's own mesh becomes a case: mended, named, beating");
+  import_app->add_option("mesh", import.files, "STL, OBJ, PLY, glTF, ...; several are one patient's parts")
+      ->type_name("MESH")
+      ->required();
+  import_app->add_option("-o,--out", import.output, "A folder for the case, or a name to keep it under")
+      ->type_name("DIR|NAME")
+      ->required();
+  import_app->add_option("--units", import.unit, "What a number in the files means; auto guesses and says so")
+      ->check(CLI::IsMember({"auto", "mm", "cm", "m", "in"}))
+      ->capture_default_str();
+  import_app->add_option("--axes", import.axes, "Where x, y, z point to: LPS, RAS, LSA, ...; auto tells by the anatomy")
+      ->capture_default_str();
+  import_app->add_option("--entry", import.entry, "Instruments enter at the centreline's point nearest to this one")
+      ->type_name("X,Y,Z");
+  import_app->add_option("--rename", import.renames, "Another name for a branch that was found")
+      ->type_name("FOUND=WANTED");
+  import_app->add_option("--lesion", import.lesions, "A narrowing to put in: branch, from mm, length mm, %")
+      ->type_name("BRANCH:FROM:LENGTH:PERCENT");
+  import_app->add_option("--title", import.title, "What people call it");
+  import_app->add_option("--voxel", import.voxel_mm, "Of the level set, mm; 0: by the narrowest vessels")
+      ->check(CLI::Range(0.0, 5.0))
+      ->capture_default_str();
+  import_app->add_option("--longest-gap", import.longest_gap_mm, "No gap is bridged that is longer, mm")
+      ->check(CLI::Range(0.0, 50.0))
+      ->capture_default_str();
+  import_app->add_option("--picture", import.picture, "What came out of it, with mends and names")
+      ->type_name("FILE.png|FILE.svg");
+  import_app->add_flag("--json", import.json, "What was found and mended, machine-readable");
+  import_app->footer(
+      "Examples:\n  ostium import aorta.stl coronaries.stl -o anna --picture anna.svg\n"
+      "  ostium import aorta.obj -o cases/aorta --units mm --entry -5,18,-11 --rename 3=coeliac\n"
+      "  ostium import heart.ply -o tight-rca --lesion RCA:40:12:75 && ostium cases tight-rca");
   ostium::FrameOptions frame;
   CLI::App* frame_app = app.add_subcommand("frame", "One X-ray picture, or a short run of them");
   frame_app->add_option("of", frame.of, "What is in the beam: phantom (fluoro's test chest, no anatomy)")
@@ -153,6 +192,7 @@ int main(int argc, char** argv) {
     if (*verify_app) return ostium::verify_command(verify);
     if (*cases_app) return ostium::cases_command(cases);
     if (*centreline_app) return ostium::centreline_command(centreline);
+    if (*import_app) return ostium::import_command(import);
     if (*check_app) return ostium::check_command(check);
     if (*views_app) return ostium::views_command(views_json);
     if (*frame_app) return ostium::frame_command(frame);

@@ -1,0 +1,21 @@
+#pragma once
+/// Narrowings that a lumen came with.
+#include <string>
+#include <vector>
+
+#include "vascular/tree/sphere_tree.h"
+
+namespace ostium {
+
+struct FoundNarrowing {
+  std::string branch;
+  double at_m = 0;        ///< from the branch's first sphere
+  double stenosis = 0;    ///< of the diameter
+  double reference_m = 0;  ///< the diameter around it
+  Eigen::Vector3d p = Eigen::Vector3d::Zero();
+};
+
+/// In branches narrower than 8 mm: where the diameter is less by at least `least` than before and behind it.
+std::vector<FoundNarrowing> find_narrowings(const SphereTree& tree, double least = 0.3);
+
+}  // namespace ostium
