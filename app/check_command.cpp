@@ -39,14 +39,22 @@ struct Checked {
   DoubleWall wall;
   std::size_t flipped = 0, inverted = 0;
   Roughness rough;
-  std::vector<double> diameters;  ///< percentiles 2, 25, 50, 75, 98, m
+  std::vector<double> diameters;  ///< below which 2, 25, 50, 75, 98 % of the wall's area are, m
 };
 
 constexpr double shares[] = {0.02, 0.25, 0.5, 0.75, 0.98};
 
 Checked look_at(const std::string& file, const CheckOptions& options) {
-  Checked c{.file = file, .mesh = {}, .unit = {}, .report = {}, .ends = {}, .holes = {}, .pinholes = {}, .wall = {},
-            .rough = {}, .diameters = {}};
+  Checked c{.file = file,
+            .mesh = {},
+            .unit = {},
+            .report = {},
+            .ends = {},
+            .holes = {},
+            .pinholes = {},
+            .wall = {},
+            .rough = {},
+            .diameters = {}};
   const auto say = [&](const char* what) {
     if (isatty(STDERR_FILENO)) fmt::print(stderr, "\r\033[K{}: {}", file, what);
   };
@@ -75,8 +83,9 @@ Checked look_at(const std::string& file, const CheckOptions& options) {
   c.wall = find_double_wall(turned, sheets);
   c.rough = roughness(turned);
   const BoxTree tree(turned);
-  const std::vector<double> all = calibres(turned, tree, 1 + static_cast<int>(turned.triangles.size() / 20'000));
-  for (double share : shares) c.diameters.push_back(percentile(all, share));
+  const int stride = 1 + static_cast<int>(turned.triangles.size() / 20'000);
+  const std::vector<double> all = calibres(turned, tree, stride), areas = areas_m2(turned, stride);
+  for (double share : shares) c.diameters.push_back(percentile(all, areas, share));
   say("");
   return c;
 }
@@ -87,7 +96,8 @@ nlohmann::ordered_json openings_json(const std::vector<Opening>& openings) {
   nlohmann::ordered_json list = nlohmann::ordered_json::array();
   for (const Opening& o : openings) {
     const Eigen::Vector3d p = mm_from_patient(o.middle);
-    list.push_back({{"edges", o.half_edges.size()}, {"diameter_mm", 1e3 * o.diameter_m}, {"where_mm", {p.x(), p.y(), p.z()}}});
+    list.push_back(
+        {{"edges", o.half_edges.size()}, {"diameter_mm", 1e3 * o.diameter_m}, {"where_mm", {p.x(), p.y(), p.z()}}});
   }
   return list;
 }
@@ -145,13 +155,13 @@ void print(const Checked& c) {
   fmt::print("{}: {} triangles, {} vertices, {} component{}, {:.2f} mL, {:.1f} cm2\n", c.file, r.triangles, r.vertices,
              r.components, r.components == 1 ? "" : "s", 1e6 * r.volume_m3, 1e4 * r.area_m2);
   fmt::print("units: {}, {}; {:.1f} mm long\n", name_of(c.unit.unit),
-             c.unit_said        ? "as you said"
-             : !c.unit.vessel   ? "as most are, but no unit makes a vessel of it"
-             : c.unit.certain   ? "guessed, no other makes a vessel of it"
-                                : "guessed, others are possible: confirm with --units",
+             c.unit_said      ? "as you said"
+             : !c.unit.vessel ? "as most are, but no unit makes a vessel of it"
+             : c.unit.certain ? "guessed, no other makes a vessel of it"
+                              : "guessed, others are possible: confirm with --units",
              1e3 * c.unit.extent_m);
-  fmt::print("vessels: {:.2f} mm wide at most of the wall (2 % below {:.2f}, 98 % below {:.2f})\n", 1e3 * c.diameters[2],
-             1e3 * c.diameters[0], 1e3 * c.diameters[4]);
+  fmt::print("vessels: {:.2f} mm wide at most of the wall (2 % below {:.2f}, 98 % below {:.2f})\n",
+             1e3 * c.diameters[2], 1e3 * c.diameters[0], 1e3 * c.diameters[4]);
   if (c.mesh.welded_vertices || c.mesh.dropped_triangles || c.mesh.skipped_faces)
     fmt::print("mended: {} vertices welded, {} triangles without width dropped, {} points and lines left out\n",
                c.mesh.welded_vertices, c.mesh.dropped_triangles, c.mesh.skipped_faces);
@@ -162,8 +172,9 @@ void print(const Checked& c) {
   if (c.inverted) fmt::print("{} piece{} inwards\n", c.inverted, c.inverted == 1 ? " faces" : "s face");
   if (c.wall.triangles) {
     const Eigen::Vector3d p = mm_from_patient(c.wall.where);
-    fmt::print("double wall: {} triangles are of an outer one, {:.2f} mm outside, the first at {:.2f} {:.2f} {:.2f} mm\n",
-               c.wall.triangles, 1e3 * c.wall.thickness_m, p.x(), p.y(), p.z());
+    fmt::print(
+        "double wall: {} triangles are of an outer one, {:.2f} mm outside, the first at {:.2f} {:.2f} {:.2f} mm\n",
+        c.wall.triangles, 1e3 * c.wall.thickness_m, p.x(), p.y(), p.z());
   }
   if (c.rough.noisy(c.diameters[2] / 2)) fmt::print("rough: vertices stand out by {:.2f} mm\n", 1e3 * c.rough.height_m);
   fmt::print("{}", describe(r));
@@ -176,23 +187,24 @@ void draw(const Checked& c, const std::string& picture) {
       for (int v : c.mesh.mesh.triangles[t]) rgb[static_cast<std::size_t>(v)] = {225, 196, 120};
   std::vector<PictureMark> marks;
   const auto openings = [&](const std::vector<Opening>& all, const char* what, const Eigen::Vector3d& colour) {
-    for (const Opening& o : all) marks.push_back({o.middle, fmt::format("{} {:.1f} mm", what, 1e3 * o.diameter_m), colour});
+    for (const Opening& o : all)
+      marks.push_back({o.middle, fmt::format("{} {:.1f} mm", what, 1e3 * o.diameter_m), colour});
   };
   openings(c.ends, "end", {20, 110, 200});
   openings(c.holes, "hole", {210, 100, 20});
   openings(c.pinholes, "pinhole", {210, 30, 30});
   for (const Eigen::Vector3d& p : c.report.crossings.where) marks.push_back({p, "", {170, 40, 170}});
   for (const Eigen::Vector3d& p : c.report.branching_edges.where) marks.push_back({p, "branching", {30, 140, 60}});
-  draw_mesh(picture, c.mesh.mesh, rgb, marks,
-            c.file.substr(c.file.rfind('/') + 1) +
-                ": blue open ends, orange holes, red pinholes, violet crossings, green branching edges, yellow outer wall");
+  draw_mesh(
+      picture, c.mesh.mesh, rgb, marks,
+      c.file.substr(c.file.rfind('/') + 1) +
+          ": blue open ends, orange holes, red pinholes, violet crossings, green branching edges, yellow outer wall");
 }
 
 }  // namespace
 
 int check_command(const CheckOptions& options) {
-  if (!options.picture.empty() && options.files.size() != 1)
-    throw LoadError("--picture draws one mesh; name one file");
+  if (!options.picture.empty() && options.files.size() != 1) throw LoadError("--picture draws one mesh; name one file");
   bool all_sound = true;
   nlohmann::ordered_json all = nlohmann::ordered_json::array();
   for (const std::string& file : options.files) {

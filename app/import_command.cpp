@@ -50,7 +50,8 @@ class Progress {
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
-/// Where the files' axes point to, as DICOM has its letters: left or right, superior or inferior, anterior or posterior.
+/// Where the files' axes point to, as DICOM has its letters: left or right, superior or inferior, anterior or
+/// posterior.
 Eigen::Matrix3d axes_of(const std::string& letters) {
   Eigen::Matrix3d R = Eigen::Matrix3d::Zero();
   const std::string known = "LRSIAP";
@@ -129,7 +130,8 @@ class Import {
     if (!folder_.has_filename()) folder_ = folder_.parent_path();
     case_.name = fs::absolute(folder_).filename().string();
     if (fs::exists(folder_) && !fs::exists(folder_ / (case_.name + ".json")) && !fs::is_empty(folder_))
-      throw LoadError(folder_.string() + ": is there and holds no imported case; expected a new folder, or one to renew");
+      throw LoadError(folder_.string() +
+                      ": is there and holds no imported case; expected a new folder, or one to renew");
   }
 
   void read() {
@@ -188,7 +190,8 @@ class Import {
 
   void make_case() {
     progress_("laying the heart's motion on it");
-    case_.title = options_.title.empty() ? "Imported: " + fs::path(options_.files.front()).filename().string() : options_.title;
+    case_.title =
+        options_.title.empty() ? "Imported: " + fs::path(options_.files.front()).filename().string() : options_.title;
     case_.card = {"Imported from " + fs::path(options_.files.front()).filename().string() + ".", "Not known.",
                   "From the entry that was chosen at import"};
     auto vessels = std::make_shared<ImportedVessels>();
@@ -203,8 +206,7 @@ class Import {
     narrowings_ = find_narrowings(patient_.tree);
     if (!found_.heart) return;
     const std::size_t crossings = crossing_triangles(patient_.lumen.at(end_systole, 0)).size();
-    if (crossings > 0)
-      found_.notes.push_back(fmt::format("{} pairs of triangles cross at end-systole", crossings));
+    if (crossings > 0) found_.notes.push_back(fmt::format("{} pairs of triangles cross at end-systole", crossings));
   }
 
   std::string case_json() const {
@@ -216,16 +218,15 @@ class Import {
                          {"stenosis_percent", 100 * l.stenosis},
                          {"shape", "concentric"},
                          {"calcified", false}});
-    const Json json = {{"schema", "ostium-case/1"},
-                       {"name", case_.name},
-                       {"title", case_.title},
-                       {"card",
-                        {{"history", case_.card.history},
-                         {"ecg", case_.card.ecg},
-                         {"planned_access", case_.card.planned_access}}},
-                       {"imported", {{"anatomy", "anatomy.json"}, {"lumen", "lumen.ply"}}},
-                       {"heart_rate_1_min", case_.rate_1_min},
-                       {"lesions", lesions}};
+    const Json json = {
+        {"schema", "ostium-case/1"},
+        {"name", case_.name},
+        {"title", case_.title},
+        {"card",
+         {{"history", case_.card.history}, {"ecg", case_.card.ecg}, {"planned_access", case_.card.planned_access}}},
+        {"imported", {{"anatomy", "anatomy.json"}, {"lumen", "lumen.ply"}}},
+        {"heart_rate_1_min", case_.rate_1_min},
+        {"lesions", lesions}};
     return json.dump(2) + "\n";
   }
 
@@ -272,7 +273,8 @@ class Import {
     const fs::path unfinished = folder_.string() + ".unfinished";
     fs::remove_all(unfinished, error);
     fs::create_directory(unfinished, error);
-    if (error) throw LoadError(fmt::format("{}: cannot be made ({}); expected a folder", unfinished.string(), error.message()));
+    if (error)
+      throw LoadError(fmt::format("{}: cannot be made ({}); expected a folder", unfinished.string(), error.message()));
     try {
       write_file((unfinished / (case_.name + ".json")).string(), case_json());
       write_file((unfinished / "anatomy.json").string(), anatomy_to_json(found_.anatomy));
@@ -294,6 +296,13 @@ class Import {
     }
   }
 
+  bool coronary(int tube) const {
+    for (; tube >= 0; tube = found_.anatomy.tubes[static_cast<std::size_t>(tube)].parent)
+      for (const char* name : {"LAD", "LCx", "RCA"})
+        if (found_.anatomy.tubes[static_cast<std::size_t>(tube)].name == name) return true;
+    return false;
+  }
+
   void draw() const {
     const Mesh mesh = patient_.lumen.at(0, 0);
     std::vector<Eigen::Vector3d> rgb;
@@ -301,11 +310,10 @@ class Import {
       Eigen::Vector3d colour = Eigen::Vector3d::Zero();
       double sum = 0;
       for (const TubeShare& share : patient_.lumen.shares[v]) {
-        const bool aorta = found_.anatomy.aorta && share.tube == 0;
         const bool beats = v < patient_.lumen.moving;
-        colour += share.weight * (beats && !aorta ? Eigen::Vector3d(214, 72, 60)
-                                  : beats         ? Eigen::Vector3d(220, 160, 150)
-                                                  : Eigen::Vector3d(205, 200, 192));
+        colour += share.weight * (coronary(share.tube) ? Eigen::Vector3d(214, 72, 60)
+                                  : beats              ? Eigen::Vector3d(220, 160, 150)
+                                                       : Eigen::Vector3d(205, 200, 192));
         sum += share.weight;
       }
       rgb.push_back(colour / std::max(sum, 1e-9));
@@ -344,8 +352,10 @@ class Import {
       }
       fmt::print("\n");
     }
-    if (found_.aorta_rms_m > 0) fmt::print("aorta: {:.1f} mm from the mean one's course (rms)\n", found_.aorta_rms_m / mm);
-    if (found_.heart) fmt::print("coronary arteries: {:.1f} mm from the mean ones' courses (rms)\n", found_.heart_rms_m / mm);
+    if (found_.aorta_rms_m > 0)
+      fmt::print("aorta: {:.1f} mm from the mean one's course (rms)\n", found_.aorta_rms_m / mm);
+    if (found_.heart)
+      fmt::print("coronary arteries: {:.1f} mm from the mean ones' courses (rms)\n", found_.heart_rms_m / mm);
     const Anatomy& a = found_.anatomy;
     fmt::print("  {:<18} {:>9} {:>12} {:>10}\n", "branch", "length mm", "proximal mm", "distal mm");
     for (const NamedBranch& b : a.branches)

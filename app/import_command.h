@@ -6,10 +6,10 @@ namespace ostium {
 
 struct ImportOptions {
   std::vector<std::string> files;
-  std::string output;               ///< a folder, or the name of a case
-  std::string unit = "auto";        ///< auto, mm, cm, m or in
-  std::string axes = "auto";        ///< where the file's x, y, z point to: three letters of L, R, S, I, A, P
-  std::string entry;                ///< "x,y,z" in the file's unit and axes
+  std::string output;                ///< a folder, or the name of a case
+  std::string unit = "auto";         ///< auto, mm, cm, m or in
+  std::string axes = "auto";         ///< where the file's x, y, z point to: three letters of L, R, S, I, A, P
+  std::string entry;                 ///< "x,y,z" in the file's unit and axes
   std::vector<std::string> renames;  ///< "3=OM1"
   std::vector<std::string> lesions;  ///< "RCA:40:12:75": branch, from mm, length mm, percent of the diameter
   std::string title;

@@ -59,8 +59,7 @@ int main(int argc, char** argv) {
       "Examples:\n  ostium check aorta.stl --picture faults.svg\n  ostium check --units m --json lumen.obj");
 
   ostium::ImportOptions import;
-  CLI::App* import_app =
-      app.add_subcommand("import", "Anyone's own mesh becomes a case: mended, named, beating");
+  CLI::App* import_app = app.add_subcommand("import", "Anyone's own mesh becomes a case: mended, named, beating");
   import_app->add_option("mesh", import.files, "STL, OBJ, PLY, glTF, ...; several are one patient's parts")
       ->type_name("MESH")
       ->required();

@@ -18,11 +18,12 @@ inline const JsonObjectKeys tube = {
      {"blend", true, "width of the rounding where it joins, in its own radii, > 0"},
      {"nodes", true, "[x, y, z, radius] in mm each, two at least, no two neighbours equal"}}};
 
-inline const JsonObjectKeys branch = {"branch",
-                                      {{"name", true, "a text"},
-                                       {"tube", true, "the index of a tube"},
-                                       {"from_mm", true, "where it begins along the tube, in mm, >= 0"},
-                                       {"to_mm", true, "where it ends along the tube, in mm, not before its beginning"}}};
+inline const JsonObjectKeys branch = {
+    "branch",
+    {{"name", true, "a text"},
+     {"tube", true, "the index of a tube"},
+     {"from_mm", true, "where it begins along the tube, in mm, >= 0"},
+     {"to_mm", true, "where it ends along the tube, in mm, not before its beginning"}}};
 
 inline const JsonObjectKeys landmarks = {
     "landmarks",

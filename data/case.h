@@ -23,10 +23,10 @@ struct Case {
   std::string name;  ///< the file's name without .json
   std::string title;
   CaseCard card;
-  AnatomyParameters anatomy;                         ///< of a built anatomy
+  AnatomyParameters anatomy;                        ///< of a built anatomy
   std::shared_ptr<const ImportedVessels> imported;  ///< or these; null: the anatomy is built
-  std::uint64_t seed = 0;  ///< of the person; 0: the mean
-  double rate_1_min = 70;  ///< heart beats
+  std::uint64_t seed = 0;                           ///< of the person; 0: the mean
+  double rate_1_min = 70;                           ///< heart beats
   std::vector<Lesion> lesions;
 };
 
@@ -38,15 +38,16 @@ Case load_case(const std::string& file);
 /// All of data/cases; with those that were imported under a name (`imported_folder`).
 std::vector<Case> load_cases();
 
-/// By name; or by a path: a case file, or an imported case's folder. Throws LoadError, for a name that is none with those
-/// that are.
+/// By name; or by a path: a case file, or an imported case's folder. Throws LoadError, for a name that is none with
+/// those that are.
 Case find_case(const std::string& name);
 
 /// Where imported cases without a path go: $OSTIUM_CASES, else $XDG_DATA_HOME/ostium/cases, else
 /// ~/.local/share/ostium/cases.
 std::string imported_folder();
 
-/// The vessels, beating, with the case's lesions: built, or as they were imported. Every command makes its patient here.
+/// The vessels, beating, with the case's lesions: built, or as they were imported. Every command makes its patient
+/// here.
 Patient patient_of(const Case& c);
 /// The vessels at rest, without lesions.
 Anatomy anatomy_of(const Case& c);

@@ -140,7 +140,8 @@ std::string imported_folder() {
     return std::string(value ? value : "");
   };
   if (!set("OSTIUM_CASES").empty()) return set("OSTIUM_CASES");
-  const fs::path home = set("XDG_DATA_HOME").empty() ? fs::path(set("HOME")) / ".local" / "share" : fs::path(set("XDG_DATA_HOME"));
+  const fs::path home =
+      set("XDG_DATA_HOME").empty() ? fs::path(set("HOME")) / ".local" / "share" : fs::path(set("XDG_DATA_HOME"));
   return (home / "ostium" / "cases").string();
 }
 

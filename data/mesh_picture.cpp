@@ -31,7 +31,8 @@ struct Image {
   std::vector<unsigned char> rgb;
   void paint(int x, int y, const Eigen::Vector3d& colour) {
     if (x < 0 || y < 0 || x >= width || y >= height) return;
-    for (int k = 0; k < 3; ++k) rgb[3 * (y * width + x) + k] = static_cast<unsigned char>(std::clamp(colour[k], 0., 255.));
+    for (int k = 0; k < 3; ++k)
+      rgb[3 * (y * width + x) + k] = static_cast<unsigned char>(std::clamp(colour[k], 0., 255.));
   }
 };
 
@@ -49,7 +50,8 @@ class Drawer {
       image_.height = std::max(image_.height, static_cast<int>(scale_ * size[view.up]) + 2 * margin);
     }
     image_.width = x;
-    image_.depth.assign(static_cast<std::size_t>(image_.width * image_.height), -std::numeric_limits<float>::infinity());
+    image_.depth.assign(static_cast<std::size_t>(image_.width * image_.height),
+                        -std::numeric_limits<float>::infinity());
     image_.rgb.assign(3 * image_.depth.size(), 255);
     for (std::size_t v = 0; v < std::size(views); ++v) draw(v);
   }
@@ -57,7 +59,8 @@ class Drawer {
   /// x, y in pixels, and towards the eye.
   Eigen::Vector3d seen(std::size_t v, const Eigen::Vector3d& p) const {
     const View& view = views[v];
-    const double right = view.right_sign > 0 ? p[view.right] - box_.min()[view.right] : box_.max()[view.right] - p[view.right];
+    const double right =
+        view.right_sign > 0 ? p[view.right] - box_.min()[view.right] : box_.max()[view.right] - p[view.right];
     // From below, the front is up: as a chest lies in a scanner.
     const double towards = v == 2 ? -p[view.towards] : p[view.towards];
     return {left_[v] + scale_ * right, margin + scale_ * (box_.max()[view.up] - p[view.up]), towards};
@@ -69,14 +72,17 @@ class Drawer {
  private:
   void draw(std::size_t v) {
     for (const auto& [i, j, k] : mesh_.triangles) {
-      const Eigen::Vector3d a = seen(v, mesh_.vertices[i]), b = seen(v, mesh_.vertices[j]), c = seen(v, mesh_.vertices[k]);
+      const Eigen::Vector3d a = seen(v, mesh_.vertices[i]), b = seen(v, mesh_.vertices[j]),
+                            c = seen(v, mesh_.vertices[k]);
       const double area = (b.x() - a.x()) * (c.y() - a.y()) - (b.y() - a.y()) * (c.x() - a.x());
       if (std::fabs(area) < 1e-12) continue;
       const Eigen::Vector3d n =
           (mesh_.vertices[j] - mesh_.vertices[i]).cross(mesh_.vertices[k] - mesh_.vertices[i]).normalized();
       const double light = 0.35 + 0.65 * std::fabs(n[views[v].towards]);
-      const int x0 = static_cast<int>(std::floor(std::min({a.x(), b.x(), c.x()}))), x1 = static_cast<int>(std::ceil(std::max({a.x(), b.x(), c.x()})));
-      const int y0 = static_cast<int>(std::floor(std::min({a.y(), b.y(), c.y()}))), y1 = static_cast<int>(std::ceil(std::max({a.y(), b.y(), c.y()})));
+      const int x0 = static_cast<int>(std::floor(std::min({a.x(), b.x(), c.x()}))),
+                x1 = static_cast<int>(std::ceil(std::max({a.x(), b.x(), c.x()})));
+      const int y0 = static_cast<int>(std::floor(std::min({a.y(), b.y(), c.y()}))),
+                y1 = static_cast<int>(std::ceil(std::max({a.y(), b.y(), c.y()})));
       for (int y = std::max(0, y0); y <= std::min(image_.height - 1, y1); ++y)
         for (int x = std::max(0, x0); x <= std::min(image_.width - 1, x1); ++x) {
           const double u = ((b.x() - x) * (c.y() - y) - (b.y() - y) * (c.x() - x)) / area;
@@ -118,7 +124,8 @@ std::string base64(const std::string& bytes) {
   std::string text;
   for (std::size_t i = 0; i < bytes.size(); i += 3) {
     unsigned n = 0;
-    for (std::size_t k = 0; k < 3; ++k) n = n << 8 | (i + k < bytes.size() ? static_cast<unsigned char>(bytes[i + k]) : 0U);
+    for (std::size_t k = 0; k < 3; ++k)
+      n = n << 8 | (i + k < bytes.size() ? static_cast<unsigned char>(bytes[i + k]) : 0U);
     for (std::size_t k = 0; k < 4; ++k) text += i + k > bytes.size() ? '=' : digits[n >> (18 - 6 * k) & 63];
   }
   return text;
@@ -162,8 +169,9 @@ void draw_mesh(const std::string& file, const Mesh& mesh, const std::vector<Eige
     for (std::size_t v = 0; v < std::size(views); ++v) {
       const Eigen::Vector3d at = drawer.seen(v, mark.p);
       const std::string colour = fmt::format("rgb({:.0f},{:.0f},{:.0f})", mark.rgb.x(), mark.rgb.y(), mark.rgb.z());
-      text += fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"3.5\" fill=\"none\" stroke=\"{}\" stroke-width=\"1.5\"/>\n",
-                          at.x(), at.y(), colour);
+      text += fmt::format(
+          "<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"3.5\" fill=\"none\" stroke=\"{}\" stroke-width=\"1.5\"/>\n", at.x(),
+          at.y(), colour);
       if (v == 0 && !mark.words.empty())
         text += fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" fill=\"{}\">{}</text>\n", at.x() + 6, at.y() + 4, colour,
                             escaped(mark.words));

@@ -86,8 +86,9 @@ TEST(Mesh, WhatIsNoSurfaceIsRefused) {
   EXPECT_NE(refusal("/nowhere.obj").find("is no file"), std::string::npos);
   EXPECT_NE(refusal(written("text.stl", "hello")).find("cannot be read as a mesh"), std::string::npos);
   EXPECT_NE(refusal(written("empty.obj", "v 0 0 0\nv 1 0 0\n")).find(".obj"), std::string::npos);
-  EXPECT_EQ(read_mesh(written("line.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nl 1 2\n"), LengthUnit::metre).skipped_faces,
-            1);
+  EXPECT_EQ(
+      read_mesh(written("line.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nl 1 2\n"), LengthUnit::metre).skipped_faces,
+      1);
   EXPECT_NE(refusal(written("nan.obj", "v nan 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")).find("finite"), std::string::npos);
   EXPECT_THROW(write_mesh(temporary("a.docx"), test::cube(1), LengthUnit::metre), MeshError);
   EXPECT_THROW(write_mesh("/nowhere/a.obj", test::cube(1), LengthUnit::metre), MeshError);

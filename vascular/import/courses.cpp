@@ -29,7 +29,8 @@ std::vector<Eigen::Vector3d> Course::points(double from_m, double step_m, double
 double Course::parts_from(const Course& other) const {
   for (const TreeSphere& sphere : spheres) {
     bool near = false;
-    for (const TreeSphere& o : other.spheres) near = near || (sphere.p - o.p).norm() < std::max(0.8 * o.radius_m, 0.4e-3);
+    for (const TreeSphere& o : other.spheres)
+      near = near || (sphere.p - o.p).norm() < std::max(0.8 * o.radius_m, 0.4e-3);
     if (!near) return sphere.s_m;
   }
   return length_m();

@@ -7,8 +7,8 @@ namespace ostium {
 
 struct MeanCourses {
   Anatomy anatomy;
-  Course aorta;           ///< from the root to the right groin
-  Course lad, lcx, rca;   ///< from the ostium to the end, the left main included
+  Course aorta;          ///< from the root to the right groin
+  Course lad, lcx, rca;  ///< from the ostium to the end, the left main included
 };
 
 MeanCourses mean_courses();

@@ -9,8 +9,8 @@ namespace ostium {
 
 struct FoundNarrowing {
   std::string branch;
-  double at_m = 0;        ///< from the branch's first sphere
-  double stenosis = 0;    ///< of the diameter
+  double at_m = 0;         ///< from the branch's first sphere
+  double stenosis = 0;     ///< of the diameter
   double reference_m = 0;  ///< the diameter around it
   Eigen::Vector3d p = Eigen::Vector3d::Zero();
 };

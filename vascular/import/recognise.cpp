@@ -18,7 +18,7 @@ namespace ostium {
 namespace {
 
 constexpr double mm = 1e-3, degree = std::numbers::pi / 180;
-constexpr double aorta_radius_m = 7e-3;      // an aorta is wider
+constexpr double aorta_radius_m = 7e-3;       // an aorta is wider
 constexpr double coronary_radius_m = 3.5e-3;  // a coronary artery is narrower
 constexpr double coronary_length_m = 25e-3;   // and longer
 constexpr double root_m = 75e-3;              // it leaves the aorta so near to its root
@@ -42,7 +42,7 @@ struct Part {
 /// The coronary arteries that come out of one ostium.
 struct Trunk {
   std::size_t part;
-  Eigen::Vector3d root;               ///< where the part's tree begins then
+  Eigen::Vector3d root;  ///< where the part's tree begins then
   std::vector<Eigen::Vector3d> ends;
   std::vector<Course> courses;  ///< to these, from the ostium on
 };
@@ -97,7 +97,8 @@ class Recogniser {
           "this is no vessel: the longest way through it is {:.0f} mm, its widest place {:.0f} mm; expected a way at "
           "least {:.0f} times as long as wide",
           longest / mm, 2 * widest / mm, vessel_shape));
-    std::stable_sort(parts_.begin(), parts_.end(), [](const Part& a, const Part& b) { return a.widest_m > b.widest_m; });
+    std::stable_sort(parts_.begin(), parts_.end(),
+                     [](const Part& a, const Part& b) { return a.widest_m > b.widest_m; });
   }
 
   /// How unlike the mean aorta a course is, in metres; `fit` gets how that is laid on it.
@@ -199,7 +200,8 @@ class Recogniser {
     const Course& course = courses[static_cast<std::size_t>(std::max(from, 0))];
     double widest = 0;
     for (const TreeSphere& sphere : course.spheres)
-      if ((from < 0 ? sphere.s_m : course.length_m() - sphere.s_m) < 30 * mm) widest = std::max(widest, sphere.radius_m);
+      if ((from < 0 ? sphere.s_m : course.length_m() - sphere.s_m) < 30 * mm)
+        widest = std::max(widest, sphere.radius_m);
     return widest;
   }
 
@@ -297,7 +299,8 @@ class Recogniser {
     for (int left = -1; left < n; ++left)
       for (int right = -1; right < n; ++right) {
         if (left == right) continue;
-        if (left >= 0 && right >= 0 && trunks[left].part == trunks[right].part && !(has_aorta_ && trunks[left].part == 0))
+        if (left >= 0 && right >= 0 && trunks[left].part == trunks[right].part &&
+            !(has_aorta_ && trunks[left].part == 0))
           continue;
         const std::size_t rights = right < 0 ? 1 : trunks[right].ends.size();
         const std::size_t lefts = left < 0 ? 1 : trunks[left].ends.size();
@@ -443,6 +446,8 @@ class Recogniser {
     anatomy.aorta = has_aorta_;
     for (Part& part : parts_) {
       std::vector<int> tube_of;
+      std::vector<Eigen::Vector3d> ends;
+      const std::size_t first = anatomy.tubes.size();
       for (const TreeBranch& branch : part.tree.branches) {
         const int parent = branch.parent < 0 ? -1 : tube_of[static_cast<std::size_t>(branch.parent)];
         Tube tube;
@@ -453,12 +458,17 @@ class Recogniser {
         }
         tube.parent = parent;
         tube.blend = 0.8;
-        // The role of the recognised end that it leads to.
-        for (const Part::Role& role : part.roles)
-          if ((role.end - branch.spheres.back().p).norm() < 3 * mm) tube.name = role.name;
         tube_of.push_back(static_cast<int>(anatomy.tubes.size()));
+        ends.push_back(branch.spheres.back().p);
         leaves_.push_back(leaves_m);
         anatomy.tubes.push_back(std::move(tube));
+      }
+      for (const Part::Role& role : part.roles) {
+        const auto nearest = std::min_element(ends.begin(), ends.end(), [&](const auto& a, const auto& b) {
+          return (a - role.end).squaredNorm() < (b - role.end).squaredNorm();
+        });
+        if (nearest != ends.end())
+          anatomy.tubes[first + static_cast<std::size_t>(nearest - ends.begin())].name = role.name;
       }
     }
   }
@@ -543,7 +553,8 @@ class Recogniser {
         all += (all.empty() ? "" : ", ") + branch.name;
         if (branch.name == found) branch.name = wanted, any = true;
       }
-      if (!any) throw MeshError(fmt::format("there is no branch \"{}\" to be called {}; found: {}", found, wanted, all));
+      if (!any)
+        throw MeshError(fmt::format("there is no branch \"{}\" to be called {}; found: {}", found, wanted, all));
     }
   }
 

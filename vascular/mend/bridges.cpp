@@ -15,7 +15,7 @@ namespace ostium {
 
 namespace {
 
-constexpr std::size_t most_voxels = 4'000'000;
+constexpr std::size_t most_voxels = 1'500'000;
 constexpr double widest_share = 0.85;  // of the widest end: that may be the origin too
 constexpr double much_wider = 2;
 constexpr double like = 1.5;           // ratio of the radii of two ends that are joined
@@ -94,8 +94,12 @@ std::vector<Bridge> find_bridges(const std::vector<Mesh>& lumens, double longest
         candidate.to_wider = radius_there > much_wider * end.radius_m;
         const End* other = nullptr;
         for (const End& o : ends[j])
-          if ((o.p - near.point).norm() < 2 * o.radius_m && (!other || (o.p - near.point).norm() < (other->p - near.point).norm()))
+          if ((o.p - near.point).norm() < 2 * o.radius_m &&
+              (!other || (o.p - near.point).norm() < (other->p - near.point).norm()))
             other = &o;
+        // Straight on, if that is not much farther.
+        if (const auto ahead = trees[j]->hits(end.p, end.outwards, near.distance_m * 1.5); !ahead.empty())
+          candidate.bridge.p_to = end.p + ahead[0].distance_m * end.outwards;
         // People draw origins that stop short in any direction.
         if (towards.dot(end.outwards) < (candidate.to_wider ? -facing_cosine : facing_cosine)) continue;
         if (!candidate.to_wider) {
@@ -126,11 +130,11 @@ std::vector<Bridge> find_bridges(const std::vector<Mesh>& lumens, double longest
   return bridges;
 }
 
-Mesh body_of(const Bridge& bridge) {
+Mesh body_of(const Bridge& bridge, double reach_m) {
   constexpr int columns = 24;
   const Eigen::Vector3d u = (bridge.p_to - bridge.p_from).normalized();
   const Eigen::Vector3d x = u.unitOrthogonal(), y = u.cross(x);
-  const Eigen::Vector3d from = bridge.p_from - 0.7 * bridge.radius_m * u, to = bridge.p_to + 0.9 * bridge.radius_m * u;
+  const Eigen::Vector3d from = bridge.p_from - reach_m * u, to = bridge.p_to + reach_m * u;
   Mesh mesh;
   for (const Eigen::Vector3d& middle : {from, to})
     for (int k = 0; k < columns; ++k) {

@@ -6,18 +6,18 @@
 namespace ostium {
 
 struct Bridge {
-  int from = 0, to = 0;        ///< lumens
+  int from = 0, to = 0;          ///< lumens
   Eigen::Vector3d p_from, p_to;  ///< middle of the end; the wall or end that it is joined to
-  double radius_m = 0;         ///< of the end
-  double gap_m = 0;            ///< between the walls
-  bool to_end = false;         ///< an end faces it there
+  double radius_m = 0;           ///< of the end
+  double gap_m = 0;              ///< between the walls
+  bool to_end = false;           ///< an end faces it there
 };
 
 /// `lumens`: closed, the largest first. A vessel hangs by its origin, its widest end: others, which may come near each
 /// other too, are left alone. Two lumens are bridged once at most.
 std::vector<Bridge> find_bridges(const std::vector<Mesh>& lumens, double longest_gap_m);
 
-/// A closed tube that reaches into both lumens.
-Mesh body_of(const Bridge& bridge);
+/// A closed tube that reaches so far into both lumens.
+Mesh body_of(const Bridge& bridge, double reach_m);
 
 }  // namespace ostium

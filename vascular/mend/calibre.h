@@ -8,7 +8,11 @@ namespace ostium {
 /// outwards.
 std::vector<double> calibres(const Mesh& mesh, const BoxTree& tree, int stride = 1, double farthest_m = 80e-3);
 
-/// Of those that are not 0, weighted by nothing: the smallest with so great a share below it.
+/// Of those that are not 0: the smallest with so great a share of them below it, or of their weights.
 double percentile(std::vector<double> values, double share);
+double percentile(const std::vector<double>& values, const std::vector<double>& weights, double share);
+
+/// Of triangles 0, stride, 2 stride, ..., m2.
+std::vector<double> areas_m2(const Mesh& mesh, int stride = 1);
 
 }  // namespace ostium

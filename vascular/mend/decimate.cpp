@@ -18,8 +18,12 @@ using Quadric = Eigen::Matrix4d;
 class Decimator {
  public:
   Decimator(const Mesh& mesh, const std::vector<double>& edge_m)
-      : p_(mesh.vertices), triangles_(mesh.triangles), wanted_(edge_m), of_vertex_(mesh.vertices.size()),
-        quadrics_(mesh.vertices.size(), Quadric::Zero()), changed_(mesh.vertices.size(), 0) {
+      : p_(mesh.vertices),
+        triangles_(mesh.triangles),
+        wanted_(edge_m),
+        of_vertex_(mesh.vertices.size()),
+        quadrics_(mesh.vertices.size(), Quadric::Zero()),
+        changed_(mesh.vertices.size(), 0) {
     for (int t = 0; t < static_cast<int>(triangles_.size()); ++t) {
       const Eigen::Vector3d area = area_of(triangles_[t]);
       if (area.norm() > 0) {
@@ -94,8 +98,7 @@ class Decimator {
       for (int k = 0; k < 3; ++k) c[k] = tri[k] == v ? p : p_[tri[k]];
       const Eigen::Vector3d before = area_of(tri), after = (c[1] - c[0]).cross(c[2] - c[0]) / 2;
       if (before.dot(after) < least_cosine * before.norm() * after.norm()) return false;
-      const double perimeter2 =
-          (c[1] - c[0]).squaredNorm() + (c[2] - c[1]).squaredNorm() + (c[0] - c[2]).squaredNorm();
+      const double perimeter2 = (c[1] - c[0]).squaredNorm() + (c[2] - c[1]).squaredNorm() + (c[0] - c[2]).squaredNorm();
       if (after.norm() < 0.04 * perimeter2) return false;  // 0.14 for an equilateral triangle
     }
     return true;

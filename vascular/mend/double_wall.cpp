@@ -51,8 +51,7 @@ class ShellFinder {
   bool inner(int t, const std::vector<bool>& outer) const {
     for (double side : {1.0, -1.0}) {
       const auto hits = tree_.hits(middles_[t] + side * 1e-7 * normals_[t], side * normals_[t], thickest_m);
-      if (!hits.empty() && outer[hits[0].triangle] &&
-          std::fabs(normals_[hits[0].triangle].dot(normals_[t])) > 0.5)
+      if (!hits.empty() && outer[hits[0].triangle] && std::fabs(normals_[hits[0].triangle].dot(normals_[t])) > 0.5)
         return true;
     }
     return false;
@@ -147,7 +146,8 @@ DoubleWall find_double_wall(const Mesh& mesh, const Sheets& sheets) {
     for (int t = 0; t < n; ++t) {
       int same = 0, others = 0;
       for (int k = 0; k < 3; ++k)
-        if (const int o = sheets.opposite[3 * t + k]; o >= 0) (result.outer[o / 3] == result.outer[t] ? same : others)++;
+        if (const int o = sheets.opposite[3 * t + k]; o >= 0)
+          (result.outer[o / 3] == result.outer[t] ? same : others)++;
       if (others > same) next[t] = !next[t];
     }
     result.outer = std::move(next);
@@ -158,12 +158,10 @@ DoubleWall find_double_wall(const Mesh& mesh, const Sheets& sheets) {
     for (int t : patch) area += finder.area(t);
     return area;
   };
-  absorb(sheets, result.outer, [&](const std::vector<int>& patch, bool, bool bordered) {
-    return bordered && area_of(patch) < least;
-  });
-  absorb(sheets, result.outer, [&](const std::vector<int>& patch, bool outer, bool) {
-    return outer && area_of(patch) < least;
-  });
+  absorb(sheets, result.outer,
+         [&](const std::vector<int>& patch, bool, bool bordered) { return bordered && area_of(patch) < least; });
+  absorb(sheets, result.outer,
+         [&](const std::vector<int>& patch, bool outer, bool) { return outer && area_of(patch) < least; });
   // Rims at the ends, between the shells.
   const std::vector<bool> shell = result.outer;
   std::queue<std::pair<int, double>> open;

@@ -29,8 +29,8 @@ std::vector<std::array<int, 3>> bordering(const Mesh& mesh, const WindingNumber&
     if (area.isZero(0)) continue;
     const Eigen::Vector3d out = step_m * area.normalized();
     bool borders = false;
-    for (const Eigen::Vector3d& w : {Eigen::Vector3d(1, 1, 1), Eigen::Vector3d(8, 1, 1), Eigen::Vector3d(1, 8, 1),
-                                     Eigen::Vector3d(1, 1, 8)}) {
+    for (const Eigen::Vector3d& w :
+         {Eigen::Vector3d(1, 1, 1), Eigen::Vector3d(8, 1, 1), Eigen::Vector3d(1, 8, 1), Eigen::Vector3d(1, 1, 8)}) {
       const Eigen::Vector3d p = (w[0] * a + w[1] * b + w[2] * c) / w.sum();
       borders = winding.inside(p - out) != winding.inside(p + out);
       if (borders) break;
@@ -96,6 +96,10 @@ void set_signs(Leaf& leaf, const WindingNumber& winding, const Eigen::Vector3d& 
 
 }  // namespace
 
+std::vector<std::array<int, 3>> bordering_triangles(const Mesh& closed, double step_m) {
+  return bordering(closed, WindingNumber(closed), step_m);
+}
+
 Mesh outer_surface(const Mesh& closed, double voxel_m) {
   openvdb::initialize();
   const WindingNumber winding(closed);
@@ -105,9 +109,9 @@ Mesh outer_surface(const Mesh& closed, double voxel_m) {
   // Off the round numbers on which people put vertices and flat ends.
   const Eigen::Vector3d origin = box.min() - voxel_m * Eigen::Vector3d(0.137, 0.271, 0.313);
   const Adapter adapter{closed, wall, origin, voxel_m};
-  const auto grid = openvdb::tools::meshToVolume<openvdb::FloatGrid>(
-      adapter, *openvdb::math::Transform::createLinearTransform(1.0), band, band,
-      openvdb::tools::UNSIGNED_DISTANCE_FIELD);
+  const auto grid =
+      openvdb::tools::meshToVolume<openvdb::FloatGrid>(adapter, *openvdb::math::Transform::createLinearTransform(1.0),
+                                                       band, band, openvdb::tools::UNSIGNED_DISTANCE_FIELD);
   openvdb::tree::LeafManager<openvdb::FloatTree> leaves(grid->tree());
   leaves.foreach ([&](Leaf& leaf, std::size_t) { set_signs(leaf, winding, origin, voxel_m); });
   openvdb::tools::signedFloodFill(grid->tree());

@@ -9,4 +9,7 @@ namespace ostium {
 /// what is narrower than two voxels may be lost.
 Mesh outer_surface(const Mesh& closed, double voxel_m);
 
+/// Its triangles that have the outside on one side; those that lie inside another piece do not.
+std::vector<std::array<int, 3>> bordering_triangles(const Mesh& closed, double step_m);
+
 }  // namespace ostium

@@ -24,11 +24,13 @@ namespace {
 
 constexpr double mm = 1e-3;
 constexpr double least_voxel_m = 0.12e-3, most_voxel_m = 0.4e-3;
-constexpr double voxels_across = 3.5;      // of the narrowest vessels
+constexpr double voxels_across = 3.5;       // of the narrowest vessels
 constexpr double most_wall_voxels = 1.5e6;  // of the level set's surface
-constexpr double crumb_m3 = 8e-9;         // lumens smaller than this are left out
-constexpr int smoothing_rounds = 12;
+constexpr double crumb_m3 = 8e-9;           // lumens smaller than this are left out
+constexpr int smoothing_rounds = 16;
+constexpr double least_missing_m = 0.8e-3;  // a gap between ends is a missing piece from here on
 constexpr int calibre_stride = 4, most_uncrossings = 12;
+constexpr double longest_edge_m = 2.2e-3;
 constexpr double cell_at_1_mm_m = 0.6e-3;  // as the contour of our own anatomy has it
 
 class Mender {
@@ -52,8 +54,13 @@ class Mender {
       lumens = whole_lumens(lumen);
     }
     if (lumens.empty())
-      throw MeshError("nothing closed comes out of the mesh; expected the wall of a vessel, with openings narrower than itself");
+      throw MeshError(
+          "nothing closed comes out of the mesh; expected the wall of a vessel, with openings narrower than itself");
     if (left_out_ > 0) note("crumb left out (smaller than 8 mm3)", left_out_, {});
+    wall_.vertices = mesh_.vertices;
+    wall_.triangles = bordering_triangles(mesh_, result_.voxel_m / 20);
+    const BoxTree wall(wall_);
+    wall_tree_ = &wall;
     for (const Mesh& part : lumens) append(result_.lumen, finished(part, lumens.size()));
     result_.lumens = static_cast<int>(lumens.size());
     return std::move(result_);
@@ -159,6 +166,12 @@ class Mender {
       if (closed[pair.a] || closed[pair.b]) continue;
       closed[pair.a] = closed[pair.b] = true;
       join(mesh_, openings[pair.a], openings[pair.b]);
+      // Where a piece is missing, rims are jagged: a tube through them fills the dents.
+      if (pair.gap_m > least_missing_m) {
+        const double radius = std::min(openings[pair.a].diameter_m, openings[pair.b].diameter_m) / 2;
+        append(mesh_, body_of({.p_from = openings[pair.a].middle, .p_to = openings[pair.b].middle, .radius_m = radius},
+                              std::min(1 * mm, 0.5 * radius)));
+      }
       joined.push_back((openings[pair.a].middle + openings[pair.b].middle) / 2);
       widest_gap = std::max(widest_gap, pair.gap_m);
     }
@@ -198,7 +211,7 @@ class Mender {
       double widest = 0;
       for (const Bridge& b : bridges) {
         if (b.to_end != to_end) continue;
-        append(mesh_, body_of(b));
+        append(mesh_, body_of(b, 0.8 * b.radius_m));
         where.push_back((b.p_from + b.p_to) / 2);
         widest = std::max(widest, b.gap_m);
       }
@@ -214,13 +227,28 @@ class Mender {
     std::vector<double> edge = wanted_edges(fine);
     Mesh mesh = decimate(fine, edge);
     if (mesh.triangles.size() * parts > options_.most_triangles) {
-      const double longer = std::sqrt(static_cast<double>(mesh.triangles.size() * parts) /
-                                      static_cast<double>(options_.most_triangles));
+      const double longer =
+          std::sqrt(static_cast<double>(mesh.triangles.size() * parts) / static_cast<double>(options_.most_triangles));
       for (double& e : edge) e *= longer;
       mesh = decimate(fine, edge);
     }
+    onto_wall(mesh);
     uncross(mesh);
     return mesh;
+  }
+
+  /// The level set and its coarsening are off by a part of a voxel; the wall is where the mesh said.
+  void onto_wall(Mesh& mesh) const {
+    std::vector<Eigen::Vector3d> normal(mesh.vertices.size(), Eigen::Vector3d::Zero());
+    for (const auto& [a, b, c] : mesh.triangles)
+      for (int v : {a, b, c})
+        normal[v] += (mesh.vertices[b] - mesh.vertices[a]).cross(mesh.vertices[c] - mesh.vertices[a]);
+    for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
+      const BoxTree::Nearest near = wall_tree_->nearest(mesh.vertices[v], result_.voxel_m);
+      // Along the normal only: sideways, vertices would come together where the wall has an edge.
+      const Eigen::Vector3d out = normal[v].normalized();
+      if (near.triangle >= 0) mesh.vertices[v] += (near.point - mesh.vertices[v]).dot(out) * out;
+    }
   }
 
   /// Where triangles cross, the surface is evened out until they do not.
@@ -264,7 +292,8 @@ class Mender {
           if (const int from = t[k], to = t[(k + 1) % 3]; edge[from] > 0 && edge[to] == 0) edge[to] = edge[from];
     for (double& e : edge) {
       const double radius = e > 0 ? e / 2 : mm;
-      e = std::clamp(cell_at_1_mm_m * std::pow(radius / mm, 0.75), 1.2 * result_.voxel_m, 4 * mm);
+      e = std::clamp(cell_at_1_mm_m * std::pow(radius / mm, 0.75), 1.2 * result_.voxel_m,
+                     std::max(longest_edge_m, 1.2 * result_.voxel_m));
     }
     return edge;
   }
@@ -272,6 +301,8 @@ class Mender {
   Mesh mesh_;
   const MendOptions& options_;
   Sheets sheets_;
+  Mesh wall_;  ///< of mesh_, what borders on the outside
+  const BoxTree* wall_tree_ = nullptr;
   Mended result_;
   int left_out_ = 0;
 };

@@ -1,6 +1,6 @@
 #pragma once
-/// Anyone's mesh becomes closed lumens: what is turned is turned back, outer walls go, holes are closed, ends are joined
-/// to ends and walls, overlapping pieces become one. Where the mesh was sound its calibre stays.
+/// Anyone's mesh becomes closed lumens: what is turned is turned back, outer walls go, holes are closed, ends are
+/// joined to ends and walls, overlapping pieces become one. Where the mesh was sound its calibre stays.
 #include <functional>
 #include <string>
 
@@ -9,10 +9,10 @@
 namespace ostium {
 
 struct MendOptions {
-  double voxel_m = 0;               ///< of the level set; 0: by the narrowest vessels
-  double longest_gap_m = 8e-3;      ///< no gap is bridged that is longer
-  bool smooth_noise = true;         ///< where the surface is rough
-  std::size_t most_triangles = 200'000;  ///< of the result, about
+  double voxel_m = 0;                                ///< of the level set; 0: by the narrowest vessels
+  double longest_gap_m = 8e-3;                       ///< no gap is bridged that is longer
+  bool smooth_noise = true;                          ///< where the surface is rough
+  std::size_t most_triangles = 200'000;              ///< of the result, about
   std::function<void(const std::string&)> progress;  ///< told what is being done; may be empty
 };
 

@@ -11,9 +11,9 @@ namespace ostium {
 
 namespace {
 
-constexpr double pinhole_m = 1e-3;      // in diameter
+constexpr double pinhole_m = 1e-3;        // in diameter
 constexpr std::size_t pinhole_edges = 4;  // or so few edges
-constexpr double end_cosine = 0.6;      // between wall and lid: below, a vessel ends there
+constexpr double end_cosine = 0.6;        // between wall and lid: below, a vessel ends there
 
 int next_in_triangle(int h) { return h % 3 == 2 ? h - 2 : h + 1; }
 int from_of(const Mesh& mesh, int h) { return mesh.triangles[h / 3][h % 3]; }
@@ -189,7 +189,8 @@ std::vector<Opening> openings_of(const Mesh& mesh, const Sheets& sheets) {
     if (opening.length_m > 0) opening.middle /= opening.length_m;
     Eigen::Vector3d area = Eigen::Vector3d::Zero();
     for (int h : opening.half_edges)
-      area += (mesh.vertices[to_of(mesh, h)] - opening.middle).cross(mesh.vertices[from_of(mesh, h)] - opening.middle) / 2;
+      area +=
+          (mesh.vertices[to_of(mesh, h)] - opening.middle).cross(mesh.vertices[from_of(mesh, h)] - opening.middle) / 2;
     opening.diameter_m = 2 * std::sqrt(area.norm() / std::numbers::pi);
     if (area.norm() > 0) opening.outwards = area.normalized();
     double facing = 0;

@@ -23,8 +23,8 @@ struct Orientation {
   std::vector<Eigen::Vector3d> inverted;  ///< a point of each piece that faced inwards as a whole
 };
 
-/// Turns triangles so that pieces face one way, and outwards (by their volume, openings capped); `sheets` follows. Where
-/// a piece has one side only (a Moebius strip), it is opened.
+/// Turns triangles so that pieces face one way, and outwards (by their volume, openings capped); `sheets` follows.
+/// Where a piece has one side only (a Moebius strip), it is opened.
 Orientation orient(Mesh& mesh, Sheets& sheets);
 
 /// A row of open half-edges.

@@ -29,7 +29,7 @@ UnitGuess guess_unit(const Mesh& raw) {
   const double extent = box.sizes().maxCoeff();
   const BoxTree tree(mesh);
   const int stride = 1 + static_cast<int>(mesh.triangles.size() / 4'000);
-  const double calibre = percentile(calibres(mesh, tree, stride, extent), 0.95);
+  const double calibre = percentile(calibres(mesh, tree, stride, extent), areas_m2(mesh, stride), 0.9);
   UnitGuess guess;
   double best = 1e9, second = 1e9;
   for (LengthUnit unit : units) {

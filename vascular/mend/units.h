@@ -7,7 +7,7 @@ namespace ostium {
 struct UnitGuess {
   LengthUnit unit = LengthUnit::millimetre;
   double extent_m = 0;   ///< the longest side of the box around it, in that unit
-  double calibre_m = 0;  ///< 95 % of the wall belongs to vessels narrower than this
+  double calibre_m = 0;  ///< 90 % of the wall's area belongs to vessels narrower than this
   bool certain = false;  ///< no other unit makes vessels of it
   bool vessel = false;   ///< this one does
 };

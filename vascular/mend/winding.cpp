@@ -36,7 +36,8 @@ int WindingNumber::build(int first, int last) {
   }
   node.middle = areas > 0 ? Eigen::Vector3d(node.middle / areas) : box.center();
   for (int i = first; i < last; ++i)
-    for (int v : mesh_.triangles[order_[i]]) node.reach = std::max(node.reach, (mesh_.vertices[v] - node.middle).norm());
+    for (int v : mesh_.triangles[order_[i]])
+      node.reach = std::max(node.reach, (mesh_.vertices[v] - node.middle).norm());
   nodes_.push_back(node);
   if (last - first <= leaf_size) return self;
   int axis = 0;
