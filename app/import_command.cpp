@@ -203,10 +203,15 @@ class Import {
     } catch (const std::invalid_argument& error) {
       throw LoadError(error.what());
     }
-    narrowings_ = find_narrowings(patient_.tree);
-    if (!found_.heart) return;
-    const std::size_t crossings = crossing_triangles(patient_.lumen.at(end_systole, 0)).size();
-    if (crossings > 0) found_.notes.push_back(fmt::format("{} pairs of triangles cross at end-systole", crossings));
+    for (const FoundNarrowing& narrowing : find_narrowings(patient_.tree))
+      if (coronary(find_branch(found_.anatomy, narrowing.branch)->tube)) narrowings_.push_back(narrowing);
+    const SurfaceReport systole = check_surface(patient_.lumen.at(end_systole, 0));
+    if (systole.crossings.count > 0) {
+      const Eigen::Vector3d p = systole.crossings.where.front() / mm;
+      found_.notes.push_back(fmt::format(
+          "at end-systole {} pairs of triangles cross, the first at {:.1f} {:.1f} {:.1f} mm of the patient frame",
+          systole.crossings.count, p.x(), p.y(), p.z()));
+    }
   }
 
   std::string case_json() const {
@@ -253,7 +258,7 @@ class Import {
             {"triangles", found_.lumen.triangles.size()},
             {"volume_mL", 1e6 * volume_m3(found_.lumen)},
             {"sound", check_surface(found_.lumen).sound()},
-            {"beats", found_.heart},
+            {"beats", patient_.lumen.moving > 0},
             {"voxel_mm", mended_.voxel_m / mm},
             {"mends", mends},
             {"aorta_rms_mm", found_.aorta_rms_m / mm},
@@ -339,7 +344,9 @@ class Import {
     }
     fmt::print("{}: {} triangles, {} closed lumen{}, {:.1f} mL, {}\n", folder_.string(), found_.lumen.triangles.size(),
                mended_.lumens, mended_.lumens == 1 ? "" : "s", 1e6 * volume_m3(found_.lumen),
-               found_.heart ? "beating" : "still");
+               found_.heart                ? "beating"
+               : patient_.lumen.moving > 0 ? "beating at the root of the aorta"
+                                           : "still");
     fmt::print("units: {}, {}: {:.0f} mm long, {:.1f} mm wide{}\n", name_of(unit_.unit),
                options_.unit == "auto" ? "guessed" : "as you said", unit_.extent_m / mm, unit_.calibre_m / mm,
                options_.unit == "auto" && !unit_.certain ? "; confirm with --units, others are possible" : "");

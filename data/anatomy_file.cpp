@@ -89,6 +89,8 @@ Anatomy read(const JsonValue& file) {
   Anatomy anatomy;
   if (root["aorta"].type != JsonValue::Type::boolean) root.refuse("aorta");
   anatomy.aorta = root["aorta"].number != 0;
+  anatomy.ascending_m = mm * root.positive("ascending_mm");
+  if (anatomy.ascending_m <= 20 * mm) root.refuse("ascending_mm");
   for (const JsonValue& value : root.list("tubes"))
     anatomy.tubes.push_back(read_tube(JsonObject(value, keys::tube), anatomy.tubes.size()));
   if (anatomy.tubes.empty()) root.refuse("tubes");
@@ -101,8 +103,9 @@ Anatomy read(const JsonValue& file) {
 }  // namespace
 
 std::string anatomy_to_json(const Anatomy& anatomy) {
-  std::string text = fmt::format("{{\n\"schema\": \"ostium-anatomy/1\",\n\"aorta\": {},\n\"landmarks\": {{\n",
-                                 anatomy.aorta ? "true" : "false");
+  std::string text = fmt::format(
+      "{{\n\"schema\": \"ostium-anatomy/1\",\n\"aorta\": {},\n\"ascending_mm\": {:.5f},\n\"landmarks\": {{\n",
+      anatomy.aorta ? "true" : "false", anatomy.ascending_m / mm);
   const Landmarks& m = anatomy.landmarks;
   text += fmt::format("  \"access_mm\": {},\n  \"access_direction\": {},\n", point(m.p_access, mm),
                       point(m.access_direction, 1));

@@ -7,6 +7,7 @@ namespace ostium::anatomy_keys {
 inline const JsonObjectKeys root = {"anatomy",
                                     {{"schema", true, "\"ostium-anatomy/1\""},
                                      {"aorta", true, "whether the first tube is the aorta, true or false"},
+                                     {"ascending_mm", true, "length of it that moves with the heart, in mm, > 20"},
                                      {"tubes", true, "vessels, parents first, a list that is not empty"},
                                      {"branches", true, "names of stretches of tubes, a list"},
                                      {"landmarks", true, "of heart and access, an object"}}};

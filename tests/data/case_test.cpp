@@ -9,12 +9,16 @@
 #include <set>
 #include <sstream>
 
+#include "data/anatomy_file.h"
+#include "data/anatomy_keys.h"
 #include "data/case_keys.h"
 #include "data/catalogue.h"
 #include "data/load_error.h"
 #include "data/tree_file.h"
 #include "data/tree_keys.h"
+#include "data/write_file.h"
 #include "tests/data/refusals.h"
+#include "vascular/shape/contour.h"
 
 namespace ostium {
 namespace {
@@ -88,6 +92,67 @@ TEST(Case, OtherMistakesAreNamed) {
   }
 }
 
+/// A straight tube of ours as an imported case, in a folder of its own.
+fs::path imported_case(const std::string& lumen_name = "lumen.ply") {
+  const fs::path folder = fs::path(testing::TempDir()) / "mine";
+  fs::create_directories(folder);
+  Anatomy anatomy;
+  anatomy.aorta = false;
+  anatomy.tubes = {make_tube("LAD", -1, {{{0, 0, 0}, 2e-3}, {{0.03, 0, 0}, 1.8e-3}, {{0.06, 0, 0}, 1.6e-3}})};
+  anatomy.branches = {{"LAD", 0, 0, anatomy.tubes[0].length_m()}};
+  anatomy.landmarks = build_anatomy({}).landmarks;
+  write_file((folder / "anatomy.json").string(), anatomy_to_json(anatomy));
+  write_mesh((folder / "lumen.ply").string(), contour(TubeUnion(anatomy.tubes)).mesh, LengthUnit::millimetre);
+  std::string text = small_case;
+  const auto replace = [&](const std::string& from, const std::string& to) {
+    text.replace(text.find(from), from.size(), to);
+  };
+  replace("\"small\"", "\"mine\"");
+  replace("\"anatomy\": { \"dominance\": \"right\", \"access\": \"femoral\", \"seed\": 0 }",
+          "\"imported\": { \"anatomy\": \"anatomy.json\", \"lumen\": \"" + lumen_name + "\" }");
+  replace("\"RCA\"", "\"LAD\"");
+  replace("\"from_mm\": 40", "\"from_mm\": 20");
+  write_file((folder / "mine.json").string(), text);
+  return folder;
+}
+
+TEST(Case, AnImportedOneIsACaseLikeAnyOther) {
+  const Case c = find_case(imported_case().string());
+  ASSERT_TRUE(c.imported);
+  ASSERT_EQ(c.lesions.size(), 1u);
+  const Patient patient = patient_of(c);
+  EXPECT_EQ(patient.lumen.triangles.size(), c.imported->lumen.triangles.size());
+  EXPECT_EQ(patient.lumen.moving, patient.lumen.vertices());  // an LAD beats
+  EXPECT_EQ(patient.tree_frames.size(), static_cast<std::size_t>(beat_frames));
+  // The lesion that was put in: 70 % in its middle, nothing away from it.
+  for (const TreeSphere& sphere : patient.tree.branches[0].spheres) {
+    const double healthy = c.imported->anatomy.tubes[0].at(sphere.p.x()).radius_m;
+    if (std::fabs(sphere.p.x() - 0.0245) < 1e-3) EXPECT_NEAR(sphere.radius_m / healthy, 0.3, 0.03);
+    if (sphere.p.x() > 0.035 && sphere.p.x() < 0.055) EXPECT_NEAR(sphere.radius_m / healthy, 1, 0.05);
+  }
+}
+
+TEST(Case, ABrokenImportedOneIsRefused) {
+  const auto message = [](const fs::path& folder) -> std::string {
+    try {
+      find_case(folder.string());
+    } catch (const LoadError& error) {
+      return error.what();
+    }
+    return "accepted";
+  };
+  expect_words(message(imported_case("none.ply")), {"mine.json:6", "none.ply", "no file"});
+  expect_words(message(imported_case("../lumen.ply")), {"mine.json:6", "beside this one"});
+  const fs::path folder = imported_case();
+  std::stringstream text;
+  text << std::ifstream(folder / "anatomy.json").rdbuf();
+  std::string broken = text.str();
+  broken.replace(broken.find("\"parent\": -1"), 12, "\"parent\": 0 ");
+  write_file((folder / "anatomy.json").string(), broken);
+  expect_words(message(folder), {"anatomy.json:", "tubes[0].parent is 0", "earlier tube"});
+  expect_words(refusal("\"anatomy\":", "\"imported\": {}, \"anatomy\":"), {"both"});
+}
+
 void expect_same_keys(const char* schema_file, const std::vector<const JsonObjectKeys*>& all) {
   const auto schema = nlohmann::json::parse(std::ifstream(fs::path(data_folder()) / "schemas" / schema_file));
   EXPECT_EQ(schema["$defs"].size(), all.size());
@@ -100,6 +165,7 @@ void expect_same_keys(const char* schema_file, const std::vector<const JsonObjec
 TEST(Case, SchemasHaveTheKeysOfTheReaders) {
   expect_same_keys("case.schema.json", case_keys::all);
   expect_same_keys("tree.schema.json", tree_keys::all);
+  expect_same_keys("anatomy.schema.json", anatomy_keys::all);
 }
 
 SphereTree fork() {

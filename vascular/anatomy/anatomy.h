@@ -33,6 +33,8 @@ struct Landmarks {
 struct Anatomy {
   std::vector<Tube> tubes;  ///< parents before children; the first is the aorta
   bool aorta = true;        ///< false: there is none (someone's coronary arteries alone), each tree has its own root
+  /// The first tube moves as the root does up to 20 mm along it, and less and less from there to here.
+  double ascending_m = 75e-3;
   std::vector<NamedBranch> branches;
   Landmarks landmarks;
 };

@@ -10,8 +10,8 @@ namespace ostium {
 
 namespace {
 
-constexpr double junction_m = 5e-3;  // a branch's own motion begins within so much of its parent's wall
-constexpr double root_end_m = 20e-3, ascending_end_m = 75e-3;  // arc lengths along the aorta: moves whole, is still
+constexpr double junction_m = 5e-3;   // a branch's own motion begins within so much of its parent's wall
+constexpr double root_end_m = 20e-3;  // of the aorta, which moves as a whole so far
 
 /// The rotation nearest to `F` (Higham's iteration; F is near one).
 Eigen::Matrix3d rotation_in(Eigen::Matrix3d F) {
@@ -49,7 +49,7 @@ struct TubeMotion::Tissue {
 
 TubeMotion::Tissue TubeMotion::tissue(int tube, const TubeNode& node, const HeartMotion& motion) const {
   if (is_aorta(anatomy_, tube))
-    return {(1 - smooth_step(root_end_m, ascending_end_m, node.s_m)) * motion.root_displacement(),
+    return {(1 - smooth_step(root_end_m, anatomy_.ascending_m, node.s_m)) * motion.root_displacement(),
             Eigen::Matrix3d::Zero()};
   constexpr double h = 0.5e-3;
   Tissue result{motion.displacement(node.p), {}};
@@ -137,7 +137,7 @@ Eigen::Vector3d TubeMotion::carried(const Eigen::Vector3d& p, const std::vector<
 
 double TubeMotion::breath_share(int tube, double s_m) const {
   if (!moves_[tube]) return 0;
-  return is_aorta(anatomy_, tube) ? 1 - smooth_step(root_end_m, ascending_end_m, s_m) : 1;
+  return is_aorta(anatomy_, tube) ? 1 - smooth_step(root_end_m, anatomy_.ascending_m, s_m) : 1;
 }
 
 Eigen::Vector3d MovingLumen::healthy(std::size_t vertex, double phase, double depth) const {

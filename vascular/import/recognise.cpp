@@ -25,6 +25,7 @@ constexpr double root_m = 75e-3;              // it leaves the aorta so near to 
 constexpr double vessel_shape = 6;            // a vessel is longer than so many of its widths
 constexpr double most_turned = 40 * degree;   // the file's axes are kept if the anatomy is turned by less
 constexpr double step_m = 5e-3;
+constexpr double branch_blend = 1.6;  // in radii: over so much a branch takes over from its parent in the beat
 
 struct Part {
   Mesh mesh;
@@ -155,13 +156,18 @@ class Recogniser {
     double longest = 0;
     for (const Course& course : part.courses) longest = std::max(longest, course.length_m());
     std::size_t chosen = 0;
+    std::vector<std::pair<double, Similarity>> compared;
     best = 1e9;
-    for (std::size_t c = 0; c < part.courses.size(); ++c) {
+    for (const Course& course : part.courses) {
       Similarity fit;
-      if (part.courses[c].length_m() < 0.6 * longest) continue;
-      if (const double unlike = unlike_aorta(part.courses[c], fit); unlike < best)
-        best = unlike, chosen = c, aorta_fit_ = fit;
+      compared.emplace_back(unlike_aorta(course, fit) + (course.length_m() < 0.6 * longest ? 1 : 0), fit);
+      best = std::min(best, compared.back().first);
     }
+    // Ways into side branches are like it too, as far as they go.
+    farthest = 0;
+    for (std::size_t c = 0; c < compared.size(); ++c)
+      if (const double length = part.courses[c].length_m(); compared[c].first < best + 4 * mm && length > farthest)
+        farthest = length, chosen = c, aorta_fit_ = compared[c].second;
     part.roles.push_back({part.courses[chosen].spheres.back().p, "aorta"});
     aorta_ = part.courses[chosen];
     result_.aorta_rms_m = aorta_fit_.rms_m;
@@ -457,7 +463,7 @@ class Recogniser {
           continue;
         }
         tube.parent = parent;
-        tube.blend = 0.8;
+        tube.blend = branch_blend;
         tube_of.push_back(static_cast<int>(anatomy.tubes.size()));
         ends.push_back(branch.spheres.back().p);
         leaves_.push_back(leaves_m);
@@ -497,6 +503,8 @@ class Recogniser {
       if (std::fabs(s - top) < 60 * mm && tubes[t].nodes.back().p.y() > aorta.at(s).p.y()) leaving.push_back({s, t});
     }
     std::sort(leaving.begin(), leaving.end());
+    // What leaves the arch is held by the neck.
+    result_.anatomy.ascending_m = std::clamp(0.8 * (leaving.empty() ? top : leaving.front().first), 30 * mm, 75 * mm);
     const std::vector<const char*> names =
         leaving.size() == 3   ? std::vector<const char*>{"brachiocephalic", "left carotid", "left subclavian"}
         : leaving.size() == 2 ? std::vector<const char*>{"brachiocephalic", "left subclavian"}
