@@ -27,16 +27,18 @@ for file in "${files[@]}"; do
   rc=0
   "$ostium" check --json "$meshes/$file" >"$work/check.json" || rc=$?
   ((rc <= 1)) && grep -q '"unit": "mm"' "$work/check.json" || { echo "$file: not checked"; exit 1; }
-  start=$SECONDS
-  "$ostium" import --json "$meshes/$file" -o "$work/case" >"$work/import.json"
-  taken=$((SECONDS - start))
+  # Processor time: others may be on the machine.
+  TIMEFORMAT=%U
+  { time "$ostium" import --json "$meshes/$file" -o "$work/case" >"$work/import.json" 2>"$work/progress" || touch "$work/failed"; } 2>"$work/time"
+  [[ ! -e $work/failed ]] || { echo "$file: not imported"; cat "$work/progress"; exit 1; }
+  taken=$(<"$work/time")
   IFS='|' read -ra words <<<"${expected[$file]}|\"sound\": true,"
   for word in "${words[@]}"; do
     grep -qF -- "$word" "$work/import.json" || { echo "$file: the import lacks $word"; cat "$work/import.json"; exit 1; }
   done
   "$ostium" cases "$work/case" >"$work/case.txt"
   "$ostium" check "$work/case/lumen.ply" >"$work/lumen.txt" || { echo "$file: the lumen is not sound"; cat "$work/lumen.txt"; exit 1; }
-  ((taken < 60)) || { echo "$file: took $taken s; 60 are allowed"; exit 1; }
+  ((${taken%.*} < 60)) || { echo "$file: took $taken s; 60 are allowed"; exit 1; }
   echo "$file: $taken s"
   rm -rf "$work/case"
 done

@@ -127,8 +127,12 @@ TEST(Case, AnImportedOneIsACaseLikeAnyOther) {
   // The lesion that was put in: 70 % in its middle, nothing away from it.
   for (const TreeSphere& sphere : patient.tree.branches[0].spheres) {
     const double healthy = c.imported->anatomy.tubes[0].at(sphere.p.x()).radius_m;
-    if (std::fabs(sphere.p.x() - 0.0245) < 1e-3) EXPECT_NEAR(sphere.radius_m / healthy, 0.3, 0.03);
-    if (sphere.p.x() > 0.035 && sphere.p.x() < 0.055) EXPECT_NEAR(sphere.radius_m / healthy, 1, 0.05);
+    if (std::fabs(sphere.p.x() - 0.0245) < 1e-3) {
+      EXPECT_NEAR(sphere.radius_m / healthy, 0.3, 0.03);
+    }
+    if (sphere.p.x() > 0.035 && sphere.p.x() < 0.055) {
+      EXPECT_NEAR(sphere.radius_m / healthy, 1, 0.05);
+    }
   }
 }
 
