@@ -8,6 +8,7 @@
 #include "app/explain_command.h"
 #include "app/frame_command.h"
 #include "app/import_command.h"
+#include "app/inject_command.h"
 #include "app/instruments_command.h"
 #include "app/predict_command.h"
 #include "app/verify_command.h"
@@ -136,6 +137,40 @@ int main(int argc, char** argv) {
       "  ostium frame --lao -30 --cran -20 --cine --pixels 1024 --fill left --overlay -o cine.png\n"
       "  ostium frame --view lao --fill right --guide right --frames 15 -o run.dcm");
 
+  ostium::InjectOptions inject;
+  CLI::App* inject_app = app.add_subcommand("inject", "Contrast into a case's arteries, filmed; frame counts, balance");
+  inject_app->add_option("case", inject.of, "See `ostium cases`")->type_name("CASE")->capture_default_str();
+  inject_app->add_option("--at", inject.at, "Where the catheter's tip is")
+      ->check(CLI::IsMember({"left", "right", "left-sinus", "right-sinus", "aorta"}))
+      ->capture_default_str();
+  inject_app->add_option("--rate", inject.rate_mL_s, "mL/s; as injected by hand if not given: 2.1 left, 1.7 right")
+      ->check(CLI::Range(0.0, 30.0));
+  inject_app->add_option("--volume", inject.volume_mL, "mL; 7.1 left, 4.8 right")->check(CLI::Range(0.0, 100.0));
+  inject_app->add_option("--iodine", inject.iodine_mg_mL, "mg/mL in the syringe")
+      ->check(CLI::Range(0.0, 400.0))
+      ->capture_default_str();
+  inject_app->add_option("--phase", inject.phase, "Of the heart as it begins; 0 is the R wave")
+      ->check(CLI::Range(0.0, 1.0))
+      ->capture_default_str();
+  inject_app->add_option("--seconds", inject.seconds, "Length of the run")
+      ->check(CLI::Range(0.2, 60.0))
+      ->capture_default_str();
+  inject_app->add_option("--rate-fps", inject.frames_per_s, "Frames a second: 3.75, 7.5, 15, 30")
+      ->capture_default_str();
+  inject_app->add_option("--view", inject.view, "Standard view, see `ostium views`; else the artery's usual one");
+  inject_app->add_option("--pixels", inject.pixels, "Along a side")
+      ->check(CLI::IsMember({256, 512, 768, 1024}))
+      ->capture_default_str();
+  inject_app->add_flag("--healthy", inject.healthy, "The same person without lesions");
+  inject_app->add_flag("--count", inject.count, "TIMI frame counts too (30 frames/s, a run for each artery)");
+  inject_app->add_option("--seed", inject.seed, "Of noise and chance")->capture_default_str();
+  inject_app->add_flag("--json", inject.json, "Machine-readable");
+  inject_app->add_option("-o,--out", inject.out, "FILE.mp4, or FILE.png: six moments")->capture_default_str();
+  inject_app->footer(
+      "Examples:\n  ostium inject rca-mid-focal --rate 3 --volume 6 -o run.mp4\n"
+      "  ostium inject lad-proximal-eccentric --at left --view spider -o spider.png\n"
+      "  ostium inject rca-mid-focal --healthy --count --json");
+
   bool views_json = false;
   CLI::App* views_app = app.add_subcommand("views", "The standard views of coronary angiography");
   views_app->add_flag("--json", views_json, "Machine-readable, see data/schemas/views.schema.json");
@@ -195,6 +230,7 @@ int main(int argc, char** argv) {
     if (*check_app) return ostium::check_command(check);
     if (*views_app) return ostium::views_command(views_json);
     if (*frame_app) return ostium::frame_command(frame);
+    if (*inject_app) return ostium::inject_command(inject);
     if (*explain_app) return ostium::explain_command(explain);
     if (*predict_app) return ostium::predict_command(predict);
     if (*instruments_app) return ostium::instruments_command(instruments);

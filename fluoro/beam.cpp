@@ -57,7 +57,7 @@ double Beam::photons_absorbed() const {
   return sum;
 }
 
-Beam make_beam(const Tube& tube, const Detector& detector, double hardening_m) {
+Beam make_beam(const XrayTube& tube, const Detector& detector, double hardening_m) {
   const Spectrum s = spectrum(tube);
   Eigen::ArrayXd soft(s.photons.size()), arriving_keV(s.photons.size());
   Beam beam;

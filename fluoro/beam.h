@@ -37,6 +37,6 @@ struct Beam {
 /// Share of the photons of that energy that the detector absorbs.
 double absorbed_share(const Detector& detector, double energy_keV);
 
-Beam make_beam(const Tube& tube, const Detector& detector, double hardening_m = 0.2);
+Beam make_beam(const XrayTube& tube, const Detector& detector, double hardening_m = 0.2);
 
 }  // namespace ostium

@@ -83,7 +83,7 @@ void check(const Collimator& c) {
           "collimator: each shutter stands between 0 (closed) and 0.5 (the picture's edge) from the middle");
 }
 
-const Beam& Beams::operator()(const Tube& tube) {
+const Beam& Beams::operator()(const XrayTube& tube) {
   for (const auto& [made, beam] : made_)
     if (made == tube) return beam;
   return made_.emplace_back(tube, make_beam(tube, detector_)).second;

@@ -33,7 +33,7 @@ void check(const Collimator& collimator);
 
 /// What the tube was set to for a frame.
 struct Exposure {
-  Tube tube;
+  XrayTube tube;
   double photons_per_m2 = 0;     ///< that would arrive at the detector with nothing in between
   double patient_m = 0;          ///< thickness of soft tissue that attenuates as much as the measuring field
   double detector_dose_nGy = 0;  ///< expected
@@ -45,18 +45,18 @@ struct Exposure {
 class Beams {
  public:
   explicit Beams(const Detector& detector) : detector_(detector) {}
-  const Beam& operator()(const Tube& tube);
+  const Beam& operator()(const XrayTube& tube);
 
  private:
   Detector detector_;
-  std::vector<std::pair<Tube, Beam>> made_;
+  std::vector<std::pair<XrayTube, Beam>> made_;
 };
 
 /// What automatic brightness measures with: path lengths on a few rays, made without drawing a picture.
 inline constexpr int coarse_pixels = 32;
 
-/// Tube settings that bring the programme's dose to the detector: the geometric mean over the middle of the picture of
-/// primary and scattered kerma. The tube voltage rises with thickness. `coarse`: path lengths on coarse_pixels^2.
+/// XrayTube settings that bring the programme's dose to the detector: the geometric mean over the middle of the picture
+/// of primary and scattered kerma. The tube voltage rises with thickness. `coarse`: path lengths on coarse_pixels^2.
 Exposure automatic_exposure(const Programme& programme, const View& view, const Collimator& collimator,
                             const PathLengths& coarse, const ScatterKernel& kernel, double grid_transmission,
                             Beams& beams);

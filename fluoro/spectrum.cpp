@@ -21,7 +21,7 @@ double kerma_through_aluminium(const Spectrum& s, double aluminium_m) {
 
 }  // namespace
 
-Spectrum spectrum(const Tube& tube) {
+Spectrum spectrum(const XrayTube& tube) {
   constexpr int lowest_keV = 15;  // nothing below it comes through the filters
   const int bins = static_cast<int>(std::ceil(tube.peak_kV)) - lowest_keV;
   Spectrum s{Eigen::ArrayXd(bins), Eigen::ArrayXd(bins)};

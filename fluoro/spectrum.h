@@ -4,11 +4,11 @@
 
 namespace ostium {
 
-struct Tube {
+struct XrayTube {
   double peak_kV = 75;      ///< [50, 125]
   double aluminium_mm = 3;  ///< inherent and total filtration that is always there
   double copper_mm = 0.2;   ///< added: [0, 0.9]
-  bool operator==(const Tube&) const = default;
+  bool operator==(const XrayTube&) const = default;
 };
 
 /// Photons in bins of 1 keV.
@@ -19,7 +19,7 @@ struct Spectrum {
 
 /// Kramers' bremsstrahlung, N(E) dE ~ (kV / E - 1) dE, seen through 10 um of the anode's tungsten (self-absorption) and
 /// the filters. Characteristic lines (above 69.5 kV, a few per cent of photons at 80 kV) are left out.
-Spectrum spectrum(const Tube& tube);
+Spectrum spectrum(const XrayTube& tube);
 
 /// Air kerma of one photon per m2, Gy m2.
 double air_kerma_Gy_m2(double energy_keV);

@@ -10,7 +10,7 @@
 namespace ostium::verify {
 
 struct SlabExperiment {
-  Tube tube{80, 3, 0.2};
+  XrayTube tube{80, 3, 0.2};
   Detector detector;
   double slab_m = 0.2;  ///< centred on the isocentre
   double source_to_isocentre_m = 0.765;

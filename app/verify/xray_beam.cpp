@@ -49,7 +49,7 @@ std::vector<GateResult> xray_spectrum(bool) {
 std::vector<GateResult> xray_wedge(bool) {
   const Detector detector;
   std::vector<GateResult> out;
-  for (const Tube& tube : {Tube{70, 3, 0.1}, Tube{80, 3, 0.4}, Tube{110, 3, 0.4}}) {
+  for (const XrayTube& tube : {XrayTube{70, 3, 0.1}, XrayTube{80, 3, 0.4}, XrayTube{110, 3, 0.4}}) {
     const Beam beam = make_beam(tube, detector);
     double worst = 0;
     for (double soft_m = 0.10; soft_m < 0.351; soft_m += 0.025)

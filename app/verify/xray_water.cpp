@@ -4,7 +4,7 @@
 
 namespace ostium::verify {
 
-Absorbed absorbed_by_keV(const Tube& tube, const Detector& detector, double soft_m, double bone_m,
+Absorbed absorbed_by_keV(const XrayTube& tube, const Detector& detector, double soft_m, double bone_m,
                          double iodine_kg_m2) {
   const Spectrum s = spectrum(tube);
   Absorbed out;

@@ -18,6 +18,7 @@ inline Scene slab(double thickness_m, Tissue tissue) {
 struct Absorbed {
   double keV = 0, keV2 = 0;
 };
-Absorbed absorbed_by_keV(const Tube& tube, const Detector& detector, double soft_m, double bone_m, double iodine_kg_m2);
+Absorbed absorbed_by_keV(const XrayTube& tube, const Detector& detector, double soft_m, double bone_m,
+                         double iodine_kg_m2);
 
 }  // namespace ostium::verify

@@ -43,7 +43,7 @@ TEST(Material, TwoBasisMaterialsMakeEveryTissue) {
 }
 
 TEST(Beam, TheDetectorSeesTheWholeSpectrum) {
-  const Tube tube{80, 3, 0.2};
+  const XrayTube tube{80, 3, 0.2};
   const Beam beam = make_beam(tube, {});
   const Spectrum s = spectrum(tube);
   double keV = 0, kerma = 0;

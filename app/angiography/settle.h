@@ -1,0 +1,20 @@
+#pragma once
+#include "vascular/physiology.h"
+
+namespace ostium {
+
+/// A circulation that has beaten until pressure and flow repeat, at phase 0.
+inline PhysiologyState at_rest(const PhysiologyModel& model, double rate_1_min, double seconds = 20) {
+  PhysiologyState state = make_state(model);
+  PhysiologyScratch scratch;
+  PhysiologyInputs inputs;
+  inputs.heart.rate_1_min = rate_1_min;
+  double before = 0;
+  for (int n = 0; n < 1000 * seconds || before < state.heart.phase; ++n) {
+    before = state.heart.phase;
+    step(model, inputs, 1e-3, state, scratch);
+  }
+  return state;
+}
+
+}  // namespace ostium

@@ -1,0 +1,113 @@
+#pragma once
+/// Contrast from the syringe to the muscle: line and catheter, sinus and aorta, the coronary tree.
+///
+/// In the arteries blood runs in `layers` concentric sheaths that carry equal flow, the inner ones faster, as
+/// Poiseuille's profile has it: between the shares q of the flow lie x = 1 - sqrt(1 - q) of the section. So a front is
+/// stretched as laminar flow stretches it; at bifurcations, and slowly elsewhere, the sheaths mix. What leaks into the
+/// muscle is gone.
+#include <array>
+#include <span>
+
+#include "vascular/contrast/advection.h"
+#include "vascular/flow/flow.h"
+
+namespace ostium {
+
+inline constexpr int layers = 4;
+inline constexpr int line_cells = 64;
+
+/// What contrast runs through from the syringe to the tip. Full of saline or blood at first.
+struct Line {
+  double dead_m3 = 2.5e-6;          ///< of manifold line and catheter (6F: 2.5 mL)
+  double bore_m = 0.9e-3;           ///< radius of the catheter's lumen
+  double length_m = 1.0;            ///< of it
+  double hand_Pa = 4e5;             ///< most that a thumb presses with [estimate]
+  double viscosity_Pa_s = 10.4e-3;  ///< of iohexol 350 at 37 C (label)
+};
+
+struct ContrastModel {
+  double mixing_s = 2.0;             ///< sheaths mix by bends and beat [estimate]
+  double dispersion_m2_s = 2e-5;     ///< along a vessel, by the beat: what creeps into a dead end [estimate]
+  double sinus_m3 = 3e-6;            ///< each sinus
+  double sinus_flow_m3_s = 6e-6;     ///< exchanged with the root always, and
+  double sinus_share = 0.12;         ///< this share of the ejected flow
+  std::array<double, layers> share;  ///< of the section that a sheath has; filled by make_contrast_model
+  std::vector<double> aorta_length_m, aorta_radius_m;  ///< of its cells, from the root on
+  std::array<int, 2> ostium_cell{};                    ///< of the aorta, at the left and right ostium
+  std::array<int, 2> coronary_branch{};                ///< of the flow tree: LM and RCA; -1: none
+  std::vector<double> mixes;                           ///< (#cells) 1 where side branches leave, else 0
+};
+ContrastModel make_contrast_model(const FlowModel& flow, const Patient& patient);
+/// Without an aorta, for tests.
+ContrastModel make_contrast_model(const FlowModel& flow);
+
+/// Where the catheter's end hole is.
+struct TipPlace {
+  enum Where { outside, aorta, left_sinus, right_sinus, coronary } where = outside;
+  int cell = 0;            ///< of the aorta, or of the flow tree
+  double into_ostium = 0;  ///< [0, 1]: in a sinus, the share of the jet that meets the ostium
+};
+
+struct ContrastInputs {
+  double injection_m3_s = 0;   ///< what the thumb asks for; below zero it is refused
+  double iodine_kg_m3 = 350;   ///< of what is in the syringe; 0: saline
+  double aspiration_m3_s = 0;  ///< drawn back
+  double shaft_m = 0;          ///< radius of what lies in the catheter
+  Line line;
+  TipPlace tip;
+};
+
+struct ContrastState {
+  std::vector<double> line_kg;       ///< (line_cells) from the syringe to the tip
+  std::vector<double> sheath_kg;     ///< (#layers x #cells) iodine, sheath by sheath
+  std::vector<double> aorta_kg;      ///< (#aorta cells)
+  std::array<double, 2> sinus_kg{};  ///< left, right
+  double injected_kg = 0;            ///< out of the syringe, and
+  double injected_m3 = 0;            ///< with it
+  double from_tip_kg = 0;            ///< out of the catheter
+  double aspirated_kg = 0;
+  double muscle_kg = 0;   ///< washed out through the muscle
+  double carried_kg = 0;  ///< gone down the aorta, or wherever a tip outside of the heart let it go
+  double outside_kg = 0;  ///< out of the vessel, through an injury
+};
+ContrastState make_contrast_state(const ContrastModel& model, const FlowModel& flow);
+
+struct ContrastReport {
+  double rate_m3_s = 0;  ///< that came through line and catheter
+  double selective = 0;  ///< share of it that went into the coronary
+  bool refused = false;  ///< a rate below zero, or not a number, was taken as zero
+};
+
+struct ContrastScratch {
+  std::vector<double> cell_m3, volume, passing, mass, inlet, entering, through;
+  CarryScratch carry;
+};
+
+/// One step of up to 10 ms, with the flow of that step. `leaving_m3_s` (#cells, or empty) is drawn out of cells through
+/// injuries.
+ContrastReport step(const ContrastModel& model, const FlowModel& flow, const FlowState& blood, const FlowInputs& lumen,
+                    double ejection_m3_s, const ContrastInputs& inputs, double dt_s, ContrastState& state,
+                    ContrastScratch& scratch);
+
+/// Mean over the section of a coronary cell, kg/m3; `area_m2` is what is left for blood.
+double concentration(const ContrastState& state, const FlowModel& flow, int cell, double area_m2);
+double aorta_concentration(const ContrastModel& model, const ContrastState& state, int cell);
+/// All iodine: in the line, the vessels and wherever it went; equals injected_kg.
+double accounted_kg(const ContrastState& state);
+
+template <class S, class Visit>
+void for_each_contrast_field(S& s, Visit&& visit) {
+  visit("contrast.line_kg", s.line_kg.data(), static_cast<int>(s.line_kg.size()));
+  visit("contrast.sheath_kg", s.sheath_kg.data(), static_cast<int>(s.sheath_kg.size()));
+  visit("contrast.aorta_kg", s.aorta_kg.data(), static_cast<int>(s.aorta_kg.size()));
+  visit("contrast.sinus_kg", s.sinus_kg.data(), 2);
+  visit("contrast.injected_kg", &s.injected_kg, 1);
+  visit("contrast.injected_m3", &s.injected_m3, 1);
+  visit("contrast.from_tip_kg", &s.from_tip_kg, 1);
+  visit("contrast.aspirated_kg", &s.aspirated_kg, 1);
+  visit("contrast.muscle_kg", &s.muscle_kg, 1);
+  visit("contrast.carried_kg", &s.carried_kg, 1);
+  visit("contrast.outside_kg", &s.outside_kg, 1);
+}
+
+}  // namespace ostium

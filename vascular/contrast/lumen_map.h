@@ -1,0 +1,35 @@
+#pragma once
+/// What each vertex of the lumen's surface belongs to: where its contrast, its radius and its centre come from.
+#include <Eigen/Core>
+#include <span>
+#include <vector>
+
+#include "vascular/contrast/contrast.h"
+
+namespace ostium {
+
+/// Between two neighbouring cells, of the coronaries or of the aorta; or a sinus.
+struct VertexSource {
+  enum Part : unsigned char { none, coronary, aorta, left_sinus, right_sinus } part = none;
+  int below = 0, above = 0;  ///< cells
+  float share = 0;           ///< of `above`
+};
+
+struct LumenMap {
+  std::vector<VertexSource> sources;  ///< (#vertices of MovingLumen)
+  PeriodicPoints coronary, aorta;     ///< centres of the cells
+};
+LumenMap make_lumen_map(const Patient& patient, const FlowModel& flow);
+
+struct OpacityScratch {
+  std::vector<float> coronary, aorta;
+  Eigen::Matrix3Xf coronary_p, aorta_p;
+};
+
+/// Iodine at each vertex, kg/m3, and the point of the centreline that it belongs to, metres, at a phase.
+/// `iodine`, `centres`: (#vertices). `radius_m`, `occupied_m`: of FlowInputs.
+void opacify(const LumenMap& map, const FlowModel& flow, const FlowInputs& lumen, const ContrastModel& model,
+             const ContrastState& state, double phase, std::span<float> iodine_kg_m3,
+             Eigen::Ref<Eigen::Matrix3Xf> centres, OpacityScratch& scratch);
+
+}  // namespace ostium

@@ -1,0 +1,139 @@
+#include "vascular/flow/flow_tree.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+namespace ostium {
+
+namespace {
+
+constexpr double spacing_m = 0.7e-3;  // of cells away from lesions
+
+/// Where side branches leave, sorted by cell.
+void list_sides(FlowTree& tree) {
+  tree.side_first.assign(tree.cells.size() + 1, 0);
+  for (const FlowBranch& b : tree.branches)
+    if (b.parent_cell >= 0 && tree.cells[b.parent_cell].branch == b.parent) ++tree.side_first[b.parent_cell + 1];
+  for (std::size_t i = 1; i < tree.side_first.size(); ++i) tree.side_first[i] += tree.side_first[i - 1];
+  tree.sides.assign(tree.side_first.back(), -1);
+  std::vector<int> next(tree.side_first.begin(), tree.side_first.end() - 1);
+  for (std::size_t b = 0; b < tree.branches.size(); ++b)
+    if (tree.branches[b].parent_cell >= 0) tree.sides[next[tree.branches[b].parent_cell]++] = static_cast<int>(b);
+}
+
+Territory territory_of(const std::string& name, const FlowTree& tree, int parent) {
+  if (name == "LM" || name == "LAD") return Territory::lad;
+  if (name == "LCx") return Territory::lcx;
+  if (name == "RCA") return Territory::rca;
+  return parent >= 0 ? tree.branches[parent].territory : Territory::lad;
+}
+
+}  // namespace
+
+int FlowTree::branch(const std::string& name) const {
+  for (std::size_t b = 0; b < branches.size(); ++b)
+    if (branches[b].name == name) return static_cast<int>(b);
+  return -1;
+}
+
+int FlowTree::cell_at(int branch, double from_branch_m) const {
+  const FlowBranch& b = branches[branch];
+  int cell = b.first;
+  while (cell + 1 < b.last && cells[cell + 1].s_m - cells[cell + 1].length_m / 2 <= from_branch_m) ++cell;
+  return cell;
+}
+
+std::vector<int> FlowTree::path_to(int cell) const {
+  std::vector<int> path;
+  for (int c = cell; c >= 0; c = cells[c].upstream) path.push_back(c);
+  std::reverse(path.begin(), path.end());
+  return path;
+}
+
+bool FlowTree::is_downstream(int cell, int upper) const {
+  while (cell > upper) cell = cells[cell].upstream;
+  return cell == upper;
+}
+
+FlowTree flow_tree_of(const Patient& patient) {
+  const Anatomy& anatomy = patient.anatomy;
+  const SphereTree& spheres = patient.tree;
+  FlowTree tree;
+  std::vector<int> flow_branch(spheres.branches.size(), -1);
+  std::vector<std::vector<int>> cell_of(spheres.branches.size());
+  for (std::size_t t = 0; t < spheres.branches.size(); ++t) {
+    const TreeBranch& from = spheres.branches[t];
+    const NamedBranch& named = anatomy.branches[t];
+    const bool root = from.name == "LM" || from.name == "RCA";
+    if (!root && (from.parent < 0 || flow_branch[from.parent] < 0)) continue;
+    FlowBranch b{.name = from.name,
+                 .first = static_cast<int>(tree.cells.size()),
+                 .tree_branch = static_cast<int>(t),
+                 .tube = named.tube};
+    // The trunk's second half begins where the first ends; others where they leave their parent's lumen.
+    const bool goes_on = !root && anatomy.branches[t - 1].tube == named.tube;
+    if (!root) b.parent = flow_branch[from.parent];
+    const double begins = goes_on ? 0 : named.from_m;
+    std::vector<int>& own = cell_of[t];
+    own.assign(from.spheres.size(), -1);
+    const double along = goes_on ? named.from_m : 0;
+    for (std::size_t i = 0; i < from.spheres.size(); ++i) {
+      const TreeSphere& sphere = from.spheres[i];
+      const bool first = tree.cells.size() == static_cast<std::size_t>(b.first), last = i + 1 == from.spheres.size();
+      if (sphere.s_m < begins && i + 2 < from.spheres.size()) continue;
+      const double scale = narrowing_at(anatomy, patient.lesions, named.tube, along + sphere.s_m).scale;
+      if (!first && !last && scale == 1 && sphere.s_m - begins - tree.cells.back().s_m < spacing_m) continue;
+      FlowCell cell{.branch = static_cast<int>(tree.branches.size()), .sphere = static_cast<int>(i)};
+      cell.s_m = sphere.s_m - begins;
+      cell.diseased_m = sphere.radius_m, cell.healthy_m = sphere.radius_m / scale;
+      if (!first)
+        cell.upstream = static_cast<int>(tree.cells.size()) - 1;
+      else if (!root)
+        cell.upstream = cell_of[from.parent][from.parent_sphere];
+      tree.cells.push_back(cell);
+      own[i] = static_cast<int>(tree.cells.size()) - 1;
+    }
+    // Spheres between cells, and those inside the parent's lumen, belong to the cell nearest behind them.
+    for (int i = static_cast<int>(own.size()) - 2; i >= 0; --i)
+      if (own[i] < 0) own[i] = own[i + 1];
+    b.last = static_cast<int>(tree.cells.size());
+    for (int c = b.first; c < b.last; ++c) {
+      // From half-way to its neighbours.
+      const double below = c > b.first ? tree.cells[c].s_m - tree.cells[c - 1].s_m : 0;
+      const double above = c + 1 < b.last ? tree.cells[c + 1].s_m - tree.cells[c].s_m : 0;
+      tree.cells[c].length_m = (below + above) / 2;
+    }
+    b.parent_cell = tree.cells[b.first].upstream;
+    b.from_m = along + from.spheres[tree.cells[b.first].sphere].s_m;
+    b.territory = territory_of(b.name, tree, b.parent);
+    flow_branch[t] = static_cast<int>(tree.branches.size());
+    tree.branches.push_back(b);
+  }
+  list_sides(tree);
+  return tree;
+}
+
+FlowTree plain_tree(const std::vector<PlainBranch>& branches) {
+  FlowTree tree;
+  for (const PlainBranch& plain : branches) {
+    FlowBranch b{.name = "branch " + std::to_string(tree.branches.size()),
+                 .first = static_cast<int>(tree.cells.size()),
+                 .parent = plain.parent,
+                 .territory = plain.territory};
+    b.parent_cell = plain.parent < 0 ? -1 : tree.branches[plain.parent].last - 1;
+    for (int i = 0; i < plain.cells; ++i)
+      tree.cells.push_back({.branch = static_cast<int>(tree.branches.size()),
+                            .upstream = i ? b.first + i - 1 : b.parent_cell,
+                            .length_m = plain.length_m,
+                            .s_m = (i + 0.5) * plain.length_m,
+                            .healthy_m = plain.radius_m,
+                            .diseased_m = plain.radius_m});
+    b.last = static_cast<int>(tree.cells.size());
+    tree.branches.push_back(b);
+  }
+  list_sides(tree);
+  return tree;
+}
+
+}  // namespace ostium

@@ -1,0 +1,100 @@
+#include "vascular/heart/ecg.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "vascular/beat/heart_cycle.h"
+#include "vascular/random.h"
+
+namespace ostium {
+
+namespace {
+
+/// A wave: amplitude in each lead (mV), where its middle is, how wide (s). [Usual sizes, from memory.]
+struct Wave {
+  std::array<double, leads> mV;
+  double width_s;
+};
+//                       II     III    aVF    aVL    V2     V5
+constexpr Wave P = {{0.12, 0.07, 0.09, 0.04, 0.06, 0.08}, 0.025};
+constexpr Wave Q = {{-0.08, -0.05, -0.06, -0.04, 0.15, -0.10}, 0.009};
+constexpr Wave R = {{1.00, 0.45, 0.72, 0.40, 0.30, 1.35}, 0.011};
+constexpr Wave S = {{-0.18, -0.12, -0.15, -0.08, -1.10, -0.25}, 0.011};
+constexpr Wave T = {{0.28, 0.14, 0.21, 0.10, 0.45, 0.32}, 0.045};
+constexpr double PR_s = 0.16, Q_s = -0.024, S_s = 0.026, J_s = 0.05;
+
+/// ST shift of each lead by territory, of the worst one's. [Textbook: anterior, lateral, inferior; reciprocal in aVL.]
+constexpr double ST[territories][leads] = {
+    {0.0, -0.25, -0.15, 0.35, 1.0, 0.55}, {0.25, 0.15, 0.2, 0.4, -0.6, 1.0}, {0.85, 1.0, 0.95, -0.6, -0.3, 0.1}};
+
+double bump(double t, double width) { return std::exp(-0.5 * t * t / (width * width)); }
+
+double smooth(double a, double b, double t) {
+  const double x = std::clamp((t - a) / (b - a), 0.0, 1.0);
+  return x * x * (3 - 2 * x);
+}
+
+}  // namespace
+
+IschaemiaModel ischaemia_of(std::uint64_t seed) {
+  IschaemiaModel model;
+  if (seed == 0) return model;
+  for (int i = 0; i < territories; ++i) {
+    const double u = uniform(seed, 21, static_cast<std::uint64_t>(i));
+    model.ST_mV[static_cast<std::size_t>(i)] = u < 1.0 / 3 ? 0.09 * 3 * u : 0.15 + 0.3 * (u - 1.0 / 3);
+  }
+  model.time_s *= 0.6 + 0.8 * uniform(seed, 22, 0);
+  return model;
+}
+
+void step(const IschaemiaModel& model, const std::array<double, territories>& supply, double dt_s, IschaemiaState& s) {
+  const double share = -std::expm1(-dt_s / model.time_s);
+  for (std::size_t i = 0; i < territories; ++i) {
+    // Muscle at rest bears the loss of a third of its flow.
+    const double want = std::clamp((0.67 - supply[i]) / 0.67, 0.0, 1.0);
+    s.early[i] += share * (want - s.early[i]);
+    s.late[i] += share * (s.early[i] - s.late[i]);
+  }
+}
+
+std::array<double, leads> ecg(const HeartState& heart, double rate_1_min, const IschaemiaModel& model,
+                              const IschaemiaState& ischaemia) {
+  const double t = heart.since_R_s;
+  // Towards the next R wave.
+  const double left = (heart.next_ectopic > 0 ? 0.33 : 1) * (time_at(1, rate_1_min) - time_at(heart.phase, rate_1_min));
+  const double T_s = 0.86 * time_at(end_systole, rate_1_min) + 0.03;
+  const bool wide = heart.ectopic > 0;
+  const double spread = wide ? 3.2 : 1, coming = heart.next_ectopic > 0 ? 3.2 : 1;
+  std::array<double, leads> out{};
+  for (std::size_t k = 0; k < leads; ++k) {
+    double v = 0;
+    const double sign = wide ? -0.9 : 1;
+    v += Q.mV[k] * (bump(t - Q_s * spread, Q.width_s * spread) + bump(left + Q_s * coming, Q.width_s * coming));
+    v += R.mV[k] * sign * bump(t, R.width_s * spread) +
+         R.mV[k] * (coming > 1 ? -0.9 : 1) * bump(left, R.width_s * coming);
+    v += S.mV[k] * bump(t - S_s * spread, S.width_s * spread);
+    if (heart.next_ectopic == 0) v += P.mV[k] * bump(left - PR_s, P.width_s);
+    double shift = 0, early = 0;
+    for (std::size_t i = 0; i < territories; ++i) {
+      shift += model.ST_mV[i] * ischaemia.late[i] * ST[i][k];
+      early += std::min(1.0, model.ST_mV[i] / 0.25) * ischaemia.early[i] * ST[i][k];
+    }
+    // T peaks first, then ST follows and carries it.
+    v += (T.mV[k] * (wide ? -1.3 : 1) + 0.25 * early) * bump(t - T_s, T.width_s * (t > T_s ? 0.75 : 1.1));
+    v += shift * smooth(J_s - 0.02, J_s, t) * (1 - smooth(T_s, T_s + 0.08, t));
+    out[k] = v;
+  }
+  return out;
+}
+
+double ST_shift_mV(const IschaemiaModel& model, const IschaemiaState& ischaemia) {
+  double largest = 0;
+  for (std::size_t k = 0; k < leads; ++k) {
+    double shift = 0;
+    for (std::size_t i = 0; i < territories; ++i) shift += model.ST_mV[i] * ischaemia.late[i] * ST[i][k];
+    largest = std::max(largest, std::fabs(shift));
+  }
+  return largest;
+}
+
+}  // namespace ostium

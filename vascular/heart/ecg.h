@@ -1,0 +1,49 @@
+#pragma once
+/// The electrocardiogram: waves as Gaussians in time about the R wave (McSharry et al., IEEE Trans Biomed Eng
+/// 2003;50:289), in six leads, with what ischaemia does to them.
+#include <array>
+
+#include "vascular/heart/heart.h"
+
+namespace ostium {
+
+/// Coronary territories.
+enum class Territory { lad, lcx, rca };
+inline constexpr int territories = 3;
+inline constexpr const char* territory_names[territories] = {"LAD", "LCx", "RCA"};
+
+enum class Lead { II, III, aVF, aVL, V2, V5 };
+inline constexpr int leads = 6;
+inline constexpr const char* lead_names[leads] = {"II", "III", "aVF", "aVL", "V2", "V5"};
+
+/// How far a territory's muscle is from having enough: the T wave answers to `early`, ST to `late`. A closed artery
+/// drives early and late through two equal time constants in a row, so that a shift of 0.1 mV shows after 19 s and is
+/// gone 20 s after deflation (Griffin 1987: 19 +- 12 s and 20 +- 9 s, about a third silent).
+struct IschaemiaModel {
+  double time_s = 13.8;  ///< each
+  std::array<double, territories> ST_mV = {0.25, 0.25,
+                                           0.25};  ///< of the worst lead, fully ischaemic; below 0.1: silent
+};
+/// Another person: a third is silent, the others scatter.
+IschaemiaModel ischaemia_of(std::uint64_t seed);
+
+struct IschaemiaState {
+  std::array<double, territories> early{}, late{};  ///< [0, 1]
+};
+/// `supply`: flow over need, of each territory; 1 and above is enough.
+void step(const IschaemiaModel& model, const std::array<double, territories>& supply, double dt_s, IschaemiaState& s);
+
+/// mV.
+std::array<double, leads> ecg(const HeartState& heart, double rate_1_min, const IschaemiaModel& model,
+                              const IschaemiaState& ischaemia);
+
+/// The largest ST shift, either way, mV.
+double ST_shift_mV(const IschaemiaModel& model, const IschaemiaState& ischaemia);
+
+template <class S, class Visit>
+void for_each_ischaemia_field(S& s, Visit&& visit) {
+  visit("ischaemia.early", s.early.data(), territories);
+  visit("ischaemia.late", s.late.data(), territories);
+}
+
+}  // namespace ostium

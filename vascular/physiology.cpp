@@ -1,0 +1,35 @@
+#include "vascular/physiology.h"
+
+namespace ostium {
+
+PhysiologyModel make_physiology(const Patient& patient, std::uint64_t seed) {
+  PhysiologyModel model{
+      .heart = {}, .ischaemia = ischaemia_of(seed), .flow = make_flow_model(flow_tree_of(patient)), .contrast = {}};
+  model.heart.seed = seed;
+  model.contrast = make_contrast_model(model.flow, patient);
+  return model;
+}
+
+PhysiologyState make_state(const PhysiologyModel& model) {
+  PhysiologyState s;
+  s.flow = make_flow_state(model.flow);
+  s.contrast = make_contrast_state(model.contrast, model.flow);
+  for (const FlowCell& cell : model.flow.tree.cells) s.radius_m.push_back(cell.diseased_m);
+  return s;
+}
+
+ContrastReport step(const PhysiologyModel& model, const PhysiologyInputs& in, double dt_s, PhysiologyState& s,
+                    PhysiologyScratch& x) {
+  step(model.heart, in.heart, dt_s, s.heart);
+  s.circulation_s += dt_s;
+  if (s.circulation_s < circulation_step_s * (1 - 1e-9)) return {};
+  const double dt = s.circulation_s;
+  s.circulation_s = 0;
+  const FlowInputs lumen{pressures(model.heart, s.heart), s.radius_m, in.occupied_m, in.hyperaemia};
+  step(model.flow, lumen, dt, s.flow, x.flow);
+  step(model.ischaemia, supply(model.flow, s.flow), dt, s.ischaemia);
+  return step(model.contrast, model.flow, s.flow, lumen, s.heart.ejection_m3_s, in.contrast, dt, s.contrast,
+              x.contrast);
+}
+
+}  // namespace ostium

@@ -1,0 +1,63 @@
+#pragma once
+/// What lives around the instruments: heart, ischaemia, flow, contrast, in one model, one input, one state.
+///
+/// Called every step; the beat advances with each, blood and contrast every `circulation_step_s`.
+#include "vascular/contrast/contrast.h"
+#include "vascular/flow/flow.h"
+#include "vascular/heart/ecg.h"
+#include "vascular/heart/heart.h"
+
+namespace ostium {
+
+inline constexpr double circulation_step_s = 8e-3;
+
+struct PhysiologyModel {
+  HeartModel heart;
+  IschaemiaModel ischaemia;
+  FlowModel flow;
+  ContrastModel contrast;
+};
+/// `seed`: of what happens by chance, and of how the person's ECG answers (0: the mean).
+PhysiologyModel make_physiology(const Patient& patient, std::uint64_t seed = 0);
+
+struct PhysiologyInputs {
+  HeartInputs heart;
+  ContrastInputs contrast;
+  std::vector<double> occupied_m;  ///< (#cells) radius of what lies in each cell; empty: nothing
+  double hyperaemia = 0;           ///< FlowInputs
+};
+
+struct PhysiologyState {
+  HeartState heart;
+  IschaemiaState ischaemia;
+  FlowState flow;
+  ContrastState contrast;
+  std::vector<double> radius_m;  ///< (#cells) of the lumen
+  double circulation_s = 0;      ///< since blood and contrast advanced
+};
+PhysiologyState make_state(const PhysiologyModel& model);
+
+struct PhysiologyScratch {
+  FlowScratch flow;
+  ContrastScratch contrast;
+};
+
+/// Advances by `dt_s`, up to `circulation_step_s`. Deterministic; does not allocate after the first call with the same
+/// scratch. Returns what came of the last injection step.
+ContrastReport step(const PhysiologyModel& model, const PhysiologyInputs& inputs, double dt_s, PhysiologyState& state,
+                    PhysiologyScratch& scratch);
+
+template <class S, class Visit>
+void for_each_field(S& s, Visit&& visit) requires requires {
+  s.circulation_s;
+}
+{
+  for_each_heart_field(s.heart, visit);
+  for_each_ischaemia_field(s.ischaemia, visit);
+  for_each_flow_field(s.flow, visit);
+  for_each_contrast_field(s.contrast, visit);
+  visit("radius_m", s.radius_m.data(), static_cast<int>(s.radius_m.size()));
+  visit("circulation_s", &s.circulation_s, 1);
+}
+
+}  // namespace ostium
