@@ -152,7 +152,7 @@ std::vector<double> Angiogram::darkness_full(const std::vector<int>& cells, doub
   const Eigen::VectorXf iodine = lumen.contrast.iodine_kg_m3;
   for (std::size_t v = 0; v < scene_.map().sources.size(); ++v)
     lumen.contrast.iodine_kg_m3[static_cast<Eigen::Index>(v)] =
-        scene_.map().sources[v].part == VertexSource::coronary ? static_cast<float>(iodine_kg_m3) : 0;
+        scene_.map().sources[v].first.part == VertexSource::coronary ? static_cast<float>(iodine_kg_m3) : 0;
   const std::vector<double> out = darkness(cells, state);
   lumen.contrast.iodine_kg_m3 = iodine;
   return out;

@@ -64,10 +64,28 @@ LumenMap make_lumen_map(const Patient& patient, const FlowModel& flow) {
   };
   LumenMap map;
   for (const auto& shares : patient.lumen.shares) {
-    const TubeShare* most = nullptr;
+    const TubeShare none{}, *first = &none, *second = &none;
     for (const TubeShare& share : shares)
-      if (!most || share.weight > most->weight) most = &share;
-    map.sources.push_back(most ? source(most->tube, most->s_m) : VertexSource{});
+      if (share.weight > first->weight)
+        second = first, first = &share;
+      else if (share.weight > second->weight)
+        second = &share;
+    LumenMap::Vertex& v = map.sources.emplace_back();
+    if (first->weight > 0) v.first = source(first->tube, first->s_m);
+    if (second->weight > 0.02) {
+      v.second = source(second->tube, second->s_m);
+      v.second_share = static_cast<float>(second->weight / (first->weight + second->weight));
+    }
+  }
+  for (const FlowCell& cell : flow.tree.cells) {
+    const FlowBranch& branch = flow.tree.branches[cell.branch];
+    if (branch.parent_cell < 0) {
+      map.parent_centre.emplace_back(0, 0.0F);
+      continue;
+    }
+    const double reach = 1.5 * flow.tree.cells[branch.parent_cell].healthy_m;
+    const double from = cell.s_m - flow.tree.cells[branch.first].s_m;
+    map.parent_centre.emplace_back(branch.parent_cell, static_cast<float>(1 - smooth_step(0, reach, from)));
   }
   map.coronary = centres_of(patient, spheres);
   map.aorta = centres_of(patient, aorta_spheres);
@@ -91,22 +109,34 @@ void opacify(const LumenMap& map, const FlowModel& flow, const FlowInputs& lumen
     aorta[c] = static_cast<float>(aorta_concentration(model, state, static_cast<int>(c)));
     aorta_p.col(static_cast<int>(c)) = map.aorta.position(c, phase).cast<float>();
   }
-  for (std::size_t v = 0; v < map.sources.size(); ++v) {
-    const VertexSource& from = map.sources[v];
-    const int i = static_cast<int>(v);
-    if (from.part == VertexSource::none) {
-      iodine_kg_m3[v] = 0, centres.col(i).setZero();
-      continue;
+  for (std::size_t c = 0; c < n; ++c) {
+    const auto [parent, share] = map.parent_centre[c];
+    if (share > 0) {
+      const Eigen::Vector3f own = coronary_p.col(static_cast<int>(c));
+      coronary_p.col(static_cast<int>(c)) = (1 - share) * own + share * coronary_p.col(parent);
     }
+  }
+  const auto add = [&](const VertexSource& from, float weight, float& sum, Eigen::Vector3f& moment) {
+    if (from.part == VertexSource::none) return;
     const bool is_coronary = from.part == VertexSource::coronary;
     const Eigen::Matrix3Xf& p = is_coronary ? coronary_p : aorta_p;
-    centres.col(i) = (1 - from.share) * p.col(from.below) + from.share * p.col(from.above);
+    const std::vector<float>& c = is_coronary ? coronary : aorta;
+    float iodine = (1 - from.share) * c[from.below] + from.share * c[from.above];
     if (from.part == VertexSource::left_sinus || from.part == VertexSource::right_sinus)
-      iodine_kg_m3[v] = static_cast<float>(state.sinus_kg[from.part == VertexSource::right_sinus] / model.sinus_m3);
-    else {
-      const std::vector<float>& c = is_coronary ? coronary : aorta;
-      iodine_kg_m3[v] = (1 - from.share) * c[from.below] + from.share * c[from.above];
-    }
+      iodine = static_cast<float>(state.sinus_kg[from.part == VertexSource::right_sinus] / model.sinus_m3);
+    // A vertex without iodine needs a centre too: of those, any weight does.
+    const float counts = weight * std::max(iodine, 1e-6F);
+    sum += counts;
+    moment += counts * ((1 - from.share) * p.col(from.below) + from.share * p.col(from.above));
+  };
+  for (std::size_t v = 0; v < map.sources.size(); ++v) {
+    const LumenMap::Vertex& from = map.sources[v];
+    float sum = 0;
+    Eigen::Vector3f moment = Eigen::Vector3f::Zero();
+    add(from.first, 1 - from.second_share, sum, moment);
+    if (from.second_share > 0) add(from.second, from.second_share, sum, moment);
+    iodine_kg_m3[v] = sum;
+    centres.col(static_cast<int>(v)) = sum > 0 ? Eigen::Vector3f(moment / sum) : Eigen::Vector3f::Zero();
   }
 }
 

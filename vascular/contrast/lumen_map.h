@@ -16,8 +16,16 @@ struct VertexSource {
 };
 
 struct LumenMap {
-  std::vector<VertexSource> sources;  ///< (#vertices of MovingLumen)
-  PeriodicPoints coronary, aorta;     ///< centres of the cells
+  /// (#vertices of MovingLumen) The two parts that decide most where a vertex is, and the second's share.
+  struct Vertex {
+    VertexSource first, second;
+    float second_share = 0;
+  };
+  std::vector<Vertex> sources;
+  PeriodicPoints coronary, aorta;  ///< centres of the cells
+  /// (#cells) A branch's depths are counted from its parent's centre where it begins, so that none is counted twice: that
+  /// cell, and its share.
+  std::vector<std::pair<int, float>> parent_centre;
 };
 LumenMap make_lumen_map(const Patient& patient, const FlowModel& flow);
 
