@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <stdexcept>
 
 namespace ostium {
 
@@ -54,6 +55,36 @@ std::vector<int> FlowTree::path_to(int cell) const {
 bool FlowTree::is_downstream(int cell, int upper) const {
   while (cell > upper) cell = cells[cell].upstream;
   return cell == upper;
+}
+
+VesselPath path_along(const FlowTree& tree, int cell) {
+  VesselPath path{.cells = tree.path_to(cell), .s_m = {}};
+  for (std::size_t i = 0; i < path.cells.size(); ++i) {
+    const double own = tree.cells[path.cells[i]].length_m / 2;
+    path.s_m.push_back(i ? path.s_m.back() + tree.cells[path.cells[i - 1]].length_m / 2 + own : own);
+  }
+  return path;
+}
+
+VesselPath::Place VesselPath::at(double s) const {
+  const auto above = std::upper_bound(s_m.begin(), s_m.end(), s) - s_m.begin();
+  if (above == 0) return {0, 0};
+  const auto i = static_cast<std::size_t>(above) - 1;
+  if (i + 1 == s_m.size()) return {static_cast<int>(i), 0};
+  return {static_cast<int>(i), (s - s_m[i]) / (s_m[i + 1] - s_m[i])};
+}
+
+double VesselPath::value(const std::vector<double>& of_cells, double s) const {
+  const Place p = at(s);
+  const double a = of_cells[cells[p.index]];
+  return p.share > 0 ? (1 - p.share) * a + p.share * of_cells[cells[p.index + 1]] : a;
+}
+
+double path_position(const FlowTree& tree, const VesselPath& path, const std::string& branch, double from_branch_m) {
+  const int b = tree.branch(branch);
+  for (std::size_t i = 0; b >= 0 && i < path.cells.size(); ++i)
+    if (const FlowCell& cell = tree.cells[path.cells[i]]; cell.branch == b) return path.s_m[i] + from_branch_m - cell.s_m;
+  throw std::invalid_argument("the path does not go through " + branch);
 }
 
 FlowTree flow_tree_of(const Patient& patient) {

@@ -47,6 +47,25 @@ struct FlowTree {
   bool is_downstream(int cell, int upper) const;
 };
 
+/// The way from an ostium to a cell, for what lies in it: cells, and how far along the way each one's middle is.
+struct VesselPath {
+  std::vector<int> cells;
+  std::vector<double> s_m;
+  double length_m() const { return s_m.back(); }
+  /// The last cell whose middle is not beyond s, and how far s is on the way to the next; limited to the path.
+  struct Place {
+    int index = 0;
+    double share = 0;
+  };
+  Place at(double s_m) const;
+  /// A number of the cells, linear between them.
+  double value(const std::vector<double>& of_cells, double s_m) const;
+};
+VesselPath path_along(const FlowTree& tree, int cell);
+/// Where on the path a place of a branch is, as Lesion::from_m counts it. Throws std::invalid_argument if the path does
+/// not go there.
+double path_position(const FlowTree& tree, const VesselPath& path, const std::string& branch, double from_branch_m);
+
 /// Of the coronary arteries. Those that spring from LM or LAD serve the LAD's muscle, from LCx its own; from RCA its.
 FlowTree flow_tree_of(const Patient& patient);
 

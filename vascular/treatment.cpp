@@ -1,0 +1,129 @@
+#include "vascular/treatment.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace ostium {
+
+namespace {
+
+constexpr double fills_s = 0.4, empties_s = 15;  // a pocket beside the lumen
+
+void run_injuries(const FlowTree& tree, double dt, TreatmentState& s, PhysiologyState& physiology) {
+  ContrastState& contrast = physiology.contrast;
+  const std::size_t n = tree.cells.size();
+  for (Injury& injury : s.injury.injuries) {
+    if (injury.cell < 0) continue;
+    const auto cell = static_cast<std::size_t>(injury.cell);
+    const double r = physiology.radius_m[cell], V = std::numbers::pi * r * r * tree.cells[cell].length_m;
+    double all = 0;
+    for (int k = 0; k < layers; ++k) all += contrast.sheath_kg[k * n + cell];
+    const double here = all / std::max(V, 1e-12), pocket = pocket_m3(injury);
+    injury.outside_m3 = std::max(injury.outside_m3, pocket);
+    const double inside = injury.outside_kg / injury.outside_m3;
+    double kg = leak_m3_s(injury) * dt * here;
+    injury.outside_m3 += leak_m3_s(injury) * dt;
+    kg += here > inside ? (here - inside) * pocket * dt / fills_s : (here - inside) * pocket * dt / empties_s;
+    kg = std::clamp(kg, -0.5 * injury.outside_kg, 0.5 * all);
+    for (int k = 0; k < layers; ++k)
+      contrast.sheath_kg[k * n + cell] -= all > 0 ? kg * contrast.sheath_kg[k * n + cell] / all : kg / layers;
+    injury.outside_kg += kg;
+    contrast.outside_kg += kg;
+  }
+}
+
+void set_radii(const TreatmentModel& model, const FlowTree& tree, const TreatmentState& s, PhysiologyState& physiology) {
+  const double wider = model.drugs.nitrate_widens * s.drugs.nitrate;
+  for (std::size_t b = 0; b < tree.branches.size(); ++b)
+    for (int c = tree.branches[b].first; c < tree.branches[b].last; ++c) {
+      // Muscle that is not stiffened by plaque, nor held by a device.
+      const PlaqueCell& cell = model.plaque.cells[c];
+      const bool free = cell.diseased_m > 0.9 * cell.healthy_m && s.wall.radius_m[c] <= s.wall.rest_m[c];
+      physiology.radius_m[c] = s.wall.radius_m[c] * (free ? (1 + wider) * (1 - s.spasm[b]) : 1);
+    }
+}
+
+}  // namespace
+
+TreatmentState make_state(const TreatmentModel& model, const FlowTree& tree) {
+  TreatmentState s;
+  s.wall = make_plaque_state(model.plaque);
+  s.balloon.radius_m.assign(balloon_spheres, 0);
+  for (const StentModel& stent : model.stents) s.stents.push_back(make_stent_state(stent));
+  s.spasm.assign(tree.branches.size(), 0);
+  return s;
+}
+
+TreatmentReport step(const TreatmentModel& model, const FlowTree& tree, const TreatmentInputs& in, double dt,
+                     TreatmentState& s, PhysiologyState& physiology, std::vector<double>& occupied_m,
+                     TreatmentScratch& x) {
+  TreatmentReport report;
+  step(model.drugs, in.doses, dt, s.drugs);
+  for (double& spasm : s.spasm) spasm *= std::exp(-dt * s.drugs.nitrate / model.drugs.spasm_yields_s);
+  if (static_cast<int>(s.balloon_in) != in.balloon) {
+    s.balloon_in = in.balloon;
+    if (in.balloon >= 0) s.balloon = make_balloon_state(model.balloons[in.balloon]);
+  }
+  std::copy(s.wall.rest_m.begin(), s.wall.rest_m.end(), s.wall.radius_m.begin());
+  const BalloonModel* balloon = in.balloon >= 0 ? &model.balloons[in.balloon] : nullptr;
+  const int own = balloon ? model.stent_on[in.balloon] : -1;
+  // A crimped stent is where its balloon is, before the balloon feels it.
+  if (own >= 0 && s.stents[own].where == StentState::on_balloon) s.stents[own].middle_m = in.middle_m + s.balloon.slip_m;
+  if (balloon && in.path) {
+    const double reach = balloon->length_m / 2 + balloon->shoulder_m;
+    for (std::size_t i = 0; i < s.stents.size(); ++i)
+      if (s.stents[i].where == StentState::deployed &&
+          narrowest_m(model.stents[i], s.stents[i], -1, in.middle_m + reach) < balloon->folded_m)
+        report.blocked = true;
+  }
+  const double injured = s.injury.count;
+  if (balloon && !report.blocked) {
+    const bool whole = s.balloon.burst == 0;
+    // Stents that lie in a wall, and the one on this very balloon; others are not in the vessel.
+    Sleeve sleeve;
+    for (std::size_t i = 0; i < s.stents.size(); ++i)
+      if (s.stents[i].where == StentState::deployed || static_cast<int>(i) == own)
+        add_sleeve(model.stents[i], s.stents[i], *balloon, s.balloon, in.middle_m, x.stent, sleeve);
+    report.balloon = step(*balloon, model.plaque, {in.path, in.middle_m, in.gauge_Pa, sleeve}, dt, s.balloon, s.wall,
+                          x.balloon);
+    if (report.balloon.touches || report.balloon.spilt_m3 > 0)
+      judge_stretch(model.injury, model.plaque, s.wall, balloon->length_m, whole && s.balloon.burst > 0,
+                    physiology.heart.time_s, s.injury);
+    if (report.balloon.spilt_m3 > 0 && in.path) {
+      // Its filling goes into the vessel.
+      const auto cell = static_cast<std::size_t>(in.path->cells[in.path->at(in.middle_m).index]);
+      const double kg = report.balloon.spilt_m3 * balloon->iodine_kg_m3;
+      for (int k = 0; k < layers; ++k) physiology.contrast.sheath_kg[k * tree.cells.size() + cell] += kg / layers;
+      physiology.contrast.injected_kg += kg, physiology.contrast.injected_m3 += report.balloon.spilt_m3;
+    }
+  }
+  for (std::size_t i = 0; i < s.stents.size(); ++i) {
+    StentState& stent = s.stents[i];
+    const bool mine = static_cast<int>(i) == own && balloon;
+    if (stent.where == StentState::lost || (stent.where == StentState::on_balloon && !mine)) continue;
+    const bool was_crimped = stent.where == StentState::on_balloon;
+    step(model.stents[i], model.plaque,
+         {in.path, report.blocked ? nullptr : balloon, &s.balloon, in.middle_m, mine ? in.drag_N : 0, in.edge_m, in.edge_N},
+         dt, stent, s.wall);
+    if (was_crimped && stent.where == StentState::deployed) report.deployed = static_cast<int>(i);
+  }
+  if (in.wire_tip_cell >= 0)
+    judge_wire(model.injury, in.wire_tip_cell, s.wall.radius_m[in.wire_tip_cell], in.wire_tip_N, dt,
+               physiology.heart.time_s, s.injury);
+  report.tore = s.injury.count > injured;
+  set_radii(model, tree, s, physiology);
+  run_injuries(tree, dt, s, physiology);
+  if (in.shaft_m.empty())
+    occupied_m.assign(tree.cells.size(), 0);
+  else
+    occupied_m.assign(in.shaft_m.begin(), in.shaft_m.end());
+  if (balloon && in.path && !report.blocked)
+    for (std::size_t k = 0; k < in.path->cells.size(); ++k) {
+      double& occupied = occupied_m[in.path->cells[k]];
+      occupied = std::max(occupied, radius_at(*balloon, s.balloon, in.middle_m, in.path->s_m[k]));
+    }
+  return report;
+}
+
+}  // namespace ostium

@@ -1,0 +1,75 @@
+#pragma once
+/// What is done to the arteries: balloons, stents, the wall under them, injuries, drugs. Stepped before the physiology
+/// (physiology.h), whose radii and occupied lumen it sets.
+#include "vascular/drugs/drugs.h"
+#include "vascular/injury/injury.h"
+#include "vascular/physiology.h"
+#include "vascular/stent/stent.h"
+
+namespace ostium {
+
+struct TreatmentModel {
+  PlaqueModel plaque;
+  InjuryModel injury;
+  DrugModel drugs;
+  std::vector<BalloonModel> balloons;  ///< that may be used, and
+  std::vector<StentModel> stents;      ///< with
+  std::vector<int> stent_on;           ///< (#balloons) the stent crimped on it, or -1
+};
+
+struct TreatmentInputs {
+  int balloon = -1;                  ///< of the model, which is in the vessel; -1: none. Another one starts deflated
+  const VesselPath* path = nullptr;  ///< along which it lies
+  double middle_m = 0;               ///< between its markers, along the path
+  double gauge_Pa = 0;
+  double drag_N = 0;                       ///< StentInputs
+  double edge_m = -1e9, edge_N = 0;        ///< StentInputs
+  int wire_tip_cell = -1;                  ///< where a wire presses the wall, and
+  double wire_tip_N = 0;                   ///< how hard
+  std::span<const double> shaft_m;         ///< (#cells) radius of what else lies in the lumen; empty: nothing
+  Doses doses;
+};
+
+struct TreatmentState {
+  PlaqueState wall;
+  BalloonState balloon;
+  double balloon_in = -1;           ///< index of the model, as a number
+  std::vector<StentState> stents;   ///< (#stents), crimped ones on a balloon in use or not
+  std::vector<double> spasm;        ///< (#branches) [0, 1): of the diameter, may be set
+  InjuryState injury;
+  DrugState drugs;
+};
+TreatmentState make_state(const TreatmentModel& model, const FlowTree& tree);
+
+struct TreatmentScratch {
+  BalloonScratch balloon;
+  StentScratch stent;
+};
+
+struct TreatmentReport {
+  BalloonReport balloon;
+  int deployed = -1;     ///< a stent that was left in the wall in this step: tie it (stent_shape.h)
+  bool blocked = false;  ///< the balloon cannot lie there: a stent that is not open is in its way
+  bool tore = false;     ///< an injury came about in this step
+};
+
+/// One step of up to 10 ms. Sets `physiology`'s radii and lets contrast out through injuries; `occupied_m` (#cells)
+/// becomes what fills the lumen. Does not allocate after the first call with the same scratch.
+TreatmentReport step(const TreatmentModel& model, const FlowTree& tree, const TreatmentInputs& inputs, double dt_s,
+                     TreatmentState& state, PhysiologyState& physiology, std::vector<double>& occupied_m,
+                     TreatmentScratch& scratch);
+
+template <class S, class Visit>
+void for_each_field(S& s, Visit&& visit)
+  requires requires { s.balloon_in; }
+{
+  for_each_plaque_field(s.wall, visit);
+  for_each_balloon_field(s.balloon, visit);
+  visit("balloon_in", &s.balloon_in, 1);
+  for (auto& stent : s.stents) for_each_stent_field(stent, visit);
+  visit("spasm", s.spasm.data(), static_cast<int>(s.spasm.size()));
+  for_each_injury_field(s.injury, visit);
+  for_each_drug_field(s.drugs, visit);
+}
+
+}  // namespace ostium
