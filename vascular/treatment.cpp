@@ -33,7 +33,8 @@ void run_injuries(const FlowTree& tree, double dt, TreatmentState& s, Physiology
   }
 }
 
-void set_radii(const TreatmentModel& model, const FlowTree& tree, const TreatmentState& s, PhysiologyState& physiology) {
+void set_radii(const TreatmentModel& model, const FlowTree& tree, const TreatmentState& s,
+               PhysiologyState& physiology) {
   const double wider = model.drugs.nitrate_widens * s.drugs.nitrate;
   for (std::size_t b = 0; b < tree.branches.size(); ++b)
     for (int c = tree.branches[b].first; c < tree.branches[b].last; ++c) {
@@ -69,7 +70,8 @@ TreatmentReport step(const TreatmentModel& model, const FlowTree& tree, const Tr
   const BalloonModel* balloon = in.balloon >= 0 ? &model.balloons[in.balloon] : nullptr;
   const int own = balloon ? model.stent_on[in.balloon] : -1;
   // A crimped stent is where its balloon is, before the balloon feels it.
-  if (own >= 0 && s.stents[own].where == StentState::on_balloon) s.stents[own].middle_m = in.middle_m + s.balloon.slip_m;
+  if (own >= 0 && s.stents[own].where == StentState::on_balloon)
+    s.stents[own].middle_m = in.middle_m + s.balloon.slip_m;
   if (balloon && in.path) {
     const double reach = balloon->length_m / 2 + balloon->shoulder_m;
     for (std::size_t i = 0; i < s.stents.size(); ++i)
@@ -85,8 +87,8 @@ TreatmentReport step(const TreatmentModel& model, const FlowTree& tree, const Tr
     for (std::size_t i = 0; i < s.stents.size(); ++i)
       if (s.stents[i].where == StentState::deployed || static_cast<int>(i) == own)
         add_sleeve(model.stents[i], s.stents[i], *balloon, s.balloon, in.middle_m, x.stent, sleeve);
-    report.balloon = step(*balloon, model.plaque, {in.path, in.middle_m, in.gauge_Pa, sleeve}, dt, s.balloon, s.wall,
-                          x.balloon);
+    report.balloon =
+        step(*balloon, model.plaque, {in.path, in.middle_m, in.gauge_Pa, sleeve}, dt, s.balloon, s.wall, x.balloon);
     if (report.balloon.touches || report.balloon.spilt_m3 > 0)
       judge_stretch(model.injury, model.plaque, s.wall, balloon->length_m, whole && s.balloon.burst > 0,
                     physiology.heart.time_s, s.injury);
@@ -104,7 +106,8 @@ TreatmentReport step(const TreatmentModel& model, const FlowTree& tree, const Tr
     if (stent.where == StentState::lost || (stent.where == StentState::on_balloon && !mine)) continue;
     const bool was_crimped = stent.where == StentState::on_balloon;
     step(model.stents[i], model.plaque,
-         {in.path, report.blocked ? nullptr : balloon, &s.balloon, in.middle_m, mine ? in.drag_N : 0, in.edge_m, in.edge_N},
+         {in.path, report.blocked ? nullptr : balloon, &s.balloon, in.middle_m, mine ? in.drag_N : 0, in.edge_m,
+          in.edge_N},
          dt, stent, s.wall);
     if (was_crimped && stent.where == StentState::deployed) report.deployed = static_cast<int>(i);
   }

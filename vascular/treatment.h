@@ -4,7 +4,7 @@
 #include "vascular/drugs/drugs.h"
 #include "vascular/injury/injury.h"
 #include "vascular/physiology.h"
-#include "vascular/stent/stent.h"
+#include "vascular/stent/stent_shape.h"
 
 namespace ostium {
 
@@ -22,20 +22,20 @@ struct TreatmentInputs {
   const VesselPath* path = nullptr;  ///< along which it lies
   double middle_m = 0;               ///< between its markers, along the path
   double gauge_Pa = 0;
-  double drag_N = 0;                       ///< StentInputs
-  double edge_m = -1e9, edge_N = 0;        ///< StentInputs
-  int wire_tip_cell = -1;                  ///< where a wire presses the wall, and
-  double wire_tip_N = 0;                   ///< how hard
-  std::span<const double> shaft_m;         ///< (#cells) radius of what else lies in the lumen; empty: nothing
+  double drag_N = 0;                 ///< StentInputs
+  double edge_m = -1e9, edge_N = 0;  ///< StentInputs
+  int wire_tip_cell = -1;            ///< where a wire presses the wall, and
+  double wire_tip_N = 0;             ///< how hard
+  std::span<const double> shaft_m;   ///< (#cells) radius of what else lies in the lumen; empty: nothing
   Doses doses;
 };
 
 struct TreatmentState {
   PlaqueState wall;
   BalloonState balloon;
-  double balloon_in = -1;           ///< index of the model, as a number
-  std::vector<StentState> stents;   ///< (#stents), crimped ones on a balloon in use or not
-  std::vector<double> spasm;        ///< (#branches) [0, 1): of the diameter, may be set
+  double balloon_in = -1;          ///< index of the model, as a number
+  std::vector<StentState> stents;  ///< (#stents), crimped ones on a balloon in use or not
+  std::vector<double> spasm;       ///< (#branches) [0, 1): of the diameter, may be set
   InjuryState injury;
   DrugState drugs;
 };
@@ -60,8 +60,9 @@ TreatmentReport step(const TreatmentModel& model, const FlowTree& tree, const Tr
                      TreatmentScratch& scratch);
 
 template <class S, class Visit>
-void for_each_field(S& s, Visit&& visit)
-  requires requires { s.balloon_in; }
+void for_each_field(S& s, Visit&& visit) requires requires {
+  s.balloon_in;
+}
 {
   for_each_plaque_field(s.wall, visit);
   for_each_balloon_field(s.balloon, visit);

@@ -17,9 +17,10 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 constexpr int n = balloon_spheres;
-constexpr double shaft_m = 0.28e-3;      // radius of the inner tube, where the shoulders end
-constexpr double fold_share = 0.25;      // of the unfolding pressure that opens the folds at first
-constexpr double sealed_m = 20e-6;       // a gap as narrow
+constexpr double shaft_m = 0.28e-3;  // radius of the inner tube, where the shoulders end
+constexpr double fold_share = 0.25;  // of the unfolding pressure that opens the folds at first
+constexpr double sealed_m = 20e-6;   // a gap as narrow
+constexpr double soft_m = 30e-6;     // over which a balloon and a stent in the wall come to bear
 
 double spacing(const BalloonModel& m) { return (m.length_m + 2 * m.shoulder_m) / (n - 1); }
 
@@ -135,8 +136,8 @@ void slide(const BalloonModel& m, double along_N, double pressed_N, double dt, B
 
 }  // namespace
 
-BalloonReport step(const BalloonModel& m, const PlaqueModel& plaque, const BalloonInputs& in, double dt, BalloonState& s,
-                   PlaqueState& wall, BalloonScratch& x) {
+BalloonReport step(const BalloonModel& m, const PlaqueModel& plaque, const BalloonInputs& in, double dt,
+                   BalloonState& s, PlaqueState& wall, BalloonScratch& x) {
   assert(dt > 0 && dt <= 10e-3);
   BalloonReport report;
   const double ds = spacing(m), gauge = std::max(-atm, std::isfinite(in.gauge_Pa) ? in.gauge_Pa : 0.0);
@@ -149,10 +150,13 @@ BalloonReport step(const BalloonModel& m, const PlaqueModel& plaque, const Ballo
     const double a = s.radius_m[i], share = sphere_share(m, i), at = sphere_position(m, s, in.middle_m, i);
     WallPressure sum = skin(m, share, folded, a);
     const bool sleeved = !in.sleeve.covers.empty() && in.sleeve.covers[i] > 0;
-    const bool within = sleeved && a < in.sleeve.inner_m[i] - 1e-9;
-    if (sleeved && !within) sum.p_Pa += in.sleeve.p_Pa[i], sum.slope_Pa_m += in.sleeve.slope_Pa_m[i];
-    if (in.path && !within) {
-      const WallPressure w = wall_at(plaque, wall, *in.path, at, a + (sleeved ? in.sleeve.thickness_m : 0));
+    // Within a sleeve it meets nothing; where it comes to touch, skin and struts give a little.
+    const double meets = sleeved ? std::clamp(1 + (a - in.sleeve.inner_m[i]) / soft_m, 0.0, 1.0) : 1;
+    if (sleeved && meets > 0) sum.p_Pa += meets * in.sleeve.p_Pa[i], sum.slope_Pa_m += meets * in.sleeve.slope_Pa_m[i];
+    if (in.path && meets > 0) {
+      WallPressure w = wall_at(plaque, wall, *in.path, at, a + (sleeved ? in.sleeve.thickness_m : 0));
+      w.p_Pa *= meets, w.slope_Pa_m = meets * w.slope_Pa_m;
+      if (meets < 1) w.slope_Pa_m += (w.p_Pa / meets + in.sleeve.p_Pa[i]) / soft_m;
       sum.p_Pa += w.p_Pa, sum.slope_Pa_m += w.slope_Pa_m;
       report.touches = report.touches || w.p_Pa > 0;
       const double before = s.radius_m[std::max(i - 1, 0)], after = s.radius_m[std::min(i + 1, n - 1)];

@@ -1,11 +1,12 @@
 #pragma once
-/// A balloon: spheres in a row along its shaft between two markers, filled through a thin tube, pressed against the wall.
+/// A balloon: spheres in a row along its shaft between two markers, filled through a thin tube, pressed against the
+/// wall.
 ///
 /// At each sphere, radius a, with the pressure p of what fills it, per area of its skin:
 ///   c da/dt = p - p_skin(a) - p_stent(a) - p_wall(a) + N a'',   N = p a / 2 (tension along the skin)
 /// The skin's chart is linear above the unfolding pressure: D = nominal + growth (p - nominal pressure); below it the
-/// balloon is folded. The filling comes through the shaft, R dV/dt = p_gauge - p, so that p follows with a delay and the
-/// balloon empties in seconds under vacuum and hardly without: nothing but the folds drives it out then.
+/// balloon is folded. The filling comes through the shaft, R dV/dt = p_gauge - p, so that p follows with a delay and
+/// the balloon empties in seconds under vacuum and hardly without: nothing but the folds drives it out then.
 #include <cstdint>
 #include <span>
 #include <string>
@@ -16,23 +17,23 @@ namespace ostium {
 
 enum class Compliance { semi, non };
 
-/// Typical charts of 3.0 mm balloons, for want of makers' (from memory, to be verified): semi-compliant nominal at 8 atm,
-/// rated 14, 3.0 -> 3.25; non-compliant nominal 12, rated 20, 3.0 -> 3.1; growth of 15 % over 8 atm was measured on older
-/// ones (AJC 1986;57:26), at most 30 and 10 % are what the classes mean. Other sizes in proportion.
+/// Typical charts of 3.0 mm balloons, for want of makers' (from memory, to be verified): semi-compliant nominal at 8
+/// atm, rated 14, 3.0 -> 3.25; non-compliant nominal 12, rated 20, 3.0 -> 3.1; growth of 15 % over 8 atm was measured
+/// on older ones (AJC 1986;57:26), at most 30 and 10 % are what the classes mean. Other sizes in proportion.
 struct BalloonModel {
   std::string name;
   double nominal_m = 3e-3, length_m = 15e-3;  ///< diameter; between the markers' middles
   double nominal_Pa = 8 * 101325, rated_Pa = 14 * 101325;
-  double growth_m_Pa = 0;                     ///< of the diameter
-  double folded_m = 0.45e-3;                  ///< radius before it was ever filled, and
-  double refolded_m = 0.55e-3;                ///< emptied again
-  double shoulder_m = 2.2e-3;                 ///< beyond each marker, over which it falls to the shaft
+  double growth_m_Pa = 0;       ///< of the diameter
+  double folded_m = 0.45e-3;    ///< radius before it was ever filled, and
+  double refolded_m = 0.55e-3;  ///< emptied again
+  double shoulder_m = 2.2e-3;   ///< beyond each marker, over which it falls to the shaft
   double unfolding_Pa = 0.6 * 101325;
-  double filling_Pa_s_m3 = 8e12;              ///< R: 8 s under vacuum for 3.0 x 15 [usual, from memory]
-  double viscous_Pa_s_m = 3e8;                ///< c [estimate: a waist gives way in about half a second]
+  double filling_Pa_s_m3 = 8e12;                             ///< R: 8 s under vacuum for 3.0 x 15 [usual, from memory]
+  double viscous_Pa_s_m = 3e8;                               ///< c [estimate: a waist gives way in about half a second]
   double friction = 0.12, grip_N_m = 60, slide_N_s_m = 200;  ///< against the wall; of the shaft behind it [estimates]
-  double iodine_kg_m3 = 175;                  ///< half contrast, half saline
-  std::uint64_t seed = 0;                     ///< of the pressure at which it bursts
+  double iodine_kg_m3 = 175;                                 ///< half contrast, half saline
+  std::uint64_t seed = 0;                                    ///< of the pressure at which it bursts
 };
 BalloonModel make_balloon(Compliance compliance, double nominal_m, double length_m);
 /// Throws std::invalid_argument naming what is out of range.
@@ -45,14 +46,14 @@ double burst_Pa(const BalloonModel& model);
 inline constexpr int balloon_spheres = 64;
 
 struct BalloonState {
-  std::vector<double> radius_m;    ///< (balloon_spheres) from the proximal end to the distal one
-  double volume_m3 = 0;            ///< of what fills it
-  double pressure_Pa = 0;          ///< inside, over that outside
-  double was_filled = 0;           ///< 1: its folds are no longer the maker's
-  double burst = 0;                ///< 1: it did
-  double slip_m = 0;               ///< how far it slid along the vessel, from where its shaft is
-  double largest_m = 0;            ///< radius ever
-  double inflated_s = 0;           ///< time above 1 atm in this inflation
+  std::vector<double> radius_m;  ///< (balloon_spheres) from the proximal end to the distal one
+  double volume_m3 = 0;          ///< of what fills it
+  double pressure_Pa = 0;        ///< inside, over that outside
+  double was_filled = 0;         ///< 1: its folds are no longer the maker's
+  double burst = 0;              ///< 1: it did
+  double slip_m = 0;             ///< how far it slid along the vessel, from where its shaft is
+  double largest_m = 0;          ///< radius ever
+  double inflated_s = 0;         ///< time above 1 atm in this inflation
 };
 BalloonState make_balloon_state(const BalloonModel& model);
 
@@ -73,10 +74,10 @@ struct BalloonInputs {
 
 struct BalloonReport {
   double gauge_Pa = 0;
-  double axial_N = 0;        ///< on the shaft, distally; what the wall presses it along with
-  double waist = 0;          ///< narrowest over widest of the part between the markers, less than 1: a waist
-  double dog_bone = 0;       ///< wider end over the middle
-  double spilt_m3 = 0;       ///< into the vessel, by bursting, in this step
+  double axial_N = 0;                   ///< on the shaft, distally; what the wall presses it along with
+  double waist = 0;                     ///< narrowest over widest of the part between the markers, less than 1: a waist
+  double dog_bone = 0;                  ///< wider end over the middle
+  double spilt_m3 = 0;                  ///< into the vessel, by bursting, in this step
   bool touches = false, seals = false;  ///< the wall; all round it, so that no blood passes
 };
 

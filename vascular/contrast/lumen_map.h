@@ -23,8 +23,8 @@ struct LumenMap {
   };
   std::vector<Vertex> sources;
   PeriodicPoints coronary, aorta;  ///< centres of the cells
-  /// (#cells) A branch's depths are counted from its parent's centre where it begins, so that none is counted twice: that
-  /// cell, and its share.
+  /// (#cells) A branch's depths are counted from its parent's centre where it begins, so that none is counted twice:
+  /// that cell, and its share.
   std::vector<std::pair<int, float>> parent_centre;
 };
 LumenMap make_lumen_map(const Patient& patient, const FlowModel& flow);

@@ -15,6 +15,8 @@ void step(const DrugModel& m, const Doses& doses, double dt, DrugState& s) {
       -std::expm1(-dt / m.adenosine_in_s) * (s.adenosine_ug / (s.adenosine_ug + m.adenosine_half_ug) - s.adenosine);
 }
 
-double act_s(const DrugModel& m, const DrugState& s) { return m.act_before_s + m.act_per_U_kg * s.heparin_U / m.weight_kg; }
+double act_s(const DrugModel& m, const DrugState& s) {
+  return m.act_before_s + m.act_per_U_kg * s.heparin_U / m.weight_kg;
+}
 
 }  // namespace ostium

@@ -1,5 +1,6 @@
 #pragma once
-/// Drugs that matter, given as doses, with their effects in time. All numbers but the usual ones of practice are estimates.
+/// Drugs that matter, given as doses, with their effects in time. All numbers but the usual ones of practice are
+/// estimates.
 
 namespace ostium {
 
@@ -8,9 +9,9 @@ struct DrugModel {
   double act_before_s = 130, act_per_U_kg = 2.6;  ///< 70 U/kg: 310 s [practice: 250 to 350 s]
   double heparin_half_life_s = 5400;
   double nitrate_half_ug = 100, nitrate_in_s = 20, nitrate_out_s = 200;  ///< dose of half the effect; onset, decay
-  double nitrate_widens = 0.09;                   ///< epicardial arteries, of their diameter; 6 frames more (Gibson 1996)
-  double nitrate_lowers = 0.3;                    ///< of the arterioles' dilation, see HeartInputs
-  double spasm_yields_s = 12;                     ///< under the whole effect
+  double nitrate_widens = 0.09;  ///< epicardial arteries, of their diameter; 6 frames more (Gibson 1996)
+  double nitrate_lowers = 0.3;   ///< of the arterioles' dilation, see HeartInputs
+  double spasm_yields_s = 12;    ///< under the whole effect
   double adenosine_half_ug = 25, adenosine_in_s = 4, adenosine_out_s = 12;
 };
 

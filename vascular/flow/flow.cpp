@@ -13,7 +13,7 @@ namespace ostium {
 namespace {
 
 constexpr double pi = std::numbers::pi;
-constexpr double exponent = 2.5;       // of the diameter
+constexpr double exponent = 2.6;       // of the diameter
 constexpr double shut_m = 15e-6;       // a gap as narrow lets no blood through
 constexpr double shut_Pa_s_m3 = 1e19;  // its resistance
 constexpr double collapsed = 1e-3;     // conductance of the muscle below its pressure of no flow, of that above

@@ -7,9 +7,9 @@
 ///       Biomech 6:395, their separation loss; A in the place of the unobstructed area)
 ///   leak into the muscle:  Q = g (p - p_z),   p_z = max(zero flow pressure, squeeze x p_ventricle)
 ///
-/// One law for all vessels says how much each cell needs at rest: flow goes as the diameter to the power 2.5, and
+/// One law for all vessels says how much each cell needs at rest: flow goes as the diameter to the power 2.6, and
 /// 225 mL/min in all (Guyton). Murray's power is 3, Huo's and Kassab's 7/3, measured ones 2.15 and 2.38 (Taylor et al.
-/// 2022, Front Physiol 13:871912); with 2.5 TIMI frame counts of all three arteries come out as published. What a taper
+/// 2022, Front Physiol 13:871912); with 2.6 TIMI frame counts of all three arteries come out as published. What a taper
 /// loses beyond the side branches that are drawn leaves along the way. The muscle opens its vessels until its need is
 /// met, at most to `most_dilated`. Walls are rigid within a step: no capacitance.
 #include <array>

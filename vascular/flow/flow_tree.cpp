@@ -83,7 +83,8 @@ double VesselPath::value(const std::vector<double>& of_cells, double s) const {
 double path_position(const FlowTree& tree, const VesselPath& path, const std::string& branch, double from_branch_m) {
   const int b = tree.branch(branch);
   for (std::size_t i = 0; b >= 0 && i < path.cells.size(); ++i)
-    if (const FlowCell& cell = tree.cells[path.cells[i]]; cell.branch == b) return path.s_m[i] + from_branch_m - cell.s_m;
+    if (const FlowCell& cell = tree.cells[path.cells[i]]; cell.branch == b)
+      return path.s_m[i] + from_branch_m - cell.s_m;
   throw std::invalid_argument("the path does not go through " + branch);
 }
 
@@ -117,7 +118,9 @@ FlowTree flow_tree_of(const Patient& patient) {
       if (!first && !last && scale == 1 && sphere.s_m - begins - tree.cells.back().s_m < spacing_m) continue;
       FlowCell cell{.branch = static_cast<int>(tree.branches.size()), .sphere = static_cast<int>(i)};
       cell.s_m = sphere.s_m - begins;
-      cell.diseased_m = sphere.radius_m, cell.healthy_m = sphere.radius_m / scale;
+      // The section's own radius: a sphere beside a narrowing is kept small by its shoulder.
+      cell.healthy_m = anatomy.tubes[named.tube].at(along + sphere.s_m).radius_m;
+      cell.diseased_m = scale * cell.healthy_m;
       if (!first)
         cell.upstream = static_cast<int>(tree.cells.size()) - 1;
       else if (!root)

@@ -55,7 +55,11 @@ void judge_stretch(const InjuryModel& model, const PlaqueModel& plaque, const Pl
   if (tear_at >= 0 && s.dissection_draws < 1 && exceeds(s.dissection_H, model.seed, tear, 0)) {
     const double u = uniform(model.seed, tear_grade, 0), major = std::clamp(0.3 * (1 + 4 * (ratio - 1)), 0.1, 0.8);
     // A and B are minor; of the major ones C is the most common.
-    const double grade = u > major ? (u > (1 + major) / 2 ? 0 : 1) : u > 0.5 * major ? 2 : u > 0.25 * major ? 3 : u > 0.1 * major ? 4 : 5;
+    const double grade = u > major          ? (u > (1 + major) / 2 ? 0 : 1)
+                         : u > 0.5 * major  ? 2
+                         : u > 0.25 * major ? 3
+                         : u > 0.1 * major  ? 4
+                                            : 5;
     add(s, InjuryKind::dissection, tear_at, grade, time_s);
     s.dissection_draws = 1;
   }

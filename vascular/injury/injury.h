@@ -6,8 +6,8 @@
 ///   dissection   H = 0.36 e^(7 (x - 1)) (1 + 0.8 calcified) (1 + 0.4 eccentric) sqrt(length / 15 mm)
 ///   perforation  H = 0.0008 e^(20 (x - 1)) (1 + calcified)
 /// At a ratio of 1 some dissection is seen in 30 % of balloon angioplasties, a third of those are major (9 %), and the
-/// chance rises above 1.1; perforation by balloon nearly always above 1.3 (Kataoka 2010). A wire's tip perforates by force
-/// and time, the more the smaller the artery. The coefficients are fitted to those shares.
+/// chance rises above 1.1; perforation by balloon nearly always above 1.3 (Kataoka 2010). A wire's tip perforates by
+/// force and time, the more the smaller the artery. The coefficients are fitted to those shares.
 #include <array>
 #include <cstdint>
 
@@ -23,9 +23,9 @@ struct InjuryModel {
 enum class InjuryKind { none, dissection, perforation };
 
 struct Injury {
-  double kind = 0;      ///< InjuryKind as a number
-  double cell = -1;     ///< of the flow tree
-  double grade = 0;     ///< dissection 0 to 5: A to F; perforation 1 to 3: Ellis I to III, 5: V (distal, by a wire)
+  double kind = 0;   ///< InjuryKind as a number
+  double cell = -1;  ///< of the flow tree
+  double grade = 0;  ///< dissection 0 to 5: A to F; perforation 1 to 3: Ellis I to III, 5: V (distal, by a wire)
   double time_s = 0;
   double outside_kg = 0, outside_m3 = 0;  ///< iodine and volume beside the lumen
 };

@@ -15,7 +15,8 @@ double opened(const PlaqueCell& cell, double rest_m) {
 }
 
 double yield_of(const PlaqueModel& model, const PlaqueCell& cell, double broken, double rest_m) {
-  return cell.yield_Pa * (1 - model.law.weakening * broken) + cell.hardening_Pa * std::max(0.0, opened(cell, rest_m));
+  return cell.yield_Pa * (1 - model.law.weakening * broken) +
+         cell.hardening_Pa * std::clamp(opened(cell, rest_m), 0.0, 1.0);
 }
 
 }  // namespace
@@ -32,10 +33,12 @@ PlaqueModel make_plaque_model(const FlowTree& tree, const std::vector<Lesion>& l
     }
     const double burden = std::clamp((1 - cell.diseased_m / cell.healthy_m) / whole_plaque, 0.0, 1.0);
     const double c = cell.calcified;
-    cell.E_Pa = law.healthy_Pa + burden * ((1 - c) * law.soft_Pa + c * law.calcified_Pa - law.healthy_Pa);
-    // A healthy wall does not give way; where there is little plaque, little does.
-    cell.yield_Pa = (1 - c) * law.soft_yield_Pa + c * law.calcified_yield_Pa;
-    cell.hardening_Pa = (1 - c) * law.soft_hardening_Pa + c * law.calcified_hardening_Pa;
+    const double plaque = (1 - c) * law.soft_Pa + c * law.calcified_Pa;
+    cell.E_Pa = law.healthy_Pa + burden * (plaque - law.healthy_Pa);
+    // Whatever plaque there is gives way at the same strain; a healthy wall does not.
+    const double part = cell.E_Pa / plaque, never = 2 * std::exp(-burden / 0.08);
+    cell.yield_Pa = part * ((1 - c) * law.soft_yield_Pa + c * law.calcified_yield_Pa) + never * cell.E_Pa;
+    cell.hardening_Pa = part * ((1 - c) * law.soft_hardening_Pa + c * law.calcified_hardening_Pa);
     model.cells.push_back(cell);
   }
   return model;
@@ -56,7 +59,8 @@ WallPressure wall_pressure(const PlaqueModel& model, const PlaqueState& s, int i
   const double most = yield_of(model, cell, s.broken[i], s.rest_m[i]);
   if (out.p_Pa > most) out = {most, 0.02 * out.slope_Pa_m};
   if (a > cell.healthy_m) {
-    const double x = a / cell.healthy_m, grown = model.law.media_Pa * std::exp(std::min(30.0, model.law.media_k * (x * x - 1)));
+    const double x = a / cell.healthy_m,
+                 grown = model.law.media_Pa * std::exp(std::min(30.0, model.law.media_k * (x * x - 1)));
     out.p_Pa += grown - model.law.media_Pa;
     out.slope_Pa_m += grown * model.law.media_k * 2 * x / cell.healthy_m;
   }

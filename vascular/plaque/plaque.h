@@ -6,21 +6,20 @@
 /// and adventitia, felt beyond the healthy size. The first term gives way at
 ///   p_y = yield (1 - weakening broken) + hardening x,      x = (rest - diseased) / (healthy - diseased)
 /// whereby `rest` grows: the plaque cracks, then opens at less pressure, and what it opened to is left when the balloon
-/// goes, less the elastic part (recoil). Numbers of plaque are estimates, chosen so that waists give way at 4 to 6 atm if
-/// soft, at 9 to 12 if calcified, and that plain balloons leave 15 to 35 % as published. (Young, long known: none of them
-/// is measured per lesion.)
+/// goes, less the elastic part (recoil). Plaque's numbers are estimates: waists give way at 4 to 6 atm
+/// if soft, at 8 to 12 if calcified, and a stented wall springs back by as much as is published (5 to 9 %).
 #include "vascular/flow/flow_tree.h"
 
 namespace ostium {
 
 struct PlaqueLaw {
-  double healthy_Pa = 1.5 * 101325;               ///< E without plaque
-  double media_Pa = 0.05 * 101325, media_k = 5;   ///< p_m, k
-  double soft_Pa = 32 * 101325, calcified_Pa = 75 * 101325;             ///< E of plaque that takes 30 % or more
+  double healthy_Pa = 1.5 * 101325;                          ///< E without plaque
+  double media_Pa = 0.05 * 101325, media_k = 5;              ///< p_m, k
+  double soft_Pa = 32 * 101325, calcified_Pa = 75 * 101325;  ///< E of plaque that takes 30 % or more
   double soft_yield_Pa = 4.2 * 101325, calcified_yield_Pa = 9 * 101325;
   double weakening = 0.6;
-  double soft_hardening_Pa = 2.2 * 101325, calcified_hardening_Pa = 6 * 101325;
-  double crack = 0.12;                            ///< share of the way open over which it breaks
+  double soft_hardening_Pa = 2.2 * 101325, calcified_hardening_Pa = 4.2 * 101325;
+  double crack = 0.12;  ///< share of the way open over which it breaks
 };
 
 struct PlaqueCell {
@@ -48,7 +47,8 @@ struct WallPressure {
 };
 /// What the wall answers to a radius, without changing it.
 WallPressure wall_pressure(const PlaqueModel& model, const PlaqueState& state, int cell, double radius_m);
-/// Pushes the wall of a cell to a radius: gives way where it must; `radius_m` becomes that, or `rest_m` if that is more.
+/// Pushes the wall of a cell to a radius: gives way where it must; `radius_m` becomes that, or `rest_m` if that is
+/// more.
 void push_wall(const PlaqueModel& model, int cell, double radius_m, PlaqueState& state);
 
 template <class S, class Visit>

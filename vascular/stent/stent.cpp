@@ -12,9 +12,9 @@ namespace ostium {
 namespace {
 
 constexpr double pi = std::numbers::pi;
-constexpr double locks = 0.92;           // of the widest radius: from there on the struts themselves are drawn out
-constexpr double lock_stiffening = 30;   // times the hoop's
-constexpr int relaxations = 3;           // rounds a step
+constexpr double locks = 0.92;             // of the widest radius: from there on the struts themselves are drawn out
+constexpr double lock_stiffening = 30;     // times the hoop's
+constexpr int relaxations = 3;             // rounds a step
 constexpr double pressed_together = 0.55;  // links give way to this share of their length
 constexpr double link_elastic = 0.04;
 
@@ -78,15 +78,15 @@ StentModel make_stent(double nominal_m, double length_m) {
 
 void check(const StentModel& m) {
   if (!(m.nominal_m >= 2e-3 && m.nominal_m <= 5e-3 && m.length_m >= 6e-3 && m.length_m <= 50e-3))
-    throw std::invalid_argument(fmt::format("stent: {:g} x {:g} mm; expected 2 to 5 mm by 6 to 50 mm", 1e3 * m.nominal_m,
-                                            1e3 * m.length_m));
+    throw std::invalid_argument(
+        fmt::format("stent: {:g} x {:g} mm; expected 2 to 5 mm by 6 to 50 mm", 1e3 * m.nominal_m, 1e3 * m.length_m));
   if (m.rings < 2 || m.crowns < 3 || m.links < 1 || m.crowns % m.links != 0)
     throw std::invalid_argument("stent: expected at least 2 rings, 3 crowns, and links that divide the crowns");
 }
 
 StentState make_stent_state(const StentModel& m) {
   StentState s;
-  s.radius_m.assign(m.rings, m.crimped_m), s.rest_m = s.radius_m;
+  s.radius_m.assign(m.rings, m.crimped_m), s.rest_m = s.peak_m = s.radius_m;
   s.link_m.assign(m.rings - 1, m.pitch_m());
   for (int k = 0; k < m.rings; ++k)
     for (int j = 0; j < 2 * m.crowns; ++j)
@@ -114,8 +114,8 @@ double narrowest_m(const StentModel& m, const StentState& s, double from_m, doub
   return least;
 }
 
-void add_sleeve(const StentModel& m, const StentState& s, const BalloonModel& balloon, const BalloonState& balloon_state,
-                double middle_m, StentScratch& x, Sleeve& sleeve) {
+void add_sleeve(const StentModel& m, const StentState& s, const BalloonModel& balloon,
+                const BalloonState& balloon_state, double middle_m, StentScratch& x, Sleeve& sleeve) {
   if (sleeve.covers.empty())
     for (auto* v : {&x.p_Pa, &x.slope_Pa_m, &x.covers, &x.inner_m}) v->assign(balloon_spheres, 0);
   for (int b = 0; b < balloon_spheres; ++b) {
@@ -156,9 +156,9 @@ void move_rings(const StentModel& m, const PlaqueModel& plaque, const StentInput
     any_on = any_on || a >= alone;
     r = std::max(alone, a);
     s.rest_m[k] = std::clamp(s.rest_m[k], r / (1 + m.yield), r / (1 - m.yield));
+    s.peak_m[k] = std::max(s.peak_m[k], r);
     mean += r / m.rings;
   }
-  s.largest_m = std::max(s.largest_m, mean);
   // Open, and its balloon no longer in touch.
   if (s.where == StentState::on_balloon && !any_on && mean > 1.6 * m.crimped_m) s.where = StentState::deployed;
 }
@@ -230,7 +230,8 @@ void step(const StentModel& m, const PlaqueModel& plaque, const StentInputs& in,
     const double at = in.path->s_m[k];
     if (at < first || at > last) continue;
     if (const double inner = inner_radius_at(m, s, at); inner > 0)
-      if (inner + m.strut_m > wall.rest_m[in.path->cells[k]]) push_wall(plaque, in.path->cells[k], inner + m.strut_m, wall);
+      if (inner + m.strut_m > wall.rest_m[in.path->cells[k]])
+        push_wall(plaque, in.path->cells[k], inner + m.strut_m, wall);
   }
 }
 

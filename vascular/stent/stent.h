@@ -3,32 +3,32 @@
 ///
 /// Round about, a ring is an elastic, then plastic hoop: against the radius r it presses
 ///   p = K (r - R0) / R0,   R0 follows where |r - R0| > y R0
-/// so it takes pressure to open, springs back a little when the balloon goes, and then bears the wall: its recoil is where
-/// both balance. Struts keep their length l: between crowns half a pitch apart round about, a ring is
+/// so it takes pressure to open, springs back a little when the balloon goes, and then bears the wall: its recoil is
+/// where both balance. Struts keep their length l: between crowns half a pitch apart round about, a ring is
 ///   h = sqrt(l^2 - chord^2)
 /// long, and shorter as it opens. Links join crowns that point the same way, so that they keep the rings apart: a stent
-/// foreshortens by its ends. Points find their place along the vessel by relaxation of struts and links (springs), links
-/// that are pressed together stay so.
+/// foreshortens by its ends. Points find their place along the vessel by relaxation of struts and links (springs),
+/// links that are pressed together stay so.
 #include "vascular/balloon/balloon.h"
 
 namespace ostium {
 
 struct StentModel {
   std::string name;
-  double nominal_m = 3e-3, length_m = 18e-3;   ///< diameter open; length crimped
-  int rings = 14, crowns = 6, links = 3;       ///< crowns that point distally, per ring; links between two rings
-  double strut_m = 81e-6;                      ///< thickness (XIENCE Sierra)
-  double height_m = 1.1e-3;                    ///< of a ring, crimped
-  double crimped_m = 0.45e-3;                  ///< radius
-  double hoop_Pa = 30 * 101325;                ///< K
-  double yield = 0.036;                        ///< y: springs back by about as much (bench: 1.5 to 16 %, CCI 2000;50:112)
-  double viscous_Pa_s_m = 3e8;                 ///< of the wall about it
-  double held_N = 1.5;                         ///< crimped on its balloon [estimate]
-  double crush_N = 0.5;                        ///< longitudinal load that presses rings together (Prabhu: 0.49 N)
+  double nominal_m = 3e-3, length_m = 18e-3;  ///< diameter open; length crimped
+  int rings = 14, crowns = 6, links = 3;      ///< crowns that point distally, per ring; links between two rings
+  double strut_m = 81e-6;                     ///< thickness (XIENCE Sierra)
+  double height_m = 1.1e-3;                   ///< of a ring, crimped
+  double crimped_m = 0.45e-3;                 ///< radius
+  double hoop_Pa = 30 * 101325;               ///< K
+  double yield = 0.036;         ///< y: springs back by about as much (bench: 1.5 to 16 %, CCI 2000;50:112)
+  double viscous_Pa_s_m = 3e8;  ///< of the wall about it
+  double held_N = 1.5;          ///< crimped on its balloon [estimate]
+  double crush_N = 0.5;         ///< longitudinal load that presses rings together (Prabhu: 0.49 N)
 
   double strut_length_m() const;
   double pitch_m() const { return (length_m - height_m) / (rings - 1); }
-  double widest_m() const;                     ///< radius at which its struts are straight
+  double widest_m() const;  ///< radius at which its struts are straight
   int points() const { return rings * 2 * crowns; }
 };
 StentModel make_stent(double nominal_m, double length_m);
@@ -43,14 +43,14 @@ struct StentTie {
 struct StentState {
   static constexpr double on_balloon = 0, deployed = 1, lost = 2;
   double where = on_balloon;
-  double middle_m = 0;             ///< along the path; while crimped its balloon's
-  double shift_m = 0;              ///< of the crimped stent on its balloon; negative: proximally
-  std::vector<double> radius_m;    ///< (#rings) inner
-  std::vector<double> rest_m;      ///< (#rings) R0
-  std::vector<double> along_m;     ///< (#points) from its middle, distally; ring by ring, round about
-  std::vector<double> link_m;      ///< (#rings - 1) length of the links
-  std::vector<StentTie> ties;      ///< (#points)
-  double largest_m = 0;            ///< mean inner radius, when it was widest
+  double middle_m = 0;           ///< along the path; while crimped its balloon's
+  double shift_m = 0;            ///< of the crimped stent on its balloon; negative: proximally
+  std::vector<double> radius_m;  ///< (#rings) inner
+  std::vector<double> rest_m;    ///< (#rings) R0
+  std::vector<double> along_m;   ///< (#points) from its middle, distally; ring by ring, round about
+  std::vector<double> link_m;    ///< (#rings - 1) length of the links
+  std::vector<StentTie> ties;    ///< (#points)
+  std::vector<double> peak_m;    ///< (#rings) when it was widest
 };
 StentState make_stent_state(const StentModel& model);
 
@@ -59,8 +59,9 @@ struct StentInputs {
   const BalloonModel* balloon = nullptr;  ///< in it, or null
   const BalloonState* balloon_state = nullptr;
   double balloon_middle_m = 0;
-  double drag_N = 0;    ///< on the crimped stent, along its balloon; negative: proximally. Of an edge that catches it
-  double edge_m = -1e9, edge_N = 0;  ///< a guide's or balloon's edge that pushes the deployed stent distally, from there
+  double drag_N = 0;  ///< on the crimped stent, along its balloon; negative: proximally. Of an edge that catches it
+  double edge_m = -1e9,
+         edge_N = 0;  ///< a guide's or balloon's edge that pushes the deployed stent distally, from there
 };
 
 struct StentScratch {
@@ -98,7 +99,7 @@ void for_each_stent_field(S& s, Visit&& visit) {
     visit("stent.tie.v", &tie.v, 1);
     visit("stent.tie.depth_m", &tie.depth_m, 1);
   }
-  visit("stent.largest_m", &s.largest_m, 1);
+  visit("stent.peak_m", s.peak_m.data(), static_cast<int>(s.peak_m.size()));
 }
 
 }  // namespace ostium

@@ -95,7 +95,9 @@ std::vector<Eigen::Vector3d> points_on_wall(const StentModel& m, const StentStat
   for (int i = 0; i < m.points(); ++i) {
     const StentTie& tie = s.ties[i];
     const auto& triangle = patient.lumen.triangles[static_cast<std::size_t>(tie.triangle)];
-    const auto corner = [&](int k) { return shape.vertex(static_cast<std::size_t>(triangle[k]), radius_m, phase, breath); };
+    const auto corner = [&](int k) {
+      return shape.vertex(static_cast<std::size_t>(triangle[k]), radius_m, phase, breath);
+    };
     const Eigen::Vector3d a = corner(0), u = corner(1) - a, v = corner(2) - a;
     out.push_back(a + tie.u * u + tie.v * v - tie.depth_m * u.cross(v).normalized());
   }
