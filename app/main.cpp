@@ -11,6 +11,7 @@
 #include "app/inject_command.h"
 #include "app/instruments_command.h"
 #include "app/predict_command.h"
+#include "app/treat_command.h"
 #include "app/verify_command.h"
 
 int main(int argc, char** argv) {
@@ -171,6 +172,38 @@ int main(int argc, char** argv) {
       "  ostium inject lad-proximal-eccentric --at left --view spider -o spider.png\n"
       "  ostium inject rca-mid-focal --healthy --count --json");
 
+  ostium::TreatOptions treat;
+  CLI::App* treat_app = app.add_subcommand(
+      "treat", "A case's lesions treated by the book, devices on the centreline: numbers, pictures, strips");
+  treat_app->add_option("case", treat.of, "See `ostium cases`")->type_name("CASE")->capture_default_str();
+  treat_app->add_option("--hold", treat.hold_s, "Seconds of each inflation")
+      ->check(CLI::Range(0.0, 600.0))
+      ->capture_default_str();
+  treat_app->add_option("--pressure", treat.pressure, "Of what is usual")
+      ->check(CLI::Range(0.1, 3.0))
+      ->capture_default_str();
+  treat_app->add_option("--oversize", treat.oversize, "Of every device's diameter")
+      ->check(CLI::Range(0.5, 2.0))
+      ->capture_default_str();
+  treat_app->add_option("--shift", treat.shift_mm, "Devices lie so far beside the lesion, distally, mm")
+      ->check(CLI::Range(-30.0, 30.0));
+  treat_app->add_flag("--no-stent", treat.no_stent, "Balloons alone");
+  treat_app->add_flag("--no-predilatation", treat.no_predilatation, "The stent at once");
+  treat_app->add_flag("--no-postdilatation", treat.no_postdilatation, "The stent's own balloon is the last");
+  treat_app->add_flag("--no-pictures", treat.no_pictures, "Numbers alone, without frame counts");
+  treat_app->add_option("--view", treat.view, "Standard view, see `ostium views`; else the artery's usual one");
+  treat_app->add_option("--pixels", treat.pixels, "Along a side")
+      ->check(CLI::IsMember({256, 512, 768, 1024}))
+      ->capture_default_str();
+  treat_app->add_option("--seed", treat.seed, "Of what happens by chance")->capture_default_str();
+  treat_app->add_flag("--json", treat.json, "Machine-readable");
+  treat_app->add_option("-o,--out", treat.out, "FILE.png: before, while inflating, after, and the strips")
+      ->capture_default_str();
+  treat_app->footer(
+      "Examples:\n  ostium treat rca-mid-focal -o rca.png\n"
+      "  ostium treat lad-proximal-eccentric --oversize 1.3 --seed 4 --no-pictures\n"
+      "  ostium treat rca-diffuse --json > rca-diffuse.json");
+
   bool views_json = false;
   CLI::App* views_app = app.add_subcommand("views", "The standard views of coronary angiography");
   views_app->add_flag("--json", views_json, "Machine-readable, see data/schemas/views.schema.json");
@@ -230,6 +263,7 @@ int main(int argc, char** argv) {
     if (*check_app) return ostium::check_command(check);
     if (*views_app) return ostium::views_command(views_json);
     if (*frame_app) return ostium::frame_command(frame);
+    if (*treat_app) return ostium::treat_command(treat);
     if (*inject_app) return ostium::inject_command(inject);
     if (*explain_app) return ostium::explain_command(explain);
     if (*predict_app) return ostium::predict_command(predict);

@@ -142,6 +142,7 @@ void append_strips(const std::vector<Strip>& strips, double seconds, int height,
                 text("%.*f", strip.most - strip.least < 10 ? 1 : 0, double(strip.samples.back())));
     sheet.write(right + 0.4 * size, from + 0.5 * share + 1.2 * size, 0.75 * size, strip.unit);
     const auto count = std::min(strip.samples.size(), static_cast<std::size_t>(seconds * strip.samples_per_s));
+    cairo_new_path(sheet.pen());  // words leave their end as its beginning
     for (std::size_t i = 0; i < count; ++i) {
       const double back_s = double(i) / strip.samples_per_s;
       const double value = double(strip.samples[strip.samples.size() - 1 - i]);

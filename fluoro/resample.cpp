@@ -36,13 +36,13 @@ std::vector<Between> between(Index coarse, Index size) {
 }
 
 /// Weights of the pixels 0, 1, 2 ... away: exp(-t) I_n(t) with t = sigma^2, whose variance is sigma^2 however narrow
-/// (Lindeberg 1990, IEEE PAMI 12:234).
+/// (Lindeberg 1990, IEEE PAMI 12:234); for wide ones, whose Bessel functions overflow, the Gaussian that they become.
 std::vector<float> gaussian(double sigma) {
   const double t = sigma * sigma;
   std::vector<double> weights;
   double sum = 0;
   for (int n = 0; n == 0 || weights.back() > 1e-4 * weights[0]; ++n) {
-    weights.push_back(std::exp(-t) * std::cyl_bessel_i(n, t));
+    weights.push_back(t < 100 ? std::exp(-t) * std::cyl_bessel_i(n, t) : std::exp(-n * n / (2 * t)));
     sum += (n ? 2 : 1) * weights.back();
   }
   std::vector<float> out;

@@ -83,12 +83,16 @@ void Angiogram::advance(const std::optional<Injection>& injection, PhysiologyInp
 const Picture& Angiogram::frame(const std::optional<Injection>& injection, const PhysiologyInputs& inputs,
                                 PhysiologyState& state) {
   advance(injection, inputs, state);
+  return take(state.heart.phase);
+}
+
+const Picture& Angiogram::take(double phase) {
   const FluoroscopeInput in{.scene = scene_.scene(),
                             .view = view_,
                             .collimator = {},
                             .pedals = {.fluoroscopy = false, .cine = true},
                             .cine_per_s = frames_per_s_,
-                            .beat_phase = state.heart.phase,
+                            .beat_phase = phase,
                             .seed = seed_};
   report_ = tick(imager_, in, fluoroscope_, display_);
   return fluoroscope_.live;

@@ -33,6 +33,8 @@ class Angiogram {
                        PhysiologyState& state);
   /// The same without taking it.
   void advance(const std::optional<Injection>& injection, PhysiologyInputs inputs, PhysiologyState& state);
+  /// A frame of the scene as it stands.
+  const Picture& take(double phase);
   const Picture& picture() const { return fluoroscope_.live; }
   const FluoroscopeState& fluoroscope() const { return fluoroscope_; }
   const TickReport& report() const { return report_; }

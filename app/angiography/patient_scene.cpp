@@ -50,7 +50,10 @@ Body body_of(const XrayBody& from) {
 }  // namespace
 
 PatientScene::PatientScene(const Patient& patient, const PhysiologyModel& physiology)
-    : patient_(patient), physiology_(physiology), map_(make_lumen_map(patient, physiology.flow)) {
+    : patient_(patient),
+      physiology_(physiology),
+      map_(make_lumen_map(patient, physiology.flow)),
+      shape_(patient, map_, physiology.flow.tree) {
   std::vector<Body> still;
   for (XrayBody& body : make_thorax(patient.anatomy)) {
     if (body.beat.empty() && body.breath.empty()) {
@@ -71,14 +74,18 @@ PatientScene::PatientScene(const Patient& patient, const PhysiologyModel& physio
   lumen.contrast.iodine_kg_m3 = Eigen::VectorXf::Zero(n);
   lumen.contrast.p_PC = Eigen::Matrix3Xf::Zero(3, n);
   scene_.moving.push_back(std::move(lumen));
+  own_ = scene_.moving.size();
 }
 
 const Scene& PatientScene::at(const PhysiologyState& state, std::span<const double> occupied_m, double breath) {
   const double phase = state.heart.phase;
+  scene_.moving.resize(own_);
+  scene_.shafts.clear();
   for (std::size_t b = 0; b < thorax_.size(); ++b)
     scene_.moving[b].p_P = points_of(ostium::at(thorax_[b], contraction(phase), breath).vertices);
   Body& lumen = scene_.moving[thorax_.size()];
-  lumen.p_P = points_of(patient_.lumen.at(phase, breath).vertices);
+  shape_.at(state.radius_m, phase, breath, vertices_);
+  lumen.p_P = points_of(vertices_);
   const FlowInputs in{{}, state.radius_m, occupied_m, 0};
   opacify(map_, physiology_.flow, in, physiology_.contrast, state.contrast, phase,
           {lumen.contrast.iodine_kg_m3.data(), static_cast<std::size_t>(lumen.contrast.iodine_kg_m3.size())},

@@ -4,6 +4,7 @@
 #include "vascular/contrast/lumen_map.h"
 #include "vascular/patient.h"
 #include "vascular/physiology.h"
+#include "vascular/plaque/wall_shape.h"
 #include "vascular/thorax/thorax.h"
 
 namespace ostium {
@@ -13,19 +14,23 @@ class PatientScene {
   /// Keeps references. Takes some seconds: the thorax is contoured.
   PatientScene(const Patient& patient, const PhysiologyModel& physiology);
 
-  /// Everything at this moment; `scene.shafts` and further bodies are the caller's.
+  /// The patient at this moment; what the caller has added to `scene()` since is taken out.
   const Scene& at(const PhysiologyState& state, std::span<const double> occupied_m, double breath_depth = 0);
   Scene& scene() { return scene_; }
   Body& lumen() { return scene_.moving[thorax_.size()]; }
   const LumenMap& map() const { return map_; }
+  const WallShape& shape() const { return shape_; }
 
  private:
   const Patient& patient_;
   const PhysiologyModel& physiology_;
   LumenMap map_;
+  WallShape shape_;
   std::vector<XrayBody> thorax_;  ///< those that move
   Scene scene_;
+  std::size_t own_ = 0;  ///< bodies of the patient; others stand behind them
   OpacityScratch scratch_;
+  std::vector<Eigen::Vector3d> vertices_;
 };
 
 }  // namespace ostium

@@ -29,7 +29,7 @@ struct BalloonModel {
   double refolded_m = 0.55e-3;  ///< emptied again
   double shoulder_m = 2.2e-3;   ///< beyond each marker, over which it falls to the shaft
   double unfolding_Pa = 0.6 * 101325;
-  double filling_Pa_s_m3 = 8e12;                             ///< R: 8 s under vacuum for 3.0 x 15 [usual, from memory]
+  double filling_Pa_s_m3 = 6e12;                             ///< R: 8 s under vacuum for 3.0 x 15 [usual, from memory]
   double viscous_Pa_s_m = 3e8;                               ///< c [estimate: a waist gives way in about half a second]
   double friction = 0.12, grip_N_m = 60, slide_N_s_m = 200;  ///< against the wall; of the shaft behind it [estimates]
   double iodine_kg_m3 = 175;                                 ///< half contrast, half saline

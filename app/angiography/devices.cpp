@@ -1,0 +1,136 @@
+#include "app/angiography/devices.h"
+
+#include <cmath>
+#include <numbers>
+
+#include "fluoro/tissue.h"
+
+namespace ostium {
+
+namespace {
+
+constexpr double pi = std::numbers::pi;
+constexpr int around = 20;
+
+Shaft line(const std::string& name, const std::vector<Eigen::Vector3d>& points, Material material, double outer_m,
+           double inner_m = 0, double filling = 1) {
+  Shaft shaft{.name = name, .p_P = Eigen::Matrix3Xd(3, points.size()), .sections = {}, .lumen_iodine_kg_m3 = {}};
+  double length = 0;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    shaft.p_P.col(static_cast<Eigen::Index>(i)) = points[i];
+    if (i) length += (points[i] - points[i - 1]).norm();
+  }
+  shaft.sections = {{0, length, material, outer_m, inner_m, filling}};
+  return shaft;
+}
+
+/// A closed surface of revolution about the path, its ends drawn together.
+Body body_of(const std::string& name, const std::vector<Eigen::Vector3d>& axis, const std::vector<PathFrame>& frames,
+             const std::vector<double>& radius_m, double iodine_kg_m3) {
+  const int rings = static_cast<int>(axis.size());
+  Body body{.name = name,
+            .triangles = nullptr,
+            .p_P = Eigen::Matrix3Xf(3, rings * around + 2),
+            .tissue = tissue::blood,
+            .within = tissue::blood,
+            .contrast = {}};
+  body.contrast.iodine_kg_m3 = Eigen::VectorXf::Constant(rings * around + 2, static_cast<float>(iodine_kg_m3));
+  body.contrast.p_PC = Eigen::Matrix3Xf(3, rings * around + 2);
+  auto triangles = std::make_shared<Triangles>(3, 2 * around * (rings - 1) + 2 * around);
+  int t = 0;
+  for (int k = 0; k < rings; ++k)
+    for (int j = 0; j < around; ++j) {
+      const double a = 2 * pi * j / around;
+      const int v = k * around + j, w = k * around + (j + 1) % around;
+      body.p_P.col(v) =
+          (axis[k] + radius_m[k] * (std::cos(a) * frames[k].side + std::sin(a) * frames[k].up)).cast<float>();
+      body.contrast.p_PC.col(v) = axis[k].cast<float>();
+      if (k + 1 < rings) {
+        triangles->col(t++) = Eigen::Vector3i(v, w, w + around);
+        triangles->col(t++) = Eigen::Vector3i(v, w + around, v + around);
+      }
+    }
+  const int low = rings * around, high = low + 1;
+  for (int end : {low, high}) {
+    const int k = end == low ? 0 : rings - 1;
+    body.p_P.col(end) = body.contrast.p_PC.col(end) = axis[k].cast<float>();
+    for (int j = 0; j < around; ++j) {
+      const int v = k * around + j, w = k * around + (j + 1) % around;
+      triangles->col(t++) = end == low ? Eigen::Vector3i(end, w, v) : Eigen::Vector3i(end, v, w);
+    }
+  }
+  body.triangles = triangles;
+  return body;
+}
+
+void add_balloon(const Bedside& bed, const Plan& plan, PatientScene& scene, double phase) {
+  const BalloonModel& model = bed.treatment.balloons[bed.device.balloon];
+  const BalloonState& state = bed.state.balloon;
+  std::vector<Eigen::Vector3d> axis;
+  std::vector<PathFrame> frames;
+  std::vector<double> radius;
+  for (int i = 0; i < balloon_spheres; i += 3) {
+    frames.push_back(frame_at(scene.map(), plan.path, sphere_position(model, state, plan.middle_m, i), phase));
+    axis.push_back(frames.back().centre);
+    radius.push_back(state.radius_m[i]);
+  }
+  // Its fill displaces blood; folded there is none to see.
+  if (state.pressure_Pa > 0 || state.was_filled > 0)
+    scene.scene().moving.push_back(body_of("balloon", axis, frames, radius, model.iodine_kg_m3));
+  for (double end : {-0.5, 0.5}) {
+    const double at = plan.middle_m + state.slip_m + end * model.length_m;
+    std::vector<Eigen::Vector3d> band;
+    for (double x : {-0.5e-3, 0.5e-3}) band.push_back(frame_at(scene.map(), plan.path, at + x, phase).centre);
+    scene.scene().shafts.push_back(line("marker", band, Material::platinum, 0.31e-3, 0.26e-3));
+  }
+}
+
+void add_stent(const StentModel& model, const StentState& state, const Plan& plan, const Bedside& bed,
+               const Patient& patient, PatientScene& scene, double phase) {
+  const std::vector<Eigen::Vector3d> points =
+      is_tied(state) ? points_on_wall(model, state, patient, scene.shape(), bed.blood.radius_m, phase, 0)
+                     : points_on_path(model, state, scene.map(), plan.path, phase);
+  for (const auto& [a, b] : struts_of(model))
+    scene.scene().shafts.push_back(line("strut", {points[a], points[b]}, Material::cobalt_chromium, model.strut_m / 2));
+}
+
+}  // namespace
+
+void add_devices(const Bedside& bed, const Plan& plan, const Patient& patient, PatientScene& scene, bool wire) {
+  const double phase = bed.blood.heart.phase;
+  if (wire) {
+    std::vector<Eigen::Vector3d> points;
+    for (int cell : plan.path.cells)
+      points.insert(points.begin(), scene.map().coronary.position(static_cast<std::size_t>(cell), phase));
+    Shaft shaft = line("wire", points, Material::steel, 0.1e-3);
+    shaft.sections.push_back({0, 0.03, Material::platinum, 0.178e-3, 0.12e-3, 0.8});
+    scene.scene().shafts.push_back(shaft);
+  }
+  for (std::size_t i = 0; i < bed.state.stents.size(); ++i) {
+    const StentState& stent = bed.state.stents[i];
+    const bool mine = bed.device.balloon >= 0 && bed.treatment.stent_on[bed.device.balloon] == static_cast<int>(i);
+    if (stent.where == StentState::deployed || (stent.where == StentState::on_balloon && mine))
+      add_stent(bed.treatment.stents[i], stent, plan, bed, patient, scene, phase);
+  }
+  if (bed.device.balloon >= 0) add_balloon(bed, plan, scene, phase);
+  for (const Injury& injury : bed.state.injury.injuries) {
+    if (injury.cell < 0 || injury.outside_kg <= 0) continue;
+    // A cloud beside the lumen, as large as what is in it.
+    const auto cell = static_cast<std::size_t>(injury.cell);
+    const Eigen::Vector3d p = scene.map().coronary.position(cell, phase);
+    const double r = std::cbrt(injury.outside_m3 * 3 / (4 * pi)), out = bed.blood.radius_m[cell] + 0.6 * r;
+    PathFrame frame{p, Eigen::Vector3d::UnitZ(), Eigen::Vector3d::UnitX(), Eigen::Vector3d::UnitY()};
+    std::vector<Eigen::Vector3d> axis;
+    std::vector<double> radius;
+    for (int k = 0; k < 9; ++k) {
+      const double x = -0.98 + 1.96 * k / 8;
+      axis.push_back(p + out * frame.side + r * x * frame.along), radius.push_back(r * std::sqrt(1 - x * x));
+    }
+    Body cloud = body_of("outside the lumen", axis, std::vector<PathFrame>(9, frame), radius,
+                         injury.outside_kg / injury.outside_m3);
+    cloud.within = tissue::soft;
+    scene.scene().moving.push_back(std::move(cloud));
+  }
+}
+
+}  // namespace ostium
