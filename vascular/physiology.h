@@ -6,6 +6,7 @@
 #include "vascular/flow/flow.h"
 #include "vascular/heart/ecg.h"
 #include "vascular/heart/heart.h"
+#include "vascular/heart/tip_pressure.h"
 
 namespace ostium {
 
@@ -16,6 +17,7 @@ struct PhysiologyModel {
   IschaemiaModel ischaemia;
   FlowModel flow;
   ContrastModel contrast;
+  TipPressureModel line;
 };
 /// `seed`: of what happens by chance, and of how the person's ECG answers (0: the mean).
 PhysiologyModel make_physiology(const Patient& patient, std::uint64_t seed = 0);
@@ -25,6 +27,8 @@ struct PhysiologyInputs {
   ContrastInputs contrast;
   std::vector<double> occupied_m;  ///< (#cells) radius of what lies in each cell; empty: nothing
   double hyperaemia = 0;           ///< FlowInputs
+  bool tip_in_ventricle = false, wire_in_catheter = false;  ///< TipPressureInputs; the tip itself is in `contrast`
+  double tip_covered = 0;
 };
 
 struct PhysiologyState {
@@ -32,6 +36,7 @@ struct PhysiologyState {
   IschaemiaState ischaemia;
   FlowState flow;
   ContrastState contrast;
+  TipPressureState line;
   std::vector<double> radius_m;  ///< (#cells) of the lumen
   double circulation_s = 0;      ///< since blood and contrast advanced
 };
@@ -56,6 +61,7 @@ void for_each_field(S& s, Visit&& visit) requires requires {
   for_each_ischaemia_field(s.ischaemia, visit);
   for_each_flow_field(s.flow, visit);
   for_each_contrast_field(s.contrast, visit);
+  for_each_tip_pressure_field(s.line, visit);
   visit("radius_m", s.radius_m.data(), static_cast<int>(s.radius_m.size()));
   visit("circulation_s", &s.circulation_s, 1);
 }

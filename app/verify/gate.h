@@ -57,6 +57,10 @@ std::vector<GateResult> anatomy_angles(bool quick);
 std::vector<GateResult> anatomy_dodge(bool quick);
 std::vector<GateResult> anatomy_motion(bool quick);
 std::vector<GateResult> anatomy_surface(bool quick);
+// --- what lives and what is done ---------------------------------------------------------------------------------
+std::vector<GateResult> flow(bool quick);
+std::vector<GateResult> contrast(bool quick);
+std::vector<GateResult> treatment(bool quick);
 // --- the X-ray picture -------------------------------------------------------------------------------------------
 std::vector<GateResult> xray_thickness(bool quick);
 std::vector<GateResult> xray_spectrum(bool quick);

@@ -27,7 +27,7 @@ struct FlowModel {
   double zero_flow_Pa = 20 * 133.322;  ///< pressure behind a closed balloon without collaterals: 20 to 30 mmHg
   /// Share of the ventricle's pressure that squeezes the muscle's vessels: the diastolic to systolic ratio of velocity
   /// is 1.8 to 2.1 in the left coronary, 1.0 in the right (Hadjiloizou 2008).
-  std::array<double, territories> squeeze = {0.74, 0.68, 0.27};
+  std::array<double, territories> squeeze = {0.60, 0.50, 0.27};
   double most_dilated = 3.4;             ///< conductance of the muscle, of that at rest (flow reserve 3.0 to 3.25)
   double averaging_s = 1.5, tone_s = 8;  ///< the muscle's answer [estimate: reactive hyperaemia lasts tens of seconds]
   std::vector<double> need_m3_s;         ///< (#cells) at rest

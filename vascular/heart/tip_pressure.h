@@ -1,0 +1,47 @@
+#pragma once
+/// What a pressure line reads, from where its catheter's end hole is.
+///
+/// Three causes, three traces: an end hole against a wall reads a damped one (lower mean, narrow pulse); a catheter
+/// that fills an ostium reads what is left of pressure behind it, which is the muscle's (ventricularised: steep
+/// diastolic fall, wide pulse, no notch); contrast or a thick wire in the lumen leaves none.
+#include "vascular/contrast/contrast.h"
+
+namespace ostium {
+
+enum class Trace { normal, damped, ventricularised, ventricle, absent };
+
+struct TipPressureModel {
+  double line_s = 0.010;  ///< time constant of a free line [usual resonance 15 to 25 Hz, from memory]
+  double lost = 0.45;     ///< of the pressure, when the hole is all but closed
+};
+
+struct TipPressureInputs {
+  Pressures pressures;
+  double coronary_Pa = 0;  ///< of the cell where the tip is (FlowState::pressure_Pa), if it is in a coronary
+  TipPlace tip;
+  bool in_ventricle = false;
+  double covered = 0;        ///< [0, 1): share of the end hole that lies against a wall
+  bool blocked = false;      ///< it injects, or a 0.035 in wire is inside
+  bool beat_begins = false;  ///< an R wave in this step
+};
+
+struct TipPressureState {
+  double reading_Pa = 0;
+  double low_Pa = 1e6, high_Pa = 0, sum_Pa = 0, count = 0;  ///< of the running beat
+  double aorta_low_Pa = 1e6, aorta_high_Pa = 0;
+  double trace = 0;                  ///< Trace of the last whole beat, as a number
+  double mean_Pa = 0, pulse_Pa = 0;  ///< of it
+};
+
+void step(const TipPressureModel& model, const TipPressureInputs& inputs, double dt_s, TipPressureState& state);
+inline Trace trace(const TipPressureState& s) { return static_cast<Trace>(static_cast<int>(s.trace)); }
+const char* trace_name(Trace trace);
+
+template <class S, class Visit>
+void for_each_tip_pressure_field(S& s, Visit&& visit) {
+  for (auto* number : {&s.reading_Pa, &s.low_Pa, &s.high_Pa, &s.sum_Pa, &s.count, &s.aorta_low_Pa, &s.aorta_high_Pa,
+                       &s.trace, &s.mean_Pa, &s.pulse_Pa})
+    visit("tip_pressure", number, 1);
+}
+
+}  // namespace ostium
