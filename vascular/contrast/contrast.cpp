@@ -256,19 +256,24 @@ struct Step {
       inlet_kg_m3 = sinus_kg_m3(side);
       s.sinus_kg[side] -= inlet_kg_m3 * coming;
     }
-    x.volume.resize(cells), x.mass.resize(cells), x.passing.resize(cells + 1), x.through.resize(cells + 1);
+    // A tip in the first cell gives to what comes in there, so that it is mixed before it goes on.
+    const bool tip_here = x.entering[n() + first] > 0;
+    const double entering_m3 = tip_here ? x.entering[first] : 0, entering_kg = tip_here ? x.entering[n() + first] : 0;
+    if (coming + entering_m3 > 0) inlet_kg_m3 = (inlet_kg_m3 * coming + entering_kg) / (coming + entering_m3);
     bool clear = inlet_kg_m3 == 0;
     for (int k = 0; k < layers; ++k)
       for (int i = 0; i < cells; ++i)
         clear = clear && s.sheath_kg[k * n() + first + i] == 0 && x.entering[n() + first + i] == 0;
     if (clear) return;
+    x.volume.resize(cells), x.mass.resize(cells), x.passing.resize(cells + 1), x.through.resize(cells + 1);
     for (int k = 0; k < layers; ++k) {
       double* mass = &s.sheath_kg[k * n() + first];
       for (int i = 0; i < cells; ++i) x.volume[i] = model.share[k] * volume(first + i), x.mass[i] = mass[i];
       for (int i = 0; i < cells; ++i) x.passing[i] = through(first + i) / layers;
-      x.passing[cells] = 0;
+      x.passing[0] = (coming + entering_m3) / layers, x.passing[cells] = 0;
       carry(x.mass, x.volume, x.passing, inlet_kg_m3, x.through, x.carry);
-      for (int i = 0; i < cells; ++i) mass[i] += x.through[i] - x.through[i + 1] + x.entering[n() + first + i] / layers;
+      for (int i = 0; i < cells; ++i)
+        mass[i] += x.through[i] - x.through[i + 1] + (i > 0 ? x.entering[n() + first + i] / layers : 0);
     }
     for (int i = 0; i < cells; ++i) leave(first + i);
   }
@@ -290,8 +295,9 @@ struct Step {
       sides += through(tree.branches[tree.sides[j]].first) / layers;
     for (int k = 0; k < layers; ++k) {
       double& m = s.sheath_kg[k * n() + c];
-      m += mixing * (model.share[k] * all - m);
-      const double kg_m3 = m / (model.share[k] * V + leak + sides);
+      const double with_leaving = model.share[k] * V + leak + sides;
+      m += mixing * (with_leaving / (V + layers * (leak + sides)) * all - m);
+      const double kg_m3 = m / with_leaving;
       s.muscle_kg += kg_m3 * leak;
       for (int j = tree.side_first[c]; j < tree.side_first[c + 1]; ++j) {
         const int child = tree.sides[j];

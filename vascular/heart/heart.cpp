@@ -17,7 +17,7 @@ constexpr double pi = std::numbers::pi;
 constexpr double opens = 0.07, closes = 0.35;      // phases of the aortic valve
 constexpr double closure = 0.02, returned = 0.03;  // its return flow: how long, and of the stroke
 constexpr double filling_needed_s = 0.55;          // of diastole for a whole stroke
-constexpr double earliest_ectopic = 0.55, hurry = 3, pause_slowing = 0.6;
+constexpr double earliest_ectopic = 0.52, latest_ectopic = 0.72, hurry = 4, pause_slowing = 0.6;
 
 double stroke_after(const HeartModel& model, double filled_s) {
   // Filling is fast at first; an early beat moves little, and one after a pause a little more.
@@ -51,7 +51,7 @@ double filling_pressure_Pa(double phase) {
 }
 
 void step(const HeartModel& model, const HeartInputs& inputs, double dt_s, HeartState& s) {
-  if (inputs.irritation > 0 && s.next_ectopic == 0 && s.phase > earliest_ectopic && s.phase < 0.85) {
+  if (inputs.irritation > 0 && s.next_ectopic == 0 && s.phase > earliest_ectopic && s.phase < latest_ectopic) {
     const double p = 1 - std::exp(-model.ectopic_per_s * std::min(inputs.irritation, 1.0) * dt_s);
     if (uniform(model.seed, 11, static_cast<std::uint64_t>(s.draws)) < p) s.next_ectopic = 1;
     s.draws += 1;

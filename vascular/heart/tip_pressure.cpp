@@ -12,7 +12,7 @@ constexpr double narrow_pulse = 0.6, deep_diastole = 0.65;  // of the aorta's
 Trace judged(const TipPressureState& s, const TipPressureInputs& in) {
   if (in.blocked) return Trace::absent;
   const double pulse = s.high_Pa - s.low_Pa, aorta_pulse = s.aorta_high_Pa - s.aorta_low_Pa;
-  if (s.low_Pa < 0.3 * s.aorta_low_Pa && s.high_Pa > 0.8 * s.aorta_high_Pa) return Trace::ventricle;
+  if (s.low_Pa < 0.25 * s.aorta_low_Pa && s.high_Pa > 0.92 * s.aorta_high_Pa) return Trace::ventricle;
   if (s.low_Pa < deep_diastole * s.aorta_low_Pa && pulse > aorta_pulse) return Trace::ventricularised;
   return pulse < narrow_pulse * aorta_pulse ? Trace::damped : Trace::normal;
 }
