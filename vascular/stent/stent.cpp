@@ -18,7 +18,7 @@ constexpr int relaxations = 3;             // rounds a step
 constexpr double pressed_together = 0.55;  // links give way to this share of their length
 constexpr double link_elastic = 0.04;
 
-double half_chord(const StentModel& m, double r) { return 2 * r * std::sin(pi / (2 * m.crowns) / 2); }
+double half_chord(const StentModel& m, double r) { return 2 * r * std::sin(pi / (2 * m.crowns)); }
 
 double ring_height(const StentModel& m, double r) {
   const double l = m.strut_length_m(), c = half_chord(m, r);
@@ -64,7 +64,7 @@ bool between(const StentModel& m, const StentState& s, double s_m, int& ring, do
 }  // namespace
 
 double StentModel::strut_length_m() const { return std::hypot(height_m, half_chord(*this, crimped_m)); }
-double StentModel::widest_m() const { return strut_length_m() / (2 * std::sin(pi / (2 * crowns) / 2)); }
+double StentModel::widest_m() const { return strut_length_m() / (2 * std::sin(pi / (2 * crowns))); }
 
 StentModel make_stent(double nominal_m, double length_m) {
   StentModel m;
