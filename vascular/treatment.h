@@ -26,8 +26,8 @@ struct TreatmentInputs {
   double edge_m = -1e9, edge_N = 0;  ///< StentInputs
   int wire_tip_cell = -1;            ///< where a wire presses the wall, and
   double wire_tip_N = 0;             ///< how hard
-  std::span<const double> shaft_m;   ///< (#cells) radius of what else lies in the lumen; empty: nothing
-  Doses doses;
+  std::span<const double> shaft_m = {};   ///< (#cells) radius of what else lies in the lumen; empty: nothing
+  Doses doses = {};
 };
 
 struct TreatmentState {

@@ -69,7 +69,7 @@ struct BalloonInputs {
   const VesselPath* path = nullptr;  ///< null: in free space, or in a catheter
   double middle_m = 0;               ///< between its markers, along the path
   double gauge_Pa = 0;               ///< of the inflation device; -1 atm: vacuum
-  Sleeve sleeve;
+  Sleeve sleeve = {};
 };
 
 struct BalloonReport {
