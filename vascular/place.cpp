@@ -7,8 +7,8 @@ namespace ostium {
 
 namespace {
 
-constexpr double in_vessel = 1.6;         // radii from the centreline at which a point still counts as inside
-constexpr double at_ostium_m = 8e-3;      // from an ostium within which a jet may meet it
+constexpr double in_vessel = 1.6;     // radii from the centreline at which a point still counts as inside
+constexpr double at_ostium_m = 8e-3;  // from an ostium within which a jet may meet it
 constexpr double in_aorta_m = 25e-3;
 
 }  // namespace
@@ -71,18 +71,19 @@ CellLocator::Found CellLocator::nearest(const Eigen::Vector3d& p, double limit_m
   return found.distance_m <= limit_m ? found : Found{};
 }
 
-std::optional<Seat> seat_of(const CellLocator& locator, const FlowTree& tree, const Eigen::Vector3d& p_proximal_marker,
-                            const Eigen::Vector3d& p_distal_marker) {
+std::optional<Seat> seat_of(const CellLocator& locator, const FlowTree& tree, const std::vector<VesselPath>& paths,
+                            const Eigen::Vector3d& p_proximal_marker, const Eigen::Vector3d& p_distal_marker) {
   const auto inside = [&](const Eigen::Vector3d& p) {
     const CellLocator::Found f = locator.nearest(p, 10e-3);
     return f.cell >= 0 && f.distance_m <= in_vessel * tree.cells[f.cell].healthy_m ? f : CellLocator::Found{};
   };
   const CellLocator::Found near = inside(p_proximal_marker), far = inside(p_distal_marker);
   if (near.cell < 0 || far.cell < 0 || !tree.is_downstream(far.cell, near.cell)) return {};
-  Seat seat{.path = path_along(tree, tree.branches[tree.cells[far.cell].branch].last - 1)};
+  Seat seat{.branch = tree.cells[far.cell].branch};
+  const VesselPath& path = paths[seat.branch];
   const auto position = [&](const CellLocator::Found& f) {
-    const auto at = std::find(seat.path.cells.begin(), seat.path.cells.end(), f.cell) - seat.path.cells.begin();
-    return seat.path.s_m[static_cast<std::size_t>(at)] + f.along_m;
+    const auto at = std::find(path.cells.begin(), path.cells.end(), f.cell) - path.cells.begin();
+    return path.s_m[static_cast<std::size_t>(at)] + f.along_m;
   };
   seat.middle_m = (position(near) + position(far)) / 2;
   seat.offset_m = (near.distance_m + far.distance_m) / 2;
@@ -101,15 +102,17 @@ void occupy(const CellLocator& locator, const FlowTree& tree, std::span<const Ei
     // And the cells between this point and the last one.
     const int low = last < 0 ? f.cell : std::min(last, f.cell), high = last < 0 ? f.cell : std::max(last, f.cell);
     if (last < 0 || tree.is_downstream(high, low))
-      for (int c = high; c >= low && c >= 0; c = tree.cells[c].upstream) occupied_m[c] = std::max(occupied_m[c], radius_m);
+      for (int c = high; c >= low && c >= 0; c = tree.cells[c].upstream)
+        occupied_m[c] = std::max(occupied_m[c], radius_m);
     else
       occupied_m[f.cell] = std::max(occupied_m[f.cell], radius_m);
     last = f.cell;
   }
 }
 
-TipPlace tip_place(const CellLocator& locator, const FlowTree& tree, const ContrastModel& contrast, const Patient& patient,
-                   const LumenMap& map, double phase, const Eigen::Vector3d& p_tip, const Eigen::Vector3d& direction) {
+TipPlace tip_place(const CellLocator& locator, const FlowTree& tree, const ContrastModel& contrast,
+                   const Patient& patient, const LumenMap& map, double phase, const Eigen::Vector3d& p_tip,
+                   const Eigen::Vector3d& direction) {
   const CellLocator::Found f = locator.nearest(p_tip, 6e-3);
   if (f.cell >= 0 && f.distance_m <= in_vessel * tree.cells[f.cell].healthy_m) {
     // Ahead of the first cell it is still in the sinus.

@@ -68,16 +68,21 @@ TreatmentReport step(const TreatmentModel& model, const FlowTree& tree, const Tr
   }
   std::copy(s.wall.rest_m.begin(), s.wall.rest_m.end(), s.wall.radius_m.begin());
   const BalloonModel* balloon = in.balloon >= 0 ? &model.balloons[in.balloon] : nullptr;
+  const VesselPath* path = in.branch >= 0 ? &model.paths[in.branch] : nullptr;
   const int own = balloon ? model.stent_on[in.balloon] : -1;
   // A crimped stent is where its balloon is, before the balloon feels it.
   if (own >= 0 && s.stents[own].where == StentState::on_balloon)
-    s.stents[own].middle_m = in.middle_m + s.balloon.slip_m;
-  if (balloon && in.path) {
-    const double reach = balloon->length_m / 2 + balloon->shoulder_m;
+    s.stents[own].branch = in.branch, s.stents[own].middle_m = in.middle_m + s.balloon.slip_m;
+  // Stents in the wall of the vessel that the balloon lies in.
+  const auto beside = [&](std::size_t i) {
+    const StentState& stent = s.stents[i];
+    return path && stent.where == StentState::deployed && stent.branch >= 0 &&
+           same_vessel(model.paths[static_cast<std::size_t>(stent.branch)], *path, stent.middle_m);
+  };
+  if (balloon && path) {
+    const double end = in.middle_m + balloon->length_m / 2 + balloon->shoulder_m;
     for (std::size_t i = 0; i < s.stents.size(); ++i)
-      if (s.stents[i].where == StentState::deployed &&
-          narrowest_m(model.stents[i], s.stents[i], -1, in.middle_m + reach) < balloon->folded_m)
-        report.blocked = true;
+      if (beside(i) && narrowest_m(model.stents[i], s.stents[i], -1, end) < balloon->folded_m) report.blocked = true;
   }
   const double injured = s.injury.count;
   if (balloon && !report.blocked) {
@@ -85,16 +90,16 @@ TreatmentReport step(const TreatmentModel& model, const FlowTree& tree, const Tr
     // Stents that lie in a wall, and the one on this very balloon; others are not in the vessel.
     Sleeve sleeve;
     for (std::size_t i = 0; i < s.stents.size(); ++i)
-      if (s.stents[i].where == StentState::deployed || static_cast<int>(i) == own)
+      if (beside(i) || (static_cast<int>(i) == own && s.stents[i].where == StentState::on_balloon))
         add_sleeve(model.stents[i], s.stents[i], *balloon, s.balloon, in.middle_m, x.stent, sleeve);
     report.balloon =
-        step(*balloon, model.plaque, {in.path, in.middle_m, in.gauge_Pa, sleeve}, dt, s.balloon, s.wall, x.balloon);
+        step(*balloon, model.plaque, {path, in.middle_m, in.gauge_Pa, sleeve}, dt, s.balloon, s.wall, x.balloon);
     if (report.balloon.touches || report.balloon.spilt_m3 > 0)
       judge_stretch(model.injury, model.plaque, s.wall, balloon->length_m, whole && s.balloon.burst > 0,
                     physiology.heart.time_s, s.injury);
-    if (report.balloon.spilt_m3 > 0 && in.path) {
+    if (report.balloon.spilt_m3 > 0 && path) {
       // Its filling goes into the vessel.
-      const auto cell = static_cast<std::size_t>(in.path->cells[in.path->at(in.middle_m).index]);
+      const auto cell = static_cast<std::size_t>(path->cells[path->at(in.middle_m).index]);
       const double kg = report.balloon.spilt_m3 * balloon->iodine_kg_m3;
       for (int k = 0; k < layers; ++k) physiology.contrast.sheath_kg[k * tree.cells.size() + cell] += kg / layers;
       physiology.contrast.injected_kg += kg, physiology.contrast.injected_m3 += report.balloon.spilt_m3;
@@ -102,12 +107,17 @@ TreatmentReport step(const TreatmentModel& model, const FlowTree& tree, const Tr
   }
   for (std::size_t i = 0; i < s.stents.size(); ++i) {
     StentState& stent = s.stents[i];
-    const bool mine = static_cast<int>(i) == own && balloon;
+    const bool mine = static_cast<int>(i) == own && balloon, within = balloon && !report.blocked && (mine || beside(i));
     if (stent.where == StentState::lost || (stent.where == StentState::on_balloon && !mine)) continue;
     const bool was_crimped = stent.where == StentState::on_balloon;
     step(model.stents[i], model.plaque,
-         {in.path, report.blocked ? nullptr : balloon, &s.balloon, in.middle_m, mine ? in.drag_N : 0, in.edge_m,
-          in.edge_N},
+         {.path = stent.branch >= 0 ? &model.paths[static_cast<std::size_t>(stent.branch)] : nullptr,
+          .balloon = within ? balloon : nullptr,
+          .balloon_state = &s.balloon,
+          .balloon_middle_m = in.middle_m,
+          .drag_N = mine ? in.drag_N : 0,
+          .edge_m = in.edge_m,
+          .edge_N = beside(i) ? in.edge_N : 0},
          dt, stent, s.wall);
     if (was_crimped && stent.where == StentState::deployed) report.deployed = static_cast<int>(i);
   }
@@ -121,10 +131,10 @@ TreatmentReport step(const TreatmentModel& model, const FlowTree& tree, const Tr
     occupied_m.assign(tree.cells.size(), 0);
   else
     occupied_m.assign(in.shaft_m.begin(), in.shaft_m.end());
-  if (balloon && in.path && !report.blocked)
-    for (std::size_t k = 0; k < in.path->cells.size(); ++k) {
-      double& occupied = occupied_m[in.path->cells[k]];
-      occupied = std::max(occupied, radius_at(*balloon, s.balloon, in.middle_m, in.path->s_m[k]));
+  if (balloon && path && !report.blocked)
+    for (std::size_t k = 0; k < path->cells.size(); ++k) {
+      double& occupied = occupied_m[path->cells[k]];
+      occupied = std::max(occupied, radius_at(*balloon, s.balloon, in.middle_m, path->s_m[k]));
     }
   return report;
 }

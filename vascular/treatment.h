@@ -15,18 +15,19 @@ struct TreatmentModel {
   std::vector<BalloonModel> balloons;  ///< that may be used, and
   std::vector<StentModel> stents;      ///< with
   std::vector<int> stent_on;           ///< (#balloons) the stent crimped on it, or -1
+  std::vector<VesselPath> paths;       ///< all_paths of the flow tree
 };
 
 struct TreatmentInputs {
-  int balloon = -1;                  ///< of the model, which is in the vessel; -1: none. Another one starts deflated
-  const VesselPath* path = nullptr;  ///< along which it lies
-  double middle_m = 0;               ///< between its markers, along the path
+  int balloon = -1;     ///< of the model, which is in the vessel; -1: none. Another one starts deflated
+  int branch = -1;      ///< along whose path it lies (place.h finds it); -1: not in the coronaries
+  double middle_m = 0;  ///< between its markers, along that path
   double gauge_Pa = 0;
-  double drag_N = 0;                 ///< StentInputs
-  double edge_m = -1e9, edge_N = 0;  ///< StentInputs
-  int wire_tip_cell = -1;            ///< where a wire presses the wall, and
-  double wire_tip_N = 0;             ///< how hard
-  std::span<const double> shaft_m = {};   ///< (#cells) radius of what else lies in the lumen; empty: nothing
+  double drag_N = 0;                     ///< StentInputs
+  double edge_m = -1e9, edge_N = 0;      ///< StentInputs
+  int wire_tip_cell = -1;                ///< where a wire presses the wall, and
+  double wire_tip_N = 0;                 ///< how hard
+  std::span<const double> shaft_m = {};  ///< (#cells) radius of what else lies in the lumen; empty: nothing
   Doses doses = {};
 };
 

@@ -40,18 +40,18 @@ std::vector<double> healthy_radii(const FlowTree& tree) {
   return radii;
 }
 
-/// The longest way on from a branch's end, for devices that reach beyond it.
-int far_end(const FlowTree& tree, int branch) {
+/// The branch that goes on from a branch's end, for devices that reach beyond it.
+int far_branch(const FlowTree& tree, int branch) {
   int end = tree.branches[branch].last - 1;
   for (bool more = true; more;) {
     more = false;
     for (std::size_t b = 0; b < tree.branches.size(); ++b)
       if (tree.branches[b].parent_cell == end && tree.cells[tree.branches[b].first].healthy_m > 0.8e-3) {
-        end = tree.branches[b].last - 1, more = true;
+        end = tree.branches[b].last - 1, branch = static_cast<int>(b), more = true;
         break;
       }
   }
-  return end;
+  return branch;
 }
 
 }  // namespace
@@ -63,7 +63,8 @@ Treatable plan_treatment(const Patient& patient, const FlowModel& flow, std::uin
                           .drugs = {},
                           .balloons = {},
                           .stents = {},
-                          .stent_on = {}},
+                          .stent_on = {},
+                          .paths = all_paths(tree)},
                 .plans = {}};
   const std::vector<double> healthy = healthy_radii(tree);
   const auto add = [&](const BalloonModel& balloon, int stent) {
@@ -72,7 +73,8 @@ Treatable plan_treatment(const Patient& patient, const FlowModel& flow, std::uin
     return static_cast<int>(out.model.balloons.size()) - 1;
   };
   for (const Lesion& lesion : patient.lesions) {
-    Plan plan{.lesion = lesion, .path = path_along(tree, far_end(tree, tree.branch(lesion.branch)))};
+    Plan plan{.lesion = lesion, .branch = far_branch(tree, tree.branch(lesion.branch)), .path = {}};
+    plan.path = out.model.paths[plan.branch];
     plan.from_m = path_position(tree, plan.path, lesion.branch, lesion.from_m);
     plan.to_m = plan.from_m + lesion.length_m;
     plan.proximal_m = mean_diameter(plan, tree, healthy, plan.from_m - reference_stretch, plan.from_m);
@@ -162,7 +164,7 @@ InflationRecord inflate(Bedside& bed, const Plan& plan, int balloon, double gaug
   constexpr double pump_Pa_s = 2 * atm, vacuum_s = 15;
   const BalloonModel& model = bed.treatment.balloons[balloon];
   InflationRecord record{.device = model.name};
-  bed.device.balloon = balloon, bed.device.path = &plan.path, bed.device.middle_m = plan.middle_m;
+  bed.device.balloon = balloon, bed.device.branch = plan.branch, bed.device.middle_m = plan.middle_m;
   bed.device.gauge_Pa = 0;
   bed.step();
   const double folded_m3 = bed.state.balloon.volume_m3;

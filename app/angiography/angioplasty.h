@@ -11,7 +11,8 @@ namespace ostium {
 /// Sizes and pressures as an operator chooses them for a lesion.
 struct Plan {
   Lesion lesion;
-  VesselPath path;
+  int branch = -1;              ///< along whose path the devices lie
+  VesselPath path;              ///< that path
   double from_m = 0, to_m = 0;  ///< of the lesion, along the path
   double reference_m = 0;       ///< diameter: mean of 5 mm ahead of it and behind it, as far as the branch goes
   double distal_m = 0, proximal_m = 0;

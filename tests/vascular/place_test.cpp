@@ -27,18 +27,20 @@ TEST(Place, AMarkerPairIsFoundAgainAtEveryMomentOfTheBeat) {
   CellLocator locator(w.map, w.tree, w.patient.lumen);
   const int near = w.tree.cell_at(w.tree.branch("RCA"), 40e-3), far = w.tree.cell_at(w.tree.branch("RCA"), 52e-3);
   const VesselPath path = path_along(w.tree, far);
+  const std::vector<VesselPath> paths = all_paths(w.tree);
   for (double phase : {0.0, 0.2, 0.36, 0.7}) {
     locator.set_moment(phase, 0);
     const Eigen::Vector3d beside(0.3e-3, 0.2e-3, -0.1e-3);
-    const auto seat = seat_of(locator, w.tree, locator.centre(near) + beside, locator.centre(far) + beside);
+    const auto seat = seat_of(locator, w.tree, paths, locator.centre(near) + beside, locator.centre(far) + beside);
     ASSERT_TRUE(seat);
-    EXPECT_NEAR(seat->middle_m, (path.s_m[path.cells.size() - 1] + path_position(w.tree, path, "RCA", w.tree.s_of(near))) / 2, 0.4e-3);
+    EXPECT_NEAR(seat->middle_m,
+                (path.s_m[path.cells.size() - 1] + path_position(w.tree, path, "RCA", w.tree.s_of(near))) / 2, 0.4e-3);
     EXPECT_LT(seat->offset_m, 0.4e-3);
   }
   // Markers in two vessels are no seat.
   const int other = w.tree.cell_at(w.tree.branch("LAD"), 30e-3);
-  EXPECT_FALSE(seat_of(locator, w.tree, locator.centre(other), locator.centre(far)));
-  EXPECT_FALSE(seat_of(locator, w.tree, locator.centre(far) + Eigen::Vector3d(0.05, 0, 0), locator.centre(far)));
+  EXPECT_FALSE(seat_of(locator, w.tree, paths, locator.centre(other), locator.centre(far)));
+  EXPECT_FALSE(seat_of(locator, w.tree, paths, locator.centre(far) + Eigen::Vector3d(0.05, 0, 0), locator.centre(far)));
 }
 
 TEST(Place, AShaftFillsTheCellsItRunsThroughAndNoOthers) {
@@ -79,15 +81,19 @@ TEST(Place, ATipIsInTheCoronaryAtItsOstiumOrInTheAorta) {
 
 TEST(Place, StepsOfPhysiologyAndTreatmentAllocateNothing) {
   const Ward& w = ward();
-  TreatmentModel model{.plaque = make_plaque_model(w.tree, w.patient.lesions), .injury = {}, .drugs = {},
-                       .balloons = {make_balloon(Compliance::semi, 3e-3, 18.5e-3)}, .stents = {make_stent(3e-3, 18e-3)}, .stent_on = {0}};
+  TreatmentModel model{.plaque = make_plaque_model(w.tree, w.patient.lesions),
+                       .injury = {},
+                       .drugs = {},
+                       .balloons = {make_balloon(Compliance::semi, 3e-3, 18.5e-3)},
+                       .stents = {make_stent(3e-3, 18e-3)},
+                       .stent_on = {0},
+                       .paths = all_paths(w.tree)};
   PhysiologyState blood = make_state(w.physiology);
   TreatmentState state = make_state(model, w.tree);
-  const VesselPath path = path_along(w.tree, w.tree.branches[w.tree.branch("RCA")].last - 1);
   PhysiologyInputs inputs;
   inputs.contrast.tip = {TipPlace::coronary, w.tree.branches[w.tree.branch("RCA")].first, 1};
   inputs.contrast.injection_m3_s = 2e-6;
-  TreatmentInputs device{.balloon = 0, .path = &path, .middle_m = 48e-3, .gauge_Pa = 0};
+  TreatmentInputs device{.balloon = 0, .branch = w.tree.branch("RCA"), .middle_m = 48e-3, .gauge_Pa = 0};
   PhysiologyScratch blood_scratch;
   TreatmentScratch scratch;
   const auto run = [&](int steps) {

@@ -31,7 +31,6 @@ struct Setting {
 struct Bench {
   PhysiologyModel physiology{.heart = {}, .ischaemia = {}, .flow = {}, .contrast = {}, .line = {}};
   TreatmentModel model;
-  VesselPath path;
   PhysiologyState blood;
   TreatmentState state;
   PhysiologyInputs inputs;
@@ -62,13 +61,13 @@ struct Bench {
     model.stent_on = {-1};
     if (o.stent) model.stents = {make_stent(o.balloon_mm * mm, o.balloon_length_mm * mm)}, model.stent_on = {0};
     if (o.change) o.change(model);
-    path = path_along(tree, 199);
+    model.paths = all_paths(tree);
     blood = make_state(physiology);
     state = make_state(model, tree);
-    device.balloon = 0, device.path = &path, device.middle_m = middle_m + o.shift_mm * mm;
+    device.balloon = 0, device.branch = 0, device.middle_m = middle_m + o.shift_mm * mm;
   }
   void run(double gauge_atm, double seconds) {
-    device.gauge_Pa = gauge_atm * atm, device.path = &path;
+    device.gauge_Pa = gauge_atm * atm;
     for (int n = 0; n < 1000 * seconds; ++n) {
       report = step(model, physiology.flow.tree, device, 1e-3, state, blood, inputs.occupied_m, scratch);
       step(physiology, inputs, 1e-3, blood, blood_scratch);
@@ -303,7 +302,7 @@ TEST(Stent, ASecondDeviceDoesNotPassOneThatIsNotOpen) {
                  m.balloons.push_back(make_balloon(Compliance::semi, 3 * mm, 15 * mm)), m.stent_on.push_back(-1);
                }});
   StentState& stent = bench.state.stents[0];
-  stent.where = StentState::deployed, stent.middle_m = bench.middle_m;
+  stent.where = StentState::deployed, stent.branch = 0, stent.middle_m = bench.middle_m;
   for (double& r : stent.radius_m) r = 0.40 * mm;
   for (double& r : stent.rest_m) r = 0.40 * mm;
   bench.device.balloon = 1;

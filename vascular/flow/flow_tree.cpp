@@ -66,6 +66,17 @@ VesselPath path_along(const FlowTree& tree, int cell) {
   return path;
 }
 
+std::vector<VesselPath> all_paths(const FlowTree& tree) {
+  std::vector<VesselPath> paths;
+  for (const FlowBranch& b : tree.branches) paths.push_back(path_along(tree, b.last - 1));
+  return paths;
+}
+
+bool same_vessel(const VesselPath& a, const VesselPath& b, double s_m) {
+  const auto i = static_cast<std::size_t>(a.at(s_m).index);
+  return i < b.cells.size() && a.cells[i] == b.cells[i];
+}
+
 VesselPath::Place VesselPath::at(double s) const {
   const auto above = std::upper_bound(s_m.begin(), s_m.end(), s) - s_m.begin();
   if (above == 0) return {0, 0};

@@ -62,6 +62,10 @@ struct VesselPath {
   double value(const std::vector<double>& of_cells, double s_m) const;
 };
 VesselPath path_along(const FlowTree& tree, int cell);
+/// To the end of each branch.
+std::vector<VesselPath> all_paths(const FlowTree& tree);
+/// Whether two paths are one and the same at a place, so that what lies there lies in both.
+bool same_vessel(const VesselPath& a, const VesselPath& b, double s_m);
 /// Where on the path a place of a branch is, as Lesion::from_m counts it. Throws std::invalid_argument if the path does
 /// not go there.
 double path_position(const FlowTree& tree, const VesselPath& path, const std::string& branch, double from_branch_m);

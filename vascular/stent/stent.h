@@ -43,6 +43,7 @@ struct StentTie {
 struct StentState {
   static constexpr double on_balloon = 0, deployed = 1, lost = 2;
   double where = on_balloon;
+  double branch = -1;            ///< along whose path it lies, as a number; while crimped its balloon's
   double middle_m = 0;           ///< along the path; while crimped its balloon's
   double shift_m = 0;            ///< of the crimped stent on its balloon; negative: proximally
   std::vector<double> radius_m;  ///< (#rings) inner
@@ -87,6 +88,7 @@ std::pair<double, double> span_of(const StentState& state);
 template <class S, class Visit>
 void for_each_stent_field(S& s, Visit&& visit) {
   visit("stent.where", &s.where, 1);
+  visit("stent.branch", &s.branch, 1);
   visit("stent.middle_m", &s.middle_m, 1);
   visit("stent.shift_m", &s.shift_m, 1);
   visit("stent.radius_m", s.radius_m.data(), static_cast<int>(s.radius_m.size()));
