@@ -34,11 +34,18 @@ std::string usual_view(const std::string& artery) {
   return artery == "RCA" ? "lao" : artery == "LCx" ? "rao-caudal" : "rao-cranial";
 }
 
+constexpr double shown_s = 25;  // of the strips
+
 /// ECG and pressure, 250 a second, as the monitor beside the pictures shows them.
 struct Monitor {
-  Strip II{"II", "mV", 250, {}, -0.6, 1.5}, V2{"V2", "mV", 250, {}, -1.5, 1.2}, aorta{"Ao", "mmHg", 250, {}, 40, 140},
+  Strip II{"II", "mV", 250, {}, -0.3, 1.15}, V2{"V2", "mV", 250, {}, -1.0, 0.8}, aorta{"Ao", "mmHg", 250, {}, 50, 130},
       gauge{"gauge", "atm", 250, {}, -2, 22};
   long step = 0;
+  /// Keeps no more than so many seconds from the beginning.
+  void end(double seconds) {
+    for (Strip* strip : {&II, &V2, &aorta, &gauge})
+      strip->samples.resize(std::min(strip->samples.size(), static_cast<std::size_t>(seconds * strip->samples_per_s)));
+  }
   void listen(const Bedside& bed) {
     if (step++ % 4) return;
     const auto leads = ecg(bed.blood.heart, bed.inputs.heart.rate_1_min, bed.physiology.ischaemia, bed.blood.ischaemia);
@@ -223,6 +230,7 @@ int treat_command(const TreatOptions& o) {
         }
       };
       records.push_back(inflate(bed, plan, balloon, gauge, o.hold_s));
+      monitor.end(gauge / (2 * atm) + o.hold_s + 6);
       kept = monitor;
       const int stent = room.plan.model.stent_on[balloon];
       if (stent >= 0 && bed.state.stents[stent].where == StentState::deployed && !is_tied(bed.state.stents[stent]))
@@ -247,7 +255,7 @@ int treat_command(const TreatOptions& o) {
     if (o.no_pictures) continue;
     after = room.picture(plan, "AFTER", true);
     Picture sheet = beside(beside(before, inflating), after);
-    append_strips({kept.II, kept.V2, kept.aorta, kept.gauge}, 40, o.pixels / 2, sheet);
+    append_strips({kept.II, kept.V2, kept.aorta, kept.gauge}, shown_s, o.pixels * 7 / 10, sheet);
     sheets.push_back(sheet);
   }
   report["injuries"] = json::array();

@@ -6,7 +6,7 @@ namespace ostium {
 
 struct TreatOptions {
   std::string of = "rca-mid-focal";   ///< case
-  double hold_s = 15;                 ///< of each inflation
+  double hold_s = 20;                 ///< of each inflation
   double pressure = 1, oversize = 1;  ///< of what is usual
   double shift_mm = 0;                ///< beside the lesion, distally
   bool no_stent = false, no_predilatation = false, no_postdilatation = false, no_pictures = false, json = false;

@@ -58,6 +58,9 @@ int main(int argc, char** argv) {
   bool json = false, quick = false, growth_only = false, stretch_only = false, frames_only = false;
   double late_s = 0, soak_min = 0;
   int drives = 0;
+  bool json = false, quick = false, growth_only = false, stretch_only = false, frames_only = false,
+       physiology_only = false;
+  double late_s = 0;
   int feed_trips = 0;
   CLI::App app("Times the step: CPU time of one simulated millisecond, beside its accuracy gate and the yardstick.",
                "ostium-bench");
@@ -68,6 +71,7 @@ int main(int argc, char** argv) {
   app.add_option("--feed", feed_trips,
                  "Instead: feed a wire 1 m in and out so often, and compare its rest (100: three minutes)");
   app.add_flag("--frames", frames_only, "Instead: the X-ray frames alone");
+  app.add_flag("--physiology", physiology_only, "Instead: flow and contrast, balloon and stent alone");
   app.add_option("--late", late_s, "Instead: so many seconds of a 1 kHz loop, alone and beside frames");
   app.add_option("--drives", drives,
                  "Instead: so many random drives through the beating test vessel (10 take a minute)");
@@ -91,6 +95,11 @@ int main(int argc, char** argv) {
                                   frame_row("frame-512-rotating", 512, true, quick),
                                   frame_row("frame-1024", 1024, false, quick)};
     json ? print_json(frames, 0) : print_table(frames, 0);
+    return 0;
+  }
+  if (physiology_only) {
+    const std::vector<Row> rows{circulation_row(quick), treatment_row(quick)};
+    json ? print_json(rows, 0) : print_table(rows, 0);
     return 0;
   }
   if (feed_trips > 0) {
@@ -120,6 +129,11 @@ int main(int argc, char** argv) {
   rows.push_back(frame_row("frame-512", 512, false, quick));
   rows.push_back(frame_row("frame-512-rotating", 512, true, quick));
   rows.push_back(frame_row("frame-1024", 1024, false, quick));
+  if (!quick) {
+    if (!json) fmt::print(stderr, "flow, contrast, balloon, stent ...\n");
+    rows.push_back(circulation_row(quick));
+    rows.push_back(treatment_row(quick));
+  }
   json ? print_json(rows, yardstick) : print_table(rows, yardstick);
   return 0;
 }

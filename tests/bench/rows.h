@@ -54,6 +54,11 @@ void print_stretch_table(bool quick);
 /// angle-opacity shader. `rotating`: the C-arm turns between frames, so that nothing can be kept.
 Row frame_row(const std::string& name, int pixels, bool rotating, bool quick);
 
+/// CPU time of flow and contrast for a frame at 15 a second (`ms`; p999_ms is the slowest), while both coronaries fill.
+Row circulation_row(bool quick);
+/// CPU time of a step of balloon, stent and wall (ms, and 99.9th percentile), while a stent is opened in a lesion.
+Row treatment_row(bool quick);
+
 /// How many ticks of a 1 kHz loop are late, alone and with another thread drawing frames. Printed.
 void print_late_ticks(double seconds);
 

@@ -1,0 +1,84 @@
+/// Flow and contrast for a frame; balloon, stent and wall for a step: in the default case.
+#include <time.h>
+
+#include <algorithm>
+#include <numeric>
+
+#include "app/angiography/angioplasty.h"
+#include "app/angiography/settle.h"
+#include "app/verify/gate.h"
+#include "tests/bench/rows.h"
+#include "vascular/units.h"
+
+namespace ostium::bench {
+
+namespace {
+
+double thread_ms() {
+  timespec t;
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
+  return 1e3 * double(t.tv_sec) + 1e-6 * double(t.tv_nsec);
+}
+
+void set_times(std::vector<double> times, double quantile, Row& row) {
+  row.ms = std::accumulate(times.begin(), times.end(), 0.0) / double(times.size());
+  std::sort(times.begin(), times.end());
+  row.p999_ms = times[std::min(times.size() - 1, static_cast<std::size_t>(quantile * double(times.size())))];
+}
+
+/// The gate's first row, run now.
+void set_gate(const std::vector<GateResult>& results, const std::string& name, Row& row) {
+  for (const GateResult& r : results)
+    if (r.gate == name) row.gate = {r.gate, r.value, r.unit, r.pass()};
+}
+
+}  // namespace
+
+Row circulation_row(bool quick) {
+  Row row{.name = "flow-contrast-frame", .gate = {}};
+  const Case c = find_case("rca-mid-focal");
+  const Patient patient = make_patient(c.anatomy, c.lesions);
+  const PhysiologyModel model = make_physiology(patient);
+  PhysiologyState state = at_rest(model, c.rate_1_min, 5);
+  PhysiologyScratch scratch;
+  PhysiologyInputs inputs;
+  const FlowTree& tree = model.flow.tree;
+  std::vector<double> times;
+  for (int frame = 0; frame < (quick ? 30 : 300); ++frame) {
+    // One artery after the other.
+    inputs.contrast.tip = {TipPlace::coronary, tree.branches[tree.branch(frame % 60 < 30 ? "LM" : "RCA")].first, 1};
+    inputs.contrast.injection_m3_s = 2 * mL;
+    const double start = thread_ms();
+    for (int n = 0; n < 67; ++n) step(model, inputs, 1e-3, state, scratch);
+    times.push_back(thread_ms() - start);
+  }
+  set_times(times, 1, row);
+  set_gate(verify::contrast(true), "contrast-balance", row);
+  return row;
+}
+
+Row treatment_row(bool quick) {
+  Row row{.name = "balloon-stent-step", .gate = {}};
+  const Case c = find_case("rca-mid-focal");
+  const Patient patient = make_patient(c.anatomy, c.lesions);
+  const PhysiologyModel physiology = make_physiology(patient);
+  const Treatable t = plan_treatment(patient, physiology.flow, 0);
+  PhysiologyState blood = make_state(physiology);
+  TreatmentState state = make_state(t.model, physiology.flow.tree);
+  TreatmentScratch scratch;
+  std::vector<double> occupied, times;
+  const Plan& plan = t.plans.front();
+  TreatmentInputs device;
+  device.branch = plan.branch, device.middle_m = plan.middle_m, device.balloon = plan.stent;
+  for (int n = 0; n < (quick ? 1000 : 10000); ++n) {
+    device.gauge_Pa = std::min(plan.stent_Pa, 2e-3 * atm * n);
+    const double start = thread_ms();
+    step(t.model, physiology.flow.tree, device, 1e-3, state, blood, occupied, scratch);
+    times.push_back(thread_ms() - start);
+  }
+  set_times(times, 0.999, row);
+  set_gate(verify::treatment(true), "treatment-balloon-chart-semi", row);
+  return row;
+}
+
+}  // namespace ostium::bench
