@@ -109,7 +109,8 @@ class Room {
       add_devices(bed, p, patient, scene, true);
       out = angiogram.take(bed.blood.heart.phase);
     }
-    draw_overlay({view, cine(15), angiogram.report().frame.exposure, {}, true, words, c_name()}, out);
+    draw_overlay(
+        {view, cine(15), angiogram.report().frame.exposure, angiogram.fluoroscope().dose, true, words, c_name()}, out);
     return out;
   }
 

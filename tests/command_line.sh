@@ -43,6 +43,15 @@ expect 0 "Examples" "$ostium" frame --help
 expect 0 "kV" frame --view spider --fill left --overlay -o "$dir/frame.png"
 expect 0 '"dap_per_frame_Gy_cm2"' frame --json -o "$dir/frame.png"
 expect 0 "run.dcm" frame --frames 3 --fill right --guide right -o "$dir/run.dcm"
+expect 0 "Examples" "$ostium" inject --help
+expect 0 '"iodine_balance"' "$ostium" inject --pixels 256 --seconds 0.3 --json -o "$dir/inject.png"
+expect 3 "there is no case" "$ostium" inject no-such-case -o "$dir/inject.png"
+expect 3 "png and .mp4" "$ostium" inject -o "$dir/inject.jpg"
+expect 2 "volume" "$ostium" inject --volume -3 -o "$dir/inject.png"
+expect 0 "Examples" "$ostium" treat --help
+expect 0 '"ffr_model"' "$ostium" treat --no-pictures --no-predilatation --no-postdilatation --hold 1 --json
+expect 3 "there is no view" "$ostium" treat --view upwards -o "$dir/treat.png"
+expect 3 "png is known" "$ostium" treat -o "$dir/treat.mp4"
 expect 3 "there is no view" frame --view upwards -o "$dir/frame.png"
 expect 3 "from -120.0 to 120.0 degrees" frame --lao 150 -o "$dir/frame.png"
 expect 3 "from 85.0 to 125.0 cm" frame --sid 1400 -o "$dir/frame.png"

@@ -143,6 +143,19 @@ TEST(Imager, DoseAreaProductIsKermaTimesAreaAtAnyDistance) {
   EXPECT_NEAR(shut.dose_area_Gy_m2 / open.dose_area_Gy_m2, 0.25, 1e-9);
 }
 
+TEST(Imager, EveryFieldHasAPicture) {
+  // Blurs are wider in pixels the smaller the field is: their weights must not overflow.
+  for (double field_m : {0.20, 0.16, 0.13, 0.10}) {
+    View view = small_view();
+    view.field_m = field_m;
+    Imager imager({}, make_scanline_renderer());
+    ImagerState state;
+    const FrameReport report = imager.frame({water(0.2), view, {}, fluoroscopy(), 1}, state);
+    EXPECT_TRUE(state.lag.shown.isFinite().all()) << field_m;
+    EXPECT_NEAR(report.exposure.detector_dose_nGy, 30 * 0.2 / field_m, 1e-6) << field_m;
+  }
+}
+
 TEST(Imager, ScatterIsAsMuchAsPrimaryBehindTheMediastinum) {
   // Even with a grid: about as much, within a factor of two, behind the spine in an AP view.
   const Scene scene = phantom::chest({});
