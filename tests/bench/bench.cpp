@@ -55,13 +55,10 @@ void print_table(const std::vector<Row>& rows, double yardstick) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  bool json = false, quick = false, growth_only = false, stretch_only = false, frames_only = false;
-  double late_s = 0, soak_min = 0;
-  int drives = 0;
   bool json = false, quick = false, growth_only = false, stretch_only = false, frames_only = false,
        physiology_only = false;
-  double late_s = 0;
-  int feed_trips = 0;
+  double late_s = 0, soak_min = 0;
+  int feed_trips = 0, drives = 0;
   CLI::App app("Times the step: CPU time of one simulated millisecond, beside its accuracy gate and the yardstick.",
                "ostium-bench");
   app.add_flag("--json", json, "Machine-readable: {\"machine\", \"rows\"}");
