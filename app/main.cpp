@@ -12,6 +12,7 @@
 #include "app/instruments_command.h"
 #include "app/predict_command.h"
 #include "app/treat_command.h"
+#include "app/run_command.h"
 #include "app/verify_command.h"
 
 int main(int argc, char** argv) {
@@ -250,12 +251,59 @@ int main(int argc, char** argv) {
       "Examples:\n  ostium explain my-wire -o found\n  ostium explain my-tubes --try shaft_torsion -o found\n"
       "  mpirun -n 8 ostium explain my-tubes --try shaft_torsion[0] --threads 1 -o found");
 
+  ostium::RunOptions run;
+  CLI::App* run_app = app.add_subcommand("run", "Runs a script on a case, or in a mesh");
+  const auto add_run_options = [](CLI::App* to, ostium::RunOptions& o) {
+    to->add_option("--script", o.script, "One of `ostium scripts`, or a file")
+        ->type_name("NAME|FILE")
+        ->capture_default_str();
+    to->add_option("--set", o.set, "Another instrument for one of the script's tools")->type_name("TOOL=NAME|FILE");
+    to->add_option("--seconds", o.seconds, "Most that are simulated")->check(CLI::Range(0.001, 36000.0));
+    to->add_option("--units", o.unit, "What a number in a mesh means")
+        ->check(CLI::IsMember({"mm", "cm", "m"}))
+        ->capture_default_str();
+    to->add_option("--entry", o.entry, "Of a mesh: where instruments come in")->type_name("X,Y,Z");
+    to->add_option("--towards", o.towards, "Of a mesh: a point that the way in leads to")->type_name("X,Y,Z");
+  };
+  run_app->add_option("vessel", run.vessel, "A case (`ostium cases`, or a file), or a closed mesh: OBJ, STL, PLY")
+      ->type_name("CASE|MESH")
+      ->required();
+  add_run_options(run_app, run);
+  run_app
+      ->add_option("--seed", run.seed, "0: exactly as the script says; others vary hands, roll and the heart's moment")
+      ->capture_default_str();
+  run_app->add_option("--person", run.person, "Another person than the case's own; 0 is the mean of the literature")
+      ->check(CLI::NonNegativeNumber);
+  run_app->add_option("--heart-rate", run.rate_1_min, "Instead of the case's, beats a minute")
+      ->check(CLI::Range(40, 180));
+  run_app->add_option("--out", run.folder, "Where run.h5 and metrics.json go")->type_name("DIR");
+  run_app->add_option("--record", run.record, "What run.h5 holds; events: no states, so replay starts at the beginning")
+      ->check(CLI::IsMember({"none", "events", "full"}))
+      ->capture_default_str();
+  std::string speed = "max";
+  run_app->add_option("--speed", speed, "real: a step a millisecond; the result is the same")
+      ->check(CLI::IsMember({"real", "max"}))
+      ->capture_default_str();
+  run_app->add_flag("--json", run.json, "Machine-readable, see data/schemas/run.schema.json");
+  run_app->footer(
+      "Examples:\n  ostium run rca-mid-focal --script aorta-arch-wire --out out\n"
+      "  ostium run lad-proximal-eccentric --set wire=bentson --seed 7 --json\n"
+      "  ostium run aorta.obj --entry -20,80,14 --towards -20,90,14 --script my-script.json");
+
+  bool scripts_json = false;
+  CLI::App* scripts_app = app.add_subcommand("scripts", "What scripts there are to run");
+  scripts_app->add_flag("--json", scripts_json, "Machine-readable");
+  scripts_app->footer("Examples:\n  ostium scripts\n  ostium scripts --json");
+
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : 2;
   }
   try {
+    run.real = speed == "real";
+    if (*run_app) return ostium::run_command(run);
+    if (*scripts_app) return ostium::scripts_command(scripts_json);
     if (*verify_app) return ostium::verify_command(verify);
     if (*cases_app) return ostium::cases_command(cases);
     if (*centreline_app) return ostium::centreline_command(centreline);

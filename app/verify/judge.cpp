@@ -16,7 +16,8 @@ double segment_distance(const Vector3d& p, const Vector3d& a, const Vector3d& b)
   return (p - a - t * d).norm();
 }
 
-/// By projection into the plane, else the nearest side: not how contact does it.
+}  // namespace
+
 double triangle_distance(const Vector3d& p, const Vector3d& a, const Vector3d& b, const Vector3d& c) {
   const Vector3d n = (b - a).cross(c - a);
   if (n.squaredNorm() > 0) {
@@ -25,8 +26,6 @@ double triangle_distance(const Vector3d& p, const Vector3d& a, const Vector3d& b
   }
   return std::min({segment_distance(p, a, b), segment_distance(p, b, c), segment_distance(p, c, a)});
 }
-
-}  // namespace
 
 Judge::Judge(const SurfaceDescription& wall) : wall_(wall) {
   const auto triangles = static_cast<Eigen::Index>(wall.triangles.size());

@@ -4,6 +4,10 @@
 
 namespace ostium::verify {
 
+/// Of a point to a triangle, m: by projection into its plane, else the nearest side; not how contact does it.
+double triangle_distance(const Eigen::Vector3d& p, const Eigen::Vector3d& a, const Eigen::Vector3d& b,
+                         const Eigen::Vector3d& c);
+
 class Judge {
  public:
   explicit Judge(const SurfaceDescription& wall);  ///< keeps a reference

@@ -1,0 +1,177 @@
+#include "app/run_command.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <csignal>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "app/session/play.h"
+#include "data/load_error.h"
+#include "data/write_file.h"
+#include "vascular/patient_frame.h"
+
+namespace ostium {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+std::atomic<bool> interrupted{false};
+
+void say(const std::string& what) {
+  if (isatty(STDERR_FILENO)) fmt::print(stderr, "{:<100}\r", what);
+}
+
+/// "X,Y,Z" in the mesh's unit.
+Eigen::Vector3d point(const std::string& text, const char* option, LengthUnit unit) {
+  double x, y, z;
+  char rest;
+  if (std::sscanf(text.c_str(), "%lf,%lf,%lf%c", &x, &y, &z, &rest) != 3)
+    throw LoadError(fmt::format("{} is \"{}\"; expected three numbers: X,Y,Z", option, text));
+  return metres(unit) * Eigen::Vector3d(x, y, z);
+}
+
+void show_progress(const Run& run) {
+  const double now = seconds(run.model, run.state);
+  const auto s = static_cast<std::size_t>(run.hands.step);
+  if (s >= run.plan.script.steps.size()) return;
+  std::string tools;
+  for (std::size_t t = 0; t < run.model.tools.size(); ++t)
+    tools += fmt::format("  {} {:.0f} mm {:.2f} N", run.model.tools[t].name, 1e3 * run.state.rods.rods[t].inserted_m,
+                         run.report.tools[t].wall_force_N);
+  say(fmt::format("{:7.1f} s  {}{}", now, run.plan.script.steps[s].words(), tools));
+}
+
+nlohmann::ordered_json to_json(const RunSetup& setup, const Run& run, const PlayReport& r, const std::string& file) {
+  nlohmann::ordered_json out = {{"case", setup.vessel},
+                                {"script", setup.script.name},
+                                {"seed", setup.seed},
+                                {"outcome", r.outcome},
+                                {"reason", r.reason},
+                                {"simulated_s", r.simulated_s},
+                                {"clock_s", r.clock_s},
+                                {"deepest_penetration_mm", 1e3 * r.penetration.deepest_m},
+                                {"nodes_outside", r.penetration.outside},
+                                {"step_ms",
+                                 {{"mean", r.times.mean_ms},
+                                  {"cpu", r.times.cpu_ms},
+                                  {"p50", r.times.p50_ms},
+                                  {"p99", r.times.p99_ms},
+                                  {"p999", r.times.p999_ms},
+                                  {"most", r.times.most_ms}}},
+                                {"overruns", r.times.overruns},
+                                {"troubled_steps", run.troubled},
+                                {"trouble", trouble_words(run.troubles)},
+                                {"hash", fmt::format("{:016x}", r.hash)},
+                                {"recording", file},
+                                {"recording_problem", r.problem}};
+  out["metrics"] =
+      nlohmann::ordered_json::parse(metrics_json(setup.vessel, setup.seed, r.outcome, r.reason, r.metrics))["metrics"];
+  return out;
+}
+
+void print_report(const Run& run, const PlayReport& r, const std::string& file) {
+  fmt::print("{}{}{}\n", r.outcome, r.reason.empty() ? "" : ": ", r.reason);
+  fmt::print("{:.3f} s simulated in {:.1f} s; deepest in the wall {:.3f} mm, {} nodes found outside\n", r.simulated_s,
+             r.clock_s, 1e3 * r.penetration.deepest_m, r.penetration.outside);
+  fmt::print("step {:.2f} ms (CPU {:.2f}), p50 {:.2f}, p99 {:.2f}, p99.9 {:.2f}, most {:.1f}; {} overruns\n",
+             r.times.mean_ms, r.times.cpu_ms, r.times.p50_ms, r.times.p99_ms, r.times.p999_ms, r.times.most_ms,
+             r.times.overruns);
+  if (run.troubled) fmt::print("{} steps had to give way: {}\n", run.troubled, trouble_words(run.troubles));
+  for (const Metric& m : r.metrics)
+    if (std::isfinite(m.value)) fmt::print("  {:<32} {:.4g} {}\n", m.name, m.value, m.unit == "1" ? "" : m.unit);
+  fmt::print("state {:016x}{}{}\n", r.hash, file.empty() ? "" : ", recorded in ", file);
+}
+
+}  // namespace
+
+RunSetup setup_of(const RunOptions& o) {
+  const LengthUnit unit = o.unit == "m"    ? LengthUnit::metre
+                          : o.unit == "cm" ? LengthUnit::centimetre
+                                           : LengthUnit::millimetre;
+  RunSetup setup;
+  setup.seed = o.seed;
+  set_vessel(o.vessel, unit, setup);
+  if (setup.is_mesh()) {
+    if (o.entry.empty() || o.towards.empty())
+      throw LoadError(o.vessel + " is a mesh: --entry X,Y,Z and --towards X,Y,Z say where an instrument comes in");
+    setup.entry = {point(o.entry, "--entry", unit), point(o.towards, "--towards", unit)};
+  } else if (!o.entry.empty() || !o.towards.empty()) {
+    throw LoadError("--entry and --towards are for a mesh; a case has its access");
+  }
+  if (o.person >= 0) setup.person = static_cast<std::uint64_t>(o.person);
+  if (o.rate_1_min > 0) setup.rate_1_min = o.rate_1_min;
+  std::map<std::string, std::string> replaced;
+  for (const std::string& set : o.set) {
+    const std::size_t equals = set.find('=');
+    if (equals == std::string::npos || equals == 0)
+      throw LoadError(fmt::format("--set {}: expected TOOL=INSTRUMENT", set));
+    replaced[set.substr(0, equals)] = set.substr(equals + 1);
+  }
+  set_script(find_script(o.script), replaced, setup);
+  return setup;
+}
+
+int run_command(const RunOptions& o) {
+  const RunSetup setup = setup_of(o);
+  PlayOptions options;
+  options.recorder.mode = o.folder.empty() || o.record == "none" ? RecordMode::none
+                          : o.record == "events"                 ? RecordMode::events
+                                                                 : RecordMode::full;
+  if (!o.folder.empty()) {
+    std::error_code error;
+    fs::create_directories(o.folder, error);
+    if (error) throw LoadError(fmt::format("{}: cannot be made ({}); expected a folder", o.folder, error.message()));
+    options.recorder.file = (fs::path(o.folder) / "run.h5").string();
+  }
+  say("building " + setup.vessel);
+  std::string warnings;
+  const auto vessel = make_vessel(setup, warnings);
+  if (!warnings.empty())
+    fmt::print(stderr, "ostium run: {} is not sound, and near its faults nothing is held back:\n{}", setup.vessel,
+               warnings);
+  Run run(setup, vessel);
+  options.real = o.real;
+  options.seconds = o.seconds;
+  options.progress = show_progress;
+  options.stop = &interrupted;
+  const auto ask_to_stop = [](int) { interrupted = true; };
+  std::signal(SIGINT, ask_to_stop);
+  std::signal(SIGTERM, ask_to_stop);
+  const PlayReport report = play(run, setup, options);
+  say("");
+  const std::string file = options.recorder.mode == RecordMode::none ? "" : options.recorder.file;
+  if (!o.folder.empty())
+    write_file((fs::path(o.folder) / "metrics.json").string(),
+               metrics_json(setup.vessel, setup.seed, report.outcome, report.reason, report.metrics));
+  if (o.json)
+    fmt::print("{}\n", to_json(setup, run, report, file).dump(2));
+  else
+    print_report(run, report, file);
+  if (!report.problem.empty()) {
+    fmt::print(stderr, "ostium run: the recording ends early: {}\n", report.problem);
+    return 1;
+  }
+  return report.outcome == "success" ? 0 : 1;
+}
+
+int scripts_command(bool json) {
+  const std::vector<Script> scripts = load_scripts();
+  if (json) {
+    auto out = nlohmann::ordered_json::array();
+    for (const Script& s : scripts) {
+      nlohmann::ordered_json tools;
+      for (const ScriptTool& tool : s.tools) tools.push_back({{"name", tool.name}, {"instrument", tool.instrument}});
+      out.push_back({{"name", s.name}, {"title", s.title}, {"steps", s.steps.size()}, {"tools", tools}});
+    }
+    fmt::print("{}\n", out.dump(2));
+    return 0;
+  }
+  for (const Script& s : scripts) fmt::print("{:<24} {:>2} steps  {}\n", s.name, s.steps.size(), s.title);
+  return 0;
+}
+
+}  // namespace ostium

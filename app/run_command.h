@@ -1,0 +1,33 @@
+#pragma once
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace ostium {
+
+struct RunOptions {
+  std::string vessel;  ///< a case, or a mesh
+  std::string script = "aorta-arch-wire";
+  std::vector<std::string> set;  ///< TOOL=INSTRUMENT
+  std::uint64_t seed = 0;
+  std::int64_t person = -1;     ///< -1: the case's own
+  double rate_1_min = 0;        ///< 0: the case's own
+  double seconds = 0;           ///< most that are simulated; 0: until the script ends
+  std::string folder;           ///< where recording and metrics go; empty: nowhere
+  std::string record = "full";  ///< none, events, full
+  bool real = false;            ///< paced at 1 kHz
+  std::string unit = "mm";      ///< of a mesh
+  std::string entry, towards;   ///< of a mesh: X,Y,Z
+  bool json = false;
+};
+
+struct RunSetup;
+/// What the options ask for. Throws LoadError or MeshError.
+RunSetup setup_of(const RunOptions& options);
+
+/// `ostium run`. Returns the exit code: 0 if the script succeeded. Throws LoadError or MeshError.
+int run_command(const RunOptions& options);
+/// `ostium scripts`.
+int scripts_command(bool json);
+
+}  // namespace ostium

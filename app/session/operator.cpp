@@ -1,0 +1,287 @@
+#include "app/session/operator.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+#include <stdexcept>
+
+namespace ostium {
+
+using Eigen::Vector3d;
+
+namespace {
+
+std::vector<int> places(const Script& script, const std::vector<ScriptCondition>& conditions, const Way& way) {
+  std::vector<int> out;
+  for (const ScriptCondition& c : conditions) {
+    int place = -1;
+    if (c.kind == ConditionKind::tip_in) {
+      place = way.entry(c.place);
+    } else if (c.kind == ConditionKind::tip_passes || c.kind == ConditionKind::tip_leaves) {
+      for (const ScriptLandmark& landmark : script.landmarks)
+        if (landmark.name == c.place) place = way.nearest(landmark.p_P);
+      if (place < 0) place = way.place(c.place);
+    } else {
+      out.push_back(-1);
+      continue;
+    }
+    if (place < 0) {
+      std::string known;
+      for (const std::string& name : way.places()) known += (known.empty() ? "" : ", ") + name;
+      for (const ScriptLandmark& landmark : script.landmarks) known += ", " + landmark.name;
+      refuse(script, c.line,
+             fmt::format("there is no place \"{}\" in this vessel; expected one of: {}; or with millimetres beyond a "
+                         "branch's origin, as RCA+20",
+                         c.place, known));
+    }
+    out.push_back(place);
+  }
+  return out;
+}
+
+/// A hand's own speed in a step: log-normal, 15 %.
+double hand_factor(std::uint64_t seed, int step) {
+  if (seed == 0) return 1;
+  std::mt19937_64 random(seed * 1000003 + static_cast<std::uint64_t>(step));
+  const auto uniform = [&] { return (static_cast<double>(random() >> 11) + 0.5) * 0x1p-53; };
+  const double u = uniform(), v = uniform();
+  return std::exp(0.15 * std::sqrt(-2 * std::log(u)) * std::cos(2 * EIGEN_PI * v));
+}
+
+struct Sight {
+  const Plan& plan;
+  const SessionModel& model;
+  const SessionState& session;
+  const SessionReport& report;
+  const OperatorState& state;
+
+  double now_s() const { return seconds(model, session); }
+
+  int tip_sphere(int tool) const { return model.vessel->way->locate(tip(model, session, tool), session.heart.phase); }
+
+  bool holds(const ScriptCondition& c, int place) const {
+    const auto t = static_cast<std::size_t>(c.tool);
+    const bool reported = !report.tools.empty();
+    const ToolReport none, &tool = reported ? report.tools[t] : none;
+    const double inserted = session.rods.rods[t].inserted_m;
+    switch (c.kind) {
+      case ConditionKind::tip_passes:
+      case ConditionKind::tip_in:
+        return tool.in_body && model.vessel->way->beyond(tip_sphere(c.tool), place);
+      case ConditionKind::tip_leaves:
+        return !tool.in_body || !model.vessel->way->beyond(tip_sphere(c.tool), place);
+      case ConditionKind::tip_points:
+        return tip_direction(model, session, c.tool).dot(c.direction_P) >= std::cos(c.value);
+      case ConditionKind::tip_drops:
+        return dropped_m(c.tool) >= c.value;
+      case ConditionKind::fed:
+        return std::fabs(session.hands[t].fed_m - state.began_fed_m[t]) >= c.value;
+      case ConditionKind::inserted:
+        return session.hands[t].fed_m >= state.began_fed_m[t] ? inserted >= c.value : inserted <= c.value;
+      case ConditionKind::out:
+        return reported && !tool.in_body;
+      case ConditionKind::turned:
+        return std::fabs(session.hands[t].turned_rad - state.began_turned_rad[t]) >= c.value;
+      case ConditionKind::push_exceeds:
+        return std::fabs(tool.push_N) > c.value;
+      case ConditionKind::torque_exceeds:
+        return std::fabs(tool.torque_Nm) > c.value;
+      case ConditionKind::wall_force_exceeds:
+        return tool.wall_force_N > c.value;
+      case ConditionKind::tip_force_exceeds:
+        return tool.tip_force_N > c.value;
+      case ConditionKind::seconds:
+        return now_s() - state.began_s >= c.value;
+      case ConditionKind::beats:
+        return session.heart.beats + session.heart.phase - state.began_beats >= c.value;
+    }
+    return false;
+  }
+
+  /// How far the tip went since the oldest note beyond what the hand moved.
+  double dropped_m(int tool) const {
+    const double* notes = &state.tips[static_cast<std::size_t>(4 * noted_tips * tool)];
+    if (!(notes[3] == notes[3])) return 0;  // not a number: not noted for long enough
+    const Vector3d then(notes[0], notes[1], notes[2]);
+    const double hand = std::fabs(session.hands[static_cast<std::size_t>(tool)].fed_m - notes[3]);
+    return (tip(model, session, tool) - then).norm() - hand;
+  }
+
+  int first_that_holds(const std::vector<ScriptCondition>& conditions, const std::vector<int>& at) const {
+    for (std::size_t i = 0; i < conditions.size(); ++i)
+      if (holds(conditions[i], at[i])) return static_cast<int>(i);
+    return -1;
+  }
+};
+
+void forget_tips(OperatorState& state) { std::fill(state.tips.begin(), state.tips.end(), std::nan("")); }
+
+void note_tips(const SessionModel& model, const SessionState& session, OperatorState& state) {
+  const double now = seconds(model, session);
+  if (now < state.next_s - 1e-9) return;
+  state.next_s = now + note_every_s;
+  for (int t = 0; t < static_cast<int>(model.tools.size()); ++t) {
+    double* notes = &state.tips[static_cast<std::size_t>(4 * noted_tips * t)];
+    std::copy(notes + 4, notes + 4 * noted_tips, notes);
+    double* last = notes + 4 * (noted_tips - 1);
+    const Vector3d p = tip(model, session, t);
+    last[0] = p.x(), last[1] = p.y(), last[2] = p.z(), last[3] = session.hands[static_cast<std::size_t>(t)].fed_m;
+  }
+}
+
+void begin(const ScriptStep& step, const SessionModel& model, const SessionState& session, OperatorState& state) {
+  state.began = 0;
+  state.began_s = seconds(model, session);
+  state.began_beats = session.heart.beats + session.heart.phase;
+  for (std::size_t t = 0; t < model.tools.size(); ++t)
+    state.began_fed_m[t] = session.hands[t].fed_m, state.began_turned_rad[t] = session.hands[t].turned_rad;
+  forget_tips(state);
+  switch (step.action) {
+    case ScriptAction::view:
+      state.lao_rad = step.lao_rad.value_or(state.lao_rad), state.cran_rad = step.cran_rad.value_or(state.cran_rad);
+      state.field_m = step.field_m.value_or(state.field_m), state.p_PI = step.table_P.value_or(state.p_PI);
+      break;
+    case ScriptAction::fluoroscopy:
+      state.fluoroscopy = step.on;
+      break;
+    case ScriptAction::cine:
+      state.cine = step.on;
+      break;
+    case ScriptAction::heart_rate:
+      state.rate_1_min = step.rate_1_min;
+      break;
+    default:
+      break;
+  }
+}
+
+bool takes_time(const ScriptStep& step) { return !step.until.empty(); }
+
+void ask(const Plan& plan, const OperatorState& state, SessionInputs& inputs) {
+  for (ToolInputs& tool : inputs.tools) tool = {};
+  inputs.rate_1_min = state.rate_1_min;
+  inputs.c_arm = {state.lao_rad, state.cran_rad, state.field_m, state.p_PI, state.fluoroscopy, state.cine};
+  const auto s = static_cast<std::size_t>(state.step);
+  if (state.outcome != 0 || s >= plan.script.steps.size()) return;
+  const double factor = hand_factor(plan.seed, static_cast<int>(s));
+  for (int t : plan.script.steps[s].tools)
+    inputs.tools[static_cast<std::size_t>(t)] = {factor * plan.script.steps[s].speed_m_s,
+                                                 factor * plan.script.steps[s].turn_rad_s};
+}
+
+void end(Outcome outcome, int condition, OperatorState& state) {
+  state.outcome = static_cast<double>(outcome);
+  state.by_condition = condition;
+}
+
+void go_to(int step, OperatorState& state) { state.step = step, state.began = 1; }
+
+}  // namespace
+
+Plan make_plan(const Script& script, const SessionModel& model, std::uint64_t seed) {
+  Plan plan{.script = script, .until_places = {}, .unless_places = {}, .seed = seed};
+  for (const ScriptStep& step : script.steps) {
+    plan.until_places.push_back(places(script, step.until, *model.vessel->way));
+    plan.unless_places.push_back(places(script, step.unless, *model.vessel->way));
+  }
+  return plan;
+}
+
+OperatorState make_state(const Plan& plan, const SessionModel& model) {
+  OperatorState state;
+  state.began_fed_m.assign(model.tools.size(), 0), state.began_turned_rad.assign(model.tools.size(), 0);
+  state.tries.assign(plan.script.steps.size(), 0);
+  state.tips.assign(4 * noted_tips * model.tools.size(), 0);
+  forget_tips(state);
+  state.rate_1_min = model.vessel->rate_1_min;
+  return state;
+}
+
+std::vector<double> save(const OperatorState& state) {
+  std::vector<double> out;
+  for_each_operator_field(state,
+                          [&](const char*, const double* first, int n) { out.insert(out.end(), first, first + n); });
+  return out;
+}
+
+void restore(const std::vector<double>& saved, OperatorState& state) {
+  if (saved.size() != save(state).size()) throw std::invalid_argument("the operator's saved state is another script's");
+  const double* from = saved.data();
+  for_each_operator_field(state, [&](const char*, double* first, int n) {
+    std::copy_n(from, n, first);
+    from += n;
+  });
+}
+
+Outcome decide(const Plan& plan, const SessionModel& model, const SessionState& session, const SessionReport& report,
+               OperatorState& state, SessionInputs& inputs, std::vector<OperatorEvent>& events) {
+  events.clear();
+  using Kind = OperatorEvent::Kind;
+  const Sight sight{plan, model, session, report, state};
+  const int count = static_cast<int>(plan.script.steps.size());
+  // A step that takes no time leads to the next at once; `count` bounds jumps among such.
+  for (int guard = 0; guard <= count && state.outcome == 0; ++guard) {
+    const int s = static_cast<int>(state.step);
+    if (s >= count) {
+      end(Outcome::success, -1, state);
+      break;
+    }
+    const ScriptStep& step = plan.script.steps[static_cast<std::size_t>(s)];
+    if (state.began != 0) {
+      begin(step, model, session, state);
+      events.push_back({step.action == ScriptAction::mark ? Kind::marked : Kind::begins, s, -1});
+      if (takes_time(step)) break;
+    }
+    const int until = sight.first_that_holds(step.until, plan.until_places[static_cast<std::size_t>(s)]);
+    if (!takes_time(step) || until >= 0) {
+      if (until >= 0) events.push_back({Kind::done, s, until});
+      go_to(s + 1, state);
+      continue;
+    }
+    const int unless = sight.first_that_holds(step.unless, plan.unless_places[static_cast<std::size_t>(s)]);
+    const bool late = sight.now_s() - state.began_s >= step.timeout_s;
+    if (unless < 0 && !late) break;
+    events.push_back({unless >= 0 ? Kind::failed : Kind::timed_out, s, unless});
+    double& tries = state.tries[static_cast<std::size_t>(s)];
+    if (step.otherwise == ScriptStep::Otherwise::go_on)
+      go_to(s + 1, state);
+    else if (step.otherwise == ScriptStep::Otherwise::jump && tries < step.tries)
+      tries += 1, go_to(step.jump_to, state);
+    else
+      end(unless >= 0 ? Outcome::failure : Outcome::timed_out, unless, state);
+  }
+  note_tips(model, session, state);
+  ask(plan, state, inputs);
+  return static_cast<Outcome>(static_cast<int>(state.outcome));
+}
+
+std::string words_for(Outcome outcome) {
+  switch (outcome) {
+    case Outcome::running:
+      return "running";
+    case Outcome::success:
+      return "success";
+    case Outcome::failure:
+    case Outcome::timed_out:
+      return "failure";
+    case Outcome::aborted:
+      return "aborted";
+  }
+  return "";
+}
+
+std::string reason(const Plan& plan, const OperatorState& state) {
+  const auto outcome = static_cast<Outcome>(static_cast<int>(state.outcome));
+  const auto s = static_cast<std::size_t>(state.step);
+  if (outcome == Outcome::success || s >= plan.script.steps.size()) return "";
+  const ScriptStep& step = plan.script.steps[s];
+  const std::string where = fmt::format("step {} of {}, {}", s + 1, plan.script.steps.size(), step.words());
+  if (outcome == Outcome::timed_out) return fmt::format("{}: timed out after {:g} s", where, step.timeout_s);
+  if (outcome == Outcome::failure)
+    return fmt::format("{}: {}", where, step.unless[static_cast<std::size_t>(state.by_condition)].words);
+  return where;
+}
+
+}  // namespace ostium

@@ -1,0 +1,84 @@
+#pragma once
+/// The operator of a script: looks at the session, moves the hands. All that it remembers is in OperatorState; what
+/// it asks for is SessionInputs, as from any hand.
+#include <string>
+#include <vector>
+
+#include "app/session/session.h"
+#include "data/script.h"
+
+namespace ostium {
+
+/// A script whose places are known in a vessel.
+struct Plan {
+  Script script;
+  std::vector<std::vector<int>> until_places, unless_places;  ///< of each step's conditions; -1 where they have none
+  std::uint64_t seed = 0;  ///< 0: hands keep their speeds; others vary them by 15 % (one standard deviation) a step
+};
+
+/// Throws LoadError with the script's line for a place that the vessel does not have.
+Plan make_plan(const Script& script, const SessionModel& model, std::uint64_t seed);
+
+enum class Outcome { running, success, failure, timed_out, aborted };
+std::string words_for(Outcome outcome);
+
+struct OperatorState {
+  double step = 0;   ///< of the script, as a number
+  double began = 1;  ///< 1: the step has yet to begin
+  double began_s = 0, began_beats = 0;
+  std::vector<double> began_fed_m, began_turned_rad;  ///< one a tool
+  std::vector<double> tries;                          ///< one a step of the script
+  double next_s = 0;                                  ///< when tips are noted next
+  std::vector<double> tips;                           ///< m, (#tools by noted_tips by 4): of the last 0.25 s, with fed
+  double rate_1_min = 0;
+  double lao_rad = 0, cran_rad = 0, field_m = 0.2, fluoroscopy = 0, cine = 0;
+  Eigen::Vector3d p_PI = Eigen::Vector3d::Zero();
+  double outcome = 0;        ///< an Outcome, as a number
+  double by_condition = -1;  ///< which of `unless` held; -1: the timeout
+};
+inline constexpr int noted_tips = 6;  ///< every 50 ms
+inline constexpr double note_every_s = 0.05;
+
+template <class S, class Visit>
+void for_each_operator_field(S& state, Visit&& visit) {
+  visit("step", &state.step, 1);
+  visit("began", &state.began, 1);
+  visit("began_s", &state.began_s, 1);
+  visit("began_beats", &state.began_beats, 1);
+  visit("began_fed_m", state.began_fed_m.data(), static_cast<int>(state.began_fed_m.size()));
+  visit("began_turned_rad", state.began_turned_rad.data(), static_cast<int>(state.began_turned_rad.size()));
+  visit("tries", state.tries.data(), static_cast<int>(state.tries.size()));
+  visit("next_s", &state.next_s, 1);
+  visit("tips", state.tips.data(), static_cast<int>(state.tips.size()));
+  visit("rate_1_min", &state.rate_1_min, 1);
+  visit("lao_rad", &state.lao_rad, 1);
+  visit("cran_rad", &state.cran_rad, 1);
+  visit("field_m", &state.field_m, 1);
+  visit("fluoroscopy", &state.fluoroscopy, 1);
+  visit("cine", &state.cine, 1);
+  visit("isocentre_m", state.p_PI.data(), 3);
+  visit("outcome", &state.outcome, 1);
+  visit("by_condition", &state.by_condition, 1);
+}
+
+OperatorState make_state(const Plan& plan, const SessionModel& model);
+std::vector<double> save(const OperatorState& state);
+/// Throws std::invalid_argument if the count is another script's.
+void restore(const std::vector<double>& saved, OperatorState& state);
+
+/// What the operator did in deciding.
+struct OperatorEvent {
+  enum class Kind { begins, done, failed, timed_out, marked } kind = Kind::begins;
+  int step = 0;
+  int condition = -1;  ///< of until (done) or unless (failed)
+};
+
+/// Reads the session as it is after `report`, says what the hands do in the next step. Does not allocate once `events`
+/// has grown. `events` is cleared first.
+Outcome decide(const Plan& plan, const SessionModel& model, const SessionState& session, const SessionReport& report,
+               OperatorState& state, SessionInputs& inputs, std::vector<OperatorEvent>& events);
+
+/// "advance (up the aorta): push_exceeds_N 8"; empty after success.
+std::string reason(const Plan& plan, const OperatorState& state);
+
+}  // namespace ostium

@@ -1,0 +1,100 @@
+#include "app/session/penetration.h"
+
+#include <algorithm>
+#include <cmath>
+#include <unordered_map>
+
+#include "app/verify/judge.h"
+#include "core/rod/introducer.h"
+
+namespace ostium {
+
+using Eigen::Vector3d;
+
+namespace {
+
+struct Ball {
+  Vector3d p;
+  double radius_m;
+  double distance_m;
+  bool is_tip;
+};
+
+constexpr double cell_m = 5e-3;
+
+struct Cell {
+  int x, y, z;
+  bool operator==(const Cell&) const = default;
+};
+struct CellHash {
+  std::size_t operator()(const Cell& c) const {
+    return static_cast<std::size_t>(c.x) * 73856093U ^ static_cast<std::size_t>(c.y) * 19349663U ^
+           static_cast<std::size_t>(c.z) * 83492791U;
+  }
+};
+Cell cell_of(const Vector3d& p) {
+  const auto n = [](double x) { return static_cast<int>(std::floor(x / cell_m)); };
+  return {n(p.x()), n(p.y()), n(p.z())};
+}
+
+std::vector<Ball> balls_of(const SessionModel& model, const SessionState& state) {
+  std::vector<Ball> balls;
+  for (std::size_t r = 0; r < model.tools.size(); ++r) {
+    const Rod& rod = model.rods.rods[r];
+    if (!in_body(rod, state.rods.rods[r])) continue;
+    for (int i = first_element(state.rods.rods[r]) + 1; i < rod.nodes(); ++i) {
+      const double radius = rod.radius.at(0)[i];
+      balls.push_back({state.rods.rods[r].position[i], radius, 1.5 * radius, i + 1 == rod.nodes()});
+    }
+  }
+  return balls;
+}
+
+double winding(const std::vector<Vector3d>& vertices, const SurfaceDescription& wall, const Vector3d& p) {
+  double sum = 0;
+  for (const auto& t : wall.triangles) {
+    const Vector3d a = vertices[t[0]] - p, b = vertices[t[1]] - p, c = vertices[t[2]] - p;
+    const double la = a.norm(), lb = b.norm(), lc = c.norm();
+    sum += 2 * std::atan2(a.dot(b.cross(c)), la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb);
+  }
+  return sum / (4 * EIGEN_PI);
+}
+
+}  // namespace
+
+Penetration penetration(const SessionModel& model, const SessionState& state) {
+  const SurfaceDescription& wall = model.vessel->wall;
+  const double frame = vessel_frame(*model.vessel, state.heart.phase);
+  std::vector<Vector3d> vertices(wall.frames[0].size());
+  for (std::size_t v = 0; v < vertices.size(); ++v) vertices[v] = vertex_at(wall, static_cast<int>(v), frame);
+
+  std::vector<Ball> balls = balls_of(model, state);
+  double largest = 0;
+  std::unordered_map<Cell, std::vector<std::size_t>, CellHash> cells;
+  for (std::size_t b = 0; b < balls.size(); ++b) {
+    cells[cell_of(balls[b].p)].push_back(b);
+    largest = std::max(largest, 1.5 * balls[b].radius_m);
+  }
+  const Vector3d margin = Vector3d::Constant(largest);
+  for (const auto& t : wall.triangles) {
+    const Vector3d &a = vertices[t[0]], &b = vertices[t[1]], &c = vertices[t[2]];
+    const Cell low = cell_of(a.cwiseMin(b).cwiseMin(c) - margin), high = cell_of(a.cwiseMax(b).cwiseMax(c) + margin);
+    for (int x = low.x; x <= high.x; ++x)
+      for (int y = low.y; y <= high.y; ++y)
+        for (int z = low.z; z <= high.z; ++z) {
+          const auto found = cells.find({x, y, z});
+          if (found == cells.end()) continue;
+          for (const std::size_t n : found->second)
+            balls[n].distance_m = std::min(balls[n].distance_m, verify::triangle_distance(balls[n].p, a, b, c));
+        }
+  }
+  Penetration out;
+  for (const Ball& ball : balls) {
+    const double depth = ball.radius_m - ball.distance_m;
+    out.deepest_m = std::max(out.deepest_m, depth);
+    if ((ball.is_tip || depth > 0.5 * ball.radius_m) && winding(vertices, wall, ball.p) < 0.5) ++out.outside;
+  }
+  return out;
+}
+
+}  // namespace ostium

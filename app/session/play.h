@@ -1,0 +1,41 @@
+#pragma once
+/// The loop around a run: pace, recording, times, the end.
+#include <atomic>
+#include <functional>
+
+#include "app/session/recorder.h"
+#include "app/session/run.h"
+
+namespace ostium {
+
+struct PlayOptions {
+  RecorderOptions recorder;
+  bool real = false;     ///< one step a millisecond of the clock; else as fast as it goes, with the same result
+  double seconds = 0;    ///< most that are simulated; 0: no end but the script's
+  double give_up_s = 0;  ///< of the clock; 0: never
+  /// Called now and then, at least every 0.1 s simulated: for progress. May be empty.
+  std::function<void(const Run&)> progress;
+  const std::atomic<bool>* stop = nullptr;  ///< becomes true: the run ends as aborted
+};
+
+/// Of the thread that steps; the clock's milliseconds a step, without waiting.
+struct StepTimes {
+  double p50_ms = 0, p99_ms = 0, p999_ms = 0, most_ms = 0, mean_ms = 0, cpu_ms = 0;
+  long overruns = 0;  ///< steps that began over 1 ms late, with `real`
+};
+
+struct PlayReport {
+  std::string outcome, reason;
+  double simulated_s = 0, clock_s = 0;
+  StepTimes times;
+  std::vector<Metric> metrics;
+  Penetration penetration;
+  std::string problem;  ///< of the recording
+  long waits = 0;
+  std::uint64_t hash = 0;  ///< of the last state
+};
+
+/// Runs to the end. Throws LoadError if the recording cannot be begun; what goes wrong with it later is in `problem`.
+PlayReport play(Run& run, const RunSetup& setup, const PlayOptions& options);
+
+}  // namespace ostium

@@ -1,0 +1,35 @@
+#include "app/session/run.h"
+
+namespace ostium {
+
+Run::Run(const RunSetup& setup, std::shared_ptr<const Vessel> vessel)
+    : model(make_session(setup, std::move(vessel))),
+      plan(make_plan(setup.script, model, setup.seed)),
+      state(make_state(model, setup.seed)),
+      hands(make_state(plan, model)),
+      scratch_(model) {
+  if (setup.rate_1_min) hands.rate_1_min = *setup.rate_1_min;
+  inputs.tools.resize(model.tools.size());
+  events.reserve(64);
+}
+
+bool Run::tick() {
+  outcome = decide(plan, model, state, report, hands, inputs, events);
+  if (outcome != Outcome::running) return false;
+  step(model, inputs, state, scratch_, report);
+  const std::uint32_t trouble = report.rods.trouble & ~static_cast<std::uint32_t>(feed_stopped);
+  if (trouble) ++troubled, troubles |= trouble;
+  return true;
+}
+
+std::string trouble_words(std::uint32_t trouble) {
+  static const char* const words[] = {"drive_limited",    "drive_not_finite", "load_limited", "not_converged",
+                                      "motion_lost",      "no_solution",      "feed_stopped", "pulled_apart",
+                                      "joint_overturned", "nest_unbalanced"};
+  std::string out;
+  for (std::size_t bit = 0; bit < std::size(words); ++bit)
+    if (trouble >> bit & 1) out += (out.empty() ? "" : ", ") + std::string(words[bit]);
+  return out;
+}
+
+}  // namespace ostium

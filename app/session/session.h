@@ -1,0 +1,162 @@
+#pragma once
+/// A session: everything that a simulation consists of, put together, and one step of it.
+///
+/// Four kinds of memory, as in core. Adding one more part (contrast, a balloon, signals): its const part in
+/// SessionModel, what it asks of the hand in SessionInputs with its line in `for_each_input`, its state in SessionState
+/// with its line in `for_each_part`, and its call in `step`. Recording, replay, hash and comparison follow from the
+/// lists.
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "app/session/vessel.h"
+#include "core/step.h"
+#include "data/instrument.h"
+#include "fluoro/c_arm.h"
+
+namespace ostium {
+
+struct SessionTool {
+  std::string name;  ///< what a script calls it
+  Instrument instrument;
+};
+
+/// Const after it is made; one vessel may be shared by many.
+struct SessionModel {
+  std::shared_ptr<const Vessel> vessel;
+  std::vector<SessionTool> tools;  ///< the outermost first; tool i is rod i
+  Model rods;
+  double step_s() const { return rods.step_s; }
+};
+
+/// Tools are nested wherever one goes through the other's lumen. Throws LoadError naming tools that are in the wrong
+/// order or cannot be in one vessel together.
+SessionModel make_session(std::shared_ptr<const Vessel> vessel, std::vector<SessionTool> tools);
+
+// --- the only door in ------------------------------------------------------------------------------------------------
+
+struct ToolInputs {
+  double advance_m_s = 0;
+  double turn_rad_s = 0;  ///< clockwise as seen from the hub
+};
+
+struct CArmInputs {
+  double lao_rad = 0, cran_rad = 0;
+  double field_m = 0.2;
+  Eigen::Vector3d p_PI = Eigen::Vector3d::Zero();  ///< the isocentre in the patient
+  double fluoroscopy = 0, cine = 0;                ///< pedals: 1 is down
+};
+
+struct SessionInputs {
+  std::vector<ToolInputs> tools;
+  CArmInputs c_arm;
+  double rate_1_min = 70;  ///< of the heart
+};
+
+/// visit(name, first, count) with `count` doubles. `S` is SessionInputs or const SessionInputs.
+template <class S, class Visit>
+void for_each_input(S& inputs, Visit&& visit) {
+  for (auto& tool : inputs.tools) {
+    visit("advance_m_s", &tool.advance_m_s, 1);
+    visit("turn_rad_s", &tool.turn_rad_s, 1);
+  }
+  visit("lao_rad", &inputs.c_arm.lao_rad, 1);
+  visit("cran_rad", &inputs.c_arm.cran_rad, 1);
+  visit("field_m", &inputs.c_arm.field_m, 1);
+  visit("isocentre_m", inputs.c_arm.p_PI.data(), 3);
+  visit("fluoroscopy", &inputs.c_arm.fluoroscopy, 1);
+  visit("cine", &inputs.c_arm.cine, 1);
+  visit("heart_rate_1_min", &inputs.rate_1_min, 1);
+}
+
+std::size_t input_count(const SessionModel& model);
+std::vector<std::string> input_names(const SessionModel& model);  ///< "wire.advance_m_s"
+void put_inputs(const SessionInputs& inputs, double* row);
+void take_inputs(const double* row, SessionInputs& inputs);
+
+// --- all that is needed to go on bit-identically ---------------------------------------------------------------------
+
+struct HeartState {
+  double phase = 0;  ///< [0, 1), 0 is the R wave
+  double beats = 0;  ///< R waves so far
+};
+
+struct HandState {
+  double fed_m = 0, turned_rad = 0;      ///< sums of what the hand did
+  double path_m = 0, turn_path_rad = 0;  ///< the same without sign
+};
+
+struct CArmState {
+  double fluoroscopy_s = 0, cine_s = 0, cine_runs = 0;
+  double fluoroscopy = 0, cine = 0;  ///< pedals of the last step
+};
+
+struct SessionState {
+  State rods;
+  HeartState heart;
+  std::vector<HandState> hands;  ///< one a tool
+  CArmState c_arm;
+};
+
+/// visit(name, first, count) for all but the rods, which have their own list in core/state.h.
+template <class S, class Visit>
+void for_each_part(S& state, Visit&& visit) {
+  visit("heart.phase", &state.heart.phase, 1);
+  visit("heart.beats", &state.heart.beats, 1);
+  for (auto& hand : state.hands) {
+    visit("hand.fed_m", &hand.fed_m, 1);
+    visit("hand.turned_rad", &hand.turned_rad, 1);
+    visit("hand.path_m", &hand.path_m, 1);
+    visit("hand.turn_path_rad", &hand.turn_path_rad, 1);
+  }
+  visit("c_arm.fluoroscopy_s", &state.c_arm.fluoroscopy_s, 1);
+  visit("c_arm.cine_s", &state.c_arm.cine_s, 1);
+  visit("c_arm.cine_runs", &state.c_arm.cine_runs, 1);
+  visit("c_arm.fluoroscopy", &state.c_arm.fluoroscopy, 1);
+  visit("c_arm.cine", &state.c_arm.cine, 1);
+}
+
+/// How a session begins. Seed 0: the heart at its R wave, tools as they come out of their packing; others draw both.
+SessionState make_state(const SessionModel& model, std::uint64_t seed);
+
+std::uint64_t hash(const SessionState& state);
+std::size_t state_count(const SessionModel& model);
+/// `row` has state_count numbers. Do not allocate.
+void put_state(const SessionState& state, double* row);
+void take_state(const double* row, SessionState& state);
+/// "rod 0 (wire), velocity[12]: 0.1 != 0.2", or empty if they are bit-identical.
+std::string first_difference(const SessionModel& model, const SessionState& a, const SessionState& b);
+
+// --- a step ----------------------------------------------------------------------------------------------------------
+
+struct SessionScratch {
+  explicit SessionScratch(const SessionModel& model);
+  Scratch rods;
+  Inputs inputs;  ///< of core
+};
+
+/// What a tool meets: what an operator could read off instruments.
+struct ToolReport {
+  double push_N = 0, torque_Nm = 0;          ///< at the hand
+  double wall_force_N = 0, tip_force_N = 0;  ///< sum of the walls' normal forces; on its last 10 mm
+  int touches = 0;
+  bool in_body = false;
+};
+
+struct SessionReport {
+  StepReport rods;
+  std::vector<ToolReport> tools;  ///< sized at the first step
+};
+
+/// Advances `state` by model.step_s(). Never throws; does not allocate after the first call with the same report.
+void step(const SessionModel& model, const SessionInputs& inputs, SessionState& state, SessionScratch& scratch,
+          SessionReport& report);
+
+double seconds(const SessionModel& model, const SessionState& state);
+/// Its distal end, m, and where it points; the introducer's while it is not in the body.
+Eigen::Vector3d tip(const SessionModel& model, const SessionState& state, int tool);
+Eigen::Vector3d tip_direction(const SessionModel& model, const SessionState& state, int tool);
+/// The vessel's frame that belongs to a phase, for SurfaceDescription.
+double vessel_frame(const Vessel& vessel, double phase);
+
+}  // namespace ostium

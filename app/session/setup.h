@@ -1,0 +1,41 @@
+#pragma once
+/// What a run is of, in texts: enough to make it again, on another machine and with other data at hand.
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/session/operator.h"
+
+namespace ostium {
+
+struct RunSetup {
+  std::string vessel;                   ///< a case's name, or a mesh's file
+  std::string case_text;                ///< of a case: its file
+  std::optional<std::uint64_t> person;  ///< instead of the case's own
+  std::optional<double> rate_1_min;     ///< instead of the case's own
+  Mesh mesh;                            ///< of a mesh, m
+  MeshEntry entry;
+  Script script;
+  std::vector<std::string> tool_texts;  ///< of each of the script's tools: the instrument's file
+  std::vector<std::string> tool_files;  ///< and its name
+  std::uint64_t seed = 0;
+
+  bool is_mesh() const { return case_text.empty(); }
+};
+
+/// A file ending in .obj, .stl or .ply is a mesh; else a case by name, or a file NAME.json. Throws LoadError,
+/// MeshError.
+void set_vessel(const std::string& case_or_mesh, LengthUnit unit, RunSetup& setup);
+/// Takes the script and finds its instruments; `replaced`: instruments by tool name, of the catalogue or files.
+void set_script(const Script& script, const std::map<std::string, std::string>& replaced, RunSetup& setup);
+
+std::shared_ptr<const Vessel> make_vessel(const RunSetup& setup, std::string& warnings);
+/// From a vessel that was made of this setup.
+SessionModel make_session(const RunSetup& setup, std::shared_ptr<const Vessel> vessel);
+
+/// As JSON, without the mesh; and back.
+std::string to_json(const RunSetup& setup);
+RunSetup setup_from_json(const std::string& file, const std::string& text);
+
+}  // namespace ostium

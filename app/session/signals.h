@@ -1,0 +1,43 @@
+#pragma once
+/// What a recording shows of a run a hundred times a second, and the events in it: both are looked at by metrics, by
+/// people and by debriefing, and neither is needed for replay.
+#include <string>
+#include <vector>
+
+#include "app/session/operator.h"
+
+namespace ostium {
+
+std::size_t signal_count(const SessionModel& model);
+std::vector<std::string> signal_names(const SessionModel& model);  ///< "wire.tip_x_mm"
+/// `row` has signal_count numbers. Does not allocate.
+void put_signals(const SessionModel& model, const SessionState& state, const SessionReport& report, float* row);
+
+/// What a step of the loop says to the recording besides its numbers.
+struct SessionEvent {
+  std::uint64_t step = 0;
+  int code = 0;   ///< EventCode of data/metrics.h
+  int tool = -1;  ///< -1: none
+  double value = 0;
+};
+
+/// Finds events by comparing a step with the one before; remembers what it needs for that. Part of the loop, not of the
+/// simulation: replay does without.
+class EventWatch {
+ public:
+  explicit EventWatch(const SessionModel& model);
+  /// Appends to `events`; allocates only if that must grow.
+  void look(const SessionModel& model, const SessionInputs& inputs, const SessionState& state,
+            const SessionReport& report, const std::vector<OperatorEvent>& script, std::vector<SessionEvent>& events);
+
+ private:
+  struct Tool {
+    bool in_body = false, pressed = false;
+    int branch = -1;
+  };
+  std::vector<Tool> tools_;
+  double fluoroscopy_ = 0, cine_ = 0;
+  std::uint32_t trouble_ = 0;
+};
+
+}  // namespace ostium

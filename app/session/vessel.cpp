@@ -1,0 +1,111 @@
+#include "app/session/vessel.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/Geometry>
+
+#include "data/load_error.h"
+#include "vascular/patient_frame.h"
+#include "vascular/surface_check.h"
+#include "vascular/tree/centreline.h"
+#include "vascular/wall.h"
+
+namespace ostium {
+
+using Eigen::Vector3d;
+
+namespace {
+
+/// What an operator calls places of the aorta.
+std::vector<std::pair<std::string, Vector3d>> places_of(const Patient& patient) {
+  const Landmarks& marks = patient.anatomy.landmarks;
+  std::vector<std::pair<std::string, Vector3d>> places;
+  for (const TreeBranch& branch : patient.tree.branches) {
+    if (branch.name != "aorta") continue;
+    const auto best = [&](auto&& better) {
+      const TreeSphere* found = &branch.spheres.front();
+      for (const TreeSphere& sphere : branch.spheres)
+        if (better(sphere.p, found->p)) found = &sphere;
+      return found->p;
+    };
+    const auto nearest = [&](const Vector3d& p) {
+      return best([&](const Vector3d& a, const Vector3d& b) { return (a - p).norm() < (b - p).norm(); });
+    };
+    const Vector3d top = best([](const Vector3d& a, const Vector3d& b) { return a.y() > b.y(); });
+    places.emplace_back("diaphragm", nearest({0.009, -0.110, -0.055}));
+    places.emplace_back("arch", top);
+    places.emplace_back("ascending aorta", nearest({-0.025, 0.014, 0.0155}));
+    places.emplace_back("sinuses", nearest(marks.p_right_ostium));
+    places.emplace_back("valve", nearest(marks.p_annulus));
+  }
+  return places;
+}
+
+/// Generalised winding number of a point (van Oosterom, Strackee 1983): 1 inside.
+double winding(const Mesh& mesh, const Vector3d& p) {
+  double sum = 0;
+  for (const auto& t : mesh.triangles) {
+    const Vector3d a = mesh.vertices[t[0]] - p, b = mesh.vertices[t[1]] - p, c = mesh.vertices[t[2]] - p;
+    const double la = a.norm(), lb = b.norm(), lc = c.norm();
+    sum += 2 * std::atan2(a.dot(b.cross(c)), la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb);
+  }
+  return sum / (4 * EIGEN_PI);
+}
+
+}  // namespace
+
+EndState end_at(const Vector3d& p_W, const Vector3d& direction_W) {
+  const Eigen::Quaterniond q = Eigen::Quaterniond::FromTwoVectors(Vector3d::UnitZ(), direction_W.normalized());
+  EndState end;
+  end.p_W = p_W;
+  end.q_W = {q.w(), q.x(), q.y(), q.z()};
+  return end;
+}
+
+std::shared_ptr<const Vessel> vessel_of(const Case& c, std::optional<std::uint64_t> seed) {
+  AnatomyParameters parameters = c.anatomy;
+  if (seed) parameters = person(*seed, mean_of(c.anatomy.dominance, c.anatomy.access));
+  auto vessel = std::make_shared<Vessel>();
+  const auto patient = std::make_shared<const Patient>(make_patient(parameters, c.lesions));
+  vessel->name = c.name;
+  vessel->wall = wall_of(patient->lumen);
+  vessel->wall.friction = vessel_friction;
+  vessel->surface = make_surface(vessel->wall);
+  const Landmarks& marks = patient->anatomy.landmarks;
+  vessel->entry = end_at(marks.p_access, marks.access_direction);
+  vessel->way = std::make_unique<const Way>(patient->tree_frames, marks.p_access, places_of(*patient));
+  vessel->rate_1_min = c.rate_1_min;
+  vessel->patient = patient;
+  return vessel;
+}
+
+std::shared_ptr<const Vessel> vessel_of(const std::string& name, const Mesh& mesh, const MeshEntry& entry,
+                                        std::string& warnings) {
+  const SurfaceReport report = check_surface(mesh);
+  if (report.inverted.count && !report.open_edges.count)
+    throw MeshError(name + ": faces inwards; turn its triangles round\n" + describe(report));
+  if (!report.sound()) warnings = describe(report);
+  if (winding(mesh, entry.p_P) < 0.5) {
+    const Vector3d mm = mm_from_patient(entry.p_P);
+    throw LoadError(
+        fmt::format("{}: the entry {:.1f}, {:.1f}, {:.1f} mm lies outside of the lumen; expected a point within", name,
+                    mm.x(), mm.y(), mm.z()));
+  }
+  if (!((entry.towards_P - entry.p_P).norm() > 1e-4))
+    throw LoadError(name + ": the entry and the point it leads towards are the same; expected two points");
+  auto vessel = std::make_shared<Vessel>();
+  vessel->name = name;
+  vessel->wall.frames = {mesh.vertices};
+  vessel->wall.triangles = mesh.triangles;
+  vessel->wall.friction = vessel_friction;
+  vessel->surface = make_surface(vessel->wall);
+  vessel->entry = end_at(entry.p_P, entry.towards_P - entry.p_P);
+  CentrelineOptions options;
+  options.start = entry.p_P;
+  options.most_voxels = 3'000'000;
+  vessel->way = std::make_unique<const Way>(std::vector<SphereTree>{find_centrelines(mesh, options).tree}, entry.p_P,
+                                            std::vector<std::pair<std::string, Vector3d>>{});
+  return vessel;
+}
+
+}  // namespace ostium

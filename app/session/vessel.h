@@ -1,0 +1,44 @@
+#pragma once
+/// What a session takes place in: a case's beating lumen, or a mesh that stands still. Const once made; runs share it.
+#include <memory>
+#include <optional>
+
+#include "app/session/way.h"
+#include "core/state.h"
+#include "core/surface/surface.h"
+#include "data/case.h"
+
+namespace ostium {
+
+struct Vessel {
+  std::string name;         ///< a case's, or the mesh's file
+  SurfaceDescription wall;  ///< frames of a beat, or one; frame W is the patient's
+  Surface surface;          ///< the same as contact has it
+  EndState entry;           ///< the introducer: within the lumen, d3 is the way in
+  std::unique_ptr<const Way> way;
+  double rate_1_min = 70;                  ///< of the heart, as a session begins
+  std::shared_ptr<const Patient> patient;  ///< of a case
+
+  bool beats() const { return wall.frames.size() > 1; }
+};
+
+/// Friction of vessel against instruments: estimate, hydrophilic to bare polymer in blood 0.02 to 0.2.
+inline constexpr double vessel_friction = 0.1;
+
+/// A case's vessel; takes some seconds. `person`: another one than the case's own (vascular's person(seed)).
+std::shared_ptr<const Vessel> vessel_of(const Case& c, std::optional<std::uint64_t> person);
+
+struct MeshEntry {
+  Eigen::Vector3d p_P = Eigen::Vector3d::Zero();        ///< m, within the lumen
+  Eigen::Vector3d towards_P = Eigen::Vector3d::Zero();  ///< a point that the way in leads to
+};
+
+/// A mesh of anyone. Throws MeshError if it cannot be read, faces inwards or has no inside; LoadError if the entry lies
+/// outside. Holes and crossings are told in `warnings`: near them nothing is held back.
+std::shared_ptr<const Vessel> vessel_of(const std::string& name, const Mesh& mesh, const MeshEntry& entry,
+                                        std::string& warnings);
+
+/// A frame with d3 along `direction`.
+EndState end_at(const Eigen::Vector3d& p_W, const Eigen::Vector3d& direction_W);
+
+}  // namespace ostium

@@ -1,0 +1,51 @@
+#pragma once
+/// The tree of a vessel as an instrument meets it: rooted at the access, with names for places on it.
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "vascular/tree/sphere_tree.h"
+
+namespace ostium {
+
+class Way {
+ public:
+  /// `frames`: the same tree at evenly spaced phases of the beat, or one that stands still. `named`: places besides the
+  /// branches' own names, each at the sphere nearest to a point (m, at end-diastole).
+  Way(std::vector<SphereTree> frames, const Eigen::Vector3d& p_access,
+      std::vector<std::pair<std::string, Eigen::Vector3d>> named);
+
+  /// Number of the sphere that a point lies in, or nearest to; `phase` in [0, 1). Does not allocate.
+  int locate(const Eigen::Vector3d& p, double phase) const;
+  /// Whether `sphere` is `place`, or lies beyond it as seen from the access.
+  bool beyond(int sphere, int place) const;
+  /// Length of the way from the access, m.
+  double from_access_m(int sphere) const { return nodes_[static_cast<std::size_t>(sphere)].from_access_m; }
+  int branch(int sphere) const { return nodes_[static_cast<std::size_t>(sphere)].branch; }
+  const std::vector<TreeBranch>& branches() const { return frames_.front().branches; }
+
+  /// The sphere of a place: a name, a branch (where it leaves its parent), or a branch and millimetres beyond that:
+  /// "RCA+20". -1: there is none.
+  int place(const std::string& name) const;
+  /// Where a branch begins for an instrument that comes from the access; -1: there is none.
+  int entry(const std::string& branch) const;
+  int nearest(const Eigen::Vector3d& p) const;  ///< the sphere with the nearest middle, at end-diastole
+  std::vector<std::string> places() const;      ///< names that `place` knows
+  Eigen::Vector3d p(int sphere, double phase) const;
+
+ private:
+  struct Node {
+    int branch = 0, in_branch = 0;
+    bool inside_parent = false;  ///< of the branch's first spheres, those within the parent's lumen
+    double from_access_m = 0;
+    int first = 0, last = 0;  ///< of the walk from the access: [first, last) are this one and all beyond
+  };
+  std::size_t frame_at(double phase) const;
+
+  std::vector<SphereTree> frames_;
+  std::vector<Node> nodes_;
+  std::vector<int> offset_;  ///< of each branch's spheres among nodes_
+  std::vector<std::pair<std::string, int>> named_;
+};
+
+}  // namespace ostium

@@ -1,0 +1,236 @@
+#include "app/session/xray_scene.h"
+
+#include <algorithm>
+#include <map>
+#include <numbers>
+
+#include "core/rod/introducer.h"
+#include "fluoro/phantom/shapes.h"
+#include "fluoro/tissue.h"
+#include "vascular/beat/heart_cycle.h"
+
+namespace ostium {
+
+using Eigen::Vector3d;
+
+namespace {
+
+constexpr float iodine_kg_m3 = 350;
+
+Material material_of(OpaqueMaterial material) {
+  switch (material) {
+    case OpaqueMaterial::polymer:
+      return Material::polymer;
+    case OpaqueMaterial::steel:
+      return Material::steel;
+    case OpaqueMaterial::nitinol:
+      return Material::nitinol;
+    case OpaqueMaterial::cobalt_chromium:
+      return Material::cobalt_chromium;
+    case OpaqueMaterial::platinum:
+      return Material::platinum;
+    case OpaqueMaterial::tungsten:
+      return Material::tungsten;
+    case OpaqueMaterial::gold:
+      return Material::gold;
+    case OpaqueMaterial::barium_sulphate:
+      return Material::polymer_barium;
+  }
+  return Material::polymer;
+}
+
+/// Material of a cross-section thickness times diameter, spread over the ring between lumen and surface, as braids and
+/// coils are. Where the ring is too small for it, it is solid.
+OpaqueSection section(const Instrument& instrument, double from_m, double to_m, OpaqueMaterial material,
+                      double thickness_m) {
+  const double outer = 0.5 * instrument.outer_diameter_m, inner = 0.5 * instrument.inner_diameter_m;
+  const double ring = std::numbers::pi * (outer * outer - inner * inner);
+  const double area = thickness_m * instrument.outer_diameter_m;
+  if (inner == 0) {  // a core in the middle
+    const double radius = std::min(outer, std::sqrt(area / std::numbers::pi));
+    return {from_m, to_m, material_of(material), radius, 0, 1};
+  }
+  return {from_m, to_m, material_of(material), outer, inner, std::min(1.0, area / ring)};
+}
+
+Tissue tissue_of(BodyTissue tissue) {
+  switch (tissue) {
+    case BodyTissue::air:
+      return tissue::air;
+    case BodyTissue::soft_tissue:
+      return tissue::soft;
+    case BodyTissue::lung:
+      return tissue::lung;
+    case BodyTissue::blood:
+      return tissue::blood;
+    case BodyTissue::cortical_bone:
+      return tissue::cortical_bone;
+    case BodyTissue::spongy_bone:
+      return tissue::spongy_bone;
+  }
+  return tissue::soft;
+}
+
+std::shared_ptr<const Triangles> triangles_of(const std::vector<std::array<int, 3>>& triangles) {
+  auto out = std::make_shared<Triangles>(3, static_cast<Eigen::Index>(triangles.size()));
+  for (std::size_t t = 0; t < triangles.size(); ++t)
+    for (int k = 0; k < 3; ++k) (*out)(k, static_cast<Eigen::Index>(t)) = triangles[t][static_cast<std::size_t>(k)];
+  return out;
+}
+
+Eigen::Matrix3Xf points_of(const std::vector<Vector3d>& vertices) {
+  Eigen::Matrix3Xf out(3, static_cast<Eigen::Index>(vertices.size()));
+  for (std::size_t v = 0; v < vertices.size(); ++v) out.col(static_cast<Eigen::Index>(v)) = vertices[v].cast<float>();
+  return out;
+}
+
+Body body_of(const XrayBody& body, std::shared_ptr<const Triangles> triangles, double contraction) {
+  return {.name = body.name,
+          .triangles = std::move(triangles),
+          .p_P = points_of(at(body, contraction, 0).vertices),
+          .tissue = tissue_of(body.tissue),
+          .within = tissue_of(body.within),
+          .contrast = {}};
+}
+
+}  // namespace
+
+std::vector<Shaft> shafts_of(const SessionModel& model, const SessionState& state) {
+  std::vector<Shaft> shafts;
+  for (std::size_t t = 0; t < model.tools.size(); ++t) {
+    const Rod& rod = model.rods.rods[t];
+    const RodState& s = state.rods.rods[t];
+    if (!in_body(rod, s)) continue;
+    const int first = first_element(s), count = rod.nodes() - first;
+    if (count < 2) continue;
+    const Instrument& instrument = model.tools[t].instrument;
+    Shaft shaft{.name = model.tools[t].name,
+                .p_P = Eigen::Matrix3Xd(3, count),
+                .sections = {},
+                .lumen_radius_m = 0.5 * instrument.inner_diameter_m,
+                .lumen_iodine_kg_m3 = {}};
+    for (int i = 0; i < count; ++i) shaft.p_P.col(i) = s.position[rod.elements - i];
+    for (const OpaqueStretch& o : instrument.opaque)
+      shaft.sections.push_back(section(instrument, o.from_tip_m, o.to_tip_m, o.material, o.thickness_m));
+    for (const Marker& m : instrument.markers)
+      shaft.sections.push_back(section(instrument, m.from_tip_m, m.from_tip_m + m.length_m, m.material, m.thickness_m));
+    shafts.push_back(std::move(shaft));
+  }
+  return shafts;
+}
+
+XrayPatient::XrayPatient(std::shared_ptr<const Patient> patient, Fill which) : patient_(std::move(patient)) {
+  auto fixed = std::make_shared<std::vector<Body>>();
+  for (XrayBody& body : make_thorax(patient_->anatomy)) {
+    std::shared_ptr<const Triangles> triangles = triangles_of(body.mesh.triangles);
+    if (body.beat.empty()) {
+      fixed->push_back(body_of(body, triangles, 0));
+    } else {
+      moving_triangles_.push_back(triangles);
+      moving_.push_back(std::move(body));
+    }
+  }
+  fixed_ = std::move(fixed);
+  if (which != Fill::none) fill(which);
+}
+
+/// The part of the lumen that belongs to a coronary tree, closed by a lid at its ostium.
+void XrayPatient::fill(Fill which) {
+  const Anatomy& anatomy = patient_->anatomy;
+  std::vector<bool> coronary(anatomy.tubes.size(), false);
+  const NamedBranch* trunk = find_branch(anatomy, which == Fill::left ? "LM" : "RCA");
+  coronary[static_cast<std::size_t>(trunk->tube)] = true;
+  for (std::size_t t = 0; t < anatomy.tubes.size(); ++t)
+    if (anatomy.tubes[t].parent >= 0 && coronary[static_cast<std::size_t>(anatomy.tubes[t].parent)]) coronary[t] = true;
+  const MovingLumen& lumen = patient_->lumen;
+  std::vector<int> number(lumen.vertices(), -1);
+  const auto belongs = [&](int v) {
+    double weight = 0;
+    for (const TubeShare& share : lumen.shares[static_cast<std::size_t>(v)])
+      if (coronary[static_cast<std::size_t>(share.tube)]) weight += share.weight;
+    return weight > 0.5;
+  };
+  std::vector<std::array<int, 3>> triangles;
+  std::map<std::pair<int, int>, int> edges;
+  for (const auto& t : lumen.triangles) {
+    if (!belongs(t[0]) || !belongs(t[1]) || !belongs(t[2])) continue;
+    std::array<int, 3> mine;
+    for (std::size_t k = 0; k < 3; ++k) {
+      int& n = number[static_cast<std::size_t>(t[k])];
+      if (n < 0) n = static_cast<int>(filled_.vertices.size()), filled_.vertices.push_back(t[k]);
+      mine[k] = n;
+    }
+    triangles.push_back(mine);
+    for (std::size_t k = 0; k < 3; ++k) edges[{mine[k], mine[(k + 1) % 3]}] = 1;
+  }
+  // Rims: edges without a partner, strung to loops; each gets a lid about a vertex of its own.
+  std::multimap<int, int> next;
+  for (const auto& [edge, one] : edges)
+    if (!edges.count({edge.second, edge.first})) next.emplace(edge.first, edge.second);
+  int lid = static_cast<int>(filled_.vertices.size());
+  while (!next.empty()) {
+    std::vector<int> loop{next.begin()->first};
+    for (int to = next.begin()->second;; to = next.find(to)->second) {
+      next.erase(std::find_if(next.begin(), next.end(),
+                              [&](const auto& e) { return e.first == loop.back() && e.second == to; }));
+      if (to == loop.front()) break;
+      loop.push_back(to);
+      if (!next.count(to)) break;
+    }
+    for (std::size_t i = 0; i < loop.size(); ++i) triangles.push_back({loop[(i + 1) % loop.size()], loop[i], lid});
+    filled_.rims.push_back(std::move(loop));
+    ++lid;
+  }
+  filled_.triangles = triangles_of(triangles);
+}
+
+Scene XrayPatient::at(double phase) const {
+  Scene scene{fixed_, {}, {}};
+  for (std::size_t b = 0; b < moving_.size(); ++b)
+    scene.moving.push_back(body_of(moving_[b], moving_triangles_[b], contraction(phase)));
+  if (filled_.vertices.empty()) return scene;
+  const Mesh lumen = patient_->lumen.at(phase, 0);
+  std::vector<Vector3d> vertices;
+  for (int v : filled_.vertices) vertices.push_back(lumen.vertices[static_cast<std::size_t>(v)]);
+  for (const std::vector<int>& rim : filled_.rims) {
+    Vector3d middle = Vector3d::Zero();
+    for (int v : rim) middle += vertices[static_cast<std::size_t>(v)] / static_cast<double>(rim.size());
+    vertices.push_back(middle);
+  }
+  Body body{.name = "contrast",
+            .triangles = filled_.triangles,
+            .p_P = points_of(vertices),
+            .tissue = tissue::blood,
+            .within = tissue::blood,
+            .contrast = {}};
+  // Of one concentration, so depths may be counted from anywhere, as long as it is the same for all.
+  body.contrast.iodine_kg_m3 = Eigen::VectorXf::Constant(body.p_P.cols(), iodine_kg_m3);
+  body.contrast.p_PC = body.p_P.col(0).replicate(1, body.p_P.cols());
+  scene.moving.push_back(std::move(body));
+  return scene;
+}
+
+Scene scene_of_mesh(const Vessel& vessel) {
+  Vector3d low = vessel.wall.frames[0][0], high = low;
+  for (const Vector3d& p : vessel.wall.frames[0]) low = low.cwiseMin(p), high = high.cwiseMax(p);
+  const Vector3d middle = middle_of(vessel),
+                 half = (0.5 * (high - low)).cwiseMax(Vector3d::Constant(0.09)) + Vector3d::Constant(0.02);
+  const phantom::Surface block = phantom::brick(middle - half, middle + half);
+  const auto fixed = std::make_shared<const std::vector<Body>>(
+      std::vector<Body>{phantom::body("block of soft tissue", block, tissue::soft, tissue::air)});
+  return {fixed, {}, {}};
+}
+
+Vector3d middle_of(const Vessel& vessel) {
+  Vector3d low = Vector3d::Constant(1e9), high = -low;
+  const auto take = [&](const Vector3d& p) { low = low.cwiseMin(p), high = high.cwiseMax(p); };
+  if (vessel.patient) {
+    const Landmarks& marks = vessel.patient->anatomy.landmarks;
+    for (const Vector3d& p : {marks.p_left_ostium, marks.p_right_ostium, marks.p_lv_apex, marks.p_lv_base}) take(p);
+  } else {
+    for (const Vector3d& p : vessel.wall.frames[0]) take(p);
+  }
+  return 0.5 * (low + high);
+}
+
+}  // namespace ostium

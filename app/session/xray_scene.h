@@ -1,0 +1,44 @@
+#pragma once
+/// What an X-ray meets of a patient and of a session: the scene that fluoro takes a picture of.
+#include <vector>
+
+#include "app/session/session.h"
+#include "fluoro/scene.h"
+#include "vascular/thorax/thorax.h"
+
+namespace ostium {
+
+enum class Fill { none, left, right };  ///< a coronary tree full of undiluted contrast, 350 mg of iodine per mL
+
+/// A rod's points as fluoro wants them, with what the catalogue says is opaque in it. Empty if less than two nodes are
+/// in the body.
+std::vector<Shaft> shafts_of(const SessionModel& model, const SessionState& state);
+
+/// The patient's chest; makes meshes once, then a scene for any phase. Takes some seconds to make.
+class XrayPatient {
+ public:
+  XrayPatient(std::shared_ptr<const Patient> patient, Fill fill);
+  Scene at(double phase) const;
+
+ private:
+  struct Filled {
+    std::vector<int> vertices;           ///< of the lumen
+    std::vector<std::vector<int>> rims;  ///< where it is cut off: of `vertices`, closed by a lid
+    std::shared_ptr<const Triangles> triangles;
+  };
+  void fill(Fill which);
+
+  std::shared_ptr<const Patient> patient_;
+  std::shared_ptr<const std::vector<Body>> fixed_;
+  std::vector<XrayBody> moving_;
+  std::vector<std::shared_ptr<const Triangles>> moving_triangles_;
+  Filled filled_;
+};
+
+/// A mesh of anyone: it lies in a block of soft tissue.
+Scene scene_of_mesh(const Vessel& vessel);
+
+/// Where the C-arm looks at first: the middle of the coronary arteries, or of a mesh.
+Eigen::Vector3d middle_of(const Vessel& vessel);
+
+}  // namespace ostium

@@ -1,0 +1,71 @@
+#pragma once
+/// Metrics and events of a run: one table of definitions each. A metric is a pure function of the recording's signals
+/// and events; adding one is a line in the table of metrics.cpp with its function, and a test.
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace ostium {
+
+enum class EventCode : int {
+  script_step_begins,
+  script_step_done,
+  script_step_failed,
+  script_step_timed_out,
+  mark,
+  tool_in,
+  tool_out,
+  tip_enters,
+  wall_force_high,
+  fluoroscopy_on,
+  fluoroscopy_off,
+  cine_on,
+  cine_off,
+  step_trouble
+};
+
+/// Above this the sum of wall forces on a tool is an event. An estimate: no limit is agreed on; peak forces that
+/// vascular phantoms report for novices are of this order.
+inline constexpr double wall_force_limit_N = 1.0;
+
+struct EventDefinition {
+  EventCode code;
+  std::string name;
+  std::string definition;
+  std::string value;  ///< what its value is, with the unit; empty: none
+};
+const std::vector<EventDefinition>& event_definitions();
+
+/// A run as its recording has it.
+struct RunRecord {
+  double step_s = 1e-3;
+  std::uint64_t steps = 0;
+  std::vector<std::string> signal_columns;
+  std::vector<double> signals;  ///< row by row
+  std::vector<double> events;   ///< step, code, tool, value; row by row
+  std::vector<std::string> branches;
+  std::size_t rows() const { return signal_columns.empty() ? 0 : signals.size() / signal_columns.size(); }
+};
+
+struct Metric {
+  std::string name;
+  double value = 0;  ///< not a number: it does not apply
+  std::string unit;
+};
+
+struct MetricDefinition {
+  std::string name;  ///< snake case, with the unit last
+  std::string unit;
+  std::string definition;  ///< which includes the clock
+  double (*of)(const RunRecord&);
+};
+const std::vector<MetricDefinition>& metric_definitions();
+
+/// All of the table, in its order.
+std::vector<Metric> metrics_of(const RunRecord& record);
+
+/// metrics.json (data/schemas/metrics.schema.json).
+std::string metrics_json(const std::string& case_name, std::uint64_t seed, const std::string& outcome,
+                         const std::string& reason, const std::vector<Metric>& metrics);
+
+}  // namespace ostium

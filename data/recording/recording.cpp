@@ -1,0 +1,117 @@
+#include "data/recording/recording.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+
+#include "data/load_error.h"
+
+namespace ostium {
+
+namespace {
+
+const std::string schema = "ostium-recording/";
+
+std::vector<TableLayout> layouts(const RecordingHeader& h) {
+  std::vector<TableLayout> all = {
+      {"inputs", NumberType::float64, h.input_columns, static_cast<int>(h.input_columns.size()), steps_per_block},
+      {"hash", NumberType::uint64, {}, 1, steps_per_block},
+      {"signals", NumberType::float32, h.signal_columns, static_cast<int>(h.signal_columns.size()),
+       steps_per_block / steps_per_signal},
+      {"events", NumberType::float64, {"step", "code", "tool", "value"}, 4, 256}};
+  if (h.full) {
+    all.push_back({"state", NumberType::float64, {}, h.state_width, 1});
+    all.push_back({"hands", NumberType::float64, {}, h.hands_width, 1});
+  }
+  return all;
+}
+
+template <class T>
+void append(TableFile& file, const char* table, const std::vector<T>& numbers, std::size_t width) {
+  file.append(table, numbers.data(), numbers.size() / width);
+}
+
+}  // namespace
+
+RecordingWriter::RecordingWriter(std::string path, const RecordingHeader& header,
+                                 const std::vector<std::pair<TableLayout, const void*>>& tables,
+                                 const std::vector<std::size_t>& table_rows)
+    : path_(std::move(path)), next_(path_ + ".next"), header_(header) {
+  for (const std::string& name : {path_, next_}) {
+    TableFile file = TableFile::create(name);
+    file.set_text("schema", schema + std::to_string(recording_version));
+    file.set_text("software", header.software);
+    file.set_text("setup", header.setup);
+    file.set_text("step_s", fmt::format("{:.17g}", header.step_s));
+    for (const TableLayout& layout : layouts(header)) file.add_table(layout);
+    for (std::size_t t = 0; t < tables.size(); ++t) {
+      file.add_table(tables[t].first);
+      file.append(tables[t].first.name, tables[t].second, table_rows[t]);
+    }
+    file.close();
+  }
+}
+
+void RecordingWriter::write(TableFile& file, const RecordingBlock& block) const {
+  append(file, "inputs", block.inputs, header_.input_columns.size());
+  append(file, "hash", block.hashes, 1);
+  append(file, "signals", block.signals, header_.signal_columns.size());
+  append(file, "events", block.events, 4);
+  if (!header_.full) return;
+  append(file, "state", block.states, static_cast<std::size_t>(header_.state_width));
+  append(file, "hands", block.hands, static_cast<std::size_t>(header_.hands_width));
+}
+
+/// The name goes from one whole file to the other in one rename; the former keeps a second name until then.
+void RecordingWriter::take_turns() const {
+  const std::string before = path_ + ".before";
+  std::remove(before.c_str());
+  if (link(path_.c_str(), before.c_str()) != 0 || std::rename(next_.c_str(), path_.c_str()) != 0 ||
+      std::rename(before.c_str(), next_.c_str()) != 0)
+    throw LoadError(fmt::format("{}: cannot take the place of what was there: {}", path_, std::strerror(errno)));
+}
+
+void RecordingWriter::commit(RecordingBlock block) {
+  TableFile file = TableFile::open(next_, true);
+  write(file, last_);
+  write(file, block);
+  file.close();
+  take_turns();
+  last_ = std::move(block);
+}
+
+void RecordingWriter::finish(const std::string& end) {
+  TableFile file = TableFile::open(next_, true);
+  write(file, last_);
+  file.set_text("end", end);
+  file.close();
+  if (std::rename(next_.c_str(), path_.c_str()) != 0)
+    throw LoadError(fmt::format("{}: cannot take the place of what was there: {}", path_, std::strerror(errno)));
+}
+
+RecordingReader::RecordingReader(const std::string& path) : path_(path), file_(TableFile::open(path)) {
+  if (!file_.has("schema"))
+    throw LoadError(path + ": is an HDF5 file of another program; expected a recording of `ostium run`");
+  const std::string found = file_.text("schema");
+  if (found.rfind(schema, 0) != 0)
+    throw LoadError(fmt::format("{}: is of schema \"{}\"; expected {}{}", path, found, schema, recording_version));
+  if (found != schema + std::to_string(recording_version))
+    throw LoadError(fmt::format("{}: is a recording of version {}, written by {}; this ostium reads version {}", path,
+                                found.substr(schema.size()), file_.has("software") ? file_.text("software") : "?",
+                                recording_version));
+  if (file_.rows("inputs") != steps())
+    throw LoadError(path + ": has another number of inputs than of steps; it is damaged");
+}
+
+double RecordingReader::step_s() const { return std::strtod(file_.text("step_s").c_str(), nullptr); }
+
+std::optional<std::string> RecordingReader::end() const {
+  if (!file_.has("end")) return {};
+  return file_.text("end");
+}
+
+}  // namespace ostium

@@ -1,0 +1,92 @@
+#pragma once
+/// A recording: every input of a run, what came of it, and enough to go on from any second. HDF5; data/README.md says
+/// what is in it.
+///
+/// Writing survives the program's death at any moment, and a full disk: two files take turns. One is whole and shut
+/// under the recording's name while the other, NAME.next, is opened, gets what it lacks, is shut, and takes its place.
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "data/recording/table_file.h"
+
+namespace ostium {
+
+inline constexpr int recording_version = 1;
+inline constexpr int steps_per_block = 500;  ///< that are written together
+inline constexpr int steps_per_signal = 10;
+inline constexpr int steps_per_state = 1000;
+
+/// What a run of steps brought. Rows as the tables have them.
+struct RecordingBlock {
+  std::vector<double> inputs;         ///< one row a step
+  std::vector<std::uint64_t> hashes;  ///< one a step, of the state after it
+  std::vector<float> signals;         ///< one row every steps_per_signal steps
+  std::vector<double> states;         ///< one row every steps_per_state steps, from the beginning on
+  std::vector<double> hands;          ///< beside each state: what the script's operator remembers
+  std::vector<double> events;         ///< step, code, tool, value
+};
+
+struct RecordingHeader {
+  std::string software;  ///< who wrote it: "ostium 0.1.0"
+  std::string setup;     ///< JSON: case, script, instruments, seed
+  double step_s = 1e-3;
+  bool full = true;  ///< states are kept
+  std::vector<std::string> input_columns, signal_columns;
+  int state_width = 1, hands_width = 1;
+};
+
+class RecordingWriter {
+ public:
+  /// Makes both files. `tables`: further tables of numbers, as they are (a mesh). Throws LoadError.
+  RecordingWriter(std::string path, const RecordingHeader& header,
+                  const std::vector<std::pair<TableLayout, const void*>>& tables = {},
+                  const std::vector<std::size_t>& table_rows = {});
+  /// Throws LoadError if it cannot be written; the recording stays as it was.
+  void commit(RecordingBlock block);
+  /// The last words: outcome, reason, metrics, as JSON. Removes the other file.
+  void finish(const std::string& end);
+
+ private:
+  void write(TableFile& file, const RecordingBlock& block) const;
+  void take_turns() const;
+
+  std::string path_, next_;
+  RecordingHeader header_;
+  RecordingBlock last_;  ///< is in the recording, but not yet in the other file
+};
+
+class RecordingReader {
+ public:
+  /// Throws LoadError saying what it is if it is no recording of this version.
+  explicit RecordingReader(const std::string& path);
+
+  const std::string& path() const { return path_; }
+  std::string software() const { return file_.text("software"); }
+  std::string setup() const { return file_.text("setup"); }
+  double step_s() const;
+  std::optional<std::string> end() const;  ///< empty: it was cut off
+  std::size_t steps() const { return file_.rows("hash"); }
+  std::size_t states() const { return file_.has("state") ? file_.rows("state") : 0; }
+  int state_width() const { return file_.width("state"); }
+  std::vector<std::string> input_columns() const { return file_.columns("inputs"); }
+  std::vector<std::string> signal_columns() const { return file_.columns("signals"); }
+  std::vector<double> inputs(std::size_t first, std::size_t count) const {
+    return file_.numbers("inputs", first, count);
+  }
+  std::vector<std::uint64_t> hashes(std::size_t first, std::size_t count) const {
+    return file_.integers("hash", first, count);
+  }
+  std::vector<double> state(std::size_t second) const { return file_.numbers("state", second, 1); }
+  std::vector<double> signals() const { return file_.numbers("signals", 0, file_.rows("signals")); }
+  std::vector<double> events() const { return file_.numbers("events", 0, file_.rows("events")); }
+  const TableFile& tables() const { return file_; }
+
+ private:
+  std::string path_;
+  TableFile file_;
+};
+
+}  // namespace ostium

@@ -1,0 +1,241 @@
+#include "data/recording/table_file.h"
+
+#include <fmt/format.h>
+#include <hdf5.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <utility>
+
+#include "data/load_error.h"
+
+namespace ostium {
+
+namespace {
+
+/// Closes what HDF5 opened.
+class Id {
+ public:
+  using Close = herr_t (*)(hid_t);
+  Id(hid_t id, Close close) : id_(id), close_(close) {}
+  ~Id() {
+    if (id_ >= 0) close_(id_);
+  }
+  Id(const Id&) = delete;
+  Id& operator=(const Id&) = delete;
+  operator hid_t() const { return id_; }
+  bool ok() const { return id_ >= 0; }
+
+ private:
+  hid_t id_;
+  Close close_;
+};
+
+hid_t in_file(NumberType type) {
+  return type == NumberType::float64 ? H5T_IEEE_F64LE : type == NumberType::float32 ? H5T_IEEE_F32LE : H5T_STD_U64LE;
+}
+
+/// The innermost of HDF5's own words.
+std::string last_words() {
+  std::string words;
+  H5Ewalk2(
+      H5E_DEFAULT, H5E_WALK_UPWARD,
+      [](unsigned n, const H5E_error2_t* error, void* out) -> herr_t {
+        if (n == 0 && error->desc) *static_cast<std::string*>(out) = error->desc;
+        return 0;
+      },
+      &words);
+  return words;
+}
+
+void be_quiet() { H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr); }
+
+hid_t text_type(std::size_t length) {
+  const hid_t type = H5Tcopy(H5T_C_S1);
+  H5Tset_size(type, length);
+  H5Tset_strpad(type, H5T_STR_NULLPAD);
+  H5Tset_cset(type, H5T_CSET_UTF8);
+  return type;
+}
+
+}  // namespace
+
+struct TableFile::Handle {
+  std::string path;
+  hid_t id = -1;
+  ~Handle() {
+    if (id >= 0) H5Fclose(id);
+  }
+  [[noreturn]] void fail(const std::string& what) const {
+    const std::string words = last_words();
+    throw LoadError(fmt::format("{}: {}{}", path, what, words.empty() ? "" : " (" + words + ")"));
+  }
+  void require(bool ok, const std::string& what) const {
+    if (!ok) fail(what);
+  }
+  hid_t table(const std::string& name) const {
+    const hid_t set = H5Dopen2(id, name.c_str(), H5P_DEFAULT);
+    require(set >= 0, "has no table \"" + name + "\"");
+    return set;
+  }
+  void shape(hid_t set, hsize_t (&extent)[2]) const {
+    const Id space(H5Dget_space(set), H5Sclose);
+    require(
+        space.ok() && H5Sget_simple_extent_ndims(space) == 2 && H5Sget_simple_extent_dims(space, extent, nullptr) == 2,
+        "has a table that is not rows by columns");
+  }
+  void read(const std::string& name, std::size_t first, std::size_t count, hid_t type, void* out) const {
+    const Id set(table(name), H5Dclose);
+    hsize_t extent[2];
+    shape(set, extent);
+    require(first + count <= extent[0],
+            fmt::format("table {} has {} rows; {} were wanted", name, extent[0], first + count));
+    if (count == 0) return;
+    const hsize_t start[2] = {first, 0}, size[2] = {count, extent[1]};
+    const Id space(H5Dget_space(set), H5Sclose), memory(H5Screate_simple(2, size, nullptr), H5Sclose);
+    H5Sselect_hyperslab(space, H5S_SELECT_SET, start, nullptr, size, nullptr);
+    require(H5Dread(set, type, memory, space, H5P_DEFAULT, out) >= 0, "table " + name + " cannot be read");
+  }
+};
+
+TableFile::TableFile(std::unique_ptr<Handle> handle) : file_(std::move(handle)) {}
+TableFile::~TableFile() = default;
+TableFile::TableFile(TableFile&&) noexcept = default;
+TableFile& TableFile::operator=(TableFile&&) noexcept = default;
+
+TableFile TableFile::create(const std::string& path) {
+  be_quiet();
+  auto handle = std::make_unique<Handle>();
+  handle->path = path;
+  handle->id = H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
+  handle->require(handle->id >= 0, "cannot be written; is its folder there, and the disk not full?");
+  return TableFile(std::move(handle));
+}
+
+TableFile TableFile::open(const std::string& path, bool to_write) {
+  be_quiet();
+  auto handle = std::make_unique<Handle>();
+  handle->path = path;
+  std::error_code none;
+  if (!std::filesystem::is_regular_file(path, none)) throw LoadError(path + ": there is no such file");
+  const htri_t hdf5 = H5Fis_hdf5(path.c_str());
+  if (hdf5 == 0) throw LoadError(path + ": is no HDF5 file; expected a recording of `ostium run`");
+  handle->id = H5Fopen(path.c_str(), to_write ? H5F_ACC_RDWR : H5F_ACC_RDONLY, H5P_DEFAULT);
+  handle->require(handle->id >= 0, "is an HDF5 file that cannot be opened: cut short, or damaged");
+  return TableFile(std::move(handle));
+}
+
+void TableFile::close() {
+  if (file_->id < 0) return;
+  const hid_t id = std::exchange(file_->id, -1);
+  const bool flushed = H5Fflush(id, H5F_SCOPE_LOCAL) >= 0;
+  const bool closed = H5Fclose(id) >= 0;
+  file_->require(flushed && closed, "could not be written to its end; is the disk full?");
+}
+
+void TableFile::add_table(const TableLayout& layout) {
+  const auto width = static_cast<hsize_t>(layout.width);
+  const hsize_t now[2] = {0, width}, most[2] = {H5S_UNLIMITED, width},
+                chunk[2] = {static_cast<hsize_t>(layout.chunk_rows), width};
+  const Id space(H5Screate_simple(2, now, most), H5Sclose);
+  const Id how(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
+  H5Pset_chunk(how, 2, chunk);
+  H5Pset_shuffle(how);
+  H5Pset_deflate(how, 1);
+  const Id set(H5Dcreate2(file_->id, layout.name.c_str(), in_file(layout.type), space, H5P_DEFAULT, how, H5P_DEFAULT),
+               H5Dclose);
+  file_->require(set.ok(), "table " + layout.name + " cannot be made");
+  if (layout.columns.empty()) return;
+  const Id type(H5Tcopy(H5T_C_S1), H5Tclose);
+  H5Tset_size(type, H5T_VARIABLE);
+  H5Tset_cset(type, H5T_CSET_UTF8);
+  const hsize_t count = layout.columns.size();
+  const Id names_space(H5Screate_simple(1, &count, nullptr), H5Sclose);
+  const Id names(H5Acreate2(set, "columns", type, names_space, H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
+  std::vector<const char*> pointers;
+  for (const std::string& column : layout.columns) pointers.push_back(column.c_str());
+  file_->require(names.ok() && H5Awrite(names, type, pointers.data()) >= 0,
+                 "columns of table " + layout.name + " cannot be written");
+}
+
+void TableFile::append(const std::string& name, const void* rows, std::size_t count) {
+  if (count == 0) return;
+  const Id set(file_->table(name), H5Dclose);
+  hsize_t extent[2];
+  file_->shape(set, extent);
+  const hsize_t start[2] = {extent[0], 0}, size[2] = {count, extent[1]}, whole[2] = {extent[0] + count, extent[1]};
+  file_->require(H5Dset_extent(set, whole) >= 0, "table " + name + " cannot grow");
+  const Id space(H5Dget_space(set), H5Sclose), memory(H5Screate_simple(2, size, nullptr), H5Sclose);
+  H5Sselect_hyperslab(space, H5S_SELECT_SET, start, nullptr, size, nullptr);
+  const Id type(H5Dget_type(set), H5Tclose), native(H5Tget_native_type(type, H5T_DIR_ASCEND), H5Tclose);
+  file_->require(H5Dwrite(set, native, memory, space, H5P_DEFAULT, rows) >= 0,
+                 "table " + name + " cannot be written; is the disk full?");
+}
+
+void TableFile::set_text(const std::string& name, const std::string& text) {
+  if (has(name)) file_->require(H5Ldelete(file_->id, name.c_str(), H5P_DEFAULT) >= 0, name + " cannot be replaced");
+  const Id type(text_type(std::max<std::size_t>(1, text.size())), H5Tclose);
+  const Id space(H5Screate(H5S_SCALAR), H5Sclose);
+  const Id set(H5Dcreate2(file_->id, name.c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Dclose);
+  file_->require(set.ok() && H5Dwrite(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, text.empty() ? "" : text.data()) >= 0,
+                 name + " cannot be written; is the disk full?");
+}
+
+bool TableFile::has(const std::string& name) const { return H5Lexists(file_->id, name.c_str(), H5P_DEFAULT) > 0; }
+
+std::size_t TableFile::rows(const std::string& name) const {
+  const Id set(file_->table(name), H5Dclose);
+  hsize_t extent[2];
+  file_->shape(set, extent);
+  return extent[0];
+}
+
+int TableFile::width(const std::string& name) const {
+  const Id set(file_->table(name), H5Dclose);
+  hsize_t extent[2];
+  file_->shape(set, extent);
+  return static_cast<int>(extent[1]);
+}
+
+std::vector<std::string> TableFile::columns(const std::string& name) const {
+  const Id set(file_->table(name), H5Dclose);
+  if (H5Aexists(set, "columns") <= 0) return {};
+  const Id names(H5Aopen(set, "columns", H5P_DEFAULT), H5Aclose);
+  const Id space(H5Aget_space(names), H5Sclose), type(H5Aget_type(names), H5Tclose);
+  const hssize_t count = H5Sget_simple_extent_npoints(space);
+  file_->require(count >= 0 && H5Tis_variable_str(type) > 0, "columns of table " + name + " are no texts");
+  std::vector<char*> pointers(static_cast<std::size_t>(count), nullptr);
+  file_->require(H5Aread(names, type, pointers.data()) >= 0, "columns of table " + name + " cannot be read");
+  std::vector<std::string> columns;
+  for (const char* p : pointers) columns.emplace_back(p ? p : "");
+  H5Dvlen_reclaim(type, space, H5P_DEFAULT, pointers.data());
+  return columns;
+}
+
+std::vector<double> TableFile::numbers(const std::string& table, std::size_t first, std::size_t count) const {
+  std::vector<double> out(count * static_cast<std::size_t>(width(table)));
+  file_->read(table, first, count, H5T_NATIVE_DOUBLE, out.data());
+  return out;
+}
+
+std::vector<std::uint64_t> TableFile::integers(const std::string& table, std::size_t first, std::size_t count) const {
+  std::vector<std::uint64_t> out(count * static_cast<std::size_t>(width(table)));
+  file_->read(table, first, count, H5T_NATIVE_UINT64, out.data());
+  return out;
+}
+
+std::string TableFile::text(const std::string& name) const {
+  file_->require(has(name), "has no \"" + name + "\"");
+  const Id set(H5Dopen2(file_->id, name.c_str(), H5P_DEFAULT), H5Dclose);
+  const Id type(H5Dget_type(set), H5Tclose), space(H5Dget_space(set), H5Sclose);
+  file_->require(set.ok() && H5Tget_class(type) == H5T_STRING && H5Tis_variable_str(type) == 0 &&
+                     H5Sget_simple_extent_npoints(space) == 1,
+                 "\"" + name + "\" is no text");
+  std::string text(H5Tget_size(type), '\0');
+  file_->require(H5Dread(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, text.data()) >= 0,
+                 "\"" + name + "\" cannot be read");
+  while (!text.empty() && text.back() == '\0') text.pop_back();
+  return text;
+}
+
+}  // namespace ostium

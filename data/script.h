@@ -1,0 +1,93 @@
+#pragma once
+/// A script: what an operator does, and until when. Files are data/scripts/NAME.json (schemas/script.schema.json).
+///
+/// A step moves tools, or waits, until one of its conditions holds. It looks at what an operator or the recording can
+/// see; it moves hands, not nodes.
+#include <Eigen/Core>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace ostium {
+
+enum class ConditionKind {
+  tip_passes,
+  tip_leaves,
+  tip_in,
+  tip_points,
+  tip_drops,
+  fed,
+  inserted,
+  out,
+  turned,
+  push_exceeds,
+  torque_exceeds,
+  wall_force_exceeds,
+  tip_force_exceeds,
+  seconds,
+  beats
+};
+
+struct ScriptCondition {
+  ConditionKind kind = ConditionKind::seconds;
+  int tool = 0;                                           ///< of Script::tools
+  double value = 0;                                       ///< SI: m, rad, N, N m, s, beats
+  std::string place;                                      ///< of tip_passes, tip_leaves, tip_in
+  Eigen::Vector3d direction_P = Eigen::Vector3d::Zero();  ///< of tip_points, unit; `value` is the angle
+  std::string words;                                      ///< as the file has it, for people: "tip_passes arch"
+  int line = 0;                                           ///< where it stands
+};
+
+enum class ScriptAction { advance, withdraw, turn, wait, view, fluoroscopy, cine, heart_rate, mark };
+
+struct ScriptStep {
+  ScriptAction action = ScriptAction::wait;
+  std::string label;       ///< empty: none
+  std::vector<int> tools;  ///< moved together
+  double speed_m_s = 0;    ///< along, positive into the patient
+  double turn_rad_s = 0;   ///< right-handed about the direction of advance
+  std::vector<ScriptCondition> until, unless;
+  double timeout_s = 60;
+  enum class Otherwise { fail, go_on, jump } otherwise = Otherwise::fail;
+  int jump_to = -1;  ///< a step
+  int tries = 1;     ///< that it jumps
+  // view
+  std::optional<double> lao_rad, cran_rad, field_m;
+  std::optional<Eigen::Vector3d> table_P;
+  bool on = false;            ///< fluoroscopy, cine
+  double rate_1_min = 0;      ///< heart_rate
+  std::string text;           ///< mark
+  int line = 0;               ///< where it stands
+  std::string words() const;  ///< "advance", or "advance (label)"
+};
+
+struct ScriptTool {
+  std::string name, instrument;
+  int line = 0;
+};
+
+struct ScriptLandmark {
+  std::string name;
+  Eigen::Vector3d p_P = Eigen::Vector3d::Zero();
+};
+
+struct Script {
+  std::string file, name, title;
+  std::vector<ScriptTool> tools;
+  std::vector<ScriptLandmark> landmarks;
+  std::vector<ScriptStep> steps;
+  std::string source;  ///< the file's text
+};
+
+/// Throws LoadError with file, line, key, value found and what was expected.
+Script read_script(const std::string& file, const std::string& text);
+Script load_script(const std::string& file);
+
+/// data/scripts/NAME.json, or the file of that name; throws LoadError with those that there are.
+Script find_script(const std::string& name_or_file);
+std::vector<Script> load_scripts();
+
+/// Throws LoadError "FILE:LINE: WHAT".
+[[noreturn]] void refuse(const Script& script, int line, const std::string& what);
+
+}  // namespace ostium

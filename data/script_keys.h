@@ -1,0 +1,69 @@
+#pragma once
+/// The keys of a script, object by object: what the reader accepts, and what it says of each. The schema
+/// (data/schemas/script.schema.json) has the same, which a test holds it to.
+#include "data/json_object.h"
+
+namespace ostium::script_keys {
+
+inline const JsonObjectKeys root = {"script",
+                                    {{"schema", true, "\"ostium-script/1\""},
+                                     {"name", true, "the file's name without .json"},
+                                     {"title", true, "what people call it, a text"},
+                                     {"tools", true, "what is used, the outermost first, a list of at least one"},
+                                     {"landmarks", false, "points of one's own, a list"},
+                                     {"steps", true, "what the operator does, in order, a list of at least one"}}};
+
+inline const JsonObjectKeys tool = {"tool",
+                                    {{"name", true, "what the script calls it: \"wire\""},
+                                     {"instrument", true, "a name of `ostium instruments`, or a file"}}};
+
+inline const JsonObjectKeys landmark = {
+    "landmark",
+    {{"name", true, "what the script calls it"},
+     {"at_mm", true, "a point of the patient frame in mm, three numbers: left, head, front"}}};
+
+inline const JsonObjectKeys step = {
+    "step",
+    {{"do", true, "what is done"},
+     {"label", false, "a name of its own, for messages and for \"otherwise\""},
+     {"tool", false, "the name of a tool, or a list of those that are moved together"},
+     {"speed_mm_s", false, "how fast, in mm/s, > 0 and at most 500"},
+     {"turn_deg_s", false,
+      "how fast it is turned, in degrees/s, not 0, at most 3600; clockwise from behind is positive"},
+     {"until", false, "a list of conditions; the first that holds ends the step"},
+     {"unless", false, "a list of conditions; if one of them holds first, the step has failed"},
+     {"timeout_s", false, "after this many seconds the step has failed, > 0 and at most 3600"},
+     {"otherwise", false, "what a failure leads to: \"fail\", \"go on\" or the label of a step"},
+     {"tries", false, "how often \"otherwise\" leads to that step, a whole number, 1 to 100; then it is a failure"},
+     {"view", false, "a name of `ostium views`"},
+     {"lao_deg", false, "the C-arm's angle in degrees, -120 to 120; negative: RAO"},
+     {"cran_deg", false, "the C-arm's angle in degrees, -55 to 55; negative: caudal"},
+     {"table_mm", false, "the isocentre in the patient in mm, three numbers: left, head, front"},
+     {"field_mm", false, "side of the detector's field in mm: 200, 160 or 130"},
+     {"on", false, "true or false"},
+     {"rate_1_min", false, "beats a minute, 40 to 180"},
+     {"text", false, "a text"}}};
+
+inline const JsonObjectKeys condition = {
+    "condition",
+    {{"tip_passes", false, "a landmark: the tip is there or beyond, as seen from the access"},
+     {"tip_leaves", false, "a landmark: the tip is on the near side of it"},
+     {"tip_in", false, "the name of a branch: the tip is in it, or in one that leaves it"},
+     {"tip_points", false, "where the tip points"},
+     {"within_deg", false, "how exactly, in degrees, > 0 and at most 90; beside tip_points"},
+     {"tip_drops_mm", false, "how far the tip jumps in 0.25 s beyond what the hand moved, in mm, > 0"},
+     {"fed_mm", false, "length fed or drawn back since the step began, in mm, > 0"},
+     {"inserted_mm", false, "length in the body, reached from either side, in mm, >= 0"},
+     {"out", false, "true: the tool is out of the body"},
+     {"turned_deg", false, "turn since the step began, either way, in degrees, > 0"},
+     {"push_exceeds_N", false, "push or pull at the hand in N, > 0"},
+     {"torque_exceeds_mNm", false, "torque at the hand in mN m, > 0"},
+     {"wall_force_exceeds_N", false, "sum of the walls' normal forces on the tool in N, > 0"},
+     {"tip_force_exceeds_N", false, "that on its last 10 mm in N, > 0"},
+     {"seconds", false, "since the step began, > 0"},
+     {"beats", false, "of the heart since the step began, > 0"},
+     {"of", false, "which tool is meant; else the step's first"}}};
+
+inline const std::vector<const JsonObjectKeys*> all = {&root, &tool, &landmark, &step, &condition};
+
+}  // namespace ostium::script_keys

@@ -1,0 +1,313 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <numbers>
+
+#include "data/catalogue.h"
+#include "data/script.h"
+#include "data/script_keys.h"
+#include "fluoro/views.h"
+
+namespace ostium {
+
+namespace {
+
+namespace fs = std::filesystem;
+namespace keys = script_keys;
+constexpr double degree = std::numbers::pi / 180;
+
+/// A condition's kinds, and what brings their value to SI; 0: they have none.
+struct Kind {
+  const char* key;
+  ConditionKind kind;
+  double unit;
+};
+constexpr Kind kinds[] = {{"tip_passes", ConditionKind::tip_passes, 0},
+                          {"tip_leaves", ConditionKind::tip_leaves, 0},
+                          {"tip_in", ConditionKind::tip_in, 0},
+                          {"tip_points", ConditionKind::tip_points, 0},
+                          {"tip_drops_mm", ConditionKind::tip_drops, 1e-3},
+                          {"fed_mm", ConditionKind::fed, 1e-3},
+                          {"inserted_mm", ConditionKind::inserted, 1e-3},
+                          {"out", ConditionKind::out, 0},
+                          {"turned_deg", ConditionKind::turned, degree},
+                          {"push_exceeds_N", ConditionKind::push_exceeds, 1},
+                          {"torque_exceeds_mNm", ConditionKind::torque_exceeds, 1e-3},
+                          {"wall_force_exceeds_N", ConditionKind::wall_force_exceeds, 1},
+                          {"tip_force_exceeds_N", ConditionKind::tip_force_exceeds, 1},
+                          {"seconds", ConditionKind::seconds, 1},
+                          {"beats", ConditionKind::beats, 1}};
+
+bool read_boolean(const JsonObject& object, const std::string& key) {
+  if (object[key].type != JsonValue::Type::boolean) object.refuse(key);
+  return object[key].number != 0;
+}
+
+int tool_called(const Script& script, const JsonValue& name) {
+  std::string known;
+  for (std::size_t t = 0; t < script.tools.size(); ++t) {
+    if (name.type == JsonValue::Type::text && script.tools[t].name == name.text) return static_cast<int>(t);
+    known += (known.empty() ? "" : ", ") + script.tools[t].name;
+  }
+  name.refuse("one of the script's tools: " + known);
+}
+
+ScriptCondition read_condition(const JsonValue& value, const Script& script, const std::vector<int>& tools) {
+  const JsonObject object(value, keys::condition);
+  ScriptCondition c;
+  c.line = value.line;
+  const Kind* found = nullptr;
+  for (const Kind& kind : kinds) {
+    if (!object.has(kind.key)) continue;
+    if (found) value.fail(fmt::format("{} has both {} and {}; expected one of them", value.path, found->key, kind.key));
+    found = &kind;
+  }
+  if (!found) value.fail(value.path + " says nothing to look at; expected one of tip_passes, fed_mm, seconds, ...");
+  c.kind = found->kind;
+  const bool of_time = c.kind == ConditionKind::seconds || c.kind == ConditionKind::beats;
+  if (object.has("of"))
+    c.tool = tool_called(script, object["of"]);
+  else if (!tools.empty())
+    c.tool = tools.front();
+  else if (!of_time && script.tools.size() > 1)
+    value.fail(value.path + " does not say of which tool; expected \"of\"");
+  if (found->unit > 0) {
+    const bool may_be_zero = c.kind == ConditionKind::inserted;
+    c.value = found->unit * (may_be_zero ? object.not_negative(found->key) : object.positive(found->key));
+    c.words = fmt::format("{} {:g}", found->key, object.number(found->key));
+  } else if (c.kind == ConditionKind::out) {
+    if (!read_boolean(object, "out")) object.refuse("out");
+    c.words = "out";
+  } else if (c.kind == ConditionKind::tip_points) {
+    const std::vector<std::string> names = {"left", "right", "head", "feet", "front", "back"};
+    const std::size_t n = object.choice("tip_points", names);
+    c.direction_P[static_cast<Eigen::Index>(n / 2)] = n % 2 ? -1 : 1;
+    if (!object.has("within_deg"))
+      value.fail(value.path + ".within_deg is missing; expected how exactly, in degrees, > 0 and at most 90");
+    c.value = degree * object.positive("within_deg");
+    if (object.number("within_deg") > 90) object.refuse("within_deg");
+    c.words = "tip_points " + names[n];
+  } else {
+    c.place = object.text(found->key);
+    c.words = fmt::format("{} {}", found->key, c.place);
+  }
+  if (object.has("within_deg") && c.kind != ConditionKind::tip_points) object.refuse("within_deg");
+  if (tools.empty() ? object.has("of") : c.tool != tools.front()) c.words += " of " + script.tools[c.tool].name;
+  return c;
+}
+
+std::vector<ScriptCondition> read_conditions(const JsonObject& step, const char* key, const Script& script,
+                                             const std::vector<int>& tools) {
+  std::vector<ScriptCondition> out;
+  if (!step.has(key)) return out;
+  if (step.list(key).empty()) step.refuse(key);
+  for (const JsonValue& value : step.list(key)) out.push_back(read_condition(value, script, tools));
+  return out;
+}
+
+/// Which keys each action has: what it needs, and what it may have.
+struct Needs {
+  const char* name;
+  std::vector<std::string> needs, may;
+};
+const std::vector<Needs>& actions() {
+  static const std::vector<std::string> ends = {"label", "unless", "timeout_s", "otherwise", "tries"};
+  const auto with = [](std::vector<std::string> more) {
+    more.insert(more.end(), ends.begin(), ends.end());
+    return more;
+  };
+  static const std::vector<Needs> all = {{"advance", {"tool", "speed_mm_s", "until"}, with({"turn_deg_s"})},
+                                         {"withdraw", {"tool", "speed_mm_s", "until"}, with({"turn_deg_s"})},
+                                         {"turn", {"tool", "turn_deg_s", "until"}, with({})},
+                                         {"wait", {"until"}, with({})},
+                                         {"view", {}, {"label", "view", "lao_deg", "cran_deg", "table_mm", "field_mm"}},
+                                         {"fluoroscopy", {"on"}, {"label"}},
+                                         {"cine", {"on"}, {"label"}},
+                                         {"heart rate", {"rate_1_min"}, {"label"}},
+                                         {"mark", {"text"}, {"label"}}};
+  return all;
+}
+
+void require_keys(const JsonObject& step, const Needs& action) {
+  for (const std::string& key : action.needs)
+    if (!step.has(key))
+      step.value().fail(fmt::format("{}.{} is missing; \"{}\" needs it", step.value().path, key, action.name));
+  for (const auto& [key, value] : step.value().members) {
+    const auto is = [&, k = &key](const std::vector<std::string>& list) {
+      return std::find(list.begin(), list.end(), *k) != list.end();
+    };
+    if (key != "do" && !is(action.needs) && !is(action.may))
+      value.fail(fmt::format("{} has no meaning for \"{}\"", value.path, action.name));
+  }
+}
+
+void read_view(const JsonObject& object, ScriptStep& step) {
+  if (object.has("view")) {
+    const auto view = find_view(object.text("view"));
+    if (!view) object.refuse("view");
+    step.lao_rad = degree * view->lao_deg, step.cran_rad = degree * view->cran_deg;
+  }
+  const auto angle = [&](const char* key, double most) {
+    if (std::fabs(object.number(key)) > most) object.refuse(key);
+    return degree * object.number(key);
+  };
+  if (object.has("lao_deg")) step.lao_rad = angle("lao_deg", 120);
+  if (object.has("cran_deg")) step.cran_rad = angle("cran_deg", 55);
+  if (object.has("table_mm")) {
+    const std::vector<double> mm = object.numbers("table_mm", 3);
+    step.table_P = 1e-3 * Eigen::Vector3d(mm[0], mm[1], mm[2]);
+  }
+  if (object.has("field_mm")) {
+    const double mm = object.number("field_mm");
+    if (mm != 200 && mm != 160 && mm != 130) object.refuse("field_mm");
+    step.field_m = 1e-3 * mm;
+  }
+}
+
+ScriptStep read_step(const JsonValue& value, const Script& script) {
+  const JsonObject object(value, keys::step);
+  ScriptStep step;
+  step.line = value.line;
+  std::vector<std::string> names;
+  for (const Needs& action : actions()) names.emplace_back(action.name);
+  const std::size_t action = object.choice("do", names);
+  require_keys(object, actions()[action]);
+  step.action = static_cast<ScriptAction>(action);
+  if (object.has("label")) step.label = object.text("label");
+  if (object.has("tool")) {
+    const JsonValue& tool = object["tool"];
+    if (tool.type == JsonValue::Type::array) {
+      if (tool.items.empty()) object.refuse("tool");
+      for (const JsonValue& one : tool.items) step.tools.push_back(tool_called(script, one));
+    } else {
+      step.tools.push_back(tool_called(script, tool));
+    }
+  }
+  if (object.has("speed_mm_s")) {
+    if (object.positive("speed_mm_s") > 500) object.refuse("speed_mm_s");
+    step.speed_m_s = 1e-3 * object.number("speed_mm_s") * (step.action == ScriptAction::withdraw ? -1 : 1);
+  }
+  if (object.has("turn_deg_s")) {
+    const double turn = object.number("turn_deg_s");
+    if (turn == 0 || !(std::fabs(turn) <= 3600)) object.refuse("turn_deg_s");
+    step.turn_rad_s = degree * turn;
+  }
+  step.until = read_conditions(object, "until", script, step.tools);
+  step.unless = read_conditions(object, "unless", script, step.tools);
+  if (object.has("timeout_s")) {
+    step.timeout_s = object.positive("timeout_s");
+    if (step.timeout_s > 3600) object.refuse("timeout_s");
+  }
+  if (object.has("tries")) {
+    const double tries = object.number("tries");
+    if (!object.has("otherwise") || tries != std::floor(tries) || tries < 1 || tries > 100) object.refuse("tries");
+    step.tries = static_cast<int>(tries);
+  }
+  read_view(object, step);
+  if (object.has("on")) step.on = read_boolean(object, "on");
+  if (object.has("rate_1_min")) {
+    step.rate_1_min = object.number("rate_1_min");
+    if (!(step.rate_1_min >= 40 && step.rate_1_min <= 180)) object.refuse("rate_1_min");
+  }
+  if (object.has("text")) step.text = object.text("text");
+  return step;
+}
+
+/// Second time round, when all labels are known.
+void read_otherwise(const JsonValue& value, Script& script, ScriptStep& step) {
+  const JsonObject object(value, keys::step);
+  if (!object.has("otherwise")) return;
+  const std::string to = object.text("otherwise");
+  if (to == "fail") return;
+  if (to == "go on") {
+    step.otherwise = ScriptStep::Otherwise::go_on;
+    return;
+  }
+  for (std::size_t s = 0; s < script.steps.size(); ++s)
+    if (script.steps[s].label == to) step.jump_to = static_cast<int>(s);
+  if (step.jump_to < 0) object.refuse("otherwise");
+  step.otherwise = ScriptStep::Otherwise::jump;
+}
+
+Script read(const JsonValue& file, const std::string& source) {
+  const JsonObject root(file, keys::root);
+  Script script;
+  script.file = *file.file;
+  script.source = source;
+  if (root.text("schema") != "ostium-script/1") root.refuse("schema");
+  script.name = root.text("name");
+  if (script.name != fs::path(*file.file).stem().string()) root.refuse("name");
+  script.title = root.text("title");
+  if (root.list("tools").empty()) root.refuse("tools");
+  for (const JsonValue& value : root.list("tools")) {
+    const JsonObject tool(value, keys::tool);
+    for (const ScriptTool& other : script.tools)
+      if (other.name == tool.text("name")) value.fail(value.path + ".name: there is another tool of that name");
+    script.tools.push_back({tool.text("name"), tool.text("instrument"), value.line});
+  }
+  if (root.has("landmarks"))
+    for (const JsonValue& value : root.list("landmarks")) {
+      const JsonObject landmark(value, keys::landmark);
+      const std::vector<double> mm = landmark.numbers("at_mm", 3);
+      script.landmarks.push_back({landmark.text("name"), 1e-3 * Eigen::Vector3d(mm[0], mm[1], mm[2])});
+    }
+  const std::vector<JsonValue>& steps = root.list("steps");
+  if (steps.empty()) root.refuse("steps");
+  for (const JsonValue& value : steps) {
+    script.steps.push_back(read_step(value, script));
+    const std::string& label = script.steps.back().label;
+    for (std::size_t s = 0; s + 1 < script.steps.size(); ++s)
+      if (!label.empty() && script.steps[s].label == label)
+        value.fail(value.path + ".label: there is another step \"" + label + "\"");
+  }
+  for (std::size_t s = 0; s < steps.size(); ++s) read_otherwise(steps[s], script, script.steps[s]);
+  return script;
+}
+
+std::string all_of(const std::string& file) {
+  std::ifstream in(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+}  // namespace
+
+std::string ScriptStep::words() const {
+  const std::string name = actions()[static_cast<std::size_t>(action)].name;
+  return label.empty() ? name : fmt::format("{} ({})", name, label);
+}
+
+Script read_script(const std::string& file, const std::string& text) { return read(parse_json(file, text), text); }
+
+Script load_script(const std::string& file) { return read(load_json(file), all_of(file)); }
+
+std::vector<Script> load_scripts() {
+  const fs::path folder = fs::path(data_folder()) / "scripts";
+  std::vector<Script> scripts;
+  std::error_code error;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder, error))
+    if (entry.path().extension() == ".json") scripts.push_back(load_script(entry.path().string()));
+  if (scripts.empty())
+    throw LoadError(folder.string() + ": has no script; expected a folder with at least one NAME.json");
+  std::sort(scripts.begin(), scripts.end(), [](const Script& a, const Script& b) { return a.name < b.name; });
+  return scripts;
+}
+
+Script find_script(const std::string& name_or_file) {
+  const fs::path known = fs::path(data_folder()) / "scripts" / (name_or_file + ".json");
+  if (fs::is_regular_file(known)) return load_script(known.string());
+  if (name_or_file.ends_with(".json")) return load_script(name_or_file);
+  std::string names;
+  for (const Script& script : load_scripts()) names += "\n  " + script.name;
+  throw LoadError(
+      fmt::format("there is no script \"{}\"; expected a file NAME.json or one of:{}", name_or_file, names));
+}
+
+void refuse(const Script& script, int line, const std::string& what) {
+  throw LoadError(fmt::format("{}:{}: {}", script.file, line, what));
+}
+
+}  // namespace ostium
