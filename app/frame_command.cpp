@@ -4,9 +4,11 @@
 #include <unistd.h>
 
 #include <cmath>
+#include <functional>
 #include <nlohmann/json.hpp>
 #include <numbers>
 
+#include "app/session/xray_scene.h"
 #include "data/dicom.h"
 #include "data/load_error.h"
 #include "data/png.h"
@@ -37,9 +39,10 @@ View view_of(const FrameOptions& o) {
   return view;
 }
 
-Scene scene_of(const FrameOptions& o) {
-  if (o.of != "phantom")
-    throw LoadError("there is no \"" + o.of + "\" to image; there is: phantom (fluoro's test chest, no anatomy)");
+/// What is in the beam, frame by frame.
+using Scenes = std::function<Scene(int frame)>;
+
+Scenes phantom_scenes(const FrameOptions& o) {
   phantom::ChestOptions chest;
   chest.filling = o.fill == "left"    ? phantom::Filling::left
                   : o.fill == "right" ? phantom::Filling::right
@@ -47,9 +50,22 @@ Scene scene_of(const FrameOptions& o) {
   chest.stenosis = 0.01 * o.stenosis_percent;
   chest.instruments = o.guide != "none";
   chest.left_instruments = o.guide == "left";
-  Scene scene = phantom::chest(chest);
-  check(scene);
-  return scene;
+  return [scene = phantom::chest(chest)](int) { return scene; };
+}
+
+/// A case's patient; the heart beats from frame to frame. `middle` is where the C-arm looks.
+Scenes patient_scenes(const FrameOptions& o, Eigen::Vector3d& middle) {
+  if (isatty(STDERR_FILENO)) fmt::print(stderr, "building {}\r", o.of);
+  const CaseScene made = scene_of_case(o.of,
+                                       o.fill == "left"    ? Fill::left
+                                       : o.fill == "right" ? Fill::right
+                                                           : Fill::none,
+                                       middle);
+  const double step_s = 1 / o.frames_per_s;
+  return [made, step_s, phase = o.phase, at = 0](int frame) mutable {
+    for (; at < frame; ++at) phase = made.later(phase, step_s);
+    return made.at(phase);
+  };
 }
 
 void print_numbers(const FrameOptions& o, const FluoroscopeInput& in, const FluoroscopeState& state,
@@ -94,9 +110,14 @@ int frame_command(const FrameOptions& o) {
   const bool video = ends_with(o.out, ".mp4"), dicom = ends_with(o.out, ".dcm");
   if (!video && !dicom && !ends_with(o.out, ".png"))
     throw LoadError(o.out + ": what is it to be? .png, .dcm and .mp4 are known");
-  const View view = view_of(o);
+  View view = view_of(o);
   require_reachable(view.arm);
-  const Scene scene = scene_of(o);
+  require_rate(o.frames_per_s);
+  Eigen::Vector3d middle = Eigen::Vector3d::Zero();
+  const Scenes scenes = o.of == "phantom" ? phantom_scenes(o) : patient_scenes(o, middle);
+  view.arm.p_PI += middle;
+  Scene scene = scenes(0);
+  check(scene);
   const FluoroscopeInput in{.scene = scene,
                             .view = view,
                             .collimator = {o.shutters[0], o.shutters[1], o.shutters[2], o.shutters[3]},
@@ -112,7 +133,10 @@ int frame_command(const FrameOptions& o) {
   std::optional<VideoWriter> writer;
   if (video) writer.emplace(o.out, o.pixels, o.pixels, o.frames_per_s);
   const int frames = o.frames ? o.frames : video ? 30 : 8;
+  // A still picture stands at its phase; the frames before it only feed the lag.
+  const bool moves = video || (dicom && o.frames);
   for (int i = 0; i < frames; ++i) {
+    if (moves) scene = scenes(i);
     report = tick(imager, in, state, scratch).frame;
     if (report.leak)
       throw LoadError(fmt::format("X-ray scene: {} pixels leak (worst {:.2f} mm): {}", report.leak.pixels,

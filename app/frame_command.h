@@ -8,7 +8,8 @@ namespace ostium {
 
 struct FrameOptions {
   static constexpr double as_view = std::numeric_limits<double>::quiet_NaN();
-  std::string of = "phantom";  ///< what is in the beam
+  std::string of = "phantom";  ///< what is in the beam: that, or a case
+  double phase = 0.75;         ///< of the heart, of a case; a film begins there
   std::string view = "ap";
   double lao_deg = as_view, cran_deg = as_view;  ///< instead of the view's
   double sid_mm = 1100, field_mm = 200;

@@ -12,7 +12,9 @@
 #include "app/instruments_command.h"
 #include "app/predict_command.h"
 #include "app/treat_command.h"
+#include "app/replay_command.h"
 #include "app/run_command.h"
+#include "app/sweep_command.h"
 #include "app/verify_command.h"
 
 int main(int argc, char** argv) {
@@ -96,7 +98,10 @@ int main(int argc, char** argv) {
       "  ostium import heart.ply -o tight-rca --lesion RCA:40:12:75 && ostium cases tight-rca");
   ostium::FrameOptions frame;
   CLI::App* frame_app = app.add_subcommand("frame", "One X-ray picture, or a short run of them");
-  frame_app->add_option("of", frame.of, "What is in the beam: phantom (fluoro's test chest, no anatomy)")
+  frame_app->add_option("of", frame.of, "What is in the beam: a case (`ostium cases`), or phantom: fluoro's test chest")
+      ->capture_default_str();
+  frame_app->add_option("--phase", frame.phase, "Of the heart, 0 is the R wave; a film begins there. Cases")
+      ->check(CLI::Range(0.0, 1.0))
       ->capture_default_str();
   frame_app->add_option("--view", frame.view, "Standard view, see `ostium views`")->capture_default_str();
   frame_app->add_option("--lao", frame.lao_deg, "Instead of the view's angle, degrees; negative: RAO");
@@ -105,7 +110,7 @@ int main(int argc, char** argv) {
   frame_app->add_option("--field", frame.field_mm, "Side of the detector's field, mm: 200, 160, 130")
       ->check(CLI::Range(50.0, 400.0))
       ->capture_default_str();
-  frame_app->add_option("--table", frame.table_mm, "Isocentre in the patient: left, head, front, mm")
+  frame_app->add_option("--table", frame.table_mm, "Isocentre from the heart's middle: left, head, front, mm")
       ->expected(3)
       ->delimiter(',');
   frame_app->add_option("--shutters", frame.shutters, "Left, right, top, bottom, from the middle; 0.5 is open")
@@ -121,10 +126,10 @@ int main(int argc, char** argv) {
   frame_app->add_option("--fill", frame.fill, "Coronary full of contrast")
       ->check(CLI::IsMember({"none", "left", "right"}))
       ->capture_default_str();
-  frame_app->add_option("--stenosis", frame.stenosis_percent, "Of LAD and RCA, by diameter, %")
+  frame_app->add_option("--stenosis", frame.stenosis_percent, "Of the phantom's LAD and RCA, by diameter, %")
       ->check(CLI::Range(0.0, 99.0))
       ->capture_default_str();
-  frame_app->add_option("--guide", frame.guide, "Where guide and wire are")
+  frame_app->add_option("--guide", frame.guide, "Where the phantom's guide and wire are")
       ->check(CLI::IsMember({"left", "right", "none"}))
       ->capture_default_str();
   frame_app->add_option("--seed", frame.seed, "Of the noise")->capture_default_str();
@@ -137,7 +142,8 @@ int main(int argc, char** argv) {
   frame_app->footer(
       "Examples:\n  ostium frame --view spider --fill left -o spider.png\n"
       "  ostium frame --lao -30 --cran -20 --cine --pixels 1024 --fill left --overlay -o cine.png\n"
-      "  ostium frame --view lao --fill right --guide right --frames 15 -o run.dcm");
+      "  ostium frame --view lao --fill right --guide right --frames 15 -o run.dcm\n"
+      "  ostium frame lad-proximal-eccentric --view spider --fill left --overlay -o case.png");
 
   ostium::InjectOptions inject;
   CLI::App* inject_app = app.add_subcommand("inject", "Contrast into a case's arteries, filmed; frame counts, balance");
@@ -257,7 +263,9 @@ int main(int argc, char** argv) {
     to->add_option("--script", o.script, "One of `ostium scripts`, or a file")
         ->type_name("NAME|FILE")
         ->capture_default_str();
-    to->add_option("--set", o.set, "Another instrument for one of the script's tools")->type_name("TOOL=NAME|FILE");
+    to->add_option("--set", o.set,
+                   "A tool's instrument (NAME or FILE.json), or person, heart_rate, hand_speed, friction")
+        ->type_name("KEY=VALUE");
     to->add_option("--seconds", o.seconds, "Most that are simulated")->check(CLI::Range(0.001, 36000.0));
     to->add_option("--units", o.unit, "What a number in a mesh means")
         ->check(CLI::IsMember({"mm", "cm", "m"}))
@@ -272,10 +280,6 @@ int main(int argc, char** argv) {
   run_app
       ->add_option("--seed", run.seed, "0: exactly as the script says; others vary hands, roll and the heart's moment")
       ->capture_default_str();
-  run_app->add_option("--person", run.person, "Another person than the case's own; 0 is the mean of the literature")
-      ->check(CLI::NonNegativeNumber);
-  run_app->add_option("--heart-rate", run.rate_1_min, "Instead of the case's, beats a minute")
-      ->check(CLI::Range(40, 180));
   run_app->add_option("--out", run.folder, "Where run.h5 and metrics.json go")->type_name("DIR");
   run_app->add_option("--record", run.record, "What run.h5 holds; events: no states, so replay starts at the beginning")
       ->check(CLI::IsMember({"none", "events", "full"}))
@@ -287,13 +291,61 @@ int main(int argc, char** argv) {
   run_app->add_flag("--json", run.json, "Machine-readable, see data/schemas/run.schema.json");
   run_app->footer(
       "Examples:\n  ostium run rca-mid-focal --script aorta-arch-wire --out out\n"
-      "  ostium run lad-proximal-eccentric --set wire=bentson --seed 7 --json\n"
+      "  ostium run lad-proximal-eccentric --set wire=bentson --set person=3 --seed 7 --json\n"
       "  ostium run aorta.obj --entry -20,80,14 --towards -20,90,14 --script my-script.json");
 
   bool scripts_json = false;
   CLI::App* scripts_app = app.add_subcommand("scripts", "What scripts there are to run");
   scripts_app->add_flag("--json", scripts_json, "Machine-readable");
   scripts_app->footer("Examples:\n  ostium scripts\n  ostium scripts --json");
+
+  ostium::SweepOptions sweep;
+  CLI::App* sweep_app = app.add_subcommand("sweep", "A script many times: cases, seeds, parameters; one table");
+  sweep_app->add_option("vessel", sweep.vessels, "Cases, or meshes")->type_name("CASE|MESH")->required();
+  add_run_options(sweep_app, sweep.run);
+  sweep_app->add_option("--seeds", sweep.seeds, "FROM..TO, or one")->capture_default_str();
+  sweep_app->add_option("--vary", sweep.vary, "What --set takes, with several values")->type_name("KEY=A,B,C");
+  sweep_app->add_option("--jobs", sweep.jobs, "Runs at the same time; 0: one for each core")
+      ->check(CLI::Range(0, 1024));
+  sweep_app->add_flag("--resume", sweep.resume, "Go on with a table that was not finished");
+  sweep_app->add_option("-o,--output", sweep.table, "The table")->type_name("TABLE.csv")->required();
+  sweep_app->footer(
+      "Examples:\n  ostium sweep rca-mid-focal --seeds 1..100 -o table.csv\n"
+      "  ostium sweep rca-mid-focal lcx-tubular --vary wire=cook-j,rosen,bentson --vary person=0,1,2 --seeds 1..10 -o "
+      "table.csv");
+
+  ostium::ReplayOptions replay;
+  CLI::App* replay_app = app.add_subcommand("replay", "A recorded run once more: whether it is the same, and pictures");
+  replay_app->add_option("file", replay.file, "What `ostium run --out` recorded")->type_name("RUN.h5")->required();
+  replay_app->add_flag("--verify", replay.verify, "Compare every step; the default where no picture is asked for");
+  replay_app->add_option("--from", replay.from_s, "Second to begin at")->check(CLI::NonNegativeNumber);
+  replay_app->add_option("--seconds", replay.seconds, "Length of the film")->check(CLI::PositiveNumber);
+  replay_app->add_option("--video", replay.video, "Film it")->type_name("FILE.mp4");
+  replay_app->add_option("--dicom", replay.dicom, "Film it")->type_name("FILE.dcm");
+  replay_app->add_option("--png", replay.png, "One picture, at --from")->type_name("FILE.png");
+  ostium::PictureOptions& look = replay.picture;
+  replay_app->add_option("--view", look.view, "Standard view (`ostium views`), instead of the run's")
+      ->type_name("VIEW");
+  replay_app->add_option("--lao", look.lao_deg, "Instead of the view's angle, degrees; negative: RAO");
+  replay_app->add_option("--cran", look.cran_deg, "Instead of the view's angle, degrees; negative: caudal");
+  replay_app->add_option("--field", look.field_mm, "Side of the detector's field, mm")->check(CLI::Range(50.0, 400.0));
+  replay_app->add_option("--table", look.table_mm, "Isocentre in the patient: left, head, front, mm")
+      ->expected(3)
+      ->delimiter(',');
+  replay_app->add_option("--pixels", look.pixels, "Along a side")
+      ->check(CLI::IsMember({64, 128, 256, 512, 768, 1024}))
+      ->capture_default_str();
+  replay_app->add_flag("--cine", look.cine, "Cine dose instead of fluoroscopy");
+  replay_app->add_flag("--plain", look.plain, "Without angles, times and dose on the picture");
+  replay_app->add_option("--rate", look.frames_per_s, "Frames a second: 3.75, 7.5, 15, 30")->capture_default_str();
+  replay_app->add_option("--fill", look.fill, "Coronary full of contrast")
+      ->check(CLI::IsMember({"none", "left", "right"}))
+      ->capture_default_str();
+  replay_app->add_flag("--json", replay.json, "Machine-readable");
+  replay_app->footer(
+      "Examples:\n  ostium replay out/run.h5 --verify\n  ostium replay out/run.h5 --from 12.5 --view spider --video "
+      "out.mp4\n"
+      "  ostium replay out/run.h5 --from 8 --lao 40 --cran 0 --png moment.png");
 
   try {
     app.parse(argc, argv);
@@ -303,6 +355,8 @@ int main(int argc, char** argv) {
   try {
     run.real = speed == "real";
     if (*run_app) return ostium::run_command(run);
+    if (*sweep_app) return ostium::sweep_command(sweep);
+    if (*replay_app) return ostium::replay_command(replay);
     if (*scripts_app) return ostium::scripts_command(scripts_json);
     if (*verify_app) return ostium::verify_command(verify);
     if (*cases_app) return ostium::cases_command(cases);

@@ -102,16 +102,12 @@ RunSetup setup_of(const RunOptions& o) {
   } else if (!o.entry.empty() || !o.towards.empty()) {
     throw LoadError("--entry and --towards are for a mesh; a case has its access");
   }
-  if (o.person >= 0) setup.person = static_cast<std::uint64_t>(o.person);
-  if (o.rate_1_min > 0) setup.rate_1_min = o.rate_1_min;
-  std::map<std::string, std::string> replaced;
+  set_script(find_script(o.script), setup);
   for (const std::string& set : o.set) {
     const std::size_t equals = set.find('=');
-    if (equals == std::string::npos || equals == 0)
-      throw LoadError(fmt::format("--set {}: expected TOOL=INSTRUMENT", set));
-    replaced[set.substr(0, equals)] = set.substr(equals + 1);
+    if (equals == std::string::npos || equals == 0) throw LoadError(fmt::format("--set {}: expected KEY=VALUE", set));
+    set_value(set.substr(0, equals), set.substr(equals + 1), setup);
   }
-  set_script(find_script(o.script), replaced, setup);
   return setup;
 }
 

@@ -10,8 +10,6 @@ struct RunOptions {
   std::string script = "aorta-arch-wire";
   std::vector<std::string> set;  ///< TOOL=INSTRUMENT
   std::uint64_t seed = 0;
-  std::int64_t person = -1;     ///< -1: the case's own
-  double rate_1_min = 0;        ///< 0: the case's own
   double seconds = 0;           ///< most that are simulated; 0: until the script ends
   std::string folder;           ///< where recording and metrics go; empty: nowhere
   std::string record = "full";  ///< none, events, full

@@ -35,7 +35,7 @@ struct Filtered {
   double largest = 0, mean = 0, above_limit = 0;
 };
 Filtered filtered(const RunRecord& r, const std::string& signal) {
-  const double dt = spacing_s(r), share = 1 - std::exp(-2 * M_PI * 10 * dt);
+  const double dt = spacing_s(r), share = 1 - std::exp(-2 * M_PI * wall_force_cut_off_Hz * dt);
   const std::vector<Column> forces = columns(r, signal);
   std::vector<double> low(forces.size(), 0);
   Filtered out;
@@ -135,7 +135,9 @@ const std::vector<EventDefinition>& event_definitions() {
       {EventCode::tool_out, "tool_out", "a tool has been drawn out", ""},
       {EventCode::tip_enters, "tip_enters", "a tip comes into another branch of the tree", "branch, from 0"},
       {EventCode::wall_force_high, "wall_force_high",
-       "the sum of wall forces on a tool rises above 1 N; again only after it was below 0.8 N", "N"},
+       "the sum of wall forces on a tool, behind a low pass of 10 Hz, rises above 1 N; again only after it was below "
+       "0.8 N",
+       "N"},
       {EventCode::fluoroscopy_on, "fluoroscopy_on", "pedal down", ""},
       {EventCode::fluoroscopy_off, "fluoroscopy_off", "pedal up", ""},
       {EventCode::cine_on, "cine_on", "pedal down", ""},

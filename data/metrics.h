@@ -27,6 +27,7 @@ enum class EventCode : int {
 /// Above this the sum of wall forces on a tool is an event. An estimate: no limit is agreed on; peak forces that
 /// vascular phantoms report for novices are of this order.
 inline constexpr double wall_force_limit_N = 1.0;
+inline constexpr double wall_force_cut_off_Hz = 10;  ///< of the first-order low pass that forces are judged behind
 
 struct EventDefinition {
   EventCode code;

@@ -165,7 +165,7 @@ void ask(const Plan& plan, const OperatorState& state, SessionInputs& inputs) {
   inputs.c_arm = {state.lao_rad, state.cran_rad, state.field_m, state.p_PI, state.fluoroscopy, state.cine};
   const auto s = static_cast<std::size_t>(state.step);
   if (state.outcome != 0 || s >= plan.script.steps.size()) return;
-  const double factor = hand_factor(plan.seed, static_cast<int>(s));
+  const double factor = plan.hand_speed * hand_factor(plan.seed, static_cast<int>(s));
   for (int t : plan.script.steps[s].tools)
     inputs.tools[static_cast<std::size_t>(t)] = {factor * plan.script.steps[s].speed_m_s,
                                                  factor * plan.script.steps[s].turn_rad_s};
@@ -181,7 +181,7 @@ void go_to(int step, OperatorState& state) { state.step = step, state.began = 1;
 }  // namespace
 
 Plan make_plan(const Script& script, const SessionModel& model, std::uint64_t seed) {
-  Plan plan{.script = script, .until_places = {}, .unless_places = {}, .seed = seed};
+  Plan plan{.script = script, .until_places = {}, .unless_places = {}, .seed = seed, .hand_speed = 1};
   for (const ScriptStep& step : script.steps) {
     plan.until_places.push_back(places(script, step.until, *model.vessel->way));
     plan.unless_places.push_back(places(script, step.unless, *model.vessel->way));
@@ -196,6 +196,7 @@ OperatorState make_state(const Plan& plan, const SessionModel& model) {
   state.tips.assign(4 * noted_tips * model.tools.size(), 0);
   forget_tips(state);
   state.rate_1_min = model.vessel->rate_1_min;
+  state.p_PI = model.vessel->p_middle;
   return state;
 }
 

@@ -14,6 +14,7 @@ struct Plan {
   Script script;
   std::vector<std::vector<int>> until_places, unless_places;  ///< of each step's conditions; -1 where they have none
   std::uint64_t seed = 0;  ///< 0: hands keep their speeds; others vary them by 15 % (one standard deviation) a step
+  double hand_speed = 1;   ///< times the script's speeds
 };
 
 /// Throws LoadError with the script's line for a place that the vessel does not have.

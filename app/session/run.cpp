@@ -2,9 +2,19 @@
 
 namespace ostium {
 
+namespace {
+
+Plan plan_of(const RunSetup& setup, const SessionModel& model) {
+  Plan plan = make_plan(setup.script, model, setup.seed);
+  plan.hand_speed = setup.hand_speed;
+  return plan;
+}
+
+}  // namespace
+
 Run::Run(const RunSetup& setup, std::shared_ptr<const Vessel> vessel)
     : model(make_session(setup, std::move(vessel))),
-      plan(make_plan(setup.script, model, setup.seed)),
+      plan(plan_of(setup, model)),
       state(make_state(model, setup.seed)),
       hands(make_state(plan, model)),
       scratch_(model) {

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -58,20 +60,51 @@ void set_vessel(const std::string& case_or_mesh, LengthUnit unit, RunSetup& setu
   setup.case_text = all_of((fs::path(data_folder()) / "cases" / (case_or_mesh + ".json")).string());
 }
 
-void set_script(const Script& script, const std::map<std::string, std::string>& replaced, RunSetup& setup) {
+void set_script(const Script& script, RunSetup& setup) {
   setup.script = script;
   setup.tool_texts.clear(), setup.tool_files.clear();
-  std::map<std::string, std::string> left = replaced;
   for (const ScriptTool& tool : script.tools) {
-    std::string name = tool.instrument;
-    if (const auto other = left.find(tool.name); other != left.end()) name = other->second, left.erase(other);
-    setup.tool_files.push_back(instrument_file(name));
+    setup.tool_files.push_back(instrument_file(tool.instrument));
     setup.tool_texts.push_back(all_of(setup.tool_files.back()));
   }
-  if (left.empty()) return;
+}
+
+namespace {
+
+double number(const std::string& key, const std::string& text, double least, double most, const char* expected) {
+  char* end = nullptr;
+  const double value = std::strtod(text.c_str(), &end);
+  if (text.empty() || *end != '\0' || !(value >= least && value <= most))
+    throw LoadError(fmt::format("{} is \"{}\"; expected {}", key, text, expected));
+  return value;
+}
+
+}  // namespace
+
+void set_value(const std::string& key, const std::string& value, RunSetup& setup) {
   std::string known;
-  for (const ScriptTool& tool : script.tools) known += (known.empty() ? "" : ", ") + tool.name;
-  throw LoadError(fmt::format("{} has no tool \"{}\"; expected one of {}", script.file, left.begin()->first, known));
+  for (std::size_t t = 0; t < setup.script.tools.size(); ++t) {
+    known += setup.script.tools[t].name + ", ";
+    if (setup.script.tools[t].name != key) continue;
+    setup.tool_files[t] = instrument_file(value);
+    setup.tool_texts[t] = all_of(setup.tool_files[t]);
+    return;
+  }
+  if (key == "person") {
+    const double person = number(key, value, 0, 1e15, "a whole number from 0 on");
+    if (person != std::floor(person) || setup.is_mesh())
+      throw LoadError(fmt::format("person is \"{}\"; expected a whole number from 0 on, and a case", value));
+    setup.person = static_cast<std::uint64_t>(person);
+  } else if (key == "heart_rate") {
+    setup.rate_1_min = number(key, value, 40, 180, "beats a minute, 40 to 180");
+  } else if (key == "hand_speed") {
+    setup.hand_speed = number(key, value, 0.01, 10, "how many times the script's speeds, 0.01 to 10");
+  } else if (key == "friction") {
+    setup.friction = number(key, value, 0, 1, "the wall's coefficient of friction, 0 to 1");
+  } else {
+    throw LoadError(fmt::format("there is no \"{}\" to set; expected one of {}person, heart_rate, hand_speed, friction",
+                                key, known));
+  }
 }
 
 std::shared_ptr<const Vessel> make_vessel(const RunSetup& setup, std::string& warnings) {
@@ -83,7 +116,9 @@ SessionModel make_session(const RunSetup& setup, std::shared_ptr<const Vessel> v
   std::vector<SessionTool> tools;
   for (std::size_t t = 0; t < setup.script.tools.size(); ++t)
     tools.push_back({setup.script.tools[t].name, read_instrument(setup.tool_files[t], setup.tool_texts[t])});
-  return make_session(std::move(vessel), std::move(tools));
+  SessionModel model = make_session(std::move(vessel), std::move(tools));
+  if (setup.friction) model.rods.surfaces[0].friction = *setup.friction;
+  return model;
 }
 
 std::string to_json(const RunSetup& setup) {
@@ -94,6 +129,8 @@ std::string to_json(const RunSetup& setup) {
     out["case"] = setup.case_text;
   if (setup.person) out["person"] = *setup.person;
   if (setup.rate_1_min) out["heart_rate_1_min"] = *setup.rate_1_min;
+  if (setup.friction) out["friction"] = *setup.friction;
+  out["hand_speed"] = setup.hand_speed;
   out["script"] = {{"file", fs::path(setup.script.file).filename()}, {"text", setup.script.source}};
   for (std::size_t t = 0; t < setup.tool_texts.size(); ++t)
     out["tools"].push_back({{"file", fs::path(setup.tool_files[t]).filename()}, {"text", setup.tool_texts[t]}});
@@ -110,6 +147,8 @@ RunSetup setup_from_json(const std::string& file, const std::string& text) {
     if (in.contains("entry_m")) setup.entry = {point(in.at("entry_m").at(0)), point(in.at("entry_m").at(1))};
     if (in.contains("person")) setup.person = in.at("person");
     if (in.contains("heart_rate_1_min")) setup.rate_1_min = in.at("heart_rate_1_min");
+    if (in.contains("friction")) setup.friction = in.at("friction");
+    setup.hand_speed = in.at("hand_speed");
     setup.script = read_script(in.at("script").at("file"), in.at("script").at("text"));
     for (const auto& tool : in.at("tools")) {
       setup.tool_files.push_back(tool.at("file"));

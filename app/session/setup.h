@@ -1,6 +1,5 @@
 #pragma once
 /// What a run is of, in texts: enough to make it again, on another machine and with other data at hand.
-#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -20,6 +19,8 @@ struct RunSetup {
   std::vector<std::string> tool_texts;  ///< of each of the script's tools: the instrument's file
   std::vector<std::string> tool_files;  ///< and its name
   std::uint64_t seed = 0;
+  double hand_speed = 1;           ///< times what the script says; (0, 10]
+  std::optional<double> friction;  ///< of the vessel's wall, instead of vessel_friction; [0, 1]
 
   bool is_mesh() const { return case_text.empty(); }
 };
@@ -27,8 +28,11 @@ struct RunSetup {
 /// A file ending in .obj, .stl or .ply is a mesh; else a case by name, or a file NAME.json. Throws LoadError,
 /// MeshError.
 void set_vessel(const std::string& case_or_mesh, LengthUnit unit, RunSetup& setup);
-/// Takes the script and finds its instruments; `replaced`: instruments by tool name, of the catalogue or files.
-void set_script(const Script& script, const std::map<std::string, std::string>& replaced, RunSetup& setup);
+/// Takes the script and finds its instruments.
+void set_script(const Script& script, RunSetup& setup);
+/// One thing otherwise: a tool's instrument (of the catalogue, or a file), or one of `person`, `heart_rate`,
+/// `hand_speed`, `friction`. After set_script. Throws LoadError with what there is.
+void set_value(const std::string& key, const std::string& value, RunSetup& setup);
 
 std::shared_ptr<const Vessel> make_vessel(const RunSetup& setup, std::string& warnings);
 /// From a vessel that was made of this setup.

@@ -1,5 +1,7 @@
 #include "app/session/signals.h"
 
+#include <cmath>
+
 #include "core/rod/introducer.h"
 #include "data/metrics.h"
 
@@ -68,8 +70,10 @@ void EventWatch::look(const SessionModel& model, const SessionInputs& inputs, co
     const ToolReport& tool = report.tools[static_cast<std::size_t>(t)];
     if (tool.in_body != before.in_body) say(tool.in_body ? EventCode::tool_in : EventCode::tool_out, t, 0);
     before.in_body = tool.in_body;
-    const bool pressed = tool.wall_force_N > (before.pressed ? 0.8 : 1) * wall_force_limit_N;
-    if (pressed && !before.pressed) say(EventCode::wall_force_high, t, tool.wall_force_N);
+    before.wall_force_N += (1 - std::exp(-2 * EIGEN_PI * wall_force_cut_off_Hz * model.step_s())) *
+                           (tool.wall_force_N - before.wall_force_N);
+    const bool pressed = before.wall_force_N > (before.pressed ? 0.8 : 1) * wall_force_limit_N;
+    if (pressed && !before.pressed) say(EventCode::wall_force_high, t, before.wall_force_N);
     before.pressed = pressed;
     if (now % 10 != 0) continue;
     const Way& way = *model.vessel->way;

@@ -34,6 +34,7 @@ class EventWatch {
   struct Tool {
     bool in_body = false, pressed = false;
     int branch = -1;
+    double wall_force_N = 0;  ///< behind the low pass that metrics use
   };
   std::vector<Tool> tools_;
   double fluoroscopy_ = 0, cine_ = 0;

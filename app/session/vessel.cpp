@@ -52,7 +52,19 @@ double winding(const Mesh& mesh, const Vector3d& p) {
   return sum / (4 * EIGEN_PI);
 }
 
+/// Of the box around some points.
+Vector3d middle(const std::vector<Vector3d>& points) {
+  Vector3d low = points.front(), high = low;
+  for (const Vector3d& p : points) low = low.cwiseMin(p), high = high.cwiseMax(p);
+  return 0.5 * (low + high);
+}
+
 }  // namespace
+
+Vector3d heart_middle(const Patient& patient) {
+  const Landmarks& marks = patient.anatomy.landmarks;
+  return middle({marks.p_left_ostium, marks.p_right_ostium, marks.p_lv_apex, marks.p_lv_base});
+}
 
 EndState end_at(const Vector3d& p_W, const Vector3d& direction_W) {
   const Eigen::Quaterniond q = Eigen::Quaterniond::FromTwoVectors(Vector3d::UnitZ(), direction_W.normalized());
@@ -74,6 +86,7 @@ std::shared_ptr<const Vessel> vessel_of(const Case& c, std::optional<std::uint64
   const Landmarks& marks = patient->anatomy.landmarks;
   vessel->entry = end_at(marks.p_access, marks.access_direction);
   vessel->way = std::make_unique<const Way>(patient->tree_frames, marks.p_access, places_of(*patient));
+  vessel->p_middle = heart_middle(*patient);
   vessel->rate_1_min = c.rate_1_min;
   vessel->patient = patient;
   return vessel;
@@ -99,6 +112,7 @@ std::shared_ptr<const Vessel> vessel_of(const std::string& name, const Mesh& mes
   vessel->wall.triangles = mesh.triangles;
   vessel->wall.friction = vessel_friction;
   vessel->surface = make_surface(vessel->wall);
+  vessel->p_middle = middle(mesh.vertices);
   vessel->entry = end_at(entry.p_P, entry.towards_P - entry.p_P);
   CentrelineOptions options;
   options.start = entry.p_P;

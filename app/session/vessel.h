@@ -16,8 +16,9 @@ struct Vessel {
   Surface surface;          ///< the same as contact has it
   EndState entry;           ///< the introducer: within the lumen, d3 is the way in
   std::unique_ptr<const Way> way;
-  double rate_1_min = 70;                  ///< of the heart, as a session begins
-  std::shared_ptr<const Patient> patient;  ///< of a case
+  Eigen::Vector3d p_middle = Eigen::Vector3d::Zero();  ///< of heart or mesh: where a C-arm looks at first, m
+  double rate_1_min = 70;                              ///< of the heart, as a session begins
+  std::shared_ptr<const Patient> patient;              ///< of a case
 
   bool beats() const { return wall.frames.size() > 1; }
 };
@@ -37,6 +38,9 @@ struct MeshEntry {
 /// outside. Holes and crossings are told in `warnings`: near them nothing is held back.
 std::shared_ptr<const Vessel> vessel_of(const std::string& name, const Mesh& mesh, const MeshEntry& entry,
                                         std::string& warnings);
+
+/// Middle of the box around ostia, left ventricle's base and apex, m.
+Eigen::Vector3d heart_middle(const Patient& patient);
 
 /// A frame with d3 along `direction`.
 EndState end_at(const Eigen::Vector3d& p_W, const Eigen::Vector3d& direction_W);

@@ -210,27 +210,27 @@ Scene XrayPatient::at(double phase) const {
   return scene;
 }
 
+CaseScene scene_of_case(const std::string& name, Fill fill, Vector3d& middle) {
+  const Case c = find_case(name);
+  const auto patient = std::make_shared<const Patient>(make_patient(c.anatomy, c.lesions));
+  const auto xray = std::make_shared<const XrayPatient>(patient, fill);
+  middle = heart_middle(*patient);
+  return {[xray](double phase) { return xray->at(phase); },
+          [rate = c.rate_1_min](double phase, double seconds) {
+            for (double t = 0; t < seconds; t += 1e-3) phase += std::min(1e-3, seconds - t) * phase_speed(phase, rate);
+            return phase - std::floor(phase);
+          }};
+}
+
 Scene scene_of_mesh(const Vessel& vessel) {
   Vector3d low = vessel.wall.frames[0][0], high = low;
   for (const Vector3d& p : vessel.wall.frames[0]) low = low.cwiseMin(p), high = high.cwiseMax(p);
-  const Vector3d middle = middle_of(vessel),
+  const Vector3d middle = vessel.p_middle,
                  half = (0.5 * (high - low)).cwiseMax(Vector3d::Constant(0.09)) + Vector3d::Constant(0.02);
   const phantom::Surface block = phantom::brick(middle - half, middle + half);
   const auto fixed = std::make_shared<const std::vector<Body>>(
       std::vector<Body>{phantom::body("block of soft tissue", block, tissue::soft, tissue::air)});
   return {fixed, {}, {}};
-}
-
-Vector3d middle_of(const Vessel& vessel) {
-  Vector3d low = Vector3d::Constant(1e9), high = -low;
-  const auto take = [&](const Vector3d& p) { low = low.cwiseMin(p), high = high.cwiseMax(p); };
-  if (vessel.patient) {
-    const Landmarks& marks = vessel.patient->anatomy.landmarks;
-    for (const Vector3d& p : {marks.p_left_ostium, marks.p_right_ostium, marks.p_lv_apex, marks.p_lv_base}) take(p);
-  } else {
-    for (const Vector3d& p : vessel.wall.frames[0]) take(p);
-  }
-  return 0.5 * (low + high);
 }
 
 }  // namespace ostium

@@ -1,5 +1,6 @@
 #pragma once
 /// What an X-ray meets of a patient and of a session: the scene that fluoro takes a picture of.
+#include <functional>
 #include <vector>
 
 #include "app/session/session.h"
@@ -35,10 +36,15 @@ class XrayPatient {
   Filled filled_;
 };
 
+/// A case without a session: a scene for each phase of its heart.
+struct CaseScene {
+  std::function<Scene(double phase)> at;
+  std::function<double(double phase, double seconds)> later;  ///< the phase after a while at the case's heart rate
+};
+/// By name; `middle`: of the heart. Throws LoadError.
+CaseScene scene_of_case(const std::string& name, Fill fill, Eigen::Vector3d& middle);
+
 /// A mesh of anyone: it lies in a block of soft tissue.
 Scene scene_of_mesh(const Vessel& vessel);
-
-/// Where the C-arm looks at first: the middle of the coronary arteries, or of a mesh.
-Eigen::Vector3d middle_of(const Vessel& vessel);
 
 }  // namespace ostium

@@ -1,0 +1,77 @@
+#include "app/session/film.h"
+
+#include <cmath>
+
+#include "fluoro/overlay.h"
+
+namespace ostium {
+
+struct Film::Parts {
+  explicit Parts(const FilmOptions& o) : options(o), imager({}, make_scanline_renderer()) {}
+  FilmOptions options;
+  std::unique_ptr<const XrayPatient> patient;
+  Scene mesh;
+  Imager imager;
+  FluoroscopeState state;
+  DisplayScratch scratch;
+  FrameReport report;
+  View view;
+  Picture picture;
+
+  Programme programme() const { return options.cine ? cine(options.frames_per_s) : fluoroscopy(options.frames_per_s); }
+};
+
+bool is_frame(std::uint64_t step, double frames_per_s, double step_s) {
+  const double per_frame = 1 / (frames_per_s * step_s);
+  const auto frame = static_cast<std::uint64_t>(std::llround(static_cast<double>(step) / per_frame));
+  return static_cast<std::uint64_t>(std::llround(static_cast<double>(frame) * per_frame)) == step;
+}
+
+Film::Film(const SessionModel& model, const FilmOptions& options) : parts_(std::make_unique<Parts>(options)) {
+  require_rate(options.frames_per_s);
+  if (model.vessel->patient)
+    parts_->patient = std::make_unique<const XrayPatient>(model.vessel->patient, options.fill);
+  else
+    parts_->mesh = scene_of_mesh(*model.vessel);
+}
+
+Film::~Film() = default;
+
+const Picture& Film::frame(const SessionModel& model, const SessionState& state, const SessionInputs& inputs) {
+  Parts& p = *parts_;
+  const FilmOptions& o = p.options;
+  Scene scene = p.patient ? p.patient->at(state.heart.phase) : p.mesh;
+  scene.shafts = shafts_of(model, state);
+  const CArmInputs& arm = inputs.c_arm;
+  p.view.arm.lao_rad = o.lao_rad.value_or(arm.lao_rad), p.view.arm.cran_rad = o.cran_rad.value_or(arm.cran_rad);
+  p.view.arm.p_PI = o.p_PI.value_or(arm.p_PI);
+  p.view.field_m = o.field_m.value_or(arm.field_m);
+  p.view.pixels = o.pixels;
+  const bool on = o.always_on || arm.fluoroscopy > 0 || arm.cine > 0,
+             is_cine = o.cine || (!o.always_on && arm.cine > 0);
+  const FluoroscopeInput in{.scene = scene,
+                            .view = p.view,
+                            .collimator = {},
+                            .pedals = {.fluoroscopy = on && !is_cine, .cine = on && is_cine},
+                            .fluoroscopy_per_s = o.frames_per_s,
+                            .cine_per_s = o.frames_per_s,
+                            .beat_phase = state.heart.phase,
+                            .seed = o.seed};
+  const TickReport report = tick(p.imager, in, p.state, p.scratch);
+  if (report.xray_on) p.report = report.frame;
+  if (!p.state.runs.empty()) p.state.runs.back().frames.clear();  // whoever films keeps what they want
+  p.picture = p.state.live;
+  if (p.picture.grey.empty()) {
+    p.picture.width = p.picture.height = o.pixels;
+    p.picture.grey.assign(static_cast<std::size_t>(o.pixels) * o.pixels, 0);
+  }
+  if (o.overlay)
+    draw_overlay({p.view, p.programme(), p.report.exposure, p.state.dose, report.xray_on, "", model.vessel->name},
+                 p.picture);
+  return p.picture;
+}
+
+CineRun Film::run() const { return {parts_->view, parts_->programme(), parts_->report.exposure, {}}; }
+const DoseMeter& Film::dose() const { return parts_->state.dose; }
+
+}  // namespace ostium

@@ -1,0 +1,42 @@
+#pragma once
+/// Pictures of a session: any view, also one that was never shown. Frame n belongs to step round(n / (rate step)),
+/// never to a clock, so a film is the same whenever it is made.
+#include <memory>
+
+#include "app/session/xray_scene.h"
+#include "fluoro/fluoroscope.h"
+
+namespace ostium {
+
+/// How a film differs from what the operator saw. What is not set follows the recorded inputs.
+struct FilmOptions {
+  std::optional<double> lao_rad, cran_rad, field_m;
+  std::optional<Eigen::Vector3d> p_PI;
+  bool cine = false;      ///< dose of cine
+  bool always_on = true;  ///< false: black where no pedal was down
+  double frames_per_s = 15;
+  int pixels = 512;
+  bool overlay = true;
+  Fill fill = Fill::none;
+  std::uint64_t seed = 1;  ///< of the noise
+};
+
+/// Whether a frame belongs to the state after so many steps.
+bool is_frame(std::uint64_t step, double frames_per_s, double step_s);
+
+class Film {
+ public:
+  /// Throws std::invalid_argument for a rate or pose that cannot be.
+  Film(const SessionModel& model, const FilmOptions& options);
+  ~Film();
+  /// The state as a picture. Throws std::invalid_argument as fluoro's `tick` does.
+  const Picture& frame(const SessionModel& model, const SessionState& state, const SessionInputs& inputs);
+  CineRun run() const;  ///< with the last exposure, without frames
+  const DoseMeter& dose() const;
+
+ private:
+  struct Parts;
+  std::unique_ptr<Parts> parts_;
+};
+
+}  // namespace ostium
