@@ -41,8 +41,9 @@ RecordingWriter::RecordingWriter(std::string path, const RecordingHeader& header
                                  const std::vector<std::pair<TableLayout, const void*>>& tables,
                                  const std::vector<std::size_t>& table_rows)
     : path_(std::move(path)), next_(path_ + ".next"), header_(header) {
-  for (const std::string& name : {path_, next_}) {
-    TableFile file = TableFile::create(name);
+  // Whole and shut before either has the recording's name.
+  for (const bool first : {true, false}) {
+    TableFile file = TableFile::create(next_);
     file.set_text("schema", schema + std::to_string(recording_version));
     file.set_text("software", header.software);
     file.set_text("setup", header.setup);
@@ -53,7 +54,15 @@ RecordingWriter::RecordingWriter(std::string path, const RecordingHeader& header
       file.append(tables[t].first.name, tables[t].second, table_rows[t]);
     }
     file.close();
+    if (first) take_place();
   }
+}
+
+RecordingWriter::~RecordingWriter() { std::remove(next_.c_str()); }
+
+void RecordingWriter::take_place() const {
+  if (std::rename(next_.c_str(), path_.c_str()) != 0)
+    throw LoadError(fmt::format("{}: cannot take the place of what was there: {}", path_, std::strerror(errno)));
 }
 
 void RecordingWriter::write(TableFile& file, const RecordingBlock& block) const {
@@ -89,8 +98,7 @@ void RecordingWriter::finish(const std::string& end) {
   write(file, last_);
   file.set_text("end", end);
   file.close();
-  if (std::rename(next_.c_str(), path_.c_str()) != 0)
-    throw LoadError(fmt::format("{}: cannot take the place of what was there: {}", path_, std::strerror(errno)));
+  take_place();
 }
 
 RecordingReader::RecordingReader(const std::string& path) : path_(path), file_(TableFile::open(path)) {

@@ -44,6 +44,9 @@ class RecordingWriter {
   RecordingWriter(std::string path, const RecordingHeader& header,
                   const std::vector<std::pair<TableLayout, const void*>>& tables = {},
                   const std::vector<std::size_t>& table_rows = {});
+  ~RecordingWriter();  ///< the other file goes; the recording stays as it was last whole
+  RecordingWriter(const RecordingWriter&) = delete;
+  RecordingWriter& operator=(const RecordingWriter&) = delete;
   /// Throws LoadError if it cannot be written; the recording stays as it was.
   void commit(RecordingBlock block);
   /// The last words: outcome, reason, metrics, as JSON. Removes the other file.
@@ -51,6 +54,7 @@ class RecordingWriter {
 
  private:
   void write(TableFile& file, const RecordingBlock& block) const;
+  void take_place() const;
   void take_turns() const;
 
   std::string path_, next_;
