@@ -127,7 +127,7 @@ int run_command(const RunOptions& o) {
   std::string warnings;
   const auto vessel = make_vessel(setup, warnings);
   if (!warnings.empty())
-    fmt::print(stderr, "ostium run: {} is not sound, and near its faults nothing is held back:\n{}", setup.vessel,
+    fmt::print(stderr, "ostium run: of {}, near whose faults nothing is held back:\n{}", setup.vessel,
                warnings);
   Run run(setup, vessel);
   options.real = o.real;

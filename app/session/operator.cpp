@@ -7,6 +7,8 @@
 #include <random>
 #include <stdexcept>
 
+#include "data/metrics.h"
+
 namespace ostium {
 
 using Eigen::Vector3d;
@@ -85,13 +87,13 @@ struct Sight {
       case ConditionKind::turned:
         return std::fabs(session.hands[t].turned_rad - state.began_turned_rad[t]) >= c.value;
       case ConditionKind::push_exceeds:
-        return std::fabs(tool.push_N) > c.value;
+        return std::fabs(state.felt[4 * t]) > c.value;
       case ConditionKind::torque_exceeds:
-        return std::fabs(tool.torque_Nm) > c.value;
+        return std::fabs(state.felt[4 * t + 1]) > c.value;
       case ConditionKind::wall_force_exceeds:
-        return tool.wall_force_N > c.value;
+        return state.felt[4 * t + 2] > c.value;
       case ConditionKind::tip_force_exceeds:
-        return tool.tip_force_N > c.value;
+        return state.felt[4 * t + 3] > c.value;
       case ConditionKind::seconds:
         return now_s() - state.began_s >= c.value;
       case ConditionKind::beats:
@@ -128,6 +130,17 @@ void note_tips(const SessionModel& model, const SessionState& session, OperatorS
     double* last = notes + 4 * (noted_tips - 1);
     const Vector3d p = tip(model, session, t);
     last[0] = p.x(), last[1] = p.y(), last[2] = p.z(), last[3] = session.hands[static_cast<std::size_t>(t)].fed_m;
+  }
+}
+
+/// A hand does not feel what lasts a millisecond, nor forces of a step that had to give way: they are no real rod's.
+void feel(const SessionModel& model, const SessionReport& report, OperatorState& state) {
+  if (report.rods.trouble & (not_converged | motion_lost | no_solution | pulled_apart)) return;
+  const double share = 1 - std::exp(-2 * EIGEN_PI * wall_force_cut_off_Hz * model.step_s());
+  for (std::size_t t = 0; t < report.tools.size(); ++t) {
+    const ToolReport& tool = report.tools[t];
+    const double now[] = {tool.push_N, tool.torque_Nm, tool.wall_force_N, tool.tip_force_N};
+    for (std::size_t k = 0; k < 4; ++k) state.felt[4 * t + k] += share * (now[k] - state.felt[4 * t + k]);
   }
 }
 
@@ -193,6 +206,7 @@ OperatorState make_state(const Plan& plan, const SessionModel& model) {
   OperatorState state;
   state.began_fed_m.assign(model.tools.size(), 0), state.began_turned_rad.assign(model.tools.size(), 0);
   state.tries.assign(plan.script.steps.size(), 0);
+  state.felt.assign(4 * model.tools.size(), 0);
   state.tips.assign(4 * noted_tips * model.tools.size(), 0);
   forget_tips(state);
   state.rate_1_min = model.vessel->rate_1_min;
@@ -219,6 +233,7 @@ void restore(const std::vector<double>& saved, OperatorState& state) {
 Outcome decide(const Plan& plan, const SessionModel& model, const SessionState& session, const SessionReport& report,
                OperatorState& state, SessionInputs& inputs, std::vector<OperatorEvent>& events) {
   events.clear();
+  feel(model, report, state);
   using Kind = OperatorEvent::Kind;
   const Sight sight{plan, model, session, report, state};
   const int count = static_cast<int>(plan.script.steps.size());

@@ -29,6 +29,7 @@ struct OperatorState {
   double began_s = 0, began_beats = 0;
   std::vector<double> began_fed_m, began_turned_rad;  ///< one a tool
   std::vector<double> tries;                          ///< one a step of the script
+  std::vector<double> felt;  ///< (#tools by 4): push, torque, wall and tip force, behind a low pass of 10 Hz
   double next_s = 0;                                  ///< when tips are noted next
   std::vector<double> tips;                           ///< m, (#tools by noted_tips by 4): of the last 0.25 s, with fed
   double rate_1_min = 0;
@@ -49,6 +50,7 @@ void for_each_operator_field(S& state, Visit&& visit) {
   visit("began_fed_m", state.began_fed_m.data(), static_cast<int>(state.began_fed_m.size()));
   visit("began_turned_rad", state.began_turned_rad.data(), static_cast<int>(state.began_turned_rad.size()));
   visit("tries", state.tries.data(), static_cast<int>(state.tries.size()));
+  visit("felt", state.felt.data(), static_cast<int>(state.felt.size()));
   visit("next_s", &state.next_s, 1);
   visit("tips", state.tips.data(), static_cast<int>(state.tips.size()));
   visit("rate_1_min", &state.rate_1_min, 1);

@@ -92,12 +92,14 @@ std::shared_ptr<const Vessel> vessel_of(const Case& c, std::optional<std::uint64
   return vessel;
 }
 
-std::shared_ptr<const Vessel> vessel_of(const std::string& name, const Mesh& mesh, const MeshEntry& entry,
+std::shared_ptr<const Vessel> vessel_of(const std::string& name, Mesh mesh, const MeshEntry& entry,
                                         std::string& warnings) {
+  if (volume_m3(mesh) < 0) {
+    for (auto& t : mesh.triangles) std::swap(t[1], t[2]);
+    warnings = "it faced inwards, and was turned round\n";
+  }
   const SurfaceReport report = check_surface(mesh);
-  if (report.inverted.count && !report.open_edges.count)
-    throw MeshError(name + ": faces inwards; turn its triangles round\n" + describe(report));
-  if (!report.sound()) warnings = describe(report);
+  if (!report.sound()) warnings += describe(report);
   if (winding(mesh, entry.p_P) < 0.5) {
     const Vector3d mm = mm_from_patient(entry.p_P);
     throw LoadError(

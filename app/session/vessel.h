@@ -34,9 +34,9 @@ struct MeshEntry {
   Eigen::Vector3d towards_P = Eigen::Vector3d::Zero();  ///< a point that the way in leads to
 };
 
-/// A mesh of anyone. Throws MeshError if it cannot be read, faces inwards or has no inside; LoadError if the entry lies
-/// outside. Holes and crossings are told in `warnings`: near them nothing is held back.
-std::shared_ptr<const Vessel> vessel_of(const std::string& name, const Mesh& mesh, const MeshEntry& entry,
+/// A mesh of anyone; one that faces inwards is turned round. Throws MeshError if it cannot be used, LoadError if the
+/// entry lies outside. What is wrong with it is told in `warnings`: near holes and crossings nothing is held back.
+std::shared_ptr<const Vessel> vessel_of(const std::string& name, Mesh mesh, const MeshEntry& entry,
                                         std::string& warnings);
 
 /// Middle of the box around ostia, left ventricle's base and apex, m.
