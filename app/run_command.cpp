@@ -34,7 +34,7 @@ Eigen::Vector3d point(const std::string& text, const char* option, LengthUnit un
   return metres(unit) * Eigen::Vector3d(x, y, z);
 }
 
-void show_progress(const Run& run) {
+void show_progress(const ScriptedRun& run) {
   const double now = seconds(run.model, run.state);
   const auto s = static_cast<std::size_t>(run.hands.step);
   if (s >= run.plan.script.steps.size()) return;
@@ -45,7 +45,8 @@ void show_progress(const Run& run) {
   say(fmt::format("{:7.1f} s  {}{}", now, run.plan.script.steps[s].words(), tools));
 }
 
-nlohmann::ordered_json to_json(const RunSetup& setup, const Run& run, const PlayReport& r, const std::string& file) {
+nlohmann::ordered_json to_json(const RunSetup& setup, const ScriptedRun& run, const PlayReport& r,
+                               const std::string& file) {
   nlohmann::ordered_json out = {{"case", setup.vessel},
                                 {"script", setup.script.name},
                                 {"seed", setup.seed},
@@ -73,7 +74,7 @@ nlohmann::ordered_json to_json(const RunSetup& setup, const Run& run, const Play
   return out;
 }
 
-void print_report(const Run& run, const PlayReport& r, const std::string& file) {
+void print_report(const ScriptedRun& run, const PlayReport& r, const std::string& file) {
   fmt::print("{}{}{}\n", r.outcome, r.reason.empty() ? "" : ": ", r.reason);
   fmt::print("{:.3f} s simulated in {:.1f} s; deepest in the wall {:.3f} mm, {} nodes found outside\n", r.simulated_s,
              r.clock_s, 1e3 * r.penetration.deepest_m, r.penetration.outside);
@@ -127,9 +128,8 @@ int run_command(const RunOptions& o) {
   std::string warnings;
   const auto vessel = make_vessel(setup, warnings);
   if (!warnings.empty())
-    fmt::print(stderr, "ostium run: of {}, near whose faults nothing is held back:\n{}", setup.vessel,
-               warnings);
-  Run run(setup, vessel);
+    fmt::print(stderr, "ostium run: of {}, near whose faults nothing is held back:\n{}", setup.vessel, warnings);
+  ScriptedRun run(setup, vessel);
   options.real = o.real;
   options.seconds = o.seconds;
   options.progress = show_progress;

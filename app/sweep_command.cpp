@@ -122,7 +122,7 @@ std::string heading(const Sweep& sweep) {
   return line + ",deepest_penetration_mm,nodes_outside,troubled_steps,state\n";
 }
 
-std::string line_of(const Task& task, const Run& run, const PlayReport& r) {
+std::string line_of(const Task& task, const ScriptedRun& run, const PlayReport& r) {
   std::string line = fmt::format("{},{},{}", csv(task.setup.vessel), csv(task.setup.script.name), task.seed);
   for (const std::string& value : task.values) line += "," + csv(value);
   line += fmt::format(",{},{},{:.3f}", r.outcome, csv(r.reason), r.simulated_s);
@@ -227,7 +227,7 @@ int sweep_command(const SweepOptions& o) {
       for (std::size_t i; (i = next++) < open.size() && !interrupted;) {
         const Task& task = sweep.tasks[open[i]];
         try {
-          Run run(task.setup, vessel);
+          ScriptedRun run(task.setup, vessel);
           PlayOptions options;
           options.recorder.mode = RecordMode::none;
           options.seconds = o.run.seconds;

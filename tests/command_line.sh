@@ -60,7 +60,8 @@ expect 3 "shutter" frame --shutters 0.5,0.5,0,0.5 -o "$dir/frame.png"
 expect 3 "cannot be written" frame -o /nowhere/frame.png
 expect 3 "cannot be written" frame -o /nowhere/frame.dcm
 expect 3 "png, .dcm and .mp4" frame -o "$dir/frame.jpg"
-expect 3 "no \"rca-mid-focal\" to image" frame rca-mid-focal -o "$dir/frame.png"
+expect 0 "kV" frame rca-mid-focal --view lao --fill right --phase 0.4 -o "$dir/case.png"
+expect 3 "there is no case" frame no-such-case -o "$dir/frame.png"
 expect 2 "not in" frame --pixels 100 -o "$dir/frame.png"
 if command -v ffmpeg >/dev/null; then
   expect 0 "loop.mp4" frame --frames 5 -o "$dir/loop.mp4"
@@ -99,3 +100,50 @@ expect 3 "BRANCH:FROM" "$ostium" import "$folder/whole.obj" --lesion RCA -o "$fo
 expect 0 "branches" "$ostium" centreline "$folder/whole.obj" -o "$folder/tree.json"
 expect 3 "three numbers" "$ostium" centreline "$folder/whole.obj" --start 1,2 -o "$folder/tree.json"
 expect 3 "no format of a tree" "$ostium" centreline "$folder/whole.obj" -o "$folder/tree.txt"
+
+# Sessions: run, record, replay, sweep.
+out=$folder/out
+expect 0 "aorta-arch-wire" "$ostium" scripts
+expect 0 '"instrument"' "$ostium" scripts --json
+expect 0 "Examples" "$ostium" run --help
+expect 0 "recorded in" "$ostium" run rca-mid-focal --script iliac-wire --out "$out"
+grep -q '"outcome": "success"' "$out/metrics.json"
+expect 0 "bit for bit" "$ostium" replay "$out/run.h5" --verify
+expect 0 '"same": true' "$ostium" replay "$out/run.h5" --from 1 --json
+expect 0 "moment.png" "$ostium" replay "$out/run.h5" --from 0.5 --view lao --pixels 128 --png "$out/moment.png"
+expect 1 "time limit" "$ostium" run rca-mid-focal --seconds 0.2 --speed real --record none --out "$out"
+expect 1 '"outcome": "aborted"' "$ostium" run rca-mid-focal --seconds 0.1 --json
+expect 3 "there is no case" "$ostium" run no-such-case
+expect 3 "there is no script" "$ostium" run rca-mid-focal --script no-such-script
+expect 3 "there is no instrument" "$ostium" run rca-mid-focal --set wire=no-such-wire
+expect 3 "expected one of wire, person" "$ostium" run rca-mid-focal --set wyre=cook-j
+expect 3 "where an instrument comes in" "$ostium" run "$folder/whole.obj"
+expect 3 "there is no such file" "$ostium" replay "$out/none.h5"
+expect 3 "there is no view" "$ostium" replay "$out/run.h5" --view upwards --png "$out/moment.png"
+expect 3 "s long" "$ostium" replay "$out/run.h5" --from 60
+head -c 3000 "$out/run.h5" >"$out/cut.h5"
+expect 3 "cut short" "$ostium" replay "$out/cut.h5"
+sed 's/"speed_mm_s"/"speed_mms"/' "$(dirname "$0")/../data/scripts/iliac-wire.json" >"$folder/iliac-wire.json"
+expect 3 "iliac-wire.json:10: steps\[0\].speed_mms is not a key" "$ostium" run rca-mid-focal --script "$folder/iliac-wire.json"
+
+sweep() { "$ostium" sweep rca-mid-focal --script iliac-wire --seconds 1 --vary wire=cook-j,bentson --seeds 1..4 "$@"; }
+export -f sweep
+expect 0 "8 runs" sweep -o "$out/one.csv" --jobs 1
+expect 0 "8 runs" sweep -o "$out/two.csv" --jobs 2
+cmp "$out/one.csv" "$out/two.csv"
+sweep -o "$out/three.csv" & child=$!
+for _ in $(seq 100); do
+  if [[ -e $out/three.csv.part ]] && (($(wc -l <"$out/three.csv.part") > 2)); then break; fi
+  sleep 0.05
+done
+pkill -KILL -P "$child" 2>/dev/null || kill -KILL "$child" 2>/dev/null || true
+wait "$child" 2>/dev/null || true
+if [[ -e $out/three.csv.part ]]; then
+  printf '7 rca-mid-focal,torn' >>"$out/three.csv.part"
+  expect 3 "not finished" sweep -o "$out/three.csv"
+  expect 3 "another sweep" "$ostium" sweep rca-mid-focal --resume --script iliac-wire --seeds 1..2 -o "$out/three.csv"
+  expect 0 "8 runs" sweep -o "$out/three.csv" --resume
+fi
+cmp "$out/one.csv" "$out/three.csv"
+expect 3 "FROM..TO" "$ostium" sweep rca-mid-focal --seeds 9..1 -o "$out/table.csv"
+expect 3 "KEY=A,B,C" "$ostium" sweep rca-mid-focal --vary wire= -o "$out/table.csv"

@@ -30,8 +30,8 @@ struct OperatorState {
   std::vector<double> began_fed_m, began_turned_rad;  ///< one a tool
   std::vector<double> tries;                          ///< one a step of the script
   std::vector<double> felt;  ///< (#tools by 4): push, torque, wall and tip force, behind a low pass of 10 Hz
-  double next_s = 0;                                  ///< when tips are noted next
-  std::vector<double> tips;                           ///< m, (#tools by noted_tips by 4): of the last 0.25 s, with fed
+  double next_s = 0;         ///< when tips are noted next
+  std::vector<double> tips;  ///< m, (#tools by noted_tips by 4): of the last 0.25 s, with fed
   double rate_1_min = 0;
   double lao_rad = 0, cran_rad = 0, field_m = 0.2, fluoroscopy = 0, cine = 0;
   Eigen::Vector3d p_PI = Eigen::Vector3d::Zero();

@@ -52,7 +52,7 @@ class TimeBins {
 
 }  // namespace
 
-PlayReport play(Run& run, const RunSetup& setup, const PlayOptions& options) {
+PlayReport play(ScriptedRun& run, const RunSetup& setup, const PlayOptions& options) {
   Recorder recorder(options.recorder, run.model, setup, save(run.hands).size());
   recorder.begin(run.state, run.hands);
   TimeBins bins;

@@ -14,7 +14,7 @@ struct PlayOptions {
   double seconds = 0;    ///< most that are simulated; 0: no end but the script's
   double give_up_s = 0;  ///< of the clock; 0: never
   /// Called now and then, at least every 0.1 s simulated: for progress. May be empty.
-  std::function<void(const Run&)> progress;
+  std::function<void(const ScriptedRun&)> progress;
   const std::atomic<bool>* stop = nullptr;  ///< becomes true: the run ends as aborted
 };
 
@@ -36,6 +36,6 @@ struct PlayReport {
 };
 
 /// Runs to the end. Throws LoadError if the recording cannot be begun; what goes wrong with it later is in `problem`.
-PlayReport play(Run& run, const RunSetup& setup, const PlayOptions& options);
+PlayReport play(ScriptedRun& run, const RunSetup& setup, const PlayOptions& options);
 
 }  // namespace ostium

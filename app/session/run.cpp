@@ -12,7 +12,7 @@ Plan plan_of(const RunSetup& setup, const SessionModel& model) {
 
 }  // namespace
 
-Run::Run(const RunSetup& setup, std::shared_ptr<const Vessel> vessel)
+ScriptedRun::ScriptedRun(const RunSetup& setup, std::shared_ptr<const Vessel> vessel)
     : model(make_session(setup, std::move(vessel))),
       plan(plan_of(setup, model)),
       state(make_state(model, setup.seed)),
@@ -23,7 +23,7 @@ Run::Run(const RunSetup& setup, std::shared_ptr<const Vessel> vessel)
   events.reserve(64);
 }
 
-bool Run::tick() {
+bool ScriptedRun::tick() {
   outcome = decide(plan, model, state, report, hands, inputs, events);
   if (outcome != Outcome::running) return false;
   step(model, inputs, state, scratch_, report);

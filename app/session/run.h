@@ -4,10 +4,10 @@
 
 namespace ostium {
 
-class Run {
+class ScriptedRun {
  public:
   /// Throws LoadError, with the script's line where it is the script's fault.
-  Run(const RunSetup& setup, std::shared_ptr<const Vessel> vessel);
+  ScriptedRun(const RunSetup& setup, std::shared_ptr<const Vessel> vessel);
 
   /// The operator looks and decides; then one step, unless the script is at its end. False: it is.
   bool tick();

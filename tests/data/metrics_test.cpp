@@ -1,0 +1,92 @@
+/// Metrics of records that were made by hand: the answers can be done in the head.
+#include "data/metrics.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <set>
+
+namespace ostium {
+namespace {
+
+constexpr int code(EventCode c) { return static_cast<int>(c); }
+
+double value(const RunRecord& record, const std::string& name) {
+  for (const Metric& metric : metrics_of(record))
+    if (metric.name == name) return metric.value;
+  ADD_FAILURE() << name;
+  return 0;
+}
+
+/// 10 s; one tool is fed at 50 mm/s for 4 s, drawn back at 100 mm/s for 1 s, and rests; the wall pushes with 2 N from
+/// second 2 to 4.
+RunRecord record() {
+  RunRecord r{.step_s = 1e-3,
+              .steps = 10000,
+              .signal_columns = {"time_s", "heart_phase", "wire.inserted_mm", "wire.tip_branch", "wire.tip_along_mm",
+                                 "wire.push_N", "wire.torque_mNm", "wire.wall_force_N", "wire.tip_force_N"},
+              .signals = {},
+              .events = {},
+              .branches = {"aorta", "RCA"}};
+  for (int i = 0; i < 1000; ++i) {
+    const double t = 0.01 * i, in = t < 4 ? 50 * t : t < 5 ? 200 - 100 * (t - 4) : 100;
+    r.signals.insert(r.signals.end(),
+                     {t, 0.0, in, t < 3 ? 0.0 : 1.0, in, t < 4 ? 0.5 : -0.7, 0.1, t >= 2 && t < 4 ? 2.0 : 0.0, 0.0});
+  }
+  r.events = {100,  double(code(EventCode::tool_in)),         0,  0,  //
+              100,  double(code(EventCode::tip_enters)),      0,  0,  //
+              2000, double(code(EventCode::fluoroscopy_on)),  -1, 0,  //
+              3000, double(code(EventCode::tip_enters)),      0,  1,  //
+              5000, double(code(EventCode::fluoroscopy_off)), -1, 0,  //
+              6000, double(code(EventCode::cine_on)),         -1, 0,  //
+              7500, double(code(EventCode::cine_off)),        -1, 0,  //
+              9000, double(code(EventCode::fluoroscopy_on)),  -1, 0};
+  return r;
+}
+
+TEST(Metrics, OfARecordMadeByHand) {
+  const RunRecord r = record();
+  EXPECT_DOUBLE_EQ(value(r, "procedure_time_s"), 10);
+  EXPECT_NEAR(value(r, "cannulation_time_s"), 2.9, 1e-12);
+  EXPECT_NEAR(value(r, "fluoroscopy_time_s"), 4, 1e-12) << "3 s, and the last one to the end";
+  EXPECT_NEAR(value(r, "cine_time_s"), 1.5, 1e-12);
+  EXPECT_DOUBLE_EQ(value(r, "cine_runs"), 1);
+  EXPECT_NEAR(value(r, "hand_path_length_mm"), 300, 1e-6);
+  EXPECT_NEAR(value(r, "tip_path_length_mm"), 300, 10) << "in moves of 5 mm";
+  EXPECT_NEAR(value(r, "tip_reached_mm"), 200, 0.5);
+  EXPECT_NEAR(value(r, "wall_force_max_N"), 2, 1e-6);
+  EXPECT_NEAR(value(r, "wall_force_mean_N"), 0.4, 0.01) << "a low pass moves an area, but keeps it";
+  EXPECT_NEAR(value(r, "wall_force_impulse_N_s"), 4, 0.1);
+  EXPECT_NEAR(value(r, "wall_force_above_limit_percent"), 20, 0.3) << "equally late at both ends";
+  EXPECT_NEAR(value(r, "push_max_N"), 0.7, 1e-9);
+}
+
+TEST(Metrics, WhatDoesNotApplyIsNoNumber) {
+  RunRecord r = record();
+  r.branches = {"aorta", "left renal"};
+  EXPECT_TRUE(std::isnan(value(r, "cannulation_time_s")));
+  const auto json = nlohmann::json::parse(metrics_json("a case", 3, "failure", "why \"not\"", metrics_of(r)));
+  EXPECT_EQ(json["reason"], "why \"not\"");
+  EXPECT_EQ(json["seed"], 3);
+  EXPECT_EQ(json["metrics"].size(), metric_definitions().size());
+  EXPECT_TRUE(json["metrics"][2]["value"].is_null());
+  EXPECT_EQ(value({}, "procedure_time_s"), 0);
+}
+
+TEST(Metrics, NamesAreSnakeCaseWithTheirUnitLast) {
+  std::set<std::string> names;
+  for (const MetricDefinition& d : metric_definitions()) {
+    EXPECT_TRUE(names.insert(d.name).second) << d.name;
+    std::string ending = d.unit == "1" ? "" : "_" + d.unit;
+    for (char& c : ending) c = c == ' ' ? '_' : c;
+    if (d.unit == "%") ending = "_percent";
+    EXPECT_TRUE(d.name.ends_with(ending)) << d.name;
+    EXPECT_FALSE(d.definition.empty());
+  }
+  int next = 0;
+  for (const EventDefinition& d : event_definitions()) EXPECT_EQ(code(d.code), next++) << d.name;
+}
+
+}  // namespace
+}  // namespace ostium

@@ -1,0 +1,112 @@
+/// Scripts that ship load; what is wrong in one is named by file, line and what was expected.
+#include "data/script.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "data/catalogue.h"
+#include "data/script_keys.h"
+#include "tests/data/refusals.h"
+
+namespace ostium {
+namespace {
+
+namespace fs = std::filesystem;
+
+const std::string small_script = R"({
+  "schema": "ostium-script/1",
+  "name": "small",
+  "title": "A test",
+  "tools": [ { "name": "guide", "instrument": "guide-jr4-6f" }, { "name": "wire", "instrument": "cook-j" } ],
+  "steps": [
+    { "do": "view", "view": "spider" },
+    { "do": "advance", "label": "up", "tool": "wire", "speed_mm_s": 50,
+      "until": [{ "tip_passes": "arch" }], "unless": [{ "push_exceeds_N": 5 }], "timeout_s": 20 },
+    { "do": "turn", "tool": ["guide", "wire"], "turn_deg_s": -90, "until": [{ "turned_deg": 180 }, { "seconds": 3 }],
+      "otherwise": "up", "tries": 2 },
+    { "do": "wait", "until": [{ "tip_points": "left", "within_deg": 20, "of": "wire" }] }
+  ]
+})";
+
+std::string refusal(const std::string& from, const std::string& to) {
+  std::string text = small_script;
+  const auto at = text.find(from);
+  EXPECT_NE(at, std::string::npos) << from;
+  text.replace(at, from.size(), to);
+  try {
+    read_script("folder/small.json", text);
+  } catch (const LoadError& error) {
+    return error.what();
+  }
+  return "accepted";
+}
+
+TEST(Script, IsReadInSiUnits) {
+  const Script script = read_script("folder/small.json", small_script);
+  ASSERT_EQ(script.steps.size(), 4u);
+  EXPECT_NEAR(*script.steps[0].lao_rad, 0.7854, 1e-4);
+  const ScriptStep& up = script.steps[1];
+  EXPECT_DOUBLE_EQ(up.speed_m_s, 0.05);
+  EXPECT_EQ(up.tools, std::vector<int>{1});
+  EXPECT_EQ(up.until[0].kind, ConditionKind::tip_passes);
+  EXPECT_EQ(up.until[0].tool, 1);
+  EXPECT_EQ(up.unless[0].words, "push_exceeds_N 5");
+  const ScriptStep& turn = script.steps[2];
+  EXPECT_EQ(turn.tools, (std::vector<int>{0, 1}));
+  EXPECT_NEAR(turn.turn_rad_s, -1.5708, 1e-4);
+  EXPECT_EQ(turn.jump_to, 1);
+  EXPECT_EQ(turn.tries, 2);
+  EXPECT_EQ(script.steps[3].until[0].direction_P, Eigen::Vector3d(1, 0, 0));
+  EXPECT_EQ(script.steps[3].until[0].words, "tip_points left of wire");
+}
+
+TEST(Script, MistakesAreNamedByLine) {
+  expect_words(refusal("\"speed_mm_s\"", "\"speed_mms\""),
+               {"folder/small.json:8:", "speed_mms is not a key of the step"});
+  expect_words(refusal("\"tip_passes\"", "\"tip_pases\""),
+               {"folder/small.json:9:", "tip_pases is not a key of the condition"});
+  expect_words(refusal("\"tool\": \"wire\"", "\"tool\": \"wyre\""),
+               {"small.json:8:", "one of the script's tools: guide, wire"});
+  expect_words(refusal("\"speed_mm_s\": 50,", ""), {"small.json:8:", "speed_mm_s is missing", "\"advance\" needs it"});
+  expect_words(refusal("\"speed_mm_s\": 50", "\"speed_mm_s\": -50"), {"small.json:8:", "is -50", "> 0"});
+  expect_words(refusal("\"do\": \"advance\"", "\"do\": \"push\""), {"small.json:8:", "advance, withdraw, turn"});
+  expect_words(refusal("\"view\": \"spider\"", "\"view\": \"spyder\""), {"small.json:7:", "ostium views"});
+  expect_words(refusal("\"view\": \"spider\"", "\"view\": \"spider\", \"on\": true"),
+               {"small.json:7:", "no meaning for \"view\""});
+  expect_words(refusal("\"otherwise\": \"up\"", "\"otherwise\": \"down\""), {"small.json:11:", "the label of a step"});
+  expect_words(refusal("\"tries\": 2", "\"tries\": 0"), {"small.json:11:", "1 to 100"});
+  expect_words(refusal(", \"within_deg\": 20", ""), {"small.json:12:", "within_deg is missing"});
+  expect_words(refusal("{ \"seconds\": 3 }", "{ \"seconds\": 3, \"beats\": 2 }"),
+               {"small.json:10:", "both seconds and beats"});
+  expect_words(refusal("{ \"seconds\": 3 }", "{ }"), {"small.json:10:", "says nothing to look at"});
+  expect_words(refusal("\"label\": \"up\"", "\"label\": \"up\", \"timeout_s\": 0"), {"small.json:"});
+  expect_words(refusal("{ \"name\": \"wire\"", "{ \"name\": \"guide\""),
+               {"small.json:5:", "another tool of that name"});
+  expect_words(refusal("\"until\": [{ \"tip_passes\": \"arch\" }],", "\"until\": [],"),
+               {"small.json:9:", "a list of conditions"});
+  expect_words(refusal(", \"of\": \"wire\"", ""), {"small.json:12:", "does not say of which tool"});
+}
+
+TEST(Script, ThoseThatShipLoadAndNameInstrumentsThatThereAre) {
+  const std::vector<Instrument> catalogue = load_catalogue();
+  for (const Script& script : load_scripts())
+    for (const ScriptTool& tool : script.tools) EXPECT_NO_THROW(find_instrument(catalogue, tool.instrument));
+  try {
+    find_script("no-such-script");
+    FAIL();
+  } catch (const LoadError& error) {
+    expect_words(error.what(), {"no script \"no-such-script\"", "aorta-arch-wire"});
+  }
+}
+
+TEST(Script, SchemaHasTheKeysOfTheReader) {
+  const auto schema = nlohmann::json::parse(std::ifstream(fs::path(data_folder()) / "schemas" / "script.schema.json"));
+  EXPECT_EQ(schema["$defs"].size(), script_keys::all.size());
+  for (const JsonObjectKeys* known : script_keys::all) expect_keys_of(schema["$defs"][known->object], *known);
+}
+
+}  // namespace
+}  // namespace ostium

@@ -1,0 +1,240 @@
+/// A session's lists, its operator, and that the same run is the same to the bit, however it is run.
+#include "app/session/session.h"
+
+#include <gtest/gtest.h>
+
+#include <set>
+#include <thread>
+
+#include "app/session/film.h"
+#include "app/session/play.h"
+#include "tests/session/tube_vessel.h"
+
+namespace ostium {
+namespace {
+
+PlayReport played(const RunSetup& setup, bool real = false, RecordMode mode = RecordMode::none) {
+  ScriptedRun run(setup, tube_vessel());
+  PlayOptions options;
+  options.recorder.mode = mode;
+  options.recorder.penetration = false;
+  options.real = real;
+  return play(run, setup, options);
+}
+
+std::string with(std::string script, const std::string& from, const std::string& to) {
+  const std::size_t at = script.find(from);
+  EXPECT_NE(at, std::string::npos) << from;
+  return script.replace(at, from.size(), to);
+}
+
+TEST(Session, ListsHoldEverything) {
+  ScriptedRun run(tube_setup(), tube_vessel());
+  for (int i = 0; i < 300; ++i) run.tick();
+  std::vector<double> row(state_count(run.model));
+  put_state(run.state, row.data());
+  SessionState back = make_state(run.model, 5);
+  EXPECT_NE(hash(back), hash(run.state));
+  take_state(row.data(), back);
+  EXPECT_EQ(hash(back), hash(run.state));
+  EXPECT_EQ(first_difference(run.model, run.state, back), "");
+  back.hands[0].turned_rad += 1e-15;
+  EXPECT_NE(hash(back), hash(run.state));
+  EXPECT_NE(first_difference(run.model, run.state, back).find("hand.turned_rad"), std::string::npos);
+  back = run.state;
+  back.rods.rods[0].velocity.at(1)[run.model.rods.rods[0].elements] += 1e-12;
+  EXPECT_NE(first_difference(run.model, run.state, back).find("rod 0 (wire), velocity"), std::string::npos);
+
+  std::vector<double> inputs(input_count(run.model));
+  put_inputs(run.inputs, inputs.data());
+  SessionInputs same;
+  same.tools.resize(1);
+  take_inputs(inputs.data(), same);
+  EXPECT_EQ(same.tools[0].advance_m_s, run.inputs.tools[0].advance_m_s);
+  EXPECT_EQ(same.c_arm.fluoroscopy, 1);
+  const std::vector<std::string> names = input_names(run.model);
+  EXPECT_EQ(std::set<std::string>(names.begin(), names.end()).size(), names.size());
+  EXPECT_EQ(names[0], "wire.advance_m_s");
+}
+
+TEST(Session, GoesOnFromAStateAsIfNothingHadHappened) {
+  ScriptedRun run(tube_setup(), tube_vessel());
+  for (int i = 0; i < 1000; ++i) run.tick();
+  ScriptedRun other(tube_setup(), tube_vessel());
+  std::vector<double> row(state_count(run.model));
+  put_state(run.state, row.data());
+  take_state(row.data(), other.state);
+  restore(save(run.hands), other.hands);
+  other.report = run.report;  // the operator looks at the last step
+  for (int i = 0; i < 300; ++i) run.tick(), other.tick();
+  EXPECT_EQ(hash(run.state), hash(other.state));
+  EXPECT_EQ(save(run.hands), save(other.hands));
+}
+
+TEST(Session, IsTheSameAtAnySpeedAndOnAnyThread) {
+  const PlayReport once = played(tube_setup());
+  EXPECT_EQ(once.outcome, "success") << once.reason;
+  EXPECT_EQ(played(tube_setup(), true).hash, once.hash);
+  std::uint64_t one = 0, two = 0;
+  std::thread a([&] { one = played(tube_setup()).hash; }), b([&] { two = played(tube_setup()).hash; });
+  a.join(), b.join();
+  EXPECT_EQ(one, once.hash);
+  EXPECT_EQ(two, once.hash);
+}
+
+TEST(Session, SeedsVaryHandsAndRoll) {
+  const std::uint64_t first = played(tube_setup(there_and_back, 1)).hash;
+  EXPECT_EQ(played(tube_setup(there_and_back, 1)).hash, first);
+  EXPECT_NE(played(tube_setup(there_and_back, 2)).hash, first);
+}
+
+TEST(Session, WhatIsSetIsUsedAndWhatIsNotThereIsRefused) {
+  RunSetup setup = tube_setup();
+  set_value("hand_speed", "2", setup);
+  EXPECT_LT(played(setup).simulated_s, 0.6 * played(tube_setup()).simulated_s);
+  set_value("wire", "bentson", setup);
+  EXPECT_EQ(make_session(setup, tube_vessel()).tools[0].instrument.name, "bentson");
+  set_value("friction", "0.3", setup);
+  EXPECT_EQ(make_session(setup, tube_vessel()).rods.surfaces[0].friction, 0.3);
+  const RunSetup back = setup_from_json("a file", to_json(setup));
+  EXPECT_EQ(to_json(back), to_json(setup));
+  for (const auto& [key, value] :
+       {std::pair{"wires", "bentson"}, {"wire", "no-such"}, {"friction", "x"}, {"heart_rate", "300"}, {"person", "1"}})
+    EXPECT_THROW(set_value(key, value, setup), LoadError) << key;
+}
+
+TEST(Operator, SaysWhyItFailed) {
+  const PlayReport pushed =
+      played(tube_setup(with(there_and_back, "\"push_exceeds_N\": 5", "\"wall_force_exceeds_N\": 0.001")));
+  EXPECT_EQ(pushed.outcome, "failure");
+  EXPECT_EQ(pushed.reason, "step 2 of 5, advance (to the bend): wall_force_exceeds_N 0.001");
+  const PlayReport late = played(tube_setup(with(there_and_back, "\"timeout_s\": 5", "\"timeout_s\": 0.5")));
+  EXPECT_EQ(late.outcome, "failure");
+  EXPECT_EQ(late.reason, "step 2 of 5, advance (to the bend): timed out after 0.5 s");
+  EXPECT_NEAR(late.simulated_s, 0.5, 0.01);
+  const PlayReport anyhow =
+      played(tube_setup(with(there_and_back, "\"timeout_s\": 5", "\"timeout_s\": 0.5, \"otherwise\": \"go on\"")));
+  EXPECT_EQ(anyhow.outcome, "success");
+}
+
+TEST(Operator, TriesAgainAsOftenAsItSays) {
+  const std::string script = R"({ "schema": "ostium-script/1", "name": "tries", "title": "A test",
+    "tools": [ { "name": "wire", "instrument": "cook-j" } ],
+    "steps": [
+      { "do": "advance", "label": "again", "tool": "wire", "speed_mm_s": 100, "until": [{ "fed_mm": 10 }] },
+      { "do": "wait", "until": [{ "seconds": 9 }], "timeout_s": 0.1, "otherwise": "again", "tries": 3 } ] })";
+  const RunSetup setup = tube_setup(script);
+  ScriptedRun run(setup, tube_vessel());
+  while (run.tick()) {
+  }
+  EXPECT_EQ(run.outcome, Outcome::timed_out);
+  EXPECT_NEAR(run.state.hands[0].fed_m, 0.04, 0.001) << "once, and three times again";
+}
+
+TEST(Operator, LooksAtWhereTheTipPointsAndWhetherItIsOut) {
+  const std::string script = R"({ "schema": "ostium-script/1", "name": "points", "title": "A test",
+    "tools": [ { "name": "wire", "instrument": "amplatz-super-stiff" } ],
+    "steps": [
+      { "do": "advance", "tool": "wire", "speed_mm_s": 100, "until": [{ "tip_points": "head", "within_deg": 25 }], "timeout_s": 3 },
+      { "do": "withdraw", "tool": "wire", "speed_mm_s": 200, "until": [{ "out": true }], "timeout_s": 5 } ] })";
+  const RunSetup setup = tube_setup(script);
+  ScriptedRun run(setup, tube_vessel());
+  Eigen::Vector3d pointed = Eigen::Vector3d::Zero();
+  while (run.tick())
+    if (run.hands.step == 1 && pointed.isZero()) pointed = tip_direction(run.model, run.state, 0);
+  EXPECT_EQ(run.outcome, Outcome::success) << reason(run.plan, run.hands);
+  EXPECT_GT(pointed.y(), std::cos(27 * EIGEN_PI / 180)) << "the tube's far end runs along y";
+  EXPECT_FALSE(run.report.tools[0].in_body);
+}
+
+TEST(Operator, APlaceThatIsNotThereIsNamed) {
+  const RunSetup setup = tube_setup(with(there_and_back, "\"tip_passes\": \"bend\"", "\"tip_passes\": \"bent\""));
+  try {
+    ScriptedRun run(setup, tube_vessel());
+    FAIL();
+  } catch (const LoadError& error) {
+    EXPECT_NE(std::string(error.what()).find("there-and-back.json:8: there is no place \"bent\""), std::string::npos)
+        << error.what();
+    EXPECT_NE(std::string(error.what()).find("bend"), std::string::npos);
+  }
+}
+
+TEST(Session, ToolsInTheWrongOrderAreNamed) {
+  const std::string script = with(there_and_back, "[ { \"name\": \"wire\"",
+                                  "[ { \"name\": \"wire\", \"instrument\": \"cook-j\" }, { \"name\": \"guide\", "
+                                  "\"instrument\": \"guide-jr4-6f\" }, { \"name\": \"other\"");
+  try {
+    make_session(tube_setup(script), tube_vessel());
+    FAIL();
+  } catch (const LoadError& error) {
+    EXPECT_NE(std::string(error.what()).find("wire (cook-j) goes inside guide"), std::string::npos) << error.what();
+  }
+}
+
+TEST(Session, AMeshThatFacesInwardsIsTurnedAndAnEntryOutsideRefused) {
+  Mesh mesh = bent_tube();
+  for (auto& t : mesh.triangles) std::swap(t[1], t[2]);
+  std::string warnings;
+  const MeshEntry entry = {Eigen::Vector3d::Zero(), Eigen::Vector3d(0.05, 0, 0)};
+  EXPECT_EQ(vessel_of("tube", mesh, entry, warnings)->wall.triangles, bent_tube().triangles);
+  EXPECT_NE(warnings.find("turned round"), std::string::npos);
+  EXPECT_THROW(vessel_of("tube", mesh, {Eigen::Vector3d(0, 0.02, 0), entry.towards_P}, warnings), LoadError);
+}
+
+/// A trunk from the access, a branch that leaves its wall at 5 mm from its axis.
+TEST(Way, KnowsWhatIsBeyondWhat) {
+  SphereTree tree;
+  TreeBranch trunk{.name = "trunk", .spheres = {}},
+      branch{.name = "branch", .parent = 0, .parent_sphere = 50, .spheres = {}};
+  for (int i = 0; i <= 100; ++i) trunk.spheres.push_back({{1e-3 * i, 0, 0}, 5e-3, 1e-3 * i});
+  for (int i = 0; i <= 40; ++i) branch.spheres.push_back({{0.05, 1e-3 * i, 0}, 2e-3, 1e-3 * i});
+  tree.branches = {trunk, branch};
+  const Way way({tree}, Eigen::Vector3d(0.1, 0, 0), {{"middle", Eigen::Vector3d(0.05, 0, 0.001)}});  // from the far end
+  const int middle = way.place("middle"), twig = way.place("branch"), far = way.place("branch+20");
+  EXPECT_NEAR(way.from_access_m(middle), 0.05, 1e-9);
+  EXPECT_NEAR(way.from_access_m(twig), 0.055, 1e-9) << "where it leaves the trunk's wall";
+  EXPECT_NEAR(way.from_access_m(far), 0.075, 1e-9);
+  const auto at = [&](double x, double y) { return way.locate({x, y, 0}, 0); };
+  EXPECT_FALSE(way.beyond(at(0.08, 0), middle));
+  EXPECT_TRUE(way.beyond(at(0.02, 0), middle));
+  EXPECT_FALSE(way.beyond(at(0.02, 0), twig));
+  EXPECT_TRUE(way.beyond(at(0.05, 0.03), twig));
+  EXPECT_TRUE(way.beyond(at(0.05, 0.03), far));
+  EXPECT_FALSE(way.beyond(at(0.05, 0.01), far));
+  EXPECT_TRUE(way.beyond(at(0.05, 0.03), middle));
+  EXPECT_EQ(way.branch(at(0.05, 0.003)), 0) << "within the trunk";
+  EXPECT_EQ(way.place("trunk"), at(0.1, 0)) << "for whom comes from the access";
+  for (const char* none : {"twig", "branch+", "branch+500", "branch+x", "branch-3"})
+    EXPECT_EQ(way.place(none), -1) << none;
+}
+
+TEST(Film, FramesFallOnTheirSteps) {
+  for (double rate : {3.75, 7.5, 15.0, 30.0}) {
+    std::vector<std::uint64_t> steps;
+    for (std::uint64_t s = 1; s <= 4000; ++s)
+      if (is_frame(s, rate, 1e-3)) steps.push_back(s);
+    ASSERT_EQ(steps.size(), static_cast<std::size_t>(4 * rate));
+    for (std::size_t n = 0; n < steps.size(); ++n)
+      EXPECT_EQ(steps[n], static_cast<std::uint64_t>(std::llround(1000 * static_cast<double>(n + 1) / rate)));
+  }
+}
+
+TEST(Film, OfARunShowsTheWireAndIsTheSameTwice) {
+  ScriptedRun run(tube_setup(), tube_vessel());
+  for (int i = 0; i < 1200; ++i) run.tick();
+  FilmOptions options;
+  options.pixels = 256;
+  options.overlay = false;
+  Film one(run.model, options), two(run.model, options);
+  const Picture a = one.frame(run.model, run.state, run.inputs);
+  EXPECT_EQ(a.grey, two.frame(run.model, run.state, run.inputs).grey);
+  SessionState empty = make_state(run.model, 0);
+  Film three(run.model, options);
+  const Picture without = three.frame(run.model, empty, run.inputs);
+  long darker = 0;
+  for (std::size_t i = 0; i < a.grey.size(); ++i) darker += a.grey[i] + 8 < without.grey[i];
+  EXPECT_GT(darker, 60) << "some 120 mm of a wire of 0.9 mm, on pixels of 0.8 mm, with the same noise";
+}
+
+}  // namespace
+}  // namespace ostium
