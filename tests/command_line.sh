@@ -124,7 +124,7 @@ expect 3 "s long" "$ostium" replay "$out/run.h5" --from 60
 head -c 3000 "$out/run.h5" >"$out/cut.h5"
 expect 3 "cut short" "$ostium" replay "$out/cut.h5"
 sed 's/"speed_mm_s"/"speed_mms"/' "$(dirname "$0")/../data/scripts/iliac-wire.json" >"$folder/iliac-wire.json"
-expect 3 "iliac-wire.json:10: steps\[0\].speed_mms is not a key" "$ostium" run rca-mid-focal --script "$folder/iliac-wire.json"
+expect 3 "iliac-wire.json:9: steps\[0\].speed_mms is not a key" "$ostium" run rca-mid-focal --script "$folder/iliac-wire.json"
 
 sweep() { "$ostium" sweep rca-mid-focal --script iliac-wire --seconds 1 --vary wire=cook-j,bentson --seeds 1..4 "$@"; }
 export -f sweep

@@ -224,6 +224,7 @@ TEST(Film, OfARunShowsTheWireAndIsTheSameTwice) {
   for (int i = 0; i < 1200; ++i) run.tick();
   FilmOptions options;
   options.pixels = 256;
+  options.field_m = 0.3;  // the tube reaches beyond 20 cm at the detector
   options.overlay = false;
   Film one(run.model, options), two(run.model, options);
   const Picture a = one.frame(run.model, run.state, run.inputs);
@@ -233,7 +234,7 @@ TEST(Film, OfARunShowsTheWireAndIsTheSameTwice) {
   const Picture without = three.frame(run.model, empty, run.inputs);
   long darker = 0;
   for (std::size_t i = 0; i < a.grey.size(); ++i) darker += a.grey[i] + 8 < without.grey[i];
-  EXPECT_GT(darker, 60) << "some 120 mm of a wire of 0.9 mm, on pixels of 0.8 mm, with the same noise";
+  EXPECT_GT(darker, 60) << "some 120 mm of a wire of 0.9 mm, on pixels of 1.2 mm, with the same noise";
 }
 
 }  // namespace
