@@ -181,7 +181,7 @@ const std::vector<MetricDefinition>& metric_definitions() {
        [](const RunRecord& r) { return filtered(r, "tip_force_N").largest; }},
       {"push_max_N", "N", "largest push or pull at a hand, unfiltered",
        [](const RunRecord& r) { return largest(r, "push_N"); }},
-      {"torque_max_mNm", "mN m", "largest torque at a hand, unfiltered",
+      {"torque_max_mN_m", "mN m", "largest torque at a hand, unfiltered",
        [](const RunRecord& r) { return largest(r, "torque_mNm"); }},
       {"tip_path_length_mm", "mm", "sum over tools of the tip's way along the vessel's tree, in moves of at least 5 mm",
        tip_path_mm},
