@@ -222,6 +222,7 @@ int sweep_command(const SweepOptions& o) {
     say("building " + sweep.vessels[v].vessel);
     std::string warnings;
     const auto vessel = make_vessel(sweep.vessels[v], warnings);
+    const auto dosimeter = std::make_shared<const Dosimeter>(vessel);
     std::atomic<std::size_t> next{0};
     const auto work = [&] {
       for (std::size_t i; (i = next++) < open.size() && !interrupted;) {
@@ -231,6 +232,7 @@ int sweep_command(const SweepOptions& o) {
           PlayOptions options;
           options.recorder.mode = RecordMode::none;
           options.seconds = o.run.seconds;
+          options.dosimeter = dosimeter;
           options.stop = &interrupted;
           const PlayReport report = play(run, task.setup, options);
           if (interrupted) return;  // it did not come to its own end

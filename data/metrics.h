@@ -45,6 +45,7 @@ struct RunRecord {
   std::vector<double> signals;  ///< row by row
   std::vector<double> events;   ///< step, code, tool, value; row by row
   std::vector<std::string> branches;
+  double kerma_Gy = 0, dose_area_Gy_m2 = 0;  ///< of all frames
   std::size_t rows() const { return signal_columns.empty() ? 0 : signals.size() / signal_columns.size(); }
 };
 

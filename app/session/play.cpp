@@ -58,20 +58,21 @@ PlayReport play(ScriptedRun& run, const RunSetup& setup, const PlayOptions& opti
   TimeBins bins;
   PlayReport out;
   const auto begin = Clock::now();
-  const double cpu_begin = thread_cpu_s();
+  XrayUse xrays;
   std::string aborted;
   const auto step_length =
       std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(run.model.step_s()));
   auto due = begin;
   while (true) {
     const auto now = Clock::now();
+    const double cpu = thread_cpu_s();
     if (options.stop && options.stop->load(std::memory_order_relaxed)) aborted = "stopped by the operator";
     if (options.seconds > 0 && seconds(run.model, run.state) >= options.seconds - 1e-9) aborted = "time limit";
     if (options.give_up_s > 0 && seconds_between(begin, now) > options.give_up_s) aborted = "gave up waiting";
     if (!aborted.empty() || !run.tick()) break;
     recorder.add(run.inputs, run.state, run.report, run.hands, run.events);
-    const auto done = Clock::now();
-    bins.add(seconds_between(now, done));
+    xrays.add(run.inputs.c_arm, run.state.rods.step, run.model.step_s());
+    bins.add(thread_cpu_s() - cpu);
     if (options.progress && run.state.rods.step % 100 == 0) options.progress(run);
     if (options.real) {
       if (now - due > step_length) ++out.times.overruns, due = now;  // what is late stays late: no catching up
@@ -79,7 +80,6 @@ PlayReport play(ScriptedRun& run, const RunSetup& setup, const PlayOptions& opti
       std::this_thread::sleep_until(due);
     }
   }
-  out.times.cpu_ms = 1e3 * (thread_cpu_s() - cpu_begin) / std::max(1.0, static_cast<double>(run.state.rods.step));
   out.clock_s = seconds_between(begin, Clock::now());
   recorder.stop();
   out.simulated_s = seconds(run.model, run.state);
@@ -88,7 +88,12 @@ PlayReport play(ScriptedRun& run, const RunSetup& setup, const PlayOptions& opti
   out.times.p50_ms = bins.percentile_ms(0.5), out.times.p99_ms = bins.percentile_ms(0.99);
   out.times.p999_ms = bins.percentile_ms(0.999);
   out.times.most_ms = bins.most_ms(), out.times.mean_ms = bins.mean_ms();
-  out.metrics = metrics_of(recorder.record());
+  RunRecord record = recorder.record();
+  if (!xrays.poses().empty()) {
+    const auto own = options.dosimeter ? nullptr : std::make_unique<const Dosimeter>(run.model.vessel);
+    (own ? *own : *options.dosimeter).measure(xrays, record);
+  }
+  out.metrics = metrics_of(record);
   out.penetration = recorder.penetration();
   out.waits = recorder.waits();
   out.hash = hash(run.state);

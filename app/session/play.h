@@ -3,6 +3,7 @@
 #include <atomic>
 #include <functional>
 
+#include "app/session/dose.h"
 #include "app/session/recorder.h"
 #include "app/session/run.h"
 
@@ -15,12 +16,13 @@ struct PlayOptions {
   double give_up_s = 0;  ///< of the clock; 0: never
   /// Called now and then, at least every 0.1 s simulated: for progress. May be empty.
   std::function<void(const ScriptedRun&)> progress;
-  const std::atomic<bool>* stop = nullptr;  ///< becomes true: the run ends as aborted
+  std::shared_ptr<const Dosimeter> dosimeter;  ///< of the vessel, where many runs share it; null: made if needed
+  const std::atomic<bool>* stop = nullptr;     ///< becomes true: the run ends as aborted
 };
 
-/// Of the thread that steps; the clock's milliseconds a step, without waiting.
+/// CPU time of the thread that steps: operator, step, hash, recording.
 struct StepTimes {
-  double p50_ms = 0, p99_ms = 0, p999_ms = 0, most_ms = 0, mean_ms = 0, cpu_ms = 0;
+  double mean_ms = 0, p50_ms = 0, p99_ms = 0, p999_ms = 0, most_ms = 0;
   long overruns = 0;  ///< steps that began over 1 ms late, with `real`
 };
 

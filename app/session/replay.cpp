@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/session/dose.h"
 #include "data/load_error.h"
 
 namespace ostium {
@@ -37,6 +38,12 @@ void require_same_layout(const RecordingReader& r, const SessionModel& model) {
     throw LoadError(
         fmt::format("{}: was written by {}, whose state or inputs are laid out otherwise; replay it with that",
                     r.path(), r.software()));
+}
+
+std::size_t input_count_of(const SessionInputs& inputs) {
+  std::size_t count = 0;
+  for_each_input(inputs, [&](const char*, const double*, int n) { count += static_cast<std::size_t>(n); });
+  return count;
 }
 
 }  // namespace
@@ -75,7 +82,7 @@ bool Replay::tick() {
   const std::size_t now = state.rods.step;
   if (now >= recording.steps()) return false;
   if (now < first_ || now >= first_ + hashes_.size()) read_ahead();
-  take_inputs(rows_.data() + (now - first_) * input_count(model), inputs);
+  take_inputs(rows_.data() + (now - first_) * input_count_of(inputs), inputs);
   step(model, inputs, state, scratch_, report);
   same = hash(state) == hashes_[now - first_];
   return true;
@@ -100,14 +107,23 @@ VerifyReport verify(Replay& replay, const std::function<void(const Replay&)>& pr
   return out;
 }
 
-RunRecord record_of(const RecordingReader& recording, const Vessel& vessel) {
+RunRecord record_of(const RecordingReader& recording, const SessionModel& model) {
   RunRecord record{.step_s = recording.step_s(),
                    .steps = recording.steps(),
                    .signal_columns = recording.signal_columns(),
                    .signals = recording.signals(),
                    .events = recording.events(),
                    .branches = {}};
-  for (const TreeBranch& branch : vessel.way->branches()) record.branches.push_back(branch.name);
+  for (const TreeBranch& branch : model.vessel->way->branches()) record.branches.push_back(branch.name);
+  XrayUse xrays;
+  SessionInputs inputs;
+  inputs.tools.resize(model.tools.size());
+  const std::vector<double> rows = recording.inputs(0, recording.steps());
+  for (std::size_t step = 0; step < recording.steps(); ++step) {
+    take_inputs(rows.data() + step * input_count_of(inputs), inputs);
+    xrays.add(inputs.c_arm, step + 1, record.step_s);
+  }
+  if (!xrays.poses().empty()) Dosimeter(model.vessel).measure(xrays, record);
   return record;
 }
 

@@ -48,6 +48,6 @@ struct VerifyReport {
 VerifyReport verify(Replay& replay, const std::function<void(const Replay&)>& progress = {});
 
 /// The record that metrics are made of.
-RunRecord record_of(const RecordingReader& recording, const Vessel& vessel);
+RunRecord record_of(const RecordingReader& recording, const SessionModel& model);
 
 }  // namespace ostium

@@ -28,7 +28,9 @@ RunRecord record() {
                                  "wire.push_N", "wire.torque_mNm", "wire.wall_force_N", "wire.tip_force_N"},
               .signals = {},
               .events = {},
-              .branches = {"aorta", "RCA"}};
+              .branches = {"aorta", "RCA"},
+              .kerma_Gy = 2e-3,
+              .dose_area_Gy_m2 = 3e-5};
   for (int i = 0; i < 1000; ++i) {
     const double t = 0.01 * i, in = t < 4 ? 50 * t : t < 5 ? 200 - 100 * (t - 4) : 100;
     r.signals.insert(r.signals.end(),
@@ -52,6 +54,8 @@ TEST(Metrics, OfARecordMadeByHand) {
   EXPECT_NEAR(value(r, "fluoroscopy_time_s"), 4, 1e-12) << "3 s, and the last one to the end";
   EXPECT_NEAR(value(r, "cine_time_s"), 1.5, 1e-12);
   EXPECT_DOUBLE_EQ(value(r, "cine_runs"), 1);
+  EXPECT_NEAR(value(r, "air_kerma_mGy"), 2, 1e-12);
+  EXPECT_NEAR(value(r, "dap_Gy_cm2"), 0.3, 1e-12);
   EXPECT_NEAR(value(r, "hand_path_length_mm"), 300, 1e-6);
   EXPECT_NEAR(value(r, "tip_path_length_mm"), 300, 10) << "in moves of 5 mm";
   EXPECT_NEAR(value(r, "tip_reached_mm"), 200, 0.5);

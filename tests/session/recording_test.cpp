@@ -67,7 +67,7 @@ TEST(Recording, ReplaysToTheBitFromAnySecond) {
   EXPECT_THROW(replay.go_to(1e3), LoadError);
   // Metrics are a function of the record.
   const std::string end = *replay.recording.end();
-  const std::vector<Metric> again = metrics_of(record_of(replay.recording, *replay.model.vessel));
+  const std::vector<Metric> again = metrics_of(record_of(replay.recording, replay.model));
   EXPECT_EQ(nlohmann::json::parse(metrics_json("tube", 0, "success", "", again)), nlohmann::json::parse(end));
 }
 
