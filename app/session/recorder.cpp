@@ -18,8 +18,6 @@ std::vector<double> flat(const std::vector<Eigen::Vector3d>& points) {
   return out;
 }
 
-}  // namespace
-
 RecordingHeader header_of(const SessionModel& model, const RunSetup& setup, std::size_t operator_count, bool full) {
   return {.software = "ostium " OSTIUM_VERSION,
           .setup = to_json(setup),
@@ -30,6 +28,8 @@ RecordingHeader header_of(const SessionModel& model, const RunSetup& setup, std:
           .state_width = static_cast<int>(state_count(model)),
           .hands_width = static_cast<int>(operator_count)};
 }
+
+}  // namespace
 
 Recorder::Recorder(const RecorderOptions& options, const SessionModel& model, const RunSetup& setup,
                    std::size_t operator_count)
@@ -55,19 +55,17 @@ Recorder::Recorder(const RecorderOptions& options, const SessionModel& model, co
   for (const TreeBranch& branch : model.vessel->way->branches()) record_.branches.push_back(branch.name);
   if (options.mode != RecordMode::none) {
     const bool full = options.mode == RecordMode::full;
-    std::vector<std::pair<TableLayout, const void*>> tables;
-    std::vector<std::size_t> rows;
     const std::vector<double> vertices = flat(setup.mesh.vertices);
     std::vector<std::uint64_t> triangles;
     for (const auto& t : setup.mesh.triangles)
       for (int v : t) triangles.push_back(static_cast<std::uint64_t>(v));
-    if (setup.is_mesh()) {
-      tables = {{{"mesh_vertices", NumberType::float64, {"x_m", "y_m", "z_m"}, 3, 4096}, vertices.data()},
-                {{"mesh_triangles", NumberType::uint64, {}, 3, 4096}, triangles.data()}};
-      rows = {setup.mesh.vertices.size(), setup.mesh.triangles.size()};
-    }
-    writer_ =
-        std::make_unique<RecordingWriter>(options.file, header_of(model, setup, operator_count, full), tables, rows);
+    std::vector<FixedTable> tables;
+    if (setup.is_mesh())
+      tables = {{{"mesh_vertices", NumberType::float64, {"x_m", "y_m", "z_m"}, 3, 4096},
+                 vertices.data(),
+                 vertices.size() / 3},
+                {{"mesh_triangles", NumberType::uint64, {}, 3, 4096}, triangles.data(), triangles.size() / 3}};
+    writer_ = std::make_unique<RecordingWriter>(options.file, header_of(model, setup, operator_count, full), tables);
   }
   thread_ = std::thread([this] { follow(); });
 }

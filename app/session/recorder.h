@@ -78,7 +78,4 @@ class Recorder {
   std::thread thread_;
 };
 
-/// The tables of a recording besides its rows: a mesh.
-RecordingHeader header_of(const SessionModel& model, const RunSetup& setup, std::size_t operator_count, bool full);
-
 }  // namespace ostium

@@ -37,9 +37,7 @@ void append(TableFile& file, const char* table, const std::vector<T>& numbers, s
 
 }  // namespace
 
-RecordingWriter::RecordingWriter(std::string path, const RecordingHeader& header,
-                                 const std::vector<std::pair<TableLayout, const void*>>& tables,
-                                 const std::vector<std::size_t>& table_rows)
+RecordingWriter::RecordingWriter(std::string path, const RecordingHeader& header, const std::vector<FixedTable>& tables)
     : path_(std::move(path)), next_(path_ + ".next"), header_(header) {
   // Whole and shut before either has the recording's name.
   for (const bool first : {true, false}) {
@@ -49,9 +47,9 @@ RecordingWriter::RecordingWriter(std::string path, const RecordingHeader& header
     file.set_text("setup", header.setup);
     file.set_text("step_s", fmt::format("{:.17g}", header.step_s));
     for (const TableLayout& layout : layouts(header)) file.add_table(layout);
-    for (std::size_t t = 0; t < tables.size(); ++t) {
-      file.add_table(tables[t].first);
-      file.append(tables[t].first.name, tables[t].second, table_rows[t]);
+    for (const FixedTable& table : tables) {
+      file.add_table(table.layout);
+      file.append(table.layout.name, table.rows, table.count);
     }
     file.close();
     if (first) take_place();

@@ -7,7 +7,6 @@
 #include <cstdint>
 #include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "data/recording/table_file.h"
@@ -38,12 +37,17 @@ struct RecordingHeader {
   int state_width = 1, hands_width = 1;
 };
 
+/// A table that does not grow with the run: a mesh.
+struct FixedTable {
+  TableLayout layout;
+  const void* rows = nullptr;  ///< of the layout's type
+  std::size_t count = 0;
+};
+
 class RecordingWriter {
  public:
-  /// Makes both files. `tables`: further tables of numbers, as they are (a mesh). Throws LoadError.
-  RecordingWriter(std::string path, const RecordingHeader& header,
-                  const std::vector<std::pair<TableLayout, const void*>>& tables = {},
-                  const std::vector<std::size_t>& table_rows = {});
+  /// Makes both files. Throws LoadError.
+  RecordingWriter(std::string path, const RecordingHeader& header, const std::vector<FixedTable>& tables = {});
   ~RecordingWriter();  ///< the other file goes; the recording stays as it was last whole
   RecordingWriter(const RecordingWriter&) = delete;
   RecordingWriter& operator=(const RecordingWriter&) = delete;

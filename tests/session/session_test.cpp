@@ -147,6 +147,22 @@ TEST(Operator, LooksAtWhereTheTipPointsAndWhetherItIsOut) {
   EXPECT_FALSE(run.report.tools[0].in_body);
 }
 
+TEST(Operator, ExchangesOneToolForAnother) {
+  const std::string script = R"({ "schema": "ostium-script/1", "name": "exchange", "title": "A test",
+    "tools": [ { "name": "first", "instrument": "cook-j" }, { "name": "second", "instrument": "terumo-stiff-angled" } ],
+    "steps": [
+      { "do": "advance", "tool": "first", "speed_mm_s": 150, "until": [{ "inserted_mm": 80 }] },
+      { "do": "withdraw", "tool": "first", "speed_mm_s": 150, "until": [{ "out": true }], "timeout_s": 5 },
+      { "do": "advance", "tool": "second", "speed_mm_s": 150, "until": [{ "tip_passes": "bend" }], "timeout_s": 5 } ],
+    "landmarks": [ { "name": "bend", "at_mm": [142, 18, 0] } ] })";
+  ScriptedRun run(tube_setup(script), tube_vessel());
+  while (run.tick()) EXPECT_FALSE(run.report.tools[0].in_body && run.report.tools[1].in_body);
+  EXPECT_EQ(run.outcome, Outcome::success) << reason(run.plan, run.hands);
+  EXPECT_FALSE(run.report.tools[0].in_body);
+  EXPECT_TRUE(run.report.tools[1].in_body);
+  EXPECT_EQ(run.troubled, 0);
+}
+
 TEST(Operator, APlaceThatIsNotThereIsNamed) {
   const RunSetup setup = tube_setup(with(there_and_back, "\"tip_passes\": \"bend\"", "\"tip_passes\": \"bent\""));
   try {
