@@ -8,6 +8,7 @@
 
 #include "app/session/film.h"
 #include "app/session/play.h"
+#include "tests/core/allocations.h"
 #include "tests/session/tube_vessel.h"
 
 namespace ostium {
@@ -69,6 +70,22 @@ TEST(Session, GoesOnFromAStateAsIfNothingHadHappened) {
   for (int i = 0; i < 300; ++i) run.tick(), other.tick();
   EXPECT_EQ(hash(run.state), hash(other.state));
   EXPECT_EQ(save(run.hands), save(other.hands));
+}
+
+TEST(Session, DoesNotAllocateBetweenBlocks) {
+  const RunSetup setup = tube_setup();
+  ScriptedRun run(setup, tube_vessel());
+  Recorder recorder({RecordMode::none, "", false}, run.model, setup, save(run.hands).size());
+  recorder.begin(run.state, run.hands);
+  const auto tick = [&] {
+    run.tick();
+    recorder.add(run.inputs, run.state, run.report, run.hands, run.events);
+  };
+  while (run.state.rods.step < 1010) tick();
+  std::this_thread::sleep_for(std::chrono::milliseconds(100));  // the other thread has taken what it was given
+  const long before = allocations();
+  while (run.state.rods.step < 1490) tick();
+  EXPECT_EQ(allocations(), before);
 }
 
 TEST(Session, IsTheSameAtAnySpeedAndOnAnyThread) {
@@ -145,6 +162,47 @@ TEST(Operator, LooksAtWhereTheTipPointsAndWhetherItIsOut) {
   EXPECT_EQ(run.outcome, Outcome::success) << reason(run.plan, run.hands);
   EXPECT_GT(pointed.y(), std::cos(27 * EIGEN_PI / 180)) << "the tube's far end runs along y";
   EXPECT_FALSE(run.report.tools[0].in_body);
+}
+
+/// The step of a wait's end when the tip is carried to `at(step)` mm further and the hand by `hand(step)` mm.
+template <class At, class Hand>
+std::uint64_t ends_waiting(const std::string& until, At&& at, Hand&& hand) {
+  const RunSetup setup = tube_setup(R"({ "schema": "ostium-script/1", "name": "waits", "title": "A test",
+    "tools": [ { "name": "wire", "instrument": "cook-j" } ],
+    "steps": [ { "do": "wait", "timeout_s": 3, "until": [{ )" +
+                                    until + " }] } ] }");
+  ScriptedRun run(setup, tube_vessel());
+  SessionState state = make_state(run.model, 0);
+  state.rods.rods[0].inserted_m = 0.1, state.rods.rods[0].first = 0;
+  const int last = run.model.rods.rods[0].elements;
+  SessionReport report;
+  report.tools.resize(1);
+  while (state.rods.step < 4000) {
+    state.rods.rods[0].position.set(last, Eigen::Vector3d(0.1 + 1e-3 * at(state.rods.step), 0, 0));
+    state.hands[0].fed_m = 1e-3 * hand(state.rods.step);
+    if (decide(run.plan, run.model, state, report, run.hands, run.inputs, run.events) == Outcome::success)
+      return state.rods.step;
+    ++state.rods.step;
+    state.heart.phase += 0.00125;  // 75 beats a minute
+    if (state.heart.phase >= 1) state.heart.phase -= 1, state.heart.beats += 1;
+  }
+  return 0;
+}
+
+TEST(Operator, SeesATipDropButNotAHandThatMoves) {
+  const auto drop = [](std::uint64_t step) { return step < 1000 ? 0.0 : 8.0; };
+  const auto still = [](std::uint64_t) { return 0.0; };
+  const auto slowly = [](std::uint64_t step) { return 0.01 * static_cast<double>(step); };  // 10 mm/s: 2.5 mm in 0.25 s
+  EXPECT_EQ(ends_waiting("\"tip_drops_mm\": 5", drop, still), 1000u);
+  EXPECT_EQ(ends_waiting("\"tip_drops_mm\": 5", drop, drop), 0u);
+  EXPECT_EQ(ends_waiting("\"tip_drops_mm\": 5", slowly, slowly), 0u);
+  EXPECT_EQ(ends_waiting("\"tip_drops_mm\": 5", slowly, still), 0u);
+}
+
+TEST(Operator, CountsBeatsAndSeconds) {
+  const auto still = [](std::uint64_t) { return 0.0; };
+  EXPECT_NEAR(static_cast<double>(ends_waiting("\"beats\": 3", still, still)), 3 / 0.00125, 1);
+  EXPECT_EQ(ends_waiting("\"seconds\": 1.5", still, still), 1500u);
 }
 
 TEST(Operator, ExchangesOneToolForAnother) {
