@@ -11,10 +11,10 @@
 #include "app/inject_command.h"
 #include "app/instruments_command.h"
 #include "app/predict_command.h"
-#include "app/treat_command.h"
 #include "app/replay_command.h"
 #include "app/run_command.h"
 #include "app/sweep_command.h"
+#include "app/treat_command.h"
 #include "app/verify_command.h"
 
 int main(int argc, char** argv) {

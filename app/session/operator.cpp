@@ -53,7 +53,7 @@ double hand_factor(std::uint64_t seed, int step) {
 }
 
 struct Sight {
-  const Plan& plan;
+  const ScriptPlan& plan;
   const SessionModel& model;
   const SessionState& session;
   const SessionReport& report;
@@ -172,7 +172,7 @@ void begin(const ScriptStep& step, const SessionModel& model, const SessionState
 
 bool takes_time(const ScriptStep& step) { return !step.until.empty(); }
 
-void ask(const Plan& plan, const OperatorState& state, SessionInputs& inputs) {
+void ask(const ScriptPlan& plan, const OperatorState& state, SessionInputs& inputs) {
   for (ToolInputs& tool : inputs.tools) tool = {};
   inputs.rate_1_min = state.rate_1_min;
   inputs.c_arm = {state.lao_rad, state.cran_rad, state.field_m, state.p_PI, state.fluoroscopy, state.cine};
@@ -193,8 +193,8 @@ void go_to(int step, OperatorState& state) { state.step = step, state.began = 1;
 
 }  // namespace
 
-Plan make_plan(const Script& script, const SessionModel& model, std::uint64_t seed) {
-  Plan plan{.script = script, .until_places = {}, .unless_places = {}, .seed = seed, .hand_speed = 1};
+ScriptPlan make_plan(const Script& script, const SessionModel& model, std::uint64_t seed) {
+  ScriptPlan plan{.script = script, .until_places = {}, .unless_places = {}, .seed = seed, .hand_speed = 1};
   for (const ScriptStep& step : script.steps) {
     plan.until_places.push_back(places(script, step.until, *model.vessel->way));
     plan.unless_places.push_back(places(script, step.unless, *model.vessel->way));
@@ -202,7 +202,7 @@ Plan make_plan(const Script& script, const SessionModel& model, std::uint64_t se
   return plan;
 }
 
-OperatorState make_state(const Plan& plan, const SessionModel& model) {
+OperatorState make_state(const ScriptPlan& plan, const SessionModel& model) {
   OperatorState state;
   state.began_fed_m.assign(model.tools.size(), 0), state.began_turned_rad.assign(model.tools.size(), 0);
   state.tries.assign(plan.script.steps.size(), 0);
@@ -230,8 +230,9 @@ void restore(const std::vector<double>& saved, OperatorState& state) {
   });
 }
 
-Outcome decide(const Plan& plan, const SessionModel& model, const SessionState& session, const SessionReport& report,
-               OperatorState& state, SessionInputs& inputs, std::vector<OperatorEvent>& events) {
+Outcome decide(const ScriptPlan& plan, const SessionModel& model, const SessionState& session,
+               const SessionReport& report, OperatorState& state, SessionInputs& inputs,
+               std::vector<OperatorEvent>& events) {
   events.clear();
   feel(model, report, state);
   using Kind = OperatorEvent::Kind;
@@ -288,7 +289,7 @@ std::string words_for(Outcome outcome) {
   return "";
 }
 
-std::string reason(const Plan& plan, const OperatorState& state) {
+std::string reason(const ScriptPlan& plan, const OperatorState& state) {
   const auto outcome = static_cast<Outcome>(static_cast<int>(state.outcome));
   const auto s = static_cast<std::size_t>(state.step);
   if (outcome == Outcome::success || s >= plan.script.steps.size()) return "";

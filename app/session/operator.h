@@ -10,7 +10,7 @@
 namespace ostium {
 
 /// A script whose places are known in a vessel.
-struct Plan {
+struct ScriptPlan {
   Script script;
   std::vector<std::vector<int>> until_places, unless_places;  ///< of each step's conditions; -1 where they have none
   std::uint64_t seed = 0;  ///< 0: hands keep their speeds; others vary them by 15 % (one standard deviation) a step
@@ -18,7 +18,7 @@ struct Plan {
 };
 
 /// Throws LoadError with the script's line for a place that the vessel does not have.
-Plan make_plan(const Script& script, const SessionModel& model, std::uint64_t seed);
+ScriptPlan make_plan(const Script& script, const SessionModel& model, std::uint64_t seed);
 
 enum class Outcome { running, success, failure, timed_out, aborted };
 std::string words_for(Outcome outcome);
@@ -64,7 +64,7 @@ void for_each_operator_field(S& state, Visit&& visit) {
   visit("by_condition", &state.by_condition, 1);
 }
 
-OperatorState make_state(const Plan& plan, const SessionModel& model);
+OperatorState make_state(const ScriptPlan& plan, const SessionModel& model);
 std::vector<double> save(const OperatorState& state);
 /// Throws std::invalid_argument if the count is another script's.
 void restore(const std::vector<double>& saved, OperatorState& state);
@@ -78,10 +78,11 @@ struct OperatorEvent {
 
 /// Reads the session as it is after `report`, says what the hands do in the next step. Does not allocate once `events`
 /// has grown. `events` is cleared first.
-Outcome decide(const Plan& plan, const SessionModel& model, const SessionState& session, const SessionReport& report,
-               OperatorState& state, SessionInputs& inputs, std::vector<OperatorEvent>& events);
+Outcome decide(const ScriptPlan& plan, const SessionModel& model, const SessionState& session,
+               const SessionReport& report, OperatorState& state, SessionInputs& inputs,
+               std::vector<OperatorEvent>& events);
 
 /// "advance (up the aorta): push_exceeds_N 8"; empty after success.
-std::string reason(const Plan& plan, const OperatorState& state);
+std::string reason(const ScriptPlan& plan, const OperatorState& state);
 
 }  // namespace ostium

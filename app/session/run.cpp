@@ -4,8 +4,8 @@ namespace ostium {
 
 namespace {
 
-Plan plan_of(const RunSetup& setup, const SessionModel& model) {
-  Plan plan = make_plan(setup.script, model, setup.seed);
+ScriptPlan plan_of(const RunSetup& setup, const SessionModel& model) {
+  ScriptPlan plan = make_plan(setup.script, model, setup.seed);
   plan.hand_speed = setup.hand_speed;
   return plan;
 }

@@ -13,7 +13,7 @@ class ScriptedRun {
   bool tick();
 
   const SessionModel model;
-  const Plan plan;
+  const ScriptPlan plan;
   SessionState state;
   OperatorState hands;
   SessionInputs inputs;  ///< of the last step

@@ -215,7 +215,7 @@ double vessel_frame(const Vessel& vessel, double phase) {
 
 namespace {
 
-void beat(const SessionModel& model, double rate_1_min, HeartState& heart, SurfaceMotion& motion) {
+void beat(const SessionModel& model, double rate_1_min, BeatState& heart, SurfaceMotion& motion) {
   motion.frame_before = vessel_frame(*model.vessel, heart.phase);
   const double rate = std::clamp(rate_1_min, least_rate_1_min, highest_rate_1_min);
   heart.phase += model.step_s() * phase_speed(heart.phase, rate);

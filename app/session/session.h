@@ -76,7 +76,7 @@ void take_inputs(const double* row, SessionInputs& inputs);
 
 // --- all that is needed to go on bit-identically ---------------------------------------------------------------------
 
-struct HeartState {
+struct BeatState {
   double phase = 0;  ///< [0, 1), 0 is the R wave
   double beats = 0;  ///< R waves so far
 };
@@ -93,7 +93,7 @@ struct CArmState {
 
 struct SessionState {
   State rods;
-  HeartState heart;
+  BeatState heart;
   std::vector<HandState> hands;  ///< one a tool
   CArmState c_arm;
 };

@@ -169,7 +169,7 @@ Eigen::Quaterniond base_of(const Experiment& e) { return {e.base.q_W[0], e.base.
 
 }  // namespace
 
-Dependences dependences(const MeasurementSet& set, const std::vector<VectorXd>& misfits, const View& view) {
+Dependences dependences(const MeasurementSet& set, const std::vector<VectorXd>& misfits, const MeasuredView& view) {
   Dependences out;
   if (set.experiments.size() < 4) return out;
   for (std::size_t e = 1; e < misfits.size(); ++e)

@@ -23,6 +23,7 @@ struct Dependences {
 };
 
 /// `misfits` belong to the set's experiments, in the frame of the measurement; `view` is how the fit saw them.
-Dependences dependences(const MeasurementSet& set, const std::vector<Eigen::VectorXd>& misfits, const View& view);
+Dependences dependences(const MeasurementSet& set, const std::vector<Eigen::VectorXd>& misfits,
+                        const MeasuredView& view);
 
 }  // namespace ostium

@@ -26,7 +26,7 @@ struct FittedModel {
   std::vector<std::string> effects;  ///< ids, each once
   std::vector<FittedParameter> parameters;
   Changes changes;
-  View view;
+  MeasuredView view;
   double rms_m = 0;
   std::optional<double> rms_held_out_m;
   std::optional<double> chi2_per_dof;  ///< none if the noise is not known

@@ -35,7 +35,7 @@ Plot::Points seen(const std::vector<Vector3d>& points, int across, int up) {
 }
 
 /// Measured points brought into the frame of the set.
-std::vector<Vector3d> in_set(const Experiment& e, const View& view) {
+std::vector<Vector3d> in_set(const Experiment& e, const MeasuredView& view) {
   std::vector<Vector3d> out;
   for (const Vector3d& p : e.points_m) out.push_back(view.R.conjugate() * (p - view.t_m));
   return out;

@@ -95,7 +95,7 @@ class Problem {
     return x;
   }
 
-  bool data(const std::vector<Shape>& shapes, const View& view, VectorXd& residuals) const {
+  bool data(const std::vector<Shape>& shapes, const MeasuredView& view, VectorXd& residuals) const {
     int row = 0;
     for (std::size_t k = 0; k < chosen_.size(); ++k) {
       if (!shapes[k].converged) return false;

@@ -123,8 +123,8 @@ Changes Parameters::changes(const VectorXd& x) const {
   return changes;
 }
 
-View Parameters::view(const VectorXd& x) const {
-  View view = nominal_;
+MeasuredView Parameters::view(const VectorXd& x) const {
+  MeasuredView view = nominal_;
   if (registration_ >= 0) {
     const Vector3d turn = x.segment<3>(registration_) * degree, shift = x.segment<3>(registration_ + 3) * mm;
     view.R = rotation(turn) * nominal_.R;
@@ -134,8 +134,8 @@ View Parameters::view(const VectorXd& x) const {
   return view;
 }
 
-View registered(const MeasurementSet& set, const std::vector<Shape>& shapes) {
-  View view;
+MeasuredView registered(const MeasurementSet& set, const std::vector<Shape>& shapes) {
+  MeasuredView view;
   if (!set.imaging.registration_free) return view;
   std::vector<Vector3d> model, measured;
   for (std::size_t e = 0; e < shapes.size(); ++e) {

@@ -32,9 +32,9 @@ class Parameters {
   int shape_parameters() const { return shape_parameters_; }
 
   Changes changes(const Eigen::VectorXd& x) const;
-  View view(const Eigen::VectorXd& x) const;
+  MeasuredView view(const Eigen::VectorXd& x) const;
   /// The frame that `view` counts from.
-  void set_nominal_view(const View& view) { nominal_ = view; }
+  void set_nominal_view(const MeasuredView& view) { nominal_ = view; }
 
  private:
   void add_stiffness(const MeasurementSet& set);
@@ -47,10 +47,10 @@ class Parameters {
   std::vector<ActiveEffect> declared_, tried_;
   std::vector<int> first_of_tried_;
   int registration_ = -1, offset_ = -1;  ///< index of the first of six, of three
-  View nominal_;
+  MeasuredView nominal_;
 };
 
 /// The registration that lays predicted points over measured ones best (Kabsch 1976), without a tip offset.
-View registered(const MeasurementSet& set, const std::vector<Shape>& shapes);
+MeasuredView registered(const MeasurementSet& set, const std::vector<Shape>& shapes);
 
 }  // namespace ostium

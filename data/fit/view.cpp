@@ -4,12 +4,12 @@
 
 namespace ostium {
 
-Eigen::Vector3d tracked_tip(const Shape& shape, const View& view) {
+Eigen::Vector3d tracked_tip(const Shape& shape, const MeasuredView& view) {
   const Eigen::Vector4d& q = shape.tip_q;
   return view(shape.points_m.back() + Eigen::Quaterniond(q[0], q[1], q[2], q[3]) * view.tip_offset_m);
 }
 
-Eigen::VectorXd misfit(const Experiment& e, const Shape& shape, const View& view) {
+Eigen::VectorXd misfit(const Experiment& e, const Shape& shape, const MeasuredView& view) {
   if (e.kind == Experiment::Kind::radius)
     return Eigen::VectorXd::Constant(1, e.radius_m - radius_of_curvature(shape.points_m));
   if (e.kind == Experiment::Kind::tip) return e.points_m[0] - tracked_tip(shape, view);

@@ -7,7 +7,7 @@
 namespace ostium {
 
 /// measured = R model + t; the tracked point is the tip + R_tip offset.
-struct View {
+struct MeasuredView {
   Eigen::Quaterniond R = Eigen::Quaterniond::Identity();
   Eigen::Vector3d t_m = Eigen::Vector3d::Zero();
   Eigen::Vector3d tip_offset_m = Eigen::Vector3d::Zero();
@@ -17,10 +17,10 @@ struct View {
 
 /// Measured minus model, in the frame of the measurement, m: for each point of a centreline the offset from the
 /// nearest point of the model's (3 numbers, across it), for a tip its offset (3), for a radius the difference (1).
-Eigen::VectorXd misfit(const Experiment& experiment, const Shape& shape, const View& view);
+Eigen::VectorXd misfit(const Experiment& experiment, const Shape& shape, const MeasuredView& view);
 
 /// The tracked tip in the frame of the measurement.
-Eigen::Vector3d tracked_tip(const Shape& shape, const View& view);
+Eigen::Vector3d tracked_tip(const Shape& shape, const MeasuredView& view);
 
 /// Distances that count into an RMS: points of a centreline, or 1.
 std::size_t distances(const Experiment& experiment);

@@ -95,7 +95,8 @@ void read_environment(const JsonObject& entry, MeasurementSet& set) {
   if (entry["vessel"].type == JsonValue::Type::null) return;
   const JsonObject vessel(entry["vessel"], keys::vessel);
   static const std::vector<std::string> units = {"mm", "cm", "m", "in"};
-  set.vessel = Vessel{vessel.text("mesh"), units[vessel.choice("units", units)], vessel.not_negative("friction")};
+  set.vessel =
+      MeasuredVessel{vessel.text("mesh"), units[vessel.choice("units", units)], vessel.not_negative("friction")};
 }
 
 void read_imaging(const JsonObject& entry, MeasurementSet& set) {

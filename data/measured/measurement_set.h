@@ -45,7 +45,7 @@ struct Imaging {
   bool tip_offset_free = false;         ///< tracked = tip + R_tip o
 };
 
-struct Vessel {
+struct MeasuredVessel {
   std::string mesh, units;
   double friction = 0;
 };
@@ -63,7 +63,7 @@ struct MeasurementSet {
   std::string title, source;
   std::vector<MeasuredInstrument> instruments;  ///< outermost first
   Eigen::Vector3d gravity_m_s2 = Eigen::Vector3d::Zero();
-  std::optional<Vessel> vessel;
+  std::optional<MeasuredVessel> vessel;
   Imaging imaging;
   std::vector<DeclaredEffect> effects;
   std::vector<Experiment> experiments;
