@@ -7,11 +7,13 @@ namespace ostium {
 
 namespace {
 
-void make_beat(Patient& patient, Contour wall) {
+constexpr int path_smoothing = 12;  // of a lumen whose tubes were laid into it
+
+void make_beat(Patient& patient, Contour wall, int smoothing) {
   const Anatomy& anatomy = patient.anatomy;
   const HeartMotion motion(anatomy.landmarks);
   const TubeMotion tube_motion(anatomy, motion);
-  patient.lumen = make_moving_lumen(anatomy, patient.lesions, motion, tube_motion, std::move(wall));
+  patient.lumen = make_moving_lumen(anatomy, patient.lesions, motion, tube_motion, std::move(wall), smoothing);
   patient.tree = tree_of(anatomy, patient.lesions, patient.lumen.at(0, 0));
   for (int f = 0; f < beat_frames; ++f) patient.tree_frames.push_back(carried(patient.tree, anatomy, tube_motion, f));
 }
@@ -21,14 +23,14 @@ void make_beat(Patient& patient, Contour wall) {
 Patient make_patient(const AnatomyParameters& parameters, const std::vector<Lesion>& lesions) {
   Patient patient{.anatomy = build_anatomy(parameters), .lesions = lesions, .lumen = {}, .tree = {}, .tree_frames = {}};
   for (const Lesion& lesion : lesions) check(patient.anatomy, lesion);
-  make_beat(patient, contour(TubeUnion(patient.anatomy.tubes)));
+  make_beat(patient, contour(TubeUnion(patient.anatomy.tubes)), 0);
   return patient;
 }
 
 Patient make_patient(const Anatomy& anatomy, const Mesh& lumen, const std::vector<Lesion>& lesions) {
   Patient patient{.anatomy = anatomy, .lesions = lesions, .lumen = {}, .tree = {}, .tree_frames = {}};
   for (const Lesion& lesion : lesions) check(anatomy, lesion);
-  make_beat(patient, {.mesh = lumen, .shares = shares_of(lumen, anatomy.tubes)});
+  make_beat(patient, {.mesh = lumen, .shares = shares_of(lumen, anatomy.tubes)}, path_smoothing);
   return patient;
 }
 

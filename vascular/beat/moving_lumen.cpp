@@ -160,8 +160,37 @@ Mesh MovingLumen::at(double phase, double depth, double opened) const {
   return mesh;
 }
 
+namespace {
+
+/// Displacements from `rest` become half the mean of the neighbours'; vertices behind the last of `rest` are still.
+void smooth_paths(const std::vector<std::array<int, 3>>& triangles, const std::vector<Eigen::Vector3d>& rest,
+                  int rounds, std::vector<std::vector<Eigen::Vector3d>>& frames) {
+  const std::size_t n = rest.size();
+  std::vector<std::vector<int>> ring(n);
+  for (const auto& t : triangles)
+    for (int k = 0; k < 3; ++k)
+      if (static_cast<std::size_t>(t[k]) < n) ring[t[k]].push_back(t[(k + 1) % 3]);
+  for (std::vector<Eigen::Vector3d>& frame : frames) {
+    for (std::size_t i = 0; i < n; ++i) frame[i] -= rest[i];
+    for (int round = 0; round < rounds; ++round) {
+      std::vector<Eigen::Vector3d> next(n);
+      for (std::size_t i = 0; i < n; ++i) {
+        Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+        for (int other : ring[i])
+          if (static_cast<std::size_t>(other) < n) sum += frame[other];
+        next[i] =
+            ring[i].empty() ? frame[i] : Eigen::Vector3d((frame[i] + sum / static_cast<double>(ring[i].size())) / 2);
+      }
+      frame = std::move(next);
+    }
+    for (std::size_t i = 0; i < n; ++i) frame[i] += rest[i];
+  }
+}
+
+}  // namespace
+
 MovingLumen make_moving_lumen(const Anatomy& anatomy, const std::vector<Lesion>& lesions, const HeartMotion& motion,
-                              const TubeMotion& tubes, Contour contour) {
+                              const TubeMotion& tubes, Contour contour, int smoothing) {
   for (const Lesion& lesion : lesions)
     if (const int tube = find_branch(anatomy, lesion.branch)->tube; is_aorta(anatomy, tube) || !tubes.moves(tube))
       throw std::invalid_argument("there is no lesion model for " + lesion.branch + "; expected a coronary artery");
@@ -183,6 +212,7 @@ MovingLumen make_moving_lumen(const Anatomy& anatomy, const std::vector<Lesion>&
     for (int& v : triangle) v = new_index[v];
   std::vector<std::vector<Eigen::Vector3d>> frames(beat_frames, std::vector<Eigen::Vector3d>(lumen.moving));
   std::vector<std::vector<Eigen::Vector3d>> diseased_frames(beat_frames);
+  std::vector<Eigen::Vector3d> rest;
   for (std::size_t i = 0; i < n; ++i) {
     const Eigen::Vector3d p = contour.mesh.vertices[order[i]];
     lumen.shares.push_back(std::move(contour.shares[order[i]]));
@@ -195,11 +225,15 @@ MovingLumen make_moving_lumen(const Anatomy& anatomy, const std::vector<Lesion>&
       continue;
     }
     for (int f = 0; f < beat_frames; ++f) frames[f][i] = tubes.carried(p, shares, f);
+    rest.push_back(p);
     const Eigen::Vector3d q = ostium::diseased(anatomy, lesions, p, shares);
     if (q == p) continue;
     lumen.narrowed.push_back(static_cast<int>(i));
-    for (int f = 0; f < beat_frames; ++f) diseased_frames[f].push_back(tubes.carried(q, shares, f));
+    for (int f = 0; f < beat_frames; ++f) diseased_frames[f].push_back(tubes.carried(q, shares, f) - frames[f][i]);
   }
+  if (smoothing > 0) smooth_paths(lumen.triangles, rest, smoothing, frames);
+  for (int f = 0; f < beat_frames; ++f)
+    for (std::size_t i = 0; i < lumen.narrowed.size(); ++i) diseased_frames[f][i] += frames[f][lumen.narrowed[i]];
   lumen.beat = PeriodicPoints(frames);
   lumen.diseased_beat = PeriodicPoints(diseased_frames);
   return lumen;

@@ -56,8 +56,9 @@ struct MovingLumen {
   Mesh at(double phase, double depth, double opened = 0) const;
 };
 
-/// Throws std::invalid_argument if a lesion lies where nothing beats.
+/// `smoothing`: so many times each vertex's path becomes the mean of its own and its neighbours'; for surfaces whose
+/// shares change abruptly. Throws std::invalid_argument if a lesion lies where nothing beats.
 MovingLumen make_moving_lumen(const Anatomy& anatomy, const std::vector<Lesion>& lesions, const HeartMotion& motion,
-                              const TubeMotion& tubes, Contour contour);
+                              const TubeMotion& tubes, Contour contour, int smoothing = 0);
 
 }  // namespace ostium
