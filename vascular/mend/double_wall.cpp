@@ -18,7 +18,7 @@ constexpr double along_surface = 4;   // so many thicknesses away, a shell is an
 constexpr double narrowest = 0.8;     // a lumen is wider than so many thicknesses of its wall
 constexpr double rim = 4;             // so many thicknesses from an outer shell may be what joins it to the inner one
 constexpr double least_patch = 25;    // area of a patch, in squared thicknesses
-constexpr std::size_t most_rays = 400'000;
+constexpr int most_rays = 60'000;     // of finer meshes, triangles take the label of one near them
 
 class ShellFinder {
  public:
@@ -126,17 +126,31 @@ DoubleWall find_double_wall(const Mesh& mesh, const Sheets& sheets) {
   const int n = static_cast<int>(mesh.triangles.size());
   result.outer.assign(static_cast<std::size_t>(n), false);
   const ShellFinder finder(mesh, sheets);
-  const int stride = 1 + n / static_cast<int>(most_rays);
+  const int stride = 1 + n / most_rays;
   std::vector<double> thickness;
   // A look first: most meshes have one wall.
   int looked = 0, doubled = 0;
   for (int t = 0; t < n; t += std::max(1, n / 3000)) ++looked, doubled += finder.thickness(t) > 0 ? 1 : 0;
   if (doubled < 0.01 * looked) return result;
-  for (int t = 0; t < n; t += stride)
-    if (const double d = finder.thickness(t); d > 0) {
-      thickness.push_back(d);
-      for (int s = t; s < std::min(n, t + stride); ++s) result.outer[s] = true;
-    }
+  std::vector<bool> known(static_cast<std::size_t>(n));
+  std::queue<int> spread;
+  for (int t = 0; t < n; t += stride) {
+    const double d = finder.thickness(t);
+    if (d > 0) thickness.push_back(d);
+    result.outer[t] = d > 0;
+    known[t] = true;
+    spread.push(t);
+  }
+  while (!spread.empty()) {
+    const int t = spread.front();
+    spread.pop();
+    for (int k = 0; k < 3; ++k)
+      if (const int o = sheets.opposite[3 * t + k]; o >= 0 && !known[o / 3]) {
+        known[o / 3] = true;
+        result.outer[o / 3] = result.outer[t];
+        spread.push(o / 3);
+      }
+  }
   if (thickness.empty()) return result;
   std::nth_element(thickness.begin(), thickness.begin() + static_cast<long>(thickness.size() / 2), thickness.end());
   result.thickness_m = thickness[thickness.size() / 2];
