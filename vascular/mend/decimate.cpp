@@ -97,16 +97,9 @@ class Decimator {
       Eigen::Vector3d c[3];
       for (int k = 0; k < 3; ++k) c[k] = tri[k] == v ? p : p_[tri[k]];
       const Eigen::Vector3d before = area_of(tri), after = (c[1] - c[0]).cross(c[2] - c[0]) / 2;
-      // 0.05 for an equilateral triangle; a sliver faces nowhere.
-      const auto shape = [](double area, const Eigen::Vector3d& p0, const Eigen::Vector3d& p1,
-                            const Eigen::Vector3d& p2) {
-        const double perimeter = (p1 - p0).norm() + (p2 - p1).norm() + (p0 - p2).norm();
-        return perimeter > 0 ? area / (perimeter * perimeter) : 0;
-      };
-      const double was = shape(before.norm(), p_[tri[0]], p_[tri[1]], p_[tri[2]]);
-      const double becomes = shape(after.norm(), c[0], c[1], c[2]);
-      if (was > 2e-3 && before.dot(after) < least_cosine * before.norm() * after.norm()) return false;
-      if (becomes < 0.013 && becomes <= was) return false;
+      if (before.dot(after) < least_cosine * before.norm() * after.norm()) return false;
+      const double perimeter2 = (c[1] - c[0]).squaredNorm() + (c[2] - c[1]).squaredNorm() + (c[0] - c[2]).squaredNorm();
+      if (after.norm() < 0.04 * perimeter2) return false;  // 0.14 for an equilateral triangle
     }
     return true;
   }

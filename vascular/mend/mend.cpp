@@ -30,7 +30,6 @@ constexpr double crumb_m3 = 8e-9;           // lumens smaller than this are left
 constexpr int smoothing_rounds = 16;
 constexpr double least_missing_m = 0.8e-3;  // a gap between ends is a missing piece from here on
 constexpr int calibre_stride = 4, most_uncrossings = 12;
-constexpr double shortest_edge_m = 0.08e-3;
 constexpr double longest_edge_m = 2.2e-3;
 constexpr double cell_at_1_mm_m = 0.6e-3;  // as the contour of our own anatomy has it
 
@@ -234,8 +233,6 @@ class Mender {
       mesh = decimate(fine, edge);
     }
     onto_wall(mesh);
-    // Files keep single precision: no edge may vanish there.
-    mesh = decimate(mesh, std::vector<double>(mesh.vertices.size(), shortest_edge_m));
     uncross(mesh);
     return mesh;
   }
