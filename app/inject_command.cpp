@@ -41,10 +41,11 @@ int inject_command(const InjectOptions& o) {
   const bool video = o.out.ends_with(".mp4");
   if (!video && !o.out.ends_with(".png")) throw LoadError(o.out + ": what is it to be? .png and .mp4 are known");
   require_rate(o.frames_per_s);
-  const Case c = find_case(o.of);
+  Case c = find_case(o.of);
+  if (o.healthy) c.lesions.clear();
   const bool left = o.at.starts_with("left") || o.at == "aorta";
   say("building " + c.name);
-  const Patient patient = make_patient(c.anatomy, o.healthy ? std::vector<Lesion>{} : c.lesions);
+  const Patient patient = patient_of(c);
   const PhysiologyModel model = make_physiology(patient, o.seed);
   PatientScene scene(patient, model);
   say("the heart beats until blood flows as it does at rest");

@@ -62,7 +62,7 @@ class Room {
  public:
   Room(const Case& c, const TreatOptions& o)
       : options(o),
-        patient(make_patient(c.anatomy, c.lesions)),
+        patient(patient_of(c)),
         physiology(make_physiology(patient, o.seed)),
         scene(patient, physiology),
         plan(plan_treatment(patient, physiology.flow, o.seed,

@@ -41,6 +41,8 @@ std::vector<Case> load_cases();
 /// By name; or by a path: a case file, or an imported case's folder. Throws LoadError, for a name that is none with
 /// those that are.
 Case find_case(const std::string& name);
+/// Its file, found in the same way.
+std::string case_file(const std::string& name);
 
 /// Where imported cases without a path go: $OSTIUM_CASES, else $XDG_DATA_HOME/ostium/cases, else
 /// ~/.local/share/ostium/cases.

@@ -124,15 +124,17 @@ std::vector<Case> load_cases() {
   return cases;
 }
 
-Case find_case(const std::string& name) {
+std::string case_file(const std::string& name) {
   const fs::path shipped = fs::path(data_folder()) / "cases" / (name + ".json");
   for (const fs::path& file :
        {shipped, case_file_in(fs::path(imported_folder()) / name), case_file_in(name), fs::path(name)})
-    if (fs::is_regular_file(file)) return load_case(file.string());
+    if (fs::is_regular_file(file)) return file.string();
   std::string known;
   for (const Case& c : load_cases()) known += "\n  " + c.name;
   throw LoadError(fmt::format("there is no case \"{}\"; expected a case's file or folder, or one of:{}", name, known));
 }
+
+Case find_case(const std::string& name) { return load_case(case_file(name)); }
 
 std::string imported_folder() {
   const auto set = [](const char* variable) {

@@ -33,9 +33,9 @@ bool ScriptedRun::tick() {
 }
 
 std::string trouble_words(std::uint32_t trouble) {
-  static const char* const words[] = {"drive_limited",    "drive_not_finite", "load_limited", "not_converged",
-                                      "motion_lost",      "no_solution",      "feed_stopped", "pulled_apart",
-                                      "joint_overturned"};
+  static const char* const words[] = {"drive_limited", "drive_not_finite", "load_limited",
+                                      "not_converged", "motion_lost",      "no_solution",
+                                      "feed_stopped",  "pulled_apart",     "joint_overturned"};
   std::string out;
   for (std::size_t bit = 0; bit < std::size(words); ++bit)
     if (trouble >> bit & 1) out += (out.empty() ? "" : ", ") + std::string(words[bit]);

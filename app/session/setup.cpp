@@ -51,13 +51,11 @@ void set_vessel(const std::string& case_or_mesh, LengthUnit unit, RunSetup& setu
     setup.mesh = read_mesh(case_or_mesh, unit).mesh;
     return;
   }
-  if (case_or_mesh.ends_with(".json")) {
-    setup.case_text = all_of(case_or_mesh);
-    setup.vessel = load_case(case_or_mesh).name;
-    return;
-  }
-  find_case(case_or_mesh);  // throws with what there is
-  setup.case_text = all_of((fs::path(data_folder()) / "cases" / (case_or_mesh + ".json")).string());
+  const fs::path file = fs::absolute(case_file(case_or_mesh));
+  const Case c = load_case(file.string());
+  setup.case_text = all_of(file.string());
+  // An imported case's vessels lie beside its file: replay finds them there.
+  setup.vessel = c.imported ? (file.parent_path() / c.name).string() : c.name;
 }
 
 void set_script(const Script& script, RunSetup& setup) {

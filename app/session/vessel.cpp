@@ -75,10 +75,11 @@ EndState end_at(const Vector3d& p_W, const Vector3d& direction_W) {
 }
 
 std::shared_ptr<const Vessel> vessel_of(const Case& c, std::optional<std::uint64_t> seed) {
-  AnatomyParameters parameters = c.anatomy;
-  if (seed) parameters = person(*seed, mean_of(c.anatomy.dominance, c.anatomy.access));
+  Case of_person = c;
+  if (seed && c.imported) throw LoadError(c.name + ": it is one person's mesh; another person cannot be drawn for it");
+  if (seed) of_person.anatomy = person(*seed, mean_of(c.anatomy.dominance, c.anatomy.access));
   auto vessel = std::make_shared<Vessel>();
-  const auto patient = std::make_shared<const Patient>(make_patient(parameters, c.lesions));
+  const auto patient = std::make_shared<const Patient>(patient_of(of_person));
   vessel->name = c.name;
   vessel->wall = wall_of(patient->lumen);
   vessel->wall.friction = vessel_friction;

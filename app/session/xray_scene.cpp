@@ -212,7 +212,7 @@ Scene XrayPatient::at(double phase) const {
 
 CaseScene scene_of_case(const std::string& name, Fill fill, Vector3d& middle) {
   const Case c = find_case(name);
-  const auto patient = std::make_shared<const Patient>(make_patient(c.anatomy, c.lesions));
+  const auto patient = std::make_shared<const Patient>(patient_of(c));
   const auto xray = std::make_shared<const XrayPatient>(patient, fill);
   middle = heart_middle(*patient);
   return {[xray](double phase) { return xray->at(phase); },

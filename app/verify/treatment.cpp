@@ -80,7 +80,7 @@ std::vector<GateResult> treatment(bool quick) {
   for (const char* name :
        {"rca-mid-focal", "lad-proximal-eccentric", "lcx-tubular", "left-main-shaft", "rca-diffuse"}) {
     const Case c = find_case(name);
-    const Patient patient = make_patient(c.anatomy, c.lesions);
+    const Patient patient = patient_of(c);
     const PhysiologyModel physiology = make_physiology(patient);
     const Treatable t = plan_treatment(patient, physiology.flow, 0);
     Bedside bed{physiology, t.model, make_state(physiology), make_state(t.model, physiology.flow.tree), {}, {}, {}, {},
