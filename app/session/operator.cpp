@@ -61,7 +61,15 @@ struct Sight {
 
   double now_s() const { return seconds(model, session); }
 
-  int tip_sphere(int tool) const { return model.vessel->way->locate(tip(model, session, tool), session.heart.phase); }
+  /// Several conditions of a step ask for the same tip.
+  mutable int located_tool = -1, located_sphere = -1;
+  int tip_sphere(int tool) const {
+    if (tool != located_tool) {
+      located_tool = tool;
+      located_sphere = model.vessel->way->locate(tip(model, session, tool), session.heart.phase);
+    }
+    return located_sphere;
+  }
 
   bool holds(const ScriptCondition& c, int place) const {
     const auto t = static_cast<std::size_t>(c.tool);
@@ -236,7 +244,7 @@ Outcome decide(const ScriptPlan& plan, const SessionModel& model, const SessionS
   events.clear();
   feel(model, report, state);
   using Kind = OperatorEvent::Kind;
-  const Sight sight{plan, model, session, report, state};
+  const Sight sight{.plan = plan, .model = model, .session = session, .report = report, .state = state};
   const int count = static_cast<int>(plan.script.steps.size());
   // A step that takes no time leads to the next at once; `count` bounds jumps among such.
   for (int guard = 0; guard <= count && state.outcome == 0; ++guard) {

@@ -1,5 +1,7 @@
 #include "app/session/run.h"
 
+#include <utility>
+
 namespace ostium {
 
 namespace {
@@ -33,13 +35,16 @@ bool ScriptedRun::tick() {
 }
 
 std::string trouble_words(std::uint32_t trouble) {
-  static const char* const words[] = {"drive_limited", "drive_not_finite", "load_limited",
-                                      "not_converged", "motion_lost",      "no_solution",
-                                      "feed_stopped",  "pulled_apart",     "joint_overturned"};
+  static constexpr std::pair<Trouble, const char*> words[] = {
+      {drive_limited, "drive_limited"}, {drive_not_finite, "drive_not_finite"}, {load_limited, "load_limited"},
+      {not_converged, "not_converged"}, {motion_lost, "motion_lost"},           {no_solution, "no_solution"},
+      {feed_stopped, "feed_stopped"},   {pulled_apart, "pulled_apart"},         {joint_overturned, "joint_overturned"}};
   std::string out;
-  for (std::size_t bit = 0; bit < std::size(words); ++bit)
-    if (trouble >> bit & 1) out += (out.empty() ? "" : ", ") + std::string(words[bit]);
-  return out;
+  for (const auto& [bit, word] : words) {
+    if (trouble & bit) out += (out.empty() ? "" : ", ") + std::string(word);
+    trouble &= ~static_cast<std::uint32_t>(bit);
+  }
+  return trouble ? out + (out.empty() ? "others" : ", others") : out;
 }
 
 }  // namespace ostium

@@ -1,0 +1,111 @@
+/// A case as a session has it: places on the operator's way, the heart's time, contrast that is closed, shafts.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "app/session/run.h"
+#include "app/session/xray_scene.h"
+#include "vascular/beat/heart_cycle.h"
+
+namespace ostium {
+namespace {
+
+RunSetup case_setup() {
+  RunSetup setup;
+  set_vessel("rca-mid-focal", LengthUnit::millimetre, setup);
+  set_script(find_script("iliac-wire"), setup);
+  return setup;
+}
+
+std::shared_ptr<const Vessel> case_vessel() {
+  static const std::shared_ptr<const Vessel> made = [] {
+    std::string warnings;
+    return make_vessel(case_setup(), warnings);
+  }();
+  return made;
+}
+
+TEST(CaseVessel, PlacesLieInTheOrderOfTheWayFromTheGroin) {
+  const Way& way = *case_vessel()->way;
+  double before_m = 0;
+  for (const char* name : {"right iliac", "aorta", "diaphragm", "arch", "ascending aorta", "sinuses", "valve"}) {
+    const int place = way.place(name);
+    ASSERT_GE(place, 0) << name;
+    EXPECT_GE(way.from_access_m(place), before_m) << name;
+    before_m = way.from_access_m(place);
+  }
+  EXPECT_NEAR(before_m, 0.75, 0.1) << "groin to valve";
+  const int sinuses = way.place("ascending aorta");
+  for (const char* name : {"RCA", "RCA+20", "LM", "LAD", "LCx+10"}) {
+    ASSERT_GE(way.place(name), 0) << name;
+    EXPECT_TRUE(way.beyond(way.place(name), sinuses)) << name;
+  }
+  EXPECT_TRUE(way.beyond(way.place("LAD"), way.place("LM")));
+  EXPECT_FALSE(way.beyond(way.place("left subclavian"), sinuses));
+  EXPECT_NEAR(way.from_access_m(way.place("RCA+20")) - way.from_access_m(way.place("RCA")), 0.02, 1.5e-3);
+}
+
+TEST(CaseVessel, TheHeartKeepsItsTime) {
+  RunSetup setup = case_setup();
+  set_value("heart_rate", "90", setup);
+  ScriptedRun run(setup, case_vessel());
+  double previous = 0;
+  std::uint64_t last_beat = 0;
+  while (run.state.rods.step < 900 && run.tick()) {
+    EXPECT_NEAR(std::fmod(run.state.heart.phase - previous + 1, 1), 1e-3 * phase_speed(previous, 90), 1e-9);
+    if (run.state.heart.phase < previous) last_beat = run.state.rods.step;
+    previous = run.state.heart.phase;
+  }
+  EXPECT_NEAR(static_cast<double>(last_beat), 1000 * 60 / 90.0, 3) << "explicit steps of a smooth speed";
+  EXPECT_EQ(run.state.heart.beats, 1);
+}
+
+TEST(CaseVessel, ContrastFillsOneCoronaryTreeAndIsClosed) {
+  for (Fill fill : {Fill::left, Fill::right}) {
+    const XrayPatient patient(case_vessel()->patient, fill);
+    for (double phase : {0.0, 0.4}) {
+      const Scene scene = patient.at(phase);
+      ASSERT_NO_THROW(check(scene));
+      const Body& contrast = scene.moving.back();
+      ASSERT_EQ(contrast.name, "contrast");
+      double volume_mL = 0;
+      Eigen::Vector3d middle = Eigen::Vector3d::Zero();
+      for (Eigen::Index t = 0; t < contrast.triangles->cols(); ++t) {
+        const auto corner = [&](int k) -> Eigen::Vector3d {
+          return contrast.p_P.col((*contrast.triangles)(k, t)).cast<double>();
+        };
+        volume_mL += 1e6 * corner(0).dot(corner(1).cross(corner(2))) / 6;
+      }
+      for (Eigen::Index v = 0; v < contrast.p_P.cols(); ++v)
+        middle += contrast.p_P.col(v).cast<double>() / static_cast<double>(contrast.p_P.cols());
+      EXPECT_GT(volume_mL, 0.8);  // some 120 mm of RCA of 3 mm are 0.85 mL, the left tree has twice that
+      EXPECT_LT(volume_mL, 5);
+      EXPECT_GT(fill == Fill::left ? middle.x() : -middle.x(), -0.005);
+    }
+  }
+}
+
+TEST(CaseVessel, ShaftsHaveTheSteelThatTheCatalogueSays) {
+  ScriptedRun run(case_setup(), case_vessel());
+  EXPECT_TRUE(shafts_of(run.model, run.state).empty()) << "nothing is in the body yet";
+  while (run.state.rods.step < 800 && run.tick()) {
+  }
+  const std::vector<Shaft> shafts = shafts_of(run.model, run.state);
+  ASSERT_EQ(shafts.size(), 1u);
+  EXPECT_EQ(Eigen::Vector3d(shafts[0].p_P.col(0)), tip(run.model, run.state, 0));
+  double length = 0;
+  for (Eigen::Index i = 1; i < shafts[0].p_P.cols(); ++i)
+    length += (shafts[0].p_P.col(i) - shafts[0].p_P.col(i - 1)).norm();
+  EXPECT_NEAR(length, run.state.rods.rods[0].inserted_m, 1e-6);
+  const Instrument& wire = run.model.tools[0].instrument;
+  ASSERT_EQ(shafts[0].sections.size(), wire.opaque.size());
+  for (std::size_t s = 0; s < wire.opaque.size(); ++s) {
+    const OpaqueSection& o = shafts[0].sections[s];
+    const double area = o.filling * EIGEN_PI * (o.outer_radius_m * o.outer_radius_m - o.inner_radius_m * o.inner_radius_m);
+    EXPECT_NEAR(area, wire.opaque[s].thickness_m * wire.outer_diameter_m, 1e-12);
+    EXPECT_LE(o.outer_radius_m, 0.5 * wire.outer_diameter_m);
+  }
+}
+
+}  // namespace
+}  // namespace ostium
