@@ -42,7 +42,8 @@ std::vector<float> gaussian(double sigma) {
   std::vector<double> weights;
   double sum = 0;
   for (int n = 0; n == 0 || weights.back() > 1e-4 * weights[0]; ++n) {
-    weights.push_back(t < 100 ? std::exp(-t) * std::cyl_bessel_i(n, t) : std::exp(-n * n / (2 * t)));
+    // Beyond t = 700 the Bessel function is larger than any number; there the sampled Gaussian differs by 1 / (8 t).
+    weights.push_back(t < 500 ? std::exp(-t) * std::cyl_bessel_i(n, t) : std::exp(-0.5 * n * n / t));
     sum += (n ? 2 : 1) * weights.back();
   }
   std::vector<float> out;

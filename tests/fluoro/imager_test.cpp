@@ -4,8 +4,10 @@
 
 #include <thread>
 
+#include "fluoro/fluoroscope.h"
 #include "fluoro/phantom/chest.h"
 #include "fluoro/phantom/shapes.h"
+#include "fluoro/resample.h"
 #include "fluoro/tissue.h"
 
 namespace ostium {
@@ -153,6 +155,32 @@ TEST(Imager, EveryFieldHasAPicture) {
     const FrameReport report = imager.frame({water(0.2), view, {}, fluoroscopy(), 1}, state);
     EXPECT_TRUE(state.lag.shown.isFinite().all()) << field_m;
     EXPECT_NEAR(report.exposure.detector_dose_nGy, 30 * 0.2 / field_m, 1e-6) << field_m;
+  }
+}
+
+TEST(Imager, MagnifiedFieldsGetDoseInProportion) {
+  double wide_nGy = 0;
+  for (const double field_m : fields_m) {
+    Imager imager({}, make_scanline_renderer());
+    const Scene scene = water(0.2);
+    View view = small_view();
+    view.field_m = field_m;
+    const Exposure e = imager.exposure({scene, view, {}, fluoroscopy(), 1});
+    if (field_m == fields_m[0]) wide_nGy = e.detector_dose_nGy;
+    EXPECT_NEAR(e.detector_dose_nGy * field_m, wide_nGy * fields_m[0], 1e-6 * wide_nGy) << field_m;
+    EXPECT_GT(e.kerma_Gy, 0) << field_m;
+  }
+}
+
+TEST(Imager, ABlurAsWideAsThePictureKeepsWhatIsEven) {
+  for (const double sigma : {10.0, 22.0, 23.0, 60.0}) {  // two laws meet at 22.4
+    Plane even = Plane::Constant(32, 32, 2), scratch;
+    gaussian_blur(even, sigma, Beyond::same, scratch);
+    EXPECT_LT((even - 2).abs().maxCoeff(), 1e-4) << sigma;
+    Plane dot = Plane::Zero(32, 32);
+    dot(16, 16) = 1;
+    gaussian_blur(dot, sigma, Beyond::zero, scratch);
+    EXPECT_NEAR(dot(16, 16) * 2 * EIGEN_PI * sigma * sigma, 1, 5e-3) << sigma;
   }
 }
 

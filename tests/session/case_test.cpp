@@ -101,7 +101,8 @@ TEST(CaseVessel, ShaftsHaveTheSteelThatTheCatalogueSays) {
   ASSERT_EQ(shafts[0].sections.size(), wire.opaque.size());
   for (std::size_t s = 0; s < wire.opaque.size(); ++s) {
     const OpaqueSection& o = shafts[0].sections[s];
-    const double area = o.filling * EIGEN_PI * (o.outer_radius_m * o.outer_radius_m - o.inner_radius_m * o.inner_radius_m);
+    const double area =
+        o.filling * EIGEN_PI * (o.outer_radius_m * o.outer_radius_m - o.inner_radius_m * o.inner_radius_m);
     EXPECT_NEAR(area, wire.opaque[s].thickness_m * wire.outer_diameter_m, 1e-12);
     EXPECT_LE(o.outer_radius_m, 0.5 * wire.outer_diameter_m);
   }
