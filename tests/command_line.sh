@@ -116,6 +116,8 @@ expect 1 '"outcome": "aborted"' "$ostium" run rca-mid-focal --seconds 0.1 --json
 expect 1 "stopped by the operator" timeout -s INT 15 bash -c "'$ostium' run rca-mid-focal --speed real --out '$out/int' & p=\$!
   while [[ ! -e '$out/int/run.h5' ]]; do sleep 0.05; done; sleep 0.7; kill -INT \$p; wait \$p"
 expect 0 "bit for bit" "$ostium" replay "$out/int/run.h5"
+expect 1 "is the disk full" bash -c "ulimit -f 50; trap '' XFSZ; '$ostium' run rca-mid-focal --script iliac-wire --out '$out/full'"
+expect 0 "bit for bit" "$ostium" replay "$out/full/run.h5"
 expect 3 "there is no case" "$ostium" run no-such-case
 expect 3 "there is no script" "$ostium" run rca-mid-focal --script no-such-script
 expect 3 "there is no instrument" "$ostium" run rca-mid-focal --set wire=no-such-wire

@@ -48,7 +48,12 @@ std::string last_words() {
   return words;
 }
 
-void be_quiet() { H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr); }
+/// Errors are ours to tell. And all files are shut by us: what a full disk left half open in the library, it must not
+/// try to write again as the program ends (version 1.10 then reads freed memory).
+void begin() {
+  [[maybe_unused]] static const herr_t no_cleaning_up = H5dont_atexit();
+  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+}
 
 hid_t text_type(std::size_t length) {
   const hid_t type = H5Tcopy(H5T_C_S1);
@@ -104,7 +109,7 @@ TableFile::TableFile(TableFile&&) noexcept = default;
 TableFile& TableFile::operator=(TableFile&&) noexcept = default;
 
 TableFile TableFile::create(const std::string& path) {
-  be_quiet();
+  begin();
   auto handle = std::make_unique<Handle>();
   handle->path = path;
   handle->id = H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
@@ -113,7 +118,7 @@ TableFile TableFile::create(const std::string& path) {
 }
 
 TableFile TableFile::open(const std::string& path, bool to_write) {
-  be_quiet();
+  begin();
   auto handle = std::make_unique<Handle>();
   handle->path = path;
   std::error_code none;
