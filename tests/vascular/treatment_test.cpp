@@ -315,7 +315,8 @@ TEST(Stent, ASecondDeviceDoesNotPassOneThatIsNotOpen) {
 TEST(Injury, ChancesAreThePublishedOnesAndGrowWithTheirCauses) {
   EXPECT_NEAR(chance(dissection_hazard(1, false, false, 15 * mm)), 0.30, 0.02);
   EXPECT_LT(chance(perforation_hazard(1.1, false)), 0.01);
-  EXPECT_GT(chance(perforation_hazard(1.3, false)), 0.2);
+  EXPECT_GT(chance(perforation_hazard(1.3, false)), 0.05);
+  EXPECT_GT(perforation_hazard(1.3, false), 20 * perforation_hazard(1.1, false));
   EXPECT_GT(dissection_hazard(1.2, false, false, 15 * mm), 2 * dissection_hazard(1, false, false, 15 * mm));
   EXPECT_GT(dissection_hazard(1, true, false, 15 * mm), dissection_hazard(1, false, false, 15 * mm));
   EXPECT_GT(dissection_hazard(1, false, true, 15 * mm), dissection_hazard(1, false, false, 15 * mm));

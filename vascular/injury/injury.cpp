@@ -32,7 +32,7 @@ double dissection_hazard(double ratio, bool calcified, bool eccentric, double le
 }
 
 double perforation_hazard(double ratio, bool calcified) {
-  return 0.0008 * std::exp(20 * (ratio - 1)) * (calcified ? 2 : 1);
+  return 0.0002 * std::exp(20 * (ratio - 1)) * (calcified ? 2 : 1);
 }
 
 void judge_stretch(const InjuryModel& model, const PlaqueModel& plaque, const PlaqueState& wall, double length_m,

@@ -4,7 +4,7 @@
 /// What was done to a place amounts to a hazard H, and it tears once H exceeds -ln u, u drawn by the seed, so that the
 /// chance is 1 - exp(-H). Stretched to the ratio x of its healthy size:
 ///   dissection   H = 0.36 e^(7 (x - 1)) (1 + 0.8 calcified) (1 + 0.4 eccentric) sqrt(length / 15 mm)
-///   perforation  H = 0.0008 e^(20 (x - 1)) (1 + calcified)
+///   perforation  H = 0.0002 e^(20 (x - 1)) (1 + calcified)
 /// At a ratio of 1 some dissection is seen in 30 % of balloon angioplasties, a third of those are major (9 %), and the
 /// chance rises above 1.1; perforation by balloon nearly always above 1.3 (Kataoka 2010). A wire's tip perforates by
 /// force and time, the more the smaller the artery. The coefficients are fitted to those shares.
