@@ -98,10 +98,14 @@ class Room {
       Bedside film = bed;
       film.each_step = nullptr;
       angiogram.wait_for(0.9, bed.inputs.heart.rate_1_min, film.blood);
-      PhysiologyInputs inputs = bed.inputs;
       const Injection injection = usual_injection(physiology.flow.tree, left);
-      for (int n = 0; n < 30 || film.blood.heart.phase < 0.6 || film.blood.heart.phase > 0.75; ++n)
-        angiogram.advance(injection, inputs, film.blood);
+      ContrastInputs& contrast = film.inputs.contrast;
+      contrast.tip = injection.tip, contrast.iodine_kg_m3 = injection.iodine_kg_m3;
+      std::fill(film.blood.contrast.line_kg.begin(), film.blood.contrast.line_kg.end(),
+                injection.iodine_kg_m3 * contrast.line.dead_m3 / line_cells);
+      contrast.injection_m3_s = injection.rate_m3_s;
+      for (int n = 0; n < 2000 || film.blood.heart.phase < 0.6 || film.blood.heart.phase > 0.75; ++n) film.step();
+      scene.at(film.blood, film.inputs.occupied_m);
       add_devices(film, p, patient, scene, false);
       out = angiogram.take(film.blood.heart.phase);
     } else {

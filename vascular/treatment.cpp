@@ -8,6 +8,7 @@ namespace ostium {
 
 namespace {
 
+constexpr double pool_m3 = 1.5e-6;               // of blood beside a hole
 constexpr double fills_s = 0.4, empties_s = 15;  // a pocket beside the lumen
 
 void run_injuries(const FlowTree& tree, double dt, TreatmentState& s, PhysiologyState& physiology) {
@@ -23,7 +24,10 @@ void run_injuries(const FlowTree& tree, double dt, TreatmentState& s, Physiology
     injury.outside_m3 = std::max(injury.outside_m3, pocket);
     const double inside = injury.outside_kg / injury.outside_m3;
     double kg = leak_m3_s(injury) * dt * here;
-    injury.outside_m3 += leak_m3_s(injury) * dt;
+    // A pool by the hole; what it cannot hold goes on into the pericardium, thinned.
+    const double leaked = leak_m3_s(injury) * dt, over = std::max(0.0, injury.outside_m3 + leaked - pool_m3);
+    injury.outside_kg *= 1 - over / (injury.outside_m3 + leaked);
+    injury.outside_m3 += leaked - over;
     kg += here > inside ? (here - inside) * pocket * dt / fills_s : (here - inside) * pocket * dt / empties_s;
     kg = std::clamp(kg, -0.5 * injury.outside_kg, 0.5 * all);
     for (int k = 0; k < layers; ++k)

@@ -360,6 +360,7 @@ TEST(Injury, ContrastLeavesThroughAHoleAndIsAccountedFor) {
   bench.run(0, 4);
   EXPECT_GT(hole.outside_m3, 1e-6);
   EXPECT_GT(hole.outside_kg, 20e-6);
+  EXPECT_GE(bench.blood.contrast.outside_kg, hole.outside_kg);
   const ContrastState& c = bench.blood.contrast;
   EXPECT_NEAR(accounted_kg(c), c.injected_kg, 1e-9 * c.injected_kg);
 }
