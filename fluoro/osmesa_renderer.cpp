@@ -26,9 +26,9 @@ uniform float magnification;  // SID over half the field
 uniform float isocentre;   // depth of the isocentre
 uniform float pixels;
 in vec3 p_P;
-in vec2 contrast;          // concentration, depth of its centreline from the isocentre
+in vec3 contrast;          // concentration, depth of its centreline from the isocentre, what is counted along that
 out float depth;
-out vec2 iodine;
+out vec3 iodine;
 void main() {
   vec3 p_S = R_SP * (p_P - p_PS);
   depth = p_S.z - isocentre;
@@ -42,11 +42,11 @@ void main() {
 constexpr const char* fragment_shader = R"(#version 130
 uniform vec2 tissue;  // soft, bone
 in float depth;
-in vec2 iodine;
+in vec3 iodine;
 out vec4 lengths;
 void main() {
   float leaves = gl_FrontFacing ? 1.0 : -1.0;
-  lengths = leaves * vec4(depth * tissue, iodine.x * (depth - iodine.y), 1.0);
+  lengths = leaves * vec4(depth * tissue, iodine.x * (depth - iodine.y) + iodine.z, 1.0);
 })";
 
 GLuint compiled(GLenum kind, const char* text) {
@@ -146,14 +146,18 @@ class OSMesaRenderer final : public PathLengthRenderer {
     glVertexAttribPointer(0, 3, GL_FLOAT, GL_FALSE, 0, body.p_P.data());
     if (filled) {
       const Eigen::Vector3f outwards = towards_detector(view.arm).cast<float>();
-      contrast_.resize(2, body.p_P.cols());
+      contrast_.resize(3, body.p_P.cols());
       contrast_.row(0) = body.contrast.iodine_kg_m3.transpose();
       contrast_.row(1) = outwards.transpose() * (body.contrast.p_PC.colwise() - view.arm.p_PI.cast<float>());
+      if (body.contrast.along_kg_m2.size() > 0)
+        contrast_.row(2) = outwards.transpose() * body.contrast.along_kg_m2;
+      else
+        contrast_.row(2).setZero();
       glEnableVertexAttribArray(1);
-      glVertexAttribPointer(1, 2, GL_FLOAT, GL_FALSE, 0, contrast_.data());
+      glVertexAttribPointer(1, 3, GL_FLOAT, GL_FALSE, 0, contrast_.data());
     } else {
       glDisableVertexAttribArray(1);
-      glVertexAttrib2f(1, 0, 0);
+      glVertexAttrib3f(1, 0, 0, 0);
     }
     glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(body.triangles->size()), GL_UNSIGNED_INT, body.triangles->data());
   }
@@ -172,7 +176,7 @@ class OSMesaRenderer final : public PathLengthRenderer {
   GLubyte window_[4] = {};  // OSMesa wants one; the picture goes to the texture
   GLuint program_ = 0, framebuffer_ = 0, texture_ = 0;
   int pixels_ = 0;
-  Eigen::Matrix2Xf contrast_;
+  Eigen::Matrix3Xf contrast_;
   PathLengths::Pixels rgba_;
 };
 

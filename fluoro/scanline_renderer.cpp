@@ -17,7 +17,8 @@ namespace {
 struct Corner {
   double x, y;
   float depth;
-  float iodine, from_centreline;  // of contrast: concentration; depth less that of its centreline
+  float iodine, from_centreline;  // of contrast: concentration; depth less that of its centreline;
+  float along;                    // and what is counted along that, kg/m2
 };
 
 /// value = at + per_x column + per_y row.
@@ -132,11 +133,13 @@ class ScanlineRenderer final : public PathLengthRenderer {
       const Eigen::Vector3d ray = body.p_P.col(i).cast<double>() - p_PS;
       const double depth = ray.dot(axes.outwards), over = scale / depth;
       Corner& corner = corners_[std::size_t(i)];
-      corner = {half + over * ray.dot(axes.right), half - over * ray.dot(axes.up), static_cast<float>(depth), 0, 0};
+      corner = {half + over * ray.dot(axes.right), half - over * ray.dot(axes.up), static_cast<float>(depth), 0, 0, 0};
       if (filled) {
         corner.iodine = body.contrast.iodine_kg_m3[i];
         corner.from_centreline =
             static_cast<float>(depth - axes.outwards.dot(body.contrast.p_PC.col(i).cast<double>() - p_PS));
+        if (body.contrast.along_kg_m2.size() > 0)
+          corner.along = static_cast<float>(axes.outwards.dot(body.contrast.along_kg_m2.col(i).cast<double>()));
       }
     }
   }
@@ -167,6 +170,9 @@ class ScanlineRenderer final : public PathLengthRenderer {
     const Slopes slopes(a, b, c);
     const Linear iodine = slopes.through(a, a.iodine, b.iodine, c.iodine);
     const Linear depth = slopes.through(a, a.from_centreline, b.from_centreline, c.from_centreline);
+    const Linear along = slopes.through(a, a.along, b.along, c.along);
+    const auto [few, many] = std::minmax({a.along, b.along, c.along});
+    const float few_ = few, many_ = many;
     const auto [least, most] = std::minmax({a.from_centreline, b.from_centreline, c.from_centreline});
     const auto [thin, dense] = std::minmax({a.iodine, b.iodine, c.iodine});
     const float thin_ = thin, dense_ = dense, least_ = least, most_ = most;
@@ -179,7 +185,8 @@ class ScanlineRenderer final : public PathLengthRenderer {
         const auto x = static_cast<float>(column);
         const float kg_m3 = std::min(std::max(iodine.at + iodine.per_x * x + iodine.per_y * y, thin_), dense_);
         const float m = std::min(std::max(depth.at + depth.per_x * x + depth.per_y * y, least_), most_);
-        pixel[2] += sign * kg_m3 * m;
+        const float kg_m2 = std::min(std::max(along.at + along.per_x * x + along.per_y * y, few_), many_);
+        pixel[2] += sign * (kg_m3 * m + kg_m2);
         pixel[3] += sign;
       }
     });

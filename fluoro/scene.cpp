@@ -52,6 +52,8 @@ void check(const Body& body) {
   const Contrast& c = body.contrast;
   if (c.iodine_kg_m3.size() != c.p_PC.cols() || (c.iodine_kg_m3.size() && c.iodine_kg_m3.size() != body.p_P.cols()))
     refuse(body.name, "has contrast that is not given at each vertex");
+  if (c.along_kg_m2.size() && c.along_kg_m2.cols() != c.p_PC.cols())
+    refuse(body.name, "has contrast along its centreline that is not given at each vertex");
   if (c.iodine_kg_m3.size() && !(c.iodine_kg_m3.minCoeff() >= 0)) refuse(body.name, "has a negative concentration");
   require_closed(body);
 }

@@ -140,26 +140,25 @@ std::vector<double> Angiogram::darkness(const std::vector<int>& cells, const Phy
   ImagerState with;
   draw(imager_, with);
   // Bodies keep their places; only the iodine goes.
-  Body& lumen = scene_.lumen();
-  const Eigen::VectorXf iodine = lumen.contrast.iodine_kg_m3;
-  lumen.contrast.iodine_kg_m3.setZero();
+  Contrast& contrast = scene_.lumen().contrast;
+  const Contrast kept = contrast;
+  contrast.iodine_kg_m3.setZero(), contrast.along_kg_m2.setZero();
   mask_ = {};
   draw(mask_imager_, mask_);
-  lumen.contrast.iodine_kg_m3 = iodine;
+  contrast = kept;
   return read(with.lag.shown, mask_.lag.shown, cells, state);
 }
 
 std::vector<double> Angiogram::darkness_full(const std::vector<int>& cells, double iodine_kg_m3,
                                              const PhysiologyState& state) {
-  scene_.at(state, {});
-  Body& lumen = scene_.lumen();
-  const Eigen::VectorXf iodine = lumen.contrast.iodine_kg_m3;
-  for (std::size_t v = 0; v < scene_.map().sources.size(); ++v)
-    lumen.contrast.iodine_kg_m3[static_cast<Eigen::Index>(v)] =
-        scene_.map().sources[v].first.part == VertexSource::coronary ? static_cast<float>(iodine_kg_m3) : 0;
-  const std::vector<double> out = darkness(cells, state);
-  lumen.contrast.iodine_kg_m3 = iodine;
-  return out;
+  PhysiologyState full = state;
+  const std::size_t n = model_.flow.tree.cells.size();
+  for (std::size_t c = 0; c < n; ++c)
+    for (int k = 0; k < layers; ++k)
+      full.contrast.sheath_kg[k * n + c] = iodine_kg_m3 * model_.contrast.share[k] *
+                                           model_.flow.tree.cells[c].length_m * free_area_m2(full.radius_m[c], 0);
+  scene_.at(full, {});
+  return darkness(cells, full);
 }
 
 int timi_landmark(const FlowTree& tree, const std::string& artery) {

@@ -72,7 +72,7 @@ PatientScene::PatientScene(const Patient& patient, const PhysiologyModel& physio
              .within = tissue::soft,
              .contrast = {}};
   lumen.contrast.iodine_kg_m3 = Eigen::VectorXf::Zero(n);
-  lumen.contrast.p_PC = Eigen::Matrix3Xf::Zero(3, n);
+  lumen.contrast.p_PC = lumen.contrast.along_kg_m2 = Eigen::Matrix3Xf::Zero(3, n);
   scene_.moving.push_back(std::move(lumen));
   own_ = scene_.moving.size();
 }
@@ -89,7 +89,7 @@ const Scene& PatientScene::at(const PhysiologyState& state, std::span<const doub
   const FlowInputs in{{}, state.radius_m, occupied_m, 0};
   opacify(map_, physiology_.flow, in, physiology_.contrast, state.contrast, phase,
           {lumen.contrast.iodine_kg_m3.data(), static_cast<std::size_t>(lumen.contrast.iodine_kg_m3.size())},
-          lumen.contrast.p_PC, scratch_);
+          lumen.contrast.p_PC, lumen.contrast.along_kg_m2, scratch_);
   return scene_;
 }
 

@@ -53,14 +53,21 @@ LumenMap make_lumen_map(const Patient& patient, const FlowModel& flow) {
   const auto source = [&](int tube, double s) -> VertexSource {
     const std::string& name = anatomy.tubes[tube].name;
     if (!rows[tube].cell.empty()) return rows[tube].at(s, VertexSource::coronary);
-    if (tube == aorta_tube) return s <= aorta.s_m.back() ? aorta.at(s, VertexSource::aorta) : VertexSource{};
+    const int last = aorta.cell.back();
+    if (tube == aorta_tube)
+      return s <= aorta.s_m.back() ? aorta.at(s, VertexSource::aorta) : VertexSource{VertexSource::none, last, last, 0};
     if (name == "left sinus" || name == "right sinus" || name == "non-coronary sinus") {
       const double along = nearest_s(anatomy.tubes[aorta_tube], anatomy.tubes[tube].at(s).p);
       return aorta.at(along, name == "left sinus"    ? VertexSource::left_sinus
                              : name == "right sinus" ? VertexSource::right_sinus
                                                      : VertexSource::aorta);
     }
-    return {};
+    int t = tube;
+    while (t >= 0 && anatomy.tubes[t].parent != aorta_tube) t = anatomy.tubes[t].parent;
+    if (t < 0) return {VertexSource::none, last, last, 0};
+    VertexSource from =
+        aorta.at(nearest_s(anatomy.tubes[aorta_tube], anatomy.tubes[t].nodes.front().p), VertexSource::none);
+    return from;
   };
   LumenMap map;
   for (const auto& shares : patient.lumen.shares) {
@@ -94,9 +101,9 @@ LumenMap make_lumen_map(const Patient& patient, const FlowModel& flow) {
 
 void opacify(const LumenMap& map, const FlowModel& flow, const FlowInputs& lumen, const ContrastModel& model,
              const ContrastState& state, double phase, std::span<float> iodine_kg_m3,
-             Eigen::Ref<Eigen::Matrix3Xf> centres, OpacityScratch& scratch) {
+             Eigen::Ref<Eigen::Matrix3Xf> centres, Eigen::Ref<Eigen::Matrix3Xf> along, OpacityScratch& scratch) {
   // Cell by cell once, then vertices.
-  auto& [coronary, aorta, coronary_p, aorta_p] = scratch;
+  auto& [coronary, aorta, coronary_p, aorta_p, coronary_along, aorta_along] = scratch;
   const std::size_t n = flow.tree.cells.size(), m = state.aorta_kg.size();
   coronary.resize(n), aorta.resize(m), coronary_p.resize(3, static_cast<int>(n)),
       aorta_p.resize(3, static_cast<int>(m));
@@ -116,27 +123,58 @@ void opacify(const LumenMap& map, const FlowModel& flow, const FlowInputs& lumen
       coronary_p.col(static_cast<int>(c)) = (1 - share) * own + share * coronary_p.col(parent);
     }
   }
-  const auto add = [&](const VertexSource& from, float weight, float& sum, Eigen::Vector3f& moment) {
-    if (from.part == VertexSource::none) return;
+  // What is counted along the centrelines: from the aorta's first cell on, into each artery from where it begins.
+  aorta_along.resize(3, static_cast<int>(m)), coronary_along.resize(3, static_cast<int>(n));
+  aorta_along.col(0).setZero();
+  for (int c = 1; c < static_cast<int>(m); ++c)
+    aorta_along.col(c) = aorta_along.col(c - 1) + (aorta[c] + aorta[c - 1]) / 2 * (aorta_p.col(c) - aorta_p.col(c - 1));
+  const auto in_sinus = [&](int side, const Eigen::Vector3f& p) {
+    const int at = std::min(model.ostium_cell[side], static_cast<int>(m) - 1);
+    const auto c = static_cast<float>(state.sinus_kg[side] / model.sinus_m3);
+    return Eigen::Vector3f(aorta_along.col(at) + c * (p - aorta_p.col(at)));
+  };
+  for (int c = 0; c < static_cast<int>(n); ++c) {
+    const FlowCell& cell = flow.tree.cells[c];
+    if (cell.upstream < 0) {
+      coronary_along.col(c) = in_sinus(cell.branch == model.coronary_branch[1], coronary_p.col(c));
+      continue;
+    }
+    const float mean = (coronary[c] + coronary[cell.upstream]) / 2;
+    coronary_along.col(c) =
+        coronary_along.col(cell.upstream) + mean * (coronary_p.col(c) - coronary_p.col(cell.upstream));
+  }
+  struct Sum {
+    float iodine = 0;
+    Eigen::Vector3f moment = Eigen::Vector3f::Zero(), along = Eigen::Vector3f::Zero();
+  };
+  const auto add = [&](const VertexSource& from, float weight, Sum& sum) {
     const bool is_coronary = from.part == VertexSource::coronary;
     const Eigen::Matrix3Xf& p = is_coronary ? coronary_p : aorta_p;
+    const Eigen::Matrix3Xf& counted = is_coronary ? coronary_along : aorta_along;
     const std::vector<float>& c = is_coronary ? coronary : aorta;
+    const Eigen::Vector3f centre = (1 - from.share) * p.col(from.below) + from.share * p.col(from.above);
+    Eigen::Vector3f so_far = (1 - from.share) * counted.col(from.below) + from.share * counted.col(from.above);
     float iodine = (1 - from.share) * c[from.below] + from.share * c[from.above];
-    if (from.part == VertexSource::left_sinus || from.part == VertexSource::right_sinus)
-      iodine = static_cast<float>(state.sinus_kg[from.part == VertexSource::right_sinus] / model.sinus_m3);
+    if (from.part == VertexSource::none) iodine = 0;
+    if (from.part == VertexSource::left_sinus || from.part == VertexSource::right_sinus) {
+      const int side = from.part == VertexSource::right_sinus;
+      iodine = static_cast<float>(state.sinus_kg[side] / model.sinus_m3);
+      so_far = in_sinus(side, centre);
+    }
     // A vertex without iodine needs a centre too: of those, any weight does.
     const float counts = weight * std::max(iodine, 1e-6F);
-    sum += counts;
-    moment += counts * ((1 - from.share) * p.col(from.below) + from.share * p.col(from.above));
+    sum.iodine += counts;
+    sum.moment += counts * centre;
+    sum.along += weight * so_far;
   };
   for (std::size_t v = 0; v < map.sources.size(); ++v) {
     const LumenMap::Vertex& from = map.sources[v];
-    float sum = 0;
-    Eigen::Vector3f moment = Eigen::Vector3f::Zero();
-    add(from.first, 1 - from.second_share, sum, moment);
-    if (from.second_share > 0) add(from.second, from.second_share, sum, moment);
-    iodine_kg_m3[v] = sum;
-    centres.col(static_cast<int>(v)) = sum > 0 ? Eigen::Vector3f(moment / sum) : Eigen::Vector3f::Zero();
+    Sum sum;
+    add(from.first, 1 - from.second_share, sum);
+    if (from.second_share > 0) add(from.second, from.second_share, sum);
+    iodine_kg_m3[v] = sum.iodine;
+    centres.col(static_cast<int>(v)) = sum.moment / sum.iodine;
+    along.col(static_cast<int>(v)) = sum.along;
   }
 }
 

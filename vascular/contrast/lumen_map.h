@@ -8,7 +8,8 @@
 
 namespace ostium {
 
-/// Between two neighbouring cells, of the coronaries or of the aorta; or a sinus.
+/// Between two neighbouring cells, of the coronaries or of the aorta; or a sinus. `none`: a vessel without contrast,
+/// that leaves the aorta at `below`.
 struct VertexSource {
   enum Part : unsigned char { none, coronary, aorta, left_sinus, right_sinus } part = none;
   int below = 0, above = 0;  ///< cells
@@ -31,13 +32,14 @@ LumenMap make_lumen_map(const Patient& patient, const FlowModel& flow);
 
 struct OpacityScratch {
   std::vector<float> coronary, aorta;
-  Eigen::Matrix3Xf coronary_p, aorta_p;
+  Eigen::Matrix3Xf coronary_p, aorta_p, coronary_along, aorta_along;
 };
 
 /// Iodine at each vertex, kg/m3, and the point of the centreline that it belongs to, metres, at a phase.
-/// `iodine`, `centres`: (#vertices). `radius_m`, `occupied_m`: of FlowInputs.
+/// `along`: the integral of concentration times the centreline's element up to that point, kg/m2 (fluoro/scene.h says
+/// what for). All (#vertices). `radius_m`, `occupied_m`: of FlowInputs.
 void opacify(const LumenMap& map, const FlowModel& flow, const FlowInputs& lumen, const ContrastModel& model,
              const ContrastState& state, double phase, std::span<float> iodine_kg_m3,
-             Eigen::Ref<Eigen::Matrix3Xf> centres, OpacityScratch& scratch);
+             Eigen::Ref<Eigen::Matrix3Xf> centres, Eigen::Ref<Eigen::Matrix3Xf> along, OpacityScratch& scratch);
 
 }  // namespace ostium
