@@ -31,7 +31,7 @@ std::string artery_of(const Plan& plan, const FlowTree& tree) {
 }
 
 std::string usual_view(const std::string& artery) {
-  return artery == "RCA" ? "lao" : artery == "LCx" ? "rao-caudal" : "rao-cranial";
+  return artery == "RCA" ? "lao" : artery == "LCx" ? "rao-caudal" : "lao-cranial";
 }
 
 constexpr double shown_s = 25;  // of the strips
