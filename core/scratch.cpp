@@ -81,6 +81,7 @@ void resize_nest(const Model& model, int lead, Nest& nest) {
   if (!model.surfaces.empty()) own.wall_force.resize(elements + 1), own.wall_slip.resize(elements + 1);
   resize_contact(model, elements, nest.contact);
   nest.depth.resize(elements + 1);
+  nest.nearness.resize(elements + 1);
   nest.tangent.resize(elements + 1);
   nest.bend.resize(elements + 1);
 }

@@ -380,7 +380,13 @@ void arrange(const Model& model, const std::vector<char>& was_in_body, State& st
     nest.moved = !lie_as_before(state, nest);
     for (int k = 0; k < nest.layer_count; ++k)
       if (nest.layers[k].end == 0) end_inside(nest, nest.layers[k]);
-    if (nest.moved) lay_layers(model, scratch, nest);
+    if (nest.moved) {
+      lay_layers(model, scratch, nest);
+      for (int e = 0; e < nest.s.inside.elements; ++e) {
+        const double length = nest.s.inside.length.at(0)[e];
+        nest.nearness.at(0)[e] = length / (length + tunables::bore_smooth_m);
+      }
+    }
     gather(state, scratch, nest);
     nest.s.chain.roll_count = nest.layer_count - 1;
     for (int k = 1; k < nest.layer_count; ++k) {

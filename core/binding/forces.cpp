@@ -12,6 +12,19 @@
 
 namespace ostium {
 
+void smoothen(const Nest& nest, int last, Field<3>& field) {
+  const double* near = nest.nearness.at(0);
+  V3<double> kept = load3<double>(field, 0);
+  for (int i = 1; i <= last; ++i) {
+    kept = madd(near[i - 1], load3<double>(field, i) - kept, kept);
+    store3(field, i, kept);
+  }
+  for (int i = last - 1; i >= 0; --i) {
+    kept = madd(near[i], load3<double>(field, i) - kept, kept);
+    store3(field, i, kept);
+  }
+}
+
 void find_centreline(Nest& nest) {
   const Rod& chain = nest.s.inside;
   const Field<4>& q = nest.own.orientation;
@@ -28,22 +41,6 @@ void find_centreline(Nest& nest) {
 }
 
 namespace {
-
-/// What bends a layer asks for pairs of opposite forces where curvature jumps, an element apart. Its clearance lets a
-/// real rod take a longer lever: spread over some of it.
-void smoothen(const Nest& nest, int last, Field<3>& force) {
-  const double* cell = nest.s.inside.joint_length.at(0);
-  const double* depth = nest.depth.at(0);
-  const auto follow = [&](int i, int from) {
-    const double step = std::fabs(depth[i] - depth[from]), part = step / (step + tunables::bore_smooth_m);
-    const V3<double> a = load3<double>(force, from);
-    store3(force, i, madd(part, load3<double>(force, i) - a, a));
-  };
-  for (int i = 0; i <= last; ++i) store3(force, i, (1 / cell[i]) * load3<double>(force, i));
-  for (int i = 1; i <= last; ++i) follow(i, i - 1);
-  for (int i = last - 1; i >= 0; --i) follow(i, i + 1);
-  for (int i = 0; i <= last; ++i) store3(force, i, cell[i] * load3<double>(force, i));
-}
 
 V3<double> across(const V3<double>& t, const V3<double>& v) { return madd(-dot(t, v), t, v); }
 
@@ -84,7 +81,15 @@ void find_layer_forces(const Model& model, Nest& nest) {
     for_packs(1, last + 1, [&]<class T>(T, int i) {
       store(layer.along.at(0) + i, dot(load3<T>(nest.tangent, i), load3<T>(layer.press, i)));
     });
+    // What bends it asks for pairs of opposite forces where curvature jumps, an element apart. Its clearance lets a
+    // real rod take a longer lever: spread over some of it.
+    for_packs(0, last + 1, [&]<class T>(T, int i) {
+      store3(layer.press, i, (1.0 / load<T>(chain.joint_length.at(0) + i)) * load3<T>(layer.press, i));
+    });
     smoothen(nest, last, layer.press);
+    for_packs(0, last + 1, [&]<class T>(T, int i) {
+      store3(layer.press, i, load<T>(chain.joint_length.at(0) + i) * load3<T>(layer.press, i));
+    });
 
     V3<double> d3_i = d3_beyond;
     for (int i = last; i >= 1; --i) {

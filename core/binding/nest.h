@@ -65,6 +65,8 @@ double rubbed_along(const Model& model, const Nest& nest, const Layer& layer, in
 void commit_slides(const Model& model, const Nest& nest, State& state);
 
 // --- forces.cpp ------------------------------------------------------------------------------------------------------
+/// Makes nodes 0 to last of a field smooth over tunables.h's length along the chain.
+void smoothen(const Nest& nest, int last, Field<3>& field);
 /// The chain's tangents and curvature; after the commit.
 void find_centreline(Nest& nest);
 /// Internal force of each layer, and what it exerts on its bore; after find_centreline.

@@ -83,9 +83,10 @@ struct Nest {
   RodScratch s;  ///< of the chain
   RodState own;  ///< the chain's, between arrange and take_apart
   ContactScratch contact;
-  Field<1> depth;    ///< m, (#nodes): from the introducer along the chain
-  Field<3> tangent;  ///< (#nodes), unit, and
-  Field<3> bend;     ///< 1/m, (#nodes), curvature vector: of the committed chain
+  Field<1> depth;     ///< m, (#nodes): from the introducer along the chain
+  Field<1> nearness;  ///< (#elements): how much of a node's own a smooth field keeps beside its neighbour, see smoothen
+  Field<3> tangent;   ///< (#nodes), unit, and
+  Field<3> bend;      ///< 1/m, (#nodes), curvature vector: of the committed chain
 };
 
 /// What is solved as one: a lone rod, or a nest.

@@ -35,18 +35,22 @@ void locate(const Rod& rod, const RodState& own, const Nest& nest, Layer& layer)
   }
 }
 
-/// Where the clearance lets the layer lie, pressed by its bore; in the middle at both ends.
+/// Where the clearance lets the layer lie, pressed by its bore: smooth along it, and in the middle at both ends.
 void find_lean(const Nest& nest, Layer& layer) {
   const int last = layer.covered;
   const double* depth = nest.depth.at(0);
   const double smooth = tunables::bore_smooth_m, reach = depth[last];
+  layer.room.at(0)[last] = layer.room.at(0)[last - 1];
+  for_packs(0, last + 1, [&]<class T>(T, int i) {
+    const V3<T> press = load3<T>(layer.press, i);
+    const T hard = tunables::leaning_N_m * load<T>(nest.s.inside.joint_length.at(0) + i);
+    const T share = load<T>(layer.room.at(0) + i) / (square_root(dot(press, press)) + hard);
+    store3(layer.lean, i, (T{} - share) * press);
+  });
+  smoothen(nest, last, layer.lean);
   for (int i = 0; i <= last; ++i) {
-    const V3<double> press = load3<double>(layer.press, i);
-    const double size = std::sqrt(dot(press, press));
-    const double hard = tunables::leaning_N_m * nest.s.inside.joint_length.at(0)[i];
     const double end = layer.end > 0 ? least(depth[i], reach - depth[i]) : depth[i];
-    const double share = least(end / smooth, 1.0) * layer.room.at(0)[std::min(i, last - 1)] / (size + hard);
-    store3(layer.lean, i, -share * press);
+    store3(layer.lean, i, least(end / smooth, 1.0) * load3<double>(layer.lean, i));
   }
 }
 

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -140,6 +141,39 @@ TEST(Nesting, AtRestTheBasesBearTheWeightOfBoth) {
   EXPECT_NEAR(borne.z() / weight, 1, 0.005);
   EXPECT_NEAR(borne.x() / weight, 0, 0.005);
   EXPECT_GT(state.rods[1].contact_force[100].norm(), 0);
+}
+
+// Four rods share one centreline: as stiff as their sum, as curved as their mean by stiffness.
+TEST(Nesting, FourRodsBendAsOne) {
+  const double EI[] = {4e-3, 2e-3, 1e-3, 5e-4}, k[] = {5, 0, 20, -10}, radius[] = {1.6e-3, 1.2e-3, 0.8e-3, 0.4e-3};
+  Model model;
+  double stiffness = 0, moment = 0;
+  for (int i = 0; i < 4; ++i) {
+    RodDescription d = rod(0.2 + 0.01 * i, EI[i], radius[i], i < 3 ? radius[i] - 0.3e-3 : 0, 100);
+    d.sections[0].rest_curvature_per_m = {0, k[i], 0};
+    d.damping = {1, 0.5, 1e-3};
+    model.rods.push_back(make_rod(d));
+    stiffness += EI[i], moment += EI[i] * k[i];
+  }
+  model.nestings = coaxial({0, 1, 2, 3});
+  model.gravity_W.setZero();
+  State state = make_state(model, std::vector<EndState>(4, along_x()));
+  Scratch scratch(model);
+  StepReport report;
+  Inputs inputs;
+  inputs.rods.resize(4);
+  for (int n = 0; n < 3000; ++n) {
+    step(model, inputs, state, scratch, report);
+    ASSERT_EQ(report.trouble, 0u) << n;
+  }
+  for (int r = 0; r < 4; ++r) {
+    const auto frame = [&](int j) {
+      const Eigen::Vector4d q = state.rods[r].orientation[j];
+      return Eigen::Quaterniond(q[0], q[1], q[2], q[3]);
+    };
+    const double length = model.rods[r].node_from_tip_m[40] - model.rods[r].node_from_tip_m[60];
+    EXPECT_NEAR(frame(40).angularDistance(frame(60)) / length / (moment / stiffness), 1, 0.005) << r;
+  }
 }
 
 // Drawn back over a held wire, without friction, a straight catheter leaves it where it is.
