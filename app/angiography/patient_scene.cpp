@@ -1,53 +1,10 @@
 #include "app/angiography/patient_scene.h"
 
+#include "app/angiography/xray_body.h"
 #include "fluoro/tissue.h"
 #include "vascular/beat/heart_cycle.h"
 
 namespace ostium {
-
-namespace {
-
-Tissue tissue_of(BodyTissue tissue) {
-  switch (tissue) {
-    case BodyTissue::air:
-      return tissue::air;
-    case BodyTissue::soft_tissue:
-      return tissue::soft;
-    case BodyTissue::lung:
-      return tissue::lung;
-    case BodyTissue::blood:
-      return tissue::blood;
-    case BodyTissue::cortical_bone:
-      return tissue::cortical_bone;
-    case BodyTissue::spongy_bone:
-      return tissue::spongy_bone;
-  }
-  return tissue::soft;
-}
-
-std::shared_ptr<const Triangles> triangles_of(const std::vector<std::array<int, 3>>& triangles) {
-  auto out = std::make_shared<Triangles>(3, triangles.size());
-  for (std::size_t t = 0; t < triangles.size(); ++t)
-    for (int k = 0; k < 3; ++k) (*out)(k, static_cast<Eigen::Index>(t)) = triangles[t][static_cast<std::size_t>(k)];
-  return out;
-}
-
-Eigen::Matrix3Xf points_of(const std::vector<Eigen::Vector3d>& points) {
-  Eigen::Matrix3Xf out(3, static_cast<Eigen::Index>(points.size()));
-  for (std::size_t i = 0; i < points.size(); ++i) out.col(static_cast<Eigen::Index>(i)) = points[i].cast<float>();
-  return out;
-}
-
-Body body_of(const XrayBody& from) {
-  return {.name = from.name,
-          .triangles = triangles_of(from.mesh.triangles),
-          .p_P = points_of(from.mesh.vertices),
-          .tissue = tissue_of(from.tissue),
-          .within = tissue_of(from.within),
-          .contrast = {}};
-}
-
-}  // namespace
 
 PatientScene::PatientScene(const Patient& patient, const PhysiologyModel& physiology)
     : patient_(patient),

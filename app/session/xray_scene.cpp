@@ -4,6 +4,7 @@
 #include <map>
 #include <numbers>
 
+#include "app/angiography/xray_body.h"
 #include "core/rod/introducer.h"
 #include "fluoro/phantom/shapes.h"
 #include "fluoro/tissue.h"
@@ -54,46 +55,6 @@ OpaqueSection section(const Instrument& instrument, double from_m, double to_m, 
   return {from_m, to_m, material_of(material), radius, inner, ring > 0 ? area / ring : 0};
 }
 
-Tissue tissue_of(BodyTissue tissue) {
-  switch (tissue) {
-    case BodyTissue::air:
-      return tissue::air;
-    case BodyTissue::soft_tissue:
-      return tissue::soft;
-    case BodyTissue::lung:
-      return tissue::lung;
-    case BodyTissue::blood:
-      return tissue::blood;
-    case BodyTissue::cortical_bone:
-      return tissue::cortical_bone;
-    case BodyTissue::spongy_bone:
-      return tissue::spongy_bone;
-  }
-  return tissue::soft;
-}
-
-std::shared_ptr<const Triangles> triangles_of(const std::vector<std::array<int, 3>>& triangles) {
-  auto out = std::make_shared<Triangles>(3, static_cast<Eigen::Index>(triangles.size()));
-  for (std::size_t t = 0; t < triangles.size(); ++t)
-    for (int k = 0; k < 3; ++k) (*out)(k, static_cast<Eigen::Index>(t)) = triangles[t][static_cast<std::size_t>(k)];
-  return out;
-}
-
-Eigen::Matrix3Xf points_of(const std::vector<Vector3d>& vertices) {
-  Eigen::Matrix3Xf out(3, static_cast<Eigen::Index>(vertices.size()));
-  for (std::size_t v = 0; v < vertices.size(); ++v) out.col(static_cast<Eigen::Index>(v)) = vertices[v].cast<float>();
-  return out;
-}
-
-Body body_of(const XrayBody& body, std::shared_ptr<const Triangles> triangles, double contraction) {
-  return {.name = body.name,
-          .triangles = std::move(triangles),
-          .p_P = points_of(at(body, contraction, 0).vertices),
-          .tissue = tissue_of(body.tissue),
-          .within = tissue_of(body.within),
-          .contrast = {}};
-}
-
 }  // namespace
 
 std::vector<Shaft> shafts_of(const SessionModel& model, const SessionState& state) {
@@ -125,7 +86,7 @@ XrayPatient::XrayPatient(std::shared_ptr<const Patient> patient, Fill which) : p
   for (XrayBody& body : make_thorax(patient_->anatomy)) {
     std::shared_ptr<const Triangles> triangles = triangles_of(body.mesh.triangles);
     if (body.beat.empty()) {
-      fixed->push_back(body_of(body, triangles, 0));
+      fixed->push_back(body_of(body, triangles, body.mesh.vertices));
     } else {
       moving_triangles_.push_back(triangles);
       moving_.push_back(std::move(body));
@@ -188,7 +149,8 @@ void XrayPatient::fill(Fill which) {
 Scene XrayPatient::at(double phase) const {
   Scene scene{fixed_, {}, {}};
   for (std::size_t b = 0; b < moving_.size(); ++b)
-    scene.moving.push_back(body_of(moving_[b], moving_triangles_[b], contraction(phase)));
+    scene.moving.push_back(
+        body_of(moving_[b], moving_triangles_[b], ostium::at(moving_[b], contraction(phase), 0).vertices));
   if (filled_.vertices.empty()) return scene;
   const Mesh lumen = patient_->lumen.at(phase, 0);
   std::vector<Vector3d> vertices;
