@@ -2,6 +2,7 @@
 #include "data/case.h"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
@@ -94,7 +95,14 @@ TEST(Case, OtherMistakesAreNamed) {
 
 /// A straight tube of ours as an imported case, in a folder of its own.
 fs::path imported_case(const std::string& lumen_name = "lumen.ply") {
-  const fs::path folder = fs::path(testing::TempDir()) / "mine";
+  static const struct Place {
+    fs::path path = fs::path(testing::TempDir()) / ("ostium-case-" + std::to_string(getpid()));
+    ~Place() {
+      std::error_code error;
+      fs::remove_all(path, error);
+    }
+  } place;
+  const fs::path folder = place.path / "mine";
   fs::create_directories(folder);
   Anatomy anatomy;
   anatomy.aorta = false;

@@ -1,6 +1,7 @@
 #include "data/dicom.h"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <array>
 #include <cstdio>
@@ -45,7 +46,9 @@ CineRun ramp(std::size_t frames, int width, int height) {
   return out;
 }
 
-std::string file_for(const std::string& name) { return (std::filesystem::temp_directory_path() / name).string(); }
+std::string file_for(const std::string& name) {
+  return (std::filesystem::temp_directory_path() / (std::to_string(getpid()) + "-" + name)).string();
+}
 
 TEST(Dicom, OneFrameAndManyPassTheStandardsValidator) {
   if (!there_is("dciodvfy")) GTEST_SKIP() << "dciodvfy (dicom3tools) is not installed";

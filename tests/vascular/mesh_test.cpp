@@ -2,6 +2,7 @@
 #include "vascular/mesh.h"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
@@ -13,7 +14,7 @@ namespace ostium {
 namespace {
 
 std::string temporary(const std::string& name) {
-  return (std::filesystem::path(testing::TempDir()) / ("ostium_" + name)).string();
+  return (std::filesystem::path(testing::TempDir()) / ("ostium_" + std::to_string(getpid()) + "_" + name)).string();
 }
 
 std::string written(const std::string& name, const std::string& text) {
