@@ -1,23 +1,14 @@
 /// Which rods are a nest, and its chain: put together before a step, taken apart after.
 #include <algorithm>
-#include <cmath>
-#include <variant>
 
 #include "core/binding/nest.h"
 #include "core/math/rotation.h"
 #include "core/rod/introducer.h"
-#include "core/rod/iterate.h"
 #include "core/tunables.h"
 
 namespace ostium {
 
 namespace {
-
-// Fractions of an element at which it leaves the rod around it and goes back; apart, so that a trembling hand does not
-// change elements.
-constexpr double leaves_at = 0.6, returns_at = 0.4;
-
-double norm(const V3<double>& v) { return std::sqrt(dot(v, v)); }
 
 bool is_nested(const Model& model, int outer, int inner) {
   return std::any_of(model.nestings.begin(), model.nestings.end(),
@@ -51,190 +42,6 @@ void find_strands(const Model& model, State& state, Scratch& scratch) {
   }
 }
 
-/// Element j of a rod turned so that its tangent lies along `chord`.
-void swing(const V3<double>& chord, int j, RodState& s) {
-  const Q4<double> q = load4<double>(s.orientation, j);
-  const Eigen::Quaterniond onto = Eigen::Quaterniond::FromTwoVectors(to_eigen(director3(q)), to_eigen(chord));
-  store4(s.orientation, j, from_eigen((onto * to_eigen(q)).normalized()));
-}
-
-/// The first element of a rod that protrudes by `length_m` from those around it; N: too little does.
-int first_exposed(const Rod& rod, const RodState& s, double length_m) {
-  const int N = rod.elements;
-  const auto own = [&](int i) { return rod.length.at(0)[i]; };
-  const auto beyond = [&](int i) { return length_m - rod.node_from_tip_m[i + 1]; };
-  int j = static_cast<int>(s.exposed);
-  if (j >= N) {
-    if (length_m < leaves_at * own(N - 1)) return N;
-    j = N - 1;
-  }
-  while (j > first_element(s) && beyond(j) > own(j) + leaves_at * own(j - 1)) --j;
-  while (j < N && beyond(j) < returns_at * own(j)) ++j;
-  return j;
-}
-
-/// What protrudes begins at `root`: its frames follow the elements that have left or gone back.
-void expose(const Rod& rod, int first, double length_m, const V3<double>& root, RodState& s) {
-  const int before = static_cast<int>(s.exposed), N = rod.elements;
-  s.exposed = first;
-  if (first == N) return;
-  const V3<double> chord = load3<double>(s.position, first + 1) - root;
-  if (std::fabs(norm(chord) - length_m) > tunables::torn_part * rod.length.at(0)[first]) {
-    // Rods that were laid out without each other: what protrudes is moved to where it leaves.
-    V3<double> p = root;
-    for (int j = first; j < N; ++j) {
-      p = madd(j == first ? length_m : rod.length.at(0)[j], director3(load4<double>(s.orientation, j)), p);
-      for (Field<3>* f : {&s.position, &s.position_before}) store3(*f, j + 1, p);
-    }
-    return;
-  }
-  if (first == before) return;
-  swing(chord, first, s);
-  for (int j = first + 1; j <= before && j < N; ++j)
-    swing(load3<double>(s.position, j + 1) - load3<double>(s.position, j), j, s);
-}
-
-/// An outer rod that has just come into the body lies along the rod that it came over.
-void lay_over(const Rod& inside, const Rod& inner, const RodState& along, RodState& s) {
-  int j = first_element(along);
-  double depth = 0, length = along.inserted_m - inner.node_from_tip_m[j + 1];
-  for (int i = inside.first; i <= inside.elements; ++i) {
-    const double at = i == inside.first ? 0 : inside.total_length_m - inside.node_from_tip_m[i];
-    while (j + 1 < inner.elements && at > depth + length) depth += length, ++j, length = inner.length.at(0)[j];
-    const double part = (at - depth) / length;
-    const auto mix = [&](const Field<3>& f) {
-      return madd(part, load3<double>(f, j + 1) - load3<double>(f, j), load3<double>(f, j));
-    };
-    store3(s.position, i, mix(along.position));
-    store3(s.position_before, i, mix(along.position_before));
-    store3(s.velocity, i, mix(along.velocity));
-    store3(s.velocity_before, i, mix(along.velocity_before));
-  }
-  for (int i = inside.first; i < inside.elements; ++i)
-    swing(load3<double>(s.position, i + 1) - load3<double>(s.position, i), i, s);
-}
-
-void set_joint_lengths(Rod& rod) {
-  for (int i = 0; i <= rod.elements; ++i) {
-    const double behind = i > 0 ? rod.length.at(0)[i - 1] / 2 : 0,
-                 ahead = i < rod.elements ? rod.length.at(0)[i] / 2 : 0;
-    rod.joint_length.at(0)[i] = behind + ahead;
-  }
-}
-
-/// Elements of all spans: their lengths, and where their nodes are along the chain.
-void lay_spans(const Model& model, Scratch& scratch, State& state, Nest& nest) {
-  nest.spans.clear();
-  Rod& chain = nest.s.inside;
-  double reach = 0;
-  int at = 0;
-  for (std::size_t k = 0; k < nest.members.size(); ++k) {
-    const int r = nest.members[k];
-    const Rod& rod = k == 0 ? scratch.rods[r].inside : model.rods[r];
-    RodState& own = state.rods[r];
-    Layer& layer = nest.layers[k];
-    layer.fed_m = scratch.fed_m[r];
-    layer.rod = r, layer.roll = static_cast<int>(k) - 1, layer.inserted_m = own.inserted_m;
-    layer.covered = at;
-    if (k == 0) {
-      own.exposed = own.first;
-      layer.inserted_m = rod.total_length_m;
-    } else {
-      const double protrudes = own.inserted_m - reach;
-      const int first = first_exposed(rod, own, protrudes);
-      const int root = nest.spans.back().rod;
-      const V3<double> tip = load3<double>(state.rods[root].position, model.rods[root].elements);
-      expose(rod, first, first < rod.elements ? protrudes - rod.node_from_tip_m[first + 1] : 0, tip, own);
-    }
-    const int first = static_cast<int>(own.exposed), count = rod.elements - first;
-    layer.end = at + count;
-    if (count == 0) {
-      layer.end = 0;
-      continue;
-    }
-    nest.spans.push_back({r, first, at, count});
-    copy_entries(rod.length, first, rod.elements, chain.length, at);
-    if (k > 0) chain.length.at(0)[at] = own.inserted_m - reach - rod.node_from_tip_m[first + 1];
-    double depth = reach;
-    for (int e = at; e < at + count; ++e) {
-      nest.depth.at(0)[e] = depth;
-      depth += chain.length.at(0)[e];
-    }
-    nest.depth.at(0)[at + count] = reach = layer.inserted_m;
-    at += count;
-  }
-  chain.first = 0, chain.elements = at;
-  chain.total_length_m = reach;
-  nest.layer_count = static_cast<int>(nest.members.size());
-  set_joint_lengths(chain);
-}
-
-/// Where a rod lies wholly inside others: as far as it has a share in joints.
-void end_inside(const Nest& nest, Layer& layer) {
-  const int elements = nest.s.inside.elements;
-  const auto middle = [&](int e) { return (nest.depth.at(0)[e] + nest.depth.at(0)[e + 1]) / 2; };
-  int last = 0;
-  while (last + 1 < elements && middle(last) < layer.inserted_m) ++last;
-  layer.covered = last + 1, layer.end = 0;
-}
-
-/// Stiffness that a layer has in a joint of which it reaches into a part only, behind which the others go on: in series
-/// with theirs.
-Eigen::Vector3d partial(const Nest& nest, int k, int i, double part, const Eigen::Vector3d& own) {
-  Eigen::Vector3d others = Eigen::Vector3d::Zero();
-  for (int o = 0; o < k; ++o) {
-    if (i >= std::max(nest.layers[o].end, nest.layers[o].covered)) continue;
-    const S3<double> C = std::visit(
-        [&](const auto& law) { return law.template operator()<double>(V3<double>{}, i).tangent; }, nest.layers[o].law);
-    others += Eigen::Vector3d(C.xx, C.yy, C.zz);
-  }
-  Eigen::Vector3d out = part * own.cwiseProduct(others).cwiseQuotient(others + (1 - part) * own);
-  out.z() = part * own.z();  // it twists by itself
-  return out;
-}
-
-/// Cells of the chain that are not cells of the rod: joints and nodes 0 to last of a layer.
-void cut_cells(const Rod& rod, int last, Nest& nest, int k) {
-  Layer& layer = nest.layers[k];
-  const Rod& chain = nest.s.inside;
-  std::size_t hint = rod.sections.size() - 1;
-  const auto stretch = [&](double from_depth, double to_depth) {
-    const double a = std::max(0.0, layer.inserted_m - to_depth), b = layer.inserted_m - from_depth;
-    while (hint > 0 && rod.sections[hint].from_tip_m > a) --hint;
-    return integrate(rod.sections, a, std::max(a, b), hint);
-  };
-  for (int i = 0; i <= last; ++i) {
-    const double behind = i > 0 ? chain.length.at(0)[i - 1] / 2 : 0, length = chain.joint_length.at(0)[i];
-    const double from = nest.depth.at(0)[i] - behind;
-    const SectionIntegrals cell = stretch(from, from + length);
-    const double part = std::clamp((layer.inserted_m - from) / length, tunables::least_cover, 1.0);
-    layer.mass.at(0)[i] = cell.mass;
-    Eigen::Vector3d compliance = cell.compliance, rest = cell.rest_angle / (part * length);
-    if (part < 1) {
-      const SectionIntegrals tip = integrate(rod.sections, 0, part * length);
-      rest = tip.rest_angle / (part * length);
-      compliance = length * partial(nest, k, i, part, part * length * tip.compliance.cwiseInverse()).cwiseInverse();
-    }
-    layer.rest.set(i, rest);
-    std::visit([&](auto& law) { law.set_cell(i, length, compliance); }, layer.law);
-  }
-  hint = rod.sections.size() - 1;
-  for (int e = 0; e < layer.covered; ++e) {
-    const SectionIntegrals element = stretch(nest.depth.at(0)[e], nest.depth.at(0)[e + 1]);
-    layer.polar.at(0)[e] = element.polar_inertia;
-    nest.s.inside.rotary_inertia.at(0)[e] += element.transverse_inertia;
-  }
-}
-
-void copy_law(const MomentLaw& from, int begin, int end, MomentLaw& to, int at) {
-  std::visit(
-      [&](auto& law) {
-        using Law = std::decay_t<decltype(law)>;
-        law.copy(std::get<Law>(from), begin, end, at);
-      },
-      to);
-}
-
 /// Whether the rods lie against each other as they did; where they are, and what their cells have, follows from
 /// this alone.
 bool lie_as_before(const State& state, Nest& nest) {
@@ -250,37 +57,6 @@ bool lie_as_before(const State& state, Nest& nest) {
     nest.laid[k] = now;
   }
   return same;
-}
-
-/// What each rod has, cell by cell.
-void lay_layers(const Model& model, const Scratch& scratch, Nest& nest) {
-  Rod& chain = nest.s.inside;
-  for (int k = 0; k < nest.layer_count; ++k) {
-    Layer& layer = nest.layers[k];
-    const Rod& rod = k == 0 ? scratch.rods[layer.rod].inside : model.rods[layer.rod];
-    layer.damping_s = rod.damping.material_time_s;
-    layer.viscous = layer.damping_s / nest.step_s;
-    const bool protrudes = layer.end > 0;
-    // From here on the cells are the rod's own.
-    int own = layer.covered < chain.elements ? layer.covered - 1 : chain.elements;
-    if (protrudes) {
-      const int first = rod.elements - (layer.end - layer.covered);
-      copy_entries(rod.rotary_inertia, first, rod.elements, chain.rotary_inertia, layer.covered);
-      copy_entries(rod.radius, first + (k > 0), rod.elements + 1, chain.radius, layer.covered + (k > 0));
-      const int from = k == 0 ? 0 : std::min(layer.covered + 2, layer.end + 1);  // joints
-      own = from - 1;
-      copy_entries(rod.rest_curvature, first + from - layer.covered, rod.elements + 1, layer.rest, from);
-      copy_entries(rod.mass, first + from - layer.covered, rod.elements + 1, layer.mass, from);
-      copy_law(rod.law, first + from - layer.covered, rod.elements + 1, layer.law, from);
-    }
-    if (k > 0) cut_cells(rod, own, nest, k);
-    const int nodes = own + 1;
-    if (k == 0)
-      copy_entries(layer.mass, 0, layer.end + 1, chain.mass, 0);
-    else
-      for (int i = 0; i <= std::max(nodes - 1, layer.end); ++i)
-        chain.mass.at(0)[i] = (i > layer.covered && layer.end > 0 ? 0 : chain.mass.at(0)[i]) + layer.mass.at(0)[i];
-  }
 }
 
 /// A span's part of the rod's fields.

@@ -40,6 +40,18 @@ NodeOfRod node_of_rod(const Strand& strand, int i);
 /// Distance from the introducer to the middle of a rod's element j, m; `reach_m`: where it leaves the rods around it.
 double middle_of_own(const Rod& rod, const RodState& state, int j, double reach_m);
 
+// --- spans.cpp -------------------------------------------------------------------------------------------------------
+/// An outer rod that has just come into the body is laid along the rod that it came over.
+void lay_over(const Rod& inside, const Rod& inner, const RodState& along, RodState& state);
+/// The spans of a nest: the lengths of their elements, and where their nodes are along the chain.
+void lay_spans(const Model& model, Scratch& scratch, State& state, Nest& nest);
+
+// --- cells.cpp -------------------------------------------------------------------------------------------------------
+/// How far a rod has a share in joints that lies wholly inside others.
+void end_inside(const Nest& nest, Layer& layer);
+/// Mass, inertia, stiffness and rest curvature of all layers, cell by cell.
+void lay_layers(const Model& model, const Scratch& scratch, Nest& nest);
+
 // --- layers.cpp ------------------------------------------------------------------------------------------------------
 /// Frames of the inner rods, and how they are expected to turn in this step; after predict_elements.
 void predict_layers(const State& state, Nest& nest);
