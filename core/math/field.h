@@ -11,8 +11,13 @@
 namespace ostium {
 
 /// Storage length for `count` entries: whole registers, and four entries of padding behind them that no kernel touches
-/// but the chain solver.
-inline int padded(int count) { return (count + lane_count - 1) / lane_count * lane_count + lane_count; }
+/// but the chain solver. Not about a whole number of pages, where the components of an entry would compete for the same
+/// lines of a cache.
+inline int padded(int count) {
+  const int page = 4096 / sizeof(double), apart = page / 8;
+  const int whole = (count + lane_count - 1) / lane_count * lane_count + lane_count;
+  return whole % page < apart && whole > page ? whole + apart : whole;
+}
 
 /// `size()` entries of K doubles. Component c of entry i is `at(c)[i]`, with i < stride(). Allocates in `resize` only.
 template <int K>
