@@ -15,6 +15,7 @@ enum class ConditionKind {
   tip_leaves,
   tip_in,
   tip_points,
+  tip_faces,
   tip_drops,
   fed,
   inserted,
@@ -32,7 +33,7 @@ struct ScriptCondition {
   ConditionKind kind = ConditionKind::seconds;
   int tool = 0;                                           ///< of Script::tools
   double value = 0;                                       ///< SI: m, rad, N, N m, s, beats
-  std::string place;                                      ///< of tip_passes, tip_leaves, tip_in
+  std::string place;                                      ///< of tip_passes, tip_leaves, tip_in, tip_faces
   Eigen::Vector3d direction_P = Eigen::Vector3d::Zero();  ///< of tip_points, unit; `value` is the angle
   std::string words;                                      ///< as the file has it, for people: "tip_passes arch"
   int line = 0;                                           ///< where it stands

@@ -30,6 +30,7 @@ constexpr Kind kinds[] = {{"tip_passes", ConditionKind::tip_passes, 0},
                           {"tip_leaves", ConditionKind::tip_leaves, 0},
                           {"tip_in", ConditionKind::tip_in, 0},
                           {"tip_points", ConditionKind::tip_points, 0},
+                          {"tip_faces", ConditionKind::tip_faces, 0},
                           {"tip_drops_mm", ConditionKind::tip_drops, 1e-3},
                           {"fed_mm", ConditionKind::fed, 1e-3},
                           {"inserted_mm", ConditionKind::inserted, 1e-3},
@@ -86,16 +87,18 @@ ScriptCondition read_condition(const JsonValue& value, const Script& script, con
     const std::vector<std::string> names = {"left", "right", "head", "feet", "front", "back"};
     const std::size_t n = object.choice("tip_points", names);
     c.direction_P[static_cast<Eigen::Index>(n / 2)] = n % 2 ? -1 : 1;
-    if (!object.has("within_deg"))
-      value.fail(value.path + ".within_deg is missing; expected how exactly, in degrees, > 0 and at most 90");
-    c.value = degree * object.positive("within_deg");
-    if (object.number("within_deg") > 90) object.refuse("within_deg");
     c.words = "tip_points " + names[n];
   } else {
     c.place = object.text(found->key);
     c.words = fmt::format("{} {}", found->key, c.place);
   }
-  if (object.has("within_deg") && c.kind != ConditionKind::tip_points) object.refuse("within_deg");
+  const bool of_angle = c.kind == ConditionKind::tip_points || c.kind == ConditionKind::tip_faces;
+  if (of_angle) {
+    if (!object.has("within_deg"))
+      value.fail(value.path + ".within_deg is missing; expected how exactly, in degrees, > 0 and at most 90");
+    c.value = degree * object.positive("within_deg");
+  }
+  if (object.has("within_deg") && (!of_angle || object.number("within_deg") > 90)) object.refuse("within_deg");
   if (tools.empty() ? object.has("of") : c.tool != tools.front()) c.words += " of " + script.tools[c.tool].name;
   return c;
 }

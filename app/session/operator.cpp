@@ -19,7 +19,7 @@ std::vector<int> places(const Script& script, const std::vector<ScriptCondition>
   std::vector<int> out;
   for (const ScriptCondition& c : conditions) {
     int place = -1;
-    if (c.kind == ConditionKind::tip_in) {
+    if (c.kind == ConditionKind::tip_in || c.kind == ConditionKind::tip_faces) {
       place = way.entry(c.place);
     } else if (c.kind == ConditionKind::tip_passes || c.kind == ConditionKind::tip_leaves) {
       for (const ScriptLandmark& landmark : script.landmarks)
@@ -84,6 +84,8 @@ struct Sight {
         return !tool.in_body || !model.vessel->way->beyond(tip_sphere(c.tool), place);
       case ConditionKind::tip_points:
         return tip_direction(model, session, c.tool).dot(c.direction_P) >= std::cos(c.value);
+      case ConditionKind::tip_faces:
+        return faces(c.tool, place, std::cos(c.value));
       case ConditionKind::tip_drops:
         return dropped_m(c.tool) >= c.value;
       case ConditionKind::fed:
@@ -108,6 +110,13 @@ struct Sight {
         return session.heart.beats + session.heart.phase - state.began_beats >= c.value;
     }
     return false;
+  }
+
+  /// Round the vessel, seen along it, does the tip point to where a branch leaves?
+  bool faces(int tool, int branch, double cosine) const {
+    const Way::Departure it = model.vessel->way->departure(branch, session.heart.phase);
+    const Vector3d points = tip_direction(model, session, tool), round = points - points.dot(it.along) * it.along;
+    return round.dot(it.side) >= cosine * round.norm() && it.side.norm() > 0;
   }
 
   /// How far the tip went since the oldest note beyond what the hand moved.

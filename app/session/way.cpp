@@ -1,5 +1,6 @@
 #include "app/session/way.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <limits>
@@ -78,6 +79,19 @@ std::size_t Way::frame_at(double phase) const {
 Vector3d Way::p(int sphere, double phase) const {
   const Node& node = nodes_[static_cast<std::size_t>(sphere)];
   return frames_[frame_at(phase)].branches[static_cast<std::size_t>(node.branch)].spheres[node.in_branch].p;
+}
+
+Way::Departure Way::departure(int sphere, double phase) const {
+  const std::vector<TreeBranch>& all = frames_[frame_at(phase)].branches;
+  const TreeBranch& it = all[static_cast<std::size_t>(branch(sphere))];
+  if (it.parent < 0) return {};
+  const std::vector<TreeSphere>& parent = all[static_cast<std::size_t>(it.parent)].spheres;
+  const int from = it.parent_sphere, last = static_cast<int>(parent.size()) - 1;
+  const Vector3d along = (parent[std::min(from + 1, last)].p - parent[std::max(from - 1, 0)].p).normalized();
+  int out = offset_[static_cast<std::size_t>(branch(sphere))];
+  while (nodes_[static_cast<std::size_t>(out)].inside_parent) ++out;
+  const Vector3d to = p(out, phase) - parent[from].p;
+  return {along, (to - to.dot(along) * along).normalized()};
 }
 
 int Way::locate(const Vector3d& point, double phase) const {

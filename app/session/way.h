@@ -29,6 +29,11 @@ class Way {
   int place(const std::string& name) const;
   /// Where a branch begins for an instrument that comes from the access; -1: there is none.
   int entry(const std::string& branch) const;
+  /// Where a branch leaves its parent: the parent's direction there, either way, and, square to it, the side; unit.
+  struct Departure {
+    Eigen::Vector3d along = Eigen::Vector3d::Zero(), side = Eigen::Vector3d::Zero();  ///< zero: it has no parent
+  };
+  Departure departure(int sphere, double phase) const;  ///< of the branch that a sphere belongs to
   int nearest(const Eigen::Vector3d& p) const;  ///< the sphere with the nearest middle, at end-diastole
   std::vector<std::string> places() const;      ///< names that `place` knows
   Eigen::Vector3d p(int sphere, double phase) const;

@@ -57,6 +57,8 @@ std::vector<GateResult> anatomy_angles(bool quick);
 std::vector<GateResult> anatomy_dodge(bool quick);
 std::vector<GateResult> anatomy_motion(bool quick);
 std::vector<GateResult> anatomy_surface(bool quick);
+// --- instruments in the anatomy -----------------------------------------------------------------------------------
+std::vector<GateResult> engagement(bool quick);
 // --- what lives and what is done ---------------------------------------------------------------------------------
 std::vector<GateResult> flow(bool quick);
 std::vector<GateResult> contrast(bool quick);

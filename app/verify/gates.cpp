@@ -25,6 +25,7 @@ const std::vector<Gate>& gates() {
       {"anatomy-dodge", "coronary points in eight views, against Dodge 1988", anatomy_dodge},
       {"anatomy-motion", "speeds and rest of the arteries, against Mao 2000 and Wang 1999", anatomy_motion},
       {"anatomy-surface", "the beating surface, closed and uncrossed; tree radii against it", anatomy_surface},
+      {"engagement", "guides turned and drawn back in the aortic root: share of people whose ostia they find", engagement},
       {"flow", "blood in tubes and arteries, pressures and ST, against closed forms and published velocities", flow},
       {"contrast", "iodine balance and split; TIMI frame counts of rendered frames, against Gibson 1996", contrast},
       {"treatment", "balloons against their charts, stents in five cases against what is published", treatment},

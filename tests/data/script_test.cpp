@@ -79,6 +79,9 @@ TEST(Script, MistakesAreNamedByLine) {
   expect_words(refusal("\"otherwise\": \"up\"", "\"otherwise\": \"down\""), {"small.json:11:", "the label of a step"});
   expect_words(refusal("\"tries\": 2", "\"tries\": 0"), {"small.json:11:", "1 to 100"});
   expect_words(refusal(", \"within_deg\": 20", ""), {"small.json:12:", "within_deg is missing"});
+  expect_words(refusal("\"tip_points\": \"left\", \"within_deg\": 20", "\"tip_faces\": \"RCA\""),
+               {"small.json:12:", "within_deg is missing"});
+  EXPECT_EQ(refusal("\"tip_points\": \"left\"", "\"tip_faces\": \"RCA\""), "accepted");
   expect_words(refusal("{ \"seconds\": 3 }", "{ \"seconds\": 3, \"beats\": 2 }"),
                {"small.json:10:", "both seconds and beats"});
   expect_words(refusal("{ \"seconds\": 3 }", "{ }"), {"small.json:10:", "says nothing to look at"});

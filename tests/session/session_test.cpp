@@ -277,6 +277,10 @@ TEST(Way, KnowsWhatIsBeyondWhat) {
   EXPECT_FALSE(way.beyond(at(0.05, 0.01), far));
   EXPECT_TRUE(way.beyond(at(0.05, 0.03), middle));
   EXPECT_EQ(way.branch(at(0.05, 0.003)), 0) << "within the trunk";
+  const Way::Departure leaves = way.departure(far, 0);
+  EXPECT_NEAR(std::fabs(leaves.along.x()), 1, 1e-9);
+  EXPECT_NEAR(leaves.side.y(), 1, 1e-9);
+  EXPECT_TRUE(way.departure(middle, 0).side.isZero()) << "a trunk leaves nothing";
   EXPECT_EQ(way.place("trunk"), at(0.1, 0)) << "for whom comes from the access";
   for (const char* none : {"twig", "branch+", "branch+500", "branch+x", "branch-3"})
     EXPECT_EQ(way.place(none), -1) << none;

@@ -1,0 +1,111 @@
+/// Guides in the aortic root: whether they find the ostia as they do in people (JR4 and JL4), and go where Amplatz's
+/// goes. The scripts of data/scripts are run with everything that a session has; mirrored turns must fail.
+#include <cmath>
+#include <numbers>
+
+#include "app/session/run.h"
+#include "app/verify/gate.h"
+
+namespace ostium::verify {
+
+namespace {
+
+constexpr double per_mm = 1e3, degree = std::numbers::pi / 180;
+constexpr int people = 10;
+
+/// What a guide did in one step of a script.
+struct Manoeuvre {
+  bool begun = false, done = false;
+  double fed_m = 0, turned_rad = 0;  ///< since the step began
+};
+
+int step_named(const Script& script, const std::string& label) {
+  for (std::size_t s = 0; s < script.steps.size(); ++s)
+    if (script.steps[s].label == label) return static_cast<int>(s);
+  return -1;
+}
+
+RunSetup setup_of(const std::string& script, int person) {
+  RunSetup setup;
+  set_vessel("rca-mid-focal", {}, setup);
+  set_script(find_script(script), setup);
+  set_value("person", std::to_string(person), setup);
+  return setup;
+}
+
+/// Runs until step `s` begins; false: the script has failed before.
+bool run_to(int s, ScriptedRun& run) {
+  while (static_cast<int>(run.hands.step) != s)
+    if (!run.tick()) return false;
+  return true;
+}
+
+/// Runs step `s`, once. The script goes on to another: it is done if that is the next one.
+Manoeuvre run_step(int s, ScriptedRun& run) {
+  Manoeuvre out{.begun = true};
+  const double fed = run.state.hands[0].fed_m, turned = run.state.hands[0].turned_rad;
+  while (static_cast<int>(run.hands.step) == s && run.tick())
+    out.fed_m = run.state.hands[0].fed_m - fed, out.turned_rad = run.state.hands[0].turned_rad - turned;
+  out.done = static_cast<int>(run.hands.step) == s + 1;
+  return out;
+}
+
+/// Whether the guide's tip is still in the branch when the script ends.
+bool stays(ScriptedRun& run) {
+  while (run.tick()) {
+  }
+  return run.outcome == Outcome::success;
+}
+
+struct Counted {
+  int clockwise = 0, counter_clockwise = 0;
+};
+
+/// JR4 at the valve; then clockwise as it is drawn back, and from the same moment counter-clockwise.
+Counted judkins_right(int person) {
+  RunSetup setup = setup_of("jr4-engages-rca", person);
+  const int valve = step_named(setup.script, "guide to the valve"),
+            turn = step_named(setup.script, "clockwise, drawn back");
+  std::string warnings;
+  const std::shared_ptr<const Vessel> vessel = make_vessel(setup, warnings);
+  ScriptedRun run(setup, vessel);
+  if (!run_to(valve, run) || !run_to(turn, run)) return {};
+  ScriptStep& mirrored = setup.script.steps[static_cast<std::size_t>(turn)];
+  mirrored.turn_rad_s = -mirrored.turn_rad_s;
+  ScriptedRun other(setup, vessel);
+  other.state = run.state, other.hands = run.hands, other.report = run.report;
+
+  Counted out;
+  const Manoeuvre m = run_step(turn, run);
+  const double back_mm = -per_mm * m.fed_m, turned_deg = m.turned_rad / degree;
+  const bool as_asked = back_mm >= 10 && back_mm <= 30 && turned_deg >= 45 && turned_deg <= 180;
+  out.clockwise = m.done && as_asked && stays(run);
+  out.counter_clockwise = run_step(turn, other).done;
+  return out;
+}
+
+int judkins_left(int person) {
+  const RunSetup setup = setup_of("jl4-engages-lm", person);
+  std::string warnings;
+  ScriptedRun run(setup, make_vessel(setup, warnings));
+  return stays(run);
+}
+
+}  // namespace
+
+std::vector<GateResult> engagement(bool quick) {
+  const int n = quick ? 1 : people;
+  Counted right;
+  int left = 0;
+  for (int person = 1; person <= n; ++person) {
+    const Counted r = judkins_right(person);
+    right.clockwise += r.clockwise, right.counter_clockwise += r.counter_clockwise;
+    left += judkins_left(person);
+  }
+  const double tenths = n;
+  return {{"engagement-jr4-clockwise", right.clockwise / tenths, 1, 0.2, ""},
+          {"engagement-jr4-counter-clockwise", right.counter_clockwise / tenths, 0, 0, ""},
+          {"engagement-jl4-no-turn", left / tenths, 1, 0.2, ""}};
+}
+
+}  // namespace ostium::verify
