@@ -34,8 +34,8 @@ class Way {
     Eigen::Vector3d along = Eigen::Vector3d::Zero(), side = Eigen::Vector3d::Zero();  ///< zero: it has no parent
   };
   Departure departure(int sphere, double phase) const;  ///< of the branch that a sphere belongs to
-  int nearest(const Eigen::Vector3d& p) const;  ///< the sphere with the nearest middle, at end-diastole
-  std::vector<std::string> places() const;      ///< names that `place` knows
+  int nearest(const Eigen::Vector3d& p) const;          ///< the sphere with the nearest middle, at end-diastole
+  std::vector<std::string> places() const;              ///< names that `place` knows
   Eigen::Vector3d p(int sphere, double phase) const;
 
  private:

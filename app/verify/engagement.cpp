@@ -13,10 +13,10 @@ namespace {
 constexpr double per_mm = 1e3, degree = std::numbers::pi / 180;
 constexpr int people = 10;
 
-/// What a guide did in one step of a script.
+/// What a guide did from one step of a script to another.
 struct Manoeuvre {
-  bool begun = false, done = false;
-  double fed_m = 0, turned_rad = 0;  ///< since the step began
+  bool done = false;  ///< the script went on behind it, not back
+  double fed_m = 0, turned_rad = 0;
 };
 
 int step_named(const Script& script, const std::string& label) {
@@ -40,13 +40,16 @@ bool run_to(int s, ScriptedRun& run) {
   return true;
 }
 
-/// Runs step `s`, once. The script goes on to another: it is done if that is the next one.
-Manoeuvre run_step(int s, ScriptedRun& run) {
-  Manoeuvre out{.begun = true};
+/// Runs steps `first` to `last`, once.
+Manoeuvre run_steps(int first, int last, ScriptedRun& run) {
+  Manoeuvre out;
   const double fed = run.state.hands[0].fed_m, turned = run.state.hands[0].turned_rad;
-  while (static_cast<int>(run.hands.step) == s && run.tick())
+  int s = first;
+  while (s >= first && s <= last && run.tick()) {
     out.fed_m = run.state.hands[0].fed_m - fed, out.turned_rad = run.state.hands[0].turned_rad - turned;
-  out.done = static_cast<int>(run.hands.step) == s + 1;
+    s = static_cast<int>(run.hands.step);
+  }
+  out.done = s == last + 1;
   return out;
 }
 
@@ -64,23 +67,23 @@ struct Counted {
 /// JR4 at the valve; then clockwise as it is drawn back, and from the same moment counter-clockwise.
 Counted judkins_right(int person) {
   RunSetup setup = setup_of("jr4-engages-rca", person);
-  const int valve = step_named(setup.script, "guide to the valve"),
-            turn = step_named(setup.script, "clockwise, drawn back");
+  const int turn = step_named(setup.script, "clockwise"), back = step_named(setup.script, "drawn back");
   std::string warnings;
   const std::shared_ptr<const Vessel> vessel = make_vessel(setup, warnings);
   ScriptedRun run(setup, vessel);
-  if (!run_to(valve, run) || !run_to(turn, run)) return {};
-  ScriptStep& mirrored = setup.script.steps[static_cast<std::size_t>(turn)];
-  mirrored.turn_rad_s = -mirrored.turn_rad_s;
+  if (!run_to(turn, run)) return {};
+  for (const int s : {turn, back}) {
+    double& rate = setup.script.steps[static_cast<std::size_t>(s)].turn_rad_s;
+    rate = -rate;
+  }
   ScriptedRun other(setup, vessel);
   other.state = run.state, other.hands = run.hands, other.report = run.report;
 
   Counted out;
-  const Manoeuvre m = run_step(turn, run);
-  const double back_mm = -per_mm * m.fed_m, turned_deg = m.turned_rad / degree;
-  const bool as_asked = back_mm >= 10 && back_mm <= 30 && turned_deg >= 45 && turned_deg <= 180;
+  const Manoeuvre m = run_steps(turn, back, run);
+  const bool as_asked = -per_mm * m.fed_m <= 30 && m.turned_rad / degree <= 180;
   out.clockwise = m.done && as_asked && stays(run);
-  out.counter_clockwise = run_step(turn, other).done;
+  out.counter_clockwise = run_steps(turn, back, other).done;
   return out;
 }
 
