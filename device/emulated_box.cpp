@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "device/bytes.h"
-
 namespace ostium {
 
 namespace {
@@ -91,16 +89,12 @@ void EmulatedBox::release() {
 Reply EmulatedBox::control(std::uint8_t request, std::uint16_t value, std::span<const std::uint8_t> data) {
   const Reply stall, done{std::in_place};
   const bool may_calibrate = value == calibration_key && !armed_;
-  std::vector<std::uint8_t> reply;
+  const auto answer = [](const auto& bytes) { return std::vector<std::uint8_t>(bytes.begin(), bytes.end()); };
   switch (static_cast<Request>(request)) {
     case Request::info:
-      reply = {device_protocol_version, 4, 0, 0, 0, 0, 0, 0};
-      put(reply, 2, firmware_version), put(reply, 4, rate_Hz_), put(reply, 6, watchdog_ms_);
-      return reply;
-    case Request::read_calibration: {
-      const auto record = bytes_of(calibration_);
-      return std::vector<std::uint8_t>(record.begin(), record.end());
-    }
+      return answer(bytes_of(BoxInfo{device_protocol_version, 4, firmware_version, rate_Hz_, watchdog_ms_}));
+    case Request::read_calibration:
+      return answer(bytes_of(calibration_));
     case Request::write_calibration:
       if (!may_calibrate || data.size() != calibration_bytes) return stall;
       written_calibration_.assign(data.begin(), data.end());
@@ -127,9 +121,7 @@ Reply EmulatedBox::control(std::uint8_t request, std::uint16_t value, std::span<
       rate_Hz_ = value;
       return done;
     case Request::statistics:
-      reply.resize(16);
-      put(reply, 0, sequence_), put(reply, 4, taken_), put(reply, 8, ignored_), put(reply, 12, releases_);
-      return reply;
+      return answer(bytes_of(BoxStatistics{sequence_, taken_, ignored_, releases_}));
   }
   return stall;
 }

@@ -9,22 +9,10 @@
 #include <vector>
 
 #include "device/calibration.h"
+#include "device/control.h"
 #include "device/report.h"
 
 namespace ostium {
-
-/// Vendor requests on the control endpoint. `value` is wValue.
-enum class Request : std::uint8_t {
-  info = 1,            ///< in, 8 bytes: u8 version, u8 tracks, u16 firmware, u16 rate in Hz, u16 watchdog in ms
-  read_calibration,    ///< in, 128 bytes
-  write_calibration,   ///< out, 128 bytes, kept aside; value = calibration_key, only disarmed
-  commit_calibration,  ///< takes what was written if it is a valid record; value = calibration_key, only disarmed
-  zero,                ///< counts of the tracks in value (bit k: track k) become 0
-  watchdog_time,       ///< value = 10 .. 500 ms
-  rate,                ///< value = 125, 250, 500 or 1000 Hz
-  statistics,          ///< in, 16 bytes, u32: reports sent, OUT taken, OUT ignored, releases by the watchdog
-};
-inline constexpr std::uint16_t calibration_key = 0x5443;
 
 /// What a station of the box looks at.
 struct EmulatedTool {

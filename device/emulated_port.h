@@ -1,0 +1,42 @@
+#pragma once
+/// A box in this process, without a cable: its bytes, its time. Each poll is one sample of the box, whatever the clock
+/// says, so that what is done with it is the same every time.
+#include <deque>
+#include <functional>
+
+#include "device/emulated_box.h"
+#include "device/port.h"
+
+namespace ostium {
+
+class EmulatedPort : public Port {
+ public:
+  /// `box` and what `hand` refers to must live as long. `hand` is called before each sample, to move the world around
+  /// the box. `delay`: samples until an OUT report arrives.
+  EmulatedPort(EmulatedBox& box, std::function<void(EmulatedBox&)> hand, int delay = 1);
+
+  bool plugged = true;  ///< may be pulled, and put in again
+
+  PortState poll(double wait_s, ReportSink& sink) override;
+  void send(std::span<const std::uint8_t> bytes) override;
+  std::optional<std::size_t> read(std::uint8_t request, std::span<std::uint8_t> into) override;
+  bool write(std::uint8_t request, std::uint16_t value, std::span<const std::uint8_t> data) override;
+  const PortIdentity& identity() const override { return identity_; }
+  const PortCounts& counts() const override { return counts_; }
+  double now_s() const override { return box_.time_s(); }
+
+ private:
+  EmulatedBox& box_;
+  std::function<void(EmulatedBox&)> hand_;
+  int delay_;
+  PortState state_;
+  PortIdentity identity_;
+  PortCounts counts_;
+  struct Underway {
+    int samples_left;
+    std::array<std::uint8_t, out_report_bytes> bytes;
+  };
+  std::deque<Underway> underway_;
+};
+
+}  // namespace ostium
