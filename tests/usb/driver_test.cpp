@@ -33,7 +33,17 @@ struct Usb : testing::Test {
     bench().deny_access(false);
     bench().plug();
   }
-  void TearDown() override { bench().unplug(); }
+  void TearDown() override {
+    if (HasFailure()) {
+      const BoxSnapshot& n = box.now();
+      std::printf("link %d, trouble %d, openings %u, reports %llu, ignored %llu, in %llu, errors %llu, stalls %llu\n",
+                  static_cast<int>(n.link), static_cast<int>(n.trouble), n.openings,
+                  static_cast<unsigned long long>(n.reports), static_cast<unsigned long long>(n.ignored),
+                  static_cast<unsigned long long>(n.port.in), static_cast<unsigned long long>(n.port.errors),
+                  static_cast<unsigned long long>(n.port.stalls));
+    }
+    bench().unplug();
+  }
 
   UsbPort port;
   TrackingBox box{port, {}};

@@ -196,13 +196,14 @@ class UsbfsBench : public Bench {
     auto due = std::chrono::steady_clock::now();
     int put_off = 0;
     while (!over_) {
-      due = std::max(due + 1ms, std::chrono::steady_clock::now());
-      if (pace_ == Pace::real || !plugged_) std::this_thread::sleep_until(due);
-      const bool sampled = tick(put_off == longest_put_off_ms);
+      const bool real = pace_ == Pace::real || !plugged_;
+      due = real ? std::max(due + 1ms, std::chrono::steady_clock::now()) : std::chrono::steady_clock::now();
+      if (real) std::this_thread::sleep_until(due);
+      const bool sampled = tick(real && put_off == longest_put_off_ms);
       put_off = sampled ? 0 : put_off + 1;
       if (sampled) continue;
       ++late_;
-      if (pace_ == Pace::fast) std::this_thread::sleep_for(10us);
+      if (!real) std::this_thread::sleep_for(10us);
     }
   }
 
