@@ -5,6 +5,7 @@
 #include "app/cases_command.h"
 #include "app/centreline_command.h"
 #include "app/check_command.h"
+#include "app/device_command.h"
 #include "app/explain_command.h"
 #include "app/frame_command.h"
 #include "app/import_command.h"
@@ -347,6 +348,21 @@ int main(int argc, char** argv) {
       "out.mp4\n"
       "  ostium replay out/run.h5 --from 8 --lao 40 --cran 0 --png moment.png");
 
+  ostium::DeviceOptions device;
+  CLI::App* device_app =
+      app.add_subcommand("device", "The tracking box: look for it, watch it, calibrate it, emulate it");
+  device_app->require_subcommand(1);
+  CLI::App* device_list = device_app->add_subcommand("list", "Boxes that are plugged in");
+  device_list->add_flag("--json", device.json, "Machine-readable");
+  CLI::App* device_monitor = device_app->add_subcommand("monitor", "What the box says: tools, pressure, flow, pedals");
+  device_monitor->add_option("--serial", device.serial, "Of the box; else the first that is found");
+  device_monitor->add_option("--seconds", device.seconds, "Then end; else at Ctrl-C")->check(CLI::Range(0.01, 1e6));
+  device_monitor->add_flag("--arm", device.arm, "Arm the clamps (they stay open): to see watchdog and emergency stop");
+  device_monitor->add_flag("--emulator", device.emulator, "An emulated box whose wire goes in and out");
+  device_monitor->add_flag("--json", device.json, "A line of JSON a second");
+  device_monitor->footer("Examples:\n  ostium device monitor\n  ostium device monitor --emulator --seconds 20 --json");
+  device_app->footer("Examples:\n  ostium device list\n  ostium device monitor --seconds 60");
+
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -355,6 +371,8 @@ int main(int argc, char** argv) {
   try {
     run.real = speed == "real";
     if (*run_app) return ostium::run_command(run);
+    if (*device_list) return ostium::device_list_command(device);
+    if (*device_monitor) return ostium::device_monitor_command(device);
     if (*sweep_app) return ostium::sweep_command(sweep);
     if (*replay_app) return ostium::replay_command(replay);
     if (*scripts_app) return ostium::scripts_command(scripts_json);

@@ -64,10 +64,38 @@ std::vector<std::uint8_t> device_descriptor() {
 }
 
 std::vector<std::uint8_t> configuration_descriptor() {
-  return {9, 2, 32, 0, 1, 1, 0, 0x80, 250,  // powered by the bus, 500 mA
-          9, 4, 0, 0, 2, usb_class, usb_subclass, usb_protocol, 0,  //
-          7, 5, emulated_in_endpoint, 3, 64, 0, 1,                  //
-          7, 5, emulated_out_endpoint, 3, 64, 0, 1};
+  return {9,
+          2,
+          32,
+          0,
+          1,
+          1,
+          0,
+          0x80,
+          250,  // powered by the bus, 500 mA
+          9,
+          4,
+          0,
+          0,
+          2,
+          usb_class,
+          usb_subclass,
+          usb_protocol,
+          0,  //
+          7,
+          5,
+          emulated_in_endpoint,
+          3,
+          64,
+          0,
+          1,  //
+          7,
+          5,
+          emulated_out_endpoint,
+          3,
+          64,
+          0,
+          1};
 }
 
 ControlReply EmulatedUsb::descriptor(std::uint16_t value) const {
@@ -124,7 +152,8 @@ ControlReply EmulatedUsb::control(std::span<const std::uint8_t> setup, std::span
   if (setup.size() != 8) return {};
   const std::lock_guard guard(mutex_);
   const std::uint8_t type = setup[0], request = setup[1];
-  const auto value = get<std::uint16_t>(setup, 2), index = get<std::uint16_t>(setup, 4), length = get<std::uint16_t>(setup, 6);
+  const auto value = get<std::uint16_t>(setup, 2), index = get<std::uint16_t>(setup, 4),
+             length = get<std::uint16_t>(setup, 6);
   ControlReply reply;
   if ((type & 0x60) == 0) {
     reply = standard(request, value, index, length);

@@ -15,10 +15,10 @@ inline constexpr std::uint8_t emulated_in_endpoint = 0x81, emulated_out_endpoint
 
 /// What goes wrong, until it is switched off again.
 struct EmulatedFaults {
-  bool silent = false;         ///< samples are made, none is sent
-  bool stalled = false;        ///< the IN endpoint is halted; CLEAR_FEATURE ends it unless `stays_stalled`
+  bool silent = false;   ///< samples are made, none is sent
+  bool stalled = false;  ///< the IN endpoint is halted; CLEAR_FEATURE ends it unless `stays_stalled`
   bool stays_stalled = false;
-  bool wrong_version = false;  ///< in reports and info
+  bool wrong_version = false;                                     ///< in reports and info
   std::function<void(std::vector<std::uint8_t>& report)> mangle;  ///< called with each report; may be empty
 };
 
@@ -44,9 +44,9 @@ class EmulatedUsb {
     bool stall = false;
     std::vector<std::uint8_t> bytes;  ///< empty and no stall: nothing is sent
   };
-  Sample sample();                              ///< the next of the IN endpoint
+  Sample sample();                                ///< the next of the IN endpoint
   void out(std::span<const std::uint8_t> bytes);  ///< on the OUT endpoint
-  void detached();                              ///< unplugged, reset or suspended
+  void detached();                                ///< unplugged, reset or suspended
 
  private:
   ControlReply standard(std::uint8_t request, std::uint16_t value, std::uint16_t index, std::uint16_t length);

@@ -28,8 +28,8 @@ struct PortState {
 
 /// What a port has seen; only ever grows.
 struct PortCounts {
-  std::uint64_t in = 0;      ///< IN transfers that brought something
-  std::uint64_t out = 0;     ///< OUT transfers that arrived
+  std::uint64_t in = 0;        ///< IN transfers that brought something
+  std::uint64_t out = 0;       ///< OUT transfers that arrived
   std::uint64_t replaced = 0;  ///< OUT reports that a newer one replaced while they waited
   std::uint64_t stalls = 0, errors = 0, departures = 0;
 };

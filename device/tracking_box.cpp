@@ -23,7 +23,8 @@ void TrackingBox::begin() {
   clamp_.sequence = out_sequence;
   sent_ = {};
   std::array<std::uint8_t, info_bytes> info{};
-  info_ = parse_info(std::span(info).first(port_.read(static_cast<std::uint8_t>(Request::info), info).value_or(0))).value_or(BoxInfo{});
+  info_ = parse_info(std::span(info).first(port_.read(static_cast<std::uint8_t>(Request::info), info).value_or(0)))
+              .value_or(BoxInfo{});
   link_.wrong_version = info_.version != 0 && info_.version != device_protocol_version;
   try {
     calibration_ = parse_calibration(read_calibration(port_));

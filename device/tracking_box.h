@@ -37,9 +37,9 @@ struct ToolSnapshot {
   double turned_rad = 0;  ///< clockwise as seen from the hub
   Sight sight = Sight::absent;
   std::uint8_t quality = 0;
-  std::uint32_t arrivals = 0;                  ///< instruments so far
-  double in_box_m = 0, inserted_m = 0;         ///< of the tool's tip, of its instrument's
-  double clamp_N = 0;                          ///< what its clamp is asked to hold
+  std::uint32_t arrivals = 0;           ///< instruments so far
+  double in_box_m = 0, inserted_m = 0;  ///< of the tool's tip, of its instrument's
+  double clamp_N = 0;                   ///< what its clamp is asked to hold
 };
 
 struct RoundTrip {
@@ -56,14 +56,14 @@ struct BoxSnapshot {
   std::array<ToolSnapshot, tools> tool{};
   Pause pause = Pause::none;
   Tool paused_by = Tool::none;
-  double picture = 1;                      ///< its brightness, 0 to 1
-  double pressure_Pa = 0;                  ///< of the indeflator, above the air's; negative: vacuum
-  double flow_m3_s = 0;                    ///< out of the syringe; negative: aspiration
-  std::uint16_t pedals = 0;                ///< bit 0 fluoroscopy, 1 cine
-  std::uint32_t openings = 0;              ///< how often a box was plugged in
+  double picture = 1;                                ///< its brightness, 0 to 1
+  double pressure_Pa = 0;                            ///< of the indeflator, above the air's; negative: vacuum
+  double flow_m3_s = 0;                              ///< out of the syringe; negative: aspiration
+  std::uint16_t pedals = 0;                          ///< bit 0 fluoroscopy, 1 cine
+  std::uint32_t openings = 0;                        ///< how often a box was plugged in
   std::uint64_t reports = 0, ignored = 0, lost = 0;  ///< taken; broke a rule; missing by sequence
-  std::uint32_t sequence = 0;              ///< of the last report
-  double box_s = 0;                        ///< its clock
+  std::uint32_t sequence = 0;                        ///< of the last report
+  double box_s = 0;                                  ///< its clock
   std::uint16_t overruns = 0;
   PortCounts port;
   RoundTrip round_trip;

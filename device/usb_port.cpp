@@ -20,9 +20,7 @@ constexpr unsigned control_ms = 500;
 constexpr double look_every_s = 0.5, first_wait_s = 0.01, longest_wait_s = 0.16;
 constexpr int most_failures = 5;  // in a row, before the box is opened anew
 
-double clock_s() {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
+double clock_s() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
 
 struct Interface {
   int number = 0;
@@ -86,7 +84,8 @@ struct Opened {
 
   /// `serial`: only the box of this one; empty: any.
   PortTrouble open(libusb_device* device, const std::string& serial) {
-    identity = {"", "", fmt::format("bus {}, device {}", libusb_get_bus_number(device), libusb_get_device_address(device))};
+    identity = {"", "",
+                fmt::format("bus {}, device {}", libusb_get_bus_number(device), libusb_get_device_address(device))};
     if (const int error = libusb_open(device, &handle); error != 0) {
       handle = nullptr;
       return error == LIBUSB_ERROR_ACCESS ? PortTrouble::no_access : PortTrouble::failing;
@@ -108,22 +107,24 @@ struct Opened {
   }
 
   std::optional<std::size_t> read(std::uint8_t request, std::span<std::uint8_t> into) const {
-    const int count = libusb_control_transfer(handle, from_box, request, 0, static_cast<std::uint16_t>(interface.number),
-                                              into.data(), static_cast<std::uint16_t>(into.size()), control_ms);
+    const int count =
+        libusb_control_transfer(handle, from_box, request, 0, static_cast<std::uint16_t>(interface.number), into.data(),
+                                static_cast<std::uint16_t>(into.size()), control_ms);
     if (count < 0) return {};
     return static_cast<std::size_t>(count);
   }
 
   bool write(std::uint8_t request, std::uint16_t value, std::span<const std::uint8_t> data) const {
-    const int count =
-        libusb_control_transfer(handle, to_box, request, value, static_cast<std::uint16_t>(interface.number),
-                                const_cast<unsigned char*>(data.data()), static_cast<std::uint16_t>(data.size()), control_ms);
+    const int count = libusb_control_transfer(
+        handle, to_box, request, value, static_cast<std::uint16_t>(interface.number),
+        const_cast<unsigned char*>(data.data()), static_cast<std::uint16_t>(data.size()), control_ms);
     return count >= 0 && static_cast<std::size_t>(count) == data.size();
   }
 
  private:
   static constexpr std::uint8_t of_interface = +LIBUSB_REQUEST_TYPE_VENDOR | +LIBUSB_RECIPIENT_INTERFACE;
-  static constexpr std::uint8_t from_box = of_interface | LIBUSB_ENDPOINT_IN, to_box = of_interface | LIBUSB_ENDPOINT_OUT;
+  static constexpr std::uint8_t from_box = of_interface | LIBUSB_ENDPOINT_IN,
+                                to_box = of_interface | LIBUSB_ENDPOINT_OUT;
 };
 
 /// Calls `visit(device)` for each of our kind until it returns true.
@@ -133,7 +134,8 @@ void each_box(libusb_context* context, Visit visit) {
   const auto count = libusb_get_device_list(context, &list);
   for (ssize_t i = 0; i < count; ++i) {
     libusb_device_descriptor d{};
-    if (libusb_get_device_descriptor(list[i], &d) != 0 || d.idVendor != usb_vendor || d.idProduct != usb_product) continue;
+    if (libusb_get_device_descriptor(list[i], &d) != 0 || d.idVendor != usb_vendor || d.idProduct != usb_product)
+      continue;
     if (visit(list[i])) break;
   }
   if (count >= 0) libusb_free_device_list(list, 1);
@@ -143,7 +145,8 @@ struct Context {
   libusb_context* usb = nullptr;
   Context() {
     if (const int error = libusb_init(&usb); error != 0)
-      throw std::runtime_error(fmt::format("USB cannot be used: {}", libusb_strerror(static_cast<libusb_error>(error))));
+      throw std::runtime_error(
+          fmt::format("USB cannot be used: {}", libusb_strerror(static_cast<libusb_error>(error))));
   }
   Context(const Context&) = delete;
   Context& operator=(const Context&) = delete;
@@ -177,19 +180,19 @@ struct UsbPort::Driver {
   bool has_hotplug = false;
   bool look = true;  ///< something was plugged in, or nothing was looked at yet
   double looked_s = 0;
-  bool gone = false;              ///< the box has left
+  bool gone = false;                           ///< the box has left
   bool in_halted = false, out_halted = false;  ///< an endpoint stalled
-  int failures = 0;               ///< in a row
-  double retry_s = 0;             ///< not before
+  int failures = 0;                            ///< in a row
+  double retry_s = 0;                          ///< not before
 
   explicit Driver(std::string of_serial) : serial(std::move(of_serial)) {
     for (In& i : in) i.driver = this, i.transfer = allocate();
     out = allocate();
     if (libusb_has_capability(LIBUSB_CAP_HAS_HOTPLUG))
-      has_hotplug = libusb_hotplug_register_callback(
-                        context.usb, LIBUSB_HOTPLUG_EVENT_DEVICE_ARRIVED | LIBUSB_HOTPLUG_EVENT_DEVICE_LEFT,
-                        LIBUSB_HOTPLUG_NO_FLAGS, usb_vendor, usb_product, LIBUSB_HOTPLUG_MATCH_ANY, plugged, this,
-                        &hotplug) == 0;
+      has_hotplug =
+          libusb_hotplug_register_callback(
+              context.usb, LIBUSB_HOTPLUG_EVENT_DEVICE_ARRIVED | LIBUSB_HOTPLUG_EVENT_DEVICE_LEFT,
+              LIBUSB_HOTPLUG_NO_FLAGS, usb_vendor, usb_product, LIBUSB_HOTPLUG_MATCH_ANY, plugged, this, &hotplug) == 0;
   }
 
   ~Driver() {
@@ -311,7 +314,8 @@ struct UsbPort::Driver {
   }
 
   void handle_events(double wait_s) {
-    timeval wait{static_cast<time_t>(wait_s), static_cast<suseconds_t>(1e6 * (wait_s - static_cast<double>(static_cast<time_t>(wait_s))))};
+    timeval wait{static_cast<time_t>(wait_s),
+                 static_cast<suseconds_t>(1e6 * (wait_s - static_cast<double>(static_cast<time_t>(wait_s))))};
     libusb_handle_events_timeout_completed(context.usb, &wait, nullptr);
   }
 

@@ -5,7 +5,8 @@
 /// newer. Nothing is queued besides. (libusb itself allocates a request block whenever a transfer is submitted.)
 /// Endpoints are found by direction and type. A box may be plugged in at any time, taken out, and plugged in again:
 /// by hot-plug events, and a look around every half second for systems that have none, or whose permissions come late.
-/// After an error it waits longer each time (10 to 160 ms), then opens the box anew; a stall is cleared. It never spins.
+/// After an error it waits longer each time (10 to 160 ms), then opens the box anew; a stall is cleared. It never
+/// spins.
 #include <memory>
 #include <vector>
 
@@ -22,9 +23,9 @@ inline constexpr std::uint8_t usb_class = 0xff, usb_subclass = 1, usb_protocol =
 struct FoundBox {
   PortIdentity identity;
   PortTrouble trouble = PortTrouble::none;
-  std::optional<BoxInfo> info;              ///< as it answers
-  std::optional<Calibration> calibration;   ///< its record
-  std::string calibration_problem;          ///< why there is none
+  std::optional<BoxInfo> info;             ///< as it answers
+  std::optional<Calibration> calibration;  ///< its record
+  std::string calibration_problem;         ///< why there is none
 };
 
 /// Throws std::runtime_error if libusb cannot be started, as everything here does.

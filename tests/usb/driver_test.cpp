@@ -17,9 +17,7 @@ namespace {
 
 constexpr std::size_t wire = index_of(Tool::wire), guide = index_of(Tool::guide);
 
-double now_s() {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
+double now_s() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
 
 struct Usb : testing::Test {
   void SetUp() override {
@@ -299,15 +297,11 @@ TEST_F(Usb, ALostWireStandsStillAndIsFoundAgain) {
 }
 
 TEST_F(Usb, PressureFlowAndPedalsCome) {
-  bench().usb.with([](EmulatedBox& b, EmulatedFaults&) {
-    b.pressure_atm = -0.9, b.flow_mL_s = 3.5, b.pedals = 3;
-  });
+  bench().usb.with([](EmulatedBox& b, EmulatedFaults&) { b.pressure_atm = -0.9, b.flow_mL_s = 3.5, b.pedals = 3; });
   ASSERT_TRUE(until([&] { return box.now().pedals == 3; }));
   EXPECT_NEAR(box.now().pressure_Pa, -0.9 * 101325, 60);
   EXPECT_NEAR(box.now().flow_m3_s, 3.5e-6, 1e-8);
-  bench().usb.with([](EmulatedBox& b, EmulatedFaults&) {
-    b.pressure_atm = 14, b.flow_mL_s = -2, b.pedals = 0;
-  });
+  bench().usb.with([](EmulatedBox& b, EmulatedFaults&) { b.pressure_atm = 14, b.flow_mL_s = -2, b.pedals = 0; });
   ASSERT_TRUE(until([&] { return box.now().pedals == 0 && box.now().pressure_Pa > 0; }));
   EXPECT_NEAR(box.now().pressure_Pa, 14 * 101325, 60);
   EXPECT_NEAR(box.now().flow_m3_s, -2e-6, 1e-8);

@@ -1,8 +1,8 @@
 /// Bench 1: libusb and libudev as they are; umockdev plays sysfs and uevents, and this file /dev/bus/usb/001/...: its
 /// `open`, `ioctl` and `close` are found before libc's by libusb, and pass on what is not the node's.
 ///
-/// The node's descriptor is the write end of a pipe with one slot: full, nothing is to be reaped; drained, a transfer is
-/// ready (POLLOUT, as usbfs says it); its reader closed, the box was unplugged (POLLERR).
+/// The node's descriptor is the write end of a pipe with one slot: full, nothing is to be reaped; drained, a transfer
+/// is ready (POLLOUT, as usbfs says it); its reader closed, the box was unplugged (POLLERR).
 #include "tests/usb/usbfs_bench.h"
 
 #include <dlfcn.h>
@@ -67,7 +67,8 @@ struct Opening {
     urb->status = status, urb->actual_length = length;
     done.push_back(urb);
     char byte;
-    if (done.size() == 1 && reader >= 0) [[maybe_unused]] const auto count = read(reader, &byte, 1);
+    if (done.size() == 1 && reader >= 0) [[maybe_unused]]
+      const auto count = read(reader, &byte, 1);
   }
   void leave() {
     for (auto* list : {&in, &out})

@@ -1,0 +1,19 @@
+#pragma once
+#include <string>
+
+namespace ostium {
+
+struct DeviceOptions {
+  std::string serial;     ///< of the box; empty: the first that is found
+  double seconds = 0;     ///< of `monitor`, `emulate`; 0: until Ctrl-C
+  bool arm = false;       ///< `monitor` arms the clamps, open, to test watchdog and stop
+  bool emulator = false;  ///< `monitor` an emulated box in this process
+  bool json = false;
+};
+
+/// `ostium device list`: 0 if a box is there, else 1.
+int device_list_command(const DeviceOptions& options);
+/// `ostium device monitor`: 0 if reports came and none was lost, else 1.
+int device_monitor_command(const DeviceOptions& options);
+
+}  // namespace ostium
