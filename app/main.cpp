@@ -289,10 +289,17 @@ int main(int argc, char** argv) {
   run_app->add_option("--speed", speed, "real: a step a millisecond; the result is the same")
       ->check(CLI::IsMember({"real", "max"}))
       ->capture_default_str();
+  run_app
+      ->add_option("--device", run.device,
+                   "Hands at a tracking box instead of the script's: usb; auto: usb if one is plugged in; emulator: a "
+                   "scripted hand at an emulated box, which does what the script asks")
+      ->check(CLI::IsMember({"auto", "usb", "emulator"}));
+  run_app->add_option("--serial", run.serial, "Of the box; else the first that is found");
   run_app->add_flag("--json", run.json, "Machine-readable, see data/schemas/run.schema.json");
   run_app->footer(
       "Examples:\n  ostium run rca-mid-focal --script aorta-arch-wire --out out\n"
       "  ostium run lad-proximal-eccentric --set wire=bentson --set person=3 --seed 7 --json\n"
+      "  ostium run rca-mid-focal --script jr4-to-the-root --device usb --out out\n"
       "  ostium run aorta.obj --entry -20,80,14 --towards -20,90,14 --script my-script.json");
 
   bool scripts_json = false;

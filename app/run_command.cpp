@@ -8,9 +8,12 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "app/session/device_run.h"
 #include "app/session/play.h"
 #include "data/load_error.h"
 #include "data/write_file.h"
+#include "device/usb_port.h"
+#include "fluoro/views.h"
 #include "vascular/patient_frame.h"
 
 namespace ostium {
@@ -43,6 +46,17 @@ void show_progress(const ScriptedRun& run) {
     tools += fmt::format("  {} {:.0f} mm {:.2f} N", run.model.tools[t].name, 1e3 * run.state.rods.rods[t].inserted_m,
                          run.report.tools[t].wall_force_N);
   say(fmt::format("{:7.1f} s  {}{}", now, run.plan.script.steps[s].words(), tools));
+}
+
+/// What is asked for; null: no box. With a box and people, `setup` loses what its script does to tools.
+std::unique_ptr<DeviceRun> device_of(const RunOptions& o, RunSetup& setup) {
+  if (o.device.empty() || (o.device == "auto" && find_boxes().empty())) return nullptr;
+  DeviceHandSettings settings;
+  for (const StandardView& view : standard_views())
+    settings.views.emplace_back(view.lao_deg * EIGEN_PI / 180, view.cran_deg * EIGEN_PI / 180);
+  if (o.device == "emulator") return run_at_emulator(settings, &interrupted);
+  setup.script = free_hands(setup.script);
+  return run_at_usb(o.serial, settings, &interrupted);
 }
 
 nlohmann::ordered_json to_json(const RunSetup& setup, const ScriptedRun& run, const PlayReport& r,
@@ -111,7 +125,8 @@ RunSetup setup_of(const RunOptions& o) {
 }
 
 int run_command(const RunOptions& o) {
-  const RunSetup setup = setup_of(o);
+  RunSetup setup = setup_of(o);
+  const auto device = device_of(o, setup);
   PlayOptions options;
   options.recorder.mode = o.folder.empty() || o.record == "none" ? RecordMode::none
                           : o.record == "events"                 ? RecordMode::events
@@ -127,10 +142,16 @@ int run_command(const RunOptions& o) {
   const auto vessel = make_vessel(setup, warnings);
   if (!warnings.empty())
     fmt::print(stderr, "ostium run: of {}, near whose faults nothing is held back:\n{}", setup.vessel, warnings);
-  ScriptedRun run(setup, vessel);
-  options.real = o.real;
+  ScriptedRun run(setup, vessel, device ? &device->driver() : nullptr);
+  options.real = o.real || (device && device->real());
   options.seconds = o.seconds;
-  options.progress = show_progress;
+  options.progress = [&](const ScriptedRun& now) {
+    const std::string_view problem = device ? advice(device->hand().now()) : "";
+    if (problem.empty())
+      show_progress(now);
+    else
+      say(fmt::format("{:7.1f} s  {}", seconds(now.model, now.state), problem));
+  };
   options.stop = &interrupted;
   const auto ask_to_stop = [](int) { interrupted = true; };
   std::signal(SIGINT, ask_to_stop);

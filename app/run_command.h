@@ -16,6 +16,8 @@ struct RunOptions {
   bool real = false;            ///< paced at 1 kHz
   std::string unit = "mm";      ///< of a mesh
   std::string entry, towards;   ///< of a mesh: X,Y,Z
+  std::string device;           ///< empty: the script moves the tools; auto, usb, emulator: hands at a tracking box
+  std::string serial;           ///< of the box
   bool json = false;
 };
 

@@ -14,12 +14,13 @@ ScriptPlan plan_of(const RunSetup& setup, const SessionModel& model) {
 
 }  // namespace
 
-ScriptedRun::ScriptedRun(const RunSetup& setup, std::shared_ptr<const Vessel> vessel)
+ScriptedRun::ScriptedRun(const RunSetup& setup, std::shared_ptr<const Vessel> vessel, Driver* driver)
     : model(make_session(setup, std::move(vessel))),
       plan(plan_of(setup, model)),
       state(make_state(model, setup.seed)),
       hands(make_state(plan, model)),
-      scratch_(model) {
+      scratch_(model),
+      driver_(driver) {
   if (setup.rate_1_min) hands.rate_1_min = *setup.rate_1_min;
   inputs.tools.resize(model.tools.size());
   events.reserve(64);
@@ -28,6 +29,10 @@ ScriptedRun::ScriptedRun(const RunSetup& setup, std::shared_ptr<const Vessel> ve
 bool ScriptedRun::tick() {
   outcome = decide(plan, model, state, report, hands, inputs, events);
   if (outcome != Outcome::running) return false;
+  if (driver_ && !driver_->drive(model, state, report, inputs)) {
+    outcome = Outcome::aborted;
+    return false;
+  }
   step(model, inputs, state, scratch_, report);
   const std::uint32_t trouble = report.rods.trouble & ~static_cast<std::uint32_t>(feed_stopped);
   if (trouble) ++troubled, troubles |= trouble;

@@ -4,10 +4,21 @@
 
 namespace ostium {
 
+/// Drives the instruments instead of the script's operator, who goes on looking: real hands at a tracking box.
+class Driver {
+ public:
+  virtual ~Driver() = default;
+  /// Before each step. `inputs` is what the script asks for, and becomes what is done. Waits while the simulation is to
+  /// stand. False: the run ends.
+  virtual bool drive(const SessionModel& model, const SessionState& state, const SessionReport& report,
+                     SessionInputs& inputs) = 0;
+};
+
 class ScriptedRun {
  public:
-  /// Throws LoadError, with the script's line where it is the script's fault.
-  ScriptedRun(const RunSetup& setup, std::shared_ptr<const Vessel> vessel);
+  /// Throws LoadError, with the script's line where it is the script's fault. `driver` must live as long; null: the
+  /// script moves the instruments.
+  ScriptedRun(const RunSetup& setup, std::shared_ptr<const Vessel> vessel, Driver* driver = nullptr);
 
   /// The operator looks and decides; then one step, unless the script is at its end. False: it is.
   bool tick();
@@ -25,6 +36,7 @@ class ScriptedRun {
 
  private:
   SessionScratch scratch_;
+  Driver* driver_;
 };
 
 /// "not_converged, motion_lost"

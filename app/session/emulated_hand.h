@@ -1,0 +1,49 @@
+#pragma once
+/// A scripted hand at an emulated box: it moves the box's tools as a script asks, within the travel that a box has, and
+/// draws back when the picture fades.
+#include "app/session/device_hand.h"
+#include "device/emulated_box.h"
+
+namespace ostium {
+
+class EmulatedHand {
+ public:
+  /// What the script asks for, and what the operator sees. `held`: which of the box's tools each of the session's is.
+  void ask(const std::vector<Tool>& held, const std::vector<ToolInputs>& tools, const CArmInputs& c_arm);
+  void see(const BoxSnapshot& now);
+
+  /// Moves what is in the box by its time since the last call.
+  void move(EmulatedBox& box);
+
+  /// Strokes drawn back, of all tools.
+  long drawn_back() const { return drawn_back_; }
+
+ private:
+  std::vector<Tool> held_;
+  std::vector<ToolInputs> wish_;
+  CArmInputs c_arm_;
+  Pause pause_ = Pause::none;
+  Tool paused_by_ = Tool::none;
+  double in_box_m_ = 0;  ///< of the tool that paused, as it is shown
+  double last_s_ = 0;
+  long drawn_back_ = 0;
+};
+
+/// Passes on what the script asks for to the hand, and lets the box's driver make inputs of what comes.
+class EmulatedOperator : public Driver {
+ public:
+  EmulatedOperator(DeviceHand& device, EmulatedHand& hand) : device_(device), hand_(hand) {}
+  bool drive(const SessionModel& model, const SessionState& state, const SessionReport& report,
+             SessionInputs& inputs) override {
+    if (held_.empty()) held_ = tools_at_the_box(model);
+    hand_.ask(held_, inputs.tools, inputs.c_arm);
+    return device_.drive(model, state, report, inputs);
+  }
+
+ private:
+  DeviceHand& device_;
+  EmulatedHand& hand_;
+  std::vector<Tool> held_;
+};
+
+}  // namespace ostium
