@@ -16,8 +16,8 @@ struct DriveRates {
   double advance_m_s = 0, turn_rad_s = 0;
 };
 
-/// What a step of `step_s` does of what is pending: with `smooth_s` = 0 all of it at once; else it follows as a low pass
-/// of that time constant, so that single counts of a sensor are no jerks. What is faster than the engine allows
+/// What a step of `step_s` does of what is pending: with `smooth_s` = 0 all of it at once; else it follows as a low
+/// pass of that time constant, so that single counts of a sensor are no jerks. What is faster than the engine allows
 /// (core/tunables.h) stays pending, so that nothing of the hand's movement is lost.
 DriveRates take(double step_s, double smooth_s, PendingDrive& pending);
 

@@ -53,8 +53,8 @@ class DeviceHand : public Driver {
   DeviceHandSettings settings_;
   Exchange exchange_;
   const std::atomic<bool>* stop_;
-  std::vector<Tool> held_;               ///< of the box's tools, which one each of the session's is; from the first step
-  std::vector<double> turned_rad_;       ///< of the box's sum, taken so far; one a tool
+  std::vector<Tool> held_;          ///< of the box's tools, which one each of the session's is; from the first step
+  std::vector<double> turned_rad_;  ///< of the box's sum, taken so far; one a tool
   std::vector<double> pending_turn_rad_;
   BoxRequest request_;
   BoxSnapshot now_;
@@ -63,8 +63,8 @@ class DeviceHand : public Driver {
   long stood_ = 0;
 };
 
-/// Catheters are the guide, the first wire the wire and another one the second wire, balloon and stent shafts the shaft;
-/// of several of a kind the first. Tool::none: nothing of the box moves it.
+/// Catheters are the guide, the first wire the wire and another one the second wire, balloon and stent shafts the
+/// shaft; of several of a kind the first. Tool::none: nothing of the box moves it.
 std::vector<Tool> tools_at_the_box(const SessionModel& model);
 
 /// The script without what it does to tools: its views and switches up to the first movement, then it waits. For a run

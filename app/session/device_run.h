@@ -14,8 +14,8 @@ class DeviceRun {
   virtual bool real() const = 0;  ///< it has to be played at the clock's pace
 };
 
-/// A box on USB, and people; or a script's speeds, if it has any steps left (`free_hands`). Throws std::runtime_error if
-/// USB cannot be used.
+/// A box on USB, and people; or a script's speeds, if it has any steps left (`free_hands`). Throws std::runtime_error
+/// if USB cannot be used.
 std::unique_ptr<DeviceRun> run_at_usb(const std::string& serial, DeviceHandSettings settings,
                                       const std::atomic<bool>* stop);
 /// An emulated box in this process, at which a scripted hand does what the script asks: through the box's bytes, in its

@@ -26,8 +26,10 @@ class Bench {
 
   /// Samples fall every millisecond of the clock, or as soon as the host waits for one: then nothing depends on the
   /// clock, and time is the box's own.
-  enum class Pace { real, fast };
+  enum class Pace { real, fast, stepped };
   virtual void set_pace(Pace pace) = 0;
+  /// With Pace::stepped, the next sample. False: the host does not wait for one.
+  virtual bool step() { return false; }
 
   virtual bool can_deny() const { return false; }
   virtual void deny_access(bool) {}

@@ -92,6 +92,7 @@ class UsbfsBench : public Bench {
   std::string name() const override { return "bench 1 (usbfs played, umockdev)"; }
   bool can_deny() const override { return true; }
   void set_pace(Pace pace) override { pace_ = pace; }
+  bool step() override { return plugged_ && tick(false); }
   void deny_access(bool denied) override { denied_ = denied; }
   long late() const override { return late_; }
 
@@ -197,9 +198,10 @@ class UsbfsBench : public Bench {
     auto due = std::chrono::steady_clock::now();
     int put_off = 0;
     while (!over_) {
-      const bool real = pace_ == Pace::real || !plugged_;
+      const bool real = pace_ != Pace::fast || !plugged_;
       due = real ? std::max(due + 1ms, std::chrono::steady_clock::now()) : std::chrono::steady_clock::now();
       if (real) std::this_thread::sleep_until(due);
+      if (pace_ == Pace::stepped) continue;
       const bool sampled = tick(real && put_off == longest_put_off_ms);
       put_off = sampled ? 0 : put_off + 1;
       if (sampled) continue;
