@@ -18,10 +18,23 @@ void follow(Direction& d, double moved, double reversal) {
 
 double resisted(int sign, double load) { return std::isfinite(load) ? std::max(0.0, sign * load) : 0.0; }
 
-double wanted_N(const ClampSettings& s, const ClampLoad& load, const ClampState& state, std::size_t i) {
-  const double along_N = resisted(state.along[i].sign, load.push_N);
-  const double around_N = resisted(state.around[i].sign, load.torque_Nm) / s.radius_m[i];
-  return std::min(s.most_N, std::hypot(along_N, around_N));
+double hold(const ClampSettings& s, double load, double least, double elapsed_s, HeldLoad& l) {
+  if (load == 0) return l = {}, 0;  // it helps the hand now
+  l.smooth += (s.smooth_s > 0 ? 1 - std::exp(-elapsed_s / s.smooth_s) : 1) * (load - l.smooth);
+  if (std::abs(l.smooth - l.followed_at) > std::max(least, s.least_felt * std::max(l.smooth, l.followed_at)))
+    l.followed_at = l.smooth, l.follow_for_s = s.settle_s;
+  if (l.follow_for_s <= 0) return l.held;
+  l.follow_for_s -= elapsed_s;
+  if (l.follow_for_s <= 0) l.followed_at = l.smooth;
+  return l.held = l.smooth;
+}
+
+double wanted_N(const ClampSettings& s, const ClampLoad& load, double elapsed_s, ClampState& state, std::size_t i) {
+  const double along_N =
+      hold(s, resisted(state.along[i].sign, load.push_N), s.least_push_N, elapsed_s, state.push_N[i]);
+  const double around_Nm =
+      hold(s, resisted(state.around[i].sign, load.torque_Nm), s.least_torque_Nm, elapsed_s, state.torque_Nm[i]);
+  return std::min(s.most_N, std::hypot(along_N, around_Nm / s.radius_m[i]));
 }
 
 }  // namespace
@@ -31,17 +44,15 @@ void advance_clamps(const ClampSettings& s, const ClampRequest& request, const M
   for (std::size_t i = 0; i < tools; ++i) {
     if (!m.tool[i].seen) {
       state.along[i] = state.around[i] = {};
+      state.push_N[i] = state.torque_Nm[i] = {};
       state.level_N[i] = 0;
       continue;
     }
     follow(state.along[i], m.tool[i].advance_mm, s.reversal_mm);
     follow(state.around[i], m.tool[i].turn_deg, s.reversal_deg);
-    const double wanted = open ? 0 : wanted_N(s, request.load[i], state, i);
+    const double wanted = wanted_N(s, open ? ClampLoad{} : request.load[i], m.elapsed_s, state, i);
     double& level = state.level_N[i];
-    state.moving[i] |= wanted == 0 || std::abs(wanted - level) > s.least_felt * std::max(wanted, level);
-    if (!state.moving[i]) continue;
     level = std::clamp(wanted, level - s.fall_N_s * m.elapsed_s, level + s.rise_N_s * m.elapsed_s);
-    state.moving[i] = level != wanted;
   }
 }
 

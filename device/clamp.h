@@ -5,9 +5,11 @@
 /// direction in which the hand last went, and only as far as the instrument resists that direction:
 ///   level_N = |(max(0, s push), max(0, c torque / r))|,  s, c: signs of the last push and turn, r: the tool's radius.
 /// A brake takes energy and never gives any, so nothing can build up; what could go wrong is a clamp that opens and
-/// closes by turns (a buzz), because its release lets the hand spring. So a direction counts as changed only after some
-/// movement the other way, more than sensor noise and delay can make, the level's rise and fall are limited, and
-/// it rests while the load changes by less than a hand feels.
+/// closes by turns (a buzz), because its release lets the hand spring, or because it follows a sensor that trembles: a
+/// trembling of 0.02 mm makes of a stiff instrument's load a noise that a small load drowns in. So a direction counts
+/// as changed only after some movement the other way, more than sensor noise and delay can make; loads go through a low
+/// pass; each rests while it changes by less than a hand feels, in parts of itself (Weber's law) and at the least
+/// (absolute threshold); and the level's rise and fall are limited.
 #include <array>
 #include <cstdint>
 
@@ -22,8 +24,11 @@ struct ClampSettings {
   double most_N = 8;                                                     ///< whatever the simulation says
   double rise_N_s = 100, fall_N_s = 400;
   double reversal_mm = 0.3, reversal_deg = 6;  ///< movement the other way that changes the direction
-  double least_felt = 0.1;  ///< part of a force whose change a hand does not feel (Weber's law): the level rests there
-  double stale_s = 0.03;    ///< loads older than this open the clamps
+  double smooth_s = 0.016;                     ///< time constant of the low pass of loads, 10 Hz
+  double least_felt = 0.1;  ///< part of a load whose change a hand does not feel: the level rests there
+  double least_push_N = 0.03, least_torque_Nm = 6e-5;  ///< the same, of any load; the torque on a torque device of 2 mm
+  double settle_s = 0.2;  ///< a load that has changed is followed so long, then rests again
+  double stale_s = 0.03;  ///< loads older than this open the clamps
 };
 
 /// On one instrument, from the step's RodReport: what its base is pushed and turned with.
@@ -37,14 +42,20 @@ struct Direction {
   double turned_at = 0, position = 0;
 };
 
+/// A load as the clamp holds against it.
+struct HeldLoad {
+  double smooth = 0, held = 0;  ///< behind the low pass; the same, while it does not rest
+  double followed_at = 0, follow_for_s = 0;
+};
+
 struct ClampState {
   std::array<Direction, tools> along{}, around{};
+  std::array<HeldLoad, tools> push_N{}, torque_Nm{};
   std::array<double, tools> level_N{};
-  std::array<bool, tools> moving{};  ///< the level is on its way to another, not resting
-  std::uint16_t sequence = 0;        ///< of the last OUT report
-  std::uint16_t arm_sequence = 0;    ///< of the one that raised ARM
-  bool arm = false;                  ///< as last sent
-  bool stopped = false;              ///< the box was stopped: it is not armed again before `arm` was withdrawn
+  std::uint16_t sequence = 0;      ///< of the last OUT report
+  std::uint16_t arm_sequence = 0;  ///< of the one that raised ARM
+  bool arm = false;                ///< as last sent
+  bool stopped = false;            ///< the box was stopped: it is not armed again before `arm` was withdrawn
 };
 
 /// What the clamps are to do now.

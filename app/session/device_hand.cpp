@@ -64,15 +64,10 @@ void DeviceHand::begin(const SessionModel& model) {
 }
 
 /// Forces of a step that had to give way are no real instrument's.
-void DeviceHand::feel(const SessionModel& model, const SessionReport& report) {
+void DeviceHand::feel(const SessionReport& report) {
   if (report.rods.trouble & (not_converged | motion_lost | no_solution | pulled_apart)) return;
-  const double share = 1 - std::exp(-2 * EIGEN_PI * settings_.load_cut_off_Hz * model.step_s());
-  for (std::size_t t = 0; t < report.tools.size(); ++t) {
-    if (held_[t] == Tool::none) continue;
-    ClampLoad& load = request_.load[index_of(held_[t])];
-    load.push_N += share * (report.tools[t].push_N - load.push_N);
-    load.torque_Nm += share * (report.tools[t].torque_Nm - load.torque_Nm);
-  }
+  for (std::size_t t = 0; t < report.tools.size(); ++t)
+    if (held_[t] != Tool::none) request_.load[index_of(held_[t])] = {report.tools[t].push_N, report.tools[t].torque_Nm};
 }
 
 void DeviceHand::press_buttons(SessionInputs& inputs) {
@@ -88,7 +83,7 @@ void DeviceHand::press_buttons(SessionInputs& inputs) {
 bool DeviceHand::drive(const SessionModel& model, const SessionState& state, const SessionReport& report,
                        SessionInputs& inputs) {
   if (held_.size() != model.tools.size()) begin(model);
-  feel(model, report);
+  feel(report);
   request_.step_s = seconds(model, state);
   bool standing = false;
   do {

@@ -18,8 +18,7 @@ namespace ostium {
 
 struct DeviceHandSettings {
   double smooth_s = 0.015;
-  double fastest_m_s = 0.6;     ///< that it follows: a tool that is far in as the run begins is no bullet
-  double load_cut_off_Hz = 10;  ///< of what the clamps follow: a hand does not feel what lasts a millisecond
+  double fastest_m_s = 0.6;  ///< that it follows: a tool that is far in as the run begins is no bullet
   bool arm = true;
   /// Angles of the views that buttons 2, 3, ... select, rad: left anterior oblique, cranial.
   std::vector<std::pair<double, double>> views;
@@ -47,7 +46,7 @@ class DeviceHand : public Driver {
 
  private:
   void begin(const SessionModel& model);
-  void feel(const SessionModel& model, const SessionReport& report);
+  void feel(const SessionReport& report);
   void press_buttons(SessionInputs& inputs);
 
   DeviceHandSettings settings_;

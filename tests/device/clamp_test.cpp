@@ -35,12 +35,12 @@ double settled_N(double mm, double deg, ClampLoad load, double age_s = 0, bool p
 
 TEST(Clamp, ResistsTheWayTheHandGoes) {
   const double r = ClampSettings{}.radius_m[wire];
-  EXPECT_DOUBLE_EQ(settled_N(0.1, 0, {2, 0}), 2);
+  EXPECT_NEAR(settled_N(0.1, 0, {2, 0}), 2, 2e-3);  // it rests within a part of what is felt
   EXPECT_DOUBLE_EQ(settled_N(-0.1, 0, {2, 0}), 0);  // it pushes back by itself: a brake would be in the way
-  EXPECT_DOUBLE_EQ(settled_N(-0.1, 0, {-2, 0}), 2);
-  EXPECT_DOUBLE_EQ(settled_N(0, 1, {0, 3 * r}), 3);
+  EXPECT_NEAR(settled_N(-0.1, 0, {-2, 0}), 2, 2e-3);
+  EXPECT_NEAR(settled_N(0, 1, {0, 3 * r}), 3, 3e-3);
   EXPECT_DOUBLE_EQ(settled_N(0, -1, {0, 3 * r}), 0);
-  EXPECT_DOUBLE_EQ(settled_N(0.1, 1, {4, 3 * r}), 5);
+  EXPECT_NEAR(settled_N(0.1, 1, {4, 3 * r}), 5, 5e-3);
   EXPECT_DOUBLE_EQ(settled_N(0, 0, {2, 1}), 0);
 }
 
@@ -145,7 +145,8 @@ void expect_no_buzz(Loop loop) {
   SCOPED_TRACE(std::to_string(loop.delay_ms) + " ms, " + std::to_string(loop.friction_N) + " N, wall " +
                std::to_string(loop.wall_N_m) + " N/m");
   Loop naive = loop;
-  naive.settings.reversal_mm = naive.settings.reversal_deg = naive.settings.least_felt = 0;
+  naive.settings.reversal_mm = naive.settings.reversal_deg = naive.settings.least_felt = naive.settings.smooth_s = 0;
+  naive.settings.least_push_N = naive.settings.least_torque_Nm = 0;
   naive.settings.rise_N_s = naive.settings.fall_N_s = 1e6;
   EXPECT_LT(loop.buzz_N_s(), 0.1);
   EXPECT_GT(naive.buzz_N_s(), 100);
@@ -166,8 +167,7 @@ TEST(Clamp, NeverBuzzesHoweverHighTheFriction) {
       }
 }
 
-/// The last of these frictions is more than the clamp can hold. (Below the first, what the trembling sensor shows of
-/// the instrument's twist is more than a tenth of the load, and the level follows it: device/README.md.)
+/// The last of these frictions is more than the clamp can hold.
 TEST(Clamp, NeverBuzzesWhenTurned) {
   for (const int delay_ms : {1, 5, 20, 40})
     for (const double friction_N : {0.2, 0.6, 2.4}) {
@@ -175,6 +175,48 @@ TEST(Clamp, NeverBuzzesWhenTurned) {
       loop.turning = true;
       loop.delay_ms = delay_ms, loop.friction_N = friction_N, loop.wall_N_m = 0;
       expect_no_buzz(loop);
+    }
+}
+
+/// Small loads, in which the trembling sensor's share is large: a clamp that follows a change of a tenth alone wavers
+/// by up to 27 N/s at 0.1 N.
+TEST(Clamp, IsQuietUnderSmallLoads) {
+  double follows_a_tenth = 0;
+  for (const bool turning : {false, true})
+    for (const int delay_ms : {1, 20, 40})
+      for (const double friction_N : {0.0125, 0.025, 0.05, 0.1}) {
+        Loop loop;
+        loop.turning = turning;
+        loop.delay_ms = delay_ms, loop.friction_N = friction_N, loop.wall_N_m = 0;
+        Loop other = loop;
+        other.settings.smooth_s = other.settings.least_push_N = other.settings.least_torque_Nm = 0;
+        other.settings.settle_s = 0.02;
+        EXPECT_LT(loop.buzz_N_s(), 0.1) << turning << ' ' << delay_ms << " ms " << friction_N << " N";
+        follows_a_tenth = std::max(follows_a_tenth, other.buzz_N_s());
+      }
+  EXPECT_GT(follows_a_tenth, 5);
+}
+
+/// Turning friction up while the wire is held, turned or pushed: the level grows with it and comes to rest.
+TEST(Clamp, RestsWhileFrictionIsTurnedUp) {
+  for (const bool turning : {false, true})
+    for (const int delay_ms : {1, 40}) {
+      Loop loop;
+      loop.turning = turning;
+      loop.delay_ms = delay_ms, loop.wall_N_m = 0;
+      for (loop.friction_N = 0.1; loop.friction_N < 3.3; loop.friction_N *= 2) {
+        const double from_mm = loop.hand_mm;
+        for (int i = 0; i < 400; ++i) loop.tick(from_mm + 0.05 * i);
+        for (int i = 0; i < 500; ++i) loop.tick(from_mm + 20);
+        double path_N = 0;
+        for (int i = 0; i < 1000; ++i) {
+          const double before_N = loop.level_N();
+          loop.tick(from_mm + 20);
+          path_N += std::abs(loop.level_N() - before_N);
+        }
+        EXPECT_LT(path_N, 0.1) << turning << ' ' << delay_ms << " ms " << loop.friction_N << " N";
+      }
+      EXPECT_GT(loop.work_mJ, 0);
     }
 }
 
