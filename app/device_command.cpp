@@ -16,6 +16,7 @@
 #include "device/stroking_hand.h"
 #include "device/tracking_box.h"
 #include "device/usb_port.h"
+#include "device/usbip.h"
 
 namespace ostium {
 
@@ -201,6 +202,37 @@ int device_monitor_command(const DeviceOptions& o) {
   }
   show(clock_s());
   return box.now().reports > 0 && box.now().lost == 0 ? 0 : 1;
+}
+
+int device_emulate_command(const DeviceOptions& o) {
+  stop_on_signals();
+  Calibration c;
+  c.serial = "EMULATED";
+  for (TrackCalibration& track : c.track) track.before_introducer_mm = 20;
+  EmulatedUsb usb(c);
+  StrokingHand hand;
+  if (!o.still) usb.hand = [&](EmulatedBox& box) { hand.move(box); };
+  std::atomic<bool> over{false};
+  std::thread clock([&] {
+    for (const double begin_s = clock_s(); !interrupted && (o.seconds <= 0 || clock_s() < begin_s + o.seconds);)
+      std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    over = true;
+  });
+  fmt::print(stderr,
+             "an emulated box on port {}; on Linux, as root:\n  modprobe vhci_hcd && usbip attach -r {} -b 1-1\n"
+             "Ctrl-C ends it\n",
+             o.port, o.any_host ? "THIS_MACHINE" : "127.0.0.1");
+  std::string problem;
+  try {
+    serve_usbip(usb, static_cast<std::uint16_t>(o.port), o.any_host, over,
+                [](const std::string& what) { fmt::print(stderr, "{}\n", what); });
+  } catch (const std::exception& error) {
+    problem = error.what();
+    interrupted = true;
+  }
+  clock.join();
+  if (!problem.empty()) throw LoadError(problem);
+  return 0;
 }
 
 }  // namespace ostium

@@ -9,11 +9,17 @@ struct DeviceOptions {
   bool arm = false;       ///< `monitor` arms the clamps, open, to test watchdog and stop
   bool emulator = false;  ///< `monitor` an emulated box in this process
   bool json = false;
+  int port = 3240;        ///< of `emulate`
+  bool any_host = false;  ///< `emulate` answers other machines too
+  bool still = false;     ///< nobody moves the emulated tools
 };
 
 /// `ostium device list`: 0 if a box is there, else 1.
 int device_list_command(const DeviceOptions& options);
 /// `ostium device monitor`: 0 if reports came and none was lost, else 1.
 int device_monitor_command(const DeviceOptions& options);
+
+/// `ostium device emulate`: until Ctrl-C.
+int device_emulate_command(const DeviceOptions& options);
 
 }  // namespace ostium

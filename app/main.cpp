@@ -2,6 +2,7 @@
 #include <CLI/CLI.hpp>
 #include <exception>
 
+#include "app/calibrate_command.h"
 #include "app/cases_command.h"
 #include "app/centreline_command.h"
 #include "app/check_command.h"
@@ -368,6 +369,40 @@ int main(int argc, char** argv) {
   device_monitor->add_flag("--emulator", device.emulator, "An emulated box whose wire goes in and out");
   device_monitor->add_flag("--json", device.json, "A line of JSON a second");
   device_monitor->footer("Examples:\n  ostium device monitor\n  ostium device monitor --emulator --seconds 20 --json");
+  CLI::App* device_emulate = device_app->add_subcommand("emulate", "An emulated box on the network, by USB/IP");
+  device_emulate->add_option("--port", device.port, "TCP port")->check(CLI::Range(1, 65535))->capture_default_str();
+  device_emulate->add_flag("--any-host", device.any_host, "For other machines too, not for this one alone");
+  device_emulate->add_flag("--still", device.still, "Nobody moves its tools");
+  device_emulate->add_option("--seconds", device.seconds, "Then end; else at Ctrl-C")->check(CLI::Range(0.01, 1e6));
+  device_emulate->footer("Examples:\n  ostium device emulate\n  ostium device emulate --any-host --port 3241");
+  ostium::CalibrateOptions calibrate;
+  CLI::App* device_calibrate =
+      device_app->add_subcommand("calibrate", "The box's calibration: read, measured, written");
+  device_calibrate->add_option("--serial", calibrate.serial, "Of the box; else the first that is found");
+  device_calibrate->add_option("--write", calibrate.write, "Write this record, as this command prints one")
+      ->type_name("FILE.json");
+  device_calibrate->add_option("--track", calibrate.track, "That is measured")->check(CLI::Range(1, 4));
+  device_calibrate->add_option("--length", calibrate.length_mm, "An instrument is pushed in by so many mm")
+      ->check(CLI::Range(1.0, 2000.0));
+  device_calibrate->add_option("--turns", calibrate.turns, "An instrument is turned clockwise so many times")
+      ->check(CLI::Range(0.1, 1000.0));
+  device_calibrate->add_option("--station", calibrate.station_mm, "How far the sensor lies outside the introducer, mm")
+      ->check(CLI::Range(0.0, 1000.0));
+  device_calibrate->add_option("--clamp", calibrate.clamp_N, "What the closed clamp holds, N")
+      ->check(CLI::Range(0.01, 1000.0));
+  device_calibrate->add_flag("--pressure-zero", calibrate.pressure_zero, "The indeflator is open to the air");
+  device_calibrate->add_option("--pressure", calibrate.pressure_atm, "The indeflator's gauge shows so many atm")
+      ->check(CLI::Range(-1.0, 40.0));
+  device_calibrate->add_flag("--flow-zero", calibrate.flow_zero, "The syringe rests");
+  device_calibrate->add_option("--volume", calibrate.volume_mL, "So many mL are injected")
+      ->check(CLI::Range(0.1, 200.0));
+  device_calibrate->add_option("--seconds", calibrate.seconds, "A measurement lasts so long; else until Enter")
+      ->check(CLI::Range(0.1, 600.0));
+  device_calibrate->add_flag("--dry-run", calibrate.dry_run, "Write nothing into the box");
+  device_calibrate->footer(
+      "Examples:\n  ostium device calibrate > box.json\n  ostium device calibrate --track 2 --length 200\n"
+      "  ostium device calibrate --track 2 --turns 10\n  ostium device calibrate --pressure-zero\n"
+      "  ostium device calibrate --write box.json");
   device_app->footer("Examples:\n  ostium device list\n  ostium device monitor --seconds 60");
 
   try {
@@ -379,6 +414,8 @@ int main(int argc, char** argv) {
     run.real = speed == "real";
     if (*run_app) return ostium::run_command(run);
     if (*device_list) return ostium::device_list_command(device);
+    if (*device_emulate) return ostium::device_emulate_command(device);
+    if (*device_calibrate) return ostium::device_calibrate_command(calibrate);
     if (*device_monitor) return ostium::device_monitor_command(device);
     if (*sweep_app) return ostium::sweep_command(sweep);
     if (*replay_app) return ostium::replay_command(replay);

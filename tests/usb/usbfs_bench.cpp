@@ -316,6 +316,7 @@ void prepare_usbfs_bench(char** arguments) {
 
 // --- what libusb calls -----------------------------------------------------------------------------------------------
 
+#pragma GCC visibility push(default)
 extern "C" {
 
 using ostium::UsbfsBench;
@@ -355,3 +356,4 @@ int close(int fd) {
   return ostium::real_close(fd);
 }
 }
+#pragma GCC visibility pop
