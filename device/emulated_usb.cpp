@@ -171,9 +171,10 @@ EmulatedUsb::Sample EmulatedUsb::sample() {
   const std::lock_guard guard(mutex_);
   if (hand) hand(box_);
   const auto report = box_.sample();
-  if (faults_.stalled) return {true, {}};
+  if (faults_.stalled) return {true, false, {}};
+  if (faults_.garbled) return {false, true, {}};
   if (faults_.silent) return {};
-  Sample sample{false, {report.begin(), report.end()}};
+  Sample sample{false, false, {report.begin(), report.end()}};
   if (faults_.wrong_version) ++sample.bytes[1];
   if (faults_.mangle) faults_.mangle(sample.bytes);
   return sample;

@@ -18,7 +18,8 @@ struct EmulatedFaults {
   bool silent = false;   ///< samples are made, none is sent
   bool stalled = false;  ///< the IN endpoint is halted; CLEAR_FEATURE ends it unless `stays_stalled`
   bool stays_stalled = false;
-  bool wrong_version = false;                                     ///< in reports and info
+  bool garbled = false;        ///< transfers of the IN endpoint end with an error, as on a bad cable
+  bool wrong_version = false;  ///< in reports and info
   std::function<void(std::vector<std::uint8_t>& report)> mangle;  ///< called with each report; may be empty
 };
 
@@ -41,8 +42,8 @@ class EmulatedUsb {
   ControlReply control(std::span<const std::uint8_t> setup, std::span<const std::uint8_t> data);
 
   struct Sample {
-    bool stall = false;
-    std::vector<std::uint8_t> bytes;  ///< empty and no stall: nothing is sent
+    bool stall = false, error = false;
+    std::vector<std::uint8_t> bytes;  ///< empty and neither of these: nothing is sent
   };
   Sample sample();                                ///< the next of the IN endpoint
   void out(std::span<const std::uint8_t> bytes);  ///< on the OUT endpoint

@@ -1,41 +1,40 @@
 #include "device/stroking_hand.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace ostium {
 
+/// In: to the end (which pauses the simulation), back, still; the last one short of the end. Out: the same mirrored, so
+/// that tool and instrument end where they began.
+StrokingHand::Move StrokingHand::move_of(int n, double station_mm) const {
+  constexpr double still_s = 0.5;
+  const int pauses = strokes - 1, in = 2 * pauses + 1, out = 2 * pauses;
+  n %= in + out + 1;
+  if (n == in + out) return {-station_mm, 1, true};
+  if (n == in - 1) return {290, still_s};
+  if (n < in) return n % 2 == 0 ? Move{299, 0} : Move{100, still_s};
+  return (n - in) % 2 == 0 ? Move{1, 0} : Move{200.3, still_s};
+}
+
 void StrokingHand::move(EmulatedBox& box) {
-  constexpr double still_s = 0.5, rest_s = 1, drawn_back_mm = 100;
-  const double now_s = box.time_s(), elapsed_s = now_s - last_s_, for_s = now_s - since_s_;
+  const double station_mm = box.calibration().track[1].before_introducer_mm;
+  if (!begun_) tip_mm_ = -station_mm, begun_ = true;
+  const double now_s = box.time_s(), elapsed_s = now_s - last_s_;
   last_s_ = now_s;
-  const double end_mm = 305 + box.calibration().track[1].before_introducer_mm;  // beyond what the box follows
-  const double least_mm = does_ == Does::draws_back ? drawn_back_mm : 0;
-  const double way = does_ == Does::pushes ? 1 : does_ == Does::draws_back || does_ == Does::goes_out ? -2 : 0;
-  const double to_mm = std::clamp(depth_mm_ + way * mm_s * elapsed_s, least_mm, end_mm);
+  const Move to = move_of(next_, station_mm);
+  const double way_mm = std::clamp(to.to_mm - tip_mm_, -2 * mm_s * elapsed_s, mm_s * elapsed_s);
   EmulatedTool& wire = box.station[1];
-  wire.advanced_mm += to_mm - depth_mm_;
-  if (does_ == Does::pushes) wire.turned_deg += deg_s * elapsed_s;
-  depth_mm_ = to_mm;
+  wire.advanced_mm += way_mm;
+  tip_mm_ += way_mm;
+  if (way_mm > 0) wire.turned_deg += deg_s * elapsed_s;
+  const bool there = std::abs(to.to_mm - tip_mm_) < 1e-9;
   box.station[0] = {Tool::guide, 200, box.station[0].advanced_mm, 0};
-  wire.tool = does_ == Does::rests ? Tool::none : Tool::wire;
-  wire.quality = does_ == Does::rests ? std::uint8_t{0} : std::uint8_t{180};
-  switch (does_) {
-    case Does::pushes:
-      if (depth_mm_ >= end_mm) next(++done_ < strokes ? Does::draws_back : Does::goes_out, now_s);
-      break;
-    case Does::draws_back:
-      if (depth_mm_ <= drawn_back_mm) next(Does::holds, now_s);
-      break;
-    case Does::holds:
-      if (for_s > still_s) next(Does::pushes, now_s);
-      break;
-    case Does::goes_out:
-      if (depth_mm_ <= 0) next(Does::rests, now_s), done_ = 0;
-      break;
-    case Does::rests:
-      if (for_s > rest_s) next(Does::pushes, now_s);
-      break;
-  }
+  const bool nothing = there && to.outside;
+  wire.tool = nothing ? Tool::none : Tool::wire, wire.quality = nothing ? std::uint8_t{0} : std::uint8_t{180};
+  if (!there) arrived_s_ = -1;
+  if (there && arrived_s_ < 0) arrived_s_ = now_s;
+  if (there && now_s - arrived_s_ >= to.still_s) ++next_, arrived_s_ = -1;
 }
 
 }  // namespace ostium

@@ -1,6 +1,6 @@
 #pragma once
-/// A hand for an emulated box that nobody else moves: a guide that rests, and a wire pushed to the end of the travel,
-/// turned, drawn back, held still, again and again; then out. It sees nothing of the simulation.
+/// A hand for an emulated box that nobody else moves: a guide that rests, and a wire that is pushed in and turned, in
+/// strokes, each to the end of the travel, drawn back and held still; then taken out in as many. It sees nothing.
 #include "device/emulated_box.h"
 
 namespace ostium {
@@ -14,12 +14,16 @@ class StrokingHand {
   void move(EmulatedBox& box);
 
  private:
-  enum class Does { pushes, draws_back, holds, goes_out, rests };
-  void next(Does does, double time_s) { does_ = does, since_s_ = time_s; }
+  /// Towards a depth of the wire's tip beyond the introducer, and then still for a while.
+  struct Move {
+    double to_mm = 0, still_s = 0;
+    bool outside = false;  ///< nothing is in the box then
+  };
+  Move move_of(int n, double station_mm) const;
 
-  Does does_ = Does::rests;
-  double last_s_ = 0, since_s_ = 0, depth_mm_ = 0;  ///< of the wire's tip beyond its station
-  int done_ = 0;
+  int next_ = 0;  ///< of the moves
+  double last_s_ = 0, arrived_s_ = -1, tip_mm_ = 0;
+  bool begun_ = false;
 };
 
 }  // namespace ostium

@@ -180,6 +180,7 @@ struct UsbPort::Driver {
   bool has_hotplug = false;
   bool look = true;  ///< something was plugged in, or nothing was looked at yet
   double looked_s = 0;
+  bool bringing_back = false;                  ///< transfers are not started again
   bool gone = false;                           ///< the box has left
   bool in_halted = false, out_halted = false;  ///< an endpoint stalled
   int failures = 0;                            ///< in a row
@@ -196,6 +197,7 @@ struct UsbPort::Driver {
   }
 
   ~Driver() {
+    sink = nullptr;  // it may be gone already
     close();
     if (has_hotplug) libusb_hotplug_deregister_callback(context.usb, hotplug);
     for (In& i : in) libusb_free_transfer(i.transfer);
@@ -245,7 +247,7 @@ struct UsbPort::Driver {
     failures = 0;
     state.trouble = PortTrouble::none;
     if (sink) sink->came({i.bytes.data(), static_cast<std::size_t>(transfer.actual_length)});
-    return !gone && !in_halted && state.open;
+    return !gone && !in_halted && !bringing_back;
   }
 
   void note(libusb_transfer_status status, bool& halted) {
@@ -309,8 +311,11 @@ struct UsbPort::Driver {
 
   /// Every transfer is back, or a second is over.
   void bring_back() {
+    bringing_back = true;
+    out_waits = false;
     cancel_all();
     for (const double until = now() + 1; in_flight() && now() < until;) handle_events(0.05);
+    bringing_back = false;
   }
 
   void handle_events(double wait_s) {

@@ -125,10 +125,10 @@ bool UsbipLink::tick(bool even_if_lost) {
   sampled_ = !in_.empty() || even_if_lost;
   if (!sampled_) return true;
   const EmulatedUsb::Sample sample = usb_.sample();
-  if (in_.empty() || (!sample.stall && sample.bytes.empty())) return true;
+  if (in_.empty() || (!sample.stall && !sample.error && sample.bytes.empty())) return true;
   const Waiting to = in_.front();
   in_.pop_front();
-  if (sample.stall) return reply(to.number, -EPIPE, 0, {});
+  if (sample.stall || sample.error) return reply(to.number, sample.stall ? -EPIPE : -EPROTO, 0, {});
   if (sample.bytes.size() > to.length) return reply(to.number, -EOVERFLOW, 0, {});
   return reply(to.number, 0, static_cast<std::uint32_t>(sample.bytes.size()), sample.bytes);
 }

@@ -167,6 +167,30 @@ TEST_F(Usb, StallIsClearedAndStallThatStaysIsShown) {
   EXPECT_EQ(box.now().trouble, PortTrouble::none);
 }
 
+TEST_F(Usb, ErrorsAreTriedAgainNotSpunOn) {
+  ASSERT_TRUE(running());
+  std::atomic<int> overlong = 1;
+  faults([&](EmulatedFaults& f) {
+    f.mangle = [&](std::vector<std::uint8_t>& report) {
+      if (overlong.exchange(0)) report.resize(80);
+    };
+  });
+  const std::uint64_t before = box.now().reports;
+  ASSERT_TRUE(until([&] { return box.now().port.errors > 0 && box.now().reports > before + 100; }))
+      << "one is survived";
+  EXPECT_EQ(box.now().openings, 1u);
+  faults([](EmulatedFaults& f) { f.mangle = {}, f.garbled = true; });
+  ASSERT_TRUE(until([&] { return box.now().trouble == PortTrouble::failing && box.now().link != Link::running; }));
+  EXPECT_NE(advice(box.now()).find("fail"), std::string::npos);
+  const std::uint64_t errors = box.now().port.errors;
+  const double end = now_s() + 1;
+  until([&] { return now_s() > end; });
+  EXPECT_LE(box.now().port.errors - errors, 300u) << "eight at a time, ever more seldom";
+  faults([](EmulatedFaults& f) { f.garbled = false; });
+  EXPECT_TRUE(running());
+  EXPECT_EQ(box.now().trouble, PortTrouble::none);
+}
+
 TEST_F(Usb, SilenceIsShownAndOpensTheClamps) {
   bench().usb.with([](EmulatedBox& b, EmulatedFaults&) { b.station[0] = {Tool::wire, 200, 0, 0}; });
   bench().usb.hand = [](EmulatedBox& b) { b.station[0].advanced_mm += b.station[0].advanced_mm < 200 ? 0.05 : 0; };

@@ -143,13 +143,14 @@ class UsbfsBench : public Bench {
     for (auto& [fd, opening] : open_) {
       if (opening->in.empty()) continue;
       const EmulatedUsb::Sample sample = usb.sample();
-      if (!sample.stall && sample.bytes.empty()) return true;
+      if (!sample.stall && !sample.error && sample.bytes.empty()) return true;
       usbdevfs_urb* urb = opening->in.front();
       opening->in.pop_front();
       const auto room = static_cast<std::size_t>(urb->buffer_length);
       std::copy_n(sample.bytes.begin(), std::min(room, sample.bytes.size()), static_cast<std::uint8_t*>(urb->buffer));
       const int length = static_cast<int>(std::min(room, sample.bytes.size()));
-      opening->finish(urb, sample.stall ? -EPIPE : sample.bytes.size() > room ? -EOVERFLOW : 0, length);
+      const bool too_long = sample.bytes.size() > room;
+      opening->finish(urb, sample.stall ? -EPIPE : sample.error ? -EPROTO : too_long ? -EOVERFLOW : 0, length);
       return true;
     }
     if (even_if_lost) usb.sample();

@@ -1,0 +1,165 @@
+/// The host's side of a box over a port in memory: what the USB benches show of a bus, without one.
+#include "device/tracking_box.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <thread>
+
+#include "device/calibrating.h"
+#include "device/emulated_port.h"
+#include "device/latch.h"
+#include "device/round_trips.h"
+#include "device/stroking_hand.h"
+
+namespace ostium {
+namespace {
+
+constexpr std::size_t wire = index_of(Tool::wire);
+
+TEST(TrackingBox, FollowsAHandInStrokesInAndOut) {
+  Calibration c;
+  for (TrackCalibration& t : c.track) t.before_introducer_mm = 20;
+  EmulatedBox box{c};
+  StrokingHand hand;
+  EmulatedPort port{box, [&](EmulatedBox& b) { hand.move(b); }};
+  TrackingBox host{port, {}};
+  int full = 0, empty = 0;
+  double deepest_m = 0, most_in_box_m = 0, paused_fed_m = 0;
+  Pause before = Pause::none;
+  while (host.now().box_s < 60 && host.now().tool[wire].arrivals < 2) {
+    const double fed_m = host.now().tool[wire].fed_m;
+    host.poll(0, {});
+    const BoxSnapshot& now = host.now();
+    full += now.pause == Pause::travel_full && before != now.pause;
+    empty += now.pause == Pause::travel_empty && before != now.pause;
+    if (now.pause != Pause::none && before == now.pause) paused_fed_m += std::abs(now.tool[wire].fed_m - fed_m);
+    before = now.pause;
+    deepest_m = std::max(deepest_m, now.tool[wire].inserted_m);
+    most_in_box_m = std::max(most_in_box_m, now.tool[wire].in_box_m);
+  }
+  EXPECT_EQ(full, 3);
+  EXPECT_EQ(empty, 3);
+  EXPECT_NEAR(deepest_m, 3 * 0.195 + 0.29, 1e-3);
+  EXPECT_LE(most_in_box_m, 0.3);
+  EXPECT_EQ(paused_fed_m, 0);
+  EXPECT_EQ(host.now().tool[wire].arrivals, 2u) << "out, and a new one in";
+  EXPECT_EQ(host.now().lost, 0u);
+}
+
+TEST(TrackingBox, PulledAndPutInAgainItGoesOnWhereItWas) {
+  EmulatedBox box{{}};
+  box.station[0] = {Tool::wire, 200, 0, 0};
+  EmulatedPort port{box, {}};
+  TrackingBox host{port, {}};
+  const auto polls = [&](int n) {
+    for (int i = 0; i < n; ++i) host.poll(0, {});
+  };
+  polls(10);
+  box.station[0].advanced_mm = 50;
+  polls(10);
+  EXPECT_NEAR(host.now().tool[wire].fed_m, 0.05, 1e-8);
+  port.plugged = false;
+  polls(10);
+  EXPECT_EQ(host.now().link, Link::unplugged);
+  box.station[0].advanced_mm = 90;
+  port.plugged = true;
+  polls(10);
+  EXPECT_EQ(host.now().link, Link::running);
+  EXPECT_EQ(host.now().openings, 2u);
+  EXPECT_NEAR(host.now().tool[wire].fed_m, 0.05, 1e-8);
+  box.station[0].advanced_mm = 100;
+  polls(10);
+  EXPECT_NEAR(host.now().tool[wire].fed_m, 0.06, 1e-8);
+  BoxRequest zeroed;
+  zeroed.zeroings[wire] = 1;
+  host.poll(0, zeroed);
+  host.poll(0, zeroed);
+  EXPECT_EQ(host.now().tool[wire].inserted_m, 0);
+}
+
+TEST(TrackingBox, ClosesAClampAndKnowsItsRoundTrip) {
+  for (const int delay : {1, 5, 20}) {
+    EmulatedBox box{{}};
+    box.station[2] = {Tool::wire, 200, 0, 0};
+    EmulatedPort port{box, [](EmulatedBox& b) { b.station[2].advanced_mm += 0.05; }, delay};
+    TrackingBox host{port, {}};
+    RoundTrips trips;
+    BoxRequest request;
+    request.arm = true;
+    request.load[wire].push_N = 2;
+    for (int i = 0; i < 2000; ++i) {
+      request.step_s += 1e-3;
+      host.poll(0, request);
+      trips.add(host.now().round_trip);
+    }
+    EXPECT_NEAR(box.clamp()[2] / 65535.0 * 10, 2, 0.01);
+    EXPECT_NEAR(trips.percentile_s(0.5), 1e-3 * delay, 0.03e-3 * delay);
+    request.load[wire].push_N = 2;  // and from here on the simulation stands: `step_s` too
+    for (int i = 0; i < 60; ++i) host.poll(0, request);
+    EXPECT_EQ(box.clamp()[2], 0) << "loads of a step that is over open it";
+  }
+}
+
+TEST(Latch, GivesTheNewestOfAnotherThread) {
+  struct Pair {
+    std::uint64_t a = 0, b = 0;
+  };
+  Latch<Pair> latch;
+  std::atomic<bool> over{false};
+  std::thread writer([&] {
+    for (std::uint64_t i = 1; i <= 200'000; ++i) latch.put({i, ~i});
+    over = true;
+  });
+  std::uint64_t last = 0;
+  while (!over) {
+    const Pair p = latch.take();
+    ASSERT_TRUE(p.a == 0 || p.b == ~p.a) << "torn";
+    ASSERT_GE(p.a, last) << "older than the one before";
+    last = p.a;
+  }
+  writer.join();
+  EXPECT_EQ(latch.take().a, 200'000u);
+}
+
+/// A box whose sensors are off, and what is done at it with a ruler, by full turns, with a gauge: the scales come back.
+TEST(Calibrating, FindsTheScalesOfABox) {
+  Calibration truth;
+  truth.track[1] = {0.0127f, -0.09f, 0.0021f, 20};
+  truth.atm_per_count = 0.0012f, truth.pressure_offset_atm = -0.31f;
+  truth.mL_s_per_count = 0.004f, truth.flow_offset_mL_s = 0.2f;
+  EmulatedBox box{truth};
+  box.station[1] = {Tool::wire, 200, 0, 0};
+  const auto sample = [&] { return parse_in_report(box.sample()).value(); };
+  Calibration found;
+  const InReport begin = sample();
+  box.station[1].advanced_mm = 200;
+  const InReport pushed = sample();
+  found.track[1] = with_length(found.track[1], pushed.insertion[1] - begin.insertion[1], 200);
+  box.station[1].turned_deg = 3600;
+  const InReport turned = sample();
+  found.track[1] =
+      with_turns(found.track[1], turned.insertion[1] - pushed.insertion[1], turned.roll[1] - pushed.roll[1], 10);
+  EXPECT_NEAR(found.track[1].mm_per_count, 0.0127, 1e-6);
+  EXPECT_NEAR(found.track[1].deg_per_count, -0.09, 1e-6);
+  EXPECT_NEAR(found.track[1].cross_talk_mm_deg, 0.0021, 1e-5);
+  EXPECT_THROW(with_length(found.track[1], 99, 200), CalibrationError);
+
+  found = with_pressure_zero(found, sample().pressure);
+  box.pressure_atm = 12;
+  found = with_pressure(found, sample().pressure, 12);
+  found = with_flow_zero(found, sample().flow);
+  box.flow_mL_s = 2.5;
+  found = with_volume(found, sample().flow * 4.0, 4, 10);
+  for (const double atm : {-0.9, 0.0, 20.0}) {
+    box.pressure_atm = atm;
+    EXPECT_NEAR(pressure_atm(found, sample().pressure), atm, 0.003);
+  }
+  for (const double mL_s : {-3.0, 0.0, 5.0}) {
+    box.flow_mL_s = mL_s;
+    EXPECT_NEAR(flow_mL_s(found, sample().flow), mL_s, 0.01);
+  }
+}
+
+}  // namespace
+}  // namespace ostium
