@@ -1,12 +1,15 @@
 #include "device/emulated_port.h"
 
 #include <algorithm>
+#include <cassert>
 #include <utility>
 
 namespace ostium {
 
 EmulatedPort::EmulatedPort(EmulatedBox& box, std::function<void(EmulatedBox&)> hand, int delay)
-    : box_(box), hand_(std::move(hand)), delay_(delay), identity_{box.calibration().serial, "Emulated box", "here"} {}
+    : box_(box), hand_(std::move(hand)), delay_(delay), identity_{box.calibration().serial, "Emulated box", "here"} {
+  assert(delay >= 1 && delay < longest_delay);
+}
 
 PortState EmulatedPort::poll(double, ReportSink& sink) {
   if (plugged != state_.open) {
@@ -16,15 +19,11 @@ PortState EmulatedPort::poll(double, ReportSink& sink) {
       return state_;  // it is asked before it streams
     }
     box_.release();
-    underway_.clear();
+    underway_ = {};
     ++counts_.departures;
   }
-  while (!underway_.empty() && underway_.front().samples_left <= 0) {
-    box_.take(underway_.front().bytes);
-    underway_.pop_front();
-    ++counts_.out;
-  }
-  for (Underway& u : underway_) --u.samples_left;
+  Underway& due = underway_[++samples_ % underway_.size()];
+  if (due.at == samples_) box_.take(due.bytes), ++counts_.out;
   if (hand_) hand_(box_);
   const auto bytes = box_.sample();
   if (!state_.open) return state_;
@@ -35,8 +34,9 @@ PortState EmulatedPort::poll(double, ReportSink& sink) {
 
 void EmulatedPort::send(std::span<const std::uint8_t> bytes) {
   if (!state_.open || bytes.size() != out_report_bytes) return;
-  Underway& u = underway_.emplace_back();
-  u.samples_left = delay_ - 1;
+  const std::uint64_t at = samples_ + static_cast<std::uint64_t>(delay_);
+  Underway& u = underway_[at % underway_.size()];
+  u.at = at;
   std::copy(bytes.begin(), bytes.end(), u.bytes.begin());
 }
 

@@ -1,7 +1,6 @@
 #pragma once
 /// A box in this process, without a cable: its bytes, its time. Each poll is one sample of the box, whatever the clock
 /// says, so that what is done with it is the same every time.
-#include <deque>
 #include <functional>
 
 #include "device/emulated_box.h"
@@ -12,7 +11,8 @@ namespace ostium {
 class EmulatedPort : public Port {
  public:
   /// `box` and what `hand` refers to must live as long. `hand` is called before each sample, to move the world around
-  /// the box. `delay`: samples until an OUT report arrives.
+  /// the box. `delay`: samples until an OUT report arrives, 1 to longest_delay - 1.
+  static constexpr int longest_delay = 64;
   EmulatedPort(EmulatedBox& box, std::function<void(EmulatedBox&)> hand, int delay = 1);
 
   bool plugged = true;  ///< may be pulled, and put in again
@@ -32,11 +32,13 @@ class EmulatedPort : public Port {
   PortState state_;
   PortIdentity identity_;
   PortCounts counts_;
+  /// By the sample before which it arrives.
   struct Underway {
-    int samples_left;
-    std::array<std::uint8_t, out_report_bytes> bytes;
+    std::uint64_t at = 0;
+    std::array<std::uint8_t, out_report_bytes> bytes{};
   };
-  std::deque<Underway> underway_;
+  std::array<Underway, longest_delay> underway_{};
+  std::uint64_t samples_ = 0;
 };
 
 }  // namespace ostium

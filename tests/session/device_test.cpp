@@ -1,0 +1,236 @@
+/// Hands at a tracking box drive a session: where the instruments are, what stands still when, what is recorded.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <numbers>
+
+#include "app/session/device_run.h"
+#include "app/session/emulated_hand.h"
+#include "app/session/play.h"
+#include "app/session/replay.h"
+#include "device/emulated_port.h"
+#include "tests/core/allocations.h"
+#include "tests/session/tube_vessel.h"
+
+namespace ostium {
+namespace {
+
+/// A wire in the tube, and a box whose station 1 sees it, moved by the test.
+struct AtTheBox {
+  static Calibration calibration() {
+    Calibration c;
+    c.track[0].before_introducer_mm = 10;
+    return c;
+  }
+  static RunSetup setup() {
+    RunSetup s = tube_setup();
+    s.script = free_hands(s.script);
+    return s;
+  }
+
+  EmulatedBox box{calibration()};
+  double mm_s = 0, deg_s = 0;
+  EmulatedPort port{box, [this](EmulatedBox& b) {
+                      b.station[0].advanced_mm += 1e-3 * mm_s, b.station[0].turned_deg += 1e-3 * deg_s;
+                      if (when_paused && host.now().pause != Pause::none) when_paused(b);
+                    }};
+  std::function<void(EmulatedBox&)> when_paused;
+  TrackingBox host{port, {}};
+  std::atomic<bool> stop{false};
+  DeviceHand hand{[] {
+                    DeviceHandSettings s;
+                    s.views = {{0.7, 0}, {-0.5, 0.4}};
+                    return s;
+                  }(),
+                  [this](const BoxRequest& request) -> const BoxSnapshot& {
+                    host.poll(0, request);
+                    return host.now();
+                  },
+                  &stop};
+  ScriptedRun run{setup(), tube_vessel(), &hand};
+
+  AtTheBox() { box.station[0] = {Tool::wire, 200, 0, 0}; }
+  void ticks(int n) {
+    for (int i = 0; i < n; ++i) ASSERT_TRUE(run.tick());
+  }
+  double inserted_mm() const { return 1e3 * run.state.rods.rods[0].inserted_m; }
+  double turned_deg() const { return run.state.hands[0].turned_rad * 180 / std::numbers::pi; }
+};
+
+TEST(DeviceHand, TheInstrumentIsWhereTheHandHasIt) {
+  AtTheBox at;
+  at.ticks(5);
+  at.mm_s = 50, at.deg_s = 120;
+  at.ticks(200);
+  EXPECT_EQ(at.inserted_mm(), 0) << "its tip is at the introducer now";
+  at.ticks(1000);
+  EXPECT_NEAR(at.inserted_mm(), 50, 1) << "less what 16 ms of smoothing are behind";
+  at.mm_s = at.deg_s = 0;
+  at.ticks(500);
+  EXPECT_NEAR(at.inserted_mm(), at.box.station[0].advanced_mm - 10, 0.02);
+  EXPECT_NEAR(at.turned_deg(), at.box.station[0].turned_deg, 0.2);
+  at.mm_s = -80;
+  at.ticks(400);
+  at.mm_s = 0;
+  at.ticks(400);
+  EXPECT_NEAR(at.inserted_mm(), at.box.station[0].advanced_mm - 10, 0.02);
+  EXPECT_EQ(at.run.troubles, 0u);
+}
+
+TEST(DeviceHand, SingleCountsAreNoJerks) {
+  AtTheBox at;
+  at.mm_s = 5;  // a count of 0.01 mm every other millisecond
+  at.ticks(2500);
+  double least = 1, most = 0;
+  for (int i = 0; i < 200; ++i) {
+    at.ticks(1);
+    least = std::min(least, at.run.inputs.tools[0].advance_m_s),
+    most = std::max(most, at.run.inputs.tools[0].advance_m_s);
+  }
+  EXPECT_GT(least, 4e-3);
+  EXPECT_LT(most, 6e-3);
+}
+
+TEST(DeviceHand, FullTravelStopsTimeUntilTheHandIsBack) {
+  AtTheBox at;
+  at.mm_s = 400;
+  SessionState before;
+  double drew_back_mm = 0;
+  long paused = 0;
+  at.when_paused = [&](EmulatedBox& b) {
+    if (paused++ == 0) before = at.run.state;
+    EXPECT_EQ(hash(at.run.state), hash(before)) << "the simulation stands";
+    at.mm_s = 0;
+    if (drew_back_mm < 200) b.station[0].advanced_mm -= 0.5, drew_back_mm += 0.5;
+  };
+  while (paused == 0) at.ticks(1);
+  EXPECT_GE(paused, 700) << "200 mm at half a metre a second, and 0.3 s held still";
+  EXPECT_EQ(at.hand.stood(), 1);
+  at.ticks(300);
+  const double inserted_mm = at.inserted_mm();
+  EXPECT_NEAR(inserted_mm, 295, 0.5) << "in place";
+  at.mm_s = 100;
+  at.ticks(500);
+  at.mm_s = 0;
+  at.ticks(300);
+  EXPECT_NEAR(at.inserted_mm() - inserted_mm, 50, 0.1);
+}
+
+TEST(DeviceHand, ALostWireAndAPulledCableStandStill) {
+  AtTheBox at;
+  at.mm_s = 100;
+  at.ticks(800);
+  for (const bool cable : {false, true}) {
+    if (cable)
+      at.port.plugged = false;
+    else
+      at.box.station[0].quality = 3;
+    at.ticks(200);
+    const double stands_mm = at.inserted_mm();
+    const double time_s = seconds(at.run.model, at.run.state);
+    at.ticks(200);
+    EXPECT_NEAR(at.inserted_mm(), stands_mm, 1e-3);
+    EXPECT_NEAR(seconds(at.run.model, at.run.state) - time_s, 0.2, 1e-9) << "the patient lives on";
+    EXPECT_FALSE(advice(at.hand.now()).empty());
+    at.port.plugged = true, at.box.station[0].quality = 200;
+    at.mm_s = 0;
+    at.ticks(200);
+    EXPECT_NEAR(at.inserted_mm(), stands_mm, 0.5) << "no jump";
+    at.mm_s = 100;
+    at.ticks(400);
+    EXPECT_NEAR(at.inserted_mm() - stands_mm, 40, 3);
+  }
+}
+
+TEST(DeviceHand, AnExchangeIsDrawingOutAndBringingInAnother) {
+  AtTheBox at;
+  at.mm_s = 100;
+  at.ticks(900);
+  at.mm_s = -100;
+  at.ticks(900);
+  at.mm_s = 0;
+  at.box.station[0].tool = Tool::none, at.box.station[0].quality = 0;
+  at.ticks(300);
+  EXPECT_NEAR(at.inserted_mm(), 0, 0.1);
+  at.box.station[0] = {Tool::wire, 200, at.box.station[0].advanced_mm + 5, 0};
+  at.ticks(50);
+  at.mm_s = 100;
+  at.ticks(600);
+  at.mm_s = 0;
+  at.ticks(300);
+  EXPECT_EQ(at.hand.now().tool[index_of(Tool::wire)].arrivals, 2u);
+  EXPECT_NEAR(at.inserted_mm(), 50, 0.2) << "60 mm, of which 10 outside";
+}
+
+TEST(DeviceHand, PedalsButtonsPressureAndFlow) {
+  AtTheBox at;
+  at.box.pedals = 1, at.box.pressure_atm = -0.8, at.box.flow_mL_s = 3;
+  at.ticks(5);
+  EXPECT_EQ(at.run.inputs.c_arm.fluoroscopy, 1);
+  EXPECT_EQ(at.run.inputs.c_arm.cine, 0);
+  EXPECT_NEAR(at.hand.pressure_Pa(), -0.8 * 101'325, 60);
+  EXPECT_NEAR(at.hand.flow_m3_s(), 3e-6, 1e-8);
+  at.box.pedals = 2 | 8;
+  at.ticks(5);
+  EXPECT_EQ(at.run.inputs.c_arm.cine, 1);
+  EXPECT_DOUBLE_EQ(at.run.inputs.c_arm.lao_rad, -0.5);
+  at.box.pedals = 4;
+  at.ticks(5);
+  EXPECT_DOUBLE_EQ(at.run.inputs.c_arm.lao_rad, 0.7) << "and it stays when the button is let go";
+  at.box.pedals = 0;
+  at.ticks(5);
+  EXPECT_DOUBLE_EQ(at.run.inputs.c_arm.lao_rad, 0.7);
+}
+
+TEST(DeviceHand, DoesNotAllocate) {
+  AtTheBox at;
+  at.mm_s = 60, at.deg_s = 90;
+  at.ticks(1500);
+  const long before = allocations();
+  at.ticks(500);
+  EXPECT_EQ(allocations(), before);
+}
+
+TEST(DeviceHand, TheClampHoldsWhatTheWirePushes) {
+  AtTheBox at;
+  at.mm_s = 100;
+  at.ticks(2500);
+  at.mm_s = 30;
+  double most_push_N = 0;
+  for (int i = 0; i < 1000; ++i) {
+    at.ticks(1);
+    most_push_N = std::max(most_push_N, at.run.report.tools[0].push_N);
+  }
+  const double level_N = at.box.clamp()[0] / 65535.0 * 10;
+  EXPECT_GT(most_push_N, 0.05) << "friction of the tube";
+  EXPECT_NEAR(level_N, at.run.report.tools[0].push_N, 0.15 * most_push_N + 0.03);
+}
+
+TEST(DeviceRun, AtTheEmulatorRecordsAndReplays) {
+  RunSetup setup = tube_setup();
+  const auto device = run_at_emulator({}, nullptr);
+  ScriptedRun run(setup, tube_vessel(), &device->driver());
+  PlayOptions options;
+  options.recorder.file = testing::TempDir() + "device_run.h5";
+  const PlayReport report = play(run, setup, options);
+  EXPECT_EQ(report.outcome, "success") << report.reason;
+  Replay replay(options.recorder.file, tube_vessel());
+  const VerifyReport verified = verify(replay);
+  EXPECT_GT(verified.steps, 1000u);
+  EXPECT_FALSE(verified.first_step);
+  EXPECT_EQ(hash(replay.state), report.hash);
+  std::filesystem::remove(options.recorder.file);
+}
+
+TEST(DeviceRun, EndsWhenItIsStoppedWhileItStands) {
+  AtTheBox at;
+  at.mm_s = 400;
+  at.when_paused = [&](EmulatedBox&) { at.stop = true; };
+  while (at.run.tick()) {
+  }
+  EXPECT_EQ(at.run.outcome, Outcome::aborted);
+}
+
+}  // namespace
+}  // namespace ostium
