@@ -34,6 +34,9 @@ class Bench {
   virtual bool can_deny() const { return false; }
   virtual void deny_access(bool) {}
 
+  /// Whether udev has marked the box by the project's rule; nothing: there is no udev here.
+  virtual std::optional<bool> marked_by_udev() const { return {}; }
+
   /// Samples that were put off because the host had no transfer in flight. (Machines that run tests are busy. After
   /// `longest_put_off_ms` one is lost, as it is on a bus.)
   virtual long late() const = 0;

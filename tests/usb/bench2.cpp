@@ -7,7 +7,7 @@
 
 #include <chrono>
 #include <cstring>
-#include <fstream>
+#include <filesystem>
 #include <stdexcept>
 #include <thread>
 
@@ -34,6 +34,11 @@ class VhciBench : public Bench {
   std::string name() const override { return "bench 2 (kernel, vhci_hcd)"; }
   void set_pace(Pace pace) override { fast_ = pace == Pace::fast; }
   long late() const override { return late_ + (link_ ? link_->late() : 0); }
+
+  std::optional<bool> marked_by_udev() const override {
+    const std::filesystem::path tags = "/run/udev/tags/uaccess";
+    return std::filesystem::is_directory(tags) && !std::filesystem::is_empty(tags);
+  }
 
   void plug() override {
     if (link_) return;

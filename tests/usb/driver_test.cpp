@@ -340,6 +340,12 @@ TEST_F(Usb, NoAccessIsSaidAndMended) {
   EXPECT_TRUE(running()) << "without being plugged in again";
 }
 
+TEST_F(Usb, TheUdevRuleMarksIt) {
+  if (!bench().marked_by_udev()) GTEST_SKIP() << "no udev on " << bench().name();
+  ASSERT_TRUE(running());
+  EXPECT_TRUE(until([] { return *bench().marked_by_udev(); }));
+}
+
 TEST_F(Usb, AnotherProgramHasIt) {
   UsbPort first;
   TrackingBox owner{first, {}};
