@@ -166,7 +166,8 @@ int device_monitor_command(const DeviceOptions& o) {
   Source source(o);
   TrackingBox box(*source.port, {});
   BoxRequest request;
-  request.arm = o.arm;
+  request.arm = o.arm || o.push_N > 0;
+  for (ClampLoad& load : request.load) load.push_N = o.push_N;
   RoundTrips trips;
   const bool redraw = isatty(STDOUT_FILENO) && !o.json;
   const double begin_s = clock_s();

@@ -6,7 +6,8 @@ namespace ostium {
 struct DeviceOptions {
   std::string serial;     ///< of the box; empty: the first that is found
   double seconds = 0;     ///< of `monitor`, `emulate`; 0: until Ctrl-C
-  bool arm = false;       ///< `monitor` arms the clamps, open, to test watchdog and stop
+  bool arm = false;       ///< `monitor` arms the clamps, open
+  double push_N = 0;      ///< `monitor` arms them, and resists every push so
   bool emulator = false;  ///< `monitor` an emulated box in this process
   bool json = false;
   int port = 3240;        ///< of `emulate`

@@ -365,7 +365,9 @@ int main(int argc, char** argv) {
   CLI::App* device_monitor = device_app->add_subcommand("monitor", "What the box says: tools, pressure, flow, pedals");
   device_monitor->add_option("--serial", device.serial, "Of the box; else the first that is found");
   device_monitor->add_option("--seconds", device.seconds, "Then end; else at Ctrl-C")->check(CLI::Range(0.01, 1e6));
-  device_monitor->add_flag("--arm", device.arm, "Arm the clamps (they stay open): to see watchdog and emergency stop");
+  device_monitor->add_flag("--arm", device.arm, "Arm the clamps; they stay open");
+  device_monitor->add_option("--push", device.push_N, "Arm them, and resist every push with so many N")
+      ->check(CLI::Range(0.0, 8.0));
   device_monitor->add_flag("--emulator", device.emulator, "An emulated box whose wire goes in and out");
   device_monitor->add_flag("--json", device.json, "A line of JSON a second");
   device_monitor->footer("Examples:\n  ostium device monitor\n  ostium device monitor --emulator --seconds 20 --json");

@@ -1,5 +1,5 @@
 /* What the firmware of a tracking box has to do, apart from its pins: protocol version 1 in portable C99. No
- * allocation, no floating point arithmetic, no interrupts of its own; some 500 bytes of memory. All calls from one
+ * allocation, no floating point arithmetic, no interrupts of its own; some 400 bytes of memory. All calls from one
  * context.
  *
  * A board's program does this:
