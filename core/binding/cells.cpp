@@ -97,6 +97,8 @@ void lay_layers(const Model& model, const Scratch& scratch, Nest& nest) {
       copy_law(rod.law, first + from - layer.covered, rod.elements + 1, layer.law, from);
     }
     if (k > 0) cut_cells(rod, own, nest, k);
+    // Where it ends inside another, the node behind its last joint has nothing of it.
+    if (!protrudes && own < chain.elements) layer.mass.at(0)[own + 1] = 0;
     const int nodes = own + 1;
     if (k == 0)
       copy_entries(layer.mass, 0, layer.end + 1, chain.mass, 0);
