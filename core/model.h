@@ -18,8 +18,9 @@ struct Model {
 };
 
 /// Throws std::invalid_argument if there is no rod, gravity is not finite, the step is out of range, or a nesting names
-/// rods that there are not, an outer rod behind its inner one, more than three outer rods for one, or an
-/// inner rod too thick for the lumen.
+/// rods that there are not, an outer rod behind its inner one, more than three outer rods around one at
+/// once, or an inner rod too thick for the lumen. Rods of which neither runs in the other, each in the same outer one
+/// (balloons for one wire), are alternatives: one of them is in the body, or the second is nested in nothing.
 void check(const Model& model);
 
 }  // namespace ostium

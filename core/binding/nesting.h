@@ -6,7 +6,7 @@
 
 namespace ostium {
 
-/// Most outer rods that one rod can run in.
+/// Most outer rods that one rod can run in at once.
 inline constexpr int max_outer_rods = 3;
 
 /// Rod `inner` runs inside the lumen of rod `outer` as far as both are in the body, and leaves it at the outer's tip.
