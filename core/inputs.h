@@ -23,12 +23,20 @@ struct EndDrive {
   Eigen::Vector3d turn_rate_W_rad_s = Eigen::Vector3d::Zero();
 };
 
+/// Dead load on a stretch of a rod, spread evenly over its nodes there: what a balloon's wall holds it with. Of nodes
+/// that are inside another rod there is none.
+struct StretchLoad {
+  double from_tip_m = 0, to_tip_m = 0;  ///< nodes between them, or the one nearest to their middle
+  Eigen::Vector3d force_W_N = Eigen::Vector3d::Zero();
+};
+
 struct RodInputs {
   /// Length pushed in at the introducer, the base's pose, per time; negative: drawn back. Only a clamped base feeds.
   double feed_m_s = 0;
   EndDrive base{Hold::clamped};
   EndDrive tip{Hold::free};
   Eigen::Vector3d tip_force_W_N = Eigen::Vector3d::Zero();  ///< dead load on the distal tip
+  StretchLoad load;
 };
 
 struct Inputs {

@@ -68,6 +68,7 @@ RodInputs limited(const RodInputs& asked, std::uint32_t& trouble) {
   }
   out.feed_m_s = within(Vector3d(asked.feed_m_s, 0, 0), tunables::max_drive_speed_m_s, drive_limited, trouble).x();
   out.tip_force_W_N = within(out.tip_force_W_N, tunables::max_load_N, load_limited, trouble);
+  out.load.force_W_N = within(out.load.force_W_N, tunables::max_load_N, load_limited, trouble);
   return out;
 }
 
