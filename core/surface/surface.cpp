@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <map>
 #include <numeric>
@@ -66,6 +67,34 @@ std::array<float, 3> shape_operator(const SurfaceDescription& d, const std::vect
   return {static_cast<float>(S(0, 0)), static_cast<float>((S(0, 1) + S(1, 0)) / 2), static_cast<float>(S(1, 1))};
 }
 
+/// Of a cluster, in an interval.
+Box leaf_box(const Surface& surface, const Surface::Cluster& c, int interval) {
+  constexpr float large = std::numeric_limits<float>::max(), rounding = 1e-6f;
+  Box box{{large, large, large}, {-large, -large, -large}};
+  const auto value = [&](int frame, int axis, int corner) {
+    return surface.corner_frames[(std::size_t{3} * wrapped(frame, surface.frames) + axis) * surface.corners + corner];
+  };
+  for (int axis = 0; axis < 3; ++axis)
+    for (int i = c.first_corner; i < c.first_corner + c.corners; ++i) {
+      const float p0 = value(interval - 1, axis, i), p1 = value(interval, axis, i), p2 = value(interval + 1, axis, i),
+                  p3 = value(interval + 2, axis, i);
+      for (const float b : {p1, p1 + (p2 - p0) / 6, p2 - (p3 - p1) / 6, p2})
+        box.low[axis] = std::min(box.low[axis], b - rounding), box.high[axis] = std::max(box.high[axis], b + rounding);
+    }
+  return box;
+}
+
+/// Of a node, from those of its children.
+Box box_of(const Surface& surface, const Box* boxes, int n, int interval) {
+  const Surface::Node& node = surface.nodes[n];
+  if (node.cluster >= 0) return leaf_box(surface, surface.clusters[node.cluster], interval);
+  const Box &a = boxes[n + 1], &b = boxes[surface.nodes[n + 1].skip];
+  Box box;
+  for (int axis = 0; axis < 3; ++axis)
+    box.low[axis] = std::min(a.low[axis], b.low[axis]), box.high[axis] = std::max(a.high[axis], b.high[axis]);
+  return box;
+}
+
 class Builder {
  public:
   explicit Builder(const SurfaceDescription& d) : d_(d), normals_(vertex_normals(d)), order_(d.triangles.size()) {
@@ -109,7 +138,7 @@ class Builder {
     std::sort(order_.begin() + begin, order_.begin() + end);
     Surface::Cluster c;
     c.first_triangle = static_cast<int>(out_.triangles.size()), c.triangles = end - begin;
-    c.first_corner = static_cast<int>(corner_vertex_.size());
+    c.first_corner = static_cast<int>(out_.corner_vertex.size());
     std::map<int, int> corner;
     for (int k = begin; k < end; ++k) {
       Surface::Triangle triangle;
@@ -118,7 +147,7 @@ class Builder {
       for (int j = 0; j < 3; ++j) {
         const int v = d_.triangles[order_[k]][j];
         const auto [it, fresh] = corner.try_emplace(v, static_cast<int>(corner.size()));
-        if (fresh) corner_vertex_.push_back(v);
+        if (fresh) out_.corner_vertex.push_back(v);
         triangle.corner[j] = static_cast<unsigned char>(it->second);
       }
       out_.triangles.push_back(triangle);
@@ -129,13 +158,13 @@ class Builder {
   }
 
   void lay_out_corners() {
-    out_.corners = static_cast<int>(corner_vertex_.size());
+    out_.corners = static_cast<int>(out_.corner_vertex.size());
     out_.corner_frames.resize(std::size_t{3} * out_.frames * out_.corners);
     float* to = out_.corner_frames.data();
     for (const auto& frame : d_.frames)
       for (int axis = 0; axis < 3; ++axis)
-        for (int v : corner_vertex_) *to++ = static_cast<float>(frame[v][axis]);
-    for (int v : corner_vertex_) {
+        for (int v : out_.corner_vertex) *to++ = static_cast<float>(frame[v][axis]);
+    for (int v : out_.corner_vertex) {
       const Eigen::Vector3f n = normals_[v].cast<float>();
       out_.corner_normals.push_back({n[0], n[1], n[2]});
     }
@@ -146,42 +175,14 @@ class Builder {
     out_.boxes.resize(std::size_t{1} * out_.frames * nodes);
     for (int k = 0; k < out_.frames; ++k) {
       Box* boxes = &out_.boxes[std::size_t{1} * k * nodes];
-      for (int n = nodes - 1; n >= 0; --n) {
-        const Surface::Node& node = out_.nodes[n];
-        if (node.cluster >= 0) {
-          boxes[n] = leaf_box(out_.clusters[node.cluster], k);
-          continue;
-        }
-        const Box &a = boxes[n + 1], &b = boxes[out_.nodes[n + 1].skip];
-        for (int axis = 0; axis < 3; ++axis)
-          boxes[n].low[axis] = std::min(a.low[axis], b.low[axis]),
-          boxes[n].high[axis] = std::max(a.high[axis], b.high[axis]);
-      }
+      for (int n = nodes - 1; n >= 0; --n) boxes[n] = box_of(out_, boxes, n, k);
     }
-  }
-
-  Box leaf_box(const Surface::Cluster& c, int interval) const {
-    constexpr float large = std::numeric_limits<float>::max(), rounding = 1e-6f;
-    Box box{{large, large, large}, {-large, -large, -large}};
-    const auto value = [&](int frame, int axis, int corner) {
-      return out_.corner_frames[(std::size_t{3} * wrapped(frame, out_.frames) + axis) * out_.corners + corner];
-    };
-    for (int axis = 0; axis < 3; ++axis)
-      for (int i = c.first_corner; i < c.first_corner + c.corners; ++i) {
-        const float p0 = value(interval - 1, axis, i), p1 = value(interval, axis, i), p2 = value(interval + 1, axis, i),
-                    p3 = value(interval + 2, axis, i);
-        for (const float b : {p1, p1 + (p2 - p0) / 6, p2 - (p3 - p1) / 6, p2})
-          box.low[axis] = std::min(box.low[axis], b - rounding),
-          box.high[axis] = std::max(box.high[axis], b + rounding);
-      }
-    return box;
   }
 
   const SurfaceDescription& d_;
   std::vector<Vector3d> normals_;
   std::vector<int> order_;
   std::vector<Vector3d> centres_;
-  std::vector<int> corner_vertex_;
   Surface out_;
 };
 
@@ -190,6 +191,52 @@ class Builder {
 Surface make_surface(const SurfaceDescription& description) {
   check(description);
   return Builder(description).take();
+}
+
+SurfaceEditor::SurfaceEditor(const SurfaceDescription& description, Surface& surface)
+    : surface_(surface),
+      first_corner_(description.frames[0].size() + 1, 0),
+      corners_(surface.corners),
+      cluster_of_(surface.corners),
+      leaf_of_(surface.clusters.size()),
+      parent_(surface.nodes.size(), -1),
+      changed_(surface.nodes.size(), 0) {
+  for (int v : surface.corner_vertex) ++first_corner_[v + 1];
+  std::partial_sum(first_corner_.begin(), first_corner_.end(), first_corner_.begin());
+  std::vector<int> next(first_corner_.begin(), first_corner_.end() - 1);
+  for (int c = 0; c < surface.corners; ++c) corners_[next[surface.corner_vertex[c]]++] = c;
+  for (int k = 0; k < static_cast<int>(surface.clusters.size()); ++k)
+    for (int c = 0; c < surface.clusters[k].corners; ++c) cluster_of_[surface.clusters[k].first_corner + c] = k;
+  for (int n = 0; n < static_cast<int>(surface.nodes.size()); ++n) {
+    const Surface::Node& node = surface.nodes[n];
+    if (node.cluster >= 0)
+      leaf_of_[node.cluster] = n;
+    else
+      parent_[n + 1] = parent_[surface.nodes[n + 1].skip] = n;
+  }
+  pending_.reserve(surface.nodes.size());
+}
+
+void SurfaceEditor::place(int vertex, int frame, const Eigen::Vector3d& p_W) {
+  for (int k = first_corner_[vertex]; k < first_corner_[vertex + 1]; ++k) {
+    const int corner = corners_[k];
+    for (int axis = 0; axis < 3; ++axis)
+      surface_.corner_frames[(std::size_t{3} * frame + axis) * surface_.corners + corner] =
+          static_cast<float>(p_W[axis]);
+    for (int n = leaf_of_[cluster_of_[corner]]; n >= 0 && !changed_[n]; n = parent_[n])
+      changed_[n] = 1, pending_.push_back(n);
+  }
+}
+
+void SurfaceEditor::refit() {
+  std::sort(pending_.begin(), pending_.end(), std::greater<>());  // children stand behind their parents
+  const int nodes = static_cast<int>(surface_.nodes.size());
+  for (int k = 0; k < surface_.frames; ++k) {
+    Box* boxes = &surface_.boxes[std::size_t{1} * k * nodes];
+    for (int n : pending_) boxes[n] = box_of(surface_, boxes, n, k);
+  }
+  for (int n : pending_) changed_[n] = 0;
+  pending_.clear();
 }
 
 std::array<double, 4> frame_weights(double x) {

@@ -48,6 +48,7 @@ struct Surface {
   std::vector<Triangle> triangles;
   int frames = 0;
   std::vector<float> corner_frames;       ///< [frame][x, y, z][corner]
+  std::vector<int> corner_vertex;         ///< [corner], as described
   std::vector<V3<float>> corner_normals;  ///< [corner], outwards, of the first frame: they tell sides, no more
   int corners = 0;
   std::vector<Node> nodes;
@@ -59,6 +60,27 @@ struct Surface {
 /// Throws std::invalid_argument if there is no triangle or frame, a triangle names a vertex that there is not, frames
 /// differ in length, or a number is not finite or negative.
 Surface make_surface(const SurfaceDescription& description);
+
+/// Puts vertices of a surface elsewhere, for the whole cycle, and refits the boxes: walls that something opened. Its
+/// triangles, clusters, normals and curvatures stay. What the surface is then depends on the places alone, not on the
+/// order in which they came about.
+class SurfaceEditor {
+ public:
+  /// Keeps a reference. `description`: what the surface was made of.
+  SurfaceEditor(const SurfaceDescription& description, Surface& surface);
+
+  /// One vertex in one frame; call `refit` after the last.
+  void place(int vertex, int frame, const Eigen::Vector3d& p_W);
+  void refit();
+
+ private:
+  Surface& surface_;
+  std::vector<int> first_corner_, corners_;  ///< of each vertex: corners_[first_corner_[v], first_corner_[v + 1])
+  std::vector<int> cluster_of_;              ///< (#corners)
+  std::vector<int> leaf_of_, parent_;        ///< node of a cluster; of a node, -1
+  std::vector<char> changed_;                ///< (#nodes)
+  std::vector<int> pending_;  ///< nodes whose box is to be made anew, children before parents once sorted
+};
 
 /// Where in its cycle a surface is at both ends of a step, in frames: any numbers, taken modulo the number of frames,
 /// at most one frame apart. And by how much all of it is shifted, m (breathing).
