@@ -23,14 +23,19 @@ PhysiologyState make_state(const PhysiologyModel& model) {
 
 ContrastReport step(const PhysiologyModel& model, const PhysiologyInputs& in, double dt_s, PhysiologyState& s,
                     PhysiologyScratch& x) {
-  const double before = s.heart.phase;
+  const double before = s.heart.beats;
   step(model.heart, in.heart, dt_s, s.heart);
+  return circulate(model, in, dt_s, s.heart.beats > before, s, x);
+}
+
+ContrastReport circulate(const PhysiologyModel& model, const PhysiologyInputs& in, double dt_s, bool beat_begins,
+                         PhysiologyState& s, PhysiologyScratch& x) {
   const Pressures now = pressures(model.heart, s.heart);
   const bool coronary = in.contrast.tip.where == TipPlace::coronary;
   step(model.line,
        {now, coronary ? s.flow.pressure_Pa[in.contrast.tip.cell] : 0, in.contrast.tip, in.tip_in_ventricle,
         in.tip_covered, in.wire_in_catheter || in.contrast.injection_m3_s > 0 || in.contrast.aspiration_m3_s > 0,
-        s.heart.phase < before},
+        beat_begins},
        dt_s, s.line);
   s.circulation_s += dt_s;
   if (s.circulation_s < circulation_step_s * (1 - 1e-9)) return {};

@@ -52,6 +52,11 @@ struct PhysiologyScratch {
 ContrastReport step(const PhysiologyModel& model, const PhysiologyInputs& inputs, double dt_s, PhysiologyState& state,
                     PhysiologyScratch& scratch);
 
+/// The same in two halves, for whoever needs the beat before it knows what lies in the vessels: first
+/// `step(model.heart, inputs.heart, dt_s, state.heart)`, then this. `beat_begins`: an R wave was in that.
+ContrastReport circulate(const PhysiologyModel& model, const PhysiologyInputs& inputs, double dt_s, bool beat_begins,
+                         PhysiologyState& state, PhysiologyScratch& scratch);
+
 template <class S, class Visit>
 void for_each_field(S& s, Visit&& visit) requires requires {
   s.circulation_s;

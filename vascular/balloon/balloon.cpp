@@ -200,7 +200,7 @@ BalloonReport step(const BalloonModel& m, const PlaqueModel& plaque, const Ballo
   s.inflated_s = gauge > atm ? s.inflated_s + dt : 0;
   if (in.path) {
     slide(m, along, pressed, dt, s);
-    report.axial_N = along;
+    report.axial_N = along, report.pressed_N = pressed;
     double narrowest_gap = 1;
     for (std::size_t k = 0; k < in.path->cells.size(); ++k) {
       const double a = radius_at(m, s, in.middle_m, in.path->s_m[k]);

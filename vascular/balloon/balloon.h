@@ -75,6 +75,7 @@ struct BalloonInputs {
 struct BalloonReport {
   double gauge_Pa = 0;
   double axial_N = 0;                   ///< on the shaft, distally; what the wall presses it along with
+  double pressed_N = 0;                 ///< sum of what the wall presses it with, all round
   double waist = 0;                     ///< narrowest over widest of the part between the markers, less than 1: a waist
   double dog_bone = 0;                  ///< wider end over the middle
   double spilt_m3 = 0;                  ///< into the vessel, by bursting, in this step

@@ -72,6 +72,7 @@ void step(const HeartModel& model, const HeartInputs& inputs, double dt_s, Heart
   s.since_R_s += dt_s;
   if (s.phase < 1) return;
   s.phase -= 1;
+  s.beats += 1;
   s.cycle_s = s.since_R_s;
   s.since_R_s = s.phase / speed;
   s.ectopic = s.next_ectopic, s.next_ectopic = 0;

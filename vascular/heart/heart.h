@@ -36,6 +36,7 @@ struct HeartState {
   double time_s = 0;             ///< since the start
   double since_R_s = 0;
   double cycle_s = 60.0 / 70;  ///< length of the last whole beat
+  double beats = 0;            ///< R waves so far
 };
 
 /// What the heart gives at a moment.
@@ -69,6 +70,7 @@ void for_each_heart_field(S& s, Visit&& visit) {
   visit("heart.time_s", &s.time_s, 1);
   visit("heart.since_R_s", &s.since_R_s, 1);
   visit("heart.cycle_s", &s.cycle_s, 1);
+  visit("heart.beats", &s.beats, 1);
 }
 
 }  // namespace ostium
