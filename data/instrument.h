@@ -49,6 +49,20 @@ struct ShapeableTip {
   std::vector<ShapePiece> default_shape;  ///< as it comes here; not longer than length_m
 };
 
+/// What a balloon or stent shaft carries, folded about its tip between two markers.
+struct CarriedBalloon {
+  double nominal_m = 0;   ///< diameter at the nominal pressure
+  double length_m = 0;    ///< between the markers' middles
+  bool compliant = true;  ///< semi-compliant; false: non-compliant
+  double nominal_Pa = 0, rated_Pa = 0;
+};
+
+/// And the stent that is crimped on it.
+struct CarriedStent {
+  double nominal_m = 0;  ///< diameter, open
+  double length_m = 0;   ///< crimped
+};
+
 /// Where a group of numbers is from.
 struct Source {
   std::string of;        ///< "size", "sections", "sections.list[2]"
@@ -68,6 +82,8 @@ struct Instrument {
   std::vector<OpaqueStretch> opaque;  ///< the whole length, from the tip
   std::vector<Marker> markers;
   std::optional<WireLumen> wire_lumen;        ///< of balloon and stent shafts
+  std::optional<CarriedBalloon> balloon;      ///< of balloon and stent shafts
+  std::optional<CarriedStent> stent;          ///< of stent shafts
   std::optional<ShapeableTip> shapeable_tip;  ///< of wires
   double passes_m = 0;                        ///< largest diameter that its lumen lets through; <= inner diameter
   double needs_m = 0;                         ///< smallest lumen that it goes through; >= outer diameter

@@ -22,6 +22,8 @@ inline const JsonObjectKeys instrument = {
      {"shapeable_tip", false, "the stretch that can be bent, an object; for wires only"},
      {"markers", false, "radiopaque bands, an object"},
      {"wire_lumen", false, "how it runs over its wire, an object; for balloon_shaft and stent_shaft, which need it"},
+     {"balloon", false, "what it carries, an object; for balloon_shaft and stent_shaft, which need it"},
+     {"stent", false, "what is crimped on the balloon, an object; for stent_shaft, which needs it"},
      {"clearance", false, "what goes through it and what it goes through, an object"}}};
 
 inline const JsonObjectKeys size = {
@@ -91,6 +93,20 @@ inline const JsonObjectKeys wire_lumen = {
      {"length_mm", false, "from the tip to the wire's port in mm, > 0 and at most the length; for rapid_exchange only"},
      {"source", true, source_text}}};
 
+inline const JsonObjectKeys balloon = {
+    "balloon",
+    {{"nominal_diameter_mm", true, "its diameter at the nominal pressure in mm, 1 to 8"},
+     {"length_mm", true, "between the middles of both markers in mm, 5 to 60, as the markers say"},
+     {"compliance", true, "how it grows"},
+     {"nominal_atm", true, "the nominal pressure in atm, > 0"},
+     {"rated_atm", true, "the rated burst pressure in atm, at least the nominal one and at most 30"},
+     {"source", true, source_text}}};
+
+inline const JsonObjectKeys stent = {"stent",
+                                     {{"nominal_diameter_mm", true, "its diameter, open, in mm, 1 to 8"},
+                                      {"length_mm", true, "crimped, in mm, 5 to 60 and at most that of its balloon"},
+                                      {"source", true, source_text}}};
+
 inline const JsonObjectKeys clearance = {
     "clearance",
     {{"passes_mm", false, "the largest diameter that goes through it in mm, > 0 and at most the inner diameter"},
@@ -100,6 +116,6 @@ inline const JsonObjectKeys clearance = {
 /// All of them, for the test that compares them with the schema.
 inline const std::vector<const JsonObjectKeys*> all = {&instrument, &size,          &sections,    &section, &shape,
                                                        &piece,      &shapeable_tip, &radiopacity, &stretch, &markers,
-                                                       &marker,     &wire_lumen,    &clearance};
+                                                       &marker,     &wire_lumen,    &balloon,     &stent,   &clearance};
 
 }  // namespace ostium::instrument_keys

@@ -17,6 +17,7 @@ namespace {
 namespace keys = instrument_keys;
 
 constexpr double mm = 1e-3, Nmm2 = 1e-6, per_mm = 1e3, degree = std::numbers::pi / 180;
+constexpr double atm = 101325;
 constexpr double gap_tolerance_mm = 1e-6;
 
 /// The source of `object`, kept under its path; a group must have one, a list's entry may.
@@ -181,6 +182,38 @@ void read_wire_lumen(const JsonObject& group, Instrument& instrument) {
   instrument.wire_lumen = lumen;
 }
 
+double within(const JsonObject& object, const char* key, double least, double most) {
+  const double value = object.number(key);
+  if (!(value >= least && value <= most)) object.refuse(key);
+  return value;
+}
+
+void read_balloon(const JsonObject& group, Instrument& instrument) {
+  keep_source(group, instrument);
+  CarriedBalloon balloon;
+  balloon.nominal_m = within(group, "nominal_diameter_mm", 1, 8) * mm;
+  balloon.length_m = within(group, "length_mm", 5, 60) * mm;
+  balloon.compliant = group.choice("compliance", {"semi", "non"}) == 0;
+  balloon.nominal_Pa = group.positive("nominal_atm") * atm;
+  balloon.rated_Pa = within(group, "rated_atm", group.number("nominal_atm"), 30) * atm;
+  // It lies between its markers: who reads its place off them must find it there.
+  const std::vector<Marker>& bands = instrument.markers;
+  if (bands.size() != 2) group.value().fail("balloon lies between two markers; expected markers with two bands");
+  const double apart =
+      std::fabs(bands[1].from_tip_m + bands[1].length_m / 2 - bands[0].from_tip_m - bands[0].length_m / 2);
+  if (std::fabs(apart - balloon.length_m) > 1.1 * mm) group.refuse("length_mm");
+  instrument.balloon = balloon;
+}
+
+void read_stent(const JsonObject& group, Instrument& instrument) {
+  keep_source(group, instrument);
+  CarriedStent stent;
+  stent.nominal_m = within(group, "nominal_diameter_mm", 1, 8) * mm;
+  stent.length_m = within(group, "length_mm", 5, 60) * mm;
+  if (stent.length_m > instrument.balloon->length_m + 0.01 * mm) group.refuse("length_mm");
+  instrument.stent = stent;
+}
+
 void read_clearance(const JsonObject& group, Instrument& instrument) {
   keep_source(group, instrument);
   if (!group.has("passes_mm") && !group.has("needs_mm"))
@@ -228,6 +261,14 @@ Instrument read(const JsonValue& file) {
     if (!shaft) root.refuse("wire_lumen");
     read_wire_lumen(JsonObject(root["wire_lumen"], keys::wire_lumen), instrument);
   }
+  const bool carries_stent = instrument.kind == InstrumentKind::stent_shaft;
+  for (const char* key : {"balloon", "stent"}) {
+    const bool needed = shaft && (key[0] == 'b' || carries_stent);
+    if (needed && !root.has(key)) root["kind"].refuse(fmt::format("a {} with it: what it carries", key));
+    if (!needed && root.has(key)) root.refuse(key);
+  }
+  if (root.has("balloon")) read_balloon(JsonObject(root["balloon"], keys::balloon), instrument);
+  if (root.has("stent")) read_stent(JsonObject(root["stent"], keys::stent), instrument);
   if (root.has("clearance")) read_clearance(JsonObject(root["clearance"], keys::clearance), instrument);
   require_rod(root, instrument);
   return instrument;

@@ -122,6 +122,73 @@ double largest(const RunRecord& r, const std::string& signal) {
   return most;
 }
 
+// --- of a case: columns that are not a tool's
+
+double number_at(const RunRecord& r, const std::string& name, std::size_t row) {
+  for (std::size_t c = 0; c < r.signal_columns.size(); ++c)
+    if (r.signal_columns[c] == name && row < r.rows()) return r.signals[row * r.signal_columns.size() + c];
+  return none;
+}
+double last_of(const RunRecord& r, const std::string& name) {
+  return r.rows() ? number_at(r, name, r.rows() - 1) : none;
+}
+
+/// All rows of a column; empty if there is none of that name.
+std::vector<double> all_of(const RunRecord& r, const std::string& name) {
+  std::vector<double> out;
+  for (std::size_t c = 0; c < r.signal_columns.size(); ++c)
+    if (r.signal_columns[c] == name)
+      for (std::size_t i = 0; i < r.rows(); ++i) out.push_back(r.signals[i * r.signal_columns.size() + c]);
+  return out;
+}
+
+/// Time for which a column's value is in [least, most).
+double time_within(const RunRecord& r, const std::string& name, double least, double most) {
+  const std::vector<double> column = all_of(r, name);
+  if (column.empty()) return none;
+  double sum = 0;
+  for (double x : column) sum += x >= least && x < most ? spacing_s(r) : 0;
+  return sum;
+}
+
+double most_of(const RunRecord& r, const std::string& name) {
+  const std::vector<double> column = all_of(r, name);
+  return column.empty() ? none : std::max(0.0, *std::max_element(column.begin(), column.end(), [](double a, double b) {
+                                            return (std::isnan(a) ? -1e300 : a) < (std::isnan(b) ? -1e300 : b);
+                                          }));
+}
+
+double residual_percent(const RunRecord& r, const std::string& mld) {
+  return 100 * (1 - last_of(r, mld) / last_of(r, "lesion_reference_mm"));
+}
+
+double coverage_percent(const RunRecord& r) {
+  const double from = last_of(r, "stent_from_mm"), to = last_of(r, "stent_to_mm"),
+               length = last_of(r, "lesion_length_mm");
+  if (std::isnan(length)) return none;
+  return std::isnan(from) ? 0 : 100 * std::max(0.0, std::min(to, length) - std::max(from, 0.0)) / length;
+}
+
+/// Length of what was ill or pressed by a balloon above 1 atm, and no stent covers.
+double geographic_miss_mm(const RunRecord& r) {
+  const double length = last_of(r, "lesion_length_mm"), s_from = last_of(r, "stent_from_mm"),
+               s_to = last_of(r, "stent_to_mm");
+  if (std::isnan(length) || std::isnan(s_from)) return none;
+  std::vector<std::pair<double, double>> spans = {{0, length}};
+  const std::vector<double> from = all_of(r, "balloon_from_mm"), to = all_of(r, "balloon_to_mm"),
+                            pressure = all_of(r, "balloon_atm");
+  for (std::size_t i = 0; i < from.size(); ++i)
+    if (pressure[i] > 1 && !std::isnan(from[i])) spans.emplace_back(from[i], to[i]);
+  std::sort(spans.begin(), spans.end());
+  double missed = 0, reached = -1e300;
+  for (auto [a, b] : spans) {
+    a = std::max(a, reached), reached = std::max(reached, b);
+    if (b <= a) continue;
+    missed += b - a - std::max(0.0, std::min(b, s_to) - std::max(a, s_from));
+  }
+  return missed;
+}
+
 }  // namespace
 
 const std::vector<EventDefinition>& event_definitions() {
@@ -143,7 +210,31 @@ const std::vector<EventDefinition>& event_definitions() {
       {EventCode::cine_on, "cine_on", "pedal down", ""},
       {EventCode::cine_off, "cine_off", "pedal up", ""},
       {EventCode::step_trouble, "step_trouble", "the engine had to give way in a step, after one in which it had not",
-       "bits of core's Trouble"}};
+       "bits of core's Trouble"},
+      {EventCode::injection_begins, "injection_begins", "the syringe is pressed", "mL/s"},
+      {EventCode::injection_ends, "injection_ends", "it is no longer", "mL since the run began, undiluted"},
+      {EventCode::heparin, "heparin", "given", "U"},
+      {EventCode::nitrate, "nitrate", "given into the coronary", "ug"},
+      {EventCode::adenosine, "adenosine", "given into the coronary", "ug"},
+      {EventCode::trace_changes, "trace_changes", "the guide's pressure looks otherwise than in the beat before",
+       "0 normal, 1 damped, 2 ventricularised, 3 ventricle, 4 absent"},
+      {EventCode::extrasystole, "extrasystole", "a beat comes early", ""},
+      {EventCode::inflation_begins, "inflation_begins", "the gauge rises above 1 atm", ""},
+      {EventCode::deflated, "deflated", "nothing is left in a balloon that had been inflated", "s since it began"},
+      {EventCode::over_pressure, "over_pressure", "the gauge rises above the rated burst pressure", "atm"},
+      {EventCode::balloon_burst, "balloon_burst", "a balloon bursts", "atm"},
+      {EventCode::inflation_in_catheter, "inflation_in_catheter",
+       "the gauge rises above 1 atm while the balloon does not lie in one artery", ""},
+      {EventCode::stent_deployed, "stent_deployed", "a stent is left in the wall",
+       "mm from the lesion's middle, distal"},
+      {EventCode::stent_lost, "stent_lost", "a stent comes off its balloon undeployed", ""},
+      {EventCode::occlusion_begins, "occlusion_begins", "flow behind the lesion falls below 5 % of the need", ""},
+      {EventCode::occlusion_ends, "occlusion_ends", "it is above that again", "s since it began"},
+      {EventCode::injury, "injury", "an artery tears",
+       "dissection 10 to 15 (A to F), perforation 21 to 25 (Ellis I to III, V)"},
+      {EventCode::injection_on_bad_trace, "injection_on_bad_trace",
+       "the syringe is pressed while the last trace was damped or ventricularised", ""},
+      {EventCode::entry_refused, "entry_refused", "a tool is fed that cannot enter beside another one", "that tool"}};
   return all;
 }
 
@@ -194,7 +285,40 @@ const std::vector<MetricDefinition>& metric_definitions() {
       {"wall_force_high_count", "1", "events wall_force_high",
        [](const RunRecord& r) { return count(r, EventCode::wall_force_high); }},
       {"step_trouble_count", "1", "events step_trouble",
-       [](const RunRecord& r) { return count(r, EventCode::step_trouble); }}};
+       [](const RunRecord& r) { return count(r, EventCode::step_trouble); }},
+      {"contrast_volume_mL", "mL", "out of the syringe, as undiluted contrast of 350 mg of iodine per mL",
+       [](const RunRecord& r) { return last_of(r, "contrast_mL"); }},
+      {"iodine_g", "g", "that left the catheter", [](const RunRecord& r) { return last_of(r, "iodine_g"); }},
+      {"residual_stenosis_percent", "%",
+       "of the first lesion at the end: 1 - smallest diameter within it over the reference, the healthy artery's mean "
+       "of 5 mm ahead of it and behind it",
+       [](const RunRecord& r) { return residual_percent(r, "lesion_mld_mm"); }},
+      {"residual_stenosis_in_segment_percent", "%", "the same with 5 mm on both sides of lesion and stents",
+       [](const RunRecord& r) { return residual_percent(r, "segment_mld_mm"); }},
+      {"acute_gain_mm", "mm", "smallest diameter within the lesion at the end less that at the beginning",
+       [](const RunRecord& r) { return last_of(r, "lesion_mld_mm") - number_at(r, "lesion_mld_mm", 0); }},
+      {"balloon_artery_ratio", "1",
+       "largest, over inflations, of the balloon's diameter between its markers over the healthy artery's there",
+       [](const RunRecord& r) { return most_of(r, "balloon_ratio"); }},
+      {"balloon_pressure_max_atm", "atm", "largest pressure in a balloon",
+       [](const RunRecord& r) { return most_of(r, "balloon_atm"); }},
+      {"inflations", "1", "times that the gauge rose above 1 atm",
+       [](const RunRecord& r) { return count(r, EventCode::inflation_begins); }},
+      {"stent_margin_proximal_mm", "mm", "from the stents' proximal end to the lesion's, negative: inside the lesion",
+       [](const RunRecord& r) { return -last_of(r, "stent_from_mm"); }},
+      {"stent_margin_distal_mm", "mm", "from the lesion's distal end to the stents', negative: inside the lesion",
+       [](const RunRecord& r) { return last_of(r, "stent_to_mm") - last_of(r, "lesion_length_mm"); }},
+      {"lesion_coverage_percent", "%", "share of the lesion's length that stents lie in at the end", coverage_percent},
+      {"geographic_miss_mm", "mm",
+       "length of the union of the lesion and of all inflations above 1 atm that no stent covers at the end",
+       geographic_miss_mm},
+      {"occlusion_time_s", "s", "flow behind the lesion below 5 % of the muscle's need",
+       [](const RunRecord& r) { return time_within(r, "flow_share", -1e300, occluded_share); }},
+      {"bad_trace_time_s", "s", "the guide's last trace damped or ventricularised",
+       [](const RunRecord& r) { return time_within(r, "trace", 0.5, 2.5); }},
+      {"ST_max_mV", "mV", "largest shift in a lead", [](const RunRecord& r) { return most_of(r, "ST_mV"); }},
+      {"injuries", "1", "dissections and perforations",
+       [](const RunRecord& r) { return count(r, EventCode::injury); }}};
   return all;
 }
 

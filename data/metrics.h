@@ -21,13 +21,35 @@ enum class EventCode : int {
   fluoroscopy_off,
   cine_on,
   cine_off,
-  step_trouble
+  step_trouble,
+  injection_begins,
+  injection_ends,
+  heparin,
+  nitrate,
+  adenosine,
+  trace_changes,
+  extrasystole,
+  inflation_begins,
+  deflated,
+  over_pressure,
+  balloon_burst,
+  inflation_in_catheter,
+  stent_deployed,
+  stent_lost,
+  occlusion_begins,
+  occlusion_ends,
+  injury,
+  injection_on_bad_trace,
+  entry_refused
 };
 
 /// Above this the sum of wall forces on a tool is an event. An estimate: no limit is agreed on; peak forces that
 /// vascular phantoms report for novices are of this order.
 inline constexpr double wall_force_limit_N = 1.0;
 inline constexpr double wall_force_cut_off_Hz = 10;  ///< of the first-order low pass that forces are judged behind
+
+/// Flow behind the lesion below this share of what the muscle needs counts as none.
+inline constexpr double occluded_share = 0.05;
 
 struct EventDefinition {
   EventCode code;

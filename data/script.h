@@ -26,20 +26,44 @@ enum class ConditionKind {
   wall_force_exceeds,
   tip_force_exceeds,
   seconds,
-  beats
+  beats,
+  balloon_at,
+  balloon_open,
+  balloon_empty,
+  engaged,
+  trace,
+  contrast_in,
+  flow_below,
+  ST_exceeds,
+  act_exceeds,
+  stenosis_below
 };
 
 struct ScriptCondition {
   ConditionKind kind = ConditionKind::seconds;
-  int tool = 0;                                           ///< of Script::tools
-  double value = 0;                                       ///< SI: m, rad, N, N m, s, beats
-  std::string place;                                      ///< of tip_passes, tip_leaves, tip_in, tip_faces
+  int tool = 0;       ///< of Script::tools
+  double value = 0;   ///< SI: m, rad, N, N m, s, beats, V, shares
+  std::string place;  ///< of tip_passes, tip_leaves, tip_in, tip_faces, engaged, contrast_in; of trace
   Eigen::Vector3d direction_P = Eigen::Vector3d::Zero();  ///< of tip_points, unit; `value` is the angle
   std::string words;                                      ///< as the file has it, for people: "tip_passes arch"
   int line = 0;                                           ///< where it stands
 };
 
-enum class ScriptAction { advance, withdraw, turn, wait, view, fluoroscopy, cine, heart_rate, mark };
+enum class ScriptAction {
+  advance,
+  withdraw,
+  turn,
+  wait,
+  view,
+  fluoroscopy,
+  cine,
+  heart_rate,
+  mark,
+  inject,
+  inflate,
+  deflate,
+  drug
+};
 
 struct ScriptStep {
   ScriptAction action = ScriptAction::wait;
@@ -55,11 +79,14 @@ struct ScriptStep {
   // view
   std::optional<double> lao_rad, cran_rad, field_m;
   std::optional<Eigen::Vector3d> table_P;
-  bool on = false;            ///< fluoroscopy, cine
-  double rate_1_min = 0;      ///< heart_rate
-  std::string text;           ///< mark
-  int line = 0;               ///< where it stands
-  std::string words() const;  ///< "advance", or "advance (label)"
+  bool on = false;                                          ///< fluoroscopy, cine
+  double rate_1_min = 0;                                    ///< heart_rate
+  std::string text;                                         ///< mark
+  double rate_m3_s = 0, volume_m3 = 0, iodine_kg_m3 = 350;  ///< inject
+  double gauge_Pa = 0, over_s = 0;                          ///< inflate
+  double heparin_U = 0, nitrate_ug = 0, adenosine_ug = 0;   ///< drug
+  int line = 0;                                             ///< where it stands
+  std::string words() const;                                ///< "advance", or "advance (label)"
 };
 
 struct ScriptTool {

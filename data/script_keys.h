@@ -42,7 +42,15 @@ inline const JsonObjectKeys step = {
      {"field_mm", false, "side of the detector's field in mm: 200, 160 or 130"},
      {"on", false, "true or false"},
      {"rate_1_min", false, "beats a minute, 40 to 180"},
-     {"text", false, "a text"}}};
+     {"text", false, "a text"},
+     {"rate_mL_s", false, "how fast the thumb pushes, in mL/s, > 0 and at most 20"},
+     {"volume_mL", false, "how much, in mL, > 0 and at most 60"},
+     {"iodine_mg_mL", false, "of what is in the syringe, 0 (saline) to 400; 350 if it is not said"},
+     {"gauge_atm", false, "pressure at the inflation device in atm, 0 to 30"},
+     {"over_s", false, "in how many seconds that is reached, > 0 and at most 60"},
+     {"heparin_U", false, "dose, > 0 and at most 20000"},
+     {"nitrate_ug", false, "dose, into the coronary, > 0 and at most 1000"},
+     {"adenosine_ug", false, "dose, into the coronary, > 0 and at most 1000"}}};
 
 inline const JsonObjectKeys condition = {
     "condition",
@@ -63,6 +71,18 @@ inline const JsonObjectKeys condition = {
      {"tip_force_exceeds_N", false, "that on its last 10 mm in N, > 0"},
      {"seconds", false, "since the step began, > 0"},
      {"beats", false, "of the heart since the step began, > 0"},
+     {"balloon_at_mm", false,
+      "the middle between the markers, from the middle of the case's first lesion, along the artery, in mm, distal is "
+      "positive: reached from either side, judged while the heart rests"},
+     {"balloon_open", false, "true: its waist is gone"},
+     {"balloon_empty", false, "true: nothing is seen in the balloon"},
+     {"engaged", false, "an artery that leaves the aorta: the guide's tip is in its ostium"},
+     {"trace", false, "what the guide's pressure looked like in the last beat"},
+     {"contrast_in", false, "a landmark in a coronary artery: contrast is seen there while the beam is on"},
+     {"flow_below_percent", false, "of what the muscle behind the first lesion needs, > 0"},
+     {"ST_exceeds_mV", false, "largest shift in the leads, > 0"},
+     {"act_exceeds_s", false, "activated clotting time, > 0"},
+     {"stenosis_below_percent", false, "of the first lesion's diameter, as measured on a film, > 0 and at most 100"},
      {"of", false, "which tool is meant; else the step's first"}}};
 
 inline const std::vector<const JsonObjectKeys*> all = {&root, &tool, &landmark, &step, &condition};

@@ -41,7 +41,38 @@ constexpr Kind kinds[] = {{"tip_passes", ConditionKind::tip_passes, 0},
                           {"wall_force_exceeds_N", ConditionKind::wall_force_exceeds, 1},
                           {"tip_force_exceeds_N", ConditionKind::tip_force_exceeds, 1},
                           {"seconds", ConditionKind::seconds, 1},
-                          {"beats", ConditionKind::beats, 1}};
+                          {"beats", ConditionKind::beats, 1},
+                          {"balloon_at_mm", ConditionKind::balloon_at, 1e-3},
+                          {"balloon_open", ConditionKind::balloon_open, 0},
+                          {"balloon_empty", ConditionKind::balloon_empty, 0},
+                          {"engaged", ConditionKind::engaged, 0},
+                          {"trace", ConditionKind::trace, 0},
+                          {"contrast_in", ConditionKind::contrast_in, 0},
+                          {"flow_below_percent", ConditionKind::flow_below, 1e-2},
+                          {"ST_exceeds_mV", ConditionKind::ST_exceeds, 1e-3},
+                          {"act_exceeds_s", ConditionKind::act_exceeds, 1},
+                          {"stenosis_below_percent", ConditionKind::stenosis_below, 1e-2}};
+
+/// What is not seen of one tool.
+bool of_no_tool(ConditionKind kind) {
+  switch (kind) {
+    case ConditionKind::seconds:
+    case ConditionKind::beats:
+    case ConditionKind::balloon_at:
+    case ConditionKind::balloon_open:
+    case ConditionKind::balloon_empty:
+    case ConditionKind::engaged:
+    case ConditionKind::trace:
+    case ConditionKind::contrast_in:
+    case ConditionKind::flow_below:
+    case ConditionKind::ST_exceeds:
+    case ConditionKind::act_exceeds:
+    case ConditionKind::stenosis_below:
+      return true;
+    default:
+      return false;
+  }
+}
 
 bool read_boolean(const JsonObject& object, const std::string& key) {
   if (object[key].type != JsonValue::Type::boolean) object.refuse(key);
@@ -69,20 +100,26 @@ ScriptCondition read_condition(const JsonValue& value, const Script& script, con
   }
   if (!found) value.fail(value.path + " says nothing to look at; expected one of tip_passes, fed_mm, seconds, ...");
   c.kind = found->kind;
-  const bool of_time = c.kind == ConditionKind::seconds || c.kind == ConditionKind::beats;
   if (object.has("of"))
     c.tool = tool_called(script, object["of"]);
   else if (!tools.empty())
     c.tool = tools.front();
-  else if (!of_time && script.tools.size() > 1)
+  else if (!of_no_tool(c.kind) && script.tools.size() > 1)
     value.fail(value.path + " does not say of which tool; expected \"of\"");
   if (found->unit > 0) {
-    const bool may_be_zero = c.kind == ConditionKind::inserted;
-    c.value = found->unit * (may_be_zero ? object.not_negative(found->key) : object.positive(found->key));
+    const bool may_be_zero = c.kind == ConditionKind::inserted, any = c.kind == ConditionKind::balloon_at;
+    c.value = found->unit * (any           ? object.number(found->key)
+                             : may_be_zero ? object.not_negative(found->key)
+                                           : object.positive(found->key));
     c.words = fmt::format("{} {:g}", found->key, object.number(found->key));
-  } else if (c.kind == ConditionKind::out) {
-    if (!read_boolean(object, "out")) object.refuse("out");
-    c.words = "out";
+  } else if (c.kind == ConditionKind::out || c.kind == ConditionKind::balloon_open ||
+             c.kind == ConditionKind::balloon_empty) {
+    if (!read_boolean(object, found->key)) object.refuse(found->key);
+    c.words = found->key;
+  } else if (c.kind == ConditionKind::trace) {
+    const std::vector<std::string> names = {"normal", "damped", "ventricularised", "ventricle", "absent"};
+    c.place = names[object.choice("trace", names)];
+    c.words = "trace " + c.place;
   } else if (c.kind == ConditionKind::tip_points) {
     const std::vector<std::string> names = {"left", "right", "head", "feet", "front", "back"};
     const std::size_t n = object.choice("tip_points", names);
@@ -131,7 +168,11 @@ const std::vector<Needs>& actions() {
                                          {"fluoroscopy", {"on"}, {"label"}},
                                          {"cine", {"on"}, {"label"}},
                                          {"heart rate", {"rate_1_min"}, {"label"}},
-                                         {"mark", {"text"}, {"label"}}};
+                                         {"mark", {"text"}, {"label"}},
+                                         {"inject", {"rate_mL_s", "volume_mL"}, with({"iodine_mg_mL", "until"})},
+                                         {"inflate", {"gauge_atm", "over_s"}, with({"until"})},
+                                         {"deflate", {}, with({"until"})},
+                                         {"drug", {}, {"label", "heparin_U", "nitrate_ug", "adenosine_ug"}}};
   return all;
 }
 
@@ -169,6 +210,30 @@ void read_view(const JsonObject& object, ScriptStep& step) {
     if (mm != 200 && mm != 160 && mm != 130) object.refuse("field_mm");
     step.field_m = 1e-3 * mm;
   }
+}
+
+/// Contrast, inflation device, drugs.
+void read_treatment(const JsonObject& object, ScriptStep& step) {
+  const auto within = [&](const char* key, double most, double unit, double& to) {
+    if (!object.has(key)) return;
+    if (object.positive(key) > most) object.refuse(key);
+    to = unit * object.number(key);
+  };
+  within("rate_mL_s", 20, 1e-6, step.rate_m3_s);
+  within("volume_mL", 60, 1e-6, step.volume_m3);
+  within("over_s", 60, 1, step.over_s);
+  within("heparin_U", 20000, 1, step.heparin_U);
+  within("nitrate_ug", 1000, 1, step.nitrate_ug);
+  within("adenosine_ug", 1000, 1, step.adenosine_ug);
+  const auto from_zero = [&](const char* key, double most, double unit, double& to) {
+    if (!object.has(key)) return;
+    if (object.not_negative(key) > most) object.refuse(key);
+    to = unit * object.number(key);
+  };
+  from_zero("iodine_mg_mL", 400, 1, step.iodine_kg_m3);
+  from_zero("gauge_atm", 30, 101325, step.gauge_Pa);
+  if (step.action == ScriptAction::drug && step.heparin_U + step.nitrate_ug + step.adenosine_ug == 0)
+    object.value().fail(object.value().path + " gives nothing; expected heparin_U, nitrate_ug or adenosine_ug");
 }
 
 ScriptStep read_step(const JsonValue& value, const Script& script) {
@@ -217,6 +282,7 @@ ScriptStep read_step(const JsonValue& value, const Script& script) {
     if (!(step.rate_1_min >= 40 && step.rate_1_min <= 180)) object.refuse("rate_1_min");
   }
   if (object.has("text")) step.text = object.text("text");
+  read_treatment(object, step);
   return step;
 }
 

@@ -63,38 +63,61 @@ Body body_of(const std::string& name, const std::vector<Eigen::Vector3d>& axis, 
   return body;
 }
 
-void add_balloon(const Bedside& bed, const Plan& plan, PatientScene& scene, double phase) {
-  const BalloonModel& model = bed.treatment.balloons[bed.device.balloon];
-  const BalloonState& state = bed.state.balloon;
+}  // namespace
+
+void add_balloon(const BalloonModel& model, const BalloonState& state, const VesselPath& path, double middle_m,
+                 const LumenMap& map, double phase, bool markers, Scene& scene) {
   std::vector<Eigen::Vector3d> axis;
   std::vector<PathFrame> frames;
   std::vector<double> radius;
   for (int i = 0; i < balloon_spheres; i += 3) {
-    frames.push_back(frame_at(scene.map(), plan.path, sphere_position(model, state, plan.middle_m, i), phase));
+    frames.push_back(frame_at(map, path, sphere_position(model, state, middle_m, i), phase));
     axis.push_back(frames.back().centre);
     radius.push_back(state.radius_m[i]);
   }
   // Its fill displaces blood; folded there is none to see.
   if (state.pressure_Pa > 0 || state.was_filled > 0)
-    scene.scene().moving.push_back(body_of("balloon", axis, frames, radius, model.iodine_kg_m3));
+    scene.moving.push_back(body_of("balloon", axis, frames, radius, model.iodine_kg_m3));
+  if (!markers) return;
   for (double end : {-0.5, 0.5}) {
-    const double at = plan.middle_m + state.slip_m + end * model.length_m;
+    const double at = middle_m + state.slip_m + end * model.length_m;
     std::vector<Eigen::Vector3d> band;
-    for (double x : {-0.5e-3, 0.5e-3}) band.push_back(frame_at(scene.map(), plan.path, at + x, phase).centre);
-    scene.scene().shafts.push_back(line("marker", band, Material::platinum, 0.31e-3, 0.26e-3));
+    for (double x : {-0.5e-3, 0.5e-3}) band.push_back(frame_at(map, path, at + x, phase).centre);
+    scene.shafts.push_back(line("marker", band, Material::platinum, 0.31e-3, 0.26e-3));
   }
 }
 
-void add_stent(const StentModel& model, const StentState& state, const Plan& plan, const Bedside& bed,
-               const Patient& patient, PatientScene& scene, double phase) {
-  const std::vector<Eigen::Vector3d> points =
-      is_tied(state) ? points_on_wall(model, state, patient, scene.shape(), bed.blood.radius_m, phase, 0)
-                     : points_on_path(model, state, scene.map(), plan.path, phase);
+void add_stent(const StentModel& model, const StentState& state, const VesselPath& path, const Patient& patient,
+               const LumenMap& map, const WallShape& shape, std::span<const double> radius_m, double phase,
+               Scene& scene) {
+  const std::vector<Eigen::Vector3d> points = is_tied(state)
+                                                  ? points_on_wall(model, state, patient, shape, radius_m, phase, 0)
+                                                  : points_on_path(model, state, map, path, phase);
   for (const auto& [a, b] : struts_of(model))
-    scene.scene().shafts.push_back(line("strut", {points[a], points[b]}, Material::cobalt_chromium, model.strut_m / 2));
+    scene.shafts.push_back(line("strut", {points[a], points[b]}, Material::cobalt_chromium, model.strut_m / 2));
 }
 
-}  // namespace
+void add_pools(const InjuryState& injuries, const LumenMap& map, std::span<const double> radius_m, double phase,
+               Scene& scene) {
+  for (const Injury& injury : injuries.injuries) {
+    if (injury.cell < 0 || injury.outside_kg <= 0) continue;
+    // A cloud beside the lumen, as large as what is in it.
+    const auto cell = static_cast<std::size_t>(injury.cell);
+    const Eigen::Vector3d p = map.coronary.position(cell, phase);
+    const double r = std::cbrt(injury.outside_m3 * 3 / (4 * pi)), out = radius_m[cell] + 0.6 * r;
+    PathFrame frame{p, Eigen::Vector3d::UnitZ(), Eigen::Vector3d::UnitX(), Eigen::Vector3d::UnitY()};
+    std::vector<Eigen::Vector3d> axis;
+    std::vector<double> radius;
+    for (int k = 0; k < 9; ++k) {
+      const double x = -0.98 + 1.96 * k / 8;
+      axis.push_back(p + out * frame.side + r * x * frame.along), radius.push_back(r * std::sqrt(1 - x * x));
+    }
+    Body cloud = body_of("outside the lumen", axis, std::vector<PathFrame>(9, frame), radius,
+                         injury.outside_kg / injury.outside_m3);
+    cloud.within = tissue::soft;
+    scene.moving.push_back(std::move(cloud));
+  }
+}
 
 void add_devices(const Bedside& bed, const Plan& plan, const Patient& patient, PatientScene& scene, bool wire) {
   const double phase = bed.blood.heart.phase;
@@ -110,27 +133,13 @@ void add_devices(const Bedside& bed, const Plan& plan, const Patient& patient, P
     const StentState& stent = bed.state.stents[i];
     const bool mine = bed.device.balloon >= 0 && bed.treatment.stent_on[bed.device.balloon] == static_cast<int>(i);
     if (stent.where == StentState::deployed || (stent.where == StentState::on_balloon && mine))
-      add_stent(bed.treatment.stents[i], stent, plan, bed, patient, scene, phase);
+      add_stent(bed.treatment.stents[i], stent, plan.path, patient, scene.map(), scene.shape(), bed.blood.radius_m,
+                phase, scene.scene());
   }
-  if (bed.device.balloon >= 0) add_balloon(bed, plan, scene, phase);
-  for (const Injury& injury : bed.state.injury.injuries) {
-    if (injury.cell < 0 || injury.outside_kg <= 0) continue;
-    // A cloud beside the lumen, as large as what is in it.
-    const auto cell = static_cast<std::size_t>(injury.cell);
-    const Eigen::Vector3d p = scene.map().coronary.position(cell, phase);
-    const double r = std::cbrt(injury.outside_m3 * 3 / (4 * pi)), out = bed.blood.radius_m[cell] + 0.6 * r;
-    PathFrame frame{p, Eigen::Vector3d::UnitZ(), Eigen::Vector3d::UnitX(), Eigen::Vector3d::UnitY()};
-    std::vector<Eigen::Vector3d> axis;
-    std::vector<double> radius;
-    for (int k = 0; k < 9; ++k) {
-      const double x = -0.98 + 1.96 * k / 8;
-      axis.push_back(p + out * frame.side + r * x * frame.along), radius.push_back(r * std::sqrt(1 - x * x));
-    }
-    Body cloud = body_of("outside the lumen", axis, std::vector<PathFrame>(9, frame), radius,
-                         injury.outside_kg / injury.outside_m3);
-    cloud.within = tissue::soft;
-    scene.scene().moving.push_back(std::move(cloud));
-  }
+  if (bed.device.balloon >= 0)
+    add_balloon(bed.treatment.balloons[bed.device.balloon], bed.state.balloon, plan.path, plan.middle_m, scene.map(),
+                phase, true, scene.scene());
+  add_pools(bed.state.injury, scene.map(), bed.blood.radius_m, phase, scene.scene());
 }
 
 }  // namespace ostium

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "app/angiography/patient_scene.h"
 #include "fluoro/overlay.h"
 
 namespace ostium {
@@ -9,8 +10,9 @@ namespace ostium {
 struct Film::Parts {
   explicit Parts(const FilmOptions& o) : options(o), imager({}, make_scanline_renderer()) {}
   FilmOptions options;
-  std::unique_ptr<const XrayPatient> patient;
-  Scene mesh;
+  std::unique_ptr<PatientScene> patient;      ///< with the blood and the contrast of the session,
+  std::unique_ptr<const XrayPatient> filled;  ///< or a tree full of contrast, whatever was injected,
+  Scene mesh;                                 ///< or a mesh
   Imager imager;
   FluoroscopeState state;
   DisplayScratch scratch;
@@ -29,8 +31,10 @@ bool is_frame(std::uint64_t step, double frames_per_s, double step_s) {
 
 Film::Film(const SessionModel& model, const FilmOptions& options) : parts_(std::make_unique<Parts>(options)) {
   require_rate(options.frames_per_s);
-  if (model.vessel->patient)
-    parts_->patient = std::make_unique<const XrayPatient>(model.vessel->patient, options.fill);
+  if (model.has_patient() && options.fill == Fill::none)
+    parts_->patient = std::make_unique<PatientScene>(*model.vessel->patient, model.physiology);
+  else if (model.vessel->patient)
+    parts_->filled = std::make_unique<const XrayPatient>(model.vessel->patient, options.fill);
   else
     parts_->mesh = scene_of_mesh(*model.vessel);
 }
@@ -40,8 +44,14 @@ Film::~Film() = default;
 const Picture& Film::frame(const SessionModel& model, const SessionState& state, const SessionInputs& inputs) {
   Parts& p = *parts_;
   const FilmOptions& o = p.options;
-  Scene scene = p.patient ? p.patient->at(state.heart.phase) : p.mesh;
+  Scene other;
+  if (p.patient)
+    p.patient->at(state.blood, occupied_m(model, state));
+  else
+    other = p.filled ? p.filled->at(state.blood.heart.phase) : p.mesh;
+  Scene& scene = p.patient ? p.patient->scene() : other;
   scene.shafts = shafts_of(model, state);
+  if (model.has_patient()) add_treatment(model, state, scene);
   const CArmInputs& arm = inputs.c_arm;
   p.view.arm.lao_rad = o.lao_rad.value_or(arm.lao_rad), p.view.arm.cran_rad = o.cran_rad.value_or(arm.cran_rad);
   p.view.arm.p_PI = o.p_PI.value_or(arm.p_PI);
@@ -55,7 +65,7 @@ const Picture& Film::frame(const SessionModel& model, const SessionState& state,
                             .pedals = {.fluoroscopy = on && !is_cine, .cine = on && is_cine},
                             .fluoroscopy_per_s = o.frames_per_s,
                             .cine_per_s = o.frames_per_s,
-                            .beat_phase = state.heart.phase,
+                            .beat_phase = state.blood.heart.phase,
                             .seed = o.seed};
   const TickReport report = tick(p.imager, in, p.state, p.scratch);
   if (report.xray_on) p.report = report.frame;

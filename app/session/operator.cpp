@@ -7,6 +7,7 @@
 #include <random>
 #include <stdexcept>
 
+#include "app/session/outcome.h"
 #include "data/metrics.h"
 
 namespace ostium {
@@ -15,13 +16,64 @@ using Eigen::Vector3d;
 
 namespace {
 
-std::vector<int> places(const Script& script, const std::vector<ScriptCondition>& conditions, const Way& way) {
+/// What conditions of treatment need of a session: arteries, and a lesion.
+bool needs_patient(ConditionKind kind) {
+  switch (kind) {
+    case ConditionKind::balloon_at:
+    case ConditionKind::balloon_open:
+    case ConditionKind::balloon_empty:
+    case ConditionKind::engaged:
+    case ConditionKind::trace:
+    case ConditionKind::contrast_in:
+    case ConditionKind::flow_below:
+    case ConditionKind::ST_exceeds:
+    case ConditionKind::act_exceeds:
+    case ConditionKind::stenosis_below:
+      return true;
+    default:
+      return false;
+  }
+}
+
+bool needs_lesion(ConditionKind kind) {
+  return kind == ConditionKind::balloon_at || kind == ConditionKind::flow_below ||
+         kind == ConditionKind::stenosis_below;
+}
+
+/// The flow tree's cell nearest to a sphere of the way, or -1.
+int cell_at(const Coronaries& c, const Way& way, int sphere) {
+  const Eigen::Vector3d p = way.p(sphere, 0);
+  int best = -1;
+  double least = 4e-3;
+  for (std::size_t cell = 0; cell < c.tree().cells.size(); ++cell)
+    if (const double d = (c.map.coronary.position(cell, 0) - p).norm(); d < least)
+      least = d, best = static_cast<int>(cell);
+  return best;
+}
+
+std::vector<int> places(const Script& script, const std::vector<ScriptCondition>& conditions,
+                        const SessionModel& model) {
+  const Way& way = *model.vessel->way;
   std::vector<int> out;
   for (const ScriptCondition& c : conditions) {
     int place = -1;
-    if (c.kind == ConditionKind::tip_in || c.kind == ConditionKind::tip_faces) {
+    if (needs_patient(c.kind) && !model.has_patient())
+      refuse(script, c.line, c.words + ": a mesh has no circulation; expected a case");
+    if (needs_lesion(c.kind) && model.vessel->coronaries->lesions.empty())
+      refuse(script, c.line, c.words + ": this patient has no lesion");
+    if (c.kind == ConditionKind::trace) {
+      for (int t = 0; t < 5; ++t)
+        if (trace_name(static_cast<Trace>(t)) == c.place) place = t;
+    } else if (c.kind == ConditionKind::engaged) {
+      place = model.physiology.flow.tree.branch(c.place);
+      if (place < 0 || model.physiology.flow.tree.branches[static_cast<std::size_t>(place)].parent >= 0)
+        refuse(script, c.line, c.words + ": expected an artery that leaves the aorta, LM or RCA");
+      out.push_back(place);
+      continue;
+    } else if (c.kind == ConditionKind::tip_in || c.kind == ConditionKind::tip_faces) {
       place = way.entry(c.place);
-    } else if (c.kind == ConditionKind::tip_passes || c.kind == ConditionKind::tip_leaves) {
+    } else if (c.kind == ConditionKind::tip_passes || c.kind == ConditionKind::tip_leaves ||
+               c.kind == ConditionKind::contrast_in) {
       for (const ScriptLandmark& landmark : script.landmarks)
         if (landmark.name == c.place) place = way.nearest(landmark.p_P);
       if (place < 0) place = way.place(c.place);
@@ -38,10 +90,16 @@ std::vector<int> places(const Script& script, const std::vector<ScriptCondition>
                          "branch's origin, as RCA+20",
                          c.place, known));
     }
+    if (c.kind == ConditionKind::contrast_in) {
+      place = cell_at(*model.vessel->coronaries, way, place);
+      if (place < 0) refuse(script, c.line, c.words + ": contrast is looked for in coronary arteries alone");
+    }
     out.push_back(place);
   }
   return out;
 }
+
+constexpr double vacuum_Pa = 101325;
 
 /// A hand's own speed in a step: log-normal, 15 %.
 double hand_factor(std::uint64_t seed, int step) {
@@ -66,7 +124,7 @@ struct Sight {
   int tip_sphere(int tool) const {
     if (tool != located_tool) {
       located_tool = tool;
-      located_sphere = model.vessel->way->locate(tip(model, session, tool), session.heart.phase);
+      located_sphere = model.vessel->way->locate(tip(model, session, tool), session.blood.heart.phase);
     }
     return located_sphere;
   }
@@ -107,16 +165,75 @@ struct Sight {
       case ConditionKind::seconds:
         return now_s() - state.began_s >= c.value;
       case ConditionKind::beats:
-        return session.heart.beats + session.heart.phase - state.began_beats >= c.value;
+        return session.blood.heart.beats + session.blood.heart.phase - state.began_beats >= c.value;
+      case ConditionKind::balloon_at:
+        return balloon_is_at(c.value);
+      case ConditionKind::balloon_open:
+        return balloon() && session.treatment.balloon.pressure_Pa > 101325 &&
+               waist(*balloon(), session.treatment.balloon) > 0.9;
+      case ConditionKind::balloon_empty:
+        return !balloon() || is_empty(*balloon(), session.treatment.balloon);
+      case ConditionKind::engaged:
+        return guide_is_in(place);
+      case ConditionKind::trace:
+        return session.bedside.guide >= 0 && static_cast<int>(session.blood.line.trace) == place;
+      case ConditionKind::contrast_in:
+        return seen(place) > seen_kg_m3 && (session.c_arm.fluoroscopy > 0 || session.c_arm.cine > 0);
+      case ConditionKind::flow_below:
+        return supply_behind_lesion(model, session) < c.value;
+      case ConditionKind::ST_exceeds:
+        return ST_shift_mV(model.physiology.ischaemia, session.blood.ischaemia) > 1e3 * c.value;
+      case ConditionKind::act_exceeds:
+        return act_s(model.treatment.drugs, session.treatment.drugs) > c.value;
+      case ConditionKind::stenosis_below:
+        return lesion_now(model, session).stenosis < c.value;
     }
     return false;
   }
 
   /// Round the vessel, seen along it, does the tip point to where a branch leaves?
   bool faces(int tool, int branch, double cosine) const {
-    const Way::Departure it = model.vessel->way->departure(branch, session.heart.phase);
+    const Way::Departure it = model.vessel->way->departure(branch, session.blood.heart.phase);
     const Vector3d points = tip_direction(model, session, tool), round = points - points.dot(it.along) * it.along;
     return round.dot(it.side) >= cosine * round.norm() && it.side.norm() > 0;
+  }
+
+  static constexpr double seen_kg_m3 = 60;
+  static constexpr double rests_from = 0.68, rests_to = 0.84;  // of the beat: diastasis (heart_cycle.cpp)
+
+  const BalloonModel* balloon() const {
+    const int b = static_cast<int>(session.bedside.balloon);
+    return b < 0 ? nullptr : &model.treatment.balloons[static_cast<std::size_t>(b)];
+  }
+
+  /// Reached from the side that the shaft's hand comes from. A beat carries artery and shaft past each other by
+  /// millimetres, so it is judged while the heart rests, before the R wave.
+  bool balloon_is_at(double offset_m) const {
+    const double phase = session.blood.heart.phase;
+    if (phase < rests_from || phase > rests_to) return false;
+    const auto at = balloon_from_lesion_m(model, session);
+    if (!at) return false;
+    for (std::size_t t = 0; t < model.tools.size(); ++t)
+      if (model.balloon_of[t] == static_cast<int>(session.bedside.balloon))
+        return session.hands[t].fed_m >= state.began_fed_m[t] ? *at >= offset_m : *at <= offset_m;
+    return false;
+  }
+
+  bool guide_is_in(int branch) const {
+    const BedsideState& b = session.bedside;
+    if (b.guide < 0) return false;
+    const FlowTree& tree = model.physiology.flow.tree;
+    const int first = tree.branches[static_cast<std::size_t>(branch)].first;
+    if (static_cast<int>(b.where) == TipPlace::coronary)
+      return static_cast<int>(b.cell) == first || tree.is_downstream(static_cast<int>(b.cell), first);
+    const auto side = static_cast<std::size_t>(static_cast<int>(b.where) == TipPlace::right_sinus);
+    return static_cast<int>(b.where) >= TipPlace::left_sinus &&
+           model.physiology.contrast.coronary_branch[side] == branch && b.into_ostium > 0.6;
+  }
+
+  double seen(int cell) const {
+    const double r = session.blood.radius_m[static_cast<std::size_t>(cell)];
+    return concentration(session.blood.contrast, model.physiology.flow, cell, EIGEN_PI * r * r);
   }
 
   /// How far the tip went since the oldest note beyond what the hand moved.
@@ -164,7 +281,7 @@ void feel(const SessionModel& model, const SessionReport& report, OperatorState&
 void begin(const ScriptStep& step, const SessionModel& model, const SessionState& session, OperatorState& state) {
   state.began = 0;
   state.began_s = seconds(model, session);
-  state.began_beats = session.heart.beats + session.heart.phase;
+  state.began_beats = session.blood.heart.beats + session.blood.heart.phase;
   for (std::size_t t = 0; t < model.tools.size(); ++t)
     state.began_fed_m[t] = session.hands[t].fed_m, state.began_turned_rad[t] = session.hands[t].turned_rad;
   forget_tips(state);
@@ -182,17 +299,63 @@ void begin(const ScriptStep& step, const SessionModel& model, const SessionState
     case ScriptAction::heart_rate:
       state.rate_1_min = step.rate_1_min;
       break;
+    case ScriptAction::inject:
+      state.iodine_kg_m3 = step.iodine_kg_m3;
+      state.began_injected_m3 = session.blood.contrast.injected_m3;
+      break;
+    case ScriptAction::inflate:
+      state.began_gauge_Pa = state.gauge_Pa;
+      break;
+    case ScriptAction::deflate:
+      state.gauge_Pa = -vacuum_Pa;
+      break;
+    case ScriptAction::drug:
+      state.heparin_U = step.heparin_U, state.nitrate_ug = step.nitrate_ug, state.adenosine_ug = step.adenosine_ug;
+      break;
     default:
       break;
   }
 }
 
-bool takes_time(const ScriptStep& step) { return !step.until.empty(); }
+bool takes_time(const ScriptStep& step) {
+  return !step.until.empty() || step.action == ScriptAction::inject || step.action == ScriptAction::inflate ||
+         step.action == ScriptAction::deflate;
+}
+
+/// What an action comes to an end by itself with, where the script does not say until when.
+bool is_over(const ScriptStep& step, const Sight& sight) {
+  if (!step.until.empty()) return false;
+  const OperatorState& state = sight.state;
+  switch (step.action) {
+    case ScriptAction::inject:
+      return sight.session.blood.contrast.injected_m3 - state.began_injected_m3 >= step.volume_m3;
+    case ScriptAction::inflate:
+      return state.gauge_Pa == step.gauge_Pa;
+    case ScriptAction::deflate:
+      return !sight.balloon() || is_empty(*sight.balloon(), sight.session.treatment.balloon);
+    default:
+      return false;
+  }
+}
+
+/// Screws the inflation device, presses the syringe.
+void treat(const ScriptStep& step, const SessionState& session, double now_s, OperatorState& state) {
+  state.injection_m3_s = 0;
+  if (step.action == ScriptAction::inflate) {
+    const double part = std::min(1.0, (now_s - state.began_s) / step.over_s);
+    state.gauge_Pa = part < 1 ? state.began_gauge_Pa + part * (step.gauge_Pa - state.began_gauge_Pa) : step.gauge_Pa;
+  }
+  if (step.action == ScriptAction::inject &&
+      session.blood.contrast.injected_m3 - state.began_injected_m3 < step.volume_m3)
+    state.injection_m3_s = step.rate_m3_s;
+}
 
 void ask(const ScriptPlan& plan, const OperatorState& state, SessionInputs& inputs) {
   for (ToolInputs& tool : inputs.tools) tool = {};
   inputs.rate_1_min = state.rate_1_min;
   inputs.c_arm = {state.lao_rad, state.cran_rad, state.field_m, state.p_PI, state.fluoroscopy, state.cine};
+  inputs.bedside = {state.injection_m3_s, state.iodine_kg_m3, state.gauge_Pa,
+                    state.heparin_U,      state.nitrate_ug,   state.adenosine_ug};
   const auto s = static_cast<std::size_t>(state.step);
   if (state.outcome != 0 || s >= plan.script.steps.size()) return;
   const double factor = plan.hand_speed * hand_factor(plan.seed, static_cast<int>(s));
@@ -213,8 +376,8 @@ void go_to(int step, OperatorState& state) { state.step = step, state.began = 1;
 ScriptPlan make_plan(const Script& script, const SessionModel& model, std::uint64_t seed) {
   ScriptPlan plan{.script = script, .until_places = {}, .unless_places = {}, .seed = seed, .hand_speed = 1};
   for (const ScriptStep& step : script.steps) {
-    plan.until_places.push_back(places(script, step.until, *model.vessel->way));
-    plan.unless_places.push_back(places(script, step.unless, *model.vessel->way));
+    plan.until_places.push_back(places(script, step.until, model));
+    plan.unless_places.push_back(places(script, step.unless, model));
   }
   return plan;
 }
@@ -252,6 +415,7 @@ Outcome decide(const ScriptPlan& plan, const SessionModel& model, const SessionS
                std::vector<OperatorEvent>& events) {
   events.clear();
   feel(model, report, state);
+  state.heparin_U = state.nitrate_ug = state.adenosine_ug = 0;
   using Kind = OperatorEvent::Kind;
   const Sight sight{.plan = plan, .model = model, .session = session, .report = report, .state = state};
   const int count = static_cast<int>(plan.script.steps.size());
@@ -269,7 +433,7 @@ Outcome decide(const ScriptPlan& plan, const SessionModel& model, const SessionS
       if (takes_time(step)) break;
     }
     const int until = sight.first_that_holds(step.until, plan.until_places[static_cast<std::size_t>(s)]);
-    if (!takes_time(step) || until >= 0) {
+    if (!takes_time(step) || until >= 0 || is_over(step, sight)) {
       if (until >= 0) events.push_back({Kind::done, s, until});
       go_to(s + 1, state);
       continue;
@@ -286,7 +450,14 @@ Outcome decide(const ScriptPlan& plan, const SessionModel& model, const SessionS
     else
       end(unless >= 0 ? Outcome::failure : Outcome::timed_out, unless, state);
   }
+  if (report.refused >= 0 && state.outcome == 0) {
+    state.in_the_way = report.in_its_way;
+    end(Outcome::failure, -1, state);
+  }
   note_tips(model, session, state);
+  state.injection_m3_s = 0;
+  if (state.outcome == 0 && state.step < count)
+    treat(plan.script.steps[static_cast<std::size_t>(state.step)], session, sight.now_s(), state);
   ask(plan, state, inputs);
   return static_cast<Outcome>(static_cast<int>(state.outcome));
 }
@@ -313,6 +484,9 @@ std::string reason(const ScriptPlan& plan, const OperatorState& state) {
   const ScriptStep& step = plan.script.steps[s];
   const std::string where = fmt::format("step {} of {}, {}", s + 1, plan.script.steps.size(), step.words());
   if (outcome == Outcome::timed_out) return fmt::format("{}: timed out after {:g} s", where, step.timeout_s);
+  if (state.in_the_way >= 0)
+    return fmt::format("{}: {} is still in the body, and nothing can enter beside it; withdraw it first", where,
+                       plan.script.tools[static_cast<std::size_t>(state.in_the_way)].name);
   if (outcome == Outcome::failure)
     return fmt::format("{}: {}", where, step.unless[static_cast<std::size_t>(state.by_condition)].words);
   return where;

@@ -35,6 +35,11 @@ struct OperatorState {
   double rate_1_min = 0;
   double lao_rad = 0, cran_rad = 0, field_m = 0.2, fluoroscopy = 0, cine = 0;
   Eigen::Vector3d p_PI = Eigen::Vector3d::Zero();
+  double iodine_kg_m3 = 350, injection_m3_s = 0;  ///< syringe, thumb
+  double began_injected_m3 = 0;
+  double gauge_Pa = 0, began_gauge_Pa = 0;                 ///< of the inflation device
+  double heparin_U = 0, nitrate_ug = 0, adenosine_ug = 0;  ///< to be given in the next step
+  double in_the_way = -1;    ///< a tool that ended the script: another could not enter beside it
   double outcome = 0;        ///< an Outcome, as a number
   double by_condition = -1;  ///< which of `unless` held; -1: the timeout
 };
@@ -60,6 +65,15 @@ void for_each_operator_field(S& state, Visit&& visit) {
   visit("fluoroscopy", &state.fluoroscopy, 1);
   visit("cine", &state.cine, 1);
   visit("isocentre_m", state.p_PI.data(), 3);
+  visit("iodine_kg_m3", &state.iodine_kg_m3, 1);
+  visit("injection_m3_s", &state.injection_m3_s, 1);
+  visit("began_injected_m3", &state.began_injected_m3, 1);
+  visit("gauge_Pa", &state.gauge_Pa, 1);
+  visit("began_gauge_Pa", &state.began_gauge_Pa, 1);
+  visit("heparin_U", &state.heparin_U, 1);
+  visit("nitrate_ug", &state.nitrate_ug, 1);
+  visit("adenosine_ug", &state.adenosine_ug, 1);
+  visit("in_the_way", &state.in_the_way, 1);
   visit("outcome", &state.outcome, 1);
   visit("by_condition", &state.by_condition, 1);
 }

@@ -64,9 +64,10 @@ double winding(const std::vector<Vector3d>& vertices, const SurfaceDescription& 
 
 Penetration penetration(const SessionModel& model, const SessionState& state) {
   const SurfaceDescription& wall = model.vessel->wall;
-  const double frame = vessel_frame(*model.vessel, state.heart.phase);
+  const double frame = vessel_frame(*model.vessel, state.blood.heart.phase);
   std::vector<Vector3d> vertices(wall.frames[0].size());
-  for (std::size_t v = 0; v < vertices.size(); ++v) vertices[v] = vertex_at(wall, static_cast<int>(v), frame);
+  for (std::size_t v = 0; v < vertices.size(); ++v)
+    vertices[v] = wall_vertex(*model.vessel, state.wall_m, static_cast<int>(v), frame);
 
   std::vector<Ball> balls = balls_of(model, state);
   double largest = 0;

@@ -95,7 +95,7 @@ void Recorder::add(const SessionInputs& inputs, const SessionState& state, const
     slot.block.hashes[slot.steps] = hash(state);
     ++slot.steps;
     if (state.rods.step % steps_per_signal == 0)
-      put_signals(model_, state, report, slot.block.signals.data() + signal_width_ * slot.signal_rows++);
+      put_signals(model_, state, inputs, report, slot.block.signals.data() + signal_width_ * slot.signal_rows++);
     if (slot.events.size() + 16 < events_a_block) watch_.look(model_, inputs, state, report, script, slot.events);
     if (slot.steps == steps_per_block) hand_over();
   }

@@ -15,7 +15,7 @@
 
 #include "core/rod/introducer.h"
 #include "data/load_error.h"
-#include "vascular/beat/heart_cycle.h"
+#include "vascular/stent/stent_shape.h"
 
 namespace ostium {
 
@@ -72,11 +72,22 @@ void require_order(const std::vector<SessionTool>& tools) {
 
 }  // namespace
 
-SessionModel make_session(std::shared_ptr<const Vessel> vessel, std::vector<SessionTool> tools) {
+SessionModel make_session(std::shared_ptr<const Vessel> vessel, std::vector<SessionTool> tools, std::uint64_t seed) {
   require_order(tools);
   SessionModel model;
   model.vessel = std::move(vessel);
   model.tools = std::move(tools);
+  model.entry = model.vessel->entry;
+  if (model.has_patient()) {
+    model.physiology = model.vessel->coronaries->physiology;
+    model.treatment = model.vessel->coronaries->treatment;
+    model.treatment.injury.seed = seed;
+    model.balloon_of = add_devices(model.tools, seed, model.treatment);
+  } else {
+    model.balloon_of.assign(model.tools.size(), -1);
+  }
+  model.physiology.ischaemia = ischaemia_of(seed);
+  model.physiology.heart.seed = seed;
   for (const SessionTool& tool : model.tools) model.rods.rods.push_back(rod_of(tool.instrument));
   model.rods.nestings = nestings_of(model.tools);
   model.rods.surfaces = {model.vessel->surface};
@@ -86,6 +97,19 @@ SessionModel make_session(std::shared_ptr<const Vessel> vessel, std::vector<Sess
     throw LoadError(fmt::format("these tools cannot be used together: {}", error.what()));
   }
   return model;
+}
+
+int in_the_way(const SessionModel& model, const State& rods, int tool) {
+  const auto nested = [&](int outer, int inner) {
+    return std::any_of(model.rods.nestings.begin(), model.rods.nestings.end(),
+                       [&](const Nesting& n) { return n.outer == outer && n.inner == inner; });
+  };
+  for (int other = 0; other < static_cast<int>(model.tools.size()); ++other)
+    if (other != tool &&
+        in_body(model.rods.rods[static_cast<std::size_t>(other)], rods.rods[static_cast<std::size_t>(other)]) &&
+        !nested(std::min(tool, other), std::max(tool, other)))
+      return other;
+  return -1;
 }
 
 // --- lists -----------------------------------------------------------------------------------------------------------
@@ -187,7 +211,7 @@ SessionState make_state(const SessionModel& model, std::uint64_t seed) {
   const auto uniform = [&] { return static_cast<double>(random() >> 11) * 0x1p-53; };
   std::vector<EndState> bases;
   for (std::size_t r = 0; r < model.tools.size(); ++r) {
-    EndState base = model.vessel->entry;
+    EndState base = model.entry;
     if (seed) {
       const Eigen::Quaterniond q(base.q_W[0], base.q_W[1], base.q_W[2], base.q_W[3]);
       const Eigen::Quaterniond rolled = q * Eigen::AngleAxisd(2 * std::numbers::pi * uniform(), Vector3d::UnitZ());
@@ -198,15 +222,32 @@ SessionState make_state(const SessionModel& model, std::uint64_t seed) {
   SessionState state;
   state.rods = make_state_at_rest_shape(model.rods, bases, std::vector<double>(model.tools.size(), 0));
   state.hands.resize(model.tools.size());
-  if (seed && model.vessel->beats()) state.heart.phase = uniform();
+  const double begins_at = seed && model.vessel->beats() ? uniform() : 0;
+  if (!model.has_patient()) {
+    state.blood.heart.phase = begins_at;
+    return state;
+  }
+  state.blood = model.vessel->coronaries->at_rest;
+  state.treatment = make_state(model.treatment, model.physiology.flow.tree);
+  state.bedside = make_bedside(*model.vessel);
+  for (const FlowCell& cell : model.physiology.flow.tree.cells) state.wall_m.push_back(cell.diseased_m);
+  PhysiologyScratch scratch;
+  PhysiologyInputs inputs;
+  inputs.heart.rate_1_min = model.vessel->rate_1_min;
+  while (state.blood.heart.phase < begins_at) step(model.physiology, inputs, model.step_s(), state.blood, scratch);
+  state.blood.heart.time_s = state.blood.heart.beats = 0;
   return state;
 }
 
 // --- a step ----------------------------------------------------------------------------------------------------------
 
-SessionScratch::SessionScratch(const SessionModel& model) : rods(model.rods) {
+SessionScratch::SessionScratch(const SessionModel& model) : now(model.rods), rods(model.rods) {
   inputs.rods.resize(model.tools.size());
   inputs.surfaces.resize(1);
+  if (!model.has_patient()) return;
+  wall.emplace(*model.vessel, now.surfaces[0]);
+  bedside.emplace(*model.vessel);
+  physiology_inputs.occupied_m.reserve(model.physiology.flow.tree.cells.size());
 }
 
 double vessel_frame(const Vessel& vessel, double phase) {
@@ -215,17 +256,37 @@ double vessel_frame(const Vessel& vessel, double phase) {
 
 namespace {
 
-void beat(const SessionModel& model, double rate_1_min, BeatState& heart, SurfaceMotion& motion) {
+/// The heart goes on, and the wall with it. True: an R wave.
+bool beat(const SessionModel& model, const SessionInputs& inputs, SessionState& state, SurfaceMotion& motion) {
+  HeartState& heart = state.blood.heart;
+  const double beats = heart.beats;
   motion.frame_before = vessel_frame(*model.vessel, heart.phase);
-  const double rate = std::clamp(rate_1_min, least_rate_1_min, highest_rate_1_min);
-  heart.phase += model.step_s() * phase_speed(heart.phase, rate);
-  motion.frame_after = vessel_frame(*model.vessel, heart.phase);
-  if (heart.phase >= 1) heart.phase -= 1, heart.beats += 1;
+  step(model.physiology.heart,
+       {inputs.rate_1_min, state.bedside.irritation,
+        model.treatment.drugs.nitrate_lowers * state.treatment.drugs.nitrate},
+       model.step_s(), heart);
+  motion.frame_after = vessel_frame(*model.vessel, heart.phase + (heart.beats - beats));
+  return heart.beats > beats;
 }
 
-void move_hands(const SessionModel& model, const SessionInputs& inputs, SessionState& state, Inputs& core) {
+/// A hand's tool cannot enter beside one that it is not nested with, nor pass a stent that is not open.
+ToolInputs allowed(const SessionModel& model, const SessionState& state, int tool, const ToolInputs& hand,
+                   SessionReport& report) {
+  ToolInputs out = hand;
+  if (!(hand.advance_m_s > 0)) return out;
+  const auto t = static_cast<std::size_t>(tool);
+  if (!in_body(model.rods.rods[t], state.rods.rods[t]))
+    if (const int other = in_the_way(model, state.rods, tool); other >= 0)
+      out = {}, report.refused = tool, report.in_its_way = other;
+  if (state.bedside.blocked > 0 && model.balloon_of[t] >= 0) out.advance_m_s = 0;
+  return out;
+}
+
+void move_hands(const SessionModel& model, const SessionInputs& inputs, SessionState& state, SessionReport& report,
+                Inputs& core) {
+  report.refused = report.in_its_way = -1;
   for (std::size_t t = 0; t < model.tools.size(); ++t) {
-    const ToolInputs& hand = inputs.tools[t];
+    const ToolInputs hand = allowed(model, state, static_cast<int>(t), inputs.tools[t], report);
     core.rods[t].feed_m_s = hand.advance_m_s;
     core.rods[t].base.turn_rate_W_rad_s = hand.turn_rad_s * axis(state.rods.rods[t].base);
     HandState& sum = state.hands[t];
@@ -233,6 +294,46 @@ void move_hands(const SessionModel& model, const SessionInputs& inputs, SessionS
     sum.fed_m += dt * hand.advance_m_s, sum.path_m += dt * std::fabs(hand.advance_m_s);
     sum.turned_rad += dt * hand.turn_rad_s, sum.turn_path_rad += dt * std::fabs(hand.turn_rad_s);
   }
+}
+
+BedsideModel bedside_of(const SessionModel& model) {
+  return {*model.vessel, model.tools, model.rods, model.physiology, model.treatment, model.balloon_of};
+}
+
+void hold_shafts(const SessionModel& model, const SessionState& state, Inputs& core) {
+  const BedsideModel bedside = bedside_of(model);
+  for (std::size_t t = 0; t < model.tools.size(); ++t)
+    core.rods[t].load = load_on_shaft(bedside, state.rods, state.bedside, static_cast<int>(t));
+}
+
+/// A stent that was left in the wall rides with it from now on. Once a stent; the one place of a step that allocates.
+void tie(const SessionModel& model, int stent, SessionState& state) {
+  StentState& own = state.treatment.stents[static_cast<std::size_t>(stent)];
+  if (own.branch < 0) return;
+  const Coronaries& c = *model.vessel->coronaries;
+  tie_to_wall(model.treatment.stents[static_cast<std::size_t>(stent)], *c.patient, *c.shape, c.map,
+              model.treatment.paths[static_cast<std::size_t>(own.branch)], state.treatment.wall,
+              state.blood.heart.phase, own);
+}
+
+/// Balloon and stent, then blood and contrast, by where the rods are now.
+void treat(const SessionModel& model, const SessionInputs& inputs, bool R_wave, SessionState& state, SessionScratch& x,
+           SessionReport& report) {
+  const BedsideModel bedside = bedside_of(model);
+  if (state.rods.step % look_every == 0)
+    look(bedside, state.rods, report.rods, state.blood.heart.phase, *x.bedside, state.bedside);
+  report.treatment = step(model.treatment, model.physiology.flow.tree, treatment_inputs(inputs.bedside, state.bedside),
+                          model.step_s(), state.treatment, state.blood, x.physiology_inputs.occupied_m, x.treatment);
+  state.bedside.blocked = report.treatment.blocked;
+  if (report.treatment.deployed >= 0) tie(model, report.treatment.deployed, state);
+  hold_balloon(bedside, report.treatment.balloon, state.treatment.balloon, model.step_s(), state.bedside);
+  set_physiology_inputs(bedside, inputs.bedside, state.bedside, x.physiology_inputs);
+  x.physiology_inputs.hyperaemia = state.treatment.drugs.adenosine;
+  const bool blood_moves = state.blood.circulation_s + model.step_s() >= circulation_step_s * (1 - 1e-9);
+  const ContrastReport contrast =
+      circulate(model.physiology, x.physiology_inputs, model.step_s(), R_wave, state.blood, x.physiology);
+  if (blood_moves) report.contrast = contrast;
+  follow_lumen(model.physiology.flow.tree, state.blood.radius_m, state.bedside.wall_cursor, state.wall_m);
 }
 
 void count_xrays(const CArmInputs& in, double step_s, CArmState& state) {
@@ -266,11 +367,28 @@ void report_tools(const SessionModel& model, const SessionState& state, SessionR
 void step(const SessionModel& model, const SessionInputs& inputs, SessionState& state, SessionScratch& scratch,
           SessionReport& report) {
   assert(inputs.tools.size() == model.tools.size());
-  beat(model, inputs.rate_1_min, state.heart, scratch.inputs.surfaces[0]);
-  move_hands(model, inputs, state, scratch.inputs);
-  step(model.rods, scratch.inputs, state.rods, scratch.rods, report.rods);
+  const bool R_wave = beat(model, inputs, state, scratch.inputs.surfaces[0]);
+  if (scratch.wall) scratch.wall->set(state.wall_m);
+  move_hands(model, inputs, state, report, scratch.inputs);
+  if (model.has_patient()) hold_shafts(model, state, scratch.inputs);
+  step(scratch.now, scratch.inputs, state.rods, scratch.rods, report.rods);
   count_xrays(inputs.c_arm, model.step_s(), state.c_arm);
   report_tools(model, state, report);
+  if (model.has_patient()) treat(model, inputs, R_wave, state, scratch, report);
+}
+
+double waist(const BalloonModel& model, const BalloonState& state) {
+  double least = 1, most = 0;
+  for (int i = 0; i < balloon_spheres; ++i)
+    if (sphere_share(model, i) == 1)
+      least = std::min(least, state.radius_m[i]), most = std::max(most, state.radius_m[i]);
+  return most > 0 ? least / most : 1;
+}
+
+bool is_empty(const BalloonModel& model, const BalloonState& state) {
+  double most = 0;
+  for (double r : state.radius_m) most = std::max(most, r);
+  return state.pressure_Pa < 0.2 * 101325 && most < 1.15 * std::max(model.refolded_m, model.folded_m);
 }
 
 double seconds(const SessionModel& model, const SessionState& state) {

@@ -6,32 +6,36 @@
 /// with its line in `for_each_part`, and its call in `step`. Recording, replay, hash and comparison follow from the
 /// lists.
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
-#include "app/session/vessel.h"
+#include "app/session/bedside.h"
+#include "app/session/opened_wall.h"
 #include "core/step.h"
-#include "data/instrument.h"
 #include "fluoro/c_arm.h"
 
 namespace ostium {
-
-struct SessionTool {
-  std::string name;  ///< what a script calls it
-  Instrument instrument;
-};
 
 /// Const after it is made; one vessel may be shared by many.
 struct SessionModel {
   std::shared_ptr<const Vessel> vessel;
   std::vector<SessionTool> tools;  ///< the outermost first; tool i is rod i
   Model rods;
+  EndState entry;               ///< the introducer
+  PhysiologyModel physiology;   ///< of a mesh, the heart alone
+  TreatmentModel treatment;     ///< with the balloons and stents that the tools carry; of a mesh, empty
+  std::vector<int> balloon_of;  ///< (#tools) of treatment.balloons, or -1
   double step_s() const { return rods.step_s; }
+  bool has_patient() const { return vessel->coronaries != nullptr; }
 };
 
-/// Tools are nested wherever one goes through the other's lumen. Throws LoadError naming tools that are in the wrong
-/// order or cannot be in one vessel together.
-SessionModel make_session(std::shared_ptr<const Vessel> vessel, std::vector<SessionTool> tools);
+/// Tools are nested wherever one goes through the other's lumen. Two of which neither does (two balloons for one wire)
+/// are alternatives: one of them is in the body at a time. `seed`: of the person's answers and of chance. Throws
+/// LoadError naming tools that are in the wrong order, or devices that a mesh has no arteries for.
+SessionModel make_session(std::shared_ptr<const Vessel> vessel, std::vector<SessionTool> tools, std::uint64_t seed = 0);
+/// The first tool in the body that `tool` cannot be beside, or -1.
+int in_the_way(const SessionModel& model, const State& rods, int tool);
 
 // --- the only door in ------------------------------------------------------------------------------------------------
 
@@ -51,6 +55,7 @@ struct SessionInputs {
   std::vector<ToolInputs> tools;
   CArmInputs c_arm;
   double rate_1_min = 70;  ///< of the heart
+  BedsideInputs bedside;
 };
 
 /// visit(name, first, count) with `count` doubles. `S` is SessionInputs or const SessionInputs.
@@ -67,6 +72,12 @@ void for_each_input(S& inputs, Visit&& visit) {
   visit("fluoroscopy", &inputs.c_arm.fluoroscopy, 1);
   visit("cine", &inputs.c_arm.cine, 1);
   visit("heart_rate_1_min", &inputs.rate_1_min, 1);
+  visit("injection_m3_s", &inputs.bedside.injection_m3_s, 1);
+  visit("iodine_kg_m3", &inputs.bedside.iodine_kg_m3, 1);
+  visit("gauge_Pa", &inputs.bedside.gauge_Pa, 1);
+  visit("heparin_U", &inputs.bedside.heparin_U, 1);
+  visit("nitrate_ug", &inputs.bedside.nitrate_ug, 1);
+  visit("adenosine_ug", &inputs.bedside.adenosine_ug, 1);
 }
 
 std::size_t input_count(const SessionModel& model);
@@ -75,11 +86,6 @@ void put_inputs(const SessionInputs& inputs, double* row);
 void take_inputs(const double* row, SessionInputs& inputs);
 
 // --- all that is needed to go on bit-identically ---------------------------------------------------------------------
-
-struct BeatState {
-  double phase = 0;  ///< [0, 1), 0 is the R wave
-  double beats = 0;  ///< R waves so far
-};
 
 struct HandState {
   double fed_m = 0, turned_rad = 0;      ///< sums of what the hand did
@@ -93,16 +99,17 @@ struct CArmState {
 
 struct SessionState {
   State rods;
-  BeatState heart;
   std::vector<HandState> hands;  ///< one a tool
   CArmState c_arm;
+  PhysiologyState blood;  ///< its heart is the one owner of the beat; of a mesh, the heart alone
+  TreatmentState treatment;
+  BedsideState bedside;
+  std::vector<double> wall_m;  ///< (#cells) radius of the wall that contact has (opened_wall.h)
 };
 
 /// visit(name, first, count) for all but the rods, which have their own list in core/state.h.
 template <class S, class Visit>
 void for_each_part(S& state, Visit&& visit) {
-  visit("heart.phase", &state.heart.phase, 1);
-  visit("heart.beats", &state.heart.beats, 1);
   for (auto& hand : state.hands) {
     visit("hand.fed_m", &hand.fed_m, 1);
     visit("hand.turned_rad", &hand.turned_rad, 1);
@@ -114,9 +121,14 @@ void for_each_part(S& state, Visit&& visit) {
   visit("c_arm.cine_runs", &state.c_arm.cine_runs, 1);
   visit("c_arm.fluoroscopy", &state.c_arm.fluoroscopy, 1);
   visit("c_arm.cine", &state.c_arm.cine, 1);
+  for_each_field(state.blood, visit);
+  for_each_field(state.treatment, visit);
+  for_each_bedside_field(state.bedside, visit);
+  visit("wall_m", state.wall_m.data(), static_cast<int>(state.wall_m.size()));
 }
 
-/// How a session begins. Seed 0: the heart at its R wave, tools as they come out of their packing; others draw both.
+/// How a session begins: a circulation at rest. Seed 0: the heart at its R wave, tools as they come out of their
+/// packing; others draw both.
 SessionState make_state(const SessionModel& model, std::uint64_t seed);
 
 std::uint64_t hash(const SessionState& state);
@@ -131,8 +143,16 @@ std::string first_difference(const SessionModel& model, const SessionState& a, c
 
 struct SessionScratch {
   explicit SessionScratch(const SessionModel& model);
+  SessionScratch(const SessionScratch&) = delete;
+  Model now;  ///< model.rods, with the wall as it is now
   Scratch rods;
   Inputs inputs;  ///< of core
+  // Of a patient.
+  std::optional<OpenedWall> wall;
+  std::optional<BedsideScratch> bedside;
+  PhysiologyInputs physiology_inputs;
+  PhysiologyScratch physiology;
+  TreatmentScratch treatment;
 };
 
 /// What a tool meets: what an operator could read off instruments.
@@ -146,6 +166,10 @@ struct ToolReport {
 struct SessionReport {
   StepReport rods;
   std::vector<ToolReport> tools;  ///< sized at the first step
+  TreatmentReport treatment;
+  ContrastReport contrast;  ///< of the last time that blood moved
+  int refused = -1;         ///< a tool that was fed but may not enter, since
+  int in_its_way = -1;      ///< this one is in the body
 };
 
 /// Advances `state` by model.step_s(). Never throws; does not allocate after the first call with the same report.
@@ -156,6 +180,11 @@ double seconds(const SessionModel& model, const SessionState& state);
 /// Its distal end, m, and where it points; the introducer's while it is not in the body.
 Eigen::Vector3d tip(const SessionModel& model, const SessionState& state, int tool);
 Eigen::Vector3d tip_direction(const SessionModel& model, const SessionState& state, int tool);
+/// Between the markers, of a balloon: narrowest over widest.
+double waist(const BalloonModel& model, const BalloonState& state);
+/// Whether its folds are together again.
+bool is_empty(const BalloonModel& model, const BalloonState& state);
+
 /// The vessel's frame that belongs to a phase, for SurfaceDescription.
 double vessel_frame(const Vessel& vessel, double phase);
 

@@ -99,9 +99,11 @@ void set_value(const std::string& key, const std::string& value, RunSetup& setup
     setup.hand_speed = number(key, value, 0.01, 10, "how many times the script's speeds, 0.01 to 10");
   } else if (key == "friction") {
     setup.friction = number(key, value, 0, 1, "the wall's coefficient of friction, 0 to 1");
+  } else if (key == "begin") {
+    setup.begin = value;
   } else {
-    throw LoadError(fmt::format("there is no \"{}\" to set; expected one of {}person, heart_rate, hand_speed, friction",
-                                key, known));
+    throw LoadError(fmt::format(
+        "there is no \"{}\" to set; expected one of {}person, heart_rate, hand_speed, friction, begin", key, known));
   }
 }
 
@@ -114,7 +116,8 @@ SessionModel make_session(const RunSetup& setup, std::shared_ptr<const Vessel> v
   std::vector<SessionTool> tools;
   for (std::size_t t = 0; t < setup.script.tools.size(); ++t)
     tools.push_back({setup.script.tools[t].name, read_instrument(setup.tool_files[t], setup.tool_texts[t])});
-  SessionModel model = make_session(std::move(vessel), std::move(tools));
+  SessionModel model = make_session(std::move(vessel), std::move(tools), setup.seed);
+  if (!setup.begin.empty()) model.entry = entry_ahead_of(setup.begin, *model.vessel);
   if (setup.friction) model.rods.surfaces[0].friction = *setup.friction;
   return model;
 }
@@ -128,6 +131,7 @@ std::string to_json(const RunSetup& setup) {
   if (setup.person) out["person"] = *setup.person;
   if (setup.rate_1_min) out["heart_rate_1_min"] = *setup.rate_1_min;
   if (setup.friction) out["friction"] = *setup.friction;
+  if (!setup.begin.empty()) out["begin"] = setup.begin;
   out["hand_speed"] = setup.hand_speed;
   out["script"] = {{"file", fs::path(setup.script.file).filename()}, {"text", setup.script.source}};
   for (std::size_t t = 0; t < setup.tool_texts.size(); ++t)
@@ -145,6 +149,7 @@ RunSetup setup_from_json(const std::string& file, const std::string& text) {
     if (in.contains("entry_m")) setup.entry = {point(in.at("entry_m").at(0)), point(in.at("entry_m").at(1))};
     if (in.contains("person")) setup.person = in.at("person");
     if (in.contains("heart_rate_1_min")) setup.rate_1_min = in.at("heart_rate_1_min");
+    if (in.contains("begin")) setup.begin = in.at("begin");
     if (in.contains("friction")) setup.friction = in.at("friction");
     setup.hand_speed = in.at("hand_speed");
     setup.script = read_script(in.at("script").at("file"), in.at("script").at("text"));

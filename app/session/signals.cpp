@@ -1,9 +1,12 @@
 #include "app/session/signals.h"
 
 #include <cmath>
+#include <limits>
 
+#include "app/session/outcome.h"
 #include "core/rod/introducer.h"
 #include "data/metrics.h"
+#include "vascular/units.h"
 
 namespace ostium {
 
@@ -13,27 +16,77 @@ constexpr const char* of_a_tool[] = {"inserted_mm", "turned_deg",   "tip_x_mm", 
                                      "tip_z_mm",    "tip_branch",   "tip_along_mm", "push_N",
                                      "torque_mNm",  "wall_force_N", "tip_force_N",  "touches"};
 
+/// Of a case.
+constexpr const char* of_a_patient[] = {
+    "ecg_II_mV",      "ecg_V2_mV",           "aorta_mmHg",       "guide_mmHg",    "trace",      "ST_mV",
+    "gauge_atm",      "balloon_atm",         "balloon_mm",       "balloon_ratio", "waist",      "balloon_from_mm",
+    "balloon_to_mm",  "contrast_mL",         "iodine_g",         "flow_share",    "act_s",      "lesion_mld_mm",
+    "segment_mld_mm", "lesion_reference_mm", "lesion_length_mm", "stent_from_mm", "stent_to_mm"};
+
+constexpr double none = std::numeric_limits<double>::quiet_NaN();
+constexpr double undiluted_kg_m3 = 350;
+
+template <class Put>
+void put_patient(const SessionModel& model, const SessionState& state, const SessionInputs& inputs, Put&& put) {
+  const PhysiologyState& blood = state.blood;
+  const auto leads = ecg(blood.heart, inputs.rate_1_min, model.physiology.ischaemia, blood.ischaemia);
+  put(leads[static_cast<int>(Lead::II)]), put(leads[static_cast<int>(Lead::V2)]);
+  put(pressures(model.physiology.heart, blood.heart).aorta_Pa / mmHg);
+  put(state.bedside.guide >= 0 ? blood.line.reading_Pa / mmHg : none);
+  put(state.bedside.guide >= 0 ? blood.line.trace : static_cast<double>(Trace::absent));
+  put(ST_shift_mV(model.physiology.ischaemia, blood.ischaemia));
+  const BedsideState& b = state.bedside;
+  const BalloonState& balloon = state.treatment.balloon;
+  const BalloonModel* own = b.balloon >= 0 ? &model.treatment.balloons[static_cast<std::size_t>(b.balloon)] : nullptr;
+  put(inputs.bedside.gauge_Pa / atm);
+  put(own ? balloon.pressure_Pa / atm : 0);
+  double widest = 0;
+  for (double r : balloon.radius_m) widest = std::max(widest, 2e3 * r);
+  put(own ? widest : 0);
+  put(balloon_artery_ratio(model, state));
+  put(own ? waist(*own, balloon) : none);
+  const bool has_lesion = !model.vessel->coronaries->lesions.empty();
+  const double length =
+      has_lesion ? model.vessel->coronaries->lesions[0].to_m - model.vessel->coronaries->lesions[0].from_m : 0;
+  const auto at = has_lesion ? balloon_from_lesion_m(model, state) : std::nullopt;
+  put(at ? 1e3 * (*at + length / 2 - own->length_m / 2) : none);
+  put(at ? 1e3 * (*at + length / 2 + own->length_m / 2) : none);
+  put(1e6 * blood.contrast.injected_kg / undiluted_kg_m3);
+  put(1e3 * blood.contrast.from_tip_kg);
+  put(has_lesion ? supply_behind_lesion(model, state) : none);
+  put(act_s(model.treatment.drugs, state.treatment.drugs));
+  const LesionNow lesion = has_lesion ? lesion_now(model, state) : LesionNow{none, none, none, none};
+  put(1e3 * lesion.mld_m), put(1e3 * lesion.segment_mld_m), put(1e3 * lesion.reference_m), put(1e3 * length);
+  const auto stent = has_lesion ? stented(model, state) : std::nullopt;
+  put(stent ? 1e3 * stent->from_m : none), put(stent ? 1e3 * stent->to_m : none);
+}
+
 }  // namespace
 
-std::size_t signal_count(const SessionModel& model) { return 2 + model.tools.size() * std::size(of_a_tool); }
+std::size_t signal_count(const SessionModel& model) {
+  return 2 + (model.has_patient() ? std::size(of_a_patient) : 0) + model.tools.size() * std::size(of_a_tool);
+}
 
 std::vector<std::string> signal_names(const SessionModel& model) {
   std::vector<std::string> names = {"time_s", "heart_phase"};
+  if (model.has_patient()) names.insert(names.end(), std::begin(of_a_patient), std::end(of_a_patient));
   for (const SessionTool& tool : model.tools)
     for (const char* name : of_a_tool) names.push_back(tool.name + "." + name);
   return names;
 }
 
-void put_signals(const SessionModel& model, const SessionState& state, const SessionReport& report, float* row) {
+void put_signals(const SessionModel& model, const SessionState& state, const SessionInputs& inputs,
+                 const SessionReport& report, float* row) {
   const auto put = [&](double number) { *row++ = static_cast<float>(number); };
   put(seconds(model, state));
-  put(state.heart.phase);
+  put(state.blood.heart.phase);
+  if (model.has_patient()) put_patient(model, state, inputs, put);
   for (int t = 0; t < static_cast<int>(model.tools.size()); ++t) {
     const auto i = static_cast<std::size_t>(t);
     const ToolReport& tool = report.tools[i];
     const Eigen::Vector3d p = tip(model, state, t);
     const Way& way = *model.vessel->way;
-    const int sphere = tool.in_body ? way.locate(p, state.heart.phase) : -1;
+    const int sphere = tool.in_body ? way.locate(p, state.blood.heart.phase) : -1;
     put(1e3 * state.rods.rods[i].inserted_m);
     put(180 / EIGEN_PI * state.hands[i].turned_rad);
     for (int axis = 0; axis < 3; ++axis) put(1e3 * p[axis]);
@@ -47,7 +100,78 @@ void put_signals(const SessionModel& model, const SessionState& state, const Ses
   }
 }
 
-EventWatch::EventWatch(const SessionModel& model) : tools_(model.tools.size()) {}
+EventWatch::EventWatch(const SessionModel& model)
+    : tools_(model.tools.size()), stents_(model.treatment.stents.size(), StentState::on_balloon) {}
+
+template <class Say>
+void EventWatch::look_at_patient(const SessionModel& model, const SessionInputs& inputs, const SessionState& state,
+                                 const SessionReport& report, Say&& say) {
+  const BedsideInputs& hand = inputs.bedside;
+  const TreatmentState& treated = state.treatment;
+  const double time_s = seconds(model, state);
+  const int trace =
+      state.bedside.guide >= 0 ? static_cast<int>(state.blood.line.trace) : static_cast<int>(Trace::absent);
+  const bool injects = hand.injection_m3_s > 0, inflated = hand.gauge_Pa > atm && state.bedside.balloon >= 0;
+  if (injects && !injects_) {
+    say(EventCode::injection_begins, -1, 1e6 * hand.injection_m3_s);
+    if (trace_ == static_cast<int>(Trace::damped) || trace_ == static_cast<int>(Trace::ventricularised))
+      say(EventCode::injection_on_bad_trace, -1, trace_);
+  }
+  if (!injects && injects_)
+    say(EventCode::injection_ends, -1, 1e6 * state.blood.contrast.injected_kg / undiluted_kg_m3);
+  injects_ = injects;
+  if (hand.heparin_U > 0) say(EventCode::heparin, -1, hand.heparin_U);
+  if (hand.nitrate_ug > 0) say(EventCode::nitrate, -1, hand.nitrate_ug);
+  if (hand.adenosine_ug > 0) say(EventCode::adenosine, -1, hand.adenosine_ug);
+  // While contrast or a thick wire is in the guide there is no trace to judge.
+  if (trace != trace_) say(EventCode::trace_changes, -1, trace);
+  trace_ = trace;
+  if (state.blood.heart.ectopic > ectopic_) say(EventCode::extrasystole, -1, 0);
+  ectopic_ = state.blood.heart.ectopic;
+  if (inflated && !inflated_) {
+    say(EventCode::inflation_begins, -1, 0);
+    inflated_since_s_ = time_s, filled_ = true;
+    if (state.bedside.branch < 0) say(EventCode::inflation_in_catheter, -1, 0);
+  }
+  inflated_ = inflated;
+  if (state.bedside.balloon >= 0) {
+    const BalloonModel& own = model.treatment.balloons[static_cast<std::size_t>(state.bedside.balloon)];
+    const bool over = hand.gauge_Pa > own.rated_Pa;
+    if (over && !over_) say(EventCode::over_pressure, -1, hand.gauge_Pa / atm);
+    over_ = over;
+    if (filled_ && !inflated && is_empty(own, treated.balloon))
+      say(EventCode::deflated, -1, time_s - inflated_since_s_), filled_ = false;
+    if (treated.balloon.burst > burst_) say(EventCode::balloon_burst, -1, hand.gauge_Pa / atm);
+  }
+  burst_ = treated.balloon.burst;
+  for (std::size_t i = 0; i < treated.stents.size(); ++i) {
+    const double where = treated.stents[i].where;
+    if (where == stents_[i]) continue;
+    const auto at = model.vessel->coronaries->lesions.empty() ? std::nullopt : stented(model, state);
+    const double length =
+        at ? model.vessel->coronaries->lesions[0].to_m - model.vessel->coronaries->lesions[0].from_m : 0;
+    if (where == StentState::deployed)
+      say(EventCode::stent_deployed, -1, at ? 1e3 * ((at->from_m + at->to_m) / 2 - length / 2) : none);
+    else
+      say(EventCode::stent_lost, -1, 0);
+    stents_[i] = where;
+  }
+  if (!model.vessel->coronaries->lesions.empty() && state.rods.step % look_every == 0) {
+    const bool closed = supply_behind_lesion(model, state) < occluded_share;
+    if (closed && !closed_) say(EventCode::occlusion_begins, -1, 0), closed_since_s_ = time_s;
+    if (!closed && closed_) say(EventCode::occlusion_ends, -1, time_s - closed_since_s_);
+    closed_ = closed;
+  }
+  for (std::size_t i = 0; i < treated.injury.injuries.size(); ++i) {
+    const Injury& injury = treated.injury.injuries[i];
+    const double value = injury.cell < 0 ? 0 : 10 * injury.kind + injury.grade;
+    if (value > injuries_[i]) say(EventCode::injury, -1, value);
+    injuries_[i] = value;
+  }
+  if (report.refused >= 0 && refused_ != report.refused)
+    say(EventCode::entry_refused, report.refused, report.in_its_way);
+  refused_ = report.refused;
+}
 
 void EventWatch::look(const SessionModel& model, const SessionInputs& inputs, const SessionState& state,
                       const SessionReport& report, const std::vector<OperatorEvent>& script,
@@ -77,7 +201,7 @@ void EventWatch::look(const SessionModel& model, const SessionInputs& inputs, co
     before.pressed = pressed;
     if (now % 10 != 0) continue;
     const Way& way = *model.vessel->way;
-    const int branch = tool.in_body ? way.branch(way.locate(tip(model, state, t), state.heart.phase)) : -1;
+    const int branch = tool.in_body ? way.branch(way.locate(tip(model, state, t), state.blood.heart.phase)) : -1;
     if (branch >= 0 && branch != before.branch) say(EventCode::tip_enters, t, branch);
     before.branch = branch;
   }
@@ -89,6 +213,7 @@ void EventWatch::look(const SessionModel& model, const SessionInputs& inputs, co
   const std::uint32_t trouble = report.rods.trouble & ~static_cast<std::uint32_t>(feed_stopped | drive_limited);
   if (trouble && !trouble_) say(EventCode::step_trouble, -1, trouble);
   trouble_ = trouble;
+  if (model.has_patient()) look_at_patient(model, inputs, state, report, say);
 }
 
 }  // namespace ostium

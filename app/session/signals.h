@@ -1,17 +1,20 @@
 #pragma once
 /// What a recording shows of a run a hundred times a second, and the events in it: both are looked at by metrics, by
 /// people and by debriefing, and neither is needed for replay.
+#include <array>
 #include <string>
 #include <vector>
 
 #include "app/session/operator.h"
+#include "data/metrics.h"
 
 namespace ostium {
 
 std::size_t signal_count(const SessionModel& model);
 std::vector<std::string> signal_names(const SessionModel& model);  ///< "wire.tip_x_mm"
 /// `row` has signal_count numbers. Does not allocate.
-void put_signals(const SessionModel& model, const SessionState& state, const SessionReport& report, float* row);
+void put_signals(const SessionModel& model, const SessionState& state, const SessionInputs& inputs,
+                 const SessionReport& report, float* row);
 
 /// What a step of the loop says to the recording besides its numbers.
 struct SessionEvent {
@@ -37,6 +40,15 @@ class EventWatch {
     double wall_force_N = 0;  ///< behind the low pass that metrics use
   };
   std::vector<Tool> tools_;
+  template <class Say>
+  void look_at_patient(const SessionModel& model, const SessionInputs& inputs, const SessionState& state,
+                       const SessionReport& report, Say&& say);
+
+  std::vector<double> stents_;  ///< where they were
+  std::array<double, most_injuries> injuries_{};
+  bool injects_ = false, inflated_ = false, filled_ = false, over_ = false, closed_ = false;
+  double inflated_since_s_ = 0, closed_since_s_ = 0, ectopic_ = 0, burst_ = 0;
+  int trace_ = static_cast<int>(Trace::absent), refused_ = -1;
   double fluoroscopy_ = 0, cine_ = 0;
   std::uint32_t trouble_ = 0;
 };

@@ -41,6 +41,13 @@ std::vector<std::pair<std::string, Vector3d>> places_of(const Patient& patient) 
   return places;
 }
 
+/// As opened_wall.h changes it.
+SurfaceDescription untreated_wall(const Coronaries& coronaries) {
+  std::vector<double> radii;
+  for (const FlowCell& cell : coronaries.tree().cells) radii.push_back(cell.diseased_m);
+  return coronaries.shape->wall(radii);
+}
+
 /// Generalised winding number of a point (van Oosterom, Strackee 1983): 1 inside.
 double winding(const Mesh& mesh, const Vector3d& p) {
   double sum = 0;
@@ -81,7 +88,8 @@ std::shared_ptr<const Vessel> vessel_of(const Case& c, std::optional<std::uint64
   auto vessel = std::make_shared<Vessel>();
   const auto patient = std::make_shared<const Patient>(patient_of(of_person));
   vessel->name = c.name;
-  vessel->wall = wall_of(patient->lumen);
+  vessel->coronaries = make_coronaries(patient, c.rate_1_min);
+  vessel->wall = vessel->coronaries ? untreated_wall(*vessel->coronaries) : wall_of(patient->lumen);
   vessel->wall.friction = vessel_friction;
   vessel->surface = make_surface(vessel->wall);
   const Landmarks& marks = patient->anatomy.landmarks;
@@ -91,6 +99,24 @@ std::shared_ptr<const Vessel> vessel_of(const Case& c, std::optional<std::uint64
   vessel->rate_1_min = c.rate_1_min;
   vessel->patient = patient;
   return vessel;
+}
+
+EndState entry_ahead_of(const std::string& artery, const Vessel& vessel) {
+  constexpr double ahead_m = 12e-3, along_m = 6e-3;
+  if (!vessel.coronaries) throw LoadError(vessel.name + ": a mesh has no ostium that is known");
+  const FlowTree& tree = vessel.coronaries->tree();
+  std::string known;
+  for (const FlowBranch& branch : tree.branches) {
+    if (branch.parent >= 0) continue;
+    known += (known.empty() ? "" : ", ") + branch.name;
+    if (branch.name != artery) continue;
+    const auto centre = [&](int cell) {
+      return vessel.coronaries->map.coronary.position(static_cast<std::size_t>(cell), 0);
+    };
+    const Vector3d p = centre(branch.first), in = (centre(tree.cell_at(tree.branch(artery), along_m)) - p).normalized();
+    return end_at(p - ahead_m * in, in);
+  }
+  throw LoadError("begin: there is no artery \"" + artery + "\" that leaves the aorta; expected one of: " + known);
 }
 
 std::shared_ptr<const Vessel> vessel_of(const std::string& name, Mesh mesh, const MeshEntry& entry,

@@ -3,6 +3,7 @@
 #include <memory>
 #include <optional>
 
+#include "app/session/coronaries.h"
 #include "app/session/way.h"
 #include "core/state.h"
 #include "core/surface/surface.h"
@@ -19,6 +20,7 @@ struct Vessel {
   Eigen::Vector3d p_middle = Eigen::Vector3d::Zero();  ///< of heart or mesh: where a C-arm looks at first, m
   double rate_1_min = 70;                              ///< of the heart, as a session begins
   std::shared_ptr<const Patient> patient;              ///< of a case
+  std::unique_ptr<const Coronaries> coronaries;        ///< the same; null: a mesh
 
   bool beats() const { return wall.frames.size() > 1; }
 };
@@ -33,6 +35,10 @@ struct MeshEntry {
   Eigen::Vector3d p_P = Eigen::Vector3d::Zero();        ///< m, within the lumen
   Eigen::Vector3d towards_P = Eigen::Vector3d::Zero();  ///< a point that the way in leads to
 };
+
+/// Where an introducer would have to be to lead straight into an artery: in the root, 12 mm ahead of its ostium. For
+/// rehearsing what comes after the ostium alone. Throws LoadError, naming those there are: LM, RCA.
+EndState entry_ahead_of(const std::string& artery, const Vessel& vessel);
 
 /// A mesh of anyone; one that faces inwards is turned round. Throws MeshError if it cannot be used, LoadError if the
 /// entry lies outside. What is wrong with it is told in `warnings`: near holes and crossings nothing is held back.

@@ -4,6 +4,7 @@
 #include <map>
 #include <numbers>
 
+#include "app/angiography/devices.h"
 #include "app/angiography/xray_body.h"
 #include "core/rod/introducer.h"
 #include "fluoro/phantom/shapes.h"
@@ -55,7 +56,64 @@ OpaqueSection section(const Instrument& instrument, double from_m, double to_m, 
   return {from_m, to_m, material_of(material), radius, inner, ring > 0 ? area / ring : 0};
 }
 
+/// What a guide has in its bore: of the line's cells (contrast.h), those of the catheter.
+void fill_bore(const SessionModel& model, const SessionState& state, const Rod& rod, Shaft& shaft) {
+  const Line line = line_of(model.tools[static_cast<std::size_t>(state.bedside.guide)].instrument);
+  const double cell_m3 = line.dead_m3 / line_cells, area = std::numbers::pi * line.bore_m * line.bore_m;
+  shaft.lumen_iodine_kg_m3 = Eigen::VectorXd(shaft.p_P.cols());
+  for (Eigen::Index i = 0; i < shaft.p_P.cols(); ++i) {
+    const double from_tip = rod.node_from_tip_m[static_cast<std::size_t>(rod.elements - i)];
+    const int cell = std::clamp(line_cells - 1 - static_cast<int>(from_tip * area / cell_m3), 0, line_cells - 1);
+    shaft.lumen_iodine_kg_m3[i] = state.blood.contrast.line_kg[static_cast<std::size_t>(cell)] / cell_m3;
+  }
+}
+
+/// Once its balloon is filled, struts are drawn where they are; the catalogue's opaque stretch is of the crimped stent.
+bool has_left_its_stent(const SessionModel& model, const SessionState& state, std::size_t tool) {
+  const int balloon = model.balloon_of[tool];
+  if (balloon < 0) return false;
+  const int stent = model.treatment.stent_on[static_cast<std::size_t>(balloon)];
+  if (stent < 0) return false;
+  return state.treatment.stents[static_cast<std::size_t>(stent)].where != StentState::on_balloon ||
+         (static_cast<int>(state.bedside.balloon) == balloon && state.treatment.balloon.was_filled > 0);
+}
+
 }  // namespace
+
+std::vector<double> occupied_m(const SessionModel& model, const SessionState& state) {
+  std::vector<double> out = state.bedside.shaft_m;
+  const BedsideState& b = state.bedside;
+  if (b.balloon < 0 || b.branch < 0) return out;
+  const VesselPath& path = model.treatment.paths[static_cast<std::size_t>(b.branch)];
+  for (std::size_t k = 0; k < path.cells.size(); ++k) {
+    double& own = out[static_cast<std::size_t>(path.cells[k])];
+    own = std::max(own, radius_at(model.treatment.balloons[static_cast<std::size_t>(b.balloon)],
+                                  state.treatment.balloon, seat_m(b), path.s_m[k]));
+  }
+  return out;
+}
+
+void add_treatment(const SessionModel& model, const SessionState& state, Scene& scene) {
+  const Coronaries& c = *model.vessel->coronaries;
+  const BedsideState& b = state.bedside;
+  const double phase = state.blood.heart.phase;
+  const auto path_of = [&](double branch) -> const VesselPath& {
+    return model.treatment.paths[static_cast<std::size_t>(branch)];
+  };
+  const int own = b.balloon < 0 ? -1 : model.treatment.stent_on[static_cast<std::size_t>(b.balloon)];
+  for (std::size_t i = 0; i < state.treatment.stents.size(); ++i) {
+    const StentState& stent = state.treatment.stents[i];
+    const bool opening = static_cast<int>(i) == own && stent.where == StentState::on_balloon &&
+                         state.treatment.balloon.was_filled > 0 && b.branch >= 0;
+    if (stent.branch >= 0 && (stent.where == StentState::deployed || opening))
+      add_stent(model.treatment.stents[i], stent, path_of(stent.branch), *c.patient, c.map, *c.shape,
+                state.blood.radius_m, phase, scene);
+  }
+  if (b.balloon >= 0 && b.branch >= 0)
+    add_balloon(model.treatment.balloons[static_cast<std::size_t>(b.balloon)], state.treatment.balloon,
+                path_of(b.branch), seat_m(b), c.map, phase, false, scene);
+  add_pools(state.treatment.injury, c.map, state.blood.radius_m, phase, scene);
+}
 
 std::vector<Shaft> shafts_of(const SessionModel& model, const SessionState& state) {
   std::vector<Shaft> shafts;
@@ -72,8 +130,11 @@ std::vector<Shaft> shafts_of(const SessionModel& model, const SessionState& stat
                 .lumen_radius_m = 0.5 * instrument.inner_diameter_m,
                 .lumen_iodine_kg_m3 = {}};
     for (int i = 0; i < count; ++i) shaft.p_P.col(i) = s.position[rod.elements - i];
+    if (static_cast<int>(t) == static_cast<int>(state.bedside.guide)) fill_bore(model, state, rod, shaft);
+    const bool stent_left = has_left_its_stent(model, state, t);
     for (const OpaqueStretch& o : instrument.opaque)
-      shaft.sections.push_back(section(instrument, o.from_tip_m, o.to_tip_m, o.material, o.thickness_m));
+      if (!stent_left || o.material != OpaqueMaterial::cobalt_chromium)
+        shaft.sections.push_back(section(instrument, o.from_tip_m, o.to_tip_m, o.material, o.thickness_m));
     for (const Marker& m : instrument.markers)
       shaft.sections.push_back(section(instrument, m.from_tip_m, m.from_tip_m + m.length_m, m.material, m.thickness_m));
     shafts.push_back(std::move(shaft));

@@ -11,6 +11,12 @@ namespace ostium {
 
 enum class Fill { none, left, right };  ///< a coronary tree full of undiluted contrast, 350 mg of iodine per mL
 
+/// What treatment adds to a case's scene: filled balloons, stents, contrast beside the lumen. The shafts and their
+/// markers are the rods' own (shafts_of).
+void add_treatment(const SessionModel& model, const SessionState& state, Scene& scene);
+/// (#cells) radius of what lies in each: shafts and balloon.
+std::vector<double> occupied_m(const SessionModel& model, const SessionState& state);
+
 /// A rod's points as fluoro wants them, with what the catalogue says is opaque in it. Empty if less than two nodes are
 /// in the body.
 std::vector<Shaft> shafts_of(const SessionModel& model, const SessionState& state);

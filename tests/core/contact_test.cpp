@@ -90,6 +90,45 @@ TEST(Surface, AQueryFindsWhatIsNearAtAnyMoment) {
   }
 }
 
+/// Vertices that are placed anew are found where they are; placed back, the surface is what it was to the bit.
+TEST(Surface, VerticesArePlacedAnewAndBack) {
+  const verify::TestVessel vessel = verify::test_vessel();
+  const Surface before = make_surface(vessel.wall);
+  Surface surface = before;
+  SurfaceEditor editor(vessel.wall, surface);
+  SurfaceDescription opened = vessel.wall;
+  for (auto& frame : opened.frames)
+    for (std::size_t v = 0; v < frame.size(); v += 3) frame[v] += Vector3d(0.5e-3, -0.3e-3, 0.2e-3);
+  const auto place = [&](const SurfaceDescription& d) {
+    for (int f = 0; f < static_cast<int>(d.frames.size()); ++f)
+      for (int v = 0; v < static_cast<int>(d.frames[0].size()); ++v) editor.place(v, f, d.frames[f][v]);
+    editor.refit();
+  };
+  place(opened);
+  EXPECT_NE(surface.corner_frames, before.corner_frames);
+  SurfacePose pose(surface);
+  std::vector<int> found;
+  found.reserve(surface.clusters.size());
+  for (int v = 0; v < static_cast<int>(opened.frames[0].size()); v += 97) {
+    SurfaceMotion motion;
+    motion.frame_before = 0.37 * v, motion.frame_after = motion.frame_before + 0.2;
+    set_motion(surface, motion, pose);
+    const V3<double> q = from_eigen(vertex_at(opened, v, motion.frame_before)), pad{1e-5, 1e-5, 1e-5};
+    find_clusters(surface, q - pad, q + pad, pose, found);
+    double nearest_m = 1;
+    for (int c : found)
+      for (const V3<double>& x : corners_of(surface, c, pose).before)
+        nearest_m = std::min(nearest_m, std::sqrt(dot(x - q, x - q)));
+    EXPECT_LT(nearest_m, 1e-6) << v;
+  }
+  place(vessel.wall);
+  EXPECT_EQ(surface.corner_frames, before.corner_frames);
+  for (std::size_t b = 0; b < before.boxes.size(); ++b) {
+    ASSERT_EQ(surface.boxes[b].low, before.boxes[b].low);
+    ASSERT_EQ(surface.boxes[b].high, before.boxes[b].high);
+  }
+}
+
 TEST(Surface, RefusesWhatIsNoWall) {
   SurfaceDescription none;
   EXPECT_THROW(make_surface(none), std::invalid_argument);

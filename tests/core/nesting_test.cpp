@@ -80,6 +80,17 @@ TEST(Nesting, ANestThatCannotBeIsRefused) {
   refused({{.outer = 0, .inner = 2}}, "there are 2 rods");
   refused({{.outer = 0, .inner = 1, .lumen_m = 0}}, "lumen must be longer");
 
+  // Five in each other are too many; a wire for which four others take turns in the outermost is not.
+  Model tubes;
+  for (int k = 0; k < 4; ++k) tubes.rods.push_back(make_rod(rod(0.35, 1e-3, (4 - k) * 1e-3, (3.8 - k) * 1e-3, 150)));
+  tubes.rods.push_back(make_rod(rod(0.35, 1e-3, 0.2e-3, 0, 150)));
+  tubes.nestings = coaxial({0, 1, 2, 3, 4});
+  EXPECT_THROW(check(tubes), std::invalid_argument);
+  tubes.nestings.clear();
+  for (int k = 1; k < 4; ++k) tubes.nestings.push_back({.outer = 0, .inner = k});
+  for (int k = 0; k < 4; ++k) tubes.nestings.push_back({.outer = k, .inner = 4});
+  EXPECT_NO_THROW(check(tubes));
+
   Model thick = catheter_and_wire();
   thick.rods[1] = make_rod(rod(0.35, 1e-3, 0.65e-3, 0, 150));
   EXPECT_THROW(check(thick), std::invalid_argument);
@@ -96,6 +107,23 @@ TEST(Nesting, AStepDoesNotDependOnWhatScratchHeld) {
     step(model, hand(n), fresh, other, report);
     ASSERT_EQ(first_difference(kept, fresh), "") << n;
   }
+}
+
+// A wire that once protruded and now ends inside the catheter has nothing of before.
+TEST(Nesting, NorDoesItWhereARodEndsInsideAnother) {
+  const Model model = catheter_and_wire();
+  State kept = at_start(model), fresh = at_start(model);
+  Scratch scratch(model);
+  StepReport report;
+  for (int n = 0; n < 600; ++n) {
+    Inputs inputs = hand(0);
+    inputs.rods[0].feed_m_s = 0, inputs.rods[1].feed_m_s = n < 100 ? 0.05 : -0.2;
+    step(model, inputs, kept, scratch, report);
+    Scratch other(model);
+    step(model, inputs, fresh, other, report);
+    ASSERT_EQ(first_difference(kept, fresh), "") << n;
+  }
+  EXPECT_LT(kept.rods[1].inserted_m, kept.rods[0].inserted_m - 5e-3) << "it is inside now";
 }
 
 TEST(Nesting, ASavedStateGoesOnBitIdentically) {

@@ -1,8 +1,11 @@
 /// What is wrong in an instrument file is named: file, line, key, value found, what was expected.
 #include <gtest/gtest.h>
 
+#include <filesystem>
+#include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "data/catalogue.h"
 #include "tests/data/instrument_files.h"
 
 namespace ostium {
@@ -115,6 +118,31 @@ TEST(InstrumentErrors, GroupsThatDoNotGoTogether) {
                {":17: shape is {...}", "only without rest_curvature_per_mm"});
   expect_words(refusal("\"shape\": {", "\"shapeable_tip\": { \"length_mm\": 50,"),
                {":17: shapeable_tip is", "wires only"});
+  expect_words(
+      refusal("  \"clearance\": {", R"(  "stent": { "nominal_diameter_mm": 3, "length_mm": 18, "source": "a test" },
+  "clearance": {)"),
+      {":34: stent is {...}", "for stent_shaft"});
+}
+
+TEST(InstrumentErrors, ABalloonLiesBetweenItsMarkers) {
+  std::ifstream in(std::filesystem::path(data_folder()) / "instruments" / "stent-30x18.json");
+  const std::string whole{std::istreambuf_iterator<char>(in), {}};
+  const auto spoilt = [&](const std::string& from, const std::string& to) {
+    std::string text = whole;
+    EXPECT_NE(text.find(from), std::string::npos) << from;
+    text.replace(text.find(from), from.size(), to);
+    try {
+      read_instrument("stent-30x18.json", text);
+    } catch (const LoadError& error) {
+      return std::string(error.what());
+    }
+    return std::string("accepted");
+  };
+  expect_words(spoilt("\"length_mm\": 19", "\"length_mm\": 25"), {"balloon.length_mm is 25", "as the markers say"});
+  expect_words(spoilt("\"rated_atm\": 16", "\"rated_atm\": 6"), {"balloon.rated_atm is 6", "at least the nominal one"});
+  expect_words(spoilt("\"length_mm\": 18", "\"length_mm\": 24"),
+               {"stent.length_mm is 24", "at most that of its balloon"});
+  expect_words(spoilt("\"compliance\": \"semi\"", "\"compliance\": \"very\""), {"compliance", "semi, non"});
 }
 
 }  // namespace

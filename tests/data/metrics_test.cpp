@@ -47,6 +47,67 @@ RunRecord record() {
   return r;
 }
 
+/// A lesion of 10 mm, 1 mm wide in an artery of 4 mm; two inflations, at -2 to 10 and at 8 to 18 mm; a stent from -3 to
+/// 14 mm, in which it is 3.8 mm wide. Flow stops from second 2 to 4.
+RunRecord treated() {
+  RunRecord r{.step_s = 1e-3,
+              .steps = 10000,
+              .signal_columns = {"time_s", "lesion_mld_mm", "segment_mld_mm", "lesion_reference_mm", "lesion_length_mm",
+                                 "balloon_from_mm", "balloon_to_mm", "balloon_atm", "balloon_ratio", "stent_from_mm",
+                                 "stent_to_mm", "flow_share", "contrast_mL", "iodine_g", "trace", "ST_mV"},
+              .signals = {},
+              .events = {},
+              .branches = {}};
+  const double nan = std::nan("");
+  for (int i = 0; i < 1000; ++i) {
+    const double t = 0.01 * i;
+    const bool first = t >= 2 && t < 4, second = t >= 6 && t < 8, stent = t >= 8;
+    r.signals.insert(r.signals.end(), {t, stent ? 3.8 : 1.0, stent ? 3.6 : 1.0, 4.0, 10.0,
+                                       first    ? -2.0
+                                       : second ? 8.0
+                                                : nan,
+                                       first    ? 10.0
+                                       : second ? 18.0
+                                                : nan,
+                                       first    ? 10.0
+                                       : second ? 12.0
+                                                : 0.0,
+                                       first    ? 0.9
+                                       : second ? 1.1
+                                                : 0.0,
+                                       stent ? -3.0 : nan, stent ? 14.0 : nan, first ? 0.01 : 1.0, t, 0.3 * t,
+                                       t < 1 ? 1.0 : 0.0, 0.02 * t});
+  }
+  r.events = {2000, double(code(EventCode::inflation_begins)), -1, 0,  //
+              6000, double(code(EventCode::inflation_begins)), -1, 0,  //
+              6500, double(code(EventCode::injury)),           -1, 11};
+  return r;
+}
+
+TEST(Metrics, OfATreatmentMadeByHand) {
+  const RunRecord r = treated();
+  EXPECT_NEAR(value(r, "residual_stenosis_percent"), 5, 1e-9);
+  EXPECT_NEAR(value(r, "residual_stenosis_in_segment_percent"), 10, 1e-9);
+  EXPECT_NEAR(value(r, "acute_gain_mm"), 2.8, 1e-9);
+  EXPECT_NEAR(value(r, "balloon_artery_ratio"), 1.1, 1e-9);
+  EXPECT_NEAR(value(r, "balloon_pressure_max_atm"), 12, 1e-9);
+  EXPECT_EQ(value(r, "inflations"), 2);
+  EXPECT_NEAR(value(r, "stent_margin_proximal_mm"), 3, 1e-9);
+  EXPECT_NEAR(value(r, "stent_margin_distal_mm"), 4, 1e-9);
+  EXPECT_NEAR(value(r, "lesion_coverage_percent"), 100, 1e-9);
+  EXPECT_NEAR(value(r, "geographic_miss_mm"), 4, 1e-9) << "14 to 18 mm";
+  EXPECT_NEAR(value(r, "occlusion_time_s"), 2, 1e-6);
+  EXPECT_NEAR(value(r, "bad_trace_time_s"), 1, 1e-6);
+  EXPECT_NEAR(value(r, "contrast_volume_mL"), 9.99, 1e-6);
+  EXPECT_NEAR(value(r, "iodine_g"), 2.997, 1e-6);
+  EXPECT_NEAR(value(r, "ST_max_mV"), 0.1998, 1e-6);
+  EXPECT_EQ(value(r, "injuries"), 1);
+  // Of a run without a patient none of them applies.
+  for (const char* name : {"residual_stenosis_percent", "geographic_miss_mm", "occlusion_time_s", "ST_max_mV",
+                           "contrast_volume_mL", "lesion_coverage_percent", "balloon_artery_ratio"})
+    EXPECT_TRUE(std::isnan(value(record(), name))) << name;
+}
+
 TEST(Metrics, OfARecordMadeByHand) {
   const RunRecord r = record();
   EXPECT_DOUBLE_EQ(value(r, "procedure_time_s"), 10);

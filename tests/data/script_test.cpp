@@ -93,6 +93,49 @@ TEST(Script, MistakesAreNamedByLine) {
   expect_words(refusal(", \"of\": \"wire\"", ""), {"small.json:12:", "does not say of which tool"});
 }
 
+const std::string treatment = R"({
+  "schema": "ostium-script/1", "name": "treatment", "title": "A test",
+  "tools": [ { "name": "guide", "instrument": "guide-jr4-6f" }, { "name": "balloon", "instrument": "balloon-25x15" } ],
+  "steps": [
+    { "do": "drug", "heparin_U": 5000 },
+    { "do": "inject", "rate_mL_s": 3, "volume_mL": 6, "iodine_mg_mL": 0 },
+    { "do": "advance", "tool": "balloon", "speed_mm_s": 20, "until": [{ "balloon_at_mm": -2 }] },
+    { "do": "inflate", "gauge_atm": 10, "over_s": 5 },
+    { "do": "wait", "until": [{ "balloon_open": true }, { "trace": "damped" }, { "contrast_in": "RCA+30" }] },
+    { "do": "deflate", "unless": [{ "ST_exceeds_mV": 0.2 }] }
+  ]
+})";
+
+std::string treatment_refusal(const std::string& from, const std::string& to) {
+  std::string text = treatment;
+  EXPECT_NE(text.find(from), std::string::npos) << from;
+  text.replace(text.find(from), from.size(), to);
+  try {
+    read_script("treatment.json", text);
+  } catch (const LoadError& error) {
+    return error.what();
+  }
+  return "accepted";
+}
+
+TEST(Script, TreatsInSiUnits) {
+  const Script script = read_script("treatment.json", treatment);
+  EXPECT_EQ(script.steps[0].heparin_U, 5000);
+  EXPECT_NEAR(script.steps[1].rate_m3_s, 3e-6, 1e-18);
+  EXPECT_NEAR(script.steps[1].volume_m3, 6e-6, 1e-18);
+  EXPECT_EQ(script.steps[1].iodine_kg_m3, 0);
+  EXPECT_NEAR(script.steps[2].until[0].value, -2e-3, 1e-15);
+  EXPECT_NEAR(script.steps[3].gauge_Pa, 1013250, 1e-6);
+  EXPECT_EQ(script.steps[4].until[1].place, "damped");
+  EXPECT_NEAR(script.steps[5].unless[0].value, 0.2e-3, 1e-15) << "V";
+  expect_words(treatment_refusal("\"volume_mL\": 6", "\"volume_mL\": -6"), {"is -6", "> 0"});
+  expect_words(treatment_refusal(", \"volume_mL\": 6", ""), {"volume_mL is missing", "\"inject\" needs it"});
+  expect_words(treatment_refusal("\"gauge_atm\": 10", "\"gauge_atm\": 40"), {"is 40", "0 to 30"});
+  expect_words(treatment_refusal("\"heparin_U\": 5000", "\"label\": \"x\""), {"gives nothing", "heparin_U"});
+  expect_words(treatment_refusal("\"damped\"", "\"wet\""), {"normal, damped, ventricularised"});
+  expect_words(treatment_refusal("\"balloon_open\": true", "\"balloon_open\": false"), {"balloon_open is false"});
+}
+
 TEST(Script, ThoseThatShipLoadAndNameInstrumentsThatThereAre) {
   const std::vector<Instrument> catalogue = load_catalogue();
   for (const Script& script : load_scripts())

@@ -52,12 +52,12 @@ TEST(CaseVessel, TheHeartKeepsItsTime) {
   double previous = 0;
   std::uint64_t last_beat = 0;
   while (run.state.rods.step < 900 && run.tick()) {
-    EXPECT_NEAR(std::fmod(run.state.heart.phase - previous + 1, 1), 1e-3 * phase_speed(previous, 90), 1e-9);
-    if (run.state.heart.phase < previous) last_beat = run.state.rods.step;
-    previous = run.state.heart.phase;
+    EXPECT_NEAR(std::fmod(run.state.blood.heart.phase - previous + 1, 1), 1e-3 * phase_speed(previous, 90), 1e-9);
+    if (run.state.blood.heart.phase < previous) last_beat = run.state.rods.step;
+    previous = run.state.blood.heart.phase;
   }
   EXPECT_NEAR(static_cast<double>(last_beat), 1000 * 60 / 90.0, 3) << "explicit steps of a smooth speed";
-  EXPECT_EQ(run.state.heart.beats, 1);
+  EXPECT_EQ(run.state.blood.heart.beats, 1);
 }
 
 TEST(CaseVessel, ContrastFillsOneCoronaryTreeAndIsClosed) {

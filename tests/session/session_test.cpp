@@ -183,8 +183,8 @@ std::uint64_t ends_waiting(const std::string& until, At&& at, Hand&& hand) {
     if (decide(run.plan, run.model, state, report, run.hands, run.inputs, run.events) == Outcome::success)
       return state.rods.step;
     ++state.rods.step;
-    state.heart.phase += 0.00125;  // 75 beats a minute
-    if (state.heart.phase >= 1) state.heart.phase -= 1, state.heart.beats += 1;
+    state.blood.heart.phase += 0.00125;  // 75 beats a minute
+    if (state.blood.heart.phase >= 1) state.blood.heart.phase -= 1, state.blood.heart.beats += 1;
   }
   return 0;
 }

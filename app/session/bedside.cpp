@@ -1,0 +1,281 @@
+#include "app/session/bedside.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "core/rod/introducer.h"
+#include "data/load_error.h"
+#include "vascular/beat/heart_cycle.h"
+#include "vascular/units.h"
+
+namespace ostium {
+
+using Eigen::Vector3d;
+
+namespace {
+
+constexpr double near_heart_m = 6e-3;     // of the box about all cells
+constexpr double tip_m = 3e-3;            // what of a wire is its tip
+constexpr double thick_wire_m = 0.35e-3;  // radius; 0.035 in wires
+constexpr double irritates_m = 10e-3;     // beyond the valve at which a wire surely meets the ventricle's wall
+constexpr double anchor_N_m = 250;        // of what holds an open balloon to its place [estimate]
+constexpr double anchor_friction = 0.12;  // BalloonModel::friction
+constexpr double most_held_N = 3;         // a shaft kinks before it bears more [estimate]
+constexpr double held_s = 0.02;           // in which that comes and goes
+constexpr double manifold_m3 = 0.3e-6;    // of the line ahead of the guide
+
+bool is_catheter(const Instrument& i) {
+  return i.kind == InstrumentKind::guide_catheter || i.kind == InstrumentKind::diagnostic_catheter;
+}
+
+/// The first catheter in the body; the outermost.
+int guide_of(const BedsideModel& model, const State& rods) {
+  for (std::size_t t = 0; t < model.tools.size(); ++t)
+    if (is_catheter(model.tools[t].instrument) && in_body(model.rods.rods[t], rods.rods[t])) return static_cast<int>(t);
+  return -1;
+}
+
+/// In the body, with its tip beyond the guide's or the guide gone.
+int balloon_tool(const BedsideModel& model, const State& rods) {
+  for (std::size_t t = 0; t < model.tools.size(); ++t)
+    if (model.balloon_of[t] >= 0 && in_body(model.rods.rods[t], rods.rods[t])) return static_cast<int>(t);
+  return -1;
+}
+
+Vector3d direction_at_tip(const Rod& rod, const RodState& s) {
+  return (s.position[rod.elements] - s.position[rod.elements - 2]).normalized();
+}
+
+void look_at_shafts(const BedsideModel& model, const State& rods, BedsideScratch& x, BedsideState& s) {
+  std::fill(s.shaft_m.begin(), s.shaft_m.end(), 0);
+  const FlowTree& tree = model.physiology.flow.tree;
+  Vector3d low = x.locator.centre(0), high = low;
+  for (int c = 1; c < static_cast<int>(tree.cells.size()); ++c)
+    low = low.cwiseMin(x.locator.centre(c)), high = high.cwiseMax(x.locator.centre(c));
+  low.array() -= near_heart_m, high.array() += near_heart_m;
+  for (std::size_t t = 0; t < model.tools.size(); ++t) {
+    const Rod& rod = model.rods.rods[t];
+    const RodState& own = rods.rods[t];
+    if (!in_body(rod, own)) continue;
+    x.points.clear();
+    for (int i = rod.elements; i > first_element(own); --i) {
+      const Vector3d p = own.position[i];
+      if ((p.array() < low.array()).any() || (p.array() > high.array()).any()) break;
+      x.points.push_back(p);
+    }
+    occupy(x.locator, tree, x.points, rod.radius.at(0)[std::max(first_element(own), rod.elements - 40)], s.shaft_m);
+  }
+}
+
+void look_at_balloon(const BedsideModel& model, const State& rods, const StepReport& report, BedsideScratch& x,
+                     BedsideState& s) {
+  const int t = balloon_tool(model, rods);
+  const double was = s.balloon;
+  s.balloon = t < 0 ? -1 : model.balloon_of[static_cast<std::size_t>(t)];
+  s.branch = -1, s.drag_N = 0;
+  if (s.balloon != was) s.held = s.holding_N = 0;
+  if (t < 0) return;
+  const Rod& rod = model.rods.rods[static_cast<std::size_t>(t)];
+  const RodState& own = rods.rods[static_cast<std::size_t>(t)];
+  const Instrument& instrument = model.tools[static_cast<std::size_t>(t)].instrument;
+  const double near_m = marker_from_tip_m(instrument, 0), far_m = marker_from_tip_m(instrument, 1);
+  if (own.inserted_m < near_m) return;
+  const Vector3d p_near = point_from_tip(rod, own, near_m), p_far = point_from_tip(rod, own, far_m);
+  const auto seat = seat_of(x.locator, model.physiology.flow.tree, model.treatment.paths, p_near, p_far);
+  if (!seat) return;
+  s.branch = seat->branch, s.middle_m = seat->middle_m;
+  const Vector3d along = (p_far - p_near).normalized();
+  for (const Touch& touch : report.touches) {
+    if (touch.rod != t) continue;
+    const double from_tip = rod.node_from_tip_m[static_cast<std::size_t>(touch.node)];
+    if (from_tip >= far_m && from_tip <= near_m) s.drag_N += touch.friction_W_N.dot(along);
+  }
+}
+
+void look_at_guide(const BedsideModel& model, const State& rods, const StepReport& report, double phase,
+                   const Vector3d& root_shift, BedsideScratch& x, BedsideState& s) {
+  const int g = guide_of(model, rods);
+  s.guide = g;
+  s.where = TipPlace::outside, s.cell = s.into_ostium = s.covered = s.in_ventricle = s.filled_m = s.thick_wire = 0;
+  if (g < 0) return;
+  const Rod& rod = model.rods.rods[static_cast<std::size_t>(g)];
+  const RodState& own = rods.rods[static_cast<std::size_t>(g)];
+  const Vector3d p = own.position[rod.elements], direction = direction_at_tip(rod, own);
+  const Patient& patient = *model.vessel.patient;
+  const TipPlace place = tip_place(x.locator, model.physiology.flow.tree, model.physiology.contrast, patient,
+                                   model.vessel.coronaries->map, phase, p, direction);
+  s.where = place.where, s.cell = place.cell, s.into_ostium = place.into_ostium;
+  s.in_ventricle = beyond_valve_m(patient.anatomy.landmarks, p - root_shift) > 0;
+  for (const Touch& touch : report.touches)
+    if (touch.rod == g && touch.node == rod.elements) {
+      const double faces = -direction.dot(touch.normal_W_N.normalized());
+      s.covered = std::max(s.covered, std::clamp(2 * (faces - 0.5), 0.0, 0.95));
+    }
+  for (std::size_t t = 0; t < model.tools.size(); ++t) {
+    if (static_cast<int>(t) == g || !in_body(model.rods.rods[t], rods.rods[t])) continue;
+    const Rod& inner = model.rods.rods[t];
+    const double radius = inner.radius.at(0)[std::max(first_element(rods.rods[t]), inner.elements - 100)];
+    s.filled_m = std::max(s.filled_m, radius);
+    if (model.tools[t].instrument.kind == InstrumentKind::wire && radius > thick_wire_m) s.thick_wire = 1;
+  }
+}
+
+void look_at_wires(const BedsideModel& model, const State& rods, const StepReport& report, const Vector3d& root_shift,
+                   BedsideScratch& x, BedsideState& s) {
+  s.irritation = 0, s.wire_cell = -1, s.wire_tip_N = 0;
+  const FlowTree& tree = model.physiology.flow.tree;
+  for (std::size_t t = 0; t < model.tools.size(); ++t) {
+    const Rod& rod = model.rods.rods[t];
+    const RodState& own = rods.rods[t];
+    if (!in_body(rod, own)) continue;
+    const Vector3d p = own.position[rod.elements];
+    const CellLocator::Found f = x.locator.nearest(p, near_heart_m);
+    const bool in_artery = f.cell >= 0 && f.distance_m < 1.6 * tree.cells[f.cell].healthy_m;
+    const Landmarks& marks = model.vessel.patient->anatomy.landmarks;
+    if (!in_artery && (p - root_shift - marks.p_annulus).norm() < 0.06)
+      s.irritation = std::max(s.irritation, std::clamp(beyond_valve_m(marks, p - root_shift) / irritates_m, 0.0, 1.0));
+    const bool thin = model.tools[t].instrument.kind == InstrumentKind::wire &&
+                      model.tools[t].instrument.outer_diameter_m < 2 * thick_wire_m;
+    if (!thin || !in_artery) continue;
+    s.wire_cell = f.cell;
+    for (const Touch& touch : report.touches)
+      if (touch.rod == static_cast<int>(t) && rod.node_from_tip_m[static_cast<std::size_t>(touch.node)] <= tip_m)
+        s.wire_tip_N += touch.normal_W_N.norm();
+  }
+}
+
+}  // namespace
+
+BedsideState make_bedside(const Vessel& vessel) {
+  BedsideState state;
+  if (vessel.coronaries) state.shaft_m.assign(vessel.coronaries->tree().cells.size(), 0);
+  return state;
+}
+
+BedsideScratch::BedsideScratch(const Vessel& vessel)
+    : locator(vessel.coronaries->map, vessel.coronaries->tree(), vessel.patient->lumen) {
+  points.reserve(1000);
+}
+
+Line line_of(const Instrument& guide) {
+  Line line;
+  line.bore_m = guide.inner_diameter_m / 2, line.length_m = guide.length_m;
+  line.dead_m3 = manifold_m3 + std::numbers::pi * line.bore_m * line.bore_m * line.length_m;
+  return line;
+}
+
+double marker_from_tip_m(const Instrument& instrument, int which) {
+  const std::vector<Marker>& m = instrument.markers;
+  const double a = m[0].from_tip_m + m[0].length_m / 2, b = m[1].from_tip_m + m[1].length_m / 2;
+  return which == 0 ? std::max(a, b) : std::min(a, b);
+}
+
+Vector3d point_from_tip(const Rod& rod, const RodState& s, double from_tip_m) {
+  if (from_tip_m >= s.inserted_m) return s.base.p_W;
+  const std::vector<double>& from_tip = rod.node_from_tip_m;
+  // The first node that is not farther; its number is at least 1.
+  const auto at = std::lower_bound(from_tip.begin() + 1, from_tip.end() - 1, from_tip_m, std::greater<>());
+  const auto i = static_cast<int>(at - from_tip.begin());
+  if (i <= first_element(s)) return s.base.p_W;
+  const double length = from_tip[static_cast<std::size_t>(i) - 1] - from_tip[static_cast<std::size_t>(i)];
+  const double part = (from_tip_m - from_tip[static_cast<std::size_t>(i)]) / length;
+  return s.position[i] + part * (s.position[i - 1] - s.position[i]);
+}
+
+std::vector<int> add_devices(const std::vector<SessionTool>& tools, std::uint64_t seed, TreatmentModel& model) {
+  std::vector<int> balloon_of;
+  for (const SessionTool& tool : tools) {
+    balloon_of.push_back(-1);
+    if (!tool.instrument.balloon) continue;
+    const CarriedBalloon& carried = *tool.instrument.balloon;
+    BalloonModel balloon =
+        make_balloon(carried.compliant ? Compliance::semi : Compliance::non, carried.nominal_m, carried.length_m);
+    balloon.name = tool.instrument.title;
+    balloon.nominal_Pa = carried.nominal_Pa, balloon.rated_Pa = carried.rated_Pa;
+    balloon.seed = seed + model.balloons.size() + 1;
+    int on = -1;
+    try {
+      if (tool.instrument.stent) {
+        on = static_cast<int>(model.stents.size());
+        model.stents.push_back(make_stent(tool.instrument.stent->nominal_m, tool.instrument.stent->length_m));
+        check(model.stents.back());
+      }
+      check(balloon);
+    } catch (const std::invalid_argument& error) {
+      throw LoadError(fmt::format("{} ({}): {}", tool.name, tool.instrument.name, error.what()));
+    }
+    balloon_of.back() = static_cast<int>(model.balloons.size());
+    model.balloons.push_back(balloon), model.stent_on.push_back(on);
+  }
+  return balloon_of;
+}
+
+void look(const BedsideModel& model, const State& rods, const StepReport& report, double phase, BedsideScratch& x,
+          BedsideState& s) {
+  x.locator.set_moment(phase, 0);
+  const Vector3d root_shift =
+      contraction(phase) * HeartMotion(model.vessel.patient->anatomy.landmarks).root_displacement();
+  look_at_shafts(model, rods, x, s);
+  look_at_balloon(model, rods, report, x, s);
+  look_at_guide(model, rods, report, phase, root_shift, x, s);
+  look_at_wires(model, rods, report, root_shift, x, s);
+}
+
+void hold_balloon(const BedsideModel& model, const BalloonReport& report, const BalloonState& balloon, double step_s,
+                  BedsideState& s) {
+  double wanted = 0;
+  if (s.balloon < 0 || s.branch < 0 || !(report.pressed_N > 0)) {
+    s.held = 0;
+  } else {
+    if (s.held == 0) s.held = 1, s.anchor_m = s.middle_m;
+    const double most = std::min(anchor_friction * report.pressed_N, most_held_N);
+    // Beyond what friction bears it is dragged along.
+    s.anchor_m = std::clamp(s.anchor_m, s.middle_m - most / anchor_N_m, s.middle_m + most / anchor_N_m);
+    const BalloonModel& own = model.treatment.balloons[static_cast<std::size_t>(s.balloon)];
+    wanted = anchor_N_m * (s.anchor_m - s.middle_m) + own.grip_N_m * balloon.slip_m;
+    wanted = std::clamp(wanted, -most_held_N, most_held_N);
+  }
+  s.holding_N += (wanted - s.holding_N) * step_s / held_s;
+  if (std::fabs(s.holding_N) < 1e-6) s.holding_N = 0;
+}
+
+StretchLoad load_on_shaft(const BedsideModel& model, const State& rods, const BedsideState& s, int tool) {
+  const auto t = static_cast<std::size_t>(tool);
+  if (s.holding_N == 0 || s.balloon < 0 || model.balloon_of[t] != static_cast<int>(s.balloon)) return {};
+  const Instrument& instrument = model.tools[t].instrument;
+  const double near_m = marker_from_tip_m(instrument, 0), far_m = marker_from_tip_m(instrument, 1);
+  const Vector3d along = point_from_tip(model.rods.rods[t], rods.rods[t], far_m) -
+                         point_from_tip(model.rods.rods[t], rods.rods[t], near_m);
+  if (!(along.norm() > 1e-6)) return {};
+  return {far_m, near_m, s.holding_N * along.normalized()};
+}
+
+TreatmentInputs treatment_inputs(const BedsideInputs& inputs, const BedsideState& s) {
+  TreatmentInputs out;
+  out.balloon = static_cast<int>(s.balloon);
+  out.branch = static_cast<int>(s.branch);
+  out.middle_m = seat_m(s);
+  out.gauge_Pa = inputs.gauge_Pa;
+  out.drag_N = s.drag_N;
+  out.wire_tip_cell = static_cast<int>(s.wire_cell);
+  out.wire_tip_N = s.wire_tip_N;
+  out.shaft_m = s.shaft_m;
+  out.doses = {inputs.heparin_U, inputs.nitrate_ug, inputs.adenosine_ug};
+  return out;
+}
+
+void set_physiology_inputs(const BedsideModel& model, const BedsideInputs& inputs, const BedsideState& s,
+                           PhysiologyInputs& to) {
+  to.contrast.injection_m3_s = s.guide < 0 ? 0 : inputs.injection_m3_s;
+  to.contrast.iodine_kg_m3 = inputs.iodine_kg_m3;
+  to.contrast.shaft_m = s.filled_m;
+  to.contrast.tip = {static_cast<TipPlace::Where>(static_cast<int>(s.where)), static_cast<int>(s.cell), s.into_ostium};
+  if (s.guide >= 0) to.contrast.line = line_of(model.tools[static_cast<std::size_t>(s.guide)].instrument);
+  to.tip_in_ventricle = s.in_ventricle > 0, to.wire_in_catheter = s.thick_wire > 0;
+  to.tip_covered = s.covered;
+}
+
+}  // namespace ostium

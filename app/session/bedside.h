@@ -1,0 +1,123 @@
+#pragma once
+/// What instruments are to the coronary arteries, and these to them: where balloons, tips and shafts lie, what holds a
+/// balloon, what reaches guide, muscle and valve.
+///
+/// Rods know no balloon and balloons no rod. Every `look_every` steps the rods are looked at, and what matters of them
+/// is kept in BedsideState: from there come TreatmentInputs and PhysiologyInputs of every step, and the force with
+/// which the wall holds an open balloon's shaft.
+#include "app/session/vessel.h"
+#include "core/step.h"
+#include "data/instrument.h"
+#include "vascular/place.h"
+
+namespace ostium {
+
+struct SessionTool {
+  std::string name;  ///< what a script calls it
+  Instrument instrument;
+};
+
+inline constexpr int look_every = 8;  ///< steps: as often as blood and contrast move (circulation_step_s)
+
+/// What a hand asks of the circulation; all are recorded inputs.
+struct BedsideInputs {
+  double injection_m3_s = 0;  ///< by the thumb, into the guide's line
+  double iodine_kg_m3 = 350;  ///< of what is in the syringe; 0: saline
+  double gauge_Pa = 0;        ///< of the inflation device, on the balloon that is in the body; below 0: vacuum
+  double heparin_U = 0, nitrate_ug = 0, adenosine_ug = 0;  ///< given in this step
+};
+
+struct BedsideState {
+  // Of the balloon that is in the body.
+  double balloon = -1;               ///< of TreatmentModel::balloons, as a number
+  double branch = -1, middle_m = 0;  ///< its seat (place.h); -1: it is not in one artery
+  double held = 0, anchor_m = 0;     ///< 1: the wall holds it, with its middle there, along the path
+  double holding_N = 0;              ///< what its shaft is held with, distally
+  double blocked = 0;                ///< 1: a stent that is not open lies in its way
+  double drag_N = 0;                 ///< of the wall on what is folded there, distally
+  // Of the guide: the catheter that contrast comes through.
+  double guide = -1;                            ///< tool, as a number; -1: none is in the body
+  double where = 0, cell = 0, into_ostium = 0;  ///< TipPlace of its end hole
+  double covered = 0, in_ventricle = 0;         ///< TipPressureInputs
+  double filled_m = 0;                          ///< radius of what lies in it
+  double thick_wire = 0;                        ///< 1: that is a wire that leaves no room for pressure
+  // Of the others.
+  double irritation = 0;                  ///< HeartInputs
+  double wire_cell = -1, wire_tip_N = 0;  ///< of the flow tree, where a coronary wire's tip is; the wall's force on it
+  std::vector<double> shaft_m;            ///< (#cells) radius of the widest shaft in each
+  double wall_cursor = 0;                 ///< of follow_lumen
+};
+/// Where the balloon's middle is along its path: where the wall holds it, or where its shaft has it.
+inline double seat_m(const BedsideState& s) { return s.held > 0 ? s.anchor_m : s.middle_m; }
+BedsideState make_bedside(const Vessel& vessel);
+
+template <class S, class Visit>
+void for_each_bedside_field(S& s, Visit&& visit) {
+  for (auto& [name, field] : {std::pair{"bedside.balloon", &s.balloon},
+                              std::pair{"bedside.branch", &s.branch},
+                              std::pair{"bedside.middle_m", &s.middle_m},
+                              std::pair{"bedside.held", &s.held},
+                              std::pair{"bedside.anchor_m", &s.anchor_m},
+                              std::pair{"bedside.holding_N", &s.holding_N},
+                              std::pair{"bedside.drag_N", &s.drag_N},
+                              std::pair{"bedside.blocked", &s.blocked},
+                              std::pair{"bedside.guide", &s.guide},
+                              std::pair{"bedside.where", &s.where},
+                              std::pair{"bedside.cell", &s.cell},
+                              std::pair{"bedside.into_ostium", &s.into_ostium},
+                              std::pair{"bedside.covered", &s.covered},
+                              std::pair{"bedside.in_ventricle", &s.in_ventricle},
+                              std::pair{"bedside.filled_m", &s.filled_m},
+                              std::pair{"bedside.thick_wire", &s.thick_wire},
+                              std::pair{"bedside.irritation", &s.irritation},
+                              std::pair{"bedside.wire_cell", &s.wire_cell},
+                              std::pair{"bedside.wire_tip_N", &s.wire_tip_N},
+                              std::pair{"bedside.wall_cursor", &s.wall_cursor}})
+    visit(name, field, 1);
+  visit("bedside.shaft_m", s.shaft_m.data(), static_cast<int>(s.shaft_m.size()));
+}
+
+/// The balloons and stents that tools carry, added to `model`; of each tool its balloon, or -1. Throws LoadError for
+/// sizes that vascular refuses.
+std::vector<int> add_devices(const std::vector<SessionTool>& tools, std::uint64_t seed, TreatmentModel& model);
+
+/// Everything of a session that is const, as this part needs it.
+struct BedsideModel {
+  const Vessel& vessel;
+  const std::vector<SessionTool>& tools;
+  const Model& rods;
+  const PhysiologyModel& physiology;
+  const TreatmentModel& treatment;
+  const std::vector<int>& balloon_of;  ///< (#tools)
+};
+
+struct BedsideScratch {
+  explicit BedsideScratch(const Vessel& vessel);
+  CellLocator locator;
+  std::vector<Eigen::Vector3d> points;
+};
+
+/// Looks at the rods as they are after a step.
+void look(const BedsideModel& model, const State& rods, const StepReport& report, double phase, BedsideScratch& scratch,
+          BedsideState& state);
+
+/// What holds the balloon's shaft from now on, by what the wall pressed it with.
+void hold_balloon(const BedsideModel& model, const BalloonReport& report, const BalloonState& balloon, double step_s,
+                  BedsideState& state);
+/// That force, for the shaft's rod: along it, on the stretch between its markers.
+StretchLoad load_on_shaft(const BedsideModel& model, const State& rods, const BedsideState& state, int tool);
+
+TreatmentInputs treatment_inputs(const BedsideInputs& inputs, const BedsideState& state);
+/// Contrast and pressure; the heart's and what is occupied are the caller's.
+void set_physiology_inputs(const BedsideModel& model, const BedsideInputs& inputs, const BedsideState& state,
+                           PhysiologyInputs& to);
+
+/// What contrast runs through to a guide's tip.
+Line line_of(const Instrument& guide);
+
+/// The distance of a marker's middle from the tip, m; 0 proximal, 1 distal.
+double marker_from_tip_m(const Instrument& instrument, int which);
+/// A point of a rod that is so far from its tip, m; the introducer if that is outside.
+Eigen::Vector3d point_from_tip(const Rod& rod, const RodState& state, double from_tip_m);
+
+}  // namespace ostium

@@ -1,0 +1,25 @@
+#pragma once
+/// A case's coronary arteries as contrast, balloons and stents need them. Const once made; runs share them.
+#include "app/angiography/angioplasty.h"
+#include "vascular/plaque/wall_shape.h"
+
+namespace ostium {
+
+struct Coronaries {
+  std::shared_ptr<const Patient> patient;
+  PhysiologyModel physiology;  ///< of the mean person; a session has its own, by its seed
+  LumenMap map;
+  std::unique_ptr<const WallShape> shape;
+  TreatmentModel treatment;   ///< without devices
+  std::vector<Plan> lesions;  ///< in the case's order, without devices
+  PhysiologyState at_rest;    ///< a circulation that has beaten until pressure and flow repeat
+  /// Vertices of the lumen that follow a cell's radius: vertices[first_vertex[c], first_vertex[c + 1]).
+  std::vector<int> first_vertex, vertices;
+
+  const FlowTree& tree() const { return physiology.flow.tree; }
+};
+
+/// Takes about a second. Null if the patient has no coronary artery.
+std::unique_ptr<const Coronaries> make_coronaries(std::shared_ptr<const Patient> patient, double rate_1_min);
+
+}  // namespace ostium

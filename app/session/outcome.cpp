@@ -1,0 +1,87 @@
+#include "app/session/outcome.h"
+
+#include <algorithm>
+
+namespace ostium {
+
+namespace {
+
+constexpr double segment_m = 5e-3;
+
+const Plan& lesion(const SessionModel& model) { return model.vessel->coronaries->lesions.front(); }
+
+bool in_lesions_artery(const SessionModel& model, double branch, double s_m) {
+  return branch >= 0 && same_vessel(model.treatment.paths[static_cast<std::size_t>(branch)], lesion(model).path, s_m);
+}
+
+}  // namespace
+
+LesionNow lesion_now(const SessionModel& model, const SessionState& state) {
+  const Plan& plan = lesion(model);
+  LesionNow out{.mld_m = 1, .segment_mld_m = 1, .reference_m = plan.reference_m, .stenosis = 0};
+  double from = plan.from_m - segment_m, to = plan.to_m + segment_m;
+  if (const auto stent = stented(model, state)) {
+    from = std::min(from, plan.from_m + stent->from_m - segment_m);
+    to = std::max(to, plan.from_m + stent->to_m + segment_m);
+  }
+  for (std::size_t k = 0; k < plan.path.cells.size(); ++k) {
+    const double s = plan.path.s_m[k],
+                 d = 2 * state.treatment.wall.radius_m[static_cast<std::size_t>(plan.path.cells[k])];
+    if (s >= plan.from_m && s <= plan.to_m) out.mld_m = std::min(out.mld_m, d);
+    if (s >= from && s <= to) out.segment_mld_m = std::min(out.segment_mld_m, d);
+  }
+  out.stenosis = 1 - out.mld_m / out.reference_m;
+  return out;
+}
+
+double supply_behind_lesion(const SessionModel& model, const SessionState& state) {
+  const Plan& plan = lesion(model);
+  const FlowTree& tree = model.physiology.flow.tree;
+  const int end = plan.path.cells[static_cast<std::size_t>(plan.path.at(plan.to_m).index)];
+  double flow = 0, need = 0;
+  for (std::size_t b = 0; b < tree.branches.size(); ++b) {
+    const FlowBranch& branch = tree.branches[b];
+    if (branch.first == end || !tree.is_downstream(branch.first, end)) continue;
+    flow += state.blood.flow.mean_m3_s[b];
+    for (int c = branch.first; c < branch.last; ++c)
+      need += model.physiology.flow.need_m3_s[static_cast<std::size_t>(c)];
+  }
+  if (need > 0) return flow / need;
+  const int territory = static_cast<int>(tree.branches[static_cast<std::size_t>(plan.branch)].territory);
+  return supply(model.physiology.flow, state.blood.flow)[static_cast<std::size_t>(territory)];
+}
+
+std::optional<double> balloon_from_lesion_m(const SessionModel& model, const SessionState& state) {
+  const BedsideState& b = state.bedside;
+  if (b.balloon < 0 || !in_lesions_artery(model, b.branch, seat_m(b))) return {};
+  return seat_m(b) - (lesion(model).from_m + lesion(model).to_m) / 2;
+}
+
+std::optional<Stretch> stented(const SessionModel& model, const SessionState& state) {
+  std::optional<Stretch> out;
+  for (const StentState& stent : state.treatment.stents) {
+    if (stent.where != StentState::deployed || !in_lesions_artery(model, stent.branch, stent.middle_m)) continue;
+    const auto [from, to] = span_of(stent);
+    const Stretch own{from - lesion(model).from_m, to - lesion(model).from_m};
+    out = out ? Stretch{std::min(out->from_m, own.from_m), std::max(out->to_m, own.to_m)} : own;
+  }
+  return out;
+}
+
+double balloon_artery_ratio(const SessionModel& model, const SessionState& state) {
+  const BedsideState& b = state.bedside;
+  if (b.balloon < 0 || b.branch < 0 || !(state.treatment.balloon.pressure_Pa > 101325)) return 0;
+  const BalloonModel& balloon = model.treatment.balloons[static_cast<std::size_t>(b.balloon)];
+  const VesselPath& path = model.treatment.paths[static_cast<std::size_t>(b.branch)];
+  double ratio = 0;
+  for (int i = 0; i < balloon_spheres; ++i) {
+    if (sphere_share(balloon, i) < 1) continue;
+    const auto at = path.at(sphere_position(balloon, state.treatment.balloon, seat_m(b), i));
+    const FlowCell& cell =
+        model.physiology.flow.tree.cells[static_cast<std::size_t>(path.cells[static_cast<std::size_t>(at.index)])];
+    ratio = std::max(ratio, state.treatment.balloon.radius_m[static_cast<std::size_t>(i)] / cell.healthy_m);
+  }
+  return ratio;
+}
+
+}  // namespace ostium

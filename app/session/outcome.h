@@ -1,0 +1,34 @@
+#pragma once
+/// What was done to the case's first lesion, in numbers, at a moment: the truth that signals and metrics are made of.
+#include <optional>
+
+#include "app/session/session.h"
+
+namespace ostium {
+
+struct LesionNow {
+  double mld_m = 0;          ///< smallest diameter of the lumen within the lesion
+  double segment_mld_m = 0;  ///< the same with 5 mm on both sides and whatever a stent covers
+  double reference_m = 0;    ///< of the healthy artery about it: mean of 5 mm ahead of it and behind it
+  double stenosis = 0;       ///< 1 - mld / reference; of the diameter
+};
+/// The model must have a lesion.
+LesionNow lesion_now(const SessionModel& model, const SessionState& state);
+
+/// Flow through the muscle behind the lesion over what it needs, averaged over a beat or two.
+double supply_behind_lesion(const SessionModel& model, const SessionState& state);
+
+/// The middle between the balloon's markers, from the lesion's middle along the artery, m, distal is positive; empty if
+/// the balloon does not lie in the lesion's artery.
+std::optional<double> balloon_from_lesion_m(const SessionModel& model, const SessionState& state);
+
+/// First and last point of stents that lie in the lesion's artery, from the lesion's proximal end, m.
+struct Stretch {
+  double from_m = 0, to_m = 0;
+};
+std::optional<Stretch> stented(const SessionModel& model, const SessionState& state);
+
+/// Diameter of the balloon where it is widest between its markers over the local reference.
+double balloon_artery_ratio(const SessionModel& model, const SessionState& state);
+
+}  // namespace ostium

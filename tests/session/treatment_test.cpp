@@ -1,0 +1,134 @@
+/// A short angioplasty by rods, from ahead of the ostium: contrast, an inflation, the wall it opens, and that all of it
+/// can be gone on with from a saved state.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "app/session/outcome.h"
+#include "app/session/penetration.h"
+#include "app/session/run.h"
+#include "app/session/xray_scene.h"
+#include "data/load_error.h"
+
+namespace ostium {
+namespace {
+
+const char* const predilatation = R"({
+  "schema": "ostium-script/1", "name": "predilatation", "title": "A test",
+  "tools": [ { "name": "guide", "instrument": "guide-jr4-6f" }, { "name": "balloon", "instrument": "balloon-275x12" },
+             { "name": "stent", "instrument": "stent-325x15" }, { "name": "wire", "instrument": "wire-014-workhorse" } ],
+  "steps": [
+    { "do": "fluoroscopy", "on": true },
+    { "do": "advance", "tool": "guide", "speed_mm_s": 15, "until": [{ "inserted_mm": 17 }], "timeout_s": 3,
+      "label": "into the ostium" },
+    { "do": "inject", "rate_mL_s": 4, "volume_mL": 5, "until": [{ "contrast_in": "RCA+30" }], "timeout_s": 3 },
+    { "do": "advance", "tool": "wire", "speed_mm_s": 25, "turn_deg_s": 90, "until": [{ "tip_passes": "RCA+80" }],
+      "timeout_s": 8 },
+    { "do": "advance", "tool": "balloon", "speed_mm_s": 30, "until": [{ "balloon_at_mm": -20 }], "timeout_s": 6 },
+    { "do": "advance", "tool": "balloon", "speed_mm_s": 8, "until": [{ "balloon_at_mm": -1 }], "timeout_s": 6 },
+    { "do": "inflate", "gauge_atm": 10, "over_s": 1.5 },
+    { "do": "wait", "until": [{ "balloon_open": true }], "timeout_s": 4 },
+    { "do": "mark", "text": "open" },
+    { "do": "deflate", "timeout_s": 12 },
+    { "do": "advance", "tool": "stent", "speed_mm_s": 50, "until": [{ "balloon_at_mm": 0 }] }
+  ]
+})";
+
+RunSetup setup() {
+  RunSetup out;
+  set_vessel("rca-mid-focal", LengthUnit::millimetre, out);
+  set_script(read_script("predilatation.json", predilatation), out);
+  set_value("begin", "RCA", out);
+  return out;
+}
+
+std::shared_ptr<const Vessel> vessel() {
+  static const std::shared_ptr<const Vessel> made = [] {
+    std::string warnings;
+    return make_vessel(setup(), warnings);
+  }();
+  return made;
+}
+
+/// Steps until the operator is at a step of the script; false: it never comes there.
+bool run_to(ScriptedRun& run, int step) {
+  while (static_cast<int>(run.hands.step) < step)
+    if (!run.tick()) return false;
+  return true;
+}
+
+TEST(Treatment, ABalloonOpensTheLesionAndTheWallThatRodsMeet) {
+  ScriptedRun run(setup(), vessel());
+  const double before = lesion_now(run.model, run.state).stenosis;
+  EXPECT_NEAR(before, 0.70, 0.02);
+  ASSERT_TRUE(run_to(run, 3)) << reason(run.plan, run.hands);
+  EXPECT_EQ(static_cast<int>(run.state.bedside.where), TipPlace::coronary);
+  EXPECT_GT(run.state.blood.contrast.from_tip_kg, 0);
+  ASSERT_TRUE(run_to(run, 6)) << reason(run.plan, run.hands);
+  ASSERT_TRUE(balloon_from_lesion_m(run.model, run.state));
+  EXPECT_NEAR(*balloon_from_lesion_m(run.model, run.state), 0, 4e-3);
+  const double open_flow = supply_behind_lesion(run.model, run.state);
+  ASSERT_TRUE(run_to(run, 9)) << reason(run.plan, run.hands);
+  EXPECT_GT(run.state.treatment.balloon.pressure_Pa, 3 * 101325.0);
+  EXPECT_GT(balloon_artery_ratio(run.model, run.state), 0.6);
+  EXPECT_LT(supply_behind_lesion(run.model, run.state), open_flow);
+  EXPECT_GT(run.state.bedside.held, 0) << "the wall holds it";
+
+  // A state from here goes on to the bit with a fresh scratch: the opened wall is made anew of it.
+  SessionState other = run.state;
+  SessionScratch fresh(run.model);
+  SessionReport report;
+  for (int n = 0; n < 40; ++n) {
+    ASSERT_TRUE(run.tick());
+    step(run.model, run.inputs, other, fresh, report);
+    ASSERT_EQ(first_difference(run.model, run.state, other), "") << n;
+  }
+
+  // Deflated, then a second device cannot enter beside it, and the run says so.
+  EXPECT_FALSE(run_to(run, 11));
+  EXPECT_EQ(run.outcome, Outcome::failure);
+  EXPECT_NE(reason(run.plan, run.hands).find("balloon is still in the body"), std::string::npos)
+      << reason(run.plan, run.hands);
+  const double after = lesion_now(run.model, run.state).stenosis;
+  EXPECT_LT(after, 0.5);
+  EXPECT_GT(after, 0.05) << "it recoils";
+
+  const PhysiologyState& blood = run.state.blood;
+  EXPECT_NEAR(accounted_kg(blood.contrast), blood.contrast.injected_kg, 1e-6 * blood.contrast.injected_kg);
+  const Plan& plan = run.model.vessel->coronaries->lesions[0];
+  int narrowest = plan.path.cells[static_cast<std::size_t>(plan.path.at((plan.from_m + plan.to_m) / 2).index)];
+  EXPECT_NEAR(run.state.wall_m[static_cast<std::size_t>(narrowest)],
+              blood.radius_m[static_cast<std::size_t>(narrowest)], 2 * wall_follows_m);
+  EXPECT_GT(run.state.wall_m[static_cast<std::size_t>(narrowest)],
+            1.3 * run.model.physiology.flow.tree.cells[static_cast<std::size_t>(narrowest)].diseased_m);
+  const Penetration depth = penetration(run.model, run.state);
+  EXPECT_LT(depth.deepest_m, 0.1e-3);
+  EXPECT_EQ(depth.outside, 0);
+  EXPECT_LE(run.troubled, 3) << trouble_words(run.troubles);
+  Scene scene;
+  add_treatment(run.model, run.state, scene);
+  EXPECT_NO_THROW(check(scene));
+}
+
+TEST(Treatment, AlternativesLieIdleOutside) {
+  ScriptedRun run(setup(), vessel());
+  EXPECT_EQ(in_the_way(run.model, run.state.rods, 2), -1) << "nothing is in the body";
+  EXPECT_EQ(run.model.balloon_of, (std::vector<int>{-1, 0, 1, -1}));
+  EXPECT_EQ(run.model.treatment.stent_on, (std::vector<int>{-1, 0}));
+  EXPECT_NEAR(run.model.treatment.stents[0].length_m, 15e-3, 1e-12);
+}
+
+TEST(Treatment, ABeginningThatIsNoArteryIsRefused) {
+  RunSetup wrong = setup();
+  set_value("begin", "RCX", wrong);
+  try {
+    ScriptedRun run(wrong, vessel());
+    FAIL();
+  } catch (const LoadError& error) {
+    EXPECT_NE(std::string(error.what()).find("LM, RCA"), std::string::npos) << error.what();
+  }
+}
+
+}  // namespace
+}  // namespace ostium
