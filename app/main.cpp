@@ -291,16 +291,23 @@ int main(int argc, char** argv) {
       ->check(CLI::IsMember({"real", "max"}))
       ->capture_default_str();
   run_app
-      ->add_option("--device", run.device,
-                   "Hands at a tracking box instead of the script's: usb; auto: usb if one is plugged in; emulator: a "
-                   "scripted hand at an emulated box, which does what the script asks")
-      ->check(CLI::IsMember({"auto", "usb", "emulator"}));
+      ->add_option(
+          "--device", run.device,
+          "Hands at a tracking box instead of the script's: usb; auto: usb if one is plugged in; emulator: a "
+          "scripted hand at an emulated box, which does what the script asks; keyboard: keyboard, mouse or gamepad, in "
+          "the window")
+      ->check(CLI::IsMember({"auto", "usb", "emulator", "keyboard"}));
+  run_app->add_option("--display", run.display, "window: watch it live, in real time")
+      ->check(CLI::IsMember({"none", "window"}))
+      ->capture_default_str();
+  run_app->add_option("--last-frame", run.last_frame, "The window's last picture")->type_name("FILE.png");
   run_app->add_option("--serial", run.serial, "Of the box; else the first that is found");
   run_app->add_flag("--json", run.json, "Machine-readable, see data/schemas/run.schema.json");
   run_app->footer(
       "Examples:\n  ostium run rca-mid-focal --script aorta-arch-wire --out out\n"
       "  ostium run lad-proximal-eccentric --set wire=bentson --set person=3 --seed 7 --json\n"
-      "  ostium run rca-mid-focal --script jr4-to-the-root --device usb --out out\n"
+      "  ostium run rca-mid-focal --script jr4-engages-rca --device usb --out out\n"
+      "  ostium run rca-mid-focal --script jr4-engages-rca --device keyboard --out out\n"
       "  ostium run aorta.obj --entry -20,80,14 --towards -20,90,14 --script my-script.json");
 
   bool scripts_json = false;

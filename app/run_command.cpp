@@ -5,11 +5,14 @@
 
 #include <cmath>
 #include <csignal>
+#include <exception>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <thread>
 
 #include "app/session/device_run.h"
 #include "app/session/play.h"
+#include "app/window/window.h"
 #include "data/load_error.h"
 #include "data/write_file.h"
 #include "device/usb_port.h"
@@ -50,6 +53,10 @@ void show_progress(const ScriptedRun& run) {
 
 /// What is asked for; null: no box. With a box and people, `setup` loses what its script does to tools.
 std::unique_ptr<DeviceRun> device_of(const RunOptions& o, RunSetup& setup) {
+  if (o.device == "keyboard") {
+    setup.script = free_hands(setup.script);
+    return nullptr;
+  }
   if (o.device.empty() || (o.device == "auto" && find_boxes().empty())) return nullptr;
   DeviceHandSettings settings;
   for (const StandardView& view : standard_views())
@@ -124,7 +131,52 @@ RunSetup setup_of(const RunOptions& o) {
   return setup;
 }
 
+namespace {
+
+/// Plays in another thread while the window is up in this one.
+PlayReport play_in_window(const RunOptions& o, ScriptedRun& run, const RunSetup& setup, const DeviceRun* device,
+                          Driver* inner, PlayOptions options) {
+  const bool plays = o.device == "keyboard";
+  LiveHand hand(run.model, plays, 15, inner);
+  run.take_over(&hand);
+  options.real = true;
+  const auto progress = options.progress;
+  options.progress = [&](const ScriptedRun& now) {
+    hand.note_step(static_cast<int>(now.hands.step));
+    progress(now);
+  };
+  std::atomic<bool> over{false};
+  PlayReport report;
+  std::exception_ptr failed;
+  std::thread steps([&] {
+    try {
+      report = play(run, setup, options);
+    } catch (...) {
+      failed = std::current_exception();
+    }
+    over = true;
+  });
+  WindowOptions window;
+  window.plays = plays, window.over = &over, window.last_frame_png = o.last_frame;
+  if (device) window.problem = [device] { return std::string(advice(device->hand().now())); };
+  try {
+    show_window(run.model, run.plan, hand, window);
+  } catch (...) {
+    hand.controls.press(Action::quit);
+    steps.join();
+    throw;
+  }
+  steps.join();
+  if (failed) std::rethrow_exception(failed);
+  return report;
+}
+
+}  // namespace
+
 int run_command(const RunOptions& o) {
+  const bool in_window = o.display == "window" || o.device == "keyboard";
+  if (std::string why; in_window && !has_display(why))
+    throw LoadError("there is no window here (" + why + "); expected a display, or --display none with a script");
   RunSetup setup = setup_of(o);
   const auto device = device_of(o, setup);
   PlayOptions options;
@@ -156,7 +208,9 @@ int run_command(const RunOptions& o) {
   const auto ask_to_stop = [](int) { interrupted = true; };
   std::signal(SIGINT, ask_to_stop);
   std::signal(SIGTERM, ask_to_stop);
-  const PlayReport report = play(run, setup, options);
+  const PlayReport report =
+      in_window ? play_in_window(o, run, setup, device.get(), device ? &device->driver() : nullptr, options)
+                : play(run, setup, options);
   say("");
   const std::string file = options.recorder.mode == RecordMode::none ? "" : options.recorder.file;
   if (!o.folder.empty())

@@ -10,14 +10,17 @@ struct RunOptions {
   std::string script = "aorta-arch-wire";
   std::vector<std::string> set;  ///< TOOL=INSTRUMENT
   std::uint64_t seed = 0;
-  double seconds = 0;           ///< most that are simulated; 0: until the script ends
-  std::string folder;           ///< where recording and metrics go; empty: nowhere
-  std::string record = "full";  ///< none, events, full
-  bool real = false;            ///< paced at 1 kHz
-  std::string unit = "mm";      ///< of a mesh
-  std::string entry, towards;   ///< of a mesh: X,Y,Z
-  std::string device;           ///< empty: the script moves the tools; auto, usb, emulator: hands at a tracking box
-  std::string serial;           ///< of the box
+  double seconds = 0;            ///< most that are simulated; 0: until the script ends
+  std::string folder;            ///< where recording and metrics go; empty: nowhere
+  std::string record = "full";   ///< none, events, full
+  bool real = false;             ///< paced at 1 kHz
+  std::string unit = "mm";       ///< of a mesh
+  std::string entry, towards;    ///< of a mesh: X,Y,Z
+  std::string device;            ///< empty: the script moves the tools; auto, usb, emulator: hands at a tracking box;
+                                 ///< keyboard: hands at keyboard, mouse or gamepad, in the window
+  std::string display = "none";  ///< or window
+  std::string last_frame;        ///< the window's last picture goes into this PNG; empty: nowhere
+  std::string serial;            ///< of the box
   bool json = false;
 };
 

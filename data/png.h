@@ -1,5 +1,7 @@
 #pragma once
+#include <cstdint>
 #include <string>
+#include <vector>
 
 #include "fluoro/display.h"
 
@@ -7,5 +9,9 @@ namespace ostium {
 
 /// 8-bit greyscale PNG. Throws LoadError naming the file if it cannot be written; what was begun is removed.
 void write_png(const std::string& file, const Picture& picture);
+/// The same for colours: `rgb` has 3 width height bytes, rows from the top.
+void write_rgb_png(const std::string& file, int width, int height, const std::vector<std::uint8_t>& rgb);
+/// The file's bytes.
+std::vector<std::uint8_t> png_of(const Picture& picture);
 
 }  // namespace ostium

@@ -20,6 +20,9 @@ class ScriptedRun {
   /// script moves the instruments.
   ScriptedRun(const RunSetup& setup, std::shared_ptr<const Vessel> vessel, Driver* driver = nullptr);
 
+  /// From the next step on; null: the script moves the instruments.
+  void take_over(Driver* driver) { driver_ = driver; }
+
   /// The operator looks and decides; then one step, unless the script is at its end. False: it is.
   bool tick();
 

@@ -53,7 +53,9 @@ struct RunAtBench {
 TEST(UsbSession, WireAndGuideReachTheAorticRootInStrokesAndReplayWithoutTheDevice) {
   RunSetup setup;
   set_vessel("rca-mid-focal", LengthUnit::millimetre, setup);
-  set_script(find_script("jr4-to-the-root"), setup);
+  Script script = find_script("jr4-engages-rca");
+  while (script.steps.back().label != "wire out") script.steps.pop_back();
+  set_script(script, setup);
   setup.hand_speed = 3;
   std::string warnings;
   const auto vessel = make_vessel(setup, warnings);
@@ -69,7 +71,7 @@ TEST(UsbSession, WireAndGuideReachTheAorticRootInStrokesAndReplayWithoutTheDevic
     EXPECT_EQ(report.outcome, "success") << report.reason;
     const int sinuses = run.model.vessel->way->place("sinuses");
     const int ascending = run.model.vessel->way->place("ascending aorta");
-    const int guide = run.model.vessel->way->locate(tip(run.model, run.state, 0), run.state.heart.phase);
+    const int guide = run.model.vessel->way->locate(tip(run.model, run.state, 0), run.state.blood.heart.phase);
     EXPECT_TRUE(run.model.vessel->way->beyond(guide, ascending)) << "the guide's tip is in the root";
     EXPECT_GE(sinuses, 0);
     EXPECT_GE(at.hand.stood(), 5) << "750 mm of each in strokes of 30 cm";

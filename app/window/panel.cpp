@@ -1,0 +1,248 @@
+#include "app/window/panel.h"
+
+#include <cairo/cairo.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+namespace ostium {
+
+namespace {
+
+struct Colour {
+  double r, g, b;
+};
+constexpr Colour paper{0.07, 0.08, 0.09}, pale{0.86, 0.88, 0.89}, dim{0.52, 0.56, 0.58}, green{0.35, 0.85, 0.45},
+    red{0.95, 0.33, 0.28}, yellow{0.96, 0.80, 0.30}, box{0.12, 0.135, 0.15};
+
+class Pen {
+ public:
+  explicit Pen(std::vector<std::uint32_t>& pixels)
+      : surface_(cairo_image_surface_create_for_data(reinterpret_cast<unsigned char*>(pixels.data()),
+                                                     CAIRO_FORMAT_RGB24, panel_width, panel_height, 4 * panel_width),
+                 cairo_surface_destroy),
+        cairo_(cairo_create(surface_.get()), cairo_destroy) {
+    cairo_select_font_face(cr(), "DejaVu Sans", CAIRO_FONT_SLANT_NORMAL, CAIRO_FONT_WEIGHT_NORMAL);
+  }
+  cairo_t* cr() const { return cairo_.get(); }
+  void colour(const Colour& c) const { cairo_set_source_rgb(cr(), c.r, c.g, c.b); }
+  void fill(const Colour& c, double x, double y, double w, double h) const {
+    colour(c);
+    cairo_rectangle(cr(), x, y, w, h);
+    cairo_fill(cr());
+  }
+  void write(const Colour& c, double size, double x, double y, const std::string& words) const {
+    colour(c);
+    cairo_set_font_size(cr(), size);
+    cairo_move_to(cr(), x, y);
+    cairo_show_text(cr(), words.c_str());
+  }
+  void write_to(const Colour& c, double size, double right, double y, const std::string& words) const {
+    cairo_set_font_size(cr(), size);
+    cairo_text_extents_t e;
+    cairo_text_extents(cr(), words.c_str(), &e);
+    write(c, size, right - e.x_advance, y, words);
+  }
+  void show(const Picture& picture, double x, double y, double side) const {
+    std::vector<std::uint32_t> grey(picture.grey.size());
+    for (std::size_t i = 0; i < grey.size(); ++i) grey[i] = 0x010101u * picture.grey[i];
+    const std::unique_ptr<cairo_surface_t, void (*)(cairo_surface_t*)> image(
+        cairo_image_surface_create_for_data(reinterpret_cast<unsigned char*>(grey.data()), CAIRO_FORMAT_RGB24,
+                                            picture.width, picture.height, 4 * picture.width),
+        cairo_surface_destroy);
+    cairo_save(cr());
+    cairo_translate(cr(), x, y);
+    cairo_scale(cr(), side / picture.width, side / picture.height);
+    cairo_set_source_surface(cr(), image.get(), 0, 0);
+    cairo_pattern_set_filter(cairo_get_source(cr()), CAIRO_FILTER_BILINEAR);
+    cairo_paint(cr());
+    cairo_restore(cr());
+  }
+
+ private:
+  std::unique_ptr<cairo_surface_t, void (*)(cairo_surface_t*)> surface_;
+  std::unique_ptr<cairo_t, void (*)(cairo_t*)> cairo_;
+};
+
+double signal(const PanelTexts& texts, const Snapshot& now, const std::string& name) {
+  const auto at = std::find(texts.signal_names.begin(), texts.signal_names.end(), name);
+  if (at == texts.signal_names.end()) return NAN;
+  return now.signals[static_cast<std::size_t>(at - texts.signal_names.begin())];
+}
+
+std::string minutes(double s) { return fmt::format("{}:{:02d}", static_cast<int>(s) / 60, static_cast<int>(s) % 60); }
+
+void draw_strip(const Pen& pen, const std::vector<float>& samples, const Colour& c, double least, double most,
+                const std::string& name, const std::string& value, double x, double y, double w, double h) {
+  pen.fill(box, x, y, w, h);
+  const double trace_w = w - 82;
+  pen.colour(c);
+  cairo_set_line_width(pen.cr(), 1.4);
+  bool down = false;
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    if (!(samples[i] == samples[i])) {
+      down = false;
+      continue;
+    }
+    const double px = x + 4 + (trace_w - 8) * static_cast<double>(i) / static_cast<double>(samples.size());
+    const double part = std::clamp((samples[i] - least) / (most - least), 0.0, 1.0);
+    const double py = y + h - 5 - (h - 10) * part;
+    down ? cairo_line_to(pen.cr(), px, py) : cairo_move_to(pen.cr(), px, py);
+    down = true;
+  }
+  cairo_stroke(pen.cr());
+  pen.write(dim, 12, x + 6, y + 15, name);
+  pen.write(c, 24, x + trace_w + 4, y + h / 2 + 10, value);
+}
+
+void draw_strips(const Pen& pen, const PanelTexts& texts, const Snapshot& now, double x, double y, double w) {
+  const double rate = now.inputs.rate_1_min;
+  draw_strip(pen, now.ecg_mV, green, -0.6, 1.6, "II", fmt::format("{:.0f}", rate), x, y, w, 74);
+  float least = 1e9f, most = -1e9f;
+  for (std::size_t i = now.line_mmHg.size() / 2; i < now.line_mmHg.size(); ++i)
+    if (now.line_mmHg[i] == now.line_mmHg[i])
+      least = std::min(least, now.line_mmHg[i]), most = std::max(most, now.line_mmHg[i]);
+  const bool there = most > least;
+  draw_strip(pen, now.line_mmHg, red, 0, 180, "guide, mmHg", there ? fmt::format("{:.0f}/{:.0f}", most, least) : "—", x,
+             y + 78, w, 88);
+  const double trace = signal(texts, now, "trace");
+  const char* kinds[] = {"", "damped", "ventricularised", "no trace"};
+  if (trace >= 1 && trace < 4) pen.write(yellow, 12, x + 90, y + 93, kinds[static_cast<int>(trace)]);
+}
+
+void draw_tray(const Pen& pen, const PanelTexts& texts, const Snapshot& now, double x, double y, double w) {
+  pen.write(dim, 12, x, y, texts.plays ? "tools (left hand, right hand; Tab changes)" : "tools");
+  y += 6;
+  for (std::size_t t = 0; t < texts.tools.size(); ++t) {
+    const bool left = static_cast<int>(t) == texts.left_hand, right = static_cast<int>(t) == now.right_hand;
+    const double inserted = 100 * now.state.rods.rods[t].inserted_m;
+    const bool in = inserted > 0.05;
+    pen.fill(box, x, y, w, 22);
+    if (texts.plays && (left || right)) pen.write(yellow, 12, x + 5, y + 15, left ? "L" : "R");
+    pen.write(in ? pale : dim, 12.5, x + 22, y + 15.5, texts.tools[t]);
+    pen.write_to(in ? pale : dim, 12.5, x + w - 8, y + 15.5, in ? fmt::format("{:.1f} cm", inserted) : "out");
+    y += 24;
+  }
+  if (now.refused >= 0 && now.in_its_way >= 0)
+    pen.write(yellow, 12.5, x, y + 14,
+              fmt::format("{} cannot enter: {} is in its place",
+                          texts.tools[static_cast<std::size_t>(now.refused)].substr(
+                              0, texts.tools[static_cast<std::size_t>(now.refused)].find(':')),
+                          texts.tools[static_cast<std::size_t>(now.in_its_way)].substr(
+                              0, texts.tools[static_cast<std::size_t>(now.in_its_way)].find(':'))));
+}
+
+void draw_numbers(const Pen& pen, const PanelTexts& texts, const Snapshot& now, const PanelView& view, double x,
+                  double y, double w) {
+  struct Entry {
+    std::string what, value;
+  };
+  std::vector<Entry> entries;
+  entries.push_back({"time", minutes(signal(texts, now, "time_s"))});
+  entries.push_back({"fluoroscopy", minutes(now.state.c_arm.fluoroscopy_s)});
+  entries.push_back({"cine", fmt::format("{:.0f} runs, {:.1f} s", now.state.c_arm.cine_runs, now.state.c_arm.cine_s)});
+  entries.push_back({"DAP", fmt::format("{:.2f} Gy cm²", view.dose.dose_area_Gy_m2 * 1e4)});
+  const double gauge = signal(texts, now, "gauge_atm");
+  if (gauge == gauge) {
+    const double balloon = signal(texts, now, "balloon_mm");
+    entries.push_back(
+        {"gauge", fmt::format("{:.0f} atm{}", gauge, balloon > 0 ? fmt::format(", {:.2f} mm", balloon) : "")});
+    entries.push_back({"contrast", fmt::format("{:.1f} mL", signal(texts, now, "contrast_mL"))});
+    entries.push_back({"ACT", fmt::format("{:.0f} s", signal(texts, now, "act_s"))});
+  }
+  if (now.late > 0) entries.push_back({"late steps", std::to_string(now.late)});
+  const double column = w / 2;
+  for (std::size_t i = 0; i < entries.size(); ++i) {
+    const double ex = x + (i % 2) * column, ey = y + static_cast<double>(i / 2) * 22;
+    pen.write(dim, 12, ex, ey, entries[i].what);
+    pen.write(pale, 14, ex + 74, ey, entries[i].value);
+  }
+}
+
+void draw_help(const Pen& pen) {
+  cairo_set_source_rgba(pen.cr(), 0.03, 0.04, 0.05, 0.88);
+  cairo_rectangle(pen.cr(), 60, 60, 650, 640);
+  cairo_fill(pen.cr());
+  double y = 96;
+  pen.write(pale, 18, 84, y, "Keys");
+  for (const KeyHelp& help : key_help()) {
+    y += 25;
+    pen.write(yellow, 14, 84, y, help.keys);
+    pen.write(pale, 14, 270, y, help.what);
+  }
+}
+
+}  // namespace
+
+const std::vector<KeyHelp>& key_help() {
+  static const std::vector<KeyHelp> all = {
+      {"W / S, A / D", "guide: push / pull, turn (left stick)"},
+      {"I / K, J / L", "right hand: push / pull, turn (right stick)"},
+      {"Tab", "right hand: next tool (button A)"},
+      {"Shift", "fine (LB)"},
+      {"Space", "fluoroscopy, while held (RT)"},
+      {"V", "cine, while held (RB)"},
+      {"F, G", "contrast, saline, while held (LT)"},
+      {"[  ]  \\", "gauge: 1 atm less, more; vacuum while held (X, Y)"},
+      {"Backspace", "gauge: back to 0"},
+      {"arrows; Ctrl + arrows", "C-arm by 5 degrees; table by 1 cm (D-pad)"},
+      {"1 to 8, Z", "standard views; field"},
+      {"H", "this picture becomes the reference"},
+      {"N, E", "nitrate 200 ug; heparin 5000 U"},
+      {"P, Escape", "pause; end"},
+      {"F1", "these keys"},
+  };
+  return all;
+}
+
+PanelTexts panel_texts(const SessionModel& model, const ScriptPlan& plan, const LiveHand& hand, bool plays) {
+  PanelTexts texts;
+  texts.title = model.vessel->name + (plays ? "" : ", " + plan.script.name);
+  for (const SessionTool& tool : model.tools) texts.tools.push_back(tool.name + ": " + tool.instrument.title);
+  for (std::size_t s = 0; s < plan.script.steps.size(); ++s) texts.steps.push_back(plan.script.steps[s].words());
+  texts.signal_names = signal_names(model);
+  texts.left_hand = hand.left_hand();
+  texts.plays = plays;
+  return texts;
+}
+
+void draw_panel(const PanelTexts& texts, const Snapshot& now, const PanelView& view,
+                std::vector<std::uint32_t>& pixels) {
+  pixels.assign(static_cast<std::size_t>(panel_width) * panel_height, 0);
+  const Pen pen(pixels);
+  pen.fill(paper, 0, 0, panel_width, panel_height);
+  constexpr double side = 768, x = 784, w = panel_width - x - 12;
+  if (view.picture)
+    pen.show(*view.picture, 4, 4, side);
+  else
+    pen.write(dim, 16, 240, 380, "Space: fluoroscopy");
+  constexpr double small = 300;
+  if (view.reference) {
+    pen.show(*view.reference, x, 4, small);
+    pen.write(dim, 12, x + small + 10, 18, "reference");
+  } else {
+    pen.fill(box, x, 4, small, small);
+    pen.write(dim, 13, x + 62, 4 + small / 2, "H: reference picture");
+  }
+  draw_strips(pen, texts, now, x, 312, w);
+  draw_tray(pen, texts, now, x, 500, w);
+  draw_numbers(pen, texts, now, view, x, 508 + 24.0 * static_cast<double>(texts.tools.size()) + 38, w);
+  pen.write(pale, 14, 8, 792, texts.title);
+  if (now.script_step >= 0 && now.script_step < static_cast<int>(texts.steps.size()))
+    pen.write(yellow, 14, 330, 792, texts.steps[static_cast<std::size_t>(now.script_step)]);
+  pen.write_to(dim, 12, panel_width - 12, 776, "F1: keys");
+  pen.write_to(dim, 11, panel_width - 12, 793, "Training and research, not for decisions on a patient");
+  if (!view.problem.empty()) {
+    pen.fill(red, 4, 340, side, 44);
+    pen.write({1, 1, 1}, 18, 24, 368, view.problem);
+  }
+  if (now.paused) {
+    pen.fill(yellow, 324, 20, 128, 30);
+    pen.write({0, 0, 0}, 16, 350, 41, "PAUSED");
+  }
+  if (view.help) draw_help(pen);
+}
+
+}  // namespace ostium

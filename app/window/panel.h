@@ -1,0 +1,46 @@
+#pragma once
+/// The window's picture: fluoroscopy beside a frozen reference, ECG and pressure, what each hand holds, gauge,
+/// contrast, dose and times, keys. Drawn with cairo, so that it is the same with and without a screen.
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "app/window/live_hand.h"
+#include "fluoro/display.h"
+#include "fluoro/exposure.h"
+
+namespace ostium {
+
+inline constexpr int panel_width = 1280, panel_height = 800;
+
+/// What does not change during a run.
+struct PanelTexts {
+  std::string title;                      ///< case and script
+  std::vector<std::string> tools;         ///< "guide: Judkins right 4 guide, 6F"
+  std::vector<std::string> steps;         ///< of the script
+  std::vector<std::string> signal_names;  ///< of Snapshot::signals
+  int left_hand = 0;
+  bool plays = false;
+};
+PanelTexts panel_texts(const SessionModel& model, const ScriptPlan& plan, const LiveHand& hand, bool plays);
+
+struct PanelView {
+  const Picture* picture = nullptr;    ///< live; null: none yet
+  const Picture* reference = nullptr;  ///< null: none
+  DoseMeter dose;
+  std::string problem;  ///< in red: a lost wire, an unplugged cable; empty: none
+  bool help = false;
+};
+
+/// `pixels`: panel_width by panel_height, 0xffRRGGBB, rows from the top.
+void draw_panel(const PanelTexts& texts, const Snapshot& now, const PanelView& view,
+                std::vector<std::uint32_t>& pixels);
+
+/// What a key does, for the help and for READMEs.
+struct KeyHelp {
+  const char* keys;
+  const char* what;
+};
+const std::vector<KeyHelp>& key_help();
+
+}  // namespace ostium

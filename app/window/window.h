@@ -1,0 +1,30 @@
+#pragma once
+/// The live window: SDL's events into Controls, snapshots into pictures. Runs in the thread that called it, until the
+/// window is closed or the run has ended; steps go on in another one.
+#include <atomic>
+#include <functional>
+#include <string>
+
+#include "app/window/live_hand.h"
+#include "app/window/panel.h"
+
+namespace ostium {
+
+/// Whether a window can be opened here; else `why` says why not.
+bool has_display(std::string& why);
+
+struct WindowOptions {
+  bool plays = false;
+  double frames_per_s = 15;
+  int pixels = 512;
+  /// Of whoever else drives: shown in red; may be empty.
+  std::function<std::string()> problem;
+  const std::atomic<bool>* over = nullptr;  ///< becomes true when the run has ended
+  /// For tests: a frame is written here (a PNG) as it ends; empty: none.
+  std::string last_frame_png;
+};
+
+/// Throws std::runtime_error if the window cannot be made. Returns pictures shown.
+long show_window(const SessionModel& model, const ScriptPlan& plan, LiveHand& hand, const WindowOptions& options);
+
+}  // namespace ostium
