@@ -14,6 +14,7 @@
 #include "app/instruments_command.h"
 #include "app/predict_command.h"
 #include "app/replay_command.h"
+#include "app/report_command.h"
 #include "app/run_command.h"
 #include "app/sweep_command.h"
 #include "app/treat_command.h"
@@ -310,6 +311,28 @@ int main(int argc, char** argv) {
       "  ostium run rca-mid-focal --script jr4-engages-rca --device keyboard --out out\n"
       "  ostium run aorta.obj --entry -20,80,14 --towards -20,90,14 --script my-script.json");
 
+  ostium::ReportOptions report;
+  CLI::App* report_app = app.add_subcommand("report", "Recorded runs as a page: pictures, plots, metrics, steps, errors");
+  report_app->add_option("file", report.files, "What `ostium run --out` recorded; several: side by side")
+      ->type_name("RUN.h5");
+  report_app->add_option("-o,--output", report.page, "The page, which needs nothing else")
+      ->type_name("FILE.html")
+      ->capture_default_str();
+  report_app->add_option("--csv", report.csv, "Metrics and ticks, a row a run")->type_name("FILE.csv");
+  report_app->add_option("--events", report.events, "Events of the first run")->type_name("FILE.csv");
+  report_app->add_option("--code", report.codes, "Of participants or attempts, one a recording; no names")
+      ->type_name("CODE");
+  report_app->add_option("--scoring", report.scoring, "Steps and errors: a list of data/scoring, or a file")
+      ->type_name("NAME|FILE.json")
+      ->capture_default_str();
+  report_app->add_option("--questionnaire", report.questionnaire, "Face and content questionnaires, a page with forms")
+      ->type_name("FILE.html");
+  report_app->add_flag("--pictures,!--no-pictures", report.pictures, "Pictures of key moments (default)");
+  report_app->footer(
+      "Examples:\n  ostium report out/run.h5 -o report.html\n"
+      "  ostium report a.h5 b.h5 --code P07-1 P07-2 -o both.html --csv both.csv\n"
+      "  ostium report --questionnaire forms.html");
+
   bool scripts_json = false;
   CLI::App* scripts_app = app.add_subcommand("scripts", "What scripts there are to run");
   scripts_app->add_flag("--json", scripts_json, "Machine-readable");
@@ -427,6 +450,7 @@ int main(int argc, char** argv) {
     if (*device_calibrate) return ostium::device_calibrate_command(calibrate);
     if (*device_monitor) return ostium::device_monitor_command(device);
     if (*sweep_app) return ostium::sweep_command(sweep);
+    if (*report_app) return ostium::report_command(report);
     if (*replay_app) return ostium::replay_command(replay);
     if (*scripts_app) return ostium::scripts_command(scripts_json);
     if (*verify_app) return ostium::verify_command(verify);

@@ -1,0 +1,126 @@
+#include "app/report_command.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "app/session/film.h"
+#include "app/session/replay.h"
+#include "data/load_error.h"
+#include "data/png.h"
+#include "data/report/page.h"
+#include "data/write_file.h"
+
+namespace ostium {
+
+namespace {
+
+void say(const std::string& what) {
+  if (isatty(STDERR_FILENO)) fmt::print(stderr, "{:<80}\r", what);
+}
+
+/// Where something is to be seen: what the script marks, the end of each film and inflation, the last moment.
+struct Moment {
+  std::uint64_t step;
+  std::string caption;
+};
+std::vector<Moment> moments(const RunRecord& record, const Script& script) {
+  constexpr std::size_t most = 12;
+  std::vector<Moment> out;
+  for (std::size_t e = 0; e + 3 < record.events.size(); e += 4) {
+    const auto code = static_cast<EventCode>(static_cast<int>(record.events[e + 1]));
+    const auto step = static_cast<std::uint64_t>(record.events[e]);
+    const auto of = static_cast<std::size_t>(record.events[e + 3]);
+    if (code == EventCode::mark && of < script.steps.size()) out.push_back({step, script.steps[of].text});
+    if (code == EventCode::cine_off) out.push_back({step > 300 ? step - 300 : step, "film"});
+    if (code == EventCode::deflated) out.push_back({step, "balloon empty"});
+    if (code == EventCode::stent_deployed) out.push_back({step, "stent in the wall"});
+  }
+  if (out.size() >= most) {
+    std::vector<Moment> some;
+    for (std::size_t i = 0; i < most - 1; ++i) some.push_back(out[i * out.size() / (most - 1)]);
+    out = some;
+  }
+  out.push_back({record.steps, "the end"});
+  return out;
+}
+
+std::vector<ReportPicture> pictures_of(Replay& replay, const RunRecord& record) {
+  std::vector<ReportPicture> out;
+  FilmOptions options;
+  options.pixels = 384;
+  Film film(replay.model, options);
+  for (const Moment& moment : moments(record, replay.setup.script)) {
+    // Recursive filter and exposure settle in some frames.
+    const double second = static_cast<double>(moment.step) * record.step_s, before = std::max(second - 0.4, 0.0);
+    say(fmt::format("picture at {:.1f} s", second));
+    replay.go_to(before);
+    Picture last;
+    while (replay.state.rods.step < moment.step && replay.tick())
+      if (static_cast<double>(replay.state.rods.step) * record.step_s >= before &&
+          is_frame(replay.state.rods.step, options.frames_per_s, record.step_s))
+        last = film.frame(replay.model, replay.state, replay.inputs);
+    if (last.grey.empty()) continue;
+    out.push_back({fmt::format("{}:{:04.1f} {}", static_cast<int>(second) / 60, second - 60 * (static_cast<int>(second) / 60),
+                               moment.caption),
+                   png_of(last)});
+  }
+  return out;
+}
+
+ReportRun run_of(const std::string& file, const std::string& code, const ScoreList& list, bool pictures) {
+  say("reading " + file);
+  Replay replay(file);
+  ReportRun run;
+  run.code = code;
+  run.case_name = replay.setup.vessel, run.script = replay.setup.script.name, run.seed = replay.setup.seed;
+  run.software = replay.recording.software();
+  run.outcome = "cut off", run.reason = "the recording has no end";
+  run.record = record_of(replay.recording, replay.model);
+  run.simulated_s = static_cast<double>(run.record.steps) * run.record.step_s;
+  run.metrics = metrics_of(run.record);
+  if (const auto end = replay.recording.end()) {
+    const auto json = nlohmann::json::parse(*end);
+    run.outcome = json.value("outcome", ""), run.reason = json.value("reason", "");
+    // Dose is counted while it runs, over poses that signals do not have.
+    for (const auto& metric : json.value("metrics", nlohmann::json::array()))
+      for (Metric& mine : run.metrics)
+        if (mine.name == metric.value("name", "") && metric.contains("value") && metric["value"].is_number())
+          mine.value = metric["value"].get<double>();
+  }
+  run.scores = score(list, run.record, run.metrics);
+  if (pictures && replay.recording.states() > 0) run.pictures = pictures_of(replay, run.record);
+  say("");
+  return run;
+}
+
+}  // namespace
+
+int report_command(const ReportOptions& o) {
+  if (!o.codes.empty() && o.codes.size() != o.files.size())
+    throw LoadError(fmt::format("{} codes for {} recordings; expected one each", o.codes.size(), o.files.size()));
+  if (!o.questionnaire.empty()) write_file(o.questionnaire, questionnaire_page());
+  if (o.files.empty()) {
+    if (o.questionnaire.empty()) throw LoadError("nothing to report; expected recordings RUN.h5, or --questionnaire");
+    return 0;
+  }
+  const ScoreList list = find_score_list(o.scoring);
+  std::vector<ReportRun> runs;
+  for (std::size_t i = 0; i < o.files.size(); ++i)
+    runs.push_back(run_of(o.files[i], o.codes.empty() ? fmt::format("run {}", i + 1) : o.codes[i], list, o.pictures));
+  if (!o.page.empty()) write_file(o.page, report_page(runs, list));
+  if (!o.csv.empty()) write_file(o.csv, report_csv(runs, list));
+  if (!o.events.empty()) {
+    const Replay replay(o.files[0]);
+    std::vector<std::string> tools;
+    for (const SessionTool& tool : replay.model.tools) tools.push_back(tool.name);
+    write_file(o.events, events_csv(runs[0].record, tools));
+  }
+  fmt::print("{}\n", o.page);
+  return 0;
+}
+
+}  // namespace ostium
