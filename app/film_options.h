@@ -14,6 +14,7 @@ struct PictureOptions {
   std::vector<double> table_mm;  ///< empty: as the run has it
   int pixels = 512;
   bool cine = false, plain = false;  ///< plain: without overlay
+  bool monitor = false;              ///< ECG, pressure and gauge under the picture
   double frames_per_s = 15;
   std::string fill = "none";
 };

@@ -376,6 +376,7 @@ int main(int argc, char** argv) {
       ->capture_default_str();
   replay_app->add_flag("--cine", look.cine, "Cine dose instead of fluoroscopy");
   replay_app->add_flag("--plain", look.plain, "Without angles, times and dose on the picture");
+  replay_app->add_flag("--monitor", look.monitor, "ECG, pressure and gauge under the picture");
   replay_app->add_option("--rate", look.frames_per_s, "Frames a second: 3.75, 7.5, 15, 30")->capture_default_str();
   replay_app->add_option("--fill", look.fill, "Coronary full of contrast")
       ->check(CLI::IsMember({"none", "left", "right"}))

@@ -45,6 +45,7 @@ FilmOptions film_options(const PictureOptions& o) {
   film.frames_per_s = o.frames_per_s;
   film.pixels = o.pixels;
   film.overlay = !o.plain;
+  film.monitor = o.monitor;
   film.fill = o.fill == "left" ? Fill::left : o.fill == "right" ? Fill::right : Fill::none;
   return film;
 }
@@ -52,16 +53,17 @@ FilmOptions film_options(const PictureOptions& o) {
 /// Films until the recording or the time is over.
 int make_film(const ReplayOptions& o, Replay& replay) {
   FilmOptions options = film_options(o.picture);
-  if (!o.dicom.empty()) options.overlay = false;
+  if (!o.dicom.empty()) options.overlay = options.monitor = false;
   say("building the patient's chest");
   Film film(replay.model, options);
   std::optional<VideoWriter> writer;
-  if (!o.video.empty()) writer.emplace(o.video, options.pixels, options.pixels, options.frames_per_s);
+  if (!o.video.empty()) writer.emplace(o.video, options.pixels, film.height(), options.frames_per_s);
   CineRun run;
   Picture last;
   const double end_s = o.seconds > 0 ? o.from_s + o.seconds : 1e300;
   long frames = 0;
   while (seconds(replay.model, replay.state) < end_s - 1e-9 && replay.tick()) {
+    film.listen(replay.model, replay.state, replay.inputs);
     const double now = seconds(replay.model, replay.state);
     if (now < o.from_s - 1e-9 || !is_frame(replay.state.rods.step, options.frames_per_s, replay.model.step_s()))
       continue;
@@ -128,7 +130,8 @@ int replay_command(const ReplayOptions& o) {
   const bool film = !o.video.empty() || !o.dicom.empty() || !o.png.empty();
   if (o.verify || !film) code = check_same(o, replay);
   if (!film) return code;
-  replay.go_to(o.from_s);
+  // Strips show what was before, too.
+  replay.go_to(o.picture.monitor ? std::max(0.0, o.from_s - monitor_s) : o.from_s);
   return std::max(code, make_film(o, replay));
 }
 

@@ -17,9 +17,13 @@ struct FilmOptions {
   double frames_per_s = 15;
   int pixels = 512;
   bool overlay = true;
+  bool monitor = false;  ///< ECG, pressure and gauge under the picture; of a case alone
   Fill fill = Fill::none;
   std::uint64_t seed = 1;  ///< of the noise
 };
+
+inline constexpr double monitor_s = 5;      ///< that strips show
+inline constexpr int monitor_pixels = 144;  ///< that they are high
 
 /// Whether a frame belongs to the state after so many steps.
 bool is_frame(std::uint64_t step, double frames_per_s, double step_s);
@@ -29,6 +33,9 @@ class Film {
   /// Throws std::invalid_argument for a rate or pose that cannot be.
   Film(const SessionModel& model, const FilmOptions& options);
   ~Film();
+  /// After every step that is to be on the monitor.
+  void listen(const SessionModel& model, const SessionState& state, const SessionInputs& inputs);
+  int height() const;  ///< of a frame, pixels; it is `pixels` wide
   /// The state as a picture. Throws std::invalid_argument as fluoro's `tick` does.
   const Picture& frame(const SessionModel& model, const SessionState& state, const SessionInputs& inputs);
   CineRun run() const;  ///< with the last exposure, without frames

@@ -111,7 +111,7 @@ void add_treatment(const SessionModel& model, const SessionState& state, Scene& 
   }
   if (b.balloon >= 0 && b.branch >= 0)
     add_balloon(model.treatment.balloons[static_cast<std::size_t>(b.balloon)], state.treatment.balloon,
-                path_of(b.branch), seat_m(b), c.map, phase, false, scene);
+                path_of(b.branch), b.middle_m, c.map, phase, false, scene);  // between the markers of its shaft
   add_pools(state.treatment.injury, c.map, state.blood.radius_m, phase, scene);
 }
 
