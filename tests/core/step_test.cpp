@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
 #include <memory>
 #include <numbers>
@@ -61,6 +62,40 @@ TEST(Step, SameInputsGiveTheSameBits) {
   run(model, 0, 300, b, scratch_b);
   EXPECT_EQ(first_difference(a, b), "");
   EXPECT_EQ(hash(a), hash(b));
+}
+
+// A load on a stretch that holds the tip's node alone is a load on the tip; on a longer one its sum is the same.
+TEST(Step, ALoadOnAStretchIsBorneByTheBase) {
+  Model model;
+  model.gravity_W.setZero();
+  RodDescription damped = steel_wire({.elements = 40, .E_Pa = 200e9, .length_m = 0.2});
+  damped.damping = {0.5, 0.5, 5e-3};
+  model.rods.push_back(make_rod(damped));
+  const Vector3d force(0, 2e-3, -1e-3);
+  const auto settled = [&](const RodInputs& in, StepReport& report) {
+    State state = straight(model);
+    Scratch scratch(model);
+    Inputs inputs;
+    inputs.rods = {in};
+    for (int n = 0; n < 3000; ++n) step(model, inputs, state, scratch, report);
+    return state;
+  };
+  StepReport at_tip, stretch, at_end;
+  RodInputs in;
+  in.tip_force_W_N = force;
+  const State tip = settled(in, at_tip);
+  in = {};
+  in.load = {0, 1e-3, force};
+  EXPECT_EQ(first_difference(settled(in, at_end), tip), "");
+  in.load = {0.05, 0.1, force};
+  const State spread = settled(in, stretch);
+  EXPECT_LT((stretch.rods[0].base_force_W_N + force).norm(), 0.01 * force.norm());
+  EXPECT_LT((at_tip.rods[0].base_force_W_N + force).norm(), 0.01 * force.norm());
+  EXPECT_GT(tip.rods[0].position[40].y(), 2 * spread.rods[0].position[40].y()) << "nearer to the base it bends it less";
+  EXPECT_GT(spread.rods[0].position[40].y(), 0);
+  in.load.force_W_N = Vector3d(std::nan(""), 0, 0);
+  settled(in, stretch);
+  EXPECT_TRUE(stretch.trouble & drive_not_finite);
 }
 
 TEST(Step, SameBitsOnTwoThreadsAtOnce) {
