@@ -8,6 +8,7 @@
 #include <chrono>
 #include <cstring>
 #include <filesystem>
+#include <fstream>
 #include <stdexcept>
 #include <thread>
 
@@ -60,6 +61,9 @@ class VhciBench : public Bench {
   void unplug() override {
     if (!link_) return;
     tell("detach", "0");
+    // vhci_hcd loses for ever what is submitted while it shuts a connection down, so nothing is until it has.
+    for (int tries = 0; tries < 500 && !port_is_free(); ++tries)
+      std::this_thread::sleep_for(std::chrono::milliseconds(10));
     over_ = true;
     thread_.join();
     late_ += link_->late();
@@ -67,6 +71,14 @@ class VhciBench : public Bench {
   }
 
  private:
+  /// "hs  0000 004 ..." is what the controller's table says of port 0 then.
+  static bool port_is_free() {
+    std::ifstream table(std::string(controller) + "status");
+    std::string heading, hub, port, status;
+    std::getline(table, heading);
+    return !(table >> hub >> port >> status) || status == "004";
+  }
+
   std::unique_ptr<UsbipLink> link_;
   std::thread thread_;
   std::atomic<bool> over_ = false, fast_ = false;

@@ -75,7 +75,7 @@ chmod +x "$root/init"
 (cd "$root" && find . | cpio -o -H newc 2>/dev/null | gzip -1) >"$folder/initramfs.gz"
 
 log=$folder/log
-timeout "${OSTIUM_BENCH2_S:-300}" qemu-system-x86_64 -accel tcg -cpu max -smp 1 -m 512 -nodefaults -no-reboot \
+timeout "${OSTIUM_BENCH2_S:-150}" qemu-system-x86_64 -accel tcg -cpu max -smp 1 -m 512 -nodefaults -no-reboot \
   -display none -serial stdio -kernel "$folder"/kernel/boot/vmlinuz-* -initrd "$folder/initramfs.gz" \
   -append "console=ttyS0 quiet loglevel=1 panic=-1 mitigations=off" </dev/null 2>&1 | tr -d '\r' >"$log" || true
 cat "$log"
