@@ -23,7 +23,11 @@
 int main(int argc, char** argv) {
   CLI::App app("Ostium: an endovascular simulator. Training and research, not for decisions on a patient.", "ostium");
   app.set_version_flag("--version", OSTIUM_VERSION);
-  app.require_subcommand(1);
+  app.require_subcommand(0, 1);
+  std::string demonstration = "ostium-run";
+  app.add_option("--out", demonstration, "Without a subcommand: an angioplasty by script goes into this folder")
+      ->type_name("DIR")
+      ->capture_default_str();
   app.footer("Exit codes: 0 done, 1 failed or did not hold, 2 usage, 3 bad input.");
 
   ostium::VerifyOptions verify;
@@ -303,6 +307,8 @@ int main(int argc, char** argv) {
       ->capture_default_str();
   run_app->add_option("--last-frame", run.last_frame, "The window's last picture")->type_name("FILE.png");
   run_app->add_option("--serial", run.serial, "Of the box; else the first that is found");
+  run_app->add_flag("--film", run.film, "Film it as it goes: DIR/procedure.mp4");
+  run_app->add_flag("--report", run.report, "DIR/report.html, events.csv and key-frames/");
   run_app->add_flag("--json", run.json, "Machine-readable, see data/schemas/run.schema.json");
   run_app->footer(
       "Examples:\n  ostium run rca-mid-focal --script aorta-arch-wire --out out\n"
@@ -312,7 +318,8 @@ int main(int argc, char** argv) {
       "  ostium run aorta.obj --entry -20,80,14 --towards -20,90,14 --script my-script.json");
 
   ostium::ReportOptions report;
-  CLI::App* report_app = app.add_subcommand("report", "Recorded runs as a page: pictures, plots, metrics, steps, errors");
+  CLI::App* report_app =
+      app.add_subcommand("report", "Recorded runs as a page: pictures, plots, metrics, steps, errors");
   report_app->add_option("file", report.files, "What `ostium run --out` recorded; several: side by side")
       ->type_name("RUN.h5");
   report_app->add_option("-o,--output", report.page, "The page, which needs nothing else")
@@ -445,6 +452,7 @@ int main(int argc, char** argv) {
   }
   try {
     run.real = speed == "real";
+    if (app.get_subcommands().empty()) return ostium::demonstration_command(demonstration);
     if (*run_app) return ostium::run_command(run);
     if (*device_list) return ostium::device_list_command(device);
     if (*device_emulate) return ostium::device_emulate_command(device);

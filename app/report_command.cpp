@@ -64,16 +64,14 @@ std::vector<ReportPicture> pictures_of(Replay& replay, const RunRecord& record) 
           is_frame(replay.state.rods.step, options.frames_per_s, record.step_s))
         last = film.frame(replay.model, replay.state, replay.inputs);
     if (last.grey.empty()) continue;
-    out.push_back({fmt::format("{}:{:04.1f} {}", static_cast<int>(second) / 60, second - 60 * (static_cast<int>(second) / 60),
-                               moment.caption),
+    out.push_back({fmt::format("{}:{:04.1f} {}", static_cast<int>(second) / 60,
+                               second - 60 * (static_cast<int>(second) / 60), moment.caption),
                    png_of(last)});
   }
   return out;
 }
 
-ReportRun run_of(const std::string& file, const std::string& code, const ScoreList& list, bool pictures) {
-  say("reading " + file);
-  Replay replay(file);
+ReportRun run_of(Replay& replay, const std::string& code, const ScoreList& list, bool pictures) {
   ReportRun run;
   run.code = code;
   run.case_name = replay.setup.vessel, run.script = replay.setup.script.name, run.seed = replay.setup.seed;
@@ -97,7 +95,27 @@ ReportRun run_of(const std::string& file, const std::string& code, const ScoreLi
   return run;
 }
 
+std::vector<std::string> tools_of(const SessionModel& model) {
+  std::vector<std::string> tools;
+  for (const SessionTool& tool : model.tools) tools.push_back(tool.name);
+  return tools;
+}
+
 }  // namespace
+
+void report_folder(const std::string& folder, std::shared_ptr<const Vessel> vessel) {
+  namespace fs = std::filesystem;
+  const fs::path at(folder);
+  Replay replay((at / "run.h5").string(), std::move(vessel));
+  const ScoreList list = find_score_list("pci-elective");
+  const std::vector<ReportRun> runs = {run_of(replay, "this run", list, true)};
+  write_file((at / "report.html").string(), report_page(runs, list));
+  write_file((at / "events.csv").string(), events_csv(runs[0].record, tools_of(replay.model)));
+  for (std::size_t i = 0; i < runs[0].pictures.size(); ++i) {
+    const ReportPicture& p = runs[0].pictures[i];
+    write_file((at / "key-frames" / fmt::format("{:02}.png", i + 1)).string(), {p.png.begin(), p.png.end()});
+  }
+}
 
 int report_command(const ReportOptions& o) {
   if (!o.codes.empty() && o.codes.size() != o.files.size())
@@ -109,16 +127,14 @@ int report_command(const ReportOptions& o) {
   }
   const ScoreList list = find_score_list(o.scoring);
   std::vector<ReportRun> runs;
-  for (std::size_t i = 0; i < o.files.size(); ++i)
-    runs.push_back(run_of(o.files[i], o.codes.empty() ? fmt::format("run {}", i + 1) : o.codes[i], list, o.pictures));
+  for (std::size_t i = 0; i < o.files.size(); ++i) {
+    say("reading " + o.files[i]);
+    Replay replay(o.files[i]);
+    runs.push_back(run_of(replay, o.codes.empty() ? fmt::format("run {}", i + 1) : o.codes[i], list, o.pictures));
+    if (i == 0 && !o.events.empty()) write_file(o.events, events_csv(runs[0].record, tools_of(replay.model)));
+  }
   if (!o.page.empty()) write_file(o.page, report_page(runs, list));
   if (!o.csv.empty()) write_file(o.csv, report_csv(runs, list));
-  if (!o.events.empty()) {
-    const Replay replay(o.files[0]);
-    std::vector<std::string> tools;
-    for (const SessionTool& tool : replay.model.tools) tools.push_back(tool.name);
-    write_file(o.events, events_csv(runs[0].record, tools));
-  }
   fmt::print("{}\n", o.page);
   return 0;
 }

@@ -10,7 +10,9 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
+#include "app/report_command.h"
 #include "app/session/device_run.h"
+#include "app/session/filming.h"
 #include "app/session/play.h"
 #include "app/window/window.h"
 #include "data/load_error.h"
@@ -133,12 +135,9 @@ RunSetup setup_of(const RunOptions& o) {
 
 namespace {
 
-/// Plays in another thread while the window is up in this one.
+/// Plays in another thread while the window is up in this one. `film`: stands between hands and steps; may be null.
 PlayReport play_in_window(const RunOptions& o, ScriptedRun& run, const RunSetup& setup, const DeviceRun* device,
-                          Driver* inner, PlayOptions options) {
-  const bool plays = o.device == "keyboard";
-  LiveHand hand(run.model, plays, 15, inner);
-  run.take_over(&hand);
+                          LiveHand& hand, PlayOptions options) {
   options.real = true;
   const auto progress = options.progress;
   options.progress = [&](const ScriptedRun& now) {
@@ -157,7 +156,7 @@ PlayReport play_in_window(const RunOptions& o, ScriptedRun& run, const RunSetup&
     over = true;
   });
   WindowOptions window;
-  window.plays = plays, window.over = &over, window.last_frame_png = o.last_frame;
+  window.plays = o.device == "keyboard", window.over = &over, window.last_frame_png = o.last_frame;
   if (device) window.problem = [device] { return std::string(advice(device->hand().now())); };
   try {
     show_window(run.model, run.plan, hand, window);
@@ -194,7 +193,7 @@ int run_command(const RunOptions& o) {
   const auto vessel = make_vessel(setup, warnings);
   if (!warnings.empty())
     fmt::print(stderr, "ostium run: of {}, near whose faults nothing is held back:\n{}", setup.vessel, warnings);
-  ScriptedRun run(setup, vessel, device ? &device->driver() : nullptr);
+  ScriptedRun run(setup, vessel);
   options.real = o.real || (device && device->real());
   options.seconds = o.seconds;
   options.progress = [&](const ScriptedRun& now) {
@@ -208,9 +207,21 @@ int run_command(const RunOptions& o) {
   const auto ask_to_stop = [](int) { interrupted = true; };
   std::signal(SIGINT, ask_to_stop);
   std::signal(SIGTERM, ask_to_stop);
+  // Each asks the next: the film sees what hands ask for, they what the box says.
+  Driver* driver = device ? &device->driver() : nullptr;
+  std::optional<LiveHand> hand;
+  if (in_window) hand.emplace(run.model, o.device == "keyboard", 15, driver), driver = &*hand;
+  std::optional<Filming> film;
+  if (o.film && !o.folder.empty()) {
+    FilmOptions look;
+    look.always_on = false, look.monitor = run.model.has_patient();
+    film.emplace(run.model, (fs::path(o.folder) / "procedure.mp4").string(), look, driver);
+    driver = &*film;
+  }
+  run.take_over(driver);
   const PlayReport report =
-      in_window ? play_in_window(o, run, setup, device.get(), device ? &device->driver() : nullptr, options)
-                : play(run, setup, options);
+      hand ? play_in_window(o, run, setup, device.get(), *hand, options) : play(run, setup, options);
+  const std::string film_problem = film ? film->finish() : "";
   say("");
   const std::string file = options.recorder.mode == RecordMode::none ? "" : options.recorder.file;
   if (!o.folder.empty())
@@ -220,11 +231,32 @@ int run_command(const RunOptions& o) {
     fmt::print("{}\n", to_json(setup, run, report, file).dump(2));
   else
     print_report(run, report, file);
+  if (!film_problem.empty()) fmt::print(stderr, "ostium run: no film: {}\n", film_problem);
+  if (o.report && options.recorder.mode != RecordMode::none && report.problem.empty()) report_folder(o.folder, vessel);
   if (!report.problem.empty()) {
     fmt::print(stderr, "ostium run: the recording ends early: {}\n", report.problem);
     return 1;
   }
   return report.outcome == "success" ? 0 : 1;
+}
+
+int demonstration_command(const std::string& folder) {
+  RunOptions o;
+  o.vessel = "rca-mid-focal", o.script = "pci-rca-mid-focal";
+  o.folder = folder, o.film = o.report = true;
+  std::string why;
+  if (has_display(why)) o.display = "window";
+  fmt::print(
+      stderr,
+      "A right coronary angioplasty by script, from the groin to the last film{}. What comes of it goes to {}.\n",
+      why.empty() ? "" : ", without a window (" + why + ")", folder);
+  const int code = run_command(o);
+  fmt::print(
+      "\n{0}/report.html: what happened; procedure.mp4, key-frames/, run.h5, metrics.json, events.csv beside it\n"
+      "Yourself: ostium run rca-mid-focal --script pci-rca-mid-focal --device keyboard --out mine\n"
+      "More: ostium --help\n",
+      folder);
+  return code;
 }
 
 int scripts_command(bool json) {

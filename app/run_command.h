@@ -21,6 +21,8 @@ struct RunOptions {
   std::string display = "none";  ///< or window
   std::string last_frame;        ///< the window's last picture goes into this PNG; empty: nowhere
   std::string serial;            ///< of the box
+  bool film = false;             ///< DIR/procedure.mp4
+  bool report = false;           ///< DIR/report.html, events.csv, key-frames/
   bool json = false;
 };
 
@@ -30,6 +32,8 @@ RunSetup setup_of(const RunOptions& options);
 
 /// `ostium run`. Returns the exit code: 0 if the script succeeded. Throws LoadError or MeshError.
 int run_command(const RunOptions& options);
+/// `ostium` without more: an angioplasty from start to end, with everything that is to be had of it, in `folder`.
+int demonstration_command(const std::string& folder);
 /// `ostium scripts`.
 int scripts_command(bool json);
 

@@ -4,37 +4,8 @@
 
 #include "app/angiography/patient_scene.h"
 #include "fluoro/overlay.h"
-#include "vascular/units.h"
 
 namespace ostium {
-
-namespace {
-
-constexpr double samples_per_s = 250;
-
-/// What a case's monitor shows beside the X-rays.
-struct Monitor {
-  Strip II{"II", "mV", samples_per_s, {}, -0.3, 1.15};
-  Strip V2{"V2", "mV", samples_per_s, {}, -1.0, 0.8};
-  Strip guide{"P", "mmHg", samples_per_s, {}, 0, 150};
-  Strip gauge{"gauge", "atm", samples_per_s, {}, -2, 22};
-
-  void listen(const SessionModel& model, const SessionState& state, const SessionInputs& inputs) {
-    const auto leads = ecg(state.blood.heart, inputs.rate_1_min, model.physiology.ischaemia, state.blood.ischaemia);
-    // Contrast in the line, or a thick wire, and no trace is left.
-    const bool damped_out = inputs.bedside.injection_m3_s > 0 || state.bedside.thick_wire > 0;
-    add(II, leads[static_cast<int>(Lead::II)]), add(V2, leads[static_cast<int>(Lead::V2)]);
-    add(guide, state.bedside.guide >= 0 && !damped_out ? state.blood.line.reading_Pa / mmHg : 0);
-    add(gauge, inputs.bedside.gauge_Pa / atm);
-  }
-  static void add(Strip& strip, double value) {
-    constexpr auto kept = static_cast<std::size_t>(samples_per_s * monitor_s);
-    if (strip.samples.size() == kept) strip.samples.erase(strip.samples.begin());
-    strip.samples.push_back(static_cast<float>(value));
-  }
-};
-
-}  // namespace
 
 struct Film::Parts {
   explicit Parts(const FilmOptions& o) : options(o), imager({}, make_scanline_renderer()) {}
@@ -114,10 +85,10 @@ const Picture& Film::frame(const SessionModel& model, const SessionState& state,
 }
 
 void Film::listen(const SessionModel& model, const SessionState& state, const SessionInputs& inputs) {
-  const auto every = static_cast<std::uint64_t>(std::llround(1 / (samples_per_s * model.step_s())));
-  if (parts_->options.monitor && model.has_patient() && state.rods.step % every == 0)
-    parts_->monitor.listen(model, state, inputs);
+  if (parts_->options.monitor) parts_->monitor.listen(model, state, inputs);
 }
+
+Monitor& Film::monitor() { return parts_->monitor; }
 
 int Film::height() const {
   return parts_->options.pixels + (parts_->options.monitor && (parts_->patient || parts_->filled) ? monitor_pixels : 0);

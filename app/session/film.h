@@ -3,6 +3,7 @@
 /// never to a clock, so a film is the same whenever it is made.
 #include <memory>
 
+#include "app/session/monitor.h"
 #include "app/session/xray_scene.h"
 #include "fluoro/fluoroscope.h"
 
@@ -22,8 +23,7 @@ struct FilmOptions {
   std::uint64_t seed = 1;  ///< of the noise
 };
 
-inline constexpr double monitor_s = 5;      ///< that strips show
-inline constexpr int monitor_pixels = 144;  ///< that they are high
+inline constexpr int monitor_pixels = 144;  ///< that the monitor's strips are high
 
 /// Whether a frame belongs to the state after so many steps.
 bool is_frame(std::uint64_t step, double frames_per_s, double step_s);
@@ -35,6 +35,7 @@ class Film {
   ~Film();
   /// After every step that is to be on the monitor.
   void listen(const SessionModel& model, const SessionState& state, const SessionInputs& inputs);
+  Monitor& monitor();  ///< what it has heard
   int height() const;  ///< of a frame, pixels; it is `pixels` wide
   /// The state as a picture. Throws std::invalid_argument as fluoro's `tick` does.
   const Picture& frame(const SessionModel& model, const SessionState& state, const SessionInputs& inputs);

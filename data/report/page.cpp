@@ -66,8 +66,8 @@ std::string plot_of(const std::vector<ReportRun>& runs, const std::string& title
       if (name != ending && !name.ends_with("." + ending)) continue;
       const Plot::Points points = series(run.record, c);
       if (points.size() < 2) continue;
-      const auto [low, high] = std::minmax_element(points.begin(), points.end(),
-                                                   [](const auto& a, const auto& b) { return a.y() < b.y(); });
+      const auto [low, high] =
+          std::minmax_element(points.begin(), points.end(), [](const auto& a, const auto& b) { return a.y() < b.y(); });
       if (high->y() - low->y() < 1e-9) continue;
       plot.line(points, colour(next), 1.2);
       std::string words = name == ending ? "" : name.substr(0, name.size() - ending.size() - 1);
@@ -79,10 +79,13 @@ std::string plot_of(const std::vector<ReportRun>& runs, const std::string& title
 }
 
 std::string header(const std::vector<ReportRun>& runs) {
-  std::string out = "<table><tr><th>run</th><th>case</th><th>script</th><th>seed</th><th>outcome</th><th>simulated</th><th>made by</th></tr>\n";
+  std::string out =
+      "<table><tr><th>run</th><th>case</th><th>script</th><th>seed</th><th>outcome</th><th>simulated</th><th>made "
+      "by</th></tr>\n";
   for (const ReportRun& run : runs)
     out += fmt::format(
-        "<tr><td>{}</td><td>{}</td><td>{}</td><td class=\"n\">{}</td><td class=\"{}\">{}{}</td><td class=\"n\">{}</td><td>{}</td></tr>\n",
+        "<tr><td>{}</td><td>{}</td><td>{}</td><td class=\"n\">{}</td><td class=\"{}\">{}{}</td><td "
+        "class=\"n\">{}</td><td>{}</td></tr>\n",
         escaped(run.code), escaped(run.case_name), escaped(run.script), run.seed,
         run.outcome == "success" ? "yes" : "no", escaped(run.outcome),
         run.reason.empty() ? "" : ": " + escaped(run.reason), time_text(run.simulated_s), escaped(run.software));
@@ -116,8 +119,7 @@ std::string metrics_table(const std::vector<ReportRun>& runs) {
 }
 
 std::string score_cell(const ScoreItem& item, const Score& score) {
-  if (score.holds == Ticked::not_seen)
-    return "<td class=\"open\"><input type=\"checkbox\"> not seen</td>";
+  if (score.holds == Ticked::not_seen) return "<td class=\"open\"><input type=\"checkbox\"> not seen</td>";
   const bool holds = score.holds == Ticked::yes;
   const bool step = item.kind == ScoreKind::step;
   std::string words = step ? (holds ? "done" : "not done") : (holds ? "none" : "happened");
@@ -131,9 +133,10 @@ std::string score_cell(const ScoreItem& item, const Score& score) {
 
 std::string score_table(const std::vector<ReportRun>& runs, const ScoreList& list) {
   if (list.items.empty()) return "";
-  std::string out = "<h2>" + escaped(list.title) + "</h2>\n<p class=\"note\">" + escaped(list.note) +
-                    " Ticked by the program where a recording can tell; a rater may change every box and save the list.</p>\n"
-                    "<table id=\"score\"><tr><th></th><th>phase</th><th></th><th>what</th>";
+  std::string out =
+      "<h2>" + escaped(list.title) + "</h2>\n<p class=\"note\">" + escaped(list.note) +
+      " Ticked by the program where a recording can tell; a rater may change every box and save the list.</p>\n"
+      "<table id=\"score\"><tr><th></th><th>phase</th><th></th><th>what</th>";
   for (const ReportRun& run : runs) out += "<th>" + escaped(run.code) + "</th>";
   out += "</tr>\n";
   const char* kinds[] = {"step", "error", "critical"};
@@ -145,8 +148,7 @@ std::string score_table(const std::vector<ReportRun>& runs, const ScoreList& lis
     for (const ReportRun& run : runs) out += score_cell(item, i < run.scores.size() ? run.scores[i] : Score{});
     out += "</tr>\n";
   }
-  return out +
-         "</table>\n<p><button onclick=\"save('score','scores.csv')\">Save the list as CSV</button></p>\n";
+  return out + "</table>\n<p><button onclick=\"save('score','scores.csv')\">Save the list as CSV</button></p>\n";
 }
 
 std::string events_table(const ReportRun& run) {
@@ -189,8 +191,8 @@ std::string page(const std::string& title, const std::string& body) {
   return "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" "
          "content=\"width=device-width\">\n<title>" +
          escaped(title) + "</title><style>" + style + "</style>" + save_script + "</head><body>\n<h1>" +
-         escaped(title) + "</h1>\n<p class=\"note\">Training and research, not for decisions on a patient.</p>\n" + body +
-         "</body></html>\n";
+         escaped(title) + "</h1>\n<p class=\"note\">Training and research, not for decisions on a patient.</p>\n" +
+         body + "</body></html>\n";
 }
 
 std::string quoted(const std::string& words) {
@@ -204,12 +206,15 @@ std::string quoted(const std::string& words) {
 std::string report_page(const std::vector<ReportRun>& runs, const ScoreList& list) {
   std::string body = header(runs) + pictures(runs);
   body += "<h2>Over time</h2>\n";
-  body += plot_of(runs, "Length in the body", "inserted_mm", "mm") + plot_of(runs, "Turned at the hub", "turned_deg", "degrees");
-  body += plot_of(runs, "Force of the walls, at the tip", "tip_force_N", "N") + plot_of(runs, "Force of the walls, in all", "wall_force_N", "N");
+  body += plot_of(runs, "Length in the body", "inserted_mm", "mm") +
+          plot_of(runs, "Turned at the hub", "turned_deg", "degrees");
+  body += plot_of(runs, "Force of the walls, at the tip", "tip_force_N", "N") +
+          plot_of(runs, "Force of the walls, in all", "wall_force_N", "N");
   body += plot_of(runs, "Push at the hand", "push_N", "N") + plot_of(runs, "Torque at the hand", "torque_mNm", "mN m");
   body += plot_of(runs, "Pressure of the guide", "guide_mmHg", "mmHg") + plot_of(runs, "ST shift", "ST_mV", "mV");
   body += plot_of(runs, "Inflation device", "gauge_atm", "atm") + plot_of(runs, "Balloon, widest", "balloon_mm", "mm");
-  body += plot_of(runs, "Smallest diameter of the lesion", "lesion_mld_mm", "mm") + plot_of(runs, "Contrast", "contrast_mL", "mL");
+  body += plot_of(runs, "Smallest diameter of the lesion", "lesion_mld_mm", "mm") +
+          plot_of(runs, "Contrast", "contrast_mL", "mL");
   body += metrics_table(runs) + score_table(runs, list);
   for (const ReportRun& run : runs) body += events_table(run);
   return page(runs.size() == 1 ? "Run of " + runs[0].case_name : fmt::format("{} runs", runs.size()), body);
@@ -221,8 +226,8 @@ std::string report_csv(const std::vector<ReportRun>& runs, const ScoreList& list
   for (const ScoreItem& item : list.items) out += "," + quoted("item_" + item.id);
   out += "\n";
   for (const ReportRun& run : runs) {
-    out += fmt::format("{},{},{},{},{},{},{:.3f}", quoted(run.code), quoted(run.case_name), quoted(run.script), run.seed,
-                       run.outcome, quoted(run.reason), run.simulated_s);
+    out += fmt::format("{},{},{},{},{},{},{:.3f}", quoted(run.code), quoted(run.case_name), quoted(run.script),
+                       run.seed, run.outcome, quoted(run.reason), run.simulated_s);
     for (const MetricDefinition& m : metric_definitions()) {
       out += ",";
       for (const Metric& metric : run.metrics)
@@ -244,12 +249,10 @@ std::string events_csv(const RunRecord& record, const std::vector<std::string>& 
     const auto tool = static_cast<long>(record.events[e + 2]);
     for (const EventDefinition& definition : event_definitions())
       if (static_cast<int>(definition.code) == code)
-        out += fmt::format("{:.3f},{},{},{},{}\n", record.events[e] * record.step_s, definition.name,
-                           tool >= 0 && tool < static_cast<long>(tools.size())
-                               ? quoted(tools[static_cast<std::size_t>(tool)])
-                               : "",
-                           definition.value.empty() ? "" : fmt::format("{:.6g}", record.events[e + 3]),
-                           quoted(definition.value));
+        out += fmt::format(
+            "{:.3f},{},{},{},{}\n", record.events[e] * record.step_s, definition.name,
+            tool >= 0 && tool < static_cast<long>(tools.size()) ? quoted(tools[static_cast<std::size_t>(tool)]) : "",
+            definition.value.empty() ? "" : fmt::format("{:.6g}", record.events[e + 3]), quoted(definition.value));
   }
   return out;
 }

@@ -85,7 +85,8 @@ Score judge(const ScoreItem& item, const RunRecord& record, const std::vector<Me
   const ScoreCheck& check = *item.check;
   const auto ticked = [](bool holds) { return holds ? Ticked::yes : Ticked::no; };
   if (!check.metric.empty()) {
-    const auto metric = std::find_if(metrics.begin(), metrics.end(), [&](const Metric& m) { return m.name == check.metric; });
+    const auto metric =
+        std::find_if(metrics.begin(), metrics.end(), [&](const Metric& m) { return m.name == check.metric; });
     if (metric == metrics.end() || !std::isfinite(metric->value)) return out;
     out.holds = ticked(within(metric->value, check));
     out.value = fmt::format("{:.3g} {}", metric->value, metric->unit == "1" ? "" : metric->unit);
@@ -101,8 +102,10 @@ Score judge(const ScoreItem& item, const RunRecord& record, const std::vector<Me
   } else {
     out.holds = ticked(within(static_cast<double>(at.size()), check));
   }
-  out.at_s = at;
-  if (item.kind == ScoreKind::step && at.size() > 1) out.at_s.resize(1);
+  if (item.kind == ScoreKind::step)
+    out.at_s.assign(at.begin(), at.begin() + (at.empty() ? 0 : 1));
+  else
+    out.at_s = at;
   return out;
 }
 

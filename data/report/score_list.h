@@ -14,7 +14,7 @@ enum class ScoreKind { step, error, critical };
 /// What a recording must show. One of `event` and `metric`; without either only a person can tell.
 struct ScoreCheck {
   std::optional<EventCode> event;
-  std::string before;                 ///< an event's name: `event` has to come first, as often as that comes at all
+  std::string before;  ///< an event's name: `event` has to come first, as often as that comes at all
   std::string metric;
   std::optional<double> least, most;  ///< of how many events, or of the metric's value
 };

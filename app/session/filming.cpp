@@ -1,0 +1,92 @@
+#include "app/session/filming.h"
+
+#include <array>
+#include <atomic>
+#include <semaphore>
+#include <thread>
+
+#include "data/video.h"
+
+namespace ostium {
+
+namespace {
+
+constexpr int places = 8;
+
+struct Exposed {
+  SessionState state;
+  SessionInputs inputs;
+  Monitor monitor;
+};
+
+}  // namespace
+
+struct Filming::Parts {
+  Parts(const SessionModel& m, const std::string& mp4, const FilmOptions& o, Driver* i)
+      : model(m), film(m, o), video(mp4, o.pixels, film.height(), o.frames_per_s), rate(o.frames_per_s), inner(i) {}
+
+  const SessionModel& model;
+  Film film;
+  VideoWriter video;
+  double rate;
+  Driver* inner;
+  Monitor monitor;  // of the thread that steps
+  std::array<Exposed, places> queue;
+  std::counting_semaphore<places> free{places}, taken{0};
+  int next = 0;
+  std::atomic<bool> over{false};
+  std::string problem;
+  std::thread thread;
+
+  void develop() {
+    for (int at = 0;; at = (at + 1) % places) {
+      taken.acquire();
+      if (over.load(std::memory_order_acquire) && at == next) return;
+      Exposed& e = queue[static_cast<std::size_t>(at)];
+      try {
+        film.monitor() = e.monitor;
+        if (problem.empty()) video.add(film.frame(model, e.state, e.inputs));
+      } catch (const std::exception& error) {
+        problem = error.what();
+      }
+      free.release();
+    }
+  }
+};
+
+Filming::Filming(const SessionModel& model, const std::string& mp4, const FilmOptions& options, Driver* inner)
+    : parts_(std::make_unique<Parts>(model, mp4, options, inner)) {
+  parts_->thread = std::thread([this] { parts_->develop(); });
+}
+
+Filming::~Filming() { finish(); }
+
+bool Filming::drive(const SessionModel& model, const SessionState& state, const SessionReport& report,
+                    SessionInputs& inputs) {
+  Parts& p = *parts_;
+  if (p.inner && !p.inner->drive(model, state, report, inputs)) return false;
+  p.monitor.listen(model, state, inputs);
+  if (is_frame(state.rods.step, p.rate, model.step_s())) {
+    p.free.acquire();
+    Exposed& e = p.queue[static_cast<std::size_t>(p.next)];
+    e.state = state, e.inputs = inputs, e.monitor = p.monitor;
+    p.next = (p.next + 1) % places;
+    p.taken.release();
+  }
+  return true;
+}
+
+std::string Filming::finish() {
+  Parts& p = *parts_;
+  if (p.thread.joinable()) {
+    // All places are free again once the last picture is taken.
+    for (int i = 0; i < places; ++i) p.free.acquire();
+    p.over.store(true, std::memory_order_release);
+    p.taken.release();
+    p.thread.join();
+    if (!p.video.finish() && p.problem.empty()) p.problem = p.video.problem();
+  }
+  return p.problem;
+}
+
+}  // namespace ostium

@@ -1,0 +1,29 @@
+#pragma once
+/// A film of a run while it goes: a driver that changes nothing, and a thread of its own that takes the pictures.
+#include <memory>
+#include <string>
+
+#include "app/session/film.h"
+#include "app/session/run.h"
+
+namespace ostium {
+
+/// Every frame is filmed: where pictures take longer than steps, steps wait.
+class Filming : public Driver {
+ public:
+  /// `inner`: who drives; null: the script. Throws std::invalid_argument as Film does.
+  Filming(const SessionModel& model, const std::string& mp4, const FilmOptions& options, Driver* inner = nullptr);
+  ~Filming() override;  ///< finishes
+
+  bool drive(const SessionModel& model, const SessionState& state, const SessionReport& report,
+             SessionInputs& inputs) override;
+
+  /// After the run: waits for the last picture. Empty, or what went wrong; the run is none the worse for it.
+  std::string finish();
+
+ private:
+  struct Parts;
+  std::unique_ptr<Parts> parts_;
+};
+
+}  // namespace ostium

@@ -1,0 +1,30 @@
+#include "app/session/monitor.h"
+
+#include <cmath>
+
+#include "vascular/units.h"
+
+namespace ostium {
+
+namespace {
+
+void add(Strip& strip, double value) {
+  constexpr auto kept = static_cast<std::size_t>(Monitor::samples_per_s * monitor_s);
+  if (strip.samples.size() == kept) strip.samples.erase(strip.samples.begin());
+  strip.samples.push_back(static_cast<float>(value));
+}
+
+}  // namespace
+
+void Monitor::listen(const SessionModel& model, const SessionState& state, const SessionInputs& inputs) {
+  const auto every = static_cast<std::uint64_t>(std::llround(1 / (samples_per_s * model.step_s())));
+  if (!model.has_patient() || state.rods.step % every != 0) return;
+  const auto leads = ecg(state.blood.heart, inputs.rate_1_min, model.physiology.ischaemia, state.blood.ischaemia);
+  // Contrast in the line, or a thick wire, and no trace is left.
+  const bool damped_out = inputs.bedside.injection_m3_s > 0 || state.bedside.thick_wire > 0;
+  add(II, leads[static_cast<int>(Lead::II)]), add(V2, leads[static_cast<int>(Lead::V2)]);
+  add(guide, state.bedside.guide >= 0 && !damped_out ? state.blood.line.reading_Pa / mmHg : 0);
+  add(gauge, inputs.bedside.gauge_Pa / atm);
+}
+
+}  // namespace ostium
