@@ -10,6 +10,7 @@
 #include "app/session/run.h"
 #include "app/session/xray_scene.h"
 #include "data/load_error.h"
+#include "tests/core/allocations.h"
 
 namespace ostium {
 namespace {
@@ -84,6 +85,10 @@ TEST(Treatment, ABalloonOpensTheLesionAndTheWallThatRodsMeet) {
     step(run.model, run.inputs, other, fresh, report);
     ASSERT_EQ(first_difference(run.model, run.state, other), "") << n;
   }
+
+  const long before_steps = allocations();
+  for (int n = 0; n < 40; ++n) step(run.model, run.inputs, other, fresh, report);
+  EXPECT_EQ(allocations() - before_steps, 0);
 
   // Deflated, then a second device cannot enter beside it, and the run says so.
   EXPECT_FALSE(run_to(run, 11));
