@@ -63,9 +63,19 @@ std::unique_ptr<DeviceRun> device_of(const RunOptions& o, RunSetup& setup) {
   DeviceHandSettings settings;
   for (const StandardView& view : standard_views())
     settings.views.emplace_back(view.lao_deg * EIGEN_PI / 180, view.cran_deg * EIGEN_PI / 180);
+  settings.watch = [before = Pause::none](const BoxSnapshot& now) mutable {
+    if (now.pause != before && now.pause != Pause::none) say(std::string(advice(now)));  // nothing steps now
+    before = now.pause;
+  };
   if (o.device == "emulator") return run_at_emulator(settings, &interrupted);
   setup.script = free_hands(setup.script);
   return run_at_usb(o.serial, settings, &interrupted);
+}
+
+nlohmann::ordered_json to_json(const DeviceHand& hand) {
+  const BoxSnapshot& now = hand.now();
+  return {{"stood", hand.stood()},  {"openings", now.openings},          {"reports", now.reports}, {"lost", now.lost},
+          {"ignored", now.ignored}, {"departures", now.port.departures}, {"advice", advice(now)}};
 }
 
 nlohmann::ordered_json to_json(const RunSetup& setup, const ScriptedRun& run, const PlayReport& r,
@@ -227,10 +237,17 @@ int run_command(const RunOptions& o) {
   if (!o.folder.empty())
     write_file((fs::path(o.folder) / "metrics.json").string(),
                metrics_json(setup.vessel, setup.seed, report.outcome, report.reason, report.metrics));
-  if (o.json)
-    fmt::print("{}\n", to_json(setup, run, report, file).dump(2));
-  else
+  if (o.json) {
+    auto out = to_json(setup, run, report, file);
+    if (device) out["device"] = to_json(device->hand());
+    fmt::print("{}\n", out.dump(2));
+  } else {
     print_report(run, report, file);
+    if (device)
+      fmt::print("at the box: {} reports, {} lost, {} ignored; stood {} times at an end of the travel\n",
+                 device->hand().now().reports, device->hand().now().lost, device->hand().now().ignored,
+                 device->hand().stood());
+  }
   if (!film_problem.empty()) fmt::print(stderr, "ostium run: no film: {}\n", film_problem);
   if (o.report && options.recorder.mode != RecordMode::none && report.problem.empty()) report_folder(o.folder, vessel);
   if (!report.problem.empty()) {

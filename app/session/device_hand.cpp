@@ -89,6 +89,7 @@ bool DeviceHand::drive(const SessionModel& model, const SessionState& state, con
   do {
     if (stop_ && stop_->load(std::memory_order_relaxed)) return false;
     now_ = exchange_(request_);
+    if (settings_.watch) settings_.watch(now_);
     stood_ += now_.pause != Pause::none && !standing;
     standing = now_.pause != Pause::none;
   } while (standing);

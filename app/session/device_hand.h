@@ -22,6 +22,9 @@ struct DeviceHandSettings {
   bool arm = true;
   /// Angles of the views that buttons 2, 3, ... select, rad: left anterior oblique, cranial.
   std::vector<std::pair<double, double>> views;
+  /// Called with each snapshot, also while the simulation stands, by the thread that steps: for who shows it. May be
+  /// empty.
+  std::function<void(const BoxSnapshot&)> watch;
 };
 
 class DeviceHand : public Driver {

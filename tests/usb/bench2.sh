@@ -67,6 +67,13 @@ for module in usb-common usbcore usbip-core vhci-hcd; do insmod /modules/\$modul
 systemd-udevd --daemon
 export OSTIUM_USB_REPORTS=${OSTIUM_USB_REPORTS:-}
 [ -n "\$OSTIUM_USB_REPORTS" ] || unset OSTIUM_USB_REPORTS
+# If it hangs: where.
+(
+  sleep $((${OSTIUM_BENCH2_S:-150} - 30))
+  for task in /proc/\$(pidof usb-bench)/task/*; do cat \$task/comm \$task/stack; done
+  echo w >/proc/sysrq-trigger
+  dmesg | tail -n 80
+) &
 usb-bench --gtest_color=no $*
 echo "bench 2 ended with \$?"
 poweroff -f
