@@ -23,7 +23,8 @@ void locate(const Rod& rod, const RodState& own, const Nest& nest, Layer& layer)
   int e = 0, m = 0;
   const auto middle = [&](int i) { return (depth[i] + depth[i + 1]) / 2; };
   for (int i = first; i <= last; ++i) {
-    const double at = i == first ? 0 : layer.inserted_m - rod.node_from_tip_m[i];
+    // The last may stand a little beyond the bore, where the layer has nothing in this step.
+    const double at = i == first ? 0 : std::min(layer.inserted_m - rod.node_from_tip_m[i], reach);
     while (e + 1 < elements && depth[e + 1] < at) ++e;
     layer.to_nodes.before[i] = e;
     layer.to_nodes.part.at(0)[i] = std::clamp((at - depth[e]) / (depth[e + 1] - depth[e]), 0.0, 1.0);
