@@ -42,7 +42,7 @@ void print(const Explanation& x) {
 int explain_command(const ExplainCommandOptions& options) {
   const Ranks mpi;
   const MeasurementSet set = load_measurement(options.set);
-  ExplainOptions explain_options{{}, options.threads, {}};
+  ExplainOptions explain_options{{}, options.threads, {}, options.tries.empty()};
   for (const std::string& words : options.tries) explain_options.tries.push_back(split(words, '+'));
   const bool terminal = isatty(STDERR_FILENO);
   if (terminal && rank() == 0)

@@ -66,6 +66,8 @@ void resize_nest(const Model& model, int lead, Nest& nest) {
   for (Layer& layer : nest.layers) {
     resize_layer(elements, own_nodes, layer);
     layer.law = model.rods[lead].law;
+    for (int r : members)  // the law that knows most has the others in it
+      if (model.rods[r].law.index() > layer.law.index()) layer.law = model.rods[r].law;
     std::visit([&](auto& law) { law.resize(elements + 1); }, layer.law);
   }
   Rod& chain = nest.s.inside;

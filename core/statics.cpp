@@ -34,6 +34,8 @@ void stay_near(const Rod& rod, const Eigen::Vector3d& gravity_W, const Eigen::Ve
     store6(s.chain.compliance, i, (time2 / load<T>(rod.mass.at(0) + i)) * identity3<T>());
     store3(s.target, i, load3<T>(s.position, i) + V3<T>{splat<T>(fall.x), splat<T>(fall.y), splat<T>(fall.z)});
   });
+  for (int i = rod.first; i < rod.dead_load.size(); ++i)
+    s.target.set(i, s.target[i] + time2 / rod.mass.at(0)[i] * rod.dead_load[i]);
   const int N = rod.elements;
   s.target.set(N, s.target[N] + time2 / rod.mass.at(0)[N] * tip_force_W);
 }

@@ -47,7 +47,7 @@ void cut_cells(const Rod& rod, int last, Nest& nest, int k) {
       compliance = length * partial(nest, k, i, part, part * length * tip.compliance.cwiseInverse()).cwiseInverse();
     }
     layer.rest.set(i, rest);
-    std::visit([&](auto& law) { law.set_cell(i, length, compliance); }, layer.law);
+    std::visit([&](auto& law) { law.set_cell(i, length, compliance, cell.softening); }, layer.law);
   }
   hint = rod.sections.size() - 1;
   for (int e = 0; e < layer.covered; ++e) {
@@ -59,11 +59,11 @@ void cut_cells(const Rod& rod, int last, Nest& nest, int k) {
 
 void copy_law(const MomentLaw& from, int begin, int end, MomentLaw& to, int at) {
   std::visit(
-      [&](auto& law) {
-        using Law = std::decay_t<decltype(law)>;
-        law.copy(std::get<Law>(from), begin, end, at);
+      [&](auto& law, const auto& other) {
+        // The layers of a nest have the law of its rods that knows most (scratch.cpp).
+        if constexpr (requires { law.copy(other, begin, end, at); }) law.copy(other, begin, end, at);
       },
-      to);
+      to, from);
 }
 
 }  // namespace

@@ -14,16 +14,24 @@
 namespace ostium {
 
 struct ConcentricPart {
-  std::vector<Section> sections;  ///< from its tip backwards; if there are several parts, EI1 = EI2 and no rest twist
-  double inserted_m = 0;          ///< from the base to its tip; > 0
-  double roll_rad = 0;  ///< of its drive about the base's d3, right-handed; whole turns count: shafts can be wound up
+  std::vector<Section>
+      sections;           ///< from its tip backwards; if there are several parts, EI1 = EI2, linear, and no rest twist
+  double inserted_m = 0;  ///< from the base to its tip; > 0
+  double roll_rad = 0;    ///< of its drive about the base's d3, right-handed; whole turns count: shafts can be wound up
   double shaft_rad_per_Nm = 0;  ///< twist of the shaft between drive and base, per torque; 0: rigid
+};
+
+/// A dead load on the centreline, shared out to the two nodes beside it.
+struct ConcentricLoad {
+  double from_base_m = 0;
+  Eigen::Vector3d force_W_N = Eigen::Vector3d::Zero();
 };
 
 struct ConcentricDescription {
   std::string name;
   std::vector<ConcentricPart> parts;      ///< outermost first
   std::vector<double> element_lengths_m;  ///< of the carrier, from the base; their sum is the largest inserted_m
+  std::vector<ConcentricLoad> loads;
 };
 
 /// What of the nest lies in one piece of a joint's cell, where nothing changes.

@@ -59,7 +59,8 @@ ConcentricEquilibrium find_equilibrium(const Concentric& nest, const EndState& b
     out.converged = !turns;
   }
   const Rod& rod = carrier.rods[0];
-  const Eigen::Vector3d load = rod.total_mass_kg * carrier.gravity_W + tip_force_W_N;
+  Eigen::Vector3d load = rod.total_mass_kg * carrier.gravity_W + tip_force_W_N;
+  for (int i = 0; i < rod.dead_load.size(); ++i) load += rod.dead_load[i];
   out.base_push_N = -load.dot(to_eigen(director3(state.carrier.rods[0].base.frame())));
   return out;
 }

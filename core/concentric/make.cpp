@@ -46,6 +46,8 @@ void check_parts(const ConcentricDescription& d) {
     for (const Section& s : part.sections)
       if (s.EI1_N_m2 != s.EI2_N_m2 || s.rest_curvature_per_m.z() != 0)
         refuse(i, "nested instruments must be equally stiff about both axes and without twist at rest");
+    for (const Section& s : part.sections)
+      if (s.softening_per_m > 0 && s.softened_ratio < 1) refuse(i, "nested instruments must not soften");
   }
 }
 
@@ -106,6 +108,20 @@ void cut_into_pieces(Concentric& nest, const std::vector<double>& ends) {
   }
 }
 
+void hang_loads(const std::vector<ConcentricLoad>& loads, const std::vector<double>& element_lengths, Rod& rod) {
+  if (loads.empty()) return;
+  rod.dead_load.resize(rod.nodes());
+  for (const ConcentricLoad& load : loads) {
+    double from = 0;
+    std::size_t e = 0;
+    while (e + 1 < element_lengths.size() && from + element_lengths[e] < load.from_base_m) from += element_lengths[e++];
+    const double t = std::clamp((load.from_base_m - from) / element_lengths[e], 0.0, 1.0);
+    const int i = static_cast<int>(e);
+    rod.dead_load.set(i, rod.dead_load[i] + (1 - t) * load.force_W_N);
+    rod.dead_load.set(i + 1, rod.dead_load[i + 1] + t * load.force_W_N);
+  }
+}
+
 }  // namespace
 
 Concentric make_concentric(const ConcentricDescription& d, const Eigen::Vector3d& gravity_W) {
@@ -117,6 +133,7 @@ Concentric make_concentric(const ConcentricDescription& d, const Eigen::Vector3d
   nest.reference = static_cast<int>(d.parts.rend() - longest) - 1;
   nest.carrier.gravity_W = gravity_W;
   nest.carrier.rods = {make_rod({d.name, composite(d.parts, longest->inserted_m), d.element_lengths_m, {}})};
+  hang_loads(d.loads, d.element_lengths_m, nest.carrier.rods[0]);
   const std::vector<double> ends = cell_ends(d.element_lengths_m);
   for (const ConcentricPart& part : d.parts) {
     int last = -1;

@@ -19,7 +19,7 @@ struct LinearElastic {
   }
 
   /// A joint's cell with these integrals of (1/EI1, 1/EI2, 1/GJ) over its length.
-  void set_cell(int joint, double length_m, const Eigen::Vector3d& compliance) {
+  void set_cell(int joint, double length_m, const Eigen::Vector3d& compliance, const Eigen::Vector2d&) {
     stiffness.set(joint, length_m * compliance.cwiseInverse());
   }
 

@@ -26,7 +26,7 @@ void set_cell(Rod& rod, int i, double from_tip) {
   rod.joint_length.at(0)[i] = length;
   rod.mass.at(0)[i] = cell.mass;
   rod.rest_curvature.set(i, cell.rest_angle / length);
-  std::visit([&](auto& law) { law.set_cell(i, length, cell.compliance); }, rod.law);
+  std::visit([&](auto& law) { law.set_cell(i, length, cell.compliance, cell.softening); }, rod.law);
 }
 
 /// The thickest beside a node, the narrowest along an element.
@@ -62,7 +62,10 @@ Rod make_rod(const RodDescription& description) {
   rod.bending.resize(N + 1);
   rod.radius.resize(N + 1);
   rod.bore.resize(N);
-  rod.law = LinearElastic{Field<3>(N + 1)};
+  const bool softens = std::any_of(rod.sections.begin(), rod.sections.end(),
+                                   [](const Section& s) { return s.softening_per_m > 0 && s.softened_ratio < 1; });
+  if (softens) rod.law = Superelastic{};
+  std::visit([&](auto& law) { law.resize(N + 1); }, rod.law);
 
   rod.node_from_tip_m.assign(N + 1, 0.0);
   for (int j = N - 1; j >= 0; --j) rod.node_from_tip_m[j] = rod.node_from_tip_m[j + 1] + lengths[j];

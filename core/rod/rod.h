@@ -25,6 +25,7 @@ struct Rod {
   Field<1> bending;         ///< N m2, (#joints): the larger of EI1 and EI2, for small strains
   Field<1> radius;          ///< m, outer, (#nodes)
   Field<1> bore;            ///< m, inner radius, (#elements): the least; 0: solid
+  Field<3> dead_load;       ///< N, world frame, (#nodes): what hangs on it at rest, for statics.h; empty: nothing
   Damping damping;
   double total_length_m = 0;  ///< of the elements that take part
   double total_mass_kg = 0;

@@ -72,6 +72,10 @@ void check(const RodDescription& d) {
     if (!(s.inner_radius_m >= 0 && s.inner_radius_m < s.radius_m))
       refuse(d, i, "inner radius is " + text(s.inner_radius_m) + " m; it must lie between 0 and the outer radius");
     if (!s.rest_curvature_per_m.allFinite()) refuse(d, i, "rest curvature is not finite");
+    if (!(s.softening_per_m == 0 || (s.softening_per_m >= 1e-3 && s.softening_per_m <= 1e6)))
+      refuse(d, i, "softens at " + text(s.softening_per_m) + " 1/m; it must be 0 or between 0.001 and 1e6");
+    if (!(s.softened_ratio >= 0.01 && s.softened_ratio <= 1))
+      refuse(d, i, "softens to " + text(s.softened_ratio) + " of its stiffness; it must lie between 0.01 and 1");
     reached = s.to_tip_m;
   }
   const auto in_name = [&](const std::string& what) {
@@ -106,6 +110,7 @@ SectionIntegrals integrate(const std::vector<Section>& sections, double a, doubl
     sum.polar_inertia += length * s.kg_per_m * gyration2 * 2;
     sum.compliance += length * Eigen::Vector3d(1 / s.EI1_N_m2, 1 / s.EI2_N_m2, 1 / s.GJ_N_m2);
     sum.rest_angle += length * s.rest_curvature_per_m;
+    if (s.softening_per_m > 0) sum.softening += length * Eigen::Vector2d(1 / s.softening_per_m, 1 - s.softened_ratio);
   }
   return sum;
 }

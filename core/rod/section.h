@@ -19,6 +19,10 @@ struct Section {
   /// Darboux vector of the unloaded shape in the material frame, 1/m: d_i' = u x d_i towards the tip, so that u1 > 0
   /// turns d3 towards -d2, u2 > 0 turns d3 towards d1, and u3 is a twist.
   Eigen::Vector3d rest_curvature_per_m = Eigen::Vector3d::Zero();
+  /// Curvature beyond rest at which bending softens (core/rod/superelastic.h), 1/m; 0: it never does. Superelastic
+  /// nitinol begins at a strain of about 1 %, a wire of radius r at 0.01 / r.
+  double softening_per_m = 0;
+  double softened_ratio = 1;  ///< of the bending stiffness far beyond it to that below it; 0.01 to 1
 };
 
 /// Drag of the surrounding fluid and loss in the material. All zero by default.
@@ -48,6 +52,7 @@ struct SectionIntegrals {
   double mass = 0, transverse_inertia = 0, polar_inertia = 0;
   Eigen::Vector3d compliance = Eigen::Vector3d::Zero();  ///< of (1/EI1, 1/EI2, 1/GJ)
   Eigen::Vector3d rest_angle = Eigen::Vector3d::Zero();  ///< of the rest curvature
+  Eigen::Vector2d softening = Eigen::Vector2d::Zero();   ///< of (1 / softening_per_m or 0, 1 - softened_ratio)
 };
 
 /// Over a <= distance from the tip <= b. `from`: the first section that can reach beyond a.

@@ -3,7 +3,8 @@
 
 namespace ostium {
 
-/// A fraction of the commanded roll does not arrive at the base: slip in the drive, friction along the shaft.
+/// A fraction of the commanded roll, or a dead band counted from zero, does not arrive at the base: slip in the drive,
+/// play, friction along the shaft.
 Effect roll_loss();
 
 }  // namespace ostium

@@ -1,10 +1,10 @@
 #include "data/effects/shaft_torsion.h"
 
+#include "data/effects/tools.h"
+
 namespace ostium {
 
 namespace {
-
-bool chosen(std::optional<int> instrument, std::size_t i) { return !instrument || *instrument == static_cast<int>(i); }
 
 std::string why_not(const MeasurementSet& set, std::optional<int> instrument) {
   for (const Experiment& e : set.experiments)
@@ -34,11 +34,13 @@ void apply(const ActiveEffect& effect, const MeasurementSet&, const Experiment& 
 }  // namespace
 
 Effect shaft_torsion() {
-  return {"shaft_torsion",
-          "twist of the shafts behind the base",
-          {{"compliance", "1", "twist of the shafts against what their GJ says", 1, 1, 0, 10, false}},
-          why_not,
-          apply};
+  Effect effect;
+  effect.id = "shaft_torsion";
+  effect.what = "twist of the shafts behind the base";
+  effect.parameters = {{"compliance", "1", "twist of the shafts against what their GJ says", 1, 1, 0, 10, false}};
+  effect.why_not = why_not, effect.apply = apply;
+  effect.of_one_instrument = true;
+  return effect;
 }
 
 }  // namespace ostium

@@ -14,7 +14,8 @@ struct Dependence {
 
 struct Signature {
   std::string frame = "none";                 ///< none, material, lab, image, time
-  std::optional<Eigen::Vector2d> from_tip_m;  ///< the stretch of the instrument that has most of the misfit
+  std::optional<Eigen::Vector2d> from_tip_m;  ///< the stretch of the instrument where it acts
+  std::optional<Eigen::Vector3d> at_m;        ///< or where in space
 };
 
 struct Dependences {

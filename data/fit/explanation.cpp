@@ -5,9 +5,13 @@
 #include <algorithm>
 #include <cmath>
 #include <deque>
+#include <set>
 
+#include "data/fit/next_experiment.h"
+#include "data/fit/search.h"
 #include "data/fit/sentences.h"
 #include "data/fit/study.h"
+#include "data/fit/trace.h"
 
 namespace ostium {
 
@@ -36,9 +40,6 @@ ActiveEffect parsed(const std::string& word, const MeasurementSet& set) {
   return active;
 }
 
-/// A difference in BIC that is strong evidence (Kass, Raftery 1995, J Am Stat Assoc 90:773).
-constexpr double strong_evidence = 6;
-
 /// By BIC; first, of those that the best has no strong evidence against, the one with the fewest parameters.
 void put_best_first(std::vector<FittedModel>& candidates) {
   // Not stable_sort: its buffer does not know of the alignment that Eigen asks for (g++ 12).
@@ -51,12 +52,108 @@ void put_best_first(std::vector<FittedModel>& candidates) {
   std::rotate(candidates.begin(), best, best + 1);
 }
 
-/// An effect counts if it predicts what it has not seen better, and pays for its numbers.
-bool wins(const FittedModel& candidate, const FittedModel& declared, const Noise& noise) {
-  const bool held_out = candidate.rms_held_out_m && declared.rms_held_out_m &&
-                        *candidate.rms_held_out_m < 0.95 * *declared.rms_held_out_m;
-  if (!held_out || candidate.bic > declared.bic - strong_evidence) return false;
-  return !noise.sigma_m || is_noise(candidate, noise);
+/// So few numbers beyond what is fitted that nothing can be decided, or no experiment to hold out.
+bool too_small(const MeasurementSet& set, const FittedModel& declared) {
+  return set.experiments.size() < 3 || declared.degrees_of_freedom < 6;
+}
+
+bool same_effects(const FittedModel& a, const FittedModel& b) {
+  return std::set<std::string>(a.effects.begin(), a.effects.end()) ==
+         std::set<std::string>(b.effects.begin(), b.effects.end());
+}
+
+/// Where two lists of effects differ in one each.
+bool differ_in_a_pair(const FittedModel& a, const FittedModel& b) {
+  std::vector<std::string> only_a, only_b;
+  for (const std::string& id : a.effects)
+    if (std::find(b.effects.begin(), b.effects.end(), id) == b.effects.end()) only_a.push_back(id);
+  for (const std::string& id : b.effects)
+    if (std::find(a.effects.begin(), a.effects.end(), id) == a.effects.end()) only_b.push_back(id);
+  return only_a.size() == 1 && only_b.size() == 1 && often_confused(only_a[0], only_b[0]);
+}
+
+/// Whether `rival` explains the set as well as `best`. Of what is often confused, one may have more numbers that a
+/// poorer one needs not: then it is chi-square that counts.
+bool rivals(const FittedModel& best, const FittedModel& rival, bool noise_known) {
+  if (same_effects(best, rival)) return false;
+  if (differ_in_a_pair(best, rival)) {
+    const double behind = rival.bic - best.bic;
+    if (behind < strong_evidence) return true;
+    const double more = static_cast<double>(rival.parameters.size()) - static_cast<double>(best.parameters.size());
+    return noise_known && more > 0 &&
+           rival.chi2_per_dof.value_or(1e9) * rival.degrees_of_freedom <
+               best.chi2_per_dof.value_or(0) * best.degrees_of_freedom + strong_evidence;
+  }
+  return rival.effects.size() <= best.effects.size() && rival.bic < best.bic + positive_evidence;
+}
+
+/// From candidates by BIC: the verdict, and the rivals after the best.
+void decide(const MeasurementSet& set, const Workers& workers, Explanation& out) {
+  const bool fits = is_noise(out.declared, out.noise), known = out.noise.sigma_m.has_value();
+  const bool small = too_small(set, out.declared);
+  if (fits && known && !small) {
+    out.verdict = Verdict::explained;
+    return;
+  }
+  std::vector<FittedModel> winners, others;
+  for (FittedModel& c : out.candidates)
+    (small || wins(c, out.declared, out.noise) ? winners : others).push_back(std::move(c));
+  std::sort(winners.begin(), winners.end(), [](const FittedModel& a, const FittedModel& b) { return a.bic < b.bic; });
+  out.candidates = std::move(winners);
+  const std::size_t count = out.candidates.size();
+  // Best, then what rivals it, then the rest.
+  auto end_of_rivals = out.candidates.begin();
+  if (count > 0)
+    end_of_rivals = std::partition(out.candidates.begin() + 1, out.candidates.end(), [&](const FittedModel& c) {
+      return rivals(out.candidates.front(), c, known) || small;
+    });
+  const auto tied = static_cast<std::size_t>(end_of_rivals - out.candidates.begin());
+  for (FittedModel& c : others) out.candidates.push_back(std::move(c));
+  if (small) {
+    out.verdict = Verdict::ambiguous;
+    out.rivals = tied;
+  } else if (count == 0) {
+    out.verdict = fits ? Verdict::explained : Verdict::unexplained;
+  } else if (tied > 1) {
+    out.verdict = Verdict::ambiguous;
+    out.rivals = tied;
+  } else {
+    out.verdict = Verdict::effect;
+  }
+  if (out.verdict != Verdict::ambiguous) return;
+  const FittedModel& second = out.candidates.size() > 1 ? out.candidates[1] : out.declared;
+  if (!out.candidates.empty())
+    out.next_experiment = next_experiment(set, workers, out.candidates[0], second, out.noise);
+  if (!out.next_experiment) {
+    NextExperiment next;
+    next.why = small ? "too few numbers to decide: repeat this with other rolls and insertions, and with a known load "
+                       "at the tip"
+                     : "no roll or insertion parts what is left; hang a known weight at the tip, or measure the base "
+                       "and the frame by themselves";
+    next.set = set.experiments.back().set;
+    out.next_experiment = next;
+  }
+}
+
+Explanation explain_with_library(const MeasurementSet& set, const ExplainOptions& options) {
+  const Workers workers(options.threads);
+  Explanation out;
+  Study declared(set, workers, {}, options.progress);
+  out.declared = declared.run(set.imaging.noise_sigma_m);
+  out.nominal_misfits = declared.misfits_at_start();
+  out.rms_nominal_m = rms(set, out.nominal_misfits);
+  out.noise = noise_of(set, out.declared.misfits);
+  declared.judge(out.declared, out.noise);
+  const bool done = out.noise.sigma_m && is_noise(out.declared, out.noise) && !too_small(set, out.declared);
+  if (!done) {
+    Search search(set, workers, options.progress);
+    out.candidates = search.run(declared, out.declared, out.noise);
+    out.traces = traces(set, workers, out.declared, out.noise, options.progress);
+    out.signature = signature_of(out.traces);
+  }
+  decide(set, workers, out);
+  out.sentences = sentences(set, out);
+  return out;
 }
 
 }  // namespace
@@ -87,6 +184,7 @@ bool is_noise(const FittedModel& model, const Noise& noise) {
 
 Explanation explain(const MeasurementSet& set, const ExplainOptions& options) {
   require_static(set);
+  if (options.library) return explain_with_library(set, options);
   std::vector<std::vector<ActiveEffect>> tries;
   for (const auto& words : options.tries) {
     tries.emplace_back();
@@ -119,6 +217,7 @@ Explanation explain(const MeasurementSet& set, const ExplainOptions& options) {
     out.verdict = Verdict::effect;
   else
     out.verdict = fits ? Verdict::explained : Verdict::unexplained;
+  out.signature = out.declared.dependences.signature;
   out.sentences = sentences(set, out);
   return out;
 }

@@ -12,6 +12,8 @@ struct ExplainOptions {
   std::vector<std::vector<std::string>> tries;
   int threads = 0;  ///< 0: one for each core
   std::function<void(const std::string&)> progress;
+  /// Every effect that there is, and several together, instead: where the declared model does not fit.
+  bool library = false;
 };
 
 struct FittedParameter {
@@ -44,6 +46,25 @@ struct FittedModel {
   std::vector<std::string> other_branches;
 };
 
+/// What a field without a name does for the declared model's residual.
+struct Trace {
+  std::string frame;        ///< material, lab, image, time
+  std::string what;         ///< in words
+  double removed = 0;       ///< of the squares that are not noise, 0 to 1
+  double log_evidence = 0;  ///< against the declared model
+  double numbers_used = 0;  ///< as many of the field's numbers as the data decide
+  double rms_m = 0;         ///< of what it leaves
+  std::optional<Eigen::Vector2d> from_tip_m;
+  std::optional<Eigen::Vector3d> at_m;
+};
+
+/// What to measure next, and what it would tell apart.
+struct NextExperiment {
+  std::string why;
+  std::vector<Placement> set;
+  double difference_m = 0;  ///< between what two explanations predict
+};
+
 enum class Verdict { explained, effect, ambiguous, unexplained };
 
 struct Explanation {
@@ -54,6 +75,11 @@ struct Explanation {
   FittedModel declared;
   std::vector<FittedModel> candidates;  ///< best first
   std::vector<std::string> sentences;   ///< what was found, in words
+  std::vector<Trace> traces;            ///< of the declared model's residual, best first; empty if it is noise
+  Signature signature;
+  std::optional<NextExperiment> next_experiment;
+  /// Of an ambiguous verdict: so many of the candidates explain the set equally.
+  std::size_t rivals = 0;
   const FittedModel& best() const { return verdict == Verdict::effect ? candidates.front() : declared; }
 };
 

@@ -1,5 +1,6 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <numbers>
 
 #include "data/fit/explanation_report.h"
 
@@ -28,7 +29,18 @@ Json rms_of(const FittedModel& m) { return {{"fit", m.rms_m / mm}, {"held_out", 
 Json signature(const Signature& s) {
   Json out = {{"frame", s.frame}, {"from_tip_mm", nullptr}, {"at_mm", nullptr}};
   if (s.from_tip_m) out["from_tip_mm"] = {s.from_tip_m->x() / mm, s.from_tip_m->y() / mm};
+  if (s.at_m) out["at_mm"] = {s.at_m->x() / mm, s.at_m->y() / mm, s.at_m->z() / mm};
   return out;
+}
+
+Json next(const std::optional<NextExperiment>& n) {
+  if (!n) return nullptr;
+  Json set = Json::array();
+  for (const Placement& p : n->set)
+    set.push_back({{"inserted_length_mm", p.inserted_m / mm},
+                   {"roll_deg", p.roll_rad * 180 / std::numbers::pi},
+                   {"shaft_mm", p.shaft_m / mm}});
+  return {{"why", n->why}, {"set", set}, {"predicted_difference_mm", n->difference_m / mm}};
 }
 
 }  // namespace
@@ -54,8 +66,8 @@ std::string to_json(const Explanation& x) {
     out["after"] = {{"parameters", parameters(x.best(), true)},
                     {"rms", rms_of(x.best())},
                     {"chi2_per_dof", or_null(x.best().chi2_per_dof)}};
-  out["signature"] = signature(x.declared.dependences.signature);
-  out["next_experiment"] = nullptr;
+  out["signature"] = signature(x.signature);
+  out["next_experiment"] = next(x.next_experiment);
   return out.dump(1) + "\n";
 }
 

@@ -35,9 +35,9 @@ Plot::Points seen(const std::vector<Vector3d>& points, int across, int up) {
 }
 
 /// Measured points brought into the frame of the set.
-std::vector<Vector3d> in_set(const Experiment& e, const MeasuredView& view) {
+std::vector<Vector3d> in_set(const std::vector<Vector3d>& points, const MeasuredView& view) {
   std::vector<Vector3d> out;
-  for (const Vector3d& p : e.points_m) out.push_back(view.R.conjugate() * (p - view.t_m));
+  for (const Vector3d& p : points) out.push_back(view.R.conjugate() * (view.A.inverse() * (p - view.b_m) - view.t_m));
   return out;
 }
 
@@ -63,10 +63,11 @@ std::string shapes_plot(const MeasurementSet& set, const Explanation& x, int whi
     plot.line(seen(x.declared.shapes[e].points_m, length, across), before_colour, 1.1);
     if (has_after(x)) plot.line(seen(after(x).shapes[e].points_m, length, across), after_colour, 1.3);
     const bool tip = set.experiments[e].kind == Experiment::Kind::tip;
-    plot.dots(seen(in_set(set.experiments[e], shown.view), length, across), measured_colour, tip ? 2.2 : 1.3);
+    const MeasuredView view = seen(set, set.experiments[e], shown.changes, shown.view);
+    plot.dots(seen(in_set(set.experiments[e].points_m, view), length, across), measured_colour, tip ? 2.2 : 1.3);
     // A tracked point lies off the tip: what joins it to the model's is part of the model.
     if (set.experiments[e].kind == Experiment::Kind::tip && set.imaging.tip_offset_free) {
-      const Vector3d tracked = shown.view.R.conjugate() * (tracked_tip(shown.shapes[e], shown.view) - shown.view.t_m);
+      const Vector3d tracked = in_set({tracked_tip(shown.shapes[e], view)}, view)[0];
       plot.line(seen({shown.shapes[e].points_m.back(), tracked}, length, across), "#999999", 0.8, "2 2");
     }
   }

@@ -31,7 +31,10 @@ Shape unpacked(const std::vector<double>& in) {
 }
 
 /// Of the finite differences, in the optimiser's numbers.
-double step_of(const Parameter& p) { return p.logarithmic ? 1e-4 : 1e-4 * std::max(p.spread, 1e-3); }
+double step_of(const Parameter& p) {
+  if (p.step > 0) return p.step;
+  return p.logarithmic ? 1e-4 : 1e-4 * std::max(p.spread, 1e-3);
+}
 
 /// One fit: its residuals are the misfits over sigma, and the distances from the priors over their spreads.
 class Problem {
@@ -68,7 +71,7 @@ class Problem {
       for (double sign : {1.0, -1.0}) changes.push_back(parameters_.changes(moved(x, i, sign)));
     const auto found = forward_.shapes(changes, chosen_);
     residuals.resize(rows_ + x.size());
-    if (!data(found[0], parameters_.view(x), residuals)) return false;
+    if (!data(found[0], x, residuals)) return false;
     const VectorXd prior = parameters_.start();
     for (int i = 0; i < x.size(); ++i) residuals[rows_ + i] = (x[i] - prior[i]) / parameters_.list()[i].spread;
     if (!jacobian) return true;
@@ -78,8 +81,8 @@ class Problem {
     for (int i = 0; i < x.size(); ++i) {
       const bool moves = i < shapes;
       const VectorXd above = moved(x, i, 1), below = moved(x, i, -1);
-      if (!data(moves ? found[1 + 2 * i] : found[0], parameters_.view(above), up)) return false;
-      if (!data(moves ? found[2 + 2 * i] : found[0], parameters_.view(below), down)) return false;
+      if (!data(moves ? found[1 + 2 * i] : found[0], above, up)) return false;
+      if (!data(moves ? found[2 + 2 * i] : found[0], below, down)) return false;
       jacobian->col(i).head(rows_) = (up - down).head(rows_) / (above[i] - below[i]);
       (*jacobian)(rows_ + i, i) = 1 / parameters_.list()[i].spread;
     }
@@ -95,11 +98,14 @@ class Problem {
     return x;
   }
 
-  bool data(const std::vector<Shape>& shapes, const MeasuredView& view, VectorXd& residuals) const {
+  bool data(const std::vector<Shape>& shapes, const VectorXd& x, VectorXd& residuals) const {
+    const MeasuredView view = parameters_.view(x);
+    const Changes changes = parameters_.changes(x);
     int row = 0;
     for (std::size_t k = 0; k < chosen_.size(); ++k) {
       if (!shapes[k].converged) return false;
-      const VectorXd off = misfit(forward_.set().experiments[chosen_[k]], shapes[k], view);
+      const Experiment& e = forward_.set().experiments[chosen_[k]];
+      const VectorXd off = misfit(e, shapes[k], seen(forward_.set(), e, changes, view));
       residuals.segment(row, off.size()) = off / sigma_;
       row += static_cast<int>(off.size());
     }
@@ -157,8 +163,8 @@ Fit fit(const Forward& forward, const Parameters& parameters, const FitOptions& 
   for (int e : options.experiments) out.measured += static_cast<double>(numbers_measured(forward.set().experiments[e]));
   std::vector<VectorXd> starts = options.starts;
   // Without a known noise, that of the residuals; the weight of the priors follows it, so a few times over.
-  double sigma = options.sigma_m.value_or(1e-3);
-  const int rounds = options.sigma_m ? 1 : 4;
+  double sigma = options.sigma_m.value_or(options.guess_m);
+  const int rounds = options.sigma_m ? 1 : options.rounds;
   for (int round = 0; round < rounds; ++round) {
     const Problem problem(forward, parameters, options.experiments, sigma);
     const LeastSquaresResult found = best_of(problem, starts, options.descents);
@@ -184,11 +190,14 @@ Fit fit(const Forward& forward, const Parameters& parameters, const FitOptions& 
 
 std::vector<VectorXd> misfits(const Forward& forward, const Parameters& parameters, const VectorXd& x,
                               const std::vector<int>& chosen) {
-  const auto shapes = forward.shapes({parameters.changes(x)}, chosen)[0];
+  const Changes changes = parameters.changes(x);
+  const auto shapes = forward.shapes({changes}, chosen)[0];
   std::vector<VectorXd> out;
-  for (std::size_t k = 0; k < chosen.size(); ++k)
-    out.push_back(shapes[k].converged ? misfit(forward.set().experiments[chosen[k]], shapes[k], parameters.view(x))
+  for (std::size_t k = 0; k < chosen.size(); ++k) {
+    const Experiment& e = forward.set().experiments[chosen[k]];
+    out.push_back(shapes[k].converged ? misfit(e, shapes[k], seen(forward.set(), e, changes, parameters.view(x)))
                                       : VectorXd());
+  }
   return out;
 }
 

@@ -42,6 +42,8 @@ struct FitOptions {
   std::optional<double> sigma_m;        ///< of the noise; none: taken from what the fit leaves
   std::vector<Eigen::VectorXd> starts;  ///< where to begin
   std::size_t descents = 1;             ///< from so many of the starts, those that cost least; the best end counts
+  double guess_m = 1e-3;                ///< of an unknown noise
+  int rounds = 4;                       ///< of finding it
 };
 
 /// Throws std::runtime_error if the model has no shapes at any start.

@@ -17,11 +17,14 @@ constexpr double mm = 1e-3, degree = std::numbers::pi / 180;
 
 /// A declared stiffness is known to perhaps 30 %.
 constexpr double stiffness_spread = 0.3, least_scale = 0.1, most_scale = 10;
+/// Of an effect's finite differences, of its prior's spread: a place must move by more than what the elements' edges
+/// leave to the shape.
+constexpr double effect_step = 1e-2;
 /// Weak: they only decide what the data leave open.
 constexpr double rotation_spread_deg = 60, translation_spread_mm = 300, offset_spread_mm = 15;
 constexpr double most_rotation_deg = 170, most_translation_mm = 2000, most_offset_mm = 60;
 
-double inner(const Parameter& p, double value) { return p.logarithmic ? std::log(value) : value; }
+double inside(const Parameter& p, double value) { return p.logarithmic ? std::log(value) : value; }
 
 Eigen::Quaterniond rotation(const Vector3d& vector) {
   const double angle = vector.norm();
@@ -33,10 +36,13 @@ Eigen::Quaterniond rotation(const Vector3d& vector) {
 
 Parameters::Parameters(const MeasurementSet& set, const std::vector<ActiveEffect>& declared,
                        const std::vector<ActiveEffect>& tried)
-    : declared_(declared) {
+    : declared_(declared), tried_(tried), index_of_(tried.size()) {
   add_stiffness(set);
-  for (const ActiveEffect& effect : tried) add_effect(effect);
+  for (std::size_t e = 0; e < tried.size(); ++e)
+    if (tried[e].effect->apply) add_effect(set, e);
   shape_parameters_ = size();
+  for (std::size_t e = 0; e < tried.size(); ++e)
+    if (!tried[e].effect->apply) add_effect(set, e);
   add_view(set.imaging);
 }
 
@@ -68,13 +74,24 @@ void Parameters::add_stiffness(const MeasurementSet& set) {
   }
 }
 
-void Parameters::add_effect(const ActiveEffect& effect) {
-  first_of_tried_.push_back(size());
-  tried_.push_back(effect);
-  for (const EffectParameter& p : effect.effect->parameters) {
-    std::string name = effect.effect->id;
-    if (effect.instrument) name += fmt::format("[{}]", *effect.instrument);
-    list_.push_back({name + "." + p.name, p.what, p.unit, p.prior, p.spread, p.least, p.most, p.logarithmic, true});
+void Parameters::add_effect(const MeasurementSet& set, std::size_t tried) {
+  const ActiveEffect& active = tried_[tried];
+  const auto parameters = parameters_of(*active.effect, set, active.instrument);
+  for (std::size_t i = 0; i < parameters.size(); ++i) {
+    if (!active.held.empty() && active.held[i]) {
+      index_of_[tried].push_back(-1);
+      continue;
+    }
+    const EffectParameter& p = parameters[i];
+    std::string name = active.effect->id;
+    if (active.instrument) name += fmt::format("[{}]", *active.instrument);
+    // Twice the same effect on two stretches.
+    for (std::size_t other = 0; other < tried; ++other)
+      if (tried_[other].effect == active.effect && tried_[other].instrument == active.instrument)
+        name += " (" + active.form + ")";
+    index_of_[tried].push_back(size());
+    list_.push_back({name + "." + p.name, p.what, p.unit, p.prior, p.spread, p.least, p.most, p.logarithmic,
+                     active.effect->apply != nullptr, effect_step * p.spread});
   }
 }
 
@@ -97,11 +114,26 @@ void Parameters::add_view(const Imaging& imaging) {
 
 VectorXd Parameters::start() const {
   VectorXd x(size());
-  for (int i = 0; i < size(); ++i) x[i] = inner(list_[i], list_[i].start);
+  for (int i = 0; i < size(); ++i) x[i] = inside(list_[i], list_[i].start);
   return x;
 }
 
 double Parameters::value(int i, double x) const { return list_[i].logarithmic ? std::exp(x) : x; }
+double Parameters::inner(int i, double value) const { return inside(list_[i], value); }
+
+double Parameters::within(int i, double part) const {
+  const Parameter& p = list_[i];
+  const double middle = inside(p, p.start), least = std::max(inside(p, p.least), middle - 2 * p.spread),
+               most = std::min(inside(p, p.most), middle + 2 * p.spread);
+  return least + part * (most - least);
+}
+
+void Parameters::widen_effects(double factor) {
+  for (const auto& indices : index_of_)
+    for (int i : indices)
+      if (i >= 0) list_[i].spread *= factor, list_[i].step *= factor;
+}
+
 double Parameters::sigma(int i, double x, double sigma_x) const {
   return list_[i].logarithmic ? std::exp(x) * sigma_x : sigma_x;
 }
@@ -115,10 +147,8 @@ Changes Parameters::changes(const VectorXd& x) const {
   changes.effects = declared_;
   for (std::size_t e = 0; e < tried_.size(); ++e) {
     changes.effects.push_back(tried_[e]);
-    for (std::size_t p = 0; p < tried_[e].effect->parameters.size(); ++p) {
-      const int index = first_of_tried_[e] + static_cast<int>(p);
-      changes.effects.back().values[p] = value(index, x[index]);
-    }
+    for (std::size_t p = 0; p < index_of_[e].size(); ++p)
+      if (const int index = index_of_[e][p]; index >= 0) changes.effects.back().values[p] = value(index, x[index]);
   }
   return changes;
 }

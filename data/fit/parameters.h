@@ -15,6 +15,7 @@ struct Parameter {
   double least = 0, most = 0;
   bool logarithmic = false;
   bool moves_shape = true;  ///< false: changes only how the shape appears
+  double step = 0;          ///< of finite differences, in the optimiser's numbers; 0: by the spread
 };
 
 /// Parameters as a vector of numbers for an optimiser: logarithms where they are logarithmic.
@@ -26,7 +27,12 @@ class Parameters {
   const std::vector<Parameter>& list() const { return list_; }
   int size() const { return static_cast<int>(list_.size()); }
   Eigen::VectorXd start() const;
-  double value(int i, double x) const;  ///< of parameter i
+  double value(int i, double x) const;      ///< of parameter i
+  double inner(int i, double value) const;  ///< the x that has this value
+  /// x that lies `part` (0 to 1) of the way through what the prior expects, two spreads to each side, and the range.
+  double within(int i, double part) const;
+  /// Makes the priors of the tried effects' parameters `factor` times as wide.
+  void widen_effects(double factor);
   double sigma(int i, double x, double sigma_x) const;
   /// The part of x that moves shapes comes first; so many.
   int shape_parameters() const { return shape_parameters_; }
@@ -38,15 +44,15 @@ class Parameters {
 
  private:
   void add_stiffness(const MeasurementSet& set);
-  void add_effect(const ActiveEffect& effect);
+  void add_effect(const MeasurementSet& set, std::size_t tried);
   void add_view(const Imaging& imaging);
 
   std::vector<Parameter> list_;
   int shape_parameters_ = 0;
   std::vector<std::vector<int>> scale_of_;  ///< per instrument and section: index of its scale
   std::vector<ActiveEffect> declared_, tried_;
-  std::vector<int> first_of_tried_;
-  int registration_ = -1, offset_ = -1;  ///< index of the first of six, of three
+  std::vector<std::vector<int>> index_of_;  ///< of tried effect and parameter: which of the list, -1 if it is held
+  int registration_ = -1, offset_ = -1;     ///< index of the first of six, of three
   MeasuredView nominal_;
 };
 

@@ -30,6 +30,13 @@ std::string of_verdict(const Explanation& x) {
           x.noise.sigma_m ? ", and what is left is noise"
                           : ". The noise is unknown, so this rests on "
                             "held-out error and BIC alone");
+    case Verdict::ambiguous: {
+      std::string list;
+      for (std::size_t i = 0; i < x.rivals; ++i)
+        list += (i == 0 ? "" : i + 1 < x.rivals ? ", " : " or ") + x.candidates[i].name;
+      return x.rivals > 1 ? "These measurements cannot tell what is missing: " + list + " explain them equally."
+                          : "These measurements are too few to tell.";
+    }
     default:
       return x.candidates.empty() ? "What is declared does not explain the measurements."
                                   : "Neither what is declared nor what was tried explains the measurements.";
@@ -133,6 +140,15 @@ std::vector<std::string> sentences(const MeasurementSet& set, const Explanation&
   of_noise(x, out);
   of_parameters(set, x.best(), out);
   of_residual(x.best(), out);
+  for (const Trace& t : x.traces)
+    out.push_back(
+        fmt::format("Without a hypothesis: {} would remove {:.0f} % of what is not noise, with {:.0f} numbers; "
+                    "log evidence {:+.0f}.",
+                    t.what, 100 * t.removed, t.numbers_used, t.log_evidence));
+  if (!x.traces.empty() && x.signature.frame != "none" && x.signature.from_tip_m)
+    out.push_back(fmt::format("It would sit {:.0f} to {:.0f} mm from the tip.", x.signature.from_tip_m->x() / mm,
+                              x.signature.from_tip_m->y() / mm));
+  if (x.next_experiment) out.push_back("Measure next: " + x.next_experiment->why + ".");
   if (!x.best().converged)
     out.push_back("The fit ran out of iterations before it settled: take its numbers with care.");
   for (const std::string& id : x.best().other_branches)

@@ -2,9 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <stdexcept>
 
 #include "data/fit/folds.h"
 
@@ -24,18 +26,21 @@ std::vector<int> everyone(const MeasurementSet& set) {
   return all;
 }
 
-/// Spread over the prior's middle, low-discrepancy (Halton), so that a rugged landscape is not taken for its first
-/// valley.
-std::vector<VectorXd> starts_of(const Parameters& parameters, int count) {
-  std::vector<VectorXd> starts = {parameters.start()};
+/// Low-discrepancy (Halton) numbers from 0 to 1, number `k` of sequence `i`.
+double halton(int k, int i) {
   constexpr int primes[] = {2, 3, 5, 7, 11, 13, 17, 19, 23, 29};
+  double h = 0, f = 1;
+  for (int n = k; n > 0; n /= primes[i % 10]) h += (f /= primes[i % 10]) * (n % primes[i % 10]);
+  return h;
+}
+
+/// Spread over the prior's middle, so that a rugged landscape is not taken for its first valley.
+std::vector<VectorXd> starts_of(const Parameters& parameters, const VectorXd& from, int first, int count) {
+  std::vector<VectorXd> starts = {from};
   for (int k = 1; k <= count; ++k) {
-    VectorXd x = parameters.start();
-    for (int i = 0; i < std::min(parameters.shape_parameters(), 10); ++i) {
-      double h = 0, f = 1;
-      for (int n = k; n > 0; n /= primes[i]) h += (f /= primes[i]) * (n % primes[i]);
-      x[i] += parameters.list()[i].spread * 2 * (2 * h - 1);
-    }
+    VectorXd x = from;
+    for (int i = first; i < std::min(parameters.shape_parameters(), first + 10); ++i)
+      x[i] = parameters.within(i, halton(k, i - first));
     starts.push_back(x);
   }
   return starts;
@@ -44,17 +49,15 @@ std::vector<VectorXd> starts_of(const Parameters& parameters, int count) {
 }  // namespace
 
 Study::Study(const MeasurementSet& set, const Workers& workers, const std::vector<ActiveEffect>& tried,
-             const std::function<void(const std::string&)>& progress)
+             const std::function<void(const std::string&)>& progress, double spread)
     : set_(set),
       workers_(workers),
       all_(everyone(set)),
       parameters_(set, declared_effects(set), tried),
       tried_(tried),
       progress_(progress) {
-  for (const ActiveEffect& effect : tried_) {
-    name_ += (name_.empty() ? "" : " + ") + effect.effect->id;
-    if (effect.instrument) name_ += fmt::format("[{}]", *effect.instrument);
-  }
+  for (const ActiveEffect& effect : tried_) name_ += (name_.empty() ? "" : " + ") + effect.name();
+  parameters_.widen_effects(spread);
   if (name_.empty()) name_ = "what is declared";
 }
 
@@ -66,7 +69,7 @@ FittedModel Study::run(std::optional<double> noise_m) {
   say("walking through the experiments");
   anchor(parameters_.start());
   say("fit");
-  FitOptions options{all_, noise_m, starts_of(parameters_, further_starts), descents};
+  FitOptions options{all_, noise_m, starts_of(parameters_, parameters_.start(), 0, further_starts), descents};
   fit_ = fit(*forward_, parameters_, options);
   const std::vector<std::string> others = on_other_branches();
   if (!others.empty()) {
@@ -75,10 +78,53 @@ FittedModel Study::run(std::optional<double> noise_m) {
     fit_ = fit(*forward_, parameters_, options);
   }
   FittedModel model = report();
+  add_dependences(model);
   model.other_branches = others;
   model.held_out_misfits = held_out(options);
   if (!model.held_out_misfits.empty()) model.rms_held_out_m = rms(set_, model.held_out_misfits);
   return model;
+}
+
+FittedModel Study::run_near(const FittedModel& near, std::optional<double> noise_m, double guess_m, int starts) {
+  say("fit");
+  VectorXd x = parameters_.start();
+  for (int i = 0; i < parameters_.size(); ++i)
+    for (const FittedParameter& p : near.parameters)
+      if (p.parameter.name == parameters_.list()[i].name) x[i] = parameters_.inner(i, p.value);
+  anchor(x);
+  // What the other model has not: spread over its prior.
+  int first = 0;
+  const auto known = [&](int i) {
+    return std::any_of(near.parameters.begin(), near.parameters.end(),
+                       [&](const FittedParameter& p) { return p.parameter.name == parameters_.list()[i].name; });
+  };
+  while (first < parameters_.shape_parameters() && known(first)) ++first;
+  FitOptions options{all_, noise_m, starts_of(parameters_, x, first, starts), descents};
+  options.guess_m = guess_m, options.rounds = 2;
+  fit_ = fit(*forward_, parameters_, options);
+  const std::vector<std::string> others = on_other_branches();
+  if (!others.empty()) {
+    options.starts = {fit_.x};
+    fit_ = fit(*forward_, parameters_, options);
+  }
+  FittedModel model = report();
+  model.other_branches = others;
+  return model;
+}
+
+void Study::complete(FittedModel& model, std::optional<double> noise_m) const {
+  add_dependences(model);
+  FitOptions options{all_, noise_m, {}, descents};
+  options.guess_m = fit_.sigma_m, options.rounds = 2;
+  model.held_out_misfits = held_out(options);
+  if (!model.held_out_misfits.empty()) model.rms_held_out_m = rms(set_, model.held_out_misfits);
+}
+
+double Study::log_evidence() const {
+  const VectorXd off = (fit_.x - parameters_.start()).cwiseQuotient(fit_.prior_sigma);
+  const Eigen::LDLT<Eigen::MatrixXd> factors(fit_.covariance);
+  const double log_det = factors.vectorD().array().max(1e-300).log().sum() - 2 * fit_.prior_sigma.array().log().sum();
+  return -0.5 * (fit_.chi2 + off.squaredNorm()) + 0.5 * log_det;
 }
 
 std::vector<VectorXd> Study::misfits_at_start() const {
@@ -96,8 +142,9 @@ void Study::judge(FittedModel& model, const Noise& noise) const {
   model.chi2_per_dof = chi2 / model.degrees_of_freedom;
   model.bic = chi2 + fit_.parameters_used * std::log(n);
   // What a model leaves beyond a declared noise makes its numbers less sure; without one the fit has reckoned with it.
-  if (noise.declared)
-    for (FittedParameter& p : model.parameters) p.sigma *= std::max(1.0, std::sqrt(*model.chi2_per_dof));
+  const double wider = noise.declared ? std::max(1.0, std::sqrt(*model.chi2_per_dof)) : 1;
+  for (int i = 0; i < parameters_.size(); ++i)
+    model.parameters[i].sigma = wider * parameters_.sigma(i, fit_.x[i], std::sqrt(fit_.covariance(i, i)));
 }
 
 void Study::anchor(const VectorXd& x) {
@@ -140,8 +187,11 @@ FittedModel Study::report() const {
   model.misfits = fit_.misfits;
   for (int e : all_) model.experiment_rms_m.push_back(rms({&set_.experiments[e]}, {fit_.misfits[e]}));
   model.correlation = correlation_along(set_, fit_.misfits);
-  model.dependences = dependences(set_, fit_.misfits, model.view);
   return model;
+}
+
+void Study::add_dependences(FittedModel& model) const {
+  model.dependences = dependences(set_, fit_.misfits, model.view);
 }
 
 std::vector<VectorXd> Study::held_out(FitOptions options) const {
@@ -154,7 +204,12 @@ std::vector<VectorXd> Study::held_out(FitOptions options) const {
     for (int e : all_)
       if (std::find(folds[f].begin(), folds[f].end(), e) == folds[f].end()) options.experiments.push_back(e);
     options.starts = {parameters_.start(), fit_.x};
-    const auto off = misfits(*forward_, parameters_, fit(*forward_, parameters_, options).x, folds[f]);
+    std::vector<VectorXd> off;
+    try {
+      off = misfits(*forward_, parameters_, fit(*forward_, parameters_, options).x, folds[f]);
+    } catch (const std::runtime_error&) {
+      return {};  // no shape where this fold ends
+    }
     for (std::size_t k = 0; k < off.size(); ++k) {
       if (off[k].size() == 0) return {};
       out[folds[f][k]] = off[k];

@@ -6,13 +6,22 @@ namespace ostium {
 
 class Study {
  public:
+  /// `spread`: priors of the effects' parameters are so many times as wide as they say.
   Study(const MeasurementSet& set, const Workers& workers, const std::vector<ActiveEffect>& tried,
-        const std::function<void(const std::string&)>& progress);
+        const std::function<void(const std::string&)>& progress, double spread = 1);
   Study(const Study&) = delete;
 
   /// Everything but what needs the noise, which `judge` adds. `noise_m`: none if it is not declared. Throws LoadError
   /// naming the experiment that has no static shape.
   FittedModel run(std::optional<double> noise_m);
+  /// The fit to all data alone, begun from another model's values of the parameters that both have. `guess_m`: about
+  /// what is left, where the noise is not known.
+  FittedModel run_near(const FittedModel& near, std::optional<double> noise_m, double guess_m, int starts);
+  /// Adds what `run_near` leaves out: held-out errors and what the rest goes with.
+  void complete(FittedModel& model, std::optional<double> noise_m) const;
+  /// Of the model after its fit (Laplace): the logarithm of how likely it makes the data, up to a constant that models
+  /// of the same set and noise share.
+  double log_evidence() const;
   void judge(FittedModel& model, const Noise& noise) const;
   /// After `run`: before anything was fitted.
   std::vector<Eigen::VectorXd> misfits_at_start() const;
@@ -24,6 +33,7 @@ class Study {
   /// Anchors anew at what was fitted, and names the experiments that this brings to another shape.
   std::vector<std::string> on_other_branches();
   FittedModel report() const;
+  void add_dependences(FittedModel& model) const;
   /// Misfits of each experiment by the fit that has not seen it; empty if that cannot be said.
   std::vector<Eigen::VectorXd> held_out(FitOptions options) const;
 

@@ -2,7 +2,15 @@
 
 #include <cmath>
 
+#include "data/effects/effect.h"
+
 namespace ostium {
+
+MeasuredView seen(const MeasurementSet& set, const Experiment& experiment, const Changes& changes, MeasuredView view) {
+  for (const ActiveEffect& active : changes.effects)
+    if (active.effect->see) active.effect->see(active, set, experiment, view);
+  return view;
+}
 
 Eigen::Vector3d tracked_tip(const Shape& shape, const MeasuredView& view) {
   const Eigen::Vector4d& q = shape.tip_q;
@@ -11,12 +19,14 @@ Eigen::Vector3d tracked_tip(const Shape& shape, const MeasuredView& view) {
 
 Eigen::VectorXd misfit(const Experiment& e, const Shape& shape, const MeasuredView& view) {
   if (e.kind == Experiment::Kind::radius)
-    return Eigen::VectorXd::Constant(1, e.radius_m - radius_of_curvature(shape.points_m));
+    return Eigen::VectorXd::Constant(
+        1, e.radius_m - std::cbrt(view.A.determinant()) * radius_of_curvature(shape.points_m));
   if (e.kind == Experiment::Kind::tip) return e.points_m[0] - tracked_tip(shape, view);
   Eigen::VectorXd off(3 * e.points_m.size());
+  const Eigen::Matrix3d back = view.A.inverse();
   for (std::size_t i = 0; i < e.points_m.size(); ++i) {
-    const Eigen::Vector3d p = view.R.conjugate() * (e.points_m[i] - view.t_m);
-    off.segment<3>(3 * static_cast<Eigen::Index>(i)) = view.R * (p - nearest_point(shape.points_m, p));
+    const Eigen::Vector3d p = view.R.conjugate() * (back * (e.points_m[i] - view.b_m) - view.t_m);
+    off.segment<3>(3 * static_cast<Eigen::Index>(i)) = view.A * (view.R * (p - nearest_point(shape.points_m, p)));
   }
   return off;
 }

@@ -44,8 +44,10 @@ std::vector<Prediction> predict(const MeasurementSet& set,
     if (!shape.converged)
       throw LoadError(fmt::format("{}: {} (\"{}\"): no static shape was found; is its load more than it can bear?",
                                   set.file, e.place, e.id));
+    const MeasuredView view = seen(set, e, declared, {});
     Prediction p{e.id, shape, {}, other_branch(setup, shape)};
-    if (comparable) p.rms_to_measured_m = rms({&e}, {misfit(e, shape, {})});
+    if (comparable) p.rms_to_measured_m = rms({&e}, {misfit(e, shape, view)});
+    for (Eigen::Vector3d& q : p.shape.points_m) q = view(q);
     predictions.push_back(std::move(p));
   }
   return predictions;

@@ -25,6 +25,12 @@ ConcentricPart part_of(const MeasurementSet& set, const Experiment& e, std::size
 
 }  // namespace
 
+std::string ActiveEffect::name() const {
+  std::string out = effect->id;
+  if (instrument) out += "[" + std::to_string(*instrument) + "]";
+  return form.empty() ? out : out + " (" + form + ")";
+}
+
 Setup setup_of(const MeasurementSet& set, const Experiment& experiment, const Changes& changes) {
   Setup setup;
   setup.nest.name = experiment.id;
@@ -33,8 +39,12 @@ Setup setup_of(const MeasurementSet& set, const Experiment& experiment, const Ch
   setup.base = experiment.base;
   setup.gravity_m_s2 = set.gravity_m_s2;
   setup.tip_force_N = experiment.tip_force_N;
-  for (const ActiveEffect& active : changes.effects) active.effect->apply(active, set, experiment, setup);
-  setup.nest.element_lengths_m = concentric_elements(setup.nest.parts, longest_element_m, longest_element_rad);
+  // Elements end where declared sections do, so that what an effect moves slides through them without a jump.
+  std::vector<ConcentricPart> declared = setup.nest.parts;
+  for (const ActiveEffect& active : changes.effects)
+    if (active.effect->apply) active.effect->apply(active, set, experiment, setup);
+  for (std::size_t i = 0; i < declared.size(); ++i) declared[i].inserted_m = setup.nest.parts[i].inserted_m;
+  setup.nest.element_lengths_m = concentric_elements(declared, longest_element_m, longest_element_rad);
   return setup;
 }
 

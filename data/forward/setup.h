@@ -12,6 +12,10 @@ struct ActiveEffect {
   const Effect* effect = nullptr;
   std::optional<int> instrument;  ///< none: all that it can act on
   std::vector<double> values;     ///< of effect->parameters
+  std::vector<bool> held;         ///< of effect->parameters: not to be fitted; empty: none is
+  std::string form;               ///< "" if there is one only
+
+  std::string name() const;  ///< "rest_curvature[1] (section 2)"
 };
 
 /// What differs from the declaration.
@@ -24,6 +28,8 @@ struct Setup {
   ConcentricDescription nest;
   EndState base;  ///< unrolled
   Eigen::Vector3d gravity_m_s2 = Eigen::Vector3d::Zero(), tip_force_N = Eigen::Vector3d::Zero();
+  /// By how much the directors that the sections are given in are turned about d3 against the instrument's own.
+  double material_turn_rad = 0;
 };
 
 /// Throws LoadError naming the experiment where changed numbers make no rod any more.

@@ -85,7 +85,9 @@ Shape shape_from(const Setup& setup, const Anchor& anchor) {
   const RodState& rod = state.carrier.rods[0];
   for (int i = 0; i < rod.position.size(); ++i) shape.points_m.push_back(rod.position[i]);
   shape.points_m = cut_at(shape.points_m, setup.nest.parts.back().inserted_m);
-  shape.tip_q = tip_frame(nest, state, static_cast<int>(setup.nest.parts.size()) - 1);
+  const Eigen::Quaterniond tip = quaternion(tip_frame(nest, state, static_cast<int>(setup.nest.parts.size()) - 1)) *
+                                 Eigen::AngleAxisd(-setup.material_turn_rad, Vector3d::UnitZ());
+  shape.tip_q = {tip.w(), tip.x(), tip.y(), tip.z()};
   return shape;
 }
 

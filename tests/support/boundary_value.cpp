@@ -26,6 +26,7 @@ class Shooter {
       for (const Section& s : t.sections)
         for (double at : {t.inserted_m - s.from_tip_m, t.inserted_m - s.to_tip_m}) stops_.push_back(at);
     }
+    for (const Load& l : p.loads) stops_.insert(stops_.end(), {l.from_base_m, l.to_base_m});
     std::erase_if(stops_, [&](double x) { return x <= 1e-12 || x > length_; });
     std::sort(stops_.begin(), stops_.end());
     stops_.erase(std::unique(stops_.begin(), stops_.end(), [](double a, double b) { return b - a < 1e-12; }),
@@ -99,7 +100,31 @@ class Shooter {
         const double from = std::max(s, t.inserted_m - c.to_tip_m), to = t.inserted_m - c.from_tip_m;
         if (to > from) f += c.kg_per_m * (to - from) * p_.gravity;
       }
+    for (const Load& l : p_.loads) {
+      const double length = l.to_base_m - l.from_base_m;
+      if (length <= 0)
+        f += l.from_base_m > s ? l.force : Vector3d::Zero().eval();
+      else if (l.to_base_m > s)
+        f += l.force * (l.to_base_m - std::max(s, l.from_base_m)) / length;
+    }
     return amount_ * f;
+  }
+
+  /// Curvature beyond rest that answers a bending moment: the softening law turned round, by Newton's method on how
+  /// much of the linear moment is left.
+  static Vector2d curvature_of(const Section& c, const Vector2d& moment) {
+    Vector2d k(moment.x() / c.EI1_N_m2, moment.y() / c.EI2_N_m2);
+    if (c.softening_per_m <= 0 || c.softened_ratio >= 1) return k;
+    // k = k_linear / part(k): one number, the part, between the ratio and 1.
+    const double mean = 0.5 * (c.EI1_N_m2 + c.EI2_N_m2), r = c.softened_ratio;
+    const double q =
+        (c.EI1_N_m2 * k.x() * k.x() + c.EI2_N_m2 * k.y() * k.y()) / mean / c.softening_per_m / c.softening_per_m;
+    double low = r, high = 1;
+    for (int i = 0; i < 60; ++i) {
+      const double part = 0.5 * (low + high);
+      (r + (1 - r) / std::sqrt(1 + q / (part * part)) > part ? low : high) = part;
+    }
+    return k / (0.5 * (low + high));
   }
 
   static int slope(double s, const double y[], double dy[], void* self) {
@@ -111,6 +136,7 @@ class Shooter {
     const Eigen::Map<const Matrix3d> R(y + 3);
     const Eigen::Map<const Vector3d> m(y + 12);
     const double middle = 0.5 * (from_ + to_);  // between two stops nothing changes
+    if (n_ == 1) return alone(s, y, dy, middle);
     Vector2d pull = (R.transpose() * m).head<2>();
     double EI = 0;
     for (int i = 0; i < n_; ++i) {
@@ -134,6 +160,23 @@ class Shooter {
       // m_z' = -(u x m)_z of the tube's own bending moment m = EI (u - k).
       dy[15 + n_ + i] = c.EI1_N_m2 * (u.x() * k.y() - u.y() * k.x());
     }
+  }
+
+  /// An instrument alone may bend differently about its two axes, soften, and be twisted at rest.
+  void alone(double s, const double y[], double dy[], double middle) const {
+    const Eigen::Map<const Matrix3d> R(y + 3);
+    const Eigen::Map<const Vector3d> m_W(y + 12);
+    const Section& c = section(0, middle);
+    const Vector3d m = R.transpose() * m_W, rest = amount_ * c.rest_curvature_per_m;
+    const Eigen::Rotation2Dd turn(y[15]);
+    const Vector2d own = turn.inverse() * Vector2d(m.head<2>());
+    const Vector2d u = turn * Vector2d(curvature_of(c, own) + rest.head<2>());
+    Eigen::Map<Vector3d>(dy + 0) = R.col(2);
+    const Vector3d u_W = R * Vector3d(u.x(), u.y(), 0);
+    for (int k = 0; k < 3; ++k) Eigen::Map<Vector3d>(dy + 3 + 3 * k) = u_W.cross(Vector3d(R.col(k)));
+    Eigen::Map<Vector3d>(dy + 12) = -Vector3d(R.col(2)).cross(force(s));
+    dy[15] = y[16] / c.GJ_N_m2 + rest.z();
+    dy[16] = u.y() * m.x() - u.x() * m.y();
   }
 
   void advance(double from, double to, VectorXd& y) {

@@ -11,10 +11,16 @@
 namespace ostium::boundary_value {
 
 struct Tube {
-  std::vector<Section> sections;  ///< from its tip backwards, EI1 = EI2
+  std::vector<Section> sections;  ///< from its tip backwards; several: EI1 = EI2, linear, without twist at rest
   double inserted_m = 0;
   double roll_rad = 0;
   double shaft_rad_per_Nm = 0;
+};
+
+/// A force on the centreline: at a place, or per length over a stretch.
+struct Load {
+  double from_base_m = 0, to_base_m = 0;            ///< equal: at a place
+  Eigen::Vector3d force = Eigen::Vector3d::Zero();  ///< N, of the whole stretch
 };
 
 struct Problem {
@@ -23,6 +29,7 @@ struct Problem {
   Eigen::Matrix3d base_R = Eigen::Matrix3d::Identity();  ///< unrolled
   Eigen::Vector3d gravity = Eigen::Vector3d::Zero();
   Eigen::Vector3d tip_force = Eigen::Vector3d::Zero();
+  std::vector<Load> loads;
 };
 
 struct Solution {

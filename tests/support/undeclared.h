@@ -1,0 +1,24 @@
+#pragma once
+/// Measured sets that show an effect of which their file says nothing, made by the boundary-value solver: what
+/// `ostium explain` is judged by. Everything about a set follows from its kind and seed.
+#include <map>
+
+#include "tests/support/synthetic_set.h"
+
+namespace ostium::synthetic {
+
+struct Undeclared {
+  MeasurementSet set;
+  std::vector<std::string> effects;     ///< ids that would be right; empty: a clean set, or nothing of the library
+  bool in_library = true;               ///< false: the right verdict is "unexplained"
+  std::string frame;                    ///< of an effect outside the library: what its signature should say
+  std::map<std::string, double> truth;  ///< parameters as the library names them, "roll_loss.fraction"
+};
+
+/// "clean", ids of the library, two of them joined by "+", and effects outside the library.
+const std::vector<std::string>& undeclared_kinds();
+
+/// Throws std::runtime_error if the solver finds no shape of this seed's instrument.
+Undeclared undeclared_set(const std::string& kind, unsigned seed);
+
+}  // namespace ostium::synthetic
