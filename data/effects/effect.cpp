@@ -18,6 +18,8 @@
 #include "data/effects/soft_section.h"
 #include "data/effects/stress_relaxation.h"
 #include "data/effects/superelastic_softening.h"
+#include "data/effects/wall_compliance.h"
+#include "data/effects/wall_friction.h"
 
 namespace ostium {
 

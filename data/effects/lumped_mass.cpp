@@ -11,6 +11,7 @@ namespace {
 constexpr double mm = 1e-3, gram = 1e-3;
 
 std::string why_not(const MeasurementSet& set, std::optional<int>) {
+  if (set.vessel) return "in a vessel no weight is hung on it";
   return set.gravity_m_s2.isZero() ? "there is no gravity" : "";
 }
 

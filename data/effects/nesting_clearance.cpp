@@ -11,6 +11,7 @@ namespace {
 constexpr double mm = 1e-3;
 
 std::string why_not(const MeasurementSet& set, std::optional<int>) {
+  if (set.vessel) return "in a vessel instruments have their clearance";
   return set.instruments.size() > 1 ? "" : "nothing is nested";
 }
 

@@ -7,6 +7,7 @@ namespace ostium {
 namespace {
 
 std::string why_not(const MeasurementSet& set, std::optional<int> instrument) {
+  if (set.vessel) return "in a vessel shafts are not modelled";
   for (const Experiment& e : set.experiments)
     for (std::size_t i = 0; i < e.set.size(); ++i)
       if (chosen(instrument, i) && e.set[i].shaft_m > 0) return "";

@@ -13,6 +13,7 @@ bool curved(const std::vector<Section>& sections) {
 }
 
 std::string why_not(const MeasurementSet& set, std::optional<int> instrument) {
+  if (set.vessel) return "in a vessel nothing relaxes yet";
   bool timed = false, heat_set = false;
   for (const Experiment& e : set.experiments) timed = timed || e.elapsed_s.value_or(0) > 0;
   for (std::size_t i = 0; i < set.instruments.size(); ++i)

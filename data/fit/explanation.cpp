@@ -183,7 +183,7 @@ bool is_noise(const FittedModel& model, const Noise& noise) {
 }
 
 Explanation explain(const MeasurementSet& set, const ExplainOptions& options) {
-  require_static(set);
+  require_known(set);
   if (options.library) return explain_with_library(set, options);
   std::vector<std::vector<ActiveEffect>> tries;
   for (const auto& words : options.tries) {

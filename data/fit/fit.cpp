@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "data/fit/least_squares.h"
+#include "data/forward/insertion.h"
 
 namespace ostium {
 
@@ -30,9 +31,12 @@ Shape unpacked(const std::vector<double>& in) {
   return shape;
 }
 
+constexpr double rough_tolerance = 1e-4;
+constexpr int rough_iterations = 25;
+
 /// Of the finite differences, in the optimiser's numbers.
 double step_of(const Parameter& p) {
-  if (p.step > 0) return p.step;
+  if (p.step > 0) return p.step;  // set by what the model can resolve
   return p.logarithmic ? 1e-4 : 1e-4 * std::max(p.spread, 1e-3);
 }
 
@@ -120,7 +124,7 @@ class Problem {
 };
 
 /// Screens the starts by what they cost, and goes downhill from the best `most` of them.
-LeastSquaresResult best_of(const Problem& problem, const std::vector<VectorXd>& starts, std::size_t most) {
+LeastSquaresResult best_of(const Problem& problem, const std::vector<VectorXd>& starts, std::size_t most, bool rough) {
   std::vector<std::pair<double, std::size_t>> costs;
   for (std::size_t i = 0; i < starts.size(); ++i) {
     VectorXd r;
@@ -130,7 +134,9 @@ LeastSquaresResult best_of(const Problem& problem, const std::vector<VectorXd>& 
   std::sort(costs.begin(), costs.end());
   std::optional<LeastSquaresResult> best;
   for (std::size_t k = 0; k < std::min(costs.size(), most); ++k) {
-    const LeastSquaresResult found = minimise(problem.least_squares(starts[costs[k].second]));
+    LeastSquares descent = problem.least_squares(starts[costs[k].second]);
+    if (rough) descent.tolerance = rough_tolerance, descent.most_iterations = rough_iterations;
+    const LeastSquaresResult found = minimise(descent);
     if (!best || found.cost < best->cost * (1 - 1e-9)) best = found;
   }
   return *best;
@@ -141,6 +147,7 @@ LeastSquaresResult best_of(const Problem& problem, const std::vector<VectorXd>& 
 std::vector<std::vector<Shape>> Forward::shapes(const std::vector<Changes>& changes,
                                                 const std::vector<int>& chosen) const {
   const std::size_t n = chosen.size();
+  if (set_.vessel) return histories(changes, chosen);
   const auto found = workers_.map(changes.size() * n, [&](std::size_t job) {
     const int e = chosen[job % n];
     try {
@@ -151,6 +158,34 @@ std::vector<std::vector<Shape>> Forward::shapes(const std::vector<Changes>& chan
   });
   std::vector<std::vector<Shape>> shapes(changes.size());
   for (std::size_t job = 0; job < found.size(); ++job) shapes[job / n].push_back(unpacked(found[job]));
+  return shapes;
+}
+
+std::vector<std::vector<Shape>> Forward::histories(const std::vector<Changes>& changes,
+                                                   const std::vector<int>& chosen) const {
+  // What is not chosen is run all the same: it was done.
+  const auto found = workers_.map(changes.size(), [&](std::size_t job) {
+    std::vector<Shape> shapes(set_.experiments.size());
+    try {
+      shapes = insert(set_, changes[job]);
+    } catch (const std::invalid_argument&) {
+    }
+    std::vector<double> out;
+    for (int e : chosen) {
+      const std::vector<double> one = packed(shapes[e]);
+      out.push_back(static_cast<double>(one.size()));
+      out.insert(out.end(), one.begin(), one.end());
+    }
+    return out;
+  });
+  std::vector<std::vector<Shape>> shapes(changes.size());
+  for (std::size_t job = 0; job < found.size(); ++job)
+    for (std::size_t at = 0; at < found[job].size();) {
+      const auto length = static_cast<std::size_t>(found[job][at++]);
+      shapes[job].push_back(unpacked({found[job].begin() + static_cast<std::ptrdiff_t>(at),
+                                      found[job].begin() + static_cast<std::ptrdiff_t>(at + length)}));
+      at += length;
+    }
   return shapes;
 }
 
@@ -167,7 +202,7 @@ Fit fit(const Forward& forward, const Parameters& parameters, const FitOptions& 
   const int rounds = options.sigma_m ? 1 : options.rounds;
   for (int round = 0; round < rounds; ++round) {
     const Problem problem(forward, parameters, options.experiments, sigma);
-    const LeastSquaresResult found = best_of(problem, starts, options.descents);
+    const LeastSquaresResult found = best_of(problem, starts, options.descents, options.rough);
     VectorXd r;
     MatrixXd J;
     if (!problem.evaluate(found.x, r, &J)) throw std::runtime_error("no static shape was found where a fit ended");

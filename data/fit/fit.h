@@ -17,6 +17,8 @@ class Forward {
   std::vector<std::vector<Shape>> shapes(const std::vector<Changes>& changes, const std::vector<int>& chosen) const;
 
  private:
+  std::vector<std::vector<Shape>> histories(const std::vector<Changes>& changes, const std::vector<int>& chosen) const;
+
   const MeasurementSet& set_;
   const Workers& workers_;
   std::vector<Anchor> anchors_;
@@ -44,6 +46,7 @@ struct FitOptions {
   std::size_t descents = 1;             ///< from so many of the starts, those that cost least; the best end counts
   double guess_m = 1e-3;                ///< of an unknown noise
   int rounds = 4;                       ///< of finding it
+  bool rough = false;                   ///< enough to compare models by, in a fraction of the time
 };
 
 /// Throws std::runtime_error if the model has no shapes at any start.

@@ -42,9 +42,9 @@ LeastSquaresResult minimise(const LeastSquares& problem) {
   }
   ceres::Solver::Options options;
   options.linear_solver_type = ceres::DENSE_QR;
-  options.max_num_iterations = 60;
-  options.function_tolerance = 1e-8;
-  options.parameter_tolerance = 1e-8;
+  options.max_num_iterations = problem.most_iterations;
+  options.function_tolerance = problem.tolerance;
+  options.parameter_tolerance = problem.tolerance;
   options.gradient_tolerance = 1e-12;
   options.logging_type = ceres::SILENT;
   ceres::Solver::Summary summary;

@@ -9,6 +9,8 @@ namespace ostium {
 struct LeastSquares {
   int residuals = 0;
   Eigen::VectorXd start, least, most;
+  double tolerance = 1e-8;  ///< relative, of the cost and of the step
+  int most_iterations = 60;
   /// Residuals at x and, if asked for, their Jacobian; false where there is no solution.
   std::function<bool(const Eigen::VectorXd& x, Eigen::VectorXd& residuals, Eigen::MatrixXd* jacobian)> evaluate;
 };

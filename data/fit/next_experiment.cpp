@@ -70,6 +70,7 @@ std::string setting_in_words(const MeasurementSet& set, const Experiment& e) {
 
 std::optional<NextExperiment> next_experiment(const MeasurementSet& set, const Workers& workers, const FittedModel& a,
                                               const FittedModel& b, const Noise& noise) {
+  if (set.vessel) return {};
   const std::vector<Experiment> list = settings(set);
   const auto differences = workers.map(list.size(), [&](std::size_t i) -> std::vector<double> {
     bool found = true;

@@ -134,6 +134,10 @@ void Parameters::widen_effects(double factor) {
       if (i >= 0) list_[i].spread *= factor, list_[i].step *= factor;
 }
 
+void Parameters::coarsen_steps() {
+  for (int i = 0; i < shape_parameters_; ++i) list_[i].step = 0.1 * list_[i].spread;
+}
+
 double Parameters::sigma(int i, double x, double sigma_x) const {
   return list_[i].logarithmic ? std::exp(x) * sigma_x : sigma_x;
 }

@@ -33,6 +33,8 @@ class Parameters {
   double within(int i, double part) const;
   /// Makes the priors of the tried effects' parameters `factor` times as wide.
   void widen_effects(double factor);
+  /// Finite differences wide enough for a model that comes to rest only nearly.
+  void coarsen_steps();
   double sigma(int i, double x, double sigma_x) const;
   /// The part of x that moves shapes comes first; so many.
   int shape_parameters() const { return shape_parameters_; }

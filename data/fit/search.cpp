@@ -73,7 +73,7 @@ void Search::add(const std::vector<ActiveEffect>& effects, const FittedModel& ne
   tried.study = &studies_.back(), tried.effects = effects;
   try {
     tried.model =
-        studies_.back().run_near(near, set_.imaging.noise_sigma_m, near.rms_m / std::sqrt(2.0), starts_for_one);
+        studies_.back().run_near(near, set_.imaging.noise_sigma_m, near.rms_m / std::sqrt(2.0), set_.instruments.size() > 1 ? starts_for_one / 3 : starts_for_one);
   } catch (const std::runtime_error&) {  // no shapes with it
     studies_.pop_back();
     return;
@@ -108,7 +108,7 @@ void Search::complete(Tried& tried, const Noise& noise) {
   if (tried.complete) return;
   tried.complete = true;
   tried.study->complete(tried.model, set_.imaging.noise_sigma_m);
-  (void)noise;
+  tried.study->judge(tried.model, noise);
 }
 
 /// An estimate of the noise gains from a model that leaves little else.

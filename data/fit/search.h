@@ -26,7 +26,7 @@ class Search {
  private:
   struct Tried {
     FittedModel model;
-    const Study* study = nullptr;
+    Study* study = nullptr;
     std::vector<ActiveEffect> effects;
     bool complete = false;
   };

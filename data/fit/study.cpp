@@ -58,6 +58,7 @@ Study::Study(const MeasurementSet& set, const Workers& workers, const std::vecto
       progress_(progress) {
   for (const ActiveEffect& effect : tried_) name_ += (name_.empty() ? "" : " + ") + effect.name();
   parameters_.widen_effects(spread);
+  if (set_.vessel) parameters_.coarsen_steps();
   if (name_.empty()) name_ = "what is declared";
 }
 
@@ -100,7 +101,7 @@ FittedModel Study::run_near(const FittedModel& near, std::optional<double> noise
   };
   while (first < parameters_.shape_parameters() && known(first)) ++first;
   FitOptions options{all_, noise_m, starts_of(parameters_, x, first, starts), descents};
-  options.guess_m = guess_m, options.rounds = 2;
+  options.guess_m = guess_m, options.rounds = 2, options.rough = true;
   fit_ = fit(*forward_, parameters_, options);
   const std::vector<std::string> others = on_other_branches();
   if (!others.empty()) {
@@ -112,10 +113,14 @@ FittedModel Study::run_near(const FittedModel& near, std::optional<double> noise
   return model;
 }
 
-void Study::complete(FittedModel& model, std::optional<double> noise_m) const {
-  add_dependences(model);
-  FitOptions options{all_, noise_m, {}, descents};
+void Study::complete(FittedModel& model, std::optional<double> noise_m) {
+  FitOptions options{all_, noise_m, {fit_.x}, 1};
   options.guess_m = fit_.sigma_m, options.rounds = 2;
+  fit_ = fit(*forward_, parameters_, options);
+  const std::vector<std::string> others = model.other_branches;
+  model = report();
+  model.other_branches = others;
+  add_dependences(model);
   model.held_out_misfits = held_out(options);
   if (!model.held_out_misfits.empty()) model.rms_held_out_m = rms(set_, model.held_out_misfits);
 }
@@ -148,6 +153,13 @@ void Study::judge(FittedModel& model, const Noise& noise) const {
 }
 
 void Study::anchor(const VectorXd& x) {
+  if (set_.vessel) {  // a history begins outside, and needs nothing to continue from
+    if (!forward_) forward_.emplace(set_, workers_, std::vector<Anchor>{});
+    if (!viewed_ && set_.imaging.registration_free)
+      parameters_.set_nominal_view(registered(set_, forward_->shapes({parameters_.changes(x)}, all_)[0]));
+    viewed_ = true;
+    return;
+  }
   std::vector<Anchor> anchors = walk(set_, parameters_.changes(x));
   for (std::size_t e = 0; e < anchors.size(); ++e)
     if (!anchors[e].converged)
@@ -160,6 +172,7 @@ void Study::anchor(const VectorXd& x) {
 }
 
 std::vector<std::string> Study::on_other_branches() {
+  if (set_.vessel) return {};
   const auto fitted = forward_->shapes({parameters_.changes(fit_.x)}, all_)[0];
   anchor(fit_.x);
   const auto walked = forward_->shapes({parameters_.changes(fit_.x)}, all_)[0];

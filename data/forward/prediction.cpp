@@ -7,6 +7,7 @@
 
 #include "data/effects/effect.h"
 #include "data/fit/view.h"
+#include "data/forward/insertion.h"
 
 namespace ostium {
 
@@ -31,21 +32,26 @@ double rounded_mm(double x_m) { return std::round(x_m / mm * 1e6) / 1e6 + 0.0; }
 
 std::vector<Prediction> predict(const MeasurementSet& set,
                                 const std::function<void(std::size_t, std::size_t)>& progress) {
-  require_static(set);
+  require_known(set);
   Changes declared;
   declared.effects = declared_effects(set);
-  const std::vector<Anchor> anchors = walk(set, declared, progress);
+  std::vector<Anchor> anchors;
+  std::vector<Shape> inserted;
+  if (set.vessel)
+    inserted = insert(set, declared, progress);
+  else
+    anchors = walk(set, declared, progress);
   const bool comparable = !set.imaging.registration_free && !set.imaging.tip_offset_free;
   std::vector<Prediction> predictions;
-  for (std::size_t i = 0; i < anchors.size(); ++i) {
+  for (std::size_t i = 0; i < set.experiments.size(); ++i) {
     const Experiment& e = set.experiments[i];
     const Setup setup = setup_of(set, e, declared);
-    const Shape shape = shape_from(setup, anchors[i]);
+    const Shape shape = set.vessel ? inserted[i] : shape_from(setup, anchors[i]);
     if (!shape.converged)
       throw LoadError(fmt::format("{}: {} (\"{}\"): no static shape was found; is its load more than it can bear?",
                                   set.file, e.place, e.id));
     const MeasuredView view = seen(set, e, declared, {});
-    Prediction p{e.id, shape, {}, other_branch(setup, shape)};
+    Prediction p{e.id, shape, {}, set.vessel ? std::nullopt : other_branch(setup, shape)};
     if (comparable) p.rms_to_measured_m = rms({&e}, {misfit(e, shape, view)});
     for (Eigen::Vector3d& q : p.shape.points_m) q = view(q);
     predictions.push_back(std::move(p));

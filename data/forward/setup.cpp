@@ -48,10 +48,22 @@ Setup setup_of(const MeasurementSet& set, const Experiment& experiment, const Ch
   return setup;
 }
 
-void require_static(const MeasurementSet& set) {
-  if (set.vessel)
-    throw LoadError(set.file +
-                    ": environment.vessel is {...}; expected null: shapes in a vessel are not predicted yet");
+void require_known(const MeasurementSet& set) {
+  if (!set.vessel) return;
+  const auto refuse = [&](const Experiment& e, const std::string& what) {
+    throw LoadError(set.file + ": " + e.place + " (\"" + e.id + "\"): in a vessel " + what);
+  };
+  if (!set.vessel->wall)
+    throw LoadError(set.file + ": environment.vessel.mesh is \"" + set.vessel->mesh + "\", which was not read");
+  const Experiment& first = set.experiments.front();
+  for (const Experiment& e : set.experiments) {
+    if ((e.base.p_W - first.base.p_W).norm() > 1e-9 || (e.base.q_W - first.base.q_W).norm() > 1e-9)
+      refuse(e, "all experiments have one base; expected that of " + first.place);
+    for (std::size_t i = 0; i < e.set.size(); ++i) {
+      if (e.set[i].inserted_m > e.set.back().inserted_m) refuse(e, "the innermost instrument must reach furthest");
+      if (!e.specimen.empty() && e.specimen[i] != first.specimen[i]) refuse(e, "all experiments have one specimen");
+    }
+  }
 }
 
 }  // namespace ostium

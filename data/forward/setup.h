@@ -30,12 +30,15 @@ struct Setup {
   Eigen::Vector3d gravity_m_s2 = Eigen::Vector3d::Zero(), tip_force_N = Eigen::Vector3d::Zero();
   /// By how much the directors that the sections are given in are turned about d3 against the instrument's own.
   double material_turn_rad = 0;
+  std::optional<double> wall_friction;  ///< none: as the set declares it
+  double wall_stiffness_N_m2 = 0;       ///< 0: rigid; core/surface/surface.h
 };
 
 /// Throws LoadError naming the experiment where changed numbers make no rod any more.
 Setup setup_of(const MeasurementSet& set, const Experiment& experiment, const Changes& changes);
 
-/// Refuses sets that the static model does not know yet: those in a vessel.
-void require_static(const MeasurementSet& set);
+/// Refuses what the models do not know: in a vessel, a base that moves, shafts that twist, specimens, an innermost
+/// instrument that ends within another; and a vessel that was not read (load_measurement reads it).
+void require_known(const MeasurementSet& set);
 
 }  // namespace ostium

@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "data/measured/measurement_keys.h"
+#include "vascular/mesh.h"
 
 namespace ostium {
 
@@ -32,6 +33,17 @@ std::vector<double> numbers(const JsonValue& value, std::size_t count) {
 }
 Vector3d vector3(const JsonValue& value) { return Eigen::Map<const Vector3d>(numbers(value, 3).data()); }
 Eigen::Vector2d vector2(const JsonValue& value) { return Eigen::Map<const Eigen::Vector2d>(numbers(value, 2).data()); }
+
+/// Generalised winding number of a point (van Oosterom, Strackee 1983): 1 inside.
+double winding_number(const Mesh& mesh, const Vector3d& p) {
+  double sum = 0;
+  for (const auto& t : mesh.triangles) {
+    const Vector3d a = mesh.vertices[t[0]] - p, b = mesh.vertices[t[1]] - p, c = mesh.vertices[t[2]] - p;
+    const double la = a.norm(), lb = b.norm(), lc = c.norm();
+    sum += 2 * std::atan2(a.dot(b.cross(c)), la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb);
+  }
+  return sum / (4 * std::numbers::pi);
+}
 
 Section read_section(const JsonObject& entry, const MeasuredInstrument& instrument, double& reached_mm) {
   const auto ends = numbers(entry["from_tip_mm"], 2);
@@ -96,7 +108,7 @@ void read_environment(const JsonObject& entry, MeasurementSet& set) {
   const JsonObject vessel(entry["vessel"], keys::vessel);
   static const std::vector<std::string> units = {"mm", "cm", "m", "in"};
   set.vessel =
-      MeasuredVessel{vessel.text("mesh"), units[vessel.choice("units", units)], vessel.not_negative("friction")};
+      MeasuredVessel{vessel.text("mesh"), units[vessel.choice("units", units)], vessel.not_negative("friction"), nullptr};
 }
 
 void read_imaging(const JsonObject& entry, MeasurementSet& set) {
@@ -222,6 +234,32 @@ Experiment read_experiment(const JsonValue& value, const MeasurementSet& set) {
   return e;
 }
 
+std::shared_ptr<const SurfaceDescription> read_wall(const MeasurementSet& set) {
+  const std::string mesh = (std::filesystem::path(set.file).parent_path() / set.vessel->mesh).string();
+  const auto fail = [&](const std::string& what) {
+    throw LoadError(set.file + ": environment.vessel.mesh is \"" + set.vessel->mesh + "\": " + what);
+  };
+  const LengthUnit unit = set.vessel->units == "mm"   ? LengthUnit::millimetre
+                          : set.vessel->units == "cm" ? LengthUnit::centimetre
+                          : set.vessel->units == "m"  ? LengthUnit::metre
+                                                      : LengthUnit::inch;
+  Mesh read;
+  try {
+    read = read_mesh(mesh, unit).mesh;
+  } catch (const MeshError& error) {
+    fail(error.what());
+  }
+  if (volume_m3(read) < 0)
+    for (auto& t : read.triangles) std::swap(t[1], t[2]);
+  for (const Experiment& e : set.experiments)
+    if (winding_number(read, e.base.p_W) < 0.5)
+      fail(fmt::format("{}.base.position_mm lies outside of it; expected a point within the lumen", e.place));
+  auto wall = std::make_shared<SurfaceDescription>();
+  wall->frames = {read.vertices};
+  wall->triangles = read.triangles;
+  return wall;
+}
+
 MeasurementSet read(const JsonValue& file) {
   const JsonObject root(file, keys::set);
   MeasurementSet set;
@@ -249,6 +287,11 @@ MeasurementSet read_measurement(const std::string& file, const std::string& text
   return read(parse_json(file, text));
 }
 
-MeasurementSet load_measurement(const std::string& path) { return read(load_json(measurement_file(path))); }
+MeasurementSet load_measurement(const std::string& path) {
+  const std::string file = measurement_file(path);
+  MeasurementSet set = read(load_json(file));
+  if (set.vessel) set.vessel->wall = read_wall(set);
+  return set;
+}
 
 }  // namespace ostium

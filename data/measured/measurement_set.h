@@ -1,6 +1,7 @@
 #pragma once
 /// A measured set: one instrument, or a few nested ones, measured several times. SI inside; the file's schema is
 /// data/schemas/measurement.schema.json.
+#include <memory>
 #include <optional>
 
 #include "core/state.h"
@@ -48,6 +49,7 @@ struct Imaging {
 struct MeasuredVessel {
   std::string mesh, units;
   double friction = 0;
+  std::shared_ptr<const SurfaceDescription> wall;  ///< facing outwards, in the frame of the set
 };
 
 /// An effect that the file says the model is to include.

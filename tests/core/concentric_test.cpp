@@ -54,6 +54,12 @@ double distance_mm(const boundary_value::Problem& p, int elements, ConcentricEqu
     length = std::max(length, t.inserted_m);
   }
   d.element_lengths_m.assign(elements, length / elements);
+  for (const boundary_value::Load& load : p.loads) {
+    const int pieces = load.to_base_m > load.from_base_m ? 400 : 1;
+    for (int i = 0; i < pieces; ++i)
+      d.loads.push_back({load.from_base_m + (i + 0.5) * (load.to_base_m - load.from_base_m) / pieces,
+                         load.force / static_cast<double>(pieces)});
+  }
   const Concentric nest = make_concentric(d, p.gravity);
   ConcentricState state = straight_state(nest, {});
   const ConcentricEquilibrium found = find_equilibrium(nest, {}, p.tip_force, state);
@@ -78,6 +84,27 @@ TEST(Concentric, TheSameWithLoads) {
   for (double shaft : {0.0, 30.0}) {
     EXPECT_LT(distance_mm(two_tubes(1.0, shaft, {0.05, -0.08, 0.03}, true), 150, &report), 0.005);
     EXPECT_LT(report.rounds, 30);
+  }
+}
+
+/// One wire that is twisted at rest, stiffer about one axis, and softens, with a weight on it and a wind across.
+TEST(Concentric, OneWireWithEverything) {
+  for (int what = 0; what < 5; ++what) {
+    boundary_value::Problem p;
+    p.tubes = {{{stretch(0, 0.05, 5e-6, {10, 5, 0}, 0.18e-3, 0), stretch(0.05, 0.6, 40e-6, {0, 0, 0}, 0.18e-3, 0)},
+                0.25,
+                0.7,
+                0}};
+    p.gravity = {0, -3, 0};
+    p.tip_force = {4e-4, 3e-4, 0};
+    for (Section& s : p.tubes[0].sections) {
+      if (what == 0) s.rest_curvature_per_m.z() = 6;
+      if (what == 1) s.EI1_N_m2 *= 1.6, s.EI2_N_m2 /= 1.6;
+      if (what == 2) s.softening_per_m = 3, s.softened_ratio = 0.2;
+    }
+    if (what == 3) p.loads = {{0.1512, 0.1512, {0, -3e-4, 0}}};
+    if (what == 4) p.loads = {{0.05, 0.2, {6e-4, 0, 0}}};
+    EXPECT_LT(distance_mm(p, 250), 0.02) << what;
   }
 }
 
