@@ -55,6 +55,12 @@ int explain_command(const ExplainCommandOptions& options) {
   write_file((folder / "explanation.json").string(), to_json(found));
   write_file((folder / "explanation.html").string(), to_html(set, found));
   write_file((folder / "amended" / "measurement.json").string(), amended(contents(set.file), set, found));
+  for (std::size_t i = 0; i < set.instruments.size(); ++i) {
+    const bool one = set.instruments.size() == 1, innermost = i + 1 == set.instruments.size();
+    const std::string text = instrument_json(set, found, i);
+    write_file((folder / (one ? "instrument.json" : fmt::format("instrument-{}.json", i))).string(), text);
+    if (innermost && !options.instrument.empty()) write_file(options.instrument, text);
+  }
   if (options.json)
     fmt::print("{}", to_json(found));
   else

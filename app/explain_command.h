@@ -9,6 +9,7 @@ struct ExplainCommandOptions {
   std::string set;                 ///< folder or measurement.json
   std::string folder = ".";        ///< where explanation.json, explanation.html and amended/ go
   std::vector<std::string> tries;  ///< "shaft_torsion", or several together: "shaft_torsion+stress_relaxation"
+  std::string instrument;          ///< file for the innermost instrument as it was found; empty: only in `folder`
   int threads = 0;                 ///< 0: one for each core
   bool json = false;               ///< explanation.json to stdout instead of words
 };

@@ -80,6 +80,13 @@ Section read_section(const JsonObject& entry, const Instrument& instrument, doub
     const std::vector<double> u = entry.numbers("rest_curvature_per_mm", 3);
     s.rest_curvature_per_m = Eigen::Vector3d(u[0], u[1], u[2]) * per_mm;
   }
+  if (entry.has("softening_per_mm") != entry.has("softened_ratio"))
+    entry.refuse(entry.has("softening_per_mm") ? "softening_per_mm" : "softened_ratio");
+  if (entry.has("softening_per_mm")) {
+    s.softening_per_m = entry.positive("softening_per_mm") * per_mm;
+    s.softened_ratio = entry.positive("softened_ratio");
+    if (s.softened_ratio > 1 || s.softened_ratio < 0.01) entry.refuse("softened_ratio");
+  }
   return s;
 }
 
