@@ -257,8 +257,9 @@ int main(int argc, char** argv) {
       ->type_name("DIR");
   explain_app->add_option("--try", explain.tries, "An effect to switch on; with + between them, several together")
       ->type_name("EFFECT");
-  explain_app->add_option("--write-instrument", explain.instrument,
-                          "Also here: the (innermost) instrument as it was found, for ostium run and the catalogue")
+  explain_app
+      ->add_option("--write-instrument", explain.instrument,
+                   "Also here: the (innermost) instrument as it was found, for ostium run and the catalogue")
       ->type_name("FILE.json");
   explain_app->add_option("--threads", explain.threads, "Threads of each rank; 0: one for each core")
       ->check(CLI::Range(0, 1024));

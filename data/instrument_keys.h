@@ -47,7 +47,8 @@ inline const JsonObjectKeys section = {
      {"outer_diameter_mm", false, "this section's outer diameter in mm, > 0 and at most size.outer_diameter_mm"},
      {"inner_diameter_mm", false, "this section's inner diameter in mm, >= 0 and less than its outer one"},
      {"rest_curvature_per_mm", false, "three numbers in 1/mm, [k1, k2, k3]: the Darboux vector at rest"},
-     {"softening_per_mm", false, "the curvature beyond rest at which bending softens in 1/mm, > 0; with softened_ratio"},
+     {"softening_per_mm", false,
+      "the curvature beyond rest at which bending softens in 1/mm, > 0; with softened_ratio"},
      {"softened_ratio", false, "stiffness far beyond it against that below it, 0.01 to 1; with softening_per_mm"},
      {"source", false, source_text}}};
 

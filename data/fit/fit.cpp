@@ -34,6 +34,26 @@ Shape unpacked(const std::vector<double>& in) {
 constexpr double rough_tolerance = 1e-4;
 constexpr int rough_iterations = 25;
 
+/// Behind what `out` has: how many numbers, and these.
+void append(const Shape& shape, std::vector<double>& out) {
+  const std::vector<double> one = packed(shape);
+  out.push_back(static_cast<double>(one.size()));
+  out.insert(out.end(), one.begin(), one.end());
+}
+
+/// shapes[v][k]: the v-th of `count` that were appended to found[k].
+std::vector<std::vector<Shape>> unpacked(const std::vector<std::vector<double>>& found, std::size_t count) {
+  std::vector<std::vector<Shape>> shapes(count);
+  for (const std::vector<double>& list : found)
+    for (std::size_t v = 0, at = 0; v < count; ++v) {
+      const auto length = static_cast<std::ptrdiff_t>(list[at++]);
+      const auto begin = list.begin() + static_cast<std::ptrdiff_t>(at);
+      shapes[v].push_back(unpacked({begin, begin + length}));
+      at += static_cast<std::size_t>(length);
+    }
+  return shapes;
+}
+
 /// Of the finite differences, in the optimiser's numbers.
 double step_of(const Parameter& p) {
   if (p.step > 0) return p.step;  // set by what the model can resolve
@@ -43,8 +63,9 @@ double step_of(const Parameter& p) {
 /// One fit: its residuals are the misfits over sigma, and the distances from the priors over their spreads.
 class Problem {
  public:
-  Problem(const Forward& forward, const Parameters& parameters, const std::vector<int>& chosen, double sigma_m)
-      : forward_(forward), parameters_(parameters), chosen_(chosen), sigma_(sigma_m) {
+  Problem(const Forward& forward, const Parameters& parameters, const std::vector<int>& chosen, double sigma_m,
+          bool rough)
+      : forward_(forward), parameters_(parameters), chosen_(chosen), sigma_(sigma_m), rough_(rough) {
     for (int e : chosen) {
       const Experiment& experiment = forward.set().experiments[e];
       rows_ += experiment.kind == Experiment::Kind::radius ? 1 : 3 * static_cast<int>(experiment.points_m.size());
@@ -72,7 +93,8 @@ class Problem {
     const int shapes = jacobian ? parameters_.shape_parameters() : 0;
     std::vector<Changes> changes = {parameters_.changes(x)};
     for (int i = 0; i < shapes; ++i)
-      for (double sign : {1.0, -1.0}) changes.push_back(parameters_.changes(moved(x, i, sign)));
+      for (double sign : {1.0, -1.0})
+        if (sign > 0 || !rough_) changes.push_back(parameters_.changes(moved(x, i, sign)));
     const auto found = forward_.shapes(changes, chosen_);
     residuals.resize(rows_ + x.size());
     if (!data(found[0], x, residuals)) return false;
@@ -84,11 +106,15 @@ class Problem {
     VectorXd up(residuals.size()), down(residuals.size());
     for (int i = 0; i < x.size(); ++i) {
       const bool moves = i < shapes;
-      const VectorXd above = moved(x, i, 1), below = moved(x, i, -1);
-      if (!data(moves ? found[1 + 2 * i] : found[0], above, up)) return false;
-      if (!data(moves ? found[2 + 2 * i] : found[0], below, down)) return false;
-      jacobian->col(i).head(rows_) = (up - down).head(rows_) / (above[i] - below[i]);
+      const int at = rough_ ? 1 + i : 1 + 2 * i;
+      const VectorXd above = moved(x, i, 1), below = rough_ ? x : moved(x, i, -1);
+      if (!data(moves ? found[at] : found[0], above, up)) return false;
+      if (rough_)
+        down = residuals;
+      else if (!data(moves ? found[at + 1] : found[0], below, down))
+        return false;
       (*jacobian)(rows_ + i, i) = 1 / parameters_.list()[i].spread;
+      if (above[i] != below[i]) jacobian->col(i).head(rows_) = (up - down).head(rows_) / (above[i] - below[i]);
     }
     return true;
   }
@@ -98,7 +124,9 @@ class Problem {
   VectorXd moved(VectorXd x, int i, double sign) const {
     const Parameter& p = parameters_.list()[i];
     const double least = p.logarithmic ? std::log(p.least) : p.least, most = p.logarithmic ? std::log(p.most) : p.most;
-    x[i] = std::clamp(x[i] + sign * step_of(p), least, most);
+    const double at = x[i];
+    x[i] = std::clamp(at + sign * step_of(p), least, most);
+    if (rough_ && x[i] == at) x[i] = std::clamp(at - sign * step_of(p), least, most);
     return x;
   }
 
@@ -120,6 +148,7 @@ class Problem {
   const Parameters& parameters_;
   const std::vector<int>& chosen_;
   double sigma_;
+  bool rough_;  ///< differences to one side
   int rows_ = 0;
 };
 
@@ -148,17 +177,27 @@ std::vector<std::vector<Shape>> Forward::shapes(const std::vector<Changes>& chan
                                                 const std::vector<int>& chosen) const {
   const std::size_t n = chosen.size();
   if (set_.vessel) return histories(changes, chosen);
-  const auto found = workers_.map(changes.size() * n, [&](std::size_t job) {
-    const int e = chosen[job % n];
-    try {
-      return packed(shape_from(setup_of(set_, set_.experiments[e], changes[job / n]), anchors_[e]));
-    } catch (const std::invalid_argument&) {
-      return packed(Shape{});  // with these numbers it is no rod any more
+  // The first from its anchor, the others, which are near it, from where that ended.
+  const auto found = workers_.map(n, [&](std::size_t job) {
+    const int e = chosen[job];
+    std::vector<double> out;
+    Anchor first;
+    for (const Changes& changed : changes) {
+      Shape shape;
+      try {
+        const Setup setup = setup_of(set_, set_.experiments[e], changed);
+        if (&changed == &changes.front())
+          shape = shape_from(setup, anchors_[e], first);
+        else
+          shape = shape_from(setup, first.converged ? first : anchors_[e]);
+      } catch (const std::invalid_argument&) {  // with these numbers it is no rod any more
+        shape = Shape{};
+      }
+      append(shape, out);
     }
+    return out;
   });
-  std::vector<std::vector<Shape>> shapes(changes.size());
-  for (std::size_t job = 0; job < found.size(); ++job) shapes[job / n].push_back(unpacked(found[job]));
-  return shapes;
+  return unpacked(found, changes.size());
 }
 
 std::vector<std::vector<Shape>> Forward::histories(const std::vector<Changes>& changes,
@@ -171,21 +210,12 @@ std::vector<std::vector<Shape>> Forward::histories(const std::vector<Changes>& c
     } catch (const std::invalid_argument&) {
     }
     std::vector<double> out;
-    for (int e : chosen) {
-      const std::vector<double> one = packed(shapes[e]);
-      out.push_back(static_cast<double>(one.size()));
-      out.insert(out.end(), one.begin(), one.end());
-    }
+    for (int e : chosen) append(shapes[e], out);
     return out;
   });
   std::vector<std::vector<Shape>> shapes(changes.size());
-  for (std::size_t job = 0; job < found.size(); ++job)
-    for (std::size_t at = 0; at < found[job].size();) {
-      const auto length = static_cast<std::size_t>(found[job][at++]);
-      shapes[job].push_back(unpacked({found[job].begin() + static_cast<std::ptrdiff_t>(at),
-                                      found[job].begin() + static_cast<std::ptrdiff_t>(at + length)}));
-      at += length;
-    }
+  for (std::size_t v = 0; v < changes.size(); ++v)
+    for (const auto& one : unpacked({found[v]}, chosen.size())) shapes[v].push_back(one[0]);
   return shapes;
 }
 
@@ -201,7 +231,7 @@ Fit fit(const Forward& forward, const Parameters& parameters, const FitOptions& 
   double sigma = options.sigma_m.value_or(options.guess_m);
   const int rounds = options.sigma_m ? 1 : options.rounds;
   for (int round = 0; round < rounds; ++round) {
-    const Problem problem(forward, parameters, options.experiments, sigma);
+    const Problem problem(forward, parameters, options.experiments, sigma, options.rough);
     const LeastSquaresResult found = best_of(problem, starts, options.descents, options.rough);
     VectorXd r;
     MatrixXd J;

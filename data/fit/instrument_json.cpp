@@ -18,8 +18,8 @@ constexpr double mm = 1e-3, Nmm2 = 1e-6, weight_length_m = 2e-3;
 
 /// Effects that are in the instrument, not in the rig, the room or the picture.
 bool in_the_instrument(const std::string& id) {
-  static const std::set<std::string> ids = {"rest_curvature", "soft_section",     "bending_anisotropy",
-                                            "lumped_mass",    "self_weight",      "superelastic_softening",
+  static const std::set<std::string> ids = {"rest_curvature",   "soft_section", "bending_anisotropy",
+                                            "lumped_mass",      "self_weight",  "superelastic_softening",
                                             "stress_relaxation"};
   return ids.count(id) > 0;
 }
@@ -78,20 +78,22 @@ std::string instrument_json(const MeasurementSet& set, const Explanation& x, std
   const std::string source = "fitted by ostium explain to \"" + set.title + "\" (" + set.source + ")";
   Json list = Json::array();
   for (const Section& s : sections) list.push_back(section(s));
-  const Json file = {
-      {"schema", "ostium-instrument/1"},
-      {"name", file_name(measured.name)},
-      {"title", measured.name + found},
-      {"kind", inner > 0 ? "diagnostic_catheter" : "wire"},
-      {"size",
-       {{"outer_diameter_mm", outer / mm}, {"inner_diameter_mm", inner / mm}, {"length_mm", measured.length_m / mm},
-        {"source", "declared in the measured set \"" + set.title + "\""}}},
-      {"sections", {{"list", list}, {"source", source}}},
-      {"radiopacity",
-       {{"list", {{{"from_tip_mm", {0.0, measured.length_m / mm}},
-                   {"material", inner > 0 ? "polymer" : "nitinol"},
-                   {"thickness_mm", metal / mm}}}},
-        {"source", "estimate: a measured set does not say; its whole cross-section of one material"}}}};
+  const Json file = {{"schema", "ostium-instrument/1"},
+                     {"name", file_name(measured.name)},
+                     {"title", measured.name + found},
+                     {"kind", inner > 0 ? "diagnostic_catheter" : "wire"},
+                     {"size",
+                      {{"outer_diameter_mm", outer / mm},
+                       {"inner_diameter_mm", inner / mm},
+                       {"length_mm", measured.length_m / mm},
+                       {"source", "declared in the measured set \"" + set.title + "\""}}},
+                     {"sections", {{"list", list}, {"source", source}}},
+                     {"radiopacity",
+                      {{"list",
+                        {{{"from_tip_mm", {0.0, measured.length_m / mm}},
+                          {"material", inner > 0 ? "polymer" : "nitinol"},
+                          {"thickness_mm", metal / mm}}}},
+                       {"source", "estimate: a measured set does not say; its whole cross-section of one material"}}}};
   return file.dump(2) + "\n";
 }
 

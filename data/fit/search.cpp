@@ -72,8 +72,8 @@ void Search::add(const std::vector<ActiveEffect>& effects, const FittedModel& ne
   Tried tried;
   tried.study = &studies_.back(), tried.effects = effects;
   try {
-    tried.model =
-        studies_.back().run_near(near, set_.imaging.noise_sigma_m, near.rms_m / std::sqrt(2.0), set_.instruments.size() > 1 ? starts_for_one / 3 : starts_for_one);
+    tried.model = studies_.back().run_near(near, set_.imaging.noise_sigma_m, near.rms_m / std::sqrt(2.0),
+                                           set_.instruments.size() > 1 ? starts_for_one / 3 : starts_for_one);
   } catch (const std::runtime_error&) {  // no shapes with it
     studies_.pop_back();
     return;

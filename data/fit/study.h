@@ -14,8 +14,8 @@ class Study {
   /// Everything but what needs the noise, which `judge` adds. `noise_m`: none if it is not declared. Throws LoadError
   /// naming the experiment that has no static shape.
   FittedModel run(std::optional<double> noise_m);
-  /// A rough fit to all data alone, begun from another model's values of the parameters that both have. `guess_m`: about
-  /// what is left, where the noise is not known.
+  /// A rough fit to all data alone, begun from another model's values of the parameters that both have. `guess_m`:
+  /// about what is left, where the noise is not known.
   FittedModel run_near(const FittedModel& near, std::optional<double> noise_m, double guess_m, int starts);
   /// Fits what `run_near` has found to the end, and adds held-out errors and what the rest goes with.
   void complete(FittedModel& model, std::optional<double> noise_m);

@@ -74,11 +74,18 @@ std::vector<Vector3d> cut_at(const std::vector<Vector3d>& points, double length)
 }  // namespace
 
 Shape shape_from(const Setup& setup, const Anchor& anchor) {
-  const Concentric nest = make_concentric(setup.nest, setup.gravity_m_s2);
-  ConcentricState state = nest.carrier.rods[0].elements == anchor.nest.carrier.rods[0].elements
-                              ? anchor.state
-                              : carried_over(nest, setup.base, anchor.nest, anchor.state);
+  Anchor end;
+  return shape_from(setup, anchor, end);
+}
+
+Shape shape_from(const Setup& setup, const Anchor& anchor, Anchor& end) {
+  end.nest = make_concentric(setup.nest, setup.gravity_m_s2);
+  const Concentric& nest = end.nest;
+  ConcentricState& state = end.state = nest.carrier.rods[0].elements == anchor.nest.carrier.rods[0].elements
+                                           ? anchor.state
+                                           : carried_over(nest, setup.base, anchor.nest, anchor.state);
   const ConcentricEquilibrium found = find_equilibrium(nest, setup.base, setup.tip_force_N, state);
+  end.converged = found.converged;
   Shape shape;
   shape.converged = found.converged;
   shape.base_push_N = found.base_push_N;

@@ -23,6 +23,8 @@ struct Anchor {
 
 /// Brings `anchor.state` into the equilibrium of `setup` that continues from it.
 Shape shape_from(const Setup& setup, const Anchor& anchor);
+/// The same, and where it ended, for others near it to continue from.
+Shape shape_from(const Setup& setup, const Anchor& anchor, Anchor& end);
 
 /// The equilibria of all experiments in listed order, each reached from the one before by small steps in insertion,
 /// roll, base and load, the first from straight. `progress(done, of)` may be empty.

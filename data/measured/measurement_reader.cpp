@@ -107,8 +107,8 @@ void read_environment(const JsonObject& entry, MeasurementSet& set) {
   if (entry["vessel"].type == JsonValue::Type::null) return;
   const JsonObject vessel(entry["vessel"], keys::vessel);
   static const std::vector<std::string> units = {"mm", "cm", "m", "in"};
-  set.vessel =
-      MeasuredVessel{vessel.text("mesh"), units[vessel.choice("units", units)], vessel.not_negative("friction"), nullptr};
+  set.vessel = MeasuredVessel{vessel.text("mesh"), units[vessel.choice("units", units)],
+                              vessel.not_negative("friction"), nullptr};
 }
 
 void read_imaging(const JsonObject& entry, MeasurementSet& set) {

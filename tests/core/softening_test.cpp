@@ -25,7 +25,8 @@ V3<double> moment(const Superelastic& law, double x, double y, double z) {
 
 TEST(Softening, MomentIsTheSlopeOfEnergyAndTangentThatOfMoment) {
   const Superelastic law = law_of(40e-6, 25e-6, 30, 0.2);
-  for (const auto& [x, y, z] : {std::array{1.0, -2.0, 3.0}, std::array{40.0, 10.0, -5.0}, std::array{-300.0, 200.0, 0.0}}) {
+  for (const auto& [x, y, z] :
+       {std::array{1.0, -2.0, 3.0}, std::array{40.0, 10.0, -5.0}, std::array{-300.0, 200.0, 0.0}}) {
     const double h = 1e-4;
     const auto e = [&](double a, double b, double c) { return law.energy({a, b, c}, 0); };
     const auto [m, C] = law.operator()<double>({x, y, z}, 0);
