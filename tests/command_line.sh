@@ -24,7 +24,7 @@ expect 2 "no gate begins" "$ostium" verify --only no-such-gate
 expect 2 "no gate begins" "$ostium" verify --only rod-staticX
 expect 1 "could not be written" bash -c "'$ostium' verify --only rod-static --json > /dev/full"
 expect 2 "not expected" "$ostium" verify --quik
-expect 2 "subcommand" "$ostium"
+expect 2 "not expected" "$ostium" nonsense
 
 expect 0 "Examples" "$ostium" instruments --help
 expect 0 "guide-jl4-6f" "$ostium" instruments
@@ -111,6 +111,18 @@ grep -q '"outcome": "success"' "$out/metrics.json"
 expect 0 "bit for bit" "$ostium" replay "$out/run.h5" --verify
 expect 0 '"same": true' "$ostium" replay "$out/run.h5" --from 1 --json
 expect 0 "moment.png" "$ostium" replay "$out/run.h5" --from 0.5 --view lao --pixels 128 --png "$out/moment.png"
+expect 0 "run.html" "$ostium" report "$out/run.h5" -o "$out/run.html" --csv "$out/runs.csv" --events "$out/events.csv"
+grep -q "not for decisions on a patient" "$out/run.html"
+grep -q "tool_in" "$out/events.csv"
+expect 0 "both.html" "$ostium" report "$out/run.h5" "$out/run.h5" --code A B --no-pictures -o "$out/both.html"
+expect 3 "2 recordings" "$ostium" report "$out/run.h5" "$out/run.h5" --code A -o "$out/none.html"
+expect 3 "no-such-list" "$ostium" report "$out/run.h5" --scoring no-such-list -o "$out/none.html"
+expect 0 "" "$ostium" report --questionnaire "$out/forms.html"
+SDL_VIDEODRIVER=dummy expect 1 "time limit" "$ostium" run rca-mid-focal --display window --seconds 0.5 --last-frame "$out/window.png"
+[[ -s $out/window.png ]]
+SDL_VIDEODRIVER=none expect 3 "there is no window here" "$ostium" run rca-mid-focal --device keyboard
+expect 1 "time limit" "$ostium" run rca-mid-focal --script iliac-wire --seconds 0.4 --out "$out/filmed" --film --report
+[[ -s $out/filmed/procedure.mp4 && -s $out/filmed/report.html && -s $out/filmed/key-frames/01.png ]]
 expect 1 "time limit" "$ostium" run rca-mid-focal --seconds 0.2 --speed real --record none --out "$out"
 expect 1 '"outcome": "aborted"' "$ostium" run rca-mid-focal --seconds 0.1 --json
 expect 1 "stopped by the operator" timeout -s INT 15 bash -c "'$ostium' run rca-mid-focal --speed real --out '$out/int' & p=\$!

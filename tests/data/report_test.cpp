@@ -1,0 +1,133 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <set>
+
+#include "data/load_error.h"
+#include "data/report/page.h"
+
+namespace ostium {
+namespace {
+
+const std::string small = R"({ "schema": "ostium-scoring/1", "name": "small", "title": "Small", "note": "A test.",
+  "items": [
+    { "id": "1", "phase": "p", "kind": "step", "what": "drug first", "when": "w",
+      "check": { "event": "heparin", "before": "inflation_begins" } },
+    { "id": "2", "phase": "p", "kind": "error", "what": "too hard", "when": "w",
+      "check": { "event": "over_pressure", "most": 0 } },
+    { "id": "3", "phase": "p", "kind": "step", "what": "long enough", "when": "w",
+      "check": { "metric": "procedure_time_s", "least": 5, "most": 20 } },
+    { "id": "4", "phase": "p", "kind": "step", "what": "said so", "when": "a person listens" } ] })";
+
+double code(EventCode c) { return static_cast<double>(c); }
+
+RunRecord record_with(std::vector<double> events) {
+  RunRecord r;
+  r.step_s = 1e-3, r.steps = 10000;
+  r.signal_columns = {"time_s", "heart_phase", "wire.inserted_mm"};
+  for (int i = 0; i < 1000; ++i)
+    for (const double v : {0.01 * i, 0.0, 0.1 * i}) r.signals.push_back(v);
+  r.events = std::move(events);
+  return r;
+}
+
+std::string refusal(const std::string& from, const std::string& to) {
+  std::string text = small;
+  text.replace(text.find(from), from.size(), to);
+  try {
+    read_score_list("folder/small.json", text);
+  } catch (const LoadError& error) {
+    return error.what();
+  }
+  return "accepted";
+}
+
+TEST(ScoreList, IsTickedByWhatTheRecordSays) {
+  const ScoreList list = read_score_list("folder/small.json", small);
+  const RunRecord good = record_with({1000, code(EventCode::heparin), -1, 5000,  //
+                                      4000, code(EventCode::inflation_begins), -1, 0});
+  const std::vector<Score> yes = score(list, good, metrics_of(good));
+  ASSERT_EQ(yes.size(), 4u);
+  EXPECT_EQ(yes[0].holds, Ticked::yes);
+  EXPECT_EQ(yes[0].at_s, std::vector<double>{1.0});
+  EXPECT_EQ(yes[1].holds, Ticked::yes) << "no such error";
+  EXPECT_EQ(yes[2].holds, Ticked::yes) << yes[2].value;
+  EXPECT_EQ(yes[3].holds, Ticked::not_seen) << "only a person can tell";
+
+  const RunRecord bad = record_with({4000, code(EventCode::inflation_begins), -1, 0,  //
+                                     5000, code(EventCode::over_pressure), -1, 22,    //
+                                     6000, code(EventCode::heparin), -1, 5000,        //
+                                     7000, code(EventCode::over_pressure), -1, 23});
+  const std::vector<Score> no = score(list, bad, metrics_of(bad));
+  EXPECT_EQ(no[0].holds, Ticked::no) << "too late";
+  EXPECT_EQ(no[1].holds, Ticked::no);
+  EXPECT_EQ(no[1].at_s, (std::vector<double>{5.0, 7.0})) << "every time";
+
+  const RunRecord none = record_with({});
+  EXPECT_EQ(score(list, none, metrics_of(none))[0].holds, Ticked::not_seen) << "nothing was inflated";
+}
+
+TEST(ScoreList, MistakesAreNamed) {
+  const auto says = [](const std::string& what, const std::string& words) {
+    EXPECT_NE(what.find(words), std::string::npos) << what;
+  };
+  says(refusal("\"heparin\"", "\"heparine\""), "small.json:4:");
+  says(refusal("\"heparin\"", "\"heparine\""), "one of: script_step_begins");
+  says(refusal("\"procedure_time_s\"", "\"procedure_time\""), "small.json:8:");
+  says(refusal("\"most\": 0", "\"mosst\": 0"), "mosst is not a key");
+  says(refusal(", \"most\": 0 }", " }"), "no bound");
+  says(refusal("\"event\": \"over_pressure\", ", ""), "an event or at a metric");
+  says(refusal("\"name\": \"small\"", "\"name\": \"other\""), "the file's name");
+}
+
+TEST(ScoreList, TheOneThatShipsLoadsAndItsItemsAreTold) {
+  const ScoreList list = find_score_list("pci-elective");
+  std::set<std::string> ids;
+  for (const ScoreItem& item : list.items) EXPECT_TRUE(ids.insert(item.id).second) << item.id;
+  EXPECT_GE(std::count_if(list.items.begin(), list.items.end(), [](const ScoreItem& i) { return i.check.has_value(); }),
+            15);
+  EXPECT_THROW(find_score_list("no-such-list"), LoadError);
+}
+
+ReportRun run_with(const std::string& name) {
+  ReportRun run;
+  run.code = name, run.case_name = "a <case>", run.outcome = "success";
+  run.record = record_with({1000, code(EventCode::mark), -1, 0});
+  run.metrics = metrics_of(run.record);
+  run.scores = score(read_score_list("folder/small.json", small), run.record, run.metrics);
+  run.pictures = {{"a picture", {1, 2, 3}}};
+  return run;
+}
+
+TEST(Report, NeedsNothingElseAndSaysWhatItIsFor) {
+  const ScoreList list = read_score_list("folder/small.json", small);
+  const std::string page = report_page({run_with("P1"), run_with("P2")}, list);
+  EXPECT_NE(page.find("not for decisions on a patient"), std::string::npos);
+  EXPECT_NE(page.find("a &lt;case&gt;"), std::string::npos) << "words are no markup";
+  EXPECT_NE(page.find("data:image/png;base64,AQID"), std::string::npos);
+  EXPECT_NE(page.find("P2, wire"), std::string::npos) << "both runs in one plot";
+  for (const char* outside : {"http://", "https://", "src=\"/", "<link"})
+    EXPECT_EQ(page.find(outside),
+              page.find(outside) == std::string::npos ? std::string::npos : page.find("http://www.w3.org"))
+        << outside;
+}
+
+TEST(Report, TablesHaveARowEach) {
+  const ScoreList list = read_score_list("folder/small.json", small);
+  const std::string csv = report_csv({run_with("P1"), run_with("P2")}, list);
+  EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 3);
+  const std::size_t columns =
+      static_cast<std::size_t>(std::count(csv.begin(), csv.begin() + static_cast<long>(csv.find('\n')), ','));
+  EXPECT_EQ(columns, 6 + metric_definitions().size() + 4);
+  EXPECT_EQ(
+      events_csv(run_with("").record, {"wire"}).substr(0, 50).find("time_s,event,tool,value,meaning\n1.000,mark,"), 0u);
+}
+
+TEST(Report, FormsAskAndPromiseNothing) {
+  const std::string page = questionnaire_page();
+  EXPECT_NE(page.find("Participant code (no name)"), std::string::npos);
+  EXPECT_NE(page.find("not for decisions on a patient"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace ostium
