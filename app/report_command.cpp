@@ -22,7 +22,7 @@ void say(const std::string& what) {
   if (isatty(STDERR_FILENO)) fmt::print(stderr, "{:<80}\r", what);
 }
 
-/// Where something is to be seen: what the script marks, the end of each film and inflation, the last moment.
+/// Where something is to be seen: what the script marks, the end of each injection and inflation, the last moment.
 struct Moment {
   std::uint64_t step;
   std::string caption;
@@ -35,7 +35,7 @@ std::vector<Moment> moments(const RunRecord& record, const Script& script) {
     const auto step = static_cast<std::uint64_t>(record.events[e]);
     const auto of = static_cast<std::size_t>(record.events[e + 3]);
     if (code == EventCode::mark && of < script.steps.size()) out.push_back({step, script.steps[of].text});
-    if (code == EventCode::cine_off) out.push_back({step > 300 ? step - 300 : step, "film"});
+    if (code == EventCode::injection_ends) out.push_back({step, "contrast"});
     if (code == EventCode::deflated) out.push_back({step, "balloon empty"});
     if (code == EventCode::stent_deployed) out.push_back({step, "stent in the wall"});
   }
@@ -51,7 +51,7 @@ std::vector<Moment> moments(const RunRecord& record, const Script& script) {
 std::vector<ReportPicture> pictures_of(Replay& replay, const RunRecord& record) {
   std::vector<ReportPicture> out;
   FilmOptions options;
-  options.pixels = 384;
+  options.pixels = 384, options.overlay = false;
   Film film(replay.model, options);
   for (const Moment& moment : moments(record, replay.setup.script)) {
     // Recursive filter and exposure settle in some frames.

@@ -36,7 +36,7 @@ VideoWriter::VideoWriter(const std::string& file, int width, int height, double 
                                      "-f",          "rawvideo", "-pix_fmt",   "gray",
                                      "-video_size", size,       "-framerate", rate,
                                      "-i",          "-",        "-vf",        "pad=ceil(iw/2)*2:ceil(ih/2)*2",
-                                     "-c:v",        "libx264",  "-crf",       "18",
+                                     "-c:v",        "libx264",  "-crf",       "23",
                                      "-preset",     "veryfast", "-pix_fmt",   "yuv420p",
                                      "-f",          "mp4",      file};
   std::vector<char*> argv;

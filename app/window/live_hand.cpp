@@ -32,6 +32,7 @@ Snapshot empty_snapshot(const SessionModel& model) {
   Snapshot s;
   s.state = make_state(model, 0);
   s.inputs.tools.resize(model.tools.size());
+  s.in_body.assign(model.tools.size(), 0);
   s.signals.assign(signal_count(model), 0);
   s.ecg_mV.assign(strip_samples, std::numeric_limits<float>::quiet_NaN());
   s.line_mmHg = s.ecg_mV;
@@ -195,6 +196,7 @@ void LiveHand::show(const SessionModel& model, const SessionState& state, const 
   s.inputs = inputs;
   if (plays_) s.inputs.c_arm.lao_rad = arm_.lao_rad, s.inputs.c_arm.cran_rad = arm_.cran_rad;
   put_signals(model, state, inputs, report, s.signals.data());
+  for (std::size_t t = 0; t < report.tools.size(); ++t) s.in_body[t] = report.tools[t].in_body;
   s.ecg_mV = ecg_, s.line_mmHg = line_;
   s.right_hand = right_;
   s.script_step = plays_ ? -1 : script_step_;

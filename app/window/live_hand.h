@@ -23,6 +23,7 @@ inline constexpr int strip_samples = 500;  ///< at 100 a second
 struct Snapshot {
   SessionState state;
   SessionInputs inputs;
+  std::vector<char> in_body;             ///< (#tools)
   std::vector<float> signals;            ///< as signal_names says
   std::vector<float> ecg_mV, line_mmHg;  ///< of the last 5 s, oldest first; not a number: no trace
   int right_hand = -1;                   ///< tool

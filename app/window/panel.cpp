@@ -94,7 +94,7 @@ void draw_strip(const Pen& pen, const std::vector<float>& samples, const Colour&
   }
   cairo_stroke(pen.cr());
   pen.write(dim, 12, x + 6, y + 15, name);
-  pen.write(c, 24, x + trace_w + 4, y + h / 2 + 10, value);
+  pen.write(c, 20, x + trace_w + 2, y + h / 2 + 9, value);
 }
 
 void draw_strips(const Pen& pen, const PanelTexts& texts, const Snapshot& now, double x, double y, double w) {
@@ -118,7 +118,7 @@ void draw_tray(const Pen& pen, const PanelTexts& texts, const Snapshot& now, dou
   for (std::size_t t = 0; t < texts.tools.size(); ++t) {
     const bool left = static_cast<int>(t) == texts.left_hand, right = static_cast<int>(t) == now.right_hand;
     const double inserted = 100 * now.state.rods.rods[t].inserted_m;
-    const bool in = inserted > 0.05;
+    const bool in = now.in_body[t];
     pen.fill(box, x, y, w, 22);
     if (texts.plays && (left || right)) pen.write(yellow, 12, x + 5, y + 15, left ? "L" : "R");
     pen.write(in ? pale : dim, 12.5, x + 22, y + 15.5, texts.tools[t]);

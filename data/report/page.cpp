@@ -25,6 +25,7 @@ td.n { text-align: right; font-variant-numeric: tabular-nums; white-space: nowra
 svg { max-width: 100%; height: auto; margin: 4px 6px 4px 0; }
 figure { display: inline-block; margin: 0 8px 10px 0; width: 250px; vertical-align: top; } figure img { width: 250px; }
 figcaption { font-size: 12px; color: #555; }
+figure.plot { width: 525px; } figure.plot figcaption { font-size: 14px; font-weight: 600; color: #222; }
 )";
 
 const char* const colours[] = {"#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9"};
@@ -57,7 +58,7 @@ Plot::Points series(const RunRecord& r, std::size_t column) {
 /// A plot of every column with this ending: of all tools that move, of all runs.
 std::string plot_of(const std::vector<ReportRun>& runs, const std::string& title, const std::string& ending,
                     const std::string& unit) {
-  Plot plot(title, "time, s", unit, 520, 250);
+  Plot plot("", "time, s", unit, 520, 230);
   bool any = false;
   std::size_t next = 0;
   for (const ReportRun& run : runs)
@@ -75,7 +76,8 @@ std::string plot_of(const std::vector<ReportRun>& runs, const std::string& title
       if (!words.empty()) plot.legend(words, colour(next));
       ++next, any = true;
     }
-  return any ? plot.svg() : "";
+  return any ? "<figure class=\"plot\"><figcaption>" + escaped(title) + "</figcaption>" + plot.svg() + "</figure>\n"
+             : "";
 }
 
 std::string header(const std::vector<ReportRun>& runs) {
