@@ -140,8 +140,14 @@ TipPlace tip_place(const CellLocator& locator, const FlowTree& tree, const Contr
   return beyond_valve_m(patient.anatomy.landmarks, p_tip) > 0 ? TipPlace{} : place;
 }
 
+constexpr double ventricle_radius_m = 0.02, ventricle_length_m = 0.09;  // its cavity below the valve, roughly
+
 double beyond_valve_m(const Landmarks& landmarks, const Eigen::Vector3d& p) {
-  return -(p - landmarks.p_annulus).dot(landmarks.root_axis);
+  const Eigen::Vector3d from = p - landmarks.p_annulus;
+  const double beyond_m = -from.dot(landmarks.root_axis);
+  // What lies aside is no ventricle: the plane goes on through the arteries of leg and heart.
+  const double aside_m = (from + beyond_m * landmarks.root_axis).norm();
+  return beyond_m > 0 && (aside_m > ventricle_radius_m || beyond_m > ventricle_length_m) ? -aside_m : beyond_m;
 }
 
 }  // namespace ostium

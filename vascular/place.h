@@ -54,7 +54,7 @@ TipPlace tip_place(const CellLocator& locator, const FlowTree& tree, const Contr
                    const Eigen::Vector3d& direction);
 
 /// How far a point lies beyond the aortic valve's plane, towards the ventricle, m; negative: in the aorta. What is
-/// beyond it touches the ventricle's wall (HeartInputs::irritation).
+/// beyond it touches the ventricle's wall (HeartInputs::irritation). What lies aside of the ventricle is not beyond.
 double beyond_valve_m(const Landmarks& landmarks, const Eigen::Vector3d& p);
 
 }  // namespace ostium

@@ -108,8 +108,8 @@ void draw_strips(const Pen& pen, const PanelTexts& texts, const Snapshot& now, d
   draw_strip(pen, now.line_mmHg, red, 0, 180, "guide, mmHg", there ? fmt::format("{:.0f}/{:.0f}", most, least) : "—", x,
              y + 78, w, 88);
   const double trace = signal(texts, now, "trace");
-  const char* kinds[] = {"", "damped", "ventricularised", "no trace"};
-  if (trace >= 1 && trace < 4) pen.write(yellow, 12, x + 90, y + 93, kinds[static_cast<int>(trace)]);
+  const char* kinds[] = {"", "damped", "ventricularised", "ventricle", "no trace"};
+  if (trace >= 1 && trace < 5) pen.write(yellow, 12, x + 100, y + 93, kinds[static_cast<int>(trace)]);
 }
 
 void draw_tray(const Pen& pen, const PanelTexts& texts, const Snapshot& now, double x, double y, double w) {

@@ -77,6 +77,7 @@ TEST(Place, ATipIsInTheCoronaryAtItsOstiumOrInTheAorta) {
   EXPECT_EQ(at(marks.p_annulus + 60e-3 * marks.root_axis, in).where, TipPlace::aorta);
   EXPECT_GT(beyond_valve_m(marks, marks.p_annulus - 5e-3 * marks.root_axis), 0);
   EXPECT_LT(beyond_valve_m(marks, marks.p_left_ostium), 0);
+  EXPECT_LT(beyond_valve_m(marks, marks.p_access), 0) << "the groin lies beyond the plane, but not in the ventricle";
 }
 
 TEST(Place, StepsOfPhysiologyAndTreatmentAllocateNothing) {
