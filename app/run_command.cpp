@@ -146,7 +146,7 @@ RunSetup setup_of(const RunOptions& o) {
 namespace {
 
 /// Plays in another thread while the window is up in this one. `film`: stands between hands and steps; may be null.
-PlayReport play_in_window(const RunOptions& o, ScriptedRun& run, const RunSetup& setup, const DeviceRun* device,
+PlayReport play_in_window(const RunOptions& o, ScriptedRun& run, const RunSetup& setup, DeviceRun* device,
                           LiveHand& hand, PlayOptions options) {
   options.real = true;
   const auto progress = options.progress;
@@ -167,7 +167,10 @@ PlayReport play_in_window(const RunOptions& o, ScriptedRun& run, const RunSetup&
   });
   WindowOptions window;
   window.plays = o.device == "keyboard", window.over = &over, window.last_frame_png = o.last_frame;
-  if (device) window.problem = [device] { return std::string(advice(device->hand().now())); };
+  if (device) {
+    window.problem = [device] { return std::string(advice(device->hand().shown())); };
+    window.brightness = [device] { return device->hand().shown().picture; };
+  }
   try {
     show_window(run.model, run.plan, hand, window);
   } catch (...) {

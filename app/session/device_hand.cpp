@@ -8,10 +8,10 @@ namespace ostium {
 
 namespace {
 
-Tool tool_for(InstrumentKind kind, int wires_before) {
+Tool tool_for(InstrumentKind kind) {
   switch (kind) {
     case InstrumentKind::wire:
-      return wires_before == 0 ? Tool::wire : Tool::second_wire;
+      return Tool::wire;
     case InstrumentKind::balloon_shaft:
     case InstrumentKind::stent_shaft:
       return Tool::shaft;
@@ -27,13 +27,17 @@ Tool tool_for(InstrumentKind kind, int wires_before) {
 
 std::vector<Tool> tools_at_the_box(const SessionModel& model) {
   std::vector<Tool> held;
-  int wires = 0;
-  for (const SessionTool& tool : model.tools) {
-    const Tool at = tool_for(tool.instrument.kind, wires);
-    wires += tool.instrument.kind == InstrumentKind::wire;
-    held.push_back(std::find(held.begin(), held.end(), at) == held.end() ? at : Tool::none);
-  }
+  for (const SessionTool& tool : model.tools) held.push_back(tool_for(tool.instrument.kind));
   return held;
+}
+
+std::vector<ToolTurn> turns_at_the_box(const std::vector<Tool>& held) {
+  std::vector<ToolTurn> turns;
+  for (std::size_t t = 0; t < held.size(); ++t)
+    turns.push_back(
+        {static_cast<std::uint32_t>(std::count(held.begin(), held.begin() + static_cast<std::ptrdiff_t>(t), held[t])),
+         static_cast<std::uint32_t>(std::count(held.begin(), held.end(), held[t]))});
+  return turns;
 }
 
 Script free_hands(Script script) {
@@ -56,11 +60,18 @@ DeviceHand::DeviceHand(DeviceHandSettings settings, Exchange exchange, const std
 
 void DeviceHand::begin(const SessionModel& model) {
   held_ = tools_at_the_box(model);
+  turns_ = turns_at_the_box(held_);
   pending_turn_rad_.assign(held_.size(), 0);
-  turned_rad_.assign(held_.size(), 0);
   now_ = exchange_(request_);
-  for (std::size_t t = 0; t < held_.size(); ++t)
-    if (held_[t] != Tool::none) turned_rad_[t] = now_.tool[index_of(held_[t])].turned_rad;
+  for (std::size_t i = 0; i < ostium::tools; ++i) turned_rad_[i] = now_.tool[i].turned_rad;
+}
+
+Tool DeviceHand::source(std::size_t t) const {
+  const ToolTurn turn = turns_[t];
+  const bool is_last_wire = held_[t] == Tool::wire && turn.count > 1 && turn.place + 1 == turn.count;
+  if (is_last_wire && now_.tool[index_of(Tool::second_wire)].sight != Sight::absent) return Tool::second_wire;
+  const std::uint32_t arrivals = now_.tool[index_of(held_[t])].arrivals;
+  return arrivals > 0 && (arrivals - 1) % turn.count == turn.place ? held_[t] : Tool::none;
 }
 
 /// Forces of a step that had to give way are no real instrument's.
@@ -80,6 +91,13 @@ void DeviceHand::press_buttons(SessionInputs& inputs) {
     std::tie(inputs.c_arm.lao_rad, inputs.c_arm.cran_rad) = settings_.views[static_cast<std::size_t>(view_)];
 }
 
+/// What is in the syringe is not the box's to know. Nothing is drawn back out of the guide.
+void DeviceHand::inflate_and_inject(SessionInputs& inputs) const {
+  const double gauge_Pa = pressure_Pa(), injected_m3_s = flow_m3_s();
+  inputs.bedside.gauge_Pa = std::abs(gauge_Pa) < settings_.least_pressure_Pa ? 0 : gauge_Pa;
+  inputs.bedside.injection_m3_s = injected_m3_s < settings_.least_flow_m3_s ? 0 : injected_m3_s;
+}
+
 bool DeviceHand::drive(const SessionModel& model, const SessionState& state, const SessionReport& report,
                        SessionInputs& inputs) {
   if (held_.size() != model.tools.size()) begin(model);
@@ -89,23 +107,24 @@ bool DeviceHand::drive(const SessionModel& model, const SessionState& state, con
   do {
     if (stop_ && stop_->load(std::memory_order_relaxed)) return false;
     now_ = exchange_(request_);
+    shown_.put(now_);
     if (settings_.watch) settings_.watch(now_);
     stood_ += now_.pause != Pause::none && !standing;
     standing = now_.pause != Pause::none;
   } while (standing);
   press_buttons(inputs);
+  if (model.has_patient()) inflate_and_inject(inputs);
   for (std::size_t t = 0; t < model.tools.size(); ++t) {
-    inputs.tools[t] = {};
-    if (held_[t] == Tool::none) continue;
-    const ToolSnapshot& hand = now_.tool[index_of(held_[t])];
-    const double depth_m = std::clamp(hand.inserted_m, 0.0, model.tools[t].instrument.length_m);
-    PendingDrive pending{depth_m - state.rods.rods[t].inserted_m,
-                         pending_turn_rad_[t] + hand.turned_rad - turned_rad_[t]};
+    const Tool tool = source(t);
+    const double inserted_m = tool == Tool::none ? 0 : now_.tool[index_of(tool)].inserted_m;
+    const double depth_m = std::clamp(inserted_m, 0.0, model.tools[t].instrument.length_m);
+    PendingDrive pending{depth_m - state.rods.rods[t].inserted_m, pending_turn_rad_[t]};
+    if (tool != Tool::none) pending.turn_rad += now_.tool[index_of(tool)].turned_rad - turned_rad_[index_of(tool)];
     const DriveRates rates = take(model.step_s(), settings_.smooth_s, pending);
     inputs.tools[t] = {std::clamp(rates.advance_m_s, -settings_.fastest_m_s, settings_.fastest_m_s), rates.turn_rad_s};
     pending_turn_rad_[t] = pending.turn_rad;
-    turned_rad_[t] = hand.turned_rad;
   }
+  for (std::size_t i = 0; i < ostium::tools; ++i) turned_rad_[i] = now_.tool[i].turned_rad;
   return true;
 }
 

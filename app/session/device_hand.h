@@ -3,15 +3,18 @@
 /// becomes the box's clamps.
 ///
 /// An instrument is where the hand has it: each step feeds it towards the depth at which the box has its tip, and turns
-/// it by what the hand turned, through a low pass of `smooth_s`. Outside the introducer nothing is fed, so that a tool
-/// drawn out and another one brought in are an exchange without more ado. While the travel is at its end the simulation
-/// stands.
+/// it by what the hand turned, through a low pass of `smooth_s`. Outside the introducer nothing is fed. While the
+/// travel is at its end the simulation stands.
+///
+/// A session may have more instruments of a kind than a box has tools: they are used in their order. Each tool that
+/// arrives where another was drawn out is the next one (an exchange); after the last comes the first.
 #include <atomic>
 #include <functional>
 #include <utility>
 
 #include "app/session/run.h"
 #include "device/drive.h"
+#include "device/latch.h"
 #include "device/tracking_box.h"
 
 namespace ostium {
@@ -20,12 +23,23 @@ struct DeviceHandSettings {
   double smooth_s = 0.015;
   double fastest_m_s = 0.6;  ///< that it follows: a tool that is far in as the run begins is no bullet
   bool arm = true;
+  double least_pressure_Pa = 5e3, least_flow_m3_s = 5e-8;  ///< less is an offset of the sensors, and no hand
   /// Angles of the views that buttons 2, 3, ... select, rad: left anterior oblique, cranial.
   std::vector<std::pair<double, double>> views;
   /// Called with each snapshot, also while the simulation stands, by the thread that steps: for who shows it. May be
   /// empty.
   std::function<void(const BoxSnapshot&)> watch;
 };
+
+/// Which of the box's tools moves each of the session's: catheters are the guide, wires the wire, balloon and stent
+/// shafts the shaft.
+std::vector<Tool> tools_at_the_box(const SessionModel& model);
+
+/// The how-manieth of its kind each is, and how many there are.
+struct ToolTurn {
+  std::uint32_t place = 0, count = 1;
+};
+std::vector<ToolTurn> turns_at_the_box(const std::vector<Tool>& held);
 
 class DeviceHand : public Driver {
  public:
@@ -38,11 +52,13 @@ class DeviceHand : public Driver {
   bool drive(const SessionModel& model, const SessionState& state, const SessionReport& report,
              SessionInputs& inputs) override;
 
-  /// The indeflator, above the air's pressure, Pa; negative: vacuum. For whoever inflates a balloon.
+  /// The indeflator, above the air's pressure, Pa; negative: vacuum.
   double pressure_Pa() const { return now_.pressure_Pa; }
-  /// Out of the syringe, m3/s; negative: aspiration. For whoever injects.
+  /// Out of the syringe, m3/s; negative: aspiration.
   double flow_m3_s() const { return now_.flow_m3_s; }
   const BoxSnapshot& now() const { return now_; }
+  /// The same for one other thread, also while the simulation stands: a window.
+  const BoxSnapshot& shown() { return shown_.take(); }
   long stood() const { return stood_; }  ///< how often it stood, waiting for the operator to draw back
   /// That tool's tip is at the introducer now.
   void zero(Tool tool) { ++request_.zeroings[index_of(tool)]; }
@@ -51,23 +67,25 @@ class DeviceHand : public Driver {
   void begin(const SessionModel& model);
   void feel(const SessionReport& report);
   void press_buttons(SessionInputs& inputs);
+  void inflate_and_inject(SessionInputs& inputs) const;
 
   DeviceHandSettings settings_;
   Exchange exchange_;
   const std::atomic<bool>* stop_;
-  std::vector<Tool> held_;          ///< of the box's tools, which one each of the session's is; from the first step
-  std::vector<double> turned_rad_;  ///< of the box's sum, taken so far; one a tool
+  /// What drives session's tool t now; Tool::none: nothing does, it is outside.
+  Tool source(std::size_t t) const;
+
+  std::vector<Tool> held_;  ///< from the first step on; one a tool of the session
+  std::vector<ToolTurn> turns_;
+  std::array<double, ostium::tools> turned_rad_{};  ///< of the box's sums, taken so far
   std::vector<double> pending_turn_rad_;
   BoxRequest request_;
   BoxSnapshot now_;
+  Latch<BoxSnapshot> shown_;
   std::uint16_t buttons_ = 0;
   int view_ = -1;
   long stood_ = 0;
 };
-
-/// Catheters are the guide, the first wire the wire and another one the second wire, balloon and stent shafts the
-/// shaft; of several of a kind the first. Tool::none: nothing of the box moves it.
-std::vector<Tool> tools_at_the_box(const SessionModel& model);
 
 /// The script without what it does to tools: its views and switches up to the first movement, then it waits. For a run
 /// in which people do the rest.

@@ -27,6 +27,7 @@ class UsbRun : public DeviceRun {
             stop) {}
   Driver& driver() override { return hand_; }
   const DeviceHand& hand() const override { return hand_; }
+  DeviceHand& hand() override { return hand_; }
   bool real() const override { return true; }
 
  private:
@@ -51,6 +52,7 @@ class EmulatedRun : public DeviceRun {
         operator_(hand_, fingers_) {}
   Driver& driver() override { return operator_; }
   const DeviceHand& hand() const override { return hand_; }
+  DeviceHand& hand() override { return hand_; }
   bool real() const override { return false; }
 
  private:

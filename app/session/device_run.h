@@ -11,6 +11,7 @@ class DeviceRun {
   virtual ~DeviceRun() = default;
   virtual Driver& driver() = 0;
   virtual const DeviceHand& hand() const = 0;
+  virtual DeviceHand& hand() = 0;
   virtual bool real() const = 0;  ///< it has to be played at the clock's pace
 };
 

@@ -8,13 +8,13 @@ namespace ostium {
 namespace {
 
 constexpr double draw_back_m_s = 0.25, drawn_back_m = 0.03;  // how far in a tool is left for the next stroke
+constexpr double away_s = 0.1;                               // that nothing lies there, and as long until it is seen
 
 }  // namespace
 
-void EmulatedHand::ask(const std::vector<Tool>& held, const std::vector<ToolInputs>& tools, const CArmInputs& c_arm) {
-  held_ = held;
-  wish_ = tools;
-  c_arm_ = c_arm;
+void EmulatedHand::ask(const std::vector<Tool>& held, const SessionInputs& inputs) {
+  if (held_ != held) held_ = held, turns_ = turns_at_the_box(held);
+  wish_ = inputs;
 }
 
 void EmulatedHand::see(const BoxSnapshot& now) {
@@ -23,23 +23,45 @@ void EmulatedHand::see(const BoxSnapshot& now) {
   if (paused_by_ != Tool::none) in_box_m_ = now.tool[index_of(paused_by_)].in_box_m;
 }
 
+/// The instrument that the script wants to move is another one than lies there: that is taken away, nothing lies there
+/// for a moment, the next one does.
+void EmulatedHand::exchange(double elapsed_s) {
+  for (std::size_t t = 0; t < held_.size(); ++t) {
+    const bool moves = wish_.tools[t].advance_m_s != 0 || wish_.tools[t].turn_rad_s != 0;
+    Station& station = stations_[index_of(held_[t])];
+    station.count = turns_[t].count;
+    if (moves && turns_[t].place != station.place && station.changing_s < 0) station.changing_s = 0;
+  }
+  for (Station& station : stations_) {
+    if (station.changing_s < 0) continue;
+    station.changing_s += elapsed_s;
+    if (station.changing_s >= 2 * away_s) station.place = (station.place + 1) % station.count, station.changing_s = -1;
+  }
+}
+
 void EmulatedHand::move(EmulatedBox& box) {
   const double elapsed_s = box.time_s() - last_s_;
   last_s_ = box.time_s();
-  std::size_t track = 0;
+  if (pause_ == Pause::none) exchange(elapsed_s);
   for (std::size_t t = 0; t < held_.size(); ++t) {
-    if (held_[t] == Tool::none || track >= box.station.size()) continue;
-    EmulatedTool& tool = box.station[track++];
-    tool.tool = held_[t], tool.quality = 200;
+    const std::size_t i = index_of(held_[t]);
+    const Station& station = stations_[i];
+    if (turns_[t].place != station.place) continue;
+    EmulatedTool& tool = box.station[i];
+    const bool changing = station.changing_s >= 0, away = changing && station.changing_s < away_s;
+    tool.tool = away ? Tool::none : held_[t], tool.quality = away ? std::uint8_t{0} : std::uint8_t{200};
+    if (changing) continue;
     if (pause_ == Pause::none) {
-      tool.advanced_mm += 1e3 * wish_[t].advance_m_s * elapsed_s;
-      tool.turned_deg += 180 / std::numbers::pi * wish_[t].turn_rad_s * elapsed_s;
+      tool.advanced_mm += 1e3 * wish_.tools[t].advance_m_s * elapsed_s;
+      tool.turned_deg += 180 / std::numbers::pi * wish_.tools[t].turn_rad_s * elapsed_s;
     } else if (held_[t] == paused_by_) {
       const double to_m = pause_ == Pause::travel_full ? drawn_back_m : 0.27, step_m = draw_back_m_s * elapsed_s;
       tool.advanced_mm += 1e3 * std::clamp(to_m - in_box_m_, -step_m, step_m);
     }
   }
-  box.pedals = static_cast<std::uint16_t>((c_arm_.fluoroscopy > 0) | (c_arm_.cine > 0) << 1);
+  box.pedals = static_cast<std::uint16_t>((wish_.c_arm.fluoroscopy > 0) | (wish_.c_arm.cine > 0) << 1);
+  box.pressure_atm = wish_.bedside.gauge_Pa / 101'325;
+  box.flow_mL_s = 1e6 * wish_.bedside.injection_m3_s;
 }
 
 }  // namespace ostium

@@ -1,6 +1,6 @@
 #pragma once
 /// A scripted hand at an emulated box: it moves the box's tools as a script asks, within the travel that a box has, and
-/// draws back when the picture fades.
+/// draws back when the picture fades, and takes the next instrument of a kind when the script wants to move that.
 #include "app/session/device_hand.h"
 #include "device/emulated_box.h"
 
@@ -9,7 +9,7 @@ namespace ostium {
 class EmulatedHand {
  public:
   /// What the script asks for, and what the operator sees. `held`: which of the box's tools each of the session's is.
-  void ask(const std::vector<Tool>& held, const std::vector<ToolInputs>& tools, const CArmInputs& c_arm);
+  void ask(const std::vector<Tool>& held, const SessionInputs& inputs);
   void see(const BoxSnapshot& now);
 
   /// Moves what is in the box by its time since the last call.
@@ -19,9 +19,17 @@ class EmulatedHand {
   long drawn_back() const { return drawn_back_; }
 
  private:
+  /// One of the box's tools: the how-manieth of its kind lies there, and since when an exchange goes on.
+  struct Station {
+    std::uint32_t place = 0, count = 1;
+    double changing_s = -1;  ///< negative: it does not
+  };
+  void exchange(double elapsed_s);
+
   std::vector<Tool> held_;
-  std::vector<ToolInputs> wish_;
-  CArmInputs c_arm_;
+  std::vector<ToolTurn> turns_;
+  std::array<Station, 4> stations_{};
+  SessionInputs wish_;
   Pause pause_ = Pause::none;
   Tool paused_by_ = Tool::none;
   double in_box_m_ = 0;  ///< of the tool that paused, as it is shown
@@ -36,7 +44,7 @@ class EmulatedOperator : public Driver {
   bool drive(const SessionModel& model, const SessionState& state, const SessionReport& report,
              SessionInputs& inputs) override {
     if (held_.empty()) held_ = tools_at_the_box(model);
-    hand_.ask(held_, inputs.tools, inputs.c_arm);
+    hand_.ask(held_, inputs);
     return device_.drive(model, state, report, inputs);
   }
 

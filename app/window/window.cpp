@@ -255,7 +255,9 @@ long show_window(const SessionModel& model, const ScriptPlan& plan, LiveHand& ha
   Film film(model, film_options);
   const PanelTexts texts = panel_texts(model, plan, hand, options.plays);
   Events events(hand);
-  Picture picture, reference;
+  Picture picture, reference, faded;
+  double shown_brightness = 1;
+  std::string shown_problem;
   std::vector<std::uint32_t> pixels;
   Latest<Snapshot>& latest = hand.snapshots();
   long shown = 0;
@@ -265,19 +267,28 @@ long show_window(const SessionModel& model, const ScriptPlan& plan, LiveHand& ha
         events.take(event);
       } while (SDL_PollEvent(&event));
     events.look(SDL_GetTicks());
-    if (!latest.look()) continue;
+    const bool fresh = latest.look();
+    const double brightness = options.brightness ? options.brightness() : 1;
+    const std::string problem = options.problem ? options.problem() : "";
+    // While hands have to draw back nothing steps, and what the box says is shown all the same.
+    if (!fresh && brightness == shown_brightness && problem == shown_problem) continue;
+    shown_brightness = brightness, shown_problem = problem;
     const Snapshot& now = latest.seen();
-    const Picture& drawn = film.frame(model, now.state, now.inputs);
-    if (options.plays)
-      keep(now, drawn, picture);
-    else
-      picture = drawn;
+    if (fresh) {
+      const Picture& drawn = film.frame(model, now.state, now.inputs);
+      if (options.plays)
+        keep(now, drawn, picture);
+      else
+        picture = drawn;
+    }
     if (events.reference) reference = picture, events.reference = false;
+    faded = picture;
+    for (std::uint8_t& grey : faded.grey) grey = static_cast<std::uint8_t>(brightness * grey);
     draw_panel(texts, now,
-               {.picture = picture.grey.empty() ? nullptr : &picture,
+               {.picture = faded.grey.empty() ? nullptr : &faded,
                 .reference = reference.grey.empty() ? nullptr : &reference,
                 .dose = film.dose(),
-                .problem = options.problem ? options.problem() : "",
+                .problem = problem,
                 .help = events.help},
                pixels);
     SDL_UpdateTexture(texture.get(), nullptr, pixels.data(), 4 * panel_width);

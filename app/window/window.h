@@ -19,6 +19,8 @@ struct WindowOptions {
   int pixels = 512;
   /// Of whoever else drives: shown in red; may be empty.
   std::function<std::string()> problem;
+  /// Of the picture, 0 to 1: it fades while the box's travel is at its end; may be empty: 1.
+  std::function<double()> brightness;
   const std::atomic<bool>* over = nullptr;  ///< becomes true when the run has ended
   /// For tests: a frame is written here (a PNG) as it ends; empty: none.
   std::string last_frame_png;

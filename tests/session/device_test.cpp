@@ -19,8 +19,8 @@ namespace {
 
 /// A wire in the tube, and a box whose station 1 sees it, moved by the test.
 struct AtTheBox {
-  explicit AtTheBox(int delay = 1, std::optional<double> friction = {})
-      : port{box, [this](EmulatedBox& b) { move(b); }, delay}, run{setup(friction), tube_vessel(), &hand} {
+  explicit AtTheBox(int delay = 1, std::optional<double> friction = {}, const char* script = there_and_back)
+      : port{box, [this](EmulatedBox& b) { move(b); }, delay}, run{setup(friction, script), tube_vessel(), &hand} {
     box.station[0] = {Tool::wire, 200, 0, 0};
   }
 
@@ -29,8 +29,8 @@ struct AtTheBox {
     c.track[0].before_introducer_mm = 10;
     return c;
   }
-  static RunSetup setup(std::optional<double> friction) {
-    RunSetup s = tube_setup();
+  static RunSetup setup(std::optional<double> friction, const char* script) {
+    RunSetup s = tube_setup(script);
     s.friction = friction;
     s.script = free_hands(s.script);
     return s;
@@ -172,6 +172,38 @@ TEST(DeviceHand, AnExchangeIsDrawingOutAndBringingInAnother) {
   EXPECT_NEAR(at.inserted_mm(), 50, 0.2) << "60 mm, of which 10 outside";
 }
 
+TEST(DeviceHand, TheNextThatArrivesIsTheNextOfItsKind) {
+  const std::vector<Tool> held{Tool::guide, Tool::shaft, Tool::shaft, Tool::wire, Tool::shaft, Tool::wire};
+  const std::vector<ToolTurn> turns = turns_at_the_box(held);
+  const std::uint32_t places[] = {0, 0, 1, 0, 2, 1}, counts[] = {1, 3, 3, 2, 3, 2};
+  for (std::size_t t = 0; t < held.size(); ++t) {
+    EXPECT_EQ(turns[t].place, places[t]);
+    EXPECT_EQ(turns[t].count, counts[t]);
+  }
+
+  AtTheBox at(1, {}, R"({
+    "schema": "ostium-script/1", "name": "two-wires", "title": "A test",
+    "tools": [ { "name": "first", "instrument": "cook-j" }, { "name": "second", "instrument": "bentson" } ],
+    "steps": [ { "do": "wait", "until": [{ "seconds": 1 }] } ]
+  })");
+  const auto inserted_mm = [&](std::size_t t) { return 1e3 * at.run.state.rods.rods[t].inserted_m; };
+  for (const std::size_t t : {0u, 1u, 0u}) {
+    at.ticks(5);
+    at.mm_s = 100;
+    at.ticks(600);
+    at.mm_s = 0;
+    at.ticks(300);
+    EXPECT_NEAR(inserted_mm(t), 50, 0.2);
+    EXPECT_NEAR(inserted_mm(1 - t), 0, 0.01) << "the other is outside";
+    at.mm_s = -100;
+    at.ticks(600);
+    at.mm_s = 0;
+    at.box.station[0].tool = Tool::none, at.box.station[0].quality = 0;
+    at.ticks(200);
+    at.box.station[0].tool = Tool::wire, at.box.station[0].quality = 200;
+  }
+}
+
 TEST(DeviceHand, PedalsButtonsPressureAndFlow) {
   AtTheBox at;
   at.box.pedals = 1, at.box.pressure_atm = -0.8, at.box.flow_mL_s = 3;
@@ -190,6 +222,36 @@ TEST(DeviceHand, PedalsButtonsPressureAndFlow) {
   at.box.pedals = 0;
   at.ticks(5);
   EXPECT_DOUBLE_EQ(at.run.inputs.c_arm.lao_rad, 0.7);
+}
+
+/// In a patient, the box's indeflator and syringe are the bedside's.
+TEST(DeviceHand, PressureInflatesAndFlowInjects) {
+  RunSetup setup;
+  set_vessel("rca-mid-focal", LengthUnit::millimetre, setup);
+  set_script(find_script("iliac-wire"), setup);
+  setup.script = free_hands(setup.script);
+  std::string warnings;
+  EmulatedBox box{{}};
+  EmulatedPort port{box, {}};
+  TrackingBox host{port, {}};
+  DeviceHand hand{{}, [&](const BoxRequest& request) -> const BoxSnapshot& {
+                    host.poll(0, request);
+                    return host.now();
+                  }};
+  ScriptedRun run(setup, make_vessel(setup, warnings), &hand);
+  const auto ticks = [&](double atm, double mL_s) {
+    box.pressure_atm = atm, box.flow_mL_s = mL_s;
+    for (int i = 0; i < 5; ++i) ASSERT_TRUE(run.tick());
+  };
+  ticks(-0.8, 3);
+  EXPECT_NEAR(run.inputs.bedside.gauge_Pa, -0.8 * 101'325, 60);
+  EXPECT_NEAR(run.inputs.bedside.injection_m3_s, 3e-6, 1e-8);
+  ticks(12, -2);
+  EXPECT_NEAR(run.inputs.bedside.gauge_Pa, 12 * 101'325, 60);
+  EXPECT_EQ(run.inputs.bedside.injection_m3_s, 0) << "nothing is drawn back out of the guide";
+  ticks(0.03, 0.03);
+  EXPECT_EQ(run.inputs.bedside.gauge_Pa, 0) << "an offset is no hand";
+  EXPECT_EQ(run.inputs.bedside.injection_m3_s, 0);
 }
 
 TEST(DeviceHand, DoesNotAllocate) {

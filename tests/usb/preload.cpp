@@ -1,6 +1,10 @@
 /// Bench 1 for a program that knows nothing of it: LD_PRELOAD=libusb_bench.so:libumockdev-preload.so.0 COMMAND sees a
-/// box on USB, at which a hand moves a wire in strokes.
+/// box on USB, at which a hand moves a wire in strokes. OSTIUM_BENCH_FAULT: after two seconds the wire is lost (lost),
+/// the hand stays at the end of the travel (full), or the cable is pulled (unplugged).
+#include <chrono>
 #include <cstdio>
+#include <cstdlib>
+#include <thread>
 
 #include "device/stroking_hand.h"
 #include "tests/usb/usbfs_bench.h"
@@ -17,8 +21,22 @@ struct Plugged {
       std::fprintf(stderr, "no bench: %s\n", why_not.c_str());
       return;
     }
-    bench->usb.hand = [this](ostium::EmulatedBox& box) { hand.move(box); };
+    const char* asked = std::getenv("OSTIUM_BENCH_FAULT");
+    const std::string fault = asked ? asked : "";
+    bench->usb.hand = [this, fault](ostium::EmulatedBox& box) {
+      if (fault == "full" && box.station[1].advanced_mm > 318) return;
+      if (fault != "" && fault != "full" && box.time_s() > 2) {
+        if (fault == "lost") box.station[1].quality = 3;
+        return;
+      }
+      hand.move(box);
+    };
     bench->plug();
+    if (fault == "unplugged")
+      std::thread([this] {
+        std::this_thread::sleep_for(std::chrono::seconds(6));
+        bench->unplug();
+      }).detach();
   }
 };
 
