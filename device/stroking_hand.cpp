@@ -19,8 +19,9 @@ StrokingHand::Move StrokingHand::move_of(int n, double station_mm) const {
 
 void StrokingHand::move(EmulatedBox& box) {
   const double station_mm = box.calibration().track[1].before_introducer_mm;
-  if (!begun_) tip_mm_ = -station_mm, begun_ = true;
-  const double now_s = box.time_s(), elapsed_s = now_s - last_s_;
+  const double now_s = box.time_s();
+  if (!begun_) tip_mm_ = -station_mm, last_s_ = now_s, begun_ = true;
+  const double elapsed_s = now_s - last_s_;
   last_s_ = now_s;
   const Move to = move_of(next_, station_mm);
   const double way_mm = std::clamp(to.to_mm - tip_mm_, -2 * mm_s * elapsed_s, mm_s * elapsed_s);

@@ -235,8 +235,10 @@ void draw_panel(const PanelTexts& texts, const Snapshot& now, const PanelView& v
   pen.write_to(dim, 12, panel_width - 12, 776, "F1: keys");
   pen.write_to(dim, 11, panel_width - 12, 793, "Training and research, not for decisions on a patient");
   if (!view.problem.empty()) {
-    pen.fill(red, 4, 340, side, 44);
-    pen.write({1, 1, 1}, 18, 24, 368, view.problem);
+    const std::size_t end = view.problem.find(". ");  // what is wrong; what to do
+    pen.fill(red, 4, 340, side, end == std::string::npos ? 44 : 68);
+    pen.write({1, 1, 1}, 18, 24, 368, view.problem.substr(0, end == std::string::npos ? end : end + 1));
+    if (end != std::string::npos) pen.write({1, 1, 1}, 18, 24, 392, view.problem.substr(end + 2));
   }
   if (now.paused) {
     pen.fill(yellow, 324, 20, 128, 30);

@@ -24,8 +24,9 @@ struct Plugged {
     const char* asked = std::getenv("OSTIUM_BENCH_FAULT");
     const std::string fault = asked ? asked : "";
     bench->usb.hand = [this, fault](ostium::EmulatedBox& box) {
+      if (fault != "" && box.time_s() < 10) return;
       if (fault == "full" && box.station[1].advanced_mm > 318) return;
-      if (fault != "" && fault != "full" && box.time_s() > 2) {
+      if (fault != "" && fault != "full" && box.time_s() > 12) {
         if (fault == "lost") box.station[1].quality = 3;
         return;
       }
@@ -34,7 +35,7 @@ struct Plugged {
     bench->plug();
     if (fault == "unplugged")
       std::thread([this] {
-        std::this_thread::sleep_for(std::chrono::seconds(6));
+        std::this_thread::sleep_for(std::chrono::seconds(12));
         bench->unplug();
       }).detach();
   }
