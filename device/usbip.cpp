@@ -24,7 +24,7 @@ using Bytes = std::vector<std::uint8_t>;
 constexpr std::size_t header_bytes = 48;
 constexpr std::uint32_t cmd_submit = 1, cmd_unlink = 2, ret_submit = 3, ret_unlink = 4;
 constexpr std::uint32_t most_bytes = 4096;  // of a transfer: the box has none longer
-constexpr int longest_put_off = 20;         // samples, before one is lost as on a bus
+constexpr int longest_put_off = 200;        // samples, before they are lost as on a bus, until the host is back
 
 std::uint32_t get_u32(const std::uint8_t* at) {
   return std::uint32_t{at[0]} << 24 | std::uint32_t{at[1]} << 16 | std::uint32_t{at[2]} << 8 | at[3];
@@ -122,8 +122,8 @@ bool UsbipLink::receive() {
 
 /// A millisecond of the bus. False: the host has left.
 bool UsbipLink::tick(bool even_if_lost) {
-  sampled_ = !in_.empty() || even_if_lost;
-  if (!sampled_) return true;
+  sampled_ = !in_.empty();
+  if (!sampled_ && !even_if_lost) return true;
   const EmulatedUsb::Sample sample = usb_.sample();
   if (in_.empty() || (!sample.stall && !sample.error && sample.bytes.empty())) return true;
   const Waiting to = in_.front();

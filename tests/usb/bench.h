@@ -7,7 +7,7 @@
 
 namespace ostium {
 
-inline constexpr int longest_put_off_ms = 20;
+inline constexpr int longest_put_off_ms = 200;
 
 class Bench {
  public:
@@ -38,7 +38,7 @@ class Bench {
   virtual std::optional<bool> marked_by_udev() const { return {}; }
 
   /// Samples that were put off because the host had no transfer in flight. (Machines that run tests are busy. After
-  /// `longest_put_off_ms` one is lost, as it is on a bus.)
+  /// `longest_put_off_ms` they are lost, as on a bus, until the host is back.)
   virtual long late() const = 0;
 };
 

@@ -130,7 +130,7 @@ class UsbfsBench : public Bench {
     umockdev_testbed_remove_device(testbed_, sys_.c_str());
   }
 
-  /// A millisecond of the bus. False: no transfer waits, and nothing was sampled.
+  /// A millisecond of the bus. False: no transfer waits, and nothing was sampled unless `even_if_lost`.
   bool tick(bool even_if_lost) {
     const std::lock_guard guard(mutex_);
     if (!plugged_) return true;
@@ -154,7 +154,7 @@ class UsbfsBench : public Bench {
       return true;
     }
     if (even_if_lost) usb.sample();
-    return even_if_lost;
+    return false;
   }
 
   // The node.
@@ -203,7 +203,7 @@ class UsbfsBench : public Bench {
       due = real ? std::max(due + 1ms, std::chrono::steady_clock::now()) : std::chrono::steady_clock::now();
       if (real) std::this_thread::sleep_until(due);
       if (pace_ == Pace::stepped) continue;
-      const bool sampled = tick(real && put_off == longest_put_off_ms);
+      const bool sampled = tick(real && put_off >= longest_put_off_ms);
       put_off = sampled ? 0 : put_off + 1;
       if (sampled) continue;
       ++late_;
