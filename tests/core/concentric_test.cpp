@@ -154,7 +154,7 @@ TEST(Concentric, AnUprightWireBucklesWhenItIsTooLong) {
   for (const auto& [ratio, leans] : {std::pair{7.6, false}, std::pair{9.0, true}}) {
     boundary_value::Tube wire{{stretch(0, 0.3, 1e-5, {0, 0, 0}, 0.2e-3, 0)}, 0.3, 0, 0};
     wire.sections[0].kg_per_m = ratio * 1e-5 / (0.3 * 0.3 * 0.3) / 9.81;
-    ConcentricDescription d{"wire", {{wire.sections, 0.3, 0, 0}}, std::vector<double>(200, 0.3 / 200)};
+    ConcentricDescription d{"wire", {{wire.sections, 0.3, 0, 0}}, std::vector<double>(200, 0.3 / 200), {}};
     const Concentric nest = make_concentric(d, {0, 0, -9.81});
     ConcentricState state = straight_state(nest, {});
     const ConcentricEquilibrium found = find_equilibrium(nest, {}, Vector3d::Zero(), state);
@@ -188,7 +188,7 @@ TEST(Concentric, AgreesWithTheBindingOfRods) {
   for (int n = 0; n < 4000; ++n) step(model, inputs, state, scratch, report);
 
   ConcentricDescription d{
-      "nest", {{{outer}, 0.15, 0, 0}, {{inner}, 0.15, roll, 0}}, std::vector<double>(elements, 0.15 / elements)};
+      "nest", {{{outer}, 0.15, 0, 0}, {{inner}, 0.15, roll, 0}}, std::vector<double>(elements, 0.15 / elements), {}};
   const Concentric nest = make_concentric(d, Vector3d::Zero());
   ConcentricState together = straight_state(nest, {});
   ASSERT_TRUE(find_equilibrium(nest, {}, Vector3d::Zero(), together).converged);
@@ -197,7 +197,7 @@ TEST(Concentric, AgreesWithTheBindingOfRods) {
 }
 
 TEST(Concentric, WhatIsNoNestIsRefused) {
-  ConcentricDescription d{"nest", {}, std::vector<double>(20, 0.005)};
+  ConcentricDescription d{"nest", {}, std::vector<double>(20, 0.005), {}};
   EXPECT_THROW(make_concentric(d, Vector3d::Zero()), std::invalid_argument);
   Section s = stretch(0, 0.1, 1e-3, Vector3d::Zero(), 1e-3, 0);
   s.EI2_N_m2 *= 2;
