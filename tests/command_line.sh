@@ -114,7 +114,6 @@ expect 0 "moment.png" "$ostium" replay "$out/run.h5" --from 0.5 --view lao --pix
 expect 0 "run.html" "$ostium" report "$out/run.h5" -o "$out/run.html" --csv "$out/runs.csv" --events "$out/events.csv"
 grep -q "not for decisions on a patient" "$out/run.html"
 grep -q "tool_in" "$out/events.csv"
-expect 0 "both.html" "$ostium" report "$out/run.h5" "$out/run.h5" --code A B --no-pictures -o "$out/both.html"
 expect 3 "2 recordings" "$ostium" report "$out/run.h5" "$out/run.h5" --code A -o "$out/none.html"
 expect 3 "no-such-list" "$ostium" report "$out/run.h5" --scoring no-such-list -o "$out/none.html"
 expect 0 "" "$ostium" report --questionnaire "$out/forms.html"
