@@ -42,9 +42,9 @@ int predict_command(const PredictOptions& options) {
     if (progress) fmt::print(stderr, "experiment {} of {}{}", done, of, done < of ? "\r" : "\r\033[K");
   });
   for (const Prediction& p : predictions)
-    if (p.other_branch_m)
+    for (const double apart_m : p.other_branches_m)
       fmt::print(stderr, "ostium predict: {} has another stable shape, its tip {:.1f} mm away\n", p.id,
-                 1e3 * *p.other_branch_m);
+                 1e3 * apart_m);
   const std::filesystem::path folder(options.folder);
   write_file((folder / "prediction.json").string(), to_json(predictions));
   write_file((folder / "prediction.csv").string(), to_csv(predictions));

@@ -31,7 +31,7 @@ Shape unpacked(const std::vector<double>& in) {
   return shape;
 }
 
-constexpr double rough_tolerance = 1e-4;
+constexpr double rough_tolerance = 1e-5;
 constexpr int rough_iterations = 25;
 
 /// Behind what `out` has: how many numbers, and these.

@@ -126,6 +126,10 @@ void Search::judge_again(const Study& declared, FittedModel& of_declared, Noise&
 void Search::grow_to_noise(FittedModel& of_declared, const Noise& noise) {
   for (std::size_t count = 1; count < 3; ++count) {
     sort_by_bic();
+    // Rough fits may leave a little: the foremost are fitted to the end before anything is added to them.
+    for (std::size_t i = 0, polished = 0; i < tried_.size() && polished < 3; ++i)
+      if (tried_[i].effects.size() == count) complete(tried_[i], noise), ++polished;
+    sort_by_bic();
     const double best = tried_.empty() ? 0 : tried_.front().model.bic;
     bool enough = false;
     for (const Tried& t : tried_) enough = enough || (fits(t.model, noise) && t.model.bic < best + far_behind);
@@ -175,6 +179,8 @@ std::vector<FittedModel> Search::run(const Study& declared, FittedModel& of_decl
   else
     grow_by_held_out(of_declared, noise);
   judge_again(declared, of_declared, noise);
+  sort_by_bic();
+  for (std::size_t i = 0; i < std::min(finalists, tried_.size()); ++i) complete(tried_[i], noise);
   sort_by_bic();
 
   // Finalists: what may be all there is, the best of each list of effects; without any, the best by BIC.

@@ -2,8 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <numbers>
 
 #include "data/effects/effect.h"
 #include "data/fit/view.h"
@@ -15,13 +17,31 @@ namespace {
 
 constexpr double mm = 1e-3;
 
-/// Distance to the shape that a straight start leads to, if it is another.
-std::optional<double> other_branch(const Setup& setup, const Shape& shape) {
+/// Distances to the shapes that other starts lead to, each shape once: a straight one, and straight ones in which an
+/// instrument is wound up against the others on the way to its tip, either way round.
+std::vector<double> other_branches(const Setup& setup, const Shape& shape) {
   Anchor straight{make_concentric(setup.nest, setup.gravity_m_s2), {}, false};
   straight.state = straight_state(straight.nest, setup.base);
-  const Shape other = shape_from(setup, straight);
-  const double apart = (other.points_m.back() - shape.points_m.back()).norm();
-  if (!other.converged || apart < 0.1 * mm) return {};
+  std::vector<Anchor> starts = {straight};
+  const Eigen::Index elements = straight.state.roll_rad.cols();
+  for (std::size_t i = 0; setup.nest.parts.size() > 1 && i < setup.nest.parts.size(); ++i)
+    for (const double wound : {-std::numbers::pi, std::numbers::pi}) {
+      if (static_cast<int>(i) == straight.nest.reference) continue;
+      Anchor other = straight;
+      other.state.roll_rad.row(static_cast<Eigen::Index>(i)) += Eigen::RowVectorXd::LinSpaced(elements, 0, wound);
+      starts.push_back(other);
+    }
+  std::vector<Eigen::Vector3d> tips = {shape.points_m.back()};
+  std::vector<double> apart;
+  for (const Anchor& start : starts) {
+    const Shape other = shape_from(setup, start);
+    if (!other.converged) continue;
+    const Eigen::Vector3d tip = other.points_m.back();
+    if (std::any_of(tips.begin(), tips.end(), [&](const Eigen::Vector3d& t) { return (t - tip).norm() < 0.1 * mm; }))
+      continue;
+    tips.push_back(tip);
+    apart.push_back((tip - tips.front()).norm());
+  }
   return apart;
 }
 
@@ -51,7 +71,7 @@ std::vector<Prediction> predict(const MeasurementSet& set,
       throw LoadError(fmt::format("{}: {} (\"{}\"): no static shape was found; is its load more than it can bear?",
                                   set.file, e.place, e.id));
     const MeasuredView view = seen(set, e, declared, {});
-    Prediction p{e.id, shape, {}, set.vessel ? std::nullopt : other_branch(setup, shape)};
+    Prediction p{e.id, shape, {}, set.vessel ? std::vector<double>{} : other_branches(setup, shape)};
     if (comparable) p.rms_to_measured_m = rms({&e}, {misfit(e, shape, view)});
     for (Eigen::Vector3d& q : p.shape.points_m) q = view(q);
     predictions.push_back(std::move(p));

@@ -8,11 +8,11 @@ struct Prediction {
   std::string id;
   Shape shape;
   std::optional<double> rms_to_measured_m;  ///< none where registration or offset is free
-  /// How far the end of another stable shape lies from this one's, if one was found.
-  std::optional<double> other_branch_m;
+  /// How far the ends of other stable shapes, those that were found, lie from this one's.
+  std::vector<double> other_branches_m;
 };
 
-/// Throws LoadError if the set is in a vessel, or names the experiment that has no static shape.
+/// Throws LoadError for what the model does not know (require_known), or names the experiment that has no static shape.
 std::vector<Prediction> predict(const MeasurementSet& set,
                                 const std::function<void(std::size_t, std::size_t)>& progress = {});
 

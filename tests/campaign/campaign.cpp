@@ -12,6 +12,7 @@
 #include <stdexcept>
 #include <thread>
 
+#include "data/write_file.h"
 #include "tests/campaign/judged.h"
 #include "tests/support/undeclared.h"
 
@@ -25,6 +26,7 @@ struct Options {
   std::vector<std::string> kinds;
   unsigned first_seed = 1;
   int seeds = 10, clean = 40, threads = 0;
+  std::string sets;  ///< folder to write the sets to, and nothing else
 };
 
 Json line_of(const Judged& j) {
@@ -95,7 +97,25 @@ void print(const std::vector<Judged>& all) {
              percent(at_floor, ended));
 }
 
+int write_sets(const Options& o) {
+  for (const std::string& kind : ostium::synthetic::undeclared_kinds()) {
+    if (!o.kinds.empty() && std::find(o.kinds.begin(), o.kinds.end(), kind) == o.kinds.end()) continue;
+    for (int s = 0; s < (kind == "clean" ? o.clean : o.seeds); ++s) {
+      const unsigned seed = o.first_seed + static_cast<unsigned>(s);
+      const std::string file = fmt::format("{}/{}-{}/measurement.json", o.sets, kind, seed);
+      try {
+        ostium::write_file(file, ostium::synthetic::to_json(ostium::synthetic::undeclared_set(kind, seed).set));
+        fmt::print("{}\n", file);
+      } catch (const std::runtime_error& error) {
+        fmt::print(stderr, "{} {}: {}\n", kind, seed, error.what());
+      }
+    }
+  }
+  return 0;
+}
+
 int run(const Options& o) {
+  if (!o.sets.empty()) return write_sets(o);
   std::vector<Judged> all = read(o.file);
   std::vector<std::pair<std::string, unsigned>> left;
   for (const std::string& kind : ostium::synthetic::undeclared_kinds()) {
@@ -149,9 +169,11 @@ int main(int argc, char** argv) {
   app.add_option("--seeds", o.seeds, "Sets of each kind")->capture_default_str();
   app.add_option("--clean", o.clean, "Sets without an effect")->capture_default_str();
   app.add_option("--first-seed", o.first_seed, "Where the seeds begin")->capture_default_str();
+  app.add_option("--write", o.sets, "Write the sets here, and explain none")->type_name("DIR");
   app.add_option("--threads", o.threads, "Sets at a time; 0: one for each core")->capture_default_str();
   app.footer(
-      "Examples:\n  ostium-campaign -o campaign.jsonl\n  ostium-campaign --kinds clean,roll_loss --seeds 3 --clean 3");
+      "Examples:\n  ostium-campaign -o campaign.jsonl\n  ostium-campaign --kinds clean,roll_loss --seeds 3 --clean 3\n"
+      "  ostium-campaign --kinds roll_loss --seeds 1 --write sets");
   CLI11_PARSE(app, argc, argv);
   try {
     return run(o);

@@ -1,0 +1,84 @@
+/// Insertion in a vessel: what walls do not touch is as free rods are, and what they do touch stays inside.
+#include "data/forward/insertion.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "app/verify/tube.h"
+#include "data/forward/prediction.h"
+#include "tests/support/synthetic_set.h"
+
+namespace ostium {
+namespace {
+
+using Eigen::Vector3d;
+
+/// A wire from the origin along x; `experiments` at rising insertions.
+MeasurementSet wire_in(const SurfaceDescription& wall, int experiments, double longest_m) {
+  MeasurementSet set = synthetic::free_wire(1);
+  Experiment e = set.experiments[0];
+  e.base.p_W = {0.012, 0, 0};
+  e.tip_force_N.setZero();
+  set.experiments.clear();
+  for (int i = 0; i < experiments; ++i) {
+    e.id = "d" + std::to_string(i), e.place = "experiments[" + std::to_string(i) + "]";
+    e.set = {{longest_m * (i + 1) / experiments, 0.3, 0}};
+    set.experiments.push_back(e);
+  }
+  set.vessel = MeasuredVessel{"tube", "m", 0.05, std::make_shared<const SurfaceDescription>(wall)};
+  return set;
+}
+
+/// A wide tube: the wire hangs free in it, and comes to rest where statics has it.
+TEST(Insertion, AWireThatTouchesNothingComesToRestAsAFreeOne) {
+  const auto wide = verify::tube({{{-0.01, 0, 0}, 0.1}, {{0.1, 0, 0}, 0.1}, {{0.3, 0, 0}, 0.1}}, 24);
+  MeasurementSet set = wire_in(wide, 2, 0.16);
+  const std::vector<Shape> in_vessel = insert(set, {});
+  set.vessel.reset();
+  const std::vector<Anchor> anchors = walk(set, {});
+  for (std::size_t e = 0; e < 2; ++e) {
+    ASSERT_TRUE(in_vessel[e].converged);
+    const Shape free = shape_from(setup_of(set, set.experiments[e], {}), anchors[e]);
+    // Elements of 2 mm here, and a motion of up to 0.2 mm/s that is left.
+    EXPECT_LT((in_vessel[e].points_m.back() - free.points_m.back()).norm(), 0.3e-3) << e;
+  }
+}
+
+/// A bent tube of 5 mm: the wire follows it, no point of it is outside, and friction costs push.
+TEST(Insertion, AWireStaysInABentTubeAndFrictionCostsPush) {
+  const auto points = verify::bend(0.05, 1.2, 0.06, 0.1, 2.5e-3, 2e-3);
+  const auto wall = verify::tube(points, 24);
+  MeasurementSet set = wire_in(wall, 2, 0.15);
+  for (Section& s : set.instruments[0].sections) s.rest_curvature_per_m.setZero();
+  std::vector<double> push;
+  for (const double friction : {0.02, 0.3}) {
+    set.vessel->friction = friction;
+    const std::vector<Shape> shapes = insert(set, {});
+    ASSERT_TRUE(shapes[1].converged);
+    for (const Vector3d& p : shapes[1].points_m) {
+      double nearest = 1;
+      for (std::size_t i = 0; i + 1 < points.size(); ++i) {
+        const Vector3d edge = points[i + 1].p_W - points[i].p_W;
+        const double t = std::clamp((p - points[i].p_W).dot(edge) / edge.squaredNorm(), 0.0, 1.0);
+        nearest = std::min(nearest, (p - points[i].p_W - t * edge).norm());
+      }
+      EXPECT_LT(nearest, 2.5e-3 - 0.178e-3 + 0.05e-3);
+    }
+    push.push_back(shapes[1].base_push_N);
+  }
+  EXPECT_GT(push[1], push[0]);
+}
+
+TEST(Insertion, WhatAVesselDoesNotKnowIsRefused) {
+  const auto wide = verify::tube({{{-0.01, 0, 0}, 0.1}, {{0.3, 0, 0}, 0.1}}, 12);
+  MeasurementSet set = wire_in(wide, 2, 0.1);
+  set.experiments[1].base.p_W.x() += 1e-3;
+  EXPECT_THROW(predict(set), LoadError);
+  set.experiments[1].base = set.experiments[0].base;
+  set.vessel->wall.reset();
+  EXPECT_THROW(predict(set), LoadError);
+}
+
+}  // namespace
+}  // namespace ostium

@@ -1,0 +1,89 @@
+/// A dozen sets with an undeclared effect, as `ostium-campaign` makes them by the hundred: what is found must be what
+/// was put in, and nothing where nothing was.
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "data/effects/effect.h"
+#include "data/fit/explanation.h"
+#include "data/fit/explanation_report.h"
+#include "data/forward/prediction.h"
+#include "data/instrument_reader.h"
+#include "data/measured/measurement_reader.h"
+#include "tests/campaign/judged.h"
+#include "tests/support/undeclared.h"
+
+namespace ostium {
+namespace {
+
+using synthetic::Judged;
+
+struct Case {
+  const char* kind;
+  unsigned seed;
+};
+
+class Undeclared : public testing::TestWithParam<Case> {};
+
+TEST_P(Undeclared, IsFound) {
+  const Judged judged = synthetic::judge(GetParam().kind, GetParam().seed, 0);
+  EXPECT_TRUE(judged.right) << "said: " << judged.said;
+  const bool outside = std::string(GetParam().kind).rfind("out:", 0) == 0;
+  EXPECT_TRUE(outside || judged.after < 1.2) << judged.after;
+}
+
+INSTANTIATE_TEST_SUITE_P(Library, Undeclared,
+                         testing::Values(Case{"clean", 1}, Case{"clean", 2}, Case{"clean", 3}, Case{"clean", 4},
+                                         Case{"rest_curvature", 1}, Case{"soft_section", 1}, Case{"lumped_mass", 1},
+                                         Case{"roll_loss", 1}, Case{"clamp_runout", 1}, Case{"registration", 1},
+                                         Case{"imaging_scale", 1}, Case{"out:shear", 1}));
+
+/// A curved wire alone, whose curvature relaxes with time.
+TEST(Library, RelaxationOfAnInstrumentAlone) {
+  const synthetic::Undeclared made = synthetic::undeclared_set("stress_relaxation", 1);
+  const Explanation x = explain(made.set, {{{"stress_relaxation"}}, 0, {}});
+  EXPECT_EQ(x.verdict, Verdict::effect);
+  EXPECT_GT(*x.declared.chi2_per_dof, 1.5);
+  ASSERT_EQ(x.candidates.size(), 1u);
+  EXPECT_LT(*x.candidates[0].chi2_per_dof, 1.25);
+  EXPECT_LT(*x.candidates[0].rms_held_out_m, 1.2 * std::sqrt(2.0) * *made.set.imaging.noise_sigma_m);
+}
+
+/// The file that other commands take has what was found in the instrument, and nothing of the rig.
+TEST(Library, TheInstrumentIsWrittenAsItWasFound) {
+  const synthetic::Undeclared made = synthetic::undeclared_set("rest_curvature", 1);
+  const Explanation x = explain(made.set, {{{"rest_curvature"}}, 0, {}});
+  ASSERT_EQ(x.verdict, Verdict::effect);
+  const std::string text = instrument_json(made.set, x, 0);
+  const Instrument found = read_instrument("instrument.json", text);
+  ASSERT_EQ(found.sections.size(), made.set.instruments[0].sections.size());
+  for (std::size_t s = 0; s < found.sections.size(); ++s) {
+    const Section &now = found.sections[s], &declared = made.set.instruments[0].sections[s];
+    EXPECT_NEAR(now.EI1_N_m2, declared.EI1_N_m2 * x.best().changes.stiffness_scale[0][s], 1e-9 * declared.EI1_N_m2);
+    const Eigen::Vector3d add = now.rest_curvature_per_m - declared.rest_curvature_per_m;
+    EXPECT_NEAR(add.x(), 1e3 * x.best().changes.effects[0].values[0], 1e-6);
+    EXPECT_NEAR(add.y(), 1e3 * x.best().changes.effects[0].values[1], 1e-6);
+  }
+}
+
+/// Too few numbers: no verdict, but what to measure.
+TEST(Library, ASetTooSmallToDecideIsAmbiguous) {
+  synthetic::Undeclared made = synthetic::undeclared_set("clean", 1);
+  made.set.experiments.resize(2);
+  for (Experiment& e : made.set.experiments) {
+    e.kind = Experiment::Kind::tip;
+    e.points_m = {e.points_m.back() + Eigen::Vector3d(0, 0.004, 0.003)};
+  }
+  ExplainOptions options;
+  options.library = true;
+  const Explanation x = explain(made.set, options);
+  EXPECT_EQ(x.verdict, Verdict::ambiguous);
+  ASSERT_TRUE(x.next_experiment);
+  EXPECT_FALSE(x.next_experiment->why.empty());
+  const auto json = nlohmann::json::parse(to_json(x));
+  EXPECT_EQ(json["verdict"], "ambiguous");
+  EXPECT_EQ(json["next_experiment"]["set"].size(), 1u);
+}
+
+}  // namespace
+}  // namespace ostium
