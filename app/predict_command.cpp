@@ -43,8 +43,7 @@ int predict_command(const PredictOptions& options) {
   });
   for (const Prediction& p : predictions)
     for (const double apart_m : p.other_branches_m)
-      fmt::print(stderr, "ostium predict: {} has another stable shape, its tip {:.1f} mm away\n", p.id,
-                 1e3 * apart_m);
+      fmt::print(stderr, "ostium predict: {} has another stable shape, its tip {:.1f} mm away\n", p.id, 1e3 * apart_m);
   const std::filesystem::path folder(options.folder);
   write_file((folder / "prediction.json").string(), to_json(predictions));
   write_file((folder / "prediction.csv").string(), to_csv(predictions));

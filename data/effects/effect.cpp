@@ -25,9 +25,10 @@ namespace ostium {
 
 const std::vector<Effect>& effects() {
   static const std::vector<Effect> all = {
-      rest_curvature(), soft_section(),  bending_anisotropy(), superelastic_softening(), lumped_mass(),
-      self_weight(),    roll_loss(),     clamp_runout(),       insertion_slip(),         registration(),
-      imaging_scale(),  shaft_torsion(), nesting_clearance(),  stress_relaxation()};
+      rest_curvature(),    soft_section(),      bending_anisotropy(), superelastic_softening(),
+      lumped_mass(),       self_weight(),       roll_loss(),          clamp_runout(),
+      insertion_slip(),    registration(),      imaging_scale(),      shaft_torsion(),
+      nesting_clearance(), stress_relaxation(), wall_friction(),      wall_compliance()};
   return all;
 }
 

@@ -79,7 +79,8 @@ MeasurementSet free_instrument(Dice& dice, bool curved, bool timed) {
   const double radius = dice.uniform(0.17, 0.3), shaft = dice.log_uniform(25, 90),
                tip = shaft * dice.uniform(0.05, 0.2);
   const double ratio = dice.uniform(0.7, 0.8), weight = 6450 * pi * radius * radius * 1e-6 * dice.uniform(0.8, 1.4);
-  const double tip_mm = timed ? dice.uniform(60, 110) : dice.uniform(25, 60), middle_mm = tip_mm + dice.uniform(40, 90), length_mm = 600;
+  const double tip_mm = timed ? dice.uniform(60, 110) : dice.uniform(25, 60), middle_mm = tip_mm + dice.uniform(40, 90),
+               length_mm = 600;
   const double bend = curved || dice.uniform(0, 1) < 0.7 ? dice.log_uniform(timed ? 15 : 8, 30) : 0;
   const double side = dice.uniform(0, 2 * pi);
   const Vector2d k = bend * Vector2d(std::cos(side), std::sin(side));
