@@ -62,6 +62,24 @@ bool same_effects(const FittedModel& a, const FittedModel& b) {
          std::set<std::string>(b.effects.begin(), b.effects.end());
 }
 
+/// Whether `more` has all effects of `fewer`, and others.
+bool adds_to(const FittedModel& fewer, const FittedModel& more) {
+  const std::set<std::string> a(fewer.effects.begin(), fewer.effects.end()),
+      b(more.effects.begin(), more.effects.end());
+  return a.size() < b.size() && std::includes(b.begin(), b.end(), a.begin(), a.end());
+}
+
+/// Of those that the first has no evidence against, the one with the fewest effects, and numbers, comes first.
+void put_simplest_first(std::vector<FittedModel>& by_bic) {
+  auto best = by_bic.begin();
+  const auto simpler = [](const FittedModel& a, const FittedModel& b) {
+    return std::pair(a.effects.size(), a.parameters.size()) < std::pair(b.effects.size(), b.parameters.size());
+  };
+  for (auto c = by_bic.begin(); c != by_bic.end() && c->bic < by_bic.front().bic + positive_evidence; ++c)
+    if (simpler(*c, *best)) best = c;
+  if (best != by_bic.end()) std::rotate(by_bic.begin(), best, best + 1);
+}
+
 /// Where two lists of effects differ in one each.
 bool differ_in_a_pair(const FittedModel& a, const FittedModel& b) {
   std::vector<std::string> only_a, only_b;
@@ -75,7 +93,7 @@ bool differ_in_a_pair(const FittedModel& a, const FittedModel& b) {
 /// Whether `rival` explains the set as well as `best`. Of what is often confused, one may have more numbers that a
 /// poorer one needs not: then it is chi-square that counts.
 bool rivals(const FittedModel& best, const FittedModel& rival, bool noise_known) {
-  if (same_effects(best, rival)) return false;
+  if (same_effects(best, rival) || adds_to(best, rival)) return false;
   if (differ_in_a_pair(best, rival)) {
     const double behind = rival.bic - best.bic;
     if (behind < strong_evidence) return true;
@@ -99,13 +117,14 @@ void decide(const MeasurementSet& set, const Workers& workers, Explanation& out)
   for (FittedModel& c : out.candidates)
     (small || wins(c, out.declared, out.noise) ? winners : others).push_back(std::move(c));
   std::sort(winners.begin(), winners.end(), [](const FittedModel& a, const FittedModel& b) { return a.bic < b.bic; });
+  put_simplest_first(winners);
   out.candidates = std::move(winners);
   const std::size_t count = out.candidates.size();
   // Best, then what rivals it, then the rest.
   auto end_of_rivals = out.candidates.begin();
   if (count > 0)
     end_of_rivals = std::partition(out.candidates.begin() + 1, out.candidates.end(), [&](const FittedModel& c) {
-      return rivals(out.candidates.front(), c, known) || small;
+      return rivals(out.candidates.front(), c, known) || (small && !same_effects(out.candidates.front(), c));
     });
   const auto tied = static_cast<std::size_t>(end_of_rivals - out.candidates.begin());
   for (FittedModel& c : others) out.candidates.push_back(std::move(c));

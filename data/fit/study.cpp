@@ -101,6 +101,9 @@ FittedModel Study::run_near(const FittedModel& near, std::optional<double> noise
   };
   while (first < parameters_.shape_parameters() && known(first)) ++first;
   FitOptions options{all_, noise_m, starts_of(parameters_, x, first, starts), descents};
+  // Without what it lacks, the other model's stiffness may have gone far astray.
+  for (const VectorXd& start : starts_of(parameters_, parameters_.start(), first, starts / 2))
+    options.starts.push_back(start);
   options.guess_m = guess_m, options.rounds = 2, options.rough = true;
   fit_ = fit(*forward_, parameters_, options);
   const std::vector<std::string> others = on_other_branches();

@@ -100,8 +100,9 @@ TEST(Concentric, OneWireWithEverything) {
     for (Section& s : p.tubes[0].sections) {
       if (what == 0) s.rest_curvature_per_m.z() = 6;
       if (what == 1) s.EI1_N_m2 *= 1.6, s.EI2_N_m2 /= 1.6;
-      if (what == 2) s.softening_per_m = 3, s.softened_ratio = 0.2;
+      if (what == 2) s.softening_per_m = 3, s.softened_ratio = 0.3;
     }
+    if (what == 2) p.tip_force *= 0.4, p.gravity *= 0.4;  // beyond what it can bear from straight otherwise
     if (what == 3) p.loads = {{0.1512, 0.1512, {0, -3e-4, 0}}};
     if (what == 4) p.loads = {{0.05, 0.2, {6e-4, 0, 0}}};
     EXPECT_LT(distance_mm(p, 250), 0.02) << what;
