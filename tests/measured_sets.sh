@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# ostium predict and ostium explain: files, exit codes, and the same numbers from one rank and from two.
+# ostium predict and ostium explain: files, exit codes, and the same numbers from one rank, two and three.
 set -euo pipefail
 ostium=$1
 folder=$(mktemp -d)
@@ -40,8 +40,8 @@ expect 3 "no-such-set" "$ostium" predict "$folder/no-such-set"
 expect 3 "cannot be written" "$ostium" predict "$folder/wire" -o /proc/nowhere
 expect 2 "SET is required\|set is required" "$ostium" predict
 
-expect 0 "verdict: " "$ostium" explain "$folder/wire" -o "$folder/one" --threads 1
-expect 0 '"ostium-explanation/1"' "$ostium" explain "$folder/wire" -o "$folder/one" --json
+expect 0 "verdict: " "$ostium" explain "$folder/wire" --try self_weight -o "$folder/one" --threads 1
+expect 0 '"ostium-explanation/1"' "$ostium" explain "$folder/wire" --try self_weight -o "$folder/one" --json
 grep -q "<svg" "$folder/one/explanation.html"
 expect 0 "root mean square" "$ostium" predict "$folder/one/amended" -o "$folder/amended"
 expect 3 "there is no effect" "$ostium" explain "$folder/wire" --try no_such_effect -o "$folder/one"
@@ -58,7 +58,7 @@ if command -v mpirun >/dev/null; then
   for n in 2 3; do
     ranks=(env OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMPI_MCA_btl_vader_single_copy_mechanism=none
       mpirun --oversubscribe -n "$n")
-    expect 0 "verdict: " "${ranks[@]}" "$ostium" explain "$folder/wire" -o "$folder/ranks$n" --threads 1
+    expect 0 "verdict: " "${ranks[@]}" "$ostium" explain "$folder/wire" --try self_weight -o "$folder/ranks$n" --threads 1
     cmp "$folder/one/explanation.json" "$folder/ranks$n/explanation.json"
     cmp "$folder/one/explanation.html" "$folder/ranks$n/explanation.html"
   done
