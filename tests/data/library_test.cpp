@@ -2,7 +2,9 @@
 /// was put in, and nothing where nothing was.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
+#include <string>
 
 #include "data/effects/effect.h"
 #include "data/fit/explanation.h"
@@ -36,7 +38,12 @@ INSTANTIATE_TEST_SUITE_P(Library, Undeclared,
                          testing::Values(Case{"clean", 1}, Case{"clean", 2}, Case{"clean", 3}, Case{"clean", 4},
                                          Case{"rest_curvature", 1}, Case{"soft_section", 1}, Case{"lumped_mass", 1},
                                          Case{"roll_loss", 1}, Case{"clamp_runout", 1}, Case{"registration", 1},
-                                         Case{"imaging_scale", 1}, Case{"out:shear", 1}));
+                                         Case{"imaging_scale", 1}, Case{"out:shear", 1}),
+                         [](const testing::TestParamInfo<Case>& info) {
+                           std::string name = std::string(info.param.kind) + "_" + std::to_string(info.param.seed);
+                           std::replace(name.begin(), name.end(), ':', '_');
+                           return name;
+                         });
 
 /// A curved wire alone, whose curvature relaxes with time.
 TEST(Library, RelaxationOfAnInstrumentAlone) {
