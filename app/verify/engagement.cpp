@@ -64,26 +64,39 @@ struct Counted {
   int clockwise = 0, counter_clockwise = 0;
 };
 
+/// From where a run is: 20 mm back and 135 degrees counter-clockwise; then, over three beats, is the tip in the RCA?
+bool engages_counter_clockwise(const ScriptedRun& at) {
+  const SessionModel& model = at.model;
+  const Way& way = *model.vessel->way;
+  const int artery = way.entry("RCA");
+  SessionState state = at.state;
+  SessionScratch scratch(model);
+  SessionReport report;
+  SessionInputs hand = at.inputs;
+  for (ToolInputs& tool : hand.tools) tool = {};
+  constexpr int turning = 4500, holding = 2600;
+  bool in_artery = true;
+  for (int n = 0; n < turning + holding; ++n) {
+    hand.tools[0] = n < turning ? ToolInputs{-20e-3 / 4.5, -30 * degree} : ToolInputs{};
+    step(model, hand, state, scratch, report);
+    if (n >= turning) in_artery &= way.beyond(way.locate(tip(model, state, 0), state.blood.heart.phase), artery);
+  }
+  return in_artery;
+}
+
 /// JR4 at the valve; then clockwise as it is drawn back, and from the same moment counter-clockwise.
 Counted judkins_right(int person) {
-  RunSetup setup = setup_of("jr4-engages-rca", person);
+  const RunSetup setup = setup_of("jr4-engages-rca", person);
   const int turn = step_named(setup.script, "clockwise"), back = step_named(setup.script, "drawn back");
   std::string warnings;
   const std::shared_ptr<const Vessel> vessel = make_vessel(setup, warnings);
   ScriptedRun run(setup, vessel);
   if (!run_to(turn, run)) return {};
-  for (const int s : {turn, back}) {
-    double& rate = setup.script.steps[static_cast<std::size_t>(s)].turn_rad_s;
-    rate = -rate;
-  }
-  ScriptedRun other(setup, vessel);
-  other.state = run.state, other.hands = run.hands, other.report = run.report;
-
   Counted out;
+  out.counter_clockwise = engages_counter_clockwise(run);
   const Manoeuvre m = run_steps(turn, back, run);
   const bool as_asked = -per_mm * m.fed_m <= 30 && m.turned_rad / degree <= 180;
   out.clockwise = m.done && as_asked && stays(run);
-  out.counter_clockwise = run_steps(turn, back, other).done;
   return out;
 }
 
