@@ -39,8 +39,8 @@ INSTANTIATE_TEST_SUITE_P(Library, Undeclared,
                                          Case{"rest_curvature", 1}, Case{"soft_section", 1}, Case{"lumped_mass", 1},
                                          Case{"roll_loss", 1}, Case{"clamp_runout", 1}, Case{"registration", 1},
                                          Case{"imaging_scale", 1}, Case{"out:shear", 1}),
-                         [](const testing::TestParamInfo<Case>& info) {
-                           std::string name = std::string(info.param.kind) + "_" + std::to_string(info.param.seed);
+                         [](const testing::TestParamInfo<Case>& tested) {
+                           std::string name = std::string(tested.param.kind) + "_" + std::to_string(tested.param.seed);
                            std::replace(name.begin(), name.end(), ':', '_');
                            return name;
                          });
