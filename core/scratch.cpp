@@ -33,7 +33,8 @@ void resize_contact(const Model& model, int elements, ContactScratch& c) {
 
 void resize_layer(int elements, int own_nodes, Layer& l) {
   const int nodes = elements + 1;
-  for (Field<1>* f : {&l.mass, &l.polar, &l.spin_before, &l.room, &l.grip, &l.drag, &l.along}) f->resize(nodes);
+  for (Field<1>* f : {&l.mass, &l.polar, &l.spin_before, &l.room, &l.grip, &l.drag, &l.along, &l.lever, &l.gain, &l.tension})
+    f->resize(nodes);
   for (Field<3>* f : {&l.rest, &l.turn, &l.moment, &l.before, &l.after, &l.force, &l.press, &l.lean}) f->resize(nodes);
   l.orientation.resize(nodes);
   l.rolling.resize(nodes);

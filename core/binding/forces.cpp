@@ -15,14 +15,13 @@ namespace ostium {
 void smoothen(const Nest& nest, int last, Field<3>& field) {
   const double* near = nest.nearness.at(0);
   V3<double> kept = load3<double>(field, 0);
-  for (int i = 1; i <= last; ++i) {
-    kept = madd(near[i - 1], load3<double>(field, i) - kept, kept);
+  // What is carried along meets one multiply-add a node, since each waits for the one before.
+  const auto take = [&](int i, double own) {
+    kept = madd(1 - own, kept, own * load3<double>(field, i));
     store3(field, i, kept);
-  }
-  for (int i = last - 1; i >= 0; --i) {
-    kept = madd(near[i], load3<double>(field, i) - kept, kept);
-    store3(field, i, kept);
-  }
+  };
+  for (int i = 1; i <= last; ++i) take(i, near[i - 1]);
+  for (int i = last - 1; i >= 0; --i) take(i, near[i]);
 }
 
 void find_centreline(Nest& nest) {
@@ -42,7 +41,10 @@ void find_centreline(Nest& nest) {
 
 namespace {
 
-V3<double> across(const V3<double>& t, const V3<double>& v) { return madd(-dot(t, v), t, v); }
+template <class T>
+V3<T> across(const V3<T>& t, const V3<T>& v) {
+  return madd(T{} - dot(t, v), t, v);
+}
 
 }  // namespace
 
@@ -54,13 +56,13 @@ void find_layer_forces(const Model& model, Nest& nest) {
     const int last = layer.covered;
     // What it is held back with where it ends or leaves: along d3, and across.
     V3<double> d3_beyond = load3<double>(nest.tangent, last), across_beyond{};
-    double tension = 0;
+    double tension_beyond = 0;
     if (layer.end > 0) {
       V3<double> force = load3<double>(nest.own.force, last);
       for (int inner = k + 1; inner < nest.layer_count; ++inner)
         if (nest.layers[inner].covered > last) force = force - load3<double>(nest.layers[inner].force, last);
       d3_beyond = director3(load4<double>(nest.own.orientation, last));
-      tension = dot(d3_beyond, force), across_beyond = across(d3_beyond, force);
+      tension_beyond = dot(d3_beyond, force), across_beyond = across(d3_beyond, force);
     }
 
     for_packs(0, last, [&]<class T>(T, int e) {
@@ -91,24 +93,39 @@ void find_layer_forces(const Model& model, Nest& nest) {
       store3(layer.press, i, load<T>(chain.joint_length.at(0) + i) * load3<T>(layer.press, i));
     });
 
-    V3<double> d3_i = d3_beyond;
+    // The balance along node i, from the tension after it to that before: before = lever after - gain along.
+    const auto weigh = [&]<class T>(T, int i, const V3<T>& d3_after) {
+      const V3<T> t = load3<T>(nest.tangent, i);
+      const T gain = 1.0 / dot(t, director3(load4<T>(nest.own.orientation, i - 1)));
+      store(layer.gain.at(0) + i, gain), store(layer.lever.at(0) + i, gain * dot(t, d3_after));
+    };
+    for_packs(1, last, [&]<class T>(T t, int i) { weigh(t, i, director3(load4<T>(nest.own.orientation, i))); });
+    weigh(double{}, last, d3_beyond);
+    const auto pressed = [&]<class T>(T before, T after, int i, const V3<T>& d3_after) {
+      const V3<T> d3 = director3(load4<T>(nest.own.orientation, i - 1));
+      return across(load3<T>(nest.tangent, i), load3<T>(layer.press, i) + before * d3 - after * d3_after);
+    };
+    double* tension = layer.tension.at(0);
+    tension[last] = tension_beyond;
     for (int i = last; i >= 1; --i) {
-      const V3<double> t = load3<double>(nest.tangent, i), d3 = director3(load4<double>(nest.own.orientation, i - 1));
-      const V3<double> bent = across(t, load3<double>(layer.press, i));
-      const double cosine = dot(t, d3), sum = tension * dot(t, d3_i) - layer.along.at(0)[i];
-      double before = sum / cosine;
-      V3<double> press = bent + across(t, before * d3 - tension * d3_i);
-      if (layer.slides) {
-        const double share = rubbed_along(model, nest, layer, i);
-        for (int round = 0; round < 2 && share != 0; ++round) {
-          before = (sum + share * std::sqrt(dot(press, press))) / cosine;
-          press = bent + across(t, before * d3 - tension * d3_i);
-        }
+      const double after = tension[i], gain = layer.gain.at(0)[i];
+      const double free = layer.lever.at(0)[i] * after - gain * layer.along.at(0)[i];
+      tension[i - 1] = free;
+      const double share = layer.slides ? gain * rubbed_along(model, nest, layer, i) : 0;
+      const V3<double> d3_after = i == last ? d3_beyond : director3(load4<double>(nest.own.orientation, i));
+      for (int round = 0; round < 2 && share != 0; ++round) {
+        const V3<double> press = pressed(tension[i - 1], after, i, d3_after);
+        tension[i - 1] = free + share * std::sqrt(dot(press, press));
       }
-      store3(layer.press, i, press);
-      store3(layer.force, i - 1, madd(before, d3, load3<double>(layer.force, i - 1)));
-      tension = before, d3_i = d3;
     }
+    const auto press = [&]<class T>(T, int i, const V3<T>& d3_after) {
+      const T before = load<T>(tension + i - 1);
+      store3(layer.press, i, pressed(before, load<T>(tension + i), i, d3_after));
+      const V3<T> d3 = director3(load4<T>(nest.own.orientation, i - 1));
+      store3(layer.force, i - 1, madd(before, d3, load3<T>(layer.force, i - 1)));
+    };
+    for_packs(1, last, [&]<class T>(T t, int i) { press(t, i, director3(load4<T>(nest.own.orientation, i))); });
+    press(double{}, last, d3_beyond);
   }
 }
 

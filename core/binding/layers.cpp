@@ -90,17 +90,18 @@ void clear(int covered, int elements, Layer& layer, Roll& roll) {
     const bool moving = nest.s.scheme != TimeScheme::from_rest;
     for_packs(0, layer.covered, [&]<class T>(T, int e) {
       const V3<T> d = director3(load4<T>(chain, e)), turn = load3<T>(nest.s.turn, e);
-      Q4<T> q = swung(mixed4<T>(own.orientation, layer.from_own, e), d);
+      const Spot at(layer.from_own, e, T{});
+      const T part = load<T>(layer.from_own.part.at(0) + e);
+      Q4<T> q = swung(mixed4<T>(own.orientation, at, part), d);
+      const V3<T> da = director3(pick4<T>(own.orientation, at)), db = director3(pick4<T>(own.orientation, at, 1));
       const auto spin = [&](const Field<3>& turns) {
-        const int* at = layer.from_own.before.data() + e;
-        const T a = dot(pick3<T>(turns, at), director3(pick4<T>(own.orientation, at)));
-        const T b = dot(pick3<T>(turns, at, 1), director3(pick4<T>(own.orientation, at, 1)));
-        return madd(load<T>(layer.from_own.part.at(0) + e), b - a, a);
+        const T a = dot(pick3<T>(turns, at), da), b = dot(pick3<T>(turns, at, 1), db);
+        return madd(part, b - a, a);
       };
       const T last = spin(own.turn);
-      store(layer.spin_before.at(0) + e, last);
       T roll{};
       if (moving) roll = 2.0 * last - spin(own.turn_before) - dot(d, turn);
+      store(layer.spin_before.at(0) + e, last);
       store4(layer.orientation, e, turned(turn, turned(roll * d, q)));
       store3(layer.turn, e, madd(roll, d, turn));
     });

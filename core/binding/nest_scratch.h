@@ -59,6 +59,8 @@ struct Layer {
   Field<3> force;         ///< N, (#elements covered), internal, at the end of the step
   Field<3> press;         ///< N, (#nodes), of the bore on it
   Field<1> along;         ///< N, (#nodes): its balance along the bore, but for tension
+  Field<1> lever, gain;   ///< (#nodes): how tension behind a node, and what is along it, make the tension before it
+  Field<1> tension;       ///< N, (#elements covered, and beyond)
   Field<2> slip;          ///< m, (#nodes), at the beginning of the step: along, around
   Field<1> grip;          ///< N m/rad, (#elements), of friction against turning, and
   Field<1> drag;          ///< N m, the same at the beginning of the step

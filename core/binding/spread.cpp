@@ -49,27 +49,28 @@ void find_lean(const Nest& nest, Layer& layer) {
     store3(layer.lean, i, (T{} - share) * press);
   });
   smoothen(nest, last, layer.lean);
-  for (int i = 0; i <= last; ++i) {
-    const double end = layer.end > 0 ? least(depth[i], reach - depth[i]) : depth[i];
-    store3(layer.lean, i, least(end / smooth, 1.0) * load3<double>(layer.lean, i));
-  }
+  for_packs(0, last + 1, [&]<class T>(T, int i) {
+    const T from_base = load<T>(depth + i), end = layer.end > 0 ? least(from_base, reach - from_base) : from_base;
+    store3(layer.lean, i, least((1 / smooth) * end, splat<T>(1)) * load3<T>(layer.lean, i));
+  });
 }
 
 /// Frames and motion of elements, and the force in them.
 void lay_elements(const Nest& nest, const Layer& layer, int first, int last, RodState& own) {
   for_packs(first, last, [&]<class T>(T, int j) {
     const Q4<T> q = load4<T>(own.orientation, j);
-    const V3<T> turn = mixed3<T>(layer.turn, layer.to_elements, j);
-    const int* at = layer.to_elements.before.data() + j;
+    const Spot at(layer.to_elements, j, T{});
+    const T part = load<T>(layer.to_elements.part.at(0) + j);
+    const V3<T> turn = mixed3<T>(layer.turn, at, part);
     const V3<T> before = director3(pick4<T>(nest.own.orientation, at)),
                 after = director3(pick4<T>(nest.own.orientation, at, 1));
-    V3<T> d = madd(load<T>(layer.to_elements.part.at(0) + j), after - before, before);
+    V3<T> d = madd(part, after - before, before);
     d = (1.0 / square_root(dot(d, d))) * d;
     const T spin = dot(d, turn);
     store4(own.orientation, j, swung(turned(spin * director3(q), q), d));
     store3(own.turn_before, j, load3<T>(own.turn, j));
     store3(own.turn, j, turn);
-    store3(own.force, j, mixed3<T>(layer.force, layer.to_elements, j));
+    store3(own.force, j, mixed3<T>(layer.force, at, part));
   });
 }
 
@@ -77,11 +78,11 @@ void lay_nodes(const Rod& rod, const Nest& nest, const Layer& layer, int first, 
   const bool halted = nest.s.step_s < nest.step_s || nest.s.scheme == TimeScheme::from_rest;
   const double per_step = 1 / nest.step_s;
   for_packs(first, last, [&]<class T>(T, int i) {
-    const int* at = layer.to_nodes.before.data() + i;
+    const Spot at(layer.to_nodes, i, T{});
     const T part = load<T>(layer.to_nodes.part.at(0) + i), length = pick<T>(nest.s.inside.length.at(0), at);
     const V3<T> a = pick3<T>(nest.own.position, at), b = pick3<T>(nest.own.position, at, 1);
     const V3<T> bend = pick3<T>(nest.bend, at) + pick3<T>(nest.bend, at, 1);
-    const V3<T> lean = mixed3<T>(layer.lean, layer.to_nodes, i);
+    const V3<T> lean = mixed3<T>(layer.lean, at, part);
     V3<T> offset = load3<T>(own.offset, i);
     offset = madd(splat<T>(1 / tunables::leaning_steps), lean - offset, offset);
     store3(own.offset, i, offset);
@@ -95,7 +96,7 @@ void lay_nodes(const Rod& rod, const Nest& nest, const Layer& layer, int first, 
     store3(own.position, i, r);
     store3(own.velocity_before, i, halted ? V3<T>{} : load3<T>(own.velocity, i));
     store3(own.velocity, i, v);
-    const V3<T> press = mixed3<T>(layer.press, layer.to_nodes, i);
+    const V3<T> press = mixed3<T>(layer.press, at, part);
     const T share = load<T>(rod.joint_length.at(0) + i) / pick<T>(nest.s.inside.joint_length.at(0), at);
     store3(own.contact_force, i, (T{} - share) * press);
   });
