@@ -274,8 +274,10 @@ int main(int argc, char** argv) {
     to->add_option("--script", o.script, "One of `ostium scripts`, or a file")
         ->type_name("NAME|FILE")
         ->capture_default_str();
-    to->add_option("--set", o.set,
-                   "A tool's instrument (NAME or FILE.json), or person, heart_rate, hand_speed, friction")
+    to->add_option(
+          "--set", o.set,
+          "A tool's instrument (NAME or FILE.json), or person, heart_rate, hand_speed, friction, begin (an artery), "
+          "stuck (a tool whose drive is out)")
         ->type_name("KEY=VALUE");
     to->add_option("--seconds", o.seconds, "Most that are simulated")->check(CLI::Range(0.001, 36000.0));
     to->add_option("--units", o.unit, "What a number in a mesh means")

@@ -1,5 +1,6 @@
 #pragma once
 /// Everything about a simulation that does not change while it runs. Const after loading; shared freely by threads.
+#include <memory>
 #include <vector>
 
 #include "core/binding/nesting.h"
@@ -11,8 +12,8 @@ namespace ostium {
 struct Model {
   std::vector<Rod> rods;
   std::vector<Nesting> nestings;
-  std::vector<Surface> surfaces;  ///< the walls; instruments are inside them
-  bool sweep = true;              ///< contact sees all of a step; false: what is touched as it begins. For a test alone
+  std::vector<std::shared_ptr<const Surface>> surfaces;  ///< the walls; instruments are inside them
+  bool sweep = true;  ///< contact sees all of a step; false: what is touched as it begins. For a test alone
   Eigen::Vector3d gravity_W = Eigen::Vector3d(0, 0, -9.81);  ///< m/s2
   double step_s = 1e-3;                                      ///< (0, 0.01]
 };

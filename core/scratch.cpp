@@ -27,13 +27,14 @@ void resize_contact(const Model& model, int elements, ContactScratch& c) {
   c.free_compliance.resize(nodes);
   c.free_target.resize(nodes);
   std::size_t clusters = 0;
-  for (const Surface& surface : model.surfaces) clusters = std::max(clusters, surface.clusters.size());
+  for (const auto& surface : model.surfaces) clusters = std::max(clusters, surface->clusters.size());
   c.clusters.reserve(clusters);
 }
 
 void resize_layer(int elements, int own_nodes, Layer& l) {
   const int nodes = elements + 1;
-  for (Field<1>* f : {&l.mass, &l.polar, &l.spin_before, &l.room, &l.grip, &l.drag, &l.along, &l.lever, &l.gain, &l.tension})
+  for (Field<1>* f :
+       {&l.mass, &l.polar, &l.spin_before, &l.room, &l.grip, &l.drag, &l.along, &l.lever, &l.gain, &l.tension})
     f->resize(nodes);
   for (Field<3>* f : {&l.rest, &l.turn, &l.moment, &l.before, &l.after, &l.force, &l.press, &l.lean}) f->resize(nodes);
   l.orientation.resize(nodes);
@@ -97,7 +98,7 @@ Scratch::Scratch(const Model& model) : rods(model.rods.size()), contacts(model.r
   was_in_body.resize(model.rods.size());
   fed_m.resize(model.rods.size());
   strands.reserve(model.rods.size());
-  for (const Surface& surface : model.surfaces) surfaces.emplace_back(surface);
+  for (const auto& surface : model.surfaces) surfaces.emplace_back(*surface);
   for (std::size_t r = 0; r < model.rods.size(); ++r) {
     const Rod& rod = model.rods[r];
     rods[r].inside = rod;

@@ -22,6 +22,8 @@ ScriptedRun::ScriptedRun(const RunSetup& setup, std::shared_ptr<const Vessel> ve
       scratch_(model),
       driver_(driver) {
   if (setup.rate_1_min) hands.rate_1_min = *setup.rate_1_min;
+  for (std::size_t t = 0; t < model.tools.size(); ++t)
+    if (model.tools[t].name == setup.stuck) stuck_ = static_cast<int>(t);
   inputs.tools.resize(model.tools.size());
   events.reserve(64);
 }
@@ -33,6 +35,7 @@ bool ScriptedRun::tick() {
     outcome = Outcome::aborted;
     return false;
   }
+  if (stuck_ >= 0) inputs.tools[stuck_] = {};
   step(model, inputs, state, scratch_, report);
   const std::uint32_t trouble = report.rods.trouble & ~static_cast<std::uint32_t>(feed_stopped);
   if (trouble) ++troubled, troubles |= trouble;

@@ -39,6 +39,7 @@ class ScriptedRun {
 
  private:
   SessionScratch scratch_;
+  int stuck_ = -1;  ///< the tool whose drive is out
   Driver* driver_;
 };
 

@@ -245,7 +245,9 @@ SessionScratch::SessionScratch(const SessionModel& model) : now(model.rods), rod
   inputs.rods.resize(model.tools.size());
   inputs.surfaces.resize(1);
   if (!model.has_patient()) return;
-  wall.emplace(*model.vessel, now.surfaces[0]);
+  const auto own_wall = std::make_shared<Surface>(*now.surfaces[0]);
+  now.surfaces = {own_wall};
+  wall.emplace(*model.vessel, *own_wall);
   bedside.emplace(*model.vessel);
   physiology_inputs.occupied_m.reserve(model.physiology.flow.tree.cells.size());
 }

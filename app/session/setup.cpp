@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
@@ -101,9 +102,15 @@ void set_value(const std::string& key, const std::string& value, RunSetup& setup
     setup.friction = number(key, value, 0, 1, "the wall's coefficient of friction, 0 to 1");
   } else if (key == "begin") {
     setup.begin = value;
+  } else if (key == "stuck") {
+    const auto named = [&](const ScriptTool& tool) { return tool.name == value; };
+    if (std::none_of(setup.script.tools.begin(), setup.script.tools.end(), named))
+      throw LoadError(fmt::format("stuck is \"{}\"; expected one of {}of the script", value, known));
+    setup.stuck = value;
   } else {
     throw LoadError(fmt::format(
-        "there is no \"{}\" to set; expected one of {}person, heart_rate, hand_speed, friction, begin", key, known));
+        "there is no \"{}\" to set; expected one of {}person, heart_rate, hand_speed, friction, begin, stuck", key,
+        known));
   }
 }
 
@@ -118,7 +125,11 @@ SessionModel make_session(const RunSetup& setup, std::shared_ptr<const Vessel> v
     tools.push_back({setup.script.tools[t].name, read_instrument(setup.tool_files[t], setup.tool_texts[t])});
   SessionModel model = make_session(std::move(vessel), std::move(tools), setup.seed);
   if (!setup.begin.empty()) model.entry = entry_ahead_of(setup.begin, *model.vessel);
-  if (setup.friction) model.rods.surfaces[0].friction = *setup.friction;
+  if (setup.friction) {
+    const auto wall = std::make_shared<Surface>(*model.rods.surfaces[0]);
+    wall->friction = *setup.friction;
+    model.rods.surfaces = {wall};
+  }
   return model;
 }
 
@@ -132,6 +143,7 @@ std::string to_json(const RunSetup& setup) {
   if (setup.rate_1_min) out["heart_rate_1_min"] = *setup.rate_1_min;
   if (setup.friction) out["friction"] = *setup.friction;
   if (!setup.begin.empty()) out["begin"] = setup.begin;
+  if (!setup.stuck.empty()) out["stuck"] = setup.stuck;
   out["hand_speed"] = setup.hand_speed;
   out["script"] = {{"file", fs::path(setup.script.file).filename()}, {"text", setup.script.source}};
   for (std::size_t t = 0; t < setup.tool_texts.size(); ++t)
@@ -150,6 +162,7 @@ RunSetup setup_from_json(const std::string& file, const std::string& text) {
     if (in.contains("person")) setup.person = in.at("person");
     if (in.contains("heart_rate_1_min")) setup.rate_1_min = in.at("heart_rate_1_min");
     if (in.contains("begin")) setup.begin = in.at("begin");
+    if (in.contains("stuck")) setup.stuck = in.at("stuck");
     if (in.contains("friction")) setup.friction = in.at("friction");
     setup.hand_speed = in.at("hand_speed");
     setup.script = read_script(in.at("script").at("file"), in.at("script").at("text"));

@@ -91,7 +91,7 @@ std::shared_ptr<const Vessel> vessel_of(const Case& c, std::optional<std::uint64
   vessel->coronaries = make_coronaries(patient, c.rate_1_min);
   vessel->wall = vessel->coronaries ? untreated_wall(*vessel->coronaries) : wall_of(patient->lumen);
   vessel->wall.friction = vessel_friction;
-  vessel->surface = make_surface(vessel->wall);
+  vessel->surface = std::make_shared<Surface>(make_surface(vessel->wall));
   const Landmarks& marks = patient->anatomy.landmarks;
   vessel->entry = end_at(marks.p_access, marks.access_direction);
   vessel->way = std::make_unique<const Way>(patient->tree_frames, marks.p_access, places_of(*patient));
@@ -140,7 +140,7 @@ std::shared_ptr<const Vessel> vessel_of(const std::string& name, Mesh mesh, cons
   vessel->wall.frames = {mesh.vertices};
   vessel->wall.triangles = mesh.triangles;
   vessel->wall.friction = vessel_friction;
-  vessel->surface = make_surface(vessel->wall);
+  vessel->surface = std::make_shared<Surface>(make_surface(vessel->wall));
   vessel->p_middle = middle(mesh.vertices);
   vessel->entry = end_at(entry.p_P, entry.towards_P - entry.p_P);
   CentrelineOptions options;

@@ -12,10 +12,10 @@
 namespace ostium {
 
 struct Vessel {
-  std::string name;         ///< a case's, or the mesh's file
-  SurfaceDescription wall;  ///< frames of a beat, or one; frame W is the patient's
-  Surface surface;          ///< the same as contact has it
-  EndState entry;           ///< the introducer: within the lumen, d3 is the way in
+  std::string name;                        ///< a case's, or the mesh's file
+  SurfaceDescription wall;                 ///< frames of a beat, or one; frame W is the patient's
+  std::shared_ptr<const Surface> surface;  ///< the same as contact has it
+  EndState entry;                          ///< the introducer: within the lumen, d3 is the way in
   std::unique_ptr<const Way> way;
   Eigen::Vector3d p_middle = Eigen::Vector3d::Zero();  ///< of heart or mesh: where a C-arm looks at first, m
   double rate_1_min = 70;                              ///< of the heart, as a session begins

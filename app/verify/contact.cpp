@@ -31,7 +31,7 @@ RodDescription wire(double length_m, double EI_N_m2, double radius_m, double kg_
 struct Bed {
   Bed(const RodDescription& rod, const SurfaceDescription& wall, const Vector3d& gravity_W) {
     model.rods = {make_rod(rod)};
-    model.surfaces = {make_surface(wall)};
+    model.surfaces = {std::make_shared<Surface>(make_surface(wall))};
     model.gravity_W = gravity_W;
     state = make_state(model, {along_x()});
     inputs.rods.resize(1);

@@ -48,7 +48,7 @@ Model make_model(const TestVessel& vessel, bool with_guide, bool sweep) {
   if (with_guide) model.nestings = {{.outer = 0, .inner = 1, .friction = wire_friction}};
   SurfaceDescription wall = vessel.wall;
   wall.friction = guide_friction;
-  model.surfaces = {make_surface(wall)};
+  model.surfaces = {std::make_shared<Surface>(make_surface(wall))};
   model.sweep = sweep;
   return model;
 }

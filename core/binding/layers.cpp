@@ -92,7 +92,7 @@ void clear(int covered, int elements, Layer& layer, Roll& roll) {
       const V3<T> d = director3(load4<T>(chain, e)), turn = load3<T>(nest.s.turn, e);
       const Spot at(layer.from_own, e, T{});
       const T part = load<T>(layer.from_own.part.at(0) + e);
-      Q4<T> q = swung(mixed4<T>(own.orientation, at, part), d);
+      const Q4<T> q_own = mixed4<T>(own.orientation, at, part), q = swing(director3(q_own), d) * q_own;
       const V3<T> da = director3(pick4<T>(own.orientation, at)), db = director3(pick4<T>(own.orientation, at, 1));
       const auto spin = [&](const Field<3>& turns) {
         const T a = dot(pick3<T>(turns, at), da), b = dot(pick3<T>(turns, at, 1), db);
@@ -102,7 +102,7 @@ void clear(int covered, int elements, Layer& layer, Roll& roll) {
       T roll{};
       if (moving) roll = 2.0 * last - spin(own.turn_before) - dot(d, turn);
       store(layer.spin_before.at(0) + e, last);
-      store4(layer.orientation, e, turned(turn, turned(roll * d, q)));
+      store4(layer.orientation, e, turned(turn, small_rotation(roll * d) * q));
       store3(layer.turn, e, madd(roll, d, turn));
     });
     for_packs(layer.covered, layer.end, [&]<class T>(T, int e) {
@@ -189,7 +189,7 @@ void add_roll_inertia(Nest& nest) {
       const Q4<T> q = load4<T>(layer.orientation, e);
       const V3<T> phi = splat<T>(fraction) * load3<T>(chain.turn, e);
       const V3<T> psi = (fraction * load<T>(roll.turn.at(0) + e)) * director3(q);
-      store4(layer.orientation, e, turned(phi, turned(psi, q)));
+      store4(layer.orientation, e, turned(phi, small_rotation(psi) * q));
       store3(layer.turn, e, load3<T>(layer.turn, e) + phi + psi);
     });
     for_packs(layer.covered, layer.end, [&]<class T>(T, int e) {

@@ -46,12 +46,12 @@ Q4<T> mixed4(const Field<4>& f, const Spot& spot, T part) {
                           madd(rest, a.z, sign * b.z)});
 }
 
-/// q turned, by the shortest way, so that its third director becomes the unit vector d.
+/// The rotation, by the shortest way, of one unit vector to another; not normalised.
 template <class T>
-Q4<T> swung(const Q4<T>& q, const V3<T>& d) {
-  const V3<T> from = director3(q), axis = cross(from, d);
-  const T w = 1.0 + dot(from, d);  // almost never near 0, and then any way is as short
-  return normalised(Q4<T>{largest(w, T{} + 1e-6), axis.x, axis.y, axis.z} * q);
+Q4<T> swing(const V3<T>& from, const V3<T>& to) {
+  const V3<T> axis = cross(from, to);
+  const T w = 1.0 + dot(from, to);  // almost never near 0, and then any way is as short
+  return {largest(w, T{} + 1e-6), axis.x, axis.y, axis.z};
 }
 
 }  // namespace ostium

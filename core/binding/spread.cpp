@@ -67,7 +67,8 @@ void lay_elements(const Nest& nest, const Layer& layer, int first, int last, Rod
     V3<T> d = madd(part, after - before, before);
     d = (1.0 / square_root(dot(d, d))) * d;
     const T spin = dot(d, turn);
-    store4(own.orientation, j, swung(turned(spin * director3(q), q), d));
+    const V3<T> d_before = director3(q);
+    store4(own.orientation, j, normalised(swing(d_before, d) * (small_rotation(spin * d_before) * q)));
     store3(own.turn_before, j, load3<T>(own.turn, j));
     store3(own.turn, j, turn);
     store3(own.force, j, mixed3<T>(layer.force, at, part));

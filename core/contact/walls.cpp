@@ -2,6 +2,7 @@
 #include "core/contact/walls.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 #include "core/contact/contact.h"
@@ -13,14 +14,10 @@ namespace ostium {
 
 namespace {
 
-constexpr int block = 8;  ///< nodes that share a query
+constexpr int block = 8;             ///< nodes that share a query
+constexpr double rounding_m = 1e-9;  ///< what a coarse look allows for, before an exact one
 
 double norm(const V3<double>& v) { return std::sqrt(dot(v, v)); }
-
-double distance(const V3<double>& p, const V3<double>& low, const V3<double>& high) {
-  const auto outside = [](double x, double a, double b) { return largest(0, largest(a - x, x - b)); };
-  return norm({outside(p.x, low.x, high.x), outside(p.y, low.y, high.y), outside(p.z, low.z, high.z)});
-}
 
 /// Where a ball is seen from a wall: at one of both ends of the step.
 struct View {
@@ -77,13 +74,28 @@ void keep(const WallPlane& plane, NodeWalls& walls) {
     if (dot(behind[k].normal, plane.normal) <= tunables::same_wall) walls.planes[walls.count++] = behind[k];
 }
 
+/// Which of a cluster's triangles may be within reach, a bit for each.
+unsigned may_meet(const ClusterPose& pose, const View& view) {
+  const V3<Lanes> centre{Lanes{} + view.centre.x, Lanes{} + view.centre.y, Lanes{} + view.centre.z};
+  const Lanes reach = Lanes{} + (view.reach + rounding_m);
+  unsigned any = 0;
+  for (int k = 0; k < pose.balls.size(); k += lane_count) {
+    const Q4<Lanes> ball = load4<Lanes>(pose.balls, k);
+    const V3<Lanes> away = centre - V3<Lanes>{ball.w, ball.x, ball.y};
+    const Lanes within = reach + ball.z;
+    any |= static_cast<unsigned>(_mm256_movemask_pd(_mm256_cmp_pd(dot(away, away), within * within, _CMP_LE_OQ))) << k;
+  }
+  return any & ((1U << pose.balls.size()) - 1);
+}
+
 /// Adds what of a cluster is within reach, seen with the corners `now`.
-void look(const Surface& surface, int cluster, const ClusterPose& pose, const std::vector<V3<double>>& now,
-          const View& view, NodeWalls& walls) {
+void look(const Surface& surface, int cluster, const ClusterPose& pose, const Field<3>& now, const View& view,
+          NodeWalls& walls) {
   const Surface::Cluster& c = surface.clusters[cluster];
-  for (int k = c.first_triangle; k < c.first_triangle + c.triangles; ++k) {
-    const Surface::Triangle& t = surface.triangles[k];
-    const V3<double>&a = now[t.corner[0]], &b = now[t.corner[1]], &d = now[t.corner[2]];
+  for (unsigned left = may_meet(pose, view); left != 0; left &= left - 1) {
+    const Surface::Triangle& t = surface.triangles[c.first_triangle + std::countr_zero(left)];
+    const V3<double> a = load3<double>(now, t.corner[0]), b = load3<double>(now, t.corner[1]),
+                     d = load3<double>(now, t.corner[2]);
     const V3<double> out = cross(b - a, d - a);
     const double height = dot(view.centre - a, out), area2 = dot(out, out);
     if (height * height > view.reach * view.reach * area2 || !(area2 > 0)) continue;
@@ -94,8 +106,9 @@ void look(const Surface& surface, int cluster, const ClusterPose& pose, const st
     const bool behind = dot(away, outward(surface, c, t, w, out)) > 0;
     const double gap = behind ? -apart : apart;
     const V3<double> normal = apart > 1e-9 ? (1 / gap) * away : (-1 / std::sqrt(area2)) * out;
-    const auto moment = [&](const std::vector<V3<double>>& corners) {
-      return at(w, corners[t.corner[0]], corners[t.corner[1]], corners[t.corner[2]]);
+    const auto moment = [&](const Field<3>& corners) {
+      return at(w, load3<double>(corners, t.corner[0]), load3<double>(corners, t.corner[1]),
+                load3<double>(corners, t.corner[2]));
     };
     WallPlane plane = plane_of(surface, view, normal, gap, {foot, moment(pose.before), moment(pose.after)});
     const double bend = curvature_towards(plane.across, t, a, b, d);
@@ -114,6 +127,27 @@ View view_of(const Rod& rod, const RodState& state, int i, const V3<double>& cen
   const double radius = rod.radius.at(0)[i];
   return {centre, radius, radius + travel, tangent_at(rod, state, i), rod.joint_length.at(0)[i]};
 }
+
+/// The nodes of a query, side by side; a place without a node reaches nothing.
+struct Block {
+  double x[block], y[block], z[block], reach[block];
+
+  void set(int at, const V3<double>& p, double how_far) { x[at] = p.x, y[at] = p.y, z[at] = p.z, reach[at] = how_far; }
+  /// Which of them a box may be in reach of, that moves by `move`: a bit for each.
+  unsigned near(const V3<double>& low, const V3<double>& high, double move) const {
+    const auto outside = [](Lanes p, double a, double b) { return largest(Lanes{}, largest(a - p, p - b)); };
+    unsigned any = 0;
+    for (int k = 0; k < block; k += lane_count) {
+      const V3<Lanes> away{outside(load<Lanes>(x + k), low.x, high.x), outside(load<Lanes>(y + k), low.y, high.y),
+                           outside(load<Lanes>(z + k), low.z, high.z)};
+      const Lanes far = load<Lanes>(reach + k) + (move + rounding_m);
+      const Lanes within =
+          _mm256_and_pd(_mm256_cmp_pd(dot(away, away), far * far, _CMP_LE_OQ), _mm256_cmp_pd(far, Lanes{}, _CMP_GT_OQ));
+      any |= static_cast<unsigned>(_mm256_movemask_pd(within)) << k;
+    }
+    return any;
+  }
+};
 
 /// Walls that the node's centre is behind do not hold it, unless it is its own that gives way: the nearest.
 void drop_walls_seen_from_behind(NodeWalls& walls) {
@@ -140,21 +174,22 @@ bool first_exit(const Model& model, const V3<double>& from, const V3<double>& to
   Bounds bounds;
   bounds.take(from, 0), bounds.take(to, 0);
   for (std::size_t k = 0; k < model.surfaces.size(); ++k) {
-    const Surface& surface = model.surfaces[k];
+    const Surface& surface = *model.surfaces[k];
     find_clusters(surface, bounds.low, bounds.high, scratch.surfaces[k], clusters);
     for (int cluster : clusters) {
-      const ClusterPose& pose = corners_of(surface, cluster, scratch.surfaces[k]);
+      const ClusterPose& pose = pose_of(surface, cluster, scratch.surfaces[k]);
       const Surface::Cluster& c = surface.clusters[cluster];
       for (int j = c.first_triangle; j < c.first_triangle + c.triangles; ++j) {
         const auto& corner = surface.triangles[j].corner;
-        const V3<double>&a = pose.after[corner[0]], &b = pose.after[corner[1]], &d = pose.after[corner[2]];
+        const V3<double> a = load3<double>(pose.after, corner[0]), b = load3<double>(pose.after, corner[1]),
+                         d = load3<double>(pose.after, corner[2]);
         double part;
         if (!leaves_through(from, to, a, b, d, part) || part >= first) continue;
         first = part;
         const V3<double> out = cross(b - a, d - a), foot = madd(part, to - from, from);
         const double area = norm(out);
         exit = plane_of(surface, view, (-1 / area) * out, (dot(a - to, out)) / area,
-                        {foot, foot - (pose.after[corner[0]] - pose.before[corner[0]]), foot});
+                        {foot, foot - (a - load3<double>(pose.before, corner[0])), foot});
       }
     }
   }
@@ -180,7 +215,7 @@ int slot_for(const WallPlane& plane, const V3<double>& to, const bool* taken, co
 
 void move_walls(const Model& model, const Inputs& inputs, Scratch& scratch) {
   for (std::size_t k = 0; k < model.surfaces.size(); ++k)
-    set_motion(model.surfaces[k], k < inputs.surfaces.size() ? inputs.surfaces[k] : SurfaceMotion{},
+    set_motion(*model.surfaces[k], k < inputs.surfaces.size() ? inputs.surfaces[k] : SurfaceMotion{},
                scratch.surfaces[k]);
 }
 
@@ -194,22 +229,26 @@ void find_walls(const Model& model, const Strand& strand, Scratch& scratch) {
   for (int begin = first_free(s); begin <= last_free(s); begin += block) {
     const int end = std::min(begin + block, last_free(s) + 1);
     Bounds bounds;
+    Block nodes;
+    for (int k = 0; k < block; ++k) nodes.set(k, {}, -1);
     for (int i = begin; i < end; ++i) {
       const V3<double> p = load3<double>(own.position, i);
       const double expected = norm(load3<double>(s.position, i) - p);
       c.travel.at(0)[i] = model.sweep ? expected + tunables::wall_slack_m : 0;
-      bounds.take(p, rod.radius.at(0)[i] + c.travel.at(0)[i]);
+      const double reach = rod.radius.at(0)[i] + c.travel.at(0)[i];
+      bounds.take(p, reach);
+      nodes.set(i - begin, p, reach);
     }
     for (std::size_t k = 0; k < model.surfaces.size(); ++k) {
-      const Surface& surface = model.surfaces[k];
+      const Surface& surface = *model.surfaces[k];
       find_clusters(surface, bounds.low, bounds.high, scratch.surfaces[k], c.clusters);
       for (int cluster : c.clusters) {
-        const ClusterPose& pose = corners_of(surface, cluster, scratch.surfaces[k]);
-        for (int i = begin; i < end; ++i) {
-          const V3<double> p = load3<double>(own.position, i);
-          const double travel = c.travel.at(0)[i] + (model.sweep ? pose.largest_move : 0);
-          if (distance(p, pose.low, pose.high) > rod.radius.at(0)[i] + travel) continue;
-          look(surface, cluster, pose, pose.before, view_of(rod, own, i, p, travel), c.walls[i]);
+        const ClusterPose& pose = pose_of(surface, cluster, scratch.surfaces[k]);
+        const double move = model.sweep ? pose.largest_move : 0;
+        for (unsigned left = nodes.near(pose.low, pose.high, move); left != 0; left &= left - 1) {
+          const int i = begin + std::countr_zero(left);
+          const View view = view_of(rod, own, i, load3<double>(own.position, i), c.travel.at(0)[i] + move);
+          look(surface, cluster, pose, pose.before, view, c.walls[i]);
         }
       }
     }
@@ -231,10 +270,10 @@ bool follow(const Model& model, const RodState& own, int i, const V3<double>& to
     Bounds bounds;
     bounds.take(to, view.reach);
     for (std::size_t k = 0; k < model.surfaces.size(); ++k) {
-      const Surface& surface = model.surfaces[k];
+      const Surface& surface = *model.surfaces[k];
       find_clusters(surface, bounds.low, bounds.high, scratch.surfaces[k], c.clusters);
       for (int cluster : c.clusters) {
-        const ClusterPose& pose = corners_of(surface, cluster, scratch.surfaces[k]);
+        const ClusterPose& pose = pose_of(surface, cluster, scratch.surfaces[k]);
         look(surface, cluster, pose, pose.after, view, met);
       }
     }

@@ -42,11 +42,16 @@ M3<T> matrix(const Q4<T>& q) {
           {madd(q.w, z2, q.x * y2), nmadd(q.x, x2, nmadd(q.z, z2, one)), nmadd(q.w, x2, q.y * z2)},
           {nmadd(q.w, y2, q.x * z2), madd(q.w, x2, q.y * z2), nmadd(q.x, x2, nmadd(q.y, y2, one))}};
 }
-/// q turned by the small world-frame rotation vector `phi`, by Cayley's map: exact in direction, |phi|^3 / 12 short in
+/// The rotation by a small vector `phi`, by Cayley's map, not normalised: exact in direction, |phi|^3 / 12 short in
 /// angle, and a rotation for any phi.
 template <class T>
+Q4<T> small_rotation(const V3<T>& phi) {
+  return {T{} + 1.0, 0.5 * phi.x, 0.5 * phi.y, 0.5 * phi.z};
+}
+/// q turned by the small world-frame rotation vector `phi`.
+template <class T>
 Q4<T> turned(const V3<T>& phi, const Q4<T>& q) {
-  return normalised(Q4<T>{T{} + 1.0, 0.5 * phi.x, 0.5 * phi.y, 0.5 * phi.z} * q);
+  return normalised(small_rotation(phi) * q);
 }
 
 /// Rotation vector of a unit quaternion (angle in [0, pi]); scalar, for all angles.

@@ -1,6 +1,7 @@
 #include "core/surface/pose.h"
 
 #include <cmath>
+#include <utility>
 
 namespace ostium {
 
@@ -21,27 +22,80 @@ SurfaceMoment moment(const Surface& surface, double frame, const Eigen::Vector3d
   return m;
 }
 
-void place(const Surface& surface, const Surface::Cluster& c, const SurfaceMoment& m, std::vector<V3<double>>& to) {
-  const std::size_t stride = surface.corners, axes = 3;
-  const auto mix = [&](int i, std::size_t axis) {
-    double sum = m.shift_W[static_cast<int>(axis)];
-    for (int j = 0; j < (surface.frames == 1 ? 1 : 4); ++j)
-      sum = madd(m.weight[j], surface.corner_frames[(axes * m.frame[j] + axis) * stride + c.first_corner + i], sum);
-    return sum;
-  };
-  for (int i = 0; i < c.corners; ++i) to[i] = {mix(i, 0), mix(i, 1), mix(i, 2)};
+template <class T>
+T widened(const float* p) {
+  if constexpr (sizeof(T) == sizeof(double))
+    return *p;
+  else
+    return _mm256_cvtps_pd(_mm_loadu_ps(p));
+}
+
+void place(const Surface& surface, const Surface::Cluster& c, const SurfaceMoment& m, Field<3>& to) {
+  const int mixed = surface.frames == 1 ? 1 : 4;
+  for (int axis = 0; axis < 3; ++axis) {
+    const float* row[4];
+    for (int j = 0; j < mixed; ++j) row[j] = &surface.corner_frames[surface.row(c, m.frame[j], axis)];
+    for_packs(0, c.corners, [&]<class T>(T, int i) {
+      T sum = splat<T>(m.shift_W[axis]);
+      for (int j = 0; j < mixed; ++j) sum = madd(splat<T>(m.weight[j]), widened<T>(row[j] + i), sum);
+      store(to.at(axis) + i, sum);
+    });
+  }
+}
+
+/// The box of the corners, and how far they move.
+void bound(int corners, ClusterPose& c) {
+  V3<Lanes> low = splat<Lanes>(1e9) * V3<Lanes>{Lanes{} + 1, Lanes{} + 1, Lanes{} + 1}, high = V3<Lanes>{} - low;
+  Lanes move2{};
+  for_packs(0, corners, [&]<class T>(T, int i) {
+    const V3<T> p = load3<T>(c.before, i), q = load3<T>(c.after, i), move = q - p;
+    const auto all = [](T x) { return Lanes{} + x; };
+    low = {least(low.x, all(least(p.x, q.x))), least(low.y, all(least(p.y, q.y))), least(low.z, all(least(p.z, q.z)))};
+    high = {largest(high.x, all(largest(p.x, q.x))), largest(high.y, all(largest(p.y, q.y))),
+            largest(high.z, all(largest(p.z, q.z)))};
+    move2 = largest(move2, all(dot(move, move)));
+  });
+  const auto lowest = [](Lanes x) { return -horizontal_max(-x); };
+  c.low = {lowest(low.x), lowest(low.y), lowest(low.z)};
+  c.high = {horizontal_max(high.x), horizontal_max(high.y), horizontal_max(high.z)};
+  c.largest_move = std::sqrt(horizontal_max(move2));
+}
+
+void wrap(const Surface& surface, const Surface::Cluster& cluster, ClusterPose& c) {
+  const Surface::Triangle* triangle = &surface.triangles[cluster.first_triangle];
+  for_packs(0, cluster.triangles, [&]<class T>(T, int k) {
+    const auto corner = [&](int n) -> V3<T> {
+      const auto of = [&](const double* x) -> T {
+        if constexpr (sizeof(T) == sizeof(double))
+          return x[triangle[k].corner[n]];
+        else
+          return T{x[triangle[k].corner[n]], x[triangle[k + 1].corner[n]], x[triangle[k + 2].corner[n]],
+                   x[triangle[k + 3].corner[n]]};
+      };
+      return {of(c.before.at(0)), of(c.before.at(1)), of(c.before.at(2))};
+    };
+    const V3<T> a = corner(0), b = corner(1), d = corner(2), centre = (T{} + 1.0 / 3) * (a + b + d);
+    const auto from = [&](const V3<T>& p) { return dot(p - centre, p - centre); };
+    const T radius = square_root(largest(from(a), largest(from(b), from(d))));
+    store4(c.balls, k, Q4<T>{centre.x, centre.y, centre.z, radius + c.largest_move});
+  });
 }
 
 }  // namespace
 
 SurfacePose::SurfacePose(const Surface& surface)
     : clusters(surface.clusters.size()), listed(surface.clusters.size(), -1) {
-  for (std::size_t c = 0; c < clusters.size(); ++c)
-    for (auto* corners : {&clusters[c].before, &clusters[c].after}) corners->resize(surface.clusters[c].corners);
+  for (std::size_t c = 0; c < clusters.size(); ++c) {
+    for (Field<3>* corners : {&clusters[c].before, &clusters[c].after}) corners->resize(surface.clusters[c].corners);
+    clusters[c].balls.resize(surface.clusters[c].triangles);
+  }
 }
 
 void set_motion(const Surface& surface, const SurfaceMotion& motion, SurfacePose& pose) {
+  const SurfaceMoment ended = pose.after;
   pose.before = moment(surface, motion.frame_before, motion.shift_before_W);
+  pose.goes_on = pose.before == ended && pose.edits == surface.edits;
+  pose.edits = surface.edits;
   pose.after = moment(surface, motion.frame_after, motion.shift_after_W);
   ++pose.step;
 }
@@ -71,22 +125,19 @@ void find_clusters(const Surface& surface, const V3<double>& low, const V3<doubl
   }
 }
 
-const ClusterPose& corners_of(const Surface& surface, int cluster, SurfacePose& pose) {
+const ClusterPose& pose_of(const Surface& surface, int cluster, SurfacePose& pose) {
   ClusterPose& c = pose.clusters[cluster];
   if (c.computed == pose.step) return c;
+  const bool known = pose.goes_on && c.computed == pose.step - 1;
   c.computed = pose.step;
-  place(surface, surface.clusters[cluster], pose.before, c.before);
-  place(surface, surface.clusters[cluster], pose.after, c.after);
-  c.low = c.high = c.before[0];
-  double move2 = 0;
-  for (std::size_t i = 0; i < c.before.size(); ++i) {
-    const V3<double>&p = c.before[i], &q = c.after[i], move = q - p;
-    c.low = {least(c.low.x, least(p.x, q.x)), least(c.low.y, least(p.y, q.y)), least(c.low.z, least(p.z, q.z))};
-    c.high = {largest(c.high.x, largest(p.x, q.x)), largest(c.high.y, largest(p.y, q.y)),
-              largest(c.high.z, largest(p.z, q.z))};
-    move2 = largest(move2, dot(move, move));
-  }
-  c.largest_move = std::sqrt(move2);
+  const Surface::Cluster& described = surface.clusters[cluster];
+  if (known)
+    std::swap(c.before, c.after);
+  else
+    place(surface, described, pose.before, c.before);
+  place(surface, described, pose.after, c.after);
+  bound(described.corners, c);
+  wrap(surface, described, c);
   return c;
 }
 

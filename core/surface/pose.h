@@ -1,5 +1,6 @@
 #pragma once
 /// A surface at both ends of a step, computed where it is asked for.
+#include "core/math/field.h"
 #include "core/surface/surface.h"
 
 namespace ostium {
@@ -10,14 +11,16 @@ struct SurfaceMoment {
   double weight[4] = {};
   Eigen::Vector3d shift_W = Eigen::Vector3d::Zero();
   int interval = 0;
+  bool operator==(const SurfaceMoment&) const = default;
 };
 
-/// A cluster's corners, m.
+/// A cluster, m.
 struct ClusterPose {
-  V3<double> low, high;     ///< their box during the step
-  double largest_move = 0;  ///< m, of a corner in the step
-  std::vector<V3<double>> before, after;
-  long computed = -1;  ///< in which step
+  V3<double> low, high;     ///< the box of its corners during the step
+  double largest_move = 0;  ///< of a corner in the step
+  Field<3> before, after;   ///< (#corners)
+  Field<4> balls;           ///< (#triangles): centre and radius of a ball around each, during the step
+  long computed = -1;       ///< in which step
 };
 
 struct SurfacePose {
@@ -26,7 +29,8 @@ struct SurfacePose {
   SurfaceMoment before, after;
   std::vector<ClusterPose> clusters;
   std::vector<long> listed;  ///< per cluster: the last query that found it
-  long step = 0, query = 0;
+  long step = 0, query = 0, edits = -1;
+  bool goes_on = false;  ///< this step begins where the last one ended, on the same surface
 };
 
 /// Makes `pose` that of a new step.
@@ -36,7 +40,7 @@ void set_motion(const Surface& surface, const SurfaceMotion& motion, SurfacePose
 void find_clusters(const Surface& surface, const V3<double>& low, const V3<double>& high, SurfacePose& pose,
                    std::vector<int>& found);
 
-/// A cluster's corners in this step.
-const ClusterPose& corners_of(const Surface& surface, int cluster, SurfacePose& pose);
+/// A cluster in this step.
+const ClusterPose& pose_of(const Surface& surface, int cluster, SurfacePose& pose);
 
 }  // namespace ostium

@@ -71,11 +71,11 @@ std::array<float, 3> shape_operator(const SurfaceDescription& d, const std::vect
 Box leaf_box(const Surface& surface, const Surface::Cluster& c, int interval) {
   constexpr float large = std::numeric_limits<float>::max(), rounding = 1e-6f;
   Box box{{large, large, large}, {-large, -large, -large}};
-  const auto value = [&](int frame, int axis, int corner) {
-    return surface.corner_frames[(std::size_t{3} * wrapped(frame, surface.frames) + axis) * surface.corners + corner];
+  const auto value = [&](int frame, int axis, int i) {
+    return surface.corner_frames[surface.row(c, wrapped(frame, surface.frames), axis) + i];
   };
   for (int axis = 0; axis < 3; ++axis)
-    for (int i = c.first_corner; i < c.first_corner + c.corners; ++i) {
+    for (int i = 0; i < c.corners; ++i) {
       const float p0 = value(interval - 1, axis, i), p1 = value(interval, axis, i), p2 = value(interval + 1, axis, i),
                   p3 = value(interval + 2, axis, i);
       for (const float b : {p1, p1 + (p2 - p0) / 6, p2 - (p3 - p1) / 6, p2})
@@ -160,10 +160,12 @@ class Builder {
   void lay_out_corners() {
     out_.corners = static_cast<int>(out_.corner_vertex.size());
     out_.corner_frames.resize(std::size_t{3} * out_.frames * out_.corners);
-    float* to = out_.corner_frames.data();
-    for (const auto& frame : d_.frames)
-      for (int axis = 0; axis < 3; ++axis)
-        for (int v : out_.corner_vertex) *to++ = static_cast<float>(frame[v][axis]);
+    for (const Surface::Cluster& c : out_.clusters)
+      for (int frame = 0; frame < out_.frames; ++frame)
+        for (int axis = 0; axis < 3; ++axis)
+          for (int i = 0; i < c.corners; ++i)
+            out_.corner_frames[out_.row(c, frame, axis) + i] =
+                static_cast<float>(d_.frames[frame][out_.corner_vertex[c.first_corner + i]][axis]);
     for (int v : out_.corner_vertex) {
       const Eigen::Vector3f n = normals_[v].cast<float>();
       out_.corner_normals.push_back({n[0], n[1], n[2]});
@@ -220,9 +222,9 @@ SurfaceEditor::SurfaceEditor(const SurfaceDescription& description, Surface& sur
 void SurfaceEditor::place(int vertex, int frame, const Eigen::Vector3d& p_W) {
   for (int k = first_corner_[vertex]; k < first_corner_[vertex + 1]; ++k) {
     const int corner = corners_[k];
+    const Surface::Cluster& c = surface_.clusters[cluster_of_[corner]];
     for (int axis = 0; axis < 3; ++axis)
-      surface_.corner_frames[(std::size_t{3} * frame + axis) * surface_.corners + corner] =
-          static_cast<float>(p_W[axis]);
+      surface_.corner_frames[surface_.row(c, frame, axis) + corner - c.first_corner] = static_cast<float>(p_W[axis]);
     for (int n = leaf_of_[cluster_of_[corner]]; n >= 0 && !changed_[n]; n = parent_[n])
       changed_[n] = 1, pending_.push_back(n);
   }
@@ -236,6 +238,7 @@ void SurfaceEditor::refit() {
     for (int n : pending_) boxes[n] = box_of(surface_, boxes, n, k);
   }
   for (int n : pending_) changed_[n] = 0;
+  if (!pending_.empty()) ++surface_.edits;
   pending_.clear();
 }
 

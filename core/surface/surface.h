@@ -47,14 +47,20 @@ struct Surface {
   std::vector<Cluster> clusters;
   std::vector<Triangle> triangles;
   int frames = 0;
-  std::vector<float> corner_frames;       ///< [frame][x, y, z][corner]
-  std::vector<int> corner_vertex;         ///< [corner], as described
+  std::vector<float> corner_frames;  ///< [cluster][frame][x, y, z][corner of it], m: what is read together is together
+  std::vector<int> corner_vertex;    ///< [corner], as described
   std::vector<V3<float>> corner_normals;  ///< [corner], outwards, of the first frame: they tell sides, no more
   int corners = 0;
   std::vector<Node> nodes;
   std::vector<Box> boxes;  ///< [interval][node]
   double stiffness_N_m2 = 0, friction = 0;
   int largest_cluster = 0;  ///< corners
+  long edits = 0;           ///< how often a SurfaceEditor changed it
+
+  /// Where an axis of a cluster's corners begins in `corner_frames`.
+  std::size_t row(const Cluster& c, int frame, int axis) const {
+    return std::size_t{3} * frames * c.first_corner + std::size_t{1} * (3 * frame + axis) * c.corners;
+  }
 };
 
 /// Throws std::invalid_argument if there is no triangle or frame, a triangle names a vertex that there is not, frames

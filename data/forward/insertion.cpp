@@ -50,7 +50,7 @@ class History {
     SurfaceDescription wall = *set.vessel->wall;
     wall.friction = first.wall_friction.value_or(set.vessel->friction);
     wall.stiffness_N_m2 = first.wall_stiffness_N_m2;
-    model_.surfaces = {make_surface(wall)};
+    model_.surfaces = {std::make_shared<Surface>(make_surface(wall))};
     model_.gravity_W = first.gravity_m_s2;
     model_.step_s = step_s;
     check(model_);

@@ -118,8 +118,7 @@ int main(int argc, char** argv) {
     rows.push_back(free_rod(name, elements, duration));
   }
   if (!json) fmt::print(stderr, "nested rods ...\n");
-  rows.push_back(nested_rods("pair-2x512-free", 2, 512, duration));
-  rows.push_back(nested_rods("three-3x512-free", 3, 512, duration));
+  for (const Row& row : nested_rods(duration)) rows.push_back(row);
   if (!json) fmt::print(stderr, "guide and wire in a vessel ...\n");
   rows.push_back(vessel_pair("pair-in-vessel", quick));
   if (!json) fmt::print(stderr, "frames ...\n");

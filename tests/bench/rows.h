@@ -28,9 +28,10 @@ struct Duration {
 /// step and state hash.
 Row free_rod(const std::string& name, int elements, const Duration& duration);
 
-/// Two or three coaxial rods of `elements` each and 1 m, the inner ones 50 mm longer than those around them, clamped,
-/// swinging under their weight with the damping of the catalogue's shafts (verification: nesting-pair).
-Row nested_rods(const std::string& name, int rods, int elements, const Duration& duration);
+/// Two and three coaxial rods of 512 elements each and 1 m, the inner ones 50 mm longer than those around them,
+/// clamped, swinging under their weight with the damping of the catalogue's shafts (verification: nesting-pair); in
+/// turns.
+std::vector<Row> nested_rods(const Duration& duration);
 
 /// Guide and wire of the catalogue in the beating test vessel, by the scripted procedure of app/verify/drives.h.
 Row vessel_pair(const std::string& name, bool quick);

@@ -51,6 +51,12 @@ TEST(Triangle, TheNearestPointIsNoFartherThanAnyOther) {
   }
 }
 
+double nearest_corner_m(const Field<3>& corners, const Vector3d& p_W) {
+  double nearest_m = 1;
+  for (int i = 0; i < corners.size(); ++i) nearest_m = std::min(nearest_m, (corners[i] - p_W).norm());
+  return nearest_m;
+}
+
 TEST(Surface, ATubeIsAsHollowAsItsRadiusSays) {
   const SurfaceDescription d = straight_tube(2e-3);
   const Surface surface = make_surface(d);
@@ -84,8 +90,8 @@ TEST(Surface, AQueryFindsWhatIsNearAtAnyMoment) {
     find_clusters(surface, q - pad, q + pad, pose, found);
     double nearest_m = 1;
     for (int c : found)
-      for (const auto* corners : {&corners_of(surface, c, pose).before, &corners_of(surface, c, pose).after})
-        for (const V3<double>& x : *corners) nearest_m = std::min(nearest_m, std::sqrt(dot(x - q, x - q)));
+      for (const auto* corners : {&pose_of(surface, c, pose).before, &pose_of(surface, c, pose).after})
+        nearest_m = std::min(nearest_m, nearest_corner_m(*corners, p));
     EXPECT_LT(nearest_m, 1e-6) << n;
   }
 }
@@ -117,8 +123,7 @@ TEST(Surface, VerticesArePlacedAnewAndBack) {
     find_clusters(surface, q - pad, q + pad, pose, found);
     double nearest_m = 1;
     for (int c : found)
-      for (const V3<double>& x : corners_of(surface, c, pose).before)
-        nearest_m = std::min(nearest_m, std::sqrt(dot(x - q, x - q)));
+      nearest_m = std::min(nearest_m, nearest_corner_m(pose_of(surface, c, pose).before, to_eigen(q)));
     EXPECT_LT(nearest_m, 1e-6) << v;
   }
   place(vessel.wall);
@@ -152,7 +157,7 @@ TEST(Contact, ASoftWallYields) {
   RodDescription d = verify::steel_wire({.elements = 100, .length_m = 0.2});
   d.damping.drag_across_N_s_m2 = 1;
   model.rods = {make_rod(d)};
-  model.surfaces = {make_surface(wall)};
+  model.surfaces = {std::make_shared<Surface>(make_surface(wall))};
   State state = make_state(model, {along_x()});
   Inputs inputs;
   inputs.rods.resize(1);

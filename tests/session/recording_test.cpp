@@ -97,10 +97,11 @@ TEST(Recording, OfAnotherPhysicsIsToldByStepAndField) {
   std::string warnings;
   const RunSetup setup = tube_setup();
   const auto made = make_vessel(setup, warnings);
-  slippery->name = made->name, slippery->wall = made->wall, slippery->surface = made->surface,
-  slippery->entry = made->entry;
+  slippery->name = made->name, slippery->wall = made->wall, slippery->entry = made->entry;
   slippery->way = std::make_unique<const Way>(*made->way);
-  slippery->surface.friction = 0.2;  // instead of 0.1
+  const auto wall = std::make_shared<Surface>(*made->surface);
+  wall->friction = 0.2;  // instead of 0.1
+  slippery->surface = wall;
   Replay replay(folder("run.h5"), slippery);
   const VerifyReport verified = verify(replay);
   ASSERT_TRUE(verified.first_step);

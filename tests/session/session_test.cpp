@@ -105,6 +105,15 @@ TEST(Session, SeedsVaryHandsAndRoll) {
   EXPECT_NE(played(tube_setup(there_and_back, 2)).hash, first);
 }
 
+TEST(Session, AToolWhoseDriveIsOutStaysAndTheRunSaysSo) {
+  RunSetup setup = tube_setup();
+  set_value("stuck", "wire", setup);
+  const PlayReport report = played(setup);
+  EXPECT_EQ(report.outcome, "failure");
+  EXPECT_EQ(report.reason, "step 2 of 5, advance (to the bend): timed out after 5 s");
+  EXPECT_EQ(to_json(setup_from_json("a file", to_json(setup))), to_json(setup));
+}
+
 TEST(Session, WhatIsSetIsUsedAndWhatIsNotThereIsRefused) {
   RunSetup setup = tube_setup();
   set_value("hand_speed", "2", setup);
@@ -112,11 +121,15 @@ TEST(Session, WhatIsSetIsUsedAndWhatIsNotThereIsRefused) {
   set_value("wire", "bentson", setup);
   EXPECT_EQ(make_session(setup, tube_vessel()).tools[0].instrument.name, "bentson");
   set_value("friction", "0.3", setup);
-  EXPECT_EQ(make_session(setup, tube_vessel()).rods.surfaces[0].friction, 0.3);
+  EXPECT_EQ(make_session(setup, tube_vessel()).rods.surfaces[0]->friction, 0.3);
   const RunSetup back = setup_from_json("a file", to_json(setup));
   EXPECT_EQ(to_json(back), to_json(setup));
-  for (const auto& [key, value] :
-       {std::pair{"wires", "bentson"}, {"wire", "no-such"}, {"friction", "x"}, {"heart_rate", "300"}, {"person", "1"}})
+  for (const auto& [key, value] : {std::pair{"wires", "bentson"},
+                                   {"wire", "no-such"},
+                                   {"friction", "x"},
+                                   {"heart_rate", "300"},
+                                   {"person", "1"},
+                                   {"stuck", "no-such"}})
     EXPECT_THROW(set_value(key, value, setup), LoadError) << key;
 }
 
