@@ -1,6 +1,7 @@
 #include "app/session/setup.h"
 
 #include <fmt/format.h>
+#include <malloc.h>
 
 #include <algorithm>
 #include <cmath>
@@ -115,8 +116,10 @@ void set_value(const std::string& key, const std::string& value, RunSetup& setup
 }
 
 std::shared_ptr<const Vessel> make_vessel(const RunSetup& setup, std::string& warnings) {
-  if (setup.is_mesh()) return vessel_of(setup.vessel, setup.mesh, setup.entry, warnings);
-  return vessel_of(read_case(setup.vessel + ".json", setup.case_text), setup.person);
+  auto vessel = setup.is_mesh() ? vessel_of(setup.vessel, setup.mesh, setup.entry, warnings)
+                                : vessel_of(read_case(setup.vessel + ".json", setup.case_text), setup.person);
+  malloc_trim(0);  // what building it took beside goes back
+  return vessel;
 }
 
 SessionModel make_session(const RunSetup& setup, std::shared_ptr<const Vessel> vessel) {

@@ -37,6 +37,21 @@ bool is_touched(const ContactScratch& c, int i) {
   return any;
 }
 
+/// What of the last step's force each plane gave: most from the one that faces it best, of the rest the next, so that
+/// planes beside those that hold a node are not thought to.
+void share_force(V3<double> force, const NodeWalls& walls, double* pressed_N) {
+  std::fill(pressed_N, pressed_N + walls.count, 0.0);
+  for (int round = 0; round < walls.count; ++round) {
+    int most = 0;
+    for (int k = 1; k < walls.count; ++k)
+      if (dot(force, walls.planes[k].normal) > dot(force, walls.planes[most].normal)) most = k;
+    const double part = dot(force, walls.planes[most].normal);
+    if (!(part > 0)) return;
+    pressed_N[most] += part;
+    force = madd(-part, walls.planes[most].normal, force);
+  }
+}
+
 double push_N(const WallPlane& w, const V3<double>& p) { return (w.place - dot(w.normal, p)) / w.softness; }
 
 }  // namespace
@@ -50,12 +65,13 @@ void expect_touches(const Strand& strand) {
     NodeWalls& walls = c.walls[i];
     c.rubs[i] = false;
     if (walls.count == 0) continue;
-    const V3<double> force = load3<double>(own.wall_force, i), expected = load3<double>(s.position, i);
+    const V3<double> expected = load3<double>(s.position, i);
+    double pressed[max_planes];
+    share_force(load3<double>(own.wall_force, i), walls, pressed);
     for (int k = 0; k < walls.count; ++k) {
       WallPlane& w = walls.planes[k];
-      const double pressed = largest(0, dot(force, w.normal));
-      w.active = dot(w.normal, expected) - pressed / tunables::press_N_m < w.place;
-      w.stay = w.active ? pressed * w.curvature : 0;
+      w.active = dot(w.normal, expected) - pressed[k] / tunables::press_N_m < w.place;
+      w.stay = w.active ? pressed[k] * w.curvature : 0;
       w.beside = dot(w.across, load3<double>(own.position, i) + w.carried);
     }
     find_rubbing(own, i, walls, s, c);

@@ -241,7 +241,8 @@ void find_walls(const Model& model, const Strand& strand, Scratch& scratch) {
     }
     for (std::size_t k = 0; k < model.surfaces.size(); ++k) {
       const Surface& surface = *model.surfaces[k];
-      find_clusters(surface, bounds.low, bounds.high, scratch.surfaces[k], c.clusters);
+      find_clusters(surface, bounds.low, bounds.high, scratch.surfaces[k], c.clusters,
+                    [&](const V3<double>& low, const V3<double>& high) { return nodes.near(low, high, 0) != 0; });
       for (int cluster : c.clusters) {
         const ClusterPose& pose = pose_of(surface, cluster, scratch.surfaces[k]);
         const double move = model.sweep ? pose.largest_move : 0;

@@ -100,31 +100,6 @@ void set_motion(const Surface& surface, const SurfaceMotion& motion, SurfacePose
   ++pose.step;
 }
 
-void find_clusters(const Surface& surface, const V3<double>& low, const V3<double>& high, SurfacePose& pose,
-                   std::vector<int>& found) {
-  found.clear();
-  ++pose.query;
-  const int nodes = static_cast<int>(surface.nodes.size());
-  for (const SurfaceMoment* m : {&pose.before, &pose.after}) {
-    if (m == &pose.after && m->interval == pose.before.interval && m->shift_W == pose.before.shift_W) break;
-    const Box* boxes = &surface.boxes[std::size_t{1} * m->interval * nodes];
-    const float lx = low.x - m->shift_W[0], ly = low.y - m->shift_W[1], lz = low.z - m->shift_W[2];
-    const float hx = high.x - m->shift_W[0], hy = high.y - m->shift_W[1], hz = high.z - m->shift_W[2];
-    for (int n = 0; n < nodes;) {
-      const Box& b = boxes[n];
-      const Surface::Node& node = surface.nodes[n];
-      if (b.low[0] > hx || b.low[1] > hy || b.low[2] > hz || b.high[0] < lx || b.high[1] < ly || b.high[2] < lz) {
-        n = node.skip;
-        continue;
-      }
-      ++n;
-      if (node.cluster < 0 || pose.listed[node.cluster] == pose.query) continue;
-      pose.listed[node.cluster] = pose.query;
-      found.push_back(node.cluster);
-    }
-  }
-}
-
 const ClusterPose& pose_of(const Surface& surface, int cluster, SurfacePose& pose) {
   ClusterPose& c = pose.clusters[cluster];
   if (c.computed == pose.step) return c;

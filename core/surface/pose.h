@@ -36,9 +36,40 @@ struct SurfacePose {
 /// Makes `pose` that of a new step.
 void set_motion(const Surface& surface, const SurfaceMotion& motion, SurfacePose& pose);
 
-/// Clusters that may touch a box during the step: writes their numbers to `found`, in a fixed order.
+/// Clusters that may touch a box during the step, and of whose own box, that holds them meanwhile, near(low, high) is
+/// true: writes their numbers to `found`, in a fixed order.
+template <class Near>
 void find_clusters(const Surface& surface, const V3<double>& low, const V3<double>& high, SurfacePose& pose,
-                   std::vector<int>& found);
+                   std::vector<int>& found, Near&& near) {
+  found.clear();
+  ++pose.query;
+  const int nodes = static_cast<int>(surface.nodes.size());
+  for (const SurfaceMoment* m : {&pose.before, &pose.after}) {
+    if (m == &pose.after && m->interval == pose.before.interval && m->shift_W == pose.before.shift_W) break;
+    const Box* boxes = &surface.boxes[std::size_t{1} * m->interval * nodes];
+    const V3<double> shift{m->shift_W[0], m->shift_W[1], m->shift_W[2]};
+    const V3<double> l = low - shift, h = high - shift;
+    const float lx = l.x, ly = l.y, lz = l.z, hx = h.x, hy = h.y, hz = h.z;
+    for (int n = 0; n < nodes;) {
+      const Box& b = boxes[n];
+      const Surface::Node& node = surface.nodes[n];
+      if (b.low[0] > hx || b.low[1] > hy || b.low[2] > hz || b.high[0] < lx || b.high[1] < ly || b.high[2] < lz) {
+        n = node.skip;
+        continue;
+      }
+      ++n;
+      if (node.cluster < 0 || pose.listed[node.cluster] == pose.query) continue;
+      if (!near(shift + V3<double>{b.low[0], b.low[1], b.low[2]}, shift + V3<double>{b.high[0], b.high[1], b.high[2]}))
+        continue;
+      pose.listed[node.cluster] = pose.query;
+      found.push_back(node.cluster);
+    }
+  }
+}
+inline void find_clusters(const Surface& surface, const V3<double>& low, const V3<double>& high, SurfacePose& pose,
+                          std::vector<int>& found) {
+  find_clusters(surface, low, high, pose, found, [](const V3<double>&, const V3<double>&) { return true; });
+}
 
 /// A cluster in this step.
 const ClusterPose& pose_of(const Surface& surface, int cluster, SurfacePose& pose);

@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
+#include <numeric>
 
 #include "vascular/shape/contour_octree.h"
 #include "vascular/surface_check.h"
@@ -37,16 +38,39 @@ void even_out(const TubeUnion& lumen, const Near& near, const std::vector<Quad>&
   }
 }
 
-long edge_key(int i, int j) { return static_cast<long>(std::min(i, j)) << 32 | std::max(i, j); }
+/// How many faces have an edge.
+class Edges {
+ public:
+  template <class Faces>
+  Edges(std::size_t vertices, const Faces& faces) : first_(vertices + 1, 0) {
+    for_edges(faces, [&](int low, int) { ++first_[low + 1]; });
+    std::partial_sum(first_.begin(), first_.end(), first_.begin());
+    others_.resize(first_.back());
+    std::vector<int> next(first_.begin(), first_.end() - 1);
+    for_edges(faces, [&](int low, int high) { others_[next[low]++] = high; });
+  }
+  long count(int i, int j) const {
+    const int low = std::min(i, j);
+    return std::count(others_.begin() + first_[low], others_.begin() + first_[low + 1], std::max(i, j));
+  }
+  /// visit(i, j), i < j, of each face's edges.
+  template <class Faces, class Visit>
+  static void for_edges(const Faces& faces, Visit&& visit) {
+    for (const auto& face : faces)
+      for (std::size_t k = 0; k < face.size(); ++k) {
+        const int i = face[k], j = face[(k + 1) % face.size()];
+        visit(std::min(i, j), std::max(i, j));
+      }
+  }
+
+ private:
+  std::vector<int> first_, others_;  ///< of each vertex, those with a higher number that it shares an edge with
+};
 
 /// Two triangles a quadrilateral, split along its shorter diagonal, unless an edge is there already.
 std::vector<std::array<int, 3>> split(const std::vector<Quad>& quads, const std::vector<Eigen::Vector3d>& vertices) {
-  std::vector<long> edges;
-  edges.reserve(4 * quads.size());
-  for (const Quad& q : quads)
-    for (int k = 0; k < 4; ++k) edges.push_back(edge_key(q[k], q[(k + 1) % 4]));
-  std::sort(edges.begin(), edges.end());
-  const auto there = [&](int i, int j) { return std::binary_search(edges.begin(), edges.end(), edge_key(i, j)); };
+  const Edges edges(vertices.size(), quads);
+  const auto there = [&](int i, int j) { return edges.count(i, j) > 0; };
   std::vector<std::array<int, 3>> triangles;
   triangles.reserve(2 * quads.size());
   for (Quad q : quads) {
@@ -65,13 +89,10 @@ std::vector<std::array<int, 3>> split(const std::vector<Quad>& quads, const std:
 /// move): the cells are too coarse there. Looking for crossings takes as long as all else.
 std::vector<int> faulty(const Mesh& mesh, const std::vector<Eigen::Vector3d>& outwards, bool crossings) {
   std::vector<bool> fault(mesh.vertices.size()), near_fault(mesh.vertices.size());
-  std::vector<long> edges;
-  edges.reserve(3 * mesh.triangles.size());
-  for (const auto& t : mesh.triangles)
-    for (int k = 0; k < 3; ++k) edges.push_back(edge_key(t[k], t[(k + 1) % 3]));
-  std::sort(edges.begin(), edges.end());
-  for (std::size_t i = 2; i < edges.size(); ++i)
-    if (edges[i] == edges[i - 2]) fault[edges[i] >> 32] = fault[edges[i] & 0xffffffff] = true;
+  const Edges edges(mesh.vertices.size(), mesh.triangles);
+  Edges::for_edges(mesh.triangles, [&](int i, int j) {
+    if (edges.count(i, j) > 2) fault[i] = fault[j] = true;
+  });
   for (const auto& [a, b, c] : mesh.triangles) {
     const Eigen::Vector3d normal =
         (mesh.vertices[b] - mesh.vertices[a]).cross(mesh.vertices[c] - mesh.vertices[a]).normalized();
