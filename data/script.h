@@ -46,7 +46,8 @@ struct ScriptCondition {
   std::string place;  ///< of tip_passes, tip_leaves, tip_in, tip_faces, engaged, contrast_in; of trace
   Eigen::Vector3d direction_P = Eigen::Vector3d::Zero();  ///< of tip_points, unit; `value` is the angle
   std::string words;                                      ///< as the file has it, for people: "tip_passes arch"
-  int line = 0;                                           ///< where it stands
+  bool if_there = false;  ///< of tip_in: a vessel without that branch is none in which it holds
+  int line = 0;           ///< where it stands
 };
 
 enum class ScriptAction {

@@ -129,6 +129,10 @@ ScriptCondition read_condition(const JsonValue& value, const Script& script, con
     c.place = object.text(found->key);
     c.words = fmt::format("{} {}", found->key, c.place);
   }
+  if (object.has("if_there")) {
+    if (c.kind != ConditionKind::tip_in) object.refuse("if_there");
+    c.if_there = read_boolean(object, "if_there");
+  }
   const bool of_angle = c.kind == ConditionKind::tip_points || c.kind == ConditionKind::tip_faces;
   if (of_angle) {
     if (!object.has("within_deg"))

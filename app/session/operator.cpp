@@ -81,6 +81,10 @@ std::vector<int> places(const Script& script, const std::vector<ScriptCondition>
       out.push_back(-1);
       continue;
     }
+    if (place < 0 && c.if_there) {
+      out.push_back(-1);
+      continue;
+    }
     if (place < 0) {
       std::string known;
       for (const std::string& name : way.places()) known += (known.empty() ? "" : ", ") + name;
@@ -137,7 +141,7 @@ struct Sight {
     switch (c.kind) {
       case ConditionKind::tip_passes:
       case ConditionKind::tip_in:
-        return tool.in_body && model.vessel->way->beyond(tip_sphere(c.tool), place);
+        return tool.in_body && place >= 0 && model.vessel->way->beyond(tip_sphere(c.tool), place);
       case ConditionKind::tip_leaves:
         return !tool.in_body || !model.vessel->way->beyond(tip_sphere(c.tool), place);
       case ConditionKind::tip_points:

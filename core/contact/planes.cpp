@@ -94,7 +94,7 @@ bool change_walls(const Model& model, const Strand& strand, Scratch& scratch) {
   if (c.walls.empty() || c.changes >= tunables::max_wall_changes) return false;
   RodScratch& s = *strand.s;
   const RodState& own = *strand.own;
-  const bool may_release = c.changes < tunables::max_wall_changes / 2;  // later on, so that no node comes and goes
+  const bool may_release = c.changes < tunables::max_wall_releases;  // later on, so that no node comes and goes
   bool any = false;
   for (int i = first_free(s); i <= last_free(s); ++i) {
     NodeWalls& walls = c.walls[i];
