@@ -187,6 +187,18 @@ bool usable(const RodScratch& s) { return s.progress != Progress::failed && s.de
 /// Whether its ties to walls are settled, too.
 bool settled(const Strand& strand) { return usable(*strand.s) && behind_walls(strand) <= tunables::usable_depth_m; }
 
+/// Strands whose ties did not settle from the fewest that may hold them are tried from the most.
+void retry_warily(const Model& model, const State& state, Scratch& scratch, StepReport& report) {
+  bool again = false;
+  for (const Strand& strand : scratch.strands) {
+    if (strand.contact->walls.empty()) continue;
+    if (strand.s->progress == Progress::done && settled(strand) && !gave_up_releasing(strand)) continue;
+    again = strand.contact->wary = true;
+    predict(model, state, scratch, strand, strand.s->scheme);
+  }
+  if (again) iterate(model, state, scratch, report);
+}
+
 /// Strands that move too violently for a step give up their velocity; then, if there are walls, most of the time to
 /// move in: so little moves that it can mostly be solved.
 void retry_from_rest(const Model& model, const State& state, Scratch& scratch, StepReport& report) {
@@ -291,6 +303,7 @@ void step(const Model& model, const Inputs& inputs, State& state, Scratch& scrat
   meet_walls(model, inputs, scratch);
   for (const Strand& strand : scratch.strands) predict(model, state, scratch, strand, strand.s->scheme);
   iterate(model, state, scratch, report);
+  retry_warily(model, state, scratch, report);
   retry_from_rest(model, state, scratch, report);
 
   for (const Strand& strand : scratch.strands) {

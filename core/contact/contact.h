@@ -30,6 +30,9 @@ void tie_to_walls(const Strand& strand);
 /// the chain, which is adapted, is to be solved again.
 bool change_walls(const Model& model, const Strand& strand, Scratch& scratch);
 
+/// Whether its ties came and went until they were only let come: some may pull.
+bool gave_up_releasing(const Strand& strand);
+
 /// How far the iterate is behind walls that do not hold it, m: more than little if the ties were not settled.
 double behind_walls(const Strand& strand);
 

@@ -32,7 +32,8 @@ struct NodeWalls {
 struct ContactScratch {
   std::vector<NodeWalls> walls;  ///< (#nodes)
   Field<1> travel;               ///< m, (#nodes): how far it may go within the walls that were found
-  int changes = 0;               ///< of planes in this step
+  int changes = 0;               ///< of planes since the last prediction
+  bool wary = false;             ///< every plane that may have held a node is thought to hold it once more
   Field<6> free_compliance;      ///< (#nodes), as they would be without walls
   Field<3> free_target;
   // --- friction, at nodes

@@ -67,7 +67,11 @@ void expect_touches(const Strand& strand) {
     if (walls.count == 0) continue;
     const V3<double> expected = load3<double>(s.position, i);
     double pressed[max_planes];
-    share_force(load3<double>(own.wall_force, i), walls, pressed);
+    const V3<double> force = load3<double>(own.wall_force, i);
+    if (c.wary)
+      for (int k = 0; k < walls.count; ++k) pressed[k] = largest(0, dot(force, walls.planes[k].normal));
+    else
+      share_force(force, walls, pressed);
     for (int k = 0; k < walls.count; ++k) {
       WallPlane& w = walls.planes[k];
       w.active = dot(w.normal, expected) - pressed[k] / tunables::press_N_m < w.place;
@@ -119,6 +123,10 @@ bool change_walls(const Model& model, const Strand& strand, Scratch& scratch) {
   }
   c.changes += any;
   return any;
+}
+
+bool gave_up_releasing(const Strand& strand) {
+  return !strand.contact->walls.empty() && strand.contact->changes > tunables::max_wall_releases;
 }
 
 double behind_walls(const Strand& strand) {

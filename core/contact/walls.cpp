@@ -225,6 +225,7 @@ void find_walls(const Model& model, const Strand& strand, Scratch& scratch) {
   ContactScratch& c = *strand.contact;
   const Rod& rod = s.inside;
   const RodState& own = *strand.own;
+  c.wary = false;
   for (int i = rod.first; i < rod.nodes(); ++i) c.walls[i].count = 0;
   for (int begin = first_free(s); begin <= last_free(s); begin += block) {
     const int end = std::min(begin + block, last_free(s) + 1);
