@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <random>
 
 #include "fluoro/phantom/coronaries.h"
+#include "fluoro/phantom/heart.h"
 #include "fluoro/tissue.h"
 
 namespace ostium::phantom {
@@ -17,52 +17,14 @@ constexpr double pi = std::numbers::pi;
 
 namespace {
 
-using Implicit = std::function<double(const Vector3d&)>;  // positive inside
+constexpr double midline_x = -0.022, spine_z = -0.098, chest_z = -0.022, vertebra_m = 0.0262;
 
-constexpr double midline_x = -0.022, spine_z = -0.105, chest_z = -0.022;
-
-/// The surface of an implicit shape as seen from `centre`, which is inside: where a ray first leaves.
-Surface seen_from(const Vector3d& centre, const Implicit& inside, double farthest_m, int rings) {
-  const auto radius = [&](const Vector3d& d) {
-    constexpr double step = 0.002;
-    double r = step;
-    while (r < farthest_m && inside(centre + r * d) > 0) r += step;
-    double low = r - step, high = r;
-    for (int i = 0; i < 12; ++i) {
-      const double middle = 0.5 * (low + high);
-      (inside(centre + middle * d) > 0 ? low : high) = middle;
-    }
-    return low;
-  };
-  return star(centre, radius, rings);
-}
-
-/// Elliptic cross-section, as a distance in shares of the half width.
-double in_trunk(const Vector3d& p, double inset_m) {
-  const double x = (p.x() - midline_x) / (0.168 - inset_m), z = (p.z() - chest_z) / (0.112 - inset_m);
+/// Inside an elliptic cross-section of that half width and half depth, in shares of it.
+double across_chest(const Vector3d& p, double wide_m, double deep_m) {
+  const double x = (p.x() - midline_x) / wide_m, z = (p.z() - chest_z) / deep_m;
   return 1 - std::pow(std::pow(std::fabs(x), 2.4) + std::pow(std::fabs(z), 2.4), 1 / 2.4);
 }
-
-const Vector3d heart_middle(0.004, -0.004, 0.004);
-
-/// Round every epicardial point: the hull of spheres that have centre and point as poles.
-double heart_radius(const Vector3d& direction) {
-  static const std::vector<Vector3d> points = [] {
-    std::vector<Vector3d> all = epicardial_points();
-    all.emplace_back(-0.052, -0.015, 0.02);  // right atrium
-    all.emplace_back(-0.05, -0.035, 0.018);
-    all.emplace_back(-0.02, 0.05, 0.03);  // outflow
-    return all;
-  }();
-  double sum = 0;
-  for (const Vector3d& p : points) sum += std::exp(700 * std::max(0.0, (p - heart_middle).dot(direction)));
-  return std::log(sum / 2.0) / 700 + 0.003;
-}
-
-double in_heart(const Vector3d& p, double margin_m) {
-  const Vector3d from = p - heart_middle;
-  return heart_radius(from.normalized()) + margin_m - from.norm();
-}
+constexpr double rib_wide_m = 0.1535, rib_deep_m = 0.0985;
 
 /// Height of the diaphragm's domes.
 double diaphragm_y(const Vector3d& p, bool right) {
@@ -70,141 +32,209 @@ double diaphragm_y(const Vector3d& p, bool right) {
   return (right ? -0.045 : -0.060) - 0.06 * (x * x + z * z);
 }
 
-double in_lung(const Vector3d& p, bool right) {
+/// Course of the aorta beside the spine.
+Vector3d descending_aorta(double y) {
+  return {0.001 + 0.007 * std::sin((y + 0.03) / 0.04), y, -0.076 + 0.003 * std::sin(y / 0.05)};
+}
+
+/// Distance to the lungs' surface, negative inside them.
+double from_lung(const Vector3d& p, bool right) {
   const double side = right ? midline_x - p.x() : p.x() - midline_x;
-  const double mediastinum_m = 0.024 + 0.01 * std::exp(-std::pow((p.y() - 0.04) / 0.05, 2));
-  double inside = 0.1 * in_trunk(p, 0.022);
-  inside = std::min(inside, side - mediastinum_m);
-  inside = std::min(inside, -in_heart(p, 0.004));
-  inside = std::min(inside, p.y() - diaphragm_y(p, right));
-  return std::min(inside, 0.16 - p.y() - 2.2 * side * side * 3);
+  // Wide about spine, aorta and heart; in front the lungs nearly meet.
+  const double front = std::clamp((p.z() - 0.005) / 0.05, 0.0, 1.0);
+  const double mediastinum_m = 0.024 - 0.017 * front * front * (3 - 2 * front) +
+                               0.01 * std::exp(-std::pow((p.y() - 0.04) / 0.05, 2)) +
+                               0.0025 * std::sin(p.y() / 0.017 + p.z() / 0.03) + 0.002 * std::sin(p.z() / 0.014);
+  const Vector3d from_middle = p - heart_middle();
+  const double heart = from_middle.norm() - heart_radius(from_middle.normalized()) - 0.003;
+  const double aorta = (p - descending_aorta(p.y())).norm() - 0.0145;
+  // What the lung goes round, with the grooves between filled.
+  const double solid = joined(joined(side - mediastinum_m, heart, 0.022), aorta, 0.010);
+  const double base = p.y() - diaphragm_y(p, right), apex = 0.16 - p.y() - 6.6 * side * side;
+  return -joined(std::min(0.1 * across_chest(p, 0.146, 0.091), apex), joined(solid, base, 0.035), 0.012);
 }
 
 /// Cortical shell round spongy bone.
-void add_bone(std::vector<Body>& out, const std::string& name, const Surface& outer, const Surface& inner) {
+void add_bone(std::vector<Body>& out, const std::string& name, const Surface& outer, const Surface& inner,
+              Tissue marrow = tissue::spongy_bone) {
   out.push_back(body(name, outer, tissue::cortical_bone, tissue::soft));
-  out.push_back(body(name + " marrow", inner, tissue::spongy_bone, tissue::cortical_bone));
+  out.push_back(body(name + " marrow", inner, marrow, tissue::cortical_bone));
+}
+
+/// A thoracic vertebra about the middle of its body: millimetres, x to a side, y to the head, z to the front.
+double from_vertebra_mm(Vector3d p) {
+  p.x() = std::fabs(p.x());
+  constexpr double wide = 16.2, high = 10.9, deep = 14.8;
+  // Waisted, its end plates hollow, its back flat.
+  const double waist = 1 - 0.10 * (1 - std::pow(p.y() / high, 2));
+  const double z = p.z() > 0 ? p.z() / deep : p.z() / (deep - 2);
+  const double out = std::pow(std::pow(p.x() / wide, 2.9) + std::pow(std::fabs(z), 2.7), 1 / 2.7) / waist;
+  const double side = (out - 1) * 12.5, end = std::fabs(p.y()) - high + 1.3 * std::max(0.0, 1 - out * out);
+  const double body = common(side, end, 3.5);
+  const auto rod = [&](const Vector3d& a, const Vector3d& b, double radius_a, double radius_b, const Vector3d& scale) {
+    return from_rod(p.cwiseProduct(scale), a.cwiseProduct(scale), b.cwiseProduct(scale), radius_a, radius_b) /
+           scale.maxCoeff();
+  };
+  const Vector3d round = Vector3d::Ones();
+  double arch = rod({9.5, 4, -9}, {10.5, 4.5, -22}, 3.1, 3.3, {1, 0.68, 1});           // pedicle
+  arch = joined(arch, rod({11, 11, -23}, {11.5, -9, -25}, 3.6, 3.2, {1, 1, 1.3}), 4);  // articular processes
+  arch = joined(arch, rod({11, 3, -25}, {0, -2, -33}, 2.4, 2.8, {1, 0.5, 1}), 3);      // lamina
+  arch = joined(arch, rod({13, 4, -25}, {29, 8, -36}, 3.4, 4.0, round), 4);            // transverse process
+  arch = joined(arch, rod({0, -2, -33}, {0, -21, -52}, 3.4, 3.8, {1.5, 0.9, 1}), 3);   // spinous process
+  return joined(body, arch, 3);
 }
 
 void add_spine(std::vector<Body>& out) {
-  for (int i = -5; i <= 5; ++i) {
-    const std::string name = "vertebra " + std::to_string(i + 6);
-    const Vector3d middle(midline_x, 0.0285 * i + 0.004, spine_z);
-    const Vector3d size(0.0185, 0.0118, 0.0150);
-    const Eigen::Matrix3d turn = Eigen::AngleAxisd(0.015 * i, Vector3d::UnitX()).matrix();
-    // Waisted, with raised end plates.
-    const auto body_shape = [&](double shell) {
-      return [=](const Vector3d& d) {
-        const Vector3d local = turn.transpose() * d;
-        const Vector3d s = size - Vector3d::Constant(shell);
-        const double boxy =
-            std::pow(std::pow(std::fabs(local.x()) / s.x(), 5) + std::pow(std::fabs(local.y()) / s.y(), 5) +
-                         std::pow(std::fabs(local.z()) / s.z(), 3.2),
-                     -1 / 4.6);
-        return boxy * (1 - 0.07 * (1 - std::pow(std::min(1.0, std::fabs(local.y()) * boxy / s.y()), 2)));
-      };
+  const auto shape = [](double inset_mm) {
+    return net([=](const Vector3d& p) { return 1e-3 * (from_vertebra_mm(1e3 * p) + inset_mm); },
+               {-0.036, -0.0285, -0.061}, {0.036, 0.0165, 0.018}, 1.5e-3);
+  };
+  static const Surface outer = shape(0), inner = shape(0.85);
+  Random random(5);
+  for (int i = -6; i <= 6; ++i) {
+    const double y = vertebra_m * i + 0.004;
+    const Eigen::Affine3d at =
+        Eigen::Translation3d(midline_x + 0.0007 * random.uniform(-1, 1), y, spine_z + 1.2 * y * y) *
+        Eigen::AngleAxisd(-2.0 * y + 0.03 * random.uniform(-1, 1), Vector3d::UnitX()) *
+        Eigen::AngleAxisd(0.035 * random.uniform(-1, 1), Vector3d::UnitZ()) *
+        Eigen::AngleAxisd(0.05 * random.uniform(-1, 1), Vector3d::UnitY()) *
+        Eigen::Scaling(1 + 0.03 * random.uniform(-1, 1) - 0.010 * i);
+    const auto placed = [&](const Surface& local) {
+      return Surface{local.triangles,
+                     ((at.linear() * local.p_P.cast<double>()).colwise() + at.translation()).cast<float>()};
     };
-    add_bone(out, name, star(middle, body_shape(0), 28), star(middle, body_shape(0.0009), 28));
-    for (double side : {-1.0, 1.0}) {  // pedicles, articular masses, transverse processes
-      const Vector3d root = middle + Vector3d(side * 0.011, 0.0045, -0.017);
-      const auto axis_shape = [&](double r, double shell) {
-        return ellipsoid(root, Vector3d(0.0042, 0.0062, 0.0090) * r - Vector3d::Constant(shell), 12);
-      };
-      add_bone(out, name + " pedicle", axis_shape(1, 0), axis_shape(1, 0.0011));
-      const Matrix3Xd process =
-          smooth_line({root + Vector3d(side * 0.003, 0, -0.008), root + Vector3d(side * 0.016, 0.003, -0.015),
-                       root + Vector3d(side * 0.026, 0.004, -0.018)},
-                      0.002);
-      const Eigen::VectorXd radius = Eigen::VectorXd::LinSpaced(process.cols(), 0.0048, 0.0035);
-      add_bone(out, name + " transverse process", tube(process, radius, 12),
-               tube(process, radius - Eigen::VectorXd::Constant(process.cols(), 0.0009), 12));
-    }
-    const Vector3d spinous = middle + Vector3d(0, -0.009, -0.042);
-    const Eigen::Matrix3d down = Eigen::AngleAxisd(-0.5, Vector3d::UnitX()).matrix();
-    add_bone(out, name + " spinous process", ellipsoid(spinous, {0.0034, 0.0065, 0.017}, 12, down),
-             ellipsoid(spinous, {0.0024, 0.0055, 0.016}, 12, down));
+    add_bone(out, "vertebra " + std::to_string(7 - i), placed(outer), placed(inner));
   }
 }
 
+constexpr Tissue loose_bone{0.97f, 0.05f};  ///< of ribs and sternum: half as dense as a vertebra's
+
+/// From the head at the spine to where cartilage takes over, where cortex and height run out.
 void add_ribs(std::vector<Body>& out) {
-  for (int i = -5; i <= 6; ++i)
+  Random random(3);
+  for (int i = -5; i <= 6; ++i) {
+    const double fall_m = 0.086 + 0.0035 * (3 - i) + 0.005 * random.uniform(-1, 1),
+                 back = random.uniform(-0.002, 0.002);
     for (double side : {-1.0, 1.0}) {
       std::vector<Vector3d> through;
-      const double back_y = 0.0285 * i + 0.016, fall_m = 0.075 + 0.004 * (3 - i), wall_m = 0.014;
-      for (int k = 0; k <= 12; ++k) {
-        const double t = k / 12.0, angle = -0.43 * pi + t * (0.43 + 0.33) * pi;  // from beside the spine to the front
-        const double x = std::pow(std::fabs(std::cos(angle)), 0.85) * (0.168 - wall_m);
-        const double z = chest_z + std::copysign(std::pow(std::fabs(std::sin(angle)), 0.85), angle) * (0.112 - wall_m);
-        through.emplace_back(midline_x + side * x, back_y - fall_m * std::pow(t, 1.25) + 0.006 * std::sin(pi * t), z);
+      const double back_y = vertebra_m * i + 0.013 + back, sway = random.uniform(-0.0025, 0.0025);
+      through.emplace_back(midline_x + side * 0.0185, back_y - 0.004, spine_z - 0.011);
+      for (int k = 0; k <= 16; ++k) {
+        const double t = k / 16.0, angle = -0.40 * pi + t * (0.40 + 0.29) * pi;
+        const double x = std::pow(std::cos(angle), 0.85) * rib_wide_m;
+        const double z = chest_z + std::copysign(std::pow(std::fabs(std::sin(angle)), 0.85), angle) * rib_deep_m;
+        // Level behind, steep at the side, gentler in front.
+        const double fallen = t * t * (3 - 2 * t) * 0.75 + 0.25 * t;
+        through.emplace_back(
+            midline_x + side * x,
+            back_y + 0.004 * std::sin(pi * std::min(1.0, 3 * t)) - fall_m * fallen + sway * std::sin(2 * pi * t), z);
       }
       const Matrix3Xd line = smooth_line(through, 0.004);
-      const Eigen::VectorXd radius = Eigen::VectorXd::Constant(line.cols(), 0.0066);
+      Eigen::VectorXd half_height(line.cols()), cortex(line.cols());
+      const double height = random.uniform(0.0045, 0.0056), thick = random.uniform(0.00042, 0.00062),
+                   phase = random.uniform(0, 6);
+      for (Eigen::Index k = 0; k < line.cols(); ++k) {
+        const double t = double(k) / double(line.cols() - 1), front = std::clamp((t - 0.70) / 0.30, 0.0, 1.0);
+        const double neck = std::clamp(t / 0.12, 0.0, 1.0);
+        half_height[k] =
+            height * (0.6 + 0.4 * neck) * (1 + 0.05 * std::sin(11 * t + phase)) * (1 - 0.85 * front * front * front);
+        cortex[k] = thick * (1 - 0.93 * std::pow(front, 0.7));
+      }
       const std::string name = "rib " + std::to_string(6 - i) + (side > 0 ? " left" : " right");
       const Vector3d outwards(side * 0.05, 0.0, -1);
-      add_bone(out, name, tube(line, radius, 14, true, 0.5, outwards),
-               tube(line, radius - Eigen::VectorXd::Constant(line.cols(), 0.0008), 14, true, 0.42, outwards));
+      add_bone(out, name, tube(line, half_height, 16, true, 0.58, outwards),
+               tube(line, half_height - cortex, 16, true, 0.50, outwards), loose_bone);
     }
+  }
 }
 
-/// Vessels of the lungs: from the hilum outwards, halving.
+/// Loose throughout: its cortex is thinner than a mesh would show.
+double from_sternum_mm(const Vector3d& p) {  // x to a side, y along it, z through it
+  const double y = p.y();
+  // Manubrium above, angle of Louis, body with notches for the ribs.
+  const double notches = 1.6 * std::sin(0.27 * y + 0.6) + 0.7 * std::sin(0.61 * y);
+  const double wide = 15 + 9 / (1 + std::exp(-(y - 46) / 4)) - 3 * std::exp(-std::pow((y - 42) / 7, 2)) -
+                      5 * std::clamp(-(y + 30) / 40, 0.0, 1.0) + notches;
+  const double across = std::hypot(p.x() / wide, p.z() / 5.5);
+  return common((across - 1) * 5.0, std::max(y - 78, -72 - y + 2.5 * std::cos(0.2 * p.x())), 14);
+}
+
+/// Arteries and veins of the lungs: a few from each hilum, on to the fissures, dividing unevenly.
 void add_lung_vessels(std::vector<Body>& out) {
-  std::mt19937 random(7);
-  const auto uniform = [&](double low, double high) { return low + (high - low) * (double(random()) / 4294967296.0); };
+  Random random(7);
+  const Normal nowhere = [](const Vector3d&) { return Vector3d(Vector3d::Zero()); };
+  const Bed anywhere = [](const Vector3d& p) { return p; };
   for (bool right : {true, false}) {
-    struct Twig {
-      Vector3d from, direction;
-      double radius_m;
-      int generation;
+    std::vector<Course> courses;
+    const double side = right ? -1 : 1;
+    const auto push = [&](int parent, const Vector3d& start, const Vector3d& direction, const Vector3d& goal,
+                          double radius_m, double length_m) {
+      Course course{right ? "right lung vessel" : "left lung vessel", !right, {}, {}, parent};
+      course.line = grow({start, direction, goal, length_m, 35}, nowhere, anywhere, random);
+      Eigen::Index inside = 0;
+      while (inside < course.line.cols() && from_lung(course.line.col(inside), right) < -0.004) ++inside;
+      if (inside < 16) return;
+      course.line.conservativeResize(3, inside);
+      course.radius_m = calibre(inside, {{0, 2e3 * radius_m}, {1, std::max(0.3, 1.0e3 * radius_m)}}, 0.1, random);
+      courses.push_back(std::move(course));
     };
-    std::vector<Twig> twigs;
-    const Vector3d hilum(midline_x + (right ? -0.045 : 0.050), 0.035, -0.035);
-    for (int i = 0; i < 9; ++i)
-      twigs.push_back(
-          {hilum, Vector3d((right ? -1 : 1) * uniform(0.2, 1), uniform(-1.1, 0.9), uniform(-0.9, 0.9)).normalized(),
-           uniform(0.0017, 0.0030), 0});
-    for (std::size_t i = 0; i < twigs.size(); ++i) {
-      const Twig twig = twigs[i];
-      const double length = uniform(0.022, 0.036) * std::pow(0.86, twig.generation);
-      const Vector3d bend = twig.direction.cross(Vector3d(uniform(-1, 1), uniform(-1, 1), uniform(-1, 1)));
-      const Vector3d middle = twig.from + 0.5 * length * twig.direction + 0.10 * length * bend,
-                     end = twig.from + length * twig.direction + 0.12 * length * bend;
-      if (in_lung(twig.from, right) < 0.001 || in_lung(end, right) < 0.003 || in_lung(middle, right) < 0.002) continue;
-      const Matrix3Xd line = smooth_line({twig.from, middle, end}, 0.004);
-      const Eigen::VectorXd radius = Eigen::VectorXd::LinSpaced(line.cols(), twig.radius_m, 0.82 * twig.radius_m);
-      out.push_back(
-          body(right ? "right lung vessel" : "left lung vessel", tube(line, radius, 8), tissue::blood, tissue::lung));
-      if (twig.generation == 5) continue;
-      for (int child = 0; child < 2; ++child) {
-        const Vector3d turned =
-            (end - middle).normalized() + 0.75 * Vector3d(uniform(-1, 1), uniform(-1, 1), uniform(-1, 1));
-        twigs.push_back({end, turned.normalized(), twig.radius_m * uniform(0.62, 0.80), twig.generation + 1});
-      }
+    const Vector3d hilum(midline_x + side * 0.047, 0.034, -0.036);
+    for (const Vector3d& way : {Vector3d(0.35, 1, 0.2), Vector3d(0.6, 0.7, -0.5), Vector3d(1, 0.1, 0.5),
+                                Vector3d(0.7, -0.5, 0.45), Vector3d(0.3, -1, -0.25), Vector3d(0.55, -0.8, -0.55)}) {
+      const Vector3d towards = Vector3d(side * way.x(), way.y(), way.z()) + 0.25 * random.vector();
+      Vector3d start = hilum + 0.016 * towards.normalized() + 0.004 * random.vector();
+      for (int k = 0; k < 30 && from_lung(start, right) > -0.006; ++k) start += 0.002 * Vector3d(side, 0, 0);
+      push(-1, start, towards, towards, random.uniform(0.0010, 0.0017), random.uniform(0.07, 0.11));
     }
+    for (std::size_t i = 0; i < courses.size() && courses.size() < 170; ++i)
+      for (double s = random.uniform(0.008, 0.014);; s += random.uniform(0.007, 0.015)) {
+        const Course& parent = courses[i];
+        const auto from = static_cast<Eigen::Index>(s / course_step_m);
+        if (from + 4 >= parent.line.cols()) break;
+        const double radius_m = parent.radius_m[from] * random.uniform(0.4, 0.75);
+        if (radius_m < 0.0003) continue;
+        const Vector3d along = (parent.line.col(from + 4) - parent.line.col(from)).normalized();
+        const Vector3d aside = along.cross(random.vector()).normalized();
+        const double turn = random.uniform(0.5, 1.1);
+        const Vector3d start = parent.line.col(from);
+        push(static_cast<int>(i), start, std::cos(turn) * along + std::sin(turn) * aside, along + 0.7 * aside, radius_m,
+             radius_m * random.uniform(22, 38));
+      }
+    for (std::size_t i = 0; i < courses.size(); ++i)
+      out.push_back(body(courses[i].name, lumen(courses, i).surface, tissue::blood, tissue::lung));
   }
 }
 
 std::vector<Body> fixed_bodies() {
   std::vector<Body> out;
-  const auto trunk = [](const Vector3d& p) { return std::min(0.1 * in_trunk(p, 0), 0.32 - std::fabs(p.y())); };
-  out.push_back(body("trunk", seen_from({midline_x, 0, chest_z}, trunk, 0.5, 120), tissue::soft, tissue::air));
-  out.push_back(body("right lung",
-                     seen_from(
-                         {-0.105, 0.03, -0.03}, [](const Vector3d& p) { return in_lung(p, true); }, 0.25, 110),
-                     tissue::lung, tissue::soft));
-  out.push_back(body("left lung",
-                     seen_from(
-                         {0.085, 0.03, -0.055}, [](const Vector3d& p) { return in_lung(p, false); }, 0.25, 110),
-                     tissue::lung, tissue::soft));
+  const auto trunk = [](const Vector3d& p) {
+    return -std::min(0.1 * across_chest(p, 0.170, 0.127), 0.32 - std::fabs(p.y()));
+  };
+  out.push_back(
+      body("trunk", net(trunk, {-0.22, -0.34, -0.17}, {0.18, 0.34, 0.125}, 0.008), tissue::soft, tissue::air));
+  for (bool right : {true, false}) {
+    const double low = right ? -0.18 : -0.03, high = right ? -0.01 : 0.14;
+    const auto lung = [=](const Vector3d& p) { return from_lung(p, right); };
+    out.push_back(body(right ? "right lung" : "left lung", net(lung, {low, -0.21, -0.13}, {high, 0.17, 0.085}, 0.0035),
+                       tissue::lung, tissue::soft));
+  }
   add_spine(out);
   add_ribs(out);
-  const Vector3d sternum(midline_x, 0.03, 0.078);
-  add_bone(out, "sternum", ellipsoid(sternum, {0.016, 0.075, 0.0055}, 24, Eigen::Matrix3d::Identity(), 3),
-           ellipsoid(sternum, {0.0152, 0.0742, 0.0046}, 24, Eigen::Matrix3d::Identity(), 3));
+  const auto sternum = [](const Vector3d& p) {
+    const Vector3d local = 1e3 * (p - Vector3d(midline_x, 0.03, 0.078));
+    return 1e-3 *
+           from_sternum_mm({local.x(), local.y(), local.z() + 0.12 * local.y() + 0.0012 * local.y() * local.y()});
+  };
+  out.push_back(body("sternum", net(sternum, {midline_x - 0.035, -0.06, 0.055}, {midline_x + 0.035, 0.12, 0.1}, 0.002),
+                     loose_bone, tissue::soft));
   add_lung_vessels(out);
   // Stands in the mediastinum and shows where the left lung lies against it.
-  const Matrix3Xd aorta = smooth_line({{0.002, -0.25, -0.080},
-                                       {0.002, -0.05, -0.078},
-                                       {0.003, 0.06, -0.070},
+  const Matrix3Xd aorta = smooth_line({descending_aorta(-0.25),
+                                       descending_aorta(-0.17),
+                                       descending_aorta(-0.10),
+                                       descending_aorta(-0.05),
+                                       descending_aorta(0),
+                                       descending_aorta(0.05),
                                        {-0.004, 0.105, -0.045},
                                        {-0.018, 0.112, -0.02},
                                        {-0.032, 0.09, 0.0},
@@ -223,14 +253,33 @@ std::vector<Body> moving_bodies(const ChestOptions& options) {
   std::vector<Body> out;
   out.push_back(body("heart",
                      star(
-                         heart_middle, [](const Vector3d& d) { return heart_radius(d); }, 60),
+                         heart_middle(), [](const Vector3d& d) { return heart_radius(d); }, 48),
                      tissue::muscle, tissue::soft));
-  constexpr int sides = 16;
-  for (const Course& course : coronaries(options.stenosis)) {
+  const std::vector<Course> courses = coronaries(options.stenosis);
+  for (std::size_t i = 0; i < courses.size(); ++i) {
+    const Course& course = courses[i];
     if (!filled(options.filling, course.left)) continue;
-    Body vessel = body(course.name, tube(course.line, course.radius_m, sides), tissue::soft, tissue::soft);
-    vessel.contrast = {Eigen::VectorXf::Constant(vessel.p_P.cols(), static_cast<float>(options.iodine_kg_m3)),
-                       tube_centres(course.line, sides)};
+    const auto [surface, point] = lumen(courses, i);
+    Body vessel = body(course.name, surface, tissue::soft, tissue::soft);
+    // What escapes into the aorta thins out upstream of the ostium; elsewhere the filling is uniform, and concentration
+    // times the way counts from the far end.
+    const Eigen::Index last = course.line.cols() - 1;
+    const auto iodine = [&](Eigen::Index k) {
+      const double t = course.parent < 0 ? std::min(1.0, double(k) / double(mouth_points)) : 1;
+      return options.iodine_kg_m3 * t * t * (3 - 2 * t);
+    };
+    Matrix3Xd along = options.iodine_kg_m3 * course.line;
+    for (Eigen::Index k = last; k-- > 0;)
+      along.col(k) =
+          along.col(k + 1) - 0.5 * (iodine(k) + iodine(k + 1)) * (course.line.col(k + 1) - course.line.col(k));
+    vessel.contrast.iodine_kg_m3.resize(point.size());
+    vessel.contrast.p_PC.resize(3, point.size());
+    vessel.contrast.along_kg_m2.resize(3, point.size());
+    for (Eigen::Index k = 0; k < point.size(); ++k) {
+      vessel.contrast.iodine_kg_m3[k] = static_cast<float>(iodine(point[k]));
+      vessel.contrast.p_PC.col(k) = course.line.col(point[k]).cast<float>();
+      vessel.contrast.along_kg_m2.col(k) = along.col(point[k]).cast<float>();
+    }
     out.push_back(std::move(vessel));
   }
   return out;
@@ -247,18 +296,23 @@ Shaft guide(const Matrix3Xd& line, double iodine_kg_m3) {
 
 std::vector<Shaft> instruments(const ChestOptions& options) {
   const Vector3d ostium = options.left_instruments ? left_ostium() : right_ostium();
-  const Vector3d inwards = options.left_instruments ? Vector3d(-0.7, 0.1, 0.35) : Vector3d(0.75, 0.25, -0.5);
   const Course vessel = coronaries(0)[options.left_instruments ? 0 : 2];
-  std::vector<Vector3d> way{ostium + 0.003 * (vessel.line.col(6) - vessel.line.col(0)).normalized(),
-                            ostium + 0.006 * inwards,
-                            ostium + 0.014 * inwards + Vector3d(0, 0.006, 0),
-                            {-0.042, 0.075, 0.0},
-                            {-0.034, 0.1, -0.002},
-                            {-0.014, 0.118, -0.03},
-                            {0.004, 0.10, -0.06},
-                            {0.008, 0.05, -0.074},
-                            {0.006, -0.10, -0.078},
-                            {0.004, -0.25, -0.08}};
+  // Judkins' curves: from the arch along the far wall of the ascending aorta, then across to the ostium.
+  const auto off = [&](double x_mm, double y_mm, double z_mm) {
+    return Vector3d(ostium + 1e-3 * Vector3d(x_mm, y_mm, z_mm));
+  };
+  std::vector<Vector3d> way =
+      options.left_instruments
+          ? std::vector<Vector3d>{off(-0.5, 0, 0.3), off(-6, -2, 3), off(-13, -2.5, 6.5), off(-19, 3, 10),
+                                  off(-23, 14, 13)}
+          : std::vector<Vector3d>{off(0.3, 0.2, -0.3), off(5, 1.2, -3), off(9, 6, -6), off(8, 16, -8)};
+  way.insert(way.end(), {{-0.042, 0.080, 0.0},
+                         {-0.034, 0.1, -0.002},
+                         {-0.014, 0.118, -0.03},
+                         {0.004, 0.10, -0.06},
+                         {0.008, 0.05, -0.074},
+                         {0.006, -0.10, -0.078},
+                         {0.004, -0.25, -0.08}});
   const Matrix3Xd line = smooth_line(way, 0.001);
   const bool contrast = filled(options.filling, options.left_instruments);
   std::vector<Shaft> out{guide(line, contrast ? 0.9 * options.iodine_kg_m3 : 0)};
@@ -268,11 +322,13 @@ std::vector<Shaft> instruments(const ChestOptions& options) {
   for (Eigen::Index i = 0; i < tip; ++i) wire.col(i) = vessel.line.col(tip - 1 - i);
   wire.rightCols(line.cols()) = line;
   Shaft guidewire{"wire", wire, {}, 0, {}};
-  // Platinum coil of 0.044 mm2 in 0.356 mm over 3 cm, then the ground core.
+  // A coil in 0.356 mm over 20 cm of ground core, platinum (0.044 mm2) in the first 3 cm, then steel, as workhorse
+  // wires have [from memory]; then the bare core.
   guidewire.sections = {{0, 0.03, Material::platinum, 0.178e-3, 0.1e-3, 0.63},
                         {0, 0.03, Material::steel, 0.04e-3, 0, 1},
-                        {0.03, 0.1, Material::steel, 0.095e-3, 0, 1},
-                        {0.1, 0.35, Material::steel, 0.12e-3, 0, 1},
+                        {0.03, 0.2, Material::steel, 0.178e-3, 0.1e-3, 0.63},
+                        {0.03, 0.1, Material::steel, 0.08e-3, 0, 1},
+                        {0.1, 0.35, Material::steel, 0.1e-3, 0, 1},
                         {0.35, 2.0, Material::steel, 0.165e-3, 0, 1}};
   out.push_back(guidewire);
   Shaft balloon{"balloon", wire, {}, 0, {}};

@@ -1,6 +1,8 @@
 #include "fluoro/phantom/shapes.h"
 
 #include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -128,15 +130,120 @@ Surface tube(const Matrix3Xd& line, const Eigen::VectorXd& radius_m, int sides, 
   return surface(rings_with_poles(static_cast<int>(count), sides), p);
 }
 
-Eigen::Matrix3Xf tube_centres(const Matrix3Xd& line, int sides, bool round_ends) {
-  const std::vector<Ring> rings = rings_of(line.cols(), round_ends);
-  Eigen::Matrix3Xf out(3, static_cast<Index>(rings.size()) * sides + 2);
+Eigen::VectorXi tube_points(Index points, int sides, bool round_ends) {
+  const std::vector<Ring> rings = rings_of(points, round_ends);
+  Eigen::VectorXi out(static_cast<Index>(rings.size()) * sides + 2);
   Index n = 0;
   for (const Ring& ring : rings)
-    for (int j = 0; j < sides; ++j) out.col(n++) = line.col(ring.point).cast<float>();
-  out.col(n++) = line.col(0).cast<float>();
-  out.col(n) = line.col(line.cols() - 1).cast<float>();
+    for (int j = 0; j < sides; ++j) out[n++] = static_cast<int>(ring.point);
+  out[n++] = 0;
+  out[n] = static_cast<int>(points - 1);
   return out;
+}
+
+Eigen::Matrix3Xf tube_centres(const Matrix3Xd& line, int sides, bool round_ends) {
+  const Eigen::VectorXi point = tube_points(line.cols(), sides, round_ends);
+  Eigen::Matrix3Xf out(3, point.size());
+  for (Index i = 0; i < point.size(); ++i) out.col(i) = line.col(point[i]).cast<float>();
+  return out;
+}
+
+void begin_outside(Surface& tube, int sides, Index longest, const Distance& within) {
+  const Index count = (tube.p_P.cols() - 2) / sides, first_pole = count * sides;
+  const auto vertex = [&](Index ring, int side) -> Vector3d {
+    return tube.p_P.col(ring * sides + side).cast<double>();
+  };
+  /// Between an inner and an outer point.
+  const auto crossing = [&](Vector3d inner, Vector3d outer) {
+    for (int i = 0; i < 20; ++i) {
+      const Vector3d middle = 0.5 * (inner + outer);
+      (within(middle) < 0 ? inner : outer) = middle;
+    }
+    return Vector3d(0.5 * (inner + outer));
+  };
+  const Vector3d start = tube.p_P.col(first_pole).cast<double>();
+  if (within(start) >= 0) return;
+  Vector3d lid = Vector3d::Zero();
+  for (int j = 0; j < sides; ++j) {
+    Index last = -1;
+    while (last + 1 < std::min(longest, count - 1) && within(vertex(last + 1, j)) < 0) ++last;
+    const Vector3d p = last < 0 ? vertex(0, j) : crossing(vertex(last, j), vertex(last + 1, j));
+    for (Index i = 0; i <= last; ++i) tube.p_P.col(i * sides + j) = p.cast<float>();
+    lid += p / sides;
+  }
+  // The lid bulges as the surface does.
+  const Vector3d beyond = start + 1.6 * (lid - start);
+  if (within(beyond) > 0) lid = crossing(start, beyond);
+  tube.p_P.col(first_pole) = lid.cast<float>();
+}
+
+double joined(double a, double b, double k) {
+  const double h = std::max(k - std::fabs(a - b), 0.0) / k;
+  return std::min(a, b) - h * h * h * k / 6;
+}
+
+double common(double a, double b, double k) { return -joined(-a, -b, k); }
+
+double from_rod(const Vector3d& p, const Vector3d& a, const Vector3d& b, double radius_a, double radius_b) {
+  const double t = std::clamp((p - a).dot(b - a) / (b - a).squaredNorm(), 0.0, 1.0);
+  return (p - a - t * (b - a)).norm() - (radius_a + t * (radius_b - radius_a));
+}
+
+Surface net(const Distance& inside, const Vector3d& low, const Vector3d& high, double cell_m) {
+  const Eigen::Array3i n = ((high - low) / cell_m).array().ceil().cast<int>() + 1;  // corners
+  const int step[3] = {1, n[0], n[0] * n[1]};
+  const auto place = [&](int x, int y, int z) { return Vector3d(low + cell_m * Vector3d(x, y, z)); };
+  std::vector<double> f(static_cast<std::size_t>(n.prod()));
+  for (int z = 0, i = 0; z < n[2]; ++z)
+    for (int y = 0; y < n[1]; ++y)
+      for (int x = 0; x < n[0]; ++x) f[static_cast<std::size_t>(i++)] = inside(place(x, y, z));
+  const auto at = [&](int i) { return f[static_cast<std::size_t>(i)]; };
+  std::vector<int> vertex(f.size(), -1);
+  std::vector<Vector3d> sum;
+  std::vector<int> crossings;
+  std::vector<Eigen::Vector3i> triangles;
+  // A cell's vertex starts as the middle of the crossings on its edges; cell (x, y, z) has its low corner there.
+  const auto touch = [&](int cell, const Vector3d& p) {
+    int& v = vertex[static_cast<std::size_t>(cell)];
+    if (v < 0) {
+      v = static_cast<int>(sum.size());
+      sum.push_back(Vector3d::Zero());
+      crossings.push_back(0);
+    }
+    sum[static_cast<std::size_t>(v)] += p;
+    ++crossings[static_cast<std::size_t>(v)];
+    return v;
+  };
+  for (int z = 1; z + 1 < n[2]; ++z)
+    for (int y = 1; y + 1 < n[1]; ++y)
+      for (int x = 1; x + 1 < n[0]; ++x)
+        for (int axis = 0; axis < 3; ++axis) {
+          const int i = z * step[2] + y * step[1] + x, u = step[(axis + 1) % 3], v = step[(axis + 2) % 3];
+          const double from = at(i), to = at(i + step[axis]);
+          if ((from < 0) == (to < 0)) continue;
+          const Vector3d p = place(x, y, z) + from / (from - to) * cell_m * Vector3d::Unit(axis);
+          std::array<int, 4> q{touch(i - u - v, p), touch(i - v, p), touch(i, p), touch(i - u, p)};
+          if (!(from < 0)) std::swap(q[1], q[3]);
+          triangles.emplace_back(q[0], q[1], q[2]);
+          triangles.emplace_back(q[0], q[2], q[3]);
+        }
+  Matrix3Xd p(3, static_cast<Index>(sum.size()));
+  for (Index i = 0; i < p.cols(); ++i) {
+    Vector3d q = sum[static_cast<std::size_t>(i)] / crossings[static_cast<std::size_t>(i)];
+    const double h = 0.05 * cell_m;
+    for (int pass = 0; pass < 2; ++pass) {
+      const double value = inside(q);
+      Vector3d slope;
+      for (int axis = 0; axis < 3; ++axis) slope[axis] = (inside(q + h * Vector3d::Unit(axis)) - value) / h;
+      Vector3d move = -value * slope / std::max(0.1, slope.squaredNorm());
+      if (move.norm() > 0.3 * cell_m) move *= 0.3 * cell_m / move.norm();
+      q += move;
+    }
+    p.col(i) = q;
+  }
+  Triangles t(3, static_cast<Index>(triangles.size()));
+  for (Index i = 0; i < t.cols(); ++i) t.col(i) = triangles[static_cast<std::size_t>(i)];
+  return surface(std::move(t), p);
 }
 
 Matrix3Xd smooth_line(const std::vector<Vector3d>& through, double spacing_m) {

@@ -25,8 +25,25 @@ Surface brick(const Eigen::Vector3d& least, const Eigen::Vector3d& most);
 /// A tube round a line, flat or round at its ends: `radius_m` at each point, across `normal` scaled by `flatness`.
 Surface tube(const Eigen::Matrix3Xd& line, const Eigen::VectorXd& radius_m, int sides, bool round_ends = true,
              double flatness = 1, const Eigen::Vector3d& normal = Eigen::Vector3d::UnitY());
-/// The point of the line that each of the tube's vertices belongs to.
+/// Which point of the line each of the tube's vertices belongs to, and where that is.
+Eigen::VectorXi tube_points(Eigen::Index points, int sides, bool round_ends = true);
 Eigen::Matrix3Xf tube_centres(const Eigen::Matrix3Xd& line, int sides, bool round_ends = true);
+
+/// Distance to a surface, or nearly: negative inside.
+using Distance = std::function<double(const Eigen::Vector3d&)>;
+/// Lets a tube with round ends begin on the surface of what it leaves: what its sides have `within` becomes a lid on
+/// that surface, so that path lengths of both add up to those of their union. Only the first `longest` rings are asked.
+void begin_outside(Surface& tube, int sides, Eigen::Index longest, const Distance& within);
+
+/// Where `inside` is negative, by surface nets on cells of `cell_m` (Gibson, MERL 1999), drawn onto its zero; it is
+/// positive at the border of the box.
+Surface net(const Distance& inside, const Eigen::Vector3d& low, const Eigen::Vector3d& high, double cell_m);
+/// The lesser, or the greater, of two distances, with the crevice or the edge between them rounded over `k`.
+double joined(double a, double b, double k);
+double common(double a, double b, double k);
+/// From a round rod, thinner or thicker along its way, to p.
+double from_rod(const Eigen::Vector3d& p, const Eigen::Vector3d& a, const Eigen::Vector3d& b, double radius_a,
+                double radius_b);
 
 /// A smooth line through `through` (Catmull-Rom), a point every `spacing_m`.
 Eigen::Matrix3Xd smooth_line(const std::vector<Eigen::Vector3d>& through, double spacing_m);
