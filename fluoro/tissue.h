@@ -14,6 +14,7 @@ inline constexpr Tissue adipose{0.987f, -0.033f};
 inline constexpr Tissue lung{0.26f, 0.0012f};
 inline constexpr Tissue cortical_bone{0, 1};
 inline constexpr Tissue spongy_bone{0.93f, 0.12f};  ///< a tenth to an eighth of it is mineralised
+inline constexpr Tissue loose_bone{0.97f, 0.05f};   ///< of ribs and sternum: half as dense
 inline constexpr Tissue calcified_plaque{0.6f, 0.55f};
 
 }  // namespace ostium::tissue

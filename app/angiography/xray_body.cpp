@@ -22,6 +22,8 @@ Tissue tissue_of(BodyTissue tissue) {
       return tissue::cortical_bone;
     case BodyTissue::spongy_bone:
       return tissue::spongy_bone;
+    case BodyTissue::loose_bone:
+      return tissue::loose_bone;
   }
   return tissue::soft;
 }

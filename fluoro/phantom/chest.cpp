@@ -107,8 +107,6 @@ void add_spine(std::vector<Body>& out) {
   }
 }
 
-constexpr Tissue loose_bone{0.97f, 0.05f};  ///< of ribs and sternum: half as dense as a vertebra's
-
 /// From the head at the spine to where cartilage takes over, where cortex and height run out.
 void add_ribs(std::vector<Body>& out) {
   Random random(3);
@@ -143,7 +141,7 @@ void add_ribs(std::vector<Body>& out) {
       const std::string name = "rib " + std::to_string(6 - i) + (side > 0 ? " left" : " right");
       const Vector3d outwards(side * 0.05, 0.0, -1);
       add_bone(out, name, tube(line, half_height, 16, true, 0.58, outwards),
-               tube(line, half_height - cortex, 16, true, 0.50, outwards), loose_bone);
+               tube(line, half_height - cortex, 16, true, 0.50, outwards), tissue::loose_bone);
     }
   }
 }
@@ -155,8 +153,9 @@ double from_sternum_mm(const Vector3d& p) {  // x to a side, y along it, z throu
   const double notches = 1.6 * std::sin(0.27 * y + 0.6) + 0.7 * std::sin(0.61 * y);
   const double wide = 15 + 9 / (1 + std::exp(-(y - 46) / 4)) - 3 * std::exp(-std::pow((y - 42) / 7, 2)) -
                       5 * std::clamp(-(y + 30) / 40, 0.0, 1.0) + notches;
-  const double across = std::hypot(p.x() / wide, p.z() / 5.5);
-  return common((across - 1) * 5.0, std::max(y - 78, -72 - y + 2.5 * std::cos(0.2 * p.x())), 14);
+  // A lens across, so that its margin is soft.
+  const double across = 0.85 * (std::fabs(p.z()) - 5 * (1 - std::pow(p.x() / wide, 2)));
+  return common(across, std::max(y - 78, -72 - y + 2.5 * std::cos(0.2 * p.x())), 14);
 }
 
 /// Arteries and veins of the lungs: a few from each hilum, on to the fissures, dividing unevenly.
@@ -208,10 +207,10 @@ void add_lung_vessels(std::vector<Body>& out) {
 std::vector<Body> fixed_bodies() {
   std::vector<Body> out;
   const auto trunk = [](const Vector3d& p) {
-    return -std::min(0.1 * across_chest(p, 0.170, 0.127), 0.32 - std::fabs(p.y()));
+    return -std::min(0.1 * across_chest(p, 0.172, 0.132), 0.32 - std::fabs(p.y()));
   };
   out.push_back(
-      body("trunk", net(trunk, {-0.22, -0.34, -0.17}, {0.18, 0.34, 0.125}, 0.008), tissue::soft, tissue::air));
+      body("trunk", net(trunk, {-0.22, -0.34, -0.175}, {0.18, 0.34, 0.13}, 0.008), tissue::soft, tissue::air));
   for (bool right : {true, false}) {
     const double low = right ? -0.18 : -0.03, high = right ? -0.01 : 0.14;
     const auto lung = [=](const Vector3d& p) { return from_lung(p, right); };
@@ -226,7 +225,7 @@ std::vector<Body> fixed_bodies() {
            from_sternum_mm({local.x(), local.y(), local.z() + 0.12 * local.y() + 0.0012 * local.y() * local.y()});
   };
   out.push_back(body("sternum", net(sternum, {midline_x - 0.035, -0.06, 0.055}, {midline_x + 0.035, 0.12, 0.1}, 0.002),
-                     loose_bone, tissue::soft));
+                     tissue::loose_bone, tissue::soft));
   add_lung_vessels(out);
   // Stands in the mediastinum and shows where the left lung lies against it.
   const Matrix3Xd aorta = smooth_line({descending_aorta(-0.25),

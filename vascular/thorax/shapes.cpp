@@ -1,6 +1,7 @@
 #include "vascular/thorax/shapes.h"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -67,30 +68,46 @@ Mesh superellipsoid(const Eigen::Vector3d& middle, const Eigen::Vector3d& half_a
 }
 
 Mesh swept_ellipse(const std::vector<Eigen::Vector3d>& line, double tall, double thick, const Eigen::Vector3d& up) {
+  return swept_ellipse(line, std::vector<Eigen::Vector2d>(line.size(), {tall, thick}), up);
+}
+
+Mesh swept_ellipse(const std::vector<Eigen::Vector3d>& line, const std::vector<Eigen::Vector2d>& tall_thick,
+                   const Eigen::Vector3d& up) {
   constexpr int columns = 16, cap = 3;
   std::vector<std::vector<Eigen::Vector3d>> rings;
-  const auto ring = [&](const Eigen::Vector3d& middle, const Eigen::Vector3d& along, double scale) {
+  const auto ring = [&](const Eigen::Vector3d& middle, const Eigen::Vector3d& along, const Eigen::Vector2d& half) {
     const Eigen::Vector3d high = (up - up.dot(along) * along).normalized(), wide = along.cross(high);
     rings.emplace_back();
     for (int j = 0; j < columns; ++j) {
       const double a = 2 * pi * j / columns;
-      rings.back().push_back(middle + scale * (tall * std::sin(a) * high + thick * std::cos(a) * wide));
+      rings.back().push_back(middle + half[0] * std::sin(a) * high + half[1] * std::cos(a) * wide);
     }
   };
   const std::size_t n = line.size();
   const Eigen::Vector3d start = (line[1] - line[0]).normalized(), stop = (line[n - 1] - line[n - 2]).normalized();
-  const double reach = std::min(tall, thick);
+  const double first = tall_thick.front().minCoeff(), last = tall_thick.back().minCoeff();
   for (int i = 1; i <= cap; ++i) {
     const double a = pi / 2 * i / (cap + 1);
-    ring(line[0] - reach * std::cos(a) * start, start, std::sin(a));
+    ring(line[0] - first * std::cos(a) * start, start, std::sin(a) * tall_thick.front());
   }
   for (std::size_t i = 0; i < n; ++i)
-    ring(line[i], (line[std::min(i + 1, n - 1)] - line[i ? i - 1 : 0]).normalized(), 1);
+    ring(line[i], (line[std::min(i + 1, n - 1)] - line[i ? i - 1 : 0]).normalized(), tall_thick[i]);
   for (int i = cap; i >= 1; --i) {
     const double a = pi / 2 * i / (cap + 1);
-    ring(line[n - 1] + reach * std::cos(a) * stop, stop, std::sin(a));
+    ring(line[n - 1] + last * std::cos(a) * stop, stop, std::sin(a) * tall_thick.back());
   }
-  return from_rings(rings, line[0] - reach * start, line[n - 1] + reach * stop);
+  return from_rings(rings, line[0] - first * start, line[n - 1] + last * stop);
+}
+
+double joined(double a, double b, double k) {
+  const double h = std::max(k - std::fabs(a - b), 0.0) / k;
+  return std::min(a, b) - h * h * h * k / 6;
+}
+
+double from_rod(const Eigen::Vector3d& p, const Eigen::Vector3d& a, const Eigen::Vector3d& b, double radius_a,
+                double radius_b) {
+  const double t = std::clamp((p - a).dot(b - a) / (b - a).squaredNorm(), 0.0, 1.0);
+  return (p - a - t * (b - a)).norm() - (radius_a + t * (radius_b - radius_a));
 }
 
 Mesh surface_net(const std::function<double(const Eigen::Vector3d&)>& inside, const Eigen::Vector3d& low,

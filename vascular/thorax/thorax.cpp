@@ -1,5 +1,6 @@
 #include "vascular/thorax/thorax.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <memory>
@@ -8,6 +9,7 @@
 #include "vascular/beat/heart_motion.h"
 #include "vascular/shape/contour.h"
 #include "vascular/thorax/shapes.h"
+#include "vascular/thorax/vertebra.h"
 
 namespace ostium {
 
@@ -74,65 +76,91 @@ class Heart {
   std::vector<int> all_;
 };
 
-void add_bone(std::vector<XrayBody>& bodies, const std::string& name, Mesh outer, Mesh inner) {
+void add_bone(std::vector<XrayBody>& bodies, const std::string& name, Mesh outer, Mesh inner,
+              BodyTissue marrow = BodyTissue::spongy_bone) {
   bodies.push_back({name, BodyTissue::cortical_bone, BodyTissue::soft_tissue, std::move(outer), {}, {}});
-  bodies.push_back({name + ", inside", BodyTissue::spongy_bone, BodyTissue::cortical_bone, std::move(inner), {}, {}});
+  bodies.push_back({name + ", inside", marrow, BodyTissue::cortical_bone, std::move(inner), {}, {}});
 }
 
 void add_spine(std::vector<XrayBody>& bodies) {
-  Mesh outer, inner;
-  const auto block = [&](const Eigen::Vector3d& p, const Eigen::Vector3d& half, double exponent,
-                         const Eigen::Matrix3d& axes = Eigen::Matrix3d::Identity(), double shell = 1.2 * mm) {
-    append(outer, superellipsoid(p, half, exponent, axes, 12));
-    append(inner, superellipsoid(p, half.array() - shell, exponent, axes, 12));
+  const auto shape = [](double inset_mm) {
+    return surface_net([=](const Eigen::Vector3d& p) { return mm * (from_vertebra_mm(p / mm) + inset_mm); },
+                       at_mm(-36, -28.5, -61), at_mm(36, 16.5, 18), 1.5 * mm);
   };
+  const Mesh outer_shape = shape(0), inner_shape = shape(0.85);
+  constexpr double half_height_mm = 10.9, half_width_mm = 16.2;  // of that shape's body
+  Mesh outer, inner;
   for (const Vertebra& v : vertebrae) {
-    const double z = spine_z_mm(v.y_mm), wide = 13.5 + 0.4 * v.half_height_mm;
-    block(middle_x * Eigen::Vector3d::UnitX() + at_mm(0, v.y_mm, z), at_mm(wide, v.half_height_mm, 14), 4);
-    for (double side : {-1.0, 1.0}) {
-      // Pedicle seen end on, and transverse process.
-      block(middle_x * Eigen::Vector3d::UnitX() + at_mm(11 * side, v.y_mm + 3, z - 20), at_mm(4, 6, 5), 2);
-      const Eigen::Matrix3d tilt = Eigen::AngleAxisd(-25 * degree * side, Eigen::Vector3d::UnitZ()).toRotationMatrix();
-      block(middle_x * Eigen::Vector3d::UnitX() + at_mm(27 * side, v.y_mm + 1, z - 29), at_mm(13, 4.5, 4), 2, tilt);
+    const Eigen::Vector3d p = middle_x * Eigen::Vector3d::UnitX() + at_mm(0, v.y_mm, spine_z_mm(v.y_mm));
+    const double wide = (12.5 + 0.36 * v.half_height_mm) / half_width_mm, slope = 24 * (v.y_mm + 10) / (190 * 190);
+    const Eigen::Affine3d place = Eigen::Translation3d(p) * Eigen::AngleAxisd(-slope, Eigen::Vector3d::UnitX()) *
+                                  Eigen::Scaling(wide, v.half_height_mm / half_height_mm, wide);
+    for (auto [mesh, local] : {std::pair(&outer, &outer_shape), std::pair(&inner, &inner_shape)}) {
+      Mesh placed = *local;
+      for (Eigen::Vector3d& q : placed.vertices) q = place * q;
+      append(*mesh, placed);
     }
-    const Eigen::Matrix3d down = Eigen::AngleAxisd(-35 * degree, Eigen::Vector3d::UnitX()).toRotationMatrix();
-    block(middle_x * Eigen::Vector3d::UnitX() + at_mm(0, v.y_mm - 12, z - 38), at_mm(3, 6, 15), 2, down);
   }
   add_bone(bodies, "spine", outer, inner);
 }
 
+/// From their heads at the spine to where cartilage takes over: there cortex and height run out.
 void add_ribs(std::vector<XrayBody>& bodies) {
   Mesh outer, inner;
   for (int rib = 1; rib <= 11; ++rib) {
     const double y0 = vertebrae[rib - 1].y_mm + 6, last_deg = rib == 1 ? 140 : rib < 8 ? 150 : 165 - 5.0 * rib;
-    const double drop = std::min(30 + 9.0 * rib, 95.0);
+    const double drop = std::min(30 + 9.0 * rib, 95.0) + 3 * std::sin(2.3 * rib);
     for (double side : {-1.0, 1.0}) {
       std::vector<Eigen::Vector3d> line;
+      std::vector<Eigen::Vector2d> half, inside;
       for (int i = 0; i <= 48; ++i) {
-        const double t = i / 48.0, theta = (14 + (last_deg - 14) * t) * degree, y = y0 - drop * std::pow(t, 1.25);
+        // Level behind, steep at the side, gentler in front.
+        const double t = i / 48.0, theta = (14 + (last_deg - 14) * t) * degree,
+                     y = y0 + 3 * std::sin(std::numbers::pi * std::min(1.0, 3 * t)) -
+                         drop * (0.7 * t * t * (3 - 2 * t) + 0.3 * t) + 1.5 * std::sin(6 * t + 1.7 * rib + side);
         const double width = cage_width_mm(y) + 2, depth = cage_depth_mm(y) + 2;
         line.push_back(middle_x * Eigen::Vector3d::UnitX() +
                        at_mm(side * width * std::sin(theta), y, cage_z_mm - depth * std::cos(theta)));
+        const double front = std::clamp((t - 0.72) / 0.28, 0.0, 1.0), neck = std::clamp(t / 0.12, 0.0, 1.0);
+        const double tall = ((rib == 1 ? 4.8 : 5.4) + 0.3 * std::sin(3.1 * rib)) * (0.65 + 0.35 * neck) *
+                            (1 + 0.05 * std::sin(11 * t + rib)) * (1 - 0.8 * front * front * front),
+                     shell = 0.55 - 0.3 * std::sqrt(front);
+        half.push_back(Eigen::Vector2d(tall, 0.58 * tall) * mm);
+        inside.push_back(half.back().array() - shell * mm);
       }
-      const double tall = (rib == 1 ? 5.5 : 6.5) * mm, thick = 3.6 * mm, shell = 0.9 * mm;
-      append(outer, swept_ellipse(line, tall, thick, Eigen::Vector3d::UnitY()));
-      append(inner,
-             swept_ellipse({line.begin() + 1, line.end() - 1}, tall - shell, thick - shell, Eigen::Vector3d::UnitY()));
+      append(outer, swept_ellipse(line, half, Eigen::Vector3d::UnitY()));
+      append(inner, swept_ellipse(line, inside, Eigen::Vector3d::UnitY()));
     }
   }
-  add_bone(bodies, "ribs", outer, inner);
+  add_bone(bodies, "ribs", outer, inner, BodyTissue::loose_bone);
+}
+
+/// Distance in mm to the sternum along y, through z: manubrium, the angle of Louis, a body notched for the ribs.
+double from_sternum_mm(const Eigen::Vector3d& p) {
+  const double y = p.y();
+  const double notches = 1.4 * std::sin(0.27 * y + 0.6) + 0.6 * std::sin(0.61 * y);
+  const double wide = 15 + 9 / (1 + std::exp(-(y - 30) / 4)) - 3 * std::exp(-std::pow((y - 26) / 7, 2)) -
+                      5 * std::clamp(-(y + 40) / 40, 0.0, 1.0) + notches;
+  // A lens across, so that its margin is soft.
+  const double across = 0.85 * (std::fabs(p.z()) - 5 * (1 - std::pow(p.x() / wide, 2)));
+  const double ends = std::max(y - 82, -72 - y + 2.5 * std::cos(0.2 * p.x()));
+  return -joined(-across, -ends, 12);
 }
 
 void add_front(std::vector<XrayBody>& bodies) {
   Mesh outer, inner;
-  const auto plate = [&](const Eigen::Vector3d& p, const Eigen::Vector3d& half, const Eigen::Matrix3d& axes, double e) {
-    append(outer, superellipsoid(p, half, e, axes));
-    append(inner, superellipsoid(p, half.array() - 1.1 * mm, e, axes));
-  };
-  const Eigen::Matrix3d lean = Eigen::AngleAxisd(-18 * degree, Eigen::Vector3d::UnitX()).toRotationMatrix();
   const Eigen::Vector3d x = middle_x * Eigen::Vector3d::UnitX();
-  plate(x + at_mm(0, 58, 70), at_mm(26, 24, 6), lean, 3);     // manubrium
-  plate(x + at_mm(0, -22, 93), at_mm(17, 50, 5.5), lean, 3);  // body
+  // It leans forward, the manubrium more.
+  const auto sternum = [&](const Eigen::Vector3d& p) {
+    const Eigen::Vector3d q = (p - x) / mm;
+    return mm * from_sternum_mm({q.x(), q.y(), q.z() - 90 + 0.17 * q.y() + 0.0018 * q.y() * q.y()});
+  };
+  bodies.push_back({"sternum",
+                    BodyTissue::loose_bone,
+                    BodyTissue::soft_tissue,
+                    surface_net(sternum, x + at_mm(-32, -80, 50), x + at_mm(32, 90, 110), 2 * mm),
+                    {},
+                    {}});
   for (double side : {-1.0, 1.0}) {
     std::vector<Eigen::Vector3d> line;
     for (int i = 0; i <= 20; ++i) {
@@ -142,23 +170,19 @@ void add_front(std::vector<XrayBody>& bodies) {
     }
     append(outer, swept_ellipse(line, 6.5 * mm, 5.5 * mm, Eigen::Vector3d::UnitY()));
     append(inner, swept_ellipse({line.begin() + 1, line.end() - 1}, 5.2 * mm, 4.2 * mm, Eigen::Vector3d::UnitY()));
-    // Shoulder blade: a thin plate behind.
-    const Eigen::Matrix3d turn = Eigen::AngleAxisd(35 * degree * side, Eigen::Vector3d::UnitY()).toRotationMatrix();
-    plate(x + at_mm(side * 108, 30, -112), at_mm(38, 72, 3.2), turn, 2.5);
+    // Shoulder blade: a thin plate, drawn up and aside by arms that lie above the head.
+    const Eigen::Matrix3d turn = Eigen::AngleAxisd(-60 * degree * side, Eigen::Vector3d::UnitY()).toRotationMatrix();
+    const Eigen::Vector3d middle = x + at_mm(side * 132, 132, -72), half = at_mm(38, 72, 3.2);
+    append(outer, superellipsoid(middle, half, 2.5, turn));
+    append(inner, superellipsoid(middle, half.array() - 1.1 * mm, 2.5, turn));
   }
-  add_bone(bodies, "sternum and shoulders", outer, inner);
+  add_bone(bodies, "shoulders", outer, inner);
 }
 
 /// Height of the diaphragm: two domes, the right one higher, with the heart's bed between.
 double diaphragm_mm(double x_mm, double z_mm) {
   const double right = std::exp(-std::pow((x_mm + 82) / 68, 2)), left = std::exp(-std::pow((x_mm - 78) / 62, 2));
   return -158 + 70 * right + 58 * left - 50 * std::pow((z_mm - 5) / 100, 2);
-}
-
-/// Smooth minimum: the crevice between two solids is filled over about `k`.
-double joined(double a, double b, double k) {
-  const double h = std::max(k - std::fabs(a - b), 0.0) / k;
-  return std::min(a, b) - h * h * h * k / 6;
 }
 
 void add_lungs(std::vector<XrayBody>& bodies, const Heart& heart, const std::vector<TubeUnion>& vessels,
@@ -174,8 +198,8 @@ void add_lungs(std::vector<XrayBody>& bodies, const Heart& heart, const std::vec
     const double width = cage_width_mm(q.y()) - 5, depth = cage_depth_mm(q.y()) - 5;
     const double cage = (std::sqrt(x * x / (width * width) + z * z / (depth * depth)) - 1) * std::min(width, depth);
     const double base = diaphragm_mm(q.x(), q.z()) - q.y();
-    // The mediastinum: gullet, spine, great vessels, heart; wider above.
-    double solid = std::fabs(x) - 17 - 12 * smooth_step(30, 100, q.y());
+    // The mediastinum: gullet, spine, great vessels, heart; wider above. In front the lungs nearly meet.
+    double solid = std::fabs(x) - 17 + 12 * smooth_step(5, 60, q.z()) - 12 * smooth_step(30, 100, q.y());
     solid = joined(solid, heart.distance(p) / mm - 3, 40);
     for (std::size_t v = 0; v < vessels.size(); ++v) solid = joined(solid, vessels[v].value(p, all[v]) / mm - 3, 12);
     return mm * std::max({cage, base, -solid, q.y() - 122});

@@ -11,7 +11,7 @@
 
 namespace ostium {
 
-enum class BodyTissue { air, soft_tissue, lung, blood, cortical_bone, spongy_bone };
+enum class BodyTissue { air, soft_tissue, lung, blood, cortical_bone, spongy_bone, loose_bone };
 
 struct XrayBody {
   std::string name;
@@ -22,7 +22,8 @@ struct XrayBody {
   std::vector<Eigen::Vector3d> breath;          ///< and at the top of a breath; empty: it is still
 };
 
-/// The bones have two layers: cortical bone within soft tissue, spongy bone within that.
+/// Vertebrae, ribs and shoulders have two layers: cortical bone within soft tissue, spongy or loose bone within that.
+/// The sternum is loose throughout: its cortex is thinner than these meshes would show.
 std::vector<XrayBody> make_thorax(const Anatomy& anatomy);
 
 /// Vertices at a phase of the heart (contraction, heart_cycle.h) and a depth of breath.
