@@ -36,7 +36,7 @@ class Sway {
 
  private:
   static constexpr int waves = 4;
-  static constexpr double lengths_m[waves] = {0.035, 0.021, 0.012, 0.0065}, shares[waves] = {1.0, 0.6, 0.32, 0.11};
+  static constexpr double lengths_m[waves] = {0.035, 0.021, 0.012, 0.0065}, shares[waves] = {1.0, 0.6, 0.28, 0.07};
   double length_m_[waves], phase_[waves];
 };
 

@@ -28,13 +28,15 @@ constexpr double rib_wide_m = 0.1535, rib_deep_m = 0.0985;
 
 /// Height of the diaphragm's domes.
 double diaphragm_y(const Vector3d& p, bool right) {
-  const double x = (p.x() - (right ? -0.10 : 0.075)) / 0.085, z = (p.z() - 0.0) / 0.12;
+  const double beside = p.x() - (right ? -0.10 : 0.075), z = p.z() / 0.12;
+  const bool medial = (beside > 0) == right;  // towards the heart's bed it falls less
+  const double x = beside / (medial ? 0.125 : 0.085);
   return (right ? -0.045 : -0.060) - 0.06 * (x * x + z * z);
 }
 
 /// Course of the aorta beside the spine.
 Vector3d descending_aorta(double y) {
-  return {0.001 + 0.007 * std::sin((y + 0.03) / 0.04), y, -0.076 + 0.003 * std::sin(y / 0.05)};
+  return {-0.004 + 0.006 * std::sin((y + 0.03) / 0.04), y, -0.081 + 0.003 * std::sin(y / 0.05)};
 }
 
 /// Distance to the lungs' surface, negative inside them.
@@ -294,8 +296,8 @@ Shaft guide(const Matrix3Xd& line, double iodine_kg_m3) {
 }
 
 std::vector<Shaft> instruments(const ChestOptions& options) {
-  const Vector3d ostium = options.left_instruments ? left_ostium() : right_ostium();
   const Course vessel = coronaries(0)[options.left_instruments ? 0 : 2];
+  const Vector3d ostium = vessel.line.col(mouth_points);
   // Judkins' curves: from the arch along the far wall of the ascending aorta, then across to the ostium.
   const auto off = [&](double x_mm, double y_mm, double z_mm) {
     return Vector3d(ostium + 1e-3 * Vector3d(x_mm, y_mm, z_mm));
@@ -308,17 +310,18 @@ std::vector<Shaft> instruments(const ChestOptions& options) {
   way.insert(way.end(), {{-0.042, 0.080, 0.0},
                          {-0.034, 0.1, -0.002},
                          {-0.014, 0.118, -0.03},
-                         {0.004, 0.10, -0.06},
-                         {0.008, 0.05, -0.074},
-                         {0.006, -0.10, -0.078},
-                         {0.004, -0.25, -0.08}});
+                         {0.001, 0.10, -0.062},
+                         descending_aorta(0.05),
+                         descending_aorta(-0.10),
+                         descending_aorta(-0.25)});
   const Matrix3Xd line = smooth_line(way, 0.001);
   const bool contrast = filled(options.filling, options.left_instruments);
   std::vector<Shaft> out{guide(line, contrast ? 0.9 * options.iodine_kg_m3 : 0)};
 
   const Eigen::Index tip = static_cast<Eigen::Index>(0.8 * double(vessel.line.cols()));
-  Matrix3Xd wire(3, tip + line.cols());
-  for (Eigen::Index i = 0; i < tip; ++i) wire.col(i) = vessel.line.col(tip - 1 - i);
+  const Eigen::Index within = tip - mouth_points;  // points beyond the ostium
+  Matrix3Xd wire(3, within + line.cols());
+  for (Eigen::Index i = 0; i < within; ++i) wire.col(i) = vessel.line.col(tip - 1 - i);
   wire.rightCols(line.cols()) = line;
   Shaft guidewire{"wire", wire, {}, 0, {}};
   // A coil in 0.356 mm over 20 cm of ground core, platinum (0.044 mm2) in the first 3 cm, then steel, as workhorse

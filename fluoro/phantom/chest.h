@@ -1,7 +1,7 @@
 #pragma once
-/// A chest made from closed forms, for fluoro's own tests and pictures. It is no anatomy: organs are blobs, and only
-/// the coronary points are from a publication (Dodge et al. 1988, Circulation 78:1167, tables 3 to 5, right-dominant
-/// men). Whoever has an anatomy fills a Scene with it instead.
+/// A chest made from formulas, for fluoro's own tests and pictures. It is no anatomy: only the points that coronary
+/// arteries run through are from a publication (Dodge et al. 1988, Circulation 78:1167, tables 3 to 5, right-dominant
+/// men); the rest is of usual size and grown from fixed seeds. Whoever has an anatomy fills a Scene with it instead.
 ///
 /// Frame P with the isocentre in the heart's middle.
 #include "fluoro/scene.h"
