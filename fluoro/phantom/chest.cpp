@@ -131,7 +131,7 @@ void add_ribs(std::vector<Body>& out) {
       }
       const Matrix3Xd line = smooth_line(through, 0.004);
       Eigen::VectorXd half_height(line.cols()), cortex(line.cols());
-      const double height = random.uniform(0.0045, 0.0056), thick = random.uniform(0.00042, 0.00062),
+      const double height = random.uniform(0.0042, 0.0055), thick = random.uniform(0.00032, 0.00050),
                    phase = random.uniform(0, 6);
       for (Eigen::Index k = 0; k < line.cols(); ++k) {
         const double t = double(k) / double(line.cols() - 1), front = std::clamp((t - 0.70) / 0.30, 0.0, 1.0);
@@ -171,7 +171,7 @@ void add_lung_vessels(std::vector<Body>& out) {
     const auto push = [&](int parent, const Vector3d& start, const Vector3d& direction, const Vector3d& goal,
                           double radius_m, double length_m) {
       Course course{right ? "right lung vessel" : "left lung vessel", !right, {}, {}, parent};
-      course.line = grow({start, direction, goal, length_m, 35}, nowhere, anywhere, random);
+      course.line = grow({start, direction, goal, length_m, 60}, nowhere, anywhere, random);
       Eigen::Index inside = 0;
       while (inside < course.line.cols() && from_lung(course.line.col(inside), right) < -0.004) ++inside;
       if (inside < 16) return;
@@ -185,21 +185,21 @@ void add_lung_vessels(std::vector<Body>& out) {
       const Vector3d towards = Vector3d(side * way.x(), way.y(), way.z()) + 0.25 * random.vector();
       Vector3d start = hilum + 0.016 * towards.normalized() + 0.004 * random.vector();
       for (int k = 0; k < 30 && from_lung(start, right) > -0.006; ++k) start += 0.002 * Vector3d(side, 0, 0);
-      push(-1, start, towards, towards, random.uniform(0.0010, 0.0017), random.uniform(0.07, 0.11));
+      push(-1, start, towards, towards, random.uniform(0.0014, 0.0022), random.uniform(0.06, 0.10));
     }
-    for (std::size_t i = 0; i < courses.size() && courses.size() < 170; ++i)
+    for (std::size_t i = 0; i < courses.size() && courses.size() < 220; ++i)
       for (double s = random.uniform(0.008, 0.014);; s += random.uniform(0.007, 0.015)) {
         const Course& parent = courses[i];
         const auto from = static_cast<Eigen::Index>(s / course_step_m);
         if (from + 4 >= parent.line.cols()) break;
-        const double radius_m = parent.radius_m[from] * random.uniform(0.4, 0.75);
+        const double radius_m = parent.radius_m[from] * random.uniform(0.45, 0.85);
         if (radius_m < 0.0003) continue;
         const Vector3d along = (parent.line.col(from + 4) - parent.line.col(from)).normalized();
         const Vector3d aside = along.cross(random.vector()).normalized();
         const double turn = random.uniform(0.5, 1.1);
         const Vector3d start = parent.line.col(from);
         push(static_cast<int>(i), start, std::cos(turn) * along + std::sin(turn) * aside, along + 0.7 * aside, radius_m,
-             radius_m * random.uniform(22, 38));
+             radius_m * random.uniform(20, 34));
       }
     for (std::size_t i = 0; i < courses.size(); ++i)
       out.push_back(body(courses[i].name, lumen(courses, i).surface, tissue::blood, tissue::lung));
