@@ -52,6 +52,8 @@ void share_force(V3<double> force, const NodeWalls& walls, double* pressed_N) {
   }
 }
 
+int most_changes(const ContactScratch& c) { return c.wary ? tunables::max_wary_changes : tunables::max_wall_changes; }
+
 double push_N(const WallPlane& w, const V3<double>& p) { return (w.place - dot(w.normal, p)) / w.softness; }
 
 }  // namespace
@@ -95,10 +97,10 @@ void tie_to_walls(const Strand& strand) {
 
 bool change_walls(const Model& model, const Strand& strand, Scratch& scratch) {
   ContactScratch& c = *strand.contact;
-  if (c.walls.empty() || c.changes >= tunables::max_wall_changes) return false;
+  if (c.walls.empty() || c.changes >= most_changes(c)) return false;
   RodScratch& s = *strand.s;
   const RodState& own = *strand.own;
-  const bool may_release = c.changes < tunables::max_wall_releases;  // later on, so that no node comes and goes
+  const bool may_release = c.changes < most_changes(c) / 2;  // later on, so that no node comes and goes
   bool any = false;
   for (int i = first_free(s); i <= last_free(s); ++i) {
     NodeWalls& walls = c.walls[i];
@@ -126,7 +128,7 @@ bool change_walls(const Model& model, const Strand& strand, Scratch& scratch) {
 }
 
 bool gave_up_releasing(const Strand& strand) {
-  return !strand.contact->walls.empty() && strand.contact->changes > tunables::max_wall_releases;
+  return !strand.contact->walls.empty() && strand.contact->changes > most_changes(*strand.contact) / 2;
 }
 
 double behind_walls(const Strand& strand) {
