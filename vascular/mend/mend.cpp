@@ -16,6 +16,7 @@
 #include "vascular/mend/level_set.h"
 #include "vascular/mend/sheets.h"
 #include "vascular/mend/smooth.h"
+#include "vascular/mend/taper.h"
 #include "vascular/surface_check.h"
 
 namespace ostium {
@@ -160,11 +161,15 @@ class Mender {
         if (const double gap = gap_between(openings[i], openings[j]); gap >= 0) pairs.push_back({gap, i, j});
     std::sort(pairs.begin(), pairs.end(), [](const Pair& a, const Pair& b) { return a.gap_m < b.gap_m; });
     std::vector<bool> closed(openings.size());
-    std::vector<Eigen::Vector3d> joined, pinholes, holes;
-    double widest_gap = 0;
+    std::vector<Eigen::Vector3d> joined, tapered, pinholes, holes;
+    double widest_gap = 0, highest_step = 0;
     for (const Pair& pair : pairs) {
       if (closed[pair.a] || closed[pair.b]) continue;
       closed[pair.a] = closed[pair.b] = true;
+      if (const Taper done = taper(mesh_, sheets_, openings[pair.a], openings[pair.b]); done.step_m > 0) {
+        tapered.push_back((openings[pair.a].middle + openings[pair.b].middle) / 2);
+        highest_step = std::max(highest_step, done.step_m);
+      }
       join(mesh_, openings[pair.a], openings[pair.b]);
       // Where a piece is missing, rims are jagged: a tube through them fills the dents.
       if (pair.gap_m > least_missing_m) {
@@ -182,6 +187,8 @@ class Mender {
     }
     note(fmt::format("end joined to the end that faces it (gaps up to {:.1f} mm)", widest_gap / mm),
          static_cast<int>(joined.size()), joined);
+    note(fmt::format("shelf between two ends of one vessel made a taper (up to {:.1f} mm high)", highest_step / mm),
+         static_cast<int>(tapered.size()), tapered);
     note("pinhole closed", static_cast<int>(pinholes.size()), pinholes);
     note("hole in a wall closed", static_cast<int>(holes.size()), holes);
     note("open end of a vessel closed", static_cast<int>(result_.ends.size()), result_.ends);
