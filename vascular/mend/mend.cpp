@@ -14,6 +14,7 @@
 #include "vascular/mend/decimate.h"
 #include "vascular/mend/double_wall.h"
 #include "vascular/mend/level_set.h"
+#include "vascular/mend/prolong.h"
 #include "vascular/mend/sheets.h"
 #include "vascular/mend/smooth.h"
 #include "vascular/mend/taper.h"
@@ -49,6 +50,11 @@ class Mender {
     say("filling the lumen");
     Mesh lumen = outer_surface(mesh_, result_.voxel_m);
     std::vector<Mesh> lumens = whole_lumens(lumen);
+    if (lumens.size() > 1 && prolong(lumens)) {
+      say("filling the lumen to its new end");
+      lumen = outer_surface(mesh_, result_.voxel_m);
+      lumens = whole_lumens(lumen);
+    }
     if (lumens.size() > 1 && bridge(lumens)) {
       say("filling the lumen once more");
       lumen = outer_surface(mesh_, result_.voxel_m);
@@ -182,6 +188,7 @@ class Mender {
     }
     for (std::size_t i = 0; i < openings.size(); ++i) {
       if (closed[i]) continue;
+      if (openings[i].end) keep_end(openings[i]);
       cap(mesh_, openings[i]);
       (openings[i].end ? result_.ends : openings[i].pinhole() ? pinholes : holes).push_back(openings[i].middle);
     }
@@ -192,6 +199,34 @@ class Mender {
     note("pinhole closed", static_cast<int>(pinholes.size()), pinholes);
     note("hole in a wall closed", static_cast<int>(holes.size()), holes);
     note("open end of a vessel closed", static_cast<int>(result_.ends.size()), result_.ends);
+  }
+
+  void keep_end(const Opening& opening) {
+    CutEnd cut{{}, opening.middle, opening.outwards, opening.diameter_m / 2};
+    for (int h : opening.half_edges) cut.rim.push_back(mesh_.vertices[mesh_.triangles[h / 3][h % 3]]);
+    cut_ends_.push_back(std::move(cut));
+  }
+
+  /// What was cut off before a branch leaves it.
+  bool prolong(const std::vector<Mesh>& lumens) {
+    say("looking for branches beyond the end of their vessel");
+    std::vector<VesselEnd> branches;
+    for (std::size_t i = 1; i < lumens.size(); ++i)  // the largest is whose branches they are
+      for (const VesselEnd& end : ends_of(lumens[i])) branches.push_back(end);
+    const BoxTree largest(lumens[0]);
+    std::vector<Eigen::Vector3d> where;
+    double longest = 0;
+    for (const CutEnd& cut : cut_ends_) {
+      if (largest.nearest(cut.middle, 3 * result_.voxel_m).triangle < 0) continue;
+      const auto length = missing_length_m(cut, branches, options_.longest_gap_m);
+      if (!length) continue;
+      append(mesh_, carried_on(cut, 2 * result_.voxel_m, *length));
+      where.push_back(cut.middle);
+      longest = std::max(longest, *length);
+    }
+    note(fmt::format("end carried on past a branch that begins beyond it (up to {:.1f} mm)", longest / mm),
+         static_cast<int>(where.size()), where);
+    return !where.empty();
   }
 
   double chosen_voxel() const {
@@ -311,6 +346,7 @@ class Mender {
   Mesh wall_;  ///< of mesh_, what borders on the outside
   const BoxTree* wall_tree_ = nullptr;
   Mended result_;
+  std::vector<CutEnd> cut_ends_;
   int left_out_ = 0;
 };
 
