@@ -72,6 +72,8 @@ TEST(Catalogue, HoldsTheStudysNineAndWhatCoronaryWorkNeeds) {
                            "wire-014-workhorse",
                            "wire-014-support",
                            "wire-014-polymer-jacket",
+                           "balloon-15x10",
+                           "balloon-20x10",
                            "balloon-25x15",
                            "stent-30x18"})
     EXPECT_NO_THROW(find_instrument(all, name));

@@ -45,6 +45,18 @@ inline Mesh with_outer_wall(Mesh m, double thickness_m) {
   return m;
 }
 
+/// What lies beyond a plane across `along` at `p` is thicker by `step_m`, and cut off there: two pieces end to end.
+inline Mesh with_step(Mesh m, const Eigen::Vector3d& p, const Eigen::Vector3d& along, double step_m) {
+  Mesh beyond = with_outer_wall(m, step_m);
+  const auto half = static_cast<long>(beyond.triangles.size() / 2);
+  beyond.triangles.erase(beyond.triangles.begin(), beyond.triangles.begin() + half);
+  const auto ahead = [&](const Mesh& mesh, const std::array<int, 3>& t) { return (middle_of(mesh, t) - p).dot(along); };
+  std::erase_if(beyond.triangles, [&](const std::array<int, 3>& t) { return ahead(beyond, t) < 0; });
+  std::erase_if(m.triangles, [&](const std::array<int, 3>& t) { return ahead(m, t) > 0; });
+  append(m, beyond);
+  return m;
+}
+
 /// Vertices moved by `deviation_m` (standard deviation) in all directions together.
 inline Mesh with_noise(Mesh m, double deviation_m, unsigned seed) {
   std::mt19937 engine(seed);

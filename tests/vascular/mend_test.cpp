@@ -3,10 +3,14 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "tests/vascular/damage.h"
 #include "tests/vascular/shapes.h"
 #include "vascular/anatomy/lesion.h"
 #include "vascular/box_tree.h"
+#include "vascular/mend/bridges.h"
 #include "vascular/mend/sheets.h"
 #include "vascular/mend/units.h"
 #include "vascular/mend/winding.h"
@@ -121,6 +125,88 @@ TEST_F(OwnAnatomy, SideBySideIsNoGap) {
   const Mended mended = mend(contour(TubeUnion(two)).mesh);
   EXPECT_EQ(mended.lumens, 2);
   EXPECT_FALSE(note(mended, "gap bridged"));
+}
+
+TEST(Mend, AShelfBetweenPiecesBecomesATaper) {
+  // A vessel of 8 mm whose second half was drawn by its outer wall, 2.5 mm farther out.
+  const std::vector<Tube> tube = {
+      make_tube("aorta", -1, {{{0, 0, 0}, 8 * mm}, {{0.06, 0, 0}, 8 * mm}, {{0.12, 0, 0}, 8 * mm}})};
+  const Mesh whole = contour(TubeUnion(tube)).mesh;
+  const Eigen::Vector3d p(0.06, 0, 0), along(1, 0, 0);
+  const Mended mended = mend(test::with_step(whole, p, along, 2.5 * mm));
+  EXPECT_EQ(mended.lumens, 1);
+  EXPECT_TRUE(check_surface(mended.lumen).sound());
+  const auto note = std::find_if(mended.notes.begin(), mended.notes.end(),
+                                 [](const MendNote& n) { return n.what.find("made a taper") != std::string::npos; });
+  ASSERT_NE(note, mended.notes.end());
+  EXPECT_EQ(note->count, 1);
+  EXPECT_LT((note->where[0] - p).norm(), 2 * mm);
+  const BoxTree tree(mended.lumen);
+  const auto radius = [&](double x) {
+    double sum = 0;  // by rays: the nearest wall would not see a shelf
+    constexpr int rays = 24;
+    for (int k = 0; k < rays; ++k) {
+      const double angle = 2 * 3.14159265358979 * k / rays;
+      const auto hits = tree.hits({x, 0, 0}, Eigen::Vector3d(0, std::cos(angle), std::sin(angle)), 0.03);
+      EXPECT_EQ(hits.size(), 1u) << "an inner wall at " << x;
+      if (!hits.empty()) sum += hits[0].distance_m / rays;
+    }
+    return sum;
+  };
+  // The narrower piece stays; the wider one does from 20 mm on (eight steps); in between it rises gently.
+  for (double x = 0.02; x < 0.0575; x += 2 * mm) EXPECT_NEAR(radius(x), 8 * mm, 0.1 * mm) << x;
+  for (double x = 0.084; x < 0.1; x += 2 * mm) EXPECT_NEAR(radius(x), 10.5 * mm, 0.1 * mm) << x;
+  double steepest = 0;
+  for (double x = 0.056; x < 0.084; x += 1 * mm)
+    steepest = std::max(steepest, (radius(x + 2 * mm) - radius(x)) / (2 * mm));
+  EXPECT_LT(steepest, std::tan(16 * 3.14159265358979 / 180));
+}
+
+TEST(Mend, AnAortaCutAboveItsRootIsCarriedOn) {
+  // An aorta that ends at x = 0; 6 mm beyond, outside what would be its wall, an artery begins.
+  const std::vector<Tube> aorta = {
+      make_tube("aorta", -1, {{{-0.02, 0, 0}, 10 * mm}, {{0.03, 0, 0}, 10 * mm}, {{0.08, 0, 0}, 10 * mm}})};
+  const std::vector<Tube> artery = {make_tube(
+      "RCA", -1, {{{-0.006, 0.0125, 0}, 1.8 * mm}, {{-0.006, 0.03, 0}, 1.6 * mm}, {{0.004, 0.05, 0}, 1.4 * mm}})};
+  Mesh mesh = contour(TubeUnion(aorta)).mesh;
+  std::erase_if(mesh.triangles, [&](const std::array<int, 3>& t) { return test::middle_of(mesh, t).x() < 0; });
+  append(mesh, contour(TubeUnion(artery)).mesh);
+  MendOptions coarse;
+  coarse.voxel_m = 0.5 * mm;
+  const Mended mended = mend(mesh, coarse);
+  EXPECT_EQ(mended.lumens, 1);
+  EXPECT_TRUE(check_surface(mended.lumen).sound());
+  std::string all;
+  for (const MendNote& n : mended.notes) all += n.what + "\n";
+  EXPECT_NE(all.find("carried on"), std::string::npos) << all;
+  const BoxTree tree(mended.lumen);
+  // As wide as it was where it was cut, past the ostium by what lies below one.
+  for (double x = -0.016; x < 0.06; x += 4 * mm) {
+    if (std::fabs(x + 0.006) < 4 * mm) continue;
+    const auto hits = tree.hits({x, 0, 0}, Eigen::Vector3d::UnitY(), 0.03);
+    ASSERT_EQ(hits.size(), 1u) << x;
+    EXPECT_NEAR(hits[0].distance_m, 10 * mm, 0.15 * mm) << x;
+  }
+  const auto end = tree.hits({0.02, 0, 0}, -Eigen::Vector3d::UnitX(), 0.1);
+  ASSERT_EQ(end.size(), 1u);
+  EXPECT_NEAR(0.02 - end[0].distance_m, -0.018, 1 * mm);
+}
+
+TEST(Mend, BridgesBendAndDoNotKink) {
+  // A quarter of a circle: leaves along x, arrives along y.
+  const Bridge bridge{
+      .p_from = {0, 0, 0}, .p_to = {0.01, 0.01, 0}, .radius_m = 1 * mm, .leaving = {1, 0, 0}, .arriving = {0, 1, 0}};
+  const Mesh tube = body_of(bridge, 1 * mm);
+  EXPECT_TRUE(check_surface(tube).sound());
+  const double length = 10 * mm * 3.14159265358979 / 2 + 2 * mm;
+  EXPECT_NEAR(volume_m3(tube), 3.14159265358979 * 1e-6 * length, 0.05 * 3.14159265358979 * 1e-6 * length);
+  const BoxTree tree(tube);
+  for (double angle : {0.3, 0.8, 1.3}) {
+    const Eigen::Vector3d on_arc(0.01 * std::sin(angle), 0.01 * (1 - std::cos(angle)), 0);
+    EXPECT_NEAR(tree.nearest(on_arc, 1).distance_m, 1 * mm, 0.35 * mm) << angle;
+  }
+  const double straight = volume_m3(body_of({.p_from = {0, 0, 0}, .p_to = {0.01, 0, 0}, .radius_m = 1 * mm}, 1 * mm));
+  EXPECT_NEAR(straight, 3.14159265358979 * 1e-6 * 0.012, 0.02 * 3.14159265358979 * 1e-6 * 0.012);
 }
 
 TEST_F(OwnAnatomy, PinholesAndFlippedPatches) {

@@ -6,7 +6,7 @@ namespace ostium {
 
 namespace {
 
-constexpr double much_wider = 2;
+constexpr double much_wider = 4;          // an aorta beside its coronary arteries
 constexpr double below_ostium_m = 12e-3;  // ostia lie 14 and 17 mm above the annulus (Tops 2008), 3 mm either way
 constexpr double most_diameters = 1.5;
 constexpr double aside_share = 0.5;  // of the longest gap: beside what is missing
