@@ -75,6 +75,7 @@ TEST(Catalogue, HoldsTheStudysNineAndWhatCoronaryWorkNeeds) {
                            "balloon-15x10",
                            "balloon-20x10",
                            "balloon-25x15",
+                           "stent-20x12",
                            "stent-30x18"})
     EXPECT_NO_THROW(find_instrument(all, name));
   try {
