@@ -25,7 +25,7 @@ rc=0
 "$ostium" run "$work/case" --script pci-rca-imported --seconds $seconds --record events --out "$work/out" \
   >"$work/run.txt" 2>&1 || rc=$?
 "$ostium" report "$work/out/run.h5" -o "$work/report.html" --no-pictures --events "$work/events.csv" >/dev/null
-# Steps by their place in the script, from 0: what has to be done by then is the wire, 95 mm down the artery.
+# Steps by their place in the script, from 0: what has to be done by then is the wire, 70 mm down the artery.
 step=$(grep -n '"do":' "$(dirname "$0")/../data/scripts/pci-rca-imported.json" | grep -n '"wire across"' | cut -d: -f1)
 grep -q ",script_step_done,,$((step - 1))," "$work/events.csv" || { echo "the wire is not across"; cat "$work/run.txt"; exit 1; }
 grep -q "cannulation_time_s  *[0-9]" "$work/run.txt" || { echo "the guide is not in the artery"; cat "$work/run.txt"; exit 1; }
