@@ -43,7 +43,7 @@ inline constexpr double same_wall = 0.999;      // cosine between planes that st
 inline constexpr double most_curved_wall_per_m = 2e4;
 inline constexpr double wall_slip_m = 20e-6;     // elastic, of friction
 inline constexpr int max_wall_changes = 40;      // of a rod in one try of a step; letting go in the first half alone
-inline constexpr int max_wary_changes = 64;      // the same, from the most walls that may hold it
+inline constexpr int max_wary_changes = 100;     // the same, from the most walls that may hold it
 inline constexpr double usable_depth_m = 20e-6;  // behind a wall that does not hold; with more, as for usable_stretch
 
 // Static equilibrium.
