@@ -22,8 +22,10 @@ void resize_contact(const Model& model, int elements, ContactScratch& c) {
   const int nodes = elements + 1;
   c.walls.resize(nodes);
   c.rubs.resize(nodes);
+  c.changed.resize(nodes);
   for (Field<1>* f : {&c.travel, &c.stiffness}) f->resize(nodes);
-  for (Field<3>* f : {&c.along, &c.across, &c.from}) f->resize(nodes);
+  for (Field<3>* f : {&c.along, &c.across, &c.from, &c.anchor, &c.ahead, &c.anchor_push, &c.ahead_push})
+    f->resize(nodes);
   c.free_compliance.resize(nodes);
   c.free_target.resize(nodes);
   std::size_t clusters = 0;
@@ -97,6 +99,7 @@ Scratch::Scratch(const Model& model) : rods(model.rods.size()), contacts(model.r
   lead.resize(model.rods.size());
   was_in_body.resize(model.rods.size());
   fed_m.resize(model.rods.size());
+  hands.resize(model.rods.size());
   strands.reserve(model.rods.size());
   for (const auto& surface : model.surfaces) surfaces.emplace_back(*surface);
   for (std::size_t r = 0; r < model.rods.size(); ++r) {

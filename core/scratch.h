@@ -8,6 +8,12 @@
 
 namespace ostium {
 
+/// What a step changes of a rod's state before it has a solution.
+struct Hands {
+  EndState base, tip;
+  double inserted_m = 0, slack_m = 0, first = 0;
+};
+
 struct Scratch {
   /// Throws as check(model) does.
   explicit Scratch(const Model& model);
@@ -19,6 +25,8 @@ struct Scratch {
   std::vector<int> lead;                 ///< (#rods): the outermost rod of its strand
   std::vector<char> was_in_body;         ///< (#rods), before this step
   std::vector<double> fed_m;             ///< (#rods), pushed in in this step
+  std::vector<Hands> hands;              ///< (#rods), as they were before it
+  double step_s = 0;                     ///< of this step, or of the piece of it that is tried
   std::vector<SurfacePose> surfaces;     ///< one per surface
   ChainFactors factors;
 };

@@ -28,26 +28,45 @@ namespace {
   return true;
 }
 
-void begin(const Model& model, const Inputs& inputs, State& state, Scratch& scratch, StepReport& report) {
-  report.rods.resize(model.rods.size());
-  report.touches.clear();
+/// A part of the step.
+struct Piece {
+  double from = 0, to = 1;
+  int halvings = 0;
+
+  bool is_least() const { return halvings == tunables::max_halvings; }
+  double middle() const { return (from + to) / 2; }
+  Piece first_half() const { return {from, middle(), halvings + 1}; }
+  Piece second_half() const { return {middle(), to, halvings + 1}; }
+};
+
+/// What a hand does in a piece of the step.
+void move_hands(const Model& model, State& state, Scratch& scratch, StepReport& report) {
   for (std::size_t r = 0; r < model.rods.size(); ++r) {
     RodScratch& s = scratch.rods[r];
-    report.rods[r] = {};
-    s.inputs = limited(inputs.rods[r], report.rods[r].trouble);
-    s.step_s = model.step_s;
-    s.scheme = take_hold(s.inputs, state.rods[r]) ? TimeScheme::fresh : TimeScheme::bdf2;
-    drive_ends(s.inputs, model.step_s, state.rods[r]);
-    scratch.was_in_body[r] = in_body(model.rods[r], state.rods[r]);
-    scratch.fed_m[r] = -state.rods[r].inserted_m;
-    feed(model.rods[r], s.inputs, model.step_s, state.rods[r], report.rods[r].trouble);
-    scratch.fed_m[r] += state.rods[r].inserted_m;
-    cut_at_introducer(model.rods[r], state.rods[r], s.inside);
+    RodState& own = state.rods[r];
+    s.step_s = scratch.step_s;
+    scratch.was_in_body[r] = in_body(model.rods[r], own);
+    renew_elements(model.rods[r], s.inputs, scratch.step_s, own);
+    scratch.hands[r] = {own.base, own.tip, own.inserted_m, own.slack_m, own.first};
+    s.scheme = take_hold(s.inputs, own) ? TimeScheme::fresh : TimeScheme::bdf2;
+    drive_ends(s.inputs, scratch.step_s, own);
+    feed(model.rods[r], s.inputs, scratch.step_s, own, report.rods[r].trouble);
+    scratch.fed_m[r] = own.inserted_m - scratch.hands[r].inserted_m;
+    cut_at_introducer(model.rods[r], own, s.inside);
   }
 }
 
-void meet_walls(const Model& model, const Inputs& inputs, Scratch& scratch) {
-  move_walls(model, inputs, scratch);
+void take_hands_back(const Scratch& scratch, State& state) {
+  for (std::size_t r = 0; r < state.rods.size(); ++r) {
+    const Hands& was = scratch.hands[r];
+    RodState& own = state.rods[r];
+    own.base = was.base, own.tip = was.tip;
+    own.inserted_m = was.inserted_m, own.slack_m = was.slack_m, own.first = was.first;
+  }
+}
+
+void meet_walls(const Model& model, const Inputs& inputs, Piece piece, Scratch& scratch) {
+  move_walls(model, inputs, piece.from, piece.to, scratch);
   for (const Strand& strand : scratch.strands) {
     guess_nodes(*strand.own, *strand.s);
     find_walls(model, strand, scratch);
@@ -124,6 +143,7 @@ bool is_near(const RodScratch& s) {
 
 /// Solves a strand that walls hold, until its ties hold where it pushes and nowhere else.
 void solve_held(const Model& model, const Strand& strand, Scratch& scratch) {
+  strand.contact->changes = 0;
   do solve(strand.s->chain, nullptr, scratch.factors);
   while (is_near(*strand.s) && change_walls(model, strand, scratch));
 }
@@ -187,16 +207,10 @@ bool usable(const RodScratch& s) { return s.progress != Progress::failed && s.de
 /// Whether its ties to walls are settled, too.
 bool settled(const Strand& strand) { return usable(*strand.s) && behind_walls(strand) <= tunables::usable_depth_m; }
 
-/// Strands whose ties did not settle from the fewest that may hold them are tried from the most.
-void retry_warily(const Model& model, const State& state, Scratch& scratch, StepReport& report) {
-  bool again = false;
-  for (const Strand& strand : scratch.strands) {
-    if (strand.contact->walls.empty()) continue;
-    if (strand.s->progress == Progress::done && settled(strand) && !gave_up_releasing(strand)) continue;
-    again = strand.contact->wary = true;
-    predict(model, state, scratch, strand, strand.s->scheme);
-  }
-  if (again) iterate(model, state, scratch, report);
+bool all_done(const Scratch& scratch) {
+  return std::all_of(scratch.strands.begin(), scratch.strands.end(), [](const Strand& strand) {
+    return strand.s->progress == Progress::done && behind_walls(strand) <= tunables::usable_depth_m;
+  });
 }
 
 /// Strands that move too violently for a step give up their velocity; then, if there are walls, most of the time to
@@ -215,7 +229,7 @@ void retry_from_rest(const Model& model, const State& state, Scratch& scratch, S
       again = true;
       report.rods[strand.lead].trouble |= motion_lost;
       halt(s.inside, *strand.own);
-      s.step_s = share * model.step_s;
+      s.step_s = share * scratch.step_s;
       predict(model, state, scratch, strand, TimeScheme::from_rest);
     }
     if (!again) return;
@@ -241,7 +255,7 @@ void report_forces(const Model& model, const Strand& strand, RodReport& report) 
 }
 
 /// The iterate becomes the strand's state.
-void finish(const Model& model, const State& state, const Strand& strand, StepReport& report) {
+void finish(const State& state, const Scratch& scratch, const Strand& strand, StepReport& report) {
   RodScratch& s = *strand.s;
   const Rod& rod = s.inside;
   RodState& own = *strand.own;
@@ -260,13 +274,13 @@ void finish(const Model& model, const State& state, const Strand& strand, StepRe
   if (strand.nest)
     measure_layers(state, *strand.nest);
   else if (own.strain.size() > 0)
-    linearise_joints(rod, own, joints_of(s.inputs), model.step_s, s);
+    linearise_joints(rod, own, joints_of(s.inputs), scratch.step_s, s);
   else
-    linearise_end_joints(rod, own, joints_of(s.inputs), model.step_s, s);
+    linearise_end_joints(rod, own, joints_of(s.inputs), scratch.step_s, s);
   if (solved) {
-    commit(rod, s, model.step_s, own);
-    if (s.step_s < model.step_s) halt(rod, own);
-    commit_walls(model, strand, report.touches);
+    commit(rod, s, scratch.step_s, own);
+    if (s.step_s < scratch.step_s) halt(rod, own);
+    commit_walls(strand, report.touches);
   } else {
     commit_at_rest(rod, s, own);
   }
@@ -294,20 +308,11 @@ void unnest(const Model& model, const Strand& strand, State& state, Scratch& scr
   }
 }
 
-}  // namespace
-
-void step(const Model& model, const Inputs& inputs, State& state, Scratch& scratch, StepReport& report) {
-  assert(fits(model, inputs, state, scratch));
-  begin(model, inputs, state, scratch, report);
-  arrange(model, scratch.was_in_body, state, scratch);
-  meet_walls(model, inputs, scratch);
-  for (const Strand& strand : scratch.strands) predict(model, state, scratch, strand, strand.s->scheme);
-  iterate(model, state, scratch, report);
-  retry_warily(model, state, scratch, report);
-  retry_from_rest(model, state, scratch, report);
-
+/// The solution becomes the state.
+void finish_all(const Model& model, State& state, Scratch& scratch, StepReport& report) {
+  report.touches.clear();
   for (const Strand& strand : scratch.strands) {
-    finish(model, state, strand, report);
+    finish(state, scratch, strand, report);
     if (strand.nest) {
       unnest(model, strand, state, scratch, report);
     } else {
@@ -315,6 +320,44 @@ void step(const Model& model, const Inputs& inputs, State& state, Scratch& scrat
       report_forces(model, strand, report.rods[strand.lead]);
     }
   }
+}
+
+void rescale_histories(const Model& model, double ratio, State& state) {
+  for (std::size_t r = 0; r < model.rods.size(); ++r)
+    if (in_body(model.rods[r], state.rods[r])) rescale_history(model.rods[r], ratio, state.rods[r]);
+}
+
+/// Goes on by a piece of the step; among walls by its halves, if it has no solution as a whole.
+void advance(const Model& model, const Inputs& inputs, Piece piece, State& state, Scratch& scratch,
+             StepReport& report) {
+  scratch.step_s = (piece.to - piece.from) * model.step_s;
+  move_hands(model, state, scratch, report);
+  arrange(model, scratch.was_in_body, state, scratch);
+  meet_walls(model, inputs, piece, scratch);
+  for (const Strand& strand : scratch.strands) predict(model, state, scratch, strand, strand.s->scheme);
+  iterate(model, state, scratch, report);
+  if (!model.surfaces.empty() && !piece.is_least() && !all_done(scratch)) {
+    take_hands_back(scratch, state);
+    rescale_histories(model, 0.5, state);
+    advance(model, inputs, piece.first_half(), state, scratch, report);
+    advance(model, inputs, piece.second_half(), state, scratch, report);
+    rescale_histories(model, 2, state);
+    return;
+  }
+  retry_from_rest(model, state, scratch, report);
+  finish_all(model, state, scratch, report);
+}
+
+}  // namespace
+
+void step(const Model& model, const Inputs& inputs, State& state, Scratch& scratch, StepReport& report) {
+  assert(fits(model, inputs, state, scratch));
+  report.rods.resize(model.rods.size());
+  for (std::size_t r = 0; r < model.rods.size(); ++r) {
+    report.rods[r] = {};
+    scratch.rods[r].inputs = limited(inputs.rods[r], report.rods[r].trouble);
+  }
+  advance(model, inputs, {}, state, scratch, report);
   report.trouble = 0;
   for (const RodReport& rod : report.rods) report.trouble |= rod.trouble;
   ++state.step;

@@ -19,6 +19,7 @@ inline constexpr double max_rest_angle_rad = 2.0;
 inline constexpr double stretch_tolerance = 8e-8;  // largest |r' - d3| over the elements; 1e-7 is the gate
 inline constexpr double usable_stretch = 1e-2;     // with more, a step is tried again from rest
 inline constexpr int max_newton_iterations = 8;
+inline constexpr int max_halvings = 4;               // of a step among walls that has no usable solution as a whole
 inline constexpr double max_turn_rad = 0.5;          // of an element in one iteration; longer ones are shortened
 inline constexpr double overturned_joint_rad = 2.5;  // an angle between elements that is about to pass pi
 inline constexpr double longest_return_m = 2e-3;     // per step, of an end that was pulled off its hold
@@ -42,8 +43,9 @@ inline constexpr double followed_m = 5e-6;      // behind a wall that was found 
 inline constexpr double same_wall = 0.999;      // cosine between planes that stand for one another
 inline constexpr double most_curved_wall_per_m = 2e4;
 inline constexpr double wall_slip_m = 20e-6;     // elastic, of friction
-inline constexpr int max_wall_changes = 40;      // of a rod in one try of a step; letting go in the first half alone
-inline constexpr int max_wary_changes = 100;     // the same, from the most walls that may hold it
+inline constexpr int quick_wall_changes = 8;     // of a linearised step's ties, before their energy is followed down
+inline constexpr int max_wall_changes = 60;      // of a linearised step's ties
+inline constexpr double least_descent = 1e-4;    // part of the way to a solve's end
 inline constexpr double usable_depth_m = 20e-6;  // behind a wall that does not hold; with more, as for usable_stretch
 
 // Static equilibrium.

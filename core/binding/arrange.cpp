@@ -148,7 +148,7 @@ void arrange(const Model& model, const std::vector<char>& was_in_body, State& st
   for (Strand& strand : scratch.strands) {
     if (!strand.nest) continue;
     Nest& nest = *strand.nest;
-    nest.step_s = model.step_s;
+    nest.step_s = scratch.step_s;
     if (!was_in_body[strand.lead])
       lay_over(scratch.rods[strand.lead].inside, model.rods[nest.members[1]], state.rods[nest.members[1]],
                state.rods[strand.lead]);

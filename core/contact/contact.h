@@ -14,8 +14,8 @@
 
 namespace ostium {
 
-/// At the beginning of a step, once: where the walls are.
-void move_walls(const Model& model, const Inputs& inputs, Scratch& scratch);
+/// At the beginning of a step, once: where the walls are; of a piece of it, which goes from one part of it to another.
+void move_walls(const Model& model, const Inputs& inputs, double from, double to, Scratch& scratch);
 
 /// Finds the walls that a strand can reach, from its guess of the iterate.
 void find_walls(const Model& model, const Strand& strand, Scratch& scratch);
@@ -30,9 +30,6 @@ void tie_to_walls(const Strand& strand);
 /// the chain, which is adapted, is to be solved again.
 bool change_walls(const Model& model, const Strand& strand, Scratch& scratch);
 
-/// Whether its ties came and went until they were only let come: some may pull.
-bool gave_up_releasing(const Strand& strand);
-
 /// How far the iterate is behind walls that do not hold it, m: more than little if the ties were not settled.
 double behind_walls(const Strand& strand);
 
@@ -40,6 +37,6 @@ double behind_walls(const Strand& strand);
 void turn_at_walls(const Strand& strand);
 
 /// Moves forces and slips into the strand's state, and adds its touches; after the commit.
-void commit_walls(const Model& model, const Strand& strand, std::vector<Touch>& touches);
+void commit_walls(const Strand& strand, std::vector<Touch>& touches);
 
 }  // namespace ostium

@@ -32,8 +32,8 @@ struct NodeWalls {
 struct ContactScratch {
   std::vector<NodeWalls> walls;  ///< (#nodes)
   Field<1> travel;               ///< m, (#nodes): how far it may go within the walls that were found
-  int changes = 0;               ///< of planes since the last prediction
-  bool wary = false;             ///< every plane that may have held a node is thought to hold it once more
+  int changes = 0;               ///< of ties since the last linearisation
+  std::vector<char> changed;     ///< (#nodes), by what was met on the way
   Field<6> free_compliance;      ///< (#nodes), as they would be without walls
   Field<3> free_target;
   // --- friction, at nodes
@@ -41,6 +41,9 @@ struct ContactScratch {
   Field<1> stiffness;      ///< N/m
   Field<3> along, across;  ///< unit vectors
   Field<3> from;           ///< m, where it would not pull the node at all
+  // --- descent, at nodes
+  Field<3> anchor, ahead;            ///< m: the best point yet of this linearisation; what the last solve leads to
+  Field<3> anchor_push, ahead_push;  ///< N: what walls would have to push with for balance there
   // --- queries
   std::vector<int> clusters;
 };

@@ -4,6 +4,7 @@
 
 #include "core/binding/nest.h"
 #include "core/contact/contact.h"
+#include "core/contact/descent.h"
 #include "core/contact/friction.h"
 #include "core/contact/walls.h"
 #include "core/math/rotation.h"
@@ -52,10 +53,6 @@ void share_force(V3<double> force, const NodeWalls& walls, double* pressed_N) {
   }
 }
 
-int most_changes(const ContactScratch& c) { return c.wary ? tunables::max_wary_changes : tunables::max_wall_changes; }
-
-double push_N(const WallPlane& w, const V3<double>& p) { return (w.place - dot(w.normal, p)) / w.softness; }
-
 }  // namespace
 
 void expect_touches(const Strand& strand) {
@@ -69,11 +66,7 @@ void expect_touches(const Strand& strand) {
     if (walls.count == 0) continue;
     const V3<double> expected = load3<double>(s.position, i);
     double pressed[max_planes];
-    const V3<double> force = load3<double>(own.wall_force, i);
-    if (c.wary)
-      for (int k = 0; k < walls.count; ++k) pressed[k] = largest(0, dot(force, walls.planes[k].normal));
-    else
-      share_force(force, walls, pressed);
+    share_force(load3<double>(own.wall_force, i), walls, pressed);
     for (int k = 0; k < walls.count; ++k) {
       WallPlane& w = walls.planes[k];
       w.active = dot(w.normal, expected) - pressed[k] / tunables::press_N_m < w.place;
@@ -90,45 +83,82 @@ void tie_to_walls(const Strand& strand) {
   RodScratch& s = *strand.s;
   c.free_compliance = s.chain.compliance;
   c.free_target = s.target;
-  c.changes = 0;
   for (int i = s.inside.first; i < s.inside.nodes(); ++i)
     if (is_touched(c, i)) renew_node(i, c, s);
 }
 
-bool change_walls(const Model& model, const Strand& strand, Scratch& scratch) {
-  ContactScratch& c = *strand.contact;
-  if (c.walls.empty() || c.changes >= most_changes(c)) return false;
+namespace {
+
+/// Follows nodes that went far through the triangles: true if that finds walls that are to hold one.
+bool follow_far(const Model& model, const Strand& strand, Scratch& scratch) {
   RodScratch& s = *strand.s;
+  ContactScratch& c = *strand.contact;
   const RodState& own = *strand.own;
-  const bool may_release = c.changes < most_changes(c) / 2;  // later on, so that no node comes and goes
   bool any = false;
   for (int i = first_free(s); i <= last_free(s); ++i) {
+    const NodeWalls& walls = c.walls[i];
+    const V3<double> p = load3<double>(c.ahead, i), moved = p - load3<double>(own.position, i);
+    const V3<double> slid = walls.count > 0 ? moved - walls.planes[0].carried : moved;
+    const double far = walls.count > 0 ? least(c.travel.at(0)[i], tunables::slid_far_m) : c.travel.at(0)[i];
+    if (dot(slid, slid) <= far * far || !follow(model, own, i, p, scratch, s, c)) continue;
+    c.changed[i] = any = true;
+  }
+  return any;
+}
+
+/// Whether the plane is to change, by where the last solve leads.
+bool is_wrong(const WallPlane& w, const V3<double>& ahead) {
+  return w.active ? push_N(w, ahead) < -tunables::wall_pull_N : dot(w.normal, ahead) < w.place - tunables::wall_loose_m;
+}
+
+/// The force along `across` of a tie that is let go.
+void drop_stay(int i, WallPlane& w, ContactScratch& c) {
+  if (w.stay == 0) return;
+  const V3<double> off = load3<double>(c.anchor_push, i);
+  const double force = w.stay * (w.beside - dot(w.across, load3<double>(c.anchor, i)));
+  store3(c.anchor_push, i, madd(force, w.across, off));
+  w.stay = 0;
+}
+
+}  // namespace
+
+bool change_walls(const Model& model, const Strand& strand, Scratch& scratch) {
+  ContactScratch& c = *strand.contact;
+  if (c.walls.empty() || c.changes >= tunables::max_wall_changes) return false;
+  RodScratch& s = *strand.s;
+  std::fill(c.changed.begin(), c.changed.end(), 0);
+  look_ahead(strand);
+  bool any = model.sweep && follow_far(model, strand, scratch);
+  for (int i = first_free(s); i <= last_free(s); ++i)
+    for (int k = 0; k < c.walls[i].count; ++k)
+      any = any || (!c.changed[i] && is_wrong(c.walls[i].planes[k], load3<double>(c.ahead, i)));
+  if (!any) return false;
+
+  const bool slow = c.changes >= tunables::quick_wall_changes;
+  if (c.changes == tunables::quick_wall_changes)
+    start_descent(strand);
+  else if (slow)
+    descend(strand);
+  ++c.changes;
+  any = false;
+  for (int i = first_free(s); i <= last_free(s); ++i) {
     NodeWalls& walls = c.walls[i];
-    const V3<double> p = solved_position(s, i);
-    bool changed = false;
+    bool changed = c.changed[i];
     for (int k = 0; k < walls.count; ++k) {
       WallPlane& w = walls.planes[k];
-      if (w.active ? may_release && push_N(w, p) < -tunables::wall_pull_N
-                   : dot(w.normal, p) < w.place - tunables::wall_loose_m) {
-        w.active = !w.active, w.stay = 0;
-        changed = true;
-      }
-    }
-    if (!changed && model.sweep) {
-      const V3<double> moved = p - load3<double>(own.position, i);
-      const V3<double> slid = walls.count > 0 ? moved - walls.planes[0].carried : moved;
-      const double far = walls.count > 0 ? least(c.travel.at(0)[i], tunables::slid_far_m) : c.travel.at(0)[i];
-      if (dot(slid, slid) > far * far) changed = follow(model, own, i, p, scratch, s, c);
+      const bool wrong = slow ? w.active != (dot(w.normal, load3<double>(c.anchor, i)) < w.place)
+                              : !c.changed[i] && is_wrong(w, load3<double>(c.ahead, i));
+      if (!wrong) continue;
+      w.active = !w.active, changed = true;
+      if (slow)
+        drop_stay(i, w, c);
+      else
+        w.stay = 0;
     }
     if (changed) renew_node(i, c, s);
     any = any || changed;
   }
-  c.changes += any;
   return any;
-}
-
-bool gave_up_releasing(const Strand& strand) {
-  return !strand.contact->walls.empty() && strand.contact->changes > most_changes(*strand.contact) / 2;
 }
 
 double behind_walls(const Strand& strand) {
@@ -159,7 +189,7 @@ V3<double> pushing_force(const RodScratch& s, const ContactScratch& c, int i) {
 
 }  // namespace
 
-void commit_walls(const Model& model, const Strand& strand, std::vector<Touch>& touches) {
+void commit_walls(const Strand& strand, std::vector<Touch>& touches) {
   const ContactScratch& c = *strand.contact;
   if (c.walls.empty()) return;
   const RodScratch& s = *strand.s;
@@ -168,7 +198,7 @@ void commit_walls(const Model& model, const Strand& strand, std::vector<Touch>& 
     const bool free = c.walls[i].count == 0;
     const V3<double> force = free ? V3<double>{} : pushing_force(s, c, i), last = load3<double>(own.wall_force, i);
     const double push = std::sqrt(dot(force, force));
-    if (push > 0 && dot(last, last) == 0) land(i, (1 / push) * force, model.step_s, own);
+    if (push > 0 && dot(last, last) == 0) land(i, (1 / push) * force, s.step_s, own);
     const V3<double> rubbed = free ? V3<double>{} : rubbing_force(i, s, c);
     if (free)
       own.wall_slip.set(i, {0, 0});

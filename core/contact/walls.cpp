@@ -213,10 +213,12 @@ int slot_for(const WallPlane& plane, const V3<double>& to, const bool* taken, co
 
 }  // namespace
 
-void move_walls(const Model& model, const Inputs& inputs, Scratch& scratch) {
-  for (std::size_t k = 0; k < model.surfaces.size(); ++k)
-    set_motion(*model.surfaces[k], k < inputs.surfaces.size() ? inputs.surfaces[k] : SurfaceMotion{},
-               scratch.surfaces[k]);
+void move_walls(const Model& model, const Inputs& inputs, double from, double to, Scratch& scratch) {
+  for (std::size_t k = 0; k < model.surfaces.size(); ++k) {
+    const Surface& surface = *model.surfaces[k];
+    const SurfaceMotion whole = k < inputs.surfaces.size() ? inputs.surfaces[k] : SurfaceMotion{};
+    set_motion(surface, part_of(whole, surface.frames, from, to), scratch.surfaces[k]);
+  }
 }
 
 void find_walls(const Model& model, const Strand& strand, Scratch& scratch) {
@@ -225,7 +227,6 @@ void find_walls(const Model& model, const Strand& strand, Scratch& scratch) {
   ContactScratch& c = *strand.contact;
   const Rod& rod = s.inside;
   const RodState& own = *strand.own;
-  c.wary = false;
   for (int i = rod.first; i < rod.nodes(); ++i) c.walls[i].count = 0;
   for (int begin = first_free(s); begin <= last_free(s); begin += block) {
     const int end = std::min(begin + block, last_free(s) + 1);

@@ -178,6 +178,24 @@ void take_strain(const Rod& rod, const RodScratch& scratch, RodState& state) {
   for_packs(rod.first, rod.nodes(), [&]<class T>(T, int i) { store3(state.strain, i, load3<T>(scratch.strain, i)); });
 }
 
+void rescale_history(const Rod& rod, double ratio, RodState& state) {
+  const auto rescale = [&](const Field<3>& now, Field<3>& before) {
+    if (now.size() == 0) return;
+    for_packs(rod.first, rod.nodes(), [&]<class T>(T, int i) {
+      const V3<T> at = load3<T>(now, i);
+      store3(before, i, madd(splat<T>(ratio), load3<T>(before, i) - at, at));
+    });
+  };
+  rescale(state.position, state.position_before);
+  rescale(state.velocity, state.velocity_before);
+  rescale(state.strain, state.strain_before);
+  for_packs(rod.first, rod.elements, [&]<class T>(T, int j) {
+    const V3<T> turn = load3<T>(state.turn, j);
+    store3(state.turn, j, splat<T>(ratio) * turn);
+    store3(state.turn_before, j, splat<T>(ratio) * madd(splat<T>(ratio), load3<T>(state.turn_before, j) - turn, turn));
+  });
+}
+
 void halt(const Rod& rod, RodState& state) {
   for_packs(rod.first, rod.nodes(), [&]<class T>(T, int i) {
     store3(state.position_before, i, load3<T>(state.position, i));

@@ -37,6 +37,9 @@ void commit_at_rest(const Rod& rod, const RodScratch& scratch, RodState& state);
 /// Takes over the iterate's strains; without material damping there are none.
 void take_strain(const Rod& rod, const RodScratch& scratch, RodState& state);
 
+/// The last step as if it had been `ratio` times as long, and the rod had moved as evenly.
+void rescale_history(const Rod& rod, double ratio, RodState& state);
+
 /// Keeps the shape and forgets all motion.
 void halt(const Rod& rod, RodState& state);
 

@@ -142,16 +142,17 @@ void cut_at_introducer(const Rod& rod, const RodState& state, Rod& inside) {
   cut(rod, state.inserted_m + state.slack_m, first_element(state), inside);
 }
 
+void renew_elements(const Rod& rod, const RodInputs& inputs, double step_s, RodState& s) {
+  if (inputs.base.hold != Hold::clamped || (inputs.feed_m_s == 0 && s.slack_m == 0) || !in_body(rod, s)) return;
+  const auto first = [&] { return first_element(s); };
+  while (first() > 0 && base_length(rod, s) > rod.length.at(0)[first()] + enters_at * rod.length.at(0)[first() - 1])
+    enter_element(rod, inputs, step_s, s);
+  while (first() < rod.elements - least_elements && base_length(rod, s) < leaves_at * rod.length.at(0)[first()])
+    leave_element(rod, s);
+}
+
 void feed(const Rod& rod, const RodInputs& inputs, double step_s, RodState& s, std::uint32_t& trouble) {
   if (inputs.base.hold != Hold::clamped || (inputs.feed_m_s == 0 && s.slack_m == 0)) return;
-  // First the elements, while positions and length belong to one moment.
-  const auto first = [&] { return first_element(s); };
-  if (in_body(rod, s)) {
-    while (first() > 0 && base_length(rod, s) > rod.length.at(0)[first()] + enters_at * rod.length.at(0)[first() - 1])
-      enter_element(rod, inputs, step_s, s);
-    while (first() < rod.elements - least_elements && base_length(rod, s) < leaves_at * rod.length.at(0)[first()])
-      leave_element(rod, s);
-  }
   s.slack_m = std::fabs(s.slack_m) > 1e-15 ? slack_kept * s.slack_m : 0;
   const double asked = s.inserted_m + step_s * inputs.feed_m_s;
   s.inserted_m = std::clamp(asked, 0.0, rod.total_length_m);

@@ -28,8 +28,12 @@ bool in_body(const Rod& rod, const RodState& state);
 /// The first element inside when `inserted_m` of a rod is, if it has not been fed yet; N: not in the body.
 int first_element_for(const Rod& rod, double inserted_m);
 
-/// Feeds for one step: writes state.inserted_m and first, and the fields of elements that enter or leave. At both ends
-/// of the instrument it stops, and says so in `trouble`.
+/// Before a step that feeds: elements enter or leave, while positions and length belong to one moment. Writes
+/// state.first and slack_m, and the fields of these elements; done twice, it changes nothing more.
+void renew_elements(const Rod& rod, const RodInputs& inputs, double step_s, RodState& state);
+
+/// Feeds for one step: writes state.inserted_m, and the fields of a rod that appears. At both ends of the instrument it
+/// stops, and says so in `trouble`.
 void feed(const Rod& rod, const RodInputs& inputs, double step_s, RodState& state, std::uint32_t& trouble);
 
 /// Makes `inside` the part of `rod` that `state` has inside the introducer.

@@ -247,6 +247,15 @@ std::array<double, 4> frame_weights(double x) {
   return {(-x3 + 2 * x2 - x) / 2, (3 * x3 - 5 * x2 + 2) / 2, (-3 * x3 + 4 * x2 + x) / 2, (x3 - x2) / 2};
 }
 
+SurfaceMotion part_of(const SurfaceMotion& whole, int frames, double from, double to) {
+  if (from == 0 && to == 1) return whole;
+  double move = whole.frame_after - whole.frame_before;
+  move -= frames * std::round(move / frames);
+  const Eigen::Vector3d shift_W = whole.shift_after_W - whole.shift_before_W;
+  return {whole.frame_before + from * move, whole.frame_before + to * move, whole.shift_before_W + from * shift_W,
+          whole.shift_before_W + to * shift_W};
+}
+
 Eigen::Vector3d vertex_at(const SurfaceDescription& d, int vertex, double frame) {
   const int frames = static_cast<int>(d.frames.size());
   if (frames == 1) return d.frames[0][vertex];

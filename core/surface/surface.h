@@ -95,6 +95,9 @@ struct SurfaceMotion {
   Eigen::Vector3d shift_before_W = Eigen::Vector3d::Zero(), shift_after_W = Eigen::Vector3d::Zero();
 };
 
+/// What it does from one part of the step to another, 0 <= from < to <= 1.
+SurfaceMotion part_of(const SurfaceMotion& whole, int frames, double from, double to);
+
 /// Position of a vertex of `description` at a moment of the cycle, m: what contact takes for the truth.
 Eigen::Vector3d vertex_at(const SurfaceDescription& description, int vertex, double frame);
 
