@@ -46,7 +46,7 @@ struct ScriptCondition {
   std::string place;  ///< of tip_passes, tip_leaves, tip_in, tip_faces, engaged, contrast_in; of trace
   Eigen::Vector3d direction_P = Eigen::Vector3d::Zero();  ///< of tip_points, unit; `value` is the angle
   std::string words;                                      ///< as the file has it, for people: "tip_passes arch"
-  bool if_there = false;  ///< of tip_in: a vessel without that branch is none in which it holds
+  bool if_there = false;  ///< of tip_in, tip_leaves: where there is no such place, no tip is in it
   int line = 0;           ///< where it stands
 };
 

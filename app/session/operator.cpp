@@ -143,7 +143,7 @@ struct Sight {
       case ConditionKind::tip_in:
         return tool.in_body && place >= 0 && model.vessel->way->beyond(tip_sphere(c.tool), place);
       case ConditionKind::tip_leaves:
-        return !tool.in_body || !model.vessel->way->beyond(tip_sphere(c.tool), place);
+        return !tool.in_body || place < 0 || !model.vessel->way->beyond(tip_sphere(c.tool), place);
       case ConditionKind::tip_points:
         return tip_direction(model, session, c.tool).dot(c.direction_P) >= std::cos(c.value);
       case ConditionKind::tip_faces:
