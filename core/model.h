@@ -13,7 +13,8 @@ struct Model {
   std::vector<Rod> rods;
   std::vector<Nesting> nestings;
   std::vector<std::shared_ptr<const Surface>> surfaces;  ///< the walls; instruments are inside them
-  bool sweep = true;  ///< contact sees all of a step; false: what is touched as it begins. For a test alone
+  bool rods_touch = false;  ///< rods touch each other where neither runs in the other, and themselves
+  bool sweep = true;        ///< contact sees all of a step; false: what is touched as it begins. For a test alone
   Eigen::Vector3d gravity_W = Eigen::Vector3d(0, 0, -9.81);  ///< m/s2
   double step_s = 1e-3;                                      ///< (0, 0.01]
 };

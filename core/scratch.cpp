@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <variant>
 
+#include "core/tunables.h"
+
 namespace ostium {
 
 void resize(RodScratch& s, int elements, int rolls, bool damped) {
@@ -18,6 +20,7 @@ void resize(RodScratch& s, int elements, int rolls, bool damped) {
 namespace {
 
 void resize_contact(const Model& model, int elements, ContactScratch& c) {
+  if (model.rods_touch) c.rod_shares.resize(elements + 1);
   if (model.surfaces.empty()) return;
   const int nodes = elements + 1;
   c.walls.resize(nodes);
@@ -85,6 +88,7 @@ void resize_nest(const Model& model, int lead, Nest& nest) {
   if (damped)
     for (Field<3>* f : {&own.strain, &own.strain_before}) f->resize(elements + 1);
   if (!model.surfaces.empty()) own.wall_force.resize(elements + 1), own.wall_slip.resize(elements + 1);
+  if (model.rods_touch) own.rod_force.resize(elements + 1);
   resize_contact(model, elements, nest.contact);
   nest.depth.resize(elements + 1);
   nest.nearness.resize(elements + 1);
@@ -101,6 +105,7 @@ Scratch::Scratch(const Model& model) : rods(model.rods.size()), contacts(model.r
   fed_m.resize(model.rods.size());
   hands.resize(model.rods.size());
   strands.reserve(model.rods.size());
+  if (model.rods_touch) rod_contacts.reserve(tunables::max_rod_contacts);
   for (const auto& surface : model.surfaces) surfaces.emplace_back(*surface);
   for (std::size_t r = 0; r < model.rods.size(); ++r) {
     const Rod& rod = model.rods[r];

@@ -26,8 +26,10 @@ struct Scratch {
   std::vector<char> was_in_body;         ///< (#rods), before this step
   std::vector<double> fed_m;             ///< (#rods), pushed in in this step
   std::vector<Hands> hands;              ///< (#rods), as they were before it
-  double step_s = 0;                     ///< of this step, or of the piece of it that is tried
-  std::vector<SurfacePose> surfaces;     ///< one per surface
+  std::vector<RodContact> rod_contacts;  ///< at most max_rod_contacts
+  int rod_rounds = 0;
+  double step_s = 0;                  ///< of this step, or of the piece of it that is tried
+  std::vector<SurfacePose> surfaces;  ///< one per surface
   ChainFactors factors;
 };
 

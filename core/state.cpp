@@ -67,6 +67,8 @@ State lay_out_all(const Model& model, const std::vector<EndState>& bases, const 
     for (Field<3>* f : {&inner.contact_force, &inner.offset}) f->resize(model.rods[n.inner].nodes());
     inner.slip.resize(model.rods[n.inner].nodes());
   }
+  if (model.rods_touch)
+    for (std::size_t r = 0; r < model.rods.size(); ++r) state.rods[r].rod_force.resize(model.rods[r].nodes());
   if (!model.surfaces.empty())
     for (std::size_t r = 0; r < model.rods.size(); ++r) {
       state.rods[r].wall_force.resize(model.rods[r].nodes());

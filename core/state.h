@@ -50,6 +50,7 @@ void for_each_field(S& state, Visit&& visit) {
     components("slip", rod.slip);
     components("wall_force", rod.wall_force);
     components("wall_slip", rod.wall_slip);
+    components("rod_force", rod.rod_force);
     for (auto* end : {&rod.base, &rod.tip}) {
       visit("end.p_W", end->p_W.data(), 3);
       visit("end.q_W", end->q_W.data(), 4);

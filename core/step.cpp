@@ -6,6 +6,7 @@
 
 #include "core/binding/nest.h"
 #include "core/contact/contact.h"
+#include "core/contact/rods.h"
 #include "core/rod/elasticity.h"
 #include "core/rod/ends.h"
 #include "core/rod/inertia.h"
@@ -89,7 +90,7 @@ void add_stretch_load(const Rod& rod, const StretchLoad& load, int begin, int en
 }
 
 /// Where nodes go without internal force, and how they yield to it.
-void constrain(const Model& model, const Scratch& scratch, const Strand& strand) {
+void constrain(const Model& model, Scratch& scratch, const Strand& strand) {
   RodScratch& s = *strand.s;
   const auto move = [&](int rod, int begin, int end) {
     predict_nodes(s.inside, model.rods[rod].damping, begin, end, *strand.own, model.gravity_W, s.step_s, s);
@@ -101,11 +102,12 @@ void constrain(const Model& model, const Scratch& scratch, const Strand& strand)
       move(span.rod, span.at > 0 ? span.at + 1 : 0, span.at + span.elements + 1);
   else
     move(strand.lead, s.inside.first, s.inside.nodes());
+  tie_to_rods(strand, scratch);
   tie_to_walls(strand);
   hold_ends(s.inside, s.inputs, *strand.own, s);
 }
 
-void predict(const Model& model, const State& state, const Scratch& scratch, const Strand& strand, TimeScheme scheme) {
+void predict(const Model& model, const State& state, Scratch& scratch, const Strand& strand, TimeScheme scheme) {
   RodScratch& s = *strand.s;
   s.progress = Progress::open;
   s.scheme = scheme;
@@ -199,6 +201,17 @@ void iterate(const Model& model, const State& state, Scratch& scratch, StepRepor
     solve_open(model, scratch);
     for (const Strand& strand : scratch.strands)
       if (strand.s->progress == Progress::open) take_solution(strand, report.rods[strand.lead]);
+  }
+}
+
+/// Rods that touch are solved in turns, until both feel the same.
+void settle_rod_contacts(const Model& model, const State& state, Scratch& scratch, StepReport& report) {
+  while (!any(scratch, Progress::failed) && renew_rod_contacts(scratch)) {
+    for (const Strand& strand : scratch.strands) {
+      strand.s->progress = Progress::open;
+      constrain(model, scratch, strand);
+    }
+    iterate(model, state, scratch, report);
   }
 }
 
@@ -311,6 +324,7 @@ void unnest(const Model& model, const Strand& strand, State& state, Scratch& scr
 /// The solution becomes the state.
 void finish_all(const Model& model, State& state, Scratch& scratch, StepReport& report) {
   report.touches.clear();
+  commit_rod_contacts(scratch, report.rod_touches);
   for (const Strand& strand : scratch.strands) {
     finish(state, scratch, strand, report);
     if (strand.nest) {
@@ -334,8 +348,10 @@ void advance(const Model& model, const Inputs& inputs, Piece piece, State& state
   move_hands(model, state, scratch, report);
   arrange(model, scratch.was_in_body, state, scratch);
   meet_walls(model, inputs, piece, scratch);
+  find_rod_contacts(model, scratch);
   for (const Strand& strand : scratch.strands) predict(model, state, scratch, strand, strand.s->scheme);
   iterate(model, state, scratch, report);
+  settle_rod_contacts(model, state, scratch, report);
   if (!model.surfaces.empty() && !piece.is_least() && !all_done(scratch)) {
     take_hands_back(scratch, state);
     rescale_histories(model, 0.5, state);

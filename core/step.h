@@ -41,10 +41,19 @@ struct Touch {
   Eigen::Vector3d friction_W_N;  ///< rubbing
 };
 
+/// Where two rods touch, or one touches itself.
+struct RodTouch {
+  int rod = 0, node = 0;              ///< between this node and the next, and
+  int other_rod = 0, other_node = 0;  ///< the same
+  Eigen::Vector3d p_W;                ///< m
+  Eigen::Vector3d force_W_N;          ///< on `rod`; the other feels the opposite
+};
+
 struct StepReport {
   std::vector<RodReport> rods;  ///< kept by the caller and reused; sized at the first step
   std::vector<Touch> touches;   ///< at walls, by rod and node
-  std::uint32_t trouble = 0;    ///< of all rods
+  std::vector<RodTouch> rod_touches;
+  std::uint32_t trouble = 0;  ///< of all rods
 };
 
 /// Advances `state` by model.step_s.

@@ -48,6 +48,19 @@ inline constexpr int max_wall_changes = 60;      // of a linearised step's ties
 inline constexpr double least_descent = 1e-4;    // part of the way to a solve's end
 inline constexpr double usable_depth_m = 20e-6;  // behind a wall that does not hold; with more, as for usable_stretch
 
+// Contact of rods with each other.
+inline constexpr int max_rod_contacts = 2000;  // more are left out
+inline constexpr int max_rod_rounds = 24;      // of a step
+inline constexpr double rods_near_m = 0.5e-3;  // between their surfaces, to be looked at
+inline constexpr double own_apart_radii = 6;   // along a rod, before it can touch itself
+inline constexpr double rods_grip = 4;         // stiffness of a contact, to inertia
+inline constexpr double rods_slow = 0.3;       // a round that leaves more of the depth is slow: its spring becomes
+inline constexpr double rods_harder = 4;       // times as stiff, or, if it went too far,
+inline constexpr double rods_softer = 0.5;
+inline constexpr double rods_deep_m = 2e-6;    // that is left to the next step
+inline constexpr double rods_uneven = 1e-2;    // of the force that both feel, and
+inline constexpr double rods_uneven_N = 1e-6;  // as much
+
 // Static equilibrium.
 inline constexpr double static_tolerance_rad = 1e-9;  // largest turn of the last iteration; Newton squares it
 inline constexpr double static_closure = 1e-7;        // largest distance of an end from its hold, of the rod's length

@@ -79,6 +79,7 @@ struct Part {
     nodes(rod.velocity, chain.velocity), nodes(rod.velocity_before, chain.velocity_before);
     nodes(rod.strain, chain.strain), nodes(rod.strain_before, chain.strain_before);
     nodes(rod.wall_force, chain.wall_force), nodes(rod.wall_slip, chain.wall_slip);
+    nodes(rod.rod_force, chain.rod_force);
     elements(rod.orientation, chain.orientation), elements(rod.force, chain.force);
     elements(rod.turn, chain.turn), elements(rod.turn_before, chain.turn_before);
   }

@@ -128,6 +128,7 @@ void take_strains(const Rod& rod, int from, int to, RodState& own) {
     const int nodes = std::min(exposed, N) + 1;
     lay_nodes(rod, nest, layer, first, nodes, own);
     own.position.set(first, own.base.p_W);
+    for (int i = first; i < nodes && own.rod_force.size() > 0; ++i) own.rod_force.set(i, Eigen::Vector3d::Zero());
     for (int i = first; i < nodes; ++i) {
       if (own.wall_force.size() == 0) break;
       own.wall_force.set(i, Eigen::Vector3d::Zero()), own.wall_slip.set(i, {0, 0});

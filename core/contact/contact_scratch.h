@@ -29,6 +29,25 @@ struct NodeWalls {
   WallPlane planes[max_planes];
 };
 
+/// A point of a chain: between a node and the next.
+struct RodSpot {
+  int node = 0;
+  double share[2] = {1, 0};  ///< of both
+};
+
+/// Where two strands, or two pieces of one, are near each other.
+struct RodContact {
+  int a = 0, b = 0;  ///< strands
+  RodSpot at_a, at_b;
+  V3<double> normal;          ///< from b to a
+  double radii = 0;           ///< m, of both
+  double stiffness = 0;       ///< N/m
+  double deep = 0;            ///< m, of one in the other, as this round began
+  double push_N = 0;          ///< of each on the other, by what is known
+  bool active = false;        ///< in this round
+  V3<double> seen_a, seen_b;  ///< m: where the points were as this round began
+};
+
 struct ContactScratch {
   std::vector<NodeWalls> walls;  ///< (#nodes)
   Field<1> travel;               ///< m, (#nodes): how far it may go within the walls that were found
@@ -44,6 +63,8 @@ struct ContactScratch {
   // --- descent, at nodes
   Field<3> anchor, ahead;            ///< m: the best point yet of this linearisation; what the last solve leads to
   Field<3> anchor_push, ahead_push;  ///< N: what walls would have to push with for balance there
+  // --- other rods
+  std::vector<double> rod_shares;  ///< (#nodes): of contacts with them
   // --- queries
   std::vector<int> clusters;
 };

@@ -71,7 +71,7 @@ void enter_element(const Rod& rod, const RodInputs& inputs, double step_s, RodSt
       f->set(base, (*f)[old]);
       f->set(old, 0.5 * ((*f)[old] + (*f)[old + 1]));
     }
-  for (Field<3>* f : {&s.contact_force, &s.offset, &s.wall_force})
+  for (Field<3>* f : {&s.contact_force, &s.offset, &s.wall_force, &s.rod_force})
     if (f->size() > 0) f->set(base, Vector3d::Zero());
   for (Field<2>* f : {&s.slip, &s.wall_slip})
     if (f->size() > 0) f->set(base, Eigen::Vector2d::Zero());
@@ -91,7 +91,7 @@ void leave_element(const Rod& rod, RodState& s) {
   for (Field<3>* f : {&s.velocity, &s.velocity_before}) f->set(next, Vector3d::Zero());
   if (s.strain.size() > 0)
     for (Field<3>* f : {&s.strain, &s.strain_before}) f->set(next, (*f)[next - 1]);
-  for (Field<3>* f : {&s.contact_force, &s.offset, &s.wall_force})
+  for (Field<3>* f : {&s.contact_force, &s.offset, &s.wall_force, &s.rod_force})
     if (f->size() > 0) f->set(next, Vector3d::Zero());
   s.first = next;
 }
@@ -117,7 +117,8 @@ void appear(const Rod& rod, const RodInputs& inputs, double step_s, RodState& s)
     for (Field<3>* f : {&s.turn, &s.turn_before, &s.force}) f->set(i, Vector3d::Zero());
     p += length * to_eigen(director3(q));
   }
-  for (Field<3>* f : {&s.contact_force, &s.offset, &s.wall_force}) std::fill(f->raw().begin(), f->raw().end(), 0.0);
+  for (Field<3>* f : {&s.contact_force, &s.offset, &s.wall_force, &s.rod_force})
+    std::fill(f->raw().begin(), f->raw().end(), 0.0);
   for (Field<2>* f : {&s.slip, &s.wall_slip}) std::fill(f->raw().begin(), f->raw().end(), 0.0);
 }
 

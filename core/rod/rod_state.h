@@ -36,6 +36,7 @@ struct RodState {
   Field<2> slip;  ///< m, (#nodes): elastic part of its sliding along that lumen and around in it, see solve/friction.h
   Field<3> wall_force;  ///< N, (#nodes), normal force of the walls on it; empty if there are none
   Field<2> wall_slip;   ///< m, (#nodes): elastic part of its sliding along and around there
+  Field<3> rod_force;   ///< N, (#nodes), of other rods beside it, and its own; empty unless they touch
   EndState base, tip;
 };
 
