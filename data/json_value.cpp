@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+#include <cstdint>
 #include <fstream>
 #include <iterator>
 #include <nlohmann/json.hpp>
@@ -155,6 +157,31 @@ std::string found(const JsonValue& value) {
   return "[" + list + (value.items.size() > 4 ? ", ...]" : "]");
 }
 
+nlohmann::ordered_json plain(const JsonValue& value) {
+  switch (value.type) {
+    case JsonValue::Type::null:
+      return nullptr;
+    case JsonValue::Type::boolean:
+      return value.number != 0;
+    case JsonValue::Type::number:
+      if (value.number == std::rint(value.number) && std::fabs(value.number) < 1e15)
+        return static_cast<std::int64_t>(value.number);
+      return value.number;
+    case JsonValue::Type::text:
+      return value.text;
+    case JsonValue::Type::array: {
+      nlohmann::ordered_json list = nlohmann::ordered_json::array();
+      for (const JsonValue& item : value.items) list.push_back(plain(item));
+      return list;
+    }
+    case JsonValue::Type::object:
+      break;
+  }
+  nlohmann::ordered_json object = nlohmann::ordered_json::object();
+  for (const auto& [name, member] : value.members) object[name] = plain(member);
+  return object;
+}
+
 }  // namespace
 
 const JsonValue* JsonValue::find(const std::string& key) const {
@@ -184,5 +211,7 @@ JsonValue load_json(const std::string& file) {
   if (!stream || !text) throw LoadError(file + ": cannot be read; is it there, and a file with something in it?");
   return parse_json(file, text.str());
 }
+
+std::string to_json(const JsonValue& value) { return plain(value).dump(1) + "\n"; }
 
 }  // namespace ostium

@@ -36,4 +36,7 @@ JsonValue parse_json(const std::string& file, const std::string& text);
 /// The whole file. Throws LoadError also if it cannot be read.
 JsonValue load_json(const std::string& file);
 
+/// As text that `parse_json` makes the same values of; lines, paths and files are not in it.
+std::string to_json(const JsonValue& value);
+
 }  // namespace ostium

@@ -47,7 +47,8 @@ struct ScriptCondition {
   Eigen::Vector3d direction_P = Eigen::Vector3d::Zero();  ///< of tip_points, unit; `value` is the angle
   std::string words;                                      ///< as the file has it, for people: "tip_passes arch"
   bool if_there = false;  ///< of tip_in, tip_leaves: where there is no such place, no tip is in it
-  int line = 0;           ///< where it stands
+  std::string file;       ///< where it stands
+  int line = 0;
 };
 
 enum class ScriptAction {
@@ -105,10 +106,11 @@ struct Script {
   std::vector<ScriptTool> tools;
   std::vector<ScriptLandmark> landmarks;
   std::vector<ScriptStep> steps;
-  std::string source;  ///< the file's text
+  std::string source;  ///< the file's text; where other scripts' steps stand in it, with these written out
 };
 
-/// Throws LoadError with file, line, key, value found and what was expected.
+/// A step { "do": "script", "script": "parts/treat" } stands for the steps of that file, looked for from the folder of
+/// the file that names it. Throws LoadError with file, line, key, value found and what was expected.
 Script read_script(const std::string& file, const std::string& text);
 Script load_script(const std::string& file);
 
@@ -117,6 +119,6 @@ Script find_script(const std::string& name_or_file);
 std::vector<Script> load_scripts();
 
 /// Throws LoadError "FILE:LINE: WHAT".
-[[noreturn]] void refuse(const Script& script, int line, const std::string& what);
+[[noreturn]] void refuse(const ScriptCondition& condition, const std::string& what);
 
 }  // namespace ostium

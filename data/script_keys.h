@@ -25,6 +25,9 @@ inline const JsonObjectKeys landmark = {
 inline const JsonObjectKeys step = {
     "step",
     {{"do", true, "what is done"},
+     {"script", false,
+      "the name of a script without .json, as seen from this one's folder: its steps stand here, with this script's "
+      "tools"},
      {"label", false, "a name of its own, for messages and for \"otherwise\""},
      {"tool", false, "the name of a tool, or a list of those that are moved together"},
      {"speed_mm_s", false, "how fast, in mm/s, > 0 and at most 500"},

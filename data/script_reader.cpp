@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -19,6 +20,8 @@ namespace {
 namespace fs = std::filesystem;
 namespace keys = script_keys;
 constexpr double degree = std::numbers::pi / 180;
+constexpr const char* stands_for_steps = "script";
+constexpr int deepest_script = 4;
 
 /// A condition's kinds, and what brings their value to SI; 0: they have none.
 struct Kind {
@@ -91,6 +94,7 @@ int tool_called(const Script& script, const JsonValue& name) {
 ScriptCondition read_condition(const JsonValue& value, const Script& script, const std::vector<int>& tools) {
   const JsonObject object(value, keys::condition);
   ScriptCondition c;
+  c.file = *value.file;
   c.line = value.line;
   const Kind* found = nullptr;
   for (const Kind& kind : kinds) {
@@ -246,7 +250,9 @@ ScriptStep read_step(const JsonValue& value, const Script& script) {
   step.line = value.line;
   std::vector<std::string> names;
   for (const Needs& action : actions()) names.emplace_back(action.name);
+  names.emplace_back(stands_for_steps);
   const std::size_t action = object.choice("do", names);
+  assert(action < actions().size());  // such are written out by now
   require_keys(object, actions()[action]);
   step.action = static_cast<ScriptAction>(action);
   if (object.has("label")) step.label = object.text("label");
@@ -306,12 +312,53 @@ void read_otherwise(const JsonValue& value, Script& script, ScriptStep& step) {
   step.otherwise = ScriptStep::Otherwise::jump;
 }
 
-Script read(const JsonValue& file, const std::string& source) {
+JsonValue* member(JsonValue& object, const std::string& key) {
+  for (auto& [name, value] : object.members)
+    if (name == key) return &value;
+  return nullptr;
+}
+
+bool has_tool(const JsonObject& script, const std::string& name) {
+  const std::vector<JsonValue>& tools = script.list("tools");
+  return std::any_of(tools.begin(), tools.end(),
+                     [&](const JsonValue& tool) { return JsonObject(tool, keys::tool).text("name") == name; });
+}
+
+/// Puts the steps of other scripts where the file names them; their values keep their own file and line. Returns
+/// whether there were such.
+bool write_out(JsonValue& file, int depth) {
+  const JsonObject root(file, keys::root);
+  if (root.text("schema") != "ostium-script/1") root.refuse("schema");
+  std::vector<JsonValue> steps;
+  bool any = false;
+  for (const JsonValue& value : root.list("steps")) {
+    const JsonValue* action = value.find("do");
+    if (!action || action->text != stands_for_steps) {
+      steps.push_back(value);
+      continue;
+    }
+    const JsonObject step(value, keys::step);
+    require_keys(step, {stands_for_steps, {"script"}, {}});
+    if (depth == deepest_script) value.fail(fmt::format("{}: scripts in scripts deeper than {}", value.path, depth));
+    any = true;
+    JsonValue part = load_json((fs::path(*file.file).parent_path() / (step.text("script") + ".json")).string());
+    write_out(part, depth + 1);
+    for (const JsonValue& tool : JsonObject(part, keys::root).list("tools"))
+      if (const std::string name = JsonObject(tool, keys::tool).text("name"); !has_tool(root, name))
+        value.fail(
+            fmt::format("{}: {} moves a tool \"{}\", and this script has none", value.path, step.text("script"), name));
+    for (JsonValue& one : member(part, "steps")->items) steps.push_back(std::move(one));
+  }
+  if (any) member(file, "steps")->items = std::move(steps);
+  return any;
+}
+
+Script read(JsonValue file, const std::string& text) {
+  const bool has_others = write_out(file, 0);
   const JsonObject root(file, keys::root);
   Script script;
   script.file = *file.file;
-  script.source = source;
-  if (root.text("schema") != "ostium-script/1") root.refuse("schema");
+  script.source = has_others ? to_json(file) : text;
   script.name = root.text("name");
   if (script.name != fs::path(*file.file).stem().string()) root.refuse("name");
   script.title = root.text("title");
@@ -379,8 +426,8 @@ Script find_script(const std::string& name_or_file) {
       fmt::format("there is no script \"{}\"; expected a file NAME.json or one of:{}", name_or_file, names));
 }
 
-void refuse(const Script& script, int line, const std::string& what) {
-  throw LoadError(fmt::format("{}:{}: {}", script.file, line, what));
+void refuse(const ScriptCondition& condition, const std::string& what) {
+  throw LoadError(fmt::format("{}:{}: {}", condition.file, condition.line, what));
 }
 
 }  // namespace ostium

@@ -58,16 +58,16 @@ std::vector<int> places(const Script& script, const std::vector<ScriptCondition>
   for (const ScriptCondition& c : conditions) {
     int place = -1;
     if (needs_patient(c.kind) && !model.has_patient())
-      refuse(script, c.line, c.words + ": a mesh has no circulation; expected a case");
+      refuse(c, c.words + ": a mesh has no circulation; expected a case");
     if (needs_lesion(c.kind) && model.vessel->coronaries->lesions.empty())
-      refuse(script, c.line, c.words + ": this patient has no lesion");
+      refuse(c, c.words + ": this patient has no lesion");
     if (c.kind == ConditionKind::trace) {
       for (int t = 0; t < 5; ++t)
         if (trace_name(static_cast<Trace>(t)) == c.place) place = t;
     } else if (c.kind == ConditionKind::engaged) {
       place = model.physiology.flow.tree.branch(c.place);
       if (place < 0 || model.physiology.flow.tree.branches[static_cast<std::size_t>(place)].parent >= 0)
-        refuse(script, c.line, c.words + ": expected an artery that leaves the aorta, LM or RCA");
+        refuse(c, c.words + ": expected an artery that leaves the aorta, LM or RCA");
       out.push_back(place);
       continue;
     } else if (c.kind == ConditionKind::tip_in || c.kind == ConditionKind::tip_faces) {
@@ -89,14 +89,14 @@ std::vector<int> places(const Script& script, const std::vector<ScriptCondition>
       std::string known;
       for (const std::string& name : way.places()) known += (known.empty() ? "" : ", ") + name;
       for (const ScriptLandmark& landmark : script.landmarks) known += ", " + landmark.name;
-      refuse(script, c.line,
+      refuse(c,
              fmt::format("there is no place \"{}\" in this vessel; expected one of: {}; or with millimetres beyond a "
                          "branch's origin, as RCA+20",
                          c.place, known));
     }
     if (c.kind == ConditionKind::contrast_in) {
       place = cell_at(*model.vessel->coronaries, way, place);
-      if (place < 0) refuse(script, c.line, c.words + ": contrast is looked for in coronary arteries alone");
+      if (place < 0) refuse(c, c.words + ": contrast is looked for in coronary arteries alone");
     }
     out.push_back(place);
   }

@@ -2,6 +2,7 @@
 #include "data/script.h"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
@@ -134,6 +135,74 @@ TEST(Script, TreatsInSiUnits) {
   expect_words(treatment_refusal("\"heparin_U\": 5000", "\"label\": \"x\""), {"gives nothing", "heparin_U"});
   expect_words(treatment_refusal("\"damped\"", "\"wet\""), {"normal, damped, ventricularised"});
   expect_words(treatment_refusal("\"balloon_open\": true", "\"balloon_open\": false"), {"balloon_open is false"});
+}
+
+/// A folder of its own, removed at the end.
+struct Folder {
+  fs::path path = fs::temp_directory_path() / ("ostium-script-" + std::to_string(::getpid()));
+  Folder() { fs::create_directories(path / "parts"); }
+  ~Folder() { fs::remove_all(path); }
+  void write(const std::string& name, const std::string& text) const { std::ofstream(path / name) << text; }
+};
+
+const std::string wire_part = R"({
+  "schema": "ostium-script/1", "name": "up", "title": "A part", "tools": [ { "name": "wire", "instrument": "cook-j" } ],
+  "steps": [
+    { "do": "advance", "label": "up", "tool": "wire", "speed_mm_s": 12.5, "until": [{ "tip_passes": "arch" }] },
+    { "do": "wait", "until": [{ "seconds": 2 }], "otherwise": "up", "tries": 2 }
+  ]
+})";
+
+std::string whole(const std::string& steps) {
+  return R"({ "schema": "ostium-script/1", "name": "whole", "title": "A test", "tools": [
+    { "name": "guide", "instrument": "guide-jr4-6f" }, { "name": "wire", "instrument": "terumo-4f" } ], "steps": [)" +
+         steps + "] }";
+}
+
+TEST(Script, StepsOfAnotherScriptStandWhereItIsNamed) {
+  const Folder folder;
+  folder.write("parts/up.json", wire_part);
+  folder.write("whole.json", whole(R"({ "do": "fluoroscopy", "on": true }, { "do": "script", "script": "parts/up" },
+    { "do": "fluoroscopy", "on": false })"));
+  const Script script = load_script((folder.path / "whole.json").string());
+  ASSERT_EQ(script.steps.size(), 4u);
+  EXPECT_NEAR(script.steps[1].speed_m_s, 0.0125, 1e-15);
+  EXPECT_EQ(script.steps[1].tools, std::vector<int>{1}) << "by its name, in the script that it stands in";
+  EXPECT_EQ(script.tools[1].instrument, "terumo-4f");
+  EXPECT_EQ(script.steps[2].jump_to, 1);
+
+  // What a recording keeps needs no other file, and is the same script.
+  fs::remove(folder.path / "parts/up.json");
+  const Script again = read_script("whole.json", script.source);
+  ASSERT_EQ(again.steps.size(), 4u);
+  EXPECT_EQ(again.steps[1].speed_m_s, script.steps[1].speed_m_s);
+  EXPECT_EQ(again.steps[2].jump_to, 1);
+  EXPECT_EQ(again.source, script.source);
+}
+
+TEST(Script, WhatIsWrongInAnotherScriptIsNamedThere) {
+  const Folder folder;
+  const auto refused = [&](const std::string& part, const std::string& steps) -> std::string {
+    folder.write("parts/up.json", part);
+    try {
+      read_script((folder.path / "whole.json").string(), whole(steps));
+    } catch (const LoadError& error) {
+      return error.what();
+    }
+    return "accepted";
+  };
+  const std::string named = R"({ "do": "script", "script": "parts/up" })";
+  std::string bad = wire_part;
+  bad.replace(bad.find("12.5"), 4, "-1  ");
+  expect_words(refused(bad, named), {"parts/up.json:4:", "speed_mm_s is -1"});
+  bad = wire_part;
+  bad.replace(bad.find("\"wire\", \"inst"), 6, "\"loop\"");
+  expect_words(refused(bad, named), {"whole.json:", "moves a tool \"loop\""});
+  expect_words(refused(wire_part, R"({ "do": "script", "script": "parts/down" })"), {"down.json", "cannot be read"});
+  expect_words(refused(wire_part, R"({ "do": "script" })"), {"script is missing"});
+  bad = wire_part;
+  bad.replace(bad.find("{ \"do\": \"wait\""), 0, R"({ "do": "script", "script": "up" }, )");
+  expect_words(refused(bad, named), {"deeper than"});
 }
 
 TEST(Script, ThoseThatShipLoadAndNameInstrumentsThatThereAre) {
