@@ -9,6 +9,7 @@
 #include <memory>
 
 #include "vascular/mesh.h"
+#include "vascular/ply_whole.h"
 
 namespace ostium {
 
@@ -16,11 +17,27 @@ namespace {
 
 using Corners = std::vector<Eigen::Vector3d>;  // three a triangle
 
+/// Not all of assimp's readers do, and what follows trusts them.
+void check_indices(const std::string& path, const aiScene& scene) {
+  for (unsigned m = 0; m < scene.mNumMeshes; ++m) {
+    const aiMesh& part = *scene.mMeshes[m];
+    for (unsigned f = 0; f < part.mNumFaces; ++f)
+      for (unsigned k = 0; k < part.mFaces[f].mNumIndices; ++k)
+        if (part.mFaces[f].mIndices[k] >= part.mNumVertices)
+          throw MeshError(fmt::format("{}: part {} (\"{}\"), face {} names vertex {} of {}; expected a whole file",
+                                      path, m, part.mName.C_Str(), f, part.mFaces[f].mIndices[k], part.mNumVertices));
+  }
+}
+
 Corners read_corners(const std::string& path, LengthUnit unit, int* skipped = nullptr) {
   if (!std::filesystem::is_regular_file(path)) throw MeshError(path + ": is no file; expected a mesh (OBJ, STL, PLY)");
   Assimp::Importer importer;
   importer.SetPropertyBool(AI_CONFIG_PP_PTV_KEEP_HIERARCHY, false);
-  const aiScene* scene = importer.ReadFile(path, aiProcess_Triangulate | aiProcess_PreTransformVertices);
+  if (std::filesystem::path(path).extension() == ".ply") check_ply_whole(path);
+  const aiScene* scene = importer.ReadFile(path, 0);
+  if (!scene) throw MeshError(fmt::format("{}: cannot be read as a mesh: {}", path, importer.GetErrorString()));
+  check_indices(path, *scene);
+  scene = importer.ApplyPostProcessing(aiProcess_Triangulate | aiProcess_PreTransformVertices);
   if (!scene) throw MeshError(fmt::format("{}: cannot be read as a mesh: {}", path, importer.GetErrorString()));
   Corners corners;
   for (unsigned m = 0; m < scene->mNumMeshes; ++m) {

@@ -15,6 +15,8 @@ constexpr double pinhole_m = 1e-3;        // in diameter
 constexpr std::size_t pinhole_edges = 4;  // or so few edges
 constexpr double end_cosine = 0.6;        // between wall and lid: below, a vessel ends there
 
+constexpr std::size_t most_around = 64;   // triangles of one edge: no wall has more, and pairs take their cube in time
+
 int next_in_triangle(int h) { return h % 3 == 2 ? h - 2 : h + 1; }
 int from_of(const Mesh& mesh, int h) { return mesh.triangles[h / 3][h % 3]; }
 int to_of(const Mesh& mesh, int h) { return mesh.triangles[h / 3][(h + 1) % 3]; }
@@ -30,7 +32,7 @@ void match(const Mesh& mesh, std::vector<int> around, std::vector<int>& opposite
   while (around.size() > 1) {
     std::size_t first = 0, second = 1;
     double flattest = 2;
-    if (around.size() > 2)
+    if (around.size() > 2 && around.size() <= most_around)
       for (std::size_t i = 0; i < around.size(); ++i)
         for (std::size_t j = i + 1; j < around.size(); ++j)
           if (const double cosine = away_from_edge(mesh, around[i]).dot(away_from_edge(mesh, around[j]));
