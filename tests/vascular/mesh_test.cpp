@@ -51,6 +51,53 @@ TEST(Mesh, EveryFormatBringsBackWhatWasWritten) {
   }
 }
 
+/// A corner of a cube, 90 mm, in the metres of glTF.
+const std::string corner_gltf =
+    R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],"nodes":[{"mesh":0}],"meshes":[{"primi)"
+    R"(tives":[{"attributes":{"POSITION":0},"indices":1}]}],"accessors":[{"bufferView":0,"componentType":51)"
+    R"(26,"count":4,"type":"VEC3"},{"bufferView":1,"componentType":5123,"count":12,"type":"SCALAR"}],"buffe)"
+    R"(rViews":[{"buffer":0,"byteLength":48},{"buffer":0,"byteOffset":48,"byteLength":24}],"buffers":[{"byt)"
+    R"(eLength":72,"uri":"data:application/octet-stream;base64,AAAAAAAAAAAAAAAA7FG4PQAAAAAAAAAAAAAAAOxRuD0A)"
+    R"(AAAAAAAAAAAAAADsUbg9AAACAAEAAAABAAMAAQACAAMAAAADAAIA"}]})";
+
+TEST(Mesh, GltfIsReadInItsMetres) {
+  const Mesh mesh = read_mesh(written("corner.gltf", corner_gltf), LengthUnit::metre).mesh;
+  EXPECT_EQ(mesh.vertices.size(), 4u);
+  EXPECT_EQ(mesh.triangles.size(), 4u);
+  EXPECT_NEAR(volume_m3(mesh), 0.09 * 0.09 * 0.09 / 6, 1e-9);
+}
+
+TEST(Mesh, WhatWasCutShortOrBrokenIsRefused) {
+  const std::string ascii =
+      "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\n"
+      "element face 2\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n9 0 0\n0 9 0\n0 0 9\n3 0 1 2\n";
+  EXPECT_NE(refusal(written("cut.ply", ascii)).find("5 of the 6 lines"), std::string::npos);
+  EXPECT_EQ(refusal(written("whole.ply", ascii + "3 0 2 3\n")), "accepted");
+  EXPECT_NE(refusal(written("index.ply", ascii + "3 0 2 77\n")).find("vertex 77 of 4"), std::string::npos);
+  EXPECT_NE(refusal(written("header.ply", ascii.substr(0, 60))).find("is cut short"), std::string::npos);
+  // Binary formats, at any place.
+  for (const char* name : {"binary.ply", "binary.stl"}) {
+    write_mesh(temporary(name), test::sphere(0.01, 6), LengthUnit::millimetre);
+    std::ifstream file(temporary(name), std::ios::binary);
+    const std::string whole((std::istreambuf_iterator<char>(file)), {});
+    EXPECT_EQ(refusal(temporary(name)), "accepted");
+    for (double share : {0.01, 0.3, 0.6, 0.999}) {
+      const std::string cut = whole.substr(0, static_cast<std::size_t>(share * static_cast<double>(whole.size())));
+      EXPECT_NE(refusal(written(std::string("cut_") + name, cut)), "accepted") << name << " " << share;
+    }
+  }
+  EXPECT_NE(refusal(written("zero.stl", std::string(84, '\0'))), "accepted");
+  for (std::size_t length : {0u, 40u, 300u, 500u})
+    EXPECT_NE(refusal(written("cut.gltf", corner_gltf.substr(0, length))), "accepted");
+  for (const char* broken : {"\"bufferView\":1", "\"POSITION\":0", "\"count\":4,"}) {
+    std::string text = corner_gltf;
+    const std::size_t at =
+        text.find(broken) + std::string(broken).size() - (text.find(broken) == text.find("\"count") ? 2 : 1);
+    text[at] = '9';
+    EXPECT_NE(refusal(written("broken.gltf", text)), "accepted") << broken;
+  }
+}
+
 TEST(Mesh, UnitsAreThoseThatAreNamed) {
   write_mesh(temporary("unit.obj"), test::cube(0.02), LengthUnit::millimetre);
   EXPECT_NEAR(volume_m3(read_mesh(temporary("unit.obj"), LengthUnit::centimetre).mesh), 8e-3, 1e-9);

@@ -15,7 +15,7 @@ constexpr double pinhole_m = 1e-3;        // in diameter
 constexpr std::size_t pinhole_edges = 4;  // or so few edges
 constexpr double end_cosine = 0.6;        // between wall and lid: below, a vessel ends there
 
-constexpr std::size_t most_around = 64;   // triangles of one edge: no wall has more, and pairs take their cube in time
+constexpr std::size_t most_around = 64;  // triangles of one edge: no wall has more, and pairs take their cube in time
 
 int next_in_triangle(int h) { return h % 3 == 2 ? h - 2 : h + 1; }
 int from_of(const Mesh& mesh, int h) { return mesh.triangles[h / 3][h % 3]; }
