@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <chrono>
+#include <cstdio>
 #include <nlohmann/json.hpp>
 
 #include "data/load_error.h"
@@ -55,11 +57,18 @@ Checked look_at(const std::string& file, const CheckOptions& options) {
             .wall = {},
             .rough = {},
             .diameters = {}};
-  const auto say = [&](const char* what) {
-    if (isatty(STDERR_FILENO)) fmt::print(stderr, "\r\033[K{}: {}", file, what);
+  const auto start = std::chrono::steady_clock::now();
+  const auto say = [&](const std::string& what) {
+    const double s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    if (isatty(STDERR_FILENO))
+      fmt::print(stderr, "\r\033[K{}{}", what.empty() ? "" : file + ": ", what);
+    else if (s > 1 && !what.empty())
+      fmt::print(stderr, "{:5.1f} s  {}: {}\n", s, file, what);
+    std::fflush(stderr);
   };
   say("reading");
   c.unit = guess_unit(read_mesh(file, LengthUnit::metre, 0).mesh);
+  say("looking for its unit and its faults");
   c.unit_said = options.unit != "auto";
   if (c.unit_said) {
     const double ratio = metres(unit_named(options.unit)) / metres(c.unit.unit);

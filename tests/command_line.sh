@@ -93,6 +93,21 @@ sed 's/9/900000/g' "$folder/whole.obj" >"$folder/huge.obj"
 expect 3 "no unit makes a vessel" "$ostium" import "$folder/huge.obj" -o "$folder/case"
 expect 3 "this is no vessel" "$ostium" import --units mm "$folder/whole.obj" -o "$folder/case"
 expect 3 "cannot be read as a mesh" bash -c "printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\n' > '$folder/none.obj'; '$ostium' import '$folder/none.obj' -o '$folder/case'"
+# A body of revolution with a spout: no vessel, in whatever unit.
+awk 'function row(x, z, r, n,  i) { for (i = 0; i < n; ++i) print "v", x + r * cos(6.2831853 * i / n), r * sin(6.2831853 * i / n), z }
+  function tube(first, rows, n,  i, j, a, b) {
+    for (j = 0; j + 1 < rows; ++j) for (i = 0; i < n; ++i) { a = first + j * n; b = (i + 1) % n
+      print "f", a + i, a + b, a + n + b, a + n + i }
+    printf "f"; for (i = n - 1; i >= 0; --i) printf " %d", first + i; print ""
+    printf "f"; for (i = 0; i < n; ++i) printf " %d", first + (rows - 1) * n + i; print "" }
+  BEGIN { split("12 18 20 19 15 9 3", r); for (j = 1; j <= 7; ++j) row(0, 4 * j, r[j], 24); for (j = 0; j < 4; ++j) row(16 + 5 * j, 12 + 4 * j, 5 - j, 12)
+    tube(1, 7, 24); tube(169, 4, 12) }' >"$folder/teapot.obj"
+expect 3 "this is no vessel" "$ostium" import "$folder/teapot.obj" -o "$folder/case"
+head -c 40 "$folder/teapot.obj" >"$folder/cut.obj"
+expect 3 "cut.obj: cannot be read" "$ostium" import "$folder/cut.obj" -o "$folder/case"
+printf 'ply\nformat ascii 1.0\nelement vertex 3\n' >"$folder/cut.ply"
+expect 3 "is cut short" "$ostium" import "$folder/cut.ply" -o "$folder/case"
+expect 3 "cannot be read" bash -c "printf '{\"asset\":{\"version\":\"2.0\"}' >'$folder/cut.gltf'; '$ostium' check '$folder/cut.gltf'"
 expect 3 "right-handed" "$ostium" import "$folder/whole.obj" --axes LPI -o "$folder/case"
 expect 3 "FOUND=WANTED" "$ostium" import "$folder/whole.obj" --rename x -o "$folder/case"
 expect 3 "BRANCH:FROM" "$ostium" import "$folder/whole.obj" --lesion RCA -o "$folder/case"
