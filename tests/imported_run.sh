@@ -19,7 +19,7 @@ for word in "made a taper" "carried on past a branch" '"sound": true' '"beats": 
   grep -qF -- "$word" "$work/import.json" || { echo "the import lacks $word"; cat "$work/import.json"; exit 1; }
 done
 
-seconds=60
+seconds=90
 [[ ${2:-} != all ]] || seconds=400
 rc=0
 "$ostium" run "$work/case" --script pci-rca-imported --seconds $seconds --record events --out "$work/out" \

@@ -53,7 +53,7 @@ class Recorder {
     std::size_t steps = 0, signal_rows = 0, state_rows = 0;
     std::vector<SessionEvent> events;
   };
-  static constexpr std::size_t slots = 10;  ///< 5 s
+  static constexpr std::size_t slots = 4;  ///< 2 s
 
   Slot& current() { return slots_[filled_.load(std::memory_order_relaxed) % slots]; }
   void put_state(const SessionState& state, const OperatorState& hands);
