@@ -96,6 +96,21 @@ TEST(Surface, AQueryFindsWhatIsNearAtAnyMoment) {
   }
 }
 
+/// Pieces of a step go on where the last one ended, over the end of the cycle, too.
+TEST(Surface, AMotionIsTheSumOfItsParts) {
+  SurfaceMotion whole;
+  whole.frame_before = 23.9, whole.frame_after = 0.1;
+  whole.shift_after_W = Vector3d(0, 0, 1e-3);
+  const SurfaceMotion first = part_of(whole, 24, 0, 0.5), second = part_of(whole, 24, 0.5, 1);
+  EXPECT_EQ(first.frame_before, whole.frame_before);
+  EXPECT_NEAR(first.frame_after, 24, 1e-12);
+  EXPECT_EQ(second.frame_before, first.frame_after);
+  EXPECT_NEAR(second.frame_after, 24.1, 1e-12);
+  EXPECT_EQ(first.shift_before_W, Vector3d::Zero());
+  EXPECT_NEAR(second.shift_after_W.z(), 1e-3, 1e-15);
+  EXPECT_EQ(second.shift_before_W, first.shift_after_W);
+}
+
 /// Vertices that are placed anew are found where they are; placed back, the surface is what it was to the bit.
 TEST(Surface, VerticesArePlacedAnewAndBack) {
   const verify::TestVessel vessel = verify::test_vessel();

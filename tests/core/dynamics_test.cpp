@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "app/verify/steel_wire.h"
+#include "core/rod/inertia.h"
 
 namespace ostium {
 namespace {
@@ -19,6 +20,32 @@ using verify::steel_wire;
 constexpr double pi = std::numbers::pi;
 
 const Section& section(const RodDescription& wire) { return wire.sections[0]; }
+
+/// A swing goes on as it did when some of its steps are halved: the history is that of the new steps.
+TEST(Motion, HalvedStepsGoOnAlike) {
+  const auto swing = [](bool halve) {
+    Bench bench = bench_of(steel_wire({.elements = 100}), false);
+    for (int i = 0; i <= 100; ++i) bench.rod().velocity.set(i, Vector3d(0, 1e-4 * i * i, 0));
+    const auto run = [&](int steps) {
+      for (int n = 0; n < steps; ++n) bench.step();
+      return bench.tip();
+    };
+    run(50);
+    if (halve) {
+      rescale_history(bench.model.rods[0], 0.5, bench.rod());
+      bench.model.step_s /= 2;
+      run(40);
+      bench.model.step_s *= 2;
+      rescale_history(bench.model.rods[0], 2, bench.rod());
+    } else {
+      run(20);
+    }
+    return run(200);
+  };
+  const Vector3d as_ever = swing(false), halved = swing(true);
+  ASSERT_GT(as_ever.y(), 0.05);
+  EXPECT_LT((halved - as_ever).norm(), 0.005 * as_ever.y());
+}
 
 /// Euler-Bernoulli cantilever, first mode: omega = 1.8751^2 sqrt(EI / (rho A L^4)).
 TEST(Motion, FirstBendingFrequencyOfACantilever) {
