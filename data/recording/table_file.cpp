@@ -55,6 +55,13 @@ void begin() {
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
 }
 
+/// Without a lock: somebody who looks into a recording while it is written must not end it.
+hid_t unlocked() {
+  const hid_t access = H5Pcreate(H5P_FILE_ACCESS);
+  H5Pset_file_locking(access, false, true);
+  return access;
+}
+
 hid_t text_type(std::size_t length) {
   const hid_t type = H5Tcopy(H5T_C_S1);
   H5Tset_size(type, length);
@@ -112,7 +119,7 @@ TableFile TableFile::create(const std::string& path) {
   begin();
   auto handle = std::make_unique<Handle>();
   handle->path = path;
-  handle->id = H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
+  handle->id = H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, Id(unlocked(), H5Pclose));
   handle->require(handle->id >= 0, "cannot be written; is its folder there, and the disk not full?");
   return TableFile(std::move(handle));
 }
@@ -125,7 +132,7 @@ TableFile TableFile::open(const std::string& path, bool to_write) {
   if (!std::filesystem::is_regular_file(path, none)) throw LoadError(path + ": there is no such file");
   const htri_t hdf5 = H5Fis_hdf5(path.c_str());
   if (hdf5 == 0) throw LoadError(path + ": is no HDF5 file; expected a recording of `ostium run`");
-  handle->id = H5Fopen(path.c_str(), to_write ? H5F_ACC_RDWR : H5F_ACC_RDONLY, H5P_DEFAULT);
+  handle->id = H5Fopen(path.c_str(), to_write ? H5F_ACC_RDWR : H5F_ACC_RDONLY, Id(unlocked(), H5Pclose));
   handle->require(handle->id >= 0, "is an HDF5 file that cannot be opened: cut short, or damaged");
   return TableFile(std::move(handle));
 }

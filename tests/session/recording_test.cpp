@@ -2,7 +2,9 @@
 /// if they are none.
 #include "data/recording/recording.h"
 
+#include <fcntl.h>
 #include <gtest/gtest.h>
+#include <sys/file.h>
 #include <sys/mman.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
@@ -232,6 +234,17 @@ TEST(Recording, WhatIsNoneIsRefusedByName) {
     EXPECT_NE(refusal(folder("cut.h5")).find("cut short, or damaged"), std::string::npos)
         << part << refusal(folder("cut.h5"));
   }
+}
+
+/// As h5dump, h5py and the like do, who lock what they look into.
+TEST(Recording, GoesOnWhileSomebodyLooksIntoIt) {
+  const Folder folder;
+  { TableFile::create(folder("run.h5")).close(); }
+  const int reader = open(folder("run.h5").c_str(), O_RDONLY);
+  ASSERT_GE(reader, 0);
+  ASSERT_EQ(flock(reader, LOCK_SH), 0);
+  EXPECT_NO_THROW(TableFile::open(folder("run.h5"), true).close());
+  ::close(reader);
 }
 
 TEST(TableFile, BringsBackWhatWasWritten) {
