@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cmath>
 #include <csignal>
 #include <exception>
@@ -291,7 +292,9 @@ int scripts_command(bool json) {
     fmt::print("{}\n", out.dump(2));
     return 0;
   }
-  for (const Script& s : scripts) fmt::print("{:<24} {:>2} steps  {}\n", s.name, s.steps.size(), s.title);
+  std::size_t width = 0;
+  for (const Script& s : scripts) width = std::max(width, s.name.size());
+  for (const Script& s : scripts) fmt::print("{:<{}} {:>2} steps  {}\n", s.name, width, s.steps.size(), s.title);
   return 0;
 }
 
