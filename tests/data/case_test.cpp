@@ -52,6 +52,7 @@ std::string refusal(const std::string& from, const std::string& to) {
 }
 
 TEST(Case, TheTenOfTheProductAreThere) {
+  setenv("OSTIUM_CASES", (testing::TempDir() + "no-cases-of-ones-own").c_str(), 1);
   std::set<std::string> names;
   for (const Case& c : load_cases()) {
     names.insert(c.name);
@@ -65,6 +66,7 @@ TEST(Case, TheTenOfTheProductAreThere) {
     EXPECT_TRUE(names.count(std::string(name) + "-radial")) << name;
   }
   EXPECT_EQ(nlohmann::json::parse(to_json(load_cases())).size(), names.size());
+  unsetenv("OSTIUM_CASES");
 }
 
 TEST(Case, ALesionThatDoesNotFitIsRefusedWithWhatExists) {
