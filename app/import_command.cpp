@@ -23,6 +23,7 @@
 #include "vascular/mend/units.h"
 #include "vascular/patient_frame.h"
 #include "vascular/surface_check.h"
+#include "vascular/written_mesh.h"
 
 namespace ostium {
 
@@ -183,6 +184,7 @@ class Import {
   void recognise_vessels() {
     wanted_.progress = std::ref(progress_);
     found_ = recognise(mended_.lumen, wanted_);
+    found_.lumen = as_written(std::move(found_.lumen), LengthUnit::millimetre);
     const SurfaceReport report = check_surface(found_.lumen);
     if (!report.sound())
       found_.notes.push_back("the lumen is not sound: " + describe(report).substr(0, describe(report).find('\n')));

@@ -10,6 +10,7 @@
 
 #include "vascular/mesh.h"
 #include "vascular/ply_whole.h"
+#include "vascular/written_mesh.h"
 
 namespace ostium {
 
@@ -86,6 +87,8 @@ MeshFile from_corners(const Corners& corners, double weld_m) {
   return file;
 }
 
+Eigen::Vector3f in_file(const Eigen::Vector3d& p, LengthUnit unit) { return (p / metres(unit)).cast<float>(); }
+
 std::string format_id(const std::string& path) {
   const std::string ending = std::filesystem::path(path).extension().string();
   const std::map<std::string, std::string> ids = {{".obj", "objnomtl"}, {".stl", "stlb"}, {".ply", "plyb"}};
@@ -136,6 +139,11 @@ std::vector<Mesh> read_mesh_sequence(const std::vector<std::string>& paths, Leng
   return frames;
 }
 
+Mesh as_written(Mesh mesh, LengthUnit unit) {
+  for (Eigen::Vector3d& p : mesh.vertices) p = metres(unit) * in_file(p, unit).cast<double>();
+  return mesh;
+}
+
 void write_mesh(const std::string& path, const Mesh& mesh, LengthUnit unit) {
   const std::string id = format_id(path);
   aiScene scene;  // owns and deletes all of the following
@@ -151,7 +159,7 @@ void write_mesh(const std::string& path, const Mesh& mesh, LengthUnit unit) {
   out.mNumVertices = static_cast<unsigned>(mesh.vertices.size());
   out.mVertices = new aiVector3D[mesh.vertices.size()];
   for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
-    const Eigen::Vector3f p = (mesh.vertices[i] / metres(unit)).cast<float>();
+    const Eigen::Vector3f p = in_file(mesh.vertices[i], unit);
     out.mVertices[i] = {p.x(), p.y(), p.z()};
   }
   out.mNumFaces = static_cast<unsigned>(mesh.triangles.size());

@@ -11,6 +11,7 @@
 #include "vascular/anatomy/lesion.h"
 #include "vascular/box_tree.h"
 #include "vascular/mend/bridges.h"
+#include "vascular/mend/decimate.h"
 #include "vascular/mend/sheets.h"
 #include "vascular/mend/units.h"
 #include "vascular/mend/winding.h"
@@ -271,6 +272,36 @@ TEST_F(OwnAnatomy, UnitsAreTold) {
       EXPECT_EQ(name_of(guess.unit), name_of(unit));
       EXPECT_TRUE(guess.vessel);
     }
+}
+
+TEST(Decimate, SliversSideBySideGo) {
+  // Triangles of no size, 10 nm and 1 um across, each with six slivers around it, as level sets have them.
+  for (double share : {1e-5, 1e-3}) {
+    Mesh mesh = test::sphere(0.01, 24);
+    const std::size_t whole = mesh.triangles.size();
+    for (std::size_t t = 0; t < whole; t += 5) {
+      const std::array<int, 3> outer = mesh.triangles[t];
+      const Eigen::Vector3d middle = test::middle_of(mesh, outer);
+      const int first = static_cast<int>(mesh.vertices.size());
+      for (int v : outer) mesh.vertices.push_back(middle + share * (mesh.vertices[v] - middle));
+      mesh.triangles[t] = {first, first + 1, first + 2};
+      for (int k = 0; k < 3; ++k) {
+        const int next = (k + 1) % 3;
+        mesh.triangles.push_back({outer[k], outer[next], first + next});
+        mesh.triangles.push_back({outer[k], first + next, first + k});
+      }
+    }
+    ASSERT_TRUE(check_surface(mesh).closed());
+    const double volume = volume_m3(mesh);
+    mesh = decimate(mesh, std::vector<double>(mesh.vertices.size(), 1.5e-3), 20e-6);
+    EXPECT_TRUE(check_surface(mesh).sound());
+    EXPECT_NEAR(volume_m3(mesh) / volume, 1, 0.02);
+    double shortest = 1;
+    for (const auto& t : mesh.triangles)
+      for (int k = 0; k < 3; ++k)
+        shortest = std::min(shortest, (mesh.vertices[t[k]] - mesh.vertices[t[(k + 1) % 3]]).norm());
+    EXPECT_GT(shortest, 20e-6);
+  }
 }
 
 TEST(Mend, WhatHoldsNothingIsRefused) {

@@ -9,6 +9,7 @@
 #include <numbers>
 
 #include "tests/vascular/shapes.h"
+#include "vascular/written_mesh.h"
 
 namespace ostium {
 namespace {
@@ -96,6 +97,16 @@ TEST(Mesh, WhatWasCutShortOrBrokenIsRefused) {
     text[at] = '9';
     EXPECT_NE(refusal(written("broken.gltf", text)), "accepted") << broken;
   }
+}
+
+TEST(Mesh, AsWrittenIsWhatAFileBringsBack) {
+  Mesh mesh = test::sphere(0.0123456789, 8, {0.3, -0.1, 0.7});
+  const std::string path = testing::TempDir() + "ostium_as_written.ply";
+  write_mesh(path, mesh, LengthUnit::millimetre);
+  const Mesh read = read_mesh(path, LengthUnit::millimetre).mesh, said = as_written(mesh, LengthUnit::millimetre);
+  ASSERT_EQ(read.vertices.size(), said.vertices.size());
+  for (std::size_t t = 0; t < said.triangles.size(); ++t)
+    for (int k = 0; k < 3; ++k) EXPECT_EQ(read.vertices[read.triangles[t][k]], said.vertices[said.triangles[t][k]]);
 }
 
 TEST(Mesh, UnitsAreThoseThatAreNamed) {

@@ -5,7 +5,9 @@
 
 namespace ostium {
 
-/// `edge_m[v]`: how long edges at vertex v should become. Closed stays closed; nothing folds.
-Mesh decimate(const Mesh& mesh, const std::vector<double>& edge_m);
+/// `edge_m[v]`: how long edges at vertex v should become. Closed stays closed; nothing folds. Edges shorter than
+/// `chance_m`, within which the mesh does not know where its vertices are, go whatever the triangles beside them
+/// become: a level set has some of no length, and slivers side by side would keep each other.
+Mesh decimate(const Mesh& mesh, const std::vector<double>& edge_m, double chance_m);
 
 }  // namespace ostium

@@ -33,6 +33,10 @@ constexpr int smoothing_rounds = 16;
 constexpr double least_missing_m = 0.8e-3;  // a gap between ends is a missing piece from here on
 constexpr int calibre_stride = 4, most_uncrossings = 12;
 constexpr double longest_edge_m = 2.2e-3;
+constexpr double chance_voxels = 0.05;         // where the level set puts a vertex within these is chance
+constexpr double most_turn = 0 - 1 - 1;        // cosine, of a triangle whose corners go onto the wall
+constexpr double least_height = 0.02 - 1 - 1;  // of a triangle over its longest edge, the same
+constexpr int most_returns = 6;
 constexpr double cell_at_1_mm_m = 0.6e-3;  // as the contour of our own anatomy has it
 
 class Mender {
@@ -267,12 +271,12 @@ class Mender {
   Mesh finished(const Mesh& fine, std::size_t parts) const {
     say("coarsening the surface");
     std::vector<double> edge = wanted_edges(fine);
-    Mesh mesh = decimate(fine, edge);
+    Mesh mesh = decimate(fine, edge, chance_voxels * result_.voxel_m);
     if (mesh.triangles.size() * parts > options_.most_triangles) {
       const double longer =
           std::sqrt(static_cast<double>(mesh.triangles.size() * parts) / static_cast<double>(options_.most_triangles));
       for (double& e : edge) e *= longer;
-      mesh = decimate(fine, edge);
+      mesh = decimate(fine, edge, chance_voxels * result_.voxel_m);
     }
     onto_wall(mesh);
     uncross(mesh);
@@ -285,12 +289,42 @@ class Mender {
     for (const auto& [a, b, c] : mesh.triangles)
       for (int v : {a, b, c})
         normal[v] += (mesh.vertices[b] - mesh.vertices[a]).cross(mesh.vertices[c] - mesh.vertices[a]);
+    std::vector<Eigen::Vector3d> step(mesh.vertices.size(), Eigen::Vector3d::Zero());
     for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
       const BoxTree::Nearest near = wall_tree_->nearest(mesh.vertices[v], result_.voxel_m);
       // Along the normal only: sideways, vertices would come together where the wall has an edge.
       const Eigen::Vector3d out = normal[v].normalized();
-      if (near.triangle >= 0) mesh.vertices[v] += (near.point - mesh.vertices[v]).dot(out) * out;
+      if (near.triangle >= 0) step[v] = (near.point - mesh.vertices[v]).dot(out) * out;
     }
+    // Where a triangle would turn over or go flat, its corners go half as far, and not at all in the end.
+    const std::vector<Eigen::Vector3d> from = mesh.vertices;
+    for (int round = 0; round <= most_returns; ++round) {
+      for (std::size_t v = 0; v < from.size(); ++v) mesh.vertices[v] = from[v] + step[v];
+      std::vector<bool> returns(from.size());
+      bool any = false;
+      for (const auto& t : mesh.triangles) {
+        if (!spoils(t, from, mesh.vertices)) continue;
+        any = true;
+        for (int v : t) returns[v] = true;
+      }
+      if (!any) return;
+      for (std::size_t v = 0; v < from.size(); ++v)
+        if (returns[v]) step[v] *= round + 1 < most_returns ? 0.5 : 0;
+    }
+  }
+
+  static bool spoils(const std::array<int, 3>& t, const std::vector<Eigen::Vector3d>& before,
+                     const std::vector<Eigen::Vector3d>& after) {
+    const auto area = [&](const std::vector<Eigen::Vector3d>& p) {
+      return Eigen::Vector3d((p[t[1]] - p[t[0]]).cross(p[t[2]] - p[t[0]]));
+    };
+    const auto longest2 = [&](const std::vector<Eigen::Vector3d>& p) {
+      return std::max(
+          {(p[t[1]] - p[t[0]]).squaredNorm(), (p[t[2]] - p[t[1]]).squaredNorm(), (p[t[0]] - p[t[2]]).squaredNorm()});
+    };
+    const Eigen::Vector3d was = area(before), is = area(after);
+    const double height = is.norm() / longest2(after), had = was.norm() / longest2(before);
+    return was.dot(is) < most_turn * was.norm() * is.norm() || height < std::min(least_height, 0.5 * had);
   }
 
   /// Where triangles cross, the surface is evened out until they do not.
