@@ -140,7 +140,10 @@ std::vector<Mesh> read_mesh_sequence(const std::vector<std::string>& paths, Leng
 }
 
 Mesh as_written(Mesh mesh, LengthUnit unit) {
-  for (Eigen::Vector3d& p : mesh.vertices) p = metres(unit) * in_file(p, unit).cast<double>();
+  // In two loops: GCC 12.2 at -O3 leaves the rounding of a vertex out where one goes to float and back.
+  std::vector<Eigen::Vector3f> kept;
+  for (const Eigen::Vector3d& p : mesh.vertices) kept.push_back(in_file(p, unit));
+  for (std::size_t v = 0; v < kept.size(); ++v) mesh.vertices[v] = metres(unit) * kept[v].cast<double>();
   return mesh;
 }
 
