@@ -242,6 +242,8 @@ std::vector<GateResult> anatomy_motion(bool) {
       range("anatomy-motion-rca-mean-speed", rca.plane_mean_mm_s, 22.4, 108.6, "mm/s"),
       range("anatomy-motion-rca-fastest-tenth", rca.plane_fastest_mm_s, 22.4, 108.6, "mm/s"),
       range("anatomy-motion-circumflex-mean-speed", lcx.plane_mean_mm_s, 22.4, 108.6, "mm/s"),
+      range("anatomy-motion-left-main-mean-speed", lm.plane_mean_mm_s, 22.4, 108.6, "mm/s"),
+      range("anatomy-motion-lad-mean-speed", lad.plane_mean_mm_s, 22.4, 108.6, "mm/s"),
       row("anatomy-motion-rca-lcx-lm-lad-in-order", in_order, 3, 0, "1"),
       row("anatomy-motion-fastest-fifth-from", 10 * fastest, 0, 0, "% RR"),
       row("anatomy-motion-slowest-fifth-from", 10 * slowest, 30, 0, "% RR"),

@@ -9,11 +9,15 @@ namespace {
 
 constexpr double mm = 1e-3;
 constexpr double lateral_descent = 16.0 * mm;  // of the left groove
-constexpr double right_surplus = 0.60;         // of the right groove over it: 26 mm
+constexpr double right_surplus = 0.30;         // of the right groove over it: 21 mm
 constexpr double degree = 3.14159265358979323846 / 180;
 constexpr double base_twist = -2 * degree, apex_twist = 8 * degree;  // counter-clockwise as seen from the apex
 constexpr double root_descent = 7.5 * mm;
+constexpr double root_share = 0.8;  // of the whole heart's shift
 constexpr double root_radius = 17 * mm, root_influence = 45 * mm;
+
+/// Of the heart as a whole, to the left and forward.
+const Eigen::Vector3d whole_shift(4.2 * mm, 0, 1.5 * mm);
 
 /// Towards the axis, by fraction of the axis from the base.
 double radial_contraction(double s) {
@@ -33,7 +37,7 @@ double smooth_step(double low, double high, double x) {
 }
 
 Eigen::Vector3d HeartMotion::root_displacement() const {
-  return root_descent * (marks_.p_lv_apex - marks_.p_lv_base).normalized();
+  return root_descent * (marks_.p_lv_apex - marks_.p_lv_base).normalized() + root_share * whole_shift;
 }
 
 Eigen::Vector3d HeartMotion::displacement(const Eigen::Vector3d& p) const {
@@ -52,7 +56,7 @@ Eigen::Vector3d HeartMotion::displacement(const Eigen::Vector3d& p) const {
   // Seen from the apex, that is, against `along`.
   const double twist = base_twist + (apex_twist - base_twist) * std::clamp(s, 0.0, 1.0);
   const Eigen::Vector3d sideways = above * twist * across.cross(along);
-  const Eigen::Vector3d of_wall = axial * along - inwards * outwards + sideways;
+  const Eigen::Vector3d of_wall = axial * along - inwards * outwards + sideways + above * whole_shift;
 
   // Near the root its own motion takes over.
   const double height = std::clamp((p - marks_.p_annulus).dot(marks_.root_axis), 0.0, 25 * mm);
