@@ -4,8 +4,8 @@
 /// Amplitudes: the mean left ventricle of 2,291 people at end-diastole and end-systole (Cardiac Atlas Project, clinical
 /// cohorts), by fraction of the axis, with the apex at rest: the groove moves 10.6 mm towards the apex, the wall 3.8
 /// to 1.4 mm towards the axis. From memory, to be verified: the lateral groove 12 to 16 mm (MAPSE), the right one 20 to
-/// 25 mm (TAPSE), a twist of 8 to 14 degrees. The atlas does not say how the heart moves as a whole: it is shifted by as
-/// much as left main and LAD need to be as fast as in electron beam CT (Mao 2000), its direction is an estimate.
+/// 25 mm (TAPSE), a twist of 8 to 14 degrees. The atlas does not say how the heart moves as a whole: it is shifted by
+/// as much as left main and LAD need to be as fast as in electron beam CT (Mao 2000), its direction is an estimate.
 #include "vascular/anatomy/anatomy.h"
 
 namespace ostium {
