@@ -23,9 +23,11 @@ for name in "${names[@]}"; do
   deepest_mm=$(sed -n 's/.*deepest in the wall \([0-9.]*\) mm.*/\1/p' "$work/run.txt")
   awk -v d="$deepest_mm" 'BEGIN { exit !(d <= 0.05) }' || { echo "$deepest_mm mm deep, 0.05 allowed"; exit 1; }
   if [[ -n $picture ]]; then
-    for second in 15 25 33 50; do
+    length_s=$(sed -n '2s/ s simulated.*//p' "$work/run.txt")
+    for part in 0.35 0.5 0.65 0.8; do
+      second=$(awk -v l="$length_s" -v p=$part 'BEGIN { printf "%.3f", l * p }')
       "$ostium" replay "$run/run.h5" --from $second --lao 45 --cran 0 --field 300 --table -40 40 -30 --plain \
-        --png "$work/$name-$second.png" >/dev/null
+        --png "$work/$name-$part.png" >/dev/null
     done
   fi
 done

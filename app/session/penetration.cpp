@@ -17,7 +17,7 @@ struct Ball {
   Vector3d p;
   double radius_m;
   double distance_m;
-  bool is_tip;
+  bool is_tip, is_covered;
 };
 
 constexpr double cell_m = 5e-3;
@@ -37,6 +37,16 @@ Cell cell_of(const Vector3d& p) {
   return {n(p.x()), n(p.y()), n(p.z())};
 }
 
+/// Whether an outer instrument's lumen holds what of `rod` is `from_tip_m` behind its tip.
+bool is_covered(const SessionModel& model, const SessionState& state, int rod, double from_tip_m) {
+  const std::vector<RodState>& rods = state.rods.rods;
+  const double inserted_m = rods[rod].inserted_m - from_tip_m;
+  return std::any_of(model.rods.nestings.begin(), model.rods.nestings.end(), [&](const Nesting& n) {
+    const double behind_m = rods[n.outer].inserted_m - inserted_m;
+    return n.inner == rod && in_body(model.rods.rods[n.outer], rods[n.outer]) && behind_m > 0 && behind_m <= n.lumen_m;
+  });
+}
+
 std::vector<Ball> balls_of(const SessionModel& model, const SessionState& state) {
   std::vector<Ball> balls;
   for (std::size_t r = 0; r < model.tools.size(); ++r) {
@@ -44,7 +54,8 @@ std::vector<Ball> balls_of(const SessionModel& model, const SessionState& state)
     if (!in_body(rod, state.rods.rods[r])) continue;
     for (int i = first_element(state.rods.rods[r]) + 1; i < rod.nodes(); ++i) {
       const double radius = rod.radius.at(0)[i];
-      balls.push_back({state.rods.rods[r].position[i], radius, 1.5 * radius, i + 1 == rod.nodes()});
+      balls.push_back({state.rods.rods[r].position[i], radius, 1.5 * radius, i + 1 == rod.nodes(),
+                       is_covered(model, state, static_cast<int>(r), rod.node_from_tip_m[i])});
     }
   }
   return balls;
@@ -92,7 +103,7 @@ Penetration penetration(const SessionModel& model, const SessionState& state) {
   Penetration out;
   for (const Ball& ball : balls) {
     const double depth = ball.radius_m - ball.distance_m;
-    out.deepest_m = std::max(out.deepest_m, depth);
+    if (!ball.is_covered) out.deepest_m = std::max(out.deepest_m, depth);
     if ((ball.is_tip || depth > 0.5 * ball.radius_m) && winding(vertices, wall, ball.p) < 0.5) ++out.outside;
   }
   return out;

@@ -5,7 +5,7 @@
 namespace ostium {
 
 struct Penetration {
-  double deepest_m = 0;  ///< that a node's ball is in the wall
+  double deepest_m = 0;  ///< that a node's ball is in the wall; of nodes that lie in no other instrument
   int outside = 0;       ///< nodes, of those looked at, that the winding number finds outside
 };
 
