@@ -56,6 +56,15 @@ Anchor settled(const Setup& setup, const Anchor* before) {
   return anchor;
 }
 
+/// As many elements are not enough: a state knows how long its rod is.
+bool same_elements(const Concentric& a, const Concentric& b) {
+  const Rod &x = a.carrier.rods[0], &y = b.carrier.rods[0];
+  if (x.elements != y.elements) return false;
+  for (int j = 0; j < x.elements; ++j)
+    if (x.length.at(0)[j] != y.length.at(0)[j]) return false;
+  return true;
+}
+
 /// Points up to `length` along the curve.
 std::vector<Vector3d> cut_at(const std::vector<Vector3d>& points, double length) {
   std::vector<Vector3d> out = {points.front()};
@@ -81,9 +90,8 @@ Shape shape_from(const Setup& setup, const Anchor& anchor) {
 Shape shape_from(const Setup& setup, const Anchor& anchor, Anchor& end) {
   end.nest = make_concentric(setup.nest, setup.gravity_m_s2);
   const Concentric& nest = end.nest;
-  ConcentricState& state = end.state = nest.carrier.rods[0].elements == anchor.nest.carrier.rods[0].elements
-                                           ? anchor.state
-                                           : carried_over(nest, setup.base, anchor.nest, anchor.state);
+  ConcentricState& state = end.state =
+      same_elements(nest, anchor.nest) ? anchor.state : carried_over(nest, setup.base, anchor.nest, anchor.state);
   const ConcentricEquilibrium found = find_equilibrium(nest, setup.base, setup.tip_force_N, state);
   end.converged = found.converged;
   Shape shape;
