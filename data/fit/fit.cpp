@@ -33,6 +33,8 @@ Shape unpacked(const std::vector<double>& in) {
 
 constexpr double rough_tolerance = 1e-5;
 constexpr int rough_iterations = 25;
+constexpr std::size_t tasted = 3;  // of each sort of starts
+constexpr int taste_iterations = 4;
 
 /// Behind what `out` has: how many numbers, and these.
 void append(const Shape& shape, std::vector<double>& out) {
@@ -152,20 +154,45 @@ class Problem {
   int rows_ = 0;
 };
 
-/// Screens the starts by what they cost, and goes downhill from the best `most` of them.
-LeastSquaresResult best_of(const Problem& problem, const std::vector<VectorXd>& starts, std::size_t most, bool rough) {
-  std::vector<std::pair<double, std::size_t>> costs;
-  for (std::size_t i = 0; i < starts.size(); ++i) {
+/// A point and what it costs there.
+using Start = std::pair<double, VectorXd>;
+
+/// The starts by what they cost, those that have no shapes left out.
+std::vector<Start> screened(const Problem& problem, const std::vector<VectorXd>& starts) {
+  std::vector<Start> out;
+  for (const VectorXd& start : starts) {
+    const VectorXd x = problem.least_squares(start).start;
     VectorXd r;
-    if (problem.evaluate(problem.least_squares(starts[i]).start, r, nullptr)) costs.emplace_back(r.squaredNorm(), i);
+    if (problem.evaluate(x, r, nullptr)) out.emplace_back(r.squaredNorm() / 2, x);
   }
-  if (costs.empty()) throw std::runtime_error("no static shape was found at the parameters a fit starts from");
-  std::sort(costs.begin(), costs.end());
+  std::stable_sort(out.begin(), out.end(), [](const Start& a, const Start& b) { return a.first < b.first; });
+  return out;
+}
+
+LeastSquaresResult descend(const Problem& problem, const VectorXd& start, bool rough, int most_iterations) {
+  LeastSquares descent = problem.least_squares(start);
+  if (rough) descent.tolerance = rough_tolerance, descent.most_iterations = most_iterations;
+  return minimise(descent);
+}
+
+/// Screens the starts by what they cost, and goes downhill from the best.
+LeastSquaresResult best_of(const Problem& problem, const FitOptions& options, const std::vector<VectorXd>& starts,
+                           const std::vector<VectorXd>& other_starts) {
+  std::vector<Start> from = screened(problem, starts);
+  if (!other_starts.empty()) {
+    std::vector<Start> ahead;
+    for (const std::vector<Start>& sort : {from, screened(problem, other_starts)})
+      for (std::size_t k = 0; k < std::min(tasted, sort.size()); ++k) {
+        const LeastSquaresResult a_few_steps_on = descend(problem, sort[k].second, true, taste_iterations);
+        ahead.emplace_back(a_few_steps_on.cost, a_few_steps_on.x);
+      }
+    from = ahead;
+    std::stable_sort(from.begin(), from.end(), [](const Start& a, const Start& b) { return a.first < b.first; });
+  }
+  if (from.empty()) throw std::runtime_error("no static shape was found at the parameters a fit starts from");
   std::optional<LeastSquaresResult> best;
-  for (std::size_t k = 0; k < std::min(costs.size(), most); ++k) {
-    LeastSquares descent = problem.least_squares(starts[costs[k].second]);
-    if (rough) descent.tolerance = rough_tolerance, descent.most_iterations = rough_iterations;
-    const LeastSquaresResult found = minimise(descent);
+  for (std::size_t k = 0; k < std::min(from.size(), options.descents); ++k) {
+    const LeastSquaresResult found = descend(problem, from[k].second, options.rough, rough_iterations);
     if (!best || found.cost < best->cost * (1 - 1e-9)) best = found;
   }
   return *best;
@@ -185,7 +212,7 @@ std::vector<std::vector<Shape>> Forward::shapes(const std::vector<Changes>& chan
     for (const Changes& changed : changes) {
       Shape shape;
       try {
-        const Setup setup = setup_of(set_, set_.experiments[e], changed);
+        const Setup setup = setup_of(set_, set_.experiments[e], changed, longest_element_m_);
         if (&changed == &changes.front())
           shape = shape_from(setup, anchors_[e], first);
         else
@@ -226,13 +253,13 @@ double Fit::informed(int i) const {
 Fit fit(const Forward& forward, const Parameters& parameters, const FitOptions& options) {
   Fit out;
   for (int e : options.experiments) out.measured += static_cast<double>(numbers_measured(forward.set().experiments[e]));
-  std::vector<VectorXd> starts = options.starts;
+  std::vector<VectorXd> starts = options.starts, other_starts = options.other_starts;
   // Without a known noise, that of the residuals; the weight of the priors follows it, so a few times over.
   double sigma = options.sigma_m.value_or(options.guess_m);
   const int rounds = options.sigma_m ? 1 : options.rounds;
   for (int round = 0; round < rounds; ++round) {
     const Problem problem(forward, parameters, options.experiments, sigma, options.rough);
-    const LeastSquaresResult found = best_of(problem, starts, options.descents, options.rough);
+    const LeastSquaresResult found = best_of(problem, options, starts, other_starts);
     VectorXd r;
     MatrixXd J;
     if (!problem.evaluate(found.x, r, &J)) throw std::runtime_error("no static shape was found where a fit ended");
@@ -244,7 +271,7 @@ Fit fit(const Forward& forward, const Parameters& parameters, const FitOptions& 
     out.converged = found.converged;
     out.x = found.x;
     out.sigma_m = sigma;
-    starts = {found.x};
+    starts = {found.x}, other_starts.clear();
     if (round + 1 < rounds) sigma = std::max(sigma * std::sqrt(out.chi2 / out.degrees_of_freedom()), 1e-9);
   }
   out.prior_sigma.resize(parameters.size());

@@ -13,6 +13,7 @@ class Forward {
       : set_(set), workers_(workers), anchors_(std::move(anchors)) {}
 
   const MeasurementSet& set() const { return set_; }
+  void set_longest_element(double longest_m) { longest_element_m_ = longest_m; }
   /// shapes[v][k]: of experiment chosen[k] under changes[v].
   std::vector<std::vector<Shape>> shapes(const std::vector<Changes>& changes, const std::vector<int>& chosen) const;
 
@@ -22,6 +23,7 @@ class Forward {
   const MeasurementSet& set_;
   const Workers& workers_;
   std::vector<Anchor> anchors_;
+  double longest_element_m_ = fine_elements_m;
 };
 
 struct Fit {
@@ -44,9 +46,12 @@ struct FitOptions {
   std::optional<double> sigma_m;        ///< of the noise; none: taken from what the fit leaves
   std::vector<Eigen::VectorXd> starts;  ///< where to begin
   std::size_t descents = 1;             ///< from so many of the starts, those that cost least; the best end counts
-  double guess_m = 1e-3;                ///< of an unknown noise
-  int rounds = 4;                       ///< of finding it
-  bool rough = false;                   ///< enough to compare models by, in a fraction of the time
+  /// Other places to begin at, from somewhere else. Of each sort the foremost go a few steps downhill before they are
+  /// compared, so that starts near a valley that leads nowhere do not crowd out the others.
+  std::vector<Eigen::VectorXd> other_starts = {};
+  double guess_m = 1e-3;  ///< of an unknown noise
+  int rounds = 4;         ///< of finding it
+  bool rough = false;     ///< enough to compare models by, in a fraction of the time
 };
 
 /// Throws std::runtime_error if the model has no shapes at any start.

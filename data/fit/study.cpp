@@ -18,6 +18,7 @@ using Eigen::VectorXd;
 
 constexpr int further_starts = 7;
 constexpr std::size_t descents = 2;
+constexpr int starts_for_each = 12;          // at most, of what is added
 constexpr double another_branch_m = 0.1e-3;  // tips further apart than this are on other branches
 
 std::vector<int> everyone(const MeasurementSet& set) {
@@ -67,6 +68,7 @@ void Study::say(const std::string& what) const {
 }
 
 FittedModel Study::run(std::optional<double> noise_m) {
+  longest_element_m_ = fine_elements_m;
   say("walking through the experiments");
   anchor(parameters_.start());
   say("fit");
@@ -88,6 +90,7 @@ FittedModel Study::run(std::optional<double> noise_m) {
 
 FittedModel Study::run_near(const FittedModel& near, std::optional<double> noise_m, double guess_m, int starts) {
   say("fit");
+  longest_element_m_ = coarse_elements_m;
   VectorXd x = parameters_.start();
   for (int i = 0; i < parameters_.size(); ++i)
     for (const FittedParameter& p : near.parameters)
@@ -100,10 +103,10 @@ FittedModel Study::run_near(const FittedModel& near, std::optional<double> noise
                        [&](const FittedParameter& p) { return p.parameter.name == parameters_.list()[i].name; });
   };
   while (first < parameters_.shape_parameters() && known(first)) ++first;
-  FitOptions options{all_, noise_m, starts_of(parameters_, x, first, starts), descents};
+  const int spread = std::min(starts, starts_for_each * (parameters_.shape_parameters() - first));
+  FitOptions options{all_, noise_m, starts_of(parameters_, x, first, spread), descents};
   // Without what it lacks, the other model's stiffness may have gone far astray.
-  for (const VectorXd& start : starts_of(parameters_, parameters_.start(), first, starts / 2))
-    options.starts.push_back(start);
+  if (starts > 0) options.other_starts = starts_of(parameters_, parameters_.start(), first, spread / 2);
   options.guess_m = guess_m, options.rounds = 2, options.rough = true;
   fit_ = fit(*forward_, parameters_, options);
   const std::vector<std::string> others = on_other_branches();
@@ -117,6 +120,8 @@ FittedModel Study::run_near(const FittedModel& near, std::optional<double> noise
 }
 
 void Study::complete(FittedModel& model, std::optional<double> noise_m) {
+  longest_element_m_ = fine_elements_m;
+  forward_->set_longest_element(longest_element_m_);
   FitOptions options{all_, noise_m, {fit_.x}, 1};
   options.guess_m = fit_.sigma_m, options.rounds = 2;
   fit_ = fit(*forward_, parameters_, options);
@@ -163,12 +168,13 @@ void Study::anchor(const VectorXd& x) {
     viewed_ = true;
     return;
   }
-  std::vector<Anchor> anchors = walk(set_, parameters_.changes(x));
+  std::vector<Anchor> anchors = walk(set_, parameters_.changes(x), {}, longest_element_m_);
   for (std::size_t e = 0; e < anchors.size(); ++e)
     if (!anchors[e].converged)
       throw LoadError(fmt::format("{}: {} (\"{}\"): no static shape was found; is its load more than it can bear?",
                                   set_.file, set_.experiments[e].place, set_.experiments[e].id));
   forward_.emplace(set_, workers_, std::move(anchors));
+  forward_->set_longest_element(longest_element_m_);
   if (viewed_) return;
   viewed_ = true;
   parameters_.set_nominal_view(registered(set_, forward_->shapes({parameters_.changes(x)}, all_)[0]));

@@ -45,6 +45,7 @@ class Study {
   std::string name_;
   std::function<void(const std::string&)> progress_;
   std::optional<Forward> forward_;
+  double longest_element_m_ = fine_elements_m;
   bool viewed_ = false;
   Fit fit_;
 };

@@ -73,14 +73,16 @@ std::vector<Trace> traces(const MeasurementSet& set, const Workers& workers, con
                                    [](const Experiment& e) { return e.kind == Experiment::Kind::radius; });
     if (radii && field.effect == &lateral_force_field()) continue;
     std::optional<Trace> best;
-    for (const double spread : {0.25, 1.0, 4.0}) {
+    FittedModel from = near;
+    for (const double spread : {1.0, 0.25, 4.0}) {  // each from where the one before it ended
       Study study(set, workers, {active(*field.effect, set, {}, {"", {}})}, progress, spread);
       FittedModel model;
       try {
-        model = study.run_near(near, noise.sigma_m ? *noise.sigma_m : near.rms_m / std::sqrt(3.0), 0, 0);
+        model = study.run_near(from, noise.sigma_m ? *noise.sigma_m : near.rms_m / std::sqrt(3.0), 0, 0);
       } catch (const std::runtime_error&) {
         continue;
       }
+      from = model;
       Trace trace;
       trace.frame = field.frame, trace.what = field.what;
       trace.log_evidence = study.log_evidence();

@@ -24,10 +24,11 @@ Eigen::VectorXd misfit(const Experiment& e, const Shape& shape, const MeasuredVi
   if (e.kind == Experiment::Kind::tip) return e.points_m[0] - tracked_tip(shape, view);
   Eigen::VectorXd off(3 * e.points_m.size());
   const Eigen::Matrix3d back = view.A.inverse();
-  for (std::size_t i = 0; i < e.points_m.size(); ++i) {
-    const Eigen::Vector3d p = view.R.conjugate() * (back * (e.points_m[i] - view.b_m) - view.t_m);
-    off.segment<3>(3 * static_cast<Eigen::Index>(i)) = view.A * (view.R * (p - nearest_point(shape.points_m, p)));
-  }
+  std::vector<Eigen::Vector3d> points;
+  for (const Eigen::Vector3d& p : e.points_m) points.push_back(view.R.conjugate() * (back * (p - view.b_m) - view.t_m));
+  const std::vector<Eigen::Vector3d> nearest = nearest_points(shape.points_m, points);
+  for (std::size_t i = 0; i < points.size(); ++i)
+    off.segment<3>(3 * static_cast<Eigen::Index>(i)) = view.A * (view.R * (points[i] - nearest[i]));
   return off;
 }
 

@@ -6,9 +6,8 @@ namespace ostium {
 
 namespace {
 
-/// 1.5 mm is half a micrometre from a boundary-value solution on tubes; 0.08 rad bends a chord off its arc by a
-/// hundredth of its length.
-constexpr double longest_element_m = 1.5e-3, longest_element_rad = 0.08;
+/// 0.08 rad bends a chord off its arc by a hundredth of its length.
+constexpr double longest_element_rad = 0.08;
 
 ConcentricPart part_of(const MeasurementSet& set, const Experiment& e, std::size_t i, const Changes& changes) {
   ConcentricPart part{set.instruments[i].sections, e.set[i].inserted_m, e.set[i].roll_rad, 0};
@@ -31,7 +30,8 @@ std::string ActiveEffect::name() const {
   return form.empty() ? out : out + " (" + form + ")";
 }
 
-Setup setup_of(const MeasurementSet& set, const Experiment& experiment, const Changes& changes) {
+Setup setup_of(const MeasurementSet& set, const Experiment& experiment, const Changes& changes,
+               double longest_element_m) {
   Setup setup;
   setup.nest.name = experiment.id;
   for (std::size_t i = 0; i < set.instruments.size(); ++i)

@@ -107,11 +107,11 @@ Shape shape_from(const Setup& setup, const Anchor& anchor, Anchor& end) {
 }
 
 std::vector<Anchor> walk(const MeasurementSet& set, const Changes& changes,
-                         const std::function<void(std::size_t, std::size_t)>& progress) {
+                         const std::function<void(std::size_t, std::size_t)>& progress, double longest_element_m) {
   std::vector<Anchor> anchors;
   std::optional<Setup> before;
   for (const Experiment& e : set.experiments) {
-    const Setup setup = setup_of(set, e, changes);
+    const Setup setup = setup_of(set, e, changes, longest_element_m);
     std::optional<Anchor> on_the_way;
     if (before && anchors.back().converged) {
       on_the_way = anchors.back();
@@ -128,21 +128,42 @@ std::vector<Anchor> walk(const MeasurementSet& set, const Changes& changes,
   return anchors;
 }
 
-Vector3d nearest_point(const std::vector<Vector3d>& curve, const Vector3d& p) {
-  Vector3d best = curve.front();
-  double least = std::numeric_limits<double>::infinity();
+Vector3d nearest_point(const std::vector<Vector3d>& curve, const Vector3d& p) { return nearest_points(curve, {p})[0]; }
+
+std::vector<Vector3d> nearest_points(const std::vector<Vector3d>& curve, const std::vector<Vector3d>& many) {
   const std::size_t last = curve.size() - 2;
-  for (std::size_t i = 0; i <= last; ++i) {
-    const Vector3d edge = curve[i + 1] - curve[i];
-    double t = (p - curve[i]).dot(edge) / edge.squaredNorm();
-    if (i > 0) t = std::max(t, 0.0);
-    if (i < last) t = std::min(t, 1.0);
-    const Vector3d q = curve[i] + t * edge;
-    if ((p - q).squaredNorm() >= least) continue;
-    least = (p - q).squaredNorm();
-    best = q;
+  double longest_edge = 0;
+  for (std::size_t i = 0; i <= last; ++i) longest_edge = std::max(longest_edge, (curve[i + 1] - curve[i]).norm());
+  std::vector<Vector3d> out;
+  std::size_t guess = 0;
+  for (const Vector3d& p : many) {
+    Vector3d best = curve.front();
+    double least = std::numeric_limits<double>::infinity();
+    std::size_t found = guess;
+    const auto look_at = [&](std::size_t i) {
+      const Vector3d edge = curve[i + 1] - curve[i];
+      double t = (p - curve[i]).dot(edge) / edge.squaredNorm();
+      if (i > 0) t = std::max(t, 0.0);
+      if (i < last) t = std::min(t, 1.0);
+      const Vector3d q = curve[i] + t * edge;
+      const double distance = (p - q).norm();
+      if (distance < least) least = distance, best = q, found = i;
+    };
+    // What lies near where the last one was bounds the rest: from a node so far off, none of the next edges can come
+    // as near. The first and the last edge go on for ever.
+    look_at(0), look_at(last), look_at(guess);
+    for (std::size_t i = 1; i < last;) {
+      const double spare = (p - curve[i]).norm() - least;
+      if (spare > longest_edge) {
+        i += static_cast<std::size_t>(spare / longest_edge);
+        continue;
+      }
+      look_at(i++);
+    }
+    out.push_back(best);
+    guess = found;
   }
-  return best;
+  return out;
 }
 
 double radius_of_curvature(const std::vector<Vector3d>& curve) {
