@@ -90,6 +90,22 @@ TEST(Prediction, ContinuesFromTheExperimentBefore) {
   EXPECT_GT((forwards[1].shape.points_m.back() - backwards[1].shape.points_m.back()).norm(), 5e-3);
 }
 
+/// From another that has as many elements, only longer ones.
+TEST(Prediction, AShapeThatContinuesFromAnotherInsertionHasItsOwnLength) {
+  MeasurementSet set = through_file(synthetic::free_wire(1));
+  const std::vector<Anchor> before = walk(set, {});
+  set.experiments[0].set[0].inserted_m *= 0.9999;
+  const ostium::Setup setup = setup_of(set, set.experiments[0], {});
+  const Anchor straight_there = walk(set, {})[0];
+  ASSERT_EQ(before[0].nest.carrier.rods[0].elements, straight_there.nest.carrier.rods[0].elements);
+  const Shape continued = shape_from(setup, before[0]), own = shape_from(setup, straight_there);
+  EXPECT_LT((continued.points_m.back() - own.points_m.back()).norm(), 1e-9);
+  double length = 0;
+  for (std::size_t i = 1; i < continued.points_m.size(); ++i)
+    length += (continued.points_m[i] - continued.points_m[i - 1]).norm();
+  EXPECT_NEAR(length, set.experiments[0].set[0].inserted_m, 1e-9);
+}
+
 /// Of an aligned pair, by hand: (E1 I1 k1 + E2 I2 k2) / (E1 I1 + E2 I2), with the curvature of the specimen at hand.
 TEST(Prediction, RadiusOfAPairIsThatOfACompositeBeam) {
   MeasurementSet set = synthetic::two_tubes(1);
@@ -142,6 +158,23 @@ TEST(Shape, RadiusOfAnArcAndDistancesBeyondTheEnds) {
   EXPECT_LT((nearest_point(line, {0.01, 0, 0.5}) - Vector3d(0, 0, 0.5)).norm(), 1e-12);
   EXPECT_LT((nearest_point(line, {0.01, 0, -0.5}) - Vector3d(0, 0, -0.5)).norm(), 1e-12);
   EXPECT_LT((nearest_point(line, {0.01, 0, 0.05}) - Vector3d(0, 0, 0.05)).norm(), 1e-12);
+  // Of many at once, on a coil, against a search through all edges.
+  std::vector<Vector3d> coil, many;
+  for (int i = 0; i <= 200; ++i) coil.emplace_back(0.02 * std::cos(0.1 * i), 0.02 * std::sin(0.1 * i), 1e-4 * i);
+  for (int i = 0; i < 50; ++i)
+    many.emplace_back(0.03 * std::sin(1.7 * i), 0.03 * std::cos(2.3 * i), 1e-2 + 0.02 * std::sin(3.1 * i));
+  const std::vector<Vector3d> found = nearest_points(coil, many);
+  for (std::size_t k = 0; k < many.size(); ++k) {
+    double least = 1e9;
+    for (std::size_t i = 0; i + 1 < coil.size(); ++i) {
+      const Vector3d edge = coil[i + 1] - coil[i];
+      double t = (many[k] - coil[i]).dot(edge) / edge.squaredNorm();
+      if (i > 0) t = std::max(t, 0.0);
+      if (i + 2 < coil.size()) t = std::min(t, 1.0);
+      least = std::min(least, (many[k] - coil[i] - t * edge).norm());
+    }
+    EXPECT_NEAR((many[k] - found[k]).norm(), least, 1e-12);
+  }
 }
 
 }  // namespace
