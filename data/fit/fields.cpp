@@ -64,14 +64,15 @@ void distort(const ActiveEffect& field, const MeasurementSet& set, const Experim
   view.A = A * view.A;
 }
 
-/// -1/2 to 1/2 from the first experiment to the last, or from the shortest time in position to the longest.
+/// 0 to 1 from the first experiment to the last, or from the shortest time in position to the longest: what changes was
+/// as declared in the beginning.
 double time_of(const MeasurementSet& set, const Experiment& e) {
   double least = 1e300, most = -1e300;
   for (const Experiment& x : set.experiments)
     if (x.elapsed_s) least = std::min(least, std::log1p(*x.elapsed_s)), most = std::max(most, std::log1p(*x.elapsed_s));
-  if (most > least) return (std::log1p(e.elapsed_s.value_or(0)) - least) / (most - least) - 0.5;
+  if (most > least) return (std::log1p(e.elapsed_s.value_or(0)) - least) / (most - least);
   const auto n = static_cast<double>(set.experiments.size());
-  return n > 1 ? static_cast<double>(&e - set.experiments.data()) / (n - 1) - 0.5 : 0;
+  return n > 1 ? static_cast<double>(&e - set.experiments.data()) / (n - 1) : 0;
 }
 
 void drift(const ActiveEffect& field, const MeasurementSet& set, const Experiment& e, Setup& setup) {

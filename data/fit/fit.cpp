@@ -3,6 +3,7 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 
 #include "data/fit/least_squares.h"
@@ -278,6 +279,22 @@ Fit fit(const Forward& forward, const Parameters& parameters, const FitOptions& 
   for (int i = 0; i < parameters.size(); ++i) out.prior_sigma[i] = parameters.list()[i].spread;
   out.misfits = misfits(forward, parameters, out.x, options.experiments);
   return out;
+}
+
+double cost_ahead(const Forward& forward, const Parameters& parameters, const FitOptions& options) {
+  const Problem problem(forward, parameters, options.experiments, options.sigma_m.value_or(options.guess_m), true);
+  double least = std::numeric_limits<double>::infinity();
+  for (const VectorXd& start : options.starts) {
+    const LeastSquares bounds = problem.least_squares(start);
+    VectorXd r;
+    MatrixXd J;
+    if (!problem.evaluate(bounds.start, r, &J)) continue;
+    const VectorXd to = (bounds.start - (J.transpose() * J).completeOrthogonalDecomposition().solve(J.transpose() * r))
+                            .cwiseMax(bounds.least)
+                            .cwiseMin(bounds.most);
+    least = std::min(least, (r + J * (to - bounds.start)).squaredNorm() / 2);
+  }
+  return least;
 }
 
 std::vector<VectorXd> misfits(const Forward& forward, const Parameters& parameters, const VectorXd& x,

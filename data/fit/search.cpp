@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <set>
 #include <stdexcept>
 
@@ -13,6 +14,7 @@ constexpr int starts_for_one = 24;    // of an effect's numbers, screened
 constexpr std::size_t bases = 3;      // models that another effect is added to
 constexpr std::size_t finalists = 4;  // that are scored on held-out data
 constexpr std::size_t most_effects = 4;
+constexpr std::size_t ahead = 6;   // of what could join a model: fitted
 constexpr double far_behind = 30;  // in BIC, of the best: not looked at again
 
 bool at_an_edge(const FittedModel& model) {
@@ -82,9 +84,19 @@ void Search::add(const std::vector<ActiveEffect>& effects, const FittedModel& ne
   tried_.push_back(std::move(tried));
 }
 
+double Search::cost_ahead_of(const std::vector<ActiveEffect>& effects, const FittedModel& near) {
+  Study study(set_, workers_, effects, {});
+  try {
+    return study.cost_ahead_near(near, set_.imaging.noise_sigma_m, near.rms_m / std::sqrt(2.0));
+  } catch (const std::runtime_error&) {
+    return std::numeric_limits<double>::infinity();
+  }
+}
+
 void Search::add_to(const Tried* base, const FittedModel& near, const Noise& noise) {
   const std::vector<ActiveEffect> before = base ? base->effects : std::vector<ActiveEffect>{};
   const FittedModel model = near;  // what is added may move it
+  std::vector<std::pair<double, std::vector<ActiveEffect>>> joined;
   for (const ActiveEffect& more : everything_to_try(set_)) {
     if (std::any_of(set_.effects.begin(), set_.effects.end(),
                     [&](const DeclaredEffect& d) { return d.id == more.effect->id; }))
@@ -92,8 +104,15 @@ void Search::add_to(const Tried* base, const FittedModel& near, const Noise& noi
     if (!can_join(before, more)) continue;
     std::vector<ActiveEffect> effects = before;
     effects.push_back(more);
-    add(effects, model, noise);
+    joined.emplace_back(0, effects);
   }
+  // Alone everything is fitted; to what has effects already only what promises most is added.
+  if (base && joined.size() > ahead) {
+    for (auto& [cost, effects] : joined) cost = cost_ahead_of(effects, model);
+    std::sort(joined.begin(), joined.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+    joined.resize(ahead);
+  }
+  for (const auto& [cost, effects] : joined) add(effects, model, noise);
 }
 
 void Search::sort_by_bic() {
@@ -171,6 +190,27 @@ void Search::grow_by_held_out(const FittedModel& of_declared, const Noise& noise
   }
 }
 
+/// What was chosen before the last was added may not be needed with it, or fit better in another form: of the foremost,
+/// every effect is left out once, and taken in its other forms.
+void Search::prune(const Noise& noise) {
+  sort_by_bic();
+  if (tried_.empty() || tried_.front().effects.size() < 2) return;
+  const Tried best = tried_.front();
+  for (std::size_t i = 0; i < best.effects.size(); ++i) {
+    std::vector<ActiveEffect> others = best.effects;
+    others.erase(others.begin() + static_cast<std::ptrdiff_t>(i));
+    const FittedModel near = best.model;
+    add(others, near, noise);
+    for (const ActiveEffect& form : everything_to_try(set_)) {
+      if (form.effect != best.effects[i].effect || form.instrument != best.effects[i].instrument) continue;
+      if (!can_join(others, form)) continue;
+      std::vector<ActiveEffect> swapped = others;
+      swapped.push_back(form);
+      add(swapped, near, noise);
+    }
+  }
+}
+
 std::vector<FittedModel> Search::run(const Study& declared, FittedModel& of_declared, Noise& noise) {
   add_to(nullptr, of_declared, noise);
   judge_again(declared, of_declared, noise);
@@ -178,6 +218,7 @@ std::vector<FittedModel> Search::run(const Study& declared, FittedModel& of_decl
     grow_to_noise(of_declared, noise);
   else
     grow_by_held_out(of_declared, noise);
+  prune(noise);
   judge_again(declared, of_declared, noise);
   sort_by_bic();
   for (std::size_t i = 0; i < std::min(finalists, tried_.size()); ++i) complete(tried_[i], noise);

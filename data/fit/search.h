@@ -31,13 +31,15 @@ class Search {
     bool complete = false;
   };
   void add(const std::vector<ActiveEffect>& effects, const FittedModel& near, const Noise& noise);
-  /// Everything that can join `base`; nullptr: what is declared.
+  double cost_ahead_of(const std::vector<ActiveEffect>& effects, const FittedModel& near);
+  /// Of everything that can join `base`, what promises most; nullptr: everything, alone.
   void add_to(const Tried* base, const FittedModel& near, const Noise& noise);
   void sort_by_bic();
   /// Whether a model may be all there is: noise is left, and no number stands at the edge of its range.
   bool fits(const FittedModel& model, const Noise& noise) const;
   void complete(Tried& tried, const Noise& noise);
   void judge_again(const Study& declared, FittedModel& of_declared, Noise& noise);
+  void prune(const Noise& noise);
   void grow_to_noise(FittedModel& of_declared, const Noise& noise);
   void grow_by_held_out(const FittedModel& of_declared, const Noise& noise);
 

@@ -18,7 +18,8 @@ using Eigen::VectorXd;
 
 constexpr int further_starts = 7;
 constexpr std::size_t descents = 2;
-constexpr int starts_for_each = 12;          // at most, of what is added
+constexpr int starts_for_each = 12;  // at most, of what is added
+constexpr int starts_ahead = 6;
 constexpr double another_branch_m = 0.1e-3;  // tips further apart than this are on other branches
 
 std::vector<int> everyone(const MeasurementSet& set) {
@@ -88,8 +89,7 @@ FittedModel Study::run(std::optional<double> noise_m) {
   return model;
 }
 
-FittedModel Study::run_near(const FittedModel& near, std::optional<double> noise_m, double guess_m, int starts) {
-  say("fit");
+FitOptions Study::options_near(const FittedModel& near, std::optional<double> noise_m, double guess_m, int starts) {
   longest_element_m_ = coarse_elements_m;
   VectorXd x = parameters_.start();
   for (int i = 0; i < parameters_.size(); ++i)
@@ -108,10 +108,22 @@ FittedModel Study::run_near(const FittedModel& near, std::optional<double> noise
   // Without what it lacks, the other model's stiffness may have gone far astray.
   if (starts > 0) options.other_starts = starts_of(parameters_, parameters_.start(), first, spread / 2);
   options.guess_m = guess_m, options.rounds = 2, options.rough = true;
+  return options;
+}
+
+double Study::cost_ahead_near(const FittedModel& near, std::optional<double> noise_m, double guess_m) {
+  FitOptions options = options_near(near, noise_m, guess_m, starts_ahead);
+  options.starts.insert(options.starts.end(), options.other_starts.begin(), options.other_starts.end());
+  return cost_ahead(*forward_, parameters_, options);
+}
+
+FittedModel Study::run_near(const FittedModel& near, std::optional<double> noise_m, double guess_m, int starts) {
+  say("fit");
+  FitOptions options = options_near(near, noise_m, guess_m, starts);
   fit_ = fit(*forward_, parameters_, options);
   const std::vector<std::string> others = on_other_branches();
   if (!others.empty()) {
-    options.starts = {fit_.x};
+    options.starts = {fit_.x}, options.other_starts.clear();
     fit_ = fit(*forward_, parameters_, options);
   }
   FittedModel model = report();

@@ -17,6 +17,8 @@ class Study {
   /// A rough fit to all data alone, begun from another model's values of the parameters that both have. `guess_m`:
   /// about what is left, where the noise is not known.
   FittedModel run_near(const FittedModel& near, std::optional<double> noise_m, double guess_m, int starts);
+  /// About what `run_near` could come to, at a tenth of its price (`cost_ahead`).
+  double cost_ahead_near(const FittedModel& near, std::optional<double> noise_m, double guess_m);
   /// Fits what `run_near` has found to the end, and adds held-out errors and what the rest goes with.
   void complete(FittedModel& model, std::optional<double> noise_m);
   /// Of the model after its fit (Laplace): the logarithm of how likely it makes the data, up to a constant that models
@@ -28,6 +30,7 @@ class Study {
 
  private:
   void say(const std::string& what) const;
+  FitOptions options_near(const FittedModel& near, std::optional<double> noise_m, double guess_m, int starts);
   /// Finds the shapes to continue from: those that the walk through the experiments comes to at x.
   void anchor(const Eigen::VectorXd& x);
   /// Anchors anew at what was fitted, and names the experiments that this brings to another shape.
