@@ -1,5 +1,6 @@
 #include "data/effects/nesting_clearance.h"
 
+#include <Eigen/Geometry>
 #include <cmath>
 
 #include "data/effects/tools.h"
@@ -9,6 +10,7 @@ namespace ostium {
 namespace {
 
 constexpr double mm = 1e-3;
+constexpr double least_per_m = 0.1;  // of what curvatures differ by: those that agree have no play to take up
 
 std::string why_not(const MeasurementSet& set, std::optional<int>) {
   if (set.vessel) return "in a vessel instruments have their clearance";
@@ -40,9 +42,11 @@ void apply(const ActiveEffect& effect, const MeasurementSet&, const Experiment&,
     if (beyond <= 0 || effect.values[0] <= 0) continue;
     const Eigen::Vector2d own = section_at(parts[i].sections, 0).rest_curvature_per_m.head<2>();
     const Eigen::Vector2d other = section_at(parts[i + 1].sections, beyond).rest_curvature_per_m.head<2>();
-    // Turned against each other they differ by the root of the sum on average.
-    const double differ = std::max(std::hypot(own.norm(), other.norm()), 1.0);
-    end_earlier(parts[i], std::min(std::sqrt(2 * effect.values[0] * mm / differ), 0.4 * parts[i].inserted_m));
+    // As their drives are turned; how they twist on the way is left out.
+    const double differ =
+        (Eigen::Rotation2Dd(parts[i].roll_rad) * own - Eigen::Rotation2Dd(parts[i + 1].roll_rad) * other).norm();
+    end_earlier(parts[i], std::min(std::sqrt(3 * effect.values[0] * mm / std::max(differ, least_per_m)),
+                                   0.4 * parts[i].inserted_m));
   }
 }
 
