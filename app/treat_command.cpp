@@ -30,30 +30,52 @@ std::string artery_of(const Plan& plan, const FlowTree& tree) {
   return territory_names[static_cast<int>(t)];
 }
 
-std::string usual_view(const std::string& artery) {
+std::string usual_view(const Plan& plan, const std::string& artery) {
+  if (plan.lesion.branch == "LM") return "spider";
   return artery == "RCA" ? "lao" : artery == "LCx" ? "rao-caudal" : "lao-cranial";
 }
 
-constexpr double shown_s = 25;  // of the strips
+constexpr double before_s = 2, recovers_s = 10;  // of the strips, beside the inflation
+
+/// A lead's strip, as high as the lead needs.
+Strip strip_of(Lead lead) {
+  constexpr std::pair<float, float> range[leads] = {{-0.3F, 1.15F}, {-0.3F, 0.8F}, {-0.3F, 0.9F},
+                                                    {-0.4F, 0.6F},  {-1.1F, 0.8F}, {-0.4F, 1.5F}};
+  const auto [low, high] = range[static_cast<int>(lead)];
+  return {lead_names[static_cast<int>(lead)], "mV", 250, {}, low, high};
+}
+
+/// Two that tell of the territory.
+std::array<Lead, 2> telling_leads(const std::string& artery) {
+  if (artery == "RCA") return {Lead::III, Lead::aVL};
+  if (artery == "LCx") return {Lead::V5, Lead::V2};
+  return {Lead::II, Lead::V2};
+}
 
 /// ECG and pressure, 250 a second, as the monitor beside the pictures shows them.
 struct Monitor {
-  Strip II{"II", "mV", 250, {}, -0.3, 1.15}, V2{"V2", "mV", 250, {}, -1.0, 0.8}, aorta{"Ao", "mmHg", 250, {}, 50, 130},
-      gauge{"gauge", "atm", 250, {}, -2, 22};
+  std::array<Lead, 2> which;
+  std::vector<Strip> strips;  ///< two leads, aorta, gauge
   long step = 0;
+
+  explicit Monitor(const std::string& artery) : which(telling_leads(artery)) {
+    for (Lead lead : which) strips.push_back(strip_of(lead));
+    strips.push_back({"Ao", "mmHg", 250, {}, 50, 130});
+    strips.push_back({"gauge", "atm", 250, {}, -2, 22});
+  }
+  double seconds() const { return static_cast<double>(strips[0].samples.size()) / 250; }
   /// Keeps no more than so many seconds from the beginning.
   void end(double seconds) {
-    for (Strip* strip : {&II, &V2, &aorta, &gauge})
-      strip->samples.resize(std::min(strip->samples.size(), static_cast<std::size_t>(seconds * strip->samples_per_s)));
+    for (Strip& strip : strips)
+      strip.samples.resize(std::min(strip.samples.size(), static_cast<std::size_t>(seconds * strip.samples_per_s)));
   }
   void listen(const Bedside& bed) {
     if (step++ % 4) return;
     const auto leads = ecg(bed.blood.heart, bed.inputs.heart.rate_1_min, bed.physiology.ischaemia, bed.blood.ischaemia);
-    II.samples.push_back(static_cast<float>(leads[static_cast<int>(Lead::II)]));
-    V2.samples.push_back(static_cast<float>(leads[static_cast<int>(Lead::V2)]));
+    for (int k = 0; k < 2; ++k) strips[k].samples.push_back(static_cast<float>(leads[static_cast<int>(which[k])]));
     const Pressures p = pressures(bed.physiology.heart, bed.blood.heart);
-    aorta.samples.push_back(static_cast<float>(p.aorta_Pa / mmHg));
-    gauge.samples.push_back(static_cast<float>(bed.device.gauge_Pa / atm));
+    strips[2].samples.push_back(static_cast<float>(p.aorta_Pa / mmHg));
+    strips[3].samples.push_back(static_cast<float>(bed.device.gauge_Pa / atm));
   }
 };
 
@@ -88,8 +110,11 @@ class Room {
   Picture picture(const Plan& p, const std::string& words, bool with_contrast) {
     const std::string artery = artery_of(p, physiology.flow.tree);
     const bool left = artery != "RCA";
-    View view = view_of(options.view.empty() ? usual_view(artery) : options.view, patient, left, options.pixels);
+    View view = view_of(options.view.empty() ? usual_view(p, artery) : options.view, patient, left, options.pixels);
     view.field_m = 0.16;
+    // Half-way to the lesion, so that what is treated is well within the picture.
+    const int cell = p.path.cells[p.path.at(p.middle_m).index];
+    view.arm.p_PI += 0.5 * (scene.map().coronary.position(static_cast<std::size_t>(cell), 0.7) - view.arm.p_PI);
 
     Angiogram angiogram(physiology, scene, view, 15, options.seed + 1);
     Picture out;
@@ -217,15 +242,13 @@ int treat_command(const TreatOptions& o) {
     lesion["before"] = room.lesion(plan);
     Picture before, inflating, after;
     if (!o.no_pictures) before = room.picture(plan, "BEFORE", true);
-    Monitor monitor, kept;
+    const std::string artery = artery_of(plan, room.physiology.flow.tree);
+    Monitor monitor(artery), kept(artery);
     std::vector<InflationRecord> records;
-    for (const auto& [balloon, gauge] :
-         {std::pair{plan.predilate, plan.predilate_Pa}, std::pair{plan.stent, plan.stent_Pa},
-          std::pair{plan.postdilate, plan.postdilate_Pa}}) {
-      if (balloon < 0) continue;
+    for (const auto& [balloon, gauge] : inflations_of(plan)) {
       say(fmt::format("{} at {:.0f} atm", room.plan.model.balloons[balloon].name, gauge / atm));
       bool filmed = o.no_pictures || !inflating.grey.empty();
-      monitor = {};
+      monitor = Monitor(artery);
       bed.each_step = [&](const Bedside& now) {
         monitor.listen(now);
         // While the waist still stands, in mid-diastole.
@@ -234,8 +257,10 @@ int treat_command(const TreatOptions& o) {
           inflating = room.picture(plan, fmt::format("{:.1f} ATM", now.state.balloon.pressure_Pa / atm), false);
         }
       };
+      bed.device.balloon = -1;
+      for (int n = 0; n < 1000 * before_s; ++n) bed.step();
       records.push_back(inflate(bed, plan, balloon, gauge, o.hold_s));
-      monitor.end(gauge / (2 * atm) + o.hold_s + 6);
+      monitor.end(before_s + gauge / (2 * atm) + o.hold_s + recovers_s);
       kept = monitor;
       const int stent = room.plan.model.stent_on[balloon];
       if (stent >= 0 && bed.state.stents[stent].where == StentState::deployed && !is_tied(bed.state.stents[stent]))
@@ -260,7 +285,7 @@ int treat_command(const TreatOptions& o) {
     if (o.no_pictures) continue;
     after = room.picture(plan, "AFTER", true);
     Picture sheet = beside(beside(before, inflating), after);
-    append_strips({kept.II, kept.V2, kept.aorta, kept.gauge}, shown_s, o.pixels * 7 / 10, sheet);
+    append_strips(kept.strips, kept.seconds(), o.pixels * 7 / 10, sheet);
     sheets.push_back(sheet);
   }
   report["injuries"] = json::array();

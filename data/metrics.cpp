@@ -189,6 +189,45 @@ double geographic_miss_mm(const RunRecord& r) {
   return missed;
 }
 
+/// Value of the first or the last event of a kind.
+double event_value(const RunRecord& r, EventCode code, bool last) {
+  double value = none;
+  for (std::size_t e = 0; e + 3 < r.events.size(); e += 4) {
+    if (static_cast<int>(r.events[e + 1]) != static_cast<int>(code)) continue;
+    value = r.events[e + 3];
+    if (!last) break;
+  }
+  return value;
+}
+
+/// TIMI frames of each injection that filled the ostium; not a number: contrast did not come to the landmark.
+std::vector<double> timi_frames(const RunRecord& r) {
+  constexpr double per_s = 30, given_up_s = 10;
+  const std::vector<double> time = all_of(r, "time_s"), ostium = all_of(r, "contrast_ostium"),
+                            landmark = all_of(r, "contrast_landmark");
+  std::vector<double> out;
+  if (ostium.empty() || landmark.empty()) return out;
+  const auto crossing = [&](const std::vector<double>& of, std::size_t i, double level) {
+    return i == 0 ? time[0]
+                  : time[i - 1] + (time[i] - time[i - 1]) * (level - of[i - 1]) / std::max(of[i] - of[i - 1], 1e-9);
+  };
+  for (std::size_t i = 0; i < time.size(); ++i) {
+    const bool fills = ostium[i] > filled_share && (i == 0 || ostium[i - 1] <= filled_share);
+    // What is there from before hides what comes.
+    if (!fills || landmark[i] > seen_share) continue;
+    const double begun = crossing(ostium, i, filled_share);
+    std::size_t k = i;
+    while (k < time.size() && landmark[k] <= seen_share && time[k] - begun < given_up_s) ++k;
+    const bool reached = k < time.size() && landmark[k] > seen_share;
+    // A puff that is thinned on its way says nothing: it must run for half a second.
+    std::size_t full = i;
+    while (full < time.size() && ostium[full] > filled_share) ++full;
+    if (!reached && (full == time.size() ? time.back() : time[full]) - begun < 0.5) continue;
+    out.push_back(reached ? per_s * (crossing(landmark, k, seen_share) - begun) : none);
+  }
+  return out;
+}
+
 }  // namespace
 
 const std::vector<EventDefinition>& event_definitions() {
@@ -234,7 +273,11 @@ const std::vector<EventDefinition>& event_definitions() {
        "dissection 10 to 15 (A to F), perforation 21 to 25 (Ellis I to III, V)"},
       {EventCode::injection_on_bad_trace, "injection_on_bad_trace",
        "the syringe is pressed while the last trace was damped or ventricularised", ""},
-      {EventCode::entry_refused, "entry_refused", "a tool is fed that cannot enter beside another one", "that tool"}};
+      {EventCode::entry_refused, "entry_refused", "a tool is fed that cannot enter beside another one", "that tool"},
+      {EventCode::ffr_changes, "ffr_changes",
+       "as the run begins, and whenever the fractional flow reserve of the flow model, 20 mm behind the first lesion, "
+       "has changed by 0.005; looked at once a second",
+       "fractional flow reserve"}};
   return all;
 }
 
@@ -312,6 +355,30 @@ const std::vector<MetricDefinition>& metric_definitions() {
       {"geographic_miss_mm", "mm",
        "length of the union of the lesion and of all inflations above 1 atm that no stent covers at the end",
        geographic_miss_mm},
+      {"stent_minimal_area_mm2", "mm2", "smallest area inside the stents of the first lesion's artery at the end",
+       [](const RunRecord& r) { return last_of(r, "stent_area_mm2"); }},
+      {"stent_expansion_percent", "%", "that over the area of the reference diameter",
+       [](const RunRecord& r) { return last_of(r, "stent_expansion_percent"); }},
+      {"stent_apposed_percent", "%", "share of their struts' points no farther than 0.05 mm from the wall at the end",
+       [](const RunRecord& r) { return last_of(r, "stent_apposed_percent"); }},
+      {"ffr_model_before", "1",
+       "fractional flow reserve of the flow model 20 mm behind the first lesion, at 93 mmHg and with the muscle's "
+       "vessels as wide as they get, as the run begins",
+       [](const RunRecord& r) { return event_value(r, EventCode::ffr_changes, false); }},
+      {"ffr_model_after", "1", "the same at the end",
+       [](const RunRecord& r) { return event_value(r, EventCode::ffr_changes, true); }},
+      {"timi_frame_count_before", "1",
+       "frames at 30/s, of the first injection that fills the first lesion's artery: from half of the undiluted "
+       "concentration behind its ostium to 15 % at the landmark (Gibson 1996); null: not reached in 10 s",
+       [](const RunRecord& r) {
+         const std::vector<double> frames = timi_frames(r);
+         return frames.empty() ? none : frames.front();
+       }},
+      {"timi_frame_count_after", "1", "the same, of the last one",
+       [](const RunRecord& r) {
+         const std::vector<double> frames = timi_frames(r);
+         return frames.empty() ? none : frames.back();
+       }},
       {"occlusion_time_s", "s", "flow behind the lesion below 5 % of the muscle's need",
        [](const RunRecord& r) { return time_within(r, "flow_share", -1e300, occluded_share); }},
       {"bad_trace_time_s", "s", "the guide's last trace damped or ventricularised",

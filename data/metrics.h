@@ -40,7 +40,8 @@ enum class EventCode : int {
   occlusion_ends,
   injury,
   injection_on_bad_trace,
-  entry_refused
+  entry_refused,
+  ffr_changes
 };
 
 /// Above this the sum of wall forces on a tool is an event. An estimate: no limit is agreed on; peak forces that
@@ -50,6 +51,10 @@ inline constexpr double wall_force_cut_off_Hz = 10;  ///< of the first-order low
 
 /// Flow behind the lesion below this share of what the muscle needs counts as none.
 inline constexpr double occluded_share = 0.05;
+
+/// Concentration over that of the undiluted, at which contrast counts as filling the ostium and as seen at the
+/// landmark.
+inline constexpr double filled_share = 0.5, seen_share = 0.15;
 
 struct EventDefinition {
   EventCode code;

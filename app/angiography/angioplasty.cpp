@@ -12,7 +12,6 @@ namespace {
 
 constexpr double mm = 1e-3;
 constexpr double reference_stretch = 5 * mm;
-constexpr double apposed = 0.05 * mm;
 
 double quarter(double diameter_m) { return std::round(diameter_m / (0.25 * mm)) * 0.25 * mm; }
 
@@ -90,9 +89,10 @@ Treatable plan_treatment(const Patient& patient, const FlowModel& flow, std::uin
               -1);
       plan.predilate_Pa = o.pressure * (hard > 0 ? 16 : 10) * atm;
     }
-    // A stent for the distal reference, four millimetres longer than the lesion; a stout one in the left main.
+    // A stent for the distal reference that reaches two millimetres beyond the lesion, once it has foreshortened; a
+    // stout one in the left main.
     const double diameter = o.oversize * std::clamp(quarter(plan.distal_m), 2.25 * mm, 4.5 * mm);
-    const double length = sold_length({8, 12, 15, 18, 23, 28, 33, 38}, lesion.length_m + 4 * mm);
+    const double length = sold_length({8, 12, 15, 18, 23, 28, 33, 38}, lesion.length_m + 5 * mm);
     if (o.stent) {
       out.model.stents.push_back(make_stent(diameter, length));
       BalloonModel carrier = make_balloon(Compliance::semi, diameter, length + 0.5 * mm);
@@ -106,6 +106,13 @@ Treatable plan_treatment(const Patient& patient, const FlowModel& flow, std::uin
                            sold_length({8, 10, 12, 15, 20, 30}, length - 4 * mm)),
               -1);
       plan.postdilate_Pa = o.pressure * (hard > 0 ? 20 : 16) * atm;
+    }
+    // Wider ahead than that balloon reaches: the stent's first stretch is pressed to the wall by one of its own.
+    if (const double wide = quarter(plan.proximal_m);
+        o.stent && o.postdilate && wide > quarter(plan.reference_m) + 0.1 * mm) {
+      plan.proximal = add(make_balloon(Compliance::non, o.oversize * std::min(wide, 5 * mm), 8 * mm), -1);
+      plan.proximal_Pa = o.pressure * 14 * atm;
+      plan.proximal_middle_m = plan.middle_m - length / 2 + 4.5 * mm;
     }
     out.plans.push_back(plan);
   }
@@ -135,10 +142,8 @@ StentNumbers measure(const Plan& plan, const StentModel& model, const StentState
   out.minimal_diameter_mm = 2 * *least / mm;
   out.minimal_area_mm2 = std::numbers::pi * *least * *least / (mm * mm);
   out.expansion_percent = 100 * std::pow(2 * *least / plan.reference_m, 2);
-  const std::vector<double> gap = gaps(model, stent, plan.path, wall);
-  out.apposed_percent = 100.0 * std::count_if(gap.begin(), gap.end(), [](double g) { return g <= apposed; }) /
-                        static_cast<double>(gap.size());
-  out.worst_gap_mm = *std::max_element(gap.begin(), gap.end()) / mm;
+  const Apposition lies = apposition(model, stent, plan.path, wall);
+  out.apposed_percent = 100 * lies.share, out.worst_gap_mm = lies.worst_m / mm;
   out.recoil_percent = 100 * recoil;
   const auto [from, to] = span_of(stent);
   out.length_mm = (to - from) / mm;
@@ -164,7 +169,8 @@ InflationRecord inflate(Bedside& bed, const Plan& plan, int balloon, double gaug
   constexpr double pump_Pa_s = 2 * atm, vacuum_s = 15;
   const BalloonModel& model = bed.treatment.balloons[balloon];
   InflationRecord record{.device = model.name};
-  bed.device.balloon = balloon, bed.device.branch = plan.branch, bed.device.middle_m = plan.middle_m;
+  bed.device.balloon = balloon, bed.device.branch = plan.branch;
+  bed.device.middle_m = balloon == plan.proximal ? plan.proximal_middle_m : plan.middle_m;
   bed.device.gauge_Pa = 0;
   bed.step();
   const double folded_m3 = bed.state.balloon.volume_m3;
@@ -200,11 +206,20 @@ InflationRecord inflate(Bedside& bed, const Plan& plan, int balloon, double gaug
   return record;
 }
 
+std::vector<PlannedInflation> inflations_of(const Plan& plan) {
+  std::vector<PlannedInflation> out;
+  for (const PlannedInflation& i : {PlannedInflation{plan.predilate, plan.predilate_Pa},
+                                    {plan.stent, plan.stent_Pa},
+                                    {plan.postdilate, plan.postdilate_Pa},
+                                    {plan.proximal, plan.proximal_Pa}})
+    if (i.balloon >= 0) out.push_back(i);
+  return out;
+}
+
 std::vector<InflationRecord> treat(Bedside& bed, const Plan& plan, double hold_s) {
   std::vector<InflationRecord> records;
-  if (plan.predilate >= 0) records.push_back(inflate(bed, plan, plan.predilate, plan.predilate_Pa, hold_s));
-  if (plan.stent >= 0) records.push_back(inflate(bed, plan, plan.stent, plan.stent_Pa, hold_s));
-  if (plan.postdilate >= 0) records.push_back(inflate(bed, plan, plan.postdilate, plan.postdilate_Pa, hold_s));
+  for (const PlannedInflation& i : inflations_of(plan))
+    records.push_back(inflate(bed, plan, i.balloon, i.gauge_Pa, hold_s));
   bed.device.balloon = -1;
   for (int i = 0; i < 20; ++i) bed.step();
   return records;

@@ -19,6 +19,9 @@ struct Plan {
   int predilate = -1, stent = -1, postdilate = -1;  ///< balloons of the model
   double predilate_Pa = 0, stent_Pa = 0, postdilate_Pa = 0;
   double middle_m = 0;  ///< of the devices
+  /// Where the artery tapers, a short balloon for the stent's proximal end (proximal optimisation); -1: it need not.
+  int proximal = -1;
+  double proximal_Pa = 0, proximal_middle_m = 0;
 };
 
 struct PlanOptions {
@@ -76,8 +79,14 @@ struct Bedside {
   TreatmentReport step(double dt_s = 1e-3);
 };
 
-/// Pumps up at 2 atm/s, holds, draws vacuum, waits until it is empty; the balloon stays where it is.
+/// Pumps up at 2 atm/s, holds, draws vacuum, waits until it is empty; the balloon lies where the plan has it.
 InflationRecord inflate(Bedside& bed, const Plan& plan, int balloon, double gauge_Pa, double hold_s);
+/// What the plan inflates, in its order.
+struct PlannedInflation {
+  int balloon;
+  double gauge_Pa;
+};
+std::vector<PlannedInflation> inflations_of(const Plan& plan);
 /// Everything that the plan says, from predilatation to postdilatation; ties stents where `shape` and so on are given.
 std::vector<InflationRecord> treat(Bedside& bed, const Plan& plan, double hold_s = 15);
 

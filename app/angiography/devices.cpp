@@ -137,8 +137,8 @@ void add_devices(const Bedside& bed, const Plan& plan, const Patient& patient, P
                 phase, scene.scene());
   }
   if (bed.device.balloon >= 0)
-    add_balloon(bed.treatment.balloons[bed.device.balloon], bed.state.balloon, plan.path, plan.middle_m, scene.map(),
-                phase, true, scene.scene());
+    add_balloon(bed.treatment.balloons[bed.device.balloon], bed.state.balloon, plan.path, bed.device.middle_m,
+                scene.map(), phase, true, scene.scene());
   add_pools(bed.state.injury, scene.map(), bed.blood.radius_m, phase, scene.scene());
 }
 

@@ -1,5 +1,7 @@
 #include "app/session/coronaries.h"
 
+#include <algorithm>
+
 #include "app/angiography/settle.h"
 
 namespace ostium {
@@ -29,6 +31,12 @@ std::unique_ptr<const Coronaries> make_coronaries(std::shared_ptr<const Patient>
   Treatable plan =
       plan_treatment(*out->patient, out->physiology.flow, 0, {.stent = false, .predilate = false, .postdilate = false});
   out->treatment = std::move(plan.model), out->lesions = std::move(plan.plans);
+  if (!out->lesions.empty()) {
+    const Plan& first = out->lesions.front();
+    const auto artery = out->tree().branches[static_cast<std::size_t>(first.branch)].territory;
+    out->landmark_cell = timi_landmark(out->tree(), territory_names[static_cast<int>(artery)]);
+    out->ostium_cell = first.path.cells[std::min<std::size_t>(2, first.path.cells.size() - 1)];
+  }
   out->at_rest = at_rest(out->physiology, rate_1_min);
   HeartState& heart = out->at_rest.heart;
   heart.phase = heart.since_R_s = 0;  // at_rest ends within a step of the R wave

@@ -12,7 +12,9 @@ struct Coronaries {
   std::unique_ptr<const WallShape> shape;
   TreatmentModel treatment;   ///< without devices
   std::vector<Plan> lesions;  ///< in the case's order, without devices
-  PhysiologyState at_rest;    ///< a circulation that has beaten until pressure and flow repeat
+  /// Of the first lesion's artery: cells behind its ostium and at the landmark that TIMI frames are counted to, or -1.
+  int ostium_cell = -1, landmark_cell = -1;
+  PhysiologyState at_rest;  ///< a circulation that has beaten until pressure and flow repeat
   /// Vertices of the lumen that follow a cell's radius: vertices[first_vertex[c], first_vertex[c + 1]).
   std::vector<int> first_vertex, vertices;
 

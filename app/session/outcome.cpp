@@ -1,6 +1,7 @@
 #include "app/session/outcome.h"
 
 #include <algorithm>
+#include <numbers>
 
 namespace ostium {
 
@@ -66,6 +67,29 @@ std::optional<Stretch> stented(const SessionModel& model, const SessionState& st
     out = out ? Stretch{std::min(out->from_m, own.from_m), std::max(out->to_m, own.to_m)} : own;
   }
   return out;
+}
+
+std::optional<StentNow> stent_now(const SessionModel& model, const SessionState& state) {
+  std::optional<StentNow> out;
+  for (std::size_t i = 0; i < state.treatment.stents.size(); ++i) {
+    const StentState& stent = state.treatment.stents[i];
+    if (stent.where != StentState::deployed || !in_lesions_artery(model, stent.branch, stent.middle_m)) continue;
+    const double least = *std::min_element(stent.radius_m.begin(), stent.radius_m.end());
+    const double full = std::numbers::pi / 4 * lesion(model).reference_m * lesion(model).reference_m;
+    const double area = std::numbers::pi * least * least;
+    const Apposition lies =
+        apposition(model.treatment.stents[i], stent, model.treatment.paths[static_cast<std::size_t>(stent.branch)],
+                   state.treatment.wall);
+    const StentNow own{area, area / full, lies.share};
+    out = out ? StentNow{std::min(out->minimal_area_m2, own.minimal_area_m2), std::min(out->expansion, own.expansion),
+                         std::min(out->apposed, own.apposed)}
+              : own;
+  }
+  return out;
+}
+
+double ffr_behind_lesion(const SessionModel& model, const SessionState& state) {
+  return measure(lesion(model), model.physiology.flow, state.treatment.wall).ffr;
 }
 
 double balloon_artery_ratio(const SessionModel& model, const SessionState& state) {

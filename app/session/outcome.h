@@ -28,6 +28,18 @@ struct Stretch {
 };
 std::optional<Stretch> stented(const SessionModel& model, const SessionState& state);
 
+/// How well the same stents are open, as intravascular ultrasound would have it: the worst of them.
+struct StentNow {
+  double minimal_area_m2 = 0;  ///< inside
+  double expansion = 0;        ///< that over the reference's area
+  double apposed = 0;          ///< share of points that lie on the wall (apposed_m of stent_shape.h)
+};
+std::optional<StentNow> stent_now(const SessionModel& model, const SessionState& state);
+
+/// Fractional flow reserve 20 mm behind the lesion, named `model`: see ffr_model of flow.h. Takes a millisecond and
+/// allocates.
+double ffr_behind_lesion(const SessionModel& model, const SessionState& state);
+
 /// Diameter of the balloon where it is widest between its markers over the local reference.
 double balloon_artery_ratio(const SessionModel& model, const SessionState& state);
 

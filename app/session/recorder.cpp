@@ -1,8 +1,10 @@
 #include "app/session/recorder.h"
 
 #include <chrono>
+#include <cmath>
 #include <stdexcept>
 
+#include "app/session/outcome.h"
 #include "data/load_error.h"
 
 namespace ostium {
@@ -11,6 +13,7 @@ namespace {
 
 using namespace std::chrono_literals;
 constexpr std::size_t events_a_block = 2000;
+constexpr double ffr_step = 0.005;
 
 std::vector<double> flat(const std::vector<Eigen::Vector3d>& points) {
   std::vector<double> out;
@@ -139,6 +142,23 @@ void Recorder::follow() {
   }
 }
 
+/// At walls and flow, as they are in the slot's state: once a second, and too dear for the thread that steps.
+void Recorder::look(const Slot& slot, std::vector<double>& events) {
+  take_state(slot.block.states.data(), looked_at_);
+  if (options_.penetration) {
+    const Penetration now = ostium::penetration(model_, looked_at_);
+    deepest_.deepest_m = std::max(deepest_.deepest_m, now.deepest_m);
+    deepest_.outside += now.outside;
+  }
+  if (!model_.has_patient() || model_.vessel->coronaries->lesions.empty()) return;
+  const double ffr = ffr_behind_lesion(model_, looked_at_);
+  if (std::fabs(ffr - ffr_) < ffr_step) return;
+  ffr_ = ffr;
+  // A slot's state is that of its beginning.
+  events.insert(events.begin(), {static_cast<double>(looked_at_.rods.step),
+                                 static_cast<double>(static_cast<int>(EventCode::ffr_changes)), -1, ffr});
+}
+
 void Recorder::take(Slot& slot) {
   RecordingBlock block;
   const auto part = [](const auto& all, std::size_t count) {
@@ -152,15 +172,10 @@ void Recorder::take(Slot& slot) {
   for (const SessionEvent& e : slot.events)
     block.events.insert(block.events.end(), {static_cast<double>(e.step), static_cast<double>(e.code),
                                              static_cast<double>(e.tool), e.value});
+  if (slot.state_rows) look(slot, block.events);
   record_.steps += slot.steps;
   record_.signals.insert(record_.signals.end(), block.signals.begin(), block.signals.end());
   record_.events.insert(record_.events.end(), block.events.begin(), block.events.end());
-  if (options_.penetration && slot.state_rows) {
-    take_state(slot.block.states.data(), looked_at_);
-    const Penetration now = ostium::penetration(model_, looked_at_);
-    deepest_.deepest_m = std::max(deepest_.deepest_m, now.deepest_m);
-    deepest_.outside += now.outside;
-  }
   if (!writer_ || !problem_.empty()) return;
   try {
     writer_->commit(std::move(block));

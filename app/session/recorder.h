@@ -60,6 +60,7 @@ class Recorder {
   void hand_over();
   void follow();
   void take(Slot& slot);
+  void look(const Slot& slot, std::vector<double>& events);
 
   const SessionModel& model_;
   RecorderOptions options_;
@@ -74,6 +75,7 @@ class Recorder {
   SessionState looked_at_;
   RunRecord record_;
   Penetration deepest_;
+  double ffr_ = -1;  ///< as last said
   std::string problem_;
   std::thread thread_;
 };

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "app/session/outcome.h"
 #include "core/rod/introducer.h"
@@ -17,11 +18,34 @@ constexpr const char* of_a_tool[] = {"inserted_mm", "turned_deg",   "tip_x_mm", 
                                      "torque_mNm",  "wall_force_N", "tip_force_N",  "touches"};
 
 /// Of a case.
-constexpr const char* of_a_patient[] = {
-    "ecg_II_mV",      "ecg_V2_mV",           "aorta_mmHg",       "guide_mmHg",    "trace",      "ST_mV",
-    "gauge_atm",      "balloon_atm",         "balloon_mm",       "balloon_ratio", "waist",      "balloon_from_mm",
-    "balloon_to_mm",  "contrast_mL",         "iodine_g",         "flow_share",    "act_s",      "lesion_mld_mm",
-    "segment_mld_mm", "lesion_reference_mm", "lesion_length_mm", "stent_from_mm", "stent_to_mm"};
+constexpr const char* of_a_patient[] = {"ecg_II_mV",
+                                        "ecg_V2_mV",
+                                        "aorta_mmHg",
+                                        "guide_mmHg",
+                                        "trace",
+                                        "ST_mV",
+                                        "gauge_atm",
+                                        "balloon_atm",
+                                        "balloon_mm",
+                                        "balloon_ratio",
+                                        "waist",
+                                        "balloon_from_mm",
+                                        "balloon_to_mm",
+                                        "contrast_mL",
+                                        "iodine_g",
+                                        "flow_share",
+                                        "act_s",
+                                        "lesion_mld_mm",
+                                        "segment_mld_mm",
+                                        "lesion_reference_mm",
+                                        "lesion_length_mm",
+                                        "stent_from_mm",
+                                        "stent_to_mm",
+                                        "stent_area_mm2",
+                                        "stent_expansion_percent",
+                                        "stent_apposed_percent",
+                                        "contrast_ostium",
+                                        "contrast_landmark"};
 
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 constexpr double undiluted_kg_m3 = 350;
@@ -59,6 +83,17 @@ void put_patient(const SessionModel& model, const SessionState& state, const Ses
   put(1e3 * lesion.mld_m), put(1e3 * lesion.segment_mld_m), put(1e3 * lesion.reference_m), put(1e3 * length);
   const auto stent = has_lesion ? stented(model, state) : std::nullopt;
   put(stent ? 1e3 * stent->from_m : none), put(stent ? 1e3 * stent->to_m : none);
+  const auto open = has_lesion ? stent_now(model, state) : std::nullopt;
+  put(open ? 1e6 * open->minimal_area_m2 : none);
+  put(open ? 100 * open->expansion : none), put(open ? 100 * open->apposed : none);
+  for (int cell : {model.vessel->coronaries->ostium_cell, model.vessel->coronaries->landmark_cell}) {
+    if (cell < 0) {
+      put(none);
+      continue;
+    }
+    const double r = blood.radius_m[static_cast<std::size_t>(cell)];
+    put(concentration(blood.contrast, model.physiology.flow, cell, std::numbers::pi * r * r) / undiluted_kg_m3);
+  }
 }
 
 }  // namespace

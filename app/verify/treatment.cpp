@@ -63,7 +63,7 @@ GateResult rides(const Patient& patient, const PhysiologyModel& physiology, cons
     const BoxTree surface(mesh);
     const auto points = points_on_wall(model, stent, patient, shape, radius_m, heart.phase, 0);
     for (std::size_t i = 0; i < points.size(); ++i) {
-      if (gap[i] > 0.05e-3) continue;
+      if (gap[i] > apposed_m) continue;
       const double d = surface.nearest(points[i], 5e-3).distance_m;
       if (first[i] < 0) first[i] = d;
       worst = std::max(worst, std::fabs(d - first[i]));

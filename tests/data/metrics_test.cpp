@@ -52,9 +52,27 @@ RunRecord record() {
 RunRecord treated() {
   RunRecord r{.step_s = 1e-3,
               .steps = 10000,
-              .signal_columns = {"time_s", "lesion_mld_mm", "segment_mld_mm", "lesion_reference_mm", "lesion_length_mm",
-                                 "balloon_from_mm", "balloon_to_mm", "balloon_atm", "balloon_ratio", "stent_from_mm",
-                                 "stent_to_mm", "flow_share", "contrast_mL", "iodine_g", "trace", "ST_mV"},
+              .signal_columns = {"time_s",
+                                 "lesion_mld_mm",
+                                 "segment_mld_mm",
+                                 "lesion_reference_mm",
+                                 "lesion_length_mm",
+                                 "balloon_from_mm",
+                                 "balloon_to_mm",
+                                 "balloon_atm",
+                                 "balloon_ratio",
+                                 "stent_from_mm",
+                                 "stent_to_mm",
+                                 "flow_share",
+                                 "contrast_mL",
+                                 "iodine_g",
+                                 "trace",
+                                 "ST_mV",
+                                 "stent_area_mm2",
+                                 "stent_expansion_percent",
+                                 "stent_apposed_percent",
+                                 "contrast_ostium",
+                                 "contrast_landmark"},
               .signals = {},
               .events = {},
               .branches = {}};
@@ -62,7 +80,15 @@ RunRecord treated() {
   for (int i = 0; i < 1000; ++i) {
     const double t = 0.01 * i;
     const bool first = t >= 2 && t < 4, second = t >= 6 && t < 8, stent = t >= 8;
-    r.signals.insert(r.signals.end(), {t, stent ? 3.8 : 1.0, stent ? 3.6 : 1.0, 4.0, 10.0,
+    // Injections at 1 s, that comes to the landmark 0.8 s later; a puff at 5 s, thinned on its way; at 8.5 s one that
+    // stays where it is.
+    const double ostium = (t >= 1 && t < 3) || (t >= 5 && t < 5.2) || t >= 8.5 ? 0.9 : 0.0;
+    const double landmark = t >= 1.8 && t < 4 ? 0.5 : 0.0;
+    r.signals.insert(r.signals.end(), {t,
+                                       stent ? 3.8 : 1.0,
+                                       stent ? 3.6 : 1.0,
+                                       4.0,
+                                       10.0,
                                        first    ? -2.0
                                        : second ? 8.0
                                                 : nan,
@@ -75,12 +101,24 @@ RunRecord treated() {
                                        first    ? 0.9
                                        : second ? 1.1
                                                 : 0.0,
-                                       stent ? -3.0 : nan, stent ? 14.0 : nan, first ? 0.01 : 1.0, t, 0.3 * t,
-                                       t < 1 ? 1.0 : 0.0, 0.02 * t});
+                                       stent ? -3.0 : nan,
+                                       stent ? 14.0 : nan,
+                                       first ? 0.01 : 1.0,
+                                       t,
+                                       0.3 * t,
+                                       t < 1 ? 1.0 : 0.0,
+                                       0.02 * t,
+                                       stent ? 10.0 : nan,
+                                       stent ? 80.0 : nan,
+                                       stent ? 95.0 : nan,
+                                       ostium,
+                                       landmark});
   }
-  r.events = {2000, double(code(EventCode::inflation_begins)), -1, 0,  //
-              6000, double(code(EventCode::inflation_begins)), -1, 0,  //
-              6500, double(code(EventCode::injury)),           -1, 11};
+  r.events = {0,    double(code(EventCode::ffr_changes)),      -1, 0.61,  //
+              2000, double(code(EventCode::inflation_begins)), -1, 0,     //
+              6000, double(code(EventCode::inflation_begins)), -1, 0,     //
+              6500, double(code(EventCode::injury)),           -1, 11,    //
+              9000, double(code(EventCode::ffr_changes)),      -1, 0.97};
   return r;
 }
 
@@ -102,9 +140,17 @@ TEST(Metrics, OfATreatmentMadeByHand) {
   EXPECT_NEAR(value(r, "iodine_g"), 2.997, 1e-6);
   EXPECT_NEAR(value(r, "ST_max_mV"), 0.1998, 1e-6);
   EXPECT_EQ(value(r, "injuries"), 1);
+  EXPECT_EQ(value(r, "stent_minimal_area_mm2"), 10);
+  EXPECT_EQ(value(r, "stent_expansion_percent"), 80);
+  EXPECT_EQ(value(r, "stent_apposed_percent"), 95);
+  EXPECT_EQ(value(r, "ffr_model_before"), 0.61);
+  EXPECT_EQ(value(r, "ffr_model_after"), 0.97);
+  EXPECT_NEAR(value(r, "timi_frame_count_before"), 30 * 0.8, 0.1);
+  EXPECT_TRUE(std::isnan(value(r, "timi_frame_count_after"))) << "it did not come through";
   // Of a run without a patient none of them applies.
   for (const char* name : {"residual_stenosis_percent", "geographic_miss_mm", "occlusion_time_s", "ST_max_mV",
-                           "contrast_volume_mL", "lesion_coverage_percent", "balloon_artery_ratio"})
+                           "contrast_volume_mL", "lesion_coverage_percent", "balloon_artery_ratio",
+                           "stent_apposed_percent", "ffr_model_after", "timi_frame_count_before"})
     EXPECT_TRUE(std::isnan(value(record(), name))) << name;
 }
 

@@ -110,4 +110,14 @@ std::vector<double> gaps(const StentModel& m, const StentState& s, const VesselP
   return out;
 }
 
+Apposition apposition(const StentModel& m, const StentState& s, const VesselPath& path, const PlaqueState& wall) {
+  Apposition out{.share = 0};
+  for (int i = 0; i < m.points(); ++i) {
+    const double gap = gap_of(m, s, path, wall, i);
+    out.share += gap <= apposed_m ? 1.0 / m.points() : 0;
+    out.worst_m = std::max(out.worst_m, gap);
+  }
+  return out;
+}
+
 }  // namespace ostium

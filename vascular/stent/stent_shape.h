@@ -32,4 +32,13 @@ std::vector<Eigen::Vector3d> points_on_wall(const StentModel& model, const Stent
 std::vector<double> gaps(const StentModel& model, const StentState& state, const VesselPath& path,
                          const PlaqueState& wall);
 
+inline constexpr double apposed_m = 0.05e-3;  ///< a point no farther from the wall lies on it
+struct Apposition {
+  double share = 1;    ///< of its points that lie on the wall
+  double worst_m = 0;  ///< largest gap
+};
+/// Does not allocate.
+Apposition apposition(const StentModel& model, const StentState& state, const VesselPath& path,
+                      const PlaqueState& wall);
+
 }  // namespace ostium
