@@ -25,6 +25,11 @@ constexpr double anchor_N_m = 250;        // of what holds an open balloon to it
 constexpr double anchor_friction = 0.12;  // BalloonModel::friction
 constexpr double most_held_N = 3;         // a shaft kinks before it bears more [estimate]
 constexpr double held_s = 0.02;           // in which that comes and goes
+constexpr double irritates_N = 0.05;   // of a wire on the ventricle's wall that surely gives extrasystoles [estimate]
+constexpr double at_valve_m = 4.5e-3;  // above the annulus within which a tip may be on its way through the valve
+constexpr double catch_angle_rad = 0.35;  // between guide and shaft at which a crimped stent's edge hangs [estimate]
+constexpr double edge_N_m = 500;          // of a guide's edge against a stent [estimate]
+constexpr double most_caught_N = 5;       // a balloon's shaft tears soon beyond [estimate]
 constexpr double manifold_m3 = 0.3e-6;    // of the line ahead of the guide
 
 bool is_catheter(const Instrument& i) {
@@ -76,7 +81,7 @@ void look_at_balloon(const BedsideModel& model, const State& rods, const StepRep
   const double was = s.balloon;
   s.balloon = t < 0 ? -1 : model.balloon_of[static_cast<std::size_t>(t)];
   s.branch = -1, s.drag_N = 0;
-  if (s.balloon != was) s.held = s.holding_N = 0;
+  if (s.balloon != was) s.held = s.holding_N = s.stent_out = s.caught = s.caught_N = 0;
   if (t < 0) return;
   const Rod& rod = model.rods.rods[static_cast<std::size_t>(t)];
   const RodState& own = rods.rods[static_cast<std::size_t>(t)];
@@ -123,6 +128,103 @@ void look_at_guide(const BedsideModel& model, const State& rods, const StepRepor
   }
 }
 
+/// A crimped stent that is drawn back into the guide hangs on its edge if the shaft leaves the guide at an angle, or if
+/// it is no longer crimped. The edge holds it; what it cannot be pulled off its balloon with, the shaft feels.
+void look_at_crimped_stent(const BedsideModel& model, const State& rods, const TreatmentState& treatment,
+                           BedsideState& s) {
+  s.caught_N = 0;
+  const int own = s.balloon < 0 ? -1 : model.treatment.stent_on[static_cast<std::size_t>(s.balloon)];
+  if (own < 0 || s.guide < 0 || treatment.stents[static_cast<std::size_t>(own)].where != StentState::on_balloon) {
+    s.caught = s.stent_out = 0;
+    return;
+  }
+  const auto t = static_cast<std::size_t>(balloon_tool(model, rods)), g = static_cast<std::size_t>(s.guide);
+  const Instrument &instrument = model.tools[t].instrument, &guide = model.tools[g].instrument;
+  const StentState& stent = treatment.stents[static_cast<std::size_t>(own)];
+  const double out_m = rods.rods[t].inserted_m - rods.rods[g].inserted_m;
+  const double inside_m = marker_from_tip_m(instrument, 0) - stent.shift_m - out_m;  // its proximal end, in the guide
+  if (inside_m < -1e-3) s.stent_out = 1;
+  if (inside_m <= 0) s.caught = 0;
+  if (inside_m <= 0 || s.stent_out == 0) return;
+  if (s.caught == 0) {
+    constexpr double beyond_m = 4e-3;
+    const Rod& shaft = model.rods.rods[t];
+    const Vector3d along = point_from_tip(shaft, rods.rods[t], std::max(0.0, out_m - beyond_m)) -
+                           point_from_tip(shaft, rods.rods[t], out_m);
+    const double angle =
+        std::acos(std::clamp(along.normalized().dot(direction_at_tip(model.rods.rods[g], rods.rods[g])), -1.0, 1.0));
+    const double widest = *std::max_element(stent.radius_m.begin(), stent.radius_m.end());
+    const double strut = model.treatment.stents[static_cast<std::size_t>(own)].strut_m;
+    if (angle > catch_angle_rad || widest + strut > guide.inner_diameter_m / 2)
+      s.caught = 1;
+    else if (inside_m > 2e-3)
+      s.stent_out = 0;  // it has found its way in
+  }
+  if (s.caught > 0) s.caught_N = std::min(edge_N_m * inside_m, most_caught_N);
+}
+
+/// A guide that goes so deep that it meets a stent in the wall pushes its end, if it does not lie in the middle of it.
+void look_at_edge(const BedsideModel& model, const State& rods, const TreatmentState& treatment, BedsideScratch& x,
+                  BedsideState& s) {
+  s.edge_m = -1e9, s.edge_N = 0;
+  double wanted = 0;
+  if (s.guide >= 0 && static_cast<int>(s.where) == TipPlace::coronary) {
+    const auto g = static_cast<std::size_t>(s.guide);
+    const Rod& rod = model.rods.rods[g];
+    const CellLocator::Found f = x.locator.nearest(rods.rods[g].position[rod.elements], near_heart_m);
+    for (std::size_t i = 0; i < treatment.stents.size() && f.cell >= 0; ++i) {
+      const StentState& stent = treatment.stents[i];
+      if (stent.where != StentState::deployed || stent.branch < 0) continue;
+      const VesselPath& path = model.treatment.paths[static_cast<std::size_t>(stent.branch)];
+      const auto at = std::find(path.cells.begin(), path.cells.end(), f.cell);
+      if (at == path.cells.end()) continue;
+      const double tip_m = path.s_m[static_cast<std::size_t>(at - path.cells.begin())] + f.along_m;
+      const auto [from, to] = span_of(stent);
+      if (tip_m <= from || tip_m >= to) continue;
+      const double outer = model.tools[g].instrument.outer_diameter_m / 2;
+      if (outer + f.distance_m < stent.radius_m.front()) continue;  // it slides in
+      s.edge_m = tip_m, s.edge_N = std::min(edge_N_m * (tip_m - from), most_caught_N);
+      wanted = s.edge_N;
+    }
+  }
+  s.edge_push_N += (wanted - s.edge_push_N) * look_every * model.rods.step_s / held_s;
+  if (s.edge_push_N < 1e-6) s.edge_push_N = 0;
+}
+
+/// Whether a point is in the ventricle as it is at that phase.
+bool in_ventricle(const Vessel& vessel, double phase, const Vector3d& p) {
+  const Ventricle& v = vessel.ventricle;
+  if (v.spheres.empty()) return false;
+  const auto frames = static_cast<double>(v.centres.size());
+  const auto& centres = v.centres[static_cast<std::size_t>(std::lround(phase * frames)) % v.centres.size()];
+  for (std::size_t k = 0; k < centres.size(); ++k)
+    if ((p - centres[k]).norm() < v.spheres[k].radius_m + 1e-3) return true;
+  return false;
+}
+
+void look_at_valve(const BedsideModel& model, const State& rods, const StepReport& report, double phase,
+                   const Vector3d& root_shift, BedsideState& s) {
+  const Landmarks& marks = model.vessel.patient->anatomy.landmarks;
+  bool through = false;
+  for (std::size_t t = 0; t < model.tools.size(); ++t) {
+    const Rod& rod = model.rods.rods[t];
+    if (!in_body(rod, rods.rods[t]) || rod.radius.at(0)[rod.elements] > valve_passes_m) continue;
+    const Vector3d p = rods.rods[t].position[rod.elements], from = p - root_shift - marks.p_annulus;
+    const double above_m = from.dot(marks.root_axis), aside_m = (from - above_m * marks.root_axis).norm();
+    const bool inside = in_ventricle(model.vessel, phase, p);
+    // The valve stays open only for what came while it was.
+    if (valve_is_open(phase) || s.through_valve > 0)
+      through = through || inside || (aside_m < valve_radius_m + 1e-3 && std::fabs(above_m) < at_valve_m);
+    if (!inside) continue;
+    double pressed_N = 0;
+    for (const Touch& touch : report.touches)
+      if (touch.rod == static_cast<int>(t) && in_ventricle(model.vessel, phase, touch.p_W))
+        pressed_N += touch.normal_W_N.norm();
+    s.irritation = std::max(s.irritation, std::min(1.0, pressed_N / irritates_N));
+  }
+  s.through_valve = through && !model.vessel.ventricle.spheres.empty();
+}
+
 void look_at_wires(const BedsideModel& model, const State& rods, const StepReport& report, const Vector3d& root_shift,
                    BedsideScratch& x, BedsideState& s) {
   s.irritation = 0, s.wire_cell = -1, s.wire_tip_N = 0;
@@ -135,7 +237,7 @@ void look_at_wires(const BedsideModel& model, const State& rods, const StepRepor
     const CellLocator::Found f = x.locator.nearest(p, near_heart_m);
     const bool in_artery = f.cell >= 0 && f.distance_m < 1.6 * tree.cells[f.cell].healthy_m;
     const Landmarks& marks = model.vessel.patient->anatomy.landmarks;
-    if (!in_artery && (p - root_shift - marks.p_annulus).norm() < 0.06)
+    if (model.vessel.ventricle.spheres.empty() && !in_artery && (p - root_shift - marks.p_annulus).norm() < 0.06)
       s.irritation = std::max(s.irritation, std::clamp(beyond_valve_m(marks, p - root_shift) / irritates_m, 0.0, 1.0));
     const bool thin = model.tools[t].instrument.kind == InstrumentKind::wire &&
                       model.tools[t].instrument.outer_diameter_m < 2 * thick_wire_m;
@@ -213,15 +315,18 @@ std::vector<int> add_devices(const std::vector<SessionTool>& tools, std::uint64_
   return balloon_of;
 }
 
-void look(const BedsideModel& model, const State& rods, const StepReport& report, double phase, BedsideScratch& x,
-          BedsideState& s) {
+void look(const BedsideModel& model, const State& rods, const TreatmentState& treatment, const StepReport& report,
+          double phase, BedsideScratch& x, BedsideState& s) {
   x.locator.set_moment(phase, 0);
   const Vector3d root_shift =
       contraction(phase) * HeartMotion(model.vessel.patient->anatomy.landmarks).root_displacement();
   look_at_shafts(model, rods, x, s);
   look_at_balloon(model, rods, report, x, s);
   look_at_guide(model, rods, report, phase, root_shift, x, s);
+  look_at_crimped_stent(model, rods, treatment, s);
+  look_at_edge(model, rods, treatment, x, s);
   look_at_wires(model, rods, report, root_shift, x, s);
+  look_at_valve(model, rods, report, phase, root_shift, s);
 }
 
 void hold_balloon(const BedsideModel& model, const BalloonReport& report, const BalloonState& balloon, double step_s,
@@ -244,13 +349,16 @@ void hold_balloon(const BedsideModel& model, const BalloonReport& report, const 
 
 StretchLoad load_on_shaft(const BedsideModel& model, const State& rods, const BedsideState& s, int tool) {
   const auto t = static_cast<std::size_t>(tool);
-  if (s.holding_N == 0 || s.balloon < 0 || model.balloon_of[t] != static_cast<int>(s.balloon)) return {};
+  if (tool == static_cast<int>(s.guide) && s.edge_push_N > 0)
+    return {0, 3e-3, -s.edge_push_N * direction_at_tip(model.rods.rods[t], rods.rods[t])};
+  if ((s.holding_N == 0 && s.caught_N == 0) || s.balloon < 0 || model.balloon_of[t] != static_cast<int>(s.balloon))
+    return {};
   const Instrument& instrument = model.tools[t].instrument;
   const double near_m = marker_from_tip_m(instrument, 0), far_m = marker_from_tip_m(instrument, 1);
   const Vector3d along = point_from_tip(model.rods.rods[t], rods.rods[t], far_m) -
                          point_from_tip(model.rods.rods[t], rods.rods[t], near_m);
   if (!(along.norm() > 1e-6)) return {};
-  return {far_m, near_m, s.holding_N * along.normalized()};
+  return {far_m, near_m, (s.holding_N + s.caught_N) * along.normalized()};
 }
 
 TreatmentInputs treatment_inputs(const BedsideInputs& inputs, const BedsideState& s) {
@@ -259,7 +367,8 @@ TreatmentInputs treatment_inputs(const BedsideInputs& inputs, const BedsideState
   out.branch = static_cast<int>(s.branch);
   out.middle_m = seat_m(s);
   out.gauge_Pa = inputs.gauge_Pa;
-  out.drag_N = s.drag_N;
+  out.drag_N = s.drag_N + s.caught_N;
+  out.edge_m = s.edge_m, out.edge_N = s.edge_N;
   out.wire_tip_cell = static_cast<int>(s.wire_cell);
   out.wire_tip_N = s.wire_tip_N;
   out.shaft_m = s.shaft_m;

@@ -35,14 +35,19 @@ struct BedsideState {
   double holding_N = 0;              ///< what its shaft is held with, distally
   double blocked = 0;                ///< 1: a stent that is not open lies in its way
   double drag_N = 0;                 ///< of the wall on what is folded there, distally
+  double stent_out = 0;              ///< 1: the stent crimped on it has left the guide, and has not gone back into it
+  double caught = 0, caught_N = 0;   ///< 1: drawn back it hangs on the guide's edge, which pushes it distally
   // Of the guide: the catheter that contrast comes through.
   double guide = -1;                            ///< tool, as a number; -1: none is in the body
   double where = 0, cell = 0, into_ostium = 0;  ///< TipPlace of its end hole
   double covered = 0, in_ventricle = 0;         ///< TipPressureInputs
   double filled_m = 0;                          ///< radius of what lies in it
   double thick_wire = 0;                        ///< 1: that is a wire that leaves no room for pressure
+  double edge_m = -1e9, edge_N = 0;             ///< StentInputs: its edge on a stent that lies ahead
+  double edge_push_N = 0;                       ///< what the guide feels of that
   // Of the others.
   double irritation = 0;                  ///< HeartInputs
+  double through_valve = 0;               ///< 1: a wire lies through the aortic valve, or as good as: it cannot close
   double wire_cell = -1, wire_tip_N = 0;  ///< of the flow tree, where a coronary wire's tip is; the wall's force on it
   std::vector<double> shaft_m;            ///< (#cells) radius of the widest shaft in each
   double wall_cursor = 0;                 ///< of follow_lumen
@@ -60,6 +65,9 @@ void for_each_bedside_field(S& s, Visit&& visit) {
                               std::pair{"bedside.anchor_m", &s.anchor_m},
                               std::pair{"bedside.holding_N", &s.holding_N},
                               std::pair{"bedside.drag_N", &s.drag_N},
+                              std::pair{"bedside.stent_out", &s.stent_out},
+                              std::pair{"bedside.caught", &s.caught},
+                              std::pair{"bedside.caught_N", &s.caught_N},
                               std::pair{"bedside.blocked", &s.blocked},
                               std::pair{"bedside.guide", &s.guide},
                               std::pair{"bedside.where", &s.where},
@@ -69,7 +77,11 @@ void for_each_bedside_field(S& s, Visit&& visit) {
                               std::pair{"bedside.in_ventricle", &s.in_ventricle},
                               std::pair{"bedside.filled_m", &s.filled_m},
                               std::pair{"bedside.thick_wire", &s.thick_wire},
+                              std::pair{"bedside.edge_m", &s.edge_m},
+                              std::pair{"bedside.edge_N", &s.edge_N},
+                              std::pair{"bedside.edge_push_N", &s.edge_push_N},
                               std::pair{"bedside.irritation", &s.irritation},
+                              std::pair{"bedside.through_valve", &s.through_valve},
                               std::pair{"bedside.wire_cell", &s.wire_cell},
                               std::pair{"bedside.wire_tip_N", &s.wire_tip_N},
                               std::pair{"bedside.wall_cursor", &s.wall_cursor}})
@@ -98,13 +110,14 @@ struct BedsideScratch {
 };
 
 /// Looks at the rods as they are after a step.
-void look(const BedsideModel& model, const State& rods, const StepReport& report, double phase, BedsideScratch& scratch,
-          BedsideState& state);
+void look(const BedsideModel& model, const State& rods, const TreatmentState& treatment, const StepReport& report,
+          double phase, BedsideScratch& scratch, BedsideState& state);
 
 /// What holds the balloon's shaft from now on, by what the wall pressed it with.
 void hold_balloon(const BedsideModel& model, const BalloonReport& report, const BalloonState& balloon, double step_s,
                   BedsideState& state);
-/// That force, for the shaft's rod: along it, on the stretch between its markers.
+/// Forces on a tool's rod. On the balloon's: that one, and the guide's edge that its stent hangs on; along it, on the
+/// stretch between its markers. On the guide's tip: the stent that it pushes.
 StretchLoad load_on_shaft(const BedsideModel& model, const State& rods, const BedsideState& state, int tool);
 
 TreatmentInputs treatment_inputs(const BedsideInputs& inputs, const BedsideState& state);

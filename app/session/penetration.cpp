@@ -61,9 +61,13 @@ std::vector<Ball> balls_of(const SessionModel& model, const SessionState& state)
   return balls;
 }
 
-double winding(const std::vector<Vector3d>& vertices, const SurfaceDescription& wall, const Vector3d& p) {
+/// The door hangs within what is closed without it.
+double winding(const std::vector<Vector3d>& vertices, const SurfaceDescription& wall, const std::vector<char>& door,
+               const Vector3d& p) {
   double sum = 0;
-  for (const auto& t : wall.triangles) {
+  for (std::size_t k = 0; k < wall.triangles.size(); ++k) {
+    if (door[k]) continue;
+    const auto& t = wall.triangles[k];
     const Vector3d a = vertices[t[0]] - p, b = vertices[t[1]] - p, c = vertices[t[2]] - p;
     const double la = a.norm(), lb = b.norm(), lc = c.norm();
     sum += 2 * std::atan2(a.dot(b.cross(c)), la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb);
@@ -88,7 +92,10 @@ Penetration penetration(const SessionModel& model, const SessionState& state) {
     largest = std::max(largest, 1.5 * balls[b].radius_m);
   }
   const Vector3d margin = Vector3d::Constant(largest);
-  for (const auto& t : wall.triangles) {
+  std::vector<char> door(wall.triangles.size(), 0);
+  for (int t : wall.door) door[static_cast<std::size_t>(t)] = 1;
+  for (std::size_t k = 0; k < wall.triangles.size(); ++k) {
+    const auto& t = wall.triangles[k];
     const Vector3d &a = vertices[t[0]], &b = vertices[t[1]], &c = vertices[t[2]];
     const Cell low = cell_of(a.cwiseMin(b).cwiseMin(c) - margin), high = cell_of(a.cwiseMax(b).cwiseMax(c) + margin);
     for (int x = low.x; x <= high.x; ++x)
@@ -97,14 +104,15 @@ Penetration penetration(const SessionModel& model, const SessionState& state) {
           const auto found = cells.find({x, y, z});
           if (found == cells.end()) continue;
           for (const std::size_t n : found->second)
-            balls[n].distance_m = std::min(balls[n].distance_m, verify::triangle_distance(balls[n].p, a, b, c));
+            if (!door[k] || balls[n].radius_m > wall.door_passes_m)
+              balls[n].distance_m = std::min(balls[n].distance_m, verify::triangle_distance(balls[n].p, a, b, c));
         }
   }
   Penetration out;
   for (const Ball& ball : balls) {
     const double depth = ball.radius_m - ball.distance_m;
     if (!ball.is_covered) out.deepest_m = std::max(out.deepest_m, depth);
-    if ((ball.is_tip || depth > 0.5 * ball.radius_m) && winding(vertices, wall, ball.p) < 0.5) ++out.outside;
+    if ((ball.is_tip || depth > 0.5 * ball.radius_m) && winding(vertices, wall, door, ball.p) < 0.5) ++out.outside;
   }
   return out;
 }

@@ -267,6 +267,7 @@ bool beat(const SessionModel& model, const SessionInputs& inputs, SessionState& 
        {inputs.rate_1_min, state.bedside.irritation,
         model.treatment.drugs.nitrate_lowers * state.treatment.drugs.nitrate},
        model.step_s(), heart);
+  motion.door_open = valve_is_open(heart.phase) || state.bedside.through_valve > 0;
   motion.frame_after = vessel_frame(*model.vessel, heart.phase + (heart.beats - beats));
   return heart.beats > beats;
 }
@@ -323,7 +324,7 @@ void treat(const SessionModel& model, const SessionInputs& inputs, bool R_wave, 
            SessionReport& report) {
   const BedsideModel bedside = bedside_of(model);
   if (state.rods.step % look_every == 0)
-    look(bedside, state.rods, report.rods, state.blood.heart.phase, *x.bedside, state.bedside);
+    look(bedside, state.rods, state.treatment, report.rods, state.blood.heart.phase, *x.bedside, state.bedside);
   report.treatment = step(model.treatment, model.physiology.flow.tree, treatment_inputs(inputs.bedside, state.bedside),
                           model.step_s(), state.treatment, state.blood, x.physiology_inputs.occupied_m, x.treatment);
   state.bedside.blocked = report.treatment.blocked;

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <Eigen/Geometry>
+#include <algorithm>
 
 #include "data/load_error.h"
 #include "vascular/patient_frame.h"
@@ -39,6 +40,30 @@ std::vector<std::pair<std::string, Vector3d>> places_of(const Patient& patient) 
     places.emplace_back("valve", nearest(marks.p_annulus));
   }
   return places;
+}
+
+/// The tree's frames with the ventricle as a branch of the aorta, so that a tip in it has a place.
+std::vector<SphereTree> with_ventricle(std::vector<SphereTree> frames, const Ventricle& ventricle,
+                                       const Landmarks& marks) {
+  if (ventricle.spheres.empty()) return frames;
+  for (std::size_t f = 0; f < frames.size(); ++f) {
+    TreeBranch branch{.name = "left ventricle", .parent = -1, .parent_sphere = -1, .spheres = ventricle.spheres};
+    for (std::size_t k = 0; k < branch.spheres.size(); ++k) {
+      // None reaches up through the valve, where a tip is in a sinus.
+      TreeSphere& sphere = branch.spheres[k];
+      const double below_m = (marks.p_annulus - ventricle.spheres[k].p).dot(marks.root_axis);
+      sphere.p = ventricle.centres[f][k], sphere.radius_m = std::clamp(below_m - 1e-3, 0.5e-3, sphere.radius_m);
+    }
+    double least = 1;
+    for (std::size_t b = 0; b < frames[f].branches.size(); ++b)
+      for (std::size_t k = 0; k < frames[f].branches[b].spheres.size(); ++k) {
+        if (frames[f].branches[b].name != "aorta") continue;
+        const double d = (frames[0].branches[b].spheres[k].p - ventricle.spheres.front().p).norm();
+        if (d < least) least = d, branch.parent = static_cast<int>(b), branch.parent_sphere = static_cast<int>(k);
+      }
+    frames[f].branches.push_back(std::move(branch));
+  }
+  return frames;
 }
 
 /// As opened_wall.h changes it.
@@ -90,11 +115,13 @@ std::shared_ptr<const Vessel> vessel_of(const Case& c, std::optional<std::uint64
   vessel->name = c.name;
   vessel->coronaries = make_coronaries(patient, c.rate_1_min);
   vessel->wall = vessel->coronaries ? untreated_wall(*vessel->coronaries) : wall_of(patient->lumen);
+  vessel->ventricle = add_ventricle(*patient, vessel->wall);
   vessel->wall.friction = vessel_friction;
   vessel->surface = std::make_shared<Surface>(make_surface(vessel->wall));
   const Landmarks& marks = patient->anatomy.landmarks;
   vessel->entry = end_at(marks.p_access, marks.access_direction);
-  vessel->way = std::make_unique<const Way>(patient->tree_frames, marks.p_access, places_of(*patient));
+  vessel->way = std::make_unique<const Way>(with_ventricle(patient->tree_frames, vessel->ventricle, marks),
+                                            marks.p_access, places_of(*patient));
   vessel->p_middle = heart_middle(*patient);
   vessel->rate_1_min = c.rate_1_min;
   vessel->patient = patient;

@@ -8,6 +8,7 @@
 #include "core/state.h"
 #include "core/surface/surface.h"
 #include "data/case.h"
+#include "vascular/ventricle/ventricle.h"
 
 namespace ostium {
 
@@ -21,6 +22,7 @@ struct Vessel {
   double rate_1_min = 70;                              ///< of the heart, as a session begins
   std::shared_ptr<const Patient> patient;              ///< of a case
   std::unique_ptr<const Coronaries> coronaries;        ///< the same; null: a mesh
+  Ventricle ventricle;  ///< behind the aortic valve, the wall's door; empty: instruments end on the valve's floor
 
   bool beats() const { return wall.frames.size() > 1; }
 };

@@ -88,12 +88,18 @@ unsigned may_meet(const ClusterPose& pose, const View& view) {
   return any & ((1U << pose.balls.size()) - 1);
 }
 
-/// Adds what of a cluster is within reach, seen with the corners `now`.
+/// Whether a door lets a node of that radius through.
+bool lets_through(const Surface& surface, const SurfacePose& whole, double radius) {
+  return whole.door_open && radius <= surface.door_passes_m;
+}
+
+/// Adds what of a cluster is within reach, seen with the corners `now`; `passes`: but for its door.
 void look(const Surface& surface, int cluster, const ClusterPose& pose, const Field<3>& now, const View& view,
-          NodeWalls& walls) {
+          bool passes, NodeWalls& walls) {
   const Surface::Cluster& c = surface.clusters[cluster];
   for (unsigned left = may_meet(pose, view); left != 0; left &= left - 1) {
     const Surface::Triangle& t = surface.triangles[c.first_triangle + std::countr_zero(left)];
+    if (passes && t.door) continue;
     const V3<double> a = load3<double>(now, t.corner[0]), b = load3<double>(now, t.corner[1]),
                      d = load3<double>(now, t.corner[2]);
     const V3<double> out = cross(b - a, d - a);
@@ -175,11 +181,13 @@ bool first_exit(const Model& model, const V3<double>& from, const V3<double>& to
   bounds.take(from, 0), bounds.take(to, 0);
   for (std::size_t k = 0; k < model.surfaces.size(); ++k) {
     const Surface& surface = *model.surfaces[k];
+    const bool passes = lets_through(surface, scratch.surfaces[k], view.radius);
     find_clusters(surface, bounds.low, bounds.high, scratch.surfaces[k], clusters);
     for (int cluster : clusters) {
       const ClusterPose& pose = pose_of(surface, cluster, scratch.surfaces[k]);
       const Surface::Cluster& c = surface.clusters[cluster];
       for (int j = c.first_triangle; j < c.first_triangle + c.triangles; ++j) {
+        if (passes && surface.triangles[j].door) continue;
         const auto& corner = surface.triangles[j].corner;
         const V3<double> a = load3<double>(pose.after, corner[0]), b = load3<double>(pose.after, corner[1]),
                          d = load3<double>(pose.after, corner[2]);
@@ -251,7 +259,8 @@ void find_walls(const Model& model, const Strand& strand, Scratch& scratch) {
         for (unsigned left = nodes.near(pose.low, pose.high, move); left != 0; left &= left - 1) {
           const int i = begin + std::countr_zero(left);
           const View view = view_of(rod, own, i, load3<double>(own.position, i), c.travel.at(0)[i] + move);
-          look(surface, cluster, pose, pose.before, view, c.walls[i]);
+          look(surface, cluster, pose, pose.before, view, lets_through(surface, scratch.surfaces[k], view.radius),
+               c.walls[i]);
         }
       }
     }
@@ -277,7 +286,7 @@ bool follow(const Model& model, const RodState& own, int i, const V3<double>& to
       find_clusters(surface, bounds.low, bounds.high, scratch.surfaces[k], c.clusters);
       for (int cluster : c.clusters) {
         const ClusterPose& pose = pose_of(surface, cluster, scratch.surfaces[k]);
-        look(surface, cluster, pose, pose.after, view, met);
+        look(surface, cluster, pose, pose.after, view, lets_through(surface, scratch.surfaces[k], view.radius), met);
       }
     }
     drop_walls_seen_from_behind(met);

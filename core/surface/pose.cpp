@@ -96,6 +96,7 @@ void set_motion(const Surface& surface, const SurfaceMotion& motion, SurfacePose
   pose.before = moment(surface, motion.frame_before, motion.shift_before_W);
   pose.goes_on = pose.before == ended && pose.edits == surface.edits;
   pose.edits = surface.edits;
+  pose.door_open = motion.door_open;
   pose.after = moment(surface, motion.frame_after, motion.shift_after_W);
   ++pose.step;
 }

@@ -30,6 +30,7 @@ struct SurfacePose {
   std::vector<ClusterPose> clusters;
   std::vector<long> listed;  ///< per cluster: the last query that found it
   long step = 0, query = 0, edits = -1;
+  bool door_open = false;
   bool goes_on = false;  ///< this step begins where the last one ended, on the same surface
 };
 

@@ -33,17 +33,34 @@ void check(const SurfaceDescription& d) {
   for (std::size_t t = 0; t < d.triangles.size(); ++t)
     for (int v : d.triangles[t])
       if (v < 0 || v >= vertices) refuse("triangle " + std::to_string(t) + " names vertex " + std::to_string(v));
+  for (int t : d.door)
+    if (t < 0 || t >= static_cast<int>(d.triangles.size())) refuse("its door names triangle " + std::to_string(t));
+  if (!(d.door_passes_m >= 0 && std::isfinite(d.door_passes_m))) refuse("what its door passes must not be negative");
 }
 
 int wrapped(int frame, int frames) { return ((frame % frames) + frames) % frames; }
 
-/// Vertex normals of the first frame, outwards, weighted by the angles of the triangles.
+std::vector<char> is_door(const SurfaceDescription& d) {
+  std::vector<char> door(d.triangles.size(), 0);
+  for (int t : d.door) door[static_cast<std::size_t>(t)] = 1;
+  return door;
+}
+
+/// Vertex normals of the first frame, outwards, weighted by the angles of the triangles. Where a door hangs on the wall
+/// they are the wall's.
 std::vector<Vector3d> vertex_normals(const SurfaceDescription& d) {
   const auto& p = d.frames[0];
+  const std::vector<char> door = is_door(d);
+  std::vector<char> of_wall(p.size(), 0);
+  for (std::size_t k = 0; k < d.triangles.size(); ++k)
+    if (!door[k])
+      for (int v : d.triangles[k]) of_wall[v] = 1;
   std::vector<Vector3d> normals(p.size(), Vector3d::Zero());
-  for (const auto& t : d.triangles) {
+  for (std::size_t j = 0; j < d.triangles.size(); ++j) {
+    const auto& t = d.triangles[j];
     const Vector3d n = (p[t[1]] - p[t[0]]).cross(p[t[2]] - p[t[0]]).normalized();
     for (int k = 0; k < 3; ++k) {
+      if (door[j] && of_wall[t[k]]) continue;
       const Vector3d e = p[t[(k + 1) % 3]] - p[t[k]], f = p[t[(k + 2) % 3]] - p[t[k]];
       normals[t[k]] += std::atan2(e.cross(f).norm(), e.dot(f)) * n;
     }
@@ -97,7 +114,9 @@ Box box_of(const Surface& surface, const Box* boxes, int n, int interval) {
 
 class Builder {
  public:
-  explicit Builder(const SurfaceDescription& d) : d_(d), normals_(vertex_normals(d)), order_(d.triangles.size()) {
+  explicit Builder(const SurfaceDescription& d)
+      : d_(d), normals_(vertex_normals(d)), door_(is_door(d)), order_(d.triangles.size()) {
+    out_.door_passes_m = d.door_passes_m;
     out_.frames = static_cast<int>(d.frames.size());
     out_.stiffness_N_m2 = d.stiffness_N_m2, out_.friction = d.friction;
     std::iota(order_.begin(), order_.end(), 0);
@@ -142,7 +161,7 @@ class Builder {
     std::map<int, int> corner;
     for (int k = begin; k < end; ++k) {
       Surface::Triangle triangle;
-      triangle.id = order_[k];
+      triangle.id = order_[k], triangle.door = door_[order_[k]];
       triangle.curvature = shape_operator(d_, normals_, d_.triangles[order_[k]]);
       for (int j = 0; j < 3; ++j) {
         const int v = d_.triangles[order_[k]][j];
@@ -183,6 +202,7 @@ class Builder {
 
   const SurfaceDescription& d_;
   std::vector<Vector3d> normals_;
+  std::vector<char> door_;
   std::vector<int> order_;
   std::vector<Vector3d> centres_;
   Surface out_;
@@ -253,7 +273,7 @@ SurfaceMotion part_of(const SurfaceMotion& whole, int frames, double from, doubl
   move -= frames * std::round(move / frames);
   const Eigen::Vector3d shift_W = whole.shift_after_W - whole.shift_before_W;
   return {whole.frame_before + from * move, whole.frame_before + to * move, whole.shift_before_W + from * shift_W,
-          whole.shift_before_W + to * shift_W};
+          whole.shift_before_W + to * shift_W, whole.door_open};
 }
 
 Eigen::Vector3d vertex_at(const SurfaceDescription& d, int vertex, double frame) {

@@ -21,6 +21,10 @@ struct SurfaceDescription {
   /// Force per length of instrument and depth, N/m2, that pushes the wall outwards; 0: rigid.
   double stiffness_N_m2 = 0;
   double friction = 0;  ///< against instruments, static and kinetic
+  /// A door: triangles that instruments no thicker than this pass while it is open (SurfaceMotion), and that are a wall
+  /// like any other else. It hangs within the lumen: without it the surface is closed.
+  std::vector<int> door;
+  double door_passes_m = 0;  ///< radius
 };
 
 inline constexpr int cluster_size = 16;  ///< triangles
@@ -42,6 +46,7 @@ struct Surface {
     std::array<unsigned char, 3> corner;  ///< of its cluster
     std::array<float, 3> curvature;       ///< 1/m: a, b, c of the shape operator, see curvature_towards
     int id = 0;                           ///< as described
+    bool door = false;
   };
 
   std::vector<Cluster> clusters;
@@ -53,7 +58,7 @@ struct Surface {
   int corners = 0;
   std::vector<Node> nodes;
   std::vector<Box> boxes;  ///< [interval][node]
-  double stiffness_N_m2 = 0, friction = 0;
+  double stiffness_N_m2 = 0, friction = 0, door_passes_m = 0;
   int largest_cluster = 0;  ///< corners
   long edits = 0;           ///< how often a SurfaceEditor changed it
 
@@ -93,6 +98,7 @@ class SurfaceEditor {
 struct SurfaceMotion {
   double frame_before = 0, frame_after = 0;
   Eigen::Vector3d shift_before_W = Eigen::Vector3d::Zero(), shift_after_W = Eigen::Vector3d::Zero();
+  bool door_open = false;  ///< during the step
 };
 
 /// What it does from one part of the step to another, 0 <= from < to <= 1.

@@ -209,6 +209,49 @@ TEST(Contact, AStepDoesNotAllocateAndIsBitIdentical) {
   EXPECT_LT(allocated, 10) << "the list of touches grows at first";
 }
 
+/// Across the middle of a tube hangs a door: what is thin enough passes it while it is open, and only then.
+TEST(Contact, ADoorLetsThinInstrumentsThroughWhileItIsOpen) {
+  SurfaceDescription wall = straight_tube(3e-3);
+  constexpr double at_m = 0.1;
+  constexpr int around = 24;
+  const int rim = static_cast<int>(wall.frames[0].size());
+  for (int j = 0; j <= around; ++j) {
+    const double a = 2 * pi * j / around, r = j < around ? 2.9e-3 : 0;
+    wall.frames[0].push_back({at_m, r * std::cos(a), r * std::sin(a)});
+  }
+  for (int j = 0; j < around; ++j) {
+    wall.door.push_back(static_cast<int>(wall.triangles.size()));
+    wall.triangles.push_back({rim + j, rim + (j + 1) % around, rim + around});  // facing away from what comes
+  }
+  wall.door_passes_m = 0.46e-3;
+  const RodDescription thin = verify::steel_wire({.elements = 200, .length_m = 0.2, .gravity = false});
+  RodDescription thick = thin;
+  for (auto& section : thick.sections) section.radius_m = 0.47e-3;
+  const auto tip_m = [&](const RodDescription& d, bool open, double push_s, double pull_s = 0) {
+    Model model;
+    model.gravity_W.setZero();
+    model.rods = {make_rod(d)};
+    model.surfaces = {std::make_shared<Surface>(make_surface(wall))};
+    State state = make_state(model, {along_x()}, {0.08});
+    Inputs inputs;
+    inputs.rods.resize(1), inputs.surfaces.resize(1);
+    inputs.surfaces[0].door_open = open;
+    Scratch scratch(model);
+    StepReport report;
+    for (int n = 0; n < 1000 * (push_s + pull_s); ++n) {
+      inputs.rods[0].feed_m_s = n < 1000 * push_s ? 0.1 : -0.1;
+      step(model, inputs, state, scratch, report);
+    }
+    return state.rods[0].position[model.rods[0].elements].x();
+  };
+  EXPECT_NEAR(tip_m(thin, true, 0.4), 0.12, 0.2e-3);
+  EXPECT_NEAR(tip_m(thin, true, 0.4, 0.4), 0.08, 0.2e-3) << "and back";
+  EXPECT_NEAR(tip_m(thin, false, 0.4), at_m - 0.45e-3, 0.1e-3) << "a wall";
+  EXPECT_NEAR(tip_m(thick, true, 0.4), at_m - 0.47e-3, 0.1e-3) << "and to what is too thick always";
+  wall.door[0] = 100'000;
+  EXPECT_THROW(make_surface(wall), std::invalid_argument);
+}
+
 /// A wire in a branch that beats, driven at random; whether it is still inside is for the triangles to say.
 TEST(Contact, AWireStaysInABeatingBranch) {
   const verify::TestVessel vessel = verify::test_vessel();

@@ -304,6 +304,75 @@ TEST(Contrast, AspirationBringsBackWhatIsThere) {
   EXPECT_NEAR(accounted_kg(body.state.contrast), before, 1e-9 * before);
 }
 
+// --- each outcome with its cause halved and doubled ----------------------------------------------------------------
+
+TEST(Outcomes, ExtrasystolesAreMoreFrequentTheMoreTheVentricleIsTouched) {
+  const auto ectopics = [](double irritation) {
+    HeartModel model;
+    HeartState s;
+    int count = 0;
+    for (int n = 0; n < 120000; ++n) {
+      const double before = s.ectopic;
+      step(model, {.irritation = irritation}, 1e-3, s);
+      count += s.ectopic > before;
+    }
+    return count;
+  };
+  EXPECT_EQ(ectopics(0), 0);
+  EXPECT_LT(ectopics(0.25), ectopics(0.5));
+  EXPECT_LT(ectopics(0.5), ectopics(1));
+}
+
+TEST(Outcomes, STShiftsSoonerAndFartherTheLessFlows) {
+  const auto shift_mV = [](double supply, double seconds, double time) {
+    IschaemiaModel model;
+    model.time_s *= time;
+    IschaemiaState s;
+    for (int n = 0; n < 100 * seconds; ++n) step(model, {supply, 1, 1}, 0.01, s);
+    return ST_shift_mV(model, s);
+  };
+  EXPECT_GT(shift_mV(0.15, 30, 1), shift_mV(0.3, 30, 1));
+  EXPECT_GT(shift_mV(0.3, 30, 1), shift_mV(0.6, 30, 1));
+  EXPECT_LT(shift_mV(0, 10, 1), shift_mV(0, 20, 1));
+  EXPECT_LT(shift_mV(0, 20, 1), shift_mV(0, 40, 1));
+  EXPECT_GT(shift_mV(0, 20, 0.5), shift_mV(0, 20, 1));
+  EXPECT_GT(shift_mV(0, 20, 1), shift_mV(0, 20, 2));
+}
+
+TEST(Outcomes, ContrastComesLaterWhenLessFlows) {
+  const auto arrives_s = [](double lost) {
+    Body body;
+    std::fill(body.state.flow.no_reflow.begin(), body.state.flow.no_reflow.end(), lost);
+    for (auto& tone : body.state.flow.tone) tone = 1;
+    body.model.flow.tone_s = 1e12;
+    body.run(10);
+    std::fill(body.state.contrast.line_kg.begin(), body.state.contrast.line_kg.end(), 350 * 2.5e-6 / line_cells);
+    body.inputs.contrast.tip = {TipPlace::coronary, 0, 1};
+    body.inputs.contrast.injection_m3_s = 2e-6;
+    const int cell = 90;
+    const double area = std::numbers::pi * std::pow(body.state.radius_m[cell], 2);
+    double t = 0;
+    for (; t < 20 && concentration(body.state.contrast, body.model.flow, cell, area) < 50; t += 0.01) body.run(0.01);
+    return t;
+  };
+  // A flow of all, half, a quarter.
+  const double all = arrives_s(0), half = arrives_s(0.5), quarter = arrives_s(0.75);
+  EXPECT_GT(half, 1.4 * all);
+  EXPECT_GT(quarter, 1.4 * half);
+}
+
+TEST(Outcomes, ATraceIsDampedByHowMuchOfTheHoleIsCovered) {
+  const auto pulse = [](double covered) {
+    Body body;
+    body.inputs.contrast.tip = {TipPlace::coronary, 2, 1};
+    body.inputs.tip_covered = covered;
+    body.run(6);
+    return body.state.line.pulse_Pa;
+  };
+  EXPECT_GT(pulse(0.2), pulse(0.4));
+  EXPECT_GT(pulse(0.4), pulse(0.8));
+}
+
 TEST(Physiology, AStateCopiedFieldByFieldGoesOnBitIdentically) {
   Body a;
   a.inputs.contrast.tip = {TipPlace::coronary, 0, 1};
