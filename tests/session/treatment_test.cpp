@@ -5,6 +5,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "app/session/bedside.h"
 #include "app/session/outcome.h"
 #include "app/session/penetration.h"
 #include "app/session/run.h"
@@ -114,6 +115,101 @@ TEST(Treatment, ABalloonOpensTheLesionAndTheWallThatRodsMeet) {
   Scene scene;
   add_treatment(run.model, run.state, scene);
   EXPECT_NO_THROW(check(scene));
+}
+
+/// A guide in the ostium, a wire far down the artery, a stent still on its balloon beyond the guide's tip.
+struct StentAhead {
+  ScriptedRun run;
+  SessionScratch scratch;
+  SessionReport report;
+  SessionInputs inputs;
+  static constexpr int guide = 0, stent = 2;
+
+  static RunSetup stent_setup() {
+    RunSetup out = setup();
+    std::string script = predilatation;
+    const std::string from = R"({ "do": "advance", "tool": "balloon", "speed_mm_s": 30)";
+    script =
+        script.substr(0, script.find(from)) +
+        R"({ "do": "advance", "tool": "stent", "speed_mm_s": 40, "until": [{ "balloon_at_mm": -15 }], "timeout_s": 6 },
+                { "do": "mark", "text": "there" } ] })";
+    set_script(read_script("predilatation.json", script), out);
+    return out;
+  }
+  StentAhead() : run(stent_setup(), vessel()), scratch(run.model) {
+    while (run.tick()) {
+    }
+    EXPECT_EQ(run.outcome, Outcome::success) << reason(run.plan, run.hands);
+    inputs = run.inputs;
+    for (ToolInputs& tool : inputs.tools) tool = {};
+  }
+  StentState& crimped() { return run.state.treatment.stents[0]; }
+  /// How far its proximal end is in the guide.
+  double inside_m() {
+    const auto inserted = [&](int tool) { return run.state.rods.rods[static_cast<std::size_t>(tool)].inserted_m; };
+    return marker_from_tip_m(run.model.tools[stent].instrument, 0) - crimped().shift_m -
+           (inserted(stent) - inserted(guide));
+  }
+  template <class Until>
+  void move(int tool, double mm_s, double seconds, Until&& until) {
+    inputs.tools[static_cast<std::size_t>(tool)].advance_m_s = 1e-3 * mm_s;
+    for (int n = 0; n < 1000 * seconds && !until(); ++n) step(run.model, inputs, run.state, scratch, report);
+    inputs.tools[static_cast<std::size_t>(tool)] = {};
+  }
+};
+
+TEST(Treatment, AStentThatHangsOnTheGuidesEdgeIsLostIfPulledHard) {
+  StentAhead s;
+  BedsideState& bedside = s.run.state.bedside;
+  EXPECT_EQ(bedside.stent_out, 1);
+  ASSERT_LT(s.inside_m(), 0);
+  // It hangs; a gentle pull, and it comes free when it is pushed on.
+  s.move(s.stent, -20, 5, [&] { return s.inside_m() > 0.2e-3; });
+  bedside.caught = 1;
+  s.move(s.stent, -20, 0.08, [] { return false; });
+  EXPECT_EQ(bedside.caught, 1);
+  EXPECT_GT(bedside.caught_N, 0.3);
+  EXPECT_EQ(s.crimped().shift_m, 0);
+  s.move(s.stent, 20, 1, [&] { return bedside.caught == 0; });
+  EXPECT_EQ(bedside.caught, 0);
+  // Hard.
+  s.move(s.stent, -20, 5, [&] { return s.inside_m() > 0.2e-3; });
+  bedside.caught = 1;
+  double pull_N = 0;
+  s.move(s.stent, -20, 4, [&] {
+    if (!s.report.tools.empty()) pull_N = std::min(pull_N, s.report.tools[s.stent].push_N);
+    return s.crimped().where == StentState::lost;
+  });
+  EXPECT_EQ(s.crimped().where, StentState::lost);
+  EXPECT_LT(pull_N, -1.0) << "the hand has felt it";
+  s.move(s.stent, 0, 0.02, [] { return false; });
+  EXPECT_EQ(bedside.caught_N, 0);
+}
+
+TEST(Treatment, AGuideThatGoesDeepDeformsAStentAndFeelsIt) {
+  StentAhead s;
+  StentState& stent = s.crimped();
+  // As if it had been left there, hardly opened, right ahead of the guide.
+  const Eigen::Vector3d p = tip(s.run.model, s.run.state, s.guide);
+  const VesselPath& path = s.run.model.treatment.paths[static_cast<std::size_t>(s.run.state.bedside.branch)];
+  double at_m = 0, nearest = 1;
+  for (std::size_t k = 0; k < path.cells.size(); ++k) {
+    const Eigen::Vector3d c = s.run.model.vessel->coronaries->map.coronary.position(
+        static_cast<std::size_t>(path.cells[k]), s.run.state.blood.heart.phase);
+    if ((c - p).norm() < nearest) nearest = (c - p).norm(), at_m = path.s_m[k];
+  }
+  stent.where = StentState::deployed, stent.branch = s.run.state.bedside.branch;
+  stent.middle_m = at_m + 2e-3 + (span_of(stent).second - span_of(stent).first) / 2, stent.shift_m = 0;
+  for (auto* radii : {&stent.radius_m, &stent.rest_m}) std::fill(radii->begin(), radii->end(), 1.0e-3);
+  const auto [from, to] = span_of(stent);
+  double felt_N = 0;
+  s.move(s.guide, 10, 0.8, [&] {
+    felt_N = std::max(felt_N, s.run.state.bedside.edge_push_N);
+    return false;
+  });
+  EXPECT_GT(felt_N, 0.2);
+  EXPECT_GT(span_of(stent).first, from + 0.5e-3);
+  EXPECT_LT(span_of(stent).second - span_of(stent).first, to - from - 0.3e-3);
 }
 
 TEST(Treatment, AlternativesLieIdleOutside) {

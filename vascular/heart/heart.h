@@ -14,8 +14,10 @@ struct HeartModel {
   double resistance_Pa_s_m3 = 1.53e8;  ///< R: 93 mmHg at 5 L/min
   double compliance_m3_Pa = 1.27e-8;   ///< C: 1.7 mL/mmHg
   double impedance_Pa_s_m3 = 5.3e6;    ///< Z: 0.04 mmHg s/mL
-  double ectopic_per_s = 2.5;          ///< extrasystoles per second while something irritates the ventricle
-  std::uint64_t seed = 1;              ///< when they come
+  /// Extrasystoles per second of late diastole while something presses the ventricle's wall: then every second beat or
+  /// so is one [estimate].
+  double ectopic_per_s = 5;
+  std::uint64_t seed = 1;  ///< when they come
 };
 
 struct HeartInputs {
