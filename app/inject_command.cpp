@@ -41,6 +41,9 @@ int inject_command(const InjectOptions& o) {
   const bool video = o.out.ends_with(".mp4");
   if (!video && !o.out.ends_with(".png")) throw LoadError(o.out + ": what is it to be? .png and .mp4 are known");
   require_rate(o.frames_per_s);
+  for (const auto& [name, value] : {std::pair{"--rate", o.rate_mL_s}, std::pair{"--volume", o.volume_mL},
+                                    std::pair{"--iodine", o.iodine_mg_mL}, std::pair{"--phase", o.phase}})
+    if (!std::isfinite(value)) throw LoadError(std::string(name) + " is not a number");
   Case c = find_case(o.of);
   if (o.healthy) c.lesions.clear();
   const bool left = o.at.starts_with("left") || o.at == "aorta";

@@ -112,9 +112,11 @@ class Room {
     const bool left = artery != "RCA";
     View view = view_of(options.view.empty() ? usual_view(p, artery) : options.view, patient, left, options.pixels);
     view.field_m = 0.16;
-    // Half-way to the lesion, so that what is treated is well within the picture.
+    // What is treated is well within the picture.
     const int cell = p.path.cells[p.path.at(p.middle_m).index];
-    view.arm.p_PI += 0.5 * (scene.map().coronary.position(static_cast<std::size_t>(cell), 0.7) - view.arm.p_PI);
+    const Eigen::Vector3d to = scene.map().coronary.position(static_cast<std::size_t>(cell), 0.7) - view.arm.p_PI;
+    constexpr double from_middle_m = 0.035;
+    view.arm.p_PI += std::max(0.0, 1 - from_middle_m / to.norm()) * to;
 
     Angiogram angiogram(physiology, scene, view, 15, options.seed + 1);
     Picture out;
@@ -224,6 +226,9 @@ int treat_command(const TreatOptions& o) {
   if (!o.out.ends_with(".png")) throw LoadError(o.out + ": what is it to be? .png is known");
   if (!o.view.empty() && !find_view(o.view))
     throw LoadError("there is no view \"" + o.view + "\"; `ostium views` lists them");
+  for (const auto& [name, value] : {std::pair{"--hold", o.hold_s}, std::pair{"--pressure", o.pressure},
+                                    std::pair{"--oversize", o.oversize}, std::pair{"--shift", o.shift_mm}})
+    if (!std::isfinite(value)) throw LoadError(std::string(name) + " is not a number");
   const Case c = find_case(o.of);
   say("building " + c.name);
   Room room(c, o);

@@ -48,6 +48,8 @@ expect 0 '"iodine_balance"' "$ostium" inject --pixels 256 --seconds 0.3 --json -
 expect 3 "there is no case" "$ostium" inject no-such-case -o "$dir/inject.png"
 expect 3 "png and .mp4" "$ostium" inject -o "$dir/inject.jpg"
 expect 2 "volume" "$ostium" inject --volume -3 -o "$dir/inject.png"
+expect 3 "not a number" "$ostium" inject --volume nan -o "$dir/inject.png"
+expect 3 "not a number" "$ostium" treat --pressure nan -o "$dir/treat.png"
 expect 0 "Examples" "$ostium" treat --help
 expect 0 '"ffr_model"' "$ostium" treat --no-pictures --no-predilatation --no-postdilatation --hold 1 --json
 expect 3 "there is no view" "$ostium" treat --view upwards -o "$dir/treat.png"
