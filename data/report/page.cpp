@@ -5,7 +5,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <string_view>
 
 #include "data/plot.h"
 
@@ -78,6 +80,40 @@ std::string plot_of(const std::vector<ReportRun>& runs, const std::string& title
     }
   return any ? "<figure class=\"plot\"><figcaption>" + escaped(title) + "</figcaption>" + plot.svg() + "</figure>\n"
              : "";
+}
+
+/// ECG, pressures and gauge about the last inflation, as a monitor had them.
+std::string inflation_strips(const ReportRun& run, bool named) {
+  constexpr double before_s = 3, after_s = 10, longest_s = 60;
+  double from_s = -1, to_s = -1;
+  for (std::size_t e = 0; e + 3 < run.record.events.size(); e += 4) {
+    const auto code = static_cast<EventCode>(static_cast<int>(run.record.events[e + 1]));
+    const double time_s = run.record.events[e] * run.record.step_s;
+    if (code == EventCode::inflation_begins) from_s = time_s - before_s, to_s = time_s + longest_s;
+    if (code == EventCode::deflated && from_s >= 0) to_s = std::min(to_s, time_s + after_s);
+  }
+  if (from_s < 0) return "";
+  std::string out;
+  const std::size_t width = run.record.signal_columns.size();
+  for (const auto& [name, title, unit] :
+       {std::array{"ecg_II_mV", "II", "mV"}, std::array{"ecg_V2_mV", "V2", "mV"},
+        std::array{"guide_mmHg", "Guide", "mmHg"}, std::array{"gauge_atm", "Gauge", "atm"}}) {
+    const auto column = std::find(run.record.signal_columns.begin(), run.record.signal_columns.end(), name);
+    if (column == run.record.signal_columns.end()) continue;
+    const auto c = static_cast<std::size_t>(column - run.record.signal_columns.begin());
+    Plot::Points points;
+    for (std::size_t i = 0; i < run.record.rows(); ++i) {
+      const double* row = run.record.signals.data() + i * width;
+      if (row[0] >= from_s && row[0] <= to_s && std::isfinite(row[c])) points.emplace_back(row[0], row[c]);
+    }
+    if (points.size() < 2) continue;
+    Plot plot("", std::string_view(name) == "gauge_atm" ? "time, s" : "", std::string(title) + ", " + unit, 1060, 130);
+    plot.line(points, "#222", 0.8);
+    out += plot.svg() + "\n";
+  }
+  return out.empty() ? ""
+                     : "<figure><figcaption>" + (named ? escaped(run.code) + ": " : std::string()) +
+                           "The last inflation, as the monitor had it</figcaption>" + out + "</figure>\n";
 }
 
 std::string header(const std::vector<ReportRun>& runs) {
@@ -217,6 +253,7 @@ std::string report_page(const std::vector<ReportRun>& runs, const ScoreList& lis
   body += plot_of(runs, "Inflation device", "gauge_atm", "atm") + plot_of(runs, "Balloon, widest", "balloon_mm", "mm");
   body += plot_of(runs, "Smallest diameter of the lesion", "lesion_mld_mm", "mm") +
           plot_of(runs, "Contrast", "contrast_mL", "mL");
+  for (const ReportRun& run : runs) body += inflation_strips(run, runs.size() > 1);
   body += metrics_table(runs) + score_table(runs, list);
   for (const ReportRun& run : runs) body += events_table(run);
   return page(runs.size() == 1 ? "Run of " + runs[0].case_name : fmt::format("{} runs", runs.size()), body);

@@ -112,6 +112,21 @@ TEST(Report, NeedsNothingElseAndSaysWhatItIsFor) {
         << outside;
 }
 
+TEST(Report, ShowsTheMonitorOfTheLastInflation) {
+  ReportRun run = run_with("P1");
+  EXPECT_EQ(report_page({run}, {}).find("The last inflation"), std::string::npos);
+  run.record.signal_columns = {"time_s", "ecg_II_mV", "gauge_atm"};
+  run.record.signals.clear();
+  for (int i = 0; i < 1000; ++i)
+    for (const double v : {0.01 * i, 0.1 * (i % 70), i > 400 ? 12.0 : 0.0}) run.record.signals.push_back(v);
+  run.record.events = {4000, code(EventCode::inflation_begins), -1, 0, 6000, code(EventCode::deflated), -1, 2};
+  const std::string page = report_page({run}, {});
+  const std::size_t at = page.find("The last inflation");
+  ASSERT_NE(at, std::string::npos);
+  EXPECT_NE(page.find("II, mV", at), std::string::npos);
+  EXPECT_NE(page.find("Gauge, atm", at), std::string::npos);
+}
+
 TEST(Report, TablesHaveARowEach) {
   const ScoreList list = read_score_list("folder/small.json", small);
   const std::string csv = report_csv({run_with("P1"), run_with("P2")}, list);
