@@ -58,7 +58,7 @@ TEST(Valve, AWireGoesThroughItIntoTheVentricleAndGivesExtrasystoles) {
   root.run(40, 2);
   EXPECT_LT(root.above_annulus_m(), -20e-3);
   EXPECT_EQ(root.state.bedside.through_valve, 1);
-  root.run(40, 0.7);
+  root.run(40, 1.3);
   EXPECT_EQ(root.branch(), "left ventricle");
   root.run(0, 10);
   EXPECT_GT(root.ectopics, 2);
@@ -66,7 +66,7 @@ TEST(Valve, AWireGoesThroughItIntoTheVentricleAndGivesExtrasystoles) {
   EXPECT_LT(depth.deepest_m, 0.05e-3);
   EXPECT_EQ(depth.outside, 0);
   // Drawn back it leaves the ventricle in peace.
-  root.run(-60, 1.7);
+  root.run(-60, 2.1);
   EXPECT_GT(root.above_annulus_m(), 5e-3);
   root.run(0, 2);
   EXPECT_EQ(root.state.bedside.through_valve, 0);
