@@ -7,9 +7,10 @@ namespace ostium {
 
 namespace {
 
-SurfaceMoment moment(const Surface& surface, double frame, const Eigen::Vector3d& shift_W) {
+SurfaceMoment moment(const Surface& surface, double frame, const Eigen::Vector3d& shift_W, double sway) {
   SurfaceMoment m;
   m.shift_W = shift_W;
+  m.sway = surface.sways() ? sway : 0;
   const int n = surface.frames;
   if (n == 1) {
     m.weight[0] = 1;
@@ -35,9 +36,11 @@ void place(const Surface& surface, const Surface::Cluster& c, const SurfaceMomen
   for (int axis = 0; axis < 3; ++axis) {
     const float* row[4];
     for (int j = 0; j < mixed; ++j) row[j] = &surface.corner_frames[surface.row(c, m.frame[j], axis)];
+    const float* sway = m.sway != 0 ? &surface.corner_sway[surface.sway_row(c, axis)] : nullptr;
     for_packs(0, c.corners, [&]<class T>(T, int i) {
       T sum = splat<T>(m.shift_W[axis]);
       for (int j = 0; j < mixed; ++j) sum = madd(splat<T>(m.weight[j]), widened<T>(row[j] + i), sum);
+      if (sway) sum = madd(splat<T>(m.sway), widened<T>(sway + i), sum);
       store(to.at(axis) + i, sum);
     });
   }
@@ -93,11 +96,11 @@ SurfacePose::SurfacePose(const Surface& surface)
 
 void set_motion(const Surface& surface, const SurfaceMotion& motion, SurfacePose& pose) {
   const SurfaceMoment ended = pose.after;
-  pose.before = moment(surface, motion.frame_before, motion.shift_before_W);
+  pose.before = moment(surface, motion.frame_before, motion.shift_before_W, motion.sway_before);
   pose.goes_on = pose.before == ended && pose.edits == surface.edits;
   pose.edits = surface.edits;
   pose.door_open = motion.door_open;
-  pose.after = moment(surface, motion.frame_after, motion.shift_after_W);
+  pose.after = moment(surface, motion.frame_after, motion.shift_after_W, motion.sway_after);
   ++pose.step;
 }
 

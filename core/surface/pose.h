@@ -1,5 +1,7 @@
 #pragma once
 /// A surface at both ends of a step, computed where it is asked for.
+#include <algorithm>
+
 #include "core/math/field.h"
 #include "core/surface/surface.h"
 
@@ -10,6 +12,7 @@ struct SurfaceMoment {
   int frame[4] = {};  ///< whose positions are mixed, and
   double weight[4] = {};
   Eigen::Vector3d shift_W = Eigen::Vector3d::Zero();
+  double sway = 0;  ///< 0 of a surface that does not
   int interval = 0;
   bool operator==(const SurfaceMoment&) const = default;
 };
@@ -45,6 +48,18 @@ void find_clusters(const Surface& surface, const V3<double>& low, const V3<doubl
   found.clear();
   ++pose.query;
   const int nodes = static_cast<int>(surface.nodes.size());
+  // Boxes are moved as far as their corners may sway during the step; mostly it does not.
+  const bool sways = pose.before.sway != 0 || pose.after.sway != 0;
+  const float least = static_cast<float>(std::min(pose.before.sway, pose.after.sway)),
+              most = static_cast<float>(std::max(pose.before.sway, pose.after.sway));
+  const auto swayed = [&](int n, Box b) {
+    const Box& by = surface.sway_boxes[n];
+    for (int axis = 0; axis < 3; ++axis) {
+      b.low[axis] += by.low[axis] * (by.low[axis] < 0 ? most : least);
+      b.high[axis] += by.high[axis] * (by.high[axis] > 0 ? most : least);
+    }
+    return b;
+  };
   for (const SurfaceMoment* m : {&pose.before, &pose.after}) {
     if (m == &pose.after && m->interval == pose.before.interval && m->shift_W == pose.before.shift_W) break;
     const Box* boxes = &surface.boxes[std::size_t{1} * m->interval * nodes];
@@ -52,7 +67,7 @@ void find_clusters(const Surface& surface, const V3<double>& low, const V3<doubl
     const V3<double> l = low - shift, h = high - shift;
     const float lx = l.x, ly = l.y, lz = l.z, hx = h.x, hy = h.y, hz = h.z;
     for (int n = 0; n < nodes;) {
-      const Box& b = boxes[n];
+      const Box b = sways ? swayed(n, boxes[n]) : boxes[n];
       const Surface::Node& node = surface.nodes[n];
       if (b.low[0] > hx || b.low[1] > hy || b.low[2] > hz || b.high[0] < lx || b.high[1] < ly || b.high[2] < lz) {
         n = node.skip;

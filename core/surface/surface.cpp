@@ -30,6 +30,10 @@ void check(const SurfaceDescription& d) {
       if (!d.frames[f][v].allFinite())
         refuse("vertex " + std::to_string(v) + " of frame " + std::to_string(f) + " is not finite");
   }
+  if (!d.sway.empty() && d.sway.size() != d.frames[0].size())
+    refuse("its sway has " + std::to_string(d.sway.size()) + " vertices, frame 0 has " + std::to_string(vertices));
+  for (std::size_t v = 0; v < d.sway.size(); ++v)
+    if (!d.sway[v].allFinite()) refuse("the sway of vertex " + std::to_string(v) + " is not finite");
   for (std::size_t t = 0; t < d.triangles.size(); ++t)
     for (int v : d.triangles[t])
       if (v < 0 || v >= vertices) refuse("triangle " + std::to_string(t) + " names vertex " + std::to_string(v));
@@ -88,28 +92,45 @@ std::array<float, 3> shape_operator(const SurfaceDescription& d, const std::vect
 Box leaf_box(const Surface& surface, const Surface::Cluster& c, int interval) {
   constexpr float large = std::numeric_limits<float>::max(), rounding = 1e-6f;
   Box box{{large, large, large}, {-large, -large, -large}};
-  const auto value = [&](int frame, int axis, int i) {
-    return surface.corner_frames[surface.row(c, wrapped(frame, surface.frames), axis) + i];
+  const auto row = [&](int frame, int axis) {
+    return &surface.corner_frames[surface.row(c, wrapped(frame, surface.frames), axis)];
   };
-  for (int axis = 0; axis < 3; ++axis)
+  for (int axis = 0; axis < 3; ++axis) {
+    const float *before = row(interval - 1, axis), *from = row(interval, axis), *to = row(interval + 1, axis),
+                *behind = row(interval + 2, axis);
     for (int i = 0; i < c.corners; ++i) {
-      const float p0 = value(interval - 1, axis, i), p1 = value(interval, axis, i), p2 = value(interval + 1, axis, i),
-                  p3 = value(interval + 2, axis, i);
+      const float p0 = before[i], p1 = from[i], p2 = to[i], p3 = behind[i];
       for (const float b : {p1, p1 + (p2 - p0) / 6, p2 - (p3 - p1) / 6, p2})
         box.low[axis] = std::min(box.low[axis], b - rounding), box.high[axis] = std::max(box.high[axis], b + rounding);
     }
+  }
+  return box;
+}
+
+/// Around a cluster's displacements at a sway of 1.
+Box leaf_sway(const Surface& surface, const Surface::Cluster& c) {
+  Box box;
+  for (int axis = 0; axis < 3; ++axis) {
+    const float* row = &surface.corner_sway[surface.sway_row(c, axis)];
+    const auto [low, high] = std::minmax_element(row, row + c.corners);
+    box.low[axis] = *low, box.high[axis] = *high;
+  }
   return box;
 }
 
 /// Of a node, from those of its children.
-Box box_of(const Surface& surface, const Box* boxes, int n, int interval) {
-  const Surface::Node& node = surface.nodes[n];
-  if (node.cluster >= 0) return leaf_box(surface, surface.clusters[node.cluster], interval);
+Box around_children(const Surface& surface, const Box* boxes, int n) {
   const Box &a = boxes[n + 1], &b = boxes[surface.nodes[n + 1].skip];
   Box box;
   for (int axis = 0; axis < 3; ++axis)
     box.low[axis] = std::min(a.low[axis], b.low[axis]), box.high[axis] = std::max(a.high[axis], b.high[axis]);
   return box;
+}
+
+Box box_of(const Surface& surface, const Box* boxes, int n, int interval) {
+  const Surface::Node& node = surface.nodes[n];
+  if (node.cluster >= 0) return leaf_box(surface, surface.clusters[node.cluster], interval);
+  return around_children(surface, boxes, n);
 }
 
 class Builder {
@@ -121,8 +142,8 @@ class Builder {
     out_.stiffness_N_m2 = d.stiffness_N_m2, out_.friction = d.friction;
     std::iota(order_.begin(), order_.end(), 0);
     centres_.resize(d.triangles.size(), Vector3d::Zero());
-    for (std::size_t t = 0; t < d.triangles.size(); ++t)
-      for (const auto& frame : d.frames)
+    for (const auto& frame : d.frames)
+      for (std::size_t t = 0; t < d.triangles.size(); ++t)
         for (int v : d.triangles[t]) centres_[t] += frame[v];
     split(0, static_cast<int>(order_.size()));
     lay_out_corners();
@@ -185,6 +206,14 @@ class Builder {
           for (int i = 0; i < c.corners; ++i)
             out_.corner_frames[out_.row(c, frame, axis) + i] =
                 static_cast<float>(d_.frames[frame][out_.corner_vertex[c.first_corner + i]][axis]);
+    if (!d_.sway.empty()) {
+      out_.corner_sway.resize(std::size_t{3} * out_.corners);
+      for (const Surface::Cluster& c : out_.clusters)
+        for (int axis = 0; axis < 3; ++axis)
+          for (int i = 0; i < c.corners; ++i)
+            out_.corner_sway[out_.sway_row(c, axis) + i] =
+                static_cast<float>(d_.sway[out_.corner_vertex[c.first_corner + i]][axis]);
+    }
     for (int v : out_.corner_vertex) {
       const Eigen::Vector3f n = normals_[v].cast<float>();
       out_.corner_normals.push_back({n[0], n[1], n[2]});
@@ -194,9 +223,17 @@ class Builder {
   void make_boxes() {
     const int nodes = static_cast<int>(out_.nodes.size());
     out_.boxes.resize(std::size_t{1} * out_.frames * nodes);
-    for (int k = 0; k < out_.frames; ++k) {
-      Box* boxes = &out_.boxes[std::size_t{1} * k * nodes];
-      for (int n = nodes - 1; n >= 0; --n) boxes[n] = box_of(out_, boxes, n, k);
+    for (int n = nodes - 1; n >= 0; --n)  // a cluster's corners once, for all intervals
+      for (int k = 0; k < out_.frames; ++k) {
+        Box* boxes = &out_.boxes[std::size_t{1} * k * nodes];
+        boxes[n] = box_of(out_, boxes, n, k);
+      }
+    if (!out_.sways()) return;
+    out_.sway_boxes.resize(nodes);
+    for (int n = nodes - 1; n >= 0; --n) {
+      const int cluster = out_.nodes[n].cluster;
+      out_.sway_boxes[n] =
+          cluster >= 0 ? leaf_sway(out_, out_.clusters[cluster]) : around_children(out_, out_.sway_boxes.data(), n);
     }
   }
 
@@ -272,11 +309,16 @@ SurfaceMotion part_of(const SurfaceMotion& whole, int frames, double from, doubl
   double move = whole.frame_after - whole.frame_before;
   move -= frames * std::round(move / frames);
   const Eigen::Vector3d shift_W = whole.shift_after_W - whole.shift_before_W;
-  return {whole.frame_before + from * move, whole.frame_before + to * move, whole.shift_before_W + from * shift_W,
-          whole.shift_before_W + to * shift_W, whole.door_open};
+  const double sway = whole.sway_after - whole.sway_before;
+  SurfaceMotion part = whole;
+  part.frame_before = whole.frame_before + from * move, part.frame_after = whole.frame_before + to * move;
+  part.shift_before_W = whole.shift_before_W + from * shift_W, part.shift_after_W = whole.shift_before_W + to * shift_W;
+  part.sway_before = whole.sway_before + from * sway, part.sway_after = whole.sway_before + to * sway;
+  return part;
 }
 
-Eigen::Vector3d vertex_at(const SurfaceDescription& d, int vertex, double frame) {
+Eigen::Vector3d vertex_at(const SurfaceDescription& d, int vertex, double frame, double sway) {
+  if (sway != 0 && !d.sway.empty()) return vertex_at(d, vertex, frame) + sway * d.sway[vertex];
   const int frames = static_cast<int>(d.frames.size());
   if (frames == 1) return d.frames[0][vertex];
   const double k = std::floor(frame);

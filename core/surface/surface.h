@@ -5,7 +5,8 @@
 /// Between frames a vertex moves on a periodic Catmull-Rom spline, so its velocity is continuous. Triangles lie in
 /// clusters of up to 16, the leaves of a tree of boxes. The boxes hold what is in them during a whole interval between
 /// two frames (they are those of the spline's Bezier points), so they are made once and never refitted; positions are
-/// computed in clusters near an instrument alone.
+/// computed in clusters near an instrument alone. A slow motion beside the cycle, of a rhythm of its own, is a second
+/// set of displacements (`sway`), which is added times one number; each box has that of its corners' displacements.
 #include <Eigen/Core>
 #include <array>
 #include <vector>
@@ -18,6 +19,8 @@ struct SurfaceDescription {
   /// Vertices, m: one frame if it stands still; else those of one cycle, evenly spaced in time.
   std::vector<std::vector<Eigen::Vector3d>> frames;
   std::vector<std::array<int, 3>> triangles;  ///< counter-clockwise as seen from outside of the lumen
+  /// (#vertices), m: how far each is displaced at a sway of 1, in all frames alike. Empty: it does not sway.
+  std::vector<Eigen::Vector3d> sway;
   /// Force per length of instrument and depth, N/m2, that pushes the wall outwards; 0: rigid.
   double stiffness_N_m2 = 0;
   double friction = 0;  ///< against instruments, static and kinetic
@@ -53,11 +56,13 @@ struct Surface {
   std::vector<Triangle> triangles;
   int frames = 0;
   std::vector<float> corner_frames;  ///< [cluster][frame][x, y, z][corner of it], m: what is read together is together
+  std::vector<float> corner_sway;    ///< [cluster][x, y, z][corner of it], m; empty: it does not sway
   std::vector<int> corner_vertex;    ///< [corner], as described
   std::vector<V3<float>> corner_normals;  ///< [corner], outwards, of the first frame: they tell sides, no more
   int corners = 0;
   std::vector<Node> nodes;
-  std::vector<Box> boxes;  ///< [interval][node]
+  std::vector<Box> boxes;       ///< [interval][node]
+  std::vector<Box> sway_boxes;  ///< [node], of displacements; empty: it does not sway
   double stiffness_N_m2 = 0, friction = 0, door_passes_m = 0;
   int largest_cluster = 0;  ///< corners
   long edits = 0;           ///< how often a SurfaceEditor changed it
@@ -66,15 +71,20 @@ struct Surface {
   std::size_t row(const Cluster& c, int frame, int axis) const {
     return std::size_t{3} * frames * c.first_corner + std::size_t{1} * (3 * frame + axis) * c.corners;
   }
+  /// The same in `corner_sway`.
+  std::size_t sway_row(const Cluster& c, int axis) const {
+    return std::size_t{3} * c.first_corner + std::size_t{1} * axis * c.corners;
+  }
+  bool sways() const { return !corner_sway.empty(); }
 };
 
 /// Throws std::invalid_argument if there is no triangle or frame, a triangle names a vertex that there is not, frames
-/// differ in length, or a number is not finite or negative.
+/// differ in length (`sway` too), or a number is not finite or negative.
 Surface make_surface(const SurfaceDescription& description);
 
 /// Puts vertices of a surface elsewhere, for the whole cycle, and refits the boxes: walls that something opened. Its
-/// triangles, clusters, normals and curvatures stay. What the surface is then depends on the places alone, not on the
-/// order in which they came about.
+/// triangles, clusters, normals, curvatures and sway stay. What the surface is then depends on the places alone, not on
+/// the order in which they came about.
 class SurfaceEditor {
  public:
   /// Keeps a reference. `description`: what the surface was made of.
@@ -94,18 +104,19 @@ class SurfaceEditor {
 };
 
 /// Where in its cycle a surface is at both ends of a step, in frames: any numbers, taken modulo the number of frames,
-/// at most one frame apart. And by how much all of it is shifted, m (breathing).
+/// at most one frame apart. By how much all of it is shifted, m; and how far it sways, 0 or more: 1 is as described.
 struct SurfaceMotion {
   double frame_before = 0, frame_after = 0;
   Eigen::Vector3d shift_before_W = Eigen::Vector3d::Zero(), shift_after_W = Eigen::Vector3d::Zero();
+  double sway_before = 0, sway_after = 0;
   bool door_open = false;  ///< during the step
 };
 
 /// What it does from one part of the step to another, 0 <= from < to <= 1.
 SurfaceMotion part_of(const SurfaceMotion& whole, int frames, double from, double to);
 
-/// Position of a vertex of `description` at a moment of the cycle, m: what contact takes for the truth.
-Eigen::Vector3d vertex_at(const SurfaceDescription& description, int vertex, double frame);
+/// Position of a vertex of `description` at a moment of the cycle and a sway, m: what contact takes for the truth.
+Eigen::Vector3d vertex_at(const SurfaceDescription& description, int vertex, double frame, double sway = 0);
 
 /// Weights of the frames k - 1, k, k + 1, k + 2 at k + x.
 std::array<double, 4> frame_weights(double x);

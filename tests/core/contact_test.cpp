@@ -109,6 +109,92 @@ TEST(Surface, AMotionIsTheSumOfItsParts) {
   EXPECT_EQ(first.shift_before_W, Vector3d::Zero());
   EXPECT_NEAR(second.shift_after_W.z(), 1e-3, 1e-15);
   EXPECT_EQ(second.shift_before_W, first.shift_after_W);
+  whole.sway_before = 0.2, whole.sway_after = 0.6;
+  EXPECT_NEAR(part_of(whole, 24, 0, 0.5).sway_after, 0.4, 1e-15);
+  EXPECT_EQ(part_of(whole, 24, 0.5, 1).sway_before, part_of(whole, 24, 0, 0.5).sway_after);
+  EXPECT_NEAR(part_of(whole, 24, 0.5, 1).sway_after, 0.6, 1e-15);
+}
+
+/// Sideways by a bump along x, as the wall of 10 mm rings has it: straight between them.
+double bump_m(double x) {
+  const auto at_ring = [](double ring) { return 0.02 * std::pow(std::sin(pi * std::clamp(ring / 28, 0.0, 1.0)), 2); };
+  const double ring = std::floor(100 * x), share = 100 * x - ring;
+  return (1 - share) * at_ring(ring) + share * at_ring(ring + 1);
+}
+
+SurfaceDescription swaying_tube(double radius_m) {
+  SurfaceDescription d = straight_tube(radius_m);
+  for (const Vector3d& p : d.frames[0]) d.sway.emplace_back(0, bump_m(p.x() + 1e-9), 0);
+  return d;
+}
+
+/// Every corner stands where the description says at both ends of a step, and is found there.
+TEST(Surface, WhatSwaysIsWhereItsDisplacementsSay) {
+  const SurfaceDescription d = swaying_tube(2e-3);
+  const Surface surface = make_surface(d);
+  SurfacePose pose(surface);
+  std::vector<int> found;
+  found.reserve(surface.clusters.size());
+  for (const auto& [before, after] :
+       {std::pair{0.0, 0.0}, {0.0, 0.3}, {0.3, 0.9}, {1.0, 0.95}, {0.4, 0.0}, {0.7, 1.5}}) {
+    SurfaceMotion motion;
+    motion.sway_before = before, motion.sway_after = after;
+    set_motion(surface, motion, pose);
+    for (int v = 0; v < static_cast<int>(d.frames[0].size()); v += 7)
+      for (const double sway : {before, after}) {
+        const Vector3d p = d.frames[0][v] + Vector3d(0, sway * bump_m(d.frames[0][v].x() + 1e-9), 0);
+        EXPECT_LT((p - vertex_at(d, v, 0, sway)).norm(), 1e-12);
+        const V3<double> q = from_eigen(p), pad{1e-6, 1e-6, 1e-6};
+        find_clusters(surface, q - pad, q + pad, pose, found);
+        double nearest_m = 1;
+        for (int c : found) {
+          const ClusterPose& it = pose_of(surface, c, pose);
+          nearest_m = std::min(nearest_m, nearest_corner_m(sway == before ? it.before : it.after, p));
+        }
+        EXPECT_LT(nearest_m, 1e-7) << "vertex " << v << " from " << before << " to " << after;
+      }
+  }
+}
+
+/// Of a beating vessel, too; and what does not sway now is to the bit what cannot.
+TEST(Surface, WhatBeatsAndSwaysIsFoundAtAnyMoment) {
+  const verify::TestVessel vessel = verify::test_vessel();
+  SurfaceDescription d = vessel.wall;
+  for (const Vector3d& p : d.frames[0])
+    d.sway.push_back(Vector3d(3e-3, -4e-3, 2e-3) + 0.1 * Vector3d(p.y(), p.z(), p.x()));
+  const Surface still = make_surface(vessel.wall), surface = make_surface(d);
+  SurfacePose pose(surface), still_pose(still);
+  std::vector<int> found, still_found;
+  found.reserve(surface.clusters.size()), still_found.reserve(surface.clusters.size());
+  std::mt19937 random(4);
+  std::uniform_real_distribution<double> u(0, 1);
+  for (int n = 0; n < 300; ++n) {
+    SurfaceMotion motion;
+    motion.frame_before = 24 * u(random), motion.frame_after = motion.frame_before + u(random);
+    motion.sway_before = u(random), motion.sway_after = u(random);
+    set_motion(surface, motion, pose);
+    const int v = d.triangles[random() % d.triangles.size()][0];
+    const Vector3d p = n % 2 ? vertex_at(d, v, motion.frame_before, motion.sway_before)
+                             : vertex_at(d, v, motion.frame_after, motion.sway_after);
+    const V3<double> q = from_eigen(p), pad{1e-6, 1e-6, 1e-6};
+    find_clusters(surface, q - pad, q + pad, pose, found);
+    double nearest_m = 1;
+    for (int c : found)
+      for (const auto* corners : {&pose_of(surface, c, pose).before, &pose_of(surface, c, pose).after})
+        nearest_m = std::min(nearest_m, nearest_corner_m(*corners, p));
+    EXPECT_LT(nearest_m, 1e-6) << n;
+
+    motion.sway_before = motion.sway_after = 0;
+    set_motion(surface, motion, pose), set_motion(still, motion, still_pose);
+    const V3<double> at = from_eigen(vertex_at(d, v, motion.frame_before)), wide{5e-3, 5e-3, 5e-3};
+    find_clusters(surface, at - wide, at + wide, pose, found);
+    find_clusters(still, at - wide, at + wide, still_pose, still_found);
+    ASSERT_EQ(found, still_found);
+    for (int c : found) {
+      const ClusterPose &a = pose_of(surface, c, pose), &b = pose_of(still, c, still_pose);
+      for (int i = 0; i < a.after.size(); ++i) ASSERT_EQ(Vector3d(a.after[i]), Vector3d(b.after[i]));
+    }
+  }
 }
 
 /// Vertices that are placed anew are found where they are; placed back, the surface is what it was to the bit.
@@ -162,6 +248,38 @@ TEST(Surface, RefusesWhatIsNoWall) {
   SurfaceDescription infinite = straight_tube(2e-3);
   infinite.frames[0][3].x() = std::nan("");
   EXPECT_THROW(make_surface(infinite), std::invalid_argument);
+  SurfaceDescription swaying = swaying_tube(2e-3);
+  swaying.sway.pop_back();
+  EXPECT_THROW(make_surface(swaying), std::invalid_argument);
+}
+
+/// A wire in a tube that is thrown 20 mm to the side four times a second, by more than its radius in a step, goes with
+/// it and stays inside; the tube's middle is known in closed form.
+TEST(Contact, AWireGoesWithAWallThatSways) {
+  Model model;
+  RodDescription d = verify::steel_wire({.elements = 200, .length_m = 0.2});
+  d.damping.drag_across_N_s_m2 = 1;
+  model.rods = {make_rod(d)};
+  model.surfaces = {std::make_shared<Surface>(make_surface(swaying_tube(2e-3)))};
+  State state = make_state(model, {along_x()});
+  Inputs inputs;
+  inputs.rods.resize(1), inputs.surfaces.resize(1);
+  Scratch scratch(model);
+  StepReport report;
+  const double room_m = 2e-3 - d.sections[0].radius_m;
+  const auto sway_at = [](int n) { return std::pow(std::sin(pi * n / 250), 2); };
+  double off_m = 0, carried_m = 0;
+  for (int n = 0; n < 750; ++n) {
+    inputs.surfaces[0].sway_before = sway_at(n), inputs.surfaces[0].sway_after = sway_at(n + 1);
+    step(model, inputs, state, scratch, report);
+    for (int i = 1; i < model.rods[0].nodes(); ++i) {
+      const Vector3d p = state.rods[0].position[i];
+      off_m = std::max(off_m, std::hypot(p.y() - sway_at(n + 1) * bump_m(p.x()), p.z()) - room_m);
+      carried_m = std::max(carried_m, p.y());
+    }
+  }
+  EXPECT_LT(off_m, 0.5 * d.sections[0].radius_m);
+  EXPECT_GT(carried_m, 0.016);
 }
 
 /// A soft wall gives way by force over stiffness.
