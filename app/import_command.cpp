@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
+#include <map>
 #include <nlohmann/json.hpp>
 
 #include "data/anatomy_file.h"
@@ -108,8 +109,12 @@ class Import {
 
   int run() {
     prepare();
-    read();
-    mend_mesh();
+    if (options_.sequence) {
+      read_sequence();
+    } else {
+      read();
+      mend_mesh();
+    }
     recognise_vessels();
     make_case();
     write();
@@ -143,6 +148,12 @@ class Import {
       skipped_ += found.skipped_faces;
       append(raw, found.mesh);
     }
+    const double scale = metres(find_unit(raw));
+    for (Eigen::Vector3d& p : raw.vertices) p *= scale;
+    mesh_ = welded(raw);
+  }
+
+  LengthUnit find_unit(const Mesh& raw) {
     triangles_ = static_cast<int>(raw.triangles.size());
     progress_(fmt::format("{} triangles; looking for their unit", triangles_));
     unit_ = guess_unit(raw);
@@ -156,10 +167,50 @@ class Import {
           "unit with --units",
           options_.files.front(), name_of(unit_.unit), unit_.extent_m / mm, unit_.calibre_m / mm));
     }
-    const double scale = metres(unit_.unit);
-    for (Eigen::Vector3d& p : raw.vertices) p *= scale;
-    mesh_ = welded(raw);
-    if (!options_.entry.empty()) wanted_.entry = scale * point(options_.entry);
+    if (!options_.entry.empty()) wanted_.entry = metres(unit_.unit) * point(options_.entry);
+    return unit_.unit;
+  }
+
+  /// Of one surface through a beat. Nothing is mended: every frame would be mended otherwise.
+  void read_sequence() {
+    files_ = options_.files;
+    if (files_.size() == 1 && fs::is_directory(files_.front())) files_ = numbered_meshes(files_.front());
+    if (files_.size() < 4)
+      throw MeshError(fmt::format("{}: a sequence has at least 4 frames of a beat, here are {}", options_.files.front(),
+                                  files_.size()));
+    progress_(fmt::format("reading {} frames, the first is {}", files_.size(), files_.front()));
+    frames_ = read_mesh_sequence(files_, LengthUnit::metre, 0);
+    const double scale = metres(find_unit(frames_.front()));
+    for (Mesh& frame : frames_)
+      for (Eigen::Vector3d& p : frame.vertices) p *= scale;
+    if (volume_m3(frames_.front()) < 0)
+      for (Mesh& frame : frames_)
+        for (auto& t : frame.triangles) std::swap(t[1], t[2]);
+    const SurfaceReport report = check_surface(frames_.front());
+    if (!report.closed())
+      throw MeshError(fmt::format("{}: is not closed, and a sequence cannot be mended: {}`ostium check` says where",
+                                  files_.front(), describe(report)));
+    mended_.lumen = frames_.front();
+    mended_.lumens = report.components;
+  }
+
+  /// The meshes of a folder that have one name and a number, by the number.
+  static std::vector<std::string> numbered_meshes(const std::string& folder) {
+    std::map<std::pair<std::string, std::string>, std::map<long, std::string>> rows;
+    for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
+      const std::string stem = entry.path().stem().string(), ending = entry.path().extension().string();
+      const auto digits = stem.find_last_not_of("0123456789") + 1;
+      if (!entry.is_regular_file() || digits == stem.size() || stem.size() - digits > 9) continue;
+      if (std::string known = ".obj.ply.stl.gltf.glb.dae.fbx.off.3ds.x3d"; known.find(ending) == std::string::npos)
+        continue;
+      rows[{stem.substr(0, digits), ending}][std::stol(stem.substr(digits))] = entry.path().string();
+    }
+    const auto longest = std::max_element(
+        rows.begin(), rows.end(), [](const auto& a, const auto& b) { return a.second.size() < b.second.size(); });
+    std::vector<std::string> files;
+    if (longest != rows.end())
+      for (const auto& [number, file] : longest->second) files.push_back(file);
+    return files;
   }
 
   static Mesh welded(const Mesh& raw) {
@@ -191,14 +242,17 @@ class Import {
   }
 
   void make_case() {
-    progress_("laying the heart's motion on it");
+    progress_(frames_.empty() ? "laying the heart's motion on it" : "carrying the tree along its frames");
     case_.title =
         options_.title.empty() ? "Imported: " + fs::path(options_.files.front()).filename().string() : options_.title;
     case_.card = {"Imported from " + fs::path(options_.files.front()).filename().string() + ".", "Not known.",
                   "From the entry that was chosen at import"};
     auto vessels = std::make_shared<ImportedVessels>();
     vessels->anatomy = found_.anatomy;
-    vessels->lumen = found_.lumen;
+    if (frames_.empty())
+      vessels->lumen = found_.lumen;
+    else
+      lay_frames(*vessels);
     case_.imported = vessels;
     try {
       patient_ = patient_of(case_);
@@ -216,6 +270,24 @@ class Import {
     }
   }
 
+  /// Into the patient frame, as the files of the case will have them.
+  void lay_frames(ImportedVessels& vessels) {
+    for (Mesh& frame : frames_) {
+      for (Eigen::Vector3d& p : frame.vertices) p = found_.R_PF * p - found_.shift_P;
+      frame = as_written(std::move(frame), LengthUnit::millimetre);
+    }
+    frames_.front() = found_.lumen;
+    set_frames(frames_, vessels);
+  }
+
+  std::string frame_name(std::size_t f) const { return f ? fmt::format("lumen-{:02}.ply", f) : "lumen.ply"; }
+
+  Json imported_json() const {
+    Json out = {{"anatomy", "anatomy.json"}, {"lumen", frame_name(0)}};
+    for (std::size_t f = 1; f < frames_.size(); ++f) out["frames"].push_back(frame_name(f));
+    return out;
+  }
+
   std::string case_json() const {
     Json lesions = Json::array();
     for (const Lesion& l : case_.lesions)
@@ -231,7 +303,7 @@ class Import {
         {"title", case_.title},
         {"card",
          {{"history", case_.card.history}, {"ecg", case_.card.ecg}, {"planned_access", case_.card.planned_access}}},
-        {"imported", {{"anatomy", "anatomy.json"}, {"lumen", "lumen.ply"}}},
+        {"imported", imported_json()},
         {"heart_rate_1_min", case_.rate_1_min},
         {"lesions", lesions}};
     return json.dump(2) + "\n";
@@ -286,7 +358,9 @@ class Import {
       write_file((unfinished / (case_.name + ".json")).string(), case_json());
       write_file((unfinished / "anatomy.json").string(), anatomy_to_json(found_.anatomy));
       write_file((unfinished / "import.json").string(), report().dump(2) + "\n");
-      write_mesh((unfinished / "lumen.ply").string(), found_.lumen, LengthUnit::millimetre);
+      write_mesh((unfinished / frame_name(0)).string(), found_.lumen, LengthUnit::millimetre);
+      for (std::size_t f = 1; f < frames_.size(); ++f)
+        write_mesh((unfinished / frame_name(f)).string(), frames_[f], LengthUnit::millimetre);
       write_tree((unfinished / "tree.json").string(), patient_.tree);
       write_tree((unfinished / "tree.vtp").string(), patient_.tree);
       if (!options_.picture.empty()) draw();
@@ -346,7 +420,8 @@ class Import {
     }
     fmt::print("{}: {} triangles, {} closed lumen{}, {:.1f} mL, {}\n", folder_.string(), found_.lumen.triangles.size(),
                mended_.lumens, mended_.lumens == 1 ? "" : "s", 1e6 * volume_m3(found_.lumen),
-               found_.heart                ? "beating"
+               !frames_.empty()            ? fmt::format("beating in {} frames", frames_.size())
+               : found_.heart              ? "beating"
                : patient_.lumen.moving > 0 ? "beating at the root of the aorta"
                                            : "still");
     fmt::print("units: {}, {}: {:.0f} mm long, {:.1f} mm wide{}\n", name_of(unit_.unit),
@@ -385,6 +460,8 @@ class Import {
   Case case_;
   RecogniseOptions wanted_;
   Mesh mesh_;
+  std::vector<std::string> files_;  ///< of a sequence,
+  std::vector<Mesh> frames_;        ///< and its surfaces; empty: one that is at rest
   int skipped_ = 0, triangles_ = 0;
   UnitGuess unit_;
   Mended mended_;

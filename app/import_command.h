@@ -12,6 +12,7 @@ struct ImportOptions {
   std::string entry;                 ///< "x,y,z" in the file's unit and axes
   std::vector<std::string> renames;  ///< "3=OM1"
   std::vector<std::string> lesions;  ///< "RCA:40:12:75": branch, from mm, length mm, percent of the diameter
+  bool sequence = false;             ///< the files are frames of one beat, from the R wave on
   std::string title;
   double voxel_mm = 0;
   double longest_gap_mm = 8;

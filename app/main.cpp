@@ -75,6 +75,8 @@ int main(int argc, char** argv) {
   import_app->add_option("mesh", import.files, "STL, OBJ, PLY, glTF, ...; several are one patient's parts")
       ->type_name("MESH")
       ->required();
+  import_app->add_flag("--sequence", import.sequence,
+                       "The files, or those of a folder, are one surface through a beat, from the R wave on");
   import_app->add_option("-o,--out", import.output, "A folder for the case, or a name to keep it under")
       ->type_name("DIR|NAME")
       ->required();
@@ -102,7 +104,8 @@ int main(int argc, char** argv) {
   import_app->footer(
       "Examples:\n  ostium import aorta.stl coronaries.stl -o anna --picture anna.svg\n"
       "  ostium import aorta.obj -o cases/aorta --units mm --entry -5,18,-11 --rename 3=coeliac\n"
-      "  ostium import heart.ply -o tight-rca --lesion RCA:40:12:75 && ostium cases tight-rca");
+      "  ostium import heart.ply -o tight-rca --lesion RCA:40:12:75 && ostium cases tight-rca\n"
+      "  ostium import frames/ --sequence -o beating-heart");
   ostium::FrameOptions frame;
   CLI::App* frame_app = app.add_subcommand("frame", "One X-ray picture, or a short run of them");
   frame_app->add_option("of", frame.of, "What is in the beam: a case (`ostium cases`), or phantom: fluoro's test chest")
@@ -276,8 +279,8 @@ int main(int argc, char** argv) {
         ->capture_default_str();
     to->add_option(
           "--set", o.set,
-          "A tool's instrument (NAME or FILE.json), or person, heart_rate, hand_speed, friction, begin (an artery), "
-          "stuck (a tool whose drive is out)")
+          "A tool's instrument (NAME or FILE.json), or person, heart_rate, breathing (breaths a minute), hand_speed, "
+          "friction, begin (an artery), stuck (a tool whose drive is out)")
         ->type_name("KEY=VALUE");
     to->add_option("--seconds", o.seconds, "Most that are simulated")->check(CLI::Range(0.001, 36000.0));
     to->add_option("--units", o.unit, "What a number in a mesh means")

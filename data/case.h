@@ -17,7 +17,13 @@ struct CaseCard {
 struct ImportedVessels {
   Anatomy anatomy;
   Mesh lumen;  ///< patient frame, end-diastole
+  /// Its vertices through one beat as they were given, beat_frames of them, the first `lumen`'s; empty: they were not.
+  std::vector<std::vector<Eigen::Vector3d>> frames;
 };
+
+/// The lumen of someone's vessels, and its frames, from meshes of the same triangles at even spaces of one beat, at
+/// least four.
+void set_frames(std::vector<Mesh> frames, ImportedVessels& vessels);
 
 struct Case {
   std::string name;  ///< the file's name without .json

@@ -27,7 +27,10 @@ inline const JsonObjectKeys anatomy = {
 inline const JsonObjectKeys imported = {
     "imported",
     {{"anatomy", true, "tubes and landmarks, a file's name beside this one"},
-     {"lumen", true, "the closed surface, patient frame, mm: a file's name beside this one (PLY, OBJ, STL)"}}};
+     {"lumen", true, "the closed surface, patient frame, mm: a file's name beside this one (PLY, OBJ, STL)"},
+     {"frames", false,
+      "the same surface later in the beat, evenly spaced, the R wave's being lumen: a list of at least three files' "
+      "names beside this one"}}};
 
 inline const JsonObjectKeys lesion = {
     "lesion",

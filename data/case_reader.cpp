@@ -57,20 +57,28 @@ Lesion read_lesion(const JsonObject& entry, const Anatomy& anatomy) {
   return lesion;
 }
 
-/// Both files lie beside the case's.
+/// All files lie beside the case's.
 void read_imported(const JsonObject& imported, const fs::path& folder, Case& c) {
-  const auto beside = [&](const std::string& key) {
-    const std::string name = imported.text(key);
-    if (name != fs::path(name).filename().string()) imported.refuse(key);
+  const auto file = [&](const std::string& key, const std::string& name) {
+    if (name.empty() || name != fs::path(name).filename().string()) imported.refuse(key);
     return (folder / name).string();
   };
+  const auto beside = [&](const std::string& key) { return file(key, imported.text(key)); };
   ImportedVessels vessels;
   vessels.anatomy = load_anatomy(beside("anatomy"));
-  const std::string lumen = beside("lumen");
+  std::vector<std::string> frames = {beside("lumen")};
+  const bool sequence = imported.has("frames");
+  if (sequence) {
+    for (const JsonValue& value : imported.list("frames")) frames.push_back(file("frames", value.text));
+    if (frames.size() < 4) imported.refuse("frames");
+  }
   try {
-    vessels.lumen = read_mesh(lumen, LengthUnit::millimetre, 0).mesh;
+    if (sequence)
+      set_frames(read_mesh_sequence(frames, LengthUnit::millimetre, 0), vessels);
+    else
+      vessels.lumen = read_mesh(frames.front(), LengthUnit::millimetre, 0).mesh;
   } catch (const MeshError& error) {
-    imported[std::string("lumen")].fail(error.what());
+    imported[std::string(sequence ? "frames" : "lumen")].fail(error.what());
   }
   c.imported = std::make_shared<const ImportedVessels>(std::move(vessels));
 }
@@ -148,8 +156,15 @@ std::string imported_folder() {
 }
 
 Patient patient_of(const Case& c) {
-  return c.imported ? make_patient(c.imported->anatomy, c.imported->lumen, c.lesions)
+  return c.imported ? make_patient(c.imported->anatomy, c.imported->lumen, c.lesions, c.imported->frames)
                     : make_patient(c.anatomy, c.lesions);
+}
+
+void set_frames(std::vector<Mesh> frames, ImportedVessels& vessels) {
+  std::vector<std::vector<Eigen::Vector3d>> vertices;
+  for (const Mesh& frame : frames) vertices.push_back(frame.vertices);
+  vessels.frames = resampled(vertices, beat_frames);
+  vessels.lumen = std::move(frames.front());
 }
 
 Anatomy anatomy_of(const Case& c) { return c.imported ? c.imported->anatomy : build_anatomy(c.anatomy); }

@@ -37,7 +37,8 @@ constexpr double default_weld_m = 1e-6;
 MeshFile read_mesh(const std::string& path, LengthUnit unit, double weld_m = default_weld_m);
 
 /// The same shape in several positions: file by file the same triangles in the same order. What is welded is decided by
-/// the first. Throws MeshError also if a file has another number of triangles.
+/// the first. Throws MeshError also if a file has another number of triangles, or others, with
+/// the file and how many.
 std::vector<Mesh> read_mesh_sequence(const std::vector<std::string>& paths, LengthUnit unit,
                                      double weld_m = default_weld_m);
 

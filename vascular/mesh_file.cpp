@@ -134,7 +134,17 @@ std::vector<Mesh> read_mesh_sequence(const std::vector<std::string>& paths, Leng
     if (corners.size() != vertex_of.size())
       throw MeshError(fmt::format("{}: has {} triangles; expected {}, as in {}: the same surface in every frame", path,
                                   corners.size() / 3, vertex_of.size() / 3, paths.front()));
-    frames.push_back({welded(corners, vertex_of), frames.front().triangles});
+    // As many triangles may still be others, or in another order: then corners of one vertex lie apart.
+    std::vector<Eigen::Vector3d> vertices = welded(corners, vertex_of);
+    const double apart_m = std::max(1e-9, 10 * weld_m);
+    std::size_t torn = 0;
+    for (std::size_t i = 0; i < corners.size(); ++i) torn += (corners[i] - vertices[vertex_of[i]]).norm() > apart_m;
+    if (torn > 0)
+      throw MeshError(
+          fmt::format("{}: {} of {} corners lie apart from the vertex that they share in {}; expected the same "
+                      "triangles in the same order in every frame",
+                      path, torn, corners.size(), paths.front()));
+    frames.push_back({std::move(vertices), frames.front().triangles});
   }
   return frames;
 }

@@ -13,12 +13,8 @@ constexpr double in_aorta_m = 25e-3;
 
 }  // namespace
 
-CellLocator::CellLocator(const LumenMap& map, const FlowTree& tree, const MovingLumen& lumen)
-    : map_(map), tree_(tree), centres_(tree.cells.size()), breath_(tree.cells.size(), Eigen::Vector3d::Zero()) {
-  // The breath of any vertex that belongs to the cell.
-  for (std::size_t v = 0; v < map.sources.size(); ++v)
-    if (map.sources[v].first.part == VertexSource::coronary)
-      breath_[map.sources[v].first.below] = breath_[map.sources[v].first.above] = lumen.breath[v];
+CellLocator::CellLocator(const LumenMap& map, const FlowTree& tree)
+    : map_(map), tree_(tree), centres_(tree.cells.size()) {
   child_first_.assign(tree.cells.size() + 1, 0);
   for (const FlowCell& cell : tree.cells)
     if (cell.upstream >= 0) ++child_first_[cell.upstream + 1];
@@ -30,7 +26,7 @@ CellLocator::CellLocator(const LumenMap& map, const FlowTree& tree, const Moving
 }
 
 void CellLocator::set_moment(double phase, double depth) {
-  for (std::size_t c = 0; c < centres_.size(); ++c) centres_[c] = map_.coronary.position(c, phase) + depth * breath_[c];
+  for (std::size_t c = 0; c < centres_.size(); ++c) centres_[c] = map_.centre(c, phase, depth);
 }
 
 CellLocator::Found CellLocator::measured(const Eigen::Vector3d& p, int cell) const {
@@ -111,8 +107,8 @@ void occupy(const CellLocator& locator, const FlowTree& tree, std::span<const Ei
 }
 
 TipPlace tip_place(const CellLocator& locator, const FlowTree& tree, const ContrastModel& contrast,
-                   const Patient& patient, const LumenMap& map, double phase, const Eigen::Vector3d& p_tip,
-                   const Eigen::Vector3d& direction) {
+                   const Patient& patient, const LumenMap& map, double phase, double breath,
+                   const Eigen::Vector3d& p_tip, const Eigen::Vector3d& direction) {
   const CellLocator::Found f = locator.nearest(p_tip, 6e-3);
   if (f.cell >= 0 && f.distance_m <= in_vessel * tree.cells[f.cell].healthy_m) {
     // Ahead of the first cell it is still in the sinus.
@@ -135,7 +131,7 @@ TipPlace tip_place(const CellLocator& locator, const FlowTree& tree, const Contr
   if (place.where != TipPlace::outside) return place;
   double least = in_aorta_m;
   for (std::size_t i = 0; i < map.aorta.size(); ++i)
-    if (const double d = (map.aorta.position(i, phase) - p_tip).norm(); d < least)
+    if (const double d = (map.aorta_centre(i, phase, breath) - p_tip).norm(); d < least)
       least = d, place = {TipPlace::aorta, static_cast<int>(i), 0};
   return beyond_valve_m(patient.anatomy.landmarks, p_tip) > 0 ? TipPlace{} : place;
 }

@@ -11,7 +11,7 @@ namespace ostium {
 class CellLocator {
  public:
   /// Keeps references.
-  CellLocator(const LumenMap& map, const FlowTree& tree, const MovingLumen& lumen);
+  CellLocator(const LumenMap& map, const FlowTree& tree);
 
   /// Cells move to where they are then; does not allocate after the first call.
   void set_moment(double phase, double breath_depth);
@@ -29,7 +29,7 @@ class CellLocator {
   Found measured(const Eigen::Vector3d& p, int cell) const;
   const LumenMap& map_;
   const FlowTree& tree_;
-  std::vector<Eigen::Vector3d> centres_, breath_;
+  std::vector<Eigen::Vector3d> centres_;
   std::vector<int> child_first_, children_;
 };
 
@@ -50,8 +50,8 @@ void occupy(const CellLocator& locator, const FlowTree& tree, std::span<const Ei
 /// Where an end hole is, for contrast and pressure: within a coronary, at an ostium (the nearer and the better aligned,
 /// the more of a jet goes in), in the aorta, or elsewhere. `direction`: out of the hole, unit.
 TipPlace tip_place(const CellLocator& locator, const FlowTree& tree, const ContrastModel& contrast,
-                   const Patient& patient, const LumenMap& map, double phase, const Eigen::Vector3d& p_tip,
-                   const Eigen::Vector3d& direction);
+                   const Patient& patient, const LumenMap& map, double phase, double breath,
+                   const Eigen::Vector3d& p_tip, const Eigen::Vector3d& direction);
 
 /// How far a point lies beyond the aortic valve's plane, towards the ventricle, m; negative: in the aorta. What is
 /// beyond it touches the ventricle's wall (HeartInputs::irritation). What lies aside of the ventricle is not beyond.

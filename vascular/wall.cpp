@@ -7,6 +7,7 @@ SurfaceDescription wall_of(const MovingLumen& lumen, double opened) {
   for (int f = 0; f < beat_frames; ++f)
     wall.frames.push_back(lumen.at(static_cast<double>(f) / beat_frames, 0, opened).vertices);
   wall.triangles = lumen.triangles;
+  wall.sway = lumen.breath;
   return wall;
 }
 

@@ -6,7 +6,7 @@
 namespace ostium {
 
 /// Lesions opened by so much (0: as they are, 1: healthy). Stiffness and friction are left to the caller. Its frame is
-/// beat_frames times the phase.
+/// beat_frames times the phase, its sway the depth of breath.
 SurfaceDescription wall_of(const MovingLumen& lumen, double opened = 0);
 
 /// The frame that belongs to a phase of the heart, for SurfaceMotion.

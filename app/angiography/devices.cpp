@@ -66,12 +66,12 @@ Body body_of(const std::string& name, const std::vector<Eigen::Vector3d>& axis, 
 }  // namespace
 
 void add_balloon(const BalloonModel& model, const BalloonState& state, const VesselPath& path, double middle_m,
-                 const LumenMap& map, double phase, bool markers, Scene& scene) {
+                 const LumenMap& map, double phase, double breath, bool markers, Scene& scene) {
   std::vector<Eigen::Vector3d> axis;
   std::vector<PathFrame> frames;
   std::vector<double> radius;
   for (int i = 0; i < balloon_spheres; i += 3) {
-    frames.push_back(frame_at(map, path, sphere_position(model, state, middle_m, i), phase));
+    frames.push_back(frame_at(map, path, sphere_position(model, state, middle_m, i), phase, breath));
     axis.push_back(frames.back().centre);
     radius.push_back(state.radius_m[i]);
   }
@@ -82,28 +82,28 @@ void add_balloon(const BalloonModel& model, const BalloonState& state, const Ves
   for (double end : {-0.5, 0.5}) {
     const double at = middle_m + state.slip_m + end * model.length_m;
     std::vector<Eigen::Vector3d> band;
-    for (double x : {-0.5e-3, 0.5e-3}) band.push_back(frame_at(map, path, at + x, phase).centre);
+    for (double x : {-0.5e-3, 0.5e-3}) band.push_back(frame_at(map, path, at + x, phase, breath).centre);
     scene.shafts.push_back(line("marker", band, Material::platinum, 0.31e-3, 0.26e-3));
   }
 }
 
 void add_stent(const StentModel& model, const StentState& state, const VesselPath& path, const Patient& patient,
                const LumenMap& map, const WallShape& shape, std::span<const double> radius_m, double phase,
-               Scene& scene) {
-  const std::vector<Eigen::Vector3d> points = is_tied(state)
-                                                  ? points_on_wall(model, state, patient, shape, radius_m, phase, 0)
-                                                  : points_on_path(model, state, map, path, phase);
+               double breath, Scene& scene) {
+  const std::vector<Eigen::Vector3d> points =
+      is_tied(state) ? points_on_wall(model, state, patient, shape, radius_m, phase, breath)
+                     : points_on_path(model, state, map, path, phase, breath);
   for (const auto& [a, b] : struts_of(model))
     scene.shafts.push_back(line("strut", {points[a], points[b]}, Material::cobalt_chromium, model.strut_m / 2));
 }
 
 void add_pools(const InjuryState& injuries, const LumenMap& map, std::span<const double> radius_m, double phase,
-               Scene& scene) {
+               double breath, Scene& scene) {
   for (const Injury& injury : injuries.injuries) {
     if (injury.cell < 0 || injury.outside_kg <= 0) continue;
     // A cloud beside the lumen, as large as what is in it.
     const auto cell = static_cast<std::size_t>(injury.cell);
-    const Eigen::Vector3d p = map.coronary.position(cell, phase);
+    const Eigen::Vector3d p = map.centre(cell, phase, breath);
     const double r = std::cbrt(injury.outside_m3 * 3 / (4 * pi)), out = radius_m[cell] + 0.6 * r;
     PathFrame frame{p, Eigen::Vector3d::UnitZ(), Eigen::Vector3d::UnitX(), Eigen::Vector3d::UnitY()};
     std::vector<Eigen::Vector3d> axis;
@@ -134,12 +134,12 @@ void add_devices(const Bedside& bed, const Plan& plan, const Patient& patient, P
     const bool mine = bed.device.balloon >= 0 && bed.treatment.stent_on[bed.device.balloon] == static_cast<int>(i);
     if (stent.where == StentState::deployed || (stent.where == StentState::on_balloon && mine))
       add_stent(bed.treatment.stents[i], stent, plan.path, patient, scene.map(), scene.shape(), bed.blood.radius_m,
-                phase, scene.scene());
+                phase, 0, scene.scene());
   }
   if (bed.device.balloon >= 0)
     add_balloon(bed.treatment.balloons[bed.device.balloon], bed.state.balloon, plan.path, bed.device.middle_m,
-                scene.map(), phase, true, scene.scene());
-  add_pools(bed.state.injury, scene.map(), bed.blood.radius_m, phase, scene.scene());
+                scene.map(), phase, 0, true, scene.scene());
+  add_pools(bed.state.injury, scene.map(), bed.blood.radius_m, phase, 0, scene.scene());
 }
 
 }  // namespace ostium

@@ -100,7 +100,7 @@ void look_at_balloon(const BedsideModel& model, const State& rods, const StepRep
   }
 }
 
-void look_at_guide(const BedsideModel& model, const State& rods, const StepReport& report, double phase,
+void look_at_guide(const BedsideModel& model, const State& rods, const StepReport& report, double phase, double breath,
                    const Vector3d& root_shift, BedsideScratch& x, BedsideState& s) {
   const int g = guide_of(model, rods);
   s.guide = g;
@@ -111,7 +111,7 @@ void look_at_guide(const BedsideModel& model, const State& rods, const StepRepor
   const Vector3d p = own.position[rod.elements], direction = direction_at_tip(rod, own);
   const Patient& patient = *model.vessel.patient;
   const TipPlace place = tip_place(x.locator, model.physiology.flow.tree, model.physiology.contrast, patient,
-                                   model.vessel.coronaries->map, phase, p, direction);
+                                   model.vessel.coronaries->map, phase, breath, p, direction);
   s.where = place.where, s.cell = place.cell, s.into_ostium = place.into_ostium;
   s.in_ventricle = beyond_valve_m(patient.anatomy.landmarks, p - root_shift) > 0;
   for (const Touch& touch : report.touches)
@@ -191,10 +191,11 @@ void look_at_edge(const BedsideModel& model, const State& rods, const TreatmentS
   if (s.edge_push_N < 1e-6) s.edge_push_N = 0;
 }
 
-/// Whether a point is in the ventricle as it is at that phase.
-bool in_ventricle(const Vessel& vessel, double phase, const Vector3d& p) {
+/// Whether a point is in the ventricle as it is at that phase and depth of breath.
+bool in_ventricle(const Vessel& vessel, double phase, double breath, const Vector3d& p_P) {
   const Ventricle& v = vessel.ventricle;
   if (v.spheres.empty()) return false;
+  const Vector3d p = p_P - HeartMotion(vessel.patient->anatomy.landmarks).breath_displacement(p_P, breath);
   const auto frames = static_cast<double>(v.centres.size());
   const auto& centres = v.centres[static_cast<std::size_t>(std::lround(phase * frames)) % v.centres.size()];
   for (std::size_t k = 0; k < centres.size(); ++k)
@@ -202,7 +203,7 @@ bool in_ventricle(const Vessel& vessel, double phase, const Vector3d& p) {
   return false;
 }
 
-void look_at_valve(const BedsideModel& model, const State& rods, const StepReport& report, double phase,
+void look_at_valve(const BedsideModel& model, const State& rods, const StepReport& report, double phase, double breath,
                    const Vector3d& root_shift, BedsideState& s) {
   const Landmarks& marks = model.vessel.patient->anatomy.landmarks;
   bool through = false;
@@ -211,14 +212,14 @@ void look_at_valve(const BedsideModel& model, const State& rods, const StepRepor
     if (!in_body(rod, rods.rods[t]) || rod.radius.at(0)[rod.elements] > valve_passes_m) continue;
     const Vector3d p = rods.rods[t].position[rod.elements], from = p - root_shift - marks.p_annulus;
     const double above_m = from.dot(marks.root_axis), aside_m = (from - above_m * marks.root_axis).norm();
-    const bool inside = in_ventricle(model.vessel, phase, p);
+    const bool inside = in_ventricle(model.vessel, phase, breath, p);
     // The valve stays open only for what came while it was.
     if (valve_is_open(phase) || s.through_valve > 0)
       through = through || inside || (aside_m < valve_radius_m + 1e-3 && std::fabs(above_m) < at_valve_m);
     if (!inside) continue;
     double pressed_N = 0;
     for (const Touch& touch : report.touches)
-      if (touch.rod == static_cast<int>(t) && in_ventricle(model.vessel, phase, touch.p_W))
+      if (touch.rod == static_cast<int>(t) && in_ventricle(model.vessel, phase, breath, touch.p_W))
         pressed_N += touch.normal_W_N.norm();
     s.irritation = std::max(s.irritation, std::min(1.0, pressed_N / irritates_N));
   }
@@ -257,8 +258,7 @@ BedsideState make_bedside(const Vessel& vessel) {
   return state;
 }
 
-BedsideScratch::BedsideScratch(const Vessel& vessel)
-    : locator(vessel.coronaries->map, vessel.coronaries->tree(), vessel.patient->lumen) {
+BedsideScratch::BedsideScratch(const Vessel& vessel) : locator(vessel.coronaries->map, vessel.coronaries->tree()) {
   points.reserve(1000);
 }
 
@@ -316,17 +316,19 @@ std::vector<int> add_devices(const std::vector<SessionTool>& tools, std::uint64_
 }
 
 void look(const BedsideModel& model, const State& rods, const TreatmentState& treatment, const StepReport& report,
-          double phase, BedsideScratch& x, BedsideState& s) {
-  x.locator.set_moment(phase, 0);
+          double phase, double breath, BedsideScratch& x, BedsideState& s) {
+  x.locator.set_moment(phase, breath);
+  const Landmarks& marks = model.vessel.patient->anatomy.landmarks;
+  const HeartMotion motion(marks);
   const Vector3d root_shift =
-      contraction(phase) * HeartMotion(model.vessel.patient->anatomy.landmarks).root_displacement();
+      contraction(phase) * motion.root_displacement() + motion.breath_displacement(marks.p_annulus, breath);
   look_at_shafts(model, rods, x, s);
   look_at_balloon(model, rods, report, x, s);
-  look_at_guide(model, rods, report, phase, root_shift, x, s);
+  look_at_guide(model, rods, report, phase, breath, root_shift, x, s);
   look_at_crimped_stent(model, rods, treatment, s);
   look_at_edge(model, rods, treatment, x, s);
   look_at_wires(model, rods, report, root_shift, x, s);
-  look_at_valve(model, rods, report, phase, root_shift, s);
+  look_at_valve(model, rods, report, phase, breath, root_shift, s);
 }
 
 void hold_balloon(const BedsideModel& model, const BalloonReport& report, const BalloonState& balloon, double step_s,

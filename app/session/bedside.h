@@ -109,9 +109,9 @@ struct BedsideScratch {
   std::vector<Eigen::Vector3d> points;
 };
 
-/// Looks at the rods as they are after a step.
+/// Looks at the rods as they are after a step, at a phase of the heart and a depth of breath.
 void look(const BedsideModel& model, const State& rods, const TreatmentState& treatment, const StepReport& report,
-          double phase, BedsideScratch& scratch, BedsideState& state);
+          double phase, double breath, BedsideScratch& scratch, BedsideState& state);
 
 /// What holds the balloon's shaft from now on, by what the wall pressed it with.
 void hold_balloon(const BedsideModel& model, const BalloonReport& report, const BalloonState& balloon, double step_s,

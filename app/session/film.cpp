@@ -35,7 +35,7 @@ Film::Film(const SessionModel& model, const FilmOptions& options) : parts_(std::
   if (model.has_patient() && options.fill == Fill::none)
     parts_->patient = std::make_unique<PatientScene>(*model.vessel->patient, model.physiology);
   else if (model.vessel->patient)
-    parts_->filled = std::make_unique<const XrayPatient>(model.vessel->patient, options.fill);
+    parts_->filled = std::make_unique<const XrayPatient>(model.vessel->patient, options.fill, model.breaths_1_min > 0);
   else
     parts_->mesh = scene_of_mesh(*model.vessel);
 }
@@ -47,9 +47,9 @@ const Picture& Film::frame(const SessionModel& model, const SessionState& state,
   const FilmOptions& o = p.options;
   Scene other;
   if (p.patient)
-    p.patient->at(state.blood, occupied_m(model, state));
+    p.patient->at(state.blood, occupied_m(model, state), breath(model, state));
   else
-    other = p.filled ? p.filled->at(state.blood.heart.phase) : p.mesh;
+    other = p.filled ? p.filled->at(state.blood.heart.phase, breath(model, state)) : p.mesh;
   Scene& scene = p.patient ? p.patient->scene() : other;
   scene.shafts = shafts_of(model, state);
   if (model.has_patient()) add_treatment(model, state, scene);

@@ -54,20 +54,21 @@ void OpenedWall::set(const std::vector<double>& wall_m) {
   editor_.refit();
 }
 
-Eigen::Vector3d wall_vertex(const Vessel& vessel, const std::vector<double>& wall_m, int vertex, double frame) {
+Eigen::Vector3d wall_vertex(const Vessel& vessel, const std::vector<double>& wall_m, int vertex, double frame,
+                            double breath) {
   if (!vessel.coronaries || static_cast<std::size_t>(vertex) >= vessel.coronaries->map.sources.size())
-    return vertex_at(vessel.wall, vertex, frame);  // of a mesh, or of the ventricle
+    return vertex_at(vessel.wall, vertex, frame, breath);  // of a mesh, or of the ventricle
   const Coronaries& c = *vessel.coronaries;
   const VertexSource& from = c.map.sources[static_cast<std::size_t>(vertex)].first;
   const auto untouched = [&](int cell) { return wall_m[cell] == c.tree().cells[cell].diseased_m; };
   if (from.part != VertexSource::coronary || (untouched(from.below) && untouched(from.above)))
-    return vertex_at(vessel.wall, vertex, frame);
+    return vertex_at(vessel.wall, vertex, frame, breath);
   const double k = std::floor(frame);
   const std::array<double, 4> w = frame_weights(frame - k);
   Eigen::Vector3d p = Eigen::Vector3d::Zero();
   for (int j = 0; j < 4; ++j) {
     const int f = ((static_cast<int>(k) + j - 1) % beat_frames + beat_frames) % beat_frames;
-    p += w[j] * c.shape->vertex(static_cast<std::size_t>(vertex), wall_m, static_cast<double>(f) / beat_frames, 0);
+    p += w[j] * c.shape->vertex(static_cast<std::size_t>(vertex), wall_m, static_cast<double>(f) / beat_frames, breath);
   }
   return p;
 }

@@ -30,7 +30,9 @@ class OpenedWall {
   std::vector<int> changed_;
 };
 
-/// A vertex of that wall in a frame of the beat, for those who judge: as contact has it, in double precision.
-Eigen::Vector3d wall_vertex(const Vessel& vessel, const std::vector<double>& wall_m, int vertex, double frame);
+/// A vertex of that wall in a frame of the beat and a depth of breath, for those who judge: as contact has it, in
+/// double precision.
+Eigen::Vector3d wall_vertex(const Vessel& vessel, const std::vector<double>& wall_m, int vertex, double frame,
+                            double breath);
 
 }  // namespace ostium

@@ -128,7 +128,8 @@ struct Sight {
   int tip_sphere(int tool) const {
     if (tool != located_tool) {
       located_tool = tool;
-      located_sphere = model.vessel->way->locate(tip(model, session, tool), session.blood.heart.phase);
+      located_sphere =
+          model.vessel->way->locate(tip(model, session, tool), session.blood.heart.phase, breath(model, session));
     }
     return located_sphere;
   }

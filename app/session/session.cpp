@@ -15,6 +15,7 @@
 
 #include "core/rod/introducer.h"
 #include "data/load_error.h"
+#include "vascular/beat/heart_cycle.h"
 #include "vascular/stent/stent_shape.h"
 
 namespace ostium {
@@ -252,17 +253,30 @@ SessionScratch::SessionScratch(const SessionModel& model) : now(model.rods), rod
   physiology_inputs.occupied_m.reserve(model.physiology.flow.tree.cells.size());
 }
 
+namespace {
+
+double breath_after(const SessionModel& model, std::uint64_t steps) {
+  if (!(model.breaths_1_min > 0)) return 0;
+  return breath_depth(model.breaths_1_min / 60 * model.step_s() * static_cast<double>(steps));
+}
+
+}  // namespace
+
+double breath(const SessionModel& model, const SessionState& state) { return breath_after(model, state.rods.step); }
+
 double vessel_frame(const Vessel& vessel, double phase) {
   return vessel.beats() ? phase * static_cast<double>(vessel.wall.frames.size()) : 0;
 }
 
 namespace {
 
-/// The heart goes on, and the wall with it. True: an R wave.
+/// Heart and breath go on, and the wall with them. True: an R wave.
 bool beat(const SessionModel& model, const SessionInputs& inputs, SessionState& state, SurfaceMotion& motion) {
   HeartState& heart = state.blood.heart;
   const double beats = heart.beats;
   motion.frame_before = vessel_frame(*model.vessel, heart.phase);
+  motion.sway_before = breath_after(model, state.rods.step);
+  motion.sway_after = breath_after(model, state.rods.step + 1);
   step(model.physiology.heart,
        {inputs.rate_1_min, state.bedside.irritation,
         model.treatment.drugs.nitrate_lowers * state.treatment.drugs.nitrate},
@@ -324,7 +338,8 @@ void treat(const SessionModel& model, const SessionInputs& inputs, bool R_wave, 
            SessionReport& report) {
   const BedsideModel bedside = bedside_of(model);
   if (state.rods.step % look_every == 0)
-    look(bedside, state.rods, state.treatment, report.rods, state.blood.heart.phase, *x.bedside, state.bedside);
+    look(bedside, state.rods, state.treatment, report.rods, state.blood.heart.phase, breath(model, state), *x.bedside,
+         state.bedside);
   report.treatment = step(model.treatment, model.physiology.flow.tree, treatment_inputs(inputs.bedside, state.bedside),
                           model.step_s(), state.treatment, state.blood, x.physiology_inputs.occupied_m, x.treatment);
   state.bedside.blocked = report.treatment.blocked;

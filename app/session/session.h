@@ -26,6 +26,7 @@ struct SessionModel {
   PhysiologyModel physiology;   ///< of a mesh, the heart alone
   TreatmentModel treatment;     ///< with the balloons and stents that the tools carry; of a mesh, empty
   std::vector<int> balloon_of;  ///< (#tools) of treatment.balloons, or -1
+  double breaths_1_min = 0;     ///< of the patient; 0: the breath is held, breathed out
   double step_s() const { return rods.step_s; }
   bool has_patient() const { return vessel->coronaries != nullptr; }
 };
@@ -184,6 +185,9 @@ Eigen::Vector3d tip_direction(const SessionModel& model, const SessionState& sta
 double waist(const BalloonModel& model, const BalloonState& state);
 /// Whether its folds are together again.
 bool is_empty(const BalloonModel& model, const BalloonState& state);
+
+/// How deep the patient's breath is as a step ends (0: breathed out, 1: at its top): a function of time alone.
+double breath(const SessionModel& model, const SessionState& state);
 
 /// The vessel's frame that belongs to a phase, for SurfaceDescription.
 double vessel_frame(const Vessel& vessel, double phase);

@@ -97,6 +97,12 @@ void set_value(const std::string& key, const std::string& value, RunSetup& setup
     setup.person = static_cast<std::uint64_t>(person);
   } else if (key == "heart_rate") {
     setup.rate_1_min = number(key, value, 40, 180, "beats a minute, 40 to 180");
+  } else if (key == "breathing") {
+    constexpr const char* expected = "breaths a minute of a case's patient, 4 to 60, or 0";
+    if (const double rate = number(key, value, 0, 60, expected); rate == 0 || (rate >= 4 && !setup.is_mesh()))
+      setup.breaths_1_min = rate;
+    else
+      throw LoadError(fmt::format("breathing is \"{}\"; expected {}", value, expected));
   } else if (key == "hand_speed") {
     setup.hand_speed = number(key, value, 0.01, 10, "how many times the script's speeds, 0.01 to 10");
   } else if (key == "friction") {
@@ -109,9 +115,10 @@ void set_value(const std::string& key, const std::string& value, RunSetup& setup
       throw LoadError(fmt::format("stuck is \"{}\"; expected one of {}of the script", value, known));
     setup.stuck = value;
   } else {
-    throw LoadError(fmt::format(
-        "there is no \"{}\" to set; expected one of {}person, heart_rate, hand_speed, friction, begin, stuck", key,
-        known));
+    throw LoadError(
+        fmt::format("there is no \"{}\" to set; expected one of {}person, heart_rate, breathing, hand_speed, friction, "
+                    "begin, stuck",
+                    key, known));
   }
 }
 
@@ -127,6 +134,7 @@ SessionModel make_session(const RunSetup& setup, std::shared_ptr<const Vessel> v
   for (std::size_t t = 0; t < setup.script.tools.size(); ++t)
     tools.push_back({setup.script.tools[t].name, read_instrument(setup.tool_files[t], setup.tool_texts[t])});
   SessionModel model = make_session(std::move(vessel), std::move(tools), setup.seed);
+  if (setup.breaths_1_min > 0 && !model.vessel->wall.sway.empty()) model.breaths_1_min = setup.breaths_1_min;
   if (!setup.begin.empty()) model.entry = entry_ahead_of(setup.begin, *model.vessel);
   if (setup.friction) {
     const auto wall = std::make_shared<Surface>(*model.rods.surfaces[0]);
@@ -144,6 +152,7 @@ std::string to_json(const RunSetup& setup) {
     out["case"] = setup.case_text;
   if (setup.person) out["person"] = *setup.person;
   if (setup.rate_1_min) out["heart_rate_1_min"] = *setup.rate_1_min;
+  if (setup.breaths_1_min > 0) out["breathing_1_min"] = setup.breaths_1_min;
   if (setup.friction) out["friction"] = *setup.friction;
   if (!setup.begin.empty()) out["begin"] = setup.begin;
   if (!setup.stuck.empty()) out["stuck"] = setup.stuck;
@@ -164,6 +173,7 @@ RunSetup setup_from_json(const std::string& file, const std::string& text) {
     if (in.contains("entry_m")) setup.entry = {point(in.at("entry_m").at(0)), point(in.at("entry_m").at(1))};
     if (in.contains("person")) setup.person = in.at("person");
     if (in.contains("heart_rate_1_min")) setup.rate_1_min = in.at("heart_rate_1_min");
+    if (in.contains("breathing_1_min")) setup.breaths_1_min = in.at("breathing_1_min");
     if (in.contains("begin")) setup.begin = in.at("begin");
     if (in.contains("stuck")) setup.stuck = in.at("stuck");
     if (in.contains("friction")) setup.friction = in.at("friction");

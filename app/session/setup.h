@@ -20,6 +20,7 @@ struct RunSetup {
   std::vector<std::string> tool_files;  ///< and its name
   std::uint64_t seed = 0;
   double hand_speed = 1;           ///< times what the script says; (0, 10]
+  double breaths_1_min = 0;        ///< of a case's patient; 0: the breath is held
   std::optional<double> friction;  ///< of the vessel's wall, instead of vessel_friction; [0, 1]
 
   std::string stuck;  ///< a tool whose drive is out: the hand moves, the tool stays; empty: none
@@ -34,7 +35,7 @@ void set_vessel(const std::string& case_or_mesh, LengthUnit unit, RunSetup& setu
 /// Takes the script and finds its instruments.
 void set_script(const Script& script, RunSetup& setup);
 /// One thing otherwise: a tool's instrument (of the catalogue, or a file), or one of `person`, `heart_rate`,
-/// `hand_speed`, `friction`, `begin`, `stuck`. After set_script. Throws LoadError with what there is.
+/// `breathing`, `hand_speed`, `friction`, `begin`, `stuck`. After set_script. Throws LoadError with what there is.
 void set_value(const std::string& key, const std::string& value, RunSetup& setup);
 
 std::shared_ptr<const Vessel> make_vessel(const RunSetup& setup, std::string& warnings);

@@ -99,7 +99,8 @@ void put_patient(const SessionModel& model, const SessionState& state, const Ses
 }  // namespace
 
 std::size_t signal_count(const SessionModel& model) {
-  return 2 + (model.has_patient() ? std::size(of_a_patient) : 0) + model.tools.size() * std::size(of_a_tool);
+  return 2 + (model.has_patient() ? std::size(of_a_patient) : 0) + model.tools.size() * std::size(of_a_tool) +
+         (model.breaths_1_min > 0 ? 1 : 0);
 }
 
 std::vector<std::string> signal_names(const SessionModel& model) {
@@ -107,6 +108,7 @@ std::vector<std::string> signal_names(const SessionModel& model) {
   if (model.has_patient()) names.insert(names.end(), std::begin(of_a_patient), std::end(of_a_patient));
   for (const SessionTool& tool : model.tools)
     for (const char* name : of_a_tool) names.push_back(tool.name + "." + name);
+  if (model.breaths_1_min > 0) names.push_back("breath_depth");
   return names;
 }
 
@@ -121,7 +123,7 @@ void put_signals(const SessionModel& model, const SessionState& state, const Ses
     const ToolReport& tool = report.tools[i];
     const Eigen::Vector3d p = tip(model, state, t);
     const Way& way = *model.vessel->way;
-    const int sphere = tool.in_body ? way.locate(p, state.blood.heart.phase) : -1;
+    const int sphere = tool.in_body ? way.locate(p, state.blood.heart.phase, breath(model, state)) : -1;
     put(1e3 * state.rods.rods[i].inserted_m);
     put(180 / EIGEN_PI * state.hands[i].turned_rad);
     for (int axis = 0; axis < 3; ++axis) put(1e3 * p[axis]);
@@ -133,6 +135,7 @@ void put_signals(const SessionModel& model, const SessionState& state, const Ses
     put(tool.tip_force_N);
     put(tool.touches);
   }
+  if (model.breaths_1_min > 0) put(breath(model, state));
 }
 
 EventWatch::EventWatch(const SessionModel& model)
@@ -236,7 +239,8 @@ void EventWatch::look(const SessionModel& model, const SessionInputs& inputs, co
     before.pressed = pressed;
     if (now % 10 != 0) continue;
     const Way& way = *model.vessel->way;
-    const int branch = tool.in_body ? way.branch(way.locate(tip(model, state, t), state.blood.heart.phase)) : -1;
+    const int branch =
+        tool.in_body ? way.branch(way.locate(tip(model, state, t), state.blood.heart.phase, breath(model, state))) : -1;
     if (branch >= 0 && branch != before.branch) say(EventCode::tip_enters, t, branch);
     before.branch = branch;
   }

@@ -66,6 +66,16 @@ std::vector<SphereTree> with_ventricle(std::vector<SphereTree> frames, const Ven
   return frames;
 }
 
+/// The same for how far the tree's spheres are displaced at the top of a breath.
+std::vector<std::vector<Vector3d>> with_ventricle(std::vector<std::vector<Vector3d>> breath, const Ventricle& ventricle,
+                                                  const Landmarks& marks) {
+  if (ventricle.spheres.empty() || breath.empty()) return breath;
+  const HeartMotion motion(marks);
+  std::vector<Vector3d>& own = breath.emplace_back();
+  for (const TreeSphere& sphere : ventricle.spheres) own.push_back(motion.breath_displacement(sphere.p, 1));
+  return breath;
+}
+
 /// As opened_wall.h changes it.
 SurfaceDescription untreated_wall(const Coronaries& coronaries) {
   std::vector<double> radii;
@@ -120,8 +130,9 @@ std::shared_ptr<const Vessel> vessel_of(const Case& c, std::optional<std::uint64
   vessel->surface = std::make_shared<Surface>(make_surface(vessel->wall));
   const Landmarks& marks = patient->anatomy.landmarks;
   vessel->entry = end_at(marks.p_access, marks.access_direction);
-  vessel->way = std::make_unique<const Way>(with_ventricle(patient->tree_frames, vessel->ventricle, marks),
-                                            marks.p_access, places_of(*patient));
+  vessel->way =
+      std::make_unique<const Way>(with_ventricle(patient->tree_frames, vessel->ventricle, marks), marks.p_access,
+                                  places_of(*patient), with_ventricle(patient->tree_breath, vessel->ventricle, marks));
   vessel->p_middle = heart_middle(*patient);
   vessel->rate_1_min = c.rate_1_min;
   vessel->patient = patient;

@@ -9,8 +9,9 @@ namespace ostium {
 
 using Eigen::Vector3d;
 
-Way::Way(std::vector<SphereTree> frames, const Vector3d& p_access, std::vector<std::pair<std::string, Vector3d>> named)
-    : frames_(std::move(frames)) {
+Way::Way(std::vector<SphereTree> frames, const Vector3d& p_access, std::vector<std::pair<std::string, Vector3d>> named,
+         std::vector<std::vector<Vector3d>> breath)
+    : frames_(std::move(frames)), breath_(std::move(breath)) {
   const std::vector<TreeBranch>& all = branches();
   for (std::size_t b = 0; b < all.size(); ++b) {
     offset_.push_back(static_cast<int>(nodes_.size()));
@@ -94,13 +95,16 @@ Way::Departure Way::departure(int sphere, double phase) const {
   return {along, (to - to.dot(along) * along).normalized()};
 }
 
-int Way::locate(const Vector3d& point, double phase) const {
+int Way::locate(const Vector3d& point, double phase, double breath) const {
   const std::vector<TreeBranch>& all = frames_[frame_at(phase)].branches;
   int best = 0, n = 0;
   double nearest = std::numeric_limits<double>::infinity();
-  for (const TreeBranch& branch : all)
-    for (const TreeSphere& sphere : branch.spheres) {
-      const double apart = (sphere.p - point).norm() - sphere.radius_m;
+  const bool breathes = breath != 0 && !breath_.empty();
+  for (std::size_t b = 0; b < all.size(); ++b)
+    for (std::size_t s = 0; s < all[b].spheres.size(); ++s) {
+      const TreeSphere& sphere = all[b].spheres[s];
+      const Vector3d from = breathes ? Vector3d(point - breath * breath_[b][s]) : point;
+      const double apart = (sphere.p - from).norm() - sphere.radius_m;
       if (apart < nearest && !nodes_[static_cast<std::size_t>(n)].inside_parent) nearest = apart, best = n;
       ++n;
     }

@@ -11,12 +11,15 @@ namespace ostium {
 class Way {
  public:
   /// `frames`: the same tree at evenly spaced phases of the beat, or one that stands still. `named`: places besides the
-  /// branches' own names, each at the sphere nearest to a point (m, at end-diastole).
+  /// branches' own names, each at the sphere nearest to a point (m, at end-diastole). `breath`: [branch][sphere] how
+  /// far each is displaced at the top of a breath, m; empty: not at all.
   Way(std::vector<SphereTree> frames, const Eigen::Vector3d& p_access,
-      std::vector<std::pair<std::string, Eigen::Vector3d>> named);
+      std::vector<std::pair<std::string, Eigen::Vector3d>> named,
+      std::vector<std::vector<Eigen::Vector3d>> breath = {});
 
-  /// Number of the sphere that a point lies in, or nearest to; `phase` in [0, 1). Does not allocate.
-  int locate(const Eigen::Vector3d& p, double phase) const;
+  /// Number of the sphere that a point lies in, or nearest to; `phase` in [0, 1), `breath` its depth. Does not
+  /// allocate.
+  int locate(const Eigen::Vector3d& p, double phase, double breath = 0) const;
   /// Whether `sphere` is `place`, or lies beyond it as seen from the access.
   bool beyond(int sphere, int place) const;
   /// Length of the way from the access, m.
@@ -48,6 +51,7 @@ class Way {
   std::size_t frame_at(double phase) const;
 
   std::vector<SphereTree> frames_;
+  std::vector<std::vector<Eigen::Vector3d>> breath_;
   std::vector<Node> nodes_;
   std::vector<int> offset_;  ///< of each branch's spheres among nodes_
   std::vector<std::pair<std::string, int>> named_;

@@ -96,7 +96,7 @@ std::vector<double> occupied_m(const SessionModel& model, const SessionState& st
 void add_treatment(const SessionModel& model, const SessionState& state, Scene& scene) {
   const Coronaries& c = *model.vessel->coronaries;
   const BedsideState& b = state.bedside;
-  const double phase = state.blood.heart.phase;
+  const double phase = state.blood.heart.phase, depth = breath(model, state);
   const auto path_of = [&](double branch) -> const VesselPath& {
     return model.treatment.paths[static_cast<std::size_t>(branch)];
   };
@@ -107,12 +107,12 @@ void add_treatment(const SessionModel& model, const SessionState& state, Scene& 
                          state.treatment.balloon.was_filled > 0 && b.branch >= 0;
     if (stent.branch >= 0 && (stent.where == StentState::deployed || opening))
       add_stent(model.treatment.stents[i], stent, path_of(stent.branch), *c.patient, c.map, *c.shape,
-                state.blood.radius_m, phase, scene);
+                state.blood.radius_m, phase, depth, scene);
   }
   if (b.balloon >= 0 && b.branch >= 0)
     add_balloon(model.treatment.balloons[static_cast<std::size_t>(b.balloon)], state.treatment.balloon,
-                path_of(b.branch), b.middle_m, c.map, phase, false, scene);  // between the markers of its shaft
-  add_pools(state.treatment.injury, c.map, state.blood.radius_m, phase, scene);
+                path_of(b.branch), b.middle_m, c.map, phase, depth, false, scene);  // between the markers of its shaft
+  add_pools(state.treatment.injury, c.map, state.blood.radius_m, phase, depth, scene);
 }
 
 std::vector<Shaft> shafts_of(const SessionModel& model, const SessionState& state) {
@@ -142,11 +142,12 @@ std::vector<Shaft> shafts_of(const SessionModel& model, const SessionState& stat
   return shafts;
 }
 
-XrayPatient::XrayPatient(std::shared_ptr<const Patient> patient, Fill which) : patient_(std::move(patient)) {
+XrayPatient::XrayPatient(std::shared_ptr<const Patient> patient, Fill which, bool breathes)
+    : patient_(std::move(patient)) {
   auto fixed = std::make_shared<std::vector<Body>>();
   for (XrayBody& body : make_thorax(patient_->anatomy)) {
     std::shared_ptr<const Triangles> triangles = triangles_of(body.mesh.triangles);
-    if (body.beat.empty()) {
+    if (body.beat.empty() && !(breathes && !body.breath.empty())) {
       fixed->push_back(body_of(body, triangles, body.mesh.vertices));
     } else {
       moving_triangles_.push_back(triangles);
@@ -207,13 +208,13 @@ void XrayPatient::fill(Fill which) {
   filled_.triangles = triangles_of(triangles);
 }
 
-Scene XrayPatient::at(double phase) const {
+Scene XrayPatient::at(double phase, double breath) const {
   Scene scene{fixed_, {}, {}};
   for (std::size_t b = 0; b < moving_.size(); ++b)
     scene.moving.push_back(
-        body_of(moving_[b], moving_triangles_[b], ostium::at(moving_[b], contraction(phase), 0).vertices));
+        body_of(moving_[b], moving_triangles_[b], ostium::at(moving_[b], contraction(phase), breath).vertices));
   if (filled_.vertices.empty()) return scene;
-  const Mesh lumen = patient_->lumen.at(phase, 0);
+  const Mesh lumen = patient_->lumen.at(phase, breath);
   std::vector<Vector3d> vertices;
   for (int v : filled_.vertices) vertices.push_back(lumen.vertices[static_cast<std::size_t>(v)]);
   for (const std::vector<int>& rim : filled_.rims) {

@@ -24,8 +24,9 @@ std::vector<Shaft> shafts_of(const SessionModel& model, const SessionState& stat
 /// The patient's chest; makes meshes once, then a scene for any phase. Takes some seconds to make.
 class XrayPatient {
  public:
-  XrayPatient(std::shared_ptr<const Patient> patient, Fill fill);
-  Scene at(double phase) const;
+  /// `breathes`: what the breath moves is not among what stands still.
+  XrayPatient(std::shared_ptr<const Patient> patient, Fill fill, bool breathes = false);
+  Scene at(double phase, double breath_depth = 0) const;
 
  private:
   struct Filled {

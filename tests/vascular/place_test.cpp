@@ -24,7 +24,7 @@ const Ward& ward() {
 
 TEST(Place, AMarkerPairIsFoundAgainAtEveryMomentOfTheBeat) {
   const Ward& w = ward();
-  CellLocator locator(w.map, w.tree, w.patient.lumen);
+  CellLocator locator(w.map, w.tree);
   const int near = w.tree.cell_at(w.tree.branch("RCA"), 40e-3), far = w.tree.cell_at(w.tree.branch("RCA"), 52e-3);
   const VesselPath path = path_along(w.tree, far);
   const std::vector<VesselPath> paths = all_paths(w.tree);
@@ -45,7 +45,7 @@ TEST(Place, AMarkerPairIsFoundAgainAtEveryMomentOfTheBeat) {
 
 TEST(Place, AShaftFillsTheCellsItRunsThroughAndNoOthers) {
   const Ward& w = ward();
-  CellLocator locator(w.map, w.tree, w.patient.lumen);
+  CellLocator locator(w.map, w.tree);
   locator.set_moment(0.5, 0);
   const VesselPath path = path_along(w.tree, w.tree.cell_at(w.tree.branch("RCA"), 60e-3));
   std::vector<Eigen::Vector3d> nodes;
@@ -61,12 +61,12 @@ TEST(Place, AShaftFillsTheCellsItRunsThroughAndNoOthers) {
 
 TEST(Place, ATipIsInTheCoronaryAtItsOstiumOrInTheAorta) {
   const Ward& w = ward();
-  CellLocator locator(w.map, w.tree, w.patient.lumen);
+  CellLocator locator(w.map, w.tree);
   locator.set_moment(0, 0);
   const int first = w.tree.branches[w.tree.branch("RCA")].first;
   const Eigen::Vector3d in = (locator.centre(first + 3) - locator.centre(first)).normalized();
   const auto at = [&](const Eigen::Vector3d& p, const Eigen::Vector3d& direction) {
-    return tip_place(locator, w.tree, w.physiology.contrast, w.patient, w.map, 0, p, direction);
+    return tip_place(locator, w.tree, w.physiology.contrast, w.patient, w.map, 0, 0, p, direction);
   };
   EXPECT_EQ(at(locator.centre(first + 4), in).where, TipPlace::coronary);
   const TipPlace aimed = at(locator.centre(first) - 5e-3 * in, in), away = at(locator.centre(first) - 5e-3 * in, -in);

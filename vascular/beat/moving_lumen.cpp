@@ -1,10 +1,12 @@
 #include "vascular/beat/moving_lumen.h"
 
+#include <Eigen/SVD>
 #include <algorithm>
 #include <numeric>
 #include <stdexcept>
 
 #include "vascular/beat/heart_cycle.h"
+#include "vascular/in_parts.h"
 
 namespace ostium {
 
@@ -30,6 +32,15 @@ bool of_heart(const Anatomy& anatomy, int tube) {
     if (rca && rca->tube == t) return true;
   }
   return false;
+}
+
+/// Whether a vertex of a surface that was given frame by frame is ever elsewhere, by more than files round.
+bool is_displaced(const std::vector<Eigen::Vector3d>& rest, const std::vector<std::vector<Eigen::Vector3d>>& frames,
+                  int v) {
+  constexpr double rounding_m = 1e-6;
+  return std::any_of(frames.begin(), frames.end(), [&](const std::vector<Eigen::Vector3d>& frame) {
+    return (frame[v] - rest[v]).squaredNorm() > rounding_m * rounding_m;
+  });
 }
 
 }  // namespace
@@ -87,6 +98,77 @@ void TubeMotion::set_frame(int t, int frame, const std::vector<Tissue>& tissues,
   }
 }
 
+/// The vertices that a tube decides, by where along it they are.
+class TubeMotion::Around {
+ public:
+  Around(int tube, const std::vector<std::vector<TubeShare>>& shares) {
+    for (std::size_t v = 0; v < shares.size(); ++v)
+      for (const TubeShare& share : shares[v])
+        if (share.tube == tube && share.weight > 0.5) at_.emplace_back(share.s_m, static_cast<int>(v));
+    std::sort(at_.begin(), at_.end());
+  }
+  bool enough() const { return at_.size() >= least; }
+  const std::vector<std::pair<double, int>>& all() const { return at_; }
+  /// A stretch of one radius to either side, or of as many more as it takes.
+  std::vector<int> near(double s_m, double radius_m) const {
+    std::vector<int> found;
+    for (double reach = radius_m; found.size() < least; reach *= 2) {
+      found.clear();
+      const auto from = std::lower_bound(at_.begin(), at_.end(), std::pair(s_m - reach, -1));
+      for (auto it = from; it != at_.end() && it->first <= s_m + reach; ++it) found.push_back(it->second);
+    }
+    return found;
+  }
+
+ private:
+  static constexpr std::size_t least = 12;
+  std::vector<std::pair<double, int>> at_;
+};
+
+TubeMotion::TubeMotion(const Anatomy& anatomy, const std::vector<Eigen::Vector3d>& rest,
+                       const std::vector<std::vector<TubeShare>>& shares,
+                       const std::vector<std::vector<Eigen::Vector3d>>& frames)
+    : anatomy_(anatomy) {
+  for (int t = 0; t < static_cast<int>(anatomy.tubes.size()); ++t) {
+    const Tube& tube = anatomy.tubes[t];
+    const Around around(t, shares);
+    breathes_.push_back(is_aorta(anatomy, t) || of_heart(anatomy, t));
+    poses_.emplace_back();
+    // One with hardly a wall of its own lies in its parent, and goes with that.
+    const bool with_parent = !around.enough() && tube.parent >= 0 && moves_[tube.parent];
+    moves_.push_back(with_parent ||
+                     (around.enough() && std::any_of(around.all().begin(), around.all().end(), [&](const auto& at) {
+                        return is_displaced(rest, frames, at.second);
+                      })));
+    if (!moves_.back()) continue;
+    const std::size_t n = tube.nodes.size();
+    poses_.back().resize(beat_frames * n);
+    for (std::size_t i = 0; i < n; ++i) {
+      const TubeNode& node = tube.nodes[i];
+      const std::vector<int> near = with_parent ? std::vector<int>{} : around.near(node.s_m, node.radius_m);
+      for (int f = 0; f < beat_frames; ++f) {
+        Pose& pose = poses_.back()[static_cast<std::size_t>(f) * n + i];
+        if (with_parent) {
+          const double s = nearest_s(anatomy.tubes[tube.parent], node.p);
+          const Pose origin = pose_at(tube.parent, s, f);
+          pose.turn = origin.turn;
+          pose.centre = origin.centre + origin.turn.cast<double>() * (node.p - anatomy.tubes[tube.parent].at(s).p);
+          continue;
+        }
+        Eigen::Vector3d from = Eigen::Vector3d::Zero(), to = from;
+        for (int v : near) from += rest[v] / double(near.size()), to += frames[f][v] / double(near.size());
+        Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
+        for (int v : near) spread += (frames[f][v] - to) * (rest[v] - from).transpose();
+        const Eigen::JacobiSVD<Eigen::Matrix3d> svd(spread, Eigen::ComputeFullU | Eigen::ComputeFullV);
+        Eigen::Matrix3d U = svd.matrixU();
+        if ((U * svd.matrixV().transpose()).determinant() < 0) U.col(2) *= -1;
+        const Eigen::Matrix3d turn = U * svd.matrixV().transpose();
+        pose = {turn.cast<float>(), to + turn * (node.p - from)};
+      }
+    }
+  }
+}
+
 TubeMotion::TubeMotion(const Anatomy& anatomy, const HeartMotion& motion) : anatomy_(anatomy) {
   for (int t = 0; t < static_cast<int>(anatomy.tubes.size()); ++t) {
     const Tube& tube = anatomy.tubes[t];
@@ -105,6 +187,7 @@ TubeMotion::TubeMotion(const Anatomy& anatomy, const HeartMotion& motion) : anat
     }
     for (int f = 0; f < beat_frames; ++f) set_frame(t, f, tissues, branch && moves_[tube.parent] ? &origin : nullptr);
   }
+  breathes_ = moves_;
 }
 
 TubeMotion::Pose TubeMotion::pose_at(int tube, double s_m, int frame) const {
@@ -136,7 +219,7 @@ Eigen::Vector3d TubeMotion::carried(const Eigen::Vector3d& p, const std::vector<
 }
 
 double TubeMotion::breath_share(int tube, double s_m) const {
-  if (!moves_[tube]) return 0;
+  if (!breathes_[tube]) return 0;
   return is_aorta(anatomy_, tube) ? 1 - smooth_step(root_end_m, anatomy_.ascending_m, s_m) : 1;
 }
 
@@ -190,19 +273,25 @@ void smooth_paths(const std::vector<std::array<int, 3>>& triangles, const std::v
 }  // namespace
 
 MovingLumen make_moving_lumen(const Anatomy& anatomy, const std::vector<Lesion>& lesions, const HeartMotion& motion,
-                              const TubeMotion& tubes, Contour contour, int smoothing) {
+                              const TubeMotion& tubes, Contour contour, int smoothing,
+                              const std::vector<std::vector<Eigen::Vector3d>>& own) {
   for (const Lesion& lesion : lesions)
     if (const int tube = find_branch(anatomy, lesion.branch)->tube; is_aorta(anatomy, tube) || !tubes.moves(tube))
       throw std::invalid_argument("there is no lesion model for " + lesion.branch + "; expected a coronary artery");
   const std::size_t n = contour.mesh.vertices.size();
-  const auto moves = [&](int v) {
+  const auto beats = [&](int v) {
+    if (!own.empty()) {
+      const Eigen::Vector3d& p = contour.mesh.vertices[v];
+      return is_displaced(contour.mesh.vertices, own, v) ||
+             ostium::diseased(anatomy, lesions, p, contour.shares[v]) != p;
+    }
     for (const TubeShare& s : contour.shares[v])
       if (tubes.breath_share(s.tube, s.s_m) > 0) return true;
     return false;
   };
   std::vector<int> order(n), new_index(n);
   std::iota(order.begin(), order.end(), 0);
-  const auto first_still = std::stable_partition(order.begin(), order.end(), moves);
+  const auto first_still = std::stable_partition(order.begin(), order.end(), beats);
   for (std::size_t i = 0; i < n; ++i) new_index[order[i]] = static_cast<int>(i);
 
   MovingLumen lumen;
@@ -213,6 +302,12 @@ MovingLumen make_moving_lumen(const Anatomy& anatomy, const std::vector<Lesion>&
   std::vector<std::vector<Eigen::Vector3d>> frames(beat_frames, std::vector<Eigen::Vector3d>(lumen.moving));
   std::vector<std::vector<Eigen::Vector3d>> diseased_frames(beat_frames);
   std::vector<Eigen::Vector3d> rest;
+  in_parts(lumen.moving, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i)
+      for (int f = 0; f < beat_frames; ++f)
+        frames[f][i] = own.empty() ? tubes.carried(contour.mesh.vertices[order[i]], contour.shares[order[i]], f)
+                                   : own[f][order[i]];
+  });
   for (std::size_t i = 0; i < n; ++i) {
     const Eigen::Vector3d p = contour.mesh.vertices[order[i]];
     lumen.shares.push_back(std::move(contour.shares[order[i]]));
@@ -224,12 +319,13 @@ MovingLumen make_moving_lumen(const Anatomy& anatomy, const std::vector<Lesion>&
       lumen.still.push_back(p);
       continue;
     }
-    for (int f = 0; f < beat_frames; ++f) frames[f][i] = tubes.carried(p, shares, f);
     rest.push_back(p);
     const Eigen::Vector3d q = ostium::diseased(anatomy, lesions, p, shares);
     if (q == p) continue;
     lumen.narrowed.push_back(static_cast<int>(i));
-    for (int f = 0; f < beat_frames; ++f) diseased_frames[f].push_back(tubes.carried(q, shares, f) - frames[f][i]);
+    for (int f = 0; f < beat_frames; ++f)
+      diseased_frames[f].push_back(tubes.carried(q, shares, f) -
+                                   (own.empty() ? frames[f][i] : tubes.carried(p, shares, f)));
   }
   if (smoothing > 0) smooth_paths(lumen.triangles, rest, smoothing, frames);
   for (int f = 0; f < beat_frames; ++f)

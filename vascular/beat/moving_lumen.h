@@ -11,6 +11,12 @@ namespace ostium {
 class TubeMotion {
  public:
   TubeMotion(const Anatomy& anatomy, const HeartMotion& motion);
+  /// As a surface that was given in every frame of the beat (frames[f][v], beat_frames of them, `rest` the first)
+  /// carries them: by the rotation and shift that fit best (Kabsch 1976) what of it is around. `shares`: of its
+  /// vertices.
+  TubeMotion(const Anatomy& anatomy, const std::vector<Eigen::Vector3d>& rest,
+             const std::vector<std::vector<TubeShare>>& shares,
+             const std::vector<std::vector<Eigen::Vector3d>>& frames);
 
   /// Whether any part of it moves.
   bool moves(int tube) const { return moves_[static_cast<std::size_t>(tube)]; }
@@ -27,8 +33,9 @@ class TubeMotion {
     Eigen::Vector3d centre;
   };
   const Anatomy& anatomy_;
-  std::vector<bool> moves_;
+  std::vector<bool> moves_, breathes_;
   std::vector<std::vector<Pose>> poses_;  ///< of each tube: frame by node
+  class Around;
   struct Tissue;
   struct Origin;
   Tissue tissue(int tube, const TubeNode& node, const HeartMotion& motion) const;
@@ -57,8 +64,11 @@ struct MovingLumen {
 };
 
 /// `smoothing`: so many times each vertex's path becomes the mean of its own and its neighbours'; for surfaces whose
-/// shares change abruptly. Throws std::invalid_argument if a lesion lies where nothing beats.
+/// shares change abruptly. `own`: the healthy wall's vertices in each frame (own[f][v], beat_frames of them, the first
+/// those of `contour`), and `tubes` is made of them; empty: the tubes carry the wall. Throws std::invalid_argument if a
+/// lesion lies where nothing beats.
 MovingLumen make_moving_lumen(const Anatomy& anatomy, const std::vector<Lesion>& lesions, const HeartMotion& motion,
-                              const TubeMotion& tubes, Contour contour, int smoothing = 0);
+                              const TubeMotion& tubes, Contour contour, int smoothing = 0,
+                              const std::vector<std::vector<Eigen::Vector3d>>& own = {});
 
 }  // namespace ostium

@@ -3,6 +3,7 @@
 #include <cassert>
 #include <cmath>
 
+#include "vascular/in_parts.h"
 #include "vascular/shape/spline.h"
 
 namespace ostium {
@@ -14,16 +15,18 @@ PeriodicPoints::PeriodicPoints(const std::vector<std::vector<Eigen::Vector3d>>& 
   const std::size_t points = frames.front().size(), n = static_cast<std::size_t>(frames_);
   mean_.resize(points);
   offsets_.resize(points * n * 3);
-  Eigen::Matrix<double, Eigen::Dynamic, 3> path(frames_, 3);
-  for (std::size_t i = 0; i < points; ++i) {
-    for (std::size_t f = 0; f < n; ++f) path.row(static_cast<Eigen::Index>(f)) = frames[f][i].transpose();
-    mean_[i] = path.colwise().mean().transpose();
-    const Eigen::Matrix<double, Eigen::Dynamic, 3> c = to_coefficients * (path.rowwise() - mean_[i].transpose());
-    for (std::size_t f = 0; f < n; ++f)
-      for (int axis = 0; axis < 3; ++axis)
-        offsets_[(i * n + f) * 3 + static_cast<std::size_t>(axis)] =
-            static_cast<float>(c(static_cast<Eigen::Index>(f), axis));
-  }
+  in_parts(points, [&](std::size_t begin, std::size_t end) {
+    Eigen::Matrix<double, Eigen::Dynamic, 3> path(frames_, 3);
+    for (std::size_t i = begin; i < end; ++i) {
+      for (std::size_t f = 0; f < n; ++f) path.row(static_cast<Eigen::Index>(f)) = frames[f][i].transpose();
+      mean_[i] = path.colwise().mean().transpose();
+      const Eigen::Matrix<double, Eigen::Dynamic, 3> c = to_coefficients * (path.rowwise() - mean_[i].transpose());
+      for (std::size_t f = 0; f < n; ++f)
+        for (int axis = 0; axis < 3; ++axis)
+          offsets_[(i * n + f) * 3 + static_cast<std::size_t>(axis)] =
+              static_cast<float>(c(static_cast<Eigen::Index>(f), axis));
+    }
+  });
 }
 
 Eigen::Vector3d PeriodicPoints::blended(std::size_t i, int first, const Eigen::Vector4d& weights) const {
@@ -46,6 +49,17 @@ Eigen::Vector3d PeriodicPoints::velocity(std::size_t i, double phase) const {
   const double u = (phase - std::floor(phase)) * frames_;
   const int f = static_cast<int>(u) % frames_;
   return frames_ * blended(i, f + frames_ - 1, b_spline_slopes(u - std::floor(u)));
+}
+
+std::vector<std::vector<Eigen::Vector3d>> resampled(const std::vector<std::vector<Eigen::Vector3d>>& frames,
+                                                    int count) {
+  if (static_cast<int>(frames.size()) == count) return frames;
+  const PeriodicPoints points(frames);
+  std::vector<std::vector<Eigen::Vector3d>> out(static_cast<std::size_t>(count), frames.front());
+  for (int f = 1; f < count; ++f)
+    for (std::size_t i = 0; i < points.size(); ++i)
+      out[static_cast<std::size_t>(f)][i] = points.position(i, static_cast<double>(f) / count);
+  return out;
 }
 
 }  // namespace ostium

@@ -31,4 +31,7 @@ class PeriodicPoints {
   std::vector<float> offsets_;  ///< spline coefficients, point by frame by axis
 };
 
+/// Frames of another number, evenly spaced from the first on, of points that are given in at least four.
+std::vector<std::vector<Eigen::Vector3d>> resampled(const std::vector<std::vector<Eigen::Vector3d>>& frames, int count);
+
 }  // namespace ostium

@@ -28,6 +28,12 @@ PeriodicPoints centres_of(const Patient& patient, const std::vector<std::pair<in
   return PeriodicPoints(frames);
 }
 
+std::vector<Eigen::Vector3d> breath_of(const Patient& patient, const std::vector<std::pair<int, int>>& spheres) {
+  std::vector<Eigen::Vector3d> breath;
+  for (const auto& [branch, sphere] : spheres) breath.push_back(patient.tree_breath[branch][sphere]);
+  return breath;
+}
+
 }  // namespace
 
 LumenMap make_lumen_map(const Patient& patient, const FlowModel& flow) {
@@ -96,11 +102,12 @@ LumenMap make_lumen_map(const Patient& patient, const FlowModel& flow) {
   }
   map.coronary = centres_of(patient, spheres);
   map.aorta = centres_of(patient, aorta_spheres);
+  map.coronary_breath = breath_of(patient, spheres), map.aorta_breath = breath_of(patient, aorta_spheres);
   return map;
 }
 
 void opacify(const LumenMap& map, const FlowModel& flow, const FlowInputs& lumen, const ContrastModel& model,
-             const ContrastState& state, double phase, std::span<float> iodine_kg_m3,
+             const ContrastState& state, double phase, double breath, std::span<float> iodine_kg_m3,
              Eigen::Ref<Eigen::Matrix3Xf> centres, Eigen::Ref<Eigen::Matrix3Xf> along, OpacityScratch& scratch) {
   // Cell by cell once, then vertices.
   auto& [coronary, aorta, coronary_p, aorta_p, coronary_along, aorta_along] = scratch;
@@ -110,11 +117,11 @@ void opacify(const LumenMap& map, const FlowModel& flow, const FlowInputs& lumen
   for (std::size_t c = 0; c < n; ++c) {
     const double area = free_area_m2(lumen.radius_m[c], lumen.occupied_m.empty() ? 0 : lumen.occupied_m[c]);
     coronary[c] = static_cast<float>(concentration(state, flow, static_cast<int>(c), area));
-    coronary_p.col(static_cast<int>(c)) = map.coronary.position(c, phase).cast<float>();
+    coronary_p.col(static_cast<int>(c)) = map.centre(c, phase, breath).cast<float>();
   }
   for (std::size_t c = 0; c < m; ++c) {
     aorta[c] = static_cast<float>(aorta_concentration(model, state, static_cast<int>(c)));
-    aorta_p.col(static_cast<int>(c)) = map.aorta.position(c, phase).cast<float>();
+    aorta_p.col(static_cast<int>(c)) = map.aorta_centre(c, phase, breath).cast<float>();
   }
   for (std::size_t c = 0; c < n; ++c) {
     const auto [parent, share] = map.parent_centre[c];

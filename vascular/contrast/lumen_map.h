@@ -23,10 +23,19 @@ struct LumenMap {
     float second_share = 0;
   };
   std::vector<Vertex> sources;
-  PeriodicPoints coronary, aorta;  ///< centres of the cells
+  PeriodicPoints coronary, aorta;                              ///< centres of the cells
+  std::vector<Eigen::Vector3d> coronary_breath, aorta_breath;  ///< their displacements at the top of a breath, m
   /// (#cells) A branch's depths are counted from its parent's centre where it begins, so that none is counted twice:
   /// that cell, and its share.
   std::vector<std::pair<int, float>> parent_centre;
+
+  /// Centre of a coronary cell, or one of the aorta, at a phase and depth of breath.
+  Eigen::Vector3d centre(std::size_t cell, double phase, double breath) const {
+    return coronary.position(cell, phase) + breath * coronary_breath[cell];
+  }
+  Eigen::Vector3d aorta_centre(std::size_t cell, double phase, double breath) const {
+    return aorta.position(cell, phase) + breath * aorta_breath[cell];
+  }
 };
 LumenMap make_lumen_map(const Patient& patient, const FlowModel& flow);
 
@@ -35,11 +44,12 @@ struct OpacityScratch {
   Eigen::Matrix3Xf coronary_p, aorta_p, coronary_along, aorta_along;
 };
 
-/// Iodine at each vertex, kg/m3, and the point of the centreline that it belongs to, metres, at a phase.
+/// Iodine at each vertex, kg/m3, and the point of the centreline that it belongs to, metres, at a phase and
+/// a depth of breath.
 /// `along`: the integral of concentration times the centreline's element up to that point, kg/m2 (fluoro/scene.h says
 /// what for). All (#vertices). `radius_m`, `occupied_m`: of FlowInputs.
 void opacify(const LumenMap& map, const FlowModel& flow, const FlowInputs& lumen, const ContrastModel& model,
-             const ContrastState& state, double phase, std::span<float> iodine_kg_m3,
+             const ContrastState& state, double phase, double breath, std::span<float> iodine_kg_m3,
              Eigen::Ref<Eigen::Matrix3Xf> centres, Eigen::Ref<Eigen::Matrix3Xf> along, OpacityScratch& scratch);
 
 }  // namespace ostium

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "vascular/in_parts.h"
+
 namespace ostium {
 
 WallShape::WallShape(const Patient& patient, const LumenMap& map, const FlowTree& tree)
@@ -44,8 +46,11 @@ void WallShape::at(std::span<const double> radius_m, double phase, double breath
 SurfaceDescription WallShape::wall(std::span<const double> radius_m) const {
   SurfaceDescription wall;
   wall.triangles = patient_.lumen.triangles;
+  wall.sway = patient_.lumen.breath;
   wall.frames.resize(beat_frames);
-  for (int f = 0; f < beat_frames; ++f) at(radius_m, static_cast<double>(f) / beat_frames, 0, wall.frames[f]);
+  in_parts(beat_frames, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t f = begin; f < end; ++f) at(radius_m, static_cast<double>(f) / beat_frames, 0, wall.frames[f]);
+  });
   return wall;
 }
 

@@ -5,6 +5,7 @@
 #include <array>
 #include <numeric>
 
+#include "vascular/in_parts.h"
 #include "vascular/shape/contour_octree.h"
 #include "vascular/surface_check.h"
 
@@ -31,11 +32,13 @@ void even_out(const TubeUnion& lumen, const Near& near, const std::vector<Quad>&
       sum[i] += vertices[j], weight[i] += 1;
       sum[j] += vertices[i], weight[j] += 1;
     }
-  for (std::size_t i = 0; i < n; ++i) {
-    Eigen::Vector3d move = 0.5 * (sum[i] / weight[i] - vertices[i]);
-    move -= move.dot(outwards[i]) * outwards[i];
-    vertices[i] = onto_surface(lumen, *near[i], vertices[i] + move, 1, outwards[i]);
-  }
+  in_parts(n, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      Eigen::Vector3d move = 0.5 * (sum[i] / weight[i] - vertices[i]);
+      move -= move.dot(outwards[i]) * outwards[i];
+      vertices[i] = onto_surface(lumen, *near[i], vertices[i] + move, 1, outwards[i]);
+    }
+  });
 }
 
 /// How many faces have an edge.
@@ -135,8 +138,9 @@ Contour contour(const TubeUnion& lumen, const ContourSettings& settings) {
     }
     if (!sound && attempt + 1 < most_attempts) continue;
     result.shares.resize(mesh.vertices.size());
-    for (std::size_t i = 0; i < mesh.vertices.size(); ++i)
-      lumen.value(mesh.vertices[i], *near[i], nullptr, &result.shares[i]);
+    in_parts(mesh.vertices.size(), [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) lumen.value(mesh.vertices[i], *near[i], nullptr, &result.shares[i]);
+    });
     break;
   }
   return result;

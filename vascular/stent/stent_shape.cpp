@@ -38,10 +38,10 @@ std::vector<std::pair<int, int>> struts_of(const StentModel& m) {
   return out;
 }
 
-PathFrame frame_at(const LumenMap& map, const VesselPath& path, double s_m, double phase) {
+PathFrame frame_at(const LumenMap& map, const VesselPath& path, double s_m, double phase, double breath) {
   const auto centre = [&](int i) {
     const int last = static_cast<int>(path.cells.size()) - 1;
-    return map.coronary.position(static_cast<std::size_t>(path.cells[std::clamp(i, 0, last)]), phase);
+    return map.centre(static_cast<std::size_t>(path.cells[std::clamp(i, 0, last)]), phase, breath);
   };
   const VesselPath::Place place = path.at(s_m);
   PathFrame f;
@@ -59,11 +59,11 @@ PathFrame frame_at(const LumenMap& map, const VesselPath& path, double s_m, doub
 }
 
 std::vector<Eigen::Vector3d> points_on_path(const StentModel& m, const StentState& s, const LumenMap& map,
-                                            const VesselPath& path, double phase) {
+                                            const VesselPath& path, double phase, double breath) {
   std::vector<Eigen::Vector3d> out;
   const int around = 2 * m.crowns;
   for (int i = 0; i < m.points(); ++i) {
-    const PathFrame f = frame_at(map, path, s.middle_m + s.shift_m + s.along_m[i], phase);
+    const PathFrame f = frame_at(map, path, s.middle_m + s.shift_m + s.along_m[i], phase, breath);
     const double a = angle_of(m, i % around), r = s.radius_m[i / around] + m.strut_m / 2;
     out.push_back(f.centre + r * (std::cos(a) * f.side + std::sin(a) * f.up));
   }

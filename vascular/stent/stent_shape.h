@@ -12,11 +12,11 @@ std::vector<std::pair<int, int>> struts_of(const StentModel& model);
 struct PathFrame {
   Eigen::Vector3d centre, along, side, up;
 };
-PathFrame frame_at(const LumenMap& map, const VesselPath& path, double s_m, double phase);
+PathFrame frame_at(const LumenMap& map, const VesselPath& path, double s_m, double phase, double breath = 0);
 
 /// Where its points are by the path alone.
 std::vector<Eigen::Vector3d> points_on_path(const StentModel& model, const StentState& state, const LumenMap& map,
-                                            const VesselPath& path, double phase);
+                                            const VesselPath& path, double phase, double breath = 0);
 
 /// Ties a deployed stent to the wall as both are now: once, between two steps. `gap_m` of each point to the wall.
 void tie_to_wall(const StentModel& model, const Patient& patient, const WallShape& shape, const LumenMap& map,

@@ -78,4 +78,17 @@ SphereTree carried(const SphereTree& tree, const Anatomy& anatomy, const TubeMot
   return moved;
 }
 
+std::vector<std::vector<Eigen::Vector3d>> breath_of(const SphereTree& tree, const Anatomy& anatomy,
+                                                    const HeartMotion& heart, const TubeMotion& tubes) {
+  std::vector<std::vector<Eigen::Vector3d>> breath;
+  for (std::size_t b = 0; b < tree.branches.size(); ++b) {
+    const int tube = anatomy.branches[b].tube;
+    breath.emplace_back();
+    for (const TreeSphere& sphere : tree.branches[b].spheres)
+      breath.back().push_back(tubes.breath_share(tube, nearest_s(anatomy.tubes[tube], sphere.p)) *
+                              heart.breath_displacement(sphere.p, 1));
+  }
+  return breath;
+}
+
 }  // namespace ostium

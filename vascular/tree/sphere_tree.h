@@ -34,4 +34,8 @@ SphereTree tree_of(const Anatomy& anatomy, const std::vector<Lesion>& lesions, c
 /// The same tree in a frame of the beat: centres carried along, radii kept (sections do not change).
 SphereTree carried(const SphereTree& tree, const Anatomy& anatomy, const TubeMotion& motion, int frame);
 
+/// [branch][sphere] Displacement of each at the top of a breath, m.
+std::vector<std::vector<Eigen::Vector3d>> breath_of(const SphereTree& tree, const Anatomy& anatomy,
+                                                    const HeartMotion& heart, const TubeMotion& tubes);
+
 }  // namespace ostium

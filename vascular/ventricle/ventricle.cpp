@@ -139,6 +139,8 @@ Ventricle add_ventricle(const Patient& patient, SurfaceDescription& wall) {
     for (const TreeSphere& sphere : out.spheres)
       out.centres.back().push_back(sphere.p + share * motion.displacement(sphere.p));
   }
+  if (!wall.sway.empty())
+    for (const Vector3d& p : added) wall.sway.push_back(motion.breath_displacement(p, 1));
   wall.door = door, wall.door_passes_m = valve_passes_m;
   return out;
 }
