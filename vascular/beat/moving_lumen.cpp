@@ -109,10 +109,10 @@ class TubeMotion::Around {
   }
   bool enough() const { return at_.size() >= least; }
   const std::vector<std::pair<double, int>>& all() const { return at_; }
-  /// A stretch of one radius to either side, or of as many more as it takes.
-  std::vector<int> near(double s_m, double radius_m) const {
+  /// A stretch of so much to either side, or of as much more as it takes.
+  std::vector<int> near(double s_m, double half_m) const {
     std::vector<int> found;
-    for (double reach = radius_m; found.size() < least; reach *= 2) {
+    for (double reach = half_m; found.size() < least; reach *= 2) {
       found.clear();
       const auto from = std::lower_bound(at_.begin(), at_.end(), std::pair(s_m - reach, -1));
       for (auto it = from; it != at_.end() && it->first <= s_m + reach; ++it) found.push_back(it->second);
@@ -145,7 +145,7 @@ TubeMotion::TubeMotion(const Anatomy& anatomy, const std::vector<Eigen::Vector3d
     poses_.back().resize(beat_frames * n);
     for (std::size_t i = 0; i < n; ++i) {
       const TubeNode& node = tube.nodes[i];
-      const std::vector<int> near = with_parent ? std::vector<int>{} : around.near(node.s_m, node.radius_m);
+      const std::vector<int> near = with_parent ? std::vector<int>{} : around.near(node.s_m, 0.5 * node.radius_m);
       for (int f = 0; f < beat_frames; ++f) {
         Pose& pose = poses_.back()[static_cast<std::size_t>(f) * n + i];
         if (with_parent) {
