@@ -341,6 +341,15 @@ void rescale_histories(const Model& model, double ratio, State& state) {
     if (in_body(model.rods[r], state.rods[r])) rescale_history(model.rods[r], ratio, state.rods[r]);
 }
 
+/// Room for all that a step may report, so that no later one allocates.
+void make_room(const Model& model, StepReport& report) {
+  report.rods.resize(model.rods.size());
+  std::size_t nodes = 0;
+  for (const Rod& rod : model.rods) nodes += static_cast<std::size_t>(rod.nodes());
+  report.touches.reserve(nodes);
+  if (model.rods_touch) report.rod_touches.reserve(tunables::max_rod_contacts);
+}
+
 /// Goes on by a piece of the step; among walls by its halves, if it has no solution as a whole.
 void advance(const Model& model, const Inputs& inputs, Piece piece, State& state, Scratch& scratch,
              StepReport& report) {
@@ -368,7 +377,7 @@ void advance(const Model& model, const Inputs& inputs, Piece piece, State& state
 
 void step(const Model& model, const Inputs& inputs, State& state, Scratch& scratch, StepReport& report) {
   assert(fits(model, inputs, state, scratch));
-  report.rods.resize(model.rods.size());
+  make_room(model, report);
   for (std::size_t r = 0; r < model.rods.size(); ++r) {
     report.rods[r] = {};
     scratch.rods[r].inputs = limited(inputs.rods[r], report.rods[r].trouble);

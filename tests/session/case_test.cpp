@@ -80,7 +80,8 @@ TEST(CaseVessel, ContrastFillsOneCoronaryTreeAndIsClosed) {
         middle += contrast.p_P.col(v).cast<double>() / static_cast<double>(contrast.p_P.cols());
       EXPECT_GT(volume_mL, 0.8);  // some 120 mm of RCA of 3 mm are 0.85 mL, the left tree has twice that
       EXPECT_LT(volume_mL, 5);
-      EXPECT_GT(fill == Fill::left ? middle.x() : -middle.x(), -0.005);
+      // The heart shifts by 4 mm to the left in systole.
+      EXPECT_GT(fill == Fill::left ? middle.x() : -middle.x(), -0.009);
     }
   }
 }
