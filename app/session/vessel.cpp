@@ -17,6 +17,8 @@ using Eigen::Vector3d;
 
 namespace {
 
+constexpr double folded_share = 0.05;  // of crossing pairs, to triangles; untidy meshes of real people have 0.002
+
 /// What an operator calls places of the aorta.
 std::vector<std::pair<std::string, Vector3d>> places_of(const Patient& patient) {
   const Landmarks& marks = patient.anatomy.landmarks;
@@ -164,6 +166,11 @@ std::shared_ptr<const Vessel> vessel_of(const std::string& name, Mesh mesh, cons
     warnings = "it faced inwards, and was turned round\n";
   }
   const SurfaceReport report = check_surface(mesh);
+  if (static_cast<double>(report.crossings.count) > folded_share * static_cast<double>(mesh.triangles.size()))
+    throw LoadError(
+        fmt::format("{}: {} pairs of its {} triangles cross, so it has no wall to hold an instrument; "
+                    "`ostium check` shows where, `ostium import` may mend it",
+                    name, report.crossings.count, mesh.triangles.size()));
   if (!report.sound()) warnings += describe(report);
   if (winding(mesh, entry.p_P) < 0.5) {
     const Vector3d mm = mm_from_patient(entry.p_P);

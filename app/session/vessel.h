@@ -43,7 +43,8 @@ struct MeshEntry {
 EndState entry_ahead_of(const std::string& artery, const Vessel& vessel);
 
 /// A mesh of anyone; one that faces inwards is turned round. Throws MeshError if it cannot be used, LoadError if the
-/// entry lies outside. What is wrong with it is told in `warnings`: near holes and crossings nothing is held back.
+/// entry lies outside or the wall is folded through itself. What is wrong with it is told in `warnings`: near holes and
+/// crossings nothing is held back.
 std::shared_ptr<const Vessel> vessel_of(const std::string& name, Mesh mesh, const MeshEntry& entry,
                                         std::string& warnings);
 

@@ -57,6 +57,15 @@ double nearest_corner_m(const Field<3>& corners, const Vector3d& p_W) {
   return nearest_m;
 }
 
+/// Of the corners, at both ends of the step, of the clusters that were found.
+double nearest_found_m(const Surface& surface, const std::vector<int>& found, SurfacePose& pose, const Vector3d& p) {
+  double nearest_m = 1;
+  for (int c : found)
+    for (const auto* corners : {&pose_of(surface, c, pose).before, &pose_of(surface, c, pose).after})
+      nearest_m = std::min(nearest_m, nearest_corner_m(*corners, p));
+  return nearest_m;
+}
+
 TEST(Surface, ATubeIsAsHollowAsItsRadiusSays) {
   const SurfaceDescription d = straight_tube(2e-3);
   const Surface surface = make_surface(d);
@@ -88,11 +97,7 @@ TEST(Surface, AQueryFindsWhatIsNearAtAnyMoment) {
     const Vector3d p = vertex_at(vessel.wall, corner[0], n % 2 ? motion.frame_before : motion.frame_after);
     const V3<double> q = from_eigen(p), pad{1e-4, 1e-4, 1e-4};
     find_clusters(surface, q - pad, q + pad, pose, found);
-    double nearest_m = 1;
-    for (int c : found)
-      for (const auto* corners : {&pose_of(surface, c, pose).before, &pose_of(surface, c, pose).after})
-        nearest_m = std::min(nearest_m, nearest_corner_m(*corners, p));
-    EXPECT_LT(nearest_m, 1e-6) << n;
+    EXPECT_LT(nearest_found_m(surface, found, pose, p), 1e-6) << n;
   }
 }
 
@@ -178,11 +183,7 @@ TEST(Surface, WhatBeatsAndSwaysIsFoundAtAnyMoment) {
                              : vertex_at(d, v, motion.frame_after, motion.sway_after);
     const V3<double> q = from_eigen(p), pad{1e-6, 1e-6, 1e-6};
     find_clusters(surface, q - pad, q + pad, pose, found);
-    double nearest_m = 1;
-    for (int c : found)
-      for (const auto* corners : {&pose_of(surface, c, pose).before, &pose_of(surface, c, pose).after})
-        nearest_m = std::min(nearest_m, nearest_corner_m(*corners, p));
-    EXPECT_LT(nearest_m, 1e-6) << n;
+    EXPECT_LT(nearest_found_m(surface, found, pose, p), 1e-6) << n;
 
     motion.sway_before = motion.sway_after = 0;
     set_motion(surface, motion, pose), set_motion(still, motion, still_pose);

@@ -268,6 +268,18 @@ TEST(Session, AMeshThatFacesInwardsIsTurnedAndAnEntryOutsideRefused) {
   EXPECT_THROW(vessel_of("tube", mesh, {Eigen::Vector3d(0, 0.02, 0), entry.towards_P}, warnings), LoadError);
 }
 
+TEST(Session, AMeshThatIsFoldedThroughItselfIsRefused) {
+  Mesh mesh = bent_tube();
+  for (std::size_t v = 1; v < mesh.vertices.size(); v += 2) mesh.vertices[v].tail<2>() *= -0.5;
+  std::string warnings;
+  try {
+    vessel_of("tube", mesh, {Eigen::Vector3d::Zero(), Eigen::Vector3d(0.05, 0, 0)}, warnings);
+    FAIL() << "accepted";
+  } catch (const LoadError& error) {
+    EXPECT_NE(std::string(error.what()).find("triangles cross"), std::string::npos) << error.what();
+  }
+}
+
 /// A trunk from the access, a branch that leaves its wall at 5 mm from its axis.
 TEST(Way, KnowsWhatIsBeyondWhat) {
   SphereTree tree;
