@@ -1,6 +1,7 @@
 #include "vascular/patient.h"
 
 #include "vascular/import/shares.h"
+#include "vascular/in_parts.h"
 #include "vascular/shape/contour.h"
 
 namespace ostium {
@@ -19,6 +20,11 @@ void make_beat(Patient& patient, Contour wall, int smoothing,
   patient.lumen = make_moving_lumen(anatomy, patient.lesions, motion, tube_motion, std::move(wall), smoothing, frames);
   patient.tree = tree_of(anatomy, patient.lesions, patient.lumen.at(0, 0));
   for (int f = 0; f < beat_frames; ++f) patient.tree_frames.push_back(carried(patient.tree, anatomy, tube_motion, f));
+  if (!frames.empty())
+    in_parts(patient.tree_frames.size(), [&](std::size_t begin, std::size_t end) {
+      for (std::size_t f = begin; f < end; ++f)
+        fit_radii(patient.tree_frames[f], patient.lumen.at(static_cast<double>(f) / beat_frames, 0));
+    });
   patient.tree_breath = breath_of(patient.tree, anatomy, motion, tube_motion);
 }
 

@@ -23,7 +23,7 @@ std::vector<std::vector<TubeShare>> shares_of(const Mesh& mesh, const std::vecto
   const TubeUnion all(tubes);
   std::unordered_map<long, std::vector<int>> near;
   for (int s = 0; s < static_cast<int>(all.segments().size()); ++s) {
-    const auto& [tube, node] = all.segments()[s];
+    const int tube = all.segments()[s].tube, node = all.segments()[s].node;
     const TubeNode &a = tubes[tube].nodes[node], &b = tubes[tube].nodes[node + 1];
     const double wide = reach * std::max(a.radius_m, b.radius_m) + more_m;
     const Eigen::Vector3d low = a.p.cwiseMin(b.p).array() - wide, high = a.p.cwiseMax(b.p).array() + wide;

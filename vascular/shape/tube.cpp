@@ -84,7 +84,7 @@ double nearest_s(const Tube& tube, const Eigen::Vector3d& p) {
   for (std::size_t i = 0; i + 1 < tube.nodes.size(); ++i) {
     const TubeNode &a = tube.nodes[i], &b = tube.nodes[i + 1];
     const Eigen::Vector3d ab = b.p - a.p;
-    const double t = std::clamp((p - a.p).dot(ab) / ab.squaredNorm(), 0.0, 1.0), d = (p - a.p - t * ab).norm();
+    const double t = std::clamp((p - a.p).dot(ab) / ab.squaredNorm(), 0.0, 1.0), d = (p - a.p - t * ab).squaredNorm();
     if (d < best) best = d, s = a.s_m + t * (b.s_m - a.s_m);
   }
   return s;
@@ -94,7 +94,9 @@ TubeUnion::TubeUnion(const std::vector<Tube>& tubes) : tubes_(tubes) {
   for (int t = 0; t < static_cast<int>(tubes.size()); ++t) {
     assert(tubes[t].nodes.size() >= 2 && tubes[t].parent < t);
     for (int n = 0; n + 1 < static_cast<int>(tubes[t].nodes.size()); ++n) {
-      segments_.push_back({t, n});
+      const TubeNode &a = tubes[t].nodes[n], &b = tubes[t].nodes[n + 1];
+      const Eigen::Vector3d ab = b.p - a.p;
+      segments_.push_back({t, n, a.p, ab, ab.squaredNorm(), a.radius_m, b.radius_m - a.radius_m});
       if (tubes[t].parent >= 0)
         largest_blend_m_ = std::max(largest_blend_m_, tubes[t].blend * tubes[t].nodes[n].radius_m);
     }
@@ -103,13 +105,14 @@ TubeUnion::TubeUnion(const std::vector<Tube>& tubes) : tubes_(tubes) {
 
 double TubeUnion::distance(int segment, const Eigen::Vector3d& p, double* s_m, double* radius_m) const {
   const Segment& at = segments_[segment];
-  const TubeNode &a = tubes_[at.tube].nodes[at.node], &b = tubes_[at.tube].nodes[at.node + 1];
-  const Eigen::Vector3d ab = b.p - a.p;
-  const double t = std::clamp((p - a.p).dot(ab) / ab.squaredNorm(), 0.0, 1.0);
-  const double radius = a.radius_m + t * (b.radius_m - a.radius_m);
-  if (s_m) *s_m = a.s_m + t * (b.s_m - a.s_m);
+  const Eigen::Vector3d from_a = p - at.p;
+  const double t = std::clamp(from_a.dot(at.along) / at.length2, 0.0, 1.0), radius = at.radius_m + t * at.widening_m;
+  if (s_m) {
+    const TubeNode &a = tubes_[at.tube].nodes[at.node], &b = tubes_[at.tube].nodes[at.node + 1];
+    *s_m = a.s_m + t * (b.s_m - a.s_m);
+  }
   if (radius_m) *radius_m = radius;
-  return (p - a.p - t * ab).norm() - radius;
+  return (from_a - t * at.along).norm() - radius;
 }
 
 double TubeUnion::value(const Eigen::Vector3d& p, const std::vector<int>& segments, Eigen::Vector3d* gradient,
@@ -120,11 +123,13 @@ double TubeUnion::value(const Eigen::Vector3d& p, const std::vector<int>& segmen
   for (std::size_t i = 0; i < segments.size();) {
     const int tube = segments_[segments[i]].tube;
     double d = std::numeric_limits<double>::infinity(), s = 0, radius = 0;
+    int nearest = segments[i];
     for (; i < segments.size() && segments_[segments[i]].tube == tube; ++i) {
-      double s_i, radius_i;
-      const double d_i = distance(segments[i], p, &s_i, &radius_i);
-      if (d_i < d) d = d_i, s = s_i, radius = radius_i;
+      double radius_i;
+      const double d_i = distance(segments[i], p, nullptr, &radius_i);
+      if (d_i < d) d = d_i, nearest = segments[i], radius = radius_i;
     }
+    if (gradient || shares) distance(nearest, p, &s);
     // Smooth minimum min(f, d) - k h^3 / 6, h = max(0, 1 - |f - d| / k); weight of the larger of both: h^2 / 2.
     const double k = tubes_[tube].blend * radius;
     const double h = std::isinf(f) ? 0 : std::max(0.0, 1 - std::fabs(f - d) / k);

@@ -51,7 +51,9 @@ class TubeUnion {
   explicit TubeUnion(const std::vector<Tube>& tubes);  ///< keeps a reference
 
   struct Segment {
-    int tube, node;  ///< between nodes[node] and nodes[node + 1]
+    int tube, node;            ///< between nodes[node] and nodes[node + 1]
+    Eigen::Vector3d p, along;  ///< of the first, and from it to the second, m
+    double length2, radius_m, widening_m;
   };
   const std::vector<Segment>& segments() const { return segments_; }
   const std::vector<Tube>& tubes() const { return tubes_; }

@@ -43,7 +43,6 @@ std::size_t SphereTree::spheres() const {
 }
 
 SphereTree tree_of(const Anatomy& anatomy, const std::vector<Lesion>& lesions, const Mesh& wall) {
-  const BoxTree surface(wall);
   SphereTree tree;
   for (std::size_t i = 0; i < anatomy.branches.size(); ++i) {
     const NamedBranch& named = anatomy.branches[i];
@@ -61,11 +60,17 @@ SphereTree tree_of(const Anatomy& anatomy, const std::vector<Lesion>& lesions, c
       if (branch.parent < 0 || distance(static_cast<int>(b), sphere) < distance(branch.parent, branch.parent_sphere))
         branch.parent = static_cast<int>(b), branch.parent_sphere = sphere;
     }
-    for (TreeSphere& sphere : branch.spheres)
-      sphere.radius_m = surface.nearest(sphere.p, 2 * sphere.radius_m + 20e-3).distance_m;
     tree.branches.push_back(std::move(branch));
   }
+  fit_radii(tree, wall);
   return tree;
+}
+
+void fit_radii(SphereTree& tree, const Mesh& wall) {
+  const BoxTree surface(wall);
+  for (TreeBranch& branch : tree.branches)
+    for (TreeSphere& sphere : branch.spheres)
+      sphere.radius_m = surface.nearest(sphere.p, 2 * sphere.radius_m + 20e-3).distance_m;
 }
 
 SphereTree carried(const SphereTree& tree, const Anatomy& anatomy, const TubeMotion& motion, int frame) {

@@ -31,6 +31,9 @@ struct SphereTree {
 /// the surface. `wall` is at end-diastole.
 SphereTree tree_of(const Anatomy& anatomy, const std::vector<Lesion>& lesions, const Mesh& wall);
 
+/// Radii from another surface: of a frame that was given, whose sections need not be those of the first.
+void fit_radii(SphereTree& tree, const Mesh& wall);
+
 /// The same tree in a frame of the beat: centres carried along, radii kept (sections do not change).
 SphereTree carried(const SphereTree& tree, const Anatomy& anatomy, const TubeMotion& motion, int frame);
 
