@@ -89,6 +89,17 @@ double closure(const Rod& rod, const RodState& state, const RodInputs& inputs, c
   return off.norm();
 }
 
+/// Whether the step that was found takes back a good part of the last one, which went too far: a law that softens
+/// (superelastic.h) sends Newton's method to and fro across its bend for ever.
+bool turns_back(const Rod& rod, const RodScratch& s) {
+  double along = 0, last = 0;
+  for (int j = rod.first; j < rod.elements; ++j) {
+    const V3<double> before = load3<double>(s.turn, j);
+    along += dot(load3<double>(s.chain.turn, j), before), last += dot(before, before);
+  }
+  return along < -tunables::static_turns_back * last;
+}
+
 RodEquilibrium settle(const Rod& rod, const Eigen::Vector3d& gravity_W, const RodState& state, RodScratch& s,
                       ChainFactors& factors) {
   const Anchor anchor(s.inputs);
@@ -96,7 +107,7 @@ RodEquilibrium settle(const Rod& rod, const Eigen::Vector3d& gravity_W, const Ro
   if (!anchor.exists) return out;  // it would fall for ever
 
   const double longest = longest_time(rod);
-  double time_s = longest / 100, growth = 8;
+  double time_s = longest / 100, growth = 8, part = 1;
   start_at(rod, state, s);
   while (out.iterations < tunables::max_static_iterations && !out.converged) {
     ++out.iterations;
@@ -113,7 +124,9 @@ RodEquilibrium settle(const Rod& rod, const Eigen::Vector3d& gravity_W, const Ro
       growth = 1.5;
       continue;
     }
-    if (!update_iterate(rod, tunables::max_turn_rad, s).finite) return out;
+    part = turns_back(rod, s) ? part / 2 : std::min(1.0, 2 * part);
+    for_packs(rod.first, rod.elements, [&]<class T>(T, int j) { store3(s.turn, j, V3<T>{}); });  // this step's alone
+    if (!update_iterate(rod, std::min(tunables::max_turn_rad, part * out.turn_rad), s).finite) return out;
     string_nodes(rod, s.orientation, anchor.of(rod, s), anchor.from_base, s.position);
     time_s = std::min(longest, time_s * (out.turn_rad < 0.1 ? growth : 1.5));
     growth = std::min(8.0, growth * 1.3);

@@ -66,6 +66,7 @@ inline constexpr double static_tolerance_rad = 1e-9;  // largest turn of the las
 inline constexpr double static_closure = 1e-7;        // largest distance of an end from its hold, of the rod's length
 inline constexpr double static_time_ratio = 100;      // of the last proximal time to the slowest motion's
 inline constexpr int max_static_iterations = 400;
+inline constexpr double static_turns_back = 0.25;         // of a step: if the next takes back more, that is halved
 inline constexpr double concentric_tolerance_rad = 1e-8;  // largest change of an angle between nested instruments
 inline constexpr int max_concentric_leans = 3;            // off shapes that are balanced but unstable
 inline constexpr int max_concentric_rounds = 100;         // of their angles and the carrier in turn

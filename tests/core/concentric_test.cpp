@@ -73,6 +73,25 @@ double distance_mm(const boundary_value::Problem& p, int elements, ConcentricEqu
   return worst;
 }
 
+/// From straight at once, however low the moment at which it softens, and however much: where the two slopes differ by
+/// more than three times, whole Newton steps go to and fro across the bend for ever.
+TEST(Concentric, AWireThatSoftens) {
+  boundary_value::Problem p;
+  p.tubes = {{{stretch(0, 0.06, 7e-6, {18, -16, 0}, 0.2e-3, 0), stretch(0.06, 0.6, 75e-6, {0, 0, 0}, 0.2e-3, 0)},
+              0.18,
+              -2.3,
+              0}};
+  for (Section& s : p.tubes[0].sections) s.kg_per_m = 0.92e-3;
+  p.gravity = {0, 0, -9.81};
+  for (double force_N : {0.0, 3e-4})
+    for (double per_m : {0.3, 3.0, 10.0})
+      for (double ratio : {0.3, 0.2, 0.1, 0.05}) {
+        for (Section& s : p.tubes[0].sections) s.softening_per_m = per_m, s.softened_ratio = ratio;
+        p.tip_force = force_N * Vector3d(0.5, -0.3, 0.8);
+        EXPECT_LT(distance_mm(p, 120), ratio < 0.2 ? 0.18 : 0.05) << force_N << " N, " << per_m << " per m, " << ratio;
+      }
+}
+
 TEST(Concentric, TwoTubesTurnedAgainstEachOther) {
   for (double roll : {0.0, 0.5, 1.3, 2.2})
     for (double shaft : {0.0, 30.0})
