@@ -49,6 +49,8 @@ RodState lay_out(const Rod& whole, const EndState& base, double inserted_m, Stra
     for (int i = 0; i <= N; ++i) s.strain.set(i, strain(rod, i));
     s.strain_before = s.strain;
   }
+  if (rod.relaxation.any())
+    for (Field<3>* f : {&s.crept_fast, &s.crept_slow}) f->resize(N + 1);
   s.tip.p_W = p;
   s.tip.q_W = {q.w(), q.x(), q.y(), q.z()};
   return s;

@@ -45,6 +45,8 @@ void for_each_field(S& state, Visit&& visit) {
     components("force", rod.force);
     components("strain", rod.strain);
     components("strain_before", rod.strain_before);
+    components("crept_fast", rod.crept_fast);
+    components("crept_slow", rod.crept_slow);
     components("contact_force", rod.contact_force);
     components("offset", rod.offset);
     components("slip", rod.slip);

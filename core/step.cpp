@@ -13,6 +13,7 @@
 #include "core/rod/introducer.h"
 #include "core/rod/iterate.h"
 #include "core/rod/nodes.h"
+#include "core/rod/relaxation.h"
 #include "core/tunables.h"
 
 namespace ostium {
@@ -64,6 +65,20 @@ void take_hands_back(const Scratch& scratch, State& state) {
     own.base = was.base, own.tip = was.tip;
     own.inserted_m = was.inserted_m, own.slack_m = was.slack_m, own.first = was.first;
   }
+}
+
+void recall_shapes(const Model& model, const State& state, Scratch& scratch) {
+  for (const Strand& strand : scratch.strands)
+    if (strand.nest)
+      recall_layer_creep(model, state, *strand.nest);
+    else
+      recall_creep(model.rods[strand.lead], *strand.own, strand.s->inside);
+}
+
+/// What held shapes leave behind, after the step as a whole.
+void creep_all(const Model& model, const Scratch& scratch, State& state) {
+  for (std::size_t r = 0; r < model.rods.size(); ++r)
+    creep(scratch.rods[r].inside, joints_of(scratch.rods[r].inputs), model.step_s, state.rods[r]);
 }
 
 void meet_walls(const Model& model, const Inputs& inputs, Piece piece, Scratch& scratch) {
@@ -356,6 +371,7 @@ void advance(const Model& model, const Inputs& inputs, Piece piece, State& state
   scratch.step_s = (piece.to - piece.from) * model.step_s;
   move_hands(model, state, scratch, report);
   arrange(model, scratch.was_in_body, state, scratch);
+  recall_shapes(model, state, scratch);
   meet_walls(model, inputs, piece, scratch);
   find_rod_contacts(model, scratch);
   for (const Strand& strand : scratch.strands) predict(model, state, scratch, strand, strand.s->scheme);
@@ -383,6 +399,7 @@ void step(const Model& model, const Inputs& inputs, State& state, Scratch& scrat
     scratch.rods[r].inputs = limited(inputs.rods[r], report.rods[r].trouble);
   }
   advance(model, inputs, {}, state, scratch, report);
+  creep_all(model, scratch, state);
   report.trouble = 0;
   for (const RodReport& rod : report.rods) report.trouble |= rod.trouble;
   ++state.step;

@@ -42,6 +42,7 @@ RodDescription rod_description(const Instrument& instrument, std::vector<double>
   RodDescription description;
   description.name = instrument.name;
   description.sections = instrument.sections;
+  description.relaxation = instrument.relaxation;
   description.element_lengths_m = std::move(element_lengths_m);
   check(description);
   return description;

@@ -78,6 +78,7 @@ struct Instrument {
   double inner_diameter_m = 0;        ///< of the lumen that a wire or catheter goes through; 0 for a wire
   double length_m = 0;                ///< usable length
   std::vector<Section> sections;      ///< with the shape at rest, the tip's default shape included
+  Relaxation relaxation;              ///< of all of them
   std::vector<ShapePiece> shape;      ///< of a preformed catheter or J wire; empty where straight
   std::vector<OpaqueStretch> opaque;  ///< the whole length, from the tip
   std::vector<Marker> markers;

@@ -34,7 +34,15 @@ inline const JsonObjectKeys size = {
      {"source", true, source_text}}};
 
 inline const JsonObjectKeys sections = {
-    "sections", {{"list", true, "sections from the tip backwards, not empty"}, {"source", true, source_text}}};
+    "sections",
+    {{"list", true, "sections from the tip backwards, not empty"},
+     {"relaxation", false, "one or two branches of what the material gives up with time, less than 1 together"},
+     {"source", true, source_text}}};
+
+inline const JsonObjectKeys relaxation_branch = {
+    "relaxation",
+    {{"fraction", true, "the part of its moment that it gives up when it is held, above 0 and less than 1 in all"},
+     {"time_s", true, "the time constant in s, > 0"}}};
 
 inline const JsonObjectKeys section = {
     "section",

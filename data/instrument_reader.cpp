@@ -90,6 +90,20 @@ Section read_section(const JsonObject& entry, const Instrument& instrument, doub
   return s;
 }
 
+Relaxation read_relaxation(const JsonObject& group) {
+  Relaxation out;
+  if (group.list("relaxation").empty() || group.list("relaxation").size() > std::size(out.branches))
+    group.refuse("relaxation");
+  double sum = 0;
+  for (std::size_t k = 0; k < group.list("relaxation").size(); ++k) {
+    const JsonObject branch(group.list("relaxation")[k], keys::relaxation_branch);
+    out.branches[k] = {branch.positive("fraction"), branch.positive("time_s")};
+    sum += out.branches[k].fraction;
+    if (!(sum < 1)) branch.refuse("fraction");
+  }
+  return out;
+}
+
 void read_sections(const JsonObject& group, Instrument& instrument) {
   keep_source(group, instrument);
   if (group.list("list").empty()) group.refuse("list");
@@ -100,6 +114,7 @@ void read_sections(const JsonObject& group, Instrument& instrument) {
     instrument.sections.push_back(read_section(entry, instrument, reached_mm));
   }
   require_whole_length(group, reached_mm, instrument.length_m / mm);
+  if (group.has("relaxation")) instrument.relaxation = read_relaxation(group);
 }
 
 std::vector<ShapePiece> read_pieces(const JsonObject& group, double longest_m) {

@@ -1,5 +1,6 @@
 /// Guides in the aortic root: whether they find the ostia as they do in people (JR4 and JL4), and go where Amplatz's
 /// goes. The scripts of data/scripts are run with everything that a session has; mirrored turns must fail.
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -107,6 +108,39 @@ int judkins_left(int person) {
   return stays(run);
 }
 
+/// How far the guide's tip is in the left main, along it, m: the mean over a beat, as the root moves by more than this
+/// is about. `run` goes on by that beat.
+double depth_in_left_main(ScriptedRun& run) {
+  const Way& way = *run.model.vessel->way;
+  const int ostium = way.place("LM"), further = way.place("LM+6");
+  const double beat_s = 60 / run.model.vessel->rate_1_min, begin_s = seconds(run.model, run.state);
+  double sum = 0;
+  int count = 0;
+  while (seconds(run.model, run.state) < begin_s + beat_s && run.tick()) {
+    const double phase = run.state.blood.heart.phase;
+    const Eigen::Vector3d p_ostium = way.p(ostium, phase);
+    sum += (tip(run.model, run.state, 0) - p_ostium).dot((way.p(further, phase) - p_ostium).normalized());
+    ++count;
+  }
+  return sum / count;
+}
+
+/// An Amplatz in the left main, its curve on the valve: by how much its tip goes deeper as the guide is drawn back by
+/// 10 mm, m; of the mean of the literature.
+double amplatz_drawn_back() {
+  const RunSetup setup = setup_of("al1-engages-lm", 0);
+  const int settles = step_named(setup.script, "it settles"), back = step_named(setup.script, "drawn back");
+  std::string warnings;
+  ScriptedRun run(setup, make_vessel(setup, warnings));
+  if (!run_to(settles, run)) return -1;
+  depth_in_left_main(run);
+  const double before = depth_in_left_main(run);
+  if (!run_to(back, run)) return -1;
+  double deepest = -1;
+  for (int beat = 0; beat < 2; ++beat) deepest = std::max(deepest, depth_in_left_main(run));
+  return deepest - before;
+}
+
 }  // namespace
 
 std::vector<GateResult> engagement(bool quick) {
@@ -121,7 +155,8 @@ std::vector<GateResult> engagement(bool quick) {
   const double tenths = n;
   return {{"engagement-jr4-clockwise", right.clockwise / tenths, 1, 0.2, ""},
           {"engagement-jr4-counter-clockwise", right.counter_clockwise / tenths, 0, 0, ""},
-          {"engagement-jl4-no-turn", left / tenths, 1, 0.2, ""}};
+          {"engagement-jl4-no-turn", left / tenths, 1, 0.2, ""},
+          {"engagement-al1-drawn-back-deeper", per_mm * amplatz_drawn_back(), 0.6, 0.5, "mm"}};
 }
 
 }  // namespace ostium::verify

@@ -52,6 +52,10 @@ void end_inside(const Nest& nest, Layer& layer);
 /// Mass, inertia, stiffness and rest curvature of all layers, cell by cell.
 void lay_layers(const Model& model, const Scratch& scratch, Nest& nest);
 
+// --- creep.cpp -------------------------------------------------------------------------------------------------------
+/// Gives the layers' laws what their rods have crept by (core/rod/relaxation.h).
+void recall_layer_creep(const Model& model, const State& state, Nest& nest);
+
 // --- layers.cpp ------------------------------------------------------------------------------------------------------
 /// Frames of the inner rods, and how they are expected to turn in this step; after predict_elements.
 void predict_layers(const State& state, Nest& nest);

@@ -39,7 +39,7 @@ void check_parts(const ConcentricDescription& d) {
   if (d.parts.empty()) throw std::invalid_argument("nest \"" + d.name + "\" has no part");
   for (std::size_t i = 0; i < d.parts.size(); ++i) {
     const ConcentricPart& part = d.parts[i];
-    check({d.name, part.sections, std::vector<double>(16, part.inserted_m / 16), {}});
+    check({d.name, part.sections, std::vector<double>(16, part.inserted_m / 16), {}, {}});
     if (!(part.shaft_rad_per_Nm >= 0) || !std::isfinite(part.roll_rad))
       refuse(i, "the shaft's compliance must not be negative, and the roll be finite");
     if (d.parts.size() == 1) continue;
@@ -132,7 +132,7 @@ Concentric make_concentric(const ConcentricDescription& d, const Eigen::Vector3d
                                         [](const auto& a, const auto& b) { return a.inserted_m < b.inserted_m; });
   nest.reference = static_cast<int>(d.parts.rend() - longest) - 1;
   nest.carrier.gravity_W = gravity_W;
-  nest.carrier.rods = {make_rod({d.name, composite(d.parts, longest->inserted_m), d.element_lengths_m, {}})};
+  nest.carrier.rods = {make_rod({d.name, composite(d.parts, longest->inserted_m), d.element_lengths_m, {}, {}})};
   hang_loads(d.loads, d.element_lengths_m, nest.carrier.rods[0]);
   const std::vector<double> ends = cell_ends(d.element_lengths_m);
   for (const ConcentricPart& part : d.parts) {

@@ -11,10 +11,10 @@
 /// side. Adding one: its header, its name in the list below, the line of rod.cpp that chooses it, and its test.
 #include <variant>
 
-#include "core/rod/superelastic.h"
+#include "core/rod/relaxing.h"
 
 namespace ostium {
 
-using MomentLaw = std::variant<LinearElastic, Superelastic>;
+using MomentLaw = std::variant<LinearElastic, Superelastic, Relaxing>;
 
 }  // namespace ostium

@@ -53,6 +53,7 @@ Rod make_rod(const RodDescription& description) {
   Rod rod;
   rod.elements = N;
   rod.damping = description.damping;
+  rod.relaxation = description.relaxation;
   rod.sections = description.sections;
   rod.length.resize(N);
   rod.rotary_inertia.resize(N);
@@ -65,6 +66,7 @@ Rod make_rod(const RodDescription& description) {
   const bool softens = std::any_of(rod.sections.begin(), rod.sections.end(),
                                    [](const Section& s) { return s.softening_per_m > 0 && s.softened_ratio < 1; });
   if (softens) rod.law = Superelastic{};
+  if (rod.relaxation.any()) rod.law = Relaxing{};
   std::visit([&](auto& law) { law.resize(N + 1); }, rod.law);
 
   rod.node_from_tip_m.assign(N + 1, 0.0);

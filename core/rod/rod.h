@@ -27,6 +27,7 @@ struct Rod {
   Field<1> bore;            ///< m, inner radius, (#elements): the least; 0: solid
   Field<3> dead_load;       ///< N, world frame, (#nodes): what hangs on it at rest, for statics.h; empty: nothing
   Damping damping;
+  Relaxation relaxation;
   double total_length_m = 0;  ///< of the elements that take part
   double total_mass_kg = 0;
 

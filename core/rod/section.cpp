@@ -93,6 +93,13 @@ void check(const RodDescription& d) {
   const Damping& loss = d.damping;
   for (double value : {loss.drag_across_N_s_m2, loss.drag_along_N_s_m2, loss.material_time_s})
     if (!(value >= 0 && value <= 1e6)) throw in_name("damping is " + text(value) + "; it must lie between 0 and 1e6");
+  const auto& [fast, slow] = d.relaxation.branches;
+  for (const Relaxation::Branch& branch : {fast, slow}) {
+    if (!(branch.fraction >= 0 && fast.fraction + slow.fraction < 1))
+      throw in_name("relaxes by " + text(branch.fraction) + "; it must be 0 or more, and less than 1 in all");
+    if (!(branch.time_s > 0 && std::isfinite(branch.time_s)))
+      throw in_name("relaxes in " + text(branch.time_s) + " s; it must be positive and finite");
+  }
 }
 
 SectionIntegrals integrate(const std::vector<Section>& sections, double a, double b, std::size_t from) {

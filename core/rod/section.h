@@ -35,6 +35,16 @@ struct Damping {
   double material_time_s = 0;
 };
 
+/// What the material gives up of a moment that it is held against, with time (core/rod/relaxing.h). None by default.
+struct Relaxation {
+  struct Branch {
+    double fraction = 0;  ///< of the stiffness; >= 0, less than 1 in all
+    double time_s = 1;    ///< > 0
+  } branches[2];
+
+  bool any() const { return branches[0].fraction > 0 || branches[1].fraction > 0; }
+};
+
 /// A rod as it is asked for.
 struct RodDescription {
   std::string name;
@@ -42,6 +52,7 @@ struct RodDescription {
   std::vector<double> element_lengths_m;  ///< from the base to the tip, 16 to 4,096 of them; their sum is at most the
                                           ///< sections' length (what is longer stays behind the base)
   Damping damping;
+  Relaxation relaxation;
 };
 
 /// `count` equal elements over the whole length of the sections.
@@ -63,7 +74,7 @@ Section round_section(double from_tip_m, double to_tip_m, double radius_m, doubl
                       double nu, double kg_per_m3);
 
 /// Throws std::invalid_argument naming the rod, the section and the value that is wrong: a gap or overlap, a negative
-/// length, a stiffness, weight or radius that is not positive and finite.
+/// length, a stiffness, weight or radius that is not positive and finite, a relaxation of all the stiffness.
 void check(const RodDescription& description);
 
 }  // namespace ostium

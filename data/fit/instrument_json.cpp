@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <numbers>
@@ -53,6 +54,19 @@ Json section(const Section& s) {
   return out;
 }
 
+/// Branches of what is lost with time, of an instrument that has a shape to lose.
+Json relaxation(const std::vector<ActiveEffect>& effects, const std::vector<Section>& sections, std::size_t i) {
+  Json out = Json::array();
+  if (std::all_of(sections.begin(), sections.end(), [](const Section& s) { return s.rest_curvature_per_m.isZero(); }))
+    return out;
+  for (const ActiveEffect& e : effects) {
+    if (e.effect->id != "stress_relaxation" || (e.instrument && *e.instrument != static_cast<int>(i))) continue;
+    for (const int k : {0, 2})
+      if (e.values[k] > 0) out.push_back({{"fraction", e.values[k]}, {"time_s", e.values[k + 1]}});
+  }
+  return out;
+}
+
 }  // namespace
 
 std::string instrument_json(const MeasurementSet& set, const Explanation& x, std::size_t i) {
@@ -61,12 +75,11 @@ std::string instrument_json(const MeasurementSet& set, const Explanation& x, std
   std::string found;
   std::erase_if(changes.effects, [](const ActiveEffect& e) { return !in_the_instrument(e.effect->id); });
   for (const ActiveEffect& e : changes.effects) found += (found.empty() ? " with " : " and ") + e.effect->what;
-  // As it is at the end of the longest time in position.
-  const Experiment* last = &set.experiments.front();
-  for (const Experiment& e : set.experiments)
-    if (e.elapsed_s.value_or(0) > last->elapsed_s.value_or(0)) last = &e;
-  Setup setup = setup_of(set, *last, changes);
-  std::vector<Section> sections = setup.nest.parts[i].sections;
+  // As it comes out of its package: what it loses with time is written as such.
+  Experiment fresh = set.experiments.front();
+  if (fresh.elapsed_s) fresh.elapsed_s = 0;
+  std::vector<Section> sections = setup_of(set, fresh, changes).nest.parts[i].sections;
+  const Json lost = relaxation(changes.effects, sections, i);
   for (const ActiveEffect& e : changes.effects)
     if (e.effect->id == "lumped_mass" && i + 1 == set.instruments.size()) {
       const double grams = e.values[0], from = std::max(e.values[1] * mm - weight_length_m / 2, 0.0);
@@ -78,6 +91,8 @@ std::string instrument_json(const MeasurementSet& set, const Explanation& x, std
   const std::string source = "fitted by ostium explain to \"" + set.title + "\" (" + set.source + ")";
   Json list = Json::array();
   for (const Section& s : sections) list.push_back(section(s));
+  Json all = {{"list", list}, {"source", source}};
+  if (!lost.empty()) all["relaxation"] = lost;
   const Json file = {{"schema", "ostium-instrument/1"},
                      {"name", file_name(measured.name)},
                      {"title", measured.name + found},
@@ -87,7 +102,7 @@ std::string instrument_json(const MeasurementSet& set, const Explanation& x, std
                        {"inner_diameter_mm", inner / mm},
                        {"length_mm", measured.length_m / mm},
                        {"source", "declared in the measured set \"" + set.title + "\""}}},
-                     {"sections", {{"list", list}, {"source", source}}},
+                     {"sections", all},
                      {"radiopacity",
                       {{"list",
                         {{{"from_tip_mm", {0.0, measured.length_m / mm}},

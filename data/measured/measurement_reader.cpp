@@ -66,7 +66,7 @@ Section read_section(const JsonObject& entry, const MeasuredInstrument& instrume
 /// Core has limits of its own, on numbers that are of the right sign and still no instrument's.
 void require_rod(const JsonObject& entry, const MeasuredInstrument& instrument) {
   try {
-    check({instrument.name, instrument.sections, equal_elements(instrument.sections, 64), {}});
+    check({instrument.name, instrument.sections, equal_elements(instrument.sections, 64), {}, {}});
   } catch (const std::invalid_argument& error) {
     entry["sections"].fail(fmt::format("{} make no rod: {}", entry["sections"].path, error.what()));
   }

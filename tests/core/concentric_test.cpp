@@ -193,7 +193,7 @@ TEST(Concentric, AgreesWithTheBindingOfRods) {
   constexpr double roll = 1.2;
   Model model;
   for (const Section& s : {outer, inner}) {
-    RodDescription d{"tube", {s}, std::vector<double>(elements, 0.15 / elements), {2, 1, 1e-3}};
+    RodDescription d{"tube", {s}, std::vector<double>(elements, 0.15 / elements), {2, 1, 1e-3}, {}};
     model.rods.push_back(make_rod(d));
   }
   model.nestings = {{0, 1}};
