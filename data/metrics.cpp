@@ -264,9 +264,10 @@ const std::vector<EventDefinition>& event_definitions() {
       {EventCode::balloon_burst, "balloon_burst", "a balloon bursts", "atm"},
       {EventCode::inflation_in_catheter, "inflation_in_catheter",
        "the gauge rises above 1 atm while the balloon does not lie in one artery", ""},
-      {EventCode::stent_deployed, "stent_deployed", "a stent is left in the wall",
+      {EventCode::stent_deployed, "stent_deployed", "a stent is left in the wall of the first lesion's artery",
        "mm from the lesion's middle, distal"},
-      {EventCode::stent_lost, "stent_lost", "a stent comes off its balloon undeployed", ""},
+      {EventCode::stent_lost, "stent_lost",
+       "a stent comes off its balloon undeployed, or is opened where there is no artery", ""},
       {EventCode::occlusion_begins, "occlusion_begins", "flow behind the lesion falls below 5 % of the need", ""},
       {EventCode::occlusion_ends, "occlusion_ends", "it is above that again", "s since it began"},
       {EventCode::injury, "injury", "an artery tears",
@@ -277,7 +278,9 @@ const std::vector<EventDefinition>& event_definitions() {
       {EventCode::ffr_changes, "ffr_changes",
        "as the run begins, and whenever the fractional flow reserve of the flow model, 20 mm behind the first lesion, "
        "has changed by 0.005; looked at once a second",
-       "fractional flow reserve"}};
+       "fractional flow reserve"},
+      {EventCode::stent_elsewhere, "stent_elsewhere",
+       "a stent is left in the wall of another artery than the first lesion's", "branch, from 0"}};
   return all;
 }
 

@@ -41,7 +41,8 @@ enum class EventCode : int {
   injury,
   injection_on_bad_trace,
   entry_refused,
-  ffr_changes
+  ffr_changes,
+  stent_elsewhere
 };
 
 /// Above this the sum of wall forces on a tool is an event. An estimate: no limit is agreed on; peak forces that

@@ -28,6 +28,7 @@ enum class ConditionKind {
   seconds,
   beats,
   balloon_at,
+  balloon_within,
   balloon_open,
   balloon_empty,
   engaged,
@@ -36,7 +37,8 @@ enum class ConditionKind {
   flow_below,
   ST_exceeds,
   act_exceeds,
-  stenosis_below
+  stenosis_below,
+  stent_beyond
 };
 
 struct ScriptCondition {

@@ -78,6 +78,8 @@ inline const JsonObjectKeys condition = {
      {"balloon_at_mm", false,
       "the middle between the markers, from the middle of the case's first lesion, along the artery, in mm, distal is "
       "positive: reached from either side, judged while the heart rests"},
+     {"balloon_within_mm", false,
+      "that middle is no farther from the lesion's, either way, in mm, > 0; judged while the heart rests"},
      {"balloon_open", false, "true: its waist is gone"},
      {"balloon_empty", false, "true: nothing is seen in the balloon"},
      {"engaged", false, "an artery that leaves the aorta: the guide's tip is in its ostium"},
@@ -87,6 +89,9 @@ inline const JsonObjectKeys condition = {
      {"ST_exceeds_mV", false, "largest shift in the leads, > 0"},
      {"act_exceeds_s", false, "activated clotting time, > 0"},
      {"stenosis_below_percent", false, "of the first lesion's diameter, as measured on a film, > 0 and at most 100"},
+     {"stent_beyond_mm", false,
+      "stents cover the first lesion and reach so far beyond it at both ends, in mm, > 0; no farther than the artery "
+      "goes"},
      {"of", false, "which tool is meant; else the step's first"}}};
 
 inline const std::vector<const JsonObjectKeys*> all = {&root, &tool, &landmark, &step, &condition};

@@ -46,6 +46,7 @@ constexpr Kind kinds[] = {{"tip_passes", ConditionKind::tip_passes, 0},
                           {"seconds", ConditionKind::seconds, 1},
                           {"beats", ConditionKind::beats, 1},
                           {"balloon_at_mm", ConditionKind::balloon_at, 1e-3},
+                          {"balloon_within_mm", ConditionKind::balloon_within, 1e-3},
                           {"balloon_open", ConditionKind::balloon_open, 0},
                           {"balloon_empty", ConditionKind::balloon_empty, 0},
                           {"engaged", ConditionKind::engaged, 0},
@@ -54,7 +55,8 @@ constexpr Kind kinds[] = {{"tip_passes", ConditionKind::tip_passes, 0},
                           {"flow_below_percent", ConditionKind::flow_below, 1e-2},
                           {"ST_exceeds_mV", ConditionKind::ST_exceeds, 1e-3},
                           {"act_exceeds_s", ConditionKind::act_exceeds, 1},
-                          {"stenosis_below_percent", ConditionKind::stenosis_below, 1e-2}};
+                          {"stenosis_below_percent", ConditionKind::stenosis_below, 1e-2},
+                          {"stent_beyond_mm", ConditionKind::stent_beyond, 1e-3}};
 
 /// What is not seen of one tool.
 bool of_no_tool(ConditionKind kind) {
@@ -62,6 +64,7 @@ bool of_no_tool(ConditionKind kind) {
     case ConditionKind::seconds:
     case ConditionKind::beats:
     case ConditionKind::balloon_at:
+    case ConditionKind::balloon_within:
     case ConditionKind::balloon_open:
     case ConditionKind::balloon_empty:
     case ConditionKind::engaged:
@@ -71,6 +74,7 @@ bool of_no_tool(ConditionKind kind) {
     case ConditionKind::ST_exceeds:
     case ConditionKind::act_exceeds:
     case ConditionKind::stenosis_below:
+    case ConditionKind::stent_beyond:
       return true;
     default:
       return false;

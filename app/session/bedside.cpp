@@ -30,6 +30,7 @@ constexpr double at_valve_m = 4.5e-3;  // above the annulus within which a tip m
 constexpr double catch_angle_rad = 0.35;  // between guide and shaft at which a crimped stent's edge hangs [estimate]
 constexpr double edge_N_m = 500;          // of a guide's edge against a stent [estimate]
 constexpr double most_caught_N = 5;       // a balloon's shaft tears soon beyond [estimate]
+constexpr double in_vessel = 1.6;         // radii from a centreline within which a point counts as inside
 constexpr double manifold_m3 = 0.3e-6;    // of the line ahead of the guide
 
 bool is_catheter(const Instrument& i) {
@@ -75,10 +76,26 @@ void look_at_shafts(const BedsideModel& model, const State& rods, BedsideScratch
   }
 }
 
+/// Of a device whose proximal marker is by the ostium or in the aorta: by the distal one. Empty if the device lies
+/// farther in, or less than `least_m` of it is in the artery. What of it stands out of the ostium meets a wall as wide
+/// as that.
+std::optional<Seat> seat_at_ostium(const BedsideModel& model, const CellLocator& locator, const Vector3d& p_far,
+                                   double between_m, double least_m) {
+  const CellLocator::Found far = locator.nearest(p_far, near_heart_m);
+  if (far.cell < 0) return {};
+  const FlowCell& cell = model.physiology.flow.tree.cells[static_cast<std::size_t>(far.cell)];
+  if (far.distance_m > in_vessel * cell.healthy_m) return {};
+  const VesselPath& path = model.treatment.paths[static_cast<std::size_t>(cell.branch)];
+  const auto at = std::find(path.cells.begin(), path.cells.end(), far.cell) - path.cells.begin();
+  const double far_m = path.s_m[static_cast<std::size_t>(at)] + far.along_m;
+  if (far_m > between_m || far_m < least_m) return {};
+  return Seat{.branch = cell.branch, .middle_m = far_m - between_m / 2, .offset_m = far.distance_m};
+}
+
 void look_at_balloon(const BedsideModel& model, const State& rods, const StepReport& report, BedsideScratch& x,
                      BedsideState& s) {
   const int t = balloon_tool(model, rods);
-  const double was = s.balloon;
+  const double was = s.balloon, was_branch = s.branch;
   s.balloon = t < 0 ? -1 : model.balloon_of[static_cast<std::size_t>(t)];
   s.branch = -1, s.drag_N = 0;
   if (s.balloon != was) s.held = s.holding_N = s.stent_out = s.caught = s.caught_N = 0;
@@ -89,7 +106,14 @@ void look_at_balloon(const BedsideModel& model, const State& rods, const StepRep
   const double near_m = marker_from_tip_m(instrument, 0), far_m = marker_from_tip_m(instrument, 1);
   if (own.inserted_m < near_m) return;
   const Vector3d p_near = point_from_tip(rod, own, near_m), p_far = point_from_tip(rod, own, far_m);
-  const auto seat = seat_of(x.locator, model.physiology.flow.tree, model.treatment.paths, p_near, p_far);
+  const double between_m = near_m - far_m;
+  auto seat = seat_at_ostium(model, x.locator, p_far, between_m, s.held > 0 ? 0 : between_m / 2);
+  if (!seat) seat = seat_of(x.locator, model.physiology.flow.tree, model.treatment.paths, p_near, p_far);
+  // What the wall holds is not let go of because a beat throws its shaft aside for a moment.
+  if (!seat && s.held > 0 && was_branch >= 0 && x.locator.nearest(p_far, near_heart_m).cell >= 0) {
+    s.branch = was_branch;
+    return;
+  }
   if (!seat) return;
   s.branch = seat->branch, s.middle_m = seat->middle_m;
   const Vector3d along = (p_far - p_near).normalized();
@@ -236,7 +260,7 @@ void look_at_wires(const BedsideModel& model, const State& rods, const StepRepor
     if (!in_body(rod, own)) continue;
     const Vector3d p = own.position[rod.elements];
     const CellLocator::Found f = x.locator.nearest(p, near_heart_m);
-    const bool in_artery = f.cell >= 0 && f.distance_m < 1.6 * tree.cells[f.cell].healthy_m;
+    const bool in_artery = f.cell >= 0 && f.distance_m < in_vessel * tree.cells[f.cell].healthy_m;
     const Landmarks& marks = model.vessel.patient->anatomy.landmarks;
     if (model.vessel.ventricle.spheres.empty() && !in_artery && (p - root_shift - marks.p_annulus).norm() < 0.06)
       s.irritation = std::max(s.irritation, std::clamp(beyond_valve_m(marks, p - root_shift) / irritates_m, 0.0, 1.0));

@@ -20,6 +20,7 @@ namespace {
 bool needs_patient(ConditionKind kind) {
   switch (kind) {
     case ConditionKind::balloon_at:
+    case ConditionKind::balloon_within:
     case ConditionKind::balloon_open:
     case ConditionKind::balloon_empty:
     case ConditionKind::engaged:
@@ -29,6 +30,7 @@ bool needs_patient(ConditionKind kind) {
     case ConditionKind::ST_exceeds:
     case ConditionKind::act_exceeds:
     case ConditionKind::stenosis_below:
+    case ConditionKind::stent_beyond:
       return true;
     default:
       return false;
@@ -36,8 +38,9 @@ bool needs_patient(ConditionKind kind) {
 }
 
 bool needs_lesion(ConditionKind kind) {
-  return kind == ConditionKind::balloon_at || kind == ConditionKind::flow_below ||
-         kind == ConditionKind::stenosis_below;
+  return kind == ConditionKind::balloon_at || kind == ConditionKind::balloon_within ||
+         kind == ConditionKind::flow_below || kind == ConditionKind::stenosis_below ||
+         kind == ConditionKind::stent_beyond;
 }
 
 /// The flow tree's cell nearest to a sphere of the way, or -1.
@@ -173,6 +176,8 @@ struct Sight {
         return session.blood.heart.beats + session.blood.heart.phase - state.began_beats >= c.value;
       case ConditionKind::balloon_at:
         return balloon_is_at(c.value);
+      case ConditionKind::balloon_within:
+        return balloon_is_within(c.value);
       case ConditionKind::balloon_open:
         return balloon() && session.treatment.balloon.pressure_Pa > 101325 &&
                waist(*balloon(), session.treatment.balloon) > 0.9;
@@ -192,6 +197,8 @@ struct Sight {
         return act_s(model.treatment.drugs, session.treatment.drugs) > c.value;
       case ConditionKind::stenosis_below:
         return lesion_now(model, session).stenosis < c.value;
+      case ConditionKind::stent_beyond:
+        return lesion_is_covered(model, session, c.value);
     }
     return false;
   }
@@ -211,12 +218,22 @@ struct Sight {
     return b < 0 ? nullptr : &model.treatment.balloons[static_cast<std::size_t>(b)];
   }
 
-  /// Reached from the side that the shaft's hand comes from. A beat carries artery and shaft past each other by
-  /// millimetres, so it is judged while the heart rests, before the R wave.
-  bool balloon_is_at(double offset_m) const {
+  /// A beat carries artery and shaft past each other by millimetres, so places are judged while the heart rests, before
+  /// the R wave.
+  std::optional<double> balloon_at_rest_m() const {
     const double phase = session.blood.heart.phase;
-    if (phase < rests_from || phase > rests_to) return false;
-    const auto at = balloon_from_lesion_m(model, session);
+    if (phase < rests_from || phase > rests_to) return {};
+    return balloon_from_lesion_m(model, session);
+  }
+
+  bool balloon_is_within(double most_m) const {
+    const auto at = balloon_at_rest_m();
+    return at && std::fabs(*at) <= most_m;
+  }
+
+  /// Reached from the side that the shaft's hand comes from.
+  bool balloon_is_at(double offset_m) const {
+    const auto at = balloon_at_rest_m();
     if (!at) return false;
     for (std::size_t t = 0; t < model.tools.size(); ++t)
       if (model.balloon_of[t] == static_cast<int>(session.bedside.balloon))

@@ -69,6 +69,22 @@ std::optional<Stretch> stented(const SessionModel& model, const SessionState& st
   return out;
 }
 
+std::optional<double> stent_from_lesion_m(const SessionModel& model, const SessionState& state, int stent) {
+  const StentState& own = state.treatment.stents[static_cast<std::size_t>(stent)];
+  if (own.where != StentState::deployed || !in_lesions_artery(model, own.branch, own.middle_m)) return {};
+  const auto [from, to] = span_of(own);
+  return (from + to - lesion(model).from_m - lesion(model).to_m) / 2;
+}
+
+bool lesion_is_covered(const SessionModel& model, const SessionState& state, double margin_m) {
+  const auto stent = stented(model, state);
+  if (!stent) return false;
+  const Plan& plan = lesion(model);
+  const double ahead = std::min(margin_m, plan.from_m),
+               behind = std::min(margin_m, std::max(0.0, plan.path.length_m() - plan.to_m));
+  return stent->from_m <= -ahead && stent->to_m >= plan.to_m - plan.from_m + behind;
+}
+
 std::optional<StentNow> stent_now(const SessionModel& model, const SessionState& state) {
   std::optional<StentNow> out;
   for (std::size_t i = 0; i < state.treatment.stents.size(); ++i) {

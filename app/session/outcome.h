@@ -28,6 +28,14 @@ struct Stretch {
 };
 std::optional<Stretch> stented(const SessionModel& model, const SessionState& state);
 
+/// The middle of one of the session's stents that lies in that artery, from the lesion's middle, m, distal is positive;
+/// empty if it lies elsewhere, or is still on its balloon.
+std::optional<double> stent_from_lesion_m(const SessionModel& model, const SessionState& state, int stent);
+
+/// Whether they cover the lesion and reach `margin_m` beyond it at both ends, or as far as the artery goes: a stent
+/// need not stand out into the aorta.
+bool lesion_is_covered(const SessionModel& model, const SessionState& state, double margin_m);
+
 /// How well the same stents are open, as intravascular ultrasound would have it: the worst of them.
 struct StentNow {
   double minimal_area_m2 = 0;  ///< inside

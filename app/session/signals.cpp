@@ -185,13 +185,16 @@ void EventWatch::look_at_patient(const SessionModel& model, const SessionInputs&
   for (std::size_t i = 0; i < treated.stents.size(); ++i) {
     const double where = treated.stents[i].where;
     if (where == stents_[i]) continue;
-    const auto at = model.vessel->coronaries->lesions.empty() ? std::nullopt : stented(model, state);
-    const double length =
-        at ? model.vessel->coronaries->lesions[0].to_m - model.vessel->coronaries->lesions[0].from_m : 0;
-    if (where == StentState::deployed)
-      say(EventCode::stent_deployed, -1, at ? 1e3 * ((at->from_m + at->to_m) / 2 - length / 2) : none);
-    else
+    const StentState& own = treated.stents[i];
+    const auto at = model.vessel->coronaries->lesions.empty() ? std::nullopt
+                                                              : stent_from_lesion_m(model, state, static_cast<int>(i));
+    if (where != StentState::deployed || own.branch < 0)
       say(EventCode::stent_lost, -1, 0);
+    else if (at)
+      say(EventCode::stent_deployed, -1, 1e3 * *at);
+    else
+      say(EventCode::stent_elsewhere, -1,
+          model.physiology.flow.tree.branches[static_cast<std::size_t>(own.branch)].tree_branch);
     stents_[i] = where;
   }
   if (!model.vessel->coronaries->lesions.empty() && state.rods.step % look_every == 0) {

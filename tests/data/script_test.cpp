@@ -100,7 +100,7 @@ const std::string treatment = R"({
   "steps": [
     { "do": "drug", "heparin_U": 5000 },
     { "do": "inject", "rate_mL_s": 3, "volume_mL": 6, "iodine_mg_mL": 0 },
-    { "do": "advance", "tool": "balloon", "speed_mm_s": 20, "until": [{ "balloon_at_mm": -2 }] },
+    { "do": "advance", "tool": "balloon", "speed_mm_s": 20, "until": [{ "balloon_at_mm": -2 }, { "balloon_within_mm": 1 }] },
     { "do": "inflate", "gauge_atm": 10, "over_s": 5 },
     { "do": "wait", "until": [{ "balloon_open": true }, { "trace": "damped" }, { "contrast_in": "RCA+30" }] },
     { "do": "deflate", "unless": [{ "ST_exceeds_mV": 0.2 }] }
@@ -126,6 +126,10 @@ TEST(Script, TreatsInSiUnits) {
   EXPECT_NEAR(script.steps[1].volume_m3, 6e-6, 1e-18);
   EXPECT_EQ(script.steps[1].iodine_kg_m3, 0);
   EXPECT_NEAR(script.steps[2].until[0].value, -2e-3, 1e-15);
+  EXPECT_EQ(script.steps[2].until[1].kind, ConditionKind::balloon_within);
+  EXPECT_NEAR(script.steps[2].until[1].value, 1e-3, 1e-15);
+  expect_words(treatment_refusal("\"balloon_within_mm\": 1", "\"stent_beyond_mm\": 0"), {"treatment.json:", "> 0"});
+  EXPECT_EQ(treatment_refusal("\"balloon_within_mm\": 1", "\"stent_beyond_mm\": 2"), "accepted");
   EXPECT_NEAR(script.steps[3].gauge_Pa, 1013250, 1e-6);
   EXPECT_EQ(script.steps[4].until[1].place, "damped");
   EXPECT_NEAR(script.steps[5].unless[0].value, 0.2e-3, 1e-15) << "V";

@@ -9,8 +9,10 @@
 #include "app/session/outcome.h"
 #include "app/session/penetration.h"
 #include "app/session/run.h"
+#include "app/session/signals.h"
 #include "app/session/xray_scene.h"
 #include "data/load_error.h"
+#include "data/metrics.h"
 #include "tests/core/allocations.h"
 
 namespace ostium {
@@ -210,6 +212,65 @@ TEST(Treatment, AGuideThatGoesDeepDeformsAStentAndFeelsIt) {
   EXPECT_GT(felt_N, 0.2);
   EXPECT_GT(span_of(stent).first, from + 0.5e-3);
   EXPECT_LT(span_of(stent).second - span_of(stent).first, to - from - 0.3e-3);
+}
+
+TEST(Treatment, ADeviceThatReachesOutOfTheOstiumLiesInTheArtery) {
+  StentAhead s;
+  const BedsideState& bedside = s.run.state.bedside;
+  const double half_m = (marker_from_tip_m(s.run.model.tools[s.stent].instrument, 0) -
+                         marker_from_tip_m(s.run.model.tools[s.stent].instrument, 1)) /
+                        2;
+  s.move(s.guide, -40, 0.6, [] { return false; });
+  ASSERT_NE(static_cast<int>(bedside.where), TipPlace::coronary);
+  // Drawn out until less than half of it is in the artery: its place goes on until then, without a jump.
+  double least = 1, was = -1, jump = 0;
+  s.move(s.stent, -20, 3, [&] {
+    if (bedside.branch < 0) return true;
+    if (was >= 0) jump = std::max(jump, std::fabs(bedside.middle_m - was));
+    was = bedside.middle_m, least = std::min(least, was);
+    return false;
+  });
+  EXPECT_EQ(bedside.branch, -1);
+  EXPECT_LT(least, 0.3 * half_m);
+  EXPECT_LT(jump, 2e-3);
+}
+
+TEST(Treatment, ALesionIsCoveredWithMargins) {
+  StentAhead s;
+  const SessionModel& model = s.run.model;
+  const Plan& plan = model.vessel->coronaries->lesions[0];
+  StentState& stent = s.crimped();
+  EventWatch watch(model);
+  std::vector<SessionEvent> events;
+  events.reserve(1000);
+  s.move(s.guide, 0, 0.01, [] { return false; });
+  const auto last = [&](double where, double branch, double middle_m) {
+    stent.where = StentState::on_balloon;
+    watch.look(model, s.inputs, s.run.state, s.report, {}, events);
+    stent.where = where, stent.branch = branch, stent.middle_m = middle_m, stent.shift_m = 0;
+    watch.look(model, s.inputs, s.run.state, s.report, {}, events);
+    return events.back();
+  };
+  const double own = model.physiology.flow.tree.branch("RCA"), middle = (plan.from_m + plan.to_m) / 2;
+  EXPECT_FALSE(lesion_is_covered(model, s.run.state, 0)) << "it is on its balloon";
+  // 15 mm on a lesion of 9 mm: 3 mm on either side.
+  SessionEvent e = last(StentState::deployed, own, middle);
+  EXPECT_EQ(e.code, static_cast<int>(EventCode::stent_deployed));
+  EXPECT_NEAR(e.value, 0, 0.3);
+  EXPECT_TRUE(lesion_is_covered(model, s.run.state, 2e-3));
+  EXPECT_FALSE(lesion_is_covered(model, s.run.state, 4e-3));
+  e = last(StentState::deployed, own, middle + 2e-3);
+  EXPECT_NEAR(e.value, 2, 0.3);
+  EXPECT_FALSE(lesion_is_covered(model, s.run.state, 2e-3));
+  // Elsewhere, and nowhere.
+  const int conus = model.physiology.flow.tree.branch("Conus");
+  e = last(StentState::deployed, conus, model.treatment.paths[static_cast<std::size_t>(conus)].length_m() - 10e-3);
+  EXPECT_EQ(e.code, static_cast<int>(EventCode::stent_elsewhere));
+  EXPECT_EQ(model.vessel->way->branches()[static_cast<std::size_t>(e.value)].name, "Conus");
+  EXPECT_FALSE(lesion_is_covered(model, s.run.state, 0));
+  e = last(StentState::deployed, -1, 0);
+  EXPECT_EQ(e.code, static_cast<int>(EventCode::stent_lost));
+  EXPECT_EQ(e.value, 0);
 }
 
 TEST(Treatment, AlternativesLieIdleOutside) {
