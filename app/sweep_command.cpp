@@ -228,13 +228,15 @@ int sweep_command(const SweepOptions& o) {
       for (std::size_t i; (i = next++) < open.size() && !interrupted;) {
         const Task& task = sweep.tasks[open[i]];
         try {
-          ScriptedRun run(task.setup, vessel);
+          RunSetup setup = task.setup;
+          choose_sizes(*vessel, setup);
+          ScriptedRun run(setup, vessel);
           PlayOptions options;
           options.recorder.mode = RecordMode::none;
           options.seconds = o.run.seconds;
           options.dosimeter = dosimeter;
           options.stop = &interrupted;
-          const PlayReport report = play(run, task.setup, options);
+          const PlayReport report = play(run, setup, options);
           if (interrupted) return;  // it did not come to its own end
           const std::lock_guard lock(mutex);
           journal.add(open[i], line_of(task, run, report));

@@ -96,6 +96,11 @@ struct ScriptStep {
 struct ScriptTool {
   std::string name, instrument;
   int line = 0;
+  /// Instruments with a balloon, of which the operator takes, once the artery was measured, the widest whose nominal
+  /// diameter is at most `of_reference` times the healthy artery's beside the first lesion, or the narrowest if all are
+  /// wider. Empty: `instrument`, whatever the artery is like.
+  std::vector<std::string> sizes;
+  double of_reference = 0;
 };
 
 struct ScriptLandmark {

@@ -13,9 +13,14 @@ inline const JsonObjectKeys root = {"script",
                                      {"landmarks", false, "points of one's own, a list"},
                                      {"steps", true, "what the operator does, in order, a list of at least one"}}};
 
-inline const JsonObjectKeys tool = {"tool",
-                                    {{"name", true, "what the script calls it: \"wire\""},
-                                     {"instrument", true, "a name of `ostium instruments`, or a file"}}};
+inline const JsonObjectKeys tool = {
+    "tool",
+    {{"name", true, "what the script calls it: \"wire\""},
+     {"instrument", true, "a name of `ostium instruments`, or a file"},
+     {"sizes", false, "balloons or stents to choose from by the artery, a list of such names"},
+     {"of_reference", false,
+      "their nominal diameter at most, over the healthy artery's beside the first "
+      "lesion, > 0 and at most 1.5; beside sizes"}}};
 
 inline const JsonObjectKeys landmark = {
     "landmark",

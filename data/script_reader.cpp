@@ -357,6 +357,21 @@ bool write_out(JsonValue& file, int depth) {
   return any;
 }
 
+ScriptTool read_tool(const JsonObject& tool) {
+  ScriptTool out{tool.text("name"), tool.text("instrument"), tool.value().line, {}, 0};
+  if (tool.has("sizes") != tool.has("of_reference"))
+    tool.value().fail(tool.value().path + " has one of sizes and of_reference; expected both or neither");
+  if (!tool.has("sizes")) return out;
+  out.of_reference = tool.positive("of_reference");
+  if (out.of_reference > 1.5) tool.refuse("of_reference");
+  if (tool.list("sizes").empty()) tool.refuse("sizes");
+  for (const JsonValue& size : tool.list("sizes")) {
+    if (size.type != JsonValue::Type::text || size.text.empty()) tool.refuse("sizes");
+    out.sizes.push_back(size.text);
+  }
+  return out;
+}
+
 Script read(JsonValue file, const std::string& text) {
   const bool has_others = write_out(file, 0);
   const JsonObject root(file, keys::root);
@@ -371,7 +386,7 @@ Script read(JsonValue file, const std::string& text) {
     const JsonObject tool(value, keys::tool);
     for (const ScriptTool& other : script.tools)
       if (other.name == tool.text("name")) value.fail(value.path + ".name: there is another tool of that name");
-    script.tools.push_back({tool.text("name"), tool.text("instrument"), value.line});
+    script.tools.push_back(read_tool(tool));
   }
   if (root.has("landmarks"))
     for (const JsonValue& value : root.list("landmarks")) {

@@ -69,6 +69,31 @@ void set_script(const Script& script, RunSetup& setup) {
   }
 }
 
+std::vector<std::string> choose_sizes(const Vessel& vessel, RunSetup& setup) {
+  std::vector<std::string> chosen;
+  if (!vessel.coronaries || vessel.coronaries->lesions.empty()) return chosen;
+  const double reference_m = vessel.coronaries->lesions.front().reference_m;
+  for (std::size_t t = 0; t < setup.script.tools.size(); ++t) {
+    const ScriptTool& tool = setup.script.tools[t];
+    double best_m = 0;
+    for (const std::string& size : tool.sizes) {
+      const std::string file = instrument_file(size), text = all_of(file);
+      const Instrument instrument = read_instrument(file, text);
+      if (!instrument.balloon)
+        throw LoadError(fmt::format("{}:{}: {} has no balloon; expected sizes of a balloon or a stent",
+                                    setup.script.file, tool.line, size));
+      const double own_m = instrument.balloon->nominal_m, most_m = tool.of_reference * reference_m;
+      const bool better = best_m == 0 || (own_m <= most_m ? best_m > most_m || own_m > best_m : own_m < best_m);
+      if (!better) continue;
+      best_m = own_m;
+      setup.tool_files[t] = file, setup.tool_texts[t] = text;
+    }
+    if (best_m > 0)
+      chosen.push_back(tool.name + ": " + read_instrument(setup.tool_files[t], setup.tool_texts[t]).title);
+  }
+  return chosen;
+}
+
 namespace {
 
 double number(const std::string& key, const std::string& text, double least, double most, const char* expected) {
@@ -88,6 +113,7 @@ void set_value(const std::string& key, const std::string& value, RunSetup& setup
     if (setup.script.tools[t].name != key) continue;
     setup.tool_files[t] = instrument_file(value);
     setup.tool_texts[t] = all_of(setup.tool_files[t]);
+    setup.script.tools[t].sizes.clear();
     return;
   }
   if (key == "person") {

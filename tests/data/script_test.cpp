@@ -119,6 +119,17 @@ std::string treatment_refusal(const std::string& from, const std::string& to) {
   return "accepted";
 }
 
+TEST(Script, ToolsMayComeInSizes) {
+  const std::string tool = R"("instrument": "balloon-25x15")";
+  const auto with = [&](const std::string& more) { return treatment_refusal(tool, tool + ", " + more); };
+  EXPECT_EQ(with(R"("sizes": ["balloon-20x10", "balloon-25x15"], "of_reference": 0.8)"), "accepted");
+  expect_words(with(R"("sizes": ["balloon-20x10"])"), {"treatment.json:3:", "both or neither"});
+  expect_words(with(R"("of_reference": 0.8)"), {"treatment.json:3:", "both or neither"});
+  expect_words(with(R"("sizes": [], "of_reference": 0.8)"), {"treatment.json:3:", "sizes"});
+  expect_words(with(R"("sizes": [3], "of_reference": 0.8)"), {"treatment.json:3:", "sizes"});
+  expect_words(with(R"("sizes": ["balloon-20x10"], "of_reference": 2)"), {"treatment.json:3:", "at most 1.5"});
+}
+
 TEST(Script, TreatsInSiUnits) {
   const Script script = read_script("treatment.json", treatment);
   EXPECT_EQ(script.steps[0].heparin_U, 5000);

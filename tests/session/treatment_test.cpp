@@ -11,6 +11,7 @@
 #include "app/session/run.h"
 #include "app/session/signals.h"
 #include "app/session/xray_scene.h"
+#include "data/instrument_reader.h"
 #include "data/load_error.h"
 #include "data/metrics.h"
 #include "tests/core/allocations.h"
@@ -279,6 +280,29 @@ TEST(Treatment, AlternativesLieIdleOutside) {
   EXPECT_EQ(run.model.balloon_of, (std::vector<int>{-1, 0, 1, -1}));
   EXPECT_EQ(run.model.treatment.stent_on, (std::vector<int>{-1, 0}));
   EXPECT_NEAR(run.model.treatment.stents[0].length_m, 15e-3, 1e-12);
+}
+
+TEST(Treatment, SizesAreChosenByTheArtery) {
+  ASSERT_NEAR(vessel()->coronaries->lesions[0].reference_m, 3.46e-3, 0.05e-3);
+  const auto taken = [](const std::string& sizes, const std::string& share, const std::string& set = "") {
+    std::string script = predilatation;
+    const std::string plain = R"("instrument": "stent-325x15")";
+    script.replace(script.find(plain), plain.size(),
+                   plain + ", \"sizes\": [" + sizes + "], \"of_reference\": " + share);
+    RunSetup own;
+    set_vessel("rca-mid-focal", LengthUnit::millimetre, own);
+    set_script(read_script("predilatation.json", script), own);
+    if (!set.empty()) set_value("stent", set, own);
+    choose_sizes(*vessel(), own);
+    return read_instrument(own.tool_files[2], own.tool_texts[2]).name;
+  };
+  const std::string all = R"("stent-40x18", "stent-25x18", "stent-35x18", "stent-30x18", "stent-325x18")";
+  EXPECT_EQ(taken(all, "1.05"), "stent-35x18");
+  EXPECT_EQ(taken(all, "1"), "stent-325x18");
+  EXPECT_EQ(taken(all, "0.5"), "stent-25x18") << "the narrowest, where all are wider";
+  EXPECT_EQ(taken(all, "1.05", "stent-30x18"), "stent-30x18") << "asked for by name";
+  EXPECT_THROW(taken(R"("wire-014-workhorse")", "1"), LoadError);
+  EXPECT_THROW(taken(R"("zebra")", "1"), LoadError);
 }
 
 TEST(Treatment, ABeginningThatIsNoArteryIsRefused) {
