@@ -1,8 +1,8 @@
 #pragma once
 /// A generalised Maxwell solid: of the strain e = u - u_rest that a joint is held at, branch k creeps after by
 ///   c_k' = (e - c_k) / t_k,   and   m = law(e - f_1 c_1 - f_2 c_2),
-/// so held still it answers with 1 - f_1 (1 - exp(-t / t_1)) - f_2 (1 - exp(-t / t_2)) of its moment, and let go it comes
-/// back to a shape at rest that has moved towards where it was held. Polymers do so (Ferry 1980, Viscoelastic
+/// so held still it answers with 1 - f_1 (1 - exp(-t / t_1)) - f_2 (1 - exp(-t / t_2)) of its moment, and let go it
+/// comes back to a shape at rest that has moved towards where it was held. Polymers do so (Ferry 1980, Viscoelastic
 /// properties of polymers, ch. 3). `law` is the one below, for what happens at once.
 #include "core/rod/superelastic.h"
 

@@ -32,7 +32,7 @@ struct RodState {
   Field<3> strain;  ///< 1/m, material frame, (#joints), Darboux vector; empty without material damping
   Field<3> strain_before;
   Field<3> crept_fast, crept_slow;  ///< 1/m, (#joints), of the branches of relaxing.h; empty without relaxation
-  Field<3> contact_force;  ///< N, (#nodes), on the rod around it, and
+  Field<3> contact_force;           ///< N, (#nodes), on the rod around it, and
   Field<3> offset;  ///< m, (#nodes), from the middle of that rod's lumen; zero outside. Empty if it can be in none
   Field<2> slip;  ///< m, (#nodes): elastic part of its sliding along that lumen and around in it, see solve/friction.h
   Field<3> wall_force;  ///< N, (#nodes), normal force of the walls on it; empty if there are none

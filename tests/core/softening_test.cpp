@@ -50,7 +50,8 @@ TEST(Softening, HasTheTwoSlopesThatItIsGiven) {
 }
 
 TEST(Softening, ARodHasTheLawOnlyWhereItIsAskedFor) {
-  RodDescription d{"wire", {round_section(0, 0.2, 0.18e-3, 0, 60e9, 0.3, 6450)}, std::vector<double>(100, 2e-3), {}, {}};
+  RodDescription d{
+      "wire", {round_section(0, 0.2, 0.18e-3, 0, 60e9, 0.3, 6450)}, std::vector<double>(100, 2e-3), {}, {}};
   EXPECT_TRUE(std::holds_alternative<LinearElastic>(make_rod(d).law));
   const Eigen::Vector3d linear = stiffness_at_rest(make_rod(d), 50);
   d.sections[0].softening_per_m = 50, d.sections[0].softened_ratio = 0.3;

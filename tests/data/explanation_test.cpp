@@ -8,6 +8,7 @@
 
 #include "data/fit/explanation_report.h"
 #include "data/forward/prediction.h"
+#include "data/instrument_reader.h"
 #include "data/measured/measurement_reader.h"
 #include "tests/support/synthetic_set.h"
 
@@ -159,6 +160,16 @@ TEST(Explanation, RelaxationOfACurvedTubeIsFound) {
   expect_within_three_sigma(x.candidates[0], "stress_relaxation.fraction_1", f1);
   expect_within_three_sigma(x.candidates[0], "stress_relaxation.fraction_2", f2);
   EXPECT_LT(x.candidates[0].rms_m, 0.4e-3);
+
+  // And core has it: the file that `ostium run` takes says what is lost, and its sections are those of the beginning.
+  const std::string name = nlohmann::json::parse(instrument_json(set, x, 0)).at("name").get<std::string>() + ".json";
+  const Instrument curved = read_instrument(name, instrument_json(set, x, 0));
+  EXPECT_NEAR(curved.relaxation.branches[0].fraction, f1, 0.05);
+  EXPECT_NEAR(curved.relaxation.branches[1].fraction, f2, 0.06);
+  EXPECT_NEAR(curved.relaxation.branches[1].time_s, t2, 0.5 * t2);
+  EXPECT_NEAR(curved.sections[0].rest_curvature_per_m.norm(), k1, 1e-6 * k1);
+  EXPECT_TRUE(rod_description(curved, equal_elements(curved.sections, 64)).relaxation.any());
+  EXPECT_EQ(instrument_json(set, x, 1).find("relaxation\""), std::string::npos) << "the straight one";
 }
 
 TEST(Explanation, ThreadsDoNotChangeANumber) {

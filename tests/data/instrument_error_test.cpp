@@ -28,6 +28,26 @@ TEST(InstrumentErrors, NoJson) {
   EXPECT_THROW(load_instrument("/"), LoadError);
 }
 
+TEST(InstrumentErrors, RelaxationIsLessThanAll) {
+  const std::string end = R"(    ],
+    "source": "a test"
+  },
+  "shape")";
+  const auto relaxing = [&](const std::string& branches) {
+    return with(small_catheter, end, R"(    ], "relaxation": [)" + branches + R"(], "source": "a test"
+  },
+  "shape")");
+  };
+  const Instrument read = read_instrument("hook.json", relaxing(R"({ "fraction": 0.2, "time_s": 60 })"));
+  EXPECT_EQ(read.relaxation.branches[0].fraction, 0.2);
+  EXPECT_EQ(read.relaxation.branches[0].time_s, 60);
+  EXPECT_EQ(read.relaxation.branches[1].fraction, 0);
+  expect_words(refusal(relaxing(R"({ "fraction": 0.5, "time_s": 60 }, { "fraction": 0.5, "time_s": 600 })")),
+               {"sections.relaxation[1].fraction is 0.5", "less than 1 in all"});
+  expect_words(refusal(relaxing("")), {"sections.relaxation", "one or two branches"});
+  expect_words(refusal(relaxing(R"({ "fraction": 0.5 })")), {"sections.relaxation[0].time_s is missing"});
+}
+
 TEST(InstrumentErrors, KeysUnknownMissingOrTwice) {
   expect_words(refusal(R"("GJ_Nmm2": 20)", R"("GJ_Nmm": 20)"),
                {"folder/hook.json:12:", "sections.list[0].GJ_Nmm is not a key of the section", "one of", "GJ_Nmm2"});
