@@ -16,6 +16,8 @@ using Eigen::Quaterniond;
 using Eigen::Vector3d;
 
 constexpr double feed_m_s = 0.02, turn_rad_s = std::numbers::pi / 2, step_s = 2e-3;
+/// Hands slow down before they stop: a wire that is stopped at once slides back on its friction by what it was moving.
+constexpr double slowing_s = 0.2;
 /// Drag that stands for slowness: far more than blood's, and still a tenth of a millinewton while a wire is fed.
 constexpr Damping slow{0.1, 0.02, 2e-3};
 constexpr double element_m = 2e-3, element_rad = 0.1, reserve_m = 20e-3;
@@ -74,25 +76,24 @@ class History {
   Shape reach(std::size_t e) {
     const Setup& to = setups_[e];
     const Setup& from = setups_[e > 0 ? e - 1 : 0];
-    double seconds = 4 * step_s;
+    double seconds = 0;
     for (std::size_t i = 0; i < at_.size(); ++i)
       seconds = std::max({seconds, std::fabs(to.nest.parts[i].inserted_m - at_[i]) / feed_m_s,
                           std::fabs(to.nest.parts[i].roll_rad - from.nest.parts[i].roll_rad) / turn_rad_s});
-    const int steps = static_cast<int>(std::ceil(seconds / step_s));
-    std::vector<double> feed(at_.size());
+    const int steps = static_cast<int>(std::ceil((seconds + slowing_s) / step_s));
+    std::vector<double> way(at_.size());
     for (std::size_t i = 0; i < at_.size(); ++i)
-      feed[i] = (to.nest.parts[i].inserted_m - at_[i]) / (steps * step_s), at_[i] = to.nest.parts[i].inserted_m;
+      way[i] = to.nest.parts[i].inserted_m - at_[i], at_[i] = to.nest.parts[i].inserted_m;
     for (int k = 0; k < steps && !lost_; ++k) {
+      const double done = part_done(k, steps), next = part_done(k + 1, steps);
       for (std::size_t i = 0; i < at_.size(); ++i) {
-        inputs_.rods[i].feed_m_s = feed[i];
+        inputs_.rods[i].feed_m_s = (next - done) / step_s * way[i];
         // As a rate about the base's axis, and what tilts it.
-        const Quaterniond a = frame(to, i, static_cast<double>(k) / steps, &from),
-                          b = frame(to, i, static_cast<double>(k + 1) / steps, &from);
+        const Quaterniond a = frame(to, i, done, &from), b = frame(to, i, next, &from);
         const Eigen::AngleAxisd turn(b * a.conjugate());
         inputs_.rods[i].base.turn_rate_W_rad_s = turn.angle() / step_s * turn.axis();
       }
-      inputs_.rods.back().tip_force_W_N =
-          from.tip_force_N + static_cast<double>(k + 1) / steps * (to.tip_force_N - from.tip_force_N);
+      inputs_.rods.back().tip_force_W_N = from.tip_force_N + next * (to.tip_force_N - from.tip_force_N);
       advance();
     }
     come_to_rest();
@@ -100,6 +101,12 @@ class History {
   }
 
  private:
+  /// Of the way, after k of so many steps: evenly, and slower and slower at the end.
+  static double part_done(int k, int steps) {
+    const double all = steps * step_s, left = all - k * step_s, even = all - slowing_s / 2;
+    return 1 - (left > slowing_s ? left - slowing_s / 2 : left * left / (2 * slowing_s)) / even;
+  }
+
   /// The base's frame of an instrument on the way from one setup to the next.
   static Quaterniond frame(const Setup& to, std::size_t i, double part, const Setup* from) {
     const Setup& before = from ? *from : to;

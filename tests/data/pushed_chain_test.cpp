@@ -1,0 +1,114 @@
+/// Insertion sets against an independent incremental energy minimiser (tests/support/pushed_chain.h).
+#include "tests/support/pushed_chain.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <cmath>
+
+#include "app/verify/tube.h"
+#include "data/forward/insertion.h"
+
+namespace ostium {
+namespace {
+
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+
+constexpr double mm = 1e-3, Nmm2 = 1e-6;
+
+/// A wire with a soft curved tip, pushed 170 mm into a bent tube and drawn back, all in one plane.
+struct Pushed {
+  pushed_chain::Tube tube{0.06, 0.05, 1.4, 4e-3};
+  pushed_chain::Wire wire{{{0.05, 5 * Nmm2, 0.8e-3, 8}, {1, 30 * Nmm2, 0.8e-3, 0}}, 0.2e-3};
+  pushed_chain::Setting setting{0, {0.012, 0}, 9.81, 0.5e-3};
+  std::vector<double> inserted{0.08, 0.11, 0.14, 0.17, 0.15, 0.13};
+
+  /// What declares it, without measurements.
+  MeasurementSet set() const {
+    MeasurementSet out;
+    out.title = "pushed", out.source = "tests";
+    MeasuredInstrument instrument{"wire", 0.3, wire.radius_m, 0, {}};
+    double from = 0;
+    for (const pushed_chain::Piece& p : wire.pieces) {
+      Section s;
+      s.from_tip_m = from, s.to_tip_m = from = std::min(p.to_tip_m, instrument.length_m);
+      s.EI1_N_m2 = s.EI2_N_m2 = p.EI_N_m2, s.GJ_N_m2 = 0.75 * p.EI_N_m2;
+      s.kg_per_m = p.kg_per_m, s.radius_m = wire.radius_m;
+      s.rest_curvature_per_m = {0, p.curvature_per_m, 0};
+      instrument.sections.push_back(s);
+    }
+    out.instruments = {instrument};
+    out.gravity_m_s2 = {0, 0, -setting.gravity_m_s2};
+    Experiment e;
+    // d3 along x, d1 along z: u2 > 0 turns d3 towards z.
+    Eigen::Matrix3d R;
+    R << 0, 0, 1, 0, -1, 0, 1, 0, 0;
+    const Eigen::Quaterniond q(R);
+    e.base.q_W = {q.w(), q.x(), q.y(), q.z()};
+    e.base.p_W = {setting.base_m.x(), 0, setting.base_m.y()};
+    e.specimen.resize(1);
+    for (double length : inserted) {
+      e.id = "d" + std::to_string(out.experiments.size());
+      e.place = "experiments[" + std::to_string(out.experiments.size()) + "]";
+      e.set = {{length, 0, 0}};
+      out.experiments.push_back(e);
+    }
+    const auto points = verify::bend(tube.bend_radius_m, tube.angle_rad, tube.lead_m, 0.12, tube.radius_m, 1e-3);
+    out.vessel = MeasuredVessel{"tube", "m", setting.friction,
+                                std::make_shared<const SurfaceDescription>(verify::tube(points, 48))};
+    return out;
+  }
+};
+
+Vector3d in_space(const Vector2d& p) { return {p.x(), 0, p.y()}; }
+
+/// The chain itself, where nothing is touched: the closed form of a light load on a straight cantilever, w L^4 / 8 EI.
+TEST(PushedChain, ACantileverSagsAsBeamTheorySays) {
+  const pushed_chain::Tube wide{1, 1, 0, 1};
+  const pushed_chain::Wire wire{{{1, 30 * Nmm2, 0.8e-3, 0}}, 0.2e-3};
+  const auto rest = pushed_chain::push(wide, wire, {0, {0, 0}, 0.1, 0.25e-3}, {0.1});
+  ASSERT_TRUE(rest[0].converged);
+  const double sag = 0.8e-3 * 0.1 * 1e-4 / (8 * 30 * Nmm2);
+  EXPECT_NEAR(-rest[0].curve.back().y(), sag, 0.01 * sag);
+}
+
+/// Root mean square of how far the chains' nodes lie from the shapes.
+double rms_between(const std::vector<pushed_chain::Rest>& chain, const std::vector<Shape>& shapes) {
+  double sum = 0, count = 0;
+  for (std::size_t e = 0; e < shapes.size(); ++e)
+    for (const Vector2d& p : chain[e].curve)
+      sum += (nearest_point(shapes[e].points_m, in_space(p)) - in_space(p)).squaredNorm(), ++count;
+  return std::sqrt(sum / count);
+}
+
+/// Shapes and what the hand feels, pushed round a bend and drawn back.
+TEST(PushedChain, InsertionAgrees) {
+  std::vector<double> push_N;
+  for (const double friction : {0.0, 0.3}) {
+    Pushed pushed;
+    pushed.setting.friction = friction;
+    const auto chain = pushed_chain::push(pushed.tube, pushed.wire, pushed.setting, pushed.inserted);
+    MeasurementSet set = pushed.set();
+    const std::vector<Shape> shapes = insert(set, {});
+    for (std::size_t e = 0; e < shapes.size(); ++e) {
+      ASSERT_TRUE(chain[e].converged && shapes[e].converged) << friction << " " << e;
+      for (const Vector2d& p : chain[e].curve)
+        EXPECT_LT((nearest_point(shapes[e].points_m, in_space(p)) - in_space(p)).norm(), 0.2 * mm) << friction << e;
+      EXPECT_NEAR(shapes[e].base_push_N, chain[e].push_N, 0.15e-3) << friction << " " << e;
+    }
+    push_N.push_back(chain[3].push_N), push_N.push_back(chain[4].push_N);
+    if (friction == 0) continue;
+    // A friction that is not declared shows: without it the shapes are further off.
+    set.vessel->friction = 0;
+    const double with = rms_between(chain, shapes), without = rms_between(chain, insert(set, {}));
+    EXPECT_LT(with, 0.07 * mm);
+    EXPECT_GT(without, 3 * with);
+  }
+  // Friction is in it: without, pushed in and drawn back is 3.7 and 5.8 mN; with it, 10.0 and -1.1 mN.
+  EXPECT_GT(push_N[2], 2 * push_N[0]);
+  EXPECT_LT(push_N[3], 0);
+}
+
+}  // namespace
+}  // namespace ostium
