@@ -37,7 +37,8 @@ std::vector<Moment> moments(const RunRecord& record, const Script& script) {
     if (code == EventCode::mark && of < script.steps.size()) out.push_back({step, script.steps[of].text});
     if (code == EventCode::injection_ends) out.push_back({step, "contrast"});
     if (code == EventCode::deflated) out.push_back({step, "balloon empty"});
-    if (code == EventCode::stent_deployed) out.push_back({step, "stent in the wall"});
+    if (code == EventCode::stent_deployed || code == EventCode::stent_elsewhere)
+      out.push_back({step, "stent in the wall"});
   }
   if (out.size() >= most) {
     std::vector<Moment> some;
