@@ -89,7 +89,7 @@ void of_parameters(const MeasurementSet& set, const FittedModel& m, std::vector<
     stiffness_open = stiffness_open || (stiffness && p.informed < 0.5);
     const double range = p.parameter.most - p.parameter.least;
     at_edge = p.value < p.parameter.least + 1e-6 * range || p.value > p.parameter.most - 1e-6 * range;
-    if (at_edge)
+    if (at_edge && p.informed > 0.01)  // what the data say nothing of stays where it was
       out.push_back(fmt::format("{} ended at the edge of its range, {:.3g}: it stands in for something else.",
                                 p.parameter.label, p.value));
   }
