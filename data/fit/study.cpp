@@ -17,9 +17,10 @@ namespace {
 using Eigen::VectorXd;
 
 constexpr int further_starts = 7;
-constexpr std::size_t descents = 2;
+constexpr std::size_t most_descents = 2;
 constexpr int starts_for_each = 12;  // at most, of what is added
 constexpr int starts_ahead = 6;
+constexpr int starts_in_vessel = 2;  // a history has no branches to land on, and takes as long as hundreds of shapes
 constexpr double another_branch_m = 0.1e-3;  // tips further apart than this are on other branches
 
 std::vector<int> everyone(const MeasurementSet& set) {
@@ -64,6 +65,8 @@ Study::Study(const MeasurementSet& set, const Workers& workers, const std::vecto
   if (name_.empty()) name_ = "what is declared";
 }
 
+std::size_t Study::descents() const { return set_.vessel ? 1 : most_descents; }
+
 void Study::say(const std::string& what) const {
   if (progress_) progress_(name_ + ": " + what);
 }
@@ -73,7 +76,8 @@ FittedModel Study::run(std::optional<double> noise_m) {
   say("walking through the experiments");
   anchor(parameters_.start());
   say("fit");
-  FitOptions options{all_, noise_m, starts_of(parameters_, parameters_.start(), 0, further_starts), descents};
+  const int further = set_.vessel ? starts_in_vessel : further_starts;
+  FitOptions options{all_, noise_m, starts_of(parameters_, parameters_.start(), 0, further), descents()};
   fit_ = fit(*forward_, parameters_, options);
   const std::vector<std::string> others = on_other_branches();
   if (!others.empty()) {
@@ -91,6 +95,7 @@ FittedModel Study::run(std::optional<double> noise_m) {
 
 FitOptions Study::options_near(const FittedModel& near, std::optional<double> noise_m, double guess_m, int starts) {
   longest_element_m_ = coarse_elements_m;
+  if (set_.vessel) starts = std::min(starts, starts_in_vessel);
   VectorXd x = parameters_.start();
   for (int i = 0; i < parameters_.size(); ++i)
     for (const FittedParameter& p : near.parameters)
@@ -104,15 +109,15 @@ FitOptions Study::options_near(const FittedModel& near, std::optional<double> no
   };
   while (first < parameters_.shape_parameters() && known(first)) ++first;
   const int spread = std::min(starts, starts_for_each * (parameters_.shape_parameters() - first));
-  FitOptions options{all_, noise_m, starts_of(parameters_, x, first, spread), descents};
+  FitOptions options{all_, noise_m, starts_of(parameters_, x, first, spread), descents()};
   // Without what it lacks, the other model's stiffness may have gone far astray.
-  if (starts > 0) options.other_starts = starts_of(parameters_, parameters_.start(), first, spread / 2);
+  if (starts > 0 && !set_.vessel) options.other_starts = starts_of(parameters_, parameters_.start(), first, spread / 2);
   options.guess_m = guess_m, options.rounds = 2, options.rough = true;
   return options;
 }
 
 double Study::cost_ahead_near(const FittedModel& near, std::optional<double> noise_m, double guess_m) {
-  FitOptions options = options_near(near, noise_m, guess_m, starts_ahead);
+  FitOptions options = options_near(near, noise_m, guess_m, set_.vessel ? 0 : starts_ahead);
   options.starts.insert(options.starts.end(), options.other_starts.begin(), options.other_starts.end());
   return cost_ahead(*forward_, parameters_, options);
 }

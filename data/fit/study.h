@@ -29,6 +29,7 @@ class Study {
   std::vector<Eigen::VectorXd> misfits_at_start() const;
 
  private:
+  std::size_t descents() const;  ///< from how many starts a fit goes downhill
   void say(const std::string& what) const;
   FitOptions options_near(const FittedModel& near, std::optional<double> noise_m, double guess_m, int starts);
   /// Finds the shapes to continue from: those that the walk through the experiments comes to at x.
