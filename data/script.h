@@ -29,6 +29,7 @@ enum class ConditionKind {
   beats,
   balloon_at,
   balloon_within,
+  balloon_clear,
   balloon_open,
   balloon_empty,
   engaged,

@@ -85,6 +85,8 @@ inline const JsonObjectKeys condition = {
       "positive: reached from either side, judged while the heart rests"},
      {"balloon_within_mm", false,
       "that middle is no farther from the lesion's, either way, in mm, > 0; judged while the heart rests"},
+     {"balloon_clear_of_guide_mm", false,
+      "its proximal marker is so far out of the guide, or the guide is out of the body, in mm, > 0"},
      {"balloon_open", false, "true: its waist is gone"},
      {"balloon_empty", false, "true: nothing is seen in the balloon"},
      {"engaged", false, "an artery that leaves the aorta: the guide's tip is in its ostium"},

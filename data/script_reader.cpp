@@ -47,6 +47,7 @@ constexpr Kind kinds[] = {{"tip_passes", ConditionKind::tip_passes, 0},
                           {"beats", ConditionKind::beats, 1},
                           {"balloon_at_mm", ConditionKind::balloon_at, 1e-3},
                           {"balloon_within_mm", ConditionKind::balloon_within, 1e-3},
+                          {"balloon_clear_of_guide_mm", ConditionKind::balloon_clear, 1e-3},
                           {"balloon_open", ConditionKind::balloon_open, 0},
                           {"balloon_empty", ConditionKind::balloon_empty, 0},
                           {"engaged", ConditionKind::engaged, 0},
@@ -65,6 +66,7 @@ bool of_no_tool(ConditionKind kind) {
     case ConditionKind::beats:
     case ConditionKind::balloon_at:
     case ConditionKind::balloon_within:
+    case ConditionKind::balloon_clear:
     case ConditionKind::balloon_open:
     case ConditionKind::balloon_empty:
     case ConditionKind::engaged:

@@ -21,6 +21,7 @@ bool needs_patient(ConditionKind kind) {
   switch (kind) {
     case ConditionKind::balloon_at:
     case ConditionKind::balloon_within:
+    case ConditionKind::balloon_clear:
     case ConditionKind::balloon_open:
     case ConditionKind::balloon_empty:
     case ConditionKind::engaged:
@@ -178,6 +179,8 @@ struct Sight {
         return balloon_is_at(c.value);
       case ConditionKind::balloon_within:
         return balloon_is_within(c.value);
+      case ConditionKind::balloon_clear:
+        return balloon_is_out_of_guide(c.value);
       case ConditionKind::balloon_open:
         return balloon() && session.treatment.balloon.pressure_Pa > 101325 &&
                waist(*balloon(), session.treatment.balloon) > 0.9;
@@ -238,6 +241,15 @@ struct Sight {
     for (std::size_t t = 0; t < model.tools.size(); ++t)
       if (model.balloon_of[t] == static_cast<int>(session.bedside.balloon))
         return session.hands[t].fed_m >= state.began_fed_m[t] ? *at >= offset_m : *at <= offset_m;
+    return false;
+  }
+
+  bool balloon_is_out_of_guide(double by_m) const {
+    const auto inserted_m = [&](std::size_t tool) { return session.rods.rods[tool].inserted_m; };
+    const double guide_m = session.bedside.guide < 0 ? 0 : inserted_m(static_cast<std::size_t>(session.bedside.guide));
+    for (std::size_t t = 0; t < model.tools.size(); ++t)
+      if (session.bedside.balloon >= 0 && model.balloon_of[t] == static_cast<int>(session.bedside.balloon))
+        return inserted_m(t) - marker_from_tip_m(model.tools[t].instrument, 0) >= guide_m + by_m;
     return false;
   }
 

@@ -141,6 +141,7 @@ TEST(Script, TreatsInSiUnits) {
   EXPECT_NEAR(script.steps[2].until[1].value, 1e-3, 1e-15);
   expect_words(treatment_refusal("\"balloon_within_mm\": 1", "\"stent_beyond_mm\": 0"), {"treatment.json:", "> 0"});
   EXPECT_EQ(treatment_refusal("\"balloon_within_mm\": 1", "\"stent_beyond_mm\": 2"), "accepted");
+  EXPECT_EQ(treatment_refusal("\"balloon_within_mm\": 1", "\"balloon_clear_of_guide_mm\": 2"), "accepted");
   EXPECT_NEAR(script.steps[3].gauge_Pa, 1013250, 1e-6);
   EXPECT_EQ(script.steps[4].until[1].place, "damped");
   EXPECT_NEAR(script.steps[5].unless[0].value, 0.2e-3, 1e-15) << "V";
