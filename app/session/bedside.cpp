@@ -171,7 +171,7 @@ void look_at_crimped_stent(const BedsideModel& model, const State& rods, const T
   if (inside_m <= 0) s.caught = 0;
   if (inside_m <= 0 || s.stent_out == 0) return;
   if (s.caught == 0) {
-    constexpr double beyond_m = 4e-3;
+    constexpr double beyond_m = 4e-3, edge_m = 1e-3;  // what opens farther in does not hang on the edge
     const Rod& shaft = model.rods.rods[t];
     const Vector3d along = point_from_tip(shaft, rods.rods[t], std::max(0.0, out_m - beyond_m)) -
                            point_from_tip(shaft, rods.rods[t], out_m);
@@ -179,7 +179,7 @@ void look_at_crimped_stent(const BedsideModel& model, const State& rods, const T
         std::acos(std::clamp(along.normalized().dot(direction_at_tip(model.rods.rods[g], rods.rods[g])), -1.0, 1.0));
     const double widest = *std::max_element(stent.radius_m.begin(), stent.radius_m.end());
     const double strut = model.treatment.stents[static_cast<std::size_t>(own)].strut_m;
-    if (angle > catch_angle_rad || widest + strut > guide.inner_diameter_m / 2)
+    if (inside_m < edge_m && (angle > catch_angle_rad || widest + strut > guide.inner_diameter_m / 2))
       s.caught = 1;
     else if (inside_m > 2e-3)
       s.stent_out = 0;  // it has found its way in
