@@ -78,6 +78,7 @@ ReportRun run_of(Replay& replay, const std::string& code, const ScoreList& list,
   run.case_name = replay.setup.vessel, run.script = replay.setup.script.name, run.seed = replay.setup.seed;
   run.software = replay.recording.software();
   run.outcome = "cut off", run.reason = "the recording has no end";
+  for (const SessionTool& tool : replay.model.tools) run.tools.push_back(tool.name);
   run.record = record_of(replay.recording, replay.model);
   run.simulated_s = static_cast<double>(run.record.steps) * run.record.step_s;
   run.metrics = metrics_of(run.record);
@@ -96,12 +97,6 @@ ReportRun run_of(Replay& replay, const std::string& code, const ScoreList& list,
   return run;
 }
 
-std::vector<std::string> tools_of(const SessionModel& model) {
-  std::vector<std::string> tools;
-  for (const SessionTool& tool : model.tools) tools.push_back(tool.name);
-  return tools;
-}
-
 }  // namespace
 
 void report_folder(const std::string& folder, std::shared_ptr<const Vessel> vessel) {
@@ -111,7 +106,7 @@ void report_folder(const std::string& folder, std::shared_ptr<const Vessel> vess
   const ScoreList list = find_score_list("pci-elective");
   const std::vector<ReportRun> runs = {run_of(replay, "this run", list, true)};
   write_file((at / "report.html").string(), report_page(runs, list));
-  write_file((at / "events.csv").string(), events_csv(runs[0].record, tools_of(replay.model)));
+  write_file((at / "events.csv").string(), events_csv(runs[0]));
   for (std::size_t i = 0; i < runs[0].pictures.size(); ++i) {
     const ReportPicture& p = runs[0].pictures[i];
     write_file((at / "key-frames" / fmt::format("{:02}.png", i + 1)).string(), {p.png.begin(), p.png.end()});
@@ -132,7 +127,7 @@ int report_command(const ReportOptions& o) {
     say("reading " + o.files[i]);
     Replay replay(o.files[i]);
     runs.push_back(run_of(replay, o.codes.empty() ? fmt::format("run {}", i + 1) : o.codes[i], list, o.pictures));
-    if (i == 0 && !o.events.empty()) write_file(o.events, events_csv(runs[0].record, tools_of(replay.model)));
+    if (i == 0 && !o.events.empty()) write_file(o.events, events_csv(runs[0]));
   }
   if (!o.page.empty()) write_file(o.page, report_page(runs, list));
   if (!o.csv.empty()) write_file(o.csv, report_csv(runs, list));

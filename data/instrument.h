@@ -91,6 +91,11 @@ struct Instrument {
   std::vector<Source> sources;                ///< in the order of the file
 };
 
+/// What contrast is given through: a guide or a diagnostic catheter.
+inline bool is_catheter(const Instrument& i) {
+  return i.kind == InstrumentKind::guide_catheter || i.kind == InstrumentKind::diagnostic_catheter;
+}
+
 /// "published" if no source is an estimate, "estimate" if all are, else "mixed".
 std::string source_mark(const Instrument& instrument);
 

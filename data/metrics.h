@@ -42,7 +42,26 @@ enum class EventCode : int {
   injection_on_bad_trace,
   entry_refused,
   ffr_changes,
-  stent_elsewhere
+  stent_elsewhere,
+  // Handling, see app/session/handling.
+  catheter_without_wire,
+  wire_strays,
+  wire_in_ventricle,
+  thick_wire_in_coronary,
+  push_without_advance,
+  wound_up,
+  tip_whips,
+  deep_seat,
+  bad_trace_kept,
+  side_branch_pushed,
+  blind_wire,
+  wire_too_far,
+  wire_drift,
+  wire_position_lost,
+  open_balloon_dragged,
+  long_inflation,
+  balloon_beyond_stent,
+  idle_beam
 };
 
 /// Above this the sum of wall forces on a tool is an event. An estimate: no limit is agreed on; peak forces that
@@ -57,13 +76,18 @@ inline constexpr double occluded_share = 0.05;
 /// landmark.
 inline constexpr double filled_share = 0.5, seen_share = 0.15;
 
+/// Of how tools are handled; what happens by itself, or is meant, is none.
+enum class Severity { none, error, critical };
+
 struct EventDefinition {
   EventCode code;
   std::string name;
   std::string definition;
   std::string value;  ///< what its value is, with the unit; empty: none
+  Severity severity = Severity::none;
 };
 const std::vector<EventDefinition>& event_definitions();
+const char* severity_name(Severity severity);  ///< "error"; of none: ""
 
 /// A run as its recording has it.
 struct RunRecord {

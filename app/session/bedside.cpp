@@ -33,10 +33,6 @@ constexpr double most_caught_N = 5;       // a balloon's shaft tears soon beyond
 constexpr double in_vessel = 1.6;         // radii from a centreline within which a point counts as inside
 constexpr double manifold_m3 = 0.3e-6;    // of the line ahead of the guide
 
-bool is_catheter(const Instrument& i) {
-  return i.kind == InstrumentKind::guide_catheter || i.kind == InstrumentKind::diagnostic_catheter;
-}
-
 /// The first catheter in the body; the outermost.
 int guide_of(const BedsideModel& model, const State& rods) {
   for (std::size_t t = 0; t < model.tools.size(); ++t)

@@ -139,11 +139,10 @@ void put_signals(const SessionModel& model, const SessionState& state, const Ses
 }
 
 EventWatch::EventWatch(const SessionModel& model)
-    : tools_(model.tools.size()), stents_(model.treatment.stents.size(), StentState::on_balloon) {}
+    : tools_(model.tools.size()), handling_(model), stents_(model.treatment.stents.size(), StentState::on_balloon) {}
 
-template <class Say>
 void EventWatch::look_at_patient(const SessionModel& model, const SessionInputs& inputs, const SessionState& state,
-                                 const SessionReport& report, Say&& say) {
+                                 const SessionReport& report, const EventSink& say) {
   const BedsideInputs& hand = inputs.bedside;
   const TreatmentState& treated = state.treatment;
   const double time_s = seconds(model, state);
@@ -218,9 +217,7 @@ void EventWatch::look(const SessionModel& model, const SessionInputs& inputs, co
                       const SessionReport& report, const std::vector<OperatorEvent>& script,
                       std::vector<SessionEvent>& events) {
   const std::uint64_t now = state.rods.step;
-  const auto say = [&](EventCode code, int tool, double value) {
-    events.push_back({now, static_cast<int>(code), tool, value});
-  };
+  const EventSink say{now, events};
   for (const OperatorEvent& e : script) {
     using Kind = OperatorEvent::Kind;
     say(e.kind == Kind::begins   ? EventCode::script_step_begins
@@ -256,6 +253,7 @@ void EventWatch::look(const SessionModel& model, const SessionInputs& inputs, co
   if (trouble && !trouble_) say(EventCode::step_trouble, -1, trouble);
   trouble_ = trouble;
   if (model.has_patient()) look_at_patient(model, inputs, state, report, say);
+  if (now % HandlingWatch::every == 0) handling_.look(model, inputs, state, report, say);
 }
 
 }  // namespace ostium

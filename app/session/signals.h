@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "app/session/handling/handling.h"
 #include "app/session/operator.h"
-#include "data/metrics.h"
 
 namespace ostium {
 
@@ -15,14 +15,6 @@ std::vector<std::string> signal_names(const SessionModel& model);  ///< "wire.ti
 /// `row` has signal_count numbers. Does not allocate.
 void put_signals(const SessionModel& model, const SessionState& state, const SessionInputs& inputs,
                  const SessionReport& report, float* row);
-
-/// What a step of the loop says to the recording besides its numbers.
-struct SessionEvent {
-  std::uint64_t step = 0;
-  int code = 0;   ///< EventCode of data/metrics.h
-  int tool = -1;  ///< -1: none
-  double value = 0;
-};
 
 /// Finds events by comparing a step with the one before; remembers what it needs for that. Part of the loop, not of the
 /// simulation: replay does without.
@@ -40,10 +32,10 @@ class EventWatch {
     double wall_force_N = 0;  ///< behind the low pass that metrics use
   };
   std::vector<Tool> tools_;
-  template <class Say>
   void look_at_patient(const SessionModel& model, const SessionInputs& inputs, const SessionState& state,
-                       const SessionReport& report, Say&& say);
+                       const SessionReport& report, const EventSink& say);
 
+  HandlingWatch handling_;
   std::vector<double> stents_;  ///< where they were
   std::array<double, most_injuries> injuries_{};
   bool injects_ = false, inflated_ = false, filled_ = false, over_ = false, closed_ = false;

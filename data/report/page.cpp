@@ -189,6 +189,34 @@ std::string score_table(const std::vector<ReportRun>& runs, const ScoreList& lis
   return out + "</table>\n<p><button onclick=\"save('score','scores.csv')\">Save the list as CSV</button></p>\n";
 }
 
+/// Of the event at `e`; empty: none.
+std::string tool_of(const ReportRun& run, std::size_t e) {
+  const double tool = run.record.events[e + 2];
+  return tool >= 0 && tool < static_cast<double>(run.tools.size()) ? run.tools[static_cast<std::size_t>(tool)] : "";
+}
+
+/// What went wrong, when, and what is meant by it.
+std::string handling_table(const ReportRun& run) {
+  std::string rows;
+  for (std::size_t e = 0; e + 3 < run.record.events.size(); e += 4)
+    for (const EventDefinition& d : event_definitions())
+      if (d.severity != Severity::none && static_cast<int>(d.code) == static_cast<int>(run.record.events[e + 1]))
+        rows += fmt::format(
+            "<tr><td class=\"n\">{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td class=\"small\">{}</td></tr>\n",
+            time_text(run.record.events[e] * run.record.step_s), severity_name(d.severity), d.name,
+            escaped(tool_of(run, e)),
+            d.value.empty()
+                ? ""
+                : fmt::format("{:.3g} <span class=\"small\">{}</span>", run.record.events[e + 3], escaped(d.value)),
+            escaped(d.definition));
+  return "<h2>Handling" + (run.code.empty() ? "" : " of " + escaped(run.code)) + "</h2>\n" +
+         (rows.empty()
+              ? "<p>No error of handling was found.</p>\n"
+              : "<table><tr><th>time</th><th></th><th>error</th><th>tool</th><th>value</th><th>what it means (limits "
+                "are a draft, not validated)</th></tr>\n" +
+                    rows + "</table>\n");
+}
+
 std::string events_table(const ReportRun& run) {
   std::string out = "<h2>Events" + (run.code.empty() ? "" : " of " + escaped(run.code)) +
                     "</h2>\n<table><tr><th>time</th><th>event</th><th>value</th></tr>\n";
@@ -255,6 +283,7 @@ std::string report_page(const std::vector<ReportRun>& runs, const ScoreList& lis
           plot_of(runs, "Contrast", "contrast_mL", "mL");
   for (const ReportRun& run : runs) body += inflation_strips(run, runs.size() > 1);
   body += metrics_table(runs) + score_table(runs, list);
+  for (const ReportRun& run : runs) body += handling_table(run);
   for (const ReportRun& run : runs) body += events_table(run);
   return page(runs.size() == 1 ? "Run of " + runs[0].case_name : fmt::format("{} runs", runs.size()), body);
 }
@@ -281,17 +310,17 @@ std::string report_csv(const std::vector<ReportRun>& runs, const ScoreList& list
   return out;
 }
 
-std::string events_csv(const RunRecord& record, const std::vector<std::string>& tools) {
-  std::string out = "time_s,event,tool,value,meaning\n";
+std::string events_csv(const ReportRun& run) {
+  const RunRecord& record = run.record;
+  std::string out = "time_s,event,tool,value,meaning,handling\n";
   for (std::size_t e = 0; e + 3 < record.events.size(); e += 4) {
     const auto code = static_cast<int>(record.events[e + 1]);
-    const auto tool = static_cast<long>(record.events[e + 2]);
     for (const EventDefinition& definition : event_definitions())
       if (static_cast<int>(definition.code) == code)
-        out += fmt::format(
-            "{:.3f},{},{},{},{}\n", record.events[e] * record.step_s, definition.name,
-            tool >= 0 && tool < static_cast<long>(tools.size()) ? quoted(tools[static_cast<std::size_t>(tool)]) : "",
-            definition.value.empty() ? "" : fmt::format("{:.6g}", record.events[e + 3]), quoted(definition.value));
+        out += fmt::format("{:.3f},{},{},{},{},{}\n", record.events[e] * record.step_s, definition.name,
+                           quoted(tool_of(run, e)),
+                           definition.value.empty() ? "" : fmt::format("{:.6g}", record.events[e + 3]),
+                           quoted(definition.value), severity_name(definition.severity));
   }
   return out;
 }

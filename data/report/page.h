@@ -19,6 +19,7 @@ struct ReportRun {
   std::string case_name, script, outcome, reason, software;
   std::uint64_t seed = 0;
   double simulated_s = 0;
+  std::vector<std::string> tools;  ///< names
   RunRecord record;
   std::vector<Metric> metrics;
   std::vector<Score> scores;  ///< of the list
@@ -30,8 +31,8 @@ std::string report_page(const std::vector<ReportRun>& runs, const ScoreList& lis
 /// A row a run: code, case, script, seed, outcome, then every metric and every item of the list (1 holds, 0 does not,
 /// empty: not seen).
 std::string report_csv(const std::vector<ReportRun>& runs, const ScoreList& list);
-/// A run's events: time, name, tool, value with its meaning.
-std::string events_csv(const RunRecord& record, const std::vector<std::string>& tools);
+/// A run's events: time, name, tool, value with its meaning, "error" or "critical" of those that are of handling.
+std::string events_csv(const ReportRun& run);
 
 /// The face and content questionnaires of a validation study, as a page with forms: its answers are saved as CSV.
 std::string questionnaire_page();

@@ -134,8 +134,29 @@ TEST(Report, TablesHaveARowEach) {
   const std::size_t columns =
       static_cast<std::size_t>(std::count(csv.begin(), csv.begin() + static_cast<long>(csv.find('\n')), ','));
   EXPECT_EQ(columns, 6 + metric_definitions().size() + 4);
-  EXPECT_EQ(
-      events_csv(run_with("").record, {"wire"}).substr(0, 50).find("time_s,event,tool,value,meaning\n1.000,mark,"), 0u);
+  ReportRun run = run_with("");
+  run.tools = {"wire"};
+  EXPECT_EQ(events_csv(run).find("time_s,event,tool,value,meaning,handling\n1.000,mark,"), 0u);
+}
+
+TEST(Report, ErrorsOfHandlingAreListedWithTheirMeaning) {
+  const ScoreList list = read_score_list("folder/small.json", small);
+  ReportRun run = run_with("");
+  EXPECT_NE(report_page({run}, list).find("No error of handling was found"), std::string::npos);
+  run.tools = {"guide", "wire"};
+  run.record.events = {2000, code(EventCode::side_branch_pushed), 1, 12.5, 3000, code(EventCode::stent_lost), -1, 0};
+  const std::string page = report_page({run}, list), csv = events_csv(run);
+  EXPECT_EQ(page.find("No error of handling"), std::string::npos);
+  EXPECT_NE(page.find("<td>error</td><td>side_branch_pushed</td><td>wire</td><td>12.5"), std::string::npos);
+  EXPECT_NE(page.find("<td>critical</td><td>stent_lost</td>"), std::string::npos);
+  EXPECT_NE(csv.find("2.000,side_branch_pushed,\"wire\",12.5,\"mm inside\",error\n"), std::string::npos) << csv;
+  const auto metric = [&](const std::string& name) {
+    for (const Metric& m : metrics_of(run.record))
+      if (m.name == name) return m.value;
+    return -1.0;
+  };
+  EXPECT_EQ(metric("handling_errors"), 2);
+  EXPECT_EQ(metric("handling_errors_critical"), 1);
 }
 
 TEST(Report, FormsAskAndPromiseNothing) {

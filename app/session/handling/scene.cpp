@@ -1,0 +1,149 @@
+#include "app/session/handling/scene.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/rod/introducer.h"
+#include "core/rod/rod_state.h"
+#include "fluoro/c_arm.h"
+
+namespace ostium {
+
+namespace {
+
+constexpr double thick_m = 0.7e-3;                    // in diameter: 0.035 in wires and those like them
+constexpr double rests_from = 0.68, rests_to = 0.84;  // of the beat: diastasis (heart_cycle.cpp)
+
+void map_way(const Way& way, HandlingMap& map) {
+  std::vector<int> ostia;
+  for (const char* name : {"LM", "RCA"})
+    if (const int at = way.entry(name); at >= 0) ostia.push_back(at);
+  const int ascending = way.place("ascending aorta");
+  std::size_t count = 0;
+  for (const TreeBranch& branch : way.branches()) count += branch.spheres.size();
+  map.astray_m.assign(count, 0), map.in_coronary_m.assign(count, 0);
+  map.before_root.assign(count, 0), map.in_ventricle.assign(count, 0);
+  if (ostia.empty() || ascending < 0) return;
+  for (int s = 0; s < static_cast<int>(count); ++s) {
+    const auto i = static_cast<std::size_t>(s);
+    const std::string& name = way.branches()[static_cast<std::size_t>(way.branch(s))].name;
+    const int entry = way.entry(name);
+    map.in_ventricle[i] = name == "left ventricle";
+    map.before_root[i] = !way.beyond(s, ascending);
+    bool leads = name.ends_with("sinus") || map.in_ventricle[i];
+    for (int ostium : ostia) {
+      leads = leads || way.beyond(ostium, entry) || way.beyond(entry, ostium);
+      if (way.beyond(s, ostium)) map.in_coronary_m[i] = way.from_access_m(s) - way.from_access_m(ostium);
+    }
+    if (!leads) map.astray_m[i] = std::max(0.0, way.from_access_m(s) - way.from_access_m(entry));
+  }
+}
+
+void map_arteries(const SessionModel& model, HandlingMap& map) {
+  const FlowTree& tree = model.physiology.flow.tree;
+  const std::size_t n = tree.cells.size();
+  map.from_ostium_m.assign(n, 0), map.to_end_m.assign(n, 0), map.unplanned_m.assign(n, 0), map.healthy_m.assign(n, 0);
+  map.before_lesion.assign(n, 0), map.behind_lesion.assign(n, 0);
+  // Farther in than 1 cm, or past the middle of the left main.
+  constexpr double deep_m = 10e-3;
+  map.deep_m.assign(n, deep_m);
+  const auto& lesions = model.vessel->coronaries->lesions;
+  int first = -1, last = -1;
+  if (!lesions.empty()) {
+    const VesselPath& path = lesions[0].path;
+    first = path.cells[static_cast<std::size_t>(path.at(lesions[0].from_m).index)];
+    last = path.cells[static_cast<std::size_t>(path.at(lesions[0].to_m).index)];
+  }
+  const auto apart_m = [&](std::size_t c, std::size_t up) {
+    return (tree.cells[c].length_m + tree.cells[up].length_m) / 2;
+  };
+  for (std::size_t c = 0; c < n; ++c) {
+    const int upstream = tree.cells[c].upstream, own = static_cast<int>(c);
+    const auto up = static_cast<std::size_t>(upstream);
+    map.healthy_m[c] = tree.cells[c].healthy_m;
+    map.from_ostium_m[c] = upstream < 0 ? tree.cells[c].length_m / 2 : map.from_ostium_m[up] + apart_m(c, up);
+    if (last < 0) continue;
+    map.before_lesion[c] = own != first && tree.is_downstream(first, own);
+    map.behind_lesion[c] = own != last && tree.is_downstream(own, last);
+    const bool planned = own == last || map.behind_lesion[c] || tree.is_downstream(last, own);
+    map.unplanned_m[c] = planned ? 0 : (upstream < 0 ? 0 : map.unplanned_m[up]) + tree.cells[c].length_m;
+  }
+  for (std::size_t c = n; c-- > 0;)
+    if (tree.cells[c].upstream >= 0) {
+      const auto up = static_cast<std::size_t>(tree.cells[c].upstream);
+      map.to_end_m[up] = std::max(map.to_end_m[up], map.to_end_m[c] + apart_m(c, up));
+    }
+  for (const FlowBranch& branch : tree.branches) {
+    if (branch.name != "LM") continue;
+    const double half_m = map.from_ostium_m[static_cast<std::size_t>(branch.last - 1)] / 2;
+    for (std::size_t c = 0; c < n; ++c)
+      if (static_cast<int>(c) == branch.first || tree.is_downstream(static_cast<int>(c), branch.first))
+        map.deep_m[c] = std::min(deep_m, half_m);
+  }
+}
+
+/// Of the material about the rod's axis, summed over its joints.
+double twist_rad(const Rod& rod, const RodState& state) {
+  double sum = 0;
+  const Field<4>& q = state.orientation;
+  for (int i = first_element(state) + 1; i < rod.elements; ++i) {
+    const Eigen::Quaterniond a(q.at(0)[i - 1], q.at(1)[i - 1], q.at(2)[i - 1], q.at(3)[i - 1]),
+        b(q.at(0)[i], q.at(1)[i], q.at(2)[i], q.at(3)[i]);
+    const Eigen::Quaterniond r = a.conjugate() * b;
+    sum += 2 * std::atan2(r.w() < 0 ? -r.z() : r.z(), std::fabs(r.w()));
+  }
+  return sum;
+}
+
+bool in_field(const CArmInputs& in, const Eigen::Vector3d& p) {
+  const CArm arm{.lao_rad = in.lao_rad, .cran_rad = in.cran_rad, .p_PI = in.p_PI};
+  const auto at = project(arm, p);
+  return at && at->cwiseAbs().maxCoeff() <= in.field_m / 2;
+}
+
+}  // namespace
+
+HandlingMap::HandlingMap(const SessionModel& model) {
+  map_way(*model.vessel->way, *this);
+  if (model.has_patient()) map_arteries(model, *this);
+}
+
+void see(const SessionModel& model, const SessionInputs& inputs, const SessionState& state, const SessionReport& report,
+         HandlingScene& x) {
+  x.time_s = seconds(model, state);
+  const double phase = state.blood.heart.phase;
+  x.diastasis = phase > rests_from && phase < rests_to;
+  x.beam = inputs.c_arm.fluoroscopy > 0 || inputs.c_arm.cine > 0;
+  x.injects = inputs.bedside.injection_m3_s > 0;
+  x.gauge_atm = inputs.bedside.gauge_Pa / 101325;
+  x.tools.resize(model.tools.size());
+  x.catheter = x.thick_wire = x.thin_wire = x.device = -1;
+  for (int t = 0; t < static_cast<int>(model.tools.size()); ++t) {
+    const auto i = static_cast<std::size_t>(t);
+    HandledTool& tool = x.tools[i];
+    tool = {.in_body = report.tools[i].in_body,
+            .inserted_m = state.rods.rods[i].inserted_m,
+            .fed_m = state.hands[i].fed_m,
+            .advance_m_s = inputs.tools[i].advance_m_s,
+            .turn_rad_s = inputs.tools[i].turn_rad_s,
+            .push_N = report.tools[i].push_N};
+    if (!tool.in_body) continue;
+    tool.sphere = model.vessel->way->locate(tip(model, state, t), phase, breath(model, state));
+    const Instrument& instrument = model.tools[i].instrument;
+    if (is_catheter(instrument) && x.catheter < 0) x.catheter = t;
+    if (model.balloon_of[i] >= 0) x.device = t;
+    if (instrument.kind == InstrumentKind::wire)
+      (instrument.outer_diameter_m < thick_m ? x.thin_wire : x.thick_wire) = t;
+  }
+  const BedsideState& b = state.bedside;
+  x.wire_cell = x.thin_wire < 0 || !model.has_patient() ? -1 : static_cast<int>(b.wire_cell);
+  x.catheter_cell = x.catheter >= 0 && model.has_patient() && static_cast<int>(b.where) == TipPlace::coronary
+                        ? static_cast<int>(b.cell)
+                        : -1;
+  x.thin_tip_is_seen = x.beam && x.thin_wire >= 0 && in_field(inputs.c_arm, tip(model, state, x.thin_wire));
+  x.twist_rad = x.catheter < 0 ? 0
+                               : twist_rad(model.rods.rods[static_cast<std::size_t>(x.catheter)],
+                                           state.rods.rods[static_cast<std::size_t>(x.catheter)]);
+}
+
+}  // namespace ostium

@@ -1,0 +1,258 @@
+/// Errors of handling: what each is found by, with scenes made by hand; then a case's own map, and a run.
+#include "app/session/handling/handling.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "app/session/run.h"
+#include "app/session/signals.h"
+#include "data/script.h"
+
+namespace ostium {
+namespace {
+
+enum Tool { guide, thick, thin, balloon };
+
+/// A way of three places (aorta, its branch, ventricle), and an artery of 100 cells a millimetre each with its lesion
+/// from 30 to 40 mm; the cells from 50 on are again numbered 100 to 149 in a side branch that leaves at 20 mm.
+struct Played {
+  HandlingMap map;
+  HandlingScene scene;
+  std::vector<SessionEvent> events;
+
+  Played() {
+    map.astray_m = {0, 30e-3, 0, 0}, map.in_coronary_m = {0, 0, 0, 8e-3};
+    map.before_root = {1, 1, 0, 0}, map.in_ventricle = {0, 0, 1, 0};
+    for (int c = 0; c < 150; ++c) {
+      const bool side = c >= 100;
+      map.from_ostium_m.push_back(1e-3 * (side ? c - 80 : c));
+      map.to_end_m.push_back(1e-3 * (side ? 149 - c : 99 - c));
+      map.unplanned_m.push_back(side ? 1e-3 * (c - 99) : 0);
+      map.deep_m.push_back(10e-3), map.healthy_m.push_back(1.5e-3);
+      map.before_lesion.push_back(!side && c < 30), map.behind_lesion.push_back(!side && c > 40);
+    }
+    scene.tools.resize(4);
+    for (HandledTool& tool : scene.tools) tool.sphere = 0;
+    scene.beam = scene.thin_tip_is_seen = scene.diastasis = true;
+  }
+
+  HandledTool& operator[](Tool t) { return scene.tools[static_cast<std::size_t>(t)]; }
+  void feed(Tool t, double by_m) {
+    (*this)[t].inserted_m += by_m, (*this)[t].fed_m += by_m, (*this)[t].advance_m_s = by_m / 0.01;
+  }
+  /// Looks every 10 ms.
+  template <class Errors, class Each, class... More>
+  void play(Errors& errors, double seconds, Each each, More... more) {
+    for (int i = 0; i < std::lround(seconds / 0.01); ++i) {
+      scene.time_s += 0.01;
+      each(i);
+      errors.look(map, scene, more..., EventSink{static_cast<std::uint64_t>(1e3 * scene.time_s), events});
+    }
+  }
+  /// How many there were of a kind, which are forgotten.
+  int took(EventCode code) {
+    const auto n = std::count_if(events.begin(), events.end(),
+                                 [&](const SessionEvent& e) { return e.code == static_cast<int>(code); });
+    std::erase_if(events, [&](const SessionEvent& e) { return e.code == static_cast<int>(code); });
+    return static_cast<int>(n);
+  }
+};
+
+TEST(Handling, ACatheterFollowsAWireBelowTheRoot) {
+  Played p;
+  CatheterErrors errors;
+  p.scene.catheter = guide;
+  p.scene.thick_wire = thick;
+  p[thick].inserted_m = 0.5;
+  p.play(
+      errors, 1, [&](int) { p.feed(guide, 4e-3); }, Trace::normal);
+  EXPECT_TRUE(p.events.empty()) << "to 10 cm behind the wire's tip";
+  // 80 mm bring it to 20 mm behind the tip, 10 mm more to the error, which is one however far it goes on.
+  p.play(
+      errors, 0.2, [&](int) { p.feed(guide, 4e-3); }, Trace::normal);
+  EXPECT_EQ(p.took(EventCode::catheter_without_wire), 0);
+  p.play(
+      errors, 0.5, [&](int) { p.feed(guide, 4e-3); }, Trace::normal);
+  EXPECT_EQ(p.took(EventCode::catheter_without_wire), 1);
+  p[guide].sphere = 2;
+  p.play(
+      errors, 10, [&](int) { p.feed(guide, 4e-3); }, Trace::normal);
+  EXPECT_TRUE(p.events.empty()) << "beyond the arch it goes without a wire";
+}
+
+TEST(Handling, TwistIsJudgedByHowLongAndHowFast) {
+  Played p;
+  CatheterErrors errors;
+  p.scene.catheter = guide;
+  p[guide].sphere = 2;
+  const auto to = [&](double degrees) { p.scene.twist_rad = degrees * std::numbers::pi / 180; };
+  p.play(
+      errors, 2.7, [&](int i) { to(i); }, Trace::normal);
+  EXPECT_TRUE(p.events.empty());
+  p.play(
+      errors, 0.9, [&](int) { to(-280); }, Trace::normal);
+  EXPECT_EQ(p.took(EventCode::tip_whips), 1);
+  EXPECT_EQ(p.took(EventCode::wound_up), 0) << "not for a second yet";
+  p.play(
+      errors, 4, [&](int) { to(-280); }, Trace::normal);
+  EXPECT_EQ(p.took(EventCode::wound_up), 1);
+  p.play(
+      errors, 5, [&](int) { to(0); }, Trace::normal);
+  EXPECT_EQ(p.took(EventCode::tip_whips), 1);
+  EXPECT_TRUE(p.events.empty());
+}
+
+TEST(Handling, AGuideSitsWhereItShould) {
+  Played p;
+  CatheterErrors errors;
+  p.scene.catheter = guide;
+  p[guide].sphere = 3;
+  p.scene.catheter_cell = 9;
+  p.play(
+      errors, 10, [](int) {}, Trace::normal);
+  EXPECT_TRUE(p.events.empty());
+  p.scene.catheter_cell = 11;
+  p.play(
+      errors, 1.9, [](int) {}, Trace::normal);
+  EXPECT_TRUE(p.events.empty());
+  p.play(
+      errors, 5, [](int) {}, Trace::normal);
+  EXPECT_EQ(p.took(EventCode::deep_seat), 1);
+  p.scene.catheter_cell = 2;
+  p.play(
+      errors, 4.9, [](int) {}, Trace::ventricularised);
+  EXPECT_TRUE(p.events.empty());
+  p.play(
+      errors, 0.2, [](int) {}, Trace::damped);
+  EXPECT_EQ(p.took(EventCode::bad_trace_kept), 1);
+  EXPECT_TRUE(p.events.empty());
+}
+
+TEST(Handling, AThickWireStaysOnItsWay) {
+  Played p;
+  CatheterErrors errors;
+  p.scene.thick_wire = thick;
+  p.play(
+      errors, 5, [](int) {}, Trace::absent);
+  EXPECT_TRUE(p.events.empty());
+  p[thick].sphere = 1;
+  p.play(
+      errors, 5, [](int) {}, Trace::absent);
+  EXPECT_EQ(p.took(EventCode::wire_strays), 1);
+  p[thick].sphere = 2;
+  p.play(
+      errors, 1.9, [](int) {}, Trace::absent);
+  EXPECT_TRUE(p.events.empty());
+  p.play(
+      errors, 1.9, [](int) {}, Trace::absent);
+  EXPECT_EQ(p.took(EventCode::wire_in_ventricle), 1);
+  p[thick].sphere = 3;
+  p.play(
+      errors, 0.1, [](int) {}, Trace::absent);
+  EXPECT_EQ(p.took(EventCode::thick_wire_in_coronary), 1);
+  EXPECT_TRUE(p.events.empty());
+}
+
+TEST(Handling, ACoronaryWireIsSeenAndGoesWhereItIsPlanned) {
+  Played p;
+  WireErrors errors;
+  p.scene.thin_wire = thin;
+  p.play(errors, 8, [&](int i) { p.feed(thin, 1e-4), p.scene.wire_cell = i / 10; });
+  EXPECT_TRUE(p.events.empty()) << "seen, 80 mm down the artery";
+  p.scene.thin_tip_is_seen = false;
+  p.play(errors, 0.9, [&](int i) { p.feed(thin, i % 2 ? 1e-4 : -1e-4); });
+  EXPECT_EQ(p.took(EventCode::blind_wire), 0);
+  p.play(errors, 0.2, [&](int i) { p.feed(thin, i % 2 ? 1e-4 : -1e-4); });
+  EXPECT_EQ(p.took(EventCode::blind_wire), 1) << "there and back counts";
+  EXPECT_TRUE(p.events.empty());
+}
+
+TEST(Handling, ACoronaryWireIsNotPushedIntoASideBranch) {
+  Played p;
+  WireErrors errors;
+  p.scene.thin_wire = thin;
+  p.scene.wire_cell = 108;
+  p.play(errors, 1, [&](int) { p.feed(thin, 1e-5); });
+  EXPECT_EQ(p.took(EventCode::side_branch_pushed), 0) << "9 mm in";
+  p.scene.wire_cell = 111;
+  p.play(errors, 1, [&](int) { p.feed(thin, -1e-5); });
+  EXPECT_EQ(p.took(EventCode::side_branch_pushed), 0) << "drawn back";
+  p.play(errors, 1, [&](int) { p.feed(thin, 1e-5); });
+  EXPECT_EQ(p.took(EventCode::side_branch_pushed), 1);
+  EXPECT_TRUE(p.events.empty());
+}
+
+TEST(Handling, ACoronaryWireStaysBehindTheLesion) {
+  Played p;
+  WireErrors errors;
+  p.scene.thin_wire = thin;
+  const auto lie = [&](int cell, double seconds = 1) { p.scene.wire_cell = cell, p.play(errors, seconds, [](int) {}); };
+  lie(95, 4.9);
+  EXPECT_TRUE(p.events.empty());
+  lie(95, 0.2);
+  EXPECT_EQ(p.took(EventCode::wire_too_far), 1) << "5 mm from the artery's end";
+  lie(80);
+  // A device comes; the wire goes with it, beats do not count.
+  p.scene.device = balloon;
+  p[balloon].advance_m_s = 0.02;
+  lie(80);
+  p.scene.diastasis = false;
+  lie(90);
+  p.scene.diastasis = true;
+  lie(84);
+  EXPECT_EQ(p.took(EventCode::wire_drift), 0);
+  lie(86);
+  EXPECT_EQ(p.took(EventCode::wire_drift), 1);
+  p[balloon].advance_m_s = 0;
+  lie(20);
+  EXPECT_EQ(p.took(EventCode::wire_position_lost), 1) << "nobody drew it";
+  EXPECT_EQ(p.took(EventCode::wire_drift), 1);
+  p.scene.device = -1;
+  lie(80);
+  p.feed(thin, -55e-3);
+  lie(25);
+  EXPECT_TRUE(p.events.empty()) << "drawn back on purpose";
+}
+
+TEST(Handling, ACasesMapKnowsItsWaysAndItsLesion) {
+  RunSetup setup;
+  set_vessel("rca-mid-focal", LengthUnit::millimetre, setup);
+  set_script(find_script("rca-from-the-ostium"), setup);
+  std::string warnings;
+  const ScriptedRun run(setup, make_vessel(setup, warnings));
+  const HandlingMap map(run.model);
+  const Way& way = *run.model.vessel->way;
+  const auto at = [&](const char* place) {
+    EXPECT_GE(way.place(place), 0) << place;
+    return static_cast<std::size_t>(way.place(place));
+  };
+  EXPECT_NEAR(map.astray_m[at("left carotid+30")], 30e-3, 3e-3);
+  EXPECT_NEAR(map.astray_m[at("left subclavian+30")], 30e-3, 3e-3);
+  for (const char* place : {"diaphragm", "arch", "ascending aorta", "valve", "RCA+20", "LM", "LAD+20"})
+    EXPECT_EQ(map.astray_m[at(place)], 0) << place;
+  EXPECT_TRUE(map.before_root[at("arch")]);
+  EXPECT_FALSE(map.before_root[at("valve")]);
+  EXPECT_NEAR(map.in_coronary_m[at("RCA+20")], 20e-3, 2e-3);
+  EXPECT_EQ(map.in_coronary_m[at("arch")], 0);
+
+  const FlowTree& tree = run.model.physiology.flow.tree;
+  const Plan& plan = run.model.vessel->coronaries->lesions[0];
+  const auto cell = [&](const char* branch, double along_m) {
+    return static_cast<std::size_t>(tree.cell_at(tree.branch(branch), along_m));
+  };
+  const std::size_t near = cell("RCA", 2e-3), far = cell("RCA", plan.to_m + 10e-3), conus = cell("Conus", 15e-3);
+  EXPECT_TRUE(map.before_lesion[near] && !map.behind_lesion[near]);
+  EXPECT_TRUE(map.behind_lesion[far] && !map.before_lesion[far]);
+  EXPECT_EQ(map.unplanned_m[near], 0);
+  EXPECT_EQ(map.unplanned_m[far], 0);
+  EXPECT_NEAR(map.unplanned_m[conus], 15e-3, 5e-3);
+  EXPECT_EQ(map.deep_m[near], 10e-3);
+  const std::size_t lad = cell("LAD", 5e-3);
+  EXPECT_LT(map.deep_m[lad], 8e-3) << "half of the left main";
+  EXPECT_GT(map.to_end_m[near], 80e-3);
+}
+
+}  // namespace
+}  // namespace ostium
