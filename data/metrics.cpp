@@ -291,7 +291,7 @@ const std::vector<EventDefinition>& event_definitions() {
       {EventCode::stent_elsewhere, "stent_elsewhere",
        "a stent is left in the wall of another artery than the first lesion's", "branch, from 0", Severity::critical},
       {EventCode::catheter_without_wire, "catheter_without_wire",
-       "a catheter has been advanced by 10 mm below the root while no wire led it by 20 mm", "mm that a wire leads",
+       "a catheter has been advanced by 10 mm between sheath and arch while no wire led it by 20 mm", "mm that a wire leads",
        Severity::error},
       {EventCode::wire_strays, "wire_strays",
        "a thick wire is 20 mm inside a branch that leads to neither coronary ostium", "mm inside", Severity::error},

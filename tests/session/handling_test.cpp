@@ -233,6 +233,7 @@ TEST(Handling, ACasesMapKnowsItsWaysAndItsLesion) {
   for (const char* place : {"diaphragm", "arch", "ascending aorta", "valve", "RCA+20", "LM", "LAD+20"})
     EXPECT_EQ(map.astray_m[at(place)], 0) << place;
   EXPECT_TRUE(map.before_root[at("arch")]);
+  EXPECT_FALSE(map.before_root[at("ascending aorta")]);
   EXPECT_FALSE(map.before_root[at("valve")]);
   EXPECT_NEAR(map.in_coronary_m[at("RCA+20")], 20e-3, 2e-3);
   EXPECT_EQ(map.in_coronary_m[at("arch")], 0);

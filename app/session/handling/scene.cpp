@@ -14,6 +14,16 @@ namespace {
 constexpr double thick_m = 0.7e-3;                    // in diameter: 0.035 in wires and those like them
 constexpr double rests_from = 0.68, rests_to = 0.84;  // of the beat: diastasis (heart_cycle.cpp)
 
+/// How far from the access the last branch leaves the way to the ascending aorta: there the arch ends.
+double arch_ends_m(const Way& way, int ascending, int spheres) {
+  double end_m = 0;
+  for (const TreeBranch& branch : way.branches())
+    if (const int entry = way.entry(branch.name); entry >= 0 && !way.beyond(entry, ascending))
+      for (int s = 0; s < spheres; ++s)
+        if (way.beyond(ascending, s) && way.beyond(entry, s)) end_m = std::max(end_m, way.from_access_m(s));
+  return end_m;
+}
+
 void map_way(const Way& way, HandlingMap& map) {
   std::vector<int> ostia;
   for (const char* name : {"LM", "RCA"})
@@ -24,12 +34,13 @@ void map_way(const Way& way, HandlingMap& map) {
   map.astray_m.assign(count, 0), map.in_coronary_m.assign(count, 0);
   map.before_root.assign(count, 0), map.in_ventricle.assign(count, 0);
   if (ostia.empty() || ascending < 0) return;
+  const double arch_m = arch_ends_m(way, ascending, static_cast<int>(count));
   for (int s = 0; s < static_cast<int>(count); ++s) {
     const auto i = static_cast<std::size_t>(s);
     const std::string& name = way.branches()[static_cast<std::size_t>(way.branch(s))].name;
     const int entry = way.entry(name);
     map.in_ventricle[i] = name == "left ventricle";
-    map.before_root[i] = !way.beyond(s, ascending);
+    map.before_root[i] = !way.beyond(s, ascending) && way.from_access_m(s) < arch_m;
     bool leads = name.ends_with("sinus") || map.in_ventricle[i];
     for (int ostium : ostia) {
       leads = leads || way.beyond(ostium, entry) || way.beyond(entry, ostium);

@@ -15,7 +15,7 @@ struct HandlingMap {
   // (#spheres of the way), m:
   std::vector<double> astray_m;       ///< how far into a branch that leads to neither coronary ostium
   std::vector<double> in_coronary_m;  ///< how far behind one's ostium
-  std::vector<char> before_root;      ///< between the access and the ascending aorta; all 0 in a mesh
+  std::vector<char> before_root;      ///< between the access and the end of the arch; all 0 in a mesh
   std::vector<char> in_ventricle;
   // (#cells of the arteries); empty without a patient.
   std::vector<double> from_ostium_m;  ///< along the artery
