@@ -291,8 +291,8 @@ const std::vector<EventDefinition>& event_definitions() {
       {EventCode::stent_elsewhere, "stent_elsewhere",
        "a stent is left in the wall of another artery than the first lesion's", "branch, from 0", Severity::critical},
       {EventCode::catheter_without_wire, "catheter_without_wire",
-       "a catheter has been advanced by 10 mm between sheath and arch while no wire led it by 20 mm", "mm that a wire leads",
-       Severity::error},
+       "a catheter has been advanced by 10 mm between sheath and arch while no wire led it by 20 mm",
+       "mm that a wire leads", Severity::error},
       {EventCode::wire_strays, "wire_strays",
        "a thick wire is 20 mm inside a branch that leads to neither coronary ostium", "mm inside", Severity::error},
       {EventCode::wire_in_ventricle, "wire_in_ventricle", "a thick wire has been in the left ventricle for 2 s", "",
@@ -435,7 +435,8 @@ const std::vector<MetricDefinition>& metric_definitions() {
        [](const RunRecord& r) { return event_value(r, EventCode::ffr_changes, true); }},
       {"timi_frame_count_before", "1",
        "frames at 30/s, of the first injection that fills the first lesion's artery: from half of the undiluted "
-       "concentration behind its ostium to 15 % at the landmark (Gibson 1996); null: not reached in 10 s",
+       "concentration behind its ostium, or at a guide's tip that lies farther in, to 15 % at the landmark (Gibson "
+       "1996); null: not reached in 10 s",
        [](const RunRecord& r) {
          const std::vector<double> frames = timi_frames(r);
          return frames.empty() ? none : frames.front();

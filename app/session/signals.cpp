@@ -50,6 +50,16 @@ constexpr const char* of_a_patient[] = {"ecg_II_mV",
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 constexpr double undiluted_kg_m3 = 350;
 
+/// Where contrast comes into the first lesion's artery: behind its ostium, or where a guide's tip is farther in.
+int contrast_enters(const SessionModel& model, const SessionState& state) {
+  const Coronaries& c = *model.vessel->coronaries;
+  const int tip =
+      static_cast<int>(state.bedside.where) == TipPlace::coronary ? static_cast<int>(state.bedside.cell) : -1;
+  const bool farther = tip >= 0 && c.ostium_cell >= 0 && c.landmark_cell >= 0 &&
+                       c.tree().is_downstream(tip, c.ostium_cell) && c.tree().is_downstream(c.landmark_cell, tip);
+  return farther ? tip : c.ostium_cell;
+}
+
 template <class Put>
 void put_patient(const SessionModel& model, const SessionState& state, const SessionInputs& inputs, Put&& put) {
   const PhysiologyState& blood = state.blood;
@@ -86,7 +96,7 @@ void put_patient(const SessionModel& model, const SessionState& state, const Ses
   const auto open = has_lesion ? stent_now(model, state) : std::nullopt;
   put(open ? 1e6 * open->minimal_area_m2 : none);
   put(open ? 100 * open->expansion : none), put(open ? 100 * open->apposed : none);
-  for (int cell : {model.vessel->coronaries->ostium_cell, model.vessel->coronaries->landmark_cell}) {
+  for (int cell : {contrast_enters(model, state), model.vessel->coronaries->landmark_cell}) {
     if (cell < 0) {
       put(none);
       continue;
