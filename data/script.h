@@ -39,7 +39,8 @@ enum class ConditionKind {
   ST_exceeds,
   act_exceeds,
   stenosis_below,
-  stent_beyond
+  stent_beyond,
+  unharmed
 };
 
 struct ScriptCondition {

@@ -96,6 +96,7 @@ inline const JsonObjectKeys condition = {
      {"ST_exceeds_mV", false, "largest shift in the leads, > 0"},
      {"act_exceeds_s", false, "activated clotting time, > 0"},
      {"stenosis_below_percent", false, "of the first lesion's diameter, as measured on a film, > 0 and at most 100"},
+     {"unharmed", false, "true: no artery is perforated, no dissection of type C to F lies outside a stent"},
      {"stent_beyond_mm", false,
       "stents cover the first lesion and reach so far beyond it at both ends, in mm, > 0; no farther than the artery "
       "goes"},

@@ -57,7 +57,8 @@ constexpr Kind kinds[] = {{"tip_passes", ConditionKind::tip_passes, 0},
                           {"ST_exceeds_mV", ConditionKind::ST_exceeds, 1e-3},
                           {"act_exceeds_s", ConditionKind::act_exceeds, 1},
                           {"stenosis_below_percent", ConditionKind::stenosis_below, 1e-2},
-                          {"stent_beyond_mm", ConditionKind::stent_beyond, 1e-3}};
+                          {"stent_beyond_mm", ConditionKind::stent_beyond, 1e-3},
+                          {"unharmed", ConditionKind::unharmed, 0}};
 
 /// What is not seen of one tool.
 bool of_no_tool(ConditionKind kind) {
@@ -77,6 +78,7 @@ bool of_no_tool(ConditionKind kind) {
     case ConditionKind::act_exceeds:
     case ConditionKind::stenosis_below:
     case ConditionKind::stent_beyond:
+    case ConditionKind::unharmed:
       return true;
     default:
       return false;
@@ -123,7 +125,7 @@ ScriptCondition read_condition(const JsonValue& value, const Script& script, con
                                            : object.positive(found->key));
     c.words = fmt::format("{} {:g}", found->key, object.number(found->key));
   } else if (c.kind == ConditionKind::out || c.kind == ConditionKind::balloon_open ||
-             c.kind == ConditionKind::balloon_empty) {
+             c.kind == ConditionKind::balloon_empty || c.kind == ConditionKind::unharmed) {
     if (!read_boolean(object, found->key)) object.refuse(found->key);
     c.words = found->key;
   } else if (c.kind == ConditionKind::trace) {

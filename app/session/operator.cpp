@@ -32,6 +32,7 @@ bool needs_patient(ConditionKind kind) {
     case ConditionKind::act_exceeds:
     case ConditionKind::stenosis_below:
     case ConditionKind::stent_beyond:
+    case ConditionKind::unharmed:
       return true;
     default:
       return false;
@@ -202,6 +203,8 @@ struct Sight {
         return lesion_now(model, session).stenosis < c.value;
       case ConditionKind::stent_beyond:
         return lesion_is_covered(model, session, c.value);
+      case ConditionKind::unharmed:
+        return is_unharmed(model, session);
     }
     return false;
   }

@@ -85,6 +85,28 @@ bool lesion_is_covered(const SessionModel& model, const SessionState& state, dou
   return stent->from_m <= -ahead && stent->to_m >= plan.to_m - plan.from_m + behind;
 }
 
+bool is_unharmed(const SessionModel& model, const SessionState& state) {
+  constexpr double type_C = 2;
+  const auto lies_under_a_stent = [&](int cell) {
+    return std::any_of(state.treatment.stents.begin(), state.treatment.stents.end(), [&](const StentState& stent) {
+      if (stent.where != StentState::deployed || stent.branch < 0) return false;
+      const VesselPath& path = model.treatment.paths[static_cast<std::size_t>(stent.branch)];
+      const auto at = std::find(path.cells.begin(), path.cells.end(), cell);
+      if (at == path.cells.end()) return false;
+      const double s = path.s_m[static_cast<std::size_t>(at - path.cells.begin())];
+      const auto [from, to] = span_of(stent);
+      return s >= from && s <= to;
+    });
+  };
+  return std::none_of(state.treatment.injury.injuries.begin(), state.treatment.injury.injuries.end(),
+                      [&](const Injury& injury) {
+                        const auto kind = static_cast<InjuryKind>(static_cast<int>(injury.kind));
+                        if (injury.cell < 0 || kind == InjuryKind::none) return false;
+                        return kind == InjuryKind::perforation ||
+                               (injury.grade >= type_C && !lies_under_a_stent(static_cast<int>(injury.cell)));
+                      });
+}
+
 std::optional<StentNow> stent_now(const SessionModel& model, const SessionState& state) {
   std::optional<StentNow> out;
   for (std::size_t i = 0; i < state.treatment.stents.size(); ++i) {

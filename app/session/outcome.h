@@ -36,6 +36,9 @@ std::optional<double> stent_from_lesion_m(const SessionModel& model, const Sessi
 /// need not stand out into the aorta.
 bool lesion_is_covered(const SessionModel& model, const SessionState& state, double margin_m);
 
+/// No artery is perforated, and every dissection of type C to F lies under a stent.
+bool is_unharmed(const SessionModel& model, const SessionState& state);
+
 /// How well the same stents are open, as intravascular ultrasound would have it: the worst of them.
 struct StentNow {
   double minimal_area_m2 = 0;  ///< inside

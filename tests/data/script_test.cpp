@@ -102,7 +102,7 @@ const std::string treatment = R"({
     { "do": "inject", "rate_mL_s": 3, "volume_mL": 6, "iodine_mg_mL": 0 },
     { "do": "advance", "tool": "balloon", "speed_mm_s": 20, "until": [{ "balloon_at_mm": -2 }, { "balloon_within_mm": 1 }] },
     { "do": "inflate", "gauge_atm": 10, "over_s": 5 },
-    { "do": "wait", "until": [{ "balloon_open": true }, { "trace": "damped" }, { "contrast_in": "RCA+30" }] },
+    { "do": "wait", "until": [{ "balloon_open": true }, { "trace": "damped" }, { "unharmed": true }, { "contrast_in": "RCA+30" }] },
     { "do": "deflate", "unless": [{ "ST_exceeds_mV": 0.2 }] }
   ]
 })";

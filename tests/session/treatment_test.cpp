@@ -274,6 +274,28 @@ TEST(Treatment, ALesionIsCoveredWithMargins) {
   EXPECT_EQ(e.value, 0);
 }
 
+TEST(Treatment, APerforationHarmsAndATearThatNoStentCovers) {
+  StentAhead s;
+  const SessionModel& model = s.run.model;
+  const Plan& plan = model.vessel->coronaries->lesions[0];
+  StentState& stent = s.crimped();
+  Injury& injury = s.run.state.treatment.injury.injuries[0];
+  EXPECT_TRUE(is_unharmed(model, s.run.state));
+  const int cell = plan.path.cells[static_cast<std::size_t>(plan.path.at((plan.from_m + plan.to_m) / 2).index)];
+  injury = {.kind = static_cast<double>(InjuryKind::dissection), .cell = static_cast<double>(cell), .grade = 1};
+  EXPECT_TRUE(is_unharmed(model, s.run.state)) << "type B";
+  injury.grade = 2;
+  EXPECT_FALSE(is_unharmed(model, s.run.state)) << "type C";
+  stent.where = StentState::deployed, stent.branch = model.physiology.flow.tree.branch("RCA");
+  stent.middle_m = (plan.from_m + plan.to_m) / 2, stent.shift_m = 0;
+  EXPECT_TRUE(is_unharmed(model, s.run.state)) << "it is tacked up";
+  stent.middle_m += 40e-3;
+  EXPECT_FALSE(is_unharmed(model, s.run.state));
+  injury = {.kind = static_cast<double>(InjuryKind::perforation), .cell = static_cast<double>(cell), .grade = 1};
+  stent.middle_m -= 40e-3;
+  EXPECT_FALSE(is_unharmed(model, s.run.state));
+}
+
 TEST(Treatment, AlternativesLieIdleOutside) {
   ScriptedRun run(setup(), vessel());
   EXPECT_EQ(in_the_way(run.model, run.state.rods, 2), -1) << "nothing is in the body";
