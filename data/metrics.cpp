@@ -334,8 +334,8 @@ const std::vector<EventDefinition>& event_definitions() {
        "one inflation has lasted 60 s, or 20 s since ST had shifted by 0.2 mV", "s", Severity::error},
       {EventCode::balloon_beyond_stent, "balloon_beyond_stent",
        "a balloon in a stent stands out of it by 2 mm while it has more than 10 atm", "mm", Severity::error},
-      {EventCode::idle_beam, "idle_beam", "the beam has been on for 3 s without motion, injection or inflation", "",
-       Severity::error}};
+      {EventCode::idle_beam, "idle_beam",
+       "the beam has been on for 3 s without motion, injection or a balloon that is not empty", "", Severity::error}};
   return all;
 }
 

@@ -216,12 +216,110 @@ TEST(Handling, ACoronaryWireStaysBehindTheLesion) {
   EXPECT_TRUE(p.events.empty()) << "drawn back on purpose";
 }
 
+RunSetup setup() {
+  RunSetup out;
+  set_vessel("rca-mid-focal", LengthUnit::millimetre, out);
+  set_script(find_script("rca-from-the-ostium"), out);
+  return out;
+}
+
+std::shared_ptr<const Vessel> vessel() {
+  static const std::shared_ptr<const Vessel> made = [] {
+    std::string warnings;
+    return make_vessel(setup(), warnings);
+  }();
+  return made;
+}
+
+TEST(Handling, BalloonsAreEmptyAsTheyMoveAndNotHeldForLong) {
+  ScriptedRun run(setup(), vessel());
+  Played p;
+  DeviceErrors errors;
+  const auto play = [&](double seconds, double fed_m = 0) {
+    for (int i = 0; i < std::lround(seconds / 0.01); ++i) {
+      p.scene.time_s += 0.01;
+      p[balloon].fed_m += fed_m;
+      errors.look(run.model, run.state, p.scene, EventSink{0, p.events});
+    }
+  };
+  run.state.bedside.balloon = 0;
+  p.scene.device = balloon;
+  play(5, 1e-3);
+  p.scene.gauge_atm = 10, p.scene.filled = true;
+  play(1, 1e-5);
+  EXPECT_EQ(p.took(EventCode::open_balloon_dragged), 0) << "by 1 mm";
+  p.scene.gauge_atm = -1;
+  play(1, -4e-5);
+  EXPECT_EQ(p.took(EventCode::open_balloon_dragged), 1) << "the gauge is down, the balloon is not empty yet";
+  p.scene.filled = false;
+  play(5, -1e-3);
+  EXPECT_TRUE(p.events.empty());
+  p.scene.gauge_atm = 10, p.scene.filled = true;
+  play(59.9);
+  EXPECT_TRUE(p.events.empty());
+  play(0.3);
+  EXPECT_EQ(p.took(EventCode::long_inflation), 1);
+
+  // In the stent: 12 mm of balloon in the middle of 15 mm of stent, then at its edge.
+  const Plan& plan = run.model.vessel->coronaries->lesions[0];
+  const double branch = run.model.physiology.flow.tree.branch("RCA"), middle = (plan.from_m + plan.to_m) / 2;
+  StentState& stent = run.state.treatment.stents[0];
+  const double half_stent = run.model.treatment.stents[0].length_m / 2,
+               half_balloon = run.model.treatment.balloons[0].length_m / 2;
+  stent.where = StentState::deployed, stent.branch = branch, stent.middle_m = middle, stent.shift_m = 0;
+  run.state.bedside.branch = branch;
+  run.state.treatment.balloon.pressure_Pa = 12 * 101325;
+  const auto reach = [&](double beyond_m) {
+    run.state.bedside.middle_m = middle + half_stent + beyond_m - half_balloon;
+  };
+  reach(1e-3);
+  play(5);
+  EXPECT_EQ(p.took(EventCode::balloon_beyond_stent), 0);
+  reach(3e-3);
+  play(5);
+  EXPECT_EQ(p.took(EventCode::balloon_beyond_stent), 1);
+  run.state.treatment.balloon.pressure_Pa = 8 * 101325;
+  play(5);
+  EXPECT_EQ(p.took(EventCode::balloon_beyond_stent), 0) << "softly";
+}
+
+TEST(Handling, BeamAndPushAreForSomething) {
+  ScriptedRun run(setup(), vessel());
+  HandlingWatch watch(run.model);
+  SessionInputs inputs;
+  inputs.tools.resize(run.model.tools.size());
+  SessionReport report;
+  report.tools.resize(run.model.tools.size());
+  Played p;
+  const auto play = [&](double seconds, auto each) {
+    for (int i = 0; i < std::lround(seconds / 0.01); ++i) {
+      run.state.rods.step += HandlingWatch::every;
+      each();
+      watch.look(run.model, inputs, run.state, report, EventSink{run.state.rods.step, p.events});
+    }
+  };
+  play(10, [] {});
+  EXPECT_TRUE(p.events.empty()) << "no beam";
+  inputs.c_arm.fluoroscopy = 1;
+  play(2.9, [] {});
+  EXPECT_TRUE(p.events.empty());
+  play(3, [] {});
+  EXPECT_EQ(p.took(EventCode::idle_beam), 1);
+  inputs.bedside.injection_m3_s = 1e-6;
+  play(10, [] {});
+  EXPECT_TRUE(p.events.empty());
+  // A tool whose tip stays where it is, easily at first.
+  report.tools[0].in_body = true;
+  inputs.tools[0].advance_m_s = 0.05;
+  play(2, [&] { run.state.hands[0].fed_m += 5e-4; });
+  EXPECT_TRUE(p.events.empty());
+  play(1, [&] { run.state.hands[0].fed_m += 5e-4, report.tools[0].push_N += 0.01; });
+  EXPECT_EQ(p.took(EventCode::push_without_advance), 1);
+  EXPECT_TRUE(p.events.empty());
+}
+
 TEST(Handling, ACasesMapKnowsItsWaysAndItsLesion) {
-  RunSetup setup;
-  set_vessel("rca-mid-focal", LengthUnit::millimetre, setup);
-  set_script(find_script("rca-from-the-ostium"), setup);
-  std::string warnings;
-  const ScriptedRun run(setup, make_vessel(setup, warnings));
+  const ScriptedRun run(setup(), vessel());
   const HandlingMap map(run.model);
   const Way& way = *run.model.vessel->way;
   const auto at = [&](const char* place) {

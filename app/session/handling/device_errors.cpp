@@ -38,8 +38,7 @@ void DeviceErrors::look(const SessionModel& model, const SessionState& state, co
   const HandledTool& own = x.tools[static_cast<std::size_t>(x.device)];
   const bool inflated = x.gauge_atm > 1;
   if (inflated && !open_) open_ = true, opened_at_m_ = own.fed_m;
-  if (!inflated && is_empty(model.treatment.balloons[static_cast<std::size_t>(balloon)], state.treatment.balloon))
-    open_ = false;
+  if (!inflated && !x.filled) open_ = false;
   if (dragged_.begins(open_ && std::fabs(own.fed_m - opened_at_m_) > dragged_m, x.time_s))
     say(EventCode::open_balloon_dragged, x.device, 1e3 * (own.fed_m - opened_at_m_));
   const double for_s = inflated_for_.seconds(inflated, x.time_s);

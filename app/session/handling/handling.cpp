@@ -25,7 +25,7 @@ void HandlingWatch::look_at_pushing(const SessionModel& model, const EventSink& 
 }
 
 void HandlingWatch::look_at_beam(const EventSink& say) {
-  bool busy = scene_.injects || scene_.gauge_atm > 1;
+  bool busy = scene_.injects || scene_.gauge_atm > 1 || scene_.filled;
   for (const HandledTool& tool : scene_.tools) busy = busy || tool.advance_m_s != 0 || tool.turn_rad_s != 0;
   if (idle_.begins(idle_for_.seconds(scene_.beam && !busy, scene_.time_s) > idle_s, scene_.time_s))
     say(EventCode::idle_beam);

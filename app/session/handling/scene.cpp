@@ -147,6 +147,8 @@ void see(const SessionModel& model, const SessionInputs& inputs, const SessionSt
       (instrument.outer_diameter_m < thick_m ? x.thin_wire : x.thick_wire) = t;
   }
   const BedsideState& b = state.bedside;
+  x.filled = b.balloon >= 0 &&
+             !is_empty(model.treatment.balloons[static_cast<std::size_t>(b.balloon)], state.treatment.balloon);
   x.wire_cell = x.thin_wire < 0 || !model.has_patient() ? -1 : static_cast<int>(b.wire_cell);
   x.catheter_cell = x.catheter >= 0 && model.has_patient() && static_cast<int>(b.where) == TipPlace::coronary
                         ? static_cast<int>(b.cell)

@@ -39,6 +39,7 @@ struct HandlingScene {
   bool diastasis = false;  ///< the heart rests: places along an artery are compared then, so that beats do not count
   bool beam = false, injects = false;
   double gauge_atm = 0;
+  bool filled = false;  ///< the balloon in the body is not empty
   std::vector<HandledTool> tools;
   int catheter = -1, thick_wire = -1, thin_wire = -1, device = -1;  ///< tools in the body; -1: none
   int catheter_cell = -1, wire_cell = -1;                           ///< of the arteries, where their tips are
