@@ -30,19 +30,20 @@ double spacing_s(const RunRecord& r) {
   return r.rows() > 1 ? r.signals[w] - r.signals[0] : 0;
 }
 
-/// First-order low pass of 10 Hz, as forces are judged; the largest and the mean of the largest tool's.
+/// First-order low pass of 10 Hz, as forces are judged, of one signal, or of what it is beyond another; the largest and
+/// the mean of the largest tool's.
 struct Filtered {
   double largest = 0, mean = 0, above_limit = 0;
 };
-Filtered filtered(const RunRecord& r, const std::string& signal) {
+Filtered filtered(const RunRecord& r, const std::string& signal, const std::string& less = "") {
   const double dt = spacing_s(r), share = 1 - std::exp(-2 * M_PI * wall_force_cut_off_Hz * dt);
-  const std::vector<Column> forces = columns(r, signal);
+  const std::vector<Column> forces = columns(r, signal), taken = columns(r, less);
   std::vector<double> low(forces.size(), 0);
   Filtered out;
   for (std::size_t i = 0; i < r.rows(); ++i) {
     double most = 0;
     for (std::size_t t = 0; t < forces.size(); ++t)
-      low[t] += share * (forces[t][i] - low[t]), most = std::max(most, low[t]);
+      low[t] += share * (forces[t][i] - (less.empty() ? 0 : taken[t][i]) - low[t]), most = std::max(most, low[t]);
     out.largest = std::max(out.largest, most);
     out.mean += most / static_cast<double>(r.rows());
     out.above_limit += (most > wall_force_limit_N) / static_cast<double>(r.rows());
@@ -113,6 +114,45 @@ double hand_path_mm(const RunRecord& r) {
   double sum = 0;
   for (const Column& inserted : columns(r, "inserted_mm"))
     for (std::size_t i = 1; i < r.rows(); ++i) sum += std::fabs(inserted[i] - inserted[i - 1]);
+  return sum;
+}
+
+/// What of the way hands went was not needed: over the shortest way in to the deepest place and back to the last.
+double path_ratio(const RunRecord& r) {
+  double went = 0, needed = 0;
+  for (const Column& inserted : columns(r, "inserted_mm")) {
+    if (r.rows() == 0) break;
+    double most = inserted[0];
+    for (std::size_t i = 1; i < r.rows(); ++i)
+      went += std::fabs(inserted[i] - inserted[i - 1]), most = std::max(most, inserted[i]);
+    needed += 2 * most - inserted[0] - inserted[r.rows() - 1];
+  }
+  return needed > 0 ? went / needed : none;
+}
+
+/// For each row: whether the fluoroscopy or cine pedal is down.
+std::vector<bool> beam(const RunRecord& r) {
+  std::vector<bool> out;
+  const Column time{r, 0};
+  bool fluoroscopy = false, cine = false;
+  std::size_t e = 0;
+  for (std::size_t i = 0; i < r.rows(); ++i) {
+    for (; e + 3 < r.events.size() && r.events[e] * r.step_s <= time[i] + 1e-9; e += 4) {
+      const auto code = static_cast<EventCode>(static_cast<int>(r.events[e + 1]));
+      if (code == EventCode::fluoroscopy_on || code == EventCode::fluoroscopy_off)
+        fluoroscopy = code == EventCode::fluoroscopy_on;
+      if (code == EventCode::cine_on || code == EventCode::cine_off) cine = code == EventCode::cine_on;
+    }
+    out.push_back(fluoroscopy || cine);
+  }
+  return out;
+}
+
+double blind_path_mm(const RunRecord& r) {
+  const std::vector<bool> on = beam(r);
+  double sum = 0;
+  for (const Column& inserted : columns(r, "inserted_mm"))
+    for (std::size_t i = 1; i < r.rows(); ++i) sum += on[i] ? 0 : std::fabs(inserted[i] - inserted[i - 1]);
   return sum;
 }
 
@@ -195,6 +235,32 @@ double geographic_miss_mm(const RunRecord& r) {
     missed += b - a - std::max(0.0, std::min(b, s_to) - std::max(a, s_from));
   }
   return missed;
+}
+
+/// Nobody moves or turns a tool, injects, or has a balloon under pressure.
+double idle_beam_s(const RunRecord& r) {
+  const std::vector<bool> on = beam(r);
+  const std::vector<double> contrast = all_of(r, "contrast_mL"), balloon = all_of(r, "balloon_atm");
+  const std::vector<Column> inserted = columns(r, "inserted_mm"), turned = columns(r, "turned_deg");
+  double sum = 0;
+  for (std::size_t i = 1; i < r.rows(); ++i) {
+    bool busy = (!contrast.empty() && contrast[i] != contrast[i - 1]) || (!balloon.empty() && balloon[i] > 1);
+    for (const Column& c : inserted) busy = busy || c[i] != c[i - 1];
+    for (const Column& c : turned) busy = busy || c[i] != c[i - 1];
+    sum += on[i] && !busy ? spacing_s(r) : 0;
+  }
+  return sum;
+}
+
+/// As on films: the balloon's diameter at the last inflation's highest pressure against the lumen at the end.
+double acute_recoil_percent(const RunRecord& r) {
+  const std::vector<double> pressure = all_of(r, "balloon_atm"), width = all_of(r, "balloon_mm");
+  double highest = 1, widest = none;
+  for (std::size_t i = 0; i < width.size() && i < pressure.size(); ++i) {
+    if (pressure[i] <= 1) highest = 1;
+    if (pressure[i] > highest) highest = pressure[i], widest = width[i];
+  }
+  return 100 * (1 - last_of(r, "lesion_mld_mm") / widest);
 }
 
 /// Value of the first or the last event of a kind.
@@ -358,12 +424,23 @@ const std::vector<MetricDefinition>& metric_definitions() {
        [](const RunRecord& r) {
          return time_of_first(r, EventCode::tip_enters, {"LM", "RCA"}) - time_of_first(r, EventCode::tool_in, {});
        }},
+      {"first_inflation_after_s", "s", "from the first tool in the body until the gauge first rises above 1 atm",
+       [](const RunRecord& r) {
+         return time_of_first(r, EventCode::inflation_begins, {}) - time_of_first(r, EventCode::tool_in, {});
+       }},
+      {"stent_after_s", "s", "from the first tool in the body until a stent is left in the first lesion's artery",
+       [](const RunRecord& r) {
+         return time_of_first(r, EventCode::stent_deployed, {}) - time_of_first(r, EventCode::tool_in, {});
+       }},
       {"fluoroscopy_time_s", "s", "pedal down, cine apart",
        [](const RunRecord& r) { return time_on(r, EventCode::fluoroscopy_on, EventCode::fluoroscopy_off); }},
       {"cine_time_s", "s", "cine pedal down",
        [](const RunRecord& r) { return time_on(r, EventCode::cine_on, EventCode::cine_off); }},
       {"cine_runs", "1", "times that the cine pedal went down",
        [](const RunRecord& r) { return count(r, EventCode::cine_on); }},
+      {"idle_beam_time_s", "s",
+       "beam on, fluoroscopy or cine, while no tool is moved, nothing injected and no balloon above 1 atm",
+       idle_beam_s},
       {"dap_Gy_cm2", "Gy cm2", "dose-area product of all frames, fluoroscopy and cine",
        [](const RunRecord& r) { return 1e4 * r.dose_area_Gy_m2; }},
       {"air_kerma_mGy", "mGy", "of all frames at the interventional reference point, 15 cm before the isocentre",
@@ -379,6 +456,8 @@ const std::vector<MetricDefinition>& metric_definitions() {
        [](const RunRecord& r) { return 100 * filtered(r, "wall_force_N").above_limit; }},
       {"tip_force_max_N", "N", "the same as wall_force_max_N, of the last 10 mm",
        [](const RunRecord& r) { return filtered(r, "tip_force_N").largest; }},
+      {"shaft_force_max_N", "N", "the same as wall_force_max_N, without the last 10 mm",
+       [](const RunRecord& r) { return filtered(r, "wall_force_N", "tip_force_N").largest; }},
       {"push_max_N", "N", "largest push or pull at a hand, unfiltered",
        [](const RunRecord& r) { return largest(r, "push_N"); }},
       {"torque_max_mN_m", "mN m", "largest torque at a hand, unfiltered",
@@ -386,6 +465,10 @@ const std::vector<MetricDefinition>& metric_definitions() {
       {"tip_path_length_mm", "mm", "sum over tools of the tip's way along the vessel's tree, in moves of at least 5 mm",
        tip_path_mm},
       {"hand_path_length_mm", "mm", "sum over tools of length fed and drawn back", hand_path_mm},
+      {"path_ratio", "1",
+       "hand path over the shortest that does the same: each tool to its deepest and back to where it ends",
+       path_ratio},
+      {"blind_path_length_mm", "mm", "of the hand path, with the beam off", blind_path_mm},
       {"tip_reached_mm", "mm", "farthest that a tip came along the tree from the access", deepest_along_mm},
       {"handling_errors", "1", "events that are errors of handling, critical ones among them",
        [](const RunRecord& r) { return count(r, Severity::error); }},
@@ -406,6 +489,10 @@ const std::vector<MetricDefinition>& metric_definitions() {
        [](const RunRecord& r) { return residual_percent(r, "segment_mld_mm"); }},
       {"acute_gain_mm", "mm", "smallest diameter within the lesion at the end less that at the beginning",
        [](const RunRecord& r) { return last_of(r, "lesion_mld_mm") - number_at(r, "lesion_mld_mm", 0); }},
+      {"acute_recoil_percent", "%",
+       "1 - smallest diameter within the first lesion at the end over the balloon's, at the last inflation's highest "
+       "pressure",
+       acute_recoil_percent},
       {"balloon_artery_ratio", "1",
        "largest, over inflations, of the balloon's diameter between its markers over the healthy artery's there",
        [](const RunRecord& r) { return most_of(r, "balloon_ratio"); }},

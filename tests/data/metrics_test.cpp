@@ -61,6 +61,7 @@ RunRecord treated() {
                                  "balloon_to_mm",
                                  "balloon_atm",
                                  "balloon_ratio",
+                                 "balloon_mm",
                                  "stent_from_mm",
                                  "stent_to_mm",
                                  "flow_share",
@@ -101,6 +102,9 @@ RunRecord treated() {
                                        first    ? 0.9
                                        : second ? 1.1
                                                 : 0.0,
+                                       first    ? 3.0
+                                       : second ? 4.0
+                                                : 0.0,
                                        stent ? -3.0 : nan,
                                        stent ? 14.0 : nan,
                                        first ? 0.01 : 1.0,
@@ -130,6 +134,8 @@ TEST(Metrics, OfATreatmentMadeByHand) {
   EXPECT_NEAR(value(r, "balloon_artery_ratio"), 1.1, 1e-9);
   EXPECT_NEAR(value(r, "balloon_pressure_max_atm"), 12, 1e-9);
   EXPECT_EQ(value(r, "inflations"), 2);
+  EXPECT_NEAR(value(r, "acute_recoil_percent"), 5, 1e-9) << "3.8 mm after 4.0";
+  EXPECT_TRUE(std::isnan(value(r, "first_inflation_after_s"))) << "no tool came in";
   EXPECT_NEAR(value(r, "stent_margin_proximal_mm"), 3, 1e-9);
   EXPECT_NEAR(value(r, "stent_margin_distal_mm"), 4, 1e-9);
   EXPECT_NEAR(value(r, "lesion_coverage_percent"), 100, 1e-9);
@@ -171,6 +177,10 @@ TEST(Metrics, OfARecordMadeByHand) {
   EXPECT_NEAR(value(r, "wall_force_impulse_N_s"), 4, 0.1);
   EXPECT_NEAR(value(r, "wall_force_above_limit_percent"), 20, 0.3) << "equally late at both ends";
   EXPECT_NEAR(value(r, "push_max_N"), 0.7, 1e-9);
+  EXPECT_NEAR(value(r, "shaft_force_max_N"), 2, 1e-6);
+  EXPECT_NEAR(value(r, "path_ratio"), 1, 1e-9) << "200 in, 100 back";
+  EXPECT_NEAR(value(r, "blind_path_length_mm"), 100, 0.6) << "in the first two seconds";
+  EXPECT_NEAR(value(r, "idle_beam_time_s"), 1.5 + 1, 0.03) << "cine from 6 s, fluoroscopy from 9 s";
 }
 
 TEST(Metrics, WhatDoesNotApplyIsNoNumber) {
