@@ -8,6 +8,7 @@
 
 #include "core/rod/introducer.h"
 #include "data/load_error.h"
+#include "data/metrics.h"
 #include "vascular/beat/heart_cycle.h"
 #include "vascular/units.h"
 
@@ -246,9 +247,13 @@ void look_at_valve(const BedsideModel& model, const State& rods, const StepRepor
   s.through_valve = through && !model.vessel.ventricle.spheres.empty();
 }
 
-void look_at_wires(const BedsideModel& model, const State& rods, const StepReport& report, const Vector3d& root_shift,
-                   BedsideScratch& x, BedsideState& s) {
-  s.irritation = 0, s.wire_cell = -1, s.wire_tip_N = 0;
+bool is_thin_wire(const Instrument& i) {
+  return i.kind == InstrumentKind::wire && i.outer_diameter_m < 2 * thick_wire_m;
+}
+
+void look_at_wires(const BedsideModel& model, const State& rods, const Vector3d& root_shift, BedsideScratch& x,
+                   BedsideState& s) {
+  s.irritation = 0, s.wire_cell = -1;
   const FlowTree& tree = model.physiology.flow.tree;
   for (std::size_t t = 0; t < model.tools.size(); ++t) {
     const Rod& rod = model.rods.rods[t];
@@ -260,13 +265,7 @@ void look_at_wires(const BedsideModel& model, const State& rods, const StepRepor
     const Landmarks& marks = model.vessel.patient->anatomy.landmarks;
     if (model.vessel.ventricle.spheres.empty() && !in_artery && (p - root_shift - marks.p_annulus).norm() < 0.06)
       s.irritation = std::max(s.irritation, std::clamp(beyond_valve_m(marks, p - root_shift) / irritates_m, 0.0, 1.0));
-    const bool thin = model.tools[t].instrument.kind == InstrumentKind::wire &&
-                      model.tools[t].instrument.outer_diameter_m < 2 * thick_wire_m;
-    if (!thin || !in_artery) continue;
-    s.wire_cell = f.cell;
-    for (const Touch& touch : report.touches)
-      if (touch.rod == static_cast<int>(t) && rod.node_from_tip_m[static_cast<std::size_t>(touch.node)] <= tip_m)
-        s.wire_tip_N += touch.normal_W_N.norm();
+    if (is_thin_wire(model.tools[t].instrument) && in_artery) s.wire_cell = f.cell;
   }
 }
 
@@ -347,8 +346,20 @@ void look(const BedsideModel& model, const State& rods, const TreatmentState& tr
   look_at_guide(model, rods, report, phase, breath, root_shift, x, s);
   look_at_crimped_stent(model, rods, treatment, s);
   look_at_edge(model, rods, treatment, x, s);
-  look_at_wires(model, rods, report, root_shift, x, s);
+  look_at_wires(model, rods, root_shift, x, s);
   look_at_valve(model, rods, report, phase, breath, root_shift, s);
+}
+
+void press_with_wire(const BedsideModel& model, const StepReport& report, double step_s, BedsideState& s) {
+  double now_N = 0;
+  for (const Touch& touch : report.touches) {
+    const auto t = static_cast<std::size_t>(touch.rod);
+    if (s.wire_cell < 0 || !is_thin_wire(model.tools[t].instrument)) continue;
+    if (model.rods.rods[t].node_from_tip_m[static_cast<std::size_t>(touch.node)] <= tip_m)
+      now_N += touch.normal_W_N.norm();
+  }
+  s.wire_tip_N += (1 - std::exp(-2 * std::numbers::pi * wall_force_cut_off_Hz * step_s)) * (now_N - s.wire_tip_N);
+  if (s.wire_tip_N < 1e-6) s.wire_tip_N = 0;
 }
 
 void hold_balloon(const BedsideModel& model, const BalloonReport& report, const BalloonState& balloon, double step_s,

@@ -48,7 +48,7 @@ struct BedsideState {
   // Of the others.
   double irritation = 0;                  ///< HeartInputs
   double through_valve = 0;               ///< 1: a wire lies through the aortic valve, or as good as: it cannot close
-  double wire_cell = -1, wire_tip_N = 0;  ///< of the flow tree, where a coronary wire's tip is; the wall's force on it
+  double wire_cell = -1, wire_tip_N = 0;  ///< of the flow tree, where a coronary wire's tip is; how hard it presses
   std::vector<double> shaft_m;            ///< (#cells) radius of the widest shaft in each
   double wall_cursor = 0;                 ///< of follow_lumen
 };
@@ -113,6 +113,9 @@ struct BedsideScratch {
 void look(const BedsideModel& model, const State& rods, const TreatmentState& treatment, const StepReport& report,
           double phase, double breath, BedsideScratch& scratch, BedsideState& state);
 
+/// How hard a coronary wire's tip presses the wall, behind the low pass of all wall forces: what lasts a millisecond
+/// makes no hole. At each step.
+void press_with_wire(const BedsideModel& model, const StepReport& report, double step_s, BedsideState& state);
 /// What holds the balloon's shaft from now on, by what the wall pressed it with.
 void hold_balloon(const BedsideModel& model, const BalloonReport& report, const BalloonState& balloon, double step_s,
                   BedsideState& state);

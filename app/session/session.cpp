@@ -340,6 +340,7 @@ void treat(const SessionModel& model, const SessionInputs& inputs, bool R_wave, 
   if (state.rods.step % look_every == 0)
     look(bedside, state.rods, state.treatment, report.rods, state.blood.heart.phase, breath(model, state), *x.bedside,
          state.bedside);
+  press_with_wire(bedside, report.rods, model.step_s(), state.bedside);
   report.treatment = step(model.treatment, model.physiology.flow.tree, treatment_inputs(inputs.bedside, state.bedside),
                           model.step_s(), state.treatment, state.blood, x.physiology_inputs.occupied_m, x.treatment);
   state.bedside.blocked = report.treatment.blocked;

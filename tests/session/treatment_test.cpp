@@ -236,6 +236,32 @@ TEST(Treatment, ADeviceThatReachesOutOfTheOstiumLiesInTheArtery) {
   EXPECT_LT(jump, 2e-3);
 }
 
+TEST(Treatment, AWallFeelsAWiresTipBehindALowPass) {
+  ScriptedRun run(setup(), vessel());
+  const BedsideModel bedside{*run.model.vessel,    run.model.tools,     run.model.rods,
+                             run.model.physiology, run.model.treatment, run.model.balloon_of};
+  BedsideState& s = run.state.bedside;
+  const int wire = 3, tip = run.model.rods.rods[wire].elements;
+  const double dt = run.model.step_s(), share = 1 - std::exp(-2 * EIGEN_PI * wall_force_cut_off_Hz * dt);
+  StepReport report;
+  report.touches.push_back({});
+  report.touches[0].rod = wire, report.touches[0].node = tip;
+  const auto press = [&](double N, int steps) {
+    report.touches[0].normal_W_N = {0, N, 0};
+    for (int n = 0; n < steps; ++n) press_with_wire(bedside, report, dt, s);
+  };
+  press(10, 1);
+  EXPECT_EQ(s.wire_tip_N, 0) << "it lies in no coronary artery";
+  s.wire_cell = 5;
+  press(10, 1);
+  EXPECT_NEAR(s.wire_tip_N, 10 * share, 1e-12);
+  press(0.05, 500);
+  EXPECT_NEAR(s.wire_tip_N, 0.05, 1e-6);
+  report.touches[0].node = tip - 10;  // 1 cm from the tip
+  press(0.05, 500);
+  EXPECT_EQ(s.wire_tip_N, 0);
+}
+
 TEST(Treatment, ALesionIsCoveredWithMargins) {
   StentAhead s;
   const SessionModel& model = s.run.model;
