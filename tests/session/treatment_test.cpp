@@ -244,7 +244,7 @@ TEST(Treatment, AWallFeelsAWiresTipBehindALowPass) {
   const int wire = 3, tip = run.model.rods.rods[wire].elements;
   const double dt = run.model.step_s(), share = 1 - std::exp(-2 * EIGEN_PI * wall_force_cut_off_Hz * dt);
   StepReport report;
-  report.touches.push_back({});
+  report.touches.resize(1);
   report.touches[0].rod = wire, report.touches[0].node = tip;
   const auto press = [&](double N, int steps) {
     report.touches[0].normal_W_N = {0, N, 0};
