@@ -165,6 +165,23 @@ void drop_walls_seen_from_behind(NodeWalls& walls) {
   walls.count = count;
 }
 
+/// Lets go of walls that the way from `from` to `to` passes although nothing is met on it: a wall ends at a ridge, its
+/// plane does not, and two sides of a ridge would hold a node in the solid between them. True if one of them held it.
+bool drop_passed_walls(const V3<double>& from, const V3<double>& to, double radius, NodeWalls& walls) {
+  bool any = false;
+  int count = 0;
+  for (int k = 0; k < walls.count; ++k) {
+    const WallPlane& w = walls.planes[k];
+    const double surface = w.place - radius;
+    if (dot(w.normal, from) >= surface && dot(w.normal, to) < surface - tunables::passed_wall_m)
+      any = any || w.active;
+    else
+      walls.planes[count++] = w;
+  }
+  walls.count = count;
+  return any;
+}
+
 struct Bounds {
   V3<double> low{1e9, 1e9, 1e9}, high{-1e9, -1e9, -1e9};
   void take(const V3<double>& p, double reach) {
@@ -173,9 +190,10 @@ struct Bounds {
   }
 };
 
-/// The first triangle that the path leaves the lumen through, as a plane; seen with the corners of the step's end.
+/// The first triangle that the path leaves the lumen through, as a plane, and where; seen with the corners of the
+/// step's end.
 bool first_exit(const Model& model, const V3<double>& from, const V3<double>& to, View view, Scratch& scratch,
-                std::vector<int>& clusters, WallPlane& exit) {
+                std::vector<int>& clusters, WallPlane& exit, V3<double>& at) {
   double first = 2;
   Bounds bounds;
   bounds.take(from, 0), bounds.take(to, 0);
@@ -195,6 +213,7 @@ bool first_exit(const Model& model, const V3<double>& from, const V3<double>& to
         if (!leaves_through(from, to, a, b, d, part) || part >= first) continue;
         first = part;
         const V3<double> out = cross(b - a, d - a), foot = madd(part, to - from, from);
+        at = foot;
         const double area = norm(out);
         exit = plane_of(surface, view, (-1 / area) * out, (dot(a - to, out)) / area,
                         {foot, foot - (a - load3<double>(pose.before, corner[0])), foot});
@@ -276,7 +295,8 @@ bool follow(const Model& model, const RodState& own, int i, const V3<double>& to
   const View view = view_of(s.inside, own, i, to, tunables::wall_slack_m);
   NodeWalls met;
   WallPlane exit;
-  if (first_exit(model, from, to, view, scratch, c.clusters, exit)) {
+  V3<double> reached = to;
+  if (first_exit(model, from, to, view, scratch, c.clusters, exit, reached)) {
     met.planes[met.count++] = exit;
   } else {
     Bounds bounds;
@@ -291,7 +311,7 @@ bool follow(const Model& model, const RodState& own, int i, const V3<double>& to
     }
     drop_walls_seen_from_behind(met);
   }
-  bool any = false, taken[max_planes] = {};
+  bool any = drop_passed_walls(from, reached, view.radius, walls), taken[max_planes] = {};
   for (int k = 0; k < met.count; ++k) {
     WallPlane& plane = met.planes[k];
     const double behind = plane.place - dot(plane.normal, to);
