@@ -159,7 +159,7 @@ struct Sight {
       case ConditionKind::fed:
         return std::fabs(session.hands[t].fed_m - state.began_fed_m[t]) >= c.value;
       case ConditionKind::inserted:
-        return session.hands[t].fed_m >= state.began_fed_m[t] ? inserted >= c.value : inserted <= c.value;
+        return comes_in(t) ? inserted >= c.value : inserted <= c.value;
       case ConditionKind::out:
         return reported && !tool.in_body;
       case ConditionKind::turned:
@@ -237,13 +237,23 @@ struct Sight {
     return at && std::fabs(*at) <= most_m;
   }
 
+  /// Whether this step feeds a tool; what the hand has done so far says it only of steps that are about other tools: a
+  /// hand at a box begins some milliseconds late.
+  bool comes_in(std::size_t tool) const {
+    const ScriptStep& step = plan.script.steps[static_cast<std::size_t>(state.step)];
+    const bool own = std::count(step.tools.begin(), step.tools.end(), static_cast<int>(tool)) > 0;
+    if (own && step.action == ScriptAction::advance) return true;
+    if (own && step.action == ScriptAction::withdraw) return false;
+    return session.hands[tool].fed_m >= state.began_fed_m[tool];
+  }
+
   /// Reached from the side that the shaft's hand comes from.
   bool balloon_is_at(double offset_m) const {
     const auto at = balloon_at_rest_m();
     if (!at) return false;
     for (std::size_t t = 0; t < model.tools.size(); ++t)
       if (model.balloon_of[t] == static_cast<int>(session.bedside.balloon))
-        return session.hands[t].fed_m >= state.began_fed_m[t] ? *at >= offset_m : *at <= offset_m;
+        return comes_in(t) ? *at >= offset_m : *at <= offset_m;
     return false;
   }
 

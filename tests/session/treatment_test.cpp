@@ -322,6 +322,32 @@ TEST(Treatment, APerforationHarmsAndATearThatNoStentCovers) {
   EXPECT_FALSE(is_unharmed(model, s.run.state));
 }
 
+TEST(Treatment, AWithdrawalIsNotDoneBeforeItsHandHasMoved) {
+  RunSetup own;
+  set_vessel("rca-mid-focal", LengthUnit::millimetre, own);
+  std::string script = predilatation;
+  const std::size_t steps = script.find("\"steps\"");
+  script.replace(
+      steps, std::string::npos,
+      R"("steps": [ { "do": "withdraw", "tool": "balloon", "speed_mm_s": 1, "until": [{ "balloon_at_mm": 0 }] } ] })");
+  set_script(read_script("predilatation.json", script), own);
+  ScriptedRun run(own, vessel());
+  const Plan& plan = vessel()->coronaries->lesions[0];
+  const double middle = (plan.from_m + plan.to_m) / 2;
+  run.state.bedside.balloon = 0;
+  run.state.bedside.branch = run.model.physiology.flow.tree.branch("RCA");
+  run.state.blood.heart.phase = 0.75;
+  SessionReport report;
+  report.tools.resize(run.model.tools.size());
+  std::vector<OperatorEvent> events;
+  const auto outcome = [&](double beyond_m) {
+    run.state.bedside.middle_m = middle + beyond_m;
+    return decide(run.plan, run.model, run.state, report, run.hands, run.inputs, events);
+  };
+  for (int i = 0; i < 3; ++i) EXPECT_EQ(outcome(10e-3), Outcome::running) << "it lies beyond, and the hand is late";
+  EXPECT_EQ(outcome(-0.1e-3), Outcome::success);
+}
+
 TEST(Treatment, AlternativesLieIdleOutside) {
   ScriptedRun run(setup(), vessel());
   EXPECT_EQ(in_the_way(run.model, run.state.rods, 2), -1) << "nothing is in the body";
