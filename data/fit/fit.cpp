@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "data/fit/least_squares.h"
+#include "data/fit/secant_descent.h"
 #include "data/forward/insertion.h"
 
 namespace ostium {
@@ -57,6 +58,15 @@ std::vector<std::vector<Shape>> unpacked(const std::vector<std::vector<double>>&
   return shapes;
 }
 
+/// All that tells one set of changes from another of the same model.
+std::vector<double> key_of(const Changes& changes) {
+  std::vector<double> key;
+  for (const auto& scales : changes.stiffness_scale) key.insert(key.end(), scales.begin(), scales.end());
+  for (const ActiveEffect& effect : changes.effects)
+    if (effect.effect->apply) key.insert(key.end(), effect.values.begin(), effect.values.end());
+  return key;
+}
+
 /// Of the finite differences, in the optimiser's numbers.
 double step_of(const Parameter& p) {
   if (p.step > 0) return p.step;  // set by what the model can resolve
@@ -76,6 +86,7 @@ class Problem {
   }
 
   int data_rows() const { return rows_; }
+  bool in_vessel() const { return forward_.set().vessel.has_value(); }
 
   LeastSquares least_squares(const VectorXd& start) const {
     LeastSquares problem;
@@ -90,6 +101,27 @@ class Problem {
     problem.start = start.cwiseMax(problem.least).cwiseMin(problem.most);
     problem.evaluate = [this](const VectorXd& x, VectorXd& r, MatrixXd* J) { return evaluate(x, r, J); };
     return problem;
+  }
+
+  /// Of a set in a vessel, where a history takes as long as hundreds of shapes.
+  SecantDescent by_secants(const LeastSquares& descent, bool rough) const {
+    SecantDescent out;
+    out.problem = descent, out.dear = parameters_.shape_parameters();
+    out.scale.resize(parameters_.size());
+    for (int i = 0; i < parameters_.size(); ++i) out.scale[i] = parameters_.list()[i].spread;
+    out.last_radius = rough ? 0.1 : 0.03, out.least_gain = rough ? 0.1 : 0.01;
+    out.most_evaluations = (rough ? 25 : 40) + 6 * out.dear;
+    return out;
+  }
+  /// From here on differences are to both sides, and as wide as the noise: what J, taken so far, says moves the data by
+  /// one standard deviation. Kinks that are finer do not matter to what the data say.
+  void widen_to_noise(const MatrixXd& J) {
+    rough_ = false;
+    steps_.resize(parameters_.shape_parameters());
+    for (int i = 0; i < steps_.size(); ++i) {
+      const double spread = parameters_.list()[i].spread;
+      steps_[i] = std::clamp(1 / std::max(J.col(i).head(rows_).norm(), 1e-9), 0.01 * spread, 0.3 * spread);
+    }
   }
 
   bool evaluate(const VectorXd& x, VectorXd& residuals, MatrixXd* jacobian) const {
@@ -127,9 +159,9 @@ class Problem {
   VectorXd moved(VectorXd x, int i, double sign) const {
     const Parameter& p = parameters_.list()[i];
     const double least = p.logarithmic ? std::log(p.least) : p.least, most = p.logarithmic ? std::log(p.most) : p.most;
-    const double at = x[i];
-    x[i] = std::clamp(at + sign * step_of(p), least, most);
-    if (rough_ && x[i] == at) x[i] = std::clamp(at - sign * step_of(p), least, most);
+    const double at = x[i], step = i < steps_.size() ? steps_[i] : step_of(p);
+    x[i] = std::clamp(at + sign * step, least, most);
+    if (rough_ && x[i] == at) x[i] = std::clamp(at - sign * step, least, most);
     return x;
   }
 
@@ -151,7 +183,8 @@ class Problem {
   const Parameters& parameters_;
   const std::vector<int>& chosen_;
   double sigma_;
-  bool rough_;  ///< differences to one side
+  bool rough_;      ///< differences to one side
+  VectorXd steps_;  ///< of differences; empty: as the parameters have them
   int rows_ = 0;
 };
 
@@ -173,6 +206,7 @@ std::vector<Start> screened(const Problem& problem, const std::vector<VectorXd>&
 LeastSquaresResult descend(const Problem& problem, const VectorXd& start, bool rough, int most_iterations) {
   LeastSquares descent = problem.least_squares(start);
   if (rough) descent.tolerance = rough_tolerance, descent.most_iterations = most_iterations;
+  if (problem.in_vessel()) return minimise(problem.by_secants(descent, rough));
   return minimise(descent);
 }
 
@@ -230,20 +264,32 @@ std::vector<std::vector<Shape>> Forward::shapes(const std::vector<Changes>& chan
 
 std::vector<std::vector<Shape>> Forward::histories(const std::vector<Changes>& changes,
                                                    const std::vector<int>& chosen) const {
+  std::vector<std::vector<double>> keys;
+  std::vector<std::size_t> unknown;  // the first of each that was never run
+  for (std::size_t v = 0; v < changes.size(); ++v) {
+    keys.push_back(key_of(changes[v]));
+    if (!known_.contains(keys[v]) && std::find(keys.begin(), keys.end() - 1, keys[v]) == keys.end() - 1)
+      unknown.push_back(v);
+  }
   // What is not chosen is run all the same: it was done.
-  const auto found = workers_.map(changes.size(), [&](std::size_t job) {
+  const auto found = workers_.map(unknown.size(), [&](std::size_t job) {
     std::vector<Shape> shapes(set_.experiments.size());
     try {
-      shapes = insert(set_, changes[job]);
-    } catch (const std::invalid_argument&) {
+      shapes = insert(set_, changes[unknown[job]]);
+    } catch (const std::invalid_argument&) {  // with these numbers it is no rod any more
     }
     std::vector<double> out;
-    for (int e : chosen) append(shapes[e], out);
+    for (const Shape& shape : shapes) append(shape, out);
     return out;
   });
+  for (std::size_t k = 0; k < unknown.size(); ++k) {
+    std::vector<Shape> run;
+    for (const auto& one : unpacked({found[k]}, set_.experiments.size())) run.push_back(one[0]);
+    known_.emplace(keys[unknown[k]], std::move(run));
+  }
   std::vector<std::vector<Shape>> shapes(changes.size());
   for (std::size_t v = 0; v < changes.size(); ++v)
-    for (const auto& one : unpacked({found[v]}, chosen.size())) shapes[v].push_back(one[0]);
+    for (int e : chosen) shapes[v].push_back(known_.at(keys[v])[e]);
   return shapes;
 }
 
@@ -259,11 +305,19 @@ Fit fit(const Forward& forward, const Parameters& parameters, const FitOptions& 
   double sigma = options.sigma_m.value_or(options.guess_m);
   const int rounds = options.sigma_m ? 1 : options.rounds;
   for (int round = 0; round < rounds; ++round) {
-    const Problem problem(forward, parameters, options.experiments, sigma, options.rough);
+    Problem problem(forward, parameters, options.experiments, sigma, options.rough || forward.set().vessel);
     const LeastSquaresResult found = best_of(problem, options, starts, other_starts);
     VectorXd r;
     MatrixXd J;
+    if (options.only_x && options.sigma_m) {
+      out.x = found.x;
+      return out;
+    }
     if (!problem.evaluate(found.x, r, &J)) throw std::runtime_error("no static shape was found where a fit ended");
+    if (problem.in_vessel() && !options.rough) {
+      problem.widen_to_noise(J);
+      if (!problem.evaluate(found.x, r, &J)) throw std::runtime_error("no shape was found next to where a fit ended");
+    }
     const int n = problem.data_rows();
     const MatrixXd JtJ = J.transpose() * J;
     out.covariance = JtJ.completeOrthogonalDecomposition().pseudoInverse();

@@ -1,5 +1,7 @@
 #pragma once
 /// Fits a model to the experiments of a set: weighted least squares with priors.
+#include <map>
+
 #include "data/fit/parameters.h"
 #include "data/fit/workers.h"
 
@@ -24,6 +26,8 @@ class Forward {
   const Workers& workers_;
   std::vector<Anchor> anchors_;
   double longest_element_m_ = fine_elements_m;
+  /// Histories that were run before, by what was changed: folds ask for the same ones again. Filled between jobs only.
+  mutable std::map<std::vector<double>, std::vector<Shape>> known_;
 };
 
 struct Fit {
@@ -51,6 +55,7 @@ struct FitOptions {
   std::vector<Eigen::VectorXd> other_starts = {};
   double guess_m = 1e-3;  ///< of an unknown noise
   int rounds = 4;         ///< of finding it
+  bool only_x = false;    ///< nothing else is asked for
   bool rough = false;     ///< enough to compare models by, in a fraction of the time
 };
 

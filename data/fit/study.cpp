@@ -20,7 +20,7 @@ constexpr int further_starts = 7;
 constexpr std::size_t most_descents = 2;
 constexpr int starts_for_each = 12;  // at most, of what is added
 constexpr int starts_ahead = 6;
-constexpr int starts_in_vessel = 2;  // a history has no branches to land on, and takes as long as hundreds of shapes
+constexpr int starts_in_vessel = 8;          // a history takes as long as hundreds of shapes
 constexpr double another_branch_m = 0.1e-3;  // tips further apart than this are on other branches
 
 std::vector<int> everyone(const MeasurementSet& set) {
@@ -111,7 +111,13 @@ FitOptions Study::options_near(const FittedModel& near, std::optional<double> no
   const int spread = std::min(starts, starts_for_each * (parameters_.shape_parameters() - first));
   FitOptions options{all_, noise_m, starts_of(parameters_, x, first, spread), descents()};
   // Without what it lacks, the other model's stiffness may have gone far astray.
-  if (starts > 0 && !set_.vessel) options.other_starts = starts_of(parameters_, parameters_.start(), first, spread / 2);
+  if (starts > 0) {
+    const auto others = starts_of(parameters_, parameters_.start(), first, spread / 2);
+    if (set_.vessel)  // no time to follow both sorts
+      options.starts.insert(options.starts.end(), others.begin(), others.end());
+    else
+      options.other_starts = others;
+  }
   options.guess_m = guess_m, options.rounds = 2, options.rough = true;
   return options;
 }
@@ -235,7 +241,7 @@ void Study::add_dependences(FittedModel& model) const {
 
 std::vector<VectorXd> Study::held_out(FitOptions options) const {
   const auto folds = folds_of(set_);
-  options.descents = 1;
+  options.descents = 1, options.only_x = set_.vessel.has_value();
   std::vector<VectorXd> out(folds.empty() ? 0 : all_.size());
   for (std::size_t f = 0; f < folds.size(); ++f) {
     say(fmt::format("fold {} of {}", f + 1, folds.size()));
