@@ -283,7 +283,7 @@ void report_forces(const Model& model, const Strand& strand, RodReport& report) 
 }
 
 /// The iterate becomes the strand's state.
-void finish(const State& state, const Scratch& scratch, const Strand& strand, StepReport& report) {
+void finish(const State& state, const Scratch& scratch, const Strand& strand, Piece piece, StepReport& report) {
   RodScratch& s = *strand.s;
   const Rod& rod = s.inside;
   RodState& own = *strand.own;
@@ -307,7 +307,8 @@ void finish(const State& state, const Scratch& scratch, const Strand& strand, St
     linearise_end_joints(rod, own, joints_of(s.inputs), scratch.step_s, s);
   if (solved) {
     commit(rod, s, scratch.step_s, own);
-    if (s.step_s < scratch.step_s) halt(rod, own);
+    // What snaps over among walls too fast for the least piece goes on from rest, piece by piece, as through honey.
+    if (s.step_s < scratch.step_s || piece.is_least()) halt(rod, own);
     commit_walls(strand, report.touches);
   } else {
     commit_at_rest(rod, s, own);
@@ -337,11 +338,11 @@ void unnest(const Model& model, const Strand& strand, State& state, Scratch& scr
 }
 
 /// The solution becomes the state.
-void finish_all(const Model& model, State& state, Scratch& scratch, StepReport& report) {
+void finish_all(const Model& model, Piece piece, State& state, Scratch& scratch, StepReport& report) {
   report.touches.clear();
   commit_rod_contacts(scratch, report.rod_touches);
   for (const Strand& strand : scratch.strands) {
-    finish(state, scratch, strand, report);
+    finish(state, scratch, strand, piece, report);
     if (strand.nest) {
       unnest(model, strand, state, scratch, report);
     } else {
@@ -386,7 +387,7 @@ void advance(const Model& model, const Inputs& inputs, Piece piece, State& state
     return;
   }
   retry_from_rest(model, state, scratch, report);
-  finish_all(model, state, scratch, report);
+  finish_all(model, piece, state, scratch, report);
 }
 
 }  // namespace
