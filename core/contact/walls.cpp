@@ -58,12 +58,20 @@ WallPlane plane_of(const Surface& surface, const View& view, const V3<double>& n
   return plane;
 }
 
+/// The cosine from which on planes stand for one another. What is pressed into a wall that gives way lies behind the
+/// nearest triangle's neighbours too, sideways of it: each would push once more, and the wall be as many times as
+/// stiff.
+double same_from(const WallPlane& plane, const View& view) {
+  constexpr double soft = 0.1;
+  return plane.softness * view.cell * tunables::wall_N_m2 > 1.001 ? soft : tunables::same_wall;
+}
+
 /// Keeps the planes of one node: the nearest, and those that face elsewhere.
-void keep(const WallPlane& plane, NodeWalls& walls) {
+void keep(const WallPlane& plane, double same, NodeWalls& walls) {
   int at = walls.count;
   while (at > 0 && walls.planes[at - 1].gap > plane.gap) --at;
   for (int k = 0; k < at; ++k)
-    if (dot(walls.planes[k].normal, plane.normal) > tunables::same_wall) return;
+    if (dot(walls.planes[k].normal, plane.normal) > same) return;
   // It stands for those further away that face as it does.
   WallPlane behind[max_planes];
   const int others = walls.count - at;
@@ -71,7 +79,7 @@ void keep(const WallPlane& plane, NodeWalls& walls) {
   walls.count = at;
   if (walls.count < max_planes) walls.planes[walls.count++] = plane;
   for (int k = 0; k < others && walls.count < max_planes; ++k)
-    if (dot(behind[k].normal, plane.normal) <= tunables::same_wall) walls.planes[walls.count++] = behind[k];
+    if (dot(behind[k].normal, plane.normal) <= same) walls.planes[walls.count++] = behind[k];
 }
 
 /// Which of a cluster's triangles may be within reach, a bit for each.
@@ -119,7 +127,7 @@ void look(const Surface& surface, int cluster, const ClusterPose& pose, const Fi
     WallPlane plane = plane_of(surface, view, normal, gap, {foot, moment(pose.before), moment(pose.after)});
     const double bend = curvature_towards(plane.across, t, a, b, d);
     if (bend > 0) plane.curvature = least(1 / largest(1 / bend - view.radius, 1e-9), tunables::most_curved_wall_per_m);
-    keep(plane, walls);
+    keep(plane, same_from(plane, view), walls);
   }
 }
 
@@ -225,12 +233,12 @@ bool first_exit(const Model& model, const V3<double>& from, const V3<double>& to
 
 /// Where a wall that was met on the way goes: in place of one that faces as it does, or where there is room, or in
 /// place of the one that is farthest away. -1: nowhere.
-int slot_for(const WallPlane& plane, const V3<double>& to, const bool* taken, const NodeWalls& walls) {
+int slot_for(const WallPlane& plane, double same, const V3<double>& to, const bool* taken, const NodeWalls& walls) {
   int farthest = -1;
   double most = 0;
   for (int k = 0; k < walls.count; ++k) {
     const WallPlane& w = walls.planes[k];
-    if (dot(w.normal, plane.normal) > tunables::same_wall) return k;
+    if (dot(w.normal, plane.normal) > same) return k;
     const double away = dot(w.normal, to) - w.place;
     if (taken[k] || (farthest >= 0 && away < most)) continue;
     farthest = k, most = away;
@@ -316,7 +324,7 @@ bool follow(const Model& model, const RodState& own, int i, const V3<double>& to
     WallPlane& plane = met.planes[k];
     const double behind = plane.place - dot(plane.normal, to);
     if (!(behind > tunables::followed_m)) continue;
-    const int at = slot_for(plane, to, taken, walls);
+    const int at = slot_for(plane, same_from(plane, view), to, taken, walls);
     if (at < 0) continue;
     WallPlane& old = walls.planes[at];
     // The same once more, which gives by what the node presses it with.

@@ -26,12 +26,19 @@ constexpr double bore_friction = 0.05;
 
 Quaterniond quaternion(const Eigen::Vector4d& q) { return {q[0], q[1], q[2], q[3]}; }
 
+/// A tip meets a wall at an angle: in one that gives way it is in contact over some millimetres only.
+constexpr double tip_m = 6e-3, tip_element_m = 0.5e-3;
+
 std::vector<double> elements_of(const ConcentricPart& part, double length) {
   double longest = element_m;
   for (const Section& s : part.sections)
     longest = std::min(longest, element_rad / std::max(s.rest_curvature_per_m.norm(), 1e-6));
-  const int count = std::max(16, static_cast<int>(std::ceil(length / longest)));
-  return std::vector<double>(count, length / count);
+  const double tip = std::min(tip_m, 0.5 * length);
+  const int count = std::max(16, static_cast<int>(std::ceil((length - tip) / longest)));
+  const int at_tip = static_cast<int>(std::ceil(tip / std::min(tip_element_m, longest)));
+  std::vector<double> out(count, (length - tip) / count);
+  out.insert(out.end(), at_tip, tip / at_tip);
+  return out;
 }
 
 class History {

@@ -12,7 +12,6 @@
 #include <stdexcept>
 #include <thread>
 
-#include "data/write_file.h"
 #include "tests/campaign/judged.h"
 #include "tests/support/undeclared.h"
 
@@ -75,7 +74,7 @@ void print(const std::vector<Judged>& all) {
     for (const Judged& j : all) {
       if (j.kind != kind) continue;
       ++n, right += j.right, size += j.size, after += j.after, cpu = std::max(cpu, j.cpu_s);
-      if (kind == "clean")
+      if (kind == "clean" || kind == std::string(ostium::synthetic::in_tube) + "clean")
         ++clean, clean_right += j.right;
       else if (j.size > 2)
         ++strong, strong_right += j.right;
@@ -102,10 +101,11 @@ int write_sets(const Options& o) {
     if (!o.kinds.empty() && std::find(o.kinds.begin(), o.kinds.end(), kind) == o.kinds.end()) continue;
     for (int s = 0; s < (kind == "clean" ? o.clean : o.seeds); ++s) {
       const unsigned seed = o.first_seed + static_cast<unsigned>(s);
-      const std::string file = fmt::format("{}/{}-{}/measurement.json", o.sets, kind, seed);
+      std::string name = kind;
+      std::replace(name.begin(), name.end(), ':', '-');
       try {
-        ostium::write_file(file, ostium::synthetic::to_json(ostium::synthetic::undeclared_set(kind, seed).set));
-        fmt::print("{}\n", file);
+        fmt::print("{}\n", ostium::synthetic::write_set(fmt::format("{}/{}-{}", o.sets, name, seed),
+                                                        ostium::synthetic::undeclared_set(kind, seed).set));
       } catch (const std::runtime_error& error) {
         fmt::print(stderr, "{} {}: {}\n", kind, seed, error.what());
       }

@@ -1,8 +1,12 @@
 #include "tests/campaign/judged.h"
 
+#include <fmt/format.h>
+#include <unistd.h>
+
 #include <algorithm>
 #include <cmath>
 #include <ctime>
+#include <filesystem>
 #include <set>
 
 #include "data/fit/explanation.h"
@@ -38,12 +42,21 @@ bool confusable(const std::vector<std::string>& a, const std::vector<std::string
   return x.size() == 1 && y.size() == 1 && often_confused(x[0], y[0]);
 }
 
+/// As files, as anyone's would be.
+MeasurementSet as_read(const MeasurementSet& set, const std::string& kind, unsigned seed) {
+  if (!set.vessel) return read_measurement("measurement.json", to_json(set));
+  const std::filesystem::path folder = std::filesystem::temp_directory_path() /
+                                       fmt::format("ostium-{}-{}-{}", kind.substr(kind.find(':') + 1), seed, getpid());
+  const MeasurementSet out = load_measurement(write_set(folder.string(), set));
+  std::filesystem::remove_all(folder);
+  return out;
+}
+
 }  // namespace
 
 Judged judge(const std::string& kind, unsigned seed, int threads) {
   const Undeclared truth = undeclared_set(kind, seed);
-  // As a file, as anyone's would be.
-  const MeasurementSet set = read_measurement("measurement.json", to_json(truth.set));
+  const MeasurementSet set = as_read(truth.set, kind, seed);
   const double begin = cpu_seconds();
   ExplainOptions options;
   options.library = true, options.threads = threads;

@@ -283,10 +283,10 @@ TEST(Contact, AWireGoesWithAWallThatSways) {
   EXPECT_GT(carried_m, 0.016);
 }
 
-/// A soft wall gives way by force over stiffness.
+/// A soft wall gives way by force over stiffness, also as far as its neighbouring triangles are reached.
 TEST(Contact, ASoftWallYields) {
   SurfaceDescription wall = straight_tube(2e-3);
-  wall.stiffness_N_m2 = 2e4;
+  wall.stiffness_N_m2 = 300;
   Model model;
   RodDescription d = verify::steel_wire({.elements = 100, .length_m = 0.2});
   d.damping.drag_across_N_s_m2 = 1;
@@ -300,7 +300,8 @@ TEST(Contact, ASoftWallYields) {
   StepReport report;
   for (int n = 0; n < 4000; ++n) step(model, inputs, state, scratch, report);
   const double yields = d.sections[0].kg_per_m * 9.81 / wall.stiffness_N_m2, radius = d.sections[0].radius_m;
-  EXPECT_NEAR(state.rods[0].position[50].z(), -(2e-3 * std::cos(pi / 48) - radius + yields), 5e-6);
+  EXPECT_GT(yields, 50e-6);
+  EXPECT_NEAR(state.rods[0].position[50].z(), -(2e-3 * std::cos(pi / 48) - radius + yields), 0.03 * yields);
   double borne = 0;
   for (const Touch& t : report.touches) borne += t.normal_W_N.z();
   EXPECT_NEAR(borne / (model.rods[0].total_mass_kg * 9.81), 1, 0.01);

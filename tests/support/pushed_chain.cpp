@@ -12,7 +12,6 @@ using Eigen::MatrixXd;
 using Eigen::Vector2d;
 using Eigen::VectorXd;
 
-constexpr double wall_N_m2 = 2e7;    // per length: a newton per metre goes 0.05 um deep
 constexpr double smooth_m = 0.5e-6;  // of friction: what has slid less is thought to stick
 constexpr double tolerance_rad = 1e-9, longest_turn_rad = 0.1;
 constexpr int most_newton = 200, most_rounds = 60;
@@ -104,7 +103,7 @@ class Chain {
   double potential(int i, const Vector2d& p) const {
     const Offset o = off_centreline(tube_, p);
     const double d = std::max(depth(o), 0.0), u = slid(i, p);
-    return weight(i) * p.y() + wall_N_m2 * share(i) * d * d / 2 +
+    return weight(i) * p.y() + setting_.wall_N_m2 * share(i) * d * d / 2 +
            setting_.friction * normal_[i] * (std::hypot(u, smooth_m) - smooth_m);
   }
 
@@ -115,7 +114,7 @@ class Chain {
   Vector2d slope(int i, const Vector2d& p, Matrix2d* curve = nullptr) const {
     const Offset o = off_centreline(tube_, p);
     const double d = std::max(depth(o), 0.0), u = slid(i, p), root = std::hypot(u, smooth_m),
-                 drag = setting_.friction * normal_[i], k = wall_N_m2 * share(i);
+                 drag = setting_.friction * normal_[i], k = setting_.wall_N_m2 * share(i);
     const Vector2d t = way(i);
     if (curve) {
       *curve = drag * smooth_m * smooth_m / (root * root * root) * t * t.transpose();
@@ -204,7 +203,7 @@ class Chain {
       const std::vector<Vector2d> p = nodes(angle_);
       double change = 0, largest = 1e-6;
       for (int i = 0; i < size(); ++i) {
-        const double force = wall_N_m2 * share(i) * std::max(depth(off_centreline(tube_, p[i])), 0.0);
+        const double force = setting_.wall_N_m2 * share(i) * std::max(depth(off_centreline(tube_, p[i])), 0.0);
         change = std::max(change, std::fabs(force - normal_[i])), largest = std::max(largest, force);
         normal_[i] = 0.5 * (normal_[i] + force);
       }

@@ -38,6 +38,7 @@ struct Setting {
   Eigen::Vector2d base_m = Eigen::Vector2d::Zero();  ///< on the tube's axis; held along x
   double gravity_m_s2 = 0;                           ///< along -z
   double segment_m = 1e-3;                           ///< and increment
+  double wall_N_m2 = 2e7;                            ///< per length and depth; as it is, 1 N/m goes 0.05 um deep
 };
 
 struct Rest {

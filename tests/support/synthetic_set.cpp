@@ -7,6 +7,9 @@
 #include <random>
 #include <stdexcept>
 
+#include "data/write_file.h"
+#include "vascular/mesh.h"
+
 namespace ostium::synthetic {
 
 namespace {
@@ -167,6 +170,9 @@ std::string to_json(const MeasurementSet& set) {
                                    {"sections", sections}});
   }
   file["environment"] = {{"gravity_m_s2", vector(set.gravity_m_s2, 1)}, {"vessel", nullptr}};
+  if (set.vessel)
+    file["environment"]["vessel"] = {
+        {"mesh", set.vessel->mesh}, {"units", set.vessel->units}, {"friction", set.vessel->friction}};
   file["imaging"] = {{"noise_sigma_mm", nullptr},
                      {"registration", set.imaging.registration_free ? "free" : "given"},
                      {"tip_offset", set.imaging.tip_offset_free ? "free" : "none"}};
@@ -192,6 +198,15 @@ std::string to_json(const MeasurementSet& set) {
     file["experiments"].push_back(entry);
   }
   return file.dump(1);
+}
+
+std::string write_set(const std::string& folder, const MeasurementSet& set) {
+  const std::string file = folder + "/measurement.json";
+  write_file(file, to_json(set));
+  if (set.vessel)
+    write_mesh(folder + "/" + set.vessel->mesh, {set.vessel->wall->frames[0], set.vessel->wall->triangles},
+               LengthUnit::metre);
+  return file;
 }
 
 }  // namespace ostium::synthetic

@@ -32,4 +32,7 @@ MeasurementSet two_tubes(int experiments);
 /// The file that says it.
 std::string to_json(const MeasurementSet& set);
 
+/// measurement.json and its mesh, in metres; the former's name is returned.
+std::string write_set(const std::string& folder, const MeasurementSet& set);
+
 }  // namespace ostium::synthetic

@@ -3,8 +3,10 @@
 #include <cmath>
 #include <functional>
 #include <numbers>
-#include <random>
 #include <stdexcept>
+
+#include "tests/support/dice.h"
+#include "tests/support/undeclared_tube.h"
 
 namespace ostium::synthetic {
 
@@ -15,33 +17,6 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 
 constexpr double pi = std::numbers::pi, mm = 1e-3, Nmm2 = 1e-6, degree = pi / 180, gram = 1e-3;
-
-/// Numbers that are the same with every library.
-class Dice {
- public:
-  Dice(const std::string& kind, unsigned seed) {
-    unsigned hash = 2166136261u;  // FNV-1a
-    for (char c : kind) hash = (hash ^ static_cast<unsigned char>(c)) * 16777619u;
-    random_.seed(hash ^ (seed * 2654435761u));
-  }
-  double uniform(double from, double to) { return from + (to - from) * (random_() + 0.5) / 4294967296.0; }
-  double log_uniform(double from, double to) { return std::exp(uniform(std::log(from), std::log(to))); }
-  double sign() { return random_() & 1u ? 1 : -1; }
-  double either(double from, double to) { return sign() * uniform(from, to); }
-  int whole(int from, int to) { return from + static_cast<int>(random_() % static_cast<unsigned>(to - from + 1)); }
-  double normal() {
-    const double u = uniform(0, 1), v = uniform(0, 1);
-    return std::sqrt(-2 * std::log(u)) * std::cos(2 * pi * v);
-  }
-  Vector3d normals() {
-    const double x = normal(), y = normal(), z = normal();
-    return {x, y, z};
-  }
-  Vector3d direction() { return normals().normalized(); }
-
- private:
-  std::mt19937 random_;
-};
 
 /// What the world does that the file does not say.
 struct World {
@@ -332,11 +307,15 @@ const std::vector<std::string>& undeclared_kinds() {
                                                  "out:twist_at_rest",
                                                  "out:shear",
                                                  "out:drift",
-                                                 "out:kink_in_time"};
+                                                 "out:kink_in_time",
+                                                 "tube:clean",
+                                                 "tube:wall_friction",
+                                                 "tube:wall_compliance"};
   return kinds;
 }
 
 Undeclared undeclared_set(const std::string& kind, unsigned seed) {
+  if (kind.rfind(in_tube, 0) == 0) return undeclared_in_tube(kind, seed);
   Dice dice(kind, seed);
   Undeclared u;
   const bool nested = kind == "shaft_torsion", timed = kind == "stress_relaxation";

@@ -1,6 +1,6 @@
 #pragma once
-/// Measured sets that show an effect of which their file says nothing, made by the boundary-value solver: what
-/// `ostium explain` is judged by. Everything about a set follows from its kind and seed.
+/// Measured sets that show an effect of which their file says nothing, made by the boundary-value solver or, in a tube,
+/// by the pushed chain: what `ostium explain` is judged by. Everything about a set follows from its kind and seed.
 #include <map>
 
 #include "tests/support/synthetic_set.h"
@@ -15,7 +15,11 @@ struct Undeclared {
   std::map<std::string, double> truth;  ///< parameters as the library names them, "roll_loss.fraction"
 };
 
-/// "clean", ids of the library, two of them joined by "+", and effects outside the library.
+/// Kinds that begin so are pushed into a tube, and drawn back.
+inline constexpr const char* in_tube = "tube:";
+
+/// "clean", ids of the library, two of them joined by "+", and effects outside the library ("out:...");
+/// "tube:clean", "tube:wall_friction", "tube:wall_compliance".
 const std::vector<std::string>& undeclared_kinds();
 
 /// Throws std::runtime_error if the solver finds no shape of this seed's instrument.

@@ -1,0 +1,111 @@
+#include "tests/support/undeclared_tube.h"
+
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+
+#include "app/verify/tube.h"
+#include "tests/support/dice.h"
+#include "tests/support/pushed_chain.h"
+
+namespace ostium::synthetic {
+
+namespace {
+
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+
+constexpr double mm = 1e-3, Nmm2 = 1e-6, nitinol_kg_m3 = 6450, plastic_kg_m3 = 1200;
+constexpr double base_x_m = 12e-3, segment_m = 0.5e-3, points_m = 5e-3;
+
+double rounded(double length) { return segment_m * std::round(length / segment_m); }
+
+/// A wire, or a catheter, which is stiff enough to press a wall in.
+pushed_chain::Wire drawn(Dice& dice, bool catheter) {
+  const double radius = (catheter ? dice.uniform(0.7, 0.95) : dice.uniform(0.17, 0.25)) * mm;
+  const double shaft = (catheter ? dice.log_uniform(150, 500) : dice.log_uniform(8, 30)) * Nmm2;
+  const double soft = catheter ? dice.uniform(0.3, 0.7) : dice.uniform(0.12, 0.35);
+  const double weight = (catheter ? 0.6 * plastic_kg_m3 : nitinol_kg_m3) * std::numbers::pi * radius * radius;
+  const double tip = rounded(dice.uniform(30, 60) * mm), bend = dice.uniform(0, 9);
+  return {{{tip, soft * shaft, weight, bend}, {1, shaft, weight, 0}}, radius};
+}
+
+MeasuredInstrument declared(const pushed_chain::Wire& wire) {
+  MeasuredInstrument out{"instrument", 0.4, wire.radius_m, 0, {}};
+  double from = 0;
+  for (const pushed_chain::Piece& p : wire.pieces) {
+    Section s;
+    s.from_tip_m = from, s.to_tip_m = from = std::min(p.to_tip_m, out.length_m);
+    s.EI1_N_m2 = s.EI2_N_m2 = p.EI_N_m2, s.GJ_N_m2 = 0.75 * p.EI_N_m2;
+    s.kg_per_m = p.kg_per_m, s.radius_m = wire.radius_m;
+    s.rest_curvature_per_m = {0, p.curvature_per_m, 0};
+    out.sections.push_back(s);
+  }
+  return out;
+}
+
+/// Along x, held there: d1 is up, along z, so u2 > 0 turns the tip up.
+EndState base() {
+  Eigen::Matrix3d R;
+  R << 0, 0, 1, 0, -1, 0, 1, 0, 0;
+  const Eigen::Quaterniond q(R);
+  EndState out;
+  out.q_W = {q.w(), q.x(), q.y(), q.z()};
+  out.p_W = {base_x_m, 0, 0};
+  return out;
+}
+
+}  // namespace
+
+Undeclared undeclared_in_tube(const std::string& kind, unsigned seed) {
+  Dice dice(kind, seed);
+  const std::string effect = kind.substr(std::string(in_tube).size());
+  const bool soft_wall = effect == "wall_compliance", rubs = effect == "wall_friction";
+  const bool catheter = soft_wall || (!rubs && dice.uniform(0, 1) < 0.5);
+  pushed_chain::Wire wire = drawn(dice, catheter);
+  const pushed_chain::Tube tube{rounded(dice.uniform(40, 65) * mm), dice.uniform(35, 55) * mm,
+                                catheter ? dice.uniform(1.0, 1.6) : dice.uniform(1.6, 2.4),
+                                (catheter ? dice.uniform(2.5, 3.5) : dice.uniform(3, 6)) * mm};
+  const double friction = dice.uniform(0.03, 0.08);
+
+  Undeclared u;
+  MeasurementSet& set = u.set;
+  set.title = "made by a pushed chain", set.source = "tests";
+  set.instruments = {declared(wire)};
+  set.gravity_m_s2 = {0, 0, -9.81};
+  set.imaging.noise_sigma_m = dice.uniform(0.08, 0.16) * mm;
+  const auto points = verify::bend(tube.bend_radius_m, tube.angle_rad, tube.lead_m, 0.12, tube.radius_m, 1e-3);
+  set.vessel =
+      MeasuredVessel{"tube.ply", "m", friction, std::make_shared<const SurfaceDescription>(verify::tube(points, 48))};
+
+  pushed_chain::Setting setting{friction, {base_x_m, 0}, 9.81, segment_m};
+  for (pushed_chain::Piece& p : wire.pieces) p.EI_N_m2 *= dice.uniform(0.7, 1.3);
+  if (rubs) u.truth[effect + ".coefficient"] = setting.friction = dice.log_uniform(0.25, 0.7);
+  if (soft_wall) {
+    setting.wall_N_m2 = dice.log_uniform(6e4, 2e5);
+    u.truth[effect + ".stiffness_N_per_mm2"] = 1e-6 * setting.wall_N_m2;
+  }
+  if (rubs || soft_wall) u.effects = {effect};
+
+  const double deepest = tube.lead_m - base_x_m + tube.bend_radius_m * tube.angle_rad + dice.uniform(0, 25) * mm;
+  std::vector<double> inserted;
+  for (const double part : {0.6, 0.82, 1.0, 0.86, 0.7})
+    inserted.push_back(rounded(part * deepest + dice.uniform(-4, 4) * mm));
+  const auto rests = pushed_chain::push(tube, wire, setting, inserted);
+  for (std::size_t k = 0; k < rests.size(); ++k) {
+    if (!rests[k].converged) throw std::runtime_error("the pushed chain comes to no rest");
+    Experiment e;
+    e.id = "d" + std::to_string(k);
+    e.place = "experiments[" + std::to_string(k) + "]";
+    e.base = base(), e.specimen.resize(1);
+    e.set = {{inserted[k], 0, 0}};
+    for (std::size_t i = 0; i < rests[k].curve.size(); i += static_cast<std::size_t>(points_m / segment_m)) {
+      const Vector2d& p = rests[k].curve[i];
+      e.points_m.push_back(Vector3d(p.x(), 0, p.y()) + *set.imaging.noise_sigma_m * dice.normals());
+    }
+    set.experiments.push_back(e);
+  }
+  return u;
+}
+
+}  // namespace ostium::synthetic
