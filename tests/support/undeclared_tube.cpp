@@ -23,7 +23,7 @@ double rounded(double length) { return segment_m * std::round(length / segment_m
 /// A wire, or a catheter, which is stiff enough to press a wall in.
 pushed_chain::Wire drawn(Dice& dice, bool catheter) {
   const double radius = (catheter ? dice.uniform(0.7, 0.95) : dice.uniform(0.17, 0.25)) * mm;
-  const double shaft = (catheter ? dice.log_uniform(150, 500) : dice.log_uniform(8, 30)) * Nmm2;
+  const double shaft = (catheter ? dice.log_uniform(150, 500) : dice.log_uniform(14, 30)) * Nmm2;
   const double soft = catheter ? dice.uniform(0.3, 0.7) : dice.uniform(0.12, 0.35);
   const double weight = (catheter ? 0.6 * plastic_kg_m3 : nitinol_kg_m3) * std::numbers::pi * radius * radius;
   const double tip = rounded(dice.uniform(30, 60) * mm), bend = dice.uniform(0, 9);
@@ -64,7 +64,7 @@ Undeclared undeclared_in_tube(const std::string& kind, unsigned seed) {
   const bool catheter = soft_wall || (!rubs && dice.uniform(0, 1) < 0.5);
   pushed_chain::Wire wire = drawn(dice, catheter);
   const pushed_chain::Tube tube{rounded(dice.uniform(40, 65) * mm), dice.uniform(35, 55) * mm,
-                                catheter ? dice.uniform(1.0, 1.6) : dice.uniform(1.6, 2.4),
+                                catheter ? dice.uniform(1.0, 1.6) : dice.uniform(1.4, 2.0),
                                 (catheter ? dice.uniform(2.5, 3.5) : dice.uniform(3, 6)) * mm};
   const double friction = dice.uniform(0.03, 0.08);
 
@@ -79,8 +79,9 @@ Undeclared undeclared_in_tube(const std::string& kind, unsigned seed) {
       MeasuredVessel{"tube.ply", "m", friction, std::make_shared<const SurfaceDescription>(verify::tube(points, 48))};
 
   pushed_chain::Setting setting{friction, {base_x_m, 0}, 9.81, segment_m};
-  for (pushed_chain::Piece& p : wire.pieces) p.EI_N_m2 *= dice.uniform(0.7, 1.3);
-  if (rubs) u.truth[effect + ".coefficient"] = setting.friction = dice.log_uniform(0.25, 0.7);
+  for (std::size_t i = 0; i < wire.pieces.size(); ++i)
+    wire.pieces[i].EI_N_m2 *= u.truth["EI_scale[0][" + std::to_string(i) + "]"] = dice.uniform(0.7, 1.3);
+  if (rubs) u.truth[effect + ".coefficient"] = setting.friction = dice.log_uniform(0.22, 0.42);
   if (soft_wall) {
     setting.wall_N_m2 = dice.log_uniform(6e4, 2e5);
     u.truth[effect + ".stiffness_N_per_mm2"] = 1e-6 * setting.wall_N_m2;
