@@ -14,6 +14,8 @@ enum class ConditionKind {
   tip_passes,
   tip_leaves,
   tip_in,
+  tip_on,
+  tip_astray,
   tip_points,
   tip_faces,
   tip_drops,
@@ -45,9 +47,10 @@ enum class ConditionKind {
 
 struct ScriptCondition {
   ConditionKind kind = ConditionKind::seconds;
-  int tool = 0;       ///< of Script::tools
-  double value = 0;   ///< SI: m, rad, N, N m, s, beats, V, shares
-  std::string place;  ///< of tip_passes, tip_leaves, tip_in, tip_faces, engaged, contrast_in; of trace
+  int tool = 0;      ///< of Script::tools
+  double value = 0;  ///< SI: m, rad, N, N m, s, beats, V, shares
+  std::string
+      place;  ///< of tip_passes, tip_leaves, tip_in, tip_on, tip_astray, tip_faces, engaged, contrast_in; of trace
   Eigen::Vector3d direction_P = Eigen::Vector3d::Zero();  ///< of tip_points, unit; `value` is the angle
   std::string words;                                      ///< as the file has it, for people: "tip_passes arch"
   bool if_there = false;  ///< of tip_in, tip_leaves: where there is no such place, no tip is in it

@@ -32,6 +32,8 @@ struct Kind {
 constexpr Kind kinds[] = {{"tip_passes", ConditionKind::tip_passes, 0},
                           {"tip_leaves", ConditionKind::tip_leaves, 0},
                           {"tip_in", ConditionKind::tip_in, 0},
+                          {"tip_on", ConditionKind::tip_on, 0},
+                          {"tip_astray", ConditionKind::tip_astray, 0},
                           {"tip_points", ConditionKind::tip_points, 0},
                           {"tip_faces", ConditionKind::tip_faces, 0},
                           {"tip_drops_mm", ConditionKind::tip_drops, 1e-3},
@@ -150,6 +152,13 @@ ScriptCondition read_condition(const JsonValue& value, const Script& script, con
     if (!object.has("within_deg"))
       value.fail(value.path + ".within_deg is missing; expected how exactly, in degrees, > 0 and at most 90");
     c.value = degree * object.positive("within_deg");
+  }
+  if (c.kind == ConditionKind::tip_astray) {
+    if (!object.has("by_mm"))
+      value.fail(value.path + ".by_mm is missing; expected how far from the line of that branch, in mm, > 0");
+    c.value = 1e-3 * object.positive("by_mm");
+  } else if (object.has("by_mm")) {
+    object.refuse("by_mm");
   }
   if (object.has("within_deg") && (!of_angle || object.number("within_deg") > 90)) object.refuse("within_deg");
   if (tools.empty() ? object.has("of") : c.tool != tools.front()) c.words += " of " + script.tools[c.tool].name;

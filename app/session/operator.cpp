@@ -75,7 +75,8 @@ std::vector<int> places(const Script& script, const std::vector<ScriptCondition>
         refuse(c, c.words + ": expected an artery that leaves the aorta, LM or RCA");
       out.push_back(place);
       continue;
-    } else if (c.kind == ConditionKind::tip_in || c.kind == ConditionKind::tip_faces) {
+    } else if (c.kind == ConditionKind::tip_in || c.kind == ConditionKind::tip_on ||
+               c.kind == ConditionKind::tip_astray || c.kind == ConditionKind::tip_faces) {
       place = way.entry(c.place);
     } else if (c.kind == ConditionKind::tip_passes || c.kind == ConditionKind::tip_leaves ||
                c.kind == ConditionKind::contrast_in) {
@@ -150,6 +151,10 @@ struct Sight {
         return tool.in_body && place >= 0 && model.vessel->way->beyond(tip_sphere(c.tool), place);
       case ConditionKind::tip_leaves:
         return !tool.in_body || place < 0 || !model.vessel->way->beyond(tip_sphere(c.tool), place);
+      case ConditionKind::tip_on:
+        return tool.in_body && place >= 0 && astray_m(c.tool, place) == 0;
+      case ConditionKind::tip_astray:
+        return tool.in_body && place >= 0 && astray_m(c.tool, place) >= c.value;
       case ConditionKind::tip_points:
         return tip_direction(model, session, c.tool).dot(c.direction_P) >= std::cos(c.value);
       case ConditionKind::tip_faces:
@@ -207,6 +212,10 @@ struct Sight {
         return is_unharmed(model, session);
     }
     return false;
+  }
+
+  double astray_m(int tool, int place) const {
+    return model.vessel->way->astray_m(tip_sphere(tool), model.vessel->way->branch(place));
   }
 
   /// Round the vessel, seen along it, does the tip point to where a branch leaves?

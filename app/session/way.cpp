@@ -116,6 +116,15 @@ bool Way::beyond(int sphere, int place) const {
   return a.first >= 0 && b.first >= 0 && b.first <= a.first && a.first < b.last;
 }
 
+double Way::astray_m(int sphere, int branch) const {
+  int left = -1, at = this->branch(sphere);
+  while (at >= 0 && at != branch) left = at, at = branches()[static_cast<std::size_t>(at)].parent;
+  if (at < 0) return -1;
+  if (left < 0) return 0;
+  const int from = offset_[static_cast<std::size_t>(branch)] + branches()[static_cast<std::size_t>(left)].parent_sphere;
+  return std::max(0.0, from_access_m(sphere) - from_access_m(from));
+}
+
 int Way::entry(const std::string& branch) const {
   for (std::size_t b = 0; b < branches().size(); ++b) {
     if (branches()[b].name != branch) continue;

@@ -22,6 +22,9 @@ class Way {
   int locate(const Eigen::Vector3d& p, double phase, double breath = 0) const;
   /// Whether `sphere` is `place`, or lies beyond it as seen from the access.
   bool beyond(int sphere, int place) const;
+  /// How far a sphere lies in branches that leave this one, from its middle line on, m: 0 on it; -1: it is not beyond
+  /// that branch's beginning at all.
+  double astray_m(int sphere, int branch) const;
   /// Length of the way from the access, m.
   double from_access_m(int sphere) const { return nodes_[static_cast<std::size_t>(sphere)].from_access_m; }
   int branch(int sphere) const { return nodes_[static_cast<std::size_t>(sphere)].branch; }

@@ -83,6 +83,11 @@ TEST(Script, MistakesAreNamedByLine) {
   expect_words(refusal("\"tip_points\": \"left\", \"within_deg\": 20", "\"tip_faces\": \"RCA\""),
                {"small.json:12:", "within_deg is missing"});
   EXPECT_EQ(refusal("\"tip_points\": \"left\"", "\"tip_faces\": \"RCA\""), "accepted");
+  const std::string points = "\"tip_points\": \"left\", \"within_deg\": 20";
+  EXPECT_EQ(refusal(points, "\"tip_on\": \"LAD\""), "accepted");
+  EXPECT_EQ(refusal(points, "\"tip_astray\": \"LAD\", \"by_mm\": 5"), "accepted");
+  expect_words(refusal(points, "\"tip_astray\": \"LAD\""), {"small.json:12:", "by_mm is missing"});
+  expect_words(refusal(points, "\"tip_on\": \"LAD\", \"by_mm\": 5"), {"small.json:12:", "by_mm"});
   expect_words(refusal("{ \"seconds\": 3 }", "{ \"seconds\": 3, \"beats\": 2 }"),
                {"small.json:10:", "both seconds and beats"});
   expect_words(refusal("{ \"seconds\": 3 }", "{ }"), {"small.json:10:", "says nothing to look at"});

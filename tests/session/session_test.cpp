@@ -302,6 +302,11 @@ TEST(Way, KnowsWhatIsBeyondWhat) {
   EXPECT_FALSE(way.beyond(at(0.05, 0.01), far));
   EXPECT_TRUE(way.beyond(at(0.05, 0.03), middle));
   EXPECT_EQ(way.branch(at(0.05, 0.003)), 0) << "within the trunk";
+  const int leaving = way.branch(far);
+  EXPECT_EQ(way.astray_m(at(0.02, 0), 0), 0);
+  EXPECT_EQ(way.astray_m(far, leaving), 0);
+  EXPECT_EQ(way.astray_m(at(0.02, 0), leaving), -1) << "the trunk does not leave the branch";
+  EXPECT_NEAR(way.astray_m(far, 0), way.from_access_m(far) - way.from_access_m(at(0.05, 0)), 1e-9);
   const Way::Departure leaves = way.departure(far, 0);
   EXPECT_NEAR(std::fabs(leaves.along.x()), 1, 1e-9);
   EXPECT_NEAR(leaves.side.y(), 1, 1e-9);
