@@ -7,6 +7,7 @@
 #include "data/fit/dependence.h"
 #include "data/fit/folds.h"
 #include "data/fit/noise.h"
+#include "data/fit/secant_descent.h"
 #include "data/fit/workers.h"
 #include "data/plot.h"
 
@@ -121,6 +122,27 @@ TEST(Plot, WordsAreEscapedAndEmptyPlotsAreDrawn) {
   plot.line({{1, 1}, {1, 1}}, "#000");
   EXPECT_EQ(plot.svg().find("nan"), std::string::npos);
   EXPECT_EQ(plot.svg().find("inf"), std::string::npos);
+}
+
+/// A curved valley with a bound across it, and a number that is free to move: where it must end, in few evaluations.
+TEST(SecantDescent, FindsTheLeastOfACurvedValley) {
+  SecantDescent d;
+  d.problem.residuals = 3;
+  d.problem.start = Eigen::Vector3d(-0.5, 0.5, 0);
+  d.problem.least = Eigen::Vector3d(-2, -2, -9), d.problem.most = Eigen::Vector3d(2, 2, 9);
+  d.problem.evaluate = [](const Eigen::VectorXd& x, Eigen::VectorXd& r, Eigen::MatrixXd* J) {
+    EXPECT_EQ(J, nullptr);
+    r = Eigen::Vector3d(3 * (x[1] - x[0] * x[0]), 1 - x[0], x[2] - 4 * x[1]);
+    return true;
+  };
+  d.dear = 2, d.scale = Eigen::Vector3d::Ones();
+  d.last_radius = 1e-3, d.least_gain = 1e-9;
+  const LeastSquaresResult free = minimise(d);
+  EXPECT_LT((free.x - Eigen::Vector3d(1, 1, 4)).norm(), 1e-3);
+  EXPECT_LE(free.iterations, d.most_evaluations);
+  d.problem.most[0] = 0.5;  // then the least is at x = 1/2, y = 1/4
+  const LeastSquaresResult bound = minimise(d);
+  EXPECT_LT((bound.x - Eigen::Vector3d(0.5, 0.25, 1)).norm(), 1e-3);
 }
 
 }  // namespace
