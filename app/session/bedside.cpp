@@ -107,7 +107,8 @@ void look_at_balloon(const BedsideModel& model, const State& rods, const StepRep
   auto seat = seat_at_ostium(model, x.locator, p_far, between_m, s.held > 0 ? 0 : between_m / 2);
   if (!seat) seat = seat_of(x.locator, model.physiology.flow.tree, model.treatment.paths, p_near, p_far);
   // What the wall holds is not let go of because a beat throws its shaft aside for a moment.
-  if (!seat && s.held > 0 && was_branch >= 0 && x.locator.nearest(p_far, near_heart_m).cell >= 0) {
+  const bool aside = !seat || seat->branch != was_branch;
+  if (aside && s.held > 0 && was_branch >= 0 && x.locator.nearest(p_far, near_heart_m).cell >= 0) {
     s.branch = was_branch;
     return;
   }
