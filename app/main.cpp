@@ -1,4 +1,6 @@
 /// The one executable. Each subcommand is declared here and lives in a file of its own.
+#include <malloc.h>
+
 #include <CLI/CLI.hpp>
 #include <exception>
 
@@ -21,6 +23,8 @@
 #include "app/verify_command.h"
 
 int main(int argc, char** argv) {
+  // What a case takes while it is made goes back at once; else a tenth of a run's memory would be such leftovers.
+  mallopt(M_MMAP_THRESHOLD, 1 << 20);
   CLI::App app("Ostium: an endovascular simulator. Training and research, not for decisions on a patient.", "ostium");
   app.set_version_flag("--version", OSTIUM_VERSION);
   app.require_subcommand(0, 1);

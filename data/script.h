@@ -53,7 +53,7 @@ struct ScriptCondition {
       place;  ///< of tip_passes, tip_leaves, tip_in, tip_on, tip_astray, tip_faces, engaged, contrast_in; of trace
   Eigen::Vector3d direction_P = Eigen::Vector3d::Zero();  ///< of tip_points, unit; `value` is the angle
   std::string words;                                      ///< as the file has it, for people: "tip_passes arch"
-  bool if_there = false;  ///< of tip_in, tip_leaves: where there is no such place, no tip is in it
+  bool if_there = false;  ///< of tip_in, tip_leaves, tip_passes: where there is no such place, no tip is in it
   std::string file;       ///< where it stands
   int line = 0;
 };

@@ -70,7 +70,7 @@ inline const JsonObjectKeys condition = {
      {"by_mm", false, "beside tip_astray: how far from the line of that branch, in mm, > 0"},
      {"tip_points", false, "where the tip points"},
      {"tip_faces", false, "the name of a branch: the tip points to the side of the vessel that the branch leaves from"},
-     {"if_there", false, "true or false, beside tip_in and tip_leaves"},
+     {"if_there", false, "true or false, beside tip_in, tip_leaves and tip_passes"},
      {"within_deg", false, "how exactly, in degrees, > 0 and at most 90; beside tip_points and tip_faces"},
      {"tip_drops_mm", false, "how far the tip jumps in 0.25 s beyond what the hand moved, in mm, > 0"},
      {"fed_mm", false, "length fed or drawn back since the step began, in mm, > 0"},

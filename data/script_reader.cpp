@@ -144,7 +144,8 @@ ScriptCondition read_condition(const JsonValue& value, const Script& script, con
     c.words = fmt::format("{} {}", found->key, c.place);
   }
   if (object.has("if_there")) {
-    if (c.kind != ConditionKind::tip_in && c.kind != ConditionKind::tip_leaves) object.refuse("if_there");
+    if (c.kind != ConditionKind::tip_in && c.kind != ConditionKind::tip_leaves && c.kind != ConditionKind::tip_passes)
+      object.refuse("if_there");
     c.if_there = read_boolean(object, "if_there");
   }
   const bool of_angle = c.kind == ConditionKind::tip_points || c.kind == ConditionKind::tip_faces;

@@ -54,6 +54,8 @@ Recorder::Recorder(const RecorderOptions& options, const SessionModel& model, co
     slot.events.reserve(events_a_block);
   }
   record_.step_s = model.step_s();
+  // For a quarter of an hour: what is not used yet takes no memory, growing would for a moment take it twice.
+  record_.signals.reserve(static_cast<std::size_t>(900 / (model.step_s() * steps_per_signal)) * signal_width_);
   record_.signal_columns = signal_names(model);
   for (const TreeBranch& branch : model.vessel->way->branches()) record_.branches.push_back(branch.name);
   if (options.mode != RecordMode::none) {
