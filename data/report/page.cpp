@@ -318,7 +318,7 @@ std::string events_csv(const ReportRun& run) {
     for (const EventDefinition& definition : event_definitions())
       if (static_cast<int>(definition.code) == code)
         out += fmt::format("{:.3f},{},{},{},{},{}\n", record.events[e] * record.step_s, definition.name,
-                           quoted(tool_of(run, e)),
+                           tool_of(run, e).empty() ? "" : quoted(tool_of(run, e)),
                            definition.value.empty() ? "" : fmt::format("{:.6g}", record.events[e + 3]),
                            quoted(definition.value), severity_name(definition.severity));
   }
