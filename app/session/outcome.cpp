@@ -17,6 +17,11 @@ bool in_lesions_artery(const SessionModel& model, double branch, double s_m) {
 
 }  // namespace
 
+bool heart_rests(const SessionState& state) {
+  const double phase = state.blood.heart.phase;
+  return phase >= 0.68 && phase <= 0.84;
+}
+
 LesionNow lesion_now(const SessionModel& model, const SessionState& state) {
   const Plan& plan = lesion(model);
   LesionNow out{.mld_m = 1, .segment_mld_m = 1, .reference_m = plan.reference_m, .stenosis = 0};

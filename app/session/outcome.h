@@ -6,6 +6,10 @@
 
 namespace ostium {
 
+/// Diastasis: a beat carries arteries and shafts past each other by millimetres, so places along an artery are compared
+/// while the heart rests, before the R wave (heart_cycle.cpp).
+bool heart_rests(const SessionState& state);
+
 struct LesionNow {
   double mld_m = 0;          ///< smallest diameter of the lumen within the lesion
   double segment_mld_m = 0;  ///< the same with 5 mm on both sides and whatever a stent covers

@@ -237,6 +237,8 @@ void EventWatch::look(const SessionModel& model, const SessionInputs& inputs, co
                                  : EventCode::script_step_timed_out,
         -1, e.step);
   }
+  const bool looks = now % HandlingWatch::every == 0;
+  if (looks) handling_.look(model, inputs, state, report, say);
   for (int t = 0; t < static_cast<int>(tools_.size()); ++t) {
     Tool& before = tools_[static_cast<std::size_t>(t)];
     const ToolReport& tool = report.tools[static_cast<std::size_t>(t)];
@@ -247,10 +249,9 @@ void EventWatch::look(const SessionModel& model, const SessionInputs& inputs, co
     const bool pressed = before.wall_force_N > (before.pressed ? 0.8 : 1) * wall_force_limit_N;
     if (pressed && !before.pressed) say(EventCode::wall_force_high, t, before.wall_force_N);
     before.pressed = pressed;
-    if (now % 10 != 0) continue;
-    const Way& way = *model.vessel->way;
-    const int branch =
-        tool.in_body ? way.branch(way.locate(tip(model, state, t), state.blood.heart.phase, breath(model, state))) : -1;
+    if (!looks) continue;
+    const int sphere = handling_.scene().tools[static_cast<std::size_t>(t)].sphere;
+    const int branch = tool.in_body ? model.vessel->way->branch(sphere) : -1;
     if (branch >= 0 && branch != before.branch) say(EventCode::tip_enters, t, branch);
     before.branch = branch;
   }
@@ -263,7 +264,6 @@ void EventWatch::look(const SessionModel& model, const SessionInputs& inputs, co
   if (trouble && !trouble_) say(EventCode::step_trouble, -1, trouble);
   trouble_ = trouble;
   if (model.has_patient()) look_at_patient(model, inputs, state, report, say);
-  if (now % HandlingWatch::every == 0) handling_.look(model, inputs, state, report, say);
 }
 
 }  // namespace ostium

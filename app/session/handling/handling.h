@@ -3,8 +3,8 @@
 /// data/metrics.h with its definition and its severity. Limits are a draft for raters, as data/scoring is; none is
 /// validated.
 ///
-/// One more: its line in the table of metrics.cpp, where it is found in one of these files, an item in data/scoring,
-/// a test (tests/session/handling_test.cpp).
+/// One more: its line in the table of data/events.cpp, where it is found in one of these files, an item in
+/// data/scoring, a test (tests/session/handling_test.cpp).
 #include "app/session/handling/catheter_errors.h"
 #include "app/session/handling/device_errors.h"
 #include "app/session/handling/wire_errors.h"
@@ -20,6 +20,7 @@ class HandlingWatch {
   explicit HandlingWatch(const SessionModel& model) : map_(model) {}
   void look(const SessionModel& model, const SessionInputs& inputs, const SessionState& state,
             const SessionReport& report, const EventSink& say);
+  const HandlingScene& scene() const { return scene_; }  ///< of the last look
 
  private:
   void look_at_pushing(const SessionModel& model, const EventSink& say);

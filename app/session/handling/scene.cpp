@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/session/outcome.h"
 #include "core/rod/introducer.h"
 #include "core/rod/rod_state.h"
 #include "fluoro/c_arm.h"
@@ -11,8 +12,7 @@ namespace ostium {
 
 namespace {
 
-constexpr double thick_m = 0.7e-3;                    // in diameter: 0.035 in wires and those like them
-constexpr double rests_from = 0.68, rests_to = 0.84;  // of the beat: diastasis (heart_cycle.cpp)
+constexpr double thick_m = 0.7e-3;  // in diameter: 0.035 in wires and those like them
 
 /// How far from the access the last branch leaves the way to the ascending aorta: there the arch ends.
 double arch_ends_m(const Way& way, int ascending, int spheres) {
@@ -123,7 +123,7 @@ void see(const SessionModel& model, const SessionInputs& inputs, const SessionSt
          HandlingScene& x) {
   x.time_s = seconds(model, state);
   const double phase = state.blood.heart.phase;
-  x.diastasis = phase > rests_from && phase < rests_to;
+  x.diastasis = heart_rests(state);
   x.beam = inputs.c_arm.fluoroscopy > 0 || inputs.c_arm.cine > 0;
   x.injects = inputs.bedside.injection_m3_s > 0;
   x.gauge_atm = inputs.bedside.gauge_Pa / 101325;
