@@ -9,6 +9,7 @@
 #include "app/verify/tube.h"
 #include "data/effects/effect.h"
 #include "data/forward/insertion.h"
+#include "tests/support/undeclared_tube.h"
 
 namespace ostium {
 namespace {
@@ -29,25 +30,10 @@ struct Pushed {
   MeasurementSet set() const {
     MeasurementSet out;
     out.title = "pushed", out.source = "tests";
-    MeasuredInstrument instrument{"wire", 0.3, wire.radius_m, 0, {}};
-    double from = 0;
-    for (const pushed_chain::Piece& p : wire.pieces) {
-      Section s;
-      s.from_tip_m = from, s.to_tip_m = from = std::min(p.to_tip_m, instrument.length_m);
-      s.EI1_N_m2 = s.EI2_N_m2 = p.EI_N_m2, s.GJ_N_m2 = 0.75 * p.EI_N_m2;
-      s.kg_per_m = p.kg_per_m, s.radius_m = wire.radius_m;
-      s.rest_curvature_per_m = {0, p.curvature_per_m, 0};
-      instrument.sections.push_back(s);
-    }
-    out.instruments = {instrument};
+    out.instruments = {synthetic::declared(wire, "wire", 0.3)};
     out.gravity_m_s2 = {0, 0, -setting.gravity_m_s2};
     Experiment e;
-    // d3 along x, d1 along z: u2 > 0 turns d3 towards z.
-    Eigen::Matrix3d R;
-    R << 0, 0, 1, 0, -1, 0, 1, 0, 0;
-    const Eigen::Quaterniond q(R);
-    e.base.q_W = {q.w(), q.x(), q.y(), q.z()};
-    e.base.p_W = {setting.base_m.x(), 0, setting.base_m.y()};
+    e.base = synthetic::base_along_x(setting.base_m);
     e.specimen.resize(1);
     for (double length : inserted) {
       e.id = "d" + std::to_string(out.experiments.size());

@@ -30,8 +30,10 @@ pushed_chain::Wire drawn(Dice& dice, bool catheter) {
   return {{{tip, soft * shaft, weight, bend}, {1, shaft, weight, 0}}, radius};
 }
 
-MeasuredInstrument declared(const pushed_chain::Wire& wire) {
-  MeasuredInstrument out{"instrument", 0.4, wire.radius_m, 0, {}};
+}  // namespace
+
+MeasuredInstrument declared(const pushed_chain::Wire& wire, const std::string& name, double length_m) {
+  MeasuredInstrument out{name, length_m, wire.radius_m, 0, {}};
   double from = 0;
   for (const pushed_chain::Piece& p : wire.pieces) {
     Section s;
@@ -44,18 +46,15 @@ MeasuredInstrument declared(const pushed_chain::Wire& wire) {
   return out;
 }
 
-/// Along x, held there: d1 is up, along z, so u2 > 0 turns the tip up.
-EndState base() {
+EndState base_along_x(const Eigen::Vector2d& xz_m) {
   Eigen::Matrix3d R;
   R << 0, 0, 1, 0, -1, 0, 1, 0, 0;
   const Eigen::Quaterniond q(R);
   EndState out;
   out.q_W = {q.w(), q.x(), q.y(), q.z()};
-  out.p_W = {base_x_m, 0, 0};
+  out.p_W = {xz_m.x(), 0, xz_m.y()};
   return out;
 }
-
-}  // namespace
 
 Undeclared undeclared_in_tube(const std::string& kind, unsigned seed) {
   Dice dice(kind, seed);
@@ -71,7 +70,7 @@ Undeclared undeclared_in_tube(const std::string& kind, unsigned seed) {
   Undeclared u;
   MeasurementSet& set = u.set;
   set.title = "made by a pushed chain", set.source = "tests";
-  set.instruments = {declared(wire)};
+  set.instruments = {declared(wire, "instrument", 0.4)};
   set.gravity_m_s2 = {0, 0, -9.81};
   set.imaging.noise_sigma_m = dice.uniform(0.08, 0.16) * mm;
   const auto points = verify::bend(tube.bend_radius_m, tube.angle_rad, tube.lead_m, 0.12, tube.radius_m, 1e-3);
@@ -98,7 +97,7 @@ Undeclared undeclared_in_tube(const std::string& kind, unsigned seed) {
     Experiment e;
     e.id = "d" + std::to_string(k);
     e.place = "experiments[" + std::to_string(k) + "]";
-    e.base = base(), e.specimen.resize(1);
+    e.base = base_along_x({base_x_m, 0}), e.specimen.resize(1);
     e.set = {{inserted[k], 0, 0}};
     for (std::size_t i = 0; i < rests[k].curve.size(); i += static_cast<std::size_t>(points_m / segment_m)) {
       const Vector2d& p = rests[k].curve[i];

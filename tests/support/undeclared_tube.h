@@ -1,5 +1,6 @@
 #pragma once
 /// Sets in a tube, made by the pushed chain.
+#include "tests/support/pushed_chain.h"
 #include "tests/support/undeclared.h"
 
 namespace ostium::synthetic {
@@ -7,5 +8,10 @@ namespace ostium::synthetic {
 /// `kind` is one of undeclared_kinds() that begin with `in_tube`. Throws std::runtime_error if the chain comes to no
 /// rest.
 Undeclared undeclared_in_tube(const std::string& kind, unsigned seed);
+
+/// The instrument that a chain is, as a file has it.
+MeasuredInstrument declared(const pushed_chain::Wire& wire, const std::string& name, double length_m);
+/// A base in the chain's plane (x, z), along x: d1 is up, along z, so u2 > 0 turns the tip up.
+EndState base_along_x(const Eigen::Vector2d& xz_m);
 
 }  // namespace ostium::synthetic
