@@ -19,7 +19,8 @@ struct WallPlane {
   double stay = 0;       ///< N/m of the tie along `across`: in a hollow, the force turns with the node, like a pendulum
   V3<double> carried;    ///< m, how far the wall beside it moves in the step
   double friction = 0;
-  double gap = 0;  ///< m, at the beginning of the step; negative: it pressed into a soft wall
+  double gap = 0;     ///< m, at the beginning of the step; negative: it pressed into a soft wall
+  bool soft = false;  ///< the wall gives way
   bool active = false;
 };
 

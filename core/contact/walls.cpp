@@ -44,6 +44,13 @@ V3<double> outward(const Surface& surface, const Surface::Cluster& c, const Surf
   return madd(w.v, corner(2), madd(w.u, corner(1), (1 - w.u - w.v) * corner(0)));
 }
 
+/// Round the instrument; zero where the wall is met head on.
+V3<double> across(const View& view, const V3<double>& normal) {
+  const V3<double> e = cross(view.tangent, normal);
+  const double length = norm(e);
+  return length > 1e-3 ? (1 / length) * e : V3<double>{};
+}
+
 WallPlane plane_of(const Surface& surface, const View& view, const V3<double>& normal, double gap, const Foot& foot) {
   WallPlane plane;
   plane.gap = gap;
@@ -51,27 +58,21 @@ WallPlane plane_of(const Surface& surface, const View& view, const V3<double>& n
   plane.place = dot(normal, foot.after) + view.radius;
   plane.carried = foot.after - foot.before;
   plane.friction = surface.friction;
-  plane.softness = 1 / (view.cell * (surface.stiffness_N_m2 > 0 ? surface.stiffness_N_m2 : tunables::wall_N_m2));
-  const V3<double> e = cross(view.tangent, normal);
-  const double length = norm(e);
-  if (length > 1e-3) plane.across = (1 / length) * e;
+  plane.soft = surface.stiffness_N_m2 > 0;
+  plane.softness = 1 / (view.cell * (plane.soft ? surface.stiffness_N_m2 : tunables::wall_N_m2));
+  plane.across = across(view, normal);
   return plane;
 }
 
-/// The cosine from which on planes stand for one another. What is pressed into a wall that gives way lies behind the
-/// nearest triangle's neighbours too, sideways of it: each would push once more, and the wall be as many times as
-/// stiff.
-double same_from(const WallPlane& plane, const View& view) {
-  constexpr double soft = 0.1;
-  return plane.softness * view.cell * tunables::wall_N_m2 > 1.001 ? soft : tunables::same_wall;
-}
+/// What is pressed into a wall that gives way may have its centre behind it.
+double away(const WallPlane& plane) { return plane.soft ? std::fabs(plane.gap) : plane.gap; }
 
 /// Keeps the planes of one node: the nearest, and those that face elsewhere.
-void keep(const WallPlane& plane, double same, NodeWalls& walls) {
+void keep(const WallPlane& plane, NodeWalls& walls) {
   int at = walls.count;
-  while (at > 0 && walls.planes[at - 1].gap > plane.gap) --at;
+  while (at > 0 && away(walls.planes[at - 1]) > away(plane)) --at;
   for (int k = 0; k < at; ++k)
-    if (dot(walls.planes[k].normal, plane.normal) > same) return;
+    if (dot(walls.planes[k].normal, plane.normal) > tunables::same_wall) return;
   // It stands for those further away that face as it does.
   WallPlane behind[max_planes];
   const int others = walls.count - at;
@@ -79,7 +80,47 @@ void keep(const WallPlane& plane, double same, NodeWalls& walls) {
   walls.count = at;
   if (walls.count < max_planes) walls.planes[walls.count++] = plane;
   for (int k = 0; k < others && walls.count < max_planes; ++k)
-    if (dot(behind[k].normal, plane.normal) <= same) walls.planes[walls.count++] = behind[k];
+    if (dot(behind[k].normal, plane.normal) <= tunables::same_wall) walls.planes[walls.count++] = behind[k];
+}
+
+bool any_soft(const NodeWalls& walls) {
+  return std::any_of(walls.planes, walls.planes + walls.count, [](const WallPlane& w) { return w.soft; });
+}
+
+/// Whether two planes are parts of one wall that gives way.
+bool one_soft_wall(const WallPlane& a, const WallPlane& b) {
+  return a.soft && b.soft && dot(a.normal, b.normal) > tunables::same_soft_wall;
+}
+
+/// What is pressed into a wall that gives way lies behind the nearest triangle's neighbours too, sideways of it. If
+/// each of them pushed, the wall would be as many times as stiff; if the nearest did alone, its push would leap from
+/// one side to the other where two meet. They push as one, those that are about as near as the nearest by so much the
+/// more.
+void join_soft_walls(const View& view, NodeWalls& walls) {
+  int count = 0;
+  for (int k = 0; k < walls.count; ++k) {
+    WallPlane& w = walls.planes[k];
+    const auto known = [&](const WallPlane& other) { return one_soft_wall(other, w); };
+    if (std::any_of(walls.planes, walls.planes + count, known)) continue;
+    if (w.soft) {  // the nearest, as they are sorted
+      double weight = 0, depth = 0, gap = 0;
+      V3<double> normal{}, carried{};
+      for (int j = k; j < walls.count; ++j) {
+        const WallPlane& other = walls.planes[j];
+        const double share = 1 - (away(other) - away(w)) / tunables::joined_m;
+        if (share <= 0 || (j > k && !one_soft_wall(w, other))) continue;
+        weight += share, gap += share * other.gap;
+        depth += share * (other.place - dot(other.normal, view.centre));
+        normal = madd(share, other.normal, normal), carried = madd(share, other.carried, carried);
+      }
+      w.normal = (1 / norm(normal)) * normal;
+      w.gap = gap / weight, w.carried = (1 / weight) * carried;
+      w.place = dot(w.normal, view.centre) + depth / weight;
+      w.across = across(view, w.normal);
+    }
+    walls.planes[count++] = w;
+  }
+  walls.count = count;
 }
 
 /// Which of a cluster's triangles may be within reach, a bit for each.
@@ -127,7 +168,7 @@ void look(const Surface& surface, int cluster, const ClusterPose& pose, const Fi
     WallPlane plane = plane_of(surface, view, normal, gap, {foot, moment(pose.before), moment(pose.after)});
     const double bend = curvature_towards(plane.across, t, a, b, d);
     if (bend > 0) plane.curvature = least(1 / largest(1 / bend - view.radius, 1e-9), tunables::most_curved_wall_per_m);
-    keep(plane, same_from(plane, view), walls);
+    keep(plane, walls);
   }
 }
 
@@ -233,12 +274,12 @@ bool first_exit(const Model& model, const V3<double>& from, const V3<double>& to
 
 /// Where a wall that was met on the way goes: in place of one that faces as it does, or where there is room, or in
 /// place of the one that is farthest away. -1: nowhere.
-int slot_for(const WallPlane& plane, double same, const V3<double>& to, const bool* taken, const NodeWalls& walls) {
+int slot_for(const WallPlane& plane, const V3<double>& to, const bool* taken, const NodeWalls& walls) {
   int farthest = -1;
   double most = 0;
   for (int k = 0; k < walls.count; ++k) {
     const WallPlane& w = walls.planes[k];
-    if (dot(w.normal, plane.normal) > same) return k;
+    if (dot(w.normal, plane.normal) > tunables::same_wall || one_soft_wall(w, plane)) return k;
     const double away = dot(w.normal, to) - w.place;
     if (taken[k] || (farthest >= 0 && away < most)) continue;
     farthest = k, most = away;
@@ -291,7 +332,10 @@ void find_walls(const Model& model, const Strand& strand, Scratch& scratch) {
         }
       }
     }
-    for (int i = begin; i < end; ++i) drop_walls_seen_from_behind(c.walls[i]);
+    for (int i = begin; i < end; ++i) {
+      if (any_soft(c.walls[i])) join_soft_walls(view_of(rod, own, i, load3<double>(own.position, i), 0), c.walls[i]);
+      drop_walls_seen_from_behind(c.walls[i]);
+    }
   }
 }
 
@@ -317,6 +361,7 @@ bool follow(const Model& model, const RodState& own, int i, const V3<double>& to
         look(surface, cluster, pose, pose.after, view, lets_through(surface, scratch.surfaces[k], view.radius), met);
       }
     }
+    if (any_soft(met)) join_soft_walls(view, met);
     drop_walls_seen_from_behind(met);
   }
   bool any = drop_passed_walls(from, reached, view.radius, walls), taken[max_planes] = {};
@@ -324,7 +369,7 @@ bool follow(const Model& model, const RodState& own, int i, const V3<double>& to
     WallPlane& plane = met.planes[k];
     const double behind = plane.place - dot(plane.normal, to);
     if (!(behind > tunables::followed_m)) continue;
-    const int at = slot_for(plane, same_from(plane, view), to, taken, walls);
+    const int at = slot_for(plane, to, taken, walls);
     if (at < 0) continue;
     WallPlane& old = walls.planes[at];
     // The same once more, which gives by what the node presses it with.

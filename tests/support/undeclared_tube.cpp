@@ -15,17 +15,18 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-constexpr double mm = 1e-3, Nmm2 = 1e-6, nitinol_kg_m3 = 6450, plastic_kg_m3 = 1200;
-constexpr double base_x_m = 12e-3, segment_m = 0.5e-3, points_m = 5e-3;
+constexpr double mm = 1e-3, Nmm2 = 1e-6, plastic_kg_m3 = 1200;
+constexpr double coil_kg_m3 = 12000;  // platinum wound about nitinol, with the air between
+constexpr double base_x_m = 12e-3, segment_m = 0.25e-3, points_m = 5e-3;
 
 double rounded(double length) { return segment_m * std::round(length / segment_m); }
 
-/// A wire, or a catheter, which is stiff enough to press a wall in.
+/// A wire so soft and heavy that what rubs on it moves it, or a catheter, which is stiff enough to press a wall in.
 pushed_chain::Wire drawn(Dice& dice, bool catheter) {
   const double radius = (catheter ? dice.uniform(0.7, 0.95) : dice.uniform(0.17, 0.25)) * mm;
-  const double shaft = (catheter ? dice.log_uniform(150, 500) : dice.log_uniform(14, 30)) * Nmm2;
+  const double shaft = (catheter ? dice.log_uniform(150, 500) : dice.log_uniform(3, 10)) * Nmm2;
   const double soft = catheter ? dice.uniform(0.3, 0.7) : dice.uniform(0.12, 0.35);
-  const double weight = (catheter ? 0.6 * plastic_kg_m3 : nitinol_kg_m3) * std::numbers::pi * radius * radius;
+  const double weight = (catheter ? 0.6 * plastic_kg_m3 : coil_kg_m3) * std::numbers::pi * radius * radius;
   const double tip = rounded(dice.uniform(30, 60) * mm), bend = dice.uniform(0, 9);
   return {{{tip, soft * shaft, weight, bend}, {1, shaft, weight, 0}}, radius};
 }
@@ -63,8 +64,8 @@ Undeclared undeclared_in_tube(const std::string& kind, unsigned seed) {
   const bool catheter = soft_wall || (!rubs && dice.uniform(0, 1) < 0.5);
   pushed_chain::Wire wire = drawn(dice, catheter);
   const pushed_chain::Tube tube{rounded(dice.uniform(40, 65) * mm), dice.uniform(35, 55) * mm,
-                                catheter ? dice.uniform(1.0, 1.6) : dice.uniform(1.4, 2.0),
-                                (catheter ? dice.uniform(2.5, 3.5) : dice.uniform(3, 6)) * mm};
+                                catheter ? dice.uniform(1.0, 1.6) : dice.uniform(1.4, 2.2),
+                                (catheter ? dice.uniform(2.5, 3.5) : dice.uniform(5, 8)) * mm};
   const double friction = dice.uniform(0.03, 0.08);
 
   Undeclared u;
@@ -72,7 +73,7 @@ Undeclared undeclared_in_tube(const std::string& kind, unsigned seed) {
   set.title = "made by a pushed chain", set.source = "tests";
   set.instruments = {declared(wire, "instrument", 0.4)};
   set.gravity_m_s2 = {0, 0, -9.81};
-  set.imaging.noise_sigma_m = dice.uniform(0.08, 0.16) * mm;
+  set.imaging.noise_sigma_m = (catheter ? dice.uniform(0.06, 0.12) : dice.uniform(0.1, 0.2)) * mm;
   const auto points = verify::bend(tube.bend_radius_m, tube.angle_rad, tube.lead_m, 0.12, tube.radius_m, 1e-3);
   set.vessel =
       MeasuredVessel{"tube.ply", "m", friction, std::make_shared<const SurfaceDescription>(verify::tube(points, 48))};
@@ -82,7 +83,7 @@ Undeclared undeclared_in_tube(const std::string& kind, unsigned seed) {
     wire.pieces[i].EI_N_m2 *= u.truth["EI_scale[0][" + std::to_string(i) + "]"] = dice.uniform(0.7, 1.3);
   if (rubs) u.truth[effect + ".coefficient"] = setting.friction = dice.log_uniform(0.22, 0.42);
   if (soft_wall) {
-    setting.wall_N_m2 = dice.log_uniform(6e4, 2e5);
+    setting.wall_N_m2 = dice.log_uniform(2e4, 6e4);
     u.truth[effect + ".stiffness_N_per_mm2"] = 1e-6 * setting.wall_N_m2;
   }
   if (rubs || soft_wall) u.effects = {effect};
