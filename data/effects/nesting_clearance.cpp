@@ -3,50 +3,108 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
+#include "data/effects/beams_with_play.h"
 #include "data/effects/tools.h"
 
 namespace ostium {
 
 namespace {
 
+using Eigen::Matrix3d;
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+
 constexpr double mm = 1e-3;
-constexpr double least_per_m = 0.1;  // of what curvatures differ by: those that agree have no play to take up
+constexpr int cells = 100;         // of what two instruments have in common
+constexpr double step_m = 1.5e-3;  // of a line from the one's middle to the other's
 
 std::string why_not(const MeasurementSet& set, std::optional<int>) {
   if (set.vessel) return "in a vessel instruments have their clearance";
   return set.instruments.size() > 1 ? "" : "nothing is nested";
 }
 
-const Section& section_at(const std::vector<Section>& sections, double from_tip) {
-  for (const Section& s : sections)
+const Section& section_at(const ConcentricPart& part, double from_base) {
+  const double from_tip = part.inserted_m - from_base;
+  for (const Section& s : part.sections)
     if (from_tip < s.to_tip_m) return s;
-  return sections.back();
+  return part.sections.back();
 }
 
-/// The same instrument without its last `length`.
-void end_earlier(ConcentricPart& part, double length) {
-  std::vector<Section> out;
-  for (Section s : part.sections) {
-    s.from_tip_m = out.empty() ? 0 : s.from_tip_m - length, s.to_tip_m -= length;
-    if (s.to_tip_m - s.from_tip_m > 1e-6) out.push_back(s);
+double stiffness(const Section& s) { return std::sqrt(s.EI1_N_m2 * s.EI2_N_m2); }
+
+/// How a part bends where it is free, towards d1 and d2 of the unrolled base, 1/m. What shafts twist is left out.
+Vector2d bend_of(const ConcentricPart& part, const Section& s) {
+  return Eigen::Rotation2Dd(part.roll_rad) * Vector2d(s.rest_curvature_per_m.y(), -s.rest_curvature_per_m.x());
+}
+
+/// Bends a frame by a piece of a line.
+void go_on(double length, const Vector2d& bend_per_m, Matrix3d& R, Vector3d& p) {
+  const Vector3d turn(-bend_per_m.y() * length, bend_per_m.x() * length, 0);
+  const Matrix3d half = (turn.norm() > 0 ? Eigen::AngleAxisd(turn.norm() / 2, turn.normalized())
+                                         : Eigen::AngleAxisd(0, Vector3d::UnitX()))
+                            .toRotationMatrix();
+  R = R * half;
+  p += length * R.col(2);
+  R = R * half;
+}
+
+/// Two instruments as beams.
+BeamsWithPlay beams_of(const ConcentricPart& outer, const ConcentricPart& inner, double play_m, const Setup& setup) {
+  BeamsWithPlay beams;
+  beams.play_m = play_m;
+  double share = 0;  // of the outer one in their stiffness
+  beams.cell_m = outer.inserted_m / cells;
+  Matrix3d R = Matrix3d::Identity();
+  Vector3d p = Vector3d::Zero();
+  for (int k = 0; k < cells; ++k) {
+    const double at = (k + 0.25) * beams.cell_m;
+    const Section &a = section_at(outer, at), &b = section_at(inner, at);
+    const double A = stiffness(a), B = stiffness(b);
+    share = A / (A + B);
+    beams.EI_r_N_m2.push_back(A * B / (A + B));
+    beams.differ_per_m.push_back(bend_of(inner, b) - bend_of(outer, a));
+    go_on(beams.cell_m, share * bend_of(outer, a) + (1 - share) * bend_of(inner, b), R, p);
   }
-  out.front().from_tip_m = 0;
-  part.sections = out;
-  part.inserted_m -= length;
+  if (setup.tip_force_N.isZero()) return beams;
+  // What pulls at the inner one's tip, which d moves by its offset, and by its slope times the lever.
+  const Matrix3d tip = R;
+  Vector3d lever = Vector3d::Zero();
+  const double piece = (inner.inserted_m - outer.inserted_m) / cells;
+  for (int k = 0; k < cells; ++k)
+    go_on(piece, bend_of(inner, section_at(inner, outer.inserted_m + (k + 0.5) * piece)), R, lever);
+  const Eigen::Vector4d& q = setup.base.q_W;
+  const Vector3d F = tip.transpose() * (Eigen::Quaterniond(q[0], q[1], q[2], q[3]).conjugate() * setup.tip_force_N);
+  lever = tip.transpose() * lever;
+  beams.tip_force_N = share * F.head<2>();
+  beams.tip_couple_Nm = share * (lever.z() * F.head<2>() - F.z() * lever.head<2>());
+  return beams;
+}
+
+/// Bends a part by so much more at rest between two places, from the base.
+void bend(ConcentricPart& part, double from_base, double to_base, const Vector2d& more_per_m) {
+  const Vector2d own = Eigen::Rotation2Dd(-part.roll_rad) * more_per_m;
+  change_stretch(part.sections, part.inserted_m - to_base, part.inserted_m - from_base,
+                 [&](Section& s) { s.rest_curvature_per_m.head<2>() += Vector2d(-own.y(), own.x()); });
+}
+
+/// Leads the shared line along the outer one's middle, and from its tip on along the inner one's: bends the inner one,
+/// which has EI_inner / (EI_inner + EI_outer) of a say in the shared line, and the outer one as much of d.
+void lead(const BeamsWithPlay& beams, const ConcentricPart& outer, ConcentricPart& inner) {
+  const Offsets d = offsets_of(beams);
+  const double h = beams.cell_m, tip = outer.inserted_m;
+  for (int k = 0; k <= cells; ++k)
+    bend(inner, std::max(k - 0.5, 0.0) * h, std::min((k + 0.5) * h, tip), -d.bend_per_m[k]);
+  const double step = std::min(step_m, (inner.inserted_m - tip) / 3);
+  const Vector2d aside = d.tip_m / (step * step) + d.tip_slope / (2 * step);
+  bend(inner, tip, tip + step, aside + d.tip_slope / step);
+  bend(inner, tip + step, tip + 2 * step, -aside);
 }
 
 void apply(const ActiveEffect& effect, const MeasurementSet&, const Experiment&, Setup& setup) {
   auto& parts = setup.nest.parts;
   for (std::size_t i = 0; i + 1 < parts.size(); ++i) {
-    const double beyond = parts[i + 1].inserted_m - parts[i].inserted_m;
-    if (beyond <= 0 || effect.values[0] <= 0) continue;
-    const Eigen::Vector2d own = section_at(parts[i].sections, 0).rest_curvature_per_m.head<2>();
-    const Eigen::Vector2d other = section_at(parts[i + 1].sections, beyond).rest_curvature_per_m.head<2>();
-    // As their drives are turned; how they twist on the way is left out.
-    const double differ =
-        (Eigen::Rotation2Dd(parts[i].roll_rad) * own - Eigen::Rotation2Dd(parts[i + 1].roll_rad) * other).norm();
-    end_earlier(parts[i], std::min(std::sqrt(3 * effect.values[0] * mm / std::max(differ, least_per_m)),
-                                   0.4 * parts[i].inserted_m));
+    if (effect.values[0] <= 0 || parts[i + 1].inserted_m <= parts[i].inserted_m) continue;
+    lead(beams_of(parts[i], parts[i + 1], effect.values[0] * mm, setup), parts[i], parts[i + 1]);
   }
 }
 

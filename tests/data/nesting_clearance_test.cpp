@@ -1,12 +1,17 @@
-/// Play between nested instruments against two beams, each with its own deflection, that touch where they meet.
+/// Play between nested instruments against two beams, and two chains, each with its own deflection, that touch where
+/// they meet.
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
 #include <cmath>
+#include <numbers>
 
+#include "data/effects/beams_with_play.h"
 #include "data/effects/effect.h"
 #include "data/forward/shape.h"
+#include "tests/support/nested_chains.h"
 #include "tests/support/synthetic_set.h"
+#include "tests/support/undeclared_tube.h"
 
 namespace ostium {
 namespace {
@@ -96,7 +101,7 @@ double tip_of_the_model(const Beams& b, double play) {
   return (base.conjugate() * (shape.points_m.back() - e.base.p_W)).x();
 }
 
-/// What play takes off the tip's deflection, over deflections small enough for beams: within an eighth.
+/// What play takes off the tip's deflection, over deflections small enough for beams.
 TEST(NestingClearance, TakesAsMuchOffTheTipAsBetweenTwoBeamsThatTouch) {
   for (const auto& [outer_k, inner_k] : {std::pair(1.0, 0.0), std::pair(1.0, -0.6), std::pair(0.6, 1.0)})
     for (const double play : {1e-5, 3e-5}) {
@@ -106,22 +111,67 @@ TEST(NestingClearance, TakesAsMuchOffTheTipAsBetweenTwoBeamsThatTouch) {
       EXPECT_NEAR(tip_of_the_model(beams, 0), without, 0.01 * std::fabs(without));
       const double exact = tip_of_two_beams(beams, play, 70) - without;
       const double model = tip_of_the_model(beams, play) - tip_of_the_model(beams, 0);
-      EXPECT_NEAR(model / exact, 1, 0.125) << outer_k << " " << inner_k << " " << play;
+      EXPECT_NEAR(model / exact, 1, 0.02) << outer_k << " " << inner_k << " " << play;
     }
 }
 
-/// Curvatures that agree, turned alike, have no use for play; turned apart they have.
-TEST(NestingClearance, ActsOnWhatDiffers) {
-  MeasurementSet set = synthetic::two_tubes(1);
-  for (MeasuredInstrument& i : set.instruments)
-    for (Section& s : i.sections) s.rest_curvature_per_m = {0, 10, 0};
-  Changes changes;
-  changes.effects = {active(find_effect("nesting_clearance"), set, {}, {"", {}})};
-  changes.effects[0].values[0] = 0.1;
-  Experiment e = set.experiments[0];
-  e.set = {{0.1, 0.3, 0}, {0.14, 0.3 + 3.14159265, 0}};
-  const double apart = setup_of(set, e, changes).nest.parts[0].inserted_m;
-  EXPECT_NEAR(apart, 0.1 - std::sqrt(3 * 0.1e-3 / 20), 1e-6);
+/// Where all is even, d crosses the bore at the end, and comes out at sqrt(3 play differ).
+TEST(NestingClearance, BeamsComeOutAtTheAngleOfTheClosedForm) {
+  for (const double play : {1e-5, 1e-4})
+    for (const double differ : {1.0, 5.0}) {
+      BeamsWithPlay beams;
+      beams.cell_m = 0.1 / 200, beams.play_m = play;
+      beams.EI_r_N_m2.assign(200, 1.8e-3);
+      beams.differ_per_m.assign(200, {0.6 * differ, -0.8 * differ});
+      const Offsets d = offsets_of(beams);
+      const Eigen::Vector2d towards(0.6, -0.8);
+      EXPECT_NEAR(d.tip_slope.dot(towards) / std::sqrt(3 * play * differ), 1, 0.01) << play << " " << differ;
+      EXPECT_NEAR(d.tip_m.dot(towards) / play, 1, 0.01) << play << " " << differ;
+    }
+}
+
+/// The line of two tubes, the outer one's and then the inner one's, against two chains in a plane: large bends, tubes
+/// to the same side and to opposite ones.
+TEST(NestingClearance, LinesAgreeWithTwoChains) {
+  constexpr double play = 0.1e-3, curved_m[] = {0.05, 0.042}, bend_per_m[] = {11, 6}, inserted_m[] = {0.075, 0.1};
+  for (const bool opposed : {false, true}) {
+    MeasurementSet set = synthetic::two_tubes(1);
+    set.imaging = {};
+    set.gravity_m_s2.setZero();
+    Experiment& e = set.experiments[0];
+    e.base = synthetic::base_along_x({0, 0});
+    e.tip_force_N = {0, 0, 0.1};
+    nested_chains::Problem pair;
+    pair.play_m = play, pair.tip_force_N = {0, 0.1};
+    for (int i = 0; i < 2; ++i) {
+      auto& s = set.instruments[i].sections;
+      s[0].to_tip_m = s[1].from_tip_m = curved_m[i];
+      s[0].rest_curvature_per_m = {0, bend_per_m[i], 0};
+      const bool turned = opposed && i == 1;
+      e.set[i] = {inserted_m[i], turned ? std::numbers::pi : 0, 0};
+      (i == 0 ? pair.outer : pair.inner) = {
+          {{curved_m[i], s[0].EI1_N_m2, turned ? -bend_per_m[i] : bend_per_m[i]}, {1, s[1].EI1_N_m2, 0}},
+          inserted_m[i]};
+    }
+    const nested_chains::Solution chains = nested_chains::solve(pair);
+    ASSERT_TRUE(chains.converged);
+    Changes none, changes;
+    changes.effects = {active(find_effect("nesting_clearance"), set, {}, {"", {}})};
+    changes.effects[0].values[0] = 1e3 * play;
+    const Shape with = shape_from(setup_of(set, e, changes), walk(set, changes)[0]),
+                without = shape_from(setup_of(set, e, none), walk(set, none)[0]);
+    double off = 0, off_without = 0;
+    for (std::size_t k = 0; k < chains.inner.size(); ++k) {
+      // From the one's middle to the other's a line goes over two steps.
+      if (k + 8 >= chains.outer.size() && k < chains.outer.size() + 8) continue;
+      const Eigen::Vector2d& p = k < chains.outer.size() ? chains.outer[k] : chains.inner[k];
+      const Eigen::Vector3d q(p.x(), 0, p.y());
+      off = std::max(off, (nearest_point(with.points_m, q) - q).norm());
+      off_without = std::max(off_without, (nearest_point(without.points_m, q) - q).norm());
+    }
+    EXPECT_LT(off, 0.025e-3) << opposed;
+    EXPECT_GT(off_without, 0.4e-3) << opposed;
+  }
 }
 
 }  // namespace

@@ -103,7 +103,7 @@ TEST(PushedChain, InsertionIntoASoftWallAgrees) {
     Pushed pushed;
     pushed.tube = {0.05, 0.045, 1.3, 3e-3};
     pushed.wire = {{{0.045, 150 * Nmm2, 1.4e-3, 5}, {1, 320 * Nmm2, 1.4e-3, 0}}, 0.87e-3};
-    pushed.setting.wall_N_m2 = 5e4, pushed.setting.friction = friction, pushed.setting.segment_m = 0.25e-3;
+    pushed.setting.wall_N_m2 = 5e4, pushed.setting.friction = friction;
     pushed.inserted = {0.06, 0.08, 0.1, 0.085, 0.07};
     const auto chain = pushed_chain::push(pushed.tube, pushed.wire, pushed.setting, pushed.inserted);
     const MeasurementSet set = pushed.set();

@@ -124,11 +124,17 @@ class Chain {
     return Vector2d(0, weight(i)) + k * d * o.outwards + drag * u / root * t;
   }
 
-  /// Of the joint behind segment j: its stiffness, and the angle there beyond rest.
-  double stiffness(int j) const { return piece((j + 1) * h_).EI_N_m2 / (j + 1 == size() ? h_ / 2 : h_); }
+  /// Of the joint behind segment j, half of a segment on either side as far as there is one: its stiffness, and the
+  /// angle there beyond rest.
+  double behind(int j) const { return j + 1 == size() ? 0 : h_ / 2; }
+  double stiffness(int j) const {
+    const double at = (j + 1) * h_;
+    return 1 / (h_ / 2 / piece(at - h_ / 4).EI_N_m2 + behind(j) / piece(at + h_ / 4).EI_N_m2);
+  }
   double bent(const VectorXd& angle, int j) const {
-    const bool base = j + 1 == size();
-    return angle[j] - (base ? 0 : angle[j + 1]) - piece((j + 1) * h_).curvature_per_m * (base ? h_ / 2 : h_);
+    const double at = (j + 1) * h_;
+    return angle[j] - (j + 1 == size() ? 0 : angle[j + 1]) - h_ / 2 * piece(at - h_ / 4).curvature_per_m -
+           behind(j) * piece(at + h_ / 4).curvature_per_m;
   }
 
   double energy(const VectorXd& angle) const {

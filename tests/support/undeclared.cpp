@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "tests/support/dice.h"
+#include "tests/support/undeclared_nest.h"
 #include "tests/support/undeclared_tube.h"
 
 namespace ostium::synthetic {
@@ -300,6 +301,7 @@ const std::vector<std::string>& undeclared_kinds() {
                                                  "imaging_scale",
                                                  "stress_relaxation",
                                                  "shaft_torsion",
+                                                 "nesting_clearance",
                                                  "rest_curvature+roll_loss",
                                                  "soft_section+clamp_runout",
                                                  "lumped_mass+imaging_scale",
@@ -316,6 +318,7 @@ const std::vector<std::string>& undeclared_kinds() {
 
 Undeclared undeclared_set(const std::string& kind, unsigned seed) {
   if (kind.rfind(in_tube, 0) == 0) return undeclared_in_tube(kind, seed);
+  if (kind == "nesting_clearance") return undeclared_play(seed);
   Dice dice(kind, seed);
   Undeclared u;
   const bool nested = kind == "shaft_torsion", timed = kind == "stress_relaxation";

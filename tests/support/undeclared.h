@@ -1,6 +1,7 @@
 #pragma once
-/// Measured sets that show an effect of which their file says nothing, made by the boundary-value solver or, in a tube,
-/// by the pushed chain: what `ostium explain` is judged by. Everything about a set follows from its kind and seed.
+/// Measured sets that show an effect of which their file says nothing, made by the boundary-value solver, in a tube by
+/// the pushed chain, or of two tubes with play by nested ones: what `ostium explain` is judged by. Everything about a
+/// set follows from its kind and seed.
 #include <map>
 
 #include "tests/support/synthetic_set.h"

@@ -17,7 +17,7 @@ using Eigen::Vector3d;
 
 constexpr double mm = 1e-3, Nmm2 = 1e-6, plastic_kg_m3 = 1200;
 constexpr double coil_kg_m3 = 12000;  // platinum wound about nitinol, with the air between
-constexpr double base_x_m = 12e-3, segment_m = 0.25e-3, points_m = 5e-3;
+constexpr double base_x_m = 12e-3, segment_m = 0.5e-3, points_m = 5e-3;
 
 double rounded(double length) { return segment_m * std::round(length / segment_m); }
 
