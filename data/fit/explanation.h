@@ -31,7 +31,8 @@ struct FittedModel {
   MeasuredView view;
   double rms_m = 0;
   std::optional<double> rms_held_out_m;
-  std::optional<double> chi2_per_dof;  ///< none if the noise is not known
+  std::optional<double> push_rms_N, push_rms_held_out_N;  ///< where pushes were measured in a vessel
+  std::optional<double> chi2_per_dof;                     ///< none if the noise is not known
   double degrees_of_freedom = 0;
   double bic = 0;
   bool converged = false;

@@ -24,7 +24,11 @@ Json parameters(const FittedModel& m, bool units) {
   return out;
 }
 
-Json rms_of(const FittedModel& m) { return {{"fit", m.rms_m / mm}, {"held_out", or_null(m.rms_held_out_m, mm)}}; }
+Json rms_of(const FittedModel& m) {
+  Json out = {{"fit", m.rms_m / mm}, {"held_out", or_null(m.rms_held_out_m, mm)}};
+  if (m.push_rms_N) out["push_fit_N"] = *m.push_rms_N, out["push_held_out_N"] = or_null(m.push_rms_held_out_N);
+  return out;
+}
 
 Json signature(const Signature& s) {
   Json out = {{"frame", s.frame}, {"from_tip_mm", nullptr}, {"at_mm", nullptr}};

@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "data/fit/least_squares.h"
+#include "data/fit/push.h"
 #include "data/fit/secant_descent.h"
 #include "data/forward/insertion.h"
 
@@ -37,6 +38,7 @@ constexpr double rough_tolerance = 1e-5;
 constexpr int rough_iterations = 25;
 constexpr std::size_t tasted = 3;  // of each sort of starts
 constexpr int taste_iterations = 4;
+constexpr double snapped = 2;  // times the derivative to the other side
 
 /// Behind what `out` has: how many numbers, and these.
 void append(const Shape& shape, std::vector<double>& out) {
@@ -78,10 +80,17 @@ class Problem {
  public:
   Problem(const Forward& forward, const Parameters& parameters, const std::vector<int>& chosen, double sigma_m,
           bool rough)
-      : forward_(forward), parameters_(parameters), chosen_(chosen), sigma_(sigma_m), rough_(rough) {
+      : forward_(forward),
+        parameters_(parameters),
+        chosen_(chosen),
+        sigma_(sigma_m),
+        push_sigma_N_(push_sigma_N(forward.set())),
+        rough_(rough) {
     for (int e : chosen) {
       const Experiment& experiment = forward.set().experiments[e];
       rows_ += experiment.kind == Experiment::Kind::radius ? 1 : 3 * static_cast<int>(experiment.points_m.size());
+      if (push_sigma_N_ && experiment.proximal_force_N) ++rows_;
+      block_ends_.push_back(rows_);
     }
   }
 
@@ -113,14 +122,16 @@ class Problem {
     out.most_evaluations = (rough ? 25 : 40) + 6 * out.dear;
     return out;
   }
-  /// From here on differences are to both sides, and as wide as the noise: what J, taken so far, says moves the data by
-  /// one standard deviation. Kinks that are finer do not matter to what the data say.
+  /// From here on differences are to both sides, and as wide as the noise: what J, taken so far, says moves each number
+  /// by one standard deviation. Kinks that are finer do not matter to what the data say, and what two histories differ
+  /// by for no reason is not taken for a derivative.
   void widen_to_noise(const MatrixXd& J) {
     rough_ = false;
     steps_.resize(parameters_.shape_parameters());
     for (int i = 0; i < steps_.size(); ++i) {
       const double spread = parameters_.list()[i].spread;
-      steps_[i] = std::clamp(1 / std::max(J.col(i).head(rows_).norm(), 1e-9), 0.01 * spread, 0.3 * spread);
+      const double moves = J.col(i).head(rows_).norm() / std::sqrt(rows_);
+      steps_[i] = std::clamp(1 / std::max(moves, 1e-9), 0.03 * spread, 0.5 * spread);
     }
   }
 
@@ -149,7 +160,12 @@ class Problem {
       else if (!data(moves ? found[at + 1] : found[0], below, down))
         return false;
       (*jacobian)(rows_ + i, i) = 1 / parameters_.list()[i].spread;
-      if (above[i] != below[i]) jacobian->col(i).head(rows_) = (up - down).head(rows_) / (above[i] - below[i]);
+      if (above[i] == below[i]) continue;
+      if (rough_ || !in_vessel() || above[i] == x[i] || below[i] == x[i])
+        jacobian->col(i).head(rows_) = (up - down).head(rows_) / (above[i] - below[i]);
+      else
+        jacobian->col(i).head(rows_) = without_snaps((up - residuals).head(rows_) / (above[i] - x[i]),
+                                                     (residuals - down).head(rows_) / (x[i] - below[i]));
     }
     return true;
   }
@@ -165,6 +181,22 @@ class Problem {
     return x;
   }
 
+  /// The mean of derivatives to both sides; of an experiment in which only one of them is large, the other: there a
+  /// wire snaps to another place, which says no more of the number than on which side of it it is.
+  VectorXd without_snaps(const VectorXd& up, const VectorXd& down) const {
+    VectorXd out(rows_);
+    int from = 0;
+    for (const int to : block_ends_) {
+      const auto a = up.segment(from, to - from), b = down.segment(from, to - from);
+      const double more = a.norm(), less = b.norm();
+      out.segment(from, to - from) = more > snapped * less   ? VectorXd(b)
+                                     : less > snapped * more ? VectorXd(a)
+                                                             : VectorXd((a + b) / 2);
+      from = to;
+    }
+    return out;
+  }
+
   bool data(const std::vector<Shape>& shapes, const VectorXd& x, VectorXd& residuals) const {
     const MeasuredView view = parameters_.view(x);
     const Changes changes = parameters_.changes(x);
@@ -175,6 +207,8 @@ class Problem {
       const VectorXd off = misfit(e, shapes[k], seen(forward_.set(), e, changes, view));
       residuals.segment(row, off.size()) = off / sigma_;
       row += static_cast<int>(off.size());
+      const std::optional<double> push_off_N = push_misfit_N(e, shapes[k]);
+      if (push_sigma_N_ && push_off_N) residuals[row++] = *push_off_N / *push_sigma_N_;
     }
     return residuals.head(row).allFinite();
   }
@@ -183,9 +217,11 @@ class Problem {
   const Parameters& parameters_;
   const std::vector<int>& chosen_;
   double sigma_;
+  std::optional<double> push_sigma_N_;
   bool rough_;      ///< differences to one side
   VectorXd steps_;  ///< of differences; empty: as the parameters have them
   int rows_ = 0;
+  std::vector<int> block_ends_;  ///< of the rows of each experiment
 };
 
 /// A point and what it costs there.
@@ -299,7 +335,11 @@ double Fit::informed(int i) const {
 
 Fit fit(const Forward& forward, const Parameters& parameters, const FitOptions& options) {
   Fit out;
-  for (int e : options.experiments) out.measured += static_cast<double>(numbers_measured(forward.set().experiments[e]));
+  const bool pushes = push_sigma_N(forward.set()).has_value();
+  for (int e : options.experiments) {
+    const Experiment& experiment = forward.set().experiments[e];
+    out.measured += static_cast<double>(numbers_measured(experiment)) + (pushes && experiment.proximal_force_N ? 1 : 0);
+  }
   std::vector<VectorXd> starts = options.starts, other_starts = options.other_starts;
   // Without a known noise, that of the residuals; the weight of the priors follows it, so a few times over.
   double sigma = options.sigma_m.value_or(options.guess_m);

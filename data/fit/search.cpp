@@ -15,6 +15,7 @@ constexpr std::size_t bases = 3;      // models that another effect is added to
 constexpr std::size_t finalists = 4;  // that are scored on held-out data
 constexpr std::size_t most_effects = 4;
 constexpr std::size_t ahead = 6;   // of what could join a model: fitted
+constexpr double clearly = 0.95;   // of another model's held-out error
 constexpr double far_behind = 30;  // in BIC, of the best: not looked at again
 
 bool at_an_edge(const FittedModel& model) {
@@ -59,10 +60,16 @@ bool often_confused(const std::string& a, const std::string& b) {
                      [&](const auto& p) { return (p.first == a && p.second == b) || (p.first == b && p.second == a); });
 }
 
+bool predicts_better(const FittedModel& a, const FittedModel& b) {
+  if (!a.rms_held_out_m || !b.rms_held_out_m) return false;
+  const double shapes = *a.rms_held_out_m / *b.rms_held_out_m;
+  const bool pushes =
+      a.push_rms_held_out_N && b.push_rms_held_out_N && *a.push_rms_held_out_N < clearly * *b.push_rms_held_out_N;
+  return shapes < clearly || (pushes && shapes < 1 / clearly);
+}
+
 bool wins(const FittedModel& candidate, const FittedModel& declared, const Noise& noise) {
-  const bool held_out = candidate.rms_held_out_m && declared.rms_held_out_m &&
-                        *candidate.rms_held_out_m < 0.95 * *declared.rms_held_out_m;
-  if (!held_out || candidate.bic > declared.bic - strong_evidence) return false;
+  if (!predicts_better(candidate, declared) || candidate.bic > declared.bic - strong_evidence) return false;
   return !noise.sigma_m || is_noise(candidate, noise);
 }
 
@@ -177,9 +184,7 @@ void Search::grow_by_held_out(const FittedModel& of_declared, const Noise& noise
     Tried* best = nullptr;
     for (Tried* t : of_count) {
       complete(*t, noise);
-      const bool better = t->model.rms_held_out_m && current.rms_held_out_m &&
-                          *t->model.rms_held_out_m < 0.95 * *current.rms_held_out_m &&
-                          t->model.bic < current.bic - strong_evidence;
+      const bool better = predicts_better(t->model, current) && t->model.bic < current.bic - strong_evidence;
       if (better && (!best || *t->model.rms_held_out_m < *best->model.rms_held_out_m)) best = t;
     }
     if (!best) break;

@@ -12,6 +12,10 @@ inline constexpr double strong_evidence = 6, positive_evidence = 2;
 /// Effects that some data cannot part need strong evidence for one of them; so many degrees of freedom in chi-square.
 bool often_confused(const std::string& a, const std::string& b);
 
+/// Whether one model's held-out error is below another's by 5 %: that of shapes, or, if these are predicted about as
+/// well, that of pushes.
+bool predicts_better(const FittedModel& a, const FittedModel& b);
+
 /// An effect counts if it predicts what it has not seen better, and pays for its numbers.
 bool wins(const FittedModel& candidate, const FittedModel& declared, const Noise& noise);
 

@@ -54,6 +54,18 @@ std::string in_curvature(const MeasurementSet& set, const std::vector<Eigen::Vec
   return misfits.empty() ? "" : fmt::format("{:.1f} %", 100 * std::sqrt(sum / static_cast<double>(misfits.size())));
 }
 
+void of_pushes(const Explanation& x, std::vector<std::string>& out) {
+  if (!x.declared.push_rms_N) return;
+  constexpr double mN = 1e-3;
+  const auto of = [](const FittedModel& m) {
+    return fmt::format("{}, {:.3g} mN{}", m.name, *m.push_rms_N / mN,
+                       m.push_rms_held_out_N ? fmt::format(" ({:.3g} held out)", *m.push_rms_held_out_N / mN) : "");
+  };
+  std::string words = "Push at the base, off by: " + of(x.declared);
+  for (const FittedModel& c : x.candidates) words += "; " + of(c);
+  out.push_back(words + ". It is taken to be known to a tenth of what was measured.");
+}
+
 void of_curvature(const MeasurementSet& set, const Explanation& x, std::vector<std::string>& out) {
   const std::string nominal = in_curvature(set, x.nominal_misfits);
   if (nominal.empty()) return;
@@ -136,6 +148,7 @@ std::vector<std::string> sentences(const MeasurementSet& set, const Explanation&
   for (const FittedModel& c : x.candidates)
     out.push_back(fmt::format("With {}: {:.3g} mm, {}; BIC changes by {:+.1f}.", c.name, c.rms_m / mm, held_out(c),
                               c.bic - x.declared.bic));
+  of_pushes(x, out);
   of_curvature(set, x, out);
   of_noise(x, out);
   of_parameters(set, x.best(), out);

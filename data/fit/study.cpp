@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "data/fit/folds.h"
+#include "data/fit/push.h"
 
 namespace ostium {
 
@@ -21,6 +22,7 @@ constexpr std::size_t most_descents = 2;
 constexpr int starts_for_each = 12;  // at most, of what is added
 constexpr int starts_ahead = 6;
 constexpr int starts_in_vessel = 8;          // a history takes as long as hundreds of shapes
+constexpr double most_stiffer = 3;           // at once, by what the push says
 constexpr double another_branch_m = 0.1e-3;  // tips further apart than this are on other branches
 
 std::vector<int> everyone(const MeasurementSet& set) {
@@ -85,11 +87,11 @@ FittedModel Study::run(std::optional<double> noise_m) {
     options.starts = {fit_.x};
     fit_ = fit(*forward_, parameters_, options);
   }
+  refit_by_push(options);
   FittedModel model = report();
   add_dependences(model);
   model.other_branches = others;
-  model.held_out_misfits = held_out(options);
-  if (!model.held_out_misfits.empty()) model.rms_held_out_m = rms(set_, model.held_out_misfits);
+  score_held_out(options, model);
   return model;
 }
 
@@ -137,9 +139,29 @@ FittedModel Study::run_near(const FittedModel& near, std::optional<double> noise
     options.starts = {fit_.x}, options.other_starts.clear();
     fit_ = fit(*forward_, parameters_, options);
   }
+  refit_by_push(options);
   FittedModel model = report();
   model.other_branches = others;
   return model;
+}
+
+/// Shapes alone hardly tell a stiff instrument in a stiff wall from a soft one in a soft wall: descents along that
+/// valley are slow and end early. The push tells, by how much all of it is to be stiffer.
+void Study::refit_by_push(FitOptions options) {
+  if (!push_sigma_N(set_)) return;
+  const std::vector<Shape> shapes = forward_->shapes({parameters_.changes(fit_.x)}, all_)[0];
+  double product = 0, square = 0;
+  for (std::size_t e = 0; e < shapes.size(); ++e)
+    if (const auto& measured = set_.experiments[e].proximal_force_N)
+      product += *measured * shapes[e].base_push_N, square += shapes[e].base_push_N * shapes[e].base_push_N;
+  const double stiffer = std::log(std::clamp(product / std::max(square, 1e-12), 1 / most_stiffer, most_stiffer));
+  VectorXd x = fit_.x;
+  for (int i = 0; i < parameters_.size(); ++i) {
+    const std::string& name = parameters_.list()[i].name;
+    if (name.starts_with("EI_scale") || name == "wall_compliance.stiffness_N_per_mm2") x[i] += stiffer;
+  }
+  options.starts = {fit_.x, x}, options.other_starts.clear(), options.descents = 2;
+  fit_ = fit(*forward_, parameters_, options);
 }
 
 void Study::complete(FittedModel& model, std::optional<double> noise_m) {
@@ -152,8 +174,7 @@ void Study::complete(FittedModel& model, std::optional<double> noise_m) {
   model = report();
   model.other_branches = others;
   add_dependences(model);
-  model.held_out_misfits = held_out(options);
-  if (!model.held_out_misfits.empty()) model.rms_held_out_m = rms(set_, model.held_out_misfits);
+  score_held_out(options, model);
 }
 
 double Study::log_evidence() const {
@@ -230,6 +251,7 @@ FittedModel Study::report() const {
   model.converged = fit_.converged;
   model.shapes = forward_->shapes({model.changes}, all_)[0];
   model.misfits = fit_.misfits;
+  if (push_sigma_N(set_)) model.push_rms_N = push_rms_N(set_, model.shapes);
   for (int e : all_) model.experiment_rms_m.push_back(rms({&set_.experiments[e]}, {fit_.misfits[e]}));
   model.correlation = correlation_along(set_, fit_.misfits);
   return model;
@@ -239,28 +261,34 @@ void Study::add_dependences(FittedModel& model) const {
   model.dependences = dependences(set_, fit_.misfits, model.view);
 }
 
-std::vector<VectorXd> Study::held_out(FitOptions options) const {
+void Study::score_held_out(FitOptions options, FittedModel& model) const {
   const auto folds = folds_of(set_);
+  if (folds.empty()) return;
   options.descents = 1, options.only_x = set_.vessel.has_value();
-  std::vector<VectorXd> out(folds.empty() ? 0 : all_.size());
+  std::vector<VectorXd> out(all_.size());
+  std::vector<Shape> shapes(all_.size());
   for (std::size_t f = 0; f < folds.size(); ++f) {
     say(fmt::format("fold {} of {}", f + 1, folds.size()));
     options.experiments.clear();
     for (int e : all_)
       if (std::find(folds[f].begin(), folds[f].end(), e) == folds[f].end()) options.experiments.push_back(e);
     options.starts = {parameters_.start(), fit_.x};
-    std::vector<VectorXd> off;
+    VectorXd x;
     try {
-      off = misfits(*forward_, parameters_, fit(*forward_, parameters_, options).x, folds[f]);
+      x = fit(*forward_, parameters_, options).x;
     } catch (const std::runtime_error&) {
-      return {};  // no shape where this fold ends
+      return;  // no shape where this fold ends
     }
+    const std::vector<VectorXd> off = misfits(*forward_, parameters_, x, folds[f]);
+    const std::vector<Shape> seen = forward_->shapes({parameters_.changes(x)}, folds[f])[0];
     for (std::size_t k = 0; k < off.size(); ++k) {
-      if (off[k].size() == 0) return {};
-      out[folds[f][k]] = off[k];
+      if (off[k].size() == 0) return;
+      out[folds[f][k]] = off[k], shapes[folds[f][k]] = seen[k];
     }
   }
-  return out;
+  model.held_out_misfits = out;
+  model.rms_held_out_m = rms(set_, out);
+  if (push_sigma_N(set_)) model.push_rms_held_out_N = push_rms_N(set_, shapes);
 }
 
 }  // namespace ostium

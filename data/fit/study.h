@@ -32,14 +32,16 @@ class Study {
   std::size_t descents() const;  ///< from how many starts a fit goes downhill
   void say(const std::string& what) const;
   FitOptions options_near(const FittedModel& near, std::optional<double> noise_m, double guess_m, int starts);
+  /// Once more from where the measured pushes point to, if there are any.
+  void refit_by_push(FitOptions options);
   /// Finds the shapes to continue from: those that the walk through the experiments comes to at x.
   void anchor(const Eigen::VectorXd& x);
   /// Anchors anew at what was fitted, and names the experiments that this brings to another shape.
   std::vector<std::string> on_other_branches();
   FittedModel report() const;
   void add_dependences(FittedModel& model) const;
-  /// Misfits of each experiment by the fit that has not seen it; empty if that cannot be said.
-  std::vector<Eigen::VectorXd> held_out(FitOptions options) const;
+  /// Adds each experiment's misfits by the fit that has not seen it, where that can be said.
+  void score_held_out(FitOptions options, FittedModel& model) const;
 
   const MeasurementSet& set_;
   const Workers& workers_;

@@ -185,6 +185,7 @@ std::string to_json(const MeasurementSet& set) {
          {{"position_mm", vector(e.base.p_W, mm)}, {"tangent", vector(R.col(2), 1)}, {"up", vector(R.col(0), 1)}}},
         {"set", Json::array()},
         {"tip_force_N", vector(e.tip_force_N, 1)}};
+    if (e.proximal_force_N) entry["proximal_force_N"] = *e.proximal_force_N;
     for (const Placement& p : e.set)
       entry["set"].push_back({{"inserted_length_mm", p.inserted_m / mm},
                               {"roll_deg", p.roll_rad * 180 / pi},

@@ -17,7 +17,7 @@ using Eigen::Vector3d;
 
 constexpr double mm = 1e-3, Nmm2 = 1e-6, plastic_kg_m3 = 1200;
 constexpr double coil_kg_m3 = 12000;  // platinum wound about nitinol, with the air between
-constexpr double base_x_m = 12e-3, segment_m = 0.5e-3, points_m = 5e-3;
+constexpr double base_x_m = 12e-3, segment_m = 0.5e-3, points_m = 5e-3, push_noise = 0.03;
 
 double rounded(double length) { return segment_m * std::round(length / segment_m); }
 
@@ -93,6 +93,8 @@ Undeclared undeclared_in_tube(const std::string& kind, unsigned seed) {
   for (const double part : {0.6, 0.82, 1.0, 0.86, 0.7})
     inserted.push_back(rounded(part * deepest + dice.uniform(-4, 4) * mm));
   const auto rests = pushed_chain::push(tube, wire, setting, inserted);
+  double hardest = 0;
+  for (const pushed_chain::Rest& r : rests) hardest = std::max(hardest, std::fabs(r.push_N));
   for (std::size_t k = 0; k < rests.size(); ++k) {
     if (!rests[k].converged) throw std::runtime_error("the pushed chain comes to no rest");
     Experiment e;
@@ -104,6 +106,9 @@ Undeclared undeclared_in_tube(const std::string& kind, unsigned seed) {
       const Vector2d& p = rests[k].curve[i];
       e.points_m.push_back(Vector3d(p.x(), 0, p.y()) + *set.imaging.noise_sigma_m * dice.normals());
     }
+    // A catheter's push is felt, a wire's is not. Without it nothing tells a stiff one in a stiff wall from a soft one
+    // in a soft wall.
+    if (catheter) e.proximal_force_N = rests[k].push_N + push_noise * hardest * dice.normals().x();
     set.experiments.push_back(e);
   }
   return u;
