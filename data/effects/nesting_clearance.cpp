@@ -87,8 +87,9 @@ void bend(ConcentricPart& part, double from_base, double to_base, const Vector2d
                  [&](Section& s) { s.rest_curvature_per_m.head<2>() += Vector2d(-own.y(), own.x()); });
 }
 
-/// Leads the shared line along the outer one's middle, and from its tip on along the inner one's: bends the inner one,
-/// which has EI_inner / (EI_inner + EI_outer) of a say in the shared line, and the outer one as much of d.
+/// Leads the shared line, which bends as if there were no play, along the outer one's middle, and from its tip on along
+/// the inner one's. The outer one lies off that line by -d EI_inner / (EI_inner + EI_outer); as the inner one has the
+/// same say in how the line bends, it is bent by -d'' for it.
 void lead(const BeamsWithPlay& beams, const ConcentricPart& outer, ConcentricPart& inner) {
   const Offsets d = offsets_of(beams);
   const double h = beams.cell_m, tip = outer.inserted_m;
