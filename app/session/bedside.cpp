@@ -307,6 +307,18 @@ Vector3d point_from_tip(const Rod& rod, const RodState& s, double from_tip_m) {
   return s.position[i] + part * (s.position[i - 1] - s.position[i]);
 }
 
+namespace {
+
+/// Radius of what lies between its markers: of a folded balloon, its profile.
+double radius_between_markers(const Instrument& instrument) {
+  const double middle_m = (marker_from_tip_m(instrument, 0) + marker_from_tip_m(instrument, 1)) / 2;
+  for (const Section& section : instrument.sections)
+    if (section.from_tip_m <= middle_m && middle_m < section.to_tip_m) return section.radius_m;
+  return instrument.outer_diameter_m / 2;
+}
+
+}  // namespace
+
 std::vector<int> add_devices(const std::vector<SessionTool>& tools, std::uint64_t seed, TreatmentModel& model) {
   std::vector<int> balloon_of;
   for (const SessionTool& tool : tools) {
@@ -318,6 +330,12 @@ std::vector<int> add_devices(const std::vector<SessionTool>& tools, std::uint64_
     balloon.name = tool.instrument.title;
     balloon.nominal_Pa = carried.nominal_Pa, balloon.rated_Pa = carried.rated_Pa;
     balloon.seed = seed + model.balloons.size() + 1;
+    // Under a stent it is as small as the makers' own balloons are; without one it is what its shaft shows.
+    if (!tool.instrument.stent) {
+      const double larger_m = balloon.refolded_m - balloon.folded_m;
+      balloon.folded_m = radius_between_markers(tool.instrument);
+      balloon.refolded_m = balloon.folded_m + larger_m;
+    }
     int on = -1;
     try {
       if (tool.instrument.stent) {

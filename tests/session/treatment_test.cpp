@@ -11,6 +11,7 @@
 #include "app/session/run.h"
 #include "app/session/signals.h"
 #include "app/session/xray_scene.h"
+#include "data/catalogue.h"
 #include "data/instrument_reader.h"
 #include "data/load_error.h"
 #include "data/metrics.h"
@@ -36,7 +37,7 @@ const char* const predilatation = R"({
     { "do": "wait", "until": [{ "balloon_open": true }], "timeout_s": 4 },
     { "do": "mark", "text": "open" },
     { "do": "deflate", "timeout_s": 12 },
-    { "do": "advance", "tool": "stent", "speed_mm_s": 50, "until": [{ "balloon_at_mm": 0 }] }
+    { "do": "advance", "tool": "stent", "speed_mm_s": 50, "until": [{ "balloon_at_mm": 30 }] }
   ]
 })";
 
@@ -346,6 +347,26 @@ TEST(Treatment, AWithdrawalIsNotDoneBeforeItsHandHasMoved) {
   };
   for (int i = 0; i < 3; ++i) EXPECT_EQ(outcome(10e-3), Outcome::running) << "it lies beyond, and the hand is late";
   EXPECT_EQ(outcome(-0.1e-3), Outcome::success);
+}
+
+TEST(Treatment, AFoldedBalloonIsAsThickAsItsShaftShows) {
+  TreatmentModel model;
+  std::vector<SessionTool> tools;
+  for (const char* name : {"balloon-15x10", "balloon-20x10", "balloon-nc-30x12", "stent-30x18"})
+    tools.push_back({name, load_instrument(data_folder() + "/instruments/" + name + ".json")});
+  add_devices(tools, 1, model);
+  ASSERT_EQ(model.balloons.size(), 4u);
+  const double profile_m[] = {0.65e-3, 0.75e-3, 1.0e-3};  // printed by makers; a wider one sticks in a tight lesion
+  for (std::size_t i = 0; i < 3; ++i) {
+    const BalloonModel& balloon = model.balloons[i];
+    EXPECT_NEAR(2 * balloon.folded_m, profile_m[i], 1e-9) << balloon.name;
+    EXPECT_GT(balloon.refolded_m, balloon.folded_m) << balloon.name;
+    const BalloonState state = make_balloon_state(balloon);
+    EXPECT_NEAR(2 * *std::max_element(state.radius_m.begin(), state.radius_m.end()), profile_m[i], 1e-9);
+    EXPECT_TRUE(is_empty(balloon, state)) << balloon.name;
+  }
+  // Not that of the stent that is crimped on it.
+  EXPECT_LT(2 * model.balloons[3].folded_m, 0.99e-3);
 }
 
 TEST(Treatment, AlternativesLieIdleOutside) {

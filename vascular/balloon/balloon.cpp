@@ -30,16 +30,17 @@ double unfolded_m(const BalloonModel& m) {
 }
 
 /// What the skin holds at a radius, and its slope.
-WallPressure skin(const BalloonModel& m, double share, double folded_m, double a) {
-  const double full = shaft_m + share * (unfolded_m(m) - shaft_m), folded = std::min(folded_m, full);
+WallPressure skin(const BalloonModel& m, double share, bool was_filled, double a) {
+  const double full = shaft_m + share * (unfolded_m(m) - shaft_m);
+  const double folded = std::min(was_filled ? m.refolded_m : m.folded_m, full);
   if (a >= full) {
     const double slope = 2 / (m.growth_m_Pa * std::max(share, 0.3));
     return {m.unfolding_Pa + slope * (a - full), slope};
   }
-  // The folds open at little pressure, and want as much vacuum to lie down again.
+  // The maker's folds stay as they are until a little pressure opens them; opened, they want vacuum to lie down again.
   const double way = std::max(full - folded, 20e-6), x = (a - folded) / way;
   if (x < 0) return {x * 4 * atm, 4 * atm / way};
-  const double low = fold_share * m.unfolding_Pa - 0.35 * atm;
+  const double low = fold_share * m.unfolding_Pa - (was_filled ? 0.35 * atm : 0);
   return {low + x * (m.unfolding_Pa - low), (m.unfolding_Pa - low) / way};
 }
 
@@ -144,11 +145,11 @@ BalloonReport step(const BalloonModel& m, const PlaqueModel& plaque, const Ballo
   report.gauge_Pa = gauge;
   for (auto* v : {&x.below, &x.middle, &x.above, &x.right, &x.unit}) v->assign(n, 0);
   if (s.pressure_Pa > burst_Pa(m)) s.burst = 1;
-  const double folded = s.was_filled > 0 ? m.refolded_m : m.folded_m;
+  const bool was_filled = s.was_filled > 0;
   double along = 0, pressed = 0;
   for (int i = 0; i < n; ++i) {
     const double a = s.radius_m[i], share = sphere_share(m, i), at = sphere_position(m, s, in.middle_m, i);
-    WallPressure sum = skin(m, share, folded, a);
+    WallPressure sum = skin(m, share, was_filled, a);
     const bool sleeved = !in.sleeve.covers.empty() && in.sleeve.covers[i] > 0;
     // Within a sleeve it meets nothing; where it comes to touch, skin and struts give a little.
     const double meets = sleeved ? std::clamp(1 + (a - in.sleeve.inner_m[i]) / soft_m, 0.0, 1.0) : 1;
