@@ -89,8 +89,8 @@ std::optional<Seat> seat_at_ostium(const BedsideModel& model, const CellLocator&
   return Seat{.branch = cell.branch, .middle_m = far_m - between_m / 2, .offset_m = far.distance_m};
 }
 
-void look_at_balloon(const BedsideModel& model, const State& rods, const StepReport& report, BedsideScratch& x,
-                     BedsideState& s) {
+void look_at_balloon(const BedsideModel& model, const State& rods, const TreatmentState& treatment,
+                     const StepReport& report, BedsideScratch& x, BedsideState& s) {
   const int t = balloon_tool(model, rods);
   const double was = s.balloon, was_branch = s.branch;
   s.balloon = t < 0 ? -1 : model.balloon_of[static_cast<std::size_t>(t)];
@@ -106,9 +106,13 @@ void look_at_balloon(const BedsideModel& model, const State& rods, const StepRep
   const double between_m = near_m - far_m;
   auto seat = seat_at_ostium(model, x.locator, p_far, between_m, s.held > 0 ? 0 : between_m / 2);
   if (!seat) seat = seat_of(x.locator, model.physiology.flow.tree, model.treatment.paths, p_near, p_far);
-  // What the wall holds is not let go of because a beat throws its shaft aside for a moment.
+  // What the wall holds is not let go of because a beat throws its shaft aside for a moment; nor does a balloon that is
+  // open in a stent go into a side branch, which it would tear.
   const bool aside = !seat || seat->branch != was_branch;
-  if (aside && s.held > 0 && was_branch >= 0 && x.locator.nearest(p_far, near_heart_m).cell >= 0) {
+  const bool stays =
+      s.held > 0 ||
+      (s.balloon == was && !is_empty(model.treatment.balloons[static_cast<std::size_t>(s.balloon)], treatment.balloon));
+  if (aside && stays && was_branch >= 0 && x.locator.nearest(p_far, near_heart_m).cell >= 0) {
     s.branch = was_branch;
     return;
   }
@@ -353,6 +357,12 @@ std::vector<int> add_devices(const std::vector<SessionTool>& tools, std::uint64_
   return balloon_of;
 }
 
+bool is_empty(const BalloonModel& model, const BalloonState& state) {
+  double most = 0;
+  for (double r : state.radius_m) most = std::max(most, r);
+  return state.pressure_Pa < 0.2 * 101325 && most < 1.15 * std::max(model.refolded_m, model.folded_m);
+}
+
 void look(const BedsideModel& model, const State& rods, const TreatmentState& treatment, const StepReport& report,
           double phase, double breath, BedsideScratch& x, BedsideState& s) {
   x.locator.set_moment(phase, breath);
@@ -361,7 +371,7 @@ void look(const BedsideModel& model, const State& rods, const TreatmentState& tr
   const Vector3d root_shift =
       contraction(phase) * motion.root_displacement() + motion.breath_displacement(marks.p_annulus, breath);
   look_at_shafts(model, rods, x, s);
-  look_at_balloon(model, rods, report, x, s);
+  look_at_balloon(model, rods, treatment, report, x, s);
   look_at_guide(model, rods, report, phase, breath, root_shift, x, s);
   look_at_crimped_stent(model, rods, treatment, s);
   look_at_edge(model, rods, treatment, x, s);

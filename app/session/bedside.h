@@ -93,6 +93,9 @@ void for_each_bedside_field(S& s, Visit&& visit) {
 /// sizes that vascular refuses.
 std::vector<int> add_devices(const std::vector<SessionTool>& tools, std::uint64_t seed, TreatmentModel& model);
 
+/// Whether a balloon's folds are together again.
+bool is_empty(const BalloonModel& model, const BalloonState& state);
+
 /// Everything of a session that is const, as this part needs it.
 struct BedsideModel {
   const Vessel& vessel;

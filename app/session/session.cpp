@@ -404,12 +404,6 @@ double waist(const BalloonModel& model, const BalloonState& state) {
   return most > 0 ? least / most : 1;
 }
 
-bool is_empty(const BalloonModel& model, const BalloonState& state) {
-  double most = 0;
-  for (double r : state.radius_m) most = std::max(most, r);
-  return state.pressure_Pa < 0.2 * 101325 && most < 1.15 * std::max(model.refolded_m, model.folded_m);
-}
-
 double seconds(const SessionModel& model, const SessionState& state) {
   return model.step_s() * static_cast<double>(state.rods.step);
 }

@@ -183,8 +183,6 @@ Eigen::Vector3d tip(const SessionModel& model, const SessionState& state, int to
 Eigen::Vector3d tip_direction(const SessionModel& model, const SessionState& state, int tool);
 /// Between the markers, of a balloon: narrowest over widest.
 double waist(const BalloonModel& model, const BalloonState& state);
-/// Whether its folds are together again.
-bool is_empty(const BalloonModel& model, const BalloonState& state);
 
 /// How deep the patient's breath is as a step ends (0: breathed out, 1: at its top): a function of time alone.
 double breath(const SessionModel& model, const SessionState& state);

@@ -237,6 +237,33 @@ TEST(Treatment, ADeviceThatReachesOutOfTheOstiumLiesInTheArtery) {
   EXPECT_LT(jump, 2e-3);
 }
 
+TEST(Treatment, AnOpenBalloonStaysInItsArtery) {
+  ScriptedRun run(setup(), vessel());
+  ASSERT_TRUE(run_to(run, 6)) << reason(run.plan, run.hands);
+  const BedsideModel model{*run.model.vessel,    run.model.tools,     run.model.rods,
+                           run.model.physiology, run.model.treatment, run.model.balloon_of};
+  BedsideScratch scratch(*run.model.vessel);
+  const StepReport report;
+  const int balloon = 1;
+  // For a moment its shaft is thrown aside, by less than what is searched for vessels.
+  State aside = run.state.rods;
+  const Eigen::Vector3d sideways = 4.5e-3 * tip_direction(run.model, run.state, balloon).unitOrthogonal();
+  for (int i = 0; i <= model.rods.rods[balloon].elements; ++i)
+    aside.rods[balloon].position.set(i, run.state.rods.rods[balloon].position[i] + sideways);
+  const auto branch_of = [&](const TreatmentState& treatment) {
+    BedsideState bedside = run.state.bedside;
+    bedside.held = 0;  // within a stent it meets no wall
+    look(model, aside, treatment, report, run.state.blood.heart.phase, 0, scratch, bedside);
+    return bedside.branch;
+  };
+  const double artery = run.state.bedside.branch;
+  ASSERT_GE(artery, 0);
+  EXPECT_NE(branch_of(run.state.treatment), artery) << "folded, it may be anywhere";
+  TreatmentState open = run.state.treatment;
+  for (double& r : open.balloon.radius_m) r = 1.2e-3;
+  EXPECT_EQ(branch_of(open), artery);
+}
+
 TEST(Treatment, AWallFeelsAWiresTipBehindALowPass) {
   ScriptedRun run(setup(), vessel());
   const BedsideModel bedside{*run.model.vessel,    run.model.tools,     run.model.rods,
