@@ -109,7 +109,7 @@ void of_parameters(const MeasurementSet& set, const FittedModel& m, std::vector<
     out.push_back(
         "Nothing loads the instruments, so stiffness shows at most as a ratio between them; what the data leave "
         "open is the declared value.");
-  else if (!loaded && !set.gravity_m_s2.isZero() && set.instruments.size() == 1)
+  else if (!loaded && !m.push_rms_N && !set.gravity_m_s2.isZero() && set.instruments.size() == 1)
     out.push_back(
         "Without known tip loads only EI over weight was found: a wrong weight would be taken for stiffness.");
 }
