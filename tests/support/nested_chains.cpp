@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tests/support/chain_descent.h"
+
 namespace ostium::nested_chains {
 
 namespace {
@@ -13,8 +15,8 @@ using Eigen::Vector2d;
 using Eigen::VectorXd;
 
 constexpr double hold_N_m2 = 5e10;  // of a bore, per length: 10 N on a node go 0.4 um deep
-constexpr double tolerance_rad = 1e-10, longest_turn_rad = 0.05;
-constexpr int most_newton = 400, load_steps = 10;
+constexpr ChainDescent how{1e-10, 0.05, 400};
+constexpr int load_steps = 10;
 
 Vector2d along(double angle) { return {std::cos(angle), std::sin(angle)}; }
 Vector2d across(const Vector2d& t) { return {-t.y(), t.x()}; }
@@ -140,25 +142,9 @@ class Pair {
   }
 
   bool minimise() {
-    VectorXd gradient;
-    MatrixXd hessian;
-    double now = energy(angle_);
-    for (int iteration = 0; iteration < most_newton; ++iteration) {
-      linearise(gradient, hessian);
-      Eigen::LLT<MatrixXd> factors(hessian);
-      const double typical = hessian.diagonal().maxCoeff();
-      for (double shift = 1e-12 * typical; factors.info() != Eigen::Success; shift *= 10)
-        factors.compute(hessian + shift * MatrixXd::Identity(m_ + n_, m_ + n_));
-      VectorXd step = -factors.solve(gradient);
-      const double longest = step.cwiseAbs().maxCoeff();
-      if (longest < tolerance_rad) return true;
-      if (longest > longest_turn_rad) step *= longest_turn_rad / longest;
-      double part = 1, tried = energy(angle_ + step);
-      while (tried > now + 1e-14 * std::fabs(now) && part > 1e-8) part /= 2, tried = energy(angle_ + part * step);
-      if (part <= 1e-8) return longest < 1e-6;
-      angle_ += part * step, now = tried;
-    }
-    return false;
+    return descend(
+        how, [this](const VectorXd& a) { return energy(a); },
+        [this](VectorXd& gradient, MatrixXd& hessian) { linearise(gradient, hessian); }, angle_);
   }
 
   const Problem& p_;

@@ -3,6 +3,8 @@
 #include <Eigen/Dense>
 #include <cmath>
 
+#include "tests/support/chain_descent.h"
+
 namespace ostium::pushed_chain {
 
 namespace {
@@ -13,8 +15,8 @@ using Eigen::Vector2d;
 using Eigen::VectorXd;
 
 constexpr double smooth_m = 0.5e-6;  // of friction: what has slid less is thought to stick
-constexpr double tolerance_rad = 1e-9, longest_turn_rad = 0.1;
-constexpr int most_newton = 200, most_rounds = 60;
+constexpr ChainDescent how{};
+constexpr int most_rounds = 60;
 constexpr double force_tolerance = 1e-3;  // of the largest wall force
 
 Vector2d along(double angle) { return {std::cos(angle), std::sin(angle)}; }
@@ -180,26 +182,9 @@ class Chain {
 
   /// Downhill with the normal forces of friction held.
   bool minimise() {
-    VectorXd gradient;
-    MatrixXd hessian;
-    double now = energy(angle_);
-    for (int iteration = 0; iteration < most_newton; ++iteration) {
-      linearise(gradient, hessian);
-      const double typical = hessian.diagonal().cwiseAbs().maxCoeff();
-      Eigen::LLT<MatrixXd> factors(hessian);
-      for (double shift = 1e-10 * typical; factors.info() != Eigen::Success; shift *= 10)
-        factors.compute(hessian + shift * MatrixXd::Identity(size(), size()));
-      VectorXd step = -factors.solve(gradient);
-      const double longest = step.cwiseAbs().maxCoeff();
-      if (longest < tolerance_rad) return true;
-      if (longest > longest_turn_rad) step *= longest_turn_rad / longest;
-      double part = 1, tried = energy(angle_ + step);
-      // Near the minimum energies differ by less than they are rounded to.
-      while (tried > now + 1e-14 * std::fabs(now) && part > 1e-8) part /= 2, tried = energy(angle_ + part * step);
-      if (part <= 1e-8) return longest < 1e-6;
-      angle_ += part * step, now = tried;
-    }
-    return false;
+    return descend(
+        how, [this](const VectorXd& a) { return energy(a); },
+        [this](VectorXd& gradient, MatrixXd& hessian) { linearise(gradient, hessian); }, angle_);
   }
 
   bool settle() {
