@@ -64,13 +64,19 @@ WallPlane plane_of(const Surface& surface, const View& view, const V3<double>& n
   return plane;
 }
 
-/// What is pressed into a wall that gives way may have its centre behind it.
-double away(const WallPlane& plane) { return plane.soft ? std::fabs(plane.gap) : plane.gap; }
+/// Behind a wall or not: what is pressed into one that gives way may have its centre behind it.
+double away(const WallPlane& plane) { return std::fabs(plane.gap); }
+
+/// Whether a wall beside a nearer one is seen from behind. On which side of it a point lies, only the nearest piece of
+/// wall tells: what lies round a ridge turns its back to a node that is in the lumen all the same. Of a wall that gives
+/// way they may all be (join_soft_walls).
+bool turns_its_back(const WallPlane& plane) { return !plane.soft && plane.gap < 0; }
 
 /// Keeps the planes of one node: the nearest, and those that face elsewhere.
 void keep(const WallPlane& plane, NodeWalls& walls) {
   int at = walls.count;
   while (at > 0 && away(walls.planes[at - 1]) > away(plane)) --at;
+  if (at > 0 && turns_its_back(plane)) return;
   for (int k = 0; k < at; ++k)
     if (dot(walls.planes[k].normal, plane.normal) > tunables::same_wall) return;
   // It stands for those further away that face as it does.
@@ -80,7 +86,8 @@ void keep(const WallPlane& plane, NodeWalls& walls) {
   walls.count = at;
   if (walls.count < max_planes) walls.planes[walls.count++] = plane;
   for (int k = 0; k < others && walls.count < max_planes; ++k)
-    if (dot(behind[k].normal, plane.normal) <= tunables::same_wall) walls.planes[walls.count++] = behind[k];
+    if (!turns_its_back(behind[k]) && dot(behind[k].normal, plane.normal) <= tunables::same_wall)
+      walls.planes[walls.count++] = behind[k];
 }
 
 bool any_soft(const NodeWalls& walls) {

@@ -309,6 +309,48 @@ TEST(Contact, ASoftWallYields) {
   EXPECT_NEAR(borne / (model.rods[0].total_mass_kg * 9.81), 1, 0.01);
 }
 
+/// A floor that breaks off to one side (y > 0), a little rounded, its edge finely divided along x.
+SurfaceDescription brink() {
+  const double profile_m[][2] = {{-20e-3, 0}, {0, 0}, {0.018e-3, -0.05e-3}, {0.018e-3, -10e-3}};  // y, z
+  constexpr int rows = 601;
+  SurfaceDescription wall;
+  wall.frames.resize(1);
+  for (int i = 0; i < rows; ++i)
+    for (const auto& [y, z] : profile_m) wall.frames[0].push_back({0.05e-3 * i - 5e-3, y, z});
+  for (int i = 0; i + 1 < rows; ++i)
+    for (int j = 0; j < 3; ++j) {
+      const int a = 4 * i + j, b = a + 1, c = a + 4, d = a + 5;
+      wall.triangles.push_back({a, b, d}), wall.triangles.push_back({a, d, c});
+    }
+  return wall;
+}
+
+/// A catheter that slides along a brink reaches faces beyond it, which turn their back to it: they are no walls of its.
+TEST(Contact, WhatLiesBeyondABrinkHoldsNothing) {
+  Model model;
+  RodDescription d = verify::steel_wire({.elements = 20, .E_Pa = 1e9, .length_m = 0.02});
+  d.sections[0].radius_m = 1e-3;
+  d.damping.drag_across_N_s_m2 = 1;
+  model.rods = {make_rod(d)};
+  model.surfaces = {std::make_shared<Surface>(make_surface(brink()))};
+  EndState base = along_x();
+  base.p_W = Vector3d(0, -0.3e-3, 1e-3);
+  State state = make_state(model, {base});
+  Inputs inputs;
+  inputs.rods.resize(1);
+  Scratch scratch(model);
+  StepReport report;
+  for (int n = 0; n < 200; ++n) {
+    inputs.rods[0].base.velocity_W_m_s.x() = 0.02 * std::min(1.0, n / 100.0);
+    step(model, inputs, state, scratch, report);
+    ASSERT_EQ(report.trouble, 0U) << "step " << n;
+    for (int i = 0; i < model.rods[0].nodes(); ++i) {
+      ASSERT_NEAR(state.rods[0].position[i].y(), base.p_W.y(), 1e-6) << "step " << n << ", node " << i;
+      ASSERT_NEAR(state.rods[0].position[i].z(), base.p_W.z(), 1e-6) << "step " << n << ", node " << i;
+    }
+  }
+}
+
 TEST(Contact, AStepDoesNotAllocateAndIsBitIdentical) {
   const verify::TestVessel vessel = verify::test_vessel();
   verify::Rehearsal a(vessel, false), b(vessel, false);
