@@ -133,7 +133,7 @@ void predict(const Model& model, const State& state, Scratch& scratch, const Str
     find_slides(model, state, *strand.nest);
   }
   guess_nodes(*strand.own, s);
-  expect_touches(strand);
+  expect_touches(model, strand, scratch);
   constrain(model, scratch, strand);
 }
 

@@ -42,6 +42,7 @@ inline constexpr double wall_loose_m = 0.1e-6;  // behind a wall before a node i
 inline constexpr double followed_m = 5e-6;      // behind a wall that was found on the way
 inline constexpr double passed_wall_m = 20e-6;  // behind a plane, on a way that meets no wall: it ends before that
 inline constexpr double same_wall = 0.999;      // cosine between planes that stand for one another
+inline constexpr double same_side = 0.5;        // ... of one wall, seen from two places on the same side of it
 inline constexpr double same_soft_wall = 0.1;   // ... of a wall that gives way, which push as one
 inline constexpr double joined_m = 20e-6;       // farther than the nearest of them: no part of it any more
 inline constexpr double most_curved_wall_per_m = 2e4;

@@ -3,9 +3,10 @@
 ///
 /// Nodes are balls of the rod's radius. What of a wall a node can reach in a step is found at the beginning of the
 /// step, when the node is inside the lumen for certain: each piece of wall becomes a plane there, which the wall
-/// carries to the end of the step (walls.cpp). A node that would end behind a plane is tied to it, a spring as stiff as
-/// the wall; an active set, settled within the rod's solve (planes.cpp). After a solve the path of nodes that went far
-/// is followed through the triangles, and walls that they passed or meet there are planes, too: nothing gets through.
+/// carries to the end of the step, and which is seen anew from where the node goes, if it was the rim of a triangle
+/// (walls.cpp). A node that would end behind a plane is tied to it, a spring as stiff as the wall; an active set,
+/// settled within the rod's solve (planes.cpp). After a solve the path of nodes that went far is followed through the
+/// triangles, and walls that they passed or meet there are planes, too: nothing gets through.
 /// Friction is a spring that slips (friction.cpp): along the rod and around it, with its torque.
 #include "core/model.h"
 #include "core/scratch.h"
@@ -21,7 +22,7 @@ void move_walls(const Model& model, const Inputs& inputs, double from, double to
 void find_walls(const Model& model, const Strand& strand, Scratch& scratch);
 
 /// Says which of them it is expected to touch, and prepares friction.
-void expect_touches(const Strand& strand);
+void expect_touches(const Model& model, const Strand& strand, Scratch& scratch);
 
 /// Ties nodes to these: changes scratch.target and chain.compliance.
 void tie_to_walls(const Strand& strand);

@@ -22,6 +22,8 @@ struct WallPlane {
   double gap = 0;     ///< m, at the beginning of the step; negative: it pressed into a soft wall
   bool soft = false;  ///< the wall gives way
   bool active = false;
+  /// The triangle that it is seen of, if its nearest point is at that one's rim: from elsewhere it is another.
+  int surface = -1, cluster = -1, triangle = -1;
 };
 
 /// What is near a node, at most.

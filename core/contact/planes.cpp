@@ -55,7 +55,7 @@ void share_force(V3<double> force, const NodeWalls& walls, double* pressed_N) {
 
 }  // namespace
 
-void expect_touches(const Strand& strand) {
+void expect_touches(const Model& model, const Strand& strand, Scratch& scratch) {
   ContactScratch& c = *strand.contact;
   if (c.walls.empty()) return;
   const RodScratch& s = *strand.s;
@@ -65,6 +65,7 @@ void expect_touches(const Strand& strand) {
     c.rubs[i] = false;
     if (walls.count == 0) continue;
     const V3<double> expected = load3<double>(s.position, i);
+    look_again(model, strand, i, expected, scratch);
     double pressed[max_planes];
     share_force(load3<double>(own.wall_force, i), walls, pressed);
     for (int k = 0; k < walls.count; ++k) {
@@ -129,9 +130,11 @@ bool change_walls(const Model& model, const Strand& strand, Scratch& scratch) {
   std::fill(c.changed.begin(), c.changed.end(), 0);
   look_ahead(strand);
   bool any = model.sweep && follow_far(model, strand, scratch);
-  for (int i = first_free(s); i <= last_free(s); ++i)
+  for (int i = first_free(s); i <= last_free(s); ++i) {
+    if (!c.changed[i]) look_again(model, strand, i, load3<double>(c.ahead, i), scratch);
     for (int k = 0; k < c.walls[i].count; ++k)
       any = any || (!c.changed[i] && is_wrong(c.walls[i].planes[k], load3<double>(c.ahead, i)));
+  }
   if (!any) return false;
 
   const bool slow = c.changes >= tunables::quick_wall_changes;

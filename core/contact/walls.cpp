@@ -32,11 +32,11 @@ struct Foot {
   V3<double> now, before, after;
 };
 
-/// Inside a triangle its own normal tells the side; at its rim, the mean of those around.
-V3<double> outward(const Surface& surface, const Surface::Cluster& c, const Surface::Triangle& t,
-                   const TrianglePoint& w, const V3<double>& out) {
-  const bool face = w.u > 0 && w.v > 0 && w.u + w.v < 1;
-  if (face) return out;
+bool is_at_rim(const TrianglePoint& w) { return !(w.u > 0 && w.v > 0 && w.u + w.v < 1); }
+
+/// Which side a triangle's rim faces: inside it its own normal tells, at the rim the mean of those around.
+V3<double> rim_outward(const Surface& surface, const Surface::Cluster& c, const Surface::Triangle& t,
+                       const TrianglePoint& w) {
   const auto corner = [&](int k) {
     const V3<float>& n = surface.corner_normals[c.first_corner + t.corner[k]];
     return V3<double>{n.x, n.y, n.z};
@@ -149,32 +149,44 @@ bool lets_through(const Surface& surface, const SurfacePose& whole, double radiu
   return whole.door_open && radius <= surface.door_passes_m;
 }
 
+/// A triangle as a plane, by the point of it that is nearest; false if that is out of reach. `at_rim`: where it is.
+bool see(const Surface& surface, const Surface::Cluster& c, const Surface::Triangle& t, const ClusterPose& pose,
+         const Field<3>& now, const View& view, WallPlane& plane, bool& at_rim) {
+  const V3<double> a = load3<double>(now, t.corner[0]), b = load3<double>(now, t.corner[1]),
+                   d = load3<double>(now, t.corner[2]);
+  const V3<double> out = cross(b - a, d - a);
+  const double height = dot(view.centre - a, out), area2 = dot(out, out);
+  if (height * height > view.reach * view.reach * area2 || !(area2 > 0)) return false;
+  const TrianglePoint w = nearest(view.centre, a, b, d);
+  const V3<double> foot = at(w, a, b, d), away = view.centre - foot;
+  const double apart = norm(away);
+  if (apart > view.reach) return false;
+  at_rim = is_at_rim(w);
+  const bool behind = dot(away, at_rim ? rim_outward(surface, c, t, w) : out) > 0;
+  const double gap = behind ? -apart : apart;
+  const V3<double> normal = apart > 1e-9 ? (1 / gap) * away : (-1 / std::sqrt(area2)) * out;
+  const auto moment = [&](const Field<3>& corners) {
+    return at(w, load3<double>(corners, t.corner[0]), load3<double>(corners, t.corner[1]),
+              load3<double>(corners, t.corner[2]));
+  };
+  plane = plane_of(surface, view, normal, gap, {foot, moment(pose.before), moment(pose.after)});
+  const double bend = curvature_towards(plane.across, t, a, b, d);
+  if (bend > 0) plane.curvature = least(1 / largest(1 / bend - view.radius, 1e-9), tunables::most_curved_wall_per_m);
+  return true;
+}
+
 /// Adds what of a cluster is within reach, seen with the corners `now`; `passes`: but for its door.
-void look(const Surface& surface, int cluster, const ClusterPose& pose, const Field<3>& now, const View& view,
-          bool passes, NodeWalls& walls) {
+void look(const Model& model, int at_surface, int cluster, const ClusterPose& pose, const Field<3>& now,
+          const View& view, bool passes, NodeWalls& walls) {
+  const Surface& surface = *model.surfaces[at_surface];
   const Surface::Cluster& c = surface.clusters[cluster];
   for (unsigned left = may_meet(pose, view); left != 0; left &= left - 1) {
-    const Surface::Triangle& t = surface.triangles[c.first_triangle + std::countr_zero(left)];
-    if (passes && t.door) continue;
-    const V3<double> a = load3<double>(now, t.corner[0]), b = load3<double>(now, t.corner[1]),
-                     d = load3<double>(now, t.corner[2]);
-    const V3<double> out = cross(b - a, d - a);
-    const double height = dot(view.centre - a, out), area2 = dot(out, out);
-    if (height * height > view.reach * view.reach * area2 || !(area2 > 0)) continue;
-    const TrianglePoint w = nearest(view.centre, a, b, d);
-    const V3<double> foot = at(w, a, b, d), away = view.centre - foot;
-    const double apart = norm(away);
-    if (apart > view.reach) continue;
-    const bool behind = dot(away, outward(surface, c, t, w, out)) > 0;
-    const double gap = behind ? -apart : apart;
-    const V3<double> normal = apart > 1e-9 ? (1 / gap) * away : (-1 / std::sqrt(area2)) * out;
-    const auto moment = [&](const Field<3>& corners) {
-      return at(w, load3<double>(corners, t.corner[0]), load3<double>(corners, t.corner[1]),
-                load3<double>(corners, t.corner[2]));
-    };
-    WallPlane plane = plane_of(surface, view, normal, gap, {foot, moment(pose.before), moment(pose.after)});
-    const double bend = curvature_towards(plane.across, t, a, b, d);
-    if (bend > 0) plane.curvature = least(1 / largest(1 / bend - view.radius, 1e-9), tunables::most_curved_wall_per_m);
+    const int triangle = c.first_triangle + std::countr_zero(left);
+    const Surface::Triangle& t = surface.triangles[triangle];
+    WallPlane plane;
+    bool at_rim;
+    if ((passes && t.door) || !see(surface, c, t, pose, now, view, plane, at_rim)) continue;
+    if (at_rim && !plane.soft) plane.surface = at_surface, plane.cluster = cluster, plane.triangle = triangle;
     keep(plane, walls);
   }
 }
@@ -188,6 +200,32 @@ V3<double> tangent_at(const Rod& rod, const RodState& state, int i) {
 View view_of(const Rod& rod, const RodState& state, int i, const V3<double>& centre, double travel) {
   const double radius = rod.radius.at(0)[i];
   return {centre, radius, radius + travel, tangent_at(rod, state, i), rod.joint_length.at(0)[i]};
+}
+
+/// Sees a wall anew from `to`, as it is at the end of the step. False: what it is from there, another is already.
+bool is_in_the_way(const Model& model, const Strand& strand, int i, const V3<double>& to, Scratch& scratch,
+                   WallPlane& wall) {
+  const Surface& surface = *model.surfaces[wall.surface];
+  const ClusterPose& pose = pose_of(surface, wall.cluster, scratch.surfaces[wall.surface]);
+  View view = view_of(strand.s->inside, *strand.own, i, to, 0);
+  view.reach *= 2;
+  WallPlane seen;
+  bool at_rim;
+  if (!see(surface, surface.clusters[wall.cluster], surface.triangles[wall.triangle], pose, pose.after, view, seen,
+           at_rim) ||
+      dot(seen.normal, wall.normal) < tunables::same_side)
+    return true;
+  const NodeWalls& walls = strand.contact->walls[i];
+  for (int k = 0; k < walls.count; ++k) {
+    const WallPlane& other = walls.planes[k];
+    if (&other != &wall && dot(other.normal, seen.normal) > tunables::same_wall &&
+        other.place - dot(other.normal, to) > seen.place - dot(seen.normal, to) - tunables::wall_loose_m)
+      return false;
+  }
+  seen.gap = wall.gap;
+  seen.surface = wall.surface, seen.cluster = wall.cluster, seen.triangle = wall.triangle;
+  wall = seen;
+  return true;
 }
 
 /// The nodes of a query, side by side; a place without a node reaches nothing.
@@ -334,8 +372,8 @@ void find_walls(const Model& model, const Strand& strand, Scratch& scratch) {
         for (unsigned left = nodes.near(pose.low, pose.high, move); left != 0; left &= left - 1) {
           const int i = begin + std::countr_zero(left);
           const View view = view_of(rod, own, i, load3<double>(own.position, i), c.travel.at(0)[i] + move);
-          look(surface, cluster, pose, pose.before, view, lets_through(surface, scratch.surfaces[k], view.radius),
-               c.walls[i]);
+          look(model, static_cast<int>(k), cluster, pose, pose.before, view,
+               lets_through(surface, scratch.surfaces[k], view.radius), c.walls[i]);
         }
       }
     }
@@ -343,6 +381,17 @@ void find_walls(const Model& model, const Strand& strand, Scratch& scratch) {
       if (any_soft(c.walls[i])) join_soft_walls(view_of(rod, own, i, load3<double>(own.position, i), 0), c.walls[i]);
       drop_walls_seen_from_behind(c.walls[i]);
     }
+  }
+}
+
+void look_again(const Model& model, const Strand& strand, int i, const V3<double>& to, Scratch& scratch) {
+  NodeWalls& walls = strand.contact->walls[i];
+  for (int k = walls.count - 1; k >= 0; --k) {
+    WallPlane& w = walls.planes[k];
+    if (w.triangle < 0 || w.active || dot(w.normal, to) >= w.place) continue;
+    if (is_in_the_way(model, strand, i, to, scratch, w)) continue;
+    std::copy(walls.planes + k + 1, walls.planes + walls.count, walls.planes + k);
+    --walls.count;
   }
 }
 
@@ -365,7 +414,8 @@ bool follow(const Model& model, const RodState& own, int i, const V3<double>& to
       find_clusters(surface, bounds.low, bounds.high, scratch.surfaces[k], c.clusters);
       for (int cluster : c.clusters) {
         const ClusterPose& pose = pose_of(surface, cluster, scratch.surfaces[k]);
-        look(surface, cluster, pose, pose.after, view, lets_through(surface, scratch.surfaces[k], view.radius), met);
+        look(model, static_cast<int>(k), cluster, pose, pose.after, view,
+             lets_through(surface, scratch.surfaces[k], view.radius), met);
       }
     }
     if (any_soft(met)) join_soft_walls(view, met);

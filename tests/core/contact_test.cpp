@@ -309,6 +309,35 @@ TEST(Contact, ASoftWallYields) {
   EXPECT_NEAR(borne / (model.rods[0].total_mass_kg * 9.81), 1, 0.01);
 }
 
+/// What slides along a wall without friction feels nothing of the edges between its triangles, however fast it passes
+/// them: at 100 mm/s half of a triangle's length in a step.
+TEST(Contact, EdgesOfASmoothWallAreNotFelt) {
+  std::vector<verify::TubePoint> points;
+  for (double x = -5e-3; x < 80e-3; x += 0.2e-3) points.push_back({Vector3d(x, 0, 0), 1.5e-3});
+  const SurfaceDescription wall = verify::tube(points, 32);
+  Model model;
+  RodDescription d = verify::steel_wire({.elements = 40, .length_m = 0.04});
+  d.sections[0].radius_m = 0.18e-3;
+  model.rods = {make_rod(d)};
+  model.surfaces = {std::make_shared<Surface>(make_surface(wall))};
+  EndState base = along_x();
+  base.p_W.z() = d.sections[0].radius_m / std::cos(pi / 32) - 1.5e-3;  // in the groove between two sides
+  State state = make_state(model, {base});
+  Inputs inputs;
+  inputs.rods.resize(1);
+  Scratch scratch(model);
+  StepReport report;
+  double drag = 0, lift = 0;
+  for (int n = 0; n < 400; ++n) {
+    inputs.rods[0].base.velocity_W_m_s.x() = 0.1 * std::min(1.0, n / 200.0);
+    step(model, inputs, state, scratch, report);
+    for (const Touch& t : report.touches) drag = std::max(drag, -t.normal_W_N.x()), lift += t.normal_W_N.z() / 400;
+  }
+  const double weight = 9.81 * model.rods[0].total_mass_kg;
+  EXPECT_GT(lift, 0.3 * weight) << "it lies on the wall";
+  EXPECT_LT(drag, 1e-6 * weight);
+}
+
 /// A floor that breaks off to one side (y > 0), a little rounded, its edge finely divided along x.
 SurfaceDescription brink() {
   const double profile_m[][2] = {{-20e-3, 0}, {0, 0}, {0.018e-3, -0.05e-3}, {0.018e-3, -10e-3}};  // y, z
