@@ -1,0 +1,199 @@
+#include "core/contact/view.h"
+
+#include <algorithm>
+#include <bit>
+
+#include "core/math/rotation.h"
+#include "core/surface/triangle.h"
+#include "core/tunables.h"
+
+namespace ostium {
+
+namespace {
+
+constexpr double rounding_m = 1e-9;  ///< what a coarse look allows for, before an exact one
+
+bool is_at_rim(const TrianglePoint& w) { return !(w.u > 0 && w.v > 0 && w.u + w.v < 1); }
+
+/// Which side a triangle's rim faces: inside it its own normal tells, at the rim the mean of those around.
+V3<double> rim_outward(const Surface& surface, const Surface::Cluster& c, const Surface::Triangle& t,
+                       const TrianglePoint& w) {
+  const auto corner = [&](int k) {
+    const V3<float>& n = surface.corner_normals[c.first_corner + t.corner[k]];
+    return V3<double>{n.x, n.y, n.z};
+  };
+  return madd(w.v, corner(2), madd(w.u, corner(1), (1 - w.u - w.v) * corner(0)));
+}
+
+/// Round the instrument; zero where the wall is met head on.
+V3<double> across(const View& view, const V3<double>& normal) {
+  const V3<double> e = cross(view.tangent, normal);
+  const double length = norm(e);
+  return length > 1e-3 ? (1 / length) * e : V3<double>{};
+}
+
+/// Behind a wall or not: what is pressed into one that gives way may have its centre behind it.
+double away(const WallPlane& plane) { return std::fabs(plane.gap); }
+
+/// Whether a wall beside a nearer one is seen from behind. On which side of it a point lies, only the nearest piece of
+/// wall tells: what lies round a ridge turns its back to a node that is in the lumen all the same. Of a wall that gives
+/// way they may all be (join_soft_walls).
+bool turns_its_back(const WallPlane& plane) { return !plane.soft && plane.gap < 0; }
+
+/// Keeps the planes of one node: the nearest, and those that face elsewhere.
+void keep(const WallPlane& plane, NodeWalls& walls) {
+  int at = walls.count;
+  while (at > 0 && away(walls.planes[at - 1]) > away(plane)) --at;
+  if (at > 0 && turns_its_back(plane)) return;
+  for (int k = 0; k < at; ++k)
+    if (dot(walls.planes[k].normal, plane.normal) > tunables::same_wall) return;
+  // It stands for those further away that face as it does.
+  WallPlane behind[max_planes];
+  const int others = walls.count - at;
+  std::copy(walls.planes + at, walls.planes + walls.count, behind);
+  walls.count = at;
+  if (walls.count < max_planes) walls.planes[walls.count++] = plane;
+  for (int k = 0; k < others && walls.count < max_planes; ++k)
+    if (!turns_its_back(behind[k]) && dot(behind[k].normal, plane.normal) <= tunables::same_wall)
+      walls.planes[walls.count++] = behind[k];
+}
+
+bool any_soft(const NodeWalls& walls) {
+  return std::any_of(walls.planes, walls.planes + walls.count, [](const WallPlane& w) { return w.soft; });
+}
+
+/// What is pressed into a wall that gives way lies behind the nearest triangle's neighbours too, sideways of it. If
+/// each of them pushed, the wall would be as many times as stiff; if the nearest did alone, its push would leap from
+/// one side to the other where two meet. They push as one, those that are about as near as the nearest by so much the
+/// more.
+void join_soft_walls(const View& view, NodeWalls& walls) {
+  int count = 0;
+  for (int k = 0; k < walls.count; ++k) {
+    WallPlane& w = walls.planes[k];
+    const auto known = [&](const WallPlane& other) { return one_soft_wall(other, w); };
+    if (std::any_of(walls.planes, walls.planes + count, known)) continue;
+    if (w.soft) {  // the nearest, as they are sorted
+      double weight = 0, depth = 0, gap = 0;
+      V3<double> normal{}, carried{};
+      for (int j = k; j < walls.count; ++j) {
+        const WallPlane& other = walls.planes[j];
+        const double share = 1 - (away(other) - away(w)) / tunables::joined_m;
+        if (share <= 0 || (j > k && !one_soft_wall(w, other))) continue;
+        weight += share, gap += share * other.gap;
+        depth += share * (other.place - dot(other.normal, view.centre));
+        normal = madd(share, other.normal, normal), carried = madd(share, other.carried, carried);
+      }
+      w.normal = (1 / norm(normal)) * normal;
+      w.gap = gap / weight, w.carried = (1 / weight) * carried;
+      w.place = dot(w.normal, view.centre) + depth / weight;
+      w.across = across(view, w.normal);
+    }
+    walls.planes[count++] = w;
+  }
+  walls.count = count;
+}
+
+/// Which of a cluster's triangles may be within reach, a bit for each.
+unsigned may_meet(const ClusterPose& pose, const View& view) {
+  const V3<Lanes> centre{Lanes{} + view.centre.x, Lanes{} + view.centre.y, Lanes{} + view.centre.z};
+  const Lanes reach = Lanes{} + (view.reach + rounding_m);
+  unsigned any = 0;
+  for (int k = 0; k < pose.balls.size(); k += lane_count) {
+    const Q4<Lanes> ball = load4<Lanes>(pose.balls, k);
+    const V3<Lanes> away = centre - V3<Lanes>{ball.w, ball.x, ball.y};
+    const Lanes within = reach + ball.z;
+    any |= static_cast<unsigned>(_mm256_movemask_pd(_mm256_cmp_pd(dot(away, away), within * within, _CMP_LE_OQ))) << k;
+  }
+  return any & ((1U << pose.balls.size()) - 1);
+}
+
+/// Walls that the node's centre is behind do not hold it, unless it is its own that gives way: the nearest.
+void drop_walls_seen_from_behind(NodeWalls& walls) {
+  int own = 0, count = 0;
+  for (int k = 1; k < walls.count; ++k)
+    if (std::fabs(walls.planes[k].gap) < std::fabs(walls.planes[own].gap)) own = k;
+  for (int k = 0; k < walls.count; ++k)
+    if (k == own || walls.planes[k].gap > 0) walls.planes[count++] = walls.planes[k];
+  walls.count = count;
+}
+
+V3<double> tangent_at(const Rod& rod, const RodState& state, int i) {
+  const V3<double> t = director3(load4<double>(state.orientation, std::max(i - 1, rod.first))) +
+                       director3(load4<double>(state.orientation, std::min(i, rod.elements - 1)));
+  return (1 / norm(t)) * t;
+}
+
+}  // namespace
+
+View view_of(const Rod& rod, const RodState& state, int i, const V3<double>& centre, double travel) {
+  const double radius = rod.radius.at(0)[i];
+  return {centre, radius, radius + travel, tangent_at(rod, state, i), rod.joint_length.at(0)[i]};
+}
+
+WallPlane plane_of(const Surface& surface, const View& view, const V3<double>& normal, double gap, const Foot& foot) {
+  WallPlane plane;
+  plane.gap = gap;
+  plane.normal = normal;
+  plane.place = dot(normal, foot.after) + view.radius;
+  plane.carried = foot.after - foot.before;
+  plane.friction = surface.friction;
+  plane.soft = surface.stiffness_N_m2 > 0;
+  plane.softness = 1 / (view.cell * (plane.soft ? surface.stiffness_N_m2 : tunables::wall_N_m2));
+  plane.across = across(view, normal);
+  return plane;
+}
+
+bool see(const Surface& surface, const Surface::Cluster& c, const Surface::Triangle& t, const ClusterPose& pose,
+         const Field<3>& now, const View& view, WallPlane& plane, bool& at_rim) {
+  const V3<double> a = load3<double>(now, t.corner[0]), b = load3<double>(now, t.corner[1]),
+                   d = load3<double>(now, t.corner[2]);
+  const V3<double> out = cross(b - a, d - a);
+  const double height = dot(view.centre - a, out), area2 = dot(out, out);
+  if (height * height > view.reach * view.reach * area2 || !(area2 > 0)) return false;
+  const TrianglePoint w = nearest(view.centre, a, b, d);
+  const V3<double> foot = at(w, a, b, d), away = view.centre - foot;
+  const double apart = norm(away);
+  if (apart > view.reach) return false;
+  at_rim = is_at_rim(w);
+  const bool behind = dot(away, at_rim ? rim_outward(surface, c, t, w) : out) > 0;
+  const double gap = behind ? -apart : apart;
+  const V3<double> normal = apart > 1e-9 ? (1 / gap) * away : (-1 / std::sqrt(area2)) * out;
+  const auto moment = [&](const Field<3>& corners) {
+    return at(w, load3<double>(corners, t.corner[0]), load3<double>(corners, t.corner[1]),
+              load3<double>(corners, t.corner[2]));
+  };
+  plane = plane_of(surface, view, normal, gap, {foot, moment(pose.before), moment(pose.after)});
+  const double bend = curvature_towards(plane.across, t, a, b, d);
+  if (bend > 0) plane.curvature = least(1 / largest(1 / bend - view.radius, 1e-9), tunables::most_curved_wall_per_m);
+  return true;
+}
+
+void look(const Model& model, int at_surface, int cluster, const ClusterPose& pose, const Field<3>& now,
+          const View& view, bool passes, NodeWalls& walls) {
+  const Surface& surface = *model.surfaces[at_surface];
+  const Surface::Cluster& c = surface.clusters[cluster];
+  for (unsigned left = may_meet(pose, view); left != 0; left &= left - 1) {
+    const int triangle = c.first_triangle + std::countr_zero(left);
+    const Surface::Triangle& t = surface.triangles[triangle];
+    WallPlane plane;
+    bool at_rim;
+    if ((passes && t.door) || !see(surface, c, t, pose, now, view, plane, at_rim)) continue;
+    if (at_rim && !plane.soft) plane.surface = at_surface, plane.cluster = cluster, plane.triangle = triangle;
+    keep(plane, walls);
+  }
+}
+
+void sum_up(const View& view, NodeWalls& walls) {
+  if (any_soft(walls)) join_soft_walls(view, walls);
+  drop_walls_seen_from_behind(walls);
+}
+
+bool one_soft_wall(const WallPlane& a, const WallPlane& b) {
+  return a.soft && b.soft && dot(a.normal, b.normal) > tunables::same_soft_wall;
+}
+
+bool lets_through(const Surface& surface, const SurfacePose& whole, double radius) {
+  return whole.door_open && radius <= surface.door_passes_m;
+}
+
+}  // namespace ostium
