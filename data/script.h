@@ -45,9 +45,13 @@ enum class ConditionKind {
   unharmed
 };
 
+/// Whether what is looked at is one of the case's lesions.
+bool is_about_a_lesion(ConditionKind kind);
+
 struct ScriptCondition {
   ConditionKind kind = ConditionKind::seconds;
   int tool = 0;      ///< of Script::tools
+  int lesion = 0;    ///< of the case's, from 0; where `is_about_a_lesion`
   double value = 0;  ///< SI: m, rad, N, N m, s, beats, V, shares
   std::string
       place;  ///< of tip_passes, tip_leaves, tip_in, tip_on, tip_astray, tip_faces, engaged, contrast_in; of trace
@@ -102,10 +106,11 @@ struct ScriptTool {
   std::string name, instrument;
   int line = 0;
   /// Instruments with a balloon, of which the operator takes, once the artery was measured, the widest whose nominal
-  /// diameter is at most `of_reference` times the healthy artery's beside the first lesion, or the narrowest if all are
-  /// wider. Empty: `instrument`, whatever the artery is like.
+  /// diameter is at most `of_reference` times the healthy artery's beside lesion `lesion` (of the case's, from 0), or
+  /// the narrowest if all are wider. Empty: `instrument`, whatever the artery is like.
   std::vector<std::string> sizes;
   double of_reference = 0;
+  int lesion = 0;
 };
 
 struct ScriptLandmark {
@@ -122,7 +127,8 @@ struct Script {
 };
 
 /// A step { "do": "script", "script": "parts/treat" } stands for the steps of that file, looked for from the folder of
-/// the file that names it. Throws LoadError with file, line, key, value found and what was expected.
+/// the file that names it; `with`, `label` and `lesion` beside it say with which tools, under which labels and at which
+/// lesion. Throws LoadError with file, line, key, value found and what was expected.
 Script read_script(const std::string& file, const std::string& text);
 Script load_script(const std::string& file);
 

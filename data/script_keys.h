@@ -19,8 +19,10 @@ inline const JsonObjectKeys tool = {
      {"instrument", true, "a name of `ostium instruments`, or a file"},
      {"sizes", false, "balloons or stents to choose from by the artery, a list of such names"},
      {"of_reference", false,
-      "their nominal diameter at most, over the healthy artery's beside the first "
-      "lesion, > 0 and at most 1.5; beside sizes"}}};
+      "their nominal diameter at most, over the healthy artery's beside the "
+      "lesion, > 0 and at most 1.5; beside sizes"},
+     {"lesion", false,
+      "which of the case's lesions, a whole number from 1 on; the first if it is not said; beside sizes"}}};
 
 inline const JsonObjectKeys landmark = {
     "landmark",
@@ -33,7 +35,12 @@ inline const JsonObjectKeys step = {
      {"script", false,
       "the name of a script without .json, as seen from this one's folder: its steps stand here, with this script's "
       "tools"},
-     {"label", false, "a name of its own, for messages and for \"otherwise\""},
+     {"with", false, "beside script: what its tools are called here, an object of names"},
+     {"lesion", false,
+      "beside script: where its conditions are about a lesion and do not say which, a whole number from 1 on"},
+     {"label", false,
+      "a name of its own, for messages and for \"otherwise\"; beside script: what stands before the labels of its "
+      "steps"},
      {"tool", false, "the name of a tool, or a list of those that are moved together"},
      {"speed_mm_s", false, "how fast, in mm/s, > 0 and at most 500"},
      {"turn_deg_s", false,
@@ -84,7 +91,7 @@ inline const JsonObjectKeys condition = {
      {"seconds", false, "since the step began, > 0"},
      {"beats", false, "of the heart since the step began, > 0"},
      {"balloon_at_mm", false,
-      "the middle between the markers, from the middle of the case's first lesion, along the artery, in mm, distal is "
+      "the middle between the markers, from the middle of the lesion, along the artery, in mm, distal is "
       "positive: reached from either side, judged while the heart rests"},
      {"balloon_within_mm", false,
       "that middle is no farther from the lesion's, either way, in mm, > 0; judged while the heart rests"},
@@ -95,14 +102,16 @@ inline const JsonObjectKeys condition = {
      {"engaged", false, "an artery that leaves the aorta: the guide's tip is in its ostium"},
      {"trace", false, "what the guide's pressure looked like in the last beat"},
      {"contrast_in", false, "a landmark in a coronary artery: contrast is seen there while the beam is on"},
-     {"flow_below_percent", false, "of what the muscle behind the first lesion needs, > 0"},
+     {"flow_below_percent", false, "of what the muscle behind the lesion needs, > 0"},
      {"ST_exceeds_mV", false, "largest shift in the leads, > 0"},
      {"act_exceeds_s", false, "activated clotting time, > 0"},
-     {"stenosis_below_percent", false, "of the first lesion's diameter, as measured on a film, > 0 and at most 100"},
+     {"stenosis_below_percent", false, "of the lesion's diameter, as measured on a film, > 0 and at most 100"},
      {"unharmed", false, "true: no artery is perforated, no dissection of type C to F lies outside a stent"},
      {"stent_beyond_mm", false,
-      "stents cover the first lesion and reach so far beyond it at both ends, in mm, > 0; no farther than the artery "
-      "goes"},
+      "stents cover the lesion without a gap and reach so far beyond it at both ends, in mm, > 0; no farther than the "
+      "artery goes"},
+     {"lesion", false,
+      "which of the case's lesions, a whole number from 1 on; the first if it is not said; beside what is about one"},
      {"of", false, "which tool is meant; else the step's first"}}};
 
 inline const std::vector<const JsonObjectKeys*> all = {&root, &tool, &landmark, &step, &condition};

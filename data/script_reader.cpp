@@ -87,6 +87,14 @@ bool of_no_tool(ConditionKind kind) {
   }
 }
 
+/// Counted from 0; in files from 1.
+int read_lesion(const JsonObject& object) {
+  if (!object.has("lesion")) return 0;
+  const double lesion = object.number("lesion");
+  if (lesion != std::floor(lesion) || lesion < 1 || lesion > 100) object.refuse("lesion");
+  return static_cast<int>(lesion) - 1;
+}
+
 bool read_boolean(const JsonObject& object, const std::string& key) {
   if (object[key].type != JsonValue::Type::boolean) object.refuse(key);
   return object[key].number != 0;
@@ -161,6 +169,9 @@ ScriptCondition read_condition(const JsonValue& value, const Script& script, con
   } else if (object.has("by_mm")) {
     object.refuse("by_mm");
   }
+  if (object.has("lesion") && !is_about_a_lesion(c.kind)) object.refuse("lesion");
+  c.lesion = read_lesion(object);
+  if (c.lesion > 0) c.words += fmt::format(" of lesion {}", c.lesion + 1);
   if (object.has("within_deg") && (!of_angle || object.number("within_deg") > 90)) object.refuse("within_deg");
   if (tools.empty() ? object.has("of") : c.tool != tools.front()) c.words += " of " + script.tools[c.tool].name;
   return c;
@@ -342,6 +353,40 @@ bool has_tool(const JsonObject& script, const std::string& name) {
                      [&](const JsonValue& tool) { return JsonObject(tool, keys::tool).text("name") == name; });
 }
 
+/// What a script that names another says of it, said in that one's own steps: under which labels they stand, with which
+/// tools, at which lesion.
+void say_in_steps(const JsonObject& step, JsonValue& part) {
+  const JsonValue* with = step.value().find("with");
+  const auto rename = [&](JsonValue& tool) {
+    if (const JsonValue* own = with ? with->find(tool.text) : nullptr) tool.text = own->text;
+  };
+  for (JsonValue& tool : member(part, "tools")->items)
+    if (JsonValue* name = member(tool, "name")) rename(*name);
+  for (JsonValue& one : member(part, "steps")->items) {
+    if (JsonValue* tool = member(one, "tool")) {
+      rename(*tool);
+      for (JsonValue& each : tool->items) rename(each);
+    }
+    for (const char* key : {"label", "otherwise"}) {
+      JsonValue* label = step.has("label") ? member(one, key) : nullptr;
+      if (label && label->text != "fail" && label->text != "go on")
+        label->text = step.text("label") + ": " + label->text;
+    }
+    for (const char* key : {"until", "unless"}) {
+      JsonValue* list = member(one, key);
+      if (!list) continue;
+      for (JsonValue& condition : list->items) {
+        if (JsonValue* of = member(condition, "of")) rename(*of);
+        const bool about_one = std::any_of(std::begin(kinds), std::end(kinds), [&](const Kind& kind) {
+          return is_about_a_lesion(kind.kind) && condition.find(kind.key);
+        });
+        if (step.has("lesion") && about_one && !condition.find("lesion"))
+          condition.members.emplace_back("lesion", step["lesion"]);
+      }
+    }
+  }
+}
+
 /// Puts the steps of other scripts where the file names them; their values keep their own file and line. Returns
 /// whether there were such.
 bool write_out(JsonValue& file, int depth) {
@@ -356,11 +401,19 @@ bool write_out(JsonValue& file, int depth) {
       continue;
     }
     const JsonObject step(value, keys::step);
-    require_keys(step, {stands_for_steps, {"script"}, {}});
+    require_keys(step, {stands_for_steps, {"script"}, {"label", "lesion", "with"}});
     if (depth == deepest_script) value.fail(fmt::format("{}: scripts in scripts deeper than {}", value.path, depth));
     any = true;
     JsonValue part = load_json((fs::path(*file.file).parent_path() / (step.text("script") + ".json")).string());
     write_out(part, depth + 1);
+    read_lesion(step);
+    if (step.has("with") && step["with"].type != JsonValue::Type::object) step.refuse("with");
+    if (step.has("with"))
+      for (const auto& [theirs, ours] : step["with"].members)
+        if (!has_tool(JsonObject(part, keys::root), theirs) || !has_tool(root, ours.text))
+          ours.fail(fmt::format("{}: expected a tool of {} and the name of one of this script's", ours.path,
+                                step.text("script")));
+    say_in_steps(step, part);
     for (const JsonValue& tool : JsonObject(part, keys::root).list("tools"))
       if (const std::string name = JsonObject(tool, keys::tool).text("name"); !has_tool(root, name))
         value.fail(
@@ -372,9 +425,10 @@ bool write_out(JsonValue& file, int depth) {
 }
 
 ScriptTool read_tool(const JsonObject& tool) {
-  ScriptTool out{tool.text("name"), tool.text("instrument"), tool.value().line, {}, 0};
+  ScriptTool out{tool.text("name"), tool.text("instrument"), tool.value().line, {}, 0, read_lesion(tool)};
   if (tool.has("sizes") != tool.has("of_reference"))
     tool.value().fail(tool.value().path + " has one of sizes and of_reference; expected both or neither");
+  if (tool.has("lesion") && !tool.has("sizes")) tool.refuse("lesion");
   if (!tool.has("sizes")) return out;
   out.of_reference = tool.positive("of_reference");
   if (out.of_reference > 1.5) tool.refuse("of_reference");
@@ -427,6 +481,12 @@ std::string all_of(const std::string& file) {
 }
 
 }  // namespace
+
+bool is_about_a_lesion(ConditionKind kind) {
+  return kind == ConditionKind::balloon_at || kind == ConditionKind::balloon_within ||
+         kind == ConditionKind::flow_below || kind == ConditionKind::stenosis_below ||
+         kind == ConditionKind::stent_beyond;
+}
 
 std::string ScriptStep::words() const {
   const std::string name = actions()[static_cast<std::size_t>(action)].name;

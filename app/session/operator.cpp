@@ -39,12 +39,6 @@ bool needs_patient(ConditionKind kind) {
   }
 }
 
-bool needs_lesion(ConditionKind kind) {
-  return kind == ConditionKind::balloon_at || kind == ConditionKind::balloon_within ||
-         kind == ConditionKind::flow_below || kind == ConditionKind::stenosis_below ||
-         kind == ConditionKind::stent_beyond;
-}
-
 /// The flow tree's cell nearest to a sphere of the way, or -1.
 int cell_at(const Coronaries& c, const Way& way, int sphere) {
   const Eigen::Vector3d p = way.p(sphere, 0);
@@ -64,8 +58,10 @@ std::vector<int> places(const Script& script, const std::vector<ScriptCondition>
     int place = -1;
     if (needs_patient(c.kind) && !model.has_patient())
       refuse(c, c.words + ": a mesh has no circulation; expected a case");
-    if (needs_lesion(c.kind) && model.vessel->coronaries->lesions.empty())
-      refuse(c, c.words + ": this patient has no lesion");
+    if (is_about_a_lesion(c.kind))
+      if (const std::size_t n = model.vessel->coronaries->lesions.size(); static_cast<std::size_t>(c.lesion) >= n)
+        refuse(c, n == 0 ? c.words + ": this patient has no lesion"
+                         : fmt::format("{}: this patient's lesions are {}", c.words, n));
     if (c.kind == ConditionKind::trace) {
       for (int t = 0; t < 5; ++t)
         if (trace_name(static_cast<Trace>(t)) == c.place) place = t;

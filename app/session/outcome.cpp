@@ -1,6 +1,7 @@
 #include "app/session/outcome.h"
 
 #include <algorithm>
+#include <limits>
 #include <numbers>
 
 namespace ostium {
@@ -9,11 +10,23 @@ namespace {
 
 constexpr double segment_m = 5e-3;
 
-const Plan& lesion(const SessionModel& model) { return model.vessel->coronaries->lesions.front(); }
-
-bool in_lesions_artery(const SessionModel& model, double branch, double s_m) {
-  return branch >= 0 && same_vessel(model.treatment.paths[static_cast<std::size_t>(branch)], lesion(model).path, s_m);
+const Plan& plan_of(const SessionModel& model, int lesion) {
+  return model.vessel->coronaries->lesions[static_cast<std::size_t>(lesion)];
 }
+
+bool in_artery_of(const Plan& plan, const SessionModel& model, double branch, double s_m) {
+  return branch >= 0 && same_vessel(model.treatment.paths[static_cast<std::size_t>(branch)], plan.path, s_m);
+}
+
+/// Of a deployed stent that lies in the lesion's artery, from the lesion's proximal end.
+std::optional<Stretch> stretch_of(const StentState& stent, const Plan& plan, const SessionModel& model) {
+  if (stent.where != StentState::deployed || !in_artery_of(plan, model, stent.branch, stent.middle_m)) return {};
+  const auto [from, to] = span_of(stent);
+  return Stretch{from - plan.from_m, to - plan.from_m};
+}
+
+/// Length that both have in common; negative: that of the gap between them.
+double common_m(const Stretch& a, const Stretch& b) { return std::min(a.to_m, b.to_m) - std::max(a.from_m, b.from_m); }
 
 }  // namespace
 
@@ -22,11 +35,11 @@ bool heart_rests(const SessionState& state) {
   return phase >= 0.68 && phase <= 0.84;
 }
 
-LesionNow lesion_now(const SessionModel& model, const SessionState& state) {
-  const Plan& plan = lesion(model);
+LesionNow lesion_now(const SessionModel& model, const SessionState& state, int lesion) {
+  const Plan& plan = plan_of(model, lesion);
   LesionNow out{.mld_m = 1, .segment_mld_m = 1, .reference_m = plan.reference_m, .stenosis = 0};
   double from = plan.from_m - segment_m, to = plan.to_m + segment_m;
-  if (const auto stent = stented(model, state)) {
+  if (const auto stent = stented(model, state, lesion)) {
     from = std::min(from, plan.from_m + stent->from_m - segment_m);
     to = std::max(to, plan.from_m + stent->to_m + segment_m);
   }
@@ -40,8 +53,8 @@ LesionNow lesion_now(const SessionModel& model, const SessionState& state) {
   return out;
 }
 
-double supply_behind_lesion(const SessionModel& model, const SessionState& state) {
-  const Plan& plan = lesion(model);
+double supply_behind_lesion(const SessionModel& model, const SessionState& state, int lesion) {
+  const Plan& plan = plan_of(model, lesion);
   const FlowTree& tree = model.physiology.flow.tree;
   const int end = plan.path.cells[static_cast<std::size_t>(plan.path.at(plan.to_m).index)];
   double flow = 0, need = 0;
@@ -57,37 +70,59 @@ double supply_behind_lesion(const SessionModel& model, const SessionState& state
   return supply(model.physiology.flow, state.blood.flow)[static_cast<std::size_t>(territory)];
 }
 
-std::optional<double> balloon_from_lesion_m(const SessionModel& model, const SessionState& state) {
+std::optional<double> balloon_from_lesion_m(const SessionModel& model, const SessionState& state, int lesion) {
+  const Plan& plan = plan_of(model, lesion);
   const BedsideState& b = state.bedside;
-  if (b.balloon < 0 || !in_lesions_artery(model, b.branch, seat_m(b))) return {};
-  return seat_m(b) - (lesion(model).from_m + lesion(model).to_m) / 2;
+  if (b.balloon < 0 || !in_artery_of(plan, model, b.branch, seat_m(b))) return {};
+  return seat_m(b) - (plan.from_m + plan.to_m) / 2;
 }
 
-std::optional<Stretch> stented(const SessionModel& model, const SessionState& state) {
+std::optional<Stretch> stented(const SessionModel& model, const SessionState& state, int lesion) {
+  const Plan& plan = plan_of(model, lesion);
+  const Stretch ill{0, plan.to_m - plan.from_m};
   std::optional<Stretch> out;
-  for (const StentState& stent : state.treatment.stents) {
-    if (stent.where != StentState::deployed || !in_lesions_artery(model, stent.branch, stent.middle_m)) continue;
-    const auto [from, to] = span_of(stent);
-    const Stretch own{from - lesion(model).from_m, to - lesion(model).from_m};
-    out = out ? Stretch{std::min(out->from_m, own.from_m), std::max(out->to_m, own.to_m)} : own;
+  for (const StentState& stent : state.treatment.stents)
+    if (const auto own = stretch_of(stent, plan, model); own && (!out || common_m(*own, ill) > common_m(*out, ill)))
+      out = own;
+  // Each round joins at least one stent that touches what there is.
+  for (bool grows = out.has_value(); grows;) {
+    grows = false;
+    for (const StentState& stent : state.treatment.stents) {
+      const auto own = stretch_of(stent, plan, model);
+      if (!own || common_m(*own, *out) < 0 || (own->from_m >= out->from_m && own->to_m <= out->to_m)) continue;
+      out = Stretch{std::min(out->from_m, own->from_m), std::max(out->to_m, own->to_m)}, grows = true;
+    }
   }
   return out;
 }
 
-std::optional<double> stent_from_lesion_m(const SessionModel& model, const SessionState& state, int stent) {
-  const StentState& own = state.treatment.stents[static_cast<std::size_t>(stent)];
-  if (own.where != StentState::deployed || !in_lesions_artery(model, own.branch, own.middle_m)) return {};
-  const auto [from, to] = span_of(own);
-  return (from + to - lesion(model).from_m - lesion(model).to_m) / 2;
+std::optional<double> stent_from_lesion_m(const SessionModel& model, const SessionState& state, int stent, int lesion) {
+  const Plan& plan = plan_of(model, lesion);
+  const auto own = stretch_of(state.treatment.stents[static_cast<std::size_t>(stent)], plan, model);
+  if (!own) return {};
+  return (own->from_m + own->to_m - (plan.to_m - plan.from_m)) / 2;
 }
 
-bool lesion_is_covered(const SessionModel& model, const SessionState& state, double margin_m) {
-  const auto stent = stented(model, state);
+bool lesion_is_covered(const SessionModel& model, const SessionState& state, double margin_m, int lesion) {
+  const auto stent = stented(model, state, lesion);
   if (!stent) return false;
-  const Plan& plan = lesion(model);
+  const Plan& plan = plan_of(model, lesion);
   const double ahead = std::min(margin_m, plan.from_m),
                behind = std::min(margin_m, std::max(0.0, plan.path.length_m() - plan.to_m));
   return stent->from_m <= -ahead && stent->to_m >= plan.to_m - plan.from_m + behind;
+}
+
+WorstOfLesions worst_of_lesions(const SessionModel& model, const SessionState& state) {
+  constexpr double endless = std::numeric_limits<double>::infinity();
+  WorstOfLesions out{.stenosis = -endless, .margin_m = endless};
+  for (int i = 0; i < static_cast<int>(model.vessel->coronaries->lesions.size()); ++i) {
+    const Plan& plan = plan_of(model, i);
+    out.stenosis = std::max(out.stenosis, lesion_now(model, state, i).stenosis);
+    const auto stent = stented(model, state, i);
+    if (!stent) out.margin_m.reset();
+    if (out.margin_m) out.margin_m = std::min({*out.margin_m, -stent->from_m, stent->to_m - (plan.to_m - plan.from_m)});
+  }
+  return out;
 }
 
 bool is_unharmed(const SessionModel& model, const SessionState& state) {
@@ -112,13 +147,16 @@ bool is_unharmed(const SessionModel& model, const SessionState& state) {
                       });
 }
 
-std::optional<StentNow> stent_now(const SessionModel& model, const SessionState& state) {
+std::optional<StentNow> stent_now(const SessionModel& model, const SessionState& state, int lesion) {
+  const Plan& plan = plan_of(model, lesion);
+  const auto at_it = stented(model, state, lesion);
   std::optional<StentNow> out;
   for (std::size_t i = 0; i < state.treatment.stents.size(); ++i) {
     const StentState& stent = state.treatment.stents[i];
-    if (stent.where != StentState::deployed || !in_lesions_artery(model, stent.branch, stent.middle_m)) continue;
+    const auto lies_at = stretch_of(stent, plan, model);
+    if (!lies_at || common_m(*lies_at, *at_it) < 0) continue;
     const double least = *std::min_element(stent.radius_m.begin(), stent.radius_m.end());
-    const double full = std::numbers::pi / 4 * lesion(model).reference_m * lesion(model).reference_m;
+    const double full = std::numbers::pi / 4 * plan.reference_m * plan.reference_m;
     const double area = std::numbers::pi * least * least;
     const Apposition lies =
         apposition(model.treatment.stents[i], stent, model.treatment.paths[static_cast<std::size_t>(stent.branch)],
@@ -131,8 +169,8 @@ std::optional<StentNow> stent_now(const SessionModel& model, const SessionState&
   return out;
 }
 
-double ffr_behind_lesion(const SessionModel& model, const SessionState& state) {
-  return measure(lesion(model), model.physiology.flow, state.treatment.wall).ffr;
+double ffr_behind_lesion(const SessionModel& model, const SessionState& state, int lesion) {
+  return measure(plan_of(model, lesion), model.physiology.flow, state.treatment.wall).ffr;
 }
 
 double balloon_artery_ratio(const SessionModel& model, const SessionState& state) {

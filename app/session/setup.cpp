@@ -72,9 +72,13 @@ void set_script(const Script& script, RunSetup& setup) {
 std::vector<std::string> choose_sizes(const Vessel& vessel, RunSetup& setup) {
   std::vector<std::string> chosen;
   if (!vessel.coronaries || vessel.coronaries->lesions.empty()) return chosen;
-  const double reference_m = vessel.coronaries->lesions.front().reference_m;
   for (std::size_t t = 0; t < setup.script.tools.size(); ++t) {
     const ScriptTool& tool = setup.script.tools[t];
+    if (tool.sizes.empty()) continue;
+    if (static_cast<std::size_t>(tool.lesion) >= vessel.coronaries->lesions.size())
+      throw LoadError(fmt::format("{}:{}: {} is for lesion {}; this patient's lesions are {}", setup.script.file,
+                                  tool.line, tool.name, tool.lesion + 1, vessel.coronaries->lesions.size()));
+    const double reference_m = vessel.coronaries->lesions[static_cast<std::size_t>(tool.lesion)].reference_m;
     double best_m = 0;
     for (const std::string& size : tool.sizes) {
       const std::string file = instrument_file(size), text = all_of(file);

@@ -71,9 +71,9 @@ struct Sight {
       case ConditionKind::beats:
         return session.blood.heart.beats + session.blood.heart.phase - state.began_beats >= c.value;
       case ConditionKind::balloon_at:
-        return balloon_is_at(c.value);
+        return balloon_is_at(c.value, c.lesion);
       case ConditionKind::balloon_within:
-        return balloon_is_within(c.value);
+        return balloon_is_within(c.value, c.lesion);
       case ConditionKind::balloon_clear:
         return balloon_is_out_of_guide(c.value);
       case ConditionKind::balloon_open:
@@ -88,15 +88,15 @@ struct Sight {
       case ConditionKind::contrast_in:
         return seen(place) > seen_kg_m3 && (session.c_arm.fluoroscopy > 0 || session.c_arm.cine > 0);
       case ConditionKind::flow_below:
-        return supply_behind_lesion(model, session) < c.value;
+        return supply_behind_lesion(model, session, c.lesion) < c.value;
       case ConditionKind::ST_exceeds:
         return ST_shift_mV(model.physiology.ischaemia, session.blood.ischaemia) > 1e3 * c.value;
       case ConditionKind::act_exceeds:
         return act_s(model.treatment.drugs, session.treatment.drugs) > c.value;
       case ConditionKind::stenosis_below:
-        return lesion_now(model, session).stenosis < c.value;
+        return lesion_now(model, session, c.lesion).stenosis < c.value;
       case ConditionKind::stent_beyond:
-        return lesion_is_covered(model, session, c.value);
+        return lesion_is_covered(model, session, c.value, c.lesion);
       case ConditionKind::unharmed:
         return is_unharmed(model, session);
     }
@@ -124,13 +124,13 @@ struct Sight {
 
   /// A beat carries artery and shaft past each other by millimetres, so places are judged while the heart rests, before
   /// the R wave.
-  std::optional<double> balloon_at_rest_m() const {
+  std::optional<double> balloon_at_rest_m(int lesion) const {
     if (!heart_rests(session)) return {};
-    return balloon_from_lesion_m(model, session);
+    return balloon_from_lesion_m(model, session, lesion);
   }
 
-  bool balloon_is_within(double most_m) const {
-    const auto at = balloon_at_rest_m();
+  bool balloon_is_within(double most_m, int lesion) const {
+    const auto at = balloon_at_rest_m(lesion);
     return at && std::fabs(*at) <= most_m;
   }
 
@@ -145,8 +145,8 @@ struct Sight {
   }
 
   /// Reached from the side that the shaft's hand comes from.
-  bool balloon_is_at(double offset_m) const {
-    const auto at = balloon_at_rest_m();
+  bool balloon_is_at(double offset_m, int lesion) const {
+    const auto at = balloon_at_rest_m(lesion);
     if (!at) return false;
     for (std::size_t t = 0; t < model.tools.size(); ++t)
       if (model.balloon_of[t] == static_cast<int>(session.bedside.balloon))

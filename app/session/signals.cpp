@@ -45,7 +45,9 @@ constexpr const char* of_a_patient[] = {"ecg_II_mV",
                                         "stent_expansion_percent",
                                         "stent_apposed_percent",
                                         "contrast_ostium",
-                                        "contrast_landmark"};
+                                        "contrast_landmark",
+                                        "stenosis_worst_percent",
+                                        "stent_margin_least_mm"};
 
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 constexpr double undiluted_kg_m3 = 350;
@@ -58,6 +60,18 @@ int contrast_enters(const SessionModel& model, const SessionState& state) {
   const bool farther = tip >= 0 && c.ostium_cell >= 0 && c.landmark_cell >= 0 &&
                        c.tree().is_downstream(tip, c.ostium_cell) && c.tree().is_downstream(c.landmark_cell, tip);
   return farther ? tip : c.ostium_cell;
+}
+
+/// The first lesion is the nearest of those that the balloon's artery has.
+bool is_at_first(const SessionModel& model, const SessionState& state) {
+  const auto from_m = [&](int lesion) {
+    const auto at = balloon_from_lesion_m(model, state, lesion);
+    return at ? std::fabs(*at) : std::numeric_limits<double>::infinity();
+  };
+  const double first_m = from_m(0);
+  for (int i = 1; i < static_cast<int>(model.vessel->coronaries->lesions.size()); ++i)
+    if (from_m(i) < first_m) return false;
+  return std::isfinite(first_m);
 }
 
 template <class Put>
@@ -82,7 +96,7 @@ void put_patient(const SessionModel& model, const SessionState& state, const Ses
   const bool has_lesion = !model.vessel->coronaries->lesions.empty();
   const double length =
       has_lesion ? model.vessel->coronaries->lesions[0].to_m - model.vessel->coronaries->lesions[0].from_m : 0;
-  const auto at = has_lesion ? balloon_from_lesion_m(model, state) : std::nullopt;
+  const auto at = has_lesion && is_at_first(model, state) ? balloon_from_lesion_m(model, state) : std::nullopt;
   put(at ? 1e3 * (*at + length / 2 - own->length_m / 2) : none);
   put(at ? 1e3 * (*at + length / 2 + own->length_m / 2) : none);
   put(1e6 * blood.contrast.injected_kg / undiluted_kg_m3);
@@ -104,6 +118,8 @@ void put_patient(const SessionModel& model, const SessionState& state, const Ses
     const double r = blood.radius_m[static_cast<std::size_t>(cell)];
     put(concentration(blood.contrast, model.physiology.flow, cell, std::numbers::pi * r * r) / undiluted_kg_m3);
   }
+  const WorstOfLesions worst = has_lesion ? worst_of_lesions(model, state) : WorstOfLesions{none, {}};
+  put(100 * worst.stenosis), put(worst.margin_m ? 1e3 * *worst.margin_m : none);
 }
 
 }  // namespace

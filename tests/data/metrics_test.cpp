@@ -73,7 +73,9 @@ RunRecord treated() {
                                  "stent_expansion_percent",
                                  "stent_apposed_percent",
                                  "contrast_ostium",
-                                 "contrast_landmark"},
+                                 "contrast_landmark",
+                                 "stenosis_worst_percent",
+                                 "stent_margin_least_mm"},
               .signals = {},
               .events = {},
               .branches = {}};
@@ -116,7 +118,9 @@ RunRecord treated() {
                                        stent ? 80.0 : nan,
                                        stent ? 95.0 : nan,
                                        ostium,
-                                       landmark});
+                                       landmark,
+                                       stent ? 12.0 : 75.0,
+                                       stent ? 2.5 : nan});
   }
   r.events = {0,    double(code(EventCode::ffr_changes)),      -1, 0.61,  //
               2000, double(code(EventCode::inflation_begins)), -1, 0,     //
@@ -138,6 +142,8 @@ TEST(Metrics, OfATreatmentMadeByHand) {
   EXPECT_TRUE(std::isnan(value(r, "first_inflation_after_s"))) << "no tool came in";
   EXPECT_NEAR(value(r, "stent_margin_proximal_mm"), 3, 1e-9);
   EXPECT_NEAR(value(r, "stent_margin_distal_mm"), 4, 1e-9);
+  EXPECT_NEAR(value(r, "residual_stenosis_worst_percent"), 12, 1e-9);
+  EXPECT_NEAR(value(r, "stent_margin_least_mm"), 2.5, 1e-9);
   EXPECT_NEAR(value(r, "lesion_coverage_percent"), 100, 1e-9);
   EXPECT_NEAR(value(r, "geographic_miss_mm"), 4, 1e-9) << "14 to 18 mm";
   EXPECT_NEAR(value(r, "occlusion_time_s"), 2, 1e-6);

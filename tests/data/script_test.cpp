@@ -135,6 +135,25 @@ TEST(Script, ToolsMayComeInSizes) {
   expect_words(with(R"("sizes": ["balloon-20x10"], "of_reference": 2)"), {"treatment.json:3:", "at most 1.5"});
 }
 
+TEST(Script, LooksAtTheLesionThatIsNamed) {
+  const std::string at = R"("balloon_at_mm": -2)";
+  std::string text = treatment;
+  text.replace(text.find(at), at.size(), at + R"(, "lesion": 2)");
+  const ScriptStep step = read_script("treatment.json", text).steps[2];
+  EXPECT_EQ(step.until[0].lesion, 1);
+  EXPECT_EQ(step.until[0].words, "balloon_at_mm -2 of lesion 2");
+  EXPECT_EQ(step.until[1].lesion, 0) << "the first, where it is not said";
+  EXPECT_EQ(treatment_refusal("\"balloon_within_mm\": 1", R"("stent_beyond_mm": 2, "lesion": 3)"), "accepted");
+  expect_words(treatment_refusal(at, at + R"(, "lesion": 0)"), {"treatment.json:7:", "lesion is 0", "from 1 on"});
+  expect_words(treatment_refusal(at, at + R"(, "lesion": 1.5)"), {"treatment.json:7:", "lesion is 1.5"});
+  expect_words(treatment_refusal("\"trace\": \"damped\"", R"("trace": "damped", "lesion": 2)"),
+               {"treatment.json:9:", "lesion"});
+  const std::string tool = R"("instrument": "balloon-25x15")";
+  const std::string sizes = R"(, "sizes": ["balloon-20x10"], "of_reference": 0.8)";
+  EXPECT_EQ(treatment_refusal(tool, tool + sizes + R"(, "lesion": 2)"), "accepted");
+  expect_words(treatment_refusal(tool, tool + R"(, "lesion": 2)"), {"treatment.json:3:", "beside sizes"});
+}
+
 TEST(Script, TreatsInSiUnits) {
   const Script script = read_script("treatment.json", treatment);
   EXPECT_EQ(script.steps[0].heparin_U, 5000);
@@ -199,6 +218,53 @@ TEST(Script, StepsOfAnotherScriptStandWhereItIsNamed) {
   EXPECT_EQ(again.steps[1].speed_m_s, script.steps[1].speed_m_s);
   EXPECT_EQ(again.steps[2].jump_to, 1);
   EXPECT_EQ(again.source, script.source);
+}
+
+TEST(Script, AnotherScriptMayStandTwiceWithOtherToolsAtAnotherLesion) {
+  const Folder folder;
+  folder.write("parts/open.json", R"({ "schema": "ostium-script/1", "name": "open", "title": "A part", "tools": [
+    { "name": "guide", "instrument": "guide-jr4-6f" }, { "name": "stent", "instrument": "stent-30x18" } ], "steps": [
+      { "do": "advance", "label": "in", "tool": ["guide", "stent"], "speed_mm_s": 4, "until": [{ "balloon_at_mm": 0 }] },
+      { "do": "wait", "until": [{ "stent_beyond_mm": 2, "lesion": 3 }, { "seconds": 1 }],
+        "unless": [{ "push_exceeds_N": 1, "of": "stent" }], "otherwise": "in", "tries": 2 },
+      { "do": "wait", "label": "seen", "until": [{ "seconds": 1 }], "otherwise": "go on" } ] })");
+  const auto both = [](const std::string& with) {
+    return R"({ "schema": "ostium-script/1", "name": "both", "title": "A test", "tools": [
+      { "name": "guide", "instrument": "guide-jr4-6f" }, { "name": "stent", "instrument": "stent-30x18" },
+      { "name": "other", "instrument": "stent-30x18" } ], "steps": [
+        { "do": "script", "script": "parts/open", "label": "distal", "lesion": 2, "with": )" +
+           with + R"( }, { "do": "script", "script": "parts/open" } ] })";
+  };
+  const std::string file = (folder.path / "both.json").string();
+  for (const std::string& source :
+       {both(R"({ "stent": "other" })"), read_script(file, both(R"({ "stent": "other" })")).source}) {
+    const Script script = read_script(file, source);
+    ASSERT_EQ(script.steps.size(), 6u);
+    EXPECT_EQ(script.steps[0].label, "distal: in");
+    EXPECT_EQ(script.steps[0].tools, (std::vector<int>{0, 2}));
+    EXPECT_EQ(script.steps[0].until[0].lesion, 1);
+    EXPECT_EQ(script.steps[1].until[0].lesion, 2) << "it says which itself";
+    EXPECT_EQ(script.steps[1].unless[0].tool, 2);
+    EXPECT_EQ(script.steps[1].jump_to, 0);
+    EXPECT_EQ(script.steps[2].label, "distal: seen");
+    EXPECT_EQ(script.steps[2].otherwise, ScriptStep::Otherwise::go_on);
+    EXPECT_EQ(script.steps[3].label, "in");
+    EXPECT_EQ(script.steps[3].tools, (std::vector<int>{0, 1}));
+    EXPECT_EQ(script.steps[3].until[0].lesion, 0);
+    EXPECT_EQ(script.steps[4].jump_to, 3);
+  }
+  const auto refused = [&](const std::string& with) -> std::string {
+    try {
+      read_script(file, both(with));
+    } catch (const LoadError& error) {
+      return error.what();
+    }
+    return "accepted";
+  };
+  expect_words(refused(R"({ "steent": "other" })"), {"both.json:4:", "with.steent", "a tool of parts/open"});
+  expect_words(refused(R"({ "stent": "others" })"), {"both.json:4:", "with.stent", "one of this script's"});
+  expect_words(refused("3"), {"both.json:4:", "an object of names"});
+  expect_words(refused(R"({ "stent": 3 })"), {"both.json:4:", "with.stent"});
 }
 
 TEST(Script, WhatIsWrongInAnotherScriptIsNamedThere) {

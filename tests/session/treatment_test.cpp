@@ -328,6 +328,95 @@ TEST(Treatment, ALesionIsCoveredWithMargins) {
   EXPECT_EQ(e.value, 0);
 }
 
+/// Two lesions of one artery, 32 and 22 mm long with 14 mm between them, and three stents to cover them with.
+RunSetup two_lesions(const std::string& condition = R"("seconds": 1)", const std::string& sizes = "") {
+  RunSetup out;
+  set_vessel("rca-diffuse", LengthUnit::millimetre, out);
+  set_script(read_script("two.json", R"({ "schema": "ostium-script/1", "name": "two", "title": "A test", "tools": [
+    { "name": "guide", "instrument": "guide-jr4-6f" },
+    { "name": "proximal", "instrument": "stent-35x38" }, { "name": "distal", "instrument": "stent-30x28")" +
+                                         sizes + R"( },
+    { "name": "short", "instrument": "stent-35x23" }, { "name": "wire", "instrument": "wire-014-workhorse" } ],
+    "steps": [ { "do": "wait", "until": [{ )" +
+                                         condition + " }] } ] }"),
+             out);
+  return out;
+}
+
+std::shared_ptr<const Vessel> with_two_lesions() {
+  static const std::shared_ptr<const Vessel> made = [] {
+    std::string warnings;
+    return make_vessel(two_lesions(), warnings);
+  }();
+  return made;
+}
+
+TEST(Treatment, EachLesionIsJudgedByTheStentsAtIt) {
+  ScriptedRun run(two_lesions(), with_two_lesions());
+  const SessionModel& model = run.model;
+  const auto& lesions = model.vessel->coronaries->lesions;
+  ASSERT_EQ(lesions.size(), 2u);
+  const double artery = model.physiology.flow.tree.branch("RCA");
+  const auto middle_m = [&](std::size_t i) { return (lesions[i].from_m + lesions[i].to_m) / 2; };
+  const auto lies = [&](std::size_t stent, double at_m) {
+    StentState& own = run.state.treatment.stents[stent];
+    own.where = StentState::deployed, own.branch = artery, own.middle_m = at_m, own.shift_m = 0;
+  };
+  const auto covered = [&](int lesion) { return lesion_is_covered(model, run.state, 2e-3, lesion); };
+  EXPECT_FALSE(covered(0) || covered(1));
+  EXPECT_FALSE(worst_of_lesions(model, run.state).margin_m);
+  EXPECT_NEAR(worst_of_lesions(model, run.state).stenosis, 0.75, 0.02);
+  EXPECT_NEAR(lesion_now(model, run.state, 0).stenosis, 0.65, 0.02);
+
+  lies(1, middle_m(1));  // 28 mm on 22: 3 mm on either side
+  EXPECT_TRUE(covered(1));
+  EXPECT_FALSE(covered(0));
+  EXPECT_LT(*worst_of_lesions(model, run.state).margin_m, 0) << "of the other";
+  EXPECT_NEAR(*stent_from_lesion_m(model, run.state, 1, 1), 0, 0.3e-3);
+
+  lies(2, lesions[0].from_m + 8e-3);  // 23 mm on 32: what lies between the stents is not covered
+  EXPECT_FALSE(covered(0));
+  EXPECT_NEAR(stented(model, run.state, 0)->from_m, -3.5e-3, 0.5e-3);
+  EXPECT_NEAR(stented(model, run.state, 0)->to_m, 19.5e-3, 0.5e-3);
+
+  lies(0, lesions[0].from_m + 45e-3);  // from 26 mm: nor what lies between stents in the lesion itself
+  EXPECT_FALSE(covered(0));
+  lies(0, lesions[0].from_m + 35e-3);  // from 16 mm: all three are joined
+  EXPECT_TRUE(covered(0) && covered(1));
+  EXPECT_NEAR(stented(model, run.state, 0)->to_m - stented(model, run.state, 0)->from_m, 74.5e-3, 1e-3);
+
+  run.state.treatment.stents[2].where = StentState::lost;
+  lies(0, middle_m(0));  // 38 mm on 32
+  EXPECT_TRUE(covered(0) && covered(1));
+  EXPECT_NEAR(stented(model, run.state, 0)->to_m, 35e-3, 0.5e-3) << "not to the end of the other one's";
+  EXPECT_NEAR(*worst_of_lesions(model, run.state).margin_m, 3e-3, 0.5e-3);
+
+  run.state.bedside.balloon = 1, run.state.bedside.branch = artery, run.state.bedside.middle_m = middle_m(1);
+  EXPECT_NEAR(*balloon_from_lesion_m(model, run.state, 1), 0, 1e-6);
+  EXPECT_NEAR(*balloon_from_lesion_m(model, run.state, 0), 41e-3, 0.5e-3);
+}
+
+TEST(Treatment, ALesionThatThereIsNotIsRefused) {
+  const auto refusal = [](const std::string& condition, const std::string& sizes) -> std::string {
+    try {
+      RunSetup own = two_lesions(condition, sizes);
+      choose_sizes(*with_two_lesions(), own);
+      ScriptedRun run(own, with_two_lesions());
+      return read_instrument(own.tool_files[2], own.tool_texts[2]).name;
+    } catch (const LoadError& error) {
+      return error.what();
+    }
+  };
+  const std::string sizes = R"(, "sizes": ["stent-275x28", "stent-325x28"], "of_reference": 1.05)";
+  EXPECT_EQ(refusal(R"("balloon_at_mm": 0)", sizes), "stent-325x28");
+  EXPECT_EQ(refusal(R"("balloon_at_mm": 0, "lesion": 2)", sizes + R"(, "lesion": 2)"), "stent-275x28");
+  const std::string condition = refusal(R"("balloon_at_mm": 0, "lesion": 3)", sizes),
+                    tool = refusal(R"("seconds": 1)", sizes + R"(, "lesion": 3)");
+  EXPECT_NE(condition.find("two.json:5: balloon_at_mm 0 of lesion 3: this patient's lesions are 2"), std::string::npos)
+      << condition;
+  EXPECT_NE(tool.find("two.json:3: distal is for lesion 3; this patient's lesions are 2"), std::string::npos) << tool;
+}
+
 TEST(Treatment, APerforationHarmsAndATearThatNoStentCovers) {
   StentAhead s;
   const SessionModel& model = s.run.model;

@@ -12,18 +12,22 @@ namespace {
 constexpr double dragged_m = 2e-3, longest_s = 60, after_shift_s = 20, shift_mV = 0.2;
 constexpr double beyond_m = 2e-3, beyond_atm = 10;
 
-/// How far a balloon that lies in the lesion's stents stands out of them; 0: there is none, or it does not.
+/// How far a balloon that lies in a lesion's stents stands out of them; 0: there is none, or it does not.
 double beyond_stent_m(const SessionModel& model, const SessionState& state, int balloon) {
-  if (model.vessel->coronaries->lesions.empty()) return 0;
-  const auto stents = stented(model, state);
-  const auto at = balloon_from_lesion_m(model, state);
-  if (!stents || !at) return 0;
-  const Plan& plan = model.vessel->coronaries->lesions[0];
-  const double half_m = model.treatment.balloons[static_cast<std::size_t>(balloon)].length_m / 2;
-  const double middle_m = *at + (plan.to_m - plan.from_m) / 2;
-  const double from_m = middle_m - half_m, to_m = middle_m + half_m;
-  if (to_m < stents->from_m || from_m > stents->to_m) return 0;
-  return std::max(stents->from_m - from_m, to_m - stents->to_m);
+  const auto& lesions = model.vessel->coronaries->lesions;
+  double out_m = 0;
+  for (int i = 0; i < static_cast<int>(lesions.size()); ++i) {
+    const auto stents = stented(model, state, i);
+    const auto at = balloon_from_lesion_m(model, state, i);
+    if (!stents || !at) continue;
+    const Plan& plan = lesions[static_cast<std::size_t>(i)];
+    const double half_m = model.treatment.balloons[static_cast<std::size_t>(balloon)].length_m / 2;
+    const double middle_m = *at + (plan.to_m - plan.from_m) / 2;
+    const double from_m = middle_m - half_m, to_m = middle_m + half_m;
+    if (to_m < stents->from_m || from_m > stents->to_m) continue;
+    out_m = std::max({out_m, stents->from_m - from_m, to_m - stents->to_m});
+  }
+  return out_m;
 }
 
 }  // namespace
