@@ -233,11 +233,13 @@ void settle_rod_contacts(const Model& model, const State& state, Scratch& scratc
 bool usable(const RodScratch& s) { return s.progress != Progress::failed && s.defect <= tunables::usable_stretch; }
 
 /// Whether its ties to walls are settled, too.
-bool settled(const Strand& strand) { return usable(*strand.s) && behind_walls(strand) <= tunables::usable_depth_m; }
+bool settled(const Model& model, const Strand& strand, Scratch& scratch) {
+  return usable(*strand.s) && behind_walls(model, strand, scratch) <= tunables::usable_depth_m;
+}
 
-bool all_done(const Scratch& scratch) {
-  return std::all_of(scratch.strands.begin(), scratch.strands.end(), [](const Strand& strand) {
-    return strand.s->progress == Progress::done && behind_walls(strand) <= tunables::usable_depth_m;
+bool all_done(const Model& model, Scratch& scratch) {
+  return std::all_of(scratch.strands.begin(), scratch.strands.end(), [&](const Strand& strand) {
+    return strand.s->progress == Progress::done && behind_walls(model, strand, scratch) <= tunables::usable_depth_m;
   });
 }
 
@@ -250,7 +252,7 @@ void retry_from_rest(const Model& model, const State& state, Scratch& scratch, S
     bool again = false;
     for (const Strand& strand : scratch.strands) {
       RodScratch& s = *strand.s;
-      if (settled(strand)) {
+      if (settled(model, strand, scratch)) {
         if (s.progress == Progress::open) s.progress = Progress::given_up;
         continue;
       }
@@ -378,7 +380,7 @@ void advance(const Model& model, const Inputs& inputs, Piece piece, State& state
   for (const Strand& strand : scratch.strands) predict(model, state, scratch, strand, strand.s->scheme);
   iterate(model, state, scratch, report);
   settle_rod_contacts(model, state, scratch, report);
-  if (!model.surfaces.empty() && !piece.is_least() && !all_done(scratch)) {
+  if (!model.surfaces.empty() && !piece.is_least() && !all_done(model, scratch)) {
     take_hands_back(scratch, state);
     rescale_histories(model, 0.5, state);
     advance(model, inputs, piece.first_half(), state, scratch, report);

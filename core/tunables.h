@@ -40,6 +40,7 @@ inline constexpr double slid_far_m = 0.15e-3;   // along a wall: on a radius of 
 inline constexpr double wall_pull_N = 1e-5;     // of a tie that is let go in the same step
 inline constexpr double wall_loose_m = 0.1e-6;  // behind a wall before a node is tied in the same step
 inline constexpr double followed_m = 5e-6;      // behind a wall that was found on the way
+inline constexpr double spared_m = 50e-6;       // most that one drives a node off where it was
 inline constexpr double passed_wall_m = 20e-6;  // behind a plane, on a way that meets no wall: it ends before that
 inline constexpr double same_wall = 0.999;      // cosine between planes that stand for one another
 inline constexpr double same_side = 0.5;        // ... of one wall, seen from two places on the same side of it

@@ -31,8 +31,9 @@ void tie_to_walls(const Strand& strand);
 /// the chain, which is adapted, is to be solved again.
 bool change_walls(const Model& model, const Strand& strand, Scratch& scratch);
 
-/// How far the iterate is behind walls that do not hold it, m: more than little if the ties were not settled.
-double behind_walls(const Strand& strand);
+/// How far the iterate is behind walls that do not hold it, m: more than little if the ties were not settled, or if a
+/// node went round a ridge that planes cannot tell of.
+double behind_walls(const Model& model, const Strand& strand, Scratch& scratch);
 
 /// Adds the torque of friction; after linearise_joints and assemble_elements.
 void turn_at_walls(const Strand& strand);

@@ -73,7 +73,45 @@ int slot_for(const WallPlane& plane, const V3<double>& to, const bool* taken, co
   return walls.count < max_planes ? walls.count : farthest;
 }
 
+/// The walls round a ball at the end of the step.
+void look_around(const Model& model, const View& view, Scratch& scratch, std::vector<int>& clusters, NodeWalls& walls) {
+  Bounds bounds;
+  bounds.take(view.centre, view.reach);
+  for (std::size_t k = 0; k < model.surfaces.size(); ++k) {
+    const Surface& surface = *model.surfaces[k];
+    find_clusters(surface, bounds.low, bounds.high, scratch.surfaces[k], clusters);
+    for (int cluster : clusters) {
+      const ClusterPose& pose = pose_of(surface, cluster, scratch.surfaces[k]);
+      look(model, static_cast<int>(k), cluster, pose, pose.after, view,
+           lets_through(surface, scratch.surfaces[k], view.radius), walls);
+    }
+  }
+  sum_up(view, walls);
+}
+
+/// The way from the start to where a wall was met may go round a ridge: then its plane, which does not end there, would
+/// drive the node off its start. It holds from where the node was on.
+void spare(const V3<double>& start, WallPlane& plane) {
+  if (plane.soft) return;
+  plane.place = least(plane.place, dot(plane.normal, start + plane.carried) + tunables::spared_m);
+}
+
 }  // namespace
+
+double deeper_than_planes(const Model& model, const RodState& own, int i, const V3<double>& at, Scratch& scratch,
+                          const RodScratch& s, ContactScratch& c) {
+  const View view = view_of(s.inside, own, i, at, 0);
+  NodeWalls around;
+  look_around(model, view, scratch, c.clusters, around);
+  const auto deepest = [&](const NodeWalls& walls, auto&& counts) {
+    double most = 0;
+    for (int k = 0; k < walls.count; ++k)
+      if (counts(walls.planes[k])) most = largest(most, walls.planes[k].place - dot(walls.planes[k].normal, at));
+    return most;
+  };
+  return deepest(around, [](const WallPlane& w) { return !w.soft; }) -
+         deepest(c.walls[i], [](const WallPlane& w) { return w.active; });
+}
 
 bool follow(const Model& model, const RodState& own, int i, const V3<double>& to, Scratch& scratch, RodScratch& s,
             ContactScratch& c) {
@@ -84,25 +122,14 @@ bool follow(const Model& model, const RodState& own, int i, const V3<double>& to
   NodeWalls met;
   WallPlane exit;
   V3<double> reached = to;
-  if (first_exit(model, from, to, view, scratch, c.clusters, exit, reached)) {
+  if (first_exit(model, from, to, view, scratch, c.clusters, exit, reached))
     met.planes[met.count++] = exit;
-  } else {
-    Bounds bounds;
-    bounds.take(to, view.reach);
-    for (std::size_t k = 0; k < model.surfaces.size(); ++k) {
-      const Surface& surface = *model.surfaces[k];
-      find_clusters(surface, bounds.low, bounds.high, scratch.surfaces[k], c.clusters);
-      for (int cluster : c.clusters) {
-        const ClusterPose& pose = pose_of(surface, cluster, scratch.surfaces[k]);
-        look(model, static_cast<int>(k), cluster, pose, pose.after, view,
-             lets_through(surface, scratch.surfaces[k], view.radius), met);
-      }
-    }
-    sum_up(view, met);
-  }
+  else
+    look_around(model, view, scratch, c.clusters, met);
   bool any = drop_passed_walls(from, reached, view.radius, walls), taken[max_planes] = {};
   for (int k = 0; k < met.count; ++k) {
     WallPlane& plane = met.planes[k];
+    spare(start, plane);
     const double behind = plane.place - dot(plane.normal, to);
     if (!(behind > tunables::followed_m)) continue;
     const int at = slot_for(plane, to, taken, walls);

@@ -90,6 +90,16 @@ void tie_to_walls(const Strand& strand) {
 
 namespace {
 
+/// Whether it may have come to walls that were not found.
+bool went_far(const Strand& strand, int i, const V3<double>& to) {
+  const ContactScratch& c = *strand.contact;
+  const NodeWalls& walls = c.walls[i];
+  const V3<double> moved = to - load3<double>(strand.own->position, i);
+  const V3<double> slid = walls.count > 0 ? moved - walls.planes[0].carried : moved;
+  const double far = walls.count > 0 ? least(c.travel.at(0)[i], tunables::slid_far_m) : c.travel.at(0)[i];
+  return dot(slid, slid) > far * far;
+}
+
 /// Follows nodes that went far through the triangles: true if that finds walls that are to hold one.
 bool follow_far(const Model& model, const Strand& strand, Scratch& scratch) {
   RodScratch& s = *strand.s;
@@ -97,11 +107,8 @@ bool follow_far(const Model& model, const Strand& strand, Scratch& scratch) {
   const RodState& own = *strand.own;
   bool any = false;
   for (int i = first_free(s); i <= last_free(s); ++i) {
-    const NodeWalls& walls = c.walls[i];
-    const V3<double> p = load3<double>(c.ahead, i), moved = p - load3<double>(own.position, i);
-    const V3<double> slid = walls.count > 0 ? moved - walls.planes[0].carried : moved;
-    const double far = walls.count > 0 ? least(c.travel.at(0)[i], tunables::slid_far_m) : c.travel.at(0)[i];
-    if (dot(slid, slid) <= far * far || !follow(model, own, i, p, scratch, s, c)) continue;
+    const V3<double> p = load3<double>(c.ahead, i);
+    if (!went_far(strand, i, p) || !follow(model, own, i, p, scratch, s, c)) continue;
     c.changed[i] = any = true;
   }
   return any;
@@ -164,15 +171,20 @@ bool change_walls(const Model& model, const Strand& strand, Scratch& scratch) {
   return any;
 }
 
-double behind_walls(const Strand& strand) {
-  const ContactScratch& c = *strand.contact;
+double behind_walls(const Model& model, const Strand& strand, Scratch& scratch) {
+  ContactScratch& c = *strand.contact;
   if (c.walls.empty()) return 0;
+  const RodScratch& s = *strand.s;
   double most = 0;
-  for (int i = first_free(*strand.s); i <= last_free(*strand.s); ++i)
+  for (int i = first_free(s); i <= last_free(s); ++i) {
+    const V3<double> p = load3<double>(s.position, i);
     for (int k = 0; k < c.walls[i].count; ++k) {
       const WallPlane& w = c.walls[i].planes[k];
-      if (!w.active) most = largest(most, w.place - dot(w.normal, load3<double>(strand.s->position, i)));
+      if (!w.active) most = largest(most, w.place - dot(w.normal, p));
     }
+    if (model.sweep && went_far(strand, i, p))
+      most = largest(most, deeper_than_planes(model, *strand.own, i, p, scratch, s, c));
+  }
   return most;
 }
 

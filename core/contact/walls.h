@@ -18,4 +18,8 @@ void look_again(const Model& model, const Strand& strand, int i, const V3<double
 bool follow(const Model& model, const RodState& own, int i, const V3<double>& to, Scratch& scratch, RodScratch& s,
             ContactScratch& c);
 
+/// How much deeper than by the planes that hold it node i is in the triangles at `at`, at the end of the step, m.
+double deeper_than_planes(const Model& model, const RodState& own, int i, const V3<double>& at, Scratch& scratch,
+                          const RodScratch& s, ContactScratch& c);
+
 }  // namespace ostium
