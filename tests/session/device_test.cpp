@@ -274,7 +274,7 @@ TEST(DeviceHand, TheClampHoldsWhatTheWirePushes) {
     most_push_N = std::max(most_push_N, at.run.report.tools[0].push_N);
   }
   const double level_N = at.box.clamp()[0] / 65535.0 * 10;
-  EXPECT_GT(most_push_N, 0.05) << "friction of the tube";
+  EXPECT_GT(most_push_N, 0.03) << "its bend, and friction in it";
   EXPECT_NEAR(level_N, at.run.report.tools[0].push_N, 0.15 * most_push_N + 0.03);
 }
 
@@ -313,7 +313,7 @@ TEST(DeviceHand, TheClampIsQuietHoweverHighTheWallsFriction) {
     before_N = level_N;
     std::printf("friction %.2f: pushed against %.2f N, held: %.3f N/s\n", friction, level_N, path_N);
   }
-  EXPECT_GT(before_N, 0.15);
+  EXPECT_GT(before_N, 0.08) << "twice what it is almost without friction";
 }
 
 TEST(DeviceRun, AtTheEmulatorRecordsAndReplays) {
