@@ -2,12 +2,12 @@
 /// Contact of rods with walls that move.
 ///
 /// Nodes are balls of the rod's radius. What of a wall a node can reach in a step is found at the beginning of the
-/// step, when the node is inside the lumen for certain: each piece of wall becomes a plane there, which the wall
-/// carries to the end of the step, and which is seen anew from where the node goes, if it was the rim of a triangle
-/// (walls.cpp). A node that would end behind a plane is tied to it, a spring as stiff as the wall; an active set,
-/// settled within the rod's solve (planes.cpp). After a solve the path of nodes that went far is followed through the
-/// triangles, and walls that they passed or meet there are planes, too: nothing gets through.
-/// Friction is a spring that slips (friction.cpp): along the rod and around it, with its torque.
+/// step, when the node is inside the lumen for certain: each piece of wall becomes a plane there (view.cpp), which the
+/// wall carries to the end of the step, and which is seen anew from where the node goes, if it was the rim of a
+/// triangle (walls.cpp). A node that would end behind a plane is tied to it, a spring as stiff as the wall; an active
+/// set, settled within the rod's solve (planes.cpp). After a solve the path of nodes that went far is followed through
+/// the triangles (follow.cpp), and walls that they passed or meet there are planes, too: nothing gets through. Friction
+/// is a spring that slips (friction.cpp): along the rod and around it, with its torque.
 #include "core/model.h"
 #include "core/scratch.h"
 #include "core/state.h"
