@@ -14,6 +14,7 @@
 #include "core/rod/iterate.h"
 #include "core/rod/nodes.h"
 #include "core/rod/relaxation.h"
+#include "core/rod/stretch.h"
 #include "core/tunables.h"
 
 namespace ostium {
@@ -89,21 +90,6 @@ void meet_walls(const Model& model, const Inputs& inputs, Piece piece, Scratch& 
   }
 }
 
-/// Spreads a rod's load over those of the chain's nodes [begin, end) that are its own, the last of which is its tip.
-void add_stretch_load(const Rod& rod, const StretchLoad& load, int begin, int end, RodScratch& s) {
-  if (load.force_W_N.isZero()) return;
-  const auto from_tip_m = [&](int i) { return rod.node_from_tip_m[rod.elements - (end - 1 - i)]; };
-  const double middle_m = (load.from_tip_m + load.to_tip_m) / 2;
-  int first = end, last = begin - 1, nearest = end - 1;
-  for (int i = begin; i < end; ++i) {
-    if (std::fabs(from_tip_m(i) - middle_m) < std::fabs(from_tip_m(nearest) - middle_m)) nearest = i;
-    if (from_tip_m(i) < load.from_tip_m || from_tip_m(i) > load.to_tip_m) continue;
-    first = std::min(first, i), last = i;
-  }
-  if (last < first) first = last = nearest;
-  for (int i = first; i <= last; ++i) add_load(i, load.force_W_N / (last - first + 1), s);
-}
-
 /// Where nodes go without internal force, and how they yield to it.
 void constrain(const Model& model, Scratch& scratch, const Strand& strand) {
   RodScratch& s = *strand.s;
@@ -111,6 +97,7 @@ void constrain(const Model& model, Scratch& scratch, const Strand& strand) {
     predict_nodes(s.inside, model.rods[rod].damping, begin, end, *strand.own, model.gravity_W, s.step_s, s);
     add_load(end - 1, scratch.rods[rod].inputs.tip_force_W_N, s);
     add_stretch_load(model.rods[rod], scratch.rods[rod].inputs.load, begin, end, s);
+    tie_to_tether(model.rods[rod], scratch.rods[rod].inputs.tether, begin, end, s);
   };
   if (strand.nest)
     for (const Span& span : strand.nest->spans)

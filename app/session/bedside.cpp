@@ -22,10 +22,7 @@ constexpr double near_heart_m = 6e-3;     // of the box about all cells
 constexpr double tip_m = 3e-3;            // what of a wire is its tip
 constexpr double thick_wire_m = 0.35e-3;  // radius; 0.035 in wires
 constexpr double irritates_m = 10e-3;     // beyond the valve at which a wire surely meets the ventricle's wall
-constexpr double anchor_N_m = 250;        // of what holds an open balloon to its place [estimate]
-constexpr double anchor_friction = 0.12;  // BalloonModel::friction
-constexpr double most_held_N = 3;         // a shaft kinks before it bears more [estimate]
-constexpr double held_s = 0.02;           // in which that comes and goes
+constexpr double edge_s = 0.02;           // in which its push on the guide comes and goes
 constexpr double irritates_N = 0.05;   // of a wire on the ventricle's wall that surely gives extrasystoles [estimate]
 constexpr double at_valve_m = 4.5e-3;  // above the annulus within which a tip may be on its way through the valve
 constexpr double catch_angle_rad = 0.35;  // between guide and shaft at which a crimped stent's edge hangs [estimate]
@@ -46,10 +43,6 @@ int balloon_tool(const BedsideModel& model, const State& rods) {
   for (std::size_t t = 0; t < model.tools.size(); ++t)
     if (model.balloon_of[t] >= 0 && in_body(model.rods.rods[t], rods.rods[t])) return static_cast<int>(t);
   return -1;
-}
-
-Vector3d direction_at_tip(const Rod& rod, const RodState& s) {
-  return (s.position[rod.elements] - s.position[rod.elements - 2]).normalized();
 }
 
 void look_at_shafts(const BedsideModel& model, const State& rods, BedsideScratch& x, BedsideState& s) {
@@ -95,7 +88,7 @@ void look_at_balloon(const BedsideModel& model, const State& rods, const Treatme
   const double was = s.balloon, was_branch = s.branch;
   s.balloon = t < 0 ? -1 : model.balloon_of[static_cast<std::size_t>(t)];
   s.branch = -1, s.drag_N = 0;
-  if (s.balloon != was) s.held = s.holding_N = s.stent_out = s.caught = s.caught_N = 0;
+  if (s.balloon != was) s.held = s.stent_out = s.caught = s.caught_N = 0;
   if (t < 0) return;
   const Rod& rod = model.rods.rods[static_cast<std::size_t>(t)];
   const RodState& own = rods.rods[static_cast<std::size_t>(t)];
@@ -213,7 +206,7 @@ void look_at_edge(const BedsideModel& model, const State& rods, const TreatmentS
       wanted = s.edge_N;
     }
   }
-  s.edge_push_N += (wanted - s.edge_push_N) * look_every * model.rods.step_s / held_s;
+  s.edge_push_N += (wanted - s.edge_push_N) * look_every * model.rods.step_s / edge_s;
   if (s.edge_push_N < 1e-6) s.edge_push_N = 0;
 }
 
@@ -291,6 +284,10 @@ Line line_of(const Instrument& guide) {
   line.bore_m = guide.inner_diameter_m / 2, line.length_m = guide.length_m;
   line.dead_m3 = manifold_m3 + std::numbers::pi * line.bore_m * line.bore_m * line.length_m;
   return line;
+}
+
+Vector3d direction_at_tip(const Rod& rod, const RodState& s) {
+  return (s.position[rod.elements] - s.position[rod.elements - 2]).normalized();
 }
 
 double marker_from_tip_m(const Instrument& instrument, int which) {
@@ -389,38 +386,6 @@ void press_with_wire(const BedsideModel& model, const StepReport& report, double
   }
   s.wire_tip_N += (1 - std::exp(-2 * std::numbers::pi * wall_force_cut_off_Hz * step_s)) * (now_N - s.wire_tip_N);
   if (s.wire_tip_N < 1e-6) s.wire_tip_N = 0;
-}
-
-void hold_balloon(const BedsideModel& model, const BalloonReport& report, const BalloonState& balloon, double step_s,
-                  BedsideState& s) {
-  double wanted = 0;
-  if (s.balloon < 0 || s.branch < 0 || !(report.pressed_N > 0)) {
-    s.held = 0;
-  } else {
-    if (s.held == 0) s.held = 1, s.anchor_m = s.middle_m;
-    const double most = std::min(anchor_friction * report.pressed_N, most_held_N);
-    // Beyond what friction bears it is dragged along.
-    s.anchor_m = std::clamp(s.anchor_m, s.middle_m - most / anchor_N_m, s.middle_m + most / anchor_N_m);
-    const BalloonModel& own = model.treatment.balloons[static_cast<std::size_t>(s.balloon)];
-    wanted = anchor_N_m * (s.anchor_m - s.middle_m) + own.grip_N_m * balloon.slip_m;
-    wanted = std::clamp(wanted, -most_held_N, most_held_N);
-  }
-  s.holding_N += (wanted - s.holding_N) * step_s / held_s;
-  if (std::fabs(s.holding_N) < 1e-6) s.holding_N = 0;
-}
-
-StretchLoad load_on_shaft(const BedsideModel& model, const State& rods, const BedsideState& s, int tool) {
-  const auto t = static_cast<std::size_t>(tool);
-  if (tool == static_cast<int>(s.guide) && s.edge_push_N > 0)
-    return {0, 3e-3, -s.edge_push_N * direction_at_tip(model.rods.rods[t], rods.rods[t])};
-  if ((s.holding_N == 0 && s.caught_N == 0) || s.balloon < 0 || model.balloon_of[t] != static_cast<int>(s.balloon))
-    return {};
-  const Instrument& instrument = model.tools[t].instrument;
-  const double near_m = marker_from_tip_m(instrument, 0), far_m = marker_from_tip_m(instrument, 1);
-  const Vector3d along = point_from_tip(model.rods.rods[t], rods.rods[t], far_m) -
-                         point_from_tip(model.rods.rods[t], rods.rods[t], near_m);
-  if (!(along.norm() > 1e-6)) return {};
-  return {far_m, near_m, (s.holding_N + s.caught_N) * along.normalized()};
 }
 
 TreatmentInputs treatment_inputs(const BedsideInputs& inputs, const BedsideState& s) {

@@ -3,8 +3,8 @@
 /// balloon, what reaches guide, muscle and valve.
 ///
 /// Rods know no balloon and balloons no rod. Every `look_every` steps the rods are looked at, and what matters of them
-/// is kept in BedsideState: from there come TreatmentInputs and PhysiologyInputs of every step, and the force with
-/// which the wall holds an open balloon's shaft.
+/// is kept in BedsideState: from there come TreatmentInputs and PhysiologyInputs of every step. What the wall and other
+/// devices do to a tool's rod in turn: holding.h.
 #include "app/session/vessel.h"
 #include "core/step.h"
 #include "data/instrument.h"
@@ -32,7 +32,6 @@ struct BedsideState {
   double balloon = -1;               ///< of TreatmentModel::balloons, as a number
   double branch = -1, middle_m = 0;  ///< its seat (place.h); -1: it is not in one artery
   double held = 0, anchor_m = 0;     ///< 1: the wall holds it, with its middle there, along the path
-  double holding_N = 0;              ///< what its shaft is held with, distally
   double blocked = 0;                ///< 1: a stent that is not open lies in its way
   double drag_N = 0;                 ///< of the wall on what is folded there, distally
   double stent_out = 0;              ///< 1: the stent crimped on it has left the guide, and has not gone back into it
@@ -63,7 +62,6 @@ void for_each_bedside_field(S& s, Visit&& visit) {
                               std::pair{"bedside.middle_m", &s.middle_m},
                               std::pair{"bedside.held", &s.held},
                               std::pair{"bedside.anchor_m", &s.anchor_m},
-                              std::pair{"bedside.holding_N", &s.holding_N},
                               std::pair{"bedside.drag_N", &s.drag_N},
                               std::pair{"bedside.stent_out", &s.stent_out},
                               std::pair{"bedside.caught", &s.caught},
@@ -119,13 +117,6 @@ void look(const BedsideModel& model, const State& rods, const TreatmentState& tr
 /// How hard a coronary wire's tip presses the wall, behind the low pass of all wall forces: what lasts a millisecond
 /// makes no hole. At each step.
 void press_with_wire(const BedsideModel& model, const StepReport& report, double step_s, BedsideState& state);
-/// What holds the balloon's shaft from now on, by what the wall pressed it with.
-void hold_balloon(const BedsideModel& model, const BalloonReport& report, const BalloonState& balloon, double step_s,
-                  BedsideState& state);
-/// Forces on a tool's rod. On the balloon's: that one, and the guide's edge that its stent hangs on; along it, on the
-/// stretch between its markers. On the guide's tip: the stent that it pushes.
-StretchLoad load_on_shaft(const BedsideModel& model, const State& rods, const BedsideState& state, int tool);
-
 TreatmentInputs treatment_inputs(const BedsideInputs& inputs, const BedsideState& state);
 /// Contrast and pressure; the heart's and what is occupied are the caller's.
 void set_physiology_inputs(const BedsideModel& model, const BedsideInputs& inputs, const BedsideState& state,
@@ -134,6 +125,8 @@ void set_physiology_inputs(const BedsideModel& model, const BedsideInputs& input
 /// What contrast runs through to a guide's tip.
 Line line_of(const Instrument& guide);
 
+/// Of a rod's last two elements.
+Eigen::Vector3d direction_at_tip(const Rod& rod, const RodState& state);
 /// The distance of a marker's middle from the tip, m; 0 proximal, 1 distal.
 double marker_from_tip_m(const Instrument& instrument, int which);
 /// A point of a rod that is so far from its tip, m; the introducer if that is outside.

@@ -13,6 +13,7 @@
 #define XXH_INLINE_ALL
 #include <xxhash.h>
 
+#include "app/session/holding.h"
 #include "core/rod/introducer.h"
 #include "data/load_error.h"
 #include "vascular/beat/heart_cycle.h"
@@ -317,10 +318,19 @@ BedsideModel bedside_of(const SessionModel& model) {
   return {*model.vessel, model.tools, model.rods, model.physiology, model.treatment, model.balloon_of};
 }
 
+/// When the step ends that is being made.
+Moment moment(const SessionModel& model, const SessionState& state, std::uint64_t steps) {
+  return {state.blood.heart.phase, breath_after(model, steps)};
+}
+
 void hold_shafts(const SessionModel& model, const SessionState& state, Inputs& core) {
   const BedsideModel bedside = bedside_of(model);
-  for (std::size_t t = 0; t < model.tools.size(); ++t)
-    core.rods[t].load = load_on_shaft(bedside, state.rods, state.bedside, static_cast<int>(t));
+  const Moment end = moment(model, state, state.rods.step + 1);
+  for (std::size_t t = 0; t < model.tools.size(); ++t) {
+    const int tool = static_cast<int>(t);
+    core.rods[t].load = load_on_shaft(bedside, state.rods, state.bedside, tool);
+    core.rods[t].tether = tether_on_shaft(bedside, state.treatment, state.bedside, tool, end);
+  }
 }
 
 /// A stent that was left in the wall rides with it from now on. Once a stent; the one place of a step that allocates.
@@ -345,7 +355,7 @@ void treat(const SessionModel& model, const SessionInputs& inputs, bool R_wave, 
                           model.step_s(), state.treatment, state.blood, x.physiology_inputs.occupied_m, x.treatment);
   state.bedside.blocked = report.treatment.blocked;
   if (report.treatment.deployed >= 0) tie(model, report.treatment.deployed, state);
-  hold_balloon(bedside, report.treatment.balloon, state.treatment.balloon, model.step_s(), state.bedside);
+  hold_balloon(bedside, state.rods, report.treatment.balloon, moment(model, state, state.rods.step), state.bedside);
   set_physiology_inputs(bedside, inputs.bedside, state.bedside, x.physiology_inputs);
   x.physiology_inputs.hyperaemia = state.treatment.drugs.adenosine;
   const bool blood_moves = state.blood.circulation_s + model.step_s() >= circulation_step_s * (1 - 1e-9);

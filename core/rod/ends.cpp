@@ -1,6 +1,7 @@
 #include "core/rod/ends.h"
 
 #include <Eigen/Geometry>
+#include <cmath>
 
 #include "core/math/rotation.h"
 #include "core/rod/inertia.h"
@@ -23,6 +24,11 @@ Vector3d within(const Vector3d& asked, double limit, std::uint32_t limit_flag, s
   if (largest <= limit && asked.norm() <= limit) return asked;
   trouble |= limit_flag;
   return limit * (asked / largest).normalized();
+}
+
+bool is_finite(const Tether& a) {
+  return std::isfinite(a.from_tip_m) && a.point_W.allFinite() && a.along_W.allFinite() &&
+         std::isfinite(a.stiffness_N_m);
 }
 
 bool joined(Hold hold) { return hold == Hold::clamped || hold == Hold::guided; }
@@ -69,6 +75,7 @@ RodInputs limited(const RodInputs& asked, std::uint32_t& trouble) {
   out.feed_m_s = within(Vector3d(asked.feed_m_s, 0, 0), tunables::max_drive_speed_m_s, drive_limited, trouble).x();
   out.tip_force_W_N = within(out.tip_force_W_N, tunables::max_load_N, load_limited, trouble);
   out.load.force_W_N = within(out.load.force_W_N, tunables::max_load_N, load_limited, trouble);
+  if (!is_finite(out.tether)) out.tether = {}, trouble |= drive_not_finite;
   return out;
 }
 

@@ -98,6 +98,40 @@ TEST(Step, ALoadOnAStretchIsBorneByTheBase) {
   EXPECT_TRUE(stretch.trouble & drive_not_finite);
 }
 
+// A cantilever of stiffness F / d beside a spring k bends by F / (F / d + k); and however stiff the spring is, its rod is
+// at rest at once where its point went.
+TEST(Step, ATetherIsASpringBesideTheRod) {
+  Model model;
+  model.gravity_W.setZero();
+  RodDescription damped = steel_wire({.elements = 40, .E_Pa = 200e9, .length_m = 0.2});
+  damped.damping = {0.5, 0.5, 5e-3};
+  model.rods.push_back(make_rod(damped));
+  State state = straight(model);
+  Scratch scratch(model);
+  StepReport report;
+  Inputs inputs;
+  inputs.rods.resize(1);
+  RodInputs& in = inputs.rods[0];
+  const auto tip_after = [&](int steps) {
+    for (int n = 0; n < steps; ++n) step(model, inputs, state, scratch, report);
+    return state.rods[0].position[40].y();
+  };
+  const double F = 1e-3;
+  in.tip_force_W_N = Vector3d(0, F, 0);
+  const double free_m = tip_after(3000);
+  in.tether = {0, Vector3d::Zero(), Vector3d::UnitY(), 2 * F / free_m};
+  EXPECT_NEAR(tip_after(3000), free_m / 3, 1e-3 * free_m);
+  in.tether.along_W = Vector3d::UnitZ();
+  EXPECT_NEAR(tip_after(3000), free_m, 1e-3 * free_m) << "across its direction it holds nothing";
+
+  in = {};
+  in.tether = {0, Vector3d(0, 1e-3, 0), Vector3d::UnitY(), 1e6};
+  for (int n = 0; n < 50; ++n) EXPECT_NEAR(tip_after(1), 1e-3, 1e-6) << "step " << n;
+  in.tether.stiffness_N_m = std::nan("");
+  tip_after(1);
+  EXPECT_TRUE(report.trouble & drive_not_finite);
+}
+
 TEST(Step, SameBitsOnTwoThreadsAtOnce) {
   const Model model = three_rods();
   State states[2] = {straight(model), straight(model)};

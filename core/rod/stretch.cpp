@@ -1,0 +1,51 @@
+#include "core/rod/stretch.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/math/rotation.h"
+#include "core/rod/inertia.h"
+#include "core/solve/node_spring.h"
+
+namespace ostium {
+
+namespace {
+
+double from_tip_m(const Rod& rod, int i, int end) {
+  return rod.node_from_tip_m[static_cast<std::size_t>(rod.elements - (end - 1 - i))];
+}
+
+int nearest_to(const Rod& rod, double at_m, int begin, int end) {
+  int nearest = end - 1;
+  for (int i = begin; i < end; ++i)
+    if (std::fabs(from_tip_m(rod, i, end) - at_m) < std::fabs(from_tip_m(rod, nearest, end) - at_m)) nearest = i;
+  return nearest;
+}
+
+}  // namespace
+
+void add_stretch_load(const Rod& rod, const StretchLoad& load, int begin, int end, RodScratch& scratch) {
+  if (load.force_W_N.isZero()) return;
+  int first = end, last = begin - 1;
+  for (int i = begin; i < end; ++i) {
+    const double at_m = from_tip_m(rod, i, end);
+    if (at_m >= load.from_tip_m && at_m <= load.to_tip_m) first = std::min(first, i), last = i;
+  }
+  if (last < first) first = last = nearest_to(rod, (load.from_tip_m + load.to_tip_m) / 2, begin, end);
+  for (int i = first; i <= last; ++i) add_load(i, load.force_W_N / (last - first + 1), scratch);
+}
+
+void tie_to_tether(const Rod& rod, const Tether& tether, int begin, int end, RodScratch& scratch) {
+  if (!(tether.stiffness_N_m > 0)) return;
+  const int i = nearest_to(rod, tether.from_tip_m, begin, end);
+  const double beyond_m = tether.from_tip_m - from_tip_m(rod, i, end);
+  if (std::fabs(beyond_m) > scratch.inside.joint_length.at(0)[i]) return;
+  S3<double> P = load6<double>(scratch.chain.compliance, i);
+  V3<double> target = load3<double>(scratch.target, i);
+  const double place = tether.along_W.dot(tether.point_W) + beyond_m;
+  tie(from_eigen(tether.along_W), place, 1 / tether.stiffness_N_m, P, target);
+  store6(scratch.chain.compliance, i, P);
+  store3(scratch.target, i, target);
+}
+
+}  // namespace ostium
