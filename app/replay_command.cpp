@@ -50,7 +50,11 @@ FilmOptions film_options(const PictureOptions& o) {
   return film;
 }
 
-/// Films until the recording or the time is over.
+constexpr double lag_s = 0.7;  // in which what a monitor shows has come up
+
+bool is_still(const ReplayOptions& o) { return o.video.empty() && o.dicom.empty() && o.seconds == 0; }
+
+/// Films until the recording or the time is over; of a still picture what is before it, whose lag it shows.
 int make_film(const ReplayOptions& o, Replay& replay) {
   FilmOptions options = film_options(o.picture);
   if (!o.dicom.empty()) options.overlay = options.monitor = false;
@@ -60,15 +64,14 @@ int make_film(const ReplayOptions& o, Replay& replay) {
   if (!o.video.empty()) writer.emplace(o.video, options.pixels, film.height(), options.frames_per_s);
   CineRun run;
   Picture last;
-  const double end_s = o.seconds > 0 ? o.from_s + o.seconds : 1e300;
+  const double from_s = is_still(o) ? o.from_s - lag_s : o.from_s;
+  const double end_s = is_still(o) ? o.from_s : o.seconds > 0 ? o.from_s + o.seconds : 1e300;
   long frames = 0;
   while (seconds(replay.model, replay.state) < end_s - 1e-9 && replay.tick()) {
     film.listen(replay.model, replay.state, replay.inputs);
     const double now = seconds(replay.model, replay.state);
-    if (now < o.from_s - 1e-9 || !is_frame(replay.state.rods.step, options.frames_per_s, replay.model.step_s()))
+    if (now < from_s - 1e-9 || !is_frame(replay.state.rods.step, options.frames_per_s, replay.model.step_s()))
       continue;
-    // Of a still picture those before it only feed the lag.
-    if (!writer && o.dicom.empty() && o.seconds == 0 && now > o.from_s + 0.7) break;
     last = film.frame(replay.model, replay.state, replay.inputs);
     ++frames;
     if (writer) writer->add(last);
@@ -131,7 +134,8 @@ int replay_command(const ReplayOptions& o) {
   if (o.verify || !film) code = check_same(o, replay);
   if (!film) return code;
   // Strips show what was before, too.
-  replay.go_to(o.picture.monitor ? std::max(0.0, o.from_s - monitor_s) : o.from_s);
+  const double before_s = std::max(is_still(o) ? lag_s : 0, o.picture.monitor ? monitor_s : 0);
+  replay.go_to(std::max(0.0, o.from_s - before_s));
   return std::max(code, make_film(o, replay));
 }
 

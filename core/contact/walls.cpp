@@ -83,6 +83,7 @@ void find_walls(const Model& model, const Strand& strand, Scratch& scratch) {
     const int end = std::min(begin + block, last_free(s) + 1);
     Bounds bounds;
     Block nodes;
+    View views[block];
     for (int k = 0; k < block; ++k) nodes.set(k, {}, -1);
     for (int i = begin; i < end; ++i) {
       const V3<double> p = load3<double>(own.position, i);
@@ -91,6 +92,7 @@ void find_walls(const Model& model, const Strand& strand, Scratch& scratch) {
       const double reach = rod.radius.at(0)[i] + c.travel.at(0)[i];
       bounds.take(p, reach);
       nodes.set(i - begin, p, reach);
+      views[i - begin] = view_of(rod, own, i, p, 0);
     }
     for (std::size_t k = 0; k < model.surfaces.size(); ++k) {
       const Surface& surface = *model.surfaces[k];
@@ -101,14 +103,15 @@ void find_walls(const Model& model, const Strand& strand, Scratch& scratch) {
         const double move = model.sweep ? pose.largest_move : 0;
         for (unsigned left = nodes.near(pose.low, pose.high, move); left != 0; left &= left - 1) {
           const int i = begin + std::countr_zero(left);
-          const View view = view_of(rod, own, i, load3<double>(own.position, i), c.travel.at(0)[i] + move);
+          View view = views[i - begin];
+          view.reach = view.radius + (c.travel.at(0)[i] + move);
           look(model, static_cast<int>(k), cluster, pose, pose.before, view,
                lets_through(surface, scratch.surfaces[k], view.radius), c.walls[i]);
         }
       }
     }
     for (int i = begin; i < end; ++i) {
-      if (c.walls[i].count > 0) sum_up(view_of(rod, own, i, load3<double>(own.position, i), 0), c.walls[i]);
+      if (c.walls[i].count > 0) sum_up(views[i - begin], c.walls[i]);
     }
   }
 }

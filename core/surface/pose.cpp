@@ -32,14 +32,17 @@ T widened(const float* p) {
 }
 
 void place(const Surface& surface, const Surface::Cluster& c, const SurfaceMoment& m, Field<3>& to) {
-  const int mixed = surface.frames == 1 ? 1 : 4;
+  constexpr double whole = 1;
+  const int mixed = c.stands_still || surface.frames == 1 ? 1 : 4;
+  const double* weight = c.stands_still ? &whole : m.weight;
   for (int axis = 0; axis < 3; ++axis) {
     const float* row[4];
-    for (int j = 0; j < mixed; ++j) row[j] = &surface.corner_frames[surface.row(c, m.frame[j], axis)];
+    for (int j = 0; j < mixed; ++j)
+      row[j] = &surface.corner_frames[surface.row(c, c.stands_still ? 0 : m.frame[j], axis)];
     const float* sway = m.sway != 0 ? &surface.corner_sway[surface.sway_row(c, axis)] : nullptr;
     for_packs(0, c.corners, [&]<class T>(T, int i) {
       T sum = splat<T>(m.shift_W[axis]);
-      for (int j = 0; j < mixed; ++j) sum = madd(splat<T>(m.weight[j]), widened<T>(row[j] + i), sum);
+      for (int j = 0; j < mixed; ++j) sum = madd(splat<T>(weight[j]), widened<T>(row[j] + i), sum);
       if (sway) sum = madd(splat<T>(m.sway), widened<T>(sway + i), sum);
       store(to.at(axis) + i, sum);
     });
@@ -97,19 +100,25 @@ SurfacePose::SurfacePose(const Surface& surface)
 void set_motion(const Surface& surface, const SurfaceMotion& motion, SurfacePose& pose) {
   const SurfaceMoment ended = pose.after;
   pose.before = moment(surface, motion.frame_before, motion.shift_before_W, motion.sway_before);
-  pose.goes_on = pose.before == ended && pose.edits == surface.edits;
+  const bool edited = pose.edits != surface.edits;
+  pose.goes_on = pose.before == ended && !edited;
   pose.edits = surface.edits;
   pose.door_open = motion.door_open;
   pose.after = moment(surface, motion.frame_after, motion.shift_after_W, motion.sway_after);
   ++pose.step;
+  const auto stays = [](const SurfaceMoment& a, const SurfaceMoment& b) {
+    return a.shift_W == b.shift_W && a.sway == b.sway;
+  };
+  if (edited || !stays(ended, pose.before)) pose.stands_since = pose.step;
+  if (!stays(pose.before, pose.after)) pose.stands_since = pose.step + 1;
 }
 
 const ClusterPose& pose_of(const Surface& surface, int cluster, SurfacePose& pose) {
   ClusterPose& c = pose.clusters[cluster];
-  if (c.computed == pose.step) return c;
+  const Surface::Cluster& described = surface.clusters[cluster];
+  if (c.computed == pose.step || (described.stands_still && c.computed >= pose.stands_since)) return c;
   const bool known = pose.goes_on && c.computed == pose.step - 1;
   c.computed = pose.step;
-  const Surface::Cluster& described = surface.clusters[cluster];
   if (known)
     std::swap(c.before, c.after);
   else

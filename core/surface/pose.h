@@ -33,6 +33,7 @@ struct SurfacePose {
   std::vector<ClusterPose> clusters;
   std::vector<long> listed;  ///< per cluster: the last query that found it
   long step = 0, query = 0, edits = -1;
+  long stands_since = 0;  ///< the step since which what stands still in the cycle is where it is
   bool door_open = false;
   bool goes_on = false;  ///< this step begins where the last one ended, on the same surface
 };

@@ -88,6 +88,15 @@ std::array<float, 3> shape_operator(const SurfaceDescription& d, const std::vect
   return {static_cast<float>(S(0, 0)), static_cast<float>((S(0, 1) + S(1, 0)) / 2), static_cast<float>(S(1, 1))};
 }
 
+bool stands_still(const Surface& surface, const Surface::Cluster& c) {
+  for (int axis = 0; axis < 3; ++axis) {
+    const float* first = &surface.corner_frames[surface.row(c, 0, axis)];
+    for (int frame = 1; frame < surface.frames; ++frame)
+      if (!std::equal(first, first + c.corners, &surface.corner_frames[surface.row(c, frame, axis)])) return false;
+  }
+  return true;
+}
+
 /// Of a cluster, in an interval.
 Box leaf_box(const Surface& surface, const Surface::Cluster& c, int interval) {
   constexpr float large = std::numeric_limits<float>::max(), rounding = 1e-6f;
@@ -214,6 +223,7 @@ class Builder {
             out_.corner_sway[out_.sway_row(c, axis) + i] =
                 static_cast<float>(d_.sway[out_.corner_vertex[c.first_corner + i]][axis]);
     }
+    for (Surface::Cluster& c : out_.clusters) c.stands_still = stands_still(out_, c);
     for (int v : out_.corner_vertex) {
       const Eigen::Vector3f n = normals_[v].cast<float>();
       out_.corner_normals.push_back({n[0], n[1], n[2]});
@@ -294,7 +304,12 @@ void SurfaceEditor::refit() {
     Box* boxes = &surface_.boxes[std::size_t{1} * k * nodes];
     for (int n : pending_) boxes[n] = box_of(surface_, boxes, n, k);
   }
-  for (int n : pending_) changed_[n] = 0;
+  for (int n : pending_) {
+    changed_[n] = 0;
+    if (surface_.nodes[n].cluster < 0) continue;
+    Surface::Cluster& c = surface_.clusters[surface_.nodes[n].cluster];
+    c.stands_still = stands_still(surface_, c);
+  }
   if (!pending_.empty()) ++surface_.edits;
   pending_.clear();
 }

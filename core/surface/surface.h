@@ -40,6 +40,7 @@ struct Surface {
   struct Cluster {
     int first_triangle = 0, triangles = 0;
     int first_corner = 0, corners = 0;  ///< its own copies of the vertices, in `corner_frames`
+    bool stands_still = false;          ///< its corners are in one place in all frames
   };
   struct Node {    ///< of the tree, depth first: the first child follows its parent
     int skip = 0;  ///< where to go on when the box is missed

@@ -161,6 +161,40 @@ TEST(Surface, WhatSwaysIsWhereItsDisplacementsSay) {
   }
 }
 
+/// What is in one place through the whole cycle is computed once, and again where all of it is shifted, or vertices are
+/// placed anew.
+TEST(Surface, WhatStandsStillIsWhereItIsShifted) {
+  SurfaceDescription d = straight_tube(2e-3);
+  d.frames.resize(6, d.frames[0]);
+  Surface surface = make_surface(d);
+  SurfaceEditor editor(d, surface);
+  SurfacePose pose(surface);
+  const Vector3d to(1e-3, 2e-3, -1e-3);
+  const int v = 40;
+  Vector3d own = d.frames[0][v];
+  const auto see = [&](const Vector3d& before, const Vector3d& after, const char* what) {
+    SurfaceMotion motion;
+    motion.frame_before = 2.4, motion.frame_after = 2.5, motion.shift_before_W = before, motion.shift_after_W = after;
+    set_motion(surface, motion, pose);
+    double off_before = 1, off_after = 1;
+    for (int c = 0; c < static_cast<int>(surface.clusters.size()); ++c) {
+      EXPECT_TRUE(surface.clusters[c].stands_still || own != d.frames[0][v]);
+      off_before = std::min(off_before, nearest_corner_m(pose_of(surface, c, pose).before, own + before));
+      off_after = std::min(off_after, nearest_corner_m(pose_of(surface, c, pose).after, own + after));
+    }
+    EXPECT_LT(off_before, 1e-7) << what;
+    EXPECT_LT(off_after, 1e-7) << what;
+  };
+  const Vector3d none = Vector3d::Zero();
+  for (const char* what : {"first", "again"}) see(none, none, what);
+  see(none, to, "moves"), see(to, to, "has moved"), see(to, to, "stands there"), see(to, none, "back");
+  see(none, none, "stands"), see(to, to, "leapt");
+  own += Vector3d(0, 0.4e-3, 0);
+  for (int f = 0; f < 6; ++f) editor.place(v, f, own);
+  editor.refit();
+  see(to, to, "placed anew");
+}
+
 /// Of a beating vessel, too; and what does not sway now is to the bit what cannot.
 TEST(Surface, WhatBeatsAndSwaysIsFoundAtAnyMoment) {
   const verify::TestVessel vessel = verify::test_vessel();
