@@ -70,8 +70,7 @@ int make_film(const ReplayOptions& o, Replay& replay) {
   while (seconds(replay.model, replay.state) < end_s - 1e-9 && replay.tick()) {
     film.listen(replay.model, replay.state, replay.inputs);
     const double now = seconds(replay.model, replay.state);
-    if (now < from_s - 1e-9 || !is_frame(replay.state.rods.step, options.frames_per_s, replay.model.step_s()))
-      continue;
+    if (now < from_s - 1e-9 || !is_frame(replay.state.rods.step, options.frames_per_s, replay.model.step_s())) continue;
     last = film.frame(replay.model, replay.state, replay.inputs);
     ++frames;
     if (writer) writer->add(last);

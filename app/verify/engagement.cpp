@@ -13,6 +13,7 @@ namespace {
 
 constexpr double per_mm = 1e3, degree = std::numbers::pi / 180;
 constexpr int people = 10;
+constexpr int hands = 3;
 
 /// What a guide did from one step of a script to another.
 struct Manoeuvre {
@@ -126,9 +127,10 @@ double depth_in_left_main(ScriptedRun& run) {
 }
 
 /// An Amplatz in the left main, its curve on the valve: by how much its tip goes deeper as the guide is drawn back by
-/// 10 mm, m; of the mean of the literature.
-double amplatz_drawn_back() {
-  const RunSetup setup = setup_of("al1-engages-lm", 0);
+/// 10 mm, m. How it came to lie there matters, so it differs between hands (seeds).
+double amplatz_drawn_back(std::uint64_t seed) {
+  RunSetup setup = setup_of("al1-engages-lm", 0);
+  setup.seed = seed;
   const int settles = step_named(setup.script, "it settles"), back = step_named(setup.script, "drawn back");
   std::string warnings;
   ScriptedRun run(setup, make_vessel(setup, warnings));
@@ -152,11 +154,13 @@ std::vector<GateResult> engagement(bool quick) {
     right.clockwise += r.clockwise, right.counter_clockwise += r.counter_clockwise;
     left += judkins_left(person);
   }
+  double deeper_m = 0;
+  for (int seed = 0; seed < hands; ++seed) deeper_m += amplatz_drawn_back(static_cast<std::uint64_t>(seed)) / hands;
   const double tenths = n;
   return {{"engagement-jr4-clockwise", right.clockwise / tenths, 1, 0.2, ""},
           {"engagement-jr4-counter-clockwise", right.counter_clockwise / tenths, 0, 0, ""},
           {"engagement-jl4-no-turn", left / tenths, 1, 0.2, ""},
-          {"engagement-al1-drawn-back-deeper", per_mm * amplatz_drawn_back(), 0.6, 0.5, "mm"}};
+          {"engagement-al1-drawn-back-deeper", per_mm * deeper_m, 0.6, 0.5, "mm"}};
 }
 
 }  // namespace ostium::verify

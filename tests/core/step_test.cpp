@@ -98,8 +98,8 @@ TEST(Step, ALoadOnAStretchIsBorneByTheBase) {
   EXPECT_TRUE(stretch.trouble & drive_not_finite);
 }
 
-// A cantilever of stiffness F / d beside a spring k bends by F / (F / d + k); and however stiff the spring is, its rod is
-// at rest at once where its point went.
+// A cantilever of stiffness F / d beside a spring k bends by F / (F / d + k); and however stiff the spring is, its rod
+// is at rest at once where its point went.
 TEST(Step, ATetherIsASpringBesideTheRod) {
   Model model;
   model.gravity_W.setZero();
