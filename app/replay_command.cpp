@@ -65,7 +65,7 @@ int make_film(const ReplayOptions& o, Replay& replay) {
   CineRun run;
   Picture last;
   const double from_s = is_still(o) ? o.from_s - lag_s : o.from_s;
-  const double end_s = is_still(o) ? o.from_s : o.seconds > 0 ? o.from_s + o.seconds : 1e300;
+  const double end_s = is_still(o) ? std::max(o.from_s, lag_s) : o.seconds > 0 ? o.from_s + o.seconds : 1e300;
   long frames = 0;
   while (seconds(replay.model, replay.state) < end_s - 1e-9 && replay.tick()) {
     film.listen(replay.model, replay.state, replay.inputs);

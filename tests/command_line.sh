@@ -127,6 +127,7 @@ expect 0 "recorded in" "$ostium" run rca-mid-focal --script iliac-wire --out "$o
 grep -q '"outcome": "success"' "$out/metrics.json"
 expect 0 "bit for bit" "$ostium" replay "$out/run.h5" --verify
 expect 0 '"same": true' "$ostium" replay "$out/run.h5" --from 1 --json
+expect 0 "start.png" "$ostium" replay "$out/run.h5" --pixels 128 --png "$out/start.png"
 expect 0 "moment.png" "$ostium" replay "$out/run.h5" --from 0.5 --view lao --pixels 128 --png "$out/moment.png"
 expect 0 "run.html" "$ostium" report "$out/run.h5" -o "$out/run.html" --csv "$out/runs.csv" --events "$out/events.csv"
 grep -q "not for decisions on a patient" "$out/run.html"

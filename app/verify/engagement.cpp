@@ -13,7 +13,7 @@ namespace {
 
 constexpr double per_mm = 1e3, degree = std::numbers::pi / 180;
 constexpr int people = 10;
-constexpr int hands = 3;
+constexpr int hands = 3;  // seeds
 
 /// What a guide did from one step of a script to another.
 struct Manoeuvre {

@@ -33,7 +33,7 @@ T widened(const float* p) {
 
 void place(const Surface& surface, const Surface::Cluster& c, const SurfaceMoment& m, Field<3>& to) {
   constexpr double whole = 1;
-  const int mixed = c.stands_still || surface.frames == 1 ? 1 : 4;
+  const int mixed = c.stands_still ? 1 : 4;
   const double* weight = c.stands_still ? &whole : m.weight;
   for (int axis = 0; axis < 3; ++axis) {
     const float* row[4];
