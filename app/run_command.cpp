@@ -207,7 +207,7 @@ int run_command(const RunOptions& o) {
   const auto vessel = make_vessel(setup, warnings);
   if (!warnings.empty())
     fmt::print(stderr, "ostium run: of {}, near whose faults nothing is held back:\n{}", setup.vessel, warnings);
-  for (const std::string& size : choose_sizes(*vessel, setup)) fmt::print(stderr, "{}, chosen by the artery\n", size);
+  for (const std::string& size : choose_sizes(*vessel, setup)) fmt::print(stderr, "{}, chosen by the vessel\n", size);
   ScriptedRun run(setup, vessel);
   options.real = o.real || (device && device->real());
   options.seconds = o.seconds;

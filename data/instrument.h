@@ -80,6 +80,7 @@ struct Instrument {
   std::vector<Section> sections;      ///< with the shape at rest, the tip's default shape included
   Relaxation relaxation;              ///< of all of them
   std::vector<ShapePiece> shape;      ///< of a preformed catheter or J wire; empty where straight
+  double width_m = 0;                 ///< of that shape, from the shaft to the tip; 0: not said
   std::vector<OpaqueStretch> opaque;  ///< the whole length, from the tip
   std::vector<Marker> markers;
   std::optional<WireLumen> wire_lumen;        ///< of balloon and stent shafts

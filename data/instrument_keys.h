@@ -63,6 +63,7 @@ inline const JsonObjectKeys section = {
 inline const JsonObjectKeys shape = {
     "shape",
     {{"pieces", true, "pieces from the tip backwards, not empty and not longer than the instrument"},
+     {"width_mm", false, "from the shaft to the tip in mm, > 0, by which a guide is chosen for an aorta"},
      {"source", true, source_text}}};
 
 inline const JsonObjectKeys piece = {

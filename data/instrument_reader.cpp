@@ -144,6 +144,7 @@ void read_rest_shape(const JsonObject& root, Instrument& instrument) {
     const JsonObject shape(root["shape"], keys::shape);
     keep_source(shape, instrument);
     instrument.shape = read_pieces(shape, instrument.length_m);
+    if (shape.has("width_mm")) instrument.width_m = shape.positive("width_mm") * mm;
     instrument.sections = bent(instrument.sections, instrument.shape);
   }
   if (root.has("shapeable_tip")) {

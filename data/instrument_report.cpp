@@ -81,6 +81,7 @@ std::string instrument_details(const Instrument& i) {
                                     unsigned_zero(u.z()));
   }
   if (!i.shape.empty()) out += "\nshape at rest, from the tip:\n" + shape_lines(i.shape);
+  if (i.width_m > 0) out += fmt::format("  {:.4g} mm from the shaft to the tip\n", i.width_m * m_in_mm);
   if (i.shapeable_tip)
     out += fmt::format("\nthe distal {:.4g} mm can be shaped; as it comes, from the tip:\n",
                        i.shapeable_tip->length_m * m_in_mm) +

@@ -442,8 +442,12 @@ const std::vector<MetricDefinition>& metric_definitions() {
       {"bad_trace_time_s", "s", "the guide's last trace damped or ventricularised",
        [](const RunRecord& r) { return time_within(r, "trace", 0.5, 2.5); }},
       {"ST_max_mV", "mV", "largest shift in a lead", [](const RunRecord& r) { return most_of(r, "ST_mV"); }},
-      {"injuries", "1", "dissections and perforations",
-       [](const RunRecord& r) { return count(r, EventCode::injury); }}};
+      {"injuries", "1", "dissections and perforations", [](const RunRecord& r) { return count(r, EventCode::injury); }},
+      {"wire_perforation_chance_percent", "%",
+       "how many in a hundred arteries the coronary wire's tip would have perforated by the end, whether it did or "
+       "not: "
+       "1 - exp(-H) of its hazard H (vascular/injury/injury.h)",
+       [](const RunRecord& r) { return -100 * std::expm1(-last_of(r, "wire_hazard")); }}};
   return all;
 }
 

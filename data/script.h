@@ -105,11 +105,12 @@ struct ScriptStep {
 struct ScriptTool {
   std::string name, instrument;
   int line = 0;
-  /// Instruments with a balloon, of which the operator takes, once the artery was measured, the widest whose nominal
-  /// diameter is at most `of_reference` times the healthy artery's beside lesion `lesion` (of the case's, from 0), or
-  /// the narrowest if all are wider. Empty: `instrument`, whatever the artery is like.
+  /// Instruments of which the operator takes, once the vessel was measured, the widest that fits, or the narrowest if
+  /// all are wider: a balloon or stent whose nominal diameter is at most `of_reference` times the healthy artery's
+  /// beside lesion `lesion` (of the case's, from 0), or a guide whose width is at most `of_aorta` times the ascending
+  /// aorta's; one of the two is 0. Empty: `instrument`, whatever the vessel is like.
   std::vector<std::string> sizes;
-  double of_reference = 0;
+  double of_reference = 0, of_aorta = 0;
   int lesion = 0;
 };
 

@@ -17,12 +17,16 @@ inline const JsonObjectKeys tool = {
     "tool",
     {{"name", true, "what the script calls it: \"wire\""},
      {"instrument", true, "a name of `ostium instruments`, or a file"},
-     {"sizes", false, "balloons or stents to choose from by the artery, a list of such names"},
+     {"sizes", false, "balloons or stents to choose from by the artery, or guides by the aorta, a list of such names"},
      {"of_reference", false,
       "their nominal diameter at most, over the healthy artery's beside the "
       "lesion, > 0 and at most 1.5; beside sizes"},
+     {"of_aorta", false,
+      "a guide's width at most, over the ascending aorta's diameter, > 0 and at most 3; beside sizes, instead of "
+      "of_reference"},
      {"lesion", false,
-      "which of the case's lesions, a whole number from 1 on; the first if it is not said; beside sizes"}}};
+      "which of the case's lesions, a whole number from 1 on; the first if it is not said; beside sizes and "
+      "of_reference"}}};
 
 inline const JsonObjectKeys landmark = {
     "landmark",

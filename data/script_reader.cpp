@@ -425,13 +425,15 @@ bool write_out(JsonValue& file, int depth) {
 }
 
 ScriptTool read_tool(const JsonObject& tool) {
-  ScriptTool out{tool.text("name"), tool.text("instrument"), tool.value().line, {}, 0, read_lesion(tool)};
-  if (tool.has("sizes") != tool.has("of_reference"))
-    tool.value().fail(tool.value().path + " has one of sizes and of_reference; expected both or neither");
-  if (tool.has("lesion") && !tool.has("sizes")) tool.refuse("lesion");
+  ScriptTool out{tool.text("name"), tool.text("instrument"), tool.value().line, {}, 0, 0, read_lesion(tool)};
+  if (tool.has("sizes") != (tool.has("of_reference") || tool.has("of_aorta")))
+    tool.value().fail(tool.value().path + " has sizes or what they are measured by; expected both or neither");
+  if (tool.has("of_reference") && tool.has("of_aorta")) tool.refuse("of_aorta");
+  if (tool.has("lesion") && !tool.has("of_reference")) tool.refuse("lesion");
   if (!tool.has("sizes")) return out;
-  out.of_reference = tool.positive("of_reference");
-  if (out.of_reference > 1.5) tool.refuse("of_reference");
+  const char* measure = tool.has("of_aorta") ? "of_aorta" : "of_reference";
+  (tool.has("of_aorta") ? out.of_aorta : out.of_reference) = tool.positive(measure);
+  if (std::max(out.of_aorta, out.of_reference) > (tool.has("of_aorta") ? 3 : 1.5)) tool.refuse(measure);
   if (tool.list("sizes").empty()) tool.refuse("sizes");
   for (const JsonValue& size : tool.list("sizes")) {
     if (size.type != JsonValue::Type::text || size.text.empty()) tool.refuse("sizes");

@@ -377,14 +377,15 @@ void look(const BedsideModel& model, const State& rods, const TreatmentState& tr
 }
 
 void press_with_wire(const BedsideModel& model, const StepReport& report, double step_s, BedsideState& s) {
-  double now_N = 0;
+  Vector3d now_W_N = Vector3d::Zero();
   for (const Touch& touch : report.touches) {
     const auto t = static_cast<std::size_t>(touch.rod);
     if (s.wire_cell < 0 || !is_thin_wire(model.tools[t].instrument)) continue;
     if (model.rods.rods[t].node_from_tip_m[static_cast<std::size_t>(touch.node)] <= tip_m)
-      now_N += touch.normal_W_N.norm();
+      now_W_N += touch.normal_W_N + touch.friction_W_N;
   }
-  s.wire_tip_N += (1 - std::exp(-2 * std::numbers::pi * wall_force_cut_off_Hz * step_s)) * (now_N - s.wire_tip_N);
+  const double share = 1 - std::exp(-2 * std::numbers::pi * wall_force_cut_off_Hz * step_s);
+  s.wire_tip_N += share * (now_W_N.norm() - s.wire_tip_N);
   if (s.wire_tip_N < 1e-6) s.wire_tip_N = 0;
 }
 

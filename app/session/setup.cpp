@@ -69,25 +69,43 @@ void set_script(const Script& script, RunSetup& setup) {
   }
 }
 
+namespace {
+
+/// How wide the instrument may be that is taken; nothing: there is nothing to measure.
+std::optional<double> most_that_fits_m(const Vessel& vessel, const Script& script, const ScriptTool& tool) {
+  if (tool.of_aorta > 0) {
+    const double aorta_m = ascending_diameter_m(vessel);
+    return aorta_m > 0 ? std::optional(tool.of_aorta * aorta_m) : std::nullopt;
+  }
+  if (!vessel.coronaries || vessel.coronaries->lesions.empty()) return std::nullopt;
+  if (static_cast<std::size_t>(tool.lesion) >= vessel.coronaries->lesions.size())
+    throw LoadError(fmt::format("{}:{}: {} is for lesion {}; this patient's lesions are {}", script.file, tool.line,
+                                tool.name, tool.lesion + 1, vessel.coronaries->lesions.size()));
+  return tool.of_reference * vessel.coronaries->lesions[static_cast<std::size_t>(tool.lesion)].reference_m;
+}
+
+double width_of(const Instrument& instrument, const Script& script, const ScriptTool& tool) {
+  if (tool.of_aorta > 0 && instrument.width_m > 0) return instrument.width_m;
+  if (tool.of_reference > 0 && instrument.balloon) return instrument.balloon->nominal_m;
+  throw LoadError(fmt::format("{}:{}: {} {}", script.file, tool.line, instrument.name,
+                              tool.of_aorta > 0 ? "does not say its width_mm; expected sizes of a guide that does"
+                                                : "has no balloon; expected sizes of a balloon or a stent"));
+}
+
+}  // namespace
+
 std::vector<std::string> choose_sizes(const Vessel& vessel, RunSetup& setup) {
   std::vector<std::string> chosen;
-  if (!vessel.coronaries || vessel.coronaries->lesions.empty()) return chosen;
   for (std::size_t t = 0; t < setup.script.tools.size(); ++t) {
     const ScriptTool& tool = setup.script.tools[t];
     if (tool.sizes.empty()) continue;
-    if (static_cast<std::size_t>(tool.lesion) >= vessel.coronaries->lesions.size())
-      throw LoadError(fmt::format("{}:{}: {} is for lesion {}; this patient's lesions are {}", setup.script.file,
-                                  tool.line, tool.name, tool.lesion + 1, vessel.coronaries->lesions.size()));
-    const double reference_m = vessel.coronaries->lesions[static_cast<std::size_t>(tool.lesion)].reference_m;
+    const std::optional<double> most_m = most_that_fits_m(vessel, setup.script, tool);
+    if (!most_m) continue;
     double best_m = 0;
     for (const std::string& size : tool.sizes) {
       const std::string file = instrument_file(size), text = all_of(file);
-      const Instrument instrument = read_instrument(file, text);
-      if (!instrument.balloon)
-        throw LoadError(fmt::format("{}:{}: {} has no balloon; expected sizes of a balloon or a stent",
-                                    setup.script.file, tool.line, size));
-      const double own_m = instrument.balloon->nominal_m, most_m = tool.of_reference * reference_m;
-      const bool better = best_m == 0 || (own_m <= most_m ? best_m > most_m || own_m > best_m : own_m < best_m);
+      const double own_m = width_of(read_instrument(file, text), setup.script, tool);
+      const bool better = best_m == 0 || (own_m <= *most_m ? best_m > *most_m || own_m > best_m : own_m < best_m);
       if (!better) continue;
       best_m = own_m;
       setup.tool_files[t] = file, setup.tool_texts[t] = text;

@@ -34,9 +34,9 @@ struct RunSetup {
 void set_vessel(const std::string& case_or_mesh, LengthUnit unit, RunSetup& setup);
 /// Takes the script and finds its instruments.
 void set_script(const Script& script, RunSetup& setup);
-/// For tools of the script that come in sizes, takes what fits the artery at its lesion; where there is no lesion it
-/// stays as it is. Before the session is made. Returns what was chosen: "stent: Stent 3.0 x 18 mm, ...". Throws
-/// LoadError for a size that is no balloon or stent, and for a lesion that there is not.
+/// For tools of the script that come in sizes, takes what fits the artery at its lesion, or the aorta; where there is
+/// no lesion, or no aorta, it stays as it is. Before the session is made. Returns what was chosen: "stent: Stent 3.0 x
+/// 18 mm, ...". Throws LoadError for a size that cannot be measured so, and for a lesion that there is not.
 std::vector<std::string> choose_sizes(const Vessel& vessel, RunSetup& setup);
 /// One thing otherwise: a tool's instrument (of the catalogue, or a file), or one of `person`, `heart_rate`,
 /// `breathing`, `hand_speed`, `friction`, `begin`, `stuck`. After set_script. A tool's is no longer chosen by size.

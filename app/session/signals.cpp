@@ -47,7 +47,8 @@ constexpr const char* of_a_patient[] = {"ecg_II_mV",
                                         "contrast_ostium",
                                         "contrast_landmark",
                                         "stenosis_worst_percent",
-                                        "stent_margin_least_mm"};
+                                        "stent_margin_least_mm",
+                                        "wire_hazard"};
 
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 constexpr double undiluted_kg_m3 = 350;
@@ -120,6 +121,7 @@ void put_patient(const SessionModel& model, const SessionState& state, const Ses
   }
   const WorstOfLesions worst = has_lesion ? worst_of_lesions(model, state) : WorstOfLesions{none, {}};
   put(100 * worst.stenosis), put(worst.margin_m ? 1e3 * *worst.margin_m : none);
+  put(state.treatment.injury.wire_H);
 }
 
 }  // namespace

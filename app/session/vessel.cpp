@@ -19,6 +19,9 @@ namespace {
 
 constexpr double folded_share = 0.05;  // of crossing pairs, to triangles; untidy meshes of real people have 0.002
 
+/// Patient frame, m.
+const Vector3d in_the_ascending_aorta(-0.025, 0.014, 0.0155);
+
 /// What an operator calls places of the aorta.
 std::vector<std::pair<std::string, Vector3d>> places_of(const Patient& patient) {
   const Landmarks& marks = patient.anatomy.landmarks;
@@ -37,7 +40,7 @@ std::vector<std::pair<std::string, Vector3d>> places_of(const Patient& patient) 
     const Vector3d top = best([](const Vector3d& a, const Vector3d& b) { return a.y() > b.y(); });
     places.emplace_back("diaphragm", nearest({0.009, -0.110, -0.055}));
     places.emplace_back("arch", top);
-    places.emplace_back("ascending aorta", nearest({-0.025, 0.014, 0.0155}));
+    places.emplace_back("ascending aorta", nearest(in_the_ascending_aorta));
     places.emplace_back("sinuses", nearest(marks.p_right_ostium));
     places.emplace_back("valve", nearest(marks.p_annulus));
   }
@@ -104,6 +107,17 @@ Vector3d middle(const std::vector<Vector3d>& points) {
 }
 
 }  // namespace
+
+double ascending_diameter_m(const Vessel& vessel) {
+  if (!vessel.patient) return 0;
+  const TreeSphere* nearest = nullptr;
+  for (const TreeBranch& branch : vessel.patient->tree.branches)
+    if (branch.name == "aorta")
+      for (const TreeSphere& sphere : branch.spheres)
+        if (!nearest || (sphere.p - in_the_ascending_aorta).norm() < (nearest->p - in_the_ascending_aorta).norm())
+          nearest = &sphere;
+  return nearest ? 2 * nearest->radius_m : 0;
+}
 
 Vector3d heart_middle(const Patient& patient) {
   const Landmarks& marks = patient.anatomy.landmarks;

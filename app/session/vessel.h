@@ -27,6 +27,9 @@ struct Vessel {
   bool beats() const { return wall.frames.size() > 1; }
 };
 
+/// The aorta's diameter half-way between valve and arch, m; 0 where there is none.
+double ascending_diameter_m(const Vessel& vessel);
+
 /// Friction of vessel against instruments: estimate, hydrophilic to bare polymer in blood 0.02 to 0.2.
 inline constexpr double vessel_friction = 0.1;
 

@@ -75,7 +75,8 @@ RunRecord treated() {
                                  "contrast_ostium",
                                  "contrast_landmark",
                                  "stenosis_worst_percent",
-                                 "stent_margin_least_mm"},
+                                 "stent_margin_least_mm",
+                                 "wire_hazard"},
               .signals = {},
               .events = {},
               .branches = {}};
@@ -120,7 +121,8 @@ RunRecord treated() {
                                        ostium,
                                        landmark,
                                        stent ? 12.0 : 75.0,
-                                       stent ? 2.5 : nan});
+                                       stent ? 2.5 : nan,
+                                       stent ? 0.2 : 0.0});
   }
   r.events = {0,    double(code(EventCode::ffr_changes)),      -1, 0.61,  //
               2000, double(code(EventCode::inflation_begins)), -1, 0,     //
@@ -152,6 +154,7 @@ TEST(Metrics, OfATreatmentMadeByHand) {
   EXPECT_NEAR(value(r, "iodine_g"), 2.997, 1e-6);
   EXPECT_NEAR(value(r, "ST_max_mV"), 0.1998, 1e-6);
   EXPECT_EQ(value(r, "injuries"), 1);
+  EXPECT_NEAR(value(r, "wire_perforation_chance_percent"), 18.127, 1e-3);
   EXPECT_EQ(value(r, "stent_minimal_area_mm2"), 10);
   EXPECT_EQ(value(r, "stent_expansion_percent"), 80);
   EXPECT_EQ(value(r, "stent_apposed_percent"), 95);
@@ -160,9 +163,10 @@ TEST(Metrics, OfATreatmentMadeByHand) {
   EXPECT_NEAR(value(r, "timi_frame_count_before"), 30 * 0.8, 0.1);
   EXPECT_TRUE(std::isnan(value(r, "timi_frame_count_after"))) << "it did not come through";
   // Of a run without a patient none of them applies.
-  for (const char* name : {"residual_stenosis_percent", "geographic_miss_mm", "occlusion_time_s", "ST_max_mV",
-                           "contrast_volume_mL", "lesion_coverage_percent", "balloon_artery_ratio",
-                           "stent_apposed_percent", "ffr_model_after", "timi_frame_count_before"})
+  for (const char* name :
+       {"residual_stenosis_percent", "geographic_miss_mm", "occlusion_time_s", "ST_max_mV", "contrast_volume_mL",
+        "lesion_coverage_percent", "balloon_artery_ratio", "stent_apposed_percent", "ffr_model_after",
+        "timi_frame_count_before", "wire_perforation_chance_percent"})
     EXPECT_TRUE(std::isnan(value(record(), name))) << name;
 }
 

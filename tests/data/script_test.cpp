@@ -133,6 +133,12 @@ TEST(Script, ToolsMayComeInSizes) {
   expect_words(with(R"("sizes": [], "of_reference": 0.8)"), {"treatment.json:3:", "sizes"});
   expect_words(with(R"("sizes": [3], "of_reference": 0.8)"), {"treatment.json:3:", "sizes"});
   expect_words(with(R"("sizes": ["balloon-20x10"], "of_reference": 2)"), {"treatment.json:3:", "at most 1.5"});
+  EXPECT_EQ(with(R"("sizes": ["guide-ebu30-6f", "guide-ebu35-6f"], "of_aorta": 1.35)"), "accepted");
+  expect_words(with(R"("of_aorta": 1.35)"), {"treatment.json:3:", "both or neither"});
+  expect_words(with(R"("sizes": ["balloon-20x10"], "of_aorta": 1.35, "of_reference": 0.8)"),
+               {"treatment.json:3:", "of_aorta", "instead of"});
+  expect_words(with(R"("sizes": ["guide-ebu30-6f"], "of_aorta": 4)"), {"treatment.json:3:", "at most 3"});
+  expect_words(with(R"("sizes": ["guide-ebu30-6f"], "of_aorta": 1.35, "lesion": 2)"), {"treatment.json:3:", "lesion"});
 }
 
 TEST(Script, LooksAtTheLesionThatIsNamed) {

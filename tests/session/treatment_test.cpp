@@ -272,8 +272,8 @@ TEST(Treatment, AWallFeelsAWiresTipBehindALowPass) {
   const int wire = 3, tip = run.model.rods.rods[wire].elements;
   const double dt = run.model.step_s(), share = 1 - std::exp(-2 * EIGEN_PI * wall_force_cut_off_Hz * dt);
   StepReport report;
-  report.touches.resize(1);
-  report.touches[0].rod = wire, report.touches[0].node = tip;
+  const Eigen::Vector3d none = Eigen::Vector3d::Zero();
+  report.touches.assign(1, {.rod = wire, .node = tip, .p_W = none, .normal_W_N = none, .friction_W_N = none});
   const auto press = [&](double N, int steps) {
     report.touches[0].normal_W_N = {0, N, 0};
     for (int n = 0; n < steps; ++n) press_with_wire(bedside, report, dt, s);
@@ -285,6 +285,15 @@ TEST(Treatment, AWallFeelsAWiresTipBehindALowPass) {
   EXPECT_NEAR(s.wire_tip_N, 10 * share, 1e-12);
   press(0.05, 500);
   EXPECT_NEAR(s.wire_tip_N, 0.05, 1e-6);
+  report.touches[0].friction_W_N = {0, 0, 0.12};
+  press(0.05, 500);
+  EXPECT_NEAR(s.wire_tip_N, 0.13, 1e-6) << "what the wire behind gives";
+  report.touches.push_back(report.touches[0]);
+  report.touches[1].node = tip - 1, report.touches[1].normal_W_N = {0, -0.05, 0};
+  report.touches[1].friction_W_N = {0, 0, -0.12};
+  press(0.05, 500);
+  EXPECT_NEAR(s.wire_tip_N, 0, 1e-6) << "wedged between opposite walls";
+  report.touches.resize(1);
   report.touches[0].node = tip - 10;  // 1 cm from the tip
   press(0.05, 500);
   EXPECT_EQ(s.wire_tip_N, 0);
@@ -493,19 +502,24 @@ TEST(Treatment, AlternativesLieIdleOutside) {
   EXPECT_NEAR(run.model.treatment.stents[0].length_m, 15e-3, 1e-12);
 }
 
+/// What the third tool of predilatation becomes if it comes in `sizes`, measured `by` so much; `set`: asked for by
+/// name.
+std::string taken_size(const std::string& sizes, const std::string& by, const std::string& set) {
+  std::string script = predilatation;
+  const std::string plain = R"("instrument": "stent-325x15")";
+  script.replace(script.find(plain), plain.size(), plain + ", \"sizes\": [" + sizes + "], " + by);
+  RunSetup own;
+  set_vessel("rca-mid-focal", LengthUnit::millimetre, own);
+  set_script(read_script("predilatation.json", script), own);
+  if (!set.empty()) set_value("stent", set, own);
+  choose_sizes(*vessel(), own);
+  return read_instrument(own.tool_files[2], own.tool_texts[2]).name;
+}
+
 TEST(Treatment, SizesAreChosenByTheArtery) {
   ASSERT_NEAR(vessel()->coronaries->lesions[0].reference_m, 3.46e-3, 0.05e-3);
   const auto taken = [](const std::string& sizes, const std::string& share, const std::string& set = "") {
-    std::string script = predilatation;
-    const std::string plain = R"("instrument": "stent-325x15")";
-    script.replace(script.find(plain), plain.size(),
-                   plain + ", \"sizes\": [" + sizes + "], \"of_reference\": " + share);
-    RunSetup own;
-    set_vessel("rca-mid-focal", LengthUnit::millimetre, own);
-    set_script(read_script("predilatation.json", script), own);
-    if (!set.empty()) set_value("stent", set, own);
-    choose_sizes(*vessel(), own);
-    return read_instrument(own.tool_files[2], own.tool_texts[2]).name;
+    return taken_size(sizes, "\"of_reference\": " + share, set);
   };
   const std::string all = R"("stent-40x18", "stent-25x18", "stent-35x18", "stent-30x18", "stent-325x18")";
   EXPECT_EQ(taken(all, "1.05"), "stent-35x18");
@@ -514,6 +528,18 @@ TEST(Treatment, SizesAreChosenByTheArtery) {
   EXPECT_EQ(taken(all, "1.05", "stent-30x18"), "stent-30x18") << "asked for by name";
   EXPECT_THROW(taken(R"("wire-014-workhorse")", "1"), LoadError);
   EXPECT_THROW(taken(R"("zebra")", "1"), LoadError);
+}
+
+TEST(Treatment, GuidesAreChosenByTheAorta) {
+  ASSERT_NEAR(ascending_diameter_m(*vessel()), 30.9e-3, 0.5e-3) << "Hager 2002, the mean";
+  const auto taken = [](const std::string& sizes, const std::string& share) {
+    return taken_size(sizes, "\"of_aorta\": " + share, "");
+  };
+  const std::string both = R"("guide-ebu35-6f", "guide-ebu30-6f")";
+  EXPECT_EQ(taken(both, "1.35"), "guide-ebu35-6f") << "40 mm";
+  EXPECT_EQ(taken(both, "1.2"), "guide-ebu30-6f") << "35 mm";
+  EXPECT_EQ(taken(both, "0.5"), "guide-ebu30-6f") << "the narrowest, where both are wider";
+  EXPECT_THROW(taken(R"("stent-30x18")", "1.35"), LoadError) << "has no width";
 }
 
 TEST(Treatment, ABeginningThatIsNoArteryIsRefused) {
