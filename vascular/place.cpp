@@ -29,18 +29,29 @@ void CellLocator::set_moment(double phase, double depth) {
   for (std::size_t c = 0; c < centres_.size(); ++c) centres_[c] = map_.centre(c, phase, depth);
 }
 
+void CellLocator::measure_towards(const Eigen::Vector3d& p, int other, double sign, Found& best) const {
+  const Eigen::Vector3d &from = centres_[best.cell], d = centres_[other] - from;
+  const double length = d.norm(), x = std::clamp((p - from).dot(d) / (length * length), 0.0, 0.5);
+  const double distance = (p - from - x * d).norm();
+  if (distance < best.distance_m) best.distance_m = distance, best.along_m = sign * x * length;
+}
+
 CellLocator::Found CellLocator::measured(const Eigen::Vector3d& p, int cell) const {
   // Against the pieces of centreline to both neighbours.
   Found best{cell, (p - centres_[cell]).norm(), 0};
-  const auto piece = [&](int other, double sign) {
-    const Eigen::Vector3d d = centres_[other] - centres_[cell];
-    const double length = d.norm(), x = std::clamp((p - centres_[cell]).dot(d) / (length * length), 0.0, 0.5);
-    const double distance = (p - centres_[cell] - x * d).norm();
-    if (distance < best.distance_m) best = {cell, distance, sign * x * length};
-  };
-  if (tree_.cells[cell].upstream >= 0) piece(tree_.cells[cell].upstream, -1);
-  for (int k = child_first_[cell]; k < child_first_[cell + 1]; ++k) piece(children_[k], 1);
+  if (tree_.cells[cell].upstream >= 0) measure_towards(p, tree_.cells[cell].upstream, -1, best);
+  for (int k = child_first_[cell]; k < child_first_[cell + 1]; ++k) measure_towards(p, children_[k], 1, best);
   return best;
+}
+
+CellLocator::Found CellLocator::nearest_on(const VesselPath& path, const Eigen::Vector3d& p, double limit_m) const {
+  const auto at = std::min_element(path.cells.begin(), path.cells.end(), [&](int a, int b) {
+    return (p - centres_[a]).squaredNorm() < (p - centres_[b]).squaredNorm();
+  });
+  Found best{*at, (p - centres_[*at]).norm(), 0};
+  if (at != path.cells.begin()) measure_towards(p, at[-1], -1, best);
+  if (at + 1 != path.cells.end()) measure_towards(p, at[1], 1, best);
+  return best.distance_m <= limit_m ? best : Found{};
 }
 
 CellLocator::Found CellLocator::nearest(const Eigen::Vector3d& p, double limit_m, int near) const {
@@ -67,13 +78,23 @@ CellLocator::Found CellLocator::nearest(const Eigen::Vector3d& p, double limit_m
   return found.distance_m <= limit_m ? found : Found{};
 }
 
-std::optional<Seat> seat_of(const CellLocator& locator, const FlowTree& tree, const std::vector<VesselPath>& paths,
-                            const Eigen::Vector3d& p_proximal_marker, const Eigen::Vector3d& p_distal_marker) {
-  const auto inside = [&](const Eigen::Vector3d& p) {
-    const CellLocator::Found f = locator.nearest(p, 10e-3);
-    return f.cell >= 0 && f.distance_m <= in_vessel * tree.cells[f.cell].healthy_m ? f : CellLocator::Found{};
+CellLocator::Found inside(const CellLocator& locator, const FlowTree& tree, const std::vector<VesselPath>& paths,
+                          const Eigen::Vector3d& p, int wire_cell) {
+  constexpr double limit_m = 10e-3;
+  const auto is_inside = [&](const CellLocator::Found& f) {
+    return f.cell >= 0 && f.distance_m <= in_vessel * tree.cells[f.cell].healthy_m;
   };
-  const CellLocator::Found near = inside(p_proximal_marker), far = inside(p_distal_marker);
+  if (wire_cell >= 0)
+    if (const auto f = locator.nearest_on(paths[tree.cells[wire_cell].branch], p, limit_m); is_inside(f)) return f;
+  const CellLocator::Found f = locator.nearest(p, limit_m);
+  return is_inside(f) ? f : CellLocator::Found{};
+}
+
+std::optional<Seat> seat_of(const CellLocator& locator, const FlowTree& tree, const std::vector<VesselPath>& paths,
+                            const Eigen::Vector3d& p_proximal_marker, const Eigen::Vector3d& p_distal_marker,
+                            int wire_cell) {
+  const CellLocator::Found near = inside(locator, tree, paths, p_proximal_marker, wire_cell),
+                           far = inside(locator, tree, paths, p_distal_marker, wire_cell);
   if (near.cell < 0 || far.cell < 0 || !tree.is_downstream(far.cell, near.cell)) return {};
   Seat seat{.branch = tree.cells[far.cell].branch};
   const VesselPath& path = paths[seat.branch];

@@ -70,11 +70,11 @@ void look_at_shafts(const BedsideModel& model, const State& rods, BedsideScratch
 /// farther in, or less than `least_m` of it is in the artery. What of it stands out of the ostium meets a wall as wide
 /// as that.
 std::optional<Seat> seat_at_ostium(const BedsideModel& model, const CellLocator& locator, const Vector3d& p_far,
-                                   double between_m, double least_m) {
-  const CellLocator::Found far = locator.nearest(p_far, near_heart_m);
+                                   double between_m, double least_m, int wire_cell) {
+  const FlowTree& tree = model.physiology.flow.tree;
+  const CellLocator::Found far = inside(locator, tree, model.treatment.paths, p_far, wire_cell);
   if (far.cell < 0) return {};
-  const FlowCell& cell = model.physiology.flow.tree.cells[static_cast<std::size_t>(far.cell)];
-  if (far.distance_m > in_vessel * cell.healthy_m) return {};
+  const FlowCell& cell = tree.cells[static_cast<std::size_t>(far.cell)];
   const VesselPath& path = model.treatment.paths[static_cast<std::size_t>(cell.branch)];
   const auto at = std::find(path.cells.begin(), path.cells.end(), far.cell) - path.cells.begin();
   const double far_m = path.s_m[static_cast<std::size_t>(at)] + far.along_m;
@@ -97,8 +97,9 @@ void look_at_balloon(const BedsideModel& model, const State& rods, const Treatme
   if (own.inserted_m < near_m) return;
   const Vector3d p_near = point_from_tip(rod, own, near_m), p_far = point_from_tip(rod, own, far_m);
   const double between_m = near_m - far_m;
-  auto seat = seat_at_ostium(model, x.locator, p_far, between_m, s.held > 0 ? 0 : between_m / 2);
-  if (!seat) seat = seat_of(x.locator, model.physiology.flow.tree, model.treatment.paths, p_near, p_far);
+  const int wire_cell = static_cast<int>(s.wire_cell);
+  auto seat = seat_at_ostium(model, x.locator, p_far, between_m, s.held > 0 ? 0 : between_m / 2, wire_cell);
+  if (!seat) seat = seat_of(x.locator, model.physiology.flow.tree, model.treatment.paths, p_near, p_far, wire_cell);
   // What the wall holds is not let go of because a beat throws its shaft aside for a moment; nor does a balloon that is
   // open in a stent go into a side branch, which it would tear.
   const bool aside = !seat || seat->branch != was_branch;

@@ -43,6 +43,31 @@ TEST(Place, AMarkerPairIsFoundAgainAtEveryMomentOfTheBeat) {
   EXPECT_FALSE(seat_of(locator, w.tree, paths, locator.centre(far) + Eigen::Vector3d(0.05, 0, 0), locator.centre(far)));
 }
 
+TEST(Place, ByAForkADeviceLiesWhereItsWireGoes) {
+  const Ward& w = ward();
+  CellLocator locator(w.map, w.tree);
+  const std::vector<VesselPath> paths = all_paths(w.tree);
+  const int lad = w.tree.branch("LAD"), lcx = w.tree.branch("LCx"), near = w.tree.cell_at(w.tree.branch("LM"), 2e-3);
+  for (double phase : {0.0, 0.36, 0.7}) {
+    locator.set_moment(phase, 0);
+    // Between both arteries, a hair nearer to one.
+    const Eigen::Vector3d p_lad = locator.centre(w.tree.cell_at(lad, 1.5e-3)),
+                          p_lcx = locator.centre(w.tree.cell_at(lcx, 1.5e-3));
+    for (const double share : {0.45, 0.55}) {
+      const Eigen::Vector3d p_far = p_lad + share * (p_lcx - p_lad);
+      for (const int branch : {lad, lcx}) {
+        const int wire_cell = w.tree.cell_at(branch, 60e-3);
+        const auto seat = seat_of(locator, w.tree, paths, locator.centre(near), p_far, wire_cell);
+        ASSERT_TRUE(seat);
+        EXPECT_EQ(seat->branch, branch) << phase << ' ' << share;
+      }
+    }
+    // Where the wire's vessel is far, the nearest one counts.
+    const Eigen::Vector3d p_other = locator.centre(w.tree.cell_at(lcx, 25e-3));
+    EXPECT_EQ(w.tree.cells[inside(locator, w.tree, paths, p_other, w.tree.cell_at(lad, 60e-3)).cell].branch, lcx);
+  }
+}
+
 TEST(Place, AShaftFillsTheCellsItRunsThroughAndNoOthers) {
   const Ward& w = ward();
   CellLocator locator(w.map, w.tree);
