@@ -36,6 +36,9 @@ struct Case {
   std::vector<Lesion> lesions;
 };
 
+/// As files say them, in Access' order.
+const std::vector<std::string>& access_names();
+
 /// Throws LoadError with file, line, key, value found and what was expected. The anatomy is built for that: a lesion
 /// that does not fit its branch is refused with what exists.
 Case read_case(const std::string& file, const std::string& text);

@@ -31,7 +31,7 @@ CaseCard read_card(const JsonObject& card) {
 
 void read_anatomy(const JsonObject& anatomy, Case& c) {
   const auto dominance = static_cast<Dominance>(anatomy.choice("dominance", {"right", "left", "balanced"}));
-  const auto access = static_cast<Access>(anatomy.choice("access", {"femoral", "radial"}));
+  const auto access = static_cast<Access>(anatomy.choice("access", access_names()));
   const double seed = anatomy.not_negative("seed");
   if (seed != std::floor(seed) || seed > 1e15) anatomy.refuse("seed");
   c.seed = static_cast<std::uint64_t>(seed);
@@ -112,6 +112,11 @@ fs::path case_file_in(const fs::path& folder) {
 }
 
 }  // namespace
+
+const std::vector<std::string>& access_names() {
+  static const std::vector<std::string> names = {"femoral", "radial"};
+  return names;
+}
 
 Case read_case(const std::string& file, const std::string& text) { return read(parse_json(file, text)); }
 

@@ -10,11 +10,10 @@ namespace {
 
 constexpr double per_mm = 1e3;
 const char* const dominances[] = {"right", "left", "balanced"};
-const char* const accesses[] = {"femoral", "radial"};
 const char* const types[] = {"A", "B", "C"};
 
 std::string access_text(const Case& c) {
-  return c.imported ? "imported" : accesses[static_cast<int>(c.anatomy.access)];
+  return c.imported ? "imported" : access_names()[static_cast<std::size_t>(c.anatomy.access)];
 }
 std::string dominance_text(const Case& c) {
   return c.imported ? "imported" : dominances[static_cast<int>(c.anatomy.dominance)];

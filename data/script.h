@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "vascular/anatomy/parameters.h"
+
 namespace ostium {
 
 enum class ConditionKind {
@@ -121,6 +123,7 @@ struct ScriptLandmark {
 
 struct Script {
   std::string file, name, title;
+  std::optional<Access> access;  ///< it begins there, and is refused on a case with another; none: anywhere
   std::vector<ScriptTool> tools;
   std::vector<ScriptLandmark> landmarks;
   std::vector<ScriptStep> steps;

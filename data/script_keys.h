@@ -9,6 +9,7 @@ inline const JsonObjectKeys root = {"script",
                                     {{"schema", true, "\"ostium-script/1\""},
                                      {"name", true, "the file's name without .json"},
                                      {"title", true, "what people call it, a text"},
+                                     {"access", false, "where it comes in, as a case says it; if not said, anywhere"},
                                      {"tools", true, "what is used, the outermost first, a list of at least one"},
                                      {"landmarks", false, "points of one's own, a list"},
                                      {"steps", true, "what the operator does, in order, a list of at least one"}}};

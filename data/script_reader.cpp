@@ -8,6 +8,7 @@
 #include <iterator>
 #include <numbers>
 
+#include "data/case.h"
 #include "data/catalogue.h"
 #include "data/script.h"
 #include "data/script_keys.h"
@@ -451,6 +452,7 @@ Script read(JsonValue file, const std::string& text) {
   script.name = root.text("name");
   if (script.name != fs::path(*file.file).stem().string()) root.refuse("name");
   script.title = root.text("title");
+  if (root.has("access")) script.access = static_cast<Access>(root.choice("access", access_names()));
   if (root.list("tools").empty()) root.refuse("tools");
   for (const JsonValue& value : root.list("tools")) {
     const JsonObject tool(value, keys::tool);

@@ -40,6 +40,8 @@ std::string instrument_file(const std::string& name_or_file) {
   return known.string();
 }
 
+const std::string& name_of(Access access) { return access_names()[static_cast<std::size_t>(access)]; }
+
 nlohmann::json numbers(const Eigen::Vector3d& p) { return nlohmann::json::array({p.x(), p.y(), p.z()}); }
 Eigen::Vector3d point(const nlohmann::json& p) {
   return {p.at(0).get<double>(), p.at(1).get<double>(), p.at(2).get<double>()};
@@ -56,11 +58,16 @@ void set_vessel(const std::string& case_or_mesh, LengthUnit unit, RunSetup& setu
   const fs::path file = fs::absolute(case_file(case_or_mesh));
   const Case c = load_case(file.string());
   setup.case_text = all_of(file.string());
+  if (!c.imported) setup.access = c.anatomy.access;
   // An imported case's vessels lie beside its file: replay finds them there.
   setup.vessel = c.imported ? (file.parent_path() / c.name).string() : c.name;
 }
 
 void set_script(const Script& script, RunSetup& setup) {
+  if (script.access && setup.access && *script.access != *setup.access)
+    throw LoadError(
+        fmt::format("{}: is for {} access, and {} has {} access; expected a case and a script of one access",
+                    script.file, name_of(*script.access), setup.vessel, name_of(*setup.access)));
   setup.script = script;
   setup.tool_texts.clear(), setup.tool_files.clear();
   for (const ScriptTool& tool : script.tools) {

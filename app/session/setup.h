@@ -13,6 +13,7 @@ struct RunSetup {
   std::string case_text;                ///< of a case: its file
   std::optional<std::uint64_t> person;  ///< instead of the case's own
   std::optional<double> rate_1_min;     ///< instead of the case's own
+  std::optional<Access> access;         ///< of a case that is built
   Mesh mesh;                            ///< of a mesh, m
   MeshEntry entry;
   Script script;
@@ -32,7 +33,7 @@ struct RunSetup {
 /// A file ending in .obj, .stl or .ply is a mesh; else a case by name, or a file NAME.json. Throws LoadError,
 /// MeshError.
 void set_vessel(const std::string& case_or_mesh, LengthUnit unit, RunSetup& setup);
-/// Takes the script and finds its instruments.
+/// Takes the script and finds its instruments. After set_vessel. Throws LoadError if the case has another access.
 void set_script(const Script& script, RunSetup& setup);
 /// For tools of the script that come in sizes, takes what fits the artery at its lesion, or the aorta; where there is
 /// no lesion, or no aorta, it stays as it is. Before the session is made. Returns what was chosen: "stent: Stent 3.0 x

@@ -124,6 +124,19 @@ std::string treatment_refusal(const std::string& from, const std::string& to) {
   return "accepted";
 }
 
+TEST(Script, SaysWhereItComesIn) {
+  const auto with = [](const std::string& access) {
+    return read_script("up.json", R"({ "schema": "ostium-script/1", "name": "up", "title": "A test",)" + access + R"(
+      "tools": [ { "name": "wire", "instrument": "cook-j" } ],
+      "steps": [ { "do": "wait", "until": [ { "seconds": 1 } ] } ] })")
+        .access;
+  };
+  EXPECT_EQ(with(""), std::nullopt);
+  EXPECT_EQ(with(R"( "access": "radial",)"), Access::radial);
+  EXPECT_EQ(with(R"( "access": "femoral",)"), Access::femoral);
+  EXPECT_THROW(with(R"( "access": "brachial",)"), LoadError);
+}
+
 TEST(Script, ToolsMayComeInSizes) {
   const std::string tool = R"("instrument": "balloon-25x15")";
   const auto with = [&](const std::string& more) { return treatment_refusal(tool, tool + ", " + more); };

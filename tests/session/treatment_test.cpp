@@ -360,6 +360,23 @@ std::shared_ptr<const Vessel> with_two_lesions() {
   return made;
 }
 
+TEST(Treatment, AScriptIsRefusedOnACaseWithAnotherAccess) {
+  const Script from_the_wrist = find_script("pci-lcx-tubular-radial"), from_anywhere = find_script("jr4-engages-rca");
+  RunSetup groin, wrist;
+  set_vessel("lcx-tubular", LengthUnit::millimetre, groin);
+  set_vessel("lcx-tubular-radial", LengthUnit::millimetre, wrist);
+  EXPECT_NO_THROW(set_script(from_the_wrist, wrist));
+  EXPECT_NO_THROW(set_script(from_anywhere, groin));
+  EXPECT_NO_THROW(set_script(from_anywhere, wrist));
+  try {
+    set_script(from_the_wrist, groin);
+    FAIL() << "accepted";
+  } catch (const LoadError& error) {
+    for (const char* word : {"pci-lcx-tubular-radial.json", "radial access", "lcx-tubular has femoral access"})
+      EXPECT_NE(std::string(error.what()).find(word), std::string::npos) << error.what();
+  }
+}
+
 TEST(Treatment, EachLesionIsJudgedByTheStentsAtIt) {
   ScriptedRun run(two_lesions(), with_two_lesions());
   const SessionModel& model = run.model;
