@@ -70,6 +70,7 @@ TEST(Catalogue, HoldsTheStudysNineAndWhatCoronaryWorkNeeds) {
                            "diagnostic-jl4-5f",
                            "diagnostic-jr4-5f",
                            "wire-014-workhorse",
+                           "wire-014-workhorse-wide",
                            "wire-014-support",
                            "wire-014-polymer-jacket",
                            "balloon-15x10",
