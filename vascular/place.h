@@ -47,7 +47,8 @@ struct Seat {
   double middle_m = 0;  ///< between the markers, along that path
   double offset_m = 0;  ///< of the middle from the centreline
 };
-/// Empty if they are not both in one vessel of the tree (in a catheter outside the coronaries, say). `wire_cell` as above.
+/// Empty if they are not both in one vessel of the tree (in a catheter outside the coronaries, say). `wire_cell` as
+/// above.
 std::optional<Seat> seat_of(const CellLocator& locator, const FlowTree& tree, const std::vector<VesselPath>& paths,
                             const Eigen::Vector3d& p_proximal_marker, const Eigen::Vector3d& p_distal_marker,
                             int wire_cell = -1);
