@@ -31,7 +31,7 @@ struct Played {
       map.to_end_m.push_back(1e-3 * (side ? 149 - c : 99 - c));
       map.unplanned_m.push_back(side ? 1e-3 * (c - 99) : 0);
       map.deep_m.push_back(10e-3), map.healthy_m.push_back(1.5e-3);
-      map.before_lesion.push_back(!side && c < 30), map.behind_lesion.push_back(!side && c > 40);
+      map.behind_lesion.push_back(!side && c > 40);
     }
     scene.tools.resize(4);
     for (HandledTool& tool : scene.tools) tool.sphere = 0;
@@ -342,8 +342,8 @@ TEST(Handling, ACasesMapKnowsItsWaysAndItsLesion) {
     return static_cast<std::size_t>(tree.cell_at(tree.branch(branch), along_m));
   };
   const std::size_t near = cell("RCA", 2e-3), far = cell("RCA", plan.to_m + 10e-3), conus = cell("Conus", 15e-3);
-  EXPECT_TRUE(map.before_lesion[near] && !map.behind_lesion[near]);
-  EXPECT_TRUE(map.behind_lesion[far] && !map.before_lesion[far]);
+  EXPECT_FALSE(map.behind_lesion[near]);
+  EXPECT_TRUE(map.behind_lesion[far]);
   EXPECT_EQ(map.unplanned_m[near], 0);
   EXPECT_EQ(map.unplanned_m[far], 0);
   EXPECT_NEAR(map.unplanned_m[conus], 15e-3, 5e-3);
@@ -351,6 +351,26 @@ TEST(Handling, ACasesMapKnowsItsWaysAndItsLesion) {
   const std::size_t lad = cell("LAD", 5e-3);
   EXPECT_LT(map.deep_m[lad], 8e-3) << "half of the left main";
   EXPECT_GT(map.to_end_m[near], 80e-3);
+}
+
+TEST(Handling, ABranchBetweenTwoLesionsLeadsAWireAstray) {
+  RunSetup two = setup();
+  set_vessel("rca-diffuse", LengthUnit::millimetre, two);
+  std::string warnings;
+  const ScriptedRun run(two, make_vessel(two, warnings));
+  const HandlingMap map(run.model);
+  const FlowTree& tree = run.model.physiology.flow.tree;
+  const auto& lesions = run.model.vessel->coronaries->lesions;
+  const auto cell = [&](const char* branch, double along_m) {
+    return static_cast<std::size_t>(tree.cell_at(tree.branch(branch), along_m));
+  };
+  EXPECT_NEAR(map.unplanned_m[cell("RV", 15e-3)], 15e-3, 5e-3) << "it leaves behind the first lesion";
+  const std::size_t between = cell("RCA", (lesions[0].to_m + lesions[1].from_m) / 2),
+                    far = cell("RCA", lesions[1].to_m + 5e-3);
+  EXPECT_EQ(map.unplanned_m[between], 0);
+  EXPECT_FALSE(map.behind_lesion[between]);
+  EXPECT_EQ(map.unplanned_m[far], 0);
+  EXPECT_TRUE(map.behind_lesion[far]);
 }
 
 }  // namespace

@@ -50,21 +50,28 @@ void map_way(const Way& way, HandlingMap& map) {
   }
 }
 
+/// Where lesions end that no other lies behind: what leaves the artery before them leads a wire astray.
+std::vector<int> lesion_ends(const FlowTree& tree, const std::vector<Plan>& lesions) {
+  std::vector<int> ends;
+  for (const Plan& lesion : lesions)
+    ends.push_back(lesion.path.cells[static_cast<std::size_t>(lesion.path.at(lesion.to_m).index)]);
+  const std::vector<int> all = ends;
+  std::erase_if(ends, [&](int end) {
+    return std::any_of(all.begin(), all.end(),
+                       [&](int other) { return other != end && tree.is_downstream(other, end); });
+  });
+  return ends;
+}
+
 void map_arteries(const SessionModel& model, HandlingMap& map) {
   const FlowTree& tree = model.physiology.flow.tree;
   const std::size_t n = tree.cells.size();
   map.from_ostium_m.assign(n, 0), map.to_end_m.assign(n, 0), map.unplanned_m.assign(n, 0), map.healthy_m.assign(n, 0);
-  map.before_lesion.assign(n, 0), map.behind_lesion.assign(n, 0);
+  map.behind_lesion.assign(n, 0);
   // Farther in than 1 cm, or past the middle of the left main.
   constexpr double deep_m = 10e-3;
   map.deep_m.assign(n, deep_m);
-  const auto& lesions = model.vessel->coronaries->lesions;
-  int first = -1, last = -1;
-  if (!lesions.empty()) {
-    const VesselPath& path = lesions[0].path;
-    first = path.cells[static_cast<std::size_t>(path.at(lesions[0].from_m).index)];
-    last = path.cells[static_cast<std::size_t>(path.at(lesions[0].to_m).index)];
-  }
+  const std::vector<int> ends = lesion_ends(tree, model.vessel->coronaries->lesions);
   const auto apart_m = [&](std::size_t c, std::size_t up) {
     return (tree.cells[c].length_m + tree.cells[up].length_m) / 2;
   };
@@ -73,10 +80,12 @@ void map_arteries(const SessionModel& model, HandlingMap& map) {
     const auto up = static_cast<std::size_t>(upstream);
     map.healthy_m[c] = tree.cells[c].healthy_m;
     map.from_ostium_m[c] = upstream < 0 ? tree.cells[c].length_m / 2 : map.from_ostium_m[up] + apart_m(c, up);
-    if (last < 0) continue;
-    map.before_lesion[c] = own != first && tree.is_downstream(first, own);
-    map.behind_lesion[c] = own != last && tree.is_downstream(own, last);
-    const bool planned = own == last || map.behind_lesion[c] || tree.is_downstream(last, own);
+    bool planned = ends.empty();
+    for (const int end : ends) {
+      const bool behind = own != end && tree.is_downstream(own, end);
+      map.behind_lesion[c] = map.behind_lesion[c] || behind;
+      planned = planned || own == end || behind || tree.is_downstream(end, own);
+    }
     map.unplanned_m[c] = planned ? 0 : (upstream < 0 ? 0 : map.unplanned_m[up]) + tree.cells[c].length_m;
   }
   for (std::size_t c = n; c-- > 0;)

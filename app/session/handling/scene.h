@@ -20,10 +20,10 @@ struct HandlingMap {
   // (#cells of the arteries); empty without a patient.
   std::vector<double> from_ostium_m;  ///< along the artery
   std::vector<double> to_end_m;       ///< to the end of the longest artery that goes on from there
-  std::vector<double> unplanned_m;    ///< how far into a branch that neither leads to the first lesion nor leaves it
+  std::vector<double> unplanned_m;    ///< how far into a branch that leads to no last lesion, nor leaves one
   std::vector<double> deep_m;         ///< a guide farther from its ostium than this sits deep
   std::vector<double> healthy_m;      ///< radius
-  std::vector<char> before_lesion, behind_lesion;  ///< on the way to its proximal end; beyond its distal end
+  std::vector<char> behind_lesion;    ///< beyond the distal end of the last lesion of its artery
 };
 
 struct HandledTool {
