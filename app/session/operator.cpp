@@ -356,4 +356,20 @@ std::string reason(const ScriptPlan& plan, const OperatorState& state) {
   return where;
 }
 
+std::string where_tips_lie(const SessionModel& model, const SessionState& session, const SessionReport& report) {
+  std::string words;
+  if (!model.has_patient()) return words;
+  const Way& way = *model.vessel->way;
+  for (std::size_t t = 0; t < report.tools.size(); ++t) {
+    if (!report.tools[t].in_body) continue;
+    const int at =
+        way.locate(tip(model, session, static_cast<int>(t)), session.blood.heart.phase, breath(model, session));
+    const std::string& branch = way.branches()[static_cast<std::size_t>(way.branch(at))].name;
+    const double into_m = way.from_access_m(at) - way.from_access_m(way.entry(branch));
+    words +=
+        fmt::format("{}{} {:.0f} mm into {}", words.empty() ? "" : ", ", model.tools[t].name, 1e3 * into_m, branch);
+  }
+  return words;
+}
+
 }  // namespace ostium

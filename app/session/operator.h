@@ -99,4 +99,7 @@ Outcome decide(const ScriptPlan& plan, const SessionModel& model, const SessionS
 /// "advance (up the aorta): push_exceeds_N 8"; empty after success.
 std::string reason(const ScriptPlan& plan, const OperatorState& state);
 
+/// "guide 3 mm into RCA, wire 25 mm into RV": tips in a patient's body; a step often fails for where another tool lies.
+std::string where_tips_lie(const SessionModel& model, const SessionState& session, const SessionReport& report);
+
 }  // namespace ostium

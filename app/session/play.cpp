@@ -85,6 +85,8 @@ PlayReport play(ScriptedRun& run, const RunSetup& setup, const PlayOptions& opti
   out.simulated_s = seconds(run.model, run.state);
   out.outcome = words_for(aborted.empty() ? run.outcome : Outcome::aborted);
   out.reason = aborted.empty() ? reason(run.plan, run.hands) : aborted + ", in " + reason(run.plan, run.hands);
+  if (const std::string tips = where_tips_lie(run.model, run.state, run.report); !out.reason.empty() && !tips.empty())
+    out.reason += " (" + tips + ")";
   out.times.p50_ms = bins.percentile_ms(0.5), out.times.p99_ms = bins.percentile_ms(0.99);
   out.times.p999_ms = bins.percentile_ms(0.999);
   out.times.most_ms = bins.most_ms(), out.times.mean_ms = bins.mean_ms();

@@ -100,6 +100,11 @@ TEST(Treatment, ABalloonOpensTheLesionAndTheWallThatRodsMeet) {
   EXPECT_EQ(run.outcome, Outcome::failure);
   EXPECT_NE(reason(run.plan, run.hands).find("balloon is still in the body"), std::string::npos)
       << reason(run.plan, run.hands);
+  const std::string tips = where_tips_lie(run.model, run.state, run.report);
+  const std::size_t wire = tips.find("wire ");
+  ASSERT_NE(wire, std::string::npos) << tips;
+  EXPECT_NEAR(std::stod(tips.substr(wire + 5)), 80, 4) << tips;
+  EXPECT_TRUE(tips.ends_with(" mm into RCA")) << tips;
   const double after = lesion_now(run.model, run.state).stenosis;
   EXPECT_LT(after, 0.5);
   EXPECT_GT(after, 0.05) << "it recoils";
