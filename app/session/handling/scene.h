@@ -20,7 +20,7 @@ struct HandlingMap {
   // (#cells of the arteries); empty without a patient.
   std::vector<double> from_ostium_m;  ///< along the artery
   std::vector<double> to_end_m;       ///< to the end of the longest artery that goes on from there
-  std::vector<double> unplanned_m;    ///< how far into a branch that leads to no last lesion, nor leaves one
+  std::vector<double> unplanned_m;    ///< how far into a branch off the way to the last lesions
   std::vector<double> deep_m;         ///< a guide farther from its ostium than this sits deep
   std::vector<double> healthy_m;      ///< radius
   std::vector<char> behind_lesion;    ///< beyond the distal end of the last lesion of its artery
