@@ -26,7 +26,7 @@ double scale(const Instrument& instrument) {
       return instrument.outer_diameter_m < 0.5e-3 ? 3.0 : 1.5;
     case InstrumentKind::balloon_shaft:
     case InstrumentKind::stent_shaft:
-      return 1.2;
+      return 0.95;  // 45 mm: the longest stent between its markers
     case InstrumentKind::sheath:
       return 0.6;
     default:
