@@ -22,7 +22,7 @@ namespace fs = std::filesystem;
 namespace keys = script_keys;
 constexpr double degree = std::numbers::pi / 180;
 constexpr const char* stands_for_steps = "script";
-constexpr int deepest_script = 4;
+constexpr int deepest_script = 8;
 
 /// A condition's kinds, and what brings their value to SI; 0: they have none.
 struct Kind {

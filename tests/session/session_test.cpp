@@ -161,6 +161,29 @@ TEST(Operator, TriesAgainAsOftenAsItSays) {
   EXPECT_NEAR(run.state.hands[0].fed_m, 0.04, 0.001) << "once, and three times again";
 }
 
+/// "Is this needed?": a wait whose `unless` holds at once jumps past what is not; one whose `until` comes first does
+/// not.
+TEST(Operator, LeavesOutStepsThatAreNotNeeded) {
+  for (const bool needed : {false, true}) {
+    const std::string script = R"({ "schema": "ostium-script/1", "name": "leaves-out", "title": "A test",
+    "tools": [ { "name": "wire", "instrument": "cook-j" } ],
+    "steps": [
+      { "do": "advance", "tool": "wire", "speed_mm_s": 100, "until": [{ "fed_mm": 20 }] },
+      { "do": "wait", "label": "more is needed", "until": [{ "seconds": 0.1 }],
+        "unless": [{ "inserted_mm": )" +
+                               std::string(needed ? "30" : "10") +
+                               R"(, "of": "wire" }], "otherwise": "the end", "tries": 1 },
+      { "do": "advance", "tool": "wire", "speed_mm_s": 100, "until": [{ "fed_mm": 15 }] },
+      { "do": "mark", "label": "the end", "text": "the end" } ] })";
+    const RunSetup setup = tube_setup(script);
+    ScriptedRun run(setup, tube_vessel());
+    while (run.tick()) {
+    }
+    EXPECT_EQ(run.outcome, Outcome::success) << reason(run.plan, run.hands);
+    EXPECT_NEAR(run.state.hands[0].fed_m, needed ? 0.035 : 0.02, 0.001);
+  }
+}
+
 TEST(Operator, LooksAtWhereTheTipPointsAndWhetherItIsOut) {
   const std::string script = R"({ "schema": "ostium-script/1", "name": "points", "title": "A test",
     "tools": [ { "name": "wire", "instrument": "amplatz-super-stiff" } ],
