@@ -87,8 +87,7 @@ Anatomy read(const JsonValue& file) {
   const JsonObject root(file, keys::root);
   if (root.text("schema") != "ostium-anatomy/1") root.refuse("schema");
   Anatomy anatomy;
-  if (root["aorta"].type != JsonValue::Type::boolean) root.refuse("aorta");
-  anatomy.aorta = root["aorta"].number != 0;
+  anatomy.aorta = root.boolean("aorta");
   anatomy.ascending_m = mm * root.positive("ascending_mm");
   if (anatomy.ascending_m <= 20 * mm) root.refuse("ascending_mm");
   for (const JsonValue& value : root.list("tubes"))

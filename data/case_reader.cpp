@@ -20,11 +20,6 @@ namespace {
 namespace fs = std::filesystem;
 namespace keys = case_keys;
 
-bool read_boolean(const JsonObject& object, const std::string& key) {
-  if (object[key].type != JsonValue::Type::boolean) object.refuse(key);
-  return object[key].number != 0;
-}
-
 CaseCard read_card(const JsonObject& card) {
   return {card.text("history"), card.text("ecg"), card.text("planned_access")};
 }
@@ -44,7 +39,7 @@ Lesion read_lesion(const JsonObject& entry, const Anatomy& anatomy) {
                 .length_m = entry.positive("length_mm") * 1e-3,
                 .stenosis = entry.positive("stenosis_percent") / 100,
                 .eccentric = entry.choice("shape", {"concentric", "eccentric"}) == 1,
-                .calcified = read_boolean(entry, "calcified")};
+                .calcified = entry.boolean("calcified")};
   if (entry.has("side_deg")) {
     if (!lesion.eccentric) entry.refuse("side_deg");
     lesion.side_rad = entry.number("side_deg") * std::numbers::pi / 180;

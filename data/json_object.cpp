@@ -50,6 +50,11 @@ double JsonObject::not_negative(const std::string& key) const {
   return number(key);
 }
 
+bool JsonObject::boolean(const std::string& key) const {
+  if ((*this)[key].type != JsonValue::Type::boolean) refuse(key);
+  return (*this)[key].number != 0;
+}
+
 std::vector<double> JsonObject::numbers(const std::string& key, std::size_t count) const {
   const std::vector<JsonValue>& items = list(key);
   std::vector<double> result;

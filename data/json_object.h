@@ -33,6 +33,7 @@ class JsonObject {
   double not_negative(const std::string& key) const;
   double number(const std::string& key) const;
   std::vector<double> numbers(const std::string& key, std::size_t count) const;
+  bool boolean(const std::string& key) const;
   std::string text(const std::string& key) const;  ///< not empty
   const std::vector<JsonValue>& list(const std::string& key) const;
   /// Index of the text among `choices`; the message lists them.

@@ -1,0 +1,102 @@
+#include "data/script_parts.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "data/script_actions.h"
+#include "data/script_condition_reader.h"
+#include "data/script_keys.h"
+
+namespace ostium {
+
+namespace {
+
+namespace fs = std::filesystem;
+namespace keys = script_keys;
+constexpr int deepest_script = 8;
+
+JsonValue* member(JsonValue& object, const std::string& key) {
+  for (auto& [name, value] : object.members)
+    if (name == key) return &value;
+  return nullptr;
+}
+
+bool has_tool(const JsonObject& script, const std::string& name) {
+  const std::vector<JsonValue>& tools = script.list("tools");
+  return std::any_of(tools.begin(), tools.end(),
+                     [&](const JsonValue& tool) { return JsonObject(tool, keys::tool).text("name") == name; });
+}
+
+/// What a script that names another says of it, said in that one's own steps: under which labels they stand, with which
+/// tools, at which lesion.
+void say_in_steps(const JsonObject& step, JsonValue& part) {
+  const JsonValue* with = step.value().find("with");
+  const auto rename = [&](JsonValue& tool) {
+    if (const JsonValue* own = with ? with->find(tool.text) : nullptr) tool.text = own->text;
+  };
+  for (JsonValue& tool : member(part, "tools")->items)
+    if (JsonValue* name = member(tool, "name")) rename(*name);
+  for (JsonValue& one : member(part, "steps")->items) {
+    if (JsonValue* tool = member(one, "tool")) {
+      rename(*tool);
+      for (JsonValue& each : tool->items) rename(each);
+    }
+    for (const char* key : {"label", "otherwise"}) {
+      JsonValue* label = step.has("label") ? member(one, key) : nullptr;
+      if (label && label->text != "fail" && label->text != "go on")
+        label->text = step.text("label") + ": " + label->text;
+    }
+    for (const char* key : {"until", "unless"}) {
+      JsonValue* list = member(one, key);
+      if (!list) continue;
+      for (JsonValue& condition : list->items) {
+        if (JsonValue* of = member(condition, "of")) rename(*of);
+        if (step.has("lesion") && has_condition_about_a_lesion(condition) && !condition.find("lesion"))
+          condition.members.emplace_back("lesion", step["lesion"]);
+      }
+    }
+  }
+}
+
+bool write_out(JsonValue& file, int depth) {
+  const JsonObject root(file, keys::root);
+  if (root.text("schema") != "ostium-script/1") root.refuse("schema");
+  std::vector<JsonValue> steps;
+  bool any = false;
+  for (const JsonValue& value : root.list("steps")) {
+    const JsonValue* action = value.find("do");
+    if (!action || action->text != stands_for_steps) {
+      steps.push_back(value);
+      continue;
+    }
+    const JsonObject step(value, keys::step);
+    require_keys(step, script_actions().back());
+    if (depth == deepest_script) value.fail(fmt::format("{}: scripts in scripts deeper than {}", value.path, depth));
+    any = true;
+    JsonValue part = load_json((fs::path(*file.file).parent_path() / (step.text("script") + ".json")).string());
+    write_out(part, depth + 1);
+    read_lesion(step);
+    if (step.has("with") && step["with"].type != JsonValue::Type::object) step.refuse("with");
+    if (step.has("with"))
+      for (const auto& [theirs, ours] : step["with"].members)
+        if (!has_tool(JsonObject(part, keys::root), theirs) || !has_tool(root, ours.text))
+          ours.fail(fmt::format("{}: expected a tool of {} and the name of one of this script's", ours.path,
+                                step.text("script")));
+    say_in_steps(step, part);
+    for (const JsonValue& tool : JsonObject(part, keys::root).list("tools"))
+      if (const std::string name = JsonObject(tool, keys::tool).text("name"); !has_tool(root, name))
+        value.fail(
+            fmt::format("{}: {} moves a tool \"{}\", and this script has none", value.path, step.text("script"), name));
+    for (JsonValue& one : member(part, "steps")->items) steps.push_back(std::move(one));
+  }
+  if (any) member(file, "steps")->items = std::move(steps);
+  return any;
+}
+
+}  // namespace
+
+bool write_out_parts(JsonValue& script) { return write_out(script, 0); }
+
+}  // namespace ostium
