@@ -89,8 +89,9 @@ struct ScriptStep {
   std::vector<ScriptCondition> until, unless;
   double timeout_s = 60;
   enum class Otherwise { fail, go_on, jump } otherwise = Otherwise::fail;
-  int jump_to = -1;  ///< a step
-  int tries = 1;     ///< that it jumps
+  int jump_to = -1;      ///< a step
+  int tries = 1;         ///< that it jumps
+  int last_resort = -1;  ///< a step; there it jumps once when `tries` are used up, and has as many again. -1: none
   // view
   std::optional<double> lao_rad, cran_rad, field_m;
   std::optional<Eigen::Vector3d> table_P;

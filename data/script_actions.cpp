@@ -7,7 +7,7 @@
 namespace ostium {
 
 const std::vector<ScriptActionKeys>& script_actions() {
-  static const std::vector<std::string> ends = {"label", "unless", "timeout_s", "otherwise", "tries"};
+  static const std::vector<std::string> ends = {"label", "unless", "timeout_s", "otherwise", "tries", "last_resort"};
   const auto with = [](std::vector<std::string> more) {
     more.insert(more.end(), ends.begin(), ends.end());
     return more;

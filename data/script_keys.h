@@ -55,6 +55,8 @@ inline const JsonObjectKeys step = {
      {"timeout_s", false, "after this many seconds the step has failed, > 0 and at most 3600"},
      {"otherwise", false, "what a failure leads to: \"fail\", \"go on\" or the label of a step"},
      {"tries", false, "how often \"otherwise\" leads to that step, a whole number, 1 to 100; then it is a failure"},
+     {"last_resort", false,
+      "the label of a step, beside tries: when they are used up it is gone to, once, and all tries count anew"},
      {"view", false, "a name of `ostium views`"},
      {"lao_deg", false, "the C-arm's angle in degrees, -120 to 120; negative: RAO"},
      {"cran_deg", false, "the C-arm's angle in degrees, -55 to 55; negative: caudal"},

@@ -43,7 +43,7 @@ void say_in_steps(const JsonObject& step, JsonValue& part) {
       rename(*tool);
       for (JsonValue& each : tool->items) rename(each);
     }
-    for (const char* key : {"label", "otherwise"}) {
+    for (const char* key : {"label", "otherwise", "last_resort"}) {
       JsonValue* label = step.has("label") ? member(one, key) : nullptr;
       if (label && label->text != "fail" && label->text != "go on")
         label->text = step.text("label") + ": " + label->text;

@@ -126,6 +126,7 @@ ScriptStep read_step(const JsonValue& value, const Script& script) {
 /// Second time round, when all labels are known.
 void read_otherwise(const JsonValue& value, Script& script, ScriptStep& step) {
   const JsonObject object(value, keys::step);
+  if (object.has("last_resort") && !object.has("tries")) object.refuse("last_resort");
   if (!object.has("otherwise")) return;
   const std::string to = object.text("otherwise");
   if (to == "fail") return;
@@ -133,10 +134,16 @@ void read_otherwise(const JsonValue& value, Script& script, ScriptStep& step) {
     step.otherwise = ScriptStep::Otherwise::go_on;
     return;
   }
-  for (std::size_t s = 0; s < script.steps.size(); ++s)
-    if (script.steps[s].label == to) step.jump_to = static_cast<int>(s);
-  if (step.jump_to < 0) object.refuse("otherwise");
+  const auto step_called = [&](const char* key) {
+    const std::string label = object.text(key);
+    const auto called = [&](const ScriptStep& one) { return one.label == label; };
+    const auto found = std::find_if(script.steps.begin(), script.steps.end(), called);
+    if (found == script.steps.end()) object.refuse(key);
+    return static_cast<int>(found - script.steps.begin());
+  };
+  step.jump_to = step_called("otherwise");
   step.otherwise = ScriptStep::Otherwise::jump;
+  if (object.has("last_resort")) step.last_resort = step_called("last_resort");
 }
 
 ScriptTool read_tool(const JsonObject& tool) {

@@ -235,6 +235,16 @@ void end(Outcome outcome, int condition, OperatorState& state) {
 
 void go_to(int step, OperatorState& state) { state.step = step, state.began = 1; }
 
+/// Where a step leads that failed; -1: nowhere. `tries` counts what it led to, its last resort as one.
+int leads_to(const ScriptStep& step, int s, double& tries) {
+  if (step.otherwise == ScriptStep::Otherwise::go_on) return s + 1;
+  if (step.otherwise == ScriptStep::Otherwise::fail) return -1;
+  const bool last = step.last_resort >= 0 && tries == step.tries;
+  if (!last && tries >= (step.last_resort >= 0 ? 2 * step.tries + 1 : step.tries)) return -1;
+  tries += 1;
+  return last ? step.last_resort : step.jump_to;
+}
+
 }  // namespace
 
 ScriptPlan make_plan(const Script& script, const SessionModel& model, std::uint64_t seed) {
@@ -306,11 +316,9 @@ Outcome decide(const ScriptPlan& plan, const SessionModel& model, const SessionS
     const bool late = sight.now_s() - state.began_s >= step.timeout_s;
     if (unless < 0 && !late) break;
     events.push_back({unless >= 0 ? Kind::failed : Kind::timed_out, s, unless});
-    double& tries = state.tries[static_cast<std::size_t>(s)];
-    if (step.otherwise == ScriptStep::Otherwise::go_on)
-      go_to(s + 1, state);
-    else if (step.otherwise == ScriptStep::Otherwise::jump && tries < step.tries)
-      tries += 1, go_to(step.jump_to, state);
+    const int next = leads_to(step, s, state.tries[static_cast<std::size_t>(s)]);
+    if (next >= 0)
+      go_to(next, state);
     else
       end(unless >= 0 ? Outcome::failure : Outcome::timed_out, unless, state);
   }

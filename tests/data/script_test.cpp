@@ -79,6 +79,9 @@ TEST(Script, MistakesAreNamedByLine) {
                {"small.json:7:", "no meaning for \"view\""});
   expect_words(refusal("\"otherwise\": \"up\"", "\"otherwise\": \"down\""), {"small.json:11:", "the label of a step"});
   expect_words(refusal("\"tries\": 2", "\"tries\": 0"), {"small.json:11:", "1 to 100"});
+  expect_words(refusal("\"tries\": 2", "\"last_resort\": \"up\""), {"small.json:11:", "beside tries"});
+  expect_words(refusal("\"tries\": 2", "\"tries\": 2, \"last_resort\": \"down\""),
+               {"small.json:11:", "the label of a step"});
   expect_words(refusal(", \"within_deg\": 20", ""), {"small.json:12:", "within_deg is missing"});
   expect_words(refusal("\"tip_points\": \"left\", \"within_deg\": 20", "\"tip_faces\": \"RCA\""),
                {"small.json:12:", "within_deg is missing"});

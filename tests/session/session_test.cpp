@@ -161,6 +161,21 @@ TEST(Operator, TriesAgainAsOftenAsItSays) {
   EXPECT_NEAR(run.state.hands[0].fed_m, 0.04, 0.001) << "once, and three times again";
 }
 
+TEST(Operator, HasALastResortWhenTriesAreUsedUp) {
+  const std::string script = R"({ "schema": "ostium-script/1", "name": "resort", "title": "A test",
+    "tools": [ { "name": "wire", "instrument": "cook-j" } ],
+    "steps": [
+      { "do": "advance", "label": "far back", "tool": "wire", "speed_mm_s": 100, "until": [{ "fed_mm": 10 }] },
+      { "do": "advance", "label": "again", "tool": "wire", "speed_mm_s": 100, "until": [{ "fed_mm": 1 }] },
+      { "do": "wait", "until": [{ "seconds": 9 }], "timeout_s": 0.1, "otherwise": "again", "tries": 3,
+        "last_resort": "far back" } ] })";
+  ScriptedRun run(tube_setup(script), tube_vessel());
+  while (run.tick()) {
+  }
+  EXPECT_EQ(run.outcome, Outcome::timed_out);
+  EXPECT_NEAR(run.state.hands[0].fed_m, 2 * (0.01 + 4 * 0.001), 0.001);
+}
+
 /// "Is this needed?": a wait whose `unless` holds at once jumps past what is not; one whose `until` comes first does
 /// not.
 TEST(Operator, LeavesOutStepsThatAreNotNeeded) {
