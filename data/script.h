@@ -47,6 +47,9 @@ enum class ConditionKind {
   unharmed
 };
 
+/// Whether it needs arteries and a lesion: what is looked at in treatment.
+bool needs_patient(ConditionKind kind);
+
 /// Whether what is looked at is one of the case's lesions.
 bool is_about_a_lesion(ConditionKind kind);
 

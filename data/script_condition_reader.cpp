@@ -57,27 +57,7 @@ constexpr Kind kinds[] = {{"tip_passes", ConditionKind::tip_passes, 0},
 
 /// What is not seen of one tool.
 bool of_no_tool(ConditionKind kind) {
-  switch (kind) {
-    case ConditionKind::seconds:
-    case ConditionKind::beats:
-    case ConditionKind::balloon_at:
-    case ConditionKind::balloon_within:
-    case ConditionKind::balloon_clear:
-    case ConditionKind::balloon_open:
-    case ConditionKind::balloon_empty:
-    case ConditionKind::engaged:
-    case ConditionKind::trace:
-    case ConditionKind::contrast_in:
-    case ConditionKind::flow_below:
-    case ConditionKind::ST_exceeds:
-    case ConditionKind::act_exceeds:
-    case ConditionKind::stenosis_below:
-    case ConditionKind::stent_beyond:
-    case ConditionKind::unharmed:
-      return true;
-    default:
-      return false;
-  }
+  return kind == ConditionKind::seconds || kind == ConditionKind::beats || needs_patient(kind);
 }
 
 ScriptCondition read_condition(const JsonValue& value, const Script& script, const std::vector<int>& tools) {
@@ -149,6 +129,28 @@ ScriptCondition read_condition(const JsonValue& value, const Script& script, con
 }
 
 }  // namespace
+
+bool needs_patient(ConditionKind kind) {
+  switch (kind) {
+    case ConditionKind::balloon_at:
+    case ConditionKind::balloon_within:
+    case ConditionKind::balloon_clear:
+    case ConditionKind::balloon_open:
+    case ConditionKind::balloon_empty:
+    case ConditionKind::engaged:
+    case ConditionKind::trace:
+    case ConditionKind::contrast_in:
+    case ConditionKind::flow_below:
+    case ConditionKind::ST_exceeds:
+    case ConditionKind::act_exceeds:
+    case ConditionKind::stenosis_below:
+    case ConditionKind::stent_beyond:
+    case ConditionKind::unharmed:
+      return true;
+    default:
+      return false;
+  }
+}
 
 bool is_about_a_lesion(ConditionKind kind) {
   return kind == ConditionKind::balloon_at || kind == ConditionKind::balloon_within ||

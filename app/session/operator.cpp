@@ -16,29 +16,6 @@ using Eigen::Vector3d;
 
 namespace {
 
-/// What conditions of treatment need of a session: arteries, and a lesion.
-bool needs_patient(ConditionKind kind) {
-  switch (kind) {
-    case ConditionKind::balloon_at:
-    case ConditionKind::balloon_within:
-    case ConditionKind::balloon_clear:
-    case ConditionKind::balloon_open:
-    case ConditionKind::balloon_empty:
-    case ConditionKind::engaged:
-    case ConditionKind::trace:
-    case ConditionKind::contrast_in:
-    case ConditionKind::flow_below:
-    case ConditionKind::ST_exceeds:
-    case ConditionKind::act_exceeds:
-    case ConditionKind::stenosis_below:
-    case ConditionKind::stent_beyond:
-    case ConditionKind::unharmed:
-      return true;
-    default:
-      return false;
-  }
-}
-
 /// The flow tree's cell nearest to a sphere of the way, or -1.
 int cell_at(const Coronaries& c, const Way& way, int sphere) {
   const Eigen::Vector3d p = way.p(sphere, 0);
