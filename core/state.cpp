@@ -1,7 +1,9 @@
 #include "core/state.h"
 
+#include <algorithm>
 #include <bit>
 #include <stdexcept>
+#include <string_view>
 
 #define XXH_INLINE_ALL
 #include <xxhash.h>
@@ -94,8 +96,13 @@ State make_state_at_rest_shape(const Model& model, const std::vector<EndState>& 
 
 std::uint64_t hash(const State& state) {
   std::uint64_t h = state.step;
-  for_each_field(state, [&](const char*, const double* first, int count) {
-    h = XXH3_64bits_withSeed(first, count * sizeof(double), h);
+  auto next = state.rods.begin(), rod = next;
+  for_each_field(state, [&](const char* name, const double* first, int count) {
+    if (next != state.rods.end() && first == &next->inserted_m) rod = next++;
+    // Along the rod, what lies outside begins anew when it is fed in: all of it but what the material remembers.
+    const bool begins_anew = count >= rod->orientation.size() && !std::string_view(name).starts_with("crept");
+    const int skipped = begins_anew ? std::min(first_element(*rod), count) : 0;
+    h = XXH3_64bits_withSeed(first + skipped, (count - skipped) * sizeof(double), h);
   });
   return h;
 }

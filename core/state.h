@@ -61,7 +61,7 @@ void for_each_field(S& state, Visit&& visit) {
   }
 }
 
-/// 64-bit hash of the step number and every field (XXH3 over their bytes: -0 and 0 differ).
+/// 64-bit hash (XXH3 of bytes: -0 and 0 differ) of the step number and all that the next steps may come of.
 std::uint64_t hash(const State& state);
 
 /// Numbers of a state in the order of the list, the step number first; and back. `restore` wants a state of the same

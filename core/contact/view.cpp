@@ -4,7 +4,6 @@
 #include <bit>
 
 #include "core/math/rotation.h"
-#include "core/surface/triangle.h"
 #include "core/tunables.h"
 
 namespace ostium {
@@ -38,24 +37,24 @@ double away(const WallPlane& plane) { return std::fabs(plane.gap); }
 /// Whether a wall beside a nearer one is seen from behind. On which side of it a point lies, only the nearest piece of
 /// wall tells: what lies round a ridge turns its back to a node that is in the lumen all the same. Of a wall that gives
 /// way they may all be (join_soft_walls).
-bool turns_its_back(const WallPlane& plane) { return !plane.soft && plane.gap < 0; }
+bool turns_its_back(double gap, bool soft) { return !soft && gap < 0; }
 
-/// Keeps the planes of one node: the nearest, and those that face elsewhere.
-void keep(const WallPlane& plane, NodeWalls& walls) {
+/// Makes room among the planes of one node, which are the nearest and those that face elsewhere. The place of the new
+/// one; -1 if there is none for it.
+int make_room(const Sight& sight, bool soft, NodeWalls& walls) {
+  const auto as_it_faces = [&](const WallPlane& w) { return dot(w.normal, sight.normal) > tunables::same_wall; };
   int at = walls.count;
-  while (at > 0 && away(walls.planes[at - 1]) > away(plane)) --at;
-  if (at > 0 && turns_its_back(plane)) return;
-  for (int k = 0; k < at; ++k)
-    if (dot(walls.planes[k].normal, plane.normal) > tunables::same_wall) return;
+  while (at > 0 && away(walls.planes[at - 1]) > std::fabs(sight.gap)) --at;
+  if (at == max_planes || (at > 0 && turns_its_back(sight.gap, soft))) return -1;
+  if (std::any_of(walls.planes, walls.planes + at, as_it_faces)) return -1;
   // It stands for those further away that face as it does.
-  WallPlane behind[max_planes];
-  const int others = walls.count - at;
-  std::copy(walls.planes + at, walls.planes + walls.count, behind);
-  walls.count = at;
-  if (walls.count < max_planes) walls.planes[walls.count++] = plane;
-  for (int k = 0; k < others && walls.count < max_planes; ++k)
-    if (!turns_its_back(behind[k]) && dot(behind[k].normal, plane.normal) <= tunables::same_wall)
-      walls.planes[walls.count++] = behind[k];
+  const WallPlane* end = std::remove_if(walls.planes + at, walls.planes + walls.count, [&](const WallPlane& w) {
+    return turns_its_back(w.gap, w.soft) || as_it_faces(w);
+  });
+  walls.count = std::min(static_cast<int>(end - walls.planes), max_planes - 1);
+  std::copy_backward(walls.planes + at, walls.planes + walls.count, walls.planes + walls.count + 1);
+  ++walls.count;
+  return at;
 }
 
 bool any_soft(const NodeWalls& walls) {
@@ -143,29 +142,36 @@ WallPlane plane_of(const Surface& surface, const View& view, const V3<double>& n
   return plane;
 }
 
-bool see(const Surface& surface, const Surface::Cluster& c, const Surface::Triangle& t, const ClusterPose& pose,
-         const Field<3>& now, const View& view, WallPlane& plane, bool& at_rim) {
+bool see(const Surface& surface, const Surface::Cluster& c, const Surface::Triangle& t, const Field<3>& now,
+         const View& view, Sight& sight) {
   const V3<double> a = load3<double>(now, t.corner[0]), b = load3<double>(now, t.corner[1]),
                    d = load3<double>(now, t.corner[2]);
   const V3<double> out = cross(b - a, d - a);
   const double height = dot(view.centre - a, out), area2 = dot(out, out);
   if (height * height > view.reach * view.reach * area2 || !(area2 > 0)) return false;
-  const TrianglePoint w = nearest(view.centre, a, b, d);
-  const V3<double> foot = at(w, a, b, d), away = view.centre - foot;
+  sight.point = nearest(view.centre, a, b, d);
+  sight.foot = at(sight.point, a, b, d);
+  const V3<double> away = view.centre - sight.foot;
   const double apart = norm(away);
   if (apart > view.reach) return false;
-  at_rim = is_at_rim(w);
-  const bool behind = dot(away, at_rim ? rim_outward(surface, c, t, w) : out) > 0;
-  const double gap = behind ? -apart : apart;
-  const V3<double> normal = apart > 1e-9 ? (1 / gap) * away : (-1 / std::sqrt(area2)) * out;
-  const auto moment = [&](const Field<3>& corners) {
-    return at(w, load3<double>(corners, t.corner[0]), load3<double>(corners, t.corner[1]),
-              load3<double>(corners, t.corner[2]));
-  };
-  plane = plane_of(surface, view, normal, gap, {foot, moment(pose.before), moment(pose.after)});
-  const double bend = curvature_towards(plane.across, t, a, b, d);
-  if (bend > 0) plane.curvature = least(1 / largest(1 / bend - view.radius, 1e-9), tunables::most_curved_wall_per_m);
+  sight.at_rim = is_at_rim(sight.point);
+  const bool behind = dot(away, sight.at_rim ? rim_outward(surface, c, t, sight.point) : out) > 0;
+  sight.gap = behind ? -apart : apart;
+  sight.normal = apart > 1e-9 ? (1 / sight.gap) * away : (-1 / std::sqrt(area2)) * out;
   return true;
+}
+
+WallPlane plane_of(const Surface& surface, const View& view, const Surface::Triangle& t, const ClusterPose& pose,
+                   const Field<3>& now, const Sight& sight) {
+  const auto corner = [&](const Field<3>& corners, int k) { return load3<double>(corners, t.corner[k]); };
+  const auto moment = [&](const Field<3>& corners) {
+    return at(sight.point, corner(corners, 0), corner(corners, 1), corner(corners, 2));
+  };
+  WallPlane plane =
+      plane_of(surface, view, sight.normal, sight.gap, {sight.foot, moment(pose.before), moment(pose.after)});
+  const double bend = curvature_towards(plane.across, t, corner(now, 0), corner(now, 1), corner(now, 2));
+  if (bend > 0) plane.curvature = least(1 / largest(1 / bend - view.radius, 1e-9), tunables::most_curved_wall_per_m);
+  return plane;
 }
 
 void look(const Model& model, int at_surface, int cluster, const ClusterPose& pose, const Field<3>& now,
@@ -175,11 +181,13 @@ void look(const Model& model, int at_surface, int cluster, const ClusterPose& po
   for (unsigned left = may_meet(pose, view); left != 0; left &= left - 1) {
     const int triangle = c.first_triangle + std::countr_zero(left);
     const Surface::Triangle& t = surface.triangles[triangle];
-    WallPlane plane;
-    bool at_rim;
-    if ((passes && t.door) || !see(surface, c, t, pose, now, view, plane, at_rim)) continue;
-    if (at_rim && !plane.soft) plane.surface = at_surface, plane.cluster = cluster, plane.triangle = triangle;
-    keep(plane, walls);
+    Sight sight;
+    if ((passes && t.door) || !see(surface, c, t, now, view, sight)) continue;
+    const int place = make_room(sight, surface.stiffness_N_m2 > 0, walls);
+    if (place < 0) continue;
+    WallPlane& plane = walls.planes[place];
+    plane = plane_of(surface, view, t, pose, now, sight);
+    if (sight.at_rim && !plane.soft) plane.surface = at_surface, plane.cluster = cluster, plane.triangle = triangle;
   }
 }
 

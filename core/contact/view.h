@@ -5,6 +5,7 @@
 #include "core/model.h"
 #include "core/scratch.h"
 #include "core/state.h"
+#include "core/surface/triangle.h"
 
 namespace ostium {
 
@@ -28,9 +29,21 @@ struct Foot {
 
 WallPlane plane_of(const Surface& surface, const View& view, const V3<double>& normal, double gap, const Foot& foot);
 
-/// A triangle as a plane, by the point of it that is nearest; false if that is out of reach. `at_rim`: where it is.
-bool see(const Surface& surface, const Surface::Cluster& c, const Surface::Triangle& t, const ClusterPose& pose,
-         const Field<3>& now, const View& view, WallPlane& plane, bool& at_rim);
+/// What a ball sees of a triangle: the point of it that is nearest.
+struct Sight {
+  TrianglePoint point;
+  V3<double> foot, normal;  ///< m; into the lumen
+  double gap = 0;           ///< m, negative behind the wall
+  bool at_rim = false;      ///< of the triangle
+};
+
+/// False if the triangle is out of reach.
+bool see(const Surface& surface, const Surface::Cluster& c, const Surface::Triangle& t, const Field<3>& now,
+         const View& view, Sight& sight);
+
+/// That triangle as a plane.
+WallPlane plane_of(const Surface& surface, const View& view, const Surface::Triangle& t, const ClusterPose& pose,
+                   const Field<3>& now, const Sight& sight);
 
 /// Adds what of a cluster is within reach, seen with the corners `now`; `passes`: but for its door.
 void look(const Model& model, int at_surface, int cluster, const ClusterPose& pose, const Field<3>& now,

@@ -22,12 +22,12 @@ bool is_in_the_way(const Model& model, const Strand& strand, int i, const V3<dou
   const ClusterPose& pose = pose_of(surface, wall.cluster, scratch.surfaces[wall.surface]);
   View view = view_of(strand.s->inside, *strand.own, i, to, 0);
   view.reach *= 2;
-  WallPlane seen;
-  bool at_rim;
-  if (!see(surface, surface.clusters[wall.cluster], surface.triangles[wall.triangle], pose, pose.after, view, seen,
-           at_rim) ||
-      dot(seen.normal, wall.normal) < tunables::same_side)
+  const Surface::Triangle& triangle = surface.triangles[wall.triangle];
+  Sight sight;
+  if (!see(surface, surface.clusters[wall.cluster], triangle, pose.after, view, sight) ||
+      dot(sight.normal, wall.normal) < tunables::same_side)
     return true;
+  WallPlane seen = plane_of(surface, view, triangle, pose, pose.after, sight);
   const NodeWalls& walls = strand.contact->walls[i];
   for (int k = 0; k < walls.count; ++k) {
     const WallPlane& other = walls.planes[k];

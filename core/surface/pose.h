@@ -1,6 +1,9 @@
 #pragma once
 /// A surface at both ends of a step, computed where it is asked for.
+#include <immintrin.h>
+
 #include <algorithm>
+#include <limits>
 
 #include "core/math/field.h"
 #include "core/surface/surface.h"
@@ -41,6 +44,32 @@ struct SurfacePose {
 /// Makes `pose` that of a new step.
 void set_motion(const Surface& surface, const SurfaceMotion& motion, SurfacePose& pose);
 
+/// Both ends of a box, a register each: x, y, z and another number; another number and x, y, z.
+struct BoxEnds {
+  __m128 low, high;
+
+  static BoxEnds of(const Box& b) {
+    const float* first = reinterpret_cast<const float*>(&b);
+    return {_mm_loadu_ps(first), _mm_loadu_ps(first + 2)};
+  }
+  V3<double> lowest() const { return {low[0], low[1], low[2]}; }
+  V3<double> highest() const { return {high[1], high[2], high[3]}; }
+};
+
+/// What boxes are held against: where they are to end, and where to begin.
+struct BoxQuery {
+  __m128 high, low;
+
+  BoxQuery(const V3<double>& l, const V3<double>& h) {
+    constexpr float any = std::numeric_limits<float>::infinity();
+    high = _mm_setr_ps(static_cast<float>(h.x), static_cast<float>(h.y), static_cast<float>(h.z), any);
+    low = _mm_setr_ps(-any, static_cast<float>(l.x), static_cast<float>(l.y), static_cast<float>(l.z));
+  }
+  bool misses(const BoxEnds& b) const {
+    return _mm_movemask_ps(_mm_or_ps(_mm_cmpgt_ps(b.low, high), _mm_cmplt_ps(b.high, low))) != 0;
+  }
+};
+
 /// Clusters that may touch a box during the step, and of whose own box, that holds them meanwhile, near(low, high) is
 /// true: writes their numbers to `found`, in a fixed order.
 template <class Near>
@@ -51,33 +80,30 @@ void find_clusters(const Surface& surface, const V3<double>& low, const V3<doubl
   const int nodes = static_cast<int>(surface.nodes.size());
   // Boxes are moved as far as their corners may sway during the step; mostly it does not.
   const bool sways = pose.before.sway != 0 || pose.after.sway != 0;
-  const float least = static_cast<float>(std::min(pose.before.sway, pose.after.sway)),
-              most = static_cast<float>(std::max(pose.before.sway, pose.after.sway));
-  const auto swayed = [&](int n, Box b) {
-    const Box& by = surface.sway_boxes[n];
-    for (int axis = 0; axis < 3; ++axis) {
-      b.low[axis] += by.low[axis] * (by.low[axis] < 0 ? most : least);
-      b.high[axis] += by.high[axis] * (by.high[axis] > 0 ? most : least);
-    }
-    return b;
+  const __m128 least = _mm_set1_ps(static_cast<float>(std::min(pose.before.sway, pose.after.sway))),
+               most = _mm_set1_ps(static_cast<float>(std::max(pose.before.sway, pose.after.sway)));
+  const auto sway = [&](int n, BoxEnds& b) {
+    const auto [low_by, high_by] = BoxEnds::of(surface.sway_boxes[n]);
+    const __m128 down = _mm_cmplt_ps(low_by, _mm_setzero_ps()), up = _mm_cmpgt_ps(high_by, _mm_setzero_ps());
+    b.low = _mm_add_ps(b.low, _mm_mul_ps(low_by, _mm_blendv_ps(least, most, down)));
+    b.high = _mm_add_ps(b.high, _mm_mul_ps(high_by, _mm_blendv_ps(least, most, up)));
   };
   for (const SurfaceMoment* m : {&pose.before, &pose.after}) {
     if (m == &pose.after && m->interval == pose.before.interval && m->shift_W == pose.before.shift_W) break;
     const Box* boxes = &surface.boxes[std::size_t{1} * m->interval * nodes];
     const V3<double> shift{m->shift_W[0], m->shift_W[1], m->shift_W[2]};
-    const V3<double> l = low - shift, h = high - shift;
-    const float lx = l.x, ly = l.y, lz = l.z, hx = h.x, hy = h.y, hz = h.z;
+    const BoxQuery query(low - shift, high - shift);
     for (int n = 0; n < nodes;) {
-      const Box b = sways ? swayed(n, boxes[n]) : boxes[n];
+      BoxEnds box = BoxEnds::of(boxes[n]);
+      if (sways) sway(n, box);
       const Surface::Node& node = surface.nodes[n];
-      if (b.low[0] > hx || b.low[1] > hy || b.low[2] > hz || b.high[0] < lx || b.high[1] < ly || b.high[2] < lz) {
+      if (query.misses(box)) {
         n = node.skip;
         continue;
       }
       ++n;
       if (node.cluster < 0 || pose.listed[node.cluster] == pose.query) continue;
-      if (!near(shift + V3<double>{b.low[0], b.low[1], b.low[2]}, shift + V3<double>{b.high[0], b.high[1], b.high[2]}))
-        continue;
+      if (!near(shift + box.lowest(), shift + box.highest())) continue;
       pose.listed[node.cluster] = pose.query;
       found.push_back(node.cluster);
     }
