@@ -2,6 +2,7 @@
 
 #include <SDL2/SDL.h>
 
+#include <cstdlib>
 #include <memory>
 #include <stdexcept>
 
@@ -224,6 +225,12 @@ void keep(const Snapshot& now, const Picture& drawn, Picture& picture) {
 }  // namespace
 
 bool has_display(std::string& why) {
+  // Where no server is named, to ask for one only makes the servers' libraries complain on the terminal.
+  const auto is_set = [](const char* name) { return std::getenv(name) != nullptr; };
+  if (!is_set("DISPLAY") && !is_set("WAYLAND_DISPLAY") && !is_set("SDL_VIDEODRIVER")) {
+    why = "there is no display";
+    return false;
+  }
   if (SDL_Init(SDL_INIT_VIDEO) != 0) {
     why = SDL_GetError();
     return false;
