@@ -25,6 +25,7 @@ enum class ConditionKind {
   inserted,
   out,
   turned,
+  hub_within,
   push_exceeds,
   torque_exceeds,
   wall_force_exceeds,

@@ -91,6 +91,7 @@ inline const JsonObjectKeys condition = {
      {"inserted_mm", false, "length in the body, reached from either side, in mm, >= 0"},
      {"out", false, "true: the tool is out of the body"},
      {"turned_deg", false, "turn since the step began, either way, in degrees, > 0"},
+     {"hub_within_deg", false, "the hand has turned the hub back, but for so many degrees, to how it came in, > 0"},
      {"push_exceeds_N", false, "push or pull at the hand in N, > 0; forces are felt behind a low pass of 10 Hz"},
      {"torque_exceeds_mNm", false, "torque at the hand in mN m, > 0"},
      {"wall_force_exceeds_N", false, "sum of the walls' normal forces on the tool in N, > 0"},

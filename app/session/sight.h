@@ -58,6 +58,8 @@ struct Sight {
         return reported && !tool.in_body;
       case ConditionKind::turned:
         return std::fabs(session.hands[t].turned_rad - state.began_turned_rad[t]) >= c.value;
+      case ConditionKind::hub_within:
+        return std::fabs(session.hands[t].turned_rad) <= c.value;
       case ConditionKind::push_exceeds:
         return std::fabs(state.felt[4 * t]) > c.value;
       case ConditionKind::torque_exceeds:

@@ -215,6 +215,20 @@ TEST(Operator, LooksAtWhereTheTipPointsAndWhetherItIsOut) {
   EXPECT_FALSE(run.report.tools[0].in_body);
 }
 
+TEST(Operator, TurnsAHubBackToHowItCameIn) {
+  const RunSetup setup = tube_setup(R"({ "schema": "ostium-script/1", "name": "hub", "title": "A test",
+    "tools": [ { "name": "wire", "instrument": "cook-j" } ],
+    "steps": [
+      { "do": "turn", "tool": "wire", "turn_deg_s": -400, "until": [{ "turned_deg": 100 }], "timeout_s": 1 },
+      { "do": "turn", "tool": "wire", "turn_deg_s": -400, "until": [{ "turned_deg": 300 }], "timeout_s": 1 },
+      { "do": "turn", "tool": "wire", "turn_deg_s": 400, "until": [{ "hub_within_deg": 10 }], "timeout_s": 2 } ] })");
+  ScriptedRun run(setup, tube_vessel());
+  while (run.tick()) {}
+  EXPECT_EQ(run.outcome, Outcome::success) << reason(run.plan, run.hands);
+  // A whole turn counts, so -400 degrees are not near 0; two steps late at most, of 0.4 degrees each.
+  EXPECT_NEAR(run.state.hands[0].turned_rad * 180 / EIGEN_PI, -10, 0.9);
+}
+
 /// The step of a wait's end when the tip is carried to `at(step)` mm further and the hand by `hand(step)` mm.
 template <class At, class Hand>
 std::uint64_t ends_waiting(const std::string& until, At&& at, Hand&& hand) {
