@@ -223,7 +223,8 @@ TEST(Operator, TurnsAHubBackToHowItCameIn) {
       { "do": "turn", "tool": "wire", "turn_deg_s": -400, "until": [{ "turned_deg": 300 }], "timeout_s": 1 },
       { "do": "turn", "tool": "wire", "turn_deg_s": 400, "until": [{ "hub_within_deg": 10 }], "timeout_s": 2 } ] })");
   ScriptedRun run(setup, tube_vessel());
-  while (run.tick()) {}
+  while (run.tick()) {
+  }
   EXPECT_EQ(run.outcome, Outcome::success) << reason(run.plan, run.hands);
   // A whole turn counts, so -400 degrees are not near 0; two steps late at most, of 0.4 degrees each.
   EXPECT_NEAR(run.state.hands[0].turned_rad * 180 / EIGEN_PI, -10, 0.9);
