@@ -71,7 +71,7 @@ int make_film(const ReplayOptions& o, Replay& replay) {
     film.listen(replay.model, replay.state, replay.inputs);
     const double now = seconds(replay.model, replay.state);
     if (now < from_s - 1e-9 || !is_frame(replay.state.rods.step, options.frames_per_s, replay.model.step_s())) continue;
-    last = film.frame(replay.model, replay.state, replay.inputs);
+    last = film.frame(replay.model, replay.state, replay.inputs, options.overlay ? replay.xrays() : XrayUse{});
     ++frames;
     if (writer) writer->add(last);
     if (!o.dicom.empty()) run.frames.push_back(last);

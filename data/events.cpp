@@ -11,7 +11,7 @@ const std::vector<EventDefinition>& event_definitions() {
       {EventCode::mark, "mark", "the operator or trainer marks this moment", "step of the script, from 0"},
       {EventCode::tool_in, "tool_in", "a tool's tip leaves the introducer into the vessel", ""},
       {EventCode::tool_out, "tool_out", "a tool has been drawn out", ""},
-      {EventCode::tip_enters, "tip_enters", "a tip comes into another branch of the tree", "branch, from 0"},
+      {EventCode::tip_enters, "tip_enters", "a tip has been in another branch of the tree for 0.3 s", "branch, from 0"},
       {EventCode::wall_force_high, "wall_force_high",
        "the sum of wall forces on a tool, behind a low pass of 10 Hz, rises above 1 N; again only after it was below "
        "0.8 N",

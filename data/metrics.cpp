@@ -309,13 +309,13 @@ const std::vector<MetricDefinition>& metric_definitions() {
       {"procedure_time_s", "s", "simulated time from the first step to the last; pauses are no steps",
        [](const RunRecord& r) { return static_cast<double>(r.steps) * r.step_s; }},
       {"ascent_time_s", "s",
-       "from the first tool in the body until a tip first comes into a sinus or a coronary artery",
+       "from the first tool in the body until a tip has first been in a sinus or a coronary artery for 0.3 s",
        [](const RunRecord& r) {
          return time_of_first(r, EventCode::tip_enters,
                               {"left sinus", "right sinus", "non-coronary sinus", "LM", "RCA"}) -
                 time_of_first(r, EventCode::tool_in, {});
        }},
-      {"cannulation_time_s", "s", "from the first tool in the body until a tip first enters LM or RCA",
+      {"cannulation_time_s", "s", "from the first tool in the body until a tip has first been in LM or RCA for 0.3 s",
        [](const RunRecord& r) {
          return time_of_first(r, EventCode::tip_enters, {"LM", "RCA"}) - time_of_first(r, EventCode::tool_in, {});
        }},

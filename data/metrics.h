@@ -69,6 +69,9 @@ enum class EventCode : int {
 inline constexpr double wall_force_limit_N = 1.0;
 inline constexpr double wall_force_cut_off_Hz = 10;  ///< of the first-order low pass that forces are judged behind
 
+/// So long a tip is in another branch of the tree before it counts as having come there, s.
+inline constexpr double tip_settles_s = 0.3;
+
 /// Flow behind the lesion below this share of what the muscle needs counts as none.
 inline constexpr double occluded_share = 0.05;
 

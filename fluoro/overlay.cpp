@@ -67,7 +67,7 @@ std::string text(const char* format, Values... values) {
 }
 
 std::string minutes(double seconds) {
-  const long whole = std::lround(seconds);
+  const auto whole = static_cast<long>(seconds);  // that are over
   return text("%ld:%02ld", whole / 60, whole % 60);
 }
 
@@ -110,7 +110,8 @@ void draw_overlay(const OverlayText& t, Picture& picture) {
   if (t.xray_on) radiation_sign(sheet.pen(), right - 0.9 * size, margin + size + 3.2 * line, 0.95 * size);
 
   sheet.write(margin, bottom - line, size, "fluoro " + minutes(t.dose.fluoroscopy_s));
-  sheet.write(margin, bottom, size, text("cine %ld f, %ld runs", t.dose.cine_frames, t.dose.cine_runs));
+  sheet.write(margin, bottom, size,
+              text("cine %ld f, %ld run%s", t.dose.cine_frames, t.dose.cine_runs, t.dose.cine_runs == 1 ? "" : "s"));
   sheet.write(right, bottom - line, size, text("DAP %.2f Gy cm\u00b2", 1e4 * t.dose.dose_area_Gy_m2), true);
   sheet.write(right, bottom, size, text("AK %.1f mGy", 1e3 * t.dose.kerma_Gy), true);
   sheet.lay_over(picture, 0);

@@ -1,5 +1,6 @@
 #include "app/session/dose.h"
 
+#include <cmath>
 #include <stdexcept>
 
 #include "app/session/film.h"
@@ -19,33 +20,49 @@ void XrayUse::add(const CArmInputs& arm, std::uint64_t step, double step_s) {
   poses_.push_back({arm, 1});
 }
 
-Dosimeter::Dosimeter(std::shared_ptr<const Vessel> vessel) : vessel_(std::move(vessel)) {
-  if (vessel_->patient) patient_ = std::make_unique<const XrayPatient>(vessel_->patient, Fill::none);
-}
+Dosimeter::Dosimeter(std::shared_ptr<const Vessel> vessel)
+    : scene_(std::make_unique<const Scene>(vessel->patient ? XrayPatient(vessel->patient, Fill::none).at(0)
+                                                           : scene_of_mesh(*vessel))) {}
 
 Dosimeter::~Dosimeter() = default;
 
+std::optional<Exposure> Dosimeter::exposure(const CArmInputs& arm) const {
+  View view;
+  view.arm.lao_rad = arm.lao_rad, view.arm.cran_rad = arm.cran_rad, view.arm.p_PI = arm.p_PI;
+  view.field_m = arm.field_m;
+  try {
+    require_reachable(view.arm);
+  } catch (const std::invalid_argument&) {
+    return {};
+  }
+  Imager imager({}, make_scanline_renderer());
+  return imager.exposure({.scene = *scene_,
+                          .view = view,
+                          .collimator = {},
+                          .programme = arm.cine > 0 ? cine(frames_per_s) : fluoroscopy(frames_per_s),
+                          .seed = 1});
+}
+
 void Dosimeter::measure(const XrayUse& use, RunRecord& record) const {
   record.kerma_Gy = record.dose_area_Gy_m2 = 0;
-  if (use.poses().empty()) return;
-  const Scene scene = patient_ ? patient_->at(0) : scene_of_mesh(*vessel_);
-  Imager imager({}, make_scanline_renderer());
-  for (const XrayUse::Pose& pose : use.poses()) {
-    View view;
-    view.arm.lao_rad = pose.arm.lao_rad, view.arm.cran_rad = pose.arm.cran_rad, view.arm.p_PI = pose.arm.p_PI;
-    view.field_m = pose.arm.field_m;
-    try {
-      require_reachable(view.arm);
-    } catch (const std::invalid_argument&) {
-      continue;
-    }
-    const Exposure e = imager.exposure({.scene = scene,
-                                        .view = view,
-                                        .collimator = {},
-                                        .programme = pose.arm.cine > 0 ? cine(frames_per_s) : fluoroscopy(frames_per_s),
-                                        .seed = 1});
-    record.kerma_Gy += pose.frames * e.kerma_Gy, record.dose_area_Gy_m2 += pose.frames * e.dose_area_Gy_m2;
+  for (const XrayUse::Pose& pose : use.poses())
+    if (const auto e = exposure(pose.arm))
+      record.kerma_Gy += pose.frames * e->kerma_Gy, record.dose_area_Gy_m2 += pose.frames * e->dose_area_Gy_m2;
+}
+
+DoseMeter RunningDose::of(const XrayUse& use, const CArmState& arm) {
+  DoseMeter dose;
+  dose.fluoroscopy_s = arm.fluoroscopy_s;
+  dose.cine_runs = std::lround(arm.cine_runs);
+  for (std::size_t i = 0; i < use.poses().size(); ++i) {
+    const XrayUse::Pose& pose = use.poses()[i];
+    if (i == of_pose_.size()) of_pose_.push_back(dosimeter_.exposure(pose.arm));
+    if (pose.arm.cine > 0) dose.cine_frames += std::lround(pose.frames);
+    if (!of_pose_[i]) continue;
+    dose.kerma_Gy += pose.frames * of_pose_[i]->kerma_Gy;
+    dose.dose_area_Gy_m2 += pose.frames * of_pose_[i]->dose_area_Gy_m2;
   }
+  return dose;
 }
 
 }  // namespace ostium

@@ -2,10 +2,12 @@
 /// Dose of a run, drawn or not: how many frames were taken in which pose, and what one costs there. A frame's dose is
 /// that of automatic exposure on a coarse grid of rays through the patient at end-diastole, without instruments.
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "app/session/session.h"
 #include "data/metrics.h"
+#include "fluoro/exposure.h"
 
 namespace ostium {
 
@@ -27,19 +29,30 @@ class XrayUse {
 
 inline constexpr double frames_per_s = 15;  ///< until the operator can choose
 
-class XrayPatient;
-
 /// Of one vessel; may be used by several threads.
 class Dosimeter {
  public:
   explicit Dosimeter(std::shared_ptr<const Vessel> vessel);
   ~Dosimeter();
-  /// Adds up. Poses that cannot be reached cost nothing.
+  /// Of a frame; nothing: a pose that cannot be reached, which costs nothing.
+  std::optional<Exposure> exposure(const CArmInputs& arm) const;
+  /// Adds up.
   void measure(const XrayUse& use, RunRecord& record) const;
 
  private:
-  std::shared_ptr<const Vessel> vessel_;
-  std::unique_ptr<const XrayPatient> patient_;  ///< null: a mesh
+  std::unique_ptr<const Scene> scene_;
+};
+
+/// What a run that goes on has used so far, for whoever watches it. What a frame costs in a pose is worked out once.
+class RunningDose {
+ public:
+  explicit RunningDose(std::shared_ptr<const Vessel> vessel) : dosimeter_(std::move(vessel)) {}
+  /// `use` of the same run at each call.
+  DoseMeter of(const XrayUse& use, const CArmState& arm);
+
+ private:
+  Dosimeter dosimeter_;
+  std::vector<std::optional<Exposure>> of_pose_;
 };
 
 }  // namespace ostium

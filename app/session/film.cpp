@@ -8,7 +8,9 @@
 namespace ostium {
 
 struct Film::Parts {
-  explicit Parts(const FilmOptions& o) : options(o), imager({}, make_scanline_renderer()) {}
+  Parts(const SessionModel& model, const FilmOptions& o) : options(o), imager({}, make_scanline_renderer()) {
+    if (o.overlay) running_dose.emplace(model.vessel);
+  }
   FilmOptions options;
   std::unique_ptr<PatientScene> patient;      ///< with the blood and the contrast of the session,
   std::unique_ptr<const XrayPatient> filled;  ///< or a tree full of contrast, whatever was injected,
@@ -20,8 +22,11 @@ struct Film::Parts {
   View view;
   Picture picture;
   Monitor monitor;
+  std::optional<RunningDose> running_dose;
+  DoseMeter dose;
+  bool is_cine = false;
 
-  Programme programme() const { return options.cine ? cine(options.frames_per_s) : fluoroscopy(options.frames_per_s); }
+  Programme programme() const { return is_cine ? cine(options.frames_per_s) : fluoroscopy(options.frames_per_s); }
 };
 
 bool is_frame(std::uint64_t step, double frames_per_s, double step_s) {
@@ -30,7 +35,7 @@ bool is_frame(std::uint64_t step, double frames_per_s, double step_s) {
   return static_cast<std::uint64_t>(std::llround(static_cast<double>(frame) * per_frame)) == step;
 }
 
-Film::Film(const SessionModel& model, const FilmOptions& options) : parts_(std::make_unique<Parts>(options)) {
+Film::Film(const SessionModel& model, const FilmOptions& options) : parts_(std::make_unique<Parts>(model, options)) {
   require_rate(options.frames_per_s);
   if (model.has_patient() && options.fill == Fill::none)
     parts_->patient = std::make_unique<PatientScene>(*model.vessel->patient, model.physiology);
@@ -42,7 +47,8 @@ Film::Film(const SessionModel& model, const FilmOptions& options) : parts_(std::
 
 Film::~Film() = default;
 
-const Picture& Film::frame(const SessionModel& model, const SessionState& state, const SessionInputs& inputs) {
+const Picture& Film::frame(const SessionModel& model, const SessionState& state, const SessionInputs& inputs,
+                           const XrayUse& xrays) {
   Parts& p = *parts_;
   const FilmOptions& o = p.options;
   Scene other;
@@ -58,12 +64,12 @@ const Picture& Film::frame(const SessionModel& model, const SessionState& state,
   p.view.arm.p_PI = o.p_PI.value_or(arm.p_PI);
   p.view.field_m = o.field_m.value_or(arm.field_m);
   p.view.pixels = o.pixels;
-  const bool on = o.always_on || arm.fluoroscopy > 0 || arm.cine > 0,
-             is_cine = o.cine || (!o.always_on && arm.cine > 0);
+  const bool on = o.always_on || arm.fluoroscopy > 0 || arm.cine > 0;
+  p.is_cine = o.cine || arm.cine > 0;
   const FluoroscopeInput in{.scene = scene,
                             .view = p.view,
                             .collimator = {},
-                            .pedals = {.fluoroscopy = on && !is_cine, .cine = on && is_cine},
+                            .pedals = {.fluoroscopy = on && !p.is_cine, .cine = on && p.is_cine},
                             .fluoroscopy_per_s = o.frames_per_s,
                             .cine_per_s = o.frames_per_s,
                             .beat_phase = state.blood.heart.phase,
@@ -76,9 +82,10 @@ const Picture& Film::frame(const SessionModel& model, const SessionState& state,
     p.picture.width = p.picture.height = o.pixels;
     p.picture.grey.assign(static_cast<std::size_t>(o.pixels) * o.pixels, 0);
   }
-  if (o.overlay)
-    draw_overlay({p.view, p.programme(), p.report.exposure, p.state.dose, report.xray_on, "", model.vessel->name},
-                 p.picture);
+  if (p.running_dose) {
+    p.dose = p.running_dose->of(xrays, state.c_arm);
+    draw_overlay({p.view, p.programme(), p.report.exposure, p.dose, report.xray_on, "", model.vessel->name}, p.picture);
+  }
   if (o.monitor && model.has_patient())
     append_strips({p.monitor.II, p.monitor.V2, p.monitor.guide, p.monitor.gauge}, monitor_s, monitor_pixels, p.picture);
   return p.picture;
@@ -95,6 +102,6 @@ int Film::height() const {
 }
 
 CineRun Film::run() const { return {parts_->view, parts_->programme(), parts_->report.exposure, {}}; }
-const DoseMeter& Film::dose() const { return parts_->state.dose; }
+const DoseMeter& Film::dose() const { return parts_->dose; }
 
 }  // namespace ostium

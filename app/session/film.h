@@ -3,6 +3,7 @@
 /// never to a clock, so a film is the same whenever it is made.
 #include <memory>
 
+#include "app/session/dose.h"
 #include "app/session/monitor.h"
 #include "app/session/xray_scene.h"
 #include "fluoro/fluoroscope.h"
@@ -37,10 +38,12 @@ class Film {
   void listen(const SessionModel& model, const SessionState& state, const SessionInputs& inputs);
   Monitor& monitor();  ///< what it has heard
   int height() const;  ///< of a frame, pixels; it is `pixels` wide
-  /// The state as a picture. Throws std::invalid_argument as fluoro's `tick` does.
-  const Picture& frame(const SessionModel& model, const SessionState& state, const SessionInputs& inputs);
-  CineRun run() const;  ///< with the last exposure, without frames
-  const DoseMeter& dose() const;
+  /// The state as a picture; `xrays`: what the run has used by then, shown or not, for the overlay's times and dose.
+  /// Throws std::invalid_argument as fluoro's `tick` does.
+  const Picture& frame(const SessionModel& model, const SessionState& state, const SessionInputs& inputs,
+                       const XrayUse& xrays = {});
+  CineRun run() const;            ///< with the last exposure, without frames
+  const DoseMeter& dose() const;  ///< as the last overlay said
 
  private:
   struct Parts;

@@ -17,6 +17,7 @@ struct Exposed {
   SessionState state;
   SessionInputs inputs;
   Monitor monitor;
+  XrayUse xrays;
 };
 
 }  // namespace
@@ -30,7 +31,8 @@ struct Filming::Parts {
   VideoWriter video;
   double rate;
   Driver* inner;
-  Monitor monitor;  // of the thread that steps
+  Monitor monitor;  // of the thread that steps, and
+  XrayUse xrays;
   std::array<Exposed, places> queue;
   std::counting_semaphore<places> free{places}, taken{0};
   int next = 0;
@@ -45,7 +47,7 @@ struct Filming::Parts {
       Exposed& e = queue[static_cast<std::size_t>(at)];
       try {
         film.monitor() = e.monitor;
-        if (problem.empty()) video.add(film.frame(model, e.state, e.inputs));
+        if (problem.empty()) video.add(film.frame(model, e.state, e.inputs, e.xrays));
       } catch (const std::exception& error) {
         problem = error.what();
       }
@@ -66,10 +68,11 @@ bool Filming::drive(const SessionModel& model, const SessionState& state, const 
   Parts& p = *parts_;
   if (p.inner && !p.inner->drive(model, state, report, inputs)) return false;
   p.monitor.listen(model, state, inputs);
+  p.xrays.add(inputs.c_arm, state.rods.step + 1, model.step_s());
   if (is_frame(state.rods.step, p.rate, model.step_s())) {
     p.free.acquire();
     Exposed& e = p.queue[static_cast<std::size_t>(p.next)];
-    e.state = state, e.inputs = inputs, e.monitor = p.monitor;
+    e.state = state, e.inputs = inputs, e.monitor = p.monitor, e.xrays = p.xrays;
     p.next = (p.next + 1) % places;
     p.taken.release();
   }

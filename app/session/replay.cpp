@@ -46,6 +46,22 @@ std::size_t input_count_of(const SessionInputs& inputs) {
   return count;
 }
 
+/// What was used in the steps from `from` to `to`.
+void add_xrays(const RecordingReader& recording, const SessionModel& model, std::size_t from, std::size_t to,
+               XrayUse& xrays) {
+  constexpr std::size_t at_once = 10000;
+  SessionInputs inputs;
+  inputs.tools.resize(model.tools.size());
+  const std::size_t width = input_count_of(inputs);
+  while (from < to) {
+    const std::vector<double> rows = recording.inputs(from, std::min(at_once, to - from));
+    for (std::size_t at = 0; at < rows.size(); at += width) {
+      take_inputs(rows.data() + at, inputs);
+      xrays.add(inputs.c_arm, ++from, recording.step_s());
+    }
+  }
+}
+
 }  // namespace
 
 Replay::Replay(const std::string& file, std::shared_ptr<const Vessel> vessel)
@@ -88,6 +104,13 @@ bool Replay::tick() {
   return true;
 }
 
+const XrayUse& Replay::xrays() {
+  if (xrays_to_ > state.rods.step) xrays_ = {}, xrays_to_ = 0;
+  add_xrays(recording, model, xrays_to_, state.rods.step, xrays_);
+  xrays_to_ = state.rods.step;
+  return xrays_;
+}
+
 VerifyReport verify(Replay& replay, const std::function<void(const Replay&)>& progress) {
   VerifyReport out;
   while (replay.tick()) {
@@ -116,13 +139,7 @@ RunRecord record_of(const RecordingReader& recording, const SessionModel& model)
                    .branches = {}};
   for (const TreeBranch& branch : model.vessel->way->branches()) record.branches.push_back(branch.name);
   XrayUse xrays;
-  SessionInputs inputs;
-  inputs.tools.resize(model.tools.size());
-  const std::vector<double> rows = recording.inputs(0, recording.steps());
-  for (std::size_t step = 0; step < recording.steps(); ++step) {
-    take_inputs(rows.data() + step * input_count_of(inputs), inputs);
-    xrays.add(inputs.c_arm, step + 1, record.step_s);
-  }
+  add_xrays(recording, model, 0, recording.steps(), xrays);
   if (!xrays.poses().empty()) Dosimeter(model.vessel).measure(xrays, record);
   return record;
 }

@@ -3,6 +3,7 @@
 #include <functional>
 #include <optional>
 
+#include "app/session/dose.h"
 #include "app/session/run.h"
 #include "data/metrics.h"
 #include "data/recording/recording.h"
@@ -19,6 +20,8 @@ class Replay {
   void go_to(double second);
   /// One step of the recording. False: there are no more.
   bool tick();
+  /// What the run has used by now, also before a state that was gone to.
+  const XrayUse& xrays();
 
   const RecordingReader recording;
   const RunSetup setup;
@@ -35,6 +38,8 @@ class Replay {
   std::size_t first_ = 0;  ///< step of the first row that was read
   std::vector<double> rows_;
   std::vector<std::uint64_t> hashes_;
+  XrayUse xrays_;
+  std::size_t xrays_to_ = 0;  ///< step
 };
 
 struct VerifyReport {

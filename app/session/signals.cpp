@@ -270,8 +270,7 @@ void EventWatch::look(const SessionModel& model, const SessionInputs& inputs, co
     if (!looks) continue;
     const int sphere = handling_.scene().tools[static_cast<std::size_t>(t)].sphere;
     const int branch = tool.in_body ? model.vessel->way->branch(sphere) : -1;
-    if (branch >= 0 && branch != before.branch) say(EventCode::tip_enters, t, branch);
-    before.branch = branch;
+    if (before.branch.comes_to(branch, now, model.step_s())) say(EventCode::tip_enters, t, branch);
   }
   const CArmInputs& arm = inputs.c_arm;
   if (arm.fluoroscopy != fluoroscopy_)

@@ -7,6 +7,7 @@
 
 #include "app/session/handling/handling.h"
 #include "app/session/operator.h"
+#include "app/session/settled_branch.h"
 
 namespace ostium {
 
@@ -28,7 +29,7 @@ class EventWatch {
  private:
   struct Tool {
     bool in_body = false, pressed = false;
-    int branch = -1;
+    SettledBranch branch;
     double wall_force_N = 0;  ///< behind the low pass that metrics use
   };
   std::vector<Tool> tools_;

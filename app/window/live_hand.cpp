@@ -73,6 +73,7 @@ bool LiveHand::drive(const SessionModel& model, const SessionState& state, const
   last_ = std::chrono::steady_clock::now();
   if (inner_ && !inner_->drive(model, state, report, inputs)) return false;
   if (plays_) play(model, inputs);
+  xrays_.add(inputs.c_arm, state.rods.step + 1, model.step_s());
   if (report.refused >= 0) refused_ = report.refused, in_its_way_ = report.in_its_way, refused_at_ = state.rods.step;
   if (state.rods.step > refused_at_ + 1000) refused_ = -1;
 
@@ -194,6 +195,7 @@ void LiveHand::show(const SessionModel& model, const SessionState& state, const 
   Snapshot& s = snapshots_.to_fill();
   s.state = state;
   s.inputs = inputs;
+  s.xrays = xrays_;
   if (plays_) s.inputs.c_arm.lao_rad = arm_.lao_rad, s.inputs.c_arm.cran_rad = arm_.cran_rad;
   put_signals(model, state, inputs, report, s.signals.data());
   for (std::size_t t = 0; t < report.tools.size(); ++t) s.in_body[t] = report.tools[t].in_body;

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "app/session/dose.h"
 #include "app/session/run.h"
 #include "app/session/signals.h"
 #include "app/window/controls.h"
@@ -23,6 +24,7 @@ inline constexpr int strip_samples = 500;  ///< at 100 a second
 struct Snapshot {
   SessionState state;
   SessionInputs inputs;
+  XrayUse xrays;                         ///< by then, shown or not
   std::vector<char> in_body;             ///< (#tools)
   std::vector<float> signals;            ///< as signal_names says
   std::vector<float> ecg_mV, line_mmHg;  ///< of the last 5 s, oldest first; not a number: no trace
@@ -69,6 +71,7 @@ class LiveHand : public Driver {
   std::chrono::steady_clock::time_point last_{};
   std::size_t ecg_at_, line_at_;
   std::vector<float> row_, ecg_, line_;
+  XrayUse xrays_;
   Latest<Snapshot> snapshots_;
 };
 

@@ -66,12 +66,6 @@ class Pen {
   std::unique_ptr<cairo_t, void (*)(cairo_t*)> cairo_;
 };
 
-double signal(const PanelTexts& texts, const Snapshot& now, const std::string& name) {
-  const auto at = std::find(texts.signal_names.begin(), texts.signal_names.end(), name);
-  if (at == texts.signal_names.end()) return NAN;
-  return now.signals[static_cast<std::size_t>(at - texts.signal_names.begin())];
-}
-
 std::string minutes(double s) { return fmt::format("{}:{:02d}", static_cast<int>(s) / 60, static_cast<int>(s) % 60); }
 
 void draw_strip(const Pen& pen, const std::vector<float>& samples, const Colour& c, double least, double most,
@@ -142,7 +136,8 @@ void draw_numbers(const Pen& pen, const PanelTexts& texts, const Snapshot& now, 
   std::vector<Entry> entries;
   entries.push_back({"time", minutes(signal(texts, now, "time_s"))});
   entries.push_back({"fluoroscopy", minutes(now.state.c_arm.fluoroscopy_s)});
-  entries.push_back({"cine", fmt::format("{:.0f} runs, {:.1f} s", now.state.c_arm.cine_runs, now.state.c_arm.cine_s)});
+  entries.push_back({"cine", fmt::format("{:.0f} run{}, {:.1f} s", now.state.c_arm.cine_runs,
+                                         now.state.c_arm.cine_runs == 1 ? "" : "s", now.state.c_arm.cine_s)});
   entries.push_back({"DAP", fmt::format("{:.2f} Gy cm²", view.dose.dose_area_Gy_m2 * 1e4)});
   const double gauge = signal(texts, now, "gauge_atm");
   if (gauge == gauge) {
@@ -195,6 +190,12 @@ const std::vector<KeyHelp>& key_help() {
       {"F1", "these keys"},
   };
   return all;
+}
+
+double signal(const PanelTexts& texts, const Snapshot& now, const std::string& name) {
+  const auto at = std::find(texts.signal_names.begin(), texts.signal_names.end(), name);
+  if (at == texts.signal_names.end()) return NAN;
+  return now.signals[static_cast<std::size_t>(at - texts.signal_names.begin())];
 }
 
 PanelTexts panel_texts(const SessionModel& model, const ScriptPlan& plan, const LiveHand& hand, bool plays) {

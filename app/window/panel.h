@@ -24,6 +24,9 @@ struct PanelTexts {
 };
 PanelTexts panel_texts(const SessionModel& model, const ScriptPlan& plan, const LiveHand& hand, bool plays);
 
+/// One of Snapshot::signals; not a number where the run has none of that name.
+double signal(const PanelTexts& texts, const Snapshot& now, const std::string& name);
+
 struct PanelView {
   const Picture* picture = nullptr;    ///< live; null: none yet
   const Picture* reference = nullptr;  ///< null: none

@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "app/session/film.h"
+#include "app/window/reference.h"
 #include "data/png.h"
 
 namespace ostium {
@@ -262,7 +263,8 @@ long show_window(const SessionModel& model, const ScriptPlan& plan, LiveHand& ha
   Film film(model, film_options);
   const PanelTexts texts = panel_texts(model, plan, hand, options.plays);
   Events events(hand);
-  Picture picture, reference, faded;
+  Picture picture, faded;
+  Reference reference;
   double shown_brightness = 1;
   std::string shown_problem;
   std::vector<std::uint32_t> pixels;
@@ -282,18 +284,19 @@ long show_window(const SessionModel& model, const ScriptPlan& plan, LiveHand& ha
     shown_brightness = brightness, shown_problem = problem;
     const Snapshot& now = latest.seen();
     if (fresh) {
-      const Picture& drawn = film.frame(model, now.state, now.inputs);
+      const Picture& drawn = film.frame(model, now.state, now.inputs, now.xrays);
       if (options.plays)
         keep(now, drawn, picture);
       else
         picture = drawn;
     }
-    if (events.reference) reference = picture, events.reference = false;
+    if (fresh) reference.take(picture, now.inputs.c_arm.cine > 0, signal(texts, now, "contrast_landmark"));
+    if (events.reference) reference.freeze(picture), events.reference = false;
     faded = picture;
     for (std::uint8_t& grey : faded.grey) grey = static_cast<std::uint8_t>(brightness * grey);
     draw_panel(texts, now,
                {.picture = faded.grey.empty() ? nullptr : &faded,
-                .reference = reference.grey.empty() ? nullptr : &reference,
+                .reference = reference.picture(),
                 .dose = film.dose(),
                 .problem = problem,
                 .help = events.help},

@@ -16,6 +16,7 @@
 #include <nlohmann/json.hpp>
 #include <random>
 
+#include "app/session/film.h"
 #include "app/session/play.h"
 #include "app/session/replay.h"
 #include "tests/session/tube_vessel.h"
@@ -71,6 +72,32 @@ TEST(Recording, ReplaysToTheBitFromAnySecond) {
   const std::string end = *replay.recording.end();
   const std::vector<Metric> again = metrics_of(record_of(replay.recording, replay.model));
   EXPECT_EQ(nlohmann::json::parse(metrics_json("tube", 0, "success", "", again)), nlohmann::json::parse(end));
+}
+
+/// The overlay's clocks and dose are the run's, whatever of it was drawn.
+TEST(Recording, AFilmOfItsEndSaysWhatTheWholeRunHasUsed) {
+  const Folder folder;
+  const PlayReport report = recorded(folder("run.h5"), RecordMode::full);
+  const auto metric = [&](const std::string& name) {
+    for (const Metric& m : report.metrics)
+      if (m.name == name) return m.value;
+    return -2.0;
+  };
+  Replay replay(folder("run.h5"), tube_vessel());
+  FilmOptions options;
+  options.pixels = 64;
+  Film film(replay.model, options);
+  replay.go_to(report.simulated_s);
+  while (replay.tick()) {
+  }
+  film.frame(replay.model, replay.state, replay.inputs, replay.xrays());
+  EXPECT_GT(metric("dap_Gy_cm2"), 0);
+  EXPECT_NEAR(1e4 * film.dose().dose_area_Gy_m2, metric("dap_Gy_cm2"), 1e-9);
+  EXPECT_NEAR(1e3 * film.dose().kerma_Gy, metric("air_kerma_mGy"), 1e-9);
+  EXPECT_NEAR(film.dose().fluoroscopy_s, metric("fluoroscopy_time_s"), 2e-3);
+  replay.go_to(1);  // back again
+  film.frame(replay.model, replay.state, replay.inputs, replay.xrays());
+  EXPECT_NEAR(1e4 * film.dose().dose_area_Gy_m2 / metric("dap_Gy_cm2"), 1 / report.simulated_s, 0.05);
 }
 
 TEST(Recording, OfEventsAloneReplaysFromTheBeginning) {

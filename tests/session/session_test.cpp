@@ -8,6 +8,7 @@
 
 #include "app/session/film.h"
 #include "app/session/play.h"
+#include "app/session/settled_branch.h"
 #include "tests/core/allocations.h"
 #include "tests/session/tube_vessel.h"
 
@@ -334,6 +335,23 @@ TEST(Session, AMeshThatIsFoldedThroughItselfIsRefused) {
 }
 
 /// A trunk from the access, a branch that leaves its wall at 5 mm from its axis.
+TEST(SettledBranch, CountsBranchesThatATipStaysIn) {
+  SettledBranch tip;
+  std::vector<int> came;
+  std::uint64_t step = 0;
+  const auto is_in = [&](int branch, int looks) {
+    for (int i = 0; i < looks; ++i, step += 10)
+      if (tip.comes_to(branch, step, 1e-3)) came.push_back(branch);
+  };
+  is_in(2, 100);
+  for (int i = 0; i < 50; ++i) is_in(5, 3), is_in(2, 3);
+  EXPECT_EQ(came, (std::vector<int>{2})) << "to and fro at the border is no coming";
+  is_in(5, 30);
+  EXPECT_EQ(came, (std::vector<int>{2})) << "29 looks after the first are 0.29 s";
+  is_in(5, 1), is_in(5, 100), is_in(-1, 1), is_in(5, 31);
+  EXPECT_EQ(came, (std::vector<int>{2, 5, 5})) << "out of the body it is at once";
+}
+
 TEST(Way, KnowsWhatIsBeyondWhat) {
   SphereTree tree;
   TreeBranch trunk{.name = "trunk", .spheres = {}},

@@ -1,9 +1,11 @@
 /// The live window without a screen: hands at keys, the picture of it, the exchange between threads.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <thread>
 
 #include "app/window/panel.h"
+#include "app/window/reference.h"
 #include "tests/session/tube_vessel.h"
 
 namespace ostium {
@@ -106,6 +108,30 @@ TEST(LiveHand, PauseStandsAndTheEndEnds) {
   EXPECT_FALSE(p.run.tick());
   EXPECT_EQ(p.run.outcome, Outcome::aborted);
   EXPECT_EQ(p.run.state.rods.step, 101u);
+}
+
+TEST(Panel, TheReferenceIsTheFullestOfTheLastCineUntilSomebodyChooses) {
+  Reference reference;
+  const auto shade = [](int grey) {
+    Picture p;
+    p.width = p.height = 1;
+    p.grey.assign(1, static_cast<std::uint8_t>(grey));
+    return p;
+  };
+  const auto shown = [&] { return reference.picture() ? reference.picture()->grey[0] : -1; };
+  reference.take(shade(1), false, 0.9);
+  EXPECT_EQ(shown(), -1) << "fluoroscopy";
+  for (const int k : {10, 11, 12, 13}) reference.take(shade(k), true, k == 12 ? 0.8 : 0.2);
+  EXPECT_EQ(shown(), -1) << "it goes on";
+  reference.take(shade(2), false, 0);
+  EXPECT_EQ(shown(), 12);
+  reference.take(shade(20), true, NAN), reference.take(shade(21), true, 0), reference.take(shade(2), false, 0);
+  EXPECT_EQ(shown(), 12) << "a run without contrast";
+  reference.take(shade(30), true, 0.1), reference.take(shade(2), false, 0);
+  EXPECT_EQ(shown(), 30) << "the last run, however full the one before";
+  reference.freeze(shade(40));
+  reference.take(shade(50), true, 0.9), reference.take(shade(2), false, 0);
+  EXPECT_EQ(shown(), 40);
 }
 
 TEST(Panel, ShowsPictureToolsAndWhatIsWrong) {
