@@ -222,7 +222,7 @@ int sweep_command(const SweepOptions& o) {
     say("building " + sweep.vessels[v].vessel);
     std::string warnings;
     const auto vessel = make_vessel(sweep.vessels[v], warnings);
-    const auto dosimeter = std::make_shared<const Dosimeter>(vessel);
+    const auto dosimeter = std::make_shared<const Dosimeter>(*vessel);
     std::atomic<std::size_t> next{0};
     const auto work = [&] {
       for (std::size_t i; (i = next++) < open.size() && !interrupted;) {

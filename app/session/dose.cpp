@@ -20,11 +20,8 @@ void XrayUse::add(const CArmInputs& arm, std::uint64_t step, double step_s) {
   poses_.push_back({arm, 1});
 }
 
-Dosimeter::Dosimeter(std::shared_ptr<const Vessel> vessel)
-    : scene_(std::make_unique<const Scene>(vessel->patient ? XrayPatient(vessel->patient, Fill::none).at(0)
-                                                           : scene_of_mesh(*vessel))) {}
-
-Dosimeter::~Dosimeter() = default;
+Dosimeter::Dosimeter(const Vessel& vessel)
+    : scene_(vessel.patient ? XrayPatient(vessel.patient, Fill::none).at(0) : scene_of_mesh(vessel)) {}
 
 std::optional<Exposure> Dosimeter::exposure(const CArmInputs& arm) const {
   View view;
@@ -36,7 +33,7 @@ std::optional<Exposure> Dosimeter::exposure(const CArmInputs& arm) const {
     return {};
   }
   Imager imager({}, make_scanline_renderer());
-  return imager.exposure({.scene = *scene_,
+  return imager.exposure({.scene = scene_,
                           .view = view,
                           .collimator = {},
                           .programme = arm.cine > 0 ? cine(frames_per_s) : fluoroscopy(frames_per_s),

@@ -1,7 +1,6 @@
 #pragma once
 /// Dose of a run, drawn or not: how many frames were taken in which pose, and what one costs there. A frame's dose is
 /// that of automatic exposure on a coarse grid of rays through the patient at end-diastole, without instruments.
-#include <memory>
 #include <optional>
 #include <vector>
 
@@ -32,21 +31,20 @@ inline constexpr double frames_per_s = 15;  ///< until the operator can choose
 /// Of one vessel; may be used by several threads.
 class Dosimeter {
  public:
-  explicit Dosimeter(std::shared_ptr<const Vessel> vessel);
-  ~Dosimeter();
+  explicit Dosimeter(const Vessel& vessel);
   /// Of a frame; nothing: a pose that cannot be reached, which costs nothing.
   std::optional<Exposure> exposure(const CArmInputs& arm) const;
   /// Adds up.
   void measure(const XrayUse& use, RunRecord& record) const;
 
  private:
-  std::unique_ptr<const Scene> scene_;
+  Scene scene_;
 };
 
 /// What a run that goes on has used so far, for whoever watches it. What a frame costs in a pose is worked out once.
 class RunningDose {
  public:
-  explicit RunningDose(std::shared_ptr<const Vessel> vessel) : dosimeter_(std::move(vessel)) {}
+  explicit RunningDose(const Vessel& vessel) : dosimeter_(vessel) {}
   /// `use` of the same run at each call.
   DoseMeter of(const XrayUse& use, const CArmState& arm);
 

@@ -9,7 +9,7 @@ namespace ostium {
 
 struct Film::Parts {
   Parts(const SessionModel& model, const FilmOptions& o) : options(o), imager({}, make_scanline_renderer()) {
-    if (o.overlay) running_dose.emplace(model.vessel);
+    if (o.overlay) running_dose.emplace(*model.vessel);
   }
   FilmOptions options;
   std::unique_ptr<PatientScene> patient;      ///< with the blood and the contrast of the session,

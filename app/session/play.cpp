@@ -92,7 +92,7 @@ PlayReport play(ScriptedRun& run, const RunSetup& setup, const PlayOptions& opti
   out.times.most_ms = bins.most_ms(), out.times.mean_ms = bins.mean_ms();
   RunRecord record = recorder.record();
   if (!xrays.poses().empty()) {
-    const auto own = options.dosimeter ? nullptr : std::make_unique<const Dosimeter>(run.model.vessel);
+    const auto own = options.dosimeter ? nullptr : std::make_unique<const Dosimeter>(*run.model.vessel);
     (own ? *own : *options.dosimeter).measure(xrays, record);
   }
   out.metrics = metrics_of(record);

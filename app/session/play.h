@@ -2,6 +2,7 @@
 /// The loop around a run: pace, recording, times, the end.
 #include <atomic>
 #include <functional>
+#include <memory>
 
 #include "app/session/dose.h"
 #include "app/session/recorder.h"

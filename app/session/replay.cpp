@@ -140,7 +140,7 @@ RunRecord record_of(const RecordingReader& recording, const SessionModel& model)
   for (const TreeBranch& branch : model.vessel->way->branches()) record.branches.push_back(branch.name);
   XrayUse xrays;
   add_xrays(recording, model, 0, recording.steps(), xrays);
-  if (!xrays.poses().empty()) Dosimeter(model.vessel).measure(xrays, record);
+  if (!xrays.poses().empty()) Dosimeter(*model.vessel).measure(xrays, record);
   return record;
 }
 
