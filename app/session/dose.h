@@ -2,6 +2,7 @@
 /// Dose of a run, drawn or not: how many frames were taken in which pose, and what one costs there. A frame's dose is
 /// that of automatic exposure on a coarse grid of rays through the patient at end-diastole, without instruments.
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "app/session/session.h"
@@ -31,7 +32,8 @@ inline constexpr double frames_per_s = 15;  ///< until the operator can choose
 /// Of one vessel; may be used by several threads.
 class Dosimeter {
  public:
-  explicit Dosimeter(const Vessel& vessel);
+  explicit Dosimeter(const Vessel& vessel);  ///< takes some seconds
+  explicit Dosimeter(Scene patient) : scene_(std::move(patient)) {}
   /// Of a frame; nothing: a pose that cannot be reached, which costs nothing.
   std::optional<Exposure> exposure(const CArmInputs& arm) const;
   /// Adds up.
@@ -44,7 +46,8 @@ class Dosimeter {
 /// What a run that goes on has used so far, for whoever watches it. What a frame costs in a pose is worked out once.
 class RunningDose {
  public:
-  explicit RunningDose(const Vessel& vessel) : dosimeter_(vessel) {}
+  /// `patient`: without instruments and contrast; whoever shows the run has it at hand.
+  explicit RunningDose(Scene patient) : dosimeter_(std::move(patient)) {}
   /// `use` of the same run at each call.
   DoseMeter of(const XrayUse& use, const CArmState& arm);
 

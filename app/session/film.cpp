@@ -8,9 +8,7 @@
 namespace ostium {
 
 struct Film::Parts {
-  Parts(const SessionModel& model, const FilmOptions& o) : options(o), imager({}, make_scanline_renderer()) {
-    if (o.overlay) running_dose.emplace(*model.vessel);
-  }
+  explicit Parts(const FilmOptions& o) : options(o), imager({}, make_scanline_renderer()) {}
   FilmOptions options;
   std::unique_ptr<PatientScene> patient;      ///< with the blood and the contrast of the session,
   std::unique_ptr<const XrayPatient> filled;  ///< or a tree full of contrast, whatever was injected,
@@ -35,7 +33,7 @@ bool is_frame(std::uint64_t step, double frames_per_s, double step_s) {
   return static_cast<std::uint64_t>(std::llround(static_cast<double>(frame) * per_frame)) == step;
 }
 
-Film::Film(const SessionModel& model, const FilmOptions& options) : parts_(std::make_unique<Parts>(model, options)) {
+Film::Film(const SessionModel& model, const FilmOptions& options) : parts_(std::make_unique<Parts>(options)) {
   require_rate(options.frames_per_s);
   if (model.has_patient() && options.fill == Fill::none)
     parts_->patient = std::make_unique<PatientScene>(*model.vessel->patient, model.physiology);
@@ -43,6 +41,11 @@ Film::Film(const SessionModel& model, const FilmOptions& options) : parts_(std::
     parts_->filled = std::make_unique<const XrayPatient>(model.vessel->patient, options.fill, model.breaths_1_min > 0);
   else
     parts_->mesh = scene_of_mesh(*model.vessel);
+  if (!options.overlay) return;
+  const SessionState first = make_state(model, 0);
+  parts_->running_dose.emplace(parts_->patient  ? parts_->patient->at(first.blood, occupied_m(model, first))
+                               : parts_->filled ? parts_->filled->at(0)
+                                                : parts_->mesh);
 }
 
 Film::~Film() = default;
