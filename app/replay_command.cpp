@@ -41,7 +41,7 @@ FilmOptions film_options(const PictureOptions& o) {
   if (!std::isnan(o.cran_deg)) film.cran_rad = degree * o.cran_deg;
   if (!std::isnan(o.field_mm)) film.field_m = 1e-3 * o.field_mm;
   if (!o.table_mm.empty()) film.p_PI = 1e-3 * Eigen::Vector3d(o.table_mm[0], o.table_mm[1], o.table_mm[2]);
-  film.cine = o.cine;
+  if (o.cine) film.mode = Mode::cine;
   film.frames_per_s = o.frames_per_s;
   film.pixels = o.pixels;
   film.overlay = !o.plain;
@@ -57,7 +57,10 @@ bool is_still(const ReplayOptions& o) { return o.video.empty() && o.dicom.empty(
 /// Films until the recording or the time is over; of a still picture what is before it, whose lag it shows.
 int make_film(const ReplayOptions& o, Replay& replay) {
   FilmOptions options = film_options(o.picture);
-  if (!o.dicom.empty()) options.overlay = options.monitor = false;
+  if (!o.dicom.empty()) {
+    options.overlay = options.monitor = false;
+    if (!options.mode) options.mode = Mode::fluoroscopy;  // one header for all its frames
+  }
   say("building the patient's chest");
   Film film(replay.model, options);
   std::optional<VideoWriter> writer;
@@ -71,7 +74,7 @@ int make_film(const ReplayOptions& o, Replay& replay) {
     film.listen(replay.model, replay.state, replay.inputs);
     const double now = seconds(replay.model, replay.state);
     if (now < from_s - 1e-9 || !is_frame(replay.state.rods.step, options.frames_per_s, replay.model.step_s())) continue;
-    last = film.frame(replay.model, replay.state, replay.inputs, options.overlay ? replay.xrays() : XrayUse{});
+    last = film.frame(replay.model, replay.state, replay.inputs, replay.xrays());
     ++frames;
     if (writer) writer->add(last);
     if (!o.dicom.empty()) run.frames.push_back(last);

@@ -312,12 +312,14 @@ const std::vector<MetricDefinition>& metric_definitions() {
        "from the first tool in the body until a tip has first been in a sinus or a coronary artery for 0.3 s",
        [](const RunRecord& r) {
          return time_of_first(r, EventCode::tip_enters,
-                              {"left sinus", "right sinus", "non-coronary sinus", "LM", "RCA"}) -
+                              {"left sinus", "right sinus", "non-coronary sinus", "LM", "LAD", "LCx", "RCA"}) -
                 time_of_first(r, EventCode::tool_in, {});
        }},
-      {"cannulation_time_s", "s", "from the first tool in the body until a tip has first been in LM or RCA for 0.3 s",
+      {"cannulation_time_s", "s",
+       "from the first tool in the body until a tip has first been in LM, LAD, LCx or RCA for 0.3 s",
        [](const RunRecord& r) {
-         return time_of_first(r, EventCode::tip_enters, {"LM", "RCA"}) - time_of_first(r, EventCode::tool_in, {});
+         return time_of_first(r, EventCode::tip_enters, {"LM", "LAD", "LCx", "RCA"}) -
+                time_of_first(r, EventCode::tool_in, {});
        }},
       {"first_inflation_after_s", "s", "from the first tool in the body until the gauge first rises above 1 atm",
        [](const RunRecord& r) {

@@ -8,7 +8,7 @@
 namespace ostium {
 
 void XrayUse::add(const CArmInputs& arm, std::uint64_t step, double step_s) {
-  if (!(arm.fluoroscopy > 0 || arm.cine > 0) || !is_frame(step, frames_per_s, step_s)) return;
+  if (!(arm.fluoroscopy > 0 || arm.cine > 0) || !is_frame(step, dose_frames_per_s, step_s)) return;
   for (Pose& pose : poses_) {
     const CArmInputs& other = pose.arm;
     if (other.lao_rad != arm.lao_rad || other.cran_rad != arm.cran_rad || other.field_m != arm.field_m ||
@@ -23,7 +23,7 @@ void XrayUse::add(const CArmInputs& arm, std::uint64_t step, double step_s) {
 Dosimeter::Dosimeter(const Vessel& vessel)
     : scene_(vessel.patient ? XrayPatient(vessel.patient, Fill::none).at(0) : scene_of_mesh(vessel)) {}
 
-std::optional<Exposure> Dosimeter::exposure(const CArmInputs& arm) const {
+std::optional<Exposure> Dosimeter::exposure(Imager& imager, const CArmInputs& arm) const {
   View view;
   view.arm.lao_rad = arm.lao_rad, view.arm.cran_rad = arm.cran_rad, view.arm.p_PI = arm.p_PI;
   view.field_m = arm.field_m;
@@ -32,20 +32,22 @@ std::optional<Exposure> Dosimeter::exposure(const CArmInputs& arm) const {
   } catch (const std::invalid_argument&) {
     return {};
   }
-  Imager imager({}, make_scanline_renderer());
   return imager.exposure({.scene = scene_,
                           .view = view,
                           .collimator = {},
-                          .programme = arm.cine > 0 ? cine(frames_per_s) : fluoroscopy(frames_per_s),
+                          .programme = arm.cine > 0 ? cine(dose_frames_per_s) : fluoroscopy(dose_frames_per_s),
                           .seed = 1});
 }
 
 void Dosimeter::measure(const XrayUse& use, RunRecord& record) const {
   record.kerma_Gy = record.dose_area_Gy_m2 = 0;
+  Imager imager({}, make_scanline_renderer());
   for (const XrayUse::Pose& pose : use.poses())
-    if (const auto e = exposure(pose.arm))
+    if (const auto e = exposure(imager, pose.arm))
       record.kerma_Gy += pose.frames * e->kerma_Gy, record.dose_area_Gy_m2 += pose.frames * e->dose_area_Gy_m2;
 }
+
+RunningDose::RunningDose(Scene patient) : dosimeter_(std::move(patient)), imager_({}, make_scanline_renderer()) {}
 
 DoseMeter RunningDose::of(const XrayUse& use, const CArmState& arm) {
   DoseMeter dose;
@@ -53,7 +55,7 @@ DoseMeter RunningDose::of(const XrayUse& use, const CArmState& arm) {
   dose.cine_runs = std::lround(arm.cine_runs);
   for (std::size_t i = 0; i < use.poses().size(); ++i) {
     const XrayUse::Pose& pose = use.poses()[i];
-    if (i == of_pose_.size()) of_pose_.push_back(dosimeter_.exposure(pose.arm));
+    if (i == of_pose_.size()) of_pose_.push_back(dosimeter_.exposure(imager_, pose.arm));
     if (pose.arm.cine > 0) dose.cine_frames += std::lround(pose.frames);
     if (!of_pose_[i]) continue;
     dose.kerma_Gy += pose.frames * of_pose_[i]->kerma_Gy;

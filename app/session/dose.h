@@ -7,7 +7,7 @@
 
 #include "app/session/session.h"
 #include "data/metrics.h"
-#include "fluoro/exposure.h"
+#include "fluoro/imager.h"
 
 namespace ostium {
 
@@ -27,7 +27,7 @@ class XrayUse {
   std::vector<Pose> poses_;
 };
 
-inline constexpr double frames_per_s = 15;  ///< until the operator can choose
+inline constexpr double dose_frames_per_s = 15;  ///< until the operator can choose
 
 /// Of one vessel; may be used by several threads.
 class Dosimeter {
@@ -35,7 +35,7 @@ class Dosimeter {
   explicit Dosimeter(const Vessel& vessel);  ///< takes some seconds
   explicit Dosimeter(Scene patient) : scene_(std::move(patient)) {}
   /// Of a frame; nothing: a pose that cannot be reached, which costs nothing.
-  std::optional<Exposure> exposure(const CArmInputs& arm) const;
+  std::optional<Exposure> exposure(Imager& imager, const CArmInputs& arm) const;
   /// Adds up.
   void measure(const XrayUse& use, RunRecord& record) const;
 
@@ -47,12 +47,13 @@ class Dosimeter {
 class RunningDose {
  public:
   /// `patient`: without instruments and contrast; whoever shows the run has it at hand.
-  explicit RunningDose(Scene patient) : dosimeter_(std::move(patient)) {}
+  explicit RunningDose(Scene patient);
   /// `use` of the same run at each call.
   DoseMeter of(const XrayUse& use, const CArmState& arm);
 
  private:
   Dosimeter dosimeter_;
+  Imager imager_;
   std::vector<std::optional<Exposure>> of_pose_;
 };
 

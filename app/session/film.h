@@ -14,8 +14,8 @@ namespace ostium {
 struct FilmOptions {
   std::optional<double> lao_rad, cran_rad, field_m;
   std::optional<Eigen::Vector3d> p_PI;
-  bool cine = false;      ///< dose of cine
-  bool always_on = true;  ///< false: black where no pedal was down
+  std::optional<Mode> mode;  ///< whose dose; not set: of the pedal that is down, fluoroscopy's where none is
+  bool always_on = true;     ///< false: black where no pedal was down
   double frames_per_s = 15;
   int pixels = 512;
   bool overlay = true;

@@ -32,7 +32,7 @@ const JsonObjectKeys item_keys = {"item",
                                    {"when", true, "how it is told, a text"},
                                    {"check", false, "what the recording must show; without it a person ticks"}}};
 const JsonObjectKeys check_keys = {"check",
-                                   {{"event", false, "an event's name (data/README.md)"},
+                                   {{"event", false, "an event's name (data/events.cpp)"},
                                     {"before", false, "an event's name: the first must come before its first"},
                                     {"metric", false, "a metric's name"},
                                     {"least", false, "a number: of events, or the metric's value"},

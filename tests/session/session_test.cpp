@@ -334,7 +334,6 @@ TEST(Session, AMeshThatIsFoldedThroughItselfIsRefused) {
   }
 }
 
-/// A trunk from the access, a branch that leaves its wall at 5 mm from its axis.
 TEST(SettledBranch, CountsBranchesThatATipStaysIn) {
   SettledBranch tip;
   std::vector<int> came;
@@ -352,6 +351,7 @@ TEST(SettledBranch, CountsBranchesThatATipStaysIn) {
   EXPECT_EQ(came, (std::vector<int>{2, 5, 5})) << "out of the body it is at once";
 }
 
+/// A trunk from the access, a branch that leaves its wall at 5 mm from its axis.
 TEST(Way, KnowsWhatIsBeyondWhat) {
   SphereTree tree;
   TreeBranch trunk{.name = "trunk", .spheres = {}},
@@ -414,6 +414,26 @@ TEST(Film, OfARunShowsTheWireAndIsTheSameTwice) {
   long darker = 0;
   for (std::size_t i = 0; i < a.grey.size(); ++i) darker += a.grey[i] + 8 < without.grey[i];
   EXPECT_GT(darker, 60) << "some 120 mm of a wire of 0.9 mm, on pixels of 1.2 mm, with the same noise";
+}
+
+TEST(Film, FollowsThePedalUnlessItIsOfOneMode) {
+  ScriptedRun run(tube_setup(), tube_vessel());
+  run.tick();
+  FilmOptions options;
+  options.pixels = 64;
+  options.overlay = false;
+  const auto mode_of = [&](std::optional<Mode> mode, double cine_pedal) {
+    options.mode = mode;
+    SessionInputs inputs = run.inputs;
+    inputs.c_arm.fluoroscopy = 0, inputs.c_arm.cine = cine_pedal;
+    Film film(run.model, options);
+    film.frame(run.model, run.state, inputs);
+    return film.run().programme.mode;
+  };
+  EXPECT_EQ(mode_of({}, 0), Mode::fluoroscopy) << "no pedal";
+  EXPECT_EQ(mode_of({}, 1), Mode::cine);
+  EXPECT_EQ(mode_of(Mode::fluoroscopy, 1), Mode::fluoroscopy) << "DICOM has one header for all frames";
+  EXPECT_EQ(mode_of(Mode::cine, 0), Mode::cine);
 }
 
 }  // namespace
