@@ -98,19 +98,20 @@ void DeviceHand::inflate_and_inject(SessionInputs& inputs) const {
   inputs.bedside.injection_m3_s = injected_m3_s < settings_.least_flow_m3_s ? 0 : injected_m3_s;
 }
 
-bool DeviceHand::drive(const SessionModel& model, const SessionState& state, const SessionReport& report,
-                       SessionInputs& inputs) {
+Driven DeviceHand::drive(const ScriptedRun& run, SessionInputs& inputs) {
+  const SessionModel& model = run.model;
   if (held_.size() != model.tools.size()) begin(model);
-  feel(report);
-  request_.step_s = seconds(model, state);
-  bool standing = false;
+  feel(run.report);
+  request_.step_s = seconds(model, run.state);
+  bool standing = false, stood = false;
   do {
-    if (stop_ && stop_->load(std::memory_order_relaxed)) return false;
+    if (stop_ && stop_->load(std::memory_order_relaxed)) return Driven::over;
     now_ = exchange_(request_);
     shown_.put(now_);
     if (settings_.watch) settings_.watch(now_);
     stood_ += now_.pause != Pause::none && !standing;
     standing = now_.pause != Pause::none;
+    stood |= standing;
   } while (standing);
   press_buttons(inputs);
   if (model.has_patient()) inflate_and_inject(inputs);
@@ -118,14 +119,14 @@ bool DeviceHand::drive(const SessionModel& model, const SessionState& state, con
     const Tool tool = source(t);
     const double inserted_m = tool == Tool::none ? 0 : now_.tool[index_of(tool)].inserted_m;
     const double depth_m = std::clamp(inserted_m, 0.0, model.tools[t].instrument.length_m);
-    PendingDrive pending{depth_m - state.rods.rods[t].inserted_m, pending_turn_rad_[t]};
+    PendingDrive pending{depth_m - run.state.rods.rods[t].inserted_m, pending_turn_rad_[t]};
     if (tool != Tool::none) pending.turn_rad += now_.tool[index_of(tool)].turned_rad - turned_rad_[index_of(tool)];
     const DriveRates rates = take(model.step_s(), settings_.smooth_s, pending);
     inputs.tools[t] = {std::clamp(rates.advance_m_s, -settings_.fastest_m_s, settings_.fastest_m_s), rates.turn_rad_s};
     pending_turn_rad_[t] = pending.turn_rad;
   }
   for (std::size_t i = 0; i < ostium::tools; ++i) turned_rad_[i] = now_.tool[i].turned_rad;
-  return true;
+  return stood ? Driven::after_a_stand : Driven::on;
 }
 
 }  // namespace ostium

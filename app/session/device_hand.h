@@ -49,8 +49,7 @@ class DeviceHand : public Driver {
   /// `stop`: becomes true to end the run, also while it stands; may be null.
   DeviceHand(DeviceHandSettings settings, Exchange exchange, const std::atomic<bool>* stop = nullptr);
 
-  bool drive(const SessionModel& model, const SessionState& state, const SessionReport& report,
-             SessionInputs& inputs) override;
+  Driven drive(const ScriptedRun& run, SessionInputs& inputs) override;
 
   /// The indeflator, above the air's pressure, Pa; negative: vacuum.
   double pressure_Pa() const { return now_.pressure_Pa; }

@@ -3,7 +3,8 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "app/session/film.h"
+#include "app/session/frames.h"
+#include "app/session/xray_scene.h"
 
 namespace ostium {
 

@@ -41,11 +41,10 @@ class EmulatedHand {
 class EmulatedOperator : public Driver {
  public:
   EmulatedOperator(DeviceHand& device, EmulatedHand& hand) : device_(device), hand_(hand) {}
-  bool drive(const SessionModel& model, const SessionState& state, const SessionReport& report,
-             SessionInputs& inputs) override {
-    if (held_.empty()) held_ = tools_at_the_box(model);
+  Driven drive(const ScriptedRun& run, SessionInputs& inputs) override {
+    if (held_.empty()) held_ = tools_at_the_box(run.model);
     hand_.ask(held_, inputs);
-    return device_.drive(model, state, report, inputs);
+    return device_.drive(run, inputs);
   }
 
  private:

@@ -1,7 +1,5 @@
 #include "app/session/film.h"
 
-#include <cmath>
-
 #include "app/angiography/patient_scene.h"
 #include "fluoro/overlay.h"
 
@@ -26,12 +24,6 @@ struct Film::Parts {
 
   Programme programme() const { return is_cine ? cine(options.frames_per_s) : fluoroscopy(options.frames_per_s); }
 };
-
-bool is_frame(std::uint64_t step, double frames_per_s, double step_s) {
-  const double per_frame = 1 / (frames_per_s * step_s);
-  const auto frame = static_cast<std::uint64_t>(std::llround(static_cast<double>(step) / per_frame));
-  return static_cast<std::uint64_t>(std::llround(static_cast<double>(frame) * per_frame)) == step;
-}
 
 Film::Film(const SessionModel& model, const FilmOptions& options) : parts_(std::make_unique<Parts>(options)) {
   require_rate(options.frames_per_s);

@@ -1,9 +1,9 @@
 #pragma once
-/// Pictures of a session: any view, also one that was never shown. Frame n belongs to step round(n / (rate step)),
-/// never to a clock, so a film is the same whenever it is made.
+/// Pictures of a session: any view, also one that was never shown. A film is the same whenever it is made.
 #include <memory>
 
 #include "app/session/dose.h"
+#include "app/session/frames.h"
 #include "app/session/monitor.h"
 #include "app/session/xray_scene.h"
 #include "fluoro/fluoroscope.h"
@@ -26,9 +26,6 @@ struct FilmOptions {
 
 inline constexpr int monitor_pixels = 144;  ///< that the monitor's strips are high
 
-/// Whether a frame belongs to the state after so many steps.
-bool is_frame(std::uint64_t step, double frames_per_s, double step_s);
-
 class Film {
  public:
   /// Throws std::invalid_argument for a rate or pose that cannot be.
@@ -38,7 +35,7 @@ class Film {
   void listen(const SessionModel& model, const SessionState& state, const SessionInputs& inputs);
   Monitor& monitor();  ///< what it has heard
   int height() const;  ///< of a frame, pixels; it is `pixels` wide
-  /// The state as a picture; `xrays`: what the run has used by then, shown or not, for the overlay's times and dose.
+  /// The state as a picture; `xrays`: what the run has used by then, shown or not, which only the overlay tells.
   /// Throws std::invalid_argument as fluoro's `tick` does.
   const Picture& frame(const SessionModel& model, const SessionState& state, const SessionInputs& inputs,
                        const XrayUse& xrays = {});

@@ -5,6 +5,7 @@
 #include <semaphore>
 #include <thread>
 
+#include "app/session/thread_priority.h"
 #include "data/video.h"
 
 namespace ostium {
@@ -31,8 +32,7 @@ struct Filming::Parts {
   VideoWriter video;
   double rate;
   Driver* inner;
-  Monitor monitor;  // of the thread that steps, and
-  XrayUse xrays;
+  Monitor monitor;  // of the thread that steps
   std::array<Exposed, places> queue;
   std::counting_semaphore<places> free{places}, taken{0};
   int next = 0;
@@ -41,6 +41,7 @@ struct Filming::Parts {
   std::thread thread;
 
   void develop() {
+    give_way_to_steps();
     for (int at = 0;; at = (at + 1) % places) {
       taken.acquire();
       if (over.load(std::memory_order_acquire) && at == next) return;
@@ -63,20 +64,19 @@ Filming::Filming(const SessionModel& model, const std::string& mp4, const FilmOp
 
 Filming::~Filming() { finish(); }
 
-bool Filming::drive(const SessionModel& model, const SessionState& state, const SessionReport& report,
-                    SessionInputs& inputs) {
+Driven Filming::drive(const ScriptedRun& run, SessionInputs& inputs) {
   Parts& p = *parts_;
-  if (p.inner && !p.inner->drive(model, state, report, inputs)) return false;
-  p.monitor.listen(model, state, inputs);
-  p.xrays.add(inputs.c_arm, state.rods.step + 1, model.step_s());
-  if (is_frame(state.rods.step, p.rate, model.step_s())) {
+  const Driven driven = p.inner ? p.inner->drive(run, inputs) : Driven::on;
+  if (driven == Driven::over) return driven;
+  p.monitor.listen(run.model, run.state, inputs);
+  if (is_frame(run.state.rods.step, p.rate, run.model.step_s())) {
     p.free.acquire();
     Exposed& e = p.queue[static_cast<std::size_t>(p.next)];
-    e.state = state, e.inputs = inputs, e.monitor = p.monitor, e.xrays = p.xrays;
+    e.state = run.state, e.inputs = inputs, e.monitor = p.monitor, e.xrays = run.xrays;
     p.next = (p.next + 1) % places;
     p.taken.release();
   }
-  return true;
+  return driven;
 }
 
 std::string Filming::finish() {

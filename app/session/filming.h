@@ -15,8 +15,7 @@ class Filming : public Driver {
   Filming(const SessionModel& model, const std::string& mp4, const FilmOptions& options, Driver* inner = nullptr);
   ~Filming() override;  ///< finishes
 
-  bool drive(const SessionModel& model, const SessionState& state, const SessionReport& report,
-             SessionInputs& inputs) override;
+  Driven drive(const ScriptedRun& run, SessionInputs& inputs) override;
 
   /// After the run: waits for the last picture. Empty, or what went wrong; the run is none the worse for it.
   std::string finish();

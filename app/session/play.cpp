@@ -14,6 +14,9 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
+/// As much as the clock may be ahead: less than a picture, so a hard step costs an operator no time. More is let go.
+constexpr auto most_behind = std::chrono::milliseconds(50);
+
 double seconds_between(Clock::time_point a, Clock::time_point b) {
   return std::chrono::duration<double>(b - a).count();
 }
@@ -58,7 +61,6 @@ PlayReport play(ScriptedRun& run, const RunSetup& setup, const PlayOptions& opti
   TimeBins bins;
   PlayReport out;
   const auto begin = Clock::now();
-  XrayUse xrays;
   std::string aborted;
   const auto step_length =
       std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(run.model.step_s()));
@@ -71,12 +73,13 @@ PlayReport play(ScriptedRun& run, const RunSetup& setup, const PlayOptions& opti
     if (options.give_up_s > 0 && seconds_between(begin, now) > options.give_up_s) aborted = "gave up waiting";
     if (!aborted.empty() || !run.tick()) break;
     recorder.add(run.inputs, run.state, run.report, run.hands, run.events);
-    xrays.add(run.inputs.c_arm, run.state.rods.step, run.model.step_s());
     bins.add(thread_cpu_s() - cpu);
     if (options.progress && run.state.rods.step % 100 == 0) options.progress(run);
     if (options.real) {
-      if (now - due > step_length) ++out.times.overruns, due = now;  // what is late stays late: no catching up
-      due += step_length;
+      if (now - due > step_length) ++run.overruns;
+      out.times.behind_most_ms = std::max(out.times.behind_most_ms, 1e3 * seconds_between(due, now));
+      if (now - due > most_behind) due = now;
+      due = run.stood ? Clock::now() : due + step_length;
       std::this_thread::sleep_until(due);
     }
   }
@@ -89,11 +92,12 @@ PlayReport play(ScriptedRun& run, const RunSetup& setup, const PlayOptions& opti
     out.reason += " (" + tips + ")";
   out.times.p50_ms = bins.percentile_ms(0.5), out.times.p99_ms = bins.percentile_ms(0.99);
   out.times.p999_ms = bins.percentile_ms(0.999);
+  out.times.overruns = run.overruns;
   out.times.most_ms = bins.most_ms(), out.times.mean_ms = bins.mean_ms();
   RunRecord record = recorder.record();
-  if (!xrays.poses().empty()) {
+  if (!run.xrays.poses().empty()) {
     const auto own = options.dosimeter ? nullptr : std::make_unique<const Dosimeter>(*run.model.vessel);
-    (own ? *own : *options.dosimeter).measure(xrays, record);
+    (own ? *own : *options.dosimeter).measure(run.xrays, record);
   }
   out.metrics = metrics_of(record);
   out.penetration = recorder.penetration();

@@ -12,7 +12,9 @@ namespace ostium {
 
 struct PlayOptions {
   RecorderOptions recorder;
-  bool real = false;     ///< one step a millisecond of the clock; else as fast as it goes, with the same result
+  /// One step a millisecond of the clock, and where one takes longer the next ones follow at once until it is caught
+  /// up with; else as fast as it goes, with the same result.
+  bool real = false;
   double seconds = 0;    ///< most that are simulated; 0: no end but the script's
   double give_up_s = 0;  ///< of the clock; 0: never
   /// Called now and then, at least every 0.1 s simulated: for progress. May be empty.
@@ -24,7 +26,8 @@ struct PlayOptions {
 /// CPU time of the thread that steps: operator, step, hash, recording.
 struct StepTimes {
   double mean_ms = 0, p50_ms = 0, p99_ms = 0, p999_ms = 0, most_ms = 0;
-  long overruns = 0;  ///< steps that began over 1 ms late, with `real`
+  long overruns = 0;          ///< steps that began over 1 ms late, with `real`
+  double behind_most_ms = 0;  ///< the clock, with `real`
 };
 
 struct PlayReport {

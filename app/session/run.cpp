@@ -31,12 +31,15 @@ ScriptedRun::ScriptedRun(const RunSetup& setup, std::shared_ptr<const Vessel> ve
 bool ScriptedRun::tick() {
   outcome = decide(plan, model, state, report, hands, inputs, events);
   if (outcome != Outcome::running) return false;
-  if (driver_ && !driver_->drive(model, state, report, inputs)) {
+  const Driven driven = driver_ ? driver_->drive(*this, inputs) : Driven::on;
+  stood = driven == Driven::after_a_stand;
+  if (driven == Driven::over) {
     outcome = Outcome::aborted;
     return false;
   }
   if (stuck_ >= 0) inputs.tools[stuck_] = {};
   step(model, inputs, state, scratch_, report);
+  xrays.add(inputs.c_arm, state.rods.step, model.step_s());
   const std::uint32_t trouble = report.rods.trouble & ~static_cast<std::uint32_t>(feed_stopped);
   if (trouble) ++troubled, troubles |= trouble;
   return true;

@@ -1,17 +1,21 @@
 #pragma once
 /// One run of a script, step by step.
+#include "app/session/dose.h"
 #include "app/session/setup.h"
 
 namespace ostium {
+
+class ScriptedRun;
+
+enum class Driven { on, after_a_stand, over };
 
 /// Drives the instruments instead of the script's operator, who goes on looking: real hands at a tracking box.
 class Driver {
  public:
   virtual ~Driver() = default;
   /// Before each step. `inputs` is what the script asks for, and becomes what is done. Waits while the simulation is to
-  /// stand. False: the run ends.
-  virtual bool drive(const SessionModel& model, const SessionState& state, const SessionReport& report,
-                     SessionInputs& inputs) = 0;
+  /// stand.
+  virtual Driven drive(const ScriptedRun& run, SessionInputs& inputs) = 0;
 };
 
 class ScriptedRun {
@@ -36,6 +40,9 @@ class ScriptedRun {
   Outcome outcome = Outcome::running;
   long troubled = 0;           ///< steps that had to give way, other than at an instrument's end
   std::uint32_t troubles = 0;  ///< what they gave way on, bits of Trouble
+  XrayUse xrays;               ///< so far, drawn or not
+  bool stood = false;          ///< the driver let it stand before the last step
+  long overruns = 0;           ///< steps that began over 1 ms late; whoever paces the run counts them
 
  private:
   SessionScratch scratch_;

@@ -56,24 +56,25 @@ LiveHand::LiveHand(const SessionModel& model, bool plays, double frames_per_s, D
   if (count > 1) right_ = left_ == 0 ? 1 : 0;
 }
 
-bool LiveHand::drive(const SessionModel& model, const SessionState& state, const SessionReport& report,
-                     SessionInputs& inputs) {
+Driven LiveHand::drive(const ScriptedRun& run, SessionInputs& inputs) {
+  const SessionModel& model = run.model;
+  const SessionState& state = run.state;
+  const SessionReport& report = run.report;
   if (!arm_is_set_) arm_ = inputs.c_arm, arm_is_set_ = true;
   heparin_U_ = nitrate_ug_ = 0;
-  const auto now = std::chrono::steady_clock::now();
-  if (last_.time_since_epoch().count() && now - last_ > std::chrono::milliseconds(2)) ++late_;
+  Driven driven = Driven::on;
   do {
     while (const std::optional<Action> action = controls.next()) act(model, *action);
     if (paused_ && !over_) {
-      show(model, state, report, inputs);
+      driven = Driven::after_a_stand;
+      show(run, inputs);
       std::this_thread::sleep_for(std::chrono::milliseconds(15));
     }
   } while (paused_ && !over_);
-  if (over_) return false;
-  last_ = std::chrono::steady_clock::now();
-  if (inner_ && !inner_->drive(model, state, report, inputs)) return false;
+  if (over_) return Driven::over;
+  if (const Driven inner = inner_ ? inner_->drive(run, inputs) : Driven::on; inner != Driven::on) driven = inner;
+  if (driven == Driven::over) return driven;
   if (plays_) play(model, inputs);
-  xrays_.add(inputs.c_arm, state.rods.step + 1, model.step_s());
   if (report.refused >= 0) refused_ = report.refused, in_its_way_ = report.in_its_way, refused_at_ = state.rods.step;
   if (state.rods.step > refused_at_ + 1000) refused_ = -1;
 
@@ -85,8 +86,8 @@ bool LiveHand::drive(const SessionModel& model, const SessionState& state, const
     ecg_.back() = ecg_at_ < row_.size() ? row_[ecg_at_] : none;
     line_.back() = line_at_ < row_.size() ? row_[line_at_] : none;
   }
-  if (is_frame(state.rods.step, frames_per_s_, model.step_s())) show(model, state, report, inputs);
-  return true;
+  if (is_frame(state.rods.step, frames_per_s_, model.step_s())) show(run, inputs);
+  return driven;
 }
 
 void LiveHand::act(const SessionModel& model, Action action) {
@@ -189,22 +190,22 @@ void LiveHand::play(const SessionModel& model, SessionInputs& inputs) {
   hand.heparin_U = heparin_U_, hand.nitrate_ug = nitrate_ug_;
 }
 
-void LiveHand::show(const SessionModel& model, const SessionState& state, const SessionReport& report,
-                    const SessionInputs& inputs) {
+void LiveHand::show(const ScriptedRun& run, const SessionInputs& inputs) {
+  const SessionReport& report = run.report;
   if (report.tools.empty()) return;
   Snapshot& s = snapshots_.to_fill();
-  s.state = state;
+  s.state = run.state;
   s.inputs = inputs;
-  s.xrays = xrays_;
+  s.xrays = run.xrays;
   if (plays_) s.inputs.c_arm.lao_rad = arm_.lao_rad, s.inputs.c_arm.cran_rad = arm_.cran_rad;
-  put_signals(model, state, inputs, report, s.signals.data());
+  put_signals(run.model, run.state, inputs, report, s.signals.data());
   for (std::size_t t = 0; t < report.tools.size(); ++t) s.in_body[t] = report.tools[t].in_body;
   s.ecg_mV = ecg_, s.line_mmHg = line_;
   s.right_hand = right_;
-  s.script_step = plays_ ? -1 : script_step_;
+  s.script_step = plays_ ? -1 : static_cast<int>(run.hands.step);
   s.refused = refused_, s.in_its_way = in_its_way_;
   s.paused = paused_;
-  s.late = late_;
+  s.overruns = run.overruns;
   snapshots_.publish();
 }
 

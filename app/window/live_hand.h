@@ -2,11 +2,9 @@
 /// The driver of a run that somebody watches: it shows the run to the window and, if they play, moves the instruments
 /// as they ask. All that it does to the simulation is SessionInputs, so a recording of it replays like any other.
 #include <atomic>
-#include <chrono>
 #include <string>
 #include <vector>
 
-#include "app/session/dose.h"
 #include "app/session/run.h"
 #include "app/session/signals.h"
 #include "app/window/controls.h"
@@ -24,7 +22,7 @@ inline constexpr int strip_samples = 500;  ///< at 100 a second
 struct Snapshot {
   SessionState state;
   SessionInputs inputs;
-  XrayUse xrays;                         ///< by then, shown or not
+  XrayUse xrays;                         ///< by then, drawn or not
   std::vector<char> in_body;             ///< (#tools)
   std::vector<float> signals;            ///< as signal_names says
   std::vector<float> ecg_mV, line_mmHg;  ///< of the last 5 s, oldest first; not a number: no trace
@@ -32,7 +30,7 @@ struct Snapshot {
   int script_step = -1;
   int refused = -1, in_its_way = -1;  ///< tools, of the last second
   bool paused = false;
-  long late = 0;  ///< steps that began over a millisecond late
+  long overruns = 0;
 };
 
 class LiveHand : public Driver {
@@ -41,20 +39,17 @@ class LiveHand : public Driver {
   /// `inner`: another driver (a tracking box) that is asked first; may be null.
   LiveHand(const SessionModel& model, bool plays, double frames_per_s, Driver* inner = nullptr);
 
-  bool drive(const SessionModel& model, const SessionState& state, const SessionReport& report,
-             SessionInputs& inputs) override;
+  Driven drive(const ScriptedRun& run, SessionInputs& inputs) override;
 
   Controls controls;
   Latest<Snapshot>& snapshots() { return snapshots_; }
-  void note_step(int script_step) { script_step_ = script_step; }  ///< of the script; from the thread that steps
   /// The guide, or the first tool.
   int left_hand() const { return left_; }
 
  private:
   void act(const SessionModel& model, Action action);
   void play(const SessionModel& model, SessionInputs& inputs);
-  void show(const SessionModel& model, const SessionState& state, const SessionReport& report,
-            const SessionInputs& inputs);
+  void show(const ScriptedRun& run, const SessionInputs& inputs);
 
   bool plays_;
   double frames_per_s_;
@@ -66,12 +61,8 @@ class LiveHand : public Driver {
   bool paused_ = false, over_ = false;
   int refused_ = -1, in_its_way_ = -1;
   std::uint64_t refused_at_ = 0;
-  int script_step_ = -1;
-  long late_ = 0;
-  std::chrono::steady_clock::time_point last_{};
   std::size_t ecg_at_, line_at_;
   std::vector<float> row_, ecg_, line_;
-  XrayUse xrays_;
   Latest<Snapshot> snapshots_;
 };
 

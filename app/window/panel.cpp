@@ -147,7 +147,7 @@ void draw_numbers(const Pen& pen, const PanelTexts& texts, const Snapshot& now, 
     entries.push_back({"contrast", fmt::format("{:.1f} mL", signal(texts, now, "contrast_mL"))});
     entries.push_back({"ACT", fmt::format("{:.0f} s", signal(texts, now, "act_s"))});
   }
-  if (now.late > 0) entries.push_back({"late steps", std::to_string(now.late)});
+  if (now.overruns > 0) entries.push_back({"late steps", std::to_string(now.overruns)});
   const double column = w / 2;
   for (std::size_t i = 0; i < entries.size(); ++i) {
     const double ex = x + (i % 2) * column, ey = y + static_cast<double>(i / 2) * 22;

@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "app/session/film.h"
+#include "app/session/thread_priority.h"
 #include "app/window/reference.h"
 #include "data/png.h"
 
@@ -243,6 +244,7 @@ bool has_display(std::string& why) {
 }
 
 long show_window(const SessionModel& model, const ScriptPlan& plan, LiveHand& hand, const WindowOptions& options) {
+  give_way_to_steps();
   const Video video;
   const Owned<SDL_Window> window(SDL_CreateWindow("Ostium", SDL_WINDOWPOS_CENTERED, SDL_WINDOWPOS_CENTERED, panel_width,
                                                   panel_height, SDL_WINDOW_RESIZABLE),

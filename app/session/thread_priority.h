@@ -1,0 +1,11 @@
+#pragma once
+/// Pictures give way to steps: on two cores there is a window, its display server and a film beside the thread that
+/// steps, and whichever the scheduler puts on that thread's core makes steps late.
+#include <sys/resource.h>
+
+namespace ostium {
+
+/// Of the calling thread, and of those that it starts from now on. Cannot be taken back.
+inline void give_way_to_steps() { setpriority(PRIO_PROCESS, 0, 10); }  // on Linux a thread's own
+
+}  // namespace ostium
