@@ -38,7 +38,7 @@ Pace pace_with(Dawdling slow) {
     options.recorder.mode = RecordMode::none;
     options.recorder.penetration = false;
     options.real = true;
-    options.seconds = 0.6;
+    options.seconds = 0.35;
     const PlayReport report = play(run, tube_setup(), options);
     best.lost_s = std::min(best.lost_s, report.clock_s - report.simulated_s);
     best.behind_most_ms = std::min(best.behind_most_ms, report.times.behind_most_ms);
