@@ -6,7 +6,6 @@
 #include <set>
 #include <thread>
 
-#include "app/session/film.h"
 #include "app/session/play.h"
 #include "app/session/settled_branch.h"
 #include "tests/core/allocations.h"
@@ -385,55 +384,6 @@ TEST(Way, KnowsWhatIsBeyondWhat) {
   EXPECT_EQ(way.place("trunk"), at(0.1, 0)) << "for whom comes from the access";
   for (const char* none : {"twig", "branch+", "branch+500", "branch+x", "branch-3"})
     EXPECT_EQ(way.place(none), -1) << none;
-}
-
-TEST(Film, FramesFallOnTheirSteps) {
-  for (double rate : {3.75, 7.5, 15.0, 30.0}) {
-    std::vector<std::uint64_t> steps;
-    for (std::uint64_t s = 1; s <= 4000; ++s)
-      if (is_frame(s, rate, 1e-3)) steps.push_back(s);
-    ASSERT_EQ(steps.size(), static_cast<std::size_t>(4 * rate));
-    for (std::size_t n = 0; n < steps.size(); ++n)
-      EXPECT_EQ(steps[n], static_cast<std::uint64_t>(std::llround(1000 * static_cast<double>(n + 1) / rate)));
-  }
-}
-
-TEST(Film, OfARunShowsTheWireAndIsTheSameTwice) {
-  ScriptedRun run(tube_setup(), tube_vessel());
-  for (int i = 0; i < 1200; ++i) run.tick();
-  FilmOptions options;
-  options.pixels = 256;
-  options.field_m = 0.3;  // the tube reaches beyond 20 cm at the detector
-  options.overlay = false;
-  Film one(run.model, options), two(run.model, options);
-  const Picture a = one.frame(run.model, run.state, run.inputs);
-  EXPECT_EQ(a.grey, two.frame(run.model, run.state, run.inputs).grey);
-  SessionState empty = make_state(run.model, 0);
-  Film three(run.model, options);
-  const Picture without = three.frame(run.model, empty, run.inputs);
-  long darker = 0;
-  for (std::size_t i = 0; i < a.grey.size(); ++i) darker += a.grey[i] + 8 < without.grey[i];
-  EXPECT_GT(darker, 60) << "some 120 mm of a wire of 0.9 mm, on pixels of 1.2 mm, with the same noise";
-}
-
-TEST(Film, FollowsThePedalUnlessItIsOfOneMode) {
-  ScriptedRun run(tube_setup(), tube_vessel());
-  run.tick();
-  FilmOptions options;
-  options.pixels = 64;
-  options.overlay = false;
-  const auto mode_of = [&](std::optional<Mode> mode, double cine_pedal) {
-    options.mode = mode;
-    SessionInputs inputs = run.inputs;
-    inputs.c_arm.fluoroscopy = 0, inputs.c_arm.cine = cine_pedal;
-    Film film(run.model, options);
-    film.frame(run.model, run.state, inputs);
-    return film.run().programme.mode;
-  };
-  EXPECT_EQ(mode_of({}, 0), Mode::fluoroscopy) << "no pedal";
-  EXPECT_EQ(mode_of({}, 1), Mode::cine);
-  EXPECT_EQ(mode_of(Mode::fluoroscopy, 1), Mode::fluoroscopy) << "DICOM has one header for all frames";
-  EXPECT_EQ(mode_of(Mode::cine, 0), Mode::cine);
 }
 
 }  // namespace
