@@ -149,9 +149,9 @@ RunSetup setup_of(const RunOptions& o) {
 
 namespace {
 
-/// Plays in another thread while the window is up in this one. `film`: stands between hands and steps; may be null.
+/// Plays in another thread while the window is up in this one, with the film's pictures if a film is made; else null.
 PlayReport play_in_window(const RunOptions& o, ScriptedRun& run, const RunSetup& setup, DeviceRun* device,
-                          LiveHand& hand, PlayOptions options) {
+                          LiveHand& hand, Filming* film, PlayOptions options) {
   options.real = true;
   std::atomic<bool> over{false};
   PlayReport report;
@@ -166,6 +166,7 @@ PlayReport play_in_window(const RunOptions& o, ScriptedRun& run, const RunSetup&
   });
   WindowOptions window;
   window.plays = o.device == "keyboard", window.over = &over, window.last_frame_png = o.last_frame;
+  if (film) window.filmed = &film->pictures();
   if (device) {
     window.problem = [device] { return std::string(advice(device->hand().shown())); };
     window.brightness = [device] { return device->hand().shown().picture; };
@@ -232,8 +233,8 @@ int run_command(const RunOptions& o) {
     driver = &*film;
   }
   run.take_over(driver);
-  const PlayReport report =
-      hand ? play_in_window(o, run, setup, device.get(), *hand, options) : play(run, setup, options);
+  const PlayReport report = hand ? play_in_window(o, run, setup, device.get(), *hand, film ? &*film : nullptr, options)
+                                 : play(run, setup, options);
   const std::string film_problem = film ? film->finish() : "";
   say("");
   const std::string file = options.recorder.mode == RecordMode::none ? "" : options.recorder.file;

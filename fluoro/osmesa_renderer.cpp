@@ -140,7 +140,7 @@ class OSMesaRenderer final : public PathLengthRenderer {
 
   void draw(const View& view, const Body& body) {
     const Tissue net{body.tissue.soft - body.within.soft, body.tissue.bone - body.within.bone};
-    const bool filled = body.contrast.iodine_kg_m3.size() > 0;
+    const bool filled = is_seen(body.contrast);
     if (net.soft == 0 && net.bone == 0 && !filled) return;
     glUniform2f(uniform("tissue"), net.soft, net.bone);
     glVertexAttribPointer(0, 3, GL_FLOAT, GL_FALSE, 0, body.p_P.data());

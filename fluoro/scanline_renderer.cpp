@@ -6,6 +6,7 @@
 /// crossings is left. Entries and exits of a closed surface therefore cancel exactly in every pixel.
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 
 #include "fluoro/path_lengths.h"
 
@@ -51,19 +52,19 @@ struct Edge {
   double crossing(int row) const { return x + slope * (row + 0.5 - y); }
 };
 
-/// Whether a triangle can have the centre of a pixel inside. Most of a fine mesh cannot, and is done with here.
-bool meets_a_centre(const Corner& a, const Corner& b, const Corner& c, double pixels) {
-  const auto between = [pixels](double low, double high) {
-    low = std::max(std::ceil(low - 0.5), 0.0);
-    return low < std::min(high - 0.5, pixels);
-  };
-  const auto [left, right] = std::minmax({a.x, b.x, c.x});
-  const auto [top, bottom] = std::minmax({a.y, b.y, c.y});
-  return between(top, bottom) && between(left, right);
-}
-
 int first_centre_from(double position, int pixels) {
   return static_cast<int>(std::clamp(std::ceil(position - 0.5), 0.0, static_cast<double>(pixels)));
+}
+
+/// The first row and column of centres from a vertex on.
+struct Cell {
+  std::int16_t row, column;
+};
+
+/// Whether a triangle can have the centre of a pixel inside. Most of a fine mesh cannot, and is done with here.
+bool meets_a_centre(Cell a, Cell b, Cell c) {
+  const auto differ = [](int x, int y, int z) { return x != y || y != z; };
+  return differ(a.row, b.row, c.row) && differ(a.column, b.column, c.column);
 }
 
 /// Calls span(row, from, to, sign) for each row; sign is +1 where the ray leaves: the triangle winds anticlockwise as
@@ -103,14 +104,14 @@ class ScanlineRenderer final : public PathLengthRenderer {
   void add(const View& view, std::span<const Body> bodies, PathLengths& out) override {
     for (const Body& body : bodies) {
       const Tissue net{body.tissue.soft - body.within.soft, body.tissue.bone - body.within.bone};
-      const bool filled = body.contrast.iodine_kg_m3.size() > 0;
+      const bool filled = is_seen(body.contrast);
       if (net.soft == 0 && net.bone == 0 && !filled) continue;
-      project(view, body);
+      project(view, body, filled);
       isocentre_ = static_cast<float>(view.arm.source_to_isocentre_m);
       for (const auto& t : body.triangles->colwise()) {
-        const Corner &a = corners_[std::size_t(t[0])], &b = corners_[std::size_t(t[1])],
-                     &c = corners_[std::size_t(t[2])];
-        if (!meets_a_centre(a, b, c, view.pixels)) continue;
+        const auto i = std::size_t(t[0]), j = std::size_t(t[1]), k = std::size_t(t[2]);
+        if (!meets_a_centre(cells_[i], cells_[j], cells_[k])) continue;
+        const Corner &a = corners_[i], &b = corners_[j], &c = corners_[k];
         if (a.depth < nearest_m || b.depth < nearest_m || c.depth < nearest_m) continue;
         if (net.soft != 0 || net.bone != 0) add_tissue(a, b, c, net, out);
         if (filled) add_iodine(a, b, c, out);
@@ -123,17 +124,19 @@ class ScanlineRenderer final : public PathLengthRenderer {
  private:
   static constexpr float nearest_m = 0.05f;  // nothing of a patient is nearer to the source
 
-  void project(const View& view, const Body& body) {
+  void project(const View& view, const Body& body, bool filled) {
     const ImageAxes axes(view.arm);
     const Eigen::Vector3d p_PS = source(view.arm);
     const double scale = view.arm.source_to_detector_m / view.field_m * view.pixels, half = 0.5 * view.pixels;
-    const bool filled = body.contrast.iodine_kg_m3.size() > 0;
     corners_.resize(static_cast<std::size_t>(body.p_P.cols()));
+    cells_.resize(corners_.size());
     for (Eigen::Index i = 0; i < body.p_P.cols(); ++i) {
       const Eigen::Vector3d ray = body.p_P.col(i).cast<double>() - p_PS;
       const double depth = ray.dot(axes.outwards), over = scale / depth;
       Corner& corner = corners_[std::size_t(i)];
       corner = {half + over * ray.dot(axes.right), half - over * ray.dot(axes.up), static_cast<float>(depth), 0, 0, 0};
+      cells_[std::size_t(i)] = {static_cast<std::int16_t>(first_centre_from(corner.y, view.pixels)),
+                                static_cast<std::int16_t>(first_centre_from(corner.x, view.pixels))};
       if (filled) {
         corner.iodine = body.contrast.iodine_kg_m3[i];
         corner.from_centreline =
@@ -193,6 +196,7 @@ class ScanlineRenderer final : public PathLengthRenderer {
   }
 
   std::vector<Corner> corners_;
+  std::vector<Cell> cells_;
   float isocentre_ = 0;
 };
 

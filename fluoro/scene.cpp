@@ -43,6 +43,10 @@ void require_closed(const Body& body) {
 
 }  // namespace
 
+bool is_seen(const Contrast& contrast) {
+  return contrast.iodine_kg_m3.size() > 0 && contrast.iodine_kg_m3.maxCoeff() > faintest_iodine_kg_m3;
+}
+
 void check(const Body& body) {
   if (!body.triangles || body.triangles->cols() == 0) refuse(body.name, "has no triangles");
   if (body.triangles->minCoeff() < 0 || body.triangles->maxCoeff() >= body.p_P.cols())

@@ -2,6 +2,7 @@
 # The command line: exit codes, help with examples, and JSON that parses.
 set -euo pipefail
 ostium=$1
+trap 'echo "line $LINENO: $BASH_COMMAND"' ERR
 
 expect() { # expect CODE WORD COMMAND...: exit code and a word of the output
   local code=$1 word=$2 rc=0 out
@@ -137,6 +138,9 @@ expect 3 "no-such-list" "$ostium" report "$out/run.h5" --scoring no-such-list -o
 expect 0 "" "$ostium" report --questionnaire "$out/forms.html"
 SDL_VIDEODRIVER=dummy expect 1 "time limit" "$ostium" run rca-mid-focal --display window --seconds 0.5 --last-frame "$out/window.png"
 [[ -s $out/window.png ]]
+SDL_VIDEODRIVER=dummy expect 1 "time limit" "$ostium" run rca-mid-focal --script iliac-wire --display window --seconds 0.5 --film --out "$out/shown" \
+  --last-frame "$out/shown.png"
+[[ -s $out/shown.png ]]
 SDL_VIDEODRIVER=none expect 3 "there is no window here" "$ostium" run rca-mid-focal --device keyboard
 expect 1 "time limit" "$ostium" run rca-mid-focal --script iliac-wire --seconds 0.4 --out "$out/filmed" --film --report
 [[ -s $out/filmed/procedure.mp4 && -s $out/filmed/report.html && -s $out/filmed/key-frames/01.png ]]

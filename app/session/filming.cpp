@@ -34,11 +34,22 @@ struct Filming::Parts {
   Driver* inner;
   Monitor monitor;  // of the thread that steps
   std::array<Exposed, places> queue;
+  Latest<Filmed> pictures{{}};
   std::counting_semaphore<places> free{places}, taken{0};
   int next = 0;
   std::atomic<bool> over{false};
   std::string problem;
   std::thread thread;
+
+  void show(const Picture& picture, const CArmInputs& arm) {
+    Filmed& filmed = pictures.to_fill();
+    filmed.picture = picture;
+    filmed.picture.height = picture.width;
+    filmed.picture.grey.resize(static_cast<std::size_t>(picture.width) * picture.width);
+    filmed.dose = film.dose();
+    filmed.cine = arm.cine > 0, filmed.xray_on = filmed.cine || arm.fluoroscopy > 0;
+    pictures.publish();
+  }
 
   void develop() {
     give_way_to_steps();
@@ -48,7 +59,9 @@ struct Filming::Parts {
       Exposed& e = queue[static_cast<std::size_t>(at)];
       try {
         film.monitor() = e.monitor;
-        if (problem.empty()) video.add(film.frame(model, e.state, e.inputs, e.xrays));
+        const Picture& picture = film.frame(model, e.state, e.inputs, e.xrays);
+        show(picture, e.inputs.c_arm);
+        if (problem.empty()) video.add(picture);
       } catch (const std::exception& error) {
         problem = error.what();
       }
@@ -78,6 +91,8 @@ Driven Filming::drive(const ScriptedRun& run, SessionInputs& inputs) {
   }
   return driven;
 }
+
+Latest<Filmed>& Filming::pictures() { return parts_->pictures; }
 
 std::string Filming::finish() {
   Parts& p = *parts_;

@@ -4,9 +4,17 @@
 #include <string>
 
 #include "app/session/film.h"
+#include "app/session/latest.h"
 #include "app/session/run.h"
 
 namespace ostium {
+
+/// A picture of the film, for whoever watches.
+struct Filmed {
+  Picture picture;  ///< without the monitor's strips
+  DoseMeter dose;
+  bool xray_on = false, cine = false;  ///< pedals
+};
 
 /// Every frame is filmed: where pictures take longer than steps, steps wait.
 class Filming : public Driver {
@@ -16,6 +24,10 @@ class Filming : public Driver {
   ~Filming() override;  ///< finishes
 
   Driven drive(const ScriptedRun& run, SessionInputs& inputs) override;
+
+  /// The newest picture, for one other thread: what is filmed need not be taken twice. They go on where the video has
+  /// ended early.
+  Latest<Filmed>& pictures();
 
   /// After the run: waits for the last picture. Empty, or what went wrong; the run is none the worse for it.
   std::string finish();

@@ -5,10 +5,10 @@
 #include <string>
 #include <vector>
 
+#include "app/session/latest.h"
 #include "app/session/run.h"
 #include "app/session/signals.h"
 #include "app/window/controls.h"
-#include "app/window/latest.h"
 
 namespace ostium {
 

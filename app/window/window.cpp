@@ -4,6 +4,7 @@
 
 #include <cstdlib>
 #include <memory>
+#include <optional>
 #include <stdexcept>
 
 #include "app/session/film.h"
@@ -219,10 +220,51 @@ class Events {
   Owned<SDL_GameController> pad_{nullptr, SDL_GameControllerClose};
 };
 
-/// Last image hold: a pedal that is up leaves the picture as it was.
-void keep(const Snapshot& now, const Picture& drawn, Picture& picture) {
-  if (now.inputs.c_arm.fluoroscopy > 0 || now.inputs.c_arm.cine > 0) picture = drawn;
-}
+/// The live picture: the film's where there is a film, else one of its own. A pedal that is up leaves it as it was
+/// (last image hold).
+class Live {
+ public:
+  Live(const SessionModel& model, const WindowOptions& options)
+      : model_(model), filmed_(options.filmed), holds_(options.plays || options.filmed) {
+    if (filmed_) return;
+    FilmOptions look;
+    look.always_on = !options.plays;
+    look.frames_per_s = options.frames_per_s;
+    look.pixels = options.pixels;
+    own_.emplace(model, look);
+  }
+  /// Whether there is something new to show. `fresh`: `now` is a newer one than at the last call.
+  bool look(const Snapshot& now, bool fresh) {
+    if (own_) {
+      if (!fresh) return false;
+      const CArmInputs& arm = now.inputs.c_arm;
+      take(own_->frame(model_, now.state, now.inputs, now.xrays), own_->dose(), arm.fluoroscopy > 0, arm.cine > 0);
+      return true;
+    }
+    // Each frame is drawn once, with its picture; while the run is paused there are none.
+    if (!filmed_->look()) return fresh && now.paused;
+    const Filmed& last = filmed_->seen();
+    take(last.picture, last.dose, last.xray_on, last.cine);
+    return true;
+  }
+  const Picture& picture() const { return picture_; }
+  const DoseMeter& dose() const { return dose_; }
+  bool cine() const { return cine_; }
+
+ private:
+  void take(const Picture& picture, const DoseMeter& dose, bool xray_on, bool cine) {
+    if (xray_on || !holds_) picture_ = picture;
+    dose_ = dose, cine_ = cine;
+  }
+
+  const SessionModel& model_;
+  std::optional<Film> own_;
+  Latest<Filmed>* filmed_;
+  bool holds_;
+  Picture picture_;
+  DoseMeter dose_;
+  bool cine_ = false;
+};
 
 }  // namespace
 
@@ -258,48 +300,40 @@ long show_window(const SessionModel& model, const ScriptPlan& plan, LiveHand& ha
                                    SDL_DestroyTexture);
   if (!texture) give_up("the window cannot be drawn in");
 
-  FilmOptions film_options;
-  film_options.always_on = !options.plays;
-  film_options.frames_per_s = options.frames_per_s;
-  film_options.pixels = options.pixels;
-  Film film(model, film_options);
+  Live live(model, options);
   const PanelTexts texts = panel_texts(model, plan, hand, options.plays);
   Events events(hand);
-  Picture picture, faded;
+  Picture faded;
   Reference reference;
   double shown_brightness = 1;
   std::string shown_problem;
   std::vector<std::uint32_t> pixels;
   Latest<Snapshot>& latest = hand.snapshots();
   long shown = 0;
-  while (!(options.over && options.over->load(std::memory_order_relaxed))) {
+  bool over = false;
+  while (!over) {
+    over = options.over && options.over->load(std::memory_order_acquire);
     SDL_Event event;
     if (SDL_WaitEventTimeout(&event, 4)) do {
         events.take(event);
       } while (SDL_PollEvent(&event));
     events.look(SDL_GetTicks());
     const bool fresh = latest.look();
+    const Snapshot& now = latest.seen();
+    const bool live_is_new = live.look(now, fresh);
     const double brightness = options.brightness ? options.brightness() : 1;
     const std::string problem = options.problem ? options.problem() : "";
     // While hands have to draw back nothing steps, and what the box says is shown all the same.
-    if (!fresh && brightness == shown_brightness && problem == shown_problem) continue;
+    if (!live_is_new && brightness == shown_brightness && problem == shown_problem) continue;
     shown_brightness = brightness, shown_problem = problem;
-    const Snapshot& now = latest.seen();
-    if (fresh) {
-      const Picture& drawn = film.frame(model, now.state, now.inputs, now.xrays);
-      if (options.plays)
-        keep(now, drawn, picture);
-      else
-        picture = drawn;
-    }
-    if (fresh) reference.take(picture, now.inputs.c_arm.cine > 0, signal(texts, now, "contrast_landmark"));
-    if (events.reference) reference.freeze(picture), events.reference = false;
-    faded = picture;
+    if (live_is_new) reference.take(live.picture(), live.cine(), signal(texts, now, "contrast_landmark"));
+    if (events.reference) reference.freeze(live.picture()), events.reference = false;
+    faded = live.picture();
     for (std::uint8_t& grey : faded.grey) grey = static_cast<std::uint8_t>(brightness * grey);
     draw_panel(texts, now,
                {.picture = faded.grey.empty() ? nullptr : &faded,
                 .reference = reference.picture(),
-                .dose = film.dose(),
+                .dose = live.dose(),
                 .problem = problem,
                 .help = events.help},
                pixels);

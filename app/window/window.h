@@ -5,6 +5,7 @@
 #include <functional>
 #include <string>
 
+#include "app/session/filming.h"
 #include "app/window/live_hand.h"
 #include "app/window/panel.h"
 
@@ -17,12 +18,13 @@ struct WindowOptions {
   bool plays = false;
   double frames_per_s = 15;
   int pixels = 512;
+  Latest<Filmed>* filmed = nullptr;  ///< of a film that is made as well; null: the window takes its own pictures
   /// Of whoever else drives: shown in red; may be empty.
   std::function<std::string()> problem;
   /// Of the picture, 0 to 1: it fades while the box's travel is at its end; may be empty: 1.
   std::function<double()> brightness;
-  const std::atomic<bool>* over = nullptr;  ///< becomes true when the run has ended
-  /// For tests: a frame is written here (a PNG) as it ends; empty: none.
+  const std::atomic<bool>* over = nullptr;  ///< becomes true when the run has ended; its end is shown all the same
+  /// For tests: the last picture is written here (a PNG); empty: nowhere.
   std::string last_frame_png;
 };
 

@@ -90,27 +90,37 @@ TEST(Imager, NoiseFallsWithTheLagFilterAsItMust) {
   EXPECT_NEAR(deviation(0.5) / deviation(0), std::sqrt(0.5 / 1.5), 0.03);
 }
 
+/// How much darker a layer of blood with iodine makes the middle of a picture, as a logarithm.
+double shadow(double iodine_kg_m3, float thickness_m) {
+  Scene scene = water(0.15);
+  Body cell = phantom::body("cell", phantom::brick({-0.03, -0.03, -thickness_m / 2}, {0.03, 0.03, thickness_m / 2}),
+                            tissue::soft, tissue::soft);
+  cell.contrast.iodine_kg_m3 = Eigen::VectorXf::Constant(8, float(iodine_kg_m3));
+  cell.contrast.p_PC = Eigen::Matrix3Xf::Zero(3, 8);
+  scene.moving.push_back(cell);
+  Imager imager({}, make_scanline_renderer());
+  Programme bright = cine();
+  bright.detector_dose_nGy = 1e7;
+  bright.kerma_limit_Gy_s = 1e9;
+  ImagerState state;
+  View view;
+  view.pixels = 128;
+  imager.frame({scene, view, {}, bright, 1}, state);
+  return -std::log(double(state.lag.shown.block(60, 60, 8, 8).mean()));
+}
+
 TEST(Imager, AHalfFilledVesselIsHalfAsDark) {
-  const auto shadow = [&](double iodine_kg_m3) {
-    Scene scene = water(0.15);
-    Body cell = phantom::body("cell", phantom::brick({-0.03, -0.03, -0.0005}, {0.03, 0.03, 0.0005}), tissue::soft,
-                              tissue::soft);
-    cell.contrast.iodine_kg_m3 = Eigen::VectorXf::Constant(8, float(iodine_kg_m3));
-    cell.contrast.p_PC = Eigen::Matrix3Xf::Zero(3, 8);
-    scene.moving.push_back(cell);
-    Imager imager({}, make_scanline_renderer());
-    Programme bright = cine();
-    bright.detector_dose_nGy = 1e7;
-    bright.kerma_limit_Gy_s = 1e9;
-    ImagerState state;
-    View view;
-    view.pixels = 128;
-    imager.frame({scene, view, {}, bright, 1}, state);
-    return -std::log(double(state.lag.shown.block(60, 60, 8, 8).mean()));
-  };
-  const double none = shadow(0), half = shadow(50) - none, full = shadow(100) - none;
+  const double none = shadow(0, 1e-3f), half = shadow(50, 1e-3f) - none, full = shadow(100, 1e-3f) - none;
   EXPECT_GT(full, 0.03);
   EXPECT_NEAR(half / full, 0.5, 0.02);  // beam hardening and scatter take a little off
+}
+
+TEST(Imager, WhatIsLeftOutOfAVesselCouldNotBeSeen) {
+  const float layer = 0.03f, faintest = faintest_iodine_kg_m3;
+  const double none = shadow(0, layer);
+  EXPECT_EQ(shadow(faintest, layer), none);
+  EXPECT_GT(shadow(1.01 * faintest, layer), none) << "a little more is drawn";
+  EXPECT_LT((shadow(100 * faintest, layer) - none) / 100, 1.0 / 2000);
 }
 
 TEST(Imager, AutomaticBrightnessHoldsTheDetectorDose) {

@@ -3,9 +3,12 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <cmath>
+#include <thread>
 #include <vector>
 
+#include "app/session/filming.h"
 #include "app/session/run.h"
 #include "tests/session/tube_vessel.h"
 
@@ -59,6 +62,31 @@ TEST(Film, FollowsThePedalUnlessItIsOfOneMode) {
   EXPECT_EQ(mode_of({}, 1), Mode::cine);
   EXPECT_EQ(mode_of(Mode::fluoroscopy, 1), Mode::fluoroscopy) << "DICOM has one header for all frames";
   EXPECT_EQ(mode_of(Mode::cine, 0), Mode::cine);
+}
+
+TEST(Filming, ShowsEachPictureToWhoeverWatchesAlsoWhereTheVideoCannotBeWritten) {
+  ScriptedRun run(tube_setup(), tube_vessel());
+  FilmOptions options;
+  options.pixels = 128;
+  Film same(run.model, options);
+  Filming filming(run.model, "/nowhere/film.mp4", options);
+  int shown = 0;
+  for (; shown < 5; run.tick()) {
+    if (!is_frame(run.state.rods.step, options.frames_per_s, run.model.step_s())) continue;
+    SessionInputs inputs = run.inputs;
+    inputs.c_arm.fluoroscopy = shown % 3 != 2;
+    const Picture drawn = same.frame(run.model, run.state, inputs, run.xrays);
+    EXPECT_EQ(filming.drive(run, inputs), Driven::on);
+    for (int wait = 0; wait < 5000 && !filming.pictures().look(); ++wait)
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    const Filmed& now = filming.pictures().seen();
+    EXPECT_EQ(now.xray_on, shown % 3 != 2);
+    EXPECT_EQ(now.picture.grey, drawn.grey);
+    EXPECT_EQ(now.dose.fluoroscopy_s, same.dose().fluoroscopy_s);
+    ++shown;
+  }
+  EXPECT_EQ(shown, 5);
+  EXPECT_NE(filming.finish(), "");
 }
 
 }  // namespace
