@@ -122,9 +122,20 @@ std::string heading(const Sweep& sweep) {
   return line + ",deepest_penetration_mm,nodes_outside,troubled_steps,state\n";
 }
 
-std::string line_of(const Task& task, const ScriptedRun& run, const PlayReport& r) {
+std::string beginning_of(const Task& task) {
   std::string line = fmt::format("{},{},{}", csv(task.setup.vessel), csv(task.setup.script.name), task.seed);
   for (const std::string& value : task.values) line += "," + csv(value);
+  return line;
+}
+
+/// Of a run whose vessel cannot be built: one person without the artery must not end a sweep over a thousand.
+std::string line_without_vessel(const Task& task, const std::string& why) {
+  return beginning_of(task) + ",aborted," + csv(why) + ",0.000" + std::string(metric_definitions().size() + 4, ',') +
+         "\n";
+}
+
+std::string line_of(const Task& task, const ScriptedRun& run, const PlayReport& r) {
+  std::string line = beginning_of(task);
   line += fmt::format(",{},{},{:.3f}", r.outcome, csv(r.reason), r.simulated_s);
   for (const Metric& m : r.metrics) line += std::isfinite(m.value) ? fmt::format(",{:.9g}", m.value) : ",";
   return line + fmt::format(",{:.6f},{},{},{:016x}\n", 1e3 * r.penetration.deepest_m, r.penetration.outside,
@@ -213,6 +224,7 @@ int sweep_command(const SweepOptions& o) {
       o.jobs > 0 ? static_cast<std::size_t>(o.jobs) : std::max(1u, std::thread::hardware_concurrency());
   std::mutex mutex;
   std::string problem;
+  std::size_t refused = 0;
   // A vessel at a time, so that no more than one is in memory.
   for (std::size_t v = 0; v < sweep.vessels.size() && !interrupted && problem.empty(); ++v) {
     std::vector<std::size_t> open;
@@ -221,7 +233,17 @@ int sweep_command(const SweepOptions& o) {
     if (open.empty()) continue;
     say("building " + sweep.vessels[v].vessel);
     std::string warnings;
-    const auto vessel = make_vessel(sweep.vessels[v], warnings);
+    std::shared_ptr<const Vessel> vessel;
+    try {
+      vessel = make_vessel(sweep.vessels[v], warnings);
+    } catch (const std::exception& error) {
+      for (const std::size_t t : open) journal.add(t, line_without_vessel(sweep.tasks[t], error.what()));
+      refused += open.size();
+      say("");
+      fmt::print(stderr, "ostium sweep: {} cannot be built{}: {}\n", sweep.vessels[v].vessel,
+                 sweep.vessels[v].person ? fmt::format(" for person {}", *sweep.vessels[v].person) : "", error.what());
+      continue;
+    }
     const auto dosimeter = std::make_shared<const Dosimeter>(*vessel);
     std::atomic<std::size_t> next{0};
     const auto work = [&] {
@@ -254,6 +276,10 @@ int sweep_command(const SweepOptions& o) {
     for (std::thread& thread : threads) thread.join();
   }
   say("");
+  if (refused == sweep.tasks.size()) {
+    fs::remove(o.table + ".part");
+    throw LoadError("no vessel of the sweep can be built");
+  }
   if (!problem.empty()) throw LoadError(problem);
   if (interrupted) {
     fmt::print(stderr, "ostium sweep: stopped after {} of {} runs; --resume goes on\n", journal.done(),

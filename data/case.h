@@ -57,6 +57,10 @@ std::string case_file(const std::string& name);
 /// ~/.local/share/ostium/cases.
 std::string imported_folder();
 
+/// Another person with the same disease; 0: the mean. A lesion that would reach beyond an artery that is shorter in
+/// them lies at its end.
+Case with_person(const Case& c, std::uint64_t seed);
+
 /// The vessels, beating, with the case's lesions: built, or as they were imported. Every command makes its patient
 /// here.
 Patient patient_of(const Case& c);

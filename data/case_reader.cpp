@@ -155,6 +155,19 @@ std::string imported_folder() {
   return (home / "ostium" / "cases").string();
 }
 
+Case with_person(const Case& c, std::uint64_t seed) {
+  if (c.imported) throw LoadError(c.name + ": it is one person's mesh; another person cannot be drawn for it");
+  Case out = c;
+  out.seed = seed;
+  out.anatomy = person(seed, mean_of(c.anatomy.dominance, c.anatomy.access));
+  constexpr double rounding_m = 1e-9;
+  const Anatomy anatomy = anatomy_of(out);
+  for (Lesion& lesion : out.lesions)
+    if (const NamedBranch* branch = find_branch(anatomy, lesion.branch); branch && branch->length_m() > lesion.length_m)
+      lesion.from_m = std::min(lesion.from_m, branch->length_m() - lesion.length_m - rounding_m);
+  return out;
+}
+
 Patient patient_of(const Case& c) {
   return c.imported ? make_patient(c.imported->anatomy, c.imported->lumen, c.lesions, c.imported->frames)
                     : make_patient(c.anatomy, c.lesions);

@@ -183,5 +183,12 @@ if [[ -e $out/three.csv.part ]]; then
   expect 0 "8 runs" sweep -o "$out/three.csv" --resume
 fi
 cmp "$out/one.csv" "$out/three.csv"
+# A lesion as long as the mean's artery: nobody whose own is shorter has room for it, and the sweep goes on.
+sed 's/"name": "rca-diffuse"/"name": "long"/; s/"from_mm": 24, "length_mm": 32/"from_mm": 0, "length_mm": 95/; /"from_mm": 70/d; s/"calcified": true},/"calcified": true}/' \
+  "$(dirname "$0")/../data/cases/rca-diffuse.json" >"$folder/long.json"
+expect 0 "for person 12" "$ostium" sweep "$folder/long.json" --script iliac-wire --seconds 0.1 --vary person=0,12 --seeds 0..0 -o "$out/four.csv"
+grep -q "0,12,aborted,.*expected it within the branch" "$out/four.csv"
+expect 3 "no vessel of the sweep can be built" "$ostium" sweep "$folder/long.json" --script iliac-wire --vary person=12 --seeds 0..0 -o "$out/five.csv"
+[[ ! -e $out/five.csv.part ]]
 expect 3 "FROM..TO" "$ostium" sweep rca-mid-focal --seeds 9..1 -o "$out/table.csv"
 expect 3 "KEY=A,B,C" "$ostium" sweep rca-mid-focal --vary wire= -o "$out/table.csv"

@@ -133,9 +133,7 @@ EndState end_at(const Vector3d& p_W, const Vector3d& direction_W) {
 }
 
 std::shared_ptr<const Vessel> vessel_of(const Case& c, std::optional<std::uint64_t> seed) {
-  Case of_person = c;
-  if (seed && c.imported) throw LoadError(c.name + ": it is one person's mesh; another person cannot be drawn for it");
-  if (seed) of_person.anatomy = person(*seed, mean_of(c.anatomy.dominance, c.anatomy.access));
+  const Case of_person = seed ? with_person(c, *seed) : c;
   auto vessel = std::make_shared<Vessel>();
   const auto patient = std::make_shared<const Patient>(patient_of(of_person));
   vessel->name = c.name;

@@ -79,6 +79,26 @@ TEST(Case, ALesionThatDoesNotFitIsRefusedWithWhatExists) {
                {"folder/small.json:9: lesions[0]", "no branch \"RAC\"", "LAD", "LCx", "RCA", "PDA"});
 }
 
+TEST(Case, ALesionLiesAtTheEndOfAnArteryThatIsShorterInSomebody) {
+  const Case mean = find_case("rca-diffuse");
+  int moved = 0;
+  for (std::uint64_t seed = 0; seed <= 20; ++seed) {
+    const Case one = with_person(mean, seed);
+    const Anatomy anatomy = anatomy_of(one);
+    const double length_m = find_branch(anatomy, "RCA")->length_m();
+    ASSERT_EQ(one.lesions.size(), 2U);
+    for (std::size_t l = 0; l < 2; ++l) {
+      EXPECT_NO_THROW(check(anatomy, one.lesions[l])) << "person " << seed;
+      EXPECT_EQ(one.lesions[l].length_m, mean.lesions[l].length_m);
+      const bool fits = mean.lesions[l].from_m + mean.lesions[l].length_m <= length_m;
+      const double from_m = fits ? mean.lesions[l].from_m : length_m - mean.lesions[l].length_m;
+      EXPECT_NEAR(one.lesions[l].from_m, from_m, fits ? 0 : 1e-8) << "person " << seed;
+      moved += !fits;
+    }
+  }
+  EXPECT_GT(moved, 0);
+}
+
 TEST(Case, OtherMistakesAreNamed) {
   expect_words(refusal("\"right\"", "\"middle\""), {"small.json:6: anatomy.dominance is \"middle\"", "balanced"});
   expect_words(refusal("\"seed\": 0", "\"seed\": 1.5"), {"small.json:6: anatomy.seed is 1.5", "whole number"});
