@@ -128,7 +128,8 @@ std::string beginning_of(const Task& task) {
   return line;
 }
 
-/// Of a run whose vessel cannot be built: one person without the artery must not end a sweep over a thousand.
+/// Of a run whose vessel cannot be built: one person whose artery has no room for a lesion must not end a sweep over a
+/// thousand.
 std::string line_without_vessel(const Task& task, const std::string& why) {
   return beginning_of(task) + ",aborted," + csv(why) + ",0.000" + std::string(metric_definitions().size() + 4, ',') +
          "\n";

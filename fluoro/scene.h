@@ -32,7 +32,7 @@ struct Contrast {
 };
 
 /// Where there is no more than this anywhere, nothing is drawn of it: 3 cm of it take a two-thousandth of the beam, and
-/// a vessel that nothing was injected into costs as much to draw as all else.
+/// a tree that nothing was injected into takes longer to draw than lungs and heart.
 inline constexpr float faintest_iodine_kg_m3 = 0.01f;
 bool is_seen(const Contrast& contrast);
 

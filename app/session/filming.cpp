@@ -37,7 +37,7 @@ struct Filming::Parts {
   Latest<Filmed> pictures{{}};
   std::counting_semaphore<places> free{places}, taken{0};
   int next = 0;
-  std::atomic<bool> over{false};
+  std::atomic<bool> over{false}, watched{false};
   std::string problem;
   std::thread thread;
 
@@ -59,9 +59,11 @@ struct Filming::Parts {
       Exposed& e = queue[static_cast<std::size_t>(at)];
       try {
         film.monitor() = e.monitor;
-        const Picture& picture = film.frame(model, e.state, e.inputs, e.xrays);
-        show(picture, e.inputs.c_arm);
-        if (problem.empty()) video.add(picture);
+        if (watched || problem.empty()) {
+          const Picture& picture = film.frame(model, e.state, e.inputs, e.xrays);
+          if (watched) show(picture, e.inputs.c_arm);
+          if (problem.empty()) video.add(picture);
+        }
       } catch (const std::exception& error) {
         problem = error.what();
       }
@@ -92,7 +94,10 @@ Driven Filming::drive(const ScriptedRun& run, SessionInputs& inputs) {
   return driven;
 }
 
-Latest<Filmed>& Filming::pictures() { return parts_->pictures; }
+Latest<Filmed>& Filming::pictures() {
+  parts_->watched = true;
+  return parts_->pictures;
+}
 
 std::string Filming::finish() {
   Parts& p = *parts_;

@@ -25,8 +25,8 @@ class Filming : public Driver {
 
   Driven drive(const ScriptedRun& run, SessionInputs& inputs) override;
 
-  /// The newest picture, for one other thread: what is filmed need not be taken twice. They go on where the video has
-  /// ended early.
+  /// The newest picture, for one other thread, from this call on: what is filmed need not be taken twice. They go on
+  /// where the video has ended early.
   Latest<Filmed>& pictures();
 
   /// After the run: waits for the last picture. Empty, or what went wrong; the run is none the worse for it.
