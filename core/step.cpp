@@ -148,8 +148,10 @@ bool is_near(const RodScratch& s) {
 /// Solves a strand that walls hold, until its ties hold where it pushes and nowhere else.
 void solve_held(const Model& model, const Strand& strand, Scratch& scratch) {
   strand.contact->changes = 0;
-  do solve(strand.s->chain, nullptr, scratch.factors);
-  while (is_near(*strand.s) && change_walls(model, strand, scratch));
+  Chain& chain = strand.s->chain;
+  solve(chain, nullptr, scratch.factors);
+  while (is_near(*strand.s) && change_walls(model, strand, scratch))
+    solve_again(chain, strand.contact->same, scratch.factors);
 }
 
 /// Strands that are open; lone rods in the open two at a time, as a register has lanes for two.

@@ -14,8 +14,10 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// As much as the clock may be ahead: less than a picture, so a hard step costs an operator no time. More is let go.
-constexpr auto most_behind = std::chrono::milliseconds(50);
+/// As much as the clock may be ahead: more than a beat's hard half loses, which its easy half makes up for. More is let
+/// go. What is made up for goes at most twice as fast as the clock.
+constexpr auto most_behind = std::chrono::milliseconds(500);
+constexpr int most_haste = 2;
 
 double seconds_between(Clock::time_point a, Clock::time_point b) {
   return std::chrono::duration<double>(b - a).count();
@@ -80,7 +82,7 @@ PlayReport play(ScriptedRun& run, const RunSetup& setup, const PlayOptions& opti
       out.times.behind_most_ms = std::max(out.times.behind_most_ms, 1e3 * seconds_between(due, now));
       if (now - due > most_behind) due = now;
       due = run.stood ? Clock::now() : due + step_length;
-      std::this_thread::sleep_until(due);
+      std::this_thread::sleep_until(std::max(due, now + step_length / most_haste));
     }
   }
   out.clock_s = seconds_between(begin, Clock::now());

@@ -12,8 +12,8 @@ namespace ostium {
 
 struct PlayOptions {
   RecorderOptions recorder;
-  /// One step a millisecond of the clock, and where one takes longer the next ones follow at once until it is caught
-  /// up with; else as fast as it goes, with the same result.
+  /// One step a millisecond of the clock, and where one takes longer the next ones follow sooner until it is caught up
+  /// with; else as fast as it goes, with the same result.
   bool real = false;
   double seconds = 0;    ///< most that are simulated; 0: no end but the script's
   double give_up_s = 0;  ///< of the clock; 0: never

@@ -28,7 +28,7 @@ void expect_touches(const Model& model, const Strand& strand, Scratch& scratch);
 void tie_to_walls(const Strand& strand);
 
 /// After a solve: lets nodes go that their wall would pull, ties those that are behind one. True if there are any: then
-/// the chain, which is adapted, is to be solved again.
+/// the chain, which is adapted but for ContactScratch::same elements at either end, is to be solved again.
 bool change_walls(const Model& model, const Strand& strand, Scratch& scratch);
 
 /// How far the iterate is behind walls that do not hold it, m: more than little if the ties were not settled, or if a

@@ -56,6 +56,7 @@ struct ContactScratch {
   Field<1> travel;               ///< m, (#nodes): how far it may go within the walls that were found
   int changes = 0;               ///< of ties since the last linearisation
   std::vector<char> changed;     ///< (#nodes), by what was met on the way
+  int same = 0;                  ///< elements at either end that the last change of ties has left as they were
   Field<6> free_compliance;      ///< (#nodes), as they would be without walls
   Field<3> free_target;
   // --- friction, at nodes

@@ -151,6 +151,7 @@ bool change_walls(const Model& model, const Strand& strand, Scratch& scratch) {
     descend(strand);
   ++c.changes;
   any = false;
+  c.same = s.chain.elements;
   for (int i = first_free(s); i <= last_free(s); ++i) {
     NodeWalls& walls = c.walls[i];
     bool changed = c.changed[i];
@@ -165,8 +166,11 @@ bool change_walls(const Model& model, const Strand& strand, Scratch& scratch) {
       else
         w.stay = 0;
     }
-    if (changed) renew_node(i, c, s);
-    any = any || changed;
+    if (!changed) continue;
+    renew_node(i, c, s);
+    any = true;
+    // A node belongs to the elements on both sides of it.
+    c.same = std::max(0, std::min({c.same, i - 1 - s.chain.first, s.chain.elements - 1 - i}));
   }
   return any;
 }

@@ -197,12 +197,21 @@ Row<double, R> middle_row(const Chain& c) {
       load6<double>(c.compliance, m) + load6<double>(c.compliance, m + 1), [&](int n) { return *from[n]; }, of_roll);
 }
 
-/// Towards the middle: fills the blocks, returns what all lanes leave on their middle element.
+constexpr int between_halts = 8;  ///< steps: a halt is as large as a block, and mostly read a few steps early
+
+/// Towards the middle from step `from` on, or from the last halt before it: fills the blocks. What all lanes leave on
+/// their middle element.
 template <int R>
-[[gnu::flatten]] Row<Lanes, R> eliminate_halves(Walks<R>& walks, std::vector<ChainBlock<R>>& blocks, Lanes& minor) {
+[[gnu::flatten]] ChainHalt<R> eliminate_halves(Walks<R>& walks, int from, ChainFactors& factors) {
+  std::vector<ChainBlock<R>>& blocks = factors.blocks<R>();
+  std::vector<ChainHalt<R>>& halts = factors.halts<R>();
   const Lanes half = 0.5 * walks.direction();
-  Row<Lanes, R> carried{};
-  for (int t = 0; t < walks.steps(); ++t) {
+  ChainHalt<R> now;
+  auto& [carried, minor] = now;
+  const int begin = std::min(from, walks.steps() - 1) / between_halts;
+  if (begin > 0) now = halts[begin];
+  for (int t = begin * between_halts; t < walks.steps(); ++t) {
+    if (t % between_halts == 0) halts[t / between_halts] = now;
     walks.move_to(t);
     ChainBlock<R>& block = blocks[t];
     const S3<Lanes> H = walks.symmetric(at_H);
@@ -219,7 +228,7 @@ template <int R>
         [&](int k, int n) { return walks.read(walks.of_roll(k, n)); });
     carried = eliminate(own + carried, block, minor);
   }
-  return carried;
+  return now;
 }
 
 template <int R>
@@ -285,12 +294,11 @@ int negatives(const S3<double>& s) {
 }
 
 template <int R>
-void solve_with(Chain& first, Chain* second, ChainFactors& factors) {
+void solve_with(Chain& first, Chain* second, int same, ChainFactors& factors) {
   std::vector<ChainBlock<R>>& blocks = factors.blocks<R>();
   assert(static_cast<int>(blocks.size()) > std::max(first.elements, second ? second->elements : 0) / 2);
   Walks<R> walks(first, second ? *second : first);
-  Lanes minor = splat<Lanes>(1);
-  const Row<Lanes, R> carried = eliminate_halves(walks, blocks, minor);
+  const auto [carried, minor] = eliminate_halves(walks, same, factors);
 
   Turn<Lanes, R> turn{};
   V3<Lanes> force{};
@@ -303,9 +311,12 @@ void solve_with(Chain& first, Chain* second, ChainFactors& factors) {
 }  // namespace
 
 struct ChainFactors::Blocks {
-  std::tuple<std::vector<ChainBlock<0>>, std::vector<ChainBlock<1>>, std::vector<ChainBlock<2>>,
-             std::vector<ChainBlock<3>>>
-      by_rolls;
+  template <int R>
+  struct OfRolls {
+    std::vector<ChainBlock<R>> blocks;
+    std::vector<ChainHalt<R>> halts;
+  };
+  std::tuple<OfRolls<0>, OfRolls<1>, OfRolls<2>, OfRolls<3>> by_rolls;
 };
 
 ChainFactors::ChainFactors() : blocks_(std::make_unique<Blocks>()) {}
@@ -315,19 +326,26 @@ ChainFactors& ChainFactors::operator=(ChainFactors&&) noexcept = default;
 
 template <int R>
 std::vector<ChainBlock<R>>& ChainFactors::blocks() {
-  return std::get<R>(blocks_->by_rolls);
+  return std::get<R>(blocks_->by_rolls).blocks;
 }
 template <int R>
 const std::vector<ChainBlock<R>>& ChainFactors::blocks() const {
-  return std::get<R>(blocks_->by_rolls);
+  return std::get<R>(blocks_->by_rolls).blocks;
+}
+template <int R>
+std::vector<ChainHalt<R>>& ChainFactors::halts() {
+  return std::get<R>(blocks_->by_rolls).halts;
 }
 
 void ChainFactors::resize(int elements, int rolls) {
-  const auto make_room = [&](auto& blocks) { blocks.resize(std::max<std::size_t>(blocks.size(), elements / 2 + 1)); };
-  rolls == 0   ? make_room(blocks<0>())
-  : rolls == 1 ? make_room(blocks<1>())
-  : rolls == 2 ? make_room(blocks<2>())
-               : make_room(blocks<3>());
+  const auto make_room = [&](auto& own) {
+    own.blocks.resize(std::max<std::size_t>(own.blocks.size(), elements / 2 + 1));
+    own.halts.resize(own.blocks.size() / between_halts + 1);
+  };
+  rolls == 0   ? make_room(std::get<0>(blocks_->by_rolls))
+  : rolls == 1 ? make_room(std::get<1>(blocks_->by_rolls))
+  : rolls == 2 ? make_room(std::get<2>(blocks_->by_rolls))
+               : make_room(std::get<3>(blocks_->by_rolls));
 }
 
 Roll::Roll(int elements)
@@ -356,18 +374,31 @@ Chain::Chain(int elements, int rolls)
   write_idle_entries(*this);
 }
 
-void solve(Chain& first, Chain* second, ChainFactors& factors) {
-  assert(!second || second->roll_count == first.roll_count);
+namespace {
+
+void solve_from(int same, Chain& first, Chain* second, ChainFactors& factors) {
   switch (first.roll_count) {
     case 0:
-      return solve_with<0>(first, second, factors);
+      return solve_with<0>(first, second, same, factors);
     case 1:
-      return solve_with<1>(first, second, factors);
+      return solve_with<1>(first, second, same, factors);
     case 2:
-      return solve_with<2>(first, second, factors);
+      return solve_with<2>(first, second, same, factors);
     default:
-      return solve_with<3>(first, second, factors);
+      return solve_with<3>(first, second, same, factors);
   }
+}
+
+}  // namespace
+
+void solve(Chain& first, Chain* second, ChainFactors& factors) {
+  assert(!second || second->roll_count == first.roll_count);
+  solve_from(0, first, second, factors);
+}
+
+void solve_again(Chain& chain, int same, ChainFactors& factors) {
+  assert(same >= 0);
+  solve_from(same, chain, nullptr, factors);
 }
 
 int negative_pivots(const Chain& chain, const ChainFactors& factors) {

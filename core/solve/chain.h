@@ -70,6 +70,9 @@ struct Chain {
 /// What is eliminated at one element, in four chains side by side, each with R rolls.
 template <int R>
 struct ChainBlock;
+/// An elimination between two elements, to go on from there.
+template <int R>
+struct ChainHalt;
 
 /// Working memory of a solve: any content is fine on entry. Afterwards it holds the pivots.
 class ChainFactors {
@@ -85,6 +88,8 @@ class ChainFactors {
   std::vector<ChainBlock<R>>& blocks();
   template <int R>
   const std::vector<ChainBlock<R>>& blocks() const;
+  template <int R>
+  std::vector<ChainHalt<R>>& halts();
 
  private:
   struct Blocks;
@@ -95,6 +100,11 @@ class ChainFactors {
 /// has room for the longer. A chain's solution does not depend, to the last bit, on what shares the call. Does not
 /// allocate. Two threads may solve different chains with different factors.
 void solve(Chain& first, Chain* second, ChainFactors& factors);
+
+/// Solves the chain of the last `solve(chain, nullptr, factors)` or `solve_again` once more, where compliance and gap
+/// have changed since, but not of the `same` elements at either end, which are not eliminated again. As `solve` to the
+/// last bit.
+void solve_again(Chain& chain, int same, ChainFactors& factors);
 
 /// Number of directions in which the system of the last `solve(chain, nullptr, factors)` has negative stiffness, on
 /// the space of motions that its constraints leave (Sylvester's law of inertia, from the pivots): 0 where an

@@ -177,6 +177,12 @@ struct ChainBlock {
   V3<Lanes> gap;
 };
 
+template <int R>
+struct ChainHalt {
+  Row<Lanes, R> carried{};        ///< what elements eliminated so far leave on the next
+  Lanes minor = splat<Lanes>(1);  ///< the least of theirs
+};
+
 /// D^-1 (torque, gap) for D = [K G; G^T -A].
 template <class T, int R>
 void apply_inverse(const Stiffness<T, R>& S_inv, const S3<T>& A_inv, const Lever<T, R>& W, Turn<T, R> torque,

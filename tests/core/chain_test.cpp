@@ -158,6 +158,30 @@ TEST(Chain, SolutionDoesNotDependOnItsCompany) {
   }
 }
 
+TEST(Chain, SolvedAgainFromWhereItChangedIsAsSolvedAnew) {
+  for (int rolls : {0, 2})
+    for (int N : {3, 16, 47, 64})
+      for (int first : {0, N / 4})
+        for (int node = first + 1; node <= N; ++node) {
+          if (N - first < 3) continue;
+          RandomChain again(N, 1, 0, rolls), anew(N, 1, 0, rolls);
+          ChainFactors factors = factors_for(N, rolls), others = factors_for(N, rolls);
+          again.chain.first = anew.chain.first = first;
+          solve(again.chain, nullptr, factors);
+          for (double more : {1.0, 2.0}) {
+            for (RandomChain* random : {&again, &anew}) {
+              for (int k : {0, 3, 5}) random->chain.compliance.at(k)[node] += more;
+              random->chain.gap.at(1)[node - 1] += more;
+              if (node < N) random->chain.gap.at(1)[node] -= more;
+            }
+            solve_again(again.chain, std::max(0, std::min(node - 1 - first, N - 1 - node)), factors);
+            solve(anew.chain, nullptr, others);
+            ASSERT_EQ(again.solution(), anew.solution())
+                << rolls << " rolls, " << node << " of " << first << " to " << N;
+          }
+        }
+}
+
 TEST(Chain, CountsNegativeDirectionsLikeEigenvalues) {
   for (double softening : {0.0, 3.0, 8.0, 20.0}) {
     RandomChain random(20, 5, softening);

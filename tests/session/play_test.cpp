@@ -55,9 +55,14 @@ TEST(Play, CatchesUpWithAHardStep) {
 }
 
 TEST(Play, LetsALongStallGoInsteadOfRacingAfterIt) {
-  const Pace stalled = pace_with({150, Driven::on});
-  EXPECT_GE(stalled.behind_most_ms, 148);
-  EXPECT_GE(stalled.lost_s, 0.14);
+  const Pace stalled = pace_with({600, Driven::on});
+  EXPECT_GE(stalled.behind_most_ms, 598);
+  EXPECT_GE(stalled.lost_s, 0.59);
+}
+
+TEST(Play, CatchesUpAtMostTwiceAsFastAsTheClock) {
+  const Pace slow = pace_with({200, Driven::on});  // 150 steps are left, of half a millisecond
+  EXPECT_GE(slow.lost_s, 0.12);
 }
 
 TEST(Play, AStandIsNotLate) {
