@@ -5,8 +5,8 @@
 
 namespace ostium {
 
-/// Of the calling thread, and of those that it starts from now on. Cannot be taken back. On a core that both want the
-/// lowest priority leaves a step 99 % of it; one of 10 left it 90 %, while the other core had time to spare.
+/// Of the calling thread, and of those that it starts from now on. Cannot be taken back. The lowest
+/// there is: of a core that both want, the scheduler's weights leave steps 99 %, and beside 10 left them 90 %.
 inline void give_way_to_steps() { setpriority(PRIO_PROCESS, 0, 19); }  // on Linux a thread's own
 
 }  // namespace ostium
