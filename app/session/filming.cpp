@@ -25,11 +25,12 @@ struct Exposed {
 
 struct Filming::Parts {
   Parts(const SessionModel& m, const std::string& mp4, const FilmOptions& o, Driver* i)
-      : model(m), film(m, o), video(mp4, o.pixels, film.height(), o.frames_per_s), rate(o.frames_per_s), inner(i) {}
+      : model(m), file(mp4), pixels(o.pixels), film(m, o), rate(o.frames_per_s), inner(i) {}
 
   const SessionModel& model;
+  std::string file;
+  int pixels;
   Film film;
-  VideoWriter video;
   double rate;
   Driver* inner;
   Monitor monitor;  // of the thread that steps
@@ -53,9 +54,10 @@ struct Filming::Parts {
 
   void develop() {
     give_way_to_steps();
+    VideoWriter video(file, pixels, film.height(), rate);  // here, so that the encoder gives way, too
     for (int at = 0;; at = (at + 1) % places) {
       taken.acquire();
-      if (over.load(std::memory_order_acquire) && at == next) return;
+      if (over.load(std::memory_order_acquire) && at == next) break;
       Exposed& e = queue[static_cast<std::size_t>(at)];
       try {
         film.monitor() = e.monitor;
@@ -69,6 +71,7 @@ struct Filming::Parts {
       }
       free.release();
     }
+    if (!video.finish() && problem.empty()) problem = video.problem();
   }
 };
 
@@ -107,7 +110,6 @@ std::string Filming::finish() {
     p.over.store(true, std::memory_order_release);
     p.taken.release();
     p.thread.join();
-    if (!p.video.finish() && p.problem.empty()) p.problem = p.video.problem();
   }
   return p.problem;
 }

@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "app/session/outcome.h"
+#include "app/session/thread_priority.h"
 #include "data/load_error.h"
 
 namespace ostium {
@@ -131,6 +132,7 @@ void Recorder::finish(const std::string& end) {
 }
 
 void Recorder::follow() {
+  give_way_to_steps();
   while (true) {
     const bool over = over_.load(std::memory_order_acquire);  // before looking: nothing comes after it
     const std::size_t next = taken_.load(std::memory_order_relaxed);

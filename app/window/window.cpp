@@ -287,12 +287,15 @@ bool has_display(std::string& why) {
 
 long show_window(const SessionModel& model, const ScriptPlan& plan, LiveHand& hand, const WindowOptions& options) {
   give_way_to_steps();
+  SDL_SetHint(SDL_HINT_FRAMEBUFFER_ACCELERATION, "0");  // see the renderer
   const Video video;
   const Owned<SDL_Window> window(SDL_CreateWindow("Ostium", SDL_WINDOWPOS_CENTERED, SDL_WINDOWPOS_CENTERED, panel_width,
                                                   panel_height, SDL_WINDOW_RESIZABLE),
                                  SDL_DestroyWindow);
   if (!window) give_up("no window");
-  const Owned<SDL_Renderer> renderer(SDL_CreateRenderer(window.get(), -1, 0), SDL_DestroyRenderer);
+  // One picture is copied into the window, 15 times a second. Without a graphics card a renderer that asks for one
+  // draws with every core there is, those that steps and the film need.
+  const Owned<SDL_Renderer> renderer(SDL_CreateRenderer(window.get(), -1, SDL_RENDERER_SOFTWARE), SDL_DestroyRenderer);
   if (!renderer) give_up("the window cannot be drawn in");
   SDL_RenderSetLogicalSize(renderer.get(), panel_width, panel_height);
   const Owned<SDL_Texture> texture(SDL_CreateTexture(renderer.get(), SDL_PIXELFORMAT_ARGB8888,
