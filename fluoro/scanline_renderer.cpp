@@ -151,20 +151,30 @@ class ScanlineRenderer final : public PathLengthRenderer {
   void add_tissue(const Corner& a, const Corner& b, const Corner& c, Tissue net, PathLengths& out) {
     const Linear inverse = Slopes(a, b, c).through(a, 1.0 / a.depth, 1.0 / b.depth, 1.0 / c.depth);
     const float nearest = std::min({a.depth, b.depth, c.depth}), farthest = std::max({a.depth, b.depth, c.depth});
-    const Eigen::Array4f per_depth(net.soft, net.bone, 0, 0), once(0, 0, 0, 1);
+    // Two pixels are one register, and one store.
+    using Pair = Eigen::Array<float, 8, 1>;
+    const Pair per_depth{{net.soft, net.bone, 0, 0, net.soft, net.bone, 0, 0}}, once{{0, 0, 0, 1, 0, 0, 0, 1}};
     const float isocentre = isocentre_;
     const int side = out.side();
     float* const pixels = out.pixels().data();
     // Captured by value, so that no store into a pixel makes the compiler read them again.
     for_each_span(a, b, c, side, [=](int row, int from, int to, float sign) {
       const float start = inverse.at + inverse.per_y * static_cast<float>(row);
-      const Eigen::Array4f per_m = sign * per_depth, exits = sign * once;
+      const auto depth_at = [&](float x) {
+        return std::min(std::max(1 / (start + inverse.per_x * x), nearest), farthest) - isocentre;
+      };
       float* pixel = pixels + 4 * (std::ptrdiff_t(row) * side + from);
-      for (int x = from; x < to; ++x, pixel += 4) {
-        const float depth = 1 / (start + inverse.per_x * static_cast<float>(x));
-        Eigen::Map<Eigen::Array4f> sums(pixel);
-        sums += per_m * (std::min(std::max(depth, nearest), farthest) - isocentre) + exits;
+      int x = from;
+      const Pair per_m = sign * per_depth, exits = sign * once;
+      for (; x + 2 <= to; x += 2, pixel += 8) {
+        const float first = depth_at(static_cast<float>(x)), second = depth_at(static_cast<float>(x + 1));
+        const Pair depth{{first, first, first, first, second, second, second, second}};
+        Eigen::Map<Pair> sums(pixel);
+        sums += per_m * depth + exits;
       }
+      if (x == to) return;
+      Eigen::Map<Eigen::Array4f> sums(pixel);
+      sums += per_m.head<4>() * depth_at(static_cast<float>(x)) + exits.head<4>();
     });
   }
 

@@ -11,6 +11,7 @@
 #include <array>
 #include <vector>
 
+#include "core/math/huge_pages.h"
 #include "core/math/lanes.h"
 
 namespace ostium {
@@ -56,14 +57,15 @@ struct Surface {
   std::vector<Cluster> clusters;
   std::vector<Triangle> triangles;
   int frames = 0;
-  std::vector<float> corner_frames;  ///< [cluster][frame][x, y, z][corner of it], m: what is read together is together
-  std::vector<float> corner_sway;    ///< [cluster][x, y, z][corner of it], m; empty: it does not sway
-  std::vector<int> corner_vertex;    ///< [corner], as described
+  /// [cluster][frame][x, y, z][corner of it], m: what is read together is together.
+  std::vector<float, OnHugePages<float>> corner_frames;
+  std::vector<float> corner_sway;         ///< [cluster][x, y, z][corner of it], m; empty: it does not sway
+  std::vector<int> corner_vertex;         ///< [corner], as described
   std::vector<V3<float>> corner_normals;  ///< [corner], outwards, of the first frame: they tell sides, no more
   int corners = 0;
   std::vector<Node> nodes;
-  std::vector<Box> boxes;       ///< [interval][node]
-  std::vector<Box> sway_boxes;  ///< [node], of displacements; empty: it does not sway
+  std::vector<Box, OnHugePages<Box>> boxes;  ///< [interval][node]
+  std::vector<Box> sway_boxes;               ///< [node], of displacements; empty: it does not sway
   double stiffness_N_m2 = 0, friction = 0, door_passes_m = 0;
   int largest_cluster = 0;  ///< corners
   long edits = 0;           ///< how often a SurfaceEditor changed it
