@@ -87,8 +87,7 @@ void join_soft_walls(const View& view, NodeWalls& walls) {
       w.place = dot(w.normal, view.centre) + depth / weight;
       w.across = across(view, w.normal);
     }
-    if (count != k) walls.planes[count] = w;
-    ++count;
+    walls.planes[count++] = w;
   }
   walls.count = count;
 }
@@ -112,11 +111,8 @@ void drop_walls_seen_from_behind(NodeWalls& walls) {
   int own = 0, count = 0;
   for (int k = 1; k < walls.count; ++k)
     if (std::fabs(walls.planes[k].gap) < std::fabs(walls.planes[own].gap)) own = k;
-  for (int k = 0; k < walls.count; ++k) {
-    if (k != own && !(walls.planes[k].gap > 0)) continue;
-    if (count != k) walls.planes[count] = walls.planes[k];
-    ++count;
-  }
+  for (int k = 0; k < walls.count; ++k)
+    if (k == own || walls.planes[k].gap > 0) walls.planes[count++] = walls.planes[k];
   walls.count = count;
 }
 

@@ -1,6 +1,6 @@
 #pragma once
 /// Storage for tables of many megabytes of which a step reads a little here and there: on the processor's large pages
-/// where the system has some. On small ones nearly every look would miss the TLB.
+/// where the system has some. On small ones such looks miss the TLB.
 #include <sys/mman.h>
 
 #include <cstddef>
