@@ -96,6 +96,7 @@ struct ScriptStep {
   int jump_to = -1;      ///< a step
   int tries = 1;         ///< that it jumps
   int last_resort = -1;  ///< a step; there it jumps once when `tries` are used up, and has as many again. -1: none
+  bool detour = false;   ///< only a label leads to it: whatever goes on from before it goes past it
   // view
   std::optional<double> lao_rad, cran_rad, field_m;
   std::optional<Eigen::Vector3d> table_P;

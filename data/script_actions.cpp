@@ -7,7 +7,8 @@
 namespace ostium {
 
 const std::vector<ScriptActionKeys>& script_actions() {
-  static const std::vector<std::string> ends = {"label", "unless", "timeout_s", "otherwise", "tries", "last_resort"};
+  static const std::vector<std::string> ends = {"label", "unless",      "timeout_s", "otherwise",
+                                                "tries", "last_resort", "detour"};
   const auto with = [](std::vector<std::string> more) {
     more.insert(more.end(), ends.begin(), ends.end());
     return more;
@@ -17,15 +18,15 @@ const std::vector<ScriptActionKeys>& script_actions() {
       {"withdraw", {"tool", "speed_mm_s", "until"}, with({"turn_deg_s"})},
       {"turn", {"tool", "turn_deg_s", "until"}, with({})},
       {"wait", {"until"}, with({})},
-      {"view", {}, {"label", "view", "lao_deg", "cran_deg", "table_mm", "field_mm"}},
-      {"fluoroscopy", {"on"}, {"label"}},
-      {"cine", {"on"}, {"label"}},
-      {"heart rate", {"rate_1_min"}, {"label"}},
-      {"mark", {"text"}, {"label"}},
+      {"view", {}, {"label", "detour", "view", "lao_deg", "cran_deg", "table_mm", "field_mm"}},
+      {"fluoroscopy", {"on"}, {"label", "detour"}},
+      {"cine", {"on"}, {"label", "detour"}},
+      {"heart rate", {"rate_1_min"}, {"label", "detour"}},
+      {"mark", {"text"}, {"label", "detour"}},
       {"inject", {"rate_mL_s", "volume_mL"}, with({"iodine_mg_mL", "until"})},
       {"inflate", {"gauge_atm", "over_s"}, with({"until"})},
       {"deflate", {}, with({"until"})},
-      {"drug", {}, {"label", "heparin_U", "nitrate_ug", "adenosine_ug"}},
+      {"drug", {}, {"label", "detour", "heparin_U", "nitrate_ug", "adenosine_ug"}},
       {stands_for_steps, {"script"}, {"label", "lesion", "with"}}};
   return all;
 }

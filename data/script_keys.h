@@ -59,6 +59,9 @@ inline const JsonObjectKeys step = {
       "failure"},
      {"last_resort", false,
       "the label of a step, beside tries: when they are used up it is gone to, once, and there are as many again"},
+     {"detour", false,
+      "true: only another step's \"otherwise\" or \"last_resort\" leads to it, or a detour before it; what goes on "
+      "from elsewhere goes past it. Not the first step"},
      {"view", false, "a name of `ostium views`"},
      {"lao_deg", false, "the C-arm's angle in degrees, -120 to 120; negative: RAO"},
      {"cran_deg", false, "the C-arm's angle in degrees, -55 to 55; negative: caudal"},

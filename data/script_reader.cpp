@@ -112,6 +112,8 @@ ScriptStep read_step(const JsonValue& value, const Script& script) {
     if (!object.has("otherwise") || tries != std::floor(tries) || tries < 1 || tries > 100) object.refuse("tries");
     step.tries = static_cast<int>(tries);
   }
+  if (object.has("detour")) step.detour = object.boolean("detour");
+  if (step.detour && script.steps.empty()) object.refuse("detour");
   read_view(object, step);
   if (object.has("on")) step.on = object.boolean("on");
   if (object.has("rate_1_min")) {

@@ -212,9 +212,19 @@ void end(Outcome outcome, int condition, OperatorState& state) {
 
 void go_to(int step, OperatorState& state) { state.step = step, state.began = 1; }
 
-/// Where a step leads that failed; -1: nowhere. `tries` counts what it led to, its last resort as one.
-int leads_to(const ScriptStep& step, int s, double& tries) {
-  if (step.otherwise == ScriptStep::Otherwise::go_on) return s + 1;
+/// The step after `s`: past detours, unless that is one, too.
+int after(const Script& script, int s) {
+  const auto passed = [&](int next) { return script.steps[static_cast<std::size_t>(next)].detour; };
+  int next = s + 1;
+  if (!passed(s))
+    while (next < static_cast<int>(script.steps.size()) && passed(next)) ++next;
+  return next;
+}
+
+/// Where step `s` leads if it failed; -1: nowhere. `tries` counts what it led to, its last resort as one.
+int leads_to(const Script& script, int s, double& tries) {
+  const ScriptStep& step = script.steps[static_cast<std::size_t>(s)];
+  if (step.otherwise == ScriptStep::Otherwise::go_on) return after(script, s);
   if (step.otherwise == ScriptStep::Otherwise::fail) return -1;
   const bool last = step.last_resort >= 0 && tries == step.tries;
   if (!last && tries >= (step.last_resort >= 0 ? 2 * step.tries + 1 : step.tries)) return -1;
@@ -286,14 +296,14 @@ Outcome decide(const ScriptPlan& plan, const SessionModel& model, const SessionS
     const int until = sight.first_that_holds(step.until, plan.until_places[static_cast<std::size_t>(s)]);
     if (!takes_time(step) || until >= 0 || is_over(step, sight)) {
       if (until >= 0) events.push_back({Kind::done, s, until});
-      go_to(s + 1, state);
+      go_to(after(plan.script, s), state);
       continue;
     }
     const int unless = sight.first_that_holds(step.unless, plan.unless_places[static_cast<std::size_t>(s)]);
     const bool late = sight.now_s() - state.began_s >= step.timeout_s;
     if (unless < 0 && !late) break;
     events.push_back({unless >= 0 ? Kind::failed : Kind::timed_out, s, unless});
-    const int next = leads_to(step, s, state.tries[static_cast<std::size_t>(s)]);
+    const int next = leads_to(plan.script, s, state.tries[static_cast<std::size_t>(s)]);
     if (next >= 0)
       go_to(next, state);
     else

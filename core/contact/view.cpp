@@ -92,16 +92,21 @@ void join_soft_walls(const View& view, NodeWalls& walls) {
   walls.count = count;
 }
 
-/// Which of a cluster's triangles may be within reach, a bit for each.
+/// Which of a cluster's triangles may be within reach, a bit for each: of those whose balls are, the ones whose planes
+/// are too.
 unsigned may_meet(const ClusterPose& pose, const View& view) {
   const V3<Lanes> centre{Lanes{} + view.centre.x, Lanes{} + view.centre.y, Lanes{} + view.centre.z};
-  const Lanes reach = Lanes{} + (view.reach + rounding_m);
+  const Lanes reach = Lanes{} + (view.reach + rounding_m), moving = reach + pose.largest_move;
   unsigned any = 0;
   for (int k = 0; k < pose.balls.size(); k += lane_count) {
     const Q4<Lanes> ball = load4<Lanes>(pose.balls, k);
     const V3<Lanes> away = centre - V3<Lanes>{ball.w, ball.x, ball.y};
     const Lanes within = reach + ball.z;
-    any |= static_cast<unsigned>(_mm256_movemask_pd(_mm256_cmp_pd(dot(away, away), within * within, _CMP_LE_OQ))) << k;
+    const Q4<Lanes> plane = load4<Lanes>(pose.planes, k);
+    const Lanes height = dot(V3<Lanes>{plane.w, plane.x, plane.y}, centre) - plane.z;
+    const Lanes near = _mm256_and_pd(_mm256_cmp_pd(dot(away, away), within * within, _CMP_LE_OQ),
+                                     _mm256_cmp_pd(height * height, moving * moving, _CMP_LE_OQ));
+    any |= static_cast<unsigned>(_mm256_movemask_pd(near)) << k;
   }
   return any & ((1U << pose.balls.size()) - 1);
 }

@@ -7,6 +7,8 @@ namespace ostium {
 
 namespace {
 
+constexpr double smallest_area2 = 1e-60;  ///< a triangle without an area gets a normal of 0
+
 SurfaceMoment moment(const Surface& surface, double frame, const Eigen::Vector3d& shift_W, double sway) {
   SurfaceMoment m;
   m.shift_W = shift_W;
@@ -84,6 +86,9 @@ void wrap(const Surface& surface, const Surface::Cluster& cluster, ClusterPose& 
     const auto from = [&](const V3<T>& p) { return dot(p - centre, p - centre); };
     const T radius = square_root(largest(from(a), largest(from(b), from(d))));
     store4(c.balls, k, Q4<T>{centre.x, centre.y, centre.z, radius + c.largest_move});
+    const V3<T> out = cross(b - a, d - a);
+    const V3<T> normal = ((T{} + 1) / square_root(largest(dot(out, out), T{} + smallest_area2))) * out;
+    store4(c.planes, k, Q4<T>{normal.x, normal.y, normal.z, dot(normal, a)});
   });
 }
 
@@ -93,7 +98,7 @@ SurfacePose::SurfacePose(const Surface& surface)
     : clusters(surface.clusters.size()), listed(surface.clusters.size(), -1) {
   for (std::size_t c = 0; c < clusters.size(); ++c) {
     for (Field<3>* corners : {&clusters[c].before, &clusters[c].after}) corners->resize(surface.clusters[c].corners);
-    clusters[c].balls.resize(surface.clusters[c].triangles);
+    for (Field<4>* each : {&clusters[c].balls, &clusters[c].planes}) each->resize(surface.clusters[c].triangles);
   }
 }
 

@@ -26,6 +26,7 @@ struct ClusterPose {
   double largest_move = 0;  ///< of a corner in the step
   Field<3> before, after;   ///< (#corners)
   Field<4> balls;           ///< (#triangles): centre and radius of a ball around each, during the step
+  Field<4> planes;          ///< (#triangles): unit normal n and n.p of the plane of each, as the step begins
   long computed = -1;       ///< in which step
 };
 

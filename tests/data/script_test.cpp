@@ -82,6 +82,10 @@ TEST(Script, MistakesAreNamedByLine) {
   expect_words(refusal("\"tries\": 2", "\"last_resort\": \"up\""), {"small.json:11:", "beside tries"});
   expect_words(refusal("\"tries\": 2", "\"tries\": 2, \"last_resort\": \"down\""),
                {"small.json:11:", "the label of a step"});
+  EXPECT_EQ(refusal("\"label\": \"up\"", "\"label\": \"up\", \"detour\": true"), "accepted");
+  expect_words(refusal("\"label\": \"up\"", "\"label\": \"up\", \"detour\": 1"), {"small.json:8:", "true"});
+  expect_words(refusal("\"view\": \"spider\"", "\"view\": \"spider\", \"detour\": true"),
+               {"small.json:7:", "Not the first step"});
   expect_words(refusal(", \"within_deg\": 20", ""), {"small.json:12:", "within_deg is missing"});
   expect_words(refusal("\"tip_points\": \"left\", \"within_deg\": 20", "\"tip_faces\": \"RCA\""),
                {"small.json:12:", "within_deg is missing"});

@@ -176,6 +176,29 @@ TEST(Operator, HasALastResortWhenTriesAreUsedUp) {
   EXPECT_NEAR(run.state.hands[0].fed_m, 2 * (0.01 + 4 * 0.001), 0.001);
 }
 
+/// Gone past on the way on, in no time; gone through when a label leads to it.
+TEST(Operator, TakesADetourOnlyWhereALabelLeadsToIt) {
+  for (const double needed_mm : {5., 25.}) {
+    const std::string script = R"({ "schema": "ostium-script/1", "name": "detour", "title": "A test",
+    "tools": [ { "name": "wire", "instrument": "cook-j" } ],
+    "steps": [
+      { "do": "advance", "tool": "wire", "speed_mm_s": 100, "until": [{ "fed_mm": 10 }] },
+      { "do": "advance", "label": "more", "detour": true, "tool": "wire", "speed_mm_s": 100, "until": [{ "fed_mm": 8 }] },
+      { "do": "advance", "detour": true, "tool": "wire", "speed_mm_s": 100, "until": [{ "fed_mm": 2 }] },
+      { "do": "wait", "until": [{ "inserted_mm": )" +
+                               std::to_string(needed_mm) +
+                               R"(, "of": "wire" }], "timeout_s": 0.1, "otherwise": "more", "tries": 3 } ] })";
+    ScriptedRun run(tube_setup(script), tube_vessel());
+    int begun = 0;
+    while (run.tick())
+      for (const OperatorEvent& event : run.events) begun += event.kind == OperatorEvent::Kind::begins;
+    EXPECT_EQ(run.outcome, Outcome::success) << reason(run.plan, run.hands);
+    const double fed_m = run.state.hands[0].fed_m;
+    EXPECT_NEAR(fed_m, needed_mm < 10 ? 0.01 : 0.03, 0.001);
+    EXPECT_EQ(begun, needed_mm < 10 ? 2 : 8);
+  }
+}
+
 /// "Is this needed?": a wait whose `unless` holds at once jumps past what is not; one whose `until` comes first does
 /// not.
 TEST(Operator, LeavesOutStepsThatAreNotNeeded) {
