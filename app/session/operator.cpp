@@ -214,10 +214,10 @@ void go_to(int step, OperatorState& state) { state.step = step, state.began = 1;
 
 /// The step after `s`: past detours, unless that is one, too.
 int after(const Script& script, int s) {
-  const auto passed = [&](int next) { return script.steps[static_cast<std::size_t>(next)].detour; };
+  const auto is_detour = [&](int one) { return script.steps[static_cast<std::size_t>(one)].detour; };
   int next = s + 1;
-  if (!passed(s))
-    while (next < static_cast<int>(script.steps.size()) && passed(next)) ++next;
+  if (!is_detour(s))
+    while (next < static_cast<int>(script.steps.size()) && is_detour(next)) ++next;
   return next;
 }
 

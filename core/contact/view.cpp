@@ -10,7 +10,7 @@ namespace ostium {
 
 namespace {
 
-constexpr double rounding_m = 1e-9;  ///< what a coarse look allows for, before an exact one
+constexpr double rounding_share = 1e-6;  ///< of what it looks across: allowed for by a rough look in single precision
 
 bool is_at_rim(const TrianglePoint& w) { return !(w.u > 0 && w.v > 0 && w.u + w.v < 1); }
 
@@ -94,21 +94,23 @@ void join_soft_walls(const View& view, NodeWalls& walls) {
 
 /// Which of a cluster's triangles may be within reach, a bit for each: of those whose balls are, the ones whose planes
 /// are too.
-unsigned may_meet(const ClusterPose& pose, const View& view) {
-  const V3<Lanes> centre{Lanes{} + view.centre.x, Lanes{} + view.centre.y, Lanes{} + view.centre.z};
-  const Lanes reach = Lanes{} + (view.reach + rounding_m), moving = reach + pose.largest_move;
+unsigned may_meet(const ClusterPose& pose, int triangles, const View& view) {
+  const V3<double> from = view.centre - pose.low, size = pose.high - pose.low;
+  const double reach = view.reach + rounding_share * (size.x + size.y + size.z + view.reach);
+  const auto all = [](double a) { return _mm256_set1_ps(static_cast<float>(a)); };
+  const __m256 x = all(from.x), y = all(from.y), z = all(from.z), still = all(reach),
+               moving = all(reach + pose.largest_move);
+  const TriangleBounds& t = pose.bounds;
   unsigned any = 0;
-  for (int k = 0; k < pose.balls.size(); k += lane_count) {
-    const Q4<Lanes> ball = load4<Lanes>(pose.balls, k);
-    const V3<Lanes> away = centre - V3<Lanes>{ball.w, ball.x, ball.y};
-    const Lanes within = reach + ball.z;
-    const Q4<Lanes> plane = load4<Lanes>(pose.planes, k);
-    const Lanes height = dot(V3<Lanes>{plane.w, plane.x, plane.y}, centre) - plane.z;
-    const Lanes near = _mm256_and_pd(_mm256_cmp_pd(dot(away, away), within * within, _CMP_LE_OQ),
-                                     _mm256_cmp_pd(height * height, moving * moving, _CMP_LE_OQ));
-    any |= static_cast<unsigned>(_mm256_movemask_pd(near)) << k;
+  for (int k = 0; k < triangles; k += 8) {
+    const auto at = [k](const float* p) { return _mm256_loadu_ps(p + k); };
+    const __m256 dx = x - at(t.x), dy = y - at(t.y), dz = z - at(t.z), within = still + at(t.radius);
+    const __m256 height = at(t.normal_x) * x + at(t.normal_y) * y + at(t.normal_z) * z - at(t.height);
+    const __m256 near = _mm256_and_ps(_mm256_cmp_ps(dx * dx + dy * dy + dz * dz, within * within, _CMP_LE_OQ),
+                                      _mm256_cmp_ps(height * height, moving * moving, _CMP_LE_OQ));
+    any |= static_cast<unsigned>(_mm256_movemask_ps(near)) << k;
   }
-  return any & ((1U << pose.balls.size()) - 1);
+  return any & ((1U << triangles) - 1);
 }
 
 /// Walls that the node's centre is behind do not hold it, unless it is its own that gives way: the nearest.
@@ -183,7 +185,7 @@ void look(const Model& model, int at_surface, int cluster, const ClusterPose& po
           const View& view, bool passes, NodeWalls& walls) {
   const Surface& surface = *model.surfaces[at_surface];
   const Surface::Cluster& c = surface.clusters[cluster];
-  for (unsigned left = may_meet(pose, view); left != 0; left &= left - 1) {
+  for (unsigned left = may_meet(pose, c.triangles, view); left != 0; left &= left - 1) {
     const int triangle = c.first_triangle + std::countr_zero(left);
     const Surface::Triangle& t = surface.triangles[triangle];
     Sight sight;

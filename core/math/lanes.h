@@ -45,6 +45,8 @@ inline Lanes load<Lanes>(const double* p) {
 }
 inline void store(double* p, double a) { *p = a; }
 inline void store(double* p, Lanes a) { _mm256_storeu_pd(p, a); }
+inline void store(float* p, double a) { *p = static_cast<float>(a); }
+inline void store(float* p, Lanes a) { _mm_storeu_ps(p, _mm256_cvtpd_ps(a)); }
 
 template <class T>
 T splat(double a) {

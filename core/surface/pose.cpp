@@ -71,8 +71,10 @@ void bound(int corners, ClusterPose& c) {
 
 void wrap(const Surface& surface, const Surface::Cluster& cluster, ClusterPose& c) {
   const Surface::Triangle* triangle = &surface.triangles[cluster.first_triangle];
+  TriangleBounds& to = c.bounds;
   for_packs(0, cluster.triangles, [&]<class T>(T, int k) {
-    const auto corner = [&](int n) -> V3<T> {
+    const V3<T> low{T{} + c.low.x, T{} + c.low.y, T{} + c.low.z};
+    const auto corner = [&](int n) {
       const auto of = [&](const double* x) -> T {
         if constexpr (sizeof(T) == sizeof(double))
           return x[triangle[k].corner[n]];
@@ -80,15 +82,16 @@ void wrap(const Surface& surface, const Surface::Cluster& cluster, ClusterPose& 
           return T{x[triangle[k].corner[n]], x[triangle[k + 1].corner[n]], x[triangle[k + 2].corner[n]],
                    x[triangle[k + 3].corner[n]]};
       };
-      return {of(c.before.at(0)), of(c.before.at(1)), of(c.before.at(2))};
+      return V3<T>{of(c.before.at(0)), of(c.before.at(1)), of(c.before.at(2))} - low;
     };
     const V3<T> a = corner(0), b = corner(1), d = corner(2), centre = (T{} + 1.0 / 3) * (a + b + d);
     const auto from = [&](const V3<T>& p) { return dot(p - centre, p - centre); };
-    const T radius = square_root(largest(from(a), largest(from(b), from(d))));
-    store4(c.balls, k, Q4<T>{centre.x, centre.y, centre.z, radius + c.largest_move});
+    store(to.x + k, centre.x), store(to.y + k, centre.y), store(to.z + k, centre.z);
+    store(to.radius + k, square_root(largest(from(a), largest(from(b), from(d)))) + c.largest_move);
     const V3<T> out = cross(b - a, d - a);
     const V3<T> normal = ((T{} + 1) / square_root(largest(dot(out, out), T{} + smallest_area2))) * out;
-    store4(c.planes, k, Q4<T>{normal.x, normal.y, normal.z, dot(normal, a)});
+    store(to.normal_x + k, normal.x), store(to.normal_y + k, normal.y), store(to.normal_z + k, normal.z);
+    store(to.height + k, dot(normal, a));
   });
 }
 
@@ -96,10 +99,8 @@ void wrap(const Surface& surface, const Surface::Cluster& cluster, ClusterPose& 
 
 SurfacePose::SurfacePose(const Surface& surface)
     : clusters(surface.clusters.size()), listed(surface.clusters.size(), -1) {
-  for (std::size_t c = 0; c < clusters.size(); ++c) {
+  for (std::size_t c = 0; c < clusters.size(); ++c)
     for (Field<3>* corners : {&clusters[c].before, &clusters[c].after}) corners->resize(surface.clusters[c].corners);
-    for (Field<4>* each : {&clusters[c].balls, &clusters[c].planes}) each->resize(surface.clusters[c].triangles);
-  }
 }
 
 void set_motion(const Surface& surface, const SurfaceMotion& motion, SurfacePose& pose) {

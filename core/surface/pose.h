@@ -20,14 +20,21 @@ struct SurfaceMoment {
   bool operator==(const SurfaceMoment&) const = default;
 };
 
+/// Where a cluster's triangles may be during a step, roughly: for a first look, eight at a time. From `low` of the
+/// cluster's box, m.
+struct TriangleBounds {
+  float x[cluster_size], y[cluster_size], z[cluster_size], radius[cluster_size];  ///< of a ball that holds each
+  /// The plane of each, as the step begins: its unit normal n, and n.p of its points p.
+  float normal_x[cluster_size], normal_y[cluster_size], normal_z[cluster_size], height[cluster_size];
+};
+
 /// A cluster, m.
 struct ClusterPose {
   V3<double> low, high;     ///< the box of its corners during the step
   double largest_move = 0;  ///< of a corner in the step
   Field<3> before, after;   ///< (#corners)
-  Field<4> balls;           ///< (#triangles): centre and radius of a ball around each, during the step
-  Field<4> planes;          ///< (#triangles): unit normal n and n.p of the plane of each, as the step begins
-  long computed = -1;       ///< in which step
+  TriangleBounds bounds{};
+  long computed = -1;  ///< in which step
 };
 
 struct SurfacePose {
