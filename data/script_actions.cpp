@@ -27,8 +27,15 @@ const std::vector<ScriptActionKeys>& script_actions() {
       {"inflate", {"gauge_atm", "over_s"}, with({"until"})},
       {"deflate", {}, with({"until"})},
       {"drug", {}, {"label", "detour", "heparin_U", "nitrate_ug", "adenosine_ug"}},
-      {stands_for_steps, {"script"}, {"label", "lesion", "with"}}};
+      {stands_for_steps, {"script"}, {"label", "lesion", "with", "otherwise", "tries"}}};
   return all;
+}
+
+bool may_fail(const std::string& action) {
+  return std::any_of(script_actions().begin(), script_actions().end(), [&](const ScriptActionKeys& one) {
+    return action == one.name && action != stands_for_steps &&
+           std::find(one.may.begin(), one.may.end(), "otherwise") != one.may.end();
+  });
 }
 
 void require_keys(const JsonObject& step, const ScriptActionKeys& action) {

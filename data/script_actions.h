@@ -16,6 +16,9 @@ struct ScriptActionKeys {
 const std::vector<ScriptActionKeys>& script_actions();
 inline constexpr const char* stands_for_steps = "script";
 
+/// A step that says until when: only such may lead elsewhere.
+bool may_fail(const std::string& action);
+
 /// Throws LoadError for one that it needs and that is missing, and one that it does not have.
 void require_keys(const JsonObject& step, const ScriptActionKeys& action);
 

@@ -53,12 +53,15 @@ inline const JsonObjectKeys step = {
      {"until", false, "a list of conditions; the first that holds ends the step"},
      {"unless", false, "a list of conditions; if one of them holds first, the step has failed"},
      {"timeout_s", false, "after this many seconds the step has failed, > 0 and at most 3600"},
-     {"otherwise", false, "what a failure leads to: \"fail\" (if it is not said), \"go on\" or the label of a step"},
+     {"otherwise", false,
+      "what a failure leads to: \"fail\" (if it is not said), \"go on\" or the label of a step; beside script: the "
+      "label that "
+      "its steps lead to where the run would end"},
      {"tries", false,
       "how often \"otherwise\" leads to that step, a whole number, 1 to 100, 1 if it is not said; then it is a "
       "failure"},
      {"last_resort", false,
-      "the label of a step, beside tries: when they are used up it is gone to, once, and there are as many again"},
+      "the label of a step, beside otherwise: when tries are used up it is gone to, once, and there are as many again"},
      {"detour", false,
       "true: only another step's \"otherwise\" or \"last_resort\" leads to it, or a detour before it; what goes on "
       "from elsewhere goes past it. Not the first step"},

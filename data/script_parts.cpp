@@ -23,6 +23,22 @@ JsonValue* member(JsonValue& object, const std::string& key) {
   return nullptr;
 }
 
+bool is_no_label(const std::string& otherwise) { return otherwise == "fail" || otherwise == "go on"; }
+
+/// Where a step of a part leads whose failure would end the run: to the label that stands beside the part.
+void lead_out(const JsonObject& step, JsonValue& one) {
+  const JsonValue* action = one.find("do");
+  if (!action || !may_fail(action->text)) return;
+  const JsonValue* otherwise = one.find("otherwise");
+  if (!otherwise || otherwise->text == "fail") {
+    std::erase_if(one.members, [](const auto& m) { return m.first == "otherwise" || m.first == "tries"; });
+    for (const char* key : {"otherwise", "tries"})
+      if (step.has(key)) one.members.emplace_back(key, step[key]);
+  } else if (otherwise->text != "go on" && !one.find("last_resort")) {
+    one.members.emplace_back("last_resort", step["otherwise"]);
+  }
+}
+
 bool has_tool(const JsonObject& script, const std::string& name) {
   const std::vector<JsonValue>& tools = script.list("tools");
   return std::any_of(tools.begin(), tools.end(),
@@ -30,7 +46,7 @@ bool has_tool(const JsonObject& script, const std::string& name) {
 }
 
 /// What a script that names another says of it, said in that one's own steps: under which labels they stand, with which
-/// tools, at which lesion.
+/// tools, at which lesion, and where they lead when they fail.
 void say_in_steps(const JsonObject& step, JsonValue& part) {
   const JsonValue* with = step.value().find("with");
   const auto rename = [&](JsonValue& tool) {
@@ -45,9 +61,9 @@ void say_in_steps(const JsonObject& step, JsonValue& part) {
     }
     for (const char* key : {"label", "otherwise", "last_resort"}) {
       JsonValue* label = step.has("label") ? member(one, key) : nullptr;
-      if (label && label->text != "fail" && label->text != "go on")
-        label->text = step.text("label") + ": " + label->text;
+      if (label && !is_no_label(label->text)) label->text = step.text("label") + ": " + label->text;
     }
+    if (step.has("otherwise")) lead_out(step, one);
     for (const char* key : {"until", "unless"}) {
       JsonValue* list = member(one, key);
       if (!list) continue;
@@ -84,6 +100,8 @@ bool write_out(JsonValue& file, int depth) {
         if (!has_tool(JsonObject(part, keys::root), theirs) || !has_tool(root, ours.text))
           ours.fail(fmt::format("{}: expected a tool of {} and the name of one of this script's", ours.path,
                                 step.text("script")));
+    if (step.has("otherwise") ? is_no_label(step.text("otherwise")) : step.has("tries"))
+      step.refuse(step.has("otherwise") ? "otherwise" : "tries");
     say_in_steps(step, part);
     for (const JsonValue& tool : JsonObject(part, keys::root).list("tools"))
       if (const std::string name = JsonObject(tool, keys::tool).text("name"); !has_tool(root, name))

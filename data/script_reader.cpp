@@ -128,7 +128,7 @@ ScriptStep read_step(const JsonValue& value, const Script& script) {
 /// Second time round, when all labels are known.
 void read_otherwise(const JsonValue& value, Script& script, ScriptStep& step) {
   const JsonObject object(value, keys::step);
-  if (object.has("last_resort") && !object.has("tries")) object.refuse("last_resort");
+  if (object.has("last_resort") && !object.has("otherwise")) object.refuse("last_resort");
   if (!object.has("otherwise")) return;
   const std::string to = object.text("otherwise");
   if (to == "fail") return;

@@ -79,7 +79,9 @@ TEST(Script, MistakesAreNamedByLine) {
                {"small.json:7:", "no meaning for \"view\""});
   expect_words(refusal("\"otherwise\": \"up\"", "\"otherwise\": \"down\""), {"small.json:11:", "the label of a step"});
   expect_words(refusal("\"tries\": 2", "\"tries\": 0"), {"small.json:11:", "1 to 100"});
-  expect_words(refusal("\"tries\": 2", "\"last_resort\": \"up\""), {"small.json:11:", "beside tries"});
+  expect_words(refusal("\"otherwise\": \"up\", \"tries\": 2", "\"last_resort\": \"up\""),
+               {"small.json:11:", "beside otherwise"});
+  EXPECT_EQ(refusal("\"tries\": 2", "\"last_resort\": \"up\""), "accepted") << "once, then there";
   expect_words(refusal("\"tries\": 2", "\"tries\": 2, \"last_resort\": \"down\""),
                {"small.json:11:", "the label of a step"});
   EXPECT_EQ(refusal("\"label\": \"up\"", "\"label\": \"up\", \"detour\": true"), "accepted");
@@ -291,6 +293,51 @@ TEST(Script, AnotherScriptMayStandTwiceWithOtherToolsAtAnotherLesion) {
   expect_words(refused(R"({ "stent": "others" })"), {"both.json:4:", "with.stent", "one of this script's"});
   expect_words(refused("3"), {"both.json:4:", "an object of names"});
   expect_words(refused(R"({ "stent": 3 })"), {"both.json:4:", "with.stent"});
+}
+
+TEST(Script, StepsOfAnotherScriptLeadToTheLabelBesideItWhereTheRunWouldEnd) {
+  const Folder folder;
+  folder.write("parts/up.json", R"({
+    "schema": "ostium-script/1", "name": "up", "title": "A part", "tools": [ { "name": "wire", "instrument": "cook-j" } ],
+    "steps": [
+      { "do": "advance", "label": "up", "tool": "wire", "speed_mm_s": 12.5, "until": [{ "tip_passes": "arch" }] },
+      { "do": "wait", "until": [{ "seconds": 2 }], "otherwise": "up", "tries": 2 },
+      { "do": "wait", "until": [{ "seconds": 2 }], "otherwise": "up", "tries": 3, "last_resort": "up" },
+      { "do": "wait", "until": [{ "seconds": 2 }], "otherwise": "go on" },
+      { "do": "wait", "until": [{ "seconds": 2 }], "otherwise": "fail" },
+      { "do": "cine", "on": true }
+    ] })");
+  const auto with = [&](const std::string& more) {
+    return whole(
+        R"({ "do": "fluoroscopy", "on": true }, { "do": "fluoroscopy", "label": "anew", "detour": true, "on": true },
+      { "do": "script", "script": "parts/up", "label": "first")" +
+        more + " }");
+  };
+  const std::string file = (folder.path / "whole.json").string();
+  const Script script = read_script(file, with(R"(, "otherwise": "anew", "tries": 4)"));
+  ASSERT_EQ(script.steps.size(), 8u);
+  const ScriptStep* of_part = &script.steps[2];
+  EXPECT_EQ(of_part[0].jump_to, 1);
+  EXPECT_EQ(of_part[0].tries, 4);
+  EXPECT_EQ(of_part[1].jump_to, 2) << "what it says itself comes first";
+  EXPECT_EQ(of_part[1].tries, 2);
+  EXPECT_EQ(of_part[1].last_resort, 1);
+  EXPECT_EQ(of_part[2].last_resort, 2) << "its own";
+  EXPECT_EQ(of_part[3].otherwise, ScriptStep::Otherwise::go_on);
+  EXPECT_EQ(of_part[4].jump_to, 1);
+
+  const auto refused = [&](const std::string& more) -> std::string {
+    try {
+      read_script(file, with(more));
+    } catch (const LoadError& error) {
+      return error.what();
+    }
+    return "accepted";
+  };
+  expect_words(refused(R"(, "otherwise": "nowhere")"), {"otherwise", "nowhere", "the label of a step"});
+  expect_words(refused(R"(, "otherwise": "go on")"), {"whole.json:", "otherwise"});
+  expect_words(refused(R"(, "tries": 2)"), {"whole.json:", "tries"});
+  expect_words(refused(R"(, "otherwise": "anew", "tries": 0.5)"), {"tries", "a whole number"});
 }
 
 TEST(Script, WhatIsWrongInAnotherScriptIsNamedThere) {
