@@ -55,8 +55,7 @@ inline const JsonObjectKeys step = {
      {"timeout_s", false, "after this many seconds the step has failed, > 0 and at most 3600"},
      {"otherwise", false,
       "what a failure leads to: \"fail\" (if it is not said), \"go on\" or the label of a step; beside script: the "
-      "label that "
-      "its steps lead to where the run would end"},
+      "label that its steps lead to where the run would end"},
      {"tries", false,
       "how often \"otherwise\" leads to that step, a whole number, 1 to 100, 1 if it is not said; then it is a "
       "failure"},

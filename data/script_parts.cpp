@@ -23,19 +23,18 @@ JsonValue* member(JsonValue& object, const std::string& key) {
   return nullptr;
 }
 
-bool is_no_label(const std::string& otherwise) { return otherwise == "fail" || otherwise == "go on"; }
+bool is_label(const std::string& otherwise) { return otherwise != "fail" && otherwise != "go on"; }
 
-/// Where a step of a part leads whose failure would end the run: to the label that stands beside the part.
+/// Where a step of a part leads that says nothing of its failure, or whose tries are used up: to the label that stands
+/// beside the part.
 void lead_out(const JsonObject& step, JsonValue& one) {
   const JsonValue* action = one.find("do");
   if (!action || !may_fail(action->text)) return;
-  const JsonValue* otherwise = one.find("otherwise");
-  if (!otherwise || otherwise->text == "fail") {
-    std::erase_if(one.members, [](const auto& m) { return m.first == "otherwise" || m.first == "tries"; });
+  if (const JsonValue* own = one.find("otherwise")) {
+    if (is_label(own->text) && !one.find("last_resort")) one.members.emplace_back("last_resort", step["otherwise"]);
+  } else if (!one.find("tries")) {  // which the reader refuses there
     for (const char* key : {"otherwise", "tries"})
       if (step.has(key)) one.members.emplace_back(key, step[key]);
-  } else if (otherwise->text != "go on" && !one.find("last_resort")) {
-    one.members.emplace_back("last_resort", step["otherwise"]);
   }
 }
 
@@ -61,7 +60,7 @@ void say_in_steps(const JsonObject& step, JsonValue& part) {
     }
     for (const char* key : {"label", "otherwise", "last_resort"}) {
       JsonValue* label = step.has("label") ? member(one, key) : nullptr;
-      if (label && !is_no_label(label->text)) label->text = step.text("label") + ": " + label->text;
+      if (label && is_label(label->text)) label->text = step.text("label") + ": " + label->text;
     }
     if (step.has("otherwise")) lead_out(step, one);
     for (const char* key : {"until", "unless"}) {
@@ -100,8 +99,8 @@ bool write_out(JsonValue& file, int depth) {
         if (!has_tool(JsonObject(part, keys::root), theirs) || !has_tool(root, ours.text))
           ours.fail(fmt::format("{}: expected a tool of {} and the name of one of this script's", ours.path,
                                 step.text("script")));
-    if (step.has("otherwise") ? is_no_label(step.text("otherwise")) : step.has("tries"))
-      step.refuse(step.has("otherwise") ? "otherwise" : "tries");
+    if (step.has("otherwise") && !is_label(step.text("otherwise"))) step.refuse("otherwise");
+    if (step.has("tries") && !step.has("otherwise")) step.refuse("tries");
     say_in_steps(step, part);
     for (const JsonValue& tool : JsonObject(part, keys::root).list("tools"))
       if (const std::string name = JsonObject(tool, keys::tool).text("name"); !has_tool(root, name))

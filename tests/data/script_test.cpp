@@ -32,17 +32,23 @@ const std::string small_script = R"({
   ]
 })";
 
+/// What is said of a script that is refused.
+template <class Read>
+std::string refusal_of(Read&& read) {
+  try {
+    read();
+  } catch (const LoadError& error) {
+    return error.what();
+  }
+  return "accepted";
+}
+
 std::string refusal(const std::string& from, const std::string& to) {
   std::string text = small_script;
   const auto at = text.find(from);
   EXPECT_NE(at, std::string::npos) << from;
   text.replace(at, from.size(), to);
-  try {
-    read_script("folder/small.json", text);
-  } catch (const LoadError& error) {
-    return error.what();
-  }
-  return "accepted";
+  return refusal_of([&] { read_script("folder/small.json", text); });
 }
 
 TEST(Script, IsReadInSiUnits) {
@@ -125,12 +131,7 @@ std::string treatment_refusal(const std::string& from, const std::string& to) {
   std::string text = treatment;
   EXPECT_NE(text.find(from), std::string::npos) << from;
   text.replace(text.find(from), from.size(), to);
-  try {
-    read_script("treatment.json", text);
-  } catch (const LoadError& error) {
-    return error.what();
-  }
-  return "accepted";
+  return refusal_of([&] { read_script("treatment.json", text); });
 }
 
 TEST(Script, SaysWhereItComesIn) {
@@ -281,14 +282,7 @@ TEST(Script, AnotherScriptMayStandTwiceWithOtherToolsAtAnotherLesion) {
     EXPECT_EQ(script.steps[3].until[0].lesion, 0);
     EXPECT_EQ(script.steps[4].jump_to, 3);
   }
-  const auto refused = [&](const std::string& with) -> std::string {
-    try {
-      read_script(file, both(with));
-    } catch (const LoadError& error) {
-      return error.what();
-    }
-    return "accepted";
-  };
+  const auto refused = [&](const std::string& with) { return refusal_of([&] { read_script(file, both(with)); }); };
   expect_words(refused(R"({ "steent": "other" })"), {"both.json:4:", "with.steent", "a tool of parts/open"});
   expect_words(refused(R"({ "stent": "others" })"), {"both.json:4:", "with.stent", "one of this script's"});
   expect_words(refused("3"), {"both.json:4:", "an object of names"});
@@ -324,16 +318,9 @@ TEST(Script, StepsOfAnotherScriptLeadToTheLabelBesideItWhereTheRunWouldEnd) {
   EXPECT_EQ(of_part[1].last_resort, 1);
   EXPECT_EQ(of_part[2].last_resort, 2) << "its own";
   EXPECT_EQ(of_part[3].otherwise, ScriptStep::Otherwise::go_on);
-  EXPECT_EQ(of_part[4].jump_to, 1);
+  EXPECT_EQ(of_part[4].otherwise, ScriptStep::Otherwise::fail);
 
-  const auto refused = [&](const std::string& more) -> std::string {
-    try {
-      read_script(file, with(more));
-    } catch (const LoadError& error) {
-      return error.what();
-    }
-    return "accepted";
-  };
+  const auto refused = [&](const std::string& more) { return refusal_of([&] { read_script(file, with(more)); }); };
   expect_words(refused(R"(, "otherwise": "nowhere")"), {"otherwise", "nowhere", "the label of a step"});
   expect_words(refused(R"(, "otherwise": "go on")"), {"whole.json:", "otherwise"});
   expect_words(refused(R"(, "tries": 2)"), {"whole.json:", "tries"});
@@ -342,14 +329,9 @@ TEST(Script, StepsOfAnotherScriptLeadToTheLabelBesideItWhereTheRunWouldEnd) {
 
 TEST(Script, WhatIsWrongInAnotherScriptIsNamedThere) {
   const Folder folder;
-  const auto refused = [&](const std::string& part, const std::string& steps) -> std::string {
+  const auto refused = [&](const std::string& part, const std::string& steps) {
     folder.write("parts/up.json", part);
-    try {
-      read_script((folder.path / "whole.json").string(), whole(steps));
-    } catch (const LoadError& error) {
-      return error.what();
-    }
-    return "accepted";
+    return refusal_of([&] { read_script((folder.path / "whole.json").string(), whole(steps)); });
   };
   const std::string named = R"({ "do": "script", "script": "parts/up" })";
   std::string bad = wire_part;
