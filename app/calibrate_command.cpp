@@ -10,7 +10,7 @@
 #include <ctime>
 #include <nlohmann/json.hpp>
 
-#include "data/json_object.h"
+#include "data/formats/json_object.h"
 #include "device/calibrating.h"
 #include "device/tracking_box.h"
 #include "device/usb_port.h"

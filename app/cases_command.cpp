@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "data/case.h"
-#include "data/load_error.h"
-#include "data/tree_file.h"
+#include "data/catalogue/case/case.h"
+#include "data/formats/load_error.h"
+#include "data/catalogue/case/tree_file.h"
 #include "vascular/mesh.h"
 #include "vascular/thorax/thorax.h"
 

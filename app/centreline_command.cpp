@@ -5,8 +5,8 @@
 
 #include <cstdio>
 
-#include "data/load_error.h"
-#include "data/tree_file.h"
+#include "data/formats/load_error.h"
+#include "data/catalogue/case/tree_file.h"
 #include "vascular/surface_check.h"
 #include "vascular/tree/centreline.h"
 

@@ -7,8 +7,8 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
-#include "data/load_error.h"
-#include "data/mesh_picture.h"
+#include "data/formats/load_error.h"
+#include "data/catalogue/case/mesh_picture.h"
 #include "vascular/mend/calibre.h"
 #include "vascular/mend/double_wall.h"
 #include "vascular/mend/smooth.h"

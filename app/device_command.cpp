@@ -10,7 +10,7 @@
 #include <numbers>
 #include <thread>
 
-#include "data/load_error.h"
+#include "data/formats/load_error.h"
 #include "device/emulated_port.h"
 #include "device/round_trips.h"
 #include "device/stroking_hand.h"

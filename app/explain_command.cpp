@@ -9,7 +9,7 @@
 
 #include "data/fit/explanation_report.h"
 #include "data/measured/measurement_reader.h"
-#include "data/write_file.h"
+#include "data/formats/write_file.h"
 
 namespace ostium {
 

@@ -11,12 +11,12 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
-#include "data/anatomy_file.h"
-#include "data/case.h"
-#include "data/load_error.h"
-#include "data/mesh_picture.h"
-#include "data/tree_file.h"
-#include "data/write_file.h"
+#include "data/catalogue/case/anatomy_file.h"
+#include "data/catalogue/case/case.h"
+#include "data/formats/load_error.h"
+#include "data/catalogue/case/mesh_picture.h"
+#include "data/catalogue/case/tree_file.h"
+#include "data/formats/write_file.h"
 #include "vascular/beat/heart_cycle.h"
 #include "vascular/import/narrowings.h"
 #include "vascular/import/recognise.h"

@@ -9,9 +9,9 @@
 
 #include "app/angiography/angiogram.h"
 #include "app/angiography/settle.h"
-#include "data/load_error.h"
-#include "data/png.h"
-#include "data/video.h"
+#include "data/formats/load_error.h"
+#include "data/formats/png.h"
+#include "data/formats/video.h"
 #include "fluoro/overlay.h"
 #include "vascular/units.h"
 

@@ -2,9 +2,9 @@
 
 #include <fmt/format.h>
 
-#include "data/catalogue.h"
-#include "data/instrument_picture.h"
-#include "data/instrument_report.h"
+#include "data/catalogue/catalogue.h"
+#include "data/catalogue/instrument/instrument_picture.h"
+#include "data/catalogue/instrument/instrument_report.h"
 
 namespace ostium {
 

@@ -8,7 +8,7 @@
 
 #include "data/forward/prediction.h"
 #include "data/measured/measurement_reader.h"
-#include "data/write_file.h"
+#include "data/formats/write_file.h"
 
 namespace ostium {
 

@@ -9,10 +9,10 @@
 
 #include "app/session/film.h"
 #include "app/session/replay.h"
-#include "data/dicom.h"
-#include "data/load_error.h"
-#include "data/png.h"
-#include "data/video.h"
+#include "data/formats/dicom.h"
+#include "data/formats/load_error.h"
+#include "data/formats/png.h"
+#include "data/formats/video.h"
 #include "fluoro/views.h"
 
 namespace ostium {

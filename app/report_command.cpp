@@ -9,10 +9,10 @@
 
 #include "app/session/film.h"
 #include "app/session/replay.h"
-#include "data/load_error.h"
-#include "data/png.h"
-#include "data/report/page.h"
-#include "data/write_file.h"
+#include "data/formats/load_error.h"
+#include "data/formats/png.h"
+#include "data/assessment/page.h"
+#include "data/formats/write_file.h"
 
 namespace ostium {
 

@@ -13,7 +13,7 @@
 #include <thread>
 
 #include "app/session/play.h"
-#include "data/load_error.h"
+#include "data/formats/load_error.h"
 
 namespace ostium {
 

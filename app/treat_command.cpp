@@ -9,8 +9,8 @@
 
 #include "app/angiography/devices.h"
 #include "app/angiography/settle.h"
-#include "data/load_error.h"
-#include "data/png.h"
+#include "data/formats/load_error.h"
+#include "data/formats/png.h"
 #include "fluoro/overlay.h"
 #include "fluoro/views.h"
 #include "vascular/units.h"

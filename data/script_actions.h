@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "data/json_object.h"
+#include "data/formats/json_object.h"
 
 namespace ostium {
 

@@ -1,7 +1,7 @@
 #pragma once
 /// The keys of a script, object by object: what the reader accepts, and what it says of each. The schema
 /// (data/schemas/script.schema.json) has the same, which a test holds it to.
-#include "data/json_object.h"
+#include "data/formats/json_object.h"
 
 namespace ostium::script_keys {
 

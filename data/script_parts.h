@@ -1,6 +1,6 @@
 #pragma once
 /// Scripts in scripts: a step that names another script stands for its steps.
-#include "data/json_value.h"
+#include "data/formats/json_value.h"
 
 namespace ostium {
 

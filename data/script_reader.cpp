@@ -8,8 +8,8 @@
 #include <iterator>
 #include <numbers>
 
-#include "data/case.h"
-#include "data/catalogue.h"
+#include "data/catalogue/case/case.h"
+#include "data/catalogue/catalogue.h"
 #include "data/script.h"
 #include "data/script_actions.h"
 #include "data/script_condition_reader.h"

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "data/load_error.h"
+#include "data/formats/load_error.h"
 #include "fluoro/views.h"
 #include "vascular/units.h"
 

@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "app/angiography/patient_scene.h"
-#include "data/case.h"
+#include "data/catalogue/case/case.h"
 #include "fluoro/fluoroscope.h"
 
 namespace ostium {

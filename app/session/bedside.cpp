@@ -7,8 +7,8 @@
 #include <numbers>
 
 #include "core/rod/introducer.h"
-#include "data/load_error.h"
-#include "data/metrics.h"
+#include "data/formats/load_error.h"
+#include "data/assessment/metrics.h"
 #include "vascular/beat/heart_cycle.h"
 #include "vascular/units.h"
 

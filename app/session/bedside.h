@@ -7,7 +7,7 @@
 /// devices do to a tool's rod in turn: holding.h.
 #include "app/session/vessel.h"
 #include "core/step.h"
-#include "data/instrument.h"
+#include "data/catalogue/instrument/instrument.h"
 #include "vascular/place.h"
 
 namespace ostium {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "app/session/session.h"
-#include "data/metrics.h"
+#include "data/assessment/metrics.h"
 #include "fluoro/imager.h"
 
 namespace ostium {

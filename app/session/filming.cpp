@@ -6,7 +6,7 @@
 #include <thread>
 
 #include "app/session/thread_priority.h"
-#include "data/video.h"
+#include "data/formats/video.h"
 
 namespace ostium {
 

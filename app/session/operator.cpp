@@ -8,7 +8,7 @@
 #include <stdexcept>
 
 #include "app/session/sight.h"
-#include "data/metrics.h"
+#include "data/assessment/metrics.h"
 
 namespace ostium {
 

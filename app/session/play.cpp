@@ -6,7 +6,7 @@
 #include <chrono>
 #include <cmath>
 
-#include "data/load_error.h"
+#include "data/formats/load_error.h"
 
 namespace ostium {
 

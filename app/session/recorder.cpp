@@ -6,7 +6,7 @@
 
 #include "app/session/outcome.h"
 #include "app/session/thread_priority.h"
-#include "data/load_error.h"
+#include "data/formats/load_error.h"
 
 namespace ostium {
 

@@ -11,7 +11,7 @@
 #include "app/session/penetration.h"
 #include "app/session/setup.h"
 #include "app/session/signals.h"
-#include "data/metrics.h"
+#include "data/assessment/metrics.h"
 #include "data/recording/recording.h"
 
 namespace ostium {

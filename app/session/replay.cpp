@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "app/session/dose.h"
-#include "data/load_error.h"
+#include "data/formats/load_error.h"
 
 namespace ostium {
 

@@ -5,7 +5,7 @@
 
 #include "app/session/dose.h"
 #include "app/session/run.h"
-#include "data/metrics.h"
+#include "data/assessment/metrics.h"
 #include "data/recording/recording.h"
 
 namespace ostium {

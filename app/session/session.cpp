@@ -15,7 +15,7 @@
 
 #include "app/session/holding.h"
 #include "core/rod/introducer.h"
-#include "data/load_error.h"
+#include "data/formats/load_error.h"
 #include "vascular/beat/heart_cycle.h"
 #include "vascular/stent/stent_shape.h"
 

@@ -11,9 +11,9 @@
 #include <iterator>
 #include <nlohmann/json.hpp>
 
-#include "data/catalogue.h"
-#include "data/instrument_reader.h"
-#include "data/load_error.h"
+#include "data/catalogue/catalogue.h"
+#include "data/catalogue/instrument/instrument_reader.h"
+#include "data/formats/load_error.h"
 
 namespace ostium {
 

@@ -6,7 +6,7 @@
 
 #include "app/session/outcome.h"
 #include "core/rod/introducer.h"
-#include "data/metrics.h"
+#include "data/assessment/metrics.h"
 #include "vascular/units.h"
 
 namespace ostium {

@@ -5,7 +5,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 
-#include "data/load_error.h"
+#include "data/formats/load_error.h"
 #include "vascular/patient_frame.h"
 #include "vascular/surface_check.h"
 #include "vascular/tree/centreline.h"

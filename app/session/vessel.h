@@ -7,7 +7,7 @@
 #include "app/session/way.h"
 #include "core/state.h"
 #include "core/surface/surface.h"
-#include "data/case.h"
+#include "data/catalogue/case/case.h"
 #include "vascular/ventricle/ventricle.h"
 
 namespace ostium {

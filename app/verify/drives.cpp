@@ -8,7 +8,7 @@
 #include <random>
 
 #include "app/verify/steel_wire.h"
-#include "data/catalogue.h"
+#include "data/catalogue/catalogue.h"
 
 namespace ostium::verify {
 

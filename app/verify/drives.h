@@ -6,7 +6,7 @@
 #include "app/verify/judge.h"
 #include "app/verify/test_vessel.h"
 #include "core/step.h"
-#include "data/gate_report.h"
+#include "data/assessment/gate_report.h"
 
 namespace ostium::verify {
 

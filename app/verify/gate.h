@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "data/gate_report.h"
+#include "data/assessment/gate_report.h"
 
 namespace ostium::verify {
 

@@ -1,6 +1,6 @@
 #pragma once
 /// The nesting gates, with the binding or without it: without, every one must fail.
-#include "data/gate_report.h"
+#include "data/assessment/gate_report.h"
 
 namespace ostium::verify {
 

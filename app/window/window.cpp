@@ -10,7 +10,7 @@
 #include "app/session/film.h"
 #include "app/session/thread_priority.h"
 #include "app/window/reference.h"
-#include "data/png.h"
+#include "data/formats/png.h"
 
 namespace ostium {
 

@@ -6,7 +6,7 @@
 #include "data/fit/explanation_plots.h"
 #include "data/fit/explanation_report.h"
 #include "data/fit/sentences.h"
-#include "data/plot.h"
+#include "data/formats/plot.h"
 
 namespace ostium {
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "data/plot.h"
+#include "data/formats/plot.h"
 
 namespace ostium {
 

@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "core/state.h"
-#include "data/load_error.h"
+#include "data/formats/load_error.h"
 
 namespace ostium {
 

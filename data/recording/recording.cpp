@@ -8,7 +8,7 @@
 #include <cstdlib>
 #include <cstring>
 
-#include "data/load_error.h"
+#include "data/formats/load_error.h"
 
 namespace ostium {
 

@@ -7,7 +7,7 @@
 #include <filesystem>
 #include <utility>
 
-#include "data/load_error.h"
+#include "data/formats/load_error.h"
 
 namespace ostium {
 

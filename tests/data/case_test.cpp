@@ -1,5 +1,5 @@
 /// Cases that ship load; what is wrong in a case file is named with what exists. Trees survive their files.
-#include "data/case.h"
+#include "data/catalogue/case/case.h"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -10,14 +10,14 @@
 #include <set>
 #include <sstream>
 
-#include "data/anatomy_file.h"
-#include "data/anatomy_keys.h"
-#include "data/case_keys.h"
-#include "data/catalogue.h"
-#include "data/load_error.h"
-#include "data/tree_file.h"
-#include "data/tree_keys.h"
-#include "data/write_file.h"
+#include "data/catalogue/case/anatomy_file.h"
+#include "data/catalogue/case/anatomy_keys.h"
+#include "data/catalogue/case/case_keys.h"
+#include "data/catalogue/catalogue.h"
+#include "data/formats/load_error.h"
+#include "data/catalogue/case/tree_file.h"
+#include "data/catalogue/case/tree_keys.h"
+#include "data/formats/write_file.h"
 #include "tests/data/refusals.h"
 #include "vascular/shape/contour.h"
 

@@ -1,5 +1,5 @@
 /// The catalogue that ships, its schema, and that loading is all or nothing.
-#include "data/catalogue.h"
+#include "data/catalogue/catalogue.h"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -12,9 +12,9 @@
 #include <set>
 
 #include "core/rod/rod.h"
-#include "data/instrument_keys.h"
-#include "data/instrument_picture.h"
-#include "data/instrument_report.h"
+#include "data/catalogue/instrument/instrument_keys.h"
+#include "data/catalogue/instrument/instrument_picture.h"
+#include "data/catalogue/instrument/instrument_report.h"
 #include "tests/data/instrument_files.h"
 #include "tests/data/refusals.h"
 

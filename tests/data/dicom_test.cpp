@@ -1,4 +1,4 @@
-#include "data/dicom.h"
+#include "data/formats/dicom.h"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -8,8 +8,8 @@
 #include <filesystem>
 #include <numbers>
 
-#include "data/load_error.h"
-#include "data/png.h"
+#include "data/formats/load_error.h"
+#include "data/formats/png.h"
 
 namespace ostium {
 namespace {

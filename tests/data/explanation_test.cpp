@@ -8,7 +8,7 @@
 
 #include "data/fit/explanation_report.h"
 #include "data/forward/prediction.h"
-#include "data/instrument_reader.h"
+#include "data/catalogue/instrument/instrument_reader.h"
 #include "data/measured/measurement_reader.h"
 #include "tests/support/synthetic_set.h"
 

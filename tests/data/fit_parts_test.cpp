@@ -9,7 +9,7 @@
 #include "data/fit/noise.h"
 #include "data/fit/secant_descent.h"
 #include "data/fit/workers.h"
-#include "data/plot.h"
+#include "data/formats/plot.h"
 
 namespace ostium {
 namespace {

@@ -1,4 +1,4 @@
-#include "data/gate_report.h"
+#include "data/assessment/gate_report.h"
 
 #include <gtest/gtest.h>
 

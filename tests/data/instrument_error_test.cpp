@@ -5,7 +5,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "data/catalogue.h"
+#include "data/catalogue/catalogue.h"
 #include "tests/data/instrument_files.h"
 
 namespace ostium {

@@ -2,7 +2,7 @@
 /// A small valid instrument, and what the reader says of a spoilt one.
 #include <string>
 
-#include "data/instrument_reader.h"
+#include "data/catalogue/instrument/instrument_reader.h"
 
 namespace ostium {
 

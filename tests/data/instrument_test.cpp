@@ -1,5 +1,5 @@
 /// What a file says arrives in SI, bends as it should, and fits where it should.
-#include "data/instrument.h"
+#include "data/catalogue/instrument/instrument.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <numbers>
 
 #include "core/state.h"
-#include "data/catalogue.h"
+#include "data/catalogue/catalogue.h"
 #include "tests/data/instrument_files.h"
 
 namespace ostium {

@@ -10,7 +10,7 @@
 #include "data/fit/explanation.h"
 #include "data/fit/explanation_report.h"
 #include "data/forward/prediction.h"
-#include "data/instrument_reader.h"
+#include "data/catalogue/instrument/instrument_reader.h"
 #include "data/measured/measurement_reader.h"
 #include "tests/campaign/judged.h"
 #include "tests/support/undeclared.h"

@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "data/catalogue.h"
+#include "data/catalogue/catalogue.h"
 #include "data/effects/effect.h"
 #include "data/measured/measurement_keys.h"
 #include "data/measured/measurement_reader.h"

@@ -1,5 +1,5 @@
 /// Metrics of records that were made by hand: the answers can be done in the head.
-#include "data/metrics.h"
+#include "data/assessment/metrics.h"
 
 #include <gtest/gtest.h>
 

@@ -7,7 +7,7 @@
 #include <set>
 #include <string>
 
-#include "data/json_object.h"
+#include "data/formats/json_object.h"
 
 namespace ostium {
 

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <set>
 
-#include "data/load_error.h"
-#include "data/report/page.h"
+#include "data/formats/load_error.h"
+#include "data/assessment/page.h"
 
 namespace ostium {
 namespace {

@@ -8,7 +8,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "data/catalogue.h"
+#include "data/catalogue/catalogue.h"
 #include "data/script_keys.h"
 #include "tests/data/refusals.h"
 

@@ -2,7 +2,7 @@
 #include <cstdio>
 #include <numbers>
 
-#include "data/png.h"
+#include "data/formats/png.h"
 #include "fluoro/fluoroscope.h"
 #include "fluoro/overlay.h"
 #include "fluoro/phantom/chest.h"

@@ -4,8 +4,8 @@
 #include <iostream>
 
 #include "app/verify/steel_wire.h"
-#include "data/catalogue.h"
-#include "data/svg.h"
+#include "data/catalogue/catalogue.h"
+#include "data/formats/svg.h"
 
 namespace {
 

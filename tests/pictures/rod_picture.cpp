@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "app/verify/steel_wire.h"
-#include "data/svg.h"
+#include "data/formats/svg.h"
 
 namespace {
 

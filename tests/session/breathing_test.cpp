@@ -10,7 +10,7 @@
 #include "app/session/penetration.h"
 #include "app/session/play.h"
 #include "app/session/replay.h"
-#include "data/load_error.h"
+#include "data/formats/load_error.h"
 #include "tests/session/tube_vessel.h"
 
 namespace ostium {

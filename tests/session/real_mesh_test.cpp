@@ -5,7 +5,7 @@
 #include <filesystem>
 
 #include "app/session/play.h"
-#include "data/catalogue.h"
+#include "data/catalogue/catalogue.h"
 
 namespace ostium {
 namespace {

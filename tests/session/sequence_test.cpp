@@ -8,7 +8,7 @@
 
 #include "app/session/penetration.h"
 #include "app/session/run.h"
-#include "data/anatomy_file.h"
+#include "data/catalogue/case/anatomy_file.h"
 #include "tests/session/tube_vessel.h"
 #include "vascular/import/recognise.h"
 #include "vascular/written_mesh.h"

@@ -11,10 +11,10 @@
 #include "app/session/run.h"
 #include "app/session/signals.h"
 #include "app/session/xray_scene.h"
-#include "data/catalogue.h"
-#include "data/instrument_reader.h"
-#include "data/load_error.h"
-#include "data/metrics.h"
+#include "data/catalogue/catalogue.h"
+#include "data/catalogue/instrument/instrument_reader.h"
+#include "data/formats/load_error.h"
+#include "data/assessment/metrics.h"
 #include "tests/core/allocations.h"
 
 namespace ostium {

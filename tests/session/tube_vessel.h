@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "app/session/setup.h"
-#include "data/catalogue.h"
+#include "data/catalogue/catalogue.h"
 
 namespace ostium {
 

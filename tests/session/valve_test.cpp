@@ -4,7 +4,7 @@
 
 #include "app/session/penetration.h"
 #include "app/session/session.h"
-#include "data/catalogue.h"
+#include "data/catalogue/catalogue.h"
 #include "vascular/beat/heart_cycle.h"
 #include "vascular/beat/heart_motion.h"
 

@@ -7,7 +7,7 @@
 #include <random>
 #include <stdexcept>
 
-#include "data/write_file.h"
+#include "data/formats/write_file.h"
 #include "vascular/mesh.h"
 
 namespace ostium::synthetic {

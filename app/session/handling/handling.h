@@ -1,9 +1,9 @@
 #pragma once
 /// Handling errors: what an instructor would stop an operator for, found from what happens, each an event of
-/// data/metrics.h with its definition and its severity. Limits are a draft for raters, as data/scoring is; none is
+/// data/assessment/metrics.h with its definition and its severity. Limits are a draft for raters, as data/scoring is; none is
 /// validated.
 ///
-/// One more: its line in the table of data/events.cpp, where it is found in one of these files, an item in
+/// One more: its line in the table of data/assessment/events.cpp, where it is found in one of these files, an item in
 /// data/scoring, a test (tests/session/handling_test.cpp).
 #include "app/session/handling/catheter_errors.h"
 #include "app/session/handling/device_errors.h"

@@ -1,0 +1,149 @@
+#include "data/assessment/score_list.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "data/catalogue/catalogue.h"
+#include "data/formats/json_object.h"
+#include "data/formats/load_error.h"
+
+namespace ostium {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+const JsonObjectKeys root_keys = {"scoring list",
+                                  {{"schema", true, "\"ostium-scoring/1\""},
+                                   {"name", true, "the file's name without .json"},
+                                   {"title", true, "what people call it, a text"},
+                                   {"note", true, "what it is worth, a text"},
+                                   {"items", true, "steps and errors, a list of at least one"}}};
+const JsonObjectKeys item_keys = {"item",
+                                  {{"id", true, "a number of its own, a text"},
+                                   {"phase", true, "a part of the procedure, a text"},
+                                   {"kind", true, "\"step\", \"error\" or \"critical\""},
+                                   {"what", true, "a text"},
+                                   {"when", true, "how it is told, a text"},
+                                   {"check", false, "what the recording must show; without it a person ticks"}}};
+const JsonObjectKeys check_keys = {"check",
+                                   {{"event", false, "an event's name (data/assessment/events.cpp)"},
+                                    {"before", false, "an event's name: the first must come before its first"},
+                                    {"metric", false, "a metric's name"},
+                                    {"least", false, "a number: of events, or the metric's value"},
+                                    {"most", false, "a number: of events, or the metric's value"}}};
+
+EventCode event_called(const JsonObject& object, const char* key) {
+  const std::string name = object.text(key);
+  std::string known;
+  for (const EventDefinition& e : event_definitions()) {
+    if (e.name == name) return e.code;
+    known += (known.empty() ? "" : ", ") + e.name;
+  }
+  object[key].refuse("one of: " + known);
+}
+
+ScoreCheck read_check(const JsonValue& value) {
+  const JsonObject object(value, check_keys);
+  ScoreCheck check;
+  if (object.has("event") == object.has("metric"))
+    value.fail(value.path + " must look at an event or at a metric; expected one of the two");
+  if (object.has("event")) check.event = event_called(object, "event");
+  if (object.has("before")) event_called(object, "before"), check.before = object.text("before");
+  if (object.has("metric")) {
+    check.metric = object.text("metric");
+    const auto& all = metric_definitions();
+    if (std::none_of(all.begin(), all.end(), [&](const MetricDefinition& m) { return m.name == check.metric; }))
+      object.refuse("metric");
+  }
+  if (object.has("least")) check.least = object.number("least");
+  if (object.has("most")) check.most = object.number("most");
+  if (check.before.empty() && !check.least && !check.most)
+    value.fail(value.path + " has no bound; expected least, most or before");
+  return check;
+}
+
+std::vector<double> times(const RunRecord& r, EventCode code) {
+  std::vector<double> out;
+  for (std::size_t e = 0; e + 3 < r.events.size(); e += 4)
+    if (static_cast<int>(r.events[e + 1]) == static_cast<int>(code)) out.push_back(r.events[e] * r.step_s);
+  return out;
+}
+
+bool within(double value, const ScoreCheck& check) {
+  return value >= check.least.value_or(-INFINITY) && value <= check.most.value_or(INFINITY);
+}
+
+Score judge(const ScoreItem& item, const RunRecord& record, const std::vector<Metric>& metrics) {
+  Score out;
+  if (!item.check) return out;
+  const ScoreCheck& check = *item.check;
+  const auto ticked = [](bool holds) { return holds ? Ticked::yes : Ticked::no; };
+  if (!check.metric.empty()) {
+    const auto metric =
+        std::find_if(metrics.begin(), metrics.end(), [&](const Metric& m) { return m.name == check.metric; });
+    if (metric == metrics.end() || !std::isfinite(metric->value)) return out;
+    out.holds = ticked(within(metric->value, check));
+    out.value = fmt::format("{:.3g} {}", metric->value, metric->unit == "1" ? "" : metric->unit);
+    return out;
+  }
+  const std::vector<double> at = times(record, *check.event);
+  if (!check.before.empty()) {
+    std::vector<double> limit;
+    for (const EventDefinition& e : event_definitions())
+      if (e.name == check.before) limit = times(record, e.code);
+    if (limit.empty()) return out;  // that never came
+    out.holds = ticked(!at.empty() && at.front() < limit.front());
+  } else {
+    out.holds = ticked(within(static_cast<double>(at.size()), check));
+  }
+  if (item.kind == ScoreKind::step)
+    out.at_s.assign(at.begin(), at.begin() + (at.empty() ? 0 : 1));
+  else
+    out.at_s = at;
+  return out;
+}
+
+}  // namespace
+
+ScoreList read_score_list(const std::string& file, const std::string& text) {
+  const JsonValue value = parse_json(file, text);
+  const JsonObject object(value, root_keys);
+  if (object.text("schema") != "ostium-scoring/1") object.refuse("schema");
+  ScoreList list;
+  list.name = object.text("name"), list.title = object.text("title"), list.note = object.text("note");
+  if (list.name != fs::path(file).stem().string()) object.refuse("name");
+  if (object.list("items").empty()) object.refuse("items");
+  for (const JsonValue& entry : object.list("items")) {
+    const JsonObject of(entry, item_keys);
+    ScoreItem item;
+    item.id = of.text("id"), item.phase = of.text("phase"), item.what = of.text("what"), item.when = of.text("when");
+    item.kind = static_cast<ScoreKind>(of.choice("kind", {"step", "error", "critical"}));
+    if (of.has("check")) item.check = read_check(of["check"]);
+    list.items.push_back(std::move(item));
+  }
+  return list;
+}
+
+ScoreList find_score_list(const std::string& name_or_file) {
+  const fs::path known = fs::path(data_folder()) / "scoring" / (name_or_file + ".json");
+  const std::string file = fs::is_regular_file(known) ? known.string() : name_or_file;
+  std::ifstream in(file);
+  std::stringstream text;
+  text << in.rdbuf();
+  if (!in) throw LoadError(file + ": cannot be read; expected a scoring list, or a name in data/scoring");
+  return read_score_list(file, text.str());
+}
+
+std::vector<Score> score(const ScoreList& list, const RunRecord& record, const std::vector<Metric>& metrics) {
+  std::vector<Score> out;
+  for (const ScoreItem& item : list.items) out.push_back(judge(item, record, metrics));
+  return out;
+}
+
+}  // namespace ostium

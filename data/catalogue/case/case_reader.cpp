@@ -1,0 +1,185 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <numbers>
+#include <stdexcept>
+
+#include "data/catalogue/case/anatomy_file.h"
+#include "data/catalogue/case/case.h"
+#include "data/catalogue/case/case_keys.h"
+#include "data/catalogue/catalogue.h"
+#include "vascular/beat/heart_cycle.h"
+
+namespace ostium {
+
+namespace {
+
+namespace fs = std::filesystem;
+namespace keys = case_keys;
+
+CaseCard read_card(const JsonObject& card) {
+  return {card.text("history"), card.text("ecg"), card.text("planned_access")};
+}
+
+void read_anatomy(const JsonObject& anatomy, Case& c) {
+  const auto dominance = static_cast<Dominance>(anatomy.choice("dominance", {"right", "left", "balanced"}));
+  const auto access = static_cast<Access>(anatomy.choice("access", access_names()));
+  const double seed = anatomy.not_negative("seed");
+  if (seed != std::floor(seed) || seed > 1e15) anatomy.refuse("seed");
+  c.seed = static_cast<std::uint64_t>(seed);
+  c.anatomy = person(c.seed, mean_of(dominance, access));
+}
+
+Lesion read_lesion(const JsonObject& entry, const Anatomy& anatomy) {
+  Lesion lesion{.branch = entry.text("branch"),
+                .from_m = entry.not_negative("from_mm") * 1e-3,
+                .length_m = entry.positive("length_mm") * 1e-3,
+                .stenosis = entry.positive("stenosis_percent") / 100,
+                .eccentric = entry.choice("shape", {"concentric", "eccentric"}) == 1,
+                .calcified = entry.boolean("calcified")};
+  if (entry.has("side_deg")) {
+    if (!lesion.eccentric) entry.refuse("side_deg");
+    lesion.side_rad = entry.number("side_deg") * std::numbers::pi / 180;
+  }
+  try {
+    check(anatomy, lesion);
+  } catch (const std::invalid_argument& error) {
+    entry.value().fail(fmt::format("{}: {}", entry.value().path, error.what()));
+  }
+  return lesion;
+}
+
+/// All files lie beside the case's.
+void read_imported(const JsonObject& imported, const fs::path& folder, Case& c) {
+  const auto file = [&](const std::string& key, const std::string& name) {
+    if (name.empty() || name != fs::path(name).filename().string()) imported.refuse(key);
+    return (folder / name).string();
+  };
+  const auto beside = [&](const std::string& key) { return file(key, imported.text(key)); };
+  ImportedVessels vessels;
+  vessels.anatomy = load_anatomy(beside("anatomy"));
+  std::vector<std::string> frames = {beside("lumen")};
+  const bool sequence = imported.has("frames");
+  if (sequence) {
+    for (const JsonValue& value : imported.list("frames")) frames.push_back(file("frames", value.text));
+    if (frames.size() < 4) imported.refuse("frames");
+  }
+  try {
+    if (sequence)
+      set_frames(read_mesh_sequence(frames, LengthUnit::millimetre, 0), vessels);
+    else
+      vessels.lumen = read_mesh(frames.front(), LengthUnit::millimetre, 0).mesh;
+  } catch (const MeshError& error) {
+    imported[std::string(sequence ? "frames" : "lumen")].fail(error.what());
+  }
+  c.imported = std::make_shared<const ImportedVessels>(std::move(vessels));
+}
+
+Case read(const JsonValue& file) {
+  const JsonObject root(file, keys::root);
+  Case c;
+  if (root.text("schema") != "ostium-case/1") root.refuse("schema");
+  c.name = root.text("name");
+  if (c.name != fs::path(*file.file).stem().string()) root.refuse("name");
+  c.title = root.text("title");
+  c.card = read_card(JsonObject(root["card"], keys::card));
+  if (root.has("anatomy") == root.has("imported"))
+    file.fail("the case has both \"anatomy\" and \"imported\", or neither; expected one of them");
+  if (root.has("anatomy"))
+    read_anatomy(JsonObject(root["anatomy"], keys::anatomy), c);
+  else
+    read_imported(JsonObject(root["imported"], keys::imported), fs::path(*file.file).parent_path(), c);
+  c.rate_1_min = root.positive("heart_rate_1_min");
+  if (c.rate_1_min < least_rate_1_min || c.rate_1_min > highest_rate_1_min) root.refuse("heart_rate_1_min");
+  const Anatomy anatomy = anatomy_of(c);
+  for (const JsonValue& value : root.list("lesions"))
+    c.lesions.push_back(read_lesion(JsonObject(value, keys::lesion), anatomy));
+  return c;
+}
+
+/// An imported case's folder has its name.
+fs::path case_file_in(const fs::path& folder) {
+  const fs::path named = folder.has_filename() ? folder : folder.parent_path();
+  return folder / (fs::absolute(named).filename().string() + ".json");
+}
+
+}  // namespace
+
+const std::vector<std::string>& access_names() {
+  static const std::vector<std::string> names = {"femoral", "radial"};
+  return names;
+}
+
+Case read_case(const std::string& file, const std::string& text) { return read(parse_json(file, text)); }
+
+Case load_case(const std::string& file) { return read(load_json(file)); }
+
+std::vector<Case> load_cases() {
+  const fs::path folder = fs::path(data_folder()) / "cases";
+  std::vector<fs::path> files;
+  std::error_code error;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder, error))
+    if (entry.path().extension() == ".json") files.push_back(entry.path());
+  if (files.empty()) throw LoadError(folder.string() + ": has no case; expected a folder with at least one NAME.json");
+  for (const fs::directory_entry& entry : fs::directory_iterator(imported_folder(), error))
+    if (const fs::path file = case_file_in(entry.path()); fs::is_regular_file(file)) files.push_back(file);
+  std::vector<Case> cases;
+  for (const fs::path& file : files) cases.push_back(load_case(file.string()));
+  std::sort(cases.begin(), cases.end(), [](const Case& a, const Case& b) { return a.name < b.name; });
+  return cases;
+}
+
+std::string case_file(const std::string& name) {
+  const fs::path shipped = fs::path(data_folder()) / "cases" / (name + ".json");
+  for (const fs::path& file :
+       {shipped, case_file_in(fs::path(imported_folder()) / name), case_file_in(name), fs::path(name)})
+    if (fs::is_regular_file(file)) return file.string();
+  std::string known;
+  for (const Case& c : load_cases()) known += "\n  " + c.name;
+  throw LoadError(fmt::format("there is no case \"{}\"; expected a case's file or folder, or one of:{}", name, known));
+}
+
+Case find_case(const std::string& name) { return load_case(case_file(name)); }
+
+std::string imported_folder() {
+  const auto set = [](const char* variable) {
+    const char* value = std::getenv(variable);
+    return std::string(value ? value : "");
+  };
+  if (!set("OSTIUM_CASES").empty()) return set("OSTIUM_CASES");
+  const fs::path home =
+      set("XDG_DATA_HOME").empty() ? fs::path(set("HOME")) / ".local" / "share" : fs::path(set("XDG_DATA_HOME"));
+  return (home / "ostium" / "cases").string();
+}
+
+Case with_person(const Case& c, std::uint64_t seed) {
+  if (c.imported) throw LoadError(c.name + ": it is one person's mesh; another person cannot be drawn for it");
+  Case out = c;
+  out.seed = seed;
+  out.anatomy = person(seed, mean_of(c.anatomy.dominance, c.anatomy.access));
+  constexpr double rounding_m = 1e-9;
+  const Anatomy anatomy = anatomy_of(out);
+  for (Lesion& lesion : out.lesions)
+    if (const NamedBranch* branch = find_branch(anatomy, lesion.branch); branch && branch->length_m() > lesion.length_m)
+      lesion.from_m = std::min(lesion.from_m, branch->length_m() - lesion.length_m - rounding_m);
+  return out;
+}
+
+Patient patient_of(const Case& c) {
+  return c.imported ? make_patient(c.imported->anatomy, c.imported->lumen, c.lesions, c.imported->frames)
+                    : make_patient(c.anatomy, c.lesions);
+}
+
+void set_frames(std::vector<Mesh> frames, ImportedVessels& vessels) {
+  std::vector<std::vector<Eigen::Vector3d>> vertices;
+  for (const Mesh& frame : frames) vertices.push_back(frame.vertices);
+  vessels.frames = resampled(vertices, beat_frames);
+  vessels.lumen = std::move(frames.front());
+}
+
+Anatomy anatomy_of(const Case& c) { return c.imported ? c.imported->anatomy : build_anatomy(c.anatomy); }
+
+}  // namespace ostium

@@ -1,0 +1,53 @@
+#include "data/catalogue/catalogue.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+
+#include "data/catalogue/instrument/instrument_reader.h"
+
+namespace ostium {
+
+namespace fs = std::filesystem;
+
+std::string data_folder() {
+  if (const char* set = std::getenv("OSTIUM_DATA"); set && *set) {
+    if (!fs::is_directory(set))
+      throw LoadError(fmt::format("OSTIUM_DATA is \"{}\"; expected the folder that holds instruments/", set));
+    return set;
+  }
+  std::error_code no_proc;
+  const fs::path program = fs::read_symlink("/proc/self/exe", no_proc);
+  const fs::path installed = program.parent_path().parent_path() / "share" / "ostium";
+  if (!no_proc && fs::is_directory(installed)) return installed.string();
+  if (fs::is_directory(OSTIUM_SOURCE_DATA)) return OSTIUM_SOURCE_DATA;
+  throw LoadError(
+      fmt::format("there is no data at {}; set OSTIUM_DATA to the folder that holds instruments/", installed.string()));
+}
+
+std::vector<Instrument> load_catalogue(const std::string& folder) {
+  std::vector<fs::path> files;
+  std::error_code error;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder, error))
+    if (entry.path().extension() == ".json") files.push_back(entry.path());
+  if (files.empty())
+    throw LoadError(folder + ": has no instrument file; expected a folder with at least one NAME.json");
+  std::sort(files.begin(), files.end());
+  std::vector<Instrument> catalogue;
+  for (const fs::path& file : files) catalogue.push_back(load_instrument(file.string()));
+  return catalogue;
+}
+
+std::vector<Instrument> load_catalogue() { return load_catalogue((fs::path(data_folder()) / "instruments").string()); }
+
+const Instrument& find_instrument(const std::vector<Instrument>& catalogue, const std::string& name) {
+  for (const Instrument& instrument : catalogue)
+    if (instrument.name == name) return instrument;
+  std::string known;
+  for (const Instrument& instrument : catalogue) known += "\n  " + instrument.name;
+  throw LoadError(fmt::format("there is no instrument \"{}\"; expected one of:{}", name, known));
+}
+
+}  // namespace ostium

@@ -1,0 +1,306 @@
+#include "data/catalogue/instrument/instrument_reader.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <filesystem>
+#include <numbers>
+#include <stdexcept>
+
+#include "core/rod/rod.h"
+#include "data/catalogue/instrument/instrument_keys.h"
+
+namespace ostium {
+
+namespace {
+
+namespace keys = instrument_keys;
+
+constexpr double mm = 1e-3, Nmm2 = 1e-6, per_mm = 1e3, degree = std::numbers::pi / 180;
+constexpr double atm = 101325;
+constexpr double gap_tolerance_mm = 1e-6;
+
+/// The source of `object`, kept under its path; a group must have one, a list's entry may.
+void keep_source(const JsonObject& object, Instrument& instrument) {
+  if (!object.has("source")) return;
+  Source source{object.value().path, object.text("source")};
+  // An estimate without a reason is none.
+  if (source.estimate() && source.citation.size() < std::string("estimate: ").size() + 10) object.refuse("source");
+  instrument.sources.push_back(std::move(source));
+}
+
+/// [from, to] of one entry of a list that goes on without gaps from `reached_mm`, which it moves on.
+std::pair<double, double> next_stretch(const JsonObject& entry, double length_mm, double& reached_mm) {
+  const std::vector<double> ends = entry.numbers("from_tip_mm", 2);
+  if (std::fabs(ends[0] - reached_mm) > gap_tolerance_mm)
+    entry["from_tip_mm"].refuse(
+        fmt::format("it to begin at {} mm, where the one before it ends (no gap, no overlap)", reached_mm));
+  if (!(ends[1] > ends[0]) || ends[1] > length_mm + gap_tolerance_mm) entry.refuse("from_tip_mm");
+  reached_mm = ends[1];
+  return {ends[0] * mm, ends[1] * mm};
+}
+
+/// A list that `next_stretch` has gone through must have reached the proximal end.
+void require_whole_length(const JsonObject& group, double reached_mm, double length_mm) {
+  if (std::fabs(reached_mm - length_mm) > gap_tolerance_mm)
+    group["list"].fail(fmt::format("{} ends {} mm from the tip; expected {} mm, size.length_mm", group["list"].path,
+                                   reached_mm, length_mm));
+}
+
+void read_size(const JsonObject& size, Instrument& instrument) {
+  instrument.outer_diameter_m = size.positive("outer_diameter_mm") * mm;
+  instrument.inner_diameter_m = size.not_negative("inner_diameter_mm") * mm;
+  instrument.length_m = size.positive("length_mm") * mm;
+  const bool wire = instrument.kind == InstrumentKind::wire;
+  if (instrument.inner_diameter_m >= instrument.outer_diameter_m || wire != (instrument.inner_diameter_m == 0))
+    size.refuse("inner_diameter_mm");
+  instrument.passes_m = instrument.inner_diameter_m;
+  instrument.needs_m = instrument.outer_diameter_m;
+}
+
+Section read_section(const JsonObject& entry, const Instrument& instrument, double& reached_mm) {
+  Section s;
+  std::tie(s.from_tip_m, s.to_tip_m) = next_stretch(entry, instrument.length_m / mm, reached_mm);
+  const bool one = entry.has("EI_Nmm2"), first = entry.has("EI1_Nmm2"), second = entry.has("EI2_Nmm2");
+  if (one == first || first != second)
+    entry.value().fail(
+        fmt::format("{} has {} of the bending stiffnesses; expected EI_Nmm2, or both EI1_Nmm2 and EI2_Nmm2",
+                    entry.value().path, one + first + second));
+  s.EI1_N_m2 = entry.positive(one ? "EI_Nmm2" : "EI1_Nmm2") * Nmm2;
+  s.EI2_N_m2 = entry.positive(one ? "EI_Nmm2" : "EI2_Nmm2") * Nmm2;
+  s.GJ_N_m2 = entry.positive("GJ_Nmm2") * Nmm2;
+  s.kg_per_m = entry.positive("kg_per_m");
+  double outer = instrument.outer_diameter_m, inner = instrument.inner_diameter_m;
+  if (entry.has("outer_diameter_mm")) outer = entry.positive("outer_diameter_mm") * mm;
+  if (outer > instrument.outer_diameter_m) entry.refuse("outer_diameter_mm");
+  if (entry.has("inner_diameter_mm")) inner = entry.not_negative("inner_diameter_mm") * mm;
+  if (inner >= outer) entry.refuse(entry.has("inner_diameter_mm") ? "inner_diameter_mm" : "outer_diameter_mm");
+  s.radius_m = outer / 2, s.inner_radius_m = inner / 2;
+  if (entry.has("rest_curvature_per_mm")) {
+    const std::vector<double> u = entry.numbers("rest_curvature_per_mm", 3);
+    s.rest_curvature_per_m = Eigen::Vector3d(u[0], u[1], u[2]) * per_mm;
+  }
+  if (entry.has("softening_per_mm") != entry.has("softened_ratio"))
+    entry.refuse(entry.has("softening_per_mm") ? "softening_per_mm" : "softened_ratio");
+  if (entry.has("softening_per_mm")) {
+    s.softening_per_m = entry.positive("softening_per_mm") * per_mm;
+    s.softened_ratio = entry.positive("softened_ratio");
+    if (s.softened_ratio > 1 || s.softened_ratio < 0.01) entry.refuse("softened_ratio");
+  }
+  return s;
+}
+
+Relaxation read_relaxation(const JsonObject& group) {
+  Relaxation out;
+  if (group.list("relaxation").empty() || group.list("relaxation").size() > std::size(out.branches))
+    group.refuse("relaxation");
+  double sum = 0;
+  for (std::size_t k = 0; k < group.list("relaxation").size(); ++k) {
+    const JsonObject branch(group.list("relaxation")[k], keys::relaxation_branch);
+    out.branches[k] = {branch.positive("fraction"), branch.positive("time_s")};
+    sum += out.branches[k].fraction;
+    if (!(sum < 1)) branch.refuse("fraction");
+  }
+  return out;
+}
+
+void read_sections(const JsonObject& group, Instrument& instrument) {
+  keep_source(group, instrument);
+  if (group.list("list").empty()) group.refuse("list");
+  double reached_mm = 0;
+  for (const JsonValue& value : group.list("list")) {
+    const JsonObject entry(value, keys::section);
+    keep_source(entry, instrument);
+    instrument.sections.push_back(read_section(entry, instrument, reached_mm));
+  }
+  require_whole_length(group, reached_mm, instrument.length_m / mm);
+  if (group.has("relaxation")) instrument.relaxation = read_relaxation(group);
+}
+
+std::vector<ShapePiece> read_pieces(const JsonObject& group, double longest_m) {
+  std::vector<ShapePiece> pieces;
+  for (const JsonValue& value : group.list("pieces")) {
+    const JsonObject piece(value, keys::piece);
+    if (piece.has("name")) piece.text("name");
+    ShapePiece read{.length_m = piece.positive("length_mm") * mm};
+    if (piece.has("radius_mm") != piece.has("plane_deg"))
+      piece.refuse(piece.has("radius_mm") ? "radius_mm" : "plane_deg");
+    if (piece.has("radius_mm")) {
+      read.radius_m = piece.positive("radius_mm") * mm;
+      read.plane_rad = piece.number("plane_deg") * degree;
+    }
+    pieces.push_back(read);
+  }
+  if (pieces.empty() || length_of(pieces) > longest_m + gap_tolerance_mm * mm) group.refuse("pieces");
+  return pieces;
+}
+
+/// The preformed shape, or the default shape of a tip that can be shaped; into the sections too.
+void read_rest_shape(const JsonObject& root, Instrument& instrument) {
+  if (root.has("shape")) {
+    for (const Section& s : instrument.sections)
+      if (!s.rest_curvature_per_m.isZero()) root.refuse("shape");
+    if (root.has("shapeable_tip")) root.refuse("shape");
+    const JsonObject shape(root["shape"], keys::shape);
+    keep_source(shape, instrument);
+    instrument.shape = read_pieces(shape, instrument.length_m);
+    if (shape.has("width_mm")) instrument.width_m = shape.positive("width_mm") * mm;
+    instrument.sections = bent(instrument.sections, instrument.shape);
+  }
+  if (root.has("shapeable_tip")) {
+    if (instrument.kind != InstrumentKind::wire) root.refuse("shapeable_tip");
+    const JsonObject tip(root["shapeable_tip"], keys::shapeable_tip);
+    keep_source(tip, instrument);
+    ShapeableTip read{.length_m = tip.positive("length_mm") * mm, .default_shape = {}};
+    if (read.length_m > instrument.length_m) tip.refuse("length_mm");
+    read.default_shape = read_pieces(tip, read.length_m);
+    instrument.shapeable_tip = std::move(read);
+    instrument = with_tip_shape(instrument, instrument.shapeable_tip->default_shape);
+  }
+}
+
+OpaqueMaterial read_material(const JsonObject& object) {
+  return static_cast<OpaqueMaterial>(object.choice("material", opaque_materials()));
+}
+
+void read_radiopacity(const JsonObject& group, Instrument& instrument) {
+  keep_source(group, instrument);
+  double reached_mm = 0;
+  for (const JsonValue& value : group.list("list")) {
+    const JsonObject entry(value, keys::stretch);
+    keep_source(entry, instrument);
+    const auto [from, to] = next_stretch(entry, instrument.length_m / mm, reached_mm);
+    instrument.opaque.push_back({from, to, read_material(entry), entry.not_negative("thickness_mm") * mm});
+  }
+  require_whole_length(group, reached_mm, instrument.length_m / mm);
+}
+
+void read_markers(const JsonObject& group, Instrument& instrument) {
+  keep_source(group, instrument);
+  for (const JsonValue& value : group.list("list")) {
+    const JsonObject entry(value, keys::marker);
+    keep_source(entry, instrument);
+    const Marker marker{.from_tip_m = entry.not_negative("from_tip_mm") * mm,
+                        .length_m = entry.positive("length_mm") * mm,
+                        .material = read_material(entry),
+                        .thickness_m = entry.positive("thickness_mm") * mm};
+    if (marker.from_tip_m + marker.length_m > instrument.length_m)
+      entry["from_tip_mm"].refuse(
+          fmt::format("a band that ends within the instrument's {} mm", instrument.length_m / mm));
+    instrument.markers.push_back(marker);
+  }
+}
+
+void read_wire_lumen(const JsonObject& group, Instrument& instrument) {
+  keep_source(group, instrument);
+  WireLumen lumen;
+  lumen.rapid_exchange = group.choice("system", {"rapid_exchange", "over_the_wire"}) == 0;
+  lumen.length_m = instrument.length_m;
+  if (group.has("length_mm")) {
+    lumen.length_m = group.positive("length_mm") * mm;
+    if (!lumen.rapid_exchange || lumen.length_m > instrument.length_m) group.refuse("length_mm");
+  } else if (lumen.rapid_exchange) {
+    group["system"].refuse("length_mm beside it: from the tip to the wire's port");
+  }
+  instrument.wire_lumen = lumen;
+}
+
+double within(const JsonObject& object, const char* key, double least, double most) {
+  const double value = object.number(key);
+  if (!(value >= least && value <= most)) object.refuse(key);
+  return value;
+}
+
+void read_balloon(const JsonObject& group, Instrument& instrument) {
+  keep_source(group, instrument);
+  CarriedBalloon balloon;
+  balloon.nominal_m = within(group, "nominal_diameter_mm", 1, 8) * mm;
+  balloon.length_m = within(group, "length_mm", 5, 60) * mm;
+  balloon.compliant = group.choice("compliance", {"semi", "non"}) == 0;
+  balloon.nominal_Pa = group.positive("nominal_atm") * atm;
+  balloon.rated_Pa = within(group, "rated_atm", group.number("nominal_atm"), 30) * atm;
+  // It lies between its markers: who reads its place off them must find it there.
+  const std::vector<Marker>& bands = instrument.markers;
+  if (bands.size() != 2) group.value().fail("balloon lies between two markers; expected markers with two bands");
+  const double apart =
+      std::fabs(bands[1].from_tip_m + bands[1].length_m / 2 - bands[0].from_tip_m - bands[0].length_m / 2);
+  if (std::fabs(apart - balloon.length_m) > 1.1 * mm) group.refuse("length_mm");
+  instrument.balloon = balloon;
+}
+
+void read_stent(const JsonObject& group, Instrument& instrument) {
+  keep_source(group, instrument);
+  CarriedStent stent;
+  stent.nominal_m = within(group, "nominal_diameter_mm", 1, 8) * mm;
+  stent.length_m = within(group, "length_mm", 5, 60) * mm;
+  if (stent.length_m > instrument.balloon->length_m + 0.01 * mm) group.refuse("length_mm");
+  instrument.stent = stent;
+}
+
+void read_clearance(const JsonObject& group, Instrument& instrument) {
+  keep_source(group, instrument);
+  if (!group.has("passes_mm") && !group.has("needs_mm"))
+    group.value().fail("clearance has no number; expected passes_mm, needs_mm or both");
+  if (group.has("passes_mm")) {
+    instrument.passes_m = group.positive("passes_mm") * mm;
+    if (instrument.passes_m > instrument.inner_diameter_m) group.refuse("passes_mm");
+  }
+  if (group.has("needs_mm")) {
+    instrument.needs_m = group.positive("needs_mm") * mm;
+    if (instrument.needs_m < instrument.outer_diameter_m) group.refuse("needs_mm");
+  }
+}
+
+/// Core has limits of its own, on numbers that are of the right sign and still no instrument's.
+void require_rod(const JsonObject& root, const Instrument& instrument) {
+  try {
+    check(rod_description(instrument, equal_elements(instrument.sections, 64)));
+  } catch (const std::invalid_argument& error) {
+    root["sections"].fail(std::string("sections make no rod: ") + error.what());
+  }
+}
+
+Instrument read(const JsonValue& file) {
+  const JsonObject root(file, keys::instrument);
+  Instrument instrument;
+  if (root.text("schema") != "ostium-instrument/1") root.refuse("schema");
+  instrument.name = root.text("name");
+  if (instrument.name != std::filesystem::path(*file.file).stem().string()) root.refuse("name");
+  instrument.title = root.text("title");
+  instrument.kind = static_cast<InstrumentKind>(root.choice("kind", instrument_kinds()));
+
+  const JsonObject size(root["size"], keys::size);
+  keep_source(size, instrument);
+  read_size(size, instrument);
+  read_sections(JsonObject(root["sections"], keys::sections), instrument);
+  read_rest_shape(root, instrument);
+  read_radiopacity(JsonObject(root["radiopacity"], keys::radiopacity), instrument);
+  if (root.has("markers")) read_markers(JsonObject(root["markers"], keys::markers), instrument);
+
+  const bool shaft = instrument.kind == InstrumentKind::balloon_shaft || instrument.kind == InstrumentKind::stent_shaft;
+  if (shaft && !root.has("wire_lumen"))
+    root["kind"].refuse("a wire_lumen with it: how a " + words_for(instrument.kind) + " runs over its wire");
+  if (root.has("wire_lumen")) {
+    if (!shaft) root.refuse("wire_lumen");
+    read_wire_lumen(JsonObject(root["wire_lumen"], keys::wire_lumen), instrument);
+  }
+  const bool carries_stent = instrument.kind == InstrumentKind::stent_shaft;
+  for (const char* key : {"balloon", "stent"}) {
+    const bool needed = shaft && (key[0] == 'b' || carries_stent);
+    if (needed && !root.has(key)) root["kind"].refuse(fmt::format("a {} with it: what it carries", key));
+    if (!needed && root.has(key)) root.refuse(key);
+  }
+  if (root.has("balloon")) read_balloon(JsonObject(root["balloon"], keys::balloon), instrument);
+  if (root.has("stent")) read_stent(JsonObject(root["stent"], keys::stent), instrument);
+  if (root.has("clearance")) read_clearance(JsonObject(root["clearance"], keys::clearance), instrument);
+  require_rod(root, instrument);
+  return instrument;
+}
+
+}  // namespace
+
+Instrument read_instrument(const std::string& file, const std::string& text) { return read(parse_json(file, text)); }
+
+Instrument load_instrument(const std::string& file) { return read(load_json(file)); }
+
+}  // namespace ostium

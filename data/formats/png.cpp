@@ -1,0 +1,51 @@
+#include "data/formats/png.h"
+
+#include <png.h>
+
+#include <cstdio>
+#include <vector>
+
+#include "data/formats/load_error.h"
+#include "data/formats/unfinished_file.h"
+
+namespace ostium {
+
+namespace {
+
+/// Compressed in memory first: libpng, given a name, would on failure remove whatever bears it.
+std::vector<std::uint8_t> compressed(int width, int height, png_uint_32 format, const std::uint8_t* pixels) {
+  png_image image{};
+  image.version = PNG_IMAGE_VERSION;
+  image.width = static_cast<png_uint_32>(width);
+  image.height = static_cast<png_uint_32>(height);
+  image.format = format;
+  png_alloc_size_t size = PNG_IMAGE_PNG_SIZE_MAX(image);
+  std::vector<std::uint8_t> bytes(size);
+  if (!png_image_write_to_memory(&image, bytes.data(), &size, 0, pixels, 0, nullptr))
+    throw LoadError(std::string("PNG: ") + image.message);
+  bytes.resize(size);
+  return bytes;
+}
+
+void write_bytes(const std::string& file, const std::vector<std::uint8_t>& bytes) {
+  std::FILE* out = std::fopen(file.c_str(), "wb");
+  const bool written = out && std::fwrite(bytes.data(), 1, bytes.size(), out) == bytes.size();
+  const bool closed = out && std::fclose(out) == 0;
+  if (written && closed) return;
+  if (out) remove_unfinished(file);
+  throw LoadError(file + ": cannot be written; does its folder exist, and is there room?");
+}
+
+}  // namespace
+
+std::vector<std::uint8_t> png_of(const Picture& picture) {
+  return compressed(picture.width, picture.height, PNG_FORMAT_GRAY, picture.grey.data());
+}
+
+void write_png(const std::string& file, const Picture& picture) { write_bytes(file, png_of(picture)); }
+
+void write_rgb_png(const std::string& file, int width, int height, const std::vector<std::uint8_t>& rgb) {
+  write_bytes(file, compressed(width, height, PNG_FORMAT_RGB, rgb.data()));
+}
+
+}  // namespace ostium
