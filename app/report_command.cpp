@@ -30,14 +30,13 @@ struct Moment {
 std::vector<Moment> moments(const RunRecord& record, const Script& script) {
   constexpr std::size_t most = 12;
   std::vector<Moment> out;
-  for (std::size_t e = 0; e + 3 < record.events.size(); e += 4) {
-    const auto code = static_cast<EventCode>(static_cast<int>(record.events[e + 1]));
-    const auto step = static_cast<std::uint64_t>(record.events[e]);
-    const auto of = static_cast<std::size_t>(record.events[e + 3]);
-    if (code == EventCode::mark && of < script.steps.size()) out.push_back({step, script.steps[of].text});
-    if (code == EventCode::injection_ends) out.push_back({step, "contrast"});
-    if (code == EventCode::deflated) out.push_back({step, "balloon empty"});
-    if (code == EventCode::stent_deployed || code == EventCode::stent_elsewhere)
+  for (const RecordedEvent& e : events_of(record)) {
+    const auto step = static_cast<std::uint64_t>(e.step);
+    const auto of = static_cast<std::size_t>(e.value);
+    if (e.code == EventCode::mark && of < script.steps.size()) out.push_back({step, script.steps[of].text});
+    if (e.code == EventCode::injection_ends) out.push_back({step, "contrast"});
+    if (e.code == EventCode::deflated) out.push_back({step, "balloon empty"});
+    if (e.code == EventCode::stent_deployed || e.code == EventCode::stent_elsewhere)
       out.push_back({step, "stent in the wall"});
   }
   if (out.size() >= most) {

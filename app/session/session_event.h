@@ -2,14 +2,14 @@
 #include <cstdint>
 #include <vector>
 
-#include "data/assessment/metrics.h"
+#include "data/assessment/events.h"
 
 namespace ostium {
 
 /// What a step of the loop says to the recording besides its numbers.
 struct SessionEvent {
   std::uint64_t step = 0;
-  int code = 0;   ///< EventCode of data/assessment/metrics.h
+  int code = 0;   ///< EventCode of data/assessment/events.h
   int tool = -1;  ///< -1: none
   double value = 0;
 };

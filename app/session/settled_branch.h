@@ -2,7 +2,7 @@
 /// Which branch a tip is in, for people: at the border between two it is now in one, now in the other.
 #include <cstdint>
 
-#include "data/assessment/metrics.h"
+#include "data/assessment/events.h"
 
 namespace ostium {
 

@@ -1,106 +1,19 @@
-#include "data/assessment/metrics.h"
+#include "data/assessment/events.h"
 
 namespace ostium {
 
 const std::vector<EventDefinition>& event_definitions() {
   static const std::vector<EventDefinition> all = {
-      {EventCode::script_step_begins, "script_step_begins", "the script's operator begins a step", "step, from 0"},
-      {EventCode::script_step_done, "script_step_done", "one of its conditions holds", "step, from 0"},
-      {EventCode::script_step_failed, "script_step_failed", "one of its `unless` holds", "step, from 0"},
-      {EventCode::script_step_timed_out, "script_step_timed_out", "its time is over", "step, from 0"},
-      {EventCode::mark, "mark", "the operator or trainer marks this moment", "step of the script, from 0"},
-      {EventCode::tool_in, "tool_in", "a tool's tip leaves the introducer into the vessel", ""},
-      {EventCode::tool_out, "tool_out", "a tool has been drawn out", ""},
-      {EventCode::tip_enters, "tip_enters", "a tip has been in another branch of the tree for 0.3 s", "branch, from 0"},
-      {EventCode::wall_force_high, "wall_force_high",
-       "the sum of wall forces on a tool, behind a low pass of 10 Hz, rises above 1 N; again only after it was below "
-       "0.8 N",
-       "N", Severity::error},
-      {EventCode::fluoroscopy_on, "fluoroscopy_on", "pedal down", ""},
-      {EventCode::fluoroscopy_off, "fluoroscopy_off", "pedal up", ""},
-      {EventCode::cine_on, "cine_on", "pedal down", ""},
-      {EventCode::cine_off, "cine_off", "pedal up", ""},
-      {EventCode::step_trouble, "step_trouble", "the engine had to give way in a step, after one in which it had not",
-       "bits of core's Trouble"},
-      {EventCode::injection_begins, "injection_begins", "the syringe is pressed", "mL/s"},
-      {EventCode::injection_ends, "injection_ends", "it is no longer", "mL since the run began, undiluted"},
-      {EventCode::heparin, "heparin", "given", "U"},
-      {EventCode::nitrate, "nitrate", "given into the coronary", "ug"},
-      {EventCode::adenosine, "adenosine", "given into the coronary", "ug"},
-      {EventCode::trace_changes, "trace_changes", "the guide's pressure looks otherwise than in the beat before",
-       "0 normal, 1 damped, 2 ventricularised, 3 ventricle, 4 absent"},
-      {EventCode::extrasystole, "extrasystole", "a beat comes early", ""},
-      {EventCode::inflation_begins, "inflation_begins", "the gauge rises above 1 atm", ""},
-      {EventCode::deflated, "deflated", "nothing is left in a balloon that had been inflated", "s since it began"},
-      {EventCode::over_pressure, "over_pressure", "the gauge rises above the rated burst pressure", "atm",
-       Severity::error},
-      {EventCode::balloon_burst, "balloon_burst", "a balloon bursts", "atm", Severity::critical},
-      {EventCode::inflation_in_catheter, "inflation_in_catheter",
-       "the gauge rises above 1 atm while the balloon does not lie in one artery", "", Severity::critical},
-      {EventCode::stent_deployed, "stent_deployed", "a stent is left in the wall of the first lesion's artery",
-       "mm from the lesion's middle, distal"},
-      {EventCode::stent_lost, "stent_lost",
-       "a stent comes off its balloon undeployed, or is opened where there is no artery", "", Severity::critical},
-      {EventCode::occlusion_begins, "occlusion_begins", "flow behind the lesion falls below 5 % of the need", ""},
-      {EventCode::occlusion_ends, "occlusion_ends", "it is above that again", "s since it began"},
-      {EventCode::injury, "injury", "an artery tears",
-       "dissection 10 to 15 (A to F), perforation 21 to 25 (Ellis I to III, V)"},
-      {EventCode::injection_on_bad_trace, "injection_on_bad_trace",
-       "the syringe is pressed while the last trace was damped or ventricularised", "", Severity::critical},
-      {EventCode::entry_refused, "entry_refused", "a tool is fed that cannot enter beside another one", "that tool"},
-      {EventCode::ffr_changes, "ffr_changes",
-       "as the run begins, and whenever the fractional flow reserve of the flow model, 20 mm behind the first lesion, "
-       "has changed by 0.005; looked at once a second",
-       "fractional flow reserve"},
-      {EventCode::stent_elsewhere, "stent_elsewhere",
-       "a stent is left in the wall of another artery than the first lesion's", "branch, from 0", Severity::critical},
-      {EventCode::catheter_without_wire, "catheter_without_wire",
-       "a catheter has been advanced by 10 mm between sheath and arch while no wire led it by 20 mm",
-       "mm that a wire leads", Severity::error},
-      {EventCode::wire_strays, "wire_strays",
-       "a thick wire is 20 mm inside a branch that leads to neither coronary ostium", "mm inside", Severity::error},
-      {EventCode::wire_in_ventricle, "wire_in_ventricle", "a thick wire has been in the left ventricle for 2 s", "",
-       Severity::error},
-      {EventCode::thick_wire_in_coronary, "thick_wire_in_coronary",
-       "a thick wire (0.035 in) is 5 mm behind a coronary ostium", "mm behind it", Severity::critical},
-      {EventCode::push_without_advance, "push_without_advance",
-       "over 15 mm of the hand a tip has gained less than 3 mm, and the push has risen by 0.2 N", "N", Severity::error},
-      {EventCode::wound_up, "wound_up",
-       "a catheter has been twisted by more than 270 degrees between introducer and tip for 1 s", "degrees",
-       Severity::error},
-      {EventCode::tip_whips, "tip_whips", "a catheter has let go of more than 180 degrees of twist in 0.3 s", "degrees",
-       Severity::error},
-      {EventCode::deep_seat, "deep_seat",
-       "a guide has been farther than 10 mm in a coronary artery, or past the middle of the left main, for 2 s",
-       "mm from the ostium", Severity::error},
-      {EventCode::bad_trace_kept, "bad_trace_kept", "the guide's pressure has been damped or ventricularised for 5 s",
-       "1 damped, 2 ventricularised", Severity::critical},
-      {EventCode::side_branch_pushed, "side_branch_pushed",
-       "a coronary wire is pushed on 10 mm inside a branch that neither leads to the first lesion nor leaves it",
-       "mm inside", Severity::error},
-      {EventCode::blind_wire, "blind_wire",
-       "a coronary wire has been moved by 10 mm with the beam off or its tip outside the field", "", Severity::error},
-      {EventCode::wire_too_far, "wire_too_far",
-       "a coronary wire's tip has been where the artery is less than 1 mm wide, or less than 10 mm from its end, for 5 "
-       "s",
-       "mm to the end", Severity::error},
-      {EventCode::wire_drift, "wire_drift",
-       "while a device moves and the wire's hand rests, the wire's tip has gone 5 mm along the artery, compared in "
-       "diastasis",
-       "mm, distal", Severity::error},
-      {EventCode::wire_position_lost, "wire_position_lost",
-       "a wire's tip that was behind the first lesion is ahead of it again, by 10 mm more than the hand has drawn it",
-       "mm lost", Severity::critical},
-      {EventCode::open_balloon_dragged, "open_balloon_dragged",
-       "a shaft has been moved by 2 mm since its balloon was inflated, and that is not empty", "mm, distal",
-       Severity::error},
-      {EventCode::long_inflation, "long_inflation",
-       "one inflation has lasted 60 s, or 20 s since ST had shifted by 0.2 mV", "s", Severity::error},
-      {EventCode::balloon_beyond_stent, "balloon_beyond_stent",
-       "a balloon in a stent stands out of it by 2 mm while it has more than 10 atm", "mm", Severity::error},
-      {EventCode::idle_beam, "idle_beam",
-       "the beam has been on for 3 s without motion, injection or a balloon that is not empty", "", Severity::error}};
+#define OSTIUM_EVENT(name, severity, value, definition) {EventCode::name, #name, Severity::severity, value, definition},
+#include "data/assessment/events.def"
+#undef OSTIUM_EVENT
+  };
   return all;
+}
+
+const EventDefinition* definition_of(EventCode code) {
+  const auto at = static_cast<std::size_t>(code);
+  return at < event_definitions().size() ? &event_definitions()[at] : nullptr;
 }
 
 const char* severity_name(Severity severity) {

@@ -32,7 +32,7 @@ const JsonObjectKeys item_keys = {"item",
                                    {"when", true, "how it is told, a text"},
                                    {"check", false, "what the recording must show; without it a person ticks"}}};
 const JsonObjectKeys check_keys = {"check",
-                                   {{"event", false, "an event's name (data/assessment/events.cpp)"},
+                                   {{"event", false, "an event's name (data/assessment/events.def)"},
                                     {"before", false, "an event's name: the first must come before its first"},
                                     {"metric", false, "a metric's name"},
                                     {"least", false, "a number: of events, or the metric's value"},
@@ -68,10 +68,9 @@ ScoreCheck read_check(const JsonValue& value) {
   return check;
 }
 
-std::vector<double> times(const RunRecord& r, EventCode code) {
+std::vector<double> times(const RunRecord& record, EventCode code) {
   std::vector<double> out;
-  for (std::size_t e = 0; e + 3 < r.events.size(); e += 4)
-    if (static_cast<int>(r.events[e + 1]) == static_cast<int>(code)) out.push_back(r.events[e] * r.step_s);
+  for (const RecordedEvent& e : events_of(record, code)) out.push_back(e.time_s);
   return out;
 }
 
