@@ -9,6 +9,7 @@
 #include <thread>
 
 #include "app/session/penetration.h"
+#include "app/session/recorder/event_watch.h"
 #include "app/session/setup.h"
 #include "app/session/signals.h"
 #include "data/assessment/metrics.h"

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "app/session/handling/errors.h"
 #include "app/session/run.h"
-#include "app/session/signals.h"
 #include "data/script.h"
 
 namespace ostium {
@@ -43,12 +43,12 @@ struct Played {
     (*this)[t].inserted_m += by_m, (*this)[t].fed_m += by_m, (*this)[t].advance_m_s = by_m / 0.01;
   }
   /// Looks every 10 ms.
-  template <class Errors, class Each, class... More>
-  void play(Errors& errors, double seconds, Each each, More... more) {
+  template <class Errors, class Each>
+  void play(Errors& errors, double seconds, Each each) {
     for (int i = 0; i < std::lround(seconds / 0.01); ++i) {
       scene.time_s += 0.01;
       each(i);
-      errors.look(map, scene, more..., EventSink{static_cast<std::uint64_t>(1e3 * scene.time_s), events});
+      look_for(errors, map, scene, EventSink{static_cast<std::uint64_t>(1e3 * scene.time_s), events});
     }
   }
   /// How many there were of a kind, which are forgotten.
@@ -66,19 +66,15 @@ TEST(Handling, ACatheterFollowsAWireBelowTheRoot) {
   p.scene.catheter = guide;
   p.scene.thick_wire = thick;
   p[thick].inserted_m = 0.5;
-  p.play(
-      errors, 1, [&](int) { p.feed(guide, 4e-3); }, Trace::normal);
+  p.play(errors, 1, [&](int) { p.feed(guide, 4e-3); });
   EXPECT_TRUE(p.events.empty()) << "to 10 cm behind the wire's tip";
   // 80 mm bring it to 20 mm behind the tip, 10 mm more to the error, which is one however far it goes on.
-  p.play(
-      errors, 0.2, [&](int) { p.feed(guide, 4e-3); }, Trace::normal);
+  p.play(errors, 0.2, [&](int) { p.feed(guide, 4e-3); });
   EXPECT_EQ(p.took(EventCode::catheter_without_wire), 0);
-  p.play(
-      errors, 0.5, [&](int) { p.feed(guide, 4e-3); }, Trace::normal);
+  p.play(errors, 0.5, [&](int) { p.feed(guide, 4e-3); });
   EXPECT_EQ(p.took(EventCode::catheter_without_wire), 1);
   p[guide].sphere = 2;
-  p.play(
-      errors, 10, [&](int) { p.feed(guide, 4e-3); }, Trace::normal);
+  p.play(errors, 10, [&](int) { p.feed(guide, 4e-3); });
   EXPECT_TRUE(p.events.empty()) << "beyond the arch it goes without a wire";
 }
 
@@ -88,18 +84,14 @@ TEST(Handling, TwistIsJudgedByHowLongAndHowFast) {
   p.scene.catheter = guide;
   p[guide].sphere = 2;
   const auto to = [&](double degrees) { p.scene.twist_rad = degrees * std::numbers::pi / 180; };
-  p.play(
-      errors, 2.7, [&](int i) { to(i); }, Trace::normal);
+  p.play(errors, 2.7, [&](int i) { to(i); });
   EXPECT_TRUE(p.events.empty());
-  p.play(
-      errors, 0.9, [&](int) { to(-280); }, Trace::normal);
+  p.play(errors, 0.9, [&](int) { to(-280); });
   EXPECT_EQ(p.took(EventCode::tip_whips), 1);
   EXPECT_EQ(p.took(EventCode::wound_up), 0) << "not for a second yet";
-  p.play(
-      errors, 4, [&](int) { to(-280); }, Trace::normal);
+  p.play(errors, 4, [&](int) { to(-280); });
   EXPECT_EQ(p.took(EventCode::wound_up), 1);
-  p.play(
-      errors, 5, [&](int) { to(0); }, Trace::normal);
+  p.play(errors, 5, [&](int) { to(0); });
   EXPECT_EQ(p.took(EventCode::tip_whips), 1);
   EXPECT_TRUE(p.events.empty());
 }
@@ -110,54 +102,46 @@ TEST(Handling, AGuideSitsWhereItShould) {
   p.scene.catheter = guide;
   p[guide].sphere = 3;
   p.scene.catheter_cell = 9;
-  p.play(
-      errors, 10, [](int) {}, Trace::normal);
+  p.play(errors, 10, [](int) {});
   EXPECT_TRUE(p.events.empty());
   p.scene.catheter_cell = 11;
-  p.play(
-      errors, 1.9, [](int) {}, Trace::normal);
+  p.play(errors, 1.9, [](int) {});
   EXPECT_TRUE(p.events.empty());
-  p.play(
-      errors, 5, [](int) {}, Trace::normal);
+  p.play(errors, 5, [](int) {});
   EXPECT_EQ(p.took(EventCode::deep_seat), 1);
   p.scene.catheter_cell = 2;
-  p.play(
-      errors, 4.9, [](int) {}, Trace::ventricularised);
+  p.scene.guide_trace = Trace::ventricularised;
+  p.play(errors, 4.9, [](int) {});
   EXPECT_TRUE(p.events.empty());
-  p.play(
-      errors, 0.2, [](int) {}, Trace::damped);
+  p.scene.guide_trace = Trace::damped;
+  p.play(errors, 0.2, [](int) {});
   EXPECT_EQ(p.took(EventCode::bad_trace_kept), 1);
   EXPECT_TRUE(p.events.empty());
 }
 
 TEST(Handling, AThickWireStaysOnItsWay) {
   Played p;
-  CatheterErrors errors;
+  ThickWireErrors errors;
   p.scene.thick_wire = thick;
-  p.play(
-      errors, 5, [](int) {}, Trace::absent);
+  p.play(errors, 5, [](int) {});
   EXPECT_TRUE(p.events.empty());
   p[thick].sphere = 1;
-  p.play(
-      errors, 5, [](int) {}, Trace::absent);
+  p.play(errors, 5, [](int) {});
   EXPECT_EQ(p.took(EventCode::wire_strays), 1);
   p[thick].sphere = 2;
-  p.play(
-      errors, 1.9, [](int) {}, Trace::absent);
+  p.play(errors, 1.9, [](int) {});
   EXPECT_TRUE(p.events.empty());
-  p.play(
-      errors, 1.9, [](int) {}, Trace::absent);
+  p.play(errors, 1.9, [](int) {});
   EXPECT_EQ(p.took(EventCode::wire_in_ventricle), 1);
   p[thick].sphere = 3;
-  p.play(
-      errors, 0.1, [](int) {}, Trace::absent);
+  p.play(errors, 0.1, [](int) {});
   EXPECT_EQ(p.took(EventCode::thick_wire_in_coronary), 1);
   EXPECT_TRUE(p.events.empty());
 }
 
 TEST(Handling, ACoronaryWireIsSeenAndGoesWhereItIsPlanned) {
   Played p;
-  WireErrors errors;
+  CoronaryWireErrors errors;
   p.scene.thin_wire = thin;
   p.play(errors, 8, [&](int i) { p.feed(thin, 1e-4), p.scene.wire_cell = i / 10; });
   EXPECT_TRUE(p.events.empty()) << "seen, 80 mm down the artery";
@@ -171,7 +155,7 @@ TEST(Handling, ACoronaryWireIsSeenAndGoesWhereItIsPlanned) {
 
 TEST(Handling, ACoronaryWireIsNotPushedIntoASideBranch) {
   Played p;
-  WireErrors errors;
+  CoronaryWireErrors errors;
   p.scene.thin_wire = thin;
   p.scene.wire_cell = 108;
   p.play(errors, 1, [&](int) { p.feed(thin, 1e-5); });
@@ -186,7 +170,7 @@ TEST(Handling, ACoronaryWireIsNotPushedIntoASideBranch) {
 
 TEST(Handling, ACoronaryWireStaysBehindTheLesion) {
   Played p;
-  WireErrors errors;
+  CoronaryWireErrors errors;
   p.scene.thin_wire = thin;
   const auto lie = [&](int cell, double seconds = 1) { p.scene.wire_cell = cell, p.play(errors, seconds, [](int) {}); };
   lie(95, 4.9);
@@ -239,7 +223,8 @@ TEST(Handling, BalloonsAreEmptyAsTheyMoveAndNotHeldForLong) {
     for (int i = 0; i < std::lround(seconds / 0.01); ++i) {
       p.scene.time_s += 0.01;
       p[balloon].fed_m += fed_m;
-      errors.look(run.model, run.state, p.scene, EventSink{0, p.events});
+      p.scene.beyond_stent_m = beyond_stent_m(run.model, run.state);
+      look_for(errors, p.map, p.scene, EventSink{0, p.events});
     }
   };
   run.state.bedside.balloon = 0;

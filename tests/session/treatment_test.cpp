@@ -9,7 +9,7 @@
 #include "app/session/outcome.h"
 #include "app/session/penetration.h"
 #include "app/session/run.h"
-#include "app/session/signals.h"
+#include "app/session/recorder/event_watch.h"
 #include "app/session/xray_scene.h"
 #include "data/catalogue/catalogue.h"
 #include "data/catalogue/instrument/instrument_reader.h"

@@ -1,29 +1,100 @@
 #pragma once
-/// What goes wrong with guides, and with the thick wire that leads them.
+/// What goes wrong with guides and diagnostic catheters.
+#include <algorithm>
 #include <array>
+#include <cmath>
+#include <numbers>
+#include <tuple>
 
+#include "app/session/handling/episode.h"
 #include "app/session/handling/scene.h"
 #include "app/session/session_event.h"
 
 namespace ostium {
 
-class CatheterErrors {
+/// From the sheath to the arch alone: in the root a shaped guide moves without a wire.
+class CatheterWithoutWire {
  public:
-  /// `trace`: the guide's pressure of the last beat.
-  void look(const HandlingMap& map, const HandlingScene& scene, Trace trace, const EventSink& say);
+  void look(const HandlingMap& map, const HandlingScene& x, const EventSink& say) {
+    if (x.catheter != catheter_) catheter_ = x.catheter, alone_m_ = inserted_m_ = 0;
+    if (x.catheter < 0) return;
+    const HandledTool& own = x.tool(x.catheter);
+    const double advanced_m = std::max(0.0, own.inserted_m - inserted_m_);
+    inserted_m_ = own.inserted_m;
+    const int wire = x.thick_wire >= 0 ? x.thick_wire : x.thin_wire;
+    const double leads_m = wire < 0 ? 0 : x.tool(wire).inserted_m - own.inserted_m;
+    const bool led = leads_m >= led_m || !map.before_root[static_cast<std::size_t>(own.sphere)];
+    alone_m_ = led ? 0 : alone_m_ + advanced_m;
+    if (episode_.begins(alone_m_ > alone_m, x.time_s)) say(EventCode::catheter_without_wire, x.catheter, 1e3 * leads_m);
+  }
 
  private:
-  void look_at_lead(const HandlingMap& map, const HandlingScene& scene, const EventSink& say);
-  void look_at_twist(const HandlingScene& scene, const EventSink& say);
-  void look_at_seat(const HandlingMap& map, const HandlingScene& scene, Trace trace, const EventSink& say);
-  void look_at_thick_wire(const HandlingMap& map, const HandlingScene& scene, const EventSink& say);
-
-  Episode naked_, wound_, whip_, deep_, bad_trace_, astray_, in_ventricle_, in_coronary_;
-  Held wound_for_, deep_for_, bad_trace_for_, ventricle_for_;
+  static constexpr double led_m = 20e-3, alone_m = 10e-3;
   int catheter_ = -1;  ///< that what follows is of
-  double naked_m_ = 0, inserted_m_ = 0;
-  std::array<double, 30> twists_{};  ///< the last 0.3 s, a number every look
-  std::size_t looks_ = 0;
+  double alone_m_ = 0, inserted_m_ = 0;
+  Episode episode_;
 };
+
+class WoundUp {
+ public:
+  void look(const HandlingMap&, const HandlingScene& x, const EventSink& say) {
+    if (x.catheter >= 0 && episode_.begins(std::fabs(x.twist_rad) > most_rad, for_s, x.time_s))
+      say(EventCode::wound_up, x.catheter, 180 / std::numbers::pi * x.twist_rad);
+  }
+
+ private:
+  static constexpr double most_rad = 1.5 * std::numbers::pi, for_s = 1;
+  HeldEpisode episode_;
+};
+
+class TipWhips {
+ public:
+  void look(const HandlingMap&, const HandlingScene& x, const EventSink& say) {
+    if (x.catheter != catheter_) catheter_ = x.catheter, looks_ = 0;
+    if (x.catheter < 0) return;
+    double& oldest = twists_rad_[looks_ % twists_rad_.size()];
+    const double changed_rad = looks_ < twists_rad_.size() ? 0 : std::fabs(x.twist_rad - oldest);
+    oldest = x.twist_rad, ++looks_;
+    if (episode_.begins(changed_rad > most_rad, x.time_s))
+      say(EventCode::tip_whips, x.catheter, 180 / std::numbers::pi * changed_rad);
+  }
+
+ private:
+  static constexpr double most_rad = std::numbers::pi;
+  int catheter_ = -1;                    ///< that what follows is of
+  std::array<double, 30> twists_rad_{};  ///< the last 0.3 s, a number every look
+  std::size_t looks_ = 0;
+  Episode episode_;
+};
+
+class DeepSeat {
+ public:
+  void look(const HandlingMap& map, const HandlingScene& x, const EventSink& say) {
+    if (x.catheter < 0) return;
+    const auto cell = static_cast<std::size_t>(x.catheter_cell);
+    const bool deep = x.catheter_cell >= 0 && map.from_ostium_m[cell] > map.deep_m[cell];
+    if (episode_.begins(deep, for_s, x.time_s)) say(EventCode::deep_seat, x.catheter, 1e3 * map.from_ostium_m[cell]);
+  }
+
+ private:
+  static constexpr double for_s = 2;
+  HeldEpisode episode_;
+};
+
+class BadTraceKept {
+ public:
+  void look(const HandlingMap&, const HandlingScene& x, const EventSink& say) {
+    if (x.catheter < 0) return;
+    const bool bad = x.guide_trace == Trace::damped || x.guide_trace == Trace::ventricularised;
+    if (episode_.begins(bad, for_s, x.time_s))
+      say(EventCode::bad_trace_kept, x.catheter, static_cast<double>(x.guide_trace));
+  }
+
+ private:
+  static constexpr double for_s = 5;
+  HeldEpisode episode_;
+};
+
+using CatheterErrors = std::tuple<CatheterWithoutWire, WoundUp, TipWhips, DeepSeat, BadTraceKept>;
 
 }  // namespace ostium

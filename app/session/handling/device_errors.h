@@ -1,19 +1,61 @@
 #pragma once
-/// What goes wrong with balloons and stents.
+/// What goes wrong with balloons and stents. While there is none in the body, what was seen of the last one is
+/// forgotten.
+#include <cmath>
+#include <tuple>
+
+#include "app/session/handling/episode.h"
 #include "app/session/handling/scene.h"
 #include "app/session/session_event.h"
 
 namespace ostium {
 
-class DeviceErrors {
+class OpenBalloonDragged {
  public:
-  void look(const SessionModel& model, const SessionState& state, const HandlingScene& scene, const EventSink& say);
+  void look(const HandlingMap&, const HandlingScene& x, const EventSink& say) {
+    const double fed_m = x.tool(x.device).fed_m;
+    if (x.is_inflated() && !open_) open_ = true, opened_at_m_ = fed_m;
+    if (!x.is_inflated() && !x.filled) open_ = false;
+    if (episode_.begins(open_ && std::fabs(fed_m - opened_at_m_) > most_m, x.time_s))
+      say(EventCode::open_balloon_dragged, x.device, 1e3 * (fed_m - opened_at_m_));
+  }
 
  private:
-  Episode long_, ischaemic_, dragged_, beyond_;
-  Held inflated_for_, shifted_for_;
+  static constexpr double most_m = 2e-3;
   bool open_ = false;
   double opened_at_m_ = 0;  ///< what the hand had fed as it opened
+  Episode episode_;
 };
+
+/// In itself, and after the ST segment has shifted.
+class LongInflation {
+ public:
+  void look(const HandlingMap&, const HandlingScene& x, const EventSink& say) {
+    const double for_s = inflated_.seconds(x.is_inflated(), x.time_s);
+    const bool shifted = x.is_inflated() && x.ST_mV >= shift_mV;
+    if (long_.begins(for_s > longest_s, x.time_s)) say(EventCode::long_inflation, x.device, for_s);
+    if (ischaemic_.begins(shifted, after_shift_s, x.time_s)) say(EventCode::long_inflation, x.device, for_s);
+  }
+
+ private:
+  static constexpr double longest_s = 60, after_shift_s = 20, shift_mV = 0.2;
+  Held inflated_;
+  Episode long_;
+  HeldEpisode ischaemic_;
+};
+
+class BalloonBeyondStent {
+ public:
+  void look(const HandlingMap&, const HandlingScene& x, const EventSink& say) {
+    if (episode_.begins(x.beyond_stent_m > most_m, x.time_s))
+      say(EventCode::balloon_beyond_stent, x.device, 1e3 * x.beyond_stent_m);
+  }
+
+ private:
+  static constexpr double most_m = 2e-3;
+  Episode episode_;
+};
+
+using DeviceErrors = std::tuple<OpenBalloonDragged, LongInflation, BalloonBeyondStent>;
 
 }  // namespace ostium

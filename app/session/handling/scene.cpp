@@ -128,6 +128,26 @@ HandlingMap::HandlingMap(const SessionModel& model) {
   if (model.has_patient()) map_arteries(model, *this);
 }
 
+double beyond_stent_m(const SessionModel& model, const SessionState& state) {
+  constexpr double hard_atm = 10;
+  const int balloon = static_cast<int>(state.bedside.balloon);
+  if (balloon < 0 || !(state.treatment.balloon.pressure_Pa > hard_atm * 101325)) return 0;
+  const auto& lesions = model.vessel->coronaries->lesions;
+  double out_m = 0;
+  for (int i = 0; i < static_cast<int>(lesions.size()); ++i) {
+    const auto stents = stented(model, state, i);
+    const auto at = balloon_from_lesion_m(model, state, i);
+    if (!stents || !at) continue;
+    const Plan& plan = lesions[static_cast<std::size_t>(i)];
+    const double half_m = model.treatment.balloons[static_cast<std::size_t>(balloon)].length_m / 2;
+    const double middle_m = *at + (plan.to_m - plan.from_m) / 2;
+    const double from_m = middle_m - half_m, to_m = middle_m + half_m;
+    if (to_m < stents->from_m || from_m > stents->to_m) continue;
+    out_m = std::max({out_m, stents->from_m - from_m, to_m - stents->to_m});
+  }
+  return out_m;
+}
+
 void see(const SessionModel& model, const SessionInputs& inputs, const SessionState& state, const SessionReport& report,
          HandlingScene& x) {
   x.time_s = seconds(model, state);
@@ -149,6 +169,7 @@ void see(const SessionModel& model, const SessionInputs& inputs, const SessionSt
             .push_N = report.tools[i].push_N};
     if (!tool.in_body) continue;
     tool.sphere = model.vessel->way->locate(tip(model, state, t), phase, breath(model, state));
+    tool.along_m = model.vessel->way->from_access_m(tool.sphere);
     const Instrument& instrument = model.tools[i].instrument;
     if (is_catheter(instrument) && x.catheter < 0) x.catheter = t;
     if (model.balloon_of[i] >= 0) x.device = t;
@@ -158,6 +179,10 @@ void see(const SessionModel& model, const SessionInputs& inputs, const SessionSt
   const BedsideState& b = state.bedside;
   x.filled = b.balloon >= 0 &&
              !is_empty(model.treatment.balloons[static_cast<std::size_t>(b.balloon)], state.treatment.balloon);
+  x.balloon = model.has_patient() ? static_cast<int>(b.balloon) : -1;
+  x.beyond_stent_m = x.balloon < 0 ? 0 : beyond_stent_m(model, state);
+  x.ST_mV = x.balloon < 0 ? 0 : ST_shift_mV(model.physiology.ischaemia, state.blood.ischaemia);
+  x.guide_trace = b.guide >= 0 ? trace(state.blood.line) : Trace::absent;
   x.wire_cell = x.thin_wire < 0 || !model.has_patient() ? -1 : static_cast<int>(b.wire_cell);
   x.catheter_cell = x.catheter >= 0 && model.has_patient() && static_cast<int>(b.where) == TipPlace::coronary
                         ? static_cast<int>(b.cell)

@@ -31,7 +31,8 @@ struct HandledTool {
   double inserted_m = 0, fed_m = 0;        ///< fed: by the hand in all
   double advance_m_s = 0, turn_rad_s = 0;  ///< of the hand, now
   double push_N = 0;
-  int sphere = -1;  ///< of the way, where its tip is
+  int sphere = -1;     ///< of the vessel index, where its tip is
+  double along_m = 0;  ///< from the access to there
 };
 
 struct HandlingScene {
@@ -39,43 +40,26 @@ struct HandlingScene {
   bool diastasis = false;  ///< the heart rests: places along an artery are compared then, so that beats do not count
   bool beam = false, injects = false;
   double gauge_atm = 0;
-  bool filled = false;  ///< the balloon in the body is not empty
+  bool filled = false;        ///< the balloon in the body is not empty
+  int balloon = -1;           ///< of the model's, in the body
+  double beyond_stent_m = 0;  ///< how far it stands out of a lesion's stents while it is hard
+  double ST_mV = 0;
+  Trace guide_trace = Trace::absent;  ///< of the last heartbeat
   std::vector<HandledTool> tools;
   int catheter = -1, thick_wire = -1, thin_wire = -1, device = -1;  ///< tools in the body; -1: none
   int catheter_cell = -1, wire_cell = -1;                           ///< of the arteries, where their tips are
   bool thin_tip_is_seen = false;                                    ///< beam on, and the thin wire's tip in the field
   double twist_rad = 0;                                             ///< of the catheter, from the introducer to its tip
+
+  const HandledTool& tool(int t) const { return tools[static_cast<std::size_t>(t)]; }
+  bool is_inflated() const { return gauge_atm > 1; }
 };
+
+/// How far a balloon with more than 10 atm that lies in a lesion's stents stands out of them; 0: there is none, or it
+/// does not.
+double beyond_stent_m(const SessionModel& model, const SessionState& state);
 
 void see(const SessionModel& model, const SessionInputs& inputs, const SessionState& state, const SessionReport& report,
          HandlingScene& scene);
-
-/// One event an episode: what comes again within 3 s of its end is the same one.
-class Episode {
- public:
-  /// True as one begins.
-  bool begins(bool holds, double time_s) {
-    if (!holds) return false;
-    const bool is_new = time_s - last_s_ > again_after_s;
-    last_s_ = time_s;
-    return is_new;
-  }
-
- private:
-  static constexpr double again_after_s = 3;
-  double last_s_ = -1e9;
-};
-
-/// For how long something has held without a break.
-class Held {
- public:
-  double seconds(bool holds, double time_s) {
-    if (!holds || since_s_ < 0) since_s_ = holds ? time_s : -1;
-    return holds ? time_s - since_s_ : 0;
-  }
-
- private:
-  double since_s_ = -1;
-};
 
 }  // namespace ostium

@@ -1,0 +1,39 @@
+#pragma once
+/// All errors of handling, in the order in which those of one look are said. Each is a small class with its limits in
+/// the file of its group; a group is the list of them at that file's end.
+#include "app/session/handling/catheter_errors.h"
+#include "app/session/handling/device_errors.h"
+#include "app/session/handling/operation_errors.h"
+#include "app/session/handling/wire_errors.h"
+
+namespace ostium {
+
+/// Looks for each error of a group.
+template <class... Errors>
+void look_for(std::tuple<Errors...>& group, const HandlingMap& map, const HandlingScene& x, const EventSink& say) {
+  std::apply([&](Errors&... error) { (error.look(map, x, say), ...); }, group);
+}
+
+struct HandlingErrors {
+  CatheterErrors catheter;
+  ThickWireErrors thick_wire;
+  CoronaryWireErrors coronary_wire;
+  DeviceErrors device;
+  OperationErrors operation;
+
+  void look(const HandlingMap& map, const HandlingScene& x, const EventSink& say) {
+    look_for(catheter, map, x, say);
+    look_for(thick_wire, map, x, say);
+    if (x.thin_wire < 0)
+      coronary_wire = {};
+    else
+      look_for(coronary_wire, map, x, say);
+    if (x.device < 0 || x.balloon < 0)
+      device = {};
+    else
+      look_for(device, map, x, say);
+    look_for(operation, map, x, say);
+  }
+};
+
+}  // namespace ostium

@@ -1,0 +1,169 @@
+#include "app/session/recorder/event_watch.h"
+
+#include <cmath>
+
+#include "app/session/outcome.h"
+#include "core/rod/introducer.h"
+#include "vascular/units.h"
+
+namespace ostium {
+
+namespace {
+
+constexpr double undiluted_kg_m3 = 350;
+
+EventCode code_of(OperatorEvent::Kind kind) {
+  using Kind = OperatorEvent::Kind;
+  return kind == Kind::begins   ? EventCode::script_step_begins
+         : kind == Kind::done   ? EventCode::script_step_done
+         : kind == Kind::failed ? EventCode::script_step_failed
+         : kind == Kind::marked ? EventCode::mark
+                                : EventCode::script_step_timed_out;
+}
+
+}  // namespace
+
+EventWatch::EventWatch(const SessionModel& model)
+    : tools_(model.tools.size()), handling_(model), stents_(model.treatment.stents.size(), StentState::on_balloon) {}
+
+void EventWatch::look_at_syringe(const SessionInputs& inputs, const SessionState& state, const EventSink& say) {
+  const BedsideInputs& hand = inputs.bedside;
+  const bool injects = hand.injection_m3_s > 0;
+  if (injects && !injects_) {
+    say(EventCode::injection_begins, -1, 1e6 * hand.injection_m3_s);
+    if (trace_ == static_cast<int>(Trace::damped) || trace_ == static_cast<int>(Trace::ventricularised))
+      say(EventCode::injection_on_bad_trace, -1, trace_);
+  }
+  if (!injects && injects_)
+    say(EventCode::injection_ends, -1, 1e6 * state.blood.contrast.injected_kg / undiluted_kg_m3);
+  injects_ = injects;
+  if (hand.heparin_U > 0) say(EventCode::heparin, -1, hand.heparin_U);
+  if (hand.nitrate_ug > 0) say(EventCode::nitrate, -1, hand.nitrate_ug);
+  if (hand.adenosine_ug > 0) say(EventCode::adenosine, -1, hand.adenosine_ug);
+}
+
+void EventWatch::look_at_heart(const SessionState& state, const EventSink& say) {
+  // While contrast or a thick wire is in the guide there is no trace to judge.
+  const int trace =
+      state.bedside.guide >= 0 ? static_cast<int>(state.blood.line.trace) : static_cast<int>(Trace::absent);
+  if (trace != trace_) say(EventCode::trace_changes, -1, trace);
+  trace_ = trace;
+  if (state.blood.heart.ectopic > ectopic_) say(EventCode::extrasystole, -1, 0);
+  ectopic_ = state.blood.heart.ectopic;
+}
+
+void EventWatch::look_at_balloon(const SessionModel& model, const SessionInputs& inputs, const SessionState& state,
+                                 const EventSink& say) {
+  const double gauge_Pa = inputs.bedside.gauge_Pa, time_s = seconds(model, state);
+  const BalloonState& balloon = state.treatment.balloon;
+  const bool inflated = gauge_Pa > atm && state.bedside.balloon >= 0;
+  if (inflated && !inflated_) {
+    say(EventCode::inflation_begins, -1, 0);
+    inflated_since_s_ = time_s, filled_ = true;
+    if (state.bedside.branch < 0) say(EventCode::inflation_in_catheter, -1, 0);
+  }
+  inflated_ = inflated;
+  if (state.bedside.balloon >= 0) {
+    const BalloonModel& own = model.treatment.balloons[static_cast<std::size_t>(state.bedside.balloon)];
+    const bool over = gauge_Pa > own.rated_Pa;
+    if (over && !over_) say(EventCode::over_pressure, -1, gauge_Pa / atm);
+    over_ = over;
+    if (filled_ && !inflated && is_empty(own, balloon))
+      say(EventCode::deflated, -1, time_s - inflated_since_s_), filled_ = false;
+    if (balloon.burst > burst_) say(EventCode::balloon_burst, -1, gauge_Pa / atm);
+  }
+  burst_ = balloon.burst;
+}
+
+void EventWatch::look_at_stents(const SessionModel& model, const SessionState& state, const EventSink& say) {
+  for (std::size_t i = 0; i < state.treatment.stents.size(); ++i) {
+    const StentState& own = state.treatment.stents[i];
+    const double where = own.where;
+    if (where == stents_[i]) continue;
+    const auto at = model.vessel->coronaries->lesions.empty() ? std::nullopt
+                                                              : stent_from_lesion_m(model, state, static_cast<int>(i));
+    if (where != StentState::deployed || own.branch < 0)
+      say(EventCode::stent_lost, -1, 0);
+    else if (at)
+      say(EventCode::stent_deployed, -1, 1e3 * *at);
+    else
+      say(EventCode::stent_elsewhere, -1,
+          model.physiology.flow.tree.branches[static_cast<std::size_t>(own.branch)].tree_branch);
+    stents_[i] = where;
+  }
+}
+
+void EventWatch::look_at_flow(const SessionModel& model, const SessionState& state, const EventSink& say) {
+  if (model.vessel->coronaries->lesions.empty() || state.rods.step % look_every != 0) return;
+  const double time_s = seconds(model, state);
+  const bool closed = supply_behind_lesion(model, state) < occluded_share;
+  if (closed && !closed_) say(EventCode::occlusion_begins, -1, 0), closed_since_s_ = time_s;
+  if (!closed && closed_) say(EventCode::occlusion_ends, -1, time_s - closed_since_s_);
+  closed_ = closed;
+}
+
+void EventWatch::look_at_injuries(const SessionState& state, const EventSink& say) {
+  const auto& injuries = state.treatment.injury.injuries;
+  for (std::size_t i = 0; i < injuries.size(); ++i) {
+    const double value = injuries[i].cell < 0 ? 0 : 10 * injuries[i].kind + injuries[i].grade;
+    if (value > injuries_[i]) say(EventCode::injury, -1, value);
+    injuries_[i] = value;
+  }
+}
+
+void EventWatch::look_at_entry(const SessionReport& report, const EventSink& say) {
+  if (report.refused >= 0 && refused_ != report.refused)
+    say(EventCode::entry_refused, report.refused, report.in_its_way);
+  refused_ = report.refused;
+}
+
+void EventWatch::look_at_tools(const SessionModel& model, const SessionReport& report, std::uint64_t now,
+                               bool handling_looked, const EventSink& say) {
+  for (int t = 0; t < static_cast<int>(tools_.size()); ++t) {
+    Tool& before = tools_[static_cast<std::size_t>(t)];
+    const ToolReport& tool = report.tools[static_cast<std::size_t>(t)];
+    if (tool.in_body != before.in_body) say(tool.in_body ? EventCode::tool_in : EventCode::tool_out, t, 0);
+    before.in_body = tool.in_body;
+    before.wall_force_N += (1 - std::exp(-2 * EIGEN_PI * wall_force_cut_off_Hz * model.step_s())) *
+                           (tool.wall_force_N - before.wall_force_N);
+    const bool pressed = before.wall_force_N > (before.pressed ? 0.8 : 1) * wall_force_limit_N;
+    if (pressed && !before.pressed) say(EventCode::wall_force_high, t, before.wall_force_N);
+    before.pressed = pressed;
+    if (!handling_looked) continue;
+    const int sphere = handling_.scene().tools[static_cast<std::size_t>(t)].sphere;
+    const int branch = tool.in_body ? model.vessel->way->branch(sphere) : -1;
+    if (before.branch.comes_to(branch, now, model.step_s())) say(EventCode::tip_enters, t, branch);
+  }
+}
+
+void EventWatch::look_at_beam(const CArmInputs& arm, const EventSink& say) {
+  if (arm.fluoroscopy != fluoroscopy_)
+    say(arm.fluoroscopy > 0 ? EventCode::fluoroscopy_on : EventCode::fluoroscopy_off, -1, 0);
+  if (arm.cine != cine_) say(arm.cine > 0 ? EventCode::cine_on : EventCode::cine_off, -1, 0);
+  fluoroscopy_ = arm.fluoroscopy, cine_ = arm.cine;
+}
+
+void EventWatch::look(const SessionModel& model, const SessionInputs& inputs, const SessionState& state,
+                      const SessionReport& report, const std::vector<OperatorEvent>& script,
+                      std::vector<SessionEvent>& events) {
+  const std::uint64_t now = state.rods.step;
+  const EventSink say{now, events};
+  for (const OperatorEvent& e : script) say(code_of(e.kind), -1, e.step);
+  const bool looks = now % HandlingWatch::every == 0;
+  if (looks) handling_.look(model, inputs, state, report, say);
+  look_at_tools(model, report, now, looks, say);
+  look_at_beam(inputs.c_arm, say);
+  const std::uint32_t trouble = report.rods.trouble & ~static_cast<std::uint32_t>(feed_stopped | drive_limited);
+  if (trouble && !trouble_) say(EventCode::step_trouble, -1, trouble);
+  trouble_ = trouble;
+  if (!model.has_patient()) return;
+  look_at_syringe(inputs, state, say);  // judges by the trace of before
+  look_at_heart(state, say);
+  look_at_balloon(model, inputs, state, say);
+  look_at_stents(model, state, say);
+  look_at_flow(model, state, say);
+  look_at_injuries(state, say);
+  look_at_entry(report, say);
+}
+
+}  // namespace ostium

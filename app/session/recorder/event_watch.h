@@ -1,0 +1,50 @@
+#pragma once
+/// Finds a run's events by comparing a step with the one before. Part of the loop, not of the simulation: replay does
+/// without.
+#include <array>
+#include <vector>
+
+#include "app/session/handling/handling.h"
+#include "app/session/operator.h"
+#include "app/session/settled_branch.h"
+
+namespace ostium {
+
+class EventWatch {
+ public:
+  explicit EventWatch(const SessionModel& model);
+  /// Appends to `events`; allocates only if that must grow.
+  void look(const SessionModel& model, const SessionInputs& inputs, const SessionState& state,
+            const SessionReport& report, const std::vector<OperatorEvent>& script, std::vector<SessionEvent>& events);
+
+ private:
+  struct Tool {
+    bool in_body = false, pressed = false;
+    SettledBranch branch;
+    double wall_force_N = 0;  ///< behind the low pass that metrics use
+  };
+  void look_at_tools(const SessionModel& model, const SessionReport& report, std::uint64_t now, bool handling_looked,
+                     const EventSink& say);
+  void look_at_beam(const CArmInputs& arm, const EventSink& say);
+  void look_at_syringe(const SessionInputs& inputs, const SessionState& state, const EventSink& say);
+  void look_at_heart(const SessionState& state, const EventSink& say);
+  void look_at_balloon(const SessionModel& model, const SessionInputs& inputs, const SessionState& state,
+                       const EventSink& say);
+  void look_at_stents(const SessionModel& model, const SessionState& state, const EventSink& say);
+  void look_at_flow(const SessionModel& model, const SessionState& state, const EventSink& say);
+  void look_at_injuries(const SessionState& state, const EventSink& say);
+  void look_at_entry(const SessionReport& report, const EventSink& say);
+
+  // As they were at the step before.
+  std::vector<Tool> tools_;
+  HandlingWatch handling_;
+  std::vector<double> stents_;  ///< where they were
+  std::array<double, most_injuries> injuries_{};
+  bool injects_ = false, inflated_ = false, filled_ = false, over_ = false, closed_ = false;
+  double inflated_since_s_ = 0, closed_since_s_ = 0, ectopic_ = 0, burst_ = 0;
+  int trace_ = static_cast<int>(Trace::absent), refused_ = -1;
+  double fluoroscopy_ = 0, cine_ = 0;
+  std::uint32_t trouble_ = 0;
+};
+
+}  // namespace ostium
