@@ -7,8 +7,8 @@
 #include <fstream>
 #include <sstream>
 
-#include "data/fit/explanation_report.h"
-#include "data/measured/measurement_reader.h"
+#include "data/identification/measurement/measurement_reader.h"
+#include "data/identification/report/explanation_report.h"
 #include "data/write_file.h"
 
 namespace ostium {

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <filesystem>
 
-#include "data/forward/prediction.h"
-#include "data/measured/measurement_reader.h"
+#include "data/identification/forward/prediction.h"
+#include "data/identification/measurement/measurement_reader.h"
 #include "data/write_file.h"
 
 namespace ostium {

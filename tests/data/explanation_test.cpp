@@ -1,15 +1,15 @@
 /// The fit is held to sets that the boundary-value solver made: what it says must be what was put in.
-#include "data/fit/explanation.h"
+#include "data/identification/selection/explanation.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "data/fit/explanation_report.h"
-#include "data/forward/prediction.h"
+#include "data/identification/forward/prediction.h"
+#include "data/identification/measurement/measurement_reader.h"
+#include "data/identification/report/explanation_report.h"
 #include "data/instrument_reader.h"
-#include "data/measured/measurement_reader.h"
 #include "tests/support/synthetic_set.h"
 
 namespace ostium {

@@ -4,11 +4,11 @@
 #include <cmath>
 #include <random>
 
-#include "data/fit/dependence.h"
-#include "data/fit/folds.h"
-#include "data/fit/noise.h"
-#include "data/fit/secant_descent.h"
-#include "data/fit/workers.h"
+#include "data/identification/estimation/folds.h"
+#include "data/identification/estimation/noise.h"
+#include "data/identification/estimation/residual_tests.h"
+#include "data/identification/estimation/secant_descent.h"
+#include "data/identification/estimation/workers.h"
 #include "data/plot.h"
 
 namespace ostium {

@@ -1,12 +1,12 @@
 /// Insertion in a vessel: what walls do not touch is as free rods are, and what they do touch stays inside.
-#include "data/forward/insertion.h"
+#include "data/identification/forward/insertion.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "app/verify/tube.h"
-#include "data/forward/prediction.h"
+#include "data/identification/forward/prediction.h"
 #include "tests/support/synthetic_set.h"
 
 namespace ostium {

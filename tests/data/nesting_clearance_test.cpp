@@ -6,9 +6,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "data/effects/beams_with_play.h"
-#include "data/effects/effect.h"
-#include "data/forward/shape.h"
+#include "data/identification/effects/beams_with_play.h"
+#include "data/identification/effects/effect.h"
+#include "data/identification/forward/shape.h"
 #include "tests/support/nested_chains.h"
 #include "tests/support/synthetic_set.h"
 #include "tests/support/undeclared_tube.h"

@@ -1,5 +1,5 @@
 /// Predictions against the boundary-value solver, through the file format.
-#include "data/forward/prediction.h"
+#include "data/identification/forward/prediction.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
-#include "data/measured/measurement_reader.h"
+#include "data/identification/measurement/measurement_reader.h"
 #include "tests/support/synthetic_set.h"
 
 namespace ostium {

@@ -7,8 +7,8 @@
 #include <cmath>
 
 #include "app/verify/tube.h"
-#include "data/effects/effect.h"
-#include "data/forward/insertion.h"
+#include "data/identification/effects/effect.h"
+#include "data/identification/forward/insertion.h"
 #include "tests/support/undeclared_tube.h"
 
 namespace ostium {

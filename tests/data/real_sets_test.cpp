@@ -6,8 +6,8 @@
 #include <cstdlib>
 #include <filesystem>
 
-#include "data/fit/explanation.h"
-#include "data/measured/measurement_reader.h"
+#include "data/identification/measurement/measurement_reader.h"
+#include "data/identification/selection/explanation.h"
 
 namespace ostium {
 namespace {
