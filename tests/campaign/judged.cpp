@@ -10,8 +10,8 @@
 #include <set>
 
 #include "data/identification/measurement/measurement_reader.h"
-#include "data/identification/selection/explanation.h"
-#include "data/identification/selection/search.h"
+#include "data/identification/effects/effect_list.h"
+#include "data/identification/selection/explain.h"
 #include "tests/support/undeclared.h"
 
 namespace ostium::synthetic {

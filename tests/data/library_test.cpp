@@ -6,11 +6,11 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "data/identification/effects/effect.h"
+#include "data/identification/effects/effect_list.h"
 #include "data/identification/forward/prediction.h"
 #include "data/identification/measurement/measurement_reader.h"
 #include "data/identification/report/explanation_report.h"
-#include "data/identification/selection/explanation.h"
+#include "data/identification/selection/explain.h"
 #include "data/instrument_reader.h"
 #include "tests/campaign/judged.h"
 #include "tests/support/undeclared.h"

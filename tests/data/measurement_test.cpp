@@ -8,7 +8,7 @@
 #include <set>
 
 #include "data/catalogue.h"
-#include "data/identification/effects/effect.h"
+#include "data/identification/effects/effect_list.h"
 #include "data/identification/measurement/measurement_keys.h"
 #include "data/identification/measurement/measurement_reader.h"
 #include "tests/data/refusals.h"

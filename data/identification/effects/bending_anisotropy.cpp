@@ -1,5 +1,6 @@
-#include "data/identification/effects/bending_anisotropy.h"
-
+/// Bending stiffness that differs between two axes across the instrument: a flattened core, a tube with a seam.
+/// EI1 = EI sqrt(ratio), EI2 = EI / sqrt(ratio) about axes that lie `axis_deg` from d1 and d2, right-handed about d3.
+/// Law: the rod's own (Kirchhoff's, with two stiffnesses). For an instrument alone.
 #include <Eigen/Geometry>
 #include <cmath>
 #include <numbers>
@@ -14,7 +15,7 @@ std::string why_not(const MeasurementSet& set, std::optional<int>) {
   return set.instruments.size() > 1 ? "nested instruments are modelled with one bending stiffness" : "";
 }
 
-void apply(const ActiveEffect& effect, const MeasurementSet&, const Experiment&, Setup& setup) {
+void apply(const ActiveEffect& effect, const MeasurementSet&, const Experiment&, ExperimentSetup& setup) {
   const double root = std::sqrt(effect.values[0]), axis = effect.values[1] * std::numbers::pi / 180;
   ConcentricPart& part = setup.nest.parts[0];
   for (Section& s : part.sections) {
@@ -38,6 +39,7 @@ Effect bending_anisotropy() {
   effect.parameters = {{"ratio", "1", "EI about the first axis against the second", 1, 0.4, 0.1, 10, true},
                        {"axis_deg", "deg", "from d1 to the first axis", 0, 25, -60, 60, false}};
   effect.why_not = why_not, effect.apply = apply, effect.forms = forms;
+  effect.in_instrument = true;
   return effect;
 }
 

@@ -1,5 +1,6 @@
-#include "data/identification/effects/clamp_runout.h"
-
+/// The base tangent is off and turns with the roll, as in a collet that does not run true: the frame at the base is
+/// tilted by `tilt_1_deg` about d1 and `tilt_2_deg` about d2 of the rolled frame. Nested: of the chosen instrument's
+/// drive, the outermost if none is.
 #include <Eigen/Geometry>
 #include <numbers>
 
@@ -11,7 +12,7 @@ namespace {
 
 std::string why_not(const MeasurementSet&, std::optional<int>) { return ""; }
 
-void apply(const ActiveEffect& effect, const MeasurementSet&, const Experiment&, Setup& setup) {
+void apply(const ActiveEffect& effect, const MeasurementSet&, const Experiment&, ExperimentSetup& setup) {
   const double degree = std::numbers::pi / 180;
   // With what arrives of the roll, whatever other effects leave of it; in the instrument's own directors.
   const double roll = setup.nest.parts[effect.instrument.value_or(0)].roll_rad - setup.material_turn_rad;
@@ -35,6 +36,7 @@ Effect clamp_runout() {
                        {"tilt_2_deg", "deg", "tilt of the base about d2", 0, 2, -30, 30, false}};
   effect.why_not = why_not, effect.apply = apply;
   effect.of_one_instrument = true;
+  effect.confused_with = "registration";
   return effect;
 }
 

@@ -1,10 +1,11 @@
 #pragma once
-/// Effects: what a measured set may show and its declaration leaves out. Each is a separate switch, off by default, in
-/// a header and source of its own, and changes what the forward model is made of, not the model's equations.
-///
-/// Adding one: its header and source here, its line in the list in effect.cpp, its parameters in
-/// data/schemas/effects.schema.json, its test in tests/data.
-#include "data/identification/forward/setup.h"
+/// What an effect is: something that a measured set may show and its declaration leaves out. Each is a separate switch,
+/// off by default, and changes what the forward model is given, never the model's equations.
+#include <functional>
+
+#include "data/identification/effects/experiment_setup.h"
+#include "data/identification/effects/measured_view.h"
+#include "data/identification/measurement/measurement_set.h"
 
 namespace ostium {
 
@@ -12,19 +13,19 @@ struct EffectParameter {
   std::string name;   ///< with its unit, as in files: "time_1_s"
   std::string unit;   ///< "1" if there is none
   std::string what;   ///< in words
-  double prior = 0;   ///< what is expected before looking; in files that leave it out, the value
+  double prior = 0;   ///< expected before any data are seen; the value where a file does not give one
   double spread = 0;  ///< of the prior: standard deviation, of its logarithm if `logarithmic`
   double least = 0, most = 0;
   bool logarithmic = false;
 };
 
-/// A shape that an effect can take: which of its parameters are held, and at what. The others are fitted.
+/// A variant of an effect: which of its parameters are held, and at what. The others are fitted.
 struct EffectForm {
-  std::string name;  ///< "" if there is one only
+  std::string name;  ///< "" if there is only one
   std::vector<std::pair<std::string, double>> held;
 };
 
-struct MeasuredView;
+struct ActiveEffect;
 
 struct Effect {
   std::string id;
@@ -33,14 +34,34 @@ struct Effect {
   /// Empty if the effect can show in this set on this instrument (none: on all it can act on), or why not.
   std::string (*why_not)(const MeasurementSet&, std::optional<int> instrument) = nullptr;
   /// Changes the instruments, loads or base; null: none of them.
-  void (*apply)(const ActiveEffect&, const MeasurementSet&, const Experiment&, Setup&) = nullptr;
+  void (*apply)(const ActiveEffect&, const MeasurementSet&, const Experiment&, ExperimentSetup&) = nullptr;
   /// Changes how a shape appears in the measurement; null: nothing.
   void (*see)(const ActiveEffect&, const MeasurementSet&, const Experiment&, MeasuredView&) = nullptr;
-  /// Brings priors and ranges to the size of this set; null: they are as listed.
+  /// Fits priors and ranges to the size of this set; null: they are as listed.
   void (*adapt)(const MeasurementSet&, std::optional<int> instrument, std::vector<EffectParameter>&) = nullptr;
   /// The forms to try in this set; null: one, with nothing held.
   std::vector<EffectForm> (*forms)(const MeasurementSet&, std::optional<int> instrument) = nullptr;
-  bool of_one_instrument = false;  ///< nested instruments may have it one by one
+  bool of_one_instrument = false;     ///< each of several nested instruments can have its own
+  bool of_several_stretches = false;  ///< may be switched on more than once, each time on another stretch
+  bool in_instrument = false;         ///< a property of the instrument, not of the rig, the room or the picture
+  std::string confused_with;          ///< id of an effect that some data cannot tell from this one; "" if there is none
+};
+
+/// An effect that is switched on.
+struct ActiveEffect {
+  const Effect* effect = nullptr;
+  std::optional<int> instrument;  ///< none: all that it can act on
+  std::vector<double> values;     ///< of effect->parameters
+  std::vector<bool> held;         ///< of effect->parameters: not to be fitted; empty: none is
+  std::string form;               ///< "" if there is only one
+
+  std::string name() const;  ///< "rest_curvature[1] (section 2)"
+};
+
+/// What differs from the declaration.
+struct Changes {
+  std::vector<std::vector<double>> stiffness_scale;  ///< per instrument and section; empty: 1
+  std::vector<ActiveEffect> effects;
 };
 
 /// The effect's parameters with priors and ranges that fit this set.
@@ -50,17 +71,5 @@ std::vector<EffectParameter> parameters_of(const Effect& effect, const Measureme
 /// The effect in one of its forms, at its priors.
 ActiveEffect active(const Effect& effect, const MeasurementSet& set, std::optional<int> instrument,
                     const EffectForm& form);
-
-/// What could be switched on in this set: every effect that can show, on every instrument, in every form.
-std::vector<ActiveEffect> everything_to_try(const MeasurementSet& set);
-
-/// All effects that there are, in the order in which they are listed to people.
-const std::vector<Effect>& effects();
-
-/// Throws LoadError naming the effects that there are.
-const Effect& find_effect(const std::string& id);
-
-/// The effects that the set's file declares. Throws LoadError for what is unknown, out of range or cannot act there.
-std::vector<ActiveEffect> declared_effects(const MeasurementSet& set);
 
 }  // namespace ostium

@@ -1,7 +1,6 @@
-#include "data/identification/effects/imaging_scale.h"
-
+/// The picture is too large or too small, as with a wrong magnification: measured = c + scale (true - c), with c the
+/// origin of the measuring frame (`about_base` 0) or the first base (1).
 #include "data/identification/effects/tools.h"
-#include "data/identification/forward/misfit.h"
 
 namespace ostium {
 

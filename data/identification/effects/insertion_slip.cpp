@@ -1,5 +1,4 @@
-#include "data/identification/effects/insertion_slip.h"
-
+/// A fraction of the commanded insertion, or a length, does not arrive: rollers slip, the zero is off.
 #include "data/identification/effects/tools.h"
 
 namespace ostium {
@@ -10,7 +9,7 @@ constexpr double mm = 1e-3, least_m = 2e-3;
 
 std::string why_not(const MeasurementSet&, std::optional<int>) { return ""; }
 
-void apply(const ActiveEffect& effect, const MeasurementSet& set, const Experiment& e, Setup& setup) {
+void apply(const ActiveEffect& effect, const MeasurementSet& set, const Experiment& e, ExperimentSetup& setup) {
   for (std::size_t i = 0; i < setup.nest.parts.size(); ++i) {
     if (!chosen(effect.instrument, i)) continue;
     const double left = e.set[i].inserted_m * (1 - effect.values[0]) - effect.values[1] * mm;
@@ -38,6 +37,7 @@ Effect insertion_slip() {
       {"offset_mm", "mm", "length of the commanded insertion that does not arrive", 0, 5, -60, 60, false}};
   effect.why_not = why_not, effect.apply = apply, effect.forms = forms;
   effect.of_one_instrument = true;
+  effect.confused_with = "imaging_scale";
   return effect;
 }
 

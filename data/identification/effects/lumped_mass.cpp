@@ -1,5 +1,5 @@
-#include "data/identification/effects/lumped_mass.h"
-
+/// A weight on the instrument that is declared nowhere: a marker, a torquer, a drop of glue. A dead load m g at a place
+/// of its centreline.
 #include <cmath>
 
 #include "data/identification/effects/tools.h"
@@ -15,7 +15,7 @@ std::string why_not(const MeasurementSet& set, std::optional<int>) {
   return set.gravity_m_s2.isZero() ? "there is no gravity" : "";
 }
 
-void apply(const ActiveEffect& effect, const MeasurementSet& set, const Experiment&, Setup& setup) {
+void apply(const ActiveEffect& effect, const MeasurementSet& set, const Experiment&, ExperimentSetup& setup) {
   const std::size_t on = effect.instrument.value_or(static_cast<int>(setup.nest.parts.size()) - 1);
   const double from_base = setup.nest.parts[on].inserted_m - effect.values[1] * mm;
   if (from_base > 0) setup.nest.loads.push_back({from_base, effect.values[0] * gram * set.gravity_m_s2});
@@ -38,6 +38,8 @@ Effect lumped_mass() {
   effect.parameters = {{"mass_g", "g", "of the weight", 0, 0.1, 0, 100, false},
                        {"from_tip_mm", "mm", "where it hangs, from the tip", 100, 60, 0, 5000, false}};
   effect.why_not = why_not, effect.apply = apply, effect.adapt = adapt;
+  effect.in_instrument = true;
+  effect.confused_with = "self_weight";
   return effect;
 }
 

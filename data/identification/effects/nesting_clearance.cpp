@@ -1,5 +1,7 @@
-#include "data/identification/effects/nesting_clearance.h"
-
+/// Play between nested instruments: near the end of an outer one its inner neighbour crosses from one side of the bore
+/// to the other, and comes out at an angle. How far and at which angle is worked out for two beams of small deflection
+/// that touch as they must (beams_with_play.h), and put into the shared centreline as a kink; loads at the innermost
+/// tip included, twist and weight left out.
 #include <Eigen/Geometry>
 #include <cmath>
 
@@ -49,7 +51,8 @@ void go_on(double length, const Vector2d& bend_per_m, Matrix3d& R, Vector3d& p) 
 }
 
 /// Two instruments as beams.
-BeamsWithPlay beams_of(const ConcentricPart& outer, const ConcentricPart& inner, double play_m, const Setup& setup) {
+BeamsWithPlay beams_of(const ConcentricPart& outer, const ConcentricPart& inner, double play_m,
+                       const ExperimentSetup& setup) {
   BeamsWithPlay beams;
   beams.play_m = play_m;
   double share = 0;  // of the outer one in their stiffness
@@ -101,7 +104,7 @@ void lead(const BeamsWithPlay& beams, const ConcentricPart& outer, ConcentricPar
   bend(inner, tip + step, tip + 2 * step, -aside);
 }
 
-void apply(const ActiveEffect& effect, const MeasurementSet&, const Experiment&, Setup& setup) {
+void apply(const ActiveEffect& effect, const MeasurementSet&, const Experiment&, ExperimentSetup& setup) {
   auto& parts = setup.nest.parts;
   for (std::size_t i = 0; i + 1 < parts.size(); ++i) {
     if (effect.values[0] <= 0 || parts[i + 1].inserted_m <= parts[i].inserted_m) continue;

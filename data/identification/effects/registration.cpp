@@ -1,10 +1,8 @@
-#include "data/identification/effects/registration.h"
-
+/// The measuring frame is rigidly off although it is declared given: turned about the first base, and shifted.
 #include <Eigen/Geometry>
 #include <numbers>
 
 #include "data/identification/effects/tools.h"
-#include "data/identification/forward/misfit.h"
 
 namespace ostium {
 

@@ -1,5 +1,6 @@
-#include "data/identification/effects/rest_curvature.h"
-
+/// A set of the shaft that the declaration leaves out: k (material frame) is added to the rest curvature of the whole
+/// instrument or of a stretch of it. Wires take a set where they are coiled in their hoop or bent over a finger.
+/// Law: the rod's own, m = K (u - u_rest - k).
 #include "data/identification/effects/tools.h"
 
 namespace ostium {
@@ -10,7 +11,7 @@ constexpr double mm = 1e-3, everywhere_mm = 1e5;
 
 std::string why_not(const MeasurementSet&, std::optional<int>) { return ""; }
 
-void apply(const ActiveEffect& effect, const MeasurementSet&, const Experiment&, Setup& setup) {
+void apply(const ActiveEffect& effect, const MeasurementSet&, const Experiment&, ExperimentSetup& setup) {
   const auto& v = effect.values;
   for (std::size_t i = 0; i < setup.nest.parts.size(); ++i)
     if (chosen(effect.instrument, i))
@@ -44,6 +45,8 @@ Effect rest_curvature() {
                        {"to_tip_mm", "mm", "where it ends, from the tip", everywhere_mm, 1, 0, everywhere_mm, false}};
   effect.why_not = why_not, effect.apply = apply, effect.forms = forms;
   effect.of_one_instrument = true;
+  effect.in_instrument = true;
+  effect.of_several_stretches = true;
   return effect;
 }
 

@@ -1,5 +1,5 @@
-#include "data/identification/effects/roll_loss.h"
-
+/// A fraction of the commanded roll, or a dead band counted from zero, does not arrive at the base: slip in the drive,
+/// play, friction along the shaft.
 #include <cmath>
 #include <numbers>
 
@@ -16,7 +16,7 @@ std::string why_not(const MeasurementSet& set, std::optional<int> instrument) {
   return "nothing was rolled";
 }
 
-void apply(const ActiveEffect& effect, const MeasurementSet&, const Experiment&, Setup& setup) {
+void apply(const ActiveEffect& effect, const MeasurementSet&, const Experiment&, ExperimentSetup& setup) {
   const double band = effect.values[1] * std::numbers::pi / 180;
   for (std::size_t i = 0; i < setup.nest.parts.size(); ++i) {
     if (!chosen(effect.instrument, i)) continue;
@@ -41,6 +41,7 @@ Effect roll_loss() {
       {"dead_band_deg", "deg", "of the commanded roll, from zero, that does not arrive", 0, 10, 0, 120, false}};
   effect.why_not = why_not, effect.apply = apply, effect.forms = forms;
   effect.of_one_instrument = true;
+  effect.confused_with = "shaft_torsion";
   return effect;
 }
 

@@ -1,5 +1,5 @@
-#include "data/identification/effects/self_weight.h"
-
+/// A weight that is declared wrong or not at all: the declared one times `scale`; where next to nothing is declared,
+/// `scale` times that of solid nitinol (6,450 kg/m3) of the instrument's cross-section.
 #include <numbers>
 
 #include "data/identification/effects/tools.h"
@@ -14,7 +14,7 @@ std::string why_not(const MeasurementSet& set, std::optional<int>) {
   return set.gravity_m_s2.isZero() ? "there is no gravity" : "";
 }
 
-void apply(const ActiveEffect& effect, const MeasurementSet&, const Experiment&, Setup& setup) {
+void apply(const ActiveEffect& effect, const MeasurementSet&, const Experiment&, ExperimentSetup& setup) {
   for (std::size_t i = 0; i < setup.nest.parts.size(); ++i) {
     if (!chosen(effect.instrument, i)) continue;
     for (Section& s : setup.nest.parts[i].sections) {
@@ -33,6 +33,7 @@ Effect self_weight() {
   effect.what = "another weight than declared";
   effect.parameters = {{"scale", "1", "weight against what is declared", 1, 0.5, 0.02, 50, true}};
   effect.why_not = why_not, effect.apply = apply;
+  effect.in_instrument = true;
   return effect;
 }
 

@@ -1,5 +1,5 @@
-#include "data/identification/effects/shaft_torsion.h"
-
+/// Twist of the straight shafts between the drives and the base: a tube of GJ and length l turns by `compliance` T l /
+/// GJ under the torque T. 0: as if rigid, which is what a set declares; 1: as its own sections say.
 #include "data/identification/effects/tools.h"
 
 namespace ostium {
@@ -24,7 +24,7 @@ double twist_per_torque(const std::vector<Section>& sections, double from_m, dou
   return sum;
 }
 
-void apply(const ActiveEffect& effect, const MeasurementSet&, const Experiment& e, Setup& setup) {
+void apply(const ActiveEffect& effect, const MeasurementSet&, const Experiment& e, ExperimentSetup& setup) {
   for (std::size_t i = 0; i < e.set.size(); ++i) {
     if (!chosen(effect.instrument, i)) continue;
     ConcentricPart& part = setup.nest.parts[i];

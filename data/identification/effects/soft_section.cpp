@@ -1,5 +1,5 @@
-#include "data/identification/effects/soft_section.h"
-
+/// A stretch of other stiffness, declared nowhere: a solder joint, a kink, a braid that ends. EI and GJ times `factor`
+/// from `from_tip_mm` on, over `length_mm`. Law: the rod's own.
 #include <cmath>
 
 #include "data/identification/effects/tools.h"
@@ -12,7 +12,7 @@ constexpr double mm = 1e-3;
 
 std::string why_not(const MeasurementSet&, std::optional<int>) { return ""; }
 
-void apply(const ActiveEffect& effect, const MeasurementSet&, const Experiment&, Setup& setup) {
+void apply(const ActiveEffect& effect, const MeasurementSet&, const Experiment&, ExperimentSetup& setup) {
   const auto& v = effect.values;
   for (std::size_t i = 0; i < setup.nest.parts.size(); ++i)
     if (chosen(effect.instrument, i))
@@ -38,6 +38,7 @@ Effect soft_section() {
                        {"factor", "1", "its stiffness against what is declared there", 1, 0.9, 0.02, 50, true}};
   effect.why_not = why_not, effect.apply = apply, effect.adapt = adapt;
   effect.of_one_instrument = true;
+  effect.in_instrument = true;
   return effect;
 }
 

@@ -1,6 +1,9 @@
-#include "data/identification/effects/stress_relaxation.h"
-
+/// What a heat-set instrument, one that is curved at rest, loses with the time t in position, with two branches
+/// (generalised Maxwell solid): 1 - f1 (1 - exp(-t / t1)) - f2 (1 - exp(-t / t2)). Nested with others, which hold it
+/// off its shape, it is its modulus that relaxes; alone, its rest curvature.
 #include <cmath>
+
+#include "data/identification/effects/effect.h"
 
 namespace ostium {
 
@@ -23,7 +26,7 @@ std::string why_not(const MeasurementSet& set, std::optional<int> instrument) {
   return "";
 }
 
-void apply(const ActiveEffect& effect, const MeasurementSet&, const Experiment& e, Setup& setup) {
+void apply(const ActiveEffect& effect, const MeasurementSet&, const Experiment& e, ExperimentSetup& setup) {
   const auto& v = effect.values;
   const double t = e.elapsed_s.value_or(0);
   const double left = 1 - v[0] * -std::expm1(-t / v[1]) - v[2] * -std::expm1(-t / v[3]);
@@ -66,6 +69,7 @@ Effect stress_relaxation() {
        -1, 1, -1, 1, false}};
   effect.why_not = why_not, effect.apply = apply, effect.forms = forms;
   effect.of_one_instrument = true;
+  effect.in_instrument = true;
   return effect;
 }
 

@@ -1,5 +1,5 @@
-#include "data/identification/effects/superelastic_softening.h"
-
+/// Bending that softens beyond a curvature, as superelastic nitinol does; core/rod/superelastic.h has the law. For an
+/// instrument alone.
 #include <cmath>
 
 #include "data/identification/effects/tools.h"
@@ -14,7 +14,7 @@ std::string why_not(const MeasurementSet& set, std::optional<int>) {
   return set.instruments.size() > 1 ? "nested instruments are modelled as linear" : "";
 }
 
-void apply(const ActiveEffect& effect, const MeasurementSet&, const Experiment&, Setup& setup) {
+void apply(const ActiveEffect& effect, const MeasurementSet&, const Experiment&, ExperimentSetup& setup) {
   for (Section& s : setup.nest.parts[0].sections)
     s.softening_per_m = effect.values[0] / mm, s.softened_ratio = effect.values[1];
 }
@@ -34,6 +34,7 @@ Effect superelastic_softening() {
       {"curvature_per_mm", "1/mm", "curvature beyond rest at which bending softens", 0.05, 1.2, 1e-4, 1, true},
       {"ratio", "1", "stiffness far beyond it against that below", 0.3, 0.7, 0.02, 0.95, true}};
   effect.why_not = why_not, effect.apply = apply, effect.adapt = adapt;
+  effect.in_instrument = true;
   return effect;
 }
 

@@ -1,4 +1,6 @@
-#include "data/identification/effects/wall_compliance.h"
+/// A wall that gives way: a force per length of instrument and depth, in place of a rigid one (core/surface). A
+/// silicone or arterial wall of modulus E and thickness h on a lumen of radius R: of the order of E h / R.
+#include "data/identification/effects/effect.h"
 
 namespace ostium {
 
@@ -8,7 +10,7 @@ constexpr double N_per_mm2 = 1e6;
 
 std::string why_not(const MeasurementSet& set, std::optional<int>) { return set.vessel ? "" : "there is no vessel"; }
 
-void apply(const ActiveEffect& effect, const MeasurementSet&, const Experiment&, Setup& setup) {
+void apply(const ActiveEffect& effect, const MeasurementSet&, const Experiment&, ExperimentSetup& setup) {
   setup.wall_stiffness_N_m2 = effect.values[0] * N_per_mm2;
 }
 

@@ -1,4 +1,5 @@
-#include "data/identification/effects/wall_friction.h"
+/// Another friction between wall and instruments than declared: Coulomb's law (core/contact), static and kinetic alike.
+#include "data/identification/effects/effect.h"
 
 namespace ostium {
 
@@ -6,7 +7,7 @@ namespace {
 
 std::string why_not(const MeasurementSet& set, std::optional<int>) { return set.vessel ? "" : "there is no vessel"; }
 
-void apply(const ActiveEffect& effect, const MeasurementSet&, const Experiment&, Setup& setup) {
+void apply(const ActiveEffect& effect, const MeasurementSet&, const Experiment&, ExperimentSetup& setup) {
   setup.wall_friction = effect.values[0];
 }
 

@@ -35,14 +35,14 @@ struct FitOptions {
 };
 
 /// Throws std::runtime_error if the model has no shapes at any start.
-Fit fit(const Forward& forward, const Parameters& parameters, const FitOptions& options);
+Fit fit(const ForwardModel& forward, const Parameters& parameters, const FitOptions& options);
 
 /// The least that a fit could cost (half the sum of squares, noise sigma_m or else guess_m) if the model were linear
 /// about any of the starts: a look ahead for the price of one step. Infinite if there are no shapes at any.
-double cost_ahead(const Forward& forward, const Parameters& parameters, const FitOptions& options);
+double cost_ahead(const ForwardModel& forward, const Parameters& parameters, const FitOptions& options);
 
 /// Misfits of `chosen` at x; empty where there is no shape.
-std::vector<Eigen::VectorXd> misfits(const Forward& forward, const Parameters& parameters, const Eigen::VectorXd& x,
-                                     const std::vector<int>& chosen);
+std::vector<Eigen::VectorXd> misfits(const ForwardModel& forward, const Parameters& parameters,
+                                     const Eigen::VectorXd& x, const std::vector<int>& chosen);
 
 }  // namespace ostium

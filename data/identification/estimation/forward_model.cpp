@@ -10,15 +10,15 @@ namespace ostium {
 
 namespace {
 
-std::vector<double> packed(const Shape& shape) {
+std::vector<double> packed(const PredictedShape& shape) {
   std::vector<double> out = {shape.converged ? 1.0 : 0.0, shape.base_push_N};
   for (int i = 0; i < 4; ++i) out.push_back(shape.tip_q[i]);
   for (const Eigen::Vector3d& p : shape.points_m) out.insert(out.end(), {p.x(), p.y(), p.z()});
   return out;
 }
 
-Shape unpacked(const std::vector<double>& in) {
-  Shape shape;
+PredictedShape unpacked(const std::vector<double>& in) {
+  PredictedShape shape;
   shape.converged = in[0] != 0;
   shape.base_push_N = in[1];
   for (int i = 0; i < 4; ++i) shape.tip_q[i] = in[2 + i];
@@ -27,15 +27,15 @@ Shape unpacked(const std::vector<double>& in) {
 }
 
 /// Behind what `out` has: how many numbers, and these.
-void append(const Shape& shape, std::vector<double>& out) {
+void append(const PredictedShape& shape, std::vector<double>& out) {
   const std::vector<double> one = packed(shape);
   out.push_back(static_cast<double>(one.size()));
   out.insert(out.end(), one.begin(), one.end());
 }
 
 /// shapes[v][k]: the v-th of `count` that were appended to found[k].
-std::vector<std::vector<Shape>> unpacked(const std::vector<std::vector<double>>& found, std::size_t count) {
-  std::vector<std::vector<Shape>> shapes(count);
+std::vector<std::vector<PredictedShape>> unpacked(const std::vector<std::vector<double>>& found, std::size_t count) {
+  std::vector<std::vector<PredictedShape>> shapes(count);
   for (const std::vector<double>& list : found)
     for (std::size_t v = 0, at = 0; v < count; ++v) {
       const auto length = static_cast<std::ptrdiff_t>(list[at++]);
@@ -57,25 +57,25 @@ std::vector<double> key_of(const Changes& changes) {
 
 }  // namespace
 
-std::vector<std::vector<Shape>> Forward::shapes(const std::vector<Changes>& changes,
-                                                const std::vector<int>& chosen) const {
+std::vector<std::vector<PredictedShape>> ForwardModel::shapes(const std::vector<Changes>& changes,
+                                                              const std::vector<int>& chosen) const {
   const std::size_t n = chosen.size();
   if (set_.vessel) return histories(changes, chosen);
   // The first from its anchor, the others, which are near it, from where that ended.
   const auto found = workers_.map(n, [&](std::size_t job) {
     const int e = chosen[job];
     std::vector<double> out;
-    Anchor first;
+    StaticEquilibrium first;
     for (const Changes& changed : changes) {
-      Shape shape;
+      PredictedShape shape;
       try {
-        const Setup setup = setup_of(set_, set_.experiments[e], changed, longest_element_m_);
+        const ExperimentSetup setup = setup_of(set_, set_.experiments[e], changed, longest_element_m_);
         if (&changed == &changes.front())
           shape = shape_from(setup, anchors_[e], first);
         else
           shape = shape_from(setup, first.converged ? first : anchors_[e]);
       } catch (const std::invalid_argument&) {  // with these numbers it is no rod any more
-        shape = Shape{};
+        shape = PredictedShape{};
       }
       append(shape, out);
     }
@@ -84,8 +84,8 @@ std::vector<std::vector<Shape>> Forward::shapes(const std::vector<Changes>& chan
   return unpacked(found, changes.size());
 }
 
-std::vector<std::vector<Shape>> Forward::histories(const std::vector<Changes>& changes,
-                                                   const std::vector<int>& chosen) const {
+std::vector<std::vector<PredictedShape>> ForwardModel::histories(const std::vector<Changes>& changes,
+                                                                 const std::vector<int>& chosen) const {
   std::vector<std::vector<double>> keys;
   std::vector<std::size_t> unknown;  // the first of each that was never run
   for (std::size_t v = 0; v < changes.size(); ++v) {
@@ -95,21 +95,21 @@ std::vector<std::vector<Shape>> Forward::histories(const std::vector<Changes>& c
   }
   // What is not chosen is run all the same: it was done.
   const auto found = workers_.map(unknown.size(), [&](std::size_t job) {
-    std::vector<Shape> shapes(set_.experiments.size());
+    std::vector<PredictedShape> shapes(set_.experiments.size());
     try {
       shapes = insert(set_, changes[unknown[job]]);
     } catch (const std::invalid_argument&) {  // with these numbers it is no rod any more
     }
     std::vector<double> out;
-    for (const Shape& shape : shapes) append(shape, out);
+    for (const PredictedShape& shape : shapes) append(shape, out);
     return out;
   });
   for (std::size_t k = 0; k < unknown.size(); ++k) {
-    std::vector<Shape> run;
+    std::vector<PredictedShape> run;
     for (const auto& one : unpacked({found[k]}, set_.experiments.size())) run.push_back(one[0]);
     known_.emplace(keys[unknown[k]], std::move(run));
   }
-  std::vector<std::vector<Shape>> shapes(changes.size());
+  std::vector<std::vector<PredictedShape>> shapes(changes.size());
   for (std::size_t v = 0; v < changes.size(); ++v)
     for (int e : chosen) shapes[v].push_back(known_.at(keys[v])[e]);
   return shapes;

@@ -25,12 +25,12 @@ std::optional<double> push_sigma_N(const MeasurementSet& set) {
   return known_to * *squares.rms();
 }
 
-std::optional<double> push_misfit_N(const Experiment& e, const Shape& shape) {
+std::optional<double> push_misfit_N(const Experiment& e, const PredictedShape& shape) {
   if (!e.proximal_force_N) return {};
   return *e.proximal_force_N - shape.base_push_N;
 }
 
-std::optional<double> push_rms_N(const MeasurementSet& set, const std::vector<Shape>& shapes) {
+std::optional<double> push_rms_N(const MeasurementSet& set, const std::vector<PredictedShape>& shapes) {
   Squares squares;
   for (std::size_t e = 0; e < shapes.size(); ++e)
     if (const auto off = push_misfit_N(set.experiments[e], shapes[e])) squares.add(*off);

@@ -9,9 +9,9 @@ namespace ostium {
 std::optional<double> push_sigma_N(const MeasurementSet& set);
 
 /// Measured minus model, N; none where it was not measured.
-std::optional<double> push_misfit_N(const Experiment& experiment, const Shape& shape);
+std::optional<double> push_misfit_N(const Experiment& experiment, const PredictedShape& shape);
 
 /// Root mean square over those that were measured, N; none without any.
-std::optional<double> push_rms_N(const MeasurementSet& set, const std::vector<Shape>& shapes);
+std::optional<double> push_rms_N(const MeasurementSet& set, const std::vector<PredictedShape>& shapes);
 
 }  // namespace ostium

@@ -8,8 +8,10 @@
 #include <numeric>
 #include <stdexcept>
 
+#include "data/identification/effects/effect_list.h"
 #include "data/identification/estimation/folds.h"
 #include "data/identification/estimation/measured_push.h"
+#include "data/identification/forward/misfit.h"
 
 namespace ostium {
 
@@ -53,8 +55,8 @@ std::vector<VectorXd> starts_of(const Parameters& parameters, const VectorXd& fr
 
 }  // namespace
 
-Study::Study(const MeasurementSet& set, const Workers& workers, const std::vector<ActiveEffect>& tried,
-             const std::function<void(const std::string&)>& progress, double spread)
+ModelFit::ModelFit(const MeasurementSet& set, const Workers& workers, const std::vector<ActiveEffect>& tried,
+                   const std::function<void(const std::string&)>& progress, double spread)
     : set_(set),
       workers_(workers),
       all_(everyone(set)),
@@ -67,13 +69,13 @@ Study::Study(const MeasurementSet& set, const Workers& workers, const std::vecto
   if (name_.empty()) name_ = "what is declared";
 }
 
-std::size_t Study::descents() const { return set_.vessel ? 1 : most_descents; }
+std::size_t ModelFit::descents() const { return set_.vessel ? 1 : most_descents; }
 
-void Study::say(const std::string& what) const {
+void ModelFit::say(const std::string& what) const {
   if (progress_) progress_(name_ + ": " + what);
 }
 
-FittedModel Study::run(std::optional<double> noise_m) {
+FittedModel ModelFit::run(std::optional<double> noise_m) {
   longest_element_m_ = fine_elements_m;
   say("walking through the experiments");
   anchor(parameters_.start());
@@ -89,13 +91,13 @@ FittedModel Study::run(std::optional<double> noise_m) {
   }
   refit_by_push(options);
   FittedModel model = report();
-  add_dependences(model);
+  add_residual_tests(model);
   model.other_branches = others;
   score_held_out(options, model);
   return model;
 }
 
-FitOptions Study::options_near(const FittedModel& near, std::optional<double> noise_m, double guess_m, int starts) {
+FitOptions ModelFit::options_near(const FittedModel& near, std::optional<double> noise_m, double guess_m, int starts) {
   longest_element_m_ = coarse_elements_m;
   if (set_.vessel) starts = std::min(starts, starts_in_vessel);
   VectorXd x = parameters_.start();
@@ -124,13 +126,13 @@ FitOptions Study::options_near(const FittedModel& near, std::optional<double> no
   return options;
 }
 
-double Study::cost_ahead_near(const FittedModel& near, std::optional<double> noise_m, double guess_m) {
+double ModelFit::cost_ahead_near(const FittedModel& near, std::optional<double> noise_m, double guess_m) {
   FitOptions options = options_near(near, noise_m, guess_m, set_.vessel ? 0 : starts_ahead);
   options.starts.insert(options.starts.end(), options.other_starts.begin(), options.other_starts.end());
   return cost_ahead(*forward_, parameters_, options);
 }
 
-FittedModel Study::run_near(const FittedModel& near, std::optional<double> noise_m, double guess_m, int starts) {
+FittedModel ModelFit::run_near(const FittedModel& near, std::optional<double> noise_m, double guess_m, int starts) {
   say("fit");
   FitOptions options = options_near(near, noise_m, guess_m, starts);
   fit_ = fit(*forward_, parameters_, options);
@@ -147,9 +149,9 @@ FittedModel Study::run_near(const FittedModel& near, std::optional<double> noise
 
 /// Shapes alone hardly tell a stiff instrument in a stiff wall from a soft one in a soft wall: descents along that
 /// valley are slow and end early. The push tells, by how much all of it is to be stiffer.
-void Study::refit_by_push(FitOptions options) {
+void ModelFit::refit_by_push(FitOptions options) {
   if (!push_sigma_N(set_)) return;
-  const std::vector<Shape> shapes = forward_->shapes({parameters_.changes(fit_.x)}, all_)[0];
+  const std::vector<PredictedShape> shapes = forward_->shapes({parameters_.changes(fit_.x)}, all_)[0];
   double product = 0, square = 0;
   for (std::size_t e = 0; e < shapes.size(); ++e)
     if (const auto& measured = set_.experiments[e].proximal_force_N)
@@ -164,7 +166,7 @@ void Study::refit_by_push(FitOptions options) {
   fit_ = fit(*forward_, parameters_, options);
 }
 
-void Study::complete(FittedModel& model, std::optional<double> noise_m) {
+void ModelFit::complete(FittedModel& model, std::optional<double> noise_m) {
   longest_element_m_ = fine_elements_m;
   forward_->set_longest_element(longest_element_m_);
   FitOptions options{all_, noise_m, {fit_.x}, 1};
@@ -173,22 +175,22 @@ void Study::complete(FittedModel& model, std::optional<double> noise_m) {
   const std::vector<std::string> others = model.other_branches;
   model = report();
   model.other_branches = others;
-  add_dependences(model);
+  add_residual_tests(model);
   score_held_out(options, model);
 }
 
-double Study::log_evidence() const {
+double ModelFit::log_evidence() const {
   const VectorXd off = (fit_.x - parameters_.start()).cwiseQuotient(fit_.prior_sigma);
   const Eigen::LDLT<Eigen::MatrixXd> factors(fit_.covariance);
   const double log_det = factors.vectorD().array().max(1e-300).log().sum() - 2 * fit_.prior_sigma.array().log().sum();
   return -0.5 * (fit_.chi2 + off.squaredNorm()) + 0.5 * log_det;
 }
 
-std::vector<VectorXd> Study::misfits_at_start() const {
+std::vector<VectorXd> ModelFit::misfits_at_start() const {
   return misfits(*forward_, parameters_, parameters_.start(), all_);
 }
 
-void Study::judge(FittedModel& model, const Noise& noise) const {
+void ModelFit::judge(FittedModel& model, const Noise& noise) const {
   const double squares_m2 = fit_.chi2 * fit_.sigma_m * fit_.sigma_m, n = fit_.measured;
   model.degrees_of_freedom = fit_.degrees_of_freedom();
   if (!noise.sigma_m) {
@@ -204,15 +206,15 @@ void Study::judge(FittedModel& model, const Noise& noise) const {
     model.parameters[i].sigma = wider * parameters_.sigma(i, fit_.x[i], std::sqrt(fit_.covariance(i, i)));
 }
 
-void Study::anchor(const VectorXd& x) {
+void ModelFit::anchor(const VectorXd& x) {
   if (set_.vessel) {  // a history begins outside, and needs nothing to continue from
-    if (!forward_) forward_.emplace(set_, workers_, std::vector<Anchor>{});
+    if (!forward_) forward_.emplace(set_, workers_, std::vector<StaticEquilibrium>{});
     if (!viewed_ && set_.imaging.registration_free)
       parameters_.set_nominal_view(registered(set_, forward_->shapes({parameters_.changes(x)}, all_)[0]));
     viewed_ = true;
     return;
   }
-  std::vector<Anchor> anchors = walk(set_, parameters_.changes(x), {}, longest_element_m_);
+  std::vector<StaticEquilibrium> anchors = walk(set_, parameters_.changes(x), {}, longest_element_m_);
   for (std::size_t e = 0; e < anchors.size(); ++e)
     if (!anchors[e].converged)
       throw LoadError(fmt::format("{}: {} (\"{}\"): no static shape was found; is its load more than it can bear?",
@@ -224,7 +226,7 @@ void Study::anchor(const VectorXd& x) {
   parameters_.set_nominal_view(registered(set_, forward_->shapes({parameters_.changes(x)}, all_)[0]));
 }
 
-std::vector<std::string> Study::on_other_branches() {
+std::vector<std::string> ModelFit::on_other_branches() {
   if (set_.vessel) return {};
   const auto fitted = forward_->shapes({parameters_.changes(fit_.x)}, all_)[0];
   anchor(fit_.x);
@@ -236,7 +238,7 @@ std::vector<std::string> Study::on_other_branches() {
   return others;
 }
 
-FittedModel Study::report() const {
+FittedModel ModelFit::report() const {
   FittedModel model;
   model.name = name_;
   for (const ActiveEffect& effect : tried_)
@@ -257,16 +259,16 @@ FittedModel Study::report() const {
   return model;
 }
 
-void Study::add_dependences(FittedModel& model) const {
-  model.dependences = dependences(set_, fit_.misfits, model.view);
+void ModelFit::add_residual_tests(FittedModel& model) const {
+  model.residual_tests = residual_tests(set_, fit_.misfits, model.view);
 }
 
-void Study::score_held_out(FitOptions options, FittedModel& model) const {
+void ModelFit::score_held_out(FitOptions options, FittedModel& model) const {
   const auto folds = folds_of(set_);
   if (folds.empty()) return;
   options.descents = 1, options.only_x = set_.vessel.has_value();
   std::vector<VectorXd> out(all_.size());
-  std::vector<Shape> shapes(all_.size());
+  std::vector<PredictedShape> shapes(all_.size());
   for (std::size_t f = 0; f < folds.size(); ++f) {
     say(fmt::format("fold {} of {}", f + 1, folds.size()));
     options.experiments.clear();
@@ -280,7 +282,7 @@ void Study::score_held_out(FitOptions options, FittedModel& model) const {
       return;  // no shape where this fold ends
     }
     const std::vector<VectorXd> off = misfits(*forward_, parameters_, x, folds[f]);
-    const std::vector<Shape> seen = forward_->shapes({parameters_.changes(x)}, folds[f])[0];
+    const std::vector<PredictedShape> seen = forward_->shapes({parameters_.changes(x)}, folds[f])[0];
     for (std::size_t k = 0; k < off.size(); ++k) {
       if (off[k].size() == 0) return;
       out[folds[f][k]] = off[k], shapes[folds[f][k]] = seen[k];

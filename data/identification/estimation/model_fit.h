@@ -1,15 +1,16 @@
 #pragma once
 /// One model of a set, declared or with effects, fitted in full and fold by fold.
-#include "data/identification/selection/explanation.h"
+#include "data/identification/estimation/fit.h"
+#include "data/identification/estimation/fitted_model.h"
 
 namespace ostium {
 
-class Study {
+class ModelFit {
  public:
   /// `spread`: priors of the effects' parameters are so many times as wide as they say.
-  Study(const MeasurementSet& set, const Workers& workers, const std::vector<ActiveEffect>& tried,
-        const std::function<void(const std::string&)>& progress, double spread = 1);
-  Study(const Study&) = delete;
+  ModelFit(const MeasurementSet& set, const Workers& workers, const std::vector<ActiveEffect>& tried,
+           const std::function<void(const std::string&)>& progress, double spread = 1);
+  ModelFit(const ModelFit&) = delete;
 
   /// Everything but what needs the noise, which `judge` adds. `noise_m`: none if it is not declared. Throws LoadError
   /// naming the experiment that has no static shape.
@@ -39,7 +40,7 @@ class Study {
   /// Anchors anew at what was fitted, and names the experiments that this brings to another shape.
   std::vector<std::string> on_other_branches();
   FittedModel report() const;
-  void add_dependences(FittedModel& model) const;
+  void add_residual_tests(FittedModel& model) const;
   /// Adds each experiment's misfits by the fit that has not seen it, where that can be said.
   void score_held_out(FitOptions options, FittedModel& model) const;
 
@@ -50,7 +51,7 @@ class Study {
   std::vector<ActiveEffect> tried_;
   std::string name_;
   std::function<void(const std::string&)> progress_;
-  std::optional<Forward> forward_;
+  std::optional<ForwardModel> forward_;
   double longest_element_m_ = fine_elements_m;
   bool viewed_ = false;
   Fit fit_;

@@ -168,7 +168,7 @@ MeasuredView Parameters::view(const VectorXd& x) const {
   return view;
 }
 
-MeasuredView registered(const MeasurementSet& set, const std::vector<Shape>& shapes) {
+MeasuredView registered(const MeasurementSet& set, const std::vector<PredictedShape>& shapes) {
   MeasuredView view;
   if (!set.imaging.registration_free) return view;
   std::vector<Vector3d> model, measured;

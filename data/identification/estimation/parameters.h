@@ -59,6 +59,6 @@ class Parameters {
 };
 
 /// The registration that lays predicted points over measured ones best (Kabsch 1976), without a tip offset.
-MeasuredView registered(const MeasurementSet& set, const std::vector<Shape>& shapes);
+MeasuredView registered(const MeasurementSet& set, const std::vector<PredictedShape>& shapes);
 
 }  // namespace ostium

@@ -71,7 +71,7 @@ double p_of_common(const MatrixXd& rows, std::mt19937& random) {
 }
 
 /// How often experiments in another order make as large a share.
-Dependence linear(const std::string& on, const MatrixXd& rows, const MatrixXd& with, std::mt19937& random) {
+ResidualTest linear(const std::string& on, const MatrixXd& rows, const MatrixXd& with, std::mt19937& random) {
   const MatrixXd along = basis(with), centred = rows.rowwise() - rows.colwise().mean();
   const double found = linear_share(centred, along);
   std::vector<int> order(rows.rows());
@@ -147,7 +147,7 @@ std::optional<Eigen::Vector2d> where(const MeasurementSet& set, const std::vecto
 
 /// What the strongest dependence says of the frame. What is common in the rolled frame goes round with the roll in the
 /// set's, and the other way round. Place goes with most of what is varied, so it counts only where nothing else does.
-std::string frame_of(const std::vector<Dependence>& strongest_first) {
+std::string frame_of(const std::vector<ResidualTest>& strongest_first) {
   static const std::vector<std::pair<std::string, std::string>> frames = {{"common in the rolled frame", "material"},
                                                                           {"roll", "material"},
                                                                           {"common in the frame of the set", "lab"},
@@ -156,7 +156,7 @@ std::string frame_of(const std::vector<Dependence>& strongest_first) {
                                                                           {"elapsed time", "time"},
                                                                           {"order", "time"}};
   std::string frame = "none";
-  for (const Dependence& d : strongest_first) {
+  for (const ResidualTest& d : strongest_first) {
     if (!d.significant) continue;
     for (const auto& [on, meaning] : frames)
       if (d.on == on) return meaning;
@@ -169,8 +169,9 @@ Eigen::Quaterniond base_of(const Experiment& e) { return {e.base.q_W[0], e.base.
 
 }  // namespace
 
-Dependences dependences(const MeasurementSet& set, const std::vector<VectorXd>& misfits, const MeasuredView& view) {
-  Dependences out;
+ResidualTests residual_tests(const MeasurementSet& set, const std::vector<VectorXd>& misfits,
+                             const MeasuredView& view) {
+  ResidualTests out;
   if (set.experiments.size() < 4) return out;
   for (std::size_t e = 1; e < misfits.size(); ++e)
     if (set.experiments[e].kind != set.experiments[0].kind) return out;  // not to be compared
@@ -191,9 +192,9 @@ Dependences dependences(const MeasurementSet& set, const std::vector<VectorXd>& 
     out.list.push_back(linear(c.name, lab, c.columns, random));
     if (vectors) out.list.push_back(linear(c.name + ", in the rolled frame", material, c.columns, random));
   }
-  for (Dependence& d : out.list) d.significant = d.p_value * static_cast<double>(out.list.size()) <= level;
+  for (ResidualTest& d : out.list) d.significant = d.p_value * static_cast<double>(out.list.size()) <= level;
   std::stable_sort(out.list.begin(), out.list.end(),
-                   [](const Dependence& a, const Dependence& b) { return a.share > b.share; });
+                   [](const ResidualTest& a, const ResidualTest& b) { return a.share > b.share; });
   out.signature.frame = frame_of(out.list);
   out.signature.from_tip_m = where(set, misfits);
   return out;

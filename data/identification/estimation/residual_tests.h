@@ -5,7 +5,7 @@
 
 namespace ostium {
 
-struct Dependence {
+struct ResidualTest {
   std::string on;            ///< "roll", "insertion", ...; "common in the material frame", ...
   double share = 0;          ///< of the misfits' squares that goes with it, 0 to 1
   double p_value = 1;        ///< chance of as large a share if the misfits had nothing to do with it
@@ -18,13 +18,13 @@ struct Signature {
   std::optional<Eigen::Vector3d> at_m;        ///< or where in space
 };
 
-struct Dependences {
-  std::vector<Dependence> list;  ///< strongest first
+struct ResidualTests {
+  std::vector<ResidualTest> list;  ///< strongest first
   Signature signature;
 };
 
 /// `misfits` belong to the set's experiments, in the frame of the measurement; `view` is how the fit saw them.
-Dependences dependences(const MeasurementSet& set, const std::vector<Eigen::VectorXd>& misfits,
-                        const MeasuredView& view);
+ResidualTests residual_tests(const MeasurementSet& set, const std::vector<Eigen::VectorXd>& misfits,
+                             const MeasuredView& view);
 
 }  // namespace ostium

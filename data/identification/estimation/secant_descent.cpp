@@ -15,9 +15,9 @@ using Eigen::VectorXd;
 constexpr double free_step = 1e-4;  // of finite differences where they cost nothing, in scales
 constexpr double good = 0.7, bad = 0.1, shrink = 0.4, near_enough = 2;
 
-class Search {
+class SecantSearch {
  public:
-  explicit Search(const SecantDescent& d) : d_(d), m_(d.dear), n_(static_cast<int>(d.problem.start.size())) {
+  explicit SecantSearch(const SecantDescent& d) : d_(d), m_(d.dear), n_(static_cast<int>(d.problem.start.size())) {
     low_ = (d.problem.least - d.problem.start).cwiseQuotient(d.scale);
     high_ = (d.problem.most - d.problem.start).cwiseQuotient(d.scale);
   }
@@ -239,6 +239,6 @@ class Search {
 
 }  // namespace
 
-LeastSquaresResult minimise(const SecantDescent& descent) { return Search(descent).run(); }
+LeastSquaresResult minimise(const SecantDescent& descent) { return SecantSearch(descent).run(); }
 
 }  // namespace ostium

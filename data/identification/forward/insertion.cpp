@@ -46,10 +46,10 @@ class History {
  public:
   History(const MeasurementSet& set, const Changes& changes) : set_(set) {
     for (const Experiment& e : set.experiments) setups_.push_back(setup_of(set, e, changes));
-    const Setup& first = setups_.front();
+    const ExperimentSetup& first = setups_.front();
     for (std::size_t i = 0; i < set.instruments.size(); ++i) {
       double longest = 0;
-      for (const Setup& s : setups_) longest = std::max(longest, s.nest.parts[i].inserted_m);
+      for (const ExperimentSetup& s : setups_) longest = std::max(longest, s.nest.parts[i].inserted_m);
       const ConcentricPart& part = first.nest.parts[i];
       const double length = std::min(longest + reserve_m, part.sections.back().to_tip_m);
       model_.rods.push_back(make_rod({set.instruments[i].name, part.sections, elements_of(part, length), slow, {}}));
@@ -81,9 +81,9 @@ class History {
     inputs_.surfaces.resize(1);
   }
 
-  Shape reach(std::size_t e) {
-    const Setup& to = setups_[e];
-    const Setup& from = setups_[e > 0 ? e - 1 : 0];
+  PredictedShape reach(std::size_t e) {
+    const ExperimentSetup& to = setups_[e];
+    const ExperimentSetup& from = setups_[e > 0 ? e - 1 : 0];
     double seconds = 0;
     for (std::size_t i = 0; i < at_.size(); ++i)
       seconds = std::max({seconds, std::fabs(to.nest.parts[i].inserted_m - at_[i]) / feed_m_s,
@@ -116,8 +116,8 @@ class History {
   }
 
   /// The base's frame of an instrument on the way from one setup to the next.
-  static Quaterniond frame(const Setup& to, std::size_t i, double part, const Setup* from) {
-    const Setup& before = from ? *from : to;
+  static Quaterniond frame(const ExperimentSetup& to, std::size_t i, double part, const ExperimentSetup* from) {
+    const ExperimentSetup& before = from ? *from : to;
     const double roll = (1 - part) * before.nest.parts[i].roll_rad + part * to.nest.parts[i].roll_rad;
     return quaternion(before.base.q_W).slerp(part, quaternion(to.base.q_W)) *
            Eigen::AngleAxisd(roll, Vector3d::UnitZ());
@@ -148,8 +148,8 @@ class History {
   }
 
   /// Of what reaches furthest, cut at the innermost tip; that is the innermost one.
-  Shape shape(const Setup& to) const {
-    Shape out;
+  PredictedShape shape(const ExperimentSetup& to) const {
+    PredictedShape out;
     out.converged = !lost_;
     const RodState& rod = state_.rods.back();
     out.points_m.push_back(to.base.p_W);
@@ -163,7 +163,7 @@ class History {
   }
 
   const MeasurementSet& set_;
-  std::vector<Setup> setups_;
+  std::vector<ExperimentSetup> setups_;
   Model model_;
   State state_;
   std::optional<Scratch> scratch_;
@@ -175,10 +175,10 @@ class History {
 
 }  // namespace
 
-std::vector<Shape> insert(const MeasurementSet& set, const Changes& changes,
-                          const std::function<void(std::size_t, std::size_t)>& progress) {
+std::vector<PredictedShape> insert(const MeasurementSet& set, const Changes& changes,
+                                   const std::function<void(std::size_t, std::size_t)>& progress) {
   History history(set, changes);
-  std::vector<Shape> shapes;
+  std::vector<PredictedShape> shapes;
   for (std::size_t e = 0; e < set.experiments.size(); ++e) {
     shapes.push_back(history.reach(e));
     if (progress) progress(e + 1, set.experiments.size());

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "data/identification/effects/effect.h"
+#include "data/identification/forward/curve.h"
 
 namespace ostium {
 
@@ -12,12 +12,12 @@ MeasuredView seen(const MeasurementSet& set, const Experiment& experiment, const
   return view;
 }
 
-Eigen::Vector3d tracked_tip(const Shape& shape, const MeasuredView& view) {
+Eigen::Vector3d tracked_tip(const PredictedShape& shape, const MeasuredView& view) {
   const Eigen::Vector4d& q = shape.tip_q;
   return view(shape.points_m.back() + Eigen::Quaterniond(q[0], q[1], q[2], q[3]) * view.tip_offset_m);
 }
 
-Eigen::VectorXd misfit(const Experiment& e, const Shape& shape, const MeasuredView& view) {
+Eigen::VectorXd misfit(const Experiment& e, const PredictedShape& shape, const MeasuredView& view) {
   if (e.kind == Experiment::Kind::radius)
     return Eigen::VectorXd::Constant(
         1, e.radius_m - std::cbrt(view.A.determinant()) * radius_of_curvature(shape.points_m));

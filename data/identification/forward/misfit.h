@@ -6,27 +6,15 @@
 
 namespace ostium {
 
-/// measured = A (R model + t) + b; the tracked point is the tip + R_tip offset.
-struct MeasuredView {
-  Eigen::Quaterniond R = Eigen::Quaterniond::Identity();
-  Eigen::Vector3d t_m = Eigen::Vector3d::Zero();
-  Eigen::Vector3d tip_offset_m = Eigen::Vector3d::Zero();
-  /// What an image does to it: near identity, and only where an effect says so.
-  Eigen::Matrix3d A = Eigen::Matrix3d::Identity();
-  Eigen::Vector3d b_m = Eigen::Vector3d::Zero();
-
-  Eigen::Vector3d operator()(const Eigen::Vector3d& model) const { return A * (R * model + t_m) + b_m; }
-};
-
 /// How an experiment is seen where effects change the picture.
 MeasuredView seen(const MeasurementSet& set, const Experiment& experiment, const Changes& changes, MeasuredView view);
 
 /// Measured minus model, in the frame of the measurement, m: for each point of a centreline the offset from the
 /// nearest point of the model's (3 numbers, across it), for a tip its offset (3), for a radius the difference (1).
-Eigen::VectorXd misfit(const Experiment& experiment, const Shape& shape, const MeasuredView& view);
+Eigen::VectorXd misfit(const Experiment& experiment, const PredictedShape& shape, const MeasuredView& view);
 
 /// The tracked tip in the frame of the measurement.
-Eigen::Vector3d tracked_tip(const Shape& shape, const MeasuredView& view);
+Eigen::Vector3d tracked_tip(const PredictedShape& shape, const MeasuredView& view);
 
 /// Distances that count into an RMS: points of a centreline, or 1.
 std::size_t distances(const Experiment& experiment);

@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
-#include "data/identification/effects/effect.h"
+#include "data/identification/effects/effect_list.h"
 #include "data/identification/forward/insertion.h"
 #include "data/identification/forward/misfit.h"
 
@@ -19,22 +19,22 @@ constexpr double mm = 1e-3;
 
 /// Distances to the shapes that other starts lead to, each shape once: a straight one, and straight ones in which an
 /// instrument is wound up against the others on the way to its tip, either way round.
-std::vector<double> other_branches(const Setup& setup, const Shape& shape) {
-  Anchor straight{make_concentric(setup.nest, setup.gravity_m_s2), {}, false};
+std::vector<double> other_branches(const ExperimentSetup& setup, const PredictedShape& shape) {
+  StaticEquilibrium straight{make_concentric(setup.nest, setup.gravity_m_s2), {}, false};
   straight.state = straight_state(straight.nest, setup.base);
-  std::vector<Anchor> starts = {straight};
+  std::vector<StaticEquilibrium> starts = {straight};
   const Eigen::Index elements = straight.state.roll_rad.cols();
   for (std::size_t i = 0; setup.nest.parts.size() > 1 && i < setup.nest.parts.size(); ++i)
     for (const double wound : {-std::numbers::pi, std::numbers::pi}) {
       if (static_cast<int>(i) == straight.nest.reference) continue;
-      Anchor other = straight;
+      StaticEquilibrium other = straight;
       other.state.roll_rad.row(static_cast<Eigen::Index>(i)) += Eigen::RowVectorXd::LinSpaced(elements, 0, wound);
       starts.push_back(other);
     }
   std::vector<Eigen::Vector3d> tips = {shape.points_m.back()};
   std::vector<double> apart;
-  for (const Anchor& start : starts) {
-    const Shape other = shape_from(setup, start);
+  for (const StaticEquilibrium& start : starts) {
+    const PredictedShape other = shape_from(setup, start);
     if (!other.converged) continue;
     const Eigen::Vector3d tip = other.points_m.back();
     if (std::any_of(tips.begin(), tips.end(), [&](const Eigen::Vector3d& t) { return (t - tip).norm() < 0.1 * mm; }))
@@ -55,8 +55,8 @@ std::vector<Prediction> predict(const MeasurementSet& set,
   require_known(set);
   Changes declared;
   declared.effects = declared_effects(set);
-  std::vector<Anchor> anchors;
-  std::vector<Shape> inserted;
+  std::vector<StaticEquilibrium> anchors;
+  std::vector<PredictedShape> inserted;
   if (set.vessel)
     inserted = insert(set, declared, progress);
   else
@@ -65,8 +65,8 @@ std::vector<Prediction> predict(const MeasurementSet& set,
   std::vector<Prediction> predictions;
   for (std::size_t i = 0; i < set.experiments.size(); ++i) {
     const Experiment& e = set.experiments[i];
-    const Setup setup = setup_of(set, e, declared);
-    const Shape shape = set.vessel ? inserted[i] : shape_from(setup, anchors[i]);
+    const ExperimentSetup setup = setup_of(set, e, declared);
+    const PredictedShape shape = set.vessel ? inserted[i] : shape_from(setup, anchors[i]);
     if (!shape.converged)
       throw LoadError(fmt::format("{}: {} (\"{}\"): no static shape was found; is its load more than it can bear?",
                                   set.file, e.place, e.id));

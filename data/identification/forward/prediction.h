@@ -6,7 +6,7 @@ namespace ostium {
 
 struct Prediction {
   std::string id;
-  Shape shape;
+  PredictedShape shape;
   std::optional<double> rms_to_measured_m;  ///< none where registration or offset is free
   /// How far the ends of other stable shapes, those that were found, lie from this one's.
   std::vector<double> other_branches_m;

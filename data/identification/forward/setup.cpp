@@ -1,7 +1,5 @@
 #include "data/identification/forward/setup.h"
 
-#include "data/identification/effects/effect.h"
-
 namespace ostium {
 
 namespace {
@@ -24,15 +22,9 @@ ConcentricPart part_of(const MeasurementSet& set, const Experiment& e, std::size
 
 }  // namespace
 
-std::string ActiveEffect::name() const {
-  std::string out = effect->id;
-  if (instrument) out += "[" + std::to_string(*instrument) + "]";
-  return form.empty() ? out : out + " (" + form + ")";
-}
-
-Setup setup_of(const MeasurementSet& set, const Experiment& experiment, const Changes& changes,
-               double longest_element_m) {
-  Setup setup;
+ExperimentSetup setup_of(const MeasurementSet& set, const Experiment& experiment, const Changes& changes,
+                         double longest_element_m) {
+  ExperimentSetup setup;
   setup.nest.name = experiment.id;
   for (std::size_t i = 0; i < set.instruments.size(); ++i)
     setup.nest.parts.push_back(part_of(set, experiment, i, changes));

@@ -19,8 +19,8 @@ constexpr double step_insertion_m = 10e-3, step_turn_rad = 20 * std::numbers::pi
 constexpr int most_steps = 100;
 
 /// Where between `a` and `b`, at t of the way, the drives, base and loads are.
-Setup between(const Setup& a, const Setup& b, double t) {
-  Setup s = b;
+ExperimentSetup between(const ExperimentSetup& a, const ExperimentSetup& b, double t) {
+  ExperimentSetup s = b;
   for (std::size_t i = 0; i < s.nest.parts.size(); ++i) {
     const ConcentricPart &from = a.nest.parts[i], &to = b.nest.parts[i];
     s.nest.parts[i].inserted_m = (1 - t) * from.inserted_m + t * to.inserted_m;
@@ -35,7 +35,7 @@ Setup between(const Setup& a, const Setup& b, double t) {
   return s;
 }
 
-int steps_between(const Setup& a, const Setup& b) {
+int steps_between(const ExperimentSetup& a, const ExperimentSetup& b) {
   double steps = quaternion(a.base.q_W).angularDistance(quaternion(b.base.q_W)) / step_turn_rad;
   for (std::size_t i = 0; i < a.nest.parts.size(); ++i) {
     const ConcentricPart &from = a.nest.parts[i], &to = b.nest.parts[i];
@@ -48,8 +48,8 @@ int steps_between(const Setup& a, const Setup& b) {
   return std::clamp(static_cast<int>(std::ceil(steps - 1e-9)), 1, most_steps);
 }
 
-Anchor settled(const Setup& setup, const Anchor* before) {
-  Anchor anchor{make_concentric(setup.nest, setup.gravity_m_s2), {}, false};
+StaticEquilibrium settled(const ExperimentSetup& setup, const StaticEquilibrium* before) {
+  StaticEquilibrium anchor{make_concentric(setup.nest, setup.gravity_m_s2), {}, false};
   anchor.state = before ? carried_over(anchor.nest, setup.base, before->nest, before->state)
                         : straight_state(anchor.nest, setup.base);
   anchor.converged = find_equilibrium(anchor.nest, setup.base, setup.tip_force_N, anchor.state).converged;
@@ -82,19 +82,19 @@ std::vector<Vector3d> cut_at(const std::vector<Vector3d>& points, double length)
 
 }  // namespace
 
-Shape shape_from(const Setup& setup, const Anchor& anchor) {
-  Anchor end;
+PredictedShape shape_from(const ExperimentSetup& setup, const StaticEquilibrium& anchor) {
+  StaticEquilibrium end;
   return shape_from(setup, anchor, end);
 }
 
-Shape shape_from(const Setup& setup, const Anchor& anchor, Anchor& end) {
+PredictedShape shape_from(const ExperimentSetup& setup, const StaticEquilibrium& anchor, StaticEquilibrium& end) {
   end.nest = make_concentric(setup.nest, setup.gravity_m_s2);
   const Concentric& nest = end.nest;
   ConcentricState& state = end.state =
       same_elements(nest, anchor.nest) ? anchor.state : carried_over(nest, setup.base, anchor.nest, anchor.state);
   const ConcentricEquilibrium found = find_equilibrium(nest, setup.base, setup.tip_force_N, state);
   end.converged = found.converged;
-  Shape shape;
+  PredictedShape shape;
   shape.converged = found.converged;
   shape.base_push_N = found.base_push_N;
   const RodState& rod = state.carrier.rods[0];
@@ -106,13 +106,14 @@ Shape shape_from(const Setup& setup, const Anchor& anchor, Anchor& end) {
   return shape;
 }
 
-std::vector<Anchor> walk(const MeasurementSet& set, const Changes& changes,
-                         const std::function<void(std::size_t, std::size_t)>& progress, double longest_element_m) {
-  std::vector<Anchor> anchors;
-  std::optional<Setup> before;
+std::vector<StaticEquilibrium> walk(const MeasurementSet& set, const Changes& changes,
+                                    const std::function<void(std::size_t, std::size_t)>& progress,
+                                    double longest_element_m) {
+  std::vector<StaticEquilibrium> anchors;
+  std::optional<ExperimentSetup> before;
   for (const Experiment& e : set.experiments) {
-    const Setup setup = setup_of(set, e, changes, longest_element_m);
-    std::optional<Anchor> on_the_way;
+    const ExperimentSetup setup = setup_of(set, e, changes, longest_element_m);
+    std::optional<StaticEquilibrium> on_the_way;
     if (before && anchors.back().converged) {
       on_the_way = anchors.back();
       const int steps = steps_between(*before, setup);
@@ -126,61 +127,6 @@ std::vector<Anchor> walk(const MeasurementSet& set, const Changes& changes,
     if (progress) progress(anchors.size(), set.experiments.size());
   }
   return anchors;
-}
-
-Vector3d nearest_point(const std::vector<Vector3d>& curve, const Vector3d& p) { return nearest_points(curve, {p})[0]; }
-
-std::vector<Vector3d> nearest_points(const std::vector<Vector3d>& curve, const std::vector<Vector3d>& many) {
-  const std::size_t last = curve.size() - 2;
-  double longest_edge = 0;
-  for (std::size_t i = 0; i <= last; ++i) longest_edge = std::max(longest_edge, (curve[i + 1] - curve[i]).norm());
-  std::vector<Vector3d> out;
-  std::size_t guess = 0;
-  for (const Vector3d& p : many) {
-    Vector3d best = curve.front();
-    double least = std::numeric_limits<double>::infinity();
-    std::size_t found = guess;
-    const auto look_at = [&](std::size_t i) {
-      const Vector3d edge = curve[i + 1] - curve[i];
-      double t = (p - curve[i]).dot(edge) / edge.squaredNorm();
-      if (i > 0) t = std::max(t, 0.0);
-      if (i < last) t = std::min(t, 1.0);
-      const Vector3d q = curve[i] + t * edge;
-      const double distance = (p - q).norm();
-      if (distance < least) least = distance, best = q, found = i;
-    };
-    // What lies near where the last one was bounds the rest: from a node so far off, none of the next edges can come
-    // as near. The first and the last edge go on for ever.
-    look_at(0), look_at(last), look_at(guess);
-    for (std::size_t i = 1; i < last;) {
-      const double spare = (p - curve[i]).norm() - least;
-      if (spare > longest_edge) {
-        i += static_cast<std::size_t>(spare / longest_edge);
-        continue;
-      }
-      look_at(i++);
-    }
-    out.push_back(best);
-    guess = found;
-  }
-  return out;
-}
-
-double radius_of_curvature(const std::vector<Vector3d>& curve) {
-  const auto n = static_cast<Eigen::Index>(curve.size());
-  Vector3d mean = Vector3d::Zero();
-  for (const Vector3d& p : curve) mean += p / static_cast<double>(n);
-  Eigen::MatrixXd off(n, 3);
-  for (Eigen::Index i = 0; i < n; ++i) off.row(i) = (curve[i] - mean).transpose();
-  const double size = off.rowwise().norm().maxCoeff();
-  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(off, Eigen::ComputeThinV);
-  // |q|^2 = 2 c q + d in the plane of the curve (Kasa 1976): exact for the noiseless arcs it is used on.
-  const Eigen::MatrixXd q = off * svd.matrixV().leftCols(2) / size;
-  if (q.col(1).cwiseAbs().maxCoeff() < 1e-9) return std::numeric_limits<double>::infinity();
-  Eigen::MatrixXd A(n, 3);
-  A << 2 * q, Eigen::VectorXd::Ones(n);
-  const Vector3d c = A.colPivHouseholderQr().solve(q.rowwise().squaredNorm());
-  return size * std::sqrt(c[2] + c.head<2>().squaredNorm());
 }
 
 }  // namespace ostium

@@ -5,7 +5,6 @@
 
 #include "data/identification/report/explanation_plots.h"
 #include "data/identification/report/explanation_report.h"
-#include "data/identification/selection/verdict_text.h"
 #include "data/plot.h"
 
 namespace ostium {
@@ -63,10 +62,10 @@ std::string parameters(const FittedModel& m) {
          "What they leave open is grey.</p>\n";
 }
 
-std::string dependence_table(const FittedModel& m) {
-  if (m.dependences.list.empty()) return "<p>Too few experiments to tell.</p>\n";
+std::string residual_test_table(const FittedModel& m) {
+  if (m.residual_tests.list.empty()) return "<p>Too few experiments to tell.</p>\n";
   std::string out = "<table><tr><th>the residual goes with</th><th>share</th><th></th><th>chance</th></tr>\n";
-  for (const Dependence& d : m.dependences.list) {
+  for (const ResidualTest& d : m.residual_tests.list) {
     if (!d.significant && d.p_value > 0.2) continue;
     out += fmt::format(
         "<tr{}><td>{}</td><td class=\"n\">{:.0f} %</td><td><svg width=\"120\" height=\"10\"><rect width=\"{:.0f}\" "
@@ -104,12 +103,12 @@ std::string to_html(const MeasurementSet& set, const Explanation& x) {
       escaped(set.title) + "</title><style>" + style + "</style></head><body>\n";
   out += "<h1>" + escaped(set.title) + "</h1>\n<div class=\"source\">" + escaped(set.source) + "</div>\n";
   out += fmt::format("<div class=\"verdict {0}\"><b>{0}</b>: {1}</div>\n<ul>\n", to_string(x.verdict),
-                     escaped(x.sentences[0]));
-  for (std::size_t i = 1; i < x.sentences.size(); ++i) out += "<li>" + escaped(x.sentences[i]) + "</li>\n";
+                     escaped(x.verdict_text[0]));
+  for (std::size_t i = 1; i < x.verdict_text.size(); ++i) out += "<li>" + escaped(x.verdict_text[i]) + "</li>\n";
   out += "</ul>\n<h2>Models</h2>\n" + models(x) + plots(set, x);
-  out += "<h2>What the residual of the declared model goes with</h2>\n" + dependence_table(x.declared);
+  out += "<h2>What the residual of the declared model goes with</h2>\n" + residual_test_table(x.declared);
   for (const FittedModel& c : x.candidates)
-    out += "<h2>What the residual with " + escaped(c.name) + " goes with</h2>\n" + dependence_table(c);
+    out += "<h2>What the residual with " + escaped(c.name) + " goes with</h2>\n" + residual_test_table(c);
   out += "<h2>Parameters of the declared model</h2>\n" + parameters(x.declared);
   for (const FittedModel& c : x.candidates) out += "<h2>Parameters with " + escaped(c.name) + "</h2>\n" + parameters(c);
   return out +

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "data/identification/forward/misfit.h"
 #include "data/plot.h"
 
 namespace ostium {

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <numbers>
-#include <set>
 
 #include "data/identification/effects/tools.h"
+#include "data/identification/forward/setup.h"
 #include "data/identification/report/explanation_report.h"
 
 namespace ostium {
@@ -16,14 +16,6 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr double mm = 1e-3, Nmm2 = 1e-6, weight_length_m = 2e-3;
-
-/// Effects that are in the instrument, not in the rig, the room or the picture.
-bool in_the_instrument(const std::string& id) {
-  static const std::set<std::string> ids = {"rest_curvature",   "soft_section", "bending_anisotropy",
-                                            "lumped_mass",      "self_weight",  "superelastic_softening",
-                                            "stress_relaxation"};
-  return ids.count(id) > 0;
-}
 
 /// A name that a file can have.
 std::string file_name(const std::string& words) {
@@ -73,7 +65,7 @@ std::string instrument_json(const MeasurementSet& set, const Explanation& x, std
   const MeasuredInstrument& measured = set.instruments[i];
   Changes changes = x.best().changes;
   std::string found;
-  std::erase_if(changes.effects, [](const ActiveEffect& e) { return !in_the_instrument(e.effect->id); });
+  std::erase_if(changes.effects, [](const ActiveEffect& e) { return !e.effect->in_instrument; });
   for (const ActiveEffect& e : changes.effects) found += (found.empty() ? " with " : " and ") + e.effect->what;
   // As it comes out of its package: what it loses with time is written as such.
   Experiment fresh = set.experiments.front();

@@ -44,8 +44,8 @@ std::vector<Eigen::Vector3d> predicted(const MeasurementSet& set, const Experime
                                        bool& found) {
   MeasurementSet alone = set;
   alone.experiments = {e};
-  const std::vector<Anchor> anchors = walk(alone, model.changes);
-  const Shape shape = shape_from(setup_of(alone, alone.experiments[0], model.changes), anchors[0]);
+  const std::vector<StaticEquilibrium> anchors = walk(alone, model.changes);
+  const PredictedShape shape = shape_from(setup_of(alone, alone.experiments[0], model.changes), anchors[0]);
   found = found && shape.converged;
   const MeasuredView view = seen(set, e, model.changes, model.view);
   if (e.kind == Experiment::Kind::tip) return {tracked_tip(shape, view)};

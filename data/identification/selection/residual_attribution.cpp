@@ -4,6 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "data/identification/estimation/model_fit.h"
 #include "data/identification/selection/residual_fields.h"
 
 namespace ostium {
@@ -33,7 +34,7 @@ std::optional<Eigen::Vector3d> place_of(const MeasurementSet& set, const FittedM
                                         const Eigen::Vector2d& stretch) {
   std::vector<Eigen::Vector3d> at;
   const double middle = 0.5 * (stretch.x() + stretch.y());
-  for (const Shape& shape : model.shapes) {
+  for (const PredictedShape& shape : model.shapes) {
     double from_tip = 0;
     for (std::size_t i = shape.points_m.size() - 1; i > 0; --i) {
       from_tip += (shape.points_m[i] - shape.points_m[i - 1]).norm();
@@ -53,29 +54,30 @@ std::optional<Eigen::Vector3d> place_of(const MeasurementSet& set, const FittedM
 
 }  // namespace
 
-std::vector<Trace> traces(const MeasurementSet& set, const Workers& workers, const FittedModel& near,
-                          const Noise& noise, const std::function<void(const std::string&)>& progress) {
-  struct Field {
+std::vector<ResidualAttribution> attribute_residual(const MeasurementSet& set, const Workers& workers,
+                                                    const FittedModel& near, const Noise& noise,
+                                                    const std::function<void(const std::string&)>& progress) {
+  struct CandidateField {
     const Effect* effect;
     const char *frame, *what;
     int width;
   };
-  const Field fields[] = {{&rest_curvature_field(), "material", "rest curvature of the instrument", 2},
-                          {&lateral_force_field(), "lab", "a force that stays where it is in the room", 3},
-                          {&image_field(), "image", "a rigid or affine error of the picture", 0},
-                          {&time_field(), "time", "a change with time", 0}};
+  const CandidateField fields[] = {{&rest_curvature_field(), "material", "rest curvature of the instrument", 2},
+                                   {&lateral_force_field(), "lab", "a force that stays where it is in the room", 3},
+                                   {&image_field(), "image", "a rigid or affine error of the picture", 0},
+                                   {&time_field(), "time", "a change with time", 0}};
   // All against the same noise: where it is not known, what the declared model leaves.
   const double floor = noise.sigma_m.value_or(0);
-  std::vector<Trace> out;
+  std::vector<ResidualAttribution> out;
   if (set.experiments.size() < 2) return out;
-  for (const Field& field : fields) {
+  for (const CandidateField& field : fields) {
     const bool radii = std::all_of(set.experiments.begin(), set.experiments.end(),
                                    [](const Experiment& e) { return e.kind == Experiment::Kind::radius; });
     if (radii && field.effect == &lateral_force_field()) continue;
-    std::optional<Trace> best;
+    std::optional<ResidualAttribution> best;
     FittedModel from = near;
     for (const double spread : {1.0, 0.25, 4.0}) {  // each from where the one before it ended
-      Study study(set, workers, {active(*field.effect, set, {}, {"", {}})}, progress, spread);
+      ModelFit study(set, workers, {active(*field.effect, set, {}, {"", {}})}, progress, spread);
       FittedModel model;
       try {
         model = study.run_near(from, noise.sigma_m ? *noise.sigma_m : near.rms_m / std::sqrt(3.0), 0, 0);
@@ -83,7 +85,7 @@ std::vector<Trace> traces(const MeasurementSet& set, const Workers& workers, con
         continue;
       }
       from = model;
-      Trace trace;
+      ResidualAttribution trace;
       trace.frame = field.frame, trace.what = field.what;
       trace.log_evidence = study.log_evidence();
       if (best && best->log_evidence > trace.log_evidence) continue;
@@ -102,17 +104,18 @@ std::vector<Trace> traces(const MeasurementSet& set, const Workers& workers, con
     }
     if (best) out.push_back(*best);
   }
-  Study plain(set, workers, {}, progress);
+  ModelFit plain(set, workers, {}, progress);
   plain.run_near(near, noise.sigma_m ? *noise.sigma_m : near.rms_m / std::sqrt(3.0), 0, 0);
-  for (Trace& t : out) t.log_evidence -= plain.log_evidence();
-  std::sort(out.begin(), out.end(), [](const Trace& a, const Trace& b) { return a.log_evidence > b.log_evidence; });
+  for (ResidualAttribution& t : out) t.log_evidence -= plain.log_evidence();
+  std::sort(out.begin(), out.end(),
+            [](const ResidualAttribution& a, const ResidualAttribution& b) { return a.log_evidence > b.log_evidence; });
   return out;
 }
 
-Signature signature_of(const std::vector<Trace>& traces) {
+Signature signature_of(const std::vector<ResidualAttribution>& attributions) {
   Signature out;
-  if (traces.empty() || traces.front().log_evidence < 3) return out;
-  const Trace& best = traces.front();
+  if (attributions.empty() || attributions.front().log_evidence < 3) return out;
+  const ResidualAttribution& best = attributions.front();
   out.frame = best.frame;
   out.from_tip_m = best.from_tip_m, out.at_m = best.at_m;
   if (best.at_m) out.from_tip_m.reset();

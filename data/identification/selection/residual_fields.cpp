@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "data/identification/effects/tools.h"
-#include "data/identification/forward/misfit.h"
 
 namespace ostium {
 
@@ -25,7 +24,7 @@ double between_knots(const MeasurementSet& set, const std::vector<double>& v, in
   return (1 - t) * v[width * k + component] + t * v[width * (k + 1) + component];
 }
 
-void bend(const ActiveEffect& field, const MeasurementSet& set, const Experiment&, Setup& setup) {
+void bend(const ActiveEffect& field, const MeasurementSet& set, const Experiment&, ExperimentSetup& setup) {
   constexpr int pieces = 3 * (field_knots - 1);
   const double length = field_knot(set, field_knots - 1);
   for (int k = 0; k < pieces; ++k) {
@@ -38,7 +37,7 @@ void bend(const ActiveEffect& field, const MeasurementSet& set, const Experiment
   }
 }
 
-void press(const ActiveEffect& field, const MeasurementSet& set, const Experiment&, Setup& setup) {
+void press(const ActiveEffect& field, const MeasurementSet& set, const Experiment&, ExperimentSetup& setup) {
   const double inserted = setup.nest.parts.back().inserted_m, spacing = field_knot(set, 1) / 4;
   const int count = static_cast<int>(std::ceil(inserted / spacing));
   for (int i = 0; i < count; ++i) {
@@ -75,7 +74,7 @@ double time_of(const MeasurementSet& set, const Experiment& e) {
   return n > 1 ? static_cast<double>(&e - set.experiments.data()) / (n - 1) : 0;
 }
 
-void drift(const ActiveEffect& field, const MeasurementSet& set, const Experiment& e, Setup& setup) {
+void drift(const ActiveEffect& field, const MeasurementSet& set, const Experiment& e, ExperimentSetup& setup) {
   const double t = time_of(set, e);
   const auto& v = field.values;
   for (ConcentricPart& part : setup.nest.parts)

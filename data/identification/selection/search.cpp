@@ -6,6 +6,8 @@
 #include <set>
 #include <stdexcept>
 
+#include "data/identification/effects/effect_list.h"
+
 namespace ostium {
 
 namespace {
@@ -15,26 +17,13 @@ constexpr std::size_t bases = 3;      // models that another effect is added to
 constexpr std::size_t finalists = 4;  // that are scored on held-out data
 constexpr std::size_t most_effects = 4;
 constexpr std::size_t ahead = 6;   // of what could join a model: fitted
-constexpr double clearly = 0.95;   // of another model's held-out error
 constexpr double far_behind = 30;  // in BIC, of the best: not looked at again
-
-bool at_an_edge(const FittedModel& model) {
-  return std::any_of(model.parameters.begin(), model.parameters.end(), [](const FittedParameter& p) {
-    const Parameter& q = p.parameter;
-    if (q.name.starts_with("EI_scale") || q.name.starts_with("registration.") || q.name.starts_with("tip_offset."))
-      return false;
-    const bool low = q.logarithmic ? p.value < q.least * 1.01 : p.value < q.least + 1e-3 * (q.most - q.least);
-    const bool high = q.logarithmic ? p.value > q.most * 0.99 : p.value > q.most - 1e-3 * (q.most - q.least);
-    // Zero is no edge of what can only be positive: it says that the effect is not there.
-    return high || (low && q.least != 0);
-  });
-}
 
 /// The same effect twice only on other stretches of the instrument, and once everywhere takes in its stretches.
 bool can_join(const std::vector<ActiveEffect>& base, const ActiveEffect& more) {
   for (const ActiveEffect& b : base) {
     if (b.effect != more.effect) continue;
-    if (b.instrument == more.instrument && more.effect->id == "rest_curvature" && b.form != more.form) continue;
+    if (b.instrument == more.instrument && more.effect->of_several_stretches && b.form != more.form) continue;
     if (b.instrument && more.instrument && b.instrument != more.instrument) continue;
     return false;
   }
@@ -51,48 +40,26 @@ std::string key_of(const std::vector<ActiveEffect>& effects) {
 
 }  // namespace
 
-bool often_confused(const std::string& a, const std::string& b) {
-  static const std::vector<std::pair<std::string, std::string>> pairs = {{"roll_loss", "shaft_torsion"},
-                                                                         {"clamp_runout", "registration"},
-                                                                         {"insertion_slip", "imaging_scale"},
-                                                                         {"lumped_mass", "self_weight"}};
-  return std::any_of(pairs.begin(), pairs.end(),
-                     [&](const auto& p) { return (p.first == a && p.second == b) || (p.first == b && p.second == a); });
-}
-
-bool predicts_better(const FittedModel& a, const FittedModel& b) {
-  if (!a.rms_held_out_m || !b.rms_held_out_m) return false;
-  const double shapes = *a.rms_held_out_m / *b.rms_held_out_m;
-  const bool pushes =
-      a.push_rms_held_out_N && b.push_rms_held_out_N && *a.push_rms_held_out_N < clearly * *b.push_rms_held_out_N;
-  return shapes < clearly || (pushes && shapes < 1 / clearly);
-}
-
-bool wins(const FittedModel& candidate, const FittedModel& declared, const Noise& noise) {
-  if (!predicts_better(candidate, declared) || candidate.bic > declared.bic - strong_evidence) return false;
-  return !noise.sigma_m || is_noise(candidate, noise);
-}
-
-void Search::add(const std::vector<ActiveEffect>& effects, const FittedModel& near, const Noise& noise) {
+void EffectSearch::add(const std::vector<ActiveEffect>& effects, const FittedModel& near, const Noise& noise) {
   const std::string key = key_of(effects);
   for (const Tried& t : tried_)
     if (key_of(t.effects) == key) return;
-  studies_.emplace_back(set_, workers_, effects, progress_);
+  fits_.emplace_back(set_, workers_, effects, progress_);
   Tried tried;
-  tried.study = &studies_.back(), tried.effects = effects;
+  tried.study = &fits_.back(), tried.effects = effects;
   try {
-    tried.model = studies_.back().run_near(near, set_.imaging.noise_sigma_m, near.rms_m / std::sqrt(2.0),
-                                           set_.instruments.size() > 1 ? starts_for_one / 3 : starts_for_one);
+    tried.model = fits_.back().run_near(near, set_.imaging.noise_sigma_m, near.rms_m / std::sqrt(2.0),
+                                        set_.instruments.size() > 1 ? starts_for_one / 3 : starts_for_one);
   } catch (const std::runtime_error&) {  // no shapes with it
-    studies_.pop_back();
+    fits_.pop_back();
     return;
   }
-  studies_.back().judge(tried.model, noise);
+  fits_.back().judge(tried.model, noise);
   tried_.push_back(std::move(tried));
 }
 
-double Search::cost_ahead_of(const std::vector<ActiveEffect>& effects, const FittedModel& near) {
-  Study study(set_, workers_, effects, {});
+double EffectSearch::cost_ahead_of(const std::vector<ActiveEffect>& effects, const FittedModel& near) {
+  ModelFit study(set_, workers_, effects, {});
   try {
     return study.cost_ahead_near(near, set_.imaging.noise_sigma_m, near.rms_m / std::sqrt(2.0));
   } catch (const std::runtime_error&) {
@@ -100,7 +67,7 @@ double Search::cost_ahead_of(const std::vector<ActiveEffect>& effects, const Fit
   }
 }
 
-void Search::add_to(const Tried* base, const FittedModel& near, const Noise& noise) {
+void EffectSearch::add_to(const Tried* base, const FittedModel& near, const Noise& noise) {
   const std::vector<ActiveEffect> before = base ? base->effects : std::vector<ActiveEffect>{};
   const FittedModel model = near;  // what is added may move it
   std::vector<std::pair<double, std::vector<ActiveEffect>>> joined;
@@ -122,15 +89,15 @@ void Search::add_to(const Tried* base, const FittedModel& near, const Noise& noi
   for (const auto& [cost, effects] : joined) add(effects, model, noise);
 }
 
-void Search::sort_by_bic() {
+void EffectSearch::sort_by_bic() {
   std::sort(tried_.begin(), tried_.end(), [](const Tried& a, const Tried& b) { return a.model.bic < b.model.bic; });
 }
 
-bool Search::fits(const FittedModel& model, const Noise& noise) const {
+bool EffectSearch::fits(const FittedModel& model, const Noise& noise) const {
   return noise.sigma_m && is_noise(model, noise) && !at_an_edge(model);
 }
 
-void Search::complete(Tried& tried, const Noise& noise) {
+void EffectSearch::complete(Tried& tried, const Noise& noise) {
   if (tried.complete) return;
   tried.complete = true;
   tried.study->complete(tried.model, set_.imaging.noise_sigma_m);
@@ -138,7 +105,7 @@ void Search::complete(Tried& tried, const Noise& noise) {
 }
 
 /// An estimate of the noise gains from a model that leaves little else.
-void Search::judge_again(const Study& declared, FittedModel& of_declared, Noise& noise) {
+void EffectSearch::judge_again(const ModelFit& declared, FittedModel& of_declared, Noise& noise) {
   if (noise.declared || tried_.empty()) return;
   const FittedModel* closest = &of_declared;
   for (const Tried& t : tried_)
@@ -149,7 +116,7 @@ void Search::judge_again(const Study& declared, FittedModel& of_declared, Noise&
 }
 
 /// Where the noise is known: effects are added until noise is all that is left.
-void Search::grow_to_noise(FittedModel& of_declared, const Noise& noise) {
+void EffectSearch::grow_to_noise(FittedModel& of_declared, const Noise& noise) {
   for (std::size_t count = 1; count < 3; ++count) {
     sort_by_bic();
     // Rough fits may leave a little: the foremost are fitted to the end before anything is added to them.
@@ -174,7 +141,7 @@ void Search::grow_to_noise(FittedModel& of_declared, const Noise& noise) {
 }
 
 /// Where it is not: as long as what is added predicts unseen data better.
-void Search::grow_by_held_out(const FittedModel& of_declared, const Noise& noise) {
+void EffectSearch::grow_by_held_out(const FittedModel& of_declared, const Noise& noise) {
   FittedModel current = of_declared;
   for (std::size_t count = 1; count <= most_effects; ++count) {
     sort_by_bic();
@@ -197,7 +164,7 @@ void Search::grow_by_held_out(const FittedModel& of_declared, const Noise& noise
 
 /// What was chosen before the last was added may not be needed with it, or fit better in another form: of the foremost,
 /// every effect is left out once, and taken in its other forms.
-void Search::prune(const Noise& noise) {
+void EffectSearch::prune(const Noise& noise) {
   sort_by_bic();
   if (tried_.empty() || tried_.front().effects.size() < 2) return;
   const Tried best = tried_.front();
@@ -216,7 +183,7 @@ void Search::prune(const Noise& noise) {
   }
 }
 
-std::vector<FittedModel> Search::run(const Study& declared, FittedModel& of_declared, Noise& noise) {
+std::vector<FittedModel> EffectSearch::run(const ModelFit& declared, FittedModel& of_declared, Noise& noise) {
   add_to(nullptr, of_declared, noise);
   judge_again(declared, of_declared, noise);
   if (noise.sigma_m)

@@ -3,34 +3,23 @@
 #include <deque>
 
 #include "data/identification/estimation/model_fit.h"
+#include "data/identification/selection/evidence.h"
 
 namespace ostium {
 
-/// A difference in BIC that is strong evidence, and one that is positive evidence (Kass, Raftery 1995, J Am Stat Assoc
-/// 90:773).
-inline constexpr double strong_evidence = 6, positive_evidence = 2;
-/// Effects that some data cannot part need strong evidence for one of them; so many degrees of freedom in chi-square.
-bool often_confused(const std::string& a, const std::string& b);
-
-/// Whether one model's held-out error is below another's by 5 %: that of shapes, or, if these are predicted about as
-/// well, that of pushes.
-bool predicts_better(const FittedModel& a, const FittedModel& b);
-
-/// An effect counts if it predicts what it has not seen better, and pays for its numbers.
-bool wins(const FittedModel& candidate, const FittedModel& declared, const Noise& noise);
-
-class Search {
+class EffectSearch {
  public:
-  Search(const MeasurementSet& set, const Workers& workers, const std::function<void(const std::string&)>& progress)
+  EffectSearch(const MeasurementSet& set, const Workers& workers,
+               const std::function<void(const std::string&)>& progress)
       : set_(set), workers_(workers), progress_(progress) {}
 
   /// Models with effects, best first, finalists scored on held-out data. `noise` is made better where it was estimated.
-  std::vector<FittedModel> run(const Study& declared, FittedModel& of_declared, Noise& noise);
+  std::vector<FittedModel> run(const ModelFit& declared, FittedModel& of_declared, Noise& noise);
 
  private:
   struct Tried {
     FittedModel model;
-    Study* study = nullptr;
+    ModelFit* study = nullptr;
     std::vector<ActiveEffect> effects;
     bool complete = false;
   };
@@ -42,7 +31,7 @@ class Search {
   /// Whether a model may be all there is: noise is left, and no number stands at the edge of its range.
   bool fits(const FittedModel& model, const Noise& noise) const;
   void complete(Tried& tried, const Noise& noise);
-  void judge_again(const Study& declared, FittedModel& of_declared, Noise& noise);
+  void judge_again(const ModelFit& declared, FittedModel& of_declared, Noise& noise);
   void prune(const Noise& noise);
   void grow_to_noise(FittedModel& of_declared, const Noise& noise);
   void grow_by_held_out(const FittedModel& of_declared, const Noise& noise);
@@ -50,7 +39,7 @@ class Search {
   const MeasurementSet& set_;
   const Workers& workers_;
   std::function<void(const std::string&)> progress_;
-  std::deque<Study> studies_;
+  std::deque<ModelFit> fits_;
   std::deque<Tried> tried_;
 };
 

@@ -121,7 +121,7 @@ void of_residual(const FittedModel& m, std::vector<std::string>& out) {
                     "noise.",
                     m.correlation->value, m.correlation->standard_errors));
   int told = 0;
-  for (const Dependence& d : m.dependences.list) {
+  for (const ResidualTest& d : m.residual_tests.list) {
     if (!d.significant || ++told > 3) continue;
     const bool common = d.on.starts_with("common");
     out.push_back(common ? fmt::format("{:.0f} % of the residual is {}.", 100 * d.share, d.on)
@@ -134,13 +134,13 @@ void of_residual(const FittedModel& m, std::vector<std::string>& out) {
       {"time", "What is left changes with time."},
       {"image", "What is left goes with the place alone, as a scale or distortion of the picture would."}};
   for (const auto& [frame, words] : meanings)
-    if (m.dependences.signature.frame == frame) out.push_back(words);
+    if (m.residual_tests.signature.frame == frame) out.push_back(words);
   if (told == 0) out.push_back("The residual goes with nothing that was varied.");
 }
 
 }  // namespace
 
-std::vector<std::string> sentences(const MeasurementSet& set, const Explanation& x) {
+std::vector<std::string> verdict_text(const MeasurementSet& set, const Explanation& x) {
   std::vector<std::string> out = {of_verdict(x)};
   out.push_back(fmt::format("{}: {:.3g} mm. Declared model, fitted: {:.3g} mm, {}.",
                             set.imaging.registration_free ? "Nothing fitted but the measuring frame" : "Nothing fitted",
@@ -153,12 +153,12 @@ std::vector<std::string> sentences(const MeasurementSet& set, const Explanation&
   of_noise(x, out);
   of_parameters(set, x.best(), out);
   of_residual(x.best(), out);
-  for (const Trace& t : x.traces)
+  for (const ResidualAttribution& t : x.attributions)
     out.push_back(
         fmt::format("Without a hypothesis: {} would remove {:.0f} % of what is not noise, with {:.0f} numbers; "
                     "log evidence {:+.0f}.",
                     t.what, 100 * t.removed, t.numbers_used, t.log_evidence));
-  if (!x.traces.empty() && x.signature.frame != "none" && x.signature.from_tip_m)
+  if (!x.attributions.empty() && x.signature.frame != "none" && x.signature.from_tip_m)
     out.push_back(fmt::format("It would sit {:.0f} to {:.0f} mm from the tip.", x.signature.from_tip_m->x() / mm,
                               x.signature.from_tip_m->y() / mm));
   if (x.next_experiment) out.push_back("Measure next: " + x.next_experiment->why + ".");

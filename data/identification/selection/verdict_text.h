@@ -4,6 +4,6 @@
 
 namespace ostium {
 
-std::vector<std::string> sentences(const MeasurementSet& set, const Explanation& explanation);
+std::vector<std::string> verdict_text(const MeasurementSet& set, const Explanation& explanation);
 
 }  // namespace ostium
