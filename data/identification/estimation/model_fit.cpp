@@ -9,7 +9,7 @@
 #include <stdexcept>
 
 #include "data/identification/effects/effect_list.h"
-#include "data/identification/estimation/folds.h"
+#include "data/identification/estimation/fit_starts.h"
 #include "data/identification/estimation/measured_push.h"
 #include "data/identification/forward/misfit.h"
 
@@ -31,26 +31,6 @@ std::vector<int> everyone(const MeasurementSet& set) {
   std::vector<int> all(set.experiments.size());
   std::iota(all.begin(), all.end(), 0);
   return all;
-}
-
-/// Low-discrepancy (Halton) numbers from 0 to 1, number `k` of sequence `i`.
-double halton(int k, int i) {
-  constexpr int primes[] = {2, 3, 5, 7, 11, 13, 17, 19, 23, 29};
-  double h = 0, f = 1;
-  for (int n = k; n > 0; n /= primes[i % 10]) h += (f /= primes[i % 10]) * (n % primes[i % 10]);
-  return h;
-}
-
-/// Spread over the prior's middle, so that a rugged landscape is not taken for its first valley.
-std::vector<VectorXd> starts_of(const Parameters& parameters, const VectorXd& from, int first, int count) {
-  std::vector<VectorXd> starts = {from};
-  for (int k = 1; k <= count; ++k) {
-    VectorXd x = from;
-    for (int i = first; i < std::min(parameters.shape_parameters(), first + 10); ++i)
-      x[i] = parameters.within(i, halton(k, i - first));
-    starts.push_back(x);
-  }
-  return starts;
 }
 
 }  // namespace
@@ -261,36 +241,6 @@ FittedModel ModelFit::report() const {
 
 void ModelFit::add_residual_tests(FittedModel& model) const {
   model.residual_tests = residual_tests(set_, fit_.misfits, model.view);
-}
-
-void ModelFit::score_held_out(FitOptions options, FittedModel& model) const {
-  const auto folds = folds_of(set_);
-  if (folds.empty()) return;
-  options.descents = 1, options.only_x = set_.vessel.has_value();
-  std::vector<VectorXd> out(all_.size());
-  std::vector<PredictedShape> shapes(all_.size());
-  for (std::size_t f = 0; f < folds.size(); ++f) {
-    say(fmt::format("fold {} of {}", f + 1, folds.size()));
-    options.experiments.clear();
-    for (int e : all_)
-      if (std::find(folds[f].begin(), folds[f].end(), e) == folds[f].end()) options.experiments.push_back(e);
-    options.starts = {parameters_.start(), fit_.x};
-    VectorXd x;
-    try {
-      x = fit(*forward_, parameters_, options).x;
-    } catch (const std::runtime_error&) {
-      return;  // no shape where this fold ends
-    }
-    const std::vector<VectorXd> off = misfits(*forward_, parameters_, x, folds[f]);
-    const std::vector<PredictedShape> seen = forward_->shapes({parameters_.changes(x)}, folds[f])[0];
-    for (std::size_t k = 0; k < off.size(); ++k) {
-      if (off[k].size() == 0) return;
-      out[folds[f][k]] = off[k], shapes[folds[f][k]] = seen[k];
-    }
-  }
-  model.held_out_misfits = out;
-  model.rms_held_out_m = rms(set_, out);
-  if (push_sigma_N(set_)) model.push_rms_held_out_N = push_rms_N(set_, shapes);
 }
 
 }  // namespace ostium
