@@ -9,8 +9,8 @@
 #include <filesystem>
 #include <set>
 
-#include "data/identification/measurement/measurement_reader.h"
 #include "data/identification/effects/effect_list.h"
+#include "data/identification/measurement/measurement_reader.h"
 #include "data/identification/selection/explain.h"
 #include "tests/support/undeclared.h"
 

@@ -1,6 +1,4 @@
 /// The fit is held to sets that the boundary-value solver made: what it says must be what was put in.
-#include "data/identification/selection/explain.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -9,6 +7,7 @@
 #include "data/identification/forward/prediction.h"
 #include "data/identification/measurement/measurement_reader.h"
 #include "data/identification/report/explanation_report.h"
+#include "data/identification/selection/explain.h"
 #include "data/instrument_reader.h"
 #include "tests/support/synthetic_set.h"
 

@@ -160,7 +160,7 @@ TEST(NestingClearance, LinesAgreeWithTwoChains) {
     changes.effects = {active(find_effect("nesting_clearance"), set, {}, {"", {}})};
     changes.effects[0].values[0] = 1e3 * play;
     const PredictedShape with = shape_from(setup_of(set, e, changes), walk(set, changes)[0]),
-                without = shape_from(setup_of(set, e, none), walk(set, none)[0]);
+                         without = shape_from(setup_of(set, e, none), walk(set, none)[0]);
     double off = 0, off_without = 0;
     for (std::size_t k = 0; k < chains.inner.size(); ++k) {
       // From the one's middle to the other's a line goes over two steps.
