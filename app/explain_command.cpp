@@ -7,9 +7,10 @@
 #include <fstream>
 #include <sstream>
 
-#include "data/fit/explanation_report.h"
-#include "data/measured/measurement_reader.h"
 #include "data/formats/write_file.h"
+#include "data/identification/measurement/measurement_reader.h"
+#include "data/identification/report/explanation_report.h"
+#include "data/identification/selection/explain.h"
 
 namespace ostium {
 
@@ -30,7 +31,7 @@ std::string contents(const std::string& file) {
 
 void print(const Explanation& x) {
   fmt::print("verdict: {}\n", to_string(x.verdict));
-  for (const std::string& sentence : x.sentences) fmt::print("  {}\n", sentence);
+  for (const std::string& sentence : x.verdict_text) fmt::print("  {}\n", sentence);
   fmt::print("\n{:<40} {:>12} {:>12} {:>10}  {}\n", "parameter", "value", "sigma", "from data", "unit");
   for (const FittedParameter& p : x.best().parameters)
     fmt::print("{:<40} {:>12.5g} {:>12.2g} {:>8.0f} %  {}\n", p.parameter.name, p.value, p.sigma, 100 * p.informed,

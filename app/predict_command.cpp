@@ -6,9 +6,9 @@
 #include <cmath>
 #include <filesystem>
 
-#include "data/forward/prediction.h"
-#include "data/measured/measurement_reader.h"
 #include "data/formats/write_file.h"
+#include "data/identification/forward/prediction.h"
+#include "data/identification/measurement/measurement_reader.h"
 
 namespace ostium {
 

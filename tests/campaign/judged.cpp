@@ -9,9 +9,9 @@
 #include <filesystem>
 #include <set>
 
-#include "data/fit/explanation.h"
-#include "data/fit/search.h"
-#include "data/measured/measurement_reader.h"
+#include "data/identification/effects/effect_list.h"
+#include "data/identification/measurement/measurement_reader.h"
+#include "data/identification/selection/explain.h"
 #include "tests/support/undeclared.h"
 
 namespace ostium::synthetic {

@@ -1,15 +1,14 @@
 /// The fit is held to sets that the boundary-value solver made: what it says must be what was put in.
-#include "data/fit/explanation.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "data/fit/explanation_report.h"
-#include "data/forward/prediction.h"
 #include "data/catalogue/instrument/instrument_reader.h"
-#include "data/measured/measurement_reader.h"
+#include "data/identification/forward/prediction.h"
+#include "data/identification/measurement/measurement_reader.h"
+#include "data/identification/report/explanation_report.h"
+#include "data/identification/selection/explain.h"
 #include "tests/support/synthetic_set.h"
 
 namespace ostium {
@@ -72,7 +71,7 @@ TEST(Explanation, ADifferenceThatNobodyDeclaredIsNotExplainedAway) {
   const Explanation x = explain(set, {});
   EXPECT_EQ(x.verdict, Verdict::unexplained);
   EXPECT_GT(*x.declared.chi2_per_dof, 2);
-  EXPECT_EQ(x.declared.dependences.signature.frame, "material");
+  EXPECT_EQ(x.declared.residual_tests.signature.frame, "material");
   ASSERT_TRUE(x.declared.correlation);
   EXPECT_GT(x.declared.correlation->standard_errors, 4);
 }
@@ -155,7 +154,7 @@ TEST(Explanation, RelaxationOfACurvedTubeIsFound) {
   }
   const Explanation x = explain(set, {{{"stress_relaxation"}}, 0, {}});
   EXPECT_EQ(x.verdict, Verdict::effect);
-  EXPECT_EQ(x.declared.dependences.signature.frame, "time");
+  EXPECT_EQ(x.declared.residual_tests.signature.frame, "time");
   ASSERT_EQ(x.candidates.size(), 1u);
   expect_within_three_sigma(x.candidates[0], "stress_relaxation.fraction_1", f1);
   expect_within_three_sigma(x.candidates[0], "stress_relaxation.fraction_2", f2);

@@ -4,12 +4,12 @@
 #include <cmath>
 #include <random>
 
-#include "data/fit/dependence.h"
-#include "data/fit/folds.h"
-#include "data/fit/noise.h"
-#include "data/fit/secant_descent.h"
-#include "data/fit/workers.h"
 #include "data/formats/plot.h"
+#include "data/identification/estimation/folds.h"
+#include "data/identification/estimation/noise.h"
+#include "data/identification/estimation/residual_tests.h"
+#include "data/identification/estimation/secant_descent.h"
+#include "data/identification/estimation/workers.h"
 
 namespace ostium {
 namespace {
@@ -83,7 +83,7 @@ TEST(Noise, RepeatsTellThatOfTips) {
 }
 
 /// Misfits that turn with the roll are common in the material frame; those that do not, in the set's.
-TEST(Dependence, TellsTheMaterialFrameFromTheSets) {
+TEST(ResidualTest, TellsTheMaterialFrameFromTheSets) {
   for (bool material : {true, false}) {
     std::mt19937 random(5);
     MeasurementSet set = of_groups(std::vector<std::string>(16));
@@ -97,9 +97,9 @@ TEST(Dependence, TellsTheMaterialFrameFromTheSets) {
       e.points_m = {Vector3d(0.1, 0.2, 0.3)};
       misfits.push_back(1e-3 * off);
     }
-    EXPECT_EQ(dependences(set, misfits, {}).signature.frame, material ? "material" : "lab");
+    EXPECT_EQ(residual_tests(set, misfits, {}).signature.frame, material ? "material" : "lab");
     for (VectorXd& m : misfits) m = 1e-3 * VectorXd::NullaryExpr(3, [&](Eigen::Index) { return normal(random); });
-    EXPECT_EQ(dependences(set, misfits, {}).signature.frame, "none");
+    EXPECT_EQ(residual_tests(set, misfits, {}).signature.frame, "none");
   }
 }
 

@@ -1,12 +1,12 @@
 /// Insertion in a vessel: what walls do not touch is as free rods are, and what they do touch stays inside.
-#include "data/forward/insertion.h"
+#include "data/identification/forward/insertion.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "app/verify/tube.h"
-#include "data/forward/prediction.h"
+#include "data/identification/forward/prediction.h"
 #include "tests/support/synthetic_set.h"
 
 namespace ostium {
@@ -34,12 +34,12 @@ MeasurementSet wire_in(const SurfaceDescription& wall, int experiments, double l
 TEST(Insertion, AWireThatTouchesNothingComesToRestAsAFreeOne) {
   const auto wide = verify::tube({{{-0.01, 0, 0}, 0.1}, {{0.1, 0, 0}, 0.1}, {{0.3, 0, 0}, 0.1}}, 24);
   MeasurementSet set = wire_in(wide, 2, 0.16);
-  const std::vector<Shape> in_vessel = insert(set, {});
+  const std::vector<PredictedShape> in_vessel = insert(set, {});
   set.vessel.reset();
-  const std::vector<Anchor> anchors = walk(set, {});
+  const std::vector<StaticEquilibrium> anchors = walk(set, {});
   for (std::size_t e = 0; e < 2; ++e) {
     ASSERT_TRUE(in_vessel[e].converged);
-    const Shape free = shape_from(setup_of(set, set.experiments[e], {}), anchors[e]);
+    const PredictedShape free = shape_from(setup_of(set, set.experiments[e], {}), anchors[e]);
     // Elements of 2 mm here, and a motion of up to 0.2 mm/s that is left.
     EXPECT_LT((in_vessel[e].points_m.back() - free.points_m.back()).norm(), 0.3e-3) << e;
   }
@@ -54,7 +54,7 @@ TEST(Insertion, AWireStaysInABentTubeAndFrictionCostsPush) {
   std::vector<double> push;
   for (const double friction : {0.02, 0.3}) {
     set.vessel->friction = friction;
-    const std::vector<Shape> shapes = insert(set, {});
+    const std::vector<PredictedShape> shapes = insert(set, {});
     ASSERT_TRUE(shapes[1].converged);
     for (const Vector3d& p : shapes[1].points_m) {
       double nearest = 1;

@@ -6,12 +6,12 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "data/effects/effect.h"
-#include "data/fit/explanation.h"
-#include "data/fit/explanation_report.h"
-#include "data/forward/prediction.h"
 #include "data/catalogue/instrument/instrument_reader.h"
-#include "data/measured/measurement_reader.h"
+#include "data/identification/effects/effect_list.h"
+#include "data/identification/forward/prediction.h"
+#include "data/identification/measurement/measurement_reader.h"
+#include "data/identification/report/explanation_report.h"
+#include "data/identification/selection/explain.h"
 #include "tests/campaign/judged.h"
 #include "tests/support/undeclared.h"
 

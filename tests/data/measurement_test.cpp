@@ -8,9 +8,9 @@
 #include <set>
 
 #include "data/catalogue/catalogue.h"
-#include "data/effects/effect.h"
-#include "data/measured/measurement_keys.h"
-#include "data/measured/measurement_reader.h"
+#include "data/identification/effects/effect_list.h"
+#include "data/identification/measurement/measurement_keys.h"
+#include "data/identification/measurement/measurement_reader.h"
 #include "tests/data/refusals.h"
 #include "tests/support/synthetic_set.h"
 

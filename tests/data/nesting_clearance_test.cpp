@@ -6,9 +6,10 @@
 #include <cmath>
 #include <numbers>
 
-#include "data/effects/beams_with_play.h"
-#include "data/effects/effect.h"
-#include "data/forward/shape.h"
+#include "data/identification/effects/beams_with_play.h"
+#include "data/identification/effects/effect_list.h"
+#include "data/identification/forward/curve.h"
+#include "data/identification/forward/shape.h"
 #include "tests/support/nested_chains.h"
 #include "tests/support/synthetic_set.h"
 #include "tests/support/undeclared_tube.h"
@@ -95,7 +96,7 @@ double tip_of_the_model(const Beams& b, double play) {
   Changes changes;
   changes.effects = {active(find_effect("nesting_clearance"), set, {}, {"", {}})};
   changes.effects[0].values[0] = 1e3 * play;
-  const Shape shape = shape_from(setup_of(set, e, changes), walk(set, changes)[0]);
+  const PredictedShape shape = shape_from(setup_of(set, e, changes), walk(set, changes)[0]);
   EXPECT_TRUE(shape.converged);
   const Eigen::Quaterniond base(e.base.q_W[0], e.base.q_W[1], e.base.q_W[2], e.base.q_W[3]);
   return (base.conjugate() * (shape.points_m.back() - e.base.p_W)).x();
@@ -158,8 +159,8 @@ TEST(NestingClearance, LinesAgreeWithTwoChains) {
     Changes none, changes;
     changes.effects = {active(find_effect("nesting_clearance"), set, {}, {"", {}})};
     changes.effects[0].values[0] = 1e3 * play;
-    const Shape with = shape_from(setup_of(set, e, changes), walk(set, changes)[0]),
-                without = shape_from(setup_of(set, e, none), walk(set, none)[0]);
+    const PredictedShape with = shape_from(setup_of(set, e, changes), walk(set, changes)[0]),
+                         without = shape_from(setup_of(set, e, none), walk(set, none)[0]);
     double off = 0, off_without = 0;
     for (std::size_t k = 0; k < chains.inner.size(); ++k) {
       // From the one's middle to the other's a line goes over two steps.

@@ -1,5 +1,5 @@
 /// Predictions against the boundary-value solver, through the file format.
-#include "data/forward/prediction.h"
+#include "data/identification/forward/prediction.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,8 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
-#include "data/measured/measurement_reader.h"
+#include "data/identification/forward/curve.h"
+#include "data/identification/measurement/measurement_reader.h"
 #include "tests/support/synthetic_set.h"
 
 namespace ostium {
@@ -20,7 +21,7 @@ MeasurementSet through_file(const MeasurementSet& set) {
 }
 
 /// Largest distance at the same arc length, mm.
-double furthest_mm(const Shape& shape, const boundary_value::Solution& exact, double length_m) {
+double furthest_mm(const PredictedShape& shape, const boundary_value::Solution& exact, double length_m) {
   double worst = 0, s = 0;
   for (std::size_t i = 0; i < shape.points_m.size(); ++i) {
     if (i > 0) s += (shape.points_m[i] - shape.points_m[i - 1]).norm();
@@ -93,12 +94,12 @@ TEST(Prediction, ContinuesFromTheExperimentBefore) {
 /// From another that has as many elements, only longer ones.
 TEST(Prediction, AShapeThatContinuesFromAnotherInsertionHasItsOwnLength) {
   MeasurementSet set = through_file(synthetic::free_wire(1));
-  const std::vector<Anchor> before = walk(set, {});
+  const std::vector<StaticEquilibrium> before = walk(set, {});
   set.experiments[0].set[0].inserted_m *= 0.9999;
-  const ostium::Setup setup = setup_of(set, set.experiments[0], {});
-  const Anchor straight_there = walk(set, {})[0];
+  const ExperimentSetup setup = setup_of(set, set.experiments[0], {});
+  const StaticEquilibrium straight_there = walk(set, {})[0];
   ASSERT_EQ(before[0].nest.carrier.rods[0].elements, straight_there.nest.carrier.rods[0].elements);
-  const Shape continued = shape_from(setup, before[0]), own = shape_from(setup, straight_there);
+  const PredictedShape continued = shape_from(setup, before[0]), own = shape_from(setup, straight_there);
   EXPECT_LT((continued.points_m.back() - own.points_m.back()).norm(), 1e-9);
   double length = 0;
   for (std::size_t i = 1; i < continued.points_m.size(); ++i)
@@ -116,7 +117,7 @@ TEST(Prediction, RadiusOfAPairIsThatOfACompositeBeam) {
   e.set = {{0.05, 0.7, 0}, {0.05, 0.7, 0}};
   e.specimen = {Eigen::Vector2d(0, 9.5), {}};
   e.radius_m = 0.1;
-  const ostium::Setup setup = setup_of(set, e, {});
+  const ExperimentSetup setup = setup_of(set, e, {});
   set.experiments = {e};
   const double k = (5500 * 9.5 + 2650 * 12.7) / (5500 + 2650);
   EXPECT_NEAR(radius_of_curvature(shape_from(setup, walk(set, {})[0]).points_m) * k, 1, 1e-3);

@@ -7,8 +7,9 @@
 #include <cmath>
 
 #include "app/verify/tube.h"
-#include "data/effects/effect.h"
-#include "data/forward/insertion.h"
+#include "data/identification/effects/effect_list.h"
+#include "data/identification/forward/curve.h"
+#include "data/identification/forward/insertion.h"
 #include "tests/support/undeclared_tube.h"
 
 namespace ostium {
@@ -61,7 +62,7 @@ TEST(PushedChain, ACantileverSagsAsBeamTheorySays) {
 }
 
 /// Root mean square of how far the chains' nodes lie from the shapes.
-double rms_between(const std::vector<pushed_chain::Rest>& chain, const std::vector<Shape>& shapes) {
+double rms_between(const std::vector<pushed_chain::Rest>& chain, const std::vector<PredictedShape>& shapes) {
   double sum = 0, count = 0;
   for (std::size_t e = 0; e < shapes.size(); ++e)
     for (const Vector2d& p : chain[e].curve)
@@ -77,7 +78,7 @@ TEST(PushedChain, InsertionAgrees) {
     pushed.setting.friction = friction;
     const auto chain = pushed_chain::push(pushed.tube, pushed.wire, pushed.setting, pushed.inserted);
     MeasurementSet set = pushed.set();
-    const std::vector<Shape> shapes = insert(set, {});
+    const std::vector<PredictedShape> shapes = insert(set, {});
     for (std::size_t e = 0; e < shapes.size(); ++e) {
       ASSERT_TRUE(chain[e].converged && shapes[e].converged) << friction << " " << e;
       for (const Vector2d& p : chain[e].curve)
@@ -110,7 +111,7 @@ TEST(PushedChain, InsertionIntoASoftWallAgrees) {
     Changes changes;
     changes.effects = {active(find_effect("wall_compliance"), set, {}, {"", {}})};
     changes.effects[0].values[0] = 1e-6 * pushed.setting.wall_N_m2;
-    const std::vector<Shape> soft = insert(set, changes);
+    const std::vector<PredictedShape> soft = insert(set, changes);
     double most_N = 0;
     for (const auto& rest : chain) most_N = std::max(most_N, std::fabs(rest.push_N));
     for (std::size_t e = 0; e < soft.size(); ++e) {

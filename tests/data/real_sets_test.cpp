@@ -6,8 +6,8 @@
 #include <cstdlib>
 #include <filesystem>
 
-#include "data/fit/explanation.h"
-#include "data/measured/measurement_reader.h"
+#include "data/identification/measurement/measurement_reader.h"
+#include "data/identification/selection/explain.h"
 
 namespace ostium {
 namespace {
@@ -40,7 +40,7 @@ TEST(RealSets, RelaxationOfANylonPair) {
   if (set.empty()) GTEST_SKIP() << "set OSTIUM_MEASURED to the folder of the measured sets";
   const Explanation x = explained(set, {{"stress_relaxation"}});
   EXPECT_EQ(x.verdict, Verdict::effect);
-  EXPECT_EQ(x.declared.dependences.signature.frame, "time");
+  EXPECT_EQ(x.declared.residual_tests.signature.frame, "time");
   EXPECT_LT(*x.candidates[0].rms_held_out_m, 0.95 * *x.declared.rms_held_out_m);
 }
 

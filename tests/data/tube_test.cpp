@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-#include "data/fit/explanation.h"
+#include "data/identification/selection/explain.h"
 #include "tests/support/dice.h"
 #include "tests/support/pushed_chain.h"
 #include "tests/support/undeclared.h"

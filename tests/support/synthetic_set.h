@@ -2,7 +2,7 @@
 /// Measured sets made by the boundary-value solver, with noise: what the fit is held to.
 #include <Eigen/Geometry>
 
-#include "data/measured/measurement_set.h"
+#include "data/identification/measurement/measurement_set.h"
 #include "tests/support/boundary_value.h"
 
 namespace ostium::synthetic {

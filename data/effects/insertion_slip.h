@@ -1,9 +1,0 @@
-#pragma once
-#include "data/effects/effect.h"
-
-namespace ostium {
-
-/// A fraction of the commanded insertion, or a length, does not arrive: rollers slip, the zero is off.
-Effect insertion_slip();
-
-}  // namespace ostium

@@ -1,9 +1,0 @@
-#pragma once
-/// What an explanation found, in plain words.
-#include "data/fit/explanation.h"
-
-namespace ostium {
-
-std::vector<std::string> sentences(const MeasurementSet& set, const Explanation& explanation);
-
-}  // namespace ostium

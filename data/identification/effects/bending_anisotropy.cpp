@@ -1,0 +1,46 @@
+/// Bending stiffness that differs between two axes across the instrument: a flattened core, a tube with a seam.
+/// EI1 = EI sqrt(ratio), EI2 = EI / sqrt(ratio) about axes that lie `axis_deg` from d1 and d2, right-handed about d3.
+/// Law: the rod's own (Kirchhoff's, with two stiffnesses). For an instrument alone.
+#include <Eigen/Geometry>
+#include <cmath>
+#include <numbers>
+
+#include "data/identification/effects/tools.h"
+
+namespace ostium {
+
+namespace {
+
+std::string why_not(const MeasurementSet& set, std::optional<int>) {
+  return set.instruments.size() > 1 ? "nested instruments are modelled with one bending stiffness" : "";
+}
+
+void apply(const ActiveEffect& effect, const MeasurementSet&, const Experiment&, ExperimentSetup& setup) {
+  const double root = std::sqrt(effect.values[0]), axis = effect.values[1] * std::numbers::pi / 180;
+  ConcentricPart& part = setup.nest.parts[0];
+  for (Section& s : part.sections) {
+    s.EI1_N_m2 *= root, s.EI2_N_m2 /= root;
+    s.rest_curvature_per_m.head<2>() = Eigen::Rotation2Dd(-axis) * Eigen::Vector2d(s.rest_curvature_per_m.head<2>());
+  }
+  part.roll_rad += axis;
+  setup.material_turn_rad += axis;
+}
+
+std::vector<EffectForm> forms(const MeasurementSet&, std::optional<int>) {
+  return {{"about d1 and d2", {{"axis_deg", 0}}}, {"oblique", {}}};
+}
+
+}  // namespace
+
+Effect bending_anisotropy() {
+  Effect effect;
+  effect.id = "bending_anisotropy";
+  effect.what = "bending stiffness that differs between two axes";
+  effect.parameters = {{"ratio", "1", "EI about the first axis against the second", 1, 0.4, 0.1, 10, true},
+                       {"axis_deg", "deg", "from d1 to the first axis", 0, 25, -60, 60, false}};
+  effect.why_not = why_not, effect.apply = apply, effect.forms = forms;
+  effect.in_instrument = true;
+  return effect;
+}
+
+}  // namespace ostium

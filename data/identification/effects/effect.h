@@ -1,0 +1,75 @@
+#pragma once
+/// What an effect is: something that a measured set may show and its declaration leaves out. Each is a separate switch,
+/// off by default, and changes what the forward model is given, never the model's equations.
+#include <functional>
+
+#include "data/identification/effects/experiment_setup.h"
+#include "data/identification/effects/measured_view.h"
+#include "data/identification/measurement/measurement_set.h"
+
+namespace ostium {
+
+struct EffectParameter {
+  std::string name;   ///< with its unit, as in files: "time_1_s"
+  std::string unit;   ///< "1" if there is none
+  std::string what;   ///< in words
+  double prior = 0;   ///< expected before any data are seen; the value where a file does not give one
+  double spread = 0;  ///< of the prior: standard deviation, of its logarithm if `logarithmic`
+  double least = 0, most = 0;
+  bool logarithmic = false;
+};
+
+/// A variant of an effect: which of its parameters are held, and at what. The others are fitted.
+struct EffectForm {
+  std::string name;  ///< "" if there is only one
+  std::vector<std::pair<std::string, double>> held;
+};
+
+struct ActiveEffect;
+
+struct Effect {
+  std::string id;
+  std::string what;  ///< in words, after "with": "twist of the shafts behind the base"
+  std::vector<EffectParameter> parameters;
+  /// Empty if the effect can show in this set on this instrument (none: on all it can act on), or why not.
+  std::string (*why_not)(const MeasurementSet&, std::optional<int> instrument) = nullptr;
+  /// Changes the instruments, loads or base; null: none of them.
+  void (*apply)(const ActiveEffect&, const MeasurementSet&, const Experiment&, ExperimentSetup&) = nullptr;
+  /// Changes how a shape appears in the measurement; null: nothing.
+  void (*see)(const ActiveEffect&, const MeasurementSet&, const Experiment&, MeasuredView&) = nullptr;
+  /// Fits priors and ranges to the size of this set; null: they are as listed.
+  void (*adapt)(const MeasurementSet&, std::optional<int> instrument, std::vector<EffectParameter>&) = nullptr;
+  /// The forms to try in this set; null: one, with nothing held.
+  std::vector<EffectForm> (*forms)(const MeasurementSet&, std::optional<int> instrument) = nullptr;
+  bool of_one_instrument = false;     ///< each of several nested instruments can have its own
+  bool of_several_stretches = false;  ///< may be switched on more than once, each time on another stretch
+  bool in_instrument = false;         ///< a property of the instrument, not of the rig, the room or the picture
+  std::string confused_with;          ///< id of an effect that some data cannot tell from this one; "" if there is none
+};
+
+/// An effect that is switched on.
+struct ActiveEffect {
+  const Effect* effect = nullptr;
+  std::optional<int> instrument;  ///< none: all that it can act on
+  std::vector<double> values;     ///< of effect->parameters
+  std::vector<bool> held;         ///< of effect->parameters: not to be fitted; empty: none is
+  std::string form;               ///< "" if there is only one
+
+  std::string name() const;  ///< "rest_curvature[1] (section 2)"
+};
+
+/// What differs from the declaration.
+struct Changes {
+  std::vector<std::vector<double>> stiffness_scale;  ///< per instrument and section; empty: 1
+  std::vector<ActiveEffect> effects;
+};
+
+/// The effect's parameters with priors and ranges that fit this set.
+std::vector<EffectParameter> parameters_of(const Effect& effect, const MeasurementSet& set,
+                                           std::optional<int> instrument);
+
+/// The effect in one of its forms, at its priors.
+ActiveEffect active(const Effect& effect, const MeasurementSet& set, std::optional<int> instrument,
+                    const EffectForm& form);
+
+}  // namespace ostium

@@ -1,0 +1,19 @@
+#pragma once
+/// How a model's shape appears in a measurement.
+#include <Eigen/Geometry>
+
+namespace ostium {
+
+/// measured = A (R model + t) + b; the tracked point is the tip + R_tip offset.
+struct MeasuredView {
+  Eigen::Quaterniond R = Eigen::Quaterniond::Identity();
+  Eigen::Vector3d t_m = Eigen::Vector3d::Zero();
+  Eigen::Vector3d tip_offset_m = Eigen::Vector3d::Zero();
+  /// Errors of the picture itself: A is near the identity. Only effects change these two.
+  Eigen::Matrix3d A = Eigen::Matrix3d::Identity();
+  Eigen::Vector3d b_m = Eigen::Vector3d::Zero();
+
+  Eigen::Vector3d operator()(const Eigen::Vector3d& model) const { return A * (R * model + t_m) + b_m; }
+};
+
+}  // namespace ostium

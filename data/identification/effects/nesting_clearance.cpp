@@ -1,0 +1,134 @@
+/// Play between nested instruments: near the end of an outer one its inner neighbour crosses from one side of the bore
+/// to the other, and comes out at an angle. How far and at which angle is worked out for two beams of small deflection
+/// that touch as they must (beams_with_play.h), and put into the shared centreline as a kink; loads at the innermost
+/// tip included, twist and weight left out.
+#include <Eigen/Geometry>
+#include <cmath>
+
+#include "data/identification/effects/beams_with_play.h"
+#include "data/identification/effects/tools.h"
+
+namespace ostium {
+
+namespace {
+
+using Eigen::Matrix3d;
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+
+constexpr double mm = 1e-3;
+constexpr int cells = 100;         // of what two instruments have in common
+constexpr double step_m = 1.5e-3;  // of a line from the one's middle to the other's
+
+std::string why_not(const MeasurementSet& set, std::optional<int>) {
+  if (set.vessel) return "in a vessel instruments have their clearance";
+  return set.instruments.size() > 1 ? "" : "nothing is nested";
+}
+
+const Section& section_at(const ConcentricPart& part, double from_base) {
+  const double from_tip = part.inserted_m - from_base;
+  for (const Section& s : part.sections)
+    if (from_tip < s.to_tip_m) return s;
+  return part.sections.back();
+}
+
+double stiffness(const Section& s) { return std::sqrt(s.EI1_N_m2 * s.EI2_N_m2); }
+
+/// How a part bends where it is free, towards d1 and d2 of the unrolled base, 1/m. What shafts twist is left out.
+Vector2d bend_of(const ConcentricPart& part, const Section& s) {
+  return Eigen::Rotation2Dd(part.roll_rad) * Vector2d(s.rest_curvature_per_m.y(), -s.rest_curvature_per_m.x());
+}
+
+/// Bends a frame by a piece of a line.
+void go_on(double length, const Vector2d& bend_per_m, Matrix3d& R, Vector3d& p) {
+  const Vector3d turn(-bend_per_m.y() * length, bend_per_m.x() * length, 0);
+  const Matrix3d half = (turn.norm() > 0 ? Eigen::AngleAxisd(turn.norm() / 2, turn.normalized())
+                                         : Eigen::AngleAxisd(0, Vector3d::UnitX()))
+                            .toRotationMatrix();
+  R = R * half;
+  p += length * R.col(2);
+  R = R * half;
+}
+
+/// Two instruments as beams.
+BeamsWithPlay beams_of(const ConcentricPart& outer, const ConcentricPart& inner, double play_m,
+                       const ExperimentSetup& setup) {
+  BeamsWithPlay beams;
+  beams.play_m = play_m;
+  double share = 0;  // of the outer one in their stiffness
+  beams.cell_m = outer.inserted_m / cells;
+  Matrix3d R = Matrix3d::Identity();
+  Vector3d p = Vector3d::Zero();
+  for (int k = 0; k < cells; ++k) {
+    const double at = (k + 0.25) * beams.cell_m;
+    const Section &a = section_at(outer, at), &b = section_at(inner, at);
+    const double A = stiffness(a), B = stiffness(b);
+    share = A / (A + B);
+    beams.EI_r_N_m2.push_back(A * B / (A + B));
+    beams.differ_per_m.push_back(bend_of(inner, b) - bend_of(outer, a));
+    go_on(beams.cell_m, share * bend_of(outer, a) + (1 - share) * bend_of(inner, b), R, p);
+  }
+  if (setup.tip_force_N.isZero()) return beams;
+  // What pulls at the inner one's tip, which d moves by its offset, and by its slope times the lever.
+  const Matrix3d tip = R;
+  Vector3d lever = Vector3d::Zero();
+  const double piece = (inner.inserted_m - outer.inserted_m) / cells;
+  for (int k = 0; k < cells; ++k)
+    go_on(piece, bend_of(inner, section_at(inner, outer.inserted_m + (k + 0.5) * piece)), R, lever);
+  const Eigen::Vector4d& q = setup.base.q_W;
+  const Vector3d F = tip.transpose() * (Eigen::Quaterniond(q[0], q[1], q[2], q[3]).conjugate() * setup.tip_force_N);
+  lever = tip.transpose() * lever;
+  beams.tip_force_N = share * F.head<2>();
+  beams.tip_couple_Nm = share * (lever.z() * F.head<2>() - F.z() * lever.head<2>());
+  return beams;
+}
+
+/// Bends a part by so much more at rest between two places, from the base.
+void bend(ConcentricPart& part, double from_base, double to_base, const Vector2d& more_per_m) {
+  const Vector2d own = Eigen::Rotation2Dd(-part.roll_rad) * more_per_m;
+  change_stretch(part.sections, part.inserted_m - to_base, part.inserted_m - from_base,
+                 [&](Section& s) { s.rest_curvature_per_m.head<2>() += Vector2d(-own.y(), own.x()); });
+}
+
+/// Leads the shared line, which bends as if there were no play, along the outer one's middle, and from its tip on along
+/// the inner one's. The outer one lies off that line by -d EI_inner / (EI_inner + EI_outer); as the inner one has the
+/// same say in how the line bends, it is bent by -d'' for it.
+void lead(const BeamsWithPlay& beams, const ConcentricPart& outer, ConcentricPart& inner) {
+  const Offsets d = offsets_of(beams);
+  const double h = beams.cell_m, tip = outer.inserted_m;
+  for (int k = 0; k <= cells; ++k)
+    bend(inner, std::max(k - 0.5, 0.0) * h, std::min((k + 0.5) * h, tip), -d.bend_per_m[k]);
+  const double step = std::min(step_m, (inner.inserted_m - tip) / 3);
+  const Vector2d aside = d.tip_m / (step * step) + d.tip_slope / (2 * step);
+  bend(inner, tip, tip + step, aside + d.tip_slope / step);
+  bend(inner, tip + step, tip + 2 * step, -aside);
+}
+
+void apply(const ActiveEffect& effect, const MeasurementSet&, const Experiment&, ExperimentSetup& setup) {
+  auto& parts = setup.nest.parts;
+  for (std::size_t i = 0; i + 1 < parts.size(); ++i) {
+    if (effect.values[0] <= 0 || parts[i + 1].inserted_m <= parts[i].inserted_m) continue;
+    lead(beams_of(parts[i], parts[i + 1], effect.values[0] * mm, setup), parts[i], parts[i + 1]);
+  }
+}
+
+/// What bores and radii say.
+void adapt(const MeasurementSet& set, std::optional<int>, std::vector<EffectParameter>& p) {
+  double most = 0;
+  for (std::size_t i = 0; i + 1 < set.instruments.size(); ++i)
+    most = std::max(most, set.instruments[i].inner_radius_m - set.instruments[i + 1].radius_m);
+  p[0].spread = std::clamp(most / mm, 0.02, 0.3), p[0].most = std::max(4 * p[0].spread, 0.2);
+}
+
+}  // namespace
+
+Effect nesting_clearance() {
+  Effect effect;
+  effect.id = "nesting_clearance";
+  effect.what = "play between nested instruments";
+  effect.parameters = {{"clearance_mm", "mm", "play on each side of the inner instrument", 0, 0.1, 0, 2, false}};
+  effect.why_not = why_not, effect.apply = apply, effect.adapt = adapt;
+  return effect;
+}
+
+}  // namespace ostium

@@ -1,0 +1,53 @@
+/// A set of the shaft that the declaration leaves out: k (material frame) is added to the rest curvature of the whole
+/// instrument or of a stretch of it. Wires take a set where they are coiled in their hoop or bent over a finger.
+/// Law: the rod's own, m = K (u - u_rest - k).
+#include "data/identification/effects/tools.h"
+
+namespace ostium {
+
+namespace {
+
+constexpr double mm = 1e-3, everywhere_mm = 1e5;
+
+std::string why_not(const MeasurementSet&, std::optional<int>) { return ""; }
+
+void apply(const ActiveEffect& effect, const MeasurementSet&, const Experiment&, ExperimentSetup& setup) {
+  const auto& v = effect.values;
+  for (std::size_t i = 0; i < setup.nest.parts.size(); ++i)
+    if (chosen(effect.instrument, i))
+      change_stretch(setup.nest.parts[i].sections, v[2] * mm, v[3] * mm,
+                     [&](Section& s) { s.rest_curvature_per_m.head<2>() += Eigen::Vector2d(v[0], v[1]) / mm; });
+}
+
+/// Everywhere, or in one section.
+std::vector<EffectForm> forms(const MeasurementSet& set, std::optional<int> instrument) {
+  std::vector<EffectForm> out = {{"", {{"from_tip_mm", 0}, {"to_tip_mm", everywhere_mm}}}};
+  if (!instrument && set.instruments.size() > 1) return out;
+  const auto& sections = set.instruments[instrument.value_or(0)].sections;
+  if (sections.size() < 2) return out;
+  const double longest = longest_inserted(set, instrument);
+  for (const Section& s : sections)
+    if (s.from_tip_m < longest)
+      out.push_back({"from " + std::to_string(static_cast<int>(s.from_tip_m / mm)) + " mm",
+                     {{"from_tip_mm", s.from_tip_m / mm}, {"to_tip_mm", s.to_tip_m / mm}}});
+  return out;
+}
+
+}  // namespace
+
+Effect rest_curvature() {
+  Effect effect;
+  effect.id = "rest_curvature";
+  effect.what = "a set of the shaft";
+  effect.parameters = {{"k1_per_mm", "1/mm", "curvature at rest that is added about d1", 0, 0.002, -0.1, 0.1, false},
+                       {"k2_per_mm", "1/mm", "curvature at rest that is added about d2", 0, 0.002, -0.1, 0.1, false},
+                       {"from_tip_mm", "mm", "where it begins, from the tip", 0, 1, 0, everywhere_mm, false},
+                       {"to_tip_mm", "mm", "where it ends, from the tip", everywhere_mm, 1, 0, everywhere_mm, false}};
+  effect.why_not = why_not, effect.apply = apply, effect.forms = forms;
+  effect.of_one_instrument = true;
+  effect.in_instrument = true;
+  effect.of_several_stretches = true;
+  return effect;
+}
+
+}  // namespace ostium

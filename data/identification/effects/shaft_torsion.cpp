@@ -1,0 +1,47 @@
+/// Twist of the straight shafts between the drives and the base: a tube of GJ and length l turns by `compliance` T l /
+/// GJ under the torque T. 0: as if rigid, which is what a set declares; 1: as its own sections say.
+#include "data/identification/effects/tools.h"
+
+namespace ostium {
+
+namespace {
+
+std::string why_not(const MeasurementSet& set, std::optional<int> instrument) {
+  if (set.vessel) return "in a vessel shafts are not modelled";
+  for (const Experiment& e : set.experiments)
+    for (std::size_t i = 0; i < e.set.size(); ++i)
+      if (chosen(instrument, i) && e.set[i].shaft_m > 0) return "";
+  return "no experiment gives shaft_mm";
+}
+
+/// Twist per torque of the stretch of an instrument that begins `from_m` behind its tip.
+double twist_per_torque(const std::vector<Section>& sections, double from_m, double length_m) {
+  double sum = 0;
+  for (const Section& s : sections) {
+    const double from = std::max(from_m, s.from_tip_m), to = std::min(from_m + length_m, s.to_tip_m);
+    if (to > from) sum += (to - from) / s.GJ_N_m2;
+  }
+  return sum;
+}
+
+void apply(const ActiveEffect& effect, const MeasurementSet&, const Experiment& e, ExperimentSetup& setup) {
+  for (std::size_t i = 0; i < e.set.size(); ++i) {
+    if (!chosen(effect.instrument, i)) continue;
+    ConcentricPart& part = setup.nest.parts[i];
+    part.shaft_rad_per_Nm = effect.values[0] * twist_per_torque(part.sections, e.set[i].inserted_m, e.set[i].shaft_m);
+  }
+}
+
+}  // namespace
+
+Effect shaft_torsion() {
+  Effect effect;
+  effect.id = "shaft_torsion";
+  effect.what = "twist of the shafts behind the base";
+  effect.parameters = {{"compliance", "1", "twist of the shafts against what their GJ says", 1, 1, 0, 10, false}};
+  effect.why_not = why_not, effect.apply = apply;
+  effect.of_one_instrument = true;
+  return effect;
+}
+
+}  // namespace ostium

@@ -1,0 +1,57 @@
+#pragma once
+/// What several effects need.
+#include <algorithm>
+
+#include "data/identification/effects/effect.h"
+
+namespace ostium {
+
+inline bool chosen(std::optional<int> instrument, std::size_t i) {
+  return !instrument || *instrument == static_cast<int>(i);
+}
+
+/// The longest that any of the chosen instruments was inserted, m.
+inline double longest_inserted(const MeasurementSet& set, std::optional<int> instrument) {
+  double longest = 0;
+  for (const Experiment& e : set.experiments)
+    for (std::size_t i = 0; i < e.set.size(); ++i)
+      if (chosen(instrument, i)) longest = std::max(longest, e.set[i].inserted_m);
+  return longest;
+}
+
+/// Cuts `sections` at from and to and calls change(section) for those in between.
+template <class Change>
+void change_stretch(std::vector<Section>& sections, double from_m, double to_m, Change&& change) {
+  constexpr double least = 1e-6;  // shorter pieces are none
+  std::vector<Section> out;
+  for (const Section& s : sections) {
+    double at = s.from_tip_m;
+    for (double end : {from_m, to_m, s.to_tip_m}) {
+      end = std::min(end, s.to_tip_m);
+      if (end < s.to_tip_m && (end - at < least || s.to_tip_m - end < least)) continue;
+      if (end <= at) continue;
+      Section piece = s;
+      piece.from_tip_m = at, piece.to_tip_m = end;
+      const double middle = 0.5 * (at + end);
+      if (middle > from_m && middle < to_m) change(piece);
+      out.push_back(piece);
+      at = end;
+    }
+  }
+  sections = out;
+}
+
+/// Whether any experiment turns an instrument further than another does, about the base or with it.
+inline bool roll_varies(const MeasurementSet& set, std::optional<int> instrument) {
+  for (const Experiment& e : set.experiments)
+    for (std::size_t i = 0; i < e.set.size(); ++i)
+      if (chosen(instrument, i) && e.set[i].roll_rad != set.experiments[0].set[i].roll_rad) return true;
+  return false;
+}
+
+inline bool tip_loads(const MeasurementSet& set) {
+  return std::any_of(set.experiments.begin(), set.experiments.end(),
+                     [](const Experiment& e) { return !e.tip_force_N.isZero(); });
+}
+
+}  // namespace ostium

@@ -1,0 +1,29 @@
+/// A wall that gives way: a force per length of instrument and depth, in place of a rigid one (core/surface). A
+/// silicone or arterial wall of modulus E and thickness h on a lumen of radius R: of the order of E h / R.
+#include "data/identification/effects/effect.h"
+
+namespace ostium {
+
+namespace {
+
+constexpr double N_per_mm2 = 1e6;
+
+std::string why_not(const MeasurementSet& set, std::optional<int>) { return set.vessel ? "" : "there is no vessel"; }
+
+void apply(const ActiveEffect& effect, const MeasurementSet&, const Experiment&, ExperimentSetup& setup) {
+  setup.wall_stiffness_N_m2 = effect.values[0] * N_per_mm2;
+}
+
+}  // namespace
+
+Effect wall_compliance() {
+  Effect effect;
+  effect.id = "wall_compliance";
+  effect.what = "a wall that gives way";
+  effect.parameters = {
+      {"stiffness_N_per_mm2", "N/mm2", "force per length and depth of the wall", 0.05, 2, 1e-4, 100, true}};
+  effect.why_not = why_not, effect.apply = apply;
+  return effect;
+}
+
+}  // namespace ostium

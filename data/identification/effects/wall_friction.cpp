@@ -1,0 +1,30 @@
+/// Another friction between wall and instruments than declared: Coulomb's law (core/contact), static and kinetic alike.
+#include "data/identification/effects/effect.h"
+
+namespace ostium {
+
+namespace {
+
+std::string why_not(const MeasurementSet& set, std::optional<int>) { return set.vessel ? "" : "there is no vessel"; }
+
+void apply(const ActiveEffect& effect, const MeasurementSet&, const Experiment&, ExperimentSetup& setup) {
+  setup.wall_friction = effect.values[0];
+}
+
+/// Around what is declared.
+void adapt(const MeasurementSet& set, std::optional<int>, std::vector<EffectParameter>& p) {
+  if (set.vessel && set.vessel->friction > 0.005) p[0].prior = set.vessel->friction;
+}
+
+}  // namespace
+
+Effect wall_friction() {
+  Effect effect;
+  effect.id = "wall_friction";
+  effect.what = "another friction of the wall";
+  effect.parameters = {{"coefficient", "1", "friction of wall and instruments", 0.05, 1, 0.002, 1.5, true}};
+  effect.why_not = why_not, effect.apply = apply, effect.adapt = adapt;
+  return effect;
+}
+
+}  // namespace ostium

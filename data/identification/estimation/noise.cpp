@@ -1,0 +1,106 @@
+#include "data/identification/estimation/noise.h"
+
+#include <Eigen/QR>
+#include <cmath>
+
+namespace ostium {
+
+namespace {
+
+using Eigen::Vector3d;
+using Eigen::VectorXd;
+
+struct Mean {
+  double sum = 0, count = 0;
+};
+
+/// Unit weights that no polynomial of degree n - 2 in `t` (n places) passes.
+VectorXd annihilator(const VectorXd& t) {
+  const Eigen::Index n = t.size();
+  Eigen::MatrixXd powers(n, n - 1);
+  for (Eigen::Index i = 0; i < n; ++i)
+    for (Eigen::Index d = 0; d < n - 1; ++d) powers(i, d) = std::pow((t[i] - t.mean()) / (t[n - 1] - t[0]), d);
+  const Eigen::MatrixXd Q = powers.householderQr().householderQ();
+  return Q.col(n - 1);
+}
+
+/// Square of what a cubic cannot follow, per coordinate, over all windows of five points.
+void add_point_to_point(const Experiment& e, const VectorXd& off, Mean& mean) {
+  const Eigen::Index count = static_cast<Eigen::Index>(e.points_m.size()), window = std::min<Eigen::Index>(5, count);
+  if (window < 3) return;
+  VectorXd s = VectorXd::Zero(count);
+  for (Eigen::Index i = 1; i < count; ++i) s[i] = s[i - 1] + std::max((e.points_m[i] - e.points_m[i - 1]).norm(), 1e-9);
+  for (Eigen::Index i = 0; i + window <= count; ++i) {
+    const VectorXd w = annihilator(s.segment(i, window));
+    Vector3d left = Vector3d::Zero();
+    for (Eigen::Index k = 0; k < window; ++k) left += w[k] * off.segment<3>(3 * (i + k));
+    mean.sum += left.squaredNorm(), mean.count += 2;  // misfits lie across the wire
+  }
+}
+
+bool alike(const Experiment& a, const Experiment& b) {
+  if (a.kind != b.kind || a.base.p_W != b.base.p_W || a.base.q_W != b.base.q_W || a.tip_force_N != b.tip_force_N ||
+      a.elapsed_s != b.elapsed_s || a.specimen != b.specimen)
+    return false;
+  for (std::size_t i = 0; i < a.set.size(); ++i)
+    if (a.set[i].inserted_m != b.set[i].inserted_m || a.set[i].roll_rad != b.set[i].roll_rad ||
+        a.set[i].shaft_m != b.set[i].shaft_m)
+      return false;
+  return true;
+}
+
+VectorXd measured(const Experiment& e) {
+  return e.kind == Experiment::Kind::radius ? VectorXd(VectorXd::Constant(1, e.radius_m)) : VectorXd(e.points_m[0]);
+}
+
+Mean over_repeats(const MeasurementSet& set) {
+  Mean mean;
+  std::vector<bool> seen(set.experiments.size(), false);
+  for (std::size_t i = 0; i < seen.size(); ++i) {
+    const Experiment& e = set.experiments[i];
+    if (seen[i] || e.kind == Experiment::Kind::centreline) continue;
+    VectorXd sum = measured(e);
+    double squares = sum.squaredNorm(), n = 1;
+    for (std::size_t j = i + 1; j < seen.size(); ++j)
+      if (alike(e, set.experiments[j])) {
+        seen[j] = true;
+        const VectorXd other = measured(set.experiments[j]);
+        sum += other, squares += other.squaredNorm(), n += 1;
+      }
+    mean.sum += squares - sum.squaredNorm() / n;
+    mean.count += (n - 1) * static_cast<double>(sum.size());
+  }
+  return mean;
+}
+
+}  // namespace
+
+Noise noise_of(const MeasurementSet& set, const std::vector<VectorXd>& misfits) {
+  if (set.imaging.noise_sigma_m) return {set.imaging.noise_sigma_m, true, "declared"};
+  Mean along;
+  for (std::size_t i = 0; i < set.experiments.size(); ++i)
+    if (set.experiments[i].kind == Experiment::Kind::centreline)
+      add_point_to_point(set.experiments[i], misfits[i], along);
+  if (along.count >= 10) return {std::sqrt(along.sum / along.count), false, "point to point"};
+  const Mean repeats = over_repeats(set);
+  if (repeats.count >= 6) return {std::sqrt(repeats.sum / repeats.count), false, "repeats"};
+  return {{}, false, "unknown"};
+}
+
+std::optional<Correlation> correlation_along(const MeasurementSet& set, const std::vector<VectorXd>& misfits) {
+  double products = 0, squares = 0, pairs = 0;
+  for (std::size_t i = 0; i < set.experiments.size(); ++i) {
+    if (set.experiments[i].kind != Experiment::Kind::centreline) continue;
+    const Eigen::Index n = misfits[i].size() / 3;
+    for (Eigen::Index k = 0; k + 1 < n; ++k) {
+      products += misfits[i].segment<3>(3 * k).dot(misfits[i].segment<3>(3 * k + 3));
+      squares += (misfits[i].segment<3>(3 * k).squaredNorm() + misfits[i].segment<3>(3 * k + 3).squaredNorm()) / 2;
+      pairs += 1;
+    }
+  }
+  if (pairs < 5 || squares == 0) return {};
+  const double value = products / squares;
+  return Correlation{value, value * std::sqrt(2 * pairs)};  // two coordinates a pair
+}
+
+}  // namespace ostium

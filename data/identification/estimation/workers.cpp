@@ -1,0 +1,112 @@
+#include "data/identification/estimation/workers.h"
+
+#include <mpi.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cstdlib>
+#include <exception>
+#include <mutex>
+#include <numeric>
+#include <thread>
+
+namespace ostium {
+
+namespace {
+
+bool initialised() {
+  int yes = 0, over = 0;
+  MPI_Initialized(&yes);
+  MPI_Finalized(&over);
+  return yes && !over;
+}
+
+/// Everyone's numbers, one rank's after the other's.
+std::vector<double> gathered(const std::vector<double>& mine, std::vector<int>& counts) {
+  counts.resize(ranks());
+  const int count = static_cast<int>(mine.size());
+  MPI_Allgather(&count, 1, MPI_INT, counts.data(), 1, MPI_INT, MPI_COMM_WORLD);
+  std::vector<int> begins(counts.size(), 0);
+  std::partial_sum(counts.begin(), counts.end() - 1, begins.begin() + 1);
+  std::vector<double> all(begins.back() + counts.back());
+  MPI_Allgatherv(mine.data(), count, MPI_DOUBLE, all.data(), counts.data(), begins.data(), MPI_DOUBLE, MPI_COMM_WORLD);
+  return all;
+}
+
+/// Tells the other ranks of each result: its index, length and numbers.
+void share(std::vector<std::vector<double>>& results) {
+  std::vector<double> mine;
+  for (std::size_t i = rank(); i < results.size(); i += ranks()) {
+    mine.push_back(static_cast<double>(i));
+    mine.push_back(static_cast<double>(results[i].size()));
+    mine.insert(mine.end(), results[i].begin(), results[i].end());
+  }
+  std::vector<int> counts;
+  const std::vector<double> all = gathered(mine, counts);
+  for (std::size_t at = 0; at < all.size();) {
+    const auto index = static_cast<std::size_t>(all[at]), length = static_cast<std::size_t>(all[at + 1]);
+    results[index].assign(all.begin() + at + 2, all.begin() + at + 2 + length);
+    at += 2 + length;
+  }
+}
+
+}  // namespace
+
+int rank() {
+  int r = 0;
+  if (initialised()) MPI_Comm_rank(MPI_COMM_WORLD, &r);
+  return r;
+}
+
+int ranks() {
+  int n = 1;
+  if (initialised()) MPI_Comm_size(MPI_COMM_WORLD, &n);
+  return n;
+}
+
+Ranks::Ranks() {
+  // Open MPI's and other launchers' marks: without mpirun there is nothing to start.
+  if (std::getenv("OMPI_COMM_WORLD_SIZE") || std::getenv("PMI_SIZE")) {
+    int provided = 0;
+    MPI_Init_thread(nullptr, nullptr, MPI_THREAD_FUNNELED, &provided);
+  }
+}
+Ranks::~Ranks() {
+  // A rank that gives up must not wait for the others: mpirun sees it leave, and stops them.
+  if (initialised() && std::uncaught_exceptions() == 0) MPI_Finalize();
+}
+
+Workers::Workers(int threads)
+    : threads_(threads > 0 ? threads : std::max(1, static_cast<int>(std::thread::hardware_concurrency()) / ranks())) {}
+
+std::vector<std::vector<double>> Workers::map(std::size_t count, const Job& job) const {
+  std::vector<std::vector<double>> results(count);
+  const std::size_t first = rank(), step = ranks();
+  std::atomic<std::size_t> next = 0;
+  std::exception_ptr thrown;
+  std::mutex throwing;
+  const auto work = [&] {
+    for (std::size_t k = next++; first + k * step < count; k = next++) try {
+        results[first + k * step] = job(first + k * step);
+      } catch (...) {
+        const std::lock_guard lock(throwing);
+        thrown = std::current_exception();
+      }
+  };
+  {
+    std::vector<std::jthread> helpers;
+    const std::size_t jobs = first < count ? (count - first + step - 1) / step : 0;
+    for (std::size_t t = 1; t < std::min<std::size_t>(threads_, jobs); ++t) helpers.emplace_back(work);
+    work();
+  }
+  if (step > 1) {
+    int failed = thrown != nullptr, any = 0;
+    MPI_Allreduce(&failed, &any, 1, MPI_INT, MPI_MAX, MPI_COMM_WORLD);
+    if (any && !failed) throw std::runtime_error("another rank failed; see its message");
+    if (!any) share(results);
+  }
+  if (thrown) std::rethrow_exception(thrown);
+  return results;
+}
+
+}  // namespace ostium

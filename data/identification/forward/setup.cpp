@@ -1,0 +1,61 @@
+#include "data/identification/forward/setup.h"
+
+namespace ostium {
+
+namespace {
+
+/// 0.08 rad bends a chord off its arc by a hundredth of its length.
+constexpr double longest_element_rad = 0.08;
+
+ConcentricPart part_of(const MeasurementSet& set, const Experiment& e, std::size_t i, const Changes& changes) {
+  ConcentricPart part{set.instruments[i].sections, e.set[i].inserted_m, e.set[i].roll_rad, 0};
+  for (std::size_t s = 0; s < part.sections.size(); ++s) {
+    Section& section = part.sections[s];
+    if (e.specimen[i] && !section.rest_curvature_per_m.isZero())
+      section.rest_curvature_per_m.head<2>() = *e.specimen[i];
+    if (changes.stiffness_scale.empty()) continue;
+    for (double* stiffness : {&section.EI1_N_m2, &section.EI2_N_m2, &section.GJ_N_m2})
+      *stiffness *= changes.stiffness_scale[i][s];
+  }
+  return part;
+}
+
+}  // namespace
+
+ExperimentSetup setup_of(const MeasurementSet& set, const Experiment& experiment, const Changes& changes,
+                         double longest_element_m) {
+  ExperimentSetup setup;
+  setup.nest.name = experiment.id;
+  for (std::size_t i = 0; i < set.instruments.size(); ++i)
+    setup.nest.parts.push_back(part_of(set, experiment, i, changes));
+  setup.base = experiment.base;
+  setup.gravity_m_s2 = set.gravity_m_s2;
+  setup.tip_force_N = experiment.tip_force_N;
+  // Elements end where declared sections do, so that what an effect moves slides through them without a jump.
+  std::vector<ConcentricPart> declared = setup.nest.parts;
+  for (const ActiveEffect& active : changes.effects)
+    if (active.effect->apply) active.effect->apply(active, set, experiment, setup);
+  for (std::size_t i = 0; i < declared.size(); ++i) declared[i].inserted_m = setup.nest.parts[i].inserted_m;
+  setup.nest.element_lengths_m = concentric_elements(declared, longest_element_m, longest_element_rad);
+  return setup;
+}
+
+void require_known(const MeasurementSet& set) {
+  if (!set.vessel) return;
+  const auto refuse = [&](const Experiment& e, const std::string& what) {
+    throw LoadError(set.file + ": " + e.place + " (\"" + e.id + "\"): in a vessel " + what);
+  };
+  if (!set.vessel->wall)
+    throw LoadError(set.file + ": environment.vessel.mesh is \"" + set.vessel->mesh + "\", which was not read");
+  const Experiment& first = set.experiments.front();
+  for (const Experiment& e : set.experiments) {
+    if ((e.base.p_W - first.base.p_W).norm() > 1e-9 || (e.base.q_W - first.base.q_W).norm() > 1e-9)
+      refuse(e, "all experiments have one base; expected that of " + first.place);
+    for (std::size_t i = 0; i < e.set.size(); ++i) {
+      if (e.set[i].inserted_m > e.set.back().inserted_m) refuse(e, "the innermost instrument must reach furthest");
+      if (!e.specimen.empty() && e.specimen[i] != first.specimen[i]) refuse(e, "all experiments have one specimen");
+    }
+  }
+}
+
+}  // namespace ostium

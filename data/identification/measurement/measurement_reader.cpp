@@ -1,0 +1,148 @@
+#include "data/identification/measurement/measurement_reader.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <filesystem>
+
+#include "data/identification/measurement/experiment_reader.h"
+#include "data/identification/measurement/measured_wall.h"
+#include "data/identification/measurement/measurement_keys.h"
+#include "data/identification/measurement/number_lists.h"
+
+namespace ostium {
+
+namespace {
+
+namespace keys = measurement_keys;
+
+constexpr double mm = 1e-3, Nmm2 = 1e-6, per_mm = 1e3;
+constexpr double gap_tolerance_mm = 1e-6;
+
+Section read_section(const JsonObject& entry, const MeasuredInstrument& instrument, double& reached_mm) {
+  const auto ends = numbers(entry["from_tip_mm"], 2);
+  if (std::fabs(ends[0] - reached_mm) > gap_tolerance_mm)
+    entry["from_tip_mm"].refuse(fmt::format("it to begin at {} mm, where the one before it ends", reached_mm));
+  if (!(ends[1] > ends[0]) || ends[1] > instrument.length_m / mm + gap_tolerance_mm) entry.refuse("from_tip_mm");
+  Section s;
+  s.from_tip_m = reached_mm * mm, s.to_tip_m = ends[1] * mm;
+  reached_mm = ends[1];
+  s.EI1_N_m2 = s.EI2_N_m2 = entry.positive("EI_Nmm2") * Nmm2;
+  s.GJ_N_m2 = entry.positive("GJ_Nmm2") * Nmm2;
+  // Core takes no rod without weight; this is a thousandth of the lightest wire's.
+  s.kg_per_m = std::max(entry.not_negative("kg_per_mm") / mm, 1e-6);
+  s.radius_m = instrument.radius_m, s.inner_radius_m = instrument.inner_radius_m;
+  if (entry.has("rest_curvature_per_mm"))
+    s.rest_curvature_per_m.head<2>() = vector2(entry["rest_curvature_per_mm"]) * per_mm;
+  return s;
+}
+
+/// Core has limits of its own, on numbers that are of the right sign and still no instrument's.
+void require_rod(const JsonObject& entry, const MeasuredInstrument& instrument) {
+  try {
+    check({instrument.name, instrument.sections, equal_elements(instrument.sections, 64), {}, {}});
+  } catch (const std::invalid_argument& error) {
+    entry["sections"].fail(fmt::format("{} make no rod: {}", entry["sections"].path, error.what()));
+  }
+}
+
+MeasuredInstrument read_instrument(const JsonValue& value) {
+  const JsonObject entry(value, keys::instrument);
+  MeasuredInstrument instrument;
+  instrument.name = entry.text("name");
+  instrument.length_m = entry.positive("total_length_mm") * mm;
+  instrument.radius_m = entry.positive("outer_radius_mm") * mm;
+  instrument.inner_radius_m = entry.not_negative("inner_radius_mm") * mm;
+  if (instrument.inner_radius_m >= instrument.radius_m) entry.refuse("inner_radius_mm");
+  double reached_mm = 0;
+  for (const JsonValue& section : entry.list("sections"))
+    instrument.sections.push_back(read_section(JsonObject(section, keys::section), instrument, reached_mm));
+  if (std::fabs(reached_mm - instrument.length_m / mm) > gap_tolerance_mm)
+    entry["sections"].fail(fmt::format("{} end {} mm from the tip; expected them to reach total_length_mm, {} mm",
+                                       entry["sections"].path, reached_mm, instrument.length_m / mm));
+  require_rod(entry, instrument);
+  return instrument;
+}
+
+void read_instruments(const JsonObject& root, MeasurementSet& set) {
+  for (const JsonValue& value : root.list("instruments")) {
+    set.instruments.push_back(read_instrument(value));
+    const std::size_t n = set.instruments.size();
+    if (n > 1 && set.instruments[n - 1].radius_m > set.instruments[n - 2].inner_radius_m)
+      value.find("outer_radius_mm")
+          ->refuse(fmt::format("at most {} mm, the lumen of the instrument around it (outermost first)",
+                               set.instruments[n - 2].inner_radius_m / mm));
+  }
+  if (set.instruments.empty()) root.refuse("instruments");
+}
+
+void read_environment(const JsonObject& entry, MeasurementSet& set) {
+  set.gravity_m_s2 = vector3(entry["gravity_m_s2"]);
+  if (entry["vessel"].type == JsonValue::Type::null) return;
+  const JsonObject vessel(entry["vessel"], keys::vessel);
+  static const std::vector<std::string> units = {"mm", "cm", "m", "in"};
+  set.vessel = MeasuredVessel{vessel.text("mesh"), units[vessel.choice("units", units)],
+                              vessel.not_negative("friction"), nullptr};
+}
+
+void read_imaging(const JsonObject& entry, MeasurementSet& set) {
+  if (entry["noise_sigma_mm"].type != JsonValue::Type::null)
+    set.imaging.noise_sigma_m = entry.positive("noise_sigma_mm") * mm;
+  set.imaging.registration_free = entry.choice("registration", {"given", "free"}) == 1;
+  set.imaging.tip_offset_free = entry.choice("tip_offset", {"none", "free"}) == 1;
+}
+
+DeclaredEffect read_effect(const JsonValue& value, const MeasurementSet& set) {
+  const JsonObject entry(value, keys::effect);
+  DeclaredEffect effect;
+  effect.id = entry.text("id");
+  effect.place = fmt::format("{}:{}: {}", *value.file, value.line, value.path);
+  if (entry.has("instrument") && entry["instrument"].type != JsonValue::Type::null) {
+    const double index = entry.number("instrument");
+    if (index != std::floor(index) || index < 0 || index >= static_cast<double>(set.instruments.size()))
+      entry["instrument"].refuse(fmt::format("the index of an instrument, 0 to {}", set.instruments.size() - 1));
+    effect.instrument = static_cast<int>(index);
+  }
+  if (entry["parameters"].type != JsonValue::Type::object) entry.refuse("parameters");
+  for (const auto& [name, parameter] : entry["parameters"].members) {
+    if (parameter.type != JsonValue::Type::number) parameter.refuse("a number");
+    effect.parameters.emplace_back(name, parameter.number);
+  }
+  return effect;
+}
+
+MeasurementSet read(const JsonValue& file) {
+  const JsonObject root(file, keys::set);
+  MeasurementSet set;
+  set.file = *file.file;
+  if (root.text("schema") != "ostium-measurement/1") root.refuse("schema");
+  set.title = root.text("title");
+  set.source = root.text("source");
+  read_instruments(root, set);
+  read_environment(JsonObject(root["environment"], keys::environment), set);
+  read_imaging(JsonObject(root["imaging"], keys::imaging), set);
+  if (root.has("effects"))
+    for (const JsonValue& value : root.list("effects")) set.effects.push_back(read_effect(value, set));
+  for (const JsonValue& value : root.list("experiments")) set.experiments.push_back(read_experiment(value, set));
+  if (set.experiments.empty()) root.refuse("experiments");
+  return set;
+}
+
+}  // namespace
+
+std::string measurement_file(const std::string& path) {
+  return std::filesystem::is_directory(path) ? (std::filesystem::path(path) / "measurement.json").string() : path;
+}
+
+MeasurementSet read_measurement(const std::string& file, const std::string& text) {
+  return read(parse_json(file, text));
+}
+
+MeasurementSet load_measurement(const std::string& path) {
+  const std::string file = measurement_file(path);
+  MeasurementSet set = read(load_json(file));
+  if (set.vessel) set.vessel->wall = read_wall(set);
+  return set;
+}
+
+}  // namespace ostium

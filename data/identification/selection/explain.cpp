@@ -1,0 +1,118 @@
+#include "data/identification/selection/explain.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <deque>
+
+#include "data/identification/effects/effect_list.h"
+#include "data/identification/estimation/model_fit.h"
+#include "data/identification/forward/setup.h"
+#include "data/identification/selection/residual_attribution.h"
+#include "data/identification/selection/search.h"
+#include "data/identification/selection/verdict.h"
+#include "data/identification/selection/verdict_text.h"
+
+namespace ostium {
+
+namespace {
+
+/// "shaft_torsion[1]": with the instrument that it is to act on.
+ActiveEffect parsed(const std::string& word, const MeasurementSet& set) {
+  ActiveEffect active;
+  const std::size_t bracket = word.find('[');
+  active.effect = &find_effect(word.substr(0, bracket));
+  if (bracket != std::string::npos) {
+    std::size_t read = 0;
+    int index = -1;
+    try {
+      index = std::stoi(word.substr(bracket + 1), &read);
+    } catch (const std::exception&) {
+    }
+    if (index < 0 || index >= static_cast<int>(set.instruments.size()) || word.substr(bracket + 1 + read) != "]")
+      throw LoadError(fmt::format("\"{}\" names no instrument; expected {}[0] to [{}]", word, active.effect->id,
+                                  set.instruments.size() - 1));
+    active.instrument = index;
+  }
+  if (const std::string why = active.effect->why_not(set, active.instrument); !why.empty())
+    throw LoadError(fmt::format("{}: {} cannot show in this set: {}", set.file, word, why));
+  for (const EffectParameter& p : active.effect->parameters) active.values.push_back(p.prior);
+  return active;
+}
+
+/// By BIC; first, of those that the best has no strong evidence against, the one with the fewest parameters.
+void put_best_first(std::vector<FittedModel>& candidates) {
+  // Not stable_sort: its buffer does not know of the alignment that Eigen asks for (g++ 12).
+  std::sort(candidates.begin(), candidates.end(),
+            [](const FittedModel& a, const FittedModel& b) { return a.bic < b.bic; });
+  if (candidates.empty()) return;
+  auto best = candidates.begin();
+  for (auto c = best; c != candidates.end() && c->bic < candidates.front().bic + strong_evidence; ++c)
+    if (c->parameters.size() < best->parameters.size()) best = c;
+  std::rotate(candidates.begin(), best, best + 1);
+}
+
+Explanation explain_with_library(const MeasurementSet& set, const ExplainOptions& options) {
+  const Workers workers(options.threads);
+  Explanation out;
+  ModelFit declared(set, workers, {}, options.progress);
+  out.declared = declared.run(set.imaging.noise_sigma_m);
+  out.nominal_misfits = declared.misfits_at_start();
+  out.rms_nominal_m = rms(set, out.nominal_misfits);
+  out.noise = noise_of(set, out.declared.misfits);
+  declared.judge(out.declared, out.noise);
+  const bool done = out.noise.sigma_m && is_noise(out.declared, out.noise) && !too_small(set, out.declared);
+  if (!done) {
+    EffectSearch search(set, workers, options.progress);
+    out.candidates = search.run(declared, out.declared, out.noise);
+    out.attributions = attribute_residual(set, workers, out.declared, out.noise, options.progress);
+    out.signature = signature_of(out.attributions);
+  }
+  decide(set, workers, out);
+  out.verdict_text = verdict_text(set, out);
+  return out;
+}
+
+}  // namespace
+
+Explanation explain(const MeasurementSet& set, const ExplainOptions& options) {
+  require_known(set);
+  if (options.library) return explain_with_library(set, options);
+  std::vector<std::vector<ActiveEffect>> tries;
+  for (const auto& words : options.tries) {
+    tries.emplace_back();
+    for (const std::string& word : words) tries.back().push_back(parsed(word, set));
+  }
+  const Workers workers(options.threads);
+  Explanation out;
+
+  ModelFit declared(set, workers, {}, options.progress);
+  out.declared = declared.run(set.imaging.noise_sigma_m);
+  out.nominal_misfits = declared.misfits_at_start();
+  out.rms_nominal_m = rms(set, out.nominal_misfits);
+  std::deque<ModelFit> model_fits;
+  for (const auto& tried : tries) {
+    model_fits.emplace_back(set, workers, tried, options.progress);
+    out.candidates.push_back(model_fits.back().run(set.imaging.noise_sigma_m));
+  }
+  // An estimate of the noise gains from a model that leaves little else.
+  const FittedModel* closest = &out.declared;
+  for (const FittedModel& c : out.candidates)
+    if (c.rms_m < closest->rms_m) closest = &c;
+  out.noise = noise_of(set, closest->misfits);
+  declared.judge(out.declared, out.noise);
+  for (std::size_t i = 0; i < model_fits.size(); ++i) model_fits[i].judge(out.candidates[i], out.noise);
+  put_best_first(out.candidates);
+
+  // Without a known noise nobody can say that a model fits to it: then what predicts better wins.
+  const bool fits = is_noise(out.declared, out.noise);
+  if ((!fits || !out.noise.sigma_m) && !out.candidates.empty() && wins(out.candidates.front(), out.declared, out.noise))
+    out.verdict = Verdict::effect;
+  else
+    out.verdict = fits ? Verdict::explained : Verdict::unexplained;
+  out.signature = out.declared.residual_tests.signature;
+  out.verdict_text = verdict_text(set, out);
+  return out;
+}
+
+}  // namespace ostium

@@ -1,0 +1,221 @@
+#include "data/identification/selection/search.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <set>
+#include <stdexcept>
+
+#include "data/identification/effects/effect_list.h"
+
+namespace ostium {
+
+namespace {
+
+constexpr int starts_for_one = 24;    // of an effect's numbers, screened
+constexpr std::size_t bases = 3;      // models that another effect is added to
+constexpr std::size_t finalists = 4;  // that are scored on held-out data
+constexpr std::size_t most_effects = 4;
+constexpr std::size_t ahead = 6;   // of what could join a model: fitted
+constexpr double far_behind = 30;  // in BIC, of the best: not looked at again
+
+/// The same effect twice only on other stretches of the instrument, and once everywhere takes in its stretches.
+bool can_join(const std::vector<ActiveEffect>& base, const ActiveEffect& more) {
+  for (const ActiveEffect& b : base) {
+    if (b.effect != more.effect) continue;
+    if (b.instrument == more.instrument && more.effect->of_several_stretches && b.form != more.form) continue;
+    if (b.instrument && more.instrument && b.instrument != more.instrument) continue;
+    return false;
+  }
+  return true;
+}
+
+std::string key_of(const std::vector<ActiveEffect>& effects) {
+  std::set<std::string> names;
+  for (const ActiveEffect& e : effects) names.insert(e.name());
+  std::string key;
+  for (const std::string& n : names) key += n + "|";
+  return key;
+}
+
+}  // namespace
+
+void EffectSearch::add(const std::vector<ActiveEffect>& effects, const FittedModel& near, const Noise& noise) {
+  const std::string key = key_of(effects);
+  for (const Tried& t : tried_)
+    if (key_of(t.effects) == key) return;
+  fits_.emplace_back(set_, workers_, effects, progress_);
+  Tried tried;
+  tried.study = &fits_.back(), tried.effects = effects;
+  try {
+    tried.model = fits_.back().run_near(near, set_.imaging.noise_sigma_m, near.rms_m / std::sqrt(2.0),
+                                        set_.instruments.size() > 1 ? starts_for_one / 3 : starts_for_one);
+  } catch (const std::runtime_error&) {  // no shapes with it
+    fits_.pop_back();
+    return;
+  }
+  fits_.back().judge(tried.model, noise);
+  tried_.push_back(std::move(tried));
+}
+
+double EffectSearch::cost_ahead_of(const std::vector<ActiveEffect>& effects, const FittedModel& near) {
+  ModelFit study(set_, workers_, effects, {});
+  try {
+    return study.cost_ahead_near(near, set_.imaging.noise_sigma_m, near.rms_m / std::sqrt(2.0));
+  } catch (const std::runtime_error&) {
+    return std::numeric_limits<double>::infinity();
+  }
+}
+
+void EffectSearch::add_to(const Tried* base, const FittedModel& near, const Noise& noise) {
+  const std::vector<ActiveEffect> before = base ? base->effects : std::vector<ActiveEffect>{};
+  const FittedModel model = near;  // what is added may move it
+  std::vector<std::pair<double, std::vector<ActiveEffect>>> joined;
+  for (const ActiveEffect& more : everything_to_try(set_)) {
+    if (std::any_of(set_.effects.begin(), set_.effects.end(),
+                    [&](const DeclaredEffect& d) { return d.id == more.effect->id; }))
+      continue;
+    if (!can_join(before, more)) continue;
+    std::vector<ActiveEffect> effects = before;
+    effects.push_back(more);
+    joined.emplace_back(0, effects);
+  }
+  // Alone everything is fitted; to what has effects already only what promises most is added.
+  if (base && joined.size() > ahead) {
+    for (auto& [cost, effects] : joined) cost = cost_ahead_of(effects, model);
+    std::sort(joined.begin(), joined.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+    joined.resize(ahead);
+  }
+  for (const auto& [cost, effects] : joined) add(effects, model, noise);
+}
+
+void EffectSearch::sort_by_bic() {
+  std::sort(tried_.begin(), tried_.end(), [](const Tried& a, const Tried& b) { return a.model.bic < b.model.bic; });
+}
+
+bool EffectSearch::fits(const FittedModel& model, const Noise& noise) const {
+  return noise.sigma_m && is_noise(model, noise) && !at_an_edge(model);
+}
+
+void EffectSearch::complete(Tried& tried, const Noise& noise) {
+  if (tried.complete) return;
+  tried.complete = true;
+  tried.study->complete(tried.model, set_.imaging.noise_sigma_m);
+  tried.study->judge(tried.model, noise);
+}
+
+/// An estimate of the noise gains from a model that leaves little else.
+void EffectSearch::judge_again(const ModelFit& declared, FittedModel& of_declared, Noise& noise) {
+  if (noise.declared || tried_.empty()) return;
+  const FittedModel* closest = &of_declared;
+  for (const Tried& t : tried_)
+    if (t.model.rms_m < closest->rms_m) closest = &t.model;
+  noise = noise_of(set_, closest->misfits);
+  declared.judge(of_declared, noise);
+  for (Tried& t : tried_) t.study->judge(t.model, noise);
+}
+
+/// Where the noise is known: effects are added until noise is all that is left.
+void EffectSearch::grow_to_noise(FittedModel& of_declared, const Noise& noise) {
+  for (std::size_t count = 1; count < 3; ++count) {
+    sort_by_bic();
+    // Rough fits may leave a little: the foremost are fitted to the end before anything is added to them.
+    for (std::size_t i = 0, polished = 0; i < tried_.size() && polished < 3; ++i)
+      if (tried_[i].effects.size() == count) complete(tried_[i], noise), ++polished;
+    sort_by_bic();
+    const double best = tried_.empty() ? 0 : tried_.front().model.bic;
+    bool enough = false;
+    for (const Tried& t : tried_) enough = enough || (fits(t.model, noise) && t.model.bic < best + far_behind);
+    if (enough) return;
+    std::vector<std::size_t> chosen;
+    std::set<std::string> ids;
+    for (std::size_t i = 0; i < tried_.size() && chosen.size() < (count == 1 ? bases : 1); ++i)
+      if (tried_[i].effects.size() == count && tried_[i].model.bic < of_declared.bic - strong_evidence &&
+          ids.insert(tried_[i].effects.back().effect->id).second)
+        chosen.push_back(i);
+    std::deque<Tried> from;
+    for (std::size_t i : chosen) from.push_back(tried_[i]);
+    for (const Tried& base : from) add_to(&base, base.model, noise);
+  }
+  sort_by_bic();
+}
+
+/// Where it is not: as long as what is added predicts unseen data better.
+void EffectSearch::grow_by_held_out(const FittedModel& of_declared, const Noise& noise) {
+  FittedModel current = of_declared;
+  for (std::size_t count = 1; count <= most_effects; ++count) {
+    sort_by_bic();
+    std::vector<Tried*> of_count;
+    for (Tried& t : tried_)
+      if (t.effects.size() == count && of_count.size() < finalists && !at_an_edge(t.model)) of_count.push_back(&t);
+    Tried* best = nullptr;
+    for (Tried* t : of_count) {
+      complete(*t, noise);
+      const bool better = predicts_better(t->model, current) && t->model.bic < current.bic - strong_evidence;
+      if (better && (!best || *t->model.rms_held_out_m < *best->model.rms_held_out_m)) best = t;
+    }
+    if (!best) break;
+    current = best->model;
+    if (count == most_effects) break;
+    const Tried base = *best;
+    add_to(&base, base.model, noise);
+  }
+}
+
+/// What was chosen before the last was added may not be needed with it, or fit better in another form: of the foremost,
+/// every effect is left out once, and taken in its other forms.
+void EffectSearch::prune(const Noise& noise) {
+  sort_by_bic();
+  if (tried_.empty() || tried_.front().effects.size() < 2) return;
+  const Tried best = tried_.front();
+  for (std::size_t i = 0; i < best.effects.size(); ++i) {
+    std::vector<ActiveEffect> others = best.effects;
+    others.erase(others.begin() + static_cast<std::ptrdiff_t>(i));
+    const FittedModel near = best.model;
+    add(others, near, noise);
+    for (const ActiveEffect& form : everything_to_try(set_)) {
+      if (form.effect != best.effects[i].effect || form.instrument != best.effects[i].instrument) continue;
+      if (!can_join(others, form)) continue;
+      std::vector<ActiveEffect> swapped = others;
+      swapped.push_back(form);
+      add(swapped, near, noise);
+    }
+  }
+}
+
+std::vector<FittedModel> EffectSearch::run(const ModelFit& declared, FittedModel& of_declared, Noise& noise) {
+  add_to(nullptr, of_declared, noise);
+  judge_again(declared, of_declared, noise);
+  if (noise.sigma_m)
+    grow_to_noise(of_declared, noise);
+  else
+    grow_by_held_out(of_declared, noise);
+  prune(noise);
+  judge_again(declared, of_declared, noise);
+  sort_by_bic();
+  for (std::size_t i = 0; i < std::min(finalists, tried_.size()); ++i) complete(tried_[i], noise);
+  sort_by_bic();
+
+  // Finalists: what may be all there is, the best of each list of effects; without any, the best by BIC.
+  std::vector<Tried*> chosen;
+  std::set<std::set<std::string>> seen;
+  for (bool only_fitting : {true, false})
+    for (Tried& t : tried_) {
+      if (chosen.size() >= finalists || (only_fitting && !fits(t.model, noise))) continue;
+      std::set<std::string> ids(t.model.effects.begin(), t.model.effects.end());
+      if (!seen.insert(ids).second) continue;
+      chosen.push_back(&t);
+    }
+  for (Tried& t : tried_)
+    if (t.complete && std::find(chosen.begin(), chosen.end(), &t) == chosen.end()) chosen.push_back(&t);
+  std::vector<FittedModel> out;
+  for (Tried* t : chosen) {
+    complete(*t, noise);
+    t->study->judge(t->model, noise);
+    out.push_back(t->model);
+  }
+  std::sort(out.begin(), out.end(), [](const FittedModel& a, const FittedModel& b) { return a.bic < b.bic; });
+  return out;
+}
+
+}  // namespace ostium

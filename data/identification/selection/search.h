@@ -1,0 +1,46 @@
+#pragma once
+/// Looks for the effects that a set shows among all that could be switched on: singly, then added one to the other.
+#include <deque>
+
+#include "data/identification/estimation/model_fit.h"
+#include "data/identification/selection/evidence.h"
+
+namespace ostium {
+
+class EffectSearch {
+ public:
+  EffectSearch(const MeasurementSet& set, const Workers& workers,
+               const std::function<void(const std::string&)>& progress)
+      : set_(set), workers_(workers), progress_(progress) {}
+
+  /// Models with effects, best first, finalists scored on held-out data. `noise` is made better where it was estimated.
+  std::vector<FittedModel> run(const ModelFit& declared, FittedModel& of_declared, Noise& noise);
+
+ private:
+  struct Tried {
+    FittedModel model;
+    ModelFit* study = nullptr;
+    std::vector<ActiveEffect> effects;
+    bool complete = false;
+  };
+  void add(const std::vector<ActiveEffect>& effects, const FittedModel& near, const Noise& noise);
+  double cost_ahead_of(const std::vector<ActiveEffect>& effects, const FittedModel& near);
+  /// Of everything that can join `base`, what promises most; nullptr: everything, alone.
+  void add_to(const Tried* base, const FittedModel& near, const Noise& noise);
+  void sort_by_bic();
+  /// Whether a model may be all there is: noise is left, and no number stands at the edge of its range.
+  bool fits(const FittedModel& model, const Noise& noise) const;
+  void complete(Tried& tried, const Noise& noise);
+  void judge_again(const ModelFit& declared, FittedModel& of_declared, Noise& noise);
+  void prune(const Noise& noise);
+  void grow_to_noise(FittedModel& of_declared, const Noise& noise);
+  void grow_by_held_out(const FittedModel& of_declared, const Noise& noise);
+
+  const MeasurementSet& set_;
+  const Workers& workers_;
+  std::function<void(const std::string&)> progress_;
+  std::deque<ModelFit> fits_;
+  std::deque<Tried> tried_;
+};
+
+}  // namespace ostium

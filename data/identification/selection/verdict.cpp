@@ -1,0 +1,129 @@
+#include "data/identification/selection/verdict.h"
+
+#include <algorithm>
+#include <set>
+
+#include "data/identification/effects/effect_list.h"
+#include "data/identification/selection/evidence.h"
+
+namespace ostium {
+
+namespace {
+
+bool same_effects(const FittedModel& a, const FittedModel& b) {
+  return std::set<std::string>(a.effects.begin(), a.effects.end()) ==
+         std::set<std::string>(b.effects.begin(), b.effects.end());
+}
+
+/// Whether `more` has all effects of `fewer`, and others.
+bool adds_to(const FittedModel& fewer, const FittedModel& more) {
+  const std::set<std::string> a(fewer.effects.begin(), fewer.effects.end()),
+      b(more.effects.begin(), more.effects.end());
+  return a.size() < b.size() && std::includes(b.begin(), b.end(), a.begin(), a.end());
+}
+
+/// Of those that the first has no evidence against, the one with the fewest effects, and numbers, comes first.
+void put_simplest_first(std::vector<FittedModel>& by_bic) {
+  auto best = by_bic.begin();
+  const auto simpler = [](const FittedModel& a, const FittedModel& b) {
+    return std::pair(a.effects.size(), a.parameters.size()) < std::pair(b.effects.size(), b.parameters.size());
+  };
+  for (auto c = by_bic.begin(); c != by_bic.end() && c->bic < by_bic.front().bic + positive_evidence; ++c)
+    if (simpler(*c, *best)) best = c;
+  if (best != by_bic.end()) std::rotate(by_bic.begin(), best, best + 1);
+}
+
+/// Where two lists of effects differ in one each.
+bool differ_in_a_pair(const FittedModel& a, const FittedModel& b) {
+  std::vector<std::string> only_a, only_b;
+  for (const std::string& id : a.effects)
+    if (std::find(b.effects.begin(), b.effects.end(), id) == b.effects.end()) only_a.push_back(id);
+  for (const std::string& id : b.effects)
+    if (std::find(a.effects.begin(), a.effects.end(), id) == a.effects.end()) only_b.push_back(id);
+  return only_a.size() == 1 && only_b.size() == 1 && often_confused(only_a[0], only_b[0]);
+}
+
+/// Whether `rival` explains the set as well as `best`. Of what is often confused, one may have more numbers that a
+/// poorer one needs not: then it is chi-square that counts.
+bool rivals(const FittedModel& best, const FittedModel& rival, bool noise_known) {
+  if (same_effects(best, rival) || adds_to(best, rival)) return false;
+  if (differ_in_a_pair(best, rival)) {
+    const double behind = rival.bic - best.bic;
+    if (behind < strong_evidence) return true;
+    const double more = static_cast<double>(rival.parameters.size()) - static_cast<double>(best.parameters.size());
+    return noise_known && more > 0 &&
+           rival.chi2_per_dof.value_or(1e9) * rival.degrees_of_freedom <
+               best.chi2_per_dof.value_or(0) * best.degrees_of_freedom + strong_evidence;
+  }
+  return rival.effects.size() <= best.effects.size() && rival.bic < best.bic + positive_evidence;
+}
+
+}  // namespace
+
+std::string to_string(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::explained:
+      return "explained";
+    case Verdict::effect:
+      return "effect";
+    case Verdict::ambiguous:
+      return "ambiguous";
+    default:
+      return "unexplained";
+  }
+}
+
+bool too_small(const MeasurementSet& set, const FittedModel& declared) {
+  return set.experiments.size() < 3 || declared.degrees_of_freedom < 6;
+}
+
+/// From candidates by BIC: the verdict, and the rivals after the best.
+void decide(const MeasurementSet& set, const Workers& workers, Explanation& out) {
+  const bool fits = is_noise(out.declared, out.noise), known = out.noise.sigma_m.has_value();
+  const bool small = too_small(set, out.declared);
+  if (fits && known && !small) {
+    out.verdict = Verdict::explained;
+    return;
+  }
+  std::vector<FittedModel> winners, others;
+  for (FittedModel& c : out.candidates)
+    (small || wins(c, out.declared, out.noise) ? winners : others).push_back(std::move(c));
+  std::sort(winners.begin(), winners.end(), [](const FittedModel& a, const FittedModel& b) { return a.bic < b.bic; });
+  put_simplest_first(winners);
+  out.candidates = std::move(winners);
+  const std::size_t count = out.candidates.size();
+  // Best, then what rivals it, then the rest.
+  auto end_of_rivals = out.candidates.begin();
+  if (count > 0)
+    end_of_rivals = std::partition(out.candidates.begin() + 1, out.candidates.end(), [&](const FittedModel& c) {
+      return rivals(out.candidates.front(), c, known) || (small && !same_effects(out.candidates.front(), c));
+    });
+  const auto tied = static_cast<std::size_t>(end_of_rivals - out.candidates.begin());
+  for (FittedModel& c : others) out.candidates.push_back(std::move(c));
+  if (small) {
+    out.verdict = Verdict::ambiguous;
+    out.rivals = tied;
+  } else if (count == 0) {
+    out.verdict = fits ? Verdict::explained : Verdict::unexplained;
+  } else if (tied > 1) {
+    out.verdict = Verdict::ambiguous;
+    out.rivals = tied;
+  } else {
+    out.verdict = Verdict::effect;
+  }
+  if (out.verdict != Verdict::ambiguous) return;
+  const FittedModel& second = out.candidates.size() > 1 ? out.candidates[1] : out.declared;
+  if (!out.candidates.empty())
+    out.next_experiment = next_experiment(set, workers, out.candidates[0], second, out.noise);
+  if (!out.next_experiment) {
+    NextExperiment next;
+    next.why = small ? "too few numbers to decide: repeat this with other rolls and insertions, and with a known load "
+                       "at the tip"
+                     : "no roll or insertion parts what is left; hang a known weight at the tip, or measure the base "
+                       "and the frame by themselves";
+    next.set = set.experiments.back().set;
+    out.next_experiment = next;
+  }
+}
+
+}  // namespace ostium
