@@ -1,6 +1,6 @@
 #include "vascular/patient.h"
 
-#include "vascular/import/shares.h"
+#include "vascular/anatomy/labelling/shares.h"
 #include "vascular/in_parts.h"
 #include "vascular/shape/contour.h"
 

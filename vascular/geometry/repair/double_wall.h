@@ -1,6 +1,6 @@
 #pragma once
 /// Vessels that were drawn or segmented with a thick wall: two shells, of which the lumen needs the inner one.
-#include "vascular/mend/sheets.h"
+#include "vascular/geometry/repair/sheets.h"
 
 namespace ostium {
 

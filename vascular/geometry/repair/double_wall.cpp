@@ -1,4 +1,4 @@
-#include "vascular/mend/double_wall.h"
+#include "vascular/geometry/repair/double_wall.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>

@@ -1,4 +1,4 @@
-#include "vascular/mend/decimate.h"
+#include "vascular/geometry/repair/decimate.h"
 
 #include <Eigen/Dense>
 #include <algorithm>

@@ -1,4 +1,4 @@
-#include "vascular/mend/bridges.h"
+#include "vascular/geometry/repair/bridges.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -8,7 +8,7 @@
 #include <numeric>
 
 #include "vascular/box_tree.h"
-#include "vascular/mend/calibre.h"
+#include "vascular/geometry/repair/calibre.h"
 #include "vascular/tree/centreline.h"
 
 namespace ostium {

@@ -1,4 +1,4 @@
-#include "vascular/mend/level_set.h"
+#include "vascular/geometry/repair/level_set.h"
 
 #include <openvdb/openvdb.h>
 #include <openvdb/tools/MeshToVolume.h>
@@ -10,7 +10,7 @@
 #include <array>
 #include <cmath>
 
-#include "vascular/mend/winding.h"
+#include "vascular/geometry/repair/winding.h"
 
 namespace ostium {
 

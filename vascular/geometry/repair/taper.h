@@ -1,7 +1,7 @@
 #pragma once
 /// Where two ends that belong together differ in calibre: a shelf, on which instruments would stop, becomes a taper. (A
 /// vessel drawn in pieces, one by its inner wall and the next one by its outer.)
-#include "vascular/mend/sheets.h"
+#include "vascular/geometry/repair/sheets.h"
 
 namespace ostium {
 

@@ -1,4 +1,4 @@
-#include "vascular/mend/calibre.h"
+#include "vascular/geometry/repair/calibre.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>

@@ -1,4 +1,4 @@
-#include "vascular/mend/smooth.h"
+#include "vascular/geometry/repair/smooth.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>

@@ -1,4 +1,4 @@
-#include "vascular/mend/prolong.h"
+#include "vascular/geometry/repair/prolong.h"
 
 #include <algorithm>
 

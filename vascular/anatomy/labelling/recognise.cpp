@@ -1,4 +1,4 @@
-#include "vascular/import/recognise.h"
+#include "vascular/anatomy/labelling/recognise.h"
 
 #include <fmt/format.h>
 
@@ -6,11 +6,11 @@
 #include <cmath>
 #include <numbers>
 
+#include "vascular/anatomy/labelling/courses.h"
+#include "vascular/anatomy/labelling/fit.h"
+#include "vascular/anatomy/labelling/mean_courses.h"
 #include "vascular/box_tree.h"
-#include "vascular/import/courses.h"
-#include "vascular/import/fit.h"
-#include "vascular/import/mean_courses.h"
-#include "vascular/mend/mend.h"
+#include "vascular/geometry/repair/mend.h"
 #include "vascular/tree/centreline.h"
 
 namespace ostium {

@@ -1,4 +1,4 @@
-#include "vascular/mend/winding.h"
+#include "vascular/geometry/repair/winding.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>

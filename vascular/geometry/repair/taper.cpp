@@ -1,4 +1,4 @@
-#include "vascular/mend/taper.h"
+#include "vascular/geometry/repair/taper.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>

@@ -1,4 +1,4 @@
-#include "vascular/mend/sheets.h"
+#include "vascular/geometry/repair/sheets.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>

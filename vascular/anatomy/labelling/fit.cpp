@@ -1,4 +1,4 @@
-#include "vascular/import/fit.h"
+#include "vascular/anatomy/labelling/fit.h"
 
 #include <algorithm>
 #include <array>

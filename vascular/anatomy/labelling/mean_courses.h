@@ -1,7 +1,7 @@
 #pragma once
 /// The courses of the mean anatomy that others are compared with.
 #include "vascular/anatomy/anatomy.h"
-#include "vascular/import/courses.h"
+#include "vascular/anatomy/labelling/courses.h"
 
 namespace ostium {
 

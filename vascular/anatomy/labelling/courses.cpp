@@ -1,4 +1,4 @@
-#include "vascular/import/courses.h"
+#include "vascular/anatomy/labelling/courses.h"
 
 #include <algorithm>
 #include <cmath>

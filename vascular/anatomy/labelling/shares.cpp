@@ -1,4 +1,4 @@
-#include "vascular/import/shares.h"
+#include "vascular/anatomy/labelling/shares.h"
 
 #include <algorithm>
 #include <cmath>

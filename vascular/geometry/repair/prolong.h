@@ -3,7 +3,7 @@
 /// without its root: the coronary arteries begin beyond its end, within what is missing.)
 #include <optional>
 
-#include "vascular/mend/bridges.h"
+#include "vascular/geometry/repair/bridges.h"
 
 namespace ostium {
 

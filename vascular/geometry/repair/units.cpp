@@ -1,10 +1,10 @@
-#include "vascular/mend/units.h"
+#include "vascular/geometry/repair/units.h"
 
 #include <Eigen/Geometry>
 #include <cmath>
 
-#include "vascular/mend/calibre.h"
-#include "vascular/mend/sheets.h"
+#include "vascular/geometry/repair/calibre.h"
+#include "vascular/geometry/repair/sheets.h"
 
 namespace ostium {
 

@@ -1,4 +1,4 @@
-#include "vascular/mend/mend.h"
+#include "vascular/geometry/repair/mend.h"
 
 #include <fmt/format.h>
 
@@ -9,15 +9,15 @@
 #include <set>
 
 #include "vascular/box_tree.h"
-#include "vascular/mend/bridges.h"
-#include "vascular/mend/calibre.h"
-#include "vascular/mend/decimate.h"
-#include "vascular/mend/double_wall.h"
-#include "vascular/mend/level_set.h"
-#include "vascular/mend/prolong.h"
-#include "vascular/mend/sheets.h"
-#include "vascular/mend/smooth.h"
-#include "vascular/mend/taper.h"
+#include "vascular/geometry/repair/bridges.h"
+#include "vascular/geometry/repair/calibre.h"
+#include "vascular/geometry/repair/decimate.h"
+#include "vascular/geometry/repair/double_wall.h"
+#include "vascular/geometry/repair/level_set.h"
+#include "vascular/geometry/repair/prolong.h"
+#include "vascular/geometry/repair/sheets.h"
+#include "vascular/geometry/repair/smooth.h"
+#include "vascular/geometry/repair/taper.h"
 #include "vascular/surface_check.h"
 
 namespace ostium {

@@ -1,4 +1,4 @@
-#include "vascular/import/mean_courses.h"
+#include "vascular/anatomy/labelling/mean_courses.h"
 
 namespace ostium {
 

@@ -1,4 +1,4 @@
-#include "vascular/import/narrowings.h"
+#include "vascular/anatomy/labelling/narrowings.h"
 
 #include <algorithm>
 
