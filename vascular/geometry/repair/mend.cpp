@@ -11,8 +11,9 @@
 #include "vascular/box_tree.h"
 #include "vascular/geometry/repair/bridges.h"
 #include "vascular/geometry/repair/calibre.h"
-#include "vascular/geometry/repair/decimate.h"
 #include "vascular/geometry/repair/double_wall.h"
+#include "vascular/geometry/repair/facing_ends.h"
+#include "vascular/geometry/repair/finish.h"
 #include "vascular/geometry/repair/level_set.h"
 #include "vascular/geometry/repair/prolong.h"
 #include "vascular/geometry/repair/sheets.h"
@@ -31,13 +32,6 @@ constexpr double most_wall_voxels = 1.5e6;  // of the level set's surface
 constexpr double crumb_m3 = 8e-9;           // lumens smaller than this are left out
 constexpr int smoothing_rounds = 16;
 constexpr double least_missing_m = 0.8e-3;  // a gap between ends is a missing piece from here on
-constexpr int calibre_stride = 4, most_uncrossings = 12;
-constexpr double longest_edge_m = 2.2e-3;
-constexpr double chance_voxels = 0.05;         // where the level set puts a vertex within these is chance
-constexpr double most_turn = 0 - 1 - 1;        // cosine, of a triangle whose corners go onto the wall
-constexpr double least_height = 0.02 - 1 - 1;  // of a triangle over its longest edge, the same
-constexpr int most_returns = 6;
-constexpr double cell_at_1_mm_m = 0.6e-3;  // as the contour of our own anatomy has it
 
 class Mender {
  public:
@@ -68,11 +62,13 @@ class Mender {
       throw MeshError(
           "nothing closed comes out of the mesh; expected the wall of a vessel, with openings narrower than itself");
     if (left_out_ > 0) note("crumb left out (smaller than 8 mm3)", left_out_, {});
-    wall_.vertices = mesh_.vertices;
-    wall_.triangles = bordering_triangles(mesh_, result_.voxel_m / 20);
-    const BoxTree wall(wall_);
-    wall_tree_ = &wall;
-    for (const Mesh& part : lumens) append(result_.lumen, finished(part, lumens.size()));
+    // Of the mesh, what borders on the outside.
+    const Mesh outside{mesh_.vertices, bordering_triangles(mesh_, result_.voxel_m / 20)};
+    const BoxTree wall(outside);
+    for (const Mesh& part : lumens) {
+      say("coarsening the surface");
+      append(result_.lumen, finished_surface(part, wall, result_.voxel_m, lumens.size(), options_.most_triangles));
+    }
     result_.lumens = static_cast<int>(lumens.size());
     return std::move(result_);
   }
@@ -148,32 +144,13 @@ class Mender {
     sheets_ = sheets_of(mesh_);
   }
 
-  /// Two openings are one cut vessel if they are alike and face each other.
-  double gap_between(const Opening& a, const Opening& b) const {
-    const Eigen::Vector3d gap = b.middle - a.middle;
-    const double wide = (a.diameter_m + b.diameter_m) / 2, ratio = a.diameter_m / b.diameter_m;
-    if (!a.end || !b.end || ratio > 1.5 || ratio < 1 / 1.5) return -1;
-    if (gap.norm() > std::min(options_.longest_gap_m, 3 * wide) || a.outwards.dot(b.outwards) > -0.6) return -1;
-    const double across = (gap - gap.dot(a.outwards) * a.outwards).norm();
-    if (across > 0.35 * wide + 0.3 * gap.norm() || gap.dot(a.outwards) < -0.3 * wide) return -1;
-    return gap.norm();
-  }
-
   void close_openings() {
     const std::vector<Opening> openings = openings_of(mesh_, sheets_);
-    struct Pair {
-      double gap_m;
-      std::size_t a, b;
-    };
-    std::vector<Pair> pairs;
-    for (std::size_t i = 0; i < openings.size(); ++i)
-      for (std::size_t j = i + 1; j < openings.size(); ++j)
-        if (const double gap = gap_between(openings[i], openings[j]); gap >= 0) pairs.push_back({gap, i, j});
-    std::sort(pairs.begin(), pairs.end(), [](const Pair& a, const Pair& b) { return a.gap_m < b.gap_m; });
+    const std::vector<FacingEnds> pairs = facing_ends(openings, options_.longest_gap_m);
     std::vector<bool> closed(openings.size());
     std::vector<Eigen::Vector3d> joined, tapered, pinholes, holes;
     double widest_gap = 0, highest_step = 0;
-    for (const Pair& pair : pairs) {
+    for (const FacingEnds& pair : pairs) {
       if (closed[pair.a] || closed[pair.b]) continue;
       closed[pair.a] = closed[pair.b] = true;
       if (const Taper done = taper(mesh_, sheets_, openings[pair.a], openings[pair.b]); done.step_m > 0) {
@@ -267,118 +244,9 @@ class Mender {
     return !bridges.empty();
   }
 
-  /// With edges as long as the calibre asks, vertices on the wall that was given.
-  Mesh finished(const Mesh& fine, std::size_t parts) const {
-    say("coarsening the surface");
-    std::vector<double> edge = wanted_edges(fine);
-    Mesh mesh = decimate(fine, edge, chance_voxels * result_.voxel_m);
-    if (mesh.triangles.size() * parts > options_.most_triangles) {
-      const double longer =
-          std::sqrt(static_cast<double>(mesh.triangles.size() * parts) / static_cast<double>(options_.most_triangles));
-      for (double& e : edge) e *= longer;
-      mesh = decimate(fine, edge, chance_voxels * result_.voxel_m);
-    }
-    onto_wall(mesh);
-    uncross(mesh);
-    return mesh;
-  }
-
-  /// The level set and its coarsening are off by a part of a voxel; the wall is where the mesh said.
-  void onto_wall(Mesh& mesh) const {
-    std::vector<Eigen::Vector3d> normal(mesh.vertices.size(), Eigen::Vector3d::Zero());
-    for (const auto& [a, b, c] : mesh.triangles)
-      for (int v : {a, b, c})
-        normal[v] += (mesh.vertices[b] - mesh.vertices[a]).cross(mesh.vertices[c] - mesh.vertices[a]);
-    std::vector<Eigen::Vector3d> step(mesh.vertices.size(), Eigen::Vector3d::Zero());
-    for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
-      const BoxTree::Nearest near = wall_tree_->nearest(mesh.vertices[v], result_.voxel_m);
-      // Along the normal only: sideways, vertices would come together where the wall has an edge.
-      const Eigen::Vector3d out = normal[v].normalized();
-      if (near.triangle >= 0) step[v] = (near.point - mesh.vertices[v]).dot(out) * out;
-    }
-    // Where a triangle would turn over or go flat, its corners go half as far, and not at all in the end.
-    const std::vector<Eigen::Vector3d> from = mesh.vertices;
-    for (int round = 0; round <= most_returns; ++round) {
-      for (std::size_t v = 0; v < from.size(); ++v) mesh.vertices[v] = from[v] + step[v];
-      std::vector<bool> returns(from.size());
-      bool any = false;
-      for (const auto& t : mesh.triangles) {
-        if (!spoils(t, from, mesh.vertices)) continue;
-        any = true;
-        for (int v : t) returns[v] = true;
-      }
-      if (!any) return;
-      for (std::size_t v = 0; v < from.size(); ++v)
-        if (returns[v]) step[v] *= round + 1 < most_returns ? 0.5 : 0;
-    }
-  }
-
-  static bool spoils(const std::array<int, 3>& t, const std::vector<Eigen::Vector3d>& before,
-                     const std::vector<Eigen::Vector3d>& after) {
-    const auto area = [&](const std::vector<Eigen::Vector3d>& p) {
-      return Eigen::Vector3d((p[t[1]] - p[t[0]]).cross(p[t[2]] - p[t[0]]));
-    };
-    const auto longest2 = [&](const std::vector<Eigen::Vector3d>& p) {
-      return std::max(
-          {(p[t[1]] - p[t[0]]).squaredNorm(), (p[t[2]] - p[t[1]]).squaredNorm(), (p[t[0]] - p[t[2]]).squaredNorm()});
-    };
-    const Eigen::Vector3d was = area(before), is = area(after);
-    const double height = is.norm() / longest2(after), had = was.norm() / longest2(before);
-    return was.dot(is) < most_turn * was.norm() * is.norm() || height < std::min(least_height, 0.5 * had);
-  }
-
-  /// Where triangles cross, the surface is evened out until they do not.
-  void uncross(Mesh& mesh) const {
-    for (int round = 0; round < most_uncrossings; ++round) {
-      const auto pairs = crossing_triangles(mesh);
-      if (pairs.empty()) return;
-      std::vector<bool> moves(mesh.vertices.size());
-      for (const auto& pair : pairs)
-        for (int t : pair)
-          for (int v : mesh.triangles[t]) moves[v] = true;
-      for (int wider = 0; wider <= round / 3; ++wider) {
-        const std::vector<bool> before = moves;
-        for (const auto& t : mesh.triangles)
-          if (before[t[0]] || before[t[1]] || before[t[2]]) moves[t[0]] = moves[t[1]] = moves[t[2]] = true;
-      }
-      std::vector<Eigen::Vector3d> sum(mesh.vertices.size(), Eigen::Vector3d::Zero());
-      std::vector<int> count(mesh.vertices.size(), 0);
-      for (const auto& t : mesh.triangles)
-        for (int k = 0; k < 3; ++k) sum[t[k]] += mesh.vertices[t[(k + 1) % 3]], ++count[t[k]];
-      for (std::size_t v = 0; v < moves.size(); ++v)
-        if (moves[v]) mesh.vertices[v] = (mesh.vertices[v] + sum[v] / count[v]) / 2;
-    }
-  }
-
-  std::vector<double> wanted_edges(const Mesh& fine) const {
-    const BoxTree tree(fine);
-    const std::vector<double> diameter = calibres(fine, tree, calibre_stride);
-    std::vector<double> edge(fine.vertices.size(), 0);
-    std::vector<int> count(fine.vertices.size(), 0);
-    for (std::size_t i = 0; i < diameter.size(); ++i) {
-      if (diameter[i] <= 0) continue;
-      for (int v : fine.triangles[i * calibre_stride]) edge[v] += diameter[i], ++count[v];
-    }
-    for (std::size_t v = 0; v < edge.size(); ++v)
-      if (count[v]) edge[v] /= count[v];
-    // Vertices that none of the triangles looked at has take their neighbours'.
-    for (int round = 0; round < 2; ++round)
-      for (const auto& t : fine.triangles)
-        for (int k = 0; k < 3; ++k)
-          if (const int from = t[k], to = t[(k + 1) % 3]; edge[from] > 0 && edge[to] == 0) edge[to] = edge[from];
-    for (double& e : edge) {
-      const double radius = e > 0 ? e / 2 : mm;
-      e = std::clamp(cell_at_1_mm_m * std::pow(radius / mm, 0.75), 1.2 * result_.voxel_m,
-                     std::max(longest_edge_m, 1.2 * result_.voxel_m));
-    }
-    return edge;
-  }
-
   Mesh mesh_;
   const MendOptions& options_;
   Sheets sheets_;
-  Mesh wall_;  ///< of mesh_, what borders on the outside
-  const BoxTree* wall_tree_ = nullptr;
   Mended result_;
   std::vector<CutEnd> cut_ends_;
   int left_out_ = 0;
@@ -387,31 +255,5 @@ class Mender {
 }  // namespace
 
 Mended mend(Mesh mesh, const MendOptions& options) { return Mender(std::move(mesh), options).run(); }
-
-std::vector<Mesh> components_of(const Mesh& mesh) {
-  const Sheets sheets = sheets_of(mesh);
-  std::vector<Mesh> parts(static_cast<std::size_t>(sheets.pieces));
-  std::vector<int> index(mesh.vertices.size(), -1), owner(mesh.vertices.size(), -1);
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    Mesh& part = parts[sheets.piece[t]];
-    std::array<int, 3> renamed;
-    for (int k = 0; k < 3; ++k) {
-      const int v = mesh.triangles[t][k];
-      if (owner[v] != sheets.piece[t]) {
-        owner[v] = sheets.piece[t];
-        index[v] = static_cast<int>(part.vertices.size());
-        part.vertices.push_back(mesh.vertices[v]);
-      }
-      renamed[k] = index[v];
-    }
-    part.triangles.push_back(renamed);
-  }
-  std::vector<std::pair<double, std::size_t>> order;
-  for (std::size_t p = 0; p < parts.size(); ++p) order.push_back({-volume_m3(parts[p]), p});
-  std::sort(order.begin(), order.end());
-  std::vector<Mesh> sorted;
-  for (const auto& [volume, p] : order) sorted.push_back(std::move(parts[p]));
-  return sorted;
-}
 
 }  // namespace ostium
