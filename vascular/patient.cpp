@@ -2,6 +2,7 @@
 
 #include "vascular/anatomy/labelling/shares.h"
 #include "vascular/in_parts.h"
+#include "vascular/patient_tree.h"
 #include "vascular/shape/contour.h"
 
 namespace ostium {

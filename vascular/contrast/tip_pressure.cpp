@@ -1,4 +1,4 @@
-#include "vascular/heart/tip_pressure.h"
+#include "vascular/contrast/tip_pressure.h"
 
 #include <algorithm>
 #include <cmath>
