@@ -7,12 +7,12 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
-#include "data/formats/load_error.h"
 #include "data/catalogue/case/mesh_picture.h"
-#include "vascular/mend/calibre.h"
-#include "vascular/mend/double_wall.h"
-#include "vascular/mend/smooth.h"
-#include "vascular/mend/units.h"
+#include "data/formats/load_error.h"
+#include "vascular/geometry/repair/calibre.h"
+#include "vascular/geometry/repair/double_wall.h"
+#include "vascular/geometry/repair/smooth.h"
+#include "vascular/geometry/repair/units.h"
 #include "vascular/mesh.h"
 #include "vascular/patient_frame.h"
 #include "vascular/surface_check.h"

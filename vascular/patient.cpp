@@ -1,7 +1,8 @@
 #include "vascular/patient.h"
 
-#include "vascular/import/shares.h"
+#include "vascular/anatomy/labelling/shares.h"
 #include "vascular/in_parts.h"
+#include "vascular/patient_tree.h"
 #include "vascular/shape/contour.h"
 
 namespace ostium {

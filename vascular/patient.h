@@ -18,7 +18,7 @@ struct Patient {
 /// Takes about 2 s. Throws std::invalid_argument, as build_anatomy and check(Lesion) do.
 Patient make_patient(const AnatomyParameters& parameters, const std::vector<Lesion>& lesions);
 
-/// Of someone's own lumen: `anatomy` runs through it (import/recognise.h), `lumen` is closed, in the patient frame, at
+/// Of someone's own lumen: `anatomy` runs through it (anatomy/labelling/recognise.h), `lumen` is closed, in the patient frame, at
 /// end-diastole, and its triangles stay as they are. `frames`: its vertices through one beat from the R wave on
 /// (frames[f][v], beat_frames of them, the first those of `lumen`); empty: it beats as we know that hearts do. Throws
 /// std::invalid_argument as check(Lesion) does.

@@ -44,7 +44,7 @@ ContrastReport circulate(const PhysiologyModel& model, const PhysiologyInputs& i
   const FlowInputs lumen{now, s.radius_m, in.occupied_m, in.hyperaemia};
   step(model.flow, lumen, dt, s.flow, x.flow);
   step(model.ischaemia, supply(model.flow, s.flow), dt, s.ischaemia);
-  return step(model.contrast, model.flow, s.flow, lumen, s.heart.ejection_m3_s, in.contrast, dt, s.contrast,
+  return step(model.contrast, {model.flow, s.flow, lumen, s.heart.ejection_m3_s}, in.contrast, dt, s.contrast,
               x.contrast);
 }
 

@@ -3,10 +3,10 @@
 ///
 /// Called every step; the beat advances with each, blood and contrast every `circulation_step_s`.
 #include "vascular/contrast/contrast.h"
+#include "vascular/contrast/tip_pressure.h"
 #include "vascular/flow/flow.h"
 #include "vascular/heart/ecg.h"
 #include "vascular/heart/heart.h"
-#include "vascular/heart/tip_pressure.h"
 
 namespace ostium {
 

@@ -54,11 +54,17 @@ struct TreatmentReport {
   bool tore = false;     ///< an injury came about in this step
 };
 
-/// One step of up to 10 ms. Sets `physiology`'s radii and lets contrast out through injuries; `occupied_m` (#cells)
-/// becomes what fills the lumen. Does not allocate after the first call with the same scratch.
-TreatmentReport step(const TreatmentModel& model, const FlowTree& tree, const TreatmentInputs& inputs, double dt_s,
-                     TreatmentState& state, PhysiologyState& physiology, std::vector<double>& occupied_m,
-                     TreatmentScratch& scratch);
+/// What a treatment acts on: `physiology`'s radii are set and contrast goes out through injuries; `occupied_m` (#cells)
+/// becomes what fills the lumen.
+struct TreatedVessels {
+  const FlowTree& tree;
+  PhysiologyState& physiology;
+  std::vector<double>& occupied_m;
+};
+
+/// One step of up to 10 ms. Does not allocate after the first call with the same scratch.
+TreatmentReport step(const TreatmentModel& model, const TreatmentInputs& inputs, double dt_s, TreatmentState& state,
+                     const TreatedVessels& vessels, TreatmentScratch& scratch);
 
 template <class S, class Visit>
 void for_each_field(S& s, Visit&& visit) requires requires {

@@ -157,7 +157,7 @@ StentNumbers measure(const Plan& plan, const StentModel& model, const StentState
 TreatmentReport Bedside::step(double dt_s) {
   device.shaft_m = shaft_m;
   const TreatmentReport report =
-      ostium::step(treatment, physiology.flow.tree, device, dt_s, state, blood, inputs.occupied_m, scratch);
+      ostium::step(treatment, device, dt_s, state, {physiology.flow.tree, blood, inputs.occupied_m}, scratch);
   inputs.heart.dilation = treatment.drugs.nitrate_lowers * state.drugs.nitrate;
   inputs.hyperaemia = state.drugs.adenosine;
   ostium::step(physiology, inputs, dt_s, blood, blood_scratch);

@@ -44,9 +44,11 @@ const Scene& PatientScene::at(const PhysiologyState& state, std::span<const doub
   shape_.at(state.radius_m, phase, breath, vertices_);
   lumen.p_P = points_of(vertices_);
   const FlowInputs in{{}, state.radius_m, occupied_m, 0};
-  opacify(map_, physiology_.flow, in, physiology_.contrast, state.contrast, phase, breath,
-          {lumen.contrast.iodine_kg_m3.data(), static_cast<std::size_t>(lumen.contrast.iodine_kg_m3.size())},
-          lumen.contrast.p_PC, lumen.contrast.along_kg_m2, scratch_);
+  opacify(map_, {physiology_.flow, physiology_.contrast, state.contrast, in, phase, breath},
+          {{lumen.contrast.iodine_kg_m3.data(), static_cast<std::size_t>(lumen.contrast.iodine_kg_m3.size())},
+           lumen.contrast.p_PC,
+           lumen.contrast.along_kg_m2},
+          scratch_);
   return scene_;
 }
 

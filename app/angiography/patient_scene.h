@@ -1,7 +1,7 @@
 #pragma once
 /// A patient under X-rays: thorax and lumen as bodies, carried by beat and breath, with the iodine that is in them.
 #include "fluoro/scene.h"
-#include "vascular/contrast/lumen_map.h"
+#include "vascular/contrast/opacity.h"
 #include "vascular/patient.h"
 #include "vascular/physiology.h"
 #include "vascular/plaque/wall_shape.h"

@@ -327,13 +327,13 @@ std::vector<int> add_devices(const std::vector<SessionTool>& tools, std::uint64_
     balloon_of.push_back(-1);
     if (!tool.instrument.balloon) continue;
     const CarriedBalloon& carried = *tool.instrument.balloon;
-    BalloonModel balloon =
-        make_balloon(carried.compliant ? Compliance::semi : Compliance::non, carried.nominal_m, carried.length_m);
+    BalloonModel balloon = make_balloon(carried.compliant ? Compliance::semi : Compliance::non, carried.nominal_m,
+                                        carried.length_m, carried.design);
     balloon.name = tool.instrument.title;
     balloon.nominal_Pa = carried.nominal_Pa, balloon.rated_Pa = carried.rated_Pa;
     balloon.seed = seed + model.balloons.size() + 1;
     // Under a stent it is as small as the makers' own balloons are; without one it is what its shaft shows.
-    if (!tool.instrument.stent) {
+    if (!tool.instrument.stent && !carried.own_folds) {
       const double larger_m = balloon.refolded_m - balloon.folded_m;
       balloon.folded_m = radius_between_markers(tool.instrument);
       balloon.refolded_m = balloon.folded_m + larger_m;
@@ -342,7 +342,8 @@ std::vector<int> add_devices(const std::vector<SessionTool>& tools, std::uint64_
     try {
       if (tool.instrument.stent) {
         on = static_cast<int>(model.stents.size());
-        model.stents.push_back(make_stent(tool.instrument.stent->nominal_m, tool.instrument.stent->length_m));
+        const CarriedStent& stent = *tool.instrument.stent;
+        model.stents.push_back(make_stent(stent.nominal_m, stent.length_m, stent.design));
         check(model.stents.back());
       }
       check(balloon);

@@ -351,8 +351,9 @@ void treat(const SessionModel& model, const SessionInputs& inputs, bool R_wave, 
     look(bedside, state.rods, state.treatment, report.rods, state.blood.heart.phase, breath(model, state), *x.bedside,
          state.bedside);
   press_with_wire(bedside, report.rods, model.step_s(), state.bedside);
-  report.treatment = step(model.treatment, model.physiology.flow.tree, treatment_inputs(inputs.bedside, state.bedside),
-                          model.step_s(), state.treatment, state.blood, x.physiology_inputs.occupied_m, x.treatment);
+  report.treatment =
+      step(model.treatment, treatment_inputs(inputs.bedside, state.bedside), model.step_s(), state.treatment,
+           {model.physiology.flow.tree, state.blood, x.physiology_inputs.occupied_m}, x.treatment);
   state.bedside.blocked = report.treatment.blocked;
   if (report.treatment.deployed >= 0) tie(model, report.treatment.deployed, state);
   hold_balloon(bedside, state.rods, report.treatment.balloon, moment(model, state, state.rods.step), state.bedside);

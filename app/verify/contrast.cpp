@@ -63,7 +63,7 @@ GateResult split() {
         for (int c = branch.first; c < branch.last; ++c) kg += s.sheath_kg[k * flow.tree.cells.size() + c];
       return kg;
     };
-    step(model, flow, blood, lumen, 0, in, 8e-3, s, scratch);
+    step(model, {flow, blood, lumen, 0}, in, 8e-3, s, scratch);
     if (n == 30) through = {in_limb(1), in_limb(2)};  // while it runs in, and before any runs out
   }
   const double reference = blood.flow_m3_s[limb] / blood.flow_m3_s[flow.tree.branches[2].first];

@@ -2,137 +2,15 @@
 
 #include <algorithm>
 #include <cassert>
-#include <tuple>
-#include <utility>
 
 #include "core/solve/chain_block.h"
+#include "core/solve/chain_factors.h"
+#include "core/solve/chain_walks.h"
 #include "core/tunables.h"
 
 namespace ostium {
 
 namespace {
-
-constexpr int halves = 2;
-
-int middle(const Chain& chain) { return (chain.first + chain.elements) / 2; }
-
-/// The way of one lane: from one end of one chain towards its middle. A lane with fewer elements starts later, and
-/// idles until then.
-struct Walk {
-  const Chain* chain;
-  bool forward;  ///< from the base
-  int blocks;    ///< elements before the middle
-  int wait;      ///< steps before the first
-
-  int element(int t) const { return forward ? chain->first + t - wait : chain->elements - 1 - (t - wait); }
-};
-
-/// The entry, in a field's padding, of a regular block without coupling: K and the compliance behind are identities,
-/// all else is zero.
-/// There are two, as behind is ahead for lanes that walk the other way; `padded` leaves four entries for them.
-int idle_entry(const Chain& chain, bool forward) { return chain.stiffness.stride() - (forward ? 4 : 2); }
-
-void write_idle_entries(Chain& chain) {
-  for (bool forward : {true, false}) {
-    const int i = idle_entry(chain, forward);
-    store6(chain.stiffness, i, identity3<double>());
-    store6(chain.compliance, forward ? i : i + 1, identity3<double>());
-    for (Roll& roll : chain.rolls) roll.stiffness.at(0)[i] = 1;
-  }
-}
-
-/// Numbers that an elimination step reads: those of its element, of the node behind it and of the node ahead.
-enum Number {
-  at_K = 0,
-  at_arm = 6,
-  at_torque = 9,
-  at_gap = 12,
-  at_P_behind = 15,
-  at_H = 21,
-  at_m = 27,
-  at_P_ahead = 30,
-  numbers = 36
-};
-/// And of each roll.
-enum RollNumber {
-  at_k = 0,
-  at_b = 1,
-  at_beside = 4,
-  at_roll_torque = 5,
-  at_u = 6,
-  at_w = 9,
-  at_c = 12,
-  roll_numbers = 13
-};
-
-/// The four lanes of a solve, and what they read at a step.
-template <int R>
-class Walks {
- public:
-  Walks(const Chain& first, const Chain& second) {
-    for (int l = 0; l < lane_count; ++l) {
-      const bool forward = l % halves == 0;
-      const Chain& chain = l < halves ? first : second;
-      lanes_[l] = {&chain, forward, forward ? middle(chain) - chain.first : chain.elements - 1 - middle(chain), 0};
-      direction_[l] = forward ? 1.0 : -1.0;
-      steps_ = std::max(steps_, lanes_[l].blocks);
-    }
-    for (int l = 0; l < lane_count; ++l) {
-      lanes_[l].wait = steps_ - lanes_[l].blocks;
-      // Seen from an element, the node behind is its own when walking forward, the next one when walking back.
-      const Chain& c = *lanes_[l].chain;
-      const bool forward = lanes_[l].forward;
-      const int behind = forward ? 0 : 1, ahead = 1 - behind;
-      const auto from = [&](int number, const auto& field, int components, int shift) {
-        for (int k = 0; k < components; ++k) source_[number + k][l] = field.at(k) + shift;
-      };
-      from(at_K, c.stiffness, 6, 0);
-      from(at_arm, c.arm, 3, 0);
-      from(at_torque, c.torque, 3, 0);
-      from(at_gap, c.gap, 3, 0);
-      from(at_P_behind, c.compliance, 6, behind);
-      from(at_H, c.joint_stiffness, 6, ahead);
-      from(at_m, c.joint_moment, 3, ahead);
-      from(at_P_ahead, c.compliance, 6, ahead);
-      for (int m = 0; m < R; ++m) {
-        const Roll& roll = c.rolls[m];
-        const int at = numbers + m * roll_numbers;
-        from(at + at_k, roll.stiffness, 1, 0);
-        from(at + at_b, roll.with_turn, 3, 0);
-        from(at + at_beside, roll.beside, 1, 0);
-        from(at + at_roll_torque, roll.torque, 1, 0);
-        from(at + at_u, forward ? roll.ahead : roll.behind, 3, ahead);
-        from(at + at_w, forward ? roll.behind : roll.ahead, 3, ahead);
-        from(at + at_c, roll.both, 1, ahead);
-      }
-    }
-  }
-
-  int steps() const { return steps_; }
-  Lanes direction() const { return direction_; }
-  const Walk& lane(int l) const { return lanes_[l]; }
-
-  /// Where the lanes are at step t.
-  void move_to(int t) {
-    for (int l = 0; l < lane_count; ++l)
-      at_[l] = t < lanes_[l].wait ? idle_entry(*lanes_[l].chain, lanes_[l].forward) : lanes_[l].element(t);
-  }
-  Lanes read(int n) const {
-    return Lanes{source_[n][0][at_[0]], source_[n][1][at_[1]], source_[n][2][at_[2]], source_[n][3][at_[3]]};
-  }
-  V3<Lanes> vector(int n) const { return {read(n), read(n + 1), read(n + 2)}; }
-  S3<Lanes> symmetric(int n) const {
-    return {read(n), read(n + 1), read(n + 2), read(n + 3), read(n + 4), read(n + 5)};
-  }
-  static int of_roll(int m, int number) { return numbers + m * roll_numbers + number; }
-
- private:
-  Walk lanes_[lane_count];
-  Lanes direction_{};
-  int steps_ = 0;
-  const double* source_[numbers + R * roll_numbers][lane_count];
-  int at_[lane_count];
-};
 
 /// The row of an element by itself, from its numbers; read(number) and read_roll(roll, number) give one each.
 template <class T, int R, class Read, class ReadRoll>
@@ -196,8 +74,6 @@ Row<double, R> middle_row(const Chain& c) {
   return row<double, R>(
       load6<double>(c.compliance, m) + load6<double>(c.compliance, m + 1), [&](int n) { return *from[n]; }, of_roll);
 }
-
-constexpr int between_halts = 8;  ///< steps: a halt is as large as a block, and mostly read a few steps early
 
 /// Towards the middle from step `from` on, or from the last halt before it: fills the blocks. What all lanes leave on
 /// their middle element.
@@ -307,74 +183,6 @@ void solve_with(Chain& first, Chain* second, int same, ChainFactors& factors) {
   if (second) second->definite = solve_middle(*second, halves, carried, minor, middle_block, turn, force);
   substitute_back(walks, blocks, first, second, turn, force);
 }
-
-}  // namespace
-
-struct ChainFactors::Blocks {
-  template <int R>
-  struct OfRolls {
-    std::vector<ChainBlock<R>> blocks;
-    std::vector<ChainHalt<R>> halts;
-  };
-  std::tuple<OfRolls<0>, OfRolls<1>, OfRolls<2>, OfRolls<3>> by_rolls;
-};
-
-ChainFactors::ChainFactors() : blocks_(std::make_unique<Blocks>()) {}
-ChainFactors::~ChainFactors() = default;
-ChainFactors::ChainFactors(ChainFactors&&) noexcept = default;
-ChainFactors& ChainFactors::operator=(ChainFactors&&) noexcept = default;
-
-template <int R>
-std::vector<ChainBlock<R>>& ChainFactors::blocks() {
-  return std::get<R>(blocks_->by_rolls).blocks;
-}
-template <int R>
-const std::vector<ChainBlock<R>>& ChainFactors::blocks() const {
-  return std::get<R>(blocks_->by_rolls).blocks;
-}
-template <int R>
-std::vector<ChainHalt<R>>& ChainFactors::halts() {
-  return std::get<R>(blocks_->by_rolls).halts;
-}
-
-void ChainFactors::resize(int elements, int rolls) {
-  const auto make_room = [&](auto& own) {
-    own.blocks.resize(std::max<std::size_t>(own.blocks.size(), elements / 2 + 1));
-    own.halts.resize(own.blocks.size() / between_halts + 1);
-  };
-  rolls == 0   ? make_room(std::get<0>(blocks_->by_rolls))
-  : rolls == 1 ? make_room(std::get<1>(blocks_->by_rolls))
-  : rolls == 2 ? make_room(std::get<2>(blocks_->by_rolls))
-               : make_room(std::get<3>(blocks_->by_rolls));
-}
-
-Roll::Roll(int elements)
-    : stiffness(elements + 1),
-      beside(elements + 1),
-      with_turn(elements + 1),
-      ahead(elements + 1),
-      behind(elements + 1),
-      both(elements + 1),
-      torque(elements + 1),
-      turn(elements + 1) {}
-
-Chain::Chain(int elements, int rolls)
-    : elements(elements),
-      stiffness(elements + 1),
-      joint_stiffness(elements + 1),
-      joint_moment(elements + 1),
-      arm(elements + 1),
-      compliance(elements + 1),
-      torque(elements + 1),
-      gap(elements + 1),
-      rolls(rolls, Roll(elements)),
-      roll_count(rolls),
-      turn(elements + 1),
-      force(elements + 1) {
-  write_idle_entries(*this);
-}
-
-namespace {
 
 void solve_from(int same, Chain& first, Chain* second, ChainFactors& factors) {
   switch (first.roll_count) {

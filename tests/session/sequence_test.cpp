@@ -10,7 +10,7 @@
 #include "app/session/run.h"
 #include "data/catalogue/case/anatomy_file.h"
 #include "tests/session/tube_vessel.h"
-#include "vascular/import/recognise.h"
+#include "vascular/anatomy/labelling/recognise.h"
 #include "vascular/written_mesh.h"
 
 namespace ostium {

@@ -1,5 +1,5 @@
 /// Known damage to our own anatomy is found and mended: the radii come back.
-#include "vascular/mend/mend.h"
+#include "vascular/geometry/repair/mend.h"
 
 #include <gtest/gtest.h>
 
@@ -10,11 +10,11 @@
 #include "tests/vascular/shapes.h"
 #include "vascular/anatomy/lesion.h"
 #include "vascular/box_tree.h"
-#include "vascular/mend/bridges.h"
-#include "vascular/mend/decimate.h"
-#include "vascular/mend/sheets.h"
-#include "vascular/mend/units.h"
-#include "vascular/mend/winding.h"
+#include "vascular/geometry/repair/bridges.h"
+#include "vascular/geometry/repair/decimate.h"
+#include "vascular/geometry/repair/sheets.h"
+#include "vascular/geometry/repair/units.h"
+#include "vascular/geometry/repair/winding.h"
 #include "vascular/shape/contour.h"
 #include "vascular/surface_check.h"
 

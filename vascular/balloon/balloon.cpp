@@ -17,7 +17,6 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 constexpr int n = balloon_spheres;
-constexpr double shaft_m = 0.28e-3;  // radius of the inner tube, where the shoulders end
 constexpr double fold_share = 0.25;  // of the unfolding pressure that opens the folds at first
 constexpr double sealed_m = 20e-6;   // a gap as narrow
 constexpr double soft_m = 30e-6;     // over which a balloon and a stent in the wall come to bear
@@ -31,7 +30,7 @@ double unfolded_m(const BalloonModel& m) {
 
 /// What the skin holds at a radius, and its slope.
 WallPressure skin(const BalloonModel& m, double share, bool was_filled, double a) {
-  const double full = shaft_m + share * (unfolded_m(m) - shaft_m);
+  const double full = m.shaft_m + share * (unfolded_m(m) - m.shaft_m);
   const double folded = std::min(was_filled ? m.refolded_m : m.folded_m, full);
   if (a >= full) {
     const double slope = 2 / (m.growth_m_Pa * std::max(share, 0.3));
@@ -46,12 +45,12 @@ WallPressure skin(const BalloonModel& m, double share, bool was_filled, double a
 
 }  // namespace
 
-BalloonModel make_balloon(Compliance compliance, double nominal_m, double length_m) {
-  BalloonModel m;
+BalloonModel make_balloon(Compliance compliance, double nominal_m, double length_m, const BalloonDesign& design) {
+  BalloonModel m{design, {}};
   const bool semi = compliance == Compliance::semi;
   m.nominal_m = nominal_m, m.length_m = length_m;
   m.nominal_Pa = (semi ? 8 : 12) * atm, m.rated_Pa = (semi ? 14 : 20) * atm;
-  m.growth_m_Pa = nominal_m / 3e-3 * (semi ? 0.25e-3 / 6 : 0.10e-3 / 8) / atm;
+  if (m.growth_m_Pa == 0) m.growth_m_Pa = nominal_m / 3e-3 * (semi ? 0.25e-3 / 6 : 0.10e-3 / 8) / atm;
   m.name = fmt::format("{} {:g} x {:g} mm", semi ? "semi-compliant" : "non-compliant", 1e3 * nominal_m, 1e3 * length_m);
   check(m);
   return m;
@@ -78,7 +77,7 @@ BalloonState make_balloon_state(const BalloonModel& m) {
   BalloonState s;
   s.radius_m.assign(n, 0);
   for (int i = 0; i < n; ++i) {
-    s.radius_m[i] = std::min(m.folded_m, shaft_m + sphere_share(m, i) * (m.folded_m - shaft_m));
+    s.radius_m[i] = std::min(m.folded_m, m.shaft_m + sphere_share(m, i) * (m.folded_m - m.shaft_m));
     s.volume_m3 += pi * s.radius_m[i] * s.radius_m[i] * spacing(m);
   }
   s.largest_m = m.folded_m;
@@ -169,7 +168,7 @@ BalloonReport step(const BalloonModel& m, const PlaqueModel& plaque, const Ballo
     x.middle[i] = c + sum.slope_Pa_m - x.below[i] - x.above[i];
     x.right[i] = c * a - sum.p_Pa + sum.slope_Pa_m * a;
     x.unit[i] = 1;
-    if (i == 0 || i == n - 1) x.middle[i] = 1, x.below[i] = x.above[i] = 0, x.right[i] = shaft_m, x.unit[i] = 0;
+    if (i == 0 || i == n - 1) x.middle[i] = 1, x.below[i] = x.above[i] = 0, x.right[i] = m.shaft_m, x.unit[i] = 0;
   }
   solve(x);
   // New radii are right + p unit; p so that the volume takes what came through the shaft.
@@ -188,7 +187,7 @@ BalloonReport step(const BalloonModel& m, const PlaqueModel& plaque, const Ballo
     s.volume_m3 += dt * (gauge - s.pressure_Pa) / R;
   }
   for (int i = 0; i < n; ++i) {
-    s.radius_m[i] = std::max(shaft_m, x.right[i] + s.pressure_Pa * x.unit[i]);
+    s.radius_m[i] = std::max(m.shaft_m, x.right[i] + s.pressure_Pa * x.unit[i]);
     s.largest_m = std::max(s.largest_m, s.radius_m[i]);
   }
   if (s.burst > 0) {

@@ -11,6 +11,7 @@
 #include <span>
 #include <string>
 
+#include "vascular/balloon/balloon_design.h"
 #include "vascular/plaque/plaque.h"
 
 namespace ostium {
@@ -20,22 +21,14 @@ enum class Compliance { semi, non };
 /// Typical charts of 3.0 mm balloons, for want of makers' (from memory, to be verified): semi-compliant nominal at 8
 /// atm, rated 14, 3.0 -> 3.25; non-compliant nominal 12, rated 20, 3.0 -> 3.1; growth of 15 % over 8 atm was measured
 /// on older ones (AJC 1986;57:26), at most 30 and 10 % are what the classes mean. Other sizes in proportion.
-struct BalloonModel {
+struct BalloonModel : BalloonDesign {
   std::string name;
   double nominal_m = 3e-3, length_m = 15e-3;  ///< diameter; between the markers' middles
   double nominal_Pa = 8 * 101325, rated_Pa = 14 * 101325;
-  double growth_m_Pa = 0;       ///< of the diameter
-  double folded_m = 0.45e-3;    ///< radius before it was ever filled, and
-  double refolded_m = 0.55e-3;  ///< emptied again
-  double shoulder_m = 2.2e-3;   ///< beyond each marker, over which it falls to the shaft
-  double unfolding_Pa = 0.6 * 101325;
-  double filling_Pa_s_m3 = 6e12;                             ///< R: 8 s under vacuum for 3.0 x 15 [usual, from memory]
-  double viscous_Pa_s_m = 3e8;                               ///< c [estimate: a waist gives way in about half a second]
-  double friction = 0.12, grip_N_m = 60, slide_N_s_m = 200;  ///< against the wall; of the shaft behind it [estimates]
-  double iodine_kg_m3 = 175;                                 ///< half contrast, half saline
-  std::uint64_t seed = 0;                                    ///< of the pressure at which it bursts
+  double iodine_kg_m3 = 175;  ///< half contrast, half saline
+  std::uint64_t seed = 0;     ///< of the pressure at which it bursts
 };
-BalloonModel make_balloon(Compliance compliance, double nominal_m, double length_m);
+BalloonModel make_balloon(Compliance compliance, double nominal_m, double length_m, const BalloonDesign& design = {});
 /// Throws std::invalid_argument naming what is out of range.
 void check(const BalloonModel& model);
 /// Unconfined, m; for gauge pressures from the unfolding one up.

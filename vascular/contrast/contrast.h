@@ -83,11 +83,17 @@ struct ContrastScratch {
   CarryScratch carry;
 };
 
-/// One step of up to 10 ms, with the flow of that step. `leaving_m3_s` (#cells, or empty) is drawn out of cells through
-/// injuries.
-ContrastReport step(const ContrastModel& model, const FlowModel& flow, const FlowState& blood, const FlowInputs& lumen,
-                    double ejection_m3_s, const ContrastInputs& inputs, double dt_s, ContrastState& state,
-                    ContrastScratch& scratch);
+/// The blood that carries contrast in a step.
+struct BloodNow {
+  const FlowModel& flow;
+  const FlowState& state;
+  const FlowInputs& lumen;
+  double ejection_m3_s = 0;
+};
+
+/// One step of up to 10 ms, with the flow of that step.
+ContrastReport step(const ContrastModel& model, const BloodNow& now, const ContrastInputs& inputs, double dt_s,
+                    ContrastState& state, ContrastScratch& scratch);
 
 /// Mean over the section of a coronary cell, kg/m3; `area_m2` is what is left for blood.
 double concentration(const ContrastState& state, const FlowModel& flow, int cell, double area_m2);

@@ -39,17 +39,4 @@ struct LumenMap {
 };
 LumenMap make_lumen_map(const Patient& patient, const FlowModel& flow);
 
-struct OpacityScratch {
-  std::vector<float> coronary, aorta;
-  Eigen::Matrix3Xf coronary_p, aorta_p, coronary_along, aorta_along;
-};
-
-/// Iodine at each vertex, kg/m3, and the point of the centreline that it belongs to, metres, at a phase and
-/// a depth of breath.
-/// `along`: the integral of concentration times the centreline's element up to that point, kg/m2 (fluoro/scene.h says
-/// what for). All (#vertices). `radius_m`, `occupied_m`: of FlowInputs.
-void opacify(const LumenMap& map, const FlowModel& flow, const FlowInputs& lumen, const ContrastModel& model,
-             const ContrastState& state, double phase, double breath, std::span<float> iodine_kg_m3,
-             Eigen::Ref<Eigen::Matrix3Xf> centres, Eigen::Ref<Eigen::Matrix3Xf> along, OpacityScratch& scratch);
-
 }  // namespace ostium

@@ -12,11 +12,7 @@ namespace ostium {
 namespace {
 
 constexpr double pi = std::numbers::pi;
-constexpr double locks = 0.92;             // of the widest radius: from there on the struts themselves are drawn out
-constexpr double lock_stiffening = 30;     // times the hoop's
-constexpr int relaxations = 3;             // rounds a step
-constexpr double pressed_together = 0.55;  // links give way to this share of their length
-constexpr double link_elastic = 0.04;
+constexpr int relaxations = 3;  // rounds a step
 
 double half_chord(const StentModel& m, double r) { return 2 * r * std::sin(pi / (2 * m.crowns)); }
 
@@ -29,10 +25,10 @@ double ring_height(const StentModel& m, double r) {
 WallPressure hoop(const StentModel& m, double rest, double r) {
   double e = std::clamp((r - rest) / rest, -m.yield, m.yield);
   WallPressure out{m.hoop_Pa * e, m.hoop_Pa / rest};
-  const double limit = locks * m.widest_m();
+  const double limit = m.locks_at * m.widest_m();
   if (r > limit) {
-    out.p_Pa += lock_stiffening * m.hoop_Pa * (r - limit) / limit;
-    out.slope_Pa_m += lock_stiffening * m.hoop_Pa / limit;
+    out.p_Pa += m.lock_stiffening * m.hoop_Pa * (r - limit) / limit;
+    out.slope_Pa_m += m.lock_stiffening * m.hoop_Pa / limit;
   }
   return out;
 }
@@ -66,11 +62,11 @@ bool between(const StentModel& m, const StentState& s, double s_m, int& ring, do
 double StentModel::strut_length_m() const { return std::hypot(height_m, half_chord(*this, crimped_m)); }
 double StentModel::widest_m() const { return strut_length_m() / (2 * std::sin(pi / (2 * crowns))); }
 
-StentModel make_stent(double nominal_m, double length_m) {
-  StentModel m;
+StentModel make_stent(double nominal_m, double length_m, const StentDesign& design) {
+  StentModel m{design, {}};
   m.nominal_m = nominal_m, m.length_m = length_m;
-  m.crowns = nominal_m > 3.3e-3 ? 9 : 6;  // 3 links fit both
-  m.rings = std::max(3, static_cast<int>(std::lround((length_m - m.height_m) / 1.3e-3)) + 1);
+  if (m.crowns == 0) m.crowns = nominal_m > 3.3e-3 ? 9 : 6;  // 3 links fit both
+  if (m.rings == 0) m.rings = std::max(3, static_cast<int>(std::lround((length_m - m.height_m) / 1.3e-3)) + 1);
   m.name = fmt::format("cobalt-chromium stent {:g} x {:g} mm", 1e3 * nominal_m, 1e3 * length_m);
   check(m);
   return m;
@@ -200,8 +196,8 @@ void crush(const StentModel& m, const StentInputs& in, StentState& s) {
     if (k + 1 == m.rings) return;
     double next = 1;
     for (int j = 0; j < around; ++j) next = std::min(next, s.along_m[(k + 1) * around + j]);
-    const double least = pressed_together * m.pitch_m();
-    s.link_m[k] = std::min(s.link_m[k], std::max(least, (next - edge) / (1 - link_elastic)));
+    const double least = m.pressed_together * m.pitch_m();
+    s.link_m[k] = std::min(s.link_m[k], std::max(least, (next - edge) / (1 - m.link_elastic)));
     edge += least;
   }
 }

@@ -10,28 +10,21 @@
 /// foreshortens by its ends. Points find their place along the vessel by relaxation of struts and links (springs),
 /// links that are pressed together stay so.
 #include "vascular/balloon/balloon.h"
+#include "vascular/stent/stent_design.h"
 
 namespace ostium {
 
-struct StentModel {
+/// A stent of one size. `make_stent` sets the crowns and rings that its design leaves open.
+struct StentModel : StentDesign {
   std::string name;
   double nominal_m = 3e-3, length_m = 18e-3;  ///< diameter open; length crimped
-  int rings = 14, crowns = 6, links = 3;      ///< crowns that point distally, per ring; links between two rings
-  double strut_m = 81e-6;                     ///< thickness (XIENCE Sierra)
-  double height_m = 1.1e-3;                   ///< of a ring, crimped
-  double crimped_m = 0.45e-3;                 ///< radius
-  double hoop_Pa = 30 * 101325;               ///< K
-  double yield = 0.036;         ///< y: springs back by about as much (bench: 1.5 to 16 %, CCI 2000;50:112)
-  double viscous_Pa_s_m = 3e8;  ///< of the wall about it
-  double held_N = 1.5;          ///< crimped on its balloon [estimate]
-  double crush_N = 0.5;         ///< longitudinal load that presses rings together (Prabhu: 0.49 N)
 
   double strut_length_m() const;
   double pitch_m() const { return (length_m - height_m) / (rings - 1); }
   double widest_m() const;  ///< radius at which its struts are straight
   int points() const { return rings * 2 * crowns; }
 };
-StentModel make_stent(double nominal_m, double length_m);
+StentModel make_stent(double nominal_m, double length_m, const StentDesign& design = {});
 void check(const StentModel& model);  ///< throws std::invalid_argument
 
 /// Where a point of a deployed stent is tied to the wall.

@@ -1,11 +1,9 @@
 #pragma once
 /// The centreline-sphere tree: spheres fitted into the lumen, grouped in branches (P. Korzeniowski's thesis, 2015,
 /// 5.3.4.3). Flow, contrast and measuring go along it.
+#include <Eigen/Geometry>
 #include <string>
 #include <vector>
-
-#include "vascular/anatomy/lesion.h"
-#include "vascular/beat/moving_lumen.h"
 
 namespace ostium {
 
@@ -26,19 +24,5 @@ struct SphereTree {
   std::vector<TreeBranch> branches;
   std::size_t spheres() const;
 };
-
-/// One branch each of the anatomy's names, its spheres every half radius, on the lesions' own centreline; radii from
-/// the surface. `wall` is at end-diastole.
-SphereTree tree_of(const Anatomy& anatomy, const std::vector<Lesion>& lesions, const Mesh& wall);
-
-/// Radii from another surface: of a frame that was given, whose sections need not be those of the first.
-void fit_radii(SphereTree& tree, const Mesh& wall);
-
-/// The same tree in a frame of the beat: centres carried along, radii kept (sections do not change).
-SphereTree carried(const SphereTree& tree, const Anatomy& anatomy, const TubeMotion& motion, int frame);
-
-/// [branch][sphere] Displacement of each at the top of a breath, m.
-std::vector<std::vector<Eigen::Vector3d>> breath_of(const SphereTree& tree, const Anatomy& anatomy,
-                                                    const HeartMotion& heart, const TubeMotion& tubes);
 
 }  // namespace ostium

@@ -9,6 +9,8 @@
 
 #include "core/rod/section.h"
 #include "data/catalogue/instrument/instrument_shape.h"
+#include "vascular/balloon/balloon_design.h"
+#include "vascular/stent/stent_design.h"
 
 namespace ostium {
 
@@ -55,12 +57,15 @@ struct CarriedBalloon {
   double length_m = 0;    ///< between the markers' middles
   bool compliant = true;  ///< semi-compliant; false: non-compliant
   double nominal_Pa = 0, rated_Pa = 0;
+  BalloonDesign design;
+  bool own_folds = false;  ///< `design` says how thick it is folded; otherwise a bare one is as its sections are
 };
 
 /// And the stent that is crimped on it.
 struct CarriedStent {
   double nominal_m = 0;  ///< diameter, open
   double length_m = 0;   ///< crimped
+  StentDesign design;
 };
 
 /// Where a group of numbers is from.

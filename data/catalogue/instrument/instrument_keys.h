@@ -2,6 +2,8 @@
 /// The keys of an instrument file, object by object: what the reader accepts, and what it says of each. The schema
 /// (data/schemas/instrument.schema.json) has the same, which a test holds it to.
 #include "data/formats/json_object.h"
+#include "data/instrument_design.h"
+#include <fmt/format.h>
 
 namespace ostium::instrument_keys {
 
@@ -105,6 +107,22 @@ inline const JsonObjectKeys wire_lumen = {
      {"length_mm", false, "from the tip to the wire's port in mm, > 0 and at most the length; for rapid_exchange only"},
      {"source", true, source_text}}};
 
+/// The keys of a design are the rows of its tables; none must be there, but the source must.
+template <class... Tables>
+JsonObjectKeys design_keys(const char* object, const Tables&... tables) {
+  JsonObjectKeys out{object, {}};
+  const auto add = [&](const auto& table) {
+    for (const auto& row : table)
+      out.keys.push_back({row.key, false, fmt::format("{}, {:g} to {:g}", row.text, 1.0 * row.least, 1.0 * row.most)});
+  };
+  (add(tables), ...);
+  out.keys.push_back({"source", true, source_text});
+  return out;
+}
+
+inline const JsonObjectKeys balloon_design = design_keys("balloon_design", balloon_design_numbers);
+inline const JsonObjectKeys stent_design = design_keys("stent_design", stent_design_counts, stent_design_numbers);
+
 inline const JsonObjectKeys balloon = {
     "balloon",
     {{"nominal_diameter_mm", true, "its diameter at the nominal pressure in mm, 1 to 8"},
@@ -112,12 +130,15 @@ inline const JsonObjectKeys balloon = {
      {"compliance", true, "how it grows"},
      {"nominal_atm", true, "the nominal pressure in atm, > 0"},
      {"rated_atm", true, "the rated burst pressure in atm, at least the nominal one and at most 30"},
+     {"design", false, "how it is made, where it differs from a common one, an object"},
      {"source", true, source_text}}};
 
-inline const JsonObjectKeys stent = {"stent",
-                                     {{"nominal_diameter_mm", true, "its diameter, open, in mm, 1 to 8"},
-                                      {"length_mm", true, "crimped, in mm, 5 to 60 and at most that of its balloon"},
-                                      {"source", true, source_text}}};
+inline const JsonObjectKeys stent = {
+    "stent",
+    {{"nominal_diameter_mm", true, "its diameter, open, in mm, 1 to 8"},
+     {"length_mm", true, "crimped, in mm, 5 to 60 and at most that of its balloon"},
+     {"design", false, "how it is made, where it differs from a common one, an object"},
+     {"source", true, source_text}}};
 
 inline const JsonObjectKeys clearance = {
     "clearance",
@@ -126,8 +147,8 @@ inline const JsonObjectKeys clearance = {
      {"source", true, source_text}}};
 
 /// All of them, for the test that compares them with the schema.
-inline const std::vector<const JsonObjectKeys*> all = {&instrument, &size,          &sections,    &section, &shape,
-                                                       &piece,      &shapeable_tip, &radiopacity, &stretch, &markers,
-                                                       &marker,     &wire_lumen,    &balloon,     &stent,   &clearance};
+inline const std::vector<const JsonObjectKeys*> all = {
+    &instrument, &size,   &sections,   &section, &shape,          &piece, &shapeable_tip, &radiopacity, &stretch,
+    &markers,    &marker, &wire_lumen, &balloon, &balloon_design, &stent, &stent_design,  &clearance};
 
 }  // namespace ostium::instrument_keys

@@ -9,6 +9,7 @@
 
 #include "core/rod/rod.h"
 #include "data/catalogue/instrument/instrument_keys.h"
+#include "vascular/stent/stent.h"
 
 namespace ostium {
 
@@ -205,10 +206,40 @@ void read_wire_lumen(const JsonObject& group, Instrument& instrument) {
   instrument.wire_lumen = lumen;
 }
 
-double within(const JsonObject& object, const char* key, double least, double most) {
+double within(const JsonObject& object, const std::string& key, double least, double most) {
   const double value = object.number(key);
   if (!(value >= least && value <= most)) object.refuse(key);
   return value;
+}
+
+template <class Design>
+void read_design_numbers(const JsonObject& design, const std::vector<DesignNumber<Design>>& table, Design& out) {
+  for (const DesignNumber<Design>& row : table)
+    if (design.has(row.key)) out.*row.member = within(design, row.key, row.least, row.most) * row.unit;
+}
+
+void read_balloon_design(const JsonObject& design, Instrument& instrument, CarriedBalloon& balloon) {
+  keep_source(design, instrument);
+  read_design_numbers(design, balloon_design_numbers, balloon.design);
+  balloon.own_folds = design.has("folded_radius_mm");
+  if (balloon.own_folds != design.has("refolded_radius_mm"))
+    design.value().fail(design.value().path + " has one of folded_radius_mm and refolded_radius_mm; expected both");
+}
+
+void read_stent_design(const JsonObject& design, Instrument& instrument, CarriedStent& stent) {
+  keep_source(design, instrument);
+  for (const StentCount& row : stent_design_counts) {
+    if (!design.has(row.key)) continue;
+    const double count = within(design, row.key, row.least, row.most);
+    if (count != std::floor(count)) design.refuse(row.key);
+    stent.design.*row.member = static_cast<int>(count);
+  }
+  read_design_numbers(design, stent_design_numbers, stent.design);
+  try {
+    make_stent(stent.nominal_m, stent.length_m, stent.design);
+  } catch (const std::invalid_argument& error) {
+    design.value().fail(fmt::format("{} makes no stent: {}", design.value().path, error.what()));
+  }
 }
 
 void read_balloon(const JsonObject& group, Instrument& instrument) {
@@ -225,6 +256,7 @@ void read_balloon(const JsonObject& group, Instrument& instrument) {
   const double apart =
       std::fabs(bands[1].from_tip_m + bands[1].length_m / 2 - bands[0].from_tip_m - bands[0].length_m / 2);
   if (std::fabs(apart - balloon.length_m) > 1.1 * mm) group.refuse("length_mm");
+  if (group.has("design")) read_balloon_design(JsonObject(group["design"], keys::balloon_design), instrument, balloon);
   instrument.balloon = balloon;
 }
 
@@ -234,6 +266,7 @@ void read_stent(const JsonObject& group, Instrument& instrument) {
   stent.nominal_m = within(group, "nominal_diameter_mm", 1, 8) * mm;
   stent.length_m = within(group, "length_mm", 5, 60) * mm;
   if (stent.length_m > instrument.balloon->length_m + 0.01 * mm) group.refuse("length_mm");
+  if (group.has("design")) read_stent_design(JsonObject(group["design"], keys::stent_design), instrument, stent);
   instrument.stent = stent;
 }
 

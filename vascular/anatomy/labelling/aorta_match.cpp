@@ -1,0 +1,129 @@
+#include "vascular/anatomy/labelling/aorta_match.h"
+
+#include <algorithm>
+
+#include "vascular/box_tree.h"
+#include "vascular/tree/centreline.h"
+
+namespace ostium {
+
+namespace {
+
+constexpr double mm = 1e-3;
+constexpr double aorta_radius_m = 7e-3;  // an aorta is wider
+
+/// How unlike the mean aorta a course is, in metres; `fit` gets how that is laid on it.
+double unlike_aorta(const MeanCourses& mean, const Course& course, Similarity& fit) {
+  const std::vector<Eigen::Vector3d> theirs = course.points(0, labelling_step_m, 0.3);
+  double best = 1e9;
+  // The root may have been cut off somewhere.
+  for (double from = 0; from < 60 * mm; from += labelling_step_m) {
+    std::vector<Eigen::Vector3d> ours = mean.aorta.points(from, labelling_step_m, 0.3), same = theirs;
+    const std::size_t n = std::min(ours.size(), same.size());
+    if (n < 4) continue;
+    ours.resize(n);
+    same.resize(n);
+    const Similarity found = nearest_similarity(ours, same);
+    if (found.scale < 0.6 || found.scale > 1.7 || found.rms_m > best) continue;
+    best = found.rms_m;
+    fit = found;
+  }
+  return best;
+}
+
+/// A root that coronary arteries leave is no end of the tree: it ends where a way becomes narrow.
+std::vector<Course> with_wide_ends(std::vector<Course> courses) {
+  const std::size_t n = courses.size();
+  for (std::size_t c = 0; c < n; ++c) {
+    std::size_t last = courses[c].spheres.size();
+    while (last > 0 && courses[c].spheres[last - 1].radius_m < aorta_radius_m) --last;
+    if (last < 2) continue;
+    const Eigen::Vector3d end = courses[c].spheres[last - 1].p;
+    bool there = false;
+    for (const Course& other : courses) there = there || (other.spheres.back().p - end).norm() < 5 * mm;
+    if (there) continue;
+    Course wide;
+    wide.spheres.assign(courses[c].spheres.begin(), courses[c].spheres.begin() + static_cast<long>(last));
+    courses.push_back(std::move(wide));
+  }
+  return courses;
+}
+
+/// On from the last sphere to just before the wall.
+Eigen::Vector3d to_the_end(const Course& course, const Mesh& mesh) {
+  const TreeSphere& last = course.spheres.back();
+  std::size_t before = course.spheres.size() - 1;
+  while (before > 0 && last.s_m - course.spheres[before].s_m < 1.5 * last.radius_m) --before;
+  const Eigen::Vector3d along = (last.p - course.spheres[before].p).normalized();
+  const auto hits = BoxTree(mesh).hits(last.p, along, 40 * mm);
+  return hits.empty() ? last.p : Eigen::Vector3d(last.p + std::max(0.0, hits[0].distance_m - 2 * mm) * along);
+}
+
+/// Within 30 mm of the end of a course, or of the root (-1).
+double widest_at_end(const std::vector<Course>& courses, int from) {
+  const Course& course = courses[static_cast<std::size_t>(std::max(from, 0))];
+  double widest = 0;
+  for (const TreeSphere& sphere : course.spheres)
+    if ((from < 0 ? sphere.s_m : course.length_m() - sphere.s_m) < 30 * mm) widest = std::max(widest, sphere.radius_m);
+  return widest;
+}
+
+/// Of all ways between two ends, the one that is most like the mean aorta begins at the root; the tree is found anew
+/// from there.
+void begin_at_root(const MeanCourses& mean, const Progress& say, LumenPart& part) {
+  struct Way {
+    double unlike, length;
+    int root;
+  };
+  std::vector<Way> found;
+  const std::vector<Course> candidates = with_wide_ends(part.courses);
+  for (int from = -1; from < static_cast<int>(candidates.size()); ++from) {
+    const std::vector<Course> ways = courses_from(candidates, from);
+    if (ways.empty() || widest_at_end(candidates, from) < aorta_radius_m) continue;
+    double longest = 0;
+    for (const Course& way : ways) longest = std::max(longest, way.length_m());
+    Similarity fit;
+    for (const Course& way : ways)
+      if (way.length_m() >= 0.6 * longest) found.push_back({unlike_aorta(mean, way, fit), way.length_m(), from});
+  }
+  double best = 1e9, farthest = 0;
+  int root = -1;
+  for (const Way& way : found) best = std::min(best, way.unlike);
+  // Of several that are much the same, the one that begins deepest in the root.
+  for (const Way& way : found)
+    if (way.unlike < best + 4 * mm && way.length > farthest) farthest = way.length, root = way.root;
+  if (root >= 0) {
+    say("looking for centrelines from the aortic root");
+    part.root = to_the_end(candidates[static_cast<std::size_t>(root)], part.mesh);
+    part.tree = find_centrelines(part.mesh, {.start = part.root, .ends = {}}).tree;
+    part.courses = courses_of(part.tree);
+  }
+}
+
+}  // namespace
+
+std::optional<AortaMatch> match_aorta(LumenPart& part, const MeanCourses& mean, const Progress& say) {
+  if (part.widest_m < aorta_radius_m) return std::nullopt;
+  begin_at_root(mean, say, part);
+  AortaMatch match;
+  double longest = 0;
+  for (const Course& course : part.courses) longest = std::max(longest, course.length_m());
+  std::size_t chosen = 0;
+  std::vector<std::pair<double, Similarity>> compared;
+  double best = 1e9;
+  for (const Course& course : part.courses) {
+    Similarity fit;
+    compared.emplace_back(unlike_aorta(mean, course, fit) + (course.length_m() < 0.6 * longest ? 1 : 0), fit);
+    best = std::min(best, compared.back().first);
+  }
+  // Ways into side branches are like it too, as far as they go.
+  double farthest = 0;
+  for (std::size_t c = 0; c < compared.size(); ++c)
+    if (const double length = part.courses[c].length_m(); compared[c].first < best + 4 * mm && length > farthest)
+      farthest = length, chosen = c, match.fit = compared[c].second;
+  part.roles.push_back({part.courses[chosen].spheres.back().p, "aorta"});
+  match.course = part.courses[chosen];
+  return match;
+}
+
+}  // namespace ostium

@@ -1,0 +1,22 @@
+#pragma once
+/// Which way through a lumen is its aorta: the one most like the mean aorta.
+#include <optional>
+
+#include "vascular/anatomy/labelling/fit.h"
+#include "vascular/anatomy/labelling/lumen_parts.h"
+#include "vascular/anatomy/labelling/mean_courses.h"
+
+namespace ostium {
+
+struct AortaMatch {
+  Course course;
+  Similarity fit;  ///< from the mean anatomy to the file's frame
+};
+
+inline constexpr double labelling_step_m = 5e-3;  ///< between the points of two courses that are compared
+
+/// None if `widest` is too narrow for an aorta. Otherwise `widest` gets its tree from the aortic root, and the aorta's
+/// role.
+std::optional<AortaMatch> match_aorta(LumenPart& widest, const MeanCourses& mean, const Progress& say);
+
+}  // namespace ostium

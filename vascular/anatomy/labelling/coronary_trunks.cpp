@@ -1,0 +1,68 @@
+#include "vascular/anatomy/labelling/coronary_trunks.h"
+
+#include <algorithm>
+
+namespace ostium {
+
+namespace {
+
+constexpr double mm = 1e-3;
+constexpr double coronary_radius_m = 3.5e-3;  // a coronary artery is narrower
+constexpr double coronary_length_m = 25e-3;   // and longer
+constexpr double root_m = 75e-3;              // it leaves the aorta so near to its root
+
+bool like_coronary(const Course& course) {
+  if (course.spheres.size() < 4 || course.length_m() < coronary_length_m) return false;
+  std::vector<double> first;
+  for (const TreeSphere& sphere : course.spheres)
+    if (sphere.s_m > 3 * mm && sphere.s_m < 20 * mm) first.push_back(sphere.radius_m);
+  if (first.empty()) return false;
+  std::nth_element(first.begin(), first.begin() + static_cast<long>(first.size() / 2), first.end());
+  return first[first.size() / 2] < coronary_radius_m && median_radius(course) < coronary_radius_m;
+}
+
+void add_aortic_trunks(const LumenPart& part, const AortaMatch& aorta, std::vector<Trunk>& trunks) {
+  for (const Course& course : part.courses) {
+    const Course rest = beyond(course, aorta.course);
+    if (!like_coronary(rest) || course.length_m() - rest.length_m() > root_m) continue;
+    std::size_t t = 0;
+    while (t < trunks.size() && (trunks[t].courses[0].spheres[0].p - rest.spheres[0].p).norm() >= 4 * mm) ++t;
+    if (t == trunks.size()) trunks.push_back({0, part.root, {}, {}});
+    trunks[t].ends.push_back(course.spheres.back().p);
+    trunks[t].courses.push_back(rest);
+  }
+}
+
+/// Of a part of its own: any of its wider ends may be its ostium.
+void add_loose_trunks(const LumenPart& part, std::size_t p, std::vector<Trunk>& trunks) {
+  const std::vector<Course>& courses = part.courses;
+  double widest = 0;
+  for (const Course& course : courses)
+    for (std::size_t i = 0; i < course.spheres.size(); i += course.spheres.size() - 1)
+      widest = std::max(widest, course.spheres[i].radius_m);
+  for (int from = -1; from < static_cast<int>(courses.size()); ++from) {
+    Trunk trunk{p, {}, {}, {}};
+    for (const Course& course : courses_from(courses, from))
+      if (like_coronary(course)) {
+        trunk.root = course.spheres.front().p;
+        trunk.ends.push_back(course.spheres.back().p);
+        trunk.courses.push_back(course);
+      }
+    if (!trunk.ends.empty() && trunk.courses[0].spheres.front().radius_m > 0.5 * widest)
+      trunks.push_back(std::move(trunk));
+  }
+}
+
+}  // namespace
+
+std::vector<Trunk> coronary_trunks(const std::vector<LumenPart>& parts, const AortaMatch* aorta) {
+  std::vector<Trunk> trunks;
+  for (std::size_t p = 0; p < parts.size(); ++p)
+    if (aorta && p == 0)
+      add_aortic_trunks(parts[p], *aorta, trunks);
+    else if (parts[p].widest_m < coronary_radius_m)
+      add_loose_trunks(parts[p], p, trunks);
+  return trunks;
+}
+
+}  // namespace ostium

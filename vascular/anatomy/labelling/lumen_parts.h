@@ -1,0 +1,30 @@
+#pragma once
+/// The closed pieces of a lumen, each with its tree of centrelines.
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "vascular/anatomy/labelling/courses.h"
+#include "vascular/mesh.h"
+
+namespace ostium {
+
+using Progress = std::function<void(const std::string&)>;
+
+struct LumenPart {
+  Mesh mesh;
+  SphereTree tree;
+  std::vector<Course> courses;
+  Eigen::Vector3d root;  ///< where its tree begins
+  double widest_m = 0;   ///< radius
+  struct Role {
+    Eigen::Vector3d end;
+    std::string name;
+  };
+  std::vector<Role> roles;  ///< ends that are recognised, in the order of their importance
+};
+
+/// Widest first. Throws MeshError if none holds a vessel.
+std::vector<LumenPart> lumen_parts(const Mesh& lumen, const Progress& say);
+
+}  // namespace ostium

@@ -1,0 +1,50 @@
+#include "vascular/anatomy/labelling/narrowings.h"
+
+#include <algorithm>
+
+namespace ostium {
+
+namespace {
+
+constexpr double near_m = 4e-3, far_m = 16e-3;  // the stretch that is compared, before and behind
+constexpr double widest_m = 4e-3;               // radius
+
+double median_between(const TreeBranch& branch, double from, double to) {
+  std::vector<double> radii;
+  for (const TreeSphere& sphere : branch.spheres)
+    if (sphere.s_m >= from && sphere.s_m <= to) radii.push_back(sphere.radius_m);
+  if (radii.size() < 3) return 0;
+  std::nth_element(radii.begin(), radii.begin() + static_cast<long>(radii.size() / 2), radii.end());
+  return radii[radii.size() / 2];
+}
+
+}  // namespace
+
+std::vector<FoundNarrowing> find_narrowings(const SphereTree& tree, double least) {
+  std::vector<FoundNarrowing> found;
+  for (const TreeBranch& branch : tree.branches) {
+    const double length = branch.spheres.back().s_m;
+    FoundNarrowing current;
+    for (const TreeSphere& sphere : branch.spheres) {
+      double stenosis = 0, reference = 0;
+      const double before = median_between(branch, sphere.s_m - far_m, sphere.s_m - near_m);
+      const double behind = median_between(branch, sphere.s_m + near_m, sphere.s_m + far_m);
+      // An end tapers; a narrowing is wide on both sides.
+      if (before > 0 && behind > 0 && sphere.s_m < length - 2 * near_m && before < widest_m) {
+        reference = (before + behind) / 2;
+        stenosis = 1 - sphere.radius_m / reference;
+        if (behind < 0.5 * before || before < 0.5 * behind) stenosis = 0;
+      }
+      if (stenosis >= least && stenosis > current.stenosis)
+        current = {branch.name, sphere.s_m, stenosis, 2 * reference, sphere.p};
+      if (current.stenosis > 0 && (stenosis < 0.5 * least)) {
+        found.push_back(current);
+        current = {};
+      }
+    }
+    if (current.stenosis > 0) found.push_back(current);
+  }
+  return found;
+}
+
+}  // namespace ostium

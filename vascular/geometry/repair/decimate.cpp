@@ -1,0 +1,205 @@
+#include "vascular/geometry/repair/decimate.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <queue>
+
+namespace ostium {
+
+namespace {
+
+constexpr double shortest = 0.75, longest = 1.5;  // of the edges asked for
+constexpr double least_cosine = 0.5;              // of a triangle's turn
+constexpr double least_shape = 0.04;              // area over the sum of squared sides; equilateral: 0.14
+constexpr double sliver = 0.01;                   // below this shape a triangle's normal is chance
+constexpr double much_too_short = 0.3;            // of the edges asked for
+constexpr int most_rounds = 6;
+constexpr double to_middle = 1e-3;  // where planes do not decide: weight of the edge's middle
+
+using Quadric = Eigen::Matrix4d;
+
+class Decimator {
+ public:
+  Decimator(const Mesh& mesh, const std::vector<double>& edge_m, double chance_m)
+      : chance_(chance_m),
+        p_(mesh.vertices),
+        triangles_(mesh.triangles),
+        wanted_(edge_m),
+        of_vertex_(mesh.vertices.size()),
+        quadrics_(mesh.vertices.size(), Quadric::Zero()),
+        changed_(mesh.vertices.size(), 0) {
+    for (int t = 0; t < static_cast<int>(triangles_.size()); ++t) {
+      const Eigen::Vector3d area = area_of(triangles_[t]);
+      if (area.norm() > 0) {
+        const Eigen::Vector3d n = area.normalized();
+        const Eigen::Vector4d plane(n.x(), n.y(), n.z(), -n.dot(p_[triangles_[t][0]]));
+        for (int v : triangles_[t]) quadrics_[v] += area.norm() * plane * plane.transpose();
+      }
+      for (int v : triangles_[t]) of_vertex_[v].push_back(t);
+    }
+  }
+
+  Mesh run() {
+    // What is much too short and could not go at first may go once its neighbours went.
+    for (int round = 0, before = -1; round < most_rounds && collapsed_ != before; ++round) {
+      before = collapsed_;
+      for (const auto& t : triangles_)
+        for (int k = 0; k < 3; ++k)
+          if (t[k] < t[(k + 1) % 3]) push(t[k], t[(k + 1) % 3], round == 0 ? shortest : much_too_short);
+      while (!edges_.empty()) {
+        const Edge edge = edges_.top();
+        edges_.pop();
+        if (edge.stamp != changed_[edge.a] + changed_[edge.b] || of_vertex_[edge.a].empty() ||
+            of_vertex_[edge.b].empty())
+          continue;
+        collapse(edge.a, edge.b);
+      }
+    }
+    return result();
+  }
+
+ private:
+  struct Edge {
+    double length;  ///< over the one asked for
+    int a, b, stamp;
+    bool operator<(const Edge& other) const {
+      return length != other.length ? length > other.length : std::tie(a, b) > std::tie(other.a, other.b);
+    }
+  };
+
+  Eigen::Vector3d area_of(const std::array<int, 3>& t) const {
+    return (p_[t[1]] - p_[t[0]]).cross(p_[t[2]] - p_[t[0]]) / 2;
+  }
+
+  void push(int a, int b, double most = shortest) {
+    const double length = (p_[a] - p_[b]).norm() / std::min(wanted_[a], wanted_[b]);
+    if (length < most) edges_.push({length, a, b, changed_[a] + changed_[b]});
+  }
+
+  std::vector<int> neighbours(int v) const {
+    std::vector<int> result;
+    for (int t : of_vertex_[v])
+      for (int other : triangles_[t])
+        if (other != v) result.push_back(other);
+    std::sort(result.begin(), result.end());
+    result.erase(std::unique(result.begin(), result.end()), result.end());
+    return result;
+  }
+
+  Eigen::Vector3d place(int a, int b) const {
+    const Quadric q = quadrics_[a] + quadrics_[b];
+    const Eigen::Vector3d middle = (p_[a] + p_[b]) / 2;
+    const double weight = to_middle * q.topLeftCorner<3, 3>().trace() + 1e-30;
+    const Eigen::Matrix3d A = q.topLeftCorner<3, 3>() + weight * Eigen::Matrix3d::Identity();
+    const Eigen::Vector3d rhs = -q.topRightCorner<3, 1>() + weight * middle;
+    Eigen::Vector3d best = A.ldlt().solve(rhs);
+    const double reach = (p_[a] - p_[b]).norm();
+    if (!best.allFinite() || (best - middle).norm() > reach) return middle;
+    return best;
+  }
+
+  double squared_sides(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c) const {
+    return (b - a).squaredNorm() + (c - b).squaredNorm() + (a - c).squaredNorm();
+  }
+
+  /// Whether the triangles of `v` without `other` stay as they face when it moves to `p`, and become no slivers. Those
+  /// that are slivers already have no say (side by side they would keep each other for ever), but if they become more
+  /// they face as what is around them, `around`.
+  bool keeps_facing(int v, int other, const Eigen::Vector3d& p, const Eigen::Vector3d& around) const {
+    for (int t : of_vertex_[v]) {
+      const auto& tri = triangles_[t];
+      if (tri[0] == other || tri[1] == other || tri[2] == other) continue;
+      Eigen::Vector3d c[3];
+      for (int k = 0; k < 3; ++k) c[k] = tri[k] == v ? p : p_[tri[k]];
+      const Eigen::Vector3d before = area_of(tri), after = (c[1] - c[0]).cross(c[2] - c[0]) / 2;
+      const double sides_before = squared_sides(p_[tri[0]], p_[tri[1]], p_[tri[2]]);
+      const double sides_after = squared_sides(c[0], c[1], c[2]);
+      const bool was_sliver = !(before.norm() > sliver * sides_before);
+      if (was_sliver && after.norm() < sliver * sides_after) continue;
+      const Eigen::Vector3d& faced = was_sliver ? around : before;
+      if (faced.dot(after) < least_cosine * faced.norm() * after.norm()) return false;
+      if (!was_sliver &&
+          after.norm() * sides_before < std::min(least_shape * sides_before, before.norm()) * sides_after)
+        return false;
+    }
+    return true;
+  }
+
+  bool fits(int a, int b, const Eigen::Vector3d& p, const std::vector<int>& all) const {
+    const double wanted = std::min(wanted_[a], wanted_[b]);
+    for (int v : all)
+      if (v != a && v != b && (p_[v] - p).norm() > longest * std::min(wanted, wanted_[v])) return false;
+    Eigen::Vector3d around = Eigen::Vector3d::Zero();
+    for (int v : {a, b})
+      for (int t : of_vertex_[v]) around += area_of(triangles_[t]);
+    return keeps_facing(a, b, p, around) && keeps_facing(b, a, p, around);
+  }
+
+  void collapse(int a, int b) {
+    const std::vector<int> near_a = neighbours(a), near_b = neighbours(b);
+    std::vector<int> both, all;
+    std::set_intersection(near_a.begin(), near_a.end(), near_b.begin(), near_b.end(), std::back_inserter(both));
+    if (both.size() != 2) return;  // else two sheets would touch
+    const Eigen::Vector3d p = place(a, b);
+    const double wanted = std::min(wanted_[a], wanted_[b]);
+    std::set_union(near_a.begin(), near_a.end(), near_b.begin(), near_b.end(), std::back_inserter(all));
+    if (all.size() < 5) return;
+    if ((p_[a] - p_[b]).norm() >= chance_ && !fits(a, b, p, all)) return;
+    ++collapsed_;
+    p_[a] = p;
+    wanted_[a] = wanted;
+    quadrics_[a] += quadrics_[b];
+    for (int t : of_vertex_[b]) {
+      auto& tri = triangles_[t];
+      if (tri[0] == a || tri[1] == a || tri[2] == a) {
+        for (int v : tri)
+          if (v != b) std::erase(of_vertex_[v], t);
+        tri = {-1, -1, -1};
+        continue;
+      }
+      std::replace(tri.begin(), tri.end(), b, a);
+      of_vertex_[a].push_back(t);
+    }
+    of_vertex_[b].clear();
+    ++changed_[a];
+    for (int v : neighbours(a)) push(std::min(a, v), std::max(a, v));
+  }
+
+  Mesh result() const {
+    Mesh mesh;
+    std::vector<int> index(p_.size(), -1);
+    for (const auto& t : triangles_) {
+      if (t[0] < 0) continue;
+      std::array<int, 3> renamed;
+      for (int k = 0; k < 3; ++k) {
+        int& i = index[t[k]];
+        if (i < 0) {
+          i = static_cast<int>(mesh.vertices.size());
+          mesh.vertices.push_back(p_[t[k]]);
+        }
+        renamed[k] = i;
+      }
+      mesh.triangles.push_back(renamed);
+    }
+    return mesh;
+  }
+
+  double chance_;
+  std::vector<Eigen::Vector3d> p_;
+  std::vector<std::array<int, 3>> triangles_;
+  std::vector<double> wanted_;
+  std::vector<std::vector<int>> of_vertex_;
+  std::vector<Quadric> quadrics_;
+  std::vector<int> changed_;
+  std::priority_queue<Edge> edges_;
+  int collapsed_ = 0;
+};
+
+}  // namespace
+
+Mesh decimate(const Mesh& mesh, const std::vector<double>& edge_m, double chance_m) {
+  return Decimator(mesh, edge_m, chance_m).run();
+}
+
+}  // namespace ostium

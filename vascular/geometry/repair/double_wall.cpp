@@ -1,0 +1,201 @@
+#include "vascular/geometry/repair/double_wall.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <queue>
+#include <unordered_map>
+
+#include "vascular/box_tree.h"
+
+namespace ostium {
+
+namespace {
+
+constexpr double thickest_m = 5e-3;
+constexpr double farthest_m = 60e-3;  // the opposite side of the widest lumen
+constexpr double along_surface = 4;   // so many thicknesses away, a shell is another one
+constexpr double narrowest = 0.8;     // a lumen is wider than so many thicknesses of its wall
+constexpr double rim = 4;             // so many thicknesses from an outer shell may be what joins it to the inner one
+constexpr double least_patch = 25;    // area of a patch, in squared thicknesses
+constexpr int most_rays = 60'000;     // of finer meshes, triangles take the label of one near them
+
+class ShellFinder {
+ public:
+  ShellFinder(const Mesh& mesh, const Sheets& sheets) : mesh_(mesh), sheets_(sheets), tree_(mesh) {
+    for (const auto& [a, b, c] : mesh.triangles) {
+      const Eigen::Vector3d area = (mesh.vertices[b] - mesh.vertices[a]).cross(mesh.vertices[c] - mesh.vertices[a]) / 2;
+      areas_.push_back(area.norm());
+      normals_.push_back(area.norm() > 0 ? Eigen::Vector3d(area.normalized()) : Eigen::Vector3d::UnitX());
+      middles_.push_back((mesh.vertices[a] + mesh.vertices[b] + mesh.vertices[c]) / 3);
+    }
+  }
+
+  /// Thickness of the wall if triangle `t` is of an outer shell, else 0.
+  double thickness(int t) const {
+    for (double side : {1.0, -1.0}) {
+      const Eigen::Vector3d in = -side * normals_[t];
+      const auto inside = tree_.hits(middles_[t] + 1e-7 * in, in, farthest_m);
+      if (inside.size() < 2 || inside[0].distance_m > thickest_m) continue;
+      const double wall = inside[0].distance_m;
+      if (wall < 2e-5 || inside[1].distance_m - wall < narrowest * wall) continue;
+      if (std::fabs(normals_[inside[0].triangle].dot(normals_[t])) < 0.7) continue;
+      if (!tree_.hits(middles_[t] - 1e-7 * in, -in, 2 * wall).empty()) continue;
+      if (reached(t, inside[0].triangle, along_surface * wall)) continue;
+      return wall;
+    }
+    return 0;
+  }
+
+  /// Whether an outer shell lies close behind triangle `t`.
+  bool inner(int t, const std::vector<bool>& outer) const {
+    for (double side : {1.0, -1.0}) {
+      const auto hits = tree_.hits(middles_[t] + side * 1e-7 * normals_[t], side * normals_[t], thickest_m);
+      if (!hits.empty() && outer[hits[0].triangle] && std::fabs(normals_[hits[0].triangle].dot(normals_[t])) > 0.5)
+        return true;
+    }
+    return false;
+  }
+
+  double area(int t) const { return areas_[t]; }
+  const Eigen::Vector3d& middle(int t) const { return middles_[t]; }
+
+ private:
+  bool reached(int from, int to, double limit_m) const {
+    std::priority_queue<std::pair<double, int>, std::vector<std::pair<double, int>>, std::greater<>> open;
+    std::unordered_map<int, double> best;
+    open.push({0, from});
+    best[from] = 0;
+    while (!open.empty()) {
+      const auto [d, t] = open.top();
+      open.pop();
+      if (t == to) return true;
+      if (d > best[t]) continue;
+      for (int k = 0; k < 3; ++k) {
+        const int o = sheets_.opposite[3 * t + k];
+        if (o < 0) continue;
+        const double next = d + (middles_[o / 3] - middles_[t]).norm();
+        const auto [entry, fresh] = best.try_emplace(o / 3, next);
+        if (next > limit_m || (!fresh && entry->second <= next)) continue;
+        entry->second = next;
+        open.push({next, o / 3});
+      }
+    }
+    return false;
+  }
+
+  const Mesh& mesh_;
+  const Sheets& sheets_;
+  BoxTree tree_;
+  std::vector<double> areas_;
+  std::vector<Eigen::Vector3d> normals_, middles_;
+};
+
+/// Patches of triangles of one label: those for which `small` says so take the other one.
+template <class Small>
+void absorb(const Sheets& sheets, std::vector<bool>& label, const Small& small) {
+  std::vector<bool> seen(label.size());
+  std::vector<int> open, patch;
+  for (int seed = 0; seed < static_cast<int>(label.size()); ++seed) {
+    if (seen[seed]) continue;
+    open = patch = {seed};
+    seen[seed] = true;
+    bool bordered = false;
+    while (!open.empty()) {
+      const int t = open.back();
+      open.pop_back();
+      for (int k = 0; k < 3; ++k) {
+        const int o = sheets.opposite[3 * t + k];
+        if (o < 0) continue;
+        if (label[o / 3] != label[seed]) bordered = true;
+        if (label[o / 3] != label[seed] || seen[o / 3]) continue;
+        seen[o / 3] = true;
+        open.push_back(o / 3);
+        patch.push_back(o / 3);
+      }
+    }
+    if (small(patch, bool(label[seed]), bordered))
+      for (int t : patch) label[t] = !label[t];
+  }
+}
+
+}  // namespace
+
+DoubleWall find_double_wall(const Mesh& mesh, const Sheets& sheets) {
+  DoubleWall result;
+  const int n = static_cast<int>(mesh.triangles.size());
+  result.outer.assign(static_cast<std::size_t>(n), false);
+  const ShellFinder finder(mesh, sheets);
+  const int stride = 1 + n / most_rays;
+  std::vector<double> thickness;
+  // A look first: most meshes have one wall.
+  int looked = 0, doubled = 0;
+  for (int t = 0; t < n; t += std::max(1, n / 3000)) ++looked, doubled += finder.thickness(t) > 0 ? 1 : 0;
+  if (doubled < 0.01 * looked) return result;
+  std::vector<bool> known(static_cast<std::size_t>(n));
+  std::queue<int> spread;
+  for (int t = 0; t < n; t += stride) {
+    const double d = finder.thickness(t);
+    if (d > 0) thickness.push_back(d);
+    result.outer[t] = d > 0;
+    known[t] = true;
+    spread.push(t);
+  }
+  while (!spread.empty()) {
+    const int t = spread.front();
+    spread.pop();
+    for (int k = 0; k < 3; ++k)
+      if (const int o = sheets.opposite[3 * t + k]; o >= 0 && !known[o / 3]) {
+        known[o / 3] = true;
+        result.outer[o / 3] = result.outer[t];
+        spread.push(o / 3);
+      }
+  }
+  if (thickness.empty()) return result;
+  std::nth_element(thickness.begin(), thickness.begin() + static_cast<long>(thickness.size() / 2), thickness.end());
+  result.thickness_m = thickness[thickness.size() / 2];
+
+  for (int round = 0; round < 4; ++round) {
+    std::vector<bool> next = result.outer;
+    for (int t = 0; t < n; ++t) {
+      int same = 0, others = 0;
+      for (int k = 0; k < 3; ++k)
+        if (const int o = sheets.opposite[3 * t + k]; o >= 0)
+          (result.outer[o / 3] == result.outer[t] ? same : others)++;
+      if (others > same) next[t] = !next[t];
+    }
+    result.outer = std::move(next);
+  }
+  const double least = least_patch * result.thickness_m * result.thickness_m;
+  const auto area_of = [&](const std::vector<int>& patch) {
+    double area = 0;
+    for (int t : patch) area += finder.area(t);
+    return area;
+  };
+  absorb(sheets, result.outer,
+         [&](const std::vector<int>& patch, bool, bool bordered) { return bordered && area_of(patch) < least; });
+  absorb(sheets, result.outer,
+         [&](const std::vector<int>& patch, bool outer, bool) { return outer && area_of(patch) < least; });
+  // Rims at the ends, between the shells.
+  const std::vector<bool> shell = result.outer;
+  std::queue<std::pair<int, double>> open;
+  for (int t = 0; t < n; ++t)
+    if (shell[t]) open.push({t, 0});
+  while (!open.empty()) {
+    const auto [t, d] = open.front();
+    open.pop();
+    for (int k = 0; k < 3; ++k) {
+      const int o = sheets.opposite[3 * t + k];
+      if (o < 0 || result.outer[o / 3]) continue;
+      const double next = d + (finder.middle(o / 3) - finder.middle(t)).norm();
+      if (next > rim * result.thickness_m || finder.inner(o / 3, shell)) continue;
+      result.outer[o / 3] = true;
+      open.push({o / 3, next});
+    }
+  }
+  for (int t = n - 1; t >= 0; --t)
+    if (result.outer[t]) ++result.triangles, result.where = finder.middle(t);
+  return result;
+}
+
+}  // namespace ostium

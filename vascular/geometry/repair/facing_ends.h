@@ -1,0 +1,15 @@
+#pragma once
+/// Openings that face each other: the two ends of one vessel that was cut.
+#include "vascular/geometry/repair/sheets.h"
+
+namespace ostium {
+
+struct FacingEnds {
+  double gap_m;
+  std::size_t a, b;  ///< openings
+};
+
+/// Those nearest to each other first; an opening may be in several.
+std::vector<FacingEnds> facing_ends(const std::vector<Opening>& openings, double longest_gap_m);
+
+}  // namespace ostium

@@ -1,0 +1,131 @@
+#include "vascular/geometry/repair/finish.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "vascular/geometry/repair/calibre.h"
+#include "vascular/geometry/repair/decimate.h"
+#include "vascular/surface_check.h"
+
+namespace ostium {
+
+namespace {
+
+constexpr double mm = 1e-3;
+constexpr int calibre_stride = 4, most_uncrossings = 12;
+constexpr double longest_edge_m = 2.2e-3;
+constexpr double chance_voxels = 0.05;         // where the level set puts a vertex within these is chance
+constexpr double most_turn = 0 - 1 - 1;        // cosine, of a triangle whose corners go onto the wall
+constexpr double least_height = 0.02 - 1 - 1;  // of a triangle over its longest edge, the same
+constexpr int most_returns = 6;
+constexpr double cell_at_1_mm_m = 0.6e-3;  // as the contour of our own anatomy has it
+
+bool spoils(const std::array<int, 3>& t, const std::vector<Eigen::Vector3d>& before,
+            const std::vector<Eigen::Vector3d>& after) {
+  const auto area = [&](const std::vector<Eigen::Vector3d>& p) {
+    return Eigen::Vector3d((p[t[1]] - p[t[0]]).cross(p[t[2]] - p[t[0]]));
+  };
+  const auto longest2 = [&](const std::vector<Eigen::Vector3d>& p) {
+    return std::max(
+        {(p[t[1]] - p[t[0]]).squaredNorm(), (p[t[2]] - p[t[1]]).squaredNorm(), (p[t[0]] - p[t[2]]).squaredNorm()});
+  };
+  const Eigen::Vector3d was = area(before), is = area(after);
+  const double height = is.norm() / longest2(after), had = was.norm() / longest2(before);
+  return was.dot(is) < most_turn * was.norm() * is.norm() || height < std::min(least_height, 0.5 * had);
+}
+
+/// The level set and its coarsening are off by a part of a voxel; the wall is where the mesh said.
+void onto_wall(const BoxTree& wall, double voxel_m, Mesh& mesh) {
+  std::vector<Eigen::Vector3d> normal(mesh.vertices.size(), Eigen::Vector3d::Zero());
+  for (const auto& [a, b, c] : mesh.triangles)
+    for (int v : {a, b, c})
+      normal[v] += (mesh.vertices[b] - mesh.vertices[a]).cross(mesh.vertices[c] - mesh.vertices[a]);
+  std::vector<Eigen::Vector3d> step(mesh.vertices.size(), Eigen::Vector3d::Zero());
+  for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
+    const BoxTree::Nearest near = wall.nearest(mesh.vertices[v], voxel_m);
+    // Along the normal only: sideways, vertices would come together where the wall has an edge.
+    const Eigen::Vector3d out = normal[v].normalized();
+    if (near.triangle >= 0) step[v] = (near.point - mesh.vertices[v]).dot(out) * out;
+  }
+  // Where a triangle would turn over or go flat, its corners go half as far, and not at all in the end.
+  const std::vector<Eigen::Vector3d> from = mesh.vertices;
+  for (int round = 0; round <= most_returns; ++round) {
+    for (std::size_t v = 0; v < from.size(); ++v) mesh.vertices[v] = from[v] + step[v];
+    std::vector<bool> returns(from.size());
+    bool any = false;
+    for (const auto& t : mesh.triangles) {
+      if (!spoils(t, from, mesh.vertices)) continue;
+      any = true;
+      for (int v : t) returns[v] = true;
+    }
+    if (!any) return;
+    for (std::size_t v = 0; v < from.size(); ++v)
+      if (returns[v]) step[v] *= round + 1 < most_returns ? 0.5 : 0;
+  }
+}
+
+/// Where triangles cross, the surface is evened out until they do not.
+void uncross(Mesh& mesh) {
+  for (int round = 0; round < most_uncrossings; ++round) {
+    const auto pairs = crossing_triangles(mesh);
+    if (pairs.empty()) return;
+    std::vector<bool> moves(mesh.vertices.size());
+    for (const auto& pair : pairs)
+      for (int t : pair)
+        for (int v : mesh.triangles[t]) moves[v] = true;
+    for (int wider = 0; wider <= round / 3; ++wider) {
+      const std::vector<bool> before = moves;
+      for (const auto& t : mesh.triangles)
+        if (before[t[0]] || before[t[1]] || before[t[2]]) moves[t[0]] = moves[t[1]] = moves[t[2]] = true;
+    }
+    std::vector<Eigen::Vector3d> sum(mesh.vertices.size(), Eigen::Vector3d::Zero());
+    std::vector<int> count(mesh.vertices.size(), 0);
+    for (const auto& t : mesh.triangles)
+      for (int k = 0; k < 3; ++k) sum[t[k]] += mesh.vertices[t[(k + 1) % 3]], ++count[t[k]];
+    for (std::size_t v = 0; v < moves.size(); ++v)
+      if (moves[v]) mesh.vertices[v] = (mesh.vertices[v] + sum[v] / count[v]) / 2;
+  }
+}
+
+std::vector<double> wanted_edges(const Mesh& fine, double voxel_m) {
+  const BoxTree tree(fine);
+  const std::vector<double> diameter = calibres(fine, tree, calibre_stride);
+  std::vector<double> edge(fine.vertices.size(), 0);
+  std::vector<int> count(fine.vertices.size(), 0);
+  for (std::size_t i = 0; i < diameter.size(); ++i) {
+    if (diameter[i] <= 0) continue;
+    for (int v : fine.triangles[i * calibre_stride]) edge[v] += diameter[i], ++count[v];
+  }
+  for (std::size_t v = 0; v < edge.size(); ++v)
+    if (count[v]) edge[v] /= count[v];
+  // Vertices that none of the triangles looked at has take their neighbours'.
+  for (int round = 0; round < 2; ++round)
+    for (const auto& t : fine.triangles)
+      for (int k = 0; k < 3; ++k)
+        if (const int from = t[k], to = t[(k + 1) % 3]; edge[from] > 0 && edge[to] == 0) edge[to] = edge[from];
+  for (double& e : edge) {
+    const double radius = e > 0 ? e / 2 : mm;
+    e = std::clamp(cell_at_1_mm_m * std::pow(radius / mm, 0.75), 1.2 * voxel_m,
+                   std::max(longest_edge_m, 1.2 * voxel_m));
+  }
+  return edge;
+}
+
+}  // namespace
+
+Mesh finished_surface(const Mesh& fine, const BoxTree& wall, double voxel_m, std::size_t parts,
+                      std::size_t most_triangles) {
+  std::vector<double> edge = wanted_edges(fine, voxel_m);
+  Mesh mesh = decimate(fine, edge, chance_voxels * voxel_m);
+  if (mesh.triangles.size() * parts > most_triangles) {
+    const double longer =
+        std::sqrt(static_cast<double>(mesh.triangles.size() * parts) / static_cast<double>(most_triangles));
+    for (double& e : edge) e *= longer;
+    mesh = decimate(fine, edge, chance_voxels * voxel_m);
+  }
+  onto_wall(wall, voxel_m, mesh);
+  uncross(mesh);
+  return mesh;
+}
+
+}  // namespace ostium
