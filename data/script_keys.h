@@ -105,7 +105,7 @@ inline const JsonObjectKeys step = {
       json_type::number(from_to(-55, 55))},
      {"table_mm", false, "the isocentre in the patient in mm, three numbers: left, head, front", json_type::numbers(3)},
      {"field_mm", false, "side of the detector's field in mm: 200, 160 or 130",
-      json_type::choice({200.0, 160.0, 130.0})},
+      json_type::one_of_numbers({200, 160, 130})},
      {"on", false, "true or false", json_type::boolean()},
      {"rate_1_min", false, "beats a minute, 40 to 180", json_type::number(from_to(40, 180))},
      {"text", false, "a text", json_type::text()},

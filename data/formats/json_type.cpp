@@ -95,7 +95,7 @@ JsonType constant(const std::string& text) { return {{{"const", json_text(text)}
 
 JsonType choice(const std::vector<std::string>& names) { return {{{"enum", json_list(names)}}}; }
 
-JsonType choice(const std::vector<double>& numbers) {
+JsonType one_of_numbers(const std::vector<double>& numbers) {
   std::vector<JsonValue> items;
   for (double number : numbers) items.push_back(json_number(number));
   return {{{"enum", json_list(std::move(items))}}};

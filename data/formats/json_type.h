@@ -36,7 +36,7 @@ JsonType boolean();
 JsonType only_true();
 JsonType constant(const std::string& text);
 JsonType choice(const std::vector<std::string>& names);
-JsonType choice(const std::vector<double>& numbers);
+JsonType one_of_numbers(const std::vector<double>& numbers);
 JsonType object(const std::string& name);  ///< one of the file's objects, by the name of its JsonObjectKeys
 JsonType values_by_name(const std::vector<JsonType>& either);
 JsonType list_of(const JsonType& item, int at_least = 0, int at_most = 0);  ///< at_most 0: any number

@@ -6,10 +6,8 @@
 
 #include <filesystem>
 #include <fstream>
-#include <nlohmann/json.hpp>
 
 #include "data/catalogue.h"
-#include "data/script_keys.h"
 #include "tests/data/refusals.h"
 
 namespace ostium {
@@ -357,12 +355,6 @@ TEST(Script, ThoseThatShipLoadAndNameInstrumentsThatThereAre) {
   } catch (const LoadError& error) {
     expect_words(error.what(), {"no script \"no-such-script\"", "aorta-arch-wire"});
   }
-}
-
-TEST(Script, SchemaHasTheKeysOfTheReader) {
-  const auto schema = nlohmann::json::parse(std::ifstream(fs::path(data_folder()) / "schemas" / "script.schema.json"));
-  EXPECT_EQ(schema["$defs"].size(), script_keys::all.size());
-  for (const JsonObjectKeys* known : script_keys::all) expect_keys_of(schema["$defs"][known->object], *known);
 }
 
 }  // namespace
