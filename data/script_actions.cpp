@@ -14,8 +14,7 @@ struct KeysOfAction {
 };
 
 KeysOfAction keys_of(const std::string& action) {
-  if (action == stands_for_steps)
-    return {{"script"}, {"label", "lesion", "with", "values", "otherwise", "tries"}};
+  if (action == stands_for_steps) return {{"script"}, {"label", "lesion", "with", "values", "otherwise", "tries"}};
   KeysOfAction keys{{}, {"label", "detour"}};
   for (const ScriptActionRow& row : script_actions) {
     if (row.name != action) continue;
