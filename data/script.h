@@ -8,51 +8,11 @@
 #include <string>
 #include <vector>
 
+#include "data/catalogue/script/script_conditions.h"
+#include "data/script_actions.h"
 #include "vascular/anatomy/parameters.h"
 
 namespace ostium {
-
-enum class ConditionKind {
-  tip_passes,
-  tip_leaves,
-  tip_in,
-  tip_on,
-  tip_astray,
-  tip_points,
-  tip_faces,
-  tip_drops,
-  fed,
-  inserted,
-  out,
-  turned,
-  hub_within,
-  push_exceeds,
-  torque_exceeds,
-  wall_force_exceeds,
-  tip_force_exceeds,
-  seconds,
-  beats,
-  balloon_at,
-  balloon_within,
-  balloon_clear,
-  balloon_open,
-  balloon_empty,
-  engaged,
-  trace,
-  contrast_in,
-  flow_below,
-  ST_exceeds,
-  act_exceeds,
-  stenosis_below,
-  stent_beyond,
-  unharmed
-};
-
-/// Whether it needs arteries and a lesion: what is looked at in treatment.
-bool needs_patient(ConditionKind kind);
-
-/// Whether what is looked at is one of the case's lesions.
-bool is_about_a_lesion(ConditionKind kind);
 
 struct ScriptCondition {
   ConditionKind kind = ConditionKind::seconds;
@@ -66,22 +26,6 @@ struct ScriptCondition {
   bool if_there = false;  ///< of tip_in, tip_leaves, tip_passes: where there is no such place, no tip is in it
   std::string file;       ///< where it stands
   int line = 0;
-};
-
-enum class ScriptAction {
-  advance,
-  withdraw,
-  turn,
-  wait,
-  view,
-  fluoroscopy,
-  cine,
-  heart_rate,
-  mark,
-  inject,
-  inflate,
-  deflate,
-  drug
 };
 
 struct ScriptStep {

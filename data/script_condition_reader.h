@@ -8,6 +8,9 @@
 
 namespace ostium {
 
+/// The keys of a condition: those of the rows, those that stand beside them, `lesion` and `of`.
+JsonObjectKeys condition_keys();
+
 /// Of `step`'s list `key`, or none; one that does not name its tool means the first of `tools`.
 std::vector<ScriptCondition> read_conditions(const JsonObject& step, const char* key, const Script& script,
                                              const std::vector<int>& tools);

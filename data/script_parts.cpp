@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "data/catalogue/script/script_values.h"
 #include "data/script_actions.h"
 #include "data/script_condition_reader.h"
 #include "data/script_keys.h"
@@ -75,11 +76,12 @@ void say_in_steps(const JsonObject& step, JsonValue& part) {
   }
 }
 
-bool write_out(JsonValue& file, int depth) {
+/// Writes out the values of `file`, those of `given` instead of its own where it says some; then its parts.
+bool write_out(JsonValue& file, const JsonValue* given, int depth) {
+  bool any = write_out_values(file, given);
   const JsonObject root(file, keys::root);
   if (root.text("schema") != "ostium-script/1") root.refuse("schema");
   std::vector<JsonValue> steps;
-  bool any = false;
   for (const JsonValue& value : root.list("steps")) {
     const JsonValue* action = value.find("do");
     if (!action || action->text != stands_for_steps) {
@@ -87,11 +89,11 @@ bool write_out(JsonValue& file, int depth) {
       continue;
     }
     const JsonObject step(value, keys::step);
-    require_keys(step, script_actions().back());
+    require_keys(step);
     if (depth == deepest_script) value.fail(fmt::format("{}: scripts in scripts deeper than {}", value.path, depth));
     any = true;
     JsonValue part = load_json((fs::path(*file.file).parent_path() / (step.text("script") + ".json")).string());
-    write_out(part, depth + 1);
+    write_out(part, step.value().find("values"), depth + 1);
     read_lesion(step);
     if (step.has("with") && step["with"].type != JsonValue::Type::object) step.refuse("with");
     if (step.has("with"))
@@ -114,6 +116,6 @@ bool write_out(JsonValue& file, int depth) {
 
 }  // namespace
 
-bool write_out_parts(JsonValue& script) { return write_out(script, 0); }
+bool write_out_parts(JsonValue& script) { return write_out(script, nullptr, 0); }
 
 }  // namespace ostium

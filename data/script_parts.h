@@ -4,8 +4,8 @@
 
 namespace ostium {
 
-/// Puts the steps of other scripts where `script` names them; their values keep their own file and line. Returns
-/// whether there were such. Throws LoadError with file, line and cure.
+/// Puts the steps of other scripts where `script` names them, with the values that it gives them; their values keep
+/// their own file and line. Returns whether anything was written out. Throws LoadError with file, line and cure.
 bool write_out_parts(JsonValue& script);
 
 }  // namespace ostium

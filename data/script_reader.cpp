@@ -31,12 +31,8 @@ void read_view(const JsonObject& object, ScriptStep& step) {
     if (!view) object.refuse("view");
     step.lao_rad = degree * view->lao_deg, step.cran_rad = degree * view->cran_deg;
   }
-  const auto angle = [&](const char* key, double most) {
-    if (std::fabs(object.number(key)) > most) object.refuse(key);
-    return degree * object.number(key);
-  };
-  if (object.has("lao_deg")) step.lao_rad = angle("lao_deg", 120);
-  if (object.has("cran_deg")) step.cran_rad = angle("cran_deg", 55);
+  if (object.has("lao_deg")) step.lao_rad = degree * object.number("lao_deg");
+  if (object.has("cran_deg")) step.cran_rad = degree * object.number("cran_deg");
   if (object.has("table_mm")) {
     const std::vector<double> mm = object.numbers("table_mm", 3);
     step.table_P = 1e-3 * Eigen::Vector3d(mm[0], mm[1], mm[2]);
@@ -50,76 +46,64 @@ void read_view(const JsonObject& object, ScriptStep& step) {
 
 /// Contrast, inflation device, drugs.
 void read_treatment(const JsonObject& object, ScriptStep& step) {
-  const auto within = [&](const char* key, double most, double unit, double& to) {
-    if (!object.has(key)) return;
-    if (object.positive(key) > most) object.refuse(key);
-    to = unit * object.number(key);
+  const auto number = [&](const char* key, double unit, double& to) {
+    if (object.has(key)) to = unit * object.number(key);
   };
-  within("rate_mL_s", 20, 1e-6, step.rate_m3_s);
-  within("volume_mL", 60, 1e-6, step.volume_m3);
-  within("over_s", 60, 1, step.over_s);
-  within("heparin_U", 20000, 1, step.heparin_U);
-  within("nitrate_ug", 1000, 1, step.nitrate_ug);
-  within("adenosine_ug", 1000, 1, step.adenosine_ug);
-  const auto from_zero = [&](const char* key, double most, double unit, double& to) {
-    if (!object.has(key)) return;
-    if (object.not_negative(key) > most) object.refuse(key);
-    to = unit * object.number(key);
-  };
-  from_zero("iodine_mg_mL", 400, 1, step.iodine_kg_m3);
-  from_zero("gauge_atm", 30, 101325, step.gauge_Pa);
+  number("rate_mL_s", 1e-6, step.rate_m3_s);
+  number("volume_mL", 1e-6, step.volume_m3);
+  number("over_s", 1, step.over_s);
+  number("heparin_U", 1, step.heparin_U);
+  number("nitrate_ug", 1, step.nitrate_ug);
+  number("adenosine_ug", 1, step.adenosine_ug);
+  number("iodine_mg_mL", 1, step.iodine_kg_m3);
+  number("gauge_atm", 101325, step.gauge_Pa);
   if (step.action == ScriptAction::drug && step.heparin_U + step.nitrate_ug + step.adenosine_ug == 0)
     object.value().fail(object.value().path + " gives nothing; expected heparin_U, nitrate_ug or adenosine_ug");
+}
+
+std::vector<int> read_tools(const JsonObject& object, const Script& script) {
+  std::vector<int> tools;
+  if (!object.has("tool")) return tools;
+  const JsonValue& tool = object["tool"];
+  if (tool.type != JsonValue::Type::array) return {tool_called(script, tool)};
+  if (tool.items.empty()) object.refuse("tool");
+  for (const JsonValue& one : tool.items) tools.push_back(tool_called(script, one));
+  return tools;
+}
+
+/// How fast the tools are moved, and until when.
+void read_motion(const JsonObject& object, const Script& script, ScriptStep& step) {
+  step.tools = read_tools(object, script);
+  if (object.has("speed_mm_s"))
+    step.speed_m_s = 1e-3 * object.number("speed_mm_s") * (step.action == ScriptAction::withdraw ? -1 : 1);
+  if (object.has("turn_deg_s")) {
+    if (object.number("turn_deg_s") == 0) object.refuse("turn_deg_s");
+    step.turn_rad_s = degree * object.number("turn_deg_s");
+  }
+  step.until = read_conditions(object, "until", script, step.tools);
+  step.unless = read_conditions(object, "unless", script, step.tools);
+  if (object.has("timeout_s")) step.timeout_s = object.number("timeout_s");
 }
 
 ScriptStep read_step(const JsonValue& value, const Script& script) {
   const JsonObject object(value, keys::step);
   ScriptStep step;
   step.line = value.line;
-  std::vector<std::string> names;
-  for (const ScriptActionKeys& one : script_actions()) names.emplace_back(one.name);
-  const std::size_t action = object.choice("do", names);
-  assert(names[action] != stands_for_steps);  // such are written out by now
-  require_keys(object, script_actions()[action]);
-  step.action = static_cast<ScriptAction>(action);
+  const std::size_t action = object.choice("do", action_names());
+  assert(action < std::size(script_actions));  // steps that stand for others are written out by now
+  require_keys(object);
+  step.action = script_actions[action].action;
   if (object.has("label")) step.label = object.text("label");
-  if (object.has("tool")) {
-    const JsonValue& tool = object["tool"];
-    if (tool.type == JsonValue::Type::array) {
-      if (tool.items.empty()) object.refuse("tool");
-      for (const JsonValue& one : tool.items) step.tools.push_back(tool_called(script, one));
-    } else {
-      step.tools.push_back(tool_called(script, tool));
-    }
-  }
-  if (object.has("speed_mm_s")) {
-    if (object.positive("speed_mm_s") > 500) object.refuse("speed_mm_s");
-    step.speed_m_s = 1e-3 * object.number("speed_mm_s") * (step.action == ScriptAction::withdraw ? -1 : 1);
-  }
-  if (object.has("turn_deg_s")) {
-    const double turn = object.number("turn_deg_s");
-    if (turn == 0 || !(std::fabs(turn) <= 3600)) object.refuse("turn_deg_s");
-    step.turn_rad_s = degree * turn;
-  }
-  step.until = read_conditions(object, "until", script, step.tools);
-  step.unless = read_conditions(object, "unless", script, step.tools);
-  if (object.has("timeout_s")) {
-    step.timeout_s = object.positive("timeout_s");
-    if (step.timeout_s > 3600) object.refuse("timeout_s");
-  }
+  read_motion(object, script, step);
   if (object.has("tries")) {
-    const double tries = object.number("tries");
-    if (!object.has("otherwise") || tries != std::floor(tries) || tries < 1 || tries > 100) object.refuse("tries");
-    step.tries = static_cast<int>(tries);
+    if (!object.has("otherwise")) object.refuse("tries");
+    step.tries = object.whole("tries");
   }
   if (object.has("detour")) step.detour = object.boolean("detour");
   if (step.detour && script.steps.empty()) object.refuse("detour");
   read_view(object, step);
   if (object.has("on")) step.on = object.boolean("on");
-  if (object.has("rate_1_min")) {
-    step.rate_1_min = object.number("rate_1_min");
-    if (!(step.rate_1_min >= 40 && step.rate_1_min <= 180)) object.refuse("rate_1_min");
-  }
+  if (object.has("rate_1_min")) step.rate_1_min = object.number("rate_1_min");
   if (object.has("text")) step.text = object.text("text");
   read_treatment(object, step);
   return step;
@@ -156,8 +140,7 @@ ScriptTool read_tool(const JsonObject& tool) {
   if (tool.has("lesion") && !tool.has("of_reference")) tool.refuse("lesion");
   if (!tool.has("sizes")) return out;
   const char* measure = tool.has("of_aorta") ? "of_aorta" : "of_reference";
-  (tool.has("of_aorta") ? out.of_aorta : out.of_reference) = tool.positive(measure);
-  if (std::max(out.of_aorta, out.of_reference) > (tool.has("of_aorta") ? 3 : 1.5)) tool.refuse(measure);
+  (tool.has("of_aorta") ? out.of_aorta : out.of_reference) = tool.number(measure);
   if (tool.list("sizes").empty()) tool.refuse("sizes");
   for (const JsonValue& size : tool.list("sizes")) {
     if (size.type != JsonValue::Type::text || size.text.empty()) tool.refuse("sizes");
@@ -167,11 +150,11 @@ ScriptTool read_tool(const JsonObject& tool) {
 }
 
 Script read(JsonValue file, const std::string& text) {
-  const bool has_others = write_out_parts(file);
+  const bool written_out = write_out_parts(file);
   const JsonObject root(file, keys::root);
   Script script;
   script.file = *file.file;
-  script.source = has_others ? to_json(file) : text;
+  script.source = written_out ? to_json(file) : text;
   script.name = root.text("name");
   if (script.name != fs::path(*file.file).stem().string()) root.refuse("name");
   script.title = root.text("title");
@@ -210,7 +193,7 @@ std::string all_of(const std::string& file) {
 }  // namespace
 
 std::string ScriptStep::words() const {
-  const std::string name = script_actions()[static_cast<std::size_t>(action)].name;
+  const std::string name = row_of(action).name;
   return label.empty() ? name : fmt::format("{} ({})", name, label);
 }
 

@@ -7,7 +7,8 @@
 #include <random>
 #include <stdexcept>
 
-#include "app/session/sight.h"
+#include "app/session/condition_evaluator.h"
+#include "app/session/operator_actions.h"
 #include "data/assessment/metrics.h"
 
 namespace ostium {
@@ -27,62 +28,75 @@ int cell_at(const Coronaries& c, const Way& way, int sphere) {
   return best;
 }
 
-std::vector<int> places(const Script& script, const std::vector<ScriptCondition>& conditions,
-                        const SessionModel& model) {
+/// Refuses a condition about what this session does not have.
+void require_subject(const ScriptCondition& c, const SessionModel& model) {
+  if (needs_patient(c.kind) && !model.has_patient())
+    refuse(c, c.words + ": a mesh has no circulation; expected a case");
+  if (!is_about_a_lesion(c.kind)) return;
+  if (const std::size_t n = model.vessel->coronaries->lesions.size(); static_cast<std::size_t>(c.lesion) >= n)
+    refuse(c, n == 0 ? c.words + ": this patient has no lesion"
+                     : fmt::format("{}: this patient's lesions are {}", c.words, n));
+}
+
+[[noreturn]] void refuse_place(const Script& script, const ScriptCondition& c, const Way& way) {
+  std::string known;
+  for (const std::string& name : way.places()) known += (known.empty() ? "" : ", ") + name;
+  for (const ScriptLandmark& landmark : script.landmarks) known += ", " + landmark.name;
+  refuse(c, fmt::format("there is no place \"{}\" in this vessel; expected one of: {}; or with millimetres beyond a "
+                        "branch's origin, as RCA+20",
+                        c.place, known));
+}
+
+/// A place of the script's own, or one of the vessel's; -1: there is none.
+int place_called(const Script& script, const std::string& name, const Way& way) {
+  int place = -1;
+  for (const ScriptLandmark& landmark : script.landmarks)
+    if (landmark.name == name) place = way.nearest(landmark.p_P);
+  return place < 0 ? way.place(name) : place;
+}
+
+/// What a condition's place is in this session: a sphere of the vessel's, a branch, a cell of the flow, a trace; -1:
+/// none.
+int place_of(const Script& script, const ScriptCondition& c, const SessionModel& model) {
   const Way& way = *model.vessel->way;
-  std::vector<int> out;
-  for (const ScriptCondition& c : conditions) {
-    int place = -1;
-    if (needs_patient(c.kind) && !model.has_patient())
-      refuse(c, c.words + ": a mesh has no circulation; expected a case");
-    if (is_about_a_lesion(c.kind))
-      if (const std::size_t n = model.vessel->coronaries->lesions.size(); static_cast<std::size_t>(c.lesion) >= n)
-        refuse(c, n == 0 ? c.words + ": this patient has no lesion"
-                         : fmt::format("{}: this patient's lesions are {}", c.words, n));
-    if (c.kind == ConditionKind::trace) {
+  const FlowTree& tree = model.physiology.flow.tree;
+  int place = -1;
+  switch (row_of(c.kind).value) {
+    case ConditionValue::pressure_trace:
       for (int t = 0; t < 5; ++t)
         if (trace_name(static_cast<Trace>(t)) == c.place) place = t;
-    } else if (c.kind == ConditionKind::engaged) {
-      place = model.physiology.flow.tree.branch(c.place);
-      if (place < 0 || model.physiology.flow.tree.branches[static_cast<std::size_t>(place)].parent >= 0)
+      return place;
+    case ConditionValue::ostium:
+      place = tree.branch(c.place);
+      if (place < 0 || tree.branches[static_cast<std::size_t>(place)].parent >= 0)
         refuse(c, c.words + ": expected an artery that leaves the aorta, LM or RCA");
-      out.push_back(place);
-      continue;
-    } else if (c.kind == ConditionKind::tip_in || c.kind == ConditionKind::tip_on ||
-               c.kind == ConditionKind::tip_astray || c.kind == ConditionKind::tip_faces) {
+      return place;
+    case ConditionValue::branch:
       place = way.entry(c.place);
-    } else if (c.kind == ConditionKind::tip_passes || c.kind == ConditionKind::tip_leaves ||
-               c.kind == ConditionKind::contrast_in) {
-      for (const ScriptLandmark& landmark : script.landmarks)
-        if (landmark.name == c.place) place = way.nearest(landmark.p_P);
-      if (place < 0) place = way.place(c.place);
-    } else {
-      out.push_back(-1);
-      continue;
-    }
-    if (place < 0 && c.if_there) {
-      out.push_back(-1);
-      continue;
-    }
-    if (place < 0) {
-      std::string known;
-      for (const std::string& name : way.places()) known += (known.empty() ? "" : ", ") + name;
-      for (const ScriptLandmark& landmark : script.landmarks) known += ", " + landmark.name;
-      refuse(c,
-             fmt::format("there is no place \"{}\" in this vessel; expected one of: {}; or with millimetres beyond a "
-                         "branch's origin, as RCA+20",
-                         c.place, known));
-    }
-    if (c.kind == ConditionKind::contrast_in) {
-      place = cell_at(*model.vessel->coronaries, way, place);
-      if (place < 0) refuse(c, c.words + ": contrast is looked for in coronary arteries alone");
-    }
-    out.push_back(place);
+      break;
+    case ConditionValue::place:
+    case ConditionValue::contrast:
+      place = place_called(script, c.place, way);
+      break;
+    default:
+      return -1;
+  }
+  if (place < 0 && !c.if_there) refuse_place(script, c, way);
+  if (row_of(c.kind).value != ConditionValue::contrast) return place;
+  const int cell = cell_at(*model.vessel->coronaries, way, place);
+  if (cell < 0) refuse(c, c.words + ": contrast is looked for in coronary arteries alone");
+  return cell;
+}
+
+std::vector<int> places(const Script& script, const std::vector<ScriptCondition>& conditions,
+                        const SessionModel& model) {
+  std::vector<int> out;
+  for (const ScriptCondition& c : conditions) {
+    require_subject(c, model);
+    out.push_back(place_of(script, c, model));
   }
   return out;
 }
-
-constexpr double vacuum_Pa = 101325;
 
 /// A hand's own speed in a step: log-normal, 15 %.
 double hand_factor(std::uint64_t seed, int step) {
@@ -126,69 +140,7 @@ void begin(const ScriptStep& step, const SessionModel& model, const SessionState
   for (std::size_t t = 0; t < model.tools.size(); ++t)
     state.began_fed_m[t] = session.hands[t].fed_m, state.began_turned_rad[t] = session.hands[t].turned_rad;
   forget_tips(state);
-  switch (step.action) {
-    case ScriptAction::view:
-      state.lao_rad = step.lao_rad.value_or(state.lao_rad), state.cran_rad = step.cran_rad.value_or(state.cran_rad);
-      state.field_m = step.field_m.value_or(state.field_m), state.p_PI = step.table_P.value_or(state.p_PI);
-      break;
-    case ScriptAction::fluoroscopy:
-      state.fluoroscopy = step.on;
-      break;
-    case ScriptAction::cine:
-      state.cine = step.on;
-      break;
-    case ScriptAction::heart_rate:
-      state.rate_1_min = step.rate_1_min;
-      break;
-    case ScriptAction::inject:
-      state.iodine_kg_m3 = step.iodine_kg_m3;
-      state.began_injected_m3 = session.blood.contrast.injected_m3;
-      break;
-    case ScriptAction::inflate:
-      state.began_gauge_Pa = state.gauge_Pa;
-      break;
-    case ScriptAction::deflate:
-      state.gauge_Pa = -vacuum_Pa;
-      break;
-    case ScriptAction::drug:
-      state.heparin_U = step.heparin_U, state.nitrate_ug = step.nitrate_ug, state.adenosine_ug = step.adenosine_ug;
-      break;
-    default:
-      break;
-  }
-}
-
-bool takes_time(const ScriptStep& step) {
-  return !step.until.empty() || step.action == ScriptAction::inject || step.action == ScriptAction::inflate ||
-         step.action == ScriptAction::deflate;
-}
-
-/// What an action comes to an end by itself with, where the script does not say until when.
-bool is_over(const ScriptStep& step, const Sight& sight) {
-  if (!step.until.empty()) return false;
-  const OperatorState& state = sight.state;
-  switch (step.action) {
-    case ScriptAction::inject:
-      return sight.session.blood.contrast.injected_m3 - state.began_injected_m3 >= step.volume_m3;
-    case ScriptAction::inflate:
-      return state.gauge_Pa == step.gauge_Pa;
-    case ScriptAction::deflate:
-      return !sight.balloon() || is_empty(*sight.balloon(), sight.session.treatment.balloon);
-    default:
-      return false;
-  }
-}
-
-/// Screws the inflation device, presses the syringe.
-void treat(const ScriptStep& step, const SessionState& session, double now_s, OperatorState& state) {
-  state.injection_m3_s = 0;
-  if (step.action == ScriptAction::inflate) {
-    const double part = std::min(1.0, (now_s - state.began_s) / step.over_s);
-    state.gauge_Pa = part < 1 ? state.began_gauge_Pa + part * (step.gauge_Pa - state.began_gauge_Pa) : step.gauge_Pa;
-  }
-  if (step.action == ScriptAction::inject &&
-      session.blood.contrast.injected_m3 - state.began_injected_m3 < step.volume_m3)
-    state.injection_m3_s = step.rate_m3_s;
+  begin_action(step, session, state);
 }
 
 void ask(const ScriptPlan& plan, const OperatorState& state, SessionInputs& inputs) {
@@ -278,7 +230,7 @@ Outcome decide(const ScriptPlan& plan, const SessionModel& model, const SessionS
   feel(model, report, state);
   state.heparin_U = state.nitrate_ug = state.adenosine_ug = 0;
   using Kind = OperatorEvent::Kind;
-  const Sight sight{.plan = plan, .model = model, .session = session, .report = report, .state = state};
+  const ConditionEvaluator evaluator(plan, model, session, report, state);
   const int count = static_cast<int>(plan.script.steps.size());
   // A step that takes no time leads to the next at once; `count` bounds jumps among such.
   for (int guard = 0; guard <= count && state.outcome == 0; ++guard) {
@@ -293,14 +245,14 @@ Outcome decide(const ScriptPlan& plan, const SessionModel& model, const SessionS
       events.push_back({step.action == ScriptAction::mark ? Kind::marked : Kind::begins, s, -1});
       if (takes_time(step)) break;
     }
-    const int until = sight.first_that_holds(step.until, plan.until_places[static_cast<std::size_t>(s)]);
-    if (!takes_time(step) || until >= 0 || is_over(step, sight)) {
+    const int until = evaluator.first_that_holds(step.until, plan.until_places[static_cast<std::size_t>(s)]);
+    if (!takes_time(step) || until >= 0 || is_over(step, evaluator)) {
       if (until >= 0) events.push_back({Kind::done, s, until});
       go_to(after(plan.script, s), state);
       continue;
     }
-    const int unless = sight.first_that_holds(step.unless, plan.unless_places[static_cast<std::size_t>(s)]);
-    const bool late = sight.now_s() - state.began_s >= step.timeout_s;
+    const int unless = evaluator.first_that_holds(step.unless, plan.unless_places[static_cast<std::size_t>(s)]);
+    const bool late = evaluator.now_s() - state.began_s >= step.timeout_s;
     if (unless < 0 && !late) break;
     events.push_back({unless >= 0 ? Kind::failed : Kind::timed_out, s, unless});
     const int next = leads_to(plan.script, s, state.tries[static_cast<std::size_t>(s)]);
@@ -316,7 +268,7 @@ Outcome decide(const ScriptPlan& plan, const SessionModel& model, const SessionS
   note_tips(model, session, state);
   state.injection_m3_s = 0;
   if (state.outcome == 0 && state.step < count)
-    treat(plan.script.steps[static_cast<std::size_t>(state.step)], session, sight.now_s(), state);
+    continue_action(plan.script.steps[static_cast<std::size_t>(state.step)], session, evaluator.now_s(), state);
   ask(plan, state, inputs);
   return static_cast<Outcome>(static_cast<int>(state.outcome));
 }

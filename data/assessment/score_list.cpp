@@ -18,26 +18,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const JsonObjectKeys root_keys = {"scoring list",
-                                  {{"schema", true, "\"ostium-scoring/1\""},
-                                   {"name", true, "the file's name without .json"},
-                                   {"title", true, "what people call it, a text"},
-                                   {"note", true, "what it is worth, a text"},
-                                   {"items", true, "steps and errors, a list of at least one"}}};
-const JsonObjectKeys item_keys = {"item",
-                                  {{"id", true, "a number of its own, a text"},
-                                   {"phase", true, "a part of the procedure, a text"},
-                                   {"kind", true, "\"step\", \"error\" or \"critical\""},
-                                   {"what", true, "a text"},
-                                   {"when", true, "how it is told, a text"},
-                                   {"check", false, "what the recording must show; without it a person ticks"}}};
-const JsonObjectKeys check_keys = {"check",
-                                   {{"event", false, "an event's name (data/assessment/events.def)"},
-                                    {"before", false, "an event's name: the first must come before its first"},
-                                    {"metric", false, "a metric's name"},
-                                    {"least", false, "a number: of events, or the metric's value"},
-                                    {"most", false, "a number: of events, or the metric's value"}}};
-
 EventCode event_called(const JsonObject& object, const char* key) {
   const std::string name = object.text(key);
   std::string known;
@@ -49,7 +29,7 @@ EventCode event_called(const JsonObject& object, const char* key) {
 }
 
 ScoreCheck read_check(const JsonValue& value) {
-  const JsonObject object(value, check_keys);
+  const JsonObject object(value, scoring_keys::check);
   ScoreCheck check;
   if (object.has("event") == object.has("metric"))
     value.fail(value.path + " must look at an event or at a metric; expected one of the two");
@@ -112,14 +92,14 @@ Score judge(const ScoreItem& item, const RunRecord& record, const std::vector<Me
 
 ScoreList read_score_list(const std::string& file, const std::string& text) {
   const JsonValue value = parse_json(file, text);
-  const JsonObject object(value, root_keys);
+  const JsonObject object(value, scoring_keys::root);
   if (object.text("schema") != "ostium-scoring/1") object.refuse("schema");
   ScoreList list;
   list.name = object.text("name"), list.title = object.text("title"), list.note = object.text("note");
   if (list.name != fs::path(file).stem().string()) object.refuse("name");
   if (object.list("items").empty()) object.refuse("items");
   for (const JsonValue& entry : object.list("items")) {
-    const JsonObject of(entry, item_keys);
+    const JsonObject of(entry, scoring_keys::item);
     ScoreItem item;
     item.id = of.text("id"), item.phase = of.text("phase"), item.what = of.text("what"), item.when = of.text("when");
     item.kind = static_cast<ScoreKind>(of.choice("kind", {"step", "error", "critical"}));

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cmath>
 
 namespace ostium {
 
@@ -28,16 +29,24 @@ const JsonValue& JsonObject::operator[](const std::string& key) const {
   return *member;
 }
 
-void JsonObject::refuse(const std::string& key) const {
-  const auto known =
-      std::find_if(keys_.keys.begin(), keys_.keys.end(), [&](const JsonKey& k) { return k.name == key; });
-  assert(known != keys_.keys.end());
-  (*this)[key].refuse(known->expected);
+const JsonKey& JsonObject::known(const std::string& key) const {
+  const auto is_it = [&](const JsonKey& k) { return k.name == key; };
+  const auto found = std::find_if(keys_.keys.begin(), keys_.keys.end(), is_it);
+  assert(found != keys_.keys.end());
+  return *found;
 }
 
+void JsonObject::refuse(const std::string& key) const { (*this)[key].refuse(known(key).expected); }
+
 double JsonObject::number(const std::string& key) const {
-  if ((*this)[key].type != JsonValue::Type::number) refuse(key);
-  return (*this)[key].number;
+  const JsonValue& value = (*this)[key];
+  if (value.type != JsonValue::Type::number || !known(key).type.range.holds(value.number)) refuse(key);
+  return value.number;
+}
+
+int JsonObject::whole(const std::string& key) const {
+  if (number(key) != std::floor(number(key))) refuse(key);
+  return static_cast<int>(number(key));
 }
 
 double JsonObject::positive(const std::string& key) const {

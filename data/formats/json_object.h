@@ -3,6 +3,7 @@
 /// with file, line, key, value found and what was expected.
 #include <utility>
 
+#include "data/formats/json_type.h"
 #include "data/formats/json_value.h"
 
 namespace ostium {
@@ -10,13 +11,16 @@ namespace ostium {
 struct JsonKey {
   std::string name;
   bool required = true;
-  std::string expected;  ///< what a message says of it: "bending stiffness in N mm2, > 0"
+  std::string expected;  ///< what a message and the schema say of it: "bending stiffness in N mm2, > 0"
+  JsonType type = {};
 };
 
-/// The keys of one kind of object, under the name that the schema gives it ("$defs").
+/// The keys of one kind of object, under the name that the schema gives it ("$defs"). Readers and schemas both go by
+/// it.
 struct JsonObjectKeys {
   std::string object;
   std::vector<JsonKey> keys;
+  std::vector<SchemaKeyword> rules = {};  ///< which keys go together, for the schema; the reader has its own words
 };
 
 class JsonObject {
@@ -31,7 +35,8 @@ class JsonObject {
 
   double positive(const std::string& key) const;
   double not_negative(const std::string& key) const;
-  double number(const std::string& key) const;
+  double number(const std::string& key) const;  ///< within the range that the key's type says
+  int whole(const std::string& key) const;      ///< the same, without a fraction
   std::vector<double> numbers(const std::string& key, std::size_t count) const;
   bool boolean(const std::string& key) const;
   std::string text(const std::string& key) const;  ///< not empty
@@ -42,6 +47,8 @@ class JsonObject {
   [[noreturn]] void refuse(const std::string& key) const;
 
  private:
+  const JsonKey& known(const std::string& key) const;
+
   const JsonValue& value_;
   const JsonObjectKeys& keys_;
 };

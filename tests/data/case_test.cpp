@@ -13,10 +13,10 @@
 #include "data/catalogue/case/anatomy_file.h"
 #include "data/catalogue/case/anatomy_keys.h"
 #include "data/catalogue/case/case_keys.h"
-#include "data/catalogue/catalogue.h"
-#include "data/formats/load_error.h"
 #include "data/catalogue/case/tree_file.h"
 #include "data/catalogue/case/tree_keys.h"
+#include "data/catalogue/catalogue.h"
+#include "data/formats/load_error.h"
 #include "data/formats/write_file.h"
 #include "tests/data/refusals.h"
 #include "vascular/shape/contour.h"
@@ -185,21 +185,6 @@ TEST(Case, ABrokenImportedOneIsRefused) {
   write_file((folder / "anatomy.json").string(), broken);
   expect_words(message(folder), {"anatomy.json:", "tubes[0].parent is 0", "earlier tube"});
   expect_words(refusal("\"anatomy\":", "\"imported\": {}, \"anatomy\":"), {"both"});
-}
-
-void expect_same_keys(const char* schema_file, const std::vector<const JsonObjectKeys*>& all) {
-  const auto schema = nlohmann::json::parse(std::ifstream(fs::path(data_folder()) / "schemas" / schema_file));
-  EXPECT_EQ(schema["$defs"].size(), all.size());
-  for (const JsonObjectKeys* known : all) {
-    const auto& definition = schema["$defs"][known->object];
-    expect_keys_of(definition, *known);
-  }
-}
-
-TEST(Case, SchemasHaveTheKeysOfTheReaders) {
-  expect_same_keys("case.schema.json", case_keys::all);
-  expect_same_keys("tree.schema.json", tree_keys::all);
-  expect_same_keys("anatomy.schema.json", anatomy_keys::all);
 }
 
 SphereTree fork() {

@@ -9,7 +9,6 @@
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
-#include <set>
 
 #include "core/rod/rod.h"
 #include "data/catalogue/instrument/instrument_keys.h"
@@ -135,24 +134,6 @@ TEST(Catalogue, AnEnvironmentVariableLeadsElsewhere) {
   setenv("OSTIUM_DATA", (folder.data() + "/nowhere").c_str(), 1);
   EXPECT_THROW(data_folder(), LoadError);
   before ? setenv("OSTIUM_DATA", kept.c_str(), 1) : unsetenv("OSTIUM_DATA");
-}
-
-TEST(Catalogue, ReaderAndSchemaKnowTheSameKeys) {
-  const auto schema =
-      nlohmann::json::parse(std::ifstream(fs::path(data_folder()) / "schemas" / "instrument.schema.json"));
-  std::set<std::string> objects;
-  for (const auto& [name, definition] : schema["$defs"].items())
-    if (definition.contains("properties")) objects.insert(name);
-  for (const JsonObjectKeys* known : instrument_keys::all) {
-    SCOPED_TRACE(known->object);
-    ASSERT_EQ(objects.erase(known->object), 1u);
-    const auto& definition = schema["$defs"][known->object];
-    EXPECT_EQ(definition["additionalProperties"], false);
-    expect_keys_of(definition, *known);
-  }
-  EXPECT_TRUE(objects.empty()) << "the reader does not know " << *objects.begin();
-  EXPECT_EQ(schema["$defs"]["instrument"]["properties"]["kind"]["enum"], instrument_kinds());
-  EXPECT_EQ(schema["$defs"]["material"]["enum"], opaque_materials());
 }
 
 TEST(Catalogue, JsonHasTheSchemasKeys) {

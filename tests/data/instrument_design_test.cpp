@@ -1,6 +1,6 @@
 /// A new make of stent or balloon is one file with a `design` block: its numbers reach the models, what it leaves out
 /// stays as it is, and what is wrong is said with file, place and cure.
-#include "data/instrument_design.h"
+#include "data/catalogue/instrument/instrument_design.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <fstream>
 #include <sstream>
 
-#include "data/catalogue.h"
+#include "data/catalogue/catalogue.h"
 #include "tests/data/instrument_files.h"
 #include "vascular/stent/stent.h"
 

@@ -1,7 +1,7 @@
 #pragma once
 /// Reads one experiment of a measured set.
 #include "data/identification/measurement/measurement_set.h"
-#include "data/json_object.h"
+#include "data/formats/json_object.h"
 
 namespace ostium {
 

@@ -1,7 +1,7 @@
 #pragma once
 /// The numbers of a balloon's or stent's `design` block, one row a number: its key, the member that it sets and what it
 /// may be. The reader goes through these rows and the keys are made of them; a number more is one more row.
-#include "data/json_object.h"
+#include "data/formats/json_object.h"
 #include "vascular/balloon/balloon_design.h"
 #include "vascular/stent/stent_design.h"
 

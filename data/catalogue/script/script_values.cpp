@@ -1,0 +1,91 @@
+#include "data/catalogue/script/script_values.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace ostium {
+
+namespace {
+
+using Type = JsonValue::Type;
+
+std::string names_of(const JsonValue& values) {
+  std::string names;
+  for (const auto& [name, value] : values.members) names += (names.empty() ? "" : ", ") + name;
+  return names.empty() ? "none" : names;
+}
+
+const char* word_for(Type type) {
+  return type == Type::number ? "a number" : type == Type::boolean ? "true or false" : "a text";
+}
+
+void require_object(const JsonValue& values) {
+  if (values.type != Type::object) values.refuse("values by their names, an object");
+}
+
+/// Values of the script's own, with those that are given in their place.
+JsonValue merged(JsonValue own, const JsonValue& given) {
+  require_object(given);
+  for (const auto& [name, value] : given.members) {
+    const auto is_it = [&, n = &name](const auto& member) { return member.first == *n; };
+    const auto found = std::find_if(own.members.begin(), own.members.end(), is_it);
+    if (found == own.members.end())
+      value.fail(fmt::format("{} is no value of {}; expected one of {}", value.path, *own.file, names_of(own)));
+    if (value.type != found->second.type) value.refuse(word_for(found->second.type));
+    found->second = value;
+  }
+  return own;
+}
+
+/// Puts values wherever "$NAME" stands in `where`. A message about one names the place where it stands and the file
+/// and line that gave it.
+void put(const JsonValue& values, JsonValue& where) {
+  if (where.type == Type::text && where.text.starts_with("$")) {
+    const JsonValue* value = values.find(where.text.substr(1));
+    if (!value) where.refuse("the name of one of the script's values: " + names_of(values));
+    std::string path = where.path;
+    where = *value;
+    where.path = std::move(path);
+  }
+  for (JsonValue& item : where.items) put(values, item);
+  for (auto& [name, member] : where.members) put(values, member);
+}
+
+/// Whether a step stays, by its `when` and `when_not`, which it loses.
+bool stays(JsonValue& step) {
+  bool stays = true;
+  for (const bool wanted : {true, false}) {
+    const std::string key = wanted ? "when" : "when_not";
+    const JsonValue* says = step.find(key);
+    if (!says) continue;
+    if (says->type != Type::boolean) says->refuse("a value that is true or false");
+    stays = stays && (says->number != 0) == wanted;
+    std::erase_if(step.members, [&](const auto& member) { return member.first == key; });
+  }
+  return stays;
+}
+
+}  // namespace
+
+bool write_out_values(JsonValue& script, const JsonValue* given) {
+  JsonValue* steps = nullptr;
+  for (auto& [name, member] : script.members)
+    if (name == "steps") steps = &member;
+  const JsonValue* own = script.find("values");
+  if (!own && given) given->fail(fmt::format("{}: {} has no values", given->path, *script.file));
+  if (!own || !steps) return false;
+  require_object(*own);
+  for (const auto& [name, value] : own->members)
+    if (value.type != Type::number && value.type != Type::boolean && value.type != Type::text)
+      value.refuse("a number, a text, true or false");
+  put(given ? merged(*own, *given) : *own, *steps);
+  std::vector<JsonValue> kept;
+  for (JsonValue& step : steps->items)
+    if (stays(step)) kept.push_back(std::move(step));
+  steps->items = std::move(kept);
+  std::erase_if(script.members, [](const auto& member) { return member.first == "values"; });
+  return true;
+}
+
+}  // namespace ostium

@@ -1,0 +1,45 @@
+#pragma once
+/// The formats whose schemas are made of their readers' tables of keys.
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "data/catalogue/case/anatomy_keys.h"
+#include "data/catalogue/case/case_keys.h"
+#include "data/formats/json_schema.h"
+#include "data/catalogue/instrument/instrument_keys.h"
+#include "data/identification/measurement/measurement_keys.h"
+#include "data/assessment/scoring_keys.h"
+#include "data/script_keys.h"
+#include "data/catalogue/case/tree_keys.h"
+
+namespace ostium {
+
+inline std::vector<JsonFormat> json_formats() {
+  return {{"ostium-script/1", "What an operator does", script_keys::all},
+          {"ostium-case/1", "A case to rehearse on", case_keys::all},
+          {"ostium-instrument/1",
+           "An instrument of the catalogue. The reader also refuses gaps, and numbers that do not go together.",
+           instrument_keys::all},
+          {"ostium-measurement/1",
+           "A measured set: one instrument or nested ones, measured several times. The reader also refuses gaps, "
+           "instruments pushed in further than they are long, and bases without a direction.",
+           measurement_keys::all},
+          {"ostium-anatomy/1",
+           "Tubes, names and landmarks of an imported lumen; patient frame (x left, y head, z front), mm",
+           anatomy_keys::all},
+          {"ostium-tree/1", "A centreline-sphere tree; patient frame (x left, y head, z front), mm", tree_keys::all},
+          {"ostium-scoring/1", "Steps, errors and critical errors of a procedure (data/scoring)", scoring_keys::all}};
+}
+
+/// "script.schema.json" of "ostium-script/1".
+inline std::string schema_file(const JsonFormat& format) {
+  const std::size_t from = format.id.find('-') + 1;
+  return format.id.substr(from, format.id.find('/') - from) + ".schema.json";
+}
+
+inline std::string schema_text(const JsonFormat& format) {
+  return nlohmann::ordered_json::parse(to_json(schema_of(format))).dump(2) + "\n";
+}
+
+}  // namespace ostium

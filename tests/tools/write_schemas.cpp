@@ -1,0 +1,21 @@
+/// write_schemas FOLDER: writes the schemas that are made of readers' tables of keys (data/schemas).
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+
+#include "tests/data/schema_files.h"
+
+int main(int argc, char** argv) {
+  if (argc != 2) {
+    std::cerr << "usage: write_schemas FOLDER\n";
+    return 2;
+  }
+  for (const ostium::JsonFormat& format : ostium::json_formats()) {
+    std::ofstream out(std::filesystem::path(argv[1]) / ostium::schema_file(format), std::ios::binary);
+    out << ostium::schema_text(format);
+    if (!out.flush()) {
+      std::cerr << argv[1] << ": cannot be written to; expected the folder of schemas, data/schemas\n";
+      return 1;
+    }
+  }
+}
