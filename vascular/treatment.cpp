@@ -66,7 +66,7 @@ TreatmentReport step(const TreatmentModel& model, const FlowTree& tree, const Tr
   TreatmentReport report;
   step(model.drugs, in.doses, dt, s.drugs);
   for (double& spasm : s.spasm) spasm *= std::exp(-dt * s.drugs.nitrate / model.drugs.spasm_yields_s);
-  if (static_cast<int>(s.balloon_in) != in.balloon) {
+  if (s.balloon_in != in.balloon) {
     s.balloon_in = in.balloon;
     if (in.balloon >= 0) s.balloon = make_balloon_state(model.balloons[in.balloon]);
   }
@@ -88,9 +88,9 @@ TreatmentReport step(const TreatmentModel& model, const FlowTree& tree, const Tr
     for (std::size_t i = 0; i < s.stents.size(); ++i)
       if (beside(i) && narrowest_m(model.stents[i], s.stents[i], -1, end) < balloon->folded_m) report.blocked = true;
   }
-  const double injured = s.injury.count;
+  const int injured = s.injury.count;
   if (balloon && !report.blocked) {
-    const bool whole = s.balloon.burst == 0;
+    const bool whole = !s.balloon.burst;
     // Stents that lie in a wall, and the one on this very balloon; others are not in the vessel.
     Sleeve sleeve;
     for (std::size_t i = 0; i < s.stents.size(); ++i)
@@ -99,7 +99,7 @@ TreatmentReport step(const TreatmentModel& model, const FlowTree& tree, const Tr
     report.balloon =
         step(*balloon, model.plaque, {path, in.middle_m, in.gauge_Pa, sleeve}, dt, s.balloon, s.wall, x.balloon);
     if (report.balloon.touches || report.balloon.spilt_m3 > 0)
-      judge_stretch(model.injury, model.plaque, s.wall, balloon->length_m, whole && s.balloon.burst > 0,
+      judge_stretch(model.injury, model.plaque, s.wall, balloon->length_m, whole && s.balloon.burst,
                     physiology.heart.time_s, s.injury);
     if (report.balloon.spilt_m3 > 0 && path) {
       // Its filling goes into the vessel.

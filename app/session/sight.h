@@ -88,7 +88,7 @@ struct Sight {
       case ConditionKind::trace:
         return session.bedside.guide >= 0 && static_cast<int>(session.blood.line.trace) == place;
       case ConditionKind::contrast_in:
-        return seen(place) > seen_kg_m3 && (session.c_arm.fluoroscopy > 0 || session.c_arm.cine > 0);
+        return seen(place) > seen_kg_m3 && (session.c_arm.fluoroscopy || session.c_arm.cine);
       case ConditionKind::flow_below:
         return supply_behind_lesion(model, session, c.lesion) < c.value;
       case ConditionKind::ST_exceeds:
@@ -120,7 +120,7 @@ struct Sight {
   static constexpr double seen_kg_m3 = 60;
 
   const BalloonModel* balloon() const {
-    const int b = static_cast<int>(session.bedside.balloon);
+    const int b = session.bedside.balloon;
     return b < 0 ? nullptr : &model.treatment.balloons[static_cast<std::size_t>(b)];
   }
 
@@ -151,8 +151,7 @@ struct Sight {
     const auto at = balloon_at_rest_m(lesion);
     if (!at) return false;
     for (std::size_t t = 0; t < model.tools.size(); ++t)
-      if (model.balloon_of[t] == static_cast<int>(session.bedside.balloon))
-        return comes_in(t) ? *at >= offset_m : *at <= offset_m;
+      if (model.balloon_of[t] == session.bedside.balloon) return comes_in(t) ? *at >= offset_m : *at <= offset_m;
     return false;
   }
 
@@ -160,7 +159,7 @@ struct Sight {
     const auto inserted_m = [&](std::size_t tool) { return session.rods.rods[tool].inserted_m; };
     const double guide_m = session.bedside.guide < 0 ? 0 : inserted_m(static_cast<std::size_t>(session.bedside.guide));
     for (std::size_t t = 0; t < model.tools.size(); ++t)
-      if (session.bedside.balloon >= 0 && model.balloon_of[t] == static_cast<int>(session.bedside.balloon))
+      if (session.bedside.balloon >= 0 && model.balloon_of[t] == session.bedside.balloon)
         return inserted_m(t) - marker_from_tip_m(model.tools[t].instrument, 0) >= guide_m + by_m;
     return false;
   }
@@ -170,11 +169,10 @@ struct Sight {
     if (b.guide < 0) return false;
     const FlowTree& tree = model.physiology.flow.tree;
     const int first = tree.branches[static_cast<std::size_t>(branch)].first;
-    if (static_cast<int>(b.where) == TipPlace::coronary)
-      return static_cast<int>(b.cell) == first || tree.is_downstream(static_cast<int>(b.cell), first);
-    const auto side = static_cast<std::size_t>(static_cast<int>(b.where) == TipPlace::right_sinus);
-    return static_cast<int>(b.where) >= TipPlace::left_sinus &&
-           model.physiology.contrast.coronary_branch[side] == branch && b.into_ostium > 0.6;
+    if (b.tip.where == TipPlace::coronary) return b.tip.cell == first || tree.is_downstream(b.tip.cell, first);
+    const auto side = static_cast<std::size_t>(b.tip.where == TipPlace::right_sinus);
+    return b.tip.where >= TipPlace::left_sinus && model.physiology.contrast.coronary_branch[side] == branch &&
+           b.tip.into_ostium > 0.6;
   }
 
   double seen(int cell) const {

@@ -56,8 +56,7 @@ constexpr double undiluted_kg_m3 = 350;
 /// Where contrast comes into the first lesion's artery: behind its ostium, or where a guide's tip is farther in.
 int contrast_enters(const SessionModel& model, const SessionState& state) {
   const Coronaries& c = *model.vessel->coronaries;
-  const int tip =
-      static_cast<int>(state.bedside.where) == TipPlace::coronary ? static_cast<int>(state.bedside.cell) : -1;
+  const int tip = state.bedside.tip.where == TipPlace::coronary ? state.bedside.tip.cell : -1;
   const bool farther = tip >= 0 && c.ostium_cell >= 0 && c.landmark_cell >= 0 &&
                        c.tree().is_downstream(tip, c.ostium_cell) && c.tree().is_downstream(c.landmark_cell, tip);
   return farther ? tip : c.ostium_cell;
@@ -82,7 +81,7 @@ void put_patient(const SessionModel& model, const SessionState& state, const Ses
   put(leads[static_cast<int>(Lead::II)]), put(leads[static_cast<int>(Lead::V2)]);
   put(pressures(model.physiology.heart, blood.heart).aorta_Pa / mmHg);
   put(state.bedside.guide >= 0 ? blood.line.reading_Pa / mmHg : none);
-  put(state.bedside.guide >= 0 ? blood.line.trace : static_cast<double>(Trace::absent));
+  put(static_cast<double>(state.bedside.guide >= 0 ? blood.line.trace : Trace::absent));
   put(ST_shift_mV(model.physiology.ischaemia, blood.ischaemia));
   const BedsideState& b = state.bedside;
   const BalloonState& balloon = state.treatment.balloon;
@@ -174,13 +173,12 @@ void EventWatch::look_at_patient(const SessionModel& model, const SessionInputs&
   const BedsideInputs& hand = inputs.bedside;
   const TreatmentState& treated = state.treatment;
   const double time_s = seconds(model, state);
-  const int trace =
-      state.bedside.guide >= 0 ? static_cast<int>(state.blood.line.trace) : static_cast<int>(Trace::absent);
+  const Trace trace = state.bedside.guide >= 0 ? state.blood.line.trace : Trace::absent;
   const bool injects = hand.injection_m3_s > 0, inflated = hand.gauge_Pa > atm && state.bedside.balloon >= 0;
   if (injects && !injects_) {
     say(EventCode::injection_begins, -1, 1e6 * hand.injection_m3_s);
-    if (trace_ == static_cast<int>(Trace::damped) || trace_ == static_cast<int>(Trace::ventricularised))
-      say(EventCode::injection_on_bad_trace, -1, trace_);
+    if (trace_ == Trace::damped || trace_ == Trace::ventricularised)
+      say(EventCode::injection_on_bad_trace, -1, static_cast<double>(trace_));
   }
   if (!injects && injects_)
     say(EventCode::injection_ends, -1, 1e6 * state.blood.contrast.injected_kg / undiluted_kg_m3);
@@ -189,7 +187,7 @@ void EventWatch::look_at_patient(const SessionModel& model, const SessionInputs&
   if (hand.nitrate_ug > 0) say(EventCode::nitrate, -1, hand.nitrate_ug);
   if (hand.adenosine_ug > 0) say(EventCode::adenosine, -1, hand.adenosine_ug);
   // While contrast or a thick wire is in the guide there is no trace to judge.
-  if (trace != trace_) say(EventCode::trace_changes, -1, trace);
+  if (trace != trace_) say(EventCode::trace_changes, -1, static_cast<double>(trace));
   trace_ = trace;
   if (state.blood.heart.ectopic > ectopic_) say(EventCode::extrasystole, -1, 0);
   ectopic_ = state.blood.heart.ectopic;
@@ -210,7 +208,7 @@ void EventWatch::look_at_patient(const SessionModel& model, const SessionInputs&
   }
   burst_ = treated.balloon.burst;
   for (std::size_t i = 0; i < treated.stents.size(); ++i) {
-    const double where = treated.stents[i].where;
+    const StentState::Where where = treated.stents[i].where;
     if (where == stents_[i]) continue;
     const StentState& own = treated.stents[i];
     const auto at = model.vessel->coronaries->lesions.empty() ? std::nullopt
@@ -232,7 +230,7 @@ void EventWatch::look_at_patient(const SessionModel& model, const SessionInputs&
   }
   for (std::size_t i = 0; i < treated.injury.injuries.size(); ++i) {
     const Injury& injury = treated.injury.injuries[i];
-    const double value = injury.cell < 0 ? 0 : 10 * injury.kind + injury.grade;
+    const double value = injury.cell < 0 ? 0 : 10 * static_cast<int>(injury.kind) + injury.grade;
     if (value > injuries_[i]) say(EventCode::injury, -1, value);
     injuries_[i] = value;
   }
@@ -274,8 +272,8 @@ void EventWatch::look(const SessionModel& model, const SessionInputs& inputs, co
   }
   const CArmInputs& arm = inputs.c_arm;
   if (arm.fluoroscopy != fluoroscopy_)
-    say(arm.fluoroscopy > 0 ? EventCode::fluoroscopy_on : EventCode::fluoroscopy_off, -1, 0);
-  if (arm.cine != cine_) say(arm.cine > 0 ? EventCode::cine_on : EventCode::cine_off, -1, 0);
+    say(arm.fluoroscopy ? EventCode::fluoroscopy_on : EventCode::fluoroscopy_off, -1, 0);
+  if (arm.cine != cine_) say(arm.cine ? EventCode::cine_on : EventCode::cine_off, -1, 0);
   fluoroscopy_ = arm.fluoroscopy, cine_ = arm.cine;
   const std::uint32_t trouble = report.rods.trouble & ~static_cast<std::uint32_t>(feed_stopped | drive_limited);
   if (trouble && !trouble_) say(EventCode::step_trouble, -1, trouble);

@@ -34,7 +34,7 @@ double beyond_stent_m(const SessionModel& model, const SessionState& state, int 
 
 void DeviceErrors::look(const SessionModel& model, const SessionState& state, const HandlingScene& x,
                         const EventSink& say) {
-  const int balloon = static_cast<int>(state.bedside.balloon);
+  const int balloon = state.bedside.balloon;
   if (x.device < 0 || balloon < 0) {
     *this = {};
     return;

@@ -34,7 +34,7 @@ void HandlingWatch::look_at_beam(const EventSink& say) {
 void HandlingWatch::look(const SessionModel& model, const SessionInputs& inputs, const SessionState& state,
                          const SessionReport& report, const EventSink& say) {
   see(model, inputs, state, report, scene_);
-  catheter_.look(map_, scene_, state.bedside.guide >= 0 ? trace(state.blood.line) : Trace::absent, say);
+  catheter_.look(map_, scene_, state.bedside.guide >= 0 ? state.blood.line.trace : Trace::absent, say);
   wire_.look(map_, scene_, say);
   if (model.has_patient()) device_.look(model, state, scene_, say);
   look_at_pushing(model, say);

@@ -106,7 +106,7 @@ void map_arteries(const SessionModel& model, HandlingMap& map) {
 double twist_rad(const Rod& rod, const RodState& state) {
   double sum = 0;
   const Field<4>& q = state.orientation;
-  for (int i = first_element(state) + 1; i < rod.elements; ++i) {
+  for (int i = state.first + 1; i < rod.elements; ++i) {
     const Eigen::Quaterniond a(q.at(0)[i - 1], q.at(1)[i - 1], q.at(2)[i - 1], q.at(3)[i - 1]),
         b(q.at(0)[i], q.at(1)[i], q.at(2)[i], q.at(3)[i]);
     const Eigen::Quaterniond r = a.conjugate() * b;
@@ -133,7 +133,7 @@ void see(const SessionModel& model, const SessionInputs& inputs, const SessionSt
   x.time_s = seconds(model, state);
   const double phase = state.blood.heart.phase;
   x.diastasis = heart_rests(state);
-  x.beam = inputs.c_arm.fluoroscopy > 0 || inputs.c_arm.cine > 0;
+  x.beam = inputs.c_arm.fluoroscopy || inputs.c_arm.cine;
   x.injects = inputs.bedside.injection_m3_s > 0;
   x.gauge_atm = inputs.bedside.gauge_Pa / 101325;
   x.tools.resize(model.tools.size());
@@ -158,10 +158,8 @@ void see(const SessionModel& model, const SessionInputs& inputs, const SessionSt
   const BedsideState& b = state.bedside;
   x.filled = b.balloon >= 0 &&
              !is_empty(model.treatment.balloons[static_cast<std::size_t>(b.balloon)], state.treatment.balloon);
-  x.wire_cell = x.thin_wire < 0 || !model.has_patient() ? -1 : static_cast<int>(b.wire_cell);
-  x.catheter_cell = x.catheter >= 0 && model.has_patient() && static_cast<int>(b.where) == TipPlace::coronary
-                        ? static_cast<int>(b.cell)
-                        : -1;
+  x.wire_cell = x.thin_wire < 0 || !model.has_patient() ? -1 : b.wire_cell;
+  x.catheter_cell = x.catheter >= 0 && model.has_patient() && b.tip.where == TipPlace::coronary ? b.tip.cell : -1;
   x.thin_tip_is_seen = x.beam && x.thin_wire >= 0 && in_field(inputs.c_arm, tip(model, state, x.thin_wire));
   x.twist_rad = x.catheter < 0 ? 0
                                : twist_rad(model.rods.rods[static_cast<std::size_t>(x.catheter)],
