@@ -492,7 +492,7 @@ std::pair<int, int> injured(double ratio, double length_m, bool calcified) {
     InjuryState s;
     judge_stretch({.seed = seed}, plaque, wall, length_m, false, 0, s);
     for (const Injury& injury : s.injuries) {
-      out.first += injury.kind == static_cast<double>(InjuryKind::dissection);
+      out.first += injury.kind == InjuryKind::dissection;
       out.second += injury.kind == InjuryKind::perforation;
     }
   }
