@@ -313,14 +313,15 @@ TEST(Treatment, ALesionIsCoveredWithMargins) {
   std::vector<SessionEvent> events;
   events.reserve(1000);
   s.move(s.guide, 0, 0.01, [] { return false; });
-  const auto last = [&](double where, double branch, double middle_m) {
+  const auto last = [&](StentState::Where where, int branch, double middle_m) {
     stent.where = StentState::on_balloon;
     watch.look(model, s.inputs, s.run.state, s.report, {}, events);
     stent.where = where, stent.branch = branch, stent.middle_m = middle_m, stent.shift_m = 0;
     watch.look(model, s.inputs, s.run.state, s.report, {}, events);
     return events.back();
   };
-  const double own = model.physiology.flow.tree.branch("RCA"), middle = (plan.from_m + plan.to_m) / 2;
+  const int own = model.physiology.flow.tree.branch("RCA");
+  const double middle = (plan.from_m + plan.to_m) / 2;
   EXPECT_FALSE(lesion_is_covered(model, s.run.state, 0)) << "it is on its balloon";
   // 15 mm on a lesion of 9 mm: 3 mm on either side.
   SessionEvent e = last(StentState::deployed, own, middle);

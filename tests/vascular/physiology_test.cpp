@@ -312,7 +312,7 @@ TEST(Outcomes, ExtrasystolesAreMoreFrequentTheMoreTheVentricleIsTouched) {
     HeartState s;
     int count = 0;
     for (int n = 0; n < 120000; ++n) {
-      const double before = s.ectopic;
+      const bool before = s.ectopic;
       step(model, {.irritation = irritation}, 1e-3, s);
       count += s.ectopic > before;
     }
