@@ -297,7 +297,7 @@ int treat_command(const TreatOptions& o) {
   for (const Injury& injury : bed.state.injury.injuries)
     if (injury.cell >= 0)
       report["injuries"].push_back(
-          {{"kind", injury.kind == static_cast<double>(InjuryKind::dissection) ? "dissection" : "perforation"},
+          {{"kind", injury.kind == InjuryKind::dissection ? "dissection" : "perforation"},
            {"grade", grade_name(injury)},
            {"branch", room.physiology.flow.tree
                           .branches[room.physiology.flow.tree.cells[static_cast<std::size_t>(injury.cell)].branch]

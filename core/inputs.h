@@ -3,17 +3,10 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "core/rod/hold.h"
 #include "core/surface/surface.h"
 
 namespace ostium {
-
-/// How one end of a rod is held. An end that is let go of and held again is held where it is then.
-enum class Hold : unsigned char {
-  free,     ///< not at all
-  pinned,   ///< its position
-  clamped,  ///< its position and material frame
-  guided,   ///< its material frame, and its position across the frame's d3; it slides along d3
-};
 
 /// What moves a held end. Rates, so that any command is continuous; beyond tunables.h's limits they are shortened to
 /// the limit, not-a-number counts as zero, and the step's report says so.

@@ -11,7 +11,8 @@ namespace ostium {
 /// What a step changes of a rod's state before it has a solution.
 struct Hands {
   EndState base, tip;
-  double inserted_m = 0, slack_m = 0, first = 0;
+  double inserted_m = 0, slack_m = 0;
+  int first = 0;
 };
 
 struct Scratch {

@@ -1,12 +1,8 @@
 #include "core/state.h"
 
 #include <algorithm>
-#include <bit>
+#include <span>
 #include <stdexcept>
-#include <string_view>
-
-#define XXH_INLINE_ALL
-#include <xxhash.h>
 
 #include "core/math/rotation.h"
 #include "core/rod/introducer.h"
@@ -23,7 +19,7 @@ RodState lay_out(const Rod& whole, const EndState& base, double inserted_m, Stra
   s.inserted_m = inserted_m;
   s.first = first_element_for(whole, inserted_m);
   s.exposed = whole.elements;
-  const int first = first_element(s);
+  const int first = s.first;
   Rod rod = whole;
   cut(whole, inserted_m, first, rod);
   s.position.resize(N + 1);
@@ -94,65 +90,56 @@ State make_state_at_rest_shape(const Model& model, const std::vector<EndState>& 
                      [](const Rod& rod, int i) -> Eigen::Vector3d { return rod.rest_curvature[i]; });
 }
 
-std::uint64_t hash(const State& state) {
-  std::uint64_t h = state.step;
-  auto next = state.rods.begin(), rod = next;
-  for_each_field(state, [&](const char* name, const double* first, int count) {
-    if (next != state.rods.end() && first == &next->inserted_m) rod = next++;
-    // Along the rod, what lies outside begins anew when it is fed in: all of it but what the material remembers.
-    const bool begins_anew = count >= rod->orientation.size() && !std::string_view(name).starts_with("crept");
-    const int skipped = begins_anew ? std::min(first_element(*rod), count) : 0;
-    h = XXH3_64bits_withSeed(first + skipped, (count - skipped) * sizeof(double), h);
+namespace {
+
+/// Along the rod, what lies outside begins anew when it is fed in: all of it but what the material remembers.
+template <int K>
+std::uint64_t hash_inside(const Field<K>& field, int first, std::uint64_t h) {
+  for (int c = 0; c < K; ++c)
+    h = hash_numbers(
+        std::span(field.at(c), static_cast<std::size_t>(field.size())).subspan(std::min(first, field.size())), h);
+  return h;
+}
+
+std::uint64_t hash(const RodState& rod, std::uint64_t h) {
+  for_each_field(rod, [&](const char*, const auto& member) {
+    const void* at = &member;
+    if constexpr (requires { member.components; })
+      h = at == &rod.crept_fast || at == &rod.crept_slow ? hash_fields(member, h) : hash_inside(member, rod.first, h);
+    else
+      h = hash_fields(member, h);
   });
   return h;
 }
 
+}  // namespace
+
+std::uint64_t hash(const State& state) {
+  std::uint64_t h = state.step;
+  for (const RodState& rod : state.rods) h = hash(rod, h);
+  return h;
+}
+
 std::vector<double> save(const State& state) {
-  std::vector<double> out{std::bit_cast<double>(state.step)};
-  for_each_field(state,
-                 [&](const char*, const double* first, int count) { out.insert(out.end(), first, first + count); });
+  std::vector<double> out(count_fields(state));
+  put_fields(state, out.data());
   return out;
 }
 
 void restore(const std::vector<double>& saved, State& state) {
-  std::size_t wanted = 1;
-  for_each_field(state, [&](const char*, double*, int count) { wanted += count; });
-  if (saved.size() != wanted)
+  if (const std::size_t wanted = count_fields(state); saved.size() != wanted)
     throw std::invalid_argument("saved state: it has " + std::to_string(saved.size()) + " numbers, this model needs " +
                                 std::to_string(wanted));
-  const double* from = saved.data();
-  state.step = std::bit_cast<std::uint64_t>(*from++);
-  for_each_field(state, [&](const char*, double* first, int count) {
-    from = (std::copy(from, from + count, first), from + count);
-  });
+  take_fields(saved.data(), state);
 }
-
-namespace {
-std::string first_difference_in(const std::string& part, const State& a, const State& b) {
-  std::vector<std::pair<const double*, int>> others;
-  for_each_field(b, [&](const char*, const double* first, int count) { others.emplace_back(first, count); });
-  std::size_t next = 0;
-  std::string found;
-  for_each_field(a, [&](const char* name, const double* first, int count) {
-    const auto [other, other_count] = others[next++];
-    if (!found.empty()) return;
-    const std::string where = part + ", " + name;
-    if (count != other_count) found = where + ": sizes differ";
-    for (int i = 0; i < count && found.empty(); ++i)
-      if (std::bit_cast<std::uint64_t>(first[i]) != std::bit_cast<std::uint64_t>(other[i]))
-        found = where + "[" + std::to_string(i) + "]: " + std::to_string(first[i]) + " != " + std::to_string(other[i]);
-  });
-  return found;
-}
-}  // namespace
 
 std::string first_difference(const State& a, const State& b) {
   if (a.rods.size() != b.rods.size()) return "number of rods";
-  if (a.step != b.step) return "step: " + std::to_string(a.step) + " != " + std::to_string(b.step);
-  std::string found;
-  for (std::size_t r = 0; r < a.rods.size() && found.empty(); ++r)
-    found = first_difference_in("rod " + std::to_string(r), {0, {a.rods[r]}}, {0, {b.rods[r]}});
-  return found;
+  if (a.step != b.step) return first_different_field(a, b);
+  for (std::size_t r = 0; r < a.rods.size(); ++r)
+    if (const std::string found = first_different_field(a.rods[r], b.rods[r]); !found.empty())
+      return "rod " + std::to_string(r) + ", " + found;
+  return "";
 }
 
 }  // namespace ostium

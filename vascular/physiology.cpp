@@ -23,7 +23,7 @@ PhysiologyState make_state(const PhysiologyModel& model) {
 
 ContrastReport step(const PhysiologyModel& model, const PhysiologyInputs& in, double dt_s, PhysiologyState& s,
                     PhysiologyScratch& x) {
-  const double before = s.heart.beats;
+  const int before = s.heart.beats;
   step(model.heart, in.heart, dt_s, s.heart);
   return circulate(model, in, dt_s, s.heart.beats > before, s, x);
 }

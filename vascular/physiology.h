@@ -40,6 +40,16 @@ struct PhysiologyState {
   std::vector<double> radius_m;  ///< (#cells) of the lumen
   double circulation_s = 0;      ///< since blood and contrast advanced
 };
+constexpr auto fields(const PhysiologyState*) {
+  using S = PhysiologyState;
+  return std::tuple{field("heart", &S::heart),
+                    field("ischaemia", &S::ischaemia),
+                    field("flow", &S::flow),
+                    field("contrast", &S::contrast),
+                    field("line", &S::line),
+                    field("radius_m", &S::radius_m),
+                    field("circulation_s", &S::circulation_s)};
+}
 PhysiologyState make_state(const PhysiologyModel& model);
 
 struct PhysiologyScratch {
@@ -56,19 +66,5 @@ ContrastReport step(const PhysiologyModel& model, const PhysiologyInputs& inputs
 /// `step(model.heart, inputs.heart, dt_s, state.heart)`, then this. `beat_begins`: an R wave was in that.
 ContrastReport circulate(const PhysiologyModel& model, const PhysiologyInputs& inputs, double dt_s, bool beat_begins,
                          PhysiologyState& state, PhysiologyScratch& scratch);
-
-template <class S, class Visit>
-void for_each_field(S& s, Visit&& visit) requires requires {
-  s.circulation_s;
-}
-{
-  for_each_heart_field(s.heart, visit);
-  for_each_ischaemia_field(s.ischaemia, visit);
-  for_each_flow_field(s.flow, visit);
-  for_each_contrast_field(s.contrast, visit);
-  for_each_tip_pressure_field(s.line, visit);
-  visit("radius_m", s.radius_m.data(), static_cast<int>(s.radius_m.size()));
-  visit("circulation_s", &s.circulation_s, 1);
-}
 
 }  // namespace ostium

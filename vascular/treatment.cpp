@@ -68,7 +68,7 @@ bool is_beside(const TreatmentModel& model, const TreatmentInputs& in, const Ste
 }
 
 void change_balloon(const TreatmentModel& model, const TreatmentInputs& in, TreatmentState& s) {
-  if (static_cast<int>(s.balloon_in) != in.balloon) {
+  if (s.balloon_in != in.balloon) {
     s.balloon_in = in.balloon;
     if (in.balloon >= 0) s.balloon = make_balloon_state(model.balloons[in.balloon]);
   }
@@ -102,7 +102,7 @@ BalloonReport inflate(const TreatmentModel& model, const TreatmentInputs& in, do
   const BalloonModel& balloon = *balloon_of(model, in);
   const VesselPath* path = path_of(model, in);
   const int own = own_stent(model, in);
-  const bool whole = s.balloon.burst == 0;
+  const bool whole = !s.balloon.burst;
   // Stents that lie in a wall, and the one on this very balloon; others are not in the vessel.
   Sleeve sleeve;
   for (std::size_t i = 0; i < s.stents.size(); ++i)
@@ -112,7 +112,7 @@ BalloonReport inflate(const TreatmentModel& model, const TreatmentInputs& in, do
   const BalloonReport report =
       step(balloon, model.plaque, {path, in.middle_m, in.gauge_Pa, sleeve}, dt, s.balloon, s.wall, x.balloon);
   if (report.touches || report.spilt_m3 > 0)
-    judge_stretch(model.injury, model.plaque, s.wall, balloon.length_m, whole && s.balloon.burst > 0,
+    judge_stretch(model.injury, model.plaque, s.wall, balloon.length_m, whole && s.balloon.burst,
                   vessels.physiology.heart.time_s, s.injury);
   if (report.spilt_m3 > 0 && path)
     spill(*path, in.middle_m, report.spilt_m3, balloon.iodine_kg_m3, vessels.tree.cells.size(),
@@ -181,7 +181,7 @@ TreatmentReport step(const TreatmentModel& model, const TreatmentInputs& in, dou
   std::copy(s.wall.rest_m.begin(), s.wall.rest_m.end(), s.wall.radius_m.begin());
   change_balloon(model, in, s);
   report.blocked = is_blocked(model, in, s);
-  const double injured = s.injury.count;
+  const int injured = s.injury.count;
   if (in.balloon >= 0 && !report.blocked) report.balloon = inflate(model, in, dt, s, vessels, x);
   report.deployed = step_stents(model, in, report.blocked, dt, s);
   if (in.wire_tip_cell >= 0)

@@ -34,12 +34,18 @@ struct TreatmentInputs {
 struct TreatmentState {
   PlaqueState wall;
   BalloonState balloon;
-  double balloon_in = -1;          ///< index of the model, as a number
+  int balloon_in = -1;             ///< of the model; -1: none yet
   std::vector<StentState> stents;  ///< (#stents), crimped ones on a balloon in use or not
   std::vector<double> spasm;       ///< (#branches) [0, 1): of the diameter, may be set
   InjuryState injury;
   DrugState drugs;
 };
+constexpr auto fields(const TreatmentState*) {
+  using S = TreatmentState;
+  return std::tuple{field("wall", &S::wall),     field("balloon", &S::balloon), field("balloon_in", &S::balloon_in),
+                    field("stents", &S::stents), field("spasm", &S::spasm),     field("injury", &S::injury),
+                    field("drugs", &S::drugs)};
+}
 TreatmentState make_state(const TreatmentModel& model, const FlowTree& tree);
 
 struct TreatmentScratch {
@@ -65,19 +71,5 @@ struct TreatedVessels {
 /// One step of up to 10 ms. Does not allocate after the first call with the same scratch.
 TreatmentReport step(const TreatmentModel& model, const TreatmentInputs& inputs, double dt_s, TreatmentState& state,
                      const TreatedVessels& vessels, TreatmentScratch& scratch);
-
-template <class S, class Visit>
-void for_each_field(S& s, Visit&& visit) requires requires {
-  s.balloon_in;
-}
-{
-  for_each_plaque_field(s.wall, visit);
-  for_each_balloon_field(s.balloon, visit);
-  visit("balloon_in", &s.balloon_in, 1);
-  for (auto& stent : s.stents) for_each_stent_field(stent, visit);
-  visit("spasm", s.spasm.data(), static_cast<int>(s.spasm.size()));
-  for_each_injury_field(s.injury, visit);
-  for_each_drug_field(s.drugs, visit);
-}
 
 }  // namespace ostium

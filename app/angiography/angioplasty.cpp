@@ -177,7 +177,7 @@ InflationRecord inflate(Bedside& bed, const Plan& plan, int balloon, double gaug
   double full_m3 = 0;
   const auto note = [&](const TreatmentReport& report) {
     const BalloonState& s = bed.state.balloon;
-    record.burst = record.burst || s.burst > 0;
+    record.burst = record.burst || s.burst;
     record.ST_mV = std::max(record.ST_mV, ST_shift_mV(bed.physiology.ischaemia, bed.blood.ischaemia));
     record.slip_m = s.slip_m;
     if (s.pressure_Pa > 3.9 * atm && record.waist_at_4_atm == 1) record.waist_at_4_atm = report.balloon.waist;

@@ -76,7 +76,7 @@ void add_balloon(const BalloonModel& model, const BalloonState& state, const Ves
     radius.push_back(state.radius_m[i]);
   }
   // Its fill displaces blood; folded there is none to see.
-  if (state.pressure_Pa > 0 || state.was_filled > 0)
+  if (state.pressure_Pa > 0 || state.was_filled)
     scene.moving.push_back(body_of("balloon", axis, frames, radius, model.iodine_kg_m3));
   if (!markers) return;
   for (double end : {-0.5, 0.5}) {

@@ -57,12 +57,12 @@ void look_at_shafts(const BedsideModel& model, const State& rods, BedsideScratch
     const RodState& own = rods.rods[t];
     if (!in_body(rod, own)) continue;
     x.points.clear();
-    for (int i = rod.elements; i > first_element(own); --i) {
+    for (int i = rod.elements; i > own.first; --i) {
       const Vector3d p = own.position[i];
       if ((p.array() < low.array()).any() || (p.array() > high.array()).any()) break;
       x.points.push_back(p);
     }
-    occupy(x.locator, tree, x.points, rod.radius.at(0)[std::max(first_element(own), rod.elements - 40)], s.shaft_m);
+    occupy(x.locator, tree, x.points, rod.radius.at(0)[std::max(own.first, rod.elements - 40)], s.shaft_m);
   }
 }
 
@@ -85,10 +85,10 @@ std::optional<Seat> seat_at_ostium(const BedsideModel& model, const CellLocator&
 void look_at_balloon(const BedsideModel& model, const State& rods, const TreatmentState& treatment,
                      const StepReport& report, BedsideScratch& x, BedsideState& s) {
   const int t = balloon_tool(model, rods);
-  const double was = s.balloon, was_branch = s.branch;
+  const int was = s.balloon, was_branch = s.branch;
   s.balloon = t < 0 ? -1 : model.balloon_of[static_cast<std::size_t>(t)];
   s.branch = -1, s.drag_N = 0;
-  if (s.balloon != was) s.held = s.stent_out = s.caught = s.caught_N = 0;
+  if (s.balloon != was) s.held = s.stent_out = s.caught = false, s.caught_N = 0;
   if (t < 0) return;
   const Rod& rod = model.rods.rods[static_cast<std::size_t>(t)];
   const RodState& own = rods.rods[static_cast<std::size_t>(t)];
@@ -97,14 +97,14 @@ void look_at_balloon(const BedsideModel& model, const State& rods, const Treatme
   if (own.inserted_m < near_m) return;
   const Vector3d p_near = point_from_tip(rod, own, near_m), p_far = point_from_tip(rod, own, far_m);
   const double between_m = near_m - far_m;
-  const int wire_cell = static_cast<int>(s.wire_cell);
-  auto seat = seat_at_ostium(model, x.locator, p_far, between_m, s.held > 0 ? 0 : between_m / 2, wire_cell);
+  const int wire_cell = s.wire_cell;
+  auto seat = seat_at_ostium(model, x.locator, p_far, between_m, s.held ? 0 : between_m / 2, wire_cell);
   if (!seat) seat = seat_of(x.locator, model.physiology.flow.tree, model.treatment.paths, p_near, p_far, wire_cell);
   // What the wall holds is not let go of because a beat throws its shaft aside for a moment; nor does a balloon that is
   // open in a stent go into a side branch, which it would tear.
   const bool aside = !seat || seat->branch != was_branch;
   const bool stays =
-      s.held > 0 ||
+      s.held ||
       (s.balloon == was && !is_empty(model.treatment.balloons[static_cast<std::size_t>(s.balloon)], treatment.balloon));
   if (aside && stays && was_branch >= 0 && x.locator.nearest(p_far, near_heart_m).cell >= 0) {
     s.branch = was_branch;
@@ -124,15 +124,14 @@ void look_at_guide(const BedsideModel& model, const State& rods, const StepRepor
                    const Vector3d& root_shift, BedsideScratch& x, BedsideState& s) {
   const int g = guide_of(model, rods);
   s.guide = g;
-  s.where = TipPlace::outside, s.cell = s.into_ostium = s.covered = s.in_ventricle = s.filled_m = s.thick_wire = 0;
+  s.tip = {}, s.covered = s.filled_m = 0, s.in_ventricle = s.thick_wire = false;
   if (g < 0) return;
   const Rod& rod = model.rods.rods[static_cast<std::size_t>(g)];
   const RodState& own = rods.rods[static_cast<std::size_t>(g)];
   const Vector3d p = own.position[rod.elements], direction = direction_at_tip(rod, own);
   const Patient& patient = *model.vessel.patient;
-  const TipPlace place = tip_place(x.locator, model.physiology.flow.tree, model.physiology.contrast, patient,
-                                   model.vessel.coronaries->map, phase, breath, p, direction);
-  s.where = place.where, s.cell = place.cell, s.into_ostium = place.into_ostium;
+  s.tip = tip_place(x.locator, model.physiology.flow.tree, model.physiology.contrast, patient,
+                    model.vessel.coronaries->map, phase, breath, p, direction);
   s.in_ventricle = beyond_valve_m(patient.anatomy.landmarks, p - root_shift) > 0;
   for (const Touch& touch : report.touches)
     if (touch.rod == g && touch.node == rod.elements) {
@@ -142,9 +141,9 @@ void look_at_guide(const BedsideModel& model, const State& rods, const StepRepor
   for (std::size_t t = 0; t < model.tools.size(); ++t) {
     if (static_cast<int>(t) == g || !in_body(model.rods.rods[t], rods.rods[t])) continue;
     const Rod& inner = model.rods.rods[t];
-    const double radius = inner.radius.at(0)[std::max(first_element(rods.rods[t]), inner.elements - 100)];
+    const double radius = inner.radius.at(0)[std::max(rods.rods[t].first, inner.elements - 100)];
     s.filled_m = std::max(s.filled_m, radius);
-    if (model.tools[t].instrument.kind == InstrumentKind::wire && radius > thick_wire_m) s.thick_wire = 1;
+    if (model.tools[t].instrument.kind == InstrumentKind::wire && radius > thick_wire_m) s.thick_wire = true;
   }
 }
 
@@ -155,7 +154,7 @@ void look_at_crimped_stent(const BedsideModel& model, const State& rods, const T
   s.caught_N = 0;
   const int own = s.balloon < 0 ? -1 : model.treatment.stent_on[static_cast<std::size_t>(s.balloon)];
   if (own < 0 || s.guide < 0 || treatment.stents[static_cast<std::size_t>(own)].where != StentState::on_balloon) {
-    s.caught = s.stent_out = 0;
+    s.caught = s.stent_out = false;
     return;
   }
   const auto t = static_cast<std::size_t>(balloon_tool(model, rods)), g = static_cast<std::size_t>(s.guide);
@@ -163,10 +162,10 @@ void look_at_crimped_stent(const BedsideModel& model, const State& rods, const T
   const StentState& stent = treatment.stents[static_cast<std::size_t>(own)];
   const double out_m = rods.rods[t].inserted_m - rods.rods[g].inserted_m;
   const double inside_m = marker_from_tip_m(instrument, 0) - stent.shift_m - out_m;  // its proximal end, in the guide
-  if (inside_m < -1e-3) s.stent_out = 1;
-  if (inside_m <= 0) s.caught = 0;
-  if (inside_m <= 0 || s.stent_out == 0) return;
-  if (s.caught == 0) {
+  if (inside_m < -1e-3) s.stent_out = true;
+  if (inside_m <= 0) s.caught = false;
+  if (inside_m <= 0 || !s.stent_out) return;
+  if (!s.caught) {
     constexpr double beyond_m = 4e-3, edge_m = 1e-3;  // what opens farther in does not hang on the edge
     const Rod& shaft = model.rods.rods[t];
     const Vector3d along = point_from_tip(shaft, rods.rods[t], std::max(0.0, out_m - beyond_m)) -
@@ -176,11 +175,11 @@ void look_at_crimped_stent(const BedsideModel& model, const State& rods, const T
     const double widest = *std::max_element(stent.radius_m.begin(), stent.radius_m.end());
     const double strut = model.treatment.stents[static_cast<std::size_t>(own)].strut_m;
     if (inside_m < edge_m && (angle > catch_angle_rad || widest + strut > guide.inner_diameter_m / 2))
-      s.caught = 1;
+      s.caught = true;
     else if (inside_m > 2e-3)
-      s.stent_out = 0;  // it has found its way in
+      s.stent_out = false;  // it has found its way in
   }
-  if (s.caught > 0) s.caught_N = std::min(edge_N_m * inside_m, most_caught_N);
+  if (s.caught) s.caught_N = std::min(edge_N_m * inside_m, most_caught_N);
 }
 
 /// A guide that goes so deep that it meets a stent in the wall pushes its end, if it does not lie in the middle of it.
@@ -188,7 +187,7 @@ void look_at_edge(const BedsideModel& model, const State& rods, const TreatmentS
                   BedsideState& s) {
   s.edge_m = -1e9, s.edge_N = 0;
   double wanted = 0;
-  if (s.guide >= 0 && static_cast<int>(s.where) == TipPlace::coronary) {
+  if (s.guide >= 0 && s.tip.where == TipPlace::coronary) {
     const auto g = static_cast<std::size_t>(s.guide);
     const Rod& rod = model.rods.rods[g];
     const CellLocator::Found f = x.locator.nearest(rods.rods[g].position[rod.elements], near_heart_m);
@@ -234,7 +233,7 @@ void look_at_valve(const BedsideModel& model, const State& rods, const StepRepor
     const double above_m = from.dot(marks.root_axis), aside_m = (from - above_m * marks.root_axis).norm();
     const bool inside = in_ventricle(model.vessel, phase, breath, p);
     // The valve stays open only for what came while it was.
-    if (valve_is_open(phase) || s.through_valve > 0)
+    if (valve_is_open(phase) || s.through_valve)
       through = through || inside || (aside_m < valve_radius_m + 1e-3 && std::fabs(above_m) < at_valve_m);
     if (!inside) continue;
     double pressed_N = 0;
@@ -303,7 +302,7 @@ Vector3d point_from_tip(const Rod& rod, const RodState& s, double from_tip_m) {
   // The first node that is not farther; its number is at least 1.
   const auto at = std::lower_bound(from_tip.begin() + 1, from_tip.end() - 1, from_tip_m, std::greater<>());
   const auto i = static_cast<int>(at - from_tip.begin());
-  if (i <= first_element(s)) return s.base.p_W;
+  if (i <= s.first) return s.base.p_W;
   const double length = from_tip[static_cast<std::size_t>(i) - 1] - from_tip[static_cast<std::size_t>(i)];
   const double part = (from_tip_m - from_tip[static_cast<std::size_t>(i)]) / length;
   return s.position[i] + part * (s.position[i - 1] - s.position[i]);
@@ -393,13 +392,13 @@ void press_with_wire(const BedsideModel& model, const StepReport& report, double
 
 TreatmentInputs treatment_inputs(const BedsideInputs& inputs, const BedsideState& s) {
   TreatmentInputs out;
-  out.balloon = static_cast<int>(s.balloon);
-  out.branch = static_cast<int>(s.branch);
+  out.balloon = s.balloon;
+  out.branch = s.branch;
   out.middle_m = seat_m(s);
   out.gauge_Pa = inputs.gauge_Pa;
   out.drag_N = s.drag_N + s.caught_N;
   out.edge_m = s.edge_m, out.edge_N = s.edge_N;
-  out.wire_tip_cell = static_cast<int>(s.wire_cell);
+  out.wire_tip_cell = s.wire_cell;
   out.wire_tip_N = s.wire_tip_N;
   out.shaft_m = s.shaft_m;
   out.doses = {inputs.heparin_U, inputs.nitrate_ug, inputs.adenosine_ug};
@@ -411,9 +410,9 @@ void set_physiology_inputs(const BedsideModel& model, const BedsideInputs& input
   to.contrast.injection_m3_s = s.guide < 0 ? 0 : inputs.injection_m3_s;
   to.contrast.iodine_kg_m3 = inputs.iodine_kg_m3;
   to.contrast.shaft_m = s.filled_m;
-  to.contrast.tip = {static_cast<TipPlace::Where>(static_cast<int>(s.where)), static_cast<int>(s.cell), s.into_ostium};
+  to.contrast.tip = s.tip;
   if (s.guide >= 0) to.contrast.line = line_of(model.tools[static_cast<std::size_t>(s.guide)].instrument);
-  to.tip_in_ventricle = s.in_ventricle > 0, to.wire_in_catheter = s.thick_wire > 0;
+  to.tip_in_ventricle = s.in_ventricle, to.wire_in_catheter = s.thick_wire;
   to.tip_covered = s.covered;
 }
 

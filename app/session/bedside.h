@@ -26,66 +26,76 @@ struct BedsideInputs {
   double gauge_Pa = 0;        ///< of the inflation device, on the balloon that is in the body; below 0: vacuum
   double heparin_U = 0, nitrate_ug = 0, adenosine_ug = 0;  ///< given in this step
 };
+constexpr auto fields(const BedsideInputs*) {
+  using S = BedsideInputs;
+  return std::tuple{field("injection_m3_s", &S::injection_m3_s),
+                    field("iodine_kg_m3", &S::iodine_kg_m3),
+                    field("gauge_Pa", &S::gauge_Pa),
+                    field("heparin_U", &S::heparin_U),
+                    field("nitrate_ug", &S::nitrate_ug),
+                    field("adenosine_ug", &S::adenosine_ug)};
+}
 
 struct BedsideState {
   // Of the balloon that is in the body.
-  double balloon = -1;               ///< of TreatmentModel::balloons, as a number
-  double branch = -1, middle_m = 0;  ///< its seat (place.h); -1: it is not in one artery
-  double held = 0, anchor_m = 0;     ///< 1: the wall holds it, with its middle there, along the path
-  double blocked = 0;                ///< 1: a stent that is not open lies in its way
-  double drag_N = 0;                 ///< of the wall on what is folded there, distally
-  double stent_out = 0;              ///< 1: the stent crimped on it has left the guide, and has not gone back into it
-  double caught = 0, caught_N = 0;   ///< 1: drawn back it hangs on the guide's edge, which pushes it distally
+  int balloon = -1;        ///< of TreatmentModel::balloons; -1: none is
+  int branch = -1;         ///< its seat (place.h); -1: it is not in one artery
+  double middle_m = 0;     ///< along the path
+  bool held = false;       ///< the wall holds it, with its middle at
+  double anchor_m = 0;     ///< along the path
+  bool blocked = false;    ///< a stent that is not open lies in its way
+  double drag_N = 0;       ///< of the wall on what is folded there, distally
+  bool stent_out = false;  ///< the stent crimped on it has left the guide, and has not gone back into it
+  bool caught = false;     ///< drawn back it hangs on the guide's edge, which pushes it distally with
+  double caught_N = 0;
   // Of the guide: the catheter that contrast comes through.
-  double guide = -1;                            ///< tool, as a number; -1: none is in the body
-  double where = 0, cell = 0, into_ostium = 0;  ///< TipPlace of its end hole
-  double covered = 0, in_ventricle = 0;         ///< TipPressureInputs
-  double filled_m = 0;                          ///< radius of what lies in it
-  double thick_wire = 0;                        ///< 1: that is a wire that leaves no room for pressure
-  double edge_m = -1e9, edge_N = 0;             ///< StentInputs: its edge on a stent that lies ahead
-  double edge_push_N = 0;                       ///< what the guide feels of that
+  int guide = -1;                    ///< tool; -1: none is in the body
+  TipPlace tip;                      ///< of its end hole
+  double covered = 0;                ///< TipPressureInputs
+  bool in_ventricle = false;         ///< TipPressureInputs
+  double filled_m = 0;               ///< radius of what lies in it
+  bool thick_wire = false;           ///< that is a wire that leaves no room for pressure
+  double edge_m = -1e9, edge_N = 0;  ///< StentInputs: its edge on a stent that lies ahead
+  double edge_push_N = 0;            ///< what the guide feels of that
   // Of the others.
-  double irritation = 0;                  ///< HeartInputs
-  double through_valve = 0;               ///< 1: a wire lies through the aortic valve, or as good as: it cannot close
-  double wire_cell = -1, wire_tip_N = 0;  ///< of the flow tree, where a coronary wire's tip is; how hard it presses
-  std::vector<double> shaft_m;            ///< (#cells) radius of the widest shaft in each
-  double wall_cursor = 0;                 ///< of follow_lumen
+  double irritation = 0;        ///< HeartInputs
+  bool through_valve = false;   ///< a wire lies through the aortic valve, or as good as: it cannot close
+  int wire_cell = -1;           ///< of the flow tree, where a coronary wire's tip is; -1: nowhere
+  double wire_tip_N = 0;        ///< how hard it presses
+  std::vector<double> shaft_m;  ///< (#cells) radius of the widest shaft in each
+  int wall_cursor = 0;          ///< of follow_lumen
 };
-/// Where the balloon's middle is along its path: where the wall holds it, or where its shaft has it.
-inline double seat_m(const BedsideState& s) { return s.held > 0 ? s.anchor_m : s.middle_m; }
-BedsideState make_bedside(const Vessel& vessel);
-
-template <class S, class Visit>
-void for_each_bedside_field(S& s, Visit&& visit) {
-  for (auto& [name, field] : {std::pair{"bedside.balloon", &s.balloon},
-                              std::pair{"bedside.branch", &s.branch},
-                              std::pair{"bedside.middle_m", &s.middle_m},
-                              std::pair{"bedside.held", &s.held},
-                              std::pair{"bedside.anchor_m", &s.anchor_m},
-                              std::pair{"bedside.drag_N", &s.drag_N},
-                              std::pair{"bedside.stent_out", &s.stent_out},
-                              std::pair{"bedside.caught", &s.caught},
-                              std::pair{"bedside.caught_N", &s.caught_N},
-                              std::pair{"bedside.blocked", &s.blocked},
-                              std::pair{"bedside.guide", &s.guide},
-                              std::pair{"bedside.where", &s.where},
-                              std::pair{"bedside.cell", &s.cell},
-                              std::pair{"bedside.into_ostium", &s.into_ostium},
-                              std::pair{"bedside.covered", &s.covered},
-                              std::pair{"bedside.in_ventricle", &s.in_ventricle},
-                              std::pair{"bedside.filled_m", &s.filled_m},
-                              std::pair{"bedside.thick_wire", &s.thick_wire},
-                              std::pair{"bedside.edge_m", &s.edge_m},
-                              std::pair{"bedside.edge_N", &s.edge_N},
-                              std::pair{"bedside.edge_push_N", &s.edge_push_N},
-                              std::pair{"bedside.irritation", &s.irritation},
-                              std::pair{"bedside.through_valve", &s.through_valve},
-                              std::pair{"bedside.wire_cell", &s.wire_cell},
-                              std::pair{"bedside.wire_tip_N", &s.wire_tip_N},
-                              std::pair{"bedside.wall_cursor", &s.wall_cursor}})
-    visit(name, field, 1);
-  visit("bedside.shaft_m", s.shaft_m.data(), static_cast<int>(s.shaft_m.size()));
+constexpr auto fields(const BedsideState*) {
+  using S = BedsideState;
+  return std::tuple{field("balloon", &S::balloon),
+                    field("branch", &S::branch),
+                    field("middle_m", &S::middle_m),
+                    field("held", &S::held),
+                    field("anchor_m", &S::anchor_m),
+                    field("blocked", &S::blocked),
+                    field("drag_N", &S::drag_N),
+                    field("stent_out", &S::stent_out),
+                    field("caught", &S::caught),
+                    field("caught_N", &S::caught_N),
+                    field("guide", &S::guide),
+                    field("tip", &S::tip),
+                    field("covered", &S::covered),
+                    field("in_ventricle", &S::in_ventricle),
+                    field("filled_m", &S::filled_m),
+                    field("thick_wire", &S::thick_wire),
+                    field("edge_m", &S::edge_m),
+                    field("edge_N", &S::edge_N),
+                    field("edge_push_N", &S::edge_push_N),
+                    field("irritation", &S::irritation),
+                    field("through_valve", &S::through_valve),
+                    field("wire_cell", &S::wire_cell),
+                    field("wire_tip_N", &S::wire_tip_N),
+                    field("shaft_m", &S::shaft_m),
+                    field("wall_cursor", &S::wall_cursor)};
 }
+/// Where the balloon's middle is along its path: where the wall holds it, or where its shaft has it.
+inline double seat_m(const BedsideState& s) { return s.held ? s.anchor_m : s.middle_m; }
+BedsideState make_bedside(const Vessel& vessel);
 
 /// The balloons and stents that tools carry, added to `model`; of each tool its balloon, or -1. Throws LoadError for
 /// sizes that vascular refuses.

@@ -175,7 +175,7 @@ bool ConditionEvaluator::faces(int tool, int branch, double cosine) const {
 }
 
 const BalloonModel* ConditionEvaluator::balloon() const {
-  const int b = static_cast<int>(session.bedside.balloon);
+  const int b = session.bedside.balloon;
   return b < 0 ? nullptr : &model.treatment.balloons[static_cast<std::size_t>(b)];
 }
 
@@ -206,7 +206,7 @@ bool ConditionEvaluator::balloon_is_at(double offset_m, int lesion) const {
   const auto at = balloon_at_rest_m(lesion);
   if (!at) return false;
   for (std::size_t t = 0; t < model.tools.size(); ++t)
-    if (model.balloon_of[t] == static_cast<int>(session.bedside.balloon))
+    if (model.balloon_of[t] == session.bedside.balloon)
       return comes_in(static_cast<int>(t)) ? *at >= offset_m : *at <= offset_m;
   return false;
 }
@@ -215,7 +215,7 @@ bool ConditionEvaluator::balloon_is_out_of_guide(double by_m) const {
   const auto inserted_m = [&](std::size_t tool) { return session.rods.rods[tool].inserted_m; };
   const double guide_m = session.bedside.guide < 0 ? 0 : inserted_m(static_cast<std::size_t>(session.bedside.guide));
   for (std::size_t t = 0; t < model.tools.size(); ++t)
-    if (session.bedside.balloon >= 0 && model.balloon_of[t] == static_cast<int>(session.bedside.balloon))
+    if (session.bedside.balloon >= 0 && model.balloon_of[t] == session.bedside.balloon)
       return inserted_m(t) - marker_from_tip_m(model.tools[t].instrument, 0) >= guide_m + by_m;
   return false;
 }
@@ -225,18 +225,17 @@ bool ConditionEvaluator::guide_is_in(int branch) const {
   if (b.guide < 0) return false;
   const FlowTree& tree = model.physiology.flow.tree;
   const int first = tree.branches[static_cast<std::size_t>(branch)].first;
-  if (static_cast<int>(b.where) == TipPlace::coronary)
-    return static_cast<int>(b.cell) == first || tree.is_downstream(static_cast<int>(b.cell), first);
-  const auto side = static_cast<std::size_t>(static_cast<int>(b.where) == TipPlace::right_sinus);
-  return static_cast<int>(b.where) >= TipPlace::left_sinus &&
-         model.physiology.contrast.coronary_branch[side] == branch && b.into_ostium > 0.6;
+  if (b.tip.where == TipPlace::coronary) return b.tip.cell == first || tree.is_downstream(b.tip.cell, first);
+  const auto side = static_cast<std::size_t>(b.tip.where == TipPlace::right_sinus);
+  return b.tip.where >= TipPlace::left_sinus && model.physiology.contrast.coronary_branch[side] == branch &&
+         b.tip.into_ostium > 0.6;
 }
 
 /// While the beam is on.
 bool ConditionEvaluator::contrast_is_seen(int cell) const {
   const double r = session.blood.radius_m[static_cast<std::size_t>(cell)];
   const double there = concentration(session.blood.contrast, model.physiology.flow, cell, EIGEN_PI * r * r);
-  return there > seen_kg_m3 && (session.c_arm.fluoroscopy > 0 || session.c_arm.cine > 0);
+  return there > seen_kg_m3 && (session.c_arm.fluoroscopy || session.c_arm.cine);
 }
 
 /// How far the tip went since the oldest note beyond what the hand moved.

@@ -40,7 +40,7 @@ std::unique_ptr<const Coronaries> make_coronaries(std::shared_ptr<const Patient>
   out->at_rest = at_rest(out->physiology, rate_1_min);
   HeartState& heart = out->at_rest.heart;
   heart.phase = heart.since_R_s = 0;  // at_rest ends within a step of the R wave
-  heart.time_s = heart.beats = heart.draws = 0;
+  heart.time_s = 0, heart.beats = 0, heart.draws = 0;
   out->first_vertex.assign(out->tree().cells.size() + 1, 0);
   for_each_follower(out->map, [&](std::size_t cell, int) { ++out->first_vertex[cell + 1]; });
   for (std::size_t c = 1; c < out->first_vertex.size(); ++c) out->first_vertex[c] += out->first_vertex[c - 1];

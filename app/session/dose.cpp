@@ -9,11 +9,11 @@
 namespace ostium {
 
 void XrayUse::add(const CArmInputs& arm, std::uint64_t step, double step_s) {
-  if (!(arm.fluoroscopy > 0 || arm.cine > 0) || !is_frame(step, dose_frames_per_s, step_s)) return;
+  if (!(arm.fluoroscopy || arm.cine) || !is_frame(step, dose_frames_per_s, step_s)) return;
   for (Pose& pose : poses_) {
     const CArmInputs& other = pose.arm;
     if (other.lao_rad != arm.lao_rad || other.cran_rad != arm.cran_rad || other.field_m != arm.field_m ||
-        other.p_PI != arm.p_PI || (other.cine > 0) != (arm.cine > 0))
+        other.p_PI != arm.p_PI || other.cine != arm.cine)
       continue;
     pose.frames += 1;
     return;
@@ -36,7 +36,7 @@ std::optional<Exposure> Dosimeter::exposure(Imager& imager, const CArmInputs& ar
   return imager.exposure({.scene = scene_,
                           .view = view,
                           .collimator = {},
-                          .programme = arm.cine > 0 ? cine(dose_frames_per_s) : fluoroscopy(dose_frames_per_s),
+                          .programme = arm.cine ? cine(dose_frames_per_s) : fluoroscopy(dose_frames_per_s),
                           .seed = 1});
 }
 
@@ -57,7 +57,7 @@ DoseMeter RunningDose::of(const XrayUse& use, const CArmState& arm) {
   for (std::size_t i = 0; i < use.poses().size(); ++i) {
     const XrayUse::Pose& pose = use.poses()[i];
     if (i == of_pose_.size()) of_pose_.push_back(dosimeter_.exposure(imager_, pose.arm));
-    if (pose.arm.cine > 0) dose.cine_frames += std::lround(pose.frames);
+    if (pose.arm.cine) dose.cine_frames += std::lround(pose.frames);
     if (!of_pose_[i]) continue;
     dose.kerma_Gy += pose.frames * of_pose_[i]->kerma_Gy;
     dose.dose_area_Gy_m2 += pose.frames * of_pose_[i]->dose_area_Gy_m2;

@@ -59,7 +59,7 @@ void EmulatedHand::move(EmulatedBox& box) {
       tool.advanced_mm += 1e3 * std::clamp(to_m - in_box_m_, -step_m, step_m);
     }
   }
-  box.pedals = static_cast<std::uint16_t>((wish_.c_arm.fluoroscopy > 0) | (wish_.c_arm.cine > 0) << 1);
+  box.pedals = static_cast<std::uint16_t>(int{wish_.c_arm.fluoroscopy} | int{wish_.c_arm.cine} << 1);
   box.pressure_atm = wish_.bedside.gauge_Pa / 101'325;
   box.flow_mL_s = 1e6 * wish_.bedside.injection_m3_s;
 }

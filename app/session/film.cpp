@@ -59,8 +59,8 @@ const Picture& Film::frame(const SessionModel& model, const SessionState& state,
   p.view.arm.p_PI = o.p_PI.value_or(arm.p_PI);
   p.view.field_m = o.field_m.value_or(arm.field_m);
   p.view.pixels = o.pixels;
-  const bool on = o.always_on || arm.fluoroscopy > 0 || arm.cine > 0;
-  p.is_cine = o.mode ? *o.mode == Mode::cine : arm.cine > 0;
+  const bool on = o.always_on || arm.fluoroscopy || arm.cine;
+  p.is_cine = o.mode ? *o.mode == Mode::cine : arm.cine;
   const FluoroscopeInput in{.scene = scene,
                             .view = p.view,
                             .collimator = {},

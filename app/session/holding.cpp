@@ -23,7 +23,7 @@ PathFrame place_of(const BedsideModel& model, const BedsideState& s, Moment mome
 }
 
 std::size_t tool_of(const BedsideModel& model, const BedsideState& s) {
-  const auto at = std::find(model.balloon_of.begin(), model.balloon_of.end(), static_cast<int>(s.balloon));
+  const auto at = std::find(model.balloon_of.begin(), model.balloon_of.end(), s.balloon);
   return static_cast<std::size_t>(at - model.balloon_of.begin());
 }
 
@@ -36,10 +36,10 @@ double middle_from_tip_m(const Instrument& instrument) {
 void hold_balloon(const BedsideModel& model, const State& rods, const BalloonReport& report, Moment moment,
                   BedsideState& s) {
   if (s.balloon < 0 || s.branch < 0 || !(report.pressed_N > 0)) {
-    s.held = 0;
+    s.held = false;
     return;
   }
-  if (s.held == 0) s.held = 1, s.anchor_m = s.middle_m;
+  if (!s.held) s.held = true, s.anchor_m = s.middle_m;
   const std::size_t t = tool_of(model, s);
   const BalloonModel& own = model.treatment.balloons[static_cast<std::size_t>(s.balloon)];
   const Vector3d p = point_from_tip(model.rods.rods[t], rods.rods[t], middle_from_tip_m(model.tools[t].instrument));
@@ -52,7 +52,7 @@ void hold_balloon(const BedsideModel& model, const State& rods, const BalloonRep
 Tether tether_on_shaft(const BedsideModel& model, const TreatmentState& treatment, const BedsideState& s, int tool,
                        Moment moment) {
   const auto t = static_cast<std::size_t>(tool);
-  if (s.held == 0 || model.balloon_of[t] < 0 || model.balloon_of[t] != static_cast<int>(s.balloon)) return {};
+  if (!s.held || model.balloon_of[t] < 0 || model.balloon_of[t] != s.balloon) return {};
   const BalloonModel& own = model.treatment.balloons[static_cast<std::size_t>(s.balloon)];
   const PathFrame frame = place_of(model, s, moment);
   // A balloon that slid along the artery draws its shaft after it.
@@ -65,9 +65,8 @@ StretchLoad load_on_shaft(const BedsideModel& model, const State& rods, const Be
   const auto t = static_cast<std::size_t>(tool);
   const Rod& rod = model.rods.rods[t];
   const RodState& own = rods.rods[t];
-  if (tool == static_cast<int>(s.guide) && s.edge_push_N > 0)
-    return {0, on_guide_m, -s.edge_push_N * direction_at_tip(rod, own)};
-  if (s.caught_N == 0 || s.balloon < 0 || model.balloon_of[t] != static_cast<int>(s.balloon)) return {};
+  if (tool == s.guide && s.edge_push_N > 0) return {0, on_guide_m, -s.edge_push_N * direction_at_tip(rod, own)};
+  if (s.caught_N == 0 || s.balloon < 0 || model.balloon_of[t] != s.balloon) return {};
   const Instrument& instrument = model.tools[t].instrument;
   const double near_m = marker_from_tip_m(instrument, 0), far_m = marker_from_tip_m(instrument, 1);
   const Vector3d along = point_from_tip(rod, own, far_m) - point_from_tip(rod, own, near_m);

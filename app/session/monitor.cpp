@@ -21,7 +21,7 @@ void Monitor::listen(const SessionModel& model, const SessionState& state, const
   if (!model.has_patient() || state.rods.step % every != 0) return;
   const auto leads = ecg(state.blood.heart, inputs.rate_1_min, model.physiology.ischaemia, state.blood.ischaemia);
   // Contrast in the line, or a thick wire, and no trace is left.
-  const bool damped_out = inputs.bedside.injection_m3_s > 0 || state.bedside.thick_wire > 0;
+  const bool damped_out = inputs.bedside.injection_m3_s > 0 || state.bedside.thick_wire;
   add(II, leads[static_cast<int>(Lead::II)]), add(V2, leads[static_cast<int>(Lead::V2)]);
   add(guide, state.bedside.guide >= 0 && !damped_out ? state.blood.line.reading_Pa / mmHg : 0);
   add(gauge, inputs.bedside.gauge_Pa / atm);

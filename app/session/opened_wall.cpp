@@ -15,8 +15,7 @@ std::vector<double> untreated(const FlowTree& tree) {
 
 }  // namespace
 
-void follow_lumen(const FlowTree& tree, const std::vector<double>& radius_m, double& cursor,
-                  std::vector<double>& wall_m) {
+void follow_lumen(const FlowTree& tree, const std::vector<double>& radius_m, int& cursor, std::vector<double>& wall_m) {
   const std::size_t n = wall_m.size(), from = static_cast<std::size_t>(cursor) % n;
   int moved = 0;
   for (std::size_t k = 0; k < n; ++k) {
@@ -27,7 +26,7 @@ void follow_lumen(const FlowTree& tree, const std::vector<double>& radius_m, dou
                              : wall_follows_share * cell.healthy_m;
     if (std::fabs(radius_m[c] - wall_m[c]) <= slack) continue;
     wall_m[c] = radius_m[c];
-    cursor = static_cast<double>((c + 1) % n);
+    cursor = static_cast<int>((c + 1) % n);
     if (++moved == wall_cells_a_step) return;
   }
 }

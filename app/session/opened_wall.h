@@ -13,8 +13,7 @@ inline constexpr double wall_follows_share = 0.03;  ///< and elsewhere, as a sha
 inline constexpr int wall_cells_a_step = 2;         ///< most that move in a step
 
 /// Lets contact's radii follow those of the lumen, from `cursor` on, which it moves. All (#cells).
-void follow_lumen(const FlowTree& tree, const std::vector<double>& radius_m, double& cursor,
-                  std::vector<double>& wall_m);
+void follow_lumen(const FlowTree& tree, const std::vector<double>& radius_m, int& cursor, std::vector<double>& wall_m);
 
 class OpenedWall {
  public:

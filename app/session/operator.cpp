@@ -134,7 +134,7 @@ void feel(const SessionModel& model, const SessionReport& report, OperatorState&
 }
 
 void begin(const ScriptStep& step, const SessionModel& model, const SessionState& session, OperatorState& state) {
-  state.began = 0;
+  state.began = false;
   state.began_s = seconds(model, session);
   state.began_beats = session.blood.heart.beats + session.blood.heart.phase;
   for (std::size_t t = 0; t < model.tools.size(); ++t)
@@ -150,7 +150,7 @@ void ask(const ScriptPlan& plan, const OperatorState& state, SessionInputs& inpu
   inputs.bedside = {state.injection_m3_s, state.iodine_kg_m3, state.gauge_Pa,
                     state.heparin_U,      state.nitrate_ug,   state.adenosine_ug};
   const auto s = static_cast<std::size_t>(state.step);
-  if (state.outcome != 0 || s >= plan.script.steps.size()) return;
+  if (state.outcome != Outcome::running || s >= plan.script.steps.size()) return;
   const double factor = plan.hand_speed * hand_factor(plan.seed, static_cast<int>(s));
   for (int t : plan.script.steps[s].tools)
     inputs.tools[static_cast<std::size_t>(t)] = {factor * plan.script.steps[s].speed_m_s,
@@ -158,11 +158,11 @@ void ask(const ScriptPlan& plan, const OperatorState& state, SessionInputs& inpu
 }
 
 void end(Outcome outcome, int condition, OperatorState& state) {
-  state.outcome = static_cast<double>(outcome);
+  state.outcome = outcome;
   state.by_condition = condition;
 }
 
-void go_to(int step, OperatorState& state) { state.step = step, state.began = 1; }
+void go_to(int step, OperatorState& state) { state.step = step, state.began = true; }
 
 /// The step after `s`: past detours, unless that is one, too.
 int after(const Script& script, int s) {
@@ -174,7 +174,7 @@ int after(const Script& script, int s) {
 }
 
 /// Where step `s` leads if it failed; -1: nowhere. `tries` counts what it led to, its last resort as one.
-int leads_to(const Script& script, int s, double& tries) {
+int leads_to(const Script& script, int s, int& tries) {
   const ScriptStep& step = script.steps[static_cast<std::size_t>(s)];
   if (step.otherwise == ScriptStep::Otherwise::go_on) return after(script, s);
   if (step.otherwise == ScriptStep::Otherwise::fail) return -1;
@@ -208,19 +208,15 @@ OperatorState make_state(const ScriptPlan& plan, const SessionModel& model) {
 }
 
 std::vector<double> save(const OperatorState& state) {
-  std::vector<double> out;
-  for_each_operator_field(state,
-                          [&](const char*, const double* first, int n) { out.insert(out.end(), first, first + n); });
+  std::vector<double> out(count_fields(state));
+  put_fields(state, out.data());
   return out;
 }
 
 void restore(const std::vector<double>& saved, OperatorState& state) {
-  if (saved.size() != save(state).size()) throw std::invalid_argument("the operator's saved state is another script's");
-  const double* from = saved.data();
-  for_each_operator_field(state, [&](const char*, double* first, int n) {
-    std::copy_n(from, n, first);
-    from += n;
-  });
+  if (saved.size() != count_fields(state))
+    throw std::invalid_argument("the operator's saved state is another script's");
+  take_fields(saved.data(), state);
 }
 
 Outcome decide(const ScriptPlan& plan, const SessionModel& model, const SessionState& session,
@@ -233,14 +229,14 @@ Outcome decide(const ScriptPlan& plan, const SessionModel& model, const SessionS
   const ConditionEvaluator evaluator(plan, model, session, report, state);
   const int count = static_cast<int>(plan.script.steps.size());
   // A step that takes no time leads to the next at once; `count` bounds jumps among such.
-  for (int guard = 0; guard <= count && state.outcome == 0; ++guard) {
-    const int s = static_cast<int>(state.step);
+  for (int guard = 0; guard <= count && state.outcome == Outcome::running; ++guard) {
+    const int s = state.step;
     if (s >= count) {
       end(Outcome::success, -1, state);
       break;
     }
     const ScriptStep& step = plan.script.steps[static_cast<std::size_t>(s)];
-    if (state.began != 0) {
+    if (state.began) {
       begin(step, model, session, state);
       events.push_back({step.action == ScriptAction::mark ? Kind::marked : Kind::begins, s, -1});
       if (takes_time(step)) break;
@@ -261,16 +257,16 @@ Outcome decide(const ScriptPlan& plan, const SessionModel& model, const SessionS
     else
       end(unless >= 0 ? Outcome::failure : Outcome::timed_out, unless, state);
   }
-  if (report.refused >= 0 && state.outcome == 0) {
+  if (report.refused >= 0 && state.outcome == Outcome::running) {
     state.in_the_way = report.in_its_way;
     end(Outcome::failure, -1, state);
   }
   note_tips(model, session, state);
   state.injection_m3_s = 0;
-  if (state.outcome == 0 && state.step < count)
+  if (state.outcome == Outcome::running && state.step < count)
     continue_action(plan.script.steps[static_cast<std::size_t>(state.step)], session, evaluator.now_s(), state);
   ask(plan, state, inputs);
-  return static_cast<Outcome>(static_cast<int>(state.outcome));
+  return state.outcome;
 }
 
 std::string words_for(Outcome outcome) {
@@ -289,7 +285,7 @@ std::string words_for(Outcome outcome) {
 }
 
 std::string reason(const ScriptPlan& plan, const OperatorState& state) {
-  const auto outcome = static_cast<Outcome>(static_cast<int>(state.outcome));
+  const auto outcome = state.outcome;
   const auto s = static_cast<std::size_t>(state.step);
   if (outcome == Outcome::success || s >= plan.script.steps.size()) return "";
   const ScriptStep& step = plan.script.steps[s];

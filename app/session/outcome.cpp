@@ -126,7 +126,7 @@ WorstOfLesions worst_of_lesions(const SessionModel& model, const SessionState& s
 }
 
 bool is_unharmed(const SessionModel& model, const SessionState& state) {
-  constexpr double type_C = 2;
+  constexpr int type_C = 2;
   const auto lies_under_a_stent = [&](int cell) {
     return std::any_of(state.treatment.stents.begin(), state.treatment.stents.end(), [&](const StentState& stent) {
       if (stent.where != StentState::deployed || stent.branch < 0) return false;
@@ -138,13 +138,12 @@ bool is_unharmed(const SessionModel& model, const SessionState& state) {
       return s >= from && s <= to;
     });
   };
-  return std::none_of(state.treatment.injury.injuries.begin(), state.treatment.injury.injuries.end(),
-                      [&](const Injury& injury) {
-                        const auto kind = static_cast<InjuryKind>(static_cast<int>(injury.kind));
-                        if (injury.cell < 0 || kind == InjuryKind::none) return false;
-                        return kind == InjuryKind::perforation ||
-                               (injury.grade >= type_C && !lies_under_a_stent(static_cast<int>(injury.cell)));
-                      });
+  return std::none_of(
+      state.treatment.injury.injuries.begin(), state.treatment.injury.injuries.end(), [&](const Injury& injury) {
+        const auto kind = injury.kind;
+        if (injury.cell < 0 || kind == InjuryKind::none) return false;
+        return kind == InjuryKind::perforation || (injury.grade >= type_C && !lies_under_a_stent(injury.cell));
+      });
 }
 
 std::optional<StentNow> stent_now(const SessionModel& model, const SessionState& state, int lesion) {

@@ -52,7 +52,7 @@ std::vector<Ball> balls_of(const SessionModel& model, const SessionState& state)
   for (std::size_t r = 0; r < model.tools.size(); ++r) {
     const Rod& rod = model.rods.rods[r];
     if (!in_body(rod, state.rods.rods[r])) continue;
-    for (int i = first_element(state.rods.rods[r]) + 1; i < rod.nodes(); ++i) {
+    for (int i = state.rods.rods[r].first + 1; i < rod.nodes(); ++i) {
       const double radius = rod.radius.at(0)[i];
       balls.push_back({state.rods.rods[r].position[i], radius, 1.5 * radius, i + 1 == rod.nodes(),
                        is_covered(model, state, static_cast<int>(r), rod.node_from_tip_m[i])});

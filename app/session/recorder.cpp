@@ -86,8 +86,7 @@ Recorder::~Recorder() {
 void Recorder::put_state(const SessionState& state, const OperatorState& hands) {
   Slot& slot = current();
   ostium::put_state(state, slot.block.states.data());
-  double* row = slot.block.hands.data();
-  for_each_operator_field(hands, [&](const char*, const double* first, int n) { row = std::copy_n(first, n, row); });
+  put_fields(hands, slot.block.hands.data());
   slot.state_rows = 1;
 }
 

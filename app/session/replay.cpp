@@ -40,19 +40,13 @@ void require_same_layout(const RecordingReader& r, const SessionModel& model) {
                     r.path(), r.software()));
 }
 
-std::size_t input_count_of(const SessionInputs& inputs) {
-  std::size_t count = 0;
-  for_each_input(inputs, [&](const char*, const double*, int n) { count += static_cast<std::size_t>(n); });
-  return count;
-}
-
 /// What was used in the steps from `from` to `to`.
 void add_xrays(const RecordingReader& recording, const SessionModel& model, std::size_t from, std::size_t to,
                XrayUse& xrays) {
   constexpr std::size_t at_once = 10000;
   SessionInputs inputs;
   inputs.tools.resize(model.tools.size());
-  const std::size_t width = input_count_of(inputs);
+  const std::size_t width = count_fields(inputs);
   while (from < to) {
     const std::vector<double> rows = recording.inputs(from, std::min(at_once, to - from));
     for (std::size_t at = 0; at < rows.size(); at += width) {
@@ -98,7 +92,7 @@ bool Replay::tick() {
   const std::size_t now = state.rods.step;
   if (now >= recording.steps()) return false;
   if (now < first_ || now >= first_ + hashes_.size()) read_ahead();
-  take_inputs(rows_.data() + (now - first_) * input_count_of(inputs), inputs);
+  take_inputs(rows_.data() + (now - first_) * count_fields(inputs), inputs);
   step(model, inputs, state, scratch_, report);
   same = hash(state) == hashes_[now - first_];
   return true;

@@ -4,14 +4,10 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <bit>
 #include <cassert>
 #include <cmath>
 #include <numbers>
 #include <random>
-
-#define XXH_INLINE_ALL
-#include <xxhash.h>
 
 #include "app/session/holding.h"
 #include "core/rod/introducer.h"
@@ -124,85 +120,45 @@ SessionInputs inputs_for(const SessionModel& model) {
   return inputs;
 }
 
-std::size_t rod_count(const State& state) {
-  std::size_t count = 1;
-  for_each_field(state, [&](const char*, const double*, int n) { count += static_cast<std::size_t>(n); });
-  return count;
-}
-
 }  // namespace
 
-std::size_t input_count(const SessionModel& model) { return input_names(model).size(); }
+std::size_t input_count(const SessionModel& model) { return count_fields(inputs_for(model)); }
 
 std::vector<std::string> input_names(const SessionModel& model) {
   const SessionInputs inputs = inputs_for(model);
   std::vector<std::string> names;
-  const std::size_t of_tools = 2 * model.tools.size();
-  for_each_input(inputs, [&](const char* name, const double*, int count) {
-    const std::string tool = names.size() < of_tools ? model.tools[names.size() / 2].name + "." : "";
-    for (int i = 0; i < count; ++i) names.push_back(tool + name + (count > 1 ? fmt::format("[{}]", i) : ""));
+  for_each_number(inputs, [&](const FieldPath& path, auto numbers) {
+    const int tool = path.outer->index;
+    const std::string owner = tool < 0 ? "" : model.tools[static_cast<std::size_t>(tool)].name + ".";
+    for (std::size_t i = 0; i < numbers.size(); ++i)
+      names.push_back(owner + path.name + (numbers.size() > 1 ? fmt::format("[{}]", i) : ""));
   });
   return names;
 }
 
-void put_inputs(const SessionInputs& inputs, double* row) {
-  for_each_input(inputs, [&](const char*, const double* first, int count) { row = std::copy_n(first, count, row); });
-}
-
-void take_inputs(const double* row, SessionInputs& inputs) {
-  for_each_input(inputs, [&](const char*, double* first, int count) {
-    std::copy_n(row, count, first);
-    row += count;
-  });
-}
+void put_inputs(const SessionInputs& inputs, double* row) { put_fields(inputs, row); }
+void take_inputs(const double* row, SessionInputs& inputs) { take_fields(row, inputs); }
 
 std::uint64_t hash(const SessionState& state) {
   std::uint64_t h = hash(state.rods);
-  for_each_part(state, [&](const char*, const double* first, int count) {
-    h = XXH3_64bits_withSeed(first, static_cast<std::size_t>(count) * sizeof(double), h);
+  for_each_field(state, [&](const char*, const auto& part) {
+    // Rods have a hash of their own, which leaves out what is outside.
+    if constexpr (!std::is_same_v<std::decay_t<decltype(part)>, State>) h = hash_fields(part, h);
   });
   return h;
 }
 
-std::size_t state_count(const SessionModel& model) {
-  const SessionState state = make_state(model, 0);
-  std::size_t count = rod_count(state.rods);
-  for_each_part(state, [&](const char*, const double*, int n) { count += static_cast<std::size_t>(n); });
-  return count;
-}
-
-void put_state(const SessionState& state, double* row) {
-  *row++ = std::bit_cast<double>(state.rods.step);
-  const auto put = [&](const char*, const double* first, int count) { row = std::copy_n(first, count, row); };
-  for_each_field(state.rods, put);
-  for_each_part(state, put);
-}
-
-void take_state(const double* row, SessionState& state) {
-  state.rods.step = std::bit_cast<std::uint64_t>(*row++);
-  const auto take = [&](const char*, double* first, int count) {
-    std::copy_n(row, count, first);
-    row += count;
-  };
-  for_each_field(state.rods, take);
-  for_each_part(state, take);
-}
+std::size_t state_count(const SessionModel& model) { return count_fields(make_state(model, 0)); }
+void put_state(const SessionState& state, double* row) { put_fields(state, row); }
+void take_state(const double* row, SessionState& state) { take_fields(row, state); }
 
 std::string first_difference(const SessionModel& model, const SessionState& a, const SessionState& b) {
   std::string found = first_difference(a.rods, b.rods);
+  if (found.empty()) return first_different_field(a, b);
   if (found.rfind("rod ", 0) == 0) {
     const std::size_t comma = found.find(',');
     found.insert(comma, " (" + model.tools[static_cast<std::size_t>(std::stoi(found.substr(4)))].name + ")");
   }
-  std::vector<const double*> others;
-  for_each_part(b, [&](const char*, const double* first, int) { others.push_back(first); });
-  std::size_t next = 0;
-  for_each_part(a, [&](const char* name, const double* first, int count) {
-    const double* other = others[next++];
-    for (int i = 0; i < count && found.empty(); ++i)
-      if (std::bit_cast<std::uint64_t>(first[i]) != std::bit_cast<std::uint64_t>(other[i]))
-        found = fmt::format("{}: {:.17g} != {:.17g}", name, first[i], other[i]);
-  });
   return found;
 }
 
@@ -237,7 +193,7 @@ SessionState make_state(const SessionModel& model, std::uint64_t seed) {
   PhysiologyInputs inputs;
   inputs.heart.rate_1_min = model.vessel->rate_1_min;
   while (state.blood.heart.phase < begins_at) step(model.physiology, inputs, model.step_s(), state.blood, scratch);
-  state.blood.heart.time_s = state.blood.heart.beats = 0;
+  state.blood.heart.time_s = 0, state.blood.heart.beats = 0;
   return state;
 }
 
@@ -274,7 +230,7 @@ namespace {
 /// Heart and breath go on, and the wall with them. True: an R wave.
 bool beat(const SessionModel& model, const SessionInputs& inputs, SessionState& state, SurfaceMotion& motion) {
   HeartState& heart = state.blood.heart;
-  const double beats = heart.beats;
+  const int beats = heart.beats;
   motion.frame_before = vessel_frame(*model.vessel, heart.phase);
   motion.sway_before = breath_after(model, state.rods.step);
   motion.sway_after = breath_after(model, state.rods.step + 1);
@@ -282,7 +238,7 @@ bool beat(const SessionModel& model, const SessionInputs& inputs, SessionState& 
        {inputs.rate_1_min, state.bedside.irritation,
         model.treatment.drugs.nitrate_lowers * state.treatment.drugs.nitrate},
        model.step_s(), heart);
-  motion.door_open = valve_is_open(heart.phase) || state.bedside.through_valve > 0;
+  motion.door_open = valve_is_open(heart.phase) || state.bedside.through_valve;
   motion.frame_after = vessel_frame(*model.vessel, heart.phase + (heart.beats - beats));
   return heart.beats > beats;
 }
@@ -296,7 +252,7 @@ ToolInputs allowed(const SessionModel& model, const SessionState& state, int too
   if (!in_body(model.rods.rods[t], state.rods.rods[t]))
     if (const int other = in_the_way(model, state.rods, tool); other >= 0)
       out = {}, report.refused = tool, report.in_its_way = other;
-  if (state.bedside.blocked > 0 && model.balloon_of[t] >= 0) out.advance_m_s = 0;
+  if (state.bedside.blocked && model.balloon_of[t] >= 0) out.advance_m_s = 0;
   return out;
 }
 
@@ -367,10 +323,10 @@ void treat(const SessionModel& model, const SessionInputs& inputs, bool R_wave, 
 }
 
 void count_xrays(const CArmInputs& in, double step_s, CArmState& state) {
-  const bool cine = in.cine > 0, fluoroscopy = in.fluoroscopy > 0 && !cine;
+  const bool cine = in.cine, fluoroscopy = in.fluoroscopy && !cine;
   state.fluoroscopy_s += fluoroscopy ? step_s : 0;
   state.cine_s += cine ? step_s : 0;
-  if (cine && !(state.cine > 0)) state.cine_runs += 1;
+  if (cine && !state.cine) state.cine_runs += 1;
   state.fluoroscopy = in.fluoroscopy, state.cine = in.cine;
 }
 

@@ -2,9 +2,9 @@
 /// A session: everything that a simulation consists of, put together, and one step of it.
 ///
 /// Four kinds of memory, as in core. Adding one more part (contrast, a balloon, signals): its const part in
-/// SessionModel, what it asks of the hand in SessionInputs with its line in `for_each_input`, its state in SessionState
-/// with its line in `for_each_part`, and its call in `step`. Recording, replay, hash and comparison follow from the
-/// lists.
+/// SessionModel, what it asks of the hand in SessionInputs, its state in SessionState, both with a line in the list of
+/// fields beside them (core/base/fields.h), and its call in `step`. Recording, replay, hash and comparison follow from
+/// the lists.
 #include <memory>
 #include <optional>
 #include <string>
@@ -44,13 +44,22 @@ struct ToolInputs {
   double advance_m_s = 0;
   double turn_rad_s = 0;  ///< clockwise as seen from the hub
 };
+constexpr auto fields(const ToolInputs*) {
+  return std::tuple{field("advance_m_s", &ToolInputs::advance_m_s), field("turn_rad_s", &ToolInputs::turn_rad_s)};
+}
 
 struct CArmInputs {
   double lao_rad = 0, cran_rad = 0;
   double field_m = 0.2;
   Eigen::Vector3d p_PI = Eigen::Vector3d::Zero();  ///< the isocentre in the patient
-  double fluoroscopy = 0, cine = 0;                ///< pedals: 1 is down
+  bool fluoroscopy = false, cine = false;          ///< pedals that are down
 };
+constexpr auto fields(const CArmInputs*) {
+  using S = CArmInputs;
+  return std::tuple{field("lao_rad", &S::lao_rad),         field("cran_rad", &S::cran_rad),
+                    field("field_m", &S::field_m),         field("isocentre_m", &S::p_PI),
+                    field("fluoroscopy", &S::fluoroscopy), field("cine", &S::cine)};
+}
 
 struct SessionInputs {
   std::vector<ToolInputs> tools;
@@ -58,27 +67,9 @@ struct SessionInputs {
   double rate_1_min = 70;  ///< of the heart
   BedsideInputs bedside;
 };
-
-/// visit(name, first, count) with `count` doubles. `S` is SessionInputs or const SessionInputs.
-template <class S, class Visit>
-void for_each_input(S& inputs, Visit&& visit) {
-  for (auto& tool : inputs.tools) {
-    visit("advance_m_s", &tool.advance_m_s, 1);
-    visit("turn_rad_s", &tool.turn_rad_s, 1);
-  }
-  visit("lao_rad", &inputs.c_arm.lao_rad, 1);
-  visit("cran_rad", &inputs.c_arm.cran_rad, 1);
-  visit("field_m", &inputs.c_arm.field_m, 1);
-  visit("isocentre_m", inputs.c_arm.p_PI.data(), 3);
-  visit("fluoroscopy", &inputs.c_arm.fluoroscopy, 1);
-  visit("cine", &inputs.c_arm.cine, 1);
-  visit("heart_rate_1_min", &inputs.rate_1_min, 1);
-  visit("injection_m3_s", &inputs.bedside.injection_m3_s, 1);
-  visit("iodine_kg_m3", &inputs.bedside.iodine_kg_m3, 1);
-  visit("gauge_Pa", &inputs.bedside.gauge_Pa, 1);
-  visit("heparin_U", &inputs.bedside.heparin_U, 1);
-  visit("nitrate_ug", &inputs.bedside.nitrate_ug, 1);
-  visit("adenosine_ug", &inputs.bedside.adenosine_ug, 1);
+constexpr auto fields(const SessionInputs*) {
+  return std::tuple{field("tools", &SessionInputs::tools), field("c_arm", &SessionInputs::c_arm),
+                    field("heart_rate_1_min", &SessionInputs::rate_1_min), field("bedside", &SessionInputs::bedside)};
 }
 
 std::size_t input_count(const SessionModel& model);
@@ -92,11 +83,21 @@ struct HandState {
   double fed_m = 0, turned_rad = 0;      ///< sums of what the hand did
   double path_m = 0, turn_path_rad = 0;  ///< the same without sign
 };
+constexpr auto fields(const HandState*) {
+  return std::tuple{field("fed_m", &HandState::fed_m), field("turned_rad", &HandState::turned_rad),
+                    field("path_m", &HandState::path_m), field("turn_path_rad", &HandState::turn_path_rad)};
+}
 
 struct CArmState {
-  double fluoroscopy_s = 0, cine_s = 0, cine_runs = 0;
-  double fluoroscopy = 0, cine = 0;  ///< pedals of the last step
+  double fluoroscopy_s = 0, cine_s = 0;
+  int cine_runs = 0;
+  bool fluoroscopy = false, cine = false;  ///< pedals of the last step
 };
+constexpr auto fields(const CArmState*) {
+  using S = CArmState;
+  return std::tuple{field("fluoroscopy_s", &S::fluoroscopy_s), field("cine_s", &S::cine_s),
+                    field("cine_runs", &S::cine_runs), field("fluoroscopy", &S::fluoroscopy), field("cine", &S::cine)};
+}
 
 struct SessionState {
   State rods;
@@ -107,25 +108,11 @@ struct SessionState {
   BedsideState bedside;
   std::vector<double> wall_m;  ///< (#cells) radius of the wall that contact has (opened_wall.h)
 };
-
-/// visit(name, first, count) for all but the rods, which have their own list in core/state.h.
-template <class S, class Visit>
-void for_each_part(S& state, Visit&& visit) {
-  for (auto& hand : state.hands) {
-    visit("hand.fed_m", &hand.fed_m, 1);
-    visit("hand.turned_rad", &hand.turned_rad, 1);
-    visit("hand.path_m", &hand.path_m, 1);
-    visit("hand.turn_path_rad", &hand.turn_path_rad, 1);
-  }
-  visit("c_arm.fluoroscopy_s", &state.c_arm.fluoroscopy_s, 1);
-  visit("c_arm.cine_s", &state.c_arm.cine_s, 1);
-  visit("c_arm.cine_runs", &state.c_arm.cine_runs, 1);
-  visit("c_arm.fluoroscopy", &state.c_arm.fluoroscopy, 1);
-  visit("c_arm.cine", &state.c_arm.cine, 1);
-  for_each_field(state.blood, visit);
-  for_each_field(state.treatment, visit);
-  for_each_bedside_field(state.bedside, visit);
-  visit("wall_m", state.wall_m.data(), static_cast<int>(state.wall_m.size()));
+constexpr auto fields(const SessionState*) {
+  using S = SessionState;
+  return std::tuple{field("rods", &S::rods),    field("hands", &S::hands),         field("c_arm", &S::c_arm),
+                    field("blood", &S::blood),  field("treatment", &S::treatment), field("bedside", &S::bedside),
+                    field("wall_m", &S::wall_m)};
 }
 
 /// How a session begins: a circulation at rest. Seed 0: the heart at its R wave, tools as they come out of their
@@ -137,7 +124,7 @@ std::size_t state_count(const SessionModel& model);
 /// `row` has state_count numbers. Do not allocate.
 void put_state(const SessionState& state, double* row);
 void take_state(const double* row, SessionState& state);
-/// "rod 0 (wire), velocity[12]: 0.1 != 0.2", or empty if they are bit-identical.
+/// "rod 0 (wire), velocity[12]: 0.1 != 0.2", "hands[0].fed_m: 0.1 != 0.2", or empty if they are bit-identical.
 std::string first_difference(const SessionModel& model, const SessionState& a, const SessionState& b);
 
 // --- a step ----------------------------------------------------------------------------------------------------------

@@ -44,8 +44,7 @@ constexpr Signal<RunNow> of_the_breath[] = {
 /// Where contrast comes into the first lesion's artery: behind its ostium, or where a guide's tip is farther in.
 int contrast_enters(const SessionModel& model, const SessionState& state) {
   const Coronaries& c = *model.vessel->coronaries;
-  const int tip =
-      static_cast<int>(state.bedside.where) == TipPlace::coronary ? static_cast<int>(state.bedside.cell) : -1;
+  const int tip = state.bedside.tip.where == TipPlace::coronary ? state.bedside.tip.cell : -1;
   const bool farther = tip >= 0 && c.ostium_cell >= 0 && c.landmark_cell >= 0 &&
                        c.tree().is_downstream(tip, c.ostium_cell) && c.tree().is_downstream(c.landmark_cell, tip);
   return farther ? tip : c.ostium_cell;

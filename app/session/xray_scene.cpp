@@ -75,7 +75,7 @@ bool has_left_its_stent(const SessionModel& model, const SessionState& state, st
   const int stent = model.treatment.stent_on[static_cast<std::size_t>(balloon)];
   if (stent < 0) return false;
   return state.treatment.stents[static_cast<std::size_t>(stent)].where != StentState::on_balloon ||
-         (static_cast<int>(state.bedside.balloon) == balloon && state.treatment.balloon.was_filled > 0);
+         (state.bedside.balloon == balloon && state.treatment.balloon.was_filled);
 }
 
 }  // namespace
@@ -104,7 +104,7 @@ void add_treatment(const SessionModel& model, const SessionState& state, Scene& 
   for (std::size_t i = 0; i < state.treatment.stents.size(); ++i) {
     const StentState& stent = state.treatment.stents[i];
     const bool opening = static_cast<int>(i) == own && stent.where == StentState::on_balloon &&
-                         state.treatment.balloon.was_filled > 0 && b.branch >= 0;
+                         state.treatment.balloon.was_filled && b.branch >= 0;
     if (stent.branch >= 0 && (stent.where == StentState::deployed || opening))
       add_stent(model.treatment.stents[i], stent, path_of(stent.branch), *c.patient, c.map, *c.shape,
                 state.blood.radius_m, phase, depth, scene);
@@ -121,7 +121,7 @@ std::vector<Shaft> shafts_of(const SessionModel& model, const SessionState& stat
     const Rod& rod = model.rods.rods[t];
     const RodState& s = state.rods.rods[t];
     if (!in_body(rod, s)) continue;
-    const int first = first_element(s), count = rod.nodes() - first;
+    const int first = s.first, count = rod.nodes() - first;
     if (count < 2) continue;
     const Instrument& instrument = model.tools[t].instrument;
     Shaft shaft{.name = model.tools[t].name,
@@ -130,7 +130,7 @@ std::vector<Shaft> shafts_of(const SessionModel& model, const SessionState& stat
                 .lumen_radius_m = 0.5 * instrument.inner_diameter_m,
                 .lumen_iodine_kg_m3 = {}};
     for (int i = 0; i < count; ++i) shaft.p_P.col(i) = s.position[rod.elements - i];
-    if (static_cast<int>(t) == static_cast<int>(state.bedside.guide)) fill_bore(model, state, rod, shaft);
+    if (static_cast<int>(t) == state.bedside.guide) fill_bore(model, state, rod, shaft);
     const bool stent_left = has_left_its_stent(model, state, t);
     for (const OpaqueStretch& o : instrument.opaque)
       if (!stent_left || o.material != OpaqueMaterial::cobalt_chromium)

@@ -85,9 +85,9 @@ void Rehearsal::lay_wire(const std::vector<Vector3d>& way_W, double inserted_m) 
   Vector3d p = way_W[0];
   std::size_t next = 1;
   Rod inside = rod;
-  cut(rod, inserted_m, first_element(s), inside);
+  cut(rod, inserted_m, s.first, inside);
   for (int j = 0; j < rod.elements; ++j) {
-    if (j >= first_element(s)) {
+    if (j >= s.first) {
       const double length = inside.length.at(0)[j];
       while (next + 1 < way_W.size() && (way_W[next] - p).norm() < length) ++next;
       // On the piece that ends at `next`, where it is `length` away.
@@ -100,7 +100,7 @@ void Rehearsal::lay_wire(const std::vector<Vector3d>& way_W, double inserted_m) 
     frames.emplace_back(q.w(), q.x(), q.y(), q.z());
   }
   Rod whole = rod;
-  cut(rod, inserted_m, first_element(s), whole);
+  cut(rod, inserted_m, s.first, whole);
   lay_out(whole, frames, frames.back(), s);
   settle();
 }
@@ -127,7 +127,7 @@ void judge(const Rehearsal& run, Judge& judge, bool winding, Holding& holding) {
   judge.set_frame(run.frame);
   for (std::size_t r = 0; r < run.model.rods.size(); ++r) {
     const Rod& rod = run.model.rods[r];
-    for (int i = first_element(run.state.rods[r]) + 1; i < rod.nodes(); ++i) {
+    for (int i = run.state.rods[r].first + 1; i < rod.nodes(); ++i) {
       const Vector3d p = run.state.rods[r].position[i];
       const double radius = rod.radius.at(0)[i], distance = judge.distance_m(p, 1.5 * radius);
       const bool near = distance < radius;

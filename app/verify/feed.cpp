@@ -42,7 +42,7 @@ std::vector<GateResult> feed_round_trips(int trips, double length_m) {
   run(bench, 0, 4);
 
   double shape = 0;
-  for (int i = first_element(before) + 1; i <= bench.model.rods[0].elements; ++i)
+  for (int i = before.first + 1; i <= bench.model.rods[0].elements; ++i)
     shape = std::max(shape, (bench.rod().position[i] - before.position[i]).norm());
   const double energy_after = energy(bench.model, bench.inputs, bench.state, 0).total_J();
   return {{"feed-round-trip-shape", shape / start_m, 0, 1e-6, "1"},

@@ -75,7 +75,7 @@ struct Pair {
 
 /// The outer rod's centreline as a cubic through its nodes: nearest distance of p, sampled finely.
 double distance_to_centreline(const Rod& rod, const RodState& s, const Vector3d& p, bool& beyond) {
-  const int first = first_element(s), N = rod.elements;
+  const int first = s.first, N = rod.elements;
   const auto tangent = [&](int i) -> Vector3d {
     const int a = std::max(i - 1, first), b = std::min(i + 1, N);
     return (s.position[b] - s.position[a]) / (b - a);
@@ -191,7 +191,7 @@ GateResult containment(bool quick, bool bound) {
     pair.inputs.rods[1].base.turn_rate_W_rad_s = Vector3d(5 * std::cos(2 * pi * 0.2 * t), 0, 0);
     pair.step();
     if (n % 10 != 0 || n < 100) continue;  // the first 0.1 s are the release from shapes that do not fit each other
-    for (int i = first_element(pair.state.rods[1]) + 1; i <= pair.model.rods[1].elements; ++i) {
+    for (int i = pair.state.rods[1].first + 1; i <= pair.model.rods[1].elements; ++i) {
       bool beyond = false;
       const double d =
           distance_to_centreline(pair.model.rods[0], pair.state.rods[0], pair.state.rods[1].position[i], beyond);

@@ -67,7 +67,7 @@ void lay_out(const Rod& rod, const std::vector<Eigen::Vector4d>& q_W, const Eige
   state.velocity_before.fill(Eigen::Vector3d::Zero());
   state.tip.p_W = r;
   state.tip.q_W = tip_q_W;
-  state.base.hold = state.tip.hold = -1;
+  state.base.hold = state.tip.hold = std::nullopt;
 }
 
 void lay_out_ring(const Rod& rod, double twist_rad, RodState& state) {

@@ -136,7 +136,7 @@ void draw_numbers(const Pen& pen, const PanelTexts& texts, const Snapshot& now, 
   std::vector<Entry> entries;
   entries.push_back({"time", minutes(signal(texts, now, "time_s"))});
   entries.push_back({"fluoroscopy", minutes(now.state.c_arm.fluoroscopy_s)});
-  entries.push_back({"cine", fmt::format("{:.0f} run{}, {:.1f} s", now.state.c_arm.cine_runs,
+  entries.push_back({"cine", fmt::format("{} run{}, {:.1f} s", now.state.c_arm.cine_runs,
                                          now.state.c_arm.cine_runs == 1 ? "" : "s", now.state.c_arm.cine_s)});
   entries.push_back({"DAP", fmt::format("{:.2f} Gy cm²", view.dose.dose_area_Gy_m2 * 1e4)});
   const double gauge = signal(texts, now, "gauge_atm");

@@ -238,7 +238,7 @@ class Live {
     if (own_) {
       if (!fresh) return false;
       const CArmInputs& arm = now.inputs.c_arm;
-      take(own_->frame(model_, now.state, now.inputs, now.xrays), own_->dose(), arm.fluoroscopy > 0, arm.cine > 0);
+      take(own_->frame(model_, now.state, now.inputs, now.xrays), own_->dose(), arm.fluoroscopy, arm.cine);
       return true;
     }
     // Each frame is drawn once, with its picture; while the run is paused there are none.

@@ -51,7 +51,7 @@ bool lie_as_before(const State& state, Nest& nest) {
     if (k < nest.layer_count) {
       const Layer& layer = nest.layers[k];
       const RodState& own = state.rods[layer.rod];
-      now = {layer.rod, first_element(own), static_cast<int>(own.exposed), layer.inserted_m};
+      now = {layer.rod, own.first, own.exposed, layer.inserted_m};
     }
     same = same && now == nest.laid[k];
     nest.laid[k] = now;
@@ -139,8 +139,8 @@ void place(double where, int last, int& hint, At&& at, int i, Places& out) {
 
 double middle_of_own(const Rod& rod, const RodState& s, int j, double reach_m) {
   double from = s.inserted_m - rod.node_from_tip_m[j];
-  if (j == first_element(s)) from = 0;
-  if (j == static_cast<int>(s.exposed)) from = reach_m;
+  if (j == s.first) from = 0;
+  if (j == s.exposed) from = reach_m;
   return (from + s.inserted_m - rod.node_from_tip_m[j + 1]) / 2;
 }
 
@@ -173,7 +173,7 @@ void arrange(const Model& model, const std::vector<char>& was_in_body, State& st
       layer.base_turn = from_eigen(nest.step_s * scratch.rods[layer.rod].inputs.base.turn_rate_W_rad_s);
       if (!nest.moved) continue;
       const double reach = nest.depth.at(0)[layer.covered];
-      int hint = first_element(own);
+      int hint = own.first;
       for (int e = 0; e < layer.covered; ++e)
         place((nest.depth.at(0)[e] + nest.depth.at(0)[e + 1]) / 2, rod.elements - 1, hint,
               [&](int j) { return middle_of_own(rod, own, j, reach); }, e, layer.from_own);

@@ -44,7 +44,7 @@ void find_slides(const Model& model, const State& state, Nest& nest) {
     const Rod& rod = model.rods[layer.rod];
     const RodState& own = state.rods[layer.rod];
     for (Field<1>* f : {&layer.grip, &layer.drag}) std::fill(f->raw().begin(), f->raw().end(), 0.0);
-    int j = first_element(own);
+    int j = own.first;
     for (int i = 1; i <= layer.covered; ++i) {
       const int e = i - 1;
       const double from_tip = layer.inserted_m - nest.depth.at(0)[i];
@@ -105,7 +105,7 @@ void commit_slides(const Model& model, const Nest& nest, State& state) {
     if (!layer.slides) continue;
     const Rod& rod = model.rods[layer.rod];
     RodState& own = state.rods[layer.rod];
-    for (int i = first_element(own) + 1; i < rod.nodes(); ++i) {
+    for (int i = own.first + 1; i < rod.nodes(); ++i) {
       Slip slip;
       if (i <= own.exposed && own.contact_force[i].squaredNorm() > 0) {
         const int e = std::min(layer.to_nodes.before[i], layer.covered - 1);

@@ -29,19 +29,19 @@ int first_exposed(const Rod& rod, const RodState& s, double length_m) {
   const int N = rod.elements;
   const auto own = [&](int i) { return rod.length.at(0)[i]; };
   const auto beyond = [&](int i) { return length_m - rod.node_from_tip_m[i + 1]; };
-  int j = static_cast<int>(s.exposed);
+  int j = s.exposed;
   if (j >= N) {
     if (length_m < leaves_at * own(N - 1)) return N;
     j = N - 1;
   }
-  while (j > first_element(s) && beyond(j) > own(j) + leaves_at * own(j - 1)) --j;
+  while (j > s.first && beyond(j) > own(j) + leaves_at * own(j - 1)) --j;
   while (j < N && beyond(j) < returns_at * own(j)) ++j;
   return j;
 }
 
 /// What protrudes begins at `root`: its frames follow the elements that have left or gone back.
 void expose(const Rod& rod, int first, double length_m, const V3<double>& root, RodState& s) {
-  const int before = static_cast<int>(s.exposed), N = rod.elements;
+  const int before = s.exposed, N = rod.elements;
   s.exposed = first;
   if (first == N) return;
   const V3<double> chord = load3<double>(s.position, first + 1) - root;
@@ -71,7 +71,7 @@ void set_joint_lengths(Rod& rod) {
 }  // namespace
 
 void lay_over(const Rod& inside, const Rod& inner, const RodState& along, RodState& s) {
-  int j = first_element(along);
+  int j = along.first;
   double depth = 0, length = along.inserted_m - inner.node_from_tip_m[j + 1];
   for (int i = inside.first; i <= inside.elements; ++i) {
     const double at = i == inside.first ? 0 : inside.total_length_m - inside.node_from_tip_m[i];
@@ -112,7 +112,7 @@ void lay_spans(const Model& model, Scratch& scratch, State& state, Nest& nest) {
       const V3<double> tip = load3<double>(state.rods[root].position, model.rods[root].elements);
       expose(rod, first, first < rod.elements ? protrudes - rod.node_from_tip_m[first + 1] : 0, tip, own);
     }
-    const int first = static_cast<int>(own.exposed), count = rod.elements - first;
+    const int first = own.exposed, count = rod.elements - first;
     layer.end = at + count;
     if (count == 0) {
       layer.end = 0;

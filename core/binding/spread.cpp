@@ -16,7 +16,7 @@ namespace {
 
 /// Where its nodes and the middles of its elements are on the chain.
 void locate(const Rod& rod, const RodState& own, const Nest& nest, Layer& layer) {
-  const int first = first_element(own), last = std::min(static_cast<int>(own.exposed), rod.elements);
+  const int first = own.first, last = std::min(own.exposed, rod.elements);
   const int elements = nest.s.inside.elements;
   const double* depth = nest.depth.at(0);
   const double reach = depth[layer.covered];
@@ -106,7 +106,7 @@ void lay_nodes(const Rod& rod, const Nest& nest, const Layer& layer, int first, 
 /// Of joints that may be the rod's own in the next step: they have not been bent otherwise.
 void take_strains(const Rod& rod, int from, int to, RodState& own) {
   if (own.strain.size() == 0) return;
-  for (int i = std::max(from, first_element(own) + 1); i < std::min(to, rod.elements); ++i) {
+  for (int i = std::max(from, own.first + 1); i < std::min(to, rod.elements); ++i) {
     const Q4<double> q = conjugate(load4<double>(own.orientation, i - 1)) * load4<double>(own.orientation, i);
     const V3<double> strain = (1 / rod.joint_length.at(0)[i]) * rotation_vector(q);
     store3(own.strain, i, strain), store3(own.strain_before, i, strain);
@@ -121,7 +121,7 @@ void take_strains(const Rod& rod, int from, int to, RodState& own) {
     Layer& layer = nest.layers[k];
     const Rod& rod = model.rods[layer.rod];
     RodState& own = state.rods[layer.rod];
-    const int first = first_element(own), exposed = static_cast<int>(own.exposed), N = rod.elements;
+    const int first = own.first, exposed = own.exposed, N = rod.elements;
     if (nest.moved) locate(rod, own, nest, layer);
     find_lean(nest, layer);
     lay_elements(nest, layer, first, std::min(exposed, N), own);

@@ -23,6 +23,8 @@ inline int padded(int count) {
 template <int K>
 class Field {
  public:
+  static constexpr int components = K;
+
   Field() = default;
   explicit Field(int size) { resize(size); }
 

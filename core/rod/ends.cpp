@@ -82,9 +82,8 @@ RodInputs limited(const RodInputs& asked, std::uint32_t& trouble) {
 EndJoints joints_of(const RodInputs& inputs) { return {joined(inputs.base.hold), joined(inputs.tip.hold)}; }
 
 bool take_hold(const RodInputs& inputs, RodState& state) {
-  const double base = static_cast<double>(inputs.base.hold), tip = static_cast<double>(inputs.tip.hold);
-  const bool changed = base != state.base.hold || tip != state.tip.hold;
-  state.base.hold = base, state.tip.hold = tip;
+  const bool changed = inputs.base.hold != state.base.hold || inputs.tip.hold != state.tip.hold;
+  state.base.hold = inputs.base.hold, state.tip.hold = inputs.tip.hold;
   return changed;
 }
 

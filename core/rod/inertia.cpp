@@ -154,11 +154,10 @@ void commit(const Rod& rod, const RodScratch& scratch, double step_s, RodState& 
 }
 
 void string_iterate(const Rod& rod, const RodState& state, RodScratch& scratch) {
-  const double free = static_cast<double>(Hold::free);
-  const bool from_base = state.base.hold != free || state.tip.hold == free;
-  const Eigen::Vector3d end = state.base.hold != free  ? state.base.p_W
-                              : state.tip.hold != free ? state.tip.p_W
-                                                       : state.position[rod.first];
+  const bool from_base = state.base.hold != Hold::free || state.tip.hold == Hold::free;
+  const Eigen::Vector3d end = state.base.hold != Hold::free  ? state.base.p_W
+                              : state.tip.hold != Hold::free ? state.tip.p_W
+                                                             : state.position[rod.first];
   string_nodes(rod, scratch.orientation, from_eigen(end), from_base, scratch.position);
 }
 

@@ -27,13 +27,13 @@ Q4<double> turned_by(const Q4<double>& q, const V3<double>& theta) {
 
 /// Length of the base element.
 double base_length(const Rod& rod, const RodState& s) {
-  return s.inserted_m + s.slack_m - rod.node_from_tip_m[first_element(s) + 1];
+  return s.inserted_m + s.slack_m - rod.node_from_tip_m[s.first + 1];
 }
 
 /// The base element splits: what is more than its own length becomes a new base element. Curvature at the base and
 /// behind the element stays what it was; in between it is interpolated.
 void enter_element(const Rod& rod, const RodInputs& inputs, double step_s, RodState& s) {
-  const int old = first_element(s), base = old - 1;
+  const int old = s.first, base = old - 1;
   const double before = base_length(rod, s), own = rod.length.at(0)[old], after = before - own;
   const double next = rod.length.at(0)[old + 1];
 
@@ -80,7 +80,7 @@ void enter_element(const Rod& rod, const RodInputs& inputs, double step_s, RodSt
 
 /// The base element and the next become one, along the chord from the introducer to the far node of the next.
 void leave_element(const Rod& rod, RodState& s) {
-  const int next = first_element(s) + 1;
+  const int next = s.first + 1;
   const Q4<double> q = load4<double>(s.orientation, next);
   const Vector3d chord = s.position[next + 1] - s.base.p_W;
   s.slack_m = chord.norm() - (s.inserted_m - rod.node_from_tip_m[next + 1]);
@@ -124,7 +124,7 @@ void appear(const Rod& rod, const RodInputs& inputs, double step_s, RodState& s)
 
 }  // namespace
 
-bool in_body(const Rod& rod, const RodState& state) { return first_element(state) < rod.elements; }
+bool in_body(const Rod& rod, const RodState& state) { return state.first < rod.elements; }
 
 Vector3d axis(const EndState& end) { return to_eigen(director3(end.frame())); }
 
@@ -140,12 +140,12 @@ int first_element_for(const Rod& rod, double inserted_m) {
 }
 
 void cut_at_introducer(const Rod& rod, const RodState& state, Rod& inside) {
-  cut(rod, state.inserted_m + state.slack_m, first_element(state), inside);
+  cut(rod, state.inserted_m + state.slack_m, state.first, inside);
 }
 
 void renew_elements(const Rod& rod, const RodInputs& inputs, double step_s, RodState& s) {
   if (inputs.base.hold != Hold::clamped || (inputs.feed_m_s == 0 && s.slack_m == 0) || !in_body(rod, s)) return;
-  const auto first = [&] { return first_element(s); };
+  const auto first = [&] { return s.first; };
   while (first() > 0 && base_length(rod, s) > rod.length.at(0)[first()] + enters_at * rod.length.at(0)[first() - 1])
     enter_element(rod, inputs, step_s, s);
   while (first() < rod.elements - least_elements && base_length(rod, s) < leaves_at * rod.length.at(0)[first()])

@@ -106,9 +106,10 @@ RecordingReader::RecordingReader(const std::string& path) : path_(path), file_(T
   if (found.rfind(schema, 0) != 0)
     throw LoadError(fmt::format("{}: is of schema \"{}\"; expected {}{}", path, found, schema, recording_version));
   if (found != schema + std::to_string(recording_version))
-    throw LoadError(fmt::format("{}: is a recording of version {}, written by {}; this ostium reads version {}", path,
-                                found.substr(schema.size()), file_.has("software") ? file_.text("software") : "?",
-                                recording_version));
+    throw LoadError(fmt::format(
+        "{}: is a recording of version {}, written by {}; this ostium reads version {}, whose "
+        "state and inputs are laid out otherwise",
+        path, found.substr(schema.size()), file_.has("software") ? file_.text("software") : "?", recording_version));
   if (file_.rows("inputs") != steps())
     throw LoadError(path + ": has another number of inputs than of steps; it is damaged");
 }

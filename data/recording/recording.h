@@ -13,7 +13,7 @@
 
 namespace ostium {
 
-inline constexpr int recording_version = 1;
+inline constexpr int recording_version = 2;  ///< 1: flags and indices of state in other places and order
 inline constexpr int steps_per_block = 500;  ///< that are written together
 inline constexpr int steps_per_signal = 10;
 inline constexpr int steps_per_state = 1000;

@@ -41,7 +41,7 @@ TEST(Introducer, APartlyInsertedRodIsAShorterRod) {
   ASSERT_TRUE(part.settle().converged);
 
   RodDescription shorter = wire;
-  const int first = first_element(part.rod());
+  const int first = part.rod().first;
   shorter.element_lengths_m.assign(wire.element_lengths_m.begin() + first, wire.element_lengths_m.end());
   shorter.element_lengths_m[0] = inserted - 0.002 * (200 - first - 1);
   Bench alone = introducer(shorter, inserted);
@@ -173,13 +173,13 @@ TEST(Introducer, NothingComesOfWhatIsStillOutside) {
   wire.relaxation = {{{0.2, 0.1}, {0.1, 1}}};
   Bench clean = introducer(wire, 0.1), soiled = introducer(wire, 0.1);
   RodState& rod = soiled.state.rods[0];
-  const int outside = first_element(rod);
+  const int outside = rod.first;
   ASSERT_GT(outside, 100);
   int fields = 0;
-  for_each_field(soiled.state, [&](const char* name, double* first, int count) {
-    if (count < clean.rod().orientation.size() || std::string_view(name).starts_with("crept")) return;
-    std::fill(first, first + outside, 1e3);
-    ++fields;
+  for_each_field(rod, [&](const std::string_view name, auto& field) {
+    if constexpr (requires { field.components; })
+      for (int c = 0; c < field.components && field.size() > 0 && !name.starts_with("crept"); ++c, ++fields)
+        std::fill_n(field.at(c), outside, 1e3);
   });
   EXPECT_GT(fields, 30);
   EXPECT_EQ(hash(soiled.state), hash(clean.state));
@@ -190,7 +190,7 @@ TEST(Introducer, NothingComesOfWhatIsStillOutside) {
     }
     ASSERT_EQ(hash(soiled.state), hash(clean.state)) << ms;
   }
-  const int inside = first_element(clean.rod());
+  const int inside = clean.rod().first;
   EXPECT_LT(inside, outside - 40);
   for (double* seen : {&clean.state.rods[0].strain.at(1)[inside + 1], &clean.state.rods[0].crept_slow.at(1)[2]}) {
     const double was = std::exchange(*seen, *seen + 1e-12);

@@ -341,7 +341,7 @@ TEST(Nesting, ARapidExchangeShaftRidesOnTheWireOverItsLastStretch) {
     ASSERT_EQ(layer.host[e], depth > shaft_tip - 0.1 && depth < shaft_tip ? 1 : 0) << depth;
     EXPECT_NEAR(layer.room.at(0)[e], layer.host[e] == 1 ? 0.2e-3 - 0.178e-3 : 0.9e-3 - 0.178e-3, 1e-9);
   }
-  for (int i = first_element(state.rods[2]); i < model.rods[2].nodes(); ++i)
+  for (int i = state.rods[2].first; i < model.rods[2].nodes(); ++i)
     EXPECT_LT(state.rods[2].offset[i].norm(), 0.9e-3 - 0.178e-3) << i;
 }
 

@@ -249,9 +249,7 @@ TEST(Step, DifferencesAreNamed) {
 
 bool finite(const State& state) {
   bool all = true;
-  for_each_field(state, [&](const char*, const double* first, int count) {
-    for (int i = 0; i < count; ++i) all = all && std::isfinite(first[i]);
-  });
+  for (const double number : save(state)) all = all && std::isfinite(number);
   return all;
 }
 

@@ -26,7 +26,7 @@ TEST(Session, ListsHoldEverything) {
   EXPECT_EQ(first_difference(run.model, run.state, back), "");
   back.hands[0].turned_rad += 1e-15;
   EXPECT_NE(hash(back), hash(run.state));
-  EXPECT_NE(first_difference(run.model, run.state, back).find("hand.turned_rad"), std::string::npos);
+  EXPECT_NE(first_difference(run.model, run.state, back).find("hands[0].turned_rad"), std::string::npos);
   back = run.state;
   back.rods.rods[0].velocity.at(1)[run.model.rods.rods[0].elements] += 1e-12;
   EXPECT_NE(first_difference(run.model, run.state, back).find("rod 0 (wire), velocity"), std::string::npos);

@@ -69,7 +69,7 @@ TEST(Treatment, ABalloonOpensTheLesionAndTheWallThatRodsMeet) {
   const double before = lesion_now(run.model, run.state).stenosis;
   EXPECT_NEAR(before, 0.70, 0.02);
   ASSERT_TRUE(run_to(run, 3)) << reason(run.plan, run.hands);
-  EXPECT_EQ(static_cast<int>(run.state.bedside.where), TipPlace::coronary);
+  EXPECT_EQ(run.state.bedside.tip.where, TipPlace::coronary);
   EXPECT_GT(run.state.blood.contrast.from_tip_kg, 0);
   ASSERT_TRUE(run_to(run, 6)) << reason(run.plan, run.hands);
   ASSERT_TRUE(balloon_from_lesion_m(run.model, run.state));
@@ -174,16 +174,16 @@ TEST(Treatment, AStentThatHangsOnTheGuidesEdgeIsLostIfPulledHard) {
   ASSERT_LT(s.inside_m(), 0);
   // It hangs; a gentle pull, and it comes free when it is pushed on.
   s.move(s.stent, -20, 5, [&] { return s.inside_m() > 0.2e-3; });
-  bedside.caught = 1;
+  bedside.caught = true;
   s.move(s.stent, -20, 0.08, [] { return false; });
   EXPECT_EQ(bedside.caught, 1);
   EXPECT_GT(bedside.caught_N, 0.3);
   EXPECT_EQ(s.crimped().shift_m, 0);
-  s.move(s.stent, 20, 1, [&] { return bedside.caught == 0; });
+  s.move(s.stent, 20, 1, [&] { return !bedside.caught; });
   EXPECT_EQ(bedside.caught, 0);
   // Hard.
   s.move(s.stent, -20, 5, [&] { return s.inside_m() > 0.2e-3; });
-  bedside.caught = 1;
+  bedside.caught = true;
   double pull_N = 0;
   s.move(s.stent, -20, 4, [&] {
     if (!s.report.tools.empty()) pull_N = std::min(pull_N, s.report.tools[s.stent].push_N);
@@ -228,7 +228,7 @@ TEST(Treatment, ADeviceThatReachesOutOfTheOstiumLiesInTheArtery) {
                          marker_from_tip_m(s.run.model.tools[s.stent].instrument, 1)) /
                         2;
   s.move(s.guide, -40, 0.6, [] { return false; });
-  ASSERT_NE(static_cast<int>(bedside.where), TipPlace::coronary);
+  ASSERT_NE(bedside.tip.where, TipPlace::coronary);
   // Drawn out until less than half of it is in the artery: its place goes on until then, without a jump.
   double least = 1, was = -1, jump = 0;
   s.move(s.stent, -20, 3, [&] {
@@ -257,7 +257,7 @@ TEST(Treatment, AnOpenBalloonStaysInItsArtery) {
     aside.rods[balloon].position.set(i, run.state.rods.rods[balloon].position[i] + sideways);
   const auto branch_of = [&](const TreatmentState& treatment) {
     BedsideState bedside = run.state.bedside;
-    bedside.held = 0;  // within a stent it meets no wall
+    bedside.held = false;  // within a stent it meets no wall
     look(model, aside, treatment, report, run.state.blood.heart.phase, 0, scratch, bedside);
     return bedside.branch;
   };
@@ -313,14 +313,15 @@ TEST(Treatment, ALesionIsCoveredWithMargins) {
   std::vector<SessionEvent> events;
   events.reserve(1000);
   s.move(s.guide, 0, 0.01, [] { return false; });
-  const auto last = [&](double where, double branch, double middle_m) {
+  const auto last = [&](StentState::Where where, int branch, double middle_m) {
     stent.where = StentState::on_balloon;
     watch.look(model, s.inputs, s.run.state, s.report, {}, events);
     stent.where = where, stent.branch = branch, stent.middle_m = middle_m, stent.shift_m = 0;
     watch.look(model, s.inputs, s.run.state, s.report, {}, events);
     return events.back();
   };
-  const double own = model.physiology.flow.tree.branch("RCA"), middle = (plan.from_m + plan.to_m) / 2;
+  const int own = model.physiology.flow.tree.branch("RCA");
+  const double middle = (plan.from_m + plan.to_m) / 2;
   EXPECT_FALSE(lesion_is_covered(model, s.run.state, 0)) << "it is on its balloon";
   // 15 mm on a lesion of 9 mm: 3 mm on either side.
   SessionEvent e = last(StentState::deployed, own, middle);
@@ -456,7 +457,7 @@ TEST(Treatment, APerforationHarmsAndATearThatNoStentCovers) {
   Injury& injury = s.run.state.treatment.injury.injuries[0];
   EXPECT_TRUE(is_unharmed(model, s.run.state));
   const int cell = plan.path.cells[static_cast<std::size_t>(plan.path.at((plan.from_m + plan.to_m) / 2).index)];
-  injury = {.kind = static_cast<double>(InjuryKind::dissection), .cell = static_cast<double>(cell), .grade = 1};
+  injury = {.kind = InjuryKind::dissection, .cell = cell, .grade = 1};
   EXPECT_TRUE(is_unharmed(model, s.run.state)) << "type B";
   injury.grade = 2;
   EXPECT_FALSE(is_unharmed(model, s.run.state)) << "type C";
@@ -465,7 +466,7 @@ TEST(Treatment, APerforationHarmsAndATearThatNoStentCovers) {
   EXPECT_TRUE(is_unharmed(model, s.run.state)) << "it is tacked up";
   stent.middle_m += 40e-3;
   EXPECT_FALSE(is_unharmed(model, s.run.state));
-  injury = {.kind = static_cast<double>(InjuryKind::perforation), .cell = static_cast<double>(cell), .grade = 1};
+  injury = {.kind = InjuryKind::perforation, .cell = cell, .grade = 1};
   stent.middle_m -= 40e-3;
   EXPECT_FALSE(is_unharmed(model, s.run.state));
 }

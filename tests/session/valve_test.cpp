@@ -34,7 +34,7 @@ struct AboveTheValve {
   void run(double mm_s, double seconds) {
     inputs.tools[0].advance_m_s = 1e-3 * mm_s;
     for (int n = 0; n < 1000 * seconds; ++n) {
-      const double before = state.blood.heart.ectopic;
+      const bool before = state.blood.heart.ectopic;
       step(model, inputs, state, *scratch, report);
       ectopics += state.blood.heart.ectopic > before;
       troubled += (report.rods.trouble & ~static_cast<std::uint32_t>(feed_stopped)) != 0;

@@ -187,7 +187,7 @@ TEST(Balloon, BurstsAboveItsRatedPressureNeverBelow) {
     bench.run(bench.model.balloons[0].rated_Pa / atm, 6);
     EXPECT_EQ(bench.state.balloon.burst, 0) << seed;
     bench.run(1.2 * bench.model.balloons[0].rated_Pa / atm, 4);
-    burst += bench.state.balloon.burst > 0;
+    burst += bench.state.balloon.burst;
   }
   EXPECT_GT(burst, 2);
   EXPECT_LT(burst, 12);
@@ -352,7 +352,7 @@ TEST(Injury, AWirePerforatesByForceAndTimeSoonerInASmallArtery) {
 TEST(Injury, ContrastLeavesThroughAHoleAndIsAccountedFor) {
   Bench bench({});
   Injury& hole = bench.state.injury.injuries[0];
-  hole.kind = static_cast<double>(InjuryKind::perforation), hole.cell = 60, hole.grade = 3;
+  hole.kind = InjuryKind::perforation, hole.cell = 60, hole.grade = 3;
   bench.state.injury.count = 1;
   bench.inputs.contrast.tip = {TipPlace::coronary, 0, 1};
   bench.inputs.contrast.injection_m3_s = 2e-6;
@@ -492,8 +492,8 @@ std::pair<int, int> injured(double ratio, double length_m, bool calcified) {
     InjuryState s;
     judge_stretch({.seed = seed}, plaque, wall, length_m, false, 0, s);
     for (const Injury& injury : s.injuries) {
-      out.first += injury.kind == static_cast<double>(InjuryKind::dissection);
-      out.second += injury.kind == static_cast<double>(InjuryKind::perforation);
+      out.first += injury.kind == InjuryKind::dissection;
+      out.second += injury.kind == InjuryKind::perforation;
     }
   }
   return out;
@@ -513,7 +513,7 @@ TEST(Outcomes, MoreIsLostThroughALargerHole) {
   const auto outside_m3 = [](double grade) {
     Bench bench({});
     Injury& hole = bench.state.injury.injuries[0];
-    hole.kind = static_cast<double>(InjuryKind::perforation), hole.cell = 60, hole.grade = grade;
+    hole.kind = InjuryKind::perforation, hole.cell = 60, hole.grade = grade;
     bench.state.injury.count = 1, bench.device.balloon = -1;
     bench.run(0, 1);
     return hole.outside_m3;
@@ -556,9 +556,8 @@ TEST(Treatment, SpasmNarrowsAndNitrateRelievesIt) {
 
 TEST(Treatment, TheSameTwiceToTheBitAndFromASavedState) {
   const auto all = [](Bench& b) {
-    std::vector<double> out;
-    const auto take = [&](const char*, double* first, int count) { out.insert(out.end(), first, first + count); };
-    for_each_field(b.state, take), for_each_field(b.blood, take);
+    std::vector<double> out(count_fields(b.state) + count_fields(b.blood));
+    put_fields(b.blood, put_fields(b.state, out.data()));
     return out;
   };
   const Setting setting{.calcified = true, .stent = true, .seed = 2};
@@ -568,9 +567,7 @@ TEST(Treatment, TheSameTwiceToTheBitAndFromASavedState) {
   const std::vector<double> saved = all(a);
   a.run(-1, 4);
   Bench c(setting);
-  const double* from = saved.data();
-  const auto put = [&](const char*, double* first, int count) { std::copy(from, from + count, first), from += count; };
-  for_each_field(c.state, put), for_each_field(c.blood, put);
+  take_fields(take_fields(saved.data(), c.state), c.blood);
   c.run(-1, 4);
   EXPECT_EQ(all(a), all(c));
 }

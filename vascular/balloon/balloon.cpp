@@ -143,8 +143,8 @@ BalloonReport step(const BalloonModel& m, const PlaqueModel& plaque, const Ballo
   const double ds = spacing(m), gauge = std::max(-atm, std::isfinite(in.gauge_Pa) ? in.gauge_Pa : 0.0);
   report.gauge_Pa = gauge;
   for (auto* v : {&x.below, &x.middle, &x.above, &x.right, &x.unit}) v->assign(n, 0);
-  if (s.pressure_Pa > burst_Pa(m)) s.burst = 1;
-  const bool was_filled = s.was_filled > 0;
+  if (s.pressure_Pa > burst_Pa(m)) s.burst = true;
+  const bool was_filled = s.was_filled;
   double along = 0, pressed = 0;
   for (int i = 0; i < n; ++i) {
     const double a = s.radius_m[i], share = sphere_share(m, i), at = sphere_position(m, s, in.middle_m, i);
@@ -179,7 +179,7 @@ BalloonReport step(const BalloonModel& m, const PlaqueModel& plaque, const Ballo
     dV += 2 * pi * s.radius_m[i] * x.unit[i] * ds;
   }
   const double R = m.filling_Pa_s_m3, before_m3 = s.volume_m3;
-  if (s.burst > 0) {
+  if (s.burst) {
     s.pressure_Pa = 0;
   } else {
     // V + V0 + p dV = volume + dt (gauge - p) / R
@@ -190,13 +190,13 @@ BalloonReport step(const BalloonModel& m, const PlaqueModel& plaque, const Ballo
     s.radius_m[i] = std::max(m.shaft_m, x.right[i] + s.pressure_Pa * x.unit[i]);
     s.largest_m = std::max(s.largest_m, s.radius_m[i]);
   }
-  if (s.burst > 0) {
+  if (s.burst) {
     double now = 0;
     for (double a : s.radius_m) now += pi * a * a * ds;
     report.spilt_m3 = std::max(0.0, before_m3 - now);
     s.volume_m3 = std::min(before_m3, now);
   }
-  if (s.pressure_Pa > m.unfolding_Pa) s.was_filled = 1;
+  if (s.pressure_Pa > m.unfolding_Pa) s.was_filled = true;
   s.inflated_s = gauge > atm ? s.inflated_s + dt : 0;
   if (in.path) {
     slide(m, along, pressed, dt, s);

@@ -42,12 +42,19 @@ struct BalloonState {
   std::vector<double> radius_m;  ///< (balloon_spheres) from the proximal end to the distal one
   double volume_m3 = 0;          ///< of what fills it
   double pressure_Pa = 0;        ///< inside, over that outside
-  double was_filled = 0;         ///< 1: its folds are no longer the maker's
-  double burst = 0;              ///< 1: it did
-  double slip_m = 0;             ///< how far it slid along the vessel, from where its shaft is
-  double largest_m = 0;          ///< radius ever
-  double inflated_s = 0;         ///< time above 1 atm in this inflation
+  bool was_filled = false;       ///< its folds are no longer the maker's
+  bool burst = false;
+  double slip_m = 0;      ///< how far it slid along the vessel, from where its shaft is
+  double largest_m = 0;   ///< radius ever
+  double inflated_s = 0;  ///< time above 1 atm in this inflation
 };
+constexpr auto fields(const BalloonState*) {
+  using S = BalloonState;
+  return std::tuple{
+      field("radius_m", &S::radius_m),     field("volume_m3", &S::volume_m3),  field("pressure_Pa", &S::pressure_Pa),
+      field("was_filled", &S::was_filled), field("burst", &S::burst),          field("slip_m", &S::slip_m),
+      field("largest_m", &S::largest_m),   field("inflated_s", &S::inflated_s)};
+}
 BalloonState make_balloon_state(const BalloonModel& model);
 
 /// A sleeve about the balloon: what stents answer to it. Empty, or one value per sphere.
@@ -89,17 +96,5 @@ BalloonReport step(const BalloonModel& model, const PlaqueModel& plaque, const B
 
 /// Radius at a place of the path, 0 beyond its ends.
 double radius_at(const BalloonModel& model, const BalloonState& state, double middle_m, double s_m);
-
-template <class S, class Visit>
-void for_each_balloon_field(S& s, Visit&& visit) {
-  visit("balloon.radius_m", s.radius_m.data(), static_cast<int>(s.radius_m.size()));
-  visit("balloon.volume_m3", &s.volume_m3, 1);
-  visit("balloon.pressure_Pa", &s.pressure_Pa, 1);
-  visit("balloon.was_filled", &s.was_filled, 1);
-  visit("balloon.burst", &s.burst, 1);
-  visit("balloon.slip_m", &s.slip_m, 1);
-  visit("balloon.largest_m", &s.largest_m, 1);
-  visit("balloon.inflated_s", &s.inflated_s, 1);
-}
 
 }  // namespace ostium

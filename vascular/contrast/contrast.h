@@ -43,10 +43,16 @@ ContrastModel make_contrast_model(const FlowModel& flow);
 
 /// Where the catheter's end hole is.
 struct TipPlace {
-  enum Where { outside, aorta, left_sinus, right_sinus, coronary } where = outside;
+  enum class Where { outside, aorta, left_sinus, right_sinus, coronary };
+  using enum Where;
+  Where where = outside;
   int cell = 0;            ///< of the aorta, or of the flow tree
   double into_ostium = 0;  ///< [0, 1]: in a sinus, the share of the jet that meets the ostium
 };
+constexpr auto fields(const TipPlace*) {
+  return std::tuple{field("where", &TipPlace::where), field("cell", &TipPlace::cell),
+                    field("into_ostium", &TipPlace::into_ostium)};
+}
 
 struct ContrastInputs {
   double injection_m3_s = 0;   ///< what the thumb asks for; below zero it is refused
@@ -70,6 +76,15 @@ struct ContrastState {
   double carried_kg = 0;  ///< gone down the aorta, or wherever a tip outside of the heart let it go
   double outside_kg = 0;  ///< out of the vessel, through an injury
 };
+constexpr auto fields(const ContrastState*) {
+  using S = ContrastState;
+  return std::tuple{field("line_kg", &S::line_kg),         field("sheath_kg", &S::sheath_kg),
+                    field("aorta_kg", &S::aorta_kg),       field("sinus_kg", &S::sinus_kg),
+                    field("injected_kg", &S::injected_kg), field("injected_m3", &S::injected_m3),
+                    field("from_tip_kg", &S::from_tip_kg), field("aspirated_kg", &S::aspirated_kg),
+                    field("muscle_kg", &S::muscle_kg),     field("carried_kg", &S::carried_kg),
+                    field("outside_kg", &S::outside_kg)};
+}
 ContrastState make_contrast_state(const ContrastModel& model, const FlowModel& flow);
 
 struct ContrastReport {
@@ -100,20 +115,5 @@ double concentration(const ContrastState& state, const FlowModel& flow, int cell
 double aorta_concentration(const ContrastModel& model, const ContrastState& state, int cell);
 /// All iodine: in the line, the vessels and wherever it went; equals injected_kg.
 double accounted_kg(const ContrastState& state);
-
-template <class S, class Visit>
-void for_each_contrast_field(S& s, Visit&& visit) {
-  visit("contrast.line_kg", s.line_kg.data(), static_cast<int>(s.line_kg.size()));
-  visit("contrast.sheath_kg", s.sheath_kg.data(), static_cast<int>(s.sheath_kg.size()));
-  visit("contrast.aorta_kg", s.aorta_kg.data(), static_cast<int>(s.aorta_kg.size()));
-  visit("contrast.sinus_kg", s.sinus_kg.data(), 2);
-  visit("contrast.injected_kg", &s.injected_kg, 1);
-  visit("contrast.injected_m3", &s.injected_m3, 1);
-  visit("contrast.from_tip_kg", &s.from_tip_kg, 1);
-  visit("contrast.aspirated_kg", &s.aspirated_kg, 1);
-  visit("contrast.muscle_kg", &s.muscle_kg, 1);
-  visit("contrast.carried_kg", &s.carried_kg, 1);
-  visit("contrast.outside_kg", &s.outside_kg, 1);
-}
 
 }  // namespace ostium

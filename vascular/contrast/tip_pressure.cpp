@@ -34,9 +34,9 @@ void step(const TipPressureModel& model, const TipPressureInputs& in, double dt_
   s.aorta_low_Pa = std::min(s.aorta_low_Pa, in.pressures.aorta_Pa);
   s.aorta_high_Pa = std::max(s.aorta_high_Pa, in.pressures.aorta_Pa);
   if (!in.beat_begins) return;
-  s.trace = static_cast<double>(judged(s, in));
+  s.trace = judged(s, in);
   s.mean_Pa = s.sum_Pa / s.count, s.pulse_Pa = s.high_Pa - s.low_Pa;
-  s.low_Pa = s.aorta_low_Pa = 1e6, s.high_Pa = s.aorta_high_Pa = 0, s.sum_Pa = s.count = 0;
+  s.low_Pa = s.aorta_low_Pa = 1e6, s.high_Pa = s.aorta_high_Pa = 0, s.sum_Pa = 0, s.count = 0;
 }
 
 const char* trace_name(Trace trace) {

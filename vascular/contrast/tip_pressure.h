@@ -27,21 +27,27 @@ struct TipPressureInputs {
 
 struct TipPressureState {
   double reading_Pa = 0;
-  double low_Pa = 1e6, high_Pa = 0, sum_Pa = 0, count = 0;  ///< of the running beat
+  double low_Pa = 1e6, high_Pa = 0, sum_Pa = 0;  ///< of the running beat
+  int count = 0;                                 ///< of readings in it
   double aorta_low_Pa = 1e6, aorta_high_Pa = 0;
-  double trace = 0;                  ///< Trace of the last whole beat, as a number
+  Trace trace = Trace::normal;       ///< of the last whole beat
   double mean_Pa = 0, pulse_Pa = 0;  ///< of it
 };
+constexpr auto fields(const TipPressureState*) {
+  using S = TipPressureState;
+  return std::tuple{field("reading_Pa", &S::reading_Pa),
+                    field("low_Pa", &S::low_Pa),
+                    field("high_Pa", &S::high_Pa),
+                    field("sum_Pa", &S::sum_Pa),
+                    field("count", &S::count),
+                    field("aorta_low_Pa", &S::aorta_low_Pa),
+                    field("aorta_high_Pa", &S::aorta_high_Pa),
+                    field("trace", &S::trace),
+                    field("mean_Pa", &S::mean_Pa),
+                    field("pulse_Pa", &S::pulse_Pa)};
+}
 
 void step(const TipPressureModel& model, const TipPressureInputs& inputs, double dt_s, TipPressureState& state);
-inline Trace trace(const TipPressureState& s) { return static_cast<Trace>(static_cast<int>(s.trace)); }
 const char* trace_name(Trace trace);
-
-template <class S, class Visit>
-void for_each_tip_pressure_field(S& s, Visit&& visit) {
-  for (auto* number : {&s.reading_Pa, &s.low_Pa, &s.high_Pa, &s.sum_Pa, &s.count, &s.aorta_low_Pa, &s.aorta_high_Pa,
-                       &s.trace, &s.mean_Pa, &s.pulse_Pa})
-    visit("tip_pressure", number, 1);
-}
 
 }  // namespace ostium

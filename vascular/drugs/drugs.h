@@ -1,6 +1,7 @@
 #pragma once
 /// Drugs that matter, given as doses, with their effects in time. All numbers but the usual ones of practice are
 /// estimates.
+#include "core/base/fields.h"
 
 namespace ostium {
 
@@ -23,18 +24,15 @@ struct DrugState {
   double heparin_U = 0, nitrate_ug = 0, adenosine_ug = 0;  ///< still there
   double nitrate = 0, adenosine = 0;                       ///< effects, [0, 1)
 };
+constexpr auto fields(const DrugState*) {
+  using S = DrugState;
+  return std::tuple{field("heparin_U", &S::heparin_U), field("nitrate_ug", &S::nitrate_ug),
+                    field("adenosine_ug", &S::adenosine_ug), field("nitrate", &S::nitrate),
+                    field("adenosine", &S::adenosine)};
+}
 
 void step(const DrugModel& model, const Doses& doses, double dt_s, DrugState& state);
 /// Activated clotting time, s.
 double act_s(const DrugModel& model, const DrugState& state);
-
-template <class S, class Visit>
-void for_each_drug_field(S& s, Visit&& visit) {
-  visit("drugs.heparin_U", &s.heparin_U, 1);
-  visit("drugs.nitrate_ug", &s.nitrate_ug, 1);
-  visit("drugs.adenosine_ug", &s.adenosine_ug, 1);
-  visit("drugs.nitrate", &s.nitrate, 1);
-  visit("drugs.adenosine", &s.adenosine, 1);
-}
 
 }  // namespace ostium

@@ -54,6 +54,12 @@ struct FlowState {
   std::vector<double> mean_m3_s;    ///< (#branches) leak, averaged
   std::vector<double> no_reflow;    ///< (#branches) [0, 1): share of the muscle's conductance that is lost
 };
+constexpr auto fields(const FlowState*) {
+  using S = FlowState;
+  return std::tuple{field("flow_m3_s", &S::flow_m3_s), field("pressure_Pa", &S::pressure_Pa),
+                    field("leak_m3_s", &S::leak_m3_s), field("tone", &S::tone),
+                    field("mean_m3_s", &S::mean_m3_s), field("no_reflow", &S::no_reflow)};
+}
 FlowState make_flow_state(const FlowModel& model);
 
 struct FlowScratch {
@@ -72,13 +78,5 @@ double ffr_model(const FlowModel& model, std::span<const double> radius_m, int c
 
 /// Cross-section that is left for blood, m2.
 double free_area_m2(double radius_m, double occupied_m);
-
-template <class S, class Visit>
-void for_each_flow_field(S& s, Visit&& visit) {
-  for (auto& [name, field] : {std::pair{"flow.flow_m3_s", &s.flow_m3_s}, std::pair{"flow.pressure_Pa", &s.pressure_Pa},
-                              std::pair{"flow.leak_m3_s", &s.leak_m3_s}, std::pair{"flow.tone", &s.tone},
-                              std::pair{"flow.mean_m3_s", &s.mean_m3_s}, std::pair{"flow.no_reflow", &s.no_reflow}})
-    visit(name, field->data(), static_cast<int>(field->size()));
-}
 
 }  // namespace ostium

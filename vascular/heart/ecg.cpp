@@ -61,10 +61,10 @@ std::array<double, leads> ecg(const HeartState& heart, double rate_1_min, const 
                               const IschaemiaState& ischaemia) {
   const double t = heart.since_R_s;
   // Towards the next R wave.
-  const double left = (heart.next_ectopic > 0 ? 0.33 : 1) * (time_at(1, rate_1_min) - time_at(heart.phase, rate_1_min));
+  const double left = (heart.next_ectopic ? 0.33 : 1) * (time_at(1, rate_1_min) - time_at(heart.phase, rate_1_min));
   const double T_s = 0.86 * time_at(end_systole, rate_1_min) + 0.03;
-  const bool wide = heart.ectopic > 0;
-  const double spread = wide ? 3.2 : 1, coming = heart.next_ectopic > 0 ? 3.2 : 1;
+  const bool wide = heart.ectopic;
+  const double spread = wide ? 3.2 : 1, coming = heart.next_ectopic ? 3.2 : 1;
   std::array<double, leads> out{};
   for (std::size_t k = 0; k < leads; ++k) {
     double v = 0;
@@ -73,7 +73,7 @@ std::array<double, leads> ecg(const HeartState& heart, double rate_1_min, const 
     v += R.mV[k] * sign * bump(t, R.width_s * spread) +
          R.mV[k] * (coming > 1 ? -0.9 : 1) * bump(left, R.width_s * coming);
     v += S.mV[k] * bump(t - S_s * spread, S.width_s * spread);
-    if (heart.next_ectopic == 0) v += P.mV[k] * bump(left - PR_s, P.width_s);
+    if (!heart.next_ectopic) v += P.mV[k] * bump(left - PR_s, P.width_s);
     double shift = 0, early = 0;
     for (std::size_t i = 0; i < territories; ++i) {
       shift += model.ST_mV[i] * ischaemia.late[i] * ST[i][k];

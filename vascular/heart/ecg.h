@@ -30,6 +30,9 @@ IschaemiaModel ischaemia_of(std::uint64_t seed);
 struct IschaemiaState {
   std::array<double, territories> early{}, late{};  ///< [0, 1]
 };
+constexpr auto fields(const IschaemiaState*) {
+  return std::tuple{field("early", &IschaemiaState::early), field("late", &IschaemiaState::late)};
+}
 /// `supply`: flow over need, of each territory; 1 and above is enough.
 void step(const IschaemiaModel& model, const std::array<double, territories>& supply, double dt_s, IschaemiaState& s);
 
@@ -39,11 +42,5 @@ std::array<double, leads> ecg(const HeartState& heart, double rate_1_min, const 
 
 /// The largest ST shift, either way, mV.
 double ST_shift_mV(const IschaemiaModel& model, const IschaemiaState& ischaemia);
-
-template <class S, class Visit>
-void for_each_ischaemia_field(S& s, Visit&& visit) {
-  visit("ischaemia.early", s.early.data(), territories);
-  visit("ischaemia.late", s.late.data(), territories);
-}
 
 }  // namespace ostium

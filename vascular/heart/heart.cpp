@@ -51,15 +51,15 @@ double filling_pressure_Pa(double phase) {
 }
 
 void step(const HeartModel& model, const HeartInputs& inputs, double dt_s, HeartState& s) {
-  if (inputs.irritation > 0 && s.next_ectopic == 0 && s.phase > earliest_ectopic && s.phase < latest_ectopic) {
+  if (inputs.irritation > 0 && !s.next_ectopic && s.phase > earliest_ectopic && s.phase < latest_ectopic) {
     const double p = 1 - std::exp(-model.ectopic_per_s * std::min(inputs.irritation, 1.0) * dt_s);
-    if (uniform(model.seed, 11, static_cast<std::uint64_t>(s.draws)) < p) s.next_ectopic = 1;
+    if (uniform(model.seed, 11, s.draws) < p) s.next_ectopic = true;
     s.draws += 1;
   }
   double speed = phase_speed(s.phase, inputs.rate_1_min);
-  if (s.next_ectopic > 0)
+  if (s.next_ectopic)
     speed *= hurry;
-  else if (s.ectopic > 0 && s.phase > 0.42)
+  else if (s.ectopic && s.phase > 0.42)
     speed *= pause_slowing;
   const double R = model.resistance_Pa_s_m3 * (1 - 0.5 * std::clamp(inputs.dilation, 0.0, 1.0));
   s.ejection_m3_s = s.stroke_m3 * ejection_shape(s.phase) * speed;
@@ -75,8 +75,8 @@ void step(const HeartModel& model, const HeartInputs& inputs, double dt_s, Heart
   s.beats += 1;
   s.cycle_s = s.since_R_s;
   s.since_R_s = s.phase / speed;
-  s.ectopic = s.next_ectopic, s.next_ectopic = 0;
-  s.stroke_m3 = stroke_after(model, s.filled_s) * (s.ectopic > 0 ? 0.7 : 1);
+  s.ectopic = s.next_ectopic, s.next_ectopic = false;
+  s.stroke_m3 = stroke_after(model, s.filled_s) * (s.ectopic ? 0.7 : 1);
   s.filled_s = 0;
 }
 

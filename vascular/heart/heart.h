@@ -7,6 +7,8 @@
 /// a minute and 5 L/min. Its ventricle's pressure is the aorta's during ejection, and that of filling in diastole.
 #include <cstdint>
 
+#include "core/base/fields.h"
+
 namespace ostium {
 
 struct HeartModel {
@@ -32,14 +34,29 @@ struct HeartState {
   double ejection_m3_s = 0;      ///< Q; below zero as the valve closes
   double stroke_m3 = 71e-6;      ///< of the running beat
   double filled_s = 0.55;        ///< diastole so far
-  double ectopic = 0;            ///< 1: the running beat is one
-  double next_ectopic = 0;       ///< 1: the next one is, it comes early
-  double draws = 0;              ///< random numbers drawn
+  bool ectopic = false;          ///< the running beat is one
+  bool next_ectopic = false;     ///< the next one is, it comes early
+  std::uint64_t draws = 0;       ///< random numbers drawn
   double time_s = 0;             ///< since the start
   double since_R_s = 0;
   double cycle_s = 60.0 / 70;  ///< length of the last whole beat
-  double beats = 0;            ///< R waves so far
+  int beats = 0;               ///< R waves so far
 };
+constexpr auto fields(const HeartState*) {
+  using S = HeartState;
+  return std::tuple{field("phase", &S::phase),
+                    field("windkessel_Pa", &S::windkessel_Pa),
+                    field("ejection_m3_s", &S::ejection_m3_s),
+                    field("stroke_m3", &S::stroke_m3),
+                    field("filled_s", &S::filled_s),
+                    field("ectopic", &S::ectopic),
+                    field("next_ectopic", &S::next_ectopic),
+                    field("draws", &S::draws),
+                    field("time_s", &S::time_s),
+                    field("since_R_s", &S::since_R_s),
+                    field("cycle_s", &S::cycle_s),
+                    field("beats", &S::beats)};
+}
 
 /// What the heart gives at a moment.
 struct Pressures {
@@ -58,21 +75,5 @@ double ejection_shape(double phase);
 double ventricle_activity(double phase);
 /// In diastole, with the atrial kick before the R wave.
 double filling_pressure_Pa(double phase);
-
-template <class S, class Visit>
-void for_each_heart_field(S& s, Visit&& visit) {
-  visit("heart.phase", &s.phase, 1);
-  visit("heart.windkessel_Pa", &s.windkessel_Pa, 1);
-  visit("heart.ejection_m3_s", &s.ejection_m3_s, 1);
-  visit("heart.stroke_m3", &s.stroke_m3, 1);
-  visit("heart.filled_s", &s.filled_s, 1);
-  visit("heart.ectopic", &s.ectopic, 1);
-  visit("heart.next_ectopic", &s.next_ectopic, 1);
-  visit("heart.draws", &s.draws, 1);
-  visit("heart.time_s", &s.time_s, 1);
-  visit("heart.since_R_s", &s.since_R_s, 1);
-  visit("heart.cycle_s", &s.cycle_s, 1);
-  visit("heart.beats", &s.beats, 1);
-}
 
 }  // namespace ostium

@@ -12,14 +12,14 @@ namespace {
 constexpr std::uint64_t tear = 41, tear_grade = 42, hole = 43, hole_grade = 44, wire = 45;
 constexpr double burst_tears = 0.5, burst_holes = 0.05;
 
-bool exceeds(double hazard, std::uint64_t seed, std::uint64_t stream, double draws) {
+bool exceeds(double hazard, std::uint64_t seed, std::uint64_t stream, int draws) {
   return hazard > -std::log1p(-uniform(seed, stream, static_cast<std::uint64_t>(draws)));
 }
 
-void add(InjuryState& s, InjuryKind kind, int cell, double grade, double time_s) {
+void add(InjuryState& s, InjuryKind kind, int cell, int grade, double time_s) {
   if (s.count >= most_injuries) return;
   Injury& injury = s.injuries[static_cast<std::size_t>(s.count)];
-  injury.kind = static_cast<double>(kind), injury.cell = cell, injury.grade = grade, injury.time_s = time_s;
+  injury.kind = kind, injury.cell = cell, injury.grade = grade, injury.time_s = time_s;
   s.count += 1;
 }
 
@@ -44,8 +44,8 @@ void judge_stretch(const InjuryModel& model, const PlaqueModel& plaque, const Pl
     const double x = wall.peak_m[c] / cell.healthy_m;
     const bool plaqued = cell.diseased_m < 0.97 * cell.healthy_m;
     if (wall.peak_m[c] <= cell.diseased_m * 1.001 || (!plaqued && x < 1.03)) continue;
-    const double t = dissection_hazard(x, cell.calcified > 0, cell.eccentric > 0, length_m) * (plaqued ? 1 : 0.5);
-    const double h = perforation_hazard(x, cell.calcified > 0);
+    const double t = dissection_hazard(x, cell.calcified, cell.eccentric, length_m) * (plaqued ? 1 : 0.5);
+    const double h = perforation_hazard(x, cell.calcified);
     if (t > tear_H) tear_H = t, tear_at = static_cast<int>(c), ratio = x;
     if (h > hole_H) hole_H = h, hole_at = static_cast<int>(c);
   }
@@ -55,11 +55,11 @@ void judge_stretch(const InjuryModel& model, const PlaqueModel& plaque, const Pl
   if (tear_at >= 0 && s.dissection_draws < 1 && exceeds(s.dissection_H, model.seed, tear, 0)) {
     const double u = uniform(model.seed, tear_grade, 0), major = std::clamp(0.3 * (1 + 4 * (ratio - 1)), 0.1, 0.8);
     // A and B are minor; of the major ones C is the most common.
-    const double grade = u > major          ? (u > (1 + major) / 2 ? 0 : 1)
-                         : u > 0.5 * major  ? 2
-                         : u > 0.25 * major ? 3
-                         : u > 0.1 * major  ? 4
-                                            : 5;
+    const int grade = u > major          ? (u > (1 + major) / 2 ? 0 : 1)
+                      : u > 0.5 * major  ? 2
+                      : u > 0.25 * major ? 3
+                      : u > 0.1 * major  ? 4
+                                         : 5;
     add(s, InjuryKind::dissection, tear_at, grade, time_s);
     s.dissection_draws = 1;
   }
@@ -82,21 +82,21 @@ void judge_wire(const InjuryModel& model, int cell, double radius_m, double tip_
 }
 
 double leak_m3_s(const Injury& injury) {
-  if (injury.kind != static_cast<double>(InjuryKind::perforation)) return 0;
+  if (injury.kind != InjuryKind::perforation) return 0;
   return injury.grade >= 5 ? 0.05e-6 : injury.grade >= 3 ? 0.8e-6 : injury.grade >= 2 ? 0.1e-6 : 0;
 }
 
 double pocket_m3(const Injury& injury) {
-  if (injury.kind == static_cast<double>(InjuryKind::perforation)) return 0.02e-6;  // the crater
+  if (injury.kind == InjuryKind::perforation) return 0.02e-6;  // the crater
   constexpr double of_grade[] = {0.004e-6, 0.01e-6, 0.04e-6, 0.05e-6, 0.05e-6, 0.06e-6};
-  return of_grade[std::clamp(static_cast<int>(injury.grade), 0, 5)];
+  return of_grade[std::clamp(injury.grade, 0, 5)];
 }
 
 const char* grade_name(const Injury& injury) {
   constexpr const char* tears[] = {"A", "B", "C", "D", "E", "F"};
   constexpr const char* holes[] = {"", "I", "II", "III", "", "V"};
-  const int g = std::clamp(static_cast<int>(injury.grade), 0, 5);
-  return injury.kind == static_cast<double>(InjuryKind::dissection) ? tears[g] : holes[g];
+  const int g = std::clamp(injury.grade, 0, 5);
+  return injury.kind == InjuryKind::dissection ? tears[g] : holes[g];
 }
 
 }  // namespace ostium

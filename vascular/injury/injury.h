@@ -25,20 +25,40 @@ struct InjuryModel {
 enum class InjuryKind { none, dissection, perforation };
 
 struct Injury {
-  double kind = 0;   ///< InjuryKind as a number
-  double cell = -1;  ///< of the flow tree
-  double grade = 0;  ///< dissection 0 to 5: A to F; perforation 1 to 3: Ellis I to III, 5: V (distal, by a wire)
+  InjuryKind kind = InjuryKind::none;
+  int cell = -1;  ///< of the flow tree
+  int grade = 0;  ///< dissection 0 to 5: A to F; perforation 1 to 3: Ellis I to III, 5: V (distal, by a wire)
   double time_s = 0;
   double outside_kg = 0, outside_m3 = 0;  ///< iodine and volume beside the lumen
 };
+constexpr auto fields(const Injury*) {
+  using S = Injury;
+  return std::tuple{field("kind", &S::kind),
+                    field("cell", &S::cell),
+                    field("grade", &S::grade),
+                    field("time_s", &S::time_s),
+                    field("outside_kg", &S::outside_kg),
+                    field("outside_m3", &S::outside_m3)};
+}
 inline constexpr int most_injuries = 8;
 
 struct InjuryState {
   std::array<Injury, most_injuries> injuries;
-  double count = 0;
+  int count = 0;
   double dissection_H = 0, perforation_H = 0, wire_H = 0;  ///< hazards so far
-  double dissection_draws = 0, perforation_draws = 0, wire_draws = 0;
+  int dissection_draws = 0, perforation_draws = 0, wire_draws = 0;
 };
+constexpr auto fields(const InjuryState*) {
+  using S = InjuryState;
+  return std::tuple{field("injuries", &S::injuries),
+                    field("count", &S::count),
+                    field("dissection_H", &S::dissection_H),
+                    field("perforation_H", &S::perforation_H),
+                    field("wire_H", &S::wire_H),
+                    field("dissection_draws", &S::dissection_draws),
+                    field("perforation_draws", &S::perforation_draws),
+                    field("wire_draws", &S::wire_draws)};
+}
 
 /// How likely what was done so far would have torn something, [0, 1].
 double chance(double hazard);
@@ -57,24 +77,5 @@ void judge_wire(const InjuryModel& model, int cell, double radius_m, double tip_
 double leak_m3_s(const Injury& injury);
 double pocket_m3(const Injury& injury);
 const char* grade_name(const Injury& injury);
-
-template <class S, class Visit>
-void for_each_injury_field(S& s, Visit&& visit) {
-  for (auto& injury : s.injuries) {
-    visit("injury.kind", &injury.kind, 1);
-    visit("injury.cell", &injury.cell, 1);
-    visit("injury.grade", &injury.grade, 1);
-    visit("injury.time_s", &injury.time_s, 1);
-    visit("injury.outside_kg", &injury.outside_kg, 1);
-    visit("injury.outside_m3", &injury.outside_m3, 1);
-  }
-  visit("injury.count", &s.count, 1);
-  visit("injury.dissection_H", &s.dissection_H, 1);
-  visit("injury.perforation_H", &s.perforation_H, 1);
-  visit("injury.wire_H", &s.wire_H, 1);
-  visit("injury.dissection_draws", &s.dissection_draws, 1);
-  visit("injury.perforation_draws", &s.perforation_draws, 1);
-  visit("injury.wire_draws", &s.wire_draws, 1);
-}
 
 }  // namespace ostium

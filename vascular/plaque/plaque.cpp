@@ -28,8 +28,8 @@ PlaqueModel make_plaque_model(const FlowTree& tree, const std::vector<Lesion>& l
     for (const Lesion& lesion : lesions) {
       if (lesion.branch != tree.branches[from.branch].name) continue;
       if (from.s_m < lesion.from_m || from.s_m > lesion.from_m + lesion.length_m) continue;
-      cell.calcified = std::max(cell.calcified, lesion.calcified ? 1.0 : 0.0);
-      cell.eccentric = std::max(cell.eccentric, lesion.eccentric ? 1.0 : 0.0);
+      cell.calcified = cell.calcified || lesion.calcified;
+      cell.eccentric = cell.eccentric || lesion.eccentric;
     }
     const double burden = std::clamp((1 - cell.diseased_m / cell.healthy_m) / whole_plaque, 0.0, 1.0);
     const double c = cell.calcified;

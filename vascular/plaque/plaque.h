@@ -25,7 +25,7 @@ struct PlaqueLaw {
 struct PlaqueCell {
   double diseased_m = 0, healthy_m = 0;
   double E_Pa = 0, yield_Pa = 0, hardening_Pa = 0;
-  double calcified = 0, eccentric = 0;  ///< 0 or 1
+  bool calcified = false, eccentric = false;
 };
 
 struct PlaqueModel {
@@ -40,6 +40,10 @@ struct PlaqueState {
   std::vector<double> peak_m;    ///< (#cells) largest radius it was ever pushed to
   std::vector<double> radius_m;  ///< (#cells) now: rest, or more where a balloon or stent holds it
 };
+constexpr auto fields(const PlaqueState*) {
+  return std::tuple{field("rest_m", &PlaqueState::rest_m), field("broken", &PlaqueState::broken),
+                    field("peak_m", &PlaqueState::peak_m), field("radius_m", &PlaqueState::radius_m)};
+}
 PlaqueState make_plaque_state(const PlaqueModel& model);
 
 struct WallPressure {
@@ -50,12 +54,5 @@ WallPressure wall_pressure(const PlaqueModel& model, const PlaqueState& state, i
 /// Pushes the wall of a cell to a radius: gives way where it must; `radius_m` becomes that, or `rest_m` if that is
 /// more.
 void push_wall(const PlaqueModel& model, int cell, double radius_m, PlaqueState& state);
-
-template <class S, class Visit>
-void for_each_plaque_field(S& s, Visit&& visit) {
-  for (auto& [name, field] : {std::pair{"plaque.rest_m", &s.rest_m}, std::pair{"plaque.broken", &s.broken},
-                              std::pair{"plaque.peak_m", &s.peak_m}, std::pair{"plaque.radius_m", &s.radius_m}})
-    visit(name, field->data(), static_cast<int>(field->size()));
-}
 
 }  // namespace ostium

@@ -29,14 +29,20 @@ void check(const StentModel& model);  ///< throws std::invalid_argument
 
 /// Where a point of a deployed stent is tied to the wall.
 struct StentTie {
-  double triangle = -1, u = 0, v = 0;  ///< of MovingLumen, and its barycentric weights of the second and third corner
-  double depth_m = 0;                  ///< inwards from there
+  int triangle = -1;    ///< of MovingLumen; -1: none, and
+  double u = 0, v = 0;  ///< its barycentric weights of the second and third corner
+  double depth_m = 0;   ///< inwards from there
 };
+constexpr auto fields(const StentTie*) {
+  return std::tuple{field("triangle", &StentTie::triangle), field("u", &StentTie::u), field("v", &StentTie::v),
+                    field("depth_m", &StentTie::depth_m)};
+}
 
 struct StentState {
-  static constexpr double on_balloon = 0, deployed = 1, lost = 2;
-  double where = on_balloon;
-  double branch = -1;            ///< along whose path it lies, as a number; while crimped its balloon's
+  enum class Where { on_balloon, deployed, lost };
+  using enum Where;
+  Where where = on_balloon;
+  int branch = -1;               ///< along whose path it lies; -1: none. While crimped its balloon's
   double middle_m = 0;           ///< along the path; while crimped its balloon's
   double shift_m = 0;            ///< of the crimped stent on its balloon; negative: proximally
   std::vector<double> radius_m;  ///< (#rings) inner
@@ -46,6 +52,13 @@ struct StentState {
   std::vector<StentTie> ties;    ///< (#points)
   std::vector<double> peak_m;    ///< (#rings) when it was widest
 };
+constexpr auto fields(const StentState*) {
+  using S = StentState;
+  return std::tuple{field("where", &S::where),     field("branch", &S::branch),     field("middle_m", &S::middle_m),
+                    field("shift_m", &S::shift_m), field("radius_m", &S::radius_m), field("rest_m", &S::rest_m),
+                    field("along_m", &S::along_m), field("link_m", &S::link_m),     field("ties", &S::ties),
+                    field("peak_m", &S::peak_m)};
+}
 StentState make_stent_state(const StentModel& model);
 
 struct StentInputs {
@@ -77,24 +90,5 @@ double narrowest_m(const StentModel& model, const StentState& state, double from
 
 /// First and last point along the path.
 std::pair<double, double> span_of(const StentState& state);
-
-template <class S, class Visit>
-void for_each_stent_field(S& s, Visit&& visit) {
-  visit("stent.where", &s.where, 1);
-  visit("stent.branch", &s.branch, 1);
-  visit("stent.middle_m", &s.middle_m, 1);
-  visit("stent.shift_m", &s.shift_m, 1);
-  visit("stent.radius_m", s.radius_m.data(), static_cast<int>(s.radius_m.size()));
-  visit("stent.rest_m", s.rest_m.data(), static_cast<int>(s.rest_m.size()));
-  visit("stent.along_m", s.along_m.data(), static_cast<int>(s.along_m.size()));
-  visit("stent.link_m", s.link_m.data(), static_cast<int>(s.link_m.size()));
-  for (auto& tie : s.ties) {
-    visit("stent.tie.triangle", &tie.triangle, 1);
-    visit("stent.tie.u", &tie.u, 1);
-    visit("stent.tie.v", &tie.v, 1);
-    visit("stent.tie.depth_m", &tie.depth_m, 1);
-  }
-  visit("stent.peak_m", s.peak_m.data(), static_cast<int>(s.peak_m.size()));
-}
 
 }  // namespace ostium

@@ -83,7 +83,7 @@ void tie_to_wall(const StentModel& m, const Patient& patient, const WallShape& s
     const auto& [a, b, c] = mesh.triangles[found.triangle];
     const Eigen::Vector3d p = mesh.vertices[a], u = mesh.vertices[b] - p, v = mesh.vertices[c] - p, w = found.point - p;
     const double uu = u.dot(u), uv = u.dot(v), vv = v.dot(v), wu = w.dot(u), wv = w.dot(v), d = uu * vv - uv * uv;
-    s.ties[i] = {static_cast<double>(found.triangle), (vv * wu - uv * wv) / d, (uu * wv - uv * wu) / d,
+    s.ties[i] = {found.triangle, (vv * wu - uv * wv) / d, (uu * wv - uv * wu) / d,
                  m.strut_m / 2 + gap_of(m, s, path, wall, i)};
   }
 }

@@ -106,7 +106,7 @@ void map_arteries(const SessionModel& model, HandlingMap& map) {
 double twist_rad(const Rod& rod, const RodState& state) {
   double sum = 0;
   const Field<4>& q = state.orientation;
-  for (int i = first_element(state) + 1; i < rod.elements; ++i) {
+  for (int i = state.first + 1; i < rod.elements; ++i) {
     const Eigen::Quaterniond a(q.at(0)[i - 1], q.at(1)[i - 1], q.at(2)[i - 1], q.at(3)[i - 1]),
         b(q.at(0)[i], q.at(1)[i], q.at(2)[i], q.at(3)[i]);
     const Eigen::Quaterniond r = a.conjugate() * b;
@@ -130,7 +130,7 @@ HandlingMap::HandlingMap(const SessionModel& model) {
 
 double beyond_stent_m(const SessionModel& model, const SessionState& state) {
   constexpr double hard_atm = 10;
-  const int balloon = static_cast<int>(state.bedside.balloon);
+  const int balloon = state.bedside.balloon;
   if (balloon < 0 || !(state.treatment.balloon.pressure_Pa > hard_atm * 101325)) return 0;
   const auto& lesions = model.vessel->coronaries->lesions;
   double out_m = 0;
@@ -153,7 +153,7 @@ void see(const SessionModel& model, const SessionInputs& inputs, const SessionSt
   x.time_s = seconds(model, state);
   const double phase = state.blood.heart.phase;
   x.diastasis = heart_rests(state);
-  x.beam = inputs.c_arm.fluoroscopy > 0 || inputs.c_arm.cine > 0;
+  x.beam = inputs.c_arm.fluoroscopy || inputs.c_arm.cine;
   x.injects = inputs.bedside.injection_m3_s > 0;
   x.gauge_atm = inputs.bedside.gauge_Pa / 101325;
   x.tools.resize(model.tools.size());
@@ -179,14 +179,12 @@ void see(const SessionModel& model, const SessionInputs& inputs, const SessionSt
   const BedsideState& b = state.bedside;
   x.filled = b.balloon >= 0 &&
              !is_empty(model.treatment.balloons[static_cast<std::size_t>(b.balloon)], state.treatment.balloon);
-  x.balloon = model.has_patient() ? static_cast<int>(b.balloon) : -1;
+  x.balloon = model.has_patient() ? b.balloon : -1;
   x.beyond_stent_m = x.balloon < 0 ? 0 : beyond_stent_m(model, state);
   x.ST_mV = x.balloon < 0 ? 0 : ST_shift_mV(model.physiology.ischaemia, state.blood.ischaemia);
-  x.guide_trace = b.guide >= 0 ? trace(state.blood.line) : Trace::absent;
-  x.wire_cell = x.thin_wire < 0 || !model.has_patient() ? -1 : static_cast<int>(b.wire_cell);
-  x.catheter_cell = x.catheter >= 0 && model.has_patient() && static_cast<int>(b.where) == TipPlace::coronary
-                        ? static_cast<int>(b.cell)
-                        : -1;
+  x.guide_trace = b.guide >= 0 ? state.blood.line.trace : Trace::absent;
+  x.wire_cell = x.thin_wire < 0 || !model.has_patient() ? -1 : b.wire_cell;
+  x.catheter_cell = x.catheter >= 0 && model.has_patient() && b.tip.where == TipPlace::coronary ? b.tip.cell : -1;
   x.thin_tip_is_seen = x.beam && x.thin_wire >= 0 && in_field(inputs.c_arm, tip(model, state, x.thin_wire));
   x.twist_rad = x.catheter < 0 ? 0
                                : twist_rad(model.rods.rods[static_cast<std::size_t>(x.catheter)],

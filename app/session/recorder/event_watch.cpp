@@ -31,8 +31,8 @@ void EventWatch::look_at_syringe(const SessionInputs& inputs, const SessionState
   const bool injects = hand.injection_m3_s > 0;
   if (injects && !injects_) {
     say(EventCode::injection_begins, -1, 1e6 * hand.injection_m3_s);
-    if (trace_ == static_cast<int>(Trace::damped) || trace_ == static_cast<int>(Trace::ventricularised))
-      say(EventCode::injection_on_bad_trace, -1, trace_);
+    if (trace_ == Trace::damped || trace_ == Trace::ventricularised)
+      say(EventCode::injection_on_bad_trace, -1, static_cast<double>(trace_));
   }
   if (!injects && injects_)
     say(EventCode::injection_ends, -1, 1e6 * state.blood.contrast.injected_kg / undiluted_kg_m3);
@@ -44,9 +44,8 @@ void EventWatch::look_at_syringe(const SessionInputs& inputs, const SessionState
 
 void EventWatch::look_at_heart(const SessionState& state, const EventSink& say) {
   // While contrast or a thick wire is in the guide there is no trace to judge.
-  const int trace =
-      state.bedside.guide >= 0 ? static_cast<int>(state.blood.line.trace) : static_cast<int>(Trace::absent);
-  if (trace != trace_) say(EventCode::trace_changes, -1, trace);
+  const Trace trace = state.bedside.guide >= 0 ? state.blood.line.trace : Trace::absent;
+  if (trace != trace_) say(EventCode::trace_changes, -1, static_cast<double>(trace));
   trace_ = trace;
   if (state.blood.heart.ectopic > ectopic_) say(EventCode::extrasystole, -1, 0);
   ectopic_ = state.blood.heart.ectopic;
@@ -78,7 +77,7 @@ void EventWatch::look_at_balloon(const SessionModel& model, const SessionInputs&
 void EventWatch::look_at_stents(const SessionModel& model, const SessionState& state, const EventSink& say) {
   for (std::size_t i = 0; i < state.treatment.stents.size(); ++i) {
     const StentState& own = state.treatment.stents[i];
-    const double where = own.where;
+    const StentState::Where where = own.where;
     if (where == stents_[i]) continue;
     const auto at = model.vessel->coronaries->lesions.empty() ? std::nullopt
                                                               : stent_from_lesion_m(model, state, static_cast<int>(i));
@@ -138,8 +137,8 @@ void EventWatch::look_at_tools(const SessionModel& model, const SessionReport& r
 
 void EventWatch::look_at_beam(const CArmInputs& arm, const EventSink& say) {
   if (arm.fluoroscopy != fluoroscopy_)
-    say(arm.fluoroscopy > 0 ? EventCode::fluoroscopy_on : EventCode::fluoroscopy_off, -1, 0);
-  if (arm.cine != cine_) say(arm.cine > 0 ? EventCode::cine_on : EventCode::cine_off, -1, 0);
+    say(arm.fluoroscopy ? EventCode::fluoroscopy_on : EventCode::fluoroscopy_off, -1, 0);
+  if (arm.cine != cine_) say(arm.cine ? EventCode::cine_on : EventCode::cine_off, -1, 0);
   fluoroscopy_ = arm.fluoroscopy, cine_ = arm.cine;
 }
 

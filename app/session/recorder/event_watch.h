@@ -38,12 +38,14 @@ class EventWatch {
   // As they were at the step before.
   std::vector<Tool> tools_;
   HandlingWatch handling_;
-  std::vector<double> stents_;  ///< where they were
+  std::vector<StentState::Where> stents_;  ///< where they were
   std::array<double, most_injuries> injuries_{};
   bool injects_ = false, inflated_ = false, filled_ = false, over_ = false, closed_ = false;
-  double inflated_since_s_ = 0, closed_since_s_ = 0, ectopic_ = 0, burst_ = 0;
-  int trace_ = static_cast<int>(Trace::absent), refused_ = -1;
-  double fluoroscopy_ = 0, cine_ = 0;
+  double inflated_since_s_ = 0, closed_since_s_ = 0;
+  bool ectopic_ = false, burst_ = false;
+  Trace trace_ = Trace::absent;
+  int refused_ = -1;
+  bool fluoroscopy_ = false, cine_ = false;
   std::uint32_t trouble_ = 0;
 };
 

@@ -142,7 +142,7 @@ class History {
   double fastest() const {
     double most = 0;
     for (std::size_t r = 0; r < state_.rods.size(); ++r)
-      for (int i = static_cast<int>(state_.rods[r].first); i < state_.rods[r].velocity.size(); ++i)
+      for (int i = state_.rods[r].first; i < state_.rods[r].velocity.size(); ++i)
         most = std::max(most, state_.rods[r].velocity[i].norm());
     return most;
   }
@@ -153,7 +153,7 @@ class History {
     out.converged = !lost_;
     const RodState& rod = state_.rods.back();
     out.points_m.push_back(to.base.p_W);
-    for (int i = static_cast<int>(rod.first) + 1; i < rod.position.size(); ++i) out.points_m.push_back(rod.position[i]);
+    for (int i = rod.first + 1; i < rod.position.size(); ++i) out.points_m.push_back(rod.position[i]);
     out.tip_q = rod.orientation[rod.orientation.size() - 1];
     const Quaterniond q = quaternion(out.tip_q) * Eigen::AngleAxisd(-to.material_turn_rad, Vector3d::UnitZ());
     out.tip_q = {q.w(), q.x(), q.y(), q.z()};
