@@ -12,7 +12,6 @@
 #include "app/commands/common_options.h"
 #include "app/commands/mesh_unit.h"
 #include "app/commands/progress.h"
-#include "app/import_command.h"
 #include "data/anatomy_file.h"
 #include "data/case.h"
 #include "data/load_error.h"
