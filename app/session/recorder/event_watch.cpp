@@ -104,7 +104,7 @@ void EventWatch::look_at_flow(const SessionModel& model, const SessionState& sta
 void EventWatch::look_at_injuries(const SessionState& state, const EventSink& say) {
   const auto& injuries = state.treatment.injury.injuries;
   for (std::size_t i = 0; i < injuries.size(); ++i) {
-    const double value = injuries[i].cell < 0 ? 0 : 10 * injuries[i].kind + injuries[i].grade;
+    const double value = injuries[i].cell < 0 ? 0 : 10 * static_cast<int>(injuries[i].kind) + injuries[i].grade;
     if (value > injuries_[i]) say(EventCode::injury, -1, value);
     injuries_[i] = value;
   }

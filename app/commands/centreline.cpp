@@ -1,0 +1,63 @@
+#include "vascular/tree/centreline.h"
+
+#include <fmt/format.h>
+
+#include "app/commands/arguments.h"
+#include "app/commands/command.h"
+#include "app/commands/common_options.h"
+#include "app/commands/progress.h"
+#include "data/catalogue/case/tree_file.h"
+#include "vascular/geometry/repair/units.h"
+#include "vascular/surface_check.h"
+
+namespace ostium {
+
+namespace {
+
+struct Arguments {
+  std::string mesh;
+  std::string unit = "mm";        ///< mm, cm or m
+  std::string start;              ///< "x,y,z" in the file's unit; empty: the widest end
+  std::vector<std::string> ends;  ///< the same; empty: all that stand out
+  std::string output;             ///< .json or .vtp
+};
+
+void declare(Options& options, Arguments& a) {
+  options.add("mesh", a.mesh, "OBJ, STL, PLY, ...").type("MESH").required();
+  add_unit_option(options, a.unit, "What a number in the file means");
+  options.add("--start", a.start, "Where to begin; else at the widest end").type("X,Y,Z");
+  options.add("--end", a.ends, "Where branches end; else all that stand out").type("X,Y,Z");
+  options.add("-o,--output", a.output, "A file that ends in .json or .vtp").required();
+}
+
+int run(const Arguments& a) {
+  const LengthUnit unit = unit_named(a.unit);
+  CentrelineOptions wanted;
+  if (!a.start.empty()) wanted.start = metres(unit) * mesh_point(a.start);
+  for (const std::string& end : a.ends) wanted.ends.push_back(metres(unit) * mesh_point(end));
+  const Mesh mesh = read_mesh(a.mesh, unit).mesh;
+  if (const SurfaceReport report = check_surface(mesh); !report.sound())
+    fmt::print(stderr, "{}: not sound, so parts may be missing:\n{}", a.mesh, describe(report));
+  show_progress("looking for centrelines");
+  const CentrelineResult found = find_centrelines(mesh, wanted);
+  write_tree(a.output, found.tree);
+  fmt::print("{}: {} branches, {} spheres; looked at {:.2f} mm\n", a.output, found.tree.branches.size(),
+             found.tree.spheres(), 1e3 * found.voxel_m);
+  for (const TreeBranch& branch : found.tree.branches)
+    fmt::print("  {:>3} from {:>3}  {:7.1f} mm, radius {:.2f} to {:.2f} mm\n", branch.name,
+               branch.parent < 0 ? "-" : found.tree.branches[static_cast<std::size_t>(branch.parent)].name,
+               1e3 * branch.spheres.back().s_m, 1e3 * branch.spheres.front().radius_m,
+               1e3 * branch.spheres.back().radius_m);
+  return 0;
+}
+
+}  // namespace
+
+Command centreline_command() {
+  return make_command("centreline", "The centreline-sphere tree of a closed mesh",
+                      {"ostium centreline coronaries.stl -o tree.json",
+                       "ostium centreline aorta.obj --start 0,120,-30 --end 5,-200,-40 --end -60,-380,10 -o tree.vtp"},
+                      declare, run);
+}
+
+}  // namespace ostium

@@ -1,0 +1,247 @@
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "app/commands/command.h"
+#include "app/commands/common_options.h"
+#include "app/commands/mesh_unit.h"
+#include "app/commands/progress.h"
+#include "data/catalogue/case/mesh_picture.h"
+#include "data/formats/load_error.h"
+#include "vascular/geometry/repair/calibre.h"
+#include "vascular/geometry/repair/double_wall.h"
+#include "vascular/geometry/repair/smooth.h"
+#include "vascular/geometry/repair/units.h"
+#include "vascular/mesh.h"
+#include "vascular/patient_frame.h"
+#include "vascular/surface_check.h"
+
+namespace ostium {
+
+namespace {
+
+struct Arguments {
+  std::vector<std::string> files;
+  std::string unit = "auto";  ///< auto, mm, cm, m or in
+  bool json = false;
+  std::string picture;  ///< .png or .svg; empty: none
+};
+
+void declare(Options& options, Arguments& a) {
+  options.add("mesh", a.files, "OBJ, STL, PLY, ...").type("MESH").required();
+  add_guessed_unit_option(options, a.unit, "What a number in the file means");
+  add_json_flag(options, a.json);
+  options.add("--picture", a.picture, "The mesh with its faults (one file only)").type("FILE.png|FILE.svg");
+}
+
+nlohmann::ordered_json fault_json(const SurfaceFault& fault) {
+  nlohmann::ordered_json where = nlohmann::ordered_json::array();
+  for (const Eigen::Vector3d& p : fault.where) {
+    const Eigen::Vector3d mm = mm_from_patient(p);
+    where.push_back({mm.x(), mm.y(), mm.z()});
+  }
+  return {{"count", fault.count}, {"where_mm", where}};
+}
+
+/// All that is known of one file.
+struct Checked {
+  std::string file;
+  MeshFile mesh;
+  UnitGuess unit;
+  bool unit_said = false;
+  SurfaceReport report;
+  std::vector<Opening> ends, holes, pinholes;
+  DoubleWall wall;
+  std::size_t flipped = 0, inverted = 0;
+  Roughness rough;
+  std::vector<double> diameters;  ///< below which 2, 25, 50, 75, 98 % of the wall's area are, m
+};
+
+constexpr double shares[] = {0.02, 0.25, 0.5, 0.75, 0.98};
+
+void find_unit(const Arguments& a, Checked& c) {
+  c.unit = guess_unit(read_mesh(c.file, LengthUnit::metre, 0).mesh);
+  c.unit_said = a.unit != "auto";
+  if (c.unit_said)
+    take_unit(unit_named(a.unit), c.unit);
+  else if (!c.unit.vessel)
+    take_unit(LengthUnit::millimetre, c.unit);  // as most files are
+}
+
+void find_openings(const Mesh& turned, const Sheets& sheets, Checked& c) {
+  for (const Opening& opening : openings_of(turned, sheets))
+    (opening.end ? c.ends : opening.pinhole() ? c.pinholes : c.holes).push_back(opening);
+}
+
+void measure_diameters(const Mesh& mesh, Checked& c) {
+  const BoxTree tree(mesh);
+  const int stride = 1 + static_cast<int>(mesh.triangles.size() / 20'000);
+  const std::vector<double> all = calibres(mesh, tree, stride), areas = areas_m2(mesh, stride);
+  for (double share : shares) c.diameters.push_back(percentile(all, areas, share));
+}
+
+Checked look_at(const std::string& file, const Arguments& a) {
+  Checked c;
+  c.file = file;
+  const TimedProgress progress(file + ": ", 1);
+  progress("reading");
+  find_unit(a, c);
+  progress("looking for its unit and its faults");
+  c.mesh = read_mesh(file, c.unit.unit);
+  progress("looking for faults");
+  c.report = check_surface(c.mesh.mesh);
+  Mesh turned = c.mesh.mesh;
+  Sheets sheets = sheets_of(turned);
+  const Orientation orientation = orient(turned, sheets);
+  c.flipped = orientation.flipped.size();
+  c.inverted = orientation.inverted.size();
+  find_openings(turned, sheets, c);
+  progress("looking for double walls");
+  c.wall = find_double_wall(turned, sheets);
+  c.rough = roughness(turned);
+  measure_diameters(turned, c);
+  show_progress("");
+  return c;
+}
+
+bool sound(const Checked& c) { return c.report.sound() && !c.wall.triangles; }
+
+nlohmann::ordered_json openings_json(const std::vector<Opening>& openings) {
+  nlohmann::ordered_json list = nlohmann::ordered_json::array();
+  for (const Opening& o : openings) {
+    const Eigen::Vector3d p = mm_from_patient(o.middle);
+    list.push_back(
+        {{"edges", o.half_edges.size()}, {"diameter_mm", 1e3 * o.diameter_m}, {"where_mm", {p.x(), p.y(), p.z()}}});
+  }
+  return list;
+}
+
+nlohmann::ordered_json report_json(const Checked& c) {
+  const SurfaceReport& r = c.report;
+  return {{"file", c.file},
+          {"unit", name_of(c.unit.unit)},
+          {"unit_said", c.unit_said},
+          {"unit_certain", c.unit.certain},
+          {"extent_mm", 1e3 * c.unit.extent_m},
+          {"vertices", r.vertices},
+          {"triangles", r.triangles},
+          {"components", r.components},
+          {"volume_mL", 1e6 * r.volume_m3},
+          {"area_cm2", 1e4 * r.area_m2},
+          {"welded_vertices", c.mesh.welded_vertices},
+          {"dropped_triangles", c.mesh.dropped_triangles},
+          {"skipped_faces", c.mesh.skipped_faces},
+          {"open_ends", openings_json(c.ends)},
+          {"holes", openings_json(c.holes)},
+          {"pinholes", openings_json(c.pinholes)},
+          {"open_edges", fault_json(r.open_edges)},
+          {"branching_edges", fault_json(r.branching_edges)},
+          {"flipped_edges", fault_json(r.flipped_edges)},
+          {"flipped_triangles", c.flipped},
+          {"inverted_pieces", c.inverted},
+          {"pinched_vertices", fault_json(r.pinched_vertices)},
+          {"slivers", fault_json(r.slivers)},
+          {"inverted", fault_json(r.inverted)},
+          {"crossings", fault_json(r.crossings)},
+          {"double_wall", {{"triangles", c.wall.triangles}, {"thickness_mm", 1e3 * c.wall.thickness_m}}},
+          {"roughness_mm", 1e3 * c.rough.height_m},
+          {"diameter_mm",
+           {{"2 %", 1e3 * c.diameters[0]},
+            {"25 %", 1e3 * c.diameters[1]},
+            {"50 %", 1e3 * c.diameters[2]},
+            {"75 %", 1e3 * c.diameters[3]},
+            {"98 %", 1e3 * c.diameters[4]}}},
+          {"sound", sound(c)}};
+}
+
+void print_openings(const char* what, const std::vector<Opening>& openings) {
+  for (std::size_t i = 0; i < openings.size() && i < SurfaceFault::places_kept; ++i) {
+    const Eigen::Vector3d p = mm_from_patient(openings[i].middle);
+    fmt::print("{}: {} edges, {:.2f} mm wide, at {:.2f} {:.2f} {:.2f} mm\n", what, openings[i].half_edges.size(),
+               1e3 * openings[i].diameter_m, p.x(), p.y(), p.z());
+  }
+  if (openings.size() > SurfaceFault::places_kept)
+    fmt::print("... and {} more such\n", openings.size() - SurfaceFault::places_kept);
+}
+
+void print_size(const Checked& c) {
+  const SurfaceReport& r = c.report;
+  fmt::print("{}: {} triangles, {} vertices, {} component{}, {:.2f} mL, {:.1f} cm2\n", c.file, r.triangles, r.vertices,
+             r.components, r.components == 1 ? "" : "s", 1e6 * r.volume_m3, 1e4 * r.area_m2);
+  fmt::print("units: {}, {}; {:.1f} mm long\n", name_of(c.unit.unit),
+             c.unit_said      ? "as you said"
+             : !c.unit.vessel ? "as most are, but no unit makes a vessel of it"
+             : c.unit.certain ? "guessed, no other makes a vessel of it"
+                              : "guessed, others are possible: confirm with --units",
+             1e3 * c.unit.extent_m);
+  fmt::print("vessels: {:.2f} mm wide at most of the wall (2 % below {:.2f}, 98 % below {:.2f})\n",
+             1e3 * c.diameters[2], 1e3 * c.diameters[0], 1e3 * c.diameters[4]);
+}
+
+void print_faults(const Checked& c) {
+  if (c.mesh.welded_vertices || c.mesh.dropped_triangles || c.mesh.skipped_faces)
+    fmt::print("mended: {} vertices welded, {} triangles without width dropped, {} points and lines left out\n",
+               c.mesh.welded_vertices, c.mesh.dropped_triangles, c.mesh.skipped_faces);
+  print_openings("open end", c.ends);
+  print_openings("hole", c.holes);
+  print_openings("pinhole", c.pinholes);
+  if (c.flipped) fmt::print("{} triangles face another way than most of their piece\n", c.flipped);
+  if (c.inverted) fmt::print("{} piece{} inwards\n", c.inverted, c.inverted == 1 ? " faces" : "s face");
+  if (c.wall.triangles) {
+    const Eigen::Vector3d p = mm_from_patient(c.wall.where);
+    fmt::print(
+        "double wall: {} triangles are of an outer one, {:.2f} mm outside, the first at {:.2f} {:.2f} {:.2f} mm\n",
+        c.wall.triangles, 1e3 * c.wall.thickness_m, p.x(), p.y(), p.z());
+  }
+  if (c.rough.noisy(c.diameters[2] / 2)) fmt::print("rough: vertices stand out by {:.2f} mm\n", 1e3 * c.rough.height_m);
+  fmt::print("{}", describe(c.report));
+}
+
+void draw(const Checked& c, const std::string& picture) {
+  std::vector<Eigen::Vector3d> rgb(c.mesh.mesh.vertices.size(), Eigen::Vector3d(205, 200, 192));
+  for (std::size_t t = 0; t < c.wall.outer.size(); ++t)
+    if (c.wall.outer[t])
+      for (int v : c.mesh.mesh.triangles[t]) rgb[static_cast<std::size_t>(v)] = {225, 196, 120};
+  std::vector<PictureMark> marks;
+  const auto openings = [&](const std::vector<Opening>& all, const char* what, const Eigen::Vector3d& colour) {
+    for (const Opening& o : all)
+      marks.push_back({o.middle, fmt::format("{} {:.1f} mm", what, 1e3 * o.diameter_m), colour});
+  };
+  openings(c.ends, "end", {20, 110, 200});
+  openings(c.holes, "hole", {210, 100, 20});
+  openings(c.pinholes, "pinhole", {210, 30, 30});
+  for (const Eigen::Vector3d& p : c.report.crossings.where) marks.push_back({p, "", {170, 40, 170}});
+  for (const Eigen::Vector3d& p : c.report.branching_edges.where) marks.push_back({p, "branching", {30, 140, 60}});
+  draw_mesh(
+      picture, c.mesh.mesh, rgb, marks,
+      c.file.substr(c.file.rfind('/') + 1) +
+          ": blue open ends, orange holes, red pinholes, violet crossings, green branching edges, yellow outer wall");
+}
+
+/// 0 if all meshes are sound, 1 if not.
+int run(const Arguments& a) {
+  if (!a.picture.empty() && a.files.size() != 1) throw LoadError("--picture draws one mesh; name one file");
+  bool all_sound = true;
+  nlohmann::ordered_json all = nlohmann::ordered_json::array();
+  for (const std::string& file : a.files) {
+    const Checked checked = look_at(file, a);
+    all_sound = all_sound && sound(checked);
+    if (a.json)
+      all.push_back(report_json(checked));
+    else
+      print_size(checked), print_faults(checked);
+    if (!a.picture.empty()) draw(checked, a.picture);
+  }
+  if (a.json) fmt::print("{}\n", all.dump(2));
+  return all_sound ? 0 : 1;
+}
+
+}  // namespace
+
+Command check_command() {
+  return make_command("check", "What is wrong with a mesh: holes, folds, crossings, and where",
+                      {"ostium check aorta.stl --picture faults.svg", "ostium check --units m --json lumen.obj"},
+                      declare, run);
+}
+
+}  // namespace ostium

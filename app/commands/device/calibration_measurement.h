@@ -1,0 +1,44 @@
+#pragma once
+/// What a box counts while somebody does something that is known.
+#include <array>
+#include <string>
+
+#include "device/tracking_box.h"
+#include "device/usb_port.h"
+
+namespace ostium {
+
+/// The box's raw counts from `begin` on. Throws LoadError where there is no box, or it is unplugged meanwhile.
+class Measurement : private ReportSink {
+ public:
+  explicit Measurement(const std::string& serial);
+
+  UsbPort& port() { return port_; }
+
+  /// Until Enter, or so many seconds.
+  void wait(const std::string& what, double seconds);
+
+  void begin() {
+    insertion_ = roll_ = {};
+    pressure_ = flow_ = elapsed_s_ = 0;
+    samples_ = 0;
+  }
+
+  std::int64_t insertion(std::size_t track) const { return insertion_[track]; }
+  std::int64_t roll(std::size_t track) const { return roll_[track]; }
+  double mean_pressure() const { return pressure_ / samples_; }
+  double mean_flow() const { return flow_ / samples_; }
+  double elapsed_s() const { return elapsed_s_; }
+
+ private:
+  void came(std::span<const std::uint8_t> bytes) override;
+
+  UsbPort port_;
+  PortState state_;
+  InReport last_;
+  std::uint64_t reports_ = 0;
+  std::array<std::int64_t, 4> insertion_{}, roll_{};
+  double pressure_ = 0, flow_ = 0, elapsed_s_ = 0, samples_ = 0;
+};
+
+}  // namespace ostium

@@ -1,0 +1,15 @@
+#pragma once
+/// The parts of `ostium device`.
+#include "app/commands/command.h"
+
+namespace ostium {
+
+Command device_list_command();
+Command device_monitor_command();
+Command device_emulate_command();
+Command device_calibrate_command();
+
+/// Seconds of a clock that only goes forward.
+double clock_s();
+
+}  // namespace ostium

@@ -1,0 +1,69 @@
+#include <fmt/format.h>
+
+#include <chrono>
+#include <exception>
+#include <thread>
+
+#include "app/commands/device/device.h"
+#include "app/commands/interrupt.h"
+#include "data/formats/load_error.h"
+#include "device/stroking_hand.h"
+#include "device/usbip.h"
+
+namespace ostium {
+
+namespace {
+
+struct Arguments {
+  double seconds = 0;  ///< 0: until Ctrl-C
+  int port = 3240;
+  bool any_host = false;  ///< answers other machines too
+  bool still = false;     ///< nobody moves the emulated tools
+};
+
+void declare(Options& options, Arguments& a) {
+  options.add("--port", a.port, "TCP port").range(1, 65535).show_default();
+  options.flag("--any-host", a.any_host, "For other machines too, not for this one alone");
+  options.flag("--still", a.still, "Nobody moves its tools");
+  options.add("--seconds", a.seconds, "Then end; else at Ctrl-C").range(0.01, 1e6);
+}
+
+int run(const Arguments& a) {
+  stop_on_signals();
+  Calibration c;
+  c.serial = "EMULATED";
+  for (TrackCalibration& track : c.track) track.before_introducer_mm = 20;
+  EmulatedUsb usb(c);
+  StrokingHand hand;
+  if (!a.still) usb.hand = [&](EmulatedBox& box) { hand.move(box); };
+  std::atomic<bool> over{false};
+  std::thread clock([&] {
+    for (const double begin_s = clock_s(); !interrupted && (a.seconds <= 0 || clock_s() < begin_s + a.seconds);)
+      std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    over = true;
+  });
+  fmt::print(stderr,
+             "an emulated box on port {}; on Linux, as root:\n  modprobe vhci_hcd && usbip attach -r {} -b 1-1\n"
+             "Ctrl-C ends it\n",
+             a.port, a.any_host ? "THIS_MACHINE" : "127.0.0.1");
+  std::string problem;
+  try {
+    serve_usbip(usb, static_cast<std::uint16_t>(a.port), a.any_host, over,
+                [](const std::string& what) { fmt::print(stderr, "{}\n", what); });
+  } catch (const std::exception& error) {
+    problem = error.what();
+    interrupted = true;
+  }
+  clock.join();
+  if (!problem.empty()) throw LoadError(problem);
+  return 0;
+}
+
+}  // namespace
+
+Command device_emulate_command() {
+  return make_command("emulate", "An emulated box on the network, by USB/IP",
+                      {"ostium device emulate", "ostium device emulate --any-host --port 3241"}, declare, run);
+}
+
+}  // namespace ostium

@@ -1,0 +1,95 @@
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "app/commands/arguments.h"
+#include "app/commands/command.h"
+#include "app/commands/common_options.h"
+#include "app/commands/progress.h"
+#include "data/identification/report/explanation_report.h"
+#include "data/identification/measurement/measurement_reader.h"
+#include "data/formats/write_file.h"
+
+namespace ostium {
+
+namespace {
+
+struct Arguments {
+  std::string set;                 ///< folder or measurement.json
+  std::string folder = ".";        ///< where explanation.json, explanation.html and amended/ go
+  std::vector<std::string> tries;  ///< "shaft_torsion", or several together: "shaft_torsion+stress_relaxation"
+  std::string instrument;          ///< file for the innermost instrument as it was found; empty: only in `folder`
+  int threads = 0;                 ///< 0: one for each core
+  bool json = false;               ///< explanation.json to stdout instead of words
+};
+
+void declare(Options& options, Arguments& a) {
+  add_measured_set_option(options, a.set);
+  options.add("-o,--out", a.folder, "Where explanation.json, explanation.html and amended/ go").type("DIR");
+  options.add("--try", a.tries, "An effect to switch on; with + between them, several together").type("EFFECT");
+  options
+      .add("--write-instrument", a.instrument,
+           "Also here: the (innermost) instrument as it was found, for ostium run and the catalogue")
+      .type("FILE.json");
+  options.add("--threads", a.threads, "Threads of each rank; 0: one for each core").range(0, 1024);
+  options.flag("--json", a.json, "Print explanation.json, see data/schemas/explanation.schema.json");
+}
+
+std::string contents(const std::string& file) {
+  std::stringstream text;
+  text << std::ifstream(file, std::ios::binary).rdbuf();
+  return text.str();
+}
+
+void print(const Explanation& x) {
+  fmt::print("verdict: {}\n", to_string(x.verdict));
+  for (const std::string& sentence : x.sentences) fmt::print("  {}\n", sentence);
+  fmt::print("\n{:<40} {:>12} {:>12} {:>10}  {}\n", "parameter", "value", "sigma", "from data", "unit");
+  for (const FittedParameter& p : x.best().parameters)
+    fmt::print("{:<40} {:>12.5g} {:>12.2g} {:>8.0f} %  {}\n", p.parameter.name, p.value, p.sigma, 100 * p.informed,
+               p.parameter.unit == "1" ? "" : p.parameter.unit);
+}
+
+void write_found(const Arguments& a, const MeasurementSet& set, const Explanation& found) {
+  const std::filesystem::path folder(a.folder);
+  write_file((folder / "explanation.json").string(), to_json(found));
+  write_file((folder / "explanation.html").string(), to_html(set, found));
+  write_file((folder / "amended" / "measurement.json").string(), amended(contents(set.file), set, found));
+  for (std::size_t i = 0; i < set.instruments.size(); ++i) {
+    const bool one = set.instruments.size() == 1, innermost = i + 1 == set.instruments.size();
+    const std::string text = instrument_json(set, found, i);
+    write_file((folder / (one ? "instrument.json" : fmt::format("instrument-{}.json", i))).string(), text);
+    if (innermost && !a.instrument.empty()) write_file(a.instrument, text);
+  }
+}
+
+/// Under mpirun the first rank alone writes.
+int run(const Arguments& a) {
+  const Ranks mpi;
+  const MeasurementSet set = load_measurement(a.set);
+  ExplainOptions explain_options{{}, a.threads, {}, a.tries.empty()};
+  for (const std::string& words : a.tries) explain_options.tries.push_back(split(words, '+'));
+  if (rank() == 0) explain_options.progress = show_progress;
+  const Explanation found = explain(set, explain_options);
+  if (rank() != 0) return 0;
+  show_progress("");
+  write_found(a, set, found);
+  if (a.json)
+    fmt::print("{}", to_json(found));
+  else
+    print(found);
+  return 0;
+}
+
+}  // namespace
+
+Command explain_command() {
+  return make_command("explain", "Fits a measured set, says what is left, and what an effect would change",
+                      {"ostium explain my-wire -o found", "ostium explain my-tubes --try shaft_torsion -o found",
+                       "mpirun -n 8 ostium explain my-tubes --try shaft_torsion[0] --threads 1 -o found"},
+                      declare, run);
+}
+
+}  // namespace ostium

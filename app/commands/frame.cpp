@@ -1,0 +1,228 @@
+#include <fmt/format.h>
+
+#include <cmath>
+#include <functional>
+#include <nlohmann/json.hpp>
+#include <numbers>
+
+#include "app/commands/arguments.h"
+#include "app/commands/command.h"
+#include "app/commands/common_options.h"
+#include "app/commands/pictures.h"
+#include "app/commands/progress.h"
+#include "app/session/xray_scene.h"
+#include "data/formats/dicom.h"
+#include "data/formats/load_error.h"
+#include "data/formats/png.h"
+#include "data/formats/video.h"
+#include "fluoro/fluoroscope.h"
+#include "fluoro/overlay.h"
+#include "fluoro/phantom/chest.h"
+#include "fluoro/views.h"
+
+namespace ostium {
+
+namespace {
+
+constexpr double degree = std::numbers::pi / 180;
+
+struct Arguments {
+  std::string of = "phantom";  ///< what is in the beam: that, or a case
+  double phase = 0.75;         ///< of the heart, of a case; a film begins there
+  ViewArguments view{.view = "ap"};
+  double sid_mm = 1100, field_mm = 200;
+  std::vector<double> table_mm{0, 0, 0};             ///< of the isocentre in the patient: left, head, front
+  std::vector<double> shutters{0.5, 0.5, 0.5, 0.5};  ///< left, right, top, bottom, in shares of the picture's side
+  int pixels = 512;
+  bool cine = false;
+  double frames_per_s = 15;
+  int frames = 0;             ///< 0: 8 before the one of a still picture; 30 of a video
+  std::string fill = "none";  ///< left, right: coronary full of contrast
+  double stenosis_percent = 60;
+  std::string guide = "left";  ///< where guide and wire are: left, right, none
+  std::uint64_t seed = 1;
+  std::string renderer = "scanline";
+  bool overlay = false, json = false;
+  std::string out = "frame.png";  ///< .png, .dcm or .mp4
+
+  bool video() const { return out.ends_with(".mp4"); }
+  bool dicom() const { return out.ends_with(".dcm"); }
+  Programme programme() const { return cine ? ostium::cine(frames_per_s) : fluoroscopy(frames_per_s); }
+};
+
+void declare_geometry(Options& options, Arguments& a) {
+  options.add("--view", a.view.view, "Standard view, see `ostium views`").show_default();
+  add_angle_options(options, a.view);
+  options.add("--sid", a.sid_mm, "Source to detector, mm").show_default();
+  options.add("--field", a.field_mm, "Side of the detector's field, mm: 200, 160, 130")
+      .range(50.0, 400.0)
+      .show_default();
+  options.add("--table", a.table_mm, "Isocentre from the heart's middle: left, head, front, mm").count(3);
+  options.add("--shutters", a.shutters, "Left, right, top, bottom, from the middle; 0.5 is open").count(4);
+  add_pixels_option(options, a.pixels, 64);
+}
+
+void declare(Options& options, Arguments& a) {
+  options.add("of", a.of, "What is in the beam: a case (`ostium cases`), or phantom: fluoro's test chest")
+      .show_default();
+  options.add("--phase", a.phase, "Of the heart, 0 is the R wave; a film begins there. Cases")
+      .range(0.0, 1.0)
+      .show_default();
+  declare_geometry(options, a);
+  add_cine_flag(options, a.cine);
+  add_frame_rate_option(options, "--rate", a.frames_per_s);
+  options.add("--frames", a.frames, "So many; of a still picture the last is shown (8)").range(1, 10'000);
+  add_fill_option(options, a.fill);
+  options.add("--stenosis", a.stenosis_percent, "Of the phantom's LAD and RCA, by diameter, %")
+      .range(0.0, 99.0)
+      .show_default();
+  options.add("--guide", a.guide, "Where the phantom's guide and wire are")
+      .one_of({"left", "right", "none"})
+      .show_default();
+  options.add("--seed", a.seed, "Of the noise").show_default();
+  options.add("--renderer", a.renderer, "What draws path lengths").one_of({"scanline", "osmesa"}).show_default();
+  options.flag("--overlay", a.overlay, "Angles, rate, times and dose on the picture (not in DICOM)");
+  options.flag("--json", a.json, "Exposure and dose, machine-readable, see data/schemas/frame.schema.json");
+  options.add("-o,--out", a.out, "FILE.png, FILE.dcm or FILE.mp4").show_default();
+}
+
+View view_of(const Arguments& a) {
+  const StandardView named = named_view(a.view.view);
+  View view;
+  view.arm.lao_rad = degree * (std::isnan(a.view.lao_deg) ? named.lao_deg : a.view.lao_deg);
+  view.arm.cran_rad = degree * (std::isnan(a.view.cran_deg) ? named.cran_deg : a.view.cran_deg);
+  view.arm.source_to_detector_m = 1e-3 * a.sid_mm;
+  view.arm.p_PI = 1e-3 * Eigen::Vector3d(a.table_mm[0], a.table_mm[1], a.table_mm[2]);
+  view.field_m = 1e-3 * a.field_mm;
+  view.pixels = a.pixels;
+  return view;
+}
+
+/// What is in the beam, frame by frame.
+using Scenes = std::function<Scene(int frame)>;
+
+Scenes phantom_scenes(const Arguments& a) {
+  phantom::ChestOptions chest;
+  chest.filling = a.fill == "left"    ? phantom::Filling::left
+                  : a.fill == "right" ? phantom::Filling::right
+                                      : phantom::Filling::none;
+  chest.stenosis = 0.01 * a.stenosis_percent;
+  chest.instruments = a.guide != "none";
+  chest.left_instruments = a.guide == "left";
+  return [scene = phantom::chest(chest)](int) { return scene; };
+}
+
+/// A case's patient; the heart beats from frame to frame. `middle` is where the C-arm looks.
+Scenes patient_scenes(const Arguments& a, Eigen::Vector3d& middle) {
+  show_progress("building " + a.of);
+  const CaseScene made = scene_of_case(a.of, fill_named(a.fill), middle);
+  const double step_s = 1 / a.frames_per_s;
+  return [made, step_s, phase = a.phase, at = 0](int frame) mutable {
+    for (; at < frame; ++at) phase = made.later(phase, step_s);
+    return made.at(phase);
+  };
+}
+
+void print_numbers(const Arguments& a, const FluoroscopeInput& in, const FluoroscopeState& state,
+                   const FrameReport& report) {
+  const Exposure& e = report.exposure;
+  const double rate = a.frames_per_s;
+  if (a.json) {
+    const nlohmann::ordered_json numbers = {{"lao_deg", in.view.arm.lao_rad / degree},
+                                            {"cran_deg", in.view.arm.cran_rad / degree},
+                                            {"tube_kV", e.tube.peak_kV},
+                                            {"copper_mm", e.tube.copper_mm},
+                                            {"patient_mm", 1e3 * e.patient_m},
+                                            {"detector_dose_nGy", e.detector_dose_nGy},
+                                            {"kerma_per_frame_mGy", 1e3 * e.kerma_Gy},
+                                            {"dap_per_frame_Gy_cm2", 1e4 * e.dose_area_Gy_m2},
+                                            {"kerma_rate_mGy_min", 6e4 * e.kerma_Gy * rate},
+                                            {"frames", state.imager.frame},
+                                            {"file", a.out}};
+    fmt::print("{}\n", numbers.dump(2));
+    return;
+  }
+  fmt::print("{}, {:.0f} kV, {:.1f} mm Cu, patient as {:.1f} cm of soft tissue, {:.0f} nGy at the detector\n",
+             angles_text(in.view.arm.lao_rad / degree, in.view.arm.cran_rad / degree), e.tube.peak_kV, e.tube.copper_mm,
+             100 * e.patient_m, e.detector_dose_nGy);
+  fmt::print("a frame {:.4f} mGy and {:.4f} Gy cm2; at {:g} frames/s {:.1f} mGy/min\n{}\n", 1e3 * e.kerma_Gy,
+             1e4 * e.dose_area_Gy_m2, rate, 6e4 * e.kerma_Gy * rate, a.out);
+}
+
+Picture shown(const Arguments& a, const FluoroscopeInput& in, const FluoroscopeState& state,
+              const FrameReport& report) {
+  Picture picture = state.live;
+  if (a.overlay) draw_overlay({in.view, a.programme(), report.exposure, state.dose, true, "", a.of}, picture);
+  return picture;
+}
+
+/// The frames, one after the other; none of them leaks.
+struct Filmed {
+  FluoroscopeState state;
+  FrameReport report;
+  std::vector<Picture> kept;  ///< for DICOM
+};
+
+Filmed film(const Arguments& a, const Scenes& scenes, const FluoroscopeInput& in, Scene& scene,
+            std::optional<VideoWriter>& writer) {
+  Filmed out;
+  Imager imager({}, a.renderer == "osmesa" ? make_osmesa_renderer() : make_scanline_renderer());
+  DisplayScratch scratch;
+  const int frames = a.frames ? a.frames : a.video() ? 30 : 8;
+  // A still picture stands at its phase; the frames before it only feed the lag.
+  const bool moves = a.video() || (a.dicom() && a.frames);
+  for (int i = 0; i < frames; ++i) {
+    if (moves) scene = scenes(i);
+    out.report = tick(imager, in, out.state, scratch).frame;
+    if (const auto& leak = out.report.leak)
+      throw LoadError(fmt::format("X-ray scene: {} pixels leak (worst {:.2f} mm): {}", leak.pixels,
+                                  1e3 * double(leak.worst_m), out.report.leaking));
+    if (writer) writer->add(shown(a, in, out.state, out.report));
+    if (a.dicom() && (a.frames || i + 1 == frames)) out.kept.push_back(out.state.live);
+    show_progress(fmt::format("frame {} of {}", i + 1, frames));
+  }
+  show_progress("");
+  return out;
+}
+
+int run(const Arguments& a) {
+  require_ending(a.out, {".png", ".dcm", ".mp4"});
+  View view = view_of(a);
+  require_reachable(view.arm);
+  require_rate(a.frames_per_s);
+  Eigen::Vector3d middle = Eigen::Vector3d::Zero();
+  const Scenes scenes = a.of == "phantom" ? phantom_scenes(a) : patient_scenes(a, middle);
+  view.arm.p_PI += middle;
+  Scene scene = scenes(0);
+  check(scene);
+  const FluoroscopeInput in{.scene = scene,
+                            .view = view,
+                            .collimator = {a.shutters[0], a.shutters[1], a.shutters[2], a.shutters[3]},
+                            .pedals = {.fluoroscopy = !a.cine, .cine = a.cine},
+                            .fluoroscopy_per_s = a.frames_per_s,
+                            .cine_per_s = a.frames_per_s,
+                            .seed = a.seed};
+  std::optional<VideoWriter> writer;
+  if (a.video()) writer.emplace(a.out, a.pixels, a.pixels, a.frames_per_s);
+  const Filmed filmed = film(a, scenes, in, scene, writer);
+  if (!finish_film(writer, "frame")) return 1;
+  if (a.dicom())
+    write_dicom(a.out, CineRun{view, a.programme(), filmed.report.exposure, filmed.kept});
+  else if (!a.video())
+    write_png(a.out, shown(a, in, filmed.state, filmed.report));
+  print_numbers(a, in, filmed.state, filmed.report);
+  return 0;
+}
+
+}  // namespace
+
+Command frame_command() {
+  return make_command("frame", "One X-ray picture, or a short run of them",
+                      {"ostium frame --view spider --fill left -o spider.png",
+                       "ostium frame --lao -30 --cran -20 --cine --pixels 1024 --fill left --overlay -o cine.png",
+                       "ostium frame --view lao --fill right --guide right --frames 15 -o run.dcm",
+                       "ostium frame lad-proximal-eccentric --view spider --fill left --overlay -o case.png"},
+                      declare, run);
+}
+
+}  // namespace ostium

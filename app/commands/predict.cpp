@@ -1,0 +1,73 @@
+#include <fmt/format.h>
+
+#include <cmath>
+#include <filesystem>
+
+#include "app/commands/command.h"
+#include "app/commands/common_options.h"
+#include "app/commands/progress.h"
+#include "data/formats/write_file.h"
+#include "data/identification/forward/prediction.h"
+#include "data/identification/measurement/measurement_reader.h"
+
+namespace ostium {
+
+namespace {
+
+struct Arguments {
+  std::string set;           ///< folder or measurement.json
+  std::string folder = ".";  ///< where prediction.json and prediction.csv go
+  bool json = false;         ///< prediction.json to stdout instead of a table
+};
+
+void declare(Options& options, Arguments& a) {
+  add_measured_set_option(options, a.set);
+  options.add("-o,--out", a.folder, "Where prediction.json and prediction.csv go").type("DIR");
+  options.flag("--json", a.json, "Print prediction.json, see data/schemas/prediction.schema.json");
+}
+
+void print_table(const std::vector<Prediction>& predictions) {
+  fmt::print("{:<24} {:>10} {:>10} {:>10} {:>12}\n", "experiment", "tip x mm", "y", "z", "off by mm");
+  double sum = 0;
+  std::size_t compared = 0;
+  for (const Prediction& p : predictions) {
+    const Eigen::Vector3d tip = 1e3 * p.shape.points_m.back();
+    fmt::print("{:<24} {:>10.3f} {:>10.3f} {:>10.3f} {:>12}\n", p.id, tip.x(), tip.y(), tip.z(),
+               p.rms_to_measured_m ? fmt::format("{:.3f}", 1e3 * *p.rms_to_measured_m) : "-");
+    if (!p.rms_to_measured_m) continue;
+    sum += *p.rms_to_measured_m * *p.rms_to_measured_m;
+    ++compared;
+  }
+  if (compared > 0)
+    fmt::print("root mean square over {} experiments: {:.3f} mm\n", compared,
+               1e3 * std::sqrt(sum / static_cast<double>(compared)));
+  else
+    fmt::print("the measuring frame or the tracked point is free: ostium explain fits them\n");
+}
+
+int run(const Arguments& a) {
+  const MeasurementSet set = load_measurement(a.set);
+  const auto predictions = predict(set, [&](std::size_t done, std::size_t of) {
+    show_progress(done < of ? fmt::format("experiment {} of {}", done, of) : "");
+  });
+  for (const Prediction& p : predictions)
+    for (const double apart_m : p.other_branches_m)
+      fmt::print(stderr, "ostium predict: {} has another stable shape, its tip {:.1f} mm away\n", p.id, 1e3 * apart_m);
+  const std::filesystem::path folder(a.folder);
+  write_file((folder / "prediction.json").string(), to_json(predictions));
+  write_file((folder / "prediction.csv").string(), to_csv(predictions));
+  if (a.json)
+    fmt::print("{}", to_json(predictions));
+  else
+    print_table(predictions);
+  return 0;
+}
+
+}  // namespace
+
+Command predict_command() {
+  return make_command("predict", "The static shapes that a measured set declares, nothing fitted",
+                      {"ostium predict my-wire", "ostium predict my-wire/measurement.json -o shapes"}, declare, run);
+}
+
+}  // namespace ostium

@@ -1,0 +1,37 @@
+#include "app/commands/program.h"
+
+namespace ostium {
+
+// Each is defined in the file of its name. To add one: its name here twice.
+Command demonstration();
+Command verify_command();
+Command instruments_command();
+Command cases_command();
+Command check_command();
+Command import_command();
+Command frame_command();
+Command inject_command();
+Command treat_command();
+Command views_command();
+Command centreline_command();
+Command predict_command();
+Command explain_command();
+Command run_command();
+Command report_command();
+Command scripts_command();
+Command sweep_command();
+Command replay_command();
+Command device_command();
+
+Command program() {
+  Command ostium = demonstration();
+  // In the order of --help.
+  ostium.subcommands = {verify_command(), instruments_command(), cases_command(),   check_command(),
+                        import_command(), frame_command(),       inject_command(),  treat_command(),
+                        views_command(),  centreline_command(),  predict_command(), explain_command(),
+                        run_command(),    report_command(),      scripts_command(), sweep_command(),
+                        replay_command(), device_command()};
+  return ostium;
+}
+
+}  // namespace ostium

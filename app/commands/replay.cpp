@@ -1,0 +1,193 @@
+#include "app/session/replay.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <numbers>
+
+#include "app/commands/command.h"
+#include "app/commands/common_options.h"
+#include "app/commands/pictures.h"
+#include "app/commands/progress.h"
+#include "app/session/film.h"
+#include "data/formats/dicom.h"
+#include "data/formats/load_error.h"
+#include "data/formats/png.h"
+#include "data/formats/video.h"
+#include "fluoro/views.h"
+
+namespace ostium {
+
+namespace {
+
+/// How its pictures differ from the run's.
+struct PictureArguments {
+  ViewArguments view;  ///< empty: as the run has it
+  double field_mm = ViewArguments::as_view;
+  std::vector<double> table_mm;  ///< empty: as the run has it
+  int pixels = 512;
+  bool cine = false, plain = false;  ///< plain: without overlay
+  bool monitor = false;              ///< ECG, pressure and gauge under the picture
+  double frames_per_s = 15;
+  std::string fill = "none";
+};
+
+struct Arguments {
+  std::string file;
+  bool verify = false;
+  double from_s = 0, seconds = 0;  ///< seconds 0: to the end
+  std::string video, dicom, png;   ///< empty: none
+  PictureArguments picture;
+  bool json = false;
+};
+
+void declare_picture(Options& options, PictureArguments& a) {
+  options.add("--view", a.view.view, "Standard view (`ostium views`), instead of the run's").type("VIEW");
+  add_angle_options(options, a.view);
+  options.add("--field", a.field_mm, "Side of the detector's field, mm").range(50.0, 400.0);
+  options.add("--table", a.table_mm, "Isocentre in the patient: left, head, front, mm").count(3);
+  add_pixels_option(options, a.pixels, 64);
+  add_cine_flag(options, a.cine);
+  options.flag("--plain", a.plain, "Without angles, times and dose on the picture");
+  options.flag("--monitor", a.monitor, "ECG, pressure and gauge under the picture");
+  add_frame_rate_option(options, "--rate", a.frames_per_s);
+  add_fill_option(options, a.fill);
+}
+
+void declare(Options& options, Arguments& a) {
+  options.add("file", a.file, "What `ostium run --out` recorded").type("RUN.h5").required();
+  options.flag("--verify", a.verify, "Compare every step; the default where no picture is asked for");
+  options.add("--from", a.from_s, "Second to begin at").not_negative();
+  options.add("--seconds", a.seconds, "Length of the film").positive();
+  options.add("--video", a.video, "Film it").type("FILE.mp4");
+  options.add("--dicom", a.dicom, "Film it").type("FILE.dcm");
+  options.add("--png", a.png, "One picture, at --from").type("FILE.png");
+  declare_picture(options, a.picture);
+  add_json_flag(options, a.json);
+}
+
+constexpr double degree = std::numbers::pi / 180;
+
+void show_share(const Replay& replay) {
+  show_progress(fmt::format("{:.1f} of {:.1f} s", seconds(replay.model, replay.state),
+                            replay.recording.step_s() * static_cast<double>(replay.recording.steps())));
+}
+
+FilmOptions film_options(const PictureArguments& a) {
+  FilmOptions film;
+  if (!a.view.view.empty()) {
+    const StandardView view = named_view(a.view.view);
+    film.lao_rad = degree * view.lao_deg, film.cran_rad = degree * view.cran_deg;
+  }
+  if (!std::isnan(a.view.lao_deg)) film.lao_rad = degree * a.view.lao_deg;
+  if (!std::isnan(a.view.cran_deg)) film.cran_rad = degree * a.view.cran_deg;
+  if (!std::isnan(a.field_mm)) film.field_m = 1e-3 * a.field_mm;
+  if (!a.table_mm.empty()) film.p_PI = 1e-3 * Eigen::Vector3d(a.table_mm[0], a.table_mm[1], a.table_mm[2]);
+  if (a.cine) film.mode = Mode::cine;
+  film.frames_per_s = a.frames_per_s;
+  film.pixels = a.pixels;
+  film.overlay = !a.plain;
+  film.monitor = a.monitor;
+  film.fill = fill_named(a.fill);
+  return film;
+}
+
+constexpr double lag_s = 0.7;  // in which what a monitor shows has come up
+
+bool is_still(const Arguments& a) { return a.video.empty() && a.dicom.empty() && a.seconds == 0; }
+
+/// Films until the recording or the time is over; of a still picture what is before it, whose lag it shows.
+int make_film(const Arguments& a, Replay& replay) {
+  FilmOptions options = film_options(a.picture);
+  if (!a.dicom.empty()) {
+    options.overlay = options.monitor = false;
+    if (!options.mode) options.mode = Mode::fluoroscopy;  // one header for all its frames
+  }
+  show_progress("building the patient's chest");
+  Film film(replay.model, options);
+  std::optional<VideoWriter> writer;
+  if (!a.video.empty()) writer.emplace(a.video, options.pixels, film.height(), options.frames_per_s);
+  CineRun run;
+  Picture last;
+  const double from_s = is_still(a) ? a.from_s - lag_s : a.from_s;
+  const double end_s = is_still(a) ? std::max(a.from_s, lag_s) : a.seconds > 0 ? a.from_s + a.seconds : 1e300;
+  long frames = 0;
+  while (seconds(replay.model, replay.state) < end_s - 1e-9 && replay.tick()) {
+    film.listen(replay.model, replay.state, replay.inputs);
+    const double now = seconds(replay.model, replay.state);
+    if (now < from_s - 1e-9 || !is_frame(replay.state.rods.step, options.frames_per_s, replay.model.step_s())) continue;
+    last = film.frame(replay.model, replay.state, replay.inputs, replay.xrays());
+    ++frames;
+    if (writer) writer->add(last);
+    if (!a.dicom.empty()) run.frames.push_back(last);
+    show_progress(fmt::format("frame {}, {:.1f} s", frames, now));
+  }
+  show_progress("");
+  if (frames == 0) throw LoadError(fmt::format("{}: there is no frame from {:g} s on", a.file, a.from_s));
+  if (!finish_film(writer, "replay")) return 1;
+  if (!a.dicom.empty()) {
+    const CineRun header = film.run();
+    run.view = header.view, run.programme = header.programme, run.exposure = header.exposure;
+    write_dicom(a.dicom, run);
+  }
+  if (!a.png.empty()) write_png(a.png, last);
+  for (const std::string& file : {a.video, a.dicom, a.png})
+    if (!file.empty()) fmt::print("{}: {} frames of {}\n", file, file == a.png ? 1 : frames, replay.setup.vessel);
+  return 0;
+}
+
+int check_same(const Arguments& a, Replay& replay) {
+  const double from_s = seconds(replay.model, replay.state);
+  const VerifyReport report = verify(replay, show_share);
+  show_progress("");
+  if (a.json) {
+    nlohmann::ordered_json out = {{"file", a.file},
+                                  {"software", replay.recording.software()},
+                                  {"from_s", from_s},
+                                  {"steps", report.steps},
+                                  {"same", !report.first_step}};
+    if (report.first_step)
+      out["first_step"] = *report.first_step, out["field"] = report.field, out["field_step"] = report.field_step;
+    fmt::print("{}\n", out.dump(2));
+  } else if (!report.first_step) {
+    fmt::print("{}: {} steps from {:g} s on, all bit for bit as recorded\n", a.file, report.steps, from_s);
+  } else {
+    fmt::print("{}: differs first after step {} ({:.3f} s)\n", a.file, *report.first_step,
+               replay.model.step_s() * static_cast<double>(*report.first_step));
+    if (!report.field.empty())
+      fmt::print("at the next recorded state, step {}, first of all: {}\n", report.field_step, report.field);
+    fmt::print("recorded by {}, replayed by ostium {}\n", replay.recording.software(), OSTIUM_VERSION);
+  }
+  return report.first_step ? 1 : 0;
+}
+
+/// 0 if what was asked for is done and, with `verify`, the same.
+int run(const Arguments& a) {
+  show_progress("building the vessel of " + a.file);
+  Replay replay(a.file);
+  if (!replay.recording.end() && !a.json)
+    fmt::print(stderr, "ostium replay: {} was cut off after {:.3f} s; what is there is whole\n", a.file,
+               replay.recording.step_s() * static_cast<double>(replay.recording.steps()));
+  replay.go_to(a.from_s);
+  int code = 0;
+  const bool film = !a.video.empty() || !a.dicom.empty() || !a.png.empty();
+  if (a.verify || !film) code = check_same(a, replay);
+  if (!film) return code;
+  // Strips show what was before, too.
+  const double before_s = std::max(is_still(a) ? lag_s : 0, a.picture.monitor ? monitor_s : 0);
+  replay.go_to(std::max(0.0, a.from_s - before_s));
+  return std::max(code, make_film(a, replay));
+}
+
+}  // namespace
+
+Command replay_command() {
+  return make_command(
+      "replay", "A recorded run once more: whether it is the same, and pictures",
+      {"ostium replay out/run.h5 --verify", "ostium replay out/run.h5 --from 12.5 --view spider --video out.mp4",
+       "ostium replay out/run.h5 --from 8 --lao 40 --cran 0 --png moment.png"},
+      declare, run);
+}
+
+}  // namespace ostium

@@ -1,0 +1,170 @@
+#include "app/commands/report.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "app/commands/command.h"
+#include "app/commands/progress.h"
+#include "app/session/film.h"
+#include "app/session/replay.h"
+#include "data/formats/load_error.h"
+#include "data/formats/png.h"
+#include "data/assessment/page.h"
+#include "data/formats/write_file.h"
+
+namespace ostium {
+
+namespace {
+
+/// Where something is to be seen: what the script marks, the end of each injection and inflation, the last moment.
+struct Moment {
+  std::uint64_t step;
+  std::string caption;
+};
+std::vector<Moment> moments(const RunRecord& record, const Script& script) {
+  constexpr std::size_t most = 12;
+  std::vector<Moment> out;
+  for (const RecordedEvent& e : events_of(record)) {
+    const auto step = static_cast<std::uint64_t>(e.step);
+    const auto of = static_cast<std::size_t>(e.value);
+    if (e.code == EventCode::mark && of < script.steps.size()) out.push_back({step, script.steps[of].text});
+    if (e.code == EventCode::injection_ends) out.push_back({step, "contrast"});
+    if (e.code == EventCode::deflated) out.push_back({step, "balloon empty"});
+    if (e.code == EventCode::stent_deployed || e.code == EventCode::stent_elsewhere)
+      out.push_back({step, "stent in the wall"});
+  }
+  if (out.size() >= most) {
+    std::vector<Moment> some;
+    for (std::size_t i = 0; i < most - 1; ++i) some.push_back(out[i * out.size() / (most - 1)]);
+    out = some;
+  }
+  out.push_back({record.steps, "the end"});
+  return out;
+}
+
+std::vector<ReportPicture> pictures_of(Replay& replay, const RunRecord& record) {
+  std::vector<ReportPicture> out;
+  FilmOptions options;
+  options.pixels = 384, options.overlay = false;
+  Film film(replay.model, options);
+  for (const Moment& moment : moments(record, replay.setup.script)) {
+    // Recursive filter and exposure settle in some frames.
+    const double second = static_cast<double>(moment.step) * record.step_s, before = std::max(second - 0.4, 0.0);
+    show_progress(fmt::format("picture at {:.1f} s", second));
+    replay.go_to(before);
+    Picture last;
+    while (replay.state.rods.step < moment.step && replay.tick())
+      if (static_cast<double>(replay.state.rods.step) * record.step_s >= before &&
+          is_frame(replay.state.rods.step, options.frames_per_s, record.step_s))
+        last = film.frame(replay.model, replay.state, replay.inputs);
+    if (last.grey.empty()) continue;
+    out.push_back({fmt::format("{}:{:04.1f} {}", static_cast<int>(second) / 60,
+                               second - 60 * (static_cast<int>(second) / 60), moment.caption),
+                   png_of(last)});
+  }
+  return out;
+}
+
+ReportRun run_of(Replay& replay, const std::string& code, const ScoreList& list, bool pictures) {
+  ReportRun run;
+  run.code = code;
+  run.case_name = replay.setup.vessel, run.script = replay.setup.script.name, run.seed = replay.setup.seed;
+  run.software = replay.recording.software();
+  run.outcome = "cut off", run.reason = "the recording has no end";
+  for (const SessionTool& tool : replay.model.tools) run.tools.push_back(tool.name);
+  run.record = record_of(replay.recording, replay.model);
+  run.simulated_s = static_cast<double>(run.record.steps) * run.record.step_s;
+  run.metrics = metrics_of(run.record);
+  if (const auto end = replay.recording.end()) {
+    const auto json = nlohmann::json::parse(*end);
+    run.outcome = json.value("outcome", ""), run.reason = json.value("reason", "");
+    // Dose is counted while it runs, over poses that signals do not have.
+    for (const auto& metric : json.value("metrics", nlohmann::json::array()))
+      for (Metric& mine : run.metrics)
+        if (mine.name == metric.value("name", "") && metric.contains("value") && metric["value"].is_number())
+          mine.value = metric["value"].get<double>();
+  }
+  run.scores = score(list, run.record, run.metrics);
+  if (pictures && replay.recording.states() > 0) run.pictures = pictures_of(replay, run.record);
+  show_progress("");
+  return run;
+}
+
+}  // namespace
+
+void report_folder(const std::string& folder, std::shared_ptr<const Vessel> vessel) {
+  namespace fs = std::filesystem;
+  const fs::path at(folder);
+  Replay replay((at / "run.h5").string(), std::move(vessel));
+  const ScoreList list = find_score_list("pci-elective");
+  const std::vector<ReportRun> runs = {run_of(replay, "this run", list, true)};
+  write_file((at / "report.html").string(), report_page(runs, list));
+  write_file((at / "events.csv").string(), events_csv(runs[0]));
+  for (std::size_t i = 0; i < runs[0].pictures.size(); ++i) {
+    const ReportPicture& p = runs[0].pictures[i];
+    write_file((at / "key-frames" / fmt::format("{:02}.png", i + 1)).string(), {p.png.begin(), p.png.end()});
+  }
+}
+
+namespace {
+
+struct Arguments {
+  std::vector<std::string> files;        ///< recordings
+  std::string page = "report.html";      ///< empty: none
+  std::string csv, events;               ///< empty: none
+  std::string questionnaire;             ///< empty: none
+  std::string scoring = "pci-elective";  ///< a list of data/scoring, or a file
+  std::vector<std::string> codes;        ///< one a recording; else run 1, run 2, ...
+  bool pictures = true;
+};
+
+void declare(Options& options, Arguments& a) {
+  options.add("file", a.files, "What `ostium run --out` recorded; several: side by side").type("RUN.h5");
+  options.add("-o,--output", a.page, "The page, which needs nothing else").type("FILE.html").show_default();
+  options.add("--csv", a.csv, "Metrics and ticks, a row a run").type("FILE.csv");
+  options.add("--events", a.events, "Events of the first run").type("FILE.csv");
+  options.add("--code", a.codes, "Of participants or attempts, one a recording; no names").type("CODE");
+  options.add("--scoring", a.scoring, "Steps and errors: a list of data/scoring, or a file")
+      .type("NAME|FILE.json")
+      .show_default();
+  options.add("--questionnaire", a.questionnaire, "Face and content questionnaires, a page with forms")
+      .type("FILE.html");
+  options.flag("--pictures,!--no-pictures", a.pictures, "Pictures of key moments (default)");
+}
+
+int run(const Arguments& a) {
+  if (!a.codes.empty() && a.codes.size() != a.files.size())
+    throw LoadError(fmt::format("{} codes for {} recordings; expected one each", a.codes.size(), a.files.size()));
+  if (!a.questionnaire.empty()) write_file(a.questionnaire, questionnaire_page());
+  if (a.files.empty()) {
+    if (a.questionnaire.empty()) throw LoadError("nothing to report; expected recordings RUN.h5, or --questionnaire");
+    return 0;
+  }
+  const ScoreList list = find_score_list(a.scoring);
+  std::vector<ReportRun> runs;
+  for (std::size_t i = 0; i < a.files.size(); ++i) {
+    show_progress("reading " + a.files[i]);
+    Replay replay(a.files[i]);
+    runs.push_back(run_of(replay, a.codes.empty() ? fmt::format("run {}", i + 1) : a.codes[i], list, a.pictures));
+    if (i == 0 && !a.events.empty()) write_file(a.events, events_csv(runs[0]));
+  }
+  if (!a.page.empty()) write_file(a.page, report_page(runs, list));
+  if (!a.csv.empty()) write_file(a.csv, report_csv(runs, list));
+  fmt::print("{}\n", a.page);
+  return 0;
+}
+
+}  // namespace
+
+Command report_command() {
+  return make_command("report", "Recorded runs as a page: pictures, plots, metrics, steps, errors",
+                      {"ostium report out/run.h5 -o report.html",
+                       "ostium report a.h5 b.h5 --code P07-1 P07-2 -o both.html --csv both.csv",
+                       "ostium report --questionnaire forms.html"},
+                      declare, run);
+}
+
+}  // namespace ostium

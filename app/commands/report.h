@@ -1,0 +1,11 @@
+#pragma once
+#include <memory>
+#include <string>
+
+namespace ostium {
+
+struct Vessel;
+/// Of DIR/run.h5: report.html, events.csv and key-frames/ beside it. `vessel`: the run's.
+void report_folder(const std::string& folder, std::shared_ptr<const Vessel> vessel);
+
+}  // namespace ostium

@@ -1,0 +1,93 @@
+#include "app/commands/run/drivers.h"
+
+#include <exception>
+#include <filesystem>
+#include <thread>
+
+#include "app/commands/interrupt.h"
+#include "app/commands/progress.h"
+#include "device/usb_port.h"
+#include "fluoro/views.h"
+
+namespace ostium {
+
+/// What is asked for; null: no box. With a box and people, `setup` loses what its script does to tools.
+std::unique_ptr<DeviceRun> device_of(const RunArguments& a, RunSetup& setup) {
+  if (a.device == "keyboard") {
+    setup.script = free_hands(setup.script);
+    return nullptr;
+  }
+  if (a.device.empty() || (a.device == "auto" && find_boxes().empty())) return nullptr;
+  DeviceHandSettings settings;
+  for (const StandardView& view : standard_views())
+    settings.views.emplace_back(view.lao_deg * EIGEN_PI / 180, view.cran_deg * EIGEN_PI / 180);
+  settings.watch = [before = Pause::none](const BoxSnapshot& now) mutable {
+    if (now.pause != before && now.pause != Pause::none) show_progress(std::string(advice(now)));  // nothing steps now
+    before = now.pause;
+  };
+  if (a.device == "emulator") return run_at_emulator(settings, &interrupted);
+  setup.script = free_hands(setup.script);
+  return run_at_usb(a.serial, settings, &interrupted);
+}
+
+Drivers::Drivers(const RunArguments& a, DeviceRun* device, ScriptedRun& run) {
+  Driver* driver = device ? &device->driver() : nullptr;
+  if (a.in_window()) hand.emplace(run.model, a.device == "keyboard", 15, driver), driver = &*hand;
+  if (a.film && !a.folder.empty()) {
+    FilmOptions look;
+    look.always_on = false, look.monitor = run.model.has_patient();
+    film.emplace(run.model, (std::filesystem::path(a.folder) / "procedure.mp4").string(), look, driver);
+    driver = &*film;
+  }
+  run.take_over(driver);
+}
+
+namespace {
+
+WindowOptions window_of(const RunArguments& a, DeviceRun* device, Filming* film, std::atomic<bool>& over) {
+  WindowOptions window;
+  window.plays = a.device == "keyboard", window.over = &over, window.last_frame_png = a.last_frame;
+  if (film) window.filmed = &film->pictures();
+  if (device) {
+    window.problem = [device] { return std::string(advice(device->hand().shown())); };
+    window.brightness = [device] { return device->hand().shown().picture; };
+  }
+  return window;
+}
+
+/// Plays in another thread while the window is up in this one, with the film's pictures if a film is made; else null.
+PlayReport play_in_window(const RunArguments& a, ScriptedRun& run, const RunSetup& setup, DeviceRun* device,
+                          LiveHand& hand, Filming* film, PlayOptions options) {
+  options.real = true;
+  std::atomic<bool> over{false};
+  PlayReport report;
+  std::exception_ptr failed;
+  std::thread steps([&] {
+    try {
+      report = play(run, setup, options);
+    } catch (...) {
+      failed = std::current_exception();
+    }
+    over = true;
+  });
+  try {
+    show_window(run.model, run.plan, hand, window_of(a, device, film, over));
+  } catch (...) {
+    hand.controls.press(Action::quit);
+    steps.join();
+    throw;
+  }
+  steps.join();
+  if (failed) std::rethrow_exception(failed);
+  return report;
+}
+
+}  // namespace
+
+PlayReport play_with(Drivers& drivers, const RunArguments& a, DeviceRun* device, ScriptedRun& run,
+                     const RunSetup& setup, const PlayOptions& options) {
+  if (!drivers.hand) return play(run, setup, options);
+  return play_in_window(a, run, setup, device, *drivers.hand, drivers.film ? &*drivers.film : nullptr, options);
+}
+
+}  // namespace ostium

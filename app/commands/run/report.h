@@ -1,0 +1,18 @@
+#pragma once
+/// What a run came to, in words and as JSON.
+#include <nlohmann/json_fwd.hpp>
+
+#include "app/session/device_run.h"
+#include "app/session/play.h"
+
+namespace ostium {
+
+/// `file`: the recording, or empty.
+nlohmann::ordered_json to_json(const RunSetup& setup, const ScriptedRun& run, const PlayReport& report,
+                               const std::string& file);
+nlohmann::ordered_json to_json(const DeviceHand& hand);
+
+void print_report(const ScriptedRun& run, const PlayReport& report, const std::string& file);
+void print_report(const DeviceHand& hand);
+
+}  // namespace ostium

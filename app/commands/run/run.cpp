@@ -1,0 +1,155 @@
+#include "app/commands/run/run.h"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "app/commands/arguments.h"
+#include "app/commands/command.h"
+#include "app/commands/common_options.h"
+#include "app/commands/interrupt.h"
+#include "app/commands/progress.h"
+#include "app/commands/report.h"
+#include "app/commands/run/drivers.h"
+#include "app/commands/run/report.h"
+#include "data/formats/load_error.h"
+#include "data/formats/write_file.h"
+
+namespace ostium {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+void declare(Options& options, RunArguments& a) {
+  options.add("vessel", a.session.vessel, "A case (`ostium cases`, or a file), or a closed mesh: OBJ, STL, PLY")
+      .type("CASE|MESH")
+      .required();
+  add_session_options(options, a.session);
+  options.add("--seed", a.session.seed, "0: exactly as the script says; others vary hands, roll and the heart's moment")
+      .show_default();
+  options.add("--out", a.folder, "Where run.h5 and metrics.json go").type("DIR");
+  options.add("--record", a.record, "What run.h5 holds; events: no states, so replay starts at the beginning")
+      .one_of({"none", "events", "full"})
+      .show_default();
+  options.add("--speed", a.speed, "real: a step a millisecond; the result is the same")
+      .one_of({"real", "max"})
+      .show_default();
+  options
+      .add(
+          "--device", a.device,
+          "Hands at a tracking box instead of the script's: usb; auto: usb if one is plugged in; emulator: a "
+          "scripted hand at an emulated box, which does what the script asks; keyboard: keyboard, mouse or gamepad, in "
+          "the window")
+      .one_of({"auto", "usb", "emulator", "keyboard"});
+  options.add("--display", a.display, "window: watch it live, in real time").one_of({"none", "window"}).show_default();
+  options.add("--last-frame", a.last_frame, "The window's last picture").type("FILE.png");
+  add_box_serial_option(options, a.serial);
+  options.flag("--film", a.film, "Film it as it goes: DIR/procedure.mp4");
+  options.flag("--report", a.report, "DIR/report.html, events.csv and key-frames/");
+  add_json_flag(options, a.json, "run.schema.json");
+}
+
+/// What the script does, and how deep the tools are.
+void show_tools(const ScriptedRun& run) {
+  const double now = seconds(run.model, run.state);
+  const auto s = static_cast<std::size_t>(run.hands.step);
+  if (s >= run.plan.script.steps.size()) return;
+  std::string tools;
+  for (std::size_t t = 0; t < run.model.tools.size(); ++t)
+    tools += fmt::format("  {} {:.0f} mm {:.2f} N", run.model.tools[t].name, 1e3 * run.state.rods.rods[t].inserted_m,
+                         run.report.tools[t].wall_force_N);
+  show_progress(fmt::format("{:7.1f} s  {}{}", now, run.plan.script.steps[s].words(), tools));
+}
+
+RecorderOptions recorder_of(const RunArguments& a) {
+  RecorderOptions recorder;
+  recorder.mode = a.folder.empty() || a.record == "none" ? RecordMode::none
+                  : a.record == "events"                 ? RecordMode::events
+                                                         : RecordMode::full;
+  if (a.folder.empty()) return recorder;
+  make_folder(a.folder);
+  recorder.file = (fs::path(a.folder) / "run.h5").string();
+  return recorder;
+}
+
+/// With the sizes that fit it chosen.
+std::shared_ptr<const Vessel> build_vessel(RunSetup& setup) {
+  show_progress("building " + setup.vessel);
+  std::string warnings;
+  const auto vessel = make_vessel(setup, warnings);
+  if (!warnings.empty())
+    fmt::print(stderr, "ostium run: of {}, near whose faults nothing is held back:\n{}", setup.vessel, warnings);
+  for (const std::string& size : choose_sizes(*vessel, setup)) fmt::print(stderr, "{}, chosen by the vessel\n", size);
+  return vessel;
+}
+
+PlayOptions play_options(const RunArguments& a, DeviceRun* device) {
+  PlayOptions options;
+  options.recorder = recorder_of(a);
+  options.real = a.speed == "real" || (device && device->real());
+  options.seconds = a.session.seconds;
+  options.progress = [device](const ScriptedRun& now) {
+    const std::string_view problem = device ? advice(device->hand().now()) : "";
+    if (problem.empty())
+      show_tools(now);
+    else
+      show_progress(fmt::format("{:7.1f} s  {}", seconds(now.model, now.state), problem));
+  };
+  options.stop = &interrupted;
+  return options;
+}
+
+void tell(const RunArguments& a, const RunSetup& setup, const ScriptedRun& run, const PlayReport& report,
+          const std::string& file, const DeviceRun* device) {
+  if (a.json) {
+    auto out = to_json(setup, run, report, file);
+    if (device) out["device"] = to_json(device->hand());
+    fmt::print("{}\n", out.dump(2));
+  } else {
+    print_report(run, report, file);
+    if (device) print_report(device->hand());
+  }
+}
+
+}  // namespace
+
+int run_script(const RunArguments& a) {
+  if (std::string why; a.in_window() && !has_display(why))
+    throw LoadError("there is no window here (" + why + "); expected a display, or --display none with a script");
+  RunSetup setup = setup_of(a.session);
+  const auto device = device_of(a, setup);
+  const PlayOptions options = play_options(a, device.get());
+  const auto vessel = build_vessel(setup);
+  ScriptedRun run(setup, vessel);
+  stop_on_signals();
+  Drivers drivers(a, device.get(), run);
+  const PlayReport report = play_with(drivers, a, device.get(), run, setup, options);
+  const std::string film_problem = drivers.film ? drivers.film->finish() : "";
+  show_progress("");
+  const bool recorded = options.recorder.mode != RecordMode::none;
+  if (!a.folder.empty())
+    write_file((fs::path(a.folder) / "metrics.json").string(),
+               metrics_json(setup.vessel, setup.seed, report.outcome, report.reason, report.metrics));
+  tell(a, setup, run, report, recorded ? options.recorder.file : "", device.get());
+  if (!film_problem.empty()) fmt::print(stderr, "ostium run: no film: {}\n", film_problem);
+  if (a.report && recorded && report.problem.empty()) report_folder(a.folder, vessel);
+  if (!report.problem.empty()) {
+    fmt::print(stderr, "ostium run: the recording ends early: {}\n", report.problem);
+    return 1;
+  }
+  return report.outcome == "success" ? 0 : 1;
+}
+
+Command run_command() {
+  return make_command("run", "Runs a script on a case, or in a mesh",
+                      {"ostium run rca-mid-focal --script aorta-arch-wire --out out",
+                       "ostium run lad-proximal-eccentric --set wire=bentson --set person=3 --seed 7 --json",
+                       "ostium run rca-mid-focal --script jr4-engages-rca --device usb --out out",
+                       "ostium run rca-mid-focal --script jr4-engages-rca --device keyboard --out out",
+                       "ostium run aorta.obj --entry -20,80,14 --towards -20,90,14 --script my-script.json"},
+                      declare, run_script);
+}
+
+}  // namespace ostium

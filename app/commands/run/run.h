@@ -1,0 +1,26 @@
+#pragma once
+#include "app/commands/run/session_arguments.h"
+
+namespace ostium {
+
+struct RunArguments {
+  SessionArguments session;
+  std::string folder;            ///< where recording and metrics go; empty: nowhere
+  std::string record = "full";   ///< none, events, full
+  std::string speed = "max";     ///< real: paced at 1 kHz
+  std::string device;            ///< empty: the script moves the tools; auto, usb, emulator: hands at a tracking box;
+                                 ///< keyboard: hands at keyboard, mouse or gamepad, in the window
+  std::string display = "none";  ///< or window
+  std::string last_frame;        ///< the window's last picture goes into this PNG; empty: nowhere
+  std::string serial;            ///< of the box
+  bool film = false;             ///< DIR/procedure.mp4
+  bool report = false;           ///< DIR/report.html, events.csv, key-frames/
+  bool json = false;
+
+  bool in_window() const { return display == "window" || device == "keyboard"; }
+};
+
+/// Exit code: 0 if the script succeeded. Throws LoadError or MeshError.
+int run_script(const RunArguments& arguments);
+
+}  // namespace ostium

@@ -1,0 +1,56 @@
+#include "app/commands/run/session_arguments.h"
+
+#include <fmt/format.h>
+
+#include "app/commands/arguments.h"
+#include "app/commands/common_options.h"
+#include "data/formats/load_error.h"
+#include "vascular/geometry/repair/units.h"
+
+namespace ostium {
+
+void add_session_options(Options& options, SessionArguments& a) {
+  options.add("--script", a.script, "One of `ostium scripts`, or a file").type("NAME|FILE").show_default();
+  options
+      .add("--set", a.set,
+           "A tool's instrument (NAME or FILE.json), or person, heart_rate, breathing (breaths a minute), hand_speed, "
+           "friction, begin (an artery), stuck (a tool whose drive is out)")
+      .type("KEY=VALUE");
+  options.add("--seconds", a.seconds, "Most that are simulated").range(0.001, 36000.0);
+  add_unit_option(options, a.unit, "What a number in a mesh means");
+  options.add("--entry", a.entry, "Of a mesh: where instruments come in").type("X,Y,Z");
+  options.add("--towards", a.towards, "Of a mesh: a point that the way in leads to").type("X,Y,Z");
+}
+
+namespace {
+
+/// "X,Y,Z" in the mesh's unit.
+Eigen::Vector3d point(const std::string& text, const char* option, LengthUnit unit) {
+  if (const auto numbers = three_numbers(text)) return metres(unit) * *numbers;
+  throw LoadError(fmt::format("{} is \"{}\"; expected three numbers: X,Y,Z", option, text));
+}
+
+}  // namespace
+
+RunSetup setup_of(const SessionArguments& a) {
+  const LengthUnit unit = unit_named(a.unit);
+  RunSetup setup;
+  setup.seed = a.seed;
+  set_vessel(a.vessel, unit, setup);
+  if (setup.is_mesh()) {
+    if (a.entry.empty() || a.towards.empty())
+      throw LoadError(a.vessel + " is a mesh: --entry X,Y,Z and --towards X,Y,Z say where an instrument comes in");
+    setup.entry = {point(a.entry, "--entry", unit), point(a.towards, "--towards", unit)};
+  } else if (!a.entry.empty() || !a.towards.empty()) {
+    throw LoadError("--entry and --towards are for a mesh; a case has its access");
+  }
+  set_script(find_script(a.script), setup);
+  for (const std::string& set : a.set) {
+    const auto [key, value] = key_and_value(set);
+    if (key.empty()) throw LoadError(fmt::format("--set {}: expected KEY=VALUE", set));
+    set_value(key, value, setup);
+  }
+  return setup;
+}
+
+}  // namespace ostium

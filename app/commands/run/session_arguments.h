@@ -1,0 +1,24 @@
+#pragma once
+/// What `run` and `sweep` are told in common: vessel, script, and what is otherwise than there.
+#include "app/commands/options.h"
+#include "app/session/setup.h"
+
+namespace ostium {
+
+struct SessionArguments {
+  std::string vessel;  ///< a case, or a mesh
+  std::string script = "aorta-arch-wire";
+  std::vector<std::string> set;  ///< KEY=VALUE
+  std::uint64_t seed = 0;
+  double seconds = 0;          ///< most that are simulated; 0: until the script ends
+  std::string unit = "mm";     ///< of a mesh
+  std::string entry, towards;  ///< of a mesh: X,Y,Z
+};
+
+/// All but vessel and seed.
+void add_session_options(Options& options, SessionArguments& arguments);
+
+/// What the arguments ask for. Throws LoadError or MeshError.
+RunSetup setup_of(const SessionArguments& arguments);
+
+}  // namespace ostium

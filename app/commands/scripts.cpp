@@ -1,0 +1,45 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "app/commands/command.h"
+#include "app/commands/common_options.h"
+#include "data/script.h"
+
+namespace ostium {
+
+namespace {
+
+struct Arguments {
+  bool json = false;
+};
+
+void declare(Options& options, Arguments& a) { add_json_flag(options, a.json); }
+
+int run(const Arguments& a) {
+  const std::vector<Script> scripts = load_scripts();
+  if (a.json) {
+    auto out = nlohmann::ordered_json::array();
+    for (const Script& s : scripts) {
+      nlohmann::ordered_json tools;
+      for (const ScriptTool& tool : s.tools) tools.push_back({{"name", tool.name}, {"instrument", tool.instrument}});
+      out.push_back({{"name", s.name}, {"title", s.title}, {"steps", s.steps.size()}, {"tools", tools}});
+    }
+    fmt::print("{}\n", out.dump(2));
+    return 0;
+  }
+  std::size_t width = 0;
+  for (const Script& s : scripts) width = std::max(width, s.name.size());
+  for (const Script& s : scripts) fmt::print("{:<{}} {:>2} steps  {}\n", s.name, width, s.steps.size(), s.title);
+  return 0;
+}
+
+}  // namespace
+
+Command scripts_command() {
+  return make_command("scripts", "What scripts there are to run", {"ostium scripts", "ostium scripts --json"}, declare,
+                      run);
+}
+
+}  // namespace ostium

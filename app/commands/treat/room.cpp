@@ -1,0 +1,110 @@
+#include "app/commands/treat/room.h"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "app/angiography/settle.h"
+#include "app/commands/progress.h"
+#include "fluoro/overlay.h"
+
+namespace ostium {
+
+std::string artery_of(const Plan& plan, const FlowTree& tree) {
+  const Territory t = tree.branches[tree.branch(plan.lesion.branch)].territory;
+  return territory_names[static_cast<int>(t)];
+}
+
+namespace {
+
+std::string usual_view(const Plan& plan, const std::string& artery) {
+  if (plan.lesion.branch == "LM") return "spider";
+  return artery == "RCA" ? "lao" : artery == "LCx" ? "rao-caudal" : "lao-cranial";
+}
+
+}  // namespace
+
+TreatmentRoom::TreatmentRoom(const Case& c, const TreatArguments& a)
+    : arguments(a),
+      patient(patient_of(c)),
+      physiology(make_physiology(patient, a.seed)),
+      scene(patient, physiology),
+      plan(plan_treatment(patient, physiology.flow, a.seed,
+                          {.stent = !a.no_stent,
+                           .predilate = !a.no_predilatation,
+                           .postdilate = !a.no_postdilatation,
+                           .oversize = a.oversize,
+                           .pressure = a.pressure,
+                           .shift_m = 1e-3 * a.shift_mm})),
+      bed{physiology,
+          plan.model,
+          at_rest(physiology, c.rate_1_min),
+          make_state(plan.model, physiology.flow.tree),
+          {},
+          {},
+          {},
+          {},
+          {},
+          {}} {
+  bed.inputs.heart.rate_1_min = c.rate_1_min;
+}
+
+View TreatmentRoom::view_on(const Plan& p) const {
+  const std::string artery = artery_of(p, physiology.flow.tree);
+  const bool left = artery != "RCA";
+  View view = view_of(arguments.view.empty() ? usual_view(p, artery) : arguments.view, patient, left, arguments.pixels);
+  view.field_m = 0.16;
+  // What is treated is well within the picture.
+  const int cell = p.path.cells[p.path.at(p.middle_m).index];
+  const Eigen::Vector3d to = scene.map().coronary.position(static_cast<std::size_t>(cell), 0.7) - view.arm.p_PI;
+  constexpr double from_middle_m = 0.035;
+  view.arm.p_PI += std::max(0.0, 1 - from_middle_m / to.norm()) * to;
+  return view;
+}
+
+Bedside TreatmentRoom::opacified(Angiogram& angiogram, bool left) const {
+  // Filmed on a copy: a film changes nothing but the contrast that it needs.
+  Bedside film = bed;
+  film.each_step = nullptr;
+  angiogram.wait_for(0.9, bed.inputs.heart.rate_1_min, film.blood);
+  const Injection injection = usual_injection(physiology.flow.tree, left);
+  ContrastInputs& contrast = film.inputs.contrast;
+  contrast.tip = injection.tip, contrast.iodine_kg_m3 = injection.iodine_kg_m3;
+  std::fill(film.blood.contrast.line_kg.begin(), film.blood.contrast.line_kg.end(),
+            injection.iodine_kg_m3 * contrast.line.dead_m3 / line_cells);
+  contrast.injection_m3_s = injection.rate_m3_s;
+  for (int n = 0; n < 2000 || film.blood.heart.phase < 0.6 || film.blood.heart.phase > 0.75; ++n) film.step();
+  return film;
+}
+
+Picture TreatmentRoom::picture(const Plan& p, const std::string& words, bool with_contrast) {
+  const View view = view_on(p);
+  Angiogram angiogram(physiology, scene, view, 15, arguments.seed + 1);
+  const auto take = [&](const Bedside& now, bool wire) {
+    scene.at(now.blood, now.inputs.occupied_m);
+    add_devices(now, p, patient, scene, wire);
+    return angiogram.take(now.blood.heart.phase);
+  };
+  Picture out =
+      with_contrast ? take(opacified(angiogram, artery_of(p, physiology.flow.tree) != "RCA"), false) : take(bed, true);
+  draw_overlay(
+      {view, cine(15), angiogram.report().frame.exposure, angiogram.fluoroscope().dose, true, words, arguments.of},
+      out);
+  return out;
+}
+
+nlohmann::ordered_json TreatmentRoom::lesion(const Plan& p) {
+  const LesionNumbers n = measure(p, physiology.flow, bed.state.wall);
+  const std::string artery = artery_of(p, physiology.flow.tree);
+  nlohmann::ordered_json out = {{"mld_mm", n.mld_mm},
+                                {"reference_mm", n.reference_mm},
+                                {"stenosis_percent", n.stenosis_percent},
+                                {"ffr_model", n.ffr}};
+  if (arguments.no_pictures) return out;
+  show_progress("counting frames of " + artery);
+  PhysiologyState rest = bed.blood;
+  const TimiCount count = timi_count(physiology, scene, patient, artery, rest, bed.inputs.heart.rate_1_min, 0.9);
+  out["timi_frame_count"] = count.reached ? nlohmann::ordered_json(count.frames) : nlohmann::ordered_json(nullptr);
+  return out;
+}
+
+}  // namespace ostium

@@ -1,0 +1,49 @@
+#pragma once
+#include <nlohmann/json_fwd.hpp>
+
+#include "app/angiography/devices.h"
+#include "data/catalogue/case/case.h"
+#include "fluoro/display.h"
+
+namespace ostium {
+
+struct TreatArguments {
+  std::string of = "rca-mid-focal";   ///< case
+  double hold_s = 20;                 ///< of each inflation
+  double pressure = 1, oversize = 1;  ///< of what is usual
+  double shift_mm = 0;                ///< beside the lesion, distally
+  bool no_stent = false, no_predilatation = false, no_postdilatation = false, no_pictures = false, json = false;
+  std::string view;
+  int pixels = 512;
+  std::uint64_t seed = 0;
+  std::string out = "treat.png";
+};
+
+/// LAD, LCx or RCA.
+std::string artery_of(const Plan& plan, const FlowTree& tree);
+
+/// One patient on the table.
+class TreatmentRoom {
+ public:
+  /// Keeps a reference to the arguments.
+  TreatmentRoom(const Case& c, const TreatArguments& a);
+
+  /// `words`: which moment it is. With contrast, or as it stands and with the wire.
+  Picture picture(const Plan& p, const std::string& words, bool with_contrast);
+  /// The lesion in numbers, as it is now.
+  nlohmann::ordered_json lesion(const Plan& p);
+
+  const TreatArguments& arguments;
+  Patient patient;
+  PhysiologyModel physiology;
+  PatientScene scene;
+  Treatable plan;
+  Bedside bed;
+
+ private:
+  View view_on(const Plan& p) const;
+  /// A copy of what is, with the coronary full of contrast.
+  Bedside opacified(Angiogram& angiogram, bool left) const;
+};
+
+}  // namespace ostium

@@ -1,0 +1,166 @@
+#include <fmt/format.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "app/commands/arguments.h"
+#include "app/commands/command.h"
+#include "app/commands/common_options.h"
+#include "app/commands/pictures.h"
+#include "app/commands/progress.h"
+#include "app/commands/treat/report.h"
+#include "app/commands/treat/room.h"
+#include "app/commands/treat/strips.h"
+#include "data/formats/png.h"
+#include "vascular/units.h"
+
+namespace ostium {
+
+namespace {
+
+using json = nlohmann::ordered_json;
+
+void declare(Options& options, TreatArguments& a) {
+  add_case_option(options, a.of);
+  options.add("--hold", a.hold_s, "Seconds of each inflation").range(0.0, 600.0).show_default();
+  options.add("--pressure", a.pressure, "Of what is usual").range(0.1, 3.0).show_default();
+  options.add("--oversize", a.oversize, "Of every device's diameter").range(0.5, 2.0).show_default();
+  options.add("--shift", a.shift_mm, "Devices lie so far beside the lesion, distally, mm").range(-30.0, 30.0);
+  options.flag("--no-stent", a.no_stent, "Balloons alone");
+  options.flag("--no-predilatation", a.no_predilatation, "The stent at once");
+  options.flag("--no-postdilatation", a.no_postdilatation, "The stent's own balloon is the last");
+  options.flag("--no-pictures", a.no_pictures, "Numbers alone, without frame counts");
+  add_view_option(options, a.view);
+  add_pixels_option(options, a.pixels, 256);
+  options.add("--seed", a.seed, "Of what happens by chance").show_default();
+  add_json_flag(options, a.json);
+  options.add("-o,--out", a.out, "FILE.png: before, while inflating, after, and the strips").show_default();
+}
+
+constexpr double before_s = 2, recovers_s = 10;  // of the strips, beside the inflation
+
+void step(TreatmentRoom& room, double seconds) {
+  for (int n = 0; n < 1000 * seconds; ++n) room.bed.step();
+}
+
+/// As an operator begins: blood thinned, arteries wide.
+void prepare(TreatmentRoom& room) {
+  room.bed.device.doses = {.heparin_U = 100 * room.plan.model.drugs.weight_kg, .nitrate_ug = 200};
+  room.bed.step();
+  room.bed.device.doses = {};
+  step(room, 20);
+}
+
+void tie(TreatmentRoom& room, const Plan& plan, int stent) {
+  tie_to_wall(room.plan.model.stents[stent], room.patient, room.scene.shape(), room.scene.map(), plan.path,
+              room.bed.state.wall, room.bed.blood.heart.phase, room.bed.state.stents[stent]);
+}
+
+bool is_deployed(const TreatmentRoom& room, int stent) {
+  return stent >= 0 && room.bed.state.stents[stent].where == StentState::deployed;
+}
+
+struct Inflated {
+  InflationRecord record;
+  InflationStrips strips;
+};
+
+/// `inflating`: the picture while the waist still stands, in mid-diastole; what is there is kept.
+Inflated inflate_one(TreatmentRoom& room, const Plan& plan, const PlannedInflation& planned, Picture& inflating) {
+  const TreatArguments& a = room.arguments;
+  Bedside& bed = room.bed;
+  const auto& [balloon, gauge] = planned;
+  show_progress(fmt::format("{} at {:.0f} atm", room.plan.model.balloons[balloon].name, gauge / atm));
+  InflationStrips strips(artery_of(plan, room.physiology.flow.tree));
+  bool filmed = a.no_pictures || !inflating.grey.empty();
+  bed.each_step = [&](const Bedside& now) {
+    strips.listen(now);
+    if (!filmed && now.state.balloon.pressure_Pa > 3.5 * atm && std::fabs(now.blood.heart.phase - 0.7) < 0.02) {
+      filmed = true;
+      inflating = room.picture(plan, fmt::format("{:.1f} ATM", now.state.balloon.pressure_Pa / atm), false);
+    }
+  };
+  bed.device.balloon = -1;
+  step(room, before_s);
+  const InflationRecord record = inflate(bed, plan, balloon, gauge, a.hold_s);
+  bed.each_step = nullptr;
+  strips.end(before_s + gauge / (2 * atm) + a.hold_s + recovers_s);
+  if (const int stent = room.plan.model.stent_on[balloon];
+      is_deployed(room, stent) && !is_tied(bed.state.stents[stent]))
+    tie(room, plan, stent);
+  return {record, strips};
+}
+
+/// One lesion from before to after; its sheet of pictures goes to `sheets`.
+json treat_lesion(TreatmentRoom& room, const Plan& plan, std::vector<Picture>& sheets) {
+  const TreatArguments& a = room.arguments;
+  Bedside& bed = room.bed;
+  json lesion = {{"place", fmt::format("{}, {:.0f} to {:.0f} mm", plan.lesion.branch, 1e3 * plan.lesion.from_m,
+                                       1e3 * (plan.lesion.from_m + plan.lesion.length_m))}};
+  lesion["before"] = room.lesion(plan);
+  Picture before, inflating;
+  if (!a.no_pictures) before = room.picture(plan, "BEFORE", true);
+  InflationStrips kept(artery_of(plan, room.physiology.flow.tree));
+  json inflations = json::array();
+  for (const PlannedInflation& planned : inflations_of(plan)) {
+    const Inflated inflated = inflate_one(room, plan, planned, inflating);
+    inflations.push_back(to_json(inflated.record));
+    kept = inflated.strips;
+  }
+  bed.device.balloon = -1;
+  show_progress("blood flows as at rest again");
+  step(room, 60);
+  // Postdilatation moved the wall: the stent's points with it.
+  if (const int stent = plan.stent >= 0 ? room.plan.model.stent_on[plan.stent] : -1; is_deployed(room, stent)) {
+    tie(room, plan, stent);
+    lesion["stent"] = to_json(measure(plan, room.plan.model.stents[stent], bed.state.stents[stent], bed.state.wall));
+  }
+  lesion["after"] = room.lesion(plan);
+  lesion["inflations"] = inflations;
+  if (a.no_pictures) return lesion;
+  Picture sheet = beside(beside(before, inflating), room.picture(plan, "AFTER", true));
+  append_strips(kept.strips, kept.seconds(), a.pixels * 7 / 10, sheet);
+  sheets.push_back(sheet);
+  return lesion;
+}
+
+int run(const TreatArguments& a) {
+  require_ending(a.out, {".png"});
+  if (!a.view.empty()) named_view(a.view);
+  require_finite(
+      {{"--hold", a.hold_s}, {"--pressure", a.pressure}, {"--oversize", a.oversize}, {"--shift", a.shift_mm}});
+  const Case c = find_case(a.of);
+  show_progress("building " + c.name);
+  TreatmentRoom room(c, a);
+  prepare(room);
+  json report = {{"case", c.name}, {"seed", a.seed}, {"act_s", act_s(room.plan.model.drugs, room.bed.state.drugs)}};
+  report["lesions"] = json::array();
+  std::vector<Picture> sheets;
+  for (const Plan& plan : room.plan.plans) report["lesions"].push_back(treat_lesion(room, plan, sheets));
+  report["injuries"] = to_json(room.bed.state.injury, room.physiology.flow.tree);
+  if (!sheets.empty()) {
+    Picture all = sheets.front();
+    for (std::size_t i = 1; i < sheets.size(); ++i) all = stacked(std::move(all), sheets[i]);
+    write_png(a.out, all);
+    report["file"] = a.out;
+  }
+  show_progress("");
+  if (a.json)
+    fmt::print("{}\n", report.dump(2));
+  else
+    print_treatment(report);
+  return 0;
+}
+
+}  // namespace
+
+Command treat_command() {
+  return make_command("treat",
+                      "A case's lesions treated by the book, devices on the centreline: numbers, pictures, strips",
+                      {"ostium treat rca-mid-focal -o rca.png",
+                       "ostium treat lad-proximal-eccentric --oversize 1.3 --seed 4 --no-pictures",
+                       "ostium treat rca-diffuse --json > rca-diffuse.json"},
+                      declare, run);
+}
+
+}  // namespace ostium

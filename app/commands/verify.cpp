@@ -1,0 +1,93 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+
+#include "app/commands/command.h"
+#include "app/commands/common_options.h"
+#include "app/commands/progress.h"
+#include "app/verify/gate.h"
+
+namespace ostium {
+
+namespace {
+
+struct Arguments {
+  std::string only;    ///< a gate's name, or the beginning of several
+  bool quick = false;  ///< fewer elements and cases, the same tolerances
+  bool json = false;
+  bool list = false;  ///< names and what they compare, instead of running
+};
+
+void declare(Options& options, Arguments& a) {
+  options.add("--only", a.only, "Only gates whose name begins with this").type("GATE");
+  options.flag("--quick", a.quick, "Fewer elements and cases, the same tolerances");
+  add_json_flag(options, a.json, "verify.schema.json");
+  options.flag("--list", a.list, "Name the gates and what they compare, without running them");
+}
+
+int unknown_gate(const std::string& only) {
+  fmt::print(stderr, "ostium verify: no gate begins with \"{}\". There are:\n", only);
+  for (const verify::Gate& gate : verify::gates()) fmt::print(stderr, "  {}\n", gate.name);
+  return 2;
+}
+
+void print_list(const std::vector<verify::Gate>& chosen, bool json) {
+  if (json) {
+    std::vector<std::pair<std::string, std::string>> names;
+    for (const verify::Gate& gate : chosen) names.emplace_back(gate.name, gate.what);
+    fmt::print("{}\n", names_to_json(names));
+  } else {
+    for (const verify::Gate& gate : chosen) fmt::print("{:<16} {}\n", gate.name, gate.what);
+  }
+}
+
+/// A result that could not be written is not one.
+int with_output_checked(int code) {
+  if (std::fflush(stdout) == 0 && !std::ferror(stdout)) return code;
+  fmt::print(stderr, "ostium verify: the results could not be written; is the disk full, or the pipe closed?\n");
+  return 1;
+}
+
+/// 0 all pass, 1 one did not, 2 `only` names no gate. Results go to stdout.
+int run(const Arguments& a) {
+  const auto chosen = verify::selected(a.only);
+  if (chosen.empty()) return unknown_gate(a.only);
+  if (a.list) {
+    print_list(chosen, a.json);
+    return with_output_checked(0);
+  }
+  const auto start = std::chrono::steady_clock::now();
+  std::vector<GateResult> results;
+  for (std::size_t i = 0; i < chosen.size(); ++i) {
+    show_progress(fmt::format("[{}/{}] {}", i + 1, chosen.size(), chosen[i].what));
+    const auto found = verify::run(chosen[i], a.only, a.quick);
+    show_progress("");
+    if (!a.json && results.empty() && !found.empty()) fmt::print("{}\n", table_heading());
+    for (const GateResult& result : found) {
+      results.push_back(result);
+      if (!a.json) fmt::print("{}\n", table_line(result));
+    }
+    std::fflush(stdout);
+  }
+  if (results.empty()) return unknown_gate(a.only);
+  if (a.json) {
+    fmt::print("{}\n", to_json(results));
+  } else {
+    const auto passed = std::count_if(results.begin(), results.end(), [](const GateResult& r) { return r.pass(); });
+    fmt::print("{} of {} pass, in {:.1f} s\n", passed, results.size(),
+               std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+  }
+  return with_output_checked(all_pass(results) ? 0 : 1);
+}
+
+}  // namespace
+
+Command verify_command() {
+  return make_command("verify", "Run the physics gates: value, reference, tolerance, pass",
+                      {"ostium verify", "ostium verify --only rod-static", "ostium verify --quick --json > gates.json"},
+                      declare, run);
+}
+
+}  // namespace ostium
