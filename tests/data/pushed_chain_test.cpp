@@ -6,7 +6,7 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
-#include "app/verify/tube.h"
+#include "core/samples/tube.h"
 #include "data/effects/effect.h"
 #include "data/forward/insertion.h"
 #include "tests/support/undeclared_tube.h"

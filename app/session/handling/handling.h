@@ -4,7 +4,7 @@
 /// validated.
 ///
 /// One more: its line in the table of data/events.cpp, where it is found in one of these files, an item in
-/// data/scoring, a test (tests/session/handling_test.cpp).
+/// data/scoring, a test (tests/app/session/handling_test.cpp).
 #include "app/session/handling/catheter_errors.h"
 #include "app/session/handling/device_errors.h"
 #include "app/session/handling/wire_errors.h"
