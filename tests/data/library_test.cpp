@@ -12,7 +12,7 @@
 #include "data/forward/prediction.h"
 #include "data/instrument_reader.h"
 #include "data/measured/measurement_reader.h"
-#include "tests/campaign/judged.h"
+#include "tests/support/judged.h"
 #include "tests/support/undeclared.h"
 
 namespace ostium {

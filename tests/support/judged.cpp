@@ -1,4 +1,4 @@
-#include "tests/campaign/judged.h"
+#include "tests/support/judged.h"
 
 #include <fmt/format.h>
 #include <unistd.h>
