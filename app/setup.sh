@@ -1,11 +1,12 @@
 # shellcheck shell=bash
-# Read by app/run and tests/run: `prepare TARGET` installs the missing packages,
-# configures build/ where that is needed and builds TARGET there. It is silent
-# where there is nothing to do, and writes to stderr only.
+# Read by app/run and tests/run: `prepare TARGET...` installs the missing packages,
+# configures the build folder where that is needed and builds the targets there.
+# It is silent where there is nothing to do, and writes to stderr only.
 
 root=$(readlink -f "${BASH_SOURCE[0]}")
 root=${root%/*/*}
-build=$root/build
+build=$root/build # build_in FOLDER OPTION... takes another
+options=()
 stamp=$build/.configured-with # written last, so present only after a whole configure
 libraries=(Eigen3 nlohmann_json CLI11 fmt assimp GTest PNG DCMTK PkgConfig GSL Ceres MPI ZLIB TBB Imath) # those of packages.txt, as CMake calls them
 headers=(xxhash.h GL/osmesa.h xraylib/xraylib.h cairo/cairo.h boost/version.hpp openvdb/openvdb.h hdf5/serial/hdf5.h libusb-1.0/libusb.h) # and those that CMake has no name for
@@ -21,6 +22,13 @@ die() {
   say "$1"
   say "cure: $2"
   exit 1
+}
+
+# build_in FOLDER OPTION...: builds there, configured with options of CMake.
+build_in() {
+  build=$root/$1 stamp=$root/$1/.configured-with
+  shift
+  options=("$@")
 }
 
 # lock DESCRIPTOR FOLDER WHY: waits for its turn. The lock lives as long as any
@@ -145,11 +153,12 @@ describe_tools() {
   tools="$root
 $generator
 cmake $(command -v cmake || true) $cmake_version
-$compiler_version"
+$compiler_version${options[*]:+
+${options[*]}}"
 }
 
 # The stamp tells of a moved folder and of changed tools; the cache tells of
-# someone who configured build/ by hand in the meantime.
+# someone who configured the folder by hand in the meantime.
 configured() {
   [[ -f $stamp && $(<"$stamp") == "$tools" ]] || return 1
   [[ -f $build/build.ninja || -f $build/Makefile ]] || return 1
@@ -225,19 +234,19 @@ END
 configure() {
   check_tools # first: a mistaken CXX or PATH must not cost a good build
   if [[ -e $build && -n $(ls -A "$build" 2>/dev/null) ]]; then
-    say "starting build/ afresh: it was not finished, was moved, or was made with other tools"
+    say "starting ${build##*/}/ afresh: it was not finished, was moved, or was made with other tools"
   fi
   # The stamp goes first: a removal that is killed half way must not look whole.
   if ! { rm -f "$stamp" && rm -rf "$build" && mkdir "$build"; }; then
     die "$build cannot be made anew (by $(id -un))" \
-      "make this folder yours (chown -R), or remove build/ as the user who made it"
+      "make this folder yours (chown -R), or remove ${build##*/}/ as the user who made it"
   fi
-  say "configuring (Release, $generator, $compiler_version)"
+  say "configuring (Release${options[*]:+ ${options[*]}}, $generator, $compiler_version)"
   if ! quietly "$build/configure.log" cmake -S "$root" -B "$build" -G "$generator" \
-    -DCMAKE_BUILD_TYPE:STRING=Release; then
+    -DCMAKE_BUILD_TYPE:STRING=Release "${options[@]}"; then
     show "$build/configure.log"
     die "cmake could not configure the build (its words are above)" \
-      "mend what they name and call this again; it starts from an empty build/"
+      "mend what they name and call this again; it starts from an empty ${build##*/}/"
   fi
   printf '%s\n' "$tools" >"$stamp"
 }
@@ -245,9 +254,9 @@ configure() {
 # ---- building ---------------------------------------------------------------
 
 build_target() {
-  local command=(cmake --build "$build" --target "$1") log=$build/build.log
+  local command=(cmake --build "$build" --target "$@") log=$build/build.log
   [[ -w $build ]] || die "$build belongs to another user, and $(id -un) cannot write there" \
-    "make this folder yours (chown -R), or remove build/ as the user who made it"
+    "make this folder yours (chown -R), or remove ${build##*/}/ as the user who made it"
 
   # Ninja knows after a kill which files are unfinished; make does not.
   local unfinished=$build/.unfinished
@@ -270,5 +279,5 @@ prepare() {
   hash -r # programs may just have been installed
   describe_tools
   configured || configure
-  build_target "$1"
+  build_target "$@"
 }

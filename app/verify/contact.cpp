@@ -5,8 +5,8 @@
 #include <numbers>
 
 #include "app/verify/gate.h"
-#include "app/verify/steel_wire.h"
-#include "app/verify/tube.h"
+#include "core/samples/steel_wire.h"
+#include "core/samples/tube.h"
 
 namespace ostium::verify {
 

@@ -7,7 +7,7 @@
 #include <numbers>
 #include <random>
 
-#include "app/verify/steel_wire.h"
+#include "core/samples/steel_wire.h"
 #include "data/catalogue/catalogue.h"
 
 namespace ostium::verify {

@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "app/verify/gate.h"
-#include "app/verify/steel_wire.h"
 #include "core/energy.h"
+#include "core/samples/steel_wire.h"
 
 namespace ostium::verify {
 

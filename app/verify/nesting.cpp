@@ -7,7 +7,7 @@
 #include <numbers>
 
 #include "app/verify/gate.h"
-#include "app/verify/steel_wire.h"
+#include "core/samples/steel_wire.h"
 
 namespace ostium::verify {
 

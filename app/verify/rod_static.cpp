@@ -1,7 +1,7 @@
 /// Horizontal cantilever under its own weight at rest, found by the static solver from the straight shape. References:
 /// the exact elastica, EI theta'' = w (L - s) cos(theta).
 #include "app/verify/gate.h"
-#include "app/verify/steel_wire.h"
+#include "core/samples/steel_wire.h"
 
 namespace ostium::verify {
 

@@ -8,7 +8,7 @@
 #include <thread>
 
 #include "app/verify/gate.h"
-#include "app/verify/steel_wire.h"
+#include "core/samples/steel_wire.h"
 #include "fluoro/fluoroscope.h"
 #include "fluoro/phantom/chest.h"
 #include "tests/bench/angle_opacity.h"

@@ -5,7 +5,7 @@
 
 #include "app/verify/gate.h"
 #include "app/verify/nesting.h"
-#include "app/verify/steel_wire.h"
+#include "core/samples/steel_wire.h"
 #include "tests/bench/rows.h"
 
 namespace ostium::bench {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "app/verify/steel_wire.h"
+#include "core/samples/steel_wire.h"
 #include "tests/bench/corde.h"
 #include "tests/bench/rows.h"
 

@@ -12,7 +12,7 @@
 #include <stdexcept>
 #include <thread>
 
-#include "tests/campaign/judged.h"
+#include "tests/support/judged.h"
 #include "tests/support/undeclared.h"
 
 namespace {

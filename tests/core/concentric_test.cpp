@@ -7,7 +7,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "app/verify/steel_wire.h"
+#include "core/samples/steel_wire.h"
 #include "core/step.h"
 #include "tests/support/boundary_value.h"
 

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "app/verify/steel_wire.h"
 #include "core/rod/inertia.h"
+#include "core/samples/steel_wire.h"
 
 namespace ostium {
 namespace {

@@ -9,7 +9,7 @@
 #include <string_view>
 #include <utility>
 
-#include "app/verify/steel_wire.h"
+#include "core/samples/steel_wire.h"
 
 namespace ostium {
 namespace {

@@ -9,11 +9,10 @@
 #include <numbers>
 #include <stdexcept>
 
-#include "app/verify/nesting.h"
-#include "app/verify/steel_wire.h"
 #include "core/rod/introducer.h"
+#include "core/samples/steel_wire.h"
 #include "core/step.h"
-#include "tests/core/allocations.h"
+#include "tests/support/allocations.h"
 
 namespace ostium {
 namespace {
@@ -59,10 +58,6 @@ Inputs hand(int step) {
   inputs.rods[1].feed_m_s = 0.05 * std::sin(5 * t);
   inputs.rods[1].base.turn_rate_W_rad_s = Vector3d(6, 0, 0);
   return inputs;
-}
-
-TEST(Nesting, WithoutTheBindingEveryGateFails) {
-  for (const GateResult& gate : verify::nesting_with(true, false)) EXPECT_FALSE(gate.pass()) << gate.gate;
 }
 
 TEST(Nesting, ANestThatCannotBeIsRefused) {

@@ -5,10 +5,10 @@
 #include <cmath>
 #include <numbers>
 
-#include "app/verify/steel_wire.h"
+#include "core/samples/steel_wire.h"
 #include "core/state.h"
 #include "core/step.h"
-#include "tests/core/allocations.h"
+#include "tests/support/allocations.h"
 
 namespace ostium {
 namespace {

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "app/verify/steel_wire.h"
+#include "core/samples/steel_wire.h"
 
 namespace ostium {
 namespace {

@@ -10,8 +10,8 @@
 #include <stdexcept>
 #include <thread>
 
-#include "app/verify/steel_wire.h"
-#include "tests/core/allocations.h"
+#include "core/samples/steel_wire.h"
+#include "tests/support/allocations.h"
 
 namespace ostium {
 namespace {

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "app/verify/tube.h"
+#include "core/samples/tube.h"
 #include "data/identification/forward/prediction.h"
 #include "tests/support/synthetic_set.h"
 

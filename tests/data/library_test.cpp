@@ -12,7 +12,7 @@
 #include "data/identification/measurement/measurement_reader.h"
 #include "data/identification/report/explanation_report.h"
 #include "data/identification/selection/explain.h"
-#include "tests/campaign/judged.h"
+#include "tests/support/judged.h"
 #include "tests/support/undeclared.h"
 
 namespace ostium {

@@ -6,7 +6,7 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
-#include "app/verify/tube.h"
+#include "core/samples/tube.h"
 #include "data/identification/effects/effect_list.h"
 #include "data/identification/forward/curve.h"
 #include "data/identification/forward/insertion.h"

@@ -1,6 +1,6 @@
 /// What only an insertion shows: sets pushed into a tube by an independent solver (tests/support/pushed_chain.h), with
 /// a friction or a wall that their file does not declare, are given the right name and number.
-#include "app/verify/tube.h"
+#include "core/samples/tube.h"
 
 #include <gtest/gtest.h>
 

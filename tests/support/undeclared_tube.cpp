@@ -4,7 +4,7 @@
 #include <numbers>
 #include <stdexcept>
 
-#include "app/verify/tube.h"
+#include "core/samples/tube.h"
 #include "tests/support/dice.h"
 #include "tests/support/pushed_chain.h"
 

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/core/allocations.cpp"  // counts this program's allocations
+#include "tests/support/allocations.h"
 #include "vascular/treatment.h"
 #include "vascular/units.h"
 

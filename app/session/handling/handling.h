@@ -4,7 +4,7 @@
 /// none is validated.
 ///
 /// One more: its row in data/assessment/events.def, its class in the file of its group (errors.h), an item in
-/// data/scoring, a test (tests/session/handling_test.cpp).
+/// data/scoring, a test (tests/app/session/handling_test.cpp).
 #include <memory>
 
 #include "app/session/handling/scene.h"

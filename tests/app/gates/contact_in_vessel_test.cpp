@@ -1,0 +1,163 @@
+/// Walls and contact in the test vessel of the gates, which beats and has branches; a wire and a guide of the
+/// catalogue.
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "app/verify/drives.h"
+#include "core/math/rotation.h"
+#include "core/surface/pose.h"
+#include "tests/support/allocations.h"
+#include "tests/support/nearest_corner.h"
+
+namespace ostium {
+namespace {
+
+using Eigen::Vector3d;
+
+/// Of the corners, at both ends of the step, of the clusters that were found.
+double nearest_found_m(const Surface& surface, const std::vector<int>& found, SurfacePose& pose, const Vector3d& p) {
+  double nearest_m = 1;
+  for (int c : found)
+    for (const auto* corners : {&pose_of(surface, c, pose).before, &pose_of(surface, c, pose).after})
+      nearest_m = std::min(nearest_m, nearest_corner_m(*corners, p));
+  return nearest_m;
+}
+
+/// The boxes hold a cluster through all of an interval, so a query misses nothing.
+TEST(Surface, AQueryFindsWhatIsNearAtAnyMoment) {
+  const verify::TestVessel vessel = verify::test_vessel();
+  const Surface surface = make_surface(vessel.wall);
+  SurfacePose pose(surface);
+  std::vector<int> found;
+  found.reserve(surface.clusters.size());
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> u(0, 1);
+  for (int n = 0; n < 300; ++n) {
+    SurfaceMotion motion;
+    motion.frame_before = 24 * u(random), motion.frame_after = motion.frame_before + u(random);
+    set_motion(surface, motion, pose);
+    const auto& corner = vessel.wall.triangles[random() % vessel.wall.triangles.size()];
+    const Vector3d p = vertex_at(vessel.wall, corner[0], n % 2 ? motion.frame_before : motion.frame_after);
+    const V3<double> q = from_eigen(p), pad{1e-4, 1e-4, 1e-4};
+    find_clusters(surface, q - pad, q + pad, pose, found);
+    EXPECT_LT(nearest_found_m(surface, found, pose, p), 1e-6) << n;
+  }
+}
+
+/// Of a beating vessel, too; and what does not sway now is to the bit what cannot.
+TEST(Surface, WhatBeatsAndSwaysIsFoundAtAnyMoment) {
+  const verify::TestVessel vessel = verify::test_vessel();
+  SurfaceDescription d = vessel.wall;
+  for (const Vector3d& p : d.frames[0])
+    d.sway.push_back(Vector3d(3e-3, -4e-3, 2e-3) + 0.1 * Vector3d(p.y(), p.z(), p.x()));
+  const Surface still = make_surface(vessel.wall), surface = make_surface(d);
+  SurfacePose pose(surface), still_pose(still);
+  std::vector<int> found, still_found;
+  found.reserve(surface.clusters.size()), still_found.reserve(surface.clusters.size());
+  std::mt19937 random(4);
+  std::uniform_real_distribution<double> u(0, 1);
+  for (int n = 0; n < 300; ++n) {
+    SurfaceMotion motion;
+    motion.frame_before = 24 * u(random), motion.frame_after = motion.frame_before + u(random);
+    motion.sway_before = u(random), motion.sway_after = u(random);
+    set_motion(surface, motion, pose);
+    const int v = d.triangles[random() % d.triangles.size()][0];
+    const Vector3d p = n % 2 ? vertex_at(d, v, motion.frame_before, motion.sway_before)
+                             : vertex_at(d, v, motion.frame_after, motion.sway_after);
+    const V3<double> q = from_eigen(p), pad{1e-6, 1e-6, 1e-6};
+    find_clusters(surface, q - pad, q + pad, pose, found);
+    EXPECT_LT(nearest_found_m(surface, found, pose, p), 1e-6) << n;
+
+    motion.sway_before = motion.sway_after = 0;
+    set_motion(surface, motion, pose), set_motion(still, motion, still_pose);
+    const V3<double> at = from_eigen(vertex_at(d, v, motion.frame_before)), wide{5e-3, 5e-3, 5e-3};
+    find_clusters(surface, at - wide, at + wide, pose, found);
+    find_clusters(still, at - wide, at + wide, still_pose, still_found);
+    ASSERT_EQ(found, still_found);
+    for (int c : found) {
+      const ClusterPose &a = pose_of(surface, c, pose), &b = pose_of(still, c, still_pose);
+      for (int i = 0; i < a.after.size(); ++i) ASSERT_EQ(Vector3d(a.after[i]), Vector3d(b.after[i]));
+    }
+  }
+}
+
+/// Vertices that are placed anew are found where they are; placed back, the surface is what it was to the bit.
+TEST(Surface, VerticesArePlacedAnewAndBack) {
+  const verify::TestVessel vessel = verify::test_vessel();
+  const Surface before = make_surface(vessel.wall);
+  Surface surface = before;
+  SurfaceEditor editor(vessel.wall, surface);
+  SurfaceDescription opened = vessel.wall;
+  for (auto& frame : opened.frames)
+    for (std::size_t v = 0; v < frame.size(); v += 3) frame[v] += Vector3d(0.5e-3, -0.3e-3, 0.2e-3);
+  const auto place = [&](const SurfaceDescription& d) {
+    for (int f = 0; f < static_cast<int>(d.frames.size()); ++f)
+      for (int v = 0; v < static_cast<int>(d.frames[0].size()); ++v) editor.place(v, f, d.frames[f][v]);
+    editor.refit();
+  };
+  place(opened);
+  EXPECT_NE(surface.corner_frames, before.corner_frames);
+  SurfacePose pose(surface);
+  std::vector<int> found;
+  found.reserve(surface.clusters.size());
+  for (int v = 0; v < static_cast<int>(opened.frames[0].size()); v += 97) {
+    SurfaceMotion motion;
+    motion.frame_before = 0.37 * v, motion.frame_after = motion.frame_before + 0.2;
+    set_motion(surface, motion, pose);
+    const V3<double> q = from_eigen(vertex_at(opened, v, motion.frame_before)), pad{1e-5, 1e-5, 1e-5};
+    find_clusters(surface, q - pad, q + pad, pose, found);
+    double nearest_m = 1;
+    for (int c : found)
+      nearest_m = std::min(nearest_m, nearest_corner_m(pose_of(surface, c, pose).before, to_eigen(q)));
+    EXPECT_LT(nearest_m, 1e-6) << v;
+  }
+  place(vessel.wall);
+  EXPECT_EQ(surface.corner_frames, before.corner_frames);
+  for (std::size_t b = 0; b < before.boxes.size(); ++b) {
+    ASSERT_EQ(surface.boxes[b].low, before.boxes[b].low);
+    ASSERT_EQ(surface.boxes[b].high, before.boxes[b].high);
+  }
+}
+
+TEST(Contact, AStepDoesNotAllocateAndIsBitIdentical) {
+  const verify::TestVessel vessel = verify::test_vessel();
+  verify::Rehearsal a(vessel, false), b(vessel, false);
+  for (verify::Rehearsal* run : {&a, &b}) {
+    run->lay_wire(vessel.ways_W[0], 0.42);
+    run->inputs.rods[0].feed_m_s = 0.02;
+    run->inputs.rods[0].base.turn_rate_W_rad_s = Vector3d(6, 0, 0);
+  }
+  for (int n = 0; n < 300; ++n) a.step(75), b.step(75);
+  EXPECT_EQ(hash(a.state), hash(b.state));
+  b.scratch = Scratch(b.model);  // nothing is lost with it
+  long allocated = 0;
+  for (int n = 0; n < 300; ++n) {
+    const long before = allocations();
+    a.step(75);
+    allocated += allocations() - before;
+    b.step(75);
+  }
+  EXPECT_EQ(first_difference(a.state, b.state), "");
+  EXPECT_LT(allocated, 10) << "the list of touches grows at first";
+}
+
+/// A wire in a branch that beats, driven at random; whether it is still inside is for the triangles to say.
+TEST(Contact, AWireStaysInABeatingBranch) {
+  const verify::TestVessel vessel = verify::test_vessel();
+  const verify::Holding held = verify::random_drive(vessel, 5, 2);
+  EXPECT_EQ(held.escapes, 0);
+  EXPECT_LT(held.deepest_m, 0.178e-3);
+}
+
+/// The same without what is between both ends of a step: wires escape.
+TEST(Contact, WithoutTheSweepWiresEscape) {
+  const verify::TestVessel vessel = verify::test_vessel();
+  int escapes = 0;
+  for (int seed : {1, 3, 5})
+    escapes += verify::random_drive(vessel, static_cast<std::uint64_t>(seed), 2, false).escapes;
+  EXPECT_GT(escapes, 0);
+}
+
+}  // namespace
+}  // namespace ostium

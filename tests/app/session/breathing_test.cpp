@@ -1,0 +1,145 @@
+/// A patient who breathes: the wall, the operator's way and the picture move by what the anatomy says, instruments stay
+/// inside, a recording replays to the bit; and a breath that is held is what it was.
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <filesystem>
+
+#include "app/session/film.h"
+#include "app/session/penetration.h"
+#include "app/session/play.h"
+#include "app/session/replay.h"
+#include "data/formats/load_error.h"
+#include "tests/app/session/tube_vessel.h"
+
+namespace ostium {
+namespace {
+
+namespace fs = std::filesystem;
+
+const char* const at_the_ostium = R"({
+  "schema": "ostium-script/1", "name": "at-the-ostium", "title": "A test",
+  "tools": [ { "name": "guide", "instrument": "guide-jr4-6f" }, { "name": "wire", "instrument": "wire-014-workhorse" } ],
+  "steps": [
+    { "do": "advance", "tool": "guide", "speed_mm_s": 15, "until": [{ "inserted_mm": 17 }], "timeout_s": 3 },
+    { "do": "advance", "tool": "wire", "speed_mm_s": 40, "turn_deg_s": 90, "until": [{ "inserted_mm": 60 }],
+      "timeout_s": 4 },
+    { "do": "wait", "until": [{ "seconds": 0.5 }] }
+  ]
+})";
+
+/// 40 breaths a minute: a top every 1.5 s, the first after 0.75 s.
+RunSetup setup(const char* breathing) {
+  RunSetup out;
+  set_vessel("rca-mid-focal", LengthUnit::millimetre, out);
+  set_script(read_script("at-the-ostium.json", at_the_ostium), out);
+  set_value("begin", "RCA", out);
+  if (*breathing) set_value("breathing", breathing, out);
+  return out;
+}
+
+std::shared_ptr<const Vessel> vessel() {
+  static const std::shared_ptr<const Vessel> made = [] {
+    std::string warnings;
+    return make_vessel(setup(""), warnings);
+  }();
+  return made;
+}
+
+TEST(Breathing, InstrumentsStayInsideAndTheRecordingReplays) {
+  const fs::path folder = fs::temp_directory_path() / ("ostium-breath-" + std::to_string(getpid()));
+  fs::create_directories(folder);
+  const std::string file = (folder / "run.h5").string();
+  PlayOptions options;
+  options.recorder = {RecordMode::full, file, true};
+  ScriptedRun run(setup("40"), vessel());
+  const PlayReport report = play(run, setup("40"), options);
+  EXPECT_EQ(report.outcome, "success") << report.reason;
+  EXPECT_EQ(report.penetration.outside, 0);
+  EXPECT_LT(report.penetration.deepest_m, 0.05e-3);
+
+  Replay replay(file, vessel());
+  EXPECT_EQ(replay.setup.breaths_1_min, 40);
+  EXPECT_FALSE(verify(replay).first_step);
+  EXPECT_EQ(hash(replay.state), report.hash);
+  const std::vector<std::string> columns = replay.recording.signal_columns();
+  ASSERT_EQ(columns.back(), "breath_depth");
+  const std::vector<double> signals = replay.recording.signals();
+  for (std::size_t row = 0; row < signals.size() / columns.size(); ++row) {
+    const double t = signals[row * columns.size()];
+    EXPECT_NEAR(signals[(row + 1) * columns.size() - 1], std::pow(std::sin(EIGEN_PI * t / 1.5), 4), 1e-6);
+  }
+  fs::remove_all(folder);
+}
+
+TEST(Breathing, HeldItIsTheRunThatItWas) {
+  const auto hash_of = [](const char* breathing) {
+    ScriptedRun run(setup(breathing), vessel());
+    while (run.state.rods.step < 1000 && run.tick()) {
+    }
+    return hash(run.state);
+  };
+  const std::uint64_t held = hash_of("");
+  EXPECT_EQ(hash_of("0"), held);
+  EXPECT_NE(hash_of("40"), held);
+}
+
+TEST(Breathing, WallWayAndPictureMoveAsTheAnatomySays) {
+  const RunSetup s = setup("40");
+  const SessionModel model = make_session(s, vessel());
+  SessionState out = make_state(model, 0), in = out;
+  in.rods.step = 750;
+  EXPECT_EQ(breath(model, out), 0);
+  EXPECT_EQ(breath(model, in), 1);
+
+  const Patient& patient = *model.vessel->patient;
+  double farthest = 0;
+  for (std::size_t v = 0; v < patient.lumen.vertices(); v += 11) {
+    const int n = static_cast<int>(v);
+    const Eigen::Vector3d moved =
+        wall_vertex(*model.vessel, in.wall_m, n, 5, 1) - wall_vertex(*model.vessel, out.wall_m, n, 5, 0);
+    EXPECT_LT((moved - patient.lumen.breath[v]).norm(), 1e-12);
+    farthest = std::max(farthest, moved.norm());
+  }
+  EXPECT_NEAR(farthest, 5.07e-3, 2.2e-3) << "4.9 mm down, 1.3 mm forward, and what the tilt adds far from the middle";
+
+  const Way& way = *model.vessel->way;
+  for (const char* name : {"RCA+40", "LAD+30", "LCx+20", "arch"}) {
+    const int sphere = way.place(name);
+    const auto& branches = patient.tree.branches;
+    std::size_t b = static_cast<std::size_t>(way.branch(sphere)), first = 0;
+    for (std::size_t before = 0; before < b; ++before) first += branches[before].spheres.size();
+    const Eigen::Vector3d moved = patient.tree_breath[b][static_cast<std::size_t>(sphere) - first];
+    EXPECT_EQ(way.locate(way.p(sphere, 0) + moved, 0, 1), sphere) << name;
+    EXPECT_EQ(moved.norm() > 3e-3, std::string(name) != "arch") << name;
+  }
+
+  FilmOptions look;
+  look.pixels = 128, look.overlay = false;
+  Film film(model, look);
+  SessionInputs inputs;
+  inputs.tools.resize(model.tools.size());
+  inputs.c_arm.p_PI = model.vessel->p_middle;
+  const auto apart = [](const Picture& a, const Picture& b) {
+    double sum = 0;
+    for (std::size_t i = 0; i < a.grey.size(); ++i) sum += std::abs(int(a.grey[i]) - int(b.grey[i]));
+    return sum / static_cast<double>(a.grey.size());
+  };
+  const auto settled = [&](const SessionState& state) {
+    for (int n = 0; n < 8; ++n) film.frame(model, state, inputs);
+    return film.frame(model, state, inputs);
+  };
+  const Picture before = settled(out), again = film.frame(model, out, inputs), breathed_in = settled(in);
+  EXPECT_GT(apart(before, breathed_in), 3 * apart(before, again)) << "more than noise";
+}
+
+TEST(Breathing, WhatCannotBeIsRefused) {
+  RunSetup s = setup("");
+  for (const char* rate : {"2", "61", "-12", "often"}) EXPECT_THROW(set_value("breathing", rate, s), LoadError) << rate;
+  RunSetup mesh = tube_setup();
+  EXPECT_THROW(set_value("breathing", "12", mesh), LoadError) << "nobody knows how a mesh breathes";
+}
+
+}  // namespace
+}  // namespace ostium

@@ -1,0 +1,94 @@
+/// Pictures of a session: on which steps they fall, what they show, whose dose they take.
+#include "app/session/film.h"
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <cmath>
+#include <thread>
+#include <vector>
+
+#include "app/session/filming.h"
+#include "app/session/run.h"
+#include "tests/app/session/tube_vessel.h"
+
+namespace ostium {
+namespace {
+
+TEST(Film, FramesFallOnTheirSteps) {
+  for (double rate : {3.75, 7.5, 15.0, 30.0}) {
+    std::vector<std::uint64_t> steps;
+    for (std::uint64_t s = 1; s <= 4000; ++s)
+      if (is_frame(s, rate, 1e-3)) steps.push_back(s);
+    ASSERT_EQ(steps.size(), static_cast<std::size_t>(4 * rate));
+    for (std::size_t n = 0; n < steps.size(); ++n)
+      EXPECT_EQ(steps[n], static_cast<std::uint64_t>(std::llround(1000 * static_cast<double>(n + 1) / rate)));
+  }
+}
+
+TEST(Film, OfARunShowsTheWireAndIsTheSameTwice) {
+  ScriptedRun run(tube_setup(), tube_vessel());
+  for (int i = 0; i < 1200; ++i) run.tick();
+  FilmOptions options;
+  options.pixels = 256;
+  options.field_m = 0.3;  // the tube reaches beyond 20 cm at the detector
+  options.overlay = false;
+  Film one(run.model, options), two(run.model, options);
+  const Picture a = one.frame(run.model, run.state, run.inputs);
+  EXPECT_EQ(a.grey, two.frame(run.model, run.state, run.inputs).grey);
+  SessionState empty = make_state(run.model, 0);
+  Film three(run.model, options);
+  const Picture without = three.frame(run.model, empty, run.inputs);
+  long darker = 0;
+  for (std::size_t i = 0; i < a.grey.size(); ++i) darker += a.grey[i] + 8 < without.grey[i];
+  EXPECT_GT(darker, 60) << "some 120 mm of a wire of 0.9 mm, on pixels of 1.2 mm, with the same noise";
+}
+
+TEST(Film, FollowsThePedalUnlessItIsOfOneMode) {
+  ScriptedRun run(tube_setup(), tube_vessel());
+  run.tick();
+  FilmOptions options;
+  options.pixels = 64;
+  options.overlay = false;
+  const auto mode_of = [&](std::optional<Mode> mode, double cine_pedal) {
+    options.mode = mode;
+    SessionInputs inputs = run.inputs;
+    inputs.c_arm.fluoroscopy = 0, inputs.c_arm.cine = cine_pedal;
+    Film film(run.model, options);
+    film.frame(run.model, run.state, inputs);
+    return film.run().programme.mode;
+  };
+  EXPECT_EQ(mode_of({}, 0), Mode::fluoroscopy) << "no pedal";
+  EXPECT_EQ(mode_of({}, 1), Mode::cine);
+  EXPECT_EQ(mode_of(Mode::fluoroscopy, 1), Mode::fluoroscopy) << "DICOM has one header for all frames";
+  EXPECT_EQ(mode_of(Mode::cine, 0), Mode::cine);
+}
+
+TEST(Filming, ShowsEachPictureToWhoeverWatchesAlsoWhereTheVideoCannotBeWritten) {
+  ScriptedRun run(tube_setup(), tube_vessel());
+  FilmOptions options;
+  options.pixels = 128;
+  Film same(run.model, options);
+  Filming filming(run.model, "/nowhere/film.mp4", options);
+  Latest<Filmed>& pictures = filming.pictures();
+  int shown = 0;
+  for (; shown < 5; run.tick()) {
+    if (!is_frame(run.state.rods.step, options.frames_per_s, run.model.step_s())) continue;
+    SessionInputs inputs = run.inputs;
+    inputs.c_arm.fluoroscopy = shown % 3 != 2;
+    const Picture drawn = same.frame(run.model, run.state, inputs, run.xrays);
+    EXPECT_EQ(filming.drive(run, inputs), Driven::on);
+    for (int wait = 0; wait < 5000 && !pictures.look(); ++wait)
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    const Filmed& now = pictures.seen();
+    EXPECT_EQ(now.xray_on, shown % 3 != 2);
+    EXPECT_EQ(now.picture.grey, drawn.grey);
+    EXPECT_EQ(now.dose.fluoroscopy_s, same.dose().fluoroscopy_s);
+    ++shown;
+  }
+  EXPECT_EQ(shown, 5);
+  EXPECT_NE(filming.finish(), "");
+}
+
+}  // namespace
+}  // namespace ostium

@@ -1,0 +1,308 @@
+/// Recordings: replayed to the bit, from any second; whole whatever happens to the program or the disk; refused by name
+/// if they are none.
+#include "data/recording/recording.h"
+
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <sys/file.h>
+#include <sys/mman.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <random>
+
+#include "app/session/film.h"
+#include "app/session/play.h"
+#include "app/session/replay.h"
+#include "tests/app/session/tube_vessel.h"
+
+namespace ostium {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A folder that goes when the test does.
+struct Folder {
+  Folder() : path(fs::temp_directory_path() / ("ostium-" + std::to_string(getpid()))) { fs::create_directories(path); }
+  ~Folder() { fs::remove_all(path); }
+  std::string operator()(const char* name) const { return (path / name).string(); }
+  fs::path path;
+};
+
+PlayReport recorded(const std::string& file, RecordMode mode, const RunSetup& setup = tube_setup()) {
+  ScriptedRun run(setup, tube_vessel());
+  PlayOptions options;
+  options.recorder = {mode, file, true};
+  return play(run, setup, options);
+}
+
+std::string refusal(const std::string& file) {
+  try {
+    RecordingReader reader(file);
+  } catch (const LoadError& error) {
+    return error.what();
+  }
+  return "accepted";
+}
+
+TEST(Recording, ReplaysToTheBitFromAnySecond) {
+  const Folder folder;
+  const PlayReport report = recorded(folder("run.h5"), RecordMode::full);
+  EXPECT_EQ(report.problem, "");
+  EXPECT_LT(report.penetration.deepest_m, 0.05e-3);
+  EXPECT_EQ(report.penetration.outside, 0);
+  EXPECT_FALSE(fs::exists(folder("run.h5.next")));
+  for (double from : {0.0, 1.0, 1.7}) {
+    Replay replay(folder("run.h5"));
+    replay.go_to(from);
+    EXPECT_EQ(replay.state.rods.step, static_cast<std::uint64_t>(1000 * std::floor(from)));
+    const VerifyReport verified = verify(replay);
+    EXPECT_FALSE(verified.first_step);
+    EXPECT_EQ(verified.steps, replay.recording.steps() - static_cast<std::size_t>(1000 * std::floor(from)));
+    EXPECT_EQ(hash(replay.state), report.hash);
+  }
+  Replay replay(folder("run.h5"), tube_vessel());
+  EXPECT_THROW(replay.go_to(1e3), LoadError);
+  // Metrics are a function of the record.
+  const std::string end = *replay.recording.end();
+  const std::vector<Metric> again = metrics_of(record_of(replay.recording, replay.model));
+  EXPECT_EQ(nlohmann::json::parse(metrics_json("tube", 0, "success", "", again)), nlohmann::json::parse(end));
+}
+
+/// The overlay's clocks and dose are the run's, whatever of it was drawn.
+TEST(Recording, AFilmOfItsEndSaysWhatTheWholeRunHasUsed) {
+  const Folder folder;
+  const PlayReport report = recorded(folder("run.h5"), RecordMode::full);
+  const auto metric = [&](const std::string& name) {
+    for (const Metric& m : report.metrics)
+      if (m.name == name) return m.value;
+    return -2.0;
+  };
+  Replay replay(folder("run.h5"), tube_vessel());
+  FilmOptions options;
+  options.pixels = 64;
+  Film film(replay.model, options);
+  replay.go_to(report.simulated_s);
+  while (replay.tick()) {
+  }
+  film.frame(replay.model, replay.state, replay.inputs, replay.xrays());
+  EXPECT_GT(metric("dap_Gy_cm2"), 0);
+  EXPECT_NEAR(1e4 * film.dose().dose_area_Gy_m2, metric("dap_Gy_cm2"), 1e-9);
+  EXPECT_NEAR(1e3 * film.dose().kerma_Gy, metric("air_kerma_mGy"), 1e-9);
+  EXPECT_NEAR(film.dose().fluoroscopy_s, metric("fluoroscopy_time_s"), 2e-3);
+  replay.go_to(1);  // back again
+  film.frame(replay.model, replay.state, replay.inputs, replay.xrays());
+  EXPECT_NEAR(1e4 * film.dose().dose_area_Gy_m2 / metric("dap_Gy_cm2"), 1 / report.simulated_s, 0.05);
+}
+
+TEST(Recording, OfEventsAloneReplaysFromTheBeginning) {
+  const Folder folder;
+  const PlayReport report = recorded(folder("run.h5"), RecordMode::events);
+  Replay replay(folder("run.h5"), tube_vessel());
+  EXPECT_THROW(replay.go_to(1.5), LoadError);
+  replay.go_to(0);
+  EXPECT_FALSE(verify(replay).first_step);
+  EXPECT_EQ(hash(replay.state), report.hash);
+}
+
+TEST(Recording, OfAnotherPhysicsIsToldByStepAndField) {
+  const Folder folder;
+  recorded(folder("run.h5"), RecordMode::full);
+  const std::size_t first_touch = [&] {
+    const RecordingReader reader(folder("run.h5"));
+    const std::vector<std::string> columns = reader.signal_columns();
+    const std::size_t at =
+        static_cast<std::size_t>(std::find(columns.begin(), columns.end(), "wire.touches") - columns.begin());
+    const std::vector<double> signals = reader.signals();
+    for (std::size_t row = 0;; ++row)
+      if (signals.at(row * columns.size() + at) > 0) return 10 * row;
+  }();
+  auto slippery = std::make_shared<Vessel>();
+  std::string warnings;
+  const RunSetup setup = tube_setup();
+  const auto made = make_vessel(setup, warnings);
+  slippery->name = made->name, slippery->wall = made->wall, slippery->entry = made->entry;
+  slippery->way = std::make_unique<const Way>(*made->way);
+  const auto wall = std::make_shared<Surface>(*made->surface);
+  wall->friction = 0.2;  // instead of 0.1
+  slippery->surface = wall;
+  Replay replay(folder("run.h5"), slippery);
+  const VerifyReport verified = verify(replay);
+  ASSERT_TRUE(verified.first_step);
+  EXPECT_GE(*verified.first_step + 10, first_touch) << "friction cannot differ before anything is touched";
+  EXPECT_LE(*verified.first_step, first_touch + 20);
+  EXPECT_EQ(verified.field_step % 1000, 0u);
+  EXPECT_EQ(verified.field.rfind("rod 0 (wire), ", 0), 0u) << verified.field;
+}
+
+/// What a child process records until it is killed; it tells by shared memory how far it is.
+TEST(Recording, IsWholeWheneverTheProgramIsKilled) {
+  tube_vessel();  // made before the children are
+  std::mt19937 random(1);
+  auto* now = static_cast<volatile std::uint64_t*>(
+      mmap(nullptr, sizeof(std::uint64_t), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0));
+  ASSERT_NE(now, MAP_FAILED);
+  const Folder folder;
+  for (int kill_at = 0; kill_at < 20; ++kill_at) {
+    *now = 0;
+    const pid_t child = fork();
+    if (child == 0) {
+      const RunSetup setup = tube_setup(there_and_back, static_cast<std::uint64_t>(kill_at + 1));
+      ScriptedRun run(setup, tube_vessel());
+      Recorder recorder({RecordMode::full, folder("run.h5"), false}, run.model, setup, save(run.hands).size());
+      recorder.begin(run.state, run.hands);
+      while (run.tick() || true) {  // goes on standing still when the script is over
+        recorder.add(run.inputs, run.state, run.report, run.hands, run.events);
+        *now = *now + 1;
+        if (*now > 3 * 1000) usleep(200);
+      }
+    }
+    const std::uint64_t until = 600 + random() % 2500;
+    while (*now < until) usleep(50);
+    usleep(random() % 20000);  // anywhere within writing
+    kill(child, SIGKILL);
+    waitpid(child, nullptr, 0);
+    const std::uint64_t reached = *now;
+    ASSERT_NO_THROW({
+      const RecordingReader reader(folder("run.h5"));
+      EXPECT_FALSE(reader.end());
+      // The writer may be as far behind as the blocks that it had no time for; a simulation that runs many times faster
+      // than the clock is ahead by more than one.
+      EXPECT_LE(reader.steps(), reached + 1);
+      EXPECT_EQ(reader.steps() % steps_per_block, 0u);
+      EXPECT_EQ(reader.states(), (reader.steps() + 999) / 1000);
+      reader.inputs(0, reader.steps());
+      if (reader.states()) reader.state(reader.states() - 1);
+    }) << "killed at step "
+       << reached;
+  }
+  munmap(const_cast<std::uint64_t*>(now), sizeof(std::uint64_t));
+}
+
+TEST(Recording, LosesAtMostTheLastSecondInRealTime) {
+  tube_vessel();
+  auto* now = static_cast<volatile std::uint64_t*>(
+      mmap(nullptr, sizeof(std::uint64_t), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0));
+  ASSERT_NE(now, MAP_FAILED);
+  const Folder folder;
+  *now = 0;
+  const pid_t child = fork();
+  if (child == 0) {
+    const RunSetup setup = tube_setup();
+    ScriptedRun run(setup, tube_vessel());
+    PlayOptions options;
+    options.recorder = {RecordMode::full, folder("run.h5"), false};
+    options.real = true;
+    options.progress = [&](const ScriptedRun& r) { *now = r.state.rods.step; };
+    play(run, setup, options);
+    _exit(0);
+  }
+  while (*now < 1600) usleep(1000);
+  kill(child, SIGKILL);
+  waitpid(child, nullptr, 0);
+  const RecordingReader reader(folder("run.h5"));
+  EXPECT_GE(reader.steps() + 1000, *now);
+  munmap(const_cast<std::uint64_t*>(now), sizeof(std::uint64_t));
+}
+
+TEST(Recording, OutlivesAFullDisk) {
+  const Folder folder;
+  recorded(folder("whole.h5"), RecordMode::full);
+  const rlim_t most = fs::file_size(folder("whole.h5")) * 7 / 10;
+  const pid_t child = fork();
+  if (child == 0) {
+    std::signal(SIGXFSZ, SIG_IGN);
+    const rlimit limit{most, most};  // no file may grow beyond this: as a full disk, for one program
+    setrlimit(RLIMIT_FSIZE, &limit);
+    const PlayReport report = recorded(folder("run.h5"), RecordMode::full, tube_setup());
+    _exit(report.problem.find("is the disk full?") != std::string::npos && report.outcome == "success" ? 0 : 1);
+  }
+  int status = 1;
+  waitpid(child, &status, 0);
+  EXPECT_EQ(status, 0) << "the run goes on, and says what happened";
+  EXPECT_FALSE(fs::exists(folder("run.h5.next")));
+  Replay replay(folder("run.h5"), tube_vessel());
+  EXPECT_FALSE(replay.recording.end());
+  EXPECT_GE(replay.recording.steps(), 500u);
+  EXPECT_FALSE(verify(replay).first_step);
+}
+
+TEST(Recording, WhatIsNoneIsRefusedByName) {
+  const Folder folder;
+  EXPECT_NE(refusal(folder("none.h5")).find("there is no such file"), std::string::npos);
+  std::ofstream(folder("text.h5")) << "not HDF5";
+  EXPECT_NE(refusal(folder("text.h5")).find("is no HDF5 file"), std::string::npos);
+  {
+    TableFile foreign = TableFile::create(folder("foreign.h5"));
+    foreign.add_table({"data", NumberType::float64, {}, 3, 10});
+    foreign.close();
+    TableFile older = TableFile::create(folder("older.h5"));
+    older.set_text("schema", "ostium-recording/1");
+    older.set_text("software", "ostium 9.9.9");
+    older.close();
+    TableFile other = TableFile::create(folder("other.h5"));
+    other.set_text("schema", "someone's");
+    other.close();
+  }
+  EXPECT_NE(refusal(folder("foreign.h5")).find("of another program"), std::string::npos);
+  EXPECT_NE(
+      refusal(folder("older.h5"))
+          .find("version 1, written by ostium 9.9.9; this ostium reads version 2, whose state and inputs are laid "
+                "out otherwise"),
+      std::string::npos);
+  EXPECT_NE(refusal(folder("other.h5")).find("schema \"someone's\""), std::string::npos);
+  recorded(folder("run.h5"), RecordMode::events);
+  const auto size = fs::file_size(folder("run.h5"));
+  for (std::uintmax_t part : {size - 100, size / 2, size / 10, std::uintmax_t{100}}) {
+    fs::copy_file(folder("run.h5"), folder("cut.h5"), fs::copy_options::overwrite_existing);
+    fs::resize_file(folder("cut.h5"), part);
+    EXPECT_NE(refusal(folder("cut.h5")).find("cut short, or damaged"), std::string::npos)
+        << part << refusal(folder("cut.h5"));
+  }
+}
+
+/// As h5dump, h5py and the like do, who lock what they look into.
+TEST(Recording, GoesOnWhileSomebodyLooksIntoIt) {
+  const Folder folder;
+  { TableFile::create(folder("run.h5")).close(); }
+  const int reader = open(folder("run.h5").c_str(), O_RDONLY);
+  ASSERT_GE(reader, 0);
+  ASSERT_EQ(flock(reader, LOCK_SH), 0);
+  EXPECT_NO_THROW(TableFile::open(folder("run.h5"), true).close());
+  ::close(reader);
+}
+
+TEST(TableFile, BringsBackWhatWasWritten) {
+  const Folder folder;
+  const std::vector<double> rows = {1, 2, 3, 4, -0.0, 1e300};
+  const std::vector<std::uint64_t> hashes = {0, ~0ULL};
+  {
+    TableFile file = TableFile::create(folder("t.h5"));
+    file.add_table({"rows", NumberType::float64, {"a_m", "b"}, 2, 2});
+    file.add_table({"hashes", NumberType::uint64, {}, 1, 4});
+    file.append("rows", rows.data(), 2);
+    file.append("rows", rows.data() + 4, 1);
+    file.append("hashes", hashes.data(), 2);
+    file.set_text("note", "first");
+    file.set_text("note", "Grüße");
+    file.set_text("empty", "");
+    file.close();
+  }
+  const TableFile file = TableFile::open(folder("t.h5"));
+  EXPECT_EQ(file.numbers("rows", 0, 3), rows);
+  EXPECT_TRUE(std::signbit(file.numbers("rows", 2, 1)[0]));
+  EXPECT_EQ(file.integers("hashes", 0, 2), hashes);
+  EXPECT_EQ(file.columns("rows"), (std::vector<std::string>{"a_m", "b"}));
+  EXPECT_EQ(file.text("note"), "Grüße");
+  EXPECT_EQ(file.text("empty"), "");
+  EXPECT_THROW(file.numbers("rows", 2, 2), LoadError);
+  EXPECT_THROW(file.rows("none"), LoadError);
+}
+
+}  // namespace
+}  // namespace ostium

@@ -1,0 +1,580 @@
+/// A short angioplasty by rods, from ahead of the ostium: contrast, an inflation, the wall it opens, and that all of it
+/// can be gone on with from a saved state.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "app/session/bedside.h"
+#include "app/session/outcome.h"
+#include "app/session/penetration.h"
+#include "app/session/run.h"
+#include "app/session/recorder/event_watch.h"
+#include "app/session/xray_scene.h"
+#include "data/assessment/metrics.h"
+#include "data/catalogue/catalogue.h"
+#include "data/catalogue/instrument/instrument_reader.h"
+#include "data/formats/load_error.h"
+#include "tests/support/allocations.h"
+
+namespace ostium {
+namespace {
+
+const char* const predilatation = R"({
+  "schema": "ostium-script/1", "name": "predilatation", "title": "A test",
+  "tools": [ { "name": "guide", "instrument": "guide-jr4-6f" }, { "name": "balloon", "instrument": "balloon-275x12" },
+             { "name": "stent", "instrument": "stent-325x15" }, { "name": "wire", "instrument": "wire-014-workhorse" } ],
+  "steps": [
+    { "do": "fluoroscopy", "on": true },
+    { "do": "advance", "tool": "guide", "speed_mm_s": 15, "until": [{ "inserted_mm": 17 }], "timeout_s": 3,
+      "label": "into the ostium" },
+    { "do": "inject", "rate_mL_s": 4, "volume_mL": 5, "until": [{ "contrast_in": "RCA+30" }], "timeout_s": 3 },
+    { "do": "advance", "tool": "wire", "speed_mm_s": 25, "turn_deg_s": 90, "until": [{ "tip_passes": "RCA+80" }],
+      "timeout_s": 8 },
+    { "do": "advance", "tool": "balloon", "speed_mm_s": 30, "until": [{ "balloon_at_mm": -20 }], "timeout_s": 6 },
+    { "do": "advance", "tool": "balloon", "speed_mm_s": 8, "until": [{ "balloon_at_mm": -1 }], "timeout_s": 6 },
+    { "do": "inflate", "gauge_atm": 10, "over_s": 1.5 },
+    { "do": "wait", "until": [{ "balloon_open": true }], "timeout_s": 4 },
+    { "do": "mark", "text": "open" },
+    { "do": "deflate", "timeout_s": 12 },
+    { "do": "advance", "tool": "stent", "speed_mm_s": 50, "until": [{ "balloon_at_mm": 30 }] }
+  ]
+})";
+
+RunSetup setup() {
+  RunSetup out;
+  set_vessel("rca-mid-focal", LengthUnit::millimetre, out);
+  set_script(read_script("predilatation.json", predilatation), out);
+  set_value("begin", "RCA", out);
+  return out;
+}
+
+std::shared_ptr<const Vessel> vessel() {
+  static const std::shared_ptr<const Vessel> made = [] {
+    std::string warnings;
+    return make_vessel(setup(), warnings);
+  }();
+  return made;
+}
+
+/// Steps until the operator is at a step of the script; false: it never comes there.
+bool run_to(ScriptedRun& run, int step) {
+  while (static_cast<int>(run.hands.step) < step)
+    if (!run.tick()) return false;
+  return true;
+}
+
+TEST(Treatment, ABalloonOpensTheLesionAndTheWallThatRodsMeet) {
+  ScriptedRun run(setup(), vessel());
+  const double before = lesion_now(run.model, run.state).stenosis;
+  EXPECT_NEAR(before, 0.70, 0.02);
+  ASSERT_TRUE(run_to(run, 3)) << reason(run.plan, run.hands);
+  EXPECT_EQ(run.state.bedside.tip.where, TipPlace::coronary);
+  EXPECT_GT(run.state.blood.contrast.from_tip_kg, 0);
+  ASSERT_TRUE(run_to(run, 6)) << reason(run.plan, run.hands);
+  ASSERT_TRUE(balloon_from_lesion_m(run.model, run.state));
+  EXPECT_NEAR(*balloon_from_lesion_m(run.model, run.state), 0, 4e-3);
+  const double open_flow = supply_behind_lesion(run.model, run.state);
+  ASSERT_TRUE(run_to(run, 9)) << reason(run.plan, run.hands);
+  EXPECT_GT(run.state.treatment.balloon.pressure_Pa, 3 * 101325.0);
+  EXPECT_GT(balloon_artery_ratio(run.model, run.state), 0.6);
+  EXPECT_LT(supply_behind_lesion(run.model, run.state), open_flow);
+  EXPECT_GT(run.state.bedside.held, 0) << "the wall holds it";
+
+  // A state from here goes on to the bit with a fresh scratch: the opened wall is made anew of it.
+  SessionState other = run.state;
+  SessionScratch fresh(run.model);
+  SessionReport report;
+  for (int n = 0; n < 40; ++n) {
+    ASSERT_TRUE(run.tick());
+    step(run.model, run.inputs, other, fresh, report);
+    ASSERT_EQ(first_difference(run.model, run.state, other), "") << n;
+  }
+
+  const long before_steps = allocations();
+  for (int n = 0; n < 40; ++n) step(run.model, run.inputs, other, fresh, report);
+  EXPECT_EQ(allocations() - before_steps, 0);
+
+  // Deflated, then a second device cannot enter beside it, and the run says so.
+  EXPECT_FALSE(run_to(run, 11));
+  EXPECT_EQ(run.outcome, Outcome::failure);
+  EXPECT_NE(reason(run.plan, run.hands).find("balloon is still in the body"), std::string::npos)
+      << reason(run.plan, run.hands);
+  const std::string tips = where_tips_lie(run.model, run.state, run.report);
+  const std::size_t wire = tips.find("wire ");
+  ASSERT_NE(wire, std::string::npos) << tips;
+  EXPECT_NEAR(std::stod(tips.substr(wire + 5)), 80, 4) << tips;
+  EXPECT_TRUE(tips.ends_with(" mm into RCA")) << tips;
+  const double after = lesion_now(run.model, run.state).stenosis;
+  EXPECT_LT(after, 0.5);
+  EXPECT_GT(after, 0.05) << "it recoils";
+
+  const PhysiologyState& blood = run.state.blood;
+  EXPECT_NEAR(accounted_kg(blood.contrast), blood.contrast.injected_kg, 1e-6 * blood.contrast.injected_kg);
+  const Plan& plan = run.model.vessel->coronaries->lesions[0];
+  int narrowest = plan.path.cells[static_cast<std::size_t>(plan.path.at((plan.from_m + plan.to_m) / 2).index)];
+  EXPECT_NEAR(run.state.wall_m[static_cast<std::size_t>(narrowest)],
+              blood.radius_m[static_cast<std::size_t>(narrowest)], 2 * wall_follows_m);
+  EXPECT_GT(run.state.wall_m[static_cast<std::size_t>(narrowest)],
+            1.3 * run.model.physiology.flow.tree.cells[static_cast<std::size_t>(narrowest)].diseased_m);
+  const Penetration depth = penetration(run.model, run.state);
+  EXPECT_LT(depth.deepest_m, 0.1e-3);
+  EXPECT_EQ(depth.outside, 0);
+  EXPECT_LE(run.troubled, 3) << trouble_words(run.troubles);
+  Scene scene;
+  add_treatment(run.model, run.state, scene);
+  EXPECT_NO_THROW(check(scene));
+}
+
+/// A guide in the ostium, a wire far down the artery, a stent still on its balloon beyond the guide's tip.
+struct StentAhead {
+  ScriptedRun run;
+  SessionScratch scratch;
+  SessionReport report;
+  SessionInputs inputs;
+  static constexpr int guide = 0, stent = 2;
+
+  static RunSetup stent_setup() {
+    RunSetup out = setup();
+    std::string script = predilatation;
+    const std::string from = R"({ "do": "advance", "tool": "balloon", "speed_mm_s": 30)";
+    script =
+        script.substr(0, script.find(from)) +
+        R"({ "do": "advance", "tool": "stent", "speed_mm_s": 40, "until": [{ "balloon_at_mm": -15 }], "timeout_s": 6 },
+                { "do": "mark", "text": "there" } ] })";
+    set_script(read_script("predilatation.json", script), out);
+    return out;
+  }
+  StentAhead() : run(stent_setup(), vessel()), scratch(run.model) {
+    while (run.tick()) {
+    }
+    EXPECT_EQ(run.outcome, Outcome::success) << reason(run.plan, run.hands);
+    inputs = run.inputs;
+    for (ToolInputs& tool : inputs.tools) tool = {};
+  }
+  StentState& crimped() { return run.state.treatment.stents[0]; }
+  /// How far its proximal end is in the guide.
+  double inside_m() {
+    const auto inserted = [&](int tool) { return run.state.rods.rods[static_cast<std::size_t>(tool)].inserted_m; };
+    return marker_from_tip_m(run.model.tools[stent].instrument, 0) - crimped().shift_m -
+           (inserted(stent) - inserted(guide));
+  }
+  template <class Until>
+  void move(int tool, double mm_s, double seconds, Until&& until) {
+    inputs.tools[static_cast<std::size_t>(tool)].advance_m_s = 1e-3 * mm_s;
+    for (int n = 0; n < 1000 * seconds && !until(); ++n) step(run.model, inputs, run.state, scratch, report);
+    inputs.tools[static_cast<std::size_t>(tool)] = {};
+  }
+};
+
+TEST(Treatment, AStentThatHangsOnTheGuidesEdgeIsLostIfPulledHard) {
+  StentAhead s;
+  BedsideState& bedside = s.run.state.bedside;
+  EXPECT_EQ(bedside.stent_out, 1);
+  ASSERT_LT(s.inside_m(), 0);
+  // It hangs; a gentle pull, and it comes free when it is pushed on.
+  s.move(s.stent, -20, 5, [&] { return s.inside_m() > 0.2e-3; });
+  bedside.caught = true;
+  s.move(s.stent, -20, 0.08, [] { return false; });
+  EXPECT_EQ(bedside.caught, 1);
+  EXPECT_GT(bedside.caught_N, 0.3);
+  EXPECT_EQ(s.crimped().shift_m, 0);
+  s.move(s.stent, 20, 1, [&] { return !bedside.caught; });
+  EXPECT_EQ(bedside.caught, 0);
+  // Hard.
+  s.move(s.stent, -20, 5, [&] { return s.inside_m() > 0.2e-3; });
+  bedside.caught = true;
+  double pull_N = 0;
+  s.move(s.stent, -20, 4, [&] {
+    if (!s.report.tools.empty()) pull_N = std::min(pull_N, s.report.tools[s.stent].push_N);
+    return s.crimped().where == StentState::lost;
+  });
+  EXPECT_EQ(s.crimped().where, StentState::lost);
+  EXPECT_LT(pull_N, -1.0) << "the hand has felt it";
+  s.move(s.stent, 0, 0.02, [] { return false; });
+  EXPECT_EQ(bedside.caught_N, 0);
+}
+
+TEST(Treatment, AGuideThatGoesDeepDeformsAStentAndFeelsIt) {
+  StentAhead s;
+  StentState& stent = s.crimped();
+  // As if it had been left there, hardly opened, right ahead of the guide.
+  const Eigen::Vector3d p = tip(s.run.model, s.run.state, s.guide);
+  const VesselPath& path = s.run.model.treatment.paths[static_cast<std::size_t>(s.run.state.bedside.branch)];
+  double at_m = 0, nearest = 1;
+  for (std::size_t k = 0; k < path.cells.size(); ++k) {
+    const Eigen::Vector3d c = s.run.model.vessel->coronaries->map.coronary.position(
+        static_cast<std::size_t>(path.cells[k]), s.run.state.blood.heart.phase);
+    if ((c - p).norm() < nearest) nearest = (c - p).norm(), at_m = path.s_m[k];
+  }
+  stent.where = StentState::deployed, stent.branch = s.run.state.bedside.branch;
+  stent.middle_m = at_m + 2e-3 + (span_of(stent).second - span_of(stent).first) / 2, stent.shift_m = 0;
+  for (auto* radii : {&stent.radius_m, &stent.rest_m}) std::fill(radii->begin(), radii->end(), 1.0e-3);
+  const auto [from, to] = span_of(stent);
+  double felt_N = 0;
+  s.move(s.guide, 10, 0.8, [&] {
+    felt_N = std::max(felt_N, s.run.state.bedside.edge_push_N);
+    return false;
+  });
+  EXPECT_GT(felt_N, 0.2);
+  EXPECT_GT(span_of(stent).first, from + 0.5e-3);
+  EXPECT_LT(span_of(stent).second - span_of(stent).first, to - from - 0.3e-3);
+}
+
+TEST(Treatment, ADeviceThatReachesOutOfTheOstiumLiesInTheArtery) {
+  StentAhead s;
+  const BedsideState& bedside = s.run.state.bedside;
+  const double half_m = (marker_from_tip_m(s.run.model.tools[s.stent].instrument, 0) -
+                         marker_from_tip_m(s.run.model.tools[s.stent].instrument, 1)) /
+                        2;
+  s.move(s.guide, -40, 0.6, [] { return false; });
+  ASSERT_NE(bedside.tip.where, TipPlace::coronary);
+  // Drawn out until less than half of it is in the artery: its place goes on until then, without a jump.
+  double least = 1, was = -1, jump = 0;
+  s.move(s.stent, -20, 3, [&] {
+    if (bedside.branch < 0) return true;
+    if (was >= 0) jump = std::max(jump, std::fabs(bedside.middle_m - was));
+    was = bedside.middle_m, least = std::min(least, was);
+    return false;
+  });
+  EXPECT_EQ(bedside.branch, -1);
+  EXPECT_LT(least, 0.3 * half_m);
+  EXPECT_LT(jump, 2e-3);
+}
+
+TEST(Treatment, AnOpenBalloonStaysInItsArtery) {
+  ScriptedRun run(setup(), vessel());
+  ASSERT_TRUE(run_to(run, 6)) << reason(run.plan, run.hands);
+  const BedsideModel model{*run.model.vessel,    run.model.tools,     run.model.rods,
+                           run.model.physiology, run.model.treatment, run.model.balloon_of};
+  BedsideScratch scratch(*run.model.vessel);
+  const StepReport report;
+  const int balloon = 1;
+  // For a moment its shaft is thrown aside, by less than what is searched for vessels.
+  State aside = run.state.rods;
+  const Eigen::Vector3d sideways = 4.5e-3 * tip_direction(run.model, run.state, balloon).unitOrthogonal();
+  for (int i = 0; i <= model.rods.rods[balloon].elements; ++i)
+    aside.rods[balloon].position.set(i, run.state.rods.rods[balloon].position[i] + sideways);
+  const auto branch_of = [&](const TreatmentState& treatment) {
+    BedsideState bedside = run.state.bedside;
+    bedside.held = false;  // within a stent it meets no wall
+    look(model, aside, treatment, report, run.state.blood.heart.phase, 0, scratch, bedside);
+    return bedside.branch;
+  };
+  const double artery = run.state.bedside.branch;
+  ASSERT_GE(artery, 0);
+  EXPECT_NE(branch_of(run.state.treatment), artery) << "folded, it may be anywhere";
+  TreatmentState open = run.state.treatment;
+  for (double& r : open.balloon.radius_m) r = 1.2e-3;
+  EXPECT_EQ(branch_of(open), artery);
+}
+
+TEST(Treatment, AWallFeelsAWiresTipBehindALowPass) {
+  ScriptedRun run(setup(), vessel());
+  const BedsideModel bedside{*run.model.vessel,    run.model.tools,     run.model.rods,
+                             run.model.physiology, run.model.treatment, run.model.balloon_of};
+  BedsideState& s = run.state.bedside;
+  const int wire = 3, tip = run.model.rods.rods[wire].elements;
+  const double dt = run.model.step_s(), share = 1 - std::exp(-2 * EIGEN_PI * wall_force_cut_off_Hz * dt);
+  StepReport report;
+  const Eigen::Vector3d none = Eigen::Vector3d::Zero();
+  report.touches.assign(1, {.rod = wire, .node = tip, .p_W = none, .normal_W_N = none, .friction_W_N = none});
+  const auto press = [&](double N, int steps) {
+    report.touches[0].normal_W_N = {0, N, 0};
+    for (int n = 0; n < steps; ++n) press_with_wire(bedside, report, dt, s);
+  };
+  press(10, 1);
+  EXPECT_EQ(s.wire_tip_N, 0) << "it lies in no coronary artery";
+  s.wire_cell = 5;
+  press(10, 1);
+  EXPECT_NEAR(s.wire_tip_N, 10 * share, 1e-12);
+  press(0.05, 500);
+  EXPECT_NEAR(s.wire_tip_N, 0.05, 1e-6);
+  report.touches[0].friction_W_N = {0, 0, 0.12};
+  press(0.05, 500);
+  EXPECT_NEAR(s.wire_tip_N, 0.13, 1e-6) << "what the wire behind gives";
+  report.touches.push_back(report.touches[0]);
+  report.touches[1].node = tip - 1, report.touches[1].normal_W_N = {0, -0.05, 0};
+  report.touches[1].friction_W_N = {0, 0, -0.12};
+  press(0.05, 500);
+  EXPECT_NEAR(s.wire_tip_N, 0, 1e-6) << "wedged between opposite walls";
+  report.touches.resize(1);
+  report.touches[0].node = tip - 10;  // 1 cm from the tip
+  press(0.05, 500);
+  EXPECT_EQ(s.wire_tip_N, 0);
+}
+
+TEST(Treatment, ALesionIsCoveredWithMargins) {
+  StentAhead s;
+  const SessionModel& model = s.run.model;
+  const Plan& plan = model.vessel->coronaries->lesions[0];
+  StentState& stent = s.crimped();
+  EventWatch watch(model);
+  std::vector<SessionEvent> events;
+  events.reserve(1000);
+  s.move(s.guide, 0, 0.01, [] { return false; });
+  const auto last = [&](StentState::Where where, int branch, double middle_m) {
+    stent.where = StentState::on_balloon;
+    watch.look(model, s.inputs, s.run.state, s.report, {}, events);
+    stent.where = where, stent.branch = branch, stent.middle_m = middle_m, stent.shift_m = 0;
+    watch.look(model, s.inputs, s.run.state, s.report, {}, events);
+    return events.back();
+  };
+  const int own = model.physiology.flow.tree.branch("RCA");
+  const double middle = (plan.from_m + plan.to_m) / 2;
+  EXPECT_FALSE(lesion_is_covered(model, s.run.state, 0)) << "it is on its balloon";
+  // 15 mm on a lesion of 9 mm: 3 mm on either side.
+  SessionEvent e = last(StentState::deployed, own, middle);
+  EXPECT_EQ(e.code, static_cast<int>(EventCode::stent_deployed));
+  EXPECT_NEAR(e.value, 0, 0.3);
+  EXPECT_TRUE(lesion_is_covered(model, s.run.state, 2e-3));
+  EXPECT_FALSE(lesion_is_covered(model, s.run.state, 4e-3));
+  e = last(StentState::deployed, own, middle + 2e-3);
+  EXPECT_NEAR(e.value, 2, 0.3);
+  EXPECT_FALSE(lesion_is_covered(model, s.run.state, 2e-3));
+  // Elsewhere, and nowhere.
+  const int conus = model.physiology.flow.tree.branch("Conus");
+  e = last(StentState::deployed, conus, model.treatment.paths[static_cast<std::size_t>(conus)].length_m() - 10e-3);
+  EXPECT_EQ(e.code, static_cast<int>(EventCode::stent_elsewhere));
+  EXPECT_EQ(model.vessel->way->branches()[static_cast<std::size_t>(e.value)].name, "Conus");
+  EXPECT_FALSE(lesion_is_covered(model, s.run.state, 0));
+  e = last(StentState::deployed, -1, 0);
+  EXPECT_EQ(e.code, static_cast<int>(EventCode::stent_lost));
+  EXPECT_EQ(e.value, 0);
+}
+
+/// Two lesions of one artery, 32 and 22 mm long with 14 mm between them, and three stents to cover them with.
+RunSetup two_lesions(const std::string& condition = R"("seconds": 1)", const std::string& sizes = "") {
+  RunSetup out;
+  set_vessel("rca-diffuse", LengthUnit::millimetre, out);
+  set_script(read_script("two.json", R"({ "schema": "ostium-script/1", "name": "two", "title": "A test", "tools": [
+    { "name": "guide", "instrument": "guide-jr4-6f" },
+    { "name": "proximal", "instrument": "stent-35x38" }, { "name": "distal", "instrument": "stent-30x28")" +
+                                         sizes + R"( },
+    { "name": "short", "instrument": "stent-35x23" }, { "name": "wire", "instrument": "wire-014-workhorse" } ],
+    "steps": [ { "do": "wait", "until": [{ )" +
+                                         condition + " }] } ] }"),
+             out);
+  return out;
+}
+
+std::shared_ptr<const Vessel> with_two_lesions() {
+  static const std::shared_ptr<const Vessel> made = [] {
+    std::string warnings;
+    return make_vessel(two_lesions(), warnings);
+  }();
+  return made;
+}
+
+TEST(Treatment, AScriptIsRefusedOnACaseWithAnotherAccess) {
+  const Script from_the_wrist = find_script("pci-lcx-tubular-radial"), from_anywhere = find_script("jr4-engages-rca");
+  RunSetup groin, wrist;
+  set_vessel("lcx-tubular", LengthUnit::millimetre, groin);
+  set_vessel("lcx-tubular-radial", LengthUnit::millimetre, wrist);
+  EXPECT_NO_THROW(set_script(from_the_wrist, wrist));
+  EXPECT_NO_THROW(set_script(from_anywhere, groin));
+  EXPECT_NO_THROW(set_script(from_anywhere, wrist));
+  try {
+    set_script(from_the_wrist, groin);
+    FAIL() << "accepted";
+  } catch (const LoadError& error) {
+    for (const char* word : {"pci-lcx-tubular-radial.json", "radial access", "lcx-tubular has femoral access"})
+      EXPECT_NE(std::string(error.what()).find(word), std::string::npos) << error.what();
+  }
+}
+
+TEST(Treatment, EachLesionIsJudgedByTheStentsAtIt) {
+  ScriptedRun run(two_lesions(), with_two_lesions());
+  const SessionModel& model = run.model;
+  const auto& lesions = model.vessel->coronaries->lesions;
+  ASSERT_EQ(lesions.size(), 2u);
+  const double artery = model.physiology.flow.tree.branch("RCA");
+  const auto middle_m = [&](std::size_t i) { return (lesions[i].from_m + lesions[i].to_m) / 2; };
+  const auto lies = [&](std::size_t stent, double at_m) {
+    StentState& own = run.state.treatment.stents[stent];
+    own.where = StentState::deployed, own.branch = artery, own.middle_m = at_m, own.shift_m = 0;
+  };
+  const auto covered = [&](int lesion) { return lesion_is_covered(model, run.state, 2e-3, lesion); };
+  EXPECT_FALSE(covered(0) || covered(1));
+  EXPECT_FALSE(worst_of_lesions(model, run.state).margin_m);
+  EXPECT_NEAR(worst_of_lesions(model, run.state).stenosis, 0.75, 0.02);
+  EXPECT_NEAR(lesion_now(model, run.state, 0).stenosis, 0.65, 0.02);
+
+  lies(1, middle_m(1));  // 28 mm on 22: 3 mm on either side
+  EXPECT_TRUE(covered(1));
+  EXPECT_FALSE(covered(0));
+  EXPECT_LT(*worst_of_lesions(model, run.state).margin_m, 0) << "of the other";
+  EXPECT_NEAR(*stent_from_lesion_m(model, run.state, 1, 1), 0, 0.3e-3);
+
+  lies(2, lesions[0].from_m + 8e-3);  // 23 mm on 32: what lies between the stents is not covered
+  EXPECT_FALSE(covered(0));
+  EXPECT_NEAR(stented(model, run.state, 0)->from_m, -3.5e-3, 0.5e-3);
+  EXPECT_NEAR(stented(model, run.state, 0)->to_m, 19.5e-3, 0.5e-3);
+
+  lies(0, lesions[0].from_m + 45e-3);  // from 26 mm: nor what lies between stents in the lesion itself
+  EXPECT_FALSE(covered(0));
+  lies(0, lesions[0].from_m + 35e-3);  // from 16 mm: all three are joined
+  EXPECT_TRUE(covered(0) && covered(1));
+  EXPECT_NEAR(stented(model, run.state, 0)->to_m - stented(model, run.state, 0)->from_m, 74.5e-3, 1e-3);
+
+  run.state.treatment.stents[2].where = StentState::lost;
+  lies(0, middle_m(0));  // 38 mm on 32
+  EXPECT_TRUE(covered(0) && covered(1));
+  EXPECT_NEAR(stented(model, run.state, 0)->to_m, 35e-3, 0.5e-3) << "not to the end of the other one's";
+  EXPECT_NEAR(*worst_of_lesions(model, run.state).margin_m, 3e-3, 0.5e-3);
+
+  run.state.bedside.balloon = 1, run.state.bedside.branch = artery, run.state.bedside.middle_m = middle_m(1);
+  EXPECT_NEAR(*balloon_from_lesion_m(model, run.state, 1), 0, 1e-6);
+  EXPECT_NEAR(*balloon_from_lesion_m(model, run.state, 0), 41e-3, 0.5e-3);
+}
+
+TEST(Treatment, ALesionThatThereIsNotIsRefused) {
+  const auto refusal = [](const std::string& condition, const std::string& sizes) -> std::string {
+    try {
+      RunSetup own = two_lesions(condition, sizes);
+      choose_sizes(*with_two_lesions(), own);
+      ScriptedRun run(own, with_two_lesions());
+      return read_instrument(own.tool_files[2], own.tool_texts[2]).name;
+    } catch (const LoadError& error) {
+      return error.what();
+    }
+  };
+  const std::string sizes = R"(, "sizes": ["stent-275x28", "stent-325x28"], "of_reference": 1.05)";
+  EXPECT_EQ(refusal(R"("balloon_at_mm": 0)", sizes), "stent-325x28");
+  EXPECT_EQ(refusal(R"("balloon_at_mm": 0, "lesion": 2)", sizes + R"(, "lesion": 2)"), "stent-275x28");
+  const std::string condition = refusal(R"("balloon_at_mm": 0, "lesion": 3)", sizes),
+                    tool = refusal(R"("seconds": 1)", sizes + R"(, "lesion": 3)");
+  EXPECT_NE(condition.find("two.json:5: balloon_at_mm 0 of lesion 3: this patient's lesions are 2"), std::string::npos)
+      << condition;
+  EXPECT_NE(tool.find("two.json:3: distal is for lesion 3; this patient's lesions are 2"), std::string::npos) << tool;
+}
+
+TEST(Treatment, APerforationHarmsAndATearThatNoStentCovers) {
+  StentAhead s;
+  const SessionModel& model = s.run.model;
+  const Plan& plan = model.vessel->coronaries->lesions[0];
+  StentState& stent = s.crimped();
+  Injury& injury = s.run.state.treatment.injury.injuries[0];
+  EXPECT_TRUE(is_unharmed(model, s.run.state));
+  const int cell = plan.path.cells[static_cast<std::size_t>(plan.path.at((plan.from_m + plan.to_m) / 2).index)];
+  injury = {.kind = InjuryKind::dissection, .cell = cell, .grade = 1};
+  EXPECT_TRUE(is_unharmed(model, s.run.state)) << "type B";
+  injury.grade = 2;
+  EXPECT_FALSE(is_unharmed(model, s.run.state)) << "type C";
+  stent.where = StentState::deployed, stent.branch = model.physiology.flow.tree.branch("RCA");
+  stent.middle_m = (plan.from_m + plan.to_m) / 2, stent.shift_m = 0;
+  EXPECT_TRUE(is_unharmed(model, s.run.state)) << "it is tacked up";
+  stent.middle_m += 40e-3;
+  EXPECT_FALSE(is_unharmed(model, s.run.state));
+  injury = {.kind = InjuryKind::perforation, .cell = cell, .grade = 1};
+  stent.middle_m -= 40e-3;
+  EXPECT_FALSE(is_unharmed(model, s.run.state));
+}
+
+TEST(Treatment, AWithdrawalIsNotDoneBeforeItsHandHasMoved) {
+  RunSetup own;
+  set_vessel("rca-mid-focal", LengthUnit::millimetre, own);
+  std::string script = predilatation;
+  const std::size_t steps = script.find("\"steps\"");
+  script.replace(
+      steps, std::string::npos,
+      R"("steps": [ { "do": "withdraw", "tool": "balloon", "speed_mm_s": 1, "until": [{ "balloon_at_mm": 0 }] } ] })");
+  set_script(read_script("predilatation.json", script), own);
+  ScriptedRun run(own, vessel());
+  const Plan& plan = vessel()->coronaries->lesions[0];
+  const double middle = (plan.from_m + plan.to_m) / 2;
+  run.state.bedside.balloon = 0;
+  run.state.bedside.branch = run.model.physiology.flow.tree.branch("RCA");
+  run.state.blood.heart.phase = 0.75;
+  SessionReport report;
+  report.tools.resize(run.model.tools.size());
+  std::vector<OperatorEvent> events;
+  const auto outcome = [&](double beyond_m) {
+    run.state.bedside.middle_m = middle + beyond_m;
+    return decide(run.plan, run.model, run.state, report, run.hands, run.inputs, events);
+  };
+  for (int i = 0; i < 3; ++i) EXPECT_EQ(outcome(10e-3), Outcome::running) << "it lies beyond, and the hand is late";
+  EXPECT_EQ(outcome(-0.1e-3), Outcome::success);
+}
+
+TEST(Treatment, AFoldedBalloonIsAsThickAsItsShaftShows) {
+  TreatmentModel model;
+  std::vector<SessionTool> tools;
+  for (const char* name : {"balloon-15x10", "balloon-20x10", "balloon-nc-30x12", "stent-30x18"})
+    tools.push_back({name, load_instrument(data_folder() + "/instruments/" + name + ".json")});
+  add_devices(tools, 1, model);
+  ASSERT_EQ(model.balloons.size(), 4u);
+  const double profile_m[] = {0.65e-3, 0.75e-3, 1.0e-3};  // printed by makers; a wider one sticks in a tight lesion
+  for (std::size_t i = 0; i < 3; ++i) {
+    const BalloonModel& balloon = model.balloons[i];
+    EXPECT_NEAR(2 * balloon.folded_m, profile_m[i], 1e-9) << balloon.name;
+    EXPECT_GT(balloon.refolded_m, balloon.folded_m) << balloon.name;
+    const BalloonState state = make_balloon_state(balloon);
+    EXPECT_NEAR(2 * *std::max_element(state.radius_m.begin(), state.radius_m.end()), profile_m[i], 1e-9);
+    EXPECT_TRUE(is_empty(balloon, state)) << balloon.name;
+  }
+  // Not that of the stent that is crimped on it.
+  EXPECT_LT(2 * model.balloons[3].folded_m, 0.99e-3);
+}
+
+TEST(Treatment, AlternativesLieIdleOutside) {
+  ScriptedRun run(setup(), vessel());
+  EXPECT_EQ(in_the_way(run.model, run.state.rods, 2), -1) << "nothing is in the body";
+  EXPECT_EQ(run.model.balloon_of, (std::vector<int>{-1, 0, 1, -1}));
+  EXPECT_EQ(run.model.treatment.stent_on, (std::vector<int>{-1, 0}));
+  EXPECT_NEAR(run.model.treatment.stents[0].length_m, 15e-3, 1e-12);
+}
+
+/// What the third tool of predilatation becomes if it comes in `sizes`, measured `by` so much; `set`: asked for by
+/// name.
+std::string taken_size(const std::string& sizes, const std::string& by, const std::string& set) {
+  std::string script = predilatation;
+  const std::string plain = R"("instrument": "stent-325x15")";
+  script.replace(script.find(plain), plain.size(), plain + ", \"sizes\": [" + sizes + "], " + by);
+  RunSetup own;
+  set_vessel("rca-mid-focal", LengthUnit::millimetre, own);
+  set_script(read_script("predilatation.json", script), own);
+  if (!set.empty()) set_value("stent", set, own);
+  choose_sizes(*vessel(), own);
+  return read_instrument(own.tool_files[2], own.tool_texts[2]).name;
+}
+
+TEST(Treatment, SizesAreChosenByTheArtery) {
+  ASSERT_NEAR(vessel()->coronaries->lesions[0].reference_m, 3.46e-3, 0.05e-3);
+  const auto taken = [](const std::string& sizes, const std::string& share, const std::string& set = "") {
+    return taken_size(sizes, "\"of_reference\": " + share, set);
+  };
+  const std::string all = R"("stent-40x18", "stent-25x18", "stent-35x18", "stent-30x18", "stent-325x18")";
+  EXPECT_EQ(taken(all, "1.05"), "stent-35x18");
+  EXPECT_EQ(taken(all, "1"), "stent-325x18");
+  EXPECT_EQ(taken(all, "0.5"), "stent-25x18") << "the narrowest, where all are wider";
+  EXPECT_EQ(taken(all, "1.05", "stent-30x18"), "stent-30x18") << "asked for by name";
+  EXPECT_THROW(taken(R"("wire-014-workhorse")", "1"), LoadError);
+  EXPECT_THROW(taken(R"("zebra")", "1"), LoadError);
+}
+
+TEST(Treatment, GuidesAreChosenByTheAorta) {
+  ASSERT_NEAR(ascending_diameter_m(*vessel()), 30.9e-3, 0.5e-3) << "Hager 2002, the mean";
+  const auto taken = [](const std::string& sizes, const std::string& share) {
+    return taken_size(sizes, "\"of_aorta\": " + share, "");
+  };
+  const std::string both = R"("guide-ebu35-6f", "guide-ebu30-6f")";
+  EXPECT_EQ(taken(both, "1.35"), "guide-ebu35-6f") << "40 mm";
+  EXPECT_EQ(taken(both, "1.2"), "guide-ebu30-6f") << "35 mm";
+  EXPECT_EQ(taken(both, "0.5"), "guide-ebu30-6f") << "the narrowest, where both are wider";
+  EXPECT_THROW(taken(R"("stent-30x18")", "1.35"), LoadError) << "has no width";
+}
+
+TEST(Treatment, ABeginningThatIsNoArteryIsRefused) {
+  RunSetup wrong = setup();
+  set_value("begin", "RCX", wrong);
+  try {
+    ScriptedRun run(wrong, vessel());
+    FAIL();
+  } catch (const LoadError& error) {
+    EXPECT_NE(std::string(error.what()).find("LM, RCA"), std::string::npos) << error.what();
+  }
+}
+
+}  // namespace
+}  // namespace ostium

@@ -1,0 +1,194 @@
+#!/usr/bin/env bash
+# The command line: exit codes, help with examples, and JSON that parses.
+set -euo pipefail
+ostium=$1
+trap 'echo "line $LINENO: $BASH_COMMAND"' ERR
+
+expect() { # expect CODE WORD COMMAND...: exit code and a word of the output
+  local code=$1 word=$2 rc=0 out
+  shift 2
+  out=$("$@" 2>&1) || rc=$?
+  if ((rc != code)) || ! grep -q -- "$word" <<<"$out"; then
+    printf 'wanted exit %s and "%s" from: %s\ngot exit %s and:\n%s\n' "$code" "$word" "$*" "$rc" "$out"
+    exit 1
+  fi
+}
+
+expect 0 "Examples" "$ostium" verify --help
+expect 0 "verify" "$ostium" --help
+expect 0 "0\." "$ostium" --version
+expect 0 "pass" "$ostium" verify --only rod-static-0.4m-100
+expect 0 '"pass": true' "$ostium" verify --only rod-static --json
+expect 0 "elastica" "$ostium" verify --list
+expect 0 '"what"' "$ostium" verify --list --json
+expect 2 "no gate begins" "$ostium" verify --only no-such-gate
+expect 2 "no gate begins" "$ostium" verify --only rod-staticX
+expect 1 "could not be written" bash -c "'$ostium' verify --only rod-static --json > /dev/full"
+expect 2 "not expected" "$ostium" verify --quik
+expect 2 "not expected" "$ostium" nonsense
+
+expect 0 "Examples" "$ostium" instruments --help
+expect 0 "guide-jl4-6f" "$ostium" instruments
+expect 0 "sources:" "$ostium" instruments guide-jl4-6f
+expect 0 '"EI1_Nmm2"' "$ostium" instruments wire-014-workhorse --json
+expect 3 "there is no instrument" "$ostium" instruments no-such-thing
+expect 3 "cannot be written" "$ostium" instruments --picture /nowhere/all.svg
+expect 3 "OSTIUM_DATA" env OSTIUM_DATA=/nowhere "$ostium" instruments
+
+dir=$(mktemp -d)
+trap 'rm -rf "$dir"' EXIT
+frame() { "$ostium" frame --pixels 128 "$@"; }
+export -f frame
+export ostium
+expect 0 "Examples" "$ostium" frame --help
+expect 0 "kV" frame --view spider --fill left --overlay -o "$dir/frame.png"
+expect 0 '"dap_per_frame_Gy_cm2"' frame --json -o "$dir/frame.png"
+expect 0 "run.dcm" frame --frames 3 --fill right --guide right -o "$dir/run.dcm"
+expect 0 "Examples" "$ostium" inject --help
+expect 0 '"iodine_balance"' "$ostium" inject --pixels 256 --seconds 0.3 --json -o "$dir/inject.png"
+expect 3 "there is no case" "$ostium" inject no-such-case -o "$dir/inject.png"
+expect 3 "png and .mp4" "$ostium" inject -o "$dir/inject.jpg"
+expect 2 "volume" "$ostium" inject --volume -3 -o "$dir/inject.png"
+expect 3 "not a number" "$ostium" inject --volume nan -o "$dir/inject.png"
+expect 3 "not a number" "$ostium" treat --pressure nan -o "$dir/treat.png"
+expect 0 "Examples" "$ostium" treat --help
+expect 0 '"ffr_model"' "$ostium" treat --no-pictures --no-predilatation --no-postdilatation --hold 1 --json
+expect 3 "there is no view" "$ostium" treat --view upwards -o "$dir/treat.png"
+expect 3 "png is known" "$ostium" treat -o "$dir/treat.mp4"
+expect 3 "there is no view" frame --view upwards -o "$dir/frame.png"
+expect 3 "from -120.0 to 120.0 degrees" frame --lao 150 -o "$dir/frame.png"
+expect 3 "from 85.0 to 125.0 cm" frame --sid 1400 -o "$dir/frame.png"
+expect 3 "3.75, 7.5, 15 and 30" frame --rate 12 -o "$dir/frame.png"
+expect 3 "shutter" frame --shutters 0.5,0.5,0,0.5 -o "$dir/frame.png"
+expect 3 "cannot be written" frame -o /nowhere/frame.png
+expect 3 "cannot be written" frame -o /nowhere/frame.dcm
+expect 3 "png, .dcm and .mp4" frame -o "$dir/frame.jpg"
+expect 0 "kV" frame rca-mid-focal --view lao --fill right --phase 0.4 -o "$dir/case.png"
+expect 3 "there is no case" frame no-such-case -o "$dir/frame.png"
+expect 2 "not in" frame --pixels 100 -o "$dir/frame.png"
+if command -v ffmpeg >/dev/null; then
+  expect 0 "loop.mp4" frame --frames 5 -o "$dir/loop.mp4"
+  ln -s /dev/full "$dir/full.mp4"
+  expect 1 "the video ended" frame --frames 5 -o "$dir/full.mp4"
+fi
+expect 1 "ffmpeg cannot be run" env PATH=/nowhere "$ostium" frame --pixels 128 --frames 2 -o "$dir/none.mp4"
+
+expect 0 "spider" "$ostium" views
+expect 0 '"lao_deg"' "$ostium" views --json
+expect 0 "Examples" "$ostium" cases --help
+expect 0 "rca-mid-focal-radial" "$ostium" cases
+expect 0 "Judkins right 4" "$ostium" cases rca-mid-focal
+expect 0 '"stenosis_percent": 70' "$ostium" cases rca-mid-focal --json
+expect 3 "there is no case" "$ostium" cases no-such-case
+folder=$(mktemp -d)
+trap 'rm -rf "$folder"' EXIT
+printf 'v 0 0 0\nv 9 0 0\nv 0 9 0\nv 0 0 9\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n' >"$folder/whole.obj"
+printf 'v 0 0 0\nv 9 0 0\nv 0 9 0\nv 0 0 9\nf 1 3 2\nf 1 2 4\nf 2 3 4\n' >"$folder/open.obj"
+expect 0 "sound" "$ostium" check "$folder/whole.obj"
+expect 1 "3 open edges" "$ostium" check "$folder/open.obj"
+expect 1 '"sound": false' "$ostium" check --json --units cm "$folder/open.obj"
+expect 3 "is no file" "$ostium" check "$folder/none.obj"
+expect 0 '"unit": "cm"' "$ostium" check --json --units cm "$folder/whole.obj"
+expect 0 "sound" "$ostium" check "$folder/whole.obj" --picture "$folder/whole.svg"
+expect 3 "png and .svg are known" "$ostium" check "$folder/whole.obj" --picture "$folder/whole.bmp"
+expect 0 "Examples" "$ostium" import --help
+sed 's/9/900000/g' "$folder/whole.obj" >"$folder/huge.obj"
+expect 3 "no unit makes a vessel" "$ostium" import "$folder/huge.obj" -o "$folder/case"
+expect 3 "this is no vessel" "$ostium" import --units mm "$folder/whole.obj" -o "$folder/case"
+expect 3 "cannot be read as a mesh" bash -c "printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\n' > '$folder/none.obj'; '$ostium' import '$folder/none.obj' -o '$folder/case'"
+# A body of revolution with a spout: no vessel, in whatever unit.
+awk 'function row(x, z, r, n,  i) { for (i = 0; i < n; ++i) print "v", x + r * cos(6.2831853 * i / n), r * sin(6.2831853 * i / n), z }
+  function tube(first, rows, n,  i, j, a, b) {
+    for (j = 0; j + 1 < rows; ++j) for (i = 0; i < n; ++i) { a = first + j * n; b = (i + 1) % n
+      print "f", a + i, a + b, a + n + b, a + n + i }
+    printf "f"; for (i = n - 1; i >= 0; --i) printf " %d", first + i; print ""
+    printf "f"; for (i = 0; i < n; ++i) printf " %d", first + (rows - 1) * n + i; print "" }
+  BEGIN { split("12 18 20 19 15 9 3", r); for (j = 1; j <= 7; ++j) row(0, 4 * j, r[j], 24); for (j = 0; j < 4; ++j) row(16 + 5 * j, 12 + 4 * j, 5 - j, 12)
+    tube(1, 7, 24); tube(169, 4, 12) }' >"$folder/teapot.obj"
+expect 3 "this is no vessel" "$ostium" import "$folder/teapot.obj" -o "$folder/case"
+head -c 40 "$folder/teapot.obj" >"$folder/cut.obj"
+expect 3 "cut.obj: cannot be read" "$ostium" import "$folder/cut.obj" -o "$folder/case"
+printf 'ply\nformat ascii 1.0\nelement vertex 3\n' >"$folder/cut.ply"
+expect 3 "is cut short" "$ostium" import "$folder/cut.ply" -o "$folder/case"
+expect 3 "cannot be read" bash -c "printf '{\"asset\":{\"version\":\"2.0\"}' >'$folder/cut.gltf'; '$ostium' check '$folder/cut.gltf'"
+expect 3 "right-handed" "$ostium" import "$folder/whole.obj" --axes LPI -o "$folder/case"
+expect 3 "FOUND=WANTED" "$ostium" import "$folder/whole.obj" --rename x -o "$folder/case"
+expect 3 "BRANCH:FROM" "$ostium" import "$folder/whole.obj" --lesion RCA -o "$folder/case"
+[[ ! -e $folder/case && ! -e $folder/case.unfinished ]] || { echo "a refused import left something"; exit 1; }
+expect 0 "branches" "$ostium" centreline "$folder/whole.obj" -o "$folder/tree.json"
+expect 3 "three numbers" "$ostium" centreline "$folder/whole.obj" --start 1,2 -o "$folder/tree.json"
+expect 3 "no format of a tree" "$ostium" centreline "$folder/whole.obj" -o "$folder/tree.txt"
+
+# Sessions: run, record, replay, sweep.
+out=$folder/out
+expect 0 "aorta-arch-wire" "$ostium" scripts
+expect 0 '"instrument"' "$ostium" scripts --json
+expect 0 "Examples" "$ostium" run --help
+expect 0 "recorded in" "$ostium" run rca-mid-focal --script iliac-wire --out "$out"
+grep -q '"outcome": "success"' "$out/metrics.json"
+expect 0 "bit for bit" "$ostium" replay "$out/run.h5" --verify
+expect 0 '"same": true' "$ostium" replay "$out/run.h5" --from 1 --json
+expect 0 "start.png" "$ostium" replay "$out/run.h5" --pixels 128 --png "$out/start.png"
+expect 0 "moment.png" "$ostium" replay "$out/run.h5" --from 0.5 --view lao --pixels 128 --png "$out/moment.png"
+expect 0 "run.html" "$ostium" report "$out/run.h5" -o "$out/run.html" --csv "$out/runs.csv" --events "$out/events.csv"
+grep -q "not for decisions on a patient" "$out/run.html"
+grep -q "tool_in" "$out/events.csv"
+expect 3 "2 recordings" "$ostium" report "$out/run.h5" "$out/run.h5" --code A -o "$out/none.html"
+expect 3 "no-such-list" "$ostium" report "$out/run.h5" --scoring no-such-list -o "$out/none.html"
+expect 0 "" "$ostium" report --questionnaire "$out/forms.html"
+SDL_VIDEODRIVER=dummy expect 1 "time limit" "$ostium" run rca-mid-focal --display window --seconds 0.5 --last-frame "$out/window.png"
+[[ -s $out/window.png ]]
+SDL_VIDEODRIVER=dummy expect 1 "time limit" "$ostium" run rca-mid-focal --script iliac-wire --display window --seconds 0.5 --film --out "$out/shown" \
+  --last-frame "$out/shown.png"
+[[ -s $out/shown.png ]]
+SDL_VIDEODRIVER=none expect 3 "there is no window here" "$ostium" run rca-mid-focal --device keyboard
+expect 1 "time limit" "$ostium" run rca-mid-focal --script iliac-wire --seconds 0.4 --out "$out/filmed" --film --report
+[[ -s $out/filmed/procedure.mp4 && -s $out/filmed/report.html && -s $out/filmed/key-frames/01.png ]]
+expect 1 "time limit" "$ostium" run rca-mid-focal --seconds 0.2 --speed real --record none --out "$out"
+expect 1 '"outcome": "aborted"' "$ostium" run rca-mid-focal --seconds 0.1 --json
+expect 1 "stopped by the operator" timeout -s INT 120 bash -c "'$ostium' run rca-mid-focal --speed real --out '$out/int' & p=\$!
+  while [[ ! -e '$out/int/run.h5' ]]; do sleep 0.05; done; sleep 0.7; kill -INT \$p; wait \$p"
+expect 0 "bit for bit" "$ostium" replay "$out/int/run.h5"
+expect 1 "is the disk full" bash -c "ulimit -f 50; trap '' XFSZ; '$ostium' run rca-mid-focal --script iliac-wire --out '$out/full'"
+expect 0 "bit for bit" "$ostium" replay "$out/full/run.h5"
+expect 3 "there is no case" "$ostium" run no-such-case
+expect 3 "there is no script" "$ostium" run rca-mid-focal --script no-such-script
+expect 3 "there is no instrument" "$ostium" run rca-mid-focal --set wire=no-such-wire
+expect 3 "expected one of wire, person" "$ostium" run rca-mid-focal --set wyre=cook-j
+expect 3 "where an instrument comes in" "$ostium" run "$folder/whole.obj"
+expect 3 "there is no such file" "$ostium" replay "$out/none.h5"
+expect 3 "there is no view" "$ostium" replay "$out/run.h5" --view upwards --png "$out/moment.png"
+expect 3 "s long" "$ostium" replay "$out/run.h5" --from 60
+head -c 3000 "$out/run.h5" >"$out/cut.h5"
+expect 3 "cut short" "$ostium" replay "$out/cut.h5"
+sed 's/"speed_mm_s"/"speed_mms"/' "$(dirname "$0")/../../data/scripts/iliac-wire.json" >"$folder/iliac-wire.json"
+expect 3 "iliac-wire.json:9: steps\[0\].speed_mms is not a key" "$ostium" run rca-mid-focal --script "$folder/iliac-wire.json"
+
+sweep() { "$ostium" sweep rca-mid-focal --script iliac-wire --seconds 1 --vary wire=cook-j,bentson --seeds 1..4 "$@"; }
+export -f sweep
+expect 0 "8 runs" sweep -o "$out/one.csv" --jobs 1
+expect 0 "8 runs" sweep -o "$out/two.csv" --jobs 2
+cmp "$out/one.csv" "$out/two.csv"
+sweep -o "$out/three.csv" & child=$!
+for _ in $(seq 100); do
+  if [[ -e $out/three.csv.part ]] && (($(wc -l <"$out/three.csv.part") > 2)); then break; fi
+  sleep 0.05
+done
+pkill -KILL -P "$child" 2>/dev/null || kill -KILL "$child" 2>/dev/null || true
+wait "$child" 2>/dev/null || true
+if [[ -e $out/three.csv.part ]]; then
+  printf '7 rca-mid-focal,torn' >>"$out/three.csv.part"
+  expect 3 "not finished" sweep -o "$out/three.csv"
+  expect 3 "another sweep" "$ostium" sweep rca-mid-focal --resume --script iliac-wire --seeds 1..2 -o "$out/three.csv"
+  expect 0 "8 runs" sweep -o "$out/three.csv" --resume
+fi
+cmp "$out/one.csv" "$out/three.csv"
+# A lesion as long as the mean's artery: nobody whose own is shorter has room for it, and the sweep goes on.
+sed 's/"name": "rca-diffuse"/"name": "long"/; s/"from_mm": 24, "length_mm": 32/"from_mm": 0, "length_mm": 95/; /"from_mm": 70/d; s/"calcified": true},/"calcified": true}/' \
+  "$(dirname "$0")/../../data/cases/rca-diffuse.json" >"$folder/long.json"
+expect 0 "for person 12" "$ostium" sweep "$folder/long.json" --script iliac-wire --seconds 0.1 --vary person=0,12 --seeds 0..0 -o "$out/four.csv"
+grep -q "0,12,aborted,.*expected it within the branch" "$out/four.csv"
+expect 3 "no vessel of the sweep can be built" "$ostium" sweep "$folder/long.json" --script iliac-wire --vary person=12 --seeds 0..0 -o "$out/five.csv"
+[[ ! -e $out/five.csv.part ]]
+expect 3 "FROM..TO" "$ostium" sweep rca-mid-focal --seeds 9..1 -o "$out/table.csv"
+expect 3 "KEY=A,B,C" "$ostium" sweep rca-mid-focal --vary wire= -o "$out/table.csv"

@@ -1,0 +1,15 @@
+#pragma once
+/// Of the posed corners of a wall, how far the nearest is from a point.
+#include <algorithm>
+
+#include "core/math/field.h"
+
+namespace ostium {
+
+inline double nearest_corner_m(const Field<3>& corners, const Eigen::Vector3d& p_W) {
+  double nearest_m = 1;
+  for (int i = 0; i < corners.size(); ++i) nearest_m = std::min(nearest_m, (corners[i] - p_W).norm());
+  return nearest_m;
+}
+
+}  // namespace ostium

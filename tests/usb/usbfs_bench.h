@@ -1,9 +1,0 @@
-#pragma once
-#include "tests/usb/bench.h"
-
-namespace ostium {
-
-std::unique_ptr<Bench> make_usbfs_bench(std::string& why_not);
-void prepare_usbfs_bench(char** arguments);
-
-}  // namespace ostium
