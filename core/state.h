@@ -16,13 +16,6 @@ struct State {
 };
 constexpr auto fields(const State*) { return std::tuple{field("step", &State::step), field("rods", &State::rods)}; }
 
-/// Rods straight from their base poses along d3 and at rest; `bases[i]` belongs to rod i, and so does `inserted_m[i]`,
-/// the length beyond the base (whole rods if empty; below least_inserted_m of introducer.h: not in the body).
-State make_state(const Model& model, const std::vector<EndState>& bases, const std::vector<double>& inserted_m = {});
-/// The same with every rod in its unloaded shape.
-State make_state_at_rest_shape(const Model& model, const std::vector<EndState>& bases,
-                               const std::vector<double>& inserted_m = {});
-
 /// 64-bit hash (XXH3 of bytes: -0 and 0 differ) of the step number and all that the next steps may come of.
 std::uint64_t hash(const State& state);
 

@@ -14,6 +14,7 @@
 #include "data/formats/load_error.h"
 #include "vascular/beat/heart_cycle.h"
 #include "vascular/stent/stent_shape.h"
+#include "core/rod/initial_state.h"
 
 namespace ostium {
 

@@ -7,6 +7,7 @@
 #include "app/verify/gate.h"
 #include "core/samples/steel_wire.h"
 #include "core/samples/tube.h"
+#include "core/rod/initial_state.h"
 
 namespace ostium::verify {
 

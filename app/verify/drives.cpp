@@ -9,6 +9,7 @@
 
 #include "core/samples/steel_wire.h"
 #include "data/catalogue/catalogue.h"
+#include "core/rod/initial_state.h"
 
 namespace ostium::verify {
 

@@ -6,6 +6,7 @@
 #include "app/verify/gate.h"
 #include "core/energy.h"
 #include "core/samples/steel_wire.h"
+#include "core/rod/initial_state.h"
 
 namespace ostium::verify {
 

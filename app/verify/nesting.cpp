@@ -8,6 +8,7 @@
 
 #include "app/verify/gate.h"
 #include "core/samples/steel_wire.h"
+#include "core/rod/initial_state.h"
 
 namespace ostium::verify {
 

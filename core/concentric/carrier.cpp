@@ -2,6 +2,7 @@
 
 #include "core/concentric/twist.h"
 #include "core/math/rotation.h"
+#include "core/rod/initial_state.h"
 
 namespace ostium {
 

@@ -11,7 +11,7 @@
 #include "core/model.h"
 #include "core/scratch.h"
 #include "core/state.h"
-#include "core/step.h"
+#include "core/report.h"
 
 namespace ostium {
 

@@ -5,7 +5,7 @@
 
 #include "core/math/rotation.h"
 #include "core/rod/inertia.h"
-#include "core/step.h"
+#include "core/report.h"
 #include "core/tunables.h"
 
 namespace ostium {

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "core/math/rotation.h"
-#include "core/step.h"
+#include "core/report.h"
 
 namespace ostium {
 

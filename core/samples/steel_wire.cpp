@@ -1,9 +1,10 @@
 #include "core/samples/steel_wire.h"
+#include "core/rod/initial_state.h"
 
 #include <Eigen/Geometry>
 #include <numbers>
 
-namespace ostium::verify {
+namespace ostium {
 
 Bench::Bench(Model m, EndState base) : model(std::move(m)), state(make_state(model, {base})), scratch(model) {
   inputs.rods.resize(1);
@@ -81,4 +82,4 @@ void lay_out_ring(const Rod& rod, double twist_rad, RodState& state) {
   lay_out(rod, frames, frame(1), state);
 }
 
-}  // namespace ostium::verify
+}  // namespace ostium

@@ -4,7 +4,7 @@
 #include "core/statics.h"
 #include "core/step.h"
 
-namespace ostium::verify {
+namespace ostium {
 
 struct WireOptions {
   int elements = 100;
@@ -58,4 +58,4 @@ double critical(double stable, double unstable, double fraction, F&& is_unstable
   return 0.5 * (stable + unstable);
 }
 
-}  // namespace ostium::verify
+}  // namespace ostium

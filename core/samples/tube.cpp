@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace ostium::verify {
+namespace ostium {
 
 using Eigen::Vector3d;
 
@@ -55,4 +55,4 @@ std::vector<TubePoint> bend(double bend_radius_m, double angle, double lead_m, d
   return out;
 }
 
-}  // namespace ostium::verify
+}  // namespace ostium

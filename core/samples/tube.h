@@ -4,7 +4,7 @@
 
 #include "core/surface/surface.h"
 
-namespace ostium::verify {
+namespace ostium {
 
 /// A point of a centreline, and the radius there.
 struct TubePoint {
@@ -20,4 +20,4 @@ SurfaceDescription tube(const std::vector<TubePoint>& points, int around);
 std::vector<TubePoint> bend(double bend_radius_m, double angle, double lead_m, double trail_m, double radius_m,
                             double spacing_m);
 
-}  // namespace ostium::verify
+}  // namespace ostium

@@ -7,6 +7,7 @@
 #include "app/verify/nesting.h"
 #include "core/samples/steel_wire.h"
 #include "tests/bench/rows.h"
+#include "core/rod/initial_state.h"
 
 namespace ostium::bench {
 

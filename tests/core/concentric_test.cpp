@@ -10,6 +10,7 @@
 #include "core/samples/steel_wire.h"
 #include "core/step.h"
 #include "tests/support/boundary_value.h"
+#include "core/rod/initial_state.h"
 
 namespace ostium {
 namespace {

@@ -13,6 +13,7 @@
 #include "core/surface/pose.h"
 #include "core/surface/triangle.h"
 #include "tests/support/nearest_corner.h"
+#include "core/rod/initial_state.h"
 
 namespace ostium {
 namespace {

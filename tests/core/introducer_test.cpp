@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "core/samples/steel_wire.h"
+#include "core/rod/initial_state.h"
 
 namespace ostium {
 namespace {

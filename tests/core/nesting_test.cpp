@@ -13,6 +13,7 @@
 #include "core/samples/steel_wire.h"
 #include "core/step.h"
 #include "tests/support/allocations.h"
+#include "core/rod/initial_state.h"
 
 namespace ostium {
 namespace {

@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "core/samples/steel_wire.h"
+#include "core/rod/initial_state.h"
 
 namespace ostium {
 namespace {

@@ -9,6 +9,7 @@
 #include "core/state.h"
 #include "core/step.h"
 #include "tests/support/allocations.h"
+#include "core/rod/initial_state.h"
 
 namespace ostium {
 namespace {

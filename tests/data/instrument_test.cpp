@@ -9,6 +9,7 @@
 #include "core/state.h"
 #include "data/catalogue/catalogue.h"
 #include "tests/data/instrument_files.h"
+#include "core/rod/initial_state.h"
 
 namespace ostium {
 namespace {

@@ -7,6 +7,7 @@
 
 #include "core/state.h"
 #include "data/formats/svg.h"
+#include "core/rod/initial_state.h"
 
 namespace ostium {
 

@@ -7,6 +7,7 @@
 
 #include "core/rod/introducer.h"
 #include "core/step.h"
+#include "core/rod/initial_state.h"
 
 namespace ostium {
 

@@ -6,6 +6,7 @@
 #include "core/samples/steel_wire.h"
 #include "data/catalogue/catalogue.h"
 #include "data/formats/svg.h"
+#include "core/rod/initial_state.h"
 
 namespace {
 
