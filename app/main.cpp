@@ -1,11 +1,11 @@
 /// The one executable. Its subcommands are in commands/.
 #include <malloc.h>
 
-#include "app/commands/command_line.h"
+#include "app/command_line/command_line.h"
 #include "app/commands/program.h"
 
 int main(int argc, char** argv) {
   // What a case takes while it is made goes back at once; else a tenth of a run's memory would be such leftovers.
   mallopt(M_MMAP_THRESHOLD, 1 << 20);
-  return ostium::run_command_line(ostium::program(), argc, argv);
+  return ostium::app::run_command_line(ostium::app::program(), argc, argv);
 }

@@ -4,57 +4,59 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/base/units.h"
 #include "data/formats/load_error.h"
-#include "fluoro/views.h"
-#include "vascular/units.h"
+#include "fluoro/projection/views.h"
 
-namespace ostium {
+namespace ostium::app {
 
 namespace {
+
+using units::mL;
 
 constexpr double step_s = 1e-3;
 constexpr double seen = 0.15, filled = 0.5;  // of the darkness of a full vessel
 
 }  // namespace
 
-View view_of(const std::string& standard_view, const Patient& patient, bool left, int pixels) {
-  const auto named = find_view(standard_view);
-  if (!named) throw LoadError("there is no view \"" + standard_view + "\"; `ostium views` lists them");
-  constexpr double degree = std::numbers::pi / 180;
-  View view;
+fluoro::View view_of(const std::string& standard_view, const vascular::Patient& patient, bool left, int pixels) {
+  const auto named = fluoro::find_view(standard_view);
+  if (!named) throw data::LoadError("there is no view \"" + standard_view + "\"; `ostium views` lists them");
+  using units::degree;
+  fluoro::View view;
   view.arm.lao_rad = degree * named->lao_deg, view.arm.cran_rad = degree * named->cran_deg;
   view.pixels = pixels;
   Eigen::Vector3d low = Eigen::Vector3d::Constant(1e9), high = -low;
-  for (const TreeBranch& b : patient.tree.branches) {
+  for (const vascular::TreeBranch& b : patient.tree.branches) {
     const bool of_left = b.name == "LM" || b.name == "LAD" || b.name == "LCx" || b.name[0] == 'D' || b.name[0] == 'O';
     const bool of_right = b.name == "RCA" || b.name == "PDA" || b.name == "PLV" || b.name == "RV";
     if (left ? of_left : of_right)
-      for (const TreeSphere& s : b.spheres) low = low.cwiseMin(s.p), high = high.cwiseMax(s.p);
+      for (const vascular::TreeSphere& s : b.spheres) low = low.cwiseMin(s.p), high = high.cwiseMax(s.p);
   }
   view.arm.p_PI = (low + high) / 2;
   return view;
 }
 
-Injection usual_injection(const FlowTree& tree, bool left) {
+Injection usual_injection(const vascular::FlowTree& tree, bool left) {
   Injection injection;
-  injection.tip.where = TipPlace::coronary;
+  injection.tip.where = vascular::TipPlace::coronary;
   injection.tip.cell = tree.branches[tree.branch(left ? "LM" : "RCA")].first;
   injection.rate_m3_s = (left ? 2.1 : 1.7) * mL, injection.volume_m3 = (left ? 7.1 : 4.8) * mL;
   return injection;
 }
 
-Angiogram::Angiogram(const PhysiologyModel& model, PatientScene& scene, const View& view, double frames_per_s,
-                     std::uint64_t seed)
+Angiogram::Angiogram(const vascular::PhysiologyModel& model, PatientScene& scene, const fluoro::View& view,
+                     double frames_per_s, std::uint64_t seed)
     : model_(model),
       scene_(scene),
       view_(view),
       frames_per_s_(frames_per_s),
       seed_(seed),
-      imager_({}, make_scanline_renderer()),
-      mask_imager_({}, make_scanline_renderer()) {}
+      imager_({}, fluoro::make_scanline_renderer()),
+      mask_imager_({}, fluoro::make_scanline_renderer()) {}
 
-void Angiogram::wait_for(double phase, double rate_1_min, PhysiologyState& state) {
-  PhysiologyInputs inputs;
+void Angiogram::wait_for(double phase, double rate_1_min, vascular::PhysiologyState& state) {
+  vascular::PhysiologyInputs inputs;
   inputs.heart.rate_1_min = rate_1_min;
   for (int n = 0; n < 4000; ++n) {
     const double before = state.heart.phase;
@@ -64,11 +66,12 @@ void Angiogram::wait_for(double phase, double rate_1_min, PhysiologyState& state
   }
 }
 
-void Angiogram::advance(const std::optional<Injection>& injection, PhysiologyInputs inputs, PhysiologyState& state) {
+void Angiogram::advance(const std::optional<Injection>& injection, vascular::PhysiologyInputs inputs,
+                        vascular::PhysiologyState& state) {
   const long due = std::lround(1000.0 * static_cast<double>(frame_++) / frames_per_s_);
   if (step_ == 0 && injection)
     std::fill(state.contrast.line_kg.begin(), state.contrast.line_kg.end(),
-              injection->iodine_kg_m3 * inputs.contrast.line.dead_m3 / line_cells);
+              injection->iodine_kg_m3 * inputs.contrast.line.dead_m3 / vascular::line_cells);
   for (; step_ < due; ++step_) {
     if (injection) {
       inputs.contrast.tip = injection->tip, inputs.contrast.iodine_kg_m3 = injection->iodine_kg_m3;
@@ -80,32 +83,32 @@ void Angiogram::advance(const std::optional<Injection>& injection, PhysiologyInp
   scene_.at(state, inputs.occupied_m);
 }
 
-const Picture& Angiogram::frame(const std::optional<Injection>& injection, const PhysiologyInputs& inputs,
-                                PhysiologyState& state) {
+const fluoro::Picture& Angiogram::frame(const std::optional<Injection>& injection,
+                                        const vascular::PhysiologyInputs& inputs, vascular::PhysiologyState& state) {
   advance(injection, inputs, state);
   return take(state.heart.phase);
 }
 
-const Picture& Angiogram::take(double phase) {
-  const FluoroscopeInput in{.scene = scene_.scene(),
-                            .view = view_,
-                            .collimator = {},
-                            .pedals = {.fluoroscopy = false, .cine = true},
-                            .cine_per_s = frames_per_s_,
-                            .beat_phase = phase,
-                            .seed = seed_};
+const fluoro::Picture& Angiogram::take(double phase) {
+  const fluoro::FluoroscopeInput in{.scene = scene_.scene(),
+                                    .view = view_,
+                                    .collimator = {},
+                                    .pedals = {.fluoroscopy = false, .cine = true},
+                                    .cine_per_s = frames_per_s_,
+                                    .beat_phase = phase,
+                                    .seed = seed_};
   report_ = tick(imager_, in, fluoroscope_, display_);
   return fluoroscope_.live;
 }
 
-void Angiogram::draw(Imager& imager, ImagerState& into) {
-  Programme programme = cine(frames_per_s_);
+void Angiogram::draw(fluoro::Imager& imager, fluoro::ImagerState& into) {
+  fluoro::Programme programme = fluoro::cine(frames_per_s_);
   programme.lag = 0;
   imager.frame({scene_.scene(), view_, {}, programme, seed_ + 1}, into);
 }
 
-std::vector<double> Angiogram::read(const Plane& with, const Plane& without, const std::vector<int>& cells,
-                                    const PhysiologyState& state) const {
+std::vector<double> Angiogram::read(const fluoro::Plane& with, const fluoro::Plane& without,
+                                    const std::vector<int>& cells, const vascular::PhysiologyState& state) const {
   // Automatic brightness answers to contrast: what most of the picture changed by is no iodine.
   std::vector<float> change;
   for (int r = 8; r < view_.pixels; r += 16)
@@ -136,12 +139,12 @@ std::vector<double> Angiogram::read(const Plane& with, const Plane& without, con
   return out;
 }
 
-std::vector<double> Angiogram::darkness(const std::vector<int>& cells, const PhysiologyState& state) {
-  ImagerState with;
+std::vector<double> Angiogram::darkness(const std::vector<int>& cells, const vascular::PhysiologyState& state) {
+  fluoro::ImagerState with;
   draw(imager_, with);
   // Bodies keep their places; only the iodine goes.
-  Contrast& contrast = scene_.lumen().contrast;
-  const Contrast kept = contrast;
+  fluoro::Contrast& contrast = scene_.lumen().contrast;
+  const fluoro::Contrast kept = contrast;
   contrast.iodine_kg_m3.setZero(), contrast.along_kg_m2.setZero();
   mask_ = {};
   draw(mask_imager_, mask_);
@@ -150,18 +153,18 @@ std::vector<double> Angiogram::darkness(const std::vector<int>& cells, const Phy
 }
 
 std::vector<double> Angiogram::darkness_full(const std::vector<int>& cells, double iodine_kg_m3,
-                                             const PhysiologyState& state) {
-  PhysiologyState full = state;
+                                             const vascular::PhysiologyState& state) {
+  vascular::PhysiologyState full = state;
   const std::size_t n = model_.flow.tree.cells.size();
   for (std::size_t c = 0; c < n; ++c)
-    for (int k = 0; k < layers; ++k)
+    for (int k = 0; k < vascular::layers; ++k)
       full.contrast.sheath_kg[k * n + c] = iodine_kg_m3 * model_.contrast.share[k] *
-                                           model_.flow.tree.cells[c].length_m * free_area_m2(full.radius_m[c], 0);
+                                           model_.flow.tree.cells[c].length_m * vascular::free_area_m2(full.radius_m[c], 0);
   scene_.at(full, {});
   return darkness(cells, full);
 }
 
-int timi_landmark(const FlowTree& tree, const std::string& artery) {
+int timi_landmark(const vascular::FlowTree& tree, const std::string& artery) {
   const auto from_ostium = [&](int cell) {
     double length = 0;
     for (int c : tree.path_to(cell)) length += tree.cells[c].length_m;
@@ -180,27 +183,28 @@ int timi_landmark(const FlowTree& tree, const std::string& artery) {
   }
   constexpr double gibson_m = 93e-3;
   int end = -1;
-  for (const FlowBranch& b : tree.branches)
-    if (b.territory == Territory::lcx && (end < 0 || from_ostium(b.last - 1) > from_ostium(end))) end = b.last - 1;
+  for (const vascular::FlowBranch& b : tree.branches)
+    if (b.territory == vascular::Territory::lcx && (end < 0 || from_ostium(b.last - 1) > from_ostium(end)))
+      end = b.last - 1;
   while (end >= 0 && from_ostium(end) > gibson_m) end = tree.cells[end].upstream;
   return end;
 }
 
-TimiCount timi_count(const PhysiologyModel& model, PatientScene& scene, const Patient& patient,
-                     const std::string& artery, const PhysiologyState& at_rest, double rate_1_min, double start_phase,
-                     double longest_s) {
-  const FlowTree& tree = model.flow.tree;
+TimiCount timi_count(const vascular::PhysiologyModel& model, PatientScene& scene, const vascular::Patient& patient,
+                     const std::string& artery, const vascular::PhysiologyState& at_rest, double rate_1_min,
+                     double start_phase, double longest_s) {
+  const vascular::FlowTree& tree = model.flow.tree;
   const bool left = artery != "RCA";
   const int end = timi_landmark(tree, artery);
   if (end < 0) return {};
-  PhysiologyState state = at_rest;
-  const View view = view_of(artery == "LAD" ? "rao-cranial" : left ? "rao-caudal" : "lao", patient, left, 512);
+  vascular::PhysiologyState state = at_rest;
+  const fluoro::View view = view_of(artery == "LAD" ? "rao-cranial" : left ? "rao-caudal" : "lao", patient, left, 512);
   Angiogram angiogram(model, scene, view, 30);
   angiogram.wait_for(start_phase, rate_1_min, state);
   const Injection injection = usual_injection(tree, left);
   const std::vector<int> cells = {injection.tip.cell + 2, end};
   const std::vector<double> full = angiogram.darkness_full(cells, injection.iodine_kg_m3, state);
-  PhysiologyInputs inputs;
+  vascular::PhysiologyInputs inputs;
   inputs.heart.rate_1_min = rate_1_min;
   double begun = -1;
   std::vector<double> before(2, 0);
@@ -219,4 +223,4 @@ TimiCount timi_count(const PhysiologyModel& model, PatientScene& scene, const Pa
   return {30 * longest_s, false};
 }
 
-}  // namespace ostium
+}  // namespace ostium::app

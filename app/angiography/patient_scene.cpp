@@ -1,18 +1,18 @@
 #include "app/angiography/patient_scene.h"
 
 #include "app/angiography/xray_body.h"
-#include "fluoro/tissue.h"
-#include "vascular/beat/heart_cycle.h"
+#include "fluoro/matter/tissue.h"
+#include "vascular/motion/heart_cycle.h"
 
-namespace ostium {
+namespace ostium::app {
 
-PatientScene::PatientScene(const Patient& patient, const PhysiologyModel& physiology)
+PatientScene::PatientScene(const vascular::Patient& patient, const vascular::PhysiologyModel& physiology)
     : patient_(patient),
       physiology_(physiology),
       map_(make_lumen_map(patient, physiology.flow)),
       shape_(patient, map_, physiology.flow.tree) {
-  std::vector<Body> still;
-  for (XrayBody& body : make_thorax(patient.anatomy)) {
+  std::vector<fluoro::Body> still;
+  for (vascular::XrayBody& body : make_thorax(patient.anatomy)) {
     if (body.beat.empty() && body.breath.empty()) {
       still.push_back(body_of(body));
     } else {
@@ -20,30 +20,31 @@ PatientScene::PatientScene(const Patient& patient, const PhysiologyModel& physio
       thorax_.push_back(std::move(body));
     }
   }
-  scene_.fixed = std::make_shared<const std::vector<Body>>(std::move(still));
+  scene_.fixed = std::make_shared<const std::vector<fluoro::Body>>(std::move(still));
   const auto n = static_cast<Eigen::Index>(patient.lumen.vertices());
-  Body lumen{.name = "lumen",
-             .triangles = triangles_of(patient.lumen.triangles),
-             .p_P = Eigen::Matrix3Xf(3, n),
-             .tissue = tissue::blood,
-             .within = tissue::soft,
-             .contrast = {}};
+  fluoro::Body lumen{.name = "lumen",
+                     .triangles = triangles_of(patient.lumen.triangles),
+                     .p_P = Eigen::Matrix3Xf(3, n),
+                     .tissue = fluoro::tissue::blood,
+                     .within = fluoro::tissue::soft,
+                     .contrast = {}};
   lumen.contrast.iodine_kg_m3 = Eigen::VectorXf::Zero(n);
   lumen.contrast.p_PC = lumen.contrast.along_kg_m2 = Eigen::Matrix3Xf::Zero(3, n);
   scene_.moving.push_back(std::move(lumen));
   own_ = scene_.moving.size();
 }
 
-const Scene& PatientScene::at(const PhysiologyState& state, std::span<const double> occupied_m, double breath) {
+const fluoro::Scene& PatientScene::at(const vascular::PhysiologyState& state, std::span<const double> occupied_m,
+                                      double breath) {
   const double phase = state.heart.phase;
   scene_.moving.resize(own_);
   scene_.shafts.clear();
   for (std::size_t b = 0; b < thorax_.size(); ++b)
-    scene_.moving[b].p_P = points_of(ostium::at(thorax_[b], contraction(phase), breath).vertices);
-  Body& lumen = scene_.moving[thorax_.size()];
+    scene_.moving[b].p_P = points_of(vascular::at(thorax_[b], vascular::contraction(phase), breath).vertices);
+  fluoro::Body& lumen = scene_.moving[thorax_.size()];
   shape_.at(state.radius_m, phase, breath, vertices_);
   lumen.p_P = points_of(vertices_);
-  const FlowInputs in{{}, state.radius_m, occupied_m, 0};
+  const vascular::FlowInputs in{{}, state.radius_m, occupied_m, 0};
   opacify(map_, {physiology_.flow, physiology_.contrast, state.contrast, in, phase, breath},
           {{lumen.contrast.iodine_kg_m3.data(), static_cast<std::size_t>(lumen.contrast.iodine_kg_m3.size())},
            lumen.contrast.p_PC,
@@ -52,4 +53,4 @@ const Scene& PatientScene::at(const PhysiologyState& state, std::span<const doub
   return scene_;
 }
 
-}  // namespace ostium
+}  // namespace ostium::app

@@ -1,13 +1,14 @@
 #pragma once
-#include "vascular/physiology.h"
+#include "vascular/physiology/physiology.h"
 
-namespace ostium {
+namespace ostium::app {
 
 /// A circulation that has beaten until pressure and flow repeat, at phase 0.
-inline PhysiologyState at_rest(const PhysiologyModel& model, double rate_1_min, double seconds = 20) {
-  PhysiologyState state = make_state(model);
-  PhysiologyScratch scratch;
-  PhysiologyInputs inputs;
+inline vascular::PhysiologyState at_rest(const vascular::PhysiologyModel& model, double rate_1_min,
+                                         double seconds = 20) {
+  vascular::PhysiologyState state = make_state(model);
+  vascular::PhysiologyScratch scratch;
+  vascular::PhysiologyInputs inputs;
   inputs.heart.rate_1_min = rate_1_min;
   double before = 0;
   for (int n = 0; n < 1000 * seconds || before < state.heart.phase; ++n) {
@@ -17,4 +18,4 @@ inline PhysiologyState at_rest(const PhysiologyModel& model, double rate_1_min, 
   return state;
 }
 
-}  // namespace ostium
+}  // namespace ostium::app

@@ -2,36 +2,36 @@
 
 #include <utility>
 
-#include "fluoro/tissue.h"
+#include "fluoro/matter/tissue.h"
 
-namespace ostium {
+namespace ostium::app {
 
 namespace {
 
-Tissue tissue_of(BodyTissue tissue) {
+fluoro::Tissue tissue_of(vascular::BodyTissue tissue) {
   switch (tissue) {
-    case BodyTissue::air:
-      return tissue::air;
-    case BodyTissue::soft_tissue:
-      return tissue::soft;
-    case BodyTissue::lung:
-      return tissue::lung;
-    case BodyTissue::blood:
-      return tissue::blood;
-    case BodyTissue::cortical_bone:
-      return tissue::cortical_bone;
-    case BodyTissue::spongy_bone:
-      return tissue::spongy_bone;
-    case BodyTissue::loose_bone:
-      return tissue::loose_bone;
+    case vascular::BodyTissue::air:
+      return fluoro::tissue::air;
+    case vascular::BodyTissue::soft_tissue:
+      return fluoro::tissue::soft;
+    case vascular::BodyTissue::lung:
+      return fluoro::tissue::lung;
+    case vascular::BodyTissue::blood:
+      return fluoro::tissue::blood;
+    case vascular::BodyTissue::cortical_bone:
+      return fluoro::tissue::cortical_bone;
+    case vascular::BodyTissue::spongy_bone:
+      return fluoro::tissue::spongy_bone;
+    case vascular::BodyTissue::loose_bone:
+      return fluoro::tissue::loose_bone;
   }
-  return tissue::soft;
+  return fluoro::tissue::soft;
 }
 
 }  // namespace
 
-std::shared_ptr<const Triangles> triangles_of(const std::vector<std::array<int, 3>>& triangles) {
-  auto out = std::make_shared<Triangles>(3, triangles.size());
+std::shared_ptr<const fluoro::Triangles> triangles_of(const std::vector<std::array<int, 3>>& triangles) {
+  auto out = std::make_shared<fluoro::Triangles>(3, triangles.size());
   for (std::size_t t = 0; t < triangles.size(); ++t)
     for (int k = 0; k < 3; ++k) (*out)(k, static_cast<Eigen::Index>(t)) = triangles[t][static_cast<std::size_t>(k)];
   return out;
@@ -43,8 +43,8 @@ Eigen::Matrix3Xf points_of(const std::vector<Eigen::Vector3d>& points) {
   return out;
 }
 
-Body body_of(const XrayBody& body, std::shared_ptr<const Triangles> triangles,
-             const std::vector<Eigen::Vector3d>& points) {
+fluoro::Body body_of(const vascular::XrayBody& body, std::shared_ptr<const fluoro::Triangles> triangles,
+                     const std::vector<Eigen::Vector3d>& points) {
   return {.name = body.name,
           .triangles = std::move(triangles),
           .p_P = points_of(points),
@@ -53,6 +53,8 @@ Body body_of(const XrayBody& body, std::shared_ptr<const Triangles> triangles,
           .contrast = {}};
 }
 
-Body body_of(const XrayBody& body) { return body_of(body, triangles_of(body.mesh.triangles), body.mesh.vertices); }
+fluoro::Body body_of(const vascular::XrayBody& body) {
+  return body_of(body, triangles_of(body.mesh.triangles), body.mesh.vertices);
+}
 
-}  // namespace ostium
+}  // namespace ostium::app

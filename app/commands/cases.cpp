@@ -3,17 +3,17 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "app/commands/arguments.h"
-#include "app/commands/command.h"
-#include "app/commands/common_options.h"
-#include "app/commands/progress.h"
+#include "app/command_line/arguments.h"
+#include "app/command_line/command.h"
+#include "app/command_line/common_options.h"
+#include "app/command_line/progress.h"
 #include "data/catalogue/case/case.h"
 #include "data/catalogue/case/tree_file.h"
 #include "data/formats/load_error.h"
-#include "vascular/mesh.h"
+#include "vascular/geometry/mesh/mesh.h"
 #include "vascular/thorax/thorax.h"
 
-namespace ostium {
+namespace ostium::app {
 
 namespace {
 
@@ -32,43 +32,43 @@ void declare(Options& options, Arguments& a) {
 namespace fs = std::filesystem;
 
 /// 24 surfaces of the beat, the tree in each of them, and what else an X-ray meets.
-void write_case(const Case& c, const std::string& folder) {
+void write_case(const data::Case& c, const std::string& folder) {
   show_progress("building " + c.name);
-  const Patient patient = patient_of(c);
+  const vascular::Patient patient = patient_of(c);
   make_folder(folder);
-  for (int f = 0; f < beat_frames; ++f) {
-    show_progress(fmt::format("frame {} of {}", f + 1, beat_frames));
+  for (int f = 0; f < vascular::beat_frames; ++f) {
+    show_progress(fmt::format("frame {} of {}", f + 1, vascular::beat_frames));
     const fs::path base = folder;
     write_mesh((base / fmt::format("lumen-{:02}.obj", f)).string(),
-               patient.lumen.at(static_cast<double>(f) / beat_frames, 0), LengthUnit::millimetre);
-    write_tree((base / fmt::format("tree-{:02}.json", f)).string(), patient.tree_frames[static_cast<std::size_t>(f)]);
-    write_tree((base / fmt::format("tree-{:02}.vtp", f)).string(), patient.tree_frames[static_cast<std::size_t>(f)]);
+               patient.lumen.at(static_cast<double>(f) / vascular::beat_frames, 0), vascular::LengthUnit::millimetre);
+    data::write_tree((base / fmt::format("tree-{:02}.json", f)).string(), patient.tree_frames[static_cast<std::size_t>(f)]);
+    data::write_tree((base / fmt::format("tree-{:02}.vtp", f)).string(), patient.tree_frames[static_cast<std::size_t>(f)]);
   }
-  const std::vector<XrayBody> bodies = make_thorax(patient.anatomy);
-  for (const XrayBody& body : bodies) {
+  const std::vector<vascular::XrayBody> bodies = make_thorax(patient.anatomy);
+  for (const vascular::XrayBody& body : bodies) {
     std::string name = body.name;
     std::replace(name.begin(), name.end(), ' ', '-');
     std::erase(name, ',');
-    write_mesh((fs::path(folder) / ("body-" + name + ".obj")).string(), body.mesh, LengthUnit::millimetre);
+    write_mesh((fs::path(folder) / ("body-" + name + ".obj")).string(), body.mesh, vascular::LengthUnit::millimetre);
   }
   show_progress("");
   fmt::print("{}: {} triangles and {} spheres in each of {} frames, {} bodies\n", folder,
-             patient.lumen.triangles.size(), patient.tree.spheres(), beat_frames, bodies.size());
+             patient.lumen.triangles.size(), patient.tree.spheres(), vascular::beat_frames, bodies.size());
 }
 
 int run(const Arguments& a) {
-  const std::vector<Case> cases = a.name.empty() ? load_cases() : std::vector<Case>{find_case(a.name)};
+  const std::vector<data::Case> cases = a.name.empty() ? data::load_cases() : std::vector<data::Case>{data::find_case(a.name)};
   if (!a.folder.empty()) {
     if (a.name.empty())
-      throw LoadError("--export writes one case; name it, for example: ostium cases rca-mid-focal --export DIR");
+      throw data::LoadError("--export writes one case; name it, for example: ostium cases rca-mid-focal --export DIR");
     write_case(cases.front(), a.folder);
   } else if (a.json) {
     fmt::print("{}\n", to_json(cases));
   } else if (!a.name.empty()) {
     fmt::print("{}", case_details(cases.front()));
   } else {
-    fmt::print("{}\n", case_heading());
-    for (const Case& c : cases) fmt::print("{}\n", case_line(c));
+    fmt::print("{}\n", data::case_heading());
+    for (const data::Case& c : cases) fmt::print("{}\n", case_line(c));
   }
   return 0;
 }
@@ -81,4 +81,4 @@ Command cases_command() {
                       declare, run);
 }
 
-}  // namespace ostium
+}  // namespace ostium::app

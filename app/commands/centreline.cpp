@@ -1,16 +1,16 @@
-#include "vascular/tree/centreline.h"
+#include "vascular/geometry/centreline/centreline.h"
 
 #include <fmt/format.h>
 
-#include "app/commands/arguments.h"
-#include "app/commands/command.h"
-#include "app/commands/common_options.h"
-#include "app/commands/progress.h"
+#include "app/command_line/arguments.h"
+#include "app/command_line/command.h"
+#include "app/command_line/common_options.h"
+#include "app/command_line/progress.h"
 #include "data/catalogue/case/tree_file.h"
+#include "vascular/geometry/mesh/surface_check.h"
 #include "vascular/geometry/repair/units.h"
-#include "vascular/surface_check.h"
 
-namespace ostium {
+namespace ostium::app {
 
 namespace {
 
@@ -31,19 +31,19 @@ void declare(Options& options, Arguments& a) {
 }
 
 int run(const Arguments& a) {
-  const LengthUnit unit = unit_named(a.unit);
-  CentrelineOptions wanted;
+  const vascular::LengthUnit unit = vascular::unit_named(a.unit);
+  vascular::CentrelineOptions wanted;
   if (!a.start.empty()) wanted.start = metres(unit) * mesh_point(a.start);
   for (const std::string& end : a.ends) wanted.ends.push_back(metres(unit) * mesh_point(end));
-  const Mesh mesh = read_mesh(a.mesh, unit).mesh;
-  if (const SurfaceReport report = check_surface(mesh); !report.sound())
+  const vascular::Mesh mesh = read_mesh(a.mesh, unit).mesh;
+  if (const vascular::SurfaceReport report = check_surface(mesh); !report.sound())
     fmt::print(stderr, "{}: not sound, so parts may be missing:\n{}", a.mesh, describe(report));
   show_progress("looking for centrelines");
-  const CentrelineResult found = find_centrelines(mesh, wanted);
-  write_tree(a.output, found.tree);
+  const vascular::CentrelineResult found = find_centrelines(mesh, wanted);
+  data::write_tree(a.output, found.tree);
   fmt::print("{}: {} branches, {} spheres; looked at {:.2f} mm\n", a.output, found.tree.branches.size(),
              found.tree.spheres(), 1e3 * found.voxel_m);
-  for (const TreeBranch& branch : found.tree.branches)
+  for (const vascular::TreeBranch& branch : found.tree.branches)
     fmt::print("  {:>3} from {:>3}  {:7.1f} mm, radius {:.2f} to {:.2f} mm\n", branch.name,
                branch.parent < 0 ? "-" : found.tree.branches[static_cast<std::size_t>(branch.parent)].name,
                1e3 * branch.spheres.back().s_m, 1e3 * branch.spheres.front().radius_m,
@@ -60,4 +60,4 @@ Command centreline_command() {
                       declare, run);
 }
 
-}  // namespace ostium
+}  // namespace ostium::app

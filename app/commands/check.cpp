@@ -2,21 +2,21 @@
 
 #include <nlohmann/json.hpp>
 
-#include "app/commands/command.h"
-#include "app/commands/common_options.h"
-#include "app/commands/mesh_unit.h"
-#include "app/commands/progress.h"
+#include "app/command_line/command.h"
+#include "app/command_line/common_options.h"
+#include "app/command_line/mesh_unit.h"
+#include "app/command_line/progress.h"
 #include "data/catalogue/case/mesh_picture.h"
 #include "data/formats/load_error.h"
+#include "vascular/geometry/mesh/mesh.h"
+#include "vascular/geometry/mesh/patient_frame.h"
+#include "vascular/geometry/mesh/surface_check.h"
 #include "vascular/geometry/repair/calibre.h"
 #include "vascular/geometry/repair/double_wall.h"
 #include "vascular/geometry/repair/smooth.h"
 #include "vascular/geometry/repair/units.h"
-#include "vascular/mesh.h"
-#include "vascular/patient_frame.h"
-#include "vascular/surface_check.h"
 
-namespace ostium {
+namespace ostium::app {
 
 namespace {
 
@@ -34,10 +34,10 @@ void declare(Options& options, Arguments& a) {
   options.add("--picture", a.picture, "The mesh with its faults (one file only)").type("FILE.png|FILE.svg");
 }
 
-nlohmann::ordered_json fault_json(const SurfaceFault& fault) {
+nlohmann::ordered_json fault_json(const vascular::SurfaceFault& fault) {
   nlohmann::ordered_json where = nlohmann::ordered_json::array();
   for (const Eigen::Vector3d& p : fault.where) {
-    const Eigen::Vector3d mm = mm_from_patient(p);
+    const Eigen::Vector3d mm = vascular::mm_from_patient(p);
     where.push_back({mm.x(), mm.y(), mm.z()});
   }
   return {{"count", fault.count}, {"where_mm", where}};
@@ -46,38 +46,38 @@ nlohmann::ordered_json fault_json(const SurfaceFault& fault) {
 /// All that is known of one file.
 struct Checked {
   std::string file;
-  MeshFile mesh;
-  UnitGuess unit;
+  vascular::MeshFile mesh;
+  vascular::UnitGuess unit;
   bool unit_said = false;
-  SurfaceReport report;
-  std::vector<Opening> ends, holes, pinholes;
-  DoubleWall wall;
+  vascular::SurfaceReport report;
+  std::vector<vascular::Opening> ends, holes, pinholes;
+  vascular::DoubleWall wall;
   std::size_t flipped = 0, inverted = 0;
-  Roughness rough;
+  vascular::Roughness rough;
   std::vector<double> diameters;  ///< below which 2, 25, 50, 75, 98 % of the wall's area are, m
 };
 
 constexpr double shares[] = {0.02, 0.25, 0.5, 0.75, 0.98};
 
 void find_unit(const Arguments& a, Checked& c) {
-  c.unit = guess_unit(read_mesh(c.file, LengthUnit::metre, 0).mesh);
+  c.unit = guess_unit(read_mesh(c.file, vascular::LengthUnit::metre, 0).mesh);
   c.unit_said = a.unit != "auto";
   if (c.unit_said)
-    take_unit(unit_named(a.unit), c.unit);
+    take_unit(vascular::unit_named(a.unit), c.unit);
   else if (!c.unit.vessel)
-    take_unit(LengthUnit::millimetre, c.unit);  // as most files are
+    take_unit(vascular::LengthUnit::millimetre, c.unit);  // as most files are
 }
 
-void find_openings(const Mesh& turned, const Sheets& sheets, Checked& c) {
-  for (const Opening& opening : openings_of(turned, sheets))
+void find_openings(const vascular::Mesh& turned, const vascular::Sheets& sheets, Checked& c) {
+  for (const vascular::Opening& opening : openings_of(turned, sheets))
     (opening.end ? c.ends : opening.pinhole() ? c.pinholes : c.holes).push_back(opening);
 }
 
-void measure_diameters(const Mesh& mesh, Checked& c) {
-  const BoxTree tree(mesh);
+void measure_diameters(const vascular::Mesh& mesh, Checked& c) {
+  const vascular::BoundingVolumeHierarchy tree(mesh);
   const int stride = 1 + static_cast<int>(mesh.triangles.size() / 20'000);
   const std::vector<double> all = calibres(mesh, tree, stride), areas = areas_m2(mesh, stride);
-  for (double share : shares) c.diameters.push_back(percentile(all, areas, share));
+  for (double share : shares) c.diameters.push_back(vascular::percentile(all, areas, share));
 }
 
 Checked look_at(const std::string& file, const Arguments& a) {
@@ -90,9 +90,9 @@ Checked look_at(const std::string& file, const Arguments& a) {
   c.mesh = read_mesh(file, c.unit.unit);
   progress("looking for faults");
   c.report = check_surface(c.mesh.mesh);
-  Mesh turned = c.mesh.mesh;
-  Sheets sheets = sheets_of(turned);
-  const Orientation orientation = orient(turned, sheets);
+  vascular::Mesh turned = c.mesh.mesh;
+  vascular::Sheets sheets = sheets_of(turned);
+  const vascular::Orientation orientation = orient(turned, sheets);
   c.flipped = orientation.flipped.size();
   c.inverted = orientation.inverted.size();
   find_openings(turned, sheets, c);
@@ -106,10 +106,10 @@ Checked look_at(const std::string& file, const Arguments& a) {
 
 bool sound(const Checked& c) { return c.report.sound() && !c.wall.triangles; }
 
-nlohmann::ordered_json openings_json(const std::vector<Opening>& openings) {
+nlohmann::ordered_json openings_json(const std::vector<vascular::Opening>& openings) {
   nlohmann::ordered_json list = nlohmann::ordered_json::array();
-  for (const Opening& o : openings) {
-    const Eigen::Vector3d p = mm_from_patient(o.middle);
+  for (const vascular::Opening& o : openings) {
+    const Eigen::Vector3d p = vascular::mm_from_patient(o.middle);
     list.push_back(
         {{"edges", o.half_edges.size()}, {"diameter_mm", 1e3 * o.diameter_m}, {"where_mm", {p.x(), p.y(), p.z()}}});
   }
@@ -117,7 +117,7 @@ nlohmann::ordered_json openings_json(const std::vector<Opening>& openings) {
 }
 
 nlohmann::ordered_json report_json(const Checked& c) {
-  const SurfaceReport& r = c.report;
+  const vascular::SurfaceReport& r = c.report;
   return {{"file", c.file},
           {"unit", name_of(c.unit.unit)},
           {"unit_said", c.unit_said},
@@ -154,18 +154,18 @@ nlohmann::ordered_json report_json(const Checked& c) {
           {"sound", sound(c)}};
 }
 
-void print_openings(const char* what, const std::vector<Opening>& openings) {
-  for (std::size_t i = 0; i < openings.size() && i < SurfaceFault::places_kept; ++i) {
-    const Eigen::Vector3d p = mm_from_patient(openings[i].middle);
+void print_openings(const char* what, const std::vector<vascular::Opening>& openings) {
+  for (std::size_t i = 0; i < openings.size() && i < vascular::SurfaceFault::places_kept; ++i) {
+    const Eigen::Vector3d p = vascular::mm_from_patient(openings[i].middle);
     fmt::print("{}: {} edges, {:.2f} mm wide, at {:.2f} {:.2f} {:.2f} mm\n", what, openings[i].half_edges.size(),
                1e3 * openings[i].diameter_m, p.x(), p.y(), p.z());
   }
-  if (openings.size() > SurfaceFault::places_kept)
-    fmt::print("... and {} more such\n", openings.size() - SurfaceFault::places_kept);
+  if (openings.size() > vascular::SurfaceFault::places_kept)
+    fmt::print("... and {} more such\n", openings.size() - vascular::SurfaceFault::places_kept);
 }
 
 void print_size(const Checked& c) {
-  const SurfaceReport& r = c.report;
+  const vascular::SurfaceReport& r = c.report;
   fmt::print("{}: {} triangles, {} vertices, {} component{}, {:.2f} mL, {:.1f} cm2\n", c.file, r.triangles, r.vertices,
              r.components, r.components == 1 ? "" : "s", 1e6 * r.volume_m3, 1e4 * r.area_m2);
   fmt::print("units: {}, {}; {:.1f} mm long\n", name_of(c.unit.unit),
@@ -188,7 +188,7 @@ void print_faults(const Checked& c) {
   if (c.flipped) fmt::print("{} triangles face another way than most of their piece\n", c.flipped);
   if (c.inverted) fmt::print("{} piece{} inwards\n", c.inverted, c.inverted == 1 ? " faces" : "s face");
   if (c.wall.triangles) {
-    const Eigen::Vector3d p = mm_from_patient(c.wall.where);
+    const Eigen::Vector3d p = vascular::mm_from_patient(c.wall.where);
     fmt::print(
         "double wall: {} triangles are of an outer one, {:.2f} mm outside, the first at {:.2f} {:.2f} {:.2f} mm\n",
         c.wall.triangles, 1e3 * c.wall.thickness_m, p.x(), p.y(), p.z());
@@ -202,9 +202,10 @@ void draw(const Checked& c, const std::string& picture) {
   for (std::size_t t = 0; t < c.wall.outer.size(); ++t)
     if (c.wall.outer[t])
       for (int v : c.mesh.mesh.triangles[t]) rgb[static_cast<std::size_t>(v)] = {225, 196, 120};
-  std::vector<PictureMark> marks;
-  const auto openings = [&](const std::vector<Opening>& all, const char* what, const Eigen::Vector3d& colour) {
-    for (const Opening& o : all)
+  std::vector<data::PictureMark> marks;
+  const auto openings = [&](const std::vector<vascular::Opening>& all, const char* what,
+                            const Eigen::Vector3d& colour) {
+    for (const vascular::Opening& o : all)
       marks.push_back({o.middle, fmt::format("{} {:.1f} mm", what, 1e3 * o.diameter_m), colour});
   };
   openings(c.ends, "end", {20, 110, 200});
@@ -220,7 +221,7 @@ void draw(const Checked& c, const std::string& picture) {
 
 /// 0 if all meshes are sound, 1 if not.
 int run(const Arguments& a) {
-  if (!a.picture.empty() && a.files.size() != 1) throw LoadError("--picture draws one mesh; name one file");
+  if (!a.picture.empty() && a.files.size() != 1) throw data::LoadError("--picture draws one mesh; name one file");
   bool all_sound = true;
   nlohmann::ordered_json all = nlohmann::ordered_json::array();
   for (const std::string& file : a.files) {
@@ -244,4 +245,4 @@ Command check_command() {
                       declare, run);
 }
 
-}  // namespace ostium
+}  // namespace ostium::app

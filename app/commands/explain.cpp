@@ -4,15 +4,16 @@
 #include <fstream>
 #include <sstream>
 
-#include "app/commands/arguments.h"
-#include "app/commands/command.h"
-#include "app/commands/common_options.h"
-#include "app/commands/progress.h"
-#include "data/identification/report/explanation_report.h"
-#include "data/identification/measurement/measurement_reader.h"
+#include "app/command_line/arguments.h"
+#include "app/command_line/command.h"
+#include "app/command_line/common_options.h"
+#include "app/command_line/progress.h"
 #include "data/formats/write_file.h"
+#include "data/identification/measurement/measurement_reader.h"
+#include "data/identification/report/explanation_report.h"
+#include "data/identification/selection/explain.h"
 
-namespace ostium {
+namespace ostium::app {
 
 namespace {
 
@@ -43,37 +44,37 @@ std::string contents(const std::string& file) {
   return text.str();
 }
 
-void print(const Explanation& x) {
+void print(const data::Explanation& x) {
   fmt::print("verdict: {}\n", to_string(x.verdict));
-  for (const std::string& sentence : x.sentences) fmt::print("  {}\n", sentence);
+  for (const std::string& sentence : x.verdict_text) fmt::print("  {}\n", sentence);
   fmt::print("\n{:<40} {:>12} {:>12} {:>10}  {}\n", "parameter", "value", "sigma", "from data", "unit");
-  for (const FittedParameter& p : x.best().parameters)
+  for (const data::FittedParameter& p : x.best().parameters)
     fmt::print("{:<40} {:>12.5g} {:>12.2g} {:>8.0f} %  {}\n", p.parameter.name, p.value, p.sigma, 100 * p.informed,
                p.parameter.unit == "1" ? "" : p.parameter.unit);
 }
 
-void write_found(const Arguments& a, const MeasurementSet& set, const Explanation& found) {
+void write_found(const Arguments& a, const data::MeasurementSet& set, const data::Explanation& found) {
   const std::filesystem::path folder(a.folder);
-  write_file((folder / "explanation.json").string(), to_json(found));
-  write_file((folder / "explanation.html").string(), to_html(set, found));
-  write_file((folder / "amended" / "measurement.json").string(), amended(contents(set.file), set, found));
+  data::write_file((folder / "explanation.json").string(), to_json(found));
+  data::write_file((folder / "explanation.html").string(), to_html(set, found));
+  data::write_file((folder / "amended" / "measurement.json").string(), amended(contents(set.file), set, found));
   for (std::size_t i = 0; i < set.instruments.size(); ++i) {
     const bool one = set.instruments.size() == 1, innermost = i + 1 == set.instruments.size();
     const std::string text = instrument_json(set, found, i);
-    write_file((folder / (one ? "instrument.json" : fmt::format("instrument-{}.json", i))).string(), text);
-    if (innermost && !a.instrument.empty()) write_file(a.instrument, text);
+    data::write_file((folder / (one ? "instrument.json" : fmt::format("instrument-{}.json", i))).string(), text);
+    if (innermost && !a.instrument.empty()) data::write_file(a.instrument, text);
   }
 }
 
 /// Under mpirun the first rank alone writes.
 int run(const Arguments& a) {
-  const Ranks mpi;
-  const MeasurementSet set = load_measurement(a.set);
-  ExplainOptions explain_options{{}, a.threads, {}, a.tries.empty()};
+  const data::Ranks mpi;
+  const data::MeasurementSet set = data::load_measurement(a.set);
+  data::ExplainOptions explain_options{{}, a.threads, {}, a.tries.empty()};
   for (const std::string& words : a.tries) explain_options.tries.push_back(split(words, '+'));
-  if (rank() == 0) explain_options.progress = show_progress;
-  const Explanation found = explain(set, explain_options);
-  if (rank() != 0) return 0;
+  if (data::rank() == 0) explain_options.progress = show_progress;
+  const data::Explanation found = explain(set, explain_options);
+  if (data::rank() != 0) return 0;
   show_progress("");
   write_found(a, set, found);
   if (a.json)
@@ -92,4 +93,4 @@ Command explain_command() {
                       declare, run);
 }
 
-}  // namespace ostium
+}  // namespace ostium::app

@@ -5,26 +5,27 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
-#include "app/commands/arguments.h"
-#include "app/commands/command.h"
-#include "app/commands/common_options.h"
-#include "app/commands/pictures.h"
-#include "app/commands/progress.h"
-#include "app/session/xray_scene.h"
+#include "app/command_line/arguments.h"
+#include "app/command_line/command.h"
+#include "app/command_line/common_options.h"
+#include "app/command_line/pictures.h"
+#include "app/command_line/progress.h"
+#include "app/session/scene/xray_scene.h"
+#include "core/base/units.h"
 #include "data/formats/dicom.h"
 #include "data/formats/load_error.h"
 #include "data/formats/png.h"
 #include "data/formats/video.h"
-#include "fluoro/fluoroscope.h"
-#include "fluoro/overlay.h"
+#include "fluoro/console/fluoroscope.h"
+#include "fluoro/display/overlay.h"
 #include "fluoro/phantom/chest.h"
-#include "fluoro/views.h"
+#include "fluoro/projection/views.h"
 
-namespace ostium {
+namespace ostium::app {
 
 namespace {
 
-constexpr double degree = std::numbers::pi / 180;
+using units::degree;
 
 struct Arguments {
   std::string of = "phantom";  ///< what is in the beam: that, or a case
@@ -47,7 +48,7 @@ struct Arguments {
 
   bool video() const { return out.ends_with(".mp4"); }
   bool dicom() const { return out.ends_with(".dcm"); }
-  Programme programme() const { return cine ? ostium::cine(frames_per_s) : fluoroscopy(frames_per_s); }
+  fluoro::Programme programme() const { return cine ? fluoro::cine(frames_per_s) : fluoro::fluoroscopy(frames_per_s); }
 };
 
 void declare_geometry(Options& options, Arguments& a) {
@@ -86,9 +87,9 @@ void declare(Options& options, Arguments& a) {
   options.add("-o,--out", a.out, "FILE.png, FILE.dcm or FILE.mp4").show_default();
 }
 
-View view_of(const Arguments& a) {
-  const StandardView named = named_view(a.view.view);
-  View view;
+fluoro::View view_of(const Arguments& a) {
+  const fluoro::StandardView named = named_view(a.view.view);
+  fluoro::View view;
   view.arm.lao_rad = degree * (std::isnan(a.view.lao_deg) ? named.lao_deg : a.view.lao_deg);
   view.arm.cran_rad = degree * (std::isnan(a.view.cran_deg) ? named.cran_deg : a.view.cran_deg);
   view.arm.source_to_detector_m = 1e-3 * a.sid_mm;
@@ -99,17 +100,17 @@ View view_of(const Arguments& a) {
 }
 
 /// What is in the beam, frame by frame.
-using Scenes = std::function<Scene(int frame)>;
+using Scenes = std::function<fluoro::Scene(int frame)>;
 
 Scenes phantom_scenes(const Arguments& a) {
-  phantom::ChestOptions chest;
-  chest.filling = a.fill == "left"    ? phantom::Filling::left
-                  : a.fill == "right" ? phantom::Filling::right
-                                      : phantom::Filling::none;
+  fluoro::phantom::ChestOptions chest;
+  chest.filling = a.fill == "left"    ? fluoro::phantom::Filling::left
+                  : a.fill == "right" ? fluoro::phantom::Filling::right
+                                      : fluoro::phantom::Filling::none;
   chest.stenosis = 0.01 * a.stenosis_percent;
   chest.instruments = a.guide != "none";
   chest.left_instruments = a.guide == "left";
-  return [scene = phantom::chest(chest)](int) { return scene; };
+  return [scene = fluoro::phantom::chest(chest)](int) { return scene; };
 }
 
 /// A case's patient; the heart beats from frame to frame. `middle` is where the C-arm looks.
@@ -123,9 +124,9 @@ Scenes patient_scenes(const Arguments& a, Eigen::Vector3d& middle) {
   };
 }
 
-void print_numbers(const Arguments& a, const FluoroscopeInput& in, const FluoroscopeState& state,
-                   const FrameReport& report) {
-  const Exposure& e = report.exposure;
+void print_numbers(const Arguments& a, const fluoro::FluoroscopeInput& in, const fluoro::FluoroscopeState& state,
+                   const fluoro::FrameReport& report) {
+  const fluoro::Exposure& e = report.exposure;
   const double rate = a.frames_per_s;
   if (a.json) {
     const nlohmann::ordered_json numbers = {{"lao_deg", in.view.arm.lao_rad / degree},
@@ -143,31 +144,31 @@ void print_numbers(const Arguments& a, const FluoroscopeInput& in, const Fluoros
     return;
   }
   fmt::print("{}, {:.0f} kV, {:.1f} mm Cu, patient as {:.1f} cm of soft tissue, {:.0f} nGy at the detector\n",
-             angles_text(in.view.arm.lao_rad / degree, in.view.arm.cran_rad / degree), e.tube.peak_kV, e.tube.copper_mm,
+             fluoro::angles_text(in.view.arm.lao_rad / degree, in.view.arm.cran_rad / degree), e.tube.peak_kV, e.tube.copper_mm,
              100 * e.patient_m, e.detector_dose_nGy);
   fmt::print("a frame {:.4f} mGy and {:.4f} Gy cm2; at {:g} frames/s {:.1f} mGy/min\n{}\n", 1e3 * e.kerma_Gy,
              1e4 * e.dose_area_Gy_m2, rate, 6e4 * e.kerma_Gy * rate, a.out);
 }
 
-Picture shown(const Arguments& a, const FluoroscopeInput& in, const FluoroscopeState& state,
-              const FrameReport& report) {
-  Picture picture = state.live;
+fluoro::Picture shown(const Arguments& a, const fluoro::FluoroscopeInput& in, const fluoro::FluoroscopeState& state,
+                      const fluoro::FrameReport& report) {
+  fluoro::Picture picture = state.live;
   if (a.overlay) draw_overlay({in.view, a.programme(), report.exposure, state.dose, true, "", a.of}, picture);
   return picture;
 }
 
 /// The frames, one after the other; none of them leaks.
 struct Filmed {
-  FluoroscopeState state;
-  FrameReport report;
-  std::vector<Picture> kept;  ///< for DICOM
+  fluoro::FluoroscopeState state;
+  fluoro::FrameReport report;
+  std::vector<fluoro::Picture> kept;  ///< for DICOM
 };
 
-Filmed film(const Arguments& a, const Scenes& scenes, const FluoroscopeInput& in, Scene& scene,
-            std::optional<VideoWriter>& writer) {
+Filmed film(const Arguments& a, const Scenes& scenes, const fluoro::FluoroscopeInput& in, fluoro::Scene& scene,
+            std::optional<data::VideoWriter>& writer) {
   Filmed out;
-  Imager imager({}, a.renderer == "osmesa" ? make_osmesa_renderer() : make_scanline_renderer());
-  DisplayScratch scratch;
+  fluoro::Imager imager({}, a.renderer == "osmesa" ? fluoro::make_osmesa_renderer() : fluoro::make_scanline_renderer());
+  fluoro::DisplayScratch scratch;
   const int frames = a.frames ? a.frames : a.video() ? 30 : 8;
   // A still picture stands at its phase; the frames before it only feed the lag.
   const bool moves = a.video() || (a.dicom() && a.frames);
@@ -175,8 +176,8 @@ Filmed film(const Arguments& a, const Scenes& scenes, const FluoroscopeInput& in
     if (moves) scene = scenes(i);
     out.report = tick(imager, in, out.state, scratch).frame;
     if (const auto& leak = out.report.leak)
-      throw LoadError(fmt::format("X-ray scene: {} pixels leak (worst {:.2f} mm): {}", leak.pixels,
-                                  1e3 * double(leak.worst_m), out.report.leaking));
+      throw data::LoadError(fmt::format("X-ray scene: {} pixels leak (worst {:.2f} mm): {}", leak.pixels,
+                                        1e3 * double(leak.worst_m), out.report.leaking));
     if (writer) writer->add(shown(a, in, out.state, out.report));
     if (a.dicom() && (a.frames || i + 1 == frames)) out.kept.push_back(out.state.live);
     show_progress(fmt::format("frame {} of {}", i + 1, frames));
@@ -187,29 +188,29 @@ Filmed film(const Arguments& a, const Scenes& scenes, const FluoroscopeInput& in
 
 int run(const Arguments& a) {
   require_ending(a.out, {".png", ".dcm", ".mp4"});
-  View view = view_of(a);
+  fluoro::View view = view_of(a);
   require_reachable(view.arm);
-  require_rate(a.frames_per_s);
+  fluoro::require_rate(a.frames_per_s);
   Eigen::Vector3d middle = Eigen::Vector3d::Zero();
   const Scenes scenes = a.of == "phantom" ? phantom_scenes(a) : patient_scenes(a, middle);
   view.arm.p_PI += middle;
-  Scene scene = scenes(0);
+  fluoro::Scene scene = scenes(0);
   check(scene);
-  const FluoroscopeInput in{.scene = scene,
-                            .view = view,
-                            .collimator = {a.shutters[0], a.shutters[1], a.shutters[2], a.shutters[3]},
-                            .pedals = {.fluoroscopy = !a.cine, .cine = a.cine},
-                            .fluoroscopy_per_s = a.frames_per_s,
-                            .cine_per_s = a.frames_per_s,
-                            .seed = a.seed};
-  std::optional<VideoWriter> writer;
+  const fluoro::FluoroscopeInput in{.scene = scene,
+                                    .view = view,
+                                    .collimator = {a.shutters[0], a.shutters[1], a.shutters[2], a.shutters[3]},
+                                    .pedals = {.fluoroscopy = !a.cine, .cine = a.cine},
+                                    .fluoroscopy_per_s = a.frames_per_s,
+                                    .cine_per_s = a.frames_per_s,
+                                    .seed = a.seed};
+  std::optional<data::VideoWriter> writer;
   if (a.video()) writer.emplace(a.out, a.pixels, a.pixels, a.frames_per_s);
   const Filmed filmed = film(a, scenes, in, scene, writer);
   if (!finish_film(writer, "frame")) return 1;
   if (a.dicom())
-    write_dicom(a.out, CineRun{view, a.programme(), filmed.report.exposure, filmed.kept});
+    data::write_dicom(a.out, fluoro::CineRun{view, a.programme(), filmed.report.exposure, filmed.kept});
   else if (!a.video())
-    write_png(a.out, shown(a, in, filmed.state, filmed.report));
+    data::write_png(a.out, shown(a, in, filmed.state, filmed.report));
   print_numbers(a, in, filmed.state, filmed.report);
   return 0;
 }
@@ -225,4 +226,4 @@ Command frame_command() {
                       declare, run);
 }
 
-}  // namespace ostium
+}  // namespace ostium::app

@@ -7,33 +7,34 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
-#include "app/commands/arguments.h"
-#include "app/commands/command.h"
-#include "app/commands/common_options.h"
-#include "app/commands/mesh_unit.h"
-#include "app/commands/progress.h"
+#include "app/command_line/arguments.h"
+#include "app/command_line/command.h"
+#include "app/command_line/common_options.h"
+#include "app/command_line/mesh_unit.h"
+#include "app/command_line/progress.h"
+#include "core/base/units.h"
 #include "data/catalogue/case/anatomy_file.h"
 #include "data/catalogue/case/case.h"
 #include "data/catalogue/case/mesh_picture.h"
 #include "data/catalogue/case/tree_file.h"
 #include "data/formats/load_error.h"
 #include "data/formats/write_file.h"
+#include "vascular/anatomy/labelling/labelling.h"
 #include "vascular/anatomy/labelling/narrowings.h"
-#include "vascular/anatomy/labelling/recognise.h"
-#include "vascular/beat/heart_cycle.h"
-#include "vascular/geometry/repair/mend.h"
+#include "vascular/geometry/mesh/patient_frame.h"
+#include "vascular/geometry/mesh/surface_check.h"
+#include "vascular/geometry/mesh/written_mesh.h"
+#include "vascular/geometry/repair/repair.h"
 #include "vascular/geometry/repair/units.h"
-#include "vascular/patient_frame.h"
-#include "vascular/surface_check.h"
-#include "vascular/written_mesh.h"
+#include "vascular/motion/heart_cycle.h"
 
-namespace ostium {
+namespace ostium::app {
 
 namespace {
 
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
-constexpr double mm = 1e-3;
+using units::mm;
 
 struct ImportArguments {
   std::vector<std::string> files;
@@ -82,18 +83,18 @@ Eigen::Matrix3d axes_of(const std::string& letters) {
     if (const auto k = known.find(letters[i]); k != std::string::npos)
       R(static_cast<int>(k / 2), static_cast<int>(i)) = k % 2 ? -1 : 1;
   if (std::fabs(R.determinant() - 1) > 1e-9)
-    throw LoadError(fmt::format(
+    throw data::LoadError(fmt::format(
         "the axes \"{}\" are no right-handed row of three; expected for instance LPS (DICOM), RAS or LSA", letters));
   return R;
 }
 
-Lesion lesion_of(const std::string& text) {
+vascular::Lesion lesion_of(const std::string& text) {
   const auto colon = text.find(':');
   double from, length, percent;
   char rest;
   if (colon == std::string::npos ||
       std::sscanf(text.c_str() + colon, ":%lf:%lf:%lf%c", &from, &length, &percent, &rest) != 3)
-    throw LoadError(fmt::format(
+    throw data::LoadError(fmt::format(
         "the lesion \"{}\" is not BRANCH:FROM:LENGTH:PERCENT; expected for instance RCA:40:12:75 (mm, mm, %)", text));
   return {.branch = text.substr(0, colon), .from_m = from * mm, .length_m = length * mm, .stenosis = percent / 100};
 }
@@ -103,7 +104,7 @@ std::map<std::string, std::string> names_of(const std::vector<std::string>& rena
   for (const std::string& rename : renames) {
     const auto [found, wanted] = key_and_value(rename);
     if (found.empty() || wanted.empty())
-      throw LoadError(fmt::format("\"{}\" is not FOUND=WANTED; expected for instance --rename 3=OM1", rename));
+      throw data::LoadError(fmt::format("\"{}\" is not FOUND=WANTED; expected for instance --rename 3=OM1", rename));
     names[found] = wanted;
   }
   return names;
@@ -143,19 +144,19 @@ class Import {
     for (const std::string& text : options_.lesions) case_.lesions.push_back(lesion_of(text));
     if (!options_.picture.empty()) require_ending(options_.picture, {".png", ".svg"});
     const bool name_only = options_.output.find('/') == std::string::npos && !options_.output.starts_with(".");
-    folder_ = name_only ? fs::path(imported_folder()) / options_.output : fs::path(options_.output);
+    folder_ = name_only ? fs::path(data::imported_folder()) / options_.output : fs::path(options_.output);
     if (!folder_.has_filename()) folder_ = folder_.parent_path();
     case_.name = fs::absolute(folder_).filename().string();
     if (fs::exists(folder_) && !fs::exists(folder_ / (case_.name + ".json")) && !fs::is_empty(folder_))
-      throw LoadError(folder_.string() +
-                      ": is there and holds no imported case; expected a new folder, or one to renew");
+      throw data::LoadError(folder_.string() +
+                            ": is there and holds no imported case; expected a new folder, or one to renew");
   }
 
   void read() {
     progress_("reading");
-    Mesh raw;
+    vascular::Mesh raw;
     for (const std::string& file : options_.files) {
-      const MeshFile found = read_mesh(file, LengthUnit::metre, 0);
+      const vascular::MeshFile found = read_mesh(file, vascular::LengthUnit::metre, 0);
       skipped_ += found.skipped_faces;
       append(raw, found.mesh);
     }
@@ -164,14 +165,14 @@ class Import {
     mesh_ = welded(raw);
   }
 
-  LengthUnit find_unit(const Mesh& raw) {
+  vascular::LengthUnit find_unit(const vascular::Mesh& raw) {
     triangles_ = static_cast<int>(raw.triangles.size());
     progress_(fmt::format("{} triangles; looking for their unit", triangles_));
     unit_ = guess_unit(raw);
     if (options_.unit != "auto") {
-      take_unit(unit_named(options_.unit), unit_);
+      take_unit(vascular::unit_named(options_.unit), unit_);
     } else if (!unit_.vessel) {
-      throw MeshError(fmt::format(
+      throw vascular::MeshError(fmt::format(
           "{}: no unit makes a vessel of this: as {} it is {:.0f} mm long and {:.1f} mm wide; if it is one, say its "
           "unit with --units",
           options_.files.front(), name_of(unit_.unit), unit_.extent_m / mm, unit_.calibre_m / mm));
@@ -185,20 +186,21 @@ class Import {
     files_ = options_.files;
     if (files_.size() == 1 && fs::is_directory(files_.front())) files_ = numbered_meshes(files_.front());
     if (files_.size() < 4)
-      throw MeshError(fmt::format("{}: a sequence has at least 4 frames of a beat, here are {}", options_.files.front(),
-                                  files_.size()));
+      throw vascular::MeshError(fmt::format("{}: a sequence has at least 4 frames of a beat, here are {}",
+                                            options_.files.front(), files_.size()));
     progress_(fmt::format("reading {} frames, the first is {}", files_.size(), files_.front()));
-    frames_ = read_mesh_sequence(files_, LengthUnit::metre, 0);
+    frames_ = read_mesh_sequence(files_, vascular::LengthUnit::metre, 0);
     const double scale = metres(find_unit(frames_.front()));
-    for (Mesh& frame : frames_)
+    for (vascular::Mesh& frame : frames_)
       for (Eigen::Vector3d& p : frame.vertices) p *= scale;
     if (volume_m3(frames_.front()) < 0)
-      for (Mesh& frame : frames_)
+      for (vascular::Mesh& frame : frames_)
         for (auto& t : frame.triangles) std::swap(t[1], t[2]);
-    const SurfaceReport report = check_surface(frames_.front());
+    const vascular::SurfaceReport report = check_surface(frames_.front());
     if (!report.closed())
-      throw MeshError(fmt::format("{}: is not closed, and a sequence cannot be mended: {}`ostium check` says where",
-                                  files_.front(), describe(report)));
+      throw vascular::MeshError(
+          fmt::format("{}: is not closed, and a sequence cannot be mended: {}`ostium check` says where", files_.front(),
+                      describe(report)));
     mended_.lumen = frames_.front();
     mended_.lumens = report.components;
   }
@@ -222,9 +224,9 @@ class Import {
     return files;
   }
 
-  static Mesh welded(const Mesh& raw) {
-    const std::vector<int> vertex_of = weld(raw.vertices, default_weld_m);
-    Mesh mesh;
+  static vascular::Mesh welded(const vascular::Mesh& raw) {
+    const std::vector<int> vertex_of = vascular::weld(raw.vertices, vascular::default_weld_m);
+    vascular::Mesh mesh;
     for (std::size_t i = 0; i < raw.vertices.size(); ++i)
       if (vertex_of[i] == static_cast<int>(mesh.vertices.size())) mesh.vertices.push_back(raw.vertices[i]);
     for (const auto& [a, b, c] : raw.triangles)
@@ -234,18 +236,18 @@ class Import {
   }
 
   void mend_mesh() {
-    MendOptions options;
+    vascular::RepairOptions options;
     options.voxel_m = options_.voxel_mm * mm;
     options.longest_gap_m = options_.longest_gap_mm * mm;
     options.progress = std::ref(progress_);
-    mended_ = mend(std::move(mesh_), options);
+    mended_ = repair_mesh(std::move(mesh_), options);
   }
 
   void recognise_vessels() {
     wanted_.progress = std::ref(progress_);
-    found_ = recognise(mended_.lumen, wanted_);
-    found_.lumen = as_written(std::move(found_.lumen), LengthUnit::millimetre);
-    const SurfaceReport report = check_surface(found_.lumen);
+    found_ = label_vessels(mended_.lumen, wanted_);
+    found_.lumen = as_written(std::move(found_.lumen), vascular::LengthUnit::millimetre);
+    const vascular::SurfaceReport report = check_surface(found_.lumen);
     if (!report.sound())
       found_.notes.push_back("the lumen is not sound: " + describe(report).substr(0, describe(report).find('\n')));
   }
@@ -256,7 +258,7 @@ class Import {
         options_.title.empty() ? "Imported: " + fs::path(options_.files.front()).filename().string() : options_.title;
     case_.card = {"Imported from " + fs::path(options_.files.front()).filename().string() + ".", "Not known.",
                   "From the entry that was chosen at import"};
-    auto vessels = std::make_shared<ImportedVessels>();
+    auto vessels = std::make_shared<data::ImportedVessels>();
     vessels->anatomy = found_.anatomy;
     if (frames_.empty())
       vessels->lumen = found_.lumen;
@@ -266,11 +268,11 @@ class Import {
     try {
       patient_ = patient_of(case_);
     } catch (const std::invalid_argument& error) {
-      throw LoadError(error.what());
+      throw data::LoadError(error.what());
     }
-    for (const FoundNarrowing& narrowing : find_narrowings(patient_.tree))
+    for (const vascular::FoundNarrowing& narrowing : find_narrowings(patient_.tree))
       if (coronary(find_branch(found_.anatomy, narrowing.branch)->tube)) narrowings_.push_back(narrowing);
-    const SurfaceReport systole = check_surface(patient_.lumen.at(end_systole, 0));
+    const vascular::SurfaceReport systole = vascular::check_surface(patient_.lumen.at(vascular::end_systole, 0));
     if (systole.crossings.count > 0) {
       const Eigen::Vector3d p = systole.crossings.where.front() / mm;
       found_.notes.push_back(fmt::format(
@@ -280,10 +282,10 @@ class Import {
   }
 
   /// Into the patient frame, as the files of the case will have them.
-  void lay_frames(ImportedVessels& vessels) {
-    for (Mesh& frame : frames_) {
+  void lay_frames(data::ImportedVessels& vessels) {
+    for (vascular::Mesh& frame : frames_) {
       for (Eigen::Vector3d& p : frame.vertices) p = found_.R_PF * p - found_.shift_P;
-      frame = as_written(std::move(frame), LengthUnit::millimetre);
+      frame = as_written(std::move(frame), vascular::LengthUnit::millimetre);
     }
     frames_.front() = found_.lumen;
     set_frames(frames_, vessels);
@@ -299,7 +301,7 @@ class Import {
 
   std::string case_json() const {
     Json lesions = Json::array();
-    for (const Lesion& l : case_.lesions)
+    for (const vascular::Lesion& l : case_.lesions)
       lesions.push_back({{"branch", l.branch},
                          {"from_mm", l.from_m / mm},
                          {"length_mm", l.length_m / mm},
@@ -320,15 +322,15 @@ class Import {
 
   Json report() const {
     Json mends = Json::array(), branches = Json::array(), narrow = Json::array();
-    for (const MendNote& note : mended_.notes)
+    for (const vascular::RepairNote& note : mended_.notes)
       mends.push_back({{"what", note.what}, {"count", note.count}, {"where_mm", places(note.where)}});
-    const Anatomy& a = found_.anatomy;
-    for (const NamedBranch& b : a.branches)
+    const vascular::Anatomy& a = found_.anatomy;
+    for (const vascular::NamedBranch& b : a.branches)
       branches.push_back({{"name", b.name},
                           {"length_mm", b.length_m() / mm},
                           {"proximal_mm", 2 * a.tubes[static_cast<std::size_t>(b.tube)].at(b.from_m).radius_m / mm},
                           {"distal_mm", 2 * a.tubes[static_cast<std::size_t>(b.tube)].at(b.to_m).radius_m / mm}});
-    for (const FoundNarrowing& n : narrowings_)
+    for (const vascular::FoundNarrowing& n : narrowings_)
       narrow.push_back({{"branch", n.branch}, {"at_mm", n.at_m / mm}, {"stenosis_percent", 100 * n.stenosis}});
     const Eigen::Matrix3d& R = found_.R_PF;
     return {{"case", case_.name},
@@ -362,16 +364,17 @@ class Import {
     fs::remove_all(unfinished, error);
     fs::create_directory(unfinished, error);
     if (error)
-      throw LoadError(fmt::format("{}: cannot be made ({}); expected a folder", unfinished.string(), error.message()));
+      throw data::LoadError(
+          fmt::format("{}: cannot be made ({}); expected a folder", unfinished.string(), error.message()));
     try {
-      write_file((unfinished / (case_.name + ".json")).string(), case_json());
-      write_file((unfinished / "anatomy.json").string(), anatomy_to_json(found_.anatomy));
-      write_file((unfinished / "import.json").string(), report().dump(2) + "\n");
-      write_mesh((unfinished / frame_name(0)).string(), found_.lumen, LengthUnit::millimetre);
+      data::write_file((unfinished / (case_.name + ".json")).string(), case_json());
+      data::write_file((unfinished / "anatomy.json").string(), data::anatomy_to_json(found_.anatomy));
+      data::write_file((unfinished / "import.json").string(), report().dump(2) + "\n");
+      write_mesh((unfinished / frame_name(0)).string(), found_.lumen, vascular::LengthUnit::millimetre);
       for (std::size_t f = 1; f < frames_.size(); ++f)
-        write_mesh((unfinished / frame_name(f)).string(), frames_[f], LengthUnit::millimetre);
-      write_tree((unfinished / "tree.json").string(), patient_.tree);
-      write_tree((unfinished / "tree.vtp").string(), patient_.tree);
+        write_mesh((unfinished / frame_name(f)).string(), frames_[f], vascular::LengthUnit::millimetre);
+      data::write_tree((unfinished / "tree.json").string(), patient_.tree);
+      data::write_tree((unfinished / "tree.vtp").string(), patient_.tree);
       if (!options_.picture.empty()) draw();
     } catch (...) {
       fs::remove_all(unfinished, error);
@@ -382,7 +385,7 @@ class Import {
     if (error) {
       const std::string why = error.message();
       fs::remove_all(unfinished, error);
-      throw LoadError(fmt::format("{}: cannot be written ({})", folder_.string(), why));
+      throw data::LoadError(fmt::format("{}: cannot be written ({})", folder_.string(), why));
     }
   }
 
@@ -394,12 +397,12 @@ class Import {
   }
 
   void draw() const {
-    const Mesh mesh = patient_.lumen.at(0, 0);
+    const vascular::Mesh mesh = patient_.lumen.at(0, 0);
     std::vector<Eigen::Vector3d> rgb;
     for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
       Eigen::Vector3d colour = Eigen::Vector3d::Zero();
       double sum = 0;
-      for (const TubeShare& share : patient_.lumen.shares[v]) {
+      for (const vascular::TubeShare& share : patient_.lumen.shares[v]) {
         const bool beats = v < patient_.lumen.moving;
         colour += share.weight * (coronary(share.tube) ? Eigen::Vector3d(214, 72, 60)
                                   : beats              ? Eigen::Vector3d(220, 160, 150)
@@ -408,12 +411,12 @@ class Import {
       }
       rgb.push_back(colour / std::max(sum, 1e-9));
     }
-    std::vector<PictureMark> marks;
-    for (const NamedBranch& b : found_.anatomy.branches) {
-      const Tube& tube = found_.anatomy.tubes[static_cast<std::size_t>(b.tube)];
+    std::vector<data::PictureMark> marks;
+    for (const vascular::NamedBranch& b : found_.anatomy.branches) {
+      const vascular::Tube& tube = found_.anatomy.tubes[static_cast<std::size_t>(b.tube)];
       marks.push_back({tube.at((b.from_m + b.to_m) / 2).p, b.name, {30, 60, 150}});
     }
-    for (const MendNote& note : mended_.notes)
+    for (const vascular::RepairNote& note : mended_.notes)
       for (const Eigen::Vector3d& p : note.where)
         marks.push_back({found_.R_PF * p - found_.shift_P, "", {20, 140, 60}});
     marks.push_back({found_.anatomy.landmarks.p_access, "entry", {200, 30, 160}});
@@ -437,7 +440,7 @@ class Import {
                options_.unit == "auto" ? "guessed" : "as you said", unit_.extent_m / mm, unit_.calibre_m / mm,
                options_.unit == "auto" && !unit_.certain ? "; confirm with --units, others are possible" : "");
     if (skipped_) fmt::print("{} points or lines in the files were left out\n", skipped_);
-    for (const MendNote& note : mended_.notes) {
+    for (const vascular::RepairNote& note : mended_.notes) {
       fmt::print("mended: {} x {}", note.count, note.what);
       if (!note.where.empty()) {
         const Eigen::Vector3d p = note.where.front() / metres(unit_.unit);
@@ -449,13 +452,13 @@ class Import {
       fmt::print("aorta: {:.1f} mm from the mean one's course (rms)\n", found_.aorta_rms_m / mm);
     if (found_.heart)
       fmt::print("coronary arteries: {:.1f} mm from the mean ones' courses (rms)\n", found_.heart_rms_m / mm);
-    const Anatomy& a = found_.anatomy;
+    const vascular::Anatomy& a = found_.anatomy;
     fmt::print("  {:<18} {:>9} {:>12} {:>10}\n", "branch", "length mm", "proximal mm", "distal mm");
-    for (const NamedBranch& b : a.branches)
+    for (const vascular::NamedBranch& b : a.branches)
       fmt::print("  {:<18} {:9.1f} {:12.2f} {:10.2f}\n", b.name, b.length_m() / mm,
                  2 * a.tubes[static_cast<std::size_t>(b.tube)].at(b.from_m).radius_m / mm,
                  2 * a.tubes[static_cast<std::size_t>(b.tube)].at(b.to_m).radius_m / mm);
-    for (const FoundNarrowing& n : narrowings_)
+    for (const vascular::FoundNarrowing& n : narrowings_)
       fmt::print("narrowing kept: {} at {:.0f} mm, {:.0f} % of {:.1f} mm\n", n.branch, n.at_m / mm, 100 * n.stenosis,
                  n.reference_m / mm);
     for (const std::string& note : found_.notes) fmt::print("note: {}\n", note);
@@ -466,17 +469,17 @@ class Import {
   const ImportArguments& options_;
   TimedProgress progress_;
   fs::path folder_;
-  Case case_;
-  RecogniseOptions wanted_;
-  Mesh mesh_;
-  std::vector<std::string> files_;  ///< of a sequence,
-  std::vector<Mesh> frames_;        ///< and its surfaces; empty: one that is at rest
+  data::Case case_;
+  vascular::LabellingOptions wanted_;
+  vascular::Mesh mesh_;
+  std::vector<std::string> files_;      ///< of a sequence,
+  std::vector<vascular::Mesh> frames_;  ///< and its surfaces; empty: one that is at rest
   int skipped_ = 0, triangles_ = 0;
-  UnitGuess unit_;
-  Mended mended_;
-  Recognised found_;
-  Patient patient_;
-  std::vector<FoundNarrowing> narrowings_;
+  vascular::UnitGuess unit_;
+  vascular::RepairedMesh mended_;
+  vascular::LabelledVessels found_;
+  vascular::Patient patient_;
+  std::vector<vascular::FoundNarrowing> narrowings_;
 };
 
 int run(const ImportArguments& arguments) { return Import(arguments).run(); }
@@ -492,4 +495,4 @@ Command import_command() {
                       declare, run);
 }
 
-}  // namespace ostium
+}  // namespace ostium::app

@@ -5,19 +5,21 @@
 
 #include "app/angiography/angiogram.h"
 #include "app/angiography/settle.h"
-#include "app/commands/arguments.h"
-#include "app/commands/command.h"
-#include "app/commands/common_options.h"
-#include "app/commands/pictures.h"
-#include "app/commands/progress.h"
+#include "app/command_line/arguments.h"
+#include "app/command_line/command.h"
+#include "app/command_line/common_options.h"
+#include "app/command_line/pictures.h"
+#include "app/command_line/progress.h"
+#include "core/base/units.h"
 #include "data/formats/png.h"
 #include "data/formats/video.h"
-#include "fluoro/overlay.h"
-#include "vascular/units.h"
+#include "fluoro/display/overlay.h"
 
-namespace ostium {
+namespace ostium::app {
 
 namespace {
+
+using units::mL;
 
 struct Arguments {
   std::string of = "rca-mid-focal";  ///< case
@@ -58,12 +60,12 @@ void declare(Options& options, Arguments& a) {
   options.add("-o,--out", a.out, "FILE.mp4, or FILE.png: six moments").show_default();
 }
 
-Injection injection_of(const Arguments& a, const PhysiologyModel& model) {
+Injection injection_of(const Arguments& a, const vascular::PhysiologyModel& model) {
   const bool left = a.at.starts_with("left");
   Injection injection = usual_injection(model.flow.tree, left);
   if (a.at == "left-sinus" || a.at == "right-sinus")
-    injection.tip = {left ? TipPlace::left_sinus : TipPlace::right_sinus, 0, 0.3};
-  if (a.at == "aorta") injection.tip = {TipPlace::aorta, model.contrast.ostium_cell[0] + 2, 0};
+    injection.tip = {left ? vascular::TipPlace::left_sinus : vascular::TipPlace::right_sinus, 0, 0.3};
+  if (a.at == "aorta") injection.tip = {vascular::TipPlace::aorta, model.contrast.ostium_cell[0] + 2, 0};
   if (a.rate_mL_s > 0) injection.rate_m3_s = a.rate_mL_s * mL;
   if (a.volume_mL > 0) injection.volume_m3 = a.volume_mL * mL;
   injection.iodine_kg_m3 = a.iodine_mg_mL;
@@ -71,13 +73,14 @@ Injection injection_of(const Arguments& a, const PhysiologyModel& model) {
 }
 
 /// Six moments, three above three.
-Picture sheet_of(const std::vector<Picture>& kept) {
+fluoro::Picture sheet_of(const std::vector<fluoro::Picture>& kept) {
   const auto row = [&](std::size_t from) { return beside(beside(kept[from], kept[from + 1]), kept[from + 2]); };
   return stacked(row(0), row(3));
 }
 
 /// What became of the iodine. `before_kg` was in the body, `in_line_kg` in the catheter.
-nlohmann::ordered_json balance(const Case& c, const ContrastState& s, double before_kg, double in_line_kg) {
+nlohmann::ordered_json balance(const data::Case& c, const vascular::ContrastState& s, double before_kg,
+                               double in_line_kg) {
   const double off = (accounted_kg(s) - before_kg - in_line_kg - s.injected_kg) / (s.injected_kg + in_line_kg);
   return {{"case", c.name},
           {"injected_mL", s.injected_m3 / mL},
@@ -90,36 +93,39 @@ nlohmann::ordered_json balance(const Case& c, const ContrastState& s, double bef
 int run(const Arguments& a) {
   const bool video = a.out.ends_with(".mp4");
   require_ending(a.out, {".png", ".mp4"});
-  require_rate(a.frames_per_s);
+  fluoro::require_rate(a.frames_per_s);
   require_finite(
       {{"--rate", a.rate_mL_s}, {"--volume", a.volume_mL}, {"--iodine", a.iodine_mg_mL}, {"--phase", a.phase}});
-  Case c = find_case(a.of);
+  data::Case c = data::find_case(a.of);
   if (a.healthy) c.lesions.clear();
   show_progress("building " + c.name);
-  const Patient patient = patient_of(c);
-  const PhysiologyModel model = make_physiology(patient, a.seed);
+  const vascular::Patient patient = patient_of(c);
+  const vascular::PhysiologyModel model = make_physiology(patient, a.seed);
   PatientScene scene(patient, model);
   show_progress("the heart beats until blood flows as it does at rest");
-  PhysiologyState state = at_rest(model, c.rate_1_min);
-  const PhysiologyState rest = state;
-  const View view = view_of(!a.view.empty() ? a.view : a.left() ? "rao-cranial" : "lao", patient, a.left(), a.pixels);
+  vascular::PhysiologyState state = at_rest(model, c.rate_1_min);
+  const vascular::PhysiologyState rest = state;
+  const fluoro::View view = view_of(!a.view.empty() ? a.view
+                                    : a.left()      ? "rao-cranial"
+                                                    : "lao",
+                                    patient, a.left(), a.pixels);
   require_reachable(view.arm);
   Angiogram angiogram(model, scene, view, a.frames_per_s, a.seed);
   angiogram.wait_for(a.phase, c.rate_1_min, state);
   const double before_kg = accounted_kg(state.contrast);
   const Injection injection = injection_of(a, model);
-  PhysiologyInputs inputs;
+  vascular::PhysiologyInputs inputs;
   inputs.heart.rate_1_min = c.rate_1_min;
-  std::optional<VideoWriter> writer;
+  std::optional<data::VideoWriter> writer;
   if (video) writer.emplace(a.out, a.pixels, a.pixels, a.frames_per_s);
   const int frames = static_cast<int>(std::lround(a.seconds * a.frames_per_s));
-  std::vector<Picture> kept;
+  std::vector<fluoro::Picture> kept;
   double in_line_kg = 0;
   for (int n = 0; n < frames; ++n) {
-    Picture picture = angiogram.frame(injection, inputs, state);
+    fluoro::Picture picture = angiogram.frame(injection, inputs, state);
     if (n == 0) in_line_kg = injection.iodine_kg_m3 * inputs.contrast.line.dead_m3;
     draw_overlay(
-        {view, cine(a.frames_per_s), angiogram.report().frame.exposure, angiogram.fluoroscope().dose, true, "", c.name},
+        {view, fluoro::cine(a.frames_per_s), angiogram.report().frame.exposure, angiogram.fluoroscope().dose, true, "", c.name},
         picture);
     if (writer) writer->add(picture);
     if (n * 6 / frames != (n - 1) * 6 / frames || n == 0) kept.push_back(picture);
@@ -127,7 +133,7 @@ int run(const Arguments& a) {
   }
   show_progress("");
   if (!finish_film(writer, "inject")) return 1;
-  if (!video) write_png(a.out, sheet_of(kept));
+  if (!video) data::write_png(a.out, sheet_of(kept));
   nlohmann::ordered_json numbers = balance(c, state.contrast, before_kg, in_line_kg);
   if (a.count)
     for (const char* artery : {"LAD", "LCx", "RCA"}) {
@@ -154,4 +160,4 @@ Command inject_command() {
                       declare, run);
 }
 
-}  // namespace ostium
+}  // namespace ostium::app

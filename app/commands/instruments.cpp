@@ -1,12 +1,12 @@
 #include <fmt/format.h>
 
-#include "app/commands/command.h"
-#include "app/commands/common_options.h"
+#include "app/command_line/command.h"
+#include "app/command_line/common_options.h"
 #include "data/catalogue/catalogue.h"
 #include "data/catalogue/instrument/instrument_picture.h"
 #include "data/catalogue/instrument/instrument_report.h"
 
-namespace ostium {
+namespace ostium::app {
 
 namespace {
 
@@ -23,16 +23,16 @@ void declare(Options& options, Arguments& a) {
 }
 
 int run(const Arguments& a) {
-  std::vector<Instrument> chosen = load_catalogue();
-  if (!a.name.empty()) chosen = {Instrument(find_instrument(chosen, a.name))};
+  std::vector<data::Instrument> chosen = data::load_catalogue();
+  if (!a.name.empty()) chosen = {data::Instrument(find_instrument(chosen, a.name))};
   if (!a.picture.empty()) draw_instruments(chosen, a.picture);
   if (a.json) {
     fmt::print("{}\n", to_json(chosen));
   } else if (!a.name.empty()) {
     fmt::print("{}", instrument_details(chosen.front()));
   } else if (a.picture.empty()) {
-    fmt::print("{}\n", instrument_heading());
-    for (const Instrument& instrument : chosen) fmt::print("{}\n", instrument_line(instrument));
+    fmt::print("{}\n", data::instrument_heading());
+    for (const data::Instrument& instrument : chosen) fmt::print("{}\n", instrument_line(instrument));
   }
   return 0;
 }
@@ -45,4 +45,4 @@ Command instruments_command() {
                       declare, run);
 }
 
-}  // namespace ostium
+}  // namespace ostium::app

@@ -3,14 +3,14 @@
 #include <cmath>
 #include <filesystem>
 
-#include "app/commands/command.h"
-#include "app/commands/common_options.h"
-#include "app/commands/progress.h"
+#include "app/command_line/command.h"
+#include "app/command_line/common_options.h"
+#include "app/command_line/progress.h"
 #include "data/formats/write_file.h"
 #include "data/identification/forward/prediction.h"
 #include "data/identification/measurement/measurement_reader.h"
 
-namespace ostium {
+namespace ostium::app {
 
 namespace {
 
@@ -26,11 +26,11 @@ void declare(Options& options, Arguments& a) {
   options.flag("--json", a.json, "Print prediction.json, see data/schemas/prediction.schema.json");
 }
 
-void print_table(const std::vector<Prediction>& predictions) {
+void print_table(const std::vector<data::Prediction>& predictions) {
   fmt::print("{:<24} {:>10} {:>10} {:>10} {:>12}\n", "experiment", "tip x mm", "y", "z", "off by mm");
   double sum = 0;
   std::size_t compared = 0;
-  for (const Prediction& p : predictions) {
+  for (const data::Prediction& p : predictions) {
     const Eigen::Vector3d tip = 1e3 * p.shape.points_m.back();
     fmt::print("{:<24} {:>10.3f} {:>10.3f} {:>10.3f} {:>12}\n", p.id, tip.x(), tip.y(), tip.z(),
                p.rms_to_measured_m ? fmt::format("{:.3f}", 1e3 * *p.rms_to_measured_m) : "-");
@@ -46,16 +46,16 @@ void print_table(const std::vector<Prediction>& predictions) {
 }
 
 int run(const Arguments& a) {
-  const MeasurementSet set = load_measurement(a.set);
+  const data::MeasurementSet set = data::load_measurement(a.set);
   const auto predictions = predict(set, [&](std::size_t done, std::size_t of) {
     show_progress(done < of ? fmt::format("experiment {} of {}", done, of) : "");
   });
-  for (const Prediction& p : predictions)
+  for (const data::Prediction& p : predictions)
     for (const double apart_m : p.other_branches_m)
       fmt::print(stderr, "ostium predict: {} has another stable shape, its tip {:.1f} mm away\n", p.id, 1e3 * apart_m);
   const std::filesystem::path folder(a.folder);
-  write_file((folder / "prediction.json").string(), to_json(predictions));
-  write_file((folder / "prediction.csv").string(), to_csv(predictions));
+  data::write_file((folder / "prediction.json").string(), to_json(predictions));
+  data::write_file((folder / "prediction.csv").string(), to_csv(predictions));
   if (a.json)
     fmt::print("{}", to_json(predictions));
   else
@@ -70,4 +70,4 @@ Command predict_command() {
                       {"ostium predict my-wire", "ostium predict my-wire/measurement.json -o shapes"}, declare, run);
 }
 
-}  // namespace ostium
+}  // namespace ostium::app

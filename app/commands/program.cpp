@@ -1,6 +1,6 @@
 #include "app/commands/program.h"
 
-namespace ostium {
+namespace ostium::app {
 
 // Each is defined in the file of its name. To add one: its name here twice.
 Command demonstration();
@@ -34,4 +34,4 @@ Command program() {
   return ostium;
 }
 
-}  // namespace ostium
+}  // namespace ostium::app

@@ -1,9 +1,9 @@
 #pragma once
-#include "app/commands/command.h"
+#include "app/command_line/command.h"
 
-namespace ostium {
+namespace ostium::app {
 
 /// `ostium` with all its subcommands.
 Command program();
 
-}  // namespace ostium
+}  // namespace ostium::app

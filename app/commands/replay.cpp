@@ -1,4 +1,4 @@
-#include "app/session/replay.h"
+#include "app/session/run/replay.h"
 
 #include <fmt/format.h>
 
@@ -6,18 +6,19 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
-#include "app/commands/command.h"
-#include "app/commands/common_options.h"
-#include "app/commands/pictures.h"
-#include "app/commands/progress.h"
-#include "app/session/film.h"
+#include "app/command_line/command.h"
+#include "app/command_line/common_options.h"
+#include "app/command_line/pictures.h"
+#include "app/command_line/progress.h"
+#include "app/session/scene/film.h"
+#include "core/base/units.h"
 #include "data/formats/dicom.h"
 #include "data/formats/load_error.h"
 #include "data/formats/png.h"
 #include "data/formats/video.h"
-#include "fluoro/views.h"
+#include "fluoro/projection/views.h"
 
-namespace ostium {
+namespace ostium::app {
 
 namespace {
 
@@ -67,7 +68,7 @@ void declare(Options& options, Arguments& a) {
   add_json_flag(options, a.json);
 }
 
-constexpr double degree = std::numbers::pi / 180;
+using units::degree;
 
 void show_share(const Replay& replay) {
   show_progress(fmt::format("{:.1f} of {:.1f} s", seconds(replay.model, replay.state),
@@ -77,14 +78,14 @@ void show_share(const Replay& replay) {
 FilmOptions film_options(const PictureArguments& a) {
   FilmOptions film;
   if (!a.view.view.empty()) {
-    const StandardView view = named_view(a.view.view);
+    const fluoro::StandardView view = named_view(a.view.view);
     film.lao_rad = degree * view.lao_deg, film.cran_rad = degree * view.cran_deg;
   }
   if (!std::isnan(a.view.lao_deg)) film.lao_rad = degree * a.view.lao_deg;
   if (!std::isnan(a.view.cran_deg)) film.cran_rad = degree * a.view.cran_deg;
   if (!std::isnan(a.field_mm)) film.field_m = 1e-3 * a.field_mm;
   if (!a.table_mm.empty()) film.p_PI = 1e-3 * Eigen::Vector3d(a.table_mm[0], a.table_mm[1], a.table_mm[2]);
-  if (a.cine) film.mode = Mode::cine;
+  if (a.cine) film.mode = fluoro::Mode::cine;
   film.frames_per_s = a.frames_per_s;
   film.pixels = a.pixels;
   film.overlay = !a.plain;
@@ -102,14 +103,14 @@ int make_film(const Arguments& a, Replay& replay) {
   FilmOptions options = film_options(a.picture);
   if (!a.dicom.empty()) {
     options.overlay = options.monitor = false;
-    if (!options.mode) options.mode = Mode::fluoroscopy;  // one header for all its frames
+    if (!options.mode) options.mode = fluoro::Mode::fluoroscopy;  // one header for all its frames
   }
   show_progress("building the patient's chest");
   Film film(replay.model, options);
-  std::optional<VideoWriter> writer;
+  std::optional<data::VideoWriter> writer;
   if (!a.video.empty()) writer.emplace(a.video, options.pixels, film.height(), options.frames_per_s);
-  CineRun run;
-  Picture last;
+  fluoro::CineRun run;
+  fluoro::Picture last;
   const double from_s = is_still(a) ? a.from_s - lag_s : a.from_s;
   const double end_s = is_still(a) ? std::max(a.from_s, lag_s) : a.seconds > 0 ? a.from_s + a.seconds : 1e300;
   long frames = 0;
@@ -124,14 +125,14 @@ int make_film(const Arguments& a, Replay& replay) {
     show_progress(fmt::format("frame {}, {:.1f} s", frames, now));
   }
   show_progress("");
-  if (frames == 0) throw LoadError(fmt::format("{}: there is no frame from {:g} s on", a.file, a.from_s));
+  if (frames == 0) throw data::LoadError(fmt::format("{}: there is no frame from {:g} s on", a.file, a.from_s));
   if (!finish_film(writer, "replay")) return 1;
   if (!a.dicom.empty()) {
-    const CineRun header = film.run();
+    const fluoro::CineRun header = film.run();
     run.view = header.view, run.programme = header.programme, run.exposure = header.exposure;
-    write_dicom(a.dicom, run);
+    data::write_dicom(a.dicom, run);
   }
-  if (!a.png.empty()) write_png(a.png, last);
+  if (!a.png.empty()) data::write_png(a.png, last);
   for (const std::string& file : {a.video, a.dicom, a.png})
     if (!file.empty()) fmt::print("{}: {} frames of {}\n", file, file == a.png ? 1 : frames, replay.setup.vessel);
   return 0;
@@ -190,4 +191,4 @@ Command replay_command() {
       declare, run);
 }
 
-}  // namespace ostium
+}  // namespace ostium::app

@@ -6,16 +6,16 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
-#include "app/commands/command.h"
-#include "app/commands/progress.h"
-#include "app/session/film.h"
-#include "app/session/replay.h"
+#include "app/command_line/command.h"
+#include "app/command_line/progress.h"
+#include "app/session/run/replay.h"
+#include "app/session/scene/film.h"
+#include "data/assessment/page.h"
 #include "data/formats/load_error.h"
 #include "data/formats/png.h"
-#include "data/assessment/page.h"
 #include "data/formats/write_file.h"
 
-namespace ostium {
+namespace ostium::app {
 
 namespace {
 
@@ -24,16 +24,16 @@ struct Moment {
   std::uint64_t step;
   std::string caption;
 };
-std::vector<Moment> moments(const RunRecord& record, const Script& script) {
+std::vector<Moment> moments(const data::RunRecord& record, const data::Script& script) {
   constexpr std::size_t most = 12;
   std::vector<Moment> out;
-  for (const RecordedEvent& e : events_of(record)) {
+  for (const data::RecordedEvent& e : events_of(record)) {
     const auto step = static_cast<std::uint64_t>(e.step);
     const auto of = static_cast<std::size_t>(e.value);
-    if (e.code == EventCode::mark && of < script.steps.size()) out.push_back({step, script.steps[of].text});
-    if (e.code == EventCode::injection_ends) out.push_back({step, "contrast"});
-    if (e.code == EventCode::deflated) out.push_back({step, "balloon empty"});
-    if (e.code == EventCode::stent_deployed || e.code == EventCode::stent_elsewhere)
+    if (e.code == data::EventCode::mark && of < script.steps.size()) out.push_back({step, script.steps[of].text});
+    if (e.code == data::EventCode::injection_ends) out.push_back({step, "contrast"});
+    if (e.code == data::EventCode::deflated) out.push_back({step, "balloon empty"});
+    if (e.code == data::EventCode::stent_deployed || e.code == data::EventCode::stent_elsewhere)
       out.push_back({step, "stent in the wall"});
   }
   if (out.size() >= most) {
@@ -45,8 +45,8 @@ std::vector<Moment> moments(const RunRecord& record, const Script& script) {
   return out;
 }
 
-std::vector<ReportPicture> pictures_of(Replay& replay, const RunRecord& record) {
-  std::vector<ReportPicture> out;
+std::vector<data::ReportPicture> pictures_of(Replay& replay, const data::RunRecord& record) {
+  std::vector<data::ReportPicture> out;
   FilmOptions options;
   options.pixels = 384, options.overlay = false;
   Film film(replay.model, options);
@@ -55,7 +55,7 @@ std::vector<ReportPicture> pictures_of(Replay& replay, const RunRecord& record) 
     const double second = static_cast<double>(moment.step) * record.step_s, before = std::max(second - 0.4, 0.0);
     show_progress(fmt::format("picture at {:.1f} s", second));
     replay.go_to(before);
-    Picture last;
+    fluoro::Picture last;
     while (replay.state.rods.step < moment.step && replay.tick())
       if (static_cast<double>(replay.state.rods.step) * record.step_s >= before &&
           is_frame(replay.state.rods.step, options.frames_per_s, record.step_s))
@@ -63,13 +63,13 @@ std::vector<ReportPicture> pictures_of(Replay& replay, const RunRecord& record) 
     if (last.grey.empty()) continue;
     out.push_back({fmt::format("{}:{:04.1f} {}", static_cast<int>(second) / 60,
                                second - 60 * (static_cast<int>(second) / 60), moment.caption),
-                   png_of(last)});
+                   data::png_of(last)});
   }
   return out;
 }
 
-ReportRun run_of(Replay& replay, const std::string& code, const ScoreList& list, bool pictures) {
-  ReportRun run;
+data::ReportRun run_of(Replay& replay, const std::string& code, const data::ScoreList& list, bool pictures) {
+  data::ReportRun run;
   run.code = code;
   run.case_name = replay.setup.vessel, run.script = replay.setup.script.name, run.seed = replay.setup.seed;
   run.software = replay.recording.software();
@@ -83,7 +83,7 @@ ReportRun run_of(Replay& replay, const std::string& code, const ScoreList& list,
     run.outcome = json.value("outcome", ""), run.reason = json.value("reason", "");
     // Dose is counted while it runs, over poses that signals do not have.
     for (const auto& metric : json.value("metrics", nlohmann::json::array()))
-      for (Metric& mine : run.metrics)
+      for (data::Metric& mine : run.metrics)
         if (mine.name == metric.value("name", "") && metric.contains("value") && metric["value"].is_number())
           mine.value = metric["value"].get<double>();
   }
@@ -99,13 +99,13 @@ void report_folder(const std::string& folder, std::shared_ptr<const Vessel> vess
   namespace fs = std::filesystem;
   const fs::path at(folder);
   Replay replay((at / "run.h5").string(), std::move(vessel));
-  const ScoreList list = find_score_list("pci-elective");
-  const std::vector<ReportRun> runs = {run_of(replay, "this run", list, true)};
-  write_file((at / "report.html").string(), report_page(runs, list));
-  write_file((at / "events.csv").string(), events_csv(runs[0]));
+  const data::ScoreList list = data::find_score_list("pci-elective");
+  const std::vector<data::ReportRun> runs = {run_of(replay, "this run", list, true)};
+  data::write_file((at / "report.html").string(), report_page(runs, list));
+  data::write_file((at / "events.csv").string(), events_csv(runs[0]));
   for (std::size_t i = 0; i < runs[0].pictures.size(); ++i) {
-    const ReportPicture& p = runs[0].pictures[i];
-    write_file((at / "key-frames" / fmt::format("{:02}.png", i + 1)).string(), {p.png.begin(), p.png.end()});
+    const data::ReportPicture& p = runs[0].pictures[i];
+    data::write_file((at / "key-frames" / fmt::format("{:02}.png", i + 1)).string(), {p.png.begin(), p.png.end()});
   }
 }
 
@@ -137,22 +137,23 @@ void declare(Options& options, Arguments& a) {
 
 int run(const Arguments& a) {
   if (!a.codes.empty() && a.codes.size() != a.files.size())
-    throw LoadError(fmt::format("{} codes for {} recordings; expected one each", a.codes.size(), a.files.size()));
-  if (!a.questionnaire.empty()) write_file(a.questionnaire, questionnaire_page());
+    throw data::LoadError(fmt::format("{} codes for {} recordings; expected one each", a.codes.size(), a.files.size()));
+  if (!a.questionnaire.empty()) data::write_file(a.questionnaire, data::questionnaire_page());
   if (a.files.empty()) {
-    if (a.questionnaire.empty()) throw LoadError("nothing to report; expected recordings RUN.h5, or --questionnaire");
+    if (a.questionnaire.empty())
+      throw data::LoadError("nothing to report; expected recordings RUN.h5, or --questionnaire");
     return 0;
   }
-  const ScoreList list = find_score_list(a.scoring);
-  std::vector<ReportRun> runs;
+  const data::ScoreList list = data::find_score_list(a.scoring);
+  std::vector<data::ReportRun> runs;
   for (std::size_t i = 0; i < a.files.size(); ++i) {
     show_progress("reading " + a.files[i]);
     Replay replay(a.files[i]);
     runs.push_back(run_of(replay, a.codes.empty() ? fmt::format("run {}", i + 1) : a.codes[i], list, a.pictures));
-    if (i == 0 && !a.events.empty()) write_file(a.events, events_csv(runs[0]));
+    if (i == 0 && !a.events.empty()) data::write_file(a.events, events_csv(runs[0]));
   }
-  if (!a.page.empty()) write_file(a.page, report_page(runs, list));
-  if (!a.csv.empty()) write_file(a.csv, report_csv(runs, list));
+  if (!a.page.empty()) data::write_file(a.page, report_page(runs, list));
+  if (!a.csv.empty()) data::write_file(a.csv, report_csv(runs, list));
   fmt::print("{}\n", a.page);
   return 0;
 }
@@ -167,4 +168,4 @@ Command report_command() {
                       declare, run);
 }
 
-}  // namespace ostium
+}  // namespace ostium::app

@@ -2,10 +2,10 @@
 #include <memory>
 #include <string>
 
-namespace ostium {
+namespace ostium::app {
 
 struct Vessel;
 /// Of DIR/run.h5: report.html, events.csv and key-frames/ beside it. `vessel`: the run's.
 void report_folder(const std::string& folder, std::shared_ptr<const Vessel> vessel);
 
-}  // namespace ostium
+}  // namespace ostium::app

@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "app/commands/command.h"
-#include "app/commands/common_options.h"
-#include "data/script.h"
+#include "app/command_line/command.h"
+#include "app/command_line/common_options.h"
+#include "data/catalogue/script/script.h"
 
-namespace ostium {
+namespace ostium::app {
 
 namespace {
 
@@ -18,20 +18,21 @@ struct Arguments {
 void declare(Options& options, Arguments& a) { add_json_flag(options, a.json); }
 
 int run(const Arguments& a) {
-  const std::vector<Script> scripts = load_scripts();
+  const std::vector<data::Script> scripts = data::load_scripts();
   if (a.json) {
     auto out = nlohmann::ordered_json::array();
-    for (const Script& s : scripts) {
+    for (const data::Script& s : scripts) {
       nlohmann::ordered_json tools;
-      for (const ScriptTool& tool : s.tools) tools.push_back({{"name", tool.name}, {"instrument", tool.instrument}});
+      for (const data::ScriptTool& tool : s.tools)
+        tools.push_back({{"name", tool.name}, {"instrument", tool.instrument}});
       out.push_back({{"name", s.name}, {"title", s.title}, {"steps", s.steps.size()}, {"tools", tools}});
     }
     fmt::print("{}\n", out.dump(2));
     return 0;
   }
   std::size_t width = 0;
-  for (const Script& s : scripts) width = std::max(width, s.name.size());
-  for (const Script& s : scripts) fmt::print("{:<{}} {:>2} steps  {}\n", s.name, width, s.steps.size(), s.title);
+  for (const data::Script& s : scripts) width = std::max(width, s.name.size());
+  for (const data::Script& s : scripts) fmt::print("{:<{}} {:>2} steps  {}\n", s.name, width, s.steps.size(), s.title);
   return 0;
 }
 
@@ -42,4 +43,4 @@ Command scripts_command() {
                       run);
 }
 
-}  // namespace ostium
+}  // namespace ostium::app

@@ -4,12 +4,12 @@
 #include <chrono>
 #include <cstdio>
 
-#include "app/commands/command.h"
-#include "app/commands/common_options.h"
-#include "app/commands/progress.h"
-#include "app/verify/gate.h"
+#include "app/command_line/command.h"
+#include "app/command_line/common_options.h"
+#include "app/command_line/progress.h"
+#include "app/gates/gate.h"
 
-namespace ostium {
+namespace ostium::app {
 
 namespace {
 
@@ -29,17 +29,17 @@ void declare(Options& options, Arguments& a) {
 
 int unknown_gate(const std::string& only) {
   fmt::print(stderr, "ostium verify: no gate begins with \"{}\". There are:\n", only);
-  for (const verify::Gate& gate : verify::gates()) fmt::print(stderr, "  {}\n", gate.name);
+  for (const gates::Gate& gate : gates::gates()) fmt::print(stderr, "  {}\n", gate.name);
   return 2;
 }
 
-void print_list(const std::vector<verify::Gate>& chosen, bool json) {
+void print_list(const std::vector<gates::Gate>& chosen, bool json) {
   if (json) {
     std::vector<std::pair<std::string, std::string>> names;
-    for (const verify::Gate& gate : chosen) names.emplace_back(gate.name, gate.what);
-    fmt::print("{}\n", names_to_json(names));
+    for (const gates::Gate& gate : chosen) names.emplace_back(gate.name, gate.what);
+    fmt::print("{}\n", data::names_to_json(names));
   } else {
-    for (const verify::Gate& gate : chosen) fmt::print("{:<16} {}\n", gate.name, gate.what);
+    for (const gates::Gate& gate : chosen) fmt::print("{:<16} {}\n", gate.name, gate.what);
   }
 }
 
@@ -52,20 +52,20 @@ int with_output_checked(int code) {
 
 /// 0 all pass, 1 one did not, 2 `only` names no gate. Results go to stdout.
 int run(const Arguments& a) {
-  const auto chosen = verify::selected(a.only);
+  const auto chosen = gates::selected(a.only);
   if (chosen.empty()) return unknown_gate(a.only);
   if (a.list) {
     print_list(chosen, a.json);
     return with_output_checked(0);
   }
   const auto start = std::chrono::steady_clock::now();
-  std::vector<GateResult> results;
+  std::vector<data::GateResult> results;
   for (std::size_t i = 0; i < chosen.size(); ++i) {
     show_progress(fmt::format("[{}/{}] {}", i + 1, chosen.size(), chosen[i].what));
-    const auto found = verify::run(chosen[i], a.only, a.quick);
+    const auto found = gates::run(chosen[i], a.only, a.quick);
     show_progress("");
-    if (!a.json && results.empty() && !found.empty()) fmt::print("{}\n", table_heading());
-    for (const GateResult& result : found) {
+    if (!a.json && results.empty() && !found.empty()) fmt::print("{}\n", data::table_heading());
+    for (const data::GateResult& result : found) {
       results.push_back(result);
       if (!a.json) fmt::print("{}\n", table_line(result));
     }
@@ -75,7 +75,8 @@ int run(const Arguments& a) {
   if (a.json) {
     fmt::print("{}\n", to_json(results));
   } else {
-    const auto passed = std::count_if(results.begin(), results.end(), [](const GateResult& r) { return r.pass(); });
+    const auto passed =
+        std::count_if(results.begin(), results.end(), [](const data::GateResult& r) { return r.pass(); });
     fmt::print("{} of {} pass, in {:.1f} s\n", passed, results.size(),
                std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
   }
@@ -90,4 +91,4 @@ Command verify_command() {
                       declare, run);
 }
 
-}  // namespace ostium
+}  // namespace ostium::app

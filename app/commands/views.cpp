@@ -1,13 +1,13 @@
-#include "fluoro/views.h"
+#include "fluoro/projection/views.h"
 
 #include <fmt/format.h>
 
 #include <nlohmann/json.hpp>
 
-#include "app/commands/command.h"
-#include "app/commands/common_options.h"
+#include "app/command_line/command.h"
+#include "app/command_line/common_options.h"
 
-namespace ostium {
+namespace ostium::app {
 
 namespace {
 
@@ -20,14 +20,14 @@ void declare(Options& options, Arguments& a) { add_json_flag(options, a.json, "v
 int run(const Arguments& a) {
   if (a.json) {
     auto array = nlohmann::ordered_json::array();
-    for (const StandardView& v : standard_views())
+    for (const fluoro::StandardView& v : fluoro::standard_views())
       array.push_back({{"view", v.name}, {"lao_deg", v.lao_deg}, {"cran_deg", v.cran_deg}, {"shows", v.shows}});
     fmt::print("{}\n", array.dump(2));
     return 0;
   }
   fmt::print("{:<18} {:<16} {}\n", "view", "angles", "shows");
-  for (const StandardView& v : standard_views())
-    fmt::print("{:<18} {:<16} {}\n", v.name, angles_text(v.lao_deg, v.cran_deg), v.shows);
+  for (const fluoro::StandardView& v : fluoro::standard_views())
+    fmt::print("{:<18} {:<16} {}\n", v.name, fluoro::angles_text(v.lao_deg, v.cran_deg), v.shows);
   return 0;
 }
 
@@ -38,4 +38,4 @@ Command views_command() {
                       declare, run);
 }
 
-}  // namespace ostium
+}  // namespace ostium::app

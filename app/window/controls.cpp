@@ -1,6 +1,6 @@
 #include "app/window/controls.h"
 
-namespace ostium {
+namespace ostium::app {
 
 void Controls::press(Action action) {
   const unsigned at = pressed_.load(relaxed);
@@ -17,4 +17,4 @@ std::optional<Action> Controls::next() {
   return action;
 }
 
-}  // namespace ostium
+}  // namespace ostium::app

@@ -6,7 +6,7 @@
 #include <atomic>
 #include <optional>
 
-namespace ostium {
+namespace ostium::app {
 
 /// Held, or moved so far: 0 to 1, of axes -1 to 1.
 enum class Level {
@@ -75,4 +75,4 @@ class Controls {
   std::atomic<unsigned> pressed_{0}, taken_{0};
 };
 
-}  // namespace ostium
+}  // namespace ostium::app

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <memory>
 
-namespace ostium {
+namespace ostium::app {
 
 namespace {
 
@@ -45,7 +45,7 @@ class Pen {
     cairo_text_extents(cr(), words.c_str(), &e);
     write(c, size, right - e.x_advance, y, words);
   }
-  void show(const Picture& picture, double x, double y, double side) const {
+  void show(const fluoro::Picture& picture, double x, double y, double side) const {
     std::vector<std::uint32_t> grey(picture.grey.size());
     for (std::size_t i = 0; i < grey.size(); ++i) grey[i] = 0x010101u * picture.grey[i];
     const std::unique_ptr<cairo_surface_t, void (*)(cairo_surface_t*)> image(
@@ -198,7 +198,7 @@ double signal(const PanelTexts& texts, const Snapshot& now, const std::string& n
   return now.signals[static_cast<std::size_t>(at - texts.signal_names.begin())];
 }
 
-PanelTexts panel_texts(const SessionModel& model, const ScriptPlan& plan, const LiveHand& hand, bool plays) {
+PanelTexts panel_texts(const SessionModel& model, const ScriptPlan& plan, const LiveDriver& hand, bool plays) {
   PanelTexts texts;
   texts.title = model.vessel->name + (plays ? "" : ", " + plan.script.name);
   for (const SessionTool& tool : model.tools) texts.tools.push_back(tool.name + ": " + tool.instrument.title);
@@ -248,4 +248,4 @@ void draw_panel(const PanelTexts& texts, const Snapshot& now, const PanelView& v
   if (view.help) draw_help(pen);
 }
 
-}  // namespace ostium
+}  // namespace ostium::app

@@ -5,11 +5,11 @@
 #include <string>
 #include <vector>
 
-#include "app/window/live_hand.h"
-#include "fluoro/display.h"
-#include "fluoro/exposure.h"
+#include "app/window/live_driver.h"
+#include "fluoro/detector/exposure.h"
+#include "fluoro/display/display.h"
 
-namespace ostium {
+namespace ostium::app {
 
 inline constexpr int panel_width = 1280, panel_height = 800;
 
@@ -22,15 +22,15 @@ struct PanelTexts {
   int left_hand = 0;
   bool plays = false;
 };
-PanelTexts panel_texts(const SessionModel& model, const ScriptPlan& plan, const LiveHand& hand, bool plays);
+PanelTexts panel_texts(const SessionModel& model, const ScriptPlan& plan, const LiveDriver& hand, bool plays);
 
 /// One of Snapshot::signals; not a number where the run has none of that name.
 double signal(const PanelTexts& texts, const Snapshot& now, const std::string& name);
 
 struct PanelView {
-  const Picture* picture = nullptr;    ///< live; null: none yet
-  const Picture* reference = nullptr;  ///< null: none
-  DoseMeter dose;
+  const fluoro::Picture* picture = nullptr;    ///< live; null: none yet
+  const fluoro::Picture* reference = nullptr;  ///< null: none
+  fluoro::DoseMeter dose;
   std::string problem;  ///< in red: a lost wire, an unplugged cable; empty: none
   bool help = false;
 };
@@ -46,4 +46,4 @@ struct KeyHelp {
 };
 const std::vector<KeyHelp>& key_help();
 
-}  // namespace ostium
+}  // namespace ostium::app

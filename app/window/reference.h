@@ -1,28 +1,28 @@
 #pragma once
 /// The frozen picture beside the live one: what the operator chose, or else the frame of the last cine run in which
 /// most contrast was seen.
-#include "fluoro/display.h"
+#include "fluoro/display/display.h"
 
-namespace ostium {
+namespace ostium::app {
 
 class Reference {
  public:
   /// After each frame; `seen`: contrast behind the lesion, in the same measure at each call; not a number: none.
-  void take(const Picture& picture, bool cine, double seen) {
+  void take(const fluoro::Picture& picture, bool cine, double seen) {
     if (cine && seen > most_seen_) best_ = picture, most_seen_ = seen;
     if (cine || best_.grey.empty()) return;
     if (!chosen_) frozen_ = best_;
     best_ = {}, most_seen_ = 0;
   }
   /// By the operator, from now on.
-  void freeze(const Picture& picture) { frozen_ = picture, chosen_ = true; }
+  void freeze(const fluoro::Picture& picture) { frozen_ = picture, chosen_ = true; }
   /// Null: there is none yet.
-  const Picture* picture() const { return frozen_.grey.empty() ? nullptr : &frozen_; }
+  const fluoro::Picture* picture() const { return frozen_.grey.empty() ? nullptr : &frozen_; }
 
  private:
-  Picture frozen_, best_;
+  fluoro::Picture frozen_, best_;
   double most_seen_ = 0;
   bool chosen_ = false;
 };
 
-}  // namespace ostium
+}  // namespace ostium::app

@@ -7,12 +7,12 @@
 #include <optional>
 #include <stdexcept>
 
-#include "app/session/film.h"
-#include "app/session/thread_priority.h"
+#include "app/session/scene/film.h"
 #include "app/window/reference.h"
+#include "core/base/thread_priority.h"
 #include "data/formats/png.h"
 
-namespace ostium {
+namespace ostium::app {
 
 namespace {
 
@@ -69,7 +69,7 @@ constexpr PressedKey pressed_keys[] = {{SDLK_TAB, false, Action::swap},
 /// SDL's events of keys, mouse buttons and a gamepad, as Controls.
 class Events {
  public:
-  explicit Events(LiveHand& hand) : hand_(hand) {}
+  explicit Events(LiveDriver& hand) : hand_(hand) {}
 
   bool reference = false;  ///< was asked for
   bool help = false;
@@ -214,7 +214,7 @@ class Events {
   }
 
  private:
-  LiveHand& hand_;
+  LiveDriver& hand_;
   std::vector<const HeldKey*> down_;
   Uint32 x_since_ = 0;
   Owned<SDL_GameController> pad_{nullptr, SDL_GameControllerClose};
@@ -247,12 +247,12 @@ class Live {
     take(last.picture, last.dose, last.xray_on, last.cine);
     return true;
   }
-  const Picture& picture() const { return picture_; }
-  const DoseMeter& dose() const { return dose_; }
+  const fluoro::Picture& picture() const { return picture_; }
+  const fluoro::DoseMeter& dose() const { return dose_; }
   bool cine() const { return cine_; }
 
  private:
-  void take(const Picture& picture, const DoseMeter& dose, bool xray_on, bool cine) {
+  void take(const fluoro::Picture& picture, const fluoro::DoseMeter& dose, bool xray_on, bool cine) {
     if (xray_on || !holds_) picture_ = picture;
     dose_ = dose, cine_ = cine;
   }
@@ -261,8 +261,8 @@ class Live {
   std::optional<Film> own_;
   Latest<Filmed>* filmed_;
   bool holds_;
-  Picture picture_;
-  DoseMeter dose_;
+  fluoro::Picture picture_;
+  fluoro::DoseMeter dose_;
   bool cine_ = false;
 };
 
@@ -285,8 +285,8 @@ bool has_display(std::string& why) {
   return real;
 }
 
-long show_window(const SessionModel& model, const ScriptPlan& plan, LiveHand& hand, const WindowOptions& options) {
-  give_way_to_steps();
+long show_window(const SessionModel& model, const ScriptPlan& plan, LiveDriver& hand, const WindowOptions& options) {
+  core::give_way_to_steps();
   SDL_SetHint(SDL_HINT_FRAMEBUFFER_ACCELERATION, "0");  // see the renderer
   const Video video;
   const Owned<SDL_Window> window(SDL_CreateWindow("Ostium", SDL_WINDOWPOS_CENTERED, SDL_WINDOWPOS_CENTERED, panel_width,
@@ -306,7 +306,7 @@ long show_window(const SessionModel& model, const ScriptPlan& plan, LiveHand& ha
   Live live(model, options);
   const PanelTexts texts = panel_texts(model, plan, hand, options.plays);
   Events events(hand);
-  Picture faded;
+  fluoro::Picture faded;
   Reference reference;
   double shown_brightness = 1;
   std::string shown_problem;
@@ -350,9 +350,9 @@ long show_window(const SessionModel& model, const ScriptPlan& plan, LiveHand& ha
     std::vector<std::uint8_t> rgb;
     for (const std::uint32_t p : pixels)
       rgb.push_back(p >> 16 & 255), rgb.push_back(p >> 8 & 255), rgb.push_back(p & 255);
-    write_rgb_png(options.last_frame_png, panel_width, panel_height, rgb);
+    data::write_rgb_png(options.last_frame_png, panel_width, panel_height, rgb);
   }
   return shown;
 }
 
-}  // namespace ostium
+}  // namespace ostium::app

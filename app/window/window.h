@@ -5,11 +5,11 @@
 #include <functional>
 #include <string>
 
-#include "app/session/filming.h"
-#include "app/window/live_hand.h"
+#include "app/session/run/filming.h"
+#include "app/window/live_driver.h"
 #include "app/window/panel.h"
 
-namespace ostium {
+namespace ostium::app {
 
 /// Whether a window can be opened here; else `why` says why not.
 bool has_display(std::string& why);
@@ -29,6 +29,6 @@ struct WindowOptions {
 };
 
 /// Throws std::runtime_error if the window cannot be made. Returns pictures shown.
-long show_window(const SessionModel& model, const ScriptPlan& plan, LiveHand& hand, const WindowOptions& options);
+long show_window(const SessionModel& model, const ScriptPlan& plan, LiveDriver& hand, const WindowOptions& options);
 
-}  // namespace ostium
+}  // namespace ostium::app

@@ -8,7 +8,7 @@
 #include <string>
 #include <type_traits>
 
-namespace ostium {
+namespace ostium::core {
 
 template <class T>
 inline constexpr bool is_optional = false;
@@ -98,4 +98,4 @@ consteval std::size_t member_count() {
     return sizeof...(Some);
 }
 
-}  // namespace ostium
+}  // namespace ostium::core

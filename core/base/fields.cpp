@@ -5,7 +5,7 @@
 #define XXH_INLINE_ALL
 #include <xxhash.h>
 
-namespace ostium {
+namespace ostium::core {
 
 std::string FieldPath::words() const {
   std::string out = outer ? outer->words() : "";
@@ -29,4 +29,4 @@ std::string difference_in_words(const std::string& path, int index, const std::s
   return path + (index < 0 ? "" : "[" + std::to_string(index) + "]") + ": " + a + " != " + b;
 }
 
-}  // namespace ostium
+}  // namespace ostium::core

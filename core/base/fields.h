@@ -20,7 +20,7 @@
 
 #include "core/base/field_numbers.h"
 
-namespace ostium {
+namespace ostium::core {
 
 template <class S, class T>
 struct ListedField {
@@ -147,4 +147,4 @@ std::string first_different_field(const T& a, const T& b) {
   return found;
 }
 
-}  // namespace ostium
+}  // namespace ostium::core

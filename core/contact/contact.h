@@ -2,18 +2,18 @@
 /// Contact of rods with walls that move.
 ///
 /// Nodes are balls of the rod's radius. What of a wall a node can reach in a step is found at the beginning of the
-/// step, when the node is inside the lumen for certain: each piece of wall becomes a plane there (view.cpp), which the
-/// wall carries to the end of the step, and which is seen anew from where the node goes, if it was the rim of a
-/// triangle (walls.cpp). A node that would end behind a plane is tied to it, a spring as stiff as the wall; an active
-/// set, settled within the rod's solve (planes.cpp). After a solve the path of nodes that went far is followed through
-/// the triangles (follow.cpp), and walls that they passed or meet there are planes, too: nothing gets through. Friction
-/// is a spring that slips (friction.cpp): along the rod and around it, with its torque.
-#include "core/model.h"
-#include "core/scratch.h"
-#include "core/state.h"
-#include "core/report.h"
+/// step, when the node is inside the lumen for certain: each piece of wall becomes a plane there (narrow_phase.cpp),
+/// which the wall carries to the end of the step, and which is seen anew from where the node goes, if it was the rim of
+/// a triangle (broad_phase.cpp). A node that would end behind a plane is tied to it, a spring as stiff as the wall; an
+/// active set, settled within the rod's solve (active_set.cpp). After a solve the path of nodes that went far is
+/// followed through the triangles (continuous_collision.cpp), and walls that they passed or meet there are planes, too:
+/// nothing gets through. Friction is a spring that slips (friction.cpp): along the rod and around it, with its torque.
+#include "core/model/model.h"
+#include "core/model/report.h"
+#include "core/model/scratch.h"
+#include "core/model/state.h"
 
-namespace ostium {
+namespace ostium::core {
 
 /// At the beginning of a step, once: where the walls are; of a piece of it, which goes from one part of it to another.
 void move_walls(const Model& model, const Inputs& inputs, double from, double to, Scratch& scratch);
@@ -41,4 +41,4 @@ void turn_at_walls(const Strand& strand);
 /// Moves forces and slips into the strand's state, and adds its touches; after the commit.
 void commit_walls(const Strand& strand, std::vector<Touch>& touches);
 
-}  // namespace ostium
+}  // namespace ostium::core

@@ -8,14 +8,14 @@
 
 #include <algorithm>
 
+#include "core/base/tolerances.h"
 #include "core/contact/contact.h"
 #include "core/math/rotation.h"
 #include "core/rod/nodes.h"
-#include "core/solve/friction.h"
-#include "core/solve/node_spring.h"
-#include "core/tunables.h"
+#include "core/solver/friction_spring.h"
+#include "core/solver/node_spring.h"
 
-namespace ostium {
+namespace ostium::core {
 
 namespace {
 
@@ -44,7 +44,7 @@ void find_rubbing(const RodState& own, int i, const NodeWalls& walls, const RodS
   store3(c.across, i, wall->across);
   const V3<double> from = load3<double>(own.position, i) + wall->carried;
   store3(c.from, i, madd(-own.wall_slip.at(0)[i], along, madd(-own.wall_slip.at(1)[i], wall->across, from)));
-  c.stiffness.at(0)[i] = slip_stiffness(wall->friction, push, tunables::wall_slip_m, slip_in(s, c, i));
+  c.stiffness.at(0)[i] = slip_stiffness(wall->friction, push, tolerances::wall_slip_m, slip_in(s, c, i));
 }
 
 void rub(int i, const ContactScratch& c, const RodScratch& s, S3<double>& P, V3<double>& target) {
@@ -60,7 +60,7 @@ void turn_at_walls(const Strand& strand) {
   if (c.walls.empty()) return;
   RodScratch& s = *strand.s;
   const Rod& rod = s.inside;
-  Chain& chain = s.chain;
+  BlockTridiagonal& chain = s.chain;
   for (int i = rod.first; i < rod.nodes(); ++i) {
     if (!c.rubs[i]) continue;
     const double k = c.stiffness.at(0)[i], radius = rod.radius.at(0)[i];
@@ -84,8 +84,8 @@ V3<double> rubbing_force(int i, const RodScratch& s, const ContactScratch& c) {
 
 void take_rubbing(int i, const RodScratch& s, const ContactScratch& c, RodState& own) {
   Slip slip;
-  if (c.rubs[i]) slip = kept(slip_in(s, c, i), tunables::wall_slip_m);
+  if (c.rubs[i]) slip = kept(slip_in(s, c, i), tolerances::wall_slip_m);
   own.wall_slip.set(i, {slip.along, slip.around});
 }
 
-}  // namespace ostium
+}  // namespace ostium::core

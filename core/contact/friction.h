@@ -1,9 +1,9 @@
 #pragma once
 /// Friction at walls; for contact alone.
-#include "core/scratch.h"
-#include "core/state.h"
+#include "core/model/scratch.h"
+#include "core/model/state.h"
 
-namespace ostium {
+namespace ostium::core {
 
 /// Prepares the friction of node i, from the force that pressed it in the last step and how it is expected to slide.
 void find_rubbing(const RodState& own, int i, const NodeWalls& walls, const RodScratch& s, ContactScratch& c);
@@ -17,4 +17,4 @@ V3<double> rubbing_force(int i, const RodScratch& s, const ContactScratch& c);
 /// Keeps the slip.
 void take_rubbing(int i, const RodScratch& s, const ContactScratch& c, RodState& own);
 
-}  // namespace ostium
+}  // namespace ostium::core

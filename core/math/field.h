@@ -8,7 +8,7 @@
 
 #include "core/math/lanes.h"
 
-namespace ostium {
+namespace ostium::core {
 
 /// Storage length for `count` entries: whole registers, and four entries of padding behind them that no kernel touches
 /// but the chain solver. Not about a whole number of pages, where the components of an entry would compete for the same
@@ -103,4 +103,4 @@ void store6(Field<6>& f, int i, const S3<T>& a) {
   store(f.at(3) + i, a.yy), store(f.at(4) + i, a.yz), store(f.at(5) + i, a.zz);
 }
 
-}  // namespace ostium
+}  // namespace ostium::core

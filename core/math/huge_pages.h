@@ -7,7 +7,7 @@
 #include <limits>
 #include <new>
 
-namespace ostium {
+namespace ostium::core {
 
 /// An allocator. What is less than two large pages lies where it would lie anyway. Throws std::bad_alloc.
 template <class T>
@@ -42,4 +42,4 @@ struct OnHugePages {
   static constexpr std::size_t least_bytes = std::size_t{4} << 20;
 };
 
-}  // namespace ostium
+}  // namespace ostium::core

@@ -8,7 +8,7 @@
 
 #include <cmath>
 
-namespace ostium {
+namespace ostium::core {
 
 using Lanes = double __attribute__((vector_size(32)));
 inline constexpr int lane_count = 4;
@@ -174,4 +174,4 @@ S3<T> identity3() {
   return {splat<T>(1), T{}, T{}, splat<T>(1), T{}, splat<T>(1)};
 }
 
-}  // namespace ostium
+}  // namespace ostium::core

@@ -5,7 +5,7 @@
 
 #include "core/math/lanes.h"
 
-namespace ostium {
+namespace ostium::core {
 
 template <class T>
 Q4<T> operator*(const Q4<T>& a, const Q4<T>& b) {
@@ -100,4 +100,4 @@ inline V3<double> from_eigen(const Eigen::Vector3d& v) { return {v.x(), v.y(), v
 inline Eigen::Quaterniond to_eigen(const Q4<double>& q) { return {q.w, q.x, q.y, q.z}; }
 inline Eigen::Vector3d to_eigen(const V3<double>& v) { return {v.x, v.y, v.z}; }
 
-}  // namespace ostium
+}  // namespace ostium::core

@@ -6,7 +6,7 @@
 #include "core/math/rotation.h"
 #include "core/rod/joint.h"
 
-namespace ostium {
+namespace ostium::core {
 
 namespace {
 
@@ -92,7 +92,7 @@ double largest_joint_angle(const Rod& rod, const RodScratch& scratch) {
 }
 
 [[gnu::flatten]] void assemble_elements(const Rod& rod, RodScratch& scratch) {
-  Chain& chain = scratch.chain;
+  BlockTridiagonal& chain = scratch.chain;
   chain.first = rod.first, chain.elements = rod.elements;
   const double with_force = scratch.geometric == GeometricStiffness::with ? 1 : 0;
   for_packs(rod.first, rod.elements, [&]<class T>(T, int j) {
@@ -115,4 +115,4 @@ double largest_joint_angle(const Rod& rod, const RodScratch& scratch) {
     for_packs(rod.first, rod.nodes(), [&]<class T>(T, int i) { store3(chain.joint_moment, i, V3<T>{}); });
 }
 
-}  // namespace ostium
+}  // namespace ostium::core

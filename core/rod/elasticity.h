@@ -1,10 +1,10 @@
 #pragma once
 /// Elasticity of a rod, linearised about the current iterate.
-#include "core/rod/rod.h"
-#include "core/scratch.h"
-#include "core/state.h"
+#include "core/model/rod.h"
+#include "core/model/scratch.h"
+#include "core/model/state.h"
 
-namespace ostium {
+namespace ostium::core {
 
 /// Whether the frame of an end is joined to what holds it.
 struct EndJoints {
@@ -25,4 +25,4 @@ double largest_joint_angle(const Rod& rod, const RodScratch& scratch);
 /// Gathers the elements' rows from their joints: writes chain.arm, stiffness, torque (without inertia) and gap.
 void assemble_elements(const Rod& rod, RodScratch& scratch);
 
-}  // namespace ostium
+}  // namespace ostium::core

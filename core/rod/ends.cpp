@@ -3,12 +3,12 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
+#include "core/base/tolerances.h"
 #include "core/math/rotation.h"
+#include "core/model/report.h"
 #include "core/rod/inertia.h"
-#include "core/report.h"
-#include "core/tunables.h"
 
-namespace ostium {
+namespace ostium::core {
 
 namespace {
 
@@ -49,8 +49,8 @@ void hold(Hold hold, const EndState& end, int node, RodScratch& scratch) {
   // From rest, an end that has been pulled off its hold comes back no faster than a hand would bring it.
   if (scratch.scheme == TimeScheme::from_rest) {
     const Vector3d away = end.p_W - scratch.target[node];
-    if (away.norm() > tunables::longest_return_m)
-      target = scratch.target[node] + tunables::longest_return_m * away.normalized();
+    if (away.norm() > tolerances::longest_return_m)
+      target = scratch.target[node] + tolerances::longest_return_m * away.normalized();
   }
   S3<double> P{};
   if (hold == Hold::guided) {
@@ -69,12 +69,12 @@ void hold(Hold hold, const EndState& end, int node, RodScratch& scratch) {
 RodInputs limited(const RodInputs& asked, std::uint32_t& trouble) {
   RodInputs out = asked;
   for (EndDrive* d : {&out.base, &out.tip}) {
-    d->velocity_W_m_s = within(d->velocity_W_m_s, tunables::max_drive_speed_m_s, drive_limited, trouble);
-    d->turn_rate_W_rad_s = within(d->turn_rate_W_rad_s, tunables::max_drive_turn_rad_s, drive_limited, trouble);
+    d->velocity_W_m_s = within(d->velocity_W_m_s, tolerances::max_drive_speed_m_s, drive_limited, trouble);
+    d->turn_rate_W_rad_s = within(d->turn_rate_W_rad_s, tolerances::max_drive_turn_rad_s, drive_limited, trouble);
   }
-  out.feed_m_s = within(Vector3d(asked.feed_m_s, 0, 0), tunables::max_drive_speed_m_s, drive_limited, trouble).x();
-  out.tip_force_W_N = within(out.tip_force_W_N, tunables::max_load_N, load_limited, trouble);
-  out.load.force_W_N = within(out.load.force_W_N, tunables::max_load_N, load_limited, trouble);
+  out.feed_m_s = within(Vector3d(asked.feed_m_s, 0, 0), tolerances::max_drive_speed_m_s, drive_limited, trouble).x();
+  out.tip_force_W_N = within(out.tip_force_W_N, tolerances::max_load_N, load_limited, trouble);
+  out.load.force_W_N = within(out.load.force_W_N, tolerances::max_load_N, load_limited, trouble);
   if (!is_finite(out.tether)) out.tether = {}, trouble |= drive_not_finite;
   return out;
 }
@@ -112,4 +112,4 @@ void rest(const Rod& rod, const RodInputs& inputs, RodState& state) {
   take_hold(inputs, state);
 }
 
-}  // namespace ostium
+}  // namespace ostium::core

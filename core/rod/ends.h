@@ -2,15 +2,15 @@
 /// The ends of a rod: driven by a hand, held, or free.
 #include <cstdint>
 
-#include "core/inputs.h"
+#include "core/model/inputs.h"
+#include "core/model/scratch.h"
+#include "core/model/state.h"
 #include "core/rod/elasticity.h"
-#include "core/scratch.h"
-#include "core/state.h"
 
-namespace ostium {
+namespace ostium::core {
 
-/// `asked`, with rates beyond tunables.h shortened to the limit and what is not finite taken as zero; adds what it did
-/// to `trouble` (bits of Trouble).
+/// `asked`, with rates beyond tolerances.h shortened to the limit and what is not finite taken as zero; adds what it
+/// did to `trouble` (bits of Trouble).
 RodInputs limited(const RodInputs& asked, std::uint32_t& trouble);
 
 /// Whose frame the rod is joined to.
@@ -31,4 +31,4 @@ void rest(const Rod& rod, const RodInputs& inputs, RodState& state);
 /// Lets the poses of free ends follow the rod; after the commit.
 void follow_free_ends(const Rod& rod, const RodInputs& inputs, RodState& state);
 
-}  // namespace ostium
+}  // namespace ostium::core

@@ -5,7 +5,7 @@
 #include "core/math/rotation.h"
 #include "core/rod/iterate.h"
 
-namespace ostium {
+namespace ostium::core {
 
 namespace {
 
@@ -208,4 +208,4 @@ void halt(const Rod& rod, RodState& state) {
   });
 }
 
-}  // namespace ostium
+}  // namespace ostium::core

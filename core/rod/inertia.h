@@ -1,11 +1,11 @@
 #pragma once
 /// Inertia, weight and drag of a rod over one step, and what its integrator remembers.
-#include "core/inputs.h"
-#include "core/rod/rod.h"
-#include "core/scratch.h"
-#include "core/state.h"
+#include "core/model/inputs.h"
+#include "core/model/rod.h"
+#include "core/model/scratch.h"
+#include "core/model/state.h"
 
-namespace ostium {
+namespace ostium::core {
 
 /// Where nodes begin to end - 1 would go without internal force, and how they yield to it: writes scratch.target and
 /// chain.compliance. `loss` is their drag.
@@ -43,4 +43,4 @@ void rescale_history(const Rod& rod, double ratio, RodState& state);
 /// Keeps the shape and forgets all motion.
 void halt(const Rod& rod, RodState& state);
 
-}  // namespace ostium
+}  // namespace ostium::core

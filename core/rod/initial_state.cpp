@@ -3,7 +3,7 @@
 #include "core/math/rotation.h"
 #include "core/rod/introducer.h"
 
-namespace ostium {
+namespace ostium::core {
 
 namespace {
 
@@ -86,4 +86,4 @@ State make_state_at_rest_shape(const Model& model, const std::vector<EndState>& 
                      [](const Rod& rod, int i) -> Eigen::Vector3d { return rod.rest_curvature[i]; });
 }
 
-}  // namespace ostium
+}  // namespace ostium::core

@@ -1,8 +1,8 @@
 #pragma once
 /// States to begin from.
-#include "core/state.h"
+#include "core/model/state.h"
 
-namespace ostium {
+namespace ostium::core {
 
 /// Rods straight from their base poses along d3 and at rest; `bases[i]` belongs to rod i, and so does `inserted_m[i]`,
 /// the length beyond the base (whole rods if empty; below least_inserted_m of introducer.h: not in the body).
@@ -11,4 +11,4 @@ State make_state(const Model& model, const std::vector<EndState>& bases, const s
 State make_state_at_rest_shape(const Model& model, const std::vector<EndState>& bases,
                                const std::vector<double>& inserted_m = {});
 
-}  // namespace ostium
+}  // namespace ostium::core

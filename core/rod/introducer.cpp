@@ -4,9 +4,9 @@
 #include <cmath>
 
 #include "core/math/rotation.h"
-#include "core/report.h"
+#include "core/model/report.h"
 
-namespace ostium {
+namespace ostium::core {
 
 namespace {
 
@@ -166,4 +166,4 @@ void feed(const Rod& rod, const RodInputs& inputs, double step_s, RodState& s, s
     appear(rod, inputs, step_s, s);
 }
 
-}  // namespace ostium
+}  // namespace ostium::core

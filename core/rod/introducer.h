@@ -13,11 +13,11 @@
 /// another.
 #include <cstdint>
 
-#include "core/inputs.h"
-#include "core/rod/rod.h"
-#include "core/state.h"
+#include "core/model/inputs.h"
+#include "core/model/rod.h"
+#include "core/model/state.h"
 
-namespace ostium {
+namespace ostium::core {
 
 /// With less than this inserted, that of the three distal elements, a rod is not in the body.
 double least_inserted_m(const Rod& rod);
@@ -42,4 +42,4 @@ void cut_at_introducer(const Rod& rod, const RodState& state, Rod& inside);
 /// Director d3 of an end's frame: the direction of advance.
 Eigen::Vector3d axis(const EndState& end);
 
-}  // namespace ostium
+}  // namespace ostium::core

@@ -3,10 +3,10 @@
 #include <cmath>
 #include <limits>
 
+#include "core/base/tolerances.h"
 #include "core/math/rotation.h"
-#include "core/tunables.h"
 
-namespace ostium {
+namespace ostium::core {
 
 namespace {
 
@@ -16,10 +16,10 @@ struct Extent {
   double single_largest = 0, single_sum = 0;
 
   void take(Lanes square) {
-    packed_largest = ostium::largest(packed_largest, square), packed_sum = packed_sum + square;
+    packed_largest = core::largest(packed_largest, square), packed_sum = packed_sum + square;
   }
-  void take(double square) { single_largest = ostium::largest(single_largest, square), single_sum += square; }
-  double largest() const { return std::sqrt(ostium::largest(horizontal_max(packed_largest), single_largest)); }
+  void take(double square) { single_largest = core::largest(single_largest, square), single_sum += square; }
+  double largest() const { return std::sqrt(core::largest(horizontal_max(packed_largest), single_largest)); }
   bool finite() const {
     return std::isfinite(packed_sum[0] + packed_sum[1] + packed_sum[2] + packed_sum[3] + single_sum);
   }
@@ -43,7 +43,7 @@ void string_nodes(const Rod& rod, const Field<4>& orientation, V3<double> end, b
   }
 }
 
-double largest_turn(const Rod& rod, const Chain& chain) {
+double largest_turn(const Rod& rod, const BlockTridiagonal& chain) {
   Extent turns;
   for_packs(rod.first, rod.elements, [&]<class T>(T, int j) {
     const V3<T> phi = load3<T>(chain.turn, j);
@@ -54,7 +54,7 @@ double largest_turn(const Rod& rod, const Chain& chain) {
 
 IterateChange update_iterate(const Rod& rod, double max_turn_rad, RodScratch& scratch) {
   const int N = rod.elements;
-  const Chain& chain = scratch.chain;
+  const BlockTridiagonal& chain = scratch.chain;
 
   Extent turns, forces;
   for_packs(rod.first, N, [&]<class T>(T, int j) {
@@ -95,7 +95,7 @@ IterateChange update_iterate(const Rod& rod, double max_turn_rad, RodScratch& sc
     const V3<T> edge = load3<T>(scratch.position, j + 1) - load3<T>(scratch.position, j);
     const V3<T> d3 = director3(load4<T>(scratch.orientation, j));
     const V3<T> strain = (1.0 / length) * edge - d3;
-    const T give = tunables::axial_give_per_N_m * length * dot(load3<T>(scratch.force, j), d3);
+    const T give = tolerances::axial_give_per_N_m * length * dot(load3<T>(scratch.force, j), d3);
     const V3<T> defect = madd(-give, d3, strain);
     stretch.take(dot(strain, strain)), defects.take(dot(defect, defect));
   });
@@ -104,4 +104,4 @@ IterateChange update_iterate(const Rod& rod, double max_turn_rad, RodScratch& sc
   return change;
 }
 
-}  // namespace ostium
+}  // namespace ostium::core

@@ -1,9 +1,9 @@
 #pragma once
 /// One joint of a rod, linearised about its frames.
+#include "core/material/moment_response.h"
 #include "core/math/rotation.h"
-#include "core/rod/moment_response.h"
 
-namespace ostium {
+namespace ostium::core {
 
 /// A joint between frames a (proximal) and b (distal).
 ///
@@ -45,4 +45,4 @@ Joint<T> joint(const Law& law, const V3<T>& rest, T length, const Q4<T>& a, Q4<T
   return out;
 }
 
-}  // namespace ostium
+}  // namespace ostium::core

@@ -4,7 +4,7 @@
 
 #include "core/math/rotation.h"
 
-namespace ostium {
+namespace ostium::core {
 
 double spin(const RodScratch& s, int element) {
   return dot(director3(load4<double>(s.orientation, element)), load3<double>(s.turn, element));
@@ -38,4 +38,4 @@ void land(int i, const V3<double>& n, double step_s, RodState& state) {
   }
 }
 
-}  // namespace ostium
+}  // namespace ostium::core

@@ -1,9 +1,9 @@
 #pragma once
 /// Nodes of a rod in the step's linear system, for what holds them: they are at target + P (internal force).
-#include "core/scratch.h"
-#include "core/state.h"
+#include "core/model/scratch.h"
+#include "core/model/state.h"
 
-namespace ostium {
+namespace ostium::core {
 
 /// Internal force on node i: that of its distal element less that of its proximal one.
 inline V3<double> node_force(const Field<3>& force, int first, int elements, int i) {
@@ -15,7 +15,7 @@ inline V3<double> node_force(const Field<3>& force, int first, int elements, int
 
 /// Where the last solve has it, m.
 inline V3<double> solved_position(const RodScratch& s, int i) {
-  const Chain& chain = s.chain;
+  const BlockTridiagonal& chain = s.chain;
   return load3<double>(s.target, i) +
          load6<double>(chain.compliance, i) * node_force(chain.force, chain.first, chain.elements, i);
 }
@@ -35,4 +35,4 @@ void guess_nodes(const RodState& state, RodScratch& s);
 /// differences would throw it back at half the speed that it came with. After commit.
 void land(int i, const V3<double>& n, double step_s, RodState& state);
 
-}  // namespace ostium
+}  // namespace ostium::core

@@ -4,7 +4,7 @@
 
 #include "core/math/rotation.h"
 
-namespace ostium {
+namespace ostium::core {
 
 void recall_creep(const Rod& rod, const RodState& state, Rod& inside) {
   Relaxing* law = std::get_if<Relaxing>(&inside.law);
@@ -37,4 +37,4 @@ void creep(const Rod& inside, EndJoints ends, double step_s, RodState& state) {
   if (ends.tip) at.operator()<double>(N, load4<double>(state.orientation, N - 1), state.tip.frame());
 }
 
-}  // namespace ostium
+}  // namespace ostium::core

@@ -5,9 +5,9 @@
 
 #include "core/math/rotation.h"
 #include "core/rod/inertia.h"
-#include "core/solve/node_spring.h"
+#include "core/solver/node_spring.h"
 
-namespace ostium {
+namespace ostium::core {
 
 namespace {
 
@@ -48,4 +48,4 @@ void tie_to_tether(const Rod& rod, const Tether& tether, int begin, int end, Rod
   store3(scratch.target, i, target);
 }
 
-}  // namespace ostium
+}  // namespace ostium::core

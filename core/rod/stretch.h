@@ -3,11 +3,11 @@
 ///
 /// `begin` to `end` - 1 are those of a chain's nodes that are the rod's own: of a nest's, where it is the outermost.
 /// The last of them is the rod's tip.
-#include "core/inputs.h"
-#include "core/rod/rod.h"
-#include "core/scratch.h"
+#include "core/model/inputs.h"
+#include "core/model/rod.h"
+#include "core/model/scratch.h"
 
-namespace ostium {
+namespace ostium::core {
 
 /// Spreads a load evenly over the nodes of its stretch.
 void add_stretch_load(const Rod& rod, const StretchLoad& load, int begin, int end, RodScratch& scratch);
@@ -15,4 +15,4 @@ void add_stretch_load(const Rod& rod, const StretchLoad& load, int begin, int en
 /// Ties the node nearest to a tether's place.
 void tie_to_tether(const Rod& rod, const Tether& tether, int begin, int end, RodScratch& scratch);
 
-}  // namespace ostium
+}  // namespace ostium::core

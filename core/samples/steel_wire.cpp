@@ -1,16 +1,17 @@
 #include "core/samples/steel_wire.h"
-#include "core/rod/initial_state.h"
 
 #include <Eigen/Geometry>
 #include <numbers>
 
-namespace ostium {
+#include "core/rod/initial_state.h"
+
+namespace ostium::core {
 
 Bench::Bench(Model m, EndState base) : model(std::move(m)), state(make_state(model, {base})), scratch(model) {
   inputs.rods.resize(1);
 }
 
-void Bench::step() { ostium::step(model, inputs, state, scratch, report); }
+void Bench::step() { core::step(model, inputs, state, scratch, report); }
 
 RodEquilibrium Bench::settle() {
   std::vector<RodEquilibrium> result;
@@ -82,4 +83,4 @@ void lay_out_ring(const Rod& rod, double twist_rad, RodState& state) {
   lay_out(rod, frames, frame(1), state);
 }
 
-}  // namespace ostium
+}  // namespace ostium::core

@@ -1,10 +1,10 @@
 #pragma once
 /// The wire of the rod gates: 1 m, radius 0.45 mm, E 60 GPa, nu 0.3, 6500 kg/m3, straight, along x from the origin.
-#include "core/inputs.h"
-#include "core/statics.h"
-#include "core/step.h"
+#include "core/model/inputs.h"
+#include "core/step/statics.h"
+#include "core/step/step.h"
 
-namespace ostium {
+namespace ostium::core {
 
 struct WireOptions {
   int elements = 100;
@@ -58,4 +58,4 @@ double critical(double stable, double unstable, double fraction, F&& is_unstable
   return 0.5 * (stable + unstable);
 }
 
-}  // namespace ostium
+}  // namespace ostium::core

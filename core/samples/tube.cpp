@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace ostium {
+namespace ostium::core {
 
 using Eigen::Vector3d;
 
@@ -55,4 +55,4 @@ std::vector<TubePoint> bend(double bend_radius_m, double angle, double lead_m, d
   return out;
 }
 
-}  // namespace ostium
+}  // namespace ostium::core

@@ -2,9 +2,9 @@
 /// Tubes as walls, for the gates and the benchmark: triangles round a centreline.
 #include <functional>
 
-#include "core/surface/surface.h"
+#include "core/wall/surface.h"
 
-namespace ostium {
+namespace ostium::core {
 
 /// A point of a centreline, and the radius there.
 struct TubePoint {
@@ -20,4 +20,4 @@ SurfaceDescription tube(const std::vector<TubePoint>& points, int around);
 std::vector<TubePoint> bend(double bend_radius_m, double angle, double lead_m, double trail_m, double radius_m,
                             double spacing_m);
 
-}  // namespace ostium
+}  // namespace ostium::core

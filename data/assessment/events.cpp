@@ -1,6 +1,6 @@
 #include "data/assessment/events.h"
 
-namespace ostium {
+namespace ostium::data {
 
 const std::vector<EventDefinition>& event_definitions() {
   static const std::vector<EventDefinition> all = {
@@ -20,4 +20,4 @@ const char* severity_name(Severity severity) {
   return severity == Severity::error ? "error" : severity == Severity::critical ? "critical" : "";
 }
 
-}  // namespace ostium
+}  // namespace ostium::data

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-namespace ostium {
+namespace ostium::data {
 
 /// A recording keeps the number.
 enum class EventCode : int {
@@ -42,4 +42,4 @@ inline constexpr double occluded_share = 0.05;
 /// landmark.
 inline constexpr double filled_share = 0.5, seen_share = 0.15;
 
-}  // namespace ostium
+}  // namespace ostium::data

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-namespace ostium {
+namespace ostium::data {
 
 bool GateResult::pass() const { return std::fabs(value - reference) <= tolerance; }
 
@@ -41,4 +41,4 @@ std::string table_line(const GateResult& r) {
                      r.pass() ? "pass" : "FAIL");
 }
 
-}  // namespace ostium
+}  // namespace ostium::data

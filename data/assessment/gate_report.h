@@ -4,7 +4,7 @@
 #include <utility>
 #include <vector>
 
-namespace ostium {
+namespace ostium::data {
 
 struct GateResult {
   std::string gate;      ///< name, as `ostium verify --only` takes it
@@ -29,4 +29,4 @@ std::string names_to_json(const std::vector<std::pair<std::string, std::string>>
 std::string table_line(const GateResult& result);
 std::string table_heading();
 
-}  // namespace ostium
+}  // namespace ostium::data

@@ -4,7 +4,7 @@
 
 #include "data/formats/plot.h"
 
-namespace ostium {
+namespace ostium::data {
 
 namespace {
 
@@ -60,4 +60,4 @@ std::string quoted(const std::string& words) {
   return out + "\"";
 }
 
-}  // namespace ostium
+}  // namespace ostium::data

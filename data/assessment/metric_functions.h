@@ -7,7 +7,7 @@
 
 #include "data/assessment/run_record.h"
 
-namespace ostium {
+namespace ostium::data {
 
 using MetricFunction = std::function<double(const RunRecord&)>;
 
@@ -45,4 +45,4 @@ inline MetricFunction time_within(const std::string& signal, double least, doubl
   };
 }
 
-}  // namespace ostium
+}  // namespace ostium::data

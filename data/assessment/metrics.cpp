@@ -3,7 +3,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-namespace ostium {
+namespace ostium::data {
 
 const std::vector<MetricDefinition>& metric_definitions() {
   static const std::vector<MetricDefinition> all = [] {
@@ -32,4 +32,4 @@ std::string metrics_json(const std::string& case_name, std::uint64_t seed, const
   return out.dump(2) + "\n";
 }
 
-}  // namespace ostium
+}  // namespace ostium::data

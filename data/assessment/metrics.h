@@ -9,7 +9,7 @@
 
 #include "data/assessment/run_record.h"
 
-namespace ostium {
+namespace ostium::data {
 
 struct Metric {
   std::string name;
@@ -39,4 +39,4 @@ std::vector<Metric> metrics_of(const RunRecord& record);
 std::string metrics_json(const std::string& case_name, std::uint64_t seed, const std::string& outcome,
                          const std::string& reason, const std::vector<Metric>& metrics);
 
-}  // namespace ostium
+}  // namespace ostium::data

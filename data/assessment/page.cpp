@@ -8,7 +8,7 @@
 #include "data/assessment/page_parts.h"
 #include "data/formats/plot.h"
 
-namespace ostium {
+namespace ostium::data {
 
 namespace {
 
@@ -50,4 +50,4 @@ std::string report_page(const std::vector<ReportRun>& runs, const ScoreList& lis
   return html_page(runs.size() == 1 ? "Run of " + runs[0].case_name : fmt::format("{} runs", runs.size()), body);
 }
 
-}  // namespace ostium
+}  // namespace ostium::data

@@ -7,7 +7,7 @@
 #include "data/assessment/metrics.h"
 #include "data/assessment/score_list.h"
 
-namespace ostium {
+namespace ostium::data {
 
 struct ReportPicture {
   std::string caption;
@@ -37,4 +37,4 @@ std::string events_csv(const ReportRun& run);
 /// The face and content questionnaires of a validation study, as a page with forms: its answers are saved as CSV.
 std::string questionnaire_page();
 
-}  // namespace ostium
+}  // namespace ostium::data

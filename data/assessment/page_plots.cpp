@@ -6,7 +6,7 @@
 #include "data/assessment/page_parts.h"
 #include "data/formats/plot.h"
 
-namespace ostium {
+namespace ostium::data {
 
 namespace {
 
@@ -107,4 +107,4 @@ std::string time_plots(const std::vector<ReportRun>& runs) {
   return out;
 }
 
-}  // namespace ostium
+}  // namespace ostium::data

@@ -7,7 +7,7 @@
 #include "data/assessment/page_parts.h"
 #include "data/formats/plot.h"
 
-namespace ostium {
+namespace ostium::data {
 
 namespace {
 
@@ -106,4 +106,4 @@ std::string events_table(const ReportRun& run) {
   return out + "</table>\n";
 }
 
-}  // namespace ostium
+}  // namespace ostium::data

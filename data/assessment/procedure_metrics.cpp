@@ -5,7 +5,7 @@
 #include "data/assessment/metric_functions.h"
 #include "data/assessment/metrics.h"
 
-namespace ostium {
+namespace ostium::data {
 
 namespace {
 
@@ -236,4 +236,4 @@ std::vector<MetricDefinition> procedure_metrics() {
   };
 }
 
-}  // namespace ostium
+}  // namespace ostium::data

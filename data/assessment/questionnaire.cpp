@@ -4,7 +4,7 @@
 #include "data/assessment/page.h"
 #include "data/formats/plot.h"
 
-namespace ostium {
+namespace ostium::data {
 
 std::string questionnaire_page() {
   static const char* const face[] = {
@@ -46,4 +46,4 @@ std::string questionnaire_page() {
           table("content", content, std::size(content)));
 }
 
-}  // namespace ostium
+}  // namespace ostium::data

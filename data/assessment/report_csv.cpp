@@ -5,7 +5,7 @@
 #include "data/assessment/html.h"
 #include "data/assessment/page_parts.h"
 
-namespace ostium {
+namespace ostium::data {
 
 std::string report_csv(const std::vector<ReportRun>& runs, const ScoreList& list) {
   std::string out = "code,case,script,seed,outcome,reason,simulated_s";
@@ -42,4 +42,4 @@ std::string events_csv(const ReportRun& run) {
   return out;
 }
 
-}  // namespace ostium
+}  // namespace ostium::data

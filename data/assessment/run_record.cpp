@@ -2,7 +2,7 @@
 
 #include <limits>
 
-namespace ostium {
+namespace ostium::data {
 
 std::vector<RecordedEvent> events_of(const RunRecord& record) {
   std::vector<RecordedEvent> out;
@@ -50,4 +50,4 @@ double last_of(const RunRecord& record, const std::string& signal) {
   return column.empty() ? std::numeric_limits<double>::quiet_NaN() : column.back();
 }
 
-}  // namespace ostium
+}  // namespace ostium::data

@@ -6,7 +6,7 @@
 
 #include "data/assessment/events.h"
 
-namespace ostium {
+namespace ostium::data {
 
 struct RunRecord {
   double step_s = 1e-3;
@@ -46,4 +46,4 @@ std::vector<double> all_of(const RunRecord& record, const std::string& signal); 
 double first_of(const RunRecord& record, const std::string& signal);
 double last_of(const RunRecord& record, const std::string& signal);
 
-}  // namespace ostium
+}  // namespace ostium::data

@@ -8,11 +8,12 @@
 #include <fstream>
 #include <sstream>
 
+#include "data/assessment/scoring_keys.h"
 #include "data/catalogue/catalogue.h"
 #include "data/formats/json_object.h"
 #include "data/formats/load_error.h"
 
-namespace ostium {
+namespace ostium::data {
 
 namespace {
 
@@ -125,4 +126,4 @@ std::vector<Score> score(const ScoreList& list, const RunRecord& record, const s
   return out;
 }
 
-}  // namespace ostium
+}  // namespace ostium::data

@@ -7,7 +7,7 @@
 
 #include "data/assessment/metrics.h"
 
-namespace ostium {
+namespace ostium::data {
 
 enum class ScoreKind { step, error, critical };
 
@@ -44,4 +44,4 @@ struct Score {
 /// One each of the list's items.
 std::vector<Score> score(const ScoreList& list, const RunRecord& record, const std::vector<Metric>& metrics);
 
-}  // namespace ostium
+}  // namespace ostium::data

@@ -3,7 +3,7 @@
 /// (data/schemas/scoring.schema.json) is made of them.
 #include "data/formats/json_object.h"
 
-namespace ostium::scoring_keys {
+namespace ostium::data::scoring_keys {
 
 inline const JsonObjectKeys root = {
     "scoring list",
@@ -32,4 +32,4 @@ inline const JsonObjectKeys check = {
 
 inline const std::vector<const JsonObjectKeys*> all = {&root, &item, &check};
 
-}  // namespace ostium::scoring_keys
+}  // namespace ostium::data::scoring_keys

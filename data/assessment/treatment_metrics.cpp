@@ -6,7 +6,7 @@
 #include "data/assessment/metric_functions.h"
 #include "data/assessment/metrics.h"
 
-namespace ostium {
+namespace ostium::data {
 
 namespace {
 
@@ -174,4 +174,4 @@ std::vector<MetricDefinition> treatment_metrics() {
   };
 }
 
-}  // namespace ostium
+}  // namespace ostium::data

@@ -8,7 +8,7 @@
 
 #include "data/catalogue/instrument/instrument_reader.h"
 
-namespace ostium {
+namespace ostium::data {
 
 namespace fs = std::filesystem;
 
@@ -50,4 +50,4 @@ const Instrument& find_instrument(const std::vector<Instrument>& catalogue, cons
   throw LoadError(fmt::format("there is no instrument \"{}\"; expected one of:{}", name, known));
 }
 
-}  // namespace ostium
+}  // namespace ostium::data

@@ -3,7 +3,7 @@
 #include "data/catalogue/instrument/instrument.h"
 #include "data/formats/load_error.h"
 
-namespace ostium {
+namespace ostium::data {
 
 /// The folder that holds `instruments/`: the environment variable OSTIUM_DATA where it is set; else ../share/ostium
 /// beside the executable's folder (as `cmake --install` lays it out); else `data/` of the source tree it was built
@@ -19,4 +19,4 @@ std::vector<Instrument> load_catalogue();
 /// Throws LoadError naming what there is if `name` is not among them.
 const Instrument& find_instrument(const std::vector<Instrument>& catalogue, const std::string& name);
 
-}  // namespace ostium
+}  // namespace ostium::data

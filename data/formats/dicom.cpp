@@ -10,10 +10,11 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "core/base/units.h"
 #include "data/formats/load_error.h"
 #include "data/formats/unfinished_file.h"
 
-namespace ostium {
+namespace ostium::data {
 
 namespace {
 
@@ -98,14 +99,14 @@ void write_patient_and_study(Writer& out, const DicomPatient& patient) {
   out.text(DCM_ContentTime, time.c_str());
 }
 
-void write_acquisition(Writer& out, const CineRun& run) {
-  constexpr double degree = std::numbers::pi / 180;
-  const CArm& arm = run.view.arm;
-  const ImageAxes axes(arm);
+void write_acquisition(Writer& out, const fluoro::CineRun& run) {
+  using units::degree;
+  const fluoro::CArm& arm = run.view.arm;
+  const fluoro::ImageAxes axes(arm);
   out.text(DCM_PatientOrientation, orientation(axes.right) + "\\" + orientation(-axes.up));
   out.text(DCM_PixelIntensityRelationship, "DISP");
   out.number(DCM_KVP, run.exposure.tube.peak_kV);
-  out.text(DCM_RadiationSetting, run.programme.mode == Mode::cine ? "GR" : "SC");
+  out.text(DCM_RadiationSetting, run.programme.mode == fluoro::Mode::cine ? "GR" : "SC");
   out.text(DCM_XRayTubeCurrent, "");
   out.text(DCM_ExposureTime, "");
   out.text(DCM_Exposure, "");
@@ -121,8 +122,8 @@ void write_acquisition(Writer& out, const CineRun& run) {
   out.number(DCM_EstimatedRadiographicMagnificationFactor, arm.source_to_detector_m / arm.source_to_isocentre_m);
 }
 
-void write_pixels(Writer& out, const CineRun& run) {
-  const Picture& first = run.frames.front();
+void write_pixels(Writer& out, const fluoro::CineRun& run) {
+  const fluoro::Picture& first = run.frames.front();
   out.word(DCM_SamplesPerPixel, 1);
   out.text(DCM_PhotometricInterpretation, "MONOCHROME2");
   out.word(DCM_Rows, unsigned(first.height));
@@ -140,7 +141,7 @@ void write_pixels(Writer& out, const CineRun& run) {
   }
   std::vector<Uint8> pixels;
   pixels.reserve(run.frames.size() * first.grey.size() + 1);
-  for (const Picture& frame : run.frames) {
+  for (const fluoro::Picture& frame : run.frames) {
     if (frame.width != first.width || frame.height != first.height)
       throw std::invalid_argument("DICOM: the frames of a run are of one size");
     pixels.insert(pixels.end(), frame.grey.begin(), frame.grey.end());
@@ -151,7 +152,7 @@ void write_pixels(Writer& out, const CineRun& run) {
 
 }  // namespace
 
-void write_dicom(const std::string& file, const CineRun& run, const DicomPatient& patient) {
+void write_dicom(const std::string& file, const fluoro::CineRun& run, const DicomPatient& patient) {
   if (run.frames.empty()) throw std::invalid_argument("DICOM: a run without frames");
   Writer out;
   out.text(DCM_SOPClassUID, UID_XRayAngiographicImageStorage);
@@ -163,4 +164,4 @@ void write_dicom(const std::string& file, const CineRun& run, const DicomPatient
   out.save(file);
 }
 
-}  // namespace ostium
+}  // namespace ostium::data

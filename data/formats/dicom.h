@@ -2,9 +2,9 @@
 /// X-ray angiography as DICOM keeps it (X-Ray Angiographic Image Storage; PS3.3 A.14), through DCMTK.
 #include <string>
 
-#include "fluoro/fluoroscope.h"
+#include "fluoro/console/fluoroscope.h"
 
-namespace ostium {
+namespace ostium::data {
 
 struct DicomPatient {
   std::string name = "Ostium^Simulated";
@@ -15,6 +15,6 @@ struct DicomPatient {
 /// A run of one or more frames of one size: 8 bits as displayed, with positioner angles, SID, pixel spacing at the
 /// detector, frame time, tube voltage and dose-area product. Throws LoadError naming the file if it cannot be written;
 /// what was begun is removed.
-void write_dicom(const std::string& file, const CineRun& run, const DicomPatient& patient = {});
+void write_dicom(const std::string& file, const fluoro::CineRun& run, const DicomPatient& patient = {});
 
-}  // namespace ostium
+}  // namespace ostium::data

@@ -6,7 +6,7 @@
 #include <cassert>
 #include <cmath>
 
-namespace ostium {
+namespace ostium::data {
 
 JsonObject::JsonObject(const JsonValue& value, const JsonObjectKeys& keys) : value_(value), keys_(keys) {
   if (value.type != JsonValue::Type::object) value.refuse("an object {...}: the " + keys.object);
@@ -97,4 +97,4 @@ std::size_t JsonObject::choice(const std::string& key, const std::vector<std::st
   return static_cast<std::size_t>(chosen - choices.begin());
 }
 
-}  // namespace ostium
+}  // namespace ostium::data

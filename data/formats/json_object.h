@@ -6,7 +6,7 @@
 #include "data/formats/json_type.h"
 #include "data/formats/json_value.h"
 
-namespace ostium {
+namespace ostium::data {
 
 struct JsonKey {
   std::string name;
@@ -53,4 +53,4 @@ class JsonObject {
   const JsonObjectKeys& keys_;
 };
 
-}  // namespace ostium
+}  // namespace ostium::data

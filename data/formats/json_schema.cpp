@@ -1,6 +1,6 @@
 #include "data/formats/json_schema.h"
 
-namespace ostium {
+namespace ostium::data {
 
 namespace {
 
@@ -36,4 +36,4 @@ JsonValue schema_of(const JsonFormat& format) {
                       {"$defs", json_object(std::move(objects))}});
 }
 
-}  // namespace ostium
+}  // namespace ostium::data

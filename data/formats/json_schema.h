@@ -2,7 +2,7 @@
 /// The JSON schema of a file format, made of the same tables of keys that its reader goes by.
 #include "data/formats/json_object.h"
 
-namespace ostium {
+namespace ostium::data {
 
 struct JsonFormat {
   std::string id;                              ///< "ostium-script/1"
@@ -13,4 +13,4 @@ struct JsonFormat {
 /// A JSON schema (draft 2020-12): each of the objects under its name in "$defs".
 JsonValue schema_of(const JsonFormat& format);
 
-}  // namespace ostium
+}  // namespace ostium::data

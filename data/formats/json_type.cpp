@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace ostium {
+namespace ostium::data {
 
 JsonValue json_text(const std::string& text) {
   JsonValue value;
@@ -126,4 +126,4 @@ JsonType null_or(const JsonType& type) { return either({named("null"), type}); }
 
 }  // namespace json_type
 
-}  // namespace ostium
+}  // namespace ostium::data

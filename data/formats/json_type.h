@@ -7,7 +7,7 @@
 
 #include "data/formats/json_value.h"
 
-namespace ostium {
+namespace ostium::data {
 
 /// A range of numbers: above < x < below, least <= x <= most.
 struct JsonRange {
@@ -59,4 +59,4 @@ JsonValue json_list(std::vector<JsonValue> items);
 JsonValue json_list(const std::vector<std::string>& texts);
 JsonValue json_object(std::vector<SchemaKeyword> members);
 
-}  // namespace ostium
+}  // namespace ostium::data

@@ -9,7 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-namespace ostium {
+namespace ostium::data {
 
 namespace {
 
@@ -214,4 +214,4 @@ JsonValue load_json(const std::string& file) {
 
 std::string to_json(const JsonValue& value) { return plain(value).dump(1) + "\n"; }
 
-}  // namespace ostium
+}  // namespace ostium::data

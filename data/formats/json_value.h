@@ -8,7 +8,7 @@
 
 #include "data/formats/load_error.h"
 
-namespace ostium {
+namespace ostium::data {
 
 struct JsonValue {
   enum class Type { null, boolean, number, text, array, object };
@@ -39,4 +39,4 @@ JsonValue load_json(const std::string& file);
 /// As text that `parse_json` makes the same values of; lines, paths and files are not in it.
 std::string to_json(const JsonValue& value);
 
-}  // namespace ostium
+}  // namespace ostium::data

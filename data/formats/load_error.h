@@ -1,7 +1,7 @@
 #pragma once
 #include <stdexcept>
 
-namespace ostium {
+namespace ostium::data {
 
 /// A file that cannot be read as what it should be. The message is for the person who wrote it: file, line, key, value
 /// found, what was expected.
@@ -9,4 +9,4 @@ struct LoadError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-}  // namespace ostium
+}  // namespace ostium::data

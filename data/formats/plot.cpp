@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-namespace ostium {
+namespace ostium::data {
 
 namespace {
 
@@ -156,4 +156,4 @@ std::string Plot::svg() const {
   return out + "</svg>\n";
 }
 
-}  // namespace ostium
+}  // namespace ostium::data

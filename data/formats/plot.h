@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-namespace ostium {
+namespace ostium::data {
 
 /// `words` as text in HTML and SVG.
 std::string escaped(const std::string& words);
@@ -53,4 +53,4 @@ class Plot {
   std::vector<Eigen::Vector2d> include_;
 };
 
-}  // namespace ostium
+}  // namespace ostium::data

@@ -8,7 +8,7 @@
 #include "data/formats/load_error.h"
 #include "data/formats/unfinished_file.h"
 
-namespace ostium {
+namespace ostium::data {
 
 namespace {
 
@@ -38,14 +38,14 @@ void write_bytes(const std::string& file, const std::vector<std::uint8_t>& bytes
 
 }  // namespace
 
-std::vector<std::uint8_t> png_of(const Picture& picture) {
+std::vector<std::uint8_t> png_of(const fluoro::Picture& picture) {
   return compressed(picture.width, picture.height, PNG_FORMAT_GRAY, picture.grey.data());
 }
 
-void write_png(const std::string& file, const Picture& picture) { write_bytes(file, png_of(picture)); }
+void write_png(const std::string& file, const fluoro::Picture& picture) { write_bytes(file, png_of(picture)); }
 
 void write_rgb_png(const std::string& file, int width, int height, const std::vector<std::uint8_t>& rgb) {
   write_bytes(file, compressed(width, height, PNG_FORMAT_RGB, rgb.data()));
 }
 
-}  // namespace ostium
+}  // namespace ostium::data

@@ -3,15 +3,15 @@
 #include <string>
 #include <vector>
 
-#include "fluoro/display.h"
+#include "fluoro/display/display.h"
 
-namespace ostium {
+namespace ostium::data {
 
 /// 8-bit greyscale PNG. Throws LoadError naming the file if it cannot be written; what was begun is removed.
-void write_png(const std::string& file, const Picture& picture);
+void write_png(const std::string& file, const fluoro::Picture& picture);
 /// The same for colours: `rgb` has 3 width height bytes, rows from the top.
 void write_rgb_png(const std::string& file, int width, int height, const std::vector<std::uint8_t>& rgb);
 /// The file's bytes.
-std::vector<std::uint8_t> png_of(const Picture& picture);
+std::vector<std::uint8_t> png_of(const fluoro::Picture& picture);
 
-}  // namespace ostium
+}  // namespace ostium::data

@@ -5,7 +5,7 @@
 #include <fstream>
 #include <stdexcept>
 
-namespace ostium {
+namespace ostium::data {
 
 namespace {
 
@@ -54,4 +54,4 @@ void Drawing::write(const std::string& path) const {
   if (!file) throw std::runtime_error(path + ": cannot be written; is its folder there, and the disk not full?");
 }
 
-}  // namespace ostium
+}  // namespace ostium::data

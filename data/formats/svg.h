@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-namespace ostium {
+namespace ostium::data {
 
 /// x to the right, y downwards, mm. What is drawn later covers what was drawn before.
 class Drawing {
@@ -25,4 +25,4 @@ class Drawing {
   std::string body_;
 };
 
-}  // namespace ostium
+}  // namespace ostium::data

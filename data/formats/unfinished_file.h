@@ -4,7 +4,7 @@
 
 #include <string>
 
-namespace ostium {
+namespace ostium::data {
 
 /// Removes what was begun and cannot be finished; never a device such as /dev/full, nor a link to one.
 inline void remove_unfinished(const std::string& file) {
@@ -12,4 +12,4 @@ inline void remove_unfinished(const std::string& file) {
   if (lstat(file.c_str(), &status) == 0 && S_ISREG(status.st_mode)) unlink(file.c_str());
 }
 
-}  // namespace ostium
+}  // namespace ostium::data

@@ -16,7 +16,7 @@
 
 extern char** environ;
 
-namespace ostium {
+namespace ostium::data {
 
 VideoWriter::VideoWriter(const std::string& file, int width, int height, double frames_per_s)
     : file_(file), width_(width), height_(height) {
@@ -59,7 +59,7 @@ VideoWriter::~VideoWriter() {
   if (words_ >= 0) close(words_);
 }
 
-void VideoWriter::add(const Picture& picture) {
+void VideoWriter::add(const fluoro::Picture& picture) {
   if (!problem_.empty() || to_ffmpeg_ < 0) return;
   if (picture.width != width_ || picture.height != height_) {
     stop(fmt::format("a frame of {} x {} in a video of {} x {}", picture.width, picture.height, width_, height_));
@@ -111,4 +111,4 @@ std::string VideoWriter::ffmpegs_words() {
   return words;
 }
 
-}  // namespace ostium
+}  // namespace ostium::data

@@ -2,9 +2,9 @@
 /// MP4 video, made by the program ffmpeg, which is run beside us: linking it would bind our licence.
 #include <string>
 
-#include "fluoro/display.h"
+#include "fluoro/display/display.h"
 
-namespace ostium {
+namespace ostium::data {
 
 /// Feeds frames to ffmpeg. What goes wrong (no ffmpeg, a full disk) ends the video and nothing else: `problem` then
 /// says what, and further frames are ignored. Adding waits while ffmpeg is busy; do not call it from the simulation's
@@ -17,7 +17,7 @@ class VideoWriter {
   VideoWriter(const VideoWriter&) = delete;
   VideoWriter& operator=(const VideoWriter&) = delete;
 
-  void add(const Picture& picture);
+  void add(const fluoro::Picture& picture);
   /// Waits for ffmpeg's end. True if the whole video is written; a video that is not is removed.
   bool finish();
   const std::string& problem() const { return problem_; }  ///< empty while all is well
@@ -35,4 +35,4 @@ class VideoWriter {
   std::string problem_;
 };
 
-}  // namespace ostium
+}  // namespace ostium::data

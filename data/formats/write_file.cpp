@@ -4,7 +4,7 @@
 #include <fstream>
 #include <stdexcept>
 
-namespace ostium {
+namespace ostium::data {
 
 void write_file(const std::string& path, const std::string& text) {
   std::error_code none;
@@ -16,4 +16,4 @@ void write_file(const std::string& path, const std::string& text) {
   if (!file) throw std::runtime_error(path + ": cannot be written; is its folder there, and the disk not full?");
 }
 
-}  // namespace ostium
+}  // namespace ostium::data

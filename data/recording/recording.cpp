@@ -10,7 +10,7 @@
 
 #include "data/formats/load_error.h"
 
-namespace ostium {
+namespace ostium::data {
 
 namespace {
 
@@ -25,7 +25,7 @@ std::vector<TableLayout> layouts(const RecordingHeader& h) {
       {"events", NumberType::float64, {"step", "code", "tool", "value"}, 4, 256}};
   if (h.full) {
     all.push_back({"state", NumberType::float64, {}, h.state_width, 1});
-    all.push_back({"hands", NumberType::float64, {}, h.hands_width, 1});
+    all.push_back({"hands", NumberType::float64, {}, h.operator_width, 1});
   }
   return all;
 }
@@ -70,7 +70,7 @@ void RecordingWriter::write(TableFile& file, const RecordingBlock& block) const 
   append(file, "events", block.events, 4);
   if (!header_.full) return;
   append(file, "state", block.states, static_cast<std::size_t>(header_.state_width));
-  append(file, "hands", block.hands, static_cast<std::size_t>(header_.hands_width));
+  append(file, "hands", block.hands, static_cast<std::size_t>(header_.operator_width));
 }
 
 /// The name goes from one whole file to the other in one rename; the former keeps a second name until then.
@@ -121,4 +121,4 @@ std::optional<std::string> RecordingReader::end() const {
   return file_.text("end");
 }
 
-}  // namespace ostium
+}  // namespace ostium::data

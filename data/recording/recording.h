@@ -11,7 +11,7 @@
 
 #include "data/recording/table_file.h"
 
-namespace ostium {
+namespace ostium::data {
 
 inline constexpr int recording_version = 2;  ///< 1: flags and indices of state in other places and order
 inline constexpr int steps_per_block = 500;  ///< that are written together
@@ -34,7 +34,7 @@ struct RecordingHeader {
   double step_s = 1e-3;
   bool full = true;  ///< states are kept
   std::vector<std::string> input_columns, signal_columns;
-  int state_width = 1, hands_width = 1;
+  int state_width = 1, operator_width = 1;
 };
 
 /// A table that does not grow with the run: a mesh.
@@ -97,4 +97,4 @@ class RecordingReader {
   TableFile file_;
 };
 
-}  // namespace ostium
+}  // namespace ostium::data

@@ -9,7 +9,7 @@
 
 #include "data/formats/load_error.h"
 
-namespace ostium {
+namespace ostium::data {
 
 namespace {
 
@@ -250,4 +250,4 @@ std::string TableFile::text(const std::string& name) const {
   return text;
 }
 
-}  // namespace ostium
+}  // namespace ostium::data

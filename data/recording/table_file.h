@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-namespace ostium {
+namespace ostium::data {
 
 enum class NumberType { float64, float32, uint64 };
 
@@ -53,4 +53,4 @@ class TableFile {
   std::unique_ptr<Handle> file_;
 };
 
-}  // namespace ostium
+}  // namespace ostium::data

@@ -5,12 +5,14 @@
 #include <cmath>
 #include <numbers>
 
-namespace ostium::phantom {
+#include "core/base/units.h"
+
+namespace ostium::fluoro::phantom {
 
 using Eigen::Index;
 using Eigen::Matrix3Xd;
 using Eigen::Vector3d;
-constexpr double pi = std::numbers::pi;
+using units::pi;
 
 namespace {
 
@@ -147,4 +149,4 @@ Lumen lumen(const std::vector<Course>& courses, std::size_t which) {
   return out;
 }
 
-}  // namespace ostium::phantom
+}  // namespace ostium::fluoro::phantom

@@ -6,7 +6,7 @@
 #include "fluoro/phantom/random.h"
 #include "fluoro/phantom/shapes.h"
 
-namespace ostium::phantom {
+namespace ostium::fluoro::phantom {
 
 inline constexpr double course_step_m = 0.5e-3;  ///< between points of a course, nearly
 
@@ -50,4 +50,4 @@ struct Lumen {
 };
 Lumen lumen(const std::vector<Course>& courses, std::size_t which);
 
-}  // namespace ostium::phantom
+}  // namespace ostium::fluoro::phantom

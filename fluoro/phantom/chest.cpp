@@ -5,15 +5,16 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/base/units.h"
+#include "fluoro/matter/tissue.h"
 #include "fluoro/phantom/coronaries.h"
 #include "fluoro/phantom/heart.h"
-#include "fluoro/tissue.h"
 
-namespace ostium::phantom {
+namespace ostium::fluoro::phantom {
 
 using Eigen::Matrix3Xd;
 using Eigen::Vector3d;
-constexpr double pi = std::numbers::pi;
+using units::pi;
 
 namespace {
 
@@ -103,7 +104,7 @@ void add_spine(std::vector<Body>& out) {
         Eigen::Scaling(1 + 0.03 * random.uniform(-1, 1) - 0.010 * i);
     const auto placed = [&](const Surface& local) {
       return Surface{local.triangles,
-                     ((at.linear() * local.p_P.cast<double>()).colwise() + at.translation()).cast<float>()};
+                           ((at.linear() * local.p_P.cast<double>()).colwise() + at.translation()).cast<float>()};
     };
     add_bone(out, "vertebra " + std::to_string(7 - i), placed(outer), placed(inner));
   }
@@ -358,4 +359,4 @@ Lesion lesion(bool left) {
   return {course.line.col(at), 2 * course.radius_m[at]};
 }
 
-}  // namespace ostium::phantom
+}  // namespace ostium::fluoro::phantom

@@ -4,9 +4,9 @@
 /// men); the rest is of usual size and grown from fixed seeds. Whoever has an anatomy fills a Scene with it instead.
 ///
 /// Frame P with the isocentre in the heart's middle.
-#include "fluoro/scene.h"
+#include "fluoro/matter/scene.h"
 
-namespace ostium::phantom {
+namespace ostium::fluoro::phantom {
 
 enum class Filling { none, left, right, both };  ///< which coronary holds contrast
 
@@ -27,4 +27,4 @@ struct Lesion {
 };
 Lesion lesion(bool left);
 
-}  // namespace ostium::phantom
+}  // namespace ostium::fluoro::phantom

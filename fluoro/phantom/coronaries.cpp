@@ -4,9 +4,10 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/base/units.h"
 #include "fluoro/phantom/heart.h"
 
-namespace ostium::phantom {
+namespace ostium::fluoro::phantom {
 
 using Eigen::Vector3d;
 
@@ -14,7 +15,7 @@ namespace {
 
 /// Dodge's polar coordinates: theta about y from the front to the patient's left, phi up from the transverse plane.
 Vector3d dodge(double r_cm, double theta_deg, double phi_deg) {
-  constexpr double degree = std::numbers::pi / 180;
+  using units::degree;
   const double t = theta_deg * degree, f = phi_deg * degree;
   return 0.01 * r_cm * Vector3d(std::cos(f) * std::sin(t), std::sin(f), std::cos(f) * std::cos(t));
 }
@@ -273,4 +274,4 @@ std::vector<Vector3d> epicardial_points() {
   return out;
 }
 
-}  // namespace ostium::phantom
+}  // namespace ostium::fluoro::phantom

@@ -2,7 +2,7 @@
 /// Courses of the coronary arteries for the chest phantom.
 #include "fluoro/phantom/branching.h"
 
-namespace ostium::phantom {
+namespace ostium::fluoro::phantom {
 
 /// A main stem begins in the aorta, upstream of its ostium by so many points of its line.
 inline constexpr Eigen::Index mouth_points = 15;
@@ -16,4 +16,4 @@ Eigen::Vector3d right_ostium();
 /// Points on the heart's surface that its shape is drawn round.
 std::vector<Eigen::Vector3d> epicardial_points();
 
-}  // namespace ostium::phantom
+}  // namespace ostium::fluoro::phantom

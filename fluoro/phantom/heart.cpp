@@ -5,12 +5,13 @@
 #include <numbers>
 #include <vector>
 
+#include "core/base/units.h"
 #include "fluoro/phantom/coronaries.h"
 
-namespace ostium::phantom {
+namespace ostium::fluoro::phantom {
 
 using Eigen::Vector3d;
-constexpr double pi = std::numbers::pi;
+using units::pi;
 
 namespace {
 
@@ -74,4 +75,4 @@ double heart_radius(const Vector3d& direction) {
          u * ((1 - v) * radius(i + 1, j) + v * radius(i + 1, k));
 }
 
-}  // namespace ostium::phantom
+}  // namespace ostium::fluoro::phantom

@@ -2,7 +2,7 @@
 #include <Eigen/Core>
 #include <random>
 
-namespace ostium::phantom {
+namespace ostium::fluoro::phantom {
 
 /// The same numbers everywhere: the engine is fixed by the standard, distributions are not.
 class Random {
@@ -19,4 +19,4 @@ class Random {
   std::mt19937 engine_;
 };
 
-}  // namespace ostium::phantom
+}  // namespace ostium::fluoro::phantom

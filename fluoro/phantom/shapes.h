@@ -2,9 +2,9 @@
 /// Closed surfaces from closed forms, for fluoro's tests and pictures. Frame P, metres.
 #include <functional>
 
-#include "fluoro/scene.h"
+#include "fluoro/matter/scene.h"
 
-namespace ostium::phantom {
+namespace ostium::fluoro::phantom {
 
 struct Surface {
   std::shared_ptr<const Triangles> triangles;
@@ -50,4 +50,4 @@ Eigen::Matrix3Xd smooth_line(const std::vector<Eigen::Vector3d>& through, double
 
 Body body(const std::string& name, const Surface& surface, Tissue inside, Tissue within);
 
-}  // namespace ostium::phantom
+}  // namespace ostium::fluoro::phantom

@@ -45,7 +45,7 @@ GLuint compiled(GLenum kind, const char* text) {
   return shader;
 }
 
-Eigen::Matrix3Xf normals_of(const Body& body) {
+Eigen::Matrix3Xf normals_of(const fluoro::Body& body) {
   Eigen::Matrix3Xf out = Eigen::Matrix3Xf::Zero(3, body.p_P.cols());
   for (const auto& t : body.triangles->colwise()) {
     const Eigen::Vector3f a = body.p_P.col(t[0]), b = body.p_P.col(t[1]), c = body.p_P.col(t[2]);
@@ -60,17 +60,17 @@ Eigen::Matrix3Xf normals_of(const Body& body) {
 
 struct AngleOpacity::Context {
   OSMesaContext osmesa = nullptr;
-  std::vector<Body> bodies;
+  std::vector<fluoro::Body> bodies;
   std::vector<Eigen::Matrix3Xf> normals;
   std::vector<GLubyte> pixels;
   GLuint program = 0;
 };
 
-AngleOpacity::AngleOpacity(std::vector<Body> bodies) : context_(std::make_unique<Context>()) {
+AngleOpacity::AngleOpacity(std::vector<fluoro::Body> bodies) : context_(std::make_unique<Context>()) {
   setenv("LP_NUM_THREADS", "0", 0);
   Context& c = *context_;
   c.bodies = std::move(bodies);
-  for (const Body& body : c.bodies) c.normals.push_back(normals_of(body));
+  for (const fluoro::Body& body : c.bodies) c.normals.push_back(normals_of(body));
   c.osmesa = OSMesaCreateContextExt(OSMESA_RGBA, 0, 0, 0, nullptr);
   c.pixels.resize(4);
   if (!c.osmesa || !OSMesaMakeCurrent(c.osmesa, c.pixels.data(), GL_UNSIGNED_BYTE, 1, 1))
@@ -85,7 +85,7 @@ AngleOpacity::AngleOpacity(std::vector<Body> bodies) : context_(std::make_unique
 
 AngleOpacity::~AngleOpacity() { OSMesaDestroyContext(context_->osmesa); }
 
-double AngleOpacity::draw(const View& view) {
+double AngleOpacity::draw(const fluoro::View& view) {
   Context& c = *context_;
   c.pixels.resize(std::size_t(4 * view.pixels * view.pixels));
   OSMesaMakeCurrent(c.osmesa, c.pixels.data(), GL_UNSIGNED_BYTE, view.pixels, view.pixels);
@@ -95,7 +95,7 @@ double AngleOpacity::draw(const View& view) {
   glEnable(GL_BLEND);
   glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
   glUseProgram(c.program);
-  const ImageAxes axes(view.arm);
+  const fluoro::ImageAxes axes(view.arm);
   Eigen::Matrix3f R_SP;
   R_SP << axes.right.transpose().cast<float>(), axes.up.transpose().cast<float>(),
       axes.outwards.transpose().cast<float>();

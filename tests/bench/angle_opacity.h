@@ -5,16 +5,16 @@
 #include <memory>
 #include <span>
 
-#include "fluoro/path_lengths.h"
+#include "fluoro/projection/path_lengths.h"
 
 namespace ostium::bench {
 
 class AngleOpacity {
  public:
-  explicit AngleOpacity(std::vector<Body> bodies);
+  explicit AngleOpacity(std::vector<fluoro::Body> bodies);
   ~AngleOpacity();
   /// Draws and reads back; returns the mean grey level, so that nothing is left out.
-  double draw(const View& view);
+  double draw(const fluoro::View& view);
 
  private:
   struct Context;

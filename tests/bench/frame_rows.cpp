@@ -7,9 +7,9 @@
 #include <numeric>
 #include <thread>
 
-#include "app/verify/gate.h"
+#include "app/gates/gate.h"
 #include "core/samples/steel_wire.h"
-#include "fluoro/fluoroscope.h"
+#include "fluoro/console/fluoroscope.h"
 #include "fluoro/phantom/chest.h"
 #include "tests/bench/angle_opacity.h"
 #include "tests/bench/rows.h"
@@ -24,14 +24,14 @@ double clock_ms(clockid_t clock) {
   return 1e3 * double(t.tv_sec) + 1e-6 * double(t.tv_nsec);
 }
 
-Scene bench_scene() {
-  phantom::ChestOptions options;
-  options.filling = phantom::Filling::both;
-  return phantom::chest(options);
+fluoro::Scene bench_scene() {
+  fluoro::phantom::ChestOptions options;
+  options.filling = fluoro::phantom::Filling::both;
+  return fluoro::phantom::chest(options);
 }
 
-View view_of(int pixels) {
-  View view;
+fluoro::View view_of(int pixels) {
+  fluoro::View view;
   view.arm.lao_rad = 0.5;
   view.arm.cran_rad = 0.3;
   view.pixels = pixels;
@@ -39,11 +39,11 @@ View view_of(int pixels) {
 }
 
 struct Session {
-  Scene scene = bench_scene();
-  Imager imager{{}, make_scanline_renderer()};
-  FluoroscopeState state;
-  DisplayScratch scratch;
-  View view;
+  fluoro::Scene scene = bench_scene();
+  fluoro::Imager imager{{}, make_scanline_renderer()};
+  fluoro::FluoroscopeState state;
+  fluoro::DisplayScratch scratch;
+  fluoro::View view;
 
   explicit Session(int pixels) : view(view_of(pixels)) {}
   void frame(double turn_rad = 0) {
@@ -64,8 +64,8 @@ std::vector<double> frame_times(Session& session, int frames, double turn_rad) {
 }
 
 double yardstick_ms(int pixels, int frames) {
-  const Scene scene = bench_scene();
-  std::vector<Body> all = *scene.fixed;
+  const fluoro::Scene scene = bench_scene();
+  std::vector<fluoro::Body> all = *scene.fixed;
   all.insert(all.end(), scene.moving.begin(), scene.moving.end());
   AngleOpacity shader(std::move(all));
   double best = 1e9;
@@ -83,7 +83,7 @@ double late_share(double seconds, Session* drawing) {
   std::thread drawer([&] {
     while (drawing && !stop) drawing->frame();
   });
-  verify::Bench rod = verify::steel_bench({.elements = 512});
+  gates::Bench rod = gates::steel_bench({.elements = 512});
   const auto ticks = static_cast<long>(1000 * seconds);
   long late = 0;
   timespec next;
@@ -118,16 +118,16 @@ Row frame_row(const std::string& name, int pixels, bool rotating, bool quick) {
   row.ms = std::accumulate(times.begin(), times.end(), 0.0) / double(times.size());
   row.p999_ms = times.back();
   row.yardstick_ms = yardstick_ms(pixels, quick ? 2 : 6);
-  const GateResult gate = verify::xray_thickness(true).front();
+  const data::GateResult gate = gates::xray_thickness(true).front();
   row.gate = {gate.gate, gate.value, gate.unit, gate.pass()};
   return row;
 }
 
 void print_late_ticks(double seconds) {
   long fixed = 0, moving = 0;
-  const Scene scene = bench_scene();
-  for (const Body& body : *scene.fixed) fixed += body.triangles->cols();
-  for (const Body& body : scene.moving) moving += body.triangles->cols();
+  const fluoro::Scene scene = bench_scene();
+  for (const fluoro::Body& body : *scene.fixed) fixed += body.triangles->cols();
+  for (const fluoro::Body& body : scene.moving) moving += body.triangles->cols();
   fmt::print("{} fixed and {} moving triangles; late ticks of a 1 kHz loop that steps a rod of 512 elements\n", fixed,
              moving);
   Session session(512);

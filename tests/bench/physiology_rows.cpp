@@ -4,15 +4,17 @@
 #include <algorithm>
 #include <numeric>
 
-#include "app/angiography/angioplasty.h"
 #include "app/angiography/settle.h"
-#include "app/verify/gate.h"
+#include "app/angiography/textbook_treatment.h"
+#include "app/gates/gate.h"
+#include "core/base/units.h"
 #include "tests/bench/rows.h"
-#include "vascular/units.h"
 
 namespace ostium::bench {
 
 namespace {
+
+using units::atm, units::mL;
 
 double thread_ms() {
   timespec t;
@@ -27,8 +29,8 @@ void set_times(std::vector<double> times, double quantile, Row& row) {
 }
 
 /// The gate's first row, run now.
-void set_gate(const std::vector<GateResult>& results, const std::string& name, Row& row) {
-  for (const GateResult& r : results)
+void set_gate(const std::vector<data::GateResult>& results, const std::string& name, Row& row) {
+  for (const data::GateResult& r : results)
     if (r.gate == name) row.gate = {r.gate, r.value, r.unit, r.pass()};
 }
 
@@ -36,39 +38,40 @@ void set_gate(const std::vector<GateResult>& results, const std::string& name, R
 
 Row circulation_row(bool quick) {
   Row row{.name = "flow-contrast-frame", .gate = {}};
-  const Case c = find_case("rca-mid-focal");
-  const Patient patient = make_patient(c.anatomy, c.lesions);
-  const PhysiologyModel model = make_physiology(patient);
-  PhysiologyState state = at_rest(model, c.rate_1_min, 5);
-  PhysiologyScratch scratch;
-  PhysiologyInputs inputs;
-  const FlowTree& tree = model.flow.tree;
+  const data::Case c = find_case("rca-mid-focal");
+  const vascular::Patient patient = make_patient(c.anatomy, c.lesions);
+  const vascular::PhysiologyModel model = make_physiology(patient);
+  vascular::PhysiologyState state = at_rest(model, c.rate_1_min, 5);
+  vascular::PhysiologyScratch scratch;
+  vascular::PhysiologyInputs inputs;
+  const vascular::FlowTree& tree = model.flow.tree;
   std::vector<double> times;
   for (int frame = 0; frame < (quick ? 30 : 300); ++frame) {
     // One artery after the other.
-    inputs.contrast.tip = {TipPlace::coronary, tree.branches[tree.branch(frame % 60 < 30 ? "LM" : "RCA")].first, 1};
+    inputs.contrast.tip = {vascular::TipPlace::coronary,
+                           tree.branches[tree.branch(frame % 60 < 30 ? "LM" : "RCA")].first, 1};
     inputs.contrast.injection_m3_s = 2 * mL;
     const double start = thread_ms();
     for (int n = 0; n < 67; ++n) step(model, inputs, 1e-3, state, scratch);
     times.push_back(thread_ms() - start);
   }
   set_times(times, 1, row);
-  set_gate(verify::contrast(true), "contrast-balance", row);
+  set_gate(gates::contrast(true), "contrast-balance", row);
   return row;
 }
 
 Row treatment_row(bool quick) {
   Row row{.name = "balloon-stent-step", .gate = {}};
-  const Case c = find_case("rca-mid-focal");
-  const Patient patient = make_patient(c.anatomy, c.lesions);
-  const PhysiologyModel physiology = make_physiology(patient);
-  const Treatable t = plan_treatment(patient, physiology.flow, 0);
-  PhysiologyState blood = make_state(physiology);
-  TreatmentState state = make_state(t.model, physiology.flow.tree);
-  TreatmentScratch scratch;
+  const data::Case c = find_case("rca-mid-focal");
+  const vascular::Patient patient = make_patient(c.anatomy, c.lesions);
+  const vascular::PhysiologyModel physiology = make_physiology(patient);
+  const app::Treatable t = plan_treatment(patient, physiology.flow, 0);
+  vascular::PhysiologyState blood = make_state(physiology);
+  vascular::TreatmentState state = make_state(t.model, physiology.flow.tree);
+  vascular::TreatmentScratch scratch;
   std::vector<double> occupied, times;
-  const Plan& plan = t.plans.front();
-  TreatmentInputs device;
+  const app::Plan& plan = t.plans.front();
+  vascular::TreatmentInputs device;
   device.branch = plan.branch, device.middle_m = plan.middle_m, device.balloon = plan.stent;
   for (int n = 0; n < (quick ? 1000 : 10000); ++n) {
     device.gauge_Pa = std::min(plan.stent_Pa, 2e-3 * atm * n);
@@ -77,7 +80,7 @@ Row treatment_row(bool quick) {
     times.push_back(thread_ms() - start);
   }
   set_times(times, 0.999, row);
-  set_gate(verify::treatment(true), "treatment-balloon-chart-semi", row);
+  set_gate(gates::treatment(true), "treatment-balloon-chart-semi", row);
   return row;
 }
 

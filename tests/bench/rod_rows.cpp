@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <numeric>
 
-#include "app/verify/gate.h"
-#include "app/verify/nesting.h"
+#include "app/gates/gate.h"
+#include "app/gates/nesting.h"
+#include "core/rod/initial_state.h"
 #include "core/samples/steel_wire.h"
 #include "tests/bench/rows.h"
-#include "core/rod/initial_state.h"
 
 namespace ostium::bench {
 
@@ -38,7 +38,7 @@ std::vector<double> ticks(const Duration& duration, Tick&& tick) {
 
 /// Of a swinging rod.
 std::vector<double> swing_ticks(int elements, const Duration& duration) {
-  verify::Bench bench = verify::steel_bench({.elements = elements});
+  gates::Bench bench = gates::steel_bench({.elements = elements});
   return ticks(duration, [&] {
     bench.step();
     return hash(bench.state);
@@ -63,24 +63,24 @@ Row free_rod(const std::string& name, int elements, const Duration& duration) {
   const std::vector<double> times = swing_ticks(elements, duration);
   row.ms = mean(times);
   row.p999_ms = percentile(times, 0.999);
-  const GateResult gate = verify::swing_tip(elements);
+  const data::GateResult gate = gates::swing_tip(elements);
   row.gate = {gate.gate, gate.value, gate.unit, gate.pass()};
   return row;
 }
 
 namespace {
 
-Model nested(int rods, int elements) {
+core::Model nested(int rods, int elements) {
   struct Tube {
     double length_m, EI_N_m2, radius_m, bore_m, kg_per_m;
   };
   const std::vector<Tube> tubes = {
       {0.95, 4e-3, 1.2e-3, 1.0e-3, 6e-3}, {1.0, 2e-3, 0.9e-3, 0.65e-3, 4e-3}, {1.05, 1.5e-3, 0.45e-3, 0, 3e-3}};
-  Model model;
+  core::Model model;
   std::vector<int> all;
   for (std::size_t i = tubes.size() - rods; i < tubes.size(); ++i) {
     const Tube& t = tubes[i];
-    RodDescription d;
+    core::RodDescription d;
     d.name = "tube";
     d.sections = {{.to_tip_m = t.length_m,
                    .EI1_N_m2 = t.EI_N_m2,
@@ -102,16 +102,16 @@ Model nested(int rods, int elements) {
 
 std::vector<Row> nested_rods(const Duration& duration) {
   struct Nested {
-    Model model;
-    State state;
-    Scratch scratch;
-    StepReport report;
-    Inputs inputs;
+    core::Model model;
+    core::State state;
+    core::Scratch scratch;
+    core::StepReport report;
+    core::Inputs inputs;
     std::vector<double> times;
 
     explicit Nested(int rods)
         : model(nested(rods, 512)),
-          state(make_state(model, std::vector<EndState>(rods, verify::along_x()))),
+          state(make_state(model, std::vector<core::EndState>(rods, gates::along_x()))),
           scratch(model) {
       inputs.rods.resize(rods);
     }
@@ -122,7 +122,7 @@ std::vector<Row> nested_rods(const Duration& duration) {
       });
       times.insert(times.end(), more.begin(), more.end());
     }
-    Row row(const std::string& name, const GateResult& gate) const {
+    Row row(const std::string& name, const data::GateResult& gate) const {
       Row out;
       out.name = name, out.ms = mean(times), out.p999_ms = percentile(times, 0.999);
       out.gate = {gate.gate, gate.value, gate.unit, gate.pass()};
@@ -134,7 +134,7 @@ std::vector<Row> nested_rods(const Duration& duration) {
   constexpr int turn = 100;
   for (int done = 0; done < duration.steps; done += turn)
     for (Nested* n : {&pair, &three}) n->run({done == 0 ? duration.warm_up_steps : 0, turn});
-  const GateResult gate = verify::nesting_pair();
+  const data::GateResult gate = gates::nesting_pair();
   return {pair.row("pair-2x512-free", gate), three.row("three-3x512-free", gate)};
 }
 

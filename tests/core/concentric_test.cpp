@@ -1,18 +1,18 @@
 /// Nested instruments on one centreline against a boundary-value solver, and against the binding of rods with
 /// clearance.
-#include "core/concentric/concentric.h"
+#include "core/concentric_tubes/concentric.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <numbers>
 
-#include "core/samples/steel_wire.h"
-#include "core/step.h"
-#include "tests/support/boundary_value.h"
 #include "core/rod/initial_state.h"
+#include "core/samples/steel_wire.h"
+#include "core/step/step.h"
+#include "tests/support/boundary_value.h"
 
-namespace ostium {
+namespace ostium::core {
 namespace {
 
 using Eigen::Vector3d;
@@ -200,7 +200,7 @@ TEST(Concentric, AgreesWithTheBindingOfRods) {
   model.nestings = {{0, 1}};
   model.gravity_W.setZero();
   EndState rolled;
-  rolled.q_W = verify::turned_frame(rolled.q_W, {0, 0, roll});
+  rolled.q_W = gates::turned_frame(rolled.q_W, {0, 0, roll});
   State state = make_state(model, {EndState{}, rolled});
   Scratch scratch(model);
   Inputs inputs;
@@ -232,4 +232,4 @@ TEST(Concentric, WhatIsNoNestIsRefused) {
 }
 
 }  // namespace
-}  // namespace ostium
+}  // namespace ostium::core

@@ -7,26 +7,27 @@
 #include <numbers>
 #include <random>
 
+#include "core/base/units.h"
 #include "core/math/rotation.h"
+#include "core/rod/initial_state.h"
 #include "core/samples/steel_wire.h"
 #include "core/samples/tube.h"
-#include "core/surface/pose.h"
-#include "core/surface/triangle.h"
+#include "core/wall/pose.h"
+#include "core/wall/triangle.h"
 #include "tests/support/nearest_corner.h"
-#include "core/rod/initial_state.h"
 
-namespace ostium {
+namespace ostium::core {
 namespace {
 
 using Eigen::Vector3d;
-using verify::along_x;
+using gates::along_x;
 
-constexpr double pi = std::numbers::pi;
+using units::pi;
 
 SurfaceDescription straight_tube(double radius_m) {
-  std::vector<verify::TubePoint> points;
+  std::vector<gates::TubePoint> points;
   for (int i = -2; i <= 30; ++i) points.push_back({Vector3d(0.01 * i, 0, 0), radius_m});
-  return verify::tube(points, 48);
+  return gates::tube(points, 48);
 }
 
 TEST(Triangle, TheNearestPointIsNoFartherThanAnyOther) {
@@ -181,7 +182,7 @@ TEST(Surface, RefusesWhatIsNoWall) {
 /// it and stays inside; the tube's middle is known in closed form.
 TEST(Contact, AWireGoesWithAWallThatSways) {
   Model model;
-  RodDescription d = verify::steel_wire({.elements = 200, .length_m = 0.2});
+  RodDescription d = gates::steel_wire({.elements = 200, .length_m = 0.2});
   d.damping.drag_across_N_s_m2 = 1;
   model.rods = {make_rod(d)};
   model.surfaces = {std::make_shared<Surface>(make_surface(swaying_tube(2e-3)))};
@@ -211,7 +212,7 @@ TEST(Contact, ASoftWallYields) {
   SurfaceDescription wall = straight_tube(2e-3);
   wall.stiffness_N_m2 = 300;
   Model model;
-  RodDescription d = verify::steel_wire({.elements = 100, .length_m = 0.2});
+  RodDescription d = gates::steel_wire({.elements = 100, .length_m = 0.2});
   d.damping.drag_across_N_s_m2 = 1;
   model.rods = {make_rod(d)};
   model.surfaces = {std::make_shared<Surface>(make_surface(wall))};
@@ -235,11 +236,11 @@ TEST(Contact, ASoftWallYields) {
 /// What slides along a wall without friction feels nothing of the edges between its triangles, however fast it passes
 /// them: at 100 mm/s half of a triangle's length in a step.
 TEST(Contact, EdgesOfASmoothWallAreNotFelt) {
-  std::vector<verify::TubePoint> points;
+  std::vector<gates::TubePoint> points;
   for (double x = -5e-3; x < 80e-3; x += 0.2e-3) points.push_back({Vector3d(x, 0, 0), 1.5e-3});
-  const SurfaceDescription wall = verify::tube(points, 32);
+  const SurfaceDescription wall = gates::tube(points, 32);
   Model model;
-  RodDescription d = verify::steel_wire({.elements = 40, .length_m = 0.04});
+  RodDescription d = gates::steel_wire({.elements = 40, .length_m = 0.04});
   d.sections[0].radius_m = 0.18e-3;
   model.rods = {make_rod(d)};
   model.surfaces = {std::make_shared<Surface>(make_surface(wall))};
@@ -280,7 +281,7 @@ SurfaceDescription brink() {
 /// A catheter that slides along a brink reaches faces beyond it, which turn their back to it: they are no walls of its.
 TEST(Contact, WhatLiesBeyondABrinkHoldsNothing) {
   Model model;
-  RodDescription d = verify::steel_wire({.elements = 20, .E_Pa = 1e9, .length_m = 0.02});
+  RodDescription d = gates::steel_wire({.elements = 20, .E_Pa = 1e9, .length_m = 0.02});
   d.sections[0].radius_m = 1e-3;
   d.damping.drag_across_N_s_m2 = 1;
   model.rods = {make_rod(d)};
@@ -318,7 +319,7 @@ TEST(Contact, ADoorLetsThinInstrumentsThroughWhileItIsOpen) {
     wall.triangles.push_back({rim + j, rim + (j + 1) % around, rim + around});  // facing away from what comes
   }
   wall.door_passes_m = 0.46e-3;
-  const RodDescription thin = verify::steel_wire({.elements = 200, .E_Pa = 1e9, .length_m = 0.2, .gravity = false});
+  const RodDescription thin = gates::steel_wire({.elements = 200, .E_Pa = 1e9, .length_m = 0.2, .gravity = false});
   RodDescription thick = thin;
   for (auto& section : thick.sections) section.radius_m = 0.47e-3;
   const auto tip_m = [&](const RodDescription& d, bool open, double push_s, double pull_s = 0) {
@@ -347,4 +348,4 @@ TEST(Contact, ADoorLetsThinInstrumentsThroughWhileItIsOpen) {
 }
 
 }  // namespace
-}  // namespace ostium
+}  // namespace ostium::core

@@ -5,19 +5,20 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/base/units.h"
 #include "core/rod/inertia.h"
 #include "core/samples/steel_wire.h"
 
-namespace ostium {
+namespace ostium::core {
 namespace {
 
 using Eigen::Vector3d;
-using verify::along_x;
-using verify::Bench;
-using verify::bench_of;
-using verify::steel_bench;
-using verify::steel_wire;
-constexpr double pi = std::numbers::pi;
+using gates::along_x;
+using gates::Bench;
+using gates::bench_of;
+using gates::steel_bench;
+using gates::steel_wire;
+using units::pi;
 
 const Section& section(const RodDescription& wire) { return wire.sections[0]; }
 
@@ -267,4 +268,4 @@ TEST(Reaction, HandCarriesTheWeightAtRest) {
 }
 
 }  // namespace
-}  // namespace ostium
+}  // namespace ostium::core

@@ -9,7 +9,7 @@
 
 #include "core/math/field.h"
 
-namespace ostium {
+namespace ostium::core {
 namespace {
 
 enum class Colour : unsigned char { red, green };
@@ -102,4 +102,4 @@ TEST(Fields, EachDifferenceIsHashedAndNamed) {
 }
 
 }  // namespace
-}  // namespace ostium
+}  // namespace ostium::core

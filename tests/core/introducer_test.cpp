@@ -9,19 +9,19 @@
 #include <string_view>
 #include <utility>
 
-#include "core/samples/steel_wire.h"
 #include "core/rod/initial_state.h"
+#include "core/samples/steel_wire.h"
 
-namespace ostium {
+namespace ostium::core {
 namespace {
 
 using Eigen::Vector3d;
-using verify::along_x;
-using verify::Bench;
-using verify::steel_wire;
+using gates::along_x;
+using gates::Bench;
+using gates::steel_wire;
 
 Bench introducer(const RodDescription& wire, double inserted_m, bool gravity = true) {
-  Bench bench = verify::bench_of(wire, gravity);
+  Bench bench = gates::bench_of(wire, gravity);
   bench.state = make_state(bench.model, {along_x()}, {inserted_m});
   return bench;
 }
@@ -142,7 +142,7 @@ TEST(Introducer, FeedsAtAnyAllowedSpeedAndLimitsTheRest) {
 TEST(Introducer, FingersCarryTheWeightInside) {
   Bench bench = introducer(damped_wire(), 0.2);
   EndState down;  // d3 along -z
-  down.q_W = verify::turned_frame({1, 0, 0, 0}, Vector3d(std::numbers::pi, 0, 0));
+  down.q_W = gates::turned_frame({1, 0, 0, 0}, Vector3d(std::numbers::pi, 0, 0));
   bench.state = make_state(bench.model, {down}, {0.2});
   for (int ms = 0; ms < 100; ++ms) bench.step();
   const double weight = 0.2 * steel_wire({}).sections[0].kg_per_m * 9.81;
@@ -201,4 +201,4 @@ TEST(Introducer, NothingComesOfWhatIsStillOutside) {
 }
 
 }  // namespace
-}  // namespace ostium
+}  // namespace ostium::core

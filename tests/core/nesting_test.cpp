@@ -1,5 +1,5 @@
 /// Rods inside each other: what the binding promises whatever the physics, and what it balances.
-#include "core/binding/nesting.h"
+#include "core/model/nesting.h"
 
 #include <gtest/gtest.h>
 
@@ -9,17 +9,17 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "core/rod/initial_state.h"
 #include "core/rod/introducer.h"
 #include "core/samples/steel_wire.h"
-#include "core/step.h"
+#include "core/step/step.h"
 #include "tests/support/allocations.h"
-#include "core/rod/initial_state.h"
 
-namespace ostium {
+namespace ostium::core {
 namespace {
 
 using Eigen::Vector3d;
-using verify::along_x;
+using gates::along_x;
 
 RodDescription rod(double length_m, double EI_N_m2, double radius_m, double bore_m, int elements) {
   RodDescription d;
@@ -342,4 +342,4 @@ TEST(Nesting, ARapidExchangeShaftRidesOnTheWireOverItsLastStretch) {
 }
 
 }  // namespace
-}  // namespace ostium
+}  // namespace ostium::core

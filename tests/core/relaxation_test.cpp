@@ -6,14 +6,14 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "core/samples/steel_wire.h"
 #include "core/rod/initial_state.h"
+#include "core/samples/steel_wire.h"
 
-namespace ostium {
+namespace ostium::core {
 namespace {
 
 using Eigen::Vector3d;
-using verify::along_x;
+using gates::along_x;
 
 constexpr double rest_per_m = 8, EI = 1e-3, step_s = 1e-3;
 
@@ -137,4 +137,4 @@ TEST(Relaxation, OfAllTheStiffnessIsRefused) {
 }
 
 }  // namespace
-}  // namespace ostium
+}  // namespace ostium::core

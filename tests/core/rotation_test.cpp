@@ -5,7 +5,7 @@
 #include <numbers>
 #include <random>
 
-namespace ostium {
+namespace ostium::core {
 namespace {
 
 using Eigen::Quaterniond;
@@ -73,4 +73,4 @@ TEST(Lanes, AgreeWithScalarsToTheLastBit) {
 }
 
 }  // namespace
-}  // namespace ostium
+}  // namespace ostium::core

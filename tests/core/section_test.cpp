@@ -1,13 +1,13 @@
-#include "core/rod/section.h"
+#include "core/material/section.h"
 
 #include <gtest/gtest.h>
 
 #include <numbers>
 #include <stdexcept>
 
-#include "core/rod/rod.h"
+#include "core/model/rod.h"
 
-namespace ostium {
+namespace ostium::core {
 namespace {
 
 RodDescription two_sections() {
@@ -91,4 +91,4 @@ TEST(Rod, UnequalElementsAndAPartlyInsertedRodAreFine) {
 }
 
 }  // namespace
-}  // namespace ostium
+}  // namespace ostium::core

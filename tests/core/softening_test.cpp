@@ -5,9 +5,9 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "core/rod/rod.h"
+#include "core/model/rod.h"
 
-namespace ostium {
+namespace ostium::core {
 namespace {
 
 Superelastic law_of(double K1, double K2, double kc, double ratio) {
@@ -65,4 +65,4 @@ TEST(Softening, ARodHasTheLawOnlyWhereItIsAskedFor) {
 }
 
 }  // namespace
-}  // namespace ostium
+}  // namespace ostium::core

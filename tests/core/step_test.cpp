@@ -1,5 +1,5 @@
 /// What the step promises, whatever the physics: it is a pure function of model, inputs and state.
-#include "core/step.h"
+#include "core/step/step.h"
 
 #include <gtest/gtest.h>
 
@@ -10,16 +10,16 @@
 #include <stdexcept>
 #include <thread>
 
+#include "core/rod/initial_state.h"
 #include "core/samples/steel_wire.h"
 #include "tests/support/allocations.h"
-#include "core/rod/initial_state.h"
 
-namespace ostium {
+namespace ostium::core {
 namespace {
 
 using Eigen::Vector3d;
-using verify::along_x;
-using verify::steel_wire;
+using gates::along_x;
+using gates::steel_wire;
 
 /// Three unlike rods, so that full and half registers and a lonely third are all exercised.
 Model three_rods() {
@@ -324,7 +324,7 @@ TEST(BadInput, AllHoldsThrownAtRandomStayFinite) {
 TEST(BadInput, OverTwistedSlackRodRecovers) {
   RodDescription wire = steel_wire({.elements = 200, .length_m = 0.3});
   wire.damping.drag_across_N_s_m2 = 0.007, wire.damping.drag_along_N_s_m2 = 0.0035;
-  verify::Bench bench = verify::bench_of(wire, false);
+  gates::Bench bench = gates::bench_of(wire, false);
   RodInputs& in = bench.inputs.rods[0];
   const auto run = [&](int ms) {
     int troubled = 0;
@@ -347,7 +347,7 @@ TEST(BadInput, OverTwistedSlackRodRecovers) {
 }
 
 TEST(BadInput, PullingATautRodApartAndOverturningJointsAreFlagged) {
-  verify::Bench bench = verify::steel_bench({.elements = 16, .gravity = false});
+  gates::Bench bench = gates::steel_bench({.elements = 16, .gravity = false});
   RodInputs& in = bench.inputs.rods[0];
   in.tip.hold = Hold::clamped;
   in.tip.velocity_W_m_s = Vector3d(1e-3, 0, 0);
@@ -384,4 +384,4 @@ TEST(BadInput, ModelsOutOfRangeAreRefused) {
 }
 
 }  // namespace
-}  // namespace ostium
+}  // namespace ostium::core

@@ -19,9 +19,9 @@
 #include "data/formats/load_error.h"
 #include "data/formats/write_file.h"
 #include "tests/data/refusals.h"
-#include "vascular/shape/contour.h"
+#include "vascular/geometry/implicit/contour.h"
 
-namespace ostium {
+namespace ostium::data {
 namespace {
 
 namespace fs = std::filesystem;
@@ -58,7 +58,7 @@ TEST(Case, TheTenOfTheProductAreThere) {
     names.insert(c.name);
     EXPECT_FALSE(c.lesions.empty()) << c.name;
     EXPECT_FALSE(c.card.history.empty() || c.card.ecg.empty() || c.card.planned_access.empty()) << c.name;
-    EXPECT_EQ(c.name.ends_with("-radial"), c.anatomy.access == Access::radial) << c.name;
+    EXPECT_EQ(c.name.ends_with("-radial"), c.anatomy.access == vascular::Access::radial) << c.name;
   }
   for (const char* name :
        {"rca-mid-focal", "lad-proximal-eccentric", "lcx-tubular", "left-main-shaft", "rca-diffuse"}) {
@@ -84,7 +84,7 @@ TEST(Case, ALesionLiesAtTheEndOfAnArteryThatIsShorterInSomebody) {
   int moved = 0;
   for (std::uint64_t seed = 0; seed <= 20; ++seed) {
     const Case one = with_person(mean, seed);
-    const Anatomy anatomy = anatomy_of(one);
+    const vascular::Anatomy anatomy = anatomy_of(one);
     const double length_m = find_branch(anatomy, "RCA")->length_m();
     ASSERT_EQ(one.lesions.size(), 2U);
     for (std::size_t l = 0; l < 2; ++l) {
@@ -126,13 +126,14 @@ fs::path imported_case(const std::string& lumen_name = "lumen.ply") {
   } place;
   const fs::path folder = place.path / "mine";
   fs::create_directories(folder);
-  Anatomy anatomy;
+  vascular::Anatomy anatomy;
   anatomy.aorta = false;
   anatomy.tubes = {make_tube("LAD", -1, {{{0, 0, 0}, 2e-3}, {{0.03, 0, 0}, 1.8e-3}, {{0.06, 0, 0}, 1.6e-3}})};
   anatomy.branches = {{"LAD", 0, 0, anatomy.tubes[0].length_m()}};
   anatomy.landmarks = build_anatomy({}).landmarks;
   write_file((folder / "anatomy.json").string(), anatomy_to_json(anatomy));
-  write_mesh((folder / "lumen.ply").string(), contour(TubeUnion(anatomy.tubes)).mesh, LengthUnit::millimetre);
+  write_mesh((folder / "lumen.ply").string(), contour(vascular::TubeUnion(anatomy.tubes)).mesh,
+             vascular::LengthUnit::millimetre);
   std::string text = small_case;
   const auto replace = [&](const std::string& from, const std::string& to) {
     text.replace(text.find(from), from.size(), to);
@@ -150,12 +151,12 @@ TEST(Case, AnImportedOneIsACaseLikeAnyOther) {
   const Case c = find_case(imported_case().string());
   ASSERT_TRUE(c.imported);
   ASSERT_EQ(c.lesions.size(), 1u);
-  const Patient patient = patient_of(c);
+  const vascular::Patient patient = patient_of(c);
   EXPECT_EQ(patient.lumen.triangles.size(), c.imported->lumen.triangles.size());
   EXPECT_EQ(patient.lumen.moving, patient.lumen.vertices());  // an LAD beats
   EXPECT_EQ(patient.tree_frames.size(), static_cast<std::size_t>(beat_frames));
   // The lesion that was put in: 70 % in its middle, nothing away from it.
-  for (const TreeSphere& sphere : patient.tree.branches[0].spheres) {
+  for (const vascular::TreeSphere& sphere : patient.tree.branches[0].spheres) {
     const double healthy = c.imported->anatomy.tubes[0].at(sphere.p.x()).radius_m;
     if (std::fabs(sphere.p.x() - 0.0245) < 1e-3) {
       EXPECT_NEAR(sphere.radius_m / healthy, 0.3, 0.03);
@@ -187,15 +188,15 @@ TEST(Case, ABrokenImportedOneIsRefused) {
   expect_words(refusal("\"anatomy\":", "\"imported\": {}, \"anatomy\":"), {"both"});
 }
 
-SphereTree fork() {
-  SphereTree tree;
+vascular::SphereTree fork() {
+  vascular::SphereTree tree;
   tree.branches.push_back({"trunk", -1, -1, {{{0.01, 0.02, 0.03}, 2e-3, 0}, {{0.014, 0.023, 0.03}, 1.5e-3, 5e-3}}});
   tree.branches.push_back({"twig", 0, 1, {{{0.014, 0.023, 0.031}, 1e-3, 0}}});
   return tree;
 }
 
 TEST(TreeFile, JsonBringsBackTheTree) {
-  const SphereTree back = read_tree("t.json", tree_to_json(fork()));
+  const vascular::SphereTree back = read_tree("t.json", tree_to_json(fork()));
   ASSERT_EQ(back.branches.size(), 2u);
   EXPECT_EQ(back.branches[1].name, "twig");
   EXPECT_EQ(back.branches[1].parent, 0);
@@ -232,4 +233,4 @@ TEST(TreeFile, VtkHasALineABranchInLps) {
 }
 
 }  // namespace
-}  // namespace ostium
+}  // namespace ostium::data

@@ -10,14 +10,14 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "core/rod/rod.h"
+#include "core/model/rod.h"
 #include "data/catalogue/instrument/instrument_keys.h"
 #include "data/catalogue/instrument/instrument_picture.h"
 #include "data/catalogue/instrument/instrument_report.h"
 #include "tests/data/instrument_files.h"
 #include "tests/data/refusals.h"
 
-namespace ostium {
+namespace ostium::data {
 namespace {
 
 namespace fs = std::filesystem;
@@ -96,7 +96,7 @@ TEST(Catalogue, EveryInstrumentIsARodForCore) {
   for (const Instrument& i : load_catalogue()) {
     SCOPED_TRACE(i.name);
     const int millimetres = static_cast<int>(std::lround(1e3 * i.length_m));  // a J tip wants elements as short as that
-    const Rod rod = make_rod(rod_description(i, equal_elements(i.sections, millimetres)));
+    const core::Rod rod = make_rod(rod_description(i, equal_elements(i.sections, millimetres)));
     EXPECT_NEAR(rod.total_length_m, i.length_m, 1e-9);
     EXPECT_GE(i.sources.size(), 3u);
     // Tips are softer than shafts, but for the plain tube of a sheath.
@@ -178,4 +178,4 @@ TEST(Catalogue, ThePictureThatIsKeptIsUpToDate) {
 }
 
 }  // namespace
-}  // namespace ostium
+}  // namespace ostium::data

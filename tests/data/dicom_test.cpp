@@ -8,10 +8,11 @@
 #include <filesystem>
 #include <numbers>
 
+#include "core/base/units.h"
 #include "data/formats/load_error.h"
 #include "data/formats/png.h"
 
-namespace ostium {
+namespace ostium::data {
 namespace {
 
 struct Outcome {
@@ -30,16 +31,16 @@ Outcome run(const std::string& command) {
 
 bool there_is(const char* program) { return run(std::string("command -v ") + program).code == 0; }
 
-CineRun ramp(std::size_t frames, int width, int height) {
-  constexpr double degree = std::numbers::pi / 180;
-  CineRun out;
+fluoro::CineRun ramp(std::size_t frames, int width, int height) {
+  using units::degree;
+  fluoro::CineRun out;
   out.view.arm.lao_rad = -30 * degree;
   out.view.arm.cran_rad = -20 * degree;
   out.view.pixels = width;
   out.programme = cine(15);
   out.exposure.tube.peak_kV = 78;
   for (std::size_t f = 0; f < frames; ++f) {
-    Picture picture{width, height, std::vector<std::uint8_t>(std::size_t(width * height))};
+    fluoro::Picture picture{width, height, std::vector<std::uint8_t>(std::size_t(width * height))};
     for (std::size_t i = 0; i < picture.grey.size(); ++i) picture.grey[i] = std::uint8_t(i + 10 * f);
     out.frames.push_back(picture);
   }
@@ -98,4 +99,4 @@ TEST(Dicom, WhatCannotBeWrittenIsNamed) {
 }
 
 }  // namespace
-}  // namespace ostium
+}  // namespace ostium::data

@@ -11,7 +11,7 @@
 #include "data/identification/selection/explain.h"
 #include "tests/support/synthetic_set.h"
 
-namespace ostium {
+namespace ostium::data {
 namespace {
 
 const FittedParameter& parameter(const FittedModel& model, const std::string& name) {
@@ -186,4 +186,4 @@ TEST(Explanation, WhatCannotBeTriedIsSaid) {
 }
 
 }  // namespace
-}  // namespace ostium
+}  // namespace ostium::data

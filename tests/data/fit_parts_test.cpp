@@ -11,7 +11,7 @@
 #include "data/identification/estimation/secant_descent.h"
 #include "data/identification/estimation/workers.h"
 
-namespace ostium {
+namespace ostium::data {
 namespace {
 
 using Eigen::Vector3d;
@@ -146,4 +146,4 @@ TEST(SecantDescent, FindsTheLeastOfACurvedValley) {
 }
 
 }  // namespace
-}  // namespace ostium
+}  // namespace ostium::data

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-namespace ostium {
+namespace ostium::data {
 namespace {
 
 TEST(GateReport, PassesWithinTheToleranceOnly) {
@@ -27,4 +27,4 @@ TEST(GateReport, JsonHasTheSchemasKeys) {
 }
 
 }  // namespace
-}  // namespace ostium
+}  // namespace ostium::data

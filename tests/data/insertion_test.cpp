@@ -9,13 +9,13 @@
 #include "data/identification/forward/prediction.h"
 #include "tests/support/synthetic_set.h"
 
-namespace ostium {
+namespace ostium::data {
 namespace {
 
 using Eigen::Vector3d;
 
 /// A wire from the origin along x; `experiments` at rising insertions.
-MeasurementSet wire_in(const SurfaceDescription& wall, int experiments, double longest_m) {
+MeasurementSet wire_in(const core::SurfaceDescription& wall, int experiments, double longest_m) {
   MeasurementSet set = synthetic::free_wire(1);
   Experiment e = set.experiments[0];
   e.base.p_W = {0.012, 0, 0};
@@ -26,13 +26,13 @@ MeasurementSet wire_in(const SurfaceDescription& wall, int experiments, double l
     e.set = {{longest_m * (i + 1) / experiments, 0.3, 0}};
     set.experiments.push_back(e);
   }
-  set.vessel = MeasuredVessel{"tube", "m", 0.05, std::make_shared<const SurfaceDescription>(wall)};
+  set.vessel = MeasuredVessel{"tube", "m", 0.05, std::make_shared<const core::SurfaceDescription>(wall)};
   return set;
 }
 
 /// A wide tube: the wire hangs free in it, and comes to rest where statics has it.
 TEST(Insertion, AWireThatTouchesNothingComesToRestAsAFreeOne) {
-  const auto wide = verify::tube({{{-0.01, 0, 0}, 0.1}, {{0.1, 0, 0}, 0.1}, {{0.3, 0, 0}, 0.1}}, 24);
+  const auto wide = gates::tube({{{-0.01, 0, 0}, 0.1}, {{0.1, 0, 0}, 0.1}, {{0.3, 0, 0}, 0.1}}, 24);
   MeasurementSet set = wire_in(wide, 2, 0.16);
   const std::vector<PredictedShape> in_vessel = insert(set, {});
   set.vessel.reset();
@@ -47,10 +47,10 @@ TEST(Insertion, AWireThatTouchesNothingComesToRestAsAFreeOne) {
 
 /// A bent tube of 5 mm: the wire follows it, no point of it is outside, and friction costs push.
 TEST(Insertion, AWireStaysInABentTubeAndFrictionCostsPush) {
-  const auto points = verify::bend(0.05, 1.2, 0.06, 0.1, 2.5e-3, 2e-3);
-  const auto wall = verify::tube(points, 24);
+  const auto points = gates::bend(0.05, 1.2, 0.06, 0.1, 2.5e-3, 2e-3);
+  const auto wall = gates::tube(points, 24);
   MeasurementSet set = wire_in(wall, 2, 0.15);
-  for (Section& s : set.instruments[0].sections) s.rest_curvature_per_m.setZero();
+  for (core::Section& s : set.instruments[0].sections) s.rest_curvature_per_m.setZero();
   std::vector<double> push;
   for (const double friction : {0.02, 0.3}) {
     set.vessel->friction = friction;
@@ -71,7 +71,7 @@ TEST(Insertion, AWireStaysInABentTubeAndFrictionCostsPush) {
 }
 
 TEST(Insertion, WhatAVesselDoesNotKnowIsRefused) {
-  const auto wide = verify::tube({{{-0.01, 0, 0}, 0.1}, {{0.3, 0, 0}, 0.1}}, 12);
+  const auto wide = gates::tube({{{-0.01, 0, 0}, 0.1}, {{0.3, 0, 0}, 0.1}}, 12);
   MeasurementSet set = wire_in(wide, 2, 0.1);
   set.experiments[1].base.p_W.x() += 1e-3;
   EXPECT_THROW(predict(set), LoadError);
@@ -81,4 +81,4 @@ TEST(Insertion, WhatAVesselDoesNotKnowIsRefused) {
 }
 
 }  // namespace
-}  // namespace ostium
+}  // namespace ostium::data

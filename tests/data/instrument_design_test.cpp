@@ -10,9 +10,9 @@
 
 #include "data/catalogue/catalogue.h"
 #include "tests/data/instrument_files.h"
-#include "vascular/stent/stent.h"
+#include "vascular/treatment/stent.h"
 
-namespace ostium {
+namespace ostium::data {
 namespace {
 
 std::string shipped(const std::string& name) {
@@ -45,7 +45,7 @@ void expect_words(const std::string& message, std::initializer_list<const char*>
 
 TEST(InstrumentDesign, WithoutABlockAllIsAsBefore) {
   const Instrument plain = read_instrument("stent-30x18.json", shipped("stent-30x18"));
-  const StentModel stent = make_stent(plain.stent->nominal_m, plain.stent->length_m, plain.stent->design);
+  const vascular::StentModel stent = make_stent(plain.stent->nominal_m, plain.stent->length_m, plain.stent->design);
   EXPECT_EQ(stent.crowns, 6);
   EXPECT_EQ(stent.rings, 14);
   EXPECT_EQ(stent.links, 3);
@@ -53,7 +53,7 @@ TEST(InstrumentDesign, WithoutABlockAllIsAsBefore) {
   EXPECT_EQ(stent.hoop_Pa, 30 * 101325);
   EXPECT_EQ(make_stent(3.5e-3, 18e-3).crowns, 9);
   EXPECT_FALSE(plain.balloon->own_folds);
-  const BalloonModel balloon = make_balloon(Compliance::semi, 3e-3, 18.5e-3, plain.balloon->design);
+  const vascular::BalloonModel balloon = make_balloon(vascular::Compliance::semi, 3e-3, 18.5e-3, plain.balloon->design);
   EXPECT_EQ(balloon.growth_m_Pa, 0.25e-3 / 6 / 101325);
   EXPECT_EQ(balloon.folded_m, 0.45e-3);
 }
@@ -62,7 +62,7 @@ TEST(InstrumentDesign, ADesignOfOnesOwn) {
   const Instrument made = read_instrument(
       "stent-30x18.json", stent_with(R"("crowns": 8, "rings": 12, "links": 2, "strut_mm": 0.06, "hoop_atm": 24,
       "yield_strain": 0.05, "source": "a test")"));
-  const StentModel stent = make_stent(made.stent->nominal_m, made.stent->length_m, made.stent->design);
+  const vascular::StentModel stent = make_stent(made.stent->nominal_m, made.stent->length_m, made.stent->design);
   EXPECT_EQ(stent.crowns, 8);
   EXPECT_EQ(stent.rings, 12);
   EXPECT_EQ(stent.links, 2);
@@ -81,20 +81,20 @@ TEST(InstrumentDesign, ABalloonsChartAndFolds) {
       read_instrument("balloon-nc-30x12.json", balloon_with("balloon-nc-30x12", R"("growth_mm_per_atm": 0.02,
       "folded_radius_mm": 0.48, "refolded_radius_mm": 0.6, "source": "a test")"));
   EXPECT_TRUE(made.balloon->own_folds);
-  const BalloonModel balloon = make_balloon(Compliance::non, 3e-3, 12e-3, made.balloon->design);
+  const vascular::BalloonModel balloon = make_balloon(vascular::Compliance::non, 3e-3, 12e-3, made.balloon->design);
   EXPECT_NEAR(chart_diameter_m(balloon, 20 * 101325) - chart_diameter_m(balloon, 10 * 101325), 0.2e-3, 1e-12);
   EXPECT_DOUBLE_EQ(balloon.folded_m, 0.48e-3);
   EXPECT_DOUBLE_EQ(balloon.refolded_m, 0.6e-3);
 }
 
 TEST(InstrumentDesign, EveryNumberOfATableReachesItsMember) {
-  for (const DesignNumber<StentDesign>& row : stent_design_numbers) {
+  for (const DesignNumber<vascular::StentDesign>& row : stent_design_numbers) {
     const double value = (row.least + row.most) / 2;
     const Instrument made = read_instrument(
         "stent-30x18.json", stent_with("\"" + row.key + "\": " + std::to_string(value) + R"(, "source": "a test")"));
     EXPECT_NEAR(made.stent->design.*row.member / row.unit, value, 1e-6 * row.most) << row.key;
   }
-  for (const DesignNumber<BalloonDesign>& row : balloon_design_numbers) {
+  for (const DesignNumber<vascular::BalloonDesign>& row : balloon_design_numbers) {
     const double value = (row.least + row.most) / 2;
     std::string text = "\"" + row.key + "\": " + std::to_string(value);
     if (row.key == "folded_radius_mm") text += R"(, "refolded_radius_mm": 1.5)";
@@ -122,4 +122,4 @@ TEST(InstrumentDesign, WhatIsWrongIsSaidWithItsCure) {
 }
 
 }  // namespace
-}  // namespace ostium
+}  // namespace ostium::data

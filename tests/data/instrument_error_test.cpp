@@ -8,7 +8,7 @@
 #include "data/catalogue/catalogue.h"
 #include "tests/data/instrument_files.h"
 
-namespace ostium {
+namespace ostium::data {
 namespace {
 
 void expect_words(const std::string& message, std::initializer_list<const char*> words) {
@@ -166,4 +166,4 @@ TEST(InstrumentErrors, ABalloonLiesBetweenItsMarkers) {
 }
 
 }  // namespace
-}  // namespace ostium
+}  // namespace ostium::data

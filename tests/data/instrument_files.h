@@ -4,7 +4,7 @@
 
 #include "data/catalogue/instrument/instrument_reader.h"
 
-namespace ostium {
+namespace ostium::data {
 
 inline const std::string small_catheter = R"({
   "schema": "ostium-instrument/1",
@@ -66,4 +66,4 @@ inline std::string refusal(const std::string& what, const std::string& by) {
   return refusal(with(small_catheter, what, by));
 }
 
-}  // namespace ostium
+}  // namespace ostium::data

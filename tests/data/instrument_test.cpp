@@ -6,19 +6,19 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/state.h"
+#include "core/model/state.h"
+#include "core/rod/initial_state.h"
 #include "data/catalogue/catalogue.h"
 #include "tests/data/instrument_files.h"
-#include "core/rod/initial_state.h"
 
-namespace ostium {
+namespace ostium::data {
 namespace {
 
 /// The tip of the distal `length_m` at rest, in the frame of the material there: (d1, d2, d3).
 Eigen::Vector3d tip_at_rest(const Instrument& instrument, double length_m, int elements = 1024) {
-  Model model;
+  core::Model model;
   model.rods = {make_rod(rod_description(instrument, std::vector<double>(elements, length_m / elements)))};
-  const State state = make_state_at_rest_shape(model, {EndState{}});
+  const core::State state = make_state_at_rest_shape(model, {core::EndState{}});
   return state.rods[0].position[elements];
 }
 
@@ -28,7 +28,7 @@ TEST(Instrument, UnitsBecomeSI) {
   EXPECT_DOUBLE_EQ(hook.outer_diameter_m, 2e-3);
   EXPECT_DOUBLE_EQ(hook.inner_diameter_m, 1.8e-3);
   EXPECT_DOUBLE_EQ(hook.length_m, 1);
-  const Section &tip = hook.sections.front(), &shaft = hook.sections.back();
+  const core::Section &tip = hook.sections.front(), &shaft = hook.sections.back();
   EXPECT_DOUBLE_EQ(tip.EI1_N_m2, 30e-6);
   EXPECT_DOUBLE_EQ(tip.EI2_N_m2, 30e-6);
   EXPECT_DOUBLE_EQ(tip.GJ_N_m2, 20e-6);
@@ -151,4 +151,4 @@ TEST(Instrument, AWireTooThickForItsCatheterIsRefused) {
 }
 
 }  // namespace
-}  // namespace ostium
+}  // namespace ostium::data

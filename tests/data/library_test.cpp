@@ -15,7 +15,7 @@
 #include "tests/support/judged.h"
 #include "tests/support/undeclared.h"
 
-namespace ostium {
+namespace ostium::data {
 namespace {
 
 using synthetic::Judged;
@@ -65,7 +65,7 @@ TEST(Library, TheInstrumentIsWrittenAsItWasFound) {
   const Instrument found = read_instrument("instrument.json", text);
   ASSERT_EQ(found.sections.size(), made.set.instruments[0].sections.size());
   for (std::size_t s = 0; s < found.sections.size(); ++s) {
-    const Section &now = found.sections[s], &declared = made.set.instruments[0].sections[s];
+    const core::Section &now = found.sections[s], &declared = made.set.instruments[0].sections[s];
     EXPECT_NEAR(now.EI1_N_m2, declared.EI1_N_m2 * x.best().changes.stiffness_scale[0][s], 1e-9 * declared.EI1_N_m2);
     const Eigen::Vector3d add = now.rest_curvature_per_m - declared.rest_curvature_per_m;
     EXPECT_NEAR(add.x(), 1e3 * x.best().changes.effects[0].values[0], 1e-6);
@@ -93,4 +93,4 @@ TEST(Library, ASetTooSmallToDecideIsAmbiguous) {
 }
 
 }  // namespace
-}  // namespace ostium
+}  // namespace ostium::data

@@ -13,7 +13,7 @@
 #include "tests/data/refusals.h"
 #include "tests/support/synthetic_set.h"
 
-namespace ostium {
+namespace ostium::data {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -47,7 +47,7 @@ TEST(Measurement, TheSetItselfIsFineAndRead) {
 TEST(Measurement, TheBaseFrameIsThatOfTheFormat) {
   Json file = good();
   file["experiments"][0]["base"] = {{"position_mm", {1, 2, 3}}, {"tangent", {0, 2, 0}}, {"up", {3, 5, 0}}};
-  const EndState base = read_measurement("m.json", file.dump()).experiments[0].base;
+  const core::EndState base = read_measurement("m.json", file.dump()).experiments[0].base;
   const Eigen::Matrix3d R = Eigen::Quaterniond(base.q_W[0], base.q_W[1], base.q_W[2], base.q_W[3]).matrix();
   EXPECT_LT((R.col(0) - Eigen::Vector3d::UnitX()).norm(), 1e-12);
   EXPECT_LT((R.col(1) + Eigen::Vector3d::UnitZ()).norm(), 1e-12);
@@ -167,4 +167,4 @@ TEST(Measurement, SchemaOfEffectsHasTheirRanges) {
 }
 
 }  // namespace
-}  // namespace ostium
+}  // namespace ostium::data

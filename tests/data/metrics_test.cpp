@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-namespace ostium {
+namespace ostium::data {
 namespace {
 
 constexpr int code(EventCode c) { return static_cast<int>(c); }
@@ -220,4 +220,4 @@ TEST(Metrics, NamesAreSnakeCaseWithTheirUnitLast) {
 }
 
 }  // namespace
-}  // namespace ostium
+}  // namespace ostium::data

@@ -14,7 +14,7 @@
 #include "tests/support/synthetic_set.h"
 #include "tests/support/undeclared_tube.h"
 
-namespace ostium {
+namespace ostium::data {
 namespace {
 
 using Eigen::MatrixXd;
@@ -87,7 +87,7 @@ double tip_of_the_model(const Beams& b, double play) {
   Experiment& e = set.experiments[0];
   e.tip_force_N.setZero();
   for (int i = 0; i < 2; ++i) {
-    for (Section& s : set.instruments[i].sections) {
+    for (core::Section& s : set.instruments[i].sections) {
       s.EI1_N_m2 = s.EI2_N_m2 = EI[i], s.GJ_N_m2 = EI[i] / 1.4;
       s.rest_curvature_per_m = {0, k[i], 0};
     }
@@ -176,4 +176,4 @@ TEST(NestingClearance, LinesAgreeWithTwoChains) {
 }
 
 }  // namespace
-}  // namespace ostium
+}  // namespace ostium::data

@@ -11,7 +11,7 @@
 #include "data/identification/measurement/measurement_reader.h"
 #include "tests/support/synthetic_set.h"
 
-namespace ostium {
+namespace ostium::data {
 namespace {
 
 using Eigen::Vector3d;
@@ -82,7 +82,7 @@ TEST(Prediction, ContinuesFromTheExperimentBefore) {
   };
   // Curved over their whole length, L k sqrt(1 + nu) = 2.2: they snap some way beyond 180 degrees, not at it.
   for (MeasuredInstrument& i : set.instruments)
-    for (Section& s : i.sections) s.rest_curvature_per_m = {0, 13.5, 0};
+    for (core::Section& s : i.sections) s.rest_curvature_per_m = {0, 13.5, 0};
   set.experiments = {with_roll(0), with_roll(190)};
   const auto forwards = predict(through_file(set));
   set.experiments = {with_roll(360), with_roll(190)};
@@ -179,4 +179,4 @@ TEST(Shape, RadiusOfAnArcAndDistancesBeyondTheEnds) {
 }
 
 }  // namespace
-}  // namespace ostium
+}  // namespace ostium::data

@@ -6,19 +6,20 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
+#include "core/base/units.h"
 #include "core/samples/tube.h"
 #include "data/identification/effects/effect_list.h"
 #include "data/identification/forward/curve.h"
 #include "data/identification/forward/insertion.h"
 #include "tests/support/undeclared_tube.h"
 
-namespace ostium {
+namespace ostium::data {
 namespace {
 
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-constexpr double mm = 1e-3, Nmm2 = 1e-6;
+using units::mm, units::Nmm2;
 
 /// A wire with a soft curved tip, pushed 170 mm into a bent tube and drawn back, all in one plane.
 struct Pushed {
@@ -42,9 +43,9 @@ struct Pushed {
       e.set = {{length, 0, 0}};
       out.experiments.push_back(e);
     }
-    const auto points = verify::bend(tube.bend_radius_m, tube.angle_rad, tube.lead_m, 0.12, tube.radius_m, 1e-3);
+    const auto points = gates::bend(tube.bend_radius_m, tube.angle_rad, tube.lead_m, 0.12, tube.radius_m, 1e-3);
     out.vessel = MeasuredVessel{"tube", "m", setting.friction,
-                                std::make_shared<const SurfaceDescription>(verify::tube(points, 48))};
+                                std::make_shared<const core::SurfaceDescription>(gates::tube(points, 48))};
     return out;
   }
 };
@@ -126,4 +127,4 @@ TEST(PushedChain, InsertionIntoASoftWallAgrees) {
 }
 
 }  // namespace
-}  // namespace ostium
+}  // namespace ostium::data

@@ -9,7 +9,7 @@
 #include "data/identification/measurement/measurement_reader.h"
 #include "data/identification/selection/explain.h"
 
-namespace ostium {
+namespace ostium::data {
 namespace {
 
 namespace fs = std::filesystem;
@@ -45,4 +45,4 @@ TEST(RealSets, RelaxationOfANylonPair) {
 }
 
 }  // namespace
-}  // namespace ostium
+}  // namespace ostium::data

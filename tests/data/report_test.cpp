@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <set>
 
-#include "data/formats/load_error.h"
 #include "data/assessment/page.h"
+#include "data/formats/load_error.h"
 
-namespace ostium {
+namespace ostium::data {
 namespace {
 
 const std::string small = R"({ "schema": "ostium-scoring/1", "name": "small", "title": "Small", "note": "A test.",
@@ -167,4 +167,4 @@ TEST(Report, FormsAskAndPromiseNothing) {
 }
 
 }  // namespace
-}  // namespace ostium
+}  // namespace ostium::data

@@ -4,16 +4,16 @@
 #include <string>
 #include <vector>
 
+#include "data/assessment/scoring_keys.h"
 #include "data/catalogue/case/anatomy_keys.h"
 #include "data/catalogue/case/case_keys.h"
-#include "data/formats/json_schema.h"
-#include "data/catalogue/instrument/instrument_keys.h"
-#include "data/identification/measurement/measurement_keys.h"
-#include "data/assessment/scoring_keys.h"
-#include "data/script_keys.h"
 #include "data/catalogue/case/tree_keys.h"
+#include "data/catalogue/instrument/instrument_keys.h"
+#include "data/catalogue/script/script_keys.h"
+#include "data/formats/json_schema.h"
+#include "data/identification/measurement/measurement_keys.h"
 
-namespace ostium {
+namespace ostium::data {
 
 inline std::vector<JsonFormat> json_formats() {
   return {{"ostium-script/1", "What an operator does", script_keys::all},
@@ -42,4 +42,4 @@ inline std::string schema_text(const JsonFormat& format) {
   return nlohmann::ordered_json::parse(to_json(schema_of(format))).dump(2) + "\n";
 }
 
-}  // namespace ostium
+}  // namespace ostium::data

@@ -8,7 +8,7 @@
 #include "data/catalogue/catalogue.h"
 #include "tests/data/schema_files.h"
 
-namespace ostium {
+namespace ostium::data {
 namespace {
 
 TEST(Schemas, AreWhatTheReadersTablesMake) {
@@ -45,4 +45,4 @@ TEST(JsonRange, IsWhatANumberIsHeldTo) {
 }
 
 }  // namespace
-}  // namespace ostium
+}  // namespace ostium::data

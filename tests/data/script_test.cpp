@@ -1,5 +1,5 @@
 /// Scripts that ship load; what is wrong in one is named by file, line and what was expected.
-#include "data/script.h"
+#include "data/catalogue/script/script.h"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -8,10 +8,10 @@
 #include <fstream>
 
 #include "data/catalogue/catalogue.h"
-#include "data/script_keys.h"
+#include "data/catalogue/script/script_keys.h"
 #include "tests/data/refusals.h"
 
-namespace ostium {
+namespace ostium::data {
 namespace {
 
 namespace fs = std::filesystem;
@@ -55,7 +55,7 @@ TEST(Script, IsReadInSiUnits) {
   ASSERT_EQ(script.steps.size(), 4u);
   EXPECT_NEAR(*script.steps[0].lao_rad, 0.7854, 1e-4);
   const ScriptStep& up = script.steps[1];
-  EXPECT_DOUBLE_EQ(up.speed_m_s, 0.05);
+  EXPECT_DOUBLE_EQ(up.feed_m_s, 0.05);
   EXPECT_EQ(up.tools, std::vector<int>{1});
   EXPECT_EQ(up.until[0].kind, ConditionKind::tip_passes);
   EXPECT_EQ(up.until[0].tool, 1);
@@ -141,8 +141,8 @@ TEST(Script, SaysWhereItComesIn) {
         .access;
   };
   EXPECT_EQ(with(""), std::nullopt);
-  EXPECT_EQ(with(R"( "access": "radial",)"), Access::radial);
-  EXPECT_EQ(with(R"( "access": "femoral",)"), Access::femoral);
+  EXPECT_EQ(with(R"( "access": "radial",)"), vascular::Access::radial);
+  EXPECT_EQ(with(R"( "access": "femoral",)"), vascular::Access::femoral);
   EXPECT_THROW(with(R"( "access": "brachial",)"), LoadError);
 }
 
@@ -234,7 +234,7 @@ TEST(Script, StepsOfAnotherScriptStandWhereItIsNamed) {
     { "do": "fluoroscopy", "on": false })"));
   const Script script = load_script((folder.path / "whole.json").string());
   ASSERT_EQ(script.steps.size(), 4u);
-  EXPECT_NEAR(script.steps[1].speed_m_s, 0.0125, 1e-15);
+  EXPECT_NEAR(script.steps[1].feed_m_s, 0.0125, 1e-15);
   EXPECT_EQ(script.steps[1].tools, std::vector<int>{1}) << "by its name, in the script that it stands in";
   EXPECT_EQ(script.tools[1].instrument, "terumo-4f");
   EXPECT_EQ(script.steps[2].jump_to, 1);
@@ -243,7 +243,7 @@ TEST(Script, StepsOfAnotherScriptStandWhereItIsNamed) {
   fs::remove(folder.path / "parts/up.json");
   const Script again = read_script("whole.json", script.source);
   ASSERT_EQ(again.steps.size(), 4u);
-  EXPECT_EQ(again.steps[1].speed_m_s, script.steps[1].speed_m_s);
+  EXPECT_EQ(again.steps[1].feed_m_s, script.steps[1].feed_m_s);
   EXPECT_EQ(again.steps[2].jump_to, 1);
   EXPECT_EQ(again.source, script.source);
 }
@@ -403,4 +403,4 @@ TEST(Script, ThoseThatShipLoadAndNameInstrumentsThatThereAre) {
 }
 
 }  // namespace
-}  // namespace ostium
+}  // namespace ostium::data

@@ -6,13 +6,14 @@
 
 #include <cmath>
 
+#include "core/base/units.h"
 #include "data/identification/selection/explain.h"
 #include "tests/support/dice.h"
 #include "tests/support/pushed_chain.h"
 #include "tests/support/undeclared.h"
 #include "tests/support/undeclared_tube.h"
 
-namespace ostium {
+namespace ostium::data {
 namespace {
 
 /// Against something that could be taken for it.
@@ -37,7 +38,7 @@ TEST(Tube, UndeclaredComplianceIsNamed) { is_named("wall_compliance", "imaging_s
 
 /// The push at the base, measured to 3 %, is fitted and predicted together with the shapes.
 TEST(Tube, FrictionExplainsThePush) {
-  constexpr double mm = 1e-3, Nmm2 = 1e-6;
+  using units::mm, units::Nmm2;
   const pushed_chain::Wire wire{{{0.05, 5 * Nmm2, 0.8e-3, 8}, {1, 30 * Nmm2, 0.8e-3, 0}}, 0.2e-3};
   const pushed_chain::Tube tube{0.05, 0.04, 1.3, 4e-3};
   const pushed_chain::Setting setting{0.3, {0.012, 0}, 9.81, 0.5e-3};
@@ -48,8 +49,9 @@ TEST(Tube, FrictionExplainsThePush) {
   set.instruments = {synthetic::declared(wire, "wire", 0.3)};
   set.gravity_m_s2 = {0, 0, -9.81};
   set.imaging.noise_sigma_m = 0.2 * mm;
-  const auto line = verify::bend(tube.bend_radius_m, tube.angle_rad, tube.lead_m, 0.12, tube.radius_m, 1e-3);
-  set.vessel = MeasuredVessel{"tube", "m", 0.05, std::make_shared<const SurfaceDescription>(verify::tube(line, 48))};
+  const auto line = gates::bend(tube.bend_radius_m, tube.angle_rad, tube.lead_m, 0.12, tube.radius_m, 1e-3);
+  set.vessel =
+      MeasuredVessel{"tube", "m", 0.05, std::make_shared<const core::SurfaceDescription>(gates::tube(line, 48))};
   synthetic::Dice dice("push", 1);
   for (std::size_t k = 0; k < rests.size(); ++k) {
     ASSERT_TRUE(rests[k].converged);
@@ -72,4 +74,4 @@ TEST(Tube, FrictionExplainsThePush) {
 }
 
 }  // namespace
-}  // namespace ostium
+}  // namespace ostium::data

@@ -1,4 +1,4 @@
-#include "device/calibration.h"
+#include "device/protocol/calibration.h"
 
 #include <gtest/gtest.h>
 
@@ -7,9 +7,9 @@
 #include <limits>
 #include <random>
 
-#include "device/bytes.h"
+#include "device/protocol/bytes.h"
 
-namespace ostium {
+namespace ostium::device {
 namespace {
 
 Calibration example() {
@@ -126,4 +126,4 @@ TEST(Calibration, TakesTheCrossTalkOut) {
 }
 
 }  // namespace
-}  // namespace ostium
+}  // namespace ostium::device

@@ -5,13 +5,13 @@
 #include <random>
 #include <vector>
 
-#include "core/tunables.h"
-#include "device/clamp.h"
-#include "device/drive.h"
-#include "device/emulated_box.h"
-#include "device/link.h"
+#include "core/base/tolerances.h"
+#include "device/emulator/emulated_box.h"
+#include "device/host/clamp.h"
+#include "device/host/drive.h"
+#include "device/host/link.h"
 
-namespace ostium {
+namespace ostium::device {
 namespace {
 
 using Bytes = std::array<std::uint8_t, in_report_bytes>;
@@ -21,10 +21,10 @@ struct Host {
   Calibration calibration;
   LinkState link;
   TrackingState tracking;
-  HandsState hands;
+  StrokeState hands;
   ClampState clamp;
   std::array<PendingDrive, tools> pending{};
-  std::array<RodInputs, tools> inputs{};
+  std::array<core::RodInputs, tools> inputs{};
 
   /// One report in, one step's inputs made, one report out.
   OutReport step(const Bytes& bytes, ClampLoad load = {}) {
@@ -45,7 +45,7 @@ struct Host {
 };
 
 /// Reports that keep the protocol's rules and no other.
-TEST(Chain, WildReportsStayWithinLimits) {
+TEST(BlockTridiagonal, WildReportsStayWithinLimits) {
   Host host;
   plugged_in(host.link);
   std::mt19937_64 generator(11);
@@ -65,8 +65,8 @@ TEST(Chain, WildReportsStayWithinLimits) {
     const OutReport out = host.step(bytes_of(r), {std::ldexp(1.0, static_cast<int>(any() % 2000) - 900), -1e300});
     ASSERT_TRUE(parse_out_report(bytes_of(out)));
     for (std::size_t t = 0; t < tools; ++t) {
-      ASSERT_TRUE(std::abs(host.inputs[t].feed_m_s) <= tunables::max_drive_speed_m_s);
-      ASSERT_TRUE(host.inputs[t].base.turn_rate_W_rad_s.norm() <= tunables::max_drive_turn_rad_s * (1 + 1e-12));
+      ASSERT_TRUE(std::abs(host.inputs[t].feed_m_s) <= core::tolerances::max_drive_speed_m_s);
+      ASSERT_TRUE(host.inputs[t].base.turn_rate_W_rad_s.norm() <= core::tolerances::max_drive_turn_rad_s * (1 + 1e-12));
       ASSERT_TRUE(std::isfinite(host.hands.tool[t].inserted_mm));
       ASSERT_TRUE(host.clamp.level_N[t] >= 0 && host.clamp.level_N[t] <= ClampSettings{}.most_N);
     }
@@ -76,7 +76,7 @@ TEST(Chain, WildReportsStayWithinLimits) {
 }
 
 /// A wire and a guide in strokes, with forces and pauses: what was recorded, alone, gives the same inputs to the bit.
-TEST(Chain, ReplaysFromItsRecordedBytes) {
+TEST(BlockTridiagonal, ReplaysFromItsRecordedBytes) {
   Host live;
   EmulatedBox box{live.calibration};
   std::vector<Bytes> recorded;
@@ -94,7 +94,7 @@ TEST(Chain, ReplaysFromItsRecordedBytes) {
     box.station[0].advanced_mm += 0.003;
     recorded.push_back(box.sample());
     box.take(bytes_of(live.step(recorded.back(), {0.5, 1e-5})));
-    for (const RodInputs& inputs : live.inputs)
+    for (const core::RodInputs& inputs : live.inputs)
       fed.push_back(inputs.feed_m_s), fed.push_back(inputs.base.turn_rate_W_rad_s.z());
   }
   EXPECT_GE(pauses, 4);
@@ -103,11 +103,11 @@ TEST(Chain, ReplaysFromItsRecordedBytes) {
   Host replay;
   for (const Bytes& bytes : recorded) {
     replay.step(bytes, {0.5, 1e-5});
-    for (const RodInputs& inputs : replay.inputs)
+    for (const core::RodInputs& inputs : replay.inputs)
       again.push_back(inputs.feed_m_s), again.push_back(inputs.base.turn_rate_W_rad_s.z());
   }
   EXPECT_EQ(fed, again);
 }
 
 }  // namespace
-}  // namespace ostium
+}  // namespace ostium::device

@@ -1,4 +1,4 @@
-#include "device/clamp.h"
+#include "device/host/clamp.h"
 
 #include <gtest/gtest.h>
 
@@ -10,9 +10,9 @@
 #include <random>
 #include <utility>
 
-#include "device/emulated_box.h"
+#include "device/emulator/emulated_box.h"
 
-namespace ostium {
+namespace ostium::device {
 namespace {
 
 constexpr std::size_t wire = index_of(Tool::wire);
@@ -249,4 +249,4 @@ TEST(Clamp, ArmsAgainAfterTheWatchdogButNotAfterAStop) {
 }
 
 }  // namespace
-}  // namespace ostium
+}  // namespace ostium::device

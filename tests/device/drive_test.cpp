@@ -1,26 +1,26 @@
-#include "device/drive.h"
+#include "device/host/drive.h"
 
 #include <gtest/gtest.h>
 
 #include <numbers>
 
-#include "core/tunables.h"
+#include "core/base/tolerances.h"
 
-namespace ostium {
+namespace ostium::device {
 namespace {
 
 /// However hand and steps are out of time, what the hand moved is what is fed, at no more than the engine allows.
 TEST(Drive, NothingOfTheHandIsLost) {
   const Eigen::Vector3d axis_W(0, 0.6, 0.8);
   PendingDrive pending;
-  RodInputs inputs;
+  core::RodInputs inputs;
   double fed_m = 0, turned_rad = 0;
   const double step_s = 1e-3;
   for (int i = 0; i < 400; ++i) {
     for (int k = 0; k < i % 3 && i < 300; ++k) collect({i == 100 ? 30.0 : 0.3, -4.5}, pending);
     drive(axis_W, step_s, pending, inputs);
-    ASSERT_LE(std::abs(inputs.feed_m_s), tunables::max_drive_speed_m_s);
-    ASSERT_LE(inputs.base.turn_rate_W_rad_s.norm(), tunables::max_drive_turn_rad_s + 1e-9);
+    ASSERT_LE(std::abs(inputs.feed_m_s), core::tolerances::max_drive_speed_m_s);
+    ASSERT_LE(inputs.base.turn_rate_W_rad_s.norm(), core::tolerances::max_drive_turn_rad_s + 1e-9);
     fed_m += inputs.feed_m_s * step_s;
     turned_rad += inputs.base.turn_rate_W_rad_s.dot(axis_W) * step_s;
   }
@@ -30,4 +30,4 @@ TEST(Drive, NothingOfTheHandIsLost) {
 }
 
 }  // namespace
-}  // namespace ostium
+}  // namespace ostium::device

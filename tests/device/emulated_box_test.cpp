@@ -1,12 +1,12 @@
-#include "device/emulated_box.h"
+#include "device/emulator/emulated_box.h"
 
 #include <gtest/gtest.h>
 
 #include <random>
 
-#include "device/bytes.h"
+#include "device/protocol/bytes.h"
 
-namespace ostium {
+namespace ostium::device {
 namespace {
 
 const std::array<std::uint16_t, 4> levels{100, 200, 300, 400};
@@ -121,4 +121,4 @@ TEST(EmulatedBox, FuzzedOutReportsNeverCloseAClamp) {
 }
 
 }  // namespace
-}  // namespace ostium
+}  // namespace ostium::device

@@ -4,11 +4,11 @@
 #include <algorithm>
 #include <random>
 
-#include "device/bytes.h"
-#include "device/emulated_box.h"
+#include "device/protocol/bytes.h"
+#include "device/emulator/emulated_box.h"
 #include "device/firmware/ostium_box.h"
 
-namespace ostium {
+namespace ostium::device {
 namespace {
 
 /// Counts are what the tools were moved by, whole numbers.
@@ -144,4 +144,4 @@ TEST(Firmware, TakesTheRecordsThatTheHostTakes) {
 }
 
 }  // namespace
-}  // namespace ostium
+}  // namespace ostium::device

@@ -1,10 +1,10 @@
-#include "device/link.h"
+#include "device/host/link.h"
 
 #include <gtest/gtest.h>
 
-#include "device/emulated_box.h"
+#include "device/emulator/emulated_box.h"
 
-namespace ostium {
+namespace ostium::device {
 namespace {
 
 TEST(Link, SaysWhatIsWrongAndComesBack) {
@@ -50,4 +50,4 @@ TEST(Link, AnotherVersionIsNotSilence) {
 }
 
 }  // namespace
-}  // namespace ostium
+}  // namespace ostium::device

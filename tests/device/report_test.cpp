@@ -1,4 +1,4 @@
-#include "device/report.h"
+#include "device/protocol/report.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <random>
 #include <vector>
 
-namespace ostium {
+namespace ostium::device {
 namespace {
 
 using Bytes = std::vector<std::uint8_t>;
@@ -137,4 +137,4 @@ TEST(Report, RandomBytesKeepTheRules) {
 }
 
 }  // namespace
-}  // namespace ostium
+}  // namespace ostium::device

@@ -1,18 +1,18 @@
 /// The host's side of a box over a port in memory: what the USB benches show of a bus, without one.
-#include "device/tracking_box.h"
+#include "device/host/tracking_box.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <thread>
 
-#include "device/calibrating.h"
-#include "device/emulated_port.h"
-#include "device/latch.h"
-#include "device/round_trips.h"
-#include "device/stroking_hand.h"
+#include "core/base/triple_buffer.h"
+#include "device/emulator/emulated_port.h"
+#include "device/emulator/stroking_hand.h"
+#include "device/host/calibrating.h"
+#include "device/host/round_trips.h"
 
-namespace ostium {
+namespace ostium::device {
 namespace {
 
 constexpr std::size_t wire = index_of(Tool::wire);
@@ -101,11 +101,11 @@ TEST(TrackingBox, ClosesAClampAndKnowsItsRoundTrip) {
   }
 }
 
-TEST(Latch, GivesTheNewestOfAnotherThread) {
+TEST(TripleBuffer, GivesTheNewestOfAnotherThread) {
   struct Pair {
     std::uint64_t a = 0, b = 0;
   };
-  Latch<Pair> latch;
+  core::TripleBuffer<Pair> latch;
   std::atomic<bool> over{false};
   std::thread writer([&] {
     for (std::uint64_t i = 1; i <= 200'000; ++i) latch.put({i, ~i});
@@ -162,4 +162,4 @@ TEST(Calibrating, FindsTheScalesOfABox) {
 }
 
 }  // namespace
-}  // namespace ostium
+}  // namespace ostium::device

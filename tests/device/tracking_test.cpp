@@ -1,12 +1,12 @@
-#include "device/tracking.h"
+#include "device/host/tracking.h"
 
 #include <gtest/gtest.h>
 
 #include <random>
 
-#include "device/emulated_box.h"
+#include "device/emulator/emulated_box.h"
 
-namespace ostium {
+namespace ostium::device {
 namespace {
 
 /// A box with a wire under its first station; what the host makes of it.
@@ -138,4 +138,4 @@ TEST(Tracking, StationsHandAToolOver) {
 }
 
 }  // namespace
-}  // namespace ostium
+}  // namespace ostium::device

@@ -1,5 +1,5 @@
 /// The emulator on a socket, as a kernel at the other end sees it: the bytes of USB/IP, written down a second time.
-#include "device/usbip.h"
+#include "device/emulator/usbip.h"
 
 #include <arpa/inet.h>
 #include <gtest/gtest.h>
@@ -10,9 +10,9 @@
 #include <cstring>
 #include <thread>
 
-#include "device/report.h"
+#include "device/protocol/report.h"
 
-namespace ostium {
+namespace ostium::device {
 namespace {
 
 using Bytes = std::vector<std::uint8_t>;
@@ -187,4 +187,4 @@ TEST(UsbipServer, IsListedImportedAndAttachedOverTcp) {
 }
 
 }  // namespace
-}  // namespace ostium
+}  // namespace ostium::device

@@ -1,16 +1,18 @@
-#include "fluoro/c_arm.h"
+#include "fluoro/projection/c_arm.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <numbers>
 
-namespace ostium {
+#include "core/base/units.h"
+
+namespace ostium::fluoro {
 namespace {
 
 using Eigen::Vector2d;
 using Eigen::Vector3d;
-constexpr double degree = std::numbers::pi / 180;
+using units::degree;
 
 TEST(CArm, DetectorStandsWhereTheAnglesSay) {
   const auto at = [](double lao, double cran) {
@@ -53,4 +55,4 @@ TEST(CArm, WhatIsBehindTheSourceHasNoImage) {
 }
 
 }  // namespace
-}  // namespace ostium
+}  // namespace ostium::fluoro

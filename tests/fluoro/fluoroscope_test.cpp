@@ -1,13 +1,13 @@
-#include "fluoro/fluoroscope.h"
+#include "fluoro/console/fluoroscope.h"
 
 #include <gtest/gtest.h>
 
-#include "fluoro/overlay.h"
+#include "fluoro/display/overlay.h"
+#include "fluoro/matter/tissue.h"
 #include "fluoro/phantom/shapes.h"
-#include "fluoro/tissue.h"
-#include "fluoro/views.h"
+#include "fluoro/projection/views.h"
 
-namespace ostium {
+namespace ostium::fluoro {
 namespace {
 
 struct Room {
@@ -24,7 +24,7 @@ struct Room {
     view.pixels = 128;
   }
   TickReport tick(Pedals pedals, double phase = 0, bool roadmap = false) {
-    return ostium::tick(imager,
+    return fluoro::tick(imager,
                         {.scene = scene,
                          .view = view,
                          .collimator = {},
@@ -165,4 +165,4 @@ TEST(Overlay, LettersAndStripsLeaveTheRestAlone) {
 }
 
 }  // namespace
-}  // namespace ostium
+}  // namespace ostium::fluoro

@@ -1,16 +1,16 @@
-#include "fluoro/imager.h"
+#include "fluoro/detector/imager.h"
 
 #include <gtest/gtest.h>
 
 #include <thread>
 
-#include "fluoro/fluoroscope.h"
+#include "fluoro/base/resample.h"
+#include "fluoro/console/fluoroscope.h"
+#include "fluoro/matter/tissue.h"
 #include "fluoro/phantom/chest.h"
 #include "fluoro/phantom/shapes.h"
-#include "fluoro/resample.h"
-#include "fluoro/tissue.h"
 
-namespace ostium {
+namespace ostium::fluoro {
 namespace {
 
 View small_view() {
@@ -216,4 +216,4 @@ TEST(Imager, ScatterIsAsMuchAsPrimaryBehindTheMediastinum) {
 }
 
 }  // namespace
-}  // namespace ostium
+}  // namespace ostium::fluoro

@@ -1,11 +1,11 @@
-#include "fluoro/material.h"
+#include "fluoro/matter/material.h"
 
 #include <gtest/gtest.h>
 
-#include "fluoro/beam.h"
-#include "fluoro/tissue.h"
+#include "fluoro/matter/beam.h"
+#include "fluoro/matter/tissue.h"
 
-namespace ostium {
+namespace ostium::fluoro {
 namespace {
 
 TEST(Material, AttenuationIsThatOfTheTables) {
@@ -56,4 +56,4 @@ TEST(Beam, TheDetectorSeesTheWholeSpectrum) {
 }
 
 }  // namespace
-}  // namespace ostium
+}  // namespace ostium::fluoro

@@ -1,11 +1,11 @@
-#include "fluoro/path_lengths.h"
+#include "fluoro/projection/path_lengths.h"
 
 #include <gtest/gtest.h>
 
+#include "fluoro/matter/tissue.h"
 #include "fluoro/phantom/shapes.h"
-#include "fluoro/tissue.h"
 
-namespace ostium {
+namespace ostium::fluoro {
 namespace {
 
 using Eigen::Vector3d;
@@ -126,4 +126,4 @@ TEST(PathLengths, TheRayIsLongerThanItsDepth) {
 }
 
 }  // namespace
-}  // namespace ostium
+}  // namespace ostium::fluoro

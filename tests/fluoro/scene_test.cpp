@@ -1,13 +1,13 @@
-#include "fluoro/scene.h"
+#include "fluoro/matter/scene.h"
 
 #include <gtest/gtest.h>
 
-#include "fluoro/imager.h"
+#include "fluoro/detector/imager.h"
+#include "fluoro/matter/tissue.h"
 #include "fluoro/phantom/chest.h"
 #include "fluoro/phantom/shapes.h"
-#include "fluoro/tissue.h"
 
-namespace ostium {
+namespace ostium::fluoro {
 namespace {
 
 using Eigen::Vector3d;
@@ -116,4 +116,4 @@ TEST(Scene, TheChestPhantomIsSoundInEveryView) {
 }
 
 }  // namespace
-}  // namespace ostium
+}  // namespace ostium::fluoro

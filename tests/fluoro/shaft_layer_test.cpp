@@ -1,4 +1,4 @@
-#include "fluoro/shaft_layer.h"
+#include "fluoro/projection/shaft_layer.h"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 
 #include "fluoro/phantom/shapes.h"
 
-namespace ostium {
+namespace ostium::fluoro {
 namespace {
 
 using Eigen::Vector3d;
@@ -91,4 +91,4 @@ TEST(ShaftLayer, AMarkerIsAsLongAsItIs) {
 }
 
 }  // namespace
-}  // namespace ostium
+}  // namespace ostium::fluoro

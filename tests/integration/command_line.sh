@@ -14,8 +14,10 @@ expect() { # expect CODE WORD COMMAND...: exit code and a word of the output
   fi
 }
 
-expect 0 "Examples" "$ostium" verify --help
 expect 0 "verify" "$ostium" --help
+for command in $("$ostium" --help | sed '1,/^Subcommands:/d; /^$/,$d' | awk '{print $1}'); do
+  expect 0 "Examples" "$ostium" "$command" --help
+done
 expect 0 "0\." "$ostium" --version
 expect 0 "pass" "$ostium" verify --only rod-static-0.4m-100
 expect 0 '"pass": true' "$ostium" verify --only rod-static --json
@@ -27,7 +29,6 @@ expect 1 "could not be written" bash -c "'$ostium' verify --only rod-static --js
 expect 2 "not expected" "$ostium" verify --quik
 expect 2 "not expected" "$ostium" nonsense
 
-expect 0 "Examples" "$ostium" instruments --help
 expect 0 "guide-jl4-6f" "$ostium" instruments
 expect 0 "sources:" "$ostium" instruments guide-jl4-6f
 expect 0 '"EI1_Nmm2"' "$ostium" instruments wire-014-workhorse --json
@@ -40,18 +41,15 @@ trap 'rm -rf "$dir"' EXIT
 frame() { "$ostium" frame --pixels 128 "$@"; }
 export -f frame
 export ostium
-expect 0 "Examples" "$ostium" frame --help
 expect 0 "kV" frame --view spider --fill left --overlay -o "$dir/frame.png"
 expect 0 '"dap_per_frame_Gy_cm2"' frame --json -o "$dir/frame.png"
 expect 0 "run.dcm" frame --frames 3 --fill right --guide right -o "$dir/run.dcm"
-expect 0 "Examples" "$ostium" inject --help
 expect 0 '"iodine_balance"' "$ostium" inject --pixels 256 --seconds 0.3 --json -o "$dir/inject.png"
 expect 3 "there is no case" "$ostium" inject no-such-case -o "$dir/inject.png"
 expect 3 "png and .mp4" "$ostium" inject -o "$dir/inject.jpg"
 expect 2 "volume" "$ostium" inject --volume -3 -o "$dir/inject.png"
 expect 3 "not a number" "$ostium" inject --volume nan -o "$dir/inject.png"
 expect 3 "not a number" "$ostium" treat --pressure nan -o "$dir/treat.png"
-expect 0 "Examples" "$ostium" treat --help
 expect 0 '"ffr_model"' "$ostium" treat --no-pictures --no-predilatation --no-postdilatation --hold 1 --json
 expect 3 "there is no view" "$ostium" treat --view upwards -o "$dir/treat.png"
 expect 3 "png is known" "$ostium" treat -o "$dir/treat.mp4"
@@ -75,7 +73,6 @@ expect 1 "ffmpeg cannot be run" env PATH=/nowhere "$ostium" frame --pixels 128 -
 
 expect 0 "spider" "$ostium" views
 expect 0 '"lao_deg"' "$ostium" views --json
-expect 0 "Examples" "$ostium" cases --help
 expect 0 "rca-mid-focal-radial" "$ostium" cases
 expect 0 "Judkins right 4" "$ostium" cases rca-mid-focal
 expect 0 '"stenosis_percent": 70' "$ostium" cases rca-mid-focal --json
@@ -91,7 +88,6 @@ expect 3 "is no file" "$ostium" check "$folder/none.obj"
 expect 0 '"unit": "cm"' "$ostium" check --json --units cm "$folder/whole.obj"
 expect 0 "sound" "$ostium" check "$folder/whole.obj" --picture "$folder/whole.svg"
 expect 3 "png and .svg are known" "$ostium" check "$folder/whole.obj" --picture "$folder/whole.bmp"
-expect 0 "Examples" "$ostium" import --help
 sed 's/9/900000/g' "$folder/whole.obj" >"$folder/huge.obj"
 expect 3 "no unit makes a vessel" "$ostium" import "$folder/huge.obj" -o "$folder/case"
 expect 3 "this is no vessel" "$ostium" import --units mm "$folder/whole.obj" -o "$folder/case"
@@ -123,7 +119,6 @@ expect 3 "no format of a tree" "$ostium" centreline "$folder/whole.obj" -o "$fol
 out=$folder/out
 expect 0 "aorta-arch-wire" "$ostium" scripts
 expect 0 '"instrument"' "$ostium" scripts --json
-expect 0 "Examples" "$ostium" run --help
 expect 0 "recorded in" "$ostium" run rca-mid-focal --script iliac-wire --out "$out"
 grep -q '"outcome": "success"' "$out/metrics.json"
 expect 0 "bit for bit" "$ostium" replay "$out/run.h5" --verify

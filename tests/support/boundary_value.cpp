@@ -23,7 +23,7 @@ class Shooter {
   Shooter(const Problem& p, double amount) : p_(p), amount_(amount), n_(static_cast<int>(p.tubes.size())) {
     for (const Tube& t : p.tubes) {
       length_ = std::max(length_, t.inserted_m);
-      for (const Section& s : t.sections)
+      for (const core::Section& s : t.sections)
         for (double at : {t.inserted_m - s.from_tip_m, t.inserted_m - s.to_tip_m}) stops_.push_back(at);
     }
     for (const Load& l : p.loads) stops_.insert(stops_.end(), {l.from_base_m, l.to_base_m});
@@ -85,9 +85,9 @@ class Shooter {
  private:
   bool ended(int i, double s) const { return s >= p_.tubes[i].inserted_m; }
 
-  const Section& section(int i, double s) const {
+  const core::Section& section(int i, double s) const {
     const Tube& t = p_.tubes[i];
-    for (const Section& c : t.sections)
+    for (const core::Section& c : t.sections)
       if (t.inserted_m - s < c.to_tip_m) return c;
     return t.sections.back();
   }
@@ -96,7 +96,7 @@ class Shooter {
   Vector3d force(double s) const {
     Vector3d f = p_.tip_force;
     for (const Tube& t : p_.tubes)
-      for (const Section& c : t.sections) {
+      for (const core::Section& c : t.sections) {
         const double from = std::max(s, t.inserted_m - c.to_tip_m), to = t.inserted_m - c.from_tip_m;
         if (to > from) f += c.kg_per_m * (to - from) * p_.gravity;
       }
@@ -112,7 +112,7 @@ class Shooter {
 
   /// Curvature beyond rest that answers a bending moment: the softening law turned round, by Newton's method on how
   /// much of the linear moment is left.
-  static Vector2d curvature_of(const Section& c, const Vector2d& moment) {
+  static Vector2d curvature_of(const core::Section& c, const Vector2d& moment) {
     Vector2d k(moment.x() / c.EI1_N_m2, moment.y() / c.EI2_N_m2);
     if (c.softening_per_m <= 0 || c.softened_ratio >= 1) return k;
     // k = k_linear / part(k): one number, the part, between the ratio and 1.
@@ -141,7 +141,7 @@ class Shooter {
     double EI = 0;
     for (int i = 0; i < n_; ++i) {
       if (ended(i, middle)) continue;
-      const Section& c = section(i, middle);
+      const core::Section& c = section(i, middle);
       EI += c.EI1_N_m2;
       const Vector2d k = amount_ * c.rest_curvature_per_m.head<2>();
       pull += c.EI1_N_m2 * (Eigen::Rotation2Dd(y[15 + i]) * k);
@@ -154,7 +154,7 @@ class Shooter {
     for (int i = 0; i < n_; ++i) {
       dy[15 + i] = dy[15 + n_ + i] = 0;
       if (ended(i, middle)) continue;
-      const Section& c = section(i, middle);
+      const core::Section& c = section(i, middle);
       const Vector2d k = Eigen::Rotation2Dd(y[15 + i]) * Vector2d(amount_ * c.rest_curvature_per_m.head<2>());
       dy[15 + i] = y[15 + n_ + i] / c.GJ_N_m2;
       // m_z' = -(u x m)_z of the tube's own bending moment m = EI (u - k).
@@ -166,7 +166,7 @@ class Shooter {
   void alone(double s, const double y[], double dy[], double middle) const {
     const Eigen::Map<const Matrix3d> R(y + 3);
     const Eigen::Map<const Vector3d> m_W(y + 12);
-    const Section& c = section(0, middle);
+    const core::Section& c = section(0, middle);
     const Vector3d m = R.transpose() * m_W, rest = amount_ * c.rest_curvature_per_m;
     const Eigen::Rotation2Dd turn(y[15]);
     const Vector2d own = turn.inverse() * Vector2d(m.head<2>());

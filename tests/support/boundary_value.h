@@ -6,12 +6,12 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "core/rod/section.h"
+#include "core/material/section.h"
 
 namespace ostium::boundary_value {
 
 struct Tube {
-  std::vector<Section> sections;  ///< from its tip backwards; several: EI1 = EI2, linear, without twist at rest
+  std::vector<core::Section> sections;  ///< from its tip backwards; several: EI1 = EI2, linear, without twist at rest
   double inserted_m = 0;
   double roll_rad = 0;
   double shaft_rad_per_Nm = 0;

@@ -3,7 +3,7 @@
 #include <Eigen/Dense>
 #include <cmath>
 
-namespace ostium {
+namespace ostium::test {
 
 struct ChainDescent {
   double tolerance_rad = 1e-9, longest_turn_rad = 0.1;
@@ -37,4 +37,4 @@ bool descend(const ChainDescent& d, const Energy& energy, const Linearise& linea
   return false;
 }
 
-}  // namespace ostium
+}  // namespace ostium::test

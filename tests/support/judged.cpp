@@ -43,11 +43,11 @@ bool confusable(const std::vector<std::string>& a, const std::vector<std::string
 }
 
 /// As files, as anyone's would be.
-MeasurementSet as_read(const MeasurementSet& set, const std::string& kind, unsigned seed) {
+data::MeasurementSet as_read(const data::MeasurementSet& set, const std::string& kind, unsigned seed) {
   if (!set.vessel) return read_measurement("measurement.json", to_json(set));
   const std::filesystem::path folder = std::filesystem::temp_directory_path() /
                                        fmt::format("ostium-{}-{}-{}", kind.substr(kind.find(':') + 1), seed, getpid());
-  const MeasurementSet out = load_measurement(write_set(folder.string(), set));
+  const data::MeasurementSet out = load_measurement(write_set(folder.string(), set));
   std::filesystem::remove_all(folder);
   return out;
 }
@@ -56,11 +56,11 @@ MeasurementSet as_read(const MeasurementSet& set, const std::string& kind, unsig
 
 Judged judge(const std::string& kind, unsigned seed, int threads) {
   const Undeclared truth = undeclared_set(kind, seed);
-  const MeasurementSet set = as_read(truth.set, kind, seed);
+  const data::MeasurementSet set = as_read(truth.set, kind, seed);
   const double begin = cpu_seconds();
-  ExplainOptions options;
+  data::ExplainOptions options;
   options.library = true, options.threads = threads;
-  const Explanation x = explain(set, options);
+  const data::Explanation x = explain(set, options);
 
   Judged out;
   out.kind = kind, out.seed = seed;
@@ -68,14 +68,15 @@ Judged judge(const std::string& kind, unsigned seed, int threads) {
   const double floor = std::sqrt(2.0) * *set.imaging.noise_sigma_m;
   out.size = std::sqrt(std::max(x.declared.rms_m * x.declared.rms_m - floor * floor, 0.0)) / floor;
   out.chi2_before = *x.declared.chi2_per_dof;
-  const FittedModel& best = x.candidates.empty() || x.verdict == Verdict::explained ? x.declared : x.candidates.front();
+  const data::FittedModel& best =
+      x.candidates.empty() || x.verdict == data::Verdict::explained ? x.declared : x.candidates.front();
   out.after = best.rms_held_out_m.value_or(best.rms_m) / floor;
   out.chi2_after = best.chi2_per_dof.value_or(0);
   out.said = to_string(x.verdict);
-  if (x.verdict == Verdict::effect) {
+  if (x.verdict == data::Verdict::effect) {
     out.said = joined(x.best().effects);
     out.right = truth.in_library && out.said == joined(truth.effects);
-  } else if (x.verdict == Verdict::ambiguous) {
+  } else if (x.verdict == data::Verdict::ambiguous) {
     bool among = false, listed = true;
     out.said += ":";
     for (std::size_t i = 0; i < x.rivals; ++i) {
@@ -85,15 +86,15 @@ Judged judge(const std::string& kind, unsigned seed, int threads) {
                           confusable(x.candidates[i].effects, truth.effects));
     }
     out.right = truth.in_library && among && listed;
-  } else if (x.verdict == Verdict::unexplained) {
+  } else if (x.verdict == data::Verdict::unexplained) {
     out.said += " (" + x.signature.frame + ")";
     out.right = !truth.in_library && x.signature.frame == truth.frame;
   } else {
     out.right = truth.in_library && truth.effects.empty();
   }
-  if (out.right && x.verdict == Verdict::effect)
+  if (out.right && x.verdict == data::Verdict::effect)
     for (const auto& [name, value] : truth.truth)
-      for (const FittedParameter& p : best.parameters)
+      for (const data::FittedParameter& p : best.parameters)
         if (p.parameter.name == name) ++out.parameters, out.within += std::fabs(p.value - value) < 3 * p.sigma;
   return out;
 }

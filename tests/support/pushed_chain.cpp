@@ -29,7 +29,7 @@ struct Offset {
   double bend_per_m = 0;  ///< of the line of equal distance: > 0 if its centre lies behind
 };
 
-Offset off_centreline(const Tube& tube, const Vector2d& p) {
+Offset off_centreline(const vascular::Tube& tube, const Vector2d& p) {
   const auto from_line = [](const Vector2d& start, const Vector2d& t, const Vector2d& q) {
     const double off = across(t).dot(q - start);
     return Offset{std::fabs(off), (off < 0 ? -1.0 : 1.0) * across(t), t, 0};
@@ -48,9 +48,9 @@ Offset off_centreline(const Tube& tube, const Vector2d& p) {
 }
 
 /// Segments and nodes are counted from the tip: segment j leads from node j + 1 to node j, node n is the base.
-class Chain {
+class BlockTridiagonal {
  public:
-  Chain(const Tube& tube, const Wire& wire, const Setting& setting)
+  BlockTridiagonal(const vascular::Tube& tube, const Wire& wire, const Setting& setting)
       : tube_(tube), wire_(wire), setting_(setting), h_(setting.segment_m) {}
 
   int size() const { return static_cast<int>(angle_.size()); }
@@ -203,7 +203,7 @@ class Chain {
     return true;  // as near as it comes
   }
 
-  const Tube& tube_;
+  const vascular::Tube& tube_;
   const Wire& wire_;
   const Setting& setting_;
   double h_;
@@ -214,9 +214,9 @@ class Chain {
 
 }  // namespace
 
-std::vector<Rest> push(const Tube& tube, const Wire& wire, const Setting& setting,
+std::vector<Rest> push(const vascular::Tube& tube, const Wire& wire, const Setting& setting,
                        const std::vector<double>& inserted) {
-  Chain chain(tube, wire, setting);
+  BlockTridiagonal chain(tube, wire, setting);
   std::vector<Rest> out;
   bool good = true;
   for (double to : inserted) {

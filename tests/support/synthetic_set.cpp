@@ -7,8 +7,9 @@
 #include <random>
 #include <stdexcept>
 
+#include "core/base/units.h"
 #include "data/formats/write_file.h"
-#include "vascular/mesh.h"
+#include "vascular/geometry/mesh/mesh.h"
 
 namespace ostium::synthetic {
 
@@ -16,7 +17,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double pi = std::numbers::pi, mm = 1e-3, Nmm2 = 1e-6;
+using units::pi, units::mm, units::Nmm2;
 
 /// Normal deviates (Box and Muller), the same with every library.
 class Normal {
@@ -35,9 +36,9 @@ class Normal {
   std::mt19937 random_;
 };
 
-Section section(double from_mm, double to_mm, double EI_Nmm2, double GJ_Nmm2, double kg_per_m, double k2_per_mm,
-                double radius_mm, double bore_mm) {
-  Section s;
+core::Section section(double from_mm, double to_mm, double EI_Nmm2, double GJ_Nmm2, double kg_per_m, double k2_per_mm,
+                      double radius_mm, double bore_mm) {
+  core::Section s;
   s.from_tip_m = from_mm * mm, s.to_tip_m = to_mm * mm;
   s.EI1_N_m2 = s.EI2_N_m2 = EI_Nmm2 * Nmm2, s.GJ_N_m2 = GJ_Nmm2 * Nmm2;
   s.kg_per_m = kg_per_m;
@@ -47,8 +48,8 @@ Section section(double from_mm, double to_mm, double EI_Nmm2, double GJ_Nmm2, do
 }
 
 /// d3 along x, d1 up.
-EndState level_base() {
-  EndState base;
+core::EndState level_base() {
+  core::EndState base;
   Eigen::Matrix3d R;
   R.col(2) = Vector3d::UnitX(), R.col(0) = Vector3d::UnitZ();
   R.col(1) = Vector3d(R.col(2)).cross(Vector3d(R.col(0)));
@@ -60,7 +61,7 @@ EndState level_base() {
 
 }  // namespace
 
-boundary_value::Problem problem_of(const MeasurementSet& set, const Experiment& e, const Truth& truth) {
+boundary_value::Problem problem_of(const data::MeasurementSet& set, const data::Experiment& e, const Truth& truth) {
   boundary_value::Problem p;
   for (std::size_t i = 0; i < set.instruments.size(); ++i) {
     boundary_value::Tube tube{set.instruments[i].sections, e.set[i].inserted_m, e.set[i].roll_rad, 0};
@@ -80,14 +81,14 @@ boundary_value::Problem problem_of(const MeasurementSet& set, const Experiment& 
   return p;
 }
 
-void measure(MeasurementSet& set, const Truth& truth, double spacing_m) {
+void measure(data::MeasurementSet& set, const Truth& truth, double spacing_m) {
   Normal normal(truth.seed);
-  for (Experiment& e : set.experiments) {
+  for (data::Experiment& e : set.experiments) {
     const int points = static_cast<int>(std::ceil(e.set.back().inserted_m / spacing_m)) + 1;
     const boundary_value::Solution exact = boundary_value::solve(problem_of(set, e, truth), points);
     if (!exact.converged) throw std::runtime_error("no boundary-value solution of " + e.id);
     e.points_m.clear();
-    if (e.kind == Experiment::Kind::tip)
+    if (e.kind == data::Experiment::Kind::tip)
       e.points_m = {exact.curve.back() + exact.tip_R * truth.tip_offset_m};
     else
       e.points_m = exact.curve;
@@ -95,8 +96,8 @@ void measure(MeasurementSet& set, const Truth& truth, double spacing_m) {
   }
 }
 
-MeasurementSet free_wire(int experiments) {
-  MeasurementSet set;
+data::MeasurementSet free_wire(int experiments) {
+  data::MeasurementSet set;
   set.title = "free wire, made by a boundary-value solver", set.source = "tests";
   set.instruments = {{"wire",
                       0.6,
@@ -106,7 +107,7 @@ MeasurementSet free_wire(int experiments) {
   set.gravity_m_s2 = {0, 0, -9.81};
   set.imaging.noise_sigma_m = 0.15 * mm;
   for (int i = 0; i < experiments; ++i) {
-    Experiment e;
+    data::Experiment e;
     e.id = "e" + std::to_string(i);
     e.place = "experiments[" + std::to_string(i) + "]";
     e.base = level_base();
@@ -120,8 +121,8 @@ MeasurementSet free_wire(int experiments) {
   return set;
 }
 
-MeasurementSet two_tubes(int experiments) {
-  MeasurementSet set;
+data::MeasurementSet two_tubes(int experiments) {
+  data::MeasurementSet set;
   set.title = "two tubes, made by a boundary-value solver", set.source = "tests";
   set.instruments = {
       {"outer",
@@ -137,26 +138,26 @@ MeasurementSet two_tubes(int experiments) {
   set.imaging.noise_sigma_m = 0.3 * mm;
   set.imaging.registration_free = set.imaging.tip_offset_free = true;
   for (int i = 0; i < experiments; ++i) {
-    Experiment e;
+    data::Experiment e;
     e.id = "p" + std::to_string(i);
     e.place = "experiments[" + std::to_string(i) + "]";
     const double a = 0.055 + 0.035 * std::fmod(0.618 * i, 1), b = a + 0.005 + 0.03 * std::fmod(0.414 * i, 1);
     e.set = {{a, 1.2 * std::sin(2.1 * i), 0.14 - a}, {b, 1.3 * std::cos(1.3 * i), 0.22 - b}};
     e.specimen.resize(2);
-    e.kind = Experiment::Kind::tip;
+    e.kind = data::Experiment::Kind::tip;
     set.experiments.push_back(e);
   }
   measure(set, {});
   return set;
 }
 
-std::string to_json(const MeasurementSet& set) {
+std::string to_json(const data::MeasurementSet& set) {
   using Json = nlohmann::ordered_json;
   const auto vector = [](const Vector3d& v, double unit) { return Json{v.x() / unit, v.y() / unit, v.z() / unit}; };
   Json file = {{"schema", "ostium-measurement/1"}, {"title", set.title}, {"source", set.source}};
-  for (const MeasuredInstrument& i : set.instruments) {
+  for (const data::MeasuredInstrument& i : set.instruments) {
     Json sections = Json::array();
-    for (const Section& s : i.sections)
+    for (const core::Section& s : i.sections)
       sections.push_back(
           {{"from_tip_mm", {s.from_tip_m / mm, s.to_tip_m / mm}},
            {"EI_Nmm2", s.EI1_N_m2 / Nmm2},
@@ -177,7 +178,7 @@ std::string to_json(const MeasurementSet& set) {
                      {"registration", set.imaging.registration_free ? "free" : "given"},
                      {"tip_offset", set.imaging.tip_offset_free ? "free" : "none"}};
   if (set.imaging.noise_sigma_m) file["imaging"]["noise_sigma_mm"] = *set.imaging.noise_sigma_m / mm;
-  for (const Experiment& e : set.experiments) {
+  for (const data::Experiment& e : set.experiments) {
     const Eigen::Matrix3d R = Eigen::Quaterniond(e.base.q_W[0], e.base.q_W[1], e.base.q_W[2], e.base.q_W[3]).matrix();
     Json entry = {
         {"id", e.id},
@@ -186,27 +187,27 @@ std::string to_json(const MeasurementSet& set) {
         {"set", Json::array()},
         {"tip_force_N", vector(e.tip_force_N, 1)}};
     if (e.proximal_force_N) entry["proximal_force_N"] = *e.proximal_force_N;
-    for (const Placement& p : e.set)
+    for (const data::Placement& p : e.set)
       entry["set"].push_back({{"inserted_length_mm", p.inserted_m / mm},
                               {"roll_deg", p.roll_rad * 180 / pi},
                               {"shaft_mm", p.shaft_m / mm}});
     if (!e.group.empty()) entry["group"] = e.group;
     if (e.elapsed_s) entry["elapsed_s"] = *e.elapsed_s;
-    if (e.kind == Experiment::Kind::tip) entry["tip_mm"] = vector(e.points_m[0], mm);
-    if (e.kind == Experiment::Kind::centreline)
+    if (e.kind == data::Experiment::Kind::tip) entry["tip_mm"] = vector(e.points_m[0], mm);
+    if (e.kind == data::Experiment::Kind::centreline)
       for (const Vector3d& p : e.points_m) entry["centreline_mm"].push_back(vector(p, mm));
-    if (e.kind == Experiment::Kind::radius) entry["radius_of_curvature_mm"] = e.radius_m / mm;
+    if (e.kind == data::Experiment::Kind::radius) entry["radius_of_curvature_mm"] = e.radius_m / mm;
     file["experiments"].push_back(entry);
   }
   return file.dump(1);
 }
 
-std::string write_set(const std::string& folder, const MeasurementSet& set) {
+std::string write_set(const std::string& folder, const data::MeasurementSet& set) {
   const std::string file = folder + "/measurement.json";
   write_file(file, to_json(set));
   if (set.vessel)
     write_mesh(folder + "/" + set.vessel->mesh, {set.vessel->wall->frames[0], set.vessel->wall->triangles},
-               LengthUnit::metre);
+               vascular::LengthUnit::metre);
   return file;
 }
 

@@ -18,21 +18,22 @@ struct Truth {
 };
 
 /// The boundary-value problem of an experiment.
-boundary_value::Problem problem_of(const MeasurementSet& set, const Experiment& experiment, const Truth& truth);
+boundary_value::Problem problem_of(const data::MeasurementSet& set, const data::Experiment& experiment,
+                                   const Truth& truth);
 
 /// Fills in what would be measured: centrelines (a point every `spacing_m`) or tips, as each experiment's kind says.
-void measure(MeasurementSet& set, const Truth& truth, double spacing_m = 5e-3);
+void measure(data::MeasurementSet& set, const Truth& truth, double spacing_m = 5e-3);
 
 /// A wire with a soft curved tip, 120 to 300 mm of it inserted level, rolled, some of it with a load at its tip.
-MeasurementSet free_wire(int experiments);
+data::MeasurementSet free_wire(int experiments);
 
 /// Two tubes with curved ends and shafts behind the base, tips tracked in a frame of their own.
-MeasurementSet two_tubes(int experiments);
+data::MeasurementSet two_tubes(int experiments);
 
 /// The file that says it.
-std::string to_json(const MeasurementSet& set);
+std::string to_json(const data::MeasurementSet& set);
 
 /// measurement.json and its mesh, in metres; the former's name is returned.
-std::string write_set(const std::string& folder, const MeasurementSet& set);
+std::string write_set(const std::string& folder, const data::MeasurementSet& set);
 
 }  // namespace ostium::synthetic

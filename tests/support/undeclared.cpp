@@ -5,6 +5,7 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "core/base/units.h"
 #include "tests/support/dice.h"
 #include "tests/support/undeclared_nest.h"
 #include "tests/support/undeclared_tube.h"
@@ -17,17 +18,17 @@ using Eigen::Matrix3d;
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-constexpr double pi = std::numbers::pi, mm = 1e-3, Nmm2 = 1e-6, degree = pi / 180, gram = 1e-3;
+using units::pi, units::mm, units::Nmm2, units::degree, units::gram;
 
 /// What the world does that the file does not say.
 struct World {
-  std::vector<std::function<void(const Experiment&, boundary_value::Problem&)>> mechanics;
-  std::vector<std::function<Vector3d(const Experiment&, const Vector3d&)>> picture;  ///< one after the other
+  std::vector<std::function<void(const data::Experiment&, boundary_value::Problem&)>> mechanics;
+  std::vector<std::function<Vector3d(const data::Experiment&, const Vector3d&)>> picture;  ///< one after the other
 };
 
-Section section(double from_mm, double to_mm, double EI, double GJ, double kg_per_m, const Vector2d& k_per_m,
-                double radius_mm, double bore_mm) {
-  Section s;
+core::Section section(double from_mm, double to_mm, double EI, double GJ, double kg_per_m, const Vector2d& k_per_m,
+                      double radius_mm, double bore_mm) {
+  core::Section s;
   s.from_tip_m = from_mm * mm, s.to_tip_m = to_mm * mm;
   s.EI1_N_m2 = s.EI2_N_m2 = EI * Nmm2, s.GJ_N_m2 = GJ * Nmm2;
   s.kg_per_m = kg_per_m;
@@ -36,8 +37,8 @@ Section section(double from_mm, double to_mm, double EI, double GJ, double kg_pe
   return s;
 }
 
-EndState base(Dice& dice) {
-  EndState out;
+core::EndState base(Dice& dice) {
+  core::EndState out;
   Matrix3d R;
   R.col(2) = Vector3d(1, dice.uniform(-0.3, 0.3), dice.uniform(-0.3, 0.3)).normalized();
   R.col(0) = (Vector3d::UnitZ() - R.col(2) * R(2, 2)).normalized();
@@ -49,8 +50,8 @@ EndState base(Dice& dice) {
 }
 
 /// A wire or a catheter, free at its end, with a shaft and a softer, mostly curved tip; a dozen experiments.
-MeasurementSet free_instrument(Dice& dice, bool curved, bool timed) {
-  MeasurementSet set;
+data::MeasurementSet free_instrument(Dice& dice, bool curved, bool timed) {
+  data::MeasurementSet set;
   set.title = "made by a boundary-value solver", set.source = "tests";
   const double radius = dice.uniform(0.17, 0.3), shaft = dice.log_uniform(25, 90),
                tip = shaft * dice.uniform(0.05, 0.2);
@@ -60,7 +61,7 @@ MeasurementSet free_instrument(Dice& dice, bool curved, bool timed) {
   const double bend = curved || dice.uniform(0, 1) < 0.7 ? dice.log_uniform(timed ? 15 : 8, 30) : 0;
   const double side = dice.uniform(0, 2 * pi);
   const Vector2d k = bend * Vector2d(std::cos(side), std::sin(side));
-  MeasuredInstrument instrument{"instrument", length_mm * mm, radius * mm, 0, {}};
+  data::MeasuredInstrument instrument{"instrument", length_mm * mm, radius * mm, 0, {}};
   auto& s = instrument.sections;
   s.push_back(section(0, tip_mm, tip, ratio * tip, weight * dice.uniform(0.7, 1.2), k, radius, 0));
   if (dice.uniform(0, 1) < 0.5) {
@@ -73,11 +74,11 @@ MeasurementSet free_instrument(Dice& dice, bool curved, bool timed) {
   set.instruments = {instrument};
   set.gravity_m_s2 = {0, 0, -9.81};
   set.imaging.noise_sigma_m = dice.uniform(0.08, 0.25) * mm;
-  const EndState at = base(dice);
+  const core::EndState at = base(dice);
   const double longest = dice.uniform(220, 300);
   const int count = dice.whole(11, 14);
   for (int i = 0; i < count; ++i) {
-    Experiment e;
+    data::Experiment e;
     e.id = "x" + std::to_string(i);
     e.place = "experiments[" + std::to_string(i) + "]";
     e.base = at;
@@ -93,8 +94,8 @@ MeasurementSet free_instrument(Dice& dice, bool curved, bool timed) {
 }
 
 /// Two nested tubes with curved ends; tips and shapes.
-MeasurementSet tubes(Dice& dice) {
-  MeasurementSet set = two_tubes(1);
+data::MeasurementSet tubes(Dice& dice) {
+  data::MeasurementSet set = two_tubes(1);
   set.title = "made by a boundary-value solver";
   set.imaging = {};
   set.imaging.noise_sigma_m = dice.uniform(0.15, 0.3) * mm;
@@ -102,19 +103,19 @@ MeasurementSet tubes(Dice& dice) {
   for (int i = 0; i < 2; ++i) {
     auto& s = set.instruments[i].sections;
     const double stiff = dice.uniform(0.8, 1.25), bend = dice.uniform(8, 15), curve = dice.uniform(40, 60) * mm;
-    for (Section& c : s) c.EI1_N_m2 *= stiff, c.EI2_N_m2 *= stiff, c.GJ_N_m2 *= stiff;
+    for (core::Section& c : s) c.EI1_N_m2 *= stiff, c.EI2_N_m2 *= stiff, c.GJ_N_m2 *= stiff;
     s[0].to_tip_m = s[1].from_tip_m = curve;
     s[0].rest_curvature_per_m = {0, bend, 0};
   }
-  const Experiment nominal = set.experiments[0];
+  const data::Experiment nominal = set.experiments[0];
   set.experiments.clear();
   for (int i = 0; i < 14; ++i) {
-    Experiment e = nominal;
+    data::Experiment e = nominal;
     e.id = "p" + std::to_string(i);
     e.place = "experiments[" + std::to_string(i) + "]";
     const double a = dice.uniform(0.055, 0.09), b = a + dice.uniform(0.008, 0.035);
     e.set = {{a, dice.uniform(-70, 70) * degree, shaft_from - a}, {b, dice.uniform(-70, 70) * degree, 0.22 - b}};
-    e.kind = Experiment::Kind::centreline;
+    e.kind = data::Experiment::Kind::centreline;
     e.points_m.clear();
     set.experiments.push_back(e);
   }
@@ -122,14 +123,15 @@ MeasurementSet tubes(Dice& dice) {
 }
 
 /// Cuts sections at `from` and `to` and changes what lies between.
-void change(std::vector<Section>& sections, double from, double to, const std::function<void(Section&)>& f) {
-  std::vector<Section> out;
-  for (const Section& s : sections) {
+void change(std::vector<core::Section>& sections, double from, double to,
+            const std::function<void(core::Section&)>& f) {
+  std::vector<core::Section> out;
+  for (const core::Section& s : sections) {
     const double cuts[] = {s.from_tip_m, std::clamp(from, s.from_tip_m, s.to_tip_m),
                            std::clamp(to, s.from_tip_m, s.to_tip_m), s.to_tip_m};
     for (int i = 0; i < 3; ++i) {
       if (cuts[i + 1] - cuts[i] < 1e-9) continue;
-      Section piece = s;
+      core::Section piece = s;
       piece.from_tip_m = cuts[i], piece.to_tip_m = cuts[i + 1];
       if (i == 1) f(piece);
       out.push_back(piece);
@@ -141,20 +143,20 @@ void change(std::vector<Section>& sections, double from, double to, const std::f
 Matrix3d about(const Vector3d& axis, double angle) { return Eigen::AngleAxisd(angle, axis).toRotationMatrix(); }
 
 void add_effect(const std::string& id, Dice& dice, Undeclared& u, World& world) {
-  MeasurementSet& set = u.set;
+  data::MeasurementSet& set = u.set;
   const auto each = [&](auto&& f) {
-    world.mechanics.push_back([f](const Experiment&, boundary_value::Problem& p) {
+    world.mechanics.push_back([f](const data::Experiment&, boundary_value::Problem& p) {
       for (boundary_value::Tube& t : p.tubes) f(t);
     });
   };
   double longest = 0;
-  for (const Experiment& e : set.experiments) longest = std::max(longest, e.set.back().inserted_m);
+  for (const data::Experiment& e : set.experiments) longest = std::max(longest, e.set.back().inserted_m);
   if (id == "rest_curvature") {
     const double k = dice.log_uniform(0.1, 1.2), side = dice.uniform(0, 2 * pi);
     const Vector3d add(k * std::cos(side), k * std::sin(side), 0);
     u.truth[id + ".k1_per_mm"] = add.x() * mm, u.truth[id + ".k2_per_mm"] = add.y() * mm;
     each([add](boundary_value::Tube& t) {
-      for (Section& s : t.sections) s.rest_curvature_per_m += add;
+      for (core::Section& s : t.sections) s.rest_curvature_per_m += add;
     });
   } else if (id == "soft_section") {
     const double from = dice.uniform(0.2, 0.65) * longest, length = dice.uniform(0.06, 0.16) * longest,
@@ -163,14 +165,14 @@ void add_effect(const std::string& id, Dice& dice, Undeclared& u, World& world) 
                  u.truth[id + ".factor"] = factor;
     each([=](boundary_value::Tube& t) {
       change(t.sections, from, from + length,
-             [factor](Section& s) { s.EI1_N_m2 *= factor, s.EI2_N_m2 *= factor, s.GJ_N_m2 *= factor; });
+             [factor](core::Section& s) { s.EI1_N_m2 *= factor, s.EI2_N_m2 *= factor, s.GJ_N_m2 *= factor; });
     });
   } else if (id == "bending_anisotropy") {
     const double ratio = std::exp(dice.either(0.15, 0.7)), axis = dice.uniform(-40, 40);
     u.truth[id + ".ratio"] = ratio;
-    world.mechanics.push_back([=](const Experiment&, boundary_value::Problem& p) {
+    world.mechanics.push_back([=](const data::Experiment&, boundary_value::Problem& p) {
       boundary_value::Tube& t = p.tubes[0];
-      for (Section& s : t.sections) {
+      for (core::Section& s : t.sections) {
         s.EI1_N_m2 *= std::sqrt(ratio), s.EI2_N_m2 /= std::sqrt(ratio);
         const Vector3d k = s.rest_curvature_per_m;
         s.rest_curvature_per_m = about(Vector3d::UnitZ(), -axis * degree) * k;
@@ -182,14 +184,14 @@ void add_effect(const std::string& id, Dice& dice, Undeclared& u, World& world) 
     const double at = dice.log_uniform(1.5, 4), ratio = dice.uniform(0.15, 0.5);
     u.truth[id + ".curvature_per_mm"] = at * mm, u.truth[id + ".ratio"] = ratio;
     each([=](boundary_value::Tube& t) {
-      for (Section& s : t.sections) s.softening_per_m = at, s.softened_ratio = ratio;
+      for (core::Section& s : t.sections) s.softening_per_m = at, s.softened_ratio = ratio;
     });
   } else if (id == "lumped_mass") {
     const double mass = dice.uniform(0.06, 0.4) * integrate(set.instruments[0].sections, 0, longest).mass;
     const double from_tip = dice.uniform(0, 0.4) * longest;
     u.truth[id + ".mass_g"] = mass / gram, u.truth[id + ".from_tip_mm"] = from_tip / mm;
     const Vector3d gravity = set.gravity_m_s2;
-    world.mechanics.push_back([=](const Experiment& e, boundary_value::Problem& p) {
+    world.mechanics.push_back([=](const data::Experiment& e, boundary_value::Problem& p) {
       const double at = e.set.back().inserted_m - from_tip;
       if (at > 0) p.loads.push_back({at, at, mass * gravity});
     });
@@ -197,7 +199,7 @@ void add_effect(const std::string& id, Dice& dice, Undeclared& u, World& world) 
     const double scale = std::exp(dice.either(0.15, 0.6));
     u.truth[id + ".scale"] = scale;
     each([=](boundary_value::Tube& t) {
-      for (Section& s : t.sections) s.kg_per_m *= scale;
+      for (core::Section& s : t.sections) s.kg_per_m *= scale;
     });
   } else if (id == "roll_loss") {
     const double fraction = dice.uniform(0.05, 0.3);
@@ -206,7 +208,7 @@ void add_effect(const std::string& id, Dice& dice, Undeclared& u, World& world) 
   } else if (id == "clamp_runout") {
     const Vector3d tilt(dice.either(0.3, 2.5), dice.either(0.3, 2.5), 0);
     u.truth[id + ".tilt_1_deg"] = tilt.x(), u.truth[id + ".tilt_2_deg"] = tilt.y();
-    world.mechanics.push_back([=](const Experiment& e, boundary_value::Problem& p) {
+    world.mechanics.push_back([=](const data::Experiment& e, boundary_value::Problem& p) {
       const Matrix3d rolled = about(Vector3d::UnitZ(), e.set[0].roll_rad);
       p.base_R = p.base_R * rolled * about(tilt.normalized(), tilt.norm() * degree) * rolled.transpose();
     });
@@ -219,23 +221,23 @@ void add_effect(const std::string& id, Dice& dice, Undeclared& u, World& world) 
     const Matrix3d R = about(axis, dice.uniform(0.5, 2.5) * degree);
     const Vector3d centre = set.experiments[0].base.p_W;
     world.picture.push_back(
-        [=](const Experiment&, const Vector3d& p) -> Vector3d { return centre + R * (p - centre) + shift; });
+        [=](const data::Experiment&, const Vector3d& p) -> Vector3d { return centre + R * (p - centre) + shift; });
   } else if (id == "imaging_scale") {
     const double scale = 1 + dice.either(0.015, 0.08);
     u.truth[id + ".scale"] = scale;
-    world.picture.push_back([=](const Experiment&, const Vector3d& p) -> Vector3d { return scale * p; });
+    world.picture.push_back([=](const data::Experiment&, const Vector3d& p) -> Vector3d { return scale * p; });
   } else if (id == "stress_relaxation") {
     const double f1 = dice.uniform(0.1, 0.25), t1 = dice.uniform(40, 80), f2 = dice.uniform(0.1, 0.25),
                  t2 = dice.uniform(600, 1200);
-    world.mechanics.push_back([=](const Experiment& e, boundary_value::Problem& p) {
+    world.mechanics.push_back([=](const data::Experiment& e, boundary_value::Problem& p) {
       const double t = e.elapsed_s.value_or(0);
       const double left = 1 - f1 * (1 - std::exp(-t / t1)) - f2 * (1 - std::exp(-t / t2));
-      for (Section& s : p.tubes[0].sections) s.rest_curvature_per_m *= left;
+      for (core::Section& s : p.tubes[0].sections) s.rest_curvature_per_m *= left;
     });
   } else if (id == "shaft_torsion") {
     const double compliance = dice.uniform(0.5, 2);
     u.truth[id + ".compliance"] = compliance;
-    world.mechanics.push_back([=](const Experiment& e, boundary_value::Problem& p) {
+    world.mechanics.push_back([=](const data::Experiment& e, boundary_value::Problem& p) {
       for (std::size_t i = 0; i < p.tubes.size(); ++i)
         p.tubes[i].shaft_rad_per_Nm = compliance * e.set[i].shaft_m / p.tubes[i].sections.back().GJ_N_m2;
     });
@@ -243,7 +245,7 @@ void add_effect(const std::string& id, Dice& dice, Undeclared& u, World& world) 
     u.in_library = false, u.frame = "lab";
     const double per_m = dice.uniform(0.15, 0.6) * 9.81 * set.instruments[0].sections.back().kg_per_m * dice.sign();
     const Vector3d across(0, per_m, 0);
-    world.mechanics.push_back([=](const Experiment& e, boundary_value::Problem& p) {
+    world.mechanics.push_back([=](const data::Experiment& e, boundary_value::Problem& p) {
       const double length = e.set.back().inserted_m;
       p.loads.push_back({0, length, length * across});
     });
@@ -251,21 +253,21 @@ void add_effect(const std::string& id, Dice& dice, Undeclared& u, World& world) 
     u.in_library = false, u.frame = "material";
     const double twist = dice.either(3, 10);
     each([=](boundary_value::Tube& t) {
-      for (Section& s : t.sections) s.rest_curvature_per_m.z() += twist;
+      for (core::Section& s : t.sections) s.rest_curvature_per_m.z() += twist;
     });
   } else if (id == "out:shear") {  // a picture whose pixels are not square, and sheared
     u.in_library = false, u.frame = "image";
     Matrix3d A = Matrix3d::Identity();
     A(0, 0) += dice.either(0.02, 0.06), A(1, 1) += dice.either(0.02, 0.06), A(0, 1) += dice.either(0.02, 0.06);
     A(2, 0) += dice.either(0.02, 0.06);
-    world.picture.push_back([=](const Experiment&, const Vector3d& p) -> Vector3d { return A * p; });
+    world.picture.push_back([=](const data::Experiment&, const Vector3d& p) -> Vector3d { return A * p; });
   } else if (id == "out:drift") {  // the tracker's frame wanders from one experiment to the next
     u.in_library = false, u.frame = "time";
     const Vector3d shift = dice.uniform(2, 5) * mm * dice.direction(), axis = dice.direction();
     const double turn = dice.uniform(1, 3) * degree;
     const auto n = static_cast<double>(set.experiments.size());
     const Vector3d centre = set.experiments[0].base.p_W;
-    world.picture.push_back([=](const Experiment& e, const Vector3d& p) -> Vector3d {
+    world.picture.push_back([=](const data::Experiment& e, const Vector3d& p) -> Vector3d {
       const double t = std::stod(e.id.substr(1)) / n;
       return centre + about(axis, t * turn) * (p - centre) + t * shift;
     });
@@ -273,9 +275,9 @@ void add_effect(const std::string& id, Dice& dice, Undeclared& u, World& world) 
     u.in_library = false, u.frame = "time";
     const double bend = dice.uniform(0.8, 2), side = dice.uniform(0, 2 * pi);
     const auto n = static_cast<double>(set.experiments.size());
-    world.mechanics.push_back([=](const Experiment& e, boundary_value::Problem& p) {
+    world.mechanics.push_back([=](const data::Experiment& e, boundary_value::Problem& p) {
       const double k = bend * std::stod(e.id.substr(1)) / n;
-      for (Section& s : p.tubes[0].sections)
+      for (core::Section& s : p.tubes[0].sections)
         s.rest_curvature_per_m += Vector3d(k * std::cos(side), k * std::sin(side), 0);
     });
   } else {
@@ -325,7 +327,7 @@ Undeclared undeclared_set(const std::string& kind, unsigned seed) {
   const bool curved = timed || kind.find("roll_loss") != std::string::npos;  // else nothing shows
   u.set = nested ? tubes(dice) : free_instrument(dice, curved, timed);
   Truth truth;
-  for (const MeasuredInstrument& i : u.set.instruments) {
+  for (const data::MeasuredInstrument& i : u.set.instruments) {
     truth.stiffness_scale.emplace_back();
     for (std::size_t s = 0; s < i.sections.size(); ++s)
       truth.stiffness_scale.back().push_back(s > 0 && nested ? truth.stiffness_scale.back()[0]
@@ -338,7 +340,7 @@ Undeclared undeclared_set(const std::string& kind, unsigned seed) {
     from = to + 1;
   }
   constexpr double spacing_m = 5e-3;
-  for (Experiment& e : u.set.experiments) {
+  for (data::Experiment& e : u.set.experiments) {
     boundary_value::Problem p = problem_of(u.set, e, truth);
     for (const auto& change : world.mechanics) change(e, p);
     const int points = static_cast<int>(std::ceil(p.tubes.back().inserted_m / spacing_m)) + 1;

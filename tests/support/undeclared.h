@@ -9,7 +9,7 @@
 namespace ostium::synthetic {
 
 struct Undeclared {
-  MeasurementSet set;
+  data::MeasurementSet set;
   std::vector<std::string> effects;     ///< ids that would be right; empty: a clean set, or nothing of the library
   bool in_library = true;               ///< false: the right verdict is "unexplained"
   std::string frame;                    ///< of an effect outside the library: what its signature should say

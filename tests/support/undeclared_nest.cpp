@@ -4,6 +4,7 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "core/base/units.h"
 #include "tests/support/dice.h"
 #include "tests/support/nested_chains.h"
 #include "tests/support/undeclared_tube.h"
@@ -15,15 +16,16 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-constexpr double mm = 1e-3, segment_m = 0.5e-3, points_m = 5e-3;
+using units::mm;
+constexpr double segment_m = 0.5e-3, points_m = 5e-3;
 constexpr int experiments = 12;
 
 double rounded(double length) { return segment_m * std::round(length / segment_m); }
 
-nested_chains::Tube chain_of(const MeasuredInstrument& tube, double stiffer, double inserted_m, double side) {
+nested_chains::Tube chain_of(const data::MeasuredInstrument& tube, double stiffer, double inserted_m, double side) {
   nested_chains::Tube out;
   out.inserted_m = inserted_m;
-  for (const Section& s : tube.sections)
+  for (const core::Section& s : tube.sections)
     out.pieces.push_back({s.to_tip_m, stiffer * s.EI1_N_m2, side * s.rest_curvature_per_m.y()});
   return out;
 }
@@ -33,7 +35,7 @@ nested_chains::Tube chain_of(const MeasuredInstrument& tube, double stiffer, dou
 Undeclared undeclared_play(unsigned seed) {
   Dice dice("nesting_clearance", seed);
   Undeclared u;
-  MeasurementSet& set = u.set;
+  data::MeasurementSet& set = u.set;
   set = two_tubes(1);
   set.title = "made by two chains";
   set.imaging = {};
@@ -43,7 +45,7 @@ Undeclared undeclared_play(unsigned seed) {
   for (int i = 0; i < 2; ++i) {
     auto& s = set.instruments[i].sections;
     const double nominal = dice.uniform(0.8, 1.25);
-    for (Section& c : s) c.EI1_N_m2 *= nominal, c.EI2_N_m2 *= nominal, c.GJ_N_m2 *= nominal;
+    for (core::Section& c : s) c.EI1_N_m2 *= nominal, c.EI2_N_m2 *= nominal, c.GJ_N_m2 *= nominal;
     s[0].to_tip_m = s[1].from_tip_m = rounded(dice.uniform(40, 60) * mm);
     s[0].rest_curvature_per_m = {0, i == 0 ? dice.uniform(8, 14) : dice.uniform(2, 10), 0};
     stiffer[i] = dice.uniform(0.75, 1.3);
@@ -52,12 +54,12 @@ Undeclared undeclared_play(unsigned seed) {
   u.effects = {"nesting_clearance"};
   u.truth["nesting_clearance.clearance_mm"] = play / mm;
 
-  Experiment nominal = set.experiments[0];
+  data::Experiment nominal = set.experiments[0];
   nominal.base = base_along_x({0, 0});
-  nominal.kind = Experiment::Kind::centreline;
+  nominal.kind = data::Experiment::Kind::centreline;
   set.experiments.clear();
   for (int i = 0; i < experiments; ++i) {
-    Experiment e = nominal;
+    data::Experiment e = nominal;
     e.id = "n" + std::to_string(i);
     e.place = "experiments[" + std::to_string(i) + "]";
     e.points_m.clear();

@@ -4,6 +4,7 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "core/base/units.h"
 #include "core/samples/tube.h"
 #include "tests/support/dice.h"
 #include "tests/support/pushed_chain.h"
@@ -15,7 +16,8 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-constexpr double mm = 1e-3, Nmm2 = 1e-6, plastic_kg_m3 = 1200;
+using units::mm, units::Nmm2;
+constexpr double plastic_kg_m3 = 1200;
 constexpr double coil_kg_m3 = 12000;  // platinum wound about nitinol, with the air between
 constexpr double base_x_m = 12e-3, segment_m = 0.5e-3, points_m = 5e-3, push_noise = 0.03;
 
@@ -33,11 +35,11 @@ pushed_chain::Wire drawn(Dice& dice, bool catheter) {
 
 }  // namespace
 
-MeasuredInstrument declared(const pushed_chain::Wire& wire, const std::string& name, double length_m) {
-  MeasuredInstrument out{name, length_m, wire.radius_m, 0, {}};
+data::MeasuredInstrument declared(const pushed_chain::Wire& wire, const std::string& name, double length_m) {
+  data::MeasuredInstrument out{name, length_m, wire.radius_m, 0, {}};
   double from = 0;
   for (const pushed_chain::Piece& p : wire.pieces) {
-    Section s;
+    core::Section s;
     s.from_tip_m = from, s.to_tip_m = from = std::min(p.to_tip_m, out.length_m);
     s.EI1_N_m2 = s.EI2_N_m2 = p.EI_N_m2, s.GJ_N_m2 = 0.75 * p.EI_N_m2;
     s.kg_per_m = p.kg_per_m, s.radius_m = wire.radius_m;
@@ -47,11 +49,11 @@ MeasuredInstrument declared(const pushed_chain::Wire& wire, const std::string& n
   return out;
 }
 
-EndState base_along_x(const Eigen::Vector2d& xz_m) {
+core::EndState base_along_x(const Eigen::Vector2d& xz_m) {
   Eigen::Matrix3d R;
   R << 0, 0, 1, 0, -1, 0, 1, 0, 0;
   const Eigen::Quaterniond q(R);
-  EndState out;
+  core::EndState out;
   out.q_W = {q.w(), q.x(), q.y(), q.z()};
   out.p_W = {xz_m.x(), 0, xz_m.y()};
   return out;
@@ -69,14 +71,14 @@ Undeclared undeclared_in_tube(const std::string& kind, unsigned seed) {
   const double friction = dice.uniform(0.03, 0.08);
 
   Undeclared u;
-  MeasurementSet& set = u.set;
+  data::MeasurementSet& set = u.set;
   set.title = "made by a pushed chain", set.source = "tests";
   set.instruments = {declared(wire, "instrument", 0.4)};
   set.gravity_m_s2 = {0, 0, -9.81};
   set.imaging.noise_sigma_m = (catheter ? dice.uniform(0.06, 0.12) : dice.uniform(0.1, 0.2)) * mm;
-  const auto points = verify::bend(tube.bend_radius_m, tube.angle_rad, tube.lead_m, 0.12, tube.radius_m, 1e-3);
-  set.vessel =
-      MeasuredVessel{"tube.ply", "m", friction, std::make_shared<const SurfaceDescription>(verify::tube(points, 48))};
+  const auto points = gates::bend(tube.bend_radius_m, tube.angle_rad, tube.lead_m, 0.12, tube.radius_m, 1e-3);
+  set.vessel = data::MeasuredVessel{"tube.ply", "m", friction,
+                                    std::make_shared<const core::SurfaceDescription>(gates::tube(points, 48))};
 
   pushed_chain::Setting setting{friction, {base_x_m, 0}, 9.81, segment_m};
   for (std::size_t i = 0; i < wire.pieces.size(); ++i)
@@ -97,7 +99,7 @@ Undeclared undeclared_in_tube(const std::string& kind, unsigned seed) {
   for (const pushed_chain::Rest& r : rests) hardest = std::max(hardest, std::fabs(r.push_N));
   for (std::size_t k = 0; k < rests.size(); ++k) {
     if (!rests[k].converged) throw std::runtime_error("the pushed chain comes to no rest");
-    Experiment e;
+    data::Experiment e;
     e.id = "d" + std::to_string(k);
     e.place = "experiments[" + std::to_string(k) + "]";
     e.base = base_along_x({base_x_m, 0}), e.specimen.resize(1);

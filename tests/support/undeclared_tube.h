@@ -10,8 +10,8 @@ namespace ostium::synthetic {
 Undeclared undeclared_in_tube(const std::string& kind, unsigned seed);
 
 /// The instrument that a chain is, as a file has it.
-MeasuredInstrument declared(const pushed_chain::Wire& wire, const std::string& name, double length_m);
+data::MeasuredInstrument declared(const pushed_chain::Wire& wire, const std::string& name, double length_m);
 /// A base in the chain's plane (x, z), along x: d1 is up, along z, so u2 > 0 turns the tip up.
-EndState base_along_x(const Eigen::Vector2d& xz_m);
+core::EndState base_along_x(const Eigen::Vector2d& xz_m);
 
 }  // namespace ostium::synthetic

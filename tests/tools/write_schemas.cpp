@@ -10,9 +10,9 @@ int main(int argc, char** argv) {
     std::cerr << "usage: write_schemas FOLDER\n";
     return 2;
   }
-  for (const ostium::JsonFormat& format : ostium::json_formats()) {
-    std::ofstream out(std::filesystem::path(argv[1]) / ostium::schema_file(format), std::ios::binary);
-    out << ostium::schema_text(format);
+  for (const ostium::data::JsonFormat& format : ostium::data::json_formats()) {
+    std::ofstream out(std::filesystem::path(argv[1]) / ostium::data::schema_file(format), std::ios::binary);
+    out << ostium::data::schema_text(format);
     if (!out.flush()) {
       std::cerr << argv[1] << ": cannot be written to; expected the folder of schemas, data/schemas\n";
       return 1;

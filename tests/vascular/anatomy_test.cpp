@@ -1,11 +1,11 @@
 /// The anatomy and its variants: closed, uncrossed, named, and narrowed as asked.
 #include <gtest/gtest.h>
 
-#include "vascular/box_tree.h"
-#include "vascular/patient.h"
-#include "vascular/surface_check.h"
+#include "vascular/geometry/mesh/bounding_volume_hierarchy.h"
+#include "vascular/geometry/mesh/surface_check.h"
+#include "vascular/patient/patient.h"
 
-namespace ostium {
+namespace ostium::vascular {
 namespace {
 
 void expect_sound(const AnatomyParameters& parameters) {
@@ -84,7 +84,7 @@ TEST(Lesion, NarrowsTheLumenByWhatItSaysAndOpensAgain) {
   const Patient patient = make_patient({}, lesions);
   const Mesh narrowed = patient.lumen.at(0, 0), opened = patient.lumen.at(0, 0, 1);
   EXPECT_TRUE(check_surface(narrowed).sound());
-  const BoxTree narrow(narrowed), healthy(opened);
+  const BoundingVolumeHierarchy narrow(narrowed), healthy(opened);
   for (const Lesion& lesion : lesions) {
     const NamedBranch& branch = *find_branch(patient.anatomy, lesion.branch);
     const double s = branch.from_m + lesion.from_m + lesion.length_m / 2;
@@ -142,4 +142,4 @@ TEST(SphereTree, EveryBranchHangsOnASphereOfItsParent) {
 }
 
 }  // namespace
-}  // namespace ostium
+}  // namespace ostium::vascular

@@ -1,12 +1,12 @@
 /// Centrelines found in a mesh, against those that the mesh was made from.
-#include "vascular/tree/centreline.h"
+#include "vascular/geometry/centreline/centreline.h"
 
 #include <gtest/gtest.h>
 
 #include "tests/vascular/shapes.h"
-#include "vascular/shape/contour.h"
+#include "vascular/geometry/implicit/contour.h"
 
-namespace ostium {
+namespace ostium::vascular {
 namespace {
 
 std::vector<Tube> fork() {
@@ -90,4 +90,4 @@ TEST(Centreline, WhatHasNoInsideOrIsInPiecesIsRefused) {
 }
 
 }  // namespace
-}  // namespace ostium
+}  // namespace ostium::vascular

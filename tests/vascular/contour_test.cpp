@@ -1,16 +1,17 @@
 /// Contours of shapes whose volume and area are known.
-#include "vascular/shape/contour.h"
+#include "vascular/geometry/implicit/contour.h"
 
 #include <gtest/gtest.h>
 
 #include <numbers>
 
-#include "vascular/surface_check.h"
+#include "core/base/units.h"
+#include "vascular/geometry/mesh/surface_check.h"
 
-namespace ostium {
+namespace ostium::vascular {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using units::pi;
 
 TEST(Contour, ACapsuleHasItsVolumeAndArea) {
   const double r = 2e-3, l = 20e-3;
@@ -78,4 +79,4 @@ TEST(Contour, TheGradientIsThatOfTheFunction) {
 }
 
 }  // namespace
-}  // namespace ostium
+}  // namespace ostium::vascular

@@ -1,5 +1,5 @@
 /// Meshes survive their way through files; what cannot be a surface is refused.
-#include "vascular/mesh.h"
+#include "vascular/geometry/mesh/mesh.h"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -9,9 +9,9 @@
 #include <numbers>
 
 #include "tests/vascular/shapes.h"
-#include "vascular/written_mesh.h"
+#include "vascular/geometry/mesh/written_mesh.h"
 
-namespace ostium {
+namespace ostium::vascular {
 namespace {
 
 std::string temporary(const std::string& name) {
@@ -155,4 +155,4 @@ TEST(Mesh, WhatIsNoSurfaceIsRefused) {
 }
 
 }  // namespace
-}  // namespace ostium
+}  // namespace ostium::vascular

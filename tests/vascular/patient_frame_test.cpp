@@ -1,10 +1,10 @@
-#include "vascular/patient_frame.h"
+#include "vascular/geometry/mesh/patient_frame.h"
 
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
 
-namespace ostium {
+namespace ostium::vascular {
 namespace {
 
 using Eigen::Vector3d;
@@ -25,4 +25,4 @@ TEST(PatientFrame, NeitherWayMirrorsThePatient) {
 }
 
 }  // namespace
-}  // namespace ostium
+}  // namespace ostium::vascular

@@ -1,15 +1,17 @@
 /// Heart, flow and contrast: identities, and that each answers to its cause the right way.
-#include "vascular/physiology.h"
+#include "vascular/physiology/physiology.h"
 
 #include <gtest/gtest.h>
 
 #include <numbers>
 
-#include "vascular/beat/heart_cycle.h"
-#include "vascular/treatment.h"
-#include "vascular/units.h"
+#include "core/base/units.h"
+#include "vascular/motion/heart_cycle.h"
+#include "vascular/treatment/treatment.h"
 
-namespace ostium {
+namespace ostium::vascular {
+
+using units::mL, units::mL_min, units::mmHg;
 namespace {
 
 /// A right coronary of 100 mm that gives off one branch half-way.
@@ -379,13 +381,13 @@ TEST(Physiology, AStateCopiedFieldByFieldGoesOnBitIdentically) {
   a.inputs.contrast.injection_m3_s = 1e-6;
   a.inputs.heart.irritation = 0.5;
   a.run(3.003);
-  std::vector<double> saved(count_fields(a.state));
-  put_fields(a.state, saved.data());
+  std::vector<double> saved(core::count_fields(a.state));
+  core::put_fields(a.state, saved.data());
   Body b;
   b.inputs = a.inputs;
-  take_fields(saved.data(), b.state);
+  core::take_fields(saved.data(), b.state);
   a.run(2), b.run(2);
-  EXPECT_EQ(first_different_field(a.state, b.state), "");
+  EXPECT_EQ(core::first_different_field(a.state, b.state), "");
 }
 
 TEST(Drugs, HeparinRaisesTheClottingTimeNitrateWidensAndItFades) {
@@ -409,4 +411,4 @@ TEST(Drugs, HeparinRaisesTheClottingTimeNitrateWidensAndItFades) {
 }
 
 }  // namespace
-}  // namespace ostium
+}  // namespace ostium::vascular

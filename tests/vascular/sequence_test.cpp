@@ -2,10 +2,10 @@
 /// motion that made it does.
 #include <gtest/gtest.h>
 
-#include "vascular/box_tree.h"
-#include "vascular/patient.h"
+#include "vascular/geometry/mesh/bounding_volume_hierarchy.h"
+#include "vascular/patient/patient.h"
 
-namespace ostium {
+namespace ostium::vascular {
 namespace {
 
 TEST(Sequence, OurOwnBeatComesBackFromItsSurfaces) {
@@ -26,7 +26,7 @@ TEST(Sequence, OurOwnBeatComesBackFromItsSurfaces) {
     const Mesh healthy = theirs.lumen.at(static_cast<double>(f) / beat_frames, 0, 1),
                diseased = theirs.lumen.at(static_cast<double>(f) / beat_frames, 0);
     EXPECT_NEAR(volume_m3(healthy), volume_m3(ours.lumen.at(static_cast<double>(f) / beat_frames, 0)), 1e-9);
-    const BoxTree wall(diseased);
+    const BoundingVolumeHierarchy wall(diseased);
     for (std::size_t b = 0; b < ours.tree.branches.size(); ++b)
       for (std::size_t s = 0; s < theirs.tree.branches[b].spheres.size(); ++s) {
         const TreeSphere& sphere = theirs.tree_frames[f].branches[b].spheres[s];
@@ -57,4 +57,4 @@ TEST(Sequence, OfAnotherNumberOfFramesIsResampled) {
 }
 
 }  // namespace
-}  // namespace ostium
+}  // namespace ostium::vascular

@@ -3,12 +3,12 @@
 #include <cmath>
 #include <numbers>
 
-#include "vascular/mesh.h"
+#include "vascular/geometry/mesh/mesh.h"
 
 namespace ostium::test {
 
-inline Mesh cube(double edge) {
-  Mesh m;
+inline vascular::Mesh cube(double edge) {
+  vascular::Mesh m;
   for (int i = 0; i < 8; ++i) m.vertices.emplace_back(edge * (i & 1), edge * (i >> 1 & 1), edge * (i >> 2 & 1));
   m.triangles = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6}, {0, 1, 4}, {1, 5, 4},
                  {2, 6, 3}, {3, 6, 7}, {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
@@ -16,8 +16,8 @@ inline Mesh cube(double edge) {
 }
 
 /// A sphere of 2 n columns and n rows about `centre`.
-inline Mesh sphere(double radius, int n, const Eigen::Vector3d& centre = Eigen::Vector3d::Zero()) {
-  Mesh m;
+inline vascular::Mesh sphere(double radius, int n, const Eigen::Vector3d& centre = Eigen::Vector3d::Zero()) {
+  vascular::Mesh m;
   const int columns = 2 * n;
   m.vertices.push_back(centre + radius * Eigen::Vector3d::UnitZ());
   for (int i = 1; i < n; ++i)

@@ -1,12 +1,12 @@
 /// Each fault, made on purpose, is found where it was made.
-#include "vascular/surface_check.h"
+#include "vascular/geometry/mesh/surface_check.h"
 
 #include <gtest/gtest.h>
 
 #include "tests/vascular/shapes.h"
-#include "vascular/box_tree.h"
+#include "vascular/geometry/mesh/bounding_volume_hierarchy.h"
 
-namespace ostium {
+namespace ostium::vascular {
 namespace {
 
 TEST(SurfaceCheck, ASphereIsSound) {
@@ -80,9 +80,9 @@ TEST(SurfaceCheck, ASpikeThatGoesThroughItsOwnSurface) {
   EXPECT_GT(check_surface(m).crossings.count, 0);
 }
 
-TEST(BoxTree, NearestPointOfASphere) {
+TEST(BoundingVolumeHierarchy, NearestPointOfASphere) {
   const Mesh m = test::sphere(0.01, 64);
-  const BoxTree tree(m);
+  const BoundingVolumeHierarchy tree(m);
   for (const Eigen::Vector3d& p : {Eigen::Vector3d(0.02, 0.01, 0.005), Eigen::Vector3d(0.001, -0.002, 0.003)}) {
     // The chords of 64 rows lie within r (pi/64)^2 / 8 of the arc, those of the columns as much again.
     EXPECT_NEAR(tree.nearest(p, 1).distance_m, std::fabs(p.norm() - 0.01), 0.01 * 2 * 0.0024 / 8 + 1e-9);
@@ -91,4 +91,4 @@ TEST(BoxTree, NearestPointOfASphere) {
 }
 
 }  // namespace
-}  // namespace ostium
+}  // namespace ostium::vascular

@@ -6,15 +6,18 @@
 #include <map>
 #include <numbers>
 
-#include "vascular/box_tree.h"
-#include "vascular/surface_check.h"
+#include "core/base/units.h"
+#include "vascular/geometry/mesh/bounding_volume_hierarchy.h"
+#include "vascular/geometry/mesh/surface_check.h"
 #include "vascular/thorax/shapes.h"
 
-namespace ostium {
+namespace ostium::vascular {
+
+using units::mL;
 namespace {
 
 TEST(Shapes, VolumesOfEllipsoidRodAndNet) {
-  constexpr double pi = std::numbers::pi;
+  using units::pi;
   const Mesh e = superellipsoid({0.1, 0, 0}, {0.03, 0.02, 0.01}, 2, Eigen::Matrix3d::Identity(), 40);
   EXPECT_TRUE(check_surface(e).sound());
   EXPECT_NEAR(volume_m3(e) / (4.0 / 3 * pi * 6e-6), 1, 0.01);
@@ -65,10 +68,10 @@ TEST(Thorax, SpongyBoneLiesInsideItsCortex) {
   };
   for (const char* name : {"ribs", "spine", "shoulders"}) {
     const Mesh &outer = find(name), &inner = find(std::string(name) + ", inside");
-    const BoxTree cortex(outer);
+    const BoundingVolumeHierarchy cortex(outer);
     double least = 1;
     for (std::size_t i = 0; i < inner.vertices.size(); i += 37) {
-      const BoxTree::Nearest near = cortex.nearest(inner.vertices[i], 0.02);
+      const BoundingVolumeHierarchy::Nearest near = cortex.nearest(inner.vertices[i], 0.02);
       const auto& [a, b, c] = outer.triangles[static_cast<std::size_t>(near.triangle)];
       const Eigen::Vector3d normal =
           (outer.vertices[b] - outer.vertices[a]).cross(outer.vertices[c] - outer.vertices[a]).normalized();
@@ -79,4 +82,4 @@ TEST(Thorax, SpongyBoneLiesInsideItsCortex) {
 }
 
 }  // namespace
-}  // namespace ostium
+}  // namespace ostium::vascular

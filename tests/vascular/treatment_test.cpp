@@ -1,5 +1,5 @@
 /// Balloons, stents, the wall and injuries: each outcome moves the right way when its cause is halved and doubled.
-#include "vascular/treatment.h"
+#include "vascular/treatment/treatment.h"
 
 #include <gtest/gtest.h>
 
@@ -9,12 +9,14 @@
 #include <numbers>
 #include <numeric>
 
-#include "vascular/units.h"
+#include "core/base/units.h"
 
-namespace ostium {
+namespace ostium::vascular {
+
+using units::atm, units::mL_min;
 namespace {
 
-constexpr double mm = 1e-3;
+using units::mm;
 
 struct Setting {
   double stenosis = 0.7, length_mm = 10, healthy_mm = 3;  ///< diameter
@@ -556,8 +558,8 @@ TEST(Treatment, SpasmNarrowsAndNitrateRelievesIt) {
 
 TEST(Treatment, TheSameTwiceToTheBitAndFromASavedState) {
   const auto all = [](Bench& b) {
-    std::vector<double> out(count_fields(b.state) + count_fields(b.blood));
-    put_fields(b.blood, put_fields(b.state, out.data()));
+    std::vector<double> out(core::count_fields(b.state) + core::count_fields(b.blood));
+    core::put_fields(b.blood, core::put_fields(b.state, out.data()));
     return out;
   };
   const Setting setting{.calcified = true, .stent = true, .seed = 2};
@@ -567,10 +569,10 @@ TEST(Treatment, TheSameTwiceToTheBitAndFromASavedState) {
   const std::vector<double> saved = all(a);
   a.run(-1, 4);
   Bench c(setting);
-  take_fields(take_fields(saved.data(), c.state), c.blood);
+  core::take_fields(core::take_fields(saved.data(), c.state), c.blood);
   c.run(-1, 4);
   EXPECT_EQ(all(a), all(c));
 }
 
 }  // namespace
-}  // namespace ostium
+}  // namespace ostium::vascular

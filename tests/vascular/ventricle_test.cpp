@@ -1,22 +1,22 @@
 /// The ventricle behind the valve: with it the wall is one closed surface, with a door hanging in it.
-#include "vascular/ventricle/ventricle.h"
+#include "vascular/patient/ventricle.h"
 
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
 #include <set>
 
-#include "vascular/beat/heart_cycle.h"
-#include "vascular/surface_check.h"
-#include "vascular/wall.h"
+#include "vascular/geometry/mesh/surface_check.h"
+#include "vascular/motion/heart_cycle.h"
+#include "vascular/patient/wall.h"
 
-namespace ostium {
+namespace ostium::vascular {
 namespace {
 
 using Eigen::Vector3d;
 
 /// What is left without the door, as contact has it in a frame.
-Mesh without_door(const SurfaceDescription& wall, int frame) {
+Mesh without_door(const core::SurfaceDescription& wall, int frame) {
   const std::set<int> door(wall.door.begin(), wall.door.end());
   Mesh mesh{.vertices = wall.frames[static_cast<std::size_t>(frame)], .triangles = {}};
   for (int t = 0; t < static_cast<int>(wall.triangles.size()); ++t)
@@ -40,7 +40,7 @@ class VentricleOf : public testing::TestWithParam<int> {};
 TEST_P(VentricleOf, IsOneClosedSurfaceWithTheLumenThroughoutTheBeat) {
   const Patient patient =
       make_patient(GetParam() == 0 ? AnatomyParameters{} : person(static_cast<std::uint64_t>(GetParam()), {}), {});
-  SurfaceDescription wall = wall_of(patient.lumen);
+  core::SurfaceDescription wall = wall_of(patient.lumen);
   const std::size_t triangles = wall.triangles.size();
   const double lumen_m3 = volume_m3({wall.frames[0], wall.triangles});
   const Ventricle ventricle = add_ventricle(patient, wall);
@@ -80,7 +80,7 @@ INSTANTIATE_TEST_SUITE_P(People, VentricleOf, testing::Values(0, 3));
 
 TEST(Ventricle, OfAMeshWithoutAFloorThereIsNone) {
   Patient patient = make_patient(AnatomyParameters{}, {});
-  SurfaceDescription wall = wall_of(patient.lumen);
+  core::SurfaceDescription wall = wall_of(patient.lumen);
   const std::size_t triangles = wall.triangles.size();
   patient.anatomy.landmarks.p_annulus += 0.05 * patient.anatomy.landmarks.root_axis;
   EXPECT_TRUE(add_ventricle(patient, wall).spheres.empty());
@@ -89,4 +89,4 @@ TEST(Ventricle, OfAMeshWithoutAFloorThereIsNone) {
 }
 
 }  // namespace
-}  // namespace ostium
+}  // namespace ostium::vascular

@@ -7,7 +7,7 @@
 
 #include "vascular/anatomy/builder.h"
 
-namespace ostium {
+namespace ostium::vascular {
 
 namespace {
 
@@ -138,4 +138,4 @@ const NamedBranch* find_branch(const Anatomy& anatomy, const std::string& name) 
   return nullptr;
 }
 
-}  // namespace ostium
+}  // namespace ostium::vascular

@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "vascular/anatomy/parameters.h"
-#include "vascular/shape/tube.h"
+#include "vascular/geometry/implicit/tube.h"
 
-namespace ostium {
+namespace ostium::vascular {
 
 /// A stretch of a tube that has a name of its own: the left main and the LAD are one tube.
 struct NamedBranch {
@@ -46,4 +46,4 @@ Anatomy build_anatomy(const AnatomyParameters& parameters);
 /// Null if there is none of that name.
 const NamedBranch* find_branch(const Anatomy& anatomy, const std::string& name);
 
-}  // namespace ostium
+}  // namespace ostium::vascular

@@ -3,13 +3,13 @@
 
 #include "vascular/anatomy/builder.h"
 
-namespace ostium {
+namespace ostium::vascular {
 
 namespace {
 
-std::vector<CoursePoint> course(const std::vector<Row>& rows) {
+std::vector<CoursePoint> course(const std::vector<TableRow>& rows) {
   std::vector<CoursePoint> points;
-  for (const Row& r : rows) points.push_back({Eigen::Vector3d(r.x, r.y, r.z) * 1e-3, r.diameter_mm / 2e3});
+  for (const TableRow& r : rows) points.push_back({Eigen::Vector3d(r.x, r.y, r.z) * 1e-3, r.diameter_mm / 2e3});
   return points;
 }
 
@@ -30,21 +30,21 @@ void add_sinuses(AnatomyBuilder& builder, const Root& root, double sinus_mm) {
 }
 
 void add_arch_branches(AnatomyBuilder& builder, bool radial, Landmarks& marks) {
-  std::vector<Row> right = {
+  std::vector<TableRow> right = {
       {-15, 66, -1, 12}, {-20, 84, -1, 12}, {-29, 104, -6, 11}, {-46, 119, -16, 9.3}, {-78, 118, -28, 8.6}};
   if (!radial) {
     right.back().diameter_mm = 8.4;
     builder.add("right subclavian", 0, course(right), 0.8);
   } else {
-    for (const Row& row : std::vector<Row>{{-112, 99, -38, 7.2},
-                                           {-146, 64, -46, 6.2},
-                                           {-166, 10, -52, 5.2},
-                                           {-184, -75, -55, 4.6},
-                                           {-206, -160, -50, 4.3},
-                                           {-220, -215, -40, 3.4},
-                                           {-232, -300, -32, 2.9},
-                                           {-243, -385, -25, 2.6},
-                                           {-247, -412, -22, 2.6}})
+    for (const TableRow& row : std::vector<TableRow>{{-112, 99, -38, 7.2},
+                                                     {-146, 64, -46, 6.2},
+                                                     {-166, 10, -52, 5.2},
+                                                     {-184, -75, -55, 4.6},
+                                                     {-206, -160, -50, 4.3},
+                                                     {-220, -215, -40, 3.4},
+                                                     {-232, -300, -32, 2.9},
+                                                     {-243, -385, -25, 2.6},
+                                                     {-247, -412, -22, 2.6}})
       right.push_back(row);
     builder.add("right arm", 0, course(right), 0.8);
     builder.name_trunk("right subclavian", mm(-112, 99, -38));
@@ -103,21 +103,21 @@ void add_aorta(AnatomyBuilder& builder, const Root& root, const AnatomyParameter
     aorta.push_back(point(at, diameters_mm[i]));
   }
   const double d = p.diaphragm_mm, i = p.infrarenal_mm;
-  std::vector<Row> down = {{16, -10, -58, 0}, {14, -60, -58, 0}, {9, -110, -55, d}, {5, -150, -52, 0.92 * d}};
+  std::vector<TableRow> down = {{16, -10, -58, 0}, {14, -60, -58, 0}, {9, -110, -55, d}, {5, -150, -52, 0.92 * d}};
   if (p.access == Access::femoral) {
     const double cia = p.common_iliac_mm, eia = p.external_iliac_mm, cfa = p.femoral_mm;
-    for (const Row& row : std::vector<Row>{{2, -190, -44, 0.5 * (0.8 * d + i)},
-                                           {0, -230, -36, i},
-                                           {-1, -262, -33, i},
-                                           {-5, -283, -36, 0.85 * i},
-                                           {-14, -298, -42, cia},
-                                           {-29, -316, -54, 0.95 * cia},
-                                           {-40, -339, -56, eia},
-                                           {-57, -373, -26, eia},
-                                           {-72, -401, 2, eia},
-                                           {-78, -421, 12, cfa},
-                                           {-81, -446, 12, cfa},
-                                           {-82, -470, 6, 0.9 * cfa}})
+    for (const TableRow& row : std::vector<TableRow>{{2, -190, -44, 0.5 * (0.8 * d + i)},
+                                                     {0, -230, -36, i},
+                                                     {-1, -262, -33, i},
+                                                     {-5, -283, -36, 0.85 * i},
+                                                     {-14, -298, -42, cia},
+                                                     {-29, -316, -54, 0.95 * cia},
+                                                     {-40, -339, -56, eia},
+                                                     {-57, -373, -26, eia},
+                                                     {-72, -401, 2, eia},
+                                                     {-78, -421, 12, cfa},
+                                                     {-81, -446, 12, cfa},
+                                                     {-82, -470, 6, 0.9 * cfa}})
       down.push_back(row);
   } else {
     down.push_back({2, -190, -44, 0.5 * (0.8 * d + i)});
@@ -130,4 +130,4 @@ void add_aorta(AnatomyBuilder& builder, const Root& root, const AnatomyParameter
   if (p.access == Access::femoral) add_abdomen(builder, p, marks);
 }
 
-}  // namespace ostium
+}  // namespace ostium::vascular

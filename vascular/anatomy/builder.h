@@ -6,10 +6,10 @@
 #include "vascular/anatomy/anatomy.h"
 #include "vascular/anatomy/root.h"
 
-namespace ostium {
+namespace ostium::vascular {
 
 /// A point of a course in mm and the diameter there, 0 where it is interpolated.
-struct Row {
+struct TableRow {
   double x, y, z, diameter_mm;
 };
 
@@ -30,4 +30,4 @@ class AnatomyBuilder {
 void add_aorta(AnatomyBuilder& builder, const Root& root, const AnatomyParameters& parameters, Landmarks& landmarks);
 void add_coronaries(AnatomyBuilder& builder, const Root& root, const AnatomyParameters& parameters);
 
-}  // namespace ostium
+}  // namespace ostium::vascular

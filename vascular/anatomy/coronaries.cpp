@@ -11,7 +11,7 @@
 
 #include "vascular/anatomy/builder.h"
 
-namespace ostium {
+namespace ostium::vascular {
 
 namespace {
 
@@ -84,28 +84,29 @@ class Coronaries {
   void add_right() {
     const double d = p_.rca_proximal_mm, k = p_.side_branch_scale;
     const bool reaches_crux = p_.dominance != Dominance::left;
-    std::vector<Row> rows = {{-1.9, -0.8, 3.7, d},      {-5.4, -2.4, 5.1, d},          {-14.4, -6.9, 6, 0.98 * d},
-                             {-24, -19, 9.8, 0.93 * d}, {-29.3, -34.2, 9.5, 0.87 * d}, {-28.6, -48.5, 6, 0.8 * d}};
+    std::vector<TableRow> rows = {{-1.9, -0.8, 3.7, d},      {-5.4, -2.4, 5.1, d},          {-14.4, -6.9, 6, 0.98 * d},
+                                  {-24, -19, 9.8, 0.93 * d}, {-29.3, -34.2, 9.5, 0.87 * d}, {-28.6, -48.5, 6, 0.8 * d}};
     if (reaches_crux) {
-      for (const Row& row : std::vector<Row>{{-23.2, -58, -1, 0.75 * d}, {-13.5, -61.5, -12.5, 0.7 * d}})
+      for (const TableRow& row : std::vector<TableRow>{{-23.2, -58, -1, 0.75 * d}, {-13.5, -61.5, -12.5, 0.7 * d}})
         rows.push_back(row);
       if (p_.dominance == Dominance::right)
-        for (const Row& row : std::vector<Row>{{-0.3, -57.2, -25, 0.56 * d},
-                                               {7, -57.5, -31, 0.5 * d},
-                                               {15.5, -61.5, -35.5, 0.46 * d},
-                                               {25.7, -66.6, -36.7, 0.4 * d},
-                                               {37, -69, -31, 0},
-                                               {47, -70, -22, 1.1 * k}})
+        for (const TableRow& row : std::vector<TableRow>{{-0.3, -57.2, -25, 0.56 * d},
+                                                         {7, -57.5, -31, 0.5 * d},
+                                                         {15.5, -61.5, -35.5, 0.46 * d},
+                                                         {25.7, -66.6, -36.7, 0.4 * d},
+                                                         {37, -69, -31, 0},
+                                                         {47, -70, -22, 1.1 * k}})
           rows.push_back(row);
       else
-        for (const Row& row : std::vector<Row>{{-5, -66, -12, 0.5 * d},
-                                               {7, -70, -5, 0.45 * d},
-                                               {18.1, -73.8, 3.2, 1.5 * k},
-                                               {33, -77, 14, 0},
-                                               {43, -78.5, 25, 1.1 * k}})
+        for (const TableRow& row : std::vector<TableRow>{{-5, -66, -12, 0.5 * d},
+                                                         {7, -70, -5, 0.45 * d},
+                                                         {18.1, -73.8, 3.2, 1.5 * k},
+                                                         {33, -77, 14, 0},
+                                                         {43, -78.5, 25, 1.1 * k}})
           rows.push_back(row);
     } else {
-      for (const Row& row : std::vector<Row>{{-23.2, -58, -1, 1.5 * k}, {-15, -62, -9, 1.1 * k}}) rows.push_back(row);
+      for (const TableRow& row : std::vector<TableRow>{{-23.2, -58, -1, 1.5 * k}, {-15, -62, -9, 1.1 * k}})
+        rows.push_back(row);
     }
     std::vector<CoursePoint> course = from_right(rows);
     course.insert(course.begin(),
@@ -139,10 +140,10 @@ class Coronaries {
 
  private:
   void add_circumflex(double d) {
-    std::vector<Row> rows = {{11.2, -0.5, 3, d},           {13.5, -2.7, 0.9, d},
-                             {16.2, -7.2, -1.6, 0.98 * d}, {18.6, -11.6, -4.6, 0.94 * d},
-                             {22, -18.7, -10.8, 0.8 * d},  {23, -26, -15.2, 0.7 * d},
-                             {22, -36.8, -21, 0.55 * d}};
+    std::vector<TableRow> rows = {{11.2, -0.5, 3, d},           {13.5, -2.7, 0.9, d},
+                                  {16.2, -7.2, -1.6, 0.98 * d}, {18.6, -11.6, -4.6, 0.94 * d},
+                                  {22, -18.7, -10.8, 0.8 * d},  {23, -26, -15.2, 0.7 * d},
+                                  {22, -36.8, -21, 0.55 * d}};
     const double k = p_.side_branch_scale;
     if (p_.dominance == Dominance::right) {
       rows.push_back({17.5, -45, -22.5, 0.45 * d});
@@ -153,8 +154,8 @@ class Coronaries {
       rows.push_back({4.6, -57.5, -18.6, 0.6 * d});
       if (p_.dominance == Dominance::left) {
         rows.push_back({-6, -66, -8, 0.54 * d});
-        for (const Row& row :
-             std::vector<Row>{{-5, -74.5, 5, 0.48 * d}, {5, -82, 18, 2}, {18, -88, 33, 0}, {31, -90, 48, 1.2}})
+        for (const TableRow& row :
+             std::vector<TableRow>{{-5, -74.5, 5, 0.48 * d}, {5, -82, 18, 2}, {18, -88, 33, 0}, {31, -90, 48, 1.2}})
           rows.push_back(row);
       } else {
         rows.push_back({-2, -62.5, -12.5, 1.4});
@@ -189,21 +190,21 @@ class Coronaries {
            {{10, -53, -21, 1.9 * k}, {12, -65, -18.5, 1.8 * k}, {15.5, -77, -11.5, 1.5 * k}, {25, -84, -2, 1.1 * k}});
   }
 
-  std::vector<CoursePoint> placed(const std::vector<Row>& rows, bool right) const {
+  std::vector<CoursePoint> placed(const std::vector<TableRow>& rows, bool right) const {
     std::vector<CoursePoint> course;
-    for (const Row& r : rows) {
+    for (const TableRow& r : rows) {
       const Eigen::Vector3d p(r.x, r.y, r.z);
       course.push_back({right ? root_.from_right(p) : root_.from_left(p), r.diameter_mm / 2e3});
     }
     return course;
   }
-  std::vector<CoursePoint> from_left(const std::vector<Row>& rows) const { return placed(rows, false); }
-  std::vector<CoursePoint> from_right(const std::vector<Row>& rows) const { return placed(rows, true); }
+  std::vector<CoursePoint> from_left(const std::vector<TableRow>& rows) const { return placed(rows, false); }
+  std::vector<CoursePoint> from_right(const std::vector<TableRow>& rows) const { return placed(rows, true); }
 
-  void side(const char* name, const char* parent, const std::vector<Row>& rows) {
+  void side(const char* name, const char* parent, const std::vector<TableRow>& rows) {
     builder_.add(name, builder_.tube(parent), wandering(from_left(rows), 2), 0.8);
   }
-  void right_side(const char* name, const char* parent, const std::vector<Row>& rows) {
+  void right_side(const char* name, const char* parent, const std::vector<TableRow>& rows) {
     builder_.add(name, builder_.tube(parent), wandering(from_right(rows), 2), 0.8);
   }
 
@@ -240,4 +241,4 @@ void add_coronaries(AnatomyBuilder& builder, const Root& root, const AnatomyPara
   coronaries.add_right();
 }
 
-}  // namespace ostium
+}  // namespace ostium::vascular

@@ -7,11 +7,13 @@
 #include <numbers>
 #include <stdexcept>
 
-namespace ostium {
+#include "core/base/units.h"
+
+namespace ostium::vascular {
 
 namespace {
 
-constexpr double mm = 1e-3;
+using units::mm;
 constexpr double shoulder = 0.3;  // share of the length in which the narrowing sets in, at either end
 
 /// 0 at the ends, 1 between the shoulders, with a continuous slope.
@@ -98,4 +100,4 @@ Eigen::Vector3d diseased(const Anatomy& anatomy, const std::vector<Lesion>& lesi
   return moved;
 }
 
-}  // namespace ostium
+}  // namespace ostium::vascular

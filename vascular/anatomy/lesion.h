@@ -5,7 +5,7 @@
 
 #include "vascular/anatomy/anatomy.h"
 
-namespace ostium {
+namespace ostium::vascular {
 
 struct Lesion {
   std::string branch;      ///< name, as the anatomy has it
@@ -38,4 +38,4 @@ Narrowing narrowing_at(const Anatomy& anatomy, const std::vector<Lesion>& lesion
 Eigen::Vector3d diseased(const Anatomy& anatomy, const std::vector<Lesion>& lesions, const Eigen::Vector3d& p,
                          const std::vector<TubeShare>& shares);
 
-}  // namespace ostium
+}  // namespace ostium::vascular

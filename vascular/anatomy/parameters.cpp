@@ -4,7 +4,7 @@
 #include <cmath>
 #include <random>
 
-namespace ostium {
+namespace ostium::vascular {
 
 namespace {
 
@@ -76,4 +76,4 @@ AnatomyParameters person(std::uint64_t seed, const AnatomyParameters& base) {
   return p;
 }
 
-}  // namespace ostium
+}  // namespace ostium::vascular

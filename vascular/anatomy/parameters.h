@@ -3,7 +3,7 @@
 #include <Eigen/Core>
 #include <cstdint>
 
-namespace ostium {
+namespace ostium::vascular {
 
 enum class Dominance { right, left, balanced };
 enum class Access { femoral, radial };
@@ -49,4 +49,4 @@ AnatomyParameters person(std::uint64_t seed, const AnatomyParameters& base);
 /// The mean of a dominance: diameters as published for it.
 AnatomyParameters mean_of(Dominance dominance, Access access = Access::femoral);
 
-}  // namespace ostium
+}  // namespace ostium::vascular

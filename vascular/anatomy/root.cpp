@@ -1,6 +1,6 @@
 #include "vascular/anatomy/root.h"
 
-namespace ostium {
+namespace ostium::vascular {
 
 namespace {
 
@@ -38,4 +38,4 @@ Root make_root(const AnatomyParameters& parameters) {
   return root;
 }
 
-}  // namespace ostium
+}  // namespace ostium::vascular

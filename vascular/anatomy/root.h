@@ -4,7 +4,7 @@
 
 #include "vascular/anatomy/parameters.h"
 
-namespace ostium {
+namespace ostium::vascular {
 
 /// Where both ostia and the annulus are. The root's axis makes 48 degrees with the vertical and lies so that the
 /// annulus is seen edge-on in LAO 10, AP/CAU 11 and RAO 15/CAU 25; the ostia are 14.4 (left) and 18.2 mm (right) above
@@ -23,4 +23,4 @@ struct Root {
 
 Root make_root(const AnatomyParameters& parameters);
 
-}  // namespace ostium
+}  // namespace ostium::vascular

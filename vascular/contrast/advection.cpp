@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace ostium {
+namespace ostium::vascular {
 
 void carry(std::span<const double> mass, std::span<const double> volume, std::span<const double> passing_m3,
            double inlet_kg_m3, std::span<double> through_kg, CarryScratch& x) {
@@ -31,4 +31,4 @@ void carry(std::span<const double> mass, std::span<const double> volume, std::sp
   }
 }
 
-}  // namespace ostium
+}  // namespace ostium::vascular

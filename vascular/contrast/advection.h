@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-namespace ostium {
+namespace ostium::vascular {
 
 struct CarryScratch {
   std::vector<double> kg_m3, slope;
@@ -19,4 +19,4 @@ struct CarryScratch {
 void carry(std::span<const double> mass, std::span<const double> volume, std::span<const double> passing_m3,
            double inlet_kg_m3, std::span<double> through_kg, CarryScratch& scratch);
 
-}  // namespace ostium
+}  // namespace ostium::vascular

@@ -4,13 +4,14 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/base/units.h"
 #include "vascular/contrast/contrast_step.h"
 
-namespace ostium {
+namespace ostium::vascular {
 
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using units::pi;
 
 std::array<double, layers> poiseuille_shares() {
   std::array<double, layers> share;
@@ -91,4 +92,4 @@ double accounted_kg(const ContrastState& s) {
   return sum;
 }
 
-}  // namespace ostium
+}  // namespace ostium::vascular

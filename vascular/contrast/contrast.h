@@ -11,7 +11,7 @@
 #include "vascular/contrast/advection.h"
 #include "vascular/flow/flow.h"
 
-namespace ostium {
+namespace ostium::vascular {
 
 inline constexpr int layers = 4;
 inline constexpr int line_cells = 64;
@@ -50,8 +50,8 @@ struct TipPlace {
   double into_ostium = 0;  ///< [0, 1]: in a sinus, the share of the jet that meets the ostium
 };
 constexpr auto fields(const TipPlace*) {
-  return std::tuple{field("where", &TipPlace::where), field("cell", &TipPlace::cell),
-                    field("into_ostium", &TipPlace::into_ostium)};
+  return std::tuple{core::field("where", &TipPlace::where), core::field("cell", &TipPlace::cell),
+                    core::field("into_ostium", &TipPlace::into_ostium)};
 }
 
 struct ContrastInputs {
@@ -78,12 +78,12 @@ struct ContrastState {
 };
 constexpr auto fields(const ContrastState*) {
   using S = ContrastState;
-  return std::tuple{field("line_kg", &S::line_kg),         field("sheath_kg", &S::sheath_kg),
-                    field("aorta_kg", &S::aorta_kg),       field("sinus_kg", &S::sinus_kg),
-                    field("injected_kg", &S::injected_kg), field("injected_m3", &S::injected_m3),
-                    field("from_tip_kg", &S::from_tip_kg), field("aspirated_kg", &S::aspirated_kg),
-                    field("muscle_kg", &S::muscle_kg),     field("carried_kg", &S::carried_kg),
-                    field("outside_kg", &S::outside_kg)};
+  return std::tuple{core::field("line_kg", &S::line_kg),         core::field("sheath_kg", &S::sheath_kg),
+                    core::field("aorta_kg", &S::aorta_kg),       core::field("sinus_kg", &S::sinus_kg),
+                    core::field("injected_kg", &S::injected_kg), core::field("injected_m3", &S::injected_m3),
+                    core::field("from_tip_kg", &S::from_tip_kg), core::field("aspirated_kg", &S::aspirated_kg),
+                    core::field("muscle_kg", &S::muscle_kg),     core::field("carried_kg", &S::carried_kg),
+                    core::field("outside_kg", &S::outside_kg)};
 }
 ContrastState make_contrast_state(const ContrastModel& model, const FlowModel& flow);
 
@@ -116,4 +116,4 @@ double aorta_concentration(const ContrastModel& model, const ContrastState& stat
 /// All iodine: in the line, the vessels and wherever it went; equals injected_kg.
 double accounted_kg(const ContrastState& state);
 
-}  // namespace ostium
+}  // namespace ostium::vascular

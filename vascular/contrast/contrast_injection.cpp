@@ -2,13 +2,14 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/base/units.h"
 #include "vascular/contrast/contrast_step.h"
 
-namespace ostium {
+namespace ostium::vascular {
 
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using units::pi;
 
 /// The line holds what was pushed or drawn into it; `mass` lists it from where it enters. Returns what leaves it.
 double push(double volume_m3, double entering_kg_m3, double dead_m3, ContrastScratch& x) {
@@ -111,4 +112,4 @@ void ContrastStep::aspirate() {
   if (from) *from -= kg;
 }
 
-}  // namespace ostium
+}  // namespace ostium::vascular

@@ -4,7 +4,7 @@
 
 #include "vascular/contrast/contrast.h"
 
-namespace ostium {
+namespace ostium::vascular {
 
 inline constexpr double least_m3 = 1e-13;  // of a cell
 
@@ -43,4 +43,4 @@ struct ContrastStep {
   void run_aorta();
 };
 
-}  // namespace ostium
+}  // namespace ostium::vascular

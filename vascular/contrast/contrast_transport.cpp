@@ -2,13 +2,14 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/base/units.h"
 #include "vascular/contrast/contrast_step.h"
 
-namespace ostium {
+namespace ostium::vascular {
 
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using units::pi;
 constexpr double thickest_kg_m3 = 400;  // beyond it a cell has lost volume: what is too much is pushed upstream
 constexpr double traces_kg = 1e-16;     // of a cell: no one sees them, and they cost time
 
@@ -152,4 +153,4 @@ ContrastReport step(const ContrastModel& model, const BloodNow& now, const Contr
   return run.report;
 }
 
-}  // namespace ostium
+}  // namespace ostium::vascular

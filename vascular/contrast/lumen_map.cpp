@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-namespace ostium {
+namespace ostium::vascular {
 
 namespace {
 
@@ -106,4 +106,4 @@ LumenMap make_lumen_map(const Patient& patient, const FlowModel& flow) {
   return map;
 }
 
-}  // namespace ostium
+}  // namespace ostium::vascular

@@ -6,7 +6,7 @@
 
 #include "vascular/contrast/contrast.h"
 
-namespace ostium {
+namespace ostium::vascular {
 
 /// Between two neighbouring cells, of the coronaries or of the aorta; or a sinus. `none`: a vessel without contrast,
 /// that leaves the aorta at `below`.
@@ -39,4 +39,4 @@ struct LumenMap {
 };
 LumenMap make_lumen_map(const Patient& patient, const FlowModel& flow);
 
-}  // namespace ostium
+}  // namespace ostium::vascular

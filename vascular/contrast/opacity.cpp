@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace ostium {
+namespace ostium::vascular {
 
 namespace {
 
@@ -101,4 +101,4 @@ void opacify(const LumenMap& map, const OpacityInputs& in, Opacity out, OpacityS
   }
 }
 
-}  // namespace ostium
+}  // namespace ostium::vascular

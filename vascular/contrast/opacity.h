@@ -4,7 +4,7 @@
 
 #include "vascular/contrast/lumen_map.h"
 
-namespace ostium {
+namespace ostium::vascular {
 
 struct OpacityInputs {
   const FlowModel& flow;
@@ -30,4 +30,4 @@ struct OpacityScratch {
 
 void opacify(const LumenMap& map, const OpacityInputs& inputs, Opacity out, OpacityScratch& scratch);
 
-}  // namespace ostium
+}  // namespace ostium::vascular

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace ostium {
+namespace ostium::vascular {
 
 namespace {
 
@@ -44,4 +44,4 @@ const char* trace_name(Trace trace) {
   return names[static_cast<int>(trace)];
 }
 
-}  // namespace ostium
+}  // namespace ostium::vascular

@@ -6,7 +6,7 @@
 /// diastolic fall, wide pulse, no notch); contrast or a thick wire in the lumen leaves none.
 #include "vascular/contrast/contrast.h"
 
-namespace ostium {
+namespace ostium::vascular {
 
 enum class Trace { normal, damped, ventricularised, ventricle, absent };
 
@@ -35,19 +35,19 @@ struct TipPressureState {
 };
 constexpr auto fields(const TipPressureState*) {
   using S = TipPressureState;
-  return std::tuple{field("reading_Pa", &S::reading_Pa),
-                    field("low_Pa", &S::low_Pa),
-                    field("high_Pa", &S::high_Pa),
-                    field("sum_Pa", &S::sum_Pa),
-                    field("count", &S::count),
-                    field("aorta_low_Pa", &S::aorta_low_Pa),
-                    field("aorta_high_Pa", &S::aorta_high_Pa),
-                    field("trace", &S::trace),
-                    field("mean_Pa", &S::mean_Pa),
-                    field("pulse_Pa", &S::pulse_Pa)};
+  return std::tuple{core::field("reading_Pa", &S::reading_Pa),
+                    core::field("low_Pa", &S::low_Pa),
+                    core::field("high_Pa", &S::high_Pa),
+                    core::field("sum_Pa", &S::sum_Pa),
+                    core::field("count", &S::count),
+                    core::field("aorta_low_Pa", &S::aorta_low_Pa),
+                    core::field("aorta_high_Pa", &S::aorta_high_Pa),
+                    core::field("trace", &S::trace),
+                    core::field("mean_Pa", &S::mean_Pa),
+                    core::field("pulse_Pa", &S::pulse_Pa)};
 }
 
 void step(const TipPressureModel& model, const TipPressureInputs& inputs, double dt_s, TipPressureState& state);
 const char* trace_name(Trace trace);
 
-}  // namespace ostium
+}  // namespace ostium::vascular

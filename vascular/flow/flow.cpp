@@ -5,14 +5,16 @@
 #include <cmath>
 #include <numbers>
 
-#include "vascular/beat/heart_cycle.h"
-#include "vascular/units.h"
+#include "core/base/units.h"
+#include "vascular/motion/heart_cycle.h"
 
-namespace ostium {
+namespace ostium::vascular {
 
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using units::mmHg;
+
+using units::pi;
 constexpr double exponent = 2.6;       // of the diameter
 constexpr double shut_m = 15e-6;       // a gap as narrow lets no blood through
 constexpr double shut_Pa_s_m3 = 1e19;  // its resistance
@@ -226,4 +228,4 @@ double ffr_model(const FlowModel& model, std::span<const double> radius_m, int c
   return s.pressure_Pa[cell] / mean.aorta_Pa;
 }
 
-}  // namespace ostium
+}  // namespace ostium::vascular

@@ -19,7 +19,7 @@
 
 #include "vascular/flow/flow_tree.h"
 
-namespace ostium {
+namespace ostium::vascular {
 
 struct FlowModel {
   FlowTree tree;
@@ -56,9 +56,9 @@ struct FlowState {
 };
 constexpr auto fields(const FlowState*) {
   using S = FlowState;
-  return std::tuple{field("flow_m3_s", &S::flow_m3_s), field("pressure_Pa", &S::pressure_Pa),
-                    field("leak_m3_s", &S::leak_m3_s), field("tone", &S::tone),
-                    field("mean_m3_s", &S::mean_m3_s), field("no_reflow", &S::no_reflow)};
+  return std::tuple{core::field("flow_m3_s", &S::flow_m3_s), core::field("pressure_Pa", &S::pressure_Pa),
+                    core::field("leak_m3_s", &S::leak_m3_s), core::field("tone", &S::tone),
+                    core::field("mean_m3_s", &S::mean_m3_s), core::field("no_reflow", &S::no_reflow)};
 }
 FlowState make_flow_state(const FlowModel& model);
 
@@ -79,4 +79,4 @@ double ffr_model(const FlowModel& model, std::span<const double> radius_m, int c
 /// Cross-section that is left for blood, m2.
 double free_area_m2(double radius_m, double occupied_m);
 
-}  // namespace ostium
+}  // namespace ostium::vascular

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <stdexcept>
 
-namespace ostium {
+namespace ostium::vascular {
 
 namespace {
 
@@ -181,4 +181,4 @@ FlowTree plain_tree(const std::vector<PlainBranch>& branches) {
   return tree;
 }
 
-}  // namespace ostium
+}  // namespace ostium::vascular

@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "vascular/heart/ecg.h"
-#include "vascular/patient.h"
+#include "vascular/patient/patient.h"
 
-namespace ostium {
+namespace ostium::vascular {
 
 struct FlowCell {
   int branch = 0;     ///< of FlowTree::branches
@@ -82,4 +82,4 @@ struct PlainBranch {
 };
 FlowTree plain_tree(const std::vector<PlainBranch>& branches);
 
-}  // namespace ostium
+}  // namespace ostium::vascular

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "vascular/beat/heart_cycle.h"
-#include "vascular/random.h"
+#include "core/base/random.h"
+#include "vascular/motion/heart_cycle.h"
 
-namespace ostium {
+namespace ostium::vascular {
 
 namespace {
 
@@ -40,10 +40,10 @@ IschaemiaModel ischaemia_of(std::uint64_t seed) {
   IschaemiaModel model;
   if (seed == 0) return model;
   for (int i = 0; i < territories; ++i) {
-    const double u = uniform(seed, 21, static_cast<std::uint64_t>(i));
+    const double u = core::uniform(seed, 21, static_cast<std::uint64_t>(i));
     model.ST_mV[static_cast<std::size_t>(i)] = u < 1.0 / 3 ? 0.09 * 3 * u : 0.15 + 0.3 * (u - 1.0 / 3);
   }
-  model.time_s *= 0.6 + 0.8 * uniform(seed, 22, 0);
+  model.time_s *= 0.6 + 0.8 * core::uniform(seed, 22, 0);
   return model;
 }
 
@@ -97,4 +97,4 @@ double ST_shift_mV(const IschaemiaModel& model, const IschaemiaState& ischaemia)
   return largest;
 }
 
-}  // namespace ostium
+}  // namespace ostium::vascular

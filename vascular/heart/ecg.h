@@ -5,7 +5,7 @@
 
 #include "vascular/heart/heart.h"
 
-namespace ostium {
+namespace ostium::vascular {
 
 /// Coronary territories.
 enum class Territory { lad, lcx, rca };
@@ -31,7 +31,7 @@ struct IschaemiaState {
   std::array<double, territories> early{}, late{};  ///< [0, 1]
 };
 constexpr auto fields(const IschaemiaState*) {
-  return std::tuple{field("early", &IschaemiaState::early), field("late", &IschaemiaState::late)};
+  return std::tuple{core::field("early", &IschaemiaState::early), core::field("late", &IschaemiaState::late)};
 }
 /// `supply`: flow over need, of each territory; 1 and above is enough.
 void step(const IschaemiaModel& model, const std::array<double, territories>& supply, double dt_s, IschaemiaState& s);
@@ -43,4 +43,4 @@ std::array<double, leads> ecg(const HeartState& heart, double rate_1_min, const 
 /// The largest ST shift, either way, mV.
 double ST_shift_mV(const IschaemiaModel& model, const IschaemiaState& ischaemia);
 
-}  // namespace ostium
+}  // namespace ostium::vascular

@@ -4,16 +4,18 @@
 #include <cmath>
 #include <numbers>
 
-#include "vascular/beat/heart_cycle.h"
-#include "vascular/beat/heart_motion.h"
-#include "vascular/random.h"
-#include "vascular/units.h"
+#include "core/base/random.h"
+#include "core/base/units.h"
+#include "vascular/motion/heart_cycle.h"
+#include "vascular/motion/heart_motion.h"
 
-namespace ostium {
+namespace ostium::vascular {
 
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using units::mmHg;
+
+using units::pi;
 constexpr double opens = 0.07, closes = 0.35;      // phases of the aortic valve
 constexpr double closure = 0.02, returned = 0.03;  // its return flow: how long, and of the stroke
 constexpr double filling_needed_s = 0.55;          // of diastole for a whole stroke
@@ -53,7 +55,7 @@ double filling_pressure_Pa(double phase) {
 void step(const HeartModel& model, const HeartInputs& inputs, double dt_s, HeartState& s) {
   if (inputs.irritation > 0 && !s.next_ectopic && s.phase > earliest_ectopic && s.phase < latest_ectopic) {
     const double p = 1 - std::exp(-model.ectopic_per_s * std::min(inputs.irritation, 1.0) * dt_s);
-    if (uniform(model.seed, 11, s.draws) < p) s.next_ectopic = true;
+    if (core::uniform(model.seed, 11, s.draws) < p) s.next_ectopic = true;
     s.draws += 1;
   }
   double speed = phase_speed(s.phase, inputs.rate_1_min);
@@ -90,4 +92,4 @@ Pressures pressures(const HeartModel& model, const HeartState& s) {
   return {aorta, active * top + (1 - active) * filling_pressure_Pa(s.phase)};
 }
 
-}  // namespace ostium
+}  // namespace ostium::vascular

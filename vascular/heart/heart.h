@@ -9,7 +9,7 @@
 
 #include "core/base/fields.h"
 
-namespace ostium {
+namespace ostium::vascular {
 
 struct HeartModel {
   double stroke_m3 = 71e-6;            ///< of a beat after a whole filling at 70 beats a minute
@@ -44,18 +44,18 @@ struct HeartState {
 };
 constexpr auto fields(const HeartState*) {
   using S = HeartState;
-  return std::tuple{field("phase", &S::phase),
-                    field("windkessel_Pa", &S::windkessel_Pa),
-                    field("ejection_m3_s", &S::ejection_m3_s),
-                    field("stroke_m3", &S::stroke_m3),
-                    field("filled_s", &S::filled_s),
-                    field("ectopic", &S::ectopic),
-                    field("next_ectopic", &S::next_ectopic),
-                    field("draws", &S::draws),
-                    field("time_s", &S::time_s),
-                    field("since_R_s", &S::since_R_s),
-                    field("cycle_s", &S::cycle_s),
-                    field("beats", &S::beats)};
+  return std::tuple{core::field("phase", &S::phase),
+                    core::field("windkessel_Pa", &S::windkessel_Pa),
+                    core::field("ejection_m3_s", &S::ejection_m3_s),
+                    core::field("stroke_m3", &S::stroke_m3),
+                    core::field("filled_s", &S::filled_s),
+                    core::field("ectopic", &S::ectopic),
+                    core::field("next_ectopic", &S::next_ectopic),
+                    core::field("draws", &S::draws),
+                    core::field("time_s", &S::time_s),
+                    core::field("since_R_s", &S::since_R_s),
+                    core::field("cycle_s", &S::cycle_s),
+                    core::field("beats", &S::beats)};
 }
 
 /// What the heart gives at a moment.
@@ -76,4 +76,4 @@ double ventricle_activity(double phase);
 /// In diastole, with the atrial kick before the R wave.
 double filling_pressure_Pa(double phase);
 
-}  // namespace ostium
+}  // namespace ostium::vascular

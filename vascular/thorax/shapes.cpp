@@ -5,11 +5,13 @@
 #include <cmath>
 #include <numbers>
 
-namespace ostium {
+#include "core/base/units.h"
+
+namespace ostium::vascular {
 
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using units::pi;
 
 /// Rings of `columns` vertices, closed by a pole at either end; outwards if the rings run counter-clockwise about the
 /// way from the last ring to the first.
@@ -168,4 +170,4 @@ Mesh surface_net(const std::function<double(const Eigen::Vector3d&)>& inside, co
   return mesh;
 }
 
-}  // namespace ostium
+}  // namespace ostium::vascular

@@ -2,9 +2,9 @@
 /// Closed surfaces from formulas.
 #include <functional>
 
-#include "vascular/mesh.h"
+#include "vascular/geometry/mesh/mesh.h"
 
-namespace ostium {
+namespace ostium::vascular {
 
 /// |x/a|^e + |y/b|^e + |z/c|^e = 1 about `middle`, turned by `axes`; e = 2: an ellipsoid, larger: rounder boxes.
 Mesh superellipsoid(const Eigen::Vector3d& middle, const Eigen::Vector3d& half_axes, double exponent,
@@ -27,4 +27,4 @@ double joined(double a, double b, double k);
 double from_rod(const Eigen::Vector3d& p, const Eigen::Vector3d& a, const Eigen::Vector3d& b, double radius_a,
                 double radius_b);
 
-}  // namespace ostium
+}  // namespace ostium::vascular

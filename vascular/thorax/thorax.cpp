@@ -6,16 +6,17 @@
 #include <memory>
 #include <numbers>
 
-#include "vascular/beat/heart_motion.h"
-#include "vascular/shape/contour.h"
+#include "core/base/units.h"
+#include "vascular/geometry/implicit/contour.h"
+#include "vascular/motion/heart_motion.h"
 #include "vascular/thorax/shapes.h"
 #include "vascular/thorax/vertebra.h"
 
-namespace ostium {
+namespace ostium::vascular {
 
 namespace {
 
-constexpr double mm = 1e-3, degree = std::numbers::pi / 180;
+using units::mm, units::degree;
 constexpr double middle_x = -6 * mm;  // the sagittal plane: the left ostium lies a little left of it
 
 Eigen::Vector3d at_mm(double x, double y, double z) { return Eigen::Vector3d(x, y, z) * mm; }
@@ -301,4 +302,4 @@ Mesh at(const XrayBody& body, double contraction, double breath_depth) {
   return mesh;
 }
 
-}  // namespace ostium
+}  // namespace ostium::vascular

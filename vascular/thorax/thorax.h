@@ -7,9 +7,9 @@
 #include <string>
 
 #include "vascular/anatomy/anatomy.h"
-#include "vascular/mesh.h"
+#include "vascular/geometry/mesh/mesh.h"
 
-namespace ostium {
+namespace ostium::vascular {
 
 enum class BodyTissue { air, soft_tissue, lung, blood, cortical_bone, spongy_bone, loose_bone };
 
@@ -29,4 +29,4 @@ std::vector<XrayBody> make_thorax(const Anatomy& anatomy);
 /// Vertices at a phase of the heart (contraction, heart_cycle.h) and a depth of breath.
 Mesh at(const XrayBody& body, double contraction, double breath_depth);
 
-}  // namespace ostium
+}  // namespace ostium::vascular

@@ -5,7 +5,7 @@
 
 #include "vascular/thorax/shapes.h"
 
-namespace ostium {
+namespace ostium::vascular {
 
 double from_vertebra_mm(Eigen::Vector3d p) {
   p.x() = std::fabs(p.x());
@@ -30,4 +30,4 @@ double from_vertebra_mm(Eigen::Vector3d p) {
   return joined(body, arch, 3);
 }
 
-}  // namespace ostium
+}  // namespace ostium::vascular

@@ -3,14 +3,14 @@
 #include <ctime>
 #include <optional>
 
-#include "app/commands/common_options.h"
+#include "app/command_line/common_options.h"
 #include "app/commands/device/calibration_measurement.h"
 #include "app/commands/device/calibration_record.h"
 #include "app/commands/device/device.h"
 #include "data/formats/load_error.h"
-#include "device/calibrating.h"
+#include "device/host/calibrating.h"
 
-namespace ostium {
+namespace ostium::app {
 
 namespace {
 
@@ -58,7 +58,7 @@ void measure(Measurement& at, const std::string& begin, const std::string& end, 
   at.wait(end, a.seconds);
 }
 
-void change_track(Measurement& at, const Arguments& a, Calibration& c) {
+void change_track(Measurement& at, const Arguments& a, device::Calibration& c) {
   const auto k = static_cast<std::size_t>(a.track - 1);
   if (a.length_mm) {
     measure(at, "Hold the instrument at a mark", fmt::format("Push it in by {:g} mm, without turning it", *a.length_mm),
@@ -73,7 +73,7 @@ void change_track(Measurement& at, const Arguments& a, Calibration& c) {
   if (a.clamp_N) c.clamp_full_scale_N[k] = static_cast<float>(*a.clamp_N);
 }
 
-void change_pressure(Measurement& at, const Arguments& a, Calibration& c) {
+void change_pressure(Measurement& at, const Arguments& a, device::Calibration& c) {
   if (a.pressure_zero) {
     measure(at, "Open the indeflator to the air", "Leave it open for some seconds", a);
     c = with_pressure_zero(c, at.mean_pressure());
@@ -85,7 +85,7 @@ void change_pressure(Measurement& at, const Arguments& a, Calibration& c) {
   }
 }
 
-void change_flow(Measurement& at, const Arguments& a, Calibration& c) {
+void change_flow(Measurement& at, const Arguments& a, device::Calibration& c) {
   if (a.flow_zero) {
     measure(at, "Let the syringe rest", "Leave it for some seconds", a);
     c = with_flow_zero(c, at.mean_flow());
@@ -97,11 +97,11 @@ void change_flow(Measurement& at, const Arguments& a, Calibration& c) {
 }
 
 /// The box's own, or as it leaves the factory; then `problem` says why.
-Calibration calibration_of(UsbPort& port, std::string& problem) {
-  Calibration c;
+device::Calibration calibration_of(device::UsbPort& port, std::string& problem) {
+  device::Calibration c;
   try {
-    c = parse_calibration(read_calibration(port));
-  } catch (const CalibrationError& error) {
+    c = device::parse_calibration(read_calibration(port));
+  } catch (const device::CalibrationError& error) {
     problem = error.what();
     c.serial = port.identity().serial;
   }
@@ -109,27 +109,27 @@ Calibration calibration_of(UsbPort& port, std::string& problem) {
 }
 
 /// Throws LoadError unless the box has the record afterwards.
-void write_into_box(UsbPort& port, const Calibration& c) {
+void write_into_box(device::UsbPort& port, const device::Calibration& c) {
   const auto bytes = bytes_of(c);
   if (!write_calibration(port, bytes))
-    throw LoadError("the box refuses the record; is it armed by another program, or another firmware's?");
+    throw data::LoadError("the box refuses the record; is it armed by another program, or another firmware's?");
   if (read_calibration(port) != std::vector<std::uint8_t>(bytes.begin(), bytes.end()))
-    throw LoadError("the box gives back another record than it was given");
+    throw data::LoadError("the box gives back another record than it was given");
   fmt::print(stderr, "written to {}\n", port.identity().serial);
 }
 
 /// Prints the record, as it is or becomes.
 int run(const Arguments& a) {
   if (a.of_a_track() && a.track == 0)
-    throw LoadError("--length, --turns, --station and --clamp are of a track: --track 1 to 4");
-  std::optional<Calibration> from_file;
+    throw data::LoadError("--length, --turns, --station and --clamp are of a track: --track 1 to 4");
+  std::optional<device::Calibration> from_file;
   if (!a.write.empty()) {
     from_file = read_calibration_record(a.write);
     (void)bytes_of(*from_file);  // refuses what no box may have, before one is looked for
   }
   Measurement at(a.serial);
   std::string problem;
-  Calibration c = calibration_of(at.port(), problem);
+  device::Calibration c = calibration_of(at.port(), problem);
   if (from_file) c = *from_file;
   change_track(at, a, c);
   change_pressure(at, a, c);
@@ -154,4 +154,4 @@ Command device_calibrate_command() {
                       declare, run);
 }
 
-}  // namespace ostium
+}  // namespace ostium::app

@@ -7,7 +7,7 @@
 #include "app/commands/device/device.h"
 #include "data/formats/load_error.h"
 
-namespace ostium {
+namespace ostium::app {
 
 namespace {
 
@@ -23,20 +23,20 @@ bool enter_pressed() {
 Measurement::Measurement(const std::string& serial) : port_(serial) {
   for (const double until = clock_s() + 2; clock_s() < until && reports_ == 0;) state_ = port_.poll(0.02, *this);
   if (reports_ > 0) return;
-  BoxSnapshot now;
+  device::BoxSnapshot now;
   now.trouble = state_.trouble;
-  now.link = state_.open ? Link::silent : Link::unplugged;
-  throw LoadError(std::string(advice(now)));
+  now.link = state_.open ? device::Link::silent : device::Link::unplugged;
+  throw data::LoadError(std::string(advice(now)));
 }
 
 void Measurement::wait(const std::string& what, double seconds) {
   if (seconds <= 0) fmt::print(stderr, "{}, then press Enter\n", what);
   for (const double until = clock_s() + seconds; seconds > 0 ? clock_s() < until : !enter_pressed();)
-    if (!port_.poll(0.02, *this).open) throw LoadError("the box was unplugged while it was measured");
+    if (!port_.poll(0.02, *this).open) throw data::LoadError("the box was unplugged while it was measured");
 }
 
 void Measurement::came(std::span<const std::uint8_t> bytes) {
-  const auto report = parse_in_report(bytes);
+  const auto report = device::parse_in_report(bytes);
   if (!report) return;
   const auto difference = [](auto now, auto before) {
     return static_cast<std::int32_t>(static_cast<std::uint32_t>(now) - static_cast<std::uint32_t>(before));
@@ -52,4 +52,4 @@ void Measurement::came(std::span<const std::uint8_t> bytes) {
   last_ = *report;
 }
 
-}  // namespace ostium
+}  // namespace ostium::app

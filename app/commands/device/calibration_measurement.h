@@ -3,17 +3,17 @@
 #include <array>
 #include <string>
 
-#include "device/tracking_box.h"
-#include "device/usb_port.h"
+#include "device/host/tracking_box.h"
+#include "device/transport/usb_port.h"
 
-namespace ostium {
+namespace ostium::app {
 
 /// The box's raw counts from `begin` on. Throws LoadError where there is no box, or it is unplugged meanwhile.
-class Measurement : private ReportSink {
+class Measurement : private device::ReportSink {
  public:
   explicit Measurement(const std::string& serial);
 
-  UsbPort& port() { return port_; }
+  device::UsbPort& port() { return port_; }
 
   /// Until Enter, or so many seconds.
   void wait(const std::string& what, double seconds);
@@ -33,12 +33,12 @@ class Measurement : private ReportSink {
  private:
   void came(std::span<const std::uint8_t> bytes) override;
 
-  UsbPort port_;
-  PortState state_;
-  InReport last_;
+  device::UsbPort port_;
+  device::PortState state_;
+  device::InReport last_;
   std::uint64_t reports_ = 0;
   std::array<std::int64_t, 4> insertion_{}, roll_{};
   double pressure_ = 0, flow_ = 0, elapsed_s_ = 0, samples_ = 0;
 };
 
-}  // namespace ostium
+}  // namespace ostium::app

@@ -7,32 +7,33 @@
 
 #include "data/formats/json_object.h"
 
-namespace ostium {
+namespace ostium::app {
 
 namespace {
 
 const char* const a_number = "a number";
-const JsonObjectKeys track_keys{"track",
-                                {{"mm_per_count", true, a_number},
-                                 {"deg_per_count", true, a_number},
-                                 {"cross_talk_mm_deg", true, "insertion seen per degree of roll, mm"},
-                                 {"before_introducer_mm", true, "the station's distance outside the introducer, >= 0"},
-                                 {"clamp_full_scale_N", true, "friction of the clamp at level 65535, N, > 0"}}};
-const JsonObjectKeys record_keys{"calibration",
-                                 {{"serial", true, "up to 16 characters without blanks"},
-                                  {"date", true, "yyyymmdd, as a number"},
-                                  {"tracks", true, "four tracks"},
-                                  {"atm_per_count", true, a_number},
-                                  {"pressure_offset_atm", true, a_number},
-                                  {"mL_s_per_count", true, a_number},
-                                  {"flow_offset_mL_s", true, a_number}}};
+const data::JsonObjectKeys track_keys{
+    "track",
+    {{"mm_per_count", true, a_number},
+     {"deg_per_count", true, a_number},
+     {"cross_talk_mm_deg", true, "insertion seen per degree of roll, mm"},
+     {"before_introducer_mm", true, "the station's distance outside the introducer, >= 0"},
+     {"clamp_full_scale_N", true, "friction of the clamp at level 65535, N, > 0"}}};
+const data::JsonObjectKeys record_keys{"calibration",
+                                       {{"serial", true, "up to 16 characters without blanks"},
+                                        {"date", true, "yyyymmdd, as a number"},
+                                        {"tracks", true, "four tracks"},
+                                        {"atm_per_count", true, a_number},
+                                        {"pressure_offset_atm", true, a_number},
+                                        {"mL_s_per_count", true, a_number},
+                                        {"flow_offset_mL_s", true, a_number}}};
 
 /// Nearest float in the fewest digits.
 double short_number(float value) { return std::stod(fmt::format("{}", value)); }
 
 }  // namespace
 
-std::string to_json(const Calibration& c) {
+std::string to_json(const device::Calibration& c) {
   nlohmann::ordered_json out = {{"serial", c.serial}, {"date", c.date}};
   for (std::size_t k = 0; k < 4; ++k)
     out["tracks"].push_back({{"mm_per_count", short_number(c.track[k].mm_per_count)},
@@ -47,18 +48,20 @@ std::string to_json(const Calibration& c) {
   return out.dump(2);
 }
 
-Calibration read_calibration_record(const std::string& file) {
-  const JsonValue value = load_json(file);
-  const JsonObject in(value, record_keys);
-  const auto number = [](const JsonObject& object, const char* key) { return static_cast<float>(object.number(key)); };
-  Calibration c;
+device::Calibration read_calibration_record(const std::string& file) {
+  const data::JsonValue value = data::load_json(file);
+  const data::JsonObject in(value, record_keys);
+  const auto number = [](const data::JsonObject& object, const char* key) {
+    return static_cast<float>(object.number(key));
+  };
+  device::Calibration c;
   c.serial = in.text("serial");
   const double date = in.not_negative("date");
   if (date != std::floor(date) || date > 99991231) in.refuse("date");
   c.date = static_cast<std::uint32_t>(date);
   if (in.list("tracks").size() != 4) in.refuse("tracks");
   for (std::size_t k = 0; k < 4; ++k) {
-    const JsonObject track(in.list("tracks")[k], track_keys);
+    const data::JsonObject track(in.list("tracks")[k], track_keys);
     c.track[k] = {number(track, "mm_per_count"), number(track, "deg_per_count"), number(track, "cross_talk_mm_deg"),
                   number(track, "before_introducer_mm")};
     c.clamp_full_scale_N[k] = number(track, "clamp_full_scale_N");
@@ -68,4 +71,4 @@ Calibration read_calibration_record(const std::string& file) {
   return c;
 }
 
-}  // namespace ostium
+}  // namespace ostium::app

@@ -2,12 +2,12 @@
 /// A box's calibration as text.
 #include <string>
 
-#include "device/tracking_box.h"
+#include "device/host/tracking_box.h"
 
-namespace ostium {
+namespace ostium::app {
 
-std::string to_json(const Calibration& calibration);
+std::string to_json(const device::Calibration& calibration);
 /// Throws LoadError.
-Calibration read_calibration_record(const std::string& file);
+device::Calibration read_calibration_record(const std::string& file);
 
-}  // namespace ostium
+}  // namespace ostium::app

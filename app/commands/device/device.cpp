@@ -2,7 +2,7 @@
 
 #include <chrono>
 
-namespace ostium {
+namespace ostium::app {
 
 double clock_s() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
 
@@ -15,4 +15,4 @@ Command device_command() {
   return device;
 }
 
-}  // namespace ostium
+}  // namespace ostium::app

@@ -1,8 +1,8 @@
 #pragma once
 /// The parts of `ostium device`.
-#include "app/commands/command.h"
+#include "app/command_line/command.h"
 
-namespace ostium {
+namespace ostium::app {
 
 Command device_list_command();
 Command device_monitor_command();
@@ -12,4 +12,4 @@ Command device_calibrate_command();
 /// Seconds of a clock that only goes forward.
 double clock_s();
 
-}  // namespace ostium
+}  // namespace ostium::app

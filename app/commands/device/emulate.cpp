@@ -4,13 +4,13 @@
 #include <exception>
 #include <thread>
 
+#include "app/command_line/interrupt.h"
 #include "app/commands/device/device.h"
-#include "app/commands/interrupt.h"
 #include "data/formats/load_error.h"
-#include "device/stroking_hand.h"
-#include "device/usbip.h"
+#include "device/emulator/stroking_hand.h"
+#include "device/emulator/usbip.h"
 
-namespace ostium {
+namespace ostium::app {
 
 namespace {
 
@@ -30,12 +30,12 @@ void declare(Options& options, Arguments& a) {
 
 int run(const Arguments& a) {
   stop_on_signals();
-  Calibration c;
+  device::Calibration c;
   c.serial = "EMULATED";
-  for (TrackCalibration& track : c.track) track.before_introducer_mm = 20;
-  EmulatedUsb usb(c);
-  StrokingHand hand;
-  if (!a.still) usb.hand = [&](EmulatedBox& box) { hand.move(box); };
+  for (device::TrackCalibration& track : c.track) track.before_introducer_mm = 20;
+  device::EmulatedUsb usb(c);
+  device::StrokingHand hand;
+  if (!a.still) usb.hand = [&](device::EmulatedBox& box) { hand.move(box); };
   std::atomic<bool> over{false};
   std::thread clock([&] {
     for (const double begin_s = clock_s(); !interrupted && (a.seconds <= 0 || clock_s() < begin_s + a.seconds);)
@@ -55,7 +55,7 @@ int run(const Arguments& a) {
     interrupted = true;
   }
   clock.join();
-  if (!problem.empty()) throw LoadError(problem);
+  if (!problem.empty()) throw data::LoadError(problem);
   return 0;
 }
 
@@ -66,4 +66,4 @@ Command device_emulate_command() {
                       {"ostium device emulate", "ostium device emulate --any-host --port 3241"}, declare, run);
 }
 
-}  // namespace ostium
+}  // namespace ostium::app

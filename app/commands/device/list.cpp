@@ -2,13 +2,13 @@
 
 #include <nlohmann/json.hpp>
 
-#include "app/commands/common_options.h"
+#include "app/command_line/common_options.h"
 #include "app/commands/device/device.h"
 #include "app/commands/device/words.h"
-#include "device/tracking_box.h"
-#include "device/usb_port.h"
+#include "device/host/tracking_box.h"
+#include "device/transport/usb_port.h"
 
-namespace ostium {
+namespace ostium::app {
 
 namespace {
 
@@ -20,7 +20,7 @@ struct Arguments {
 
 void declare(Options& options, Arguments& a) { add_json_flag(options, a.json); }
 
-Json to_json(const FoundBox& box) {
+Json to_json(const device::FoundBox& box) {
   Json out = {{"serial", box.identity.serial},
               {"product", box.identity.product},
               {"place", box.identity.place},
@@ -36,7 +36,7 @@ Json to_json(const FoundBox& box) {
   return out;
 }
 
-void print(const FoundBox& box) {
+void print(const device::FoundBox& box) {
   fmt::print("{:<16} {}, {}", box.identity.serial.empty() ? "?" : box.identity.serial, box.identity.product,
              box.identity.place);
   if (box.info)
@@ -44,21 +44,21 @@ void print(const FoundBox& box) {
                box.info->tracks, box.info->rate_Hz, box.info->watchdog_ms);
   if (box.calibration) fmt::print("; calibrated {}", box.calibration->date);
   if (!box.calibration_problem.empty()) fmt::print("; {}", box.calibration_problem);
-  BoxSnapshot now;
+  device::BoxSnapshot now;
   now.trouble = box.trouble;
-  fmt::print("{}{}\n", box.trouble == PortTrouble::none ? "" : "\n  ",
-             box.trouble == PortTrouble::none ? "" : advice(now));
+  fmt::print("{}{}\n", box.trouble == device::PortTrouble::none ? "" : "\n  ",
+             box.trouble == device::PortTrouble::none ? "" : advice(now));
 }
 
 /// 0 if a box is there, else 1.
 int run(const Arguments& a) {
-  const std::vector<FoundBox> boxes = find_boxes();
+  const std::vector<device::FoundBox> boxes = device::find_boxes();
   if (a.json) {
     auto out = Json::array();
-    for (const FoundBox& box : boxes) out.push_back(to_json(box));
+    for (const device::FoundBox& box : boxes) out.push_back(to_json(box));
     fmt::print("{}\n", out.dump(2));
   } else {
-    for (const FoundBox& box : boxes) print(box);
+    for (const device::FoundBox& box : boxes) print(box);
     if (boxes.empty()) fmt::print(stderr, "ostium device: no tracking box is plugged in (1209:0001)\n");
   }
   return boxes.empty() ? 1 : 0;
@@ -68,4 +68,4 @@ int run(const Arguments& a) {
 
 Command device_list_command() { return make_command("list", "Boxes that are plugged in", {}, declare, run); }
 
-}  // namespace ostium
+}  // namespace ostium::app

@@ -7,17 +7,17 @@
 #include <numbers>
 #include <thread>
 
-#include "app/commands/common_options.h"
+#include "app/command_line/common_options.h"
+#include "app/command_line/interrupt.h"
 #include "app/commands/device/device.h"
 #include "app/commands/device/words.h"
-#include "app/commands/interrupt.h"
-#include "device/emulated_port.h"
-#include "device/round_trips.h"
-#include "device/stroking_hand.h"
-#include "device/tracking_box.h"
-#include "device/usb_port.h"
+#include "device/emulator/emulated_port.h"
+#include "device/emulator/stroking_hand.h"
+#include "device/host/round_trips.h"
+#include "device/host/tracking_box.h"
+#include "device/transport/usb_port.h"
 
-namespace ostium {
+namespace ostium::app {
 
 namespace {
 
@@ -41,28 +41,28 @@ void declare(Options& options, Arguments& a) {
   options.flag("--json", a.json, "A line of JSON a second");
 }
 
-constexpr const char* tool_names[tools] = {"guide", "wire", "shaft", "second wire"};
+constexpr const char* tool_names[device::tools] = {"guide", "wire", "shaft", "second wire"};
 
 /// The port that is asked for, with what belongs to it.
 struct Source {
-  std::unique_ptr<EmulatedBox> box;
-  std::unique_ptr<StrokingHand> hand;
-  std::unique_ptr<Port> port;
+  std::unique_ptr<device::EmulatedBox> box;
+  std::unique_ptr<device::StrokingHand> hand;
+  std::unique_ptr<device::Port> port;
 
   explicit Source(const Arguments& a) {
     if (!a.emulator) {
-      port = std::make_unique<UsbPort>(a.serial);
+      port = std::make_unique<device::UsbPort>(a.serial);
       return;
     }
-    Calibration c;
+    device::Calibration c;
     c.serial = "EMULATED";
-    box = std::make_unique<EmulatedBox>(c);
-    hand = std::make_unique<StrokingHand>();
-    port = std::make_unique<EmulatedPort>(*box, [h = hand.get()](EmulatedBox& b) { h->move(b); });
+    box = std::make_unique<device::EmulatedBox>(c);
+    hand = std::make_unique<device::StrokingHand>();
+    port = std::make_unique<device::EmulatedPort>(*box, [h = hand.get()](device::EmulatedBox& b) { h->move(b); });
   }
 };
 
-Json to_json(const BoxSnapshot& now, const RoundTrips& trips) {
+Json to_json(const device::BoxSnapshot& now, const device::RoundTrips& trips) {
   Json out = {{"link", words(now.link)},
               {"trouble", words(now.trouble)},
               {"advice", advice(now)},
@@ -77,8 +77,8 @@ Json to_json(const BoxSnapshot& now, const RoundTrips& trips) {
               {"flow_mL_s", 1e6 * now.flow_m3_s},
               {"pedals", now.pedals},
               {"round_trip_ms", {{"median", 1e3 * trips.percentile_s(0.5)}, {"p99", 1e3 * trips.percentile_s(0.99)}}}};
-  for (std::size_t i = 0; i < tools; ++i) {
-    const ToolSnapshot& t = now.tool[i];
+  for (std::size_t i = 0; i < device::tools; ++i) {
+    const device::ToolSnapshot& t = now.tool[i];
     out["tools"][tool_names[i]] = {{"sight", words(t.sight)},
                                    {"quality", t.quality},
                                    {"arrivals", t.arrivals},
@@ -91,12 +91,12 @@ Json to_json(const BoxSnapshot& now, const RoundTrips& trips) {
   return out;
 }
 
-std::string table(const BoxSnapshot& now, const RoundTrips& trips, double rate_Hz) {
+std::string table(const device::BoxSnapshot& now, const device::RoundTrips& trips, double rate_Hz) {
   std::string out = fmt::format("{:<10} {:>9.1f} s of the box, {:.0f} Hz; {} reports, {} lost, {} ignored{}{}\n",
                                 words(now.link), now.box_s, rate_Hz, now.reports, now.lost, now.ignored,
                                 now.armed ? "; armed" : "", now.watchdog ? "; watchdog" : "");
-  for (std::size_t i = 0; i < tools; ++i) {
-    const ToolSnapshot& t = now.tool[i];
+  for (std::size_t i = 0; i < device::tools; ++i) {
+    const device::ToolSnapshot& t = now.tool[i];
     out += fmt::format(
         "  {:<12} {:<7} {:>3}  inserted {:>8.2f} mm, in the box {:>7.2f} mm, turned {:>8.1f} deg, clamp {:.2f} N\n",
         tool_names[i], words(t.sight), t.quality, 1e3 * t.inserted_m, 1e3 * t.in_box_m,
@@ -115,11 +115,11 @@ class Display {
   explicit Display(bool json) : json_(json), redraw_(isatty(STDOUT_FILENO) && !json) {}
 
   /// Ten times a second where it is drawn over, else once, and whenever the box comes or goes.
-  bool is_due(const BoxSnapshot& now, double now_s) const {
+  bool is_due(const device::BoxSnapshot& now, double now_s) const {
     return now_s - shown_s_ >= (redraw_ ? 0.1 : 1) || (now.link != shown_link_ && now_s - begin_s_ > 0.2);
   }
 
-  void show(const BoxSnapshot& now, const RoundTrips& trips, double now_s) {
+  void show(const device::BoxSnapshot& now, const device::RoundTrips& trips, double now_s) {
     if (json_) {
       fmt::print("{}\n", to_json(now, trips).dump());
     } else {
@@ -139,7 +139,7 @@ class Display {
   bool json_, redraw_;
   double begin_s_ = clock_s(), shown_s_ = begin_s_;
   std::uint64_t shown_reports_ = 0;
-  Link shown_link_ = Link::running;
+  device::Link shown_link_ = device::Link::running;
   int lines_ = 0;
 };
 
@@ -147,11 +147,11 @@ class Display {
 int run(const Arguments& a) {
   stop_on_signals();
   Source source(a);
-  TrackingBox box(*source.port, {});
-  BoxRequest request;
+  device::TrackingBox box(*source.port, {});
+  device::BoxRequest request;
   request.arm = a.arm || a.push_N > 0;
-  for (ClampLoad& load : request.load) load.push_N = a.push_N;
-  RoundTrips trips;
+  for (device::ClampLoad& load : request.load) load.push_N = a.push_N;
+  device::RoundTrips trips;
   Display display(a.json);
   while (!interrupted) {
     const double now_s = clock_s(), since_s = now_s - display.begin_s();
@@ -176,4 +176,4 @@ Command device_monitor_command() {
                       {"ostium device monitor", "ostium device monitor --emulator --seconds 20 --json"}, declare, run);
 }
 
-}  // namespace ostium
+}  // namespace ostium::app

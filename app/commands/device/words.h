@@ -1,12 +1,12 @@
 #pragma once
-#include "device/tracking_box.h"
+#include "device/host/tracking_box.h"
 
-namespace ostium {
+namespace ostium::app {
 
 /// As tables and JSON say them.
-const char* words(Sight sight);
-const char* words(Link link);
-const char* words(PortTrouble trouble);
-const char* words(Pause pause);
+const char* words(device::ToolPresence sight);
+const char* words(device::Link link);
+const char* words(device::PortTrouble trouble);
+const char* words(device::Pause pause);
 
-}  // namespace ostium
+}  // namespace ostium::app

@@ -4,25 +4,26 @@
 #include <filesystem>
 #include <thread>
 
-#include "app/commands/interrupt.h"
-#include "app/commands/progress.h"
-#include "device/usb_port.h"
-#include "fluoro/views.h"
+#include "app/command_line/interrupt.h"
+#include "app/command_line/progress.h"
+#include "device/transport/usb_port.h"
+#include "fluoro/projection/views.h"
 
-namespace ostium {
+namespace ostium::app {
 
 /// What is asked for; null: no box. With a box and people, `setup` loses what its script does to tools.
-std::unique_ptr<DeviceRun> device_of(const RunArguments& a, RunSetup& setup) {
+std::unique_ptr<BoxRun> device_of(const RunArguments& a, RunSetup& setup) {
   if (a.device == "keyboard") {
     setup.script = free_hands(setup.script);
     return nullptr;
   }
-  if (a.device.empty() || (a.device == "auto" && find_boxes().empty())) return nullptr;
-  DeviceHandSettings settings;
-  for (const StandardView& view : standard_views())
+  if (a.device.empty() || (a.device == "auto" && device::find_boxes().empty())) return nullptr;
+  BoxDriverSettings settings;
+  for (const fluoro::StandardView& view : fluoro::standard_views())
     settings.views.emplace_back(view.lao_deg * EIGEN_PI / 180, view.cran_deg * EIGEN_PI / 180);
-  settings.watch = [before = Pause::none](const BoxSnapshot& now) mutable {
-    if (now.pause != before && now.pause != Pause::none) show_progress(std::string(advice(now)));  // nothing steps now
+  settings.watch = [before = device::Pause::none](const device::BoxSnapshot& now) mutable {
+    if (now.pause != before && now.pause != device::Pause::none)
+      show_progress(std::string(advice(now)));  // nothing steps now
     before = now.pause;
   };
   if (a.device == "emulator") return run_at_emulator(settings, &interrupted);
@@ -30,7 +31,7 @@ std::unique_ptr<DeviceRun> device_of(const RunArguments& a, RunSetup& setup) {
   return run_at_usb(a.serial, settings, &interrupted);
 }
 
-Drivers::Drivers(const RunArguments& a, DeviceRun* device, ScriptedRun& run) {
+Drivers::Drivers(const RunArguments& a, BoxRun* device, ScriptedRun& run) {
   Driver* driver = device ? &device->driver() : nullptr;
   if (a.in_window()) hand.emplace(run.model, a.device == "keyboard", 15, driver), driver = &*hand;
   if (a.film && !a.folder.empty()) {
@@ -44,7 +45,7 @@ Drivers::Drivers(const RunArguments& a, DeviceRun* device, ScriptedRun& run) {
 
 namespace {
 
-WindowOptions window_of(const RunArguments& a, DeviceRun* device, Filming* film, std::atomic<bool>& over) {
+WindowOptions window_of(const RunArguments& a, BoxRun* device, Filming* film, std::atomic<bool>& over) {
   WindowOptions window;
   window.plays = a.device == "keyboard", window.over = &over, window.last_frame_png = a.last_frame;
   if (film) window.filmed = &film->pictures();
@@ -56,8 +57,8 @@ WindowOptions window_of(const RunArguments& a, DeviceRun* device, Filming* film,
 }
 
 /// Plays in another thread while the window is up in this one, with the film's pictures if a film is made; else null.
-PlayReport play_in_window(const RunArguments& a, ScriptedRun& run, const RunSetup& setup, DeviceRun* device,
-                          LiveHand& hand, Filming* film, PlayOptions options) {
+PlayReport play_in_window(const RunArguments& a, ScriptedRun& run, const RunSetup& setup, BoxRun* device,
+                          LiveDriver& hand, Filming* film, PlayOptions options) {
   options.real = true;
   std::atomic<bool> over{false};
   PlayReport report;
@@ -84,10 +85,10 @@ PlayReport play_in_window(const RunArguments& a, ScriptedRun& run, const RunSetu
 
 }  // namespace
 
-PlayReport play_with(Drivers& drivers, const RunArguments& a, DeviceRun* device, ScriptedRun& run,
-                     const RunSetup& setup, const PlayOptions& options) {
+PlayReport play_with(Drivers& drivers, const RunArguments& a, BoxRun* device, ScriptedRun& run, const RunSetup& setup,
+                     const PlayOptions& options) {
   if (!drivers.hand) return play(run, setup, options);
   return play_in_window(a, run, setup, device, *drivers.hand, drivers.film ? &*drivers.film : nullptr, options);
 }
 
-}  // namespace ostium
+}  // namespace ostium::app

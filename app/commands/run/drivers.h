@@ -4,26 +4,26 @@
 #include <optional>
 
 #include "app/commands/run/run.h"
-#include "app/session/device_run.h"
-#include "app/session/filming.h"
-#include "app/session/play.h"
+#include "app/session/device/box_run.h"
+#include "app/session/run/filming.h"
+#include "app/session/run/play.h"
 #include "app/window/window.h"
 
-namespace ostium {
+namespace ostium::app {
 
 /// What is asked for; null: no box. With a box and people, `setup` loses what its script does to tools.
-std::unique_ptr<DeviceRun> device_of(const RunArguments& arguments, RunSetup& setup);
+std::unique_ptr<BoxRun> device_of(const RunArguments& arguments, RunSetup& setup);
 
 /// Each asks the next: the film sees what hands ask for, they what the box says.
 struct Drivers {
-  std::optional<LiveHand> hand;
+  std::optional<LiveDriver> hand;
   std::optional<Filming> film;
 
-  Drivers(const RunArguments& arguments, DeviceRun* device, ScriptedRun& run);
+  Drivers(const RunArguments& arguments, BoxRun* device, ScriptedRun& run);
 };
 
 /// Here, or in the window.
-PlayReport play_with(Drivers& drivers, const RunArguments& arguments, DeviceRun* device, ScriptedRun& run,
+PlayReport play_with(Drivers& drivers, const RunArguments& arguments, BoxRun* device, ScriptedRun& run,
                      const RunSetup& setup, const PlayOptions& options);
 
-}  // namespace ostium
+}  // namespace ostium::app

@@ -5,10 +5,10 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-namespace ostium {
+namespace ostium::app {
 
-nlohmann::ordered_json to_json(const DeviceHand& hand) {
-  const BoxSnapshot& now = hand.now();
+nlohmann::ordered_json to_json(const BoxDriver& hand) {
+  const device::BoxSnapshot& now = hand.now();
   return {{"stood", hand.stood()},  {"openings", now.openings},          {"reports", now.reports}, {"lost", now.lost},
           {"ignored", now.ignored}, {"departures", now.port.departures}, {"advice", advice(now)}};
 }
@@ -51,15 +51,15 @@ void print_report(const ScriptedRun& run, const PlayReport& r, const std::string
   if (r.times.behind_most_ms > 0)
     fmt::print("{} steps began over a millisecond late, at most {:.1f} ms\n", r.times.overruns, r.times.behind_most_ms);
   if (run.troubled) fmt::print("{} steps had to give way: {}\n", run.troubled, trouble_words(run.troubles));
-  for (const Metric& m : r.metrics)
+  for (const data::Metric& m : r.metrics)
     if (std::isfinite(m.value)) fmt::print("  {:<32} {:.4g} {}\n", m.name, m.value, m.unit == "1" ? "" : m.unit);
   fmt::print("state {:016x}{}{}\n", r.hash, file.empty() ? "" : ", recorded in ", file);
 }
 
-void print_report(const DeviceHand& hand) {
-  const BoxSnapshot& now = hand.now();
+void print_report(const BoxDriver& hand) {
+  const device::BoxSnapshot& now = hand.now();
   fmt::print("at the box: {} reports, {} lost, {} ignored; stood {} times at an end of the travel\n", now.reports,
              now.lost, now.ignored, hand.stood());
 }
 
-}  // namespace ostium
+}  // namespace ostium::app

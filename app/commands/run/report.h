@@ -2,17 +2,17 @@
 /// What a run came to, in words and as JSON.
 #include <nlohmann/json_fwd.hpp>
 
-#include "app/session/device_run.h"
-#include "app/session/play.h"
+#include "app/session/device/box_run.h"
+#include "app/session/run/play.h"
 
-namespace ostium {
+namespace ostium::app {
 
 /// `file`: the recording, or empty.
 nlohmann::ordered_json to_json(const RunSetup& setup, const ScriptedRun& run, const PlayReport& report,
                                const std::string& file);
-nlohmann::ordered_json to_json(const DeviceHand& hand);
+nlohmann::ordered_json to_json(const BoxDriver& hand);
 
 void print_report(const ScriptedRun& run, const PlayReport& report, const std::string& file);
-void print_report(const DeviceHand& hand);
+void print_report(const BoxDriver& hand);
 
-}  // namespace ostium
+}  // namespace ostium::app

@@ -5,18 +5,18 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
-#include "app/commands/arguments.h"
-#include "app/commands/command.h"
-#include "app/commands/common_options.h"
-#include "app/commands/interrupt.h"
-#include "app/commands/progress.h"
+#include "app/command_line/arguments.h"
+#include "app/command_line/command.h"
+#include "app/command_line/common_options.h"
+#include "app/command_line/interrupt.h"
+#include "app/command_line/progress.h"
 #include "app/commands/report.h"
 #include "app/commands/run/drivers.h"
 #include "app/commands/run/report.h"
 #include "data/formats/load_error.h"
 #include "data/formats/write_file.h"
 
-namespace ostium {
+namespace ostium::app {
 
 namespace {
 
@@ -85,7 +85,7 @@ std::shared_ptr<const Vessel> build_vessel(RunSetup& setup) {
   return vessel;
 }
 
-PlayOptions play_options(const RunArguments& a, DeviceRun* device) {
+PlayOptions play_options(const RunArguments& a, BoxRun* device) {
   PlayOptions options;
   options.recorder = recorder_of(a);
   options.real = a.speed == "real" || (device && device->real());
@@ -102,7 +102,7 @@ PlayOptions play_options(const RunArguments& a, DeviceRun* device) {
 }
 
 void tell(const RunArguments& a, const RunSetup& setup, const ScriptedRun& run, const PlayReport& report,
-          const std::string& file, const DeviceRun* device) {
+          const std::string& file, const BoxRun* device) {
   if (a.json) {
     auto out = to_json(setup, run, report, file);
     if (device) out["device"] = to_json(device->hand());
@@ -117,7 +117,7 @@ void tell(const RunArguments& a, const RunSetup& setup, const ScriptedRun& run, 
 
 int run_script(const RunArguments& a) {
   if (std::string why; a.in_window() && !has_display(why))
-    throw LoadError("there is no window here (" + why + "); expected a display, or --display none with a script");
+    throw data::LoadError("there is no window here (" + why + "); expected a display, or --display none with a script");
   RunSetup setup = setup_of(a.session);
   const auto device = device_of(a, setup);
   const PlayOptions options = play_options(a, device.get());
@@ -130,7 +130,7 @@ int run_script(const RunArguments& a) {
   show_progress("");
   const bool recorded = options.recorder.mode != RecordMode::none;
   if (!a.folder.empty())
-    write_file((fs::path(a.folder) / "metrics.json").string(),
+    data::write_file((fs::path(a.folder) / "metrics.json").string(),
                metrics_json(setup.vessel, setup.seed, report.outcome, report.reason, report.metrics));
   tell(a, setup, run, report, recorded ? options.recorder.file : "", device.get());
   if (!film_problem.empty()) fmt::print(stderr, "ostium run: no film: {}\n", film_problem);
@@ -152,4 +152,4 @@ Command run_command() {
                       declare, run_script);
 }
 
-}  // namespace ostium
+}  // namespace ostium::app

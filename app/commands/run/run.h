@@ -1,7 +1,7 @@
 #pragma once
 #include "app/commands/run/session_arguments.h"
 
-namespace ostium {
+namespace ostium::app {
 
 struct RunArguments {
   SessionArguments session;
@@ -23,4 +23,4 @@ struct RunArguments {
 /// Exit code: 0 if the script succeeded. Throws LoadError or MeshError.
 int run_script(const RunArguments& arguments);
 
-}  // namespace ostium
+}  // namespace ostium::app

@@ -2,12 +2,12 @@
 
 #include <fmt/format.h>
 
-#include "app/commands/arguments.h"
-#include "app/commands/common_options.h"
+#include "app/command_line/arguments.h"
+#include "app/command_line/common_options.h"
 #include "data/formats/load_error.h"
 #include "vascular/geometry/repair/units.h"
 
-namespace ostium {
+namespace ostium::app {
 
 void add_session_options(Options& options, SessionArguments& a) {
   options.add("--script", a.script, "One of `ostium scripts`, or a file").type("NAME|FILE").show_default();
@@ -25,32 +25,33 @@ void add_session_options(Options& options, SessionArguments& a) {
 namespace {
 
 /// "X,Y,Z" in the mesh's unit.
-Eigen::Vector3d point(const std::string& text, const char* option, LengthUnit unit) {
+Eigen::Vector3d point(const std::string& text, const char* option, vascular::LengthUnit unit) {
   if (const auto numbers = three_numbers(text)) return metres(unit) * *numbers;
-  throw LoadError(fmt::format("{} is \"{}\"; expected three numbers: X,Y,Z", option, text));
+  throw data::LoadError(fmt::format("{} is \"{}\"; expected three numbers: X,Y,Z", option, text));
 }
 
 }  // namespace
 
 RunSetup setup_of(const SessionArguments& a) {
-  const LengthUnit unit = unit_named(a.unit);
+  const vascular::LengthUnit unit = vascular::unit_named(a.unit);
   RunSetup setup;
   setup.seed = a.seed;
   set_vessel(a.vessel, unit, setup);
   if (setup.is_mesh()) {
     if (a.entry.empty() || a.towards.empty())
-      throw LoadError(a.vessel + " is a mesh: --entry X,Y,Z and --towards X,Y,Z say where an instrument comes in");
+      throw data::LoadError(a.vessel +
+                            " is a mesh: --entry X,Y,Z and --towards X,Y,Z say where an instrument comes in");
     setup.entry = {point(a.entry, "--entry", unit), point(a.towards, "--towards", unit)};
   } else if (!a.entry.empty() || !a.towards.empty()) {
-    throw LoadError("--entry and --towards are for a mesh; a case has its access");
+    throw data::LoadError("--entry and --towards are for a mesh; a case has its access");
   }
-  set_script(find_script(a.script), setup);
+  set_script(data::find_script(a.script), setup);
   for (const std::string& set : a.set) {
     const auto [key, value] = key_and_value(set);
-    if (key.empty()) throw LoadError(fmt::format("--set {}: expected KEY=VALUE", set));
+    if (key.empty()) throw data::LoadError(fmt::format("--set {}: expected KEY=VALUE", set));
     set_value(key, value, setup);
   }
   return setup;
 }
 
-}  // namespace ostium
+}  // namespace ostium::app

@@ -1,9 +1,9 @@
 #pragma once
 /// What `run` and `sweep` are told in common: vessel, script, and what is otherwise than there.
-#include "app/commands/options.h"
-#include "app/session/setup.h"
+#include "app/command_line/options.h"
+#include "app/session/operator/setup.h"
 
-namespace ostium {
+namespace ostium::app {
 
 struct SessionArguments {
   std::string vessel;  ///< a case, or a mesh
@@ -21,4 +21,4 @@ void add_session_options(Options& options, SessionArguments& arguments);
 /// What the arguments ask for. Throws LoadError or MeshError.
 RunSetup setup_of(const SessionArguments& arguments);
 
-}  // namespace ostium
+}  // namespace ostium::app

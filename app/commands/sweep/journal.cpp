@@ -8,7 +8,7 @@
 #include "app/commands/sweep/table.h"
 #include "data/formats/load_error.h"
 
-namespace ostium {
+namespace ostium::app {
 
 namespace fs = std::filesystem;
 
@@ -20,21 +20,21 @@ SweepJournal::SweepJournal(const std::string& file, const Sweep& sweep, bool res
       fmt::format("sweep of {} runs, {:016x}", sweep.tasks.size(), std::hash<std::string>{}(what));
   if (fs::exists(file)) {
     if (!resume)
-      throw LoadError(
+      throw data::LoadError(
           fmt::format("{} is of a sweep that was not finished; --resume goes on with it, or remove it", file));
     read(first);
   }
   out_.open(file, std::ios::app | std::ios::binary);
   if (done_ == 0 && fs::file_size(file) == 0) out_ << first << "\n";
   out_.flush();
-  if (!out_) throw LoadError(file + ": cannot be written; is its folder there, and the disk not full?");
+  if (!out_) throw data::LoadError(file + ": cannot be written; is its folder there, and the disk not full?");
 }
 
 void SweepJournal::add(std::size_t task, const std::string& line) {
   lines_[task] = line;
   ++done_;
   out_ << task << " " << line << std::flush;
-  if (!out_) throw LoadError(file_ + ": cannot be written; is the disk full?");
+  if (!out_) throw data::LoadError(file_ + ": cannot be written; is the disk full?");
 }
 
 void SweepJournal::finish(const std::string& table, const std::string& head) {
@@ -45,7 +45,7 @@ void SweepJournal::finish(const std::string& table, const std::string& head) {
   out.close();
   if (!out || std::rename(unfinished.c_str(), table.c_str()) != 0) {
     std::remove(unfinished.c_str());
-    throw LoadError(table + ": cannot be written; is its folder there, and the disk not full?");
+    throw data::LoadError(table + ": cannot be written; is its folder there, and the disk not full?");
   }
   out_.close();
   std::remove(file_.c_str());
@@ -56,14 +56,14 @@ void SweepJournal::read(const std::string& first) {
   std::string line, kept;
   std::getline(in, line);
   if (line != first)
-    throw LoadError(
+    throw data::LoadError(
         fmt::format("{} is of another sweep; expected the same cases, script, seeds and parameters", file_));
   kept = line + "\n";
   // What follows the last line end was cut off by a kill.
   while (std::getline(in, line) && !in.eof()) {
     std::size_t used = 0;
     const std::size_t task = std::stoul(line, &used);
-    if (task >= lines_.size()) throw LoadError(file_ + ": is damaged");
+    if (task >= lines_.size()) throw data::LoadError(file_ + ": is damaged");
     if (lines_[task].empty()) ++done_;
     lines_[task] = line.substr(used + 1) + "\n";
     kept += line + "\n";
@@ -72,4 +72,4 @@ void SweepJournal::read(const std::string& first) {
   std::ofstream(file_, std::ios::binary) << kept;
 }
 
-}  // namespace ostium
+}  // namespace ostium::app

@@ -3,7 +3,7 @@
 
 #include "app/commands/sweep/plan.h"
 
-namespace ostium {
+namespace ostium::app {
 
 /// What is done, in a file beside the table: a line a run, each written at once. Its first line says of which
 /// sweep. Throws LoadError.
@@ -25,4 +25,4 @@ class SweepJournal {
   std::size_t done_ = 0;
 };
 
-}  // namespace ostium
+}  // namespace ostium::app

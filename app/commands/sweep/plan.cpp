@@ -5,10 +5,10 @@
 #include <cstdio>
 #include <map>
 
-#include "app/commands/arguments.h"
+#include "app/command_line/arguments.h"
 #include "data/formats/load_error.h"
 
-namespace ostium {
+namespace ostium::app {
 
 namespace {
 
@@ -18,7 +18,7 @@ std::pair<std::uint64_t, std::uint64_t> seeds_of(const std::string& text) {
   const int read = std::sscanf(text.c_str(), "%llu..%llu%c", &from, &to, &rest);
   if (text.find_first_not_of("0123456789.") != std::string::npos ||
       (read != 2 && text.find('.') != std::string::npos) || read < 1 || (read == 2 && to < from))
-    throw LoadError(fmt::format("--seeds is \"{}\"; expected FROM..TO", text));
+    throw data::LoadError(fmt::format("--seeds is \"{}\"; expected FROM..TO", text));
   return {from, read == 2 ? to : from};
 }
 
@@ -28,7 +28,7 @@ Values values_of(const SweepArguments& a, std::vector<std::string>& keys) {
   Values values;
   for (const std::string& vary : a.vary) {
     const auto [key, list] = key_and_value(vary);
-    if (key.empty() || list.empty()) throw LoadError(fmt::format("--vary {}: expected KEY=A,B,C", vary));
+    if (key.empty() || list.empty()) throw data::LoadError(fmt::format("--vary {}: expected KEY=A,B,C", vary));
     keys.push_back(key);
     values.push_back(split(list, ','));
   }
@@ -77,4 +77,4 @@ Sweep plan_sweep(const SweepArguments& a) {
   return sweep;
 }
 
-}  // namespace ostium
+}  // namespace ostium::app

@@ -2,7 +2,7 @@
 /// Which runs a sweep consists of.
 #include "app/commands/run/session_arguments.h"
 
-namespace ostium {
+namespace ostium::app {
 
 struct SweepArguments {
   std::vector<std::string> vessels;
@@ -31,4 +31,4 @@ struct Sweep {
 /// Throws LoadError or MeshError.
 Sweep plan_sweep(const SweepArguments& arguments);
 
-}  // namespace ostium
+}  // namespace ostium::app

@@ -5,14 +5,14 @@
 #include <mutex>
 #include <thread>
 
-#include "app/commands/command.h"
-#include "app/commands/interrupt.h"
-#include "app/commands/progress.h"
+#include "app/command_line/command.h"
+#include "app/command_line/interrupt.h"
+#include "app/command_line/progress.h"
 #include "app/commands/sweep/journal.h"
 #include "app/commands/sweep/table.h"
 #include "data/formats/load_error.h"
 
-namespace ostium {
+namespace ostium::app {
 
 namespace {
 
@@ -122,9 +122,9 @@ int run(const SweepArguments& a) {
   sweeper.run();
   if (sweeper.refused() == sweep.tasks.size()) {
     std::filesystem::remove(unfinished);
-    throw LoadError("no vessel of the sweep can be built");
+    throw data::LoadError("no vessel of the sweep can be built");
   }
-  if (!sweeper.problem().empty()) throw LoadError(sweeper.problem());
+  if (!sweeper.problem().empty()) throw data::LoadError(sweeper.problem());
   if (interrupted) {
     fmt::print(stderr, "ostium sweep: stopped after {} of {} runs; --resume goes on\n", journal.done(),
                sweep.tasks.size());
@@ -145,4 +145,4 @@ Command sweep_command() {
                       declare, run);
 }
 
-}  // namespace ostium
+}  // namespace ostium::app

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-namespace ostium {
+namespace ostium::app {
 
 namespace {
 
@@ -27,21 +27,21 @@ std::string heading(const Sweep& sweep) {
   std::string line = "case,script,seed";
   for (const std::string& key : sweep.keys) line += "," + csv(key);
   line += ",outcome,reason,simulated_s";
-  for (const MetricDefinition& metric : metric_definitions()) line += "," + metric.name;
+  for (const data::MetricDefinition& metric : data::metric_definitions()) line += "," + metric.name;
   return line + ",deepest_penetration_mm,nodes_outside,troubled_steps,state\n";
 }
 
 std::string line_without_vessel(const SweepTask& task, const std::string& why) {
-  return beginning_of(task) + ",aborted," + csv(why) + ",0.000" + std::string(metric_definitions().size() + 4, ',') +
+  return beginning_of(task) + ",aborted," + csv(why) + ",0.000" + std::string(data::metric_definitions().size() + 4, ',') +
          "\n";
 }
 
 std::string line_of(const SweepTask& task, const ScriptedRun& run, const PlayReport& r) {
   std::string line = beginning_of(task);
   line += fmt::format(",{},{},{:.3f}", r.outcome, csv(r.reason), r.simulated_s);
-  for (const Metric& m : r.metrics) line += std::isfinite(m.value) ? fmt::format(",{:.9g}", m.value) : ",";
+  for (const data::Metric& m : r.metrics) line += std::isfinite(m.value) ? fmt::format(",{:.9g}", m.value) : ",";
   return line + fmt::format(",{:.6f},{},{},{:016x}\n", 1e3 * r.penetration.deepest_m, r.penetration.outside,
                             run.troubled, r.hash);
 }
 
-}  // namespace ostium
+}  // namespace ostium::app

@@ -1,9 +1,9 @@
 #pragma once
 /// The lines of a sweep's table.
 #include "app/commands/sweep/plan.h"
-#include "app/session/play.h"
+#include "app/session/run/play.h"
 
-namespace ostium {
+namespace ostium::app {
 
 std::string heading(const Sweep& sweep);
 std::string line_of(const SweepTask& task, const ScriptedRun& run, const PlayReport& report);
@@ -11,4 +11,4 @@ std::string line_of(const SweepTask& task, const ScriptedRun& run, const PlayRep
 /// thousand.
 std::string line_without_vessel(const SweepTask& task, const std::string& why);
 
-}  // namespace ostium
+}  // namespace ostium::app

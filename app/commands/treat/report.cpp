@@ -5,9 +5,11 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "vascular/units.h"
+#include "core/base/units.h"
 
-namespace ostium {
+namespace ostium::app {
+
+using units::atm, units::mL;
 
 using json = nlohmann::ordered_json;
 
@@ -37,15 +39,14 @@ json to_json(const StentNumbers& s) {
           {"lesion_coverage_percent", s.coverage_percent}};
 }
 
-json to_json(const InjuryState& state, const FlowTree& tree) {
+json to_json(const vascular::InjuryState& state, const vascular::FlowTree& tree) {
   json out = json::array();
-  for (const Injury& injury : state.injuries)
+  for (const vascular::Injury& injury : state.injuries)
     if (injury.cell >= 0)
-      out.push_back(
-          {{"kind", injury.kind == InjuryKind::dissection ? "dissection" : "perforation"},
-           {"grade", grade_name(injury)},
-           {"branch", tree.branches[tree.cells[static_cast<std::size_t>(injury.cell)].branch].name},
-           {"outside_mL", injury.outside_m3 / mL}});
+      out.push_back({{"kind", injury.kind == vascular::InjuryKind::dissection ? "dissection" : "perforation"},
+                     {"grade", grade_name(injury)},
+                     {"branch", tree.branches[tree.cells[static_cast<std::size_t>(injury.cell)].branch].name},
+                     {"outside_mL", injury.outside_m3 / mL}});
   return out;
 }
 
@@ -78,4 +79,4 @@ void print_treatment(const json& report) {
   if (report.contains("file")) fmt::print("{}\n", report["file"].get<std::string>());
 }
 
-}  // namespace ostium
+}  // namespace ostium::app

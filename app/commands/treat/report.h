@@ -2,14 +2,14 @@
 /// What a treatment came to, as JSON and as a table of it.
 #include <nlohmann/json_fwd.hpp>
 
-#include "app/angiography/angioplasty.h"
+#include "app/angiography/textbook_treatment.h"
 
-namespace ostium {
+namespace ostium::app {
 
 nlohmann::ordered_json to_json(const InflationRecord& record);
 nlohmann::ordered_json to_json(const StentNumbers& stent);
 /// Those that there are.
-nlohmann::ordered_json to_json(const InjuryState& state, const FlowTree& tree);
+nlohmann::ordered_json to_json(const vascular::InjuryState& state, const vascular::FlowTree& tree);
 void print_treatment(const nlohmann::ordered_json& report);
 
-}  // namespace ostium
+}  // namespace ostium::app

@@ -4,14 +4,14 @@
 #include <nlohmann/json.hpp>
 
 #include "app/angiography/settle.h"
-#include "app/commands/progress.h"
-#include "fluoro/overlay.h"
+#include "app/command_line/progress.h"
+#include "fluoro/display/overlay.h"
 
-namespace ostium {
+namespace ostium::app {
 
-std::string artery_of(const Plan& plan, const FlowTree& tree) {
-  const Territory t = tree.branches[tree.branch(plan.lesion.branch)].territory;
-  return territory_names[static_cast<int>(t)];
+std::string artery_of(const Plan& plan, const vascular::FlowTree& tree) {
+  const vascular::Territory t = tree.branches[tree.branch(plan.lesion.branch)].territory;
+  return vascular::territory_names[static_cast<int>(t)];
 }
 
 namespace {
@@ -23,7 +23,7 @@ std::string usual_view(const Plan& plan, const std::string& artery) {
 
 }  // namespace
 
-TreatmentRoom::TreatmentRoom(const Case& c, const TreatArguments& a)
+TreatmentRoom::TreatmentRoom(const data::Case& c, const TreatArguments& a)
     : arguments(a),
       patient(patient_of(c)),
       physiology(make_physiology(patient, a.seed)),
@@ -48,10 +48,11 @@ TreatmentRoom::TreatmentRoom(const Case& c, const TreatArguments& a)
   bed.inputs.heart.rate_1_min = c.rate_1_min;
 }
 
-View TreatmentRoom::view_on(const Plan& p) const {
+fluoro::View TreatmentRoom::view_on(const Plan& p) const {
   const std::string artery = artery_of(p, physiology.flow.tree);
   const bool left = artery != "RCA";
-  View view = view_of(arguments.view.empty() ? usual_view(p, artery) : arguments.view, patient, left, arguments.pixels);
+  fluoro::View view =
+      view_of(arguments.view.empty() ? usual_view(p, artery) : arguments.view, patient, left, arguments.pixels);
   view.field_m = 0.16;
   // What is treated is well within the picture.
   const int cell = p.path.cells[p.path.at(p.middle_m).index];
@@ -67,27 +68,27 @@ Bedside TreatmentRoom::opacified(Angiogram& angiogram, bool left) const {
   film.each_step = nullptr;
   angiogram.wait_for(0.9, bed.inputs.heart.rate_1_min, film.blood);
   const Injection injection = usual_injection(physiology.flow.tree, left);
-  ContrastInputs& contrast = film.inputs.contrast;
+  vascular::ContrastInputs& contrast = film.inputs.contrast;
   contrast.tip = injection.tip, contrast.iodine_kg_m3 = injection.iodine_kg_m3;
   std::fill(film.blood.contrast.line_kg.begin(), film.blood.contrast.line_kg.end(),
-            injection.iodine_kg_m3 * contrast.line.dead_m3 / line_cells);
+            injection.iodine_kg_m3 * contrast.line.dead_m3 / vascular::line_cells);
   contrast.injection_m3_s = injection.rate_m3_s;
   for (int n = 0; n < 2000 || film.blood.heart.phase < 0.6 || film.blood.heart.phase > 0.75; ++n) film.step();
   return film;
 }
 
-Picture TreatmentRoom::picture(const Plan& p, const std::string& words, bool with_contrast) {
-  const View view = view_on(p);
+fluoro::Picture TreatmentRoom::picture(const Plan& p, const std::string& words, bool with_contrast) {
+  const fluoro::View view = view_on(p);
   Angiogram angiogram(physiology, scene, view, 15, arguments.seed + 1);
   const auto take = [&](const Bedside& now, bool wire) {
     scene.at(now.blood, now.inputs.occupied_m);
     add_devices(now, p, patient, scene, wire);
     return angiogram.take(now.blood.heart.phase);
   };
-  Picture out =
+  fluoro::Picture out =
       with_contrast ? take(opacified(angiogram, artery_of(p, physiology.flow.tree) != "RCA"), false) : take(bed, true);
   draw_overlay(
-      {view, cine(15), angiogram.report().frame.exposure, angiogram.fluoroscope().dose, true, words, arguments.of},
+      {view, fluoro::cine(15), angiogram.report().frame.exposure, angiogram.fluoroscope().dose, true, words, arguments.of},
       out);
   return out;
 }
@@ -101,10 +102,10 @@ nlohmann::ordered_json TreatmentRoom::lesion(const Plan& p) {
                                 {"ffr_model", n.ffr}};
   if (arguments.no_pictures) return out;
   show_progress("counting frames of " + artery);
-  PhysiologyState rest = bed.blood;
+  vascular::PhysiologyState rest = bed.blood;
   const TimiCount count = timi_count(physiology, scene, patient, artery, rest, bed.inputs.heart.rate_1_min, 0.9);
   out["timi_frame_count"] = count.reached ? nlohmann::ordered_json(count.frames) : nlohmann::ordered_json(nullptr);
   return out;
 }
 
-}  // namespace ostium
+}  // namespace ostium::app

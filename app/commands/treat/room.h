@@ -1,11 +1,11 @@
 #pragma once
 #include <nlohmann/json_fwd.hpp>
 
-#include "app/angiography/devices.h"
+#include "app/angiography/device_scene.h"
 #include "data/catalogue/case/case.h"
-#include "fluoro/display.h"
+#include "fluoro/display/display.h"
 
-namespace ostium {
+namespace ostium::app {
 
 struct TreatArguments {
   std::string of = "rca-mid-focal";   ///< case
@@ -20,30 +20,30 @@ struct TreatArguments {
 };
 
 /// LAD, LCx or RCA.
-std::string artery_of(const Plan& plan, const FlowTree& tree);
+std::string artery_of(const Plan& plan, const vascular::FlowTree& tree);
 
 /// One patient on the table.
 class TreatmentRoom {
  public:
   /// Keeps a reference to the arguments.
-  TreatmentRoom(const Case& c, const TreatArguments& a);
+  TreatmentRoom(const data::Case& c, const TreatArguments& a);
 
   /// `words`: which moment it is. With contrast, or as it stands and with the wire.
-  Picture picture(const Plan& p, const std::string& words, bool with_contrast);
+  fluoro::Picture picture(const Plan& p, const std::string& words, bool with_contrast);
   /// The lesion in numbers, as it is now.
   nlohmann::ordered_json lesion(const Plan& p);
 
   const TreatArguments& arguments;
-  Patient patient;
-  PhysiologyModel physiology;
+  vascular::Patient patient;
+  vascular::PhysiologyModel physiology;
   PatientScene scene;
   Treatable plan;
   Bedside bed;
 
  private:
-  View view_on(const Plan& p) const;
+  fluoro::View view_on(const Plan& p) const;
   /// A copy of what is, with the coronary full of contrast.
   Bedside opacified(Angiogram& angiogram, bool left) const;
 };
 
-}  // namespace ostium
+}  // namespace ostium::app

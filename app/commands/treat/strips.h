@@ -2,15 +2,15 @@
 /// ECG, pressure and gauge of an inflation, as the monitor beside the pictures shows them.
 #include <array>
 
-#include "app/angiography/angioplasty.h"
-#include "fluoro/overlay.h"
+#include "app/angiography/textbook_treatment.h"
+#include "fluoro/display/overlay.h"
 
-namespace ostium {
+namespace ostium::app {
 
 /// 250 samples a second.
 struct InflationStrips {
-  std::array<Lead, 2> which;
-  std::vector<Strip> strips;  ///< two leads, aorta, gauge
+  std::array<vascular::Lead, 2> which;
+  std::vector<fluoro::Strip> strips;  ///< two leads, aorta, gauge
   long step = 0;
 
   explicit InflationStrips(const std::string& artery);
@@ -20,4 +20,4 @@ struct InflationStrips {
   void listen(const Bedside& bed);
 };
 
-}  // namespace ostium
+}  // namespace ostium::app

@@ -3,20 +3,22 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "app/commands/arguments.h"
-#include "app/commands/command.h"
-#include "app/commands/common_options.h"
-#include "app/commands/pictures.h"
-#include "app/commands/progress.h"
+#include "app/command_line/arguments.h"
+#include "app/command_line/command.h"
+#include "app/command_line/common_options.h"
+#include "app/command_line/pictures.h"
+#include "app/command_line/progress.h"
 #include "app/commands/treat/report.h"
 #include "app/commands/treat/room.h"
 #include "app/commands/treat/strips.h"
+#include "core/base/units.h"
 #include "data/formats/png.h"
-#include "vascular/units.h"
 
-namespace ostium {
+namespace ostium::app {
 
 namespace {
+
+using units::atm;
 
 using json = nlohmann::ordered_json;
 
@@ -57,7 +59,7 @@ void tie(TreatmentRoom& room, const Plan& plan, int stent) {
 }
 
 bool is_deployed(const TreatmentRoom& room, int stent) {
-  return stent >= 0 && room.bed.state.stents[stent].where == StentState::deployed;
+  return stent >= 0 && room.bed.state.stents[stent].where == vascular::StentState::deployed;
 }
 
 struct Inflated {
@@ -66,7 +68,8 @@ struct Inflated {
 };
 
 /// `inflating`: the picture while the waist still stands, in mid-diastole; what is there is kept.
-Inflated inflate_one(TreatmentRoom& room, const Plan& plan, const PlannedInflation& planned, Picture& inflating) {
+Inflated inflate_one(TreatmentRoom& room, const Plan& plan, const PlannedInflation& planned,
+                     fluoro::Picture& inflating) {
   const TreatArguments& a = room.arguments;
   Bedside& bed = room.bed;
   const auto& [balloon, gauge] = planned;
@@ -92,13 +95,13 @@ Inflated inflate_one(TreatmentRoom& room, const Plan& plan, const PlannedInflati
 }
 
 /// One lesion from before to after; its sheet of pictures goes to `sheets`.
-json treat_lesion(TreatmentRoom& room, const Plan& plan, std::vector<Picture>& sheets) {
+json treat_lesion(TreatmentRoom& room, const Plan& plan, std::vector<fluoro::Picture>& sheets) {
   const TreatArguments& a = room.arguments;
   Bedside& bed = room.bed;
   json lesion = {{"place", fmt::format("{}, {:.0f} to {:.0f} mm", plan.lesion.branch, 1e3 * plan.lesion.from_m,
                                        1e3 * (plan.lesion.from_m + plan.lesion.length_m))}};
   lesion["before"] = room.lesion(plan);
-  Picture before, inflating;
+  fluoro::Picture before, inflating;
   if (!a.no_pictures) before = room.picture(plan, "BEFORE", true);
   InflationStrips kept(artery_of(plan, room.physiology.flow.tree));
   json inflations = json::array();
@@ -118,7 +121,7 @@ json treat_lesion(TreatmentRoom& room, const Plan& plan, std::vector<Picture>& s
   lesion["after"] = room.lesion(plan);
   lesion["inflations"] = inflations;
   if (a.no_pictures) return lesion;
-  Picture sheet = beside(beside(before, inflating), room.picture(plan, "AFTER", true));
+  fluoro::Picture sheet = beside(beside(before, inflating), room.picture(plan, "AFTER", true));
   append_strips(kept.strips, kept.seconds(), a.pixels * 7 / 10, sheet);
   sheets.push_back(sheet);
   return lesion;
@@ -129,19 +132,19 @@ int run(const TreatArguments& a) {
   if (!a.view.empty()) named_view(a.view);
   require_finite(
       {{"--hold", a.hold_s}, {"--pressure", a.pressure}, {"--oversize", a.oversize}, {"--shift", a.shift_mm}});
-  const Case c = find_case(a.of);
+  const data::Case c = data::find_case(a.of);
   show_progress("building " + c.name);
   TreatmentRoom room(c, a);
   prepare(room);
   json report = {{"case", c.name}, {"seed", a.seed}, {"act_s", act_s(room.plan.model.drugs, room.bed.state.drugs)}};
   report["lesions"] = json::array();
-  std::vector<Picture> sheets;
+  std::vector<fluoro::Picture> sheets;
   for (const Plan& plan : room.plan.plans) report["lesions"].push_back(treat_lesion(room, plan, sheets));
   report["injuries"] = to_json(room.bed.state.injury, room.physiology.flow.tree);
   if (!sheets.empty()) {
-    Picture all = sheets.front();
+    fluoro::Picture all = sheets.front();
     for (std::size_t i = 1; i < sheets.size(); ++i) all = stacked(std::move(all), sheets[i]);
-    write_png(a.out, all);
+    data::write_png(a.out, all);
     report["file"] = a.out;
   }
   show_progress("");
@@ -163,4 +166,4 @@ Command treat_command() {
                       declare, run);
 }
 
-}  // namespace ostium
+}  // namespace ostium::app

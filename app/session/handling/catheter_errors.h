@@ -8,9 +8,9 @@
 
 #include "app/session/handling/episode.h"
 #include "app/session/handling/scene.h"
-#include "app/session/session_event.h"
+#include "app/session/handling/session_event.h"
 
-namespace ostium {
+namespace ostium::app {
 
 /// From the sheath to the arch alone: in the root a shaped guide moves without a wire.
 class CatheterWithoutWire {
@@ -25,7 +25,8 @@ class CatheterWithoutWire {
     const double leads_m = wire < 0 ? 0 : x.tool(wire).inserted_m - own.inserted_m;
     const bool led = leads_m >= led_m || !map.before_root[static_cast<std::size_t>(own.sphere)];
     alone_m_ = led ? 0 : alone_m_ + advanced_m;
-    if (episode_.begins(alone_m_ > alone_m, x.time_s)) say(EventCode::catheter_without_wire, x.catheter, 1e3 * leads_m);
+    if (episode_.begins(alone_m_ > alone_m, x.time_s))
+      say(data::EventCode::catheter_without_wire, x.catheter, 1e3 * leads_m);
   }
 
  private:
@@ -39,7 +40,7 @@ class WoundUp {
  public:
   void look(const HandlingMap&, const HandlingScene& x, const EventSink& say) {
     if (x.catheter >= 0 && episode_.begins(std::fabs(x.twist_rad) > most_rad, for_s, x.time_s))
-      say(EventCode::wound_up, x.catheter, 180 / std::numbers::pi * x.twist_rad);
+      say(data::EventCode::wound_up, x.catheter, 180 / std::numbers::pi * x.twist_rad);
   }
 
  private:
@@ -56,7 +57,7 @@ class TipWhips {
     const double changed_rad = looks_ < twists_rad_.size() ? 0 : std::fabs(x.twist_rad - oldest);
     oldest = x.twist_rad, ++looks_;
     if (episode_.begins(changed_rad > most_rad, x.time_s))
-      say(EventCode::tip_whips, x.catheter, 180 / std::numbers::pi * changed_rad);
+      say(data::EventCode::tip_whips, x.catheter, 180 / std::numbers::pi * changed_rad);
   }
 
  private:
@@ -73,7 +74,8 @@ class DeepSeat {
     if (x.catheter < 0) return;
     const auto cell = static_cast<std::size_t>(x.catheter_cell);
     const bool deep = x.catheter_cell >= 0 && map.from_ostium_m[cell] > map.deep_m[cell];
-    if (episode_.begins(deep, for_s, x.time_s)) say(EventCode::deep_seat, x.catheter, 1e3 * map.from_ostium_m[cell]);
+    if (episode_.begins(deep, for_s, x.time_s))
+      say(data::EventCode::deep_seat, x.catheter, 1e3 * map.from_ostium_m[cell]);
   }
 
  private:
@@ -85,9 +87,9 @@ class BadTraceKept {
  public:
   void look(const HandlingMap&, const HandlingScene& x, const EventSink& say) {
     if (x.catheter < 0) return;
-    const bool bad = x.guide_trace == Trace::damped || x.guide_trace == Trace::ventricularised;
+    const bool bad = x.guide_trace == vascular::Trace::damped || x.guide_trace == vascular::Trace::ventricularised;
     if (episode_.begins(bad, for_s, x.time_s))
-      say(EventCode::bad_trace_kept, x.catheter, static_cast<double>(x.guide_trace));
+      say(data::EventCode::bad_trace_kept, x.catheter, static_cast<double>(x.guide_trace));
   }
 
  private:
@@ -97,4 +99,4 @@ class BadTraceKept {
 
 using CatheterErrors = std::tuple<CatheterWithoutWire, WoundUp, TipWhips, DeepSeat, BadTraceKept>;
 
-}  // namespace ostium
+}  // namespace ostium::app

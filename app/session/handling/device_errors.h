@@ -6,9 +6,9 @@
 
 #include "app/session/handling/episode.h"
 #include "app/session/handling/scene.h"
-#include "app/session/session_event.h"
+#include "app/session/handling/session_event.h"
 
-namespace ostium {
+namespace ostium::app {
 
 class OpenBalloonDragged {
  public:
@@ -17,7 +17,7 @@ class OpenBalloonDragged {
     if (x.is_inflated() && !open_) open_ = true, opened_at_m_ = fed_m;
     if (!x.is_inflated() && !x.filled) open_ = false;
     if (episode_.begins(open_ && std::fabs(fed_m - opened_at_m_) > most_m, x.time_s))
-      say(EventCode::open_balloon_dragged, x.device, 1e3 * (fed_m - opened_at_m_));
+      say(data::EventCode::open_balloon_dragged, x.device, 1e3 * (fed_m - opened_at_m_));
   }
 
  private:
@@ -33,8 +33,8 @@ class LongInflation {
   void look(const HandlingMap&, const HandlingScene& x, const EventSink& say) {
     const double for_s = inflated_.seconds(x.is_inflated(), x.time_s);
     const bool shifted = x.is_inflated() && x.ST_mV >= shift_mV;
-    if (long_.begins(for_s > longest_s, x.time_s)) say(EventCode::long_inflation, x.device, for_s);
-    if (ischaemic_.begins(shifted, after_shift_s, x.time_s)) say(EventCode::long_inflation, x.device, for_s);
+    if (long_.begins(for_s > longest_s, x.time_s)) say(data::EventCode::long_inflation, x.device, for_s);
+    if (ischaemic_.begins(shifted, after_shift_s, x.time_s)) say(data::EventCode::long_inflation, x.device, for_s);
   }
 
  private:
@@ -48,7 +48,7 @@ class BalloonBeyondStent {
  public:
   void look(const HandlingMap&, const HandlingScene& x, const EventSink& say) {
     if (episode_.begins(x.beyond_stent_m > most_m, x.time_s))
-      say(EventCode::balloon_beyond_stent, x.device, 1e3 * x.beyond_stent_m);
+      say(data::EventCode::balloon_beyond_stent, x.device, 1e3 * x.beyond_stent_m);
   }
 
  private:
@@ -58,4 +58,4 @@ class BalloonBeyondStent {
 
 using DeviceErrors = std::tuple<OpenBalloonDragged, LongInflation, BalloonBeyondStent>;
 
-}  // namespace ostium
+}  // namespace ostium::app

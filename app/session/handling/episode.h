@@ -1,7 +1,7 @@
 #pragma once
 /// How long something has held, and when it is a new error.
 
-namespace ostium {
+namespace ostium::app {
 
 /// One event an episode: what comes again within 3 s of its end is the same one.
 class Episode {
@@ -43,4 +43,4 @@ class HeldEpisode {
   Episode episode_;
 };
 
-}  // namespace ostium
+}  // namespace ostium::app

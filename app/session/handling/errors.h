@@ -6,7 +6,7 @@
 #include "app/session/handling/operation_errors.h"
 #include "app/session/handling/wire_errors.h"
 
-namespace ostium {
+namespace ostium::app {
 
 /// Looks for each error of a group.
 template <class... Errors>
@@ -36,4 +36,4 @@ struct HandlingErrors {
   }
 };
 
-}  // namespace ostium
+}  // namespace ostium::app

@@ -2,7 +2,7 @@
 
 #include "app/session/handling/errors.h"
 
-namespace ostium {
+namespace ostium::app {
 
 HandlingWatch::HandlingWatch(const SessionModel& model) : map_(model), errors_(std::make_unique<HandlingErrors>()) {}
 HandlingWatch::~HandlingWatch() = default;
@@ -13,4 +13,4 @@ void HandlingWatch::look(const SessionModel& model, const SessionInputs& inputs,
   errors_->look(map_, scene_, say);
 }
 
-}  // namespace ostium
+}  // namespace ostium::app

@@ -8,9 +8,9 @@
 #include <memory>
 
 #include "app/session/handling/scene.h"
-#include "app/session/session_event.h"
+#include "app/session/handling/session_event.h"
 
-namespace ostium {
+namespace ostium::app {
 
 struct HandlingErrors;
 
@@ -32,4 +32,4 @@ class HandlingWatch {
   std::unique_ptr<HandlingErrors> errors_;
 };
 
-}  // namespace ostium
+}  // namespace ostium::app

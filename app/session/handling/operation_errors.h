@@ -5,9 +5,9 @@
 
 #include "app/session/handling/episode.h"
 #include "app/session/handling/scene.h"
-#include "app/session/session_event.h"
+#include "app/session/handling/session_event.h"
 
-namespace ostium {
+namespace ostium::app {
 
 class PushWithoutAdvance {
  public:
@@ -16,10 +16,11 @@ class PushWithoutAdvance {
     for (std::size_t t = 0; t < x.tools.size(); ++t) {
       const HandledTool& tool = x.tools[t];
       Push& push = pushes_[t];
-      if (tool.in_body && tool.advance_m_s >= 0 && tool.fed_m - push.fed_m < pushed_m) continue;
-      const bool stuck = tool.in_body && tool.advance_m_s > 0 && tool.along_m - push.along_m < gain_share * pushed_m &&
+      if (tool.in_body && tool.feed_m_s >= 0 && tool.fed_m - push.fed_m < pushed_m) continue;
+      const bool stuck = tool.in_body && tool.feed_m_s > 0 && tool.along_m - push.along_m < gain_share * pushed_m &&
                          tool.push_N - push.push_N > rises_N;
-      if (push.episode.begins(stuck, x.time_s)) say(EventCode::push_without_advance, static_cast<int>(t), tool.push_N);
+      if (push.episode.begins(stuck, x.time_s))
+        say(data::EventCode::push_without_advance, static_cast<int>(t), tool.push_N);
       push.fed_m = tool.fed_m, push.along_m = tool.along_m, push.push_N = tool.push_N;
     }
   }
@@ -37,8 +38,8 @@ class IdleBeam {
  public:
   void look(const HandlingMap&, const HandlingScene& x, const EventSink& say) {
     bool busy = x.injects || x.is_inflated() || x.filled;
-    for (const HandledTool& tool : x.tools) busy = busy || tool.advance_m_s != 0 || tool.turn_rad_s != 0;
-    if (episode_.begins(x.beam && !busy, for_s, x.time_s)) say(EventCode::idle_beam);
+    for (const HandledTool& tool : x.tools) busy = busy || tool.feed_m_s != 0 || tool.turn_rad_s != 0;
+    if (episode_.begins(x.beam && !busy, for_s, x.time_s)) say(data::EventCode::idle_beam);
   }
 
  private:
@@ -48,4 +49,4 @@ class IdleBeam {
 
 using OperationErrors = std::tuple<PushWithoutAdvance, IdleBeam>;
 
-}  // namespace ostium
+}  // namespace ostium::app

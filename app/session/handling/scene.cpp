@@ -3,34 +3,34 @@
 #include <algorithm>
 #include <cmath>
 
-#include "app/session/outcome.h"
+#include "app/session/model/outcome.h"
+#include "core/model/rod_state.h"
 #include "core/rod/introducer.h"
-#include "core/rod/rod_state.h"
-#include "fluoro/c_arm.h"
+#include "fluoro/projection/c_arm.h"
 
-namespace ostium {
+namespace ostium::app {
 
 namespace {
 
 constexpr double thick_m = 0.7e-3;  // in diameter: 0.035 in wires and those like them
 
 /// How far from the access the last branch leaves the way to the ascending aorta: there the arch ends.
-double arch_ends_m(const Way& way, int ascending, int spheres) {
+double arch_ends_m(const VesselIndex& way, int ascending, int spheres) {
   double end_m = 0;
-  for (const TreeBranch& branch : way.branches())
+  for (const vascular::TreeBranch& branch : way.branches())
     if (const int entry = way.entry(branch.name); entry >= 0 && !way.beyond(entry, ascending))
       for (int s = 0; s < spheres; ++s)
         if (way.beyond(ascending, s) && way.beyond(entry, s)) end_m = std::max(end_m, way.from_access_m(s));
   return end_m;
 }
 
-void map_way(const Way& way, HandlingMap& map) {
+void map_way(const VesselIndex& way, HandlingMap& map) {
   std::vector<int> ostia;
   for (const char* name : {"LM", "RCA"})
     if (const int at = way.entry(name); at >= 0) ostia.push_back(at);
   const int ascending = way.place("ascending aorta");
   std::size_t count = 0;
-  for (const TreeBranch& branch : way.branches()) count += branch.spheres.size();
+  for (const vascular::TreeBranch& branch : way.branches()) count += branch.spheres.size();
   map.astray_m.assign(count, 0), map.in_coronary_m.assign(count, 0);
   map.before_root.assign(count, 0), map.in_ventricle.assign(count, 0);
   if (ostia.empty() || ascending < 0) return;
@@ -51,7 +51,7 @@ void map_way(const Way& way, HandlingMap& map) {
 }
 
 /// Where lesions end that no other lies behind: what leaves the artery before them leads a wire astray.
-std::vector<int> lesion_ends(const FlowTree& tree, const std::vector<Plan>& lesions) {
+std::vector<int> lesion_ends(const vascular::FlowTree& tree, const std::vector<Plan>& lesions) {
   std::vector<int> ends;
   for (const Plan& lesion : lesions)
     ends.push_back(lesion.path.cells[static_cast<std::size_t>(lesion.path.at(lesion.to_m).index)]);
@@ -64,7 +64,7 @@ std::vector<int> lesion_ends(const FlowTree& tree, const std::vector<Plan>& lesi
 }
 
 void map_arteries(const SessionModel& model, HandlingMap& map) {
-  const FlowTree& tree = model.physiology.flow.tree;
+  const vascular::FlowTree& tree = model.physiology.flow.tree;
   const std::size_t n = tree.cells.size();
   map.from_ostium_m.assign(n, 0), map.to_end_m.assign(n, 0), map.unplanned_m.assign(n, 0), map.healthy_m.assign(n, 0);
   map.behind_lesion.assign(n, 0);
@@ -93,7 +93,7 @@ void map_arteries(const SessionModel& model, HandlingMap& map) {
       const auto up = static_cast<std::size_t>(tree.cells[c].upstream);
       map.to_end_m[up] = std::max(map.to_end_m[up], map.to_end_m[c] + apart_m(c, up));
     }
-  for (const FlowBranch& branch : tree.branches) {
+  for (const vascular::FlowBranch& branch : tree.branches) {
     if (branch.name != "LM") continue;
     const double half_m = map.from_ostium_m[static_cast<std::size_t>(branch.last - 1)] / 2;
     for (std::size_t c = 0; c < n; ++c)
@@ -103,9 +103,9 @@ void map_arteries(const SessionModel& model, HandlingMap& map) {
 }
 
 /// Of the material about the rod's axis, summed over its joints.
-double twist_rad(const Rod& rod, const RodState& state) {
+double twist_rad(const core::Rod& rod, const core::RodState& state) {
   double sum = 0;
-  const Field<4>& q = state.orientation;
+  const core::Field<4>& q = state.orientation;
   for (int i = state.first + 1; i < rod.elements; ++i) {
     const Eigen::Quaterniond a(q.at(0)[i - 1], q.at(1)[i - 1], q.at(2)[i - 1], q.at(3)[i - 1]),
         b(q.at(0)[i], q.at(1)[i], q.at(2)[i], q.at(3)[i]);
@@ -116,7 +116,7 @@ double twist_rad(const Rod& rod, const RodState& state) {
 }
 
 bool in_field(const CArmInputs& in, const Eigen::Vector3d& p) {
-  const CArm arm{.lao_rad = in.lao_rad, .cran_rad = in.cran_rad, .p_PI = in.p_PI};
+  const fluoro::CArm arm{.lao_rad = in.lao_rad, .cran_rad = in.cran_rad, .p_PI = in.p_PI};
   const auto at = project(arm, p);
   return at && at->cwiseAbs().maxCoeff() <= in.field_m / 2;
 }
@@ -130,7 +130,7 @@ HandlingMap::HandlingMap(const SessionModel& model) {
 
 double beyond_stent_m(const SessionModel& model, const SessionState& state) {
   constexpr double hard_atm = 10;
-  const int balloon = state.bedside.balloon;
+  const int balloon = state.coupling.balloon;
   if (balloon < 0 || !(state.treatment.balloon.pressure_Pa > hard_atm * 101325)) return 0;
   const auto& lesions = model.vessel->coronaries->lesions;
   double out_m = 0;
@@ -154,8 +154,8 @@ void see(const SessionModel& model, const SessionInputs& inputs, const SessionSt
   const double phase = state.blood.heart.phase;
   x.diastasis = heart_rests(state);
   x.beam = inputs.c_arm.fluoroscopy || inputs.c_arm.cine;
-  x.injects = inputs.bedside.injection_m3_s > 0;
-  x.gauge_atm = inputs.bedside.gauge_Pa / 101325;
+  x.injects = inputs.delivery.injection_m3_s > 0;
+  x.gauge_atm = inputs.delivery.gauge_Pa / 101325;
   x.tools.resize(model.tools.size());
   x.catheter = x.thick_wire = x.thin_wire = x.device = -1;
   for (int t = 0; t < static_cast<int>(model.tools.size()); ++t) {
@@ -164,31 +164,32 @@ void see(const SessionModel& model, const SessionInputs& inputs, const SessionSt
     tool = {.in_body = report.tools[i].in_body,
             .inserted_m = state.rods.rods[i].inserted_m,
             .fed_m = state.hands[i].fed_m,
-            .advance_m_s = inputs.tools[i].advance_m_s,
+            .feed_m_s = inputs.tools[i].feed_m_s,
             .turn_rad_s = inputs.tools[i].turn_rad_s,
             .push_N = report.tools[i].push_N};
     if (!tool.in_body) continue;
     tool.sphere = model.vessel->way->locate(tip(model, state, t), phase, breath(model, state));
     tool.along_m = model.vessel->way->from_access_m(tool.sphere);
-    const Instrument& instrument = model.tools[i].instrument;
+    const data::Instrument& instrument = model.tools[i].instrument;
     if (is_catheter(instrument) && x.catheter < 0) x.catheter = t;
     if (model.balloon_of[i] >= 0) x.device = t;
-    if (instrument.kind == InstrumentKind::wire)
+    if (instrument.kind == data::InstrumentKind::wire)
       (instrument.outer_diameter_m < thick_m ? x.thin_wire : x.thick_wire) = t;
   }
-  const BedsideState& b = state.bedside;
+  const CouplingState& b = state.coupling;
   x.filled = b.balloon >= 0 &&
              !is_empty(model.treatment.balloons[static_cast<std::size_t>(b.balloon)], state.treatment.balloon);
   x.balloon = model.has_patient() ? b.balloon : -1;
   x.beyond_stent_m = x.balloon < 0 ? 0 : beyond_stent_m(model, state);
   x.ST_mV = x.balloon < 0 ? 0 : ST_shift_mV(model.physiology.ischaemia, state.blood.ischaemia);
-  x.guide_trace = b.guide >= 0 ? state.blood.line.trace : Trace::absent;
+  x.guide_trace = b.guide >= 0 ? state.blood.line.trace : vascular::Trace::absent;
   x.wire_cell = x.thin_wire < 0 || !model.has_patient() ? -1 : b.wire_cell;
-  x.catheter_cell = x.catheter >= 0 && model.has_patient() && b.tip.where == TipPlace::coronary ? b.tip.cell : -1;
+  x.catheter_cell =
+      x.catheter >= 0 && model.has_patient() && b.tip.where == vascular::TipPlace::coronary ? b.tip.cell : -1;
   x.thin_tip_is_seen = x.beam && x.thin_wire >= 0 && in_field(inputs.c_arm, tip(model, state, x.thin_wire));
   x.twist_rad = x.catheter < 0 ? 0
                                : twist_rad(model.rods.rods[static_cast<std::size_t>(x.catheter)],
                                            state.rods.rods[static_cast<std::size_t>(x.catheter)]);
 }
 
-}  // namespace ostium
+}  // namespace ostium::app

@@ -3,9 +3,9 @@
 /// beam is on. Gathered once a look; no allocation after the first.
 #include <vector>
 
-#include "app/session/session.h"
+#include "app/session/model/session.h"
 
-namespace ostium {
+namespace ostium::app {
 
 /// What never changes in a session.
 struct HandlingMap {
@@ -28,8 +28,8 @@ struct HandlingMap {
 
 struct HandledTool {
   bool in_body = false;
-  double inserted_m = 0, fed_m = 0;        ///< fed: by the hand in all
-  double advance_m_s = 0, turn_rad_s = 0;  ///< of the hand, now
+  double inserted_m = 0, fed_m = 0;     ///< fed: by the hand in all
+  double feed_m_s = 0, turn_rad_s = 0;  ///< of the hand, now
   double push_N = 0;
   int sphere = -1;     ///< of the vessel index, where its tip is
   double along_m = 0;  ///< from the access to there
@@ -44,7 +44,7 @@ struct HandlingScene {
   int balloon = -1;           ///< of the model's, in the body
   double beyond_stent_m = 0;  ///< how far it stands out of a lesion's stents while it is hard
   double ST_mV = 0;
-  Trace guide_trace = Trace::absent;  ///< of the last heartbeat
+  vascular::Trace guide_trace = vascular::Trace::absent;  ///< of the last heartbeat
   std::vector<HandledTool> tools;
   int catheter = -1, thick_wire = -1, thin_wire = -1, device = -1;  ///< tools in the body; -1: none
   int catheter_cell = -1, wire_cell = -1;                           ///< of the arteries, where their tips are
@@ -62,4 +62,4 @@ double beyond_stent_m(const SessionModel& model, const SessionState& state);
 void see(const SessionModel& model, const SessionInputs& inputs, const SessionState& state, const SessionReport& report,
          HandlingScene& scene);
 
-}  // namespace ostium
+}  // namespace ostium::app

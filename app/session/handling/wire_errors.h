@@ -5,16 +5,16 @@
 
 #include "app/session/handling/episode.h"
 #include "app/session/handling/scene.h"
-#include "app/session/session_event.h"
+#include "app/session/handling/session_event.h"
 
-namespace ostium {
+namespace ostium::app {
 
 class WireStrays {
  public:
   void look(const HandlingMap& map, const HandlingScene& x, const EventSink& say) {
     if (x.thick_wire < 0) return;
     const double astray_m = map.astray_m[static_cast<std::size_t>(x.tool(x.thick_wire).sphere)];
-    if (episode_.begins(astray_m > most_m, x.time_s)) say(EventCode::wire_strays, x.thick_wire, 1e3 * astray_m);
+    if (episode_.begins(astray_m > most_m, x.time_s)) say(data::EventCode::wire_strays, x.thick_wire, 1e3 * astray_m);
   }
 
  private:
@@ -27,7 +27,7 @@ class WireInVentricle {
   void look(const HandlingMap& map, const HandlingScene& x, const EventSink& say) {
     if (x.thick_wire < 0) return;
     const bool inside = map.in_ventricle[static_cast<std::size_t>(x.tool(x.thick_wire).sphere)];
-    if (episode_.begins(inside, for_s, x.time_s)) say(EventCode::wire_in_ventricle, x.thick_wire);
+    if (episode_.begins(inside, for_s, x.time_s)) say(data::EventCode::wire_in_ventricle, x.thick_wire);
   }
 
  private:
@@ -41,7 +41,7 @@ class ThickWireInCoronary {
     if (x.thick_wire < 0) return;
     const double inside_m = map.in_coronary_m[static_cast<std::size_t>(x.tool(x.thick_wire).sphere)];
     if (episode_.begins(inside_m > most_m, x.time_s))
-      say(EventCode::thick_wire_in_coronary, x.thick_wire, 1e3 * inside_m);
+      say(data::EventCode::thick_wire_in_coronary, x.thick_wire, 1e3 * inside_m);
   }
 
  private:
@@ -61,7 +61,7 @@ class BlindWire {
     fed_m_ = fed_m;
     if (x.wire_cell < 0) return;
     blind_m_ = x.thin_tip_is_seen ? 0 : blind_m_ + std::fabs(moved_m);
-    if (episode_.begins(blind_m_ > most_m, x.time_s)) say(EventCode::blind_wire, x.thin_wire);
+    if (episode_.begins(blind_m_ > most_m, x.time_s)) say(data::EventCode::blind_wire, x.thin_wire);
   }
 
  private:
@@ -79,7 +79,7 @@ class SideBranchPushed {
     if (x.wire_cell < 0) return;
     const double unplanned_m = map.unplanned_m[static_cast<std::size_t>(x.wire_cell)];
     if (episode_.begins(pushed && unplanned_m > most_m, x.time_s))
-      say(EventCode::side_branch_pushed, x.thin_wire, 1e3 * unplanned_m);
+      say(data::EventCode::side_branch_pushed, x.thin_wire, 1e3 * unplanned_m);
   }
 
  private:
@@ -93,7 +93,8 @@ class WireTooFar {
   void look(const HandlingMap& map, const HandlingScene& x, const EventSink& say) {
     const auto cell = static_cast<std::size_t>(x.wire_cell);
     const bool too_far = x.wire_cell >= 0 && (map.healthy_m[cell] < narrow_m || map.to_end_m[cell] < near_end_m);
-    if (episode_.begins(too_far, for_s, x.time_s)) say(EventCode::wire_too_far, x.thin_wire, 1e3 * map.to_end_m[cell]);
+    if (episode_.begins(too_far, for_s, x.time_s))
+      say(data::EventCode::wire_too_far, x.thin_wire, 1e3 * map.to_end_m[cell]);
   }
 
  private:
@@ -112,11 +113,11 @@ class WireDrift {
   void look(const HandlingMap& map, const HandlingScene& x, const EventSink& say) {
     if (!x.diastasis) return;
     const double along_m = wire_along_m(map, x);
-    const bool device_moves = x.device >= 0 && x.tool(x.device).advance_m_s != 0;
-    if (x.tool(x.thin_wire).advance_m_s != 0 || x.device < 0) parked_m_ = -1;
+    const bool device_moves = x.device >= 0 && x.tool(x.device).feed_m_s != 0;
+    if (x.tool(x.thin_wire).feed_m_s != 0 || x.device < 0) parked_m_ = -1;
     if (parked_m_ < 0 && device_moves) parked_m_ = along_m;
     if (parked_m_ < 0 || std::fabs(along_m - parked_m_) < most_m) return;
-    say(EventCode::wire_drift, x.thin_wire, 1e3 * (along_m - parked_m_));
+    say(data::EventCode::wire_drift, x.thin_wire, 1e3 * (along_m - parked_m_));
     parked_m_ = along_m;
   }
 
@@ -135,7 +136,7 @@ class WirePositionLost {
     if (behind && along_m >= farthest_m_) farthest_m_ = along_m, fed_at_farthest_m_ = fed_m;
     if (behind || farthest_m_ < 0) return;
     const double retreat_m = farthest_m_ - along_m, drawn_m = fed_at_farthest_m_ - fed_m;
-    if (retreat_m - drawn_m > most_m) say(EventCode::wire_position_lost, x.thin_wire, 1e3 * retreat_m);
+    if (retreat_m - drawn_m > most_m) say(data::EventCode::wire_position_lost, x.thin_wire, 1e3 * retreat_m);
     farthest_m_ = -1;
   }
 
@@ -146,4 +147,4 @@ class WirePositionLost {
 
 using CoronaryWireErrors = std::tuple<BlindWire, SideBranchPushed, WireTooFar, WireDrift, WirePositionLost>;
 
-}  // namespace ostium
+}  // namespace ostium::app

@@ -2,91 +2,95 @@
 
 #include <cmath>
 
-#include "app/session/outcome.h"
+#include "app/session/model/outcome.h"
+#include "core/base/units.h"
 #include "core/rod/introducer.h"
-#include "vascular/units.h"
 
-namespace ostium {
+namespace ostium::app {
 
 namespace {
 
+using units::atm;
+
 constexpr double undiluted_kg_m3 = 350;
 
-EventCode code_of(OperatorEvent::Kind kind) {
+data::EventCode code_of(OperatorEvent::Kind kind) {
   using Kind = OperatorEvent::Kind;
-  return kind == Kind::begins   ? EventCode::script_step_begins
-         : kind == Kind::done   ? EventCode::script_step_done
-         : kind == Kind::failed ? EventCode::script_step_failed
-         : kind == Kind::marked ? EventCode::mark
-                                : EventCode::script_step_timed_out;
+  return kind == Kind::begins   ? data::EventCode::script_step_begins
+         : kind == Kind::done   ? data::EventCode::script_step_done
+         : kind == Kind::failed ? data::EventCode::script_step_failed
+         : kind == Kind::marked ? data::EventCode::mark
+                                : data::EventCode::script_step_timed_out;
 }
 
 }  // namespace
 
 EventWatch::EventWatch(const SessionModel& model)
-    : tools_(model.tools.size()), handling_(model), stents_(model.treatment.stents.size(), StentState::on_balloon) {}
+    : tools_(model.tools.size()),
+      handling_(model),
+      stents_(model.treatment.stents.size(), vascular::StentState::on_balloon) {}
 
 void EventWatch::look_at_syringe(const SessionInputs& inputs, const SessionState& state, const EventSink& say) {
-  const BedsideInputs& hand = inputs.bedside;
+  const DeliveryInputs& hand = inputs.delivery;
   const bool injects = hand.injection_m3_s > 0;
   if (injects && !injects_) {
-    say(EventCode::injection_begins, -1, 1e6 * hand.injection_m3_s);
-    if (trace_ == Trace::damped || trace_ == Trace::ventricularised)
-      say(EventCode::injection_on_bad_trace, -1, static_cast<double>(trace_));
+    say(data::EventCode::injection_begins, -1, 1e6 * hand.injection_m3_s);
+    if (trace_ == vascular::Trace::damped || trace_ == vascular::Trace::ventricularised)
+      say(data::EventCode::injection_on_bad_trace, -1, static_cast<double>(trace_));
   }
   if (!injects && injects_)
-    say(EventCode::injection_ends, -1, 1e6 * state.blood.contrast.injected_kg / undiluted_kg_m3);
+    say(data::EventCode::injection_ends, -1, 1e6 * state.blood.contrast.injected_kg / undiluted_kg_m3);
   injects_ = injects;
-  if (hand.heparin_U > 0) say(EventCode::heparin, -1, hand.heparin_U);
-  if (hand.nitrate_ug > 0) say(EventCode::nitrate, -1, hand.nitrate_ug);
-  if (hand.adenosine_ug > 0) say(EventCode::adenosine, -1, hand.adenosine_ug);
+  if (hand.heparin_U > 0) say(data::EventCode::heparin, -1, hand.heparin_U);
+  if (hand.nitrate_ug > 0) say(data::EventCode::nitrate, -1, hand.nitrate_ug);
+  if (hand.adenosine_ug > 0) say(data::EventCode::adenosine, -1, hand.adenosine_ug);
 }
 
 void EventWatch::look_at_heart(const SessionState& state, const EventSink& say) {
   // While contrast or a thick wire is in the guide there is no trace to judge.
-  const Trace trace = state.bedside.guide >= 0 ? state.blood.line.trace : Trace::absent;
-  if (trace != trace_) say(EventCode::trace_changes, -1, static_cast<double>(trace));
+  const vascular::Trace trace = state.coupling.guide >= 0 ? state.blood.line.trace : vascular::Trace::absent;
+  if (trace != trace_) say(data::EventCode::trace_changes, -1, static_cast<double>(trace));
   trace_ = trace;
-  if (state.blood.heart.ectopic > ectopic_) say(EventCode::extrasystole, -1, 0);
+  if (state.blood.heart.ectopic > ectopic_) say(data::EventCode::extrasystole, -1, 0);
   ectopic_ = state.blood.heart.ectopic;
 }
 
 void EventWatch::look_at_balloon(const SessionModel& model, const SessionInputs& inputs, const SessionState& state,
                                  const EventSink& say) {
-  const double gauge_Pa = inputs.bedside.gauge_Pa, time_s = seconds(model, state);
-  const BalloonState& balloon = state.treatment.balloon;
-  const bool inflated = gauge_Pa > atm && state.bedside.balloon >= 0;
+  const double gauge_Pa = inputs.delivery.gauge_Pa, time_s = seconds(model, state);
+  const vascular::BalloonState& balloon = state.treatment.balloon;
+  const bool inflated = gauge_Pa > atm && state.coupling.balloon >= 0;
   if (inflated && !inflated_) {
-    say(EventCode::inflation_begins, -1, 0);
+    say(data::EventCode::inflation_begins, -1, 0);
     inflated_since_s_ = time_s, filled_ = true;
-    if (state.bedside.branch < 0) say(EventCode::inflation_in_catheter, -1, 0);
+    if (state.coupling.branch < 0) say(data::EventCode::inflation_in_catheter, -1, 0);
   }
   inflated_ = inflated;
-  if (state.bedside.balloon >= 0) {
-    const BalloonModel& own = model.treatment.balloons[static_cast<std::size_t>(state.bedside.balloon)];
+  if (state.coupling.balloon >= 0) {
+    const vascular::BalloonModel& own = model.treatment.balloons[static_cast<std::size_t>(state.coupling.balloon)];
     const bool over = gauge_Pa > own.rated_Pa;
-    if (over && !over_) say(EventCode::over_pressure, -1, gauge_Pa / atm);
+    if (over && !over_) say(data::EventCode::over_pressure, -1, gauge_Pa / atm);
     over_ = over;
     if (filled_ && !inflated && is_empty(own, balloon))
-      say(EventCode::deflated, -1, time_s - inflated_since_s_), filled_ = false;
-    if (balloon.burst > burst_) say(EventCode::balloon_burst, -1, gauge_Pa / atm);
+      say(data::EventCode::deflated, -1, time_s - inflated_since_s_), filled_ = false;
+    if (balloon.burst > burst_) say(data::EventCode::balloon_burst, -1, gauge_Pa / atm);
   }
   burst_ = balloon.burst;
 }
 
 void EventWatch::look_at_stents(const SessionModel& model, const SessionState& state, const EventSink& say) {
   for (std::size_t i = 0; i < state.treatment.stents.size(); ++i) {
-    const StentState& own = state.treatment.stents[i];
-    const StentState::Where where = own.where;
+    const vascular::StentState& own = state.treatment.stents[i];
+    const vascular::StentState::Where where = own.where;
     if (where == stents_[i]) continue;
     const auto at = model.vessel->coronaries->lesions.empty() ? std::nullopt
                                                               : stent_from_lesion_m(model, state, static_cast<int>(i));
-    if (where != StentState::deployed || own.branch < 0)
-      say(EventCode::stent_lost, -1, 0);
+    if (where != vascular::StentState::deployed || own.branch < 0)
+      say(data::EventCode::stent_lost, -1, 0);
     else if (at)
-      say(EventCode::stent_deployed, -1, 1e3 * *at);
+      say(data::EventCode::stent_deployed, -1, 1e3 * *at);
     else
-      say(EventCode::stent_elsewhere, -1,
+      say(data::EventCode::stent_elsewhere, -1,
           model.physiology.flow.tree.branches[static_cast<std::size_t>(own.branch)].tree_branch);
     stents_[i] = where;
   }
@@ -95,9 +99,9 @@ void EventWatch::look_at_stents(const SessionModel& model, const SessionState& s
 void EventWatch::look_at_flow(const SessionModel& model, const SessionState& state, const EventSink& say) {
   if (model.vessel->coronaries->lesions.empty() || state.rods.step % look_every != 0) return;
   const double time_s = seconds(model, state);
-  const bool closed = supply_behind_lesion(model, state) < occluded_share;
-  if (closed && !closed_) say(EventCode::occlusion_begins, -1, 0), closed_since_s_ = time_s;
-  if (!closed && closed_) say(EventCode::occlusion_ends, -1, time_s - closed_since_s_);
+  const bool closed = supply_behind_lesion(model, state) < data::occluded_share;
+  if (closed && !closed_) say(data::EventCode::occlusion_begins, -1, 0), closed_since_s_ = time_s;
+  if (!closed && closed_) say(data::EventCode::occlusion_ends, -1, time_s - closed_since_s_);
   closed_ = closed;
 }
 
@@ -105,14 +109,14 @@ void EventWatch::look_at_injuries(const SessionState& state, const EventSink& sa
   const auto& injuries = state.treatment.injury.injuries;
   for (std::size_t i = 0; i < injuries.size(); ++i) {
     const double value = injuries[i].cell < 0 ? 0 : 10 * static_cast<int>(injuries[i].kind) + injuries[i].grade;
-    if (value > injuries_[i]) say(EventCode::injury, -1, value);
+    if (value > injuries_[i]) say(data::EventCode::injury, -1, value);
     injuries_[i] = value;
   }
 }
 
 void EventWatch::look_at_entry(const SessionReport& report, const EventSink& say) {
   if (report.refused >= 0 && refused_ != report.refused)
-    say(EventCode::entry_refused, report.refused, report.in_its_way);
+    say(data::EventCode::entry_refused, report.refused, report.in_its_way);
   refused_ = report.refused;
 }
 
@@ -121,24 +125,24 @@ void EventWatch::look_at_tools(const SessionModel& model, const SessionReport& r
   for (int t = 0; t < static_cast<int>(tools_.size()); ++t) {
     Tool& before = tools_[static_cast<std::size_t>(t)];
     const ToolReport& tool = report.tools[static_cast<std::size_t>(t)];
-    if (tool.in_body != before.in_body) say(tool.in_body ? EventCode::tool_in : EventCode::tool_out, t, 0);
+    if (tool.in_body != before.in_body) say(tool.in_body ? data::EventCode::tool_in : data::EventCode::tool_out, t, 0);
     before.in_body = tool.in_body;
-    before.wall_force_N += (1 - std::exp(-2 * EIGEN_PI * wall_force_cut_off_Hz * model.step_s())) *
+    before.wall_force_N += (1 - std::exp(-2 * EIGEN_PI * data::wall_force_cut_off_Hz * model.step_s())) *
                            (tool.wall_force_N - before.wall_force_N);
-    const bool pressed = before.wall_force_N > (before.pressed ? 0.8 : 1) * wall_force_limit_N;
-    if (pressed && !before.pressed) say(EventCode::wall_force_high, t, before.wall_force_N);
+    const bool pressed = before.wall_force_N > (before.pressed ? 0.8 : 1) * data::wall_force_limit_N;
+    if (pressed && !before.pressed) say(data::EventCode::wall_force_high, t, before.wall_force_N);
     before.pressed = pressed;
     if (!handling_looked) continue;
     const int sphere = handling_.scene().tools[static_cast<std::size_t>(t)].sphere;
     const int branch = tool.in_body ? model.vessel->way->branch(sphere) : -1;
-    if (before.branch.comes_to(branch, now, model.step_s())) say(EventCode::tip_enters, t, branch);
+    if (before.branch.comes_to(branch, now, model.step_s())) say(data::EventCode::tip_enters, t, branch);
   }
 }
 
 void EventWatch::look_at_beam(const CArmInputs& arm, const EventSink& say) {
   if (arm.fluoroscopy != fluoroscopy_)
-    say(arm.fluoroscopy ? EventCode::fluoroscopy_on : EventCode::fluoroscopy_off, -1, 0);
-  if (arm.cine != cine_) say(arm.cine ? EventCode::cine_on : EventCode::cine_off, -1, 0);
+    say(arm.fluoroscopy ? data::EventCode::fluoroscopy_on : data::EventCode::fluoroscopy_off, -1, 0);
+  if (arm.cine != cine_) say(arm.cine ? data::EventCode::cine_on : data::EventCode::cine_off, -1, 0);
   fluoroscopy_ = arm.fluoroscopy, cine_ = arm.cine;
 }
 
@@ -152,8 +156,8 @@ void EventWatch::look(const SessionModel& model, const SessionInputs& inputs, co
   if (looks) handling_.look(model, inputs, state, report, say);
   look_at_tools(model, report, now, looks, say);
   look_at_beam(inputs.c_arm, say);
-  const std::uint32_t trouble = report.rods.trouble & ~static_cast<std::uint32_t>(feed_stopped | drive_limited);
-  if (trouble && !trouble_) say(EventCode::step_trouble, -1, trouble);
+  const std::uint32_t trouble = report.rods.trouble & ~static_cast<std::uint32_t>(core::feed_stopped | core::drive_limited);
+  if (trouble && !trouble_) say(data::EventCode::step_trouble, -1, trouble);
   trouble_ = trouble;
   if (!model.has_patient()) return;
   look_at_syringe(inputs, state, say);  // judges by the trace of before
@@ -165,4 +169,4 @@ void EventWatch::look(const SessionModel& model, const SessionInputs& inputs, co
   look_at_entry(report, say);
 }
 
-}  // namespace ostium
+}  // namespace ostium::app

@@ -5,10 +5,10 @@
 #include <vector>
 
 #include "app/session/handling/handling.h"
-#include "app/session/operator.h"
-#include "app/session/settled_branch.h"
+#include "app/session/operator/operator.h"
+#include "app/session/recorder/settled_branch.h"
 
-namespace ostium {
+namespace ostium::app {
 
 class EventWatch {
  public:
@@ -38,15 +38,15 @@ class EventWatch {
   // As they were at the step before.
   std::vector<Tool> tools_;
   HandlingWatch handling_;
-  std::vector<StentState::Where> stents_;  ///< where they were
-  std::array<double, most_injuries> injuries_{};
+  std::vector<vascular::StentState::Where> stents_;  ///< where they were
+  std::array<double, vascular::most_injuries> injuries_{};
   bool injects_ = false, inflated_ = false, filled_ = false, over_ = false, closed_ = false;
   double inflated_since_s_ = 0, closed_since_s_ = 0;
   bool ectopic_ = false, burst_ = false;
-  Trace trace_ = Trace::absent;
+  vascular::Trace trace_ = vascular::Trace::absent;
   int refused_ = -1;
   bool fluoroscopy_ = false, cine_ = false;
   std::uint32_t trouble_ = 0;
 };
 
-}  // namespace ostium
+}  // namespace ostium::app

@@ -5,14 +5,15 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "core/base/units.h"
 #include "data/catalogue/case/anatomy_keys.h"
 
-namespace ostium {
+namespace ostium::data {
 
 namespace {
 
 namespace keys = anatomy_keys;
-constexpr double mm = 1e-3;
+using units::mm;
 
 std::string quoted(const std::string& text) { return nlohmann::json(text).dump(); }
 
@@ -37,15 +38,15 @@ int index(const JsonObject& object, const std::string& key, int least, std::size
   return static_cast<int>(n);
 }
 
-Tube read_tube(const JsonObject& object, std::size_t before) {
-  Tube tube{.name = object.text("name"), .nodes = {}};
+vascular::Tube read_tube(const JsonObject& object, std::size_t before) {
+  vascular::Tube tube{.name = object.text("name"), .nodes = {}};
   tube.parent = index(object, "parent", -1, before);
   tube.blend = object.positive("blend");
   for (const JsonValue& value : object.list("nodes")) {
     if (value.type != JsonValue::Type::array || value.items.size() != 4) object.refuse("nodes");
     for (const JsonValue& item : value.items)
       if (item.type != JsonValue::Type::number) object.refuse("nodes");
-    TubeNode node;
+    vascular::TubeNode node;
     node.p = mm * Eigen::Vector3d(value.items[0].number, value.items[1].number, value.items[2].number);
     node.radius_m = mm * value.items[3].number;
     const double step = tube.nodes.empty() ? 1 : (node.p - tube.nodes.back().p).norm();
@@ -57,8 +58,8 @@ Tube read_tube(const JsonObject& object, std::size_t before) {
   return tube;
 }
 
-NamedBranch read_branch(const JsonObject& object, const std::vector<Tube>& tubes) {
-  NamedBranch branch{.name = object.text("name"), .tube = index(object, "tube", 0, tubes.size())};
+vascular::NamedBranch read_branch(const JsonObject& object, const std::vector<vascular::Tube>& tubes) {
+  vascular::NamedBranch branch{.name = object.text("name"), .tube = index(object, "tube", 0, tubes.size())};
   // Written with five digits: a branch may seem to end behind its tube.
   const double length = tubes[static_cast<std::size_t>(branch.tube)].length_m();
   branch.from_m = mm * object.not_negative("from_mm");
@@ -68,8 +69,8 @@ NamedBranch read_branch(const JsonObject& object, const std::vector<Tube>& tubes
   return branch;
 }
 
-Landmarks read_landmarks(const JsonObject& object) {
-  Landmarks marks;
+vascular::Landmarks read_landmarks(const JsonObject& object) {
+  vascular::Landmarks marks;
   marks.p_access = mm * vector(object, "access_mm");
   marks.access_direction = direction(object, "access_direction");
   marks.p_left_ostium = mm * vector(object, "left_ostium_mm");
@@ -83,10 +84,10 @@ Landmarks read_landmarks(const JsonObject& object) {
   return marks;
 }
 
-Anatomy read(const JsonValue& file) {
+vascular::Anatomy read(const JsonValue& file) {
   const JsonObject root(file, keys::root);
   if (root.text("schema") != "ostium-anatomy/1") root.refuse("schema");
-  Anatomy anatomy;
+  vascular::Anatomy anatomy;
   anatomy.aorta = root.boolean("aorta");
   anatomy.ascending_m = mm * root.positive("ascending_mm");
   if (anatomy.ascending_m <= 20 * mm) root.refuse("ascending_mm");
@@ -101,11 +102,11 @@ Anatomy read(const JsonValue& file) {
 
 }  // namespace
 
-std::string anatomy_to_json(const Anatomy& anatomy) {
+std::string anatomy_to_json(const vascular::Anatomy& anatomy) {
   std::string text = fmt::format(
       "{{\n\"schema\": \"ostium-anatomy/1\",\n\"aorta\": {},\n\"ascending_mm\": {:.5f},\n\"landmarks\": {{\n",
       anatomy.aorta ? "true" : "false", anatomy.ascending_m / mm);
-  const Landmarks& m = anatomy.landmarks;
+  const vascular::Landmarks& m = anatomy.landmarks;
   text += fmt::format("  \"access_mm\": {},\n  \"access_direction\": {},\n", point(m.p_access, mm),
                       point(m.access_direction, 1));
   text += fmt::format("  \"left_ostium_mm\": {},\n  \"right_ostium_mm\": {},\n", point(m.p_left_ostium, mm),
@@ -114,13 +115,13 @@ std::string anatomy_to_json(const Anatomy& anatomy) {
   text += fmt::format("  \"lv_base_mm\": {},\n  \"lv_apex_mm\": {},\n  \"right_groove\": {}\n}},\n\"branches\": [",
                       point(m.p_lv_base, mm), point(m.p_lv_apex, mm), point(m.right_groove, 1));
   for (std::size_t b = 0; b < anatomy.branches.size(); ++b) {
-    const NamedBranch& branch = anatomy.branches[b];
+    const vascular::NamedBranch& branch = anatomy.branches[b];
     text += fmt::format("{}\n{{ \"name\": {}, \"tube\": {}, \"from_mm\": {:.5f}, \"to_mm\": {:.5f} }}", b ? "," : "",
                         quoted(branch.name), branch.tube, branch.from_m / mm, branch.to_m / mm);
   }
   text += "\n],\n\"tubes\": [";
   for (std::size_t t = 0; t < anatomy.tubes.size(); ++t) {
-    const Tube& tube = anatomy.tubes[t];
+    const vascular::Tube& tube = anatomy.tubes[t];
     text += fmt::format("{}\n{{ \"name\": {}, \"parent\": {}, \"blend\": {:g}, \"nodes\": [", t ? "," : "",
                         quoted(tube.name), tube.parent, tube.blend);
     for (std::size_t i = 0; i < tube.nodes.size(); ++i) {
@@ -133,7 +134,9 @@ std::string anatomy_to_json(const Anatomy& anatomy) {
   return text + "\n]\n}\n";
 }
 
-Anatomy read_anatomy(const std::string& file, const std::string& text) { return read(parse_json(file, text)); }
-Anatomy load_anatomy(const std::string& file) { return read(load_json(file)); }
+vascular::Anatomy read_anatomy(const std::string& file, const std::string& text) {
+  return read(parse_json(file, text));
+}
+vascular::Anatomy load_anatomy(const std::string& file) { return read(load_json(file)); }
 
-}  // namespace ostium
+}  // namespace ostium::data

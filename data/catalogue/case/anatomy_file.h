@@ -4,12 +4,12 @@
 
 #include "vascular/anatomy/anatomy.h"
 
-namespace ostium {
+namespace ostium::data {
 
-std::string anatomy_to_json(const Anatomy& anatomy);
+std::string anatomy_to_json(const vascular::Anatomy& anatomy);
 
 /// Throws LoadError with file, line, key, value found and what was expected.
-Anatomy read_anatomy(const std::string& file, const std::string& text);
-Anatomy load_anatomy(const std::string& file);
+vascular::Anatomy read_anatomy(const std::string& file, const std::string& text);
+vascular::Anatomy load_anatomy(const std::string& file);
 
-}  // namespace ostium
+}  // namespace ostium::data

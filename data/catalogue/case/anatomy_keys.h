@@ -2,7 +2,7 @@
 /// The keys of an anatomy file; data/schemas/anatomy.schema.json is made of them.
 #include "data/formats/json_object.h"
 
-namespace ostium::anatomy_keys {
+namespace ostium::data::anatomy_keys {
 
 inline const JsonObjectKeys root = {
     "anatomy",
@@ -46,4 +46,4 @@ inline const JsonObjectKeys landmarks = {
 
 inline const std::vector<const JsonObjectKeys*> all = {&root, &tube, &branch, &landmarks};
 
-}  // namespace ostium::anatomy_keys
+}  // namespace ostium::data::anatomy_keys

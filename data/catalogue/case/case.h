@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "vascular/patient.h"
+#include "vascular/patient/patient.h"
 
-namespace ostium {
+namespace ostium::data {
 
 /// What the operator is told before the procedure.
 struct CaseCard {
@@ -15,25 +15,25 @@ struct CaseCard {
 
 /// Someone's own vessels, as `ostium import` wrote them.
 struct ImportedVessels {
-  Anatomy anatomy;
-  Mesh lumen;  ///< patient frame, end-diastole
+  vascular::Anatomy anatomy;
+  vascular::Mesh lumen;  ///< patient frame, end-diastole
   /// Its vertices through one beat as they were given, beat_frames of them, the first `lumen`'s; empty: they were not.
   std::vector<std::vector<Eigen::Vector3d>> frames;
 };
 
 /// The lumen of someone's vessels, and its frames, from meshes of the same triangles at even spaces of one beat, at
 /// least four.
-void set_frames(std::vector<Mesh> frames, ImportedVessels& vessels);
+void set_frames(std::vector<vascular::Mesh> frames, ImportedVessels& vessels);
 
 struct Case {
   std::string name;  ///< the file's name without .json
   std::string title;
   CaseCard card;
-  AnatomyParameters anatomy;                        ///< of a built anatomy
+  vascular::AnatomyParameters anatomy;              ///< of a built anatomy
   std::shared_ptr<const ImportedVessels> imported;  ///< or these; null: the anatomy is built
   std::uint64_t seed = 0;                           ///< of the person; 0: the mean
   double rate_1_min = 70;                           ///< heart beats
-  std::vector<Lesion> lesions;
+  std::vector<vascular::Lesion> lesions;
 };
 
 /// As files say them, in Access' order.
@@ -63,9 +63,9 @@ Case with_person(const Case& c, std::uint64_t seed);
 
 /// The vessels, beating, with the case's lesions: built, or as they were imported. Every command makes its patient
 /// here.
-Patient patient_of(const Case& c);
+vascular::Patient patient_of(const Case& c);
 /// The vessels at rest, without lesions.
-Anatomy anatomy_of(const Case& c);
+vascular::Anatomy anatomy_of(const Case& c);
 
 /// A table's line, and everything as JSON (data/schemas/cases.schema.json).
 std::string case_heading();
@@ -73,4 +73,4 @@ std::string case_line(const Case& c);
 std::string case_details(const Case& c);
 std::string to_json(const std::vector<Case>& cases);
 
-}  // namespace ostium
+}  // namespace ostium::data

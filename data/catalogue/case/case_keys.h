@@ -4,7 +4,7 @@
 #include "data/catalogue/case/case.h"
 #include "data/formats/json_object.h"
 
-namespace ostium::case_keys {
+namespace ostium::data::case_keys {
 
 inline const JsonObjectKeys root = {
     "case",
@@ -55,4 +55,4 @@ inline const JsonObjectKeys lesion = {
 
 inline const std::vector<const JsonObjectKeys*> all = {&root, &card, &anatomy, &imported, &lesion};
 
-}  // namespace ostium::case_keys
+}  // namespace ostium::data::case_keys

@@ -11,9 +11,9 @@
 #include "data/catalogue/case/case.h"
 #include "data/catalogue/case/case_keys.h"
 #include "data/catalogue/catalogue.h"
-#include "vascular/beat/heart_cycle.h"
+#include "vascular/motion/heart_cycle.h"
 
-namespace ostium {
+namespace ostium::data {
 
 namespace {
 
@@ -25,21 +25,21 @@ CaseCard read_card(const JsonObject& card) {
 }
 
 void read_anatomy(const JsonObject& anatomy, Case& c) {
-  const auto dominance = static_cast<Dominance>(anatomy.choice("dominance", {"right", "left", "balanced"}));
-  const auto access = static_cast<Access>(anatomy.choice("access", access_names()));
+  const auto dominance = static_cast<vascular::Dominance>(anatomy.choice("dominance", {"right", "left", "balanced"}));
+  const auto access = static_cast<vascular::Access>(anatomy.choice("access", access_names()));
   const double seed = anatomy.not_negative("seed");
   if (seed != std::floor(seed) || seed > 1e15) anatomy.refuse("seed");
   c.seed = static_cast<std::uint64_t>(seed);
   c.anatomy = person(c.seed, mean_of(dominance, access));
 }
 
-Lesion read_lesion(const JsonObject& entry, const Anatomy& anatomy) {
-  Lesion lesion{.branch = entry.text("branch"),
-                .from_m = entry.not_negative("from_mm") * 1e-3,
-                .length_m = entry.positive("length_mm") * 1e-3,
-                .stenosis = entry.positive("stenosis_percent") / 100,
-                .eccentric = entry.choice("shape", {"concentric", "eccentric"}) == 1,
-                .calcified = entry.boolean("calcified")};
+vascular::Lesion read_lesion(const JsonObject& entry, const vascular::Anatomy& anatomy) {
+  vascular::Lesion lesion{.branch = entry.text("branch"),
+                          .from_m = entry.not_negative("from_mm") * 1e-3,
+                          .length_m = entry.positive("length_mm") * 1e-3,
+                          .stenosis = entry.positive("stenosis_percent") / 100,
+                          .eccentric = entry.choice("shape", {"concentric", "eccentric"}) == 1,
+                          .calcified = entry.boolean("calcified")};
   if (entry.has("side_deg")) {
     if (!lesion.eccentric) entry.refuse("side_deg");
     lesion.side_rad = entry.number("side_deg") * std::numbers::pi / 180;
@@ -69,10 +69,10 @@ void read_imported(const JsonObject& imported, const fs::path& folder, Case& c) 
   }
   try {
     if (sequence)
-      set_frames(read_mesh_sequence(frames, LengthUnit::millimetre, 0), vessels);
+      set_frames(read_mesh_sequence(frames, vascular::LengthUnit::millimetre, 0), vessels);
     else
-      vessels.lumen = read_mesh(frames.front(), LengthUnit::millimetre, 0).mesh;
-  } catch (const MeshError& error) {
+      vessels.lumen = read_mesh(frames.front(), vascular::LengthUnit::millimetre, 0).mesh;
+  } catch (const vascular::MeshError& error) {
     imported[std::string(sequence ? "frames" : "lumen")].fail(error.what());
   }
   c.imported = std::make_shared<const ImportedVessels>(std::move(vessels));
@@ -93,8 +93,8 @@ Case read(const JsonValue& file) {
   else
     read_imported(JsonObject(root["imported"], keys::imported), fs::path(*file.file).parent_path(), c);
   c.rate_1_min = root.positive("heart_rate_1_min");
-  if (c.rate_1_min < least_rate_1_min || c.rate_1_min > highest_rate_1_min) root.refuse("heart_rate_1_min");
-  const Anatomy anatomy = anatomy_of(c);
+  if (c.rate_1_min < vascular::least_rate_1_min || c.rate_1_min > vascular::highest_rate_1_min) root.refuse("heart_rate_1_min");
+  const vascular::Anatomy anatomy = anatomy_of(c);
   for (const JsonValue& value : root.list("lesions"))
     c.lesions.push_back(read_lesion(JsonObject(value, keys::lesion), anatomy));
   return c;
@@ -161,25 +161,26 @@ Case with_person(const Case& c, std::uint64_t seed) {
   out.seed = seed;
   out.anatomy = person(seed, mean_of(c.anatomy.dominance, c.anatomy.access));
   constexpr double rounding_m = 1e-9;
-  const Anatomy anatomy = anatomy_of(out);
-  for (Lesion& lesion : out.lesions)
-    if (const NamedBranch* branch = find_branch(anatomy, lesion.branch); branch && branch->length_m() > lesion.length_m)
+  const vascular::Anatomy anatomy = anatomy_of(out);
+  for (vascular::Lesion& lesion : out.lesions)
+    if (const vascular::NamedBranch* branch = find_branch(anatomy, lesion.branch);
+        branch && branch->length_m() > lesion.length_m)
       lesion.from_m = std::min(lesion.from_m, branch->length_m() - lesion.length_m - rounding_m);
   return out;
 }
 
-Patient patient_of(const Case& c) {
+vascular::Patient patient_of(const Case& c) {
   return c.imported ? make_patient(c.imported->anatomy, c.imported->lumen, c.lesions, c.imported->frames)
                     : make_patient(c.anatomy, c.lesions);
 }
 
-void set_frames(std::vector<Mesh> frames, ImportedVessels& vessels) {
+void set_frames(std::vector<vascular::Mesh> frames, ImportedVessels& vessels) {
   std::vector<std::vector<Eigen::Vector3d>> vertices;
-  for (const Mesh& frame : frames) vertices.push_back(frame.vertices);
-  vessels.frames = resampled(vertices, beat_frames);
+  for (const vascular::Mesh& frame : frames) vertices.push_back(frame.vertices);
+  vessels.frames = vascular::resampled(vertices, vascular::beat_frames);
   vessels.lumen = std::move(frames.front());
 }
 
-Anatomy anatomy_of(const Case& c) { return c.imported ? c.imported->anatomy : build_anatomy(c.anatomy); }
+vascular::Anatomy anatomy_of(const Case& c) { return c.imported ? c.imported->anatomy : build_anatomy(c.anatomy); }
 
-}  // namespace ostium
+}  // namespace ostium::data

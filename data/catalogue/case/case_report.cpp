@@ -2,13 +2,14 @@
 
 #include <nlohmann/json.hpp>
 
+#include "core/base/units.h"
 #include "data/catalogue/case/case.h"
 
-namespace ostium {
+namespace ostium::data {
 
 namespace {
 
-constexpr double per_mm = 1e3;
+using units::per_mm;
 const char* const dominances[] = {"right", "left", "balanced"};
 const char* const types[] = {"A", "B", "C"};
 
@@ -19,7 +20,7 @@ std::string dominance_text(const Case& c) {
   return c.imported ? "imported" : dominances[static_cast<int>(c.anatomy.dominance)];
 }
 
-std::string lesion_text(const Lesion& lesion) {
+std::string lesion_text(const vascular::Lesion& lesion) {
   return fmt::format("{} at {:.0f} mm: {:.0f} % over {:.0f} mm, {}{}, type {}", lesion.branch, lesion.from_m * per_mm,
                      100 * lesion.stenosis, lesion.length_m * per_mm, lesion.eccentric ? "eccentric" : "concentric",
                      lesion.calcified ? ", calcified" : "", types[static_cast<int>(type_of(lesion))]);
@@ -31,7 +32,7 @@ std::string case_heading() { return fmt::format("{:<32} {:<8} {:<9} {}", "case",
 
 std::string case_line(const Case& c) {
   std::string lesions;
-  for (const Lesion& lesion : c.lesions) lesions += (lesions.empty() ? "" : "; ") + lesion_text(lesion);
+  for (const vascular::Lesion& lesion : c.lesions) lesions += (lesions.empty() ? "" : "; ") + lesion_text(lesion);
   return fmt::format("{:<32} {:<8} {:<9} {}", c.name, access_text(c), dominance_text(c), lesions);
 }
 
@@ -39,10 +40,10 @@ std::string case_details(const Case& c) {
   std::string text =
       fmt::format("{}: {}\n  history  {}\n  ECG      {}\n  access   {}\n  heart    {:.0f} beats a minute\n", c.name,
                   c.title, c.card.history, c.card.ecg, c.card.planned_access, c.rate_1_min);
-  for (const Lesion& lesion : c.lesions) text += "  lesion   " + lesion_text(lesion) + "\n";
-  const Anatomy anatomy = anatomy_of(c);
+  for (const vascular::Lesion& lesion : c.lesions) text += "  lesion   " + lesion_text(lesion) + "\n";
+  const vascular::Anatomy anatomy = anatomy_of(c);
   text += fmt::format("  {:<22} {:>9} {:>12} {:>10}\n", "branch", "length mm", "proximal mm", "distal mm");
-  for (const NamedBranch& b : anatomy.branches)
+  for (const vascular::NamedBranch& b : anatomy.branches)
     if (b.length_m() > 0)
       text += fmt::format("  {:<22} {:9.1f} {:12.2f} {:10.2f}\n", b.name, b.length_m() * per_mm,
                           2 * per_mm * anatomy.tubes[b.tube].at(b.from_m).radius_m,
@@ -54,7 +55,7 @@ std::string to_json(const std::vector<Case>& cases) {
   nlohmann::ordered_json all = nlohmann::ordered_json::array();
   for (const Case& c : cases) {
     nlohmann::ordered_json lesions = nlohmann::ordered_json::array();
-    for (const Lesion& l : c.lesions)
+    for (const vascular::Lesion& l : c.lesions)
       lesions.push_back({{"branch", l.branch},
                          {"from_mm", l.from_m * per_mm},
                          {"length_mm", l.length_m * per_mm},
@@ -76,4 +77,4 @@ std::string to_json(const std::vector<Case>& cases) {
   return all.dump(2);
 }
 
-}  // namespace ostium
+}  // namespace ostium::data

@@ -11,7 +11,7 @@
 #include "data/formats/load_error.h"
 #include "data/formats/write_file.h"
 
-namespace ostium {
+namespace ostium::data {
 
 namespace {
 
@@ -38,7 +38,7 @@ struct Image {
 
 class Drawer {
  public:
-  Drawer(const Mesh& mesh, const std::vector<Eigen::Vector3d>& colours) : mesh_(mesh), colours_(colours) {
+  Drawer(const vascular::Mesh& mesh, const std::vector<Eigen::Vector3d>& colours) : mesh_(mesh), colours_(colours) {
     for (const Eigen::Vector3d& p : mesh.vertices) box_.extend(p);
     const Eigen::Vector3d size = box_.sizes();
     scale_ = longest / std::max({size.x() + size.z() + size.x(), size.y(), size.z(), 1e-9});
@@ -97,7 +97,7 @@ class Drawer {
     }
   }
 
-  const Mesh& mesh_;
+  const vascular::Mesh& mesh_;
   const std::vector<Eigen::Vector3d>& colours_;
   Eigen::AlignedBox3d box_;
   double scale_ = 1;
@@ -139,7 +139,7 @@ std::string escaped(const std::string& words) {
 
 }  // namespace
 
-void draw_mesh(const std::string& file, const Mesh& mesh, const std::vector<Eigen::Vector3d>& rgb_of_vertex,
+void draw_mesh(const std::string& file, const vascular::Mesh& mesh, const std::vector<Eigen::Vector3d>& rgb_of_vertex,
                const std::vector<PictureMark>& marks, const std::string& title) {
   const bool svg = file.ends_with(".svg");
   if (!svg && !file.ends_with(".png")) throw LoadError(file + ": what is it to be? .png and .svg are known");
@@ -179,4 +179,4 @@ void draw_mesh(const std::string& file, const Mesh& mesh, const std::vector<Eige
   write_file(file, text + "</svg>\n");
 }
 
-}  // namespace ostium
+}  // namespace ostium::data

@@ -3,9 +3,9 @@
 #include <string>
 #include <vector>
 
-#include "vascular/mesh.h"
+#include "vascular/geometry/mesh/mesh.h"
 
-namespace ostium {
+namespace ostium::data {
 
 struct PictureMark {
   Eigen::Vector3d p;  ///< of the mesh's frame
@@ -15,7 +15,7 @@ struct PictureMark {
 
 /// Along the mesh's own axes: seen against z, against x, against y. Throws LoadError if the name ends neither in .png
 /// nor in .svg, or the file cannot be written; nothing half is left.
-void draw_mesh(const std::string& file, const Mesh& mesh, const std::vector<Eigen::Vector3d>& rgb_of_vertex,
+void draw_mesh(const std::string& file, const vascular::Mesh& mesh, const std::vector<Eigen::Vector3d>& rgb_of_vertex,
                const std::vector<PictureMark>& marks, const std::string& title);
 
-}  // namespace ostium
+}  // namespace ostium::data

@@ -5,22 +5,23 @@
 #include <filesystem>
 #include <fstream>
 
-#include "data/formats/json_object.h"
+#include "core/base/units.h"
 #include "data/catalogue/case/tree_keys.h"
-#include "vascular/patient_frame.h"
+#include "data/formats/json_object.h"
+#include "vascular/geometry/mesh/patient_frame.h"
 
-namespace ostium {
+namespace ostium::data {
 
 namespace {
 
-constexpr double mm = 1e-3;
+using units::mm;
 
-TreeSphere read_sphere(const JsonValue& value, const TreeBranch& branch) {
+vascular::TreeSphere read_sphere(const JsonValue& value, const vascular::TreeBranch& branch) {
   const std::string expected = "[x, y, z, radius] in mm, radius > 0";
   if (value.type != JsonValue::Type::array || value.items.size() != 4) value.refuse(expected);
   for (const JsonValue& item : value.items)
     if (item.type != JsonValue::Type::number) value.refuse(expected);
-  TreeSphere sphere;
+  vascular::TreeSphere sphere;
   sphere.p = mm * Eigen::Vector3d(value.items[0].number, value.items[1].number, value.items[2].number);
   sphere.radius_m = mm * value.items[3].number;
   if (!(sphere.radius_m > 0)) value.refuse(expected);
@@ -28,9 +29,9 @@ TreeSphere read_sphere(const JsonValue& value, const TreeBranch& branch) {
   return sphere;
 }
 
-TreeBranch read_branch(const JsonValue& value, const SphereTree& before) {
+vascular::TreeBranch read_branch(const JsonValue& value, const vascular::SphereTree& before) {
   const JsonObject object(value, tree_keys::branch);
-  TreeBranch branch{.name = object.text("name"), .spheres = {}};
+  vascular::TreeBranch branch{.name = object.text("name"), .spheres = {}};
   branch.parent = static_cast<int>(object.number("parent"));
   branch.parent_sphere = static_cast<int>(object.number("parent_sphere"));
   if (branch.parent < -1 || branch.parent >= static_cast<int>(before.branches.size())) object.refuse("parent");
@@ -43,10 +44,10 @@ TreeBranch read_branch(const JsonValue& value, const SphereTree& before) {
   return branch;
 }
 
-SphereTree read(const JsonValue& file) {
+vascular::SphereTree read(const JsonValue& file) {
   const JsonObject root(file, tree_keys::tree);
   if (root.text("schema") != "ostium-tree/1") root.refuse("schema");
-  SphereTree tree;
+  vascular::SphereTree tree;
   for (const JsonValue& branch : root.list("branches")) tree.branches.push_back(read_branch(branch, tree));
   return tree;
 }
@@ -58,17 +59,19 @@ std::string data_array(const char* type, const char* name, const std::string& va
 
 }  // namespace
 
-SphereTree read_tree(const std::string& file, const std::string& text) { return read(parse_json(file, text)); }
-SphereTree load_tree(const std::string& file) { return read(load_json(file)); }
+vascular::SphereTree read_tree(const std::string& file, const std::string& text) {
+  return read(parse_json(file, text));
+}
+vascular::SphereTree load_tree(const std::string& file) { return read(load_json(file)); }
 
-std::string tree_to_json(const SphereTree& tree) {
+std::string tree_to_json(const vascular::SphereTree& tree) {
   std::string text = "{\n\"schema\": \"ostium-tree/1\",\n\"branches\": [";
   for (std::size_t b = 0; b < tree.branches.size(); ++b) {
-    const TreeBranch& branch = tree.branches[b];
+    const vascular::TreeBranch& branch = tree.branches[b];
     text += fmt::format("{}\n{{ \"name\": \"{}\", \"parent\": {}, \"parent_sphere\": {}, \"spheres\": [", b ? "," : "",
                         branch.name, branch.parent, branch.parent_sphere);
     for (std::size_t i = 0; i < branch.spheres.size(); ++i) {
-      const Eigen::Vector3d p = mm_from_patient(branch.spheres[i].p);
+      const Eigen::Vector3d p = vascular::mm_from_patient(branch.spheres[i].p);
       text += fmt::format("{}\n[{:.4f}, {:.4f}, {:.4f}, {:.4f}]", i ? "," : "", p.x(), p.y(), p.z(),
                           branch.spheres[i].radius_m / mm);
     }
@@ -77,17 +80,17 @@ std::string tree_to_json(const SphereTree& tree) {
   return text + "\n]\n}\n";
 }
 
-std::string tree_to_vtp(const SphereTree& tree) {
+std::string tree_to_vtp(const vascular::SphereTree& tree) {
   std::string points, radii, connectivity, offsets, ids, parents, names;
   std::size_t count = 0, lines = 0;
   for (std::size_t b = 0; b < tree.branches.size(); ++b) {
-    const TreeBranch& branch = tree.branches[b];
-    std::vector<TreeSphere> line = branch.spheres;
+    const vascular::TreeBranch& branch = tree.branches[b];
+    std::vector<vascular::TreeSphere> line = branch.spheres;
     if (branch.parent >= 0)
       line.insert(line.begin(), tree.branches[static_cast<std::size_t>(branch.parent)]
                                     .spheres[static_cast<std::size_t>(branch.parent_sphere)]);
-    for (const TreeSphere& sphere : line) {
-      const Eigen::Vector3d p = lps_mm_from_patient(sphere.p);
+    for (const vascular::TreeSphere& sphere : line) {
+      const Eigen::Vector3d p = vascular::lps_mm_from_patient(sphere.p);
       points += fmt::format("{:.4f} {:.4f} {:.4f}\n", p.x(), p.y(), p.z());
       radii += fmt::format("{:.4f}\n", sphere.radius_m / mm);
       connectivity += fmt::format("{}\n", count++);
@@ -116,7 +119,7 @@ std::string tree_to_vtp(const SphereTree& tree) {
          "</Lines>\n</Piece>\n</PolyData>\n</VTKFile>\n";
 }
 
-void write_tree(const std::string& file, const SphereTree& tree) {
+void write_tree(const std::string& file, const vascular::SphereTree& tree) {
   const std::string ending = std::filesystem::path(file).extension().string();
   if (ending != ".json" && ending != ".vtp")
     throw LoadError(
@@ -126,4 +129,4 @@ void write_tree(const std::string& file, const SphereTree& tree) {
   if (!out.flush()) throw LoadError(file + ": cannot be written; is the folder there, and the disk not full?");
 }
 
-}  // namespace ostium
+}  // namespace ostium::data

@@ -3,20 +3,20 @@
 /// VMTK and 3D Slicer (LPS, mm).
 #include <string>
 
-#include "vascular/tree/sphere_tree.h"
+#include "vascular/geometry/centreline/sphere_tree.h"
 
-namespace ostium {
+namespace ostium::data {
 
 /// By the name's ending: .json or .vtp. Throws LoadError if it is another one or the file cannot be written.
-void write_tree(const std::string& file, const SphereTree& tree);
+void write_tree(const std::string& file, const vascular::SphereTree& tree);
 
 /// .json only. Throws LoadError with file, line and what was expected.
-SphereTree load_tree(const std::string& file);
-SphereTree read_tree(const std::string& file, const std::string& text);
+vascular::SphereTree load_tree(const std::string& file);
+vascular::SphereTree read_tree(const std::string& file, const std::string& text);
 
-std::string tree_to_json(const SphereTree& tree);
+std::string tree_to_json(const vascular::SphereTree& tree);
 /// A polyline a branch, point data "MaximumInscribedSphereRadius" (as VMTK has it), cell data "BranchId", "ParentId";
 /// the names stand in field data "BranchNames". A branch's line begins at its parent's sphere.
-std::string tree_to_vtp(const SphereTree& tree);
+std::string tree_to_vtp(const vascular::SphereTree& tree);
 
-}  // namespace ostium
+}  // namespace ostium::data

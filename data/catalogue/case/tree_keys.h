@@ -2,7 +2,7 @@
 /// The keys of a tree file; data/schemas/tree.schema.json is made of them.
 #include "data/formats/json_object.h"
 
-namespace ostium::tree_keys {
+namespace ostium::data::tree_keys {
 
 inline const JsonObjectKeys tree = {
     "tree",
@@ -19,4 +19,4 @@ inline const JsonObjectKeys branch = {
 
 inline const std::vector<const JsonObjectKeys*> all = {&tree, &branch};
 
-}  // namespace ostium::tree_keys
+}  // namespace ostium::data::tree_keys

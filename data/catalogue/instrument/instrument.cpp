@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <stdexcept>
 
-namespace ostium {
+namespace ostium::data {
 
 namespace {
 
@@ -38,8 +38,8 @@ std::string source_mark(const Instrument& instrument) {
   return static_cast<std::size_t>(estimates) == instrument.sources.size() ? "estimate" : "mixed";
 }
 
-RodDescription rod_description(const Instrument& instrument, std::vector<double> element_lengths_m) {
-  RodDescription description;
+core::RodDescription rod_description(const Instrument& instrument, std::vector<double> element_lengths_m) {
+  core::RodDescription description;
   description.name = instrument.name;
   description.sections = instrument.sections;
   description.relaxation = instrument.relaxation;
@@ -81,4 +81,4 @@ void require_fit(const Instrument& inner, const Instrument& outer) {
       outer.inner_diameter_m * 1e3, outer.inner_diameter_m / 0.0254, outer.passes_m * 1e3));
 }
 
-}  // namespace ostium
+}  // namespace ostium::data

@@ -7,12 +7,12 @@
 #include <string>
 #include <vector>
 
-#include "core/rod/section.h"
+#include "core/material/section.h"
 #include "data/catalogue/instrument/instrument_shape.h"
-#include "vascular/balloon/balloon_design.h"
-#include "vascular/stent/stent_design.h"
+#include "vascular/treatment/balloon_design.h"
+#include "vascular/treatment/stent_design.h"
 
-namespace ostium {
+namespace ostium::data {
 
 enum class InstrumentKind { wire, guide_catheter, diagnostic_catheter, sheath, balloon_shaft, stent_shaft };
 /// As files name them, in the order of the enumeration: "guide_catheter".
@@ -57,7 +57,7 @@ struct CarriedBalloon {
   double length_m = 0;    ///< between the markers' middles
   bool compliant = true;  ///< semi-compliant; false: non-compliant
   double nominal_Pa = 0, rated_Pa = 0;
-  BalloonDesign design;
+  vascular::BalloonDesign design;
   bool own_folds = false;  ///< `design` says how thick it is folded; otherwise a bare one is as its sections are
 };
 
@@ -65,7 +65,7 @@ struct CarriedBalloon {
 struct CarriedStent {
   double nominal_m = 0;  ///< diameter, open
   double length_m = 0;   ///< crimped
-  StentDesign design;
+  vascular::StentDesign design;
 };
 
 /// Where a group of numbers is from.
@@ -79,14 +79,14 @@ struct Instrument {
   std::string name;   ///< id, the file's name without .json
   std::string title;  ///< for people
   InstrumentKind kind = InstrumentKind::wire;
-  double outer_diameter_m = 0;        ///< the largest anywhere
-  double inner_diameter_m = 0;        ///< of the lumen that a wire or catheter goes through; 0 for a wire
-  double length_m = 0;                ///< usable length
-  std::vector<Section> sections;      ///< with the shape at rest, the tip's default shape included
-  Relaxation relaxation;              ///< of all of them
-  std::vector<ShapePiece> shape;      ///< of a preformed catheter or J wire; empty where straight
-  double width_m = 0;                 ///< of that shape, from the shaft to the tip; 0: not said
-  std::vector<OpaqueStretch> opaque;  ///< the whole length, from the tip
+  double outer_diameter_m = 0;          ///< the largest anywhere
+  double inner_diameter_m = 0;          ///< of the lumen that a wire or catheter goes through; 0 for a wire
+  double length_m = 0;                  ///< usable length
+  std::vector<core::Section> sections;  ///< with the shape at rest, the tip's default shape included
+  core::Relaxation relaxation;          ///< of all of them
+  std::vector<ShapePiece> shape;        ///< of a preformed catheter or J wire; empty where straight
+  double width_m = 0;                   ///< of that shape, from the shaft to the tip; 0: not said
+  std::vector<OpaqueStretch> opaque;    ///< the whole length, from the tip
   std::vector<Marker> markers;
   std::optional<WireLumen> wire_lumen;        ///< of balloon and stent shafts
   std::optional<CarriedBalloon> balloon;      ///< of balloon and stent shafts
@@ -107,7 +107,7 @@ std::string source_mark(const Instrument& instrument);
 
 /// What `core` wants to know of it. Elements from base to tip, their sum at most the length (the rest stays behind the
 /// base). Undamped: damping is the caller's. Throws std::invalid_argument as core's `check` does.
-RodDescription rod_description(const Instrument& instrument, std::vector<double> element_lengths_m);
+core::RodDescription rod_description(const Instrument& instrument, std::vector<double> element_lengths_m);
 
 /// The same wire with its tip bent into `pieces`, which begin at the tip. Throws std::invalid_argument if the tip
 /// cannot be shaped or the pieces are longer than its shapeable stretch.
@@ -118,4 +118,4 @@ bool fits_inside(const Instrument& inner, const Instrument& outer);
 /// Throws std::invalid_argument naming both and their diameters if it does not.
 void require_fit(const Instrument& inner, const Instrument& outer);
 
-}  // namespace ostium
+}  // namespace ostium::data

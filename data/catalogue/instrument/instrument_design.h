@@ -2,10 +2,10 @@
 /// The numbers of a balloon's or stent's `design` block, one row a number: its key, the member that it sets and what it
 /// may be. The reader goes through these rows and the keys are made of them; a number more is one more row.
 #include "data/formats/json_object.h"
-#include "vascular/balloon/balloon_design.h"
-#include "vascular/stent/stent_design.h"
+#include "vascular/treatment/balloon_design.h"
+#include "vascular/treatment/stent_design.h"
 
-namespace ostium {
+namespace ostium::data {
 
 template <class Design>
 struct DesignNumber {
@@ -18,43 +18,52 @@ struct DesignNumber {
 
 struct StentCount {
   std::string key;
-  int StentDesign::*member;
+  int vascular::StentDesign::*member;
   int least, most;
   std::string text;
 };
 
 inline const std::vector<StentCount> stent_design_counts = {
-    {"crowns", &StentDesign::crowns, 3, 24, "crowns of a ring that point distally"},
-    {"rings", &StentDesign::rings, 2, 100, "rings of struts"},
-    {"links", &StentDesign::links, 1, 24, "links between two rings, which divide its crowns"}};
+    {"crowns", &vascular::StentDesign::crowns, 3, 24, "crowns of a ring that point distally"},
+    {"rings", &vascular::StentDesign::rings, 2, 100, "rings of struts"},
+    {"links", &vascular::StentDesign::links, 1, 24, "links between two rings, which divide its crowns"}};
 
-inline const std::vector<DesignNumber<StentDesign>> stent_design_numbers = {
-    {"strut_mm", &StentDesign::strut_m, 1e-3, 0.03, 0.3, "a strut's thickness in mm"},
-    {"ring_length_mm", &StentDesign::height_m, 1e-3, 0.3, 4, "a ring's length along the stent, crimped, in mm"},
-    {"crimped_radius_mm", &StentDesign::crimped_m, 1e-3, 0.3, 1, "the inner radius on its balloon in mm"},
-    {"hoop_atm", &StentDesign::hoop_Pa, 101325, 1, 300, "the pressure of a ring per relative change of radius in atm"},
-    {"yield_strain", &StentDesign::yield, 1, 0.001, 0.3, "the relative change of radius from which a ring yields"},
-    {"locks_at", &StentDesign::locks_at, 1, 0.5, 1, "the share of its widest radius from which struts are drawn out"},
-    {"lock_stiffening", &StentDesign::lock_stiffening, 1, 1, 1000, "how many times stiffer a ring is beyond that"},
-    {"link_elastic_strain", &StentDesign::link_elastic, 1, 0.001, 0.3, "the strain up to which links spring back"},
-    {"link_crush_share", &StentDesign::pressed_together, 1, 0.1, 1,
+inline const std::vector<DesignNumber<vascular::StentDesign>> stent_design_numbers = {
+    {"strut_mm", &vascular::StentDesign::strut_m, 1e-3, 0.03, 0.3, "a strut's thickness in mm"},
+    {"ring_length_mm", &vascular::StentDesign::height_m, 1e-3, 0.3, 4,
+     "a ring's length along the stent, crimped, in mm"},
+    {"crimped_radius_mm", &vascular::StentDesign::crimped_m, 1e-3, 0.3, 1, "the inner radius on its balloon in mm"},
+    {"hoop_atm", &vascular::StentDesign::hoop_Pa, 101325, 1, 300,
+     "the pressure of a ring per relative change of radius in atm"},
+    {"yield_strain", &vascular::StentDesign::yield, 1, 0.001, 0.3,
+     "the relative change of radius from which a ring yields"},
+    {"locks_at", &vascular::StentDesign::locks_at, 1, 0.5, 1,
+     "the share of its widest radius from which struts are drawn out"},
+    {"lock_stiffening", &vascular::StentDesign::lock_stiffening, 1, 1, 1000,
+     "how many times stiffer a ring is beyond that"},
+    {"link_elastic_strain", &vascular::StentDesign::link_elastic, 1, 0.001, 0.3,
+     "the strain up to which links spring back"},
+    {"link_crush_share", &vascular::StentDesign::pressed_together, 1, 0.1, 1,
      "the least that links are pressed to, of their length"},
-    {"viscous_Pa_s_m", &StentDesign::viscous_Pa_s_m, 1, 1e6, 1e11, "the damping of a ring in Pa s/m"},
-    {"held_N", &StentDesign::held_N, 1, 0.01, 20, "the force in N that pulls it off its balloon"},
-    {"crush_N", &StentDesign::crush_N, 1, 0.01, 20, "the load along it in N that presses its rings together"}};
+    {"viscous_Pa_s_m", &vascular::StentDesign::viscous_Pa_s_m, 1, 1e6, 1e11, "the damping of a ring in Pa s/m"},
+    {"held_N", &vascular::StentDesign::held_N, 1, 0.01, 20, "the force in N that pulls it off its balloon"},
+    {"crush_N", &vascular::StentDesign::crush_N, 1, 0.01, 20,
+     "the load along it in N that presses its rings together"}};
 
-inline const std::vector<DesignNumber<BalloonDesign>> balloon_design_numbers = {
-    {"growth_mm_per_atm", &BalloonDesign::growth_m_Pa, 1e-3 / 101325, 1e-4, 0.5, "growth of its diameter in mm/atm"},
-    {"folded_radius_mm", &BalloonDesign::folded_m, 1e-3, 0.3, 2, "its radius before it was filled in mm"},
-    {"refolded_radius_mm", &BalloonDesign::refolded_m, 1e-3, 0.3, 2, "its radius when emptied again in mm"},
-    {"shoulder_mm", &BalloonDesign::shoulder_m, 1e-3, 0.3, 10, "the shoulder's length beyond a marker in mm"},
-    {"inner_tube_radius_mm", &BalloonDesign::shaft_m, 1e-3, 0.1, 1, "the inner tube's radius in mm"},
-    {"unfolding_atm", &BalloonDesign::unfolding_Pa, 101325, 0.05, 5, "the pressure that unfolds it in atm"},
-    {"filling_Pa_s_m3", &BalloonDesign::filling_Pa_s_m3, 1, 1e10, 1e15,
+inline const std::vector<DesignNumber<vascular::BalloonDesign>> balloon_design_numbers = {
+    {"growth_mm_per_atm", &vascular::BalloonDesign::growth_m_Pa, 1e-3 / 101325, 1e-4, 0.5,
+     "growth of its diameter in mm/atm"},
+    {"folded_radius_mm", &vascular::BalloonDesign::folded_m, 1e-3, 0.3, 2, "its radius before it was filled in mm"},
+    {"refolded_radius_mm", &vascular::BalloonDesign::refolded_m, 1e-3, 0.3, 2, "its radius when emptied again in mm"},
+    {"shoulder_mm", &vascular::BalloonDesign::shoulder_m, 1e-3, 0.3, 10, "the shoulder's length beyond a marker in mm"},
+    {"inner_tube_radius_mm", &vascular::BalloonDesign::shaft_m, 1e-3, 0.1, 1, "the inner tube's radius in mm"},
+    {"unfolding_atm", &vascular::BalloonDesign::unfolding_Pa, 101325, 0.05, 5, "the pressure that unfolds it in atm"},
+    {"filling_Pa_s_m3", &vascular::BalloonDesign::filling_Pa_s_m3, 1, 1e10, 1e15,
      "the shaft's resistance to its filling in Pa s/m3"},
-    {"viscous_Pa_s_m", &BalloonDesign::viscous_Pa_s_m, 1, 1e6, 1e11, "the damping of its radius in Pa s/m"},
-    {"friction", &BalloonDesign::friction, 1, 0, 2, "friction against the wall"},
-    {"grip_N_m", &BalloonDesign::grip_N_m, 1, 1, 1e5, "the stiffness in N/m with which its shaft holds it"},
-    {"slide_N_s_m", &BalloonDesign::slide_N_s_m, 1, 1, 1e6, "the damping in N s/m with which its shaft holds it"}};
+    {"viscous_Pa_s_m", &vascular::BalloonDesign::viscous_Pa_s_m, 1, 1e6, 1e11, "the damping of its radius in Pa s/m"},
+    {"friction", &vascular::BalloonDesign::friction, 1, 0, 2, "friction against the wall"},
+    {"grip_N_m", &vascular::BalloonDesign::grip_N_m, 1, 1, 1e5, "the stiffness in N/m with which its shaft holds it"},
+    {"slide_N_s_m", &vascular::BalloonDesign::slide_N_s_m, 1, 1, 1e6,
+     "the damping in N s/m with which its shaft holds it"}};
 
-}  // namespace ostium
+}  // namespace ostium::data

@@ -9,7 +9,7 @@
 #include "data/catalogue/instrument/instrument_design.h"
 #include "data/formats/json_object.h"
 
-namespace ostium::instrument_keys {
+namespace ostium::data::instrument_keys {
 
 inline const std::string source_text = "where the numbers are from: a citation, or \"estimate: \" and the reasoning";
 inline const std::string stretch_text =
@@ -151,26 +151,11 @@ template <class... Tables>
 JsonObjectKeys design_keys(const char* object, const Tables&... tables) {
   JsonObjectKeys out{object, {}};
   const auto add = [&](const auto& table) {
-    for (const auto& row : table)
-      out.keys.push_back({row.key, false, fmt::format("{}, {:g} to {:g}", row.text, 1.0 * row.least, 1.0 * row.most)});
-  };
-  (add(tables), ...);
-  out.keys.push_back({"source", true, source_text});
-  return out;
-}
-
-inline const JsonObjectKeys balloon_design = design_keys("balloon_design", balloon_design_numbers);
-inline const JsonObjectKeys stent_design = design_keys("stent_design", stent_design_counts, stent_design_numbers);
-
-/// The keys of a design are the rows of its tables; none must be there, but the source must.
-template <class... Tables>
-JsonObjectKeys design_keys(const char* object, const Tables&... tables) {
-  JsonObjectKeys out{object, {}};
-  const auto add = [&](const auto& table) {
     for (const auto& row : table) {
       const auto range = from_to(1.0 * row.least, 1.0 * row.most);
-      out.keys.push_back({row.key, false, fmt::format("{}, {:g} to {:g}", row.text, 1.0 * row.least, 1.0 * row.most),
-                          std::is_integral_v<decltype(row.least)> ? json_type::whole(range) : json_type::number(range)});
+      out.keys.push_back(
+          {row.key, false, fmt::format("{}, {:g} to {:g}", row.text, 1.0 * row.least, 1.0 * row.most),
+           std::is_integral_v<decltype(row.least)> ? json_type::whole(range) : json_type::number(range)});
     }
   };
   (add(tables), ...);
@@ -216,7 +201,8 @@ inline const JsonObjectKeys clearance = {
 
 /// All of them, the file's own first.
 inline const std::vector<const JsonObjectKeys*> all = {
-    &instrument, &size,    &sections, &relaxation_branch, &section, &shape, &piece,    &shapeable_tip, &radiopacity,
-    &stretch,    &markers, &marker,   &wire_lumen,        &balloon, &balloon_design, &stent, &stent_design, &clearance};
+    &instrument,     &size,        &sections,     &relaxation_branch, &section, &shape,      &piece,
+    &shapeable_tip,  &radiopacity, &stretch,      &markers,           &marker,  &wire_lumen, &balloon,
+    &balloon_design, &stent,       &stent_design, &clearance};
 
-}  // namespace ostium::instrument_keys
+}  // namespace ostium::data::instrument_keys

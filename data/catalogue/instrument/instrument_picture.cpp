@@ -5,11 +5,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/state.h"
-#include "data/formats/svg.h"
+#include "core/model/state.h"
 #include "core/rod/initial_state.h"
+#include "data/formats/svg.h"
 
-namespace ostium {
+namespace ostium::data {
 
 namespace {
 
@@ -49,17 +49,17 @@ std::string colour_of(double EI_Nmm2) {
                      mix(ramp[k].blue, ramp[k + 1].blue));
 }
 
-double EI_Nmm2(const Section& section) { return 0.5e6 * (section.EI1_N_m2 + section.EI2_N_m2); }
+double EI_Nmm2(const core::Section& section) { return 0.5e6 * (section.EI1_N_m2 + section.EI2_N_m2); }
 
 /// The distal `shown_m` at rest, node by node from the base, which points down the page, in mm of the instrument.
 std::vector<Vector2d> shape_at_rest(const Instrument& instrument, double shown_m) {
   constexpr int elements = 512;
-  Model model;
+  core::Model model;
   model.rods = {make_rod(rod_description(instrument, std::vector<double>(elements, shown_m / elements)))};
   // d3 down the page; d1, towards which plane 0 bends, to the right; page x and y are world x and -z.
-  EndState base;
+  core::EndState base;
   base.q_W = {0, 1, 0, 0};  // half a turn about x
-  const RodState rod = make_state_at_rest_shape(model, {base}).rods[0];
+  const core::RodState rod = make_state_at_rest_shape(model, {base}).rods[0];
   std::vector<Vector2d> points;
   for (int i = 0; i < rod.position.size(); ++i)
     points.push_back(1e3 * Vector2d(rod.position[i].x(), -rod.position[i].z()));
@@ -75,7 +75,7 @@ double height(const std::vector<Vector2d>& points) {
 /// Length from the tip that is bent, and a straight piece behind it.
 double bent_length(const Instrument& instrument) {
   double length = 0;
-  for (const Section& s : instrument.sections)
+  for (const core::Section& s : instrument.sections)
     if (!s.rest_curvature_per_m.isZero()) length = s.to_tip_m;
   return length;
 }
@@ -135,7 +135,7 @@ class Cell {
   void draw_shape() {
     drawing_.line(part(0, 1e-3 * shown_mm_), "#333", thickness(instrument_.sections.back().radius_m * 2) + 0.35);
     const double shown_m = 1e-3 * shown_mm_;
-    for (const Section& s : instrument_.sections)
+    for (const core::Section& s : instrument_.sections)
       if (s.from_tip_m < shown_m)
         drawing_.line(part(s.from_tip_m, s.to_tip_m), colour_of(EI_Nmm2(s)), thickness(2 * s.radius_m), false);
     for (const OpaqueStretch& s : instrument_.opaque)  // a dark core where the X-ray shows a metal coil or filled tip
@@ -171,7 +171,7 @@ class Cell {
   void draw_strip() {
     const Vector2d at = corner_ + Vector2d(2, shape_top + shape_height + 3);
     const double width = cell_width - 6;
-    for (const Section& s : instrument_.sections) {
+    for (const core::Section& s : instrument_.sections) {
       const double a = std::min(s.from_tip_m, strip_length_m), b = std::min(s.to_tip_m, strip_length_m);
       if (b > a)
         drawing_.rectangle(at + Vector2d(a / strip_length_m * width, 0), {(b - a) / strip_length_m * width, 2},
@@ -230,4 +230,4 @@ void draw_instruments(const std::vector<Instrument>& instruments, const std::str
   drawing.write(file);
 }
 
-}  // namespace ostium
+}  // namespace ostium::data

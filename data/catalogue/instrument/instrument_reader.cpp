@@ -7,18 +7,19 @@
 #include <numbers>
 #include <stdexcept>
 
-#include "core/rod/rod.h"
+#include "core/base/units.h"
+#include "core/model/rod.h"
 #include "data/catalogue/instrument/instrument_keys.h"
-#include "vascular/stent/stent.h"
+#include "vascular/treatment/stent.h"
 
-namespace ostium {
+namespace ostium::data {
 
 namespace {
 
 namespace keys = instrument_keys;
 
-constexpr double mm = 1e-3, Nmm2 = 1e-6, per_mm = 1e3, degree = std::numbers::pi / 180;
-constexpr double atm = 101325;
+using units::atm;
+using units::mm, units::Nmm2, units::per_mm, units::degree;
 constexpr double gap_tolerance_mm = 1e-6;
 
 /// The source of `object`, kept under its path; a group must have one, a list's entry may.
@@ -59,8 +60,8 @@ void read_size(const JsonObject& size, Instrument& instrument) {
   instrument.needs_m = instrument.outer_diameter_m;
 }
 
-Section read_section(const JsonObject& entry, const Instrument& instrument, double& reached_mm) {
-  Section s;
+core::Section read_section(const JsonObject& entry, const Instrument& instrument, double& reached_mm) {
+  core::Section s;
   std::tie(s.from_tip_m, s.to_tip_m) = next_stretch(entry, instrument.length_m / mm, reached_mm);
   const bool one = entry.has("EI_Nmm2"), first = entry.has("EI1_Nmm2"), second = entry.has("EI2_Nmm2");
   if (one == first || first != second)
@@ -91,8 +92,8 @@ Section read_section(const JsonObject& entry, const Instrument& instrument, doub
   return s;
 }
 
-Relaxation read_relaxation(const JsonObject& group) {
-  Relaxation out;
+core::Relaxation read_relaxation(const JsonObject& group) {
+  core::Relaxation out;
   if (group.list("relaxation").empty() || group.list("relaxation").size() > std::size(out.branches))
     group.refuse("relaxation");
   double sum = 0;
@@ -139,7 +140,7 @@ std::vector<ShapePiece> read_pieces(const JsonObject& group, double longest_m) {
 /// The preformed shape, or the default shape of a tip that can be shaped; into the sections too.
 void read_rest_shape(const JsonObject& root, Instrument& instrument) {
   if (root.has("shape")) {
-    for (const Section& s : instrument.sections)
+    for (const core::Section& s : instrument.sections)
       if (!s.rest_curvature_per_m.isZero()) root.refuse("shape");
     if (root.has("shapeable_tip")) root.refuse("shape");
     const JsonObject shape(root["shape"], keys::shape);
@@ -336,4 +337,4 @@ Instrument read_instrument(const std::string& file, const std::string& text) { r
 
 Instrument load_instrument(const std::string& file) { return read(load_json(file)); }
 
-}  // namespace ostium
+}  // namespace ostium::data

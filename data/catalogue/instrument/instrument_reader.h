@@ -3,10 +3,10 @@
 #include "data/catalogue/instrument/instrument.h"
 #include "data/formats/load_error.h"
 
-namespace ostium {
+namespace ostium::data {
 
 /// `file` names it in messages and, without folder and .json, must be the instrument's name.
 Instrument read_instrument(const std::string& file, const std::string& text);
 Instrument load_instrument(const std::string& file);
 
-}  // namespace ostium
+}  // namespace ostium::data

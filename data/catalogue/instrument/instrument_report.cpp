@@ -6,16 +6,19 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
-namespace ostium {
+#include "core/base/units.h"
+
+namespace ostium::data {
 
 namespace {
 
 /// What rounds to zero in four digits prints without a sign.
 double unsigned_zero(double x) { return std::fabs(x) < 5e-5 ? 0.0 : x; }
 
-constexpr double m_in_mm = 1e3, N_m2_in_N_mm2 = 1e6, inch = 0.0254, degree = std::numbers::pi / 180;
+using units::inch, units::degree;
+constexpr double m_in_mm = 1e3, N_m2_in_N_mm2 = 1e6;
 
-double EI_Nmm2(const Section& section) { return 0.5 * (section.EI1_N_m2 + section.EI2_N_m2) * N_m2_in_N_mm2; }
+double EI_Nmm2(const core::Section& section) { return 0.5 * (section.EI1_N_m2 + section.EI2_N_m2) * N_m2_in_N_mm2; }
 
 std::string shape_text(const ShapePiece& piece) {
   if (piece.radius_m == 0) return fmt::format("{:.4g} mm straight", piece.length_m * m_in_mm);
@@ -71,7 +74,7 @@ std::string instrument_details(const Instrument& i) {
     out += "; over the wire";
   out += fmt::format("\n\n{:>16} {:>9} {:>9} {:>8} {:>8}  {}\n", "from the tip, mm", "EI N mm2", "GJ N mm2", "g/m",
                      "out. mm", "rest curvature, 1/mm");
-  for (const Section& s : i.sections) {
+  for (const core::Section& s : i.sections) {
     const Eigen::Vector3d u = s.rest_curvature_per_m / m_in_mm;
     out += fmt::format("{:>7.1f} .. {:>6.1f} {:>9.3g} {:>9.3g} {:>8.3g} {:>8.3g}", s.from_tip_m * m_in_mm,
                        s.to_tip_m * m_in_mm, EI_Nmm2(s), s.GJ_N_m2 * N_m2_in_N_mm2, s.kg_per_m * 1e3,
@@ -102,7 +105,7 @@ std::string to_json(const std::vector<Instrument>& instruments) {
   auto array = nlohmann::ordered_json::array();
   for (const Instrument& i : instruments) {
     auto sections = nlohmann::ordered_json::array(), sources = sections;
-    for (const Section& s : i.sections) {
+    for (const core::Section& s : i.sections) {
       const Eigen::Vector3d u = s.rest_curvature_per_m / m_in_mm;
       sections.push_back({{"from_tip_mm", {s.from_tip_m * m_in_mm, s.to_tip_m * m_in_mm}},
                           {"EI1_Nmm2", s.EI1_N_m2 * N_m2_in_N_mm2},
@@ -126,4 +129,4 @@ std::string to_json(const std::vector<Instrument>& instruments) {
   return array.dump(2);
 }
 
-}  // namespace ostium
+}  // namespace ostium::data

@@ -2,7 +2,7 @@
 /// Instruments in words: a table, the details of one, and JSON.
 #include "data/catalogue/instrument/instrument.h"
 
-namespace ostium {
+namespace ostium::data {
 
 /// One line each, without line end: name, kind, size, length, bending stiffness of tip and shaft, where from.
 std::string instrument_heading();
@@ -17,4 +17,4 @@ std::string instrument_details(const Instrument& instrument);
 /// Array of objects, data/schemas/instruments.schema.json.
 std::string to_json(const std::vector<Instrument>& instruments);
 
-}  // namespace ostium
+}  // namespace ostium::data

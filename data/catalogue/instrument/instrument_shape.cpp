@@ -4,7 +4,7 @@
 #include <cassert>
 #include <cmath>
 
-namespace ostium {
+namespace ostium::data {
 
 namespace {
 
@@ -23,15 +23,15 @@ Eigen::Vector3d rest_curvature(const ShapePiece& piece) {
   return Eigen::Vector3d(-std::sin(piece.plane_rad), std::cos(piece.plane_rad), 0) / piece.radius_m;
 }
 
-std::vector<Section> bent(const std::vector<Section>& sections, const std::vector<ShapePiece>& pieces) {
+std::vector<core::Section> bent(const std::vector<core::Section>& sections, const std::vector<ShapePiece>& pieces) {
   assert(!sections.empty() && length_of(pieces) <= sections.back().to_tip_m + shortest_cut_m);
-  std::vector<Section> result;
+  std::vector<core::Section> result;
   auto section = sections.begin();
   double reached = 0;
   for (const ShapePiece& piece : pieces) {
     const double piece_end = std::min(reached + piece.length_m, sections.back().to_tip_m);
     while (piece_end - reached > shortest_cut_m) {
-      Section part = *section;
+      core::Section part = *section;
       part.from_tip_m = reached;
       if (part.to_tip_m > piece_end + shortest_cut_m) part.to_tip_m = piece_end;
       part.rest_curvature_per_m = rest_curvature(piece);
@@ -47,4 +47,4 @@ std::vector<Section> bent(const std::vector<Section>& sections, const std::vecto
   return result;
 }
 
-}  // namespace ostium
+}  // namespace ostium::data

@@ -2,9 +2,9 @@
 /// The unloaded shape of an instrument's distal end, as a row of straight pieces and arcs.
 #include <vector>
 
-#include "core/rod/section.h"
+#include "core/material/section.h"
 
-namespace ostium {
+namespace ostium::data {
 
 /// A piece of the shape, uniform in curvature. SI.
 struct ShapePiece {
@@ -23,6 +23,6 @@ Eigen::Vector3d rest_curvature(const ShapePiece& piece);
 
 /// `sections` with the rest curvature of `pieces`, which begin at the tip and go backwards; sections are cut where a
 /// piece ends, and keep their own curvature behind the last piece. The pieces must not be longer than the sections.
-std::vector<Section> bent(const std::vector<Section>& sections, const std::vector<ShapePiece>& pieces);
+std::vector<core::Section> bent(const std::vector<core::Section>& sections, const std::vector<ShapePiece>& pieces);
 
-}  // namespace ostium
+}  // namespace ostium::data

@@ -6,7 +6,7 @@
 
 #include "data/formats/json_type.h"
 
-namespace ostium {
+namespace ostium::data {
 
 enum class ConditionKind {
   tip_passes,
@@ -187,4 +187,4 @@ constexpr bool needs_patient(ConditionKind kind) {
 /// Whether what is looked at is one of the case's lesions.
 constexpr bool is_about_a_lesion(ConditionKind kind) { return row_of(kind).of == ConditionOf::lesion; }
 
-}  // namespace ostium
+}  // namespace ostium::data

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-namespace ostium {
+namespace ostium::data {
 
 namespace {
 
@@ -88,4 +88,4 @@ bool write_out_values(JsonValue& script, const JsonValue* given) {
   return true;
 }
 
-}  // namespace ostium
+}  // namespace ostium::data

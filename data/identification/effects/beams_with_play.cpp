@@ -3,7 +3,7 @@
 #include <Eigen/SparseCholesky>
 #include <cmath>
 
-namespace ostium {
+namespace ostium::data {
 
 namespace {
 
@@ -121,4 +121,4 @@ class Obstacle {
 
 Offsets offsets_of(const BeamsWithPlay& beams) { return Obstacle(beams).run(); }
 
-}  // namespace ostium
+}  // namespace ostium::data

@@ -10,7 +10,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-namespace ostium {
+namespace ostium::data {
 
 struct BeamsWithPlay {
   double cell_m = 0;
@@ -29,4 +29,4 @@ struct Offsets {
 
 Offsets offsets_of(const BeamsWithPlay& beams);
 
-}  // namespace ostium
+}  // namespace ostium::data

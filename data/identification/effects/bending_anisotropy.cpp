@@ -7,7 +7,7 @@
 
 #include "data/identification/effects/tools.h"
 
-namespace ostium {
+namespace ostium::data {
 
 namespace {
 
@@ -17,8 +17,8 @@ std::string why_not(const MeasurementSet& set, std::optional<int>) {
 
 void apply(const ActiveEffect& effect, const MeasurementSet&, const Experiment&, ExperimentSetup& setup) {
   const double root = std::sqrt(effect.values[0]), axis = effect.values[1] * std::numbers::pi / 180;
-  ConcentricPart& part = setup.nest.parts[0];
-  for (Section& s : part.sections) {
+  core::ConcentricPart& part = setup.nest.parts[0];
+  for (core::Section& s : part.sections) {
     s.EI1_N_m2 *= root, s.EI2_N_m2 /= root;
     s.rest_curvature_per_m.head<2>() = Eigen::Rotation2Dd(-axis) * Eigen::Vector2d(s.rest_curvature_per_m.head<2>());
   }
@@ -43,4 +43,4 @@ Effect bending_anisotropy() {
   return effect;
 }
 
-}  // namespace ostium
+}  // namespace ostium::data

@@ -6,7 +6,7 @@
 
 #include "data/identification/effects/tools.h"
 
-namespace ostium {
+namespace ostium::data {
 
 namespace {
 
@@ -40,4 +40,4 @@ Effect clamp_runout() {
   return effect;
 }
 
-}  // namespace ostium
+}  // namespace ostium::data

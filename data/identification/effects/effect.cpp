@@ -1,6 +1,6 @@
 #include "data/identification/effects/effect.h"
 
-namespace ostium {
+namespace ostium::data {
 
 std::string ActiveEffect::name() const {
   std::string out = effect->id;
@@ -26,4 +26,4 @@ ActiveEffect active(const Effect& effect, const MeasurementSet& set, std::option
   return out;
 }
 
-}  // namespace ostium
+}  // namespace ostium::data

@@ -7,7 +7,7 @@
 #include "data/identification/effects/measured_view.h"
 #include "data/identification/measurement/measurement_set.h"
 
-namespace ostium {
+namespace ostium::data {
 
 struct EffectParameter {
   std::string name;   ///< with its unit, as in files: "time_1_s"
@@ -72,4 +72,4 @@ std::vector<EffectParameter> parameters_of(const Effect& effect, const Measureme
 ActiveEffect active(const Effect& effect, const MeasurementSet& set, std::optional<int> instrument,
                     const EffectForm& form);
 
-}  // namespace ostium
+}  // namespace ostium::data

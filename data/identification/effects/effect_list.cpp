@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-namespace ostium {
+namespace ostium::data {
 
 // Each is defined in a source file of its name, which states its law.
 Effect rest_curvature();
@@ -107,4 +107,4 @@ std::vector<ActiveEffect> declared_effects(const MeasurementSet& set) {
   return active;
 }
 
-}  // namespace ostium
+}  // namespace ostium::data

@@ -2,7 +2,7 @@
 /// All effects that there are, and which of them a set declares or can show.
 #include "data/identification/effects/effect.h"
 
-namespace ostium {
+namespace ostium::data {
 
 /// In the order in which people see them listed.
 const std::vector<Effect>& effects();
@@ -19,4 +19,4 @@ std::vector<ActiveEffect> everything_to_try(const MeasurementSet& set);
 /// The effects that the set's file declares. Throws LoadError for what is unknown, out of range or cannot act there.
 std::vector<ActiveEffect> declared_effects(const MeasurementSet& set);
 
-}  // namespace ostium
+}  // namespace ostium::data

@@ -2,13 +2,13 @@
 /// One experiment as the forward models take it.
 #include <optional>
 
-#include "core/concentric/concentric.h"
+#include "core/concentric_tubes/concentric.h"
 
-namespace ostium {
+namespace ostium::data {
 
 struct ExperimentSetup {
-  ConcentricDescription nest;
-  EndState base;  ///< before any roll
+  core::ConcentricDescription nest;
+  core::EndState base;  ///< before any roll
   Eigen::Vector3d gravity_m_s2 = Eigen::Vector3d::Zero(), tip_force_N = Eigen::Vector3d::Zero();
   /// Angle about d3 from the instrument's own directors to those that the sections are given in.
   double material_turn_rad = 0;
@@ -16,4 +16,4 @@ struct ExperimentSetup {
   double wall_stiffness_N_m2 = 0;       ///< 0: rigid; core/surface/surface.h
 };
 
-}  // namespace ostium
+}  // namespace ostium::data

@@ -2,7 +2,7 @@
 /// origin of the measuring frame (`about_base` 0) or the first base (1).
 #include "data/identification/effects/tools.h"
 
-namespace ostium {
+namespace ostium::data {
 
 namespace {
 
@@ -33,4 +33,4 @@ Effect imaging_scale() {
   return effect;
 }
 
-}  // namespace ostium
+}  // namespace ostium::data

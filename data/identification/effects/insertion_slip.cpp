@@ -1,11 +1,13 @@
 /// A fraction of the commanded insertion, or a length, does not arrive: rollers slip, the zero is off.
+#include "core/base/units.h"
 #include "data/identification/effects/tools.h"
 
-namespace ostium {
+namespace ostium::data {
 
 namespace {
 
-constexpr double mm = 1e-3, least_m = 2e-3;
+using units::mm;
+constexpr double least_m = 2e-3;
 
 std::string why_not(const MeasurementSet&, std::optional<int>) { return ""; }
 
@@ -41,4 +43,4 @@ Effect insertion_slip() {
   return effect;
 }
 
-}  // namespace ostium
+}  // namespace ostium::data

@@ -2,13 +2,14 @@
 /// of its centreline.
 #include <cmath>
 
+#include "core/base/units.h"
 #include "data/identification/effects/tools.h"
 
-namespace ostium {
+namespace ostium::data {
 
 namespace {
 
-constexpr double mm = 1e-3, gram = 1e-3;
+using units::mm, units::gram;
 
 std::string why_not(const MeasurementSet& set, std::optional<int>) {
   if (set.vessel) return "in a vessel no weight is hung on it";
@@ -43,4 +44,4 @@ Effect lumped_mass() {
   return effect;
 }
 
-}  // namespace ostium
+}  // namespace ostium::data

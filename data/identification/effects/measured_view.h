@@ -2,7 +2,7 @@
 /// How a model's shape appears in a measurement.
 #include <Eigen/Geometry>
 
-namespace ostium {
+namespace ostium::data {
 
 /// measured = A (R model + t) + b; the tracked point is the tip + R_tip offset.
 struct MeasuredView {
@@ -16,4 +16,4 @@ struct MeasuredView {
   Eigen::Vector3d operator()(const Eigen::Vector3d& model) const { return A * (R * model + t_m) + b_m; }
 };
 
-}  // namespace ostium
+}  // namespace ostium::data

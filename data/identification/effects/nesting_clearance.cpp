@@ -5,10 +5,11 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
+#include "core/base/units.h"
 #include "data/identification/effects/beams_with_play.h"
 #include "data/identification/effects/tools.h"
 
-namespace ostium {
+namespace ostium::data {
 
 namespace {
 
@@ -16,7 +17,7 @@ using Eigen::Matrix3d;
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-constexpr double mm = 1e-3;
+using units::mm;
 constexpr int cells = 100;         // of what two instruments have in common
 constexpr double step_m = 1.5e-3;  // of a line from the one's middle to the other's
 
@@ -25,17 +26,17 @@ std::string why_not(const MeasurementSet& set, std::optional<int>) {
   return set.instruments.size() > 1 ? "" : "nothing is nested";
 }
 
-const Section& section_at(const ConcentricPart& part, double from_base) {
+const core::Section& section_at(const core::ConcentricPart& part, double from_base) {
   const double from_tip = part.inserted_m - from_base;
-  for (const Section& s : part.sections)
+  for (const core::Section& s : part.sections)
     if (from_tip < s.to_tip_m) return s;
   return part.sections.back();
 }
 
-double stiffness(const Section& s) { return std::sqrt(s.EI1_N_m2 * s.EI2_N_m2); }
+double stiffness(const core::Section& s) { return std::sqrt(s.EI1_N_m2 * s.EI2_N_m2); }
 
 /// How a part bends where it is free, towards d1 and d2 of the unrolled base, 1/m. What shafts twist is left out.
-Vector2d bend_of(const ConcentricPart& part, const Section& s) {
+Vector2d bend_of(const core::ConcentricPart& part, const core::Section& s) {
   return Eigen::Rotation2Dd(part.roll_rad) * Vector2d(s.rest_curvature_per_m.y(), -s.rest_curvature_per_m.x());
 }
 
@@ -51,7 +52,7 @@ void go_on(double length, const Vector2d& bend_per_m, Matrix3d& R, Vector3d& p) 
 }
 
 /// Two instruments as beams.
-BeamsWithPlay beams_of(const ConcentricPart& outer, const ConcentricPart& inner, double play_m,
+BeamsWithPlay beams_of(const core::ConcentricPart& outer, const core::ConcentricPart& inner, double play_m,
                        const ExperimentSetup& setup) {
   BeamsWithPlay beams;
   beams.play_m = play_m;
@@ -61,7 +62,7 @@ BeamsWithPlay beams_of(const ConcentricPart& outer, const ConcentricPart& inner,
   Vector3d p = Vector3d::Zero();
   for (int k = 0; k < cells; ++k) {
     const double at = (k + 0.25) * beams.cell_m;
-    const Section &a = section_at(outer, at), &b = section_at(inner, at);
+    const core::Section &a = section_at(outer, at), &b = section_at(inner, at);
     const double A = stiffness(a), B = stiffness(b);
     share = A / (A + B);
     beams.EI_r_N_m2.push_back(A * B / (A + B));
@@ -84,16 +85,16 @@ BeamsWithPlay beams_of(const ConcentricPart& outer, const ConcentricPart& inner,
 }
 
 /// Bends a part by so much more at rest between two places, from the base.
-void bend(ConcentricPart& part, double from_base, double to_base, const Vector2d& more_per_m) {
+void bend(core::ConcentricPart& part, double from_base, double to_base, const Vector2d& more_per_m) {
   const Vector2d own = Eigen::Rotation2Dd(-part.roll_rad) * more_per_m;
   change_stretch(part.sections, part.inserted_m - to_base, part.inserted_m - from_base,
-                 [&](Section& s) { s.rest_curvature_per_m.head<2>() += Vector2d(-own.y(), own.x()); });
+                 [&](core::Section& s) { s.rest_curvature_per_m.head<2>() += Vector2d(-own.y(), own.x()); });
 }
 
 /// Leads the shared line, which bends as if there were no play, along the outer one's middle, and from its tip on along
 /// the inner one's. The outer one lies off that line by -d EI_inner / (EI_inner + EI_outer); as the inner one has the
 /// same say in how the line bends, it is bent by -d'' for it.
-void lead(const BeamsWithPlay& beams, const ConcentricPart& outer, ConcentricPart& inner) {
+void lead(const BeamsWithPlay& beams, const core::ConcentricPart& outer, core::ConcentricPart& inner) {
   const Offsets d = offsets_of(beams);
   const double h = beams.cell_m, tip = outer.inserted_m;
   for (int k = 0; k <= cells; ++k)
@@ -131,4 +132,4 @@ Effect nesting_clearance() {
   return effect;
 }
 
-}  // namespace ostium
+}  // namespace ostium::data

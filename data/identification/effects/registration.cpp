@@ -4,7 +4,7 @@
 
 #include "data/identification/effects/tools.h"
 
-namespace ostium {
+namespace ostium::data {
 
 namespace {
 
@@ -47,4 +47,4 @@ Effect registration() {
   return effect;
 }
 
-}  // namespace ostium
+}  // namespace ostium::data

@@ -1,13 +1,15 @@
 /// A set of the shaft that the declaration leaves out: k (material frame) is added to the rest curvature of the whole
 /// instrument or of a stretch of it. Wires take a set where they are coiled in their hoop or bent over a finger.
 /// Law: the rod's own, m = K (u - u_rest - k).
+#include "core/base/units.h"
 #include "data/identification/effects/tools.h"
 
-namespace ostium {
+namespace ostium::data {
 
 namespace {
 
-constexpr double mm = 1e-3, everywhere_mm = 1e5;
+using units::mm;
+constexpr double everywhere_mm = 1e5;
 
 std::string why_not(const MeasurementSet&, std::optional<int>) { return ""; }
 
@@ -16,7 +18,7 @@ void apply(const ActiveEffect& effect, const MeasurementSet&, const Experiment&,
   for (std::size_t i = 0; i < setup.nest.parts.size(); ++i)
     if (chosen(effect.instrument, i))
       change_stretch(setup.nest.parts[i].sections, v[2] * mm, v[3] * mm,
-                     [&](Section& s) { s.rest_curvature_per_m.head<2>() += Eigen::Vector2d(v[0], v[1]) / mm; });
+                     [&](core::Section& s) { s.rest_curvature_per_m.head<2>() += Eigen::Vector2d(v[0], v[1]) / mm; });
 }
 
 /// Everywhere, or in one section.
@@ -26,7 +28,7 @@ std::vector<EffectForm> forms(const MeasurementSet& set, std::optional<int> inst
   const auto& sections = set.instruments[instrument.value_or(0)].sections;
   if (sections.size() < 2) return out;
   const double longest = longest_inserted(set, instrument);
-  for (const Section& s : sections)
+  for (const core::Section& s : sections)
     if (s.from_tip_m < longest)
       out.push_back({"from " + std::to_string(static_cast<int>(s.from_tip_m / mm)) + " mm",
                      {{"from_tip_mm", s.from_tip_m / mm}, {"to_tip_mm", s.to_tip_m / mm}}});
@@ -50,4 +52,4 @@ Effect rest_curvature() {
   return effect;
 }
 
-}  // namespace ostium
+}  // namespace ostium::data

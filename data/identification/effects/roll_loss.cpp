@@ -5,7 +5,7 @@
 
 #include "data/identification/effects/tools.h"
 
-namespace ostium {
+namespace ostium::data {
 
 namespace {
 
@@ -45,4 +45,4 @@ Effect roll_loss() {
   return effect;
 }
 
-}  // namespace ostium
+}  // namespace ostium::data

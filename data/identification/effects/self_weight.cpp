@@ -4,7 +4,7 @@
 
 #include "data/identification/effects/tools.h"
 
-namespace ostium {
+namespace ostium::data {
 
 namespace {
 
@@ -17,7 +17,7 @@ std::string why_not(const MeasurementSet& set, std::optional<int>) {
 void apply(const ActiveEffect& effect, const MeasurementSet&, const Experiment&, ExperimentSetup& setup) {
   for (std::size_t i = 0; i < setup.nest.parts.size(); ++i) {
     if (!chosen(effect.instrument, i)) continue;
-    for (Section& s : setup.nest.parts[i].sections) {
+    for (core::Section& s : setup.nest.parts[i].sections) {
       const double area = std::numbers::pi * (s.radius_m * s.radius_m - s.inner_radius_m * s.inner_radius_m);
       const double declared = s.kg_per_m < hardly_any_kg_m3 * area ? nitinol_kg_m3 * area : s.kg_per_m;
       s.kg_per_m = effect.values[0] * declared;
@@ -37,4 +37,4 @@ Effect self_weight() {
   return effect;
 }
 
-}  // namespace ostium
+}  // namespace ostium::data

@@ -2,7 +2,7 @@
 /// GJ under the torque T. 0: as if rigid, which is what a set declares; 1: as its own sections say.
 #include "data/identification/effects/tools.h"
 
-namespace ostium {
+namespace ostium::data {
 
 namespace {
 
@@ -15,9 +15,9 @@ std::string why_not(const MeasurementSet& set, std::optional<int> instrument) {
 }
 
 /// Twist per torque of the stretch of an instrument that begins `from_m` behind its tip.
-double twist_per_torque(const std::vector<Section>& sections, double from_m, double length_m) {
+double twist_per_torque(const std::vector<core::Section>& sections, double from_m, double length_m) {
   double sum = 0;
-  for (const Section& s : sections) {
+  for (const core::Section& s : sections) {
     const double from = std::max(from_m, s.from_tip_m), to = std::min(from_m + length_m, s.to_tip_m);
     if (to > from) sum += (to - from) / s.GJ_N_m2;
   }
@@ -27,7 +27,7 @@ double twist_per_torque(const std::vector<Section>& sections, double from_m, dou
 void apply(const ActiveEffect& effect, const MeasurementSet&, const Experiment& e, ExperimentSetup& setup) {
   for (std::size_t i = 0; i < e.set.size(); ++i) {
     if (!chosen(effect.instrument, i)) continue;
-    ConcentricPart& part = setup.nest.parts[i];
+    core::ConcentricPart& part = setup.nest.parts[i];
     part.shaft_rad_per_Nm = effect.values[0] * twist_per_torque(part.sections, e.set[i].inserted_m, e.set[i].shaft_m);
   }
 }
@@ -44,4 +44,4 @@ Effect shaft_torsion() {
   return effect;
 }
 
-}  // namespace ostium
+}  // namespace ostium::data

@@ -2,13 +2,14 @@
 /// from `from_tip_mm` on, over `length_mm`. Law: the rod's own.
 #include <cmath>
 
+#include "core/base/units.h"
 #include "data/identification/effects/tools.h"
 
-namespace ostium {
+namespace ostium::data {
 
 namespace {
 
-constexpr double mm = 1e-3;
+using units::mm;
 
 std::string why_not(const MeasurementSet&, std::optional<int>) { return ""; }
 
@@ -17,7 +18,7 @@ void apply(const ActiveEffect& effect, const MeasurementSet&, const Experiment&,
   for (std::size_t i = 0; i < setup.nest.parts.size(); ++i)
     if (chosen(effect.instrument, i))
       change_stretch(setup.nest.parts[i].sections, v[0] * mm, (v[0] + v[1]) * mm,
-                     [&](Section& s) { s.EI1_N_m2 *= v[2], s.EI2_N_m2 *= v[2], s.GJ_N_m2 *= v[2]; });
+                     [&](core::Section& s) { s.EI1_N_m2 *= v[2], s.EI2_N_m2 *= v[2], s.GJ_N_m2 *= v[2]; });
 }
 
 void adapt(const MeasurementSet& set, std::optional<int> instrument, std::vector<EffectParameter>& p) {
@@ -42,4 +43,4 @@ Effect soft_section() {
   return effect;
 }
 
-}  // namespace ostium
+}  // namespace ostium::data

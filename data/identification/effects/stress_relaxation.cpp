@@ -5,12 +5,12 @@
 
 #include "data/identification/effects/effect.h"
 
-namespace ostium {
+namespace ostium::data {
 
 namespace {
 
-bool curved(const std::vector<Section>& sections) {
-  for (const Section& s : sections)
+bool curved(const std::vector<core::Section>& sections) {
+  for (const core::Section& s : sections)
     if (!s.rest_curvature_per_m.isZero()) return true;
   return false;
 }
@@ -33,7 +33,7 @@ void apply(const ActiveEffect& effect, const MeasurementSet&, const Experiment& 
   for (std::size_t i = 0; i < setup.nest.parts.size(); ++i) {
     auto& sections = setup.nest.parts[i].sections;
     if ((effect.instrument && *effect.instrument != static_cast<int>(i)) || !curved(sections)) continue;
-    for (Section& s : sections) {
+    for (core::Section& s : sections) {
       if (v[4] == 0 || (v[4] < 0 && setup.nest.parts.size() == 1))
         s.rest_curvature_per_m *= left;
       else
@@ -73,4 +73,4 @@ Effect stress_relaxation() {
   return effect;
 }
 
-}  // namespace ostium
+}  // namespace ostium::data

@@ -2,20 +2,21 @@
 /// instrument alone.
 #include <cmath>
 
+#include "core/base/units.h"
 #include "data/identification/effects/tools.h"
 
-namespace ostium {
+namespace ostium::data {
 
 namespace {
 
-constexpr double mm = 1e-3;
+using units::mm;
 
 std::string why_not(const MeasurementSet& set, std::optional<int>) {
   return set.instruments.size() > 1 ? "nested instruments are modelled as linear" : "";
 }
 
 void apply(const ActiveEffect& effect, const MeasurementSet&, const Experiment&, ExperimentSetup& setup) {
-  for (Section& s : setup.nest.parts[0].sections)
+  for (core::Section& s : setup.nest.parts[0].sections)
     s.softening_per_m = effect.values[0] / mm, s.softened_ratio = effect.values[1];
 }
 
@@ -38,4 +39,4 @@ Effect superelastic_softening() {
   return effect;
 }
 
-}  // namespace ostium
+}  // namespace ostium::data

@@ -4,7 +4,7 @@
 
 #include "data/identification/effects/effect.h"
 
-namespace ostium {
+namespace ostium::data {
 
 inline bool chosen(std::optional<int> instrument, std::size_t i) {
   return !instrument || *instrument == static_cast<int>(i);
@@ -21,16 +21,16 @@ inline double longest_inserted(const MeasurementSet& set, std::optional<int> ins
 
 /// Cuts `sections` at from and to and calls change(section) for those in between.
 template <class Change>
-void change_stretch(std::vector<Section>& sections, double from_m, double to_m, Change&& change) {
+void change_stretch(std::vector<core::Section>& sections, double from_m, double to_m, Change&& change) {
   constexpr double least = 1e-6;  // shorter pieces are none
-  std::vector<Section> out;
-  for (const Section& s : sections) {
+  std::vector<core::Section> out;
+  for (const core::Section& s : sections) {
     double at = s.from_tip_m;
     for (double end : {from_m, to_m, s.to_tip_m}) {
       end = std::min(end, s.to_tip_m);
       if (end < s.to_tip_m && (end - at < least || s.to_tip_m - end < least)) continue;
       if (end <= at) continue;
-      Section piece = s;
+      core::Section piece = s;
       piece.from_tip_m = at, piece.to_tip_m = end;
       const double middle = 0.5 * (at + end);
       if (middle > from_m && middle < to_m) change(piece);
@@ -54,4 +54,4 @@ inline bool tip_loads(const MeasurementSet& set) {
                      [](const Experiment& e) { return !e.tip_force_N.isZero(); });
 }
 
-}  // namespace ostium
+}  // namespace ostium::data

@@ -1,12 +1,13 @@
 /// A wall that gives way: a force per length of instrument and depth, in place of a rigid one (core/surface). A
 /// silicone or arterial wall of modulus E and thickness h on a lumen of radius R: of the order of E h / R.
+#include "core/base/units.h"
 #include "data/identification/effects/effect.h"
 
-namespace ostium {
+namespace ostium::data {
 
 namespace {
 
-constexpr double N_per_mm2 = 1e6;
+using units::N_per_mm2;
 
 std::string why_not(const MeasurementSet& set, std::optional<int>) { return set.vessel ? "" : "there is no vessel"; }
 
@@ -26,4 +27,4 @@ Effect wall_compliance() {
   return effect;
 }
 
-}  // namespace ostium
+}  // namespace ostium::data

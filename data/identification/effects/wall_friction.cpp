@@ -1,7 +1,7 @@
 /// Another friction between wall and instruments than declared: Coulomb's law (core/contact), static and kinetic alike.
 #include "data/identification/effects/effect.h"
 
-namespace ostium {
+namespace ostium::data {
 
 namespace {
 
@@ -27,4 +27,4 @@ Effect wall_friction() {
   return effect;
 }
 
-}  // namespace ostium
+}  // namespace ostium::data

@@ -10,7 +10,7 @@
 #include "data/identification/estimation/measured_push.h"
 #include "data/identification/forward/misfit.h"
 
-namespace ostium {
+namespace ostium::data {
 
 namespace {
 
@@ -144,4 +144,4 @@ std::vector<VectorXd> misfits(const ForwardModel& forward, const Parameters& par
   return out;
 }
 
-}  // namespace ostium
+}  // namespace ostium::data

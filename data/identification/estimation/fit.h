@@ -3,7 +3,7 @@
 #include "data/identification/estimation/forward_model.h"
 #include "data/identification/estimation/parameters.h"
 
-namespace ostium {
+namespace ostium::data {
 
 struct Fit {
   bool converged = false;
@@ -45,4 +45,4 @@ double cost_ahead(const ForwardModel& forward, const Parameters& parameters, con
 std::vector<Eigen::VectorXd> misfits(const ForwardModel& forward, const Parameters& parameters,
                                      const Eigen::VectorXd& x, const std::vector<int>& chosen);
 
-}  // namespace ostium
+}  // namespace ostium::data

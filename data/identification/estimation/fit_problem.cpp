@@ -6,7 +6,7 @@
 #include "data/identification/estimation/measured_push.h"
 #include "data/identification/forward/misfit.h"
 
-namespace ostium {
+namespace ostium::data {
 
 namespace {
 
@@ -152,4 +152,4 @@ bool FitProblem::data(const std::vector<PredictedShape>& shapes, const VectorXd&
   return residuals.head(row).allFinite();
 }
 
-}  // namespace ostium
+}  // namespace ostium::data

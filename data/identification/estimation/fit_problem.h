@@ -5,7 +5,7 @@
 #include "data/identification/estimation/parameters.h"
 #include "data/identification/estimation/secant_descent.h"
 
-namespace ostium {
+namespace ostium::data {
 
 class FitProblem {
  public:
@@ -47,4 +47,4 @@ class FitProblem {
   std::vector<int> block_ends_;  ///< of the rows of each experiment
 };
 
-}  // namespace ostium
+}  // namespace ostium::data

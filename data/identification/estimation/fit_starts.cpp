@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace ostium {
+namespace ostium::data {
 
 namespace {
 
@@ -28,4 +28,4 @@ std::vector<Eigen::VectorXd> starts_of(const Parameters& parameters, const Eigen
   return starts;
 }
 
-}  // namespace ostium
+}  // namespace ostium::data

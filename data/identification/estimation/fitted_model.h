@@ -4,7 +4,7 @@
 #include "data/identification/estimation/parameters.h"
 #include "data/identification/estimation/residual_tests.h"
 
-namespace ostium {
+namespace ostium::data {
 
 struct FittedParameter {
   Parameter parameter;
@@ -37,4 +37,4 @@ struct FittedModel {
   std::vector<std::string> other_branches;
 };
 
-}  // namespace ostium
+}  // namespace ostium::data

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace ostium {
+namespace ostium::data {
 
 std::vector<std::vector<int>> folds_of(const MeasurementSet& set) {
   // What stays together: a group, or an experiment without one.
@@ -32,4 +32,4 @@ std::vector<std::vector<int>> folds_of(const MeasurementSet& set) {
   return folds;
 }
 
-}  // namespace ostium
+}  // namespace ostium::data

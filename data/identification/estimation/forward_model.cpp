@@ -6,7 +6,7 @@
 #include "data/identification/effects/effect.h"
 #include "data/identification/forward/insertion.h"
 
-namespace ostium {
+namespace ostium::data {
 
 namespace {
 
@@ -115,4 +115,4 @@ std::vector<std::vector<PredictedShape>> ForwardModel::histories(const std::vect
   return shapes;
 }
 
-}  // namespace ostium
+}  // namespace ostium::data

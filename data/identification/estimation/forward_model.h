@@ -5,7 +5,7 @@
 #include "data/identification/estimation/workers.h"
 #include "data/identification/forward/shape.h"
 
-namespace ostium {
+namespace ostium::data {
 
 /// Shapes of a set's experiments for any parameters, each from its anchor, so that no result depends on which came
 /// before it.
@@ -32,4 +32,4 @@ class ForwardModel {
   mutable std::map<std::vector<double>, std::vector<PredictedShape>> known_;
 };
 
-}  // namespace ostium
+}  // namespace ostium::data

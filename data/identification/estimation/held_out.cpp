@@ -9,7 +9,7 @@
 #include "data/identification/estimation/model_fit.h"
 #include "data/identification/forward/misfit.h"
 
-namespace ostium {
+namespace ostium::data {
 
 void ModelFit::score_held_out(FitOptions options, FittedModel& model) const {
   const auto folds = folds_of(set_);
@@ -41,4 +41,4 @@ void ModelFit::score_held_out(FitOptions options, FittedModel& model) const {
   if (push_sigma_N(set_)) model.push_rms_held_out_N = push_rms_N(set_, shapes);
 }
 
-}  // namespace ostium
+}  // namespace ostium::data

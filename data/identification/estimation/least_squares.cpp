@@ -2,7 +2,7 @@
 
 #include <ceres/ceres.h>
 
-namespace ostium {
+namespace ostium::data {
 
 namespace {
 
@@ -55,4 +55,4 @@ LeastSquaresResult minimise(const LeastSquares& problem) {
   return out;
 }
 
-}  // namespace ostium
+}  // namespace ostium::data

@@ -4,7 +4,7 @@
 #include <functional>
 #include <optional>
 
-namespace ostium {
+namespace ostium::data {
 
 struct LeastSquares {
   int residuals = 0;
@@ -24,4 +24,4 @@ struct LeastSquaresResult {
 
 LeastSquaresResult minimise(const LeastSquares& problem);
 
-}  // namespace ostium
+}  // namespace ostium::data

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace ostium {
+namespace ostium::data {
 
 namespace {
 
@@ -37,4 +37,4 @@ std::optional<double> push_rms_N(const MeasurementSet& set, const std::vector<Pr
   return squares.rms();
 }
 
-}  // namespace ostium
+}  // namespace ostium::data

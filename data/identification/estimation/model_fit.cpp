@@ -13,7 +13,7 @@
 #include "data/identification/estimation/measured_push.h"
 #include "data/identification/forward/misfit.h"
 
-namespace ostium {
+namespace ostium::data {
 
 namespace {
 
@@ -243,4 +243,4 @@ void ModelFit::add_residual_tests(FittedModel& model) const {
   model.residual_tests = residual_tests(set_, fit_.misfits, model.view);
 }
 
-}  // namespace ostium
+}  // namespace ostium::data

@@ -3,7 +3,7 @@
 #include "data/identification/estimation/fit.h"
 #include "data/identification/estimation/fitted_model.h"
 
-namespace ostium {
+namespace ostium::data {
 
 class ModelFit {
  public:
@@ -57,4 +57,4 @@ class ModelFit {
   Fit fit_;
 };
 
-}  // namespace ostium
+}  // namespace ostium::data

@@ -3,7 +3,7 @@
 #include <Eigen/QR>
 #include <cmath>
 
-namespace ostium {
+namespace ostium::data {
 
 namespace {
 
@@ -103,4 +103,4 @@ std::optional<Correlation> correlation_along(const MeasurementSet& set, const st
   return Correlation{value, value * std::sqrt(2 * pairs)};  // two coordinates a pair
 }
 
-}  // namespace ostium
+}  // namespace ostium::data

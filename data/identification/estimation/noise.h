@@ -4,7 +4,7 @@
 
 #include "data/identification/measurement/measurement_set.h"
 
-namespace ostium {
+namespace ostium::data {
 
 struct Noise {
   std::optional<double> sigma_m;  ///< per coordinate (of a radius: of the radius)
@@ -24,4 +24,4 @@ struct Correlation {
 };
 std::optional<Correlation> correlation_along(const MeasurementSet& set, const std::vector<Eigen::VectorXd>& misfits);
 
-}  // namespace ostium
+}  // namespace ostium::data

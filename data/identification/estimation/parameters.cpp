@@ -6,14 +6,16 @@
 #include <cmath>
 #include <numbers>
 
-namespace ostium {
+#include "core/base/units.h"
+
+namespace ostium::data {
 
 namespace {
 
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 
-constexpr double mm = 1e-3, degree = std::numbers::pi / 180;
+using units::mm, units::degree;
 
 /// A declared stiffness is known to perhaps 30 %.
 constexpr double stiffness_spread = 0.3, least_scale = 0.1, most_scale = 10;
@@ -52,7 +54,7 @@ void Parameters::add_stiffness(const MeasurementSet& set) {
     std::vector<int> scales;
     const int first = size();
     for (std::size_t s = 0; s < instrument.sections.size(); ++s) {
-      const Section& section = instrument.sections[s];
+      const core::Section& section = instrument.sections[s];
       int same = -1;
       for (std::size_t t = 0; t < s && same < 0; ++t)
         if (instrument.sections[t].EI1_N_m2 == section.EI1_N_m2 && instrument.sections[t].GJ_N_m2 == section.GJ_N_m2)
@@ -196,4 +198,4 @@ MeasuredView registered(const MeasurementSet& set, const std::vector<PredictedSh
   return view;
 }
 
-}  // namespace ostium
+}  // namespace ostium::data

@@ -4,7 +4,7 @@
 #include "data/identification/effects/effect.h"
 #include "data/identification/forward/misfit.h"
 
-namespace ostium {
+namespace ostium::data {
 
 struct Parameter {
   std::string name;   ///< as in explanation.json: "EI_scale[0]", "registration.x_mm", "shaft_torsion.compliance"
@@ -61,4 +61,4 @@ class Parameters {
 /// The registration that lays predicted points over measured ones best (Kabsch 1976), without a tip offset.
 MeasuredView registered(const MeasurementSet& set, const std::vector<PredictedShape>& shapes);
 
-}  // namespace ostium
+}  // namespace ostium::data

@@ -6,7 +6,7 @@
 #include <numeric>
 #include <random>
 
-namespace ostium {
+namespace ostium::data {
 
 namespace {
 
@@ -200,4 +200,4 @@ ResidualTests residual_tests(const MeasurementSet& set, const std::vector<Vector
   return out;
 }
 
-}  // namespace ostium
+}  // namespace ostium::data

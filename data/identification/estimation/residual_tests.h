@@ -3,7 +3,7 @@
 /// instrument; shares of the sum of squares are told by permutation tests with a fixed seed.
 #include "data/identification/forward/misfit.h"
 
-namespace ostium {
+namespace ostium::data {
 
 struct ResidualTest {
   std::string on;            ///< "roll", "insertion", ...; "common in the material frame", ...
@@ -27,4 +27,4 @@ struct ResidualTests {
 ResidualTests residual_tests(const MeasurementSet& set, const std::vector<Eigen::VectorXd>& misfits,
                              const MeasuredView& view);
 
-}  // namespace ostium
+}  // namespace ostium::data

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <vector>
 
-namespace ostium {
+namespace ostium::data {
 
 namespace {
 
@@ -241,4 +241,4 @@ class SecantSearch {
 
 LeastSquaresResult minimise(const SecantDescent& descent) { return SecantSearch(descent).run(); }
 
-}  // namespace ostium
+}  // namespace ostium::data

@@ -5,7 +5,7 @@
 /// evaluation a step (derivative-free Gauss-Newton: Cartis, Roberts 2019, Math Program Comput 11:631).
 #include "data/identification/estimation/least_squares.h"
 
-namespace ostium {
+namespace ostium::data {
 
 struct SecantDescent {
   LeastSquares problem;       ///< its `evaluate` is never asked for a Jacobian
@@ -21,4 +21,4 @@ struct SecantDescent {
 /// `iterations` of the result are such evaluations.
 LeastSquaresResult minimise(const SecantDescent& descent);
 
-}  // namespace ostium
+}  // namespace ostium::data

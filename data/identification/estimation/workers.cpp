@@ -10,7 +10,7 @@
 #include <numeric>
 #include <thread>
 
-namespace ostium {
+namespace ostium::data {
 
 namespace {
 
@@ -109,4 +109,4 @@ std::vector<std::vector<double>> Workers::map(std::size_t count, const Job& job)
   return results;
 }
 
-}  // namespace ostium
+}  // namespace ostium::data

@@ -5,7 +5,7 @@
 #include <functional>
 #include <vector>
 
-namespace ostium {
+namespace ostium::data {
 
 class Workers {
  public:
@@ -34,4 +34,4 @@ class Ranks {
 int rank();
 int ranks();
 
-}  // namespace ostium
+}  // namespace ostium::data

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-namespace ostium {
+namespace ostium::data {
 
 namespace {
 using Eigen::Vector3d;
@@ -65,4 +65,4 @@ double radius_of_curvature(const std::vector<Vector3d>& curve) {
   return size * std::sqrt(c[2] + c.head<2>().squaredNorm());
 }
 
-}  // namespace ostium
+}  // namespace ostium::data

@@ -3,7 +3,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-namespace ostium {
+namespace ostium::data {
 
 /// Nearest point of the curve, continued straight past its ends.
 Eigen::Vector3d nearest_point(const std::vector<Eigen::Vector3d>& curve, const Eigen::Vector3d& p);
@@ -14,4 +14,4 @@ std::vector<Eigen::Vector3d> nearest_points(const std::vector<Eigen::Vector3d>& 
 /// Radius of the circle that fits the curve best (least squares in its plane); infinite for a straight one.
 double radius_of_curvature(const std::vector<Eigen::Vector3d>& curve);
 
-}  // namespace ostium
+}  // namespace ostium::data

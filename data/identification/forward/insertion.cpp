@@ -5,11 +5,11 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/rod/introducer.h"
-#include "core/step.h"
 #include "core/rod/initial_state.h"
+#include "core/rod/introducer.h"
+#include "core/step/step.h"
 
-namespace ostium {
+namespace ostium::data {
 
 namespace {
 
@@ -21,7 +21,7 @@ constexpr double feed_m_s = 0.02, turn_rad_s = std::numbers::pi / 2, step_s = 1e
 /// Hands slow down before they stop: a wire that is stopped at once slides back on its friction by what it was moving.
 constexpr double slowing_s = 0.2;
 /// Drag that stands for slowness: far more than blood's, and still a tenth of a millinewton while a wire is fed.
-constexpr Damping slow{0.1, 0.02, 2e-3};
+constexpr core::Damping slow{0.1, 0.02, 2e-3};
 constexpr double element_m = 2e-3, element_rad = 0.1, reserve_m = 20e-3;
 constexpr double rest_speed_m_s = 2e-4, least_rest_s = 0.1, most_rest_s = 2;
 constexpr double bore_friction = 0.05;
@@ -31,9 +31,9 @@ Quaterniond quaternion(const Eigen::Vector4d& q) { return {q[0], q[1], q[2], q[3
 /// A tip meets a wall at an angle: in one that gives way it is in contact over some millimetres only.
 constexpr double tip_m = 6e-3, tip_element_m = 0.5e-3;
 
-std::vector<double> elements_of(const ConcentricPart& part, double length) {
+std::vector<double> elements_of(const core::ConcentricPart& part, double length) {
   double longest = element_m;
-  for (const Section& s : part.sections)
+  for (const core::Section& s : part.sections)
     longest = std::min(longest, element_rad / std::max(s.rest_curvature_per_m.norm(), 1e-6));
   const double tip = std::min(tip_m, 0.5 * length);
   const int count = std::max(16, static_cast<int>(std::ceil((length - tip) / longest)));
@@ -51,25 +51,25 @@ class History {
     for (std::size_t i = 0; i < set.instruments.size(); ++i) {
       double longest = 0;
       for (const ExperimentSetup& s : setups_) longest = std::max(longest, s.nest.parts[i].inserted_m);
-      const ConcentricPart& part = first.nest.parts[i];
+      const core::ConcentricPart& part = first.nest.parts[i];
       const double length = std::min(longest + reserve_m, part.sections.back().to_tip_m);
-      model_.rods.push_back(make_rod({set.instruments[i].name, part.sections, elements_of(part, length), slow, {}}));
+      model_.rods.push_back(core::make_rod({set.instruments[i].name, part.sections, elements_of(part, length), slow, {}}));
       if (i > 0)
         model_.nestings.push_back(
             {.outer = static_cast<int>(i) - 1, .inner = static_cast<int>(i), .friction = bore_friction});
     }
-    SurfaceDescription wall = *set.vessel->wall;
+    core::SurfaceDescription wall = *set.vessel->wall;
     wall.friction = first.wall_friction.value_or(set.vessel->friction);
     wall.stiffness_N_m2 = first.wall_stiffness_N_m2;
-    model_.surfaces = {std::make_shared<Surface>(make_surface(wall))};
+    model_.surfaces = {std::make_shared<core::Surface>(make_surface(wall))};
     model_.gravity_W = first.gravity_m_s2;
     model_.step_s = step_s;
     check(model_);
 
-    std::vector<EndState> bases;
+    std::vector<core::EndState> bases;
     std::vector<double> inserted;
     for (std::size_t i = 0; i < model_.rods.size(); ++i) {
-      EndState base = first.base;
+      core::EndState base = first.base;
       const Quaterniond q = frame(first, i, 1, nullptr);
       base.q_W = {q.w(), q.x(), q.y(), q.z()};
       bases.push_back(base);
@@ -126,14 +126,14 @@ class History {
 
   void advance() {
     step(model_, inputs_, state_, *scratch_, report_);
-    constexpr std::uint32_t fatal = motion_lost | no_solution | joint_overturned;
-    lost_ = lost_ || (report_.trouble & fatal & ~motion_lost) != 0;
-    for (const RodState& rod : state_.rods)
+    constexpr std::uint32_t fatal = core::motion_lost | core::no_solution | core::joint_overturned;
+    lost_ = lost_ || (report_.trouble & fatal & ~core::motion_lost) != 0;
+    for (const core::RodState& rod : state_.rods)
       if (!rod.position[rod.position.size() - 1].allFinite()) lost_ = true;
   }
 
   void come_to_rest() {
-    for (RodInputs& rod : inputs_.rods) rod.feed_m_s = 0, rod.base.turn_rate_W_rad_s.setZero();
+    for (core::RodInputs& rod : inputs_.rods) rod.feed_m_s = 0, rod.base.turn_rate_W_rad_s.setZero();
     for (double t = 0; t < most_rest_s && !lost_; t += step_s) {
       advance();
       if (t > least_rest_s && fastest() < rest_speed_m_s) break;
@@ -152,24 +152,24 @@ class History {
   PredictedShape shape(const ExperimentSetup& to) const {
     PredictedShape out;
     out.converged = !lost_;
-    const RodState& rod = state_.rods.back();
+    const core::RodState& rod = state_.rods.back();
     out.points_m.push_back(to.base.p_W);
     for (int i = rod.first + 1; i < rod.position.size(); ++i) out.points_m.push_back(rod.position[i]);
     out.tip_q = rod.orientation[rod.orientation.size() - 1];
     const Quaterniond q = quaternion(out.tip_q) * Eigen::AngleAxisd(-to.material_turn_rad, Vector3d::UnitZ());
     out.tip_q = {q.w(), q.x(), q.y(), q.z()};
     if (!report_.rods.empty())
-      for (const RodReport& r : report_.rods) out.base_push_N += r.push_N;
+      for (const core::RodReport& r : report_.rods) out.base_push_N += r.push_N;
     return out;
   }
 
   const MeasurementSet& set_;
   std::vector<ExperimentSetup> setups_;
-  Model model_;
-  State state_;
-  std::optional<Scratch> scratch_;
-  Inputs inputs_;
-  StepReport report_;
+  core::Model model_;
+  core::State state_;
+  std::optional<core::Scratch> scratch_;
+  core::Inputs inputs_;
+  core::StepReport report_;
   std::vector<double> at_;
   bool lost_ = false;
 };
@@ -187,4 +187,4 @@ std::vector<PredictedShape> insert(const MeasurementSet& set, const Changes& cha
   return shapes;
 }
 
-}  // namespace ostium
+}  // namespace ostium::data

@@ -7,11 +7,11 @@
 /// recorded after a rest is a shape in balance with walls and friction. Every experiment has the first one's base.
 #include "data/identification/forward/shape.h"
 
-namespace ostium {
+namespace ostium::data {
 
 /// One shape per experiment. Where the run goes wrong, that shape and those after it have not converged. `progress` may
 /// be empty. Throws std::invalid_argument if changed numbers make no rod.
 std::vector<PredictedShape> insert(const MeasurementSet& set, const Changes& changes,
                                    const std::function<void(std::size_t, std::size_t)>& progress = {});
 
-}  // namespace ostium
+}  // namespace ostium::data

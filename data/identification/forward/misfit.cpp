@@ -4,7 +4,7 @@
 
 #include "data/identification/forward/curve.h"
 
-namespace ostium {
+namespace ostium::data {
 
 MeasuredView seen(const MeasurementSet& set, const Experiment& experiment, const Changes& changes, MeasuredView view) {
   for (const ActiveEffect& active : changes.effects)
@@ -60,4 +60,4 @@ double rms(const MeasurementSet& set, const std::vector<Eigen::VectorXd>& misfit
   return rms(all, misfits);
 }
 
-}  // namespace ostium
+}  // namespace ostium::data

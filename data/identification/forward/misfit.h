@@ -4,7 +4,7 @@
 
 #include "data/identification/forward/shape.h"
 
-namespace ostium {
+namespace ostium::data {
 
 /// How an experiment is seen where effects change the picture.
 MeasuredView seen(const MeasurementSet& set, const Experiment& experiment, const Changes& changes, MeasuredView view);
@@ -26,4 +26,4 @@ double rms(const std::vector<const Experiment*>& experiments, const std::vector<
 /// ... over all experiments of the set.
 double rms(const MeasurementSet& set, const std::vector<Eigen::VectorXd>& misfits);
 
-}  // namespace ostium
+}  // namespace ostium::data

@@ -7,15 +7,16 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
+#include "core/base/units.h"
 #include "data/identification/effects/effect_list.h"
 #include "data/identification/forward/insertion.h"
 #include "data/identification/forward/misfit.h"
 
-namespace ostium {
+namespace ostium::data {
 
 namespace {
 
-constexpr double mm = 1e-3;
+using units::mm;
 
 /// Distances to the shapes that other starts lead to, each shape once: a straight one, and straight ones in which an
 /// instrument is wound up against the others on the way to its tip, either way round.
@@ -111,4 +112,4 @@ std::string to_csv(const std::vector<Prediction>& predictions) {
   return out;
 }
 
-}  // namespace ostium
+}  // namespace ostium::data

@@ -2,7 +2,7 @@
 /// What a set's declared model predicts, nothing fitted: prediction.json (schema ostium-prediction/1) and .csv.
 #include "data/identification/forward/shape.h"
 
-namespace ostium {
+namespace ostium::data {
 
 struct Prediction {
   std::string id;
@@ -20,4 +20,4 @@ std::string to_json(const std::vector<Prediction>& predictions);
 /// Columns experiment, s_mm, x_mm, y_mm, z_mm.
 std::string to_csv(const std::vector<Prediction>& predictions);
 
-}  // namespace ostium
+}  // namespace ostium::data

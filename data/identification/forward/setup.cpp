@@ -1,16 +1,16 @@
 #include "data/identification/forward/setup.h"
 
-namespace ostium {
+namespace ostium::data {
 
 namespace {
 
 /// 0.08 rad bends a chord off its arc by a hundredth of its length.
 constexpr double longest_element_rad = 0.08;
 
-ConcentricPart part_of(const MeasurementSet& set, const Experiment& e, std::size_t i, const Changes& changes) {
-  ConcentricPart part{set.instruments[i].sections, e.set[i].inserted_m, e.set[i].roll_rad, 0};
+core::ConcentricPart part_of(const MeasurementSet& set, const Experiment& e, std::size_t i, const Changes& changes) {
+  core::ConcentricPart part{set.instruments[i].sections, e.set[i].inserted_m, e.set[i].roll_rad, 0};
   for (std::size_t s = 0; s < part.sections.size(); ++s) {
-    Section& section = part.sections[s];
+    core::Section& section = part.sections[s];
     if (e.specimen[i] && !section.rest_curvature_per_m.isZero())
       section.rest_curvature_per_m.head<2>() = *e.specimen[i];
     if (changes.stiffness_scale.empty()) continue;
@@ -32,7 +32,7 @@ ExperimentSetup setup_of(const MeasurementSet& set, const Experiment& experiment
   setup.gravity_m_s2 = set.gravity_m_s2;
   setup.tip_force_N = experiment.tip_force_N;
   // Elements end where declared sections do, so that what an effect moves slides through them without a jump.
-  std::vector<ConcentricPart> declared = setup.nest.parts;
+  std::vector<core::ConcentricPart> declared = setup.nest.parts;
   for (const ActiveEffect& active : changes.effects)
     if (active.effect->apply) active.effect->apply(active, set, experiment, setup);
   for (std::size_t i = 0; i < declared.size(); ++i) declared[i].inserted_m = setup.nest.parts[i].inserted_m;
@@ -58,4 +58,4 @@ void require_known(const MeasurementSet& set) {
   }
 }
 
-}  // namespace ostium
+}  // namespace ostium::data

@@ -2,7 +2,7 @@
 /// One experiment as the static solver takes it: what the set declares, with what a fit or an effect changes in it.
 #include "data/identification/effects/effect.h"
 
-namespace ostium {
+namespace ostium::data {
 
 /// Of a rod's elements, m: 1.5 mm is half a micrometre from a boundary-value solution on tubes; twice that is a few,
 /// enough to compare models by.
@@ -17,4 +17,4 @@ ExperimentSetup setup_of(const MeasurementSet& set, const Experiment& experiment
 /// instrument that ends within another; and a vessel that was not read (load_measurement reads it).
 void require_known(const MeasurementSet& set);
 
-}  // namespace ostium
+}  // namespace ostium::data

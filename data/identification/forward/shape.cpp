@@ -6,7 +6,7 @@
 #include <limits>
 #include <numbers>
 
-namespace ostium {
+namespace ostium::data {
 
 namespace {
 
@@ -22,7 +22,7 @@ constexpr int most_steps = 100;
 ExperimentSetup between(const ExperimentSetup& a, const ExperimentSetup& b, double t) {
   ExperimentSetup s = b;
   for (std::size_t i = 0; i < s.nest.parts.size(); ++i) {
-    const ConcentricPart &from = a.nest.parts[i], &to = b.nest.parts[i];
+    const core::ConcentricPart &from = a.nest.parts[i], &to = b.nest.parts[i];
     s.nest.parts[i].inserted_m = (1 - t) * from.inserted_m + t * to.inserted_m;
     s.nest.parts[i].roll_rad = (1 - t) * from.roll_rad + t * to.roll_rad;
     s.nest.parts[i].shaft_rad_per_Nm = (1 - t) * from.shaft_rad_per_Nm + t * to.shaft_rad_per_Nm;
@@ -38,7 +38,7 @@ ExperimentSetup between(const ExperimentSetup& a, const ExperimentSetup& b, doub
 int steps_between(const ExperimentSetup& a, const ExperimentSetup& b) {
   double steps = quaternion(a.base.q_W).angularDistance(quaternion(b.base.q_W)) / step_turn_rad;
   for (std::size_t i = 0; i < a.nest.parts.size(); ++i) {
-    const ConcentricPart &from = a.nest.parts[i], &to = b.nest.parts[i];
+    const core::ConcentricPart &from = a.nest.parts[i], &to = b.nest.parts[i];
     steps = std::max({steps, std::fabs(to.inserted_m - from.inserted_m) / step_insertion_m,
                       std::fabs(to.roll_rad - from.roll_rad) / step_turn_rad});
   }
@@ -57,8 +57,8 @@ StaticEquilibrium settled(const ExperimentSetup& setup, const StaticEquilibrium*
 }
 
 /// As many elements are not enough: a state knows how long its rod is.
-bool same_elements(const Concentric& a, const Concentric& b) {
-  const Rod &x = a.carrier.rods[0], &y = b.carrier.rods[0];
+bool same_elements(const core::Concentric& a, const core::Concentric& b) {
+  const core::Rod &x = a.carrier.rods[0], &y = b.carrier.rods[0];
   if (x.elements != y.elements) return false;
   for (int j = 0; j < x.elements; ++j)
     if (x.length.at(0)[j] != y.length.at(0)[j]) return false;
@@ -89,15 +89,15 @@ PredictedShape shape_from(const ExperimentSetup& setup, const StaticEquilibrium&
 
 PredictedShape shape_from(const ExperimentSetup& setup, const StaticEquilibrium& anchor, StaticEquilibrium& end) {
   end.nest = make_concentric(setup.nest, setup.gravity_m_s2);
-  const Concentric& nest = end.nest;
-  ConcentricState& state = end.state =
+  const core::Concentric& nest = end.nest;
+  core::ConcentricState& state = end.state =
       same_elements(nest, anchor.nest) ? anchor.state : carried_over(nest, setup.base, anchor.nest, anchor.state);
-  const ConcentricEquilibrium found = find_equilibrium(nest, setup.base, setup.tip_force_N, state);
+  const core::ConcentricEquilibrium found = find_equilibrium(nest, setup.base, setup.tip_force_N, state);
   end.converged = found.converged;
   PredictedShape shape;
   shape.converged = found.converged;
   shape.base_push_N = found.base_push_N;
-  const RodState& rod = state.carrier.rods[0];
+  const core::RodState& rod = state.carrier.rods[0];
   for (int i = 0; i < rod.position.size(); ++i) shape.points_m.push_back(rod.position[i]);
   shape.points_m = cut_at(shape.points_m, setup.nest.parts.back().inserted_m);
   const Eigen::Quaterniond tip = quaternion(tip_frame(nest, state, static_cast<int>(setup.nest.parts.size()) - 1)) *
@@ -129,4 +129,4 @@ std::vector<StaticEquilibrium> walk(const MeasurementSet& set, const Changes& ch
   return anchors;
 }
 
-}  // namespace ostium
+}  // namespace ostium::data

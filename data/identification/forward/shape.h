@@ -4,7 +4,7 @@
 
 #include "data/identification/forward/setup.h"
 
-namespace ostium {
+namespace ostium::data {
 
 /// A centreline, in the frame of the set.
 struct PredictedShape {
@@ -16,8 +16,8 @@ struct PredictedShape {
 
 /// An experiment's equilibrium, to continue from.
 struct StaticEquilibrium {
-  Concentric nest;
-  ConcentricState state;
+  core::Concentric nest;
+  core::ConcentricState state;
   bool converged = false;
 };
 
@@ -32,4 +32,4 @@ std::vector<StaticEquilibrium> walk(const MeasurementSet& set, const Changes& ch
                                     const std::function<void(std::size_t, std::size_t)>& progress = {},
                                     double longest_element_m = fine_elements_m);
 
-}  // namespace ostium
+}  // namespace ostium::data

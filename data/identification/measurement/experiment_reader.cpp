@@ -5,21 +5,22 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/base/units.h"
 #include "data/identification/measurement/measurement_keys.h"
 #include "data/identification/measurement/number_lists.h"
 
-namespace ostium {
+namespace ostium::data {
 
 namespace {
 
 namespace keys = measurement_keys;
 using Eigen::Vector3d;
 
-constexpr double mm = 1e-3, per_mm = 1e3, degree = std::numbers::pi / 180;
+using units::mm, units::per_mm, units::degree;
 constexpr double gap_tolerance_mm = 1e-6;
 
-EndState read_base(const JsonObject& entry) {
-  EndState base;
+core::EndState read_base(const JsonObject& entry) {
+  core::EndState base;
   base.p_W = vector3(entry["position_mm"]) * mm;
   const Vector3d tangent = vector3(entry["tangent"]), up = vector3(entry["up"]);
   if (!(tangent.norm() > 1e-12)) entry.refuse("tangent");
@@ -117,4 +118,4 @@ Experiment read_experiment(const JsonValue& value, const MeasurementSet& set) {
   return e;
 }
 
-}  // namespace ostium
+}  // namespace ostium::data

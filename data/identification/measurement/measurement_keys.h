@@ -3,7 +3,7 @@
 /// (data/schemas/measurement.schema.json) is made of them.
 #include "data/formats/json_object.h"
 
-namespace ostium::measurement_keys {
+namespace ostium::data::measurement_keys {
 
 inline const JsonObjectKeys set = {
     "measurement",
@@ -102,4 +102,4 @@ inline const JsonObjectKeys specimen = {
 inline const std::vector<const JsonObjectKeys*> all = {&set,    &instrument, &section, &environment, &vessel,  &imaging,
                                                        &effect, &experiment, &base,    &placement,   &specimen};
 
-}  // namespace ostium::measurement_keys
+}  // namespace ostium::data::measurement_keys

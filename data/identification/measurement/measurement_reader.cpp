@@ -5,26 +5,27 @@
 #include <cmath>
 #include <filesystem>
 
+#include "core/base/units.h"
 #include "data/identification/measurement/experiment_reader.h"
 #include "data/identification/measurement/measured_wall.h"
 #include "data/identification/measurement/measurement_keys.h"
 #include "data/identification/measurement/number_lists.h"
 
-namespace ostium {
+namespace ostium::data {
 
 namespace {
 
 namespace keys = measurement_keys;
 
-constexpr double mm = 1e-3, Nmm2 = 1e-6, per_mm = 1e3;
+using units::mm, units::Nmm2, units::per_mm;
 constexpr double gap_tolerance_mm = 1e-6;
 
-Section read_section(const JsonObject& entry, const MeasuredInstrument& instrument, double& reached_mm) {
+core::Section read_section(const JsonObject& entry, const MeasuredInstrument& instrument, double& reached_mm) {
   const auto ends = numbers(entry["from_tip_mm"], 2);
   if (std::fabs(ends[0] - reached_mm) > gap_tolerance_mm)
     entry["from_tip_mm"].refuse(fmt::format("it to begin at {} mm, where the one before it ends", reached_mm));
   if (!(ends[1] > ends[0]) || ends[1] > instrument.length_m / mm + gap_tolerance_mm) entry.refuse("from_tip_mm");
-  Section s;
+  core::Section s;
   s.from_tip_m = reached_mm * mm, s.to_tip_m = ends[1] * mm;
   reached_mm = ends[1];
   s.EI1_N_m2 = s.EI2_N_m2 = entry.positive("EI_Nmm2") * Nmm2;
@@ -40,7 +41,7 @@ Section read_section(const JsonObject& entry, const MeasuredInstrument& instrume
 /// Core has limits of its own, on numbers that are of the right sign and still no instrument's.
 void require_rod(const JsonObject& entry, const MeasuredInstrument& instrument) {
   try {
-    check({instrument.name, instrument.sections, equal_elements(instrument.sections, 64), {}, {}});
+    core::check({instrument.name, instrument.sections, equal_elements(instrument.sections, 64), {}, {}});
   } catch (const std::invalid_argument& error) {
     entry["sections"].fail(fmt::format("{} make no rod: {}", entry["sections"].path, error.what()));
   }
@@ -145,4 +146,4 @@ MeasurementSet load_measurement(const std::string& path) {
   return set;
 }
 
-}  // namespace ostium
+}  // namespace ostium::data

@@ -4,7 +4,7 @@
 /// the next.
 #include "data/identification/measurement/measurement_set.h"
 
-namespace ostium {
+namespace ostium::data {
 
 /// `path`: the set's folder, or its measurement.json.
 MeasurementSet load_measurement(const std::string& path);
@@ -15,4 +15,4 @@ MeasurementSet read_measurement(const std::string& file, const std::string& text
 /// The file that `load_measurement` reads.
 std::string measurement_file(const std::string& path);
 
-}  // namespace ostium
+}  // namespace ostium::data

@@ -4,16 +4,16 @@
 #include <memory>
 #include <optional>
 
-#include "core/state.h"
+#include "core/model/state.h"
 #include "data/formats/load_error.h"
 
-namespace ostium {
+namespace ostium::data {
 
 struct MeasuredInstrument {
   std::string name;
   double length_m = 0;
   double radius_m = 0, inner_radius_m = 0;
-  std::vector<Section> sections;  ///< from the distal tip backwards
+  std::vector<core::Section> sections;  ///< from the distal tip backwards
 };
 
 /// Where one instrument was put.
@@ -26,7 +26,7 @@ struct Placement {
 struct Experiment {
   std::string id;
   std::string place;                                     ///< "experiments[3]", for messages
-  EndState base;                                         ///< d3 = tangent, d1 = up made orthogonal to it; unrolled
+  core::EndState base;                                   ///< d3 = tangent, d1 = up made orthogonal to it; unrolled
   std::vector<Placement> set;                            ///< one per instrument
   std::vector<std::optional<Eigen::Vector2d>> specimen;  ///< rest curvature, 1/m, in place of what is not zero
   Eigen::Vector3d tip_force_N = Eigen::Vector3d::Zero();
@@ -49,7 +49,7 @@ struct Imaging {
 struct MeasuredVessel {
   std::string mesh, units;
   double friction = 0;
-  std::shared_ptr<const SurfaceDescription> wall;  ///< facing outwards, in the frame of the set
+  std::shared_ptr<const core::SurfaceDescription> wall;  ///< facing outwards, in the frame of the set
 };
 
 /// An effect that the file says the model is to include.
@@ -71,4 +71,4 @@ struct MeasurementSet {
   std::vector<Experiment> experiments;
 };
 
-}  // namespace ostium
+}  // namespace ostium::data

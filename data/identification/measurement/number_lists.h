@@ -7,7 +7,7 @@
 
 #include "data/formats/json_value.h"
 
-namespace ostium {
+namespace ostium::data {
 
 /// `value` as `count` numbers; the message tells how many there are.
 inline std::vector<double> numbers(const JsonValue& value, std::size_t count) {
@@ -27,4 +27,4 @@ inline Eigen::Vector2d vector2(const JsonValue& value) {
   return Eigen::Map<const Eigen::Vector2d>(numbers(value, 2).data());
 }
 
-}  // namespace ostium
+}  // namespace ostium::data

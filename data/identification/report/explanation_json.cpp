@@ -2,14 +2,15 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
+#include "core/base/units.h"
 #include "data/identification/report/explanation_report.h"
 
-namespace ostium {
+namespace ostium::data {
 
 namespace {
 
 using Json = nlohmann::ordered_json;
-constexpr double mm = 1e-3;
+using units::mm;
 
 Json or_null(const std::optional<double>& value, double unit = 1) {
   return value ? Json(*value / unit) : Json(nullptr);
@@ -96,4 +97,4 @@ std::string amended(const std::string& text, const MeasurementSet& set, const Ex
   return file.dump(1) + "\n";
 }
 
-}  // namespace ostium
+}  // namespace ostium::data

@@ -3,15 +3,16 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/units.h"
 #include "data/formats/plot.h"
 #include "data/identification/report/explanation_plots.h"
 #include "data/identification/report/explanation_report.h"
 
-namespace ostium {
+namespace ostium::data {
 
 namespace {
 
-constexpr double mm = 1e-3;
+using units::mm;
 
 const char* const style = R"(
 body { font: 15px/1.45 system-ui, sans-serif; color: #222; max-width: 980px; margin: 24px auto; padding: 0 16px; }
@@ -116,4 +117,4 @@ std::string to_html(const MeasurementSet& set, const Explanation& x) {
          "patient.</p>\n</body></html>\n";
 }
 
-}  // namespace ostium
+}  // namespace ostium::data

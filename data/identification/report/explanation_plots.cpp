@@ -5,17 +5,18 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/units.h"
 #include "data/formats/plot.h"
 #include "data/identification/forward/misfit.h"
 
-namespace ostium {
+namespace ostium::data {
 
 namespace {
 
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-constexpr double mm = 1e-3;
+using units::mm;
 const std::string measured_colour = "#222222", before_colour = "#d55e00", after_colour = "#0072b2";
 const char* const axes[] = {"x", "y", "z"};
 
@@ -172,4 +173,4 @@ std::string experiments_plot(const MeasurementSet& set, const Explanation& x) {
   return plot.svg();
 }
 
-}  // namespace ostium
+}  // namespace ostium::data

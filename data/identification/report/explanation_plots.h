@@ -2,7 +2,7 @@
 /// The plots of explanation.html, each as SVG text.
 #include "data/identification/selection/explanation.h"
 
-namespace ostium {
+namespace ostium::data {
 
 /// Measured and modelled shapes, seen along two axes of the set's frame.
 std::string shapes_plot(const MeasurementSet& set, const Explanation& x, int across);
@@ -14,4 +14,4 @@ std::string tip_residual_plot(const MeasurementSet& set, const Explanation& x, i
 std::string radius_plot(const MeasurementSet& set, const Explanation& x);
 std::string experiments_plot(const MeasurementSet& set, const Explanation& x);
 
-}  // namespace ostium
+}  // namespace ostium::data

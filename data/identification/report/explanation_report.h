@@ -3,7 +3,7 @@
 /// what was found.
 #include "data/identification/selection/explanation.h"
 
-namespace ostium {
+namespace ostium::data {
 
 std::string to_json(const Explanation& explanation);
 
@@ -18,4 +18,4 @@ std::string amended(const std::string& text, const MeasurementSet& set, const Ex
 /// amended set. What relaxes has done so as long as in the set's longest experiment.
 std::string instrument_json(const MeasurementSet& set, const Explanation& explanation, std::size_t i);
 
-}  // namespace ostium
+}  // namespace ostium::data

@@ -5,17 +5,19 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
+#include "core/base/units.h"
 #include "data/identification/effects/tools.h"
 #include "data/identification/forward/setup.h"
 #include "data/identification/report/explanation_report.h"
 
-namespace ostium {
+namespace ostium::data {
 
 namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr double mm = 1e-3, Nmm2 = 1e-6, weight_length_m = 2e-3;
+using units::mm, units::Nmm2;
+constexpr double weight_length_m = 2e-3;
 
 /// A name that a file can have.
 std::string file_name(const std::string& words) {
@@ -30,7 +32,7 @@ std::string file_name(const std::string& words) {
   return out.empty() ? "instrument" : out;
 }
 
-Json section(const Section& s) {
+Json section(const core::Section& s) {
   Json out = {{"from_tip_mm", {s.from_tip_m / mm, s.to_tip_m / mm}}};
   if (s.EI1_N_m2 == s.EI2_N_m2)
     out["EI_Nmm2"] = s.EI1_N_m2 / Nmm2;
@@ -47,9 +49,10 @@ Json section(const Section& s) {
 }
 
 /// Branches of what is lost with time, of an instrument that has a shape to lose.
-Json relaxation(const std::vector<ActiveEffect>& effects, const std::vector<Section>& sections, std::size_t i) {
+Json relaxation(const std::vector<ActiveEffect>& effects, const std::vector<core::Section>& sections, std::size_t i) {
   Json out = Json::array();
-  if (std::all_of(sections.begin(), sections.end(), [](const Section& s) { return s.rest_curvature_per_m.isZero(); }))
+  if (std::all_of(sections.begin(), sections.end(),
+                  [](const core::Section& s) { return s.rest_curvature_per_m.isZero(); }))
     return out;
   for (const ActiveEffect& e : effects) {
     if (e.effect->id != "stress_relaxation" || (e.instrument && *e.instrument != static_cast<int>(i))) continue;
@@ -70,19 +73,19 @@ std::string instrument_json(const MeasurementSet& set, const Explanation& x, std
   // As it comes out of its package: what it loses with time is written as such.
   Experiment fresh = set.experiments.front();
   if (fresh.elapsed_s) fresh.elapsed_s = 0;
-  std::vector<Section> sections = setup_of(set, fresh, changes).nest.parts[i].sections;
+  std::vector<core::Section> sections = setup_of(set, fresh, changes).nest.parts[i].sections;
   const Json lost = relaxation(changes.effects, sections, i);
   for (const ActiveEffect& e : changes.effects)
     if (e.effect->id == "lumped_mass" && i + 1 == set.instruments.size()) {
       const double grams = e.values[0], from = std::max(e.values[1] * mm - weight_length_m / 2, 0.0);
       change_stretch(sections, from, from + weight_length_m,
-                     [&](Section& s) { s.kg_per_m += grams * 1e-3 / weight_length_m; });
+                     [&](core::Section& s) { s.kg_per_m += grams * 1e-3 / weight_length_m; });
     }
   const double outer = 2 * measured.radius_m, inner = 2 * measured.inner_radius_m;
   const double metal = std::numbers::pi / 4 * (outer * outer - inner * inner) / outer;
   const std::string source = "fitted by ostium explain to \"" + set.title + "\" (" + set.source + ")";
   Json list = Json::array();
-  for (const Section& s : sections) list.push_back(section(s));
+  for (const core::Section& s : sections) list.push_back(section(s));
   Json all = {{"list", list}, {"source", source}};
   if (!lost.empty()) all["relaxation"] = lost;
   const Json file = {{"schema", "ostium-instrument/1"},
@@ -104,4 +107,4 @@ std::string instrument_json(const MeasurementSet& set, const Explanation& x, std
   return file.dump(2) + "\n";
 }
 
-}  // namespace ostium
+}  // namespace ostium::data

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace ostium {
+namespace ostium::data {
 
 namespace {
 
@@ -47,4 +47,4 @@ bool is_noise(const FittedModel& model, const Noise& noise) {
                       [](const ResidualTest& d) { return d.significant; });
 }
 
-}  // namespace ostium
+}  // namespace ostium::data

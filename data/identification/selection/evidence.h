@@ -2,7 +2,7 @@
 /// When one model counts as better than another, and when a model counts as complete.
 #include "data/identification/estimation/fitted_model.h"
 
-namespace ostium {
+namespace ostium::data {
 
 /// A difference in BIC that is strong evidence, and one that is positive evidence (Kass, Raftery 1995, J Am Stat Assoc
 /// 90:773).
@@ -21,4 +21,4 @@ bool is_noise(const FittedModel& model, const Noise& noise);
 /// Whether a number of the model stands at the edge of its range: then it stands in for something else.
 bool at_an_edge(const FittedModel& model);
 
-}  // namespace ostium
+}  // namespace ostium::data

@@ -13,7 +13,7 @@
 #include "data/identification/selection/verdict.h"
 #include "data/identification/selection/verdict_text.h"
 
-namespace ostium {
+namespace ostium::data {
 
 namespace {
 
@@ -115,4 +115,4 @@ Explanation explain(const MeasurementSet& set, const ExplainOptions& options) {
   return out;
 }
 
-}  // namespace ostium
+}  // namespace ostium::data

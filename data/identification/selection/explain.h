@@ -4,7 +4,7 @@
 
 #include "data/identification/selection/explanation.h"
 
-namespace ostium {
+namespace ostium::data {
 
 struct ExplainOptions {
   /// Candidates: each a list of effects to be switched on together, of ids such as "shaft_torsion" or
@@ -19,4 +19,4 @@ struct ExplainOptions {
 /// Throws LoadError for a set that cannot be explained (in a vessel), an unknown effect, or one that cannot show.
 Explanation explain(const MeasurementSet& set, const ExplainOptions& options);
 
-}  // namespace ostium
+}  // namespace ostium::data

@@ -4,7 +4,7 @@
 #include "data/identification/selection/next_experiment.h"
 #include "data/identification/selection/residual_attribution.h"
 
-namespace ostium {
+namespace ostium::data {
 
 enum class Verdict { explained, effect, ambiguous, unexplained };
 
@@ -27,4 +27,4 @@ struct Explanation {
   const FittedModel& best() const { return verdict == Verdict::effect ? candidates.front() : declared; }
 };
 
-}  // namespace ostium
+}  // namespace ostium::data

@@ -7,13 +7,14 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "core/base/units.h"
 #include "data/identification/estimation/workers.h"
 
-namespace ostium {
+namespace ostium::data {
 
 namespace {
 
-constexpr double degree = std::numbers::pi / 180;
+using units::degree;
 
 /// Settings about what was done: rolls a quarter turn apart and insertions from half to once and a half, for one
 /// instrument at a time.
@@ -95,4 +96,4 @@ std::optional<NextExperiment> next_experiment(const MeasurementSet& set, const W
   return next;
 }
 
-}  // namespace ostium
+}  // namespace ostium::data

@@ -3,7 +3,7 @@
 #include "data/identification/estimation/fitted_model.h"
 #include "data/identification/estimation/workers.h"
 
-namespace ostium {
+namespace ostium::data {
 
 struct NextExperiment {
   std::string why;
@@ -15,4 +15,4 @@ struct NextExperiment {
 std::optional<NextExperiment> next_experiment(const MeasurementSet& set, const Workers& workers, const FittedModel& a,
                                               const FittedModel& b, const Noise& noise);
 
-}  // namespace ostium
+}  // namespace ostium::data

@@ -7,7 +7,7 @@
 #include "data/identification/estimation/model_fit.h"
 #include "data/identification/selection/residual_fields.h"
 
-namespace ostium {
+namespace ostium::data {
 
 namespace {
 
@@ -122,4 +122,4 @@ Signature signature_of(const std::vector<ResidualAttribution>& attributions) {
   return out;
 }
 
-}  // namespace ostium
+}  // namespace ostium::data

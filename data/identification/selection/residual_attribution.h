@@ -6,7 +6,7 @@
 #include "data/identification/estimation/fitted_model.h"
 #include "data/identification/estimation/workers.h"
 
-namespace ostium {
+namespace ostium::data {
 
 /// What a field without a name does for the declared model's residual.
 struct ResidualAttribution {
@@ -29,4 +29,4 @@ std::vector<ResidualAttribution> attribute_residual(const MeasurementSet& set, c
 /// The signature that the attributions make of a residual; "none" if none of them has strong evidence.
 Signature signature_of(const std::vector<ResidualAttribution>& attributions);
 
-}  // namespace ostium
+}  // namespace ostium::data

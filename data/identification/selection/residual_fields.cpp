@@ -3,15 +3,16 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
+#include "core/base/units.h"
 #include "data/identification/effects/tools.h"
 
-namespace ostium {
+namespace ostium::data {
 
 namespace {
 
 using Eigen::Vector3d;
 
-constexpr double mm = 1e-3;
+using units::mm;
 
 std::string always(const MeasurementSet&, std::optional<int>) { return ""; }
 
@@ -33,7 +34,7 @@ void bend(const ActiveEffect& field, const MeasurementSet& set, const Experiment
     const Eigen::Vector2d add(between_knots(set, field.values, 2, 0, middle),
                               between_knots(set, field.values, 2, 1, middle));
     change_stretch(setup.nest.parts.back().sections, from, to,
-                   [&](Section& s) { s.rest_curvature_per_m.head<2>() += add; });
+                   [&](core::Section& s) { s.rest_curvature_per_m.head<2>() += add; });
   }
 }
 
@@ -77,8 +78,8 @@ double time_of(const MeasurementSet& set, const Experiment& e) {
 void drift(const ActiveEffect& field, const MeasurementSet& set, const Experiment& e, ExperimentSetup& setup) {
   const double t = time_of(set, e);
   const auto& v = field.values;
-  for (ConcentricPart& part : setup.nest.parts)
-    for (Section& s : part.sections) {
+  for (core::ConcentricPart& part : setup.nest.parts)
+    for (core::Section& s : part.sections) {
       s.rest_curvature_per_m *= std::max(1 + t * v[0], 0.0);
       s.rest_curvature_per_m.head<2>() += t * Eigen::Vector2d(v[1], v[2]);
       const double stiffer = std::exp(std::clamp(t * v[3], -2.0, 2.0));
@@ -161,4 +162,4 @@ const Effect& time_field() {
   return field;
 }
 
-}  // namespace ostium
+}  // namespace ostium::data

@@ -3,7 +3,7 @@
 /// numbers and a prior that holds them small, and none is in the list of effects.
 #include "data/identification/effects/effect.h"
 
-namespace ostium {
+namespace ostium::data {
 
 inline constexpr int field_knots = 10;
 
@@ -19,4 +19,4 @@ const Effect& time_field();
 /// Knots, m from the tip.
 double field_knot(const MeasurementSet& set, int knot);
 
-}  // namespace ostium
+}  // namespace ostium::data

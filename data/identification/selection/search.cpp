@@ -8,7 +8,7 @@
 
 #include "data/identification/effects/effect_list.h"
 
-namespace ostium {
+namespace ostium::data {
 
 namespace {
 
@@ -218,4 +218,4 @@ std::vector<FittedModel> EffectSearch::run(const ModelFit& declared, FittedModel
   return out;
 }
 
-}  // namespace ostium
+}  // namespace ostium::data

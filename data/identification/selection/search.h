@@ -5,7 +5,7 @@
 #include "data/identification/estimation/model_fit.h"
 #include "data/identification/selection/evidence.h"
 
-namespace ostium {
+namespace ostium::data {
 
 class EffectSearch {
  public:
@@ -43,4 +43,4 @@ class EffectSearch {
   std::deque<Tried> tried_;
 };
 
-}  // namespace ostium
+}  // namespace ostium::data

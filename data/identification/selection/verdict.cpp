@@ -6,7 +6,7 @@
 #include "data/identification/effects/effect_list.h"
 #include "data/identification/selection/evidence.h"
 
-namespace ostium {
+namespace ostium::data {
 
 namespace {
 
@@ -126,4 +126,4 @@ void decide(const MeasurementSet& set, const Workers& workers, Explanation& out)
   }
 }
 
-}  // namespace ostium
+}  // namespace ostium::data

@@ -5,11 +5,13 @@
 #include <cmath>
 #include <utility>
 
-namespace ostium {
+#include "core/base/units.h"
+
+namespace ostium::data {
 
 namespace {
 
-constexpr double mm = 1e-3;
+using units::mm;
 
 std::string held_out(const FittedModel& m) {
   return m.rms_held_out_m ? fmt::format("{:.3g} mm on held-out experiments", *m.rms_held_out_m / mm)
@@ -169,4 +171,4 @@ std::vector<std::string> verdict_text(const MeasurementSet& set, const Explanati
   return out;
 }
 
-}  // namespace ostium
+}  // namespace ostium::data

@@ -2,8 +2,8 @@
 /// What an explanation found, in plain words.
 #include "data/identification/selection/explanation.h"
 
-namespace ostium {
+namespace ostium::data {
 
 std::vector<std::string> verdict_text(const MeasurementSet& set, const Explanation& explanation);
 
-}  // namespace ostium
+}  // namespace ostium::data

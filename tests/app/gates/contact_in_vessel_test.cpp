@@ -4,19 +4,20 @@
 
 #include <random>
 
-#include "app/verify/drives.h"
+#include "app/gates/drives.h"
 #include "core/math/rotation.h"
-#include "core/surface/pose.h"
+#include "core/wall/pose.h"
 #include "tests/support/allocations.h"
 #include "tests/support/nearest_corner.h"
 
-namespace ostium {
+namespace ostium::app {
 namespace {
 
 using Eigen::Vector3d;
 
 /// Of the corners, at both ends of the step, of the clusters that were found.
-double nearest_found_m(const Surface& surface, const std::vector<int>& found, SurfacePose& pose, const Vector3d& p) {
+double nearest_found_m(const core::Surface& surface, const std::vector<int>& found, core::SurfacePose& pose,
+                       const Vector3d& p) {
   double nearest_m = 1;
   for (int c : found)
     for (const auto* corners : {&pose_of(surface, c, pose).before, &pose_of(surface, c, pose).after})
@@ -26,20 +27,20 @@ double nearest_found_m(const Surface& surface, const std::vector<int>& found, Su
 
 /// The boxes hold a cluster through all of an interval, so a query misses nothing.
 TEST(Surface, AQueryFindsWhatIsNearAtAnyMoment) {
-  const verify::TestVessel vessel = verify::test_vessel();
-  const Surface surface = make_surface(vessel.wall);
-  SurfacePose pose(surface);
+  const gates::TestVessel vessel = gates::test_vessel();
+  const core::Surface surface = make_surface(vessel.wall);
+  core::SurfacePose pose(surface);
   std::vector<int> found;
   found.reserve(surface.clusters.size());
   std::mt19937 random(3);
   std::uniform_real_distribution<double> u(0, 1);
   for (int n = 0; n < 300; ++n) {
-    SurfaceMotion motion;
+    core::SurfaceMotion motion;
     motion.frame_before = 24 * u(random), motion.frame_after = motion.frame_before + u(random);
     set_motion(surface, motion, pose);
     const auto& corner = vessel.wall.triangles[random() % vessel.wall.triangles.size()];
     const Vector3d p = vertex_at(vessel.wall, corner[0], n % 2 ? motion.frame_before : motion.frame_after);
-    const V3<double> q = from_eigen(p), pad{1e-4, 1e-4, 1e-4};
+    const core::V3<double> q = from_eigen(p), pad{1e-4, 1e-4, 1e-4};
     find_clusters(surface, q - pad, q + pad, pose, found);
     EXPECT_LT(nearest_found_m(surface, found, pose, p), 1e-6) << n;
   }
@@ -47,36 +48,36 @@ TEST(Surface, AQueryFindsWhatIsNearAtAnyMoment) {
 
 /// Of a beating vessel, too; and what does not sway now is to the bit what cannot.
 TEST(Surface, WhatBeatsAndSwaysIsFoundAtAnyMoment) {
-  const verify::TestVessel vessel = verify::test_vessel();
-  SurfaceDescription d = vessel.wall;
+  const gates::TestVessel vessel = gates::test_vessel();
+  core::SurfaceDescription d = vessel.wall;
   for (const Vector3d& p : d.frames[0])
     d.sway.push_back(Vector3d(3e-3, -4e-3, 2e-3) + 0.1 * Vector3d(p.y(), p.z(), p.x()));
-  const Surface still = make_surface(vessel.wall), surface = make_surface(d);
-  SurfacePose pose(surface), still_pose(still);
+  const core::Surface still = make_surface(vessel.wall), surface = make_surface(d);
+  core::SurfacePose pose(surface), still_pose(still);
   std::vector<int> found, still_found;
   found.reserve(surface.clusters.size()), still_found.reserve(surface.clusters.size());
   std::mt19937 random(4);
   std::uniform_real_distribution<double> u(0, 1);
   for (int n = 0; n < 300; ++n) {
-    SurfaceMotion motion;
+    core::SurfaceMotion motion;
     motion.frame_before = 24 * u(random), motion.frame_after = motion.frame_before + u(random);
     motion.sway_before = u(random), motion.sway_after = u(random);
     set_motion(surface, motion, pose);
     const int v = d.triangles[random() % d.triangles.size()][0];
     const Vector3d p = n % 2 ? vertex_at(d, v, motion.frame_before, motion.sway_before)
                              : vertex_at(d, v, motion.frame_after, motion.sway_after);
-    const V3<double> q = from_eigen(p), pad{1e-6, 1e-6, 1e-6};
+    const core::V3<double> q = from_eigen(p), pad{1e-6, 1e-6, 1e-6};
     find_clusters(surface, q - pad, q + pad, pose, found);
     EXPECT_LT(nearest_found_m(surface, found, pose, p), 1e-6) << n;
 
     motion.sway_before = motion.sway_after = 0;
     set_motion(surface, motion, pose), set_motion(still, motion, still_pose);
-    const V3<double> at = from_eigen(vertex_at(d, v, motion.frame_before)), wide{5e-3, 5e-3, 5e-3};
+    const core::V3<double> at = from_eigen(vertex_at(d, v, motion.frame_before)), wide{5e-3, 5e-3, 5e-3};
     find_clusters(surface, at - wide, at + wide, pose, found);
     find_clusters(still, at - wide, at + wide, still_pose, still_found);
     ASSERT_EQ(found, still_found);
     for (int c : found) {
-      const ClusterPose &a = pose_of(surface, c, pose), &b = pose_of(still, c, still_pose);
+      const core::ClusterPose &a = pose_of(surface, c, pose), &b = pose_of(still, c, still_pose);
       for (int i = 0; i < a.after.size(); ++i) ASSERT_EQ(Vector3d(a.after[i]), Vector3d(b.after[i]));
     }
   }
@@ -84,28 +85,28 @@ TEST(Surface, WhatBeatsAndSwaysIsFoundAtAnyMoment) {
 
 /// Vertices that are placed anew are found where they are; placed back, the surface is what it was to the bit.
 TEST(Surface, VerticesArePlacedAnewAndBack) {
-  const verify::TestVessel vessel = verify::test_vessel();
-  const Surface before = make_surface(vessel.wall);
-  Surface surface = before;
-  SurfaceEditor editor(vessel.wall, surface);
-  SurfaceDescription opened = vessel.wall;
+  const gates::TestVessel vessel = gates::test_vessel();
+  const core::Surface before = make_surface(vessel.wall);
+  core::Surface surface = before;
+  core::SurfaceEditor editor(vessel.wall, surface);
+  core::SurfaceDescription opened = vessel.wall;
   for (auto& frame : opened.frames)
     for (std::size_t v = 0; v < frame.size(); v += 3) frame[v] += Vector3d(0.5e-3, -0.3e-3, 0.2e-3);
-  const auto place = [&](const SurfaceDescription& d) {
+  const auto place = [&](const core::SurfaceDescription& d) {
     for (int f = 0; f < static_cast<int>(d.frames.size()); ++f)
       for (int v = 0; v < static_cast<int>(d.frames[0].size()); ++v) editor.place(v, f, d.frames[f][v]);
     editor.refit();
   };
   place(opened);
   EXPECT_NE(surface.corner_frames, before.corner_frames);
-  SurfacePose pose(surface);
+  core::SurfacePose pose(surface);
   std::vector<int> found;
   found.reserve(surface.clusters.size());
   for (int v = 0; v < static_cast<int>(opened.frames[0].size()); v += 97) {
-    SurfaceMotion motion;
+    core::SurfaceMotion motion;
     motion.frame_before = 0.37 * v, motion.frame_after = motion.frame_before + 0.2;
     set_motion(surface, motion, pose);
-    const V3<double> q = from_eigen(vertex_at(opened, v, motion.frame_before)), pad{1e-5, 1e-5, 1e-5};
+    const core::V3<double> q = from_eigen(vertex_at(opened, v, motion.frame_before)), pad{1e-5, 1e-5, 1e-5};
     find_clusters(surface, q - pad, q + pad, pose, found);
     double nearest_m = 1;
     for (int c : found)
@@ -121,16 +122,16 @@ TEST(Surface, VerticesArePlacedAnewAndBack) {
 }
 
 TEST(Contact, AStepDoesNotAllocateAndIsBitIdentical) {
-  const verify::TestVessel vessel = verify::test_vessel();
-  verify::Rehearsal a(vessel, false), b(vessel, false);
-  for (verify::Rehearsal* run : {&a, &b}) {
+  const gates::TestVessel vessel = gates::test_vessel();
+  gates::Rehearsal a(vessel, false), b(vessel, false);
+  for (gates::Rehearsal* run : {&a, &b}) {
     run->lay_wire(vessel.ways_W[0], 0.42);
     run->inputs.rods[0].feed_m_s = 0.02;
     run->inputs.rods[0].base.turn_rate_W_rad_s = Vector3d(6, 0, 0);
   }
   for (int n = 0; n < 300; ++n) a.step(75), b.step(75);
   EXPECT_EQ(hash(a.state), hash(b.state));
-  b.scratch = Scratch(b.model);  // nothing is lost with it
+  b.scratch = core::Scratch(b.model);  // nothing is lost with it
   long allocated = 0;
   for (int n = 0; n < 300; ++n) {
     const long before = allocations();
@@ -144,20 +145,19 @@ TEST(Contact, AStepDoesNotAllocateAndIsBitIdentical) {
 
 /// A wire in a branch that beats, driven at random; whether it is still inside is for the triangles to say.
 TEST(Contact, AWireStaysInABeatingBranch) {
-  const verify::TestVessel vessel = verify::test_vessel();
-  const verify::Holding held = verify::random_drive(vessel, 5, 2);
+  const gates::TestVessel vessel = gates::test_vessel();
+  const gates::Holding held = gates::random_drive(vessel, 5, 2);
   EXPECT_EQ(held.escapes, 0);
   EXPECT_LT(held.deepest_m, 0.178e-3);
 }
 
 /// The same without what is between both ends of a step: wires escape.
 TEST(Contact, WithoutTheSweepWiresEscape) {
-  const verify::TestVessel vessel = verify::test_vessel();
+  const gates::TestVessel vessel = gates::test_vessel();
   int escapes = 0;
-  for (int seed : {1, 3, 5})
-    escapes += verify::random_drive(vessel, static_cast<std::uint64_t>(seed), 2, false).escapes;
+  for (int seed : {1, 3, 5}) escapes += gates::random_drive(vessel, static_cast<std::uint64_t>(seed), 2, false).escapes;
   EXPECT_GT(escapes, 0);
 }
 
 }  // namespace
-}  // namespace ostium
+}  // namespace ostium::app

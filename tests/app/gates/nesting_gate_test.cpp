@@ -1,13 +1,13 @@
 #include <gtest/gtest.h>
 
-#include "app/verify/nesting.h"
+#include "app/gates/nesting.h"
 
-namespace ostium {
+namespace ostium::app {
 namespace {
 
 TEST(Nesting, WithoutTheBindingEveryGateFails) {
-  for (const GateResult& gate : verify::nesting_with(true, false)) EXPECT_FALSE(gate.pass()) << gate.gate;
+  for (const data::GateResult& gate : gates::nesting_with(true, false)) EXPECT_FALSE(gate.pass()) << gate.gate;
 }
 
 }  // namespace
-}  // namespace ostium
+}  // namespace ostium::app

@@ -6,14 +6,14 @@
 #include <cmath>
 #include <filesystem>
 
-#include "app/session/film.h"
-#include "app/session/penetration.h"
-#include "app/session/play.h"
-#include "app/session/replay.h"
+#include "app/session/model/penetration.h"
+#include "app/session/run/play.h"
+#include "app/session/run/replay.h"
+#include "app/session/scene/film.h"
 #include "data/formats/load_error.h"
 #include "tests/app/session/tube_vessel.h"
 
-namespace ostium {
+namespace ostium::app {
 namespace {
 
 namespace fs = std::filesystem;
@@ -32,7 +32,7 @@ const char* const at_the_ostium = R"({
 /// 40 breaths a minute: a top every 1.5 s, the first after 0.75 s.
 RunSetup setup(const char* breathing) {
   RunSetup out;
-  set_vessel("rca-mid-focal", LengthUnit::millimetre, out);
+  set_vessel("rca-mid-focal", vascular::LengthUnit::millimetre, out);
   set_script(read_script("at-the-ostium.json", at_the_ostium), out);
   set_value("begin", "RCA", out);
   if (*breathing) set_value("breathing", breathing, out);
@@ -93,7 +93,7 @@ TEST(Breathing, WallWayAndPictureMoveAsTheAnatomySays) {
   EXPECT_EQ(breath(model, out), 0);
   EXPECT_EQ(breath(model, in), 1);
 
-  const Patient& patient = *model.vessel->patient;
+  const vascular::Patient& patient = *model.vessel->patient;
   double farthest = 0;
   for (std::size_t v = 0; v < patient.lumen.vertices(); v += 11) {
     const int n = static_cast<int>(v);
@@ -104,7 +104,7 @@ TEST(Breathing, WallWayAndPictureMoveAsTheAnatomySays) {
   }
   EXPECT_NEAR(farthest, 5.07e-3, 2.2e-3) << "4.9 mm down, 1.3 mm forward, and what the tilt adds far from the middle";
 
-  const Way& way = *model.vessel->way;
+  const VesselIndex& way = *model.vessel->way;
   for (const char* name : {"RCA+40", "LAD+30", "LCx+20", "arch"}) {
     const int sphere = way.place(name);
     const auto& branches = patient.tree.branches;
@@ -121,7 +121,7 @@ TEST(Breathing, WallWayAndPictureMoveAsTheAnatomySays) {
   SessionInputs inputs;
   inputs.tools.resize(model.tools.size());
   inputs.c_arm.p_PI = model.vessel->p_middle;
-  const auto apart = [](const Picture& a, const Picture& b) {
+  const auto apart = [](const fluoro::Picture& a, const fluoro::Picture& b) {
     double sum = 0;
     for (std::size_t i = 0; i < a.grey.size(); ++i) sum += std::abs(int(a.grey[i]) - int(b.grey[i]));
     return sum / static_cast<double>(a.grey.size());
@@ -130,16 +130,17 @@ TEST(Breathing, WallWayAndPictureMoveAsTheAnatomySays) {
     for (int n = 0; n < 8; ++n) film.frame(model, state, inputs);
     return film.frame(model, state, inputs);
   };
-  const Picture before = settled(out), again = film.frame(model, out, inputs), breathed_in = settled(in);
+  const fluoro::Picture before = settled(out), again = film.frame(model, out, inputs), breathed_in = settled(in);
   EXPECT_GT(apart(before, breathed_in), 3 * apart(before, again)) << "more than noise";
 }
 
 TEST(Breathing, WhatCannotBeIsRefused) {
   RunSetup s = setup("");
-  for (const char* rate : {"2", "61", "-12", "often"}) EXPECT_THROW(set_value("breathing", rate, s), LoadError) << rate;
+  for (const char* rate : {"2", "61", "-12", "often"})
+    EXPECT_THROW(set_value("breathing", rate, s), data::LoadError) << rate;
   RunSetup mesh = tube_setup();
-  EXPECT_THROW(set_value("breathing", "12", mesh), LoadError) << "nobody knows how a mesh breathes";
+  EXPECT_THROW(set_value("breathing", "12", mesh), data::LoadError) << "nobody knows how a mesh breathes";
 }
 
 }  // namespace
-}  // namespace ostium
+}  // namespace ostium::app

@@ -3,16 +3,16 @@
 
 #include <cmath>
 
-#include "app/session/run.h"
-#include "app/session/xray_scene.h"
-#include "vascular/beat/heart_cycle.h"
+#include "app/session/run/run.h"
+#include "app/session/scene/xray_scene.h"
+#include "vascular/motion/heart_cycle.h"
 
-namespace ostium {
+namespace ostium::app {
 namespace {
 
 RunSetup case_setup() {
   RunSetup setup;
-  set_vessel("rca-mid-focal", LengthUnit::millimetre, setup);
+  set_vessel("rca-mid-focal", vascular::LengthUnit::millimetre, setup);
   set_script(find_script("iliac-wire"), setup);
   return setup;
 }
@@ -26,7 +26,7 @@ std::shared_ptr<const Vessel> case_vessel() {
 }
 
 TEST(CaseVessel, PlacesLieInTheOrderOfTheWayFromTheGroin) {
-  const Way& way = *case_vessel()->way;
+  const VesselIndex& way = *case_vessel()->way;
   double before_m = 0;
   for (const char* name : {"right iliac", "aorta", "diaphragm", "arch", "ascending aorta", "sinuses", "valve"}) {
     const int place = way.place(name);
@@ -64,9 +64,9 @@ TEST(CaseVessel, ContrastFillsOneCoronaryTreeAndIsClosed) {
   for (Fill fill : {Fill::left, Fill::right}) {
     const XrayPatient patient(case_vessel()->patient, fill);
     for (double phase : {0.0, 0.4}) {
-      const Scene scene = patient.at(phase);
+      const fluoro::Scene scene = patient.at(phase);
       ASSERT_NO_THROW(check(scene));
-      const Body& contrast = scene.moving.back();
+      const fluoro::Body& contrast = scene.moving.back();
       ASSERT_EQ(contrast.name, "contrast");
       double volume_mL = 0;
       Eigen::Vector3d middle = Eigen::Vector3d::Zero();
@@ -91,17 +91,17 @@ TEST(CaseVessel, ShaftsHaveTheSteelThatTheCatalogueSays) {
   EXPECT_TRUE(shafts_of(run.model, run.state).empty()) << "nothing is in the body yet";
   while (run.state.rods.step < 800 && run.tick()) {
   }
-  const std::vector<Shaft> shafts = shafts_of(run.model, run.state);
+  const std::vector<fluoro::Shaft> shafts = shafts_of(run.model, run.state);
   ASSERT_EQ(shafts.size(), 1u);
   EXPECT_EQ(Eigen::Vector3d(shafts[0].p_P.col(0)), tip(run.model, run.state, 0));
   double length = 0;
   for (Eigen::Index i = 1; i < shafts[0].p_P.cols(); ++i)
     length += (shafts[0].p_P.col(i) - shafts[0].p_P.col(i - 1)).norm();
   EXPECT_NEAR(length, run.state.rods.rods[0].inserted_m, 1e-6);
-  const Instrument& wire = run.model.tools[0].instrument;
+  const data::Instrument& wire = run.model.tools[0].instrument;
   ASSERT_EQ(shafts[0].sections.size(), wire.opaque.size());
   for (std::size_t s = 0; s < wire.opaque.size(); ++s) {
-    const OpaqueSection& o = shafts[0].sections[s];
+    const fluoro::OpaqueSection& o = shafts[0].sections[s];
     const double area =
         o.filling * EIGEN_PI * (o.outer_radius_m * o.outer_radius_m - o.inner_radius_m * o.inner_radius_m);
     EXPECT_NEAR(area, wire.opaque[s].thickness_m * wire.outer_diameter_m, 1e-12);
@@ -110,4 +110,4 @@ TEST(CaseVessel, ShaftsHaveTheSteelThatTheCatalogueSays) {
 }
 
 }  // namespace
-}  // namespace ostium
+}  // namespace ostium::app

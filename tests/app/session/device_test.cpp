@@ -6,26 +6,27 @@
 #include <numbers>
 #include <random>
 
-#include "app/session/device_run.h"
-#include "app/session/emulated_hand.h"
-#include "app/session/play.h"
-#include "app/session/replay.h"
-#include "device/emulated_port.h"
+#include "app/session/device/box_run.h"
+#include "app/session/device/emulated_box_driver.h"
+#include "app/session/run/play.h"
+#include "app/session/run/replay.h"
+#include "device/emulator/emulated_port.h"
 #include "tests/app/session/tube_vessel.h"
 #include "tests/support/allocations.h"
 
-namespace ostium {
+namespace ostium::app {
 namespace {
 
 /// A wire in the tube, and a box whose station 1 sees it, moved by the test.
 struct AtTheBox {
   explicit AtTheBox(int delay = 1, std::optional<double> friction = {}, const char* script = there_and_back)
-      : port{box, [this](EmulatedBox& b) { move(b); }, delay}, run{setup(friction, script), tube_vessel(), &hand} {
-    box.station[0] = {Tool::wire, 200, 0, 0};
+      : port{box, [this](device::EmulatedBox& b) { move(b); }, delay},
+        run{setup(friction, script), tube_vessel(), &hand} {
+    box.station[0] = {device::Tool::wire, 200, 0, 0};
   }
 
-  static Calibration calibration() {
-    Calibration c;
+  static device::Calibration calibration() {
+    device::Calibration c;
     c.track[0].before_introducer_mm = 10;
     return c;
   }
@@ -36,28 +37,28 @@ struct AtTheBox {
     return s;
   }
 
-  EmulatedBox box{calibration()};
+  device::EmulatedBox box{calibration()};
   double mm_s = 0, deg_s = 0;
-  std::function<void(EmulatedBox&)> moves;  ///< instead of these two
-  EmulatedPort port;
-  void move(EmulatedBox& b) {
+  std::function<void(device::EmulatedBox&)> moves;  ///< instead of these two
+  device::EmulatedPort port;
+  void move(device::EmulatedBox& b) {
     if (moves) return moves(b);
     b.station[0].advanced_mm += 1e-3 * mm_s, b.station[0].turned_deg += 1e-3 * deg_s;
-    if (when_paused && host.now().pause != Pause::none) when_paused(b);
+    if (when_paused && host.now().pause != device::Pause::none) when_paused(b);
   }
-  std::function<void(EmulatedBox&)> when_paused;
-  TrackingBox host{port, {}};
+  std::function<void(device::EmulatedBox&)> when_paused;
+  device::TrackingBox host{port, {}};
   std::atomic<bool> stop{false};
-  DeviceHand hand{[] {
-                    DeviceHandSettings s;
-                    s.views = {{0.7, 0}, {-0.5, 0.4}};
-                    return s;
-                  }(),
-                  [this](const BoxRequest& request) -> const BoxSnapshot& {
-                    host.poll(0, request);
-                    return host.now();
-                  },
-                  &stop};
+  BoxDriver hand{[] {
+                   BoxDriverSettings s;
+                   s.views = {{0.7, 0}, {-0.5, 0.4}};
+                   return s;
+                 }(),
+                 [this](const device::BoxRequest& request) -> const device::BoxSnapshot& {
+                   host.poll(0, request);
+                   return host.now();
+                 },
+                 &stop};
   ScriptedRun run;
 
   void ticks(int n) {
@@ -67,7 +68,7 @@ struct AtTheBox {
   double turned_deg() const { return run.state.hands[0].turned_rad * 180 / std::numbers::pi; }
 };
 
-TEST(DeviceHand, TheInstrumentIsWhereTheHandHasIt) {
+TEST(BoxDriver, TheInstrumentIsWhereTheHandHasIt) {
   AtTheBox at;
   at.ticks(5);
   at.mm_s = 50, at.deg_s = 120;
@@ -87,27 +88,26 @@ TEST(DeviceHand, TheInstrumentIsWhereTheHandHasIt) {
   EXPECT_EQ(at.run.troubles, 0u);
 }
 
-TEST(DeviceHand, SingleCountsAreNoJerks) {
+TEST(BoxDriver, SingleCountsAreNoJerks) {
   AtTheBox at;
   at.mm_s = 5;  // a count of 0.01 mm every other millisecond
   at.ticks(2500);
   double least = 1, most = 0;
   for (int i = 0; i < 200; ++i) {
     at.ticks(1);
-    least = std::min(least, at.run.inputs.tools[0].advance_m_s),
-    most = std::max(most, at.run.inputs.tools[0].advance_m_s);
+    least = std::min(least, at.run.inputs.tools[0].feed_m_s), most = std::max(most, at.run.inputs.tools[0].feed_m_s);
   }
   EXPECT_GT(least, 4e-3);
   EXPECT_LT(most, 6e-3);
 }
 
-TEST(DeviceHand, FullTravelStopsTimeUntilTheHandIsBack) {
+TEST(BoxDriver, FullTravelStopsTimeUntilTheHandIsBack) {
   AtTheBox at;
   at.mm_s = 400;
   SessionState before;
   double drew_back_mm = 0;
   long paused = 0;
-  at.when_paused = [&](EmulatedBox& b) {
+  at.when_paused = [&](device::EmulatedBox& b) {
     if (paused++ == 0) before = at.run.state;
     EXPECT_EQ(hash(at.run.state), hash(before)) << "the simulation stands";
     at.mm_s = 0;
@@ -126,7 +126,7 @@ TEST(DeviceHand, FullTravelStopsTimeUntilTheHandIsBack) {
   EXPECT_NEAR(at.inserted_mm() - inserted_mm, 50, 0.1);
 }
 
-TEST(DeviceHand, ALostWireAndAPulledCableStandStill) {
+TEST(BoxDriver, ALostWireAndAPulledCableStandStill) {
   AtTheBox at;
   at.mm_s = 100;
   at.ticks(800);
@@ -152,28 +152,29 @@ TEST(DeviceHand, ALostWireAndAPulledCableStandStill) {
   }
 }
 
-TEST(DeviceHand, AnExchangeIsDrawingOutAndBringingInAnother) {
+TEST(BoxDriver, AnExchangeIsDrawingOutAndBringingInAnother) {
   AtTheBox at;
   at.mm_s = 100;
   at.ticks(900);
   at.mm_s = -100;
   at.ticks(900);
   at.mm_s = 0;
-  at.box.station[0].tool = Tool::none, at.box.station[0].quality = 0;
+  at.box.station[0].tool = device::Tool::none, at.box.station[0].quality = 0;
   at.ticks(300);
   EXPECT_NEAR(at.inserted_mm(), 0, 0.1);
-  at.box.station[0] = {Tool::wire, 200, at.box.station[0].advanced_mm + 5, 0};
+  at.box.station[0] = {device::Tool::wire, 200, at.box.station[0].advanced_mm + 5, 0};
   at.ticks(50);
   at.mm_s = 100;
   at.ticks(600);
   at.mm_s = 0;
   at.ticks(300);
-  EXPECT_EQ(at.hand.now().tool[index_of(Tool::wire)].arrivals, 2u);
+  EXPECT_EQ(at.hand.now().tool[index_of(device::Tool::wire)].arrivals, 2u);
   EXPECT_NEAR(at.inserted_mm(), 50, 0.2) << "60 mm, of which 10 outside";
 }
 
-TEST(DeviceHand, TheNextThatArrivesIsTheNextOfItsKind) {
-  const std::vector<Tool> held{Tool::guide, Tool::shaft, Tool::shaft, Tool::wire, Tool::shaft, Tool::wire};
+TEST(BoxDriver, TheNextThatArrivesIsTheNextOfItsKind) {
+  const std::vector<device::Tool> held{device::Tool::guide, device::Tool::shaft, device::Tool::shaft,
+                                       device::Tool::wire,  device::Tool::shaft, device::Tool::wire};
   const std::vector<ToolTurn> turns = turns_at_the_box(held);
   const std::uint32_t places[] = {0, 0, 1, 0, 2, 1}, counts[] = {1, 3, 3, 2, 3, 2};
   for (std::size_t t = 0; t < held.size(); ++t) {
@@ -198,13 +199,13 @@ TEST(DeviceHand, TheNextThatArrivesIsTheNextOfItsKind) {
     at.mm_s = -100;
     at.ticks(600);
     at.mm_s = 0;
-    at.box.station[0].tool = Tool::none, at.box.station[0].quality = 0;
+    at.box.station[0].tool = device::Tool::none, at.box.station[0].quality = 0;
     at.ticks(200);
-    at.box.station[0].tool = Tool::wire, at.box.station[0].quality = 200;
+    at.box.station[0].tool = device::Tool::wire, at.box.station[0].quality = 200;
   }
 }
 
-TEST(DeviceHand, PedalsButtonsPressureAndFlow) {
+TEST(BoxDriver, PedalsButtonsPressureAndFlow) {
   AtTheBox at;
   at.box.pedals = 1, at.box.pressure_atm = -0.8, at.box.flow_mL_s = 3;
   at.ticks(5);
@@ -225,36 +226,36 @@ TEST(DeviceHand, PedalsButtonsPressureAndFlow) {
 }
 
 /// In a patient, the box's indeflator and syringe are the bedside's.
-TEST(DeviceHand, PressureInflatesAndFlowInjects) {
+TEST(BoxDriver, PressureInflatesAndFlowInjects) {
   RunSetup setup;
-  set_vessel("rca-mid-focal", LengthUnit::millimetre, setup);
+  set_vessel("rca-mid-focal", vascular::LengthUnit::millimetre, setup);
   set_script(find_script("iliac-wire"), setup);
   setup.script = free_hands(setup.script);
   std::string warnings;
-  EmulatedBox box{{}};
-  EmulatedPort port{box, {}};
-  TrackingBox host{port, {}};
-  DeviceHand hand{{}, [&](const BoxRequest& request) -> const BoxSnapshot& {
-                    host.poll(0, request);
-                    return host.now();
-                  }};
+  device::EmulatedBox box{{}};
+  device::EmulatedPort port{box, {}};
+  device::TrackingBox host{port, {}};
+  BoxDriver hand{{}, [&](const device::BoxRequest& request) -> const device::BoxSnapshot& {
+                   host.poll(0, request);
+                   return host.now();
+                 }};
   ScriptedRun run(setup, make_vessel(setup, warnings), &hand);
   const auto ticks = [&](double atm, double mL_s) {
     box.pressure_atm = atm, box.flow_mL_s = mL_s;
     for (int i = 0; i < 5; ++i) ASSERT_TRUE(run.tick());
   };
   ticks(-0.8, 3);
-  EXPECT_NEAR(run.inputs.bedside.gauge_Pa, -0.8 * 101'325, 60);
-  EXPECT_NEAR(run.inputs.bedside.injection_m3_s, 3e-6, 1e-8);
+  EXPECT_NEAR(run.inputs.delivery.gauge_Pa, -0.8 * 101'325, 60);
+  EXPECT_NEAR(run.inputs.delivery.injection_m3_s, 3e-6, 1e-8);
   ticks(12, -2);
-  EXPECT_NEAR(run.inputs.bedside.gauge_Pa, 12 * 101'325, 60);
-  EXPECT_EQ(run.inputs.bedside.injection_m3_s, 0) << "nothing is drawn back out of the guide";
+  EXPECT_NEAR(run.inputs.delivery.gauge_Pa, 12 * 101'325, 60);
+  EXPECT_EQ(run.inputs.delivery.injection_m3_s, 0) << "nothing is drawn back out of the guide";
   ticks(0.03, 0.03);
-  EXPECT_EQ(run.inputs.bedside.gauge_Pa, 0) << "an offset is no hand";
-  EXPECT_EQ(run.inputs.bedside.injection_m3_s, 0);
+  EXPECT_EQ(run.inputs.delivery.gauge_Pa, 0) << "an offset is no hand";
+  EXPECT_EQ(run.inputs.delivery.injection_m3_s, 0);
 }
 
-TEST(DeviceHand, DoesNotAllocate) {
+TEST(BoxDriver, DoesNotAllocate) {
   AtTheBox at;
   at.mm_s = 60, at.deg_s = 90;
   at.ticks(1500);
@@ -263,7 +264,7 @@ TEST(DeviceHand, DoesNotAllocate) {
   EXPECT_EQ(allocations(), before);
 }
 
-TEST(DeviceHand, TheClampHoldsWhatTheWirePushes) {
+TEST(BoxDriver, TheClampHoldsWhatTheWirePushes) {
   AtTheBox at;
   at.mm_s = 100;
   at.ticks(2500);
@@ -281,13 +282,13 @@ TEST(DeviceHand, TheClampHoldsWhatTheWirePushes) {
 /// The whole loop, rods and walls in it: an arm of 0.1 kg, 300 N/m and 4 N s/m pushes the wire, turning it, to the
 /// tube's closed end and holds still; sensors tremble by 0.02 mm, and what the clamp is told arrives 20 ms late. The
 /// wall's friction is turned up: the clamp holds more, and is quiet.
-TEST(DeviceHand, TheClampIsQuietHoweverHighTheWallsFriction) {
+TEST(BoxDriver, TheClampIsQuietHoweverHighTheWallsFriction) {
   double before_N = 0;
   for (const double friction : {0.05, 0.3, 0.9}) {
     AtTheBox at(20, friction);
     std::mt19937 generator(7);
     double hand_mm = 0, hand_mm_s = 0, wanted_mm = 0;
-    at.moves = [&](EmulatedBox& b) {
+    at.moves = [&](device::EmulatedBox& b) {
       const double mass = 0.1, dt = 1e-4, brake_N = b.clamp()[0] / 65535.0 * 10;
       for (int i = 0; i < 10; ++i) {
         const double pull_N = 0.3 * (wanted_mm - hand_mm) - 4e-3 * hand_mm_s;
@@ -316,7 +317,7 @@ TEST(DeviceHand, TheClampIsQuietHoweverHighTheWallsFriction) {
   EXPECT_GT(before_N, 0.08) << "twice what it is almost without friction";
 }
 
-TEST(DeviceRun, AtTheEmulatorRecordsAndReplays) {
+TEST(BoxRun, AtTheEmulatorRecordsAndReplays) {
   RunSetup setup = tube_setup();
   const auto device = run_at_emulator({}, nullptr);
   ScriptedRun run(setup, tube_vessel(), &device->driver());
@@ -332,14 +333,14 @@ TEST(DeviceRun, AtTheEmulatorRecordsAndReplays) {
   std::filesystem::remove(options.recorder.file);
 }
 
-TEST(DeviceRun, EndsWhenItIsStoppedWhileItStands) {
+TEST(BoxRun, EndsWhenItIsStoppedWhileItStands) {
   AtTheBox at;
   at.mm_s = 400;
-  at.when_paused = [&](EmulatedBox&) { at.stop = true; };
+  at.when_paused = [&](device::EmulatedBox&) { at.stop = true; };
   while (at.run.tick()) {
   }
   EXPECT_EQ(at.run.outcome, Outcome::aborted);
 }
 
 }  // namespace
-}  // namespace ostium
+}  // namespace ostium::app

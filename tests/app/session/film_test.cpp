@@ -1,5 +1,5 @@
 /// Pictures of a session: on which steps they fall, what they show, whose dose they take.
-#include "app/session/film.h"
+#include "app/session/scene/film.h"
 
 #include <gtest/gtest.h>
 
@@ -8,11 +8,11 @@
 #include <thread>
 #include <vector>
 
-#include "app/session/filming.h"
-#include "app/session/run.h"
+#include "app/session/run/filming.h"
+#include "app/session/run/run.h"
 #include "tests/app/session/tube_vessel.h"
 
-namespace ostium {
+namespace ostium::app {
 namespace {
 
 TEST(Film, FramesFallOnTheirSteps) {
@@ -34,11 +34,11 @@ TEST(Film, OfARunShowsTheWireAndIsTheSameTwice) {
   options.field_m = 0.3;  // the tube reaches beyond 20 cm at the detector
   options.overlay = false;
   Film one(run.model, options), two(run.model, options);
-  const Picture a = one.frame(run.model, run.state, run.inputs);
+  const fluoro::Picture a = one.frame(run.model, run.state, run.inputs);
   EXPECT_EQ(a.grey, two.frame(run.model, run.state, run.inputs).grey);
   SessionState empty = make_state(run.model, 0);
   Film three(run.model, options);
-  const Picture without = three.frame(run.model, empty, run.inputs);
+  const fluoro::Picture without = three.frame(run.model, empty, run.inputs);
   long darker = 0;
   for (std::size_t i = 0; i < a.grey.size(); ++i) darker += a.grey[i] + 8 < without.grey[i];
   EXPECT_GT(darker, 60) << "some 120 mm of a wire of 0.9 mm, on pixels of 1.2 mm, with the same noise";
@@ -50,7 +50,7 @@ TEST(Film, FollowsThePedalUnlessItIsOfOneMode) {
   FilmOptions options;
   options.pixels = 64;
   options.overlay = false;
-  const auto mode_of = [&](std::optional<Mode> mode, double cine_pedal) {
+  const auto mode_of = [&](std::optional<fluoro::Mode> mode, double cine_pedal) {
     options.mode = mode;
     SessionInputs inputs = run.inputs;
     inputs.c_arm.fluoroscopy = 0, inputs.c_arm.cine = cine_pedal;
@@ -58,10 +58,10 @@ TEST(Film, FollowsThePedalUnlessItIsOfOneMode) {
     film.frame(run.model, run.state, inputs);
     return film.run().programme.mode;
   };
-  EXPECT_EQ(mode_of({}, 0), Mode::fluoroscopy) << "no pedal";
-  EXPECT_EQ(mode_of({}, 1), Mode::cine);
-  EXPECT_EQ(mode_of(Mode::fluoroscopy, 1), Mode::fluoroscopy) << "DICOM has one header for all frames";
-  EXPECT_EQ(mode_of(Mode::cine, 0), Mode::cine);
+  EXPECT_EQ(mode_of({}, 0), fluoro::Mode::fluoroscopy) << "no pedal";
+  EXPECT_EQ(mode_of({}, 1), fluoro::Mode::cine);
+  EXPECT_EQ(mode_of(fluoro::Mode::fluoroscopy, 1), fluoro::Mode::fluoroscopy) << "DICOM has one header for all frames";
+  EXPECT_EQ(mode_of(fluoro::Mode::cine, 0), fluoro::Mode::cine);
 }
 
 TEST(Filming, ShowsEachPictureToWhoeverWatchesAlsoWhereTheVideoCannotBeWritten) {
@@ -76,7 +76,7 @@ TEST(Filming, ShowsEachPictureToWhoeverWatchesAlsoWhereTheVideoCannotBeWritten) 
     if (!is_frame(run.state.rods.step, options.frames_per_s, run.model.step_s())) continue;
     SessionInputs inputs = run.inputs;
     inputs.c_arm.fluoroscopy = shown % 3 != 2;
-    const Picture drawn = same.frame(run.model, run.state, inputs, run.xrays);
+    const fluoro::Picture drawn = same.frame(run.model, run.state, inputs, run.xrays);
     EXPECT_EQ(filming.drive(run, inputs), Driven::on);
     for (int wait = 0; wait < 5000 && !pictures.look(); ++wait)
       std::this_thread::sleep_for(std::chrono::milliseconds(1));
@@ -91,4 +91,4 @@ TEST(Filming, ShowsEachPictureToWhoeverWatchesAlsoWhereTheVideoCannotBeWritten) 
 }
 
 }  // namespace
-}  // namespace ostium
+}  // namespace ostium::app

@@ -7,10 +7,10 @@
 #include <numbers>
 
 #include "app/session/handling/errors.h"
-#include "app/session/run.h"
-#include "data/script.h"
+#include "app/session/run/run.h"
+#include "data/catalogue/script/script.h"
 
-namespace ostium {
+namespace ostium::app {
 namespace {
 
 enum Tool { guide, thick, thin, balloon };
@@ -40,7 +40,7 @@ struct Played {
 
   HandledTool& operator[](Tool t) { return scene.tools[static_cast<std::size_t>(t)]; }
   void feed(Tool t, double by_m) {
-    (*this)[t].inserted_m += by_m, (*this)[t].fed_m += by_m, (*this)[t].advance_m_s = by_m / 0.01;
+    (*this)[t].inserted_m += by_m, (*this)[t].fed_m += by_m, (*this)[t].feed_m_s = by_m / 0.01;
   }
   /// Looks every 10 ms.
   template <class Errors, class Each>
@@ -52,7 +52,7 @@ struct Played {
     }
   }
   /// How many there were of a kind, which are forgotten.
-  int took(EventCode code) {
+  int took(data::EventCode code) {
     const auto n = std::count_if(events.begin(), events.end(),
                                  [&](const SessionEvent& e) { return e.code == static_cast<int>(code); });
     std::erase_if(events, [&](const SessionEvent& e) { return e.code == static_cast<int>(code); });
@@ -70,9 +70,9 @@ TEST(Handling, ACatheterFollowsAWireBelowTheRoot) {
   EXPECT_TRUE(p.events.empty()) << "to 10 cm behind the wire's tip";
   // 80 mm bring it to 20 mm behind the tip, 10 mm more to the error, which is one however far it goes on.
   p.play(errors, 0.2, [&](int) { p.feed(guide, 4e-3); });
-  EXPECT_EQ(p.took(EventCode::catheter_without_wire), 0);
+  EXPECT_EQ(p.took(data::EventCode::catheter_without_wire), 0);
   p.play(errors, 0.5, [&](int) { p.feed(guide, 4e-3); });
-  EXPECT_EQ(p.took(EventCode::catheter_without_wire), 1);
+  EXPECT_EQ(p.took(data::EventCode::catheter_without_wire), 1);
   p[guide].sphere = 2;
   p.play(errors, 10, [&](int) { p.feed(guide, 4e-3); });
   EXPECT_TRUE(p.events.empty()) << "beyond the arch it goes without a wire";
@@ -87,12 +87,12 @@ TEST(Handling, TwistIsJudgedByHowLongAndHowFast) {
   p.play(errors, 2.7, [&](int i) { to(i); });
   EXPECT_TRUE(p.events.empty());
   p.play(errors, 0.9, [&](int) { to(-280); });
-  EXPECT_EQ(p.took(EventCode::tip_whips), 1);
-  EXPECT_EQ(p.took(EventCode::wound_up), 0) << "not for a second yet";
+  EXPECT_EQ(p.took(data::EventCode::tip_whips), 1);
+  EXPECT_EQ(p.took(data::EventCode::wound_up), 0) << "not for a second yet";
   p.play(errors, 4, [&](int) { to(-280); });
-  EXPECT_EQ(p.took(EventCode::wound_up), 1);
+  EXPECT_EQ(p.took(data::EventCode::wound_up), 1);
   p.play(errors, 5, [&](int) { to(0); });
-  EXPECT_EQ(p.took(EventCode::tip_whips), 1);
+  EXPECT_EQ(p.took(data::EventCode::tip_whips), 1);
   EXPECT_TRUE(p.events.empty());
 }
 
@@ -108,14 +108,14 @@ TEST(Handling, AGuideSitsWhereItShould) {
   p.play(errors, 1.9, [](int) {});
   EXPECT_TRUE(p.events.empty());
   p.play(errors, 5, [](int) {});
-  EXPECT_EQ(p.took(EventCode::deep_seat), 1);
+  EXPECT_EQ(p.took(data::EventCode::deep_seat), 1);
   p.scene.catheter_cell = 2;
-  p.scene.guide_trace = Trace::ventricularised;
+  p.scene.guide_trace = vascular::Trace::ventricularised;
   p.play(errors, 4.9, [](int) {});
   EXPECT_TRUE(p.events.empty());
-  p.scene.guide_trace = Trace::damped;
+  p.scene.guide_trace = vascular::Trace::damped;
   p.play(errors, 0.2, [](int) {});
-  EXPECT_EQ(p.took(EventCode::bad_trace_kept), 1);
+  EXPECT_EQ(p.took(data::EventCode::bad_trace_kept), 1);
   EXPECT_TRUE(p.events.empty());
 }
 
@@ -127,15 +127,15 @@ TEST(Handling, AThickWireStaysOnItsWay) {
   EXPECT_TRUE(p.events.empty());
   p[thick].sphere = 1;
   p.play(errors, 5, [](int) {});
-  EXPECT_EQ(p.took(EventCode::wire_strays), 1);
+  EXPECT_EQ(p.took(data::EventCode::wire_strays), 1);
   p[thick].sphere = 2;
   p.play(errors, 1.9, [](int) {});
   EXPECT_TRUE(p.events.empty());
   p.play(errors, 1.9, [](int) {});
-  EXPECT_EQ(p.took(EventCode::wire_in_ventricle), 1);
+  EXPECT_EQ(p.took(data::EventCode::wire_in_ventricle), 1);
   p[thick].sphere = 3;
   p.play(errors, 0.1, [](int) {});
-  EXPECT_EQ(p.took(EventCode::thick_wire_in_coronary), 1);
+  EXPECT_EQ(p.took(data::EventCode::thick_wire_in_coronary), 1);
   EXPECT_TRUE(p.events.empty());
 }
 
@@ -147,9 +147,9 @@ TEST(Handling, ACoronaryWireIsSeenAndGoesWhereItIsPlanned) {
   EXPECT_TRUE(p.events.empty()) << "seen, 80 mm down the artery";
   p.scene.thin_tip_is_seen = false;
   p.play(errors, 0.9, [&](int i) { p.feed(thin, i % 2 ? 1e-4 : -1e-4); });
-  EXPECT_EQ(p.took(EventCode::blind_wire), 0);
+  EXPECT_EQ(p.took(data::EventCode::blind_wire), 0);
   p.play(errors, 0.2, [&](int i) { p.feed(thin, i % 2 ? 1e-4 : -1e-4); });
-  EXPECT_EQ(p.took(EventCode::blind_wire), 1) << "there and back counts";
+  EXPECT_EQ(p.took(data::EventCode::blind_wire), 1) << "there and back counts";
   EXPECT_TRUE(p.events.empty());
 }
 
@@ -159,12 +159,12 @@ TEST(Handling, ACoronaryWireIsNotPushedIntoASideBranch) {
   p.scene.thin_wire = thin;
   p.scene.wire_cell = 108;
   p.play(errors, 1, [&](int) { p.feed(thin, 1e-5); });
-  EXPECT_EQ(p.took(EventCode::side_branch_pushed), 0) << "9 mm in";
+  EXPECT_EQ(p.took(data::EventCode::side_branch_pushed), 0) << "9 mm in";
   p.scene.wire_cell = 111;
   p.play(errors, 1, [&](int) { p.feed(thin, -1e-5); });
-  EXPECT_EQ(p.took(EventCode::side_branch_pushed), 0) << "drawn back";
+  EXPECT_EQ(p.took(data::EventCode::side_branch_pushed), 0) << "drawn back";
   p.play(errors, 1, [&](int) { p.feed(thin, 1e-5); });
-  EXPECT_EQ(p.took(EventCode::side_branch_pushed), 1);
+  EXPECT_EQ(p.took(data::EventCode::side_branch_pushed), 1);
   EXPECT_TRUE(p.events.empty());
 }
 
@@ -176,23 +176,23 @@ TEST(Handling, ACoronaryWireStaysBehindTheLesion) {
   lie(95, 4.9);
   EXPECT_TRUE(p.events.empty());
   lie(95, 0.2);
-  EXPECT_EQ(p.took(EventCode::wire_too_far), 1) << "5 mm from the artery's end";
+  EXPECT_EQ(p.took(data::EventCode::wire_too_far), 1) << "5 mm from the artery's end";
   lie(80);
   // A device comes; the wire goes with it, beats do not count.
   p.scene.device = balloon;
-  p[balloon].advance_m_s = 0.02;
+  p[balloon].feed_m_s = 0.02;
   lie(80);
   p.scene.diastasis = false;
   lie(90);
   p.scene.diastasis = true;
   lie(84);
-  EXPECT_EQ(p.took(EventCode::wire_drift), 0);
+  EXPECT_EQ(p.took(data::EventCode::wire_drift), 0);
   lie(86);
-  EXPECT_EQ(p.took(EventCode::wire_drift), 1);
-  p[balloon].advance_m_s = 0;
+  EXPECT_EQ(p.took(data::EventCode::wire_drift), 1);
+  p[balloon].feed_m_s = 0;
   lie(20);
-  EXPECT_EQ(p.took(EventCode::wire_position_lost), 1) << "nobody drew it";
-  EXPECT_EQ(p.took(EventCode::wire_drift), 1);
+  EXPECT_EQ(p.took(data::EventCode::wire_position_lost), 1) << "nobody drew it";
+  EXPECT_EQ(p.took(data::EventCode::wire_drift), 1);
   p.scene.device = -1;
   lie(80);
   p.feed(thin, -55e-3);
@@ -202,7 +202,7 @@ TEST(Handling, ACoronaryWireStaysBehindTheLesion) {
 
 RunSetup setup() {
   RunSetup out;
-  set_vessel("rca-mid-focal", LengthUnit::millimetre, out);
+  set_vessel("rca-mid-focal", vascular::LengthUnit::millimetre, out);
   set_script(find_script("rca-from-the-ostium"), out);
   return out;
 }
@@ -227,15 +227,15 @@ TEST(Handling, BalloonsAreEmptyAsTheyMoveAndNotHeldForLong) {
       look_for(errors, p.map, p.scene, EventSink{0, p.events});
     }
   };
-  run.state.bedside.balloon = 0;
+  run.state.coupling.balloon = 0;
   p.scene.device = balloon;
   play(5, 1e-3);
   p.scene.gauge_atm = 10, p.scene.filled = true;
   play(1, 1e-5);
-  EXPECT_EQ(p.took(EventCode::open_balloon_dragged), 0) << "by 1 mm";
+  EXPECT_EQ(p.took(data::EventCode::open_balloon_dragged), 0) << "by 1 mm";
   p.scene.gauge_atm = -1;
   play(1, -4e-5);
-  EXPECT_EQ(p.took(EventCode::open_balloon_dragged), 1) << "the gauge is down, the balloon is not empty yet";
+  EXPECT_EQ(p.took(data::EventCode::open_balloon_dragged), 1) << "the gauge is down, the balloon is not empty yet";
   p.scene.filled = false;
   play(5, -1e-3);
   EXPECT_TRUE(p.events.empty());
@@ -243,29 +243,29 @@ TEST(Handling, BalloonsAreEmptyAsTheyMoveAndNotHeldForLong) {
   play(59.9);
   EXPECT_TRUE(p.events.empty());
   play(0.3);
-  EXPECT_EQ(p.took(EventCode::long_inflation), 1);
+  EXPECT_EQ(p.took(data::EventCode::long_inflation), 1);
 
   // In the stent: 12 mm of balloon in the middle of 15 mm of stent, then at its edge.
   const Plan& plan = run.model.vessel->coronaries->lesions[0];
   const double branch = run.model.physiology.flow.tree.branch("RCA"), middle = (plan.from_m + plan.to_m) / 2;
-  StentState& stent = run.state.treatment.stents[0];
+  vascular::StentState& stent = run.state.treatment.stents[0];
   const double half_stent = run.model.treatment.stents[0].length_m / 2,
                half_balloon = run.model.treatment.balloons[0].length_m / 2;
-  stent.where = StentState::deployed, stent.branch = branch, stent.middle_m = middle, stent.shift_m = 0;
-  run.state.bedside.branch = branch;
+  stent.where = vascular::StentState::deployed, stent.branch = branch, stent.middle_m = middle, stent.shift_m = 0;
+  run.state.coupling.branch = branch;
   run.state.treatment.balloon.pressure_Pa = 12 * 101325;
   const auto reach = [&](double beyond_m) {
-    run.state.bedside.middle_m = middle + half_stent + beyond_m - half_balloon;
+    run.state.coupling.middle_m = middle + half_stent + beyond_m - half_balloon;
   };
   reach(1e-3);
   play(5);
-  EXPECT_EQ(p.took(EventCode::balloon_beyond_stent), 0);
+  EXPECT_EQ(p.took(data::EventCode::balloon_beyond_stent), 0);
   reach(3e-3);
   play(5);
-  EXPECT_EQ(p.took(EventCode::balloon_beyond_stent), 1);
+  EXPECT_EQ(p.took(data::EventCode::balloon_beyond_stent), 1);
   run.state.treatment.balloon.pressure_Pa = 8 * 101325;
   play(5);
-  EXPECT_EQ(p.took(EventCode::balloon_beyond_stent), 0) << "softly";
+  EXPECT_EQ(p.took(data::EventCode::balloon_beyond_stent), 0) << "softly";
 }
 
 TEST(Handling, BeamAndPushAreForSomething) {
@@ -289,24 +289,24 @@ TEST(Handling, BeamAndPushAreForSomething) {
   play(2.9, [] {});
   EXPECT_TRUE(p.events.empty());
   play(3, [] {});
-  EXPECT_EQ(p.took(EventCode::idle_beam), 1);
-  inputs.bedside.injection_m3_s = 1e-6;
+  EXPECT_EQ(p.took(data::EventCode::idle_beam), 1);
+  inputs.delivery.injection_m3_s = 1e-6;
   play(10, [] {});
   EXPECT_TRUE(p.events.empty());
   // A tool whose tip stays where it is, easily at first.
   report.tools[0].in_body = true;
-  inputs.tools[0].advance_m_s = 0.05;
+  inputs.tools[0].feed_m_s = 0.05;
   play(2, [&] { run.state.hands[0].fed_m += 5e-4; });
   EXPECT_TRUE(p.events.empty());
   play(1, [&] { run.state.hands[0].fed_m += 5e-4, report.tools[0].push_N += 0.01; });
-  EXPECT_EQ(p.took(EventCode::push_without_advance), 1);
+  EXPECT_EQ(p.took(data::EventCode::push_without_advance), 1);
   EXPECT_TRUE(p.events.empty());
 }
 
 TEST(Handling, ACasesMapKnowsItsWaysAndItsLesion) {
   const ScriptedRun run(setup(), vessel());
   const HandlingMap map(run.model);
-  const Way& way = *run.model.vessel->way;
+  const VesselIndex& way = *run.model.vessel->way;
   const auto at = [&](const char* place) {
     EXPECT_GE(way.place(place), 0) << place;
     return static_cast<std::size_t>(way.place(place));
@@ -321,7 +321,7 @@ TEST(Handling, ACasesMapKnowsItsWaysAndItsLesion) {
   EXPECT_NEAR(map.in_coronary_m[at("RCA+20")], 20e-3, 2e-3);
   EXPECT_EQ(map.in_coronary_m[at("arch")], 0);
 
-  const FlowTree& tree = run.model.physiology.flow.tree;
+  const vascular::FlowTree& tree = run.model.physiology.flow.tree;
   const Plan& plan = run.model.vessel->coronaries->lesions[0];
   const auto cell = [&](const char* branch, double along_m) {
     return static_cast<std::size_t>(tree.cell_at(tree.branch(branch), along_m));
@@ -340,11 +340,11 @@ TEST(Handling, ACasesMapKnowsItsWaysAndItsLesion) {
 
 TEST(Handling, ABranchBetweenTwoLesionsLeadsAWireAstray) {
   RunSetup two = setup();
-  set_vessel("rca-diffuse", LengthUnit::millimetre, two);
+  set_vessel("rca-diffuse", vascular::LengthUnit::millimetre, two);
   std::string warnings;
   const ScriptedRun run(two, make_vessel(two, warnings));
   const HandlingMap map(run.model);
-  const FlowTree& tree = run.model.physiology.flow.tree;
+  const vascular::FlowTree& tree = run.model.physiology.flow.tree;
   const auto& lesions = run.model.vessel->coronaries->lesions;
   const auto cell = [&](const char* branch, double along_m) {
     return static_cast<std::size_t>(tree.cell_at(tree.branch(branch), along_m));
@@ -359,4 +359,4 @@ TEST(Handling, ABranchBetweenTwoLesionsLeadsAWireAstray) {
 }
 
 }  // namespace
-}  // namespace ostium
+}  // namespace ostium::app

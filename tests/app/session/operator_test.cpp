@@ -1,13 +1,13 @@
 /// The operator of a script: what ends a step, what a failure leads to, what is looked at.
-#include "app/session/operator.h"
+#include "app/session/operator/operator.h"
 
 #include <gtest/gtest.h>
 
-#include "app/session/play.h"
+#include "app/session/run/play.h"
 #include "tests/app/session/played.h"
 #include "tests/app/session/tube_vessel.h"
 
-namespace ostium {
+namespace ostium::app {
 namespace {
 
 TEST(Operator, SaysWhyItFailed) {
@@ -192,7 +192,7 @@ TEST(Operator, APlaceThatIsNotThereIsNamed) {
   try {
     ScriptedRun run(setup, tube_vessel());
     FAIL();
-  } catch (const LoadError& error) {
+  } catch (const data::LoadError& error) {
     EXPECT_NE(std::string(error.what()).find("there-and-back.json:8: there is no place \"bent\""), std::string::npos)
         << error.what();
     EXPECT_NE(std::string(error.what()).find("bend"), std::string::npos);
@@ -200,4 +200,4 @@ TEST(Operator, APlaceThatIsNotThereIsNamed) {
 }
 
 }  // namespace
-}  // namespace ostium
+}  // namespace ostium::app

@@ -1,5 +1,5 @@
 /// The pace of a run that somebody watches: what is late is caught up with, what is long is let go, a stand is neither.
-#include "app/session/play.h"
+#include "app/session/run/play.h"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 
 #include "tests/app/session/tube_vessel.h"
 
-namespace ostium {
+namespace ostium::app {
 namespace {
 
 /// Holds the run up once.
@@ -72,4 +72,4 @@ TEST(Play, AStandIsNotLate) {
 }
 
 }  // namespace
-}  // namespace ostium
+}  // namespace ostium::app

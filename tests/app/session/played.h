@@ -2,10 +2,10 @@
 /// Runs of a wire in the small vessel, to their end.
 #include <gtest/gtest.h>
 
-#include "app/session/play.h"
+#include "app/session/run/play.h"
 #include "tests/app/session/tube_vessel.h"
 
-namespace ostium {
+namespace ostium::app {
 
 inline PlayReport played(const RunSetup& setup, bool real = false, RecordMode mode = RecordMode::none) {
   ScriptedRun run(setup, tube_vessel());
@@ -23,4 +23,4 @@ inline std::string with(std::string script, const std::string& from, const std::
   return script.replace(at, from.size(), to);
 }
 
-}  // namespace ostium
+}  // namespace ostium::app

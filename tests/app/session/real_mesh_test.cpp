@@ -4,10 +4,10 @@
 #include <cstdlib>
 #include <filesystem>
 
-#include "app/session/play.h"
+#include "app/session/run/play.h"
 #include "data/catalogue/catalogue.h"
 
-namespace ostium {
+namespace ostium::app {
 namespace {
 
 namespace fs = std::filesystem;
@@ -28,7 +28,7 @@ TEST(RealMesh, AWireGoesUpAnAortaThatFacesInwards) {
       { "do": "advance", "tool": "wire", "speed_mm_s": 50, "until": [{ "inserted_mm": 250 }], "timeout_s": 10 },
       { "do": "withdraw", "tool": "wire", "speed_mm_s": 100, "until": [{ "inserted_mm": 50 }], "timeout_s": 10 } ] })";
   RunSetup setup;
-  set_vessel((geometry() / "iliac-aorta-arch-coarse.obj").string(), LengthUnit::millimetre, setup);
+  set_vessel((geometry() / "iliac-aorta-arch-coarse.obj").string(), vascular::LengthUnit::millimetre, setup);
   setup.entry = {Eigen::Vector3d(-0.0498, 0.0491, 0.0099),
                  Eigen::Vector3d(-0.0578, 0.04, 0.0135)};  // near the iliac end
   set_script(read_script("up.json", script), setup);
@@ -44,4 +44,4 @@ TEST(RealMesh, AWireGoesUpAnAortaThatFacesInwards) {
 }
 
 }  // namespace
-}  // namespace ostium
+}  // namespace ostium::app

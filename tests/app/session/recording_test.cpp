@@ -16,12 +16,12 @@
 #include <nlohmann/json.hpp>
 #include <random>
 
-#include "app/session/film.h"
-#include "app/session/play.h"
-#include "app/session/replay.h"
+#include "app/session/run/play.h"
+#include "app/session/run/replay.h"
+#include "app/session/scene/film.h"
 #include "tests/app/session/tube_vessel.h"
 
-namespace ostium {
+namespace ostium::app {
 namespace {
 
 namespace fs = std::filesystem;
@@ -43,8 +43,8 @@ PlayReport recorded(const std::string& file, RecordMode mode, const RunSetup& se
 
 std::string refusal(const std::string& file) {
   try {
-    RecordingReader reader(file);
-  } catch (const LoadError& error) {
+    data::RecordingReader reader(file);
+  } catch (const data::LoadError& error) {
     return error.what();
   }
   return "accepted";
@@ -67,10 +67,10 @@ TEST(Recording, ReplaysToTheBitFromAnySecond) {
     EXPECT_EQ(hash(replay.state), report.hash);
   }
   Replay replay(folder("run.h5"), tube_vessel());
-  EXPECT_THROW(replay.go_to(1e3), LoadError);
+  EXPECT_THROW(replay.go_to(1e3), data::LoadError);
   // Metrics are a function of the record.
   const std::string end = *replay.recording.end();
-  const std::vector<Metric> again = metrics_of(record_of(replay.recording, replay.model));
+  const std::vector<data::Metric> again = metrics_of(record_of(replay.recording, replay.model));
   EXPECT_EQ(nlohmann::json::parse(metrics_json("tube", 0, "success", "", again)), nlohmann::json::parse(end));
 }
 
@@ -79,7 +79,7 @@ TEST(Recording, AFilmOfItsEndSaysWhatTheWholeRunHasUsed) {
   const Folder folder;
   const PlayReport report = recorded(folder("run.h5"), RecordMode::full);
   const auto metric = [&](const std::string& name) {
-    for (const Metric& m : report.metrics)
+    for (const data::Metric& m : report.metrics)
       if (m.name == name) return m.value;
     return -2.0;
   };
@@ -104,7 +104,7 @@ TEST(Recording, OfEventsAloneReplaysFromTheBeginning) {
   const Folder folder;
   const PlayReport report = recorded(folder("run.h5"), RecordMode::events);
   Replay replay(folder("run.h5"), tube_vessel());
-  EXPECT_THROW(replay.go_to(1.5), LoadError);
+  EXPECT_THROW(replay.go_to(1.5), data::LoadError);
   replay.go_to(0);
   EXPECT_FALSE(verify(replay).first_step);
   EXPECT_EQ(hash(replay.state), report.hash);
@@ -114,7 +114,7 @@ TEST(Recording, OfAnotherPhysicsIsToldByStepAndField) {
   const Folder folder;
   recorded(folder("run.h5"), RecordMode::full);
   const std::size_t first_touch = [&] {
-    const RecordingReader reader(folder("run.h5"));
+    const data::RecordingReader reader(folder("run.h5"));
     const std::vector<std::string> columns = reader.signal_columns();
     const std::size_t at =
         static_cast<std::size_t>(std::find(columns.begin(), columns.end(), "wire.touches") - columns.begin());
@@ -127,8 +127,8 @@ TEST(Recording, OfAnotherPhysicsIsToldByStepAndField) {
   const RunSetup setup = tube_setup();
   const auto made = make_vessel(setup, warnings);
   slippery->name = made->name, slippery->wall = made->wall, slippery->entry = made->entry;
-  slippery->way = std::make_unique<const Way>(*made->way);
-  const auto wall = std::make_shared<Surface>(*made->surface);
+  slippery->way = std::make_unique<const VesselIndex>(*made->way);
+  const auto wall = std::make_shared<core::Surface>(*made->surface);
   wall->friction = 0.2;  // instead of 0.1
   slippery->surface = wall;
   Replay replay(folder("run.h5"), slippery);
@@ -169,7 +169,7 @@ TEST(Recording, IsWholeWheneverTheProgramIsKilled) {
     waitpid(child, nullptr, 0);
     const std::uint64_t reached = *now;
     ASSERT_NO_THROW({
-      const RecordingReader reader(folder("run.h5"));
+      const data::RecordingReader reader(folder("run.h5"));
       EXPECT_FALSE(reader.end());
       // The writer may be as far behind as the blocks that it had no time for; a simulation that runs many times faster
       // than the clock is ahead by more than one.
@@ -205,7 +205,7 @@ TEST(Recording, LosesAtMostTheLastSecondInRealTime) {
   while (*now < 1600) usleep(1000);
   kill(child, SIGKILL);
   waitpid(child, nullptr, 0);
-  const RecordingReader reader(folder("run.h5"));
+  const data::RecordingReader reader(folder("run.h5"));
   EXPECT_GE(reader.steps() + 1000, *now);
   munmap(const_cast<std::uint64_t*>(now), sizeof(std::uint64_t));
 }
@@ -238,14 +238,14 @@ TEST(Recording, WhatIsNoneIsRefusedByName) {
   std::ofstream(folder("text.h5")) << "not HDF5";
   EXPECT_NE(refusal(folder("text.h5")).find("is no HDF5 file"), std::string::npos);
   {
-    TableFile foreign = TableFile::create(folder("foreign.h5"));
-    foreign.add_table({"data", NumberType::float64, {}, 3, 10});
+    data::TableFile foreign = data::TableFile::create(folder("foreign.h5"));
+    foreign.add_table({"data", data::NumberType::float64, {}, 3, 10});
     foreign.close();
-    TableFile older = TableFile::create(folder("older.h5"));
+    data::TableFile older = data::TableFile::create(folder("older.h5"));
     older.set_text("schema", "ostium-recording/1");
     older.set_text("software", "ostium 9.9.9");
     older.close();
-    TableFile other = TableFile::create(folder("other.h5"));
+    data::TableFile other = data::TableFile::create(folder("other.h5"));
     other.set_text("schema", "someone's");
     other.close();
   }
@@ -269,11 +269,11 @@ TEST(Recording, WhatIsNoneIsRefusedByName) {
 /// As h5dump, h5py and the like do, who lock what they look into.
 TEST(Recording, GoesOnWhileSomebodyLooksIntoIt) {
   const Folder folder;
-  { TableFile::create(folder("run.h5")).close(); }
+  { data::TableFile::create(folder("run.h5")).close(); }
   const int reader = open(folder("run.h5").c_str(), O_RDONLY);
   ASSERT_GE(reader, 0);
   ASSERT_EQ(flock(reader, LOCK_SH), 0);
-  EXPECT_NO_THROW(TableFile::open(folder("run.h5"), true).close());
+  EXPECT_NO_THROW(data::TableFile::open(folder("run.h5"), true).close());
   ::close(reader);
 }
 
@@ -282,9 +282,9 @@ TEST(TableFile, BringsBackWhatWasWritten) {
   const std::vector<double> rows = {1, 2, 3, 4, -0.0, 1e300};
   const std::vector<std::uint64_t> hashes = {0, ~0ULL};
   {
-    TableFile file = TableFile::create(folder("t.h5"));
-    file.add_table({"rows", NumberType::float64, {"a_m", "b"}, 2, 2});
-    file.add_table({"hashes", NumberType::uint64, {}, 1, 4});
+    data::TableFile file = data::TableFile::create(folder("t.h5"));
+    file.add_table({"rows", data::NumberType::float64, {"a_m", "b"}, 2, 2});
+    file.add_table({"hashes", data::NumberType::uint64, {}, 1, 4});
     file.append("rows", rows.data(), 2);
     file.append("rows", rows.data() + 4, 1);
     file.append("hashes", hashes.data(), 2);
@@ -293,16 +293,16 @@ TEST(TableFile, BringsBackWhatWasWritten) {
     file.set_text("empty", "");
     file.close();
   }
-  const TableFile file = TableFile::open(folder("t.h5"));
+  const data::TableFile file = data::TableFile::open(folder("t.h5"));
   EXPECT_EQ(file.numbers("rows", 0, 3), rows);
   EXPECT_TRUE(std::signbit(file.numbers("rows", 2, 1)[0]));
   EXPECT_EQ(file.integers("hashes", 0, 2), hashes);
   EXPECT_EQ(file.columns("rows"), (std::vector<std::string>{"a_m", "b"}));
   EXPECT_EQ(file.text("note"), "Grüße");
   EXPECT_EQ(file.text("empty"), "");
-  EXPECT_THROW(file.numbers("rows", 2, 2), LoadError);
-  EXPECT_THROW(file.rows("none"), LoadError);
+  EXPECT_THROW(file.numbers("rows", 2, 2), data::LoadError);
+  EXPECT_THROW(file.rows("none"), data::LoadError);
 }
 
 }  // namespace
-}  // namespace ostium
+}  // namespace ostium::app

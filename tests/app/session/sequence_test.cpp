@@ -6,14 +6,14 @@
 #include <filesystem>
 #include <fstream>
 
-#include "app/session/penetration.h"
-#include "app/session/run.h"
+#include "app/session/model/penetration.h"
+#include "app/session/run/run.h"
 #include "data/catalogue/case/anatomy_file.h"
 #include "tests/app/session/tube_vessel.h"
-#include "vascular/anatomy/labelling/recognise.h"
-#include "vascular/written_mesh.h"
+#include "vascular/anatomy/labelling/labelling.h"
+#include "vascular/geometry/mesh/written_mesh.h"
 
-namespace ostium {
+namespace ostium::app {
 namespace {
 
 namespace fs = std::filesystem;
@@ -32,16 +32,16 @@ class Swing {
  public:
   Swing() : folder(fs::temp_directory_path() / ("ostium-sequence-" + std::to_string(getpid())) / "swing") {
     fs::create_directories(folder);
-    const Mesh tube = bent_tube();
-    found = recognise(tube);
+    const vascular::Mesh tube = bent_tube();
+    found = label_vessels(tube);
     for (int f = 0; f < frames; ++f) {
-      Mesh mesh = tube;
+      vascular::Mesh mesh = tube;
       for (Eigen::Vector3d& p : mesh.vertices) {
         p.z() += lift_m(p.x(), p.y(), f);
         p = found.R_PF * p - found.shift_P;
       }
-      meshes.push_back(as_written(mesh, LengthUnit::millimetre));
-      write_mesh((folder / name(f)).string(), meshes.back(), LengthUnit::millimetre);
+      meshes.push_back(as_written(mesh, vascular::LengthUnit::millimetre));
+      write_mesh((folder / name(f)).string(), meshes.back(), vascular::LengthUnit::millimetre);
     }
     std::ofstream(folder / "anatomy.json") << anatomy_to_json(found.anatomy);
     write_case(R"("lumen-01.ply", "lumen-02.ply", "lumen-03.ply", "lumen-04.ply", "lumen-05.ply")");
@@ -60,23 +60,23 @@ class Swing {
   std::string refusal() const {
     try {
       load_case((folder / "swing.json").string());
-    } catch (const LoadError& error) {
+    } catch (const data::LoadError& error) {
       return error.what();
     }
     return "accepted";
   }
 
   fs::path folder;
-  Recognised found;
-  std::vector<Mesh> meshes;
+  vascular::LabelledVessels found;
+  std::vector<vascular::Mesh> meshes;
 };
 
 TEST(Sequence, TheWallAndTheTreeGoThroughItsFrames) {
   const Swing swing;
-  const Case c = load_case((swing.folder / "swing.json").string());
-  const Patient patient = patient_of(c);
+  const data::Case c = load_case((swing.folder / "swing.json").string());
+  const vascular::Patient patient = patient_of(c);
   for (int f = 0; f < frames; ++f) {
-    const Mesh now = patient.lumen.at(static_cast<double>(f) / frames, 0);
+    const vascular::Mesh now = patient.lumen.at(static_cast<double>(f) / frames, 0);
     ASSERT_EQ(now.vertices.size(), swing.meshes[f].vertices.size());
     double off = 0;
     // Vertices that beat stand first: by number they are no longer the file's, by place they are.
@@ -110,7 +110,7 @@ TEST(Sequence, TheWallAndTheTreeGoThroughItsFrames) {
 TEST(Sequence, AWireGoesWithIt) {
   const Swing swing;
   RunSetup setup;
-  set_vessel(swing.folder.string(), LengthUnit::millimetre, setup);
+  set_vessel(swing.folder.string(), vascular::LengthUnit::millimetre, setup);
   set_script(read_script("in.json", R"({ "schema": "ostium-script/1", "name": "in", "title": "A test",
     "tools": [ { "name": "wire", "instrument": "cook-j" } ],
     "steps": [ { "do": "advance", "tool": "wire", "speed_mm_s": 150, "until": [{ "inserted_mm": 230 }], "timeout_s": 3 },
@@ -140,18 +140,18 @@ TEST(Sequence, WhatIsNoneIsRefusedByFileAndCount) {
   EXPECT_NE(swing.refusal().find("frames"), std::string::npos) << swing.refusal();
 
   swing.write_case(R"("lumen-01.ply", "lumen-02.ply", "lumen-03.ply")");
-  Mesh fewer = swing.meshes[2];
+  vascular::Mesh fewer = swing.meshes[2];
   fewer.triangles.pop_back();
-  write_mesh((swing.folder / Swing::name(2)).string(), fewer, LengthUnit::millimetre);
+  write_mesh((swing.folder / Swing::name(2)).string(), fewer, vascular::LengthUnit::millimetre);
   const std::string one_less = std::to_string(fewer.triangles.size());
   EXPECT_NE(swing.refusal().find("lumen-02.ply: has " + one_less + " triangles"), std::string::npos) << swing.refusal();
 
-  Mesh mixed = swing.meshes[2];
+  vascular::Mesh mixed = swing.meshes[2];
   std::swap(mixed.triangles[10], mixed.triangles[500]);
-  write_mesh((swing.folder / Swing::name(2)).string(), mixed, LengthUnit::millimetre);
+  write_mesh((swing.folder / Swing::name(2)).string(), mixed, vascular::LengthUnit::millimetre);
   EXPECT_NE(swing.refusal().find("lumen-02.ply: "), std::string::npos) << swing.refusal();
   EXPECT_NE(swing.refusal().find("lie apart"), std::string::npos) << swing.refusal();
 }
 
 }  // namespace
-}  // namespace ostium
+}  // namespace ostium::app

@@ -1,17 +1,17 @@
 /// A session's lists, and that the same run is the same to the bit, however it is run.
-#include "app/session/session.h"
+#include "app/session/model/session.h"
 
 #include <gtest/gtest.h>
 
 #include <set>
 #include <thread>
 
-#include "app/session/play.h"
+#include "app/session/run/play.h"
 #include "tests/app/session/played.h"
 #include "tests/app/session/tube_vessel.h"
 #include "tests/support/allocations.h"
 
-namespace ostium {
+namespace ostium::app {
 namespace {
 
 TEST(Session, ListsHoldEverything) {
@@ -36,7 +36,7 @@ TEST(Session, ListsHoldEverything) {
   SessionInputs same;
   same.tools.resize(1);
   take_inputs(inputs.data(), same);
-  EXPECT_EQ(same.tools[0].advance_m_s, run.inputs.tools[0].advance_m_s);
+  EXPECT_EQ(same.tools[0].feed_m_s, run.inputs.tools[0].feed_m_s);
   EXPECT_EQ(same.c_arm.fluoroscopy, 1);
   const std::vector<std::string> names = input_names(run.model);
   EXPECT_EQ(std::set<std::string>(names.begin(), names.end()).size(), names.size());
@@ -115,7 +115,7 @@ TEST(Session, WhatIsSetIsUsedAndWhatIsNotThereIsRefused) {
                                    {"heart_rate", "300"},
                                    {"person", "1"},
                                    {"stuck", "no-such"}})
-    EXPECT_THROW(set_value(key, value, setup), LoadError) << key;
+    EXPECT_THROW(set_value(key, value, setup), data::LoadError) << key;
 }
 
 TEST(Session, ToolsInTheWrongOrderAreNamed) {
@@ -125,32 +125,32 @@ TEST(Session, ToolsInTheWrongOrderAreNamed) {
   try {
     make_session(tube_setup(script), tube_vessel());
     FAIL();
-  } catch (const LoadError& error) {
+  } catch (const data::LoadError& error) {
     EXPECT_NE(std::string(error.what()).find("wire (cook-j) goes inside guide"), std::string::npos) << error.what();
   }
 }
 
 TEST(Session, AMeshThatFacesInwardsIsTurnedAndAnEntryOutsideRefused) {
-  Mesh mesh = bent_tube();
+  vascular::Mesh mesh = bent_tube();
   for (auto& t : mesh.triangles) std::swap(t[1], t[2]);
   std::string warnings;
   const MeshEntry entry = {Eigen::Vector3d::Zero(), Eigen::Vector3d(0.05, 0, 0)};
   EXPECT_EQ(vessel_of("tube", mesh, entry, warnings)->wall.triangles, bent_tube().triangles);
   EXPECT_NE(warnings.find("turned round"), std::string::npos);
-  EXPECT_THROW(vessel_of("tube", mesh, {Eigen::Vector3d(0, 0.02, 0), entry.towards_P}, warnings), LoadError);
+  EXPECT_THROW(vessel_of("tube", mesh, {Eigen::Vector3d(0, 0.02, 0), entry.towards_P}, warnings), data::LoadError);
 }
 
 TEST(Session, AMeshThatIsFoldedThroughItselfIsRefused) {
-  Mesh mesh = bent_tube();
+  vascular::Mesh mesh = bent_tube();
   for (std::size_t v = 1; v < mesh.vertices.size(); v += 2) mesh.vertices[v].tail<2>() *= -0.5;
   std::string warnings;
   try {
     vessel_of("tube", mesh, {Eigen::Vector3d::Zero(), Eigen::Vector3d(0.05, 0, 0)}, warnings);
     FAIL() << "accepted";
-  } catch (const LoadError& error) {
+  } catch (const data::LoadError& error) {
     EXPECT_NE(std::string(error.what()).find("triangles cross"), std::string::npos) << error.what();
   }
 }
 
 }  // namespace
-}  // namespace ostium
+}  // namespace ostium::app

@@ -5,19 +5,19 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "app/session/bedside.h"
-#include "app/session/outcome.h"
-#include "app/session/penetration.h"
-#include "app/session/run.h"
+#include "app/session/coupling/coupling.h"
+#include "app/session/model/outcome.h"
+#include "app/session/model/penetration.h"
 #include "app/session/recorder/event_watch.h"
-#include "app/session/xray_scene.h"
+#include "app/session/run/run.h"
+#include "app/session/scene/xray_scene.h"
 #include "data/assessment/metrics.h"
 #include "data/catalogue/catalogue.h"
 #include "data/catalogue/instrument/instrument_reader.h"
 #include "data/formats/load_error.h"
 #include "tests/support/allocations.h"
 
-namespace ostium {
+namespace ostium::app {
 namespace {
 
 const char* const predilatation = R"({
@@ -43,7 +43,7 @@ const char* const predilatation = R"({
 
 RunSetup setup() {
   RunSetup out;
-  set_vessel("rca-mid-focal", LengthUnit::millimetre, out);
+  set_vessel("rca-mid-focal", vascular::LengthUnit::millimetre, out);
   set_script(read_script("predilatation.json", predilatation), out);
   set_value("begin", "RCA", out);
   return out;
@@ -69,7 +69,7 @@ TEST(Treatment, ABalloonOpensTheLesionAndTheWallThatRodsMeet) {
   const double before = lesion_now(run.model, run.state).stenosis;
   EXPECT_NEAR(before, 0.70, 0.02);
   ASSERT_TRUE(run_to(run, 3)) << reason(run.plan, run.hands);
-  EXPECT_EQ(run.state.bedside.tip.where, TipPlace::coronary);
+  EXPECT_EQ(run.state.coupling.tip.where, vascular::TipPlace::coronary);
   EXPECT_GT(run.state.blood.contrast.from_tip_kg, 0);
   ASSERT_TRUE(run_to(run, 6)) << reason(run.plan, run.hands);
   ASSERT_TRUE(balloon_from_lesion_m(run.model, run.state));
@@ -79,7 +79,7 @@ TEST(Treatment, ABalloonOpensTheLesionAndTheWallThatRodsMeet) {
   EXPECT_GT(run.state.treatment.balloon.pressure_Pa, 3 * 101325.0);
   EXPECT_GT(balloon_artery_ratio(run.model, run.state), 0.6);
   EXPECT_LT(supply_behind_lesion(run.model, run.state), open_flow);
-  EXPECT_GT(run.state.bedside.held, 0) << "the wall holds it";
+  EXPECT_GT(run.state.coupling.held, 0) << "the wall holds it";
 
   // A state from here goes on to the bit with a fresh scratch: the opened wall is made anew of it.
   SessionState other = run.state;
@@ -109,7 +109,7 @@ TEST(Treatment, ABalloonOpensTheLesionAndTheWallThatRodsMeet) {
   EXPECT_LT(after, 0.5);
   EXPECT_GT(after, 0.05) << "it recoils";
 
-  const PhysiologyState& blood = run.state.blood;
+  const vascular::PhysiologyState& blood = run.state.blood;
   EXPECT_NEAR(accounted_kg(blood.contrast), blood.contrast.injected_kg, 1e-6 * blood.contrast.injected_kg);
   const Plan& plan = run.model.vessel->coronaries->lesions[0];
   int narrowest = plan.path.cells[static_cast<std::size_t>(plan.path.at((plan.from_m + plan.to_m) / 2).index)];
@@ -121,7 +121,7 @@ TEST(Treatment, ABalloonOpensTheLesionAndTheWallThatRodsMeet) {
   EXPECT_LT(depth.deepest_m, 0.1e-3);
   EXPECT_EQ(depth.outside, 0);
   EXPECT_LE(run.troubled, 3) << trouble_words(run.troubles);
-  Scene scene;
+  fluoro::Scene scene;
   add_treatment(run.model, run.state, scene);
   EXPECT_NO_THROW(check(scene));
 }
@@ -152,7 +152,7 @@ struct StentAhead {
     inputs = run.inputs;
     for (ToolInputs& tool : inputs.tools) tool = {};
   }
-  StentState& crimped() { return run.state.treatment.stents[0]; }
+  vascular::StentState& crimped() { return run.state.treatment.stents[0]; }
   /// How far its proximal end is in the guide.
   double inside_m() {
     const auto inserted = [&](int tool) { return run.state.rods.rods[static_cast<std::size_t>(tool)].inserted_m; };
@@ -161,7 +161,7 @@ struct StentAhead {
   }
   template <class Until>
   void move(int tool, double mm_s, double seconds, Until&& until) {
-    inputs.tools[static_cast<std::size_t>(tool)].advance_m_s = 1e-3 * mm_s;
+    inputs.tools[static_cast<std::size_t>(tool)].feed_m_s = 1e-3 * mm_s;
     for (int n = 0; n < 1000 * seconds && !until(); ++n) step(run.model, inputs, run.state, scratch, report);
     inputs.tools[static_cast<std::size_t>(tool)] = {};
   }
@@ -169,51 +169,51 @@ struct StentAhead {
 
 TEST(Treatment, AStentThatHangsOnTheGuidesEdgeIsLostIfPulledHard) {
   StentAhead s;
-  BedsideState& bedside = s.run.state.bedside;
-  EXPECT_EQ(bedside.stent_out, 1);
+  CouplingState& coupling = s.run.state.coupling;
+  EXPECT_EQ(coupling.stent_out, 1);
   ASSERT_LT(s.inside_m(), 0);
   // It hangs; a gentle pull, and it comes free when it is pushed on.
   s.move(s.stent, -20, 5, [&] { return s.inside_m() > 0.2e-3; });
-  bedside.caught = true;
+  coupling.caught = true;
   s.move(s.stent, -20, 0.08, [] { return false; });
-  EXPECT_EQ(bedside.caught, 1);
-  EXPECT_GT(bedside.caught_N, 0.3);
+  EXPECT_EQ(coupling.caught, 1);
+  EXPECT_GT(coupling.caught_N, 0.3);
   EXPECT_EQ(s.crimped().shift_m, 0);
-  s.move(s.stent, 20, 1, [&] { return !bedside.caught; });
-  EXPECT_EQ(bedside.caught, 0);
+  s.move(s.stent, 20, 1, [&] { return !coupling.caught; });
+  EXPECT_EQ(coupling.caught, 0);
   // Hard.
   s.move(s.stent, -20, 5, [&] { return s.inside_m() > 0.2e-3; });
-  bedside.caught = true;
+  coupling.caught = true;
   double pull_N = 0;
   s.move(s.stent, -20, 4, [&] {
     if (!s.report.tools.empty()) pull_N = std::min(pull_N, s.report.tools[s.stent].push_N);
-    return s.crimped().where == StentState::lost;
+    return s.crimped().where == vascular::StentState::lost;
   });
-  EXPECT_EQ(s.crimped().where, StentState::lost);
+  EXPECT_EQ(s.crimped().where, vascular::StentState::lost);
   EXPECT_LT(pull_N, -1.0) << "the hand has felt it";
   s.move(s.stent, 0, 0.02, [] { return false; });
-  EXPECT_EQ(bedside.caught_N, 0);
+  EXPECT_EQ(coupling.caught_N, 0);
 }
 
 TEST(Treatment, AGuideThatGoesDeepDeformsAStentAndFeelsIt) {
   StentAhead s;
-  StentState& stent = s.crimped();
+  vascular::StentState& stent = s.crimped();
   // As if it had been left there, hardly opened, right ahead of the guide.
   const Eigen::Vector3d p = tip(s.run.model, s.run.state, s.guide);
-  const VesselPath& path = s.run.model.treatment.paths[static_cast<std::size_t>(s.run.state.bedside.branch)];
+  const vascular::VesselPath& path = s.run.model.treatment.paths[static_cast<std::size_t>(s.run.state.coupling.branch)];
   double at_m = 0, nearest = 1;
   for (std::size_t k = 0; k < path.cells.size(); ++k) {
     const Eigen::Vector3d c = s.run.model.vessel->coronaries->map.coronary.position(
         static_cast<std::size_t>(path.cells[k]), s.run.state.blood.heart.phase);
     if ((c - p).norm() < nearest) nearest = (c - p).norm(), at_m = path.s_m[k];
   }
-  stent.where = StentState::deployed, stent.branch = s.run.state.bedside.branch;
+  stent.where = vascular::StentState::deployed, stent.branch = s.run.state.coupling.branch;
   stent.middle_m = at_m + 2e-3 + (span_of(stent).second - span_of(stent).first) / 2, stent.shift_m = 0;
   for (auto* radii : {&stent.radius_m, &stent.rest_m}) std::fill(radii->begin(), radii->end(), 1.0e-3);
   const auto [from, to] = span_of(stent);
   double felt_N = 0;
   s.move(s.guide, 10, 0.8, [&] {
-    felt_N = std::max(felt_N, s.run.state.bedside.edge_push_N);
+    felt_N = std::max(felt_N, s.run.state.coupling.edge_push_N);
     return false;
   });
   EXPECT_GT(felt_N, 0.2);
@@ -223,21 +223,21 @@ TEST(Treatment, AGuideThatGoesDeepDeformsAStentAndFeelsIt) {
 
 TEST(Treatment, ADeviceThatReachesOutOfTheOstiumLiesInTheArtery) {
   StentAhead s;
-  const BedsideState& bedside = s.run.state.bedside;
+  const CouplingState& coupling = s.run.state.coupling;
   const double half_m = (marker_from_tip_m(s.run.model.tools[s.stent].instrument, 0) -
                          marker_from_tip_m(s.run.model.tools[s.stent].instrument, 1)) /
                         2;
   s.move(s.guide, -40, 0.6, [] { return false; });
-  ASSERT_NE(bedside.tip.where, TipPlace::coronary);
+  ASSERT_NE(coupling.tip.where, vascular::TipPlace::coronary);
   // Drawn out until less than half of it is in the artery: its place goes on until then, without a jump.
   double least = 1, was = -1, jump = 0;
   s.move(s.stent, -20, 3, [&] {
-    if (bedside.branch < 0) return true;
-    if (was >= 0) jump = std::max(jump, std::fabs(bedside.middle_m - was));
-    was = bedside.middle_m, least = std::min(least, was);
+    if (coupling.branch < 0) return true;
+    if (was >= 0) jump = std::max(jump, std::fabs(coupling.middle_m - was));
+    was = coupling.middle_m, least = std::min(least, was);
     return false;
   });
-  EXPECT_EQ(bedside.branch, -1);
+  EXPECT_EQ(coupling.branch, -1);
   EXPECT_LT(least, 0.3 * half_m);
   EXPECT_LT(jump, 2e-3);
 }
@@ -245,43 +245,43 @@ TEST(Treatment, ADeviceThatReachesOutOfTheOstiumLiesInTheArtery) {
 TEST(Treatment, AnOpenBalloonStaysInItsArtery) {
   ScriptedRun run(setup(), vessel());
   ASSERT_TRUE(run_to(run, 6)) << reason(run.plan, run.hands);
-  const BedsideModel model{*run.model.vessel,    run.model.tools,     run.model.rods,
-                           run.model.physiology, run.model.treatment, run.model.balloon_of};
-  BedsideScratch scratch(*run.model.vessel);
-  const StepReport report;
+  const CouplingModel model{*run.model.vessel,    run.model.tools,     run.model.rods,
+                            run.model.physiology, run.model.treatment, run.model.balloon_of};
+  CouplingScratch scratch(*run.model.vessel);
+  const core::StepReport report;
   const int balloon = 1;
   // For a moment its shaft is thrown aside, by less than what is searched for vessels.
-  State aside = run.state.rods;
+  core::State aside = run.state.rods;
   const Eigen::Vector3d sideways = 4.5e-3 * tip_direction(run.model, run.state, balloon).unitOrthogonal();
   for (int i = 0; i <= model.rods.rods[balloon].elements; ++i)
     aside.rods[balloon].position.set(i, run.state.rods.rods[balloon].position[i] + sideways);
-  const auto branch_of = [&](const TreatmentState& treatment) {
-    BedsideState bedside = run.state.bedside;
-    bedside.held = false;  // within a stent it meets no wall
-    look(model, aside, treatment, report, run.state.blood.heart.phase, 0, scratch, bedside);
-    return bedside.branch;
+  const auto branch_of = [&](const vascular::TreatmentState& treatment) {
+    CouplingState coupling = run.state.coupling;
+    coupling.held = false;  // within a stent it meets no wall
+    look(model, aside, treatment, report, run.state.blood.heart.phase, 0, scratch, coupling);
+    return coupling.branch;
   };
-  const double artery = run.state.bedside.branch;
+  const double artery = run.state.coupling.branch;
   ASSERT_GE(artery, 0);
   EXPECT_NE(branch_of(run.state.treatment), artery) << "folded, it may be anywhere";
-  TreatmentState open = run.state.treatment;
+  vascular::TreatmentState open = run.state.treatment;
   for (double& r : open.balloon.radius_m) r = 1.2e-3;
   EXPECT_EQ(branch_of(open), artery);
 }
 
 TEST(Treatment, AWallFeelsAWiresTipBehindALowPass) {
   ScriptedRun run(setup(), vessel());
-  const BedsideModel bedside{*run.model.vessel,    run.model.tools,     run.model.rods,
-                             run.model.physiology, run.model.treatment, run.model.balloon_of};
-  BedsideState& s = run.state.bedside;
+  const CouplingModel coupling{*run.model.vessel,    run.model.tools,     run.model.rods,
+                               run.model.physiology, run.model.treatment, run.model.balloon_of};
+  CouplingState& s = run.state.coupling;
   const int wire = 3, tip = run.model.rods.rods[wire].elements;
   const double dt = run.model.step_s(), share = 1 - std::exp(-2 * EIGEN_PI * wall_force_cut_off_Hz * dt);
-  StepReport report;
+  core::StepReport report;
   const Eigen::Vector3d none = Eigen::Vector3d::Zero();
   report.touches.assign(1, {.rod = wire, .node = tip, .p_W = none, .normal_W_N = none, .friction_W_N = none});
   const auto press = [&](double N, int steps) {
     report.touches[0].normal_W_N = {0, N, 0};
-    for (int n = 0; n < steps; ++n) press_with_wire(bedside, report, dt, s);
+    for (int n = 0; n < steps; ++n) press_with_wire(coupling, report, dt, s);
   };
   press(10, 1);
   EXPECT_EQ(s.wire_tip_N, 0) << "it lies in no coronary artery";
@@ -308,13 +308,13 @@ TEST(Treatment, ALesionIsCoveredWithMargins) {
   StentAhead s;
   const SessionModel& model = s.run.model;
   const Plan& plan = model.vessel->coronaries->lesions[0];
-  StentState& stent = s.crimped();
+  vascular::StentState& stent = s.crimped();
   EventWatch watch(model);
   std::vector<SessionEvent> events;
   events.reserve(1000);
   s.move(s.guide, 0, 0.01, [] { return false; });
-  const auto last = [&](StentState::Where where, int branch, double middle_m) {
-    stent.where = StentState::on_balloon;
+  const auto last = [&](vascular::StentState::Where where, int branch, double middle_m) {
+    stent.where = vascular::StentState::on_balloon;
     watch.look(model, s.inputs, s.run.state, s.report, {}, events);
     stent.where = where, stent.branch = branch, stent.middle_m = middle_m, stent.shift_m = 0;
     watch.look(model, s.inputs, s.run.state, s.report, {}, events);
@@ -324,29 +324,30 @@ TEST(Treatment, ALesionIsCoveredWithMargins) {
   const double middle = (plan.from_m + plan.to_m) / 2;
   EXPECT_FALSE(lesion_is_covered(model, s.run.state, 0)) << "it is on its balloon";
   // 15 mm on a lesion of 9 mm: 3 mm on either side.
-  SessionEvent e = last(StentState::deployed, own, middle);
-  EXPECT_EQ(e.code, static_cast<int>(EventCode::stent_deployed));
+  SessionEvent e = last(vascular::StentState::deployed, own, middle);
+  EXPECT_EQ(e.code, static_cast<int>(data::EventCode::stent_deployed));
   EXPECT_NEAR(e.value, 0, 0.3);
   EXPECT_TRUE(lesion_is_covered(model, s.run.state, 2e-3));
   EXPECT_FALSE(lesion_is_covered(model, s.run.state, 4e-3));
-  e = last(StentState::deployed, own, middle + 2e-3);
+  e = last(vascular::StentState::deployed, own, middle + 2e-3);
   EXPECT_NEAR(e.value, 2, 0.3);
   EXPECT_FALSE(lesion_is_covered(model, s.run.state, 2e-3));
   // Elsewhere, and nowhere.
   const int conus = model.physiology.flow.tree.branch("Conus");
-  e = last(StentState::deployed, conus, model.treatment.paths[static_cast<std::size_t>(conus)].length_m() - 10e-3);
-  EXPECT_EQ(e.code, static_cast<int>(EventCode::stent_elsewhere));
+  e = last(vascular::StentState::deployed, conus,
+           model.treatment.paths[static_cast<std::size_t>(conus)].length_m() - 10e-3);
+  EXPECT_EQ(e.code, static_cast<int>(data::EventCode::stent_elsewhere));
   EXPECT_EQ(model.vessel->way->branches()[static_cast<std::size_t>(e.value)].name, "Conus");
   EXPECT_FALSE(lesion_is_covered(model, s.run.state, 0));
-  e = last(StentState::deployed, -1, 0);
-  EXPECT_EQ(e.code, static_cast<int>(EventCode::stent_lost));
+  e = last(vascular::StentState::deployed, -1, 0);
+  EXPECT_EQ(e.code, static_cast<int>(data::EventCode::stent_lost));
   EXPECT_EQ(e.value, 0);
 }
 
 /// Two lesions of one artery, 32 and 22 mm long with 14 mm between them, and three stents to cover them with.
 RunSetup two_lesions(const std::string& condition = R"("seconds": 1)", const std::string& sizes = "") {
   RunSetup out;
-  set_vessel("rca-diffuse", LengthUnit::millimetre, out);
+  set_vessel("rca-diffuse", vascular::LengthUnit::millimetre, out);
   set_script(read_script("two.json", R"({ "schema": "ostium-script/1", "name": "two", "title": "A test", "tools": [
     { "name": "guide", "instrument": "guide-jr4-6f" },
     { "name": "proximal", "instrument": "stent-35x38" }, { "name": "distal", "instrument": "stent-30x28")" +
@@ -367,17 +368,18 @@ std::shared_ptr<const Vessel> with_two_lesions() {
 }
 
 TEST(Treatment, AScriptIsRefusedOnACaseWithAnotherAccess) {
-  const Script from_the_wrist = find_script("pci-lcx-tubular-radial"), from_anywhere = find_script("jr4-engages-rca");
+  const data::Script from_the_wrist = find_script("pci-lcx-tubular-radial"),
+                     from_anywhere = find_script("jr4-engages-rca");
   RunSetup groin, wrist;
-  set_vessel("lcx-tubular", LengthUnit::millimetre, groin);
-  set_vessel("lcx-tubular-radial", LengthUnit::millimetre, wrist);
+  set_vessel("lcx-tubular", vascular::LengthUnit::millimetre, groin);
+  set_vessel("lcx-tubular-radial", vascular::LengthUnit::millimetre, wrist);
   EXPECT_NO_THROW(set_script(from_the_wrist, wrist));
   EXPECT_NO_THROW(set_script(from_anywhere, groin));
   EXPECT_NO_THROW(set_script(from_anywhere, wrist));
   try {
     set_script(from_the_wrist, groin);
     FAIL() << "accepted";
-  } catch (const LoadError& error) {
+  } catch (const data::LoadError& error) {
     for (const char* word : {"pci-lcx-tubular-radial.json", "radial access", "lcx-tubular has femoral access"})
       EXPECT_NE(std::string(error.what()).find(word), std::string::npos) << error.what();
   }
@@ -391,8 +393,8 @@ TEST(Treatment, EachLesionIsJudgedByTheStentsAtIt) {
   const double artery = model.physiology.flow.tree.branch("RCA");
   const auto middle_m = [&](std::size_t i) { return (lesions[i].from_m + lesions[i].to_m) / 2; };
   const auto lies = [&](std::size_t stent, double at_m) {
-    StentState& own = run.state.treatment.stents[stent];
-    own.where = StentState::deployed, own.branch = artery, own.middle_m = at_m, own.shift_m = 0;
+    vascular::StentState& own = run.state.treatment.stents[stent];
+    own.where = vascular::StentState::deployed, own.branch = artery, own.middle_m = at_m, own.shift_m = 0;
   };
   const auto covered = [&](int lesion) { return lesion_is_covered(model, run.state, 2e-3, lesion); };
   EXPECT_FALSE(covered(0) || covered(1));
@@ -417,13 +419,13 @@ TEST(Treatment, EachLesionIsJudgedByTheStentsAtIt) {
   EXPECT_TRUE(covered(0) && covered(1));
   EXPECT_NEAR(stented(model, run.state, 0)->to_m - stented(model, run.state, 0)->from_m, 74.5e-3, 1e-3);
 
-  run.state.treatment.stents[2].where = StentState::lost;
+  run.state.treatment.stents[2].where = vascular::StentState::lost;
   lies(0, middle_m(0));  // 38 mm on 32
   EXPECT_TRUE(covered(0) && covered(1));
   EXPECT_NEAR(stented(model, run.state, 0)->to_m, 35e-3, 0.5e-3) << "not to the end of the other one's";
   EXPECT_NEAR(*worst_of_lesions(model, run.state).margin_m, 3e-3, 0.5e-3);
 
-  run.state.bedside.balloon = 1, run.state.bedside.branch = artery, run.state.bedside.middle_m = middle_m(1);
+  run.state.coupling.balloon = 1, run.state.coupling.branch = artery, run.state.coupling.middle_m = middle_m(1);
   EXPECT_NEAR(*balloon_from_lesion_m(model, run.state, 1), 0, 1e-6);
   EXPECT_NEAR(*balloon_from_lesion_m(model, run.state, 0), 41e-3, 0.5e-3);
 }
@@ -435,7 +437,7 @@ TEST(Treatment, ALesionThatThereIsNotIsRefused) {
       choose_sizes(*with_two_lesions(), own);
       ScriptedRun run(own, with_two_lesions());
       return read_instrument(own.tool_files[2], own.tool_texts[2]).name;
-    } catch (const LoadError& error) {
+    } catch (const data::LoadError& error) {
       return error.what();
     }
   };
@@ -453,27 +455,27 @@ TEST(Treatment, APerforationHarmsAndATearThatNoStentCovers) {
   StentAhead s;
   const SessionModel& model = s.run.model;
   const Plan& plan = model.vessel->coronaries->lesions[0];
-  StentState& stent = s.crimped();
-  Injury& injury = s.run.state.treatment.injury.injuries[0];
+  vascular::StentState& stent = s.crimped();
+  vascular::Injury& injury = s.run.state.treatment.injury.injuries[0];
   EXPECT_TRUE(is_unharmed(model, s.run.state));
   const int cell = plan.path.cells[static_cast<std::size_t>(plan.path.at((plan.from_m + plan.to_m) / 2).index)];
-  injury = {.kind = InjuryKind::dissection, .cell = cell, .grade = 1};
+  injury = {.kind = vascular::InjuryKind::dissection, .cell = cell, .grade = 1};
   EXPECT_TRUE(is_unharmed(model, s.run.state)) << "type B";
   injury.grade = 2;
   EXPECT_FALSE(is_unharmed(model, s.run.state)) << "type C";
-  stent.where = StentState::deployed, stent.branch = model.physiology.flow.tree.branch("RCA");
+  stent.where = vascular::StentState::deployed, stent.branch = model.physiology.flow.tree.branch("RCA");
   stent.middle_m = (plan.from_m + plan.to_m) / 2, stent.shift_m = 0;
   EXPECT_TRUE(is_unharmed(model, s.run.state)) << "it is tacked up";
   stent.middle_m += 40e-3;
   EXPECT_FALSE(is_unharmed(model, s.run.state));
-  injury = {.kind = InjuryKind::perforation, .cell = cell, .grade = 1};
+  injury = {.kind = vascular::InjuryKind::perforation, .cell = cell, .grade = 1};
   stent.middle_m -= 40e-3;
   EXPECT_FALSE(is_unharmed(model, s.run.state));
 }
 
 TEST(Treatment, AWithdrawalIsNotDoneBeforeItsHandHasMoved) {
   RunSetup own;
-  set_vessel("rca-mid-focal", LengthUnit::millimetre, own);
+  set_vessel("rca-mid-focal", vascular::LengthUnit::millimetre, own);
   std::string script = predilatation;
   const std::size_t steps = script.find("\"steps\"");
   script.replace(
@@ -483,14 +485,14 @@ TEST(Treatment, AWithdrawalIsNotDoneBeforeItsHandHasMoved) {
   ScriptedRun run(own, vessel());
   const Plan& plan = vessel()->coronaries->lesions[0];
   const double middle = (plan.from_m + plan.to_m) / 2;
-  run.state.bedside.balloon = 0;
-  run.state.bedside.branch = run.model.physiology.flow.tree.branch("RCA");
+  run.state.coupling.balloon = 0;
+  run.state.coupling.branch = run.model.physiology.flow.tree.branch("RCA");
   run.state.blood.heart.phase = 0.75;
   SessionReport report;
   report.tools.resize(run.model.tools.size());
   std::vector<OperatorEvent> events;
   const auto outcome = [&](double beyond_m) {
-    run.state.bedside.middle_m = middle + beyond_m;
+    run.state.coupling.middle_m = middle + beyond_m;
     return decide(run.plan, run.model, run.state, report, run.hands, run.inputs, events);
   };
   for (int i = 0; i < 3; ++i) EXPECT_EQ(outcome(10e-3), Outcome::running) << "it lies beyond, and the hand is late";
@@ -498,7 +500,7 @@ TEST(Treatment, AWithdrawalIsNotDoneBeforeItsHandHasMoved) {
 }
 
 TEST(Treatment, AFoldedBalloonIsAsThickAsItsShaftShows) {
-  TreatmentModel model;
+  vascular::TreatmentModel model;
   std::vector<SessionTool> tools;
   for (const char* name : {"balloon-15x10", "balloon-20x10", "balloon-nc-30x12", "stent-30x18"})
     tools.push_back({name, load_instrument(data_folder() + "/instruments/" + name + ".json")});
@@ -506,10 +508,10 @@ TEST(Treatment, AFoldedBalloonIsAsThickAsItsShaftShows) {
   ASSERT_EQ(model.balloons.size(), 4u);
   const double profile_m[] = {0.65e-3, 0.75e-3, 1.0e-3};  // printed by makers; a wider one sticks in a tight lesion
   for (std::size_t i = 0; i < 3; ++i) {
-    const BalloonModel& balloon = model.balloons[i];
+    const vascular::BalloonModel& balloon = model.balloons[i];
     EXPECT_NEAR(2 * balloon.folded_m, profile_m[i], 1e-9) << balloon.name;
     EXPECT_GT(balloon.refolded_m, balloon.folded_m) << balloon.name;
-    const BalloonState state = make_balloon_state(balloon);
+    const vascular::BalloonState state = make_balloon_state(balloon);
     EXPECT_NEAR(2 * *std::max_element(state.radius_m.begin(), state.radius_m.end()), profile_m[i], 1e-9);
     EXPECT_TRUE(is_empty(balloon, state)) << balloon.name;
   }
@@ -532,7 +534,7 @@ std::string taken_size(const std::string& sizes, const std::string& by, const st
   const std::string plain = R"("instrument": "stent-325x15")";
   script.replace(script.find(plain), plain.size(), plain + ", \"sizes\": [" + sizes + "], " + by);
   RunSetup own;
-  set_vessel("rca-mid-focal", LengthUnit::millimetre, own);
+  set_vessel("rca-mid-focal", vascular::LengthUnit::millimetre, own);
   set_script(read_script("predilatation.json", script), own);
   if (!set.empty()) set_value("stent", set, own);
   choose_sizes(*vessel(), own);
@@ -549,8 +551,8 @@ TEST(Treatment, SizesAreChosenByTheArtery) {
   EXPECT_EQ(taken(all, "1"), "stent-325x18");
   EXPECT_EQ(taken(all, "0.5"), "stent-25x18") << "the narrowest, where all are wider";
   EXPECT_EQ(taken(all, "1.05", "stent-30x18"), "stent-30x18") << "asked for by name";
-  EXPECT_THROW(taken(R"("wire-014-workhorse")", "1"), LoadError);
-  EXPECT_THROW(taken(R"("zebra")", "1"), LoadError);
+  EXPECT_THROW(taken(R"("wire-014-workhorse")", "1"), data::LoadError);
+  EXPECT_THROW(taken(R"("zebra")", "1"), data::LoadError);
 }
 
 TEST(Treatment, GuidesAreChosenByTheAorta) {
@@ -562,7 +564,7 @@ TEST(Treatment, GuidesAreChosenByTheAorta) {
   EXPECT_EQ(taken(both, "1.35"), "guide-ebu35-6f") << "40 mm";
   EXPECT_EQ(taken(both, "1.2"), "guide-ebu30-6f") << "35 mm";
   EXPECT_EQ(taken(both, "0.5"), "guide-ebu30-6f") << "the narrowest, where both are wider";
-  EXPECT_THROW(taken(R"("stent-30x18")", "1.35"), LoadError) << "has no width";
+  EXPECT_THROW(taken(R"("stent-30x18")", "1.35"), data::LoadError) << "has no width";
 }
 
 TEST(Treatment, ABeginningThatIsNoArteryIsRefused) {
@@ -571,10 +573,10 @@ TEST(Treatment, ABeginningThatIsNoArteryIsRefused) {
   try {
     ScriptedRun run(wrong, vessel());
     FAIL();
-  } catch (const LoadError& error) {
+  } catch (const data::LoadError& error) {
     EXPECT_NE(std::string(error.what()).find("LM, RCA"), std::string::npos) << error.what();
   }
 }
 
 }  // namespace
-}  // namespace ostium
+}  // namespace ostium::app

@@ -2,17 +2,17 @@
 /// A small vessel for tests of sessions: a bent tube as a mesh, with scripts to push a wire through it.
 #include <cmath>
 
-#include "app/session/setup.h"
+#include "app/session/operator/setup.h"
 #include "data/catalogue/catalogue.h"
 
-namespace ostium {
+namespace ostium::app {
 
 /// 0.3 m of a tube of 5 mm, bent by 90 degrees in its middle; closed. Begins at the origin, along x.
-inline Mesh bent_tube() {
+inline vascular::Mesh bent_tube() {
   constexpr int rings = 80, sides = 20;
   constexpr double radius = 5e-3, bend = 0.06;
   const double quarter = bend * EIGEN_PI / 2;
-  Mesh mesh;
+  vascular::Mesh mesh;
   for (int r = 0; r <= rings; ++r) {
     const double s = 0.3 * r / rings - 0.01;
     const double a = std::min(std::max(0.0, s - 0.1), quarter) / bend, rest = std::max(0.0, s - 0.1 - quarter);
@@ -81,4 +81,4 @@ inline std::shared_ptr<const Vessel> tube_vessel() {
   return made;
 }
 
-}  // namespace ostium
+}  // namespace ostium::app

@@ -2,13 +2,13 @@
 /// stands on it.
 #include <gtest/gtest.h>
 
-#include "app/session/penetration.h"
-#include "app/session/session.h"
+#include "app/session/model/penetration.h"
+#include "app/session/model/session.h"
 #include "data/catalogue/catalogue.h"
-#include "vascular/beat/heart_cycle.h"
-#include "vascular/beat/heart_motion.h"
+#include "vascular/motion/heart_cycle.h"
+#include "vascular/motion/heart_motion.h"
 
-namespace ostium {
+namespace ostium::app {
 namespace {
 
 using Eigen::Vector3d;
@@ -25,14 +25,14 @@ struct AboveTheValve {
 
   explicit AboveTheValve(const char* instrument) {
     model = make_session(vessel, {{"tool", find_instrument(load_catalogue(), instrument)}}, 0);
-    const Landmarks& marks = vessel->patient->anatomy.landmarks;
+    const vascular::Landmarks& marks = vessel->patient->anatomy.landmarks;
     model.entry = end_at(marks.p_annulus + 0.030 * marks.root_axis, -marks.root_axis);
     state = make_state(model, 0);
     scratch.emplace(model);
     inputs.tools.resize(1);
   }
   void run(double mm_s, double seconds) {
-    inputs.tools[0].advance_m_s = 1e-3 * mm_s;
+    inputs.tools[0].feed_m_s = 1e-3 * mm_s;
     for (int n = 0; n < 1000 * seconds; ++n) {
       const bool before = state.blood.heart.ectopic;
       step(model, inputs, state, *scratch, report);
@@ -42,8 +42,8 @@ struct AboveTheValve {
   }
   /// Of the tip, along the root's axis.
   double above_annulus_m() const {
-    const Landmarks& marks = vessel->patient->anatomy.landmarks;
-    const Vector3d shift = contraction(state.blood.heart.phase) * HeartMotion(marks).root_displacement();
+    const vascular::Landmarks& marks = vessel->patient->anatomy.landmarks;
+    const Vector3d shift = contraction(state.blood.heart.phase) * vascular::HeartMotion(marks).root_displacement();
     return (tip(model, state, 0) - shift - marks.p_annulus).dot(marks.root_axis);
   }
   std::string branch() const {
@@ -57,7 +57,7 @@ TEST(Valve, AWireGoesThroughItIntoTheVentricleAndGivesExtrasystoles) {
   AboveTheValve root("cook-straight");
   root.run(40, 2);
   EXPECT_LT(root.above_annulus_m(), -20e-3);
-  EXPECT_EQ(root.state.bedside.through_valve, 1);
+  EXPECT_EQ(root.state.coupling.through_valve, 1);
   root.run(40, 1.3);
   EXPECT_EQ(root.branch(), "left ventricle");
   root.run(0, 10);
@@ -69,7 +69,7 @@ TEST(Valve, AWireGoesThroughItIntoTheVentricleAndGivesExtrasystoles) {
   root.run(-60, 2.1);
   EXPECT_GT(root.above_annulus_m(), 5e-3);
   root.run(0, 2);
-  EXPECT_EQ(root.state.bedside.through_valve, 0);
+  EXPECT_EQ(root.state.coupling.through_valve, 0);
   const int before = root.ectopics;
   root.run(0, 5);
   EXPECT_EQ(root.ectopics, before);
@@ -81,10 +81,10 @@ TEST(Valve, AGuideStandsOnIt) {
   double lowest = 1;
   for (int n = 0; n < 60; ++n) root.run(30, 0.05), lowest = std::min(lowest, root.above_annulus_m());
   EXPECT_GT(lowest, -1.5e-3);
-  EXPECT_EQ(root.state.bedside.through_valve, 0);
+  EXPECT_EQ(root.state.coupling.through_valve, 0);
   EXPECT_EQ(root.ectopics, 0);
   EXPECT_LT(penetration(root.model, root.state).deepest_m, 0.05e-3);
 }
 
 }  // namespace
-}  // namespace ostium
+}  // namespace ostium::app

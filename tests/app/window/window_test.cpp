@@ -8,7 +8,7 @@
 #include "app/window/reference.h"
 #include "tests/app/session/tube_vessel.h"
 
-namespace ostium {
+namespace ostium::app {
 namespace {
 
 TEST(Latest, GivesTheNewestWholeAndNeverAnOlder) {
@@ -49,14 +49,14 @@ struct Played {
     "tools": [ { "name": "wire", "instrument": "cook-j" } ],
     "steps": [ { "do": "wait", "timeout_s": 100, "until": [{ "seconds": 90, "of": "wire" }] } ] })");
   ScriptedRun run{setup, tube_vessel()};
-  LiveHand hand{run.model, true, 15};
+  LiveDriver hand{run.model, true, 15};
   Played() { run.take_over(&hand); }
   void steps(int n) {
     for (int i = 0; i < n; ++i) ASSERT_TRUE(run.tick());
   }
 };
 
-TEST(LiveHand, KeysMoveTheInstrumentAndLettingGoStopsIt) {
+TEST(LiveDriver, KeysMoveTheInstrumentAndLettingGoStopsIt) {
   Played p;
   p.hand.controls.set(Level::guide_feed, 1);
   p.steps(1000);
@@ -71,7 +71,7 @@ TEST(LiveHand, KeysMoveTheInstrumentAndLettingGoStopsIt) {
   EXPECT_NEAR(p.run.state.hands[0].turned_rad, -0.5 * fine_share * hand_turn_rad_s, 1e-3);
 }
 
-TEST(LiveHand, AKeyHeldForLongFeedsOnAndNothingElse) {
+TEST(LiveDriver, AKeyHeldForLongFeedsOnAndNothingElse) {
   Played p;
   p.hand.controls.set(Level::guide_feed, 1);
   p.steps(6000);
@@ -79,11 +79,11 @@ TEST(LiveHand, AKeyHeldForLongFeedsOnAndNothingElse) {
   EXPECT_LE(p.run.state.rods.rods[0].inserted_m, p.run.model.tools[0].instrument.length_m);
 }
 
-TEST(LiveHand, TheArmGoesNoFurtherThanItCan) {
+TEST(LiveDriver, TheArmGoesNoFurtherThanItCan) {
   Played p;
   for (int i = 0; i < 60; ++i) p.hand.controls.press(Action::left);
   p.steps(2);
-  EXPECT_NEAR(p.run.inputs.c_arm.lao_rad, CArmLimits{}.lao_rad, 1e-12);
+  EXPECT_NEAR(p.run.inputs.c_arm.lao_rad, fluoro::CArmLimits{}.lao_rad, 1e-12);
   p.hand.controls.press(Action::view_1);
   p.steps(2);
   EXPECT_LT(p.run.inputs.c_arm.lao_rad, 1.5);
@@ -92,7 +92,7 @@ TEST(LiveHand, TheArmGoesNoFurtherThanItCan) {
   EXPECT_NEAR(p.run.state.c_arm.fluoroscopy_s, 1, 2e-3);
 }
 
-TEST(LiveHand, PauseStandsAndTheEndEnds) {
+TEST(LiveDriver, PauseStandsAndTheEndEnds) {
   Played p;
   p.hand.controls.set(Level::guide_feed, 1);
   p.steps(100);
@@ -113,7 +113,7 @@ TEST(LiveHand, PauseStandsAndTheEndEnds) {
 TEST(Panel, TheReferenceIsTheFullestOfTheLastCineUntilSomebodyChooses) {
   Reference reference;
   const auto shade = [](int grey) {
-    Picture p;
+    fluoro::Picture p;
     p.width = p.height = 1;
     p.grey.assign(1, static_cast<std::uint8_t>(grey));
     return p;
@@ -140,7 +140,7 @@ TEST(Panel, ShowsPictureToolsAndWhatIsWrong) {
   p.steps(400);
   ASSERT_TRUE(p.hand.snapshots().look());
   const PanelTexts texts = panel_texts(p.run.model, p.run.plan, p.hand, true);
-  Picture grey;
+  fluoro::Picture grey;
   grey.width = grey.height = 64;
   grey.grey.assign(64 * 64, 200);
   std::vector<std::uint32_t> calm, red;
@@ -157,4 +157,4 @@ TEST(Panel, ShowsPictureToolsAndWhatIsWrong) {
 }
 
 }  // namespace
-}  // namespace ostium
+}  // namespace ostium::app

@@ -3,9 +3,9 @@
 #include <memory>
 #include <string>
 
-#include "device/emulated_usb.h"
+#include "device/emulator/emulated_usb.h"
 
-namespace ostium {
+namespace ostium::test {
 
 inline constexpr int longest_put_off_ms = 200;
 
@@ -13,10 +13,10 @@ class Bench {
  public:
   virtual ~Bench() = default;
 
-  EmulatedUsb usb{[] {
-    Calibration c;
+  device::EmulatedUsb usb{[] {
+    device::Calibration c;
     c.serial = "OST-0001", c.date = 20260101;
-    for (TrackCalibration& t : c.track) t.before_introducer_mm = 20;
+    for (device::TrackCalibration& t : c.track) t.before_introducer_mm = 20;
     return c;
   }()};
 
@@ -49,4 +49,4 @@ void prepare_bench(char** arguments);
 
 Bench& bench();
 
-}  // namespace ostium
+}  // namespace ostium::test

@@ -12,10 +12,10 @@
 #include <stdexcept>
 #include <thread>
 
-#include "device/usbip.h"
+#include "device/emulator/usbip.h"
 #include "tests/integration/usb/bench.h"
 
-namespace ostium {
+namespace ostium::test {
 
 namespace {
 
@@ -46,7 +46,7 @@ class VhciBench : public Bench {
     int ends[2];
     if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0) throw std::runtime_error("no sockets");
     over_ = false;
-    link_ = std::make_unique<UsbipLink>(usb, ends[0]);
+    link_ = std::make_unique<device::UsbipLink>(usb, ends[0]);
     thread_ = std::thread([this] { link_->serve(over_, &fast_); });
     bool attached = false;
     // A port that was detached is free again a moment later.
@@ -79,7 +79,7 @@ class VhciBench : public Bench {
     return !(table >> hub >> port >> status) || status == "004";
   }
 
-  std::unique_ptr<UsbipLink> link_;
+  std::unique_ptr<device::UsbipLink> link_;
   std::thread thread_;
   std::atomic<bool> over_ = false, fast_ = false;
   long late_ = 0;
@@ -97,4 +97,4 @@ std::unique_ptr<Bench> make_bench(std::string& why_not) {
 
 void prepare_bench(char**) {}
 
-}  // namespace ostium
+}  // namespace ostium::test

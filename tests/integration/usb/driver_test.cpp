@@ -8,21 +8,21 @@
 #include <cstdlib>
 #include <random>
 
-#include "device/box_thread.h"
-#include "device/usb_port.h"
+#include "device/host/box_thread.h"
+#include "device/transport/usb_port.h"
 #include "tests/integration/usb/bench.h"
 
-namespace ostium {
+namespace ostium::test {
 namespace {
 
-constexpr std::size_t wire = index_of(Tool::wire), guide = index_of(Tool::guide);
+constexpr std::size_t wire = index_of(device::Tool::wire), guide = index_of(device::Tool::guide);
 
 double now_s() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
 
 struct Usb : testing::Test {
   void SetUp() override {
     bench().usb.hand = {};
-    bench().usb.with([](EmulatedBox& box, EmulatedFaults& faults) {
+    bench().usb.with([](device::EmulatedBox& box, device::EmulatedFaults& faults) {
       faults = {};
       box.station = {};
       box.emergency_stop = box.over_temperature = false;
@@ -33,7 +33,7 @@ struct Usb : testing::Test {
   }
   void TearDown() override {
     if (HasFailure()) {
-      const BoxSnapshot& n = box.now();
+      const device::BoxSnapshot& n = box.now();
       std::printf("link %d, trouble %d, openings %u, reports %llu, ignored %llu, in %llu, errors %llu, stalls %llu\n",
                   static_cast<int>(n.link), static_cast<int>(n.trouble), n.openings,
                   static_cast<unsigned long long>(n.reports), static_cast<unsigned long long>(n.ignored),
@@ -43,9 +43,9 @@ struct Usb : testing::Test {
     bench().unplug();
   }
 
-  UsbPort port;
-  TrackingBox box{port, {}};
-  BoxRequest request;
+  device::UsbPort port;
+  device::TrackingBox box{port, {}};
+  device::BoxRequest request;
 
   /// Polls until `done`, at most so long.
   template <class Done>
@@ -57,13 +57,13 @@ struct Usb : testing::Test {
     return false;
   }
   bool running() {
-    return until([&] { return box.now().link == Link::running; });
+    return until([&] { return box.now().link == device::Link::running; });
   }
-  void faults(const std::function<void(EmulatedFaults&)>& change) {
-    bench().usb.with([&](EmulatedBox&, EmulatedFaults& f) { change(f); });
+  void faults(const std::function<void(device::EmulatedFaults&)>& change) {
+    bench().usb.with([&](device::EmulatedBox&, device::EmulatedFaults& f) { change(f); });
   }
   std::array<std::uint16_t, 4> clamps() {
-    return bench().usb.with([](EmulatedBox& b, EmulatedFaults&) { return b.clamp(); });
+    return bench().usb.with([](device::EmulatedBox& b, device::EmulatedFaults&) { return b.clamp(); });
   }
 };
 
@@ -76,16 +76,16 @@ TEST_F(Usb, IsFoundAndSaysWhatItIs) {
   EXPECT_EQ(box.info().rate_Hz, 1000);
   EXPECT_TRUE(box.now().calibrated);
   EXPECT_EQ(box.calibration().date, 20260101u);
-  const std::vector<FoundBox> found = find_boxes();
+  const std::vector<device::FoundBox> found = find_boxes();
   ASSERT_EQ(found.size(), 1u);
-  EXPECT_EQ(found[0].trouble, PortTrouble::in_use);
+  EXPECT_EQ(found[0].trouble, device::PortTrouble::in_use);
 }
 
 TEST_F(Usb, IsListed) {
-  std::vector<FoundBox> found;
+  std::vector<device::FoundBox> found;
   for (const double end = now_s() + 5; now_s() < end && found.empty();) found = find_boxes();
   ASSERT_EQ(found.size(), 1u);
-  EXPECT_EQ(found[0].trouble, PortTrouble::none);
+  EXPECT_EQ(found[0].trouble, device::PortTrouble::none);
   EXPECT_EQ(found[0].identity.serial, "OST-0001");
   ASSERT_TRUE(found[0].info);
   EXPECT_EQ(found[0].info->watchdog_ms, 50);
@@ -126,13 +126,15 @@ TEST_F(Usb, LosesNothingAndIsQuick) {
 }
 
 TEST_F(Usb, UnpluggedWithTransfersInFlightAndPluggedInAgain) {
-  bench().usb.with([](EmulatedBox& b, EmulatedFaults&) { b.station[0] = {Tool::wire, 200, 0, 0}; });
+  bench().usb.with([](device::EmulatedBox& b, device::EmulatedFaults&) {
+    b.station[0] = {device::Tool::wire, 200, 0, 0};
+  });
   ASSERT_TRUE(running());
-  bench().usb.with([](EmulatedBox& b, EmulatedFaults&) { b.station[0].advanced_mm = 100; });
+  bench().usb.with([](device::EmulatedBox& b, device::EmulatedFaults&) { b.station[0].advanced_mm = 100; });
   ASSERT_TRUE(until([&] { return box.now().tool[wire].fed_m > 0.0999; }));
   for (int i = 1; i <= 3; ++i) {
     bench().unplug();
-    ASSERT_TRUE(until([&] { return box.now().link == Link::unplugged; }));
+    ASSERT_TRUE(until([&] { return box.now().link == device::Link::unplugged; }));
     EXPECT_FALSE(advice(box.now()).empty());
     EXPECT_NEAR(box.now().tool[wire].fed_m, 0.1, 1e-5);
     box.poll(0.1, request);
@@ -141,8 +143,8 @@ TEST_F(Usb, UnpluggedWithTransfersInFlightAndPluggedInAgain) {
     EXPECT_GE(box.now().openings, static_cast<std::uint32_t>(i + 1));  // a box that is leaving may be opened once more
   }
   EXPECT_NEAR(box.now().tool[wire].fed_m, 0.1, 1e-5) << "unseen movement is not made up";
-  ASSERT_TRUE(until([&] { return box.now().tool[wire].sight == Sight::seen; }));
-  bench().usb.with([](EmulatedBox& b, EmulatedFaults&) { b.station[0].advanced_mm = 130; });
+  ASSERT_TRUE(until([&] { return box.now().tool[wire].sight == device::ToolPresence::seen; }));
+  bench().usb.with([](device::EmulatedBox& b, device::EmulatedFaults&) { b.station[0].advanced_mm = 130; });
   ASSERT_TRUE(until([&] { return box.now().tool[wire].fed_m > 0.1299; }));
   EXPECT_NEAR(box.now().tool[wire].inserted_m, 0.11, 1e-5);
   EXPECT_EQ(box.now().tool[wire].arrivals, 1u) << "the same instrument goes on";
@@ -150,27 +152,27 @@ TEST_F(Usb, UnpluggedWithTransfersInFlightAndPluggedInAgain) {
 
 TEST_F(Usb, StallIsClearedAndStallThatStaysIsShown) {
   ASSERT_TRUE(running());
-  faults([](EmulatedFaults& f) { f.stalled = true; });
+  faults([](device::EmulatedFaults& f) { f.stalled = true; });
   const std::uint64_t before = box.now().reports;
   ASSERT_TRUE(until([&] { return box.now().port.stalls > 0 && box.now().reports > before + 100; }));
-  EXPECT_EQ(box.now().link, Link::running);
-  faults([](EmulatedFaults& f) { f.stalled = f.stays_stalled = true; });
-  ASSERT_TRUE(until([&] { return box.now().trouble == PortTrouble::stalled; }));
-  ASSERT_TRUE(until([&] { return box.now().link != Link::running; }));
+  EXPECT_EQ(box.now().link, device::Link::running);
+  faults([](device::EmulatedFaults& f) { f.stalled = f.stays_stalled = true; });
+  ASSERT_TRUE(until([&] { return box.now().trouble == device::PortTrouble::stalled; }));
+  ASSERT_TRUE(until([&] { return box.now().link != device::Link::running; }));
   EXPECT_NE(advice(box.now()).find("stall"), std::string::npos);
   const std::uint64_t stalls = box.now().port.stalls;
   const double end = now_s() + 0.5;
   until([&] { return now_s() > end; });
   EXPECT_LE(box.now().port.stalls - stalls, 60u) << "it waits between tries";
-  faults([](EmulatedFaults& f) { f.stalled = f.stays_stalled = false; });
+  faults([](device::EmulatedFaults& f) { f.stalled = f.stays_stalled = false; });
   EXPECT_TRUE(running());
-  EXPECT_EQ(box.now().trouble, PortTrouble::none);
+  EXPECT_EQ(box.now().trouble, device::PortTrouble::none);
 }
 
 TEST_F(Usb, ErrorsAreTriedAgainNotSpunOn) {
   ASSERT_TRUE(running());
   std::atomic<int> overlong = 1;
-  faults([&](EmulatedFaults& f) {
+  faults([&](device::EmulatedFaults& f) {
     f.mangle = [&](std::vector<std::uint8_t>& report) {
       if (overlong.exchange(0)) report.resize(80);
     };
@@ -179,21 +181,26 @@ TEST_F(Usb, ErrorsAreTriedAgainNotSpunOn) {
   ASSERT_TRUE(until([&] { return box.now().port.errors > 0 && box.now().reports > before + 100; }))
       << "one is survived";
   EXPECT_EQ(box.now().openings, 1u);
-  faults([](EmulatedFaults& f) { f.mangle = {}, f.garbled = true; });
-  ASSERT_TRUE(until([&] { return box.now().trouble == PortTrouble::failing && box.now().link != Link::running; }));
+  faults([](device::EmulatedFaults& f) { f.mangle = {}, f.garbled = true; });
+  ASSERT_TRUE(until(
+      [&] { return box.now().trouble == device::PortTrouble::failing && box.now().link != device::Link::running; }));
   EXPECT_NE(advice(box.now()).find("fail"), std::string::npos);
   const std::uint64_t errors = box.now().port.errors;
   const double end = now_s() + 1;
   until([&] { return now_s() > end; });
   EXPECT_LE(box.now().port.errors - errors, 300u) << "eight at a time, ever more seldom";
-  faults([](EmulatedFaults& f) { f.garbled = false; });
+  faults([](device::EmulatedFaults& f) { f.garbled = false; });
   EXPECT_TRUE(running());
-  EXPECT_EQ(box.now().trouble, PortTrouble::none);
+  EXPECT_EQ(box.now().trouble, device::PortTrouble::none);
 }
 
 TEST_F(Usb, SilenceIsShownAndOpensTheClamps) {
-  bench().usb.with([](EmulatedBox& b, EmulatedFaults&) { b.station[0] = {Tool::wire, 200, 0, 0}; });
-  bench().usb.hand = [](EmulatedBox& b) { b.station[0].advanced_mm += b.station[0].advanced_mm < 200 ? 0.05 : 0; };
+  bench().usb.with([](device::EmulatedBox& b, device::EmulatedFaults&) {
+    b.station[0] = {device::Tool::wire, 200, 0, 0};
+  });
+  bench().usb.hand = [](device::EmulatedBox& b) {
+    b.station[0].advanced_mm += b.station[0].advanced_mm < 200 ? 0.05 : 0;
+  };
   request.arm = true;
   request.load[wire] = {3, 0};
   ASSERT_TRUE(until([&] {
@@ -201,32 +208,34 @@ TEST_F(Usb, SilenceIsShownAndOpensTheClamps) {
     return clamps()[0] > 15000;
   }));
   EXPECT_TRUE(box.now().armed);
-  faults([](EmulatedFaults& f) { f.silent = true; });
-  ASSERT_TRUE(until([&] { return box.now().link == Link::silent; }));
+  faults([](device::EmulatedFaults& f) { f.silent = true; });
+  ASSERT_TRUE(until([&] { return box.now().link == device::Link::silent; }));
   ASSERT_TRUE(until([&] { return clamps()[0] == 0; })) << "nobody answers, so the watchdog opens them";
-  faults([](EmulatedFaults& f) { f.silent = false; });
+  faults([](device::EmulatedFaults& f) { f.silent = false; });
   ASSERT_TRUE(until([&] {
     request.step_s += 1e-3;
-    return box.now().link == Link::running && box.now().armed && clamps()[0] > 0;
+    return box.now().link == device::Link::running && box.now().armed && clamps()[0] > 0;
   })) << "and they close again by themselves";
 }
 
 TEST_F(Usb, AnotherVersionIsShown) {
-  faults([](EmulatedFaults& f) { f.wrong_version = true; });
-  ASSERT_TRUE(until([&] { return box.now().link == Link::wrong_version && box.now().ignored > 100; }));
+  faults([](device::EmulatedFaults& f) { f.wrong_version = true; });
+  ASSERT_TRUE(until([&] { return box.now().link == device::Link::wrong_version && box.now().ignored > 100; }));
   EXPECT_EQ(box.now().reports, 0u);
   EXPECT_EQ(box.now().tool[wire].fed_m, 0);
   bench().unplug();
-  ASSERT_TRUE(until([&] { return box.now().link == Link::unplugged; }));
-  faults([](EmulatedFaults& f) { f.wrong_version = false; });
+  ASSERT_TRUE(until([&] { return box.now().link == device::Link::unplugged; }));
+  faults([](device::EmulatedFaults& f) { f.wrong_version = false; });
   bench().plug();
   EXPECT_TRUE(running());
 }
 
 TEST_F(Usb, TheWatchdogOpensTheClampsOfAHostThatHangs) {
-  bench().usb.with([](EmulatedBox& b, EmulatedFaults&) { b.station[0] = {Tool::wire, 200, 0, 0}; });
+  bench().usb.with([](device::EmulatedBox& b, device::EmulatedFaults&) {
+    b.station[0] = {device::Tool::wire, 200, 0, 0};
+  });
   std::atomic<double> closed_s = 0, open_s = 0;
-  bench().usb.hand = [&](EmulatedBox& b) {
+  bench().usb.hand = [&](device::EmulatedBox& b) {
     b.station[0].advanced_mm += b.station[0].advanced_mm < 200 ? 0.05 : 0;
     if (b.clamp()[0] > 0) closed_s = b.time_s();
     if (b.clamp()[0] == 0 && closed_s > 0 && open_s == 0) open_s = b.time_s();
@@ -238,7 +247,8 @@ TEST_F(Usb, TheWatchdogOpensTheClampsOfAHostThatHangs) {
     return clamps()[0] > 0;
   }));
   // Nothing is polled from here on; the eight transfers that are in flight still come back.
-  const double last_out_s = bench().usb.with([](EmulatedBox& b, EmulatedFaults&) { return b.time_s(); });
+  const double last_out_s =
+      bench().usb.with([](device::EmulatedBox& b, device::EmulatedFaults&) { return b.time_s(); });
   for (const double end = now_s() + 3; now_s() < end && open_s == 0;)
     std::this_thread::sleep_for(std::chrono::milliseconds(5));
   ASSERT_GT(open_s, 0);
@@ -253,7 +263,7 @@ TEST_F(Usb, TenThousandWildReportsOnTheWire) {
   bench().set_pace(Bench::Pace::fast);
   std::mt19937 generator(5);
   std::atomic<std::uint64_t> sent = 0, flawless = 0;
-  faults([&](EmulatedFaults& f) {
+  faults([&](device::EmulatedFaults& f) {
     f.mangle = [&](std::vector<std::uint8_t>& report) {
       const auto any = [&](std::uint32_t below) { return generator() % below; };
       const std::uint32_t kind = any(4);
@@ -263,26 +273,26 @@ TEST_F(Usb, TenThousandWildReportsOnTheWire) {
         for (std::uint8_t& b : report) b = static_cast<std::uint8_t>(any(256));
       if (kind == 3) report.resize(1 + any(64));
       ++sent;
-      flawless += flaw_of_in_report(report) == Flaw::none;
+      flawless += flaw_of_in_report(report) == device::Flaw::none;
     };
   });
   const std::uint64_t taken = box.now().reports, ignored = box.now().ignored;
   ASSERT_TRUE(until([&] { return sent >= 10'000; }, 60));
-  faults([](EmulatedFaults& f) { f.mangle = {}; });
+  faults([](device::EmulatedFaults& f) { f.mangle = {}; });
   const std::uint64_t marker = box.now().reports;
   ASSERT_TRUE(until([&] { return box.now().reports > marker + 50; }));
   EXPECT_EQ(box.now().ignored - ignored, sent - flawless);
   EXPECT_GE(box.now().reports - taken, flawless);
-  for (const ToolSnapshot& tool : box.now().tool) {
+  for (const device::ToolSnapshot& tool : box.now().tool) {
     EXPECT_TRUE(std::isfinite(tool.fed_m) && std::isfinite(tool.turned_rad));
-    EXPECT_TRUE(tool.clamp_N >= 0 && tool.clamp_N <= ClampSettings{}.most_N);
+    EXPECT_TRUE(tool.clamp_N >= 0 && tool.clamp_N <= device::ClampSettings{}.most_N);
   }
   EXPECT_TRUE(running());
 }
 
 TEST_F(Usb, CalibrationIsWrittenCheckedAndApplied) {
   ASSERT_TRUE(running());
-  Calibration c = box.calibration();
+  device::Calibration c = box.calibration();
   c.track[0].mm_per_count = 0.02f, c.date = 20260202;
   const auto record = bytes_of(c);
   auto damaged = record;
@@ -291,41 +301,49 @@ TEST_F(Usb, CalibrationIsWrittenCheckedAndApplied) {
   EXPECT_TRUE(write_calibration(port, record));
   EXPECT_EQ(parse_calibration(read_calibration(port)).date, 20260202u);
   EXPECT_FALSE(port.write(0x55, 0, {})) << "unknown requests stall";
-  EXPECT_FALSE(port.write(static_cast<std::uint8_t>(Request::watchdog_time), 9, {}));
+  EXPECT_FALSE(port.write(static_cast<std::uint8_t>(device::Request::watchdog_time), 9, {}));
   EXPECT_TRUE(running());
   request.arm = true;
   ASSERT_TRUE(until([&] { return box.now().armed; }));
   EXPECT_FALSE(write_calibration(port, record)) << "not while armed";
   request.arm = false;
   bench().unplug();
-  ASSERT_TRUE(until([&] { return box.now().link == Link::unplugged; }));
+  ASSERT_TRUE(until([&] { return box.now().link == device::Link::unplugged; }));
   bench().plug();
-  bench().usb.with([](EmulatedBox& b, EmulatedFaults&) { b.station[0] = {Tool::wire, 200, 0, 0}; });
+  bench().usb.with([](device::EmulatedBox& b, device::EmulatedFaults&) {
+    b.station[0] = {device::Tool::wire, 200, 0, 0};
+  });
   ASSERT_TRUE(running());
   EXPECT_EQ(box.calibration().date, 20260202u);
-  bench().usb.with([](EmulatedBox& b, EmulatedFaults&) { b.station[0].advanced_mm = 40; });
+  bench().usb.with([](device::EmulatedBox& b, device::EmulatedFaults&) { b.station[0].advanced_mm = 40; });
   ASSERT_TRUE(until([&] { return std::abs(box.now().tool[wire].fed_m - 0.04) < 2e-5; }));
 }
 
 TEST_F(Usb, ALostWireStandsStillAndIsFoundAgain) {
-  bench().usb.with([](EmulatedBox& b, EmulatedFaults&) { b.station[1] = {Tool::wire, 200, 0, 0}; });
-  ASSERT_TRUE(until([&] { return box.now().tool[wire].sight == Sight::seen; }));
-  bench().usb.with([](EmulatedBox& b, EmulatedFaults&) { b.station[1].advanced_mm = 60; });
+  bench().usb.with([](device::EmulatedBox& b, device::EmulatedFaults&) {
+    b.station[1] = {device::Tool::wire, 200, 0, 0};
+  });
+  ASSERT_TRUE(until([&] { return box.now().tool[wire].sight == device::ToolPresence::seen; }));
+  bench().usb.with([](device::EmulatedBox& b, device::EmulatedFaults&) { b.station[1].advanced_mm = 60; });
   ASSERT_TRUE(until([&] { return box.now().tool[wire].fed_m > 0.0599; }));
-  bench().usb.with([](EmulatedBox& b, EmulatedFaults&) { b.station[1].quality = 3; });
-  ASSERT_TRUE(until([&] { return box.now().tool[wire].sight == Sight::lost; }));
+  bench().usb.with([](device::EmulatedBox& b, device::EmulatedFaults&) { b.station[1].quality = 3; });
+  ASSERT_TRUE(until([&] { return box.now().tool[wire].sight == device::ToolPresence::lost; }));
   EXPECT_NE(advice(box.now()).find("does not see it"), std::string::npos);
-  bench().usb.with([](EmulatedBox& b, EmulatedFaults&) { b.station[1].advanced_mm = 90, b.station[1].quality = 200; });
-  ASSERT_TRUE(until([&] { return box.now().tool[wire].sight == Sight::seen; }));
+  bench().usb.with([](device::EmulatedBox& b, device::EmulatedFaults&) {
+    b.station[1].advanced_mm = 90, b.station[1].quality = 200;
+  });
+  ASSERT_TRUE(until([&] { return box.now().tool[wire].sight == device::ToolPresence::seen; }));
   EXPECT_NEAR(box.now().tool[wire].fed_m, 0.06, 2e-5);
 }
 
 TEST_F(Usb, PressureFlowAndPedalsCome) {
-  bench().usb.with([](EmulatedBox& b, EmulatedFaults&) { b.pressure_atm = -0.9, b.flow_mL_s = 3.5, b.pedals = 3; });
+  bench().usb.with(
+      [](device::EmulatedBox& b, device::EmulatedFaults&) { b.pressure_atm = -0.9, b.flow_mL_s = 3.5, b.pedals = 3; });
   ASSERT_TRUE(until([&] { return box.now().pedals == 3; }));
   EXPECT_NEAR(box.now().pressure_Pa, -0.9 * 101325, 60);
   EXPECT_NEAR(box.now().flow_m3_s, 3.5e-6, 1e-8);
-  bench().usb.with([](EmulatedBox& b, EmulatedFaults&) { b.pressure_atm = 14, b.flow_mL_s = -2, b.pedals = 0; });
+  bench().usb.with(
+      [](device::EmulatedBox& b, device::EmulatedFaults&) { b.pressure_atm = 14, b.flow_mL_s = -2, b.pedals = 0; });
   ASSERT_TRUE(until([&] { return box.now().pedals == 0 && box.now().pressure_Pa > 0; }));
   EXPECT_NEAR(box.now().pressure_Pa, 14 * 101325, 60);
   EXPECT_NEAR(box.now().flow_m3_s, -2e-6, 1e-8);
@@ -334,7 +352,7 @@ TEST_F(Usb, PressureFlowAndPedalsCome) {
 TEST_F(Usb, NoAccessIsSaidAndMended) {
   if (!bench().can_deny()) GTEST_SKIP() << "root may open everything on " << bench().name();
   bench().deny_access(true);
-  ASSERT_TRUE(until([&] { return box.now().trouble == PortTrouble::no_access; }));
+  ASSERT_TRUE(until([&] { return box.now().trouble == device::PortTrouble::no_access; }));
   EXPECT_NE(advice(box.now()).find("udev"), std::string::npos);
   bench().deny_access(false);
   EXPECT_TRUE(running()) << "without being plugged in again";
@@ -347,19 +365,22 @@ TEST_F(Usb, TheUdevRuleMarksIt) {
 }
 
 TEST_F(Usb, AnotherProgramHasIt) {
-  UsbPort first;
-  TrackingBox owner{first, {}};
-  for (const double end = now_s() + 5; now_s() < end && owner.now().link != Link::running;) owner.poll(0.02, {});
-  ASSERT_TRUE(until([&] { return box.now().trouble == PortTrouble::in_use; }));
+  device::UsbPort first;
+  device::TrackingBox owner{first, {}};
+  for (const double end = now_s() + 5; now_s() < end && owner.now().link != device::Link::running;)
+    owner.poll(0.02, {});
+  ASSERT_TRUE(until([&] { return box.now().trouble == device::PortTrouble::in_use; }));
 }
 
 TEST_F(Usb, OnAThreadOfItsOwn) {
-  BoxThread thread(std::make_unique<UsbPort>(), {});
-  bench().usb.with([](EmulatedBox& b, EmulatedFaults&) { b.station[0] = {Tool::guide, 200, 0, 0}; });
-  bench().usb.hand = [](EmulatedBox& b) { b.station[0].advanced_mm += 0.1; };
+  device::BoxThread thread(std::make_unique<device::UsbPort>(), {});
+  bench().usb.with([](device::EmulatedBox& b, device::EmulatedFaults&) {
+    b.station[0] = {device::Tool::guide, 200, 0, 0};
+  });
+  bench().usb.hand = [](device::EmulatedBox& b) { b.station[0].advanced_mm += 0.1; };
   double fed_m = 0;
   for (const double end = now_s() + 5; now_s() < end && fed_m < 0.1;) {
-    const BoxSnapshot& now = thread.newest();
+    const device::BoxSnapshot& now = thread.newest();
     EXPECT_GE(now.tool[guide].fed_m, fed_m);
     fed_m = now.tool[guide].fed_m;
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
@@ -368,4 +389,4 @@ TEST_F(Usb, OnAThreadOfItsOwn) {
 }
 
 }  // namespace
-}  // namespace ostium
+}  // namespace ostium::test

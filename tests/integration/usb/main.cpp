@@ -2,7 +2,7 @@
 
 #include "tests/integration/usb/bench.h"
 
-namespace ostium {
+namespace ostium::test {
 
 namespace {
 std::unique_ptr<Bench> made;
@@ -10,19 +10,19 @@ std::unique_ptr<Bench> made;
 
 Bench& bench() { return *made; }
 
-}  // namespace ostium
+}  // namespace ostium::test
 
 int main(int count, char** arguments) {
-  ostium::prepare_bench(arguments);
+  ostium::test::prepare_bench(arguments);
   testing::InitGoogleTest(&count, arguments);
   std::string why_not;
-  ostium::made = ostium::make_bench(why_not);
-  if (!ostium::made) {
+  ostium::test::made = ostium::test::make_bench(why_not);
+  if (!ostium::test::made) {
     std::fprintf(stderr, "skipped: %s\n", why_not.c_str());
     return 77;
   }
-  std::fprintf(stderr, "%s\n", ostium::made->name().c_str());
+  std::fprintf(stderr, "%s\n", ostium::test::made->name().c_str());
   const int failed = RUN_ALL_TESTS();
-  ostium::made.reset();
+  ostium::test::made.reset();
   return failed;
 }

@@ -6,15 +6,15 @@
 #include <cstdlib>
 #include <thread>
 
-#include "device/stroking_hand.h"
+#include "device/emulator/stroking_hand.h"
 #include "tests/integration/usb/usbfs_bench.h"
 
 namespace {
 
 struct Plugged {
   std::string why_not;
-  std::unique_ptr<ostium::Bench> bench = ostium::make_usbfs_bench(why_not);
-  ostium::StrokingHand hand;
+  std::unique_ptr<ostium::test::Bench> bench = ostium::test::make_usbfs_bench(why_not);
+  ostium::device::StrokingHand hand;
 
   Plugged() {
     if (!bench) {
@@ -23,7 +23,7 @@ struct Plugged {
     }
     const char* asked = std::getenv("OSTIUM_BENCH_FAULT");
     const std::string fault = asked ? asked : "";
-    bench->usb.hand = [this, fault](ostium::EmulatedBox& box) {
+    bench->usb.hand = [this, fault](ostium::device::EmulatedBox& box) {
       if (fault != "" && box.time_s() < 10) return;
       if (fault == "full" && box.station[1].advanced_mm > 318) return;
       if (fault != "" && fault != "full" && box.time_s() > 12) {

@@ -4,67 +4,67 @@
 
 #include <filesystem>
 
-#include "app/session/emulated_hand.h"
-#include "app/session/play.h"
-#include "app/session/replay.h"
-#include "device/usb_port.h"
+#include "app/session/device/emulated_box_driver.h"
+#include "app/session/run/play.h"
+#include "app/session/run/replay.h"
+#include "device/transport/usb_port.h"
 #include "tests/integration/usb/bench.h"
 
-namespace ostium {
+namespace ostium::test {
 namespace {
 
 /// A run at a box on the bench, a step for a sample.
 struct RunAtBench {
-  UsbPort port;
-  TrackingBox host{port, {}};
-  EmulatedHand fingers;
+  device::UsbPort port;
+  device::TrackingBox host{port, {}};
+  app::EmulatedBoxDriver fingers;
   bool stepping = false;
   double most_clamp_N = 0, most_in_box_m = 0;
-  DeviceHand hand{{}, [this](const BoxRequest& request) -> const BoxSnapshot& {
-                    const std::uint64_t before = host.now().reports;
-                    for (int i = 0; i < 1000 && host.now().reports == before; ++i) {
-                      bench().step();
-                      host.poll(0.01, request);
-                    }
-                    const BoxSnapshot& now = host.now();
-                    EXPECT_GT(now.reports, before);
-                    EXPECT_EQ(now.link, Link::running) << advice(now);
-                    bench().usb.with([&](EmulatedBox&, EmulatedFaults&) { fingers.see(now); });
-                    for (const ToolSnapshot& tool : now.tool) {
-                      most_clamp_N = std::max(most_clamp_N, tool.clamp_N);
-                      most_in_box_m = std::max(most_in_box_m, tool.in_box_m);
-                    }
-                    return now;
-                  }};
-  EmulatedOperator scripted{hand, fingers};
+  app::BoxDriver hand{{}, [this](const device::BoxRequest& request) -> const device::BoxSnapshot& {
+                        const std::uint64_t before = host.now().reports;
+                        for (int i = 0; i < 1000 && host.now().reports == before; ++i) {
+                          bench().step();
+                          host.poll(0.01, request);
+                        }
+                        const device::BoxSnapshot& now = host.now();
+                        EXPECT_GT(now.reports, before);
+                        EXPECT_EQ(now.link, device::Link::running) << advice(now);
+                        bench().usb.with([&](device::EmulatedBox&, device::EmulatedFaults&) { fingers.see(now); });
+                        for (const device::ToolSnapshot& tool : now.tool) {
+                          most_clamp_N = std::max(most_clamp_N, tool.clamp_N);
+                          most_in_box_m = std::max(most_in_box_m, tool.in_box_m);
+                        }
+                        return now;
+                      }};
+  app::EmulatedOperator scripted{hand, fingers};
 
   RunAtBench() {
     bench().set_pace(Bench::Pace::stepped);
-    bench().usb.hand = [this](EmulatedBox& box) { fingers.move(box); };
+    bench().usb.hand = [this](device::EmulatedBox& box) { fingers.move(box); };
     bench().plug();
   }
   ~RunAtBench() {
     bench().unplug();
-    bench().usb.with([](EmulatedBox& box, EmulatedFaults&) { box.station = {}; });
+    bench().usb.with([](device::EmulatedBox& box, device::EmulatedFaults&) { box.station = {}; });
     bench().usb.hand = {};
   }
 };
 
 TEST(UsbSession, WireAndGuideReachTheAorticRootInStrokesAndReplayWithoutTheDevice) {
-  RunSetup setup;
-  set_vessel("rca-mid-focal", LengthUnit::millimetre, setup);
-  Script script = find_script("jr4-engages-rca");
+  app::RunSetup setup;
+  set_vessel("rca-mid-focal", vascular::LengthUnit::millimetre, setup);
+  data::Script script = find_script("jr4-engages-rca");
   while (script.steps.back().label != "wire out") script.steps.pop_back();
   set_script(script, setup);
   setup.hand_speed = 3;
   std::string warnings;
   const auto vessel = make_vessel(setup, warnings);
   const std::string file = testing::TempDir() + "usb_session.h5";
-  PlayReport report;
+  app::PlayReport report;
   {
     RunAtBench at;
-    ScriptedRun run(setup, vessel, &at.scripted);
-    PlayOptions options;
+    app::ScriptedRun run(setup, vessel, &at.scripted);
+    app::PlayOptions options;
     options.recorder.file = file;
     options.recorder.penetration = false;
     report = play(run, setup, options);
@@ -88,8 +88,8 @@ TEST(UsbSession, WireAndGuideReachTheAorticRootInStrokesAndReplayWithoutTheDevic
                 static_cast<unsigned long long>(at.host.now().reports), at.most_clamp_N);
   }
   ASSERT_EQ(report.problem, "");
-  Replay replay(file, vessel);
-  const VerifyReport verified = verify(replay);
+  app::Replay replay(file, vessel);
+  const app::VerifyReport verified = verify(replay);
   EXPECT_EQ(verified.steps, static_cast<std::size_t>(std::lround(1000 * report.simulated_s)));
   EXPECT_FALSE(verified.first_step);
   EXPECT_EQ(hash(replay.state), report.hash);
@@ -97,4 +97,4 @@ TEST(UsbSession, WireAndGuideReachTheAorticRootInStrokesAndReplayWithoutTheDevic
 }
 
 }  // namespace
-}  // namespace ostium
+}  // namespace ostium::test

@@ -25,7 +25,7 @@
 #include <stdexcept>
 #include <thread>
 
-namespace ostium {
+namespace ostium::test {
 
 namespace {
 
@@ -142,7 +142,7 @@ class UsbfsBench : public Bench {
       }
     for (auto& [fd, opening] : open_) {
       if (opening->in.empty()) continue;
-      const EmulatedUsb::Sample sample = usb.sample();
+      const device::EmulatedUsb::Sample sample = usb.sample();
       if (!sample.stall && !sample.error && sample.bytes.empty()) return true;
       usbdevfs_urb* urb = opening->in.front();
       opening->in.pop_front();
@@ -266,7 +266,7 @@ class UsbfsBench : public Bench {
     auto* bytes = static_cast<std::uint8_t*>(urb->buffer);
     const auto length = static_cast<std::size_t>(urb->buffer_length) - 8;
     const bool in = bytes[0] & 0x80;
-    const ControlReply reply = usb.control({bytes, 8}, {bytes + 8, in ? 0 : length});
+    const device::ControlReply reply = usb.control({bytes, 8}, {bytes + 8, in ? 0 : length});
     if (!reply) return opening.finish(urb, -EPIPE, 0);
     const std::size_t count = in ? std::min(length, reply->size()) : length;
     if (in) std::copy_n(reply->begin(), count, bytes + 8);
@@ -313,21 +313,21 @@ void prepare_usbfs_bench(char** arguments) {
   execv("/proc/self/exe", arguments);
 }
 
-}  // namespace ostium
+}  // namespace ostium::test
 
 // --- what libusb calls -----------------------------------------------------------------------------------------------
 
 #pragma GCC visibility push(default)
 extern "C" {
 
-using ostium::UsbfsBench;
+using ostium::test::UsbfsBench;
 
 int open(const char* path, int flags, ...) {
   va_list list;
   va_start(list, flags);
   const auto mode = static_cast<mode_t>(va_arg(list, unsigned));
   va_end(list);
-  return ostium::open_with<int (*)(const char*, int, ...)>("open", path, flags, mode);
+  return ostium::test::open_with<int (*)(const char*, int, ...)>("open", path, flags, mode);
 }
 
 int open64(const char* path, int flags, ...) {
@@ -335,11 +335,11 @@ int open64(const char* path, int flags, ...) {
   va_start(list, flags);
   const auto mode = static_cast<mode_t>(va_arg(list, unsigned));
   va_end(list);
-  return ostium::open_with<int (*)(const char*, int, ...)>("open64", path, flags, mode);
+  return ostium::test::open_with<int (*)(const char*, int, ...)>("open64", path, flags, mode);
 }
 
 int __open_2(const char* path, int flags) {  // NOLINT: its name
-  return ostium::open_with<int (*)(const char*, int, ...)>("open", path, flags, 0);
+  return ostium::test::open_with<int (*)(const char*, int, ...)>("open", path, flags, 0);
 }
 
 int ioctl(int fd, unsigned long request, ...) noexcept {
@@ -348,13 +348,13 @@ int ioctl(int fd, unsigned long request, ...) noexcept {
   void* argument = va_arg(list, void*);
   va_end(list);
   if (UsbfsBench::current && UsbfsBench::current->has(fd)) return UsbfsBench::current->ioctl(fd, request, argument);
-  static const auto call = ostium::next<int (*)(int, unsigned long, ...)>("ioctl");
+  static const auto call = ostium::test::next<int (*)(int, unsigned long, ...)>("ioctl");
   return call(fd, request, argument);
 }
 
 int close(int fd) {
   if (UsbfsBench::current) UsbfsBench::current->close(fd);
-  return ostium::real_close(fd);
+  return ostium::test::real_close(fd);
 }
 }
 #pragma GCC visibility pop

@@ -9,14 +9,15 @@
 #include <numbers>
 #include <vector>
 
-#include "fluoro/c_arm.h"
-#include "vascular/patient.h"
+#include "core/base/units.h"
+#include "fluoro/projection/c_arm.h"
+#include "vascular/patient/patient.h"
 
 namespace {
 
 using namespace ostium;
 
-constexpr double degree = std::numbers::pi / 180;
+using units::degree;
 constexpr int tile = 300;
 
 struct View {
@@ -37,10 +38,10 @@ struct Image {
 };
 
 /// Left red, right blue, the rest grey.
-Eigen::Vector3d colour(const Anatomy& anatomy, const std::vector<TubeShare>& shares) {
+Eigen::Vector3d colour(const vascular::Anatomy& anatomy, const std::vector<vascular::TubeShare>& shares) {
   const int left = find_branch(anatomy, "LM")->tube, right = find_branch(anatomy, "RCA")->tube;
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-  for (const TubeShare& share : shares) {
+  for (const vascular::TubeShare& share : shares) {
     int t = share.tube;
     while (t != left && t != right && t > 0) t = anatomy.tubes[t].parent;
     sum += share.weight * (t == left    ? Eigen::Vector3d(196, 52, 46)
@@ -50,9 +51,9 @@ Eigen::Vector3d colour(const Anatomy& anatomy, const std::vector<TubeShare>& sha
   return sum;
 }
 
-void draw(Image& image, int x0, int y0, const Mesh& mesh, const std::vector<Eigen::Vector3d>& colours,
+void draw(Image& image, int x0, int y0, const vascular::Mesh& mesh, const std::vector<Eigen::Vector3d>& colours,
           const View& view) {
-  CArm arm{.lao_rad = view.lao_deg * degree, .cran_rad = view.cran_deg * degree};
+  fluoro::CArm arm{.lao_rad = view.lao_deg * degree, .cran_rad = view.cran_deg * degree};
   arm.p_PI = Eigen::Vector3d(0.008, -0.04, 0.022);
   const Eigen::Vector3d focus = source(arm), towards = towards_detector(arm);
   std::vector<Eigen::Vector3d> seen;  // pixel, and distance from the detector's side
@@ -112,8 +113,8 @@ int main(int argc, char** argv) {
   if (seeds.empty()) seeds = {0, 1, 2, 3};
   Image image(columns * tile, static_cast<int>(seeds.size()) * tile);
   for (std::size_t row = 0; row < seeds.size(); ++row) {
-    const Patient patient = make_patient(person(seeds[row], {}), {});
-    const Mesh mesh = patient.lumen.at(0.75, 0);
+    const vascular::Patient patient = make_patient(person(seeds[row], {}), {});
+    const vascular::Mesh mesh = patient.lumen.at(0.75, 0);
     std::vector<Eigen::Vector3d> colours;
     for (const auto& shares : patient.lumen.shares) colours.push_back(colour(patient.anatomy, shares));
     for (int v = 0; v < columns; ++v) draw(image, v * tile, static_cast<int>(row) * tile, mesh, colours, views[v]);

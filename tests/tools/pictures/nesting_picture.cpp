@@ -3,10 +3,10 @@
 #include <exception>
 #include <iostream>
 
+#include "core/rod/initial_state.h"
 #include "core/samples/steel_wire.h"
 #include "data/catalogue/catalogue.h"
 #include "data/formats/svg.h"
-#include "core/rod/initial_state.h"
 
 namespace {
 
@@ -16,14 +16,14 @@ using Eigen::Vector3d;
 
 constexpr double element_m = 1.5e-3, catheter_m = 0.22;
 
-Rod rod_of(const Instrument& instrument, double inserted_m) {
-  RodDescription d =
+core::Rod rod_of(const data::Instrument& instrument, double inserted_m) {
+  core::RodDescription d =
       rod_description(instrument, std::vector<double>(static_cast<int>(inserted_m / element_m), element_m));
   d.damping = {1, 0.5, 1e-3};  // so that it comes to rest soon
   return make_rod(d);
 }
 
-std::vector<Vector2d> drawn(const RodState& rod, const Vector2d& origin) {
+std::vector<Vector2d> drawn(const core::RodState& rod, const Vector2d& origin) {
   std::vector<Vector2d> points;
   for (int i = 0; i < rod.position.size(); ++i)
     points.emplace_back(origin.x() + 400 * rod.position[i].x(), origin.y() - 400 * rod.position[i].z());
@@ -31,30 +31,30 @@ std::vector<Vector2d> drawn(const RodState& rod, const Vector2d& origin) {
 }
 
 /// Catheter alone, wire alone, and one in the other at rest, side by side.
-void panel(Drawing& drawing, const Vector2d& corner, const std::string& words, const Instrument& catheter,
-           const Instrument& wire, double protrudes_m) {
+void panel(data::Drawing& drawing, const Vector2d& corner, const std::string& words, const data::Instrument& catheter,
+           const data::Instrument& wire, double protrudes_m) {
   require_fit(wire, catheter);
-  Model model;
+  core::Model model;
   model.gravity_W.setZero();
   model.rods = {rod_of(catheter, catheter_m), rod_of(wire, catheter_m + protrudes_m)};
-  const std::vector<EndState> bases(2, verify::along_x());
-  const auto show = [&](const State& state, bool with_catheter, bool with_wire, double y) {
+  const std::vector<core::EndState> bases(2, gates::along_x());
+  const auto show = [&](const core::State& state, bool with_catheter, bool with_wire, double y) {
     const Vector2d origin = corner + Vector2d(4, y);
     if (with_catheter) drawing.line(drawn(state.rods[0], origin), "#9bc", 1.6);
     if (with_wire) drawing.line(drawn(state.rods[1], origin), "#246", 0.5);
   };
   drawing.text(corner + Vector2d(0, 0), words);
-  const State alone = make_state_at_rest_shape(model, bases);
+  const core::State alone = make_state_at_rest_shape(model, bases);
   show(alone, true, false, 22);
   drawing.text(corner + Vector2d(108, 12), catheter.name, 3);
   show(alone, false, true, 58);
   drawing.text(corner + Vector2d(108, 55), wire.name, 3);
 
   model.nestings = coaxial({0, 1});
-  State state = make_state(model, bases);
-  Scratch scratch(model);
-  StepReport report;
-  Inputs inputs;
+  core::State state = make_state(model, bases);
+  core::Scratch scratch(model);
+  core::StepReport report;
+  core::Inputs inputs;
   inputs.rods.resize(2);
   for (int n = 0; n < 6000; ++n) step(model, inputs, state, scratch, report);
   show(state, true, true, 72);
@@ -69,9 +69,9 @@ int main(int argc, char** argv) {
     return 2;
   }
   try {
-    const std::vector<Instrument> catalogue = load_catalogue();
+    const std::vector<data::Instrument> catalogue = load_catalogue();
     const auto instrument = [&](const char* name) { return find_instrument(catalogue, name); };
-    Drawing drawing(300, 112);
+    data::Drawing drawing(300, 112);
     panel(drawing, {6, 8}, "A stiff wire straightens a soft catheter", instrument("diagnostic-jr4-5f"),
           instrument("amplatz-super-stiff"), 0.13);
     panel(drawing, {158, 8}, "A soft wire follows a stiff catheter", instrument("diagnostic-jl4-5f"),

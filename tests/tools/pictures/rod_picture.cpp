@@ -14,15 +14,15 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 
 template <class Project>
-std::vector<Vector2d> projected(const RodState& rod, Project&& project) {
+std::vector<Vector2d> projected(const core::RodState& rod, Project&& project) {
   std::vector<Vector2d> points;
   for (int i = 0; i < rod.position.size(); i += 2) points.push_back(project(rod.position[i]));
   return points;
 }
 
-void falling_wire(Drawing& drawing) {
+void falling_wire(data::Drawing& drawing) {
   const auto project = [](const Vector3d& p) { return Vector2d(62 + 68 * p.x(), 18 - 68 * p.z()); };
-  verify::Bench bench = verify::steel_bench({.elements = 512});
+  gates::Bench bench = gates::steel_bench({.elements = 512});
   drawing.text({6, 7}, "1 m of steel wire, let go: every 50 ms for 0.8 s");
   drawing.text({6, 12}, "red: converged reference at 0.3 and 0.8 s", 3);
   for (int ms = 0; ms <= 800; ++ms) {
@@ -37,13 +37,13 @@ void falling_wire(Drawing& drawing) {
   drawing.cross(project({-0.3886, 0, -0.5578}), "#c00");
 }
 
-void writhing_ring(Drawing& drawing) {
-  verify::Bench bench = verify::steel_bench({.elements = 128, .gravity = false});
-  const Rod& rod = bench.model.rods[0];
+void writhing_ring(data::Drawing& drawing) {
+  gates::Bench bench = gates::steel_bench({.elements = 128, .gravity = false});
+  const core::Rod& rod = bench.model.rods[0];
   const Vector3d stiffness = stiffness_at_rest(rod, 1);
   const double critical = 2 * std::numbers::pi * std::sqrt(3.0) * stiffness[0] / stiffness[2];
-  verify::lay_out_ring(rod, 1.3 * critical, bench.rod());
-  bench.inputs.rods[0].tip.hold = Hold::clamped;
+  gates::lay_out_ring(rod, 1.3 * critical, bench.rod());
+  bench.inputs.rods[0].tip.hold = core::Hold::clamped;
   for (int i = 32; i < 64; ++i) bench.rod().velocity.set(i, Vector3d(0, 0.01, 0));
   drawing.text({142, 7}, "a ring, twisted 1.3 times beyond its stability");
   const int shown_ms[] = {0, 270, 300, 318};
@@ -68,7 +68,7 @@ int main(int argc, char** argv) {
     return 2;
   }
   try {
-    Drawing drawing(235, 105);
+    data::Drawing drawing(235, 105);
     falling_wire(drawing);
     writhing_ring(drawing);
     drawing.write(argv[1]);

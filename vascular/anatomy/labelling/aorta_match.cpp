@@ -2,14 +2,15 @@
 
 #include <algorithm>
 
-#include "vascular/box_tree.h"
-#include "vascular/tree/centreline.h"
+#include "core/base/units.h"
+#include "vascular/geometry/centreline/centreline.h"
+#include "vascular/geometry/mesh/bounding_volume_hierarchy.h"
 
-namespace ostium {
+namespace ostium::vascular {
 
 namespace {
 
-constexpr double mm = 1e-3;
+using units::mm;
 constexpr double aorta_radius_m = 7e-3;  // an aorta is wider
 
 /// How unlike the mean aorta a course is, in metres; `fit` gets how that is laid on it.
@@ -55,7 +56,7 @@ Eigen::Vector3d to_the_end(const Course& course, const Mesh& mesh) {
   std::size_t before = course.spheres.size() - 1;
   while (before > 0 && last.s_m - course.spheres[before].s_m < 1.5 * last.radius_m) --before;
   const Eigen::Vector3d along = (last.p - course.spheres[before].p).normalized();
-  const auto hits = BoxTree(mesh).hits(last.p, along, 40 * mm);
+  const auto hits = BoundingVolumeHierarchy(mesh).hits(last.p, along, 40 * mm);
   return hits.empty() ? last.p : Eigen::Vector3d(last.p + std::max(0.0, hits[0].distance_m - 2 * mm) * along);
 }
 
@@ -71,11 +72,11 @@ double widest_at_end(const std::vector<Course>& courses, int from) {
 /// Of all ways between two ends, the one that is most like the mean aorta begins at the root; the tree is found anew
 /// from there.
 void begin_at_root(const MeanCourses& mean, const Progress& say, LumenPart& part) {
-  struct Way {
+  struct VesselIndex {
     double unlike, length;
     int root;
   };
-  std::vector<Way> found;
+  std::vector<VesselIndex> found;
   const std::vector<Course> candidates = with_wide_ends(part.courses);
   for (int from = -1; from < static_cast<int>(candidates.size()); ++from) {
     const std::vector<Course> ways = courses_from(candidates, from);
@@ -88,9 +89,9 @@ void begin_at_root(const MeanCourses& mean, const Progress& say, LumenPart& part
   }
   double best = 1e9, farthest = 0;
   int root = -1;
-  for (const Way& way : found) best = std::min(best, way.unlike);
+  for (const VesselIndex& way : found) best = std::min(best, way.unlike);
   // Of several that are much the same, the one that begins deepest in the root.
-  for (const Way& way : found)
+  for (const VesselIndex& way : found)
     if (way.unlike < best + 4 * mm && way.length > farthest) farthest = way.length, root = way.root;
   if (root >= 0) {
     say("looking for centrelines from the aortic root");
@@ -126,4 +127,4 @@ std::optional<AortaMatch> match_aorta(LumenPart& part, const MeanCourses& mean, 
   return match;
 }
 
-}  // namespace ostium
+}  // namespace ostium::vascular

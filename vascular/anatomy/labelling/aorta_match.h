@@ -6,7 +6,7 @@
 #include "vascular/anatomy/labelling/lumen_parts.h"
 #include "vascular/anatomy/labelling/mean_courses.h"
 
-namespace ostium {
+namespace ostium::vascular {
 
 struct AortaMatch {
   Course course;
@@ -19,4 +19,4 @@ inline constexpr double labelling_step_m = 5e-3;  ///< between the points of two
 /// role.
 std::optional<AortaMatch> match_aorta(LumenPart& widest, const MeanCourses& mean, const Progress& say);
 
-}  // namespace ostium
+}  // namespace ostium::vascular

@@ -5,13 +5,14 @@
 #include <algorithm>
 #include <cmath>
 
-#include "vascular/mesh.h"
+#include "core/base/units.h"
+#include "vascular/geometry/mesh/mesh.h"
 
-namespace ostium {
+namespace ostium::vascular {
 
 namespace {
 
-constexpr double mm = 1e-3;
+using units::mm;
 
 int tube_named(const Anatomy& anatomy, const std::string& name) {
   for (std::size_t t = 0; t < anatomy.tubes.size(); ++t)
@@ -103,4 +104,4 @@ void name_branches(const std::vector<double>& leaves_m, const std::map<std::stri
   rename(names, anatomy);
 }
 
-}  // namespace ostium
+}  // namespace ostium::vascular

@@ -6,11 +6,11 @@
 
 #include "vascular/anatomy/anatomy.h"
 
-namespace ostium {
+namespace ostium::vascular {
 
 /// `leaves_m`: of each tube, where it leaves its parent's wall; `names`: found name to wanted name. Throws MeshError if
 /// a name to be changed is not there.
 void name_branches(const std::vector<double>& leaves_m, const std::map<std::string, std::string>& names,
                    Anatomy& anatomy, std::vector<std::string>& notes);
 
-}  // namespace ostium
+}  // namespace ostium::vascular

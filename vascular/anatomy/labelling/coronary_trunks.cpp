@@ -2,11 +2,13 @@
 
 #include <algorithm>
 
-namespace ostium {
+#include "core/base/units.h"
+
+namespace ostium::vascular {
 
 namespace {
 
-constexpr double mm = 1e-3;
+using units::mm;
 constexpr double coronary_radius_m = 3.5e-3;  // a coronary artery is narrower
 constexpr double coronary_length_m = 25e-3;   // and longer
 constexpr double root_m = 75e-3;              // it leaves the aorta so near to its root
@@ -65,4 +67,4 @@ std::vector<Trunk> coronary_trunks(const std::vector<LumenPart>& parts, const Ao
   return trunks;
 }
 
-}  // namespace ostium
+}  // namespace ostium::vascular

@@ -2,7 +2,7 @@
 /// Where coronary arteries may leave the aorta, and the ways on from there.
 #include "vascular/anatomy/labelling/aorta_match.h"
 
-namespace ostium {
+namespace ostium::vascular {
 
 /// The coronary arteries that come out of one ostium.
 struct Trunk {
@@ -15,4 +15,4 @@ struct Trunk {
 /// `aorta`: that of the first part, or null.
 std::vector<Trunk> coronary_trunks(const std::vector<LumenPart>& parts, const AortaMatch* aorta);
 
-}  // namespace ostium
+}  // namespace ostium::vascular

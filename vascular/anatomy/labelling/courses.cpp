@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace ostium {
+namespace ostium::vascular {
 
 namespace {
 
@@ -96,4 +96,4 @@ double median_radius(const Course& course) {
   return radii[radii.size() / 2];
 }
 
-}  // namespace ostium
+}  // namespace ostium::vascular

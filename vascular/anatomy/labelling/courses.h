@@ -2,9 +2,9 @@
 /// Ways through a tree of centrelines, from its root to its ends, as rows of points; used to recognise them.
 #include <vector>
 
-#include "vascular/tree/sphere_tree.h"
+#include "vascular/geometry/centreline/sphere_tree.h"
 
-namespace ostium {
+namespace ostium::vascular {
 
 struct Course {
   std::vector<TreeSphere> spheres;  ///< from the root to the end; s_m from the root
@@ -27,4 +27,4 @@ Course beyond(const Course& course, const Course& trunk);
 
 double median_radius(const Course& course);
 
-}  // namespace ostium
+}  // namespace ostium::vascular

@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-namespace ostium {
+namespace ostium::vascular {
 
 Similarity nearest_similarity(const std::vector<Eigen::Vector3d>& from, const std::vector<Eigen::Vector3d>& to) {
   const Eigen::Index n = static_cast<Eigen::Index>(from.size());
@@ -40,4 +40,4 @@ Eigen::Matrix3d nearest_axes(const Eigen::Matrix3d& R, double* angle_rad) {
   return best;
 }
 
-}  // namespace ostium
+}  // namespace ostium::vascular

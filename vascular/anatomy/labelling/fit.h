@@ -3,7 +3,7 @@
 #include <Eigen/Geometry>
 #include <vector>
 
-namespace ostium {
+namespace ostium::vascular {
 
 struct Similarity {
   Eigen::Matrix3d R = Eigen::Matrix3d::Identity();
@@ -19,4 +19,4 @@ Similarity nearest_similarity(const std::vector<Eigen::Vector3d>& from, const st
 /// The rotation with entries 0, 1, -1 that is nearest to `R`, and the angle between both.
 Eigen::Matrix3d nearest_axes(const Eigen::Matrix3d& R, double* angle_rad = nullptr);
 
-}  // namespace ostium
+}  // namespace ostium::vascular

@@ -4,13 +4,14 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/base/units.h"
 #include "vascular/anatomy/labelling/coronary_trunks.h"
 
-namespace ostium {
+namespace ostium::vascular {
 
 namespace {
 
-constexpr double mm = 1e-3, degree = std::numbers::pi / 180;
+using units::mm, units::degree;
 
 struct HeartFit {
   Similarity fit;
@@ -138,4 +139,4 @@ std::optional<HeartMatch> match_heart(std::vector<LumenPart>& parts, const Aorta
   return match;
 }
 
-}  // namespace ostium
+}  // namespace ostium::vascular

@@ -4,7 +4,7 @@
 
 #include "vascular/anatomy/labelling/aorta_match.h"
 
-namespace ostium {
+namespace ostium::vascular {
 
 struct HeartMatch {
   Similarity fit;                                ///< from the mean anatomy to the file's frame
@@ -16,4 +16,4 @@ struct HeartMatch {
 std::optional<HeartMatch> match_heart(std::vector<LumenPart>& parts, const AortaMatch* aorta, const MeanCourses& mean,
                                       std::vector<std::string>& notes);
 
-}  // namespace ostium
+}  // namespace ostium::vascular

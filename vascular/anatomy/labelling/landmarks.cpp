@@ -4,11 +4,13 @@
 
 #include <algorithm>
 
-namespace ostium {
+#include "core/base/units.h"
+
+namespace ostium::vascular {
 
 namespace {
 
-constexpr double mm = 1e-3;
+using units::mm;
 
 /// Where the introducer is, and which way it points.
 void set_access(const std::optional<Eigen::Vector3d>& entry, Anatomy& anatomy, std::vector<std::string>& notes) {
@@ -59,4 +61,4 @@ void set_landmarks(const LandmarkInputs& in, Anatomy& anatomy, std::vector<std::
   set_access(in.entry, anatomy, notes);
 }
 
-}  // namespace ostium
+}  // namespace ostium::vascular

@@ -7,7 +7,7 @@
 #include "vascular/anatomy/anatomy.h"
 #include "vascular/anatomy/labelling/fit.h"
 
-namespace ostium {
+namespace ostium::vascular {
 
 struct LandmarkInputs {
   const Landmarks& mean;
@@ -18,4 +18,4 @@ struct LandmarkInputs {
 
 void set_landmarks(const LandmarkInputs& inputs, Anatomy& anatomy, std::vector<std::string>& notes);
 
-}  // namespace ostium
+}  // namespace ostium::vascular

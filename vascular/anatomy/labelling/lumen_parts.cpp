@@ -4,14 +4,15 @@
 
 #include <algorithm>
 
-#include "vascular/geometry/repair/mend.h"
-#include "vascular/tree/centreline.h"
+#include "core/base/units.h"
+#include "vascular/geometry/centreline/centreline.h"
+#include "vascular/geometry/repair/repair.h"
 
-namespace ostium {
+namespace ostium::vascular {
 
 namespace {
 
-constexpr double mm = 1e-3;
+using units::mm;
 constexpr double vessel_shape = 6;  // a vessel is longer than so many of its widths
 
 }  // namespace
@@ -42,4 +43,4 @@ std::vector<LumenPart> lumen_parts(const Mesh& lumen, const Progress& say) {
   return parts;
 }
 
-}  // namespace ostium
+}  // namespace ostium::vascular

@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "vascular/anatomy/labelling/courses.h"
-#include "vascular/mesh.h"
+#include "vascular/geometry/mesh/mesh.h"
 
-namespace ostium {
+namespace ostium::vascular {
 
 using Progress = std::function<void(const std::string&)>;
 
@@ -27,4 +27,4 @@ struct LumenPart {
 /// Widest first. Throws MeshError if none holds a vessel.
 std::vector<LumenPart> lumen_parts(const Mesh& lumen, const Progress& say);
 
-}  // namespace ostium
+}  // namespace ostium::vascular

@@ -1,6 +1,6 @@
 #include "vascular/anatomy/labelling/mean_courses.h"
 
-namespace ostium {
+namespace ostium::vascular {
 
 namespace {
 
@@ -30,4 +30,4 @@ MeanCourses mean_courses() {
   return mean;
 }
 
-}  // namespace ostium
+}  // namespace ostium::vascular

@@ -3,7 +3,7 @@
 #include "vascular/anatomy/anatomy.h"
 #include "vascular/anatomy/labelling/courses.h"
 
-namespace ostium {
+namespace ostium::vascular {
 
 struct MeanCourses {
   Anatomy anatomy;
@@ -13,4 +13,4 @@ struct MeanCourses {
 
 MeanCourses mean_courses();
 
-}  // namespace ostium
+}  // namespace ostium::vascular

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace ostium {
+namespace ostium::vascular {
 
 namespace {
 
@@ -47,4 +47,4 @@ std::vector<FoundNarrowing> find_narrowings(const SphereTree& tree, double least
   return found;
 }
 
-}  // namespace ostium
+}  // namespace ostium::vascular

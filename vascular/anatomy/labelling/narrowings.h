@@ -3,9 +3,9 @@
 #include <string>
 #include <vector>
 
-#include "vascular/tree/sphere_tree.h"
+#include "vascular/geometry/centreline/sphere_tree.h"
 
-namespace ostium {
+namespace ostium::vascular {
 
 struct FoundNarrowing {
   std::string branch;
@@ -18,4 +18,4 @@ struct FoundNarrowing {
 /// In branches narrower than 8 mm: where the diameter is less by at least `least` than before and behind it.
 std::vector<FoundNarrowing> find_narrowings(const SphereTree& tree, double least = 0.3);
 
-}  // namespace ostium
+}  // namespace ostium::vascular

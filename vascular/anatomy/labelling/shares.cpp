@@ -5,7 +5,7 @@
 #include <numeric>
 #include <unordered_map>
 
-namespace ostium {
+namespace ostium::vascular {
 
 namespace {
 
@@ -44,4 +44,4 @@ std::vector<std::vector<TubeShare>> shares_of(const Mesh& mesh, const std::vecto
   return shares;
 }
 
-}  // namespace ostium
+}  // namespace ostium::vascular

@@ -2,11 +2,13 @@
 
 #include <algorithm>
 
-namespace ostium {
+#include "core/base/units.h"
+
+namespace ostium::vascular {
 
 namespace {
 
-constexpr double mm = 1e-3;
+using units::mm;
 constexpr double branch_blend = 1.6;  // in radii: over so much a branch takes over from its parent in the beat
 
 /// From where it leaves its parent's wall, with a little of it inside; false if it never does.
@@ -74,4 +76,4 @@ void add_tubes(const LumenPart& part, std::vector<Tube>& tubes, std::vector<doub
   }
 }
 
-}  // namespace ostium
+}  // namespace ostium::vascular

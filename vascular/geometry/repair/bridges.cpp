@@ -7,11 +7,11 @@
 #include <numbers>
 #include <numeric>
 
-#include "vascular/box_tree.h"
+#include "vascular/geometry/centreline/centreline.h"
+#include "vascular/geometry/mesh/bounding_volume_hierarchy.h"
 #include "vascular/geometry/repair/calibre.h"
-#include "vascular/tree/centreline.h"
 
-namespace ostium {
+namespace ostium::vascular {
 
 namespace {
 
@@ -85,19 +85,19 @@ std::vector<VesselEnd> ends_of(const Mesh& lumen) { return ends_of(lines_of(lume
 std::vector<Bridge> find_bridges(const std::vector<Mesh>& lumens, double longest_gap_m) {
   const int n = static_cast<int>(lumens.size());
   std::vector<std::vector<VesselEnd>> ends;
-  std::vector<std::unique_ptr<BoxTree>> trees;
+  std::vector<std::unique_ptr<BoundingVolumeHierarchy>> trees;
   std::vector<SphereTree> lines;
   for (const Mesh& lumen : lumens) {
     lines.push_back(lines_of(lumen));
     ends.push_back(ends_of(lines.back()));
-    trees.push_back(std::make_unique<BoxTree>(lumen));
+    trees.push_back(std::make_unique<BoundingVolumeHierarchy>(lumen));
   }
   std::vector<Candidate> candidates;
   for (int i = 0; i < n; ++i)
     for (const VesselEnd& end : ends[i])
       for (int j = 0; j < n; ++j) {
         if (i == j || !end.origin) continue;
-        const BoxTree::Nearest near = trees[j]->nearest(end.p, longest_gap_m + 2 * end.radius_m);
+        const BoundingVolumeHierarchy::Nearest near = trees[j]->nearest(end.p, longest_gap_m + 2 * end.radius_m);
         if (near.triangle < 0) continue;
         const double gap = near.distance_m - end.radius_m;
         if (gap > longest_gap_m) continue;
@@ -191,4 +191,4 @@ Mesh body_of(const Bridge& bridge, double reach_m) {
   return mesh;
 }
 
-}  // namespace ostium
+}  // namespace ostium::vascular

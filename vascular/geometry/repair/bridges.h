@@ -1,9 +1,9 @@
 #pragma once
 /// Where a lumen ends a little before another one: the missing piece, from an end to a wall or from an end to an end,
 /// never from side to side.
-#include "vascular/mesh.h"
+#include "vascular/geometry/mesh/mesh.h"
 
-namespace ostium {
+namespace ostium::vascular {
 
 /// Where a vessel ends.
 struct VesselEnd {
@@ -32,4 +32,4 @@ std::vector<Bridge> find_bridges(const std::vector<Mesh>& lumens, double longest
 /// A closed tube, without a kink, that reaches so far into both lumens.
 Mesh body_of(const Bridge& bridge, double reach_m);
 
-}  // namespace ostium
+}  // namespace ostium::vascular

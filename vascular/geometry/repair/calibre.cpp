@@ -3,9 +3,9 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 
-namespace ostium {
+namespace ostium::vascular {
 
-std::vector<double> calibres(const Mesh& mesh, const BoxTree& tree, int stride, double farthest_m) {
+std::vector<double> calibres(const Mesh& mesh, const BoundingVolumeHierarchy& tree, int stride, double farthest_m) {
   std::vector<double> result;
   for (std::size_t t = 0; t < mesh.triangles.size(); t += static_cast<std::size_t>(stride)) {
     const auto& [a, b, c] = mesh.triangles[t];
@@ -51,4 +51,4 @@ std::vector<double> areas_m2(const Mesh& mesh, int stride) {
   return areas;
 }
 
-}  // namespace ostium
+}  // namespace ostium::vascular

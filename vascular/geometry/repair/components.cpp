@@ -1,9 +1,9 @@
 #include <algorithm>
 
-#include "vascular/geometry/repair/mend.h"
+#include "vascular/geometry/repair/repair.h"
 #include "vascular/geometry/repair/sheets.h"
 
-namespace ostium {
+namespace ostium::vascular {
 
 std::vector<Mesh> components_of(const Mesh& mesh) {
   const Sheets sheets = sheets_of(mesh);
@@ -31,4 +31,4 @@ std::vector<Mesh> components_of(const Mesh& mesh) {
   return sorted;
 }
 
-}  // namespace ostium
+}  // namespace ostium::vascular

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <queue>
 
-namespace ostium {
+namespace ostium::vascular {
 
 namespace {
 
@@ -202,4 +202,4 @@ Mesh decimate(const Mesh& mesh, const std::vector<double>& edge_m, double chance
   return Decimator(mesh, edge_m, chance_m).run();
 }
 
-}  // namespace ostium
+}  // namespace ostium::vascular

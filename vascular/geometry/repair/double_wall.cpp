@@ -6,9 +6,9 @@
 #include <queue>
 #include <unordered_map>
 
-#include "vascular/box_tree.h"
+#include "vascular/geometry/mesh/bounding_volume_hierarchy.h"
 
-namespace ostium {
+namespace ostium::vascular {
 
 namespace {
 
@@ -86,7 +86,7 @@ class ShellFinder {
 
   const Mesh& mesh_;
   const Sheets& sheets_;
-  BoxTree tree_;
+  BoundingVolumeHierarchy tree_;
   std::vector<double> areas_;
   std::vector<Eigen::Vector3d> normals_, middles_;
 };
@@ -198,4 +198,4 @@ DoubleWall find_double_wall(const Mesh& mesh, const Sheets& sheets) {
   return result;
 }
 
-}  // namespace ostium
+}  // namespace ostium::vascular

@@ -2,7 +2,7 @@
 /// Vessels that were drawn or segmented with a thick wall: two shells, of which the lumen needs the inner one.
 #include "vascular/geometry/repair/sheets.h"
 
-namespace ostium {
+namespace ostium::vascular {
 
 struct DoubleWall {
   std::vector<bool> outer;                          ///< of each triangle: part of an outer shell
@@ -16,4 +16,4 @@ struct DoubleWall {
 /// ones.
 DoubleWall find_double_wall(const Mesh& mesh, const Sheets& sheets);
 
-}  // namespace ostium
+}  // namespace ostium::vascular

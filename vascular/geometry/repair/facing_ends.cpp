@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace ostium {
+namespace ostium::vascular {
 
 namespace {
 
@@ -29,4 +29,4 @@ std::vector<FacingEnds> facing_ends(const std::vector<Opening>& openings, double
   return pairs;
 }
 
-}  // namespace ostium
+}  // namespace ostium::vascular

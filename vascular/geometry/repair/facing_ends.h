@@ -2,7 +2,7 @@
 /// Openings that face each other: the two ends of one vessel that was cut.
 #include "vascular/geometry/repair/sheets.h"
 
-namespace ostium {
+namespace ostium::vascular {
 
 struct FacingEnds {
   double gap_m;
@@ -12,4 +12,4 @@ struct FacingEnds {
 /// Those nearest to each other first; an opening may be in several.
 std::vector<FacingEnds> facing_ends(const std::vector<Opening>& openings, double longest_gap_m);
 
-}  // namespace ostium
+}  // namespace ostium::vascular

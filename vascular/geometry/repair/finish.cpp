@@ -3,15 +3,16 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/units.h"
+#include "vascular/geometry/mesh/surface_check.h"
 #include "vascular/geometry/repair/calibre.h"
 #include "vascular/geometry/repair/decimate.h"
-#include "vascular/surface_check.h"
 
-namespace ostium {
+namespace ostium::vascular {
 
 namespace {
 
-constexpr double mm = 1e-3;
+using units::mm;
 constexpr int calibre_stride = 4, most_uncrossings = 12;
 constexpr double longest_edge_m = 2.2e-3;
 constexpr double chance_voxels = 0.05;         // where the level set puts a vertex within these is chance
@@ -35,14 +36,14 @@ bool spoils(const std::array<int, 3>& t, const std::vector<Eigen::Vector3d>& bef
 }
 
 /// The level set and its coarsening are off by a part of a voxel; the wall is where the mesh said.
-void onto_wall(const BoxTree& wall, double voxel_m, Mesh& mesh) {
+void onto_wall(const BoundingVolumeHierarchy& wall, double voxel_m, Mesh& mesh) {
   std::vector<Eigen::Vector3d> normal(mesh.vertices.size(), Eigen::Vector3d::Zero());
   for (const auto& [a, b, c] : mesh.triangles)
     for (int v : {a, b, c})
       normal[v] += (mesh.vertices[b] - mesh.vertices[a]).cross(mesh.vertices[c] - mesh.vertices[a]);
   std::vector<Eigen::Vector3d> step(mesh.vertices.size(), Eigen::Vector3d::Zero());
   for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
-    const BoxTree::Nearest near = wall.nearest(mesh.vertices[v], voxel_m);
+    const BoundingVolumeHierarchy::Nearest near = wall.nearest(mesh.vertices[v], voxel_m);
     // Along the normal only: sideways, vertices would come together where the wall has an edge.
     const Eigen::Vector3d out = normal[v].normalized();
     if (near.triangle >= 0) step[v] = (near.point - mesh.vertices[v]).dot(out) * out;
@@ -88,7 +89,7 @@ void uncross(Mesh& mesh) {
 }
 
 std::vector<double> wanted_edges(const Mesh& fine, double voxel_m) {
-  const BoxTree tree(fine);
+  const BoundingVolumeHierarchy tree(fine);
   const std::vector<double> diameter = calibres(fine, tree, calibre_stride);
   std::vector<double> edge(fine.vertices.size(), 0);
   std::vector<int> count(fine.vertices.size(), 0);
@@ -113,7 +114,7 @@ std::vector<double> wanted_edges(const Mesh& fine, double voxel_m) {
 
 }  // namespace
 
-Mesh finished_surface(const Mesh& fine, const BoxTree& wall, double voxel_m, std::size_t parts,
+Mesh finished_surface(const Mesh& fine, const BoundingVolumeHierarchy& wall, double voxel_m, std::size_t parts,
                       std::size_t most_triangles) {
   std::vector<double> edge = wanted_edges(fine, voxel_m);
   Mesh mesh = decimate(fine, edge, chance_voxels * voxel_m);
@@ -128,4 +129,4 @@ Mesh finished_surface(const Mesh& fine, const BoxTree& wall, double voxel_m, std
   return mesh;
 }
 
-}  // namespace ostium
+}  // namespace ostium::vascular

@@ -12,7 +12,7 @@
 
 #include "vascular/geometry/repair/winding.h"
 
-namespace ostium {
+namespace ostium::vascular {
 
 namespace {
 
@@ -142,4 +142,4 @@ Mesh outer_surface(const Mesh& closed, double voxel_m) {
   return mesh;
 }
 
-}  // namespace ostium
+}  // namespace ostium::vascular

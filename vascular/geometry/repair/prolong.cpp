@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace ostium {
+namespace ostium::vascular {
 
 namespace {
 
@@ -50,4 +50,4 @@ Mesh carried_on(const CutEnd& cut, double overlap_m, double length_m) {
   return mesh;
 }
 
-}  // namespace ostium
+}  // namespace ostium::vascular

@@ -5,7 +5,7 @@
 
 #include "vascular/geometry/repair/bridges.h"
 
-namespace ostium {
+namespace ostium::vascular {
 
 /// Where a piece ended before its opening was closed.
 struct CutEnd {
@@ -22,4 +22,4 @@ std::optional<double> missing_length_m(const CutEnd& cut, const std::vector<Vess
 /// The rim carried on straight, closed at both ends; begins `overlap_m` before the rim.
 Mesh carried_on(const CutEnd& cut, double overlap_m, double length_m);
 
-}  // namespace ostium
+}  // namespace ostium::vascular

@@ -7,7 +7,7 @@
 #include <numbers>
 #include <queue>
 
-namespace ostium {
+namespace ostium::vascular {
 
 namespace {
 
@@ -248,4 +248,4 @@ void join(Mesh& mesh, const Opening& a, const Opening& b) {
   mesh.triangles.insert(mesh.triangles.end(), band.begin(), band.end());
 }
 
-}  // namespace ostium
+}  // namespace ostium::vascular

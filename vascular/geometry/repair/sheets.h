@@ -3,9 +3,9 @@
 /// others branch at edges and face both ways; here each half-edge has one partner at most.
 #include <vector>
 
-#include "vascular/mesh.h"
+#include "vascular/geometry/mesh/mesh.h"
 
-namespace ostium {
+namespace ostium::vascular {
 
 struct Sheets {
   /// Of half-edge 3 t + k (of triangle t, from its corner k to the next): the one that goes on there; -1: none.
@@ -49,4 +49,4 @@ void cap(Mesh& mesh, const Opening& opening);
 /// A band of triangles from one opening to another that faces it.
 void join(Mesh& mesh, const Opening& a, const Opening& b);
 
-}  // namespace ostium
+}  // namespace ostium::vascular

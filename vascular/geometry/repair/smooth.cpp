@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace ostium {
+namespace ostium::vascular {
 
 namespace {
 
@@ -81,4 +81,4 @@ void smooth(Mesh& mesh, int rounds) {
     }
 }
 
-}  // namespace ostium
+}  // namespace ostium::vascular

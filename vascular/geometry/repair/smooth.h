@@ -1,8 +1,8 @@
 #pragma once
 /// Noise of a surface: how rough it is, and its removal.
-#include "vascular/mesh.h"
+#include "vascular/geometry/mesh/mesh.h"
 
-namespace ostium {
+namespace ostium::vascular {
 
 /// How far vertices stand out from a smooth surface, and how long edges are: medians.
 struct Roughness {
@@ -16,4 +16,4 @@ Roughness roughness(const Mesh& mesh);
 /// (Taubin, SIGGRAPH 1995). Vertices of open edges stay.
 void smooth(Mesh& mesh, int rounds);
 
-}  // namespace ostium
+}  // namespace ostium::vascular

@@ -7,7 +7,7 @@
 #include <numbers>
 #include <queue>
 
-namespace ostium {
+namespace ostium::vascular {
 
 namespace {
 
@@ -144,4 +144,4 @@ Taper taper(Mesh& mesh, const Sheets& sheets, const Opening& a, const Opening& b
   return {highest, length};
 }
 
-}  // namespace ostium
+}  // namespace ostium::vascular

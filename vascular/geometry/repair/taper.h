@@ -3,7 +3,7 @@
 /// vessel drawn in pieces, one by its inner wall and the next one by its outer.)
 #include "vascular/geometry/repair/sheets.h"
 
-namespace ostium {
+namespace ostium::vascular {
 
 struct Taper {
   double step_m = 0;    ///< between the rims, at its highest; 0: nothing was done
@@ -15,4 +15,4 @@ struct Taper {
 /// makes gentle are left alone. Only vertices move.
 Taper taper(Mesh& mesh, const Sheets& sheets, const Opening& a, const Opening& b);
 
-}  // namespace ostium
+}  // namespace ostium::vascular

@@ -6,7 +6,7 @@
 #include "vascular/geometry/repair/calibre.h"
 #include "vascular/geometry/repair/sheets.h"
 
-namespace ostium {
+namespace ostium::vascular {
 
 namespace {
 
@@ -27,7 +27,7 @@ UnitGuess guess_unit(const Mesh& raw) {
   Eigen::AlignedBox3d box;
   for (const Eigen::Vector3d& p : mesh.vertices) box.extend(p);
   const double extent = box.sizes().maxCoeff();
-  const BoxTree tree(mesh);
+  const BoundingVolumeHierarchy tree(mesh);
   const int stride = 1 + static_cast<int>(mesh.triangles.size() / 4'000);
   const double calibre = percentile(calibres(mesh, tree, stride, extent), areas_m2(mesh, stride), 0.9);
   UnitGuess guess;
@@ -72,4 +72,4 @@ LengthUnit unit_named(const std::string& name) {
   throw MeshError("there is no unit \"" + name + "\"; expected mm, cm, m or in");
 }
 
-}  // namespace ostium
+}  // namespace ostium::vascular

@@ -1,8 +1,8 @@
 #pragma once
 /// What a number in a mesh's file means, told from how long and how wide the vessels are.
-#include "vascular/mesh.h"
+#include "vascular/geometry/mesh/mesh.h"
 
-namespace ostium {
+namespace ostium::vascular {
 
 struct UnitGuess {
   LengthUnit unit = LengthUnit::millimetre;
@@ -20,4 +20,4 @@ std::string name_of(LengthUnit unit);
 /// "mm", "cm", "m" or "in".
 LengthUnit unit_named(const std::string& name);
 
-}  // namespace ostium
+}  // namespace ostium::vascular

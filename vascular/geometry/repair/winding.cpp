@@ -6,7 +6,7 @@
 #include <numbers>
 #include <numeric>
 
-namespace ostium {
+namespace ostium::vascular {
 
 namespace {
 constexpr int leaf_size = 8;
@@ -82,4 +82,4 @@ double WindingNumber::at(const Eigen::Vector3d& p) const {
   return sum;
 }
 
-}  // namespace ostium
+}  // namespace ostium::vascular

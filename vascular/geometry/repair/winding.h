@@ -2,9 +2,9 @@
 /// How often a surface runs around a point: 1 inside a closed surface that faces outwards, 0 outside, 2 where two
 /// overlap, and something between near what is open (Jacobson et al., ACM TOG 2013;32:33). Far triangles are taken
 /// together as dipoles (Barill et al., ACM TOG 2018;37:43).
-#include "vascular/mesh.h"
+#include "vascular/geometry/mesh/mesh.h"
 
-namespace ostium {
+namespace ostium::vascular {
 
 class WindingNumber {
  public:
@@ -28,4 +28,4 @@ class WindingNumber {
   std::vector<Node> nodes_;
 };
 
-}  // namespace ostium
+}  // namespace ostium::vascular

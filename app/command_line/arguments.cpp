@@ -1,0 +1,62 @@
+#include "app/command_line/arguments.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <cstdio>
+
+#include "data/formats/load_error.h"
+
+namespace ostium::app {
+
+std::vector<std::string> split(const std::string& text, char at) {
+  std::vector<std::string> parts{""};
+  for (char c : text)
+    if (c == at)
+      parts.emplace_back();
+    else
+      parts.back() += c;
+  return parts;
+}
+
+std::pair<std::string, std::string> key_and_value(const std::string& text) {
+  const std::size_t equals = text.find('=');
+  if (equals == std::string::npos) return {};
+  return {text.substr(0, equals), text.substr(equals + 1)};
+}
+
+std::optional<Eigen::Vector3d> three_numbers(const std::string& text) {
+  double x, y, z;
+  char rest;
+  if (std::sscanf(text.c_str(), "%lf,%lf,%lf%c", &x, &y, &z, &rest) != 3) return std::nullopt;
+  return Eigen::Vector3d(x, y, z);
+}
+
+Eigen::Vector3d mesh_point(const std::string& text) {
+  if (const auto point = three_numbers(text)) return *point;
+  throw data::LoadError(
+      fmt::format("the point \"{}\" is not x,y,z; expected three numbers with commas, in the mesh's unit", text));
+}
+
+void require_ending(const std::string& file, const std::vector<std::string>& known) {
+  std::string list;
+  for (std::size_t i = 0; i < known.size(); ++i) {
+    if (file.ends_with(known[i])) return;
+    list += (i == 0 ? "" : i + 1 < known.size() ? ", " : " and ") + known[i];
+  }
+  throw data::LoadError(fmt::format("{}: what is it to be? {} {} known", file, list, known.size() == 1 ? "is" : "are"));
+}
+
+void require_finite(std::initializer_list<std::pair<const char*, double>> options) {
+  for (const auto& [name, value] : options)
+    if (!std::isfinite(value)) throw data::LoadError(std::string(name) + " is not a number");
+}
+
+void make_folder(const std::filesystem::path& folder) {
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error)
+    throw data::LoadError(fmt::format("{}: cannot be made ({}); expected a folder", folder.string(), error.message()));
+}
+
+}  // namespace ostium::app

@@ -1,0 +1,82 @@
+#include "app/command_line/command_line.h"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <cstdint>
+#include <exception>
+#include <optional>
+
+namespace ostium::app {
+
+Option Option::required() { return option_->required(), *this; }
+Option Option::show_default() { return option_->capture_default_str(), *this; }
+Option Option::type(const std::string& name) { return option_->type_name(name), *this; }
+Option Option::count(int values) { return option_->expected(values)->delimiter(','), *this; }
+Option Option::one_of(std::initializer_list<const char*> allowed) {
+  return option_->check(CLI::IsMember(std::vector<std::string>(allowed.begin(), allowed.end()))), *this;
+}
+Option Option::one_of(const std::vector<int>& allowed) { return option_->check(CLI::IsMember(allowed)), *this; }
+Option Option::range(double least, double most) { return option_->check(CLI::Range(least, most)), *this; }
+Option Option::range(int least, int most) { return option_->check(CLI::Range(least, most)), *this; }
+Option Option::not_negative() { return option_->check(CLI::NonNegativeNumber), *this; }
+Option Option::positive() { return option_->check(CLI::PositiveNumber), *this; }
+
+template <class Value>
+Option Options::add(const std::string& names, Value& value, const std::string& help) {
+  return Option(app_.add_option(names, value, help));
+}
+template Option Options::add(const std::string&, std::string&, const std::string&);
+template Option Options::add(const std::string&, int&, const std::string&);
+template Option Options::add(const std::string&, double&, const std::string&);
+template Option Options::add(const std::string&, std::uint64_t&, const std::string&);
+template Option Options::add(const std::string&, std::optional<double>&, const std::string&);
+template Option Options::add(const std::string&, std::vector<std::string>&, const std::string&);
+template Option Options::add(const std::string&, std::vector<double>&, const std::string&);
+
+void Options::flag(const std::string& names, bool& value, const std::string& help) {
+  app_.add_flag(names, value, help);
+}
+
+namespace {
+
+constexpr int done = 0, usage = 2, bad_input = 3;
+
+/// `chosen` becomes the command that the parsed line names.
+void declare(const Command& command, CLI::App& app, const Command*& chosen) {
+  Options options(app);
+  if (command.declare) command.declare(options);
+  for (const Command& sub : command.subcommands) {
+    CLI::App* sub_app = app.add_subcommand(sub.name, sub.help);
+    if (sub.run) sub_app->callback([&chosen, &sub] { chosen = &sub; });
+    declare(sub, *sub_app, chosen);
+  }
+  if (!command.subcommands.empty()) app.require_subcommand(command.run ? 0 : 1, 1);
+  std::string footer;
+  for (const std::string& example : command.examples) footer += (footer.empty() ? "Examples:\n  " : "\n  ") + example;
+  if (!footer.empty()) app.footer(footer);
+}
+
+}  // namespace
+
+int run_command_line(const Command& program, int argc, char** argv) {
+  CLI::App app(program.help, program.name);
+  app.set_version_flag("--version", OSTIUM_VERSION);
+  // Commands that are declared later and have no examples end with it too.
+  app.footer("Exit codes: 0 done, 1 failed or did not hold, 2 usage, 3 bad input.");
+  const Command* chosen = &program;
+  declare(program, app, chosen);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? done : usage;
+  }
+  try {
+    return chosen->run();
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "{}: {}\n", program.name, error.what());
+    return bad_input;
+  }
+}
+
+}  // namespace ostium::app

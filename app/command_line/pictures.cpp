@@ -1,0 +1,55 @@
+#include "app/command_line/pictures.h"
+
+#include <fmt/format.h>
+
+#include "data/formats/load_error.h"
+
+namespace ostium::app {
+
+void add_angle_options(Options& options, ViewArguments& arguments) {
+  options.add("--lao", arguments.lao_deg, "Instead of the view's angle, degrees; negative: RAO");
+  options.add("--cran", arguments.cran_deg, "Instead of the view's angle, degrees; negative: caudal");
+}
+
+void add_view_option(Options& options, std::string& view) {
+  options.add("--view", view, "Standard view, see `ostium views`; else the artery's usual one");
+}
+
+void add_pixels_option(Options& options, int& pixels, int smallest) {
+  std::vector<int> sizes{64, 128, 256, 512, 768, 1024};
+  std::erase_if(sizes, [&](int size) { return size < smallest; });
+  options.add("--pixels", pixels, "Along a side").one_of(sizes).show_default();
+}
+
+void add_cine_flag(Options& options, bool& cine) { options.flag("--cine", cine, "Cine dose instead of fluoroscopy"); }
+
+void add_frame_rate_option(Options& options, const std::string& name, double& frames_per_s) {
+  options.add(name, frames_per_s, "Frames a second: 3.75, 7.5, 15, 30").show_default();
+}
+
+void add_fill_option(Options& options, std::string& fill) {
+  options.add("--fill", fill, "Coronary full of contrast").one_of({"none", "left", "right"}).show_default();
+}
+
+fluoro::StandardView named_view(const std::string& name) {
+  if (const auto view = fluoro::find_view(name)) return *view;
+  throw data::LoadError("there is no view \"" + name + "\"; `ostium views` lists them");
+}
+
+Fill fill_named(const std::string& name) {
+  return name == "left" ? Fill::left : name == "right" ? Fill::right : Fill::none;
+}
+
+bool finish_film(std::optional<data::VideoWriter>& writer, const char* command) {
+  if (!writer || writer->finish()) return true;
+  fmt::print(stderr, "ostium {}: {}\n", command, writer->problem());
+  return false;
+}
+
+fluoro::Picture stacked(fluoro::Picture above, const fluoro::Picture& below) {
+  above.height += below.height;
+  above.grey.insert(above.grey.end(), below.grey.begin(), below.grey.end());
+  return above;
+}
+
+}  // namespace ostium::app

@@ -1,0 +1,29 @@
+#include "app/command_line/progress.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cstdio>
+
+namespace ostium::app {
+
+namespace {
+
+bool on_terminal() { return isatty(STDERR_FILENO); }
+
+}  // namespace
+
+void show_progress(const std::string& what) {
+  // The cursor stays at the beginning, so that whatever is printed next stands there.
+  if (on_terminal()) fmt::print(stderr, "\033[K{}\r", what);
+}
+
+void TimedProgress::operator()(const std::string& what) const {
+  const double s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+  const std::string line = fmt::format("{:5.1f} s  {}{}", s, of_, what);
+  show_progress(line);
+  if (!on_terminal() && s >= quiet_s_) fmt::print(stderr, "{}\n", line);
+  std::fflush(stderr);
+}
+
+}  // namespace ostium::app

@@ -1,0 +1,392 @@
+#include "app/session/model/session.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <numbers>
+#include <random>
+
+#include "app/session/coupling/device_constraints.h"
+#include "core/rod/initial_state.h"
+#include "core/rod/introducer.h"
+#include "data/formats/load_error.h"
+#include "vascular/motion/heart_cycle.h"
+#include "vascular/treatment/stent_shape.h"
+
+namespace ostium::app {
+
+using Eigen::Vector3d;
+
+namespace {
+
+constexpr double wire_friction = 0.05;  // of a wire in a catheter: PTFE on steel, an estimate
+constexpr double tip_length_m = 0.01;   // what counts as the tip for its force
+
+/// 1 mm over the last 150 mm, growing to 4 mm.
+std::vector<double> element_lengths(double length_m) {
+  std::vector<double> from_tip;
+  double sum = 0, length = 1e-3;
+  while (sum < length_m - 1e-9) {
+    if (sum > 0.15) length = std::min(4e-3, 1.02 * length);
+    from_tip.push_back(std::min(length, length_m - sum));
+    sum += from_tip.back();
+  }
+  if (from_tip.size() > 1 && from_tip.back() < 0.5e-3)
+    from_tip[from_tip.size() - 2] += from_tip.back(), from_tip.pop_back();
+  return {from_tip.rbegin(), from_tip.rend()};
+}
+
+core::Rod rod_of(const data::Instrument& instrument) {
+  core::RodDescription d = rod_description(instrument, element_lengths(instrument.length_m));
+  d.damping = {0.007, 0.0035, 1e-3};  // blood, and a polymer's (section.h)
+  return make_rod(d);
+}
+
+bool has_lumen(const data::Instrument& instrument) { return instrument.inner_diameter_m > 0; }
+
+/// Every pair of which one goes through the other's lumen.
+std::vector<core::Nesting> nestings_of(const std::vector<SessionTool>& tools) {
+  std::vector<core::Nesting> nestings;
+  for (int inner = 1; inner < static_cast<int>(tools.size()); ++inner)
+    for (int outer = 0; outer < inner; ++outer) {
+      const data::Instrument &a = tools[outer].instrument, &b = tools[inner].instrument;
+      if (!has_lumen(a) || !fits_inside(b, a)) continue;
+      core::Nesting nesting{.outer = outer, .inner = inner, .friction = wire_friction};
+      if (a.wire_lumen && a.wire_lumen->rapid_exchange) nesting.lumen_m = a.wire_lumen->length_m;
+      nestings.push_back(nesting);
+    }
+  return nestings;
+}
+
+void require_order(const std::vector<SessionTool>& tools) {
+  for (std::size_t i = 0; i < tools.size(); ++i)
+    for (std::size_t j = i + 1; j < tools.size(); ++j)
+      if (has_lumen(tools[j].instrument) && fits_inside(tools[i].instrument, tools[j].instrument))
+        throw data::LoadError(fmt::format("{} ({}) goes inside {} ({}): list the outer tool first", tools[i].name,
+                                          tools[i].instrument.name, tools[j].name, tools[j].instrument.name));
+}
+
+}  // namespace
+
+SessionModel make_session(std::shared_ptr<const Vessel> vessel, std::vector<SessionTool> tools, std::uint64_t seed) {
+  require_order(tools);
+  SessionModel model;
+  model.vessel = std::move(vessel);
+  model.tools = std::move(tools);
+  model.entry = model.vessel->entry;
+  if (model.has_patient()) {
+    model.physiology = model.vessel->coronaries->physiology;
+    model.treatment = model.vessel->coronaries->treatment;
+    model.treatment.injury.seed = seed;
+    model.balloon_of = add_devices(model.tools, seed, model.treatment);
+  } else {
+    model.balloon_of.assign(model.tools.size(), -1);
+  }
+  model.physiology.ischaemia = vascular::ischaemia_of(seed);
+  model.physiology.heart.seed = seed;
+  for (const SessionTool& tool : model.tools) model.rods.rods.push_back(rod_of(tool.instrument));
+  model.rods.nestings = nestings_of(model.tools);
+  model.rods.surfaces = {model.vessel->surface};
+  try {
+    check(model.rods);
+  } catch (const std::invalid_argument& error) {
+    throw data::LoadError(fmt::format("these tools cannot be used together: {}", error.what()));
+  }
+  return model;
+}
+
+int in_the_way(const SessionModel& model, const core::State& rods, int tool) {
+  const auto nested = [&](int outer, int inner) {
+    return std::any_of(model.rods.nestings.begin(), model.rods.nestings.end(),
+                       [&](const core::Nesting& n) { return n.outer == outer && n.inner == inner; });
+  };
+  for (int other = 0; other < static_cast<int>(model.tools.size()); ++other)
+    if (other != tool &&
+        in_body(model.rods.rods[static_cast<std::size_t>(other)], rods.rods[static_cast<std::size_t>(other)]) &&
+        !nested(std::min(tool, other), std::max(tool, other)))
+      return other;
+  return -1;
+}
+
+// --- lists -----------------------------------------------------------------------------------------------------------
+
+namespace {
+
+SessionInputs inputs_for(const SessionModel& model) {
+  SessionInputs inputs;
+  inputs.tools.resize(model.tools.size());
+  return inputs;
+}
+
+}  // namespace
+
+std::size_t input_count(const SessionModel& model) { return core::count_fields(inputs_for(model)); }
+
+std::vector<std::string> input_names(const SessionModel& model) {
+  const SessionInputs inputs = inputs_for(model);
+  std::vector<std::string> names;
+  core::for_each_number(inputs, [&](const core::FieldPath& path, auto numbers) {
+    const int tool = path.outer->index;
+    const std::string owner = tool < 0 ? "" : model.tools[static_cast<std::size_t>(tool)].name + ".";
+    for (std::size_t i = 0; i < numbers.size(); ++i)
+      names.push_back(owner + path.name + (numbers.size() > 1 ? fmt::format("[{}]", i) : ""));
+  });
+  return names;
+}
+
+void put_inputs(const SessionInputs& inputs, double* row) { core::put_fields(inputs, row); }
+void take_inputs(const double* row, SessionInputs& inputs) { core::take_fields(row, inputs); }
+
+std::uint64_t hash(const SessionState& state) {
+  std::uint64_t h = hash(state.rods);
+  core::for_each_field(state, [&](const char*, const auto& part) {
+    // Rods have a hash of their own, which leaves out what is outside.
+    if constexpr (!std::is_same_v<std::decay_t<decltype(part)>, core::State>) h = core::hash_fields(part, h);
+  });
+  return h;
+}
+
+std::size_t state_count(const SessionModel& model) { return core::count_fields(make_state(model, 0)); }
+void put_state(const SessionState& state, double* row) { core::put_fields(state, row); }
+void take_state(const double* row, SessionState& state) { core::take_fields(row, state); }
+
+std::string first_difference(const SessionModel& model, const SessionState& a, const SessionState& b) {
+  std::string found = first_difference(a.rods, b.rods);
+  if (found.empty()) return core::first_different_field(a, b);
+  if (found.rfind("rod ", 0) == 0) {
+    const std::size_t comma = found.find(',');
+    found.insert(comma, " (" + model.tools[static_cast<std::size_t>(std::stoi(found.substr(4)))].name + ")");
+  }
+  return found;
+}
+
+// --- beginning -------------------------------------------------------------------------------------------------------
+
+SessionState make_state(const SessionModel& model, std::uint64_t seed) {
+  std::mt19937_64 random(seed);
+  const auto uniform = [&] { return static_cast<double>(random() >> 11) * 0x1p-53; };
+  std::vector<core::EndState> bases;
+  for (std::size_t r = 0; r < model.tools.size(); ++r) {
+    core::EndState base = model.entry;
+    if (seed) {
+      const Eigen::Quaterniond q(base.q_W[0], base.q_W[1], base.q_W[2], base.q_W[3]);
+      const Eigen::Quaterniond rolled = q * Eigen::AngleAxisd(2 * std::numbers::pi * uniform(), Vector3d::UnitZ());
+      base.q_W = {rolled.w(), rolled.x(), rolled.y(), rolled.z()};
+    }
+    bases.push_back(base);
+  }
+  SessionState state;
+  state.rods = make_state_at_rest_shape(model.rods, bases, std::vector<double>(model.tools.size(), 0));
+  state.hands.resize(model.tools.size());
+  const double begins_at = seed && model.vessel->beats() ? uniform() : 0;
+  if (!model.has_patient()) {
+    state.blood.heart.phase = begins_at;
+    return state;
+  }
+  state.blood = model.vessel->coronaries->at_rest;
+  state.treatment = make_state(model.treatment, model.physiology.flow.tree);
+  state.coupling = make_coupling(*model.vessel);
+  for (const vascular::FlowCell& cell : model.physiology.flow.tree.cells) state.wall_m.push_back(cell.diseased_m);
+  vascular::PhysiologyScratch scratch;
+  vascular::PhysiologyInputs inputs;
+  inputs.heart.rate_1_min = model.vessel->rate_1_min;
+  while (state.blood.heart.phase < begins_at) step(model.physiology, inputs, model.step_s(), state.blood, scratch);
+  state.blood.heart.time_s = 0, state.blood.heart.beats = 0;
+  return state;
+}
+
+// --- a step ----------------------------------------------------------------------------------------------------------
+
+SessionScratch::SessionScratch(const SessionModel& model) : now(model.rods), rods(model.rods) {
+  inputs.rods.resize(model.tools.size());
+  inputs.surfaces.resize(1);
+  if (!model.has_patient()) return;
+  const auto own_wall = std::make_shared<core::Surface>(*now.surfaces[0]);
+  now.surfaces = {own_wall};
+  wall.emplace(*model.vessel, *own_wall);
+  coupling.emplace(*model.vessel);
+  physiology_inputs.occupied_m.reserve(model.physiology.flow.tree.cells.size());
+}
+
+namespace {
+
+double breath_after(const SessionModel& model, std::uint64_t steps) {
+  if (!(model.breaths_1_min > 0)) return 0;
+  return vascular::breath_depth(model.breaths_1_min / 60 * model.step_s() * static_cast<double>(steps));
+}
+
+}  // namespace
+
+double breath(const SessionModel& model, const SessionState& state) { return breath_after(model, state.rods.step); }
+
+double vessel_frame(const Vessel& vessel, double phase) {
+  return vessel.beats() ? phase * static_cast<double>(vessel.wall.frames.size()) : 0;
+}
+
+namespace {
+
+/// Heart and breath go on, and the wall with them. True: an R wave.
+bool beat(const SessionModel& model, const SessionInputs& inputs, SessionState& state, core::SurfaceMotion& motion) {
+  vascular::HeartState& heart = state.blood.heart;
+  const int beats = heart.beats;
+  motion.frame_before = vessel_frame(*model.vessel, heart.phase);
+  motion.sway_before = breath_after(model, state.rods.step);
+  motion.sway_after = breath_after(model, state.rods.step + 1);
+  step(model.physiology.heart,
+       {inputs.rate_1_min, state.coupling.irritation,
+        model.treatment.drugs.nitrate_lowers * state.treatment.drugs.nitrate},
+       model.step_s(), heart);
+  motion.door_open = vascular::valve_is_open(heart.phase) || state.coupling.through_valve;
+  motion.frame_after = vessel_frame(*model.vessel, heart.phase + (heart.beats - beats));
+  return heart.beats > beats;
+}
+
+/// A hand's tool cannot enter beside one that it is not nested with, nor pass a stent that is not open.
+ToolInputs allowed(const SessionModel& model, const SessionState& state, int tool, const ToolInputs& hand,
+                   SessionReport& report) {
+  ToolInputs out = hand;
+  if (!(hand.feed_m_s > 0)) return out;
+  const auto t = static_cast<std::size_t>(tool);
+  if (!in_body(model.rods.rods[t], state.rods.rods[t]))
+    if (const int other = in_the_way(model, state.rods, tool); other >= 0)
+      out = {}, report.refused = tool, report.in_its_way = other;
+  if (state.coupling.blocked && model.balloon_of[t] >= 0) out.feed_m_s = 0;
+  return out;
+}
+
+void move_hands(const SessionModel& model, const SessionInputs& inputs, SessionState& state, SessionReport& report,
+                core::Inputs& core) {
+  report.refused = report.in_its_way = -1;
+  for (std::size_t t = 0; t < model.tools.size(); ++t) {
+    const ToolInputs hand = allowed(model, state, static_cast<int>(t), inputs.tools[t], report);
+    core.rods[t].feed_m_s = hand.feed_m_s;
+    core.rods[t].base.turn_rate_W_rad_s = hand.turn_rad_s * axis(state.rods.rods[t].base);
+    HandState& sum = state.hands[t];
+    const double dt = model.step_s();
+    sum.fed_m += dt * hand.feed_m_s, sum.path_m += dt * std::fabs(hand.feed_m_s);
+    sum.turned_rad += dt * hand.turn_rad_s, sum.turn_path_rad += dt * std::fabs(hand.turn_rad_s);
+  }
+}
+
+CouplingModel coupling_of(const SessionModel& model) {
+  return {*model.vessel, model.tools, model.rods, model.physiology, model.treatment, model.balloon_of};
+}
+
+/// When the step ends that is being made.
+Moment moment(const SessionModel& model, const SessionState& state, std::uint64_t steps) {
+  return {state.blood.heart.phase, breath_after(model, steps)};
+}
+
+void hold_shafts(const SessionModel& model, const SessionState& state, core::Inputs& core) {
+  const CouplingModel coupling = coupling_of(model);
+  const Moment end = moment(model, state, state.rods.step + 1);
+  for (std::size_t t = 0; t < model.tools.size(); ++t) {
+    const int tool = static_cast<int>(t);
+    core.rods[t].load = load_on_shaft(coupling, state.rods, state.coupling, tool);
+    core.rods[t].tether = tether_on_shaft(coupling, state.treatment, state.coupling, tool, end);
+  }
+}
+
+/// A stent that was left in the wall rides with it from now on. Once a stent; the one place of a step that allocates.
+void tie(const SessionModel& model, int stent, SessionState& state) {
+  vascular::StentState& own = state.treatment.stents[static_cast<std::size_t>(stent)];
+  if (own.branch < 0) return;
+  const Coronaries& c = *model.vessel->coronaries;
+  tie_to_wall(model.treatment.stents[static_cast<std::size_t>(stent)], *c.patient, *c.shape, c.map,
+              model.treatment.paths[static_cast<std::size_t>(own.branch)], state.treatment.wall,
+              state.blood.heart.phase, own);
+}
+
+/// Balloon and stent, then blood and contrast, by where the rods are now.
+void treat(const SessionModel& model, const SessionInputs& inputs, bool R_wave, SessionState& state, SessionScratch& x,
+           SessionReport& report) {
+  const CouplingModel coupling = coupling_of(model);
+  if (state.rods.step % look_every == 0)
+    look(coupling, state.rods, state.treatment, report.rods, state.blood.heart.phase, breath(model, state), *x.coupling,
+         state.coupling);
+  press_with_wire(coupling, report.rods, model.step_s(), state.coupling);
+  report.treatment =
+      step(model.treatment, treatment_inputs(inputs.delivery, state.coupling), model.step_s(), state.treatment,
+           {model.physiology.flow.tree, state.blood, x.physiology_inputs.occupied_m}, x.treatment);
+  state.coupling.blocked = report.treatment.blocked;
+  if (report.treatment.deployed >= 0) tie(model, report.treatment.deployed, state);
+  hold_balloon(coupling, state.rods, report.treatment.balloon, moment(model, state, state.rods.step), state.coupling);
+  set_physiology_inputs(coupling, inputs.delivery, state.coupling, x.physiology_inputs);
+  x.physiology_inputs.hyperaemia = state.treatment.drugs.adenosine;
+  const bool blood_moves = state.blood.circulation_s + model.step_s() >= vascular::circulation_step_s * (1 - 1e-9);
+  const vascular::ContrastReport contrast =
+      circulate(model.physiology, x.physiology_inputs, model.step_s(), R_wave, state.blood, x.physiology);
+  if (blood_moves) report.contrast = contrast;
+  follow_lumen(model.physiology.flow.tree, state.blood.radius_m, state.coupling.wall_cursor, state.wall_m);
+}
+
+void count_xrays(const CArmInputs& in, double step_s, CArmState& state) {
+  const bool cine = in.cine, fluoroscopy = in.fluoroscopy && !cine;
+  state.fluoroscopy_s += fluoroscopy ? step_s : 0;
+  state.cine_s += cine ? step_s : 0;
+  if (cine && !state.cine) state.cine_runs += 1;
+  state.fluoroscopy = in.fluoroscopy, state.cine = in.cine;
+}
+
+void report_tools(const SessionModel& model, const SessionState& state, SessionReport& report) {
+  report.tools.assign(model.tools.size(), {});
+  for (std::size_t t = 0; t < model.tools.size(); ++t) {
+    ToolReport& tool = report.tools[t];
+    tool.push_N = report.rods.rods[t].push_N, tool.torque_Nm = report.rods.rods[t].torque_Nm;
+    tool.in_body = in_body(model.rods.rods[t], state.rods.rods[t]);
+  }
+  for (const core::Touch& touch : report.rods.touches) {
+    ToolReport& tool = report.tools[static_cast<std::size_t>(touch.rod)];
+    const double force = touch.normal_W_N.norm();
+    tool.wall_force_N += force;
+    ++tool.touches;
+    if (model.rods.rods[static_cast<std::size_t>(touch.rod)].node_from_tip_m[static_cast<std::size_t>(touch.node)] <=
+        tip_length_m)
+      tool.tip_force_N += force;
+  }
+}
+
+}  // namespace
+
+void step(const SessionModel& model, const SessionInputs& inputs, SessionState& state, SessionScratch& scratch,
+          SessionReport& report) {
+  assert(inputs.tools.size() == model.tools.size());
+  const bool R_wave = beat(model, inputs, state, scratch.inputs.surfaces[0]);
+  if (scratch.wall) scratch.wall->set(state.wall_m);
+  move_hands(model, inputs, state, report, scratch.inputs);
+  if (model.has_patient()) hold_shafts(model, state, scratch.inputs);
+  step(scratch.now, scratch.inputs, state.rods, scratch.rods, report.rods);
+  count_xrays(inputs.c_arm, model.step_s(), state.c_arm);
+  report_tools(model, state, report);
+  if (model.has_patient()) treat(model, inputs, R_wave, state, scratch, report);
+}
+
+double waist(const vascular::BalloonModel& model, const vascular::BalloonState& state) {
+  double least = 1, most = 0;
+  for (int i = 0; i < vascular::balloon_spheres; ++i)
+    if (sphere_share(model, i) == 1)
+      least = std::min(least, state.radius_m[i]), most = std::max(most, state.radius_m[i]);
+  return most > 0 ? least / most : 1;
+}
+
+double seconds(const SessionModel& model, const SessionState& state) {
+  return model.step_s() * static_cast<double>(state.rods.step);
+}
+
+Vector3d tip(const SessionModel& model, const SessionState& state, int tool) {
+  const core::Rod& rod = model.rods.rods[static_cast<std::size_t>(tool)];
+  const core::RodState& s = state.rods.rods[static_cast<std::size_t>(tool)];
+  return in_body(rod, s) ? Vector3d(s.position[rod.elements]) : Vector3d(s.base.p_W);
+}
+
+Vector3d tip_direction(const SessionModel& model, const SessionState& state, int tool) {
+  const core::Rod& rod = model.rods.rods[static_cast<std::size_t>(tool)];
+  const core::RodState& s = state.rods.rods[static_cast<std::size_t>(tool)];
+  if (!in_body(rod, s)) return axis(s.base);
+  return (s.position[rod.elements] - s.position[rod.elements - 1]).normalized();
+}
+
+}  // namespace ostium::app

@@ -1,0 +1,180 @@
+#pragma once
+/// A session: everything that a simulation consists of, put together, and one step of it.
+///
+/// Four kinds of memory, as in core. Adding one more part (contrast, a balloon, signals): its const part in
+/// SessionModel, what it asks of the hand in SessionInputs, its state in SessionState, both with a line in the list of
+/// fields beside them (core/base/fields.h), and its call in `step`. Recording, replay, hash and comparison follow from
+/// the lists.
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/session/coupling/coupling.h"
+#include "app/session/vessel/opened_wall.h"
+#include "core/step/step.h"
+#include "fluoro/projection/c_arm.h"
+
+namespace ostium::app {
+
+/// Const after it is made; one vessel may be shared by many.
+struct SessionModel {
+  std::shared_ptr<const Vessel> vessel;
+  std::vector<SessionTool> tools;  ///< the outermost first; tool i is rod i
+  core::Model rods;
+  core::EndState entry;                  ///< the introducer
+  vascular::PhysiologyModel physiology;  ///< of a mesh, the heart alone
+  vascular::TreatmentModel treatment;    ///< with the balloons and stents that the tools carry; of a mesh, empty
+  std::vector<int> balloon_of;           ///< (#tools) of treatment.balloons, or -1
+  double breaths_1_min = 0;              ///< of the patient; 0: the breath is held, breathed out
+  double step_s() const { return rods.step_s; }
+  bool has_patient() const { return vessel->coronaries != nullptr; }
+};
+
+/// Tools are nested wherever one goes through the other's lumen. Two of which neither does (two balloons for one wire)
+/// are alternatives: one of them is in the body at a time. `seed`: of the person's answers and of chance. Throws
+/// LoadError naming tools that are in the wrong order, or devices that a mesh has no arteries for.
+SessionModel make_session(std::shared_ptr<const Vessel> vessel, std::vector<SessionTool> tools, std::uint64_t seed = 0);
+/// The first tool in the body that `tool` cannot be beside, or -1.
+int in_the_way(const SessionModel& model, const core::State& rods, int tool);
+
+// --- the only door in ------------------------------------------------------------------------------------------------
+
+struct ToolInputs {
+  double feed_m_s = 0;
+  double turn_rad_s = 0;  ///< clockwise as seen from the hub
+};
+constexpr auto fields(const ToolInputs*) {
+  return std::tuple{core::field("advance_m_s", &ToolInputs::feed_m_s), core::field("turn_rad_s", &ToolInputs::turn_rad_s)};
+}
+
+struct CArmInputs {
+  double lao_rad = 0, cran_rad = 0;
+  double field_m = 0.2;
+  Eigen::Vector3d p_PI = Eigen::Vector3d::Zero();  ///< the isocentre in the patient
+  bool fluoroscopy = false, cine = false;          ///< pedals that are down
+};
+constexpr auto fields(const CArmInputs*) {
+  using S = CArmInputs;
+  return std::tuple{core::field("lao_rad", &S::lao_rad),         core::field("cran_rad", &S::cran_rad),
+                    core::field("field_m", &S::field_m),         core::field("isocentre_m", &S::p_PI),
+                    core::field("fluoroscopy", &S::fluoroscopy), core::field("cine", &S::cine)};
+}
+
+struct SessionInputs {
+  std::vector<ToolInputs> tools;
+  CArmInputs c_arm;
+  double rate_1_min = 70;  ///< of the heart
+  DeliveryInputs delivery;
+};
+constexpr auto fields(const SessionInputs*) {
+  return std::tuple{core::field("tools", &SessionInputs::tools), core::field("c_arm", &SessionInputs::c_arm),
+                    core::field("heart_rate_1_min", &SessionInputs::rate_1_min), core::field("bedside", &SessionInputs::delivery)};
+}
+
+std::size_t input_count(const SessionModel& model);
+std::vector<std::string> input_names(const SessionModel& model);  ///< "wire.advance_m_s"
+void put_inputs(const SessionInputs& inputs, double* row);
+void take_inputs(const double* row, SessionInputs& inputs);
+
+// --- all that is needed to go on bit-identically ---------------------------------------------------------------------
+
+struct HandState {
+  double fed_m = 0, turned_rad = 0;      ///< sums of what the hand did
+  double path_m = 0, turn_path_rad = 0;  ///< the same without sign
+};
+constexpr auto fields(const HandState*) {
+  return std::tuple{core::field("fed_m", &HandState::fed_m), core::field("turned_rad", &HandState::turned_rad),
+                    core::field("path_m", &HandState::path_m), core::field("turn_path_rad", &HandState::turn_path_rad)};
+}
+
+struct CArmState {
+  double fluoroscopy_s = 0, cine_s = 0;
+  int cine_runs = 0;
+  bool fluoroscopy = false, cine = false;  ///< pedals of the last step
+};
+constexpr auto fields(const CArmState*) {
+  using S = CArmState;
+  return std::tuple{core::field("fluoroscopy_s", &S::fluoroscopy_s), core::field("cine_s", &S::cine_s),
+                    core::field("cine_runs", &S::cine_runs), core::field("fluoroscopy", &S::fluoroscopy), core::field("cine", &S::cine)};
+}
+
+struct SessionState {
+  core::State rods;
+  std::vector<HandState> hands;  ///< one a tool
+  CArmState c_arm;
+  vascular::PhysiologyState blood;  ///< its heart is the one owner of the beat; of a mesh, the heart alone
+  vascular::TreatmentState treatment;
+  CouplingState coupling;
+  std::vector<double> wall_m;  ///< (#cells) radius of the wall that contact has (opened_wall.h)
+};
+constexpr auto fields(const SessionState*) {
+  using S = SessionState;
+  return std::tuple{core::field("rods", &S::rods),    core::field("hands", &S::hands),         core::field("c_arm", &S::c_arm),
+                    core::field("blood", &S::blood),  core::field("treatment", &S::treatment), core::field("bedside", &S::coupling),
+                    core::field("wall_m", &S::wall_m)};
+}
+
+/// How a session begins: a circulation at rest. Seed 0: the heart at its R wave, tools as they come out of their
+/// packing; others draw both.
+SessionState make_state(const SessionModel& model, std::uint64_t seed);
+
+std::uint64_t hash(const SessionState& state);
+std::size_t state_count(const SessionModel& model);
+/// `row` has state_count numbers. Do not allocate.
+void put_state(const SessionState& state, double* row);
+void take_state(const double* row, SessionState& state);
+/// "rod 0 (wire), velocity[12]: 0.1 != 0.2", "hands[0].fed_m: 0.1 != 0.2", or empty if they are bit-identical.
+std::string first_difference(const SessionModel& model, const SessionState& a, const SessionState& b);
+
+// --- a step ----------------------------------------------------------------------------------------------------------
+
+struct SessionScratch {
+  explicit SessionScratch(const SessionModel& model);
+  SessionScratch(const SessionScratch&) = delete;
+  core::Model now;  ///< model.rods, with the wall as it is now
+  core::Scratch rods;
+  core::Inputs inputs;  ///< of core
+  // Of a patient.
+  std::optional<OpenedWall> wall;
+  std::optional<CouplingScratch> coupling;
+  vascular::PhysiologyInputs physiology_inputs;
+  vascular::PhysiologyScratch physiology;
+  vascular::TreatmentScratch treatment;
+};
+
+/// What a tool meets: what an operator could read off instruments.
+struct ToolReport {
+  double push_N = 0, torque_Nm = 0;          ///< at the hand
+  double wall_force_N = 0, tip_force_N = 0;  ///< sum of the walls' normal forces; on its last 10 mm
+  int touches = 0;
+  bool in_body = false;
+};
+
+struct SessionReport {
+  core::StepReport rods;
+  std::vector<ToolReport> tools;  ///< sized at the first step
+  vascular::TreatmentReport treatment;
+  vascular::ContrastReport contrast;  ///< of the last time that blood moved
+  int refused = -1;                   ///< a tool that was fed but may not enter, since
+  int in_its_way = -1;                ///< this one is in the body
+};
+
+/// Advances `state` by model.step_s(). Never throws; does not allocate after the first call with the same report.
+void step(const SessionModel& model, const SessionInputs& inputs, SessionState& state, SessionScratch& scratch,
+          SessionReport& report);
+
+double seconds(const SessionModel& model, const SessionState& state);
+/// Its distal end, m, and where it points; the introducer's while it is not in the body.
+Eigen::Vector3d tip(const SessionModel& model, const SessionState& state, int tool);
+Eigen::Vector3d tip_direction(const SessionModel& model, const SessionState& state, int tool);
+/// Between the markers, of a balloon: narrowest over widest.
+double waist(const vascular::BalloonModel& model, const vascular::BalloonState& state);
+
+/// How deep the patient's breath is as a step ends (0: breathed out, 1: at its top): a function of time alone.
+double breath(const SessionModel& model, const SessionState& state);
+
+/// The vessel's frame that belongs to a phase, for SurfaceDescription.
+double vessel_frame(const Vessel& vessel, double phase);
+
+}  // namespace ostium::app

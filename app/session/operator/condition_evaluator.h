@@ -1,0 +1,51 @@
+#pragma once
+/// Whether the conditions of a script hold, by what an operator sees of a session.
+#include <optional>
+#include <vector>
+
+#include "app/session/operator/operator.h"
+
+namespace ostium::app {
+
+class ConditionEvaluator {
+ public:
+  ConditionEvaluator(const ScriptPlan& plan, const SessionModel& model, const SessionState& session,
+                     const SessionReport& report, const OperatorState& state)
+      : plan(plan), model(model), session(session), report(report), state(state) {}
+
+  const ScriptPlan& plan;
+  const SessionModel& model;
+  const SessionState& session;
+  const SessionReport& report;
+  const OperatorState& state;
+
+  /// `place`: of the condition, as the plan has it.
+  bool holds(const data::ScriptCondition& condition, int place) const;
+  /// Which of them, or -1; `at` are their places.
+  int first_that_holds(const std::vector<data::ScriptCondition>& conditions, const std::vector<int>& at) const;
+
+  // What conditions look at.
+  double now_s() const;
+  ToolReport tool(int tool) const;  ///< as reported; of a session that has not begun, none
+  double fed_m(int tool) const;     ///< since the step began
+  double turned_rad(int tool) const;
+  bool tip_is_beyond(int tool, int place) const;
+  double astray_m(int tool, int place) const;
+  bool faces(int tool, int branch, double cosine) const;
+  double dropped_m(int tool) const;
+  bool comes_in(int tool) const;
+  const vascular::BalloonModel* balloon() const;  ///< in the body, or null
+  std::optional<double> balloon_at_rest_m(int lesion) const;
+  bool balloon_is_at(double offset_m, int lesion) const;
+  bool balloon_is_within(double most_m, int lesion) const;
+  bool balloon_is_out_of_guide(double by_m) const;
+  bool guide_is_in(int branch) const;
+  bool contrast_is_seen(int cell) const;
+
+ private:
+  int tip_sphere(int tool) const;
+  /// Several conditions of a step ask for the same tip.
+  mutable int located_tool_ = -1, located_sphere_ = -1;
+};
+
+}  // namespace ostium::app

@@ -1,0 +1,318 @@
+#include "app/session/operator/operator.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+#include <stdexcept>
+
+#include "app/session/operator/condition_evaluator.h"
+#include "app/session/operator/operator_actions.h"
+#include "data/assessment/metrics.h"
+
+namespace ostium::app {
+
+using Eigen::Vector3d;
+
+namespace {
+
+/// The flow tree's cell nearest to a sphere of the way, or -1.
+int cell_at(const Coronaries& c, const VesselIndex& way, int sphere) {
+  const Eigen::Vector3d p = way.p(sphere, 0);
+  int best = -1;
+  double least = 4e-3;
+  for (std::size_t cell = 0; cell < c.tree().cells.size(); ++cell)
+    if (const double d = (c.map.coronary.position(cell, 0) - p).norm(); d < least)
+      least = d, best = static_cast<int>(cell);
+  return best;
+}
+
+/// Refuses a condition about what this session does not have.
+void require_subject(const data::ScriptCondition& c, const SessionModel& model) {
+  if (needs_patient(c.kind) && !model.has_patient())
+    refuse(c, c.words + ": a mesh has no circulation; expected a case");
+  if (!is_about_a_lesion(c.kind)) return;
+  if (const std::size_t n = model.vessel->coronaries->lesions.size(); static_cast<std::size_t>(c.lesion) >= n)
+    refuse(c, n == 0 ? c.words + ": this patient has no lesion"
+                     : fmt::format("{}: this patient's lesions are {}", c.words, n));
+}
+
+[[noreturn]] void refuse_place(const data::Script& script, const data::ScriptCondition& c, const VesselIndex& way) {
+  std::string known;
+  for (const std::string& name : way.places()) known += (known.empty() ? "" : ", ") + name;
+  for (const data::ScriptLandmark& landmark : script.landmarks) known += ", " + landmark.name;
+  refuse(c, fmt::format("there is no place \"{}\" in this vessel; expected one of: {}; or with millimetres beyond a "
+                        "branch's origin, as RCA+20",
+                        c.place, known));
+}
+
+/// A place of the script's own, or one of the vessel's; -1: there is none.
+int place_called(const data::Script& script, const std::string& name, const VesselIndex& way) {
+  int place = -1;
+  for (const data::ScriptLandmark& landmark : script.landmarks)
+    if (landmark.name == name) place = way.nearest(landmark.p_P);
+  return place < 0 ? way.place(name) : place;
+}
+
+/// What a condition's place is in this session: a sphere of the vessel's, a branch, a cell of the flow, a trace; -1:
+/// none.
+int place_of(const data::Script& script, const data::ScriptCondition& c, const SessionModel& model) {
+  const VesselIndex& way = *model.vessel->way;
+  const vascular::FlowTree& tree = model.physiology.flow.tree;
+  int place = -1;
+  switch (row_of(c.kind).value) {
+    case data::ConditionValue::pressure_trace:
+      for (int t = 0; t < 5; ++t)
+        if (trace_name(static_cast<vascular::Trace>(t)) == c.place) place = t;
+      return place;
+    case data::ConditionValue::ostium:
+      place = tree.branch(c.place);
+      if (place < 0 || tree.branches[static_cast<std::size_t>(place)].parent >= 0)
+        refuse(c, c.words + ": expected an artery that leaves the aorta, LM or RCA");
+      return place;
+    case data::ConditionValue::branch:
+      place = way.entry(c.place);
+      break;
+    case data::ConditionValue::place:
+    case data::ConditionValue::contrast:
+      place = place_called(script, c.place, way);
+      break;
+    default:
+      return -1;
+  }
+  if (place < 0 && !c.if_there) refuse_place(script, c, way);
+  if (row_of(c.kind).value != data::ConditionValue::contrast) return place;
+  const int cell = cell_at(*model.vessel->coronaries, way, place);
+  if (cell < 0) refuse(c, c.words + ": contrast is looked for in coronary arteries alone");
+  return cell;
+}
+
+std::vector<int> places(const data::Script& script, const std::vector<data::ScriptCondition>& conditions,
+                        const SessionModel& model) {
+  std::vector<int> out;
+  for (const data::ScriptCondition& c : conditions) {
+    require_subject(c, model);
+    out.push_back(place_of(script, c, model));
+  }
+  return out;
+}
+
+/// A hand's own speed in a step: log-normal, 15 %.
+double hand_factor(std::uint64_t seed, int step) {
+  if (seed == 0) return 1;
+  std::mt19937_64 random(seed * 1000003 + static_cast<std::uint64_t>(step));
+  const auto uniform = [&] { return (static_cast<double>(random() >> 11) + 0.5) * 0x1p-53; };
+  const double u = uniform(), v = uniform();
+  return std::exp(0.15 * std::sqrt(-2 * std::log(u)) * std::cos(2 * EIGEN_PI * v));
+}
+
+void forget_tips(OperatorState& state) { std::fill(state.tips.begin(), state.tips.end(), std::nan("")); }
+
+void note_tips(const SessionModel& model, const SessionState& session, OperatorState& state) {
+  const double now = seconds(model, session);
+  if (now < state.next_s - 1e-9) return;
+  state.next_s = now + note_every_s;
+  for (int t = 0; t < static_cast<int>(model.tools.size()); ++t) {
+    double* notes = &state.tips[static_cast<std::size_t>(4 * noted_tips * t)];
+    std::copy(notes + 4, notes + 4 * noted_tips, notes);
+    double* last = notes + 4 * (noted_tips - 1);
+    const Vector3d p = tip(model, session, t);
+    last[0] = p.x(), last[1] = p.y(), last[2] = p.z(), last[3] = session.hands[static_cast<std::size_t>(t)].fed_m;
+  }
+}
+
+/// A hand does not feel what lasts a millisecond, nor forces of a step that had to give way: they are no real rod's.
+void feel(const SessionModel& model, const SessionReport& report, OperatorState& state) {
+  if (report.rods.trouble & (core::not_converged | core::motion_lost | core::no_solution | core::pulled_apart)) return;
+  const double share = 1 - std::exp(-2 * EIGEN_PI * data::wall_force_cut_off_Hz * model.step_s());
+  for (std::size_t t = 0; t < report.tools.size(); ++t) {
+    const ToolReport& tool = report.tools[t];
+    const double now[] = {tool.push_N, tool.torque_Nm, tool.wall_force_N, tool.tip_force_N};
+    for (std::size_t k = 0; k < 4; ++k) state.felt[4 * t + k] += share * (now[k] - state.felt[4 * t + k]);
+  }
+}
+
+void begin(const data::ScriptStep& step, const SessionModel& model, const SessionState& session, OperatorState& state) {
+  state.began = false;
+  state.began_s = seconds(model, session);
+  state.began_beats = session.blood.heart.beats + session.blood.heart.phase;
+  for (std::size_t t = 0; t < model.tools.size(); ++t)
+    state.began_fed_m[t] = session.hands[t].fed_m, state.began_turned_rad[t] = session.hands[t].turned_rad;
+  forget_tips(state);
+  begin_action(step, session, state);
+}
+
+void ask(const ScriptPlan& plan, const OperatorState& state, SessionInputs& inputs) {
+  for (ToolInputs& tool : inputs.tools) tool = {};
+  inputs.rate_1_min = state.rate_1_min;
+  inputs.c_arm = {state.lao_rad, state.cran_rad, state.field_m, state.p_PI, state.fluoroscopy, state.cine};
+  inputs.delivery = {state.injection_m3_s, state.iodine_kg_m3, state.gauge_Pa,
+                     state.heparin_U,      state.nitrate_ug,   state.adenosine_ug};
+  const auto s = static_cast<std::size_t>(state.step);
+  if (state.outcome != Outcome::running || s >= plan.script.steps.size()) return;
+  const double factor = plan.hand_speed * hand_factor(plan.seed, static_cast<int>(s));
+  for (int t : plan.script.steps[s].tools)
+    inputs.tools[static_cast<std::size_t>(t)] = {factor * plan.script.steps[s].feed_m_s,
+                                                 factor * plan.script.steps[s].turn_rad_s};
+}
+
+void end(Outcome outcome, int condition, OperatorState& state) {
+  state.outcome = outcome;
+  state.by_condition = condition;
+}
+
+void go_to(int step, OperatorState& state) { state.step = step, state.began = true; }
+
+/// The step after `s`: past detours, unless that is one, too.
+int after(const data::Script& script, int s) {
+  const auto is_detour = [&](int one) { return script.steps[static_cast<std::size_t>(one)].detour; };
+  int next = s + 1;
+  if (!is_detour(s))
+    while (next < static_cast<int>(script.steps.size()) && is_detour(next)) ++next;
+  return next;
+}
+
+/// Where step `s` leads if it failed; -1: nowhere. `tries` counts what it led to, its last resort as one.
+int leads_to(const data::Script& script, int s, int& tries) {
+  const data::ScriptStep& step = script.steps[static_cast<std::size_t>(s)];
+  if (step.otherwise == data::ScriptStep::Otherwise::go_on) return after(script, s);
+  if (step.otherwise == data::ScriptStep::Otherwise::fail) return -1;
+  const bool last = step.last_resort >= 0 && tries == step.tries;
+  if (!last && tries >= (step.last_resort >= 0 ? 2 * step.tries + 1 : step.tries)) return -1;
+  tries += 1;
+  return last ? step.last_resort : step.jump_to;
+}
+
+}  // namespace
+
+ScriptPlan make_plan(const data::Script& script, const SessionModel& model, std::uint64_t seed) {
+  ScriptPlan plan{.script = script, .until_places = {}, .unless_places = {}, .seed = seed, .hand_speed = 1};
+  for (const data::ScriptStep& step : script.steps) {
+    plan.until_places.push_back(places(script, step.until, model));
+    plan.unless_places.push_back(places(script, step.unless, model));
+  }
+  return plan;
+}
+
+OperatorState make_state(const ScriptPlan& plan, const SessionModel& model) {
+  OperatorState state;
+  state.began_fed_m.assign(model.tools.size(), 0), state.began_turned_rad.assign(model.tools.size(), 0);
+  state.tries.assign(plan.script.steps.size(), 0);
+  state.felt.assign(4 * model.tools.size(), 0);
+  state.tips.assign(4 * noted_tips * model.tools.size(), 0);
+  forget_tips(state);
+  state.rate_1_min = model.vessel->rate_1_min;
+  state.p_PI = model.vessel->p_middle;
+  return state;
+}
+
+std::vector<double> save(const OperatorState& state) {
+  std::vector<double> out(core::count_fields(state));
+  core::put_fields(state, out.data());
+  return out;
+}
+
+void restore(const std::vector<double>& saved, OperatorState& state) {
+  if (saved.size() != core::count_fields(state))
+    throw std::invalid_argument("the operator's saved state is another script's");
+  core::take_fields(saved.data(), state);
+}
+
+Outcome decide(const ScriptPlan& plan, const SessionModel& model, const SessionState& session,
+               const SessionReport& report, OperatorState& state, SessionInputs& inputs,
+               std::vector<OperatorEvent>& events) {
+  events.clear();
+  feel(model, report, state);
+  state.heparin_U = state.nitrate_ug = state.adenosine_ug = 0;
+  using Kind = OperatorEvent::Kind;
+  const ConditionEvaluator evaluator(plan, model, session, report, state);
+  const int count = static_cast<int>(plan.script.steps.size());
+  // A step that takes no time leads to the next at once; `count` bounds jumps among such.
+  for (int guard = 0; guard <= count && state.outcome == Outcome::running; ++guard) {
+    const int s = state.step;
+    if (s >= count) {
+      end(Outcome::success, -1, state);
+      break;
+    }
+    const data::ScriptStep& step = plan.script.steps[static_cast<std::size_t>(s)];
+    if (state.began) {
+      begin(step, model, session, state);
+      events.push_back({step.action == data::ScriptAction::mark ? Kind::marked : Kind::begins, s, -1});
+      if (takes_time(step)) break;
+    }
+    const int until = evaluator.first_that_holds(step.until, plan.until_places[static_cast<std::size_t>(s)]);
+    if (!takes_time(step) || until >= 0 || is_over(step, evaluator)) {
+      if (until >= 0) events.push_back({Kind::done, s, until});
+      go_to(after(plan.script, s), state);
+      continue;
+    }
+    const int unless = evaluator.first_that_holds(step.unless, plan.unless_places[static_cast<std::size_t>(s)]);
+    const bool late = evaluator.now_s() - state.began_s >= step.timeout_s;
+    if (unless < 0 && !late) break;
+    events.push_back({unless >= 0 ? Kind::failed : Kind::timed_out, s, unless});
+    const int next = leads_to(plan.script, s, state.tries[static_cast<std::size_t>(s)]);
+    if (next >= 0)
+      go_to(next, state);
+    else
+      end(unless >= 0 ? Outcome::failure : Outcome::timed_out, unless, state);
+  }
+  if (report.refused >= 0 && state.outcome == Outcome::running) {
+    state.in_the_way = report.in_its_way;
+    end(Outcome::failure, -1, state);
+  }
+  note_tips(model, session, state);
+  state.injection_m3_s = 0;
+  if (state.outcome == Outcome::running && state.step < count)
+    continue_action(plan.script.steps[static_cast<std::size_t>(state.step)], session, evaluator.now_s(), state);
+  ask(plan, state, inputs);
+  return state.outcome;
+}
+
+std::string words_for(Outcome outcome) {
+  switch (outcome) {
+    case Outcome::running:
+      return "running";
+    case Outcome::success:
+      return "success";
+    case Outcome::failure:
+    case Outcome::timed_out:
+      return "failure";
+    case Outcome::aborted:
+      return "aborted";
+  }
+  return "";
+}
+
+std::string reason(const ScriptPlan& plan, const OperatorState& state) {
+  const auto outcome = state.outcome;
+  const auto s = static_cast<std::size_t>(state.step);
+  if (outcome == Outcome::success || s >= plan.script.steps.size()) return "";
+  const data::ScriptStep& step = plan.script.steps[s];
+  const std::string where = fmt::format("step {} of {}, {}", s + 1, plan.script.steps.size(), step.words());
+  if (outcome == Outcome::timed_out) return fmt::format("{}: timed out after {:g} s", where, step.timeout_s);
+  if (state.in_the_way >= 0)
+    return fmt::format("{}: {} is still in the body, and nothing can enter beside it; withdraw it first", where,
+                       plan.script.tools[static_cast<std::size_t>(state.in_the_way)].name);
+  if (outcome == Outcome::failure)
+    return fmt::format("{}: {}", where, step.unless[static_cast<std::size_t>(state.by_condition)].words);
+  return where;
+}
+
+std::string where_tips_lie(const SessionModel& model, const SessionState& session, const SessionReport& report) {
+  std::string words;
+  if (!model.has_patient()) return words;
+  const VesselIndex& way = *model.vessel->way;
+  for (std::size_t t = 0; t < report.tools.size(); ++t) {
+    if (!report.tools[t].in_body) continue;
+    const int at =
+        way.locate(tip(model, session, static_cast<int>(t)), session.blood.heart.phase, breath(model, session));
+    const std::string& branch = way.branches()[static_cast<std::size_t>(way.branch(at))].name;
+    const double into_m = way.from_access_m(at) - way.from_access_m(way.entry(branch));
+    words +=
+        fmt::format("{}{} {:.0f} mm into {}", words.empty() ? "" : ", ", model.tools[t].name, 1e3 * into_m, branch);
+  }
+  return words;
+}
+
+}  // namespace ostium::app

@@ -1,0 +1,110 @@
+#include "app/session/operator/operator_actions.h"
+
+#include <algorithm>
+#include <array>
+
+namespace ostium::app {
+
+namespace {
+
+constexpr double vacuum_Pa = 101325;
+
+using Step = data::ScriptStep;
+/// Parts of an action; null where there is nothing to do. Movements of tools are in every step's inputs.
+struct Handling {
+  data::ScriptAction action;
+  void (*begin)(const Step&, const SessionState&, OperatorState&) = nullptr;
+  void (*go_on)(const Step&, const SessionState&, double now_s, OperatorState&) = nullptr;
+  bool (*is_over)(const Step&, const ConditionEvaluator&) = nullptr;  ///< of one that ends by itself
+};
+
+void move_c_arm(const Step& step, const SessionState&, OperatorState& state) {
+  state.lao_rad = step.lao_rad.value_or(state.lao_rad), state.cran_rad = step.cran_rad.value_or(state.cran_rad);
+  state.field_m = step.field_m.value_or(state.field_m), state.p_PI = step.table_P.value_or(state.p_PI);
+}
+
+double injected_m3(const SessionState& session, const OperatorState& state) {
+  return session.blood.contrast.injected_m3 - state.began_injected_m3;
+}
+
+void fill_syringe(const Step& step, const SessionState& session, OperatorState& state) {
+  state.iodine_kg_m3 = step.iodine_kg_m3;
+  state.began_injected_m3 = session.blood.contrast.injected_m3;
+}
+
+void press_syringe(const Step& step, const SessionState& session, double, OperatorState& state) {
+  if (injected_m3(session, state) < step.volume_m3) state.injection_m3_s = step.rate_m3_s;
+}
+
+void screw_inflation_device(const Step& step, const SessionState&, double now_s, OperatorState& state) {
+  const double part = std::min(1.0, (now_s - state.began_s) / step.over_s);
+  state.gauge_Pa = part < 1 ? state.began_gauge_Pa + part * (step.gauge_Pa - state.began_gauge_Pa) : step.gauge_Pa;
+}
+
+void give_drug(const Step& step, const SessionState&, OperatorState& state) {
+  state.heparin_U = step.heparin_U, state.nitrate_ug = step.nitrate_ug, state.adenosine_ug = step.adenosine_ug;
+}
+
+/// One an action, in any order.
+constexpr Handling handlings[] = {
+    {.action = data::ScriptAction::advance},
+    {.action = data::ScriptAction::withdraw},
+    {.action = data::ScriptAction::turn},
+    {.action = data::ScriptAction::wait},
+    {.action = data::ScriptAction::mark},
+    {.action = data::ScriptAction::view, .begin = move_c_arm},
+    {.action = data::ScriptAction::fluoroscopy,
+     .begin = [](const Step& step, const SessionState&, OperatorState& state) { state.fluoroscopy = step.on; }},
+    {.action = data::ScriptAction::cine,
+     .begin = [](const Step& step, const SessionState&, OperatorState& state) { state.cine = step.on; }},
+    {.action = data::ScriptAction::heart_rate,
+     .begin = [](const Step& step, const SessionState&, OperatorState& state) { state.rate_1_min = step.rate_1_min; }},
+    {.action = data::ScriptAction::inject,
+     .begin = fill_syringe,
+     .go_on = press_syringe,
+     .is_over = [](const Step& step,
+                   const ConditionEvaluator& e) { return injected_m3(e.session, e.state) >= step.volume_m3; }},
+    {.action = data::ScriptAction::inflate,
+     .begin = [](const Step&, const SessionState&, OperatorState& state) { state.began_gauge_Pa = state.gauge_Pa; },
+     .go_on = screw_inflation_device,
+     .is_over = [](const Step& step, const ConditionEvaluator& e) { return e.state.gauge_Pa == step.gauge_Pa; }},
+    {.action = data::ScriptAction::deflate,
+     .begin = [](const Step&, const SessionState&, OperatorState& state) { state.gauge_Pa = -vacuum_Pa; },
+     .is_over =
+         [](const Step&, const ConditionEvaluator& e) {
+           return !e.balloon() || is_empty(*e.balloon(), e.session.treatment.balloon);
+         }},
+    {.action = data::ScriptAction::drug, .begin = give_drug}};
+
+/// By action. Does not compile where an action has no handling, or two.
+constexpr std::array<Handling, data::action_kinds> handling_of = [] {
+  static_assert(std::size(handlings) == data::action_kinds, "each action has one handling");
+  std::array<Handling, data::action_kinds> by_action{};
+  std::array<bool, data::action_kinds> filled{};
+  for (const Handling& one : handlings) {
+    const auto at = static_cast<std::size_t>(one.action);
+    if (filled[at]) throw "two handlings of one action";
+    filled[at] = true, by_action[at] = one;
+  }
+  return by_action;
+}();
+
+const Handling& handling(const data::ScriptStep& step) { return handling_of[static_cast<std::size_t>(step.action)]; }
+
+}  // namespace
+
+void begin_action(const data::ScriptStep& step, const SessionState& session, OperatorState& state) {
+  if (handling(step).begin) handling(step).begin(step, session, state);
+}
+
+void continue_action(const data::ScriptStep& step, const SessionState& session, double now_s, OperatorState& state) {
+  if (handling(step).go_on) handling(step).go_on(step, session, now_s, state);
+}
+
+bool takes_time(const data::ScriptStep& step) { return !step.until.empty() || handling(step).is_over; }
+
+bool is_over(const data::ScriptStep& step, const ConditionEvaluator& evaluator) {
+  return step.until.empty() && handling(step).is_over && handling(step).is_over(step, evaluator);
+}
+
+}  // namespace ostium::app

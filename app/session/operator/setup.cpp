@@ -1,0 +1,249 @@
+#include "app/session/operator/setup.h"
+
+#include <fmt/format.h>
+#include <malloc.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <nlohmann/json.hpp>
+
+#include "data/catalogue/catalogue.h"
+#include "data/catalogue/instrument/instrument_reader.h"
+#include "data/formats/load_error.h"
+
+namespace ostium::app {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string all_of(const std::string& file) {
+  std::ifstream in(file, std::ios::binary);
+  if (!in) throw data::LoadError(file + ": cannot be read; expected a file");
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+bool is_mesh_file(const std::string& name) {
+  const std::string ending = fs::path(name).extension().string();
+  return ending == ".obj" || ending == ".stl" || ending == ".ply";
+}
+
+std::string instrument_file(const std::string& name_or_file) {
+  const fs::path known = fs::path(data::data_folder()) / "instruments" / (name_or_file + ".json");
+  if (fs::is_regular_file(known)) return known.string();
+  if (name_or_file.ends_with(".json")) return name_or_file;
+  data::find_instrument(data::load_catalogue(), name_or_file);  // throws with what there is
+  return known.string();
+}
+
+const std::string& name_of(vascular::Access access) { return data::access_names()[static_cast<std::size_t>(access)]; }
+
+nlohmann::json numbers(const Eigen::Vector3d& p) { return nlohmann::json::array({p.x(), p.y(), p.z()}); }
+Eigen::Vector3d point(const nlohmann::json& p) {
+  return {p.at(0).get<double>(), p.at(1).get<double>(), p.at(2).get<double>()};
+}
+
+}  // namespace
+
+void set_vessel(const std::string& case_or_mesh, vascular::LengthUnit unit, RunSetup& setup) {
+  setup.vessel = case_or_mesh;
+  if (is_mesh_file(case_or_mesh)) {
+    setup.mesh = read_mesh(case_or_mesh, unit).mesh;
+    return;
+  }
+  const fs::path file = fs::absolute(data::case_file(case_or_mesh));
+  const data::Case c = data::load_case(file.string());
+  setup.case_text = all_of(file.string());
+  if (!c.imported) setup.access = c.anatomy.access;
+  // An imported case's vessels lie beside its file: replay finds them there.
+  setup.vessel = c.imported ? (file.parent_path() / c.name).string() : c.name;
+}
+
+void set_script(const data::Script& script, RunSetup& setup) {
+  if (script.access && setup.access && *script.access != *setup.access)
+    throw data::LoadError(
+        fmt::format("{}: is for {} access, and {} has {} access; expected a case and a script of one access",
+                    script.file, name_of(*script.access), setup.vessel, name_of(*setup.access)));
+  setup.script = script;
+  setup.tool_texts.clear(), setup.tool_files.clear();
+  for (const data::ScriptTool& tool : script.tools) {
+    setup.tool_files.push_back(instrument_file(tool.instrument));
+    setup.tool_texts.push_back(all_of(setup.tool_files.back()));
+  }
+}
+
+namespace {
+
+/// How wide the instrument may be that is taken; nothing: there is nothing to measure.
+std::optional<double> most_that_fits_m(const Vessel& vessel, const data::Script& script, const data::ScriptTool& tool) {
+  if (tool.of_aorta > 0) {
+    const double aorta_m = ascending_diameter_m(vessel);
+    return aorta_m > 0 ? std::optional(tool.of_aorta * aorta_m) : std::nullopt;
+  }
+  if (!vessel.coronaries || vessel.coronaries->lesions.empty()) return std::nullopt;
+  if (static_cast<std::size_t>(tool.lesion) >= vessel.coronaries->lesions.size())
+    throw data::LoadError(fmt::format("{}:{}: {} is for lesion {}; this patient's lesions are {}", script.file,
+                                      tool.line, tool.name, tool.lesion + 1, vessel.coronaries->lesions.size()));
+  return tool.of_reference * vessel.coronaries->lesions[static_cast<std::size_t>(tool.lesion)].reference_m;
+}
+
+double width_of(const data::Instrument& instrument, const data::Script& script, const data::ScriptTool& tool) {
+  if (tool.of_aorta > 0 && instrument.width_m > 0) return instrument.width_m;
+  if (tool.of_reference > 0 && instrument.balloon) return instrument.balloon->nominal_m;
+  throw data::LoadError(fmt::format("{}:{}: {} {}", script.file, tool.line, instrument.name,
+                                    tool.of_aorta > 0 ? "does not say its width_mm; expected sizes of a guide that does"
+                                                      : "has no balloon; expected sizes of a balloon or a stent"));
+}
+
+}  // namespace
+
+std::vector<std::string> choose_sizes(const Vessel& vessel, RunSetup& setup) {
+  std::vector<std::string> chosen;
+  for (std::size_t t = 0; t < setup.script.tools.size(); ++t) {
+    const data::ScriptTool& tool = setup.script.tools[t];
+    if (tool.sizes.empty()) continue;
+    const std::optional<double> most_m = most_that_fits_m(vessel, setup.script, tool);
+    if (!most_m) continue;
+    double best_m = 0;
+    for (const std::string& size : tool.sizes) {
+      const std::string file = instrument_file(size), text = all_of(file);
+      const double own_m = width_of(data::read_instrument(file, text), setup.script, tool);
+      const bool better = best_m == 0 || (own_m <= *most_m ? best_m > *most_m || own_m > best_m : own_m < best_m);
+      if (!better) continue;
+      best_m = own_m;
+      setup.tool_files[t] = file, setup.tool_texts[t] = text;
+    }
+    if (best_m > 0)
+      chosen.push_back(tool.name + ": " + data::read_instrument(setup.tool_files[t], setup.tool_texts[t]).title);
+  }
+  return chosen;
+}
+
+namespace {
+
+double number(const std::string& key, const std::string& text, double least, double most, const char* expected) {
+  char* end = nullptr;
+  const double value = std::strtod(text.c_str(), &end);
+  if (text.empty() || *end != '\0' || !(value >= least && value <= most))
+    throw data::LoadError(fmt::format("{} is \"{}\"; expected {}", key, text, expected));
+  return value;
+}
+
+}  // namespace
+
+void set_value(const std::string& key, const std::string& value, RunSetup& setup) {
+  std::string known;
+  for (std::size_t t = 0; t < setup.script.tools.size(); ++t) {
+    known += setup.script.tools[t].name + ", ";
+    if (setup.script.tools[t].name != key) continue;
+    setup.tool_files[t] = instrument_file(value);
+    setup.tool_texts[t] = all_of(setup.tool_files[t]);
+    setup.script.tools[t].sizes.clear();
+    return;
+  }
+  if (key == "person") {
+    const double person = number(key, value, 0, 1e15, "a whole number from 0 on");
+    if (person != std::floor(person) || setup.is_mesh())
+      throw data::LoadError(fmt::format("person is \"{}\"; expected a whole number from 0 on, and a case", value));
+    setup.person = static_cast<std::uint64_t>(person);
+  } else if (key == "heart_rate") {
+    setup.rate_1_min = number(key, value, 40, 180, "beats a minute, 40 to 180");
+  } else if (key == "breathing") {
+    constexpr const char* expected = "breaths a minute of a case's patient, 4 to 60, or 0";
+    if (const double rate = number(key, value, 0, 60, expected); rate == 0 || (rate >= 4 && !setup.is_mesh()))
+      setup.breaths_1_min = rate;
+    else
+      throw data::LoadError(fmt::format("breathing is \"{}\"; expected {}", value, expected));
+  } else if (key == "hand_speed") {
+    setup.hand_speed = number(key, value, 0.01, 10, "how many times the script's speeds, 0.01 to 10");
+  } else if (key == "friction") {
+    setup.friction = number(key, value, 0, 1, "the wall's coefficient of friction, 0 to 1");
+  } else if (key == "begin") {
+    setup.begin = value;
+  } else if (key == "stuck") {
+    const auto named = [&](const data::ScriptTool& tool) { return tool.name == value; };
+    if (std::none_of(setup.script.tools.begin(), setup.script.tools.end(), named))
+      throw data::LoadError(fmt::format("stuck is \"{}\"; expected one of {}of the script", value, known));
+    setup.stuck = value;
+  } else {
+    throw data::LoadError(
+        fmt::format("there is no \"{}\" to set; expected one of {}person, heart_rate, breathing, hand_speed, friction, "
+                    "begin, stuck",
+                    key, known));
+  }
+}
+
+std::shared_ptr<const Vessel> make_vessel(const RunSetup& setup, std::string& warnings) {
+  auto vessel = setup.is_mesh() ? vessel_of(setup.vessel, setup.mesh, setup.entry, warnings)
+                                : vessel_of(data::read_case(setup.vessel + ".json", setup.case_text), setup.person);
+  malloc_trim(0);  // what building it took beside goes back
+  return vessel;
+}
+
+SessionModel make_session(const RunSetup& setup, std::shared_ptr<const Vessel> vessel) {
+  std::vector<SessionTool> tools;
+  for (std::size_t t = 0; t < setup.script.tools.size(); ++t)
+    tools.push_back({setup.script.tools[t].name, data::read_instrument(setup.tool_files[t], setup.tool_texts[t])});
+  SessionModel model = make_session(std::move(vessel), std::move(tools), setup.seed);
+  if (setup.breaths_1_min > 0 && !model.vessel->wall.sway.empty()) model.breaths_1_min = setup.breaths_1_min;
+  if (!setup.begin.empty()) model.entry = entry_ahead_of(setup.begin, *model.vessel);
+  if (setup.friction) {
+    const auto wall = std::make_shared<core::Surface>(*model.rods.surfaces[0]);
+    wall->friction = *setup.friction;
+    model.rods.surfaces = {wall};
+  }
+  return model;
+}
+
+std::string to_json(const RunSetup& setup) {
+  nlohmann::ordered_json out = {{"vessel", setup.vessel}, {"seed", setup.seed}};
+  if (setup.is_mesh())
+    out["entry_m"] = {numbers(setup.entry.p_P), numbers(setup.entry.towards_P)};
+  else
+    out["case"] = setup.case_text;
+  if (setup.person) out["person"] = *setup.person;
+  if (setup.rate_1_min) out["heart_rate_1_min"] = *setup.rate_1_min;
+  if (setup.breaths_1_min > 0) out["breathing_1_min"] = setup.breaths_1_min;
+  if (setup.friction) out["friction"] = *setup.friction;
+  if (!setup.begin.empty()) out["begin"] = setup.begin;
+  if (!setup.stuck.empty()) out["stuck"] = setup.stuck;
+  out["hand_speed"] = setup.hand_speed;
+  out["script"] = {{"file", fs::path(setup.script.file).filename()}, {"text", setup.script.source}};
+  for (std::size_t t = 0; t < setup.tool_texts.size(); ++t)
+    out["tools"].push_back({{"file", fs::path(setup.tool_files[t]).filename()}, {"text", setup.tool_texts[t]}});
+  return out.dump(2);
+}
+
+RunSetup setup_from_json(const std::string& file, const std::string& text) {
+  try {
+    const auto in = nlohmann::json::parse(text);
+    RunSetup setup;
+    setup.vessel = in.at("vessel");
+    setup.seed = in.at("seed");
+    if (in.contains("case")) setup.case_text = in.at("case");
+    if (in.contains("entry_m")) setup.entry = {point(in.at("entry_m").at(0)), point(in.at("entry_m").at(1))};
+    if (in.contains("person")) setup.person = in.at("person");
+    if (in.contains("heart_rate_1_min")) setup.rate_1_min = in.at("heart_rate_1_min");
+    if (in.contains("breathing_1_min")) setup.breaths_1_min = in.at("breathing_1_min");
+    if (in.contains("begin")) setup.begin = in.at("begin");
+    if (in.contains("stuck")) setup.stuck = in.at("stuck");
+    if (in.contains("friction")) setup.friction = in.at("friction");
+    setup.hand_speed = in.at("hand_speed");
+    setup.script = data::read_script(in.at("script").at("file"), in.at("script").at("text"));
+    for (const auto& tool : in.at("tools")) {
+      setup.tool_files.push_back(tool.at("file"));
+      setup.tool_texts.push_back(tool.at("text"));
+    }
+    if (setup.tool_texts.size() != setup.script.tools.size())
+      throw data::LoadError(file + ": has another number of instruments than its script has tools");
+    return setup;
+  } catch (const nlohmann::json::exception& error) {
+    throw data::LoadError(fmt::format("{}: its setup cannot be read: {}", file, error.what()));
+  }
+}
+
+}  // namespace ostium::app

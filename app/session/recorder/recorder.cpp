@@ -1,0 +1,192 @@
+#include "app/session/recorder/recorder.h"
+
+#include <chrono>
+#include <cmath>
+#include <stdexcept>
+
+#include "app/session/model/outcome.h"
+#include "core/base/thread_priority.h"
+#include "data/formats/load_error.h"
+
+namespace ostium::app {
+
+namespace {
+
+using namespace std::chrono_literals;
+constexpr std::size_t events_a_block = 2000;
+constexpr double ffr_step = 0.005;
+
+std::vector<double> flat(const std::vector<Eigen::Vector3d>& points) {
+  std::vector<double> out;
+  for (const Eigen::Vector3d& p : points) out.insert(out.end(), {p.x(), p.y(), p.z()});
+  return out;
+}
+
+data::RecordingHeader header_of(const SessionModel& model, const RunSetup& setup, std::size_t operator_count,
+                                bool full) {
+  return {.software = "ostium " OSTIUM_VERSION,
+          .setup = to_json(setup),
+          .step_s = model.step_s(),
+          .full = full,
+          .input_columns = input_names(model),
+          .signal_columns = signal_names(model),
+          .state_width = static_cast<int>(state_count(model)),
+          .operator_width = static_cast<int>(operator_count)};
+}
+
+}  // namespace
+
+Recorder::Recorder(const RecorderOptions& options, const SessionModel& model, const RunSetup& setup,
+                   std::size_t operator_count)
+    : model_(model),
+      options_(options),
+      input_width_(input_count(model)),
+      signal_width_(signal_count(model)),
+      state_width_(state_count(model)),
+      operator_width_(operator_count),
+      slots_(slots),
+      watch_(model),
+      looked_at_(make_state(model, 0)) {
+  for (Slot& slot : slots_) {
+    slot.block.inputs.resize(data::steps_per_block * input_width_);
+    slot.block.hashes.resize(data::steps_per_block);
+    slot.block.signals.resize(data::steps_per_block / data::steps_per_signal * signal_width_);
+    slot.block.states.resize(state_width_);  // a block is half as long as states are apart
+    slot.block.hands.resize(operator_width_);
+    slot.events.reserve(events_a_block);
+  }
+  record_.step_s = model.step_s();
+  // For a quarter of an hour: what is not used yet takes no memory, growing would for a moment take it twice.
+  record_.signals.reserve(static_cast<std::size_t>(900 / (model.step_s() * data::steps_per_signal)) * signal_width_);
+  record_.signal_columns = signal_names(model);
+  for (const vascular::TreeBranch& branch : model.vessel->way->branches()) record_.branches.push_back(branch.name);
+  if (options.mode != RecordMode::none) {
+    const bool full = options.mode == RecordMode::full;
+    const std::vector<double> vertices = flat(setup.mesh.vertices);
+    std::vector<std::uint64_t> triangles;
+    for (const auto& t : setup.mesh.triangles)
+      for (int v : t) triangles.push_back(static_cast<std::uint64_t>(v));
+    std::vector<data::FixedTable> tables;
+    if (setup.is_mesh())
+      tables = {{{"mesh_vertices", data::NumberType::float64, {"x_m", "y_m", "z_m"}, 3, 4096},
+                 vertices.data(),
+                 vertices.size() / 3},
+                {{"mesh_triangles", data::NumberType::uint64, {}, 3, 4096}, triangles.data(), triangles.size() / 3}};
+    writer_ =
+        std::make_unique<data::RecordingWriter>(options.file, header_of(model, setup, operator_count, full), tables);
+  }
+  thread_ = std::thread([this] { follow(); });
+}
+
+Recorder::~Recorder() {
+  if (thread_.joinable()) {
+    over_.store(true, std::memory_order_release);
+    thread_.join();
+  }
+}
+
+void Recorder::put_state(const SessionState& state, const OperatorState& hands) {
+  Slot& slot = current();
+  app::put_state(state, slot.block.states.data());
+  core::put_fields(hands, slot.block.hands.data());
+  slot.state_rows = 1;
+}
+
+void Recorder::begin(const SessionState& state, const OperatorState& hands) { put_state(state, hands); }
+
+void Recorder::add(const SessionInputs& inputs, const SessionState& state, const SessionReport& report,
+                   const OperatorState& hands, const std::vector<OperatorEvent>& script) {
+  {
+    Slot& slot = current();
+    put_inputs(inputs, slot.block.inputs.data() + slot.steps * input_width_);
+    slot.block.hashes[slot.steps] = hash(state);
+    ++slot.steps;
+    if (state.rods.step % data::steps_per_signal == 0)
+      put_signals(model_, state, inputs, report, slot.block.signals.data() + signal_width_ * slot.signal_rows++);
+    if (slot.events.size() + 16 < events_a_block) watch_.look(model_, inputs, state, report, script, slot.events);
+    if (slot.steps == data::steps_per_block) hand_over();
+  }
+  if (state.rods.step % data::steps_per_state == 0) put_state(state, hands);
+}
+
+void Recorder::hand_over() {
+  const std::size_t next = filled_.load(std::memory_order_relaxed) + 1;
+  filled_.store(next, std::memory_order_release);
+  if (next - taken_.load(std::memory_order_acquire) >= slots) {
+    ++waits_;
+    while (next - taken_.load(std::memory_order_acquire) >= slots) std::this_thread::sleep_for(1ms);
+  }
+  Slot& slot = current();
+  slot.steps = slot.signal_rows = slot.state_rows = 0;
+  slot.events.clear();
+}
+
+void Recorder::stop() {
+  if (!thread_.joinable()) return;
+  if (current().steps > 0 || current().state_rows > 0) hand_over();
+  over_.store(true, std::memory_order_release);
+  thread_.join();
+}
+
+void Recorder::finish(const std::string& end) {
+  if (writer_ && problem_.empty()) writer_->finish(end);
+}
+
+void Recorder::follow() {
+  core::give_way_to_steps();
+  while (true) {
+    const bool over = over_.load(std::memory_order_acquire);  // before looking: nothing comes after it
+    const std::size_t next = taken_.load(std::memory_order_relaxed);
+    if (next == filled_.load(std::memory_order_acquire)) {
+      if (over) return;
+      std::this_thread::sleep_for(5ms);
+      continue;
+    }
+    take(slots_[next % slots]);
+    taken_.store(next + 1, std::memory_order_release);
+  }
+}
+
+/// At walls and flow, as they are in the slot's state: once a second, and too dear for the thread that steps.
+void Recorder::look(const Slot& slot, std::vector<double>& events) {
+  take_state(slot.block.states.data(), looked_at_);
+  if (options_.penetration) {
+    const Penetration now = app::penetration(model_, looked_at_);
+    deepest_.deepest_m = std::max(deepest_.deepest_m, now.deepest_m);
+    deepest_.outside += now.outside;
+  }
+  if (!model_.has_patient() || model_.vessel->coronaries->lesions.empty()) return;
+  const double ffr = ffr_behind_lesion(model_, looked_at_);
+  if (std::fabs(ffr - ffr_) < ffr_step) return;
+  ffr_ = ffr;
+  // A slot's state is that of its beginning.
+  events.insert(events.begin(), {static_cast<double>(looked_at_.rods.step),
+                                 static_cast<double>(static_cast<int>(data::EventCode::ffr_changes)), -1, ffr});
+}
+
+void Recorder::take(Slot& slot) {
+  data::RecordingBlock block;
+  const auto part = [](const auto& all, std::size_t count) {
+    return std::decay_t<decltype(all)>(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(count));
+  };
+  block.inputs = part(slot.block.inputs, slot.steps * input_width_);
+  block.hashes = part(slot.block.hashes, slot.steps);
+  block.signals = part(slot.block.signals, slot.signal_rows * signal_width_);
+  block.states = part(slot.block.states, slot.state_rows * state_width_);
+  block.hands = part(slot.block.hands, slot.state_rows * operator_width_);
+  for (const SessionEvent& e : slot.events)
+    block.events.insert(block.events.end(), {static_cast<double>(e.step), static_cast<double>(e.code),
+                                             static_cast<double>(e.tool), e.value});
+  if (slot.state_rows) look(slot, block.events);
+  record_.steps += slot.steps;
+  record_.signals.insert(record_.signals.end(), block.signals.begin(), block.signals.end());
+  record_.events.insert(record_.events.end(), block.events.begin(), block.events.end());
+  if (!writer_ || !problem_.empty()) return;
+  try {
+    writer_->commit(std::move(block));
+  } catch (const std::exception& error) {
+    problem_ = error.what();
+  }
+}
+
+}  // namespace ostium::app

@@ -1,0 +1,84 @@
+#pragma once
+/// What follows a run without holding it up: the recording, and a look at the walls once a second.
+///
+/// The thread that steps fills blocks of memory that were made beforehand and hands them over, half a second at a time,
+/// without a lock; one other thread owns the file. If that falls behind by all blocks, stepping waits for it and
+/// `waits` counts that: nothing of a run is left out.
+#include <atomic>
+#include <memory>
+#include <thread>
+
+#include "app/session/model/penetration.h"
+#include "app/session/operator/setup.h"
+#include "app/session/recorder/event_watch.h"
+#include "app/session/recorder/signals.h"
+#include "data/assessment/metrics.h"
+#include "data/recording/recording.h"
+
+namespace ostium::app {
+
+enum class RecordMode { none, events, full };
+
+struct RecorderOptions {
+  RecordMode mode = RecordMode::full;
+  std::string file;         ///< empty with RecordMode::none
+  bool penetration = true;  ///< look at it once a second
+};
+
+class Recorder {
+ public:
+  /// Throws LoadError if the file cannot be made.
+  Recorder(const RecorderOptions& options, const SessionModel& model, const RunSetup& setup,
+           std::size_t operator_count);
+  ~Recorder();  ///< ends the thread; what was handed over is written
+
+  /// Of the state that a run begins with, before its first step.
+  void begin(const SessionState& state, const OperatorState& hands);
+  /// After each step.
+  void add(const SessionInputs& inputs, const SessionState& state, const SessionReport& report,
+           const OperatorState& hands, const std::vector<OperatorEvent>& script);
+  /// Hands over the rest, waits for the thread.
+  void stop();
+  /// After `stop`: the last words. Throws LoadError if they cannot be written.
+  void finish(const std::string& end);
+
+  // After `stop`:
+  const data::RunRecord& record() const { return record_; }  ///< of the whole run
+  const Penetration& penetration() const { return deepest_; }
+  const std::string& problem() const { return problem_; }  ///< why recording ended early; empty: it did not
+  long waits() const { return waits_; }
+
+ private:
+  struct Slot {
+    data::RecordingBlock block;
+    std::size_t steps = 0, signal_rows = 0, state_rows = 0;
+    std::vector<SessionEvent> events;
+  };
+  static constexpr std::size_t slots = 4;  ///< 2 s
+
+  Slot& current() { return slots_[filled_.load(std::memory_order_relaxed) % slots]; }
+  void put_state(const SessionState& state, const OperatorState& hands);
+  void hand_over();
+  void follow();
+  void take(Slot& slot);
+  void look(const Slot& slot, std::vector<double>& events);
+
+  const SessionModel& model_;
+  RecorderOptions options_;
+  std::size_t input_width_, signal_width_, state_width_, operator_width_;
+  std::vector<Slot> slots_;
+  std::atomic<std::size_t> filled_{0}, taken_{0};
+  std::atomic<bool> over_{false};
+  long waits_ = 0;
+  EventWatch watch_;
+  // Of the other thread.
+  std::unique_ptr<data::RecordingWriter> writer_;
+  SessionState looked_at_;
+  data::RunRecord record_;
+  Penetration deepest_;
+  double ffr_ = -1;  ///< as last said
+  std::string problem_;
+  std::thread thread_;
+};
+
+}  // namespace ostium::app

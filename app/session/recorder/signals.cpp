@@ -1,0 +1,264 @@
+#include "app/session/recorder/signals.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "app/session/model/outcome.h"
+#include "core/base/units.h"
+#include "core/rod/introducer.h"
+
+namespace ostium::app {
+
+namespace {
+
+using units::atm, units::mmHg;
+
+constexpr double none = std::numeric_limits<double>::quiet_NaN();
+constexpr double undiluted_kg_m3 = 350;
+
+/// A row of a table of signals; `Now` is what its numbers are taken from.
+template <class Now>
+struct Signal {
+  const char *name, *unit, *definition;
+  double (*of)(const Now&);
+};
+
+/// The run at this moment.
+struct RunNow {
+  const SessionModel& model;
+  const SessionState& state;
+  const SessionInputs& inputs;
+};
+
+constexpr Signal<RunNow> of_the_run[] = {
+    {"time_s", "s", "simulated time", [](const RunNow& x) { return seconds(x.model, x.state); }},
+    {"heart_phase", "1", "share of the cycle since the R wave",
+     [](const RunNow& x) { return x.state.blood.heart.phase; }},
+};
+
+constexpr Signal<RunNow> of_the_breath[] = {
+    {"breath_depth", "1", "0 breathed out, 1 breathed in", [](const RunNow& x) { return breath(x.model, x.state); }},
+};
+
+/// Where contrast comes into the first lesion's artery: behind its ostium, or where a guide's tip is farther in.
+int contrast_enters(const SessionModel& model, const SessionState& state) {
+  const Coronaries& c = *model.vessel->coronaries;
+  const int tip = state.coupling.tip.where == vascular::TipPlace::coronary ? state.coupling.tip.cell : -1;
+  const bool farther = tip >= 0 && c.ostium_cell >= 0 && c.landmark_cell >= 0 &&
+                       c.tree().is_downstream(tip, c.ostium_cell) && c.tree().is_downstream(c.landmark_cell, tip);
+  return farther ? tip : c.ostium_cell;
+}
+
+/// The first lesion is the nearest of those that the balloon's artery has.
+bool is_at_first(const SessionModel& model, const SessionState& state) {
+  const auto from_m = [&](int lesion) {
+    const auto at = balloon_from_lesion_m(model, state, lesion);
+    return at ? std::fabs(*at) : std::numeric_limits<double>::infinity();
+  };
+  const double first_m = from_m(0);
+  for (int i = 1; i < static_cast<int>(model.vessel->coronaries->lesions.size()); ++i)
+    if (from_m(i) < first_m) return false;
+  return std::isfinite(first_m);
+}
+
+/// A patient at this moment: what several signals are taken from.
+struct PatientNow {
+  PatientNow(const SessionModel& own_model, const SessionState& own_state, const SessionInputs& own_inputs);
+  double contrast_at(int cell) const;        ///< over the undiluted; not a number: no such cell
+  double balloon_end_mm(double side) const;  ///< from the lesion's proximal end; side -1: proximal, 1: distal
+  bool has_guide() const { return state.coupling.guide >= 0; }
+
+  const SessionModel& model;
+  const SessionState& state;
+  const SessionInputs& inputs;
+  const vascular::PhysiologyState& blood;
+  std::array<double, vascular::leads> ecg_mV;
+  const vascular::BalloonModel* balloon = nullptr;  ///< in the body
+  bool has_lesion;
+  double lesion_length_m = 0;
+  std::optional<double> balloon_from_middle_m;  ///< of the first lesion, while no other is nearer
+  LesionNow lesion{none, none, none, none};
+  std::optional<Stretch> stents;
+  std::optional<StentNow> open;
+  WorstOfLesions worst{none, {}};
+};
+
+PatientNow::PatientNow(const SessionModel& own_model, const SessionState& own_state, const SessionInputs& own_inputs)
+    : model(own_model),
+      state(own_state),
+      inputs(own_inputs),
+      blood(state.blood),
+      ecg_mV(ecg(blood.heart, inputs.rate_1_min, model.physiology.ischaemia, blood.ischaemia)),
+      has_lesion(!model.vessel->coronaries->lesions.empty()) {
+  if (state.coupling.balloon >= 0)
+    balloon = &model.treatment.balloons[static_cast<std::size_t>(state.coupling.balloon)];
+  if (!has_lesion) return;
+  const Plan& plan = model.vessel->coronaries->lesions[0];
+  lesion_length_m = plan.to_m - plan.from_m;
+  if (is_at_first(model, state)) balloon_from_middle_m = balloon_from_lesion_m(model, state);
+  lesion = lesion_now(model, state);
+  stents = stented(model, state);
+  open = stent_now(model, state);
+  worst = worst_of_lesions(model, state);
+}
+
+double PatientNow::contrast_at(int cell) const {
+  if (cell < 0) return none;
+  const double r = blood.radius_m[static_cast<std::size_t>(cell)];
+  return concentration(blood.contrast, model.physiology.flow, cell, std::numbers::pi * r * r) / undiluted_kg_m3;
+}
+
+double PatientNow::balloon_end_mm(double side) const {
+  if (!balloon_from_middle_m) return none;
+  return 1e3 * (*balloon_from_middle_m + lesion_length_m / 2 + side * (balloon->length_m / 2));
+}
+
+double widest_mm(const PatientNow& x) {
+  double widest = 0;
+  for (double r : x.state.treatment.balloon.radius_m) widest = std::max(widest, 2e3 * r);
+  return x.balloon ? widest : 0;
+}
+
+/// "The lesion" is the first of the case; places along its artery are from its proximal end.
+constexpr Signal<PatientNow> of_a_patient[] = {
+    {"ecg_II_mV", "mV", "lead II",
+     [](const PatientNow& x) -> double { return x.ecg_mV[static_cast<int>(vascular::Lead::II)]; }},
+    {"ecg_V2_mV", "mV", "lead V2",
+     [](const PatientNow& x) -> double { return x.ecg_mV[static_cast<int>(vascular::Lead::V2)]; }},
+    {"aorta_mmHg", "mmHg", "pressure in the aorta",
+     [](const PatientNow& x) { return pressures(x.model.physiology.heart, x.blood.heart).aorta_Pa / mmHg; }},
+    {"guide_mmHg", "mmHg", "pressure that the guide's line reads",
+     [](const PatientNow& x) { return x.has_guide() ? x.blood.line.reading_Pa / mmHg : none; }},
+    {"trace", "1", "0 normal, 1 damped, 2 ventricularised, 3 ventricle, 4 absent",
+     [](const PatientNow& x) {
+       return x.has_guide() ? static_cast<double>(x.blood.line.trace) : static_cast<double>(vascular::Trace::absent);
+     }},
+    {"ST_mV", "mV", "largest ST shift in a lead",
+     [](const PatientNow& x) { return ST_shift_mV(x.model.physiology.ischaemia, x.blood.ischaemia); }},
+    {"gauge_atm", "atm", "of the inflation device",
+     [](const PatientNow& x) { return x.inputs.delivery.gauge_Pa / atm; }},
+    {"balloon_atm", "atm", "pressure in the balloon",
+     [](const PatientNow& x) { return x.balloon ? x.state.treatment.balloon.pressure_Pa / atm : 0; }},
+    {"balloon_mm", "mm", "its largest diameter", widest_mm},
+    {"balloon_ratio", "1", "its largest diameter between its markers over the healthy artery's there",
+     [](const PatientNow& x) { return balloon_artery_ratio(x.model, x.state); }},
+    {"waist", "1", "narrowest over widest of the balloon between its markers",
+     [](const PatientNow& x) { return x.balloon ? waist(*x.balloon, x.state.treatment.balloon) : none; }},
+    {"balloon_from_mm", "mm", "its proximal end, while no other lesion is nearer",
+     [](const PatientNow& x) { return x.balloon_end_mm(-1); }},
+    {"balloon_to_mm", "mm", "its distal end", [](const PatientNow& x) { return x.balloon_end_mm(1); }},
+    {"contrast_mL", "mL", "out of the syringe since the run began, undiluted",
+     [](const PatientNow& x) { return 1e6 * x.blood.contrast.injected_kg / undiluted_kg_m3; }},
+    {"iodine_g", "g", "that left the catheter", [](const PatientNow& x) { return 1e3 * x.blood.contrast.from_tip_kg; }},
+    {"flow_share", "1", "flow behind the lesion over what the muscle needs",
+     [](const PatientNow& x) { return x.has_lesion ? supply_behind_lesion(x.model, x.state) : none; }},
+    {"act_s", "s", "activated clotting time",
+     [](const PatientNow& x) { return act_s(x.model.treatment.drugs, x.state.treatment.drugs); }},
+    {"lesion_mld_mm", "mm", "smallest diameter within the lesion",
+     [](const PatientNow& x) { return 1e3 * x.lesion.mld_m; }},
+    {"segment_mld_mm", "mm", "the same with 5 mm on both sides of lesion and stents",
+     [](const PatientNow& x) { return 1e3 * x.lesion.segment_mld_m; }},
+    {"lesion_reference_mm", "mm", "diameter of the healthy artery about it",
+     [](const PatientNow& x) { return 1e3 * x.lesion.reference_m; }},
+    {"lesion_length_mm", "mm", "of the lesion", [](const PatientNow& x) { return 1e3 * x.lesion_length_m; }},
+    {"stent_from_mm", "mm", "proximal end of the stents at the lesion",
+     [](const PatientNow& x) { return x.stents ? 1e3 * x.stents->from_m : none; }},
+    {"stent_to_mm", "mm", "their distal end",
+     [](const PatientNow& x) { return x.stents ? 1e3 * x.stents->to_m : none; }},
+    {"stent_area_mm2", "mm2", "smallest area inside them",
+     [](const PatientNow& x) { return x.open ? 1e6 * x.open->minimal_area_m2 : none; }},
+    {"stent_expansion_percent", "%", "that over the area of the reference diameter",
+     [](const PatientNow& x) { return x.open ? 100 * x.open->expansion : none; }},
+    {"stent_apposed_percent", "%", "share of their struts' points that lie on the wall",
+     [](const PatientNow& x) { return x.open ? 100 * x.open->apposed : none; }},
+    {"contrast_ostium", "1", "concentration over the undiluted where contrast comes into the lesion's artery",
+     [](const PatientNow& x) { return x.contrast_at(contrast_enters(x.model, x.state)); }},
+    {"contrast_landmark", "1", "the same at the landmark of TIMI frame counts",
+     [](const PatientNow& x) { return x.contrast_at(x.model.vessel->coronaries->landmark_cell); }},
+    {"stenosis_worst_percent", "%", "of the case's lesions, that of which most is left",
+     [](const PatientNow& x) { return 100 * x.worst.stenosis; }},
+    {"stent_margin_least_mm", "mm", "least that stents reach beyond a lesion; not a number: one has none",
+     [](const PatientNow& x) { return x.worst.margin_m ? 1e3 * *x.worst.margin_m : none; }},
+    {"wire_hazard", "1", "hazard so far that the wire's tip perforates",
+     [](const PatientNow& x) -> double { return x.state.treatment.injury.wire_H; }},
+};
+
+/// A tool at this moment.
+struct ToolNow {
+  ToolNow(const SessionModel& model, const SessionState& state, const SessionReport& own, int t)
+      : rod(state.rods.rods[static_cast<std::size_t>(t)]),
+        hand(state.hands[static_cast<std::size_t>(t)]),
+        report(own.tools[static_cast<std::size_t>(t)]),
+        way(*model.vessel->way),
+        tip_m(tip(model, state, t)),
+        sphere(report.in_body ? way.locate(tip_m, state.blood.heart.phase, breath(model, state)) : -1) {}
+
+  const core::RodState& rod;
+  const HandState& hand;
+  const ToolReport& report;
+  const VesselIndex& way;
+  Eigen::Vector3d tip_m;
+  int sphere;  ///< of the vessel index, where the tip is; -1: out of the body
+};
+
+constexpr Signal<ToolNow> of_a_tool[] = {
+    {"inserted_mm", "mm", "length in the body", [](const ToolNow& x) -> double { return 1e3 * x.rod.inserted_m; }},
+    {"turned_deg", "degrees", "at the hub",
+     [](const ToolNow& x) -> double { return 180 / EIGEN_PI * x.hand.turned_rad; }},
+    {"tip_x_mm", "mm", "of the tip, to the patient's left", [](const ToolNow& x) { return 1e3 * x.tip_m.x(); }},
+    {"tip_y_mm", "mm", "of the tip, to the head", [](const ToolNow& x) { return 1e3 * x.tip_m.y(); }},
+    {"tip_z_mm", "mm", "of the tip, to the front", [](const ToolNow& x) { return 1e3 * x.tip_m.z(); }},
+    {"tip_branch", "1", "branch of the vessel's tree, from 0; -1: out of the body",
+     [](const ToolNow& x) { return x.sphere < 0 ? -1.0 : x.way.branch(x.sphere); }},
+    {"tip_along_mm", "mm", "the tip's way from the access along the tree",
+     [](const ToolNow& x) { return x.sphere < 0 ? 0 : 1e3 * x.way.from_access_m(x.sphere); }},
+    {"push_N", "N", "force of the hand, negative: it pulls", [](const ToolNow& x) { return x.report.push_N; }},
+    {"torque_mNm", "mN m", "torque of the hand", [](const ToolNow& x) { return 1e3 * x.report.torque_Nm; }},
+    {"wall_force_N", "N", "sum of the walls' normal forces", [](const ToolNow& x) { return x.report.wall_force_N; }},
+    {"tip_force_N", "N", "the same, of the last 10 mm", [](const ToolNow& x) { return x.report.tip_force_N; }},
+    {"touches", "1", "places where it touches a wall", [](const ToolNow& x) -> double { return x.report.touches; }},
+};
+
+template <class Now, std::size_t n>
+void put(const Signal<Now> (&table)[n], const Now& now, float*& row) {
+  for (const Signal<Now>& signal : table) *row++ = static_cast<float>(signal.of(now));
+}
+
+}  // namespace
+
+std::vector<SignalDefinition> signal_definitions(const SessionModel& model) {
+  std::vector<SignalDefinition> out;
+  const auto add = [&](const auto& table, const std::string& prefix = "") {
+    for (const auto& signal : table) out.push_back({prefix + signal.name, signal.unit, signal.definition});
+  };
+  add(of_the_run);
+  if (model.has_patient()) add(of_a_patient);
+  for (const SessionTool& tool : model.tools) add(of_a_tool, tool.name + ".");
+  if (model.breaths_1_min > 0) add(of_the_breath);
+  return out;
+}
+
+std::size_t signal_count(const SessionModel& model) {
+  return std::size(of_the_run) + (model.has_patient() ? std::size(of_a_patient) : 0) +
+         model.tools.size() * std::size(of_a_tool) + (model.breaths_1_min > 0 ? std::size(of_the_breath) : 0);
+}
+
+std::vector<std::string> signal_names(const SessionModel& model) {
+  std::vector<std::string> names;
+  for (SignalDefinition& signal : signal_definitions(model)) names.push_back(std::move(signal.name));
+  return names;
+}
+
+void put_signals(const SessionModel& model, const SessionState& state, const SessionInputs& inputs,
+                 const SessionReport& report, float* row) {
+  const RunNow run{model, state, inputs};
+  put(of_the_run, run, row);
+  if (model.has_patient()) put(of_a_patient, PatientNow(model, state, inputs), row);
+  for (int t = 0; t < static_cast<int>(model.tools.size()); ++t) put(of_a_tool, ToolNow(model, state, report, t), row);
+  if (model.breaths_1_min > 0) put(of_the_breath, run, row);
+}
+
+}  // namespace ostium::app

@@ -1,0 +1,117 @@
+#include "app/session/run/play.h"
+
+#include <time.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "data/formats/load_error.h"
+
+namespace ostium::app {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+/// As much as the clock may be ahead: more than a beat's hard half loses, which its easy half makes up for. More is let
+/// go. What is made up for goes at most twice as fast as the clock.
+constexpr auto most_behind = std::chrono::milliseconds(500);
+constexpr int most_haste = 2;
+
+double seconds_between(Clock::time_point a, Clock::time_point b) {
+  return std::chrono::duration<double>(b - a).count();
+}
+
+double thread_cpu_s() {
+  timespec t;
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
+  return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
+}
+
+/// Times of steps in bins of 1 %, from 1 us to 20 s: percentiles without keeping them all.
+class TimeBins {
+ public:
+  TimeBins() : bins_(count, 0) {}
+  void add(double s) {
+    ++bins_[static_cast<std::size_t>(std::clamp(std::log(s / least_s) / step, 0.0, count - 1.0))];
+    ++all_;
+    sum_ += s, most_ = std::max(most_, s);
+  }
+  double percentile_ms(double share) const {
+    long left = static_cast<long>(share * static_cast<double>(all_));
+    for (int b = 0; b < count; ++b)
+      if ((left -= bins_[static_cast<std::size_t>(b)]) < 0) return 1e3 * least_s * std::exp((b + 0.5) * step);
+    return 1e3 * most_;
+  }
+  double most_ms() const { return 1e3 * most_; }
+  double mean_ms() const { return all_ ? 1e3 * sum_ / static_cast<double>(all_) : 0; }
+
+ private:
+  static constexpr double least_s = 1e-6, step = 0.01;
+  static constexpr int count = 1700;
+  std::vector<long> bins_;
+  long all_ = 0;
+  double sum_ = 0, most_ = 0;
+};
+
+}  // namespace
+
+PlayReport play(ScriptedRun& run, const RunSetup& setup, const PlayOptions& options) {
+  Recorder recorder(options.recorder, run.model, setup, save(run.hands).size());
+  recorder.begin(run.state, run.hands);
+  TimeBins bins;
+  PlayReport out;
+  const auto begin = Clock::now();
+  std::string aborted;
+  const auto step_length =
+      std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(run.model.step_s()));
+  auto due = begin;
+  while (true) {
+    const auto now = Clock::now();
+    const double cpu = thread_cpu_s();
+    if (options.stop && options.stop->load(std::memory_order_relaxed)) aborted = "stopped by the operator";
+    if (options.seconds > 0 && seconds(run.model, run.state) >= options.seconds - 1e-9) aborted = "time limit";
+    if (options.give_up_s > 0 && seconds_between(begin, now) > options.give_up_s) aborted = "gave up waiting";
+    if (!aborted.empty() || !run.tick()) break;
+    recorder.add(run.inputs, run.state, run.report, run.hands, run.events);
+    bins.add(thread_cpu_s() - cpu);
+    if (options.progress && run.state.rods.step % 100 == 0) options.progress(run);
+    if (options.real) {
+      if (now - due > step_length) ++run.overruns;
+      out.times.behind_most_ms = std::max(out.times.behind_most_ms, 1e3 * seconds_between(due, now));
+      if (now - due > most_behind) due = now;
+      due = run.stood ? Clock::now() : due + step_length;
+      std::this_thread::sleep_until(std::max(due, now + step_length / most_haste));
+    }
+  }
+  out.clock_s = seconds_between(begin, Clock::now());
+  recorder.stop();
+  out.simulated_s = seconds(run.model, run.state);
+  out.outcome = words_for(aborted.empty() ? run.outcome : Outcome::aborted);
+  out.reason = aborted.empty() ? reason(run.plan, run.hands) : aborted + ", in " + reason(run.plan, run.hands);
+  if (const std::string tips = where_tips_lie(run.model, run.state, run.report); !out.reason.empty() && !tips.empty())
+    out.reason += " (" + tips + ")";
+  out.times.p50_ms = bins.percentile_ms(0.5), out.times.p99_ms = bins.percentile_ms(0.99);
+  out.times.p999_ms = bins.percentile_ms(0.999);
+  out.times.overruns = run.overruns;
+  out.times.most_ms = bins.most_ms(), out.times.mean_ms = bins.mean_ms();
+  data::RunRecord record = recorder.record();
+  if (!run.xrays.poses().empty()) {
+    const auto own = options.dosimeter ? nullptr : std::make_unique<const Dosimeter>(*run.model.vessel);
+    (own ? *own : *options.dosimeter).measure(run.xrays, record);
+  }
+  out.metrics = metrics_of(record);
+  out.penetration = recorder.penetration();
+  out.waits = recorder.waits();
+  out.hash = hash(run.state);
+  out.problem = recorder.problem();
+  try {
+    recorder.finish(metrics_json(setup.vessel, setup.seed, out.outcome, out.reason, out.metrics));
+  } catch (const data::LoadError& error) {
+    out.problem = error.what();
+  }
+  return out;
+}
+
+}  // namespace ostium::app

@@ -1,0 +1,104 @@
+#include "app/session/scene/film.h"
+
+#include "app/angiography/patient_scene.h"
+#include "fluoro/display/overlay.h"
+
+namespace ostium::app {
+
+struct Film::Parts {
+  explicit Parts(const FilmOptions& o) : options(o), imager({}, fluoro::make_scanline_renderer()) {}
+  FilmOptions options;
+  std::unique_ptr<PatientScene> patient;      ///< with the blood and the contrast of the session,
+  std::unique_ptr<const XrayPatient> filled;  ///< or a tree full of contrast, whatever was injected,
+  fluoro::Scene mesh;                         ///< or a mesh
+  fluoro::Imager imager;
+  fluoro::FluoroscopeState state;
+  fluoro::DisplayScratch scratch;
+  fluoro::FrameReport report;
+  fluoro::View view;
+  fluoro::Picture picture;
+  Monitor monitor;
+  std::optional<RunningDose> running_dose;
+  fluoro::DoseMeter dose;
+  bool is_cine = false;
+
+  fluoro::Programme programme() const {
+    return is_cine ? fluoro::cine(options.frames_per_s) : fluoro::fluoroscopy(options.frames_per_s);
+  }
+};
+
+Film::Film(const SessionModel& model, const FilmOptions& options) : parts_(std::make_unique<Parts>(options)) {
+  fluoro::require_rate(options.frames_per_s);
+  if (model.has_patient() && options.fill == Fill::none)
+    parts_->patient = std::make_unique<PatientScene>(*model.vessel->patient, model.physiology);
+  else if (model.vessel->patient)
+    parts_->filled = std::make_unique<const XrayPatient>(model.vessel->patient, options.fill, model.breaths_1_min > 0);
+  else
+    parts_->mesh = scene_of_mesh(*model.vessel);
+  if (!options.overlay) return;
+  const SessionState first = make_state(model, 0);
+  parts_->running_dose.emplace(parts_->patient  ? parts_->patient->at(first.blood, occupied_m(model, first))
+                               : parts_->filled ? parts_->filled->at(0)
+                                                : parts_->mesh);
+}
+
+Film::~Film() = default;
+
+const fluoro::Picture& Film::frame(const SessionModel& model, const SessionState& state, const SessionInputs& inputs,
+                                   const XrayUse& xrays) {
+  Parts& p = *parts_;
+  const FilmOptions& o = p.options;
+  fluoro::Scene other;
+  if (p.patient)
+    p.patient->at(state.blood, occupied_m(model, state), breath(model, state));
+  else
+    other = p.filled ? p.filled->at(state.blood.heart.phase, breath(model, state)) : p.mesh;
+  fluoro::Scene& scene = p.patient ? p.patient->scene() : other;
+  scene.shafts = shafts_of(model, state);
+  if (model.has_patient()) add_treatment(model, state, scene);
+  const CArmInputs& arm = inputs.c_arm;
+  p.view.arm.lao_rad = o.lao_rad.value_or(arm.lao_rad), p.view.arm.cran_rad = o.cran_rad.value_or(arm.cran_rad);
+  p.view.arm.p_PI = o.p_PI.value_or(arm.p_PI);
+  p.view.field_m = o.field_m.value_or(arm.field_m);
+  p.view.pixels = o.pixels;
+  const bool on = o.always_on || arm.fluoroscopy || arm.cine;
+  p.is_cine = o.mode ? *o.mode == fluoro::Mode::cine : arm.cine;
+  const fluoro::FluoroscopeInput in{.scene = scene,
+                                    .view = p.view,
+                                    .collimator = {},
+                                    .pedals = {.fluoroscopy = on && !p.is_cine, .cine = on && p.is_cine},
+                                    .fluoroscopy_per_s = o.frames_per_s,
+                                    .cine_per_s = o.frames_per_s,
+                                    .beat_phase = state.blood.heart.phase,
+                                    .seed = o.seed};
+  const fluoro::TickReport report = tick(p.imager, in, p.state, p.scratch);
+  if (report.xray_on) p.report = report.frame;
+  if (!p.state.runs.empty()) p.state.runs.back().frames.clear();  // whoever films keeps what they want
+  p.picture = p.state.live;
+  if (p.picture.grey.empty()) {
+    p.picture.width = p.picture.height = o.pixels;
+    p.picture.grey.assign(static_cast<std::size_t>(o.pixels) * o.pixels, 0);
+  }
+  if (p.running_dose) {
+    p.dose = p.running_dose->of(xrays, state.c_arm);
+    draw_overlay({p.view, p.programme(), p.report.exposure, p.dose, report.xray_on, "", model.vessel->name}, p.picture);
+  }
+  if (o.monitor && model.has_patient())
+    append_strips({p.monitor.II, p.monitor.V2, p.monitor.guide, p.monitor.gauge}, monitor_s, monitor_pixels, p.picture);
+  return p.picture;
+}
+
+void Film::listen(const SessionModel& model, const SessionState& state, const SessionInputs& inputs) {
+  if (parts_->options.monitor) parts_->monitor.listen(model, state, inputs);
+}
+
+Monitor& Film::monitor() { return parts_->monitor; }
+
+int Film::height() const {
+  return parts_->options.pixels + (parts_->options.monitor && (parts_->patient || parts_->filled) ? monitor_pixels : 0);
+}
+
+fluoro::CineRun Film::run() const { return {parts_->view, parts_->programme(), parts_->report.exposure, {}}; }
+const fluoro::DoseMeter& Film::dose() const { return parts_->dose; }
+
+}  // namespace ostium::app

@@ -1,0 +1,261 @@
+#include "app/session/scene/xray_scene.h"
+
+#include <algorithm>
+#include <map>
+#include <numbers>
+
+#include "app/angiography/device_scene.h"
+#include "app/angiography/xray_body.h"
+#include "core/rod/introducer.h"
+#include "fluoro/matter/tissue.h"
+#include "fluoro/phantom/shapes.h"
+#include "vascular/motion/heart_cycle.h"
+
+namespace ostium::app {
+
+using Eigen::Vector3d;
+
+namespace {
+
+constexpr float iodine_kg_m3 = 350;
+
+fluoro::Material material_of(data::OpaqueMaterial material) {
+  switch (material) {
+    case data::OpaqueMaterial::polymer:
+      return fluoro::Material::polymer;
+    case data::OpaqueMaterial::steel:
+      return fluoro::Material::steel;
+    case data::OpaqueMaterial::nitinol:
+      return fluoro::Material::nitinol;
+    case data::OpaqueMaterial::cobalt_chromium:
+      return fluoro::Material::cobalt_chromium;
+    case data::OpaqueMaterial::platinum:
+      return fluoro::Material::platinum;
+    case data::OpaqueMaterial::tungsten:
+      return fluoro::Material::tungsten;
+    case data::OpaqueMaterial::gold:
+      return fluoro::Material::gold;
+    case data::OpaqueMaterial::barium_sulphate:
+      return fluoro::Material::polymer_barium;
+  }
+  return fluoro::Material::polymer;
+}
+
+/// Of fluoro's barium-filled polymer, the share of volume that is barium sulphate: a quarter of 1330 kg/m3, at 4500.
+constexpr double barium_share = 0.25 * 1330 / 4500;
+
+/// Material of a cross-section thickness times diameter, spread over the ring between lumen and surface, as braids and
+/// fillings are; of a wire it is a core in the middle. More than there is room for is denser than solid.
+fluoro::OpaqueSection section(const data::Instrument& instrument, double from_m, double to_m,
+                              data::OpaqueMaterial material, double thickness_m) {
+  const double outer = 0.5 * instrument.outer_diameter_m, inner = 0.5 * instrument.inner_diameter_m;
+  double area = thickness_m * instrument.outer_diameter_m;
+  if (material == data::OpaqueMaterial::barium_sulphate) area /= barium_share;
+  const double radius = inner > 0 ? outer : std::min(outer, std::sqrt(area / std::numbers::pi));
+  const double ring = std::numbers::pi * (radius * radius - inner * inner);
+  return {from_m, to_m, material_of(material), radius, inner, ring > 0 ? area / ring : 0};
+}
+
+/// What a guide has in its bore: of the line's cells (contrast.h), those of the catheter.
+void fill_bore(const SessionModel& model, const SessionState& state, const core::Rod& rod, fluoro::Shaft& shaft) {
+  const vascular::Line line = line_of(model.tools[static_cast<std::size_t>(state.coupling.guide)].instrument);
+  const double cell_m3 = line.dead_m3 / vascular::line_cells, area = std::numbers::pi * line.bore_m * line.bore_m;
+  shaft.lumen_iodine_kg_m3 = Eigen::VectorXd(shaft.p_P.cols());
+  for (Eigen::Index i = 0; i < shaft.p_P.cols(); ++i) {
+    const double from_tip = rod.node_from_tip_m[static_cast<std::size_t>(rod.elements - i)];
+    const int cell = std::clamp(vascular::line_cells - 1 - static_cast<int>(from_tip * area / cell_m3), 0, vascular::line_cells - 1);
+    shaft.lumen_iodine_kg_m3[i] = state.blood.contrast.line_kg[static_cast<std::size_t>(cell)] / cell_m3;
+  }
+}
+
+/// Once its balloon is filled, struts are drawn where they are; the catalogue's opaque stretch is of the crimped stent.
+bool has_left_its_stent(const SessionModel& model, const SessionState& state, std::size_t tool) {
+  const int balloon = model.balloon_of[tool];
+  if (balloon < 0) return false;
+  const int stent = model.treatment.stent_on[static_cast<std::size_t>(balloon)];
+  if (stent < 0) return false;
+  return state.treatment.stents[static_cast<std::size_t>(stent)].where != vascular::StentState::on_balloon ||
+         (state.coupling.balloon == balloon && state.treatment.balloon.was_filled);
+}
+
+}  // namespace
+
+std::vector<double> occupied_m(const SessionModel& model, const SessionState& state) {
+  std::vector<double> out = state.coupling.shaft_m;
+  const CouplingState& b = state.coupling;
+  if (b.balloon < 0 || b.branch < 0) return out;
+  const vascular::VesselPath& path = model.treatment.paths[static_cast<std::size_t>(b.branch)];
+  for (std::size_t k = 0; k < path.cells.size(); ++k) {
+    double& own = out[static_cast<std::size_t>(path.cells[k])];
+    own = std::max(own, radius_at(model.treatment.balloons[static_cast<std::size_t>(b.balloon)],
+                                  state.treatment.balloon, seat_m(b), path.s_m[k]));
+  }
+  return out;
+}
+
+void add_treatment(const SessionModel& model, const SessionState& state, fluoro::Scene& scene) {
+  const Coronaries& c = *model.vessel->coronaries;
+  const CouplingState& b = state.coupling;
+  const double phase = state.blood.heart.phase, depth = breath(model, state);
+  const auto path_of = [&](double branch) -> const vascular::VesselPath& {
+    return model.treatment.paths[static_cast<std::size_t>(branch)];
+  };
+  const int own = b.balloon < 0 ? -1 : model.treatment.stent_on[static_cast<std::size_t>(b.balloon)];
+  for (std::size_t i = 0; i < state.treatment.stents.size(); ++i) {
+    const vascular::StentState& stent = state.treatment.stents[i];
+    const bool opening = static_cast<int>(i) == own && stent.where == vascular::StentState::on_balloon &&
+                         state.treatment.balloon.was_filled && b.branch >= 0;
+    if (stent.branch >= 0 && (stent.where == vascular::StentState::deployed || opening))
+      add_stent(model.treatment.stents[i], stent, path_of(stent.branch), *c.patient, c.map, *c.shape,
+                state.blood.radius_m, phase, depth, scene);
+  }
+  if (b.balloon >= 0 && b.branch >= 0)
+    add_balloon(model.treatment.balloons[static_cast<std::size_t>(b.balloon)], state.treatment.balloon,
+                path_of(b.branch), b.middle_m, c.map, phase, depth, false, scene);  // between the markers of its shaft
+  add_pools(state.treatment.injury, c.map, state.blood.radius_m, phase, depth, scene);
+}
+
+std::vector<fluoro::Shaft> shafts_of(const SessionModel& model, const SessionState& state) {
+  std::vector<fluoro::Shaft> shafts;
+  for (std::size_t t = 0; t < model.tools.size(); ++t) {
+    const core::Rod& rod = model.rods.rods[t];
+    const core::RodState& s = state.rods.rods[t];
+    if (!in_body(rod, s)) continue;
+    const int first = s.first, count = rod.nodes() - first;
+    if (count < 2) continue;
+    const data::Instrument& instrument = model.tools[t].instrument;
+    fluoro::Shaft shaft{.name = model.tools[t].name,
+                        .p_P = Eigen::Matrix3Xd(3, count),
+                        .sections = {},
+                        .lumen_radius_m = 0.5 * instrument.inner_diameter_m,
+                        .lumen_iodine_kg_m3 = {}};
+    for (int i = 0; i < count; ++i) shaft.p_P.col(i) = s.position[rod.elements - i];
+    if (static_cast<int>(t) == state.coupling.guide) fill_bore(model, state, rod, shaft);
+    const bool stent_left = has_left_its_stent(model, state, t);
+    for (const data::OpaqueStretch& o : instrument.opaque)
+      if (!stent_left || o.material != data::OpaqueMaterial::cobalt_chromium)
+        shaft.sections.push_back(section(instrument, o.from_tip_m, o.to_tip_m, o.material, o.thickness_m));
+    for (const data::Marker& m : instrument.markers)
+      shaft.sections.push_back(section(instrument, m.from_tip_m, m.from_tip_m + m.length_m, m.material, m.thickness_m));
+    shafts.push_back(std::move(shaft));
+  }
+  return shafts;
+}
+
+XrayPatient::XrayPatient(std::shared_ptr<const vascular::Patient> patient, Fill which, bool breathes)
+    : patient_(std::move(patient)) {
+  auto fixed = std::make_shared<std::vector<fluoro::Body>>();
+  for (vascular::XrayBody& body : make_thorax(patient_->anatomy)) {
+    std::shared_ptr<const fluoro::Triangles> triangles = triangles_of(body.mesh.triangles);
+    if (body.beat.empty() && !(breathes && !body.breath.empty())) {
+      fixed->push_back(body_of(body, triangles, body.mesh.vertices));
+    } else {
+      moving_triangles_.push_back(triangles);
+      moving_.push_back(std::move(body));
+    }
+  }
+  fixed_ = std::move(fixed);
+  if (which != Fill::none) fill(which);
+}
+
+/// The part of the lumen that belongs to a coronary tree, closed by a lid at its ostium.
+void XrayPatient::fill(Fill which) {
+  const vascular::Anatomy& anatomy = patient_->anatomy;
+  std::vector<bool> coronary(anatomy.tubes.size(), false);
+  const vascular::NamedBranch* trunk = find_branch(anatomy, which == Fill::left ? "LM" : "RCA");
+  coronary[static_cast<std::size_t>(trunk->tube)] = true;
+  for (std::size_t t = 0; t < anatomy.tubes.size(); ++t)
+    if (anatomy.tubes[t].parent >= 0 && coronary[static_cast<std::size_t>(anatomy.tubes[t].parent)]) coronary[t] = true;
+  const vascular::MovingLumen& lumen = patient_->lumen;
+  std::vector<int> number(lumen.vertices(), -1);
+  const auto belongs = [&](int v) {
+    double weight = 0;
+    for (const vascular::TubeShare& share : lumen.shares[static_cast<std::size_t>(v)])
+      if (coronary[static_cast<std::size_t>(share.tube)]) weight += share.weight;
+    return weight > 0.5;
+  };
+  std::vector<std::array<int, 3>> triangles;
+  std::map<std::pair<int, int>, int> edges;
+  for (const auto& t : lumen.triangles) {
+    if (!belongs(t[0]) || !belongs(t[1]) || !belongs(t[2])) continue;
+    std::array<int, 3> mine;
+    for (std::size_t k = 0; k < 3; ++k) {
+      int& n = number[static_cast<std::size_t>(t[k])];
+      if (n < 0) n = static_cast<int>(filled_.vertices.size()), filled_.vertices.push_back(t[k]);
+      mine[k] = n;
+    }
+    triangles.push_back(mine);
+    for (std::size_t k = 0; k < 3; ++k) edges[{mine[k], mine[(k + 1) % 3]}] = 1;
+  }
+  // Rims: edges without a partner, strung to loops; each gets a lid about a vertex of its own.
+  std::multimap<int, int> next;
+  for (const auto& [edge, one] : edges)
+    if (!edges.count({edge.second, edge.first})) next.emplace(edge.first, edge.second);
+  int lid = static_cast<int>(filled_.vertices.size());
+  while (!next.empty()) {
+    std::vector<int> loop{next.begin()->first};
+    for (int to = next.begin()->second;; to = next.find(to)->second) {
+      next.erase(std::find_if(next.begin(), next.end(),
+                              [&](const auto& e) { return e.first == loop.back() && e.second == to; }));
+      if (to == loop.front()) break;
+      loop.push_back(to);
+      if (!next.count(to)) break;
+    }
+    for (std::size_t i = 0; i < loop.size(); ++i) triangles.push_back({loop[(i + 1) % loop.size()], loop[i], lid});
+    filled_.rims.push_back(std::move(loop));
+    ++lid;
+  }
+  filled_.triangles = triangles_of(triangles);
+}
+
+fluoro::Scene XrayPatient::at(double phase, double breath) const {
+  fluoro::Scene scene{fixed_, {}, {}};
+  for (std::size_t b = 0; b < moving_.size(); ++b)
+    scene.moving.push_back(
+        body_of(moving_[b], moving_triangles_[b], vascular::at(moving_[b], vascular::contraction(phase), breath).vertices));
+  if (filled_.vertices.empty()) return scene;
+  const vascular::Mesh lumen = patient_->lumen.at(phase, breath);
+  std::vector<Vector3d> vertices;
+  for (int v : filled_.vertices) vertices.push_back(lumen.vertices[static_cast<std::size_t>(v)]);
+  for (const std::vector<int>& rim : filled_.rims) {
+    Vector3d middle = Vector3d::Zero();
+    for (int v : rim) middle += vertices[static_cast<std::size_t>(v)] / static_cast<double>(rim.size());
+    vertices.push_back(middle);
+  }
+  fluoro::Body body{.name = "contrast",
+                    .triangles = filled_.triangles,
+                    .p_P = points_of(vertices),
+                    .tissue = fluoro::tissue::blood,
+                    .within = fluoro::tissue::blood,
+                    .contrast = {}};
+  // Of one concentration, so depths may be counted from anywhere, as long as it is the same for all.
+  body.contrast.iodine_kg_m3 = Eigen::VectorXf::Constant(body.p_P.cols(), iodine_kg_m3);
+  body.contrast.p_PC = body.p_P.col(0).replicate(1, body.p_P.cols());
+  scene.moving.push_back(std::move(body));
+  return scene;
+}
+
+CaseScene scene_of_case(const std::string& name, Fill fill, Vector3d& middle) {
+  const data::Case c = data::find_case(name);
+  const auto patient = std::make_shared<const vascular::Patient>(patient_of(c));
+  const auto xray = std::make_shared<const XrayPatient>(patient, fill);
+  middle = heart_middle(*patient);
+  return {[xray](double phase) { return xray->at(phase); },
+          [rate = c.rate_1_min](double phase, double seconds) {
+            for (double t = 0; t < seconds; t += 1e-3) phase += std::min(1e-3, seconds - t) * vascular::phase_speed(phase, rate);
+            return phase - std::floor(phase);
+          }};
+}
+
+fluoro::Scene scene_of_mesh(const Vessel& vessel) {
+  Vector3d low = vessel.wall.frames[0][0], high = low;
+  for (const Vector3d& p : vessel.wall.frames[0]) low = low.cwiseMin(p), high = high.cwiseMax(p);
+  const Vector3d middle = vessel.p_middle,
+                 half = (0.5 * (high - low)).cwiseMax(Vector3d::Constant(0.09)) + Vector3d::Constant(0.02);
+  const fluoro::phantom::Surface block = fluoro::phantom::brick(middle - half, middle + half);
+  const auto fixed = std::make_shared<const std::vector<fluoro::Body>>(
+      std::vector<fluoro::Body>{fluoro::phantom::body("block of soft tissue", block, fluoro::tissue::soft, fluoro::tissue::air)});
+  return {fixed, {}, {}};
+}
+
+}  // namespace ostium::app

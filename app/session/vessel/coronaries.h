@@ -1,0 +1,27 @@
+#pragma once
+/// A case's coronary arteries as contrast, balloons and stents need them. Const once made; runs share them.
+#include "app/angiography/textbook_treatment.h"
+#include "vascular/treatment/wall_shape.h"
+
+namespace ostium::app {
+
+struct Coronaries {
+  std::shared_ptr<const vascular::Patient> patient;
+  vascular::PhysiologyModel physiology;  ///< of the mean person; a session has its own, by its seed
+  vascular::LumenMap map;
+  std::unique_ptr<const vascular::WallShape> shape;
+  vascular::TreatmentModel treatment;  ///< without devices
+  std::vector<Plan> lesions;           ///< in the case's order, without devices
+  /// Of the first lesion's artery: cells behind its ostium and at the landmark that TIMI frames are counted to, or -1.
+  int ostium_cell = -1, landmark_cell = -1;
+  vascular::PhysiologyState at_rest;  ///< a circulation that has beaten until pressure and flow repeat
+  /// Vertices of the lumen that follow a cell's radius: vertices[first_vertex[c], first_vertex[c + 1]).
+  std::vector<int> first_vertex, vertices;
+
+  const vascular::FlowTree& tree() const { return physiology.flow.tree; }
+};
+
+/// Takes about a second. Null if the patient has no coronary artery.
+std::unique_ptr<const Coronaries> make_coronaries(std::shared_ptr<const vascular::Patient> patient, double rate_1_min);
+
+}  // namespace ostium::app

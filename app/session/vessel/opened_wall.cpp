@@ -1,0 +1,76 @@
+#include "app/session/vessel/opened_wall.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace ostium::app {
+
+namespace {
+
+std::vector<double> untreated(const vascular::FlowTree& tree) {
+  std::vector<double> radii;
+  for (const vascular::FlowCell& cell : tree.cells) radii.push_back(cell.diseased_m);
+  return radii;
+}
+
+}  // namespace
+
+void follow_lumen(const vascular::FlowTree& tree, const std::vector<double>& radius_m, int& cursor,
+                  std::vector<double>& wall_m) {
+  const std::size_t n = wall_m.size(), from = static_cast<std::size_t>(cursor) % n;
+  int moved = 0;
+  for (std::size_t k = 0; k < n; ++k) {
+    const std::size_t c = (from + k) % n;
+    const vascular::FlowCell& cell = tree.cells[c];
+    const double slack = cell.diseased_m < 0.98 * cell.healthy_m || radius_m[c] > 1.02 * cell.healthy_m
+                             ? wall_follows_m
+                             : wall_follows_share * cell.healthy_m;
+    if (std::fabs(radius_m[c] - wall_m[c]) <= slack) continue;
+    wall_m[c] = radius_m[c];
+    cursor = static_cast<int>((c + 1) % n);
+    if (++moved == wall_cells_a_step) return;
+  }
+}
+
+OpenedWall::OpenedWall(const Vessel& vessel, core::Surface& surface)
+    : coronaries_(*vessel.coronaries), editor_(vessel.wall, surface), now_m_(untreated(vessel.coronaries->tree())) {
+  changed_.reserve(now_m_.size());
+}
+
+void OpenedWall::set(const std::vector<double>& wall_m) {
+  changed_.clear();
+  for (std::size_t c = 0; c < now_m_.size(); ++c)
+    if (wall_m[c] != now_m_[c]) changed_.push_back(static_cast<int>(c));
+  if (changed_.empty()) return;
+  now_m_ = wall_m;
+  for (int c : changed_)
+    for (int k = coronaries_.first_vertex[c]; k < coronaries_.first_vertex[c + 1]; ++k) {
+      const int v = coronaries_.vertices[k];
+      for (int f = 0; f < vascular::beat_frames; ++f)
+        editor_.place(
+            v, f,
+            coronaries_.shape->vertex(static_cast<std::size_t>(v), now_m_, static_cast<double>(f) / vascular::beat_frames, 0));
+    }
+  editor_.refit();
+}
+
+Eigen::Vector3d wall_vertex(const Vessel& vessel, const std::vector<double>& wall_m, int vertex, double frame,
+                            double breath) {
+  if (!vessel.coronaries || static_cast<std::size_t>(vertex) >= vessel.coronaries->map.sources.size())
+    return vertex_at(vessel.wall, vertex, frame, breath);  // of a mesh, or of the ventricle
+  const Coronaries& c = *vessel.coronaries;
+  const vascular::VertexSource& from = c.map.sources[static_cast<std::size_t>(vertex)].first;
+  const auto untouched = [&](int cell) { return wall_m[cell] == c.tree().cells[cell].diseased_m; };
+  if (from.part != vascular::VertexSource::coronary || (untouched(from.below) && untouched(from.above)))
+    return vertex_at(vessel.wall, vertex, frame, breath);
+  const double k = std::floor(frame);
+  const std::array<double, 4> w = core::frame_weights(frame - k);
+  Eigen::Vector3d p = Eigen::Vector3d::Zero();
+  for (int j = 0; j < 4; ++j) {
+    const int f = ((static_cast<int>(k) + j - 1) % vascular::beat_frames + vascular::beat_frames) % vascular::beat_frames;
+    p += w[j] * c.shape->vertex(static_cast<std::size_t>(vertex), wall_m, static_cast<double>(f) / vascular::beat_frames, breath);
+  }
+  return p;
+}
+
+}  // namespace ostium::app

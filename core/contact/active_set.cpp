@@ -1,0 +1,235 @@
+/// Ties to walls: an active set, settled within the solve.
+#include <algorithm>
+#include <cmath>
+
+#include "core/base/tolerances.h"
+#include "core/contact/broad_phase.h"
+#include "core/contact/contact.h"
+#include "core/contact/friction.h"
+#include "core/contact/line_search.h"
+#include "core/math/rotation.h"
+#include "core/nesting/nest.h"
+#include "core/rod/nodes.h"
+#include "core/solver/node_spring.h"
+
+namespace ostium::core {
+
+namespace {
+
+/// Puts node i back to where it is free, and ties it to its active planes.
+void renew_node(int i, const ContactScratch& c, RodScratch& s) {
+  S3<double> P = load6<double>(c.free_compliance, i);
+  V3<double> target = load3<double>(c.free_target, i);
+  const NodeWalls& walls = c.walls[i];
+  for (int k = 0; k < walls.count; ++k) {
+    const WallPlane& w = walls.planes[k];
+    if (!w.active) continue;
+    tie(w.normal, w.place, w.softness, P, target);
+    if (w.stay > 0) tie(w.across, w.beside, 1 / w.stay, P, target);
+  }
+  if (c.rubs[i]) rub(i, c, s, P, target);
+  move_target(i, target - load3<double>(s.target, i), s);
+  store6(s.chain.compliance, i, P);
+}
+
+bool is_touched(const ContactScratch& c, int i) {
+  bool any = c.rubs[i];
+  for (int k = 0; k < c.walls[i].count; ++k) any = any || c.walls[i].planes[k].active;
+  return any;
+}
+
+/// What of the last step's force each plane gave: most from the one that faces it best, of the rest the next, so that
+/// planes beside those that hold a node are not thought to.
+void share_force(V3<double> force, const NodeWalls& walls, double* pressed_N) {
+  std::fill(pressed_N, pressed_N + walls.count, 0.0);
+  for (int round = 0; round < walls.count; ++round) {
+    int most = 0;
+    for (int k = 1; k < walls.count; ++k)
+      if (dot(force, walls.planes[k].normal) > dot(force, walls.planes[most].normal)) most = k;
+    const double part = dot(force, walls.planes[most].normal);
+    if (!(part > 0)) return;
+    pressed_N[most] += part;
+    force = madd(-part, walls.planes[most].normal, force);
+  }
+}
+
+}  // namespace
+
+void expect_touches(const Model& model, const Strand& strand, Scratch& scratch) {
+  ContactScratch& c = *strand.contact;
+  if (c.walls.empty()) return;
+  const RodScratch& s = *strand.s;
+  const RodState& own = *strand.own;
+  for (int i = s.inside.first; i < s.inside.nodes(); ++i) {
+    NodeWalls& walls = c.walls[i];
+    c.rubs[i] = false;
+    if (walls.count == 0) continue;
+    const V3<double> expected = load3<double>(s.position, i);
+    look_again(model, strand, i, expected, scratch);
+    double pressed[max_planes];
+    share_force(load3<double>(own.wall_force, i), walls, pressed);
+    for (int k = 0; k < walls.count; ++k) {
+      WallPlane& w = walls.planes[k];
+      w.active = dot(w.normal, expected) - pressed[k] / tolerances::press_N_m < w.place;
+      w.stay = w.active ? pressed[k] * w.curvature : 0;
+      w.beside = dot(w.across, load3<double>(own.position, i) + w.carried);
+    }
+    find_rubbing(own, i, walls, s, c);
+  }
+}
+
+void tie_to_walls(const Strand& strand) {
+  ContactScratch& c = *strand.contact;
+  if (c.walls.empty()) return;
+  RodScratch& s = *strand.s;
+  c.free_compliance = s.chain.compliance;
+  c.free_target = s.target;
+  for (int i = s.inside.first; i < s.inside.nodes(); ++i)
+    if (is_touched(c, i)) renew_node(i, c, s);
+}
+
+namespace {
+
+/// Whether it may have come to walls that were not found.
+bool went_far(const Strand& strand, int i, const V3<double>& to) {
+  const ContactScratch& c = *strand.contact;
+  const NodeWalls& walls = c.walls[i];
+  const V3<double> moved = to - load3<double>(strand.own->position, i);
+  const V3<double> slid = walls.count > 0 ? moved - walls.planes[0].carried : moved;
+  const double far = walls.count > 0 ? least(c.travel.at(0)[i], tolerances::slid_far_m) : c.travel.at(0)[i];
+  return dot(slid, slid) > far * far;
+}
+
+/// Follows nodes that went far through the triangles: true if that finds walls that are to hold one.
+bool follow_far(const Model& model, const Strand& strand, Scratch& scratch) {
+  RodScratch& s = *strand.s;
+  ContactScratch& c = *strand.contact;
+  const RodState& own = *strand.own;
+  bool any = false;
+  for (int i = first_free(s); i <= last_free(s); ++i) {
+    const V3<double> p = load3<double>(c.ahead, i);
+    if (!went_far(strand, i, p) || !follow(model, own, i, p, scratch, s, c)) continue;
+    c.changed[i] = any = true;
+  }
+  return any;
+}
+
+/// Whether the plane is to change, by where the last solve leads.
+bool is_wrong(const WallPlane& w, const V3<double>& ahead) {
+  return w.active ? push_N(w, ahead) < -tolerances::wall_pull_N
+                  : dot(w.normal, ahead) < w.place - tolerances::wall_loose_m;
+}
+
+/// The force along `across` of a tie that is let go.
+void drop_stay(int i, WallPlane& w, ContactScratch& c) {
+  if (w.stay == 0) return;
+  const V3<double> off = load3<double>(c.anchor_push, i);
+  const double force = w.stay * (w.beside - dot(w.across, load3<double>(c.anchor, i)));
+  store3(c.anchor_push, i, madd(force, w.across, off));
+  w.stay = 0;
+}
+
+}  // namespace
+
+bool change_walls(const Model& model, const Strand& strand, Scratch& scratch) {
+  ContactScratch& c = *strand.contact;
+  if (c.walls.empty() || c.changes >= tolerances::max_wall_changes) return false;
+  RodScratch& s = *strand.s;
+  std::fill(c.changed.begin(), c.changed.end(), 0);
+  look_ahead(strand);
+  bool any = model.sweep && follow_far(model, strand, scratch);
+  for (int i = first_free(s); i <= last_free(s); ++i) {
+    if (!c.changed[i]) look_again(model, strand, i, load3<double>(c.ahead, i), scratch);
+    for (int k = 0; k < c.walls[i].count; ++k)
+      any = any || (!c.changed[i] && is_wrong(c.walls[i].planes[k], load3<double>(c.ahead, i)));
+  }
+  if (!any) return false;
+
+  const bool slow = c.changes >= tolerances::quick_wall_changes;
+  if (c.changes == tolerances::quick_wall_changes)
+    start_descent(strand);
+  else if (slow)
+    descend(strand);
+  ++c.changes;
+  any = false;
+  c.same = s.chain.elements;
+  for (int i = first_free(s); i <= last_free(s); ++i) {
+    NodeWalls& walls = c.walls[i];
+    bool changed = c.changed[i];
+    for (int k = 0; k < walls.count; ++k) {
+      WallPlane& w = walls.planes[k];
+      const bool wrong = slow ? w.active != (dot(w.normal, load3<double>(c.anchor, i)) < w.place)
+                              : !c.changed[i] && is_wrong(w, load3<double>(c.ahead, i));
+      if (!wrong) continue;
+      w.active = !w.active, changed = true;
+      if (slow)
+        drop_stay(i, w, c);
+      else
+        w.stay = 0;
+    }
+    if (!changed) continue;
+    renew_node(i, c, s);
+    any = true;
+    // A node belongs to the elements on both sides of it.
+    c.same = std::max(0, std::min({c.same, i - 1 - s.chain.first, s.chain.elements - 1 - i}));
+  }
+  return any;
+}
+
+double behind_walls(const Model& model, const Strand& strand, Scratch& scratch) {
+  ContactScratch& c = *strand.contact;
+  if (c.walls.empty()) return 0;
+  const RodScratch& s = *strand.s;
+  double most = 0;
+  for (int i = first_free(s); i <= last_free(s); ++i) {
+    const V3<double> p = load3<double>(s.position, i);
+    for (int k = 0; k < c.walls[i].count; ++k) {
+      const WallPlane& w = c.walls[i].planes[k];
+      if (!w.active) most = largest(most, w.place - dot(w.normal, p));
+    }
+    if (model.sweep && went_far(strand, i, p))
+      most = largest(most, deeper_than_planes(model, *strand.own, i, p, scratch, s, c));
+  }
+  return most;
+}
+
+namespace {
+V3<double> pushing_force(const RodScratch& s, const ContactScratch& c, int i) {
+  V3<double> force{};
+  const V3<double> p = load3<double>(s.position, i);
+  const NodeWalls& walls = c.walls[i];
+  for (int k = 0; k < walls.count; ++k) {
+    const WallPlane& w = walls.planes[k];
+    if (!w.active) continue;
+    force = madd(push_N(w, p), w.normal, force);
+    force = madd(w.stay * (w.beside - dot(w.across, p)), w.across, force);
+  }
+  return force;
+}
+
+}  // namespace
+
+void commit_walls(const Strand& strand, std::vector<Touch>& touches) {
+  const ContactScratch& c = *strand.contact;
+  if (c.walls.empty()) return;
+  const RodScratch& s = *strand.s;
+  RodState& own = *strand.own;
+  for (int i = s.inside.first; i < s.inside.nodes(); ++i) {
+    const bool free = c.walls[i].count == 0;
+    const V3<double> force = free ? V3<double>{} : pushing_force(s, c, i), last = load3<double>(own.wall_force, i);
+    const double push = std::sqrt(dot(force, force));
+    if (push > 0 && dot(last, last) == 0) land(i, (1 / push) * force, s.step_s, own);
+    const V3<double> rubbed = free ? V3<double>{} : rubbing_force(i, s, c);
+    if (free)
+      own.wall_slip.set(i, {0, 0});
+    else
+      take_rubbing(i, s, c, own);
+    store3(own.wall_force, i, force);
+    if (push == 0) continue;
+    const NodeOfRod node = node_of_rod(strand, i);
+    touches.push_back({node.rod, node.node, own.position[i] - s.inside.radius.at(0)[i] / push * to_eigen(force),
+                       to_eigen(force), to_eigen(rubbed)});
+  }
+}
+
+}  // namespace ostium::core

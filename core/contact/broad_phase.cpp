@@ -1,0 +1,130 @@
+/// Which walls a node can reach.
+#include "core/contact/broad_phase.h"
+
+#include <algorithm>
+#include <bit>
+
+#include "core/base/tolerances.h"
+#include "core/contact/contact.h"
+#include "core/contact/narrow_phase.h"
+
+namespace ostium::core {
+
+namespace {
+
+constexpr int block = 8;             ///< nodes that share a query
+constexpr double rounding_m = 1e-9;  ///< what a coarse look allows for, before an exact one
+
+/// Sees a wall anew from `to`, as it is at the end of the step. False: what it is from there, another is already.
+bool is_in_the_way(const Model& model, const Strand& strand, int i, const V3<double>& to, Scratch& scratch,
+                   WallPlane& wall) {
+  const Surface& surface = *model.surfaces[wall.surface];
+  const ClusterPose& pose = pose_of(surface, wall.cluster, scratch.surfaces[wall.surface]);
+  NodeView view = view_of(strand.s->inside, *strand.own, i, to, 0);
+  view.reach *= 2;
+  const Surface::Triangle& triangle = surface.triangles[wall.triangle];
+  SeenTriangle sight;
+  if (!see(surface, surface.clusters[wall.cluster], triangle, pose.after, view, sight) ||
+      dot(sight.normal, wall.normal) < tolerances::same_side)
+    return true;
+  WallPlane seen = plane_of(surface, view, triangle, pose, pose.after, sight);
+  const NodeWalls& walls = strand.contact->walls[i];
+  for (int k = 0; k < walls.count; ++k) {
+    const WallPlane& other = walls.planes[k];
+    if (&other != &wall && dot(other.normal, seen.normal) > tolerances::same_wall &&
+        other.place - dot(other.normal, to) > seen.place - dot(seen.normal, to) - tolerances::wall_loose_m)
+      return false;
+  }
+  seen.gap = wall.gap;
+  seen.surface = wall.surface, seen.cluster = wall.cluster, seen.triangle = wall.triangle;
+  wall = seen;
+  return true;
+}
+
+/// The nodes of a query, side by side; a place without a node reaches nothing.
+struct Block {
+  double x[block], y[block], z[block], reach[block];
+
+  void set(int at, const V3<double>& p, double how_far) { x[at] = p.x, y[at] = p.y, z[at] = p.z, reach[at] = how_far; }
+  /// Which of them a box may be in reach of, that moves by `move`: a bit for each.
+  unsigned near(const V3<double>& low, const V3<double>& high, double move) const {
+    const auto outside = [](Lanes p, double a, double b) { return largest(Lanes{}, largest(a - p, p - b)); };
+    unsigned any = 0;
+    for (int k = 0; k < block; k += lane_count) {
+      const V3<Lanes> away{outside(load<Lanes>(x + k), low.x, high.x), outside(load<Lanes>(y + k), low.y, high.y),
+                           outside(load<Lanes>(z + k), low.z, high.z)};
+      const Lanes far = load<Lanes>(reach + k) + (move + rounding_m);
+      const Lanes within =
+          _mm256_and_pd(_mm256_cmp_pd(dot(away, away), far * far, _CMP_LE_OQ), _mm256_cmp_pd(far, Lanes{}, _CMP_GT_OQ));
+      any |= static_cast<unsigned>(_mm256_movemask_pd(within)) << k;
+    }
+    return any;
+  }
+};
+
+}  // namespace
+
+void move_walls(const Model& model, const Inputs& inputs, double from, double to, Scratch& scratch) {
+  for (std::size_t k = 0; k < model.surfaces.size(); ++k) {
+    const Surface& surface = *model.surfaces[k];
+    const SurfaceMotion whole = k < inputs.surfaces.size() ? inputs.surfaces[k] : SurfaceMotion{};
+    set_motion(surface, part_of(whole, surface.frames, from, to), scratch.surfaces[k]);
+  }
+}
+
+void find_walls(const Model& model, const Strand& strand, Scratch& scratch) {
+  if (model.surfaces.empty()) return;
+  RodScratch& s = *strand.s;
+  ContactScratch& c = *strand.contact;
+  const Rod& rod = s.inside;
+  const RodState& own = *strand.own;
+  for (int i = rod.first; i < rod.nodes(); ++i) c.walls[i].count = 0;
+  for (int begin = first_free(s); begin <= last_free(s); begin += block) {
+    const int end = std::min(begin + block, last_free(s) + 1);
+    Bounds bounds;
+    Block nodes;
+    NodeView views[block];
+    for (int k = 0; k < block; ++k) nodes.set(k, {}, -1);
+    for (int i = begin; i < end; ++i) {
+      const V3<double> p = load3<double>(own.position, i);
+      const double expected = norm(load3<double>(s.position, i) - p);
+      c.travel.at(0)[i] = model.sweep ? expected + tolerances::wall_slack_m : 0;
+      const double reach = rod.radius.at(0)[i] + c.travel.at(0)[i];
+      bounds.take(p, reach);
+      nodes.set(i - begin, p, reach);
+      views[i - begin] = view_of(rod, own, i, p, 0);
+    }
+    for (std::size_t k = 0; k < model.surfaces.size(); ++k) {
+      const Surface& surface = *model.surfaces[k];
+      find_clusters(surface, bounds.low, bounds.high, scratch.surfaces[k], c.clusters,
+                    [&](const V3<double>& low, const V3<double>& high) { return nodes.near(low, high, 0) != 0; });
+      for (int cluster : c.clusters) {
+        const ClusterPose& pose = pose_of(surface, cluster, scratch.surfaces[k]);
+        const double move = model.sweep ? pose.largest_move : 0;
+        for (unsigned left = nodes.near(pose.low, pose.high, move); left != 0; left &= left - 1) {
+          const int i = begin + std::countr_zero(left);
+          NodeView view = views[i - begin];
+          view.reach = view.radius + (c.travel.at(0)[i] + move);
+          look(model, static_cast<int>(k), cluster, pose, pose.before, view,
+               lets_through(surface, scratch.surfaces[k], view.radius), c.walls[i]);
+        }
+      }
+    }
+    for (int i = begin; i < end; ++i) {
+      if (c.walls[i].count > 0) sum_up(views[i - begin], c.walls[i]);
+    }
+  }
+}
+
+void look_again(const Model& model, const Strand& strand, int i, const V3<double>& to, Scratch& scratch) {
+  NodeWalls& walls = strand.contact->walls[i];
+  for (int k = walls.count - 1; k >= 0; --k) {
+    WallPlane& w = walls.planes[k];
+    if (w.triangle < 0 || w.active || dot(w.normal, to) >= w.place) continue;
+    if (is_in_the_way(model, strand, i, to, scratch, w)) continue;
+    std::copy(walls.planes + k + 1, walls.planes + walls.count, walls.planes + k);
+    --walls.count;
+  }
+}
+
+}  // namespace ostium::core

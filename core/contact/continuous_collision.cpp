@@ -1,0 +1,148 @@
+/// Walls that are met on the way through a step.
+#include "core/base/tolerances.h"
+#include "core/contact/broad_phase.h"
+#include "core/contact/narrow_phase.h"
+#include "core/wall/triangle.h"
+
+namespace ostium::core {
+
+namespace {
+
+/// Lets go of walls that the way from `from` to `to` passes although nothing is met on it: a wall ends at a ridge, its
+/// plane does not, and two sides of a ridge would hold a node in the solid between them. True if one of them held it.
+bool drop_passed_walls(const V3<double>& from, const V3<double>& to, double radius, NodeWalls& walls) {
+  bool any = false;
+  int count = 0;
+  for (int k = 0; k < walls.count; ++k) {
+    const WallPlane& w = walls.planes[k];
+    const double surface = w.place - radius;
+    if (dot(w.normal, from) >= surface && dot(w.normal, to) < surface - tolerances::passed_wall_m)
+      any = any || w.active;
+    else
+      walls.planes[count++] = w;
+  }
+  walls.count = count;
+  return any;
+}
+
+/// The first triangle that the path leaves the lumen through, as a plane, and where; seen with the corners of the
+/// step's end.
+bool first_exit(const Model& model, const V3<double>& from, const V3<double>& to, NodeView view, Scratch& scratch,
+                std::vector<int>& clusters, WallPlane& exit, V3<double>& at) {
+  double first = 2;
+  Bounds bounds;
+  bounds.take(from, 0), bounds.take(to, 0);
+  for (std::size_t k = 0; k < model.surfaces.size(); ++k) {
+    const Surface& surface = *model.surfaces[k];
+    const bool passes = lets_through(surface, scratch.surfaces[k], view.radius);
+    find_clusters(surface, bounds.low, bounds.high, scratch.surfaces[k], clusters);
+    for (int cluster : clusters) {
+      const ClusterPose& pose = pose_of(surface, cluster, scratch.surfaces[k]);
+      const Surface::Cluster& c = surface.clusters[cluster];
+      for (int j = c.first_triangle; j < c.first_triangle + c.triangles; ++j) {
+        if (passes && surface.triangles[j].door) continue;
+        const auto& corner = surface.triangles[j].corner;
+        const V3<double> a = load3<double>(pose.after, corner[0]), b = load3<double>(pose.after, corner[1]),
+                         d = load3<double>(pose.after, corner[2]);
+        double part;
+        if (!leaves_through(from, to, a, b, d, part) || part >= first) continue;
+        first = part;
+        const V3<double> out = cross(b - a, d - a), foot = madd(part, to - from, from);
+        at = foot;
+        const double area = norm(out);
+        exit = plane_of(surface, view, (-1 / area) * out, (dot(a - to, out)) / area,
+                        {foot, foot - (a - load3<double>(pose.before, corner[0])), foot});
+      }
+    }
+  }
+  return first <= 1;
+}
+
+/// Where a wall that was met on the way goes: in place of one that faces as it does, or where there is room, or in
+/// place of the one that is farthest away. -1: nowhere.
+int slot_for(const WallPlane& plane, const V3<double>& to, const bool* taken, const NodeWalls& walls) {
+  int farthest = -1;
+  double most = 0;
+  for (int k = 0; k < walls.count; ++k) {
+    const WallPlane& w = walls.planes[k];
+    if (dot(w.normal, plane.normal) > tolerances::same_wall || one_soft_wall(w, plane)) return k;
+    const double away = dot(w.normal, to) - w.place;
+    if (taken[k] || (farthest >= 0 && away < most)) continue;
+    farthest = k, most = away;
+  }
+  return walls.count < max_planes ? walls.count : farthest;
+}
+
+/// The walls round a ball at the end of the step.
+void look_around(const Model& model, const NodeView& view, Scratch& scratch, std::vector<int>& clusters,
+                 NodeWalls& walls) {
+  Bounds bounds;
+  bounds.take(view.centre, view.reach);
+  for (std::size_t k = 0; k < model.surfaces.size(); ++k) {
+    const Surface& surface = *model.surfaces[k];
+    find_clusters(surface, bounds.low, bounds.high, scratch.surfaces[k], clusters);
+    for (int cluster : clusters) {
+      const ClusterPose& pose = pose_of(surface, cluster, scratch.surfaces[k]);
+      look(model, static_cast<int>(k), cluster, pose, pose.after, view,
+           lets_through(surface, scratch.surfaces[k], view.radius), walls);
+    }
+  }
+  sum_up(view, walls);
+}
+
+/// The way from the start to where a wall was met may go round a ridge: then its plane, which does not end there, would
+/// drive the node off its start. It holds from where the node was on.
+void spare(const V3<double>& start, WallPlane& plane) {
+  if (plane.soft) return;
+  plane.place = least(plane.place, dot(plane.normal, start + plane.carried) + tolerances::spared_m);
+}
+
+}  // namespace
+
+double deeper_than_planes(const Model& model, const RodState& own, int i, const V3<double>& at, Scratch& scratch,
+                          const RodScratch& s, ContactScratch& c) {
+  const NodeView view = view_of(s.inside, own, i, at, 0);
+  NodeWalls around;
+  look_around(model, view, scratch, c.clusters, around);
+  const auto deepest = [&](const NodeWalls& walls, auto&& counts) {
+    double most = 0;
+    for (int k = 0; k < walls.count; ++k)
+      if (counts(walls.planes[k])) most = largest(most, walls.planes[k].place - dot(walls.planes[k].normal, at));
+    return most;
+  };
+  return deepest(around, [](const WallPlane& w) { return !w.soft; }) -
+         deepest(c.walls[i], [](const WallPlane& w) { return w.active; });
+}
+
+bool follow(const Model& model, const RodState& own, int i, const V3<double>& to, Scratch& scratch, RodScratch& s,
+            ContactScratch& c) {
+  NodeWalls& walls = c.walls[i];
+  const V3<double> start = load3<double>(own.position, i);
+  const V3<double> from = walls.count > 0 ? start + walls.planes[0].carried : start;
+  const NodeView view = view_of(s.inside, own, i, to, tolerances::wall_slack_m);
+  NodeWalls met;
+  WallPlane exit;
+  V3<double> reached = to;
+  if (first_exit(model, from, to, view, scratch, c.clusters, exit, reached))
+    met.planes[met.count++] = exit;
+  else
+    look_around(model, view, scratch, c.clusters, met);
+  bool any = drop_passed_walls(from, reached, view.radius, walls), taken[max_planes] = {};
+  for (int k = 0; k < met.count; ++k) {
+    WallPlane& plane = met.planes[k];
+    spare(start, plane);
+    const double behind = plane.place - dot(plane.normal, to);
+    if (!(behind > tolerances::followed_m)) continue;
+    const int at = slot_for(plane, to, taken, walls);
+    if (at < 0) continue;
+    WallPlane& old = walls.planes[at];
+    // The same once more, which gives by what the node presses it with.
+    if (at < walls.count && old.active && old.place - dot(old.normal, to) > behind - tolerances::followed_m) continue;
+    plane.active = true, any = taken[at] = true;
+    old = plane;
+    walls.count = std::max(walls.count, at + 1);
+  }
+  return any;
+}
+
+}  // namespace ostium::core

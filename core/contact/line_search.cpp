@@ -1,0 +1,82 @@
+#include "core/contact/line_search.h"
+
+#include <utility>
+
+#include "core/base/tolerances.h"
+#include "core/contact/broad_phase.h"
+#include "core/math/rotation.h"
+#include "core/rod/nodes.h"
+
+namespace ostium::core {
+
+namespace {
+
+/// The energy on the way from the anchor to what lies ahead: the slope of its quadratic part at both ends.
+struct VesselIndex {
+  double at_anchor = 0, at_ahead = 0;
+};
+
+VesselIndex way_of(const ContactScratch& c, const RodScratch& s) {
+  VesselIndex way;
+  for (int i = first_free(s); i <= last_free(s); ++i) {
+    const V3<double> d = load3<double>(c.ahead, i) - load3<double>(c.anchor, i);
+    way.at_anchor += dot(load3<double>(c.anchor_push, i), d);
+    way.at_ahead += dot(load3<double>(c.ahead_push, i), d);
+  }
+  return way;
+}
+
+/// The slope of the whole at `part` of the way.
+double slope(const VesselIndex& way, double part, const ContactScratch& c, const RodScratch& s) {
+  double sum = way.at_anchor + part * (way.at_ahead - way.at_anchor);
+  for (int i = first_free(s); i <= last_free(s); ++i) {
+    const NodeWalls& walls = c.walls[i];
+    if (walls.count == 0) continue;
+    const V3<double> from = load3<double>(c.anchor, i), d = load3<double>(c.ahead, i) - from, p = madd(part, d, from);
+    for (int k = 0; k < walls.count; ++k)
+      sum -= largest(0, push_N(walls.planes[k], p)) * dot(walls.planes[k].normal, d);
+  }
+  return sum;
+}
+
+}  // namespace
+
+void look_ahead(const Strand& strand) {
+  const RodScratch& s = *strand.s;
+  ContactScratch& c = *strand.contact;
+  for (int i = first_free(s); i <= last_free(s); ++i) {
+    const NodeWalls& walls = c.walls[i];
+    const V3<double> p = solved_position(s, i);
+    V3<double> push{};
+    for (int k = 0; k < walls.count; ++k)
+      if (walls.planes[k].active) push = madd(push_N(walls.planes[k], p), walls.planes[k].normal, push);
+    store3(c.ahead, i, p);
+    store3(c.ahead_push, i, push);
+  }
+}
+
+void start_descent(const Strand& strand) {
+  ContactScratch& c = *strand.contact;
+  std::swap(c.anchor, c.ahead);
+  std::swap(c.anchor_push, c.ahead_push);
+}
+
+void descend(const Strand& strand) {
+  const RodScratch& s = *strand.s;
+  ContactScratch& c = *strand.contact;
+  const VesselIndex way = way_of(c, s);
+  double low = 0, high = 1;
+  if (slope(way, 1, c, s) <= 0) low = 1;
+  while (high - low > tolerances::least_descent) {
+    const double middle = (low + high) / 2;
+    (slope(way, middle, c, s) > 0 ? high : low) = middle;
+  }
+  const double part = low > 0 ? low : high;
+  for (int i = first_free(s); i <= last_free(s); ++i) {
+    const V3<double> from = load3<double>(c.anchor, i), push = load3<double>(c.anchor_push, i);
+    store3(c.anchor, i, madd(part, load3<double>(c.ahead, i) - from, from));
+    store3(c.anchor_push, i, madd(part, load3<double>(c.ahead_push, i) - push, push));
+  }
+}
+
+}  // namespace ostium::core

@@ -1,0 +1,215 @@
+#include "core/contact/narrow_phase.h"
+
+#include <algorithm>
+#include <bit>
+
+#include "core/base/tolerances.h"
+#include "core/math/rotation.h"
+
+namespace ostium::core {
+
+namespace {
+
+constexpr double rounding_share = 1e-6;  ///< of what it looks across: allowed for by a rough look in single precision
+
+bool is_at_rim(const TrianglePoint& w) { return !(w.u > 0 && w.v > 0 && w.u + w.v < 1); }
+
+/// Which side a triangle's rim faces: inside it its own normal tells, at the rim the mean of those around.
+V3<double> rim_outward(const Surface& surface, const Surface::Cluster& c, const Surface::Triangle& t,
+                       const TrianglePoint& w) {
+  const auto corner = [&](int k) {
+    const V3<float>& n = surface.corner_normals[c.first_corner + t.corner[k]];
+    return V3<double>{n.x, n.y, n.z};
+  };
+  return madd(w.v, corner(2), madd(w.u, corner(1), (1 - w.u - w.v) * corner(0)));
+}
+
+/// Round the instrument; zero where the wall is met head on.
+V3<double> across(const NodeView& view, const V3<double>& normal) {
+  const V3<double> e = cross(view.tangent, normal);
+  const double length = norm(e);
+  return length > 1e-3 ? (1 / length) * e : V3<double>{};
+}
+
+/// Behind a wall or not: what is pressed into one that gives way may have its centre behind it.
+double away(const WallPlane& plane) { return std::fabs(plane.gap); }
+
+/// Whether a wall beside a nearer one is seen from behind. On which side of it a point lies, only the nearest piece of
+/// wall tells: what lies round a ridge turns its back to a node that is in the lumen all the same. Of a wall that gives
+/// way they may all be (join_soft_walls).
+bool turns_its_back(double gap, bool soft) { return !soft && gap < 0; }
+
+/// Makes room among the planes of one node, which are the nearest and those that face elsewhere. The place of the new
+/// one; -1 if there is none for it.
+int make_room(const SeenTriangle& sight, bool soft, NodeWalls& walls) {
+  const auto as_it_faces = [&](const WallPlane& w) { return dot(w.normal, sight.normal) > tolerances::same_wall; };
+  int at = walls.count;
+  while (at > 0 && away(walls.planes[at - 1]) > std::fabs(sight.gap)) --at;
+  if (at == max_planes || (at > 0 && turns_its_back(sight.gap, soft))) return -1;
+  if (std::any_of(walls.planes, walls.planes + at, as_it_faces)) return -1;
+  // It stands for those further away that face as it does.
+  const WallPlane* end = std::remove_if(walls.planes + at, walls.planes + walls.count, [&](const WallPlane& w) {
+    return turns_its_back(w.gap, w.soft) || as_it_faces(w);
+  });
+  walls.count = std::min(static_cast<int>(end - walls.planes), max_planes - 1);
+  std::copy_backward(walls.planes + at, walls.planes + walls.count, walls.planes + walls.count + 1);
+  ++walls.count;
+  return at;
+}
+
+bool any_soft(const NodeWalls& walls) {
+  return std::any_of(walls.planes, walls.planes + walls.count, [](const WallPlane& w) { return w.soft; });
+}
+
+/// What is pressed into a wall that gives way lies behind the nearest triangle's neighbours too, sideways of it. If
+/// each of them pushed, the wall would be as many times as stiff; if the nearest did alone, its push would leap from
+/// one side to the other where two meet. They push as one, those that are about as near as the nearest by so much the
+/// more.
+void join_soft_walls(const NodeView& view, NodeWalls& walls) {
+  int count = 0;
+  for (int k = 0; k < walls.count; ++k) {
+    WallPlane& w = walls.planes[k];
+    const auto known = [&](const WallPlane& other) { return one_soft_wall(other, w); };
+    if (std::any_of(walls.planes, walls.planes + count, known)) continue;
+    if (w.soft) {  // the nearest, as they are sorted
+      double weight = 0, depth = 0, gap = 0;
+      V3<double> normal{}, carried{};
+      for (int j = k; j < walls.count; ++j) {
+        const WallPlane& other = walls.planes[j];
+        const double share = 1 - (away(other) - away(w)) / tolerances::joined_m;
+        if (share <= 0 || (j > k && !one_soft_wall(w, other))) continue;
+        weight += share, gap += share * other.gap;
+        depth += share * (other.place - dot(other.normal, view.centre));
+        normal = madd(share, other.normal, normal), carried = madd(share, other.carried, carried);
+      }
+      w.normal = (1 / norm(normal)) * normal;
+      w.gap = gap / weight, w.carried = (1 / weight) * carried;
+      w.place = dot(w.normal, view.centre) + depth / weight;
+      w.across = across(view, w.normal);
+    }
+    walls.planes[count++] = w;
+  }
+  walls.count = count;
+}
+
+/// Which of a cluster's triangles may be within reach, a bit for each: of those whose balls are, the ones whose planes
+/// are too.
+unsigned may_meet(const ClusterPose& pose, int triangles, const NodeView& view) {
+  const V3<double> from = view.centre - pose.low, size = pose.high - pose.low;
+  const double reach = view.reach + rounding_share * (size.x + size.y + size.z + view.reach);
+  const auto all = [](double a) { return _mm256_set1_ps(static_cast<float>(a)); };
+  const __m256 x = all(from.x), y = all(from.y), z = all(from.z), still = all(reach),
+               moving = all(reach + pose.largest_move);
+  const TriangleBounds& t = pose.bounds;
+  unsigned any = 0;
+  for (int k = 0; k < triangles; k += 8) {
+    const auto at = [k](const float* p) { return _mm256_loadu_ps(p + k); };
+    const __m256 dx = x - at(t.x), dy = y - at(t.y), dz = z - at(t.z), within = still + at(t.radius);
+    const __m256 height = at(t.normal_x) * x + at(t.normal_y) * y + at(t.normal_z) * z - at(t.height);
+    const __m256 near = _mm256_and_ps(_mm256_cmp_ps(dx * dx + dy * dy + dz * dz, within * within, _CMP_LE_OQ),
+                                      _mm256_cmp_ps(height * height, moving * moving, _CMP_LE_OQ));
+    any |= static_cast<unsigned>(_mm256_movemask_ps(near)) << k;
+  }
+  return any & ((1U << triangles) - 1);
+}
+
+/// Walls that the node's centre is behind do not hold it, unless it is its own that gives way: the nearest.
+void drop_walls_seen_from_behind(NodeWalls& walls) {
+  int own = 0, count = 0;
+  for (int k = 1; k < walls.count; ++k)
+    if (std::fabs(walls.planes[k].gap) < std::fabs(walls.planes[own].gap)) own = k;
+  for (int k = 0; k < walls.count; ++k)
+    if (k == own || walls.planes[k].gap > 0) walls.planes[count++] = walls.planes[k];
+  walls.count = count;
+}
+
+V3<double> tangent_at(const Rod& rod, const RodState& state, int i) {
+  const V3<double> t = director3(load4<double>(state.orientation, std::max(i - 1, rod.first))) +
+                       director3(load4<double>(state.orientation, std::min(i, rod.elements - 1)));
+  return (1 / norm(t)) * t;
+}
+
+}  // namespace
+
+NodeView view_of(const Rod& rod, const RodState& state, int i, const V3<double>& centre, double travel) {
+  const double radius = rod.radius.at(0)[i];
+  return {centre, radius, radius + travel, tangent_at(rod, state, i), rod.joint_length.at(0)[i]};
+}
+
+WallPlane plane_of(const Surface& surface, const NodeView& view, const V3<double>& normal, double gap,
+                   const Foot& foot) {
+  WallPlane plane;
+  plane.gap = gap;
+  plane.normal = normal;
+  plane.place = dot(normal, foot.after) + view.radius;
+  plane.carried = foot.after - foot.before;
+  plane.friction = surface.friction;
+  plane.soft = surface.stiffness_N_m2 > 0;
+  plane.softness = 1 / (view.cell * (plane.soft ? surface.stiffness_N_m2 : tolerances::wall_N_m2));
+  plane.across = across(view, normal);
+  return plane;
+}
+
+bool see(const Surface& surface, const Surface::Cluster& c, const Surface::Triangle& t, const Field<3>& now,
+         const NodeView& view, SeenTriangle& sight) {
+  const V3<double> a = load3<double>(now, t.corner[0]), b = load3<double>(now, t.corner[1]),
+                   d = load3<double>(now, t.corner[2]);
+  const V3<double> out = cross(b - a, d - a);
+  const double height = dot(view.centre - a, out), area2 = dot(out, out);
+  if (height * height > view.reach * view.reach * area2 || !(area2 > 0)) return false;
+  sight.point = nearest(view.centre, a, b, d);
+  sight.foot = at(sight.point, a, b, d);
+  const V3<double> away = view.centre - sight.foot;
+  const double apart = norm(away);
+  if (apart > view.reach) return false;
+  sight.at_rim = is_at_rim(sight.point);
+  const bool behind = dot(away, sight.at_rim ? rim_outward(surface, c, t, sight.point) : out) > 0;
+  sight.gap = behind ? -apart : apart;
+  sight.normal = apart > 1e-9 ? (1 / sight.gap) * away : (-1 / std::sqrt(area2)) * out;
+  return true;
+}
+
+WallPlane plane_of(const Surface& surface, const NodeView& view, const Surface::Triangle& t, const ClusterPose& pose,
+                   const Field<3>& now, const SeenTriangle& sight) {
+  const auto corner = [&](const Field<3>& corners, int k) { return load3<double>(corners, t.corner[k]); };
+  const auto moment = [&](const Field<3>& corners) {
+    return at(sight.point, corner(corners, 0), corner(corners, 1), corner(corners, 2));
+  };
+  WallPlane plane =
+      plane_of(surface, view, sight.normal, sight.gap, {sight.foot, moment(pose.before), moment(pose.after)});
+  const double bend = curvature_towards(plane.across, t, corner(now, 0), corner(now, 1), corner(now, 2));
+  if (bend > 0) plane.curvature = least(1 / largest(1 / bend - view.radius, 1e-9), tolerances::most_curved_wall_per_m);
+  return plane;
+}
+
+void look(const Model& model, int at_surface, int cluster, const ClusterPose& pose, const Field<3>& now,
+          const NodeView& view, bool passes, NodeWalls& walls) {
+  const Surface& surface = *model.surfaces[at_surface];
+  const Surface::Cluster& c = surface.clusters[cluster];
+  for (unsigned left = may_meet(pose, c.triangles, view); left != 0; left &= left - 1) {
+    const int triangle = c.first_triangle + std::countr_zero(left);
+    const Surface::Triangle& t = surface.triangles[triangle];
+    SeenTriangle sight;
+    if ((passes && t.door) || !see(surface, c, t, now, view, sight)) continue;
+    const int place = make_room(sight, surface.stiffness_N_m2 > 0, walls);
+    if (place < 0) continue;
+    WallPlane& plane = walls.planes[place];
+    plane = plane_of(surface, view, t, pose, now, sight);
+    if (sight.at_rim && !plane.soft) plane.surface = at_surface, plane.cluster = cluster, plane.triangle = triangle;
+  }
+}
+
+void sum_up(const NodeView& view, NodeWalls& walls) {
+  if (any_soft(walls)) join_soft_walls(view, walls);
+  drop_walls_seen_from_behind(walls);
+}
+
+bool one_soft_wall(const WallPlane& a, const WallPlane& b) {
+  return a.soft && b.soft && dot(a.normal, b.normal) > tolerances::same_soft_wall;
+}
+
+bool lets_through(const Surface& surface, const SurfacePose& whole, double radius) {
+  return whole.door_open && radius <= surface.door_passes_m;
+}
+
+}  // namespace ostium::core

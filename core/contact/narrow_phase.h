@@ -1,0 +1,71 @@
+#pragma once
+/// Walls as a ball sees them: each triangle near it becomes a plane.
+#include <cmath>
+
+#include "core/model/model.h"
+#include "core/model/scratch.h"
+#include "core/model/state.h"
+#include "core/wall/triangle.h"
+
+namespace ostium::core {
+
+inline double norm(const V3<double>& v) { return std::sqrt(dot(v, v)); }
+
+/// Where a ball is seen from a wall: at one of both ends of the step.
+struct NodeView {
+  V3<double> centre;
+  double radius, reach;
+  V3<double> tangent;  ///< of the rod
+  double cell;         ///< m, length of rod that the node stands for
+};
+
+/// Of node i of a rod, its centre at `centre`; it looks `travel` beyond its surface, m.
+NodeView view_of(const Rod& rod, const RodState& state, int i, const V3<double>& centre, double travel);
+
+/// A point of a triangle, at both ends of the step.
+struct Foot {
+  V3<double> now, before, after;
+};
+
+WallPlane plane_of(const Surface& surface, const NodeView& view, const V3<double>& normal, double gap,
+                   const Foot& foot);
+
+/// What a ball sees of a triangle: the point of it that is nearest.
+struct SeenTriangle {
+  TrianglePoint point;
+  V3<double> foot, normal;  ///< m; into the lumen
+  double gap = 0;           ///< m, negative behind the wall
+  bool at_rim = false;      ///< of the triangle
+};
+
+/// False if the triangle is out of reach.
+bool see(const Surface& surface, const Surface::Cluster& c, const Surface::Triangle& t, const Field<3>& now,
+         const NodeView& view, SeenTriangle& sight);
+
+/// That triangle as a plane.
+WallPlane plane_of(const Surface& surface, const NodeView& view, const Surface::Triangle& t, const ClusterPose& pose,
+                   const Field<3>& now, const SeenTriangle& sight);
+
+/// Adds what of a cluster is within reach, seen with the corners `now`; `passes`: but for its door.
+void look(const Model& model, int at_surface, int cluster, const ClusterPose& pose, const Field<3>& now,
+          const NodeView& view, bool passes, NodeWalls& walls);
+
+/// After the last look: walls that give way push as one, and those that are seen from behind hold nothing.
+void sum_up(const NodeView& view, NodeWalls& walls);
+
+/// Whether two planes are parts of one wall that gives way.
+bool one_soft_wall(const WallPlane& a, const WallPlane& b);
+
+/// Whether a door lets a node of that radius through.
+bool lets_through(const Surface& surface, const SurfacePose& whole, double radius);
+
+/// A box that grows.
+struct Bounds {
+  V3<double> low{1e9, 1e9, 1e9}, high{-1e9, -1e9, -1e9};
+  void take(const V3<double>& p, double reach) {
+    low = {least(low.x, p.x - reach), least(low.y, p.y - reach), least(low.z, p.z - reach)};
+    high = {largest(high.x, p.x + reach), largest(high.y, p.y + reach), largest(high.z, p.z + reach)};
+  }
+};
+
+}  // namespace ostium::core

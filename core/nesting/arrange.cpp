@@ -1,0 +1,199 @@
+/// Which rods are a nest, and its chain: put together before a step, taken apart after.
+#include <algorithm>
+
+#include "core/base/tolerances.h"
+#include "core/math/rotation.h"
+#include "core/nesting/nest.h"
+#include "core/rod/introducer.h"
+
+namespace ostium::core {
+
+namespace {
+
+bool is_nested(const Model& model, int outer, int inner) {
+  return std::any_of(model.nestings.begin(), model.nestings.end(),
+                     [&](const Nesting& n) { return n.outer == outer && n.inner == inner; });
+}
+
+/// Each rod goes with the last one around it, if all who go with that hold it.
+void find_strands(const Model& model, State& state, Scratch& scratch) {
+  scratch.strands.clear();
+  const int rods = static_cast<int>(model.rods.size());
+  for (int r = 0; r < rods; ++r) {
+    scratch.nests[r].members.clear();
+    scratch.lead[r] = r;
+    if (!in_body(model.rods[r], state.rods[r])) continue;
+    for (int o = r - 1; o >= 0; --o) {
+      if (!in_body(model.rods[o], state.rods[o]) || !is_nested(model, o, r)) continue;
+      const std::vector<int>& members = scratch.nests[scratch.lead[o]].members;
+      const bool held = std::all_of(members.begin(), members.end(), [&](int m) { return is_nested(model, m, r); });
+      if (held && static_cast<int>(members.size()) < max_layers) scratch.lead[r] = scratch.lead[o];
+      break;
+    }
+    scratch.nests[scratch.lead[r]].members.push_back(r);
+  }
+  for (int r = 0; r < rods; ++r) {
+    Nest& nest = scratch.nests[r];
+    if (nest.members.empty()) continue;
+    const bool alone = nest.members.size() == 1;
+    if (alone) state.rods[r].exposed = state.rods[r].first;
+    scratch.strands.push_back({r, alone ? &scratch.rods[r] : &nest.s, alone ? &state.rods[r] : &nest.own,
+                               alone ? &scratch.contacts[r] : &nest.contact, alone ? nullptr : &nest});
+  }
+}
+
+/// Whether the rods lie against each other as they did; where they are, and what their cells have, follows from
+/// this alone.
+bool lie_as_before(const State& state, Nest& nest) {
+  bool same = true;
+  for (int k = 0; k < max_layers; ++k) {
+    Laid now;
+    if (k < nest.layer_count) {
+      const Layer& layer = nest.layers[k];
+      const RodState& own = state.rods[layer.rod];
+      now = {layer.rod, own.first, own.exposed, layer.inserted_m};
+    }
+    same = same && now == nest.laid[k];
+    nest.laid[k] = now;
+  }
+  return same;
+}
+
+/// A span's part of the rod's fields.
+struct Part {
+  const Span& span;
+  int skipped;  ///< 1: its first node belongs to the span before
+
+  explicit Part(const Nest& nest, const Span& s) : span(s), skipped(&s == &nest.spans.front() ? 0 : 1) {}
+  int first() const { return span.first; }
+  int end() const { return span.first + span.elements; }
+
+  /// Calls take(field of the rod, field of the chain, first, end, at).
+  template <class Rod_, class Chain_, class Take>
+  void fields(Rod_& rod, Chain_& chain, Take&& take) const {
+    const auto nodes = [&](auto& a, auto& b) {
+      if (b.size() > 0 && a.size() > 0) take(a, b, first() + skipped, end() + 1, span.at + skipped);
+    };
+    const auto elements = [&](auto& a, auto& b) { take(a, b, first(), end(), span.at); };
+    nodes(rod.position, chain.position), nodes(rod.position_before, chain.position_before);
+    nodes(rod.velocity, chain.velocity), nodes(rod.velocity_before, chain.velocity_before);
+    nodes(rod.strain, chain.strain), nodes(rod.strain_before, chain.strain_before);
+    nodes(rod.wall_force, chain.wall_force), nodes(rod.wall_slip, chain.wall_slip);
+    nodes(rod.rod_force, chain.rod_force);
+    elements(rod.orientation, chain.orientation), elements(rod.force, chain.force);
+    elements(rod.turn, chain.turn), elements(rod.turn_before, chain.turn_before);
+  }
+};
+
+void gather(const State& state, Scratch& scratch, Nest& nest) {
+  for (const Span& span : nest.spans)
+    Part(nest, span).fields(state.rods[span.rod], nest.own, [](const auto& from, auto& to, int begin, int end, int at) {
+      copy_entries(from, begin, end, to, at);
+    });
+  const int lead = nest.members.front(), last = nest.spans.back().rod;
+  nest.own.base = state.rods[lead].base, nest.own.tip = state.rods[last].tip;
+  nest.own.first = 0;
+  nest.s.inputs = scratch.rods[lead].inputs;
+  nest.s.inputs.tip = scratch.rods[last].inputs.tip;
+  nest.s.scheme = TimeScheme::bdf2;
+  for (int r : nest.members)
+    if (scratch.rods[r].scheme == TimeScheme::fresh) nest.s.scheme = TimeScheme::fresh;
+  nest.s.step_s = nest.step_s;
+}
+
+/// The last rod around layer k, at chain element e, whose lumen holds it there.
+int host(const Model& model, const Nest& nest, int k, int e) {
+  for (int o = k - 1; o >= 0; --o) {
+    const Layer& outer = nest.layers[o];
+    if (e >= std::max(outer.covered, outer.end)) continue;
+    for (const Nesting& n : model.nestings)
+      if (n.outer == outer.rod && n.inner == nest.layers[k].rod &&
+          nest.depth.at(0)[e + 1] > outer.inserted_m - n.lumen_m)
+        return o;
+  }
+  return 0;
+}
+
+/// Whose bore the layer is in, and its clearance there.
+void find_hosts(const Model& model, Nest& nest, int k) {
+  Layer& layer = nest.layers[k];
+  for (int e = 0; e < layer.covered; ++e) {
+    const int h = layer.host[e] = host(model, nest, k, e);
+    const Layer& outer = nest.layers[h];
+    const Rod& bore = model.rods[outer.rod];
+    const int j = e < outer.covered ? outer.from_own.before[e] : bore.elements - outer.end + e;
+    layer.room.at(0)[e] = largest(0, bore.bore.at(0)[j] - model.rods[layer.rod].radius.at(0)[layer.from_own.before[e]]);
+  }
+}
+
+/// Entries beside places that lie in order; `at(i)`: where entry i is, up to `last`.
+template <class At>
+void place(double where, int last, int& hint, At&& at, int i, Places& out) {
+  while (hint < last - 1 && at(hint + 1) < where) ++hint;
+  const double a = at(hint), b = at(hint + 1);
+  out.before[i] = hint;
+  out.part.at(0)[i] = std::clamp((where - a) / (b - a), 0.0, 1.0);
+}
+
+}  // namespace
+
+double middle_of_own(const Rod& rod, const RodState& s, int j, double reach_m) {
+  double from = s.inserted_m - rod.node_from_tip_m[j];
+  if (j == s.first) from = 0;
+  if (j == s.exposed) from = reach_m;
+  return (from + s.inserted_m - rod.node_from_tip_m[j + 1]) / 2;
+}
+
+void arrange(const Model& model, const std::vector<char>& was_in_body, State& state, Scratch& scratch) {
+  find_strands(model, state, scratch);
+  for (Strand& strand : scratch.strands) {
+    if (!strand.nest) continue;
+    Nest& nest = *strand.nest;
+    nest.step_s = scratch.step_s;
+    if (!was_in_body[strand.lead])
+      lay_over(scratch.rods[strand.lead].inside, model.rods[nest.members[1]], state.rods[nest.members[1]],
+               state.rods[strand.lead]);
+    lay_spans(model, scratch, state, nest);
+    nest.moved = !lie_as_before(state, nest);
+    for (int k = 0; k < nest.layer_count; ++k)
+      if (nest.layers[k].end == 0) end_inside(nest, nest.layers[k]);
+    if (nest.moved) {
+      lay_layers(model, scratch, nest);
+      for (int e = 0; e < nest.s.inside.elements; ++e) {
+        const double length = nest.s.inside.length.at(0)[e];
+        nest.nearness.at(0)[e] = length / (length + tolerances::bore_smooth_m);
+      }
+    }
+    gather(state, scratch, nest);
+    nest.s.chain.roll_count = nest.layer_count - 1;
+    for (int k = 1; k < nest.layer_count; ++k) {
+      Layer& layer = nest.layers[k];
+      const Rod& rod = model.rods[layer.rod];
+      const RodState& own = state.rods[layer.rod];
+      layer.base_turn = from_eigen(nest.step_s * scratch.rods[layer.rod].inputs.base.turn_rate_W_rad_s);
+      if (!nest.moved) continue;
+      const double reach = nest.depth.at(0)[layer.covered];
+      int hint = own.first;
+      for (int e = 0; e < layer.covered; ++e)
+        place((nest.depth.at(0)[e] + nest.depth.at(0)[e + 1]) / 2, rod.elements - 1, hint,
+              [&](int j) { return middle_of_own(rod, own, j, reach); }, e, layer.from_own);
+      find_hosts(model, nest, k);
+    }
+  }
+}
+
+void take_apart(const Nest& nest, State& state) {
+  for (const Span& span : nest.spans)
+    Part(nest, span).fields(state.rods[span.rod], nest.own, [](auto& to, const auto& from, int begin, int end, int at) {
+      copy_entries(from, at, at + end - begin, to, begin);
+    });
+}
+
+NodeOfRod node_of_rod(const Strand& strand, int i) {
+  if (!strand.nest) return {strand.lead, i};
+  for (const Span& span : strand.nest->spans)
+    if (i <= span.at + span.elements) return {span.rod, span.first + i - span.at};
+  return {strand.lead, i};
+}
+
+}  // namespace ostium::core

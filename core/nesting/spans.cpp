@@ -1,0 +1,138 @@
+/// Where rods of a nest leave each other, and the elements of its chain.
+#include <algorithm>
+#include <cmath>
+
+#include "core/base/tolerances.h"
+#include "core/math/rotation.h"
+#include "core/nesting/nest.h"
+#include "core/rod/introducer.h"
+
+namespace ostium::core {
+
+namespace {
+
+// Fractions of an element at which it leaves the rod around it and goes back; apart, so that a trembling hand does not
+// change elements.
+constexpr double leaves_at = 0.6, returns_at = 0.4;
+
+double norm(const V3<double>& v) { return std::sqrt(dot(v, v)); }
+
+/// Element j of a rod turned so that its tangent lies along `chord`.
+void swing(const V3<double>& chord, int j, RodState& s) {
+  const Q4<double> q = load4<double>(s.orientation, j);
+  const Eigen::Quaterniond onto = Eigen::Quaterniond::FromTwoVectors(to_eigen(director3(q)), to_eigen(chord));
+  store4(s.orientation, j, from_eigen((onto * to_eigen(q)).normalized()));
+}
+
+/// The first element of a rod that protrudes by `length_m` from those around it; N: too little does.
+int first_exposed(const Rod& rod, const RodState& s, double length_m) {
+  const int N = rod.elements;
+  const auto own = [&](int i) { return rod.length.at(0)[i]; };
+  const auto beyond = [&](int i) { return length_m - rod.node_from_tip_m[i + 1]; };
+  int j = s.exposed;
+  if (j >= N) {
+    if (length_m < leaves_at * own(N - 1)) return N;
+    j = N - 1;
+  }
+  while (j > s.first && beyond(j) > own(j) + leaves_at * own(j - 1)) --j;
+  while (j < N && beyond(j) < returns_at * own(j)) ++j;
+  return j;
+}
+
+/// What protrudes begins at `root`: its frames follow the elements that have left or gone back.
+void expose(const Rod& rod, int first, double length_m, const V3<double>& root, RodState& s) {
+  const int before = s.exposed, N = rod.elements;
+  s.exposed = first;
+  if (first == N) return;
+  const V3<double> chord = load3<double>(s.position, first + 1) - root;
+  if (std::fabs(norm(chord) - length_m) > tolerances::torn_part * rod.length.at(0)[first]) {
+    // Rods that were laid out without each other: what protrudes is moved to where it leaves.
+    V3<double> p = root;
+    for (int j = first; j < N; ++j) {
+      p = madd(j == first ? length_m : rod.length.at(0)[j], director3(load4<double>(s.orientation, j)), p);
+      for (Field<3>* f : {&s.position, &s.position_before}) store3(*f, j + 1, p);
+    }
+    return;
+  }
+  if (first == before) return;
+  swing(chord, first, s);
+  for (int j = first + 1; j <= before && j < N; ++j)
+    swing(load3<double>(s.position, j + 1) - load3<double>(s.position, j), j, s);
+}
+
+void set_joint_lengths(Rod& rod) {
+  for (int i = 0; i <= rod.elements; ++i) {
+    const double behind = i > 0 ? rod.length.at(0)[i - 1] / 2 : 0,
+                 ahead = i < rod.elements ? rod.length.at(0)[i] / 2 : 0;
+    rod.joint_length.at(0)[i] = behind + ahead;
+  }
+}
+
+}  // namespace
+
+void lay_over(const Rod& inside, const Rod& inner, const RodState& along, RodState& s) {
+  int j = along.first;
+  double depth = 0, length = along.inserted_m - inner.node_from_tip_m[j + 1];
+  for (int i = inside.first; i <= inside.elements; ++i) {
+    const double at = i == inside.first ? 0 : inside.total_length_m - inside.node_from_tip_m[i];
+    while (j + 1 < inner.elements && at > depth + length) depth += length, ++j, length = inner.length.at(0)[j];
+    const double part = (at - depth) / length;
+    const auto mix = [&](const Field<3>& f) {
+      return madd(part, load3<double>(f, j + 1) - load3<double>(f, j), load3<double>(f, j));
+    };
+    store3(s.position, i, mix(along.position));
+    store3(s.position_before, i, mix(along.position_before));
+    store3(s.velocity, i, mix(along.velocity));
+    store3(s.velocity_before, i, mix(along.velocity_before));
+  }
+  for (int i = inside.first; i < inside.elements; ++i)
+    swing(load3<double>(s.position, i + 1) - load3<double>(s.position, i), i, s);
+}
+
+void lay_spans(const Model& model, Scratch& scratch, State& state, Nest& nest) {
+  nest.spans.clear();
+  Rod& chain = nest.s.inside;
+  double reach = 0;
+  int at = 0;
+  for (std::size_t k = 0; k < nest.members.size(); ++k) {
+    const int r = nest.members[k];
+    const Rod& rod = k == 0 ? scratch.rods[r].inside : model.rods[r];
+    RodState& own = state.rods[r];
+    Layer& layer = nest.layers[k];
+    layer.fed_m = scratch.fed_m[r];
+    layer.rod = r, layer.roll = static_cast<int>(k) - 1, layer.inserted_m = own.inserted_m;
+    layer.covered = at;
+    if (k == 0) {
+      own.exposed = own.first;
+      layer.inserted_m = rod.total_length_m;
+    } else {
+      const double protrudes = own.inserted_m - reach;
+      const int first = first_exposed(rod, own, protrudes);
+      const int root = nest.spans.back().rod;
+      const V3<double> tip = load3<double>(state.rods[root].position, model.rods[root].elements);
+      expose(rod, first, first < rod.elements ? protrudes - rod.node_from_tip_m[first + 1] : 0, tip, own);
+    }
+    const int first = own.exposed, count = rod.elements - first;
+    layer.end = at + count;
+    if (count == 0) {
+      layer.end = 0;
+      continue;
+    }
+    nest.spans.push_back({r, first, at, count});
+    copy_entries(rod.length, first, rod.elements, chain.length, at);
+    if (k > 0) chain.length.at(0)[at] = own.inserted_m - reach - rod.node_from_tip_m[first + 1];
+    double depth = reach;
+    for (int e = at; e < at + count; ++e) {
+      nest.depth.at(0)[e] = depth;
+      depth += chain.length.at(0)[e];
+    }
+    nest.depth.at(0)[at + count] = reach = layer.inserted_m;
+    at += count;
+  }
+  chain.first = 0, chain.elements = at;
+  chain.total_length_m = reach;
+  nest.layer_count = static_cast<int>(nest.members.size());
+  set_joint_lengths(chain);
+}
+
+}  // namespace ostium::core

@@ -1,0 +1,230 @@
+#include "core/solver/block_tridiagonal.h"
+
+#include <algorithm>
+#include <cassert>
+
+#include "core/base/tolerances.h"
+#include "core/solver/block.h"
+#include "core/solver/block_tridiagonal_walks.h"
+#include "core/solver/tridiagonal_factors.h"
+
+namespace ostium::core {
+
+namespace {
+
+/// The row of an element by itself, from its numbers; read(number) and read_roll(roll, number) give one each.
+template <class T, int R, class Read, class ReadRoll>
+BlockRow<T, R> row(const S3<T>& P_sum, Read&& read, ReadRoll&& read_roll) {
+  const auto vector = [&](int n) -> V3<T> { return {read(n), read(n + 1), read(n + 2)}; };
+  const V3<T> d = vector(at_arm), e = splat<T>(tolerances::axial_give_per_N_m) * d;
+  BlockRow<T, R> out;
+  out.K.v = {read(at_K), read(at_K + 1), read(at_K + 2), read(at_K + 3), read(at_K + 4), read(at_K + 5)};
+  out.G.v = {{T{}, d.z, -d.y}, {-d.z, T{}, d.x}, {d.y, -d.x, T{}}};  // -[d]x
+  out.A = {madd(e.x, d.x, P_sum.xx), madd(e.x, d.y, P_sum.xy), madd(e.x, d.z, P_sum.xz),
+           madd(e.y, d.y, P_sum.yy), madd(e.y, d.z, P_sum.yz), madd(e.z, d.z, P_sum.zz)};
+  out.torque.v = vector(at_torque), out.gap = vector(at_gap);
+  for (int m = 0; m < R; ++m) {
+    out.K.vr[m] = {read_roll(m, at_b), read_roll(m, at_b + 1), read_roll(m, at_b + 2)};
+    for (int l = 0; l < R; ++l) out.K.rr[m][l] = T{};
+    out.G.r[m] = V3<T>{};
+    out.torque.r[m] = read_roll(m, at_roll_torque);
+  }
+  for (int m = 0; m < R; ++m) {
+    out.K.rr[m][m] = read_roll(m, at_k);
+    if (m > 0) out.K.rr[m][m - 1] = out.K.rr[m - 1][m] = read_roll(m, at_beside);
+  }
+  return out;
+}
+
+V3<double> lane_of(const V3<Lanes>& a, int l) { return {a.x[l], a.y[l], a.z[l]}; }
+S3<double> lane_of(const S3<Lanes>& a, int l) { return {a.xx[l], a.xy[l], a.xz[l], a.yy[l], a.yz[l], a.zz[l]}; }
+M3<double> lane_of(const M3<Lanes>& a, int l) { return {lane_of(a.r0, l), lane_of(a.r1, l), lane_of(a.r2, l)}; }
+template <int R>
+BlockRow<double, R> lane_of(const BlockRow<Lanes, R>& a, int l) {
+  BlockRow<double, R> out;
+  out.K.v = lane_of(a.K.v, l), out.G.v = lane_of(a.G.v, l), out.A = lane_of(a.A, l);
+  out.torque.v = lane_of(a.torque.v, l), out.gap = lane_of(a.gap, l);
+  for (int m = 0; m < R; ++m) {
+    out.K.vr[m] = lane_of(a.K.vr[m], l), out.G.r[m] = lane_of(a.G.r[m], l);
+    out.torque.r[m] = a.torque.r[m][l];
+    for (int k = 0; k < R; ++k) out.K.rr[m][k] = a.K.rr[m][k][l];
+  }
+  return out;
+}
+void set_lane(V3<Lanes>& a, int l, const V3<double>& b) { a.x[l] = b.x, a.y[l] = b.y, a.z[l] = b.z; }
+void set_lane(S3<Lanes>& a, int l, const S3<double>& b) {
+  a.xx[l] = b.xx, a.xy[l] = b.xy, a.xz[l] = b.xz, a.yy[l] = b.yy, a.yz[l] = b.yz, a.zz[l] = b.zz;
+}
+
+template <int R>
+BlockRow<double, R> middle_row(const BlockTridiagonal& c) {
+  const int m = middle(c);
+  const double* from[at_P_behind];
+  const auto take = [&](int number, const auto& field, int components) {
+    for (int k = 0; k < components; ++k) from[number + k] = field.at(k) + m;
+  };
+  take(at_K, c.stiffness, 6), take(at_arm, c.arm, 3), take(at_torque, c.torque, 3), take(at_gap, c.gap, 3);
+  const auto of_roll = [&](int roll, int number) {
+    const Roll& r = c.rolls[roll];
+    return number == at_k             ? r.stiffness.at(0)[m]
+           : number == at_beside      ? r.beside.at(0)[m]
+           : number == at_roll_torque ? r.torque.at(0)[m]
+                                      : r.with_turn.at(number - at_b)[m];
+  };
+  return row<double, R>(
+      load6<double>(c.compliance, m) + load6<double>(c.compliance, m + 1), [&](int n) { return *from[n]; }, of_roll);
+}
+
+/// Towards the middle from step `from` on, or from the last halt before it: fills the blocks. What all lanes leave on
+/// their middle element.
+template <int R>
+[[gnu::flatten]] EliminationHalt<R> eliminate_halves(Walks<R>& walks, int from, TridiagonalFactors& factors) {
+  std::vector<TridiagonalBlock<R>>& blocks = factors.blocks<R>();
+  std::vector<EliminationHalt<R>>& halts = factors.halts<R>();
+  const Lanes half = 0.5 * walks.direction();
+  EliminationHalt<R> now;
+  auto& [carried, minor] = now;
+  const int begin = std::min(from, walks.steps() - 1) / between_halts;
+  if (begin > 0) now = halts[begin];
+  for (int t = begin * between_halts; t < walks.steps(); ++t) {
+    if (t % between_halts == 0) halts[t / between_halts] = now;
+    walks.move_to(t);
+    TridiagonalBlock<R>& block = blocks[t];
+    const S3<Lanes> H = walks.symmetric(at_H);
+    const V3<Lanes> m = half * walks.vector(at_m);
+    Coupling<Lanes, R>& C = block.turn_coupling;
+    C.v = {{-H.xx, -H.xy - m.z, m.y - H.xz}, {m.z - H.xy, -H.yy, -H.yz - m.x}, {-H.xz - m.y, m.x - H.yz, -H.zz}};
+    for (int k = 0; k < R; ++k) {
+      C.vr[k] = walks.vector(walks.of_roll(k, at_u)), C.rv[k] = walks.vector(walks.of_roll(k, at_w));
+      C.rr[k] = walks.read(walks.of_roll(k, at_c));
+    }
+    block.force_coupling = walks.symmetric(at_P_ahead);
+    const BlockRow<Lanes, R> own = row<Lanes, R>(
+        walks.symmetric(at_P_behind) + block.force_coupling, [&](int n) { return walks.read(n); },
+        [&](int k, int n) { return walks.read(walks.of_roll(k, n)); });
+    carried = eliminate(own + carried, block, minor);
+  }
+  return now;
+}
+
+template <int R>
+void store(BlockTridiagonal& chain, int j, const V3<double>& turn, const Rolls<double, R>& rolls,
+           const V3<double>& force) {
+  store3(chain.turn, j, turn), store3(chain.force, j, force);
+  for (int m = 0; m < R; ++m) chain.rolls[m].turn.at(0)[j] = rolls[m];
+}
+
+/// Solves a chain's middle element, and hands its solution to both lanes; false if the matrix is not definite.
+template <int R>
+bool solve_middle(BlockTridiagonal& chain, int front, const BlockRow<Lanes, R>& carried, const Lanes& minor,
+                  TridiagonalBlock<R>& block, Turn<Lanes, R>& turn, V3<Lanes>& force) {
+  const BlockRow<double, R> r = middle_row<R>(chain) + lane_of(carried, front) + lane_of(carried, front + 1);
+  S3<double> A_inv;
+  Lever<double, R> W;
+  Stiffness<double, R> S_inv;
+  double own_minor = 1;
+  factorise(r, A_inv, W, S_inv, own_minor);
+  Turn<double, R> phi;
+  V3<double> n;
+  apply_inverse(S_inv, A_inv, W, r.torque, r.gap, phi, n);
+  store<R>(chain, middle(chain), phi.v, phi.r, n);
+  for (int l : {front, front + 1}) {
+    set_lane(turn.v, l, phi.v), set_lane(force, l, n);
+    for (int m = 0; m < R; ++m) turn.r[m][l] = phi.r[m];
+    set_lane(block.S_inv.v, l, S_inv.v), set_lane(block.A_inv, l, A_inv);
+  }
+  return minor[front] > 0 && minor[front + 1] > 0 && own_minor > 0;
+}
+
+/// From the middle back to the ends.
+template <int R>
+[[gnu::flatten]] void substitute_back(const Walks<R>& walks, const std::vector<TridiagonalBlock<R>>& blocks,
+                                      BlockTridiagonal& first, BlockTridiagonal* second, Turn<Lanes, R> turn,
+                                      V3<Lanes> force) {
+  const int lanes = second ? lane_count : halves;
+  for (int t = walks.steps() - 1; t >= 0; --t) {
+    const TridiagonalBlock<R>& b = blocks[t];
+    const Coupling<Lanes, R>& C = b.turn_coupling;
+    Turn<Lanes, R> torque = b.torque;
+    torque.v = torque.v - C.v * turn.v;
+    for (int m = 0; m < R; ++m) {
+      torque.v = torque.v - turn.r[m] * C.vr[m];
+      torque.r[m] = torque.r[m] - madd(C.rr[m], turn.r[m], dot(C.rv[m], turn.v));
+    }
+    Turn<Lanes, R> next;
+    apply_inverse(b.S_inv, b.A_inv, b.W, torque, b.gap - b.force_coupling * force, next, force);
+    turn = next;
+    for (int l = 0; l < lanes; ++l) {
+      if (t < walks.lane(l).wait) continue;
+      Rolls<double, R> rolls;
+      for (int m = 0; m < R; ++m) rolls[m] = turn.r[m][l];
+      store<R>(l < halves ? first : *second, walks.lane(l).element(t), lane_of(turn.v, l), rolls, lane_of(force, l));
+    }
+  }
+}
+
+/// Number of negative eigenvalues of a symmetric 3 x 3 matrix, by the signs of its pivots.
+int negatives(const S3<double>& s) {
+  const double first = s.xx, second = s.yy - s.xy * s.xy / s.xx;
+  const double yz = s.yz - s.xy * s.xz / s.xx;
+  const double third = s.zz - s.xz * s.xz / s.xx - yz * yz / second;
+  return (first < 0) + (second < 0) + (third < 0);
+}
+
+template <int R>
+void solve_with(BlockTridiagonal& first, BlockTridiagonal* second, int same, TridiagonalFactors& factors) {
+  std::vector<TridiagonalBlock<R>>& blocks = factors.blocks<R>();
+  assert(static_cast<int>(blocks.size()) > std::max(first.elements, second ? second->elements : 0) / 2);
+  Walks<R> walks(first, second ? *second : first);
+  const auto [carried, minor] = eliminate_halves(walks, same, factors);
+
+  Turn<Lanes, R> turn{};
+  V3<Lanes> force{};
+  TridiagonalBlock<R>& middle_block = blocks[walks.steps()];
+  first.definite = solve_middle(first, 0, carried, minor, middle_block, turn, force);
+  if (second) second->definite = solve_middle(*second, halves, carried, minor, middle_block, turn, force);
+  substitute_back(walks, blocks, first, second, turn, force);
+}
+
+void solve_from(int same, BlockTridiagonal& first, BlockTridiagonal* second, TridiagonalFactors& factors) {
+  switch (first.roll_count) {
+    case 0:
+      return solve_with<0>(first, second, same, factors);
+    case 1:
+      return solve_with<1>(first, second, same, factors);
+    case 2:
+      return solve_with<2>(first, second, same, factors);
+    default:
+      return solve_with<3>(first, second, same, factors);
+  }
+}
+
+}  // namespace
+
+void solve(BlockTridiagonal& first, BlockTridiagonal* second, TridiagonalFactors& factors) {
+  assert(!second || second->roll_count == first.roll_count);
+  solve_from(0, first, second, factors);
+}
+
+void solve_again(BlockTridiagonal& chain, int same, TridiagonalFactors& factors) {
+  assert(same >= 0);
+  solve_from(same, chain, nullptr, factors);
+}
+
+int negative_pivots(const BlockTridiagonal& chain, const TridiagonalFactors& factors) {
+  assert(chain.roll_count == 0);
+  // Inertia of the whole system: it has 3 N negative eigenvalues for its 3 N constraint forces; more are unstable.
+  const Walks<0> walks(chain, chain);
+  int negative = 0;
+  const auto count = [&](int t, int l) {
+    const TridiagonalBlock<0>& block = factors.blocks<0>()[t];
+    negative += negatives(lane_of(block.S_inv.v, l)) + 3 - negatives(lane_of(block.A_inv, l));
+  };
+  for (int t = 0; t < walks.steps(); ++t)
+    for (int l = 0; l < halves; ++l)
+      if (t >= walks.lane(l).wait) count(t, l);
+  count(walks.steps(), 0);
+  return negative - 3 * (chain.elements - chain.first);
+}
+
+}  // namespace ostium::core

@@ -1,0 +1,126 @@
+#pragma once
+/// How the four lanes of a register walk through one chain or two, from the ends towards the middle, and what they read
+/// on their way.
+#include <algorithm>
+
+#include "core/solver/block.h"
+#include "core/solver/block_tridiagonal.h"
+
+namespace ostium::core {
+
+inline constexpr int halves = 2;
+
+inline int middle(const BlockTridiagonal& chain) { return (chain.first + chain.elements) / 2; }
+
+/// The way of one lane: from one end of one chain towards its middle. A lane with fewer elements starts later, and
+/// idles until then.
+struct Walk {
+  const BlockTridiagonal* chain;
+  bool forward;  ///< from the base
+  int blocks;    ///< elements before the middle
+  int wait;      ///< steps before the first
+
+  int element(int t) const { return forward ? chain->first + t - wait : chain->elements - 1 - (t - wait); }
+};
+
+/// The entry, in a field's padding, of a regular block without coupling: K and the compliance behind are identities,
+/// all else is zero.
+/// There are two, as behind is ahead for lanes that walk the other way; `padded` leaves four entries for them.
+inline int idle_entry(const BlockTridiagonal& chain, bool forward) {
+  return chain.stiffness.stride() - (forward ? 4 : 2);
+}
+
+/// Numbers that an elimination step reads: those of its element, of the node behind it and of the node ahead.
+enum Number {
+  at_K = 0,
+  at_arm = 6,
+  at_torque = 9,
+  at_gap = 12,
+  at_P_behind = 15,
+  at_H = 21,
+  at_m = 27,
+  at_P_ahead = 30,
+  numbers = 36
+};
+/// And of each roll.
+enum RollNumber {
+  at_k = 0,
+  at_b = 1,
+  at_beside = 4,
+  at_roll_torque = 5,
+  at_u = 6,
+  at_w = 9,
+  at_c = 12,
+  roll_numbers = 13
+};
+
+/// The four lanes of a solve, and what they read at a step.
+template <int R>
+class Walks {
+ public:
+  Walks(const BlockTridiagonal& first, const BlockTridiagonal& second) {
+    for (int l = 0; l < lane_count; ++l) {
+      const bool forward = l % halves == 0;
+      const BlockTridiagonal& chain = l < halves ? first : second;
+      lanes_[l] = {&chain, forward, forward ? middle(chain) - chain.first : chain.elements - 1 - middle(chain), 0};
+      direction_[l] = forward ? 1.0 : -1.0;
+      steps_ = std::max(steps_, lanes_[l].blocks);
+    }
+    for (int l = 0; l < lane_count; ++l) {
+      lanes_[l].wait = steps_ - lanes_[l].blocks;
+      // Seen from an element, the node behind is its own when walking forward, the next one when walking back.
+      const BlockTridiagonal& c = *lanes_[l].chain;
+      const bool forward = lanes_[l].forward;
+      const int behind = forward ? 0 : 1, ahead = 1 - behind;
+      const auto from = [&](int number, const auto& field, int components, int shift) {
+        for (int k = 0; k < components; ++k) source_[number + k][l] = field.at(k) + shift;
+      };
+      from(at_K, c.stiffness, 6, 0);
+      from(at_arm, c.arm, 3, 0);
+      from(at_torque, c.torque, 3, 0);
+      from(at_gap, c.gap, 3, 0);
+      from(at_P_behind, c.compliance, 6, behind);
+      from(at_H, c.joint_stiffness, 6, ahead);
+      from(at_m, c.joint_moment, 3, ahead);
+      from(at_P_ahead, c.compliance, 6, ahead);
+      for (int m = 0; m < R; ++m) {
+        const Roll& roll = c.rolls[m];
+        const int at = numbers + m * roll_numbers;
+        from(at + at_k, roll.stiffness, 1, 0);
+        from(at + at_b, roll.with_turn, 3, 0);
+        from(at + at_beside, roll.beside, 1, 0);
+        from(at + at_roll_torque, roll.torque, 1, 0);
+        from(at + at_u, forward ? roll.ahead : roll.behind, 3, ahead);
+        from(at + at_w, forward ? roll.behind : roll.ahead, 3, ahead);
+        from(at + at_c, roll.both, 1, ahead);
+      }
+    }
+  }
+
+  int steps() const { return steps_; }
+  Lanes direction() const { return direction_; }
+  const Walk& lane(int l) const { return lanes_[l]; }
+
+  /// Where the lanes are at step t.
+  void move_to(int t) {
+    for (int l = 0; l < lane_count; ++l)
+      at_[l] = t < lanes_[l].wait ? idle_entry(*lanes_[l].chain, lanes_[l].forward) : lanes_[l].element(t);
+  }
+  Lanes read(int n) const {
+    return Lanes{source_[n][0][at_[0]], source_[n][1][at_[1]], source_[n][2][at_[2]], source_[n][3][at_[3]]};
+  }
+  V3<Lanes> vector(int n) const { return {read(n), read(n + 1), read(n + 2)}; }
+  S3<Lanes> symmetric(int n) const {
+    return {read(n), read(n + 1), read(n + 2), read(n + 3), read(n + 4), read(n + 5)};
+  }
+  static int of_roll(int m, int number) { return numbers + m * roll_numbers + number; }
+
+ private:
+  Walk lanes_[lane_count];
+  Lanes direction_{};
+  int steps_ = 0;
+  const double* source_[numbers + R * roll_numbers][lane_count];
+  int at_[lane_count];
+};
+
+}  // namespace ostium::core

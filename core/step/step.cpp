@@ -1,0 +1,401 @@
+#include "core/step/step.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+#include "core/base/tolerances.h"
+#include "core/contact/contact.h"
+#include "core/contact/rod_contact.h"
+#include "core/nesting/nest.h"
+#include "core/rod/elasticity.h"
+#include "core/rod/ends.h"
+#include "core/rod/inertia.h"
+#include "core/rod/introducer.h"
+#include "core/rod/iterate.h"
+#include "core/rod/nodes.h"
+#include "core/rod/relaxation.h"
+#include "core/rod/stretch.h"
+
+namespace ostium::core {
+
+namespace {
+
+[[maybe_unused]] bool fits(const Model& model, const Inputs& inputs, const State& state, const Scratch& scratch) {
+  const std::size_t rods = model.rods.size();
+  if (inputs.rods.size() != rods || state.rods.size() != rods || scratch.rods.size() != rods) return false;
+  for (std::size_t r = 0; r < rods; ++r)
+    if (state.rods[r].force.size() != model.rods[r].elements ||
+        scratch.rods[r].inside.elements != model.rods[r].elements)
+      return false;
+  return true;
+}
+
+/// A part of the step.
+struct Piece {
+  double from = 0, to = 1;
+  int halvings = 0;
+
+  bool is_least() const { return halvings == tolerances::max_halvings; }
+  double middle() const { return (from + to) / 2; }
+  Piece first_half() const { return {from, middle(), halvings + 1}; }
+  Piece second_half() const { return {middle(), to, halvings + 1}; }
+};
+
+/// What a hand does in a piece of the step.
+void drive_ends(const Model& model, State& state, Scratch& scratch, StepReport& report) {
+  for (std::size_t r = 0; r < model.rods.size(); ++r) {
+    RodScratch& s = scratch.rods[r];
+    RodState& own = state.rods[r];
+    s.step_s = scratch.step_s;
+    scratch.was_in_body[r] = in_body(model.rods[r], own);
+    renew_elements(model.rods[r], s.inputs, scratch.step_s, own);
+    scratch.before_drive[r] = {own.base, own.tip, own.inserted_m, own.slack_m, own.first};
+    s.scheme = take_hold(s.inputs, own) ? TimeScheme::fresh : TimeScheme::bdf2;
+    drive_ends(s.inputs, scratch.step_s, own);
+    feed(model.rods[r], s.inputs, scratch.step_s, own, report.rods[r].trouble);
+    scratch.fed_m[r] = own.inserted_m - scratch.before_drive[r].inserted_m;
+    cut_at_introducer(model.rods[r], own, s.inside);
+  }
+}
+
+void take_drives_back(const Scratch& scratch, State& state) {
+  for (std::size_t r = 0; r < state.rods.size(); ++r) {
+    const DriveRollback& was = scratch.before_drive[r];
+    RodState& own = state.rods[r];
+    own.base = was.base, own.tip = was.tip;
+    own.inserted_m = was.inserted_m, own.slack_m = was.slack_m, own.first = was.first;
+  }
+}
+
+void recall_shapes(const Model& model, const State& state, Scratch& scratch) {
+  for (const Strand& strand : scratch.strands)
+    if (strand.nest)
+      recall_layer_creep(model, state, *strand.nest);
+    else
+      recall_creep(model.rods[strand.lead], *strand.own, strand.s->inside);
+}
+
+/// What held shapes leave behind, after the step as a whole.
+void creep_all(const Model& model, const Scratch& scratch, State& state) {
+  for (std::size_t r = 0; r < model.rods.size(); ++r)
+    creep(scratch.rods[r].inside, joints_of(scratch.rods[r].inputs), model.step_s, state.rods[r]);
+}
+
+void meet_walls(const Model& model, const Inputs& inputs, Piece piece, Scratch& scratch) {
+  move_walls(model, inputs, piece.from, piece.to, scratch);
+  for (const Strand& strand : scratch.strands) {
+    guess_nodes(*strand.own, *strand.s);
+    find_walls(model, strand, scratch);
+  }
+}
+
+/// Where nodes go without internal force, and how they yield to it.
+void constrain(const Model& model, Scratch& scratch, const Strand& strand) {
+  RodScratch& s = *strand.s;
+  const auto move = [&](int rod, int begin, int end) {
+    predict_nodes(s.inside, model.rods[rod].damping, begin, end, *strand.own, model.gravity_W, s.step_s, s);
+    add_load(end - 1, scratch.rods[rod].inputs.tip_force_W_N, s);
+    add_stretch_load(model.rods[rod], scratch.rods[rod].inputs.load, begin, end, s);
+    tie_to_tether(model.rods[rod], scratch.rods[rod].inputs.tether, begin, end, s);
+  };
+  if (strand.nest)
+    for (const Span& span : strand.nest->spans)
+      move(span.rod, span.at > 0 ? span.at + 1 : 0, span.at + span.elements + 1);
+  else
+    move(strand.lead, s.inside.first, s.inside.nodes());
+  tie_to_rods(strand, scratch);
+  tie_to_walls(strand);
+  hold_ends(s.inside, s.inputs, *strand.own, s);
+}
+
+void predict(const Model& model, const State& state, Scratch& scratch, const Strand& strand, TimeScheme scheme) {
+  RodScratch& s = *strand.s;
+  s.progress = Progress::open;
+  s.scheme = scheme;
+  s.geometric = scheme == TimeScheme::from_rest ? GeometricStiffness::without : GeometricStiffness::with;
+  predict_elements(s.inside, *strand.own, s);
+  if (strand.nest) {
+    predict_layers(state, *strand.nest);
+    find_slides(model, state, *strand.nest);
+  }
+  guess_nodes(*strand.own, s);
+  expect_touches(model, strand, scratch);
+  constrain(model, scratch, strand);
+}
+
+void linearise(const State& state, const Strand& strand) {
+  RodScratch& s = *strand.s;
+  if (strand.nest)
+    linearise_layers(state, *strand.nest);
+  else
+    linearise_joints(s.inside, *strand.own, joints_of(s.inputs), s.step_s, s);
+  assemble_elements(s.inside, s);
+  add_rotary_inertia(s.inside, s.step_s, s);
+  add_rotary_torque(s.inside, *strand.own, s.step_s, s);
+  if (strand.nest) {
+    add_roll_inertia(*strand.nest);
+    turn_in_bores(*strand.nest);
+  }
+  turn_at_walls(strand);
+}
+
+/// Whether the solution is near enough to be taken as it is, and to tell by it which walls are touched.
+bool is_near(const RodScratch& s) {
+  return s.chain.definite && largest_turn(s.inside, s.chain) <= tolerances::max_turn_rad;
+}
+
+/// Solves a strand that walls hold, until its ties hold where it pushes and nowhere else.
+void solve_held(const Model& model, const Strand& strand, Scratch& scratch) {
+  strand.contact->changes = 0;
+  BlockTridiagonal& chain = strand.s->chain;
+  solve(chain, nullptr, scratch.factors);
+  while (is_near(*strand.s) && change_walls(model, strand, scratch))
+    solve_again(chain, strand.contact->same, scratch.factors);
+}
+
+/// Strands that are open; lone rods in the open two at a time, as a register has lanes for two.
+void solve_open(const Model& model, Scratch& scratch) {
+  RodScratch* waiting = nullptr;
+  for (const Strand& strand : scratch.strands) {
+    RodScratch& s = *strand.s;
+    if (s.progress != Progress::open) continue;
+    if (strand.nest || !model.surfaces.empty()) {
+      solve_held(model, strand, scratch);
+    } else if (!waiting) {
+      waiting = &s;
+    } else {
+      solve(waiting->chain, &s.chain, scratch.factors);
+      waiting = nullptr;
+    }
+  }
+  if (waiting) solve(waiting->chain, nullptr, scratch.factors);
+}
+
+void take_solution(const Strand& strand, RodReport& report) {
+  RodScratch& s = *strand.s;
+  ++report.iterations;
+  // A rod pushed beyond what it bears for a step would be solved onto the ridge between its ways of buckling.
+  if (!s.chain.definite && s.geometric == GeometricStiffness::with) {
+    s.geometric = GeometricStiffness::without;
+    return;
+  }
+  const IterateChange change = update_iterate(s.inside, tolerances::max_turn_rad, s);
+  if (strand.nest && change.finite) update_layers(change.fraction, *strand.nest);
+  report.stretch = change.stretch;
+  s.defect = change.defect;
+  // The defect is quadratic in the turn of this iteration, so a small one says that the moments balance, too. A large
+  // give is a rod that has not buckled yet, or cannot.
+  const bool whole = change.turn_rad <= tolerances::max_turn_rad;
+  if (!change.finite)
+    s.progress = Progress::failed;
+  else if (whole && change.defect <= tolerances::stretch_tolerance &&
+           change.stretch <= tolerances::pulled_apart_stretch)
+    s.progress = Progress::done;
+}
+
+bool any(const Scratch& scratch, Progress progress) {
+  return std::any_of(scratch.strands.begin(), scratch.strands.end(),
+                     [&](const Strand& strand) { return strand.s->progress == progress; });
+}
+
+void iterate(const Model& model, const State& state, Scratch& scratch, StepReport& report) {
+  for (int i = 0; i < tolerances::max_newton_iterations && any(scratch, Progress::open); ++i) {
+    for (const Strand& strand : scratch.strands)
+      if (strand.s->progress == Progress::open) linearise(state, strand);
+    solve_open(model, scratch);
+    for (const Strand& strand : scratch.strands)
+      if (strand.s->progress == Progress::open) take_solution(strand, report.rods[strand.lead]);
+  }
+}
+
+/// Rods that touch are solved in turns, until both feel the same.
+void settle_rod_contacts(const Model& model, const State& state, Scratch& scratch, StepReport& report) {
+  while (!any(scratch, Progress::failed) && renew_rod_contacts(scratch)) {
+    for (const Strand& strand : scratch.strands) {
+      strand.s->progress = Progress::open;
+      constrain(model, scratch, strand);
+    }
+    iterate(model, state, scratch, report);
+  }
+}
+
+bool usable(const RodScratch& s) { return s.progress != Progress::failed && s.defect <= tolerances::usable_stretch; }
+
+/// Whether its ties to walls are settled, too.
+bool settled(const Model& model, const Strand& strand, Scratch& scratch) {
+  return usable(*strand.s) && behind_walls(model, strand, scratch) <= tolerances::usable_depth_m;
+}
+
+bool all_done(const Model& model, Scratch& scratch) {
+  return std::all_of(scratch.strands.begin(), scratch.strands.end(), [&](const Strand& strand) {
+    return strand.s->progress == Progress::done && behind_walls(model, strand, scratch) <= tolerances::usable_depth_m;
+  });
+}
+
+/// Strands that move too violently for a step give up their velocity; then, if there are walls, most of the time to
+/// move in: so little moves that it can mostly be solved.
+void retry_from_rest(const Model& model, const State& state, Scratch& scratch, StepReport& report) {
+  const double shares[] = {1, 0.1, 0.01};
+  for (const double share : shares) {
+    if (share < 1 && model.surfaces.empty()) return;
+    bool again = false;
+    for (const Strand& strand : scratch.strands) {
+      RodScratch& s = *strand.s;
+      if (settled(model, strand, scratch)) {
+        if (s.progress == Progress::open) s.progress = Progress::given_up;
+        continue;
+      }
+      again = true;
+      report.rods[strand.lead].trouble |= motion_lost;
+      halt(s.inside, *strand.own);
+      s.step_s = share * scratch.step_s;
+      predict(model, state, scratch, strand, TimeScheme::from_rest);
+    }
+    if (!again) return;
+    iterate(model, state, scratch, report);
+  }
+}
+
+void report_base(const EndState& base, const Eigen::Vector3d& force_W_N, const Eigen::Vector3d& torque_W_Nm,
+                 RodReport& report) {
+  report.base_force_W_N = force_W_N;
+  report.base_torque_W_Nm = torque_W_Nm;
+  const Eigen::Vector3d along = axis(base);
+  report.push_N = along.dot(force_W_N);
+  report.torque_Nm = along.dot(torque_W_Nm);
+}
+
+void report_forces(const Model& model, const Strand& strand, RodReport& report) {
+  const RodScratch& s = *strand.s;
+  if (s.inputs.base.hold == Hold::free) return;
+  const int first = s.inside.first;
+  report_base(strand.own->base, -strand.own->force[first] - s.inside.mass.at(0)[first] * model.gravity_W,
+              -s.chain.joint_moment[first], report);
+}
+
+/// The iterate becomes the strand's state.
+void finish(const State& state, const Scratch& scratch, const Strand& strand, Piece piece, StepReport& report) {
+  RodScratch& s = *strand.s;
+  const Rod& rod = s.inside;
+  RodState& own = *strand.own;
+  std::uint32_t& trouble = report.rods[strand.lead].trouble;
+  if (s.progress == Progress::failed)
+    trouble |= no_solution;
+  else if (s.progress != Progress::done)
+    trouble |= s.defect <= tolerances::stretch_tolerance ? pulled_apart : not_converged;
+  const double angle = strand.nest ? largest_layer_angle(*strand.nest) : largest_joint_angle(rod, s);
+  if (angle > tolerances::overturned_joint_rad) trouble |= joint_overturned;
+
+  const bool solved = usable(s);
+  if (!solved) string_iterate(rod, own, s);
+
+  // Strains and moments of the frames that are committed, not of those that were linearised about.
+  if (strand.nest)
+    measure_layers(state, *strand.nest);
+  else if (own.strain.size() > 0)
+    linearise_joints(rod, own, joints_of(s.inputs), scratch.step_s, s);
+  else
+    linearise_end_joints(rod, own, joints_of(s.inputs), scratch.step_s, s);
+  if (solved) {
+    commit(rod, s, scratch.step_s, own);
+    // What snaps over among walls, too fast for a whole step, goes on from rest, piece by piece, as through honey.
+    if (s.step_s < scratch.step_s || piece.halvings > 0) halt(rod, own);
+    commit_walls(strand, report.touches);
+  } else {
+    commit_at_rest(rod, s, own);
+  }
+}
+
+/// A nest's state goes back to its rods.
+void unnest(const Model& model, const Strand& strand, State& state, Scratch& scratch, StepReport& report) {
+  Nest& nest = *strand.nest;
+  find_centreline(nest);
+  find_layer_forces(model, nest);
+  take_apart(nest, state);
+  spread(model, nest, state);
+  commit_slides(model, nest, state);
+  const RodReport whole = report.rods[strand.lead];
+  for (int k = 0; k < nest.layer_count; ++k) {
+    const int r = nest.layers[k].rod;
+    RodReport& own = report.rods[r];
+    own.iterations = whole.iterations, own.stretch = whole.stretch;
+    own.trouble |=
+        whole.trouble & ~static_cast<std::uint32_t>(feed_stopped | drive_limited | drive_not_finite | load_limited);
+    follow_free_ends(scratch.rods[r].inside, scratch.rods[r].inputs, state.rods[r]);
+    Eigen::Vector3d force_W_N, torque_W_Nm;
+    base_load(model, nest, k, force_W_N, torque_W_Nm);
+    report_base(state.rods[r].base, force_W_N, torque_W_Nm, own);
+  }
+}
+
+/// The solution becomes the state.
+void finish_all(const Model& model, Piece piece, State& state, Scratch& scratch, StepReport& report) {
+  report.touches.clear();
+  commit_rod_contacts(scratch, report.rod_touches);
+  for (const Strand& strand : scratch.strands) {
+    finish(state, scratch, strand, piece, report);
+    if (strand.nest) {
+      unnest(model, strand, state, scratch, report);
+    } else {
+      follow_free_ends(strand.s->inside, strand.s->inputs, *strand.own);
+      report_forces(model, strand, report.rods[strand.lead]);
+    }
+  }
+}
+
+void rescale_histories(const Model& model, double ratio, State& state) {
+  for (std::size_t r = 0; r < model.rods.size(); ++r)
+    if (in_body(model.rods[r], state.rods[r])) rescale_history(model.rods[r], ratio, state.rods[r]);
+}
+
+/// Room for all that a step may report, so that no later one allocates.
+void make_room(const Model& model, StepReport& report) {
+  report.rods.resize(model.rods.size());
+  std::size_t nodes = 0;
+  for (const Rod& rod : model.rods) nodes += static_cast<std::size_t>(rod.nodes());
+  report.touches.reserve(nodes);
+  if (model.rods_touch) report.rod_touches.reserve(tolerances::max_rod_contacts);
+}
+
+/// Goes on by a piece of the step; among walls by its halves, if it has no solution as a whole.
+void advance(const Model& model, const Inputs& inputs, Piece piece, State& state, Scratch& scratch,
+             StepReport& report) {
+  scratch.step_s = (piece.to - piece.from) * model.step_s;
+  drive_ends(model, state, scratch, report);
+  arrange(model, scratch.was_in_body, state, scratch);
+  recall_shapes(model, state, scratch);
+  meet_walls(model, inputs, piece, scratch);
+  find_rod_contacts(model, scratch);
+  for (const Strand& strand : scratch.strands) predict(model, state, scratch, strand, strand.s->scheme);
+  iterate(model, state, scratch, report);
+  settle_rod_contacts(model, state, scratch, report);
+  if (!model.surfaces.empty() && !piece.is_least() && !all_done(model, scratch)) {
+    take_drives_back(scratch, state);
+    rescale_histories(model, 0.5, state);
+    advance(model, inputs, piece.first_half(), state, scratch, report);
+    advance(model, inputs, piece.second_half(), state, scratch, report);
+    rescale_histories(model, 2, state);
+    return;
+  }
+  retry_from_rest(model, state, scratch, report);
+  finish_all(model, piece, state, scratch, report);
+}
+
+}  // namespace
+
+void step(const Model& model, const Inputs& inputs, State& state, Scratch& scratch, StepReport& report) {
+  assert(fits(model, inputs, state, scratch));
+  make_room(model, report);
+  for (std::size_t r = 0; r < model.rods.size(); ++r) {
+    report.rods[r] = {};
+    scratch.rods[r].inputs = limited(inputs.rods[r], report.rods[r].trouble);
+  }
+  advance(model, inputs, {}, state, scratch, report);
+  creep_all(model, scratch, state);
+  report.trouble = 0;
+  for (const RodReport& rod : report.rods) report.trouble |= rod.trouble;
+  ++state.step;
+}
+
+}  // namespace ostium::core

@@ -1,0 +1,17 @@
+#pragma once
+/// Boxes about the clusters of a surface and the nodes of its tree.
+#include "core/wall/surface.h"
+
+namespace ostium::core {
+
+inline int wrapped(int frame, int frames) { return ((frame % frames) + frames) % frames; }
+
+bool stands_still(const Surface& surface, const Surface::Cluster& cluster);
+/// Around a cluster's displacements at a sway of 1.
+Box leaf_sway(const Surface& surface, const Surface::Cluster& cluster);
+/// Of a node, from those of its children.
+Box around_children(const Surface& surface, const Box* boxes, int node);
+/// Of a node, in an interval between two frames; its children's are there.
+Box box_of(const Surface& surface, const Box* boxes, int node, int interval);
+
+}  // namespace ostium::core

@@ -1,0 +1,81 @@
+#pragma once
+/// What a step of a script may do, one row each, and which keys that has. What the operator does then stands in
+/// app/session/operator_actions.cpp, which does not compile while an action is missing.
+#include <initializer_list>
+#include <iterator>
+#include <string>
+#include <vector>
+
+#include "data/formats/json_object.h"
+
+namespace ostium::data {
+
+enum class ScriptAction {
+  advance,
+  withdraw,
+  turn,
+  wait,
+  view,
+  fluoroscopy,
+  cine,
+  heart_rate,
+  mark,
+  inject,
+  inflate,
+  deflate,
+  drug
+};
+
+/// Every step may have a `label` and be a `detour`; one that may fail has `unless`, `timeout_s`, `otherwise`, `tries`
+/// and `last_resort` too.
+struct ScriptActionRow {
+  ScriptAction action;
+  const char* name;
+  std::initializer_list<const char*> needs, may;
+  bool may_fail;
+};
+
+inline constexpr ScriptActionRow script_actions[] = {
+    {ScriptAction::advance, "advance", {"tool", "speed_mm_s", "until"}, {"turn_deg_s"}, true},
+    {ScriptAction::withdraw, "withdraw", {"tool", "speed_mm_s", "until"}, {"turn_deg_s"}, true},
+    {ScriptAction::turn, "turn", {"tool", "turn_deg_s", "until"}, {}, true},
+    {ScriptAction::wait, "wait", {"until"}, {}, true},
+    {ScriptAction::view, "view", {}, {"view", "lao_deg", "cran_deg", "table_mm", "field_mm"}, false},
+    {ScriptAction::fluoroscopy, "fluoroscopy", {"on"}, {}, false},
+    {ScriptAction::cine, "cine", {"on"}, {}, false},
+    {ScriptAction::heart_rate, "heart rate", {"rate_1_min"}, {}, false},
+    {ScriptAction::mark, "mark", {"text"}, {}, false},
+    {ScriptAction::inject, "inject", {"rate_mL_s", "volume_mL"}, {"iodine_mg_mL", "until"}, true},
+    {ScriptAction::inflate, "inflate", {"gauge_atm", "over_s"}, {"until"}, true},
+    {ScriptAction::deflate, "deflate", {}, {"until"}, true},
+    {ScriptAction::drug, "drug", {}, {"heparin_U", "nitrate_ug", "adenosine_ug"}, false}};
+
+inline constexpr int action_kinds = static_cast<int>(std::size(script_actions));
+
+/// The row of an action, wherever it stands.
+constexpr const ScriptActionRow& row_of(ScriptAction action) {
+  for (const ScriptActionRow& row : script_actions)
+    if (row.action == action) return row;
+  throw "every action has a row";
+}
+
+/// Each action has one row: as many rows as actions, and none twice.
+constexpr bool each_action_has_a_row() {
+  for (int action = 0; action < action_kinds; ++action) row_of(static_cast<ScriptAction>(action));
+  return true;
+}
+static_assert(each_action_has_a_row());
+
+/// What "do" says where the steps of another script stand.
+inline constexpr const char* stands_for_steps = "script";
+
+/// All that "do" may say.
+std::vector<std::string> action_names();
+
+/// A step that says until when: only such may lead elsewhere.
+bool may_fail(const std::string& action);
+
+/// Throws LoadError for a key that the step's action needs and that is missing, and for one that it does not have.
+void require_keys(const JsonObject& step);
+
+}  // namespace ostium::data

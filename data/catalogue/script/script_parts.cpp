@@ -1,0 +1,121 @@
+#include "data/catalogue/script/script_parts.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "data/catalogue/script/script_actions.h"
+#include "data/catalogue/script/script_condition_reader.h"
+#include "data/catalogue/script/script_keys.h"
+#include "data/catalogue/script/script_values.h"
+
+namespace ostium::data {
+
+namespace {
+
+namespace fs = std::filesystem;
+namespace keys = script_keys;
+constexpr int deepest_script = 8;
+
+JsonValue* member(JsonValue& object, const std::string& key) {
+  for (auto& [name, value] : object.members)
+    if (name == key) return &value;
+  return nullptr;
+}
+
+bool is_label(const std::string& otherwise) { return otherwise != "fail" && otherwise != "go on"; }
+
+/// Where a step of a part leads that says nothing of its failure, or whose tries are used up: to the label that stands
+/// beside the part.
+void lead_out(const JsonObject& step, JsonValue& one) {
+  const JsonValue* action = one.find("do");
+  if (!action || !may_fail(action->text)) return;
+  if (const JsonValue* own = one.find("otherwise")) {
+    if (is_label(own->text) && !one.find("last_resort")) one.members.emplace_back("last_resort", step["otherwise"]);
+  } else if (!one.find("tries")) {  // which the reader refuses there
+    for (const char* key : {"otherwise", "tries"})
+      if (step.has(key)) one.members.emplace_back(key, step[key]);
+  }
+}
+
+bool has_tool(const JsonObject& script, const std::string& name) {
+  const std::vector<JsonValue>& tools = script.list("tools");
+  return std::any_of(tools.begin(), tools.end(),
+                     [&](const JsonValue& tool) { return JsonObject(tool, keys::tool).text("name") == name; });
+}
+
+/// What a script that names another says of it, said in that one's own steps: under which labels they stand, with which
+/// tools, at which lesion, and where they lead when they fail.
+void say_in_steps(const JsonObject& step, JsonValue& part) {
+  const JsonValue* with = step.value().find("with");
+  const auto rename = [&](JsonValue& tool) {
+    if (const JsonValue* own = with ? with->find(tool.text) : nullptr) tool.text = own->text;
+  };
+  for (JsonValue& tool : member(part, "tools")->items)
+    if (JsonValue* name = member(tool, "name")) rename(*name);
+  for (JsonValue& one : member(part, "steps")->items) {
+    if (JsonValue* tool = member(one, "tool")) {
+      rename(*tool);
+      for (JsonValue& each : tool->items) rename(each);
+    }
+    for (const char* key : {"label", "otherwise", "last_resort"}) {
+      JsonValue* label = step.has("label") ? member(one, key) : nullptr;
+      if (label && is_label(label->text)) label->text = step.text("label") + ": " + label->text;
+    }
+    if (step.has("otherwise")) lead_out(step, one);
+    for (const char* key : {"until", "unless"}) {
+      JsonValue* list = member(one, key);
+      if (!list) continue;
+      for (JsonValue& condition : list->items) {
+        if (JsonValue* of = member(condition, "of")) rename(*of);
+        if (step.has("lesion") && has_condition_about_a_lesion(condition) && !condition.find("lesion"))
+          condition.members.emplace_back("lesion", step["lesion"]);
+      }
+    }
+  }
+}
+
+/// Writes out the values of `file`, those of `given` instead of its own where it says some; then its parts.
+bool write_out(JsonValue& file, const JsonValue* given, int depth) {
+  bool any = write_out_values(file, given);
+  const JsonObject root(file, keys::root);
+  if (root.text("schema") != "ostium-script/1") root.refuse("schema");
+  std::vector<JsonValue> steps;
+  for (const JsonValue& value : root.list("steps")) {
+    const JsonValue* action = value.find("do");
+    if (!action || action->text != stands_for_steps) {
+      steps.push_back(value);
+      continue;
+    }
+    const JsonObject step(value, keys::step);
+    require_keys(step);
+    if (depth == deepest_script) value.fail(fmt::format("{}: scripts in scripts deeper than {}", value.path, depth));
+    any = true;
+    JsonValue part = load_json((fs::path(*file.file).parent_path() / (step.text("script") + ".json")).string());
+    write_out(part, step.value().find("values"), depth + 1);
+    read_lesion(step);
+    if (step.has("with") && step["with"].type != JsonValue::Type::object) step.refuse("with");
+    if (step.has("with"))
+      for (const auto& [theirs, ours] : step["with"].members)
+        if (!has_tool(JsonObject(part, keys::root), theirs) || !has_tool(root, ours.text))
+          ours.fail(fmt::format("{}: expected a tool of {} and the name of one of this script's", ours.path,
+                                step.text("script")));
+    if (step.has("otherwise") && !is_label(step.text("otherwise"))) step.refuse("otherwise");
+    if (step.has("tries") && !step.has("otherwise")) step.refuse("tries");
+    say_in_steps(step, part);
+    for (const JsonValue& tool : JsonObject(part, keys::root).list("tools"))
+      if (const std::string name = JsonObject(tool, keys::tool).text("name"); !has_tool(root, name))
+        value.fail(
+            fmt::format("{}: {} moves a tool \"{}\", and this script has none", value.path, step.text("script"), name));
+    for (JsonValue& one : member(part, "steps")->items) steps.push_back(std::move(one));
+  }
+  if (any) member(file, "steps")->items = std::move(steps);
+  return any;
+}
+
+}  // namespace
+
+bool write_out_parts(JsonValue& script) { return write_out(script, nullptr, 0); }
+
+}  // namespace ostium::data

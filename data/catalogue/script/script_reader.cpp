@@ -1,0 +1,231 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <numbers>
+
+#include "core/base/units.h"
+#include "data/catalogue/case/case.h"
+#include "data/catalogue/catalogue.h"
+#include "data/catalogue/script/script.h"
+#include "data/catalogue/script/script_actions.h"
+#include "data/catalogue/script/script_condition_reader.h"
+#include "data/catalogue/script/script_keys.h"
+#include "data/catalogue/script/script_parts.h"
+#include "fluoro/projection/views.h"
+
+namespace ostium::data {
+
+namespace {
+
+namespace fs = std::filesystem;
+namespace keys = script_keys;
+using units::degree;
+
+void read_view(const JsonObject& object, ScriptStep& step) {
+  if (object.has("view")) {
+    const auto view = fluoro::find_view(object.text("view"));
+    if (!view) object.refuse("view");
+    step.lao_rad = degree * view->lao_deg, step.cran_rad = degree * view->cran_deg;
+  }
+  if (object.has("lao_deg")) step.lao_rad = degree * object.number("lao_deg");
+  if (object.has("cran_deg")) step.cran_rad = degree * object.number("cran_deg");
+  if (object.has("table_mm")) {
+    const std::vector<double> mm = object.numbers("table_mm", 3);
+    step.table_P = 1e-3 * Eigen::Vector3d(mm[0], mm[1], mm[2]);
+  }
+  if (object.has("field_mm")) {
+    const double mm = object.number("field_mm");
+    if (mm != 200 && mm != 160 && mm != 130) object.refuse("field_mm");
+    step.field_m = 1e-3 * mm;
+  }
+}
+
+/// Contrast, inflation device, drugs.
+void read_treatment(const JsonObject& object, ScriptStep& step) {
+  const auto number = [&](const char* key, double unit, double& to) {
+    if (object.has(key)) to = unit * object.number(key);
+  };
+  number("rate_mL_s", 1e-6, step.rate_m3_s);
+  number("volume_mL", 1e-6, step.volume_m3);
+  number("over_s", 1, step.over_s);
+  number("heparin_U", 1, step.heparin_U);
+  number("nitrate_ug", 1, step.nitrate_ug);
+  number("adenosine_ug", 1, step.adenosine_ug);
+  number("iodine_mg_mL", 1, step.iodine_kg_m3);
+  number("gauge_atm", 101325, step.gauge_Pa);
+  if (step.action == ScriptAction::drug && step.heparin_U + step.nitrate_ug + step.adenosine_ug == 0)
+    object.value().fail(object.value().path + " gives nothing; expected heparin_U, nitrate_ug or adenosine_ug");
+}
+
+std::vector<int> read_tools(const JsonObject& object, const Script& script) {
+  std::vector<int> tools;
+  if (!object.has("tool")) return tools;
+  const JsonValue& tool = object["tool"];
+  if (tool.type != JsonValue::Type::array) return {tool_called(script, tool)};
+  if (tool.items.empty()) object.refuse("tool");
+  for (const JsonValue& one : tool.items) tools.push_back(tool_called(script, one));
+  return tools;
+}
+
+/// How fast the tools are moved, and until when.
+void read_motion(const JsonObject& object, const Script& script, ScriptStep& step) {
+  step.tools = read_tools(object, script);
+  if (object.has("speed_mm_s"))
+    step.feed_m_s = 1e-3 * object.number("speed_mm_s") * (step.action == ScriptAction::withdraw ? -1 : 1);
+  if (object.has("turn_deg_s")) {
+    if (object.number("turn_deg_s") == 0) object.refuse("turn_deg_s");
+    step.turn_rad_s = degree * object.number("turn_deg_s");
+  }
+  step.until = read_conditions(object, "until", script, step.tools);
+  step.unless = read_conditions(object, "unless", script, step.tools);
+  if (object.has("timeout_s")) step.timeout_s = object.number("timeout_s");
+}
+
+ScriptStep read_step(const JsonValue& value, const Script& script) {
+  const JsonObject object(value, keys::step);
+  ScriptStep step;
+  step.line = value.line;
+  const std::size_t action = object.choice("do", action_names());
+  assert(action < std::size(script_actions));  // steps that stand for others are written out by now
+  require_keys(object);
+  step.action = script_actions[action].action;
+  if (object.has("label")) step.label = object.text("label");
+  read_motion(object, script, step);
+  if (object.has("tries")) {
+    if (!object.has("otherwise")) object.refuse("tries");
+    step.tries = object.whole("tries");
+  }
+  if (object.has("detour")) step.detour = object.boolean("detour");
+  if (step.detour && script.steps.empty()) object.refuse("detour");
+  read_view(object, step);
+  if (object.has("on")) step.on = object.boolean("on");
+  if (object.has("rate_1_min")) step.rate_1_min = object.number("rate_1_min");
+  if (object.has("text")) step.text = object.text("text");
+  read_treatment(object, step);
+  return step;
+}
+
+/// Second time round, when all labels are known.
+void read_otherwise(const JsonValue& value, Script& script, ScriptStep& step) {
+  const JsonObject object(value, keys::step);
+  if (object.has("last_resort") && !object.has("otherwise")) object.refuse("last_resort");
+  if (!object.has("otherwise")) return;
+  const std::string to = object.text("otherwise");
+  if (to == "fail") return;
+  if (to == "go on") {
+    step.otherwise = ScriptStep::Otherwise::go_on;
+    return;
+  }
+  const auto step_called = [&](const char* key) {
+    const std::string label = object.text(key);
+    const auto called = [&](const ScriptStep& one) { return one.label == label; };
+    const auto found = std::find_if(script.steps.begin(), script.steps.end(), called);
+    if (found == script.steps.end()) object.refuse(key);
+    return static_cast<int>(found - script.steps.begin());
+  };
+  step.jump_to = step_called("otherwise");
+  step.otherwise = ScriptStep::Otherwise::jump;
+  if (object.has("last_resort")) step.last_resort = step_called("last_resort");
+}
+
+ScriptTool read_tool(const JsonObject& tool) {
+  ScriptTool out{tool.text("name"), tool.text("instrument"), tool.value().line, {}, 0, 0, read_lesion(tool)};
+  if (tool.has("sizes") != (tool.has("of_reference") || tool.has("of_aorta")))
+    tool.value().fail(tool.value().path + " has sizes or what they are measured by; expected both or neither");
+  if (tool.has("of_reference") && tool.has("of_aorta")) tool.refuse("of_aorta");
+  if (tool.has("lesion") && !tool.has("of_reference")) tool.refuse("lesion");
+  if (!tool.has("sizes")) return out;
+  const char* measure = tool.has("of_aorta") ? "of_aorta" : "of_reference";
+  (tool.has("of_aorta") ? out.of_aorta : out.of_reference) = tool.number(measure);
+  if (tool.list("sizes").empty()) tool.refuse("sizes");
+  for (const JsonValue& size : tool.list("sizes")) {
+    if (size.type != JsonValue::Type::text || size.text.empty()) tool.refuse("sizes");
+    out.sizes.push_back(size.text);
+  }
+  return out;
+}
+
+Script read(JsonValue file, const std::string& text) {
+  const bool written_out = write_out_parts(file);
+  const JsonObject root(file, keys::root);
+  Script script;
+  script.file = *file.file;
+  script.source = written_out ? to_json(file) : text;
+  script.name = root.text("name");
+  if (script.name != fs::path(*file.file).stem().string()) root.refuse("name");
+  script.title = root.text("title");
+  if (root.has("access")) script.access = static_cast<vascular::Access>(root.choice("access", access_names()));
+  if (root.list("tools").empty()) root.refuse("tools");
+  for (const JsonValue& value : root.list("tools")) {
+    const JsonObject tool(value, keys::tool);
+    for (const ScriptTool& other : script.tools)
+      if (other.name == tool.text("name")) value.fail(value.path + ".name: there is another tool of that name");
+    script.tools.push_back(read_tool(tool));
+  }
+  if (root.has("landmarks"))
+    for (const JsonValue& value : root.list("landmarks")) {
+      const JsonObject landmark(value, keys::landmark);
+      const std::vector<double> mm = landmark.numbers("at_mm", 3);
+      script.landmarks.push_back({landmark.text("name"), 1e-3 * Eigen::Vector3d(mm[0], mm[1], mm[2])});
+    }
+  const std::vector<JsonValue>& steps = root.list("steps");
+  if (steps.empty()) root.refuse("steps");
+  for (const JsonValue& value : steps) {
+    script.steps.push_back(read_step(value, script));
+    const std::string& label = script.steps.back().label;
+    for (std::size_t s = 0; s + 1 < script.steps.size(); ++s)
+      if (!label.empty() && script.steps[s].label == label)
+        value.fail(value.path + ".label: there is another step \"" + label + "\"");
+  }
+  for (std::size_t s = 0; s < steps.size(); ++s) read_otherwise(steps[s], script, script.steps[s]);
+  return script;
+}
+
+std::string all_of(const std::string& file) {
+  std::ifstream in(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+}  // namespace
+
+std::string ScriptStep::words() const {
+  const std::string name = row_of(action).name;
+  return label.empty() ? name : fmt::format("{} ({})", name, label);
+}
+
+Script read_script(const std::string& file, const std::string& text) { return read(parse_json(file, text), text); }
+
+Script load_script(const std::string& file) { return read(load_json(file), all_of(file)); }
+
+std::vector<Script> load_scripts() {
+  const fs::path folder = fs::path(data_folder()) / "scripts";
+  std::vector<Script> scripts;
+  std::error_code error;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder, error))
+    if (entry.path().extension() == ".json") scripts.push_back(load_script(entry.path().string()));
+  if (scripts.empty())
+    throw LoadError(folder.string() + ": has no script; expected a folder with at least one NAME.json");
+  std::sort(scripts.begin(), scripts.end(), [](const Script& a, const Script& b) { return a.name < b.name; });
+  return scripts;
+}
+
+Script find_script(const std::string& name_or_file) {
+  const fs::path known = fs::path(data_folder()) / "scripts" / (name_or_file + ".json");
+  if (fs::is_regular_file(known)) return load_script(known.string());
+  if (name_or_file.ends_with(".json")) return load_script(name_or_file);
+  std::string names;
+  for (const Script& script : load_scripts()) names += "\n  " + script.name;
+  throw LoadError(
+      fmt::format("there is no script \"{}\"; expected a file NAME.json or one of:{}", name_or_file, names));
+}
+
+void refuse(const ScriptCondition& condition, const std::string& what) {
+  throw LoadError(fmt::format("{}:{}: {}", condition.file, condition.line, what));
+}
+
+}  // namespace ostium::data

@@ -1,0 +1,81 @@
+#include "device/host/clamp.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace ostium::device {
+
+namespace {
+
+void follow(Direction& d, double moved, double reversal) {
+  d.position += moved;
+  const double since = d.position - d.turned_at;
+  if (d.sign * since > 0) d.turned_at = d.position;  // the farthest it got
+  if (std::abs(d.position - d.turned_at) <= reversal) return;
+  d.sign = since > 0 ? 1 : -1;
+  d.turned_at = d.position;
+}
+
+double resisted(int sign, double load) { return std::isfinite(load) ? std::max(0.0, sign * load) : 0.0; }
+
+double hold(const ClampSettings& s, double load, double least, double elapsed_s, HeldLoad& l) {
+  if (load == 0) return l = {}, 0;  // it helps the hand now
+  l.smooth += (s.smooth_s > 0 ? 1 - std::exp(-elapsed_s / s.smooth_s) : 1) * (load - l.smooth);
+  if (std::abs(l.smooth - l.followed_at) > std::max(least, s.least_felt * std::max(l.smooth, l.followed_at)))
+    l.followed_at = l.smooth, l.follow_for_s = s.settle_s;
+  if (l.follow_for_s <= 0) return l.held;
+  l.follow_for_s -= elapsed_s;
+  if (l.follow_for_s <= 0) l.followed_at = l.smooth;
+  return l.held = l.smooth;
+}
+
+double wanted_N(const ClampSettings& s, const ClampLoad& load, double elapsed_s, ClampState& state, std::size_t i) {
+  const double along_N =
+      hold(s, resisted(state.along[i].sign, load.push_N), s.least_push_N, elapsed_s, state.push_N[i]);
+  const double around_Nm =
+      hold(s, resisted(state.around[i].sign, load.torque_Nm), s.least_torque_Nm, elapsed_s, state.torque_Nm[i]);
+  return std::min(s.most_N, std::hypot(along_N, around_Nm / s.radius_m[i]));
+}
+
+}  // namespace
+
+void advance_clamps(const ClampSettings& s, const ClampRequest& request, const Movements& m, ClampState& state) {
+  const bool open = request.paused || !(request.load_age_s <= s.stale_s);
+  for (std::size_t i = 0; i < tools; ++i) {
+    if (!m.tool[i].seen) {
+      state.along[i] = state.around[i] = {};
+      state.push_N[i] = state.torque_Nm[i] = {};
+      state.level_N[i] = 0;
+      continue;
+    }
+    follow(state.along[i], m.tool[i].advance_mm, s.reversal_mm);
+    follow(state.around[i], m.tool[i].turn_deg, s.reversal_deg);
+    const double wanted = wanted_N(s, open ? ClampLoad{} : request.load[i], m.elapsed_s, state, i);
+    double& level = state.level_N[i];
+    level = std::clamp(wanted, level - s.fall_N_s * m.elapsed_s, level + s.rise_N_s * m.elapsed_s);
+  }
+}
+
+OutReport clamp_report(const ClampRequest& request, const Calibration& calibration, const InReport& report,
+                       ClampState& state) {
+  if (!request.arm)
+    state.stopped = false;
+  else if (report.emergency_stop || report.over_temperature)
+    state.stopped = true;
+  const auto taken_since = static_cast<std::int16_t>(report.last_out_sequence - state.arm_sequence);
+  const bool refused = state.arm && taken_since >= 0 && !report.armed;
+
+  OutReport out;
+  out.sequence = ++state.sequence;
+  out.arm = request.arm && !state.stopped && !refused;
+  if (out.arm && !state.arm) state.arm_sequence = out.sequence;
+  state.arm = out.arm;
+  for (std::size_t k = 0; k < 4; ++k) {
+    if (report.tool[k] == Tool::none || !out.arm) continue;
+    const double share = state.level_N[index_of(report.tool[k])] / calibration.clamp_full_scale_N[k];
+    out.clamp[k] = static_cast<std::uint16_t>(std::lround(65535 * std::clamp(share, 0.0, 1.0)));
+  }
+  return out;
+}
+
+}  // namespace ostium::device

@@ -1,0 +1,56 @@
+#pragma once
+/// The reports of the tracking box, protocol version 1, as pure bytes-to-values code: little endian, counts raw. No USB
+/// here.
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+
+namespace ostium::device {
+
+inline constexpr std::size_t in_report_bytes = 64, out_report_bytes = 16;
+inline constexpr std::uint8_t device_protocol_version = 1;
+
+/// What a track's sensor station sees.
+enum class Tool : std::uint8_t { none, guide, wire, shaft, second_wire };
+
+/// One sample of the box.
+struct InReport {
+  bool armed = false, watchdog = false, emergency_stop = false, over_temperature = false, calibrated = false;
+  std::uint32_t sequence = 0;  ///< one more per sample; a gap is a loss
+  std::uint32_t time_us = 0;   ///< wraps in 71.6 min
+  std::uint16_t overruns = 0;
+  std::uint16_t last_out_sequence = 0;      ///< of the last OUT report that the box took
+  std::array<std::int32_t, 4> insertion{};  ///< counts, positive into the patient
+  std::array<std::int32_t, 4> roll{};       ///< counts, positive clockwise as seen from the hub
+  std::array<std::uint8_t, 4> quality{};    ///< 0: no tool
+  std::array<Tool, 4> tool{};
+  std::int16_t pressure = 0;  ///< counts, signed: vacuum
+  std::int16_t flow = 0;      ///< counts, negative: aspiration
+  std::uint16_t pedals = 0;   ///< bit 0 fluoroscopy, bit 1 cine, the rest assigned by the host
+  std::uint16_t age_of_last_out_ms = 0;
+};
+
+/// What the host asks of the box.
+struct OutReport {
+  std::uint16_t sequence = 0;
+  std::array<std::uint16_t, 4> clamp{};  ///< 0: free
+  bool arm = false, identify = false;
+};
+
+/// What rule of the protocol bytes break, the first of them.
+enum class Flaw : std::uint8_t { none, type, length, version, reserved_bits, tool };
+
+Flaw flaw_of_in_report(std::span<const std::uint8_t> bytes);
+Flaw flaw_of_out_report(std::span<const std::uint8_t> bytes);
+
+/// Empty if there is a flaw: such a report is to be ignored whole, and counted by the caller. (Flaw::type alone may be
+/// a report of a later protocol, and is no sign of damage.)
+std::optional<InReport> parse_in_report(std::span<const std::uint8_t> bytes);
+std::optional<OutReport> parse_out_report(std::span<const std::uint8_t> bytes);
+
+std::array<std::uint8_t, in_report_bytes> bytes_of(const InReport& report);
+std::array<std::uint8_t, out_report_bytes> bytes_of(const OutReport& report);
+
+}  // namespace ostium::device

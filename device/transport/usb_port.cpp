@@ -1,0 +1,448 @@
+#include "device/transport/usb_port.h"
+
+#include <fmt/format.h>
+#include <libusb.h>
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cstring>
+#include <stdexcept>
+
+#include "device/protocol/report.h"
+
+namespace ostium::device {
+
+namespace {
+
+constexpr std::size_t in_transfers = 8;
+constexpr unsigned control_ms = 500;
+constexpr double look_every_s = 0.5, first_wait_s = 0.01, longest_wait_s = 0.16;
+constexpr int most_failures = 5;  // in a row, before the box is opened anew
+
+double clock_s() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
+
+struct Interface {
+  int number = 0;
+  std::uint8_t in = 0, out = 0;  ///< endpoints
+};
+
+bool is_interrupt(const libusb_endpoint_descriptor& e) {
+  return (e.bmAttributes & LIBUSB_TRANSFER_TYPE_MASK) == LIBUSB_TRANSFER_TYPE_INTERRUPT;
+}
+
+std::optional<Interface> interface_of(const libusb_interface_descriptor& d) {
+  if (d.bInterfaceClass != usb_class || d.bInterfaceSubClass != usb_subclass || d.bInterfaceProtocol != usb_protocol)
+    return {};
+  Interface found{d.bInterfaceNumber, 0, 0};
+  for (int e = 0; e < d.bNumEndpoints; ++e) {
+    if (!is_interrupt(d.endpoint[e])) continue;
+    const std::uint8_t address = d.endpoint[e].bEndpointAddress;
+    const bool in = (address & LIBUSB_ENDPOINT_DIR_MASK) == LIBUSB_ENDPOINT_IN;
+    std::uint8_t& place = in ? found.in : found.out;
+    if (!place) place = address;
+  }
+  if (!found.in || !found.out) return {};
+  return found;
+}
+
+std::optional<Interface> interface_of(libusb_device* device) {
+  libusb_config_descriptor* config = nullptr;
+  if (libusb_get_active_config_descriptor(device, &config) != 0 &&
+      libusb_get_config_descriptor(device, 0, &config) != 0)
+    return {};
+  std::optional<Interface> found;
+  for (int i = 0; i < config->bNumInterfaces && !found; ++i)
+    if (config->interface[i].num_altsetting > 0) found = interface_of(config->interface[i].altsetting[0]);
+  libusb_free_config_descriptor(config);
+  return found;
+}
+
+std::string text(libusb_device_handle* handle, std::uint8_t index) {
+  std::array<unsigned char, 128> bytes;
+  const int count = index ? libusb_get_string_descriptor_ascii(handle, index, bytes.data(), bytes.size()) : 0;
+  return count > 0 ? std::string(bytes.begin(), bytes.begin() + count) : "";
+}
+
+/// A box that is open and ours, for as long as this lives.
+struct Opened {
+  libusb_device_handle* handle = nullptr;
+  Interface interface;
+  PortIdentity identity;
+
+  Opened() = default;
+  Opened(const Opened&) = delete;
+  Opened& operator=(const Opened&) = delete;
+  ~Opened() { close(); }
+
+  void close() {
+    if (!handle) return;
+    libusb_release_interface(handle, interface.number);
+    libusb_close(handle);
+    handle = nullptr;
+  }
+
+  /// `serial`: only the box of this one; empty: any.
+  PortTrouble open(libusb_device* device, const std::string& serial) {
+    identity = {"", "",
+                fmt::format("bus {}, device {}", libusb_get_bus_number(device), libusb_get_device_address(device))};
+    if (const int error = libusb_open(device, &handle); error != 0) {
+      handle = nullptr;
+      return error == LIBUSB_ERROR_ACCESS ? PortTrouble::no_access : PortTrouble::failing;
+    }
+    libusb_device_descriptor d{};
+    libusb_get_device_descriptor(device, &d);
+    identity.serial = text(handle, d.iSerialNumber), identity.product = text(handle, d.iProduct);
+    const auto found = interface_of(device);
+    PortTrouble trouble = found ? PortTrouble::none : PortTrouble::not_a_box;
+    if (found) interface = *found;
+    if (trouble == PortTrouble::none && (serial.empty() || serial == identity.serial))
+      if (const int error = libusb_claim_interface(handle, interface.number); error != 0)
+        trouble = error == LIBUSB_ERROR_BUSY ? PortTrouble::in_use : PortTrouble::failing;
+    const bool another = !serial.empty() && serial != identity.serial;
+    if (trouble == PortTrouble::none && !another) return trouble;
+    libusb_close(handle);
+    handle = nullptr;
+    return trouble;
+  }
+
+  std::optional<std::size_t> read(std::uint8_t request, std::span<std::uint8_t> into) const {
+    const int count =
+        libusb_control_transfer(handle, from_box, request, 0, static_cast<std::uint16_t>(interface.number), into.data(),
+                                static_cast<std::uint16_t>(into.size()), control_ms);
+    if (count < 0) return {};
+    return static_cast<std::size_t>(count);
+  }
+
+  bool write(std::uint8_t request, std::uint16_t value, std::span<const std::uint8_t> data) const {
+    const int count = libusb_control_transfer(
+        handle, to_box, request, value, static_cast<std::uint16_t>(interface.number),
+        const_cast<unsigned char*>(data.data()), static_cast<std::uint16_t>(data.size()), control_ms);
+    return count >= 0 && static_cast<std::size_t>(count) == data.size();
+  }
+
+ private:
+  static constexpr std::uint8_t of_interface = +LIBUSB_REQUEST_TYPE_VENDOR | +LIBUSB_RECIPIENT_INTERFACE;
+  static constexpr std::uint8_t from_box = of_interface | LIBUSB_ENDPOINT_IN,
+                                to_box = of_interface | LIBUSB_ENDPOINT_OUT;
+};
+
+/// Calls `visit(device)` for each of our kind until it returns true.
+template <class Visit>
+void each_box(libusb_context* context, Visit visit) {
+  libusb_device** list = nullptr;
+  const auto count = libusb_get_device_list(context, &list);
+  for (ssize_t i = 0; i < count; ++i) {
+    libusb_device_descriptor d{};
+    if (libusb_get_device_descriptor(list[i], &d) != 0 || d.idVendor != usb_vendor || d.idProduct != usb_product)
+      continue;
+    if (visit(list[i])) break;
+  }
+  if (count >= 0) libusb_free_device_list(list, 1);
+}
+
+struct Context {
+  libusb_context* usb = nullptr;
+  Context() {
+    if (const int error = libusb_init(&usb); error != 0)
+      throw std::runtime_error(
+          fmt::format("USB cannot be used: {}", libusb_strerror(static_cast<libusb_error>(error))));
+  }
+  Context(const Context&) = delete;
+  Context& operator=(const Context&) = delete;
+  ~Context() { libusb_exit(usb); }
+};
+
+}  // namespace
+
+// --- the driver ------------------------------------------------------------------------------------------------------
+
+struct UsbPort::Driver {
+  Context context;
+  Opened box;
+  std::string serial;
+  PortState state;
+  PortCounts counts;
+  ReportSink* sink = nullptr;
+
+  struct In {
+    Driver* driver = nullptr;
+    libusb_transfer* transfer = nullptr;
+    std::array<std::uint8_t, in_report_bytes> bytes{};
+    bool in_flight = false;
+  };
+  std::array<In, in_transfers> in;
+  libusb_transfer* out = nullptr;
+  std::array<std::uint8_t, out_report_bytes> out_bytes{}, next_out{};
+  bool out_in_flight = false, out_waits = false;
+
+  libusb_hotplug_callback_handle hotplug = 0;
+  bool has_hotplug = false;
+  bool look = true;  ///< something was plugged in, or nothing was looked at yet
+  double looked_s = 0;
+  bool bringing_back = false;                  ///< transfers are not started again
+  bool gone = false;                           ///< the box has left
+  bool in_halted = false, out_halted = false;  ///< an endpoint stalled
+  int failures = 0;                            ///< in a row
+  double retry_s = 0;                          ///< not before
+
+  explicit Driver(std::string of_serial) : serial(std::move(of_serial)) {
+    for (In& i : in) i.driver = this, i.transfer = allocate();
+    out = allocate();
+    if (libusb_has_capability(LIBUSB_CAP_HAS_HOTPLUG))
+      has_hotplug =
+          libusb_hotplug_register_callback(
+              context.usb, LIBUSB_HOTPLUG_EVENT_DEVICE_ARRIVED | LIBUSB_HOTPLUG_EVENT_DEVICE_LEFT,
+              LIBUSB_HOTPLUG_NO_FLAGS, usb_vendor, usb_product, LIBUSB_HOTPLUG_MATCH_ANY, plugged, this, &hotplug) == 0;
+  }
+
+  ~Driver() {
+    sink = nullptr;  // it may be gone already
+    close();
+    if (has_hotplug) libusb_hotplug_deregister_callback(context.usb, hotplug);
+    for (In& i : in) libusb_free_transfer(i.transfer);
+    libusb_free_transfer(out);
+  }
+
+  static libusb_transfer* allocate() {
+    libusb_transfer* made = libusb_alloc_transfer(0);
+    if (!made) throw std::bad_alloc();
+    return made;
+  }
+
+  static int plugged(libusb_context*, libusb_device* device, libusb_hotplug_event event, void* self) {
+    auto& driver = *static_cast<Driver*>(self);
+    if (event == LIBUSB_HOTPLUG_EVENT_DEVICE_ARRIVED)
+      driver.look = true;
+    else if (driver.box.handle && libusb_get_device(driver.box.handle) == device)
+      driver.gone = true;
+    return 0;
+  }
+
+  // What libusb calls while events are handled.
+
+  static void in_done(libusb_transfer* transfer) {
+    In& i = *static_cast<In*>(transfer->user_data);
+    i.in_flight = false;
+    if (i.driver->may_go_on(*transfer, i.driver->in_halted, i)) i.driver->submit(i);
+  }
+
+  static void out_done(libusb_transfer* transfer) {
+    auto& driver = *static_cast<Driver*>(transfer->user_data);
+    driver.out_in_flight = false;
+    if (transfer->status == LIBUSB_TRANSFER_COMPLETED) {
+      ++driver.counts.out;
+      if (driver.out_waits) driver.start_out();
+      return;
+    }
+    driver.note(transfer->status, driver.out_halted);
+  }
+
+  bool may_go_on(const libusb_transfer& transfer, bool& halted, In& i) {
+    if (transfer.status != LIBUSB_TRANSFER_COMPLETED) {
+      note(transfer.status, halted);
+      return false;
+    }
+    ++counts.in;
+    failures = 0;
+    state.trouble = PortTrouble::none;
+    if (sink) sink->came({i.bytes.data(), static_cast<std::size_t>(transfer.actual_length)});
+    return !gone && !in_halted && !bringing_back;
+  }
+
+  void note(libusb_transfer_status status, bool& halted) {
+    switch (status) {
+      case LIBUSB_TRANSFER_CANCELLED:
+        return;
+      case LIBUSB_TRANSFER_NO_DEVICE:
+        gone = true;
+        return;
+      case LIBUSB_TRANSFER_STALL:
+        if (!halted) ++counts.stalls, fail(PortTrouble::stalled);
+        halted = true;
+        return;
+      default:  // an error, or more bytes than a report has
+        ++counts.errors;
+        fail(PortTrouble::failing);
+    }
+  }
+
+  void fail(PortTrouble why) {
+    if (now() < retry_s) return;  // the others of the eight, of the same moment
+    ++failures;
+    if (failures > 1) state.trouble = why;
+    retry_s = now() + std::min(longest_wait_s, first_wait_s * (1 << std::min(failures - 1, 10)));
+  }
+
+  static double now() { return clock_s(); }
+
+  void submit(In& i) {
+    libusb_fill_interrupt_transfer(i.transfer, box.handle, box.interface.in, i.bytes.data(),
+                                   static_cast<int>(i.bytes.size()), in_done, &i, 0);
+    i.in_flight = submitted(i.transfer);
+  }
+
+  void start_out() {
+    out_waits = false;
+    out_bytes = next_out;
+    libusb_fill_interrupt_transfer(out, box.handle, box.interface.out, out_bytes.data(),
+                                   static_cast<int>(out_bytes.size()), out_done, this, 0);
+    out_in_flight = submitted(out);
+  }
+
+  bool submitted(libusb_transfer* transfer) {
+    const int error = libusb_submit_transfer(transfer);
+    if (error == LIBUSB_ERROR_NO_DEVICE) gone = true;
+    if (error != 0 && !gone) ++counts.errors, fail(PortTrouble::failing);
+    return error == 0;
+  }
+
+  // Between events.
+
+  bool in_flight() const {
+    return out_in_flight || std::any_of(in.begin(), in.end(), [](const In& i) { return i.in_flight; });
+  }
+
+  void cancel_all() {
+    for (In& i : in)
+      if (i.in_flight) libusb_cancel_transfer(i.transfer);
+    if (out_in_flight) libusb_cancel_transfer(out);
+  }
+
+  /// Every transfer is back, or a second is over.
+  void bring_back() {
+    bringing_back = true;
+    out_waits = false;
+    cancel_all();
+    for (const double until = now() + 1; in_flight() && now() < until;) handle_events(0.05);
+    bringing_back = false;
+  }
+
+  void handle_events(double wait_s) {
+    timeval wait{static_cast<time_t>(wait_s),
+                 static_cast<suseconds_t>(1e6 * (wait_s - static_cast<double>(static_cast<time_t>(wait_s))))};
+    libusb_handle_events_timeout_completed(context.usb, &wait, nullptr);
+  }
+
+  void close() {
+    if (!box.handle) return;
+    state.open = false;
+    bring_back();
+    box.close();
+    for (In& i : in) i.in_flight = false;
+    out_in_flight = out_waits = false;
+    look = true;
+  }
+
+  void find() {
+    look = false;
+    looked_s = now();
+    state.trouble = PortTrouble::none;
+    each_box(context.usb, [&](libusb_device* device) {
+      const PortTrouble trouble = box.open(device, serial);
+      if (trouble != PortTrouble::none) state.trouble = trouble;
+      return box.handle != nullptr;
+    });
+    if (!box.handle) return;
+    state = {true, state.openings + 1, PortTrouble::none};
+    gone = in_halted = out_halted = false;
+    failures = 0, retry_s = 0;
+  }
+
+  /// Clears stalls, waits after errors, keeps eight transfers in flight.
+  void tend() {
+    if (now() < retry_s) return;
+    if (failures > most_failures) {
+      const PortTrouble why = state.trouble;
+      close();
+      look = false, looked_s = now();  // not at once
+      state.trouble = why;
+      return;
+    }
+    if (in_halted || out_halted) {
+      bring_back();
+      if (in_halted) libusb_clear_halt(box.handle, box.interface.in);
+      if (out_halted) libusb_clear_halt(box.handle, box.interface.out);
+      in_halted = out_halted = false;
+    }
+    for (In& i : in)
+      if (!i.in_flight && !gone && now() >= retry_s) submit(i);
+    if (out_waits && !out_in_flight && !gone) start_out();
+  }
+
+  PortState poll(double wait_s) {
+    if (gone) {
+      ++counts.departures;
+      close();
+      gone = false;
+    }
+    if (!box.handle) {
+      // Also without a box, so that what libusb hears of arrivals is heard.
+      if (look || now() - looked_s > look_every_s) find();
+      if (!box.handle) handle_events(std::min(wait_s, look_every_s));
+      return state;  // once: what has been opened is asked before it streams
+    }
+    tend();
+    if (box.handle) handle_events(now() < retry_s ? std::min(wait_s, first_wait_s) : wait_s);
+    return state;
+  }
+};
+
+UsbPort::UsbPort(std::string serial) : driver_(std::make_unique<Driver>(std::move(serial))) {}
+UsbPort::~UsbPort() = default;
+
+PortState UsbPort::poll(double wait_s, ReportSink& sink) {
+  driver_->sink = &sink;
+  return driver_->poll(wait_s);
+}
+
+void UsbPort::send(std::span<const std::uint8_t> bytes) {
+  Driver& d = *driver_;
+  if (!d.state.open || d.gone || bytes.size() != out_report_bytes) return;
+  if (d.out_waits) ++d.counts.replaced;
+  std::copy(bytes.begin(), bytes.end(), d.next_out.begin());
+  d.out_waits = true;
+  if (!d.out_in_flight && !d.out_halted && clock_s() >= d.retry_s) d.start_out();
+}
+
+std::optional<std::size_t> UsbPort::read(std::uint8_t request, std::span<std::uint8_t> into) {
+  if (!driver_->state.open) return {};
+  return driver_->box.read(request, into);
+}
+
+bool UsbPort::write(std::uint8_t request, std::uint16_t value, std::span<const std::uint8_t> data) {
+  return driver_->state.open && driver_->box.write(request, value, data);
+}
+
+const PortIdentity& UsbPort::identity() const { return driver_->box.identity; }
+const PortCounts& UsbPort::counts() const { return driver_->counts; }
+double UsbPort::now_s() const { return clock_s(); }
+
+// --- looking around --------------------------------------------------------------------------------------------------
+
+std::vector<FoundBox> find_boxes() {
+  const Context context;
+  std::vector<FoundBox> boxes;
+  each_box(context.usb, [&](libusb_device* device) {
+    FoundBox found;
+    Opened box;
+    found.trouble = box.open(device, "");
+    found.identity = box.identity;
+    if (box.handle) {
+      std::array<std::uint8_t, info_bytes> info{};
+      if (box.read(static_cast<std::uint8_t>(Request::info), info) == info.size()) found.info = parse_info(info);
+      std::array<std::uint8_t, calibration_bytes> record{};
+      const auto count = box.read(static_cast<std::uint8_t>(Request::read_calibration), record);
+      try {
+        found.calibration = parse_calibration(std::span(record).first(count.value_or(0)));
+      } catch (const CalibrationError& error) {
+        found.calibration_problem = error.what();
+      }
+    }
+    boxes.push_back(std::move(found));
+    return false;
+  });
+  return boxes;
+}
+
+}  // namespace ostium::device

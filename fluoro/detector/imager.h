@@ -1,0 +1,83 @@
+#pragma once
+/// The chain from a scene to the picture that the detector gives: path lengths, attenuation, scatter, noise, blur, lag.
+/// One imager belongs to one thread; it draws in that thread and starts no other.
+#include <optional>
+
+#include "fluoro/detector/attenuation.h"
+#include "fluoro/detector/exposure.h"
+#include "fluoro/detector/lag.h"
+#include "fluoro/detector/noise.h"
+
+namespace ostium::fluoro {
+
+/// Const while an imager lives.
+struct ImagerModel {
+  Detector detector;
+  ScatterKernel scatter;
+  double grid_transmission = 0.7;    ///< of primary radiation
+  double focal_spot_m = 0.6e-3;      ///< blurs by the magnification of the isocentre
+  double detector_blur_m = 0.16e-3;  ///< standard deviation of the scintillator's light: MTF 0.6 at 1/mm
+  double shutter_blur_m = 1.2e-3;    ///< standard deviation of the shutters' shadow at the detector
+};
+
+struct FrameInput {
+  const Scene& scene;
+  View view;
+  Collimator collimator;
+  Programme programme;
+  std::uint64_t seed = 1;
+};
+
+/// All that the next frame needs of those before.
+struct ImagerState {
+  std::uint64_t frame = 0;
+  Lag lag;
+};
+
+struct FrameReport {
+  Exposure exposure;
+  Leak leak;            ///< a surface that is not closed, or lies where it cannot
+  std::string leaking;  ///< names of the bodies that leak, if any
+};
+
+class Imager {
+ public:
+  /// Throws what the renderer's maker throws.
+  explicit Imager(const ImagerModel& model, std::unique_ptr<PathLengthRenderer> renderer);
+  ~Imager();
+
+  /// One frame; state.lag.shown is the picture, in photons of mean energy that the detector absorbed. Degrades on a
+  /// leak (negative lengths count as zero) and says so.
+  FrameReport frame(const FrameInput& in, ImagerState& state);
+  /// Dose and automatic brightness alone, from a coarse estimate, without a picture.
+  Exposure exposure(const FrameInput& in);
+
+  const Plane& exposed() const { return exposed_; }  ///< where the last frame's beam was, 0 to 1
+  /// Path lengths of the last frame, for whoever measures.
+  const PathLengths& lengths() const { return lengths_; }
+  const char* renderer() const { return renderer_->name(); }
+
+ private:
+  void draw(const FrameInput& in);
+  void collimate(const FrameInput& in);
+  std::string name_leaks(const FrameInput& in);
+
+  ImagerModel model_;
+  std::unique_ptr<PathLengthRenderer> renderer_, coarse_renderer_;
+  Beams beams_;
+  // What is kept while neither C-arm nor fixed scene change.
+  std::shared_ptr<const std::vector<Body>> fixed_, coarse_fixed_;
+  std::optional<View> view_, coarse_view_;
+  PathLengths fixed_lengths_, coarse_fixed_lengths_;
+  Plane stretch_;
+  Collimator collimator_;
+  bool shuttered_ = false;
+  Plane exposed_;
+  // Scratch.
+  PathLengths lengths_, coarse_;
+  ShaftLayer shafts_;
+  Primary primary_;
+  Plane scattered_, counted_, scratch_;
+};
+
+}  // namespace ostium::fluoro

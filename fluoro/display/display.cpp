@@ -1,0 +1,56 @@
+#include "fluoro/display/display.h"
+
+#include <cmath>
+
+#include "fluoro/base/resample.h"
+
+namespace ostium::fluoro {
+
+namespace {
+
+using Row = Eigen::Array<float, 1, Eigen::Dynamic>;
+
+/// Mean where the beam is, weights `exposed`.
+float mean_over(const Plane& plane, const Plane& exposed) {
+  const float sum = exposed.sum();
+  return sum > 0 ? (plane * exposed).sum() / sum : 0;
+}
+
+}  // namespace
+
+void display(const Plane& signal, const Plane& exposed, double field_m, const DisplaySettings& settings,
+             DisplayScratch& scratch, Picture& out) {
+  const int pixels = static_cast<int>(signal.rows());
+  const int cells = std::max(1, pixels / 8);
+  const float floor = 1e-4f * std::max(signal.maxCoeff(), 1e-30f);
+  const bool open = exposed.minCoeff() >= 1;
+  Plane &logarithm = scratch.logarithm, &slow = scratch.slow;
+  logarithm.resize(pixels, pixels);
+  for (int row = 0; row < pixels; ++row)
+    if (open)
+      logarithm.row(row) = signal.row(row).max(floor).log();
+    else  // the shutters' shadow is taken out, or its edge would ring in the slow part
+      logarithm.row(row) = (signal.row(row) / exposed.row(row).max(0.02f)).max(floor).log();
+  Plane coarse = block_means(logarithm, cells);
+  const float mean = mean_over(coarse, block_means(exposed, cells));
+  gaussian_blur(coarse, settings.slow_m / field_m * cells, Beyond::same, scratch.blurred);
+  enlarge(coarse, pixels, slow);
+
+  const auto share = static_cast<float>(settings.compression), contrast = static_cast<float>(settings.contrast),
+             middle = static_cast<float>(settings.mean_level);
+  out.width = out.height = pixels;
+  out.grey.resize(static_cast<std::size_t>(pixels) * static_cast<std::size_t>(pixels));
+  Row level(pixels), end(pixels);
+  for (int row = 0; row < pixels; ++row) {
+    // A curve of slope 1 at the middle that nears black and white without reaching them: x / sqrt(1 + (x / end)^2).
+    level = contrast * (logarithm.row(row) - mean - share * (slow.row(row) - mean));
+    end = (level > 0).select(Row::Constant(pixels, 1 / (1 - middle)), 1 / middle);
+    level = middle + level / (1 + (level * end).square()).sqrt();
+    if (!open) level *= exposed.row(row).min(1.0f);
+    std::uint8_t* grey = out.grey.data() + std::size_t(row) * std::size_t(pixels);
+    for (int column = 0; column < pixels; ++column)
+      grey[column] = static_cast<std::uint8_t>(static_cast<int>(255 * level[column] + 0.5f));
+  }
+}
+
+}  // namespace ostium::fluoro

@@ -1,0 +1,124 @@
+#include "vascular/anatomy/labelling/labelling.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <numbers>
+
+#include "core/base/units.h"
+#include "vascular/anatomy/labelling/branch_names.h"
+#include "vascular/anatomy/labelling/heart_match.h"
+#include "vascular/anatomy/labelling/landmarks.h"
+#include "vascular/anatomy/labelling/tubes_of_tree.h"
+#include "vascular/geometry/centreline/centreline.h"
+
+namespace ostium::vascular {
+
+namespace {
+
+using units::mm, units::degree;
+constexpr double most_turned = 40 * degree;  // the file's axes are kept if the anatomy is turned by less
+
+/// From the file's axes to the patient's.
+Eigen::Matrix3d settled_axes(const LabellingOptions& options, const Similarity* aorta, const Similarity* heart,
+                             std::vector<std::string>& notes) {
+  Eigen::Matrix3d R = Eigen::Matrix3d::Identity();
+  if (options.axes) {
+    R = *options.axes;
+  } else if (!aorta && !heart) {
+    notes.push_back("neither aorta nor heart was recognised: the file's axes are taken as left, head, front");
+  } else {
+    const Eigen::Matrix3d found = (aorta ? aorta->R : heart->R).transpose();
+    double turn = 0;
+    R = nearest_axes(found, &turn);
+    if (turn > most_turned) {
+      R = found;
+      notes.push_back(fmt::format(
+          "the anatomy is turned by {:.0f} degrees from any axes: it was turned to stand as the mean one does",
+          turn / degree));
+    }
+  }
+  return R;
+}
+
+/// The tree once more, with the ends in the order of their importance: what comes first runs through.
+void find_tree_anew(LumenPart& part) {
+  CentrelineOptions wanted;
+  wanted.start = part.root;
+  for (const LumenPart::Role& role : part.roles) wanted.ends.push_back(role.end);
+  std::vector<const Course*> rest;
+  for (const Course& course : part.courses) rest.push_back(&course);
+  std::stable_sort(rest.begin(), rest.end(),
+                   [](const Course* a, const Course* b) { return a->length_m() > b->length_m(); });
+  std::vector<Eigen::Vector3d> others;
+  for (const Course* course : rest) others.push_back(course->spheres.back().p);
+  others.push_back(part.courses[0].spheres.front().p);
+  for (const Eigen::Vector3d& end : others) {
+    bool there = (end - part.root).norm() < 2 * mm;
+    for (const Eigen::Vector3d& other : wanted.ends) there = there || (end - other).norm() < 1e-9;
+    if (!there) wanted.ends.push_back(end);
+  }
+  part.tree = find_centrelines(part.mesh, wanted).tree;
+}
+
+void turn(const Eigen::Matrix3d& R, LumenPart& part) {
+  for (TreeBranch& branch : part.tree.branches)
+    for (TreeSphere& sphere : branch.spheres) sphere.p = R * sphere.p;
+  for (LumenPart::Role& role : part.roles) role.end = R * role.end;
+}
+
+void move_to_ostium(LabelledVessels& out) {
+  const Eigen::Vector3d shift = out.anatomy.landmarks.p_left_ostium;
+  out.shift_P = shift;
+  Landmarks& m = out.anatomy.landmarks;
+  for (Eigen::Vector3d* p :
+       {&m.p_access, &m.p_left_ostium, &m.p_right_ostium, &m.p_annulus, &m.p_lv_base, &m.p_lv_apex})
+    *p -= shift;
+  for (Tube& tube : out.anatomy.tubes)
+    for (TubeNode& node : tube.nodes) node.p -= shift;
+  for (Eigen::Vector3d& p : out.lumen.vertices) p -= shift;
+}
+
+}  // namespace
+
+LabelledVessels label_vessels(const Mesh& lumen, const LabellingOptions& options) {
+  const Progress say = [&](const std::string& what) {
+    if (options.progress) options.progress(what);
+  };
+  const MeanCourses mean = mean_courses();
+  LabelledVessels out;
+  std::vector<LumenPart> parts = lumen_parts(lumen, say);
+  std::optional<AortaMatch> aorta = match_aorta(parts.front(), mean, say);
+  std::optional<HeartMatch> heart = match_heart(parts, aorta ? &*aorta : nullptr, mean, out.notes);
+  out.heart = heart.has_value();
+  if (aorta) out.aorta_rms_m = aorta->fit.rms_m;
+  if (heart) out.heart_rms_m = heart->fit.rms_m;
+  out.R_PF = settled_axes(options, aorta ? &aorta->fit : nullptr, heart ? &heart->fit : nullptr, out.notes);
+  for (LumenPart& part : parts) {
+    say("naming branches");
+    find_tree_anew(part);
+  }
+
+  // All that follows is in the patient's axes.
+  const Eigen::Matrix3d& R = out.R_PF;
+  for (LumenPart& part : parts) turn(R, part);
+  out.lumen = lumen;
+  for (Eigen::Vector3d& p : out.lumen.vertices) p = R * p;
+  Similarity fit = heart ? heart->fit : aorta ? aorta->fit : Similarity{};
+  fit.R = R * fit.R, fit.shift = R * fit.shift;
+  std::map<std::string, Eigen::Vector3d> ostia;
+  if (heart)
+    for (const auto& [name, p] : heart->ostia) ostia[name] = R * p;
+
+  std::vector<double> leaves_m;
+  out.anatomy.aorta = aorta.has_value();
+  for (const LumenPart& part : parts) add_tubes(part, out.anatomy.tubes, leaves_m);
+  name_branches(leaves_m, options.names, out.anatomy, out.notes);
+  std::optional<Eigen::Vector3d> entry;
+  if (options.entry) entry = R * *options.entry;
+  set_landmarks({mean.anatomy.landmarks, fit, ostia, entry}, out.anatomy, out.notes);
+  move_to_ostium(out);
+  return out;
+}
+
+}  // namespace ostium::vascular

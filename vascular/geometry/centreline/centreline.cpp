@@ -1,0 +1,239 @@
+#include "vascular/geometry/centreline/centreline.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <queue>
+
+#include "vascular/geometry/centreline/voxels.h"
+#include "vascular/geometry/mesh/patient_frame.h"
+
+namespace ostium::vascular {
+
+namespace {
+
+constexpr double unreached = std::numeric_limits<double>::infinity();
+constexpr double reach = 2;  // a path has come near to what lies within so many radii of it
+
+struct Paths {
+  std::vector<double> length_m;  ///< along the cheapest path from the root
+  std::vector<int> before;       ///< the voxel before on that path; -1 at the root
+};
+
+/// Dijkstra's cheapest paths from `root`.
+Paths cheapest_paths(const Voxels& voxels, int root) {
+  const std::size_t n = static_cast<std::size_t>(voxels.count());
+  Paths paths{std::vector<double>(n, unreached), std::vector<int>(n, -1)};
+  std::vector<double> cost(n, unreached);
+  std::priority_queue<std::pair<double, int>, std::vector<std::pair<double, int>>, std::greater<>> open;
+  cost[root] = paths.length_m[root] = 0;
+  open.push({0, root});
+  while (!open.empty()) {
+    const auto [c, v] = open.top();
+    open.pop();
+    if (c > cost[v]) continue;
+    voxels.neighbours(v, [&](int next, double step) {
+      const double d = std::max((voxels.to_wall_m(v) + voxels.to_wall_m(next)) / 2, voxels.size_m() / 4);
+      const double through = c + step / (d * d);
+      if (through >= cost[next]) return;
+      cost[next] = through;
+      paths.length_m[next] = paths.length_m[v] + step;
+      paths.before[next] = v;
+      open.push({through, next});
+    });
+  }
+  return paths;
+}
+
+/// A path's voxels from where it leaves those before (or the root) to its end.
+struct Strand {
+  std::vector<int> voxels;
+  int parent = -1;     ///< strand that it leaves
+  int leaves_at = -1;  ///< position in the parent's voxels
+};
+
+class Skeleton {
+ public:
+  Skeleton(const Voxels& voxels, int root)
+      : voxels_(voxels), paths_(cheapest_paths(voxels, root)), owner_(voxels.count(), -1), near_(voxels.count()) {}
+
+  bool reaches(int voxel) const { return paths_.length_m[voxel] < unreached; }
+
+  void add(int end) {
+    Strand strand;
+    int v = end;
+    for (; v >= 0 && owner_[v] < 0; v = paths_.before[v]) strand.voxels.push_back(v);
+    if (strand.voxels.empty()) return;
+    std::reverse(strand.voxels.begin(), strand.voxels.end());
+    if (v >= 0) {
+      strand.parent = owner_[v];
+      const auto& parent = strands_[strand.parent].voxels;
+      strand.leaves_at = static_cast<int>(std::find(parent.begin(), parent.end(), v) - parent.begin());
+    }
+    for (int s : strand.voxels) owner_[s] = static_cast<int>(strands_.size());
+    // Not from every voxel: neighbours come near to much the same.
+    int last = -1;
+    for (int s : strand.voxels) {
+      near_[s] = true;
+      if (last >= 0 && s != strand.voxels.back() &&
+          (voxels_.place(s) - voxels_.place(last)).norm() < voxels_.to_wall_m(s) / 3)
+        continue;
+      come_near(last = s);
+    }
+    strands_.push_back(std::move(strand));
+  }
+
+  /// All that stand out from those before by more than the wall's radius there.
+  void add_all() {
+    std::vector<int> by_length;
+    for (int v = 0; v < voxels_.count(); ++v)
+      if (reaches(v)) by_length.push_back(v);
+    std::sort(by_length.begin(), by_length.end(),
+              [&](int a, int b) { return paths_.length_m[a] > paths_.length_m[b]; });
+    for (int v : by_length)
+      if (!near_[v] && stands_out(v)) add(v);
+  }
+
+  const std::vector<Strand>& strands() const { return strands_; }
+
+ private:
+  bool stands_out(int end) const {
+    if (strands_.empty()) return true;
+    int v = end;
+    while (v >= 0 && owner_[v] < 0) v = paths_.before[v];
+    if (v < 0) return true;
+    const double length = paths_.length_m[end] - paths_.length_m[v];
+    return length > 2 * voxels_.to_wall_m(v) + 4 * voxels_.size_m();
+  }
+
+  void come_near(int from) {
+    const double radius = reach * voxels_.to_wall_m(from) + 2 * voxels_.size_m();
+    std::vector<int> open = {from};
+    ++round_;
+    if (seen_.empty()) seen_.assign(near_.size(), 0);
+    seen_[from] = round_;
+    while (!open.empty()) {
+      const int v = open.back();
+      open.pop_back();
+      near_[v] = true;
+      voxels_.neighbours(v, [&](int next, double) {
+        if (seen_[next] == round_ || (voxels_.place(next) - voxels_.place(from)).norm() > radius) return;
+        seen_[next] = round_;
+        open.push_back(next);
+      });
+    }
+  }
+
+  const Voxels& voxels_;
+  Paths paths_;
+  std::vector<int> owner_;
+  std::vector<bool> near_;
+  std::vector<int> seen_;
+  int round_ = 0;
+  std::vector<Strand> strands_;
+};
+
+/// The widest end: the widest place itself if only one strand leaves it, or else, of the strands from there, the end of
+/// the one whose last third is widest.
+int widest_end(const Voxels& voxels) {
+  int widest = 0;
+  for (int v = 1; v < voxels.count(); ++v)
+    if (voxels.to_wall_m(v) > voxels.to_wall_m(widest)) widest = v;
+  Skeleton skeleton(voxels, widest);
+  skeleton.add_all();
+  int leaving = 0;
+  for (const Strand& strand : skeleton.strands())
+    if ((voxels.place(strand.voxels.front()) - voxels.place(widest)).norm() < 2 * voxels.to_wall_m(widest)) ++leaving;
+  if (leaving < 2) return widest;
+  int end = widest;
+  double best = 0;
+  for (const Strand& strand : skeleton.strands()) {
+    const std::size_t n = strand.voxels.size();
+    double sum = 0;
+    for (std::size_t i = 2 * n / 3; i < n; ++i) sum += voxels.to_wall_m(strand.voxels[i]);
+    const double mean = sum / static_cast<double>(n - 2 * n / 3);
+    if (mean > best) best = mean, end = strand.voxels.back();
+  }
+  return end;
+}
+
+/// Off the voxels: smoothed, then each moved across the line to where its sphere is largest.
+std::vector<TreeSphere> fitted(std::vector<Eigen::Vector3d> line, const BoundingVolumeHierarchy& wall, double voxel_m) {
+  const std::size_t n = line.size();
+  for (int round = 0; round < 8; ++round) {
+    std::vector<Eigen::Vector3d> next = line;
+    for (std::size_t i = 1; i + 1 < n; ++i) next[i] = (line[i - 1] + 2 * line[i] + line[i + 1]) / 4;
+    line = std::move(next);
+    for (std::size_t i = 1; i + 1 < n && round < 5; ++i) {
+      // Half-way towards the middle of the wall's nearest point and the wall opposite to it.
+      const Eigen::Vector3d along = (line[i + 1] - line[i - 1]).normalized();
+      const BoundingVolumeHierarchy::Nearest near = wall.nearest(line[i], 1);
+      Eigen::Vector3d away = line[i] - near.point;
+      away -= away.dot(along) * along;
+      if (away.norm() < 1e-9) continue;
+      away.normalize();
+      const double step = std::min(voxel_m / 2, near.distance_m / 4);
+      if (wall.nearest(line[i] + step * away, 1).distance_m > near.distance_m + step / 2) line[i] += step * away / 2;
+    }
+  }
+  std::vector<TreeSphere> spheres;
+  for (std::size_t i = 0; i < n; ++i) {
+    const double radius = wall.nearest(line[i], 1).distance_m;
+    const double step = spheres.empty() ? 0 : (line[i] - spheres.back().p).norm();
+    if (!spheres.empty() && step < radius / 2 && i + 1 < n) continue;
+    spheres.push_back({line[i], radius, spheres.empty() ? 0 : spheres.back().s_m + step});
+  }
+  return spheres;
+}
+
+/// A strand runs up to the wall at its tip, where spheres shrink much faster than a vessel tapers: these go.
+void trim(std::vector<TreeSphere>& spheres) {
+  while (spheres.size() > 2 && spheres.back().radius_m < 0.75 * spheres[spheres.size() - 2].radius_m)
+    spheres.pop_back();
+}
+
+}  // namespace
+
+CentrelineResult find_centrelines(const Mesh& mesh, const CentrelineOptions& options) {
+  const BoundingVolumeHierarchy wall(mesh);
+  const Voxels voxels(mesh, wall, options.most_voxels);
+  if (voxels.count() == 0)
+    throw MeshError("the mesh has no inside; expected a closed surface (ostium check says where not)");
+  const int root = options.start ? voxels.nearest(*options.start) : widest_end(voxels);
+  Skeleton skeleton(voxels, root);
+  for (const Eigen::Vector3d& end : options.ends) {
+    const int voxel = voxels.nearest(end);
+    if (!skeleton.reaches(voxel)) {
+      const Eigen::Vector3d p = mm_from_patient(end);
+      throw MeshError(
+          fmt::format("the point {:.1f},{:.1f},{:.1f} mm lies in another piece of the mesh than the start; "
+                      "expected points of one piece",
+                      p.x(), p.y(), p.z()));
+    }
+    skeleton.add(voxel);
+  }
+  if (options.ends.empty()) skeleton.add_all();
+
+  CentrelineResult result{.tree = {}, .voxel_m = voxels.size_m()};
+  for (const Strand& strand : skeleton.strands()) {
+    TreeBranch branch{.name = std::to_string(result.tree.branches.size() + 1), .parent = strand.parent, .spheres = {}};
+    std::vector<Eigen::Vector3d> line;
+    if (strand.parent >= 0) line.push_back(voxels.place(skeleton.strands()[strand.parent].voxels[strand.leaves_at]));
+    for (int v : strand.voxels) line.push_back(voxels.place(v));
+    branch.spheres = fitted(line, wall, voxels.size_m());
+    trim(branch.spheres);
+    if (strand.parent >= 0) {
+      const std::vector<TreeSphere>& on = result.tree.branches[strand.parent].spheres;
+      const auto nearest = std::min_element(on.begin(), on.end(), [&](const TreeSphere& a, const TreeSphere& b) {
+        return (a.p - line.front()).squaredNorm() < (b.p - line.front()).squaredNorm();
+      });
+      branch.parent_sphere = static_cast<int>(nearest - on.begin());
+    }
+    result.tree.branches.push_back(std::move(branch));
+  }
+  return result;
+}
+
+}  // namespace ostium::vascular

@@ -1,0 +1,190 @@
+#include <assimp/postprocess.h>
+#include <assimp/scene.h>
+#include <fmt/format.h>
+
+#include <assimp/Exporter.hpp>
+#include <assimp/Importer.hpp>
+#include <filesystem>
+#include <map>
+#include <memory>
+
+#include "vascular/geometry/mesh/mesh.h"
+#include "vascular/geometry/mesh/whole_ply.h"
+#include "vascular/geometry/mesh/written_mesh.h"
+
+namespace ostium::vascular {
+
+namespace {
+
+using Corners = std::vector<Eigen::Vector3d>;  // three a triangle
+
+/// Not all of assimp's readers do, and what follows trusts them.
+void check_indices(const std::string& path, const aiScene& scene) {
+  for (unsigned m = 0; m < scene.mNumMeshes; ++m) {
+    const aiMesh& part = *scene.mMeshes[m];
+    for (unsigned f = 0; f < part.mNumFaces; ++f)
+      for (unsigned k = 0; k < part.mFaces[f].mNumIndices; ++k)
+        if (part.mFaces[f].mIndices[k] >= part.mNumVertices)
+          throw MeshError(fmt::format("{}: part {} (\"{}\"), face {} names vertex {} of {}; expected a whole file",
+                                      path, m, part.mName.C_Str(), f, part.mFaces[f].mIndices[k], part.mNumVertices));
+  }
+}
+
+Corners read_corners(const std::string& path, LengthUnit unit, int* skipped = nullptr) {
+  if (!std::filesystem::is_regular_file(path)) throw MeshError(path + ": is no file; expected a mesh (OBJ, STL, PLY)");
+  Assimp::Importer importer;
+  importer.SetPropertyBool(AI_CONFIG_PP_PTV_KEEP_HIERARCHY, false);
+  if (std::filesystem::path(path).extension() == ".ply") check_ply_whole(path);
+  const aiScene* scene = importer.ReadFile(path, 0);
+  if (!scene) throw MeshError(fmt::format("{}: cannot be read as a mesh: {}", path, importer.GetErrorString()));
+  check_indices(path, *scene);
+  scene = importer.ApplyPostProcessing(aiProcess_Triangulate | aiProcess_PreTransformVertices);
+  if (!scene) throw MeshError(fmt::format("{}: cannot be read as a mesh: {}", path, importer.GetErrorString()));
+  Corners corners;
+  for (unsigned m = 0; m < scene->mNumMeshes; ++m) {
+    const aiMesh& part = *scene->mMeshes[m];
+    for (unsigned f = 0; f < part.mNumFaces; ++f) {
+      const aiFace& face = part.mFaces[f];
+      if (face.mNumIndices < 3) {
+        if (skipped) ++*skipped;
+        continue;
+      }
+      for (unsigned k = 0; k < 3; ++k) {
+        const aiVector3D& p = part.mVertices[face.mIndices[k]];
+        corners.push_back(metres(unit) * Eigen::Vector3d(p.x, p.y, p.z));
+        if (!corners.back().allFinite())
+          throw MeshError(
+              fmt::format("{}: part {} (\"{}\"), face {} has a corner that is no finite number; expected three "
+                          "coordinates",
+                          path, m, part.mName.C_Str(), f));
+      }
+    }
+  }
+  if (corners.empty()) throw MeshError(path + ": holds no triangle; expected a surface");
+  return corners;
+}
+
+/// Vertices of the corners as `vertex_of` names them: the first of those that became one.
+std::vector<Eigen::Vector3d> welded(const Corners& corners, const std::vector<int>& vertex_of) {
+  std::vector<Eigen::Vector3d> vertices;
+  for (std::size_t i = 0; i < corners.size(); ++i)
+    if (vertex_of[i] == static_cast<int>(vertices.size())) vertices.push_back(corners[i]);
+  return vertices;
+}
+
+MeshFile from_corners(const Corners& corners, double weld_m) {
+  const std::vector<int> vertex_of = weld(corners, weld_m), exact = weld(corners, 0);
+  MeshFile file;
+  file.mesh.vertices = welded(corners, vertex_of);
+  file.welded_vertices = static_cast<int>(welded(corners, exact).size() - file.mesh.vertices.size());
+  for (std::size_t i = 0; i < corners.size(); i += 3) {
+    const std::array<int, 3> t = {vertex_of[i], vertex_of[i + 1], vertex_of[i + 2]};
+    if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0])
+      ++file.dropped_triangles;
+    else
+      file.mesh.triangles.push_back(t);
+  }
+  return file;
+}
+
+Eigen::Vector3f in_file(const Eigen::Vector3d& p, LengthUnit unit) { return (p / metres(unit)).cast<float>(); }
+
+std::string format_id(const std::string& path) {
+  const std::string ending = std::filesystem::path(path).extension().string();
+  const std::map<std::string, std::string> ids = {{".obj", "objnomtl"}, {".stl", "stlb"}, {".ply", "plyb"}};
+  const auto found = ids.find(ending);
+  if (found == ids.end())
+    throw MeshError(fmt::format("{}: the ending \"{}\" names no format; expected .obj, .stl or .ply", path, ending));
+  return found->second;
+}
+
+}  // namespace
+
+double metres(LengthUnit unit) {
+  switch (unit) {
+    case LengthUnit::millimetre:
+      return 1e-3;
+    case LengthUnit::centimetre:
+      return 1e-2;
+    case LengthUnit::inch:
+      return 25.4e-3;
+    case LengthUnit::metre:
+      break;
+  }
+  return 1;
+}
+
+MeshFile read_mesh(const std::string& path, LengthUnit unit, double weld_m) {
+  int skipped = 0;
+  MeshFile file = from_corners(read_corners(path, unit, &skipped), weld_m);
+  file.skipped_faces = skipped;
+  return file;
+}
+
+std::vector<Mesh> read_mesh_sequence(const std::vector<std::string>& paths, LengthUnit unit, double weld_m) {
+  std::vector<Mesh> frames;
+  std::vector<int> vertex_of;
+  for (const std::string& path : paths) {
+    const Corners corners = read_corners(path, unit);
+    if (frames.empty()) {
+      vertex_of = weld(corners, weld_m);
+      frames.push_back(from_corners(corners, weld_m).mesh);
+      continue;
+    }
+    if (corners.size() != vertex_of.size())
+      throw MeshError(fmt::format("{}: has {} triangles; expected {}, as in {}: the same surface in every frame", path,
+                                  corners.size() / 3, vertex_of.size() / 3, paths.front()));
+    // As many triangles may still be others, or in another order: then corners of one vertex lie apart.
+    std::vector<Eigen::Vector3d> vertices = welded(corners, vertex_of);
+    const double apart_m = std::max(1e-9, 10 * weld_m);
+    std::size_t torn = 0;
+    for (std::size_t i = 0; i < corners.size(); ++i) torn += (corners[i] - vertices[vertex_of[i]]).norm() > apart_m;
+    if (torn > 0)
+      throw MeshError(
+          fmt::format("{}: {} of {} corners lie apart from the vertex that they share in {}; expected the same "
+                      "triangles in the same order in every frame",
+                      path, torn, corners.size(), paths.front()));
+    frames.push_back({std::move(vertices), frames.front().triangles});
+  }
+  return frames;
+}
+
+Mesh as_written(Mesh mesh, LengthUnit unit) {
+  // In two loops: GCC 12.2 at -O3 leaves the rounding of a vertex out where one goes to float and back.
+  std::vector<Eigen::Vector3f> kept;
+  for (const Eigen::Vector3d& p : mesh.vertices) kept.push_back(in_file(p, unit));
+  for (std::size_t v = 0; v < kept.size(); ++v) mesh.vertices[v] = metres(unit) * kept[v].cast<double>();
+  return mesh;
+}
+
+void write_mesh(const std::string& path, const Mesh& mesh, LengthUnit unit) {
+  const std::string id = format_id(path);
+  aiScene scene;  // owns and deletes all of the following
+  scene.mRootNode = new aiNode();
+  scene.mRootNode->mNumMeshes = 1;
+  scene.mRootNode->mMeshes = new unsigned[1]{0};
+  scene.mNumMaterials = 1;
+  scene.mMaterials = new aiMaterial* [1] { new aiMaterial() };
+  scene.mNumMeshes = 1;
+  scene.mMeshes = new aiMesh* [1] { new aiMesh() };
+  aiMesh& out = *scene.mMeshes[0];
+  out.mPrimitiveTypes = aiPrimitiveType_TRIANGLE;
+  out.mNumVertices = static_cast<unsigned>(mesh.vertices.size());
+  out.mVertices = new aiVector3D[mesh.vertices.size()];
+  for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
+    const Eigen::Vector3f p = in_file(mesh.vertices[i], unit);
+    out.mVertices[i] = {p.x(), p.y(), p.z()};
+  }
+  out.mNumFaces = static_cast<unsigned>(mesh.triangles.size());
+  out.mFaces = new aiFace[mesh.triangles.size()];
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+    out.mFaces[i].mNumIndices = 3;
+    out.mFaces[i].mIndices = new unsigned[3];
+    for (int k = 0; k < 3; ++k) out.mFaces[i].mIndices[k] = static_cast<unsigned>(mesh.triangles[i][k]);
+  }
+  Assimp::Exporter exporter;
+  if (exporter.Export(&scene, id, path) != aiReturn_SUCCESS)
+    throw MeshError(fmt::format("{}: cannot be written: {}", path, exporter.GetErrorString()));
+}
+
+}  // namespace ostium::vascular

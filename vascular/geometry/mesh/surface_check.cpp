@@ -1,0 +1,183 @@
+#include "vascular/geometry/mesh/surface_check.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <map>
+#include <numeric>
+
+#include "vascular/geometry/mesh/bounding_volume_hierarchy.h"
+#include "vascular/geometry/mesh/patient_frame.h"
+
+namespace ostium::vascular {
+
+namespace {
+
+/// A triangle's edge, from its lower vertex.
+struct Edge {
+  int low, high, triangle;
+  bool forwards;  ///< the triangle runs from low to high
+};
+
+std::vector<Edge> edges_of(const Mesh& mesh) {
+  std::vector<Edge> edges;
+  edges.reserve(3 * mesh.triangles.size());
+  for (int t = 0; t < static_cast<int>(mesh.triangles.size()); ++t)
+    for (int k = 0; k < 3; ++k) {
+      const int i = mesh.triangles[t][k], j = mesh.triangles[t][(k + 1) % 3];
+      edges.push_back({std::min(i, j), std::max(i, j), t, i < j});
+    }
+  std::sort(edges.begin(), edges.end(), [](const Edge& a, const Edge& b) {
+    return std::tie(a.low, a.high, a.triangle) < std::tie(b.low, b.high, b.triangle);
+  });
+  return edges;
+}
+
+/// Sets that grow together.
+class Groups {
+ public:
+  explicit Groups(std::size_t n) : parent_(n) { std::iota(parent_.begin(), parent_.end(), 0); }
+  int of(int i) {
+    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
+    return i;
+  }
+  void join(int i, int j) { parent_[std::max(of(i), of(j))] = std::min(of(i), of(j)); }
+
+ private:
+  std::vector<int> parent_;
+};
+
+Eigen::Vector3d middle(const Mesh& mesh, const Edge& e) { return (mesh.vertices[e.low] + mesh.vertices[e.high]) / 2; }
+
+/// Faults of edges; joins triangles that share one.
+void check_edges(const Mesh& mesh, const std::vector<Edge>& edges, SurfaceReport& report, Groups& connected) {
+  for (std::size_t i = 0, j = 0; i < edges.size(); i = j) {
+    while (j < edges.size() && edges[j].low == edges[i].low && edges[j].high == edges[i].high) ++j;
+    for (std::size_t k = i + 1; k < j; ++k) connected.join(edges[i].triangle, edges[k].triangle);
+    if (j - i == 1) report.open_edges.add(middle(mesh, edges[i]));
+    if (j - i > 2) report.branching_edges.add(middle(mesh, edges[i]));
+    if (j - i == 2 && edges[i].forwards == edges[i + 1].forwards) report.flipped_edges.add(middle(mesh, edges[i]));
+  }
+}
+
+/// A vertex whose triangles do not all hang together by edges at it.
+void check_vertices(const Mesh& mesh, const std::vector<Edge>& edges, SurfaceReport& report) {
+  // Corner 3 t + k; corners of one vertex are joined along the edges there.
+  Groups fans(3 * mesh.triangles.size());
+  const auto corner = [&](int t, int v) {
+    const auto& tri = mesh.triangles[t];
+    return 3 * t + static_cast<int>(std::find(tri.begin(), tri.end(), v) - tri.begin());
+  };
+  for (std::size_t i = 1; i < edges.size(); ++i)
+    if (edges[i].low == edges[i - 1].low && edges[i].high == edges[i - 1].high)
+      for (int v : {edges[i].low, edges[i].high})
+        fans.join(corner(edges[i].triangle, v), corner(edges[i - 1].triangle, v));
+  std::vector<int> fan(mesh.vertices.size(), -1);
+  std::vector<bool> told(mesh.vertices.size());
+  for (int c = 0; c < static_cast<int>(3 * mesh.triangles.size()); ++c) {
+    const int v = mesh.triangles[c / 3][c % 3], f = fans.of(c);
+    if (fan[v] < 0) fan[v] = f;
+    if (fan[v] != f && !told[v]) {
+      told[v] = true;
+      report.pinched_vertices.add(mesh.vertices[v]);
+    }
+  }
+}
+
+void check_components(const Mesh& mesh, bool cavities, SurfaceReport& report, Groups& connected) {
+  std::map<int, double> six_volumes;
+  for (int t = 0; t < report.triangles; ++t) {
+    const auto& [a, b, c] = mesh.triangles[t];
+    six_volumes[connected.of(t)] += mesh.vertices[a].dot(mesh.vertices[b].cross(mesh.vertices[c]));
+  }
+  report.components = static_cast<int>(six_volumes.size());
+  for (const auto& [first, volume] : six_volumes)
+    if (volume < 0 && !cavities) report.inverted.add(mesh.vertices[mesh.triangles[first][0]]);
+}
+
+double six_volume(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c,
+                  const Eigen::Vector3d& d) {
+  return (b - a).cross(c - a).dot(d - a);
+}
+
+/// Whether the open segment (p, q) goes through the inside of triangle (a, b, c). Touching is no crossing.
+bool pierces(const Eigen::Vector3d& p, const Eigen::Vector3d& q, const Eigen::Vector3d& a, const Eigen::Vector3d& b,
+             const Eigen::Vector3d& c) {
+  if (six_volume(a, b, c, p) * six_volume(a, b, c, q) >= 0) return false;
+  const double u = six_volume(p, q, a, b), v = six_volume(p, q, b, c), w = six_volume(p, q, c, a);
+  return (u > 0 && v > 0 && w > 0) || (u < 0 && v < 0 && w < 0);
+}
+
+bool cross(const Mesh& mesh, const std::array<int, 3>& s, const std::array<int, 3>& t) {
+  const auto holds = [](const std::array<int, 3>& tri, int v) { return tri[0] == v || tri[1] == v || tri[2] == v; };
+  const auto one_way = [&](const std::array<int, 3>& edges, const std::array<int, 3>& face) {
+    for (int k = 0; k < 3; ++k) {
+      const int i = edges[k], j = edges[(k + 1) % 3];
+      if (holds(face, i) || holds(face, j)) continue;
+      if (pierces(mesh.vertices[i], mesh.vertices[j], mesh.vertices[face[0]], mesh.vertices[face[1]],
+                  mesh.vertices[face[2]]))
+        return true;
+    }
+    return false;
+  };
+  return one_way(s, t) || one_way(t, s);
+}
+
+void describe_fault(std::string& text, const char* what, const SurfaceFault& fault) {
+  if (!fault.count) return;
+  const Eigen::Vector3d p_mm = mm_from_patient(fault.where.front());
+  text += fmt::format("{} {}, the first at {:.2f} {:.2f} {:.2f} mm\n", fault.count, what, p_mm.x(), p_mm.y(), p_mm.z());
+}
+
+}  // namespace
+
+void SurfaceFault::add(const Eigen::Vector3d& p) {
+  ++count;
+  if (where.size() < places_kept) where.push_back(p);
+}
+
+bool SurfaceReport::sound() const {
+  return closed() && !pinched_vertices.count && !slivers.count && !inverted.count && !crossings.count && triangles > 0;
+}
+
+std::vector<std::array<int, 2>> crossing_triangles(const Mesh& mesh) {
+  std::vector<std::array<int, 2>> pairs;
+  BoundingVolumeHierarchy(mesh).for_each_pair([&](int i, int j) {
+    if (cross(mesh, mesh.triangles[i], mesh.triangles[j])) pairs.push_back({i, j});
+  });
+  return pairs;
+}
+
+SurfaceReport check_surface(const Mesh& mesh, bool cavities) {
+  SurfaceReport report;
+  report.vertices = static_cast<int>(mesh.vertices.size());
+  report.triangles = static_cast<int>(mesh.triangles.size());
+  report.volume_m3 = volume_m3(mesh);
+  report.area_m2 = area_m2(mesh);
+  for (const auto& [a, b, c] : mesh.triangles)
+    if ((mesh.vertices[b] - mesh.vertices[a]).cross(mesh.vertices[c] - mesh.vertices[a]).isZero(0))
+      report.slivers.add(mesh.vertices[a]);
+  const std::vector<Edge> edges = edges_of(mesh);
+  Groups connected(mesh.triangles.size());
+  check_edges(mesh, edges, report, connected);
+  check_vertices(mesh, edges, report);
+  check_components(mesh, cavities, report, connected);
+  for (const auto& [i, j] : crossing_triangles(mesh))
+    report.crossings.add((mesh.vertices[mesh.triangles[i][0]] + mesh.vertices[mesh.triangles[j][0]]) / 2);
+  return report;
+}
+
+std::string describe(const SurfaceReport& r) {
+  std::string text;
+  describe_fault(text, "open edges", r.open_edges);
+  describe_fault(text, "edges of more than two triangles", r.branching_edges);
+  describe_fault(text, "edges whose triangles face opposite ways", r.flipped_edges);
+  describe_fault(text, "vertices in which two sheets touch", r.pinched_vertices);
+  describe_fault(text, "triangles without area", r.slivers);
+  describe_fault(text, "components that face inwards", r.inverted);
+  describe_fault(text, "pairs of triangles that cross", r.crossings);
+  return text.empty() ? "sound\n" : text;
+}
+
+}  // namespace ostium::vascular

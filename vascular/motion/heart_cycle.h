@@ -1,0 +1,25 @@
+#pragma once
+/// The heart's cycle in time: one phase for wall, flow, pressure and ECG. Phase 0 is the R wave; it lies in [0, 1).
+///
+/// Phase runs evenly at 70 beats a minute. At other rates systole keeps its length in proportion to the root of the
+/// cycle's (Bazett), so the phase runs unevenly; it never jumps when the rate changes.
+
+namespace ostium::vascular {
+
+constexpr double least_rate_1_min = 40, highest_rate_1_min = 180;
+constexpr double end_systole = 0.36;  ///< phase; 309 ms after the R wave at 70 beats a minute
+
+/// d phase / dt in 1/s; integrates to one cycle in 60 / rate seconds. Smooth and periodic in phase.
+double phase_speed(double phase, double rate_1_min);
+
+/// Time since the R wave in seconds at a constant rate.
+double time_at(double phase, double rate_1_min);
+
+/// How far the ventricles have contracted: 0 at end-diastole, 1 at end-systole; twice continuously differentiable.
+/// Rests at end-systole and in mid-diastole.
+double contraction(double phase);
+
+/// How deep a breath is: 0 at its end, 1 at its top, by sin^4 (Lujan 1999); `phase` is that of breathing.
+double breath_depth(double phase);
+
+}  // namespace ostium::vascular

@@ -1,0 +1,51 @@
+#pragma once
+/// How the tubes of an anatomy beat and breathe.
+#include "vascular/anatomy/anatomy.h"
+#include "vascular/motion/heart_motion.h"
+#include "vascular/motion/periodic_points.h"
+
+namespace ostium::vascular {
+
+/// How the tubes' own frames move: a vessel's cross-sections stay as they are, carried and turned with its centreline.
+class TubeMotion {
+ public:
+  TubeMotion(const Anatomy& anatomy, const HeartMotion& motion);
+  /// As a surface that was given in every frame of the beat (frames[f][v], beat_frames of them, `rest` the first)
+  /// carries them: by the rotation and shift that fit best (Kabsch 1976) what of it is around. `shares`: of its
+  /// vertices.
+  TubeMotion(const Anatomy& anatomy, const std::vector<Eigen::Vector3d>& rest,
+             const std::vector<std::vector<TubeShare>>& shares,
+             const std::vector<std::vector<Eigen::Vector3d>>& frames);
+
+  /// Whether any part of it moves.
+  bool moves(int tube) const { return moves_[static_cast<std::size_t>(tube)]; }
+  /// Where the point of the lumen that is at `p` at end-diastole goes in a frame of the beat.
+  Eigen::Vector3d carried(const Eigen::Vector3d& p, const std::vector<TubeShare>& shares, int frame) const;
+  /// Where a point of a tube's centreline goes.
+  Eigen::Vector3d centre(int tube, double s_m, int frame) const;
+  /// Share of the breath's motion that a point of a tube has: 1 at the heart, 0 in the arch.
+  double breath_share(int tube, double s_m) const;
+
+ private:
+  struct Pose {
+    Eigen::Matrix3f turn;
+    Eigen::Vector3d centre;
+  };
+  const Anatomy& anatomy_;
+  std::vector<bool> moves_, breathes_;
+  std::vector<std::vector<Pose>> poses_;  ///< of each tube: frame by node
+  class Around;
+  struct Tissue;
+  struct Origin;
+  Tissue tissue(int tube, const TubeNode& node, const HeartMotion& motion) const;
+  void set_frame(int tube, int frame, const std::vector<Tissue>& tissues, const Origin* origin);
+  Pose pose_at(int tube, double s_m, int frame) const;
+};
+
+bool is_aorta(const Anatomy& anatomy, int tube);
+
+/// Whether a vertex of a surface that was given frame by frame is ever elsewhere, by more than files round.
+bool is_displaced(const std::vector<Eigen::Vector3d>& rest, const std::vector<std::vector<Eigen::Vector3d>>& frames,
+                  int v);
+
+}  // namespace ostium::vascular

@@ -1,0 +1,51 @@
+#include "vascular/physiology/physiology.h"
+
+namespace ostium::vascular {
+
+PhysiologyModel make_physiology(const Patient& patient, std::uint64_t seed) {
+  PhysiologyModel model{.heart = {},
+                        .ischaemia = ischaemia_of(seed),
+                        .flow = make_flow_model(flow_tree_of(patient)),
+                        .contrast = {},
+                        .line = {}};
+  model.heart.seed = seed;
+  model.contrast = make_contrast_model(model.flow, patient);
+  return model;
+}
+
+PhysiologyState make_state(const PhysiologyModel& model) {
+  PhysiologyState s;
+  s.flow = make_flow_state(model.flow);
+  s.contrast = make_contrast_state(model.contrast, model.flow);
+  for (const FlowCell& cell : model.flow.tree.cells) s.radius_m.push_back(cell.diseased_m);
+  return s;
+}
+
+ContrastReport step(const PhysiologyModel& model, const PhysiologyInputs& in, double dt_s, PhysiologyState& s,
+                    PhysiologyScratch& x) {
+  const int before = s.heart.beats;
+  step(model.heart, in.heart, dt_s, s.heart);
+  return circulate(model, in, dt_s, s.heart.beats > before, s, x);
+}
+
+ContrastReport circulate(const PhysiologyModel& model, const PhysiologyInputs& in, double dt_s, bool beat_begins,
+                         PhysiologyState& s, PhysiologyScratch& x) {
+  const Pressures now = pressures(model.heart, s.heart);
+  const bool coronary = in.contrast.tip.where == TipPlace::coronary;
+  step(model.line,
+       {now, coronary ? s.flow.pressure_Pa[in.contrast.tip.cell] : 0, in.contrast.tip, in.tip_in_ventricle,
+        in.tip_covered, in.wire_in_catheter || in.contrast.injection_m3_s > 0 || in.contrast.aspiration_m3_s > 0,
+        beat_begins},
+       dt_s, s.line);
+  s.circulation_s += dt_s;
+  if (s.circulation_s < circulation_step_s * (1 - 1e-9)) return {};
+  const double dt = s.circulation_s;
+  s.circulation_s = 0;
+  const FlowInputs lumen{now, s.radius_m, in.occupied_m, in.hyperaemia};
+  step(model.flow, lumen, dt, s.flow, x.flow);
+  step(model.ischaemia, supply(model.flow, s.flow), dt, s.ischaemia);
+  return step(model.contrast, {model.flow, s.flow, lumen, s.heart.ejection_m3_s}, in.contrast, dt, s.contrast,
+              x.contrast);
+}
+
+}  // namespace ostium::vascular

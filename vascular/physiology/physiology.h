@@ -1,0 +1,70 @@
+#pragma once
+/// What lives around the instruments: heart, ischaemia, flow, contrast, in one model, one input, one state.
+///
+/// Called every step; the beat advances with each, blood and contrast every `circulation_step_s`.
+#include "vascular/contrast/contrast.h"
+#include "vascular/contrast/tip_pressure.h"
+#include "vascular/flow/flow.h"
+#include "vascular/heart/ecg.h"
+#include "vascular/heart/heart.h"
+
+namespace ostium::vascular {
+
+inline constexpr double circulation_step_s = 8e-3;
+
+struct PhysiologyModel {
+  HeartModel heart;
+  IschaemiaModel ischaemia;
+  FlowModel flow;
+  ContrastModel contrast;
+  TipPressureModel line;
+};
+/// `seed`: of what happens by chance, and of how the person's ECG answers (0: the mean).
+PhysiologyModel make_physiology(const Patient& patient, std::uint64_t seed = 0);
+
+struct PhysiologyInputs {
+  HeartInputs heart;
+  ContrastInputs contrast;
+  std::vector<double> occupied_m;  ///< (#cells) radius of what lies in each cell; empty: nothing
+  double hyperaemia = 0;           ///< FlowInputs
+  bool tip_in_ventricle = false, wire_in_catheter = false;  ///< TipPressureInputs; the tip itself is in `contrast`
+  double tip_covered = 0;
+};
+
+struct PhysiologyState {
+  HeartState heart;
+  IschaemiaState ischaemia;
+  FlowState flow;
+  ContrastState contrast;
+  TipPressureState line;
+  std::vector<double> radius_m;  ///< (#cells) of the lumen
+  double circulation_s = 0;      ///< since blood and contrast advanced
+};
+constexpr auto fields(const PhysiologyState*) {
+  using S = PhysiologyState;
+  return std::tuple{core::field("heart", &S::heart),
+                    core::field("ischaemia", &S::ischaemia),
+                    core::field("flow", &S::flow),
+                    core::field("contrast", &S::contrast),
+                    core::field("line", &S::line),
+                    core::field("radius_m", &S::radius_m),
+                    core::field("circulation_s", &S::circulation_s)};
+}
+PhysiologyState make_state(const PhysiologyModel& model);
+
+struct PhysiologyScratch {
+  FlowScratch flow;
+  ContrastScratch contrast;
+};
+
+/// Advances by `dt_s`, up to `circulation_step_s`. Deterministic; does not allocate after the first call with the same
+/// scratch. Returns what came of the last injection step.
+ContrastReport step(const PhysiologyModel& model, const PhysiologyInputs& inputs, double dt_s, PhysiologyState& state,
+                    PhysiologyScratch& scratch);
+
+/// The same in two halves, for whoever needs the beat before it knows what lies in the vessels: first
+/// `step(model.heart, inputs.heart, dt_s, state.heart)`, then this. `beat_begins`: an R wave was in that.
+ContrastReport circulate(const PhysiologyModel& model, const PhysiologyInputs& inputs, double dt_s, bool beat_begins,
+                         PhysiologyState& state, PhysiologyScratch& scratch);
+
+}  // namespace ostium::vascular

@@ -1,0 +1,227 @@
+#include "vascular/treatment/balloon.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+
+#include "core/base/random.h"
+#include "core/base/units.h"
+
+namespace ostium::vascular {
+
+namespace {
+
+using units::atm;
+
+using units::pi;
+constexpr int n = balloon_spheres;
+constexpr double fold_share = 0.25;  // of the unfolding pressure that opens the folds at first
+constexpr double sealed_m = 20e-6;   // a gap as narrow
+constexpr double soft_m = 30e-6;     // over which a balloon and a stent in the wall come to bear
+
+double spacing(const BalloonModel& m) { return (m.length_m + 2 * m.shoulder_m) / (n - 1); }
+
+/// Full size at the unfolding pressure.
+double unfolded_m(const BalloonModel& m) {
+  return m.nominal_m / 2 - m.growth_m_Pa / 2 * (m.nominal_Pa - m.unfolding_Pa);
+}
+
+/// What the skin holds at a radius, and its slope.
+WallPressure skin(const BalloonModel& m, double share, bool was_filled, double a) {
+  const double full = m.shaft_m + share * (unfolded_m(m) - m.shaft_m);
+  const double folded = std::min(was_filled ? m.refolded_m : m.folded_m, full);
+  if (a >= full) {
+    const double slope = 2 / (m.growth_m_Pa * std::max(share, 0.3));
+    return {m.unfolding_Pa + slope * (a - full), slope};
+  }
+  // The maker's folds stay as they are until a little pressure opens them; opened, they want vacuum to lie down again.
+  const double way = std::max(full - folded, 20e-6), x = (a - folded) / way;
+  if (x < 0) return {x * 4 * atm, 4 * atm / way};
+  const double low = fold_share * m.unfolding_Pa - (was_filled ? 0.35 * atm : 0);
+  return {low + x * (m.unfolding_Pa - low), (m.unfolding_Pa - low) / way};
+}
+
+}  // namespace
+
+BalloonModel make_balloon(Compliance compliance, double nominal_m, double length_m, const BalloonDesign& design) {
+  BalloonModel m{design, {}};
+  const bool semi = compliance == Compliance::semi;
+  m.nominal_m = nominal_m, m.length_m = length_m;
+  m.nominal_Pa = (semi ? 8 : 12) * atm, m.rated_Pa = (semi ? 14 : 20) * atm;
+  if (m.growth_m_Pa == 0) m.growth_m_Pa = nominal_m / 3e-3 * (semi ? 0.25e-3 / 6 : 0.10e-3 / 8) / atm;
+  m.name = fmt::format("{} {:g} x {:g} mm", semi ? "semi-compliant" : "non-compliant", 1e3 * nominal_m, 1e3 * length_m);
+  check(m);
+  return m;
+}
+
+void check(const BalloonModel& m) {
+  const auto within = [&](double value, double low, double high, const char* what) {
+    if (!(value >= low && value <= high))
+      throw std::invalid_argument(fmt::format("balloon: {} of {:g}; expected {:g} to {:g}", what, value, low, high));
+  };
+  within(m.nominal_m, 1e-3, 8e-3, "a nominal diameter (m)");
+  within(m.length_m, 5e-3, 60e-3, "a length (m)");
+  within(m.rated_Pa, m.nominal_Pa, 30 * atm, "a rated pressure (Pa)");
+  within(m.growth_m_Pa, 1e-12, 1e-8, "a growth of diameter (m/Pa)");
+}
+
+double chart_diameter_m(const BalloonModel& m, double gauge_Pa) {
+  return m.nominal_m + m.growth_m_Pa * (gauge_Pa - m.nominal_Pa);
+}
+
+double burst_Pa(const BalloonModel& m) { return m.rated_Pa * (1.05 + 0.3 * core::uniform(m.seed, 31, 0)); }
+
+BalloonState make_balloon_state(const BalloonModel& m) {
+  BalloonState s;
+  s.radius_m.assign(n, 0);
+  for (int i = 0; i < n; ++i) {
+    s.radius_m[i] = std::min(m.folded_m, m.shaft_m + sphere_share(m, i) * (m.folded_m - m.shaft_m));
+    s.volume_m3 += pi * s.radius_m[i] * s.radius_m[i] * spacing(m);
+  }
+  s.largest_m = m.folded_m;
+  return s;
+}
+
+double sphere_position(const BalloonModel& m, const BalloonState& s, double middle_m, int i) {
+  return middle_m + s.slip_m - m.length_m / 2 - m.shoulder_m + i * spacing(m);
+}
+
+double sphere_share(const BalloonModel& m, int i) {
+  const double from_end = std::min(i, n - 1 - i) * spacing(m);
+  return from_end >= m.shoulder_m ? 1 : (1 - std::cos(pi * from_end / m.shoulder_m)) / 2;
+}
+
+double radius_at(const BalloonModel& m, const BalloonState& s, double middle_m, double s_m) {
+  const double x = (s_m - sphere_position(m, s, middle_m, 0)) / spacing(m);
+  if (x < 0 || x > n - 1) return 0;
+  const int i = std::min(static_cast<int>(x), n - 2);
+  return s.radius_m[i] + (x - i) * (s.radius_m[i + 1] - s.radius_m[i]);
+}
+
+namespace {
+
+/// The wall between two cells of the path.
+WallPressure wall_at(const PlaqueModel& plaque, const PlaqueState& wall, const VesselPath& path, double s_m, double a) {
+  const VesselPath::Place at = path.at(s_m);
+  const WallPressure one = wall_pressure(plaque, wall, path.cells[at.index], a);
+  if (at.share == 0) return one;
+  const WallPressure two = wall_pressure(plaque, wall, path.cells[at.index + 1], a);
+  return {(1 - at.share) * one.p_Pa + at.share * two.p_Pa, (1 - at.share) * one.slope_Pa_m + at.share * two.slope_Pa_m};
+}
+
+/// Thomas' algorithm for two right-hand sides; overwrites all.
+void solve(BalloonScratch& x) {
+  for (int i = 1; i < n; ++i) {
+    const double f = x.below[i] / x.middle[i - 1];
+    x.middle[i] -= f * x.above[i - 1];
+    x.right[i] -= f * x.right[i - 1];
+    x.unit[i] -= f * x.unit[i - 1];
+  }
+  for (int i = n - 1; i >= 0; --i) {
+    const double next_r = i + 1 < n ? x.right[i + 1] : 0, next_u = i + 1 < n ? x.unit[i + 1] : 0;
+    x.right[i] = (x.right[i] - x.above[i] * next_r) / x.middle[i];
+    x.unit[i] = (x.unit[i] - x.above[i] * next_u) / x.middle[i];
+  }
+}
+
+/// What the wall presses the balloon along the vessel with, and how hard it is held by friction; it slides if that is
+/// less, against the shaft.
+void slide(const BalloonModel& m, double along_N, double pressed_N, double dt, BalloonState& s) {
+  const double wanted = along_N - m.grip_N_m * s.slip_m, held = m.friction * pressed_N;
+  if (std::fabs(wanted) <= held) return;
+  s.slip_m += std::copysign(std::fabs(wanted) - held, wanted) * dt / (m.slide_N_s_m + m.grip_N_m * dt);
+}
+
+}  // namespace
+
+BalloonReport step(const BalloonModel& m, const PlaqueModel& plaque, const BalloonInputs& in, double dt,
+                   BalloonState& s, PlaqueState& wall, BalloonScratch& x) {
+  assert(dt > 0 && dt <= 10e-3);
+  BalloonReport report;
+  const double ds = spacing(m), gauge = std::max(-atm, std::isfinite(in.gauge_Pa) ? in.gauge_Pa : 0.0);
+  report.gauge_Pa = gauge;
+  for (auto* v : {&x.below, &x.middle, &x.above, &x.right, &x.unit}) v->assign(n, 0);
+  if (s.pressure_Pa > burst_Pa(m)) s.burst = true;
+  const bool was_filled = s.was_filled;
+  double along = 0, pressed = 0;
+  for (int i = 0; i < n; ++i) {
+    const double a = s.radius_m[i], share = sphere_share(m, i), at = sphere_position(m, s, in.middle_m, i);
+    WallPressure sum = skin(m, share, was_filled, a);
+    const bool sleeved = !in.sleeve.covers.empty() && in.sleeve.covers[i] > 0;
+    // Within a sleeve it meets nothing; where it comes to touch, skin and struts give a little.
+    const double meets = sleeved ? std::clamp(1 + (a - in.sleeve.inner_m[i]) / soft_m, 0.0, 1.0) : 1;
+    if (sleeved && meets > 0) sum.p_Pa += meets * in.sleeve.p_Pa[i], sum.slope_Pa_m += meets * in.sleeve.slope_Pa_m[i];
+    if (in.path && meets > 0) {
+      WallPressure w = wall_at(plaque, wall, *in.path, at, a + (sleeved ? in.sleeve.thickness_m : 0));
+      w.p_Pa *= meets, w.slope_Pa_m = meets * w.slope_Pa_m;
+      if (meets < 1) w.slope_Pa_m += (w.p_Pa / meets + in.sleeve.p_Pa[i]) / soft_m;
+      sum.p_Pa += w.p_Pa, sum.slope_Pa_m += w.slope_Pa_m;
+      report.touches = report.touches || w.p_Pa > 0;
+      const double before = s.radius_m[std::max(i - 1, 0)], after = s.radius_m[std::min(i + 1, n - 1)];
+      along += w.p_Pa * 2 * pi * a * (after - before) / 2;
+      pressed += w.p_Pa * 2 * pi * a * ds;
+    }
+    const double N = std::max(0.0, s.pressure_Pa) * a / 2 / (ds * ds), c = m.viscous_Pa_s_m / dt;
+    x.below[i] = i > 0 ? -N : 0, x.above[i] = i + 1 < n ? -N : 0;
+    x.middle[i] = c + sum.slope_Pa_m - x.below[i] - x.above[i];
+    x.right[i] = c * a - sum.p_Pa + sum.slope_Pa_m * a;
+    x.unit[i] = 1;
+    if (i == 0 || i == n - 1) x.middle[i] = 1, x.below[i] = x.above[i] = 0, x.right[i] = m.shaft_m, x.unit[i] = 0;
+  }
+  solve(x);
+  // New radii are right + p unit; p so that the volume takes what came through the shaft.
+  double V = 0, V0 = 0, dV = 0;
+  for (int i = 0; i < n; ++i) {
+    V += pi * s.radius_m[i] * s.radius_m[i] * ds;
+    V0 += 2 * pi * s.radius_m[i] * (x.right[i] - s.radius_m[i]) * ds;
+    dV += 2 * pi * s.radius_m[i] * x.unit[i] * ds;
+  }
+  const double R = m.filling_Pa_s_m3, before_m3 = s.volume_m3;
+  if (s.burst) {
+    s.pressure_Pa = 0;
+  } else {
+    // V + V0 + p dV = volume + dt (gauge - p) / R
+    s.pressure_Pa = (s.volume_m3 - V - V0 + dt * gauge / R) / (dV + dt / R);
+    s.volume_m3 += dt * (gauge - s.pressure_Pa) / R;
+  }
+  for (int i = 0; i < n; ++i) {
+    s.radius_m[i] = std::max(m.shaft_m, x.right[i] + s.pressure_Pa * x.unit[i]);
+    s.largest_m = std::max(s.largest_m, s.radius_m[i]);
+  }
+  if (s.burst) {
+    double now = 0;
+    for (double a : s.radius_m) now += pi * a * a * ds;
+    report.spilt_m3 = std::max(0.0, before_m3 - now);
+    s.volume_m3 = std::min(before_m3, now);
+  }
+  if (s.pressure_Pa > m.unfolding_Pa) s.was_filled = true;
+  s.inflated_s = gauge > atm ? s.inflated_s + dt : 0;
+  if (in.path) {
+    slide(m, along, pressed, dt, s);
+    report.axial_N = along, report.pressed_N = pressed;
+    double narrowest_gap = 1;
+    for (std::size_t k = 0; k < in.path->cells.size(); ++k) {
+      const double a = radius_at(m, s, in.middle_m, in.path->s_m[k]);
+      if (a <= 0) continue;
+      const int i = std::clamp(
+          static_cast<int>(std::lround((in.path->s_m[k] - sphere_position(m, s, in.middle_m, 0)) / ds)), 0, n - 1);
+      const bool sleeved = !in.sleeve.covers.empty() && in.sleeve.covers[i] > 0;
+      const double outer = a + (sleeved ? in.sleeve.thickness_m : 0);
+      push_wall(plaque, in.path->cells[k], outer, wall);
+      narrowest_gap = std::min(narrowest_gap, wall.radius_m[in.path->cells[k]] - outer);
+    }
+    report.seals = narrowest_gap < sealed_m;
+  }
+  double least = 1, most = 0;
+  const int first = static_cast<int>(std::ceil(m.shoulder_m / ds)), last = n - 1 - first;
+  for (int i = first; i <= last; ++i) least = std::min(least, s.radius_m[i]), most = std::max(most, s.radius_m[i]);
+  report.waist = most > 0 ? least / most : 1;
+  report.dog_bone = std::max(s.radius_m[first + 2], s.radius_m[last - 2]) / s.radius_m[n / 2];
+  return report;
+}
+
+}  // namespace ostium::vascular

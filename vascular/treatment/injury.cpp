@@ -1,0 +1,102 @@
+#include "vascular/treatment/injury.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/base/random.h"
+
+namespace ostium::vascular {
+
+namespace {
+
+constexpr std::uint64_t tear = 41, tear_grade = 42, hole = 43, hole_grade = 44, wire = 45;
+constexpr double burst_tears = 0.5, burst_holes = 0.05;
+
+bool exceeds(double hazard, std::uint64_t seed, std::uint64_t stream, int draws) {
+  return hazard > -std::log1p(-core::uniform(seed, stream, static_cast<std::uint64_t>(draws)));
+}
+
+void add(InjuryState& s, InjuryKind kind, int cell, int grade, double time_s) {
+  if (s.count >= most_injuries) return;
+  Injury& injury = s.injuries[static_cast<std::size_t>(s.count)];
+  injury.kind = kind, injury.cell = cell, injury.grade = grade, injury.time_s = time_s;
+  s.count += 1;
+}
+
+}  // namespace
+
+double chance(double hazard) { return -std::expm1(-hazard); }
+
+double dissection_hazard(double ratio, bool calcified, bool eccentric, double length_m) {
+  return 0.36 * std::exp(7 * (ratio - 1)) * (calcified ? 1.8 : 1) * (eccentric ? 1.4 : 1) * std::sqrt(length_m / 15e-3);
+}
+
+double perforation_hazard(double ratio, bool calcified) {
+  return 0.0002 * std::exp(20 * (ratio - 1)) * (calcified ? 2 : 1);
+}
+
+void judge_stretch(const InjuryModel& model, const PlaqueModel& plaque, const PlaqueState& wall, double length_m,
+                   bool burst, double time_s, InjuryState& s) {
+  double tear_H = 0, hole_H = 0, ratio = 0;
+  int tear_at = -1, hole_at = -1;
+  for (std::size_t c = 0; c < plaque.cells.size(); ++c) {
+    const PlaqueCell& cell = plaque.cells[c];
+    const double x = wall.peak_m[c] / cell.healthy_m;
+    const bool plaqued = cell.diseased_m < 0.97 * cell.healthy_m;
+    if (wall.peak_m[c] <= cell.diseased_m * 1.001 || (!plaqued && x < 1.03)) continue;
+    const double t = dissection_hazard(x, cell.calcified, cell.eccentric, length_m) * (plaqued ? 1 : 0.5);
+    const double h = perforation_hazard(x, cell.calcified);
+    if (t > tear_H) tear_H = t, tear_at = static_cast<int>(c), ratio = x;
+    if (h > hole_H) hole_H = h, hole_at = static_cast<int>(c);
+  }
+  // What was borne already counts once.
+  s.dissection_H = std::max(s.dissection_H, tear_H) + (burst ? burst_tears : 0);
+  s.perforation_H = std::max(s.perforation_H, hole_H) + (burst ? burst_holes : 0);
+  if (tear_at >= 0 && s.dissection_draws < 1 && exceeds(s.dissection_H, model.seed, tear, 0)) {
+    const double u = core::uniform(model.seed, tear_grade, 0), major = std::clamp(0.3 * (1 + 4 * (ratio - 1)), 0.1, 0.8);
+    // A and B are minor; of the major ones C is the most common.
+    const int grade = u > major          ? (u > (1 + major) / 2 ? 0 : 1)
+                      : u > 0.5 * major  ? 2
+                      : u > 0.25 * major ? 3
+                      : u > 0.1 * major  ? 4
+                                         : 5;
+    add(s, InjuryKind::dissection, tear_at, grade, time_s);
+    s.dissection_draws = 1;
+  }
+  if (hole_at >= 0 && s.perforation_draws < 1 && exceeds(s.perforation_H, model.seed, hole, 0)) {
+    const double u = core::uniform(model.seed, hole_grade, 0);
+    add(s, InjuryKind::perforation, hole_at, u < 0.3 ? 1 : u < 0.75 ? 2 : 3, time_s);
+    s.perforation_draws = 1;
+  }
+}
+
+void judge_wire(const InjuryModel& model, int cell, double radius_m, double tip_N, double dt_s, double time_s,
+                InjuryState& s) {
+  const double load = tip_N / model.wire_N * (0.5e-3 / std::max(radius_m, 0.2e-3));
+  if (load <= 1) return;
+  s.wire_H += 0.05 * (load - 1) * (load - 1) * dt_s;
+  if (s.wire_draws < 1 && exceeds(s.wire_H, model.seed, wire, 0)) {
+    add(s, InjuryKind::perforation, cell, radius_m < 0.75e-3 ? 5 : 1, time_s);
+    s.wire_draws = 1;
+  }
+}
+
+double leak_m3_s(const Injury& injury) {
+  if (injury.kind != InjuryKind::perforation) return 0;
+  return injury.grade >= 5 ? 0.05e-6 : injury.grade >= 3 ? 0.8e-6 : injury.grade >= 2 ? 0.1e-6 : 0;
+}
+
+double pocket_m3(const Injury& injury) {
+  if (injury.kind == InjuryKind::perforation) return 0.02e-6;  // the crater
+  constexpr double of_grade[] = {0.004e-6, 0.01e-6, 0.04e-6, 0.05e-6, 0.05e-6, 0.06e-6};
+  return of_grade[std::clamp(injury.grade, 0, 5)];
+}
+
+const char* grade_name(const Injury& injury) {
+  constexpr const char* tears[] = {"A", "B", "C", "D", "E", "F"};
+  constexpr const char* holes[] = {"", "I", "II", "III", "", "V"};
+  const int g = std::clamp(injury.grade, 0, 5);
+  return injury.kind == InjuryKind::dissection ? tears[g] : holes[g];
+}
+
+}  // namespace ostium::vascular

@@ -1,0 +1,236 @@
+#include "vascular/treatment/stent.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+
+#include "core/base/units.h"
+
+namespace ostium::vascular {
+
+namespace {
+
+using units::pi;
+constexpr int relaxations = 3;  // rounds a step
+
+double half_chord(const StentModel& m, double r) { return 2 * r * std::sin(pi / (2 * m.crowns)); }
+
+double ring_height(const StentModel& m, double r) {
+  const double l = m.strut_length_m(), c = half_chord(m, r);
+  return std::sqrt(std::max(0.0, l * l - c * c));
+}
+
+/// What a ring answers to the radius r.
+WallPressure hoop(const StentModel& m, double rest, double r) {
+  double e = std::clamp((r - rest) / rest, -m.yield, m.yield);
+  WallPressure out{m.hoop_Pa * e, m.hoop_Pa / rest};
+  const double limit = m.locks_at * m.widest_m();
+  if (r > limit) {
+    out.p_Pa += m.lock_stiffening * m.hoop_Pa * (r - limit) / limit;
+    out.slope_Pa_m += m.lock_stiffening * m.hoop_Pa / limit;
+  }
+  return out;
+}
+
+double ring_middle(const StentModel& m, const StentState& s, int ring) {
+  double sum = 0;
+  for (int j = 0; j < 2 * m.crowns; ++j) sum += s.along_m[ring * 2 * m.crowns + j];
+  return s.middle_m + s.shift_m + sum / (2 * m.crowns);
+}
+
+/// Rings on both sides of a place, and how far it is between them; false beyond the ends.
+bool between(const StentModel& m, const StentState& s, double s_m, int& ring, double& share) {
+  const double first = ring_middle(m, s, 0) - m.height_m / 2, last = ring_middle(m, s, m.rings - 1) + m.height_m / 2;
+  if (s_m < first || s_m > last) return false;
+  ring = 0, share = 0;
+  double below = ring_middle(m, s, 0);
+  if (s_m <= below) return true;
+  for (; ring + 1 < m.rings; ++ring) {
+    const double above = ring_middle(m, s, ring + 1);
+    if (s_m < above) {
+      share = (s_m - below) / (above - below);
+      return true;
+    }
+    below = above;
+  }
+  return true;
+}
+
+}  // namespace
+
+double StentModel::strut_length_m() const { return std::hypot(height_m, half_chord(*this, crimped_m)); }
+double StentModel::widest_m() const { return strut_length_m() / (2 * std::sin(pi / (2 * crowns))); }
+
+StentModel make_stent(double nominal_m, double length_m, const StentDesign& design) {
+  StentModel m{design, {}};
+  m.nominal_m = nominal_m, m.length_m = length_m;
+  if (m.crowns == 0) m.crowns = nominal_m > 3.3e-3 ? 9 : 6;  // 3 links fit both
+  if (m.rings == 0) m.rings = std::max(3, static_cast<int>(std::lround((length_m - m.height_m) / 1.3e-3)) + 1);
+  m.name = fmt::format("cobalt-chromium stent {:g} x {:g} mm", 1e3 * nominal_m, 1e3 * length_m);
+  check(m);
+  return m;
+}
+
+void check(const StentModel& m) {
+  if (!(m.nominal_m >= 2e-3 && m.nominal_m <= 5e-3 && m.length_m >= 6e-3 && m.length_m <= 50e-3))
+    throw std::invalid_argument(
+        fmt::format("stent: {:g} x {:g} mm; expected 2 to 5 mm by 6 to 50 mm", 1e3 * m.nominal_m, 1e3 * m.length_m));
+  if (m.rings < 2 || m.crowns < 3 || m.links < 1 || m.crowns % m.links != 0)
+    throw std::invalid_argument("stent: expected at least 2 rings, 3 crowns, and links that divide the crowns");
+}
+
+StentState make_stent_state(const StentModel& m) {
+  StentState s;
+  s.radius_m.assign(m.rings, m.crimped_m), s.rest_m = s.peak_m = s.radius_m;
+  s.link_m.assign(m.rings - 1, m.pitch_m());
+  for (int k = 0; k < m.rings; ++k)
+    for (int j = 0; j < 2 * m.crowns; ++j)
+      s.along_m.push_back((k - (m.rings - 1) / 2.0) * m.pitch_m() + (j % 2 ? 0.5 : -0.5) * m.height_m);
+  s.ties.assign(m.points(), {});
+  return s;
+}
+
+std::pair<double, double> span_of(const StentState& s) {
+  const auto [low, high] = std::minmax_element(s.along_m.begin(), s.along_m.end());
+  return {s.middle_m + s.shift_m + *low, s.middle_m + s.shift_m + *high};
+}
+
+double inner_radius_at(const StentModel& m, const StentState& s, double s_m) {
+  int ring;
+  double share;
+  if (!between(m, s, s_m, ring, share)) return -1;
+  return share > 0 ? (1 - share) * s.radius_m[ring] + share * s.radius_m[ring + 1] : s.radius_m[ring];
+}
+
+double narrowest_m(const StentModel& m, const StentState& s, double from_m, double to_m) {
+  double least = 1;
+  for (int k = 0; k < m.rings; ++k)
+    if (const double at = ring_middle(m, s, k); at >= from_m && at <= to_m) least = std::min(least, s.radius_m[k]);
+  return least;
+}
+
+void add_sleeve(const StentModel& m, const StentState& s, const BalloonModel& balloon,
+                const BalloonState& balloon_state, double middle_m, StentScratch& x, Sleeve& sleeve) {
+  if (sleeve.covers.empty())
+    for (auto* v : {&x.p_Pa, &x.slope_Pa_m, &x.covers, &x.inner_m}) v->assign(balloon_spheres, 0);
+  for (int b = 0; b < balloon_spheres; ++b) {
+    int ring;
+    double share;
+    if (!between(m, s, sphere_position(balloon, balloon_state, middle_m, b), ring, share)) continue;
+    const double a = balloon_state.radius_m[b];
+    const WallPressure one = hoop(m, s.rest_m[ring], a);
+    const WallPressure two = share > 0 ? hoop(m, s.rest_m[ring + 1], a) : one;
+    const double inner = share > 0 ? (1 - share) * s.radius_m[ring] + share * s.radius_m[ring + 1] : s.radius_m[ring];
+    x.covers[b] = 1;
+    x.inner_m[b] = std::max(x.inner_m[b], inner);
+    x.p_Pa[b] += (1 - share) * one.p_Pa + share * two.p_Pa;
+    x.slope_Pa_m[b] += (1 - share) * one.slope_Pa_m + share * two.slope_Pa_m;
+  }
+  sleeve = {x.p_Pa, x.slope_Pa_m, std::max(sleeve.thickness_m, m.strut_m), x.covers, x.inner_m};
+}
+
+namespace {
+
+void move_rings(const StentModel& m, const PlaqueModel& plaque, const StentInputs& in, double dt, StentState& s,
+                const PlaqueState& wall) {
+  double mean = 0;
+  bool any_on = false;
+  for (int k = 0; k < m.rings; ++k) {
+    const double at = ring_middle(m, s, k);
+    const double a = in.balloon ? radius_at(*in.balloon, *in.balloon_state, in.balloon_middle_m, at) : 0;
+    double& r = s.radius_m[k];
+    const WallPressure own = hoop(m, s.rest_m[k], r);
+    WallPressure outside;
+    if (in.path) {
+      const VesselPath::Place place = in.path->at(at);
+      outside = wall_pressure(plaque, wall, in.path->cells[place.index], r + m.strut_m);
+    }
+    // Both press it inwards; implicit in r.
+    const double c = m.viscous_Pa_s_m / dt;
+    const double alone = r - (own.p_Pa + outside.p_Pa) / (c + own.slope_Pa_m + outside.slope_Pa_m);
+    any_on = any_on || a >= alone;
+    r = std::max(alone, a);
+    s.rest_m[k] = std::clamp(s.rest_m[k], r / (1 + m.yield), r / (1 - m.yield));
+    s.peak_m[k] = std::max(s.peak_m[k], r);
+    mean += r / m.rings;
+  }
+  // Open, and its balloon no longer in touch.
+  if (s.where == StentState::on_balloon && !any_on && mean > 1.6 * m.crimped_m) s.where = StentState::deployed;
+}
+
+/// Struts and links find their lengths, the middle of the stent stays.
+void settle_points(const StentModel& m, StentState& s) {
+  const int around = 2 * m.crowns, every = m.crowns / m.links;
+  const auto pull = [](double& a, double& b, double wanted, double share) {
+    const double off = share * ((b - a) - wanted) / 2;
+    a += off, b -= off;
+  };
+  for (int round = 0; round < relaxations; ++round) {
+    for (int k = 0; k < m.rings; ++k) {
+      const double h = ring_height(m, s.radius_m[k]);
+      double* z = &s.along_m[k * around];
+      for (int j = 0; j < around; ++j) {
+        const int next = (j + 1) % around;
+        j % 2 ? pull(z[next], z[j], h, 0.9) : pull(z[j], z[next], h, 0.9);
+      }
+    }
+    for (int k = 0; k + 1 < m.rings; ++k)
+      for (int crown = k % 2; crown < m.crowns; crown += every) {
+        const int j = (2 * crown + 1) % around;
+        pull(s.along_m[k * around + j], s.along_m[(k + 1) * around + j], s.link_m[k], 0.9);
+      }
+  }
+}
+
+/// An edge that pushes it on: rings close up one after another, and stay so.
+void crush(const StentModel& m, const StentInputs& in, StentState& s) {
+  if (in.edge_N < m.crush_N) return;
+  const int around = 2 * m.crowns;
+  double edge = in.edge_m - s.middle_m - s.shift_m;
+  for (int k = 0; k < m.rings; ++k) {
+    double low = 1;
+    for (int j = 0; j < around; ++j) low = std::min(low, s.along_m[k * around + j]);
+    if (low >= edge) return;
+    for (int j = 0; j < around; ++j) s.along_m[k * around + j] += edge - low;
+    if (k + 1 == m.rings) return;
+    double next = 1;
+    for (int j = 0; j < around; ++j) next = std::min(next, s.along_m[(k + 1) * around + j]);
+    const double least = m.pressed_together * m.pitch_m();
+    s.link_m[k] = std::min(s.link_m[k], std::max(least, (next - edge) / (1 - m.link_elastic)));
+    edge += least;
+  }
+}
+
+}  // namespace
+
+void step(const StentModel& m, const PlaqueModel& plaque, const StentInputs& in, double dt, StentState& s,
+          PlaqueState& wall) {
+  if (s.where == StentState::lost) return;
+  if (s.where == StentState::on_balloon) {
+    s.middle_m = in.balloon_middle_m + (in.balloon_state ? in.balloon_state->slip_m : 0);
+    // Pulled against an edge it slides on its balloon, and is off when half of it is.
+    if (const double over = std::fabs(in.drag_N) - m.held_N; over > 0 && s.radius_m[m.rings / 2] < 1.2 * m.crimped_m)
+      s.shift_m += std::copysign(over * dt * 5e-3, in.drag_N);
+    if (std::fabs(s.shift_m) > m.length_m / 2) {
+      s.where = StentState::lost;
+      return;
+    }
+  }
+  move_rings(m, plaque, in, dt, s, wall);
+  if (s.where == StentState::deployed) crush(m, in, s);
+  settle_points(m, s);
+  if (!in.path) return;
+  const auto [first, last] = span_of(s);
+  for (std::size_t k = 0; k < in.path->cells.size(); ++k) {
+    const double at = in.path->s_m[k];
+    if (at < first || at > last) continue;
+    if (const double inner = inner_radius_at(m, s, at); inner > 0)
+      if (inner + m.strut_m > wall.rest_m[in.path->cells[k]])
+        push_wall(plaque, in.path->cells[k], inner + m.strut_m, wall);
+  }
+}
+
+}  // namespace ostium::vascular

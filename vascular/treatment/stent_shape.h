@@ -1,0 +1,44 @@
+#pragma once
+/// A stent's points and struts in the patient frame: on its balloon, or riding with the beating wall.
+#include "vascular/treatment/stent.h"
+#include "vascular/treatment/wall_shape.h"
+
+namespace ostium::vascular {
+
+/// Struts and links, as pairs of points.
+std::vector<std::pair<int, int>> struts_of(const StentModel& model);
+
+/// Centre of the path and two directions across it, carried along it without twist.
+struct PathFrame {
+  Eigen::Vector3d centre, along, side, up;
+};
+PathFrame frame_at(const LumenMap& map, const VesselPath& path, double s_m, double phase, double breath = 0);
+
+/// Where its points are by the path alone.
+std::vector<Eigen::Vector3d> points_on_path(const StentModel& model, const StentState& state, const LumenMap& map,
+                                            const VesselPath& path, double phase, double breath = 0);
+
+/// Ties a deployed stent to the wall as both are now: once, between two steps. `gap_m` of each point to the wall.
+void tie_to_wall(const StentModel& model, const Patient& patient, const WallShape& shape, const LumenMap& map,
+                 const VesselPath& path, const PlaqueState& wall, double phase, StentState& state);
+bool is_tied(const StentState& state);
+
+/// Where its tied points are at a phase.
+std::vector<Eigen::Vector3d> points_on_wall(const StentModel& model, const StentState& state, const Patient& patient,
+                                            const WallShape& shape, std::span<const double> radius_m, double phase,
+                                            double breath);
+
+/// From the middle of a strut at each point to the wall's surface, less half its thickness: 0 touches.
+std::vector<double> gaps(const StentModel& model, const StentState& state, const VesselPath& path,
+                         const PlaqueState& wall);
+
+inline constexpr double apposed_m = 0.05e-3;  ///< a point no farther from the wall lies on it
+struct Apposition {
+  double share = 1;    ///< of its points that lie on the wall
+  double worst_m = 0;  ///< largest gap
+};
+/// Does not allocate.
+Apposition apposition(const StentModel& model, const StentState& state, const VesselPath& path,
+                      const PlaqueState& wall);
+
+}  // namespace ostium::vascular
