@@ -159,7 +159,8 @@ std::vector<double> Angiogram::darkness_full(const std::vector<int>& cells, doub
   for (std::size_t c = 0; c < n; ++c)
     for (int k = 0; k < vascular::layers; ++k)
       full.contrast.sheath_kg[k * n + c] = iodine_kg_m3 * model_.contrast.share[k] *
-                                           model_.flow.tree.cells[c].length_m * vascular::free_area_m2(full.radius_m[c], 0);
+                                           model_.flow.tree.cells[c].length_m *
+                                           vascular::free_area_m2(full.radius_m[c], 0);
   scene_.at(full, {});
   return darkness(cells, full);
 }

@@ -41,8 +41,10 @@ void write_case(const data::Case& c, const std::string& folder) {
     const fs::path base = folder;
     write_mesh((base / fmt::format("lumen-{:02}.obj", f)).string(),
                patient.lumen.at(static_cast<double>(f) / vascular::beat_frames, 0), vascular::LengthUnit::millimetre);
-    data::write_tree((base / fmt::format("tree-{:02}.json", f)).string(), patient.tree_frames[static_cast<std::size_t>(f)]);
-    data::write_tree((base / fmt::format("tree-{:02}.vtp", f)).string(), patient.tree_frames[static_cast<std::size_t>(f)]);
+    data::write_tree((base / fmt::format("tree-{:02}.json", f)).string(),
+                     patient.tree_frames[static_cast<std::size_t>(f)]);
+    data::write_tree((base / fmt::format("tree-{:02}.vtp", f)).string(),
+                     patient.tree_frames[static_cast<std::size_t>(f)]);
   }
   const std::vector<vascular::XrayBody> bodies = make_thorax(patient.anatomy);
   for (const vascular::XrayBody& body : bodies) {
@@ -57,7 +59,8 @@ void write_case(const data::Case& c, const std::string& folder) {
 }
 
 int run(const Arguments& a) {
-  const std::vector<data::Case> cases = a.name.empty() ? data::load_cases() : std::vector<data::Case>{data::find_case(a.name)};
+  const std::vector<data::Case> cases =
+      a.name.empty() ? data::load_cases() : std::vector<data::Case>{data::find_case(a.name)};
   if (!a.folder.empty()) {
     if (a.name.empty())
       throw data::LoadError("--export writes one case; name it, for example: ostium cases rca-mid-focal --export DIR");

@@ -1,3 +1,5 @@
+#include "data/identification/selection/explain.h"
+
 #include <fmt/format.h>
 
 #include <filesystem>
@@ -11,7 +13,6 @@
 #include "data/formats/write_file.h"
 #include "data/identification/measurement/measurement_reader.h"
 #include "data/identification/report/explanation_report.h"
-#include "data/identification/selection/explain.h"
 
 namespace ostium::app {
 

@@ -144,8 +144,8 @@ void print_numbers(const Arguments& a, const fluoro::FluoroscopeInput& in, const
     return;
   }
   fmt::print("{}, {:.0f} kV, {:.1f} mm Cu, patient as {:.1f} cm of soft tissue, {:.0f} nGy at the detector\n",
-             fluoro::angles_text(in.view.arm.lao_rad / degree, in.view.arm.cran_rad / degree), e.tube.peak_kV, e.tube.copper_mm,
-             100 * e.patient_m, e.detector_dose_nGy);
+             fluoro::angles_text(in.view.arm.lao_rad / degree, in.view.arm.cran_rad / degree), e.tube.peak_kV,
+             e.tube.copper_mm, 100 * e.patient_m, e.detector_dose_nGy);
   fmt::print("a frame {:.4f} mGy and {:.4f} Gy cm2; at {:g} frames/s {:.1f} mGy/min\n{}\n", 1e3 * e.kerma_Gy,
              1e4 * e.dose_area_Gy_m2, rate, 6e4 * e.kerma_Gy * rate, a.out);
 }

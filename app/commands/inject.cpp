@@ -124,9 +124,9 @@ int run(const Arguments& a) {
   for (int n = 0; n < frames; ++n) {
     fluoro::Picture picture = angiogram.frame(injection, inputs, state);
     if (n == 0) in_line_kg = injection.iodine_kg_m3 * inputs.contrast.line.dead_m3;
-    draw_overlay(
-        {view, fluoro::cine(a.frames_per_s), angiogram.report().frame.exposure, angiogram.fluoroscope().dose, true, "", c.name},
-        picture);
+    draw_overlay({view, fluoro::cine(a.frames_per_s), angiogram.report().frame.exposure, angiogram.fluoroscope().dose,
+                  true, "", c.name},
+                 picture);
     if (writer) writer->add(picture);
     if (n * 6 / frames != (n - 1) * 6 / frames || n == 0) kept.push_back(picture);
     show_progress(fmt::format("frame {} of {}", n + 1, frames));

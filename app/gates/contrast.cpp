@@ -39,8 +39,8 @@ data::GateResult balance(const vascular::PhysiologyModel& model, vascular::Physi
 
 /// A Y: iodine that went into each limb, over the flow there.
 data::GateResult split() {
-  const vascular::FlowModel flow =
-      vascular::make_flow_model(vascular::plain_tree({{-1, 30, 1e-3, 1.5e-3}, {0, 60, 1e-3, 1.2e-3}, {0, 60, 1e-3, 0.8e-3}}), 40 * mL_min);
+  const vascular::FlowModel flow = vascular::make_flow_model(
+      vascular::plain_tree({{-1, 30, 1e-3, 1.5e-3}, {0, 60, 1e-3, 1.2e-3}, {0, 60, 1e-3, 0.8e-3}}), 40 * mL_min);
   const vascular::ContrastModel model = make_contrast_model(flow);
   vascular::FlowState blood = make_flow_state(flow);
   vascular::FlowScratch flow_scratch;

@@ -40,7 +40,8 @@ std::vector<data::GateResult> rod_greenhill(bool) {
     const double twist_rad = ML_over_EI * EI / GJ;
     std::vector<Eigen::Vector4d> frames;
     for (int j = 0; j < elements; ++j)
-      frames.push_back(core::turned_frame(core::along_x().q_W, Eigen::Vector3d(twist_rad * (j + 0.5) / elements, 0, 0)));
+      frames.push_back(
+          core::turned_frame(core::along_x().q_W, Eigen::Vector3d(twist_rad * (j + 0.5) / elements, 0, 0)));
     lay_out(rod, frames, core::turned_frame(core::along_x().q_W, Eigen::Vector3d(twist_rad, 0, 0)), bench.rod());
     return bench.is_unstable();
   });

@@ -41,9 +41,10 @@ std::vector<data::GateResult> xray_spectrum(bool) {
   double kerma_Gy_m2 = 0;
   for (Eigen::Index i = 0; i < rqa5.photons.size(); ++i)
     kerma_Gy_m2 += rqa5.photons[i] / rqa5.photons.sum() * fluoro::air_kerma_Gy_m2(rqa5.energy_keV[i]);
-  return {{"xray-spectrum-rqa5-hvl", half_value_layer_mm(rqa5), 6.8, 0.27, "mm"},
-          {"xray-spectrum-rqr6-hvl", fluoro::half_value_layer_mm(fluoro::spectrum({80, filter_mm, 0})), 3.01, 0.15, "mm"},
-          {"xray-spectrum-rqa5-photons", 1e-12 / kerma_Gy_m2, 30174, 900, "1/mm2/uGy"}};
+  return {
+      {"xray-spectrum-rqa5-hvl", half_value_layer_mm(rqa5), 6.8, 0.27, "mm"},
+      {"xray-spectrum-rqr6-hvl", fluoro::half_value_layer_mm(fluoro::spectrum({80, filter_mm, 0})), 3.01, 0.15, "mm"},
+      {"xray-spectrum-rqa5-photons", 1e-12 / kerma_Gy_m2, 30174, 900, "1/mm2/uGy"}};
 }
 
 std::vector<data::GateResult> xray_wedge(bool) {

@@ -22,7 +22,8 @@ fluoro::Scene vessel_in_water() {
     radius[i] = 0.5 * healthy_m * (1 - narrowing * into);
   }
   constexpr int sides = 32;
-  fluoro::Body vessel = fluoro::phantom::body("vessel", fluoro::phantom::tube(line, radius, sides, true), fluoro::tissue::soft, fluoro::tissue::soft);
+  fluoro::Body vessel = fluoro::phantom::body("vessel", fluoro::phantom::tube(line, radius, sides, true),
+                                              fluoro::tissue::soft, fluoro::tissue::soft);
   vessel.contrast = {Eigen::VectorXf::Constant(vessel.p_P.cols(), 300), fluoro::phantom::tube_centres(line, sides)};
   scene.moving.push_back(std::move(vessel));
   return scene;

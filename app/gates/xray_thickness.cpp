@@ -47,7 +47,8 @@ double rms_mm(fluoro::PathLengthRenderer& renderer, const Case& c) {
   view.arm.lao_rad = 0.5;
   view.arm.cran_rad = 0.3;
   fluoro::PathLengths lengths(view.pixels);
-  const std::vector<fluoro::Body> bodies{fluoro::phantom::body(c.name, c.surface, fluoro::tissue::soft, fluoro::tissue::air)};
+  const std::vector<fluoro::Body> bodies{
+      fluoro::phantom::body(c.name, c.surface, fluoro::tissue::soft, fluoro::tissue::air)};
   renderer.add(view, bodies, lengths);
   if (find_leak(lengths)) return NAN;
   const fluoro::Plane along_ray = lengths.soft_m() * ray_stretch(view);
@@ -80,9 +81,11 @@ std::vector<data::GateResult> xray_thickness(bool quick) {
                        centre, [](const Vector3d&) { return radius; }, 100),
                    in_sphere});  // 40,000
   if (!quick) {
+    cases.push_back({"cylinder",
+                     fluoro::phantom::tube(axis, Eigen::VectorXd::Constant(axis.cols(), radius), 640, false),
+                     in_cylinder});
     cases.push_back(
-        {"cylinder", fluoro::phantom::tube(axis, Eigen::VectorXd::Constant(axis.cols(), radius), 640, false), in_cylinder});
-    cases.push_back({"slab", fluoro::phantom::brick({-0.4, -0.4, -0.5 * thickness}, {0.4, 0.4, 0.5 * thickness}), in_slab});
+        {"slab", fluoro::phantom::brick({-0.4, -0.4, -0.5 * thickness}, {0.4, 0.4, 0.5 * thickness}), in_slab});
   }
   std::vector<data::GateResult> out;
   for (const auto& renderer : {fluoro::make_scanline_renderer(), fluoro::make_osmesa_renderer()})

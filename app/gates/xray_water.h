@@ -10,7 +10,8 @@ namespace ostium::app::gates {
 inline fluoro::Scene slab(double thickness_m, fluoro::Tissue tissue) {
   const double half = 0.5 * thickness_m;
   auto bodies = std::make_shared<std::vector<fluoro::Body>>();
-  bodies->push_back(fluoro::phantom::body("slab", fluoro::phantom::brick({-0.2, -0.2, -half}, {0.2, 0.2, half}), tissue, fluoro::tissue::air));
+  bodies->push_back(fluoro::phantom::body("slab", fluoro::phantom::brick({-0.2, -0.2, -half}, {0.2, 0.2, half}), tissue,
+                                          fluoro::tissue::air));
   return {bodies, {}, {}};
 }
 

@@ -15,9 +15,7 @@ struct Extent {
   Lanes packed_largest{}, packed_sum{};
   double single_largest = 0, single_sum = 0;
 
-  void take(Lanes square) {
-    packed_largest = core::largest(packed_largest, square), packed_sum = packed_sum + square;
-  }
+  void take(Lanes square) { packed_largest = core::largest(packed_largest, square), packed_sum = packed_sum + square; }
   void take(double square) { single_largest = core::largest(single_largest, square), single_sum += square; }
   double largest() const { return std::sqrt(core::largest(horizontal_max(packed_largest), single_largest)); }
   bool finite() const {

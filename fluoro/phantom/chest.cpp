@@ -104,7 +104,7 @@ void add_spine(std::vector<Body>& out) {
         Eigen::Scaling(1 + 0.03 * random.uniform(-1, 1) - 0.010 * i);
     const auto placed = [&](const Surface& local) {
       return Surface{local.triangles,
-                           ((at.linear() * local.p_P.cast<double>()).colwise() + at.translation()).cast<float>()};
+                     ((at.linear() * local.p_P.cast<double>()).colwise() + at.translation()).cast<float>()};
     };
     add_bone(out, "vertebra " + std::to_string(7 - i), placed(outer), placed(inner));
   }

@@ -65,7 +65,7 @@ Vector3d tangent(const Matrix3Xd& line, Index i) {
 }  // namespace
 
 Surface star(const Vector3d& centre, const std::function<double(const Vector3d&)>& radius, int rings,
-                   const Vector3d& axis) {
+             const Vector3d& axis) {
   const int sides = 2 * rings;
   const Eigen::Quaterniond turn = Eigen::Quaterniond::FromTwoVectors(Vector3d::UnitZ(), axis);
   Matrix3Xd p(3, rings * sides + 2);
@@ -87,7 +87,7 @@ Surface star(const Vector3d& centre, const std::function<double(const Vector3d&)
 }
 
 Surface ellipsoid(const Vector3d& centre, const Vector3d& semi_axes, int rings, const Eigen::Matrix3d& axes,
-                        double exponent) {
+                  double exponent) {
   const auto radius = [&](const Vector3d& d) {
     const Vector3d local = (axes.transpose() * d).cwiseAbs().cwiseQuotient(semi_axes);
     return std::pow(local.array().pow(exponent).sum(), -1 / exponent);
@@ -107,7 +107,7 @@ Surface brick(const Vector3d& least, const Vector3d& most) {
 }
 
 Surface tube(const Matrix3Xd& line, const Eigen::VectorXd& radius_m, int sides, bool round_ends, double flatness,
-                   const Vector3d& normal) {
+             const Vector3d& normal) {
   const std::vector<Ring> rings = rings_of(line.cols(), round_ends);
   const auto count = static_cast<Index>(rings.size());
   Matrix3Xd p(3, count * sides + 2);

@@ -38,7 +38,7 @@ TEST(Phantom, ANetOfABallIsClosedAndHoldsItsVolume) {
 TEST(Phantom, ABranchAddsWhatLiesBeyondItsParentsWall) {
   constexpr double parent_m = 2e-3, branch_m = 1e-3, length_m = 0.015;
   const std::vector<Course> courses{straight({-0.02, 0, 0}, {0.02, 0, 0}, parent_m, -1),
-                                              straight({0, 0, 0}, {0, length_m, 0}, branch_m, 0)};
+                                    straight({0, 0, 0}, {0, length_m, 0}, branch_m, 0)};
   const Surface branch = lumen(courses, 1).surface;
   EXPECT_NO_THROW(check(body("branch", branch, tissue::soft, tissue::soft)));
   // A cylinder with a half ball at its end, less what the parent holds: the mean of sqrt(R^2 - z^2) over the disc.

@@ -50,10 +50,14 @@ struct BalloonState {
 };
 constexpr auto fields(const BalloonState*) {
   using S = BalloonState;
-  return std::tuple{
-      core::field("radius_m", &S::radius_m),     core::field("volume_m3", &S::volume_m3),  core::field("pressure_Pa", &S::pressure_Pa),
-      core::field("was_filled", &S::was_filled), core::field("burst", &S::burst),          core::field("slip_m", &S::slip_m),
-      core::field("largest_m", &S::largest_m),   core::field("inflated_s", &S::inflated_s)};
+  return std::tuple{core::field("radius_m", &S::radius_m),
+                    core::field("volume_m3", &S::volume_m3),
+                    core::field("pressure_Pa", &S::pressure_Pa),
+                    core::field("was_filled", &S::was_filled),
+                    core::field("burst", &S::burst),
+                    core::field("slip_m", &S::slip_m),
+                    core::field("largest_m", &S::largest_m),
+                    core::field("inflated_s", &S::inflated_s)};
 }
 BalloonState make_balloon_state(const BalloonModel& model);
 

@@ -34,8 +34,8 @@ struct StentTie {
   double depth_m = 0;   ///< inwards from there
 };
 constexpr auto fields(const StentTie*) {
-  return std::tuple{core::field("triangle", &StentTie::triangle), core::field("u", &StentTie::u), core::field("v", &StentTie::v),
-                    core::field("depth_m", &StentTie::depth_m)};
+  return std::tuple{core::field("triangle", &StentTie::triangle), core::field("u", &StentTie::u),
+                    core::field("v", &StentTie::v), core::field("depth_m", &StentTie::depth_m)};
 }
 
 struct StentState {
@@ -54,10 +54,11 @@ struct StentState {
 };
 constexpr auto fields(const StentState*) {
   using S = StentState;
-  return std::tuple{core::field("where", &S::where),     core::field("branch", &S::branch),     core::field("middle_m", &S::middle_m),
-                    core::field("shift_m", &S::shift_m), core::field("radius_m", &S::radius_m), core::field("rest_m", &S::rest_m),
-                    core::field("along_m", &S::along_m), core::field("link_m", &S::link_m),     core::field("ties", &S::ties),
-                    core::field("peak_m", &S::peak_m)};
+  return std::tuple{core::field("where", &S::where),       core::field("branch", &S::branch),
+                    core::field("middle_m", &S::middle_m), core::field("shift_m", &S::shift_m),
+                    core::field("radius_m", &S::radius_m), core::field("rest_m", &S::rest_m),
+                    core::field("along_m", &S::along_m),   core::field("link_m", &S::link_m),
+                    core::field("ties", &S::ties),         core::field("peak_m", &S::peak_m)};
 }
 StentState make_stent_state(const StentModel& model);
 

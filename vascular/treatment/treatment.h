@@ -42,9 +42,10 @@ struct TreatmentState {
 };
 constexpr auto fields(const TreatmentState*) {
   using S = TreatmentState;
-  return std::tuple{core::field("wall", &S::wall),     core::field("balloon", &S::balloon), core::field("balloon_in", &S::balloon_in),
-                    core::field("stents", &S::stents), core::field("spasm", &S::spasm),     core::field("injury", &S::injury),
-                    core::field("drugs", &S::drugs)};
+  return std::tuple{
+      core::field("wall", &S::wall),     core::field("balloon", &S::balloon), core::field("balloon_in", &S::balloon_in),
+      core::field("stents", &S::stents), core::field("spasm", &S::spasm),     core::field("injury", &S::injury),
+      core::field("drugs", &S::drugs)};
 }
 TreatmentState make_state(const TreatmentModel& model, const FlowTree& tree);
 

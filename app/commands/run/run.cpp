@@ -131,7 +131,7 @@ int run_script(const RunArguments& a) {
   const bool recorded = options.recorder.mode != RecordMode::none;
   if (!a.folder.empty())
     data::write_file((fs::path(a.folder) / "metrics.json").string(),
-               metrics_json(setup.vessel, setup.seed, report.outcome, report.reason, report.metrics));
+                     metrics_json(setup.vessel, setup.seed, report.outcome, report.reason, report.metrics));
   tell(a, setup, run, report, recorded ? options.recorder.file : "", device.get());
   if (!film_problem.empty()) fmt::print(stderr, "ostium run: no film: {}\n", film_problem);
   if (a.report && recorded && report.problem.empty()) report_folder(a.folder, vessel);

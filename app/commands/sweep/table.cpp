@@ -32,8 +32,8 @@ std::string heading(const Sweep& sweep) {
 }
 
 std::string line_without_vessel(const SweepTask& task, const std::string& why) {
-  return beginning_of(task) + ",aborted," + csv(why) + ",0.000" + std::string(data::metric_definitions().size() + 4, ',') +
-         "\n";
+  return beginning_of(task) + ",aborted," + csv(why) + ",0.000" +
+         std::string(data::metric_definitions().size() + 4, ',') + "\n";
 }
 
 std::string line_of(const SweepTask& task, const ScriptedRun& run, const PlayReport& r) {

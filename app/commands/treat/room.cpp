@@ -87,9 +87,9 @@ fluoro::Picture TreatmentRoom::picture(const Plan& p, const std::string& words, 
   };
   fluoro::Picture out =
       with_contrast ? take(opacified(angiogram, artery_of(p, physiology.flow.tree) != "RCA"), false) : take(bed, true);
-  draw_overlay(
-      {view, fluoro::cine(15), angiogram.report().frame.exposure, angiogram.fluoroscope().dose, true, words, arguments.of},
-      out);
+  draw_overlay({view, fluoro::cine(15), angiogram.report().frame.exposure, angiogram.fluoroscope().dose, true, words,
+                arguments.of},
+               out);
   return out;
 }
 

@@ -13,8 +13,8 @@ using units::atm, units::mmHg;
 /// A lead's strip, as high as the lead needs.
 fluoro::Strip strip_of(vascular::Lead lead) {
   constexpr std::pair<float, float> range[vascular::leads] = {{-0.3F, 1.15F}, {-0.3F, 0.8F}, {-0.3F, 0.9F},
-                                                    {-0.4F, 0.6F},  {-1.1F, 0.8F}, {-0.4F, 1.5F}};
-  const auto [low, high] = std::ranges::range[static_cast<int>(lead)];
+                                                              {-0.4F, 0.6F},  {-1.1F, 0.8F}, {-0.4F, 1.5F}};
+  const auto [low, high] = range[static_cast<int>(lead)];
   return {vascular::lead_names[static_cast<int>(lead)], "mV", 250, {}, low, high};
 }
 

@@ -45,7 +45,8 @@ struct ToolInputs {
   double turn_rad_s = 0;  ///< clockwise as seen from the hub
 };
 constexpr auto fields(const ToolInputs*) {
-  return std::tuple{core::field("advance_m_s", &ToolInputs::feed_m_s), core::field("turn_rad_s", &ToolInputs::turn_rad_s)};
+  return std::tuple{core::field("advance_m_s", &ToolInputs::feed_m_s),
+                    core::field("turn_rad_s", &ToolInputs::turn_rad_s)};
 }
 
 struct CArmInputs {
@@ -69,7 +70,8 @@ struct SessionInputs {
 };
 constexpr auto fields(const SessionInputs*) {
   return std::tuple{core::field("tools", &SessionInputs::tools), core::field("c_arm", &SessionInputs::c_arm),
-                    core::field("heart_rate_1_min", &SessionInputs::rate_1_min), core::field("bedside", &SessionInputs::delivery)};
+                    core::field("heart_rate_1_min", &SessionInputs::rate_1_min),
+                    core::field("bedside", &SessionInputs::delivery)};
 }
 
 std::size_t input_count(const SessionModel& model);
@@ -96,7 +98,8 @@ struct CArmState {
 constexpr auto fields(const CArmState*) {
   using S = CArmState;
   return std::tuple{core::field("fluoroscopy_s", &S::fluoroscopy_s), core::field("cine_s", &S::cine_s),
-                    core::field("cine_runs", &S::cine_runs), core::field("fluoroscopy", &S::fluoroscopy), core::field("cine", &S::cine)};
+                    core::field("cine_runs", &S::cine_runs), core::field("fluoroscopy", &S::fluoroscopy),
+                    core::field("cine", &S::cine)};
 }
 
 struct SessionState {
@@ -110,8 +113,9 @@ struct SessionState {
 };
 constexpr auto fields(const SessionState*) {
   using S = SessionState;
-  return std::tuple{core::field("rods", &S::rods),    core::field("hands", &S::hands),         core::field("c_arm", &S::c_arm),
-                    core::field("blood", &S::blood),  core::field("treatment", &S::treatment), core::field("bedside", &S::coupling),
+  return std::tuple{core::field("rods", &S::rods),           core::field("hands", &S::hands),
+                    core::field("c_arm", &S::c_arm),         core::field("blood", &S::blood),
+                    core::field("treatment", &S::treatment), core::field("bedside", &S::coupling),
                     core::field("wall_m", &S::wall_m)};
 }
 

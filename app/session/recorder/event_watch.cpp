@@ -156,7 +156,8 @@ void EventWatch::look(const SessionModel& model, const SessionInputs& inputs, co
   if (looks) handling_.look(model, inputs, state, report, say);
   look_at_tools(model, report, now, looks, say);
   look_at_beam(inputs.c_arm, say);
-  const std::uint32_t trouble = report.rods.trouble & ~static_cast<std::uint32_t>(core::feed_stopped | core::drive_limited);
+  const std::uint32_t trouble =
+      report.rods.trouble & ~static_cast<std::uint32_t>(core::feed_stopped | core::drive_limited);
   if (trouble && !trouble_) say(data::EventCode::step_trouble, -1, trouble);
   trouble_ = trouble;
   if (!model.has_patient()) return;

@@ -47,9 +47,11 @@ bool ScriptedRun::tick() {
 
 std::string trouble_words(std::uint32_t trouble) {
   static constexpr std::pair<core::Trouble, const char*> words[] = {
-      {core::drive_limited, "drive_limited"}, {core::drive_not_finite, "drive_not_finite"}, {core::load_limited, "load_limited"},
-      {core::not_converged, "not_converged"}, {core::motion_lost, "motion_lost"},           {core::no_solution, "no_solution"},
-      {core::feed_stopped, "feed_stopped"},   {core::pulled_apart, "pulled_apart"},         {core::joint_overturned, "joint_overturned"}};
+      {core::drive_limited, "drive_limited"},      {core::drive_not_finite, "drive_not_finite"},
+      {core::load_limited, "load_limited"},        {core::not_converged, "not_converged"},
+      {core::motion_lost, "motion_lost"},          {core::no_solution, "no_solution"},
+      {core::feed_stopped, "feed_stopped"},        {core::pulled_apart, "pulled_apart"},
+      {core::joint_overturned, "joint_overturned"}};
   std::string out;
   for (const auto& [bit, word] : words) {
     if (trouble & bit) out += (out.empty() ? "" : ", ") + std::string(word);

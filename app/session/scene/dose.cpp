@@ -33,11 +33,12 @@ std::optional<fluoro::Exposure> Dosimeter::exposure(fluoro::Imager& imager, cons
   } catch (const std::invalid_argument&) {
     return {};
   }
-  return imager.exposure({.scene = scene_,
-                          .view = view,
-                          .collimator = {},
-                          .programme = arm.cine ? fluoro::cine(dose_frames_per_s) : fluoro::fluoroscopy(dose_frames_per_s),
-                          .seed = 1});
+  return imager.exposure(
+      {.scene = scene_,
+       .view = view,
+       .collimator = {},
+       .programme = arm.cine ? fluoro::cine(dose_frames_per_s) : fluoro::fluoroscopy(dose_frames_per_s),
+       .seed = 1});
 }
 
 void Dosimeter::measure(const XrayUse& use, data::RunRecord& record) const {

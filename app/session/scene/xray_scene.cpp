@@ -63,7 +63,8 @@ void fill_bore(const SessionModel& model, const SessionState& state, const core:
   shaft.lumen_iodine_kg_m3 = Eigen::VectorXd(shaft.p_P.cols());
   for (Eigen::Index i = 0; i < shaft.p_P.cols(); ++i) {
     const double from_tip = rod.node_from_tip_m[static_cast<std::size_t>(rod.elements - i)];
-    const int cell = std::clamp(vascular::line_cells - 1 - static_cast<int>(from_tip * area / cell_m3), 0, vascular::line_cells - 1);
+    const int cell =
+        std::clamp(vascular::line_cells - 1 - static_cast<int>(from_tip * area / cell_m3), 0, vascular::line_cells - 1);
     shaft.lumen_iodine_kg_m3[i] = state.blood.contrast.line_kg[static_cast<std::size_t>(cell)] / cell_m3;
   }
 }
@@ -211,8 +212,8 @@ void XrayPatient::fill(Fill which) {
 fluoro::Scene XrayPatient::at(double phase, double breath) const {
   fluoro::Scene scene{fixed_, {}, {}};
   for (std::size_t b = 0; b < moving_.size(); ++b)
-    scene.moving.push_back(
-        body_of(moving_[b], moving_triangles_[b], vascular::at(moving_[b], vascular::contraction(phase), breath).vertices));
+    scene.moving.push_back(body_of(moving_[b], moving_triangles_[b],
+                                   vascular::at(moving_[b], vascular::contraction(phase), breath).vertices));
   if (filled_.vertices.empty()) return scene;
   const vascular::Mesh lumen = patient_->lumen.at(phase, breath);
   std::vector<Vector3d> vertices;
@@ -242,7 +243,8 @@ CaseScene scene_of_case(const std::string& name, Fill fill, Vector3d& middle) {
   middle = heart_middle(*patient);
   return {[xray](double phase) { return xray->at(phase); },
           [rate = c.rate_1_min](double phase, double seconds) {
-            for (double t = 0; t < seconds; t += 1e-3) phase += std::min(1e-3, seconds - t) * vascular::phase_speed(phase, rate);
+            for (double t = 0; t < seconds; t += 1e-3)
+              phase += std::min(1e-3, seconds - t) * vascular::phase_speed(phase, rate);
             return phase - std::floor(phase);
           }};
 }
@@ -253,8 +255,8 @@ fluoro::Scene scene_of_mesh(const Vessel& vessel) {
   const Vector3d middle = vessel.p_middle,
                  half = (0.5 * (high - low)).cwiseMax(Vector3d::Constant(0.09)) + Vector3d::Constant(0.02);
   const fluoro::phantom::Surface block = fluoro::phantom::brick(middle - half, middle + half);
-  const auto fixed = std::make_shared<const std::vector<fluoro::Body>>(
-      std::vector<fluoro::Body>{fluoro::phantom::body("block of soft tissue", block, fluoro::tissue::soft, fluoro::tissue::air)});
+  const auto fixed = std::make_shared<const std::vector<fluoro::Body>>(std::vector<fluoro::Body>{
+      fluoro::phantom::body("block of soft tissue", block, fluoro::tissue::soft, fluoro::tissue::air)});
   return {fixed, {}, {}};
 }
 

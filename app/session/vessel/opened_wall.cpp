@@ -47,9 +47,9 @@ void OpenedWall::set(const std::vector<double>& wall_m) {
     for (int k = coronaries_.first_vertex[c]; k < coronaries_.first_vertex[c + 1]; ++k) {
       const int v = coronaries_.vertices[k];
       for (int f = 0; f < vascular::beat_frames; ++f)
-        editor_.place(
-            v, f,
-            coronaries_.shape->vertex(static_cast<std::size_t>(v), now_m_, static_cast<double>(f) / vascular::beat_frames, 0));
+        editor_.place(v, f,
+                      coronaries_.shape->vertex(static_cast<std::size_t>(v), now_m_,
+                                                static_cast<double>(f) / vascular::beat_frames, 0));
     }
   editor_.refit();
 }
@@ -67,8 +67,10 @@ Eigen::Vector3d wall_vertex(const Vessel& vessel, const std::vector<double>& wal
   const std::array<double, 4> w = core::frame_weights(frame - k);
   Eigen::Vector3d p = Eigen::Vector3d::Zero();
   for (int j = 0; j < 4; ++j) {
-    const int f = ((static_cast<int>(k) + j - 1) % vascular::beat_frames + vascular::beat_frames) % vascular::beat_frames;
-    p += w[j] * c.shape->vertex(static_cast<std::size_t>(vertex), wall_m, static_cast<double>(f) / vascular::beat_frames, breath);
+    const int f =
+        ((static_cast<int>(k) + j - 1) % vascular::beat_frames + vascular::beat_frames) % vascular::beat_frames;
+    p += w[j] * c.shape->vertex(static_cast<std::size_t>(vertex), wall_m,
+                                static_cast<double>(f) / vascular::beat_frames, breath);
   }
   return p;
 }

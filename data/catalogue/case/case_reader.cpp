@@ -93,7 +93,8 @@ Case read(const JsonValue& file) {
   else
     read_imported(JsonObject(root["imported"], keys::imported), fs::path(*file.file).parent_path(), c);
   c.rate_1_min = root.positive("heart_rate_1_min");
-  if (c.rate_1_min < vascular::least_rate_1_min || c.rate_1_min > vascular::highest_rate_1_min) root.refuse("heart_rate_1_min");
+  if (c.rate_1_min < vascular::least_rate_1_min || c.rate_1_min > vascular::highest_rate_1_min)
+    root.refuse("heart_rate_1_min");
   const vascular::Anatomy anatomy = anatomy_of(c);
   for (const JsonValue& value : root.list("lesions"))
     c.lesions.push_back(read_lesion(JsonObject(value, keys::lesion), anatomy));

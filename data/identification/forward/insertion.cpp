@@ -53,7 +53,8 @@ class History {
       for (const ExperimentSetup& s : setups_) longest = std::max(longest, s.nest.parts[i].inserted_m);
       const core::ConcentricPart& part = first.nest.parts[i];
       const double length = std::min(longest + reserve_m, part.sections.back().to_tip_m);
-      model_.rods.push_back(core::make_rod({set.instruments[i].name, part.sections, elements_of(part, length), slow, {}}));
+      model_.rods.push_back(
+          core::make_rod({set.instruments[i].name, part.sections, elements_of(part, length), slow, {}}));
       if (i > 0)
         model_.nestings.push_back(
             {.outer = static_cast<int>(i) - 1, .inner = static_cast<int>(i), .friction = bore_friction});

@@ -18,7 +18,7 @@ class Finding:
 
 
 def read_layers(path):
-    """{folder: {name in it: level}}, and the files that may be long."""
+    """{folder: {name in it: level}}; the files that may be long; those that are, and are still to be divided."""
     layers, section = {}, None
     with open(path, encoding="utf-8") as file:
         for line in file:
@@ -28,7 +28,7 @@ def read_layers(path):
             elif line:
                 level = 1 + max(section.values(), default=-1)
                 section.update({name: level for name in line.split()})
-    return layers, set(layers.pop("tables", {}))
+    return layers, set(layers.pop("tables", {})), set(layers.pop("to be divided", {}))
 
 
 def edges(sources):
@@ -140,11 +140,14 @@ def rings(sources):
         yield Finding(steps[0][0], steps[0][1], what, "cut one of these includes: move what it needs below both folders")
 
 
-def long_files(sources, tables):
+def long_files(sources, tables, to_be_divided):
+    long = {source.path for source in sources if source.lines > LONGEST}
     for source in sources:
-        if source.lines > LONGEST and source.path not in tables:
+        if source.path in long - tables - to_be_divided:
             yield Finding(source.path, source.lines, f"{source.lines} lines, more than {LONGEST}",
                           "divide it into what it consists of; a mere table goes on the list [tables] of layers.txt")
+    for path in sorted(to_be_divided - long):
+        yield Finding(path, 1, "is no longer too long", "strike it off the list [to be divided] of layers.txt")
 
 
 def twins(sources):
@@ -163,6 +166,6 @@ def twins(sources):
                           "namespace without a name")
 
 
-def all_findings(sources, layers, tables):
-    return [*rings(sources), *unlisted(sources, layers), *arrows(sources, layers), *long_files(sources, tables),
-            *twins(sources)]
+def all_findings(sources, layers, tables, to_be_divided):
+    return [*rings(sources), *unlisted(sources, layers), *arrows(sources, layers),
+            *long_files(sources, tables, to_be_divided), *twins(sources)]

@@ -25,15 +25,15 @@ core/math/table.cpp
 """
 
 
-def findings(files):
+def findings(files, layers_text=LAYERS):
     """Of a tree of these files {path: text}: (path, line, what)."""
     with tempfile.TemporaryDirectory() as root:
-        for path, text in {**files, "layers.txt": LAYERS}.items():
+        for path, text in {**files, "layers.txt": layers_text}.items():
             os.makedirs(os.path.dirname(os.path.join(root, path)), exist_ok=True)
             with open(os.path.join(root, path), "w", encoding="utf-8") as file:
                 file.write(text)
-        layers, tables = read_layers(os.path.join(root, "layers.txt"))
-        return [(f.path, f.line, f.what) for f in all_findings(read(root), layers, tables)]
+        layers, tables, to_be_divided = read_layers(os.path.join(root, "layers.txt"))
+        return [(f.path, f.line, f.what) for f in all_findings(read(root), layers, tables, to_be_divided)]
 
 
 class Structure(unittest.TestCase):
@@ -73,6 +73,12 @@ class Structure(unittest.TestCase):
         })
         self.assertEqual(path, "tests/core/rod_test.cpp")
         self.assertIn("core may not include app", what)
+
+    def test_what_is_to_be_divided_is_struck_off_when_it_is(self):
+        layers = LAYERS + "[to be divided]\ncore/rod/long.cpp\n"
+        self.assertEqual(findings({"core/rod/long.cpp": "int a;\n" * 500}, layers), [])
+        self.assertEqual(findings({"core/rod/long.cpp": "int a;\n" * 5}, layers),
+                         [("core/rod/long.cpp", 1, "is no longer too long")])
 
     def test_twins(self):
         found = findings({
