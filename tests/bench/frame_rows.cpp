@@ -83,7 +83,7 @@ double late_share(double seconds, Session* drawing) {
   std::thread drawer([&] {
     while (drawing && !stop) drawing->frame();
   });
-  gates::Bench rod = gates::steel_bench({.elements = 512});
+  core::Bench rod = core::steel_bench({.elements = 512});
   const auto ticks = static_cast<long>(1000 * seconds);
   long late = 0;
   timespec next;
@@ -118,7 +118,7 @@ Row frame_row(const std::string& name, int pixels, bool rotating, bool quick) {
   row.ms = std::accumulate(times.begin(), times.end(), 0.0) / double(times.size());
   row.p999_ms = times.back();
   row.yardstick_ms = yardstick_ms(pixels, quick ? 2 : 6);
-  const data::GateResult gate = gates::xray_thickness(true).front();
+  const data::GateResult gate = app::gates::xray_thickness(true).front();
   row.gate = {gate.gate, gate.value, gate.unit, gate.pass()};
   return row;
 }

@@ -56,7 +56,7 @@ Row circulation_row(bool quick) {
     times.push_back(thread_ms() - start);
   }
   set_times(times, 1, row);
-  set_gate(gates::contrast(true), "contrast-balance", row);
+  set_gate(app::gates::contrast(true), "contrast-balance", row);
   return row;
 }
 
@@ -80,7 +80,7 @@ Row treatment_row(bool quick) {
     times.push_back(thread_ms() - start);
   }
   set_times(times, 0.999, row);
-  set_gate(gates::treatment(true), "treatment-balloon-chart-semi", row);
+  set_gate(app::gates::treatment(true), "treatment-balloon-chart-semi", row);
   return row;
 }
 

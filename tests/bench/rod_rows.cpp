@@ -38,7 +38,7 @@ std::vector<double> ticks(const Duration& duration, Tick&& tick) {
 
 /// Of a swinging rod.
 std::vector<double> swing_ticks(int elements, const Duration& duration) {
-  gates::Bench bench = gates::steel_bench({.elements = elements});
+  core::Bench bench = core::steel_bench({.elements = elements});
   return ticks(duration, [&] {
     bench.step();
     return hash(bench.state);
@@ -63,7 +63,7 @@ Row free_rod(const std::string& name, int elements, const Duration& duration) {
   const std::vector<double> times = swing_ticks(elements, duration);
   row.ms = mean(times);
   row.p999_ms = percentile(times, 0.999);
-  const data::GateResult gate = gates::swing_tip(elements);
+  const data::GateResult gate = app::gates::swing_tip(elements);
   row.gate = {gate.gate, gate.value, gate.unit, gate.pass()};
   return row;
 }
@@ -111,7 +111,7 @@ std::vector<Row> nested_rods(const Duration& duration) {
 
     explicit Nested(int rods)
         : model(nested(rods, 512)),
-          state(make_state(model, std::vector<core::EndState>(rods, gates::along_x()))),
+          state(make_state(model, std::vector<core::EndState>(rods, core::along_x()))),
           scratch(model) {
       inputs.rods.resize(rods);
     }
@@ -134,7 +134,7 @@ std::vector<Row> nested_rods(const Duration& duration) {
   constexpr int turn = 100;
   for (int done = 0; done < duration.steps; done += turn)
     for (Nested* n : {&pair, &three}) n->run({done == 0 ? duration.warm_up_steps : 0, turn});
-  const data::GateResult gate = gates::nesting_pair();
+  const data::GateResult gate = app::gates::nesting_pair();
   return {pair.row("pair-2x512-free", gate), three.row("three-3x512-free", gate)};
 }
 

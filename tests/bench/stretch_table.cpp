@@ -13,7 +13,7 @@ namespace {
 
 /// Largest change of length, percent, of our rod at real stiffness over 3 s of swinging from the horizontal.
 double our_stretch_percent(int elements, double step_s) {
-  gates::Bench bench = gates::steel_bench({.elements = elements});
+  core::Bench bench = core::steel_bench({.elements = elements});
   bench.model.step_s = step_s;
   double worst = 0;
   for (int i = 0; i < static_cast<int>(3 / step_s); ++i) {

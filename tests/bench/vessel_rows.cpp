@@ -31,7 +31,7 @@ double memory_MiB() {
   return static_cast<double>(resident) * 4096 / (1 << 20);
 }
 
-double kinetic_J(const gates::Rehearsal& run) {
+double kinetic_J(const app::gates::Rehearsal& run) {
   double sum = 0;
   for (std::size_t r = 0; r < run.model.rods.size(); ++r) sum += energy(run.model, run.inputs, run.state, r).kinetic_J;
   return sum;
@@ -40,18 +40,18 @@ double kinetic_J(const gates::Rehearsal& run) {
 }  // namespace
 
 Row vessel_pair(const std::string& name, bool quick) {
-  const gates::TestVessel vessel = gates::test_vessel();
-  gates::Rehearsal run(vessel, true);
+  const app::gates::TestVessel vessel = app::gates::test_vessel();
+  app::gates::Rehearsal run(vessel, true);
   core::PenetrationOracle truth(vessel.wall);
-  gates::Holding holding;
+  app::gates::Holding holding;
   std::vector<double> times;
   const int steps = quick ? 2'000 : 24'000;
   for (int n = 0; n < steps; ++n) {
-    gates::follow_script(1e-3 * n, run);
+    app::gates::follow_script(1e-3 * n, run);
     const double start = thread_cpu_ms();
     run.step(beats_per_min);
     times.push_back(thread_cpu_ms() - start);
-    if (n % 20 == 19) gates::judge(run, truth, false, holding);
+    if (n % 20 == 19) app::gates::judge(run, truth, false, holding);
   }
   Row row;
   row.name = name;
@@ -65,11 +65,11 @@ Row vessel_pair(const std::string& name, bool quick) {
 }
 
 bool print_drives(int count) {
-  const gates::TestVessel vessel = gates::test_vessel();
+  const app::gates::TestVessel vessel = app::gates::test_vessel();
   double deepest = 0;
   int escapes = 0, worst = 0;
   for (int seed = 0; seed < count; ++seed) {
-    const gates::Holding holding = gates::random_drive(vessel, static_cast<std::uint64_t>(seed), 5);
+    const app::gates::Holding holding = app::gates::random_drive(vessel, static_cast<std::uint64_t>(seed), 5);
     if (holding.deepest_m > deepest) deepest = holding.deepest_m, worst = seed;
     escapes += holding.escapes;
     if (holding.escapes > 0 || holding.deepest_m > drive_m || (seed + 1) % 10 == 0 || seed + 1 == count) {
@@ -82,22 +82,22 @@ bool print_drives(int count) {
 }
 
 bool print_soak(double minutes) {
-  const gates::TestVessel vessel = gates::test_vessel();
-  gates::Rehearsal run(vessel, true);
+  const app::gates::TestVessel vessel = app::gates::test_vessel();
+  app::gates::Rehearsal run(vessel, true);
   core::PenetrationOracle truth(vessel.wall);
-  gates::Holding all;
+  app::gates::Holding all;
   double first_MiB = 0;
   bool bounded = true;
   const long steps = std::lround(60e3 * minutes);
   for (long minute = 0; minute * 60'000 < steps; ++minute) {
-    gates::Holding holding;
+    app::gates::Holding holding;
     double energy_J = 0;
     for (long n = minute * 60'000; n < std::min(steps, (minute + 1) * 60'000); ++n) {
-      gates::follow_script(1e-3 * static_cast<double>(n), run);
+      app::gates::follow_script(1e-3 * static_cast<double>(n), run);
       run.step(beats_per_min);
       energy_J = std::max(energy_J, kinetic_J(run));
       if (run.report.trouble & ~static_cast<unsigned>(feed_stopped)) ++holding.troubled;
-      if (n % 20 == 19) gates::judge(run, truth, n % 2000 == 1999, holding);
+      if (n % 20 == 19) app::gates::judge(run, truth, n % 2000 == 1999, holding);
     }
     if (minute == 0) first_MiB = memory_MiB();
     fmt::print("minute {:3}: {:.4f} mm, {} outside, {} steps in trouble, kinetic energy up to {:.2g} mJ, {:.0f} MiB\n",

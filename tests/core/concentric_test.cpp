@@ -200,7 +200,7 @@ TEST(Concentric, AgreesWithTheBindingOfRods) {
   model.nestings = {{0, 1}};
   model.gravity_W.setZero();
   EndState rolled;
-  rolled.q_W = gates::turned_frame(rolled.q_W, {0, 0, roll});
+  rolled.q_W = turned_frame(rolled.q_W, {0, 0, roll});
   State state = make_state(model, {EndState{}, rolled});
   Scratch scratch(model);
   Inputs inputs;

@@ -20,14 +20,13 @@ namespace ostium::core {
 namespace {
 
 using Eigen::Vector3d;
-using gates::along_x;
 
 using units::pi;
 
 SurfaceDescription straight_tube(double radius_m) {
-  std::vector<gates::TubePoint> points;
+  std::vector<TubePoint> points;
   for (int i = -2; i <= 30; ++i) points.push_back({Vector3d(0.01 * i, 0, 0), radius_m});
-  return gates::tube(points, 48);
+  return tube(points, 48);
 }
 
 TEST(Triangle, TheNearestPointIsNoFartherThanAnyOther) {
@@ -119,7 +118,7 @@ TEST(Surface, WhatSwaysIsWhereItsDisplacementsSay) {
         double nearest_m = 1;
         for (int c : found) {
           const ClusterPose& it = pose_of(surface, c, pose);
-          nearest_m = std::min(nearest_m, nearest_corner_m(sway == before ? it.before : it.after, p));
+          nearest_m = std::min(nearest_m, test::nearest_corner_m(sway == before ? it.before : it.after, p));
         }
         EXPECT_LT(nearest_m, 1e-7) << "vertex " << v << " from " << before << " to " << after;
       }
@@ -144,8 +143,8 @@ TEST(Surface, WhatStandsStillIsWhereItIsShifted) {
     double off_before = 1, off_after = 1;
     for (int c = 0; c < static_cast<int>(surface.clusters.size()); ++c) {
       EXPECT_TRUE(surface.clusters[c].stands_still || own != d.frames[0][v]);
-      off_before = std::min(off_before, nearest_corner_m(pose_of(surface, c, pose).before, own + before));
-      off_after = std::min(off_after, nearest_corner_m(pose_of(surface, c, pose).after, own + after));
+      off_before = std::min(off_before, test::nearest_corner_m(pose_of(surface, c, pose).before, own + before));
+      off_after = std::min(off_after, test::nearest_corner_m(pose_of(surface, c, pose).after, own + after));
     }
     EXPECT_LT(off_before, 1e-7) << what;
     EXPECT_LT(off_after, 1e-7) << what;
@@ -182,7 +181,7 @@ TEST(Surface, RefusesWhatIsNoWall) {
 /// it and stays inside; the tube's middle is known in closed form.
 TEST(Contact, AWireGoesWithAWallThatSways) {
   Model model;
-  RodDescription d = gates::steel_wire({.elements = 200, .length_m = 0.2});
+  RodDescription d = steel_wire({.elements = 200, .length_m = 0.2});
   d.damping.drag_across_N_s_m2 = 1;
   model.rods = {make_rod(d)};
   model.surfaces = {std::make_shared<Surface>(make_surface(swaying_tube(2e-3)))};
@@ -212,7 +211,7 @@ TEST(Contact, ASoftWallYields) {
   SurfaceDescription wall = straight_tube(2e-3);
   wall.stiffness_N_m2 = 300;
   Model model;
-  RodDescription d = gates::steel_wire({.elements = 100, .length_m = 0.2});
+  RodDescription d = steel_wire({.elements = 100, .length_m = 0.2});
   d.damping.drag_across_N_s_m2 = 1;
   model.rods = {make_rod(d)};
   model.surfaces = {std::make_shared<Surface>(make_surface(wall))};
@@ -236,11 +235,11 @@ TEST(Contact, ASoftWallYields) {
 /// What slides along a wall without friction feels nothing of the edges between its triangles, however fast it passes
 /// them: at 100 mm/s half of a triangle's length in a step.
 TEST(Contact, EdgesOfASmoothWallAreNotFelt) {
-  std::vector<gates::TubePoint> points;
+  std::vector<TubePoint> points;
   for (double x = -5e-3; x < 80e-3; x += 0.2e-3) points.push_back({Vector3d(x, 0, 0), 1.5e-3});
-  const SurfaceDescription wall = gates::tube(points, 32);
+  const SurfaceDescription wall = tube(points, 32);
   Model model;
-  RodDescription d = gates::steel_wire({.elements = 40, .length_m = 0.04});
+  RodDescription d = steel_wire({.elements = 40, .length_m = 0.04});
   d.sections[0].radius_m = 0.18e-3;
   model.rods = {make_rod(d)};
   model.surfaces = {std::make_shared<Surface>(make_surface(wall))};
@@ -281,7 +280,7 @@ SurfaceDescription brink() {
 /// A catheter that slides along a brink reaches faces beyond it, which turn their back to it: they are no walls of its.
 TEST(Contact, WhatLiesBeyondABrinkHoldsNothing) {
   Model model;
-  RodDescription d = gates::steel_wire({.elements = 20, .E_Pa = 1e9, .length_m = 0.02});
+  RodDescription d = steel_wire({.elements = 20, .E_Pa = 1e9, .length_m = 0.02});
   d.sections[0].radius_m = 1e-3;
   d.damping.drag_across_N_s_m2 = 1;
   model.rods = {make_rod(d)};
@@ -319,7 +318,7 @@ TEST(Contact, ADoorLetsThinInstrumentsThroughWhileItIsOpen) {
     wall.triangles.push_back({rim + j, rim + (j + 1) % around, rim + around});  // facing away from what comes
   }
   wall.door_passes_m = 0.46e-3;
-  const RodDescription thin = gates::steel_wire({.elements = 200, .E_Pa = 1e9, .length_m = 0.2, .gravity = false});
+  const RodDescription thin = steel_wire({.elements = 200, .E_Pa = 1e9, .length_m = 0.2, .gravity = false});
   RodDescription thick = thin;
   for (auto& section : thick.sections) section.radius_m = 0.47e-3;
   const auto tip_m = [&](const RodDescription& d, bool open, double push_s, double pull_s = 0) {

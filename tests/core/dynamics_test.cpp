@@ -13,11 +13,6 @@ namespace ostium::core {
 namespace {
 
 using Eigen::Vector3d;
-using gates::along_x;
-using gates::Bench;
-using gates::bench_of;
-using gates::steel_bench;
-using gates::steel_wire;
 using units::pi;
 
 const Section& section(const RodDescription& wire) { return wire.sections[0]; }

@@ -16,12 +16,9 @@ namespace ostium::core {
 namespace {
 
 using Eigen::Vector3d;
-using gates::along_x;
-using gates::Bench;
-using gates::steel_wire;
 
 Bench introducer(const RodDescription& wire, double inserted_m, bool gravity = true) {
-  Bench bench = gates::bench_of(wire, gravity);
+  Bench bench = bench_of(wire, gravity);
   bench.state = make_state(bench.model, {along_x()}, {inserted_m});
   return bench;
 }
@@ -142,7 +139,7 @@ TEST(Introducer, FeedsAtAnyAllowedSpeedAndLimitsTheRest) {
 TEST(Introducer, FingersCarryTheWeightInside) {
   Bench bench = introducer(damped_wire(), 0.2);
   EndState down;  // d3 along -z
-  down.q_W = gates::turned_frame({1, 0, 0, 0}, Vector3d(std::numbers::pi, 0, 0));
+  down.q_W = turned_frame({1, 0, 0, 0}, Vector3d(std::numbers::pi, 0, 0));
   bench.state = make_state(bench.model, {down}, {0.2});
   for (int ms = 0; ms < 100; ++ms) bench.step();
   const double weight = 0.2 * steel_wire({}).sections[0].kg_per_m * 9.81;

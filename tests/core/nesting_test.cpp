@@ -19,7 +19,6 @@ namespace ostium::core {
 namespace {
 
 using Eigen::Vector3d;
-using gates::along_x;
 
 RodDescription rod(double length_m, double EI_N_m2, double radius_m, double bore_m, int elements) {
   RodDescription d;

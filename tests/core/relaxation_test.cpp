@@ -13,7 +13,6 @@ namespace ostium::core {
 namespace {
 
 using Eigen::Vector3d;
-using gates::along_x;
 
 constexpr double rest_per_m = 8, EI = 1e-3, step_s = 1e-3;
 

@@ -15,12 +15,11 @@ namespace ostium::core {
 namespace {
 
 using Eigen::Vector3d;
-using gates::along_x;
 
 constexpr double radius_m = 0.45e-3, EI_N_m2 = 60e9 * std::numbers::pi / 4 * radius_m * radius_m * radius_m * radius_m;
 
 RodDescription wire(double length_m, int elements) {
-  RodDescription d = gates::steel_wire({.elements = elements, .length_m = length_m, .gravity = false});
+  RodDescription d = steel_wire({.elements = elements, .length_m = length_m, .gravity = false});
   d.damping.drag_across_N_s_m2 = d.damping.drag_along_N_s_m2 = 0.3;
   return d;
 }
@@ -53,7 +52,7 @@ struct Crossed {
   }
   static std::vector<EndState> bases() {
     EndState lower = along_x(), upper = along_x();
-    upper.q_W = gates::turned_frame(upper.q_W, Vector3d(0, 0, std::numbers::pi / 2));
+    upper.q_W = turned_frame(upper.q_W, Vector3d(0, 0, std::numbers::pi / 2));
     upper.p_W = Vector3d(middle_m, -middle_m, gap_m + 2 * radius_m);
     return {lower, upper};
   }
@@ -116,7 +115,7 @@ TEST(Rods, WithoutContactTheyPassThroughEachOther) {
 
 /// A wire is bent into a loop, its end above its beginning and across it, and then pressed down by twice its height.
 double nearest_of_own(bool touch, double* push_N) {
-  gates::Bench bench = gates::bench_of(wire(0.3, 150), false);
+  Bench bench = bench_of(wire(0.3, 150), false);
   Model model = bench.model;
   model.rods_touch = touch;
   State state = make_state(model, {along_x()});

@@ -12,10 +12,6 @@ namespace ostium::core {
 namespace {
 
 using Eigen::Vector3d;
-using gates::along_x;
-using gates::Bench;
-using gates::bench_of;
-using gates::steel_wire;
 
 /// Constant rest curvature and twist without load make a helix of radius k / (k^2 + t^2) and pitch 2 pi t / (k^2 +
 /// t^2).
@@ -95,7 +91,7 @@ TEST(Statics, TwoGuidedEndsStayOnTheirLines) {
   RodState& rod = bench.rod();
   bench.inputs.rods[0].base.hold = Hold::guided;
   bench.inputs.rods[0].tip.hold = Hold::guided;
-  rod.tip.q_W = gates::turned_frame(along_x().q_W, Vector3d(0, std::numbers::pi / 2, 0));  // d3 along -z
+  rod.tip.q_W = turned_frame(along_x().q_W, Vector3d(0, std::numbers::pi / 2, 0));  // d3 along -z
   ASSERT_TRUE(bench.settle().converged);
   EXPECT_LT(rod.position[0].tail<2>().norm(), 1e-9);  // on x
   EXPECT_NEAR(bench.tip().x(), 0.3, 1e-9);            // on a vertical

@@ -18,8 +18,6 @@ namespace ostium::core {
 namespace {
 
 using Eigen::Vector3d;
-using gates::along_x;
-using gates::steel_wire;
 
 /// Three unlike rods, so that full and half registers and a lonely third are all exercised.
 Model three_rods() {
@@ -324,7 +322,7 @@ TEST(BadInput, AllHoldsThrownAtRandomStayFinite) {
 TEST(BadInput, OverTwistedSlackRodRecovers) {
   RodDescription wire = steel_wire({.elements = 200, .length_m = 0.3});
   wire.damping.drag_across_N_s_m2 = 0.007, wire.damping.drag_along_N_s_m2 = 0.0035;
-  gates::Bench bench = gates::bench_of(wire, false);
+  Bench bench = bench_of(wire, false);
   RodInputs& in = bench.inputs.rods[0];
   const auto run = [&](int ms) {
     int troubled = 0;
@@ -347,7 +345,7 @@ TEST(BadInput, OverTwistedSlackRodRecovers) {
 }
 
 TEST(BadInput, PullingATautRodApartAndOverturningJointsAreFlagged) {
-  gates::Bench bench = gates::steel_bench({.elements = 16, .gravity = false});
+  Bench bench = steel_bench({.elements = 16, .gravity = false});
   RodInputs& in = bench.inputs.rods[0];
   in.tip.hold = Hold::clamped;
   in.tip.velocity_W_m_s = Vector3d(1e-3, 0, 0);

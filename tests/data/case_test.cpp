@@ -128,9 +128,9 @@ fs::path imported_case(const std::string& lumen_name = "lumen.ply") {
   fs::create_directories(folder);
   vascular::Anatomy anatomy;
   anatomy.aorta = false;
-  anatomy.tubes = {make_tube("LAD", -1, {{{0, 0, 0}, 2e-3}, {{0.03, 0, 0}, 1.8e-3}, {{0.06, 0, 0}, 1.6e-3}})};
+  anatomy.tubes = {vascular::make_tube("LAD", -1, {{{0, 0, 0}, 2e-3}, {{0.03, 0, 0}, 1.8e-3}, {{0.06, 0, 0}, 1.6e-3}})};
   anatomy.branches = {{"LAD", 0, 0, anatomy.tubes[0].length_m()}};
-  anatomy.landmarks = build_anatomy({}).landmarks;
+  anatomy.landmarks = vascular::build_anatomy({}).landmarks;
   write_file((folder / "anatomy.json").string(), anatomy_to_json(anatomy));
   write_mesh((folder / "lumen.ply").string(), contour(vascular::TubeUnion(anatomy.tubes)).mesh,
              vascular::LengthUnit::millimetre);
@@ -154,7 +154,7 @@ TEST(Case, AnImportedOneIsACaseLikeAnyOther) {
   const vascular::Patient patient = patient_of(c);
   EXPECT_EQ(patient.lumen.triangles.size(), c.imported->lumen.triangles.size());
   EXPECT_EQ(patient.lumen.moving, patient.lumen.vertices());  // an LAD beats
-  EXPECT_EQ(patient.tree_frames.size(), static_cast<std::size_t>(beat_frames));
+  EXPECT_EQ(patient.tree_frames.size(), static_cast<std::size_t>(vascular::beat_frames));
   // The lesion that was put in: 70 % in its middle, nothing away from it.
   for (const vascular::TreeSphere& sphere : patient.tree.branches[0].spheres) {
     const double healthy = c.imported->anatomy.tubes[0].at(sphere.p.x()).radius_m;

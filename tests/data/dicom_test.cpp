@@ -37,7 +37,7 @@ fluoro::CineRun ramp(std::size_t frames, int width, int height) {
   out.view.arm.lao_rad = -30 * degree;
   out.view.arm.cran_rad = -20 * degree;
   out.view.pixels = width;
-  out.programme = cine(15);
+  out.programme = fluoro::cine(15);
   out.exposure.tube.peak_kV = 78;
   for (std::size_t f = 0; f < frames; ++f) {
     fluoro::Picture picture{width, height, std::vector<std::uint8_t>(std::size_t(width * height))};

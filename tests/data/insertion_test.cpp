@@ -32,7 +32,7 @@ MeasurementSet wire_in(const core::SurfaceDescription& wall, int experiments, do
 
 /// A wide tube: the wire hangs free in it, and comes to rest where statics has it.
 TEST(Insertion, AWireThatTouchesNothingComesToRestAsAFreeOne) {
-  const auto wide = gates::tube({{{-0.01, 0, 0}, 0.1}, {{0.1, 0, 0}, 0.1}, {{0.3, 0, 0}, 0.1}}, 24);
+  const auto wide = core::tube({{{-0.01, 0, 0}, 0.1}, {{0.1, 0, 0}, 0.1}, {{0.3, 0, 0}, 0.1}}, 24);
   MeasurementSet set = wire_in(wide, 2, 0.16);
   const std::vector<PredictedShape> in_vessel = insert(set, {});
   set.vessel.reset();
@@ -47,8 +47,8 @@ TEST(Insertion, AWireThatTouchesNothingComesToRestAsAFreeOne) {
 
 /// A bent tube of 5 mm: the wire follows it, no point of it is outside, and friction costs push.
 TEST(Insertion, AWireStaysInABentTubeAndFrictionCostsPush) {
-  const auto points = gates::bend(0.05, 1.2, 0.06, 0.1, 2.5e-3, 2e-3);
-  const auto wall = gates::tube(points, 24);
+  const auto points = core::bend(0.05, 1.2, 0.06, 0.1, 2.5e-3, 2e-3);
+  const auto wall = core::tube(points, 24);
   MeasurementSet set = wire_in(wall, 2, 0.15);
   for (core::Section& s : set.instruments[0].sections) s.rest_curvature_per_m.setZero();
   std::vector<double> push;
@@ -71,7 +71,7 @@ TEST(Insertion, AWireStaysInABentTubeAndFrictionCostsPush) {
 }
 
 TEST(Insertion, WhatAVesselDoesNotKnowIsRefused) {
-  const auto wide = gates::tube({{{-0.01, 0, 0}, 0.1}, {{0.3, 0, 0}, 0.1}}, 12);
+  const auto wide = core::tube({{{-0.01, 0, 0}, 0.1}, {{0.3, 0, 0}, 0.1}}, 12);
   MeasurementSet set = wire_in(wide, 2, 0.1);
   set.experiments[1].base.p_W.x() += 1e-3;
   EXPECT_THROW(predict(set), LoadError);

@@ -43,9 +43,9 @@ struct Pushed {
       e.set = {{length, 0, 0}};
       out.experiments.push_back(e);
     }
-    const auto points = gates::bend(tube.bend_radius_m, tube.angle_rad, tube.lead_m, 0.12, tube.radius_m, 1e-3);
+    const auto points = core::bend(tube.bend_radius_m, tube.angle_rad, tube.lead_m, 0.12, tube.radius_m, 1e-3);
     out.vessel = MeasuredVessel{"tube", "m", setting.friction,
-                                std::make_shared<const core::SurfaceDescription>(gates::tube(points, 48))};
+                                std::make_shared<const core::SurfaceDescription>(core::tube(points, 48))};
     return out;
   }
 };

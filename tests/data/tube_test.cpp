@@ -49,9 +49,9 @@ TEST(Tube, FrictionExplainsThePush) {
   set.instruments = {synthetic::declared(wire, "wire", 0.3)};
   set.gravity_m_s2 = {0, 0, -9.81};
   set.imaging.noise_sigma_m = 0.2 * mm;
-  const auto line = gates::bend(tube.bend_radius_m, tube.angle_rad, tube.lead_m, 0.12, tube.radius_m, 1e-3);
+  const auto line = core::bend(tube.bend_radius_m, tube.angle_rad, tube.lead_m, 0.12, tube.radius_m, 1e-3);
   set.vessel =
-      MeasuredVessel{"tube", "m", 0.05, std::make_shared<const core::SurfaceDescription>(gates::tube(line, 48))};
+      MeasuredVessel{"tube", "m", 0.05, std::make_shared<const core::SurfaceDescription>(core::tube(line, 48))};
   synthetic::Dice dice("push", 1);
   for (std::size_t k = 0; k < rests.size(); ++k) {
     ASSERT_TRUE(rests[k].converged);

@@ -76,9 +76,9 @@ Undeclared undeclared_in_tube(const std::string& kind, unsigned seed) {
   set.instruments = {declared(wire, "instrument", 0.4)};
   set.gravity_m_s2 = {0, 0, -9.81};
   set.imaging.noise_sigma_m = (catheter ? dice.uniform(0.06, 0.12) : dice.uniform(0.1, 0.2)) * mm;
-  const auto points = gates::bend(tube.bend_radius_m, tube.angle_rad, tube.lead_m, 0.12, tube.radius_m, 1e-3);
+  const auto points = core::bend(tube.bend_radius_m, tube.angle_rad, tube.lead_m, 0.12, tube.radius_m, 1e-3);
   set.vessel = data::MeasuredVessel{"tube.ply", "m", friction,
-                                    std::make_shared<const core::SurfaceDescription>(gates::tube(points, 48))};
+                                    std::make_shared<const core::SurfaceDescription>(core::tube(points, 48))};
 
   pushed_chain::Setting setting{friction, {base_x_m, 0}, 9.81, segment_m};
   for (std::size_t i = 0; i < wire.pieces.size(); ++i)

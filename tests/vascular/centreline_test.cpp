@@ -1,4 +1,5 @@
 /// Centrelines found in a mesh, against those that the mesh was made from.
+#include "vascular/anatomy/anatomy.h"
 #include "vascular/geometry/centreline/centreline.h"
 
 #include <gtest/gtest.h>

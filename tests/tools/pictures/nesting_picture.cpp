@@ -37,7 +37,7 @@ void panel(data::Drawing& drawing, const Vector2d& corner, const std::string& wo
   core::Model model;
   model.gravity_W.setZero();
   model.rods = {rod_of(catheter, catheter_m), rod_of(wire, catheter_m + protrudes_m)};
-  const std::vector<core::EndState> bases(2, gates::along_x());
+  const std::vector<core::EndState> bases(2, core::along_x());
   const auto show = [&](const core::State& state, bool with_catheter, bool with_wire, double y) {
     const Vector2d origin = corner + Vector2d(4, y);
     if (with_catheter) drawing.line(drawn(state.rods[0], origin), "#9bc", 1.6);

@@ -22,7 +22,7 @@ std::vector<Vector2d> projected(const core::RodState& rod, Project&& project) {
 
 void falling_wire(data::Drawing& drawing) {
   const auto project = [](const Vector3d& p) { return Vector2d(62 + 68 * p.x(), 18 - 68 * p.z()); };
-  gates::Bench bench = gates::steel_bench({.elements = 512});
+  core::Bench bench = core::steel_bench({.elements = 512});
   drawing.text({6, 7}, "1 m of steel wire, let go: every 50 ms for 0.8 s");
   drawing.text({6, 12}, "red: converged reference at 0.3 and 0.8 s", 3);
   for (int ms = 0; ms <= 800; ++ms) {
@@ -38,11 +38,11 @@ void falling_wire(data::Drawing& drawing) {
 }
 
 void writhing_ring(data::Drawing& drawing) {
-  gates::Bench bench = gates::steel_bench({.elements = 128, .gravity = false});
+  core::Bench bench = core::steel_bench({.elements = 128, .gravity = false});
   const core::Rod& rod = bench.model.rods[0];
   const Vector3d stiffness = stiffness_at_rest(rod, 1);
   const double critical = 2 * std::numbers::pi * std::sqrt(3.0) * stiffness[0] / stiffness[2];
-  gates::lay_out_ring(rod, 1.3 * critical, bench.rod());
+  core::lay_out_ring(rod, 1.3 * critical, bench.rod());
   bench.inputs.rods[0].tip.hold = core::Hold::clamped;
   for (int i = 32; i < 64; ++i) bench.rod().velocity.set(i, Vector3d(0, 0.01, 0));
   drawing.text({142, 7}, "a ring, twisted 1.3 times beyond its stability");
