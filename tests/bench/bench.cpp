@@ -29,12 +29,12 @@ std::string processor() {
   return "unknown";
 }
 
-void print_json(const std::vector<core::Row>& rows, double yardstick) {
+void print_json(const std::vector<Row>& rows, double yardstick) {
   nlohmann::ordered_json out;
   out["machine"] = {
       {"processor", processor()}, {"cores", std::thread::hardware_concurrency()}, {"compiler", "g++ " __VERSION__}};
   out["rows"] = nlohmann::json::array();
-  for (const core::Row& r : rows)
+  for (const Row& r : rows)
     out["rows"].push_back(
         {{"name", r.name},
          {"ms", r.ms},
@@ -44,10 +44,10 @@ void print_json(const std::vector<core::Row>& rows, double yardstick) {
   fmt::print("{}\n", out.dump(2));
 }
 
-void print_table(const std::vector<core::Row>& rows, double yardstick) {
-  const auto of = [&](const core::Row& r) { return r.yardstick_ms > 0 ? r.yardstick_ms : yardstick; };
+void print_table(const std::vector<Row>& rows, double yardstick) {
+  const auto of = [&](const Row& r) { return r.yardstick_ms > 0 ? r.yardstick_ms : yardstick; };
   fmt::print("{:<16} {:>9} {:>9} {:>10} {:>7}   {}\n", "ms of CPU", "mean", "p99.9", "yardstick", "ratio", "gate");
-  for (const core::Row& r : rows)
+  for (const Row& r : rows)
     fmt::print("{:<16} {:>9.4f} {:>9.4f} {:>10.2f} {:>7.0f}   {} {:.3g} {} {}\n", r.name, r.ms, r.p999_ms, of(r),
                of(r) / r.ms, r.gate.name, r.gate.value, r.gate.unit, r.gate.pass ? "pass" : "FAIL");
 }
@@ -88,14 +88,14 @@ int main(int argc, char** argv) {
     return 0;
   }
   if (frames_only) {
-    const std::vector<core::Row> frames{frame_row("frame-512", 512, false, quick),
-                                        frame_row("frame-512-rotating", 512, true, quick),
-                                        frame_row("frame-1024", 1024, false, quick)};
+    const std::vector<Row> frames{frame_row("frame-512", 512, false, quick),
+                                  frame_row("frame-512-rotating", 512, true, quick),
+                                  frame_row("frame-1024", 1024, false, quick)};
     json ? print_json(frames, 0) : print_table(frames, 0);
     return 0;
   }
   if (physiology_only) {
-    const std::vector<core::Row> rows{circulation_row(quick), treatment_row(quick)};
+    const std::vector<Row> rows{circulation_row(quick), treatment_row(quick)};
     json ? print_json(rows, 0) : print_table(rows, 0);
     return 0;
   }
@@ -112,13 +112,13 @@ int main(int argc, char** argv) {
   }
   if (!json) fmt::print(stderr, "yardstick: finding its largest stable step ...\n");
   const double yardstick = yardstick_ms(quick);
-  std::vector<core::Row> rows;
+  std::vector<Row> rows;
   for (auto [name, elements] : {std::pair{"rod-512-free", 512}, std::pair{"rod-4096-free", 4096}}) {
     if (!json) fmt::print(stderr, "{} ...\n", name);
     rows.push_back(free_rod(name, elements, duration));
   }
   if (!json) fmt::print(stderr, "nested rods ...\n");
-  for (const core::Row& row : nested_rods(duration)) rows.push_back(row);
+  for (const Row& row : nested_rods(duration)) rows.push_back(row);
   if (!json) fmt::print(stderr, "guide and wire in a vessel ...\n");
   rows.push_back(vessel_pair("pair-in-vessel", quick));
   if (!json) fmt::print(stderr, "frames ...\n");

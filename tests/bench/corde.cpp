@@ -70,11 +70,11 @@ void Corde::step() {
   measure_elements();
   bend_joints();
   align_frames();
-  if (settings_.stretch == app::Stretch::penalty || settings_.stretch_friction_N_s > 0.0) pull_elements();
+  if (settings_.stretch == Stretch::penalty || settings_.stretch_friction_N_s > 0.0) pull_elements();
   if (settings_.rotation_friction_N_m2_s > 0.0) rub_joints();
   integrate_forces();
-  if (settings_.stretch == app::Stretch::global) solve_distances_globally();
-  if (settings_.stretch == app::Stretch::local)
+  if (settings_.stretch == Stretch::global) solve_distances_globally();
+  if (settings_.stretch == Stretch::local)
     for (int k = 0; k < settings_.local_sweeps; ++k) solve_distances_locally();
   integrate_velocities();
 }
@@ -137,7 +137,7 @@ void Corde::bend_joints() {
 /// Tension of eq. 2, K_s (|r'| - 1) with |r'| = |r_{i+1} - r_i| / l, and of CoRdE's friction along the tangent.
 void Corde::pull_elements() {
   const int n = settings_.elements;
-  const double K_s = settings_.stretch == app::Stretch::penalty ? settings_.stretch_Pa * area(settings_) : 0.0;
+  const double K_s = settings_.stretch == Stretch::penalty ? settings_.stretch_Pa * area(settings_) : 0.0;
   const double friction = settings_.stretch_friction_N_s;
 #pragma GCC ivdep
   for (int i = 0; i < n; ++i) {
@@ -284,7 +284,7 @@ Eigen::Vector3d Corde::moment_N_m(int element) const {
 
 double Corde::energy_J() const {
   double energy = 0.0;
-  const double K_s = settings_.stretch == app::Stretch::penalty ? settings_.stretch_Pa * area(settings_) : 0.0;
+  const double K_s = settings_.stretch == Stretch::penalty ? settings_.stretch_Pa * area(settings_) : 0.0;
   for (int i = 1; i <= settings_.elements; ++i) {
     const Eigen::Vector3d v(vx_[i], vy_[i], vz_[i]), moved = position(i) - Eigen::Vector3d(i * l_, 0.0, 0.0);
     energy += (0.5 * v.squaredNorm() - settings_.gravity_m_s2.dot(moved)) / w_[i];
@@ -374,7 +374,7 @@ double stretch_percent(const CordeSettings& s, double duration_s) {
   return most;
 }
 
-CordeSettings soft_rod(int elements, double step_s, app::Stretch stretch, int local_sweeps) {
+CordeSettings soft_rod(int elements, double step_s, Stretch stretch, int local_sweeps) {
   CordeSettings s;
   s.elements = elements;
   s.length_m = 1.0 * elements;

@@ -153,22 +153,22 @@ TEST(Corde, StepIsLimitedByTwistAndFailsBeyond) {
 TEST(Corde, ManyLocalSweepsBecomeTheGlobalSolve) {
   CordeSettings s = test_rod(8, 2e-5);
   Corde global(s);
-  s.stretch = app::Stretch::local, s.local_sweeps = 500;
+  s.stretch = Stretch::local, s.local_sweeps = 500;
   Corde local(s);
   for (int i = 0; i < 5000; ++i) global.step(), local.step();
   for (int i = 0; i <= 8; ++i) EXPECT_NEAR((global.position(i) - local.position(i)).norm(), 0.0, 1e-9);
 }
 
 TEST(Corde, LocalStretchGrowsWithElementsAndWithTheStepSquared) {
-  const auto stretch = [](int n, double step_s, app::Stretch kind) {
+  const auto stretch = [](int n, double step_s, Stretch kind) {
     const CordeSettings s = soft_rod(n, step_s, kind);
     return stretch_percent(s, swing_s(s));
   };
-  const double one = stretch(64, 2.5e-3, app::Stretch::local);
-  EXPECT_NEAR(stretch(128, 2.5e-3, app::Stretch::local) / one, 2.0, 0.4);
-  EXPECT_NEAR(stretch(64, 1.25e-3, app::Stretch::local) / one, 0.25, 0.05);
-  EXPECT_LT(stretch(64, 2.5e-3, app::Stretch::global), 0.01 * one);
-  EXPECT_GT(stretch(64, 2.5e-3, app::Stretch::penalty), 0.05 * one);
+  const double one = stretch(64, 2.5e-3, Stretch::local);
+  EXPECT_NEAR(stretch(128, 2.5e-3, Stretch::local) / one, 2.0, 0.4);
+  EXPECT_NEAR(stretch(64, 1.25e-3, Stretch::local) / one, 0.25, 0.05);
+  EXPECT_LT(stretch(64, 2.5e-3, Stretch::global), 0.01 * one);
+  EXPECT_GT(stretch(64, 2.5e-3, Stretch::penalty), 0.05 * one);
 }
 
 }  // namespace

@@ -40,7 +40,7 @@ fluoro::View view_of(int pixels) {
 
 struct Session {
   fluoro::Scene scene = bench_scene();
-  fluoro::Imager imager{{}, make_scanline_renderer()};
+  fluoro::Imager imager{{}, fluoro::make_scanline_renderer()};
   fluoro::FluoroscopeState state;
   fluoro::DisplayScratch scratch;
   fluoro::View view;

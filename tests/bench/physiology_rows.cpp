@@ -38,10 +38,10 @@ void set_gate(const std::vector<data::GateResult>& results, const std::string& n
 
 Row circulation_row(bool quick) {
   Row row{.name = "flow-contrast-frame", .gate = {}};
-  const data::Case c = find_case("rca-mid-focal");
-  const vascular::Patient patient = make_patient(c.anatomy, c.lesions);
+  const data::Case c = data::find_case("rca-mid-focal");
+  const vascular::Patient patient = vascular::make_patient(c.anatomy, c.lesions);
   const vascular::PhysiologyModel model = make_physiology(patient);
-  vascular::PhysiologyState state = at_rest(model, c.rate_1_min, 5);
+  vascular::PhysiologyState state = app::at_rest(model, c.rate_1_min, 5);
   vascular::PhysiologyScratch scratch;
   vascular::PhysiologyInputs inputs;
   const vascular::FlowTree& tree = model.flow.tree;
@@ -62,10 +62,10 @@ Row circulation_row(bool quick) {
 
 Row treatment_row(bool quick) {
   Row row{.name = "balloon-stent-step", .gate = {}};
-  const data::Case c = find_case("rca-mid-focal");
-  const vascular::Patient patient = make_patient(c.anatomy, c.lesions);
+  const data::Case c = data::find_case("rca-mid-focal");
+  const vascular::Patient patient = vascular::make_patient(c.anatomy, c.lesions);
   const vascular::PhysiologyModel physiology = make_physiology(patient);
-  const app::Treatable t = plan_treatment(patient, physiology.flow, 0);
+  const app::Treatable t = app::plan_treatment(patient, physiology.flow, 0);
   vascular::PhysiologyState blood = make_state(physiology);
   vascular::TreatmentState state = make_state(t.model, physiology.flow.tree);
   vascular::TreatmentScratch scratch;

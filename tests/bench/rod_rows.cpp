@@ -92,9 +92,9 @@ core::Model nested(int rods, int elements) {
     d.element_lengths_m = equal_elements(d.sections, elements);
     d.damping = {0.007, 0.0035, 1e-3};
     all.push_back(static_cast<int>(model.rods.size()));
-    model.rods.push_back(make_rod(d));
+    model.rods.push_back(core::make_rod(d));
   }
-  model.nestings = coaxial(all);
+  model.nestings = core::coaxial(all);
   return model;
 }
 

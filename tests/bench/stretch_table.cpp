@@ -30,12 +30,11 @@ double our_stretch_percent(int elements, double step_s) {
 void print_stretch_table(bool quick) {
   struct Method {
     const char* name;
-    app::Stretch kind;
+    Stretch kind;
     int sweeps;
   };
-  const Method methods[] = {{"1G", app::Stretch::global, 1},  {"1L", app::Stretch::local, 1},
-                            {"5L", app::Stretch::local, 5},   {"10L", app::Stretch::local, 10},
-                            {"50L", app::Stretch::local, 50}, {"1I", app::Stretch::penalty, 1}};
+  const Method methods[] = {{"1G", Stretch::global, 1},  {"1L", Stretch::local, 1},   {"5L", Stretch::local, 5},
+                            {"10L", Stretch::local, 10}, {"50L", Stretch::local, 50}, {"1I", Stretch::penalty, 1}};
   fmt::print(
       "largest stretch of a swinging rod, % (thesis, figure 3.6): the yardstick with a soft rod, one global (1G), "
       "local\n"

@@ -96,7 +96,7 @@ bool print_soak(double minutes) {
       app::gates::follow_script(1e-3 * static_cast<double>(n), run);
       run.step(beats_per_min);
       energy_J = std::max(energy_J, kinetic_J(run));
-      if (run.report.trouble & ~static_cast<unsigned>(feed_stopped)) ++holding.troubled;
+      if (run.report.trouble & ~static_cast<unsigned>(core::feed_stopped)) ++holding.troubled;
       if (n % 20 == 19) app::gates::judge(run, truth, n % 2000 == 1999, holding);
     }
     if (minute == 0) first_MiB = memory_MiB();

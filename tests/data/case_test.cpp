@@ -132,7 +132,7 @@ fs::path imported_case(const std::string& lumen_name = "lumen.ply") {
   anatomy.branches = {{"LAD", 0, 0, anatomy.tubes[0].length_m()}};
   anatomy.landmarks = vascular::build_anatomy({}).landmarks;
   write_file((folder / "anatomy.json").string(), anatomy_to_json(anatomy));
-  write_mesh((folder / "lumen.ply").string(), contour(vascular::TubeUnion(anatomy.tubes)).mesh,
+  write_mesh((folder / "lumen.ply").string(), vascular::contour(vascular::TubeUnion(anatomy.tubes)).mesh,
              vascular::LengthUnit::millimetre);
   std::string text = small_case;
   const auto replace = [&](const std::string& from, const std::string& to) {

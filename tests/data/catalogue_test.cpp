@@ -96,7 +96,7 @@ TEST(Catalogue, EveryInstrumentIsARodForCore) {
   for (const Instrument& i : load_catalogue()) {
     SCOPED_TRACE(i.name);
     const int millimetres = static_cast<int>(std::lround(1e3 * i.length_m));  // a J tip wants elements as short as that
-    const core::Rod rod = make_rod(rod_description(i, equal_elements(i.sections, millimetres)));
+    const core::Rod rod = core::make_rod(rod_description(i, equal_elements(i.sections, millimetres)));
     EXPECT_NEAR(rod.total_length_m, i.length_m, 1e-9);
     EXPECT_GE(i.sources.size(), 3u);
     // Tips are softer than shafts, but for the plain tube of a sheath.

@@ -45,13 +45,14 @@ void expect_words(const std::string& message, std::initializer_list<const char*>
 
 TEST(InstrumentDesign, WithoutABlockAllIsAsBefore) {
   const Instrument plain = read_instrument("stent-30x18.json", shipped("stent-30x18"));
-  const vascular::StentModel stent = make_stent(plain.stent->nominal_m, plain.stent->length_m, plain.stent->design);
+  const vascular::StentModel stent =
+      vascular::make_stent(plain.stent->nominal_m, plain.stent->length_m, plain.stent->design);
   EXPECT_EQ(stent.crowns, 6);
   EXPECT_EQ(stent.rings, 14);
   EXPECT_EQ(stent.links, 3);
   EXPECT_EQ(stent.strut_m, 81e-6);
   EXPECT_EQ(stent.hoop_Pa, 30 * 101325);
-  EXPECT_EQ(make_stent(3.5e-3, 18e-3).crowns, 9);
+  EXPECT_EQ(vascular::make_stent(3.5e-3, 18e-3).crowns, 9);
   EXPECT_FALSE(plain.balloon->own_folds);
   const vascular::BalloonModel balloon = make_balloon(vascular::Compliance::semi, 3e-3, 18.5e-3, plain.balloon->design);
   EXPECT_EQ(balloon.growth_m_Pa, 0.25e-3 / 6 / 101325);
@@ -62,7 +63,8 @@ TEST(InstrumentDesign, ADesignOfOnesOwn) {
   const Instrument made = read_instrument(
       "stent-30x18.json", stent_with(R"("crowns": 8, "rings": 12, "links": 2, "strut_mm": 0.06, "hoop_atm": 24,
       "yield_strain": 0.05, "source": "a test")"));
-  const vascular::StentModel stent = make_stent(made.stent->nominal_m, made.stent->length_m, made.stent->design);
+  const vascular::StentModel stent =
+      vascular::make_stent(made.stent->nominal_m, made.stent->length_m, made.stent->design);
   EXPECT_EQ(stent.crowns, 8);
   EXPECT_EQ(stent.rings, 12);
   EXPECT_EQ(stent.links, 2);

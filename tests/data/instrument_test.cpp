@@ -17,7 +17,7 @@ namespace {
 /// The tip of the distal `length_m` at rest, in the frame of the material there: (d1, d2, d3).
 Eigen::Vector3d tip_at_rest(const Instrument& instrument, double length_m, int elements = 1024) {
   core::Model model;
-  model.rods = {make_rod(rod_description(instrument, std::vector<double>(elements, length_m / elements)))};
+  model.rods = {core::make_rod(rod_description(instrument, std::vector<double>(elements, length_m / elements)))};
   const core::State state = make_state_at_rest_shape(model, {core::EndState{}});
   return state.rods[0].position[elements];
 }

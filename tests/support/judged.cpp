@@ -39,15 +39,15 @@ bool confusable(const std::vector<std::string>& a, const std::vector<std::string
     if (std::find(b.begin(), b.end(), id) == b.end()) x.push_back(id);
   for (const std::string& id : b)
     if (std::find(a.begin(), a.end(), id) == a.end()) y.push_back(id);
-  return x.size() == 1 && y.size() == 1 && often_confused(x[0], y[0]);
+  return x.size() == 1 && y.size() == 1 && data::often_confused(x[0], y[0]);
 }
 
 /// As files, as anyone's would be.
 data::MeasurementSet as_read(const data::MeasurementSet& set, const std::string& kind, unsigned seed) {
-  if (!set.vessel) return read_measurement("measurement.json", to_json(set));
+  if (!set.vessel) return data::read_measurement("measurement.json", to_json(set));
   const std::filesystem::path folder = std::filesystem::temp_directory_path() /
                                        fmt::format("ostium-{}-{}-{}", kind.substr(kind.find(':') + 1), seed, getpid());
-  const data::MeasurementSet out = load_measurement(write_set(folder.string(), set));
+  const data::MeasurementSet out = data::load_measurement(write_set(folder.string(), set));
   std::filesystem::remove_all(folder);
   return out;
 }

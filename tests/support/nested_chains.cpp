@@ -15,7 +15,7 @@ using Eigen::Vector2d;
 using Eigen::VectorXd;
 
 constexpr double hold_N_m2 = 5e10;  // of a bore, per length: 10 N on a node go 0.4 um deep
-constexpr ChainDescent how{1e-10, 0.05, 400};
+constexpr test::ChainDescent how{1e-10, 0.05, 400};
 constexpr int load_steps = 10;
 
 Vector2d along(double angle) { return {std::cos(angle), std::sin(angle)}; }
@@ -142,7 +142,7 @@ class Pair {
   }
 
   bool minimise() {
-    return descend(
+    return test::descend(
         how, [this](const VectorXd& a) { return energy(a); },
         [this](VectorXd& gradient, MatrixXd& hessian) { linearise(gradient, hessian); }, angle_);
   }

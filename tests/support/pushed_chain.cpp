@@ -15,7 +15,7 @@ using Eigen::Vector2d;
 using Eigen::VectorXd;
 
 constexpr double smooth_m = 0.5e-6;  // of friction: what has slid less is thought to stick
-constexpr ChainDescent how{};
+constexpr test::ChainDescent how{};
 constexpr int most_rounds = 60;
 constexpr double force_tolerance = 1e-3;  // of the largest wall force
 
@@ -29,7 +29,7 @@ struct Offset {
   double bend_per_m = 0;  ///< of the line of equal distance: > 0 if its centre lies behind
 };
 
-Offset off_centreline(const vascular::Tube& tube, const Vector2d& p) {
+Offset off_centreline(const Tube& tube, const Vector2d& p) {
   const auto from_line = [](const Vector2d& start, const Vector2d& t, const Vector2d& q) {
     const double off = across(t).dot(q - start);
     return Offset{std::fabs(off), (off < 0 ? -1.0 : 1.0) * across(t), t, 0};
@@ -50,7 +50,7 @@ Offset off_centreline(const vascular::Tube& tube, const Vector2d& p) {
 /// Segments and nodes are counted from the tip: segment j leads from node j + 1 to node j, node n is the base.
 class BlockTridiagonal {
  public:
-  BlockTridiagonal(const vascular::Tube& tube, const Wire& wire, const Setting& setting)
+  BlockTridiagonal(const Tube& tube, const Wire& wire, const Setting& setting)
       : tube_(tube), wire_(wire), setting_(setting), h_(setting.segment_m) {}
 
   int size() const { return static_cast<int>(angle_.size()); }
@@ -182,7 +182,7 @@ class BlockTridiagonal {
 
   /// Downhill with the normal forces of friction held.
   bool minimise() {
-    return descend(
+    return test::descend(
         how, [this](const VectorXd& a) { return energy(a); },
         [this](VectorXd& gradient, MatrixXd& hessian) { linearise(gradient, hessian); }, angle_);
   }
@@ -203,7 +203,7 @@ class BlockTridiagonal {
     return true;  // as near as it comes
   }
 
-  const vascular::Tube& tube_;
+  const Tube& tube_;
   const Wire& wire_;
   const Setting& setting_;
   double h_;
@@ -214,7 +214,7 @@ class BlockTridiagonal {
 
 }  // namespace
 
-std::vector<Rest> push(const vascular::Tube& tube, const Wire& wire, const Setting& setting,
+std::vector<Rest> push(const Tube& tube, const Wire& wire, const Setting& setting,
                        const std::vector<double>& inserted) {
   BlockTridiagonal chain(tube, wire, setting);
   std::vector<Rest> out;

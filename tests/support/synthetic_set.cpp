@@ -204,7 +204,7 @@ std::string to_json(const data::MeasurementSet& set) {
 
 std::string write_set(const std::string& folder, const data::MeasurementSet& set) {
   const std::string file = folder + "/measurement.json";
-  write_file(file, to_json(set));
+  data::write_file(file, to_json(set));
   if (set.vessel)
     write_mesh(folder + "/" + set.vessel->mesh, {set.vessel->wall->frames[0], set.vessel->wall->triangles},
                vascular::LengthUnit::metre);

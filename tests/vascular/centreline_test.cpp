@@ -1,10 +1,10 @@
 /// Centrelines found in a mesh, against those that the mesh was made from.
-#include "vascular/anatomy/anatomy.h"
 #include "vascular/geometry/centreline/centreline.h"
 
 #include <gtest/gtest.h>
 
 #include "tests/vascular/shapes.h"
+#include "vascular/anatomy/anatomy.h"
 #include "vascular/geometry/implicit/contour.h"
 
 namespace ostium::vascular {

@@ -21,7 +21,7 @@ double nearest_found_m(const core::Surface& surface, const std::vector<int>& fou
   double nearest_m = 1;
   for (int c : found)
     for (const auto* corners : {&pose_of(surface, c, pose).before, &pose_of(surface, c, pose).after})
-      nearest_m = std::min(nearest_m, nearest_corner_m(*corners, p));
+      nearest_m = std::min(nearest_m, test::nearest_corner_m(*corners, p));
   return nearest_m;
 }
 
@@ -40,7 +40,7 @@ TEST(Surface, AQueryFindsWhatIsNearAtAnyMoment) {
     set_motion(surface, motion, pose);
     const auto& corner = vessel.wall.triangles[random() % vessel.wall.triangles.size()];
     const Vector3d p = vertex_at(vessel.wall, corner[0], n % 2 ? motion.frame_before : motion.frame_after);
-    const core::V3<double> q = from_eigen(p), pad{1e-4, 1e-4, 1e-4};
+    const core::V3<double> q = core::from_eigen(p), pad{1e-4, 1e-4, 1e-4};
     find_clusters(surface, q - pad, q + pad, pose, found);
     EXPECT_LT(nearest_found_m(surface, found, pose, p), 1e-6) << n;
   }
@@ -66,13 +66,13 @@ TEST(Surface, WhatBeatsAndSwaysIsFoundAtAnyMoment) {
     const int v = d.triangles[random() % d.triangles.size()][0];
     const Vector3d p = n % 2 ? vertex_at(d, v, motion.frame_before, motion.sway_before)
                              : vertex_at(d, v, motion.frame_after, motion.sway_after);
-    const core::V3<double> q = from_eigen(p), pad{1e-6, 1e-6, 1e-6};
+    const core::V3<double> q = core::from_eigen(p), pad{1e-6, 1e-6, 1e-6};
     find_clusters(surface, q - pad, q + pad, pose, found);
     EXPECT_LT(nearest_found_m(surface, found, pose, p), 1e-6) << n;
 
     motion.sway_before = motion.sway_after = 0;
     set_motion(surface, motion, pose), set_motion(still, motion, still_pose);
-    const core::V3<double> at = from_eigen(vertex_at(d, v, motion.frame_before)), wide{5e-3, 5e-3, 5e-3};
+    const core::V3<double> at = core::from_eigen(vertex_at(d, v, motion.frame_before)), wide{5e-3, 5e-3, 5e-3};
     find_clusters(surface, at - wide, at + wide, pose, found);
     find_clusters(still, at - wide, at + wide, still_pose, still_found);
     ASSERT_EQ(found, still_found);
@@ -106,11 +106,11 @@ TEST(Surface, VerticesArePlacedAnewAndBack) {
     core::SurfaceMotion motion;
     motion.frame_before = 0.37 * v, motion.frame_after = motion.frame_before + 0.2;
     set_motion(surface, motion, pose);
-    const core::V3<double> q = from_eigen(vertex_at(opened, v, motion.frame_before)), pad{1e-5, 1e-5, 1e-5};
+    const core::V3<double> q = core::from_eigen(vertex_at(opened, v, motion.frame_before)), pad{1e-5, 1e-5, 1e-5};
     find_clusters(surface, q - pad, q + pad, pose, found);
     double nearest_m = 1;
     for (int c : found)
-      nearest_m = std::min(nearest_m, nearest_corner_m(pose_of(surface, c, pose).before, to_eigen(q)));
+      nearest_m = std::min(nearest_m, test::nearest_corner_m(pose_of(surface, c, pose).before, to_eigen(q)));
     EXPECT_LT(nearest_m, 1e-6) << v;
   }
   place(vessel.wall);

@@ -33,7 +33,7 @@ const char* const at_the_ostium = R"({
 RunSetup setup(const char* breathing) {
   RunSetup out;
   set_vessel("rca-mid-focal", vascular::LengthUnit::millimetre, out);
-  set_script(read_script("at-the-ostium.json", at_the_ostium), out);
+  set_script(data::read_script("at-the-ostium.json", at_the_ostium), out);
   set_value("begin", "RCA", out);
   if (*breathing) set_value("breathing", breathing, out);
   return out;

@@ -13,7 +13,7 @@ namespace {
 RunSetup case_setup() {
   RunSetup setup;
   set_vessel("rca-mid-focal", vascular::LengthUnit::millimetre, setup);
-  set_script(find_script("iliac-wire"), setup);
+  set_script(data::find_script("iliac-wire"), setup);
   return setup;
 }
 
@@ -52,7 +52,8 @@ TEST(CaseVessel, TheHeartKeepsItsTime) {
   double previous = 0;
   std::uint64_t last_beat = 0;
   while (run.state.rods.step < 900 && run.tick()) {
-    EXPECT_NEAR(std::fmod(run.state.blood.heart.phase - previous + 1, 1), 1e-3 * phase_speed(previous, 90), 1e-9);
+    EXPECT_NEAR(std::fmod(run.state.blood.heart.phase - previous + 1, 1), 1e-3 * vascular::phase_speed(previous, 90),
+                1e-9);
     if (run.state.blood.heart.phase < previous) last_beat = run.state.rods.step;
     previous = run.state.blood.heart.phase;
   }

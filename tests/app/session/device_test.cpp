@@ -229,7 +229,7 @@ TEST(BoxDriver, PedalsButtonsPressureAndFlow) {
 TEST(BoxDriver, PressureInflatesAndFlowInjects) {
   RunSetup setup;
   set_vessel("rca-mid-focal", vascular::LengthUnit::millimetre, setup);
-  set_script(find_script("iliac-wire"), setup);
+  set_script(data::find_script("iliac-wire"), setup);
   setup.script = free_hands(setup.script);
   std::string warnings;
   device::EmulatedBox box{{}};

@@ -203,7 +203,7 @@ TEST(Handling, ACoronaryWireStaysBehindTheLesion) {
 RunSetup setup() {
   RunSetup out;
   set_vessel("rca-mid-focal", vascular::LengthUnit::millimetre, out);
-  set_script(find_script("rca-from-the-ostium"), out);
+  set_script(data::find_script("rca-from-the-ostium"), out);
   return out;
 }
 

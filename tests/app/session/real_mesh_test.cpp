@@ -15,7 +15,7 @@ namespace fs = std::filesystem;
 /// $OSTIUM_GEOMETRY, or shared/geometry beside this checkout; empty if there is none.
 fs::path geometry() {
   const char* given = std::getenv("OSTIUM_GEOMETRY");
-  const fs::path checkout = fs::path(data_folder()).parent_path();
+  const fs::path checkout = fs::path(data::data_folder()).parent_path();
   const fs::path folder = given ? fs::path(given) : checkout.parent_path() / "shared" / "geometry";
   return fs::is_directory(folder) ? folder : fs::path();
 }
@@ -31,7 +31,7 @@ TEST(RealMesh, AWireGoesUpAnAortaThatFacesInwards) {
   set_vessel((geometry() / "iliac-aorta-arch-coarse.obj").string(), vascular::LengthUnit::millimetre, setup);
   setup.entry = {Eigen::Vector3d(-0.0498, 0.0491, 0.0099),
                  Eigen::Vector3d(-0.0578, 0.04, 0.0135)};  // near the iliac end
-  set_script(read_script("up.json", script), setup);
+  set_script(data::read_script("up.json", script), setup);
   std::string warnings;
   ScriptedRun run(setup, make_vessel(setup, warnings));
   EXPECT_NE(warnings.find("turned round"), std::string::npos);

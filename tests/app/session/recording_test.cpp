@@ -174,7 +174,7 @@ TEST(Recording, IsWholeWheneverTheProgramIsKilled) {
       // The writer may be as far behind as the blocks that it had no time for; a simulation that runs many times faster
       // than the clock is ahead by more than one.
       EXPECT_LE(reader.steps(), reached + 1);
-      EXPECT_EQ(reader.steps() % steps_per_block, 0u);
+      EXPECT_EQ(reader.steps() % data::steps_per_block, 0u);
       EXPECT_EQ(reader.states(), (reader.steps() + 999) / 1000);
       reader.inputs(0, reader.steps());
       if (reader.states()) reader.state(reader.states() - 1);

@@ -43,7 +43,7 @@ class Swing {
       meshes.push_back(as_written(mesh, vascular::LengthUnit::millimetre));
       write_mesh((folder / name(f)).string(), meshes.back(), vascular::LengthUnit::millimetre);
     }
-    std::ofstream(folder / "anatomy.json") << anatomy_to_json(found.anatomy);
+    std::ofstream(folder / "anatomy.json") << data::anatomy_to_json(found.anatomy);
     write_case(R"("lumen-01.ply", "lumen-02.ply", "lumen-03.ply", "lumen-04.ply", "lumen-05.ply")");
   }
   ~Swing() { fs::remove_all(folder.parent_path()); }
@@ -59,7 +59,7 @@ class Swing {
   }
   std::string refusal() const {
     try {
-      load_case((folder / "swing.json").string());
+      data::load_case((folder / "swing.json").string());
     } catch (const data::LoadError& error) {
       return error.what();
     }
@@ -73,7 +73,7 @@ class Swing {
 
 TEST(Sequence, TheWallAndTheTreeGoThroughItsFrames) {
   const Swing swing;
-  const data::Case c = load_case((swing.folder / "swing.json").string());
+  const data::Case c = data::load_case((swing.folder / "swing.json").string());
   const vascular::Patient patient = patient_of(c);
   for (int f = 0; f < frames; ++f) {
     const vascular::Mesh now = patient.lumen.at(static_cast<double>(f) / frames, 0);
@@ -97,7 +97,7 @@ TEST(Sequence, TheWallAndTheTreeGoThroughItsFrames) {
     for (std::size_t s = 0; s < patient.tree.branches[b].spheres.size(); ++s)
       for (int f = 0; f < frames; ++f) {
         const Eigen::Vector3d rest = patient.tree.branches[b].spheres[s].p,
-                              now = patient.tree_frames[f * beat_frames / frames].branches[b].spheres[s].p;
+                              now = patient.tree_frames[f * vascular::beat_frames / frames].branches[b].spheres[s].p;
         const Eigen::Vector3d in_file = back * (rest + swing.found.shift_P);
         const Eigen::Vector3d moved = back * (now - rest);
         EXPECT_NEAR(moved.z(), lift_m(in_file.x(), in_file.y(), f), 0.3e-3) << "a section is carried as one";
@@ -111,7 +111,7 @@ TEST(Sequence, AWireGoesWithIt) {
   const Swing swing;
   RunSetup setup;
   set_vessel(swing.folder.string(), vascular::LengthUnit::millimetre, setup);
-  set_script(read_script("in.json", R"({ "schema": "ostium-script/1", "name": "in", "title": "A test",
+  set_script(data::read_script("in.json", R"({ "schema": "ostium-script/1", "name": "in", "title": "A test",
     "tools": [ { "name": "wire", "instrument": "cook-j" } ],
     "steps": [ { "do": "advance", "tool": "wire", "speed_mm_s": 150, "until": [{ "inserted_mm": 230 }], "timeout_s": 3 },
                { "do": "wait", "until": [{ "beats": 1 }] } ] })"),

@@ -44,7 +44,7 @@ const char* const predilatation = R"({
 RunSetup setup() {
   RunSetup out;
   set_vessel("rca-mid-focal", vascular::LengthUnit::millimetre, out);
-  set_script(read_script("predilatation.json", predilatation), out);
+  set_script(data::read_script("predilatation.json", predilatation), out);
   set_value("begin", "RCA", out);
   return out;
 }
@@ -142,7 +142,7 @@ struct StentAhead {
         script.substr(0, script.find(from)) +
         R"({ "do": "advance", "tool": "stent", "speed_mm_s": 40, "until": [{ "balloon_at_mm": -15 }], "timeout_s": 6 },
                 { "do": "mark", "text": "there" } ] })";
-    set_script(read_script("predilatation.json", script), out);
+    set_script(data::read_script("predilatation.json", script), out);
     return out;
   }
   StentAhead() : run(stent_setup(), vessel()), scratch(run.model) {
@@ -275,7 +275,7 @@ TEST(Treatment, AWallFeelsAWiresTipBehindALowPass) {
                                run.model.physiology, run.model.treatment, run.model.balloon_of};
   CouplingState& s = run.state.coupling;
   const int wire = 3, tip = run.model.rods.rods[wire].elements;
-  const double dt = run.model.step_s(), share = 1 - std::exp(-2 * EIGEN_PI * wall_force_cut_off_Hz * dt);
+  const double dt = run.model.step_s(), share = 1 - std::exp(-2 * EIGEN_PI * data::wall_force_cut_off_Hz * dt);
   core::StepReport report;
   const Eigen::Vector3d none = Eigen::Vector3d::Zero();
   report.touches.assign(1, {.rod = wire, .node = tip, .p_W = none, .normal_W_N = none, .friction_W_N = none});
@@ -348,14 +348,15 @@ TEST(Treatment, ALesionIsCoveredWithMargins) {
 RunSetup two_lesions(const std::string& condition = R"("seconds": 1)", const std::string& sizes = "") {
   RunSetup out;
   set_vessel("rca-diffuse", vascular::LengthUnit::millimetre, out);
-  set_script(read_script("two.json", R"({ "schema": "ostium-script/1", "name": "two", "title": "A test", "tools": [
+  set_script(
+      data::read_script("two.json", R"({ "schema": "ostium-script/1", "name": "two", "title": "A test", "tools": [
     { "name": "guide", "instrument": "guide-jr4-6f" },
     { "name": "proximal", "instrument": "stent-35x38" }, { "name": "distal", "instrument": "stent-30x28")" +
-                                         sizes + R"( },
+                                        sizes + R"( },
     { "name": "short", "instrument": "stent-35x23" }, { "name": "wire", "instrument": "wire-014-workhorse" } ],
     "steps": [ { "do": "wait", "until": [{ )" +
-                                         condition + " }] } ] }"),
-             out);
+                                        condition + " }] } ] }"),
+      out);
   return out;
 }
 
@@ -368,8 +369,8 @@ std::shared_ptr<const Vessel> with_two_lesions() {
 }
 
 TEST(Treatment, AScriptIsRefusedOnACaseWithAnotherAccess) {
-  const data::Script from_the_wrist = find_script("pci-lcx-tubular-radial"),
-                     from_anywhere = find_script("jr4-engages-rca");
+  const data::Script from_the_wrist = data::find_script("pci-lcx-tubular-radial"),
+                     from_anywhere = data::find_script("jr4-engages-rca");
   RunSetup groin, wrist;
   set_vessel("lcx-tubular", vascular::LengthUnit::millimetre, groin);
   set_vessel("lcx-tubular-radial", vascular::LengthUnit::millimetre, wrist);
@@ -436,7 +437,7 @@ TEST(Treatment, ALesionThatThereIsNotIsRefused) {
       RunSetup own = two_lesions(condition, sizes);
       choose_sizes(*with_two_lesions(), own);
       ScriptedRun run(own, with_two_lesions());
-      return read_instrument(own.tool_files[2], own.tool_texts[2]).name;
+      return data::read_instrument(own.tool_files[2], own.tool_texts[2]).name;
     } catch (const data::LoadError& error) {
       return error.what();
     }
@@ -481,7 +482,7 @@ TEST(Treatment, AWithdrawalIsNotDoneBeforeItsHandHasMoved) {
   script.replace(
       steps, std::string::npos,
       R"("steps": [ { "do": "withdraw", "tool": "balloon", "speed_mm_s": 1, "until": [{ "balloon_at_mm": 0 }] } ] })");
-  set_script(read_script("predilatation.json", script), own);
+  set_script(data::read_script("predilatation.json", script), own);
   ScriptedRun run(own, vessel());
   const Plan& plan = vessel()->coronaries->lesions[0];
   const double middle = (plan.from_m + plan.to_m) / 2;
@@ -503,7 +504,7 @@ TEST(Treatment, AFoldedBalloonIsAsThickAsItsShaftShows) {
   vascular::TreatmentModel model;
   std::vector<SessionTool> tools;
   for (const char* name : {"balloon-15x10", "balloon-20x10", "balloon-nc-30x12", "stent-30x18"})
-    tools.push_back({name, load_instrument(data_folder() + "/instruments/" + name + ".json")});
+    tools.push_back({name, data::load_instrument(data::data_folder() + "/instruments/" + name + ".json")});
   add_devices(tools, 1, model);
   ASSERT_EQ(model.balloons.size(), 4u);
   const double profile_m[] = {0.65e-3, 0.75e-3, 1.0e-3};  // printed by makers; a wider one sticks in a tight lesion
@@ -535,10 +536,10 @@ std::string taken_size(const std::string& sizes, const std::string& by, const st
   script.replace(script.find(plain), plain.size(), plain + ", \"sizes\": [" + sizes + "], " + by);
   RunSetup own;
   set_vessel("rca-mid-focal", vascular::LengthUnit::millimetre, own);
-  set_script(read_script("predilatation.json", script), own);
+  set_script(data::read_script("predilatation.json", script), own);
   if (!set.empty()) set_value("stent", set, own);
   choose_sizes(*vessel(), own);
-  return read_instrument(own.tool_files[2], own.tool_texts[2]).name;
+  return data::read_instrument(own.tool_files[2], own.tool_texts[2]).name;
 }
 
 TEST(Treatment, SizesAreChosenByTheArtery) {

@@ -68,7 +68,7 @@ inline RunSetup tube_setup(const std::string& script = there_and_back, std::uint
   setup.mesh = bent_tube();
   setup.entry = {Eigen::Vector3d::Zero(), Eigen::Vector3d(0.05, 0, 0)};
   const std::size_t at = script.find("\"name\": \"") + 9;
-  set_script(read_script(script.substr(at, script.find('"', at) - at) + ".json", script), setup);
+  set_script(data::read_script(script.substr(at, script.find('"', at) - at) + ".json", script), setup);
   setup.seed = seed;
   return setup;
 }

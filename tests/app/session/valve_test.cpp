@@ -15,7 +15,7 @@ using Eigen::Vector3d;
 
 /// Instruments that come straight down on the valve from 30 mm above it.
 struct AboveTheValve {
-  std::shared_ptr<const Vessel> vessel = vessel_of(find_case("rca-mid-focal"), std::nullopt);
+  std::shared_ptr<const Vessel> vessel = vessel_of(data::find_case("rca-mid-focal"), std::nullopt);
   SessionModel model;
   SessionState state;
   std::optional<SessionScratch> scratch;
@@ -24,7 +24,7 @@ struct AboveTheValve {
   int ectopics = 0, troubled = 0;
 
   explicit AboveTheValve(const char* instrument) {
-    model = make_session(vessel, {{"tool", find_instrument(load_catalogue(), instrument)}}, 0);
+    model = make_session(vessel, {{"tool", data::find_instrument(data::load_catalogue(), instrument)}}, 0);
     const vascular::Landmarks& marks = vessel->patient->anatomy.landmarks;
     model.entry = end_at(marks.p_annulus + 0.030 * marks.root_axis, -marks.root_axis);
     state = make_state(model, 0);
@@ -37,13 +37,14 @@ struct AboveTheValve {
       const bool before = state.blood.heart.ectopic;
       step(model, inputs, state, *scratch, report);
       ectopics += state.blood.heart.ectopic > before;
-      troubled += (report.rods.trouble & ~static_cast<std::uint32_t>(feed_stopped)) != 0;
+      troubled += (report.rods.trouble & ~static_cast<std::uint32_t>(core::feed_stopped)) != 0;
     }
   }
   /// Of the tip, along the root's axis.
   double above_annulus_m() const {
     const vascular::Landmarks& marks = vessel->patient->anatomy.landmarks;
-    const Vector3d shift = contraction(state.blood.heart.phase) * vascular::HeartMotion(marks).root_displacement();
+    const Vector3d shift =
+        vascular::contraction(state.blood.heart.phase) * vascular::HeartMotion(marks).root_displacement();
     return (tip(model, state, 0) - shift - marks.p_annulus).dot(marks.root_axis);
   }
   std::string branch() const {

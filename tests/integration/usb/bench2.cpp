@@ -51,7 +51,7 @@ class VhciBench : public Bench {
     bool attached = false;
     // A port that was detached is free again a moment later.
     for (int tries = 0; tries < 200 && !attached; ++tries) {
-      attached = tell("attach", fmt::format("0 {} {} {}", ends[1], usbip_device, usbip_speed));
+      attached = tell("attach", fmt::format("0 {} {} {}", ends[1], device::usbip_device, device::usbip_speed));
       if (!attached) std::this_thread::sleep_for(std::chrono::milliseconds(10));
     }
     close(ends[1]);

@@ -76,14 +76,14 @@ TEST_F(Usb, IsFoundAndSaysWhatItIs) {
   EXPECT_EQ(box.info().rate_Hz, 1000);
   EXPECT_TRUE(box.now().calibrated);
   EXPECT_EQ(box.calibration().date, 20260101u);
-  const std::vector<device::FoundBox> found = find_boxes();
+  const std::vector<device::FoundBox> found = device::find_boxes();
   ASSERT_EQ(found.size(), 1u);
   EXPECT_EQ(found[0].trouble, device::PortTrouble::in_use);
 }
 
 TEST_F(Usb, IsListed) {
   std::vector<device::FoundBox> found;
-  for (const double end = now_s() + 5; now_s() < end && found.empty();) found = find_boxes();
+  for (const double end = now_s() + 5; now_s() < end && found.empty();) found = device::find_boxes();
   ASSERT_EQ(found.size(), 1u);
   EXPECT_EQ(found[0].trouble, device::PortTrouble::none);
   EXPECT_EQ(found[0].identity.serial, "OST-0001");
@@ -273,7 +273,7 @@ TEST_F(Usb, TenThousandWildReportsOnTheWire) {
         for (std::uint8_t& b : report) b = static_cast<std::uint8_t>(any(256));
       if (kind == 3) report.resize(1 + any(64));
       ++sent;
-      flawless += flaw_of_in_report(report) == device::Flaw::none;
+      flawless += device::flaw_of_in_report(report) == device::Flaw::none;
     };
   });
   const std::uint64_t taken = box.now().reports, ignored = box.now().ignored;
@@ -299,7 +299,7 @@ TEST_F(Usb, CalibrationIsWrittenCheckedAndApplied) {
   damaged[30] ^= 1;
   EXPECT_FALSE(write_calibration(port, damaged)) << "the box looks at the CRC";
   EXPECT_TRUE(write_calibration(port, record));
-  EXPECT_EQ(parse_calibration(read_calibration(port)).date, 20260202u);
+  EXPECT_EQ(device::parse_calibration(read_calibration(port)).date, 20260202u);
   EXPECT_FALSE(port.write(0x55, 0, {})) << "unknown requests stall";
   EXPECT_FALSE(port.write(static_cast<std::uint8_t>(device::Request::watchdog_time), 9, {}));
   EXPECT_TRUE(running());

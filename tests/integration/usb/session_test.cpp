@@ -53,7 +53,7 @@ struct RunAtBench {
 TEST(UsbSession, WireAndGuideReachTheAorticRootInStrokesAndReplayWithoutTheDevice) {
   app::RunSetup setup;
   set_vessel("rca-mid-focal", vascular::LengthUnit::millimetre, setup);
-  data::Script script = find_script("jr4-engages-rca");
+  data::Script script = data::find_script("jr4-engages-rca");
   while (script.steps.back().label != "wire out") script.steps.pop_back();
   set_script(script, setup);
   setup.hand_speed = 3;

@@ -105,7 +105,7 @@ class UsbfsBench : public Bench {
       path = fmt::format("/devices/pci0000:00/usb1/1-{}", number_);
     }
     std::string hex;
-    for (const auto& d : {device_descriptor(), configuration_descriptor()})
+    for (const auto& d : {device::device_descriptor(), device::configuration_descriptor()})
       for (const std::uint8_t b : d) hex += fmt::format("{:02X}", b);
     const std::string text = fmt::format(
         "P: {}\nN: bus/usb/001/{:03}\nE: SUBSYSTEM=usb\nE: DEVTYPE=usb_device\nE: BUSNUM=001\nE: DEVNUM={:03}\n"

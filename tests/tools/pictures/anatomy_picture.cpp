@@ -55,7 +55,7 @@ void draw(Image& image, int x0, int y0, const vascular::Mesh& mesh, const std::v
           const View& view) {
   fluoro::CArm arm{.lao_rad = view.lao_deg * degree, .cran_rad = view.cran_deg * degree};
   arm.p_PI = Eigen::Vector3d(0.008, -0.04, 0.022);
-  const Eigen::Vector3d focus = source(arm), towards = towards_detector(arm);
+  const Eigen::Vector3d focus = source(arm), towards = fluoro::towards_detector(arm);
   std::vector<Eigen::Vector3d> seen;  // pixel, and distance from the detector's side
   for (const Eigen::Vector3d& p : mesh.vertices) {
     const auto uv = project(arm, p);
@@ -113,7 +113,7 @@ int main(int argc, char** argv) {
   if (seeds.empty()) seeds = {0, 1, 2, 3};
   Image image(columns * tile, static_cast<int>(seeds.size()) * tile);
   for (std::size_t row = 0; row < seeds.size(); ++row) {
-    const vascular::Patient patient = make_patient(person(seeds[row], {}), {});
+    const vascular::Patient patient = vascular::make_patient(vascular::person(seeds[row], {}), {});
     const vascular::Mesh mesh = patient.lumen.at(0.75, 0);
     std::vector<Eigen::Vector3d> colours;
     for (const auto& shares : patient.lumen.shares) colours.push_back(colour(patient.anatomy, shares));

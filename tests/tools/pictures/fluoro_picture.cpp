@@ -28,7 +28,7 @@ fluoro::Picture taken(const Shot& shot) {
   view.arm.lao_rad = shot.lao_deg * degree;
   view.arm.cran_rad = shot.cran_deg * degree;
   view.pixels = 384;
-  fluoro::Imager imager({}, make_scanline_renderer());
+  fluoro::Imager imager({}, fluoro::make_scanline_renderer());
   fluoro::FluoroscopeState state;
   fluoro::DisplayScratch scratch;
   const fluoro::Pedals pedals{.fluoroscopy = !shot.cine, .cine = shot.cine};
@@ -36,7 +36,8 @@ fluoro::Picture taken(const Shot& shot) {
   for (int i = 0; i < 8; ++i)
     report = tick(imager, {.scene = scene, .view = view, .collimator = {}, .pedals = pedals}, state, scratch);
   fluoro::Picture picture = state.live;
-  draw_overlay({view, shot.cine ? cine() : fluoroscopy(), report.frame.exposure, state.dose, true, "", "phantom"},
+  draw_overlay({view, shot.cine ? fluoro::cine() : fluoro::fluoroscopy(), report.frame.exposure, state.dose, true, "",
+                "phantom"},
                picture);
   return picture;
 }
@@ -61,5 +62,5 @@ int main(int argc, char** argv) {
         beside(beside(taken(shots[3 * row]), taken(shots[3 * row + 1])), taken(shots[3 * row + 2]));
     sheet = row ? below(sheet, strip) : strip;
   }
-  write_png(argv[1], sheet);
+  data::write_png(argv[1], sheet);
 }

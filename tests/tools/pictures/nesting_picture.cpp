@@ -20,7 +20,7 @@ core::Rod rod_of(const data::Instrument& instrument, double inserted_m) {
   core::RodDescription d =
       rod_description(instrument, std::vector<double>(static_cast<int>(inserted_m / element_m), element_m));
   d.damping = {1, 0.5, 1e-3};  // so that it comes to rest soon
-  return make_rod(d);
+  return core::make_rod(d);
 }
 
 std::vector<Vector2d> drawn(const core::RodState& rod, const Vector2d& origin) {
@@ -50,7 +50,7 @@ void panel(data::Drawing& drawing, const Vector2d& corner, const std::string& wo
   show(alone, false, true, 58);
   drawing.text(corner + Vector2d(108, 55), wire.name, 3);
 
-  model.nestings = coaxial({0, 1});
+  model.nestings = core::coaxial({0, 1});
   core::State state = make_state(model, bases);
   core::Scratch scratch(model);
   core::StepReport report;
@@ -69,8 +69,8 @@ int main(int argc, char** argv) {
     return 2;
   }
   try {
-    const std::vector<data::Instrument> catalogue = load_catalogue();
-    const auto instrument = [&](const char* name) { return find_instrument(catalogue, name); };
+    const std::vector<data::Instrument> catalogue = data::load_catalogue();
+    const auto instrument = [&](const char* name) { return data::find_instrument(catalogue, name); };
     data::Drawing drawing(300, 112);
     panel(drawing, {6, 8}, "A stiff wire straightens a soft catheter", instrument("diagnostic-jr4-5f"),
           instrument("amplatz-super-stiff"), 0.13);
