@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <random>
 
-#include "device/protocol/bytes.h"
 #include "device/emulator/emulated_box.h"
 #include "device/firmware/ostium_box.h"
+#include "device/protocol/bytes.h"
 
 namespace ostium::device {
 namespace {
