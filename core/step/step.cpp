@@ -299,7 +299,7 @@ void finish(const State& state, const Scratch& scratch, const Strand& strand, Pi
     linearise_end_joints(rod, own, joints_of(s.inputs), scratch.step_s, s);
   if (solved) {
     commit(rod, s, scratch.step_s, own);
-    // What snaps over among walls, too fast for a whole step, goes on from rest, piece by piece, as through honey.
+    // What snaps over among walls, too fast for a whole step, goes on from rest, piece by piece, heavily damped.
     if (s.step_s < scratch.step_s || piece.halvings > 0) halt(rod, own);
     commit_walls(strand, report.touches);
   } else {

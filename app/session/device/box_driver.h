@@ -21,7 +21,7 @@ namespace ostium::app {
 
 struct BoxDriverSettings {
   double smooth_s = 0.015;
-  double fastest_m_s = 0.6;  ///< that it follows: a tool that is far in as the run begins is no bullet
+  double fastest_m_s = 0.6;  ///< that it follows: a tool that is far in as the run begins does not shoot in
   bool arm = true;
   double least_pressure_Pa = 5e3, least_flow_m3_s = 5e-8;  ///< less is an offset of the sensors, and no hand
   /// Angles of the views that buttons 2, 3, ... select, rad: left anterior oblique, cranial.

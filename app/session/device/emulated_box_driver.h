@@ -19,7 +19,7 @@ class EmulatedBoxDriver {
   long drawn_back() const { return drawn_back_; }
 
  private:
-  /// One of the box's tools: the how-manieth of its kind lies there, and since when an exchange goes on.
+  /// One of the box's tools: which instrument of its kind lies there, counted, and since when it is being exchanged.
   struct Station {
     std::uint32_t place = 0, count = 1;
     double changing_s = -1;  ///< negative: it does not
