@@ -38,7 +38,7 @@ fetch udev udev
 root=$folder/root
 rm -rf "$root"
 mkdir -p "$root"/{bin,dev,proc,sys,run,tmp,lib,lib64,modules,etc/udev/rules.d}
-cp "$(dirname "$0")/../../device/70-ostium-box.rules" "$root/etc/udev/rules.d/"
+cp "$(dirname "$0")/../../../device/70-ostium-box.rules" "$root/etc/udev/rules.d/"
 cp "$(command -v busybox)" "$root/bin/busybox"
 cp "$test" "$root/bin/usb-bench"
 cp "$folder/udev/bin/udevadm" "$root/bin/systemd-udevd"
