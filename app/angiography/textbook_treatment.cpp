@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "core/base/units.h"
 
@@ -144,7 +143,7 @@ StentNumbers measure(const Plan& plan, const vascular::StentModel& model, const 
   double recoil = 0;
   for (int k = 0; k < model.rings; ++k) recoil += (1 - stent.radius_m[k] / stent.peak_m[k]) / model.rings;
   out.minimal_diameter_mm = 2 * *least / mm;
-  out.minimal_area_mm2 = std::numbers::pi * *least * *least / (mm * mm);
+  out.minimal_area_mm2 = units::pi * *least * *least / (mm * mm);
   out.expansion_percent = 100 * std::pow(2 * *least / plan.reference_m, 2);
   const vascular::Apposition lies = apposition(model, stent, plan.path, wall);
   out.apposed_percent = 100 * lies.share, out.worst_gap_mm = lies.worst_m / mm;

@@ -1,9 +1,9 @@
 /// Loads at which straight or circular equilibria lose their stability: those at which the engine's linear system gets
 /// a direction of negative stiffness, found by bisection. (That the step itself leaves them there is a test of `core`.)
 #include <cmath>
-#include <numbers>
 
 #include "app/gates/gate.h"
+#include "core/base/units.h"
 #include "core/samples/steel_wire.h"
 
 namespace ostium::app::gates {
@@ -20,7 +20,7 @@ double torsional_stiffness(const core::Rod& rod) { return stiffness_at_rest(rod,
 /// A cantilever pushed along its axis: P = pi^2 EI / 4 L^2 (Euler 1744).
 std::vector<data::GateResult> rod_euler(bool) {
   core::Bench bench = core::steel_bench({.elements = 100, .gravity = false});
-  const double euler_N = std::pow(std::numbers::pi / 2, 2) * bending_stiffness(bench.model.rods[0]);
+  const double euler_N = std::pow(units::pi / 2, 2) * bending_stiffness(bench.model.rods[0]);
   const double load_N = core::critical(0, 3 * euler_N, bisect_to, [&](double N) {
     bench.inputs.rods[0].tip_force_W_N = Eigen::Vector3d(-N, 0, 0);
     return bench.is_unstable();
@@ -55,8 +55,7 @@ std::vector<data::GateResult> rod_ring(bool) {
   constexpr int elements = 128;
   core::Bench bench = core::steel_bench({.elements = elements, .gravity = false});
   const core::Rod& rod = bench.model.rods[0];
-  const double reference_rad =
-      2 * std::numbers::pi * std::sqrt(3.0) * bending_stiffness(rod) / torsional_stiffness(rod);
+  const double reference_rad = 2 * units::pi * std::sqrt(3.0) * bending_stiffness(rod) / torsional_stiffness(rod);
   bench.inputs.rods[0].tip.hold = core::Hold::clamped;
   const double twist_rad = core::critical(0, 2 * reference_rad, bisect_to, [&](double rad) {
     lay_out_ring(rod, rad, bench.rod());

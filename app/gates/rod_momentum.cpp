@@ -2,9 +2,9 @@
 /// straight one that spins about its middle at one turn a second.
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <numbers>
 
 #include "app/gates/gate.h"
+#include "core/base/units.h"
 #include "core/samples/steel_wire.h"
 
 namespace ostium::app::gates {
@@ -55,7 +55,7 @@ std::vector<data::GateResult> rod_momentum(bool) {
   }
   {
     core::Bench bench = free_bench(elements);
-    const Vector3d spin(0, 2 * std::numbers::pi, 0), middle(0.5, 0, 0);
+    const Vector3d spin(0, 2 * units::pi, 0), middle(0.5, 0, 0);
     for (int i = 0; i <= elements; ++i) bench.rod().velocity.set(i, spin.cross(bench.rod().position[i] - middle));
     bench.rod().turn.fill(spin * bench.model.step_s);
     bench.rod().turn_before = bench.rod().turn;

@@ -2,9 +2,9 @@
 /// 0.5 ms, so the distal end follows the ramp: 10 % after 10 ms, 90 % after 90 ms.
 #include <Eigen/Geometry>
 #include <cmath>
-#include <numbers>
 
 #include "app/gates/gate.h"
+#include "core/base/units.h"
 #include "core/samples/steel_wire.h"
 
 namespace ostium::app::gates {
@@ -20,11 +20,11 @@ std::vector<data::GateResult> rod_torsion(bool quick) {
     const Eigen::Quaterniond first = frame();
     double ms_10 = 0, ms_90 = 0, before = 0;
     for (int ms = 1; ms <= 200; ++ms) {
-      const double rate = ms <= 100 ? std::numbers::pi / 0.1 : 0;
+      const double rate = ms <= 100 ? units::pi / 0.1 : 0;
       bench.inputs.rods[0].base.turn_rate_W_rad_s = Eigen::Vector3d(rate, 0, 0);
       bench.step();
       const Eigen::Quaterniond turned = frame() * first.conjugate();
-      const double part = 2 * std::atan2(turned.x(), turned.w()) / std::numbers::pi;
+      const double part = 2 * std::atan2(turned.x(), turned.w()) / units::pi;
       const auto crossed = [&](double level) { return ms - 1 + (level - before) / (part - before); };
       if (ms_10 == 0 && part >= 0.1) ms_10 = crossed(0.1);
       if (ms_90 == 0 && part >= 0.9) ms_90 = crossed(0.9);

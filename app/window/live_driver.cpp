@@ -16,7 +16,7 @@ namespace {
 
 using units::atm;
 
-constexpr double degree = EIGEN_PI / 180;
+constexpr double degree = units::pi / 180;
 constexpr std::uint64_t steps_a_sample = 10;
 
 std::size_t place_of(const SessionModel& model, const std::string& name) {
@@ -195,7 +195,7 @@ void LiveDriver::play(const SessionModel& model, SessionInputs& inputs) {
 void LiveDriver::show(const ScriptedRun& run, const SessionInputs& inputs) {
   const SessionReport& report = run.report;
   if (report.tools.empty()) return;
-  Snapshot& s = snapshots_.to_fill();
+  Snapshot& s = snapshots_.back();
   s.state = run.state;
   s.inputs = inputs;
   s.xrays = run.xrays;

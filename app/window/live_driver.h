@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "app/session/recorder/signals.h"
-#include "app/session/run/latest.h"
 #include "app/session/run/run.h"
 #include "app/window/controls.h"
+#include "core/base/triple_buffer.h"
 
 namespace ostium::app {
 
@@ -42,7 +42,7 @@ class LiveDriver : public Driver {
   Driven drive(const ScriptedRun& run, SessionInputs& inputs) override;
 
   Controls controls;
-  Latest<Snapshot>& snapshots() { return snapshots_; }
+  core::TripleBuffer<Snapshot>& snapshots() { return snapshots_; }
   /// The guide, or the first tool.
   int left_hand() const { return left_; }
 
@@ -63,7 +63,7 @@ class LiveDriver : public Driver {
   std::uint64_t refused_at_ = 0;
   std::size_t ecg_at_, line_at_;
   std::vector<float> row_, ecg_, line_;
-  Latest<Snapshot> snapshots_;
+  core::TripleBuffer<Snapshot> snapshots_;
 };
 
 }  // namespace ostium::app

@@ -243,7 +243,7 @@ class Live {
     }
     // Each frame is drawn once, with its picture; while the run is paused there are none.
     if (!filmed_->look()) return fresh && now.paused;
-    const Filmed& last = filmed_->seen();
+    const Filmed& last = filmed_->front();
     take(last.picture, last.dose, last.xray_on, last.cine);
     return true;
   }
@@ -259,7 +259,7 @@ class Live {
 
   const SessionModel& model_;
   std::optional<Film> own_;
-  Latest<Filmed>* filmed_;
+  core::TripleBuffer<Filmed>* filmed_;
   bool holds_;
   fluoro::Picture picture_;
   fluoro::DoseMeter dose_;
@@ -311,7 +311,7 @@ long show_window(const SessionModel& model, const ScriptPlan& plan, LiveDriver& 
   double shown_brightness = 1;
   std::string shown_problem;
   std::vector<std::uint32_t> pixels;
-  Latest<Snapshot>& latest = hand.snapshots();
+  core::TripleBuffer<Snapshot>& latest = hand.snapshots();
   long shown = 0;
   bool over = false;
   while (!over) {
@@ -321,8 +321,8 @@ long show_window(const SessionModel& model, const ScriptPlan& plan, LiveDriver& 
         events.take(event);
       } while (SDL_PollEvent(&event));
     events.look(SDL_GetTicks());
-    const bool fresh = latest.look();
-    const Snapshot& now = latest.seen();
+    const bool fresh = latest.update();
+    const Snapshot& now = latest.front();
     const bool live_is_new = live.look(now, fresh);
     const double brightness = options.brightness ? options.brightness() : 1;
     const std::string problem = options.problem ? options.problem() : "";

@@ -18,7 +18,8 @@ struct WindowOptions {
   bool plays = false;
   double frames_per_s = 15;
   int pixels = 512;
-  Latest<Filmed>* filmed = nullptr;  ///< of a film that is made as well; null: the window takes its own pictures
+  core::TripleBuffer<Filmed>* filmed =
+      nullptr;  ///< of a film that is made as well; null: the window takes its own pictures
   /// Of whoever else drives: shown in red; may be empty.
   std::function<std::string()> problem;
   /// Of the picture, 0 to 1: it fades while the box's travel is at its end; may be empty: 1.

@@ -2,7 +2,9 @@
 
 #include <Eigen/Geometry>
 #include <cmath>
-#include <numbers>
+
+#include "core/base/units.h"
+#include "core/math/solid_angle.h"
 
 namespace ostium::core {
 
@@ -60,12 +62,9 @@ double PenetrationOracle::distance_m(const Vector3d& p, double far_m) const {
 
 double PenetrationOracle::winding(const Vector3d& p) const {
   double sum = 0;
-  for (const auto& t : wall_.triangles) {
-    const Vector3d a = vertices_[t[0]] - p, b = vertices_[t[1]] - p, c = vertices_[t[2]] - p;
-    const double la = a.norm(), lb = b.norm(), lc = c.norm();
-    sum += 2 * std::atan2(a.dot(b.cross(c)), la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb);
-  }
-  return sum / (4 * std::numbers::pi);
+  for (const auto& t : wall_.triangles)
+    sum += solid_angle(vertices_[t[0]] - p, vertices_[t[1]] - p, vertices_[t[2]] - p);
+  return sum / (4 * units::pi);
 }
 
 }  // namespace ostium::core

@@ -3,8 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <numbers>
 #include <stdexcept>
+
+#include "core/base/units.h"
 
 namespace ostium::core {
 
@@ -40,11 +41,11 @@ std::vector<double> equal_elements(const std::vector<Section>& sections, int cou
 Section round_section(double from_tip_m, double to_tip_m, double radius_m, double inner_radius_m, double E_Pa,
                       double nu, double kg_per_m3) {
   const double fourth = std::pow(radius_m, 4) - std::pow(inner_radius_m, 4);
-  const double area = std::numbers::pi * (radius_m * radius_m - inner_radius_m * inner_radius_m);
+  const double area = units::pi * (radius_m * radius_m - inner_radius_m * inner_radius_m);
   Section s;
   s.from_tip_m = from_tip_m, s.to_tip_m = to_tip_m;
-  s.EI1_N_m2 = s.EI2_N_m2 = E_Pa * std::numbers::pi / 4 * fourth;
-  s.GJ_N_m2 = E_Pa / (2 * (1 + nu)) * std::numbers::pi / 2 * fourth;
+  s.EI1_N_m2 = s.EI2_N_m2 = E_Pa * units::pi / 4 * fourth;
+  s.GJ_N_m2 = E_Pa / (2 * (1 + nu)) * units::pi / 2 * fourth;
   s.kg_per_m = kg_per_m3 * area;
   s.radius_m = radius_m, s.inner_radius_m = inner_radius_m;
   return s;

@@ -1,8 +1,8 @@
 #include "core/samples/steel_wire.h"
 
 #include <Eigen/Geometry>
-#include <numbers>
 
+#include "core/base/units.h"
 #include "core/rod/initial_state.h"
 
 namespace ostium::core {
@@ -40,7 +40,7 @@ Bench steel_bench(const WireOptions& o) { return bench_of(steel_wire(o), o.gravi
 
 EndState along_x() {
   EndState end;
-  end.q_W = turned_frame({1, 0, 0, 0}, Eigen::Vector3d(0, std::numbers::pi / 2, 0));
+  end.q_W = turned_frame({1, 0, 0, 0}, Eigen::Vector3d(0, units::pi / 2, 0));
   return end;
 }
 
@@ -76,7 +76,7 @@ void lay_out_ring(const Rod& rod, double twist_rad, RodState& state) {
   const int N = rod.elements;
   const auto frame = [&](double fraction) {  // twisted about d3 (x) first, then turned in the plane (about y)
     const Eigen::Vector4d twisted = turned_frame(along_x().q_W, Eigen::Vector3d(twist_rad * fraction, 0, 0));
-    return turned_frame(twisted, Eigen::Vector3d(0, 2 * std::numbers::pi * fraction, 0));
+    return turned_frame(twisted, Eigen::Vector3d(0, 2 * units::pi * fraction, 0));
   };
   std::vector<Eigen::Vector4d> frames;
   for (int j = 0; j < N; ++j) frames.push_back(frame((j + 0.5) / N));

@@ -2,7 +2,8 @@
 
 #include <Eigen/Geometry>
 #include <cmath>
-#include <numbers>
+
+#include "core/base/units.h"
 
 namespace ostium::core {
 
@@ -18,7 +19,7 @@ SurfaceDescription tube(const std::vector<TubePoint>& points, int around) {
     side = (side - t * t.dot(side)).normalized();
     const Vector3d up = t.cross(side);
     for (int k = 0; k < around; ++k) {
-      const double angle = 2 * std::numbers::pi * k / around;
+      const double angle = 2 * units::pi * k / around;
       vertices.push_back(points[i].p_W + points[i].radius_m * (std::cos(angle) * side + std::sin(angle) * up));
     }
   }

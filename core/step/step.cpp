@@ -16,6 +16,7 @@
 #include "core/rod/nodes.h"
 #include "core/rod/relaxation.h"
 #include "core/rod/stretch.h"
+#include "core/step/finish.h"
 
 namespace ostium::core {
 
@@ -220,8 +221,6 @@ void settle_rod_contacts(const Model& model, const State& state, Scratch& scratc
   }
 }
 
-bool usable(const RodScratch& s) { return s.progress != Progress::failed && s.defect <= tolerances::usable_stretch; }
-
 /// Whether its ties to walls are settled, too.
 bool settled(const Model& model, const Strand& strand, Scratch& scratch) {
   return usable(*strand.s) && behind_walls(model, strand, scratch) <= tolerances::usable_depth_m;
@@ -254,93 +253,6 @@ void retry_from_rest(const Model& model, const State& state, Scratch& scratch, S
     }
     if (!again) return;
     iterate(model, state, scratch, report);
-  }
-}
-
-void report_base(const EndState& base, const Eigen::Vector3d& force_W_N, const Eigen::Vector3d& torque_W_Nm,
-                 RodReport& report) {
-  report.base_force_W_N = force_W_N;
-  report.base_torque_W_Nm = torque_W_Nm;
-  const Eigen::Vector3d along = axis(base);
-  report.push_N = along.dot(force_W_N);
-  report.torque_Nm = along.dot(torque_W_Nm);
-}
-
-void report_forces(const Model& model, const Strand& strand, RodReport& report) {
-  const RodScratch& s = *strand.s;
-  if (s.inputs.base.hold == Hold::free) return;
-  const int first = s.inside.first;
-  report_base(strand.own->base, -strand.own->force[first] - s.inside.mass.at(0)[first] * model.gravity_W,
-              -s.chain.joint_moment[first], report);
-}
-
-/// The iterate becomes the strand's state.
-void finish(const State& state, const Scratch& scratch, const Strand& strand, Piece piece, StepReport& report) {
-  RodScratch& s = *strand.s;
-  const Rod& rod = s.inside;
-  RodState& own = *strand.own;
-  std::uint32_t& trouble = report.rods[strand.lead].trouble;
-  if (s.progress == Progress::failed)
-    trouble |= no_solution;
-  else if (s.progress != Progress::done)
-    trouble |= s.defect <= tolerances::stretch_tolerance ? pulled_apart : not_converged;
-  const double angle = strand.nest ? largest_layer_angle(*strand.nest) : largest_joint_angle(rod, s);
-  if (angle > tolerances::overturned_joint_rad) trouble |= joint_overturned;
-
-  const bool solved = usable(s);
-  if (!solved) string_iterate(rod, own, s);
-
-  // Strains and moments of the frames that are committed, not of those that were linearised about.
-  if (strand.nest)
-    measure_layers(state, *strand.nest);
-  else if (own.strain.size() > 0)
-    linearise_joints(rod, own, joints_of(s.inputs), scratch.step_s, s);
-  else
-    linearise_end_joints(rod, own, joints_of(s.inputs), scratch.step_s, s);
-  if (solved) {
-    commit(rod, s, scratch.step_s, own);
-    // What snaps over among walls, too fast for a whole step, goes on from rest, piece by piece, heavily damped.
-    if (s.step_s < scratch.step_s || piece.halvings > 0) halt(rod, own);
-    commit_walls(strand, report.touches);
-  } else {
-    commit_at_rest(rod, s, own);
-  }
-}
-
-/// A nest's state goes back to its rods.
-void unnest(const Model& model, const Strand& strand, State& state, Scratch& scratch, StepReport& report) {
-  Nest& nest = *strand.nest;
-  find_centreline(nest);
-  find_layer_forces(model, nest);
-  take_apart(nest, state);
-  spread(model, nest, state);
-  commit_slides(model, nest, state);
-  const RodReport whole = report.rods[strand.lead];
-  for (int k = 0; k < nest.layer_count; ++k) {
-    const int r = nest.layers[k].rod;
-    RodReport& own = report.rods[r];
-    own.iterations = whole.iterations, own.stretch = whole.stretch;
-    own.trouble |=
-        whole.trouble & ~static_cast<std::uint32_t>(feed_stopped | drive_limited | drive_not_finite | load_limited);
-    follow_free_ends(scratch.rods[r].inside, scratch.rods[r].inputs, state.rods[r]);
-    Eigen::Vector3d force_W_N, torque_W_Nm;
-    base_load(model, nest, k, force_W_N, torque_W_Nm);
-    report_base(state.rods[r].base, force_W_N, torque_W_Nm, own);
-  }
-}
-
-/// The solution becomes the state.
-void finish_all(const Model& model, Piece piece, State& state, Scratch& scratch, StepReport& report) {
-  report.touches.clear();
-  commit_rod_contacts(scratch, report.rod_touches);
-  for (const Strand& strand : scratch.strands) {
-    finish(state, scratch, strand, piece, report);
-    if (strand.nest) {
-      unnest(model, strand, state, scratch, report);
-    } else {
-      follow_free_ends(strand.s->inside, strand.s->inputs, *strand.own);
-      report_forces(model, strand, report.rods[strand.lead]);
-    }
   }
 }
 
@@ -379,7 +291,7 @@ void advance(const Model& model, const Inputs& inputs, Piece piece, State& state
     return;
   }
   retry_from_rest(model, state, scratch, report);
-  finish_all(model, piece, state, scratch, report);
+  finish_all(model, piece.halvings > 0, state, scratch, report);
 }
 
 }  // namespace

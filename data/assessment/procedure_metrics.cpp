@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/units.h"
 #include "data/assessment/metric_functions.h"
 #include "data/assessment/metrics.h"
 
@@ -63,7 +64,7 @@ struct FilteredForce {
 };
 /// `less`: a signal that is taken off the force; empty: none.
 FilteredForce filtered(const RunRecord& r, const std::string& force, const std::string& less = "") {
-  const double share = 1 - std::exp(-2 * M_PI * wall_force_cut_off_Hz * row_spacing_s(r));
+  const double share = 1 - std::exp(-2 * units::pi * wall_force_cut_off_Hz * row_spacing_s(r));
   const std::vector<SignalColumn> forces = tool_columns(r, force), taken = tool_columns(r, less);
   std::vector<double> low(forces.size(), 0);
   FilteredForce out;

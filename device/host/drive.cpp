@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "core/base/tolerances.h"
+#include "core/base/units.h"
 
 namespace ostium::device {
 
@@ -22,7 +22,7 @@ double take(double& pending, double share, double least, double fastest, double 
 
 void collect(const InstrumentMovement& movement, PendingDrive& pending) {
   pending.advance_m += 1e-3 * movement.advance_mm;
-  pending.turn_rad += std::numbers::pi / 180 * movement.turn_deg;
+  pending.turn_rad += units::pi / 180 * movement.turn_deg;
 }
 
 DriveRates take(double step_s, double smooth_s, PendingDrive& pending) {

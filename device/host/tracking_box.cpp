@@ -1,12 +1,12 @@
 #include "device/host/tracking_box.h"
 
-#include <numbers>
+#include "core/base/units.h"
 
 namespace ostium::device {
 
 namespace {
 
-constexpr double Pa_per_atm = 101'325, m3_per_mL = 1e-6, rad_per_deg = std::numbers::pi / 180;
+constexpr double Pa_per_atm = 101'325, m3_per_mL = 1e-6, rad_per_deg = units::pi / 180;
 
 }  // namespace
 

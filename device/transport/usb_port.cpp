@@ -1,165 +1,32 @@
 #include "device/transport/usb_port.h"
 
-#include <fmt/format.h>
 #include <libusb.h>
 
 #include <algorithm>
 #include <array>
 #include <chrono>
 #include <cstring>
-#include <stdexcept>
 
 #include "device/protocol/report.h"
+#include "device/transport/usb_box.h"
 
 namespace ostium::device {
 
 namespace {
 
 constexpr std::size_t in_transfers = 8;
-constexpr unsigned control_ms = 500;
 constexpr double look_every_s = 0.5, first_wait_s = 0.01, longest_wait_s = 0.16;
 constexpr int most_failures = 5;  // in a row, before the box is opened anew
 
 double clock_s() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
-
-struct Interface {
-  int number = 0;
-  std::uint8_t in = 0, out = 0;  ///< endpoints
-};
-
-bool is_interrupt(const libusb_endpoint_descriptor& e) {
-  return (e.bmAttributes & LIBUSB_TRANSFER_TYPE_MASK) == LIBUSB_TRANSFER_TYPE_INTERRUPT;
-}
-
-std::optional<Interface> interface_of(const libusb_interface_descriptor& d) {
-  if (d.bInterfaceClass != usb_class || d.bInterfaceSubClass != usb_subclass || d.bInterfaceProtocol != usb_protocol)
-    return {};
-  Interface found{d.bInterfaceNumber, 0, 0};
-  for (int e = 0; e < d.bNumEndpoints; ++e) {
-    if (!is_interrupt(d.endpoint[e])) continue;
-    const std::uint8_t address = d.endpoint[e].bEndpointAddress;
-    const bool in = (address & LIBUSB_ENDPOINT_DIR_MASK) == LIBUSB_ENDPOINT_IN;
-    std::uint8_t& place = in ? found.in : found.out;
-    if (!place) place = address;
-  }
-  if (!found.in || !found.out) return {};
-  return found;
-}
-
-std::optional<Interface> interface_of(libusb_device* device) {
-  libusb_config_descriptor* config = nullptr;
-  if (libusb_get_active_config_descriptor(device, &config) != 0 &&
-      libusb_get_config_descriptor(device, 0, &config) != 0)
-    return {};
-  std::optional<Interface> found;
-  for (int i = 0; i < config->bNumInterfaces && !found; ++i)
-    if (config->interface[i].num_altsetting > 0) found = interface_of(config->interface[i].altsetting[0]);
-  libusb_free_config_descriptor(config);
-  return found;
-}
-
-std::string text(libusb_device_handle* handle, std::uint8_t index) {
-  std::array<unsigned char, 128> bytes;
-  const int count = index ? libusb_get_string_descriptor_ascii(handle, index, bytes.data(), bytes.size()) : 0;
-  return count > 0 ? std::string(bytes.begin(), bytes.begin() + count) : "";
-}
-
-/// A box that is open and ours, for as long as this lives.
-struct Opened {
-  libusb_device_handle* handle = nullptr;
-  Interface interface;
-  PortIdentity identity;
-
-  Opened() = default;
-  Opened(const Opened&) = delete;
-  Opened& operator=(const Opened&) = delete;
-  ~Opened() { close(); }
-
-  void close() {
-    if (!handle) return;
-    libusb_release_interface(handle, interface.number);
-    libusb_close(handle);
-    handle = nullptr;
-  }
-
-  /// `serial`: only the box of this one; empty: any.
-  PortTrouble open(libusb_device* device, const std::string& serial) {
-    identity = {"", "",
-                fmt::format("bus {}, device {}", libusb_get_bus_number(device), libusb_get_device_address(device))};
-    if (const int error = libusb_open(device, &handle); error != 0) {
-      handle = nullptr;
-      return error == LIBUSB_ERROR_ACCESS ? PortTrouble::no_access : PortTrouble::failing;
-    }
-    libusb_device_descriptor d{};
-    libusb_get_device_descriptor(device, &d);
-    identity.serial = text(handle, d.iSerialNumber), identity.product = text(handle, d.iProduct);
-    const auto found = interface_of(device);
-    PortTrouble trouble = found ? PortTrouble::none : PortTrouble::not_a_box;
-    if (found) interface = *found;
-    if (trouble == PortTrouble::none && (serial.empty() || serial == identity.serial))
-      if (const int error = libusb_claim_interface(handle, interface.number); error != 0)
-        trouble = error == LIBUSB_ERROR_BUSY ? PortTrouble::in_use : PortTrouble::failing;
-    const bool another = !serial.empty() && serial != identity.serial;
-    if (trouble == PortTrouble::none && !another) return trouble;
-    libusb_close(handle);
-    handle = nullptr;
-    return trouble;
-  }
-
-  std::optional<std::size_t> read(std::uint8_t request, std::span<std::uint8_t> into) const {
-    const int count =
-        libusb_control_transfer(handle, from_box, request, 0, static_cast<std::uint16_t>(interface.number), into.data(),
-                                static_cast<std::uint16_t>(into.size()), control_ms);
-    if (count < 0) return {};
-    return static_cast<std::size_t>(count);
-  }
-
-  bool write(std::uint8_t request, std::uint16_t value, std::span<const std::uint8_t> data) const {
-    const int count = libusb_control_transfer(
-        handle, to_box, request, value, static_cast<std::uint16_t>(interface.number),
-        const_cast<unsigned char*>(data.data()), static_cast<std::uint16_t>(data.size()), control_ms);
-    return count >= 0 && static_cast<std::size_t>(count) == data.size();
-  }
-
- private:
-  static constexpr std::uint8_t of_interface = +LIBUSB_REQUEST_TYPE_VENDOR | +LIBUSB_RECIPIENT_INTERFACE;
-  static constexpr std::uint8_t from_box = of_interface | LIBUSB_ENDPOINT_IN,
-                                to_box = of_interface | LIBUSB_ENDPOINT_OUT;
-};
-
-/// Calls `visit(device)` for each of our kind until it returns true.
-template <class Visit>
-void each_box(libusb_context* context, Visit visit) {
-  libusb_device** list = nullptr;
-  const auto count = libusb_get_device_list(context, &list);
-  for (ssize_t i = 0; i < count; ++i) {
-    libusb_device_descriptor d{};
-    if (libusb_get_device_descriptor(list[i], &d) != 0 || d.idVendor != usb_vendor || d.idProduct != usb_product)
-      continue;
-    if (visit(list[i])) break;
-  }
-  if (count >= 0) libusb_free_device_list(list, 1);
-}
-
-struct Context {
-  libusb_context* usb = nullptr;
-  Context() {
-    if (const int error = libusb_init(&usb); error != 0)
-      throw std::runtime_error(
-          fmt::format("USB cannot be used: {}", libusb_strerror(static_cast<libusb_error>(error))));
-  }
-  Context(const Context&) = delete;
-  Context& operator=(const Context&) = delete;
-  ~Context() { libusb_exit(usb); }
-};
 
 }  // namespace
 
 // --- the driver ------------------------------------------------------------------------------------------------------
 
 struct UsbPort::Driver {
-  Context context;
-  Opened box;
+  UsbContext context;
+  OpenUsbBox box;
   std::string serial;
   PortState state;
   PortCounts counts;
@@ -421,11 +288,11 @@ double UsbPort::now_s() const { return clock_s(); }
 // --- looking around --------------------------------------------------------------------------------------------------
 
 std::vector<FoundBox> find_boxes() {
-  const Context context;
+  const UsbContext context;
   std::vector<FoundBox> boxes;
   each_box(context.usb, [&](libusb_device* device) {
     FoundBox found;
-    Opened box;
+    OpenUsbBox box;
     found.trouble = box.open(device, "");
     found.identity = box.identity;
     if (box.handle) {

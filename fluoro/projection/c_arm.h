@@ -5,8 +5,9 @@
 /// detector is: primary positive to the patient's left (LAO), secondary positive to the head (CRA); both zero: in front
 /// of the patient, the source behind.
 #include <Eigen/Core>
-#include <numbers>
 #include <optional>
+
+#include "core/base/units.h"
 
 namespace ostium::fluoro {
 
@@ -29,7 +30,7 @@ struct ImageAxes {
 
 /// What a floor-mounted C-arm reaches: rounded from what makers state (an estimate: no data sheet is cited).
 struct CArmLimits {
-  double lao_rad = 120 * std::numbers::pi / 180, cran_rad = 55 * std::numbers::pi / 180;
+  double lao_rad = 120 * units::pi / 180, cran_rad = 55 * units::pi / 180;
   double shortest_sid_m = 0.85, longest_sid_m = 1.25;
 };
 /// Throws std::invalid_argument naming what is out of its limits, and them.

@@ -5,8 +5,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
 
+#include "core/base/units.h"
 #include "core/rod/initial_state.h"
 #include "core/samples/steel_wire.h"
 #include "core/step/step.h"
@@ -158,10 +158,10 @@ TEST(Concentric, ALoadTurnsTheShaftOfOneWire) {
 
 /// Opposed tubes that are long enough stand balanced but unstable: they are found turned, not balanced.
 TEST(Concentric, OpposedTubesLeaveTheirUnstableBalance) {
-  constexpr double k = 20, length = 1.2 * std::numbers::pi / 2 / (20 * 1.1832);  // L k sqrt(1 + nu) = 1.2 pi / 2
+  constexpr double k = 20, length = 1.2 * units::pi / 2 / (20 * 1.1832);  // L k sqrt(1 + nu) = 1.2 pi / 2
   ConcentricDescription d;
   d.name = "opposed";
-  for (double roll : {0.0, std::numbers::pi})
+  for (double roll : {0.0, units::pi})
     d.parts.push_back({{stretch(0, length, 1e-3, {0, k, 0}, 1e-3, 0.5e-3)}, length, roll, 0});
   d.element_lengths_m.assign(64, length / 64);
   const Concentric nest = make_concentric(d, Vector3d::Zero());

@@ -5,10 +5,10 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <string_view>
 #include <utility>
 
+#include "core/base/units.h"
 #include "core/rod/initial_state.h"
 #include "core/samples/steel_wire.h"
 
@@ -73,7 +73,7 @@ TEST(Introducer, TurnsTheInstrument) {
   Bench bench = introducer(wire, 0.1, false);
   ASSERT_TRUE(bench.settle().converged);
   EXPECT_LT(bench.tip().z(), -0.04);
-  bench.inputs.rods[0].base.turn_rate_W_rad_s = Vector3d(std::numbers::pi, 0, 0);
+  bench.inputs.rods[0].base.turn_rate_W_rad_s = Vector3d(units::pi, 0, 0);
   bench.inputs.rods[0].feed_m_s = 0.02;
   for (int ms = 0; ms < 500; ++ms) bench.step();
   bench.inputs.rods[0] = {};
@@ -139,7 +139,7 @@ TEST(Introducer, FeedsAtAnyAllowedSpeedAndLimitsTheRest) {
 TEST(Introducer, FingersCarryTheWeightInside) {
   Bench bench = introducer(damped_wire(), 0.2);
   EndState down;  // d3 along -z
-  down.q_W = turned_frame({1, 0, 0, 0}, Vector3d(std::numbers::pi, 0, 0));
+  down.q_W = turned_frame({1, 0, 0, 0}, Vector3d(units::pi, 0, 0));
   bench.state = make_state(bench.model, {down}, {0.2});
   for (int ms = 0; ms < 100; ++ms) bench.step();
   const double weight = 0.2 * steel_wire({}).sections[0].kg_per_m * 9.81;

@@ -6,9 +6,9 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <stdexcept>
 
+#include "core/base/units.h"
 #include "core/rod/initial_state.h"
 #include "core/rod/introducer.h"
 #include "core/samples/steel_wire.h"
@@ -219,7 +219,7 @@ TEST(Nesting, ACatheterIsDrawnBackOverAHeldWire) {
 
 // A soft wire in a catheter that is bent by a right angle and hardly gives: the rope on a drum (Euler, Eytelwein).
 TEST(Nesting, FrictionInABentCatheterIsThatOfARopeOnADrum) {
-  constexpr double friction = 0.2, tension = 1, angle = std::numbers::pi / 2, length = 0.2, radius = 0.45e-3;
+  constexpr double friction = 0.2, tension = 1, angle = units::pi / 2, length = 0.2, radius = 0.45e-3;
   const auto bent = [&](RodDescription d) {
     for (Section& s : d.sections) s.rest_curvature_per_m = {0, angle / length, 0};
     return make_rod(d);

@@ -3,8 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include "core/base/units.h"
 #include "core/model/state.h"
 #include "core/rod/initial_state.h"
 #include "core/samples/steel_wire.h"
@@ -16,7 +16,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double radius_m = 0.45e-3, EI_N_m2 = 60e9 * std::numbers::pi / 4 * radius_m * radius_m * radius_m * radius_m;
+constexpr double radius_m = 0.45e-3, EI_N_m2 = 60e9 * units::pi / 4 * radius_m * radius_m * radius_m * radius_m;
 
 RodDescription wire(double length_m, int elements) {
   RodDescription d = steel_wire({.elements = elements, .length_m = length_m, .gravity = false});
@@ -52,7 +52,7 @@ struct Crossed {
   }
   static std::vector<EndState> bases() {
     EndState lower = along_x(), upper = along_x();
-    upper.q_W = turned_frame(upper.q_W, Vector3d(0, 0, std::numbers::pi / 2));
+    upper.q_W = turned_frame(upper.q_W, Vector3d(0, 0, units::pi / 2));
     upper.p_W = Vector3d(middle_m, -middle_m, gap_m + 2 * radius_m);
     return {lower, upper};
   }
@@ -138,7 +138,7 @@ double nearest_of_own(bool touch, double* push_N) {
     }
   };
   in.tip.velocity_W_m_s = Vector3d(-0.25, 0.04, 0.02);
-  in.tip.turn_rate_W_rad_s = Vector3d(0, 0, -1.5 * std::numbers::pi);
+  in.tip.turn_rate_W_rad_s = Vector3d(0, 0, -1.5 * units::pi);
   run(1000);
   in.tip.velocity_W_m_s = Vector3d(0, 0, -0.05);
   in.tip.turn_rate_W_rad_s.setZero();

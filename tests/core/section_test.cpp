@@ -2,9 +2,9 @@
 
 #include <gtest/gtest.h>
 
-#include <numbers>
 #include <stdexcept>
 
+#include "core/base/units.h"
 #include "core/model/rod.h"
 
 namespace ostium::core {
@@ -61,7 +61,7 @@ TEST(Section, RoundSectionHasTextbookStiffness) {
   const Section s = round_section(0, 1, 0.4445e-3, 0, 9.5e9, 0.3, 7800);
   EXPECT_NEAR(s.EI1_N_m2 * 1e6, 291.3, 0.1);
   EXPECT_NEAR(s.GJ_N_m2 / s.EI1_N_m2, 1 / 1.3, 1e-12);
-  EXPECT_NEAR(s.kg_per_m, 7800 * std::numbers::pi * 0.4445e-3 * 0.4445e-3, 1e-12);
+  EXPECT_NEAR(s.kg_per_m, 7800 * units::pi * 0.4445e-3 * 0.4445e-3, 1e-12);
 }
 
 TEST(Rod, ElementsShareMassAndComplianceWithoutLoss) {

@@ -4,8 +4,8 @@
 
 #include <Eigen/Geometry>
 #include <cmath>
-#include <numbers>
 
+#include "core/base/units.h"
 #include "core/samples/steel_wire.h"
 
 namespace ostium::core {
@@ -91,7 +91,7 @@ TEST(Statics, TwoGuidedEndsStayOnTheirLines) {
   RodState& rod = bench.rod();
   bench.inputs.rods[0].base.hold = Hold::guided;
   bench.inputs.rods[0].tip.hold = Hold::guided;
-  rod.tip.q_W = turned_frame(along_x().q_W, Vector3d(0, std::numbers::pi / 2, 0));  // d3 along -z
+  rod.tip.q_W = turned_frame(along_x().q_W, Vector3d(0, units::pi / 2, 0));  // d3 along -z
   ASSERT_TRUE(bench.settle().converged);
   EXPECT_LT(rod.position[0].tail<2>().norm(), 1e-9);  // on x
   EXPECT_NEAR(bench.tip().x(), 0.3, 1e-9);            // on a vertical

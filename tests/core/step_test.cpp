@@ -6,10 +6,10 @@
 #include <cmath>
 #include <limits>
 #include <memory>
-#include <numbers>
 #include <stdexcept>
 #include <thread>
 
+#include "core/base/units.h"
 #include "core/rod/initial_state.h"
 #include "core/samples/steel_wire.h"
 #include "tests/support/allocations.h"
@@ -336,7 +336,7 @@ TEST(BadInput, OverTwistedSlackRodRecovers) {
   in.tip.velocity_W_m_s = Vector3d(-0.03, 0, 0);
   run(1000);
   in.tip.velocity_W_m_s.setZero();
-  in.tip.turn_rate_W_rad_s = Vector3d(20 * std::numbers::pi, 0, 0);
+  in.tip.turn_rate_W_rad_s = Vector3d(20 * units::pi, 0, 0);
   run(2000);
   in.tip.turn_rate_W_rad_s.setZero();
   run(500);
@@ -359,7 +359,7 @@ TEST(BadInput, PullingATautRodApartAndOverturningJointsAreFlagged) {
 
   in.tip.hold = Hold::guided;
   in.tip_force_W_N = Vector3d(60, 0, 0);
-  in.tip.turn_rate_W_rad_s = Vector3d(20 * std::numbers::pi, 0, 0);
+  in.tip.turn_rate_W_rad_s = Vector3d(20 * units::pi, 0, 0);
   bool flagged = false;
   for (int ms = 0; ms < 790; ++ms) {  // 7.9 turns: pi per joint is at 8
     bench.step();

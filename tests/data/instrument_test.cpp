@@ -4,8 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
 
+#include "core/base/units.h"
 #include "core/model/state.h"
 #include "core/rod/initial_state.h"
 #include "data/catalogue/catalogue.h"
@@ -59,7 +59,7 @@ TEST(Instrument, RestCurvatureOfASectionBecomesSI) {
 
 TEST(Instrument, SectionsAreCutWhereTheShapeChanges) {
   const Instrument hook = read_instrument("hook.json", small_catheter);
-  const double ends_mm[] = {10, 40, 10 + 10 * std::numbers::pi, 1000};
+  const double ends_mm[] = {10, 40, 10 + 10 * units::pi, 1000};
   ASSERT_EQ(hook.sections.size(), 4u);
   for (int i = 0; i < 4; ++i) EXPECT_NEAR(hook.sections[i].to_tip_m, ends_mm[i] * 1e-3, 1e-12);
   EXPECT_TRUE(hook.sections[0].rest_curvature_per_m.isZero());
@@ -72,9 +72,9 @@ TEST(Instrument, SectionsAreCutWhereTheShapeChanges) {
 TEST(Instrument, AHookBendsAsItsArcsSay) {
   // From 100 mm behind: straight to the arc, a quarter circle of 20 mm, 10 mm straight. The chain of 0.1 mm links cuts
   // the corners of arcs by less than length^2 / radius / 24 per radian: micrometres.
-  const double straight_mm = 100 - 10 * std::numbers::pi - 10;
+  const double straight_mm = 100 - 10 * units::pi - 10;
   for (const double plane_deg : {0.0, 90.0, 180.0, 30.0}) {
-    const double plane = plane_deg * std::numbers::pi / 180;
+    const double plane = plane_deg * units::pi / 180;
     const Instrument hook = read_instrument(
         "hook.json", with(small_catheter, "\"plane_deg\": 0", "\"plane_deg\": " + std::to_string(plane_deg)));
     const Eigen::Vector3d expected(30 * std::cos(plane), 30 * std::sin(plane), straight_mm + 20);
@@ -115,7 +115,7 @@ TEST(Instrument, PreformedCathetersComeToTheirClosedForm) {
 TEST(Instrument, OnlyATipThatCanBeShapedIsShaped) {
   const std::vector<Instrument> all = load_catalogue();
   const Instrument& wire = find_instrument(all, "wire-014-workhorse");
-  const double radius = 3e-3, quarter = radius * std::numbers::pi / 2;
+  const double radius = 3e-3, quarter = radius * units::pi / 2;
   const Instrument shaped = with_tip_shape(wire, {{.length_m = 1e-3}, {.length_m = quarter, .radius_m = radius}});
   const Eigen::Vector3d tip = tip_at_rest(shaped, quarter + 1e-3);
   EXPECT_NEAR(tip.x(), 4e-3, 1e-5);

@@ -4,8 +4,8 @@
 
 #include <Eigen/Dense>
 #include <cmath>
-#include <numbers>
 
+#include "core/base/units.h"
 #include "data/identification/effects/beams_with_play.h"
 #include "data/identification/effects/effect_list.h"
 #include "data/identification/forward/curve.h"
@@ -149,7 +149,7 @@ TEST(NestingClearance, LinesAgreeWithTwoChains) {
       s[0].to_tip_m = s[1].from_tip_m = curved_m[i];
       s[0].rest_curvature_per_m = {0, bend_per_m[i], 0};
       const bool turned = opposed && i == 1;
-      e.set[i] = {inserted_m[i], turned ? std::numbers::pi : 0, 0};
+      e.set[i] = {inserted_m[i], turned ? units::pi : 0, 0};
       (i == 0 ? pair.outer : pair.inner) = {
           {{curved_m[i], s[0].EI1_N_m2, turned ? -bend_per_m[i] : bend_per_m[i]}, {1, s[1].EI1_N_m2, 0}},
           inserted_m[i]};

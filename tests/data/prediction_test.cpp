@@ -5,8 +5,8 @@
 
 #include <cmath>
 #include <nlohmann/json.hpp>
-#include <numbers>
 
+#include "core/base/units.h"
 #include "data/identification/forward/curve.h"
 #include "data/identification/measurement/measurement_reader.h"
 #include "tests/support/synthetic_set.h"
@@ -77,7 +77,7 @@ TEST(Prediction, ContinuesFromTheExperimentBefore) {
   const auto with_roll = [&](double deg) {
     Experiment x = e;
     x.id = std::to_string(deg);
-    x.set = {{0.14, 0, 0}, {0.14, deg * std::numbers::pi / 180, 0}};
+    x.set = {{0.14, 0, 0}, {0.14, deg * units::pi / 180, 0}};
     return x;
   };
   // Curved over their whole length, L k sqrt(1 + nu) = 2.2: they snap some way beyond 180 degrees, not at it.

@@ -6,10 +6,10 @@
 #include <cmath>
 #include <deque>
 #include <limits>
-#include <numbers>
 #include <random>
 #include <utility>
 
+#include "core/base/units.h"
 #include "device/emulator/emulated_box.h"
 
 namespace ostium::device {
@@ -81,7 +81,7 @@ struct Loop {
   std::deque<std::array<std::uint8_t, out_report_bytes>> underway;
   double hand_mm = 0, hand_mm_s = 0, sim_mm = 0, stuck_at_mm = 0, work_mJ = 0;
 
-  double torquer_mm = 2, deg_mm = 180 / std::numbers::pi / torquer_mm;
+  double torquer_mm = 2, deg_mm = 180 / units::pi / torquer_mm;
   double lever() const { return turning ? 1e3 * settings.radius_m[wire] / torquer_mm : 1; }
 
   double level_N() const { return box.clamp()[0] / 65535.0 * calibration.clamp_full_scale_N[0]; }

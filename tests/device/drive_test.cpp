@@ -2,9 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include <numbers>
-
 #include "core/base/tolerances.h"
+#include "core/base/units.h"
 
 namespace ostium::device {
 namespace {
@@ -25,7 +24,7 @@ TEST(Drive, NothingOfTheHandIsLost) {
     turned_rad += inputs.base.turn_rate_W_rad_s.dot(axis_W) * step_s;
   }
   EXPECT_NEAR(fed_m, 1e-3 * (299 * 0.3 + 30), 1e-12);
-  EXPECT_NEAR(turned_rad, -300 * 4.5 * std::numbers::pi / 180, 1e-9);
+  EXPECT_NEAR(turned_rad, -300 * 4.5 * units::pi / 180, 1e-9);
   EXPECT_EQ(inputs.feed_m_s, 0);
 }
 

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <thread>
 
-#include "core/base/triple_buffer.h"
 #include "device/emulator/emulated_port.h"
 #include "device/emulator/stroking_hand.h"
 #include "device/host/calibrating.h"
@@ -99,27 +98,6 @@ TEST(TrackingBox, ClosesAClampAndKnowsItsRoundTrip) {
     for (int i = 0; i < 60; ++i) host.poll(0, request);
     EXPECT_EQ(box.clamp()[2], 0) << "loads of a step that is over open it";
   }
-}
-
-TEST(TripleBuffer, GivesTheNewestOfAnotherThread) {
-  struct Pair {
-    std::uint64_t a = 0, b = 0;
-  };
-  core::TripleBuffer<Pair> latch;
-  std::atomic<bool> over{false};
-  std::thread writer([&] {
-    for (std::uint64_t i = 1; i <= 200'000; ++i) latch.put({i, ~i});
-    over = true;
-  });
-  std::uint64_t last = 0;
-  while (!over) {
-    const Pair p = latch.take();
-    ASSERT_TRUE(p.a == 0 || p.b == ~p.a) << "torn";
-    ASSERT_GE(p.a, last) << "older than the one before";
-    last = p.a;
-  }
-  writer.join();
-  EXPECT_EQ(latch.take().a, 200'000u);
 }
 
 /// A box whose sensors are off, and what is done at it with a ruler, by full turns, with a gauge: the scales come back.

@@ -4,6 +4,7 @@
 
 #include <thread>
 
+#include "core/base/units.h"
 #include "fluoro/base/resample.h"
 #include "fluoro/console/fluoroscope.h"
 #include "fluoro/matter/tissue.h"
@@ -190,7 +191,7 @@ TEST(Imager, ABlurAsWideAsThePictureKeepsWhatIsEven) {
     Plane dot = Plane::Zero(32, 32);
     dot(16, 16) = 1;
     gaussian_blur(dot, sigma, Beyond::zero, scratch);
-    EXPECT_NEAR(dot(16, 16) * 2 * EIGEN_PI * sigma * sigma, 1, 5e-3) << sigma;
+    EXPECT_NEAR(dot(16, 16) * 2 * units::pi * sigma * sigma, 1, 5e-3) << sigma;
   }
 }
 

@@ -4,6 +4,7 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
+#include "core/base/units.h"
 #include "fluoro/matter/tissue.h"
 #include "fluoro/phantom/coronaries.h"
 
@@ -32,7 +33,7 @@ TEST(Phantom, ANetOfABallIsClosedAndHoldsItsVolume) {
   const Surface ball =
       net([](const Vector3d& p) { return p.norm() - 0.02; }, {-0.0251, -0.0252, -0.0253}, {0.026, 0.026, 0.026}, 1e-3);
   EXPECT_NO_THROW(check(body("ball", ball, tissue::soft, tissue::air)));
-  EXPECT_NEAR(volume_m3(ball) / (4.0 / 3 * EIGEN_PI * 8e-6), 1, 2e-3);
+  EXPECT_NEAR(volume_m3(ball) / (4.0 / 3 * units::pi * 8e-6), 1, 2e-3);
 }
 
 TEST(Phantom, ABranchAddsWhatLiesBeyondItsParentsWall) {
@@ -49,7 +50,8 @@ TEST(Phantom, ABranchAddsWhatLiesBeyondItsParentsWall) {
     within +=
         2 * std::sqrt(branch_m * branch_m - z * z) * std::sqrt(parent_m * parent_m - z * z) * 2 * branch_m / steps;
   }
-  const double whole = EIGEN_PI * branch_m * branch_m * length_m + 2.0 / 3 * EIGEN_PI * branch_m * branch_m * branch_m;
+  const double whole =
+      units::pi * branch_m * branch_m * length_m + 2.0 / 3 * units::pi * branch_m * branch_m * branch_m;
   EXPECT_NEAR(volume_m3(branch) / (whole - within), 1, 0.01);
 }
 

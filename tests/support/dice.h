@@ -2,9 +2,10 @@
 /// Random numbers for made-up sets.
 #include <Eigen/Geometry>
 #include <cmath>
-#include <numbers>
 #include <random>
 #include <string>
+
+#include "core/base/units.h"
 
 namespace ostium::synthetic {
 
@@ -23,7 +24,7 @@ class Dice {
   int whole(int from, int to) { return from + static_cast<int>(random_() % static_cast<unsigned>(to - from + 1)); }
   double normal() {
     const double u = uniform(0, 1), v = uniform(0, 1);
-    return std::sqrt(-2 * std::log(u)) * std::cos(2 * std::numbers::pi * v);
+    return std::sqrt(-2 * std::log(u)) * std::cos(2 * units::pi * v);
   }
   Eigen::Vector3d normals() {
     const double x = normal(), y = normal(), z = normal();

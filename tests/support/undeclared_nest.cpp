@@ -1,7 +1,6 @@
 #include "tests/support/undeclared_nest.h"
 
 #include <cmath>
-#include <numbers>
 #include <stdexcept>
 
 #include "core/base/units.h"
@@ -65,7 +64,7 @@ Undeclared undeclared_play(unsigned seed) {
     e.points_m.clear();
     const double a = rounded(dice.uniform(55, 90) * mm), b = a + rounded(dice.uniform(12, 38) * mm);
     const bool opposed = i % 2 == 1;
-    e.set = {{a, 0, 0}, {b, opposed ? std::numbers::pi : 0, 0}};
+    e.set = {{a, 0, 0}, {b, opposed ? units::pi : 0, 0}};
     if (i % 3 == 2) e.tip_force_N = Vector3d(0, 0, dice.either(0.05, 0.15));
 
     nested_chains::Problem pair;

@@ -1,7 +1,6 @@
 #include "tests/support/undeclared_tube.h"
 
 #include <cmath>
-#include <numbers>
 #include <stdexcept>
 
 #include "core/base/units.h"
@@ -28,7 +27,7 @@ pushed_chain::Wire drawn(Dice& dice, bool catheter) {
   const double radius = (catheter ? dice.uniform(0.7, 0.95) : dice.uniform(0.17, 0.25)) * mm;
   const double shaft = (catheter ? dice.log_uniform(150, 500) : dice.log_uniform(3, 10)) * Nmm2;
   const double soft = catheter ? dice.uniform(0.3, 0.7) : dice.uniform(0.12, 0.35);
-  const double weight = (catheter ? 0.6 * plastic_kg_m3 : coil_kg_m3) * std::numbers::pi * radius * radius;
+  const double weight = (catheter ? 0.6 * plastic_kg_m3 : coil_kg_m3) * units::pi * radius * radius;
   const double tip = rounded(dice.uniform(30, 60) * mm), bend = dice.uniform(0, 9);
   return {{{tip, soft * shaft, weight, bend}, {1, shaft, weight, 0}}, radius};
 }

@@ -1,8 +1,7 @@
 /// Time, motion and splines of the beat.
 #include <gtest/gtest.h>
 
-#include <numbers>
-
+#include "core/base/units.h"
 #include "vascular/geometry/implicit/spline.h"
 #include "vascular/motion/heart_cycle.h"
 #include "vascular/motion/moving_lumen.h"
@@ -14,14 +13,14 @@ namespace {
 TEST(PeriodicPoints, ACircleComesBackFromTwentyFourOfItsPoints) {
   std::vector<std::vector<Eigen::Vector3d>> frames(beat_frames);
   const auto circle = [](double phase) {
-    const double a = 2 * std::numbers::pi * phase;
+    const double a = 2 * units::pi * phase;
     return Eigen::Vector3d(0.01 * std::cos(a), 0.3 + 0.01 * std::sin(a), -0.1);
   };
   for (int f = 0; f < beat_frames; ++f) frames[f] = {circle(static_cast<double>(f) / beat_frames)};
   const PeriodicPoints points(frames);
   for (double phase = -0.3; phase < 1.7; phase += 0.0317) {
     // The error of a cubic spline: h^4 / 384 of the fourth derivative, h = 2 pi / 24.
-    EXPECT_LT((points.position(0, phase) - circle(phase)).norm(), 0.01 * std::pow(2 * std::numbers::pi / 24, 4) / 300);
+    EXPECT_LT((points.position(0, phase) - circle(phase)).norm(), 0.01 * std::pow(2 * units::pi / 24, 4) / 300);
     const double h = 1e-4;
     const Eigen::Vector3d slope = (points.position(0, phase + h) - points.position(0, phase - h)) / (2 * h);
     EXPECT_LT((points.velocity(0, phase) - slope).norm(), 1e-4);

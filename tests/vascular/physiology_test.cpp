@@ -3,8 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include <numbers>
-
 #include "core/base/units.h"
 #include "vascular/motion/heart_cycle.h"
 #include "vascular/treatment/treatment.h"
@@ -215,7 +213,7 @@ TEST(Contrast, AUniformConcentrationStaysAsItIs) {
   const auto fill = [&] {
     for (std::size_t cell = 0; cell < n; ++cell)
       for (int k = 0; k < layers; ++k)
-        c.sheath_kg[k * n + cell] = 100 * body.model.contrast.share[k] * tree.cells[cell].length_m * std::numbers::pi *
+        c.sheath_kg[k * n + cell] = 100 * body.model.contrast.share[k] * tree.cells[cell].length_m * units::pi *
                                     body.state.radius_m[cell] * body.state.radius_m[cell];
   };
   fill();
@@ -224,7 +222,7 @@ TEST(Contrast, AUniformConcentrationStaysAsItIs) {
     body.run(8e-3);
   }
   for (std::size_t cell = 0; cell < n; ++cell) {
-    const double area = std::numbers::pi * body.state.radius_m[cell] * body.state.radius_m[cell];
+    const double area = units::pi * body.state.radius_m[cell] * body.state.radius_m[cell];
     EXPECT_NEAR(concentration(c, body.model.flow, static_cast<int>(cell), area), 100, 0.5);
   }
 }
@@ -240,7 +238,7 @@ Injected inject(double rate_mL_s, double shaft_m = 0, double covered_seconds = 2
   body.inputs.contrast.injection_m3_s = rate_mL_s * mL, body.inputs.contrast.shaft_m = shaft_m;
   Injected out;
   out.selective = body.run(covered_seconds).selective;
-  const double area = std::numbers::pi * body.state.radius_m[20] * body.state.radius_m[20];
+  const double area = units::pi * body.state.radius_m[20] * body.state.radius_m[20];
   out.in_artery_kg_m3 = concentration(body.state.contrast, body.model.flow, 20, area);
   out.sinus_kg = body.state.contrast.sinus_kg[0] + body.state.contrast.aorta_kg[0];
   return out;
@@ -286,7 +284,7 @@ TEST(Contrast, HangsUpBehindABlockageAndWashesOutElsewhere) {
   body.run(4);
   const auto at = [&](int cell) {
     return concentration(body.state.contrast, body.model.flow, cell,
-                         std::numbers::pi * std::pow(body.state.radius_m[cell], 2));
+                         units::pi * std::pow(body.state.radius_m[cell], 2));
   };
   EXPECT_GT(at(shut - 5), 50);  // it stands
   EXPECT_GT(at(shut + 5), 50);
@@ -352,7 +350,7 @@ TEST(Outcomes, ContrastComesLaterWhenLessFlows) {
     body.inputs.contrast.tip = {TipPlace::coronary, 0, 1};
     body.inputs.contrast.injection_m3_s = 2e-6;
     const int cell = 90;
-    const double area = std::numbers::pi * std::pow(body.state.radius_m[cell], 2);
+    const double area = units::pi * std::pow(body.state.radius_m[cell], 2);
     double t = 0;
     for (; t < 20 && concentration(body.state.contrast, body.model.flow, cell, area) < 50; t += 0.01) body.run(0.01);
     return t;

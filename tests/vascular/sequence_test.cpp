@@ -2,6 +2,7 @@
 /// motion that made it does.
 #include <gtest/gtest.h>
 
+#include "core/base/units.h"
 #include "vascular/geometry/mesh/bounding_volume_hierarchy.h"
 #include "vascular/patient/patient.h"
 
@@ -45,13 +46,13 @@ TEST(Sequence, OurOwnBeatComesBackFromItsSurfaces) {
 TEST(Sequence, OfAnotherNumberOfFramesIsResampled) {
   std::vector<std::vector<Eigen::Vector3d>> few(8);
   for (int f = 0; f < 8; ++f)
-    few[f] = {0.01 * Eigen::Vector3d(std::cos(EIGEN_PI * f / 4), std::sin(EIGEN_PI * f / 4), 3)};
+    few[f] = {0.01 * Eigen::Vector3d(std::cos(units::pi * f / 4), std::sin(units::pi * f / 4), 3)};
   const auto many = resampled(few, beat_frames);
   ASSERT_EQ(static_cast<int>(many.size()), beat_frames);
   EXPECT_EQ(many[0][0], few[0][0]) << "the first is kept to the bit";
   for (int f = 0; f < beat_frames; ++f) {
-    const Eigen::Vector3d there = 0.01 * Eigen::Vector3d(std::cos(EIGEN_PI * f / 12), std::sin(EIGEN_PI * f / 12), 3);
-    EXPECT_LT((many[f][0] - there).norm(), 0.01 * std::pow(EIGEN_PI / 4, 4) / 300) << "a cubic spline's error";
+    const Eigen::Vector3d there = 0.01 * Eigen::Vector3d(std::cos(units::pi * f / 12), std::sin(units::pi * f / 12), 3);
+    EXPECT_LT((many[f][0] - there).norm(), 0.01 * std::pow(units::pi / 4, 4) / 300) << "a cubic spline's error";
   }
   EXPECT_EQ(resampled(few, 8), few);
 }

@@ -1,8 +1,8 @@
 #pragma once
 /// Meshes whose volume, openings and crossings are known.
 #include <cmath>
-#include <numbers>
 
+#include "core/base/units.h"
 #include "vascular/geometry/mesh/mesh.h"
 
 namespace ostium::test {
@@ -22,7 +22,7 @@ inline vascular::Mesh sphere(double radius, int n, const Eigen::Vector3d& centre
   m.vertices.push_back(centre + radius * Eigen::Vector3d::UnitZ());
   for (int i = 1; i < n; ++i)
     for (int j = 0; j < columns; ++j) {
-      const double theta = std::numbers::pi * i / n, phi = 2 * std::numbers::pi * j / columns;
+      const double theta = units::pi * i / n, phi = 2 * units::pi * j / columns;
       m.vertices.push_back(centre + radius * Eigen::Vector3d(std::sin(theta) * std::cos(phi),
                                                              std::sin(theta) * std::sin(phi), std::cos(theta)));
     }

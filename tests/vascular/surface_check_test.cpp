@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/base/units.h"
 #include "tests/vascular/shapes.h"
 #include "vascular/geometry/mesh/bounding_volume_hierarchy.h"
 
@@ -13,7 +14,7 @@ TEST(SurfaceCheck, ASphereIsSound) {
   const SurfaceReport r = check_surface(test::sphere(0.01, 32));
   EXPECT_TRUE(r.sound()) << describe(r);
   EXPECT_EQ(r.components, 1);
-  EXPECT_NEAR(r.volume_m3, 4.0 / 3 * std::numbers::pi * 1e-6, 0.01 * 4.2e-6);  // inscribed: (pi/n)^2 / 2 smaller
+  EXPECT_NEAR(r.volume_m3, 4.0 / 3 * units::pi * 1e-6, 0.01 * 4.2e-6);  // inscribed: (pi/n)^2 / 2 smaller
   EXPECT_EQ(describe(r), "sound\n");
 }
 

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <numbers>
 #include <numeric>
 
 #include "core/base/units.h"
@@ -254,7 +253,7 @@ TEST(Stent, ShortensAsItOpensAsItsStrutsKeepTheirLength) {
   for (int k = 0; k < m.rings; ++k)
     for (int j = 0; j < around; ++j) {
       const double dz = s.along_m[k * around + j] - s.along_m[k * around + (j + 1) % around];
-      const double chord = 2 * s.radius_m[k] * std::sin(std::numbers::pi / around);
+      const double chord = 2 * s.radius_m[k] * std::sin(units::pi / around);
       EXPECT_NEAR(std::hypot(dz, chord), m.strut_length_m(), 0.03 * m.strut_length_m());
     }
 }

@@ -1,6 +1,6 @@
 #include <cmath>
-#include <numbers>
 
+#include "core/base/units.h"
 #include "vascular/anatomy/builder.h"
 
 namespace ostium::vascular {
@@ -96,7 +96,7 @@ void add_aorta(AnatomyBuilder& builder, const Root& root, const AnatomyParameter
   const Eigen::Vector3d first = mm(-25, 25, 14), across = mm(0.51, 0, -0.86).normalized();
   const double half_width = p.arch_width_mm / 2e3, height = p.arch_height_mm / 1e3;
   for (int i = 0; i <= 6; ++i) {
-    const double u = std::numbers::pi * i / 6;
+    const double u = units::pi * i / 6;
     const Eigen::Vector3d at =
         first + half_width * (1 - std::cos(u)) * across + Eigen::Vector3d(0, height * std::sin(u), 0);
     const double diameters_mm[] = {0, p.ascending_mm - 1.5, p.arch_mm, 0, p.arch_mm - 1.6, p.isthmus_mm, 0};

@@ -6,9 +6,9 @@
 /// which there is no number, taper from about 2 mm (septals 1.5 to 2.0 mm).
 #include <cassert>
 #include <cmath>
-#include <numbers>
 #include <random>
 
+#include "core/base/units.h"
 #include "vascular/anatomy/builder.h"
 
 namespace ostium::vascular {
@@ -221,8 +221,8 @@ class Coronaries {
     for (int wave = 1; wave <= 2; ++wave) {
       const double x = deviate(), y = deviate(), z = deviate();
       for (std::size_t i = first; i < course.size(); ++i)
-        course[i].p += p_.course_wander_m * std::sin(std::numbers::pi * wave * length[i] / length.back()) *
-                       Eigen::Vector3d(x, y, z);
+        course[i].p +=
+            p_.course_wander_m * std::sin(units::pi * wave * length[i] / length.back()) * Eigen::Vector3d(x, y, z);
     }
     return course;
   }

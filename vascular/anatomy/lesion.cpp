@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <stdexcept>
 
 #include "core/base/units.h"
@@ -20,7 +19,7 @@ constexpr double shoulder = 0.3;  // share of the length in which the narrowing 
 double depth_at(const Lesion& lesion, double from_branch_m) {
   const double x = (from_branch_m - lesion.from_m) / lesion.length_m, end = std::min(x, 1 - x);
   if (end <= 0) return 0;
-  return end >= shoulder ? 1 : (1 - std::cos(std::numbers::pi * end / shoulder)) / 2;
+  return end >= shoulder ? 1 : (1 - std::cos(units::pi * end / shoulder)) / 2;
 }
 
 std::string names(const Anatomy& anatomy) {

@@ -2,15 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include "core/base/units.h"
 #include "vascular/geometry/implicit/spline.h"
 
 namespace ostium::vascular {
 
 namespace {
 
-constexpr double two_pi = 2 * std::numbers::pi;
+constexpr double two_pi = 2 * units::pi;
 constexpr double mid_systole = end_systole / 2;
 constexpr double even_rate_1_min = 70;
 
@@ -55,6 +55,6 @@ double contraction(double phase) {
   return sum;
 }
 
-double breath_depth(double phase) { return std::pow(std::sin(std::numbers::pi * phase), 4); }
+double breath_depth(double phase) { return std::pow(std::sin(units::pi * phase), 4); }
 
 }  // namespace ostium::vascular

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
-#include <numbers>
 
 #include "core/base/units.h"
 #include "vascular/geometry/implicit/contour.h"
@@ -117,7 +116,7 @@ void add_ribs(std::vector<XrayBody>& bodies) {
       for (int i = 0; i <= 48; ++i) {
         // Level behind, steep at the side, gentler in front.
         const double t = i / 48.0, theta = (14 + (last_deg - 14) * t) * degree,
-                     y = y0 + 3 * std::sin(std::numbers::pi * std::min(1.0, 3 * t)) -
+                     y = y0 + 3 * std::sin(units::pi * std::min(1.0, 3 * t)) -
                          drop * (0.7 * t * t * (3 - 2 * t) + 0.3 * t) + 1.5 * std::sin(6 * t + 1.7 * rib + side);
         const double width = cage_width_mm(y) + 2, depth = cage_depth_mm(y) + 2;
         line.push_back(middle_x * Eigen::Vector3d::UnitX() +
@@ -166,8 +165,7 @@ void add_front(std::vector<XrayBody>& bodies) {
     std::vector<Eigen::Vector3d> line;
     for (int i = 0; i <= 20; ++i) {
       const double t = i / 20.0;
-      line.push_back(x +
-                     at_mm(side * (24 + 130 * t), 88 + 22 * t, 58 - 70 * t + 14 * std::sin(2 * std::numbers::pi * t)));
+      line.push_back(x + at_mm(side * (24 + 130 * t), 88 + 22 * t, 58 - 70 * t + 14 * std::sin(2 * units::pi * t)));
     }
     append(outer, swept_ellipse(line, 6.5 * mm, 5.5 * mm, Eigen::Vector3d::UnitY()));
     append(inner, swept_ellipse({line.begin() + 1, line.end() - 1}, 5.2 * mm, 4.2 * mm, Eigen::Vector3d::UnitY()));

@@ -3,8 +3,8 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include "core/base/units.h"
 #include "vascular/geometry/mesh/bounding_volume_hierarchy.h"
 
 namespace ostium::vascular {
@@ -12,7 +12,7 @@ namespace ostium::vascular {
 namespace {
 
 /// Round about, where point j of a ring is; the first crown lies to the side of the path's frame.
-double angle_of(const StentModel& m, int j) { return std::numbers::pi * j / m.crowns; }
+double angle_of(const StentModel& m, int j) { return units::pi * j / m.crowns; }
 
 /// Inside the vessel a stent that is too small for it lies on one wall: there the gap is 0, opposite twice the mean.
 double gap_of(const StentModel& m, const StentState& s, const VesselPath& path, const PlaqueState& wall, int point) {

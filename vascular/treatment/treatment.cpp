@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+
+#include "core/base/units.h"
 
 namespace ostium::vascular {
 
@@ -17,7 +18,7 @@ void run_injuries(const FlowTree& tree, double dt, TreatmentState& s, Physiology
   for (Injury& injury : s.injury.injuries) {
     if (injury.cell < 0) continue;
     const auto cell = static_cast<std::size_t>(injury.cell);
-    const double r = physiology.radius_m[cell], V = std::numbers::pi * r * r * tree.cells[cell].length_m;
+    const double r = physiology.radius_m[cell], V = units::pi * r * r * tree.cells[cell].length_m;
     double all = 0;
     for (int k = 0; k < layers; ++k) all += contrast.sheath_kg[k * n + cell];
     const double here = all / std::max(V, 1e-12), pocket = pocket_m3(injury);

@@ -4,13 +4,13 @@
 #include <algorithm>
 #include <chrono>
 #include <nlohmann/json.hpp>
-#include <numbers>
 #include <thread>
 
 #include "app/command_line/common_options.h"
 #include "app/command_line/interrupt.h"
 #include "app/commands/device/device.h"
 #include "app/commands/device/words.h"
+#include "core/base/units.h"
 #include "device/emulator/emulated_port.h"
 #include "device/emulator/stroking_hand.h"
 #include "device/host/round_trips.h"
@@ -85,7 +85,7 @@ Json to_json(const device::BoxSnapshot& now, const device::RoundTrips& trips) {
                                    {"inserted_mm", 1e3 * t.inserted_m},
                                    {"in_box_mm", 1e3 * t.in_box_m},
                                    {"fed_mm", 1e3 * t.fed_m},
-                                   {"turned_deg", t.turned_rad * 180 / std::numbers::pi},
+                                   {"turned_deg", t.turned_rad * 180 / units::pi},
                                    {"clamp_N", t.clamp_N}};
   }
   return out;
@@ -99,8 +99,8 @@ std::string table(const device::BoxSnapshot& now, const device::RoundTrips& trip
     const device::ToolSnapshot& t = now.tool[i];
     out += fmt::format(
         "  {:<12} {:<7} {:>3}  inserted {:>8.2f} mm, in the box {:>7.2f} mm, turned {:>8.1f} deg, clamp {:.2f} N\n",
-        tool_names[i], words(t.sight), t.quality, 1e3 * t.inserted_m, 1e3 * t.in_box_m,
-        t.turned_rad * 180 / std::numbers::pi, t.clamp_N);
+        tool_names[i], words(t.sight), t.quality, 1e3 * t.inserted_m, 1e3 * t.in_box_m, t.turned_rad * 180 / units::pi,
+        t.clamp_N);
   }
   out += fmt::format(
       "  pressure {:.2f} atm, flow {:.2f} mL/s, pedals {:04x}; round trip median {:.2f} ms, 99 % {:.2f} ms\n",

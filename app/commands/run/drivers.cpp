@@ -6,6 +6,7 @@
 
 #include "app/command_line/interrupt.h"
 #include "app/command_line/progress.h"
+#include "core/base/units.h"
 #include "device/transport/usb_port.h"
 #include "fluoro/projection/views.h"
 
@@ -20,7 +21,7 @@ std::unique_ptr<BoxRun> device_of(const RunArguments& a, RunSetup& setup) {
   if (a.device.empty() || (a.device == "auto" && device::find_boxes().empty())) return nullptr;
   BoxDriverSettings settings;
   for (const fluoro::StandardView& view : fluoro::standard_views())
-    settings.views.emplace_back(view.lao_deg * EIGEN_PI / 180, view.cran_deg * EIGEN_PI / 180);
+    settings.views.emplace_back(view.lao_deg * units::pi / 180, view.cran_deg * units::pi / 180);
   settings.watch = [before = device::Pause::none](const device::BoxSnapshot& now) mutable {
     if (now.pause != before && now.pause != device::Pause::none)
       show_progress(std::string(advice(now)));  // nothing steps now

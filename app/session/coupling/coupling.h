@@ -136,11 +136,4 @@ void set_physiology_inputs(const CouplingModel& model, const DeliveryInputs& inp
 /// What contrast runs through to a guide's tip.
 vascular::Line line_of(const data::Instrument& guide);
 
-/// Of a rod's last two elements.
-Eigen::Vector3d direction_at_tip(const core::Rod& rod, const core::RodState& state);
-/// The distance of a marker's middle from the tip, m; 0 proximal, 1 distal.
-double marker_from_tip_m(const data::Instrument& instrument, int which);
-/// A point of a rod that is so far from its tip, m; the introducer if that is outside.
-Eigen::Vector3d point_from_tip(const core::Rod& rod, const core::RodState& state, double from_tip_m);
-
 }  // namespace ostium::app

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "app/session/coupling/tool_geometry.h"
 #include "vascular/treatment/stent_shape.h"
 
 namespace ostium::app {

@@ -1,7 +1,8 @@
 #include "app/session/device/emulated_box_driver.h"
 
 #include <algorithm>
-#include <numbers>
+
+#include "core/base/units.h"
 
 namespace ostium::app {
 
@@ -53,7 +54,7 @@ void EmulatedBoxDriver::move(device::EmulatedBox& box) {
     if (changing) continue;
     if (pause_ == device::Pause::none) {
       tool.advanced_mm += 1e3 * wish_.tools[t].feed_m_s * elapsed_s;
-      tool.turned_deg += 180 / std::numbers::pi * wish_.tools[t].turn_rad_s * elapsed_s;
+      tool.turned_deg += 180 / units::pi * wish_.tools[t].turn_rad_s * elapsed_s;
     } else if (held_[t] == paused_by_) {
       const double to_m = pause_ == device::Pause::travel_full ? drawn_back_m : 0.27,
                    step_m = draw_back_m_s * elapsed_s;

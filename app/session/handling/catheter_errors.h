@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 #include <tuple>
 
 #include "app/session/handling/episode.h"
 #include "app/session/handling/scene.h"
 #include "app/session/handling/session_event.h"
+#include "core/base/units.h"
 
 namespace ostium::app {
 
@@ -40,11 +40,11 @@ class WoundUp {
  public:
   void look(const HandlingMap&, const HandlingScene& x, const EventSink& say) {
     if (x.catheter >= 0 && episode_.begins(std::fabs(x.twist_rad) > most_rad, for_s, x.time_s))
-      say(data::EventCode::wound_up, x.catheter, 180 / std::numbers::pi * x.twist_rad);
+      say(data::EventCode::wound_up, x.catheter, 180 / units::pi * x.twist_rad);
   }
 
  private:
-  static constexpr double most_rad = 1.5 * std::numbers::pi, for_s = 1;
+  static constexpr double most_rad = 1.5 * units::pi, for_s = 1;
   HeldEpisode episode_;
 };
 
@@ -57,11 +57,11 @@ class TipWhips {
     const double changed_rad = looks_ < twists_rad_.size() ? 0 : std::fabs(x.twist_rad - oldest);
     oldest = x.twist_rad, ++looks_;
     if (episode_.begins(changed_rad > most_rad, x.time_s))
-      say(data::EventCode::tip_whips, x.catheter, 180 / std::numbers::pi * changed_rad);
+      say(data::EventCode::tip_whips, x.catheter, 180 / units::pi * changed_rad);
   }
 
  private:
-  static constexpr double most_rad = std::numbers::pi;
+  static constexpr double most_rad = units::pi;
   int catheter_ = -1;                    ///< that what follows is of
   std::array<double, 30> twists_rad_{};  ///< the last 0.3 s, a number every look
   std::size_t looks_ = 0;

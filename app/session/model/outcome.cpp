@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <limits>
-#include <numbers>
+
+#include "core/base/units.h"
 
 namespace ostium::app {
 
@@ -158,8 +159,8 @@ std::optional<StentNow> stent_now(const SessionModel& model, const SessionState&
     const auto lies_at = stretch_of(stent, plan, model);
     if (!lies_at || common_m(*lies_at, *at_it) < 0) continue;
     const double least = *std::min_element(stent.radius_m.begin(), stent.radius_m.end());
-    const double full = std::numbers::pi / 4 * plan.reference_m * plan.reference_m;
-    const double area = std::numbers::pi * least * least;
+    const double full = units::pi / 4 * plan.reference_m * plan.reference_m;
+    const double area = units::pi * least * least;
     const vascular::Apposition lies =
         apposition(model.treatment.stents[i], stent, model.treatment.paths[static_cast<std::size_t>(stent.branch)],
                    state.treatment.wall);

@@ -4,7 +4,9 @@
 #include <cmath>
 #include <unordered_map>
 
+#include "core/base/units.h"
 #include "core/contact/penetration_oracle.h"
+#include "core/math/solid_angle.h"
 #include "core/rod/introducer.h"
 
 namespace ostium::app {
@@ -68,11 +70,9 @@ double winding(const std::vector<Vector3d>& vertices, const core::SurfaceDescrip
   for (std::size_t k = 0; k < wall.triangles.size(); ++k) {
     if (door[k]) continue;
     const auto& t = wall.triangles[k];
-    const Vector3d a = vertices[t[0]] - p, b = vertices[t[1]] - p, c = vertices[t[2]] - p;
-    const double la = a.norm(), lb = b.norm(), lc = c.norm();
-    sum += 2 * std::atan2(a.dot(b.cross(c)), la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb);
+    sum += core::solid_angle(vertices[t[0]] - p, vertices[t[1]] - p, vertices[t[2]] - p);
   }
-  return sum / (4 * EIGEN_PI);
+  return sum / (4 * units::pi);
 }
 
 }  // namespace

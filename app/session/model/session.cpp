@@ -6,10 +6,10 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
-#include <numbers>
 #include <random>
 
 #include "app/session/coupling/device_constraints.h"
+#include "core/base/units.h"
 #include "core/rod/initial_state.h"
 #include "core/rod/introducer.h"
 #include "data/formats/load_error.h"
@@ -173,7 +173,7 @@ SessionState make_state(const SessionModel& model, std::uint64_t seed) {
     core::EndState base = model.entry;
     if (seed) {
       const Eigen::Quaterniond q(base.q_W[0], base.q_W[1], base.q_W[2], base.q_W[3]);
-      const Eigen::Quaterniond rolled = q * Eigen::AngleAxisd(2 * std::numbers::pi * uniform(), Vector3d::UnitZ());
+      const Eigen::Quaterniond rolled = q * Eigen::AngleAxisd(2 * units::pi * uniform(), Vector3d::UnitZ());
       base.q_W = {rolled.w(), rolled.x(), rolled.y(), rolled.z()};
     }
     bases.push_back(base);

@@ -4,7 +4,9 @@
 #include <array>
 #include <cmath>
 
+#include "app/session/coupling/tool_geometry.h"
 #include "app/session/model/outcome.h"
+#include "core/base/units.h"
 
 namespace ostium::app {
 
@@ -234,7 +236,7 @@ bool ConditionEvaluator::guide_is_in(int branch) const {
 /// While the beam is on.
 bool ConditionEvaluator::contrast_is_seen(int cell) const {
   const double r = session.blood.radius_m[static_cast<std::size_t>(cell)];
-  const double there = concentration(session.blood.contrast, model.physiology.flow, cell, EIGEN_PI * r * r);
+  const double there = concentration(session.blood.contrast, model.physiology.flow, cell, units::pi * r * r);
   return there > seen_kg_m3 && (session.c_arm.fluoroscopy || session.c_arm.cine);
 }
 

@@ -9,6 +9,7 @@
 
 #include "app/session/operator/condition_evaluator.h"
 #include "app/session/operator/operator_actions.h"
+#include "core/base/units.h"
 #include "data/assessment/metrics.h"
 
 namespace ostium::app {
@@ -104,7 +105,7 @@ double hand_factor(std::uint64_t seed, int step) {
   std::mt19937_64 random(seed * 1000003 + static_cast<std::uint64_t>(step));
   const auto uniform = [&] { return (static_cast<double>(random() >> 11) + 0.5) * 0x1p-53; };
   const double u = uniform(), v = uniform();
-  return std::exp(0.15 * std::sqrt(-2 * std::log(u)) * std::cos(2 * EIGEN_PI * v));
+  return std::exp(0.15 * std::sqrt(-2 * std::log(u)) * std::cos(2 * units::pi * v));
 }
 
 void forget_tips(OperatorState& state) { std::fill(state.tips.begin(), state.tips.end(), std::nan("")); }
@@ -125,7 +126,7 @@ void note_tips(const SessionModel& model, const SessionState& session, OperatorS
 /// A hand does not feel what lasts a millisecond, nor forces of a step that had to give way: they are no real rod's.
 void feel(const SessionModel& model, const SessionReport& report, OperatorState& state) {
   if (report.rods.trouble & (core::not_converged | core::motion_lost | core::no_solution | core::pulled_apart)) return;
-  const double share = 1 - std::exp(-2 * EIGEN_PI * data::wall_force_cut_off_Hz * model.step_s());
+  const double share = 1 - std::exp(-2 * units::pi * data::wall_force_cut_off_Hz * model.step_s());
   for (std::size_t t = 0; t < report.tools.size(); ++t) {
     const ToolReport& tool = report.tools[t];
     const double now[] = {tool.push_N, tool.torque_Nm, tool.wall_force_N, tool.tip_force_N};

@@ -127,7 +127,7 @@ void EventWatch::look_at_tools(const SessionModel& model, const SessionReport& r
     const ToolReport& tool = report.tools[static_cast<std::size_t>(t)];
     if (tool.in_body != before.in_body) say(tool.in_body ? data::EventCode::tool_in : data::EventCode::tool_out, t, 0);
     before.in_body = tool.in_body;
-    before.wall_force_N += (1 - std::exp(-2 * EIGEN_PI * data::wall_force_cut_off_Hz * model.step_s())) *
+    before.wall_force_N += (1 - std::exp(-2 * units::pi * data::wall_force_cut_off_Hz * model.step_s())) *
                            (tool.wall_force_N - before.wall_force_N);
     const bool pressed = before.wall_force_N > (before.pressed ? 0.8 : 1) * data::wall_force_limit_N;
     if (pressed && !before.pressed) say(data::EventCode::wall_force_high, t, before.wall_force_N);

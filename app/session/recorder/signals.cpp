@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 #include "app/session/model/outcome.h"
 #include "core/base/units.h"
@@ -108,7 +107,7 @@ PatientNow::PatientNow(const SessionModel& own_model, const SessionState& own_st
 double PatientNow::contrast_at(int cell) const {
   if (cell < 0) return none;
   const double r = blood.radius_m[static_cast<std::size_t>(cell)];
-  return concentration(blood.contrast, model.physiology.flow, cell, std::numbers::pi * r * r) / undiluted_kg_m3;
+  return concentration(blood.contrast, model.physiology.flow, cell, units::pi * r * r) / undiluted_kg_m3;
 }
 
 double PatientNow::balloon_end_mm(double side) const {
@@ -207,7 +206,7 @@ struct ToolNow {
 constexpr Signal<ToolNow> of_a_tool[] = {
     {"inserted_mm", "mm", "length in the body", [](const ToolNow& x) -> double { return 1e3 * x.rod.inserted_m; }},
     {"turned_deg", "degrees", "at the hub",
-     [](const ToolNow& x) -> double { return 180 / EIGEN_PI * x.hand.turned_rad; }},
+     [](const ToolNow& x) -> double { return 180 / units::pi * x.hand.turned_rad; }},
     {"tip_x_mm", "mm", "of the tip, to the patient's left", [](const ToolNow& x) { return 1e3 * x.tip_m.x(); }},
     {"tip_y_mm", "mm", "of the tip, to the head", [](const ToolNow& x) { return 1e3 * x.tip_m.y(); }},
     {"tip_z_mm", "mm", "of the tip, to the front", [](const ToolNow& x) { return 1e3 * x.tip_m.z(); }},

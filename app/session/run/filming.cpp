@@ -35,7 +35,7 @@ struct Filming::Parts {
   Driver* inner;
   Monitor monitor;  // of the thread that steps
   std::array<Exposed, places> queue;
-  Latest<Filmed> pictures{{}};
+  core::TripleBuffer<Filmed> pictures{{}};
   std::counting_semaphore<places> free{places}, taken{0};
   int next = 0;
   std::atomic<bool> over{false}, watched{false};
@@ -43,7 +43,7 @@ struct Filming::Parts {
   std::thread thread;
 
   void show(const fluoro::Picture& picture, const CArmInputs& arm) {
-    Filmed& filmed = pictures.to_fill();
+    Filmed& filmed = pictures.back();
     filmed.picture = picture;
     filmed.picture.height = picture.width;
     filmed.picture.grey.resize(static_cast<std::size_t>(picture.width) * picture.width);
@@ -97,7 +97,7 @@ Driven Filming::drive(const ScriptedRun& run, SessionInputs& inputs) {
   return driven;
 }
 
-Latest<Filmed>& Filming::pictures() {
+core::TripleBuffer<Filmed>& Filming::pictures() {
   parts_->watched = true;
   return parts_->pictures;
 }

@@ -3,9 +3,9 @@
 #include <memory>
 #include <string>
 
-#include "app/session/run/latest.h"
 #include "app/session/run/run.h"
 #include "app/session/scene/film.h"
+#include "core/base/triple_buffer.h"
 
 namespace ostium::app {
 
@@ -27,7 +27,7 @@ class Filming : public Driver {
 
   /// The newest picture, for one other thread, from this call on: what is filmed need not be taken twice. They go on
   /// where the video has ended early.
-  Latest<Filmed>& pictures();
+  core::TripleBuffer<Filmed>& pictures();
 
   /// After the run: waits for the last picture. Empty, or what went wrong; the run is none the worse for it.
   std::string finish();

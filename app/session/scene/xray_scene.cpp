@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <map>
-#include <numbers>
 
 #include "app/angiography/device_scene.h"
 #include "app/angiography/xray_body.h"
+#include "core/base/units.h"
 #include "core/rod/introducer.h"
 #include "fluoro/matter/tissue.h"
 #include "fluoro/phantom/shapes.h"
@@ -51,15 +51,15 @@ fluoro::OpaqueSection section(const data::Instrument& instrument, double from_m,
   const double outer = 0.5 * instrument.outer_diameter_m, inner = 0.5 * instrument.inner_diameter_m;
   double area = thickness_m * instrument.outer_diameter_m;
   if (material == data::OpaqueMaterial::barium_sulphate) area /= barium_share;
-  const double radius = inner > 0 ? outer : std::min(outer, std::sqrt(area / std::numbers::pi));
-  const double ring = std::numbers::pi * (radius * radius - inner * inner);
+  const double radius = inner > 0 ? outer : std::min(outer, std::sqrt(area / units::pi));
+  const double ring = units::pi * (radius * radius - inner * inner);
   return {from_m, to_m, material_of(material), radius, inner, ring > 0 ? area / ring : 0};
 }
 
 /// What a guide has in its bore: of the line's cells (contrast.h), those of the catheter.
 void fill_bore(const SessionModel& model, const SessionState& state, const core::Rod& rod, fluoro::Shaft& shaft) {
   const vascular::Line line = line_of(model.tools[static_cast<std::size_t>(state.coupling.guide)].instrument);
-  const double cell_m3 = line.dead_m3 / vascular::line_cells, area = std::numbers::pi * line.bore_m * line.bore_m;
+  const double cell_m3 = line.dead_m3 / vascular::line_cells, area = units::pi * line.bore_m * line.bore_m;
   shaft.lumen_iodine_kg_m3 = Eigen::VectorXd(shaft.p_P.cols());
   for (Eigen::Index i = 0; i < shaft.p_P.cols(); ++i) {
     const double from_tip = rod.node_from_tip_m[static_cast<std::size_t>(rod.elements - i)];

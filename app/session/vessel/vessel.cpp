@@ -91,17 +91,6 @@ core::SurfaceDescription untreated_wall(const Coronaries& coronaries) {
   return coronaries.shape->wall(radii);
 }
 
-/// Generalised winding number of a point (van Oosterom, Strackee 1983): 1 inside.
-double winding(const vascular::Mesh& mesh, const Vector3d& p) {
-  double sum = 0;
-  for (const auto& t : mesh.triangles) {
-    const Vector3d a = mesh.vertices[t[0]] - p, b = mesh.vertices[t[1]] - p, c = mesh.vertices[t[2]] - p;
-    const double la = a.norm(), lb = b.norm(), lc = c.norm();
-    sum += 2 * std::atan2(a.dot(b.cross(c)), la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb);
-  }
-  return sum / (4 * EIGEN_PI);
-}
-
 /// Of the box around some points.
 Vector3d middle(const std::vector<Vector3d>& points) {
   Vector3d low = points.front(), high = low;
@@ -188,7 +177,7 @@ std::shared_ptr<const Vessel> vessel_of(const std::string& name, vascular::Mesh 
                     "`ostium check` shows where, `ostium import` may mend it",
                     name, report.crossings.count, mesh.triangles.size()));
   if (!report.sound()) warnings += describe(report);
-  if (winding(mesh, entry.p_P) < 0.5) {
+  if (winding_number(mesh, entry.p_P) < 0.5) {
     const Vector3d mm = vascular::mm_from_patient(entry.p_P);
     throw data::LoadError(
         fmt::format("{}: the entry {:.1f}, {:.1f}, {:.1f} mm lies outside of the lumen; expected a point within", name,

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
-#include <numbers>
 #include <stdexcept>
 
+#include "core/base/units.h"
 #include "data/catalogue/case/anatomy_file.h"
 #include "data/catalogue/case/case.h"
 #include "data/catalogue/case/case_keys.h"
@@ -42,7 +42,7 @@ vascular::Lesion read_lesion(const JsonObject& entry, const vascular::Anatomy& a
                           .calcified = entry.boolean("calcified")};
   if (entry.has("side_deg")) {
     if (!lesion.eccentric) entry.refuse("side_deg");
-    lesion.side_rad = entry.number("side_deg") * std::numbers::pi / 180;
+    lesion.side_rad = entry.number("side_deg") * units::pi / 180;
   }
   try {
     check(anatomy, lesion);

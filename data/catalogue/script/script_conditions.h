@@ -2,8 +2,8 @@
 /// The conditions that a step of a script may look at, one row each: reader, schema and messages follow from the row.
 /// Whether one holds is judged in app/session/condition_evaluator.cpp, which does not compile while one is missing.
 #include <iterator>
-#include <numbers>
 
+#include "core/base/units.h"
 #include "data/formats/json_type.h"
 
 namespace ostium::data {
@@ -71,8 +71,7 @@ struct ConditionRow {
 };
 
 namespace condition_units {
-inline constexpr double none = 1, mm = 1e-3, deg = std::numbers::pi / 180, N = 1, mNm = 1e-3, s = 1, percent = 1e-2,
-                        mV = 1e-3;
+inline constexpr double none = 1, mm = 1e-3, deg = units::pi / 180, N = 1, mNm = 1e-3, s = 1, percent = 1e-2, mV = 1e-3;
 }
 
 // clang-format off

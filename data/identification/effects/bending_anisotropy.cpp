@@ -3,8 +3,8 @@
 /// Law: the rod's own (Kirchhoff's, with two stiffnesses). For an instrument alone.
 #include <Eigen/Geometry>
 #include <cmath>
-#include <numbers>
 
+#include "core/base/units.h"
 #include "data/identification/effects/tools.h"
 
 namespace ostium::data {
@@ -16,7 +16,7 @@ std::string why_not(const MeasurementSet& set, std::optional<int>) {
 }
 
 void apply(const ActiveEffect& effect, const MeasurementSet&, const Experiment&, ExperimentSetup& setup) {
-  const double root = std::sqrt(effect.values[0]), axis = effect.values[1] * std::numbers::pi / 180;
+  const double root = std::sqrt(effect.values[0]), axis = effect.values[1] * units::pi / 180;
   core::ConcentricPart& part = setup.nest.parts[0];
   for (core::Section& s : part.sections) {
     s.EI1_N_m2 *= root, s.EI2_N_m2 /= root;

@@ -2,8 +2,8 @@
 /// tilted by `tilt_1_deg` about d1 and `tilt_2_deg` about d2 of the rolled frame. Nested: of the chosen instrument's
 /// drive, the outermost if none is.
 #include <Eigen/Geometry>
-#include <numbers>
 
+#include "core/base/units.h"
 #include "data/identification/effects/tools.h"
 
 namespace ostium::data {
@@ -13,7 +13,7 @@ namespace {
 std::string why_not(const MeasurementSet&, std::optional<int>) { return ""; }
 
 void apply(const ActiveEffect& effect, const MeasurementSet&, const Experiment&, ExperimentSetup& setup) {
-  const double degree = std::numbers::pi / 180;
+  const double degree = units::pi / 180;
   // With what arrives of the roll, whatever other effects leave of it; in the instrument's own directors.
   const double roll = setup.nest.parts[effect.instrument.value_or(0)].roll_rad - setup.material_turn_rad;
   const Eigen::Vector3d tilt(effect.values[0] * degree, effect.values[1] * degree, 0);

@@ -1,7 +1,7 @@
 /// The measuring frame is rigidly off although it is declared given: turned about the first base, and shifted.
 #include <Eigen/Geometry>
-#include <numbers>
 
+#include "core/base/units.h"
 #include "data/identification/effects/tools.h"
 
 namespace ostium::data {
@@ -17,7 +17,7 @@ std::string why_not(const MeasurementSet& set, std::optional<int>) {
 
 void see(const ActiveEffect& effect, const MeasurementSet& set, const Experiment&, MeasuredView& view) {
   const auto& v = effect.values;
-  const Eigen::Vector3d turn = Eigen::Vector3d(v[0], v[1], v[2]) * std::numbers::pi / 180;
+  const Eigen::Vector3d turn = Eigen::Vector3d(v[0], v[1], v[2]) * units::pi / 180;
   const Eigen::Vector3d shift = Eigen::Vector3d(v[3], v[4], v[5]) * 1e-3, about = set.experiments[0].base.p_W;
   Eigen::Matrix3d R = Eigen::Matrix3d::Identity();
   if (turn.norm() > 0) R = Eigen::AngleAxisd(turn.norm(), turn.normalized()).toRotationMatrix();

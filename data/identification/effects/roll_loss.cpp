@@ -1,8 +1,8 @@
 /// A fraction of the commanded roll, or a dead band counted from zero, does not arrive at the base: slip in the drive,
 /// play, friction along the shaft.
 #include <cmath>
-#include <numbers>
 
+#include "core/base/units.h"
 #include "data/identification/effects/tools.h"
 
 namespace ostium::data {
@@ -17,7 +17,7 @@ std::string why_not(const MeasurementSet& set, std::optional<int> instrument) {
 }
 
 void apply(const ActiveEffect& effect, const MeasurementSet&, const Experiment&, ExperimentSetup& setup) {
-  const double band = effect.values[1] * std::numbers::pi / 180;
+  const double band = effect.values[1] * units::pi / 180;
   for (std::size_t i = 0; i < setup.nest.parts.size(); ++i) {
     if (!chosen(effect.instrument, i)) continue;
     double& roll = setup.nest.parts[i].roll_rad;

@@ -1,7 +1,7 @@
 /// A weight that is declared wrong or not at all: the declared one times `scale`; where next to nothing is declared,
 /// `scale` times that of solid nitinol (6,450 kg/m3) of the instrument's cross-section.
-#include <numbers>
 
+#include "core/base/units.h"
 #include "data/identification/effects/tools.h"
 
 namespace ostium::data {
@@ -18,7 +18,7 @@ void apply(const ActiveEffect& effect, const MeasurementSet&, const Experiment&,
   for (std::size_t i = 0; i < setup.nest.parts.size(); ++i) {
     if (!chosen(effect.instrument, i)) continue;
     for (core::Section& s : setup.nest.parts[i].sections) {
-      const double area = std::numbers::pi * (s.radius_m * s.radius_m - s.inner_radius_m * s.inner_radius_m);
+      const double area = units::pi * (s.radius_m * s.radius_m - s.inner_radius_m * s.inner_radius_m);
       const double declared = s.kg_per_m < hardly_any_kg_m3 * area ? nitinol_kg_m3 * area : s.kg_per_m;
       s.kg_per_m = effect.values[0] * declared;
     }

@@ -3,8 +3,8 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include "core/base/units.h"
 #include "core/rod/initial_state.h"
 #include "core/rod/introducer.h"
 #include "core/step/step.h"
@@ -17,7 +17,7 @@ using Eigen::Quaterniond;
 using Eigen::Vector3d;
 
 /// With steps of 2 ms at this speed a wire that is drawn back with friction slips where it should stick.
-constexpr double feed_m_s = 0.02, turn_rad_s = std::numbers::pi / 2, step_s = 1e-3;
+constexpr double feed_m_s = 0.02, turn_rad_s = units::pi / 2, step_s = 1e-3;
 /// Hands slow down before they stop: a wire that is stopped at once slides back on its friction by what it was moving.
 constexpr double slowing_s = 0.2;
 /// Drag that stands for slowness: far more than blood's, and still a tenth of a millinewton while a wire is fed.

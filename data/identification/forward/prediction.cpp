@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
-#include <numbers>
 
 #include "core/base/units.h"
 #include "data/identification/effects/effect_list.h"
@@ -26,7 +25,7 @@ std::vector<double> other_branches(const ExperimentSetup& setup, const Predicted
   std::vector<StaticEquilibrium> starts = {straight};
   const Eigen::Index elements = straight.state.roll_rad.cols();
   for (std::size_t i = 0; setup.nest.parts.size() > 1 && i < setup.nest.parts.size(); ++i)
-    for (const double wound : {-std::numbers::pi, std::numbers::pi}) {
+    for (const double wound : {-units::pi, units::pi}) {
       if (static_cast<int>(i) == straight.nest.reference) continue;
       StaticEquilibrium other = straight;
       other.state.roll_rad.row(static_cast<Eigen::Index>(i)) += Eigen::RowVectorXd::LinSpaced(elements, 0, wound);

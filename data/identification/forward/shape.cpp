@@ -4,7 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
+
+#include "core/base/units.h"
 
 namespace ostium::data {
 
@@ -15,7 +16,7 @@ using Eigen::Vector3d;
 Eigen::Quaterniond quaternion(const Eigen::Vector4d& q) { return {q[0], q[1], q[2], q[3]}; }
 
 /// The largest change between two neighbours on the way from one experiment to the next.
-constexpr double step_insertion_m = 10e-3, step_turn_rad = 20 * std::numbers::pi / 180;
+constexpr double step_insertion_m = 10e-3, step_turn_rad = 20 * units::pi / 180;
 constexpr int most_steps = 100;
 
 /// Where between `a` and `b`, at t of the way, the drives, base and loads are.

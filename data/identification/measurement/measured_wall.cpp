@@ -11,23 +11,6 @@
 
 namespace ostium::data {
 
-namespace {
-
-using Eigen::Vector3d;
-
-/// Generalised winding number of a point (van Oosterom, Strackee 1983): 1 inside.
-double winding_number(const vascular::Mesh& mesh, const Vector3d& p) {
-  double sum = 0;
-  for (const auto& t : mesh.triangles) {
-    const Vector3d a = mesh.vertices[t[0]] - p, b = mesh.vertices[t[1]] - p, c = mesh.vertices[t[2]] - p;
-    const double la = a.norm(), lb = b.norm(), lc = c.norm();
-    sum += 2 * std::atan2(a.dot(b.cross(c)), la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb);
-  }
-  return sum / (4 * std::numbers::pi);
-}
-
-}  // namespace
-
 std::shared_ptr<const core::SurfaceDescription> read_wall(const MeasurementSet& set) {
   const std::string mesh = (std::filesystem::path(set.file).parent_path() / set.vessel->mesh).string();
   const auto fail = [&](const std::string& what) {

@@ -1,6 +1,5 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
-#include <numbers>
 
 #include "core/base/units.h"
 #include "data/identification/report/explanation_report.h"
@@ -43,7 +42,7 @@ Json next(const std::optional<NextExperiment>& n) {
   Json set = Json::array();
   for (const Placement& p : n->set)
     set.push_back({{"inserted_length_mm", p.inserted_m / mm},
-                   {"roll_deg", p.roll_rad * 180 / std::numbers::pi},
+                   {"roll_deg", p.roll_rad * 180 / units::pi},
                    {"shaft_mm", p.shaft_m / mm}});
   return {{"why", n->why}, {"set", set}, {"predicted_difference_mm", n->difference_m / mm}};
 }

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
-#include <numbers>
 
 #include "core/base/units.h"
 #include "data/identification/effects/tools.h"
@@ -82,7 +81,7 @@ std::string instrument_json(const MeasurementSet& set, const Explanation& x, std
                      [&](core::Section& s) { s.kg_per_m += grams * 1e-3 / weight_length_m; });
     }
   const double outer = 2 * measured.radius_m, inner = 2 * measured.inner_radius_m;
-  const double metal = std::numbers::pi / 4 * (outer * outer - inner * inner) / outer;
+  const double metal = units::pi / 4 * (outer * outer - inner * inner) / outer;
   const std::string source = "fitted by ostium explain to \"" + set.title + "\" (" + set.source + ")";
   Json list = Json::array();
   for (const core::Section& s : sections) list.push_back(section(s));

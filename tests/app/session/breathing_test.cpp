@@ -10,6 +10,7 @@
 #include "app/session/run/play.h"
 #include "app/session/run/replay.h"
 #include "app/session/scene/film.h"
+#include "core/base/units.h"
 #include "data/formats/load_error.h"
 #include "tests/app/session/tube_vessel.h"
 
@@ -68,7 +69,7 @@ TEST(Breathing, InstrumentsStayInsideAndTheRecordingReplays) {
   const std::vector<double> signals = replay.recording.signals();
   for (std::size_t row = 0; row < signals.size() / columns.size(); ++row) {
     const double t = signals[row * columns.size()];
-    EXPECT_NEAR(signals[(row + 1) * columns.size() - 1], std::pow(std::sin(EIGEN_PI * t / 1.5), 4), 1e-6);
+    EXPECT_NEAR(signals[(row + 1) * columns.size() - 1], std::pow(std::sin(units::pi * t / 1.5), 4), 1e-6);
   }
   fs::remove_all(folder);
 }

@@ -5,6 +5,7 @@
 
 #include "app/session/run/run.h"
 #include "app/session/scene/xray_scene.h"
+#include "core/base/units.h"
 #include "vascular/motion/heart_cycle.h"
 
 namespace ostium::app {
@@ -104,7 +105,7 @@ TEST(CaseVessel, ShaftsHaveTheSteelThatTheCatalogueSays) {
   for (std::size_t s = 0; s < wire.opaque.size(); ++s) {
     const fluoro::OpaqueSection& o = shafts[0].sections[s];
     const double area =
-        o.filling * EIGEN_PI * (o.outer_radius_m * o.outer_radius_m - o.inner_radius_m * o.inner_radius_m);
+        o.filling * units::pi * (o.outer_radius_m * o.outer_radius_m - o.inner_radius_m * o.inner_radius_m);
     EXPECT_NEAR(area, wire.opaque[s].thickness_m * wire.outer_diameter_m, 1e-12);
     EXPECT_LE(o.outer_radius_m, 0.5 * wire.outer_diameter_m);
   }

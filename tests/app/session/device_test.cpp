@@ -3,13 +3,13 @@
 
 #include <cmath>
 #include <filesystem>
-#include <numbers>
 #include <random>
 
 #include "app/session/device/box_run.h"
 #include "app/session/device/emulated_box_driver.h"
 #include "app/session/run/play.h"
 #include "app/session/run/replay.h"
+#include "core/base/units.h"
 #include "device/emulator/emulated_port.h"
 #include "tests/app/session/tube_vessel.h"
 #include "tests/support/allocations.h"
@@ -65,7 +65,7 @@ struct AtTheBox {
     for (int i = 0; i < n; ++i) ASSERT_TRUE(run.tick());
   }
   double inserted_mm() const { return 1e3 * run.state.rods.rods[0].inserted_m; }
-  double turned_deg() const { return run.state.hands[0].turned_rad * 180 / std::numbers::pi; }
+  double turned_deg() const { return run.state.hands[0].turned_rad * 180 / units::pi; }
 };
 
 TEST(BoxDriver, TheInstrumentIsWhereTheHandHasIt) {

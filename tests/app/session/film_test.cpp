@@ -70,7 +70,7 @@ TEST(Filming, ShowsEachPictureToWhoeverWatchesAlsoWhereTheVideoCannotBeWritten) 
   options.pixels = 128;
   Film same(run.model, options);
   Filming filming(run.model, "/nowhere/film.mp4", options);
-  Latest<Filmed>& pictures = filming.pictures();
+  core::TripleBuffer<Filmed>& pictures = filming.pictures();
   int shown = 0;
   for (; shown < 5; run.tick()) {
     if (!is_frame(run.state.rods.step, options.frames_per_s, run.model.step_s())) continue;
@@ -78,9 +78,9 @@ TEST(Filming, ShowsEachPictureToWhoeverWatchesAlsoWhereTheVideoCannotBeWritten) 
     inputs.c_arm.fluoroscopy = shown % 3 != 2;
     const fluoro::Picture drawn = same.frame(run.model, run.state, inputs, run.xrays);
     EXPECT_EQ(filming.drive(run, inputs), Driven::on);
-    for (int wait = 0; wait < 5000 && !pictures.look(); ++wait)
+    for (int wait = 0; wait < 5000 && !pictures.update(); ++wait)
       std::this_thread::sleep_for(std::chrono::milliseconds(1));
-    const Filmed& now = pictures.seen();
+    const Filmed& now = pictures.front();
     EXPECT_EQ(now.xray_on, shown % 3 != 2);
     EXPECT_EQ(now.picture.grey, drawn.grey);
     EXPECT_EQ(now.dose.fluoroscopy_s, same.dose().fluoroscopy_s);

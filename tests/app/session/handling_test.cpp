@@ -4,10 +4,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
 
 #include "app/session/handling/errors.h"
 #include "app/session/run/run.h"
+#include "core/base/units.h"
 #include "data/catalogue/script/script.h"
 
 namespace ostium::app {
@@ -83,7 +83,7 @@ TEST(Handling, TwistIsJudgedByHowLongAndHowFast) {
   CatheterErrors errors;
   p.scene.catheter = guide;
   p[guide].sphere = 2;
-  const auto to = [&](double degrees) { p.scene.twist_rad = degrees * std::numbers::pi / 180; };
+  const auto to = [&](double degrees) { p.scene.twist_rad = degrees * units::pi / 180; };
   p.play(errors, 2.7, [&](int i) { to(i); });
   EXPECT_TRUE(p.events.empty());
   p.play(errors, 0.9, [&](int) { to(-280); });

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "app/session/run/play.h"
+#include "core/base/units.h"
 #include "tests/app/session/played.h"
 #include "tests/app/session/tube_vessel.h"
 
@@ -111,7 +112,7 @@ TEST(Operator, LooksAtWhereTheTipPointsAndWhetherItIsOut) {
   while (run.tick())
     if (run.hands.step == 1 && pointed.isZero()) pointed = tip_direction(run.model, run.state, 0);
   EXPECT_EQ(run.outcome, Outcome::success) << reason(run.plan, run.hands);
-  EXPECT_GT(pointed.y(), std::cos(27 * EIGEN_PI / 180)) << "the tube's far end runs along y";
+  EXPECT_GT(pointed.y(), std::cos(27 * units::pi / 180)) << "the tube's far end runs along y";
   EXPECT_FALSE(run.report.tools[0].in_body);
 }
 
@@ -127,7 +128,7 @@ TEST(Operator, TurnsAHubBackToHowItCameIn) {
   }
   EXPECT_EQ(run.outcome, Outcome::success) << reason(run.plan, run.hands);
   // A whole turn counts, so -400 degrees are not near 0; two steps late at most, of 0.4 degrees each.
-  EXPECT_NEAR(run.state.hands[0].turned_rad * 180 / EIGEN_PI, -10, 0.9);
+  EXPECT_NEAR(run.state.hands[0].turned_rad * 180 / units::pi, -10, 0.9);
 }
 
 /// The step of a wait's end when the tip is carried to `at(step)` mm further and the hand by `hand(step)` mm.

@@ -8,6 +8,7 @@
 
 #include "app/session/model/penetration.h"
 #include "app/session/run/run.h"
+#include "core/base/units.h"
 #include "data/catalogue/case/anatomy_file.h"
 #include "tests/app/session/tube_vessel.h"
 #include "vascular/anatomy/labelling/labelling.h"
@@ -24,7 +25,7 @@ constexpr double swing_m = 8e-3;
 /// How far along z a point of the bent tube is in a frame; x and y stay. The tube's first third rests.
 double lift_m(double x, double y, int frame) {
   const double along = std::clamp((x + y - 0.1) / 0.1, 0.0, 1.0);
-  return swing_m * along * along * (3 - 2 * along) * std::pow(std::sin(EIGEN_PI * frame / frames), 2);
+  return swing_m * along * along * (3 - 2 * along) * std::pow(std::sin(units::pi * frame / frames), 2);
 }
 
 /// That tube as a case: a folder of its name, in the frame that recognition gave it.

@@ -6,11 +6,13 @@
 #include <nlohmann/json.hpp>
 
 #include "app/session/coupling/coupling.h"
+#include "app/session/coupling/tool_geometry.h"
 #include "app/session/model/outcome.h"
 #include "app/session/model/penetration.h"
 #include "app/session/recorder/event_watch.h"
 #include "app/session/run/run.h"
 #include "app/session/scene/xray_scene.h"
+#include "core/base/units.h"
 #include "data/assessment/metrics.h"
 #include "data/catalogue/catalogue.h"
 #include "data/catalogue/instrument/instrument_reader.h"
@@ -275,7 +277,7 @@ TEST(Treatment, AWallFeelsAWiresTipBehindALowPass) {
                                run.model.physiology, run.model.treatment, run.model.balloon_of};
   CouplingState& s = run.state.coupling;
   const int wire = 3, tip = run.model.rods.rods[wire].elements;
-  const double dt = run.model.step_s(), share = 1 - std::exp(-2 * EIGEN_PI * data::wall_force_cut_off_Hz * dt);
+  const double dt = run.model.step_s(), share = 1 - std::exp(-2 * units::pi * data::wall_force_cut_off_Hz * dt);
   core::StepReport report;
   const Eigen::Vector3d none = Eigen::Vector3d::Zero();
   report.touches.assign(1, {.rod = wire, .node = tip, .p_W = none, .normal_W_N = none, .friction_W_N = none});

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "app/session/operator/setup.h"
+#include "core/base/units.h"
 #include "data/catalogue/catalogue.h"
 
 namespace ostium::app {
@@ -11,7 +12,7 @@ namespace ostium::app {
 inline vascular::Mesh bent_tube() {
   constexpr int rings = 80, sides = 20;
   constexpr double radius = 5e-3, bend = 0.06;
-  const double quarter = bend * EIGEN_PI / 2;
+  const double quarter = bend * units::pi / 2;
   vascular::Mesh mesh;
   for (int r = 0; r <= rings; ++r) {
     const double s = 0.3 * r / rings - 0.01;
@@ -20,7 +21,7 @@ inline vascular::Mesh bent_tube() {
     const Eigen::Vector3d p(std::min(s, 0.1) + bend * std::sin(a) + rest * along.x(),
                             bend * (1 - std::cos(a)) + rest * along.y(), 0);
     for (int k = 0; k < sides; ++k) {
-      const double b = 2 * EIGEN_PI * k / sides;
+      const double b = 2 * units::pi * k / sides;
       mesh.vertices.push_back(p + radius * (std::cos(b) * across + std::sin(b) * Eigen::Vector3d::UnitZ()));
     }
   }

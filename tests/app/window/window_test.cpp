@@ -11,29 +11,6 @@
 namespace ostium::app {
 namespace {
 
-TEST(Latest, GivesTheNewestWholeAndNeverAnOlder) {
-  struct Pair {
-    long a = 0, b = 0;
-  };
-  Latest<Pair> latest(Pair{});
-  std::thread maker([&] {
-    for (long i = 1; i <= 200000; ++i) {
-      latest.to_fill().a = i, latest.to_fill().b = -i;
-      latest.publish();
-    }
-  });
-  long last = 0;
-  while (last < 200000)
-    if (latest.look()) {
-      const Pair now = latest.seen();
-      ASSERT_EQ(now.a, -now.b) << "half of another";
-      ASSERT_GT(now.a, last);
-      last = now.a;
-    }
-  maker.join();
-  EXPECT_FALSE(latest.look());
-}
-
 TEST(Controls, KeepActionsInOrderAndDropWhatNobodyCouldPress) {
   Controls controls;
   EXPECT_FALSE(controls.next());
@@ -138,20 +115,20 @@ TEST(Panel, ShowsPictureToolsAndWhatIsWrong) {
   Played p;
   p.hand.controls.set(Level::guide_feed, 1);
   p.steps(400);
-  ASSERT_TRUE(p.hand.snapshots().look());
+  ASSERT_TRUE(p.hand.snapshots().update());
   const PanelTexts texts = panel_texts(p.run.model, p.run.plan, p.hand, true);
   fluoro::Picture grey;
   grey.width = grey.height = 64;
   grey.grey.assign(64 * 64, 200);
   std::vector<std::uint32_t> calm, red;
   PanelView view{.picture = &grey, .reference = nullptr, .dose = {}, .problem = "", .help = false};
-  draw_panel(texts, p.hand.snapshots().seen(), view, calm);
+  draw_panel(texts, p.hand.snapshots().front(), view, calm);
   const auto at = [](const std::vector<std::uint32_t>& pixels, int x, int y) {
     return pixels[static_cast<std::size_t>(y * panel_width + x)] & 0xffffffu;
   };
   EXPECT_EQ(at(calm, 300, 200), 0xc8c8c8u) << "the picture";
   view.problem = "wire lost";
-  draw_panel(texts, p.hand.snapshots().seen(), view, red);
+  draw_panel(texts, p.hand.snapshots().front(), view, red);
   EXPECT_GT(at(red, 700, 380) >> 16, 2 * (at(red, 700, 380) & 0xffu)) << "a red bar";
   EXPECT_NE(calm, red);
 }

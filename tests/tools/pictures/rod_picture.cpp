@@ -2,8 +2,8 @@
 #include <cmath>
 #include <exception>
 #include <iostream>
-#include <numbers>
 
+#include "core/base/units.h"
 #include "core/samples/steel_wire.h"
 #include "data/formats/svg.h"
 
@@ -41,7 +41,7 @@ void writhing_ring(data::Drawing& drawing) {
   core::Bench bench = core::steel_bench({.elements = 128, .gravity = false});
   const core::Rod& rod = bench.model.rods[0];
   const Vector3d stiffness = stiffness_at_rest(rod, 1);
-  const double critical = 2 * std::numbers::pi * std::sqrt(3.0) * stiffness[0] / stiffness[2];
+  const double critical = 2 * units::pi * std::sqrt(3.0) * stiffness[0] / stiffness[2];
   core::lay_out_ring(rod, 1.3 * critical, bench.rod());
   bench.inputs.rods[0].tip.hold = core::Hold::clamped;
   for (int i = 32; i < 64; ++i) bench.rod().velocity.set(i, Vector3d(0, 0.01, 0));

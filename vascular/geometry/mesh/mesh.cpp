@@ -4,6 +4,9 @@
 #include <cmath>
 #include <unordered_map>
 
+#include "core/base/units.h"
+#include "core/math/solid_angle.h"
+
 namespace ostium::vascular {
 
 namespace {
@@ -50,6 +53,15 @@ double volume_m3(const Mesh& mesh) {
   for (const auto& [a, b, c] : mesh.triangles)
     six_volumes += mesh.vertices[a].dot(mesh.vertices[b].cross(mesh.vertices[c]));
   return six_volumes / 6;
+}
+
+double winding_number(const Mesh& mesh, const Eigen::Vector3d& p) {
+  double sum = 0;
+  for (const auto& [a, b, c] : mesh.triangles)
+    sum += core::solid_angle(mesh.vertices[static_cast<std::size_t>(a)] - p,
+                             mesh.vertices[static_cast<std::size_t>(b)] - p,
+                             mesh.vertices[static_cast<std::size_t>(c)] - p);
+  return sum / (4 * units::pi);
 }
 
 double area_m2(const Mesh& mesh) {

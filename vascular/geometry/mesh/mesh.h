@@ -52,6 +52,8 @@ std::vector<int> weld(const std::vector<Eigen::Vector3d>& corners, double weld_m
 /// Signed volume in m3: positive if the triangles face outwards.
 double volume_m3(const Mesh& mesh);
 double area_m2(const Mesh& mesh);
+/// Generalised winding number of a point: 1 inside a closed mesh that faces outwards, 0 outside. O(#triangles).
+double winding_number(const Mesh& mesh, const Eigen::Vector3d& p);
 
 /// `b` behind `a`, in one mesh.
 void append(Mesh& a, const Mesh& b);

@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
-#include <numbers>
 #include <numeric>
 
+#include "core/base/units.h"
 #include "vascular/geometry/centreline/centreline.h"
 #include "vascular/geometry/mesh/bounding_volume_hierarchy.h"
 #include "vascular/geometry/repair/calibre.h"
@@ -173,7 +173,7 @@ Mesh body_of(const Bridge& bridge, double reach_m) {
     x = (x - x.dot(along[i]) * along[i]).normalized();  // carried along without a twist
     const Eigen::Vector3d y = along[i].cross(x);
     for (int k = 0; k < columns; ++k) {
-      const double angle = 2 * std::numbers::pi * k / columns;
+      const double angle = 2 * units::pi * k / columns;
       mesh.vertices.push_back(line[i] + bridge.radius_m * (std::cos(angle) * x + std::sin(angle) * y));
     }
   }

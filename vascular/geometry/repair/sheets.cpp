@@ -4,8 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numbers>
 #include <queue>
+
+#include "core/base/units.h"
 
 namespace ostium::vascular {
 
@@ -193,7 +194,7 @@ std::vector<Opening> openings_of(const Mesh& mesh, const Sheets& sheets) {
     for (int h : opening.half_edges)
       area +=
           (mesh.vertices[to_of(mesh, h)] - opening.middle).cross(mesh.vertices[from_of(mesh, h)] - opening.middle) / 2;
-    opening.diameter_m = 2 * std::sqrt(area.norm() / std::numbers::pi);
+    opening.diameter_m = 2 * std::sqrt(area.norm() / units::pi);
     if (area.norm() > 0) opening.outwards = area.normalized();
     double facing = 0;
     for (int h : opening.half_edges) {

@@ -4,8 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numbers>
 #include <queue>
+
+#include "core/base/units.h"
 
 namespace ostium::vascular {
 
@@ -56,7 +57,7 @@ class RimRadius {
  private:
   double sector(const Eigen::Vector3d& p) const {
     const double angle = std::atan2((p - middle_).dot(v_), (p - middle_).dot(u_));
-    return std::clamp((angle / (2 * std::numbers::pi) + 0.5) * sectors, 0.0, sectors - 1e-9);
+    return std::clamp((angle / (2 * units::pi) + 0.5) * sectors, 0.0, sectors - 1e-9);
   }
 
   Eigen::Vector3d middle_, u_, v_;

@@ -3,8 +3,10 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <numeric>
+
+#include "core/base/units.h"
+#include "core/math/solid_angle.h"
 
 namespace ostium::vascular {
 
@@ -52,13 +54,12 @@ int WindingNumber::build(int first, int last) {
   return self;
 }
 
-/// Solid angle over 4 pi (Van Oosterom and Strackee, IEEE Trans Biomed Eng 1983;30:125).
 double WindingNumber::triangle_at(int t, const Eigen::Vector3d& p) const {
-  const Eigen::Vector3d a = mesh_.vertices[mesh_.triangles[t][0]] - p, b = mesh_.vertices[mesh_.triangles[t][1]] - p,
-                        c = mesh_.vertices[mesh_.triangles[t][2]] - p;
-  const double la = a.norm(), lb = b.norm(), lc = c.norm();
-  return std::atan2(a.dot(b.cross(c)), la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb) /
-         (2 * std::numbers::pi);
+  const auto& [a, b, c] = mesh_.triangles[static_cast<std::size_t>(t)];
+  return core::solid_angle(mesh_.vertices[static_cast<std::size_t>(a)] - p,
+                           mesh_.vertices[static_cast<std::size_t>(b)] - p,
+                           mesh_.vertices[static_cast<std::size_t>(c)] - p) /
+         (4 * units::pi);
 }
 
 double WindingNumber::at(const Eigen::Vector3d& p) const {
@@ -71,7 +72,7 @@ double WindingNumber::at(const Eigen::Vector3d& p) const {
     const Eigen::Vector3d to = node.middle - p;
     const double distance = to.norm();
     if (distance > far_enough * node.reach) {
-      sum += node.dipole.dot(to) / (4 * std::numbers::pi * distance * distance * distance);
+      sum += node.dipole.dot(to) / (4 * units::pi * distance * distance * distance);
     } else if (node.right < 0) {
       for (int i = node.first; i < node.last; ++i) sum += triangle_at(order_[i], p);
     } else {

@@ -1,0 +1,284 @@
+#include <fmt/format.h>
+
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "app/command_line/arguments.h"
+#include "app/command_line/command.h"
+#include "app/command_line/common_options.h"
+#include "app/command_line/mesh_unit.h"
+#include "app/command_line/progress.h"
+#include "app/commands/import/imported.h"
+#include "app/commands/import/mesh_files.h"
+#include "core/base/units.h"
+#include "data/catalogue/case/case.h"
+#include "data/formats/load_error.h"
+#include "vascular/anatomy/labelling/labelling.h"
+#include "vascular/anatomy/labelling/narrowings.h"
+#include "vascular/geometry/mesh/patient_frame.h"
+#include "vascular/geometry/mesh/surface_check.h"
+#include "vascular/geometry/mesh/written_mesh.h"
+#include "vascular/geometry/repair/repair.h"
+#include "vascular/geometry/repair/units.h"
+#include "vascular/motion/heart_cycle.h"
+
+namespace ostium::app {
+
+namespace {
+
+namespace fs = std::filesystem;
+using units::mm;
+
+struct ImportArguments {
+  std::vector<std::string> files;
+  std::string output;                ///< a folder, or the name of a case
+  std::string unit = "auto";         ///< auto, mm, cm, m or in
+  std::string axes = "auto";         ///< where the file's x, y, z point to: three letters of L, R, S, I, A, P
+  std::string entry;                 ///< "x,y,z" in the file's unit and axes
+  std::vector<std::string> renames;  ///< "3=OM1"
+  std::vector<std::string> lesions;  ///< "RCA:40:12:75": branch, from mm, length mm, percent of the diameter
+  bool sequence = false;             ///< the files are frames of one beat, from the R wave on
+  std::string title;
+  double voxel_mm = 0;
+  double longest_gap_mm = 8;
+  std::string picture;
+  bool json = false;
+};
+
+void declare(Options& options, ImportArguments& a) {
+  options.add("mesh", a.files, "STL, OBJ, PLY, glTF, ...; several are one patient's parts").type("MESH").required();
+  options.flag("--sequence", a.sequence,
+               "The files, or those of a folder, are one surface through a beat, from the R wave on");
+  options.add("-o,--out", a.output, "A folder for the case, or a name to keep it under").type("DIR|NAME").required();
+  add_guessed_unit_option(options, a.unit, "What a number in the files means");
+  options.add("--axes", a.axes, "Where x, y, z point to: LPS, RAS, LSA, ...; auto tells by the anatomy").show_default();
+  options.add("--entry", a.entry, "Instruments enter at the centreline's point nearest to this one").type("X,Y,Z");
+  options.add("--rename", a.renames, "Another name for a branch that was found").type("FOUND=WANTED");
+  options.add("--lesion", a.lesions, "A narrowing to put in: branch, from mm, length mm, %")
+      .type("BRANCH:FROM:LENGTH:PERCENT");
+  options.add("--title", a.title, "What people call it");
+  options.add("--voxel", a.voxel_mm, "Of the level set, mm; 0: by the narrowest vessels")
+      .range(0.0, 5.0)
+      .show_default();
+  options.add("--longest-gap", a.longest_gap_mm, "No gap is bridged that is longer, mm")
+      .range(0.0, 50.0)
+      .show_default();
+  options.add("--picture", a.picture, "What came out of it, with mends and names").type("FILE.png|FILE.svg");
+  options.flag("--json", a.json, "What was found and mended, machine-readable");
+}
+
+/// Where the files' axes point to, as DICOM has its letters: left or right, superior or inferior, anterior or
+/// posterior.
+Eigen::Matrix3d axes_of(const std::string& letters) {
+  Eigen::Matrix3d R = Eigen::Matrix3d::Zero();
+  const std::string known = "LRSIAP";
+  for (std::size_t i = 0; i < letters.size() && letters.size() == 3; ++i)
+    if (const auto k = known.find(letters[i]); k != std::string::npos)
+      R(static_cast<int>(k / 2), static_cast<int>(i)) = k % 2 ? -1 : 1;
+  if (std::fabs(R.determinant() - 1) > 1e-9)
+    throw data::LoadError(fmt::format(
+        "the axes \"{}\" are no right-handed row of three; expected for instance LPS (DICOM), RAS or LSA", letters));
+  return R;
+}
+
+vascular::Lesion lesion_of(const std::string& text) {
+  const auto colon = text.find(':');
+  double from, length, percent;
+  char rest;
+  if (colon == std::string::npos ||
+      std::sscanf(text.c_str() + colon, ":%lf:%lf:%lf%c", &from, &length, &percent, &rest) != 3)
+    throw data::LoadError(fmt::format(
+        "the lesion \"{}\" is not BRANCH:FROM:LENGTH:PERCENT; expected for instance RCA:40:12:75 (mm, mm, %)", text));
+  return {.branch = text.substr(0, colon), .from_m = from * mm, .length_m = length * mm, .stenosis = percent / 100};
+}
+
+std::map<std::string, std::string> names_of(const std::vector<std::string>& renames) {
+  std::map<std::string, std::string> names;
+  for (const std::string& rename : renames) {
+    const auto [found, wanted] = key_and_value(rename);
+    if (found.empty() || wanted.empty())
+      throw data::LoadError(fmt::format("\"{}\" is not FOUND=WANTED; expected for instance --rename 3=OM1", rename));
+    names[found] = wanted;
+  }
+  return names;
+}
+
+class Import {
+ public:
+  explicit Import(const ImportArguments& options) : options_(options) {}
+
+  int run() {
+    prepare();
+    if (options_.sequence) {
+      read_sequence();
+    } else {
+      read();
+      repair();
+    }
+    label();
+    make_case();
+    progress_("writing");
+    write_case(made_, report_of(made_), options_.picture);
+    show_progress("");
+    if (options_.json)
+      fmt::print("{}\n", report_of(made_).dump(2));
+    else
+      tell(made_, options_.output.find('/') == std::string::npos ? made_.the_case.name : made_.folder.string());
+    return 0;
+  }
+
+ private:
+  /// What can be refused before the work.
+  void prepare() {
+    made_.files = options_.files;
+    if (options_.axes != "auto") wanted_.axes = axes_of(options_.axes);
+    wanted_.names = names_of(options_.renames);
+    if (!options_.entry.empty()) mesh_point(options_.entry);
+    for (const std::string& text : options_.lesions) made_.the_case.lesions.push_back(lesion_of(text));
+    if (!options_.picture.empty()) require_ending(options_.picture, {".png", ".svg"});
+    const bool name_only = options_.output.find('/') == std::string::npos && !options_.output.starts_with(".");
+    made_.folder = name_only ? fs::path(data::imported_folder()) / options_.output : fs::path(options_.output);
+    if (!made_.folder.has_filename()) made_.folder = made_.folder.parent_path();
+    made_.the_case.name = fs::absolute(made_.folder).filename().string();
+    if (fs::exists(made_.folder) && !fs::exists(made_.folder / (made_.the_case.name + ".json")) &&
+        !fs::is_empty(made_.folder))
+      throw data::LoadError(made_.folder.string() +
+                            ": is there and holds no imported case; expected a new folder, or one to renew");
+  }
+
+  void read() {
+    progress_("reading");
+    vascular::Mesh raw;
+    for (const std::string& file : options_.files) {
+      const vascular::MeshFile found = read_mesh(file, vascular::LengthUnit::metre, 0);
+      made_.skipped += found.skipped_faces;
+      append(raw, found.mesh);
+    }
+    const double scale = metres(find_unit(raw));
+    for (Eigen::Vector3d& p : raw.vertices) p *= scale;
+    mesh_ = welded(raw);
+  }
+
+  vascular::LengthUnit find_unit(const vascular::Mesh& raw) {
+    made_.triangles = static_cast<int>(raw.triangles.size());
+    progress_(fmt::format("{} triangles; looking for their unit", made_.triangles));
+    made_.unit = guess_unit(raw);
+    made_.unit_said = options_.unit != "auto";
+    if (made_.unit_said) {
+      take_unit(vascular::unit_named(options_.unit), made_.unit);
+    } else if (!made_.unit.vessel) {
+      throw vascular::MeshError(fmt::format(
+          "{}: no unit makes a vessel of this: as {} it is {:.0f} mm long and {:.1f} mm wide; if it is one, say its "
+          "unit with --units",
+          options_.files.front(), name_of(made_.unit.unit), made_.unit.extent_m / mm, made_.unit.calibre_m / mm));
+    }
+    if (!options_.entry.empty()) wanted_.entry = metres(made_.unit.unit) * mesh_point(options_.entry);
+    return made_.unit.unit;
+  }
+
+  /// Of one surface through a beat. Nothing is repaired: every frame would be repaired in another way.
+  void read_sequence() {
+    files_ = options_.files;
+    if (files_.size() == 1 && fs::is_directory(files_.front())) files_ = numbered_meshes(files_.front());
+    if (files_.size() < 4)
+      throw vascular::MeshError(fmt::format("{}: a sequence has at least 4 frames of a beat, here are {}",
+                                            options_.files.front(), files_.size()));
+    progress_(fmt::format("reading {} frames, the first is {}", files_.size(), files_.front()));
+    made_.frames = read_mesh_sequence(files_, vascular::LengthUnit::metre, 0);
+    const double scale = metres(find_unit(made_.frames.front()));
+    for (vascular::Mesh& frame : made_.frames)
+      for (Eigen::Vector3d& p : frame.vertices) p *= scale;
+    if (volume_m3(made_.frames.front()) < 0)
+      for (vascular::Mesh& frame : made_.frames)
+        for (auto& t : frame.triangles) std::swap(t[1], t[2]);
+    const vascular::SurfaceReport report = check_surface(made_.frames.front());
+    if (!report.closed())
+      throw vascular::MeshError(
+          fmt::format("{}: is not closed, and a sequence cannot be mended: {}`ostium check` says where", files_.front(),
+                      describe(report)));
+    made_.repaired.lumen = made_.frames.front();
+    made_.repaired.lumens = report.components;
+  }
+
+  void repair() {
+    vascular::RepairOptions options;
+    options.voxel_m = options_.voxel_mm * mm;
+    options.longest_gap_m = options_.longest_gap_mm * mm;
+    options.progress = std::ref(progress_);
+    made_.repaired = repair_mesh(std::move(mesh_), options);
+  }
+
+  void label() {
+    wanted_.progress = std::ref(progress_);
+    made_.found = label_vessels(made_.repaired.lumen, wanted_);
+    made_.found.lumen = as_written(std::move(made_.found.lumen), vascular::LengthUnit::millimetre);
+    const vascular::SurfaceReport report = check_surface(made_.found.lumen);
+    if (!report.sound())
+      made_.found.notes.push_back("the lumen is not sound: " + describe(report).substr(0, describe(report).find('\n')));
+  }
+
+  void make_case() {
+    progress_(made_.frames.empty() ? "laying the heart's motion on it" : "carrying the tree along its frames");
+    made_.the_case.title =
+        options_.title.empty() ? "Imported: " + fs::path(options_.files.front()).filename().string() : options_.title;
+    made_.the_case.card = {"Imported from " + fs::path(options_.files.front()).filename().string() + ".", "Not known.",
+                           "From the entry that was chosen at import"};
+    auto vessels = std::make_shared<data::ImportedVessels>();
+    vessels->anatomy = made_.found.anatomy;
+    if (made_.frames.empty())
+      vessels->lumen = made_.found.lumen;
+    else
+      lay_frames(*vessels);
+    made_.the_case.imported = vessels;
+    try {
+      made_.patient = patient_of(made_.the_case);
+    } catch (const std::invalid_argument& error) {
+      throw data::LoadError(error.what());
+    }
+    for (const vascular::FoundNarrowing& narrowing : find_narrowings(made_.patient.tree))
+      if (is_coronary(made_.found.anatomy, find_branch(made_.found.anatomy, narrowing.branch)->tube))
+        made_.narrowings.push_back(narrowing);
+    const vascular::SurfaceReport systole = vascular::check_surface(made_.patient.lumen.at(vascular::end_systole, 0));
+    if (systole.crossings.count > 0) {
+      const Eigen::Vector3d p = systole.crossings.where.front() / mm;
+      made_.found.notes.push_back(fmt::format(
+          "at end-systole {} pairs of triangles cross, the first at {:.1f} {:.1f} {:.1f} mm of the patient frame",
+          systole.crossings.count, p.x(), p.y(), p.z()));
+    }
+  }
+
+  /// Into the patient frame, as the files of the case will have them.
+  void lay_frames(data::ImportedVessels& vessels) {
+    for (vascular::Mesh& frame : made_.frames) {
+      for (Eigen::Vector3d& p : frame.vertices) p = made_.found.R_PF * p - made_.found.shift_P;
+      frame = as_written(std::move(frame), vascular::LengthUnit::millimetre);
+    }
+    made_.frames.front() = made_.found.lumen;
+    set_frames(made_.frames, vessels);
+  }
+
+  const ImportArguments& options_;
+  TimedProgress progress_;
+  vascular::LabellingOptions wanted_;
+  vascular::Mesh mesh_;
+  std::vector<std::string> files_;  ///< of a sequence
+  Imported made_;
+};
+
+int run(const ImportArguments& arguments) { return Import(arguments).run(); }
+
+}  // namespace
+
+Command import_command() {
+  return make_command("import", "Anyone's own mesh becomes a case: mended, named, beating",
+                      {"ostium import aorta.stl coronaries.stl -o anna --picture anna.svg",
+                       "ostium import aorta.obj -o cases/aorta --units mm --entry -5,18,-11 --rename 3=coeliac",
+                       "ostium import heart.ply -o tight-rca --lesion RCA:40:12:75 && ostium cases tight-rca",
+                       "ostium import frames/ --sequence -o beating-heart"},
+                      declare, run);
+}
+
+}  // namespace ostium::app

@@ -1,0 +1,95 @@
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "app/commands/import/imported.h"
+#include "core/base/units.h"
+#include "vascular/geometry/mesh/surface_check.h"
+
+namespace ostium::app {
+
+using Json = nlohmann::ordered_json;
+using units::mm;
+
+namespace {
+
+Json places(const std::vector<Eigen::Vector3d>& where) {
+  Json list = Json::array();
+  for (const Eigen::Vector3d& p : where) list.push_back({p.x() / mm, p.y() / mm, p.z() / mm});
+  return list;
+}
+
+}  // namespace
+
+Json report_of(const Imported& x) {
+  Json mends = Json::array(), branches = Json::array(), narrow = Json::array();
+  for (const vascular::RepairNote& note : x.repaired.notes)
+    mends.push_back({{"what", note.what}, {"count", note.count}, {"where_mm", places(note.where)}});
+  const vascular::Anatomy& a = x.found.anatomy;
+  for (const vascular::NamedBranch& b : a.branches)
+    branches.push_back({{"name", b.name},
+                        {"length_mm", b.length_m() / mm},
+                        {"proximal_mm", 2 * a.tubes[static_cast<std::size_t>(b.tube)].at(b.from_m).radius_m / mm},
+                        {"distal_mm", 2 * a.tubes[static_cast<std::size_t>(b.tube)].at(b.to_m).radius_m / mm}});
+  for (const vascular::FoundNarrowing& n : x.narrowings)
+    narrow.push_back({{"branch", n.branch}, {"at_mm", n.at_m / mm}, {"stenosis_percent", 100 * n.stenosis}});
+  const Eigen::Matrix3d& R = x.found.R_PF;
+  return {{"case", x.the_case.name},
+          {"files", x.files},
+          {"triangles_in", x.triangles},
+          {"unit", name_of(x.unit.unit)},
+          {"unit_said", x.unit_said},
+          {"extent_mm", x.unit.extent_m / mm},
+          {"lumens", x.repaired.lumens},
+          {"triangles", x.found.lumen.triangles.size()},
+          {"volume_mL", 1e6 * volume_m3(x.found.lumen)},
+          {"sound", check_surface(x.found.lumen).sound()},
+          {"beats", x.patient.lumen.moving > 0},
+          {"voxel_mm", x.repaired.voxel_m / mm},
+          {"mends", mends},
+          {"aorta_rms_mm", x.found.aorta_rms_m / mm},
+          {"heart_rms_mm", x.found.heart_rms_m / mm},
+          {"axes", {{R(0, 0), R(0, 1), R(0, 2)}, {R(1, 0), R(1, 1), R(1, 2)}, {R(2, 0), R(2, 1), R(2, 2)}}},
+          {"origin_mm", {x.found.shift_P.x() / mm, x.found.shift_P.y() / mm, x.found.shift_P.z() / mm}},
+          {"branches", branches},
+          {"narrowings", narrow},
+          {"notes", x.found.notes}};
+}
+
+void tell(const Imported& x, const std::string& called) {
+  fmt::print("{}: {} triangles, {} closed lumen{}, {:.1f} mL, {}\n", x.folder.string(), x.found.lumen.triangles.size(),
+             x.repaired.lumens, x.repaired.lumens == 1 ? "" : "s", 1e6 * volume_m3(x.found.lumen),
+             !x.frames.empty()            ? fmt::format("beating in {} frames", x.frames.size())
+             : x.found.heart              ? "beating"
+             : x.patient.lumen.moving > 0 ? "beating at the root of the aorta"
+                                          : "still");
+  fmt::print("units: {}, {}: {:.0f} mm long, {:.1f} mm wide{}\n", name_of(x.unit.unit),
+             x.unit_said ? "as you said" : "guessed", x.unit.extent_m / mm, x.unit.calibre_m / mm,
+             !x.unit_said && !x.unit.certain ? "; confirm with --units, others are possible" : "");
+  if (x.skipped) fmt::print("{} points or lines in the files were left out\n", x.skipped);
+  for (const vascular::RepairNote& note : x.repaired.notes) {
+    fmt::print("mended: {} x {}", note.count, note.what);
+    if (!note.where.empty()) {
+      const Eigen::Vector3d p = note.where.front() / metres(x.unit.unit);
+      fmt::print(", the first at {:.4g} {:.4g} {:.4g}", p.x(), p.y(), p.z());
+    }
+    fmt::print("\n");
+  }
+  if (x.found.aorta_rms_m > 0)
+    fmt::print("aorta: {:.1f} mm from the mean one's course (rms)\n", x.found.aorta_rms_m / mm);
+  if (x.found.heart)
+    fmt::print("coronary arteries: {:.1f} mm from the mean ones' courses (rms)\n", x.found.heart_rms_m / mm);
+  const vascular::Anatomy& a = x.found.anatomy;
+  fmt::print("  {:<18} {:>9} {:>12} {:>10}\n", "branch", "length mm", "proximal mm", "distal mm");
+  for (const vascular::NamedBranch& b : a.branches)
+    fmt::print("  {:<18} {:9.1f} {:12.2f} {:10.2f}\n", b.name, b.length_m() / mm,
+               2 * a.tubes[static_cast<std::size_t>(b.tube)].at(b.from_m).radius_m / mm,
+               2 * a.tubes[static_cast<std::size_t>(b.tube)].at(b.to_m).radius_m / mm);
+  for (const vascular::FoundNarrowing& n : x.narrowings)
+    fmt::print("narrowing kept: {} at {:.0f} mm, {:.0f} % of {:.1f} mm\n", n.branch, n.at_m / mm, 100 * n.stenosis,
+               n.reference_m / mm);
+  for (const std::string& note : x.found.notes) fmt::print("note: {}\n", note);
+  fmt::print("rehearse on it as on any case: ostium cases {}\n", called);
+}
+
+}  // namespace ostium::app

@@ -1,0 +1,42 @@
+#include "app/commands/import/mesh_files.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <map>
+
+#include "vascular/geometry/mesh/surface_check.h"
+
+namespace ostium::app {
+
+namespace fs = std::filesystem;
+
+std::vector<std::string> numbered_meshes(const std::string& folder) {
+  std::map<std::pair<std::string, std::string>, std::map<long, std::string>> rows;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
+    const std::string stem = entry.path().stem().string(), ending = entry.path().extension().string();
+    const auto digits = stem.find_last_not_of("0123456789") + 1;
+    if (!entry.is_regular_file() || digits == stem.size() || stem.size() - digits > 9) continue;
+    if (std::string known = ".obj.ply.stl.gltf.glb.dae.fbx.off.3ds.x3d"; known.find(ending) == std::string::npos)
+      continue;
+    rows[{stem.substr(0, digits), ending}][std::stol(stem.substr(digits))] = entry.path().string();
+  }
+  const auto longest = std::max_element(rows.begin(), rows.end(),
+                                        [](const auto& a, const auto& b) { return a.second.size() < b.second.size(); });
+  std::vector<std::string> files;
+  if (longest != rows.end())
+    for (const auto& [number, file] : longest->second) files.push_back(file);
+  return files;
+}
+
+vascular::Mesh welded(const vascular::Mesh& raw) {
+  const std::vector<int> vertex_of = vascular::weld(raw.vertices, vascular::default_weld_m);
+  vascular::Mesh mesh;
+  for (std::size_t i = 0; i < raw.vertices.size(); ++i)
+    if (vertex_of[i] == static_cast<int>(mesh.vertices.size())) mesh.vertices.push_back(raw.vertices[i]);
+  for (const auto& [a, b, c] : raw.triangles)
+    if (vertex_of[a] != vertex_of[b] && vertex_of[b] != vertex_of[c] && vertex_of[c] != vertex_of[a])
+      mesh.triangles.push_back({vertex_of[a], vertex_of[b], vertex_of[c]});
+  return mesh;
+}
+
+}  // namespace ostium::app

@@ -1,0 +1,114 @@
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "app/session/coupling/looks.h"
+#include "app/session/coupling/tool_geometry.h"
+#include "core/rod/introducer.h"
+
+namespace ostium::app {
+
+using Eigen::Vector3d;
+
+namespace {
+
+constexpr double catch_angle_rad = 0.35;  // between guide and shaft at which a crimped stent's edge hangs [estimate]
+
+/// In the body, with its tip beyond the guide's or the guide gone.
+int balloon_tool(const CouplingModel& model, const core::State& rods) {
+  for (std::size_t t = 0; t < model.tools.size(); ++t)
+    if (model.balloon_of[t] >= 0 && in_body(model.rods.rods[t], rods.rods[t])) return static_cast<int>(t);
+  return -1;
+}
+
+/// Of a device whose proximal marker is by the ostium or in the aorta: by the distal one. Empty if the device lies
+/// farther in, or less than `least_m` of it is in the artery. What of it stands out of the ostium meets a wall as wide
+/// as that.
+std::optional<vascular::Seat> seat_at_ostium(const CouplingModel& model, const vascular::CellLocator& locator,
+                                             const Vector3d& p_far, double between_m, double least_m, int wire_cell) {
+  const vascular::FlowTree& tree = model.physiology.flow.tree;
+  const vascular::CellLocator::Found far = inside(locator, tree, model.treatment.paths, p_far, wire_cell);
+  if (far.cell < 0) return {};
+  const vascular::FlowCell& cell = tree.cells[static_cast<std::size_t>(far.cell)];
+  const vascular::VesselPath& path = model.treatment.paths[static_cast<std::size_t>(cell.branch)];
+  const auto at = std::find(path.cells.begin(), path.cells.end(), far.cell) - path.cells.begin();
+  const double far_m = path.s_m[static_cast<std::size_t>(at)] + far.along_m;
+  if (far_m > between_m || far_m < least_m) return {};
+  return vascular::Seat{.branch = cell.branch, .middle_m = far_m - between_m / 2, .offset_m = far.distance_m};
+}
+
+}  // namespace
+
+void look_at_balloon(const CouplingModel& model, const core::State& rods, const vascular::TreatmentState& treatment,
+                     const core::StepReport& report, CouplingScratch& x, CouplingState& s) {
+  const int t = balloon_tool(model, rods);
+  const int was = s.balloon, was_branch = s.branch;
+  s.balloon = t < 0 ? -1 : model.balloon_of[static_cast<std::size_t>(t)];
+  s.branch = -1, s.drag_N = 0;
+  if (s.balloon != was) s.held = s.stent_out = s.caught = false, s.caught_N = 0;
+  if (t < 0) return;
+  const core::Rod& rod = model.rods.rods[static_cast<std::size_t>(t)];
+  const core::RodState& own = rods.rods[static_cast<std::size_t>(t)];
+  const data::Instrument& instrument = model.tools[static_cast<std::size_t>(t)].instrument;
+  const double near_m = marker_from_tip_m(instrument, 0), far_m = marker_from_tip_m(instrument, 1);
+  if (own.inserted_m < near_m) return;
+  const Vector3d p_near = point_from_tip(rod, own, near_m), p_far = point_from_tip(rod, own, far_m);
+  const double between_m = near_m - far_m;
+  const int wire_cell = s.wire_cell;
+  auto seat = seat_at_ostium(model, x.locator, p_far, between_m, s.held ? 0 : between_m / 2, wire_cell);
+  if (!seat) seat = seat_of(x.locator, model.physiology.flow.tree, model.treatment.paths, p_near, p_far, wire_cell);
+  // What the wall holds is not let go of because a beat throws its shaft aside for a moment; nor does a balloon that is
+  // open in a stent go into a side branch, which it would tear.
+  const bool aside = !seat || seat->branch != was_branch;
+  const bool stays =
+      s.held ||
+      (s.balloon == was && !is_empty(model.treatment.balloons[static_cast<std::size_t>(s.balloon)], treatment.balloon));
+  if (aside && stays && was_branch >= 0 && x.locator.nearest(p_far, near_heart_m).cell >= 0) {
+    s.branch = was_branch;
+    return;
+  }
+  if (!seat) return;
+  s.branch = seat->branch, s.middle_m = seat->middle_m;
+  const Vector3d along = (p_far - p_near).normalized();
+  for (const core::Touch& touch : report.touches) {
+    if (touch.rod != t) continue;
+    const double from_tip = rod.node_from_tip_m[static_cast<std::size_t>(touch.node)];
+    if (from_tip >= far_m && from_tip <= near_m) s.drag_N += touch.friction_W_N.dot(along);
+  }
+}
+
+void look_at_crimped_stent(const CouplingModel& model, const core::State& rods,
+                           const vascular::TreatmentState& treatment, CouplingState& s) {
+  s.caught_N = 0;
+  const int own = s.balloon < 0 ? -1 : model.treatment.stent_on[static_cast<std::size_t>(s.balloon)];
+  if (own < 0 || s.guide < 0 ||
+      treatment.stents[static_cast<std::size_t>(own)].where != vascular::StentState::on_balloon) {
+    s.caught = s.stent_out = false;
+    return;
+  }
+  const auto t = static_cast<std::size_t>(balloon_tool(model, rods)), g = static_cast<std::size_t>(s.guide);
+  const data::Instrument &instrument = model.tools[t].instrument, &guide = model.tools[g].instrument;
+  const vascular::StentState& stent = treatment.stents[static_cast<std::size_t>(own)];
+  const double out_m = rods.rods[t].inserted_m - rods.rods[g].inserted_m;
+  const double inside_m = marker_from_tip_m(instrument, 0) - stent.shift_m - out_m;  // its proximal end, in the guide
+  if (inside_m < -1e-3) s.stent_out = true;
+  if (inside_m <= 0) s.caught = false;
+  if (inside_m <= 0 || !s.stent_out) return;
+  if (!s.caught) {
+    constexpr double beyond_m = 4e-3, edge_m = 1e-3;  // what opens farther in does not hang on the edge
+    const core::Rod& shaft = model.rods.rods[t];
+    const Vector3d along = point_from_tip(shaft, rods.rods[t], std::max(0.0, out_m - beyond_m)) -
+                           point_from_tip(shaft, rods.rods[t], out_m);
+    const double angle =
+        std::acos(std::clamp(along.normalized().dot(direction_at_tip(model.rods.rods[g], rods.rods[g])), -1.0, 1.0));
+    const double widest = *std::max_element(stent.radius_m.begin(), stent.radius_m.end());
+    const double strut = model.treatment.stents[static_cast<std::size_t>(own)].strut_m;
+    if (inside_m < edge_m && (angle > catch_angle_rad || widest + strut > guide.inner_diameter_m / 2))
+      s.caught = true;
+    else if (inside_m > 2e-3)
+      s.stent_out = false;  // it has found its way in
+  }
+  if (s.caught) s.caught_N = std::min(edge_N_m * inside_m, most_caught_N);
+}
+
+}  // namespace ostium::app
