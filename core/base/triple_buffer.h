@@ -1,12 +1,12 @@
 #pragma once
-/// The newest value from one thread to another, without a lock: a triple buffer. What is not taken in time is replaced.
+/// Passes the newest value from one thread to another without a lock. A value that is not taken in time is overwritten.
 #include <array>
 #include <atomic>
 #include <cstdint>
 
 namespace ostium::core {
 
-/// One thread puts, one takes. T is copied; put and take do not allocate if copying T does not.
+/// One writer, one reader. T is copied; put and take do not allocate if copying T does not.
 template <class T>
 class TripleBuffer {
  public:
@@ -17,7 +17,7 @@ class TripleBuffer {
     writing_ = between_.exchange(static_cast<std::uint8_t>(writing_ | fresh), std::memory_order_acq_rel) & place;
   }
 
-  /// The newest that was put; the same again if there is none since.
+  /// The newest value; the same again if there is no newer one.
   const T& take() {
     if (between_.load(std::memory_order_relaxed) & fresh)
       reading_ = between_.exchange(reading_, std::memory_order_acq_rel) & place;

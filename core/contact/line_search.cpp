@@ -11,7 +11,7 @@ namespace ostium::core {
 
 namespace {
 
-/// The energy on the way from the anchor to what lies ahead: the slope of its quadratic part at both ends.
+/// The quadratic part of the energy between the anchor and the point ahead: its slope at both ends.
 struct VesselIndex {
   double at_anchor = 0, at_ahead = 0;
 };
@@ -26,7 +26,7 @@ VesselIndex way_of(const ContactScratch& c, const RodScratch& s) {
   return way;
 }
 
-/// The slope of the whole at `part` of the way.
+/// Slope of the whole energy at the share `part` of the direction.
 double slope(const VesselIndex& way, double part, const ContactScratch& c, const RodScratch& s) {
   double sum = way.at_anchor + part * (way.at_ahead - way.at_anchor);
   for (int i = first_free(s); i <= last_free(s); ++i) {
