@@ -1,6 +1,6 @@
 #pragma once
-/// The numbers that state consists of (fields.h): how each kind is hashed and written into a row of doubles; and how
-/// many members a struct has.
+/// The kinds of number in a state (fields.h): how each is hashed and stored in a row of doubles. Also counts the
+/// members of a struct.
 #include <bit>
 #include <cstdint>
 #include <optional>
@@ -17,7 +17,7 @@ inline constexpr bool is_optional<std::optional<T>> = true;
 template <class T>
 inline constexpr bool is_number = std::is_arithmetic_v<T> || std::is_enum_v<T> || is_optional<T>;
 
-/// As a double, exactly: 64-bit integers by their bits, an optional number that is none as -1.
+/// As a double, exactly: 64-bit integers keep their bit pattern; an empty optional is -1.
 template <class T>
 double to_double(const T& number) {
   if constexpr (is_optional<T>)
@@ -46,10 +46,10 @@ void from_double(double from, T& number) {
   }
 }
 
-/// XXH3; -0 and 0 differ.
+/// XXH3; -0 and 0 hash differently.
 std::uint64_t hash_bytes(const void* first, std::size_t bytes, std::uint64_t seed);
 
-/// Each in the bytes of its own type, which have no padding; an optional one as its double.
+/// Hashes each number as the bytes of its own type (no padding), an optional as its double.
 template <class T>
 std::uint64_t hash_numbers(std::span<const T> numbers, std::uint64_t h) {
   static_assert(is_optional<T> || std::is_floating_point_v<T> || std::has_unique_object_representations_v<T>);
@@ -64,7 +64,7 @@ std::uint64_t hash_numbers(std::span<const T> numbers, std::uint64_t h) {
 }
 
 std::string difference_in_words(const std::string& path, int index, const std::string& a, const std::string& b);
-std::string in_words(double number);  ///< shortest that reads back as the same
+std::string in_words(double number);  ///< shortest text that reads back as the same number
 std::string in_words(std::uint64_t number);
 
 template <class T>
@@ -74,7 +74,7 @@ std::string number_in_words(const T& number) {
   else
     return in_words(to_double(number));
 }
-/// "path[index]: a != b"; `b` as in a row.
+/// "path[index]: a != b", with `b` as stored in a row.
 template <class T>
 std::string difference_in_words(const std::string& path, int index, const T& a, double b) {
   T other{};
@@ -82,13 +82,13 @@ std::string difference_in_words(const std::string& path, int index, const T& a, 
   return difference_in_words(path, index, number_in_words(a), number_in_words(other));
 }
 
-/// What any member of an aggregate can be initialised by.
+/// Converts to any type, so it can initialise any member of an aggregate.
 struct Anything {
   template <class T>
   operator T() const;
 };
 
-/// Members of an aggregate: as many as it can be initialised by, at most. (None may be a plain array.)
+/// Number of members of an aggregate: the most initialisers that it accepts. (No member may be a plain array.)
 template <class S, class... Some>
 consteval std::size_t member_count() {
   static_assert(std::is_aggregate_v<S>);

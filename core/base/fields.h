@@ -1,13 +1,13 @@
 #pragma once
-/// One list of its members beside each struct of state, from which follows all that goes over every member: hash, rows
-/// of a recording and back, comparison, names.
+/// Each struct of state has one list of its members beside it. Hashing, recording (rows of numbers and back),
+/// comparison and names all use this list.
 ///
 ///   struct Lamp { bool on = false; int watts = 0; };
 ///   constexpr auto fields(const Lamp*) { return std::tuple{field("on", &Lamp::on), field("watts", &Lamp::watts)}; }
 ///
 /// Members are numbers (arithmetic types and enums, also optional ones), structs with a list, components along a rod
-/// (core/math/field.h), and vectors, arrays and Eigen's matrices of any of these. A member that is not listed does not
-/// compile.
+/// (core/math/field.h), and vectors, arrays and Eigen matrices of these. A member missing from the list is a compile
+/// error.
 #include <bit>
 #include <cstdint>
 #include <optional>
@@ -32,11 +32,11 @@ constexpr ListedField<S, T> field(const char* name, T S::*member) {
   return {name, member};
 }
 
-/// Where a value stands, as names from the outermost struct inwards; put into words only when somebody asks.
+/// Where a value is: names from the outermost struct inwards. Turned into text only on demand.
 struct FieldPath {
   const FieldPath* outer = nullptr;
   const char* name = "";
-  int index = -1;  ///< of a struct in a vector or array
+  int index = -1;  ///< index of a struct in a vector or array
 
   std::string words() const;  ///< "treatment.stents[2].radius_m"
 };
@@ -46,7 +46,7 @@ concept HasFields = requires(const S* s) {
   fields(s);
 };
 
-/// Whether the list names as many members as the aggregate has, each by a name of its own.
+/// Whether the list has as many entries as the aggregate has members, each with its own name.
 template <class S>
 consteval bool lists_every_member() {
   return std::apply(
@@ -69,7 +69,7 @@ void for_each_field(S& s, Visit&& visit) {
              fields(static_cast<const Plain*>(nullptr)));
 }
 
-/// Calls visit(path, span) for all numbers in a member, each span of one type, in the order of the lists.
+/// Calls visit(path, span) for all numbers of a member in the order of the lists; each span holds one type.
 template <class T, class Visit>
 void for_each_number(T& part, const FieldPath& path, Visit& visit) {
   using Plain = std::remove_const_t<T>;
@@ -114,7 +114,7 @@ double* put_fields(const T& part, double* row) {
   return row;
 }
 
-/// Back again, into a state of the same sizes.
+/// Reads them back into a state of the same sizes.
 template <class T>
 const double* take_fields(const double* row, T& part) {
   for_each_number(part, [&](const FieldPath&, auto numbers) {

@@ -1,5 +1,5 @@
 #pragma once
-/// Loops over independent things, by all cores. For loading; a step has one thread.
+/// Loops over independent items on all cores. For loading; a step runs on one thread.
 #include <algorithm>
 #include <future>
 #include <thread>
@@ -7,8 +7,8 @@
 
 namespace ostium::core {
 
-/// Calls work(begin, end) for parts of [0, n) at once and returns when all are done. As long as no part touches what
-/// another one writes, the result does not depend on how many there are.
+/// Calls work(begin, end) for parts of [0, n) in parallel and returns when all are done. The result does not depend on
+/// the number of parts as long as no part touches what another one writes.
 template <class Work>
 void in_parallel(std::size_t n, Work&& work) {
   const std::size_t parts =

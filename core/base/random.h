@@ -1,5 +1,5 @@
 #pragma once
-/// Uniform numbers from a seed and a counter: nothing is remembered but how many were drawn.
+/// Uniform random numbers from a seed and a counter; the only state is how many were drawn.
 #include <cstdint>
 
 namespace ostium::core {

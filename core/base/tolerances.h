@@ -1,79 +1,79 @@
 #pragma once
-/// Every tolerance and limit of the engine, on one page. SI.
+/// Every tolerance and limit of the engine in one place. SI units.
 namespace ostium::core::tolerances {
 
-// What an operator's hand, or a script, may ask for; beyond it a drive is limited and flagged.
-inline constexpr double max_drive_speed_m_s = 2.0;     // ten times the fastest scripted hand
-inline constexpr double max_drive_turn_rad_s = 200.0;  // 32 turns a second
-inline constexpr double max_load_N = 100.0;            // of a tip load
+// Limits on what an operator or a script may command; a drive beyond them is limited and flagged.
+inline constexpr double max_drive_speed_m_s = 2.0;     // ten times the fastest scripted operator
+inline constexpr double max_drive_turn_rad_s = 200.0;  // 32 turns per second
+inline constexpr double max_load_N = 100.0;            // tip load
 
-// Inextensibility: strain per tension and element length. At 2 mm, 1 N stretches a rod by 1e-10: a thousandth of the
-// least that a gate sees, and 250,000 times stiffer than a steel wire of 0.9 mm is.
+// Axial compliance: strain per tension and element length. With 2 mm elements, 1 N stretches a rod by 1e-10: a
+// thousandth of what the gates resolve, and 250,000 times stiffer than a steel wire of 0.9 mm.
 inline constexpr double axial_give_per_N_m = 5e-8;
-inline constexpr double pulled_apart_stretch = 1e-6;  // only ends that pull a taut rod apart make it give so much
+inline constexpr double pulled_apart_stretch = 1e-6;  // exceeded only where held ends pull a taut rod apart
 
-// Most that a joint's cell may turn at rest: with more, elements are too long for the shape.
+// Largest angle of a joint's cell at rest; beyond it, elements are too long for the shape.
 inline constexpr double max_rest_angle_rad = 2.0;
 
 // Newton iterations of one step.
-inline constexpr double stretch_tolerance = 8e-8;  // largest |r' - d3| over the elements; 1e-7 is the gate
-inline constexpr double usable_stretch = 1e-2;     // with more, a step is tried again from rest
+inline constexpr double stretch_tolerance = 8e-8;  // largest |r' - d3| over the elements; the gate is 1e-7
+inline constexpr double usable_stretch = 1e-2;     // above this, the step is retried from rest
 inline constexpr int max_newton_iterations = 8;
-inline constexpr int max_halvings = 4;               // of a step among walls that has no usable solution as a whole
-inline constexpr double max_turn_rad = 0.5;          // of an element in one iteration; longer ones are shortened
-inline constexpr double overturned_joint_rad = 2.5;  // an angle between elements that is about to pass pi
-inline constexpr double longest_return_m = 2e-3;     // per step, of an end that was pulled off its hold
+inline constexpr int max_halvings = 4;               // of a step with walls that has no usable solution as a whole
+inline constexpr double max_turn_rad = 0.5;          // of an element per iteration; larger ones are scaled down
+inline constexpr double overturned_joint_rad = 2.5;  // angle between elements that is flagged as close to pi
+inline constexpr double longest_return_m = 2e-3;     // per step, for an end that was pulled off its hold
 
-// Binding of nested rods.
-inline constexpr double bore_slip_m = 20e-6;   // elastic, of friction in a bore
-inline constexpr double leaning_N_m = 0.01;    // force per length that presses an inner rod halfway to its bore's side
-inline constexpr double bore_smooth_m = 5e-3;  // along a bore, of what presses an inner rod against it
-inline constexpr double leaning_steps = 20;    // it takes to follow
-inline constexpr double least_cover = 0.02;    // of a joint's cell: less of a layer counts as this
-inline constexpr double torn_part = 0.5;       // of an element: more, and what protrudes is strung anew
+// Nesting.
+inline constexpr double bore_slip_m = 20e-6;   // elastic slip of friction in a bore
+inline constexpr double leaning_N_m = 0.01;    // contact force that moves an inner rod halfway to the side
+inline constexpr double bore_smooth_m = 5e-3;  // length over which an inner rod's contact force on its bore is smoothed
+inline constexpr double leaning_steps = 20;    // time constant of that sideways move, in steps
+inline constexpr double least_cover = 0.02;    // share of a joint's cell: a layer that covers less counts as this much
+inline constexpr double torn_part = 0.5;       // gap, in elements, above which the protruding part is moved
 
 // Contact with walls.
-inline constexpr double press_N_m = 1e3;        // how soft a wall is thought, to tell who stays pressed against it
-inline constexpr double wall_N_m2 = 1e8;        // stiffness of a rigid wall, per length
-inline constexpr double wall_slack_m = 0.1e-3;  // that a node may go beyond where it is expected before it is followed
-inline constexpr double slid_far_m = 0.15e-3;   // along a wall: on a radius of 1.5 mm, 7 um beside its plane
-inline constexpr double wall_pull_N = 1e-5;     // of a tie that is let go in the same step
-inline constexpr double wall_loose_m = 0.1e-6;  // behind a wall before a node is tied in the same step
-inline constexpr double followed_m = 5e-6;      // behind a wall that was found on the way
-inline constexpr double spared_m = 50e-6;       // most that one drives a node off where it was
-inline constexpr double passed_wall_m = 20e-6;  // behind a plane, on a way that meets no wall: it ends before that
-inline constexpr double same_wall = 0.999;      // cosine between planes that stand for one another
-inline constexpr double same_side = 0.5;        // ... of one wall, seen from two places on the same side of it
-inline constexpr double same_soft_wall = 0.1;   // ... of a wall that gives way, which push as one
-inline constexpr double joined_m = 20e-6;       // farther than the nearest of them: no part of it any more
+inline constexpr double press_N_m = 1e3;        // wall stiffness assumed when predicting which nodes stay in contact
+inline constexpr double wall_N_m2 = 1e8;        // stiffness of a rigid wall per length of instrument
+inline constexpr double wall_slack_m = 0.1e-3;  // beyond the predicted position: then continuous collision
+inline constexpr double slid_far_m = 0.15e-3;   // ... when sliding along it: at 1.5 mm radius, 7 um off the plane
+inline constexpr double wall_pull_N = 1e-5;     // tension at which a tie is released within the step
+inline constexpr double wall_loose_m = 0.1e-6;  // depth at which a node is tied within the step
+inline constexpr double followed_m = 5e-6;      // depth at which a wall found by continuous collision counts
+inline constexpr double spared_m = 50e-6;       // most that such a wall pushes a node away from its start
+inline constexpr double passed_wall_m = 20e-6;  // behind a plane on a path that meets no wall: the wall ended
+inline constexpr double same_wall = 0.999;      // cosine between planes that replace one another
+inline constexpr double same_side = 0.5;        // ... between two views of one wall from the same side
+inline constexpr double same_soft_wall = 0.1;   // ... between planes of a soft wall that push as one
+inline constexpr double joined_m = 20e-6;       // a plane farther than the nearest by this is not joined with it
 inline constexpr double most_curved_wall_per_m = 2e4;
-inline constexpr double wall_slip_m = 20e-6;     // elastic, of friction
-inline constexpr int quick_wall_changes = 3;     // of a linearised step's ties, before their energy is followed down
-inline constexpr int max_wall_changes = 60;      // of a linearised step's ties
-inline constexpr double least_descent = 1e-4;    // part of the way to a solve's end
-inline constexpr double usable_depth_m = 20e-6;  // behind a wall that does not hold; with more, as for usable_stretch
+inline constexpr double wall_slip_m = 20e-6;     // elastic slip of friction at a wall
+inline constexpr int quick_wall_changes = 3;     // changes of ties per linearisation before the line search starts
+inline constexpr int max_wall_changes = 60;      // changes of ties per linearisation
+inline constexpr double least_descent = 1e-4;    // resolution of the line search, as a share of its direction
+inline constexpr double usable_depth_m = 20e-6;  // behind a wall that does not hold the node; see usable_stretch
 
 // Contact of rods with each other.
-inline constexpr int max_rod_contacts = 2000;  // more are left out
-inline constexpr int max_rod_rounds = 24;      // of a step
-inline constexpr double rods_near_m = 0.5e-3;  // between their surfaces, to be looked at
-inline constexpr double own_apart_radii = 6;   // along a rod, before it can touch itself
-inline constexpr double rods_grip = 4;         // stiffness of a contact, to inertia
+inline constexpr int max_rod_contacts = 2000;  // further ones are ignored
+inline constexpr int max_rod_rounds = 24;      // per step
+inline constexpr double rods_near_m = 0.5e-3;  // gap between surfaces below which a pair is considered
+inline constexpr double own_apart_radii = 6;   // distance along a rod, per sum of radii, before it can touch itself
+inline constexpr double rods_grip = 4;         // contact stiffness relative to inertia
 inline constexpr double rods_slow = 0.3;       // a round that leaves more of the depth is slow: its spring becomes
-inline constexpr double rods_harder = 4;       // times as stiff, or, if it went too far,
+inline constexpr double rods_harder = 4;       // this many times as stiff, or, if it overshot,
 inline constexpr double rods_softer = 0.5;
-inline constexpr double rods_deep_m = 2e-6;    // that is left to the next step
-inline constexpr double rods_uneven = 1e-2;    // of the force that both feel, and
-inline constexpr double rods_uneven_N = 1e-6;  // as much
+inline constexpr double rods_deep_m = 2e-6;    // depth left for the next step
+inline constexpr double rods_uneven = 1e-2;    // allowed difference between the forces on the two rods: relative plus
+inline constexpr double rods_uneven_N = 1e-6;  // absolute
 
 // Static equilibrium.
-inline constexpr double static_tolerance_rad = 1e-9;  // largest turn of the last iteration; Newton squares it
-inline constexpr double static_closure = 1e-7;        // largest distance of an end from its hold, of the rod's length
-inline constexpr double static_time_ratio = 100;      // of the last proximal time to the slowest motion's
+inline constexpr double static_tolerance_rad = 1e-9;  // largest turn in the last iteration; Newton's method squares it
+inline constexpr double static_closure = 1e-7;        // distance of an end from its hold, relative to rod length
+inline constexpr double static_time_ratio = 100;      // last proximal time relative to the slowest motion
 inline constexpr int max_static_iterations = 400;
-inline constexpr double static_turns_back = 0.25;         // of a step: if the next takes back more, that is halved
+inline constexpr double static_turns_back = 0.25;         // of a step: if the next one takes back more, that is halved
 inline constexpr double concentric_tolerance_rad = 1e-8;  // largest change of an angle between nested instruments
-inline constexpr int max_concentric_leans = 3;            // off shapes that are balanced but unstable
-inline constexpr int max_concentric_rounds = 100;         // of their angles and the carrier in turn
+inline constexpr int max_concentric_leans = 3;            // perturbations to leave balanced but unstable shapes
+inline constexpr int max_concentric_rounds = 100;         // alternating between angles and carrier
 
 }  // namespace ostium::core::tolerances

@@ -1,6 +1,5 @@
 #pragma once
-/// Units beside SI, in SI: what a number is multiplied by at an edge. `2.5 * mm` is 2.5 mm in metres, `x / mm` a length
-/// in millimetres.
+/// Units other than SI, expressed in SI: `2.5 * mm` is 2.5 mm in metres, `x / mm` is a length in millimetres.
 #include <numbers>
 
 namespace ostium::units {
@@ -16,6 +15,6 @@ inline constexpr double N_per_mm2 = 1e6;               // Pa
 inline constexpr double mmHg = 133.322, atm = 101325;  // Pa
 inline constexpr double mL = 1e-6;                     // m3
 inline constexpr double mL_min = mL / 60;              // m3/s
-inline constexpr double mPa_s = 1e-3;                  // Pa s, as much as a centipoise
+inline constexpr double mPa_s = 1e-3;                  // Pa s; one centipoise
 
 }  // namespace ostium::units

@@ -6,7 +6,7 @@ namespace ostium::core {
 
 namespace {
 
-/// Column of `values`, given at `at` (rising), at x: linear in between.
+/// Column of `values`, sampled at the rising positions `at`, interpolated linearly at x.
 Eigen::VectorXd between(const Eigen::VectorXd& at, const Eigen::MatrixXd& values, double x) {
   const Eigen::Index last = values.cols() - 1;
   const Eigen::Index i =
@@ -15,7 +15,7 @@ Eigen::VectorXd between(const Eigen::VectorXd& at, const Eigen::MatrixXd& values
   return (1 - t) * values.col(i - 1) + t * values.col(i);
 }
 
-/// Distances from the base, of the length, of the joints and of the middles of the elements.
+/// Distances of the joints and of the element middles from the base, as fractions of the length.
 Eigen::VectorXd joint_fractions(const Rod& rod) {
   Eigen::VectorXd at(rod.elements);
   for (int k = 0; k < rod.elements; ++k) at[k] = 1 - rod.node_from_tip_m[k] / rod.total_length_m;
@@ -51,7 +51,7 @@ ConcentricState carried_over(const Concentric& nest, const EndState& base, const
     carrier.position.set(j, p);
     p += rod.length.at(0)[j] * (q * Eigen::Vector3d::UnitZ());
     state.moment_N_m.col(j) = between(joints_before, moment, joints[j]);
-    // Relative to what its drive was turned by, so that a part that is turned further takes its angles along.
+    // Relative to the drive's roll, so that a part whose drive turns on carries its angles along.
     const auto drives = [](const Concentric& n, int i) { return n.parts[i].roll_rad - n.parts[n.reference].roll_rad; };
     const Eigen::VectorXd roll = between(elements_before, before.roll_rad, elements[j]);
     for (int i = 0; i < static_cast<int>(nest.parts.size()); ++i)

@@ -46,7 +46,7 @@ Eigen::Vector4d tip_frame(const Concentric& nest, const ConcentricState& state, 
   const int last = std::max(nest.last_element[part], 0);
   Rod rod = whole;
   set_concentric_rest_curvature(nest, state, rod);
-  // The frame is that of the element's middle; beyond it the cell of the next joint goes on as at rest.
+  // The frame is that of the element's middle; beyond it, the next joint's cell follows its rest curvature.
   const double from_base = whole.total_length_m - 0.5 * (whole.node_from_tip_m[last] + whole.node_from_tip_m[last + 1]);
   const Eigen::Vector3d u = rod.rest_curvature[last + 1];
   return coefficients((quaternion(carrier.orientation[last]) * rotation(u * (nest.parts[part].inserted_m - from_base)) *

@@ -1,5 +1,5 @@
 #pragma once
-/// The carrier of nested instruments: its frames and strains, for the sources of this folder.
+/// The carrier of nested instruments: its frames and strains. Internal to this folder.
 #include <Eigen/Geometry>
 
 #include "core/concentric_tubes/concentric.h"
@@ -14,10 +14,10 @@ inline Eigen::Quaterniond rotation(const Eigen::Vector3d& vector) {
   return Eigen::Quaterniond(Eigen::AngleAxisd(angle, vector / angle));
 }
 
-/// Gives the carrier the shape at rest and the base frame that the angles make.
+/// Gives the carrier the rest shape and the base frame that follow from the angles.
 void turn_carrier(const Concentric& nest, const EndState& base, const ConcentricState& state, Rod& rod, EndState& held);
 
-/// The carrier's Darboux vectors at its joints; none at the free tip.
+/// The carrier's Darboux vectors at its joints; zero at the free tip.
 Eigen::Matrix3Xd strains(const Rod& rod, const RodState& state);
 
 }  // namespace ostium::core

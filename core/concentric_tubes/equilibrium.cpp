@@ -14,8 +14,8 @@ void take_moments(const Rod& rod, ConcentricState& state) {
         stiffness_at_rest(rod, k).cwiseProduct(Eigen::Vector3d(strain.col(k)) - rod.rest_curvature[k]);
 }
 
-/// Tilts a rod a little, the more the further from its base: off a shape that is balanced but unstable, as a long wire
-/// standing upright is. The direction is arbitrary, and always the same.
+/// Tilts a rod slightly, more with distance from its base, to leave a balanced but unstable shape such as a long wire
+/// standing upright. The direction is arbitrary but always the same.
 void lean(const Rod& rod, RodState& state) {
   const Eigen::Vector3d axis = quaternion(state.base.q_W) * Eigen::Vector3d(1, 0.3, 0).normalized();
   for (int j = 0; j < rod.elements; ++j)
@@ -44,7 +44,7 @@ ConcentricEquilibrium find_equilibrium(const Concentric& nest, const EndState& b
     out.turn_rad = twist.turn_rad;
     if (!twist.converged) return out;
     out.converged = turns && out.rounds > 1 && out.turn_rad < tolerances::concentric_tolerance_rad;
-    if (out.converged) break;  // the carrier has the shape that these angles make
+    if (out.converged) break;  // the carrier already has the shape that these angles give
     turn_carrier(nest, base, state, carrier.rods[0], state.carrier.rods[0].base);
     scratch.rods[0].inside.rest_curvature = carrier.rods[0].rest_curvature;
     find_equilibrium(carrier, inputs, state.carrier, scratch, report);

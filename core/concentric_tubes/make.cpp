@@ -17,7 +17,7 @@ const Section* section_at(const ConcentricPart& part, double from_base) {
   return &part.sections.back();
 }
 
-/// Distances from the base at which a part or a section of one ends.
+/// Distances from the base at which a part or one of its sections ends.
 std::vector<double> boundaries(const std::vector<ConcentricPart>& parts, double length) {
   std::vector<double> at = {0, length};
   for (const ConcentricPart& part : parts) {
@@ -51,8 +51,8 @@ void check_parts(const ConcentricDescription& d) {
   }
 }
 
-/// Stiffness and weight of all parts together. One part keeps its own shape at rest; that of several follows the
-/// angles.
+/// Combined stiffness and weight of all parts. A single part keeps its rest shape; with several, the rest shape follows
+/// from the angles.
 std::vector<Section> composite(const std::vector<ConcentricPart>& parts, double length) {
   if (parts.size() == 1) return parts[0].sections;
   const std::vector<double> at = boundaries(parts, length);
@@ -74,7 +74,7 @@ std::vector<Section> composite(const std::vector<ConcentricPart>& parts, double 
   return sections;
 }
 
-/// Where the cells of the joints end: the base, the middles of the elements, the tip.
+/// Boundaries of the joints' cells: the base, the element middles, the tip.
 std::vector<double> cell_ends(const std::vector<double>& element_lengths) {
   std::vector<double> ends = {0};
   double reached = 0;
@@ -103,7 +103,7 @@ void cut_into_pieces(Concentric& nest, const std::vector<double>& ends) {
         }
       nest.pieces[k].push_back(piece);
     }
-    // So that the parts' torques add up to the carrier's, whatever ends within the cell.
+    // Scaled so that the parts' torques add up to the carrier's, even if parts end within the cell.
     nest.GJ_N_m2.col(k) *= stiffness_at_rest(nest.carrier.rods[0], static_cast<int>(k)).z() / nest.GJ_N_m2.col(k).sum();
   }
 }

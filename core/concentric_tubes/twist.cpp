@@ -20,7 +20,7 @@ Vector2d turned(double angle, const Vector2d& k) {
 }
 Vector2d quarter_turned(const Vector2d& k) { return {-k.y(), k.x()}; }
 
-/// The angle of a part on one side of a joint as a sum of unknowns: of an element, or b_i - b_ref at the base.
+/// Angle of a part on one side of a joint as a sum of unknowns: that of an element, or b_i - b_ref at the base.
 struct Angle {
   int plus = -1, minus = -1;  ///< unknowns; -1: none
   double value(const VectorXd& x) const { return (plus < 0 ? 0 : x[plus]) - (minus < 0 ? 0 : x[minus]); }
@@ -53,14 +53,14 @@ class Twist {
       for (int j = 0; j < N_; ++j) state.roll_rad(i, j) = side(i, std::min(j, nest_.last_element[i])).value(x);
   }
 
-  /// The angle of a part in element j; j = -1: at the base.
+  /// Angle of a part in element j; j = -1: at the base.
   Angle side(int part, int j) const {
     if (part == nest_.reference) return {};
     if (j < 0) return {part, nest_.reference};
     return {index_(part, j), -1};
   }
 
-  /// Of the carrier at joint k.
+  /// Rest curvature of the carrier at joint k.
   Eigen::Vector3d rest_curvature(const VectorXd& x, int k) const {
     Eigen::Vector3d sum = Eigen::Vector3d::Zero();
     for (const ConcentricPiece& piece : nest_.pieces[k])
@@ -73,15 +73,15 @@ class Twist {
     return sum / nest_.carrier.rods[0].joint_length.at(0)[k];
   }
 
-  /// Turns parts a little against each other, the more the further from the base: off a shape that is balanced but
-  /// unstable, as two tubes bent straight against each other are.
+  /// Turns the parts slightly against each other, more with distance from the base, to leave a balanced but unstable
+  /// state such as two tubes bent straight against each other.
   void disturb(VectorXd& x) const {
     for (int j = 0; j < N_; ++j)
       for (int i = 0; i < n_; ++i)
         if (index_(i, j) >= 0) x[index_(i, j)] += 1e-3 * (j + 1) / N_;
   }
 
-  /// Energy; its gradient and Hessian where asked for.
+  /// The energy, and its gradient and Hessian if requested.
   double energy(const VectorXd& x, VectorXd* gradient, Eigen::SparseMatrix<double>* hessian) const {
     Sum sum{0, gradient, {}};
     if (gradient) gradient->setZero(unknowns_);
@@ -120,7 +120,7 @@ class Twist {
   void shafts(const VectorXd& x, Sum& sum) const {
     for (int i = 0; i < n_; ++i) {
       const ConcentricPart& part = nest_.parts[i];
-      // A rigid shaft is one that is far stiffer than a millimetre of the instrument.
+      // A rigid shaft is modelled as far stiffer than a millimetre of the instrument.
       const double stiffness = 1 / std::max(part.shaft_rad_per_Nm, 1e-8 / part.sections.back().GJ_N_m2);
       const double off = x[i] - part.roll_rad;
       sum.energy += stiffness * off * off / 2;
@@ -181,7 +181,7 @@ class Twist {
     }
   }
 
-  /// Sides of joint k whose mean is a part's angle there: both, or the proximal one alone at its tip.
+  /// Number of sides of joint k over which a part's angle is averaged: both, or only the proximal one at its tip.
   int sides(int part, int k) const { return part == nest_.reference || k <= nest_.last_element[part] ? 2 : 1; }
   double angle(const VectorXd& x, int part, int k) const {
     const double before = side(part, k - 1).value(x);
@@ -200,7 +200,7 @@ class Twist {
   const Concentric& nest_;
   const Eigen::Matrix3Xd& moment_;
   int n_ = 0, N_ = 0, unknowns_ = 0;
-  Eigen::MatrixXi index_;  ///< (#parts, #elements): unknown, -1 if none; neighbours along the rod are neighbours here
+  Eigen::MatrixXi index_;  ///< (#parts, #elements): unknown, -1 if none; numbered along the rod, for a narrow matrix
 };
 
 }  // namespace
@@ -218,7 +218,7 @@ TwistSolution solve_twist(const Concentric& nest, ConcentricState& state) {
   for (int iteration = 0; iteration < tolerances::max_static_iterations && !out.converged; ++iteration) {
     factors.setShift(shift);
     factors.compute(hessian);
-    if (factors.info() != Eigen::Success || (factors.vectorD().array() <= 0).any()) {  // not downhill
+    if (factors.info() != Eigen::Success || (factors.vectorD().array() <= 0).any()) {  // not a descent direction
       if (gradient.cwiseAbs().maxCoeff() < 1e-12 * typical) {
         twist.disturb(x);
         energy = twist.energy(x, &gradient, &hessian);
@@ -230,7 +230,7 @@ TwistSolution solve_twist(const Concentric& nest, ConcentricState& state) {
     const double longest = step.cwiseAbs().maxCoeff();
     if (longest > tolerances::max_turn_rad) step *= tolerances::max_turn_rad / longest;
     out.converged = shift == 0 && longest < tolerances::concentric_tolerance_rad / 100;
-    // Near the minimum energies differ by less than they are rounded to.
+    // Near the minimum, energies differ by less than rounding.
     const double needed = longest < 1e-5 ? std::numeric_limits<double>::infinity() : energy;
     double part = 1, tried = 0;
     while ((tried = twist.energy(x + part * step, nullptr, nullptr)) > needed && part > 1e-6) part /= 2;

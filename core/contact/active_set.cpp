@@ -1,4 +1,4 @@
-/// Ties to walls: an active set, settled within the solve.
+/// Ties nodes to walls by an active set that is settled within the solve.
 #include <algorithm>
 #include <cmath>
 
@@ -16,7 +16,7 @@ namespace ostium::core {
 
 namespace {
 
-/// Puts node i back to where it is free, and ties it to its active planes.
+/// Resets node i to its contact-free compliance and target, then ties it to its active planes.
 void renew_node(int i, const ContactScratch& c, RodScratch& s) {
   S3<double> P = load6<double>(c.free_compliance, i);
   V3<double> target = load3<double>(c.free_target, i);
@@ -38,8 +38,8 @@ bool is_touched(const ContactScratch& c, int i) {
   return any;
 }
 
-/// What of the last step's force each plane gave: most from the one that faces it best, of the rest the next, so that
-/// planes beside those that hold a node are not thought to.
+/// Distributes the last step's wall force among the planes: as much as possible to the plane that faces it best, then
+/// the remainder to the next, so that planes beside the ones in contact get none.
 void share_force(V3<double> force, const NodeWalls& walls, double* pressed_N) {
   std::fill(pressed_N, pressed_N + walls.count, 0.0);
   for (int round = 0; round < walls.count; ++round) {
@@ -90,7 +90,7 @@ void tie_to_walls(const Strand& strand) {
 
 namespace {
 
-/// Whether it may have come to walls that were not found.
+/// Whether the node moved far enough to meet walls that the broad phase did not find.
 bool went_far(const Strand& strand, int i, const V3<double>& to) {
   const ContactScratch& c = *strand.contact;
   const NodeWalls& walls = c.walls[i];
@@ -100,7 +100,7 @@ bool went_far(const Strand& strand, int i, const V3<double>& to) {
   return dot(slid, slid) > far * far;
 }
 
-/// Follows nodes that went far through the triangles: true if that finds walls that are to hold one.
+/// Sweeps nodes that moved far through the triangles. True if this adds active walls.
 bool follow_far(const Model& model, const Strand& strand, Scratch& scratch) {
   RodScratch& s = *strand.s;
   ContactScratch& c = *strand.contact;
@@ -114,13 +114,13 @@ bool follow_far(const Model& model, const Strand& strand, Scratch& scratch) {
   return any;
 }
 
-/// Whether the plane is to change, by where the last solve leads.
+/// Whether the plane's active flag contradicts the last solution.
 bool is_wrong(const WallPlane& w, const V3<double>& ahead) {
   return w.active ? push_N(w, ahead) < -tolerances::wall_pull_N
                   : dot(w.normal, ahead) < w.place - tolerances::wall_loose_m;
 }
 
-/// The force along `across` of a tie that is let go.
+/// Drops the tie along `across`; its force stays in the line search's anchor.
 void drop_stay(int i, WallPlane& w, ContactScratch& c) {
   if (w.stay == 0) return;
   const V3<double> off = load3<double>(c.anchor_push, i);
@@ -170,7 +170,7 @@ bool change_walls(const Model& model, const Strand& strand, Scratch& scratch) {
     if (!changed) continue;
     renew_node(i, c, s);
     any = true;
-    // A node belongs to the elements on both sides of it.
+    // A node affects the elements on both sides of it.
     c.same = std::max(0, std::min({c.same, i - 1 - s.chain.first, s.chain.elements - 1 - i}));
   }
   return any;

@@ -1,4 +1,4 @@
-/// Which walls a node can reach.
+/// Finds the walls that a node can reach.
 #include "core/contact/broad_phase.h"
 
 #include <algorithm>
@@ -13,9 +13,10 @@ namespace ostium::core {
 namespace {
 
 constexpr int block = 8;             ///< nodes that share a query
-constexpr double rounding_m = 1e-9;  ///< what a coarse look allows for, before an exact one
+constexpr double rounding_m = 1e-9;  ///< rounding margin of a coarse test, before the exact one
 
-/// Sees a wall anew from `to`, as it is at the end of the step. False: what it is from there, another is already.
+/// Recomputes a plane from `to`, with the wall as it is at the end of the step. False if another plane already stands
+/// for it there.
 bool is_in_the_way(const Model& model, const Strand& strand, int i, const V3<double>& to, Scratch& scratch,
                    WallPlane& wall) {
   const Surface& surface = *model.surfaces[wall.surface];
@@ -41,12 +42,12 @@ bool is_in_the_way(const Model& model, const Strand& strand, int i, const V3<dou
   return true;
 }
 
-/// The nodes of a query, side by side; a place without a node reaches nothing.
+/// The nodes of a query, one per SIMD lane; unused lanes reach nothing.
 struct Block {
   double x[block], y[block], z[block], reach[block];
 
   void set(int at, const V3<double>& p, double how_far) { x[at] = p.x, y[at] = p.y, z[at] = p.z, reach[at] = how_far; }
-  /// Which of them a box may be in reach of, that moves by `move`: a bit for each.
+  /// Which nodes may be within reach of a box that moves by `move`: one bit each.
   unsigned near(const V3<double>& low, const V3<double>& high, double move) const {
     const auto outside = [](Lanes p, double a, double b) { return largest(Lanes{}, largest(a - p, p - b)); };
     unsigned any = 0;

@@ -1,13 +1,13 @@
 #pragma once
-/// Contact of rods with walls that move.
+/// Contact of rods with moving walls.
 ///
-/// Nodes are balls of the rod's radius. What of a wall a node can reach in a step is found at the beginning of the
-/// step, when the node is inside the lumen for certain: each piece of wall becomes a plane there (narrow_phase.cpp),
-/// which the wall carries to the end of the step, and which is seen anew from where the node goes, if it was the rim of
-/// a triangle (broad_phase.cpp). A node that would end behind a plane is tied to it, a spring as stiff as the wall; an
-/// active set, settled within the rod's solve (active_set.cpp). After a solve the path of nodes that went far is
-/// followed through the triangles (continuous_collision.cpp), and walls that they passed or meet there are planes, too:
-/// nothing gets through. Friction is a spring that slips (friction.cpp): along the rod and around it, with its torque.
+/// Nodes are balls of the rod's radius. The walls that a node can reach in a step are found at the beginning of the
+/// step, when it is certainly inside the lumen. Each piece of wall becomes a plane (narrow_phase.cpp) that moves with
+/// the wall to the end of the step; if it came from the rim of a triangle, it is recomputed from where the node goes
+/// (broad_phase.cpp). A node that would end behind a plane is tied to it by a spring as stiff as the wall; which ties
+/// are active is settled within the rod's solve (active_set.cpp). After a solve, nodes that moved far are swept through
+/// the triangles (continuous_collision.cpp), and walls that they crossed or touch become planes, too, so nothing passes
+/// through. Friction is a spring that slips (friction.cpp), along the rod and around it, with its torque.
 #include "core/model/model.h"
 #include "core/model/report.h"
 #include "core/model/scratch.h"
@@ -15,30 +15,30 @@
 
 namespace ostium::core {
 
-/// At the beginning of a step, once: where the walls are; of a piece of it, which goes from one part of it to another.
+/// Once at the beginning of a step, or of a part of it (`from` to `to`, shares of the step): sets the walls' positions.
 void move_walls(const Model& model, const Inputs& inputs, double from, double to, Scratch& scratch);
 
-/// Finds the walls that a strand can reach, from its guess of the iterate.
+/// Finds the walls that a strand can reach, from the predicted positions of its nodes.
 void find_walls(const Model& model, const Strand& strand, Scratch& scratch);
 
-/// Says which of them it is expected to touch, and prepares friction.
+/// Predicts which of them are in contact, and prepares friction.
 void expect_touches(const Model& model, const Strand& strand, Scratch& scratch);
 
-/// Ties nodes to these: changes scratch.target and chain.compliance.
+/// Ties nodes to the active walls: changes scratch.target and chain.compliance.
 void tie_to_walls(const Strand& strand);
 
-/// After a solve: lets nodes go that their wall would pull, ties those that are behind one. True if there are any: then
-/// the chain, which is adapted but for ContactScratch::same elements at either end, is to be solved again.
+/// After a solve: releases nodes that their wall would pull, ties those behind one. True if anything changed: then the
+/// chain is to be solved again; it has been updated except for ContactScratch::same elements at either end.
 bool change_walls(const Model& model, const Strand& strand, Scratch& scratch);
 
-/// How far the iterate is behind walls that do not hold it, m: more than little if the ties were not settled, or if a
-/// node went round a ridge that planes cannot tell of.
+/// How deep the iterate is behind walls that do not hold it, m. More than a little if the ties were not settled, or if
+/// a node went round a ridge, which planes do not show.
 double behind_walls(const Model& model, const Strand& strand, Scratch& scratch);
 
 /// Adds the torque of friction; after linearise_joints and assemble_elements.
 void turn_at_walls(const Strand& strand);
 
-/// Moves forces and slips into the strand's state, and adds its touches; after the commit.
+/// Writes forces and slips into the strand's state and appends its touches; after the commit.
 void commit_walls(const Strand& strand, std::vector<Touch>& touches);
 
 }  // namespace ostium::core

@@ -1,4 +1,4 @@
-/// Walls that are met on the way through a step.
+/// Continuous collision: walls that a node meets on its path through a step.
 #include "core/base/tolerances.h"
 #include "core/contact/broad_phase.h"
 #include "core/contact/narrow_phase.h"
@@ -8,8 +8,9 @@ namespace ostium::core {
 
 namespace {
 
-/// Lets go of walls that the way from `from` to `to` passes although nothing is met on it: a wall ends at a ridge, its
-/// plane does not, and two sides of a ridge would hold a node in the solid between them. True if one of them held it.
+/// Removes planes that the path from `from` to `to` crosses without meeting a triangle. A wall ends at a ridge but its
+/// plane does not, and the planes of a ridge's two sides would trap a node in the solid between them. True if a removed
+/// plane was active.
 bool drop_passed_walls(const V3<double>& from, const V3<double>& to, double radius, NodeWalls& walls) {
   bool any = false;
   int count = 0;
@@ -25,8 +26,8 @@ bool drop_passed_walls(const V3<double>& from, const V3<double>& to, double radi
   return any;
 }
 
-/// The first triangle that the path leaves the lumen through, as a plane, and where; seen with the corners of the
-/// step's end.
+/// The first triangle through which the path leaves the lumen, as a plane, and the point; with the corners at the end
+/// of the step.
 bool first_exit(const Model& model, const V3<double>& from, const V3<double>& to, NodeView view, Scratch& scratch,
                 std::vector<int>& clusters, WallPlane& exit, V3<double>& at) {
   double first = 2;
@@ -58,8 +59,8 @@ bool first_exit(const Model& model, const V3<double>& from, const V3<double>& to
   return first <= 1;
 }
 
-/// Where a wall that was met on the way goes: in place of one that faces as it does, or where there is room, or in
-/// place of the one that is farthest away. -1: nowhere.
+/// Index for a plane found on the path: that of a plane with the same direction, else a free one, else that of the
+/// farthest plane. -1: none.
 int slot_for(const WallPlane& plane, const V3<double>& to, const bool* taken, const NodeWalls& walls) {
   int farthest = -1;
   double most = 0;
@@ -90,8 +91,8 @@ void look_around(const Model& model, const NodeView& view, Scratch& scratch, std
   sum_up(view, walls);
 }
 
-/// The way from the start to where a wall was met may go round a ridge: then its plane, which does not end there, would
-/// drive the node off its start. It holds from where the node was on.
+/// The path from the start to the wall it met may go round a ridge. The wall's plane extends beyond the ridge and would
+/// push the node away from its start, so it is limited to hold from the start onwards.
 void spare(const V3<double>& start, WallPlane& plane) {
   if (plane.soft) return;
   plane.place = least(plane.place, dot(plane.normal, start + plane.carried) + tolerances::spared_m);
@@ -136,7 +137,7 @@ bool follow(const Model& model, const RodState& own, int i, const V3<double>& to
     const int at = slot_for(plane, to, taken, walls);
     if (at < 0) continue;
     WallPlane& old = walls.planes[at];
-    // The same once more, which gives by what the node presses it with.
+    // The same wall again, pushed in by the node.
     if (at < walls.count && old.active && old.place - dot(old.normal, to) > behind - tolerances::followed_m) continue;
     plane.active = true, any = taken[at] = true;
     old = plane;

@@ -1,9 +1,9 @@
 /// Friction at walls, along the rod and around it.
 ///
-/// At the point of contact, -r n from the node, the rod slides along itself by what the node does, and around itself,
-/// towards e = t x n, by  e . (move of the node) - r (spin).  The spring of solve/friction.h pulls there: on the node
-/// along t and e, and with the torque + r k (slip around) about t on its two elements. Where the one needs the other
-/// (node and spin), it takes it from the iterate before.
+/// At the point of contact, -r n from the node, the rod slides along itself as the node does, and around itself,
+/// towards e = t x n, by  e . (move of the node) - r (spin).  The spring of core/solver/friction_spring.h acts there:
+/// on the node along t and e, and with the torque + r k (slip around) about t on its two elements. Node and spin each
+/// use the other's value from the previous iterate.
 #include "core/contact/friction.h"
 
 #include <algorithm>
@@ -19,7 +19,7 @@ namespace ostium::core {
 
 namespace {
 
-/// m, of the rod's surface about its middle at node i.
+/// Arc length, m, that the surface has turned about the rod's axis at node i.
 double turned(const RodScratch& s, int i) { return s.inside.radius.at(0)[i] * spin_of_node(s, i); }
 
 Slip slip_in(const RodScratch& s, const ContactScratch& c, int i) {

@@ -11,24 +11,24 @@ namespace ostium::core {
 
 namespace {
 
-/// The energy on the way from the anchor to what lies ahead: the slope of its quadratic part at both ends.
-struct VesselIndex {
+/// The quadratic part of the energy between the anchor and the point ahead: its slope at both ends.
+struct EndSlopes {
   double at_anchor = 0, at_ahead = 0;
 };
 
-VesselIndex way_of(const ContactScratch& c, const RodScratch& s) {
-  VesselIndex way;
+EndSlopes end_slopes(const ContactScratch& c, const RodScratch& s) {
+  EndSlopes slopes;
   for (int i = first_free(s); i <= last_free(s); ++i) {
     const V3<double> d = load3<double>(c.ahead, i) - load3<double>(c.anchor, i);
-    way.at_anchor += dot(load3<double>(c.anchor_push, i), d);
-    way.at_ahead += dot(load3<double>(c.ahead_push, i), d);
+    slopes.at_anchor += dot(load3<double>(c.anchor_push, i), d);
+    slopes.at_ahead += dot(load3<double>(c.ahead_push, i), d);
   }
-  return way;
+  return slopes;
 }
 
-/// The slope of the whole at `part` of the way.
-double slope(const VesselIndex& way, double part, const ContactScratch& c, const RodScratch& s) {
-  double sum = way.at_anchor + part * (way.at_ahead - way.at_anchor);
+/// Slope of the whole energy at the share `part` of the direction.
+double slope(const EndSlopes& slopes, double part, const ContactScratch& c, const RodScratch& s) {
+  double sum = slopes.at_anchor + part * (slopes.at_ahead - slopes.at_anchor);
   for (int i = first_free(s); i <= last_free(s); ++i) {
     const NodeWalls& walls = c.walls[i];
     if (walls.count == 0) continue;
@@ -64,12 +64,12 @@ void start_descent(const Strand& strand) {
 void descend(const Strand& strand) {
   const RodScratch& s = *strand.s;
   ContactScratch& c = *strand.contact;
-  const VesselIndex way = way_of(c, s);
+  const EndSlopes slopes = end_slopes(c, s);
   double low = 0, high = 1;
-  if (slope(way, 1, c, s) <= 0) low = 1;
+  if (slope(slopes, 1, c, s) <= 0) low = 1;
   while (high - low > tolerances::least_descent) {
     const double middle = (low + high) / 2;
-    (slope(way, middle, c, s) > 0 ? high : low) = middle;
+    (slope(slopes, middle, c, s) > 0 ? high : low) = middle;
   }
   const double part = low > 0 ? low : high;
   for (int i = first_free(s); i <= last_free(s); ++i) {

@@ -10,11 +10,12 @@ namespace ostium::core {
 
 namespace {
 
-constexpr double rounding_share = 1e-6;  ///< of what it looks across: allowed for by a rough look in single precision
+constexpr double rounding_share = 1e-6;  ///< rounding margin of the single-precision test, per extent
 
 bool is_at_rim(const TrianglePoint& w) { return !(w.u > 0 && w.v > 0 && w.u + w.v < 1); }
 
-/// Which side a triangle's rim faces: inside it its own normal tells, at the rim the mean of those around.
+/// Outward direction at a triangle's rim: the normals of the surrounding triangles, averaged; inside a triangle its own
+/// normal decides.
 V3<double> rim_outward(const Surface& surface, const Surface::Cluster& c, const Surface::Triangle& t,
                        const TrianglePoint& w) {
   const auto corner = [&](int k) {
@@ -24,30 +25,30 @@ V3<double> rim_outward(const Surface& surface, const Surface::Cluster& c, const 
   return madd(w.v, corner(2), madd(w.u, corner(1), (1 - w.u - w.v) * corner(0)));
 }
 
-/// Round the instrument; zero where the wall is met head on.
+/// Unit vector around the instrument; zero where it meets the wall head on.
 V3<double> across(const NodeView& view, const V3<double>& normal) {
   const V3<double> e = cross(view.tangent, normal);
   const double length = norm(e);
   return length > 1e-3 ? (1 / length) * e : V3<double>{};
 }
 
-/// Behind a wall or not: what is pressed into one that gives way may have its centre behind it.
+/// Distance from a wall, in front or behind: a node pressed into a soft wall may have its centre behind it.
 double away(const WallPlane& plane) { return std::fabs(plane.gap); }
 
-/// Whether a wall beside a nearer one is seen from behind. On which side of it a point lies, only the nearest piece of
-/// wall tells: what lies round a ridge turns its back to a node that is in the lumen all the same. Of a wall that gives
-/// way they may all be (join_soft_walls).
+/// Whether a wall farther than the nearest is seen from behind. Only the nearest piece of wall tells which side a point
+/// is on: behind a ridge, a wall faces away from a node that is in the lumen all the same. Soft walls are exempt
+/// (join_soft_walls).
 bool turns_its_back(double gap, bool soft) { return !soft && gap < 0; }
 
-/// Makes room among the planes of one node, which are the nearest and those that face elsewhere. The place of the new
-/// one; -1 if there is none for it.
+/// Makes room among a node's planes, sorted by distance, at most one per direction. Index of the new one; -1 if it is
+/// not needed.
 int make_room(const SeenTriangle& sight, bool soft, NodeWalls& walls) {
   const auto as_it_faces = [&](const WallPlane& w) { return dot(w.normal, sight.normal) > tolerances::same_wall; };
   int at = walls.count;
   while (at > 0 && away(walls.planes[at - 1]) > std::fabs(sight.gap)) --at;
   if (at == max_planes || (at > 0 && turns_its_back(sight.gap, soft))) return -1;
   if (std::any_of(walls.planes, walls.planes + at, as_it_faces)) return -1;
-  // It stands for those further away that face as it does.
+  // It replaces farther planes with the same direction.
   const WallPlane* end = std::remove_if(walls.planes + at, walls.planes + walls.count, [&](const WallPlane& w) {
     return turns_its_back(w.gap, w.soft) || as_it_faces(w);
   });
@@ -61,17 +62,16 @@ bool any_soft(const NodeWalls& walls) {
   return std::any_of(walls.planes, walls.planes + walls.count, [](const WallPlane& w) { return w.soft; });
 }
 
-/// What is pressed into a wall that gives way lies behind the nearest triangle's neighbours too, sideways of it. If
-/// each of them pushed, the wall would be as many times as stiff; if the nearest did alone, its push would leap from
-/// one side to the other where two meet. They push as one, those that are about as near as the nearest by so much the
-/// more.
+/// A node pressed into a soft wall is also behind the neighbours of the nearest triangle. If each of them pushed, the
+/// wall would be that many times stiffer; if only the nearest did, the force would jump where two triangles meet. So
+/// they push as one plane, weighted by how close each is to being the nearest.
 void join_soft_walls(const NodeView& view, NodeWalls& walls) {
   int count = 0;
   for (int k = 0; k < walls.count; ++k) {
     WallPlane& w = walls.planes[k];
     const auto known = [&](const WallPlane& other) { return one_soft_wall(other, w); };
     if (std::any_of(walls.planes, walls.planes + count, known)) continue;
-    if (w.soft) {  // the nearest, as they are sorted
+    if (w.soft) {  // the nearest, since planes are sorted
       double weight = 0, depth = 0, gap = 0;
       V3<double> normal{}, carried{};
       for (int j = k; j < walls.count; ++j) {
@@ -92,8 +92,7 @@ void join_soft_walls(const NodeView& view, NodeWalls& walls) {
   walls.count = count;
 }
 
-/// Which of a cluster's triangles may be within reach, a bit for each: of those whose balls are, the ones whose planes
-/// are too.
+/// Which of a cluster's triangles may be within reach, one bit each: both its bounding ball and its plane must be.
 unsigned may_meet(const ClusterPose& pose, int triangles, const NodeView& view) {
   const V3<double> from = view.centre - pose.low, size = pose.high - pose.low;
   const double reach = view.reach + rounding_share * (size.x + size.y + size.z + view.reach);
@@ -113,7 +112,7 @@ unsigned may_meet(const ClusterPose& pose, int triangles, const NodeView& view) 
   return any & ((1U << triangles) - 1);
 }
 
-/// Walls that the node's centre is behind do not hold it, unless it is its own that gives way: the nearest.
+/// Removes walls that the node's centre is behind, except the nearest (a soft wall may have the centre behind it).
 void drop_walls_seen_from_behind(NodeWalls& walls) {
   int own = 0, count = 0;
   for (int k = 1; k < walls.count; ++k)

@@ -1,5 +1,5 @@
 #pragma once
-/// Walls as a ball sees them: each triangle near it becomes a plane.
+/// Turns each triangle near a node into a plane.
 #include <cmath>
 
 #include "core/model/model.h"
@@ -11,7 +11,7 @@ namespace ostium::core {
 
 inline double norm(const V3<double>& v) { return std::sqrt(dot(v, v)); }
 
-/// Where a ball is seen from a wall: at one of both ends of the step.
+/// A node as a ball, at the beginning or the end of the step.
 struct NodeView {
   V3<double> centre;
   double radius, reach;
@@ -19,7 +19,7 @@ struct NodeView {
   double cell;         ///< m, length of rod that the node stands for
 };
 
-/// Of node i of a rod, its centre at `centre`; it looks `travel` beyond its surface, m.
+/// Of node i of a rod with its centre at `centre`; it sees `travel` beyond its surface, m.
 NodeView view_of(const Rod& rod, const RodState& state, int i, const V3<double>& centre, double travel);
 
 /// A point of a triangle, at both ends of the step.
@@ -30,36 +30,36 @@ struct Foot {
 WallPlane plane_of(const Surface& surface, const NodeView& view, const V3<double>& normal, double gap,
                    const Foot& foot);
 
-/// What a ball sees of a triangle: the point of it that is nearest.
+/// The point of a triangle that is nearest to a ball.
 struct SeenTriangle {
   TrianglePoint point;
-  V3<double> foot, normal;  ///< m; into the lumen
+  V3<double> foot, normal;  ///< m; normal into the lumen
   double gap = 0;           ///< m, negative behind the wall
-  bool at_rim = false;      ///< of the triangle
+  bool at_rim = false;      ///< the nearest point is on the triangle's rim
 };
 
 /// False if the triangle is out of reach.
 bool see(const Surface& surface, const Surface::Cluster& c, const Surface::Triangle& t, const Field<3>& now,
          const NodeView& view, SeenTriangle& sight);
 
-/// That triangle as a plane.
+/// The plane of that triangle.
 WallPlane plane_of(const Surface& surface, const NodeView& view, const Surface::Triangle& t, const ClusterPose& pose,
                    const Field<3>& now, const SeenTriangle& sight);
 
-/// Adds what of a cluster is within reach, seen with the corners `now`; `passes`: but for its door.
+/// Adds the planes of a cluster's triangles within reach, with corners at `now`; `passes`: ignores its door.
 void look(const Model& model, int at_surface, int cluster, const ClusterPose& pose, const Field<3>& now,
           const NodeView& view, bool passes, NodeWalls& walls);
 
-/// After the last look: walls that give way push as one, and those that are seen from behind hold nothing.
+/// After the last look: joins soft walls and removes walls seen from behind.
 void sum_up(const NodeView& view, NodeWalls& walls);
 
-/// Whether two planes are parts of one wall that gives way.
+/// Whether two planes belong to the same soft wall.
 bool one_soft_wall(const WallPlane& a, const WallPlane& b);
 
-/// Whether a door lets a node of that radius through.
+/// Whether an open door lets a node of that radius through.
 bool lets_through(const Surface& surface, const SurfacePose& whole, double radius);
 
-/// A box that grows.
+/// A growing bounding box.
 struct Bounds {
   V3<double> low{1e9, 1e9, 1e9}, high{-1e9, -1e9, -1e9};
   void take(const V3<double>& p, double reach) {

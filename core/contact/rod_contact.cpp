@@ -13,10 +13,10 @@ namespace ostium::core {
 
 namespace {
 
-constexpr int block = 8;  // elements that are looked at together first
+constexpr int block = 8;  // elements tested together first
 
-/// Closest points of the pieces a + s (b - a) and c + t (d - c), 0 <= s, t <= 1 (Ericson 2005, Real-Time Collision
-/// Detection, 5.1.9; pieces of no length do not occur).
+/// Closest points of the segments a + s (b - a) and c + t (d - c), 0 <= s, t <= 1 (Ericson 2005, Real-Time Collision
+/// Detection, 5.1.9; segments of zero length do not occur).
 void closest(const V3<double>& a, const V3<double>& b, const V3<double>& c, const V3<double>& d, double& s, double& t) {
   const V3<double> u = b - a, v = d - c, w = a - c;
   const double uu = dot(u, u), vv = dot(v, v), uv = dot(u, v), uw = dot(u, w), vw = dot(v, w);
@@ -29,7 +29,7 @@ void closest(const V3<double>& a, const V3<double>& b, const V3<double>& c, cons
   }
 }
 
-/// A ball around elements [from, to).
+/// Bounding ball of elements [from, to).
 struct Ball {
   V3<double> centre;
   double radius;
@@ -51,7 +51,7 @@ bool near(const Ball& a, const Ball& b) {
   return dot(d, d) < reach * reach;
 }
 
-/// How easily the point moves by inertia alone, m/N.
+/// Compliance of the point from inertia alone, m/N.
 double softness(const RodSpot& spot, const RodScratch& s) {
   double sum = 0;
   for (int e = 0; e < 2; ++e) sum += spot.share[e] * spot.share[e] / s.inside.mass.at(0)[spot.node + e];
@@ -68,21 +68,21 @@ double radius_of(const RodSpot& spot, const RodScratch& s) {
   return std::max(radius[spot.node], radius[spot.node + 1]);
 }
 
-/// What of the last step's force on the two nodes points along n.
+/// The last step's contact force on the two nodes, along n.
 double last_push(const RodSpot& spot, const Strand& strand, const V3<double>& n) {
   V3<double> force{};
   for (int e = 0; e < 2; ++e) force = force + load3<double>(strand.own->rod_force, spot.node + e);
   return dot(force, n);
 }
 
-/// The piece with elements i of strand a and j of strand b, if it is near.
+/// Adds a contact between element i of strand a and element j of strand b, if they are near.
 void consider(Scratch& scratch, int a, int i, int b, int j) {
   if (scratch.rod_contacts.size() == scratch.rod_contacts.capacity()) return;
   const Strand &A = scratch.strands[a], &B = scratch.strands[b];
   const auto at = [](const Strand& strand, int node) { return load3<double>(strand.s->position, node); };
   double s, t;
   closest(at(A, i), at(A, i + 1), at(B, j), at(B, j + 1), s, t);
-  // The far end of a piece is the near end of the next.
+  // A segment's far end is the next one's near end, and is counted there.
   if ((s == 1 && i + 1 < A.s->inside.elements) || (t == 1 && j + 1 < B.s->inside.elements)) return;
   RodContact c;
   c.a = a, c.at_a = {i, {1 - s, s}};
@@ -92,7 +92,7 @@ void consider(Scratch& scratch, int a, int i, int b, int j) {
   c.radii = radius_of(c.at_a, *A.s) + radius_of(c.at_b, *B.s);
   if (distance > c.radii + tolerances::rods_near_m || distance < 1e-9) return;
   c.normal = (1 / distance) * apart;
-  // Those that were pressed against each other stay on their sides.
+  // Rods that were pressed against each other stay on their sides.
   if (last_push(c.at_a, A, c.normal) < 0 && last_push(c.at_b, B, c.normal) > 0) c.normal = V3<double>{} - c.normal;
   c.stiffness = tolerances::rods_grip / (softness(c.at_a, *A.s) + softness(c.at_b, *B.s));
   scratch.rod_contacts.push_back(c);
@@ -121,21 +121,21 @@ void consider_blocks(Scratch& scratch, int a, int b) {
   }
 }
 
-/// How deep the iterate is in it, m.
+/// Penetration depth in the iterate, m.
 double depth(const RodContact& c, const Scratch& scratch) {
   const V3<double> apart =
       place_of(c.at_a, scratch.strands[c.a].s->position) - place_of(c.at_b, scratch.strands[c.b].s->position);
   return c.radii - dot(c.normal, apart);
 }
 
-/// What a strand feels of it, N, by how its point has moved since it was last seen.
+/// Force on one strand, N, updated by how its point has moved since the round began.
 double felt(const RodContact& c, const RodSpot& spot, const V3<double>& seen, const V3<double>& away,
             const RodScratch& s) {
   if (!c.active) return 0;
   return c.push_N - c.stiffness * dot(away, place_of(spot, s.position) - seen);
 }
 
-/// Begins a round: both are seen where they are.
+/// Begins a round from the current positions.
 void look(RodContact& c, const Scratch& scratch) {
   c.seen_a = place_of(c.at_a, scratch.strands[c.a].s->position);
   c.seen_b = place_of(c.at_b, scratch.strands[c.b].s->position);
@@ -152,7 +152,7 @@ void find_rod_contacts(const Model& model, Scratch& scratch) {
   const int strands = static_cast<int>(scratch.strands.size());
   for (int a = 0; a < strands; ++a)
     for (int b = a; b < strands; ++b) consider_blocks(scratch, a, b);
-  // A node's last force is shared among its contacts.
+  // A node's force of the last step is divided among its contacts.
   for (const Strand& strand : scratch.strands)
     std::fill_n(strand.contact->rod_shares.begin(), strand.s->inside.nodes(), 0.0);
   const auto for_both = [&](auto&& visit) {
@@ -180,7 +180,7 @@ void tie_to_rods(const Strand& strand, Scratch& scratch) {
     for (int e = 0; e < 2; ++e) {
       const int i = spot.node + e;
       if (spot.share[e] <= 0) continue;
-      // The node's share of the spring is at rest where the push, but for its own move, is none.
+      // Rest position of the node's spring: where its own move brings the push to zero.
       const V3<double> was = load3<double>(s.position, i);
       const double place = dot(away, was) + c.push_N / c.stiffness;
       S3<double> P = load6<double>(s.chain.compliance, i);
@@ -206,7 +206,7 @@ bool renew_rod_contacts(Scratch& scratch) {
                  by_b = felt(c, c.at_b, c.seen_b, V3<double>{} - c.normal, B);
     c.push_N = std::max(0.0, (by_a + by_b) / 2);
     const double deep = depth(c, scratch);
-    // Rods that bend hardly, or press on walls, yield less than their nodes' inertia has it.
+    // Stiff rods, or rods on walls, yield less than inertia alone suggests.
     if (c.push_N > 0 && std::fabs(deep) > tolerances::rods_slow * std::fabs(c.deep))
       c.stiffness *= deep * c.deep > 0 ? tolerances::rods_harder : tolerances::rods_softer;
     c.deep = deep;

@@ -18,13 +18,13 @@ struct LinearElastic {
     return 0.5 * dot(strain, (*this).operator()<double>(strain, joint).moment);
   }
 
-  /// A joint's cell with these integrals of (1/EI1, 1/EI2, 1/GJ) over its length.
+  /// Sets a joint's cell from the integrals of (1/EI1, 1/EI2, 1/GJ) over its length.
   void set_cell(int joint, double length_m, const Eigen::Vector3d& compliance, const Eigen::Vector2d&) {
     stiffness.set(joint, length_m * compliance.cwiseInverse());
   }
 
   void resize(int joints) { stiffness.resize(joints); }
-  /// Joints `from` to `to` of another rod with this law.
+  /// Copies joints `from` to `to` - 1 of another rod with this law, to `joint` onwards.
   void copy(const LinearElastic& other, int from, int to, int joint) {
     copy_entries(other.stiffness, from, to, stiffness, joint);
   }

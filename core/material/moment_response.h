@@ -1,5 +1,5 @@
 #pragma once
-/// What a moment-curvature law answers.
+/// Result of a moment-curvature law.
 #include "core/math/lanes.h"
 
 namespace ostium::core {

@@ -1,9 +1,9 @@
 #pragma once
-/// A generalised Maxwell solid: of the strain e = u - u_rest that a joint is held at, branch k creeps after by
+/// A generalised Maxwell solid. With e = u - u_rest the strain of a joint, branch k creeps as
 ///   c_k' = (e - c_k) / t_k,   and   m = law(e - f_1 c_1 - f_2 c_2),
-/// so held still it answers with 1 - f_1 (1 - exp(-t / t_1)) - f_2 (1 - exp(-t / t_2)) of its moment, and let go it
-/// comes back to a shape at rest that has moved towards where it was held. Polymers do so (Ferry 1980, Viscoelastic
-/// properties of polymers, ch. 3). `law` is the one below, for what happens at once.
+/// Held still, the moment decays to 1 - f_1 (1 - exp(-t / t_1)) - f_2 (1 - exp(-t / t_2)) of its first value; once
+/// released, the rod returns to a rest shape that has moved towards where it was held. Polymers do this (Ferry 1980,
+/// Viscoelastic properties of polymers, ch. 3). `law` is the instantaneous law below.
 #include "core/material/superelastic.h"
 
 namespace ostium::core {
@@ -16,7 +16,7 @@ struct Relaxing {
   MomentResponse<T> operator()(const V3<T>& strain, int joint) const {
     return at_once(strain - load3<T>(crept, joint), joint);
   }
-  /// What comes back at once.
+  /// The instantaneous, recoverable part.
   double energy(const V3<double>& strain, int joint) const {
     return at_once.energy(strain - load3<double>(crept, joint), joint);
   }

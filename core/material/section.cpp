@@ -11,7 +11,7 @@ namespace ostium::core {
 
 namespace {
 
-/// A number as a person would write it: 1.00000005, not 1.000000.
+/// A number as a person writes it: 1.00000005, not 1.000000.
 std::string text(double value) {
   char buffer[32];
   std::snprintf(buffer, sizeof buffer, "%.9g", value);
@@ -22,7 +22,7 @@ std::string text(double value) {
   throw std::invalid_argument("rod \"" + d.name + "\", section " + std::to_string(section) + ": " + what);
 }
 
-/// Far outside what any instrument has, and inside what the arithmetic bears.
+/// Limits far outside any real instrument and inside what the arithmetic can handle.
 void require_between(const RodDescription& d, std::size_t section, const char* name, double value, double least,
                      double most, const char* unit) {
   if (!(value >= least && value <= most))
@@ -107,11 +107,11 @@ SectionIntegrals integrate(const std::vector<Section>& sections, double a, doubl
   SectionIntegrals sum;
   for (std::size_t k = from; k < sections.size() && (k == from || sections[k].from_tip_m < b); ++k) {
     const Section& s = sections[k];
-    // The outermost section reaches as far as asked for: the check has allowed for rounding only.
+    // The last section extends to the requested end; the check allowed only for rounding.
     const double end = k + 1 == sections.size() ? std::max(s.to_tip_m, b) : s.to_tip_m;
     const double length = std::min(b, end) - std::max(a, s.from_tip_m);
     if (length <= 0) continue;
-    // Second moment of a round section about a diameter, per unit of area: (ro^2 + ri^2) / 4.
+    // Second moment of a round section about a diameter, per area: (ro^2 + ri^2) / 4.
     const double gyration2 = (s.radius_m * s.radius_m + s.inner_radius_m * s.inner_radius_m) / 4;
     sum.mass += length * s.kg_per_m;
     sum.transverse_inertia += length * s.kg_per_m * gyration2;

@@ -1,8 +1,8 @@
 #pragma once
-/// Bending that softens: below a curvature kc as a linear rod, far beyond it with the part r of its stiffness, as
-/// nitinol does when austenite turns into martensite (a superelastic wire's moment bends over, Auricchio, Taylor,
-/// Lubliner 1997, Comput Methods Appl Mech Eng 146:281). Without hysteresis, from one energy per length, with
-/// k = u - u_rest across d3 and q = k K k / (mean of EI1 and EI2):
+/// Softening bending: linear below a curvature kc, and with the share r of that stiffness far beyond it, as in nitinol
+/// when austenite turns into martensite (the moment curve of a superelastic wire flattens; Auricchio, Taylor, Lubliner
+/// 1997, Comput Methods Appl Mech Eng 146:281). No hysteresis: all follows from one energy per length, with k = u -
+/// u_rest across d3 and q = k K k / (mean of EI1 and EI2):
 ///   W = r k K k / 2 + (1 - r) kc^2 mean(EI) (sqrt(1 + q / kc^2) - 1),   m = K k (r + (1 - r) / sqrt(1 + q / kc^2)).
 /// W is convex, so the tangent is positive definite. Twist stays linear.
 #include "core/material/linear_elastic.h"
@@ -17,7 +17,7 @@ struct Superelastic {
   MomentResponse<T> operator()(const V3<T>& strain, int joint) const {
     const V3<T> K = load3<T>(stiffness, joint);
     const T scale = load<T>(softening.at(0) + joint), lost = load<T>(softening.at(1) + joint);
-    const T m1 = K.x * strain.x, m2 = K.y * strain.y;  // of the linear rod
+    const T m1 = K.x * strain.x, m2 = K.y * strain.y;  // moments of the linear rod
     const T beyond = madd(scale, madd(m1, strain.x, m2 * strain.y), T{} + 1.0);
     const T root = 1.0 / square_root(beyond);
     const T part = madd(lost, root, 1.0 - lost), fall = lost * scale * root / beyond;

@@ -1,6 +1,6 @@
 #pragma once
-/// A field along a rod: K numbers at each node, joint or element, stored component by component so that four
-/// neighbours load into one register.
+/// A field along a rod: K numbers per node, joint or element, stored component by component so that four neighbours
+/// load into one register.
 #include <Eigen/Core>
 #include <algorithm>
 #include <cstddef>
@@ -10,9 +10,9 @@
 
 namespace ostium::core {
 
-/// Storage length for `count` entries: whole registers, and four entries of padding behind them that no kernel touches
-/// but the chain solver. Not about a whole number of pages, where the components of an entry would compete for the same
-/// lines of a cache.
+/// Storage length for `count` entries: whole registers, plus four entries of padding that only the block-tridiagonal
+/// solver uses. Kept away from multiples of a page, where the components of an entry would compete for the same cache
+/// lines.
 inline int padded(int count) {
   const int page = 4096 / sizeof(double), apart = page / 8;
   const int whole = (count + lane_count - 1) / lane_count * lane_count + lane_count;
@@ -51,7 +51,7 @@ class Field {
     for (int i = 0; i < stride_; ++i) set(i, value);
   }
 
-  /// All numbers, padding included.
+  /// All numbers, including padding.
   std::vector<double>& raw() { return data_; }
   const std::vector<double>& raw() const { return data_; }
 
@@ -60,14 +60,14 @@ class Field {
   std::vector<double> data_;
 };
 
-/// Entries begin to end - 1 of one field into another, there from `at` on.
+/// Copies entries begin to end - 1 of one field to another, starting there at `at`.
 template <int K>
 void copy_entries(const Field<K>& from, int begin, int end, Field<K>& to, int at) {
   for (int c = 0; c < K; ++c) std::copy(from.at(c) + begin, from.at(c) + end, to.at(c) + at);
 }
 
-/// Calls f(Lanes{}, i) for whole registers of [begin, end) and f(double{}, i) for each entry that is left. Both do the
-/// same operations in the same order, so an entry's result does not depend on which of them computes it.
+/// Calls f(Lanes{}, i) for whole registers of [begin, end) and f(double{}, i) for the remaining entries. Both do the
+/// same operations in the same order, so the result does not depend on which one is used.
 template <class F>
 void for_packs(int begin, int end, F&& f) {
   int i = begin;
@@ -75,7 +75,7 @@ void for_packs(int begin, int end, F&& f) {
   for (; i < end; ++i) f(double{}, i);
 }
 
-// --- registers out of fields and back --------------------------------------------------------------------------------
+// --- loading and storing registers -----------------------------------------------------------------------------------
 template <class T>
 V3<T> load3(const Field<3>& f, int i) {
   return {load<T>(f.at(0) + i), load<T>(f.at(1) + i), load<T>(f.at(2) + i)};

@@ -1,6 +1,6 @@
 #pragma once
-/// Storage for tables of many megabytes of which a step reads a little here and there: on the processor's large pages
-/// where the system has some. On small ones such looks miss the TLB.
+/// Storage for tables of many megabytes that a step reads in scattered places: uses the processor's large pages where
+/// available, since such reads would miss the TLB on small pages.
 #include <sys/mman.h>
 
 #include <cstddef>
@@ -9,21 +9,21 @@
 
 namespace ostium::core {
 
-/// An allocator. What is less than two large pages lies where it would lie anyway. Throws std::bad_alloc.
+/// An allocator. Requests below two large pages are allocated normally. Throws std::bad_alloc.
 template <class T>
 struct OnHugePages {
   using value_type = T;
 
   OnHugePages() = default;
   template <class U>
-  OnHugePages(const OnHugePages<U>&) {}  // allocators of all types are one
+  OnHugePages(const OnHugePages<U>&) {}  // allocators of all types are interchangeable
 
   T* allocate(std::size_t count) {
     if (count > std::numeric_limits<std::size_t>::max() / sizeof(T)) throw std::bad_array_new_length();
     const std::size_t bytes = count * sizeof(T);
     if (bytes < least_bytes) return static_cast<T*>(::operator new(bytes));
     void* place = ::operator new(bytes, page);
-    madvise(place, bytes, MADV_HUGEPAGE);  // a wish: where it is not granted all works the same
+    madvise(place, bytes, MADV_HUGEPAGE);  // only a hint: without large pages it works the same
     return static_cast<T*>(place);
   }
   void deallocate(T* place, std::size_t count) {

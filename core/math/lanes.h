@@ -1,9 +1,9 @@
 #pragma once
-/// Small dense algebra over a scalar type T that is either `double` or `Lanes` (four doubles side by side in one AVX2
-/// register). The rod kernels are written once as templates on T and run four joints, or four chains, at a time.
+/// Small dense algebra over a scalar type T that is `double` or `Lanes` (four doubles in one AVX2 register). The rod
+/// kernels are templates on T and process four joints, or four chains, at a time.
 ///
-/// Fused multiply-adds are asked for by name (`madd`), never left to the compiler, so that a state does not depend on
-/// how code happened to be inlined. Everything here is pure, branch-free and thread-safe.
+/// Fused multiply-adds are explicit (`madd`), never left to the compiler, so results do not depend on inlining.
+/// Everything here is pure, branch-free and thread-safe.
 #include <immintrin.h>
 
 #include <cmath>
@@ -156,7 +156,7 @@ template <class T>
 S3<T> symmetric_times_transpose(const M3<T>& a, const M3<T>& b) {
   return {dot(a.r0, b.r0), dot(a.r0, b.r1), dot(a.r0, b.r2), dot(a.r1, b.r1), dot(a.r1, b.r2), dot(a.r2, b.r2)};
 }
-/// Inverse by cofactors; the caller knows that `s` is not singular.
+/// Inverse by cofactors; `s` must not be singular.
 template <class T>
 S3<T> inverse(const S3<T>& s) {
   const T cxx = nmadd(s.yz, s.yz, s.yy * s.zz), cxy = nmadd(s.xy, s.zz, s.xz * s.yz),

@@ -1,6 +1,6 @@
 #pragma once
-/// Rotations as unit quaternions q = (w, x, y, z), over `double` or four `Lanes`. Active, right-handed: R(q) takes
-/// material components to world components, and its columns are the directors d1, d2, d3.
+/// Rotations as unit quaternions q = (w, x, y, z), over `double` or four `Lanes`. Active, right-handed: R(q) maps
+/// material components to world components; its columns are the directors d1, d2, d3.
 #include <Eigen/Geometry>
 
 #include "core/math/lanes.h"
@@ -23,7 +23,7 @@ Q4<T> normalised(const Q4<T>& q) {
   const T scale = 1.0 / square_root(madd(q.w, q.w, madd(q.x, q.x, madd(q.y, q.y, q.z * q.z))));
   return {scale * q.w, scale * q.x, scale * q.y, scale * q.z};
 }
-/// Third director, the rod's tangent.
+/// Third director, tangent to the rod.
 template <class T>
 V3<T> director3(const Q4<T>& q) {
   return {2.0 * madd(q.x, q.z, q.w * q.y), 2.0 * nmadd(q.w, q.x, q.y * q.z),
@@ -42,8 +42,8 @@ M3<T> matrix(const Q4<T>& q) {
           {madd(q.w, z2, q.x * y2), nmadd(q.x, x2, nmadd(q.z, z2, one)), nmadd(q.w, x2, q.y * z2)},
           {nmadd(q.w, y2, q.x * z2), madd(q.w, x2, q.y * z2), nmadd(q.x, x2, nmadd(q.y, y2, one))}};
 }
-/// The rotation by a small vector `phi`, by Cayley's map, not normalised: exact in direction, |phi|^3 / 12 short in
-/// angle, and a rotation for any phi.
+/// Rotation by a small vector `phi` by Cayley's map, not normalised: exact in direction, |phi|^3 / 12 short in angle,
+/// and a rotation for any phi.
 template <class T>
 Q4<T> small_rotation(const V3<T>& phi) {
   return {T{} + 1.0, 0.5 * phi.x, 0.5 * phi.y, 0.5 * phi.z};
@@ -61,7 +61,7 @@ inline V3<double> rotation_vector_any(const Q4<double>& q) {
   return std::copysign(scale, q.w) * V3<double>{q.x, q.y, q.z};
 }
 /// Rotation vector of a unit quaternion. Up to 0.6 rad by the series of 2 asin(s) / s in s = |(x, y, z)| (error below
-/// 1e-15), beyond by the scalar function.
+/// 1e-15), beyond that by the scalar function.
 template <class T>
 V3<T> rotation_vector(const Q4<T>& q) {
   const T s2 = madd(q.x, q.x, madd(q.y, q.y, q.z * q.z));
@@ -94,7 +94,8 @@ V3<T> rotation_vector(const Q4<T>& q) {
   return vector;
 }
 
-// --- to and from Eigen, at the borders -------------------------------------------------------------------------------
+// --- to and from Eigen
+// ------------------------------------------------------------------------------------------------
 inline Q4<double> from_eigen(const Eigen::Quaterniond& q) { return {q.w(), q.x(), q.y(), q.z()}; }
 inline V3<double> from_eigen(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
 inline Eigen::Quaterniond to_eigen(const Q4<double>& q) { return {q.w, q.x, q.y, q.z}; }

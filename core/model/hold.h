@@ -2,12 +2,12 @@
 
 namespace ostium::core {
 
-/// How one end of a rod is held. An end that is let go of and held again is held where it is then.
+/// How one end of a rod is held. An end that is released and held again is held where it is then.
 enum class Hold : unsigned char {
-  free,     ///< not at all
-  pinned,   ///< its position
-  clamped,  ///< its position and material frame
-  guided,   ///< its material frame, and its position across the frame's d3; it slides along d3
+  free,     ///< not held
+  pinned,   ///< position held
+  clamped,  ///< position and material frame held
+  guided,   ///< material frame held, and position across the frame's d3; slides along d3
 };
 
 }  // namespace ostium::core

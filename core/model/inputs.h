@@ -1,5 +1,5 @@
 #pragma once
-/// The only door into a running simulation: one struct a step, whoever fills it (device, script, replay, test).
+/// The only input to a running simulation: one struct per step, from a device, a script, a replay or a test.
 #include <Eigen/Core>
 #include <vector>
 
@@ -8,24 +8,23 @@
 
 namespace ostium::core {
 
-/// What moves a held end. Rates, so that any command is continuous; beyond tolerances.h's limits they are shortened to
-/// the limit, not-a-number counts as zero, and the step's report says so.
+/// Motion of a held end. Given as rates, so that any command is continuous; beyond tolerances.h's limits they are
+/// reduced to the limit, not-a-number counts as zero, and the step's report says so.
 struct EndDrive {
   Hold hold = Hold::free;
   Eigen::Vector3d velocity_W_m_s = Eigen::Vector3d::Zero();
   Eigen::Vector3d turn_rate_W_rad_s = Eigen::Vector3d::Zero();
 };
 
-/// Dead load on a stretch of a rod, spread evenly over its nodes there: an edge that its stent hangs on. Of nodes that
-/// are inside another rod there is none.
+/// Dead load on a stretch of a rod, spread evenly over its nodes there, such as an edge that catches a stent. Ignored
+/// for nodes inside another rod.
 struct StretchLoad {
-  double from_tip_m = 0, to_tip_m = 0;  ///< nodes between them, or the one nearest to their middle
+  double from_tip_m = 0, to_tip_m = 0;  ///< nodes in between, or the one nearest to the middle
   Eigen::Vector3d force_W_N = Eigen::Vector3d::Zero();
 };
 
-/// A spring to a point of the world that holds a place of a rod along a direction, and lets it go across: the wall
-/// round an open balloon. It pulls by where the step ends, so that it rings at no stiffness. Of a place that is inside
-/// another rod there is none.
+/// A spring from a point of the rod to a point of the world, along one direction only, such as the wall round an open
+/// balloon. Implicit, so it is stable at any stiffness. Ignored for a point inside another rod.
 struct Tether {
   double from_tip_m = 0;
   Eigen::Vector3d point_W = Eigen::Vector3d::Zero();
@@ -34,7 +33,8 @@ struct Tether {
 };
 
 struct RodInputs {
-  /// Length pushed in at the introducer, the base's pose, per time; negative: drawn back. Only a clamped base feeds.
+  /// Speed at which the rod is pushed in at the introducer (the base's pose); negative: pulled back. Only a clamped
+  /// base feeds.
   double feed_m_s = 0;
   EndDrive base{Hold::clamped};
   EndDrive tip{Hold::free};
@@ -45,7 +45,7 @@ struct RodInputs {
 
 struct Inputs {
   std::vector<RodInputs> rods;          ///< one per rod of the model, in its order
-  std::vector<SurfaceMotion> surfaces;  ///< of its surfaces; those that are missing stand still
+  std::vector<SurfaceMotion> surfaces;  ///< per surface; missing ones stand still
 };
 
 }  // namespace ostium::core

@@ -16,7 +16,7 @@ std::vector<Nesting> by_inner_rod(std::vector<Nesting> nestings) {
 
 void check_nestings(const Model& model) {
   const int rods = static_cast<int>(model.rods.size());
-  // Of the longest stack that ends with each rod: alternatives beside each other do not add up.
+  // The longest stack that ends with each rod; alternatives side by side do not add up.
   std::vector<int> stacked(model.rods.size(), 1);
   for (const Nesting& n : by_inner_rod(model.nestings))
     if (n.outer >= 0 && n.outer < n.inner && n.inner < rods)

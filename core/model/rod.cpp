@@ -9,7 +9,7 @@ namespace ostium::core {
 
 namespace {
 
-/// Element j, reaching from `base_from_tip` to its distal node.
+/// Sets element j, from `base_from_tip` to its distal node.
 void set_element(Rod& rod, int j, double base_from_tip) {
   const SectionIntegrals element = integrate(rod.sections, rod.node_from_tip_m[j + 1], base_from_tip);
   rod.length.at(0)[j] = base_from_tip - rod.node_from_tip_m[j + 1];
@@ -17,7 +17,7 @@ void set_element(Rod& rod, int j, double base_from_tip) {
   rod.rotary_inertia.at(1)[j] = element.polar_inertia;
 }
 
-/// The cell of node i, `from_tip` away from the tip: half an element to each side, if there is one.
+/// Sets the cell of node i, `from_tip` from the tip: half an element to each side that exists.
 void set_cell(Rod& rod, int i, double from_tip) {
   const double towards_base = i > rod.first ? rod.length.at(0)[i - 1] / 2 : 0;
   const double towards_tip = i < rod.elements ? rod.length.at(0)[i] / 2 : 0;
@@ -29,7 +29,7 @@ void set_cell(Rod& rod, int i, double from_tip) {
   std::visit([&](auto& law) { law.set_cell(i, length, cell.compliance, cell.softening); }, rod.law);
 }
 
-/// The thickest beside a node, the narrowest along an element.
+/// Outer radius: the largest next to a node. Bore: the smallest along an element.
 void set_radii(Rod& rod) {
   for (int j = 0; j < rod.elements; ++j) {
     double radius = 0, bore = 1;
@@ -95,7 +95,7 @@ Eigen::Vector3d stiffness_at_rest(const Rod& rod, int joint) {
 
 void cut(const Rod& whole, double inserted_m, int first, Rod& inside) {
   if (inserted_m == inside.total_length_m && first == inside.first) return;
-  // What the last cut changed: its first element, and the cells of that element's nodes.
+  // Restore what the last cut changed: its first element and the cells of that element's nodes.
   const int last = inside.first;
   inside.first = 0;
   if (last < whole.elements) {

@@ -1,5 +1,5 @@
 #pragma once
-/// Working memory of one chain in a step.
+/// Working memory of one chain during a step.
 #include "core/model/inputs.h"
 #include "core/model/rod.h"
 #include "core/model/rod_state.h"
@@ -7,39 +7,39 @@
 
 namespace ostium::core {
 
-/// How a step's acceleration follows from its positions; see inertia.cpp.
+/// How acceleration follows from positions; see inertia.cpp.
 enum class TimeScheme {
-  bdf2,       ///< second-order backward differences: every ordinary step
-  fresh,      ///< constant acceleration: the first step after an end was held or let go
-  from_rest,  ///< backward Euler without velocity: a step that has no other solution
+  bdf2,       ///< second-order backward differences: normal steps
+  fresh,      ///< constant acceleration: first step after an end was held or released
+  from_rest,  ///< backward Euler without initial velocity: fallback for a step without another solution
 };
 
-/// Whether the stiffness includes that of the internal forces and moments. Without it Newton's method converges
-/// linearly, but its matrix is positive definite whatever the rod is pushed or twisted with.
+/// Whether the stiffness includes the geometric stiffness of internal forces and moments. Without it, Newton's method
+/// converges only linearly, but its matrix is positive definite for any load.
 enum class GeometricStiffness { with, without };
 
-/// Of a rod's iterations in a step: going on, converged, near enough when they ran out, without a finite solution; the
-/// rod is not in the body.
+/// Newton status of a rod: iterating, converged, close enough when iterations ran out, no finite solution, not in the
+/// body.
 enum class Progress { open, done, given_up, failed, absent };
 
 struct RodScratch {
   Rod inside;        ///< the part of the rod that is inside its introducer
-  RodInputs inputs;  ///< of this step, within limits
+  RodInputs inputs;  ///< of this step, limited
   TimeScheme scheme = TimeScheme::bdf2;
-  double step_s = 0;  ///< of this try; less than the model's where a rod comes to rest
+  double step_s = 0;  ///< of this attempt; shorter than the model's when retried from rest
   Progress progress = Progress::open;
-  double defect = 0;  ///< what the iterate leaves of inextensibility
+  double defect = 0;  ///< residual of inextensibility in the iterate
   GeometricStiffness geometric = GeometricStiffness::with;
   BlockTridiagonal chain;  ///< the linear system and its solution
-  Field<3> target;         ///< m, (#nodes): where a node would go if the rod exerted no force on it
+  Field<3> target;         ///< m, (#nodes): where a node would go without internal force
   Field<4> orientation;    ///< (#elements): the iterate
-  Field<3> turn;           ///< rad, (#elements): the iterate's turn since the beginning of the step
+  Field<3> turn;           ///< rad, (#elements): turn of the iterate since the beginning of the step
   Field<3> force;          ///< N, (#elements): the iterate
   Field<3> position;       ///< m, (#nodes): the iterate
-  Field<3> strain;         ///< 1/m, (#joints): the iterate, with material damping only
+  Field<3> strain;         ///< 1/m, (#joints): the iterate; only with material damping
 };
 
-/// Sizes for `elements`, with so many rolls; strains only if it is damped.
+/// Sets sizes for `elements` and `rolls`; strains only if damped.
 void resize(RodScratch& scratch, int elements, int rolls, bool damped);
 
 }  // namespace ostium::core

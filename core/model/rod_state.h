@@ -1,5 +1,5 @@
 #pragma once
-/// What the integrator remembers of one rod.
+/// Integrator state of one rod.
 #include <Eigen/Core>
 #include <optional>
 
@@ -9,7 +9,7 @@
 
 namespace ostium::core {
 
-/// One end of a rod, as it is or was held.
+/// One end of a rod and how it is or was held.
 struct EndState {
   Eigen::Vector3d p_W = Eigen::Vector3d::Zero();  ///< m
   Eigen::Vector4d q_W = {1, 0, 0, 0};             ///< material frame, quaternion w x y z
@@ -23,9 +23,9 @@ constexpr auto fields(const EndState*) {
 
 struct RodState {
   double inserted_m = 0;     ///< length from the introducer to the tip
-  double slack_m = 0;        ///< what the base element is longer than inserted_m has it; fades, see introducer.h
-  int first = 0;             ///< the first element that takes part; fields before it are stale
-  int exposed = 0;           ///< the first element that no other rod is around; N: none. The outermost's: `first`
+  double slack_m = 0;        ///< length of the base element beyond what inserted_m gives; fades, see introducer.h
+  int first = 0;             ///< first active element; earlier entries are stale
+  int exposed = 0;           ///< first element outside all other rods; N: none. For the outermost rod: `first`
   Field<3> position;         ///< m, (#nodes)
   Field<3> position_before;  ///< one step earlier
   Field<3> velocity;         ///< m/s, (#nodes)
@@ -33,16 +33,16 @@ struct RodState {
   Field<4> orientation;  ///< unit quaternion w x y z, material to world, (#elements)
   Field<3> turn;         ///< rad, world frame, (#elements): of the last step
   Field<3> turn_before;
-  Field<3> force;   ///< N, world frame, (#elements): internal, distal on proximal; with that of the rods inside
+  Field<3> force;   ///< N, world frame, (#elements): internal, distal on proximal; includes that of the rods inside
   Field<3> strain;  ///< 1/m, material frame, (#joints), Darboux vector; empty without material damping
   Field<3> strain_before;
   Field<3> crept_fast, crept_slow;  ///< 1/m, (#joints), of the branches of relaxing.h; empty without relaxation
-  Field<3> contact_force;           ///< N, (#nodes), on the rod around it, and
-  Field<3> offset;  ///< m, (#nodes), from the middle of that rod's lumen; zero outside. Empty if it can be in none
-  Field<2> slip;  ///< m, (#nodes): elastic part of its sliding along that lumen and around in it, see solve/friction.h
+  Field<3> contact_force;           ///< N, (#nodes), on the rod around it
+  Field<3> offset;      ///< m, (#nodes), from the middle of that rod's lumen; zero outside. Empty if it can be in none
+  Field<2> slip;        ///< m, (#nodes): elastic slip along and around that lumen, see solver/friction_spring.h
   Field<3> wall_force;  ///< N, (#nodes), normal force of the walls on it; empty if there are none
-  Field<2> wall_slip;   ///< m, (#nodes): elastic part of its sliding along and around there
-  Field<3> rod_force;   ///< N, (#nodes), of other rods beside it, and its own; empty unless they touch
+  Field<2> wall_slip;   ///< m, (#nodes): elastic slip along and around the instrument there
+  Field<3> rod_force;   ///< N, (#nodes), from other rods and from itself; empty unless rods touch
   EndState base, tip;
 };
 

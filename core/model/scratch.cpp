@@ -51,14 +51,14 @@ void resize_layer(int elements, int own_nodes, Layer& l) {
   l.host.resize(nodes);
 }
 
-/// For the rods that may be around or inside rod `lead`.
+/// Sizes the nest of the rods that may be around or inside rod `lead`.
 void resize_nest(const Model& model, int lead, Nest& nest) {
   std::vector<int> members{lead};
   for (const Nesting& n : model.nestings)
     if (n.outer == lead) members.push_back(n.inner);
   nest.members.reserve(max_layers);
   if (members.size() == 1) return;
-  // One element more for each end that lies within an element of the rod around it.
+  // One extra element for each rod end that falls inside an element of the rod around it.
   int elements = 0, own_nodes = 0;
   bool damped = false;
   for (int r : members) {
@@ -73,7 +73,7 @@ void resize_nest(const Model& model, int lead, Nest& nest) {
   for (Layer& layer : nest.layers) {
     resize_layer(elements, own_nodes, layer);
     layer.law = model.rods[lead].law;
-    for (int r : members)  // the law that knows most has the others in it
+    for (int r : members)  // the most general law includes the others
       if (model.rods[r].law.index() > layer.law.index()) layer.law = model.rods[r].law;
     std::visit([&](auto& law) { law.resize(elements + 1); }, layer.law);
   }

@@ -8,7 +8,7 @@ namespace ostium::core {
 
 namespace {
 
-/// Along the rod, what lies outside begins anew when it is fed in: all of it but what the material remembers.
+/// Entries outside the introducer are reset when fed in, so they are not hashed; except what the material remembers.
 template <int K>
 std::uint64_t hash_inside(const Field<K>& field, int first, std::uint64_t h) {
   for (int c = 0; c < K; ++c)

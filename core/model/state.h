@@ -1,6 +1,6 @@
 #pragma once
-/// All that is needed to go on bit-identically: what the integrator remembers, warm starts included. Its fields are
-/// listed once, beside it and in rod_state.h; hash, save, compare and print use these lists (base/fields.h).
+/// Everything needed to continue bit-identically: the integrator's state, including warm starts. Its fields are listed
+/// once, here and in rod_state.h; hash, save, compare and print use these lists (base/fields.h).
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -16,11 +16,11 @@ struct State {
 };
 constexpr auto fields(const State*) { return std::tuple{field("step", &State::step), field("rods", &State::rods)}; }
 
-/// 64-bit hash (XXH3 of bytes: -0 and 0 differ) of the step number and all that the next steps may come of.
+/// 64-bit hash (XXH3 of bytes: -0 and 0 differ) of the step number and everything that affects later steps.
 std::uint64_t hash(const State& state);
 
-/// Numbers of a state in the order of the lists, the step number first; and back. `restore` wants a state of the same
-/// model (made by make_state) and throws std::invalid_argument if the count differs, leaving the state untouched.
+/// The numbers of a state in the order of the lists, step number first; and back. `restore` needs a state of the same
+/// model (from make_state) and throws std::invalid_argument if the count differs, leaving the state unchanged.
 std::vector<double> save(const State& state);
 void restore(const std::vector<double>& saved, State& state);
 

@@ -1,4 +1,4 @@
-/// Which rods are a nest, and its chain: put together before a step, taken apart after.
+/// Decides which rods form a nest, assembles its chain before a step and takes it apart afterwards.
 #include <algorithm>
 
 #include "core/base/tolerances.h"
@@ -15,7 +15,7 @@ bool is_nested(const Model& model, int outer, int inner) {
                      [&](const Nesting& n) { return n.outer == outer && n.inner == inner; });
 }
 
-/// Each rod goes with the last one around it, if all who go with that hold it.
+/// A rod joins the strand of the last rod around it, if it is nested in all of that strand's rods.
 void find_strands(const Model& model, State& state, Scratch& scratch) {
   scratch.strands.clear();
   const int rods = static_cast<int>(model.rods.size());
@@ -42,8 +42,7 @@ void find_strands(const Model& model, State& state, Scratch& scratch) {
   }
 }
 
-/// Whether the rods lie against each other as they did; where they are, and what their cells have, follows from
-/// this alone.
+/// Whether the rods are arranged as in the last step. Interpolation and cells depend on this alone.
 bool lie_as_before(const State& state, Nest& nest) {
   bool same = true;
   for (int k = 0; k < max_layers; ++k) {
@@ -59,7 +58,7 @@ bool lie_as_before(const State& state, Nest& nest) {
   return same;
 }
 
-/// A span's part of the rod's fields.
+/// The part of the rod's fields that belongs to a span.
 struct Part {
   const Span& span;
   int skipped;  ///< 1: its first node belongs to the span before
@@ -101,7 +100,7 @@ void gather(const State& state, Scratch& scratch, Nest& nest) {
   nest.s.step_s = nest.step_s;
 }
 
-/// The last rod around layer k, at chain element e, whose lumen holds it there.
+/// The last rod around layer k whose lumen holds it at chain element e.
 int host(const Model& model, const Nest& nest, int k, int e) {
   for (int o = k - 1; o >= 0; --o) {
     const Layer& outer = nest.layers[o];
@@ -114,7 +113,7 @@ int host(const Model& model, const Nest& nest, int k, int e) {
   return 0;
 }
 
-/// Whose bore the layer is in, and its clearance there.
+/// Finds the bore that each element of the layer is in, and the clearance there.
 void find_hosts(const Model& model, Nest& nest, int k) {
   Layer& layer = nest.layers[k];
   for (int e = 0; e < layer.covered; ++e) {
@@ -126,7 +125,7 @@ void find_hosts(const Model& model, Nest& nest, int k) {
   }
 }
 
-/// Entries beside places that lie in order; `at(i)`: where entry i is, up to `last`.
+/// Finds the entries on either side of `where`, for increasing positions; `at(i)`: position of entry i, up to `last`.
 template <class At>
 void place(double where, int last, int& hint, At&& at, int i, Places& out) {
   while (hint < last - 1 && at(hint + 1) < where) ++hint;

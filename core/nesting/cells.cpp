@@ -1,4 +1,4 @@
-/// What each rod of a nest has in the cells of its chain.
+/// Mass, inertia and stiffness of each rod of a nest in the cells of its chain.
 #include <algorithm>
 #include <variant>
 
@@ -9,8 +9,8 @@ namespace ostium::core {
 
 namespace {
 
-/// Stiffness that a layer has in a joint of which it reaches into a part only, behind which the others go on: in series
-/// with theirs.
+/// Stiffness of a layer that ends within a joint's cell: over the rest of the cell only the others act, so it is in
+/// series with theirs.
 Eigen::Vector3d partial(const Nest& nest, int k, int i, double part, const Eigen::Vector3d& own) {
   Eigen::Vector3d others = Eigen::Vector3d::Zero();
   for (int o = 0; o < k; ++o) {
@@ -20,11 +20,11 @@ Eigen::Vector3d partial(const Nest& nest, int k, int i, double part, const Eigen
     others += Eigen::Vector3d(C.xx, C.yy, C.zz);
   }
   Eigen::Vector3d out = part * own.cwiseProduct(others).cwiseQuotient(others + (1 - part) * own);
-  out.z() = part * own.z();  // it twists by itself
+  out.z() = part * own.z();  // each rod twists on its own
   return out;
 }
 
-/// Cells of the chain that are not cells of the rod: joints and nodes 0 to last of a layer.
+/// Computes joints and nodes 0 to last of a layer, whose cells are the chain's and not the rod's own.
 void cut_cells(const Rod& rod, int last, Nest& nest, int k) {
   Layer& layer = nest.layers[k];
   const Rod& chain = nest.s.inside;
@@ -60,7 +60,7 @@ void cut_cells(const Rod& rod, int last, Nest& nest, int k) {
 void copy_law(const MomentLaw& from, int begin, int end, MomentLaw& to, int at) {
   std::visit(
       [&](auto& law, const auto& other) {
-        // The layers of a nest have the law of its rods that knows most (scratch.cpp).
+        // The layers of a nest have the most general law among its rods (scratch.cpp).
         if constexpr (requires { law.copy(other, begin, end, at); }) law.copy(other, begin, end, at);
       },
       to, from);
@@ -84,7 +84,7 @@ void lay_layers(const Model& model, const Scratch& scratch, Nest& nest) {
     layer.damping_s = rod.damping.material_time_s;
     layer.viscous = layer.damping_s / nest.step_s;
     const bool protrudes = layer.end > 0;
-    // From here on the cells are the rod's own.
+    // Last cell to be computed; later ones are the rod's own.
     int own = layer.covered < chain.elements ? layer.covered - 1 : chain.elements;
     if (protrudes) {
       const int first = rod.elements - (layer.end - layer.covered);
@@ -97,7 +97,7 @@ void lay_layers(const Model& model, const Scratch& scratch, Nest& nest) {
       copy_law(rod.law, first + from - layer.covered, rod.elements + 1, layer.law, from);
     }
     if (k > 0) cut_cells(rod, own, nest, k);
-    // Where it ends inside another, the node behind its last joint has nothing of it.
+    // If the rod ends inside another one, the node behind its last joint has no mass of it.
     if (!protrudes && own < chain.elements) layer.mass.at(0)[own + 1] = 0;
     const int nodes = own + 1;
     if (k == 0)

@@ -1,4 +1,4 @@
-/// What the rods of a nest have crept by, in the joints of its chain.
+/// Creep of a nest's rods, transferred to the joints of its chain.
 #include <algorithm>
 #include <cmath>
 
@@ -10,7 +10,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// Of the rod's own joint at `place`, a whole number or between two.
+/// Creep at a position in units of the rod's own joints, interpolated.
 Vector3d crept_at(const Rod& rod, const RodState& own, double place) {
   const double within = std::clamp(place, static_cast<double>(own.first), static_cast<double>(rod.elements));
   const int joint = std::min(static_cast<int>(within), rod.elements - 1);
@@ -33,7 +33,7 @@ void recall_layer_creep(const Model& model, const State& state, Nest& nest) {
       for (int i = 0; i < joints; ++i) law->crept.set(i, Vector3d::Zero());
       continue;
     }
-    // Inside others its elements lie between those of the chain (`from_own`), and joint j before element j.
+    // Inside others, its elements lie between those of the chain (`from_own`); joint j comes before element j.
     const auto middle = [&](int e) { return layer.from_own.before[e] + layer.from_own.part.at(0)[e]; };
     for (int i = 0; i < joints; ++i) {
       double place = rod.elements - (layer.end - i);

@@ -1,9 +1,9 @@
-/// What inner rods exert on their bores, and on fingers.
+/// Forces of inner rods on their bores and on the hand.
 ///
-/// The moments of a layer ask for a force across it, n = T d3 + (d3 x (m_i+1 - m_i)) / l. Along it the balance of its
-/// nodes gives T, from where the rod ends or leaves its bore back to the introducer: the bore only presses across, and
-/// rubs. What is left of the balance across is what the bore exerts. In a bend without friction T so grows by EI k^2
-/// / 2.
+/// The moments of a layer give its transverse force, n = T d3 + (d3 x (m_i+1 - m_i)) / l. The axial balance of its
+/// nodes gives the tension T, from where the rod ends or leaves its bore back to the introducer: the bore only presses
+/// transversely, and rubs. The remaining transverse force is what it exerts on the bore. In a bend without friction T
+/// thus grows by EI k^2 / 2.
 #include <cmath>
 
 #include "core/base/tolerances.h"
@@ -15,7 +15,7 @@ namespace ostium::core {
 void smoothen(const Nest& nest, int last, Field<3>& field) {
   const double* near = nest.nearness.at(0);
   V3<double> kept = load3<double>(field, 0);
-  // What is carried along meets one multiply-add a node, since each waits for the one before.
+  // A single multiply-add per node on the dependent chain, since each waits for the previous one.
   const auto take = [&](int i, double own) {
     kept = madd(1 - own, kept, own * load3<double>(field, i));
     store3(field, i, kept);
@@ -54,7 +54,7 @@ void find_layer_forces(const Model& model, Nest& nest) {
   for (int k = nest.layer_count - 1; k >= 1; --k) {
     Layer& layer = nest.layers[k];
     const int last = layer.covered;
-    // What it is held back with where it ends or leaves: along d3, and across.
+    // Force at the end of the covered part, where the rod ends or leaves: along d3 and across.
     V3<double> d3_beyond = load3<double>(nest.tangent, last), across_beyond{};
     double tension_beyond = 0;
     if (layer.end > 0) {
@@ -83,8 +83,8 @@ void find_layer_forces(const Model& model, Nest& nest) {
     for_packs(1, last + 1, [&]<class T>(T, int i) {
       store(layer.along.at(0) + i, dot(load3<T>(nest.tangent, i), load3<T>(layer.press, i)));
     });
-    // What bends it asks for pairs of opposite forces where curvature jumps, an element apart. Its clearance lets a
-    // real rod take a longer lever: spread over some of it.
+    // Where curvature jumps, bending moments give pairs of opposite forces one element apart. The clearance lets a real
+    // rod take a longer lever, so the force is spread out.
     for_packs(0, last + 1, [&]<class T>(T, int i) {
       store3(layer.press, i, (1.0 / load<T>(chain.joint_length.at(0) + i)) * load3<T>(layer.press, i));
     });
@@ -93,7 +93,7 @@ void find_layer_forces(const Model& model, Nest& nest) {
       store3(layer.press, i, load<T>(chain.joint_length.at(0) + i) * load3<T>(layer.press, i));
     });
 
-    // The balance along node i, from the tension after it to that before: before = lever after - gain along.
+    // Axial balance of node i, from the tension after it to that before: before = lever after - gain along.
     const auto weigh = [&]<class T>(T, int i, const V3<T>& d3_after) {
       const V3<T> t = load3<T>(nest.tangent, i);
       const T gain = 1.0 / dot(t, director3(load4<T>(nest.own.orientation, i - 1)));

@@ -1,8 +1,9 @@
 /// Inner rods as layers of their nest's chain.
 ///
-/// Layer k turns with the chain's frames and rolls against them: frame Q = exp(psi d3) q, so by theta = phi + psi d3.
-/// A joint of it with stiffness H and moment m has the energy of a joint of a rod (solve/chain.h) in theta; so
-///   phi    gets H, m as ever,
+/// Layer k turns with the chain's frames and rolls relative to them: frame Q = exp(psi d3) q, so theta = phi + psi d3.
+/// A joint of it with stiffness H and moment m has the energy of a rod's joint (solver/block_tridiagonal.h) in theta;
+/// therefore
+///   phi    gets H, m as usual,
 ///   psi_e  gets  b = H d3,  k = d3 . H d3  from both of its joints and  torque = d3 . (m_e+1 - m_e),
 ///   (e, e+1) couple by  X = -H + [m]x / 2:  u = X d3_e+1,  w = X^T d3_e,  c = d3_e . X d3_e+1.
 #include <algorithm>
@@ -24,14 +25,14 @@ EndJoints joints_of_layer(const Nest& nest, const Layer& layer) {
   return ends;
 }
 
-/// Visits the joints of a layer with its law: joint(T, i, frame before, frame behind, inside others).
+/// Visits the joints of a layer with its law: joint(T, i, frame before, frame after, inside others).
 template <class Visit>
 void for_joints(const State& state, const Nest& nest, const Layer& layer, Visit&& visit) {
   const Field<4>& q = layer.roll < 0 ? nest.s.orientation : layer.orientation;
   const EndJoints ends = joints_of_layer(nest, layer);
   const int last = layer.end > 0 ? layer.end : layer.covered;
   if (ends.base) visit(double{}, 0, state.rods[layer.rod].base.frame(), load4<double>(q, 0), layer.covered > 0);
-  const int shared = layer.end > 0 ? layer.covered + 1 : last;  // joints before this couple frames inside others
+  const int shared = layer.end > 0 ? layer.covered + 1 : last;  // earlier joints couple frames that are inside others
   const auto between = [&](bool inside) {
     return [&, inside]<class T>(T t, int i) { visit(t, i, load4<T>(q, i - 1), load4<T>(q, i), inside); };
   };
@@ -40,7 +41,7 @@ void for_joints(const State& state, const Nest& nest, const Layer& layer, Visit&
   if (ends.tip) visit(double{}, last, load4<double>(q, last - 1), state.rods[layer.rod].tip.frame(), false);
 }
 
-/// A joint, with material damping: along a rod's own span by its history, inside others by the turns of this step.
+/// A joint with material damping: from the strain history along a rod's own span, from this step's turns inside others.
 template <class T, class Law>
 Joint<T> damped_joint(const Law& law, const Nest& nest, const Layer& layer, int i, const Q4<T>& a, const Q4<T>& b,
                       bool inside, double scale) {
@@ -63,7 +64,8 @@ Joint<T> damped_joint(const Law& law, const Nest& nest, const Layer& layer, int 
   return out;
 }
 
-/// Where nothing of a layer's roll is written: at the base if it is not held, and from where it ends or has left.
+/// Zeroes the entries of a layer's roll that nothing else writes: at the base, if not held, and from where the rod ends
+/// or leaves the others.
 void clear(int covered, int elements, Layer& layer, Roll& roll) {
   const auto none = [](auto& field, int i) {
     for (int c = 0; c * field.stride() < static_cast<int>(field.raw().size()); ++c) field.at(c)[i] = 0;
@@ -143,7 +145,7 @@ void clear(int covered, int elements, Layer& layer, Roll& roll) {
         },
         layer.law);
     if (!roll) continue;
-    // Where the rod has left the others, its frame is the chain's, and does not roll.
+    // Where the rod has left the others, its frame is the chain's and does not roll.
     if (layer.end > 0) {
       const int i = layer.covered;
       store3(roll->ahead, i, V3<double>{});

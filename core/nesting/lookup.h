@@ -1,13 +1,13 @@
 #pragma once
-/// Interpolation between neighbouring entries of a field, four places at a time; for the binding alone.
+/// Interpolation between neighbouring entries of a field, four positions at a time. Internal to core/nesting.
 #include "core/model/nest_scratch.h"
 
 namespace ostium::core {
 
-/// Which entries a pack of four places (or one) begins at.
+/// Index at which to interpolate, for a pack of four positions or one.
 struct Spot {
   const int* at;
-  bool row;  ///< four entries in a row, as almost all are: read as one, since gathering them costs seven times that
+  bool row;  ///< four consecutive entries, as almost always: one load, since a gather costs seven times as much
 
   Spot(const Places& places, int i, Lanes) : at(places.before.data() + i) {
     row = at[1] == at[0] + 1 && at[2] == at[0] + 2 && at[3] == at[0] + 3;
@@ -46,11 +46,11 @@ Q4<T> mixed4(const Field<4>& f, const Spot& spot, T part) {
                           madd(rest, a.z, sign * b.z)});
 }
 
-/// The rotation, by the shortest way, of one unit vector to another; not normalised.
+/// Shortest rotation from one unit vector to another; not normalised.
 template <class T>
 Q4<T> swing(const V3<T>& from, const V3<T>& to) {
   const V3<T> axis = cross(from, to);
-  const T w = 1.0 + dot(from, to);  // almost never near 0, and then any way is as short
+  const T w = 1.0 + dot(from, to);  // almost never near 0, where any rotation is as short
   return {largest(w, T{} + 1e-6), axis.x, axis.y, axis.z};
 }
 

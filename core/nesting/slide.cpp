@@ -1,9 +1,8 @@
 /// Friction between nested rods: against sliding along the bore and against turning in it.
 ///
-/// A spring that slips (solve/friction.h) ties an inner rod to the material of its bore, as hard as the forces of the
-/// last step pressed them together. How far it slides is known from what was fed, so what friction takes along the bore
-/// only moves forces from one rod to the other (forces.cpp). What it takes about the bore turns both, and is in the
-/// equations of their rolls.
+/// A spring that slips (solver/friction_spring.h) ties an inner rod to the material of its bore, with the contact force
+/// of the last step. How far it slides is known from the lengths fed, so axial friction only transfers force from one
+/// rod to the other (forces.cpp). Friction about the axis turns both, and enters the equations of their rolls.
 #include <algorithm>
 #include <cmath>
 
@@ -24,7 +23,7 @@ double friction_with(const Model& model, const Nest& nest, const Layer& layer, i
   return 0;
 }
 
-/// rad: how far layer `k` has turned in its bore in this step.
+/// Angle, rad, by which the layer has turned in its bore during this step.
 double turned_in_bore(const Nest& nest, const Layer& layer, int e) {
   const Layer& outer = nest.layers[layer.host[e]];
   const V3<double> with = load3<double>(outer.roll < 0 || e >= outer.covered ? nest.s.turn : outer.turn, e);
@@ -79,7 +78,7 @@ void turn_in_bores(Nest& nest) {
       roll.stiffness.at(0)[e] += grip;
       roll.torque.at(0)[e] -= torque;
       const Layer& outer = nest.layers[layer.host[e]];
-      if (outer.roll < 0 || e >= outer.covered) continue;  // then it turns with the chain's frames
+      if (outer.roll < 0 || e >= outer.covered) continue;  // the outer rod turns with the chain's frames
       Roll& other = nest.s.chain.rolls[outer.roll];
       other.stiffness.at(0)[e] += grip;
       other.torque.at(0)[e] += torque;

@@ -1,4 +1,4 @@
-/// Where rods of a nest leave each other, and the elements of its chain.
+/// Where rods of a nest leave each other, and the elements of the chain.
 #include <algorithm>
 #include <cmath>
 
@@ -11,20 +11,20 @@ namespace ostium::core {
 
 namespace {
 
-// Fractions of an element at which it leaves the rod around it and goes back; apart, so that a trembling hand does not
-// change elements.
+// Share of an element at which it leaves the surrounding rod, and at which it returns; different, so that a trembling
+// hand does not switch elements back and forth.
 constexpr double leaves_at = 0.6, returns_at = 0.4;
 
 double norm(const V3<double>& v) { return std::sqrt(dot(v, v)); }
 
-/// Element j of a rod turned so that its tangent lies along `chord`.
+/// Turns element j of a rod so that its tangent lies along `chord`.
 void swing(const V3<double>& chord, int j, RodState& s) {
   const Q4<double> q = load4<double>(s.orientation, j);
   const Eigen::Quaterniond onto = Eigen::Quaterniond::FromTwoVectors(to_eigen(director3(q)), to_eigen(chord));
   store4(s.orientation, j, from_eigen((onto * to_eigen(q)).normalized()));
 }
 
-/// The first element of a rod that protrudes by `length_m` from those around it; N: too little does.
+/// The first element of a rod that protrudes by `length_m` from those around it; N: none does enough.
 int first_exposed(const Rod& rod, const RodState& s, double length_m) {
   const int N = rod.elements;
   const auto own = [&](int i) { return rod.length.at(0)[i]; };
@@ -39,14 +39,14 @@ int first_exposed(const Rod& rod, const RodState& s, double length_m) {
   return j;
 }
 
-/// What protrudes begins at `root`: its frames follow the elements that have left or gone back.
+/// Starts the protruding part at `root`; frames follow for elements that have left or returned.
 void expose(const Rod& rod, int first, double length_m, const V3<double>& root, RodState& s) {
   const int before = s.exposed, N = rod.elements;
   s.exposed = first;
   if (first == N) return;
   const V3<double> chord = load3<double>(s.position, first + 1) - root;
   if (std::fabs(norm(chord) - length_m) > tolerances::torn_part * rod.length.at(0)[first]) {
-    // Rods that were laid out without each other: what protrudes is moved to where it leaves.
+    // Rods that were laid out independently: moves the protruding part to where it leaves.
     V3<double> p = root;
     for (int j = first; j < N; ++j) {
       p = madd(j == first ? length_m : rod.length.at(0)[j], director3(load4<double>(s.orientation, j)), p);

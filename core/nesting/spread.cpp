@@ -1,7 +1,7 @@
-/// Inner rods along the chain: each has its own nodes and frames there.
+/// Nodes and frames of inner rods along the chain.
 ///
-/// Nodes lie on the smooth centreline, moved to the side of the bore that the rod leans on, as far as its clearance
-/// lets it. Frames turn about it by what the layer turned, and follow the tangent without turning otherwise.
+/// Nodes lie on the smooth centreline, moved within the clearance to the side of the bore that the rod leans on. Frames
+/// turn about the tangent as the layer did, and follow the tangent without further twist.
 #include <algorithm>
 #include <cmath>
 
@@ -14,7 +14,7 @@ namespace ostium::core {
 
 namespace {
 
-/// Where its nodes and the middles of its elements are on the chain.
+/// Positions of the rod's nodes and element middles on the chain.
 void locate(const Rod& rod, const RodState& own, const Nest& nest, Layer& layer) {
   const int first = own.first, last = std::min(own.exposed, rod.elements);
   const int elements = nest.s.inside.elements;
@@ -23,7 +23,7 @@ void locate(const Rod& rod, const RodState& own, const Nest& nest, Layer& layer)
   int e = 0, m = 0;
   const auto middle = [&](int i) { return (depth[i] + depth[i + 1]) / 2; };
   for (int i = first; i <= last; ++i) {
-    // The last may stand a little beyond the bore, where the layer has nothing in this step.
+    // The last node may lie a little beyond the bore, where the layer has no entries in this step.
     const double at = i == first ? 0 : std::min(layer.inserted_m - rod.node_from_tip_m[i], reach);
     while (e + 1 < elements && depth[e + 1] < at) ++e;
     layer.to_nodes.before[i] = e;
@@ -36,7 +36,8 @@ void locate(const Rod& rod, const RodState& own, const Nest& nest, Layer& layer)
   }
 }
 
-/// Where the clearance lets the layer lie, pressed by its bore: smooth along it, and in the middle at both ends.
+/// Sideways position of the layer within its clearance, from the bore's contact force: smooth along it, zero at both
+/// ends.
 void find_lean(const Nest& nest, Layer& layer) {
   const int last = layer.covered;
   const double* depth = nest.depth.at(0);
@@ -55,7 +56,7 @@ void find_lean(const Nest& nest, Layer& layer) {
   });
 }
 
-/// Frames and motion of elements, and the force in them.
+/// Frames, motion and internal force of the elements.
 void lay_elements(const Nest& nest, const Layer& layer, int first, int last, RodState& own) {
   for_packs(first, last, [&]<class T>(T, int j) {
     const Q4<T> q = load4<T>(own.orientation, j);
@@ -103,7 +104,7 @@ void lay_nodes(const Rod& rod, const Nest& nest, const Layer& layer, int first, 
   });
 }
 
-/// Of joints that may be the rod's own in the next step: they have not been bent otherwise.
+/// Strains of joints that may be the rod's own in the next step; they have no history.
 void take_strains(const Rod& rod, int from, int to, RodState& own) {
   if (own.strain.size() == 0) return;
   for (int i = std::max(from, own.first + 1); i < std::min(to, rod.elements); ++i) {

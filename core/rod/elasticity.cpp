@@ -10,7 +10,7 @@ namespace ostium::core {
 
 namespace {
 
-/// Linearises joints of one rod in one step.
+/// Linearises the joints of one rod.
 template <class Law>
 class Joints {
  public:

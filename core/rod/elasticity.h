@@ -6,7 +6,7 @@
 
 namespace ostium::core {
 
-/// Whether the frame of an end is joined to what holds it.
+/// Whether the end frames are joined to their holds.
 struct EndJoints {
   bool base = false, tip = false;
 };
@@ -15,14 +15,14 @@ struct EndJoints {
 /// material damping, scratch.strain. Ends without a joint get zeros. `step_s` = 0: no damping (statics).
 void linearise_joints(const Rod& rod, const RodState& state, EndJoints ends, double step_s, RodScratch& scratch);
 
-/// The same for the joints at the two ends alone.
+/// The same for the joints at the two ends only.
 void linearise_end_joints(const Rod& rod, const RodState& state, EndJoints ends, double step_s, RodScratch& scratch);
 
-/// Largest angle of an inner joint of the iterate. At pi, a joint would take the shorter way back: elements are too
-/// long for the bending or twist that they are to carry.
+/// Largest angle of an inner joint in the iterate. At pi a joint would flip to the other side: elements are too long
+/// for their bending or twist.
 double largest_joint_angle(const Rod& rod, const RodScratch& scratch);
 
-/// Gathers the elements' rows from their joints: writes chain.arm, stiffness, torque (without inertia) and gap.
+/// Assembles the elements' rows from their joints: writes chain.arm, stiffness, torque (without inertia) and gap.
 void assemble_elements(const Rod& rod, RodScratch& scratch);
 
 }  // namespace ostium::core

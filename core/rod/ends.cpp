@@ -19,7 +19,7 @@ Vector3d within(const Vector3d& asked, double limit, std::uint32_t limit_flag, s
     trouble |= drive_not_finite;
     return Vector3d::Zero();
   }
-  // Scaled first: the norm of 1e300 m/s is not finite.
+  // Scale first: the norm of 1e300 m/s overflows.
   const double largest = asked.cwiseAbs().maxCoeff();
   if (largest <= limit && asked.norm() <= limit) return asked;
   trouble |= limit_flag;
@@ -46,7 +46,7 @@ void drive(const EndDrive& drive, double step_s, EndState& end) {
 void hold(Hold hold, const EndState& end, int node, RodScratch& scratch) {
   if (hold == Hold::free) return;
   Vector3d target = end.p_W;
-  // From rest, an end that has been pulled off its hold comes back no faster than a hand would bring it.
+  // When retried from rest, an end that was pulled off its hold returns no faster than a hand would move it.
   if (scratch.scheme == TimeScheme::from_rest) {
     const Vector3d away = end.p_W - scratch.target[node];
     if (away.norm() > tolerances::longest_return_m)

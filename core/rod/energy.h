@@ -14,7 +14,7 @@ struct Energy {
   double total_J() const { return elastic_J + kinetic_J + weight_J; }
 };
 
-/// Energy of rod `r`. `inputs` say how its ends are held. What is outside the introducer does not count.
+/// Energy of rod `r`. `inputs` say how its ends are held. The part outside the introducer does not count.
 Energy energy(const Model& model, const Inputs& inputs, const State& state, std::size_t r);
 
 }  // namespace ostium::core

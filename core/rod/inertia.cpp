@@ -9,14 +9,14 @@ namespace ostium::core {
 
 namespace {
 
-/// How acceleration and velocity follow from the new position r:  a = A (r - r_a),  v = B (r - r_v).
+/// Acceleration and velocity as functions of the new position r:  a = A (r - r_a),  v = B (r - r_v).
 ///
 /// bdf2:       v = (3 r - 4 r_n + r_n-1) / 2h,  a = (3 v - 4 v_n + v_n-1) / 2h, so with
 ///             r_v = (4 r_n - r_n-1) / 3  and  r_a = r_v + (2h / 3) (4 v_n - v_n-1) / 3:
 ///             A = 9 / 4h^2,  B = 3 / 2h.
 /// fresh:      r = r_n + h v_n + h^2 a / 2,  v = v_n + h a, so with  r_v = r_n + h v_n / 2  and  r_a = r_n + h v_n:
 ///             A = 2 / h^2,  B = 2 / h.
-///             After a jump in the forces, bdf2 would carry on accelerations that are no more, and lag by h.
+///             After a jump in the forces, bdf2 would carry on obsolete accelerations and lag by h.
 /// from_rest:  v = (r - r_n) / h,  a = v / h:
 ///             A = 1 / h^2,  B = 1 / h.
 struct Inertia {
@@ -118,9 +118,9 @@ void add_rotary_inertia(const Rod& rod, double step_s, RodScratch& scratch) {
             [&]<class T>(T, int j) { store6(K, j, load6<T>(K, j) + rotary_inertia<T>(rod, scratch, scale, j)); });
 }
 
-/// Angular momentum by backward Euler, omega = turn / h: against bending, J_t is (radius / element length)^2 of the
-/// nodes' inertia; against twisting, J_s makes torsional waves that are faster than a step. The gyroscopic term
-/// omega x J omega is left out: at 10 turns a second it is 1e-9 of a wire's bending moments.
+/// Backward Euler for angular momentum, omega = turn / h. In bending, J_t is (radius / element length)^2 of the nodes'
+/// inertia; in twisting, J_s gives torsional waves faster than a step. The gyroscopic term omega x J omega is
+/// neglected: at 10 turns a second it is 1e-9 of a wire's bending moments.
 void add_rotary_torque(const Rod& rod, const RodState& state, double step_s, RodScratch& scratch) {
   Field<3>& torque = scratch.chain.torque;
   const double scale = 1 / (step_s * step_s);

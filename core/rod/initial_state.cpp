@@ -7,7 +7,7 @@ namespace ostium::core {
 
 namespace {
 
-/// Lays a rod out from its base, each joint turned by `strain(i)` times its cell's length.
+/// Lays a rod out from its base; joint i turns by `strain(i)` times its cell's length.
 template <class Strain>
 RodState lay_out(const Rod& whole, const EndState& base, double inserted_m, Strain&& strain) {
   const int N = whole.elements;

@@ -12,10 +12,11 @@ namespace {
 
 using Eigen::Vector3d;
 
-// Fractions of an element at which it enters and leaves; apart, so that a trembling hand does not change elements.
+// Share of an element at which it enters, and at which it leaves; different, so that a trembling hand does not switch
+// elements back and forth.
 constexpr double enters_at = 0.6, leaves_at = 0.4;
 constexpr int least_elements = 3;
-constexpr double slack_kept = 0.8;  // of the slack, per step
+constexpr double slack_kept = 0.8;  // per step
 
 /// q turned by theta in its own material frame.
 Q4<double> turned_by(const Q4<double>& q, const V3<double>& theta) {
@@ -30,8 +31,8 @@ double base_length(const Rod& rod, const RodState& s) {
   return s.inserted_m + s.slack_m - rod.node_from_tip_m[s.first + 1];
 }
 
-/// The base element splits: what is more than its own length becomes a new base element. Curvature at the base and
-/// behind the element stays what it was; in between it is interpolated.
+/// Splits the base element: the length beyond its own becomes a new base element. Curvature at the base and distal to
+/// the element is kept; in between it is interpolated.
 void enter_element(const Rod& rod, const RodInputs& inputs, double step_s, RodState& s) {
   const int old = s.first, base = old - 1;
   const double before = base_length(rod, s), own = rod.length.at(0)[old], after = before - own;
@@ -46,7 +47,7 @@ void enter_element(const Rod& rod, const RodInputs& inputs, double step_s, RodSt
   const Q4<double> q_split = turned_by(q_next, (-(own + next) / 2) * next_curvature);
   store4(s.orientation, old, q_split);
 
-  // The new node between them moves as the material there does.
+  // The new node between them moves with the material there.
   const double part = after / before;
   const Vector3d feed_velocity = inputs.base.velocity_W_m_s + inputs.feed_m_s * axis(s.base);
   const auto blend = [&](const Vector3d& distal) -> Vector3d {
@@ -78,7 +79,7 @@ void enter_element(const Rod& rod, const RodInputs& inputs, double step_s, RodSt
   s.first = base;
 }
 
-/// The base element and the next become one, along the chord from the introducer to the far node of the next.
+/// Merges the base element and the next one, along the chord from the introducer to the next one's distal node.
 void leave_element(const Rod& rod, RodState& s) {
   const int next = s.first + 1;
   const Q4<double> q = load4<double>(s.orientation, next);
@@ -96,7 +97,7 @@ void leave_element(const Rod& rod, RodState& s) {
   s.first = next;
 }
 
-/// The tip appears behind the introducer, unloaded and carried along by the hand.
+/// Lets the tip appear at the introducer, unloaded and moving with the hand.
 void appear(const Rod& rod, const RodInputs& inputs, double step_s, RodState& s) {
   const int first = rod.elements - least_elements, N = rod.elements;
   s.first = first, s.slack_m = 0;
@@ -158,7 +159,7 @@ void feed(const Rod& rod, const RodInputs& inputs, double step_s, RodState& s, s
   const double asked = s.inserted_m + step_s * inputs.feed_m_s;
   s.inserted_m = std::clamp(asked, 0.0, rod.total_length_m);
   if (s.inserted_m != asked) trouble |= feed_stopped;
-  // Apart, so that a trembling hand does not take it out and in.
+  // Different limits, so that a trembling hand does not take it out and in again.
   if (s.inserted_m < least_inserted_m(rod))
     s.first = rod.elements, s.slack_m = 0;
   else if (!in_body(rod, s) &&

@@ -1,16 +1,15 @@
 #pragma once
-/// Feeding: a clamped base is an introducer that an instrument is pushed and turned through. What is still outside is
-/// not simulated.
+/// Feeding: a clamped base is an introducer through which an instrument is pushed and turned. The part outside is not
+/// simulated.
 ///
-/// The introducer stands still (or moves as the base does); material passes it. The base element reaches from there to
-/// its distal node, so its length changes all the time: between 0.4 of its own length and its own plus 0.6 of the one
-/// before. Beyond that an element enters or leaves. Curvature, force and velocity at the base are carried over, so that
-/// neither shape nor force jumps; the last cause of a jump, that two chords of an arc are longer than one, is put into
-/// the base element's length as a slack of nanometres, which fades within some 10 ms.
+/// The introducer stands still (or moves with the base) while material passes through it. The base element reaches from
+/// there to its distal node, so its length keeps changing: between 0.4 of its own length and its own plus 0.6 of the
+/// previous one's. Beyond these limits an element leaves or enters. Curvature, force and velocity at the base are
+/// carried over, so that neither shape nor force jumps. One jump remains, because two chords of an arc are longer than
+/// one; it goes into the base element's length as a slack of nanometres that fades within some 10 ms.
 ///
-/// An instrument of which less than three elements are inside is not in the body: it takes part in nothing, and its tip
-/// is within the introducer. Fed on, it appears there in its unloaded shape; so one instrument is exchanged for
-/// another.
+/// An instrument with fewer than three elements inside is not in the body: it is inactive, and its tip is within the
+/// introducer. Fed further, it appears there in its unloaded shape. This is how instruments are exchanged.
 #include <cstdint>
 
 #include "core/model/inputs.h"
@@ -19,24 +18,24 @@
 
 namespace ostium::core {
 
-/// With less than this inserted, that of the three distal elements, a rod is not in the body.
+/// Length of the three distal elements: with less than this inserted, a rod is not in the body.
 double least_inserted_m(const Rod& rod);
 
-/// Whether a rod takes part.
+/// Whether a rod is active.
 bool in_body(const Rod& rod, const RodState& state);
 
-/// The first element inside when `inserted_m` of a rod is, if it has not been fed yet; N: not in the body.
+/// The first element inside when `inserted_m` of an unfed rod is inserted; N: not in the body.
 int first_element_for(const Rod& rod, double inserted_m);
 
-/// Before a step that feeds: elements enter or leave, while positions and length belong to one moment. Writes
-/// state.first and slack_m, and the fields of these elements; done twice, it changes nothing more.
+/// Before a step that feeds: elements enter or leave while positions and length are consistent. Writes state.first and
+/// slack_m, and these elements' fields; idempotent.
 void renew_elements(const Rod& rod, const RodInputs& inputs, double step_s, RodState& state);
 
-/// Feeds for one step: writes state.inserted_m, and the fields of a rod that appears. At both ends of the instrument it
-/// stops, and says so in `trouble`.
+/// Feeds for one step: writes state.inserted_m, and the fields of a rod that appears. At either end of the instrument
+/// it stops and sets `trouble`.
 void feed(const Rod& rod, const RodInputs& inputs, double step_s, RodState& state, std::uint32_t& trouble);
 
-/// Makes `inside` the part of `rod` that `state` has inside the introducer.
+/// Makes `inside` the part of `rod` that is inside the introducer according to `state`.
 void cut_at_introducer(const Rod& rod, const RodState& state, Rod& inside);
 
 /// Director d3 of an end's frame: the direction of advance.

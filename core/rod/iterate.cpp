@@ -10,7 +10,7 @@ namespace ostium::core {
 
 namespace {
 
-/// The largest of a quantity over a field, and a sum that is finite only if all of it is.
+/// The maximum of a quantity over a field, and a sum that is finite only if every entry is.
 struct Extent {
   Lanes packed_largest{}, packed_sum{};
   double single_largest = 0, single_sum = 0;
@@ -78,7 +78,7 @@ IterateChange update_iterate(const Rod& rod, double max_turn_rad, RodScratch& sc
     store3(scratch.force, j, blend(splat<T>(fraction), load3<T>(scratch.force, j), load3<T>(chain.force, j)));
   });
 
-  // Node i gets the force of its distal element less that of its proximal one.
+  // Force on node i: that of its distal element minus that of its proximal one.
   const auto node = [&]<class T>(T, int i, const V3<T>& force) {
     store3(scratch.position, i, load3<T>(scratch.target, i) + load6<T>(chain.compliance, i) * force);
   };

@@ -6,21 +6,21 @@
 namespace ostium::core {
 
 struct IterateChange {
-  bool finite = true;   ///< false: the solution was not a number, and the iterate is as it was
-  double turn_rad = 0;  ///< largest turn of an element, or roll
-  double fraction = 1;  ///< of the solution that was taken
+  bool finite = true;   ///< false: the solution was not finite, and the iterate is unchanged
+  double turn_rad = 0;  ///< largest turn of an element or roll
+  double fraction = 1;  ///< of the solution that was applied
   double stretch = 0;   ///< largest |(r_j+1 - r_j) / l_j - d3_j|
-  double defect = 0;    ///< the same without the give of tolerances.h: what the linearised constraint left
+  double defect = 0;    ///< the same without the axial compliance of tolerances.h: error of the linearised constraint
 };
 
-/// Nodes along the tangents of `orientation`, from `end` at the base or at the tip: inextensible to the last bit.
+/// Places nodes along the tangents of `orientation`, from `end` at the base or at the tip: exactly inextensible.
 void string_nodes(const Rod& rod, const Field<4>& orientation, V3<double> end, bool from_base, Field<3>& position);
 
-/// Largest turn of an element in the chain's solution; not a number if the solution is none.
+/// Largest turn of an element in the chain's solution; not-a-number if the solution is not finite.
 double largest_turn(const Rod& rod, const BlockTridiagonal& chain);
 
-/// Takes the chain's solution as the next iterate, shortened so that no element turns by more than `max_turn_rad`:
-/// writes scratch.orientation, turn, force and position.
+/// Applies the chain's solution to the iterate, scaled so that no element turns by more than `max_turn_rad`: writes
+/// scratch.orientation, turn, force and position.
 IterateChange update_iterate(const Rod& rod, double max_turn_rad, RodScratch& scratch);
 
 }  // namespace ostium::core

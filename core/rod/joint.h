@@ -7,11 +7,13 @@ namespace ostium::core {
 
 /// A joint between frames a (proximal) and b (distal).
 ///
-/// Its strain is the rotation vector theta of R_a^T R_b over the cell's length, the mean Darboux vector. A turn phi of
-/// the frames changes it by d(theta) = J^-1(theta) R_a^T (phi_b - phi_a), with the inverse left Jacobian of SO(3)
+/// Its strain is the rotation vector theta of R_a^T R_b over the cell's length, i.e. the mean Darboux vector. A turn
+/// phi of the frames changes it by d(theta) = J^-1(theta) R_a^T (phi_b - phi_a), with the inverse left Jacobian of
+/// SO(3)
 ///   J^-1 = I - [theta]x / 2 + c [theta]x^2,  c = 1/12 + theta^2 / 720 + ...
-/// (Sola, Deray, Atchuthan 2018, eq. 146), so the moment in the world is R_a J^-T m. Its tangent is taken at the mid
-/// frame; the moment turning with the mean of both frames gives the term [m]x / 2 that `Chain` couples by.
+/// (Sola, Deray, Atchuthan 2018, eq. 146), so the world-frame moment is R_a J^-T m. Its tangent is taken at the mid
+/// frame; since the moment turns with the mean of both frames, there is the term [m]x / 2 that `BlockTridiagonal`
+/// couples by.
 template <class T>
 struct Joint {
   S3<T> stiffness;  ///< world frame, N m/rad
@@ -38,7 +40,7 @@ Joint<T> joint(const Law& law, const V3<T>& rest, T length, const Q4<T>& a, Q4<T
   const V3<T> tm = cross(theta, m);
   out.moment = matrix(a) * (m + madd(T{} + 0.5, tm, c * cross(theta, tm)));
 
-  const T sign = with_sign(T{} + 1.0, relative.w);  // q and -q are one rotation
+  const T sign = with_sign(T{} + 1.0, relative.w);  // q and -q are the same rotation
   const M3<T> R =
       matrix(normalised(Q4<T>{madd(sign, b.w, a.w), madd(sign, b.x, a.x), madd(sign, b.y, a.y), madd(sign, b.z, a.z)}));
   out.stiffness = per_length * symmetric_times_transpose(R * C, R);

@@ -1,8 +1,8 @@
 #pragma once
-/// What holds or loads a stretch of a rod between its ends. After predict_nodes, before walls.
+/// Loads and ties on a stretch of a rod between its ends. After predict_nodes, before walls.
 ///
-/// `begin` to `end` - 1 are those of a chain's nodes that are the rod's own: of a nest's, where it is the outermost.
-/// The last of them is the rod's tip.
+/// `begin` to `end` - 1 are the chain's nodes that belong to the rod: in a nest, those where it is the outermost. The
+/// last of them is the rod's tip.
 #include "core/model/inputs.h"
 #include "core/model/rod.h"
 #include "core/model/scratch.h"
@@ -12,7 +12,7 @@ namespace ostium::core {
 /// Spreads a load evenly over the nodes of its stretch.
 void add_stretch_load(const Rod& rod, const StretchLoad& load, int begin, int end, RodScratch& scratch);
 
-/// Ties the node nearest to a tether's place.
+/// Ties the node nearest to a tether's position.
 void tie_to_tether(const Rod& rod, const Tether& tether, int begin, int end, RodScratch& scratch);
 
 }  // namespace ostium::core

@@ -19,7 +19,7 @@ struct Bench {
 
   void step();
   RodEquilibrium settle();
-  bool is_unstable();  ///< the present shape, taken as an equilibrium
+  bool is_unstable();  ///< whether the present shape, taken as an equilibrium, is unstable
   RodState& rod() { return state.rods[0]; }
   Eigen::Vector3d tip() const { return state.rods[0].position[model.rods[0].elements]; }
 
@@ -32,23 +32,23 @@ struct Bench {
 
 RodDescription steel_wire(const WireOptions& options);
 Bench steel_bench(const WireOptions& options);
-/// One rod of any description, along x.
+/// A bench with one rod of any description, along x.
 Bench bench_of(const RodDescription& rod, bool gravity = true);
 
 /// A frame with d3 along x, d1 along -z, d2 along y.
 EndState along_x();
-/// `end` turned about the world axis through its origin.
+/// The frame rotated by a vector in world axes.
 Eigen::Vector4d turned_frame(const Eigen::Vector4d& q_W, const Eigen::Vector3d& rotation_W_rad);
 
-/// Lays a rod along a curve: element j gets the given frame; nodes are strung from the base. Sets both ends' poses, the
-/// tip's to `tip_q_W`, and clears motion and forces.
+/// Lays a rod along a curve: element j gets frame j; nodes follow from the base. Sets both ends' poses, the tip's frame
+/// to `tip_q_W`, and clears motion and forces.
 void lay_out(const Rod& rod, const std::vector<Eigen::Vector4d>& q_W, const Eigen::Vector4d& tip_q_W, RodState& state);
 
-/// Lays a rod into a plane circle through its base, closed, its tip frame turned by `twist_rad` about the tangent
-/// against its base frame and the twist spread evenly.
+/// Lays a rod into a closed plane circle through its base; the tip frame is turned by `twist_rad` about the tangent
+/// relative to the base frame, with the twist spread evenly.
 void lay_out_ring(const Rod& rod, double twist_rad, RodState& state);
 
-/// The least x in [stable, unstable] at which `is_unstable(x)` holds, to the given fraction, by bisection.
+/// The smallest x in [stable, unstable] with `is_unstable(x)`, to the given relative accuracy, by bisection.
 template <class F>
 double critical(double stable, double unstable, double fraction, F&& is_unstable) {
   while (unstable - stable > fraction * unstable) {

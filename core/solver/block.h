@@ -1,14 +1,13 @@
 #pragma once
-/// The block of one element in a chain's matrix, and its elimination; for the solver alone.
+/// The matrix block of one element and its elimination. Internal to the solver.
 ///
-/// With R rolls an element has 3 + R turns and 3 forces. The turns' part is kept as a 3 x 3 matrix, R vectors and an R
-/// x R matrix, so that without rolls nothing is left of them, and with them nothing is multiplied that is known to be
-/// zero.
+/// With R rolls an element has 3 + R turns and 3 forces. The turns are stored as a 3 x 3 matrix, R vectors and an R x R
+/// matrix, so that R = 0 costs nothing and known zeros are not multiplied.
 #include "core/solver/block_tridiagonal.h"
 
 namespace ostium::core {
 
-/// Rows that belong to the rolls of an element. R = 0 has none, and costs nothing.
+/// Entries that belong to an element's rolls. R = 0 has none and costs nothing.
 template <class X, int R>
 struct Rolls {
   X of[R];
@@ -21,7 +20,7 @@ struct Rolls<X, 0> {
   const X& operator[](int) const { __builtin_unreachable(); }
 };
 
-/// A turn and the rolls with it, or what works on them.
+/// A turn with its rolls, or the torques on them.
 template <class T, int R>
 struct Turn {
   V3<T> v;
@@ -36,20 +35,20 @@ struct Stiffness {
   Rolls<Rolls<T, R>, R> rr;
 };
 
-/// From forces (3) to a turn and its rolls: G and what fills it in.
+/// Maps forces (3) to a turn and its rolls: G and its fill-in.
 template <class T, int R>
 struct Lever {
   M3<T> v;
   Rolls<V3<T>, R> r;
 };
 
-/// How the turns of an element meet those of the next.
+/// Coupling of an element's turns to those of the next.
 template <class T, int R>
 struct Coupling {
   M3<T> v;
-  Rolls<V3<T>, R> vr;  ///< turn here, roll there
-  Rolls<V3<T>, R> rv;  ///< roll here, turn there
-  Rolls<T, R> rr;      ///< the same roll
+  Rolls<V3<T>, R> vr;  ///< turn of this element, roll of the next
+  Rolls<V3<T>, R> rv;  ///< roll of this element, turn of the next
+  Rolls<T, R> rr;      ///< the same roll of both
 };
 
 /// Block row of one element: [K G; G^T -A] and its right-hand side.
@@ -76,7 +75,7 @@ BlockRow<T, R> operator+(const BlockRow<T, R>& a, const BlockRow<T, R>& b) {
   return out;
 }
 
-/// Positive where a symmetric matrix is positive definite, else not: the least of its leading minors.
+/// Smallest leading minor of a symmetric matrix: positive if and only if it is positive definite.
 template <class T>
 T least_minor(const S3<T>& s) {
   const T second = nmadd(s.xy, s.xy, s.xx * s.yy);
@@ -85,7 +84,7 @@ T least_minor(const S3<T>& s) {
   return least(s.xx, least(second, third));
 }
 
-/// Inverse of the rolls' part.
+/// Inverse of the rolls' block.
 template <class T>
 Rolls<Rolls<T, 0>, 0> inverse(const Rolls<Rolls<T, 0>, 0>&, T&) {
   return {};
@@ -116,11 +115,11 @@ Rolls<Rolls<T, 3>, 3> inverse(const Rolls<Rolls<T, 3>, 3>& a, T& minor) {
   return out;
 }
 
-/// Inverse of K + G A^-1 G^T = S; `minor` becomes negative where S is not positive definite.
+/// Inverse of S = K + G A^-1 G^T; `minor` becomes negative where S is not positive definite.
 template <class T, int R>
 Stiffness<T, R> inverse(const Stiffness<T, R>& S, T& minor) {
   const auto rr_inv = inverse(S.rr, minor);
-  Rolls<V3<T>, R> lean;  // of the turn on the rolls
+  Rolls<V3<T>, R> lean;  // coupling of the turn to the rolls
   S3<T> rest = S.v;
   for (int m = 0; m < R; ++m) {
     lean[m] = V3<T>{};
@@ -151,7 +150,7 @@ Turn<T, R> operator*(const Stiffness<T, R>& S, const Turn<T, R>& a) {
   return out;
 }
 
-/// row + a b^T
+/// m + a b^T
 template <class T>
 M3<T> outer_added(const V3<T>& a, const V3<T>& b, const M3<T>& m) {
   return {madd(a.x, b, m.r0), madd(a.y, b, m.r1), madd(a.z, b, m.r2)};
@@ -179,8 +178,8 @@ struct TridiagonalBlock {
 
 template <int R>
 struct EliminationHalt {
-  BlockRow<Lanes, R> carried{};   ///< what elements eliminated so far leave on the next
-  Lanes minor = splat<Lanes>(1);  ///< the least of theirs
+  BlockRow<Lanes, R> carried{};   ///< Schur complement of the eliminated elements on the next
+  Lanes minor = splat<Lanes>(1);  ///< smallest of theirs
 };
 
 /// D^-1 (torque, gap) for D = [K G; G^T -A].
@@ -209,8 +208,8 @@ void factorise(const BlockRow<T, R>& r, S3<T>& A_inv, Lever<T, R>& W, Stiffness<
   S_inv = inverse(S, minor);
 }
 
-/// Eliminates a row; returns what it leaves on the next one, -E^T D^-1 E and -E^T D^-1 b with
-/// E = diag(turn_coupling, force_coupling).
+/// Eliminates a row; returns its Schur complement on the next one, -E^T D^-1 E and -E^T D^-1 b with E =
+/// diag(turn_coupling, force_coupling).
 template <int R>
 BlockRow<Lanes, R> eliminate(const BlockRow<Lanes, R>& r, TridiagonalBlock<R>& block, Lanes& minor) {
   factorise(r, block.A_inv, block.W, block.S_inv, minor);

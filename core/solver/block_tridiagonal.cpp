@@ -12,7 +12,7 @@ namespace ostium::core {
 
 namespace {
 
-/// The row of an element by itself, from its numbers; read(number) and read_roll(roll, number) give one each.
+/// An element's own row; read(number) and read_roll(roll, number) return its entries.
 template <class T, int R, class Read, class ReadRoll>
 BlockRow<T, R> row(const S3<T>& P_sum, Read&& read, ReadRoll&& read_roll) {
   const auto vector = [&](int n) -> V3<T> { return {read(n), read(n + 1), read(n + 2)}; };
@@ -75,8 +75,8 @@ BlockRow<double, R> middle_row(const BlockTridiagonal& c) {
       load6<double>(c.compliance, m) + load6<double>(c.compliance, m + 1), [&](int n) { return *from[n]; }, of_roll);
 }
 
-/// Towards the middle from step `from` on, or from the last halt before it: fills the blocks. What all lanes leave on
-/// their middle element.
+/// Eliminates towards the middle from step `from`, or from the last halt before it, filling the blocks. Returns the
+/// Schur complements of all lanes on their middle elements.
 template <int R>
 [[gnu::flatten]] EliminationHalt<R> eliminate_halves(Walks<R>& walks, int from, TridiagonalFactors& factors) {
   std::vector<TridiagonalBlock<R>>& blocks = factors.blocks<R>();
@@ -114,7 +114,7 @@ void store(BlockTridiagonal& chain, int j, const V3<double>& turn, const Rolls<d
   for (int m = 0; m < R; ++m) chain.rolls[m].turn.at(0)[j] = rolls[m];
 }
 
-/// Solves a chain's middle element, and hands its solution to both lanes; false if the matrix is not definite.
+/// Solves a chain's middle element and passes its solution to both lanes; false if the matrix is not definite.
 template <int R>
 bool solve_middle(BlockTridiagonal& chain, int front, const BlockRow<Lanes, R>& carried, const Lanes& minor,
                   TridiagonalBlock<R>& block, Turn<Lanes, R>& turn, V3<Lanes>& force) {
@@ -136,7 +136,7 @@ bool solve_middle(BlockTridiagonal& chain, int front, const BlockRow<Lanes, R>& 
   return minor[front] > 0 && minor[front + 1] > 0 && own_minor > 0;
 }
 
-/// From the middle back to the ends.
+/// Back substitution from the middle to the ends.
 template <int R>
 [[gnu::flatten]] void substitute_back(const Walks<R>& walks, const std::vector<TridiagonalBlock<R>>& blocks,
                                       BlockTridiagonal& first, BlockTridiagonal* second, Turn<Lanes, R> turn,
@@ -163,7 +163,7 @@ template <int R>
   }
 }
 
-/// Number of negative eigenvalues of a symmetric 3 x 3 matrix, by the signs of its pivots.
+/// Number of negative eigenvalues of a symmetric 3 x 3 matrix, from the signs of its pivots.
 int negatives(const S3<double>& s) {
   const double first = s.xx, second = s.yy - s.xy * s.xy / s.xx;
   const double yz = s.yz - s.xy * s.xz / s.xx;
@@ -213,7 +213,8 @@ void solve_again(BlockTridiagonal& chain, int same, TridiagonalFactors& factors)
 
 int negative_pivots(const BlockTridiagonal& chain, const TridiagonalFactors& factors) {
   assert(chain.roll_count == 0);
-  // Inertia of the whole system: it has 3 N negative eigenvalues for its 3 N constraint forces; more are unstable.
+  // Inertia of the whole system: 3 N negative eigenvalues belong to the 3 N constraint forces; any more are
+  // instabilities.
   const Walks<0> walks(chain, chain);
   int negative = 0;
   const auto count = [&](int t, int l) {

@@ -1,28 +1,27 @@
 #pragma once
 /// One Newton step of a rod: a symmetric block-tridiagonal saddle-point system, solved directly in time linear in the
-/// elements.
+/// number of elements.
 ///
-/// Unknowns per element j: its turn phi_j (world frame, rad) and its internal force n_j (world frame, N, what the
-/// distal side does to the proximal one). With d_j = l_j d3_j, [d]x the cross product, H and m the stiffness and moment
-/// of joints, P the compliance of nodes (displacement per force, m/N):
+/// Unknowns per element j: its turn phi_j (world frame, rad) and its internal force n_j (world frame, N, distal on
+/// proximal side). With d_j = l_j d3_j, [d]x the cross product, H and m the stiffness and moment of joints, P the
+/// compliance of nodes (displacement per force, m/N):
 ///
 ///   K_j phi_j - [d_j]x n_j + (-H_j+1 + [m_j+1]x / 2) phi_j+1 + (-H_j - [m_j]x / 2) phi_j-1 = torque_j
 ///   [d_j]x phi_j - (P_j + P_j+1) n_j + P_j+1 n_j+1 + P_j n_j-1                             = gap_j
 ///
-/// plus, in A_j = P_j + P_j+1, the give c d d^T of tolerances.h: without it, the tension between two held ends of a
-/// straight rod would be anything.
+/// plus, in A_j = P_j + P_j+1, the axial compliance c d d^T of tolerances.h: without it, the tension between two held
+/// ends of a straight rod would be undetermined.
 ///
 /// Where rods run inside one another, elements also have rolls: turns psi of further frames about d3, one `Roll` each,
-/// that only joints couple, among themselves and to the turns. A roll m adds to the energy, element by element and
-/// joint by joint,
+/// coupled only by joints, to each other and to the turns. Roll m adds to the energy, per element and per joint,
 ///   k psi_j^2 / 2 + psi_j b_j . phi_j - torque psi_j + phi_j . u_j+1 psi_j+1 + psi_j w_j+1 . phi_j+1
 ///   + c_j+1 psi_j psi_j+1 + beside_j psi_j (roll m - 1)_j
 ///
-/// A node that is held in a direction has a P without that direction, whatever its mass: rigid constraints at nodes
-/// cost nothing and leave the system well conditioned.
+/// A node that is held in a direction has a P without that direction, regardless of its mass: rigid constraints at
+/// nodes cost nothing and leave the system well conditioned.
 ///
-/// Method: block LDL^T from both ends towards the middle (a twisted factorisation). The two halves of a rod, and of a
-/// second rod, run side by side in the four lanes of a register, so two rods cost as much as one.
+/// Method: block LDL^T from both ends towards the middle (a twisted factorisation). The two halves of a rod, and those
+/// of a second rod, occupy the four lanes of a register, so two rods cost as much as one.
 #include <memory>
 #include <vector>
 
@@ -39,8 +38,8 @@ struct Roll {
   Field<1> stiffness;  ///< k_j, N m/rad, (#elements), > 0
   Field<1> beside;     ///< N m/rad, (#elements)
   Field<3> with_turn;  ///< b_j, N m/rad, (#elements)
-  Field<3> ahead;      ///< u_i, N m/rad, (#nodes): of the element before joint i and the roll behind it
-  Field<3> behind;     ///< w_i, N m/rad, (#nodes): of the roll before it and the element behind
+  Field<3> ahead;      ///< u_i, N m/rad, (#nodes): turn of the element before joint i, roll of the one after
+  Field<3> behind;     ///< w_i, N m/rad, (#nodes): roll of the element before, turn of the one after
   Field<1> both;       ///< c_i, N m/rad, (#nodes)
   Field<1> torque;     ///< N m, (#elements)
   Field<1> turn;       ///< the solution psi_j, rad, (#elements)
@@ -51,7 +50,7 @@ struct BlockTridiagonal {
 
   int elements = 0;  ///< N
   int first = 0;     ///< the system is that of elements first to N - 1, nodes first to N; at least 3 elements
-  // --- the system; every field has N + 1 entries, so that all share one stride
+  // --- the system; every field has N + 1 entries, so that all have the same stride
   Field<6> stiffness;        ///< K_j, N m/rad, (#elements)
   Field<6> joint_stiffness;  ///< H_i, N m/rad, (#nodes); inner joints couple, 1 <= i < N
   Field<3> joint_moment;     ///< m_i, N m, (#nodes)
@@ -64,17 +63,17 @@ struct BlockTridiagonal {
   // --- the solution
   Field<3> turn;         ///< phi_j, rad, (#elements)
   Field<3> force;        ///< n_j, N, (#elements)
-  bool definite = true;  ///< every motion that the constraints leave costs energy; else the solution leads to a saddle
+  bool definite = true;  ///< every motion within the constraints costs energy; else the solution is a saddle point
 };
 
-/// What is eliminated at one element, in four chains side by side, each with R rolls.
+/// Factors of one element, in four chains side by side, each with R rolls.
 template <int R>
 struct TridiagonalBlock;
-/// An elimination between two elements, to go on from there.
+/// State of an elimination between two elements, from which it can resume.
 template <int R>
 struct EliminationHalt;
 
-/// Working memory of a solve: any content is fine on entry. Afterwards it holds the pivots.
+/// Working memory of a solve; any content is fine on entry. Afterwards it holds the pivots.
 class TridiagonalFactors {
  public:
   TridiagonalFactors();
@@ -96,19 +95,19 @@ class TridiagonalFactors {
   std::unique_ptr<Blocks> blocks_;
 };
 
-/// Solves one chain, or two at once (`second` may be null; it may be shorter or longer, with as many rolls); `factors`
-/// has room for the longer. A chain's solution does not depend, to the last bit, on what shares the call. Does not
-/// allocate. Two threads may solve different chains with different factors.
+/// Solves one chain, or two at once (`second` may be null; it may differ in length but must have as many rolls);
+/// `factors` must have room for the longer one. A chain's solution is bit-identical whether or not another one shares
+/// the call. Does not allocate. Different threads may solve different chains with different factors.
 void solve(BlockTridiagonal& first, BlockTridiagonal* second, TridiagonalFactors& factors);
 
-/// Solves the chain of the last `solve(chain, nullptr, factors)` or `solve_again` once more, where compliance and gap
-/// have changed since, but not of the `same` elements at either end, which are not eliminated again. As `solve` to the
-/// last bit.
+/// Solves the chain of the last `solve(chain, nullptr, factors)` or `solve_again` once more after compliance and gap
+/// have changed, except for the `same` elements at either end, which are not eliminated again. Bit-identical to
+/// `solve`.
 void solve_again(BlockTridiagonal& chain, int same, TridiagonalFactors& factors);
 
-/// Number of directions in which the system of the last `solve(chain, nullptr, factors)` has negative stiffness, on
-/// the space of motions that its constraints leave (Sylvester's law of inertia, from the pivots): 0 where an
-/// equilibrium is stable. Of a chain without rolls.
+/// Number of directions with negative stiffness in the system of the last `solve(chain, nullptr, factors)`, among
+/// motions that satisfy its constraints (Sylvester's law of inertia, from the pivots): 0 for a stable equilibrium. For
+/// a chain without rolls.
 int negative_pivots(const BlockTridiagonal& chain, const TridiagonalFactors& factors);
 
 }  // namespace ostium::core

@@ -1,6 +1,6 @@
 #pragma once
-/// How the four lanes of a register walk through one chain or two, from the ends towards the middle, and what they read
-/// on their way.
+/// How the four lanes of a register run through one or two chains, from the ends towards the middle, and the numbers
+/// they read.
 #include <algorithm>
 
 #include "core/solver/block.h"
@@ -12,25 +12,25 @@ inline constexpr int halves = 2;
 
 inline int middle(const BlockTridiagonal& chain) { return (chain.first + chain.elements) / 2; }
 
-/// The way of one lane: from one end of one chain towards its middle. A lane with fewer elements starts later, and
-/// idles until then.
+/// The path of one lane: from one end of a chain towards its middle. A lane with fewer elements starts later and idles
+/// until then.
 struct Walk {
   const BlockTridiagonal* chain;
-  bool forward;  ///< from the base
+  bool forward;  ///< starts at the base
   int blocks;    ///< elements before the middle
-  int wait;      ///< steps before the first
+  int wait;      ///< steps before it starts
 
   int element(int t) const { return forward ? chain->first + t - wait : chain->elements - 1 - (t - wait); }
 };
 
-/// The entry, in a field's padding, of a regular block without coupling: K and the compliance behind are identities,
-/// all else is zero.
-/// There are two, as behind is ahead for lanes that walk the other way; `padded` leaves four entries for them.
+/// Index, in a field's padding, of a regular block without coupling: K and the compliance behind are identities, the
+/// rest is zero.
+/// There are two, since behind and ahead swap for lanes that run the other way; `padded` leaves four entries for them.
 inline int idle_entry(const BlockTridiagonal& chain, bool forward) {
   return chain.stiffness.stride() - (forward ? 4 : 2);
 }
 
-/// Numbers that an elimination step reads: those of its element, of the node behind it and of the node ahead.
+/// Numbers that an elimination step reads: of its element, the node behind it and the node ahead.
 enum Number {
   at_K = 0,
   at_arm = 6,
@@ -54,7 +54,7 @@ enum RollNumber {
   roll_numbers = 13
 };
 
-/// The four lanes of a solve, and what they read at a step.
+/// The four lanes of a solve and the numbers they read at each step.
 template <int R>
 class Walks {
  public:
@@ -68,7 +68,7 @@ class Walks {
     }
     for (int l = 0; l < lane_count; ++l) {
       lanes_[l].wait = steps_ - lanes_[l].blocks;
-      // Seen from an element, the node behind is its own when walking forward, the next one when walking back.
+      // Seen from an element, the node behind is its own when running forward, and the next one when running backward.
       const BlockTridiagonal& c = *lanes_[l].chain;
       const bool forward = lanes_[l].forward;
       const int behind = forward ? 0 : 1, ahead = 1 - behind;
@@ -101,7 +101,7 @@ class Walks {
   Lanes direction() const { return direction_; }
   const Walk& lane(int l) const { return lanes_[l]; }
 
-  /// Where the lanes are at step t.
+  /// Sets the lanes' positions at step t.
   void move_to(int t) {
     for (int l = 0; l < lane_count; ++l)
       at_[l] = t < lanes_[l].wait ? idle_entry(*lanes_[l].chain, lanes_[l].forward) : lanes_[l].element(t);

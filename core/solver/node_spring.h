@@ -1,11 +1,11 @@
 #pragma once
-/// Springs between a node and the world: what holds a node, enters a rod's system here, node by node.
+/// Springs between a node and the world: how everything that holds a node enters the rod's system.
 #include "core/math/field.h"
 
 namespace ostium::core {
 
 /// Ties a node, r = target + P (internal force), to the plane n . r = place by a spring of the given compliance (m/N;
-/// 0: rigid, infinite: none). n is a unit vector.
+/// 0: rigid, infinite: no effect). n is a unit vector.
 template <class T>
 void tie(const V3<T>& n, T place, T compliance, S3<T>& P, V3<T>& target) {
   const V3<T> Pn = P * n;

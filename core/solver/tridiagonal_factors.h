@@ -1,5 +1,5 @@
 #pragma once
-/// The working memory of a solve, by the number of rolls.
+/// Working memory of a solve, by number of rolls.
 #include <tuple>
 
 #include "core/solver/block.h"
@@ -7,7 +7,7 @@
 
 namespace ostium::core {
 
-inline constexpr int between_halts = 8;  ///< steps: a halt is as large as a block, and mostly read a few steps early
+inline constexpr int between_halts = 8;  ///< steps; a halt is as large as a block, and resumed only a few steps back
 
 struct TridiagonalFactors::Blocks {
   template <int R>

@@ -31,7 +31,7 @@ void report_forces(const Model& model, const Strand& strand, RodReport& report) 
               -s.chain.joint_moment[first], report);
 }
 
-/// The iterate becomes the strand's state.
+/// Writes the iterate into the strand's state.
 void finish(const State& state, const Scratch& scratch, const Strand& strand, bool halved, StepReport& report) {
   RodScratch& s = *strand.s;
   const Rod& rod = s.inside;
@@ -47,7 +47,7 @@ void finish(const State& state, const Scratch& scratch, const Strand& strand, bo
   const bool solved = usable(s);
   if (!solved) string_iterate(rod, own, s);
 
-  // Strains and moments of the frames that are committed, not of those that were linearised about.
+  // Strains and moments of the committed frames, not of those that were linearised about.
   if (strand.nest)
     measure_layers(state, *strand.nest);
   else if (own.strain.size() > 0)
@@ -56,7 +56,7 @@ void finish(const State& state, const Scratch& scratch, const Strand& strand, bo
     linearise_end_joints(rod, own, joints_of(s.inputs), scratch.step_s, s);
   if (solved) {
     commit(rod, s, scratch.step_s, own);
-    // What snaps over among walls, too fast for a whole step, goes on from rest, piece by piece, heavily damped.
+    // A snap-through among walls, too fast for a whole step, continues from rest, part by part, heavily damped.
     if (s.step_s < scratch.step_s || halved) halt(rod, own);
     commit_walls(strand, report.touches);
   } else {
@@ -64,7 +64,7 @@ void finish(const State& state, const Scratch& scratch, const Strand& strand, bo
   }
 }
 
-/// A nest's state goes back to its rods.
+/// Returns a nest's state to its rods.
 void unnest(const Model& model, const Strand& strand, State& state, Scratch& scratch, StepReport& report) {
   Nest& nest = *strand.nest;
   find_centreline(nest);

@@ -13,7 +13,7 @@ inline bool usable(const RodScratch& s) {
   return s.progress != Progress::failed && s.defect <= tolerances::usable_stretch;
 }
 
-/// The solution becomes the state. `halved`: of a part of the step, since the whole had none.
+/// Writes the solution into the state. `halved`: of a part of the step, since the whole had none.
 void finish_all(const Model& model, bool halved, State& state, Scratch& scratch, StepReport& report);
 
 }  // namespace ostium::core

@@ -16,7 +16,7 @@ namespace ostium::core {
 
 namespace {
 
-/// A time long against the rod's slowest motion, so that inertia hardly matters any more.
+/// A time long compared with the rod's slowest motion, so that inertia hardly matters.
 double longest_time(const Rod& rod) {
   double compliance = 0;  // of bending, integrated: L / EI
   for (int i = rod.first; i < rod.nodes(); ++i)
@@ -25,7 +25,7 @@ double longest_time(const Rod& rod) {
          std::sqrt(rod.total_mass_kg * rod.total_length_m * rod.total_length_m * compliance);
 }
 
-/// Nodes stay near the iterate: r = p + (time^2 / m) (f + internal force), p the last iterate.
+/// Proximal term that keeps nodes near the last iterate p: r = p + (time^2 / m) (f + internal force).
 void stay_near(const Rod& rod, const Eigen::Vector3d& gravity_W, const Eigen::Vector3d& tip_force_W, double time_s,
                RodScratch& s) {
   const double time2 = time_s * time_s;
@@ -51,7 +51,7 @@ void start_at(const Rod& rod, const RodState& state, RodScratch& s) {
   });
 }
 
-/// Solves one Newton step from the iterate.
+/// Solves one Newton step about the iterate.
 void solve_step(const Rod& rod, const Eigen::Vector3d& gravity_W, const RodState& state, double time_s, RodScratch& s,
                 TridiagonalFactors& factors) {
   stay_near(rod, gravity_W, s.inputs.tip_force_W_N, time_s, s);
@@ -62,7 +62,7 @@ void solve_step(const Rod& rod, const Eigen::Vector3d& gravity_W, const RodState
   solve(s.chain, nullptr, factors);
 }
 
-/// Where nodes are strung from: the base, unless only the tip is held in place. A guided end has slid to the iterate.
+/// End from which nodes are placed: the base, unless only the tip is fixed in position. A guided end may have slid.
 struct Anchor {
   bool from_base;
   bool exists;
@@ -78,7 +78,7 @@ struct Anchor {
   }
 };
 
-/// Distance of the strung nodes from where the end opposite to the anchor is held.
+/// Distance between the last placed node and the hold at the end opposite to the anchor.
 double closure(const Rod& rod, const RodState& state, const RodInputs& inputs, const Anchor& anchor,
                const RodScratch& s) {
   const Hold hold = anchor.from_base ? inputs.tip.hold : inputs.base.hold;
@@ -89,8 +89,8 @@ double closure(const Rod& rod, const RodState& state, const RodInputs& inputs, c
   return off.norm();
 }
 
-/// Whether the step that was found takes back a good part of the last one, which went too far: a law that softens
-/// (superelastic.h) sends Newton's method to and fro across its bend for ever.
+/// Whether the new step takes back a good part of the last one, which then went too far. With a softening law
+/// (superelastic.h) Newton's method would otherwise oscillate across the bend of the curve for ever.
 bool turns_back(const Rod& rod, const RodScratch& s) {
   double along = 0, last = 0;
   for (int j = rod.first; j < rod.elements; ++j) {
@@ -116,8 +116,8 @@ RodEquilibrium settle(const Rod& rod, const Eigen::Vector3d& gravity_W, const Ro
     out.converged = time_s == longest && out.turn_rad < tolerances::static_tolerance_rad &&
                     closure(rod, state, s.inputs, anchor, s) < tolerances::static_closure * rod.total_length_m;
 
-    // A long step, or one that may lead uphill, reaches beyond the linear model: try again with less time, and be
-    // slower to take more.
+    // The step is too long for the linear model, or may lead uphill: retry with a shorter time, and increase it more
+    // slowly afterwards.
     const bool trusted = out.turn_rad < tolerances::max_turn_rad && s.chain.definite;
     if (!out.converged && !trusted) {
       time_s /= 4;
@@ -125,7 +125,7 @@ RodEquilibrium settle(const Rod& rod, const Eigen::Vector3d& gravity_W, const Ro
       continue;
     }
     part = turns_back(rod, s) ? part / 2 : std::min(1.0, 2 * part);
-    for_packs(rod.first, rod.elements, [&]<class T>(T, int j) { store3(s.turn, j, V3<T>{}); });  // this step's alone
+    for_packs(rod.first, rod.elements, [&]<class T>(T, int j) { store3(s.turn, j, V3<T>{}); });  // of this step only
     if (!update_iterate(rod, std::min(tolerances::max_turn_rad, part * out.turn_rad), s).finite) return out;
     string_nodes(rod, s.orientation, anchor.of(rod, s), anchor.from_base, s.position);
     time_s = std::min(longest, time_s * (out.turn_rad < 0.1 ? growth : 1.5));
@@ -175,7 +175,7 @@ int negative_directions(const Model& model, const Inputs& inputs, const State& s
   cut_at_introducer(model.rods[r], state.rods[r], s.inside);
   if (!rod.in_body()) return 0;
   start_at(rod, state.rods[r], s);
-  // The first solve finds the internal forces, the second counts with the stiffness that they make.
+  // The first solve finds the internal forces, the second includes their geometric stiffness.
   for (int pass = 0; pass < 2; ++pass) {
     solve_step(rod, model.gravity_W, state.rods[r], longest_time(rod), s, scratch.factors);
     for_packs(rod.first, rod.elements, [&]<class T>(T, int j) { store3(s.force, j, load3<T>(s.chain.force, j)); });

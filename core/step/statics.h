@@ -1,5 +1,5 @@
 #pragma once
-/// Static equilibrium on the mechanics of `step`: what a rod comes to rest in.
+/// Static equilibrium with the mechanics of `step`.
 #include <cstdint>
 
 #include "core/model/inputs.h"
@@ -13,22 +13,22 @@ struct RodEquilibrium {
   bool converged = false;
   int iterations = 0;
   double turn_rad = 0;  ///< largest turn of an element in the last iteration
-  /// Independent motions that would lower the energy: 0 if the equilibrium is stable, 1 just behind a buckling load.
+  /// Independent motions that lower the energy: 0 for a stable equilibrium, 1 just above a buckling load.
   int negative_directions = 0;
-  std::uint32_t trouble = 0;  ///< what of the inputs was limited: bits of Trouble (step.h)
+  std::uint32_t trouble = 0;  ///< how the inputs were limited: bits of Trouble (report.h)
 };
 
 /// Puts each rod of `state` into the equilibrium that continues from its shape, at rest. Ends are held where `state`
-/// has them, loads are those of `inputs`; drive rates and drag play no part.
+/// has them, loads come from `inputs`; drive rates and drag have no effect.
 ///
-/// Newton's method with a proximal term (as backward Euler would, with steps that grow without bound), so a far start
-/// converges as well, downhill, like a heavily damped motion. Does not allocate. Where it does not converge, `state` is
-/// untouched and the report says so; what is not finite in `inputs` counts as zero.
+/// Newton's method with a proximal term (like backward Euler with ever longer steps), so that it also converges from
+/// afar, downhill, like a heavily damped motion. Does not allocate. Without convergence `state` is unchanged and the
+/// report says so; non-finite values in `inputs` count as zero.
 void find_equilibrium(const Model& model, const Inputs& inputs, State& state, Scratch& scratch,
                       std::vector<RodEquilibrium>& report);
 
-/// Of rod `r` in `state`, which is taken to be an equilibrium under `inputs`: the number of independent motions that
-/// would lower its energy. Internal forces are found, the shape is not touched.
+/// Number of independent motions that would lower the energy of rod `r`, taking `state` as an equilibrium under
+/// `inputs`. Internal forces are computed; the shape is not changed.
 int negative_directions(const Model& model, const Inputs& inputs, const State& state, std::size_t r, Scratch& scratch);
 
 }  // namespace ostium::core

@@ -32,7 +32,7 @@ namespace {
   return true;
 }
 
-/// A part of the step.
+/// A part of the step, as shares of it.
 struct Piece {
   double from = 0, to = 1;
   int halvings = 0;
@@ -43,7 +43,7 @@ struct Piece {
   Piece second_half() const { return {middle(), to, halvings + 1}; }
 };
 
-/// What a hand does in a piece of the step.
+/// Applies feeding and end drives for a part of the step.
 void drive_ends(const Model& model, State& state, Scratch& scratch, StepReport& report) {
   for (std::size_t r = 0; r < model.rods.size(); ++r) {
     RodScratch& s = scratch.rods[r];
@@ -77,7 +77,7 @@ void recall_shapes(const Model& model, const State& state, Scratch& scratch) {
       recall_creep(model.rods[strand.lead], *strand.own, strand.s->inside);
 }
 
-/// What held shapes leave behind, after the step as a whole.
+/// Updates the creep of all rods, once per whole step.
 void creep_all(const Model& model, const Scratch& scratch, State& state) {
   for (std::size_t r = 0; r < model.rods.size(); ++r)
     creep(scratch.rods[r].inside, joints_of(scratch.rods[r].inputs), model.step_s, state.rods[r]);
@@ -91,7 +91,7 @@ void meet_walls(const Model& model, const Inputs& inputs, Piece piece, Scratch& 
   }
 }
 
-/// Where nodes go without internal force, and how they yield to it.
+/// Sets each node's position without internal force, and its compliance.
 void constrain(const Model& model, Scratch& scratch, const Strand& strand) {
   RodScratch& s = *strand.s;
   const auto move = [&](int rod, int begin, int end) {
@@ -141,12 +141,12 @@ void linearise(const State& state, const Strand& strand) {
   turn_at_walls(strand);
 }
 
-/// Whether the solution is near enough to be taken as it is, and to tell by it which walls are touched.
+/// Whether the solution is close enough to be taken in full and to decide contact.
 bool is_near(const RodScratch& s) {
   return s.chain.definite && largest_turn(s.inside, s.chain) <= tolerances::max_turn_rad;
 }
 
-/// Solves a strand that walls hold, until its ties hold where it pushes and nowhere else.
+/// Solves a strand in contact until its ties are those that push.
 void solve_held(const Model& model, const Strand& strand, Scratch& scratch) {
   strand.contact->changes = 0;
   BlockTridiagonal& chain = strand.s->chain;
@@ -155,7 +155,7 @@ void solve_held(const Model& model, const Strand& strand, Scratch& scratch) {
     solve_again(chain, strand.contact->same, scratch.factors);
 }
 
-/// Strands that are open; lone rods in the open two at a time, as a register has lanes for two.
+/// Solves strands that have not converged; single rods without walls two at a time, since a register holds two.
 void solve_open(const Model& model, Scratch& scratch) {
   RodScratch* waiting = nullptr;
   for (const Strand& strand : scratch.strands) {
@@ -176,7 +176,7 @@ void solve_open(const Model& model, Scratch& scratch) {
 void take_solution(const Strand& strand, RodReport& report) {
   RodScratch& s = *strand.s;
   ++report.iterations;
-  // A rod pushed beyond what it bears for a step would be solved onto the ridge between its ways of buckling.
+  // A rod loaded beyond buckling within a step would be solved onto the ridge between its buckling directions.
   if (!s.chain.definite && s.geometric == GeometricStiffness::with) {
     s.geometric = GeometricStiffness::without;
     return;
@@ -185,8 +185,8 @@ void take_solution(const Strand& strand, RodReport& report) {
   if (strand.nest && change.finite) update_layers(change.fraction, *strand.nest);
   report.stretch = change.stretch;
   s.defect = change.defect;
-  // The defect is quadratic in the turn of this iteration, so a small one says that the moments balance, too. A large
-  // give is a rod that has not buckled yet, or cannot.
+  // The defect is quadratic in this iteration's turn, so a small defect means that moments balance, too. A large axial
+  // stretch means a rod that has not buckled yet, or cannot.
   const bool whole = change.turn_rad <= tolerances::max_turn_rad;
   if (!change.finite)
     s.progress = Progress::failed;
@@ -210,7 +210,7 @@ void iterate(const Model& model, const State& state, Scratch& scratch, StepRepor
   }
 }
 
-/// Rods that touch are solved in turns, until both feel the same.
+/// Solves touching rods alternately until both feel the same force.
 void settle_rod_contacts(const Model& model, const State& state, Scratch& scratch, StepReport& report) {
   while (!any(scratch, Progress::failed) && renew_rod_contacts(scratch)) {
     for (const Strand& strand : scratch.strands) {
@@ -232,8 +232,8 @@ bool all_done(const Model& model, Scratch& scratch) {
   });
 }
 
-/// Strands that move too violently for a step give up their velocity; then, if there are walls, most of the time to
-/// move in: so little moves that it can mostly be solved.
+/// Strands that move too violently for a step lose their velocity; then, if there are walls, also most of the time to
+/// move in, which makes the motion small enough to be solved in most cases.
 void retry_from_rest(const Model& model, const State& state, Scratch& scratch, StepReport& report) {
   const double shares[] = {1, 0.1, 0.01};
   for (const double share : shares) {
@@ -261,7 +261,7 @@ void rescale_histories(const Model& model, double ratio, State& state) {
     if (in_body(model.rods[r], state.rods[r])) rescale_history(model.rods[r], ratio, state.rods[r]);
 }
 
-/// Room for all that a step may report, so that no later one allocates.
+/// Reserves memory for everything a step may report, so that later steps do not allocate.
 void make_room(const Model& model, StepReport& report) {
   report.rods.resize(model.rods.size());
   std::size_t nodes = 0;
@@ -270,7 +270,7 @@ void make_room(const Model& model, StepReport& report) {
   if (model.rods_touch) report.rod_touches.reserve(tolerances::max_rod_contacts);
 }
 
-/// Goes on by a piece of the step; among walls by its halves, if it has no solution as a whole.
+/// Advances by a part of the step; with walls, by its halves if it has no solution as a whole.
 void advance(const Model& model, const Inputs& inputs, Piece piece, State& state, Scratch& scratch,
              StepReport& report) {
   scratch.step_s = (piece.to - piece.from) * model.step_s;

@@ -10,9 +10,9 @@ namespace ostium::core {
 
 /// Advances `state` by model.step_s.
 ///
-/// Second-order backward differences (BDF2) in the positions, first-order in the tiny rotary inertia; positions, frames
-/// and internal forces are solved together, implicitly, by Newton's method from the frames' extrapolation (mostly one
-/// iteration). Cost is linear in the elements.
+/// Second-order backward differences (BDF2) in the positions, first-order in the tiny rotary inertia. Positions, frames
+/// and internal forces are solved together, implicitly, by Newton's method, starting from extrapolated frames (usually
+/// one iteration). Cost is linear in the number of elements.
 ///
 /// `inputs.rods`, `state.rods` and `scratch` must fit the model (asserted). Never throws; does not allocate after the
 /// first call with the same `report`. Bit-identical for the same arguments, whatever `scratch` held. Different states

@@ -51,7 +51,7 @@ void place(const Surface& surface, const Surface::Cluster& c, const SurfaceMomen
   }
 }
 
-/// The box of the corners, and how far they move.
+/// Bounding box of the corners over the step, and their largest displacement.
 void bound(int corners, ClusterPose& c) {
   V3<Lanes> low = splat<Lanes>(1e9) * V3<Lanes>{Lanes{} + 1, Lanes{} + 1, Lanes{} + 1}, high = V3<Lanes>{} - low;
   Lanes move2{};

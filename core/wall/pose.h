@@ -1,5 +1,5 @@
 #pragma once
-/// A surface at both ends of a step, computed where it is asked for.
+/// A surface at both ends of a step, computed on demand.
 #include <immintrin.h>
 
 #include <algorithm>
@@ -10,31 +10,31 @@
 
 namespace ostium::core {
 
-/// One end of a step.
+/// A surface at one end of a step.
 struct SurfaceMoment {
-  int frame[4] = {};  ///< whose positions are mixed, and
+  int frame[4] = {};  ///< frames to interpolate between
   double weight[4] = {};
   Eigen::Vector3d shift_W = Eigen::Vector3d::Zero();
-  double sway = 0;  ///< 0 of a surface that does not
+  double sway = 0;  ///< 0 if the surface does not sway
   int interval = 0;
   bool operator==(const SurfaceMoment&) const = default;
 };
 
-/// Where a cluster's triangles may be during a step, roughly: for a first look, eight at a time. From `low` of the
+/// Rough bounds of a cluster's triangles during a step, for a first test of eight at a time. Relative to `low` of the
 /// cluster's box, m.
 struct TriangleBounds {
-  float x[cluster_size], y[cluster_size], z[cluster_size], radius[cluster_size];  ///< of a ball that holds each
-  /// The plane of each, as the step begins: its unit normal n, and n.p of its points p.
+  float x[cluster_size], y[cluster_size], z[cluster_size], radius[cluster_size];  ///< bounding ball of each
+  /// Plane of each at the beginning of the step: unit normal n, and n.p of its points p.
   float normal_x[cluster_size], normal_y[cluster_size], normal_z[cluster_size], height[cluster_size];
 };
 
-/// A cluster, m.
+/// A cluster during the step, m.
 struct ClusterPose {
-  V3<double> low, high;     ///< the box of its corners during the step
-  double largest_move = 0;  ///< of a corner in the step
+  V3<double> low, high;     ///< box of its corners during the step
+  double largest_move = 0;  ///< of a corner during the step
   Field<3> before, after;   ///< (#corners)
   TriangleBounds bounds{};
-  long computed = -1;  ///< in which step
+  long computed = -1;  ///< step for which it was computed
 };
 
 struct SurfacePose {
@@ -42,17 +42,17 @@ struct SurfacePose {
 
   SurfaceMoment before, after;
   std::vector<ClusterPose> clusters;
-  std::vector<long> listed;  ///< per cluster: the last query that found it
+  std::vector<long> listed;  ///< per cluster: last query that listed it
   long step = 0, query = 0, edits = -1;
-  long stands_since = 0;  ///< the step since which what stands still in the cycle is where it is
+  long stands_since = 0;  ///< the step since which parts that stand still in the cycle have not moved
   bool door_open = false;
   bool goes_on = false;  ///< this step begins where the last one ended, on the same surface
 };
 
-/// Makes `pose` that of a new step.
+/// Sets `pose` to a new step.
 void set_motion(const Surface& surface, const SurfaceMotion& motion, SurfacePose& pose);
 
-/// Both ends of a box, a register each: x, y, z and another number; another number and x, y, z.
+/// Both ends of a box, one register each: x, y, z and an unused number; an unused number and x, y, z.
 struct BoxEnds {
   __m128 low, high;
 
@@ -64,7 +64,7 @@ struct BoxEnds {
   V3<double> highest() const { return {high[1], high[2], high[3]}; }
 };
 
-/// What boxes are held against: where they are to end, and where to begin.
+/// The query box, as bounds for other boxes' low and high ends.
 struct BoxQuery {
   __m128 high, low;
 
@@ -78,15 +78,15 @@ struct BoxQuery {
   }
 };
 
-/// Clusters that may touch a box during the step, and of whose own box, that holds them meanwhile, near(low, high) is
-/// true: writes their numbers to `found`, in a fixed order.
+/// Clusters that may touch a box during the step and whose own box over the step satisfies near(low, high): writes
+/// their numbers to `found`, in a fixed order.
 template <class Near>
 void find_clusters(const Surface& surface, const V3<double>& low, const V3<double>& high, SurfacePose& pose,
                    std::vector<int>& found, Near&& near) {
   found.clear();
   ++pose.query;
   const int nodes = static_cast<int>(surface.nodes.size());
-  // Boxes are moved as far as their corners may sway during the step; mostly it does not.
+  // Boxes are extended by how far their corners may sway during the step; usually there is none.
   const bool sways = pose.before.sway != 0 || pose.after.sway != 0;
   const __m128 least = _mm_set1_ps(static_cast<float>(std::min(pose.before.sway, pose.after.sway))),
                most = _mm_set1_ps(static_cast<float>(std::max(pose.before.sway, pose.after.sway)));
@@ -122,7 +122,7 @@ inline void find_clusters(const Surface& surface, const V3<double>& low, const V
   find_clusters(surface, low, high, pose, found, [](const V3<double>&, const V3<double>&) { return true; });
 }
 
-/// A cluster in this step.
+/// A cluster's pose in this step, computed if needed.
 const ClusterPose& pose_of(const Surface& surface, int cluster, SurfacePose& pose);
 
 }  // namespace ostium::core

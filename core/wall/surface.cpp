@@ -45,7 +45,7 @@ void SurfaceEditor::place(int vertex, int frame, const Eigen::Vector3d& p_W) {
 }
 
 void SurfaceEditor::refit() {
-  std::sort(pending_.begin(), pending_.end(), std::greater<>());  // children stand behind their parents
+  std::sort(pending_.begin(), pending_.end(), std::greater<>());  // children come after their parents
   const int nodes = static_cast<int>(surface_.nodes.size());
   for (int k = 0; k < surface_.frames; ++k) {
     Box* boxes = &surface_.boxes[std::size_t{1} * k * nodes];

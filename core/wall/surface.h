@@ -1,12 +1,12 @@
 #pragma once
-/// A wall: triangles that move through the frames of a cycle. Const once made; the truth that contact is tested
+/// A wall: triangles that move through the frames of a cycle. Constant once made; the reference that contact is tested
 /// against.
 ///
-/// Between frames a vertex moves on a periodic Catmull-Rom spline, so its velocity is continuous. Triangles lie in
-/// clusters of up to 16, the leaves of a tree of boxes. The boxes hold what is in them during a whole interval between
-/// two frames (they are those of the spline's Bezier points), so they are made once and never refitted; positions are
-/// computed in clusters near an instrument alone. A slow motion beside the cycle, of a rhythm of its own, is a second
-/// set of displacements (`sway`), which is added times one number; each box has that of its corners' displacements.
+/// Between frames a vertex moves on a periodic Catmull-Rom spline, so its velocity is continuous. Triangles are grouped
+/// in clusters of up to 16, the leaves of a bounding volume hierarchy. A box encloses its contents over the whole
+/// interval between two frames (it encloses the spline's Bezier points), so boxes are made once and never refitted;
+/// positions are computed only for clusters near an instrument. A slow motion with its own rhythm, besides the cycle,
+/// is a second set of displacements (`sway`), scaled by one number; each box has a second one for these displacements.
 #include <Eigen/Core>
 #include <array>
 #include <vector>
@@ -17,16 +17,16 @@
 namespace ostium::core {
 
 struct SurfaceDescription {
-  /// Vertices, m: one frame if it stands still; else those of one cycle, evenly spaced in time.
+  /// Vertices, m: one frame if the wall stands still; else those of one cycle, evenly spaced in time.
   std::vector<std::vector<Eigen::Vector3d>> frames;
   std::vector<std::array<int, 3>> triangles;  ///< counter-clockwise as seen from outside of the lumen
-  /// (#vertices), m: how far each is displaced at a sway of 1, in all frames alike. Empty: it does not sway.
+  /// (#vertices), m: displacement of each at a sway of 1, the same in all frames. Empty: it does not sway.
   std::vector<Eigen::Vector3d> sway;
-  /// Force per length of instrument and depth, N/m2, that pushes the wall outwards; 0: rigid.
+  /// Force per length of instrument and depth with which the wall resists being pushed outwards, N/m2; 0: rigid.
   double stiffness_N_m2 = 0;
   double friction = 0;  ///< against instruments, static and kinetic
-  /// A door: triangles that instruments no thicker than this pass while it is open (SurfaceMotion), and that are a wall
-  /// like any other else. It hangs within the lumen: without it the surface is closed.
+  /// A door: triangles that instruments up to this radius pass while it is open (SurfaceMotion), and that are an
+  /// ordinary wall otherwise. It hangs within the lumen: the surface is closed without it.
   std::vector<int> door;
   double door_passes_m = 0;  ///< radius
 };
@@ -41,10 +41,10 @@ struct Surface {
   struct Cluster {
     int first_triangle = 0, triangles = 0;
     int first_corner = 0, corners = 0;  ///< its own copies of the vertices, in `corner_frames`
-    bool stands_still = false;          ///< its corners are in one place in all frames
+    bool stands_still = false;          ///< its corners are at the same position in all frames
   };
   struct Node {    ///< of the tree, depth first: the first child follows its parent
-    int skip = 0;  ///< where to go on when the box is missed
+    int skip = 0;  ///< next node if the box is missed
     int cluster = -1;
   };
   struct Triangle {
@@ -57,20 +57,20 @@ struct Surface {
   std::vector<Cluster> clusters;
   std::vector<Triangle> triangles;
   int frames = 0;
-  /// [cluster][frame][x, y, z][corner of it], m: what is read together is together.
+  /// [cluster][frame][x, y, z][corner of it], m: in the order in which it is read.
   std::vector<float, OnHugePages<float>> corner_frames;
   std::vector<float> corner_sway;         ///< [cluster][x, y, z][corner of it], m; empty: it does not sway
   std::vector<int> corner_vertex;         ///< [corner], as described
-  std::vector<V3<float>> corner_normals;  ///< [corner], outwards, of the first frame: they tell sides, no more
+  std::vector<V3<float>> corner_normals;  ///< [corner], outwards, of the first frame; used only to tell the side
   int corners = 0;
   std::vector<Node> nodes;
   std::vector<Box, OnHugePages<Box>> boxes;  ///< [interval][node]
   std::vector<Box> sway_boxes;               ///< [node], of displacements; empty: it does not sway
   double stiffness_N_m2 = 0, friction = 0, door_passes_m = 0;
-  int largest_cluster = 0;  ///< corners
-  long edits = 0;           ///< how often a SurfaceEditor changed it
+  int largest_cluster = 0;  ///< in corners
+  long edits = 0;           ///< number of changes by a SurfaceEditor
 
-  /// Where an axis of a cluster's corners begins in `corner_frames`.
+  /// Start of an axis of a cluster's corners in `corner_frames`.
   std::size_t row(const Cluster& c, int frame, int axis) const {
     return std::size_t{3} * frames * c.first_corner + std::size_t{1} * (3 * frame + axis) * c.corners;
   }
@@ -81,19 +81,18 @@ struct Surface {
   bool sways() const { return !corner_sway.empty(); }
 };
 
-/// Throws std::invalid_argument if there is no triangle or frame, a triangle names a vertex that there is not, frames
-/// differ in length (`sway` too), or a number is not finite or negative.
+/// Throws std::invalid_argument if there is no triangle or frame, a triangle names a missing vertex, frames differ in
+/// length (`sway` too), or a number is not finite or negative.
 Surface make_surface(const SurfaceDescription& description);
 
-/// Puts vertices of a surface elsewhere, for the whole cycle, and refits the boxes: walls that something opened. Its
-/// triangles, clusters, normals, curvatures and sway stay. What the surface is then depends on the places alone, not on
-/// the order in which they came about.
+/// Moves vertices of a surface for the whole cycle and refits the boxes, for walls that were opened. Triangles,
+/// clusters, normals, curvatures and sway stay. The result depends only on the positions, not on the order of edits.
 class SurfaceEditor {
  public:
-  /// Keeps a reference. `description`: what the surface was made of.
+  /// Keeps a reference. `description`: what the surface was made from.
   SurfaceEditor(const SurfaceDescription& description, Surface& surface);
 
-  /// One vertex in one frame; call `refit` after the last.
+  /// Sets one vertex in one frame; call `refit` after the last.
   void place(int vertex, int frame, const Eigen::Vector3d& p_W);
   void refit();
 
@@ -101,13 +100,13 @@ class SurfaceEditor {
   Surface& surface_;
   std::vector<int> first_corner_, corners_;  ///< of each vertex: corners_[first_corner_[v], first_corner_[v + 1])
   std::vector<int> cluster_of_;              ///< (#corners)
-  std::vector<int> leaf_of_, parent_;        ///< node of a cluster; of a node, -1
+  std::vector<int> leaf_of_, parent_;        ///< node of each cluster; parent of each node, -1 for the root
   std::vector<char> changed_;                ///< (#nodes)
-  std::vector<int> pending_;  ///< nodes whose box is to be made anew, children before parents once sorted
+  std::vector<int> pending_;                 ///< nodes whose box is to be refitted, children before parents once sorted
 };
 
-/// Where in its cycle a surface is at both ends of a step, in frames: any numbers, taken modulo the number of frames,
-/// at most one frame apart. By how much all of it is shifted, m; and how far it sways, 0 or more: 1 is as described.
+/// Position of a surface in its cycle at both ends of a step, in frames: any numbers, taken modulo the number of
+/// frames, at most one frame apart. Also the shift of the whole surface, m, and the sway, >= 0; 1: as described.
 struct SurfaceMotion {
   double frame_before = 0, frame_after = 0;
   Eigen::Vector3d shift_before_W = Eigen::Vector3d::Zero(), shift_after_W = Eigen::Vector3d::Zero();
@@ -115,10 +114,10 @@ struct SurfaceMotion {
   bool door_open = false;  ///< during the step
 };
 
-/// What it does from one part of the step to another, 0 <= from < to <= 1.
+/// The motion over a part of the step, 0 <= from < to <= 1.
 SurfaceMotion part_of(const SurfaceMotion& whole, int frames, double from, double to);
 
-/// Position of a vertex of `description` at a moment of the cycle and a sway, m: what contact takes for the truth.
+/// Position of a vertex of `description` at a frame and a sway, m: the reference for contact.
 Eigen::Vector3d vertex_at(const SurfaceDescription& description, int vertex, double frame, double sway = 0);
 
 /// Weights of the frames k - 1, k, k + 1, k + 2 at k + x.

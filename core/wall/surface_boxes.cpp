@@ -7,7 +7,7 @@ namespace ostium::core {
 
 namespace {
 
-/// Of a cluster, in an interval.
+/// Box of a cluster over an interval.
 Box leaf_box(const Surface& surface, const Surface::Cluster& c, int interval) {
   constexpr float large = std::numeric_limits<float>::max(), rounding = 1e-6f;
   Box box{{large, large, large}, {-large, -large, -large}};

@@ -7,11 +7,11 @@ namespace ostium::core {
 inline int wrapped(int frame, int frames) { return ((frame % frames) + frames) % frames; }
 
 bool stands_still(const Surface& surface, const Surface::Cluster& cluster);
-/// Around a cluster's displacements at a sway of 1.
+/// Box of a cluster's displacements at a sway of 1.
 Box leaf_sway(const Surface& surface, const Surface::Cluster& cluster);
-/// Of a node, from those of its children.
+/// Box of a node, from those of its children.
 Box around_children(const Surface& surface, const Box* boxes, int node);
-/// Of a node, in an interval between two frames; its children's are there.
+/// Box of a node over an interval between two frames; those of its children must exist.
 Box box_of(const Surface& surface, const Box* boxes, int node, int interval);
 
 }  // namespace ostium::core

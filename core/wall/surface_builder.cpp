@@ -46,8 +46,8 @@ std::vector<char> is_door(const SurfaceDescription& d) {
   return door;
 }
 
-/// Vertex normals of the first frame, outwards, weighted by the angles of the triangles. Where a door hangs on the wall
-/// they are the wall's.
+/// Vertex normals of the first frame, outwards, weighted by the triangles' angles. Where a door meets the wall they are
+/// the wall's.
 std::vector<Vector3d> vertex_normals(const SurfaceDescription& d) {
   const auto& p = d.frames[0];
   const std::vector<char> door = is_door(d);
@@ -69,7 +69,8 @@ std::vector<Vector3d> vertex_normals(const SurfaceDescription& d) {
   return normals;
 }
 
-/// The shape operator of a triangle from its vertex normals, in the basis u along its first edge, v across it.
+/// The shape operator of a triangle from its vertex normals, in the basis u along its first edge, v perpendicular to
+/// it.
 std::array<float, 3> shape_operator(const SurfaceDescription& d, const std::vector<Vector3d>& normals,
                                     const std::array<int, 3>& t) {
   const auto& p = d.frames[0];
@@ -80,7 +81,7 @@ std::array<float, 3> shape_operator(const SurfaceDescription& d, const std::vect
   edges << e1.dot(u), e2.dot(u), e1.dot(v), e2.dot(v);
   const Vector3d n1 = normals[t[1]] - normals[t[0]], n2 = normals[t[2]] - normals[t[0]];
   turns << n1.dot(u), n2.dot(u), n1.dot(v), n2.dot(v);
-  const Eigen::Matrix2d S = turns * edges.inverse();  // outward normals open up where the lumen is hollow
+  const Eigen::Matrix2d S = turns * edges.inverse();  // outward normals diverge where the lumen is hollow
   return {static_cast<float>(S(0, 0)), static_cast<float>((S(0, 1) + S(1, 0)) / 2), static_cast<float>(S(1, 1))};
 }
 
@@ -103,7 +104,7 @@ class Builder {
   Surface take() { return std::move(out_); }
 
  private:
-  /// The tree over order_[begin, end).
+  /// Builds the tree over order_[begin, end).
   void split(int begin, int end) {
     const std::size_t node = out_.nodes.size();
     out_.nodes.emplace_back();
@@ -175,7 +176,7 @@ class Builder {
   void make_boxes() {
     const int nodes = static_cast<int>(out_.nodes.size());
     out_.boxes.resize(std::size_t{1} * out_.frames * nodes);
-    for (int n = nodes - 1; n >= 0; --n)  // a cluster's corners once, for all intervals
+    for (int n = nodes - 1; n >= 0; --n)  // a cluster's corners are stored once for all intervals
       for (int k = 0; k < out_.frames; ++k) {
         Box* boxes = &out_.boxes[std::size_t{1} * k * nodes];
         boxes[n] = box_of(out_, boxes, n, k);

@@ -1,5 +1,5 @@
 #pragma once
-/// Nearest points of a triangle, and where a path crosses it.
+/// Nearest point of a triangle, and crossing by a path.
 #include "core/math/lanes.h"
 
 namespace ostium::core {
@@ -13,7 +13,7 @@ inline V3<double> at(const TrianglePoint& p, const V3<double>& a, const V3<doubl
   return madd(p.v, c - a, madd(p.u, b - a, a));
 }
 
-/// The point of the triangle that is nearest to x (after Ericson, Real-Time Collision Detection, 2005, 5.1.5).
+/// Nearest point of the triangle to x (after Ericson, Real-Time Collision Detection, 2005, 5.1.5).
 inline TrianglePoint nearest(const V3<double>& x, const V3<double>& a, const V3<double>& b, const V3<double>& c) {
   const V3<double> ab = b - a, ac = c - a, ax = x - a;
   const double d1 = dot(ab, ax), d2 = dot(ac, ax);
@@ -37,12 +37,12 @@ inline TrianglePoint nearest(const V3<double>& x, const V3<double>& a, const V3<
   return {scale * vb, scale * vc};
 }
 
-/// Whether the path from x to y leaves through the triangle, against its inward normal; `part` is how far along it
-/// does.
+/// Whether the path from x to y leaves through the triangle, against its inward normal; `part` is the share of the path
+/// at the crossing.
 inline bool leaves_through(const V3<double>& x, const V3<double>& y, const V3<double>& a, const V3<double>& b,
                            const V3<double>& c, double& part) {
   const V3<double> ab = b - a, ac = c - a, d = y - x, h = cross(d, ac);
-  const double det = dot(ab, h);  // -d . (ab x ac): negative when d goes out along the outward normal
+  const double det = dot(ab, h);  // -d . (ab x ac): negative if d points along the outward normal
   if (!(det < 0)) return false;
   const V3<double> ax = x - a, q = cross(ax, ab);
   const double u = dot(ax, h) / det, v = dot(d, q) / det;

@@ -1,4 +1,4 @@
-/// Nested instruments on one centreline against a boundary-value solver, and against the binding of rods with
+/// Nested instruments on one centreline compared with a boundary-value solver, and with core/nesting, where rods have
 /// clearance.
 #include "core/concentric_tubes/concentric.h"
 
@@ -74,8 +74,8 @@ double distance_mm(const boundary_value::Problem& p, int elements, ConcentricEqu
   return worst;
 }
 
-/// From straight at once, however low the moment at which it softens, and however much: where the two slopes differ by
-/// more than three times, whole Newton steps go to and fro across the bend for ever.
+/// From a straight start, for any softening moment and ratio: where the two slopes differ by more than a factor of
+/// three, full Newton steps would oscillate across the bend for ever.
 TEST(Concentric, AWireThatSoftens) {
   boundary_value::Problem p;
   p.tubes = {{{stretch(0, 0.06, 7e-6, {18, -16, 0}, 0.2e-3, 0), stretch(0.06, 0.6, 75e-6, {0, 0, 0}, 0.2e-3, 0)},
@@ -107,7 +107,7 @@ TEST(Concentric, TheSameWithLoads) {
   }
 }
 
-/// One wire that is twisted at rest, stiffer about one axis, and softens, with a weight on it and a wind across.
+/// One wire with rest twist, different stiffness about each axis, softening, a weight and a sideways load.
 TEST(Concentric, OneWireWithEverything) {
   for (int what = 0; what < 5; ++what) {
     boundary_value::Problem p;
@@ -122,14 +122,14 @@ TEST(Concentric, OneWireWithEverything) {
       if (what == 1) s.EI1_N_m2 *= 1.6, s.EI2_N_m2 /= 1.6;
       if (what == 2) s.softening_per_m = 3, s.softened_ratio = 0.3;
     }
-    if (what == 2) p.tip_force *= 0.4, p.gravity *= 0.4;  // beyond what it can bear from straight otherwise
+    if (what == 2) p.tip_force *= 0.4, p.gravity *= 0.4;  // otherwise beyond what it can bear from a straight start
     if (what == 3) p.loads = {{0.1512, 0.1512, {0, -3e-4, 0}}};
     if (what == 4) p.loads = {{0.05, 0.2, {6e-4, 0, 0}}};
     EXPECT_LT(distance_mm(p, 250), 0.02) << what;
   }
 }
 
-/// One wire: curved at its tip, rolled, heavy, loaded, and as long as the format's examples.
+/// One wire: curved tip, rolled, heavy, loaded, and as long as the format's examples.
 TEST(Concentric, OneWire) {
   boundary_value::Problem p;
   for (double roll : {0.0, 1.0, 2.5}) {
@@ -150,13 +150,13 @@ TEST(Concentric, ALoadTurnsTheShaftOfOneWire) {
       {{stretch(0, 0.05, 2e-3, {0, 20, 0}, 1e-3, 0), stretch(0.05, 0.1, 2e-3, {0, 0, 0}, 1e-3, 0)}, 0.1, 0.3, 100}};
   p.tip_force = {0, 0.1, 0};
   EXPECT_LT(distance_mm(p, 100), 0.005);
-  // It does turn: with a rigid shaft the curve is another.
+  // It does turn: with a rigid shaft the shape is different.
   boundary_value::Problem rigid = p;
   rigid.tubes[0].shaft_rad_per_Nm = 0;
   EXPECT_GT((boundary_value::solve(p).curve.back() - boundary_value::solve(rigid).curve.back()).norm(), 1e-3);
 }
 
-/// Opposed tubes that are long enough stand balanced but unstable: they are found turned, not balanced.
+/// Opposed tubes that are long enough are unstable when balanced: the solver must find the turned shape.
 TEST(Concentric, OpposedTubesLeaveTheirUnstableBalance) {
   constexpr double k = 20, length = 1.2 * units::pi / 2 / (20 * 1.1832);  // L k sqrt(1 + nu) = 1.2 pi / 2
   ConcentricDescription d;
@@ -170,7 +170,8 @@ TEST(Concentric, OpposedTubesLeaveTheirUnstableBalance) {
   EXPECT_GT(std::fabs(state.roll_rad(0, 63) - state.roll_rad(0, 0)), 0.5);
 }
 
-/// A wire standing upright buckles under its weight if w L^3 / EI > 7.84 (Greenhill 1881): then it is found leaning.
+/// An upright wire buckles under its weight if w L^3 / EI > 7.84 (Greenhill 1881): then the solver must find it
+/// leaning.
 TEST(Concentric, AnUprightWireBucklesWhenItIsTooLong) {
   for (const auto& [ratio, leans] : {std::pair{7.6, false}, std::pair{9.0, true}}) {
     boundary_value::Tube wire{{stretch(0, 0.3, 1e-5, {0, 0, 0}, 0.2e-3, 0)}, 0.3, 0, 0};
@@ -186,7 +187,7 @@ TEST(Concentric, AnUprightWireBucklesWhenItIsTooLong) {
   }
 }
 
-/// Rods of their own, bound with 0.01 mm of clearance, come to rest on the same curve.
+/// Separate rods, nested with 0.01 mm of clearance, come to rest on the same curve.
 TEST(Concentric, AgreesWithTheBindingOfRods) {
   const auto outer = stretch(0, 0.15, 2e-3, {0, 8, 0}, 1.3e-3, 0.81e-3);
   const auto inner = stretch(0, 0.15, 1e-3, {0, 12, 0}, 0.8e-3, 0);

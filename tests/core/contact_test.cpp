@@ -65,7 +65,7 @@ TEST(Surface, ATubeIsAsHollowAsItsRadiusSays) {
   }
 }
 
-/// Pieces of a step go on where the last one ended, over the end of the cycle, too.
+/// Parts of a step continue from each other, also across the end of the cycle.
 TEST(Surface, AMotionIsTheSumOfItsParts) {
   SurfaceMotion whole;
   whole.frame_before = 23.9, whole.frame_after = 0.1;
@@ -84,7 +84,7 @@ TEST(Surface, AMotionIsTheSumOfItsParts) {
   EXPECT_NEAR(part_of(whole, 24, 0.5, 1).sway_after, 0.6, 1e-15);
 }
 
-/// Sideways by a bump along x, as the wall of 10 mm rings has it: straight between them.
+/// Sideways bump along x of a wall with rings every 10 mm: linear in between.
 double bump_m(double x) {
   const auto at_ring = [](double ring) { return 0.02 * std::pow(std::sin(pi * std::clamp(ring / 28, 0.0, 1.0)), 2); };
   const double ring = std::floor(100 * x), share = 100 * x - ring;
@@ -97,7 +97,7 @@ SurfaceDescription swaying_tube(double radius_m) {
   return d;
 }
 
-/// Every corner stands where the description says at both ends of a step, and is found there.
+/// Every corner is at the described position at both ends of a step, and is found there.
 TEST(Surface, WhatSwaysIsWhereItsDisplacementsSay) {
   const SurfaceDescription d = swaying_tube(2e-3);
   const Surface surface = make_surface(d);
@@ -125,8 +125,8 @@ TEST(Surface, WhatSwaysIsWhereItsDisplacementsSay) {
   }
 }
 
-/// What is in one place through the whole cycle is computed once, and again where all of it is shifted, or vertices are
-/// placed anew.
+/// A part that stands still through the whole cycle is computed once, and again if the whole surface is shifted or
+/// vertices are moved.
 TEST(Surface, WhatStandsStillIsWhereItIsShifted) {
   SurfaceDescription d = straight_tube(2e-3);
   d.frames.resize(6, d.frames[0]);
@@ -177,8 +177,8 @@ TEST(Surface, RefusesWhatIsNoWall) {
   EXPECT_THROW(make_surface(swaying), std::invalid_argument);
 }
 
-/// A wire in a tube that is thrown 20 mm to the side four times a second, by more than its radius in a step, goes with
-/// it and stays inside; the tube's middle is known in closed form.
+/// A wire in a tube that moves 20 mm sideways four times a second, by more than its radius per step, moves with it and
+/// stays inside; the tube's centre is known in closed form.
 TEST(Contact, AWireGoesWithAWallThatSways) {
   Model model;
   RodDescription d = steel_wire({.elements = 200, .length_m = 0.2});
@@ -206,7 +206,7 @@ TEST(Contact, AWireGoesWithAWallThatSways) {
   EXPECT_GT(carried_m, 0.016);
 }
 
-/// A soft wall gives way by force over stiffness, also as far as its neighbouring triangles are reached.
+/// A soft wall yields by force over stiffness, also where neighbouring triangles are within reach.
 TEST(Contact, ASoftWallYields) {
   SurfaceDescription wall = straight_tube(2e-3);
   wall.stiffness_N_m2 = 300;
@@ -224,7 +224,7 @@ TEST(Contact, ASoftWallYields) {
   for (int n = 0; n < 4000; ++n) step(model, inputs, state, scratch, report);
   const double yields = d.sections[0].kg_per_m * 9.81 / wall.stiffness_N_m2, radius = d.sections[0].radius_m;
   EXPECT_GT(yields, 50e-6);
-  // In the groove between two sides of the tube, each of which is pressed in so far.
+  // In the groove between two sides of the tube, each pressed in by this much.
   const double side_m = 2e-3 * std::cos(pi / 48);
   EXPECT_NEAR(state.rods[0].position[50].z(), -(side_m - radius + yields) / std::cos(pi / 48), 0.03 * yields);
   double borne = 0;
@@ -232,8 +232,8 @@ TEST(Contact, ASoftWallYields) {
   EXPECT_NEAR(borne / (model.rods[0].total_mass_kg * 9.81), 1, 0.01);
 }
 
-/// What slides along a wall without friction feels nothing of the edges between its triangles, however fast it passes
-/// them: at 100 mm/s half of a triangle's length in a step.
+/// A wire that slides along a wall without friction does not feel the edges between triangles, however fast: at 100
+/// mm/s it passes half a triangle per step.
 TEST(Contact, EdgesOfASmoothWallAreNotFelt) {
   std::vector<TubePoint> points;
   for (double x = -5e-3; x < 80e-3; x += 0.2e-3) points.push_back({Vector3d(x, 0, 0), 1.5e-3});
@@ -261,7 +261,7 @@ TEST(Contact, EdgesOfASmoothWallAreNotFelt) {
   EXPECT_LT(drag, 1e-6 * weight);
 }
 
-/// A floor that breaks off to one side (y > 0), a little rounded, its edge finely divided along x.
+/// A floor with a sharp drop on one side (y > 0), slightly rounded, its edge finely divided along x.
 SurfaceDescription brink() {
   const double profile_m[][2] = {{-20e-3, 0}, {0, 0}, {0.018e-3, -0.05e-3}, {0.018e-3, -10e-3}};  // y, z
   constexpr int rows = 601;
@@ -277,7 +277,8 @@ SurfaceDescription brink() {
   return wall;
 }
 
-/// A catheter that slides along a brink reaches faces beyond it, which turn their back to it: they are no walls of its.
+/// A catheter that slides along the edge of a drop comes near faces below it that face away from it; they must not hold
+/// it.
 TEST(Contact, WhatLiesBeyondABrinkHoldsNothing) {
   Model model;
   RodDescription d = steel_wire({.elements = 20, .E_Pa = 1e9, .length_m = 0.02});
@@ -303,7 +304,7 @@ TEST(Contact, WhatLiesBeyondABrinkHoldsNothing) {
   }
 }
 
-/// Across the middle of a tube hangs a door: what is thin enough passes it while it is open, and only then.
+/// A door across the middle of a tube: thin instruments pass it while it is open, and only then.
 TEST(Contact, ADoorLetsThinInstrumentsThroughWhileItIsOpen) {
   SurfaceDescription wall = straight_tube(3e-3);
   constexpr double at_m = 0.1;
@@ -315,7 +316,7 @@ TEST(Contact, ADoorLetsThinInstrumentsThroughWhileItIsOpen) {
   }
   for (int j = 0; j < around; ++j) {
     wall.door.push_back(static_cast<int>(wall.triangles.size()));
-    wall.triangles.push_back({rim + j, rim + (j + 1) % around, rim + around});  // facing away from what comes
+    wall.triangles.push_back({rim + j, rim + (j + 1) % around, rim + around});  // facing away from the approaching wire
   }
   wall.door_passes_m = 0.46e-3;
   const RodDescription thin = steel_wire({.elements = 200, .E_Pa = 1e9, .length_m = 0.2, .gravity = false});

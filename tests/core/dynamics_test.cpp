@@ -1,4 +1,4 @@
-/// Motion against closed forms that are not among the gates of `ostium verify`.
+/// Dynamics compared with closed forms that are not among the gates of `ostium verify`.
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
@@ -17,7 +17,7 @@ using units::pi;
 
 const Section& section(const RodDescription& wire) { return wire.sections[0]; }
 
-/// A swing goes on as it did when some of its steps are halved: the history is that of the new steps.
+/// A swing continues correctly when some of its steps are halved: the history is rescaled to the new steps.
 TEST(Motion, HalvedStepsGoOnAlike) {
   const auto swing = [](bool halve) {
     Bench bench = bench_of(steel_wire({.elements = 100}), false);
@@ -62,7 +62,7 @@ TEST(Motion, FirstBendingFrequencyOfACantilever) {
   EXPECT_NEAR(2 * pi / period, omega, 0.01 * omega);
 }
 
-/// Without loss the scheme's own is small: a slow swing keeps its height.
+/// Numerical damping is small: a slow swing keeps its height.
 TEST(Motion, SwingKeepsItsEnergy) {
   Bench bench = steel_bench({.elements = 100, .E_Pa = 200e9, .length_m = 0.4});
   double lowest = 0, highest_later = -1;
@@ -112,7 +112,7 @@ TEST(Damping, MaterialLossDampsLikeKelvinVoigt) {
   EXPECT_NEAR(decrement, pi * 0.05, 0.05 * pi * 0.05);
 }
 
-/// The dynamic step leaves a column there where the linear system says: just beyond Euler's load, not before.
+/// The dynamic step leaves a straight column just above Euler's load, where the linear system says so, and not below.
 TEST(Buckling, StepLeavesAColumnBeyondEulersLoad) {
   const double euler_N = std::pow(pi / 2, 2) * section(steel_wire({})).EI1_N_m2;
   const auto farthest = [&](double load) {
@@ -130,8 +130,8 @@ TEST(Buckling, StepLeavesAColumnBeyondEulersLoad) {
   EXPECT_GT(farthest(1.05), 0.05);
 }
 
-/// Bending and twist are coupled: a twisted rod whose ends come together throws a loop. (Later on it passes through
-/// itself, which nothing hinders here, and has two turns less.)
+/// Bending and twist are coupled: a twisted rod whose ends approach forms a loop. (Later it passes through itself,
+/// which nothing prevents here, and loses two turns.)
 TEST(Looping, SlackTwistedEndsFormALoop) {
   const auto most_backwards = [](double turns) {
     RodDescription wire = steel_wire({.elements = 100});
@@ -153,12 +153,12 @@ TEST(Looping, SlackTwistedEndsFormALoop) {
     EXPECT_LT(bench.report.rods[0].stretch, 1e-6);
     return most;
   };
-  EXPECT_GT(most_backwards(0), 0.2);   // without twist: one plane arch
-  EXPECT_LT(most_backwards(4), -0.5);  // four turns: somewhere the rod runs backwards
+  EXPECT_GT(most_backwards(0), 0.2);   // without twist: a plane arch
+  EXPECT_LT(most_backwards(4), -0.5);  // four turns: part of the rod runs backwards
 }
 
-/// A straight wire pushed against a fixed end gives way sideways within a step or two, with a force of newtons, as
-/// dynamic buckling has it; an implicit step could also stay straight, with any force.
+/// A straight wire pushed against a fixed end yields sideways within a step or two, with a force of newtons, as in
+/// dynamic buckling; an implicit step could also stay straight, with any force.
 TEST(Buckling, PushedStraightWireGivesWayAtOnce) {
   for (double disturbance_m_s : {1e-3, 1e-6}) {
     Bench bench = steel_bench({.elements = 100, .gravity = false});
@@ -180,7 +180,7 @@ TEST(Buckling, PushedStraightWireGivesWayAtOnce) {
   }
 }
 
-/// The tension between the held ends of a straight rod is the force that holds it, not noise.
+/// The tension between the held ends of a straight rod is the holding force, not noise.
 TEST(Hold, StraightRodBetweenTwoClampsIsAtRest) {
   Bench bench = steel_bench({.elements = 128, .gravity = false});
   bench.inputs.rods[0].tip.hold = Hold::clamped;
@@ -191,7 +191,7 @@ TEST(Hold, StraightRodBetweenTwoClampsIsAtRest) {
   }
 }
 
-/// More damping is more rest: a hanging wire ends still, whatever its loss.
+/// Material damping brings a hanging wire to rest, whatever its amount.
 TEST(Damping, MaterialLossBringsToRest) {
   for (double tau : {0.01, 0.03}) {
     RodDescription wire = steel_wire({.elements = 64, .length_m = 0.3});
@@ -203,7 +203,7 @@ TEST(Damping, MaterialLossBringsToRest) {
   }
 }
 
-/// A hand that turns a weightless wire feels the moment of the shape that there is.
+/// The hand that turns a weightless wire feels the moment of the committed shape.
 TEST(Reaction, TorqueIsThatOfTheCommittedShape) {
   Bench bench = steel_bench({.elements = 100, .gravity = false});
   bench.inputs.rods[0].base.turn_rate_W_rad_s = Vector3d(30, 0, 0);
@@ -218,7 +218,7 @@ TEST(Reaction, TorqueIsThatOfTheCommittedShape) {
   }
 }
 
-/// A free rod in free fall has nothing to hold it.
+/// A free rod in free fall has no reaction at its base.
 TEST(Reaction, AFreeBaseFeelsNothing) {
   Bench bench = steel_bench({.elements = 16});
   bench.inputs.rods[0].base.hold = Hold::free;
@@ -226,7 +226,7 @@ TEST(Reaction, AFreeBaseFeelsNothing) {
   EXPECT_EQ(bench.report.rods[0].base_force_W_N.norm(), 0);
 }
 
-/// Ordinary tensions converge in one iteration, whatever the elements.
+/// Ordinary tensions converge in one iteration, for any element length.
 TEST(Tension, IsNoTrouble) {
   for (int elements : {16, 100, 667})
     for (double newtons : {1.0, 20.0, 100.0}) {

@@ -1,4 +1,4 @@
-/// One list of members beside each struct of state.
+/// The lists of members beside the structs of state.
 #include "core/base/fields.h"
 
 #include <gtest/gtest.h>
@@ -57,7 +57,7 @@ static_assert(!lists_every_member<NamedTwice>());
 
 Room some_room() {
   Room room;
-  room.steps = (std::uint64_t{1} << 63) + 1;  // no double is that
+  room.steps = (std::uint64_t{1} << 63) + 1;  // not representable as a double
   room.bulbs[1] = {true, 60, Colour::green, Colour::red};
   room.rooms = {4, -5, 6};
   room.share = {0.1, std::nan("")};

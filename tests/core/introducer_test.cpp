@@ -29,7 +29,7 @@ RodDescription damped_wire() {
   return wire;
 }
 
-/// What is cut off at the introducer is the rod that one would have made shorter.
+/// A partly inserted rod equals a rod made that short.
 TEST(Introducer, APartlyInsertedRodIsAShorterRod) {
   RodDescription wire = damped_wire();
   wire.sections = {round_section(0, 0.1, 0.2e-3, 0, 60e9, 0.3, 6500),
@@ -49,7 +49,7 @@ TEST(Introducer, APartlyInsertedRodIsAShorterRod) {
   EXPECT_LT((part.report.rods[0].base_torque_W_Nm - alone.report.rods[0].base_torque_W_Nm).norm(), 1e-9);
 }
 
-/// A straight weightless wire slides out along its axis, as far as it is fed, and needs no force but for its inertia.
+/// A straight weightless wire slides out along its axis by the length fed, with no force except for inertia.
 TEST(Introducer, AStraightWireGoesWhereItIsFed) {
   Bench bench = introducer(damped_wire(), 0.05, false);
   bench.inputs.rods[0].feed_m_s = 0.1;
@@ -66,7 +66,7 @@ TEST(Introducer, AStraightWireGoesWhereItIsFed) {
   EXPECT_LT(std::hypot(bench.tip().y(), bench.tip().z()), 1e-12);
 }
 
-/// Turning it at the introducer turns the tip of a bent wire with it, fed or not.
+/// Turning a bent wire at the introducer turns its tip, whether fed or not.
 TEST(Introducer, TurnsTheInstrument) {
   RodDescription wire = damped_wire();
   wire.sections[0].rest_curvature_per_m = Vector3d(0, 10, 0);  // towards d1, -z
@@ -97,7 +97,7 @@ TEST(Introducer, StopsAtBothEndsOfTheInstrument) {
   EXPECT_EQ(bench.report.rods[0].push_N, 0);
 }
 
-/// Out and in again: the wire hangs as it did, whatever was between.
+/// Pulled out and pushed in again, the wire hangs as before.
 TEST(Introducer, AWireThatWasWithdrawnWholeIsPutInAgain) {
   RodDescription wire = damped_wire();
   wire.sections[0].rest_curvature_per_m = Vector3d(0, 10, 0);
@@ -110,7 +110,7 @@ TEST(Introducer, AWireThatWasWithdrawnWholeIsPutInAgain) {
     for (int ms = 0; ms < std::lround(std::fabs(length_m) / 0.05e-3); ++ms) {
       bench.step();
       EXPECT_EQ(bench.report.trouble & ~feed_stopped, 0u);
-      // The hand starts and stops in one step: for the inertia of what is inside then, it pushes.
+      // The hand starts and stops within one step, so it pushes against the inertia of the inserted part.
       if (ms > 20) largest_push = std::max(largest_push, std::fabs(bench.report.rods[0].push_N));
     }
   };
@@ -135,7 +135,7 @@ TEST(Introducer, FeedsAtAnyAllowedSpeedAndLimitsTheRest) {
   }
 }
 
-/// The fingers of a hand that holds a hanging wire carry what is inside.
+/// The hand that holds a hanging wire carries the weight of the inserted part.
 TEST(Introducer, FingersCarryTheWeightInside) {
   Bench bench = introducer(damped_wire(), 0.2);
   EndState down;  // d3 along -z
@@ -163,8 +163,8 @@ TEST(Introducer, ARunResumedWhileFeedingGoesOnBitIdentically) {
   EXPECT_EQ(first_difference(whole.state, second.state), "");
 }
 
-/// The hash of a state leaves out what is outside, since nothing comes of it, not even once that is fed in: but for
-/// what its material remembers.
+/// The hash of a state ignores what is outside, since it has no effect even once fed in, except for the material's
+/// memory.
 TEST(Introducer, NothingComesOfWhatIsStillOutside) {
   RodDescription wire = damped_wire();
   wire.damping.material_time_s = 0.01;

@@ -1,4 +1,4 @@
-/// Rods inside each other: what the binding promises whatever the physics, and what it balances.
+/// Nested rods: bit-level promises, and balances of forces and moments.
 #include "core/model/nesting.h"
 
 #include <gtest/gtest.h>
@@ -75,7 +75,7 @@ TEST(Nesting, ANestThatCannotBeIsRefused) {
   refused({{.outer = 0, .inner = 2}}, "there are 2 rods");
   refused({{.outer = 0, .inner = 1, .lumen_m = 0}}, "lumen must be longer");
 
-  // Five in each other are too many; a wire for which four others take turns in the outermost is not.
+  // Five nested rods are too many; a wire with four alternatives around it in the outermost rod is not.
   Model tubes;
   for (int k = 0; k < 4; ++k) tubes.rods.push_back(make_rod(rod(0.35, 1e-3, (4 - k) * 1e-3, (3.8 - k) * 1e-3, 150)));
   tubes.rods.push_back(make_rod(rod(0.35, 1e-3, 0.2e-3, 0, 150)));
@@ -104,7 +104,7 @@ TEST(Nesting, AStepDoesNotDependOnWhatScratchHeld) {
   }
 }
 
-// A wire that once protruded and now ends inside the catheter has nothing of before.
+// A wire that once protruded and now ends inside the catheter keeps nothing of that.
 TEST(Nesting, NorDoesItWhereARodEndsInsideAnother) {
   const Model model = catheter_and_wire();
   State kept = at_start(model), fresh = at_start(model);
@@ -149,7 +149,7 @@ TEST(Nesting, AStepDoesNotAllocate) {
   EXPECT_EQ(allocations() - before, 0);
 }
 
-// What one rod exerts on the other it gets back: the introducer bears the weight of both, and no more.
+// Action equals reaction between the rods: the introducer carries the weight of both, and no more.
 TEST(Nesting, AtRestTheBasesBearTheWeightOfBoth) {
   Model model = catheter_and_wire();
   for (Rod& r : model.rods) r.damping = {1, 0.5, 2e-3};
@@ -166,7 +166,7 @@ TEST(Nesting, AtRestTheBasesBearTheWeightOfBoth) {
   EXPECT_GT(state.rods[1].contact_force[100].norm(), 0);
 }
 
-// Four rods share one centreline: as stiff as their sum, as curved as their mean by stiffness.
+// Four rods share one centreline: stiffness is their sum, curvature their stiffness-weighted mean.
 TEST(Nesting, FourRodsBendAsOne) {
   const double EI[] = {4e-3, 2e-3, 1e-3, 5e-4}, k[] = {5, 0, 20, -10}, radius[] = {1.6e-3, 1.2e-3, 0.8e-3, 0.4e-3};
   Model model;
@@ -199,7 +199,7 @@ TEST(Nesting, FourRodsBendAsOne) {
   }
 }
 
-// Drawn back over a held wire, without friction, a straight catheter leaves it where it is.
+// A straight catheter pulled back over a held wire, without friction, does not move the wire.
 TEST(Nesting, ACatheterIsDrawnBackOverAHeldWire) {
   Model model;
   model.rods = {make_rod(rod(0.25, 1.5e-3, 0.9e-3, 0.6e-3, 125)), make_rod(rod(0.35, 1e-3, 0.45e-3, 0, 150))};
@@ -217,7 +217,7 @@ TEST(Nesting, ACatheterIsDrawnBackOverAHeldWire) {
   EXPECT_LT((state.rods[1].position[150] - tip).norm(), 0.5e-3);
 }
 
-// A soft wire in a catheter that is bent by a right angle and hardly gives: the rope on a drum (Euler, Eytelwein).
+// A soft wire in a hardly yielding catheter with a right-angle bend: capstan friction (Euler, Eytelwein).
 TEST(Nesting, FrictionInABentCatheterIsThatOfARopeOnADrum) {
   constexpr double friction = 0.2, tension = 1, angle = units::pi / 2, length = 0.2, radius = 0.45e-3;
   const auto bent = [&](RodDescription d) {
@@ -231,7 +231,7 @@ TEST(Nesting, FrictionInABentCatheterIsThatOfARopeOnADrum) {
   model.gravity_W.setZero();
   for (Rod& r : model.rods) r.damping = {1, 0.5, 1e-3};
   State state = make_state_at_rest_shape(model, {along_x(), along_x()});
-  model.rods[1] = make_rod(wire);  // laid into the catheter bent, but straight by itself
+  model.rods[1] = make_rod(wire);  // forced into the bent catheter, but straight at rest
   model.rods[1].damping = model.rods[0].damping;
   Scratch scratch(model);
   StepReport report;
@@ -251,7 +251,7 @@ TEST(Nesting, FrictionInABentCatheterIsThatOfARopeOnADrum) {
   inputs.rods[1].feed_m_s = -0.01;
   run(1000);
   EXPECT_NEAR(pull(), std::exp(friction * angle), 0.03);
-  const double other_hand = report.rods[0].push_N;  // what the wire bears more, the catheter pushes back
+  const double other_hand = report.rods[0].push_N;  // the catheter pushes back what the wire bears in addition
   EXPECT_NEAR(other_hand / tension, std::exp(friction * angle), 0.03);
   inputs.rods[1].feed_m_s = 0;
   run(500);
@@ -271,7 +271,7 @@ TEST(Nesting, FrictionInABentCatheterIsThatOfARopeOnADrum) {
   EXPECT_NEAR(report.rods[1].torque_Nm / torque, 1, 0.04) << "it holds the torque";
 }
 
-// One catheter is withdrawn whole over a held wire with a bent tip, and another is advanced over it.
+// One catheter is pulled out over a held wire with a bent tip, and another is pushed in over it.
 TEST(Nesting, ACatheterIsExchangedOverAHeldWire) {
   Model model;
   RodDescription wire = rod(0.35, 1e-3, 0.45e-3, 0, 175);
@@ -307,7 +307,7 @@ TEST(Nesting, ACatheterIsExchangedOverAHeldWire) {
   EXPECT_EQ(scratch.lead[2], 1);
 }
 
-// A rapid-exchange shaft holds the wire over its last 10 cm here; behind them, both run side by side in the guide.
+// Here a rapid-exchange shaft holds the wire over its last 10 cm; behind that, both run side by side in the guide.
 TEST(Nesting, ARapidExchangeShaftRidesOnTheWireOverItsLastStretch) {
   Model model;
   model.rods = {make_rod(rod(0.5, 1e-3, 1e-3, 0.9e-3, 250)), make_rod(rod(0.55, 1e-4, 0.45e-3, 0.2e-3, 275)),

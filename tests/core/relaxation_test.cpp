@@ -1,4 +1,4 @@
-/// A material that gives up part of a moment with time: closed forms of the generalised Maxwell solid.
+/// Stress relaxation of a material: closed forms of the generalised Maxwell solid.
 #include "core/rod/relaxation.h"
 
 #include <gtest/gtest.h>
@@ -16,7 +16,7 @@ using Eigen::Vector3d;
 
 constexpr double rest_per_m = 8, EI = 1e-3, step_s = 1e-3;
 
-/// A rod that is an arc at rest, in air that takes its swing.
+/// A rod that is an arc at rest, with drag that damps its swing.
 RodDescription arc(double EI_N_m2, double curvature_per_m, Relaxation relaxation) {
   RodDescription d;
   d.name = "arc";
@@ -39,7 +39,7 @@ struct Trial {
   void go_on(double seconds) {
     for (int n = 0; n < std::lround(seconds / step_s); ++n) step(model, inputs, state, scratch, report);
   }
-  /// Of the middle of a rod, 1/m.
+  /// Curvature in the middle of a rod, 1/m.
   double curvature(int r) const {
     const Field<4>& q = state.rods[r].orientation;
     const int i = model.rods[r].elements / 2;
@@ -81,7 +81,7 @@ TEST(Relaxation, HeldStraightItsMomentFallsByBothBranches) {
   EXPECT_EQ(run.report.trouble, 0u);
 }
 
-/// Let go, it comes back at (1 - f) / t: what is left of the strain is the branch's own, so c' = (f c - c) / t.
+/// Once released, it returns at the rate (1 - f) / t: the remaining strain is the branch's own, so c' = (f c - c) / t.
 TEST(Relaxation, LetGoItComesBackFromWhereItWasHeld) {
   const Relaxation r{{{0.4, 0.5}, {0, 1}}};
   Trial run(model_of({arc(EI, rest_per_m, r)}), {along_x()});
@@ -97,7 +97,8 @@ TEST(Relaxation, LetGoItComesBackFromWhereItWasHeld) {
   }
 }
 
-/// The curvature of a pair by its stiffnesses (ostium verify, nesting): what of the outer one's has gone, has gone.
+/// Curvature of a nested pair from its stiffnesses (ostium verify, nesting), with the relaxed part of the outer one's
+/// removed.
 TEST(Relaxation, InsideAnotherRodToo) {
   const Relaxation r{{{0.5, 0.2}, {0, 1}}};
   for (const bool inner_relaxes : {true, false}) {
@@ -110,7 +111,7 @@ TEST(Relaxation, InsideAnotherRodToo) {
     run.go_on(0.1);
     EXPECT_GT(run.curvature(0), 0.43 * rest_per_m);
     run.go_on(2.9);
-    // With f of it gone in the end it bends as one with 1 - f of its stiffness.
+    // With f of it relaxed in the end, it bends with 1 - f of its stiffness.
     for (const int rod : {0, 1}) EXPECT_NEAR(run.curvature(rod), rest_per_m * 0.5 / 1.5, 0.01 * rest_per_m) << rod;
   }
 }

@@ -1,4 +1,4 @@
-/// Rods that touch each other, and themselves.
+/// Rods that touch each other or themselves.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -24,7 +24,7 @@ RodDescription wire(double length_m, int elements) {
   return d;
 }
 
-/// Distance of two pieces by search, for a test that shares nothing with contact.
+/// Distance of two segments by search, sharing no code with contact.
 double apart(const Vector3d& a, const Vector3d& b, const Vector3d& c, const Vector3d& d) {
   double least = 1;
   for (int i = 0; i <= 8; ++i) {
@@ -35,7 +35,7 @@ double apart(const Vector3d& a, const Vector3d& b, const Vector3d& c, const Vect
   return least;
 }
 
-/// Two cantilevers of 0.2 m that cross in their middles; the upper one's tip is pressed onto the lower one.
+/// Two cantilevers of 0.2 m that cross in the middle; the upper one's tip is pressed down.
 struct Crossed {
   static constexpr double length_m = 0.2, middle_m = 0.1;
 
@@ -59,7 +59,7 @@ struct Crossed {
   void run(int ms) {
     for (int n = 0; n < ms; ++n) step(model, inputs, state, scratch, report);
   }
-  /// Height of the upper rod's surface above the lower one's, where they cross.
+  /// Height of the upper rod's surface above the lower one's at the crossing.
   double between_m() const {
     double least = 1;
     for (int i = 0; i < 101; ++i)
@@ -79,7 +79,7 @@ struct Crossed {
   StepReport report;
 };
 
-/// Euler-Bernoulli: the force Q between them follows from equal deflections, less the gap, in their middles.
+/// Euler-Bernoulli: the force Q between them follows from equal deflections in the middle, less the gap.
 TEST(Rods, CrossedCantileversShareALoad) {
   Crossed crossed(true);
   crossed.run(2000);
@@ -96,7 +96,7 @@ TEST(Rods, CrossedCantileversShareALoad) {
   const RodTouch& touch = crossed.report.rod_touches.front();
   EXPECT_LT(touch.force_W_N.z() * (touch.rod == 0 ? 1 : -1), 0) << "the lower one is pressed down";
 
-  // A fresh scratch goes on to the bit, and nothing is allocated.
+  // A new scratch continues bit-identically, and nothing is allocated.
   State other = crossed.state;
   Scratch fresh(crossed.model);
   crossed.run(20);
@@ -113,7 +113,7 @@ TEST(Rods, WithoutContactTheyPassThroughEachOther) {
   EXPECT_TRUE(crossed.report.rod_touches.empty());
 }
 
-/// A wire is bent into a loop, its end above its beginning and across it, and then pressed down by twice its height.
+/// A wire bent into a loop, its end above and across its beginning, is pressed down by twice its height.
 double nearest_of_own(bool touch, double* push_N) {
   Bench bench = bench_of(wire(0.3, 150), false);
   Model model = bench.model;

@@ -48,7 +48,7 @@ TEST(Rotation, TurnedComposesInTheWorldFrame) {
   EXPECT_NEAR(to_eigen(turned(V3<double>{50, 0, 0}, from_eigen(q))).norm(), 1, 1e-15);
 }
 
-/// Whatever is computed four at a time is bit for bit what is computed one at a time.
+/// Results computed four at a time are bit-identical to those computed one at a time.
 TEST(Lanes, AgreeWithScalarsToTheLastBit) {
   std::mt19937 generator(4);
   Q4<Lanes> q;

@@ -19,7 +19,7 @@ RodDescription two_sections() {
   return d;
 }
 
-/// The message of what make_rod throws for a description.
+/// The message of the exception that make_rod throws for a description.
 template <class Spoil>
 std::string refusal(Spoil&& spoil) {
   RodDescription d = two_sections();

@@ -1,4 +1,4 @@
-/// Bending that softens: identities of the law, and that it leaves a rod that does not soften as it is.
+/// Softening in bending: identities of the law, and that it does not change a rod without softening.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -40,12 +40,12 @@ TEST(Softening, MomentIsTheSlopeOfEnergyAndTangentThatOfMoment) {
   }
 }
 
-/// Below the curvature as stiff as it was, far beyond it a straight line of the lesser slope.
+/// Below the softening curvature as stiff as before; far beyond it a straight line with the smaller slope.
 TEST(Softening, HasTheTwoSlopesThatItIsGiven) {
   const Superelastic law = law_of(40e-6, 40e-6, 30, 0.2);
   EXPECT_NEAR(moment(law, 0.1, 0, 0).x / 0.1, 40e-6, 1e-9);
   EXPECT_NEAR((moment(law, 31000, 0, 0).x - moment(law, 30000, 0, 0).x) / 1000, 0.2 * 40e-6, 1e-11);
-  // Where the two slopes would meet it has (r + (1 - r) / sqrt 2) of the linear moment.
+  // At the curvature where both slopes would meet, the moment is (r + (1 - r) / sqrt 2) of the linear one.
   EXPECT_NEAR(moment(law, 30, 0, 0).x, 30 * 40e-6 * (0.2 + 0.8 / std::sqrt(2.0)), 1e-12);
 }
 

@@ -44,7 +44,7 @@ TEST(Statics, SignsOfRestCurvatureAreThoseOfTheFormat) {
   }
 }
 
-/// P L^3 / 3 EI about each axis by its own stiffness; d1 lies along -z, d2 along y.
+/// P L^3 / 3 EI about each axis with its own stiffness; d1 is along -z, d2 along y.
 TEST(Statics, BendingStiffnessDependsOnTheAxis) {
   RodDescription wire = steel_wire({.elements = 128, .length_m = 0.2});
   Section& s = wire.sections[0];
@@ -60,7 +60,7 @@ TEST(Statics, BendingStiffnessDependsOnTheAxis) {
   EXPECT_NEAR(bench.tip().y(), 0, 1e-9);
 }
 
-/// Equilibrium is equilibrium: the dynamic step, started there, stays.
+/// The dynamic step, started at an equilibrium, stays there.
 TEST(Statics, StepStaysWhereStaticsSettles) {
   RodDescription wire = steel_wire({.elements = 167, .length_m = 0.25});
   wire.sections[0].rest_curvature_per_m = Vector3d(4, 6, 1);
@@ -85,7 +85,7 @@ TEST(Statics, ClampedAtBothEnds) {
   EXPECT_NEAR(bench.report.rods[0].base_torque_W_Nm.norm(), w * 0.04 / 12, 1e-3 * w * 0.04 / 12);
 }
 
-/// Both ends slide, along different lines: each must stay on its own.
+/// Both ends slide along different lines, and each stays on its own.
 TEST(Statics, TwoGuidedEndsStayOnTheirLines) {
   Bench bench = bench_of(steel_wire({.elements = 200, .length_m = 0.3}), false);
   RodState& rod = bench.rod();
@@ -101,7 +101,7 @@ TEST(Statics, TwoGuidedEndsStayOnTheirLines) {
   EXPECT_LT((bench.tip() - tip).norm(), 1e-8);
 }
 
-/// A damped rod in equilibrium is at rest, too.
+/// A damped rod started in equilibrium stays at rest, too.
 TEST(Statics, DampedEquilibriumStays) {
   RodDescription wire = steel_wire({.elements = 200, .length_m = 0.3});
   wire.damping.material_time_s = 1e-3;
@@ -121,7 +121,7 @@ TEST(Statics, WhatFallsForEverIsNotFound) {
   EXPECT_EQ(hash(bench.state), before);
 }
 
-/// From the straight shape to one that hangs, and for 250 mm of wire under changing loads (the fit's work).
+/// From a straight shape to a hanging one, and for 250 mm of wire under changing loads (as in a fit).
 TEST(Statics, ConvergesFromFarAndNear) {
   Bench far = bench_of(steel_wire({.elements = 512, .E_Pa = 1e9}), true);
   EXPECT_TRUE(far.settle().converged);

@@ -1,4 +1,4 @@
-/// What the step promises, whatever the physics: it is a pure function of model, inputs and state.
+/// Properties of the step regardless of physics: it is a pure function of model, inputs and state.
 #include "core/step/step.h"
 
 #include <gtest/gtest.h>
@@ -19,7 +19,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// Three unlike rods, so that full and half registers and a lonely third are all exercised.
+/// Three different rods, so that full, half-filled and single lanes are all used.
 Model three_rods() {
   Model model;
   RodDescription damped = steel_wire({.elements = 61, .E_Pa = 5e9, .length_m = 0.4});
@@ -32,7 +32,7 @@ Model three_rods() {
 
 State straight(const Model& model) { return make_state(model, std::vector<EndState>(model.rods.size(), along_x())); }
 
-/// A busy hand: pushes, turns, lets go and holds again.
+/// Inputs that change all the time: push, turn, release and hold again.
 Inputs busy_inputs(const Model& model, int step) {
   Inputs inputs;
   inputs.rods.resize(model.rods.size());
@@ -63,7 +63,7 @@ TEST(Step, SameInputsGiveTheSameBits) {
   EXPECT_EQ(hash(a), hash(b));
 }
 
-// A load on a stretch that holds the tip's node alone is a load on the tip; on a longer one its sum is the same.
+// A load on a stretch that contains only the tip's node equals a tip load; on a longer stretch the sum is the same.
 TEST(Step, ALoadOnAStretchIsBorneByTheBase) {
   Model model;
   model.gravity_W.setZero();
@@ -97,8 +97,8 @@ TEST(Step, ALoadOnAStretchIsBorneByTheBase) {
   EXPECT_TRUE(stretch.trouble & drive_not_finite);
 }
 
-// A cantilever of stiffness F / d beside a spring k bends by F / (F / d + k); and however stiff the spring is, its rod
-// is at rest at once where its point went.
+// A cantilever of stiffness F / d in parallel with a spring k bends by F / (F / d + k); however stiff the spring, the
+// rod is at rest immediately.
 TEST(Step, ATetherIsASpringBesideTheRod) {
   Model model;
   model.gravity_W.setZero();
@@ -197,11 +197,11 @@ TEST(Step, DoesNotAllocate) {
   find_equilibrium(model, busy, state, scratch, equilibria);
   EXPECT_NE(hash(state), 0u);
   EXPECT_EQ(allocations() - before, 0);
-  const auto witness = std::make_unique<int>(1);  // the counter does count
+  const auto witness = std::make_unique<int>(1);  // to check that the counter works
   EXPECT_GT(allocations() - before, 0);
 }
 
-/// What scratch held before must not matter: here it has seen joints at ends that are free now.
+/// Previous contents of scratch must not matter: here it has seen joints at ends that are now free.
 TEST(Step, DampedRodThatIsHeldAndFreedResumesBitIdentically) {
   RodDescription wire = steel_wire({.elements = 40, .length_m = 0.2});
   wire.damping.material_time_s = 3e-3;
@@ -318,7 +318,7 @@ TEST(BadInput, AllHoldsThrownAtRandomStayFinite) {
   }
 }
 
-/// Over-twisted until it cannot be solved, with its tip held: it must come back to its hold by itself.
+/// Twisted until unsolvable, with its tip held: it must return to its hold by itself.
 TEST(BadInput, OverTwistedSlackRodRecovers) {
   RodDescription wire = steel_wire({.elements = 200, .length_m = 0.3});
   wire.damping.drag_across_N_s_m2 = 0.007, wire.damping.drag_along_N_s_m2 = 0.0035;
@@ -361,7 +361,7 @@ TEST(BadInput, PullingATautRodApartAndOverturningJointsAreFlagged) {
   in.tip_force_W_N = Vector3d(60, 0, 0);
   in.tip.turn_rate_W_rad_s = Vector3d(20 * units::pi, 0, 0);
   bool flagged = false;
-  for (int ms = 0; ms < 790; ++ms) {  // 7.9 turns: pi per joint is at 8
+  for (int ms = 0; ms < 790; ++ms) {  // 7.9 turns: a joint reaches pi at 8
     bench.step();
     flagged = flagged || bench.report.trouble & joint_overturned;
   }
@@ -378,7 +378,7 @@ TEST(BadInput, ModelsOutOfRangeAreRefused) {
   model.step_s = 1e-3;
   model.gravity_W.x() = NAN;
   EXPECT_THROW(check(model), std::invalid_argument);
-  EXPECT_THROW(Scratch{model}, std::invalid_argument);  // nobody can step it
+  EXPECT_THROW(Scratch{model}, std::invalid_argument);  // such a model cannot be stepped
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-/// The anatomy and its variants: closed, uncrossed, named, and narrowed as asked.
+/// The anatomy and its variants: closed, free of crossings, named, and narrowed as requested.
 #include <gtest/gtest.h>
 
 #include "vascular/geometry/mesh/bounding_volume_hierarchy.h"
@@ -36,7 +36,7 @@ TEST(Anatomy, APersonIsTheSameEveryTimeAndUnlikeOthers) {
 }
 
 TEST(Anatomy, PeopleScatterAsPublished) {
-  // 400 people: the mean within 4 standard errors; limiting at two deviations takes 12 % off the deviation.
+  // 400 people: the mean within 4 standard errors; clamping at two deviations lowers the standard deviation by 12 %.
   double sum = 0, squares = 0;
   constexpr int n = 400;
   for (std::uint64_t seed = 1; seed <= n; ++seed) {
@@ -93,7 +93,7 @@ TEST(Lesion, NarrowsTheLumenByWhatItSaysAndOpensAgain) {
     const double before = healthy.nearest(p, 0.01).distance_m;
     const double after = narrow.nearest(p + narrowing.shift, 0.01).distance_m;
     EXPECT_NEAR(after / before, 1 - lesion.stenosis, 0.03) << lesion.branch;
-    // An eccentric lesion leaves the wall opposite to it where it was.
+    // An eccentric lesion does not change the opposite wall.
     if (lesion.eccentric) {
       EXPECT_NEAR(after + narrowing.shift.norm(), before, 0.1e-3);
     }

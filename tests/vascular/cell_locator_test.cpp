@@ -1,4 +1,4 @@
-/// From points to cells, seats and tips; and that a step allocates nothing.
+/// From points to cells, seats and tips; and that a step does not allocate.
 #include "vascular/contrast/cell_locator.h"
 
 #include <gtest/gtest.h>
@@ -12,7 +12,7 @@ namespace ostium::vascular {
 using units::atm;
 namespace {
 
-/// One patient for all: making one takes seconds.
+/// One patient for all tests: making one takes seconds.
 struct Ward {
   Patient patient = make_patient({}, {typical(LesionType::A, "RCA", 42e-3)});
   PhysiologyModel physiology = make_physiology(patient);
@@ -39,7 +39,7 @@ TEST(Place, AMarkerPairIsFoundAgainAtEveryMomentOfTheBeat) {
                 (path.s_m[path.cells.size() - 1] + path_position(w.tree, path, "RCA", w.tree.s_of(near))) / 2, 0.4e-3);
     EXPECT_LT(seat->offset_m, 0.4e-3);
   }
-  // Markers in two vessels are no seat.
+  // Markers in two different vessels do not make a seat.
   const int other = w.tree.cell_at(w.tree.branch("LAD"), 30e-3);
   EXPECT_FALSE(seat_of(locator, w.tree, paths, locator.centre(other), locator.centre(far)));
   EXPECT_FALSE(seat_of(locator, w.tree, paths, locator.centre(far) + Eigen::Vector3d(0.05, 0, 0), locator.centre(far)));
@@ -52,7 +52,7 @@ TEST(Place, ByAForkADeviceLiesWhereItsWireGoes) {
   const int lad = w.tree.branch("LAD"), lcx = w.tree.branch("LCx"), near = w.tree.cell_at(w.tree.branch("LM"), 2e-3);
   for (double phase : {0.0, 0.36, 0.7}) {
     locator.set_moment(phase, 0);
-    // Between both arteries, a hair nearer to one.
+    // Between both arteries, slightly nearer to one.
     const Eigen::Vector3d p_lad = locator.centre(w.tree.cell_at(lad, 1.5e-3)),
                           p_lcx = locator.centre(w.tree.cell_at(lcx, 1.5e-3));
     for (const double share : {0.45, 0.55}) {
@@ -64,7 +64,7 @@ TEST(Place, ByAForkADeviceLiesWhereItsWireGoes) {
         EXPECT_EQ(seat->branch, branch) << phase << ' ' << share;
       }
     }
-    // Where the wire's vessel is far, the nearest one counts.
+    // Far from the wire's vessel, the nearest vessel counts.
     const Eigen::Vector3d p_other = locator.centre(w.tree.cell_at(lcx, 25e-3));
     EXPECT_EQ(w.tree.cells[inside(locator, w.tree, paths, p_other, w.tree.cell_at(lad, 60e-3)).cell].branch, lcx);
   }

@@ -1,4 +1,4 @@
-/// Centrelines found in a mesh, against those that the mesh was made from.
+/// Centrelines found in a mesh, compared with those the mesh was made from.
 #include "vascular/geometry/centreline/centreline.h"
 
 #include <gtest/gtest.h>
@@ -15,7 +15,7 @@ std::vector<Tube> fork() {
           make_tube("branch", 0, {{{0.02, 0.004, 0}, 1.4e-3}, {{0.03, 0.02, 0}, 1.2e-3}, {{0.034, 0.04, 0}, 1e-3}})};
 }
 
-/// Largest distance of a branch's spheres from a tube's line, and of their radii from its.
+/// Largest deviations of a branch's spheres from a tube's line, and of their radii from its radius.
 std::pair<double, double> worst(const TreeBranch& branch, const Tube& tube, double from_m, double to_m) {
   double off = 0, radius = 0;
   for (const TreeSphere& sphere : branch.spheres) {

@@ -19,7 +19,8 @@ TEST(Contour, ACapsuleHasItsVolumeAndArea) {
   const Contour c = contour(TubeUnion(tubes));
   const SurfaceReport report = check_surface(c.mesh);
   EXPECT_TRUE(report.sound()) << describe(report);
-  // Vertices lie on it; cells of 0.68 mm are 18 around, whose chords cut off (2 pi / 18)^2 / 6 of the section.
+  // Vertices lie on the surface; cells of 0.68 mm give 18 around, whose chords cut off (2 pi / 18)^2 / 6 of the
+  // section.
   EXPECT_NEAR(report.volume_m3 / (pi * r * r * (l + 4.0 / 3 * r)), 1, 0.025);
   EXPECT_NEAR(report.area_m2 / (2 * pi * r * (l + 2 * r)), 1, 0.02);
   for (const Eigen::Vector3d& p : c.mesh.vertices) {

@@ -1,5 +1,5 @@
 #pragma once
-/// What happens to meshes on their way from a hospital, done to one that is whole.
+/// Typical damage of clinical meshes, applied to an intact one.
 #include <Eigen/Geometry>
 #include <random>
 
@@ -11,7 +11,8 @@ inline Eigen::Vector3d middle_of(const vascular::Mesh& m, const std::array<int, 
   return (m.vertices[t[0]] + m.vertices[t[1]] + m.vertices[t[2]]) / 3;
 }
 
-/// Without all between two planes across `along`, `width_m` apart, within `reach_m` of `p`. What the planes cut goes.
+/// Removes everything between two planes across `along`, `width_m` apart, within `reach_m` of `p`, and triangles that
+/// they cut.
 inline vascular::Mesh with_gap(vascular::Mesh m, const Eigen::Vector3d& p, const Eigen::Vector3d& along, double width_m,
                                double reach_m) {
   std::erase_if(m.triangles, [&](const std::array<int, 3>& t) {
@@ -21,21 +22,21 @@ inline vascular::Mesh with_gap(vascular::Mesh m, const Eigen::Vector3d& p, const
   return m;
 }
 
-/// Without every n-th triangle.
+/// Removes every n-th triangle.
 inline vascular::Mesh with_pinholes(vascular::Mesh m, int n) {
   int i = 0;
   std::erase_if(m.triangles, [&](const std::array<int, 3>&) { return ++i % n == 0; });
   return m;
 }
 
-/// Those within `reach_m` of `p` face inwards.
+/// Flips triangles within `reach_m` of `p`.
 inline vascular::Mesh with_flipped_patch(vascular::Mesh m, const Eigen::Vector3d& p, double reach_m) {
   for (auto& t : m.triangles)
     if ((middle_of(m, t) - p).norm() < reach_m) std::swap(t[1], t[2]);
   return m;
 }
 
-/// With a second shell around it.
+/// Adds a second shell around it.
 inline vascular::Mesh with_outer_wall(vascular::Mesh m, double thickness_m) {
   std::vector<Eigen::Vector3d> normal(m.vertices.size(), Eigen::Vector3d::Zero());
   for (const auto& [a, b, c] : m.triangles)
@@ -46,7 +47,7 @@ inline vascular::Mesh with_outer_wall(vascular::Mesh m, double thickness_m) {
   return m;
 }
 
-/// What lies beyond a plane across `along` at `p` is thicker by `step_m`, and cut off there: two pieces end to end.
+/// Widens the part beyond a plane across `along` at `p` by `step_m`, and cuts it off there: two pieces end to end.
 inline vascular::Mesh with_step(vascular::Mesh m, const Eigen::Vector3d& p, const Eigen::Vector3d& along,
                                 double step_m) {
   vascular::Mesh beyond = with_outer_wall(m, step_m);
@@ -61,7 +62,7 @@ inline vascular::Mesh with_step(vascular::Mesh m, const Eigen::Vector3d& p, cons
   return m;
 }
 
-/// Vertices moved by `deviation_m` (standard deviation) in all directions together.
+/// Moves vertices randomly; `deviation_m`: standard deviation over all directions together.
 inline vascular::Mesh with_noise(vascular::Mesh m, double deviation_m, unsigned seed) {
   std::mt19937 engine(seed);
   std::normal_distribution<double> move(0, deviation_m / std::sqrt(3.0));

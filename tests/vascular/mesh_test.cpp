@@ -1,4 +1,4 @@
-/// Meshes survive their way through files; what cannot be a surface is refused.
+/// Meshes survive writing and reading; invalid ones are refused.
 #include "vascular/geometry/mesh/mesh.h"
 
 #include <gtest/gtest.h>
@@ -76,7 +76,7 @@ TEST(Mesh, WhatWasCutShortOrBrokenIsRefused) {
   EXPECT_EQ(refusal(written("whole.ply", ascii + "3 0 2 3\n")), "accepted");
   EXPECT_NE(refusal(written("index.ply", ascii + "3 0 2 77\n")).find("vertex 77 of 4"), std::string::npos);
   EXPECT_NE(refusal(written("header.ply", ascii.substr(0, 60))).find("is cut short"), std::string::npos);
-  // Binary formats, at any place.
+  // Binary formats, truncated anywhere.
   for (const char* name : {"binary.ply", "binary.stl"}) {
     write_mesh(temporary(name), test::sphere(0.01, 6), LengthUnit::millimetre);
     std::ifstream file(temporary(name), std::ios::binary);

@@ -1,4 +1,4 @@
-/// Time, motion and splines of the beat.
+/// Timing, motion and splines of the cardiac cycle.
 #include <gtest/gtest.h>
 
 #include "core/base/units.h"
@@ -78,7 +78,7 @@ TEST(Beat, TheGrooveDescendsTheApexRestsTheArchIsStill) {
     return Eigen::Vector3d(tubes.centre(b.tube, s, 9) - tubes.centre(b.tube, s, 0));
   };
   EXPECT_NEAR(moved("RCA", 0.6).dot(along), 22.5e-3, 4e-3);  // TAPSE 20 to 25 mm
-  // The whole heart shifts by 4.5 mm (heart_motion.h); the apex has little besides.
+  // The whole heart shifts by 4.5 mm (heart_motion.h); the apex moves little beyond that.
   EXPECT_LT(moved("LAD", 0.95).norm(), 7e-3);
   EXPECT_NEAR(moved("LM", 0.0).norm(), 10.5e-3,
               1e-3);  // 5 to 8 mm from memory; Mao's speed of the left main needs more
@@ -105,7 +105,7 @@ TEST(Beat, TheBranchPointsOfTheTreeStayTogether) {
 TEST(Wall, ContactSeesTheSameWallAsTheLumenBetweenFrames) {
   const Anatomy a = build_anatomy({});
   const HeartMotion motion(a.landmarks);
-  // The right coronary alone, which moves fastest.
+  // Only the right coronary artery, which moves fastest.
   const Tube& rca = a.tubes[find_branch(a, "RCA")->tube];
   Contour contour;
   for (double s = 20e-3; s < 90e-3; s += 5e-3) {
@@ -119,7 +119,7 @@ TEST(Wall, ContactSeesTheSameWallAsTheLumenBetweenFrames) {
   for (std::size_t v = 0; v < lumen.vertices(); ++v)
     for (double phase = 0; phase < 1; phase += 0.003)
       off = std::max(off, (vertex_at(wall, static_cast<int>(v), frame_at(phase)) - lumen.healthy(v, phase, 0)).norm());
-  // Two cubic splines through the same frames: half of a percent of 25 mm.
+  // Two cubic splines through the same frames: half a percent of 25 mm.
   EXPECT_LT(off, 0.12e-3);
   EXPECT_GT(off, 0);
 }

@@ -1,4 +1,4 @@
-/// Heart, flow and contrast: identities, and that each answers to its cause the right way.
+/// Heart, flow and contrast: identities, and that each responds to its causes in the right direction.
 #include "vascular/physiology/physiology.h"
 
 #include <gtest/gtest.h>
@@ -12,7 +12,7 @@ namespace ostium::vascular {
 using units::mL, units::mL_min, units::mmHg;
 namespace {
 
-/// A right coronary of 100 mm that gives off one branch half-way.
+/// A right coronary artery of 100 mm with one branch half-way.
 PhysiologyModel model_of(const std::vector<PlainBranch>& branches = {{-1, 50, 1e-3, 1.6e-3, Territory::rca},
                                                                      {0, 50, 1e-3, 1.3e-3, Territory::rca},
                                                                      {0, 40, 1e-3, 0.9e-3, Territory::rca}}) {
@@ -37,7 +37,7 @@ struct Body {
       if (const ContrastReport r = step(model, inputs, 1e-3, state, scratch); r.rate_m3_s > 0 || r.refused) last = r;
     return last;
   }
-  /// Mean over whole beats.
+  /// Mean over complete beats.
   double flow(int cell, int beats = 5) {
     double sum = 0;
     int steps = 0;
@@ -93,10 +93,10 @@ TEST(Heart, ExtrasystolesComeEarlyWithoutAJumpAndAreFollowedByAPause) {
     if (kinds[i] == 0) continue;
     ++ectopic;
     if (kinds[i - 1] == 0) {
-      EXPECT_LT(lengths[i], 0.9 * 60 / 70);  // it comes early,
+      EXPECT_LT(lengths[i], 0.9 * 60 / 70);  // the extrasystole comes early,
     }
     if (kinds[i + 1] == 0) {
-      EXPECT_GT(lengths[i + 1], 1.2 * 60 / 70);  // and a pause behind it
+      EXPECT_GT(lengths[i + 1], 1.2 * 60 / 70);  // and a pause follows
     }
   }
   EXPECT_GT(ectopic, 5);
@@ -118,7 +118,7 @@ TEST(Heart, TheLineReadsWhatItsEndHoleMeets) {
   EXPECT_LT(body.state.line.mean_Pa, 0.8 * mean);
   EXPECT_LT(body.state.line.pulse_Pa, 0.6 * pulse);
   body.inputs.tip_covered = 0;
-  // The catheter fills the ostium: what is behind it is the squeezed muscle's pressure.
+  // The catheter fills the ostium: behind it, pressure is that of the compressed myocardium.
   body.model.flow.squeeze = {0.74, 0.7, 0.8};
   body.inputs.occupied_m.assign(body.state.radius_m.size(), 0);
   body.inputs.occupied_m[0] = body.state.radius_m[0];
@@ -145,7 +145,7 @@ TEST(Flow, WhatGoesInComesOutAtEveryCell) {
 }
 
 TEST(Flow, RestFlowIsKeptByTheMuscleUntilItCanOpenNoFurther) {
-  // Of the flow in the same artery without it: hardly less at 50 %, much less at 90 %.
+  // Flow relative to the same artery without a lesion: hardly less at 50 %, much less at 90 %.
   std::vector<double> flows;
   for (double stenosis : {0.0, 0.5, 0.7, 0.9}) {
     Body body;
@@ -286,10 +286,10 @@ TEST(Contrast, HangsUpBehindABlockageAndWashesOutElsewhere) {
     return concentration(body.state.contrast, body.model.flow, cell,
                          units::pi * std::pow(body.state.radius_m[cell], 2));
   };
-  EXPECT_GT(at(shut - 5), 50);  // it stands
+  EXPECT_GT(at(shut - 5), 50);  // contrast stagnates
   EXPECT_GT(at(shut + 5), 50);
-  EXPECT_LT(at(10), 5);   // the trunk is clear
-  EXPECT_LT(at(115), 5);  // and the other limb
+  EXPECT_LT(at(10), 5);   // the trunk is washed out
+  EXPECT_LT(at(115), 5);  // and so is the other limb
 }
 
 TEST(Contrast, AspirationBringsBackWhatIsThere) {
@@ -355,7 +355,7 @@ TEST(Outcomes, ContrastComesLaterWhenLessFlows) {
     for (; t < 20 && concentration(body.state.contrast, body.model.flow, cell, area) < 50; t += 0.01) body.run(0.01);
     return t;
   };
-  // A flow of all, half, a quarter.
+  // All of the flow, half, a quarter.
   const double all = arrives_s(0), half = arrives_s(0.5), quarter = arrives_s(0.75);
   EXPECT_GT(half, 1.4 * all);
   EXPECT_GT(quarter, 1.4 * half);

@@ -1,4 +1,4 @@
-/// Known damage to our own anatomy is found and mended: the radii come back.
+/// Known damage to our own anatomy is found and repaired: radii are restored.
 #include "vascular/geometry/repair/repair.h"
 
 #include <gtest/gtest.h>
@@ -52,7 +52,8 @@ class OwnAnatomy : public testing::Test {
     delete whole_;
   }
 
-  /// Of the largest sphere about the points of the courses, between both surfaces, mm; not within `reach_m` of `p`.
+  /// Largest difference of inscribed radii along the courses between both surfaces, mm; excluding points within
+  /// `reach_m` of `p`.
   static double worst_radius_mm(const Mesh& repaired, const Eigen::Vector3d& p = {1, 1, 1}, double reach_m = 0) {
     const BoundingVolumeHierarchy before(*whole_), after(repaired);
     double worst = 0;
@@ -109,7 +110,7 @@ TEST_F(OwnAnatomy, GapsAreBridgedEndToEnd) {
 }
 
 TEST_F(OwnAnatomy, GapsAreBridgedEndToWall) {
-  // Where the diagonal leaves: 3 mm of it are missing, and the wall that it leaves has a hole.
+  // At the diagonal's origin: 3 mm of it are missing, and its parent's wall has a hole.
   const Tube& d1 = (*tubes_)[3];
   const double s = 3.4 * mm;
   const RepairedMesh repaired = repair_mesh(test::with_gap(*whole_, d1.at(s).p, d1.tangent(s), 3 * mm, 3 * mm));
@@ -130,7 +131,7 @@ TEST_F(OwnAnatomy, SideBySideIsNoGap) {
 }
 
 TEST(Mend, AShelfBetweenPiecesBecomesATaper) {
-  // A vessel of 8 mm whose second half was drawn by its outer wall, 2.5 mm farther out.
+  // A vessel of 8 mm radius whose second half was drawn by its outer wall, 2.5 mm farther out.
   const std::vector<Tube> tube = {
       make_tube("aorta", -1, {{{0, 0, 0}, 8 * mm}, {{0.06, 0, 0}, 8 * mm}, {{0.12, 0, 0}, 8 * mm}})};
   const Mesh whole = contour(TubeUnion(tube)).mesh;
@@ -145,7 +146,7 @@ TEST(Mend, AShelfBetweenPiecesBecomesATaper) {
   EXPECT_LT((note->where[0] - p).norm(), 2 * mm);
   const BoundingVolumeHierarchy tree(repaired.lumen);
   const auto radius = [&](double x) {
-    double sum = 0;  // by rays: the nearest wall would not see a shelf
+    double sum = 0;  // by rays: the distance to the nearest wall would not show a shelf
     constexpr int rays = 24;
     for (int k = 0; k < rays; ++k) {
       const double angle = 2 * 3.14159265358979 * k / rays;
@@ -155,7 +156,7 @@ TEST(Mend, AShelfBetweenPiecesBecomesATaper) {
     }
     return sum;
   };
-  // The narrower piece stays; the wider one does from 20 mm on (eight steps); in between it rises gently.
+  // The narrower piece is unchanged, and the wider one beyond 20 mm (eight steps); in between it rises gently.
   for (double x = 0.02; x < 0.0575; x += 2 * mm) EXPECT_NEAR(radius(x), 8 * mm, 0.1 * mm) << x;
   for (double x = 0.084; x < 0.1; x += 2 * mm) EXPECT_NEAR(radius(x), 10.5 * mm, 0.1 * mm) << x;
   double steepest = 0;
@@ -165,7 +166,7 @@ TEST(Mend, AShelfBetweenPiecesBecomesATaper) {
 }
 
 TEST(Mend, AnAortaCutAboveItsRootIsCarriedOn) {
-  // An aorta that ends at x = 0; 6 mm beyond, outside what would be its wall, an artery begins.
+  // An aorta that ends at x = 0; an artery begins 6 mm beyond, outside the position of the missing wall.
   const std::vector<Tube> aorta = {
       make_tube("aorta", -1, {{{-0.02, 0, 0}, 10 * mm}, {{0.03, 0, 0}, 10 * mm}, {{0.08, 0, 0}, 10 * mm}})};
   const std::vector<Tube> artery = {make_tube(
@@ -182,7 +183,7 @@ TEST(Mend, AnAortaCutAboveItsRootIsCarriedOn) {
   for (const RepairNote& n : repaired.notes) all += n.what + "\n";
   EXPECT_NE(all.find("carried on"), std::string::npos) << all;
   const BoundingVolumeHierarchy tree(repaired.lumen);
-  // As wide as it was where it was cut, past the ostium by what lies below one.
+  // As wide as at the cut, and extended past the ostium by the distance from ostium to valve.
   for (double x = -0.016; x < 0.06; x += 4 * mm) {
     if (std::fabs(x + 0.006) < 4 * mm) continue;
     const auto hits = tree.hits({x, 0, 0}, Eigen::Vector3d::UnitY(), 0.03);
@@ -195,7 +196,7 @@ TEST(Mend, AnAortaCutAboveItsRootIsCarriedOn) {
 }
 
 TEST(Mend, BridgesBendAndDoNotKink) {
-  // A quarter of a circle: leaves along x, arrives along y.
+  // A quarter circle: leaves along x, arrives along y.
   const Bridge bridge{
       .p_from = {0, 0, 0}, .p_to = {0.01, 0.01, 0}, .radius_m = 1 * mm, .leaving = {1, 0, 0}, .arriving = {0, 1, 0}};
   const Mesh tube = body_of(bridge, 1 * mm);
@@ -276,7 +277,7 @@ TEST_F(OwnAnatomy, UnitsAreTold) {
 }
 
 TEST(Decimate, SliversSideBySideGo) {
-  // Triangles of no size, 10 nm and 1 um across, each with six slivers around it, as level sets have them.
+  // Triangles of almost no size, 10 nm and 1 um across, each with six slivers around it, as in level sets.
   for (double share : {1e-5, 1e-3}) {
     Mesh mesh = test::sphere(0.01, 24);
     const std::size_t whole = mesh.triangles.size();

@@ -1,5 +1,5 @@
-/// A lumen that is given frame by frame: our own beat, handed back as surfaces alone, carries tree and lesions as the
-/// motion that made it does.
+/// A lumen given frame by frame: our own cardiac motion, returned as surfaces only, moves tree and lesions like the
+/// motion that made it.
 #include <gtest/gtest.h>
 
 #include "core/base/units.h"

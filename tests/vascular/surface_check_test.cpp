@@ -1,4 +1,4 @@
-/// Each fault, made on purpose, is found where it was made.
+/// Each deliberate fault is found at its position.
 #include "vascular/geometry/mesh/surface_check.h"
 
 #include <gtest/gtest.h>

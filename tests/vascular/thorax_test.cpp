@@ -1,4 +1,4 @@
-/// Bodies of the X-ray: closed, nested, of a person's size.
+/// Bodies of the X-ray: closed, nested, of realistic size.
 #include "vascular/thorax/thorax.h"
 
 #include <gtest/gtest.h>
@@ -32,7 +32,7 @@ TEST(Shapes, VolumesOfEllipsoidRodAndNet) {
 }
 
 TEST(Shapes, ANetOfSharpCrevicesIsStillASurface) {
-  // Two cones that touch in their tips: everywhere two sheets in a cell.
+  // Two cones that touch at their tips: two sheets in one cell everywhere.
   const auto cones = [](const Eigen::Vector3d& p) {
     return std::max(std::hypot(p.x(), p.y()) - std::fabs(p.z()), p.norm() - 0.02);
   };

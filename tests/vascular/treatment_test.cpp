@@ -1,4 +1,5 @@
-/// Balloons, stents, the wall and injuries: each outcome moves the right way when its cause is halved and doubled.
+/// Balloons, stents, the wall and injuries: each outcome changes in the right direction if its cause is halved or
+/// doubled.
 #include "vascular/treatment/treatment.h"
 
 #include <gtest/gtest.h>
@@ -28,7 +29,7 @@ struct Setting {
   std::function<void(TreatmentModel&)> change = {};
 };
 
-/// A straight artery of 80 mm with a lesion in its middle, and what is done to it.
+/// A straight artery of 80 mm with a lesion in the middle, and its treatment.
 struct Bench {
   PhysiologyModel physiology{.heart = {}, .ischaemia = {}, .flow = {}, .contrast = {}, .line = {}};
   TreatmentModel model;
@@ -74,7 +75,7 @@ struct Bench {
       step(physiology, inputs, 1e-3, blood, blood_scratch);
     }
   }
-  /// Up, held, and down under vacuum.
+  /// Inflates, holds, and deflates under vacuum.
   void inflate(double gauge_atm) { run(gauge_atm, 5), run(-1, 9), run(0, 0.1); }
   double mld_mm() const {
     return 2e3 * *std::min_element(state.wall.radius_m.begin() + 50, state.wall.radius_m.begin() + 150);
@@ -165,13 +166,13 @@ TEST(Balloon, SlipsWhenItSitsOnAShoulder) {
     return bench.state.balloon.slip_m;
   };
   EXPECT_LT(std::fabs(slip(0, 1)), 0.2 * mm);
-  EXPECT_GT(slip(8, 1), 0.5 * mm);  // out of the narrowing, the way it already lies
+  EXPECT_GT(slip(8, 1), 0.5 * mm);  // out of the narrowing, in the direction in which it is already displaced
   EXPECT_LT(slip(-8, 1), -0.5 * mm);
   EXPECT_GT(slip(8, 0.5), slip(8, 2));
 }
 
 TEST(Balloon, StopsTheFlowMeanwhile) {
-  Bench bench({.stenosis = 0.4});  // through a tighter one no blood passes the folded balloon either
+  Bench bench({.stenosis = 0.4});  // in a tighter one the folded balloon blocks flow, too
   bench.run(0, 3);
   const double open = bench.blood.flow.flow_m3_s[20];
   bench.run(8, 8);
@@ -196,7 +197,7 @@ TEST(Balloon, BurstsAboveItsRatedPressureNeverBelow) {
   bench.run(2 * bench.model.balloons[0].rated_Pa / atm, 8);
   EXPECT_EQ(bench.state.balloon.burst, 1);
   EXPECT_LT(bench.state.balloon.pressure_Pa, 0.1 * atm);
-  // Its contrast is in the vessel, and accounted for.
+  // The contrast of the burst balloon is in the vessel and accounted for.
   EXPECT_GT(bench.blood.contrast.injected_kg, 0);
   EXPECT_NEAR(accounted_kg(bench.blood.contrast), bench.blood.contrast.injected_kg,
               1e-9 * bench.blood.contrast.injected_kg);
@@ -234,7 +235,7 @@ TEST(Stent, WiderWithPressureRecoilsLessIfStronger) {
   EXPECT_GT(strength(0.5), strength(1));
   EXPECT_GT(strength(1), strength(2));
   const auto spring = [](double times) {
-    // Where the wall does not press.
+    // Where the wall does not press on it.
     return stented(12, {.stenosis = 0.1, .change = [=](TreatmentModel& m) { m.stents[0].yield *= times; }}).recoil();
   };
   EXPECT_LT(spring(0.5), spring(1));
@@ -248,7 +249,7 @@ TEST(Stent, ShortensAsItOpensAsItsStrutsKeepTheirLength) {
   const auto [from, to] = span_of(s);
   EXPECT_LT(to - from, m.length_m);
   EXPECT_GT(to - from, 0.95 * m.length_m);
-  // Strut by strut: their length in space is what it was.
+  // Each strut has kept its length in space.
   const int around = 2 * m.crowns;
   for (int k = 0; k < m.rings; ++k)
     for (int j = 0; j < around; ++j) {
@@ -298,7 +299,7 @@ TEST(Stent, AnEdgeThatPushesShortensItAndItStaysSo) {
 }
 
 TEST(Stent, ASecondDeviceDoesNotPassOneThatIsNotOpen) {
-  // Left in the vessel hardly opened.
+  // A stent that was deployed almost unopened.
   Bench bench({.stenosis = 0.7, .calcified = true, .stent = true, .change = [](TreatmentModel& m) {
                  m.balloons.push_back(make_balloon(Compliance::semi, 3 * mm, 15 * mm)), m.stent_on.push_back(-1);
                }});
@@ -310,7 +311,7 @@ TEST(Stent, ASecondDeviceDoesNotPassOneThatIsNotOpen) {
   bench.run(0, 0.01);
   EXPECT_TRUE(bench.report.blocked);
   bench.run(12, 5);
-  EXPECT_LT(bench.state.wall.peak_m[100], 0.6 * mm);  // no inflation there either
+  EXPECT_LT(bench.state.wall.peak_m[100], 0.6 * mm);  // it was not inflated there either
 }
 
 TEST(Injury, ChancesAreThePublishedOnesAndGrowWithTheirCauses) {
@@ -322,7 +323,7 @@ TEST(Injury, ChancesAreThePublishedOnesAndGrowWithTheirCauses) {
   EXPECT_GT(dissection_hazard(1, true, false, 15 * mm), dissection_hazard(1, false, false, 15 * mm));
   EXPECT_GT(dissection_hazard(1, false, true, 15 * mm), dissection_hazard(1, false, false, 15 * mm));
   EXPECT_GT(dissection_hazard(1, false, false, 30 * mm), dissection_hazard(1, false, false, 15 * mm));
-  // What the seeds make of it: among 400 at ratio 1, as many tear as the chance says (4 standard errors).
+  // Over seeds: among 400 at ratio 1, the number of tears matches the probability (4 standard errors).
   int torn = 0, major = 0;
   PlaqueModel plaque;
   plaque.cells = {{.diseased_m = 0.8 * mm, .healthy_m = 1.5 * mm, .E_Pa = 1, .yield_Pa = 1, .hardening_Pa = 1}};
@@ -481,7 +482,7 @@ TEST(Outcomes, AnEdgeDeformsAStentByItsForceAgainstThatOfTheStruts) {
   EXPECT_GT(shortened(1, 2), 1 * mm);
 }
 
-/// Of 300 seeds, how many tear or are perforated at a stretch.
+/// Number of dissections and perforations among 300 seeds at a stretch.
 std::pair<int, int> injured(double ratio, double length_m, bool calcified) {
   std::pair<int, int> out;
   PlaqueModel plaque;

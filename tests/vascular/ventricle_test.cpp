@@ -1,4 +1,4 @@
-/// The ventricle behind the valve: with it the wall is one closed surface, with a door hanging in it.
+/// The ventricle behind the valve: with it the wall is one closed surface, with a door inside.
 #include "vascular/patient/ventricle.h"
 
 #include <gtest/gtest.h>
@@ -15,13 +15,13 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// What is left without the door, as contact has it in a frame.
+/// The surface without its door in a frame, as contact sees it while the door is open.
 Mesh without_door(const core::SurfaceDescription& wall, int frame) {
   const std::set<int> door(wall.door.begin(), wall.door.end());
   Mesh mesh{.vertices = wall.frames[static_cast<std::size_t>(frame)], .triangles = {}};
   for (int t = 0; t < static_cast<int>(wall.triangles.size()); ++t)
     if (!door.contains(t)) mesh.triangles.push_back(wall.triangles[static_cast<std::size_t>(t)]);
-  // Vertices of the door alone belong to nothing.
+  // Drop vertices that belong to the door alone.
   std::vector<int> number(mesh.vertices.size(), -1);
   Mesh out;
   for (auto& t : mesh.triangles)
@@ -62,11 +62,11 @@ TEST_P(VentricleOf, IsOneClosedSurfaceWithTheLumenThroughoutTheBeat) {
     EXPECT_EQ(r.vertices - r.triangles / 2, 2) << "no handle";
     volume[k] = volume_m3(mesh) - lumen_m3;
   }
-  // 128 mL and more of a healthy ventricle at end-diastole are beyond a plain one without its base; it gets smaller.
+  // A healthy ventricle has 128 mL and more at end-diastole; a simple one without its base has less. It contracts.
   EXPECT_GT(volume[0], 50e-6);
   EXPECT_LT(volume[0], 140e-6);
   EXPECT_LT(volume[1], volume[0]);
-  // Free of the arteries by some millimetres of muscle.
+  // Clear of the arteries by some millimetres of muscle.
   double nearest = 1;
   for (std::size_t f = 0; f < wall.frames.size(); f += 8)
     for (const TreeBranch& b : patient.tree_frames[f].branches)

@@ -11,7 +11,7 @@ namespace ostium::vascular {
 
 namespace {
 
-/// Arc length at which the tube's centre leaves the lumen of those before it.
+/// Arc length at which the tube's centreline leaves the lumen of the tubes before it.
 double leaves_at(const std::vector<Tube>& tubes, int t) {
   const std::vector<Tube> before(tubes.begin(), tubes.begin() + t);
   if (before.empty()) return 0;
@@ -25,8 +25,8 @@ double leaves_at(const std::vector<Tube>& tubes, int t) {
   return tubes[t].length_m();
 }
 
-/// Whether arteries from tube `first` on touch others than where they leave them: walls that meet would beat through
-/// each other.
+/// Whether arteries from tube `first` on touch others elsewhere than at their origin: touching walls would move through
+/// each other during the cardiac cycle.
 bool arteries_touch(const std::vector<Tube>& tubes, int first) {
   constexpr double gap_m = 0.6e-3, junction_m = 8e-3;
   for (int a = first; a < static_cast<int>(tubes.size()); ++a)
@@ -119,9 +119,9 @@ Anatomy build_once(const AnatomyParameters& parameters) {
   marks.p_right_ostium = root.p_right_ostium;
   marks.p_annulus = root.p_annulus;
   marks.root_axis = root.axis;
-  // The ellipsoid of revolution through Dodge's 15 points on the left ventricle (rms 2.3 mm): middle (12.0,
-  // -46.1, 19.6), axis (0.678, -0.427, 0.599); the points of the AV groove lie 18 to 31 mm before its middle, the LAD's
-  // end 71 behind.
+  // The ellipsoid of revolution through Dodge's 15 points on the left ventricle (rms 2.3 mm): centre (12.0, -46.1,
+  // 19.6), axis (0.678, -0.427, 0.599); the points of the AV groove lie 18 to 31 mm before its centre, the end of the
+  // LAD 71 mm behind it.
   const Eigen::Vector3d middle_mm(12.0, -46.1, 19.6), axis(0.678, -0.427, 0.599);
   marks.p_lv_base = root.from_left(middle_mm - 22 * axis);
   marks.p_lv_apex = root.from_left(middle_mm + 73 * axis);

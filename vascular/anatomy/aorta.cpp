@@ -17,7 +17,7 @@ CoursePoint point(const Eigen::Vector3d& p, double diameter_mm = 0) { return {p,
 
 Eigen::Vector3d mm(double x, double y, double z) { return Eigen::Vector3d(x, y, z) * 1e-3; }
 
-/// Three pockets with the closed leaflets between them: a wire lands on their floor.
+/// The three sinuses with the closed leaflets between them: a wire lands on their floor.
 void add_sinuses(AnatomyBuilder& builder, const Root& root, double sinus_mm) {
   const double k = sinus_mm / 29.8;
   const auto sinus = [&](const char* name, const Eigen::Vector3d& side) {
@@ -65,7 +65,7 @@ void add_abdomen(AnatomyBuilder& builder, const AnatomyParameters& p, Landmarks&
   builder.add("right renal", 0, course({{2, -186, -45, 6}, {-14, -188, -46, 5.6}, {-40, -196, -62, 5.2}}), 0.6);
   builder.add("left renal", 0, course({{2, -190, -44, 6}, {18, -192, -48, 5.6}, {42, -198, -64, 5.2}}), 0.6);
   const double cia = p.common_iliac_mm, eia = p.external_iliac_mm, cfa = p.femoral_mm;
-  // The right side is the aorta's own continuation: see the aorta.
+  // The right common iliac continues the aorta's tube.
   builder.add("left iliac", 0,
               course({{-1, -277, -35, cia},
                       {13, -294, -40, cia},
@@ -91,8 +91,7 @@ void add_aorta(AnatomyBuilder& builder, const Root& root, const AnatomyParameter
   const double k = p.sinus_mm / 29.8;
   std::vector<CoursePoint> aorta = {point(from + 13e-3 * k * a, 23.5 * k), point(from + 23e-3 * k * a, 27 * k),
                                     point(mm(-21.5, 5.5, 13.5)), point(mm(-25, 14, 15.5), p.ascending_mm)};
-  // The arch: half an ellipse of the published width and height, in a plane that runs from right in front to left
-  // behind.
+  // The arch: half an ellipse of the published width and height, in a plane from right anterior to left posterior.
   const Eigen::Vector3d first = mm(-25, 25, 14), across = mm(0.51, 0, -0.86).normalized();
   const double half_width = p.arch_width_mm / 2e3, height = p.arch_height_mm / 1e3;
   for (int i = 0; i <= 6; ++i) {

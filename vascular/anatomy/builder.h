@@ -1,5 +1,5 @@
 #pragma once
-/// Adds tubes to an anatomy, so that the tables of coronaries and aorta stay tables.
+/// Adds tubes to an anatomy from the tables of coronaries and aorta.
 #include <array>
 #include <random>
 
@@ -8,7 +8,7 @@
 
 namespace ostium::vascular {
 
-/// A point of a course in mm and the diameter there, 0 where it is interpolated.
+/// A point of a course in mm and the diameter there; 0: interpolated.
 struct TableRow {
   double x, y, z, diameter_mm;
 };
@@ -17,11 +17,11 @@ class AnatomyBuilder {
  public:
   explicit AnatomyBuilder(Anatomy& anatomy) : anatomy_(anatomy) {}
 
-  /// A tube out of the parent's centreline at the point nearest to the course's first. Its own branch has its name;
-  /// with `trunk`, the stretch before the point nearest to `trunk_end` has that name instead.
+  /// Adds a tube that starts on the parent's centreline at the point nearest to the course's first. Its branch is
+  /// called `name`; with `trunk`, the stretch before the point nearest to `trunk_end` is called that instead.
   int add(const std::string& name, int parent, std::vector<CoursePoint> course, double blend = 1);
   void name_trunk(const std::string& trunk, const Eigen::Vector3d& trunk_end);
-  int tube(const std::string& branch) const;  ///< index of the tube that a branch is part of
+  int tube(const std::string& branch) const;  ///< index of the tube that contains a branch
 
  private:
   Anatomy& anatomy_;

@@ -1,9 +1,9 @@
 /// The coronary arteries of the mean right-dominant heart and its variants.
 ///
 /// Courses: the points of Dodge et al., Circulation 1988;78:1167 (origins and middles of segments), joined so that the
-/// artery runs on the heart; mm from the left ostium, for the right coronary from the right one; x left, y head, z
-/// front. Proximal and distal diameters: Dodge et al., Circulation 1992;86:232; middle ones CT. Side branches, for
-/// which there is no number, taper from about 2 mm (septals 1.5 to 2.0 mm).
+/// artery runs on the heart; mm from the left ostium, for the right coronary from the right ostium; x left, y head, z
+/// front. Proximal and distal diameters: Dodge et al., Circulation 1992;86:232; middle ones: CT. Side branches without
+/// published diameters taper from about 2 mm (septals 1.5 to 2.0 mm).
 #include <cassert>
 #include <cmath>
 #include <random>
@@ -208,7 +208,7 @@ class Coronaries {
     builder_.add(name, builder_.tube(parent), wandering(from_right(rows), 2), 0.8);
   }
 
-  /// Bends the course by what is left of the scatter between people: two waves along it, from its point `first` on.
+  /// Bends the course by the remaining scatter between people: two waves along it, from its point `first` on.
   std::vector<CoursePoint> wandering(std::vector<CoursePoint> course, std::size_t first) {
     const auto deviate = [&] {  // the sum of four uniform numbers has variance 1/3
       double sum = -2;

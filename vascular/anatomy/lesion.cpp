@@ -13,7 +13,7 @@ namespace ostium::vascular {
 namespace {
 
 using units::mm;
-constexpr double shoulder = 0.3;  // share of the length in which the narrowing sets in, at either end
+constexpr double shoulder = 0.3;  // share of the length over which the narrowing sets in, at either end
 
 /// 0 at the ends, 1 between the shoulders, with a continuous slope.
 double depth_at(const Lesion& lesion, double from_branch_m) {

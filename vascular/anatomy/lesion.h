@@ -1,5 +1,5 @@
 #pragma once
-/// Narrowings: a length of a branch whose lumen is smaller than it was, on all sides or from one.
+/// Lesions: a length of a branch whose lumen is narrowed, all round or from one side.
 #include <string>
 #include <vector>
 
@@ -8,25 +8,26 @@
 namespace ostium::vascular {
 
 struct Lesion {
-  std::string branch;      ///< name, as the anatomy has it
+  std::string branch;      ///< name in the anatomy
   double from_m = 0;       ///< proximal end, from the branch's origin
   double length_m = 0;     ///< > 0
-  double stenosis = 0;     ///< of the diameter, in (0, 0.95]: what is missing where it is narrowest
-  bool eccentric = false;  ///< the plaque is on one side only, the opposite wall stays
-  double side_rad = 0;     ///< where an eccentric plaque is: 0 towards the heart, turning towards the branch's right
-  bool calcified = false;  ///< for X-ray and balloon; no geometry
+  double stenosis = 0;     ///< of the diameter, in (0, 0.95]: the missing share at the narrowest point
+  bool eccentric = false;  ///< plaque on one side only; the opposite wall is unchanged
+  double side_rad = 0;     ///< position of an eccentric plaque: 0 towards the heart, turning towards the branch's right
+  bool calcified = false;  ///< for X-ray and balloon; no effect on geometry
 };
 
-/// Kinds of lesion after ACC/AHA (Ryan et al., Circulation 1988;78:486): A short and concentric, B tubular or
-/// eccentric, C longer than 20 mm. Everything but the place is set.
+/// Lesion types after ACC/AHA (Ryan et al., Circulation 1988;78:486): A short and concentric, B tubular or eccentric, C
+/// longer than 20 mm. Sets everything except the location.
 enum class LesionType { A, B, C };
 Lesion typical(LesionType type, const std::string& branch, double from_m);
 LesionType type_of(const Lesion& lesion);
 
-/// Throws std::invalid_argument saying what exists: unknown branch, a lesion that does not fit it, a stenosis outside.
+/// Throws std::invalid_argument listing valid values: unknown branch, a lesion that does not fit it, a stenosis out of
+/// range.
 void check(const Anatomy& anatomy, const Lesion& lesion);
 
-/// What lesions do to a tube's section.
+/// Effect of lesions on a tube's cross-section.
 struct Narrowing {
   double scale = 1;                                 ///< of the radius
   Eigen::Vector3d shift = Eigen::Vector3d::Zero();  ///< of the centre
@@ -34,7 +35,7 @@ struct Narrowing {
 };
 Narrowing narrowing_at(const Anatomy& anatomy, const std::vector<Lesion>& lesions, int tube, double s_m);
 
-/// Where the wall of the healthy lumen at `p` is with the lesions.
+/// Position on the diseased wall of the point `p` of the healthy wall.
 Eigen::Vector3d diseased(const Anatomy& anatomy, const std::vector<Lesion>& lesions, const Eigen::Vector3d& p,
                          const std::vector<TubeShare>& shares);
 

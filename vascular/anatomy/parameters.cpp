@@ -8,7 +8,7 @@ namespace ostium::vascular {
 
 namespace {
 
-/// Normal deviates from a generator that is the same on every system (std::normal_distribution is not).
+/// Normal deviates that are the same on every system (std::normal_distribution is not).
 class Deviates {
  public:
   explicit Deviates(std::uint64_t seed) : engine_(seed) {}
@@ -44,7 +44,7 @@ AnatomyParameters person(std::uint64_t seed, const AnatomyParameters& base) {
   const double count = draw.uniform();
   p.diagonals = count < 0.14 ? 1 : count < 0.76 ? 2 : 3;
   p.ramus = draw.uniform() < 0.2;
-  // Arteries of one person are large or small together: half of the variance is common.
+  // Sizes of one person's arteries are correlated: half of the variance is common.
   const double common = draw.normal();
   const auto coronary = [&](double& mm, double sd) {
     mm += sd * std::clamp((common + draw.normal()) / std::sqrt(2.0), -2.0, 2.0);
@@ -57,7 +57,7 @@ AnatomyParameters person(std::uint64_t seed, const AnatomyParameters& base) {
   p.lad_proximal_mm = std::min(p.lad_proximal_mm, p.left_main_mm - 0.3);
   p.lcx_proximal_mm = std::min(p.lcx_proximal_mm, p.left_main_mm - 0.3);
   p.side_branch_scale *= 1 + 0.1 * std::clamp((common + draw.normal()) / std::sqrt(2.0), -2.0, 2.0);
-  // So are the parts of an aorta; beyond one and a half deviations it would be a patient of another kind.
+  // So are the parts of an aorta; beyond 1.5 deviations it would be a different kind of patient.
   const double wide = draw.normal();
   const auto aortic = [&](double& mm, double sd) {
     mm += sd * std::clamp(0.9 * wide + 0.44 * draw.normal(), -1.5, 1.5);

@@ -1,5 +1,5 @@
 #pragma once
-/// What differs between people. The defaults are the published means, the standard deviations stand beside them.
+/// Parameters that differ between people. Defaults are the published means; standard deviations are given beside them.
 #include <Eigen/Core>
 #include <cstdint>
 
@@ -17,7 +17,7 @@ struct AnatomyParameters {
   // The heart about the aortic root. Dodge 1988: radial SD 8 %, angular SD 7 to 10 degrees at distal points.
   double heart_scale = 1;                                    ///< [0.8, 1.2]
   Eigen::Vector3d heart_turn_rad = Eigen::Vector3d::Zero();  ///< about x, y, z; each within 0.35
-  double course_wander_m = 0;                                ///< SD of what is left, along each branch; [0, 3e-3]
+  double course_wander_m = 0;                                ///< SD of the other scatter along a branch; [0, 3e-3]
   std::uint64_t wander_seed = 0;
 
   // Coronary diameters in mm: Dodge 1992; middle and distal: CT. Women's are 9 % smaller.
@@ -28,7 +28,7 @@ struct AnatomyParameters {
   double rca_proximal_mm = 3.9;  ///< SD 0.6; left-dominant 2.8, SD 0.5
   double side_branch_scale = 1;  ///< of all other coronary diameters; [0.6, 1.4]
 
-  // Aorta in mm: Hager 2002; infrenal and common iliac: CT of 1340 people; arch: CT of 344 men.
+  // Aorta in mm: Hager 2002; infrarenal and common iliac: CT of 1340 people; arch: CT of 344 men.
   double sinus_mm = 29.8;       ///< SD 4.6
   double ascending_mm = 30.9;   ///< SD 4.1
   double arch_mm = 27.7;        ///< SD 3.7
@@ -42,11 +42,11 @@ struct AnatomyParameters {
   double arch_width_mm = 83.6;
 };
 
-/// Parameters of a person drawn from the published standard deviations, each limited to two of them. Seed 0 is the
-/// mean. Dominance and access stay as `base` has them.
+/// Parameters of a person, drawn with the published standard deviations and limited to two of them. Seed 0 is the mean.
+/// Dominance and access are those of `base`.
 AnatomyParameters person(std::uint64_t seed, const AnatomyParameters& base);
 
-/// The mean of a dominance: diameters as published for it.
+/// The mean person of a dominance, with the diameters published for it.
 AnatomyParameters mean_of(Dominance dominance, Access access = Access::femoral);
 
 }  // namespace ostium::vascular

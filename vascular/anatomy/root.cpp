@@ -6,15 +6,15 @@ namespace {
 
 // The mean heart, mm from the left ostium.
 const Eigen::Vector3d mean_axis = Eigen::Vector3d(-0.73, 0.67, 0.13).normalized();
-// Dodge 1988: 37 mm along (-14.4, -14.5, 30.9); the mean sinus of Hager 2002 leaves room for 29.
+// Dodge 1988: 37 mm along (-14.4, -14.5, 30.9); the mean sinus of Hager 2002 only allows 29.
 const Eigen::Vector3d mean_right_ostium = 29.0 / 37 * Eigen::Vector3d(-14.4, -14.5, 30.9);
 constexpr double left_above_annulus_mm = 14.4;
-constexpr double ostium_radius_mm = 15.5;  // of the mean sinus, at its ostia
+constexpr double ostium_radius_mm = 15.5;  // of the mean sinus, at the ostia
 
 }  // namespace
 
 Root make_root(const AnatomyParameters& parameters) {
-  // The middle is equally far from both ostia, behind their chord (the side of the non-coronary sinus).
+  // The centre is equally far from both ostia, on the non-coronary side of the line between them.
   const Eigen::Vector3d across = mean_right_ostium - mean_right_ostium.dot(mean_axis) * mean_axis;
   const Eigen::Vector3d forwards = mean_axis.cross(across).normalized();
   const double behind = std::sqrt(ostium_radius_mm * ostium_radius_mm - across.squaredNorm() / 4);

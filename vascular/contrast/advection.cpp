@@ -9,7 +9,7 @@ void carry(std::span<const double> mass, std::span<const double> volume, std::sp
            double inlet_kg_m3, std::span<double> through_kg, CarryScratch& x) {
   const int n = static_cast<int>(mass.size());
   x.kg_m3.resize(n + 2), x.slope.resize(n);
-  double* const c = x.kg_m3.data() + 1;  // c[-1] is ahead of the first cell, c[n] behind the last
+  double* const c = x.kg_m3.data() + 1;  // c[-1] is upstream of the first cell, c[n] downstream of the last
   c[-1] = inlet_kg_m3;
   for (int i = 0; i < n; ++i) c[i] = mass[i] / volume[i];
   c[n] = c[n - 1];
@@ -25,7 +25,7 @@ void carry(std::span<const double> mass, std::span<const double> volume, std::sp
     if (i < 0) {
       through_kg[face] = sum + inlet_kg_m3 * left;
     } else {
-      const double part = left / volume[i];  // of the cell, next to the face
+      const double part = left / volume[i];  // share of the cell next to the face
       through_kg[face] = sum + mass[i] * part + x.slope[i] * volume[i] * part * (1 - part) / 2;
     }
   }

@@ -7,8 +7,8 @@ namespace ostium::vascular {
 
 namespace {
 
-constexpr double in_vessel = 1.6;     // radii from the centreline at which a point still counts as inside
-constexpr double at_ostium_m = 8e-3;  // from an ostium within which a jet may meet it
+constexpr double in_vessel = 1.6;     // distance from the centreline, in radii, that still counts as inside
+constexpr double at_ostium_m = 8e-3;  // distance from an ostium within which a jet may enter it
 constexpr double in_aorta_m = 25e-3;
 
 }  // namespace
@@ -37,7 +37,7 @@ void CellLocator::measure_towards(const Eigen::Vector3d& p, int other, double si
 }
 
 CellLocator::Found CellLocator::measured(const Eigen::Vector3d& p, int cell) const {
-  // Against the pieces of centreline to both neighbours.
+  // Compare with the centreline segments to both neighbours.
   Found best{cell, (p - centres_[cell]).norm(), 0};
   if (tree_.cells[cell].upstream >= 0) measure_towards(p, tree_.cells[cell].upstream, -1, best);
   for (int k = child_first_[cell]; k < child_first_[cell + 1]; ++k) measure_towards(p, children_[k], 1, best);
@@ -62,7 +62,7 @@ CellLocator::Found CellLocator::nearest(const Eigen::Vector3d& p, double limit_m
       if (const double d = (p - centres_[c]).squaredNorm(); d < least) least = d, at = static_cast<int>(c);
     if (at < 0) return {};
   }
-  // Downhill from neighbour to neighbour.
+  // Move to ever nearer neighbours.
   for (bool moved = true; moved;) {
     moved = false;
     double least = (p - centres_[at]).squaredNorm();
@@ -116,7 +116,7 @@ void occupy(const CellLocator& locator, const FlowTree& tree, std::span<const Ei
       last = -1;
       continue;
     }
-    // And the cells between this point and the last one.
+    // Also the cells between this point and the last one.
     const int low = last < 0 ? f.cell : std::min(last, f.cell), high = last < 0 ? f.cell : std::max(last, f.cell);
     if (last < 0 || tree.is_downstream(high, low))
       for (int c = high; c >= low && c >= 0; c = tree.cells[c].upstream)
@@ -132,7 +132,7 @@ TipPlace tip_place(const CellLocator& locator, const FlowTree& tree, const Contr
                    const Eigen::Vector3d& p_tip, const Eigen::Vector3d& direction) {
   const CellLocator::Found f = locator.nearest(p_tip, 6e-3);
   if (f.cell >= 0 && f.distance_m <= in_vessel * tree.cells[f.cell].healthy_m) {
-    // Ahead of the first cell it is still in the sinus.
+    // Upstream of the first cell it is still in the sinus.
     const bool first = tree.cells[f.cell].upstream < 0;
     const Eigen::Vector3d into = first ? (locator.centre(f.cell + 1) - locator.centre(f.cell)).normalized() : direction;
     if (!first || (p_tip - locator.centre(f.cell)).dot(into) > -2e-3) return {TipPlace::coronary, f.cell, 1};
@@ -157,12 +157,12 @@ TipPlace tip_place(const CellLocator& locator, const FlowTree& tree, const Contr
   return beyond_valve_m(patient.anatomy.landmarks, p_tip) > 0 ? TipPlace{} : place;
 }
 
-constexpr double ventricle_radius_m = 0.02, ventricle_length_m = 0.09;  // its cavity below the valve, roughly
+constexpr double ventricle_radius_m = 0.02, ventricle_length_m = 0.09;  // rough size of its cavity below the valve
 
 double beyond_valve_m(const Landmarks& landmarks, const Eigen::Vector3d& p) {
   const Eigen::Vector3d from = p - landmarks.p_annulus;
   const double beyond_m = -from.dot(landmarks.root_axis);
-  // What lies aside is no ventricle: the plane goes on through the arteries of leg and heart.
+  // The valve's plane also cuts through arteries of leg and heart: what is far from the axis is not in the ventricle.
   const double aside_m = (from + beyond_m * landmarks.root_axis).norm();
   return beyond_m > 0 && (aside_m > ventricle_radius_m || beyond_m > ventricle_length_m) ? -aside_m : beyond_m;
 }

@@ -1,10 +1,10 @@
 #pragma once
-/// Contrast from the syringe to the muscle: line and catheter, sinus and aorta, the coronary tree.
+/// Contrast from the syringe to the myocardium: line and catheter, sinus and aorta, the coronary tree.
 ///
-/// In the arteries blood runs in `layers` concentric sheaths that carry equal flow, the inner ones faster, as
-/// Poiseuille's profile has it: between the shares q of the flow lie x = 1 - sqrt(1 - q) of the section. So a front is
-/// stretched as laminar flow stretches it; at bifurcations, and slowly elsewhere, the sheaths mix. What leaks into the
-/// muscle is gone.
+/// In the arteries blood flows in `layers` concentric sheaths that carry equal flow, the inner ones faster, as in
+/// Poiseuille's profile: the flow share q lies within the share x = 1 - sqrt(1 - q) of the cross-section. A front is
+/// therefore stretched as in laminar flow; sheaths mix at bifurcations, and slowly elsewhere. Contrast that enters the
+/// myocardium is gone.
 #include <array>
 #include <span>
 
@@ -16,38 +16,38 @@ namespace ostium::vascular {
 inline constexpr int layers = 4;
 inline constexpr int line_cells = 64;
 
-/// What contrast runs through from the syringe to the tip. Full of saline or blood at first.
+/// The path from syringe to tip. Initially full of saline or blood.
 struct Line {
-  double dead_m3 = 2.5e-6;          ///< of manifold line and catheter (6F: 2.5 mL)
+  double dead_m3 = 2.5e-6;          ///< volume of manifold line and catheter (6F: 2.5 mL)
   double bore_m = 0.9e-3;           ///< radius of the catheter's lumen
-  double length_m = 1.0;            ///< of it
-  double hand_Pa = 4e5;             ///< most that a thumb presses with [estimate]
+  double length_m = 1.0;            ///< of the catheter's lumen
+  double hand_Pa = 4e5;             ///< largest thumb pressure [estimate]
   double viscosity_Pa_s = 10.4e-3;  ///< of iohexol 350 at 37 C (label)
 };
 
 struct ContrastModel {
-  double mixing_s = 2.0;             ///< sheaths mix by bends and beat [estimate]
-  double dispersion_m2_s = 2e-5;     ///< along a vessel, by the beat: what creeps into a dead end [estimate]
+  double mixing_s = 2.0;             ///< mixing of sheaths by bends and cardiac motion [estimate]
+  double dispersion_m2_s = 2e-5;     ///< along a vessel, by cardiac motion: lets contrast enter a dead end [estimate]
   double sinus_m3 = 3e-6;            ///< each sinus
-  double sinus_flow_m3_s = 6e-6;     ///< exchanged with the root always, and
+  double sinus_flow_m3_s = 6e-6;     ///< constant exchange with the root, plus
   double sinus_share = 0.12;         ///< this share of the ejected flow
-  std::array<double, layers> share;  ///< of the section that a sheath has; filled by make_contrast_model
-  std::vector<double> aorta_length_m, aorta_radius_m;  ///< of its cells, from the root on
-  std::array<int, 2> ostium_cell{};                    ///< of the aorta, at the left and right ostium
-  std::array<int, 2> coronary_branch{};                ///< of the flow tree: LM and RCA; -1: none
-  std::vector<double> mixes;                           ///< (#cells) 1 where side branches leave, else 0
+  std::array<double, layers> share;  ///< of the cross-section in each sheath; set by make_contrast_model
+  std::vector<double> aorta_length_m, aorta_radius_m;  ///< of its cells, from the root
+  std::array<int, 2> ostium_cell{};                    ///< aorta cells at the left and right ostium
+  std::array<int, 2> coronary_branch{};                ///< branches of the flow tree: LM and RCA; -1: none
+  std::vector<double> mixes;                           ///< (#cells) 1 where side branches leave, otherwise 0
 };
 ContrastModel make_contrast_model(const FlowModel& flow, const Patient& patient);
 /// Without an aorta, for tests.
 ContrastModel make_contrast_model(const FlowModel& flow);
 
-/// Where the catheter's end hole is.
+/// Location of the catheter's end hole.
 struct TipPlace {
   enum class Where { outside, aorta, left_sinus, right_sinus, coronary };
   using enum Where;
   Where where = outside;
   int cell = 0;            ///< of the aorta, or of the flow tree
-  double into_ostium = 0;  ///< [0, 1]: in a sinus, the share of the jet that meets the ostium
+  double into_ostium = 0;  ///< [0, 1]: in a sinus, the share of the jet that enters the ostium
 };
 constexpr auto fields(const TipPlace*) {
   return std::tuple{core::field("where", &TipPlace::where), core::field("cell", &TipPlace::cell),
@@ -55,26 +55,26 @@ constexpr auto fields(const TipPlace*) {
 }
 
 struct ContrastInputs {
-  double injection_m3_s = 0;   ///< what the thumb asks for; below zero it is refused
-  double iodine_kg_m3 = 350;   ///< of what is in the syringe; 0: saline
-  double aspiration_m3_s = 0;  ///< drawn back
-  double shaft_m = 0;          ///< radius of what lies in the catheter
+  double injection_m3_s = 0;   ///< requested; a negative value is refused
+  double iodine_kg_m3 = 350;   ///< of the syringe's contents; 0: saline
+  double aspiration_m3_s = 0;  ///< drawn back through the catheter
+  double shaft_m = 0;          ///< radius of a shaft inside the catheter
   Line line;
   TipPlace tip;
 };
 
 struct ContrastState {
-  std::vector<double> line_kg;       ///< (line_cells) from the syringe to the tip
-  std::vector<double> sheath_kg;     ///< (#layers x #cells) iodine, sheath by sheath
+  std::vector<double> line_kg;       ///< (line_cells) from syringe to tip
+  std::vector<double> sheath_kg;     ///< (#layers x #cells) iodine per sheath
   std::vector<double> aorta_kg;      ///< (#aorta cells)
   std::array<double, 2> sinus_kg{};  ///< left, right
-  double injected_kg = 0;            ///< out of the syringe, and
-  double injected_m3 = 0;            ///< with it
+  double injected_kg = 0;            ///< out of the syringe
+  double injected_m3 = 0;            ///< volume out of the syringe
   double from_tip_kg = 0;            ///< out of the catheter
   double aspirated_kg = 0;
-  double muscle_kg = 0;   ///< washed out through the muscle
-  double carried_kg = 0;  ///< gone down the aorta, or wherever a tip outside of the heart let it go
-  double outside_kg = 0;  ///< out of the vessel, through an injury
+  double muscle_kg = 0;   ///< washed out through the myocardium
+  double carried_kg = 0;  ///< lost down the aorta, or from a tip outside the heart
+  double outside_kg = 0;  ///< left the vessel through an injury
 };
 constexpr auto fields(const ContrastState*) {
   using S = ContrastState;
@@ -88,9 +88,9 @@ constexpr auto fields(const ContrastState*) {
 ContrastState make_contrast_state(const ContrastModel& model, const FlowModel& flow);
 
 struct ContrastReport {
-  double rate_m3_s = 0;  ///< that came through line and catheter
-  double selective = 0;  ///< share of it that went into the coronary
-  bool refused = false;  ///< a rate below zero, or not a number, was taken as zero
+  double rate_m3_s = 0;  ///< flow through line and catheter
+  double selective = 0;  ///< share of it that entered the coronary
+  bool refused = false;  ///< a negative or non-finite rate was taken as zero
 };
 
 struct ContrastScratch {
@@ -98,7 +98,7 @@ struct ContrastScratch {
   CarryScratch carry;
 };
 
-/// The blood that carries contrast in a step.
+/// The blood flow that carries contrast in a step.
 struct BloodNow {
   const FlowModel& flow;
   const FlowState& state;
@@ -110,10 +110,10 @@ struct BloodNow {
 ContrastReport step(const ContrastModel& model, const BloodNow& now, const ContrastInputs& inputs, double dt_s,
                     ContrastState& state, ContrastScratch& scratch);
 
-/// Mean over the section of a coronary cell, kg/m3; `area_m2` is what is left for blood.
+/// Mean over the cross-section of a coronary cell, kg/m3; `area_m2`: free for blood.
 double concentration(const ContrastState& state, const FlowModel& flow, int cell, double area_m2);
 double aorta_concentration(const ContrastModel& model, const ContrastState& state, int cell);
-/// All iodine: in the line, the vessels and wherever it went; equals injected_kg.
+/// All iodine: in line, vessels and everywhere it went; equals injected_kg.
 double accounted_kg(const ContrastState& state);
 
 }  // namespace ostium::vascular

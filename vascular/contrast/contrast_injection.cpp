@@ -11,7 +11,8 @@ namespace {
 
 using units::pi;
 
-/// The line holds what was pushed or drawn into it; `mass` lists it from where it enters. Returns what leaves it.
+/// Pushes a volume into the line; `mass` is listed from where it enters. Returns the iodine that leaves at the other
+/// end.
 double push(double volume_m3, double entering_kg_m3, double dead_m3, ContrastScratch& x) {
   x.volume.assign(line_cells, dead_m3 / line_cells), x.passing.assign(line_cells + 1, volume_m3);
   x.through.resize(line_cells + 1);
@@ -29,7 +30,7 @@ double push_line(const ContrastInputs& in, double volume_m3, ContrastState& s, C
   return out;
 }
 
-/// Returns what it took from where the tip is.
+/// Draws back. Returns the iodine taken from the tip's location.
 double draw_line(double volume_m3, double dead_m3, double tip_kg_m3, ContrastState& s, ContrastScratch& x) {
   x.mass.assign(s.line_kg.rbegin(), s.line_kg.rend());
   s.aspirated_kg += push(volume_m3, tip_kg_m3, dead_m3, x);
@@ -37,7 +38,7 @@ double draw_line(double volume_m3, double dead_m3, double tip_kg_m3, ContrastSta
   return tip_kg_m3 * volume_m3;
 }
 
-/// Poiseuille, round a shaft where there is one.
+/// Poiseuille flow, around a shaft if there is one.
 double fastest_m3_s(const Line& line, double shaft_m) {
   const double r2 = line.bore_m * line.bore_m, a = std::min(shaft_m, 0.98 * line.bore_m), a2 = a * a;
   const double fourth = a > 0 ? r2 * r2 - a2 * a2 - (r2 - a2) * (r2 - a2) / std::log(line.bore_m / a) : r2 * r2;
@@ -75,11 +76,11 @@ void ContrastStep::inject() {
       return;
   }
   report.selective = taken;
-  // What it gives need not come from ahead: less blood runs from the ostium to the tip.
+  // The injected volume replaces blood from upstream: less flows from the ostium to the tip.
   if (cell >= 0) x.entering[n() + cell] = taken * kg;
   int top = cell;
   for (int c = cell; c >= 0; c = now.flow.tree.cells[c].upstream) x.entering[c] = taken * rate * dt, top = c;
-  // The rest spills into the root.
+  // The rest goes into the root.
   const int side = in.tip.where == TipPlace::right_sinus || (top >= 0 && top == root(1)) ? 1 : 0;
   s.sinus_kg[side] += (1 - taken) * kg;
 }
@@ -89,7 +90,7 @@ void ContrastStep::aspirate() {
   double there = 0, *from = nullptr;
   switch (in.tip.where) {
     case TipPlace::coronary: {
-      // Out of all sheaths alike.
+      // From all sheaths alike.
       double all = 0;
       for (int k = 0; k < layers; ++k) all += s.sheath_kg[k * n() + in.tip.cell];
       const double kg = draw_line(wanted, in.line.dead_m3, all / std::max(volume(in.tip.cell), wanted), s, x);

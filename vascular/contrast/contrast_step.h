@@ -1,5 +1,5 @@
 #pragma once
-/// One step of contrast: its parts in the order in which it meets them.
+/// The parts of one contrast step, in the order of execution.
 #include <cmath>
 
 #include "vascular/contrast/contrast.h"
@@ -24,21 +24,21 @@ struct ContrastStep {
     const int b = model.coronary_branch[side];
     return b < 0 ? -1 : now.flow.tree.branches[b].first;
   }
-  /// Volume that passes a cell's upstream face in this step, but for what a catheter adds there.
+  /// Volume through a cell's upstream face in this step, without what a catheter adds there.
   double through(int c) const { return std::max(0.0, now.state.flow_m3_s[c] * dt - x.entering[c]); }
   double sinus_kg_m3(int side) const { return s.sinus_kg[side] / model.sinus_m3; }
 
   /// Free volume of each cell.
   void measure();
-  /// What the catheter gives, to the coronary (x.entering, m3 and kg) and beside it.
+  /// Adds the injection: into the coronary (x.entering, m3 and kg) and outside it.
   void inject();
   void aspirate();
-  /// A balloon that fills a cell pushes out what was in it, towards the heart.
+  /// A balloon that fills a cell displaces its contents towards the heart.
   void push_out_excess();
   void run_branch(int b);
-  /// Sheaths mix, side branches and muscle take theirs.
+  /// Mixing of the sheaths; outflow to side branches and myocardium.
   void leave(int c);
-  /// The beat's to and fro, between neighbours of a branch.
+  /// Dispersion by cardiac motion between neighbouring cells of a branch.
   void disperse();
   void run_aorta();
 };

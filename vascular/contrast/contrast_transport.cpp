@@ -10,8 +10,8 @@ namespace ostium::vascular {
 namespace {
 
 using units::pi;
-constexpr double thickest_kg_m3 = 400;  // beyond it a cell has lost volume: what is too much is pushed upstream
-constexpr double traces_kg = 1e-16;     // of a cell: no one sees them, and they cost time
+constexpr double thickest_kg_m3 = 400;  // above this a cell has lost volume: the excess is pushed upstream
+constexpr double traces_kg = 1e-16;     // per cell: invisible amounts that would only cost time
 
 }  // namespace
 
@@ -43,7 +43,7 @@ void ContrastStep::run_branch(int b) {
   const FlowTree& tree = now.flow.tree;
   const FlowBranch& branch = tree.branches[b];
   const int first = branch.first, cells = branch.cells();
-  // What comes in from ahead: from the parent as it left it, at the ostium from the sinus.
+  // Inflow from upstream: from the parent's updated state; at the ostium from the sinus.
   const double coming = through(first);
   double inlet_kg_m3;
   if (branch.parent >= 0) {
@@ -53,7 +53,7 @@ void ContrastStep::run_branch(int b) {
     inlet_kg_m3 = sinus_kg_m3(side);
     s.sinus_kg[side] -= inlet_kg_m3 * coming;
   }
-  // A tip in the first cell gives to what comes in there, so that it is mixed before it goes on.
+  // A tip in the first cell injects into the inflow, so that it mixes before moving on.
   const bool tip_here = x.entering[n() + first] > 0;
   const double entering_m3 = tip_here ? x.entering[first] : 0, entering_kg = tip_here ? x.entering[n() + first] : 0;
   if (coming + entering_m3 > 0) inlet_kg_m3 = (inlet_kg_m3 * coming + entering_kg) / (coming + entering_m3);

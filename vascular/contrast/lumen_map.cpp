@@ -7,7 +7,7 @@ namespace ostium::vascular {
 
 namespace {
 
-/// Cells of one part by arc length of a tube.
+/// Cells of one part, by arc length along a tube.
 struct Row {
   std::vector<double> s_m;
   std::vector<int> cell;

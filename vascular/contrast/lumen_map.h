@@ -1,5 +1,5 @@
 #pragma once
-/// What each vertex of the lumen's surface belongs to: where its contrast, its radius and its centre come from.
+/// For each vertex of the lumen's surface, the source of its contrast, radius and centre.
 #include <Eigen/Core>
 #include <span>
 #include <vector>
@@ -8,8 +8,8 @@
 
 namespace ostium::vascular {
 
-/// Between two neighbouring cells, of the coronaries or of the aorta; or a sinus. `none`: a vessel without contrast,
-/// that leaves the aorta at `below`.
+/// A position between two neighbouring cells of the coronaries or the aorta, or a sinus. `none`: a vessel without
+/// contrast that leaves the aorta at `below`.
 struct VertexSource {
   enum Part : unsigned char { none, coronary, aorta, left_sinus, right_sinus } part = none;
   int below = 0, above = 0;  ///< cells
@@ -17,19 +17,19 @@ struct VertexSource {
 };
 
 struct LumenMap {
-  /// (#vertices of MovingLumen) The two parts that decide most where a vertex is, and the second's share.
+  /// (#vertices of MovingLumen) The two main sources of a vertex, and the weight of the second.
   struct Vertex {
     VertexSource first, second;
     float second_share = 0;
   };
   std::vector<Vertex> sources;
   PeriodicPoints coronary, aorta;                              ///< centres of the cells
-  std::vector<Eigen::Vector3d> coronary_breath, aorta_breath;  ///< their displacements at the top of a breath, m
-  /// (#cells) A branch's depths are counted from its parent's centre where it begins, so that none is counted twice:
-  /// that cell, and its share.
+  std::vector<Eigen::Vector3d> coronary_breath, aorta_breath;  ///< their displacements at full inspiration, m
+  /// (#cells) Start of a branch's depth integral, so that nothing is counted twice: the parent's centre as a cell and
+  /// weight.
   std::vector<std::pair<int, float>> parent_centre;
 
-  /// Centre of a coronary cell, or one of the aorta, at a phase and depth of breath.
+  /// Centre of a coronary or aortic cell at a cardiac phase and depth of breath.
   Eigen::Vector3d centre(std::size_t cell, double phase, double breath) const {
     return coronary.position(cell, phase) + breath * coronary_breath[cell];
   }

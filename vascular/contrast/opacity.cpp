@@ -31,14 +31,14 @@ void measure_cells(const LumenMap& map, const OpacityInputs& in, OpacityScratch&
   }
 }
 
-/// The integral from the aorta's first cell on to a point in a sinus.
+/// The integral from the aorta's first cell to a point in a sinus.
 Eigen::Vector3f along_in_sinus(const OpacityInputs& in, const OpacityScratch& x, int side, const Eigen::Vector3f& p) {
   const int at = std::min(in.model.ostium_cell[side], static_cast<int>(x.aorta.size()) - 1);
   const auto c = static_cast<float>(in.state.sinus_kg[side] / in.model.sinus_m3);
   return Eigen::Vector3f(x.aorta_along.col(at) + c * (p - x.aorta_p.col(at)));
 }
 
-/// The integral along the centrelines: from the aorta's first cell on, into each artery from where it begins.
+/// The integral along the centrelines: from the aorta's first cell, into each artery at its origin.
 void integrate_along(const OpacityInputs& in, OpacityScratch& x) {
   auto& [coronary, aorta, coronary_p, aorta_p, coronary_along, aorta_along] = x;
   const int n = static_cast<int>(coronary.size()), m = static_cast<int>(aorta.size());
@@ -58,7 +58,7 @@ void integrate_along(const OpacityInputs& in, OpacityScratch& x) {
   }
 }
 
-/// Over the parts that a vertex belongs to.
+/// Weighted sum over a vertex's sources.
 struct Sum {
   float iodine = 0;
   Eigen::Vector3f moment = Eigen::Vector3f::Zero(), along = Eigen::Vector3f::Zero();
@@ -78,7 +78,7 @@ void add(const OpacityInputs& in, const OpacityScratch& x, const VertexSource& f
     iodine = static_cast<float>(in.state.sinus_kg[side] / in.model.sinus_m3);
     so_far = along_in_sinus(in, x, side, centre);
   }
-  // A vertex without iodine needs a centre too: of those, any weight does.
+  // A vertex without iodine needs a centre as well; for those any weight will do.
   const float counts = weight * std::max(iodine, 1e-6F);
   sum.iodine += counts;
   sum.moment += counts * centre;

@@ -1,5 +1,5 @@
 #pragma once
-/// What an X-ray needs to know of the contrast in the lumen, at each vertex of its surface.
+/// Contrast in the lumen as an X-ray needs it: per vertex of the surface.
 #include <span>
 
 #include "vascular/contrast/lumen_map.h"
@@ -10,16 +10,15 @@ struct OpacityInputs {
   const FlowModel& flow;
   const ContrastModel& model;
   const ContrastState& state;
-  const FlowInputs& lumen;  ///< radius_m and occupied_m of it
+  const FlowInputs& lumen;  ///< uses its radius_m and occupied_m
   double phase = 0, breath = 0;
 };
 
 /// All (#vertices).
 struct Opacity {
   std::span<float> iodine_kg_m3;
-  Eigen::Ref<Eigen::Matrix3Xf> p;  ///< the point of the centreline that a vertex belongs to, m
-  /// The integral of concentration times the centreline's element up to that point, kg/m2 (fluoro/scene.h says what
-  /// for).
+  Eigen::Ref<Eigen::Matrix3Xf> p;  ///< centreline point of each vertex, m
+  /// Integral of concentration times centreline element up to that point, kg/m2 (explained in fluoro/scene.h).
   Eigen::Ref<Eigen::Matrix3Xf> along;
 };
 

@@ -7,7 +7,7 @@ namespace ostium::vascular {
 
 namespace {
 
-constexpr double narrow_pulse = 0.6, deep_diastole = 0.65;  // of the aorta's
+constexpr double narrow_pulse = 0.6, deep_diastole = 0.65;  // of the aorta's pulse and pressure
 
 Trace judged(const TipPressureState& s, const TipPressureInputs& in) {
   if (in.blocked) return Trace::absent;
@@ -26,7 +26,7 @@ void step(const TipPressureModel& model, const TipPressureInputs& in, double dt_
   const double covered = std::clamp(in.covered, 0.0, 0.999);
   there *= 1 - model.lost * covered;
   if (in.blocked) there = 0;
-  // The line fills through what is open of the hole: as the fourth power of its radius.
+  // The line fills through the open part of the hole: fourth power of its radius.
   const double open = (1 - covered) * (1 - covered);
   s.reading_Pa += -std::expm1(-dt_s * open / model.line_s) * (there - s.reading_Pa);
   s.low_Pa = std::min(s.low_Pa, s.reading_Pa), s.high_Pa = std::max(s.high_Pa, s.reading_Pa);

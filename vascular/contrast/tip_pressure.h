@@ -1,9 +1,9 @@
 #pragma once
-/// What a pressure line reads, from where its catheter's end hole is.
+/// Pressure reading of a catheter, depending on where its end hole is.
 ///
-/// Three causes, three traces: an end hole against a wall reads a damped one (lower mean, narrow pulse); a catheter
-/// that fills an ostium reads what is left of pressure behind it, which is the muscle's (ventricularised: steep
-/// diastolic fall, wide pulse, no notch); contrast or a thick wire in the lumen leaves none.
+/// Three causes, three traces: an end hole against a wall gives a damped trace (lower mean, narrow pulse); a catheter
+/// that fills an ostium reads the pressure behind it, which the myocardium determines (ventricularised: steep diastolic
+/// fall, wide pulse, no notch); contrast or a thick wire in the lumen gives no reading.
 #include "vascular/contrast/contrast.h"
 
 namespace ostium::vascular {
@@ -11,27 +11,27 @@ namespace ostium::vascular {
 enum class Trace { normal, damped, ventricularised, ventricle, absent };
 
 struct TipPressureModel {
-  double line_s = 0.010;  ///< time constant of a free line [usual resonance 15 to 25 Hz, from memory]
-  double lost = 0.45;     ///< of the pressure, when the hole is all but closed
+  double line_s = 0.010;  ///< time constant of an open line [usual resonance 15 to 25 Hz, from memory]
+  double lost = 0.45;     ///< share of the pressure lost when the hole is almost closed
 };
 
 struct TipPressureInputs {
   Pressures pressures;
-  double coronary_Pa = 0;  ///< of the cell where the tip is (FlowState::pressure_Pa), if it is in a coronary
+  double coronary_Pa = 0;  ///< in the tip's cell (FlowState::pressure_Pa), if the tip is in a coronary
   TipPlace tip;
   bool in_ventricle = false;
-  double covered = 0;        ///< [0, 1): share of the end hole that lies against a wall
-  bool blocked = false;      ///< it injects, or a 0.035 in wire is inside
-  bool beat_begins = false;  ///< an R wave in this step
+  double covered = 0;        ///< [0, 1): share of the end hole against a wall
+  bool blocked = false;      ///< during injection, or with a 0.035 in wire inside
+  bool beat_begins = false;  ///< R wave in this step
 };
 
 struct TipPressureState {
   double reading_Pa = 0;
-  double low_Pa = 1e6, high_Pa = 0, sum_Pa = 0;  ///< of the running beat
-  int count = 0;                                 ///< of readings in it
+  double low_Pa = 1e6, high_Pa = 0, sum_Pa = 0;  ///< of the current beat
+  int count = 0;                                 ///< number of readings in it
   double aorta_low_Pa = 1e6, aorta_high_Pa = 0;
-  Trace trace = Trace::normal;       ///< of the last whole beat
-  double mean_Pa = 0, pulse_Pa = 0;  ///< of it
+  Trace trace = Trace::normal;       ///< of the last complete beat
+  double mean_Pa = 0, pulse_Pa = 0;  ///< likewise
 };
 constexpr auto fields(const TipPressureState*) {
   using S = TipPressureState;

@@ -15,13 +15,13 @@ namespace {
 using units::mmHg;
 
 using units::pi;
-constexpr double exponent = 2.6;       // of the diameter
-constexpr double shut_m = 15e-6;       // a gap as narrow lets no blood through
+constexpr double exponent = 2.6;       // of the diameter law
+constexpr double shut_m = 15e-6;       // a gap this narrow lets no blood through
 constexpr double shut_Pa_s_m3 = 1e19;  // its resistance
-constexpr double collapsed = 1e-3;     // conductance of the muscle below its pressure of no flow, of that above
-constexpr double new_throat = 0.8;     // an area as much smaller than the last is another narrowing
+constexpr double collapsed = 1e-3;     // conductance of the muscle below its zero-flow pressure, relative to above
+constexpr double new_throat = 0.8;     // an area this much smaller than the last starts another narrowing
 
-/// The healthy diameter of a stretch to the law's power.
+/// The healthy diameter of a stretch, raised to the law's exponent.
 double raised(const FlowTree& tree, int from, int to) {
   double sum = 0, length = 0;
   for (int c = from; c < to; ++c)
@@ -30,10 +30,10 @@ double raised(const FlowTree& tree, int from, int to) {
 }
 
 struct Ends {
-  double first = 0, last = 0;  // of the diameter, to that power
+  double first = 0, last = 0;  // diameter to that power
 };
 Ends ends_of(const FlowTree& tree, const FlowBranch& b) {
-  constexpr double rounding_m = 3e-3, mean_m = 3e-3;  // where it leaves its parent its mouth is wide
+  constexpr double rounding_m = 3e-3, mean_m = 3e-3;  // the mouth is wide where it leaves its parent
   const double begins = std::min(rounding_m, 0.3 * tree.cells[b.last - 1].s_m);
   int from = b.first, to, last = b.last - 1;
   while (from + 1 < b.last && tree.cells[from].s_m - tree.cells[b.first].s_m < begins) ++from;
@@ -46,7 +46,7 @@ Ends ends_of(const FlowTree& tree, const FlowBranch& b) {
 void set_needs(FlowModel& model, double total_m3_s) {
   const FlowTree& tree = model.tree;
   model.need_m3_s.assign(tree.cells.size(), 0);
-  std::vector<double> through(tree.branches.size());  // what a branch takes in, children after parents
+  std::vector<double> through(tree.branches.size());  // inflow of each branch, children after parents
   for (int b = static_cast<int>(tree.branches.size()) - 1; b >= 0; --b) {
     const FlowBranch& branch = tree.branches[b];
     const Ends ends = ends_of(tree, branch);
@@ -55,7 +55,7 @@ void set_needs(FlowModel& model, double total_m3_s) {
       for (int k = tree.side_first[c]; k < tree.side_first[c + 1]; ++k)
         (c + 1 < branch.last ? sides : at_end) += through[tree.sides[k]];
     const double end = branch.name == "LM" ? 0 : std::max(0.0, ends.last - at_end);
-    // The left main gives off nothing on its way.
+    // The left main has no side branches.
     const double along = branch.name == "LM" ? 0 : std::max(0.0, ends.first - (end + at_end) - sides);
     double length = 0;
     for (int c = branch.first; c < branch.last; ++c) length += tree.cells[c].length_m;
@@ -72,7 +72,7 @@ double pressure_of_no_flow(const FlowModel& model, Territory territory, const Pr
   return std::max(model.zero_flow_Pa, model.squeeze[static_cast<std::size_t>(territory)] * p.ventricle_Pa);
 }
 
-/// Poiseuille's resistance and the separation loss of each cell.
+/// Poiseuille resistance and separation loss of each cell.
 void set_losses(const FlowModel& model, std::span<const double> radius_m, std::span<const double> occupied_m,
                 std::span<const double> flow_m3_s, FlowScratch& x) {
   const FlowTree& tree = model.tree;
@@ -88,11 +88,11 @@ void set_losses(const FlowModel& model, std::span<const double> radius_m, std::s
       const double r2 = r * r, a2 = a * a;
       const double fourth = a > 0 ? r2 * r2 - a2 * a2 - (r2 - a2) * (r2 - a2) / std::log(r / a) : r2 * r2;
       x.R[c] = 8 * model.viscosity_Pa_s * tree.cells[c].length_m / (pi * fourth);
-      // What is lost from the throat up to here, less what was lost one cell ahead.
+      // Loss from the throat to here, minus the part already counted upstream.
       if (throat == 0 || area < throat || area < new_throat * before) throat = area, spent = 0;
       const double all = loss * (1 / throat - 1 / area) * (1 / throat - 1 / area), B = std::max(0.0, all - spent);
       spent = std::max(spent, all), before = area;
-      // Newton: B Q |Q| about the last flow.
+      // Newton's method: B Q |Q| linearised about the last flow.
       const double Q = flow_m3_s[c];
       x.R[c] += 2 * B * std::fabs(Q);
       x.E[c] = B * Q * std::fabs(Q);
@@ -113,7 +113,7 @@ void solve(const FlowTree& tree, double p_root, FlowScratch& x, FlowState& s) {
   for (int c = 0; c < n; ++c) {
     const int up = tree.cells[c].upstream;
     const double p_up = (up < 0 ? p_root : s.pressure_Pa[up]) + x.E[c];
-    // Both from what is behind: nothing is lost where the resistance is huge.
+    // Both relative to the downstream side: accurate even where the resistance is huge.
     const double share = 1 / (1 + x.R[c] * x.G[c]);
     s.flow_m3_s[c] = (p_up * x.G[c] - x.S[c]) * share;
     s.pressure_Pa[c] = (p_up + x.R[c] * x.S[c]) * share;
@@ -125,7 +125,7 @@ void resize(FlowScratch& x, std::size_t n) {
   for (auto* v : {&x.R, &x.E, &x.G, &x.S, &x.g, &x.pz}) v->resize(n);
 }
 
-/// Pressure that drives flow into the muscle, mean over a beat of 120/80 mmHg.
+/// Mean pressure that drives flow into the myocardium, over a beat at 120/80 mmHg.
 double mean_drive_Pa(const FlowModel& model, Territory territory) {
   HeartModel heart;
   HeartState h;
@@ -219,7 +219,7 @@ double ffr_model(const FlowModel& model, std::span<const double> radius_m, int c
   for (int round = 0; round < 40; ++round) {
     for (std::size_t c = 0; c < model.tree.cells.size(); ++c) {
       x.pz[c] = model.zero_flow_Pa;
-      // The ventricle's squeeze is within a conductance that gives the need at the mean pressure.
+      // The ventricle's squeeze is included in a conductance that meets the need at mean pressure.
       x.g[c] = model.need_m3_s[c] / (mean.aorta_Pa - model.zero_flow_Pa) * model.most_dilated;
     }
     set_losses(model, radius_m, {}, s.flow_m3_s, x);

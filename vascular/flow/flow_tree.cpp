@@ -9,9 +9,9 @@ namespace ostium::vascular {
 
 namespace {
 
-constexpr double spacing_m = 0.7e-3;  // of cells away from lesions
+constexpr double spacing_m = 0.7e-3;  // cell length away from lesions
 
-/// Where side branches leave, sorted by cell.
+/// Lists the side branches, sorted by the cell they leave.
 void list_sides(FlowTree& tree) {
   tree.side_first.assign(tree.cells.size() + 1, 0);
   for (const FlowBranch& b : tree.branches)
@@ -114,7 +114,7 @@ FlowTree flow_tree_of(const Patient& patient) {
                  .first = static_cast<int>(tree.cells.size()),
                  .tree_branch = static_cast<int>(t),
                  .tube = named.tube};
-    // The trunk's second half begins where the first ends; others where they leave their parent's lumen.
+    // The second half of a trunk begins where the first ends; other branches where they leave their parent's lumen.
     const bool goes_on = !root && anatomy.branches[t - 1].tube == named.tube;
     if (!root) b.parent = flow_branch[from.parent];
     const double begins = goes_on ? 0 : named.from_m;
@@ -129,7 +129,7 @@ FlowTree flow_tree_of(const Patient& patient) {
       if (!first && !last && scale == 1 && sphere.s_m - begins - tree.cells.back().s_m < spacing_m) continue;
       FlowCell cell{.branch = static_cast<int>(tree.branches.size()), .sphere = static_cast<int>(i)};
       cell.s_m = sphere.s_m - begins;
-      // The section's own radius: a sphere beside a narrowing is kept small by its shoulder.
+      // The tube's own radius: near a narrowing, spheres are limited by its shoulder.
       cell.healthy_m = anatomy.tubes[named.tube].at(along + sphere.s_m).radius_m;
       cell.diseased_m = scale * cell.healthy_m;
       if (!first)
@@ -139,12 +139,12 @@ FlowTree flow_tree_of(const Patient& patient) {
       tree.cells.push_back(cell);
       own[i] = static_cast<int>(tree.cells.size()) - 1;
     }
-    // Spheres between cells, and those inside the parent's lumen, belong to the cell nearest behind them.
+    // Spheres between cells, and those inside the parent's lumen, belong to the next distal cell.
     for (int i = static_cast<int>(own.size()) - 2; i >= 0; --i)
       if (own[i] < 0) own[i] = own[i + 1];
     b.last = static_cast<int>(tree.cells.size());
     for (int c = b.first; c < b.last; ++c) {
-      // From half-way to its neighbours.
+      // From midpoint to midpoint of its neighbours.
       const double below = c > b.first ? tree.cells[c].s_m - tree.cells[c - 1].s_m : 0;
       const double above = c + 1 < b.last ? tree.cells[c + 1].s_m - tree.cells[c].s_m : 0;
       tree.cells[c].length_m = (below + above) / 2;

@@ -10,7 +10,7 @@ namespace ostium::vascular {
 
 namespace {
 
-/// A wave: amplitude in each lead (mV), where its middle is, how wide (s). [Usual sizes, from memory.]
+/// A wave: amplitude in each lead (mV), centre and width (s). [Typical sizes, from memory.]
 struct Wave {
   std::array<double, leads> mV;
   double width_s;
@@ -23,7 +23,8 @@ constexpr Wave S = {{-0.18, -0.12, -0.15, -0.08, -1.10, -0.25}, 0.011};
 constexpr Wave T = {{0.28, 0.14, 0.21, 0.10, 0.45, 0.32}, 0.045};
 constexpr double PR_s = 0.16, Q_s = -0.024, S_s = 0.026, J_s = 0.05;
 
-/// ST shift of each lead by territory, of the worst one's. [Textbook: anterior, lateral, inferior; reciprocal in aVL.]
+/// ST shift of each lead relative to the worst one, by territory. [Textbook: anterior, lateral, inferior; reciprocal in
+/// aVL.]
 constexpr double ST[territories][leads] = {
     {0.0, -0.25, -0.15, 0.35, 1.0, 0.55}, {0.25, 0.15, 0.2, 0.4, -0.6, 1.0}, {0.85, 1.0, 0.95, -0.6, -0.3, 0.1}};
 
@@ -50,7 +51,7 @@ IschaemiaModel ischaemia_of(std::uint64_t seed) {
 void step(const IschaemiaModel& model, const std::array<double, territories>& supply, double dt_s, IschaemiaState& s) {
   const double share = -std::expm1(-dt_s / model.time_s);
   for (std::size_t i = 0; i < territories; ++i) {
-    // Muscle at rest bears the loss of a third of its flow.
+    // Resting myocardium tolerates the loss of a third of its flow.
     const double want = std::clamp((0.67 - supply[i]) / 0.67, 0.0, 1.0);
     s.early[i] += share * (want - s.early[i]);
     s.late[i] += share * (s.early[i] - s.late[i]);
@@ -60,7 +61,7 @@ void step(const IschaemiaModel& model, const std::array<double, territories>& su
 std::array<double, leads> ecg(const HeartState& heart, double rate_1_min, const IschaemiaModel& model,
                               const IschaemiaState& ischaemia) {
   const double t = heart.since_R_s;
-  // Towards the next R wave.
+  // Time to the next R wave.
   const double left = (heart.next_ectopic ? 0.33 : 1) * (time_at(1, rate_1_min) - time_at(heart.phase, rate_1_min));
   const double T_s = 0.86 * time_at(end_systole, rate_1_min) + 0.03;
   const bool wide = heart.ectopic;
@@ -79,7 +80,7 @@ std::array<double, leads> ecg(const HeartState& heart, double rate_1_min, const 
       shift += model.ST_mV[i] * ischaemia.late[i] * ST[i][k];
       early += std::min(1.0, model.ST_mV[i] / 0.25) * ischaemia.early[i] * ST[i][k];
     }
-    // T peaks first, then ST follows and carries it.
+    // T peaks first, then ST follows and lifts it.
     v += (T.mV[k] * (wide ? -1.3 : 1) + 0.25 * early) * bump(t - T_s, T.width_s * (t > T_s ? 0.75 : 1.1));
     v += shift * smooth(J_s - 0.02, J_s, t) * (1 - smooth(T_s, T_s + 0.08, t));
     out[k] = v;

@@ -1,6 +1,6 @@
 #pragma once
 /// The electrocardiogram: waves as Gaussians in time about the R wave (McSharry et al., IEEE Trans Biomed Eng
-/// 2003;50:289), in six leads, with what ischaemia does to them.
+/// 2003;50:289), in six leads, with the effects of ischaemia.
 #include <array>
 
 #include "vascular/heart/heart.h"
@@ -16,15 +16,15 @@ enum class Lead { II, III, aVF, aVL, V2, V5 };
 inline constexpr int leads = 6;
 inline constexpr const char* lead_names[leads] = {"II", "III", "aVF", "aVL", "V2", "V5"};
 
-/// How far a territory's muscle is from having enough: the T wave answers to `early`, ST to `late`. A closed artery
-/// drives early and late through two equal time constants in a row, so that a shift of 0.1 mV shows after 19 s and is
-/// gone 20 s after deflation (Griffin 1987: 19 +- 12 s and 20 +- 9 s, about a third silent).
+/// Lack of supply of each territory: `early` controls the T wave, `late` the ST segment. A closed artery drives them
+/// through two equal time constants in series, so that a shift of 0.1 mV appears after 19 s and is gone 20 s after
+/// deflation (Griffin 1987: 19 +- 12 s and 20 +- 9 s; about a third of people silent).
 struct IschaemiaModel {
-  double time_s = 13.8;  ///< each
+  double time_s = 13.8;  ///< time constant of each
   std::array<double, territories> ST_mV = {0.25, 0.25,
-                                           0.25};  ///< of the worst lead, fully ischaemic; below 0.1: silent
+                                           0.25};  ///< in the worst lead at full ischaemia; below 0.1: silent
 };
-/// Another person: a third is silent, the others scatter.
+/// Another person: a third are silent, the others vary.
 IschaemiaModel ischaemia_of(std::uint64_t seed);
 
 struct IschaemiaState {
@@ -33,14 +33,14 @@ struct IschaemiaState {
 constexpr auto fields(const IschaemiaState*) {
   return std::tuple{core::field("early", &IschaemiaState::early), core::field("late", &IschaemiaState::late)};
 }
-/// `supply`: flow over need, of each territory; 1 and above is enough.
+/// `supply`: ratio of flow to need per territory; 1 or more is enough.
 void step(const IschaemiaModel& model, const std::array<double, territories>& supply, double dt_s, IschaemiaState& s);
 
 /// mV.
 std::array<double, leads> ecg(const HeartState& heart, double rate_1_min, const IschaemiaModel& model,
                               const IschaemiaState& ischaemia);
 
-/// The largest ST shift, either way, mV.
+/// Largest absolute ST shift, mV.
 double ST_shift_mV(const IschaemiaModel& model, const IschaemiaState& ischaemia);
 
 }  // namespace ostium::vascular

@@ -17,12 +17,12 @@ using units::mmHg;
 
 using units::pi;
 constexpr double opens = 0.07, closes = 0.35;      // phases of the aortic valve
-constexpr double closure = 0.02, returned = 0.03;  // its return flow: how long, and of the stroke
-constexpr double filling_needed_s = 0.55;          // of diastole for a whole stroke
+constexpr double closure = 0.02, returned = 0.03;  // return flow at valve closure: duration in phase, share of stroke
+constexpr double filling_needed_s = 0.55;          // length of diastole for a full stroke
 constexpr double earliest_ectopic = 0.52, latest_ectopic = 0.72, hurry = 4, pause_slowing = 0.6;
 
 double stroke_after(const HeartModel& model, double filled_s) {
-  // Filling is fast at first; an early beat moves little, and one after a pause a little more.
+  // Filling is fast at first; an early beat ejects little, one after a pause slightly more.
   const double share = 1.18 * (1 - std::exp(-filled_s / (filling_needed_s / 1.877)));
   return model.stroke_m3 * std::max(0.1, share);
 }
@@ -32,7 +32,7 @@ double stroke_after(const HeartModel& model, double filled_s) {
 double ejection_shape(double phase) {
   if (phase > opens && phase < closes) {
     const double x = (phase - opens) / (closes - opens), y = std::pow(x, 0.7);
-    // Half a sine of x^0.7, early as ejection is; its integral over x is 0.65657.
+    // Half a sine of x^0.7, since ejection peaks early; its integral over x is 0.65657.
     return (1 + returned) * std::sin(pi * y) / 0.65657 / (closes - opens);
   }
   if (phase >= closes && phase < closes + closure)
@@ -83,7 +83,7 @@ void step(const HeartModel& model, const HeartInputs& inputs, double dt_s, Heart
 }
 
 Pressures pressures(const HeartModel& model, const HeartState& s) {
-  // The wave that comes back from the legs: a low hump after the notch.
+  // Wave reflected from the legs: a low hump after the notch.
   const double hump = std::exp(-std::pow((s.phase - 0.43) / 0.04, 2));
   const double aorta = s.windkessel_Pa + model.impedance_Pa_s_m3 * s.ejection_m3_s + 2.5 * mmHg * hump;
   const double active = ventricle_activity(s.phase);

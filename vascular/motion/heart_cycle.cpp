@@ -14,7 +14,8 @@ constexpr double two_pi = 2 * units::pi;
 constexpr double mid_systole = end_systole / 2;
 constexpr double even_rate_1_min = 70;
 
-/// d time / d phase = (1 + stretch cos 2 pi (phase - mid_systole)) 60 / rate: systole is longer by the root's surplus.
+/// d time / d phase = (1 + stretch cos 2 pi (phase - mid_systole)) 60 / rate: lengthens systole as Bazett's root
+/// requires.
 double stretch(double rate_1_min) {
   const double rate = std::clamp(rate_1_min, least_rate_1_min, highest_rate_1_min);
   const double share_of_systole = end_systole * std::sqrt(rate / even_rate_1_min);
@@ -23,8 +24,8 @@ double stretch(double rate_1_min) {
 
 constexpr int samples = 40;
 
-/// Every 1/40 of a cycle. Ejection is fastest in the first fifth; end-systole (isovolumic relaxation included) rests to
-/// 0.46; early filling to 0.66; diastasis; the atria contract from 0.84.
+/// Every 1/40 of a cycle. Ejection is fastest in the first fifth; end-systole (including isovolumic relaxation) lasts
+/// to 0.46, early filling to 0.66, then diastasis; the atria contract from 0.84.
 const double table[samples] = {
     0.000, 0.040, 0.130, 0.235, 0.345, 0.455, 0.560, 0.655, 0.740, 0.810,  // 0 to 0.225
     0.868, 0.912, 0.945, 0.970, 0.990, 1.000, 0.999, 0.992, 0.976, 0.950,  // 0.25 to 0.475

@@ -1,8 +1,8 @@
 #pragma once
-/// The heart's cycle in time: one phase for wall, flow, pressure and ECG. Phase 0 is the R wave; it lies in [0, 1).
+/// The cardiac cycle in time: one phase for wall, flow, pressure and ECG, in [0, 1); phase 0 is the R wave.
 ///
-/// Phase runs evenly at 70 beats a minute. At other rates systole keeps its length in proportion to the root of the
-/// cycle's (Bazett), so the phase runs unevenly; it never jumps when the rate changes.
+/// Phase is proportional to time at 70 beats a minute. At other rates the length of systole is proportional to the root
+/// of the cycle's length (Bazett), so phase advances unevenly; it never jumps when the rate changes.
 
 namespace ostium::vascular {
 
@@ -15,11 +15,11 @@ double phase_speed(double phase, double rate_1_min);
 /// Time since the R wave in seconds at a constant rate.
 double time_at(double phase, double rate_1_min);
 
-/// How far the ventricles have contracted: 0 at end-diastole, 1 at end-systole; twice continuously differentiable.
-/// Rests at end-systole and in mid-diastole.
+/// Contraction of the ventricles: 0 at end-diastole, 1 at end-systole; twice continuously differentiable. Constant
+/// around end-systole and in mid-diastole.
 double contraction(double phase);
 
-/// How deep a breath is: 0 at its end, 1 at its top, by sin^4 (Lujan 1999); `phase` is that of breathing.
+/// Depth of a breath: 0 at end-expiration, 1 at full inspiration, by sin^4 (Lujan 1999); `phase` is that of breathing.
 double breath_depth(double phase);
 
 }  // namespace ostium::vascular

@@ -31,7 +31,8 @@ Mesh MovingLumen::at(double phase, double depth, double opened) const {
 
 namespace {
 
-/// Displacements from `rest` become half the mean of the neighbours'; vertices behind the last of `rest` are still.
+/// Averages displacements from `rest` with the neighbours' mean, half and half; vertices beyond the size of `rest` do
+/// not move.
 void smooth_paths(const std::vector<std::array<int, 3>>& triangles, const std::vector<Eigen::Vector3d>& rest,
                   int rounds, std::vector<std::vector<Eigen::Vector3d>>& frames) {
   const std::size_t n = rest.size();

@@ -1,7 +1,7 @@
 #pragma once
-/// Points that run through the same path every cycle: 24 frames (or any number), between them a periodic cubic
-/// B-spline, so that velocity and acceleration are continuous. Each point is evaluated on its own, so only those asked
-/// for cost time.
+/// Points that repeat the same path every cycle: 24 frames (or any number), interpolated by a periodic cubic B-spline,
+/// so that velocity and acceleration are continuous. Each point is evaluated separately, so only those needed cost
+/// time.
 #include <Eigen/Core>
 #include <vector>
 
@@ -12,8 +12,8 @@ constexpr int beat_frames = 24;
 class PeriodicPoints {
  public:
   PeriodicPoints() = default;
-  /// frames[f][i]: place of point i at phase f / #frames. All frames have as many points. Single precision about the
-  /// mean: a path of 30 mm is kept to 2 nm.
+  /// frames[f][i]: position of point i at phase f / #frames. All frames have the same number of points. Stored in
+  /// single precision relative to the mean: a path of 30 mm is accurate to 2 nm.
   explicit PeriodicPoints(const std::vector<std::vector<Eigen::Vector3d>>& frames);
 
   std::size_t size() const { return mean_.size(); }
@@ -31,7 +31,7 @@ class PeriodicPoints {
   std::vector<float> offsets_;  ///< spline coefficients, point by frame by axis
 };
 
-/// Frames of another number, evenly spaced from the first on, of points that are given in at least four.
+/// Resamples at a different number of frames, evenly spaced from the first; at least four must be given.
 std::vector<std::vector<Eigen::Vector3d>> resampled(const std::vector<std::vector<Eigen::Vector3d>>& frames, int count);
 
 }  // namespace ostium::vascular

@@ -9,8 +9,8 @@ namespace ostium::vascular {
 
 namespace {
 
-constexpr double junction_m = 5e-3;   // a branch's own motion begins within so much of its parent's wall
-constexpr double root_end_m = 20e-3;  // of the aorta, which moves as a whole so far
+constexpr double junction_m = 5e-3;   // length after its parent's wall over which a branch's own motion sets in
+constexpr double root_end_m = 20e-3;  // stretch of the aorta that moves as a whole
 
 /// The rotation nearest to `F` (Higham's iteration; F is near one).
 Eigen::Matrix3d rotation_in(Eigen::Matrix3d F) {
@@ -41,14 +41,14 @@ bool is_displaced(const std::vector<Eigen::Vector3d>& rest, const std::vector<st
   });
 }
 
-/// How a branch's first stretch hangs together with its parent.
+/// How the first stretch of a branch is attached to its parent.
 struct TubeMotion::Origin {
   int parent;
   double s_m, radius_m;
   Eigen::Vector3d p;
 };
 
-/// How the tissue around each node moves to end-systole: by `shift`, with the gradient `slope`.
+/// Motion of the tissue around each node to end-systole: displacement `shift` with gradient `slope`.
 struct TubeMotion::Tissue {
   Eigen::Vector3d shift;
   Eigen::Matrix3d slope;
@@ -77,7 +77,7 @@ void TubeMotion::set_frame(int t, int frame, const std::vector<Tissue>& tissues,
     poses[i].centre = nodes[i].p + c * tissues[i].shift;
     F[i] = Eigen::Matrix3d::Identity() + c * tissues[i].slope;
     if (!origin) continue;
-    // A branch leaves its parent as one piece with it.
+    // At its origin a branch moves rigidly with its parent.
     const double wall = 1.2 * origin->radius_m, own = smooth_step(wall, wall + junction_m, nodes[i].s_m);
     if (own == 1) continue;
     const Pose pose = pose_at(origin->parent, origin->s_m, frame);
@@ -86,7 +86,7 @@ void TubeMotion::set_frame(int t, int frame, const std::vector<Tissue>& tissues,
     F[i] = own * F[i] + (1 - own) * turn;
   }
   for (std::size_t i = 0; i < n; ++i) {
-    // The turn of the tissue, then the least one that takes the tangent to where the centreline went.
+    // The tissue's rotation, then the smallest rotation that aligns the tangent with the moved centreline.
     const Eigen::Matrix3d turn = rotation_in(F[i]);
     const std::size_t a = i ? i - 1 : 0, b = std::min(i + 1, n - 1);
     const Eigen::Vector3d before = nodes[b].p - nodes[a].p, after = poses[b].centre - poses[a].centre;
@@ -94,7 +94,7 @@ void TubeMotion::set_frame(int t, int frame, const std::vector<Tissue>& tissues,
   }
 }
 
-/// The vertices that a tube decides, by where along it they are.
+/// The vertices that mainly belong to a tube, by position along it.
 class TubeMotion::Around {
  public:
   Around(int tube, const std::vector<std::vector<TubeShare>>& shares) {
@@ -105,7 +105,7 @@ class TubeMotion::Around {
   }
   bool enough() const { return at_.size() >= least; }
   const std::vector<std::pair<double, int>>& all() const { return at_; }
-  /// A stretch of so much to either side, or of as much more as it takes.
+  /// Vertices within `half_m` to either side, or farther if there are too few.
   std::vector<int> near(double s_m, double half_m) const {
     std::vector<int> found;
     for (double reach = half_m; found.size() < least; reach *= 2) {
@@ -130,7 +130,7 @@ TubeMotion::TubeMotion(const Anatomy& anatomy, const std::vector<Eigen::Vector3d
     const Around around(t, shares);
     breathes_.push_back(is_aorta(anatomy, t) || of_heart(anatomy, t));
     poses_.emplace_back();
-    // One with hardly a wall of its own lies in its parent, and goes with that.
+    // A tube with hardly a wall of its own lies in its parent and moves with it.
     const bool with_parent = !around.enough() && tube.parent >= 0 && moves_[tube.parent];
     moves_.push_back(with_parent ||
                      (around.enough() && std::any_of(around.all().begin(), around.all().end(), [&](const auto& at) {

@@ -1,17 +1,17 @@
 #pragma once
-/// How the tubes of an anatomy beat and breathe.
+/// Cardiac and breathing motion of an anatomy's tubes.
 #include "vascular/anatomy/anatomy.h"
 #include "vascular/motion/heart_motion.h"
 #include "vascular/motion/periodic_points.h"
 
 namespace ostium::vascular {
 
-/// How the tubes' own frames move: a vessel's cross-sections stay as they are, carried and turned with its centreline.
+/// Motion of the tubes' local frames: cross-sections keep their shape and are carried and turned with the centreline.
 class TubeMotion {
  public:
   TubeMotion(const Anatomy& anatomy, const HeartMotion& motion);
-  /// As a surface that was given in every frame of the beat (frames[f][v], beat_frames of them, `rest` the first)
-  /// carries them: by the rotation and shift that fit best (Kabsch 1976) what of it is around. `shares`: of its
+  /// From a surface that was given in every frame of the cycle (frames[f][v], beat_frames of them, `rest` the first):
+  /// each tube moves by the rotation and shift that fit the surface around it best (Kabsch 1976). `shares`: of its
   /// vertices.
   TubeMotion(const Anatomy& anatomy, const std::vector<Eigen::Vector3d>& rest,
              const std::vector<std::vector<TubeShare>>& shares,
@@ -19,11 +19,11 @@ class TubeMotion {
 
   /// Whether any part of it moves.
   bool moves(int tube) const { return moves_[static_cast<std::size_t>(tube)]; }
-  /// Where the point of the lumen that is at `p` at end-diastole goes in a frame of the beat.
+  /// Position, in a frame of the cycle, of the lumen point that is at `p` at end-diastole.
   Eigen::Vector3d carried(const Eigen::Vector3d& p, const std::vector<TubeShare>& shares, int frame) const;
-  /// Where a point of a tube's centreline goes.
+  /// Position of a point of a tube's centreline.
   Eigen::Vector3d centre(int tube, double s_m, int frame) const;
-  /// Share of the breath's motion that a point of a tube has: 1 at the heart, 0 in the arch.
+  /// Share of breathing motion at a point of a tube: 1 at the heart, 0 in the arch.
   double breath_share(int tube, double s_m) const;
 
  private:
@@ -33,7 +33,7 @@ class TubeMotion {
   };
   const Anatomy& anatomy_;
   std::vector<bool> moves_, breathes_;
-  std::vector<std::vector<Pose>> poses_;  ///< of each tube: frame by node
+  std::vector<std::vector<Pose>> poses_;  ///< per tube: frame by node
   class Around;
   struct Tissue;
   struct Origin;
@@ -44,7 +44,7 @@ class TubeMotion {
 
 bool is_aorta(const Anatomy& anatomy, int tube);
 
-/// Whether a vertex of a surface that was given frame by frame is ever elsewhere, by more than files round.
+/// Whether a vertex of a surface that was given frame by frame ever moves by more than file rounding.
 bool is_displaced(const std::vector<Eigen::Vector3d>& rest, const std::vector<std::vector<Eigen::Vector3d>>& frames,
                   int v);
 

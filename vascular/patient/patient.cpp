@@ -9,9 +9,9 @@ namespace ostium::vascular {
 
 namespace {
 
-constexpr int path_smoothing = 12;  // of a lumen whose tubes were laid into it
+constexpr int path_smoothing = 12;  // for a lumen whose tubes were derived from it
 
-/// `frames`: of the wall itself; empty: tubes carry it.
+/// `frames`: of the wall itself; empty: the tubes move it.
 void make_beat(Patient& patient, Contour wall, int smoothing,
                const std::vector<std::vector<Eigen::Vector3d>>& frames = {}) {
   const Anatomy& anatomy = patient.anatomy;

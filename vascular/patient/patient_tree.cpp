@@ -9,7 +9,7 @@ namespace ostium::vascular {
 
 namespace {
 
-/// The spheres of a tube between two arc lengths; the radius is set where the wall is known.
+/// Spheres of a tube between two arc lengths; radii are set once the wall is known.
 std::vector<TreeSphere> along(const Anatomy& anatomy, const std::vector<Lesion>& lesions, int tube, double from,
                               double to) {
   std::vector<TreeSphere> spheres;

@@ -1,5 +1,5 @@
 #pragma once
-/// The centreline-sphere tree of an anatomy, and how it beats and breathes.
+/// The centreline-sphere tree of an anatomy, with cardiac and breathing motion.
 #include "vascular/anatomy/lesion.h"
 #include "vascular/geometry/centreline/sphere_tree.h"
 #include "vascular/geometry/mesh/mesh.h"
@@ -7,17 +7,17 @@
 
 namespace ostium::vascular {
 
-/// One branch each of the anatomy's names, its spheres every half radius, on the lesions' own centreline; radii from
-/// the surface. `wall` is at end-diastole.
+/// One branch per name in the anatomy, with a sphere every half radius on the centreline of the diseased lumen; radii
+/// from the surface. `wall` is at end-diastole.
 SphereTree tree_of(const Anatomy& anatomy, const std::vector<Lesion>& lesions, const Mesh& wall);
 
-/// Radii from another surface: of a frame that was given, whose sections need not be those of the first.
+/// Takes radii from another surface, a given frame whose cross-sections may differ from the first.
 void fit_radii(SphereTree& tree, const Mesh& wall);
 
-/// The same tree in a frame of the beat: centres carried along, radii kept (sections do not change).
+/// The same tree in a frame of the cardiac cycle: centres move, radii are kept.
 SphereTree carried(const SphereTree& tree, const Anatomy& anatomy, const TubeMotion& motion, int frame);
 
-/// [branch][sphere] Displacement of each at the top of a breath, m.
+/// [branch][sphere] Displacements at full inspiration, m.
 std::vector<std::vector<Eigen::Vector3d>> breath_of(const SphereTree& tree, const Anatomy& anatomy,
                                                     const HeartMotion& heart, const TubeMotion& tubes);
 

@@ -18,10 +18,10 @@ using Eigen::Vector3d;
 namespace {
 
 using units::mm;
-constexpr double below_m = 3 * mm, above_m = 5 * mm;  // of the annulus' plane, within which the leaflets lie
+constexpr double below_m = 3 * mm, above_m = 5 * mm;  // distance from the annulus' plane within which the leaflets lie
 constexpr double ring_spacing_m = 5 * mm;
 
-/// Triangles of the floor about the axis that hang together, with the one nearest to it.
+/// Connected triangles of the floor around the axis, including the one nearest to it.
 std::vector<int> leaflets(const core::SurfaceDescription& wall, const Landmarks& marks) {
   const std::vector<Vector3d>& p = wall.frames[0];
   const auto near = [&](int v) {
@@ -35,7 +35,7 @@ std::vector<int> leaflets(const core::SurfaceDescription& wall, const Landmarks&
   for (int t = 0; t < static_cast<int>(wall.triangles.size()); ++t) {
     const auto& [a, b, c] = wall.triangles[t];
     if (!near(a) || !near(b) || !near(c)) continue;
-    // Facing the ventricle.
+    // Only triangles that face the ventricle.
     if ((p[b] - p[a]).cross(p[c] - p[a]).dot(marks.root_axis) > 0) continue;
     for (int v : {a, b, c}) of_vertex[v].push_back(t);
     const Vector3d from = (p[a] + p[b] + p[c]) / 3 - marks.p_annulus;
@@ -54,7 +54,7 @@ std::vector<int> leaflets(const core::SurfaceDescription& wall, const Landmarks&
   return found;
 }
 
-/// The rim of the leaflets, in the order in which their triangles go round it; empty unless it is one loop.
+/// The rim of the leaflets, in the order of their triangles; empty unless it is a single loop.
 std::vector<int> rim_of(const core::SurfaceDescription& wall, const std::vector<int>& door) {
   std::map<std::pair<int, int>, int> edges;
   for (int t : door)
@@ -74,7 +74,7 @@ std::vector<int> rim_of(const core::SurfaceDescription& wall, const std::vector<
   return rim.size() == next.size() ? rim : std::vector<int>{};
 }
 
-/// Its middle: outflow tract, then the ventricle's own axis.
+/// The centreline: outflow tract, then the ventricle's axis.
 Tube course_of(const Landmarks& m) {
   const Vector3d axis = m.p_lv_apex - m.p_lv_base, out = -m.root_axis;
   const auto along = [&](double s) { return Vector3d(m.p_lv_base + s * axis); };
@@ -100,7 +100,7 @@ Ventricle add_ventricle(const Patient& patient, core::SurfaceDescription& wall) 
   const int rings = std::max(4, static_cast<int>(std::lround(middle.length_m() / ring_spacing_m)));
   const std::vector<Vector3d> root = wall.frames[0];
 
-  // Rings about the middle, each vertex as far round as its own of the rim; carried along without twist.
+  // Rings around the centreline, each vertex at the angle of its rim vertex; transported without twist.
   Vector3d along = -marks.root_axis;
   std::vector<Vector3d> side;
   for (int j = 0; j < around; ++j) {
@@ -122,7 +122,7 @@ Ventricle add_ventricle(const Patient& patient, core::SurfaceDescription& wall) 
 
   const int first = static_cast<int>(root.size());
   const auto vertex = [&](int ring, int j) { return ring < 0 ? rim[j % around] : first + ring * around + j % around; };
-  // The rim's own triangles run along it; what goes on from them does, too.
+  // Same winding along the rim as the leaflets, which these triangles replace in the closed surface.
   for (int k = -1; k + 1 < rings; ++k)
     for (int j = 0; j < around; ++j) {
       wall.triangles.push_back({vertex(k, j), vertex(k, j + 1), vertex(k + 1, j + 1)});

@@ -1,7 +1,7 @@
 #pragma once
-/// What lives around the instruments: heart, ischaemia, flow, contrast, in one model, one input, one state.
+/// The physiology around the instruments: heart, ischaemia, flow and contrast, as one model, one input, one state.
 ///
-/// Called every step; the beat advances with each, blood and contrast every `circulation_step_s`.
+/// Called every step; the heart advances each time, blood and contrast every `circulation_step_s`.
 #include "vascular/contrast/contrast.h"
 #include "vascular/contrast/tip_pressure.h"
 #include "vascular/flow/flow.h"
@@ -19,15 +19,15 @@ struct PhysiologyModel {
   ContrastModel contrast;
   TipPressureModel line;
 };
-/// `seed`: of what happens by chance, and of how the person's ECG answers (0: the mean).
+/// `seed`: for random events and for the person's ECG response (0: the mean).
 PhysiologyModel make_physiology(const Patient& patient, std::uint64_t seed = 0);
 
 struct PhysiologyInputs {
   HeartInputs heart;
   ContrastInputs contrast;
-  std::vector<double> occupied_m;  ///< (#cells) radius of what lies in each cell; empty: nothing
+  std::vector<double> occupied_m;  ///< (#cells) radius of instruments in each cell; empty: none
   double hyperaemia = 0;           ///< FlowInputs
-  bool tip_in_ventricle = false, wire_in_catheter = false;  ///< TipPressureInputs; the tip itself is in `contrast`
+  bool tip_in_ventricle = false, wire_in_catheter = false;  ///< TipPressureInputs; the tip's position is in `contrast`
   double tip_covered = 0;
 };
 
@@ -38,7 +38,7 @@ struct PhysiologyState {
   ContrastState contrast;
   TipPressureState line;
   std::vector<double> radius_m;  ///< (#cells) of the lumen
-  double circulation_s = 0;      ///< since blood and contrast advanced
+  double circulation_s = 0;      ///< since blood and contrast last advanced
 };
 constexpr auto fields(const PhysiologyState*) {
   using S = PhysiologyState;
@@ -58,12 +58,12 @@ struct PhysiologyScratch {
 };
 
 /// Advances by `dt_s`, up to `circulation_step_s`. Deterministic; does not allocate after the first call with the same
-/// scratch. Returns what came of the last injection step.
+/// scratch. Returns the report of the last contrast step.
 ContrastReport step(const PhysiologyModel& model, const PhysiologyInputs& inputs, double dt_s, PhysiologyState& state,
                     PhysiologyScratch& scratch);
 
-/// The same in two halves, for whoever needs the beat before it knows what lies in the vessels: first
-/// `step(model.heart, inputs.heart, dt_s, state.heart)`, then this. `beat_begins`: an R wave was in that.
+/// The same in two halves, for callers that need the heart's phase before they know what lies in the vessels: first
+/// `step(model.heart, inputs.heart, dt_s, state.heart)`, then this. `beat_begins`: an R wave occurred in the former.
 ContrastReport circulate(const PhysiologyModel& model, const PhysiologyInputs& inputs, double dt_s, bool beat_begins,
                          PhysiologyState& state, PhysiologyScratch& scratch);
 

@@ -13,8 +13,8 @@ namespace {
 
 using units::pi;
 
-/// Rings of `columns` vertices, closed by a pole at either end; outwards if the rings run counter-clockwise about the
-/// way from the last ring to the first.
+/// Rings of `columns` vertices, closed by a pole at either end; faces outwards if the rings run counter-clockwise about
+/// the direction from last to first ring.
 Mesh from_rings(const std::vector<std::vector<Eigen::Vector3d>>& rings, const Eigen::Vector3d& first,
                 const Eigen::Vector3d& last) {
   Mesh mesh;
@@ -35,7 +35,7 @@ Mesh from_rings(const std::vector<std::vector<Eigen::Vector3d>>& rings, const Ei
   return mesh;
 }
 
-/// Bit k of a case: corner k (bits x, y, z) is inside. Whether inside and outside are one piece each, along the edges.
+/// Bit k of a case: corner k (bits x, y, z) is inside. Whether inside and outside are each connected along the edges.
 bool simple(int corners) {
   for (int side : {corners, ~corners & 255}) {
     if (!side) continue;
@@ -121,7 +121,7 @@ Mesh surface_net(const std::function<double(const Eigen::Vector3d&)>& inside, co
   for (int z = 0; z < n[2]; ++z)
     for (int y = 0; y < n[1]; ++y)
       for (int x = 0; x < n[0]; ++x) f[index(x, y, z)] = inside(place(x, y, z));
-  // Where two sheets pass through one cell, the corner that is nearest to the surface changes sides.
+  // Where two sheets pass through one cell, the corner nearest to the surface changes sides.
   std::array<bool, 256> is_simple;
   for (int c = 0; c < 256; ++c) is_simple[static_cast<std::size_t>(c)] = simple(c);
   for (bool changed = true; changed;) {
@@ -136,14 +136,14 @@ Mesh surface_net(const std::function<double(const Eigen::Vector3d&)>& inside, co
             if (std::fabs(f[i]) < std::fabs(f[nearest])) nearest = i;
           }
           if (is_simple[static_cast<std::size_t>(corners)]) continue;
-          // A little further from the surface than it was, so that the next turn is another corner's.
+          // Put it slightly farther from the surface than before, so that another corner is chosen next time.
           f[nearest] = f[nearest] < 0 ? 0.1 * cell_m - 0.5 * f[nearest] : -0.1 * cell_m - 0.5 * f[nearest];
           changed = true;
         }
   }
   Mesh mesh;
   std::vector<int> vertex(f.size(), -1), crossings(f.size(), 0);
-  // A cell's vertex is the middle of the crossings on its edges; cell (x, y, z) has its low corner there.
+  // A cell's vertex is the mean of the crossings on its edges; cell (x, y, z) has its low corner there.
   const int step[3] = {1, n[0], n[0] * n[1]};
   const auto touch = [&](int cell, const Eigen::Vector3d& p) {
     if (vertex[cell] < 0) {

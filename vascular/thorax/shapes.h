@@ -10,20 +10,20 @@ namespace ostium::vascular {
 Mesh superellipsoid(const Eigen::Vector3d& middle, const Eigen::Vector3d& half_axes, double exponent,
                     const Eigen::Matrix3d& axes = Eigen::Matrix3d::Identity(), int rows = 20);
 
-/// An ellipse swept along `line` (neighbours apart), with round ends; `tall` is its half axis along `up`, `thick`
-/// across. The second takes both at each point.
+/// An ellipse swept along `line` (no two neighbours equal), with round ends; `tall` is its half axis along `up`,
+/// `thick` the other one. The second version takes both per point.
 Mesh swept_ellipse(const std::vector<Eigen::Vector3d>& line, double tall, double thick, const Eigen::Vector3d& up);
 Mesh swept_ellipse(const std::vector<Eigen::Vector3d>& line, const std::vector<Eigen::Vector2d>& tall_thick,
                    const Eigen::Vector3d& up);
 
-/// Where `inside` is negative, by surface nets on cells of `cell_m` (Gibson, MERL 1999); `inside` is positive at the
-/// border of the box.
+/// The surface of {inside < 0}, by surface nets with cells of `cell_m` (Gibson, MERL 1999); `inside` must be positive
+/// on the box's boundary.
 Mesh surface_net(const std::function<double(const Eigen::Vector3d&)>& inside, const Eigen::Vector3d& low,
                  const Eigen::Vector3d& high, double cell_m);
 
-/// The lesser of two distances, with the crevice between them filled over about `k`.
+/// Smooth minimum of two distances; fills the crevice between them over about `k`.
 double joined(double a, double b, double k);
-/// From a round rod, thinner or thicker along its way, to p; negative inside.
+/// Distance of p to a round rod of varying thickness; negative inside.
 double from_rod(const Eigen::Vector3d& p, const Eigen::Vector3d& a, const Eigen::Vector3d& b, double radius_a,
                 double radius_b);
 

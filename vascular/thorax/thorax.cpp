@@ -16,11 +16,11 @@ namespace ostium::vascular {
 namespace {
 
 using units::mm, units::degree;
-constexpr double middle_x = -6 * mm;  // the sagittal plane: the left ostium lies a little left of it
+constexpr double middle_x = -6 * mm;  // the sagittal plane: the left ostium is slightly to the left of it
 
 Eigen::Vector3d at_mm(double x, double y, double z) { return Eigen::Vector3d(x, y, z) * mm; }
 
-/// Middles of the vertebral bodies from T1 to L3, and half their heights.
+/// Centres of the vertebral bodies from T1 to L3, and half their heights.
 struct Vertebra {
   double y_mm, half_height_mm;
 };
@@ -35,7 +35,7 @@ double cage_width_mm(double y_mm) { return 147 * std::sqrt(std::max(0.05, 1 - st
 double cage_depth_mm(double y_mm) { return 103 * std::sqrt(std::max(0.05, 1 - std::pow((y_mm + 70) / 260, 2))); }
 constexpr double cage_z_mm = -8;
 
-/// The heart as spheres along chambers; negative inside. `wall_m` thick walls leave the blood.
+/// The heart as spheres along its chambers; negative inside. Walls `wall_m` thick surround the blood.
 class Heart {
  public:
   explicit Heart(const Anatomy& anatomy) {
@@ -104,7 +104,7 @@ void add_spine(std::vector<XrayBody>& bodies) {
   add_bone(bodies, "spine", outer, inner);
 }
 
-/// From their heads at the spine to where cartilage takes over: there cortex and height run out.
+/// Ribs from their heads at the spine to the costal cartilage, where cortex and height taper out.
 void add_ribs(std::vector<XrayBody>& bodies) {
   Mesh outer, inner;
   for (int rib = 1; rib <= 11; ++rib) {
@@ -114,7 +114,7 @@ void add_ribs(std::vector<XrayBody>& bodies) {
       std::vector<Eigen::Vector3d> line;
       std::vector<Eigen::Vector2d> half, inside;
       for (int i = 0; i <= 48; ++i) {
-        // Level behind, steep at the side, gentler in front.
+        // Horizontal behind, steep at the side, flatter in front.
         const double t = i / 48.0, theta = (14 + (last_deg - 14) * t) * degree,
                      y = y0 + 3 * std::sin(units::pi * std::min(1.0, 3 * t)) -
                          drop * (0.7 * t * t * (3 - 2 * t) + 0.3 * t) + 1.5 * std::sin(6 * t + 1.7 * rib + side);
@@ -141,7 +141,7 @@ double from_sternum_mm(const Eigen::Vector3d& p) {
   const double notches = 1.4 * std::sin(0.27 * y + 0.6) + 0.6 * std::sin(0.61 * y);
   const double wide = 15 + 9 / (1 + std::exp(-(y - 30) / 4)) - 3 * std::exp(-std::pow((y - 26) / 7, 2)) -
                       5 * std::clamp(-(y + 40) / 40, 0.0, 1.0) + notches;
-  // A lens across, so that its margin is soft.
+  // Lens-shaped across, so that its margin fades.
   const double across = 0.85 * (std::fabs(p.z()) - 5 * (1 - std::pow(p.x() / wide, 2)));
   const double ends = std::max(y - 82, -72 - y + 2.5 * std::cos(0.2 * p.x()));
   return -joined(-across, -ends, 12);
@@ -150,7 +150,7 @@ double from_sternum_mm(const Eigen::Vector3d& p) {
 void add_front(std::vector<XrayBody>& bodies) {
   Mesh outer, inner;
   const Eigen::Vector3d x = middle_x * Eigen::Vector3d::UnitX();
-  // It leans forward, the manubrium more.
+  // Inclined forward, the manubrium more.
   const auto sternum = [&](const Eigen::Vector3d& p) {
     const Eigen::Vector3d q = (p - x) / mm;
     return mm * from_sternum_mm({q.x(), q.y(), q.z() - 90 + 0.17 * q.y() + 0.0018 * q.y() * q.y()});
@@ -169,7 +169,7 @@ void add_front(std::vector<XrayBody>& bodies) {
     }
     append(outer, swept_ellipse(line, 6.5 * mm, 5.5 * mm, Eigen::Vector3d::UnitY()));
     append(inner, swept_ellipse({line.begin() + 1, line.end() - 1}, 5.2 * mm, 4.2 * mm, Eigen::Vector3d::UnitY()));
-    // Shoulder blade: a thin plate, drawn up and aside by arms that lie above the head.
+    // Shoulder blade: a thin plate, moved up and outwards because the arms are raised above the head.
     const Eigen::Matrix3d turn = Eigen::AngleAxisd(-60 * degree * side, Eigen::Vector3d::UnitY()).toRotationMatrix();
     const Eigen::Vector3d middle = x + at_mm(side * 132, 132, -72), half = at_mm(38, 72, 3.2);
     append(outer, superellipsoid(middle, half, 2.5, turn));
@@ -178,7 +178,7 @@ void add_front(std::vector<XrayBody>& bodies) {
   add_bone(bodies, "shoulders", outer, inner);
 }
 
-/// Height of the diaphragm: two domes, the right one higher, with the heart's bed between.
+/// Height of the diaphragm: two domes, the right one higher, with the heart's bed in between.
 double diaphragm_mm(double x_mm, double z_mm) {
   const double right = std::exp(-std::pow((x_mm + 82) / 68, 2)), left = std::exp(-std::pow((x_mm - 78) / 62, 2));
   return -158 + 70 * right + 58 * left - 50 * std::pow((z_mm - 5) / 100, 2);
@@ -197,7 +197,7 @@ void add_lungs(std::vector<XrayBody>& bodies, const Heart& heart, const std::vec
     const double width = cage_width_mm(q.y()) - 5, depth = cage_depth_mm(q.y()) - 5;
     const double cage = (std::sqrt(x * x / (width * width) + z * z / (depth * depth)) - 1) * std::min(width, depth);
     const double base = diaphragm_mm(q.x(), q.z()) - q.y();
-    // The mediastinum: gullet, spine, great vessels, heart; wider above. In front the lungs nearly meet.
+    // The mediastinum: oesophagus, spine, great vessels, heart; wider at the top. In front the lungs almost meet.
     double solid = std::fabs(x) - 17 + 12 * smooth_step(5, 60, q.z()) - 12 * smooth_step(30, 100, q.y());
     solid = joined(solid, heart.distance(p) / mm - 3, 40);
     for (std::size_t v = 0; v < vessels.size(); ++v) solid = joined(solid, vessels[v].value(p, all[v]) / mm - 3, 12);
@@ -212,7 +212,7 @@ void add_lungs(std::vector<XrayBody>& bodies, const Heart& heart, const std::vec
   for (const Eigen::Vector3d& p : body.mesh.vertices) {
     const double near = 1 - smooth_step(2 * mm, 30 * mm, std::fabs(heart.distance(p)));
     body.beat.push_back(near > 0 ? Eigen::Vector3d(near * motion.displacement(p)) : Eigen::Vector3d::Zero());
-    // The diaphragm goes 18 mm down: the heart follows it by 0.27 (Keegan 2002).
+    // The diaphragm descends 18 mm; the heart follows by a factor of 0.27 (Keegan 2002).
     body.breath.push_back(at_mm(0, -18 * (1 - smooth_step(-100 * mm, 40 * mm, p.y())), 0));
   }
   bodies.push_back(std::move(body));
@@ -265,7 +265,7 @@ void add_trunk(std::vector<XrayBody>& bodies) {
        {}});
 }
 
-/// Every fourth node: enough for the dent that a vessel makes in the lung.
+/// Every fourth node: enough for a vessel's imprint on the lung.
 Tube coarse(const Tube& tube) {
   Tube few{.name = tube.name, .nodes = {}};
   for (std::size_t i = 0; i < tube.nodes.size(); i += 4)

@@ -1,9 +1,9 @@
 #pragma once
-/// What else an X-ray meets: trunk, lungs, heart, great vessels, spine, ribs, sternum, clavicles. Made to be looked
-/// through, not to be operated on: simple shapes of published or usual size [from memory: the skeleton's dimensions].
+/// The surroundings that an X-ray passes: trunk, lungs, heart, great vessels, spine, ribs, sternum, clavicles. For
+/// imaging only: simple shapes of published or typical size [from memory: the skeleton's dimensions].
 ///
-/// Each body is a closed surface that takes the place of what is around it, so that path lengths add up: what a ray
-/// meets is the sum over bodies of length times (attenuation of `tissue` less that of `within`).
+/// Each body is a closed surface that replaces its surroundings, so that path lengths add up: the attenuation along a
+/// ray is the sum over bodies of length times (attenuation of `tissue` minus that of `within`).
 #include <string>
 
 #include "vascular/anatomy/anatomy.h"
@@ -16,17 +16,17 @@ enum class BodyTissue { air, soft_tissue, lung, blood, cortical_bone, spongy_bon
 struct XrayBody {
   std::string name;
   BodyTissue tissue = BodyTissue::soft_tissue;  ///< inside
-  BodyTissue within = BodyTissue::air;          ///< what it takes the place of
+  BodyTissue within = BodyTissue::air;          ///< the tissue it replaces
   Mesh mesh;                                    ///< at end-diastole, breathed out
-  std::vector<Eigen::Vector3d> beat;            ///< displacement of each vertex at end-systole; empty: it is still
-  std::vector<Eigen::Vector3d> breath;          ///< and at the top of a breath; empty: it is still
+  std::vector<Eigen::Vector3d> beat;            ///< per vertex: displacement at end-systole; empty: none
+  std::vector<Eigen::Vector3d> breath;          ///< per vertex: displacement at full inspiration; empty: none
 };
 
-/// Vertebrae, ribs and shoulders have two layers: cortical bone within soft tissue, spongy or loose bone within that.
-/// The sternum is loose throughout: its cortex is thinner than these meshes would show.
+/// Vertebrae, ribs and shoulders have two layers: cortical bone in soft tissue, and inside that spongy or loose bone
+/// (the latter half as dense). The sternum is loose bone throughout: its cortex is thinner than these meshes resolve.
 std::vector<XrayBody> make_thorax(const Anatomy& anatomy);
 
-/// Vertices at a phase of the heart (contraction, heart_cycle.h) and a depth of breath.
+/// Vertices at a contraction (heart_cycle.h) and a depth of breath.
 Mesh at(const XrayBody& body, double contraction, double breath_depth);
 
 }  // namespace ostium::vascular

@@ -10,7 +10,7 @@ namespace ostium::vascular {
 double from_vertebra_mm(Eigen::Vector3d p) {
   p.x() = std::fabs(p.x());
   constexpr double wide = 16.2, high = 10.9, deep = 14.8;
-  // Waisted, its end plates hollow, its back flat.
+  // Waisted, with hollow end plates and a flat back.
   const double waist = 1 - 0.10 * (1 - std::pow(p.y() / high, 2));
   const double z = p.z() > 0 ? p.z() / deep : p.z() / (deep - 2);
   const double out = std::pow(std::pow(p.x() / wide, 2.9) + std::pow(std::fabs(z), 2.7), 1 / 2.7) / waist;

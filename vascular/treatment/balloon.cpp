@@ -19,18 +19,18 @@ using units::atm;
 
 using units::pi;
 constexpr int n = balloon_spheres;
-constexpr double fold_share = 0.25;  // of the unfolding pressure that opens the folds at first
-constexpr double sealed_m = 20e-6;   // a gap as narrow
-constexpr double soft_m = 30e-6;     // over which a balloon and a stent in the wall come to bear
+constexpr double fold_share = 0.25;  // share of the unfolding pressure needed to start opening the folds
+constexpr double sealed_m = 20e-6;   // a gap this narrow counts as sealed
+constexpr double soft_m = 30e-6;     // distance over which balloon and stent come to bear on the wall
 
 double spacing(const BalloonModel& m) { return (m.length_m + 2 * m.shoulder_m) / (n - 1); }
 
-/// Full size at the unfolding pressure.
+/// Radius when just unfolded, at the unfolding pressure.
 double unfolded_m(const BalloonModel& m) {
   return m.nominal_m / 2 - m.growth_m_Pa / 2 * (m.nominal_Pa - m.unfolding_Pa);
 }
 
-/// What the skin holds at a radius, and its slope.
+/// Pressure that the balloon's skin balances at radius a, and its slope.
 WallPressure skin(const BalloonModel& m, double share, bool was_filled, double a) {
   const double full = m.shaft_m + share * (unfolded_m(m) - m.shaft_m);
   const double folded = std::min(was_filled ? m.refolded_m : m.folded_m, full);
@@ -38,7 +38,7 @@ WallPressure skin(const BalloonModel& m, double share, bool was_filled, double a
     const double slope = 2 / (m.growth_m_Pa * std::max(share, 0.3));
     return {m.unfolding_Pa + slope * (a - full), slope};
   }
-  // The maker's folds stay as they are until a little pressure opens them; opened, they want vacuum to lie down again.
+  // The factory folds stay closed until a small pressure opens them; once opened, they need vacuum to fold again.
   const double way = std::max(full - folded, 20e-6), x = (a - folded) / way;
   if (x < 0) return {x * 4 * atm, 4 * atm / way};
   const double low = fold_share * m.unfolding_Pa - (was_filled ? 0.35 * atm : 0);
@@ -104,7 +104,7 @@ double radius_at(const BalloonModel& m, const BalloonState& s, double middle_m, 
 
 namespace {
 
-/// The wall between two cells of the path.
+/// The wall between two cells of the path, interpolated.
 WallPressure wall_at(const PlaqueModel& plaque, const PlaqueState& wall, const VesselPath& path, double s_m, double a) {
   const VesselPath::Place at = path.at(s_m);
   const WallPressure one = wall_pressure(plaque, wall, path.cells[at.index], a);
@@ -113,7 +113,7 @@ WallPressure wall_at(const PlaqueModel& plaque, const PlaqueState& wall, const V
   return {(1 - at.share) * one.p_Pa + at.share * two.p_Pa, (1 - at.share) * one.slope_Pa_m + at.share * two.slope_Pa_m};
 }
 
-/// Thomas' algorithm for two right-hand sides; overwrites all.
+/// Thomas' algorithm with two right-hand sides; overwrites everything.
 void solve(BalloonScratch& x) {
   for (int i = 1; i < n; ++i) {
     const double f = x.below[i] / x.middle[i - 1];
@@ -128,8 +128,8 @@ void solve(BalloonScratch& x) {
   }
 }
 
-/// What the wall presses the balloon along the vessel with, and how hard it is held by friction; it slides if that is
-/// less, against the shaft.
+/// Axial force of the wall against friction: the balloon slides if friction is exceeded, against the spring of its
+/// shaft.
 void slide(const BalloonModel& m, double along_N, double pressed_N, double dt, BalloonState& s) {
   const double wanted = along_N - m.grip_N_m * s.slip_m, held = m.friction * pressed_N;
   if (std::fabs(wanted) <= held) return;
@@ -152,7 +152,7 @@ BalloonReport step(const BalloonModel& m, const PlaqueModel& plaque, const Ballo
     const double a = s.radius_m[i], share = sphere_share(m, i), at = sphere_position(m, s, in.middle_m, i);
     WallPressure sum = skin(m, share, was_filled, a);
     const bool sleeved = !in.sleeve.covers.empty() && in.sleeve.covers[i] > 0;
-    // Within a sleeve it meets nothing; where it comes to touch, skin and struts give a little.
+    // Inside a sleeve it has no contact; when it starts to touch, skin and struts yield slightly.
     const double meets = sleeved ? std::clamp(1 + (a - in.sleeve.inner_m[i]) / soft_m, 0.0, 1.0) : 1;
     if (sleeved && meets > 0) sum.p_Pa += meets * in.sleeve.p_Pa[i], sum.slope_Pa_m += meets * in.sleeve.slope_Pa_m[i];
     if (in.path && meets > 0) {
@@ -173,7 +173,7 @@ BalloonReport step(const BalloonModel& m, const PlaqueModel& plaque, const Ballo
     if (i == 0 || i == n - 1) x.middle[i] = 1, x.below[i] = x.above[i] = 0, x.right[i] = m.shaft_m, x.unit[i] = 0;
   }
   solve(x);
-  // New radii are right + p unit; p so that the volume takes what came through the shaft.
+  // New radii are right + p unit; choose p so that the volume matches the inflow through the shaft.
   double V = 0, V0 = 0, dV = 0;
   for (int i = 0; i < n; ++i) {
     V += pi * s.radius_m[i] * s.radius_m[i] * ds;

@@ -1,5 +1,5 @@
 #pragma once
-/// Drugs that matter, given as doses, with their effects in time. All numbers but the usual ones of practice are
+/// Drugs, given as doses, with their effects over time. All numbers except doses and ranges usual in practice are
 /// estimates.
 #include "core/base/fields.h"
 
@@ -9,19 +9,19 @@ struct DrugModel {
   double weight_kg = 75;
   double act_before_s = 130, act_per_U_kg = 2.6;  ///< 70 U/kg: 310 s [practice: 250 to 350 s]
   double heparin_half_life_s = 5400;
-  double nitrate_half_ug = 100, nitrate_in_s = 20, nitrate_out_s = 200;  ///< dose of half the effect; onset, decay
-  double nitrate_widens = 0.09;  ///< epicardial arteries, of their diameter; 6 frames more (Gibson 1996)
-  double nitrate_lowers = 0.3;   ///< of the arterioles' dilation, see HeartInputs
-  double spasm_yields_s = 12;    ///< under the whole effect
+  double nitrate_half_ug = 100, nitrate_in_s = 20, nitrate_out_s = 200;  ///< dose for half the effect; onset, decay
+  double nitrate_widens = 0.09;  ///< of the diameter of epicardial arteries; 6 frames more (Gibson 1996)
+  double nitrate_lowers = 0.3;   ///< contribution to the arterioles' dilation, see HeartInputs
+  double spasm_yields_s = 12;    ///< under the full effect
   double adenosine_half_ug = 25, adenosine_in_s = 4, adenosine_out_s = 12;
 };
 
-struct Doses {  ///< given at this step; below zero counts as zero
+struct Doses {  ///< given in this step; negative counts as zero
   double heparin_U = 0, nitrate_ug = 0, adenosine_ug = 0;
 };
 
 struct DrugState {
-  double heparin_U = 0, nitrate_ug = 0, adenosine_ug = 0;  ///< still there
+  double heparin_U = 0, nitrate_ug = 0, adenosine_ug = 0;  ///< still in effect
   double nitrate = 0, adenosine = 0;                       ///< effects, [0, 1)
 };
 constexpr auto fields(const DrugState*) {

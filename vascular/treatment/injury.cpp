@@ -49,13 +49,13 @@ void judge_stretch(const InjuryModel& model, const PlaqueModel& plaque, const Pl
     if (t > tear_H) tear_H = t, tear_at = static_cast<int>(c), ratio = x;
     if (h > hole_H) hole_H = h, hole_at = static_cast<int>(c);
   }
-  // What was borne already counts once.
+  // The largest hazard counts, not the sum: a stretch that was survived before adds nothing.
   s.dissection_H = std::max(s.dissection_H, tear_H) + (burst ? burst_tears : 0);
   s.perforation_H = std::max(s.perforation_H, hole_H) + (burst ? burst_holes : 0);
   if (tear_at >= 0 && s.dissection_draws < 1 && exceeds(s.dissection_H, model.seed, tear, 0)) {
     const double u = core::uniform(model.seed, tear_grade, 0),
                  major = std::clamp(0.3 * (1 + 4 * (ratio - 1)), 0.1, 0.8);
-    // A and B are minor; of the major ones C is the most common.
+    // A and B are minor; C is the most common major grade.
     const int grade = u > major          ? (u > (1 + major) / 2 ? 0 : 1)
                       : u > 0.5 * major  ? 2
                       : u > 0.25 * major ? 3

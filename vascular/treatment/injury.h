@@ -1,13 +1,13 @@
 #pragma once
-/// Injury as a hazard: nobody knows beforehand which wall tears, only how likely it is.
+/// Injury as a hazard: which wall tears cannot be predicted, only with what probability.
 ///
-/// What was done to a place amounts to a hazard H, and it tears once H exceeds -ln u, u drawn by the seed, so that the
-/// chance is 1 - exp(-H). Stretched to the ratio x of its healthy size:
+/// The treatment of a location amounts to a hazard H, and the wall tears once H exceeds -ln u, with u drawn by the
+/// seed, so that the probability is 1 - exp(-H). If stretched to the ratio x of its healthy size:
 ///   dissection   H = 0.36 e^(7 (x - 1)) (1 + 0.8 calcified) (1 + 0.4 eccentric) sqrt(length / 15 mm)
 ///   perforation  H = 0.0002 e^(20 (x - 1)) (1 + calcified)
-/// At a ratio of 1 some dissection is seen in 30 % of balloon angioplasties, a third of those are major (9 %), and the
-/// chance rises above 1.1; perforation by balloon nearly always above 1.3 (Kataoka 2010). A wire's tip perforates by
-/// force and time, the more the smaller the artery. The coefficients are fitted to those shares.
+/// At a ratio of 1, some dissection is seen in 30 % of balloon angioplasties, of which a third are major (9 %), and the
+/// probability rises above 1.1; perforation by a balloon occurs almost only above 1.3 (Kataoka 2010). A wire's tip
+/// perforates by force and time, sooner in smaller arteries. The coefficients are fitted to these rates.
 #include <array>
 #include <cstdint>
 
@@ -17,8 +17,9 @@ namespace ostium::vascular {
 
 struct InjuryModel {
   std::uint64_t seed = 0;
-  /// Push at the tip that a wall of 0.5 mm radius bears for long [estimate: wires made to pierce a plaque's cap, 12 gf
-  /// at a tip of 0.23 mm, press with 2.8 MPa; one of 0.36 mm does so with 0.28 N, and a wall bears less than a cap].
+  /// Tip force that a wall of 0.5 mm radius withstands for long [estimate: wires made to pierce a plaque's cap, 12 gf
+  /// at a tip of 0.23 mm, press with 2.8 MPa; one of 0.36 mm does so with 0.28 N, and a wall withstands less than a
+  /// cap].
   double wire_N = 0.2;
 };
 
@@ -29,7 +30,7 @@ struct Injury {
   int cell = -1;  ///< of the flow tree
   int grade = 0;  ///< dissection 0 to 5: A to F; perforation 1 to 3: Ellis I to III, 5: V (distal, by a wire)
   double time_s = 0;
-  double outside_kg = 0, outside_m3 = 0;  ///< iodine and volume beside the lumen
+  double outside_kg = 0, outside_m3 = 0;  ///< iodine and volume outside the lumen
 };
 constexpr auto fields(const Injury*) {
   using S = Injury;
@@ -60,20 +61,20 @@ constexpr auto fields(const InjuryState*) {
                     core::field("wire_draws", &S::wire_draws)};
 }
 
-/// How likely what was done so far would have torn something, [0, 1].
+/// Probability that a hazard has caused an injury, [0, 1].
 double chance(double hazard);
 double dissection_hazard(double ratio, bool calcified, bool eccentric, double length_m);
 double perforation_hazard(double ratio, bool calcified);
 
-/// Looks at how far each cell was stretched; `length_m` of the balloon; `burst`: it did, in this step.
+/// Evaluates how far each cell was stretched; `length_m`: of the balloon; `burst`: it burst in this step.
 void judge_stretch(const InjuryModel& model, const PlaqueModel& plaque, const PlaqueState& wall, double length_m,
                    bool burst, double time_s, InjuryState& state);
-/// A wire's tip against the wall of a cell; `tip_N`: what the walls together give the tip, which is what the wire
-/// behind pushes it with. Opposite walls between which a bend is wedged cancel: they are widened, not pierced.
+/// A wire's tip against the wall of a cell. `tip_N`: resultant of the wall forces on the tip, which equals the push of
+/// the wire behind it. Opposing walls between which a bend is wedged cancel: they are widened, not pierced.
 void judge_wire(const InjuryModel& model, int cell, double radius_m, double tip_N, double dt_s, double time_s,
                 InjuryState& state);
 
-/// Volume that leaves the lumen through an injury, m3/s, and that its false lumen holds, m3.
+/// Leakage from the lumen through an injury, m3/s; volume of its false lumen, m3.
 double leak_m3_s(const Injury& injury);
 double pocket_m3(const Injury& injury);
 const char* grade_name(const Injury& injury);

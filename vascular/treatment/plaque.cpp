@@ -7,7 +7,7 @@ namespace ostium::vascular {
 
 namespace {
 
-constexpr double whole_plaque = 0.3;  // a narrowing of so much is all plaque
+constexpr double whole_plaque = 0.3;  // narrowing from which the wall is all plaque
 
 double opened(const PlaqueCell& cell, double rest_m) {
   const double lost = cell.healthy_m - cell.diseased_m;
@@ -35,7 +35,7 @@ PlaqueModel make_plaque_model(const FlowTree& tree, const std::vector<Lesion>& l
     const double c = cell.calcified;
     const double plaque = (1 - c) * law.soft_Pa + c * law.calcified_Pa;
     cell.E_Pa = law.healthy_Pa + burden * (plaque - law.healthy_Pa);
-    // Whatever plaque there is gives way at the same strain; a healthy wall does not.
+    // All plaque yields at the same strain; a healthy wall does not yield.
     const double part = cell.E_Pa / plaque, never = 2 * std::exp(-burden / 0.08);
     cell.yield_Pa = part * ((1 - c) * law.soft_yield_Pa + c * law.calcified_yield_Pa) + never * cell.E_Pa;
     cell.hardening_Pa = part * ((1 - c) * law.soft_hardening_Pa + c * law.calcified_hardening_Pa);
@@ -71,8 +71,8 @@ void push_wall(const PlaqueModel& model, int i, double a, PlaqueState& s) {
   const PlaqueCell& cell = model.cells[i];
   s.peak_m[i] = std::max(s.peak_m[i], a);
   if (a > s.rest_m[i]) {
-    // Elastic as far as it bears; the rest stays. The crack and the hardening are those of the step's beginning: with
-    // small steps that is what they are on the way.
+    // Elastic up to the yield limit; the rest is permanent. Crack and hardening are taken at the beginning of the step,
+    // which is accurate enough for small steps.
     const double elastic = yield_of(model, cell, s.broken[i], s.rest_m[i]) / cell.E_Pa * cell.healthy_m;
     if (const double given = a - s.rest_m[i] - elastic; given > 0) {
       const double before = opened(cell, s.rest_m[i]);

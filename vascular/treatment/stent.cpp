@@ -14,7 +14,7 @@ namespace ostium::vascular {
 namespace {
 
 using units::pi;
-constexpr int relaxations = 3;  // rounds a step
+constexpr int relaxations = 3;  // rounds per step
 
 double half_chord(const StentModel& m, double r) { return 2 * r * std::sin(pi / (2 * m.crowns)); }
 
@@ -23,7 +23,7 @@ double ring_height(const StentModel& m, double r) {
   return std::sqrt(std::max(0.0, l * l - c * c));
 }
 
-/// What a ring answers to the radius r.
+/// Resistance of a ring at radius r.
 WallPressure hoop(const StentModel& m, double rest, double r) {
   double e = std::clamp((r - rest) / rest, -m.yield, m.yield);
   WallPressure out{m.hoop_Pa * e, m.hoop_Pa / rest};
@@ -41,7 +41,7 @@ double ring_middle(const StentModel& m, const StentState& s, int ring) {
   return s.middle_m + s.shift_m + sum / (2 * m.crowns);
 }
 
-/// Rings on both sides of a place, and how far it is between them; false beyond the ends.
+/// The rings on both sides of a position, and the share of the way between them; false beyond the ends.
 bool between(const StentModel& m, const StentState& s, double s_m, int& ring, double& share) {
   const double first = ring_middle(m, s, 0) - m.height_m / 2, last = ring_middle(m, s, m.rings - 1) + m.height_m / 2;
   if (s_m < first || s_m > last) return false;
@@ -67,7 +67,7 @@ double StentModel::widest_m() const { return strut_length_m() / (2 * std::sin(pi
 StentModel make_stent(double nominal_m, double length_m, const StentDesign& design) {
   StentModel m{design, {}};
   m.nominal_m = nominal_m, m.length_m = length_m;
-  if (m.crowns == 0) m.crowns = nominal_m > 3.3e-3 ? 9 : 6;  // 3 links fit both
+  if (m.crowns == 0) m.crowns = nominal_m > 3.3e-3 ? 9 : 6;  // 3 links divide both
   if (m.rings == 0) m.rings = std::max(3, static_cast<int>(std::lround((length_m - m.height_m) / 1.3e-3)) + 1);
   m.name = fmt::format("cobalt-chromium stent {:g} x {:g} mm", 1e3 * nominal_m, 1e3 * length_m);
   check(m);
@@ -148,7 +148,7 @@ void move_rings(const StentModel& m, const PlaqueModel& plaque, const StentInput
       const VesselPath::Place place = in.path->at(at);
       outside = wall_pressure(plaque, wall, in.path->cells[place.index], r + m.strut_m);
     }
-    // Both press it inwards; implicit in r.
+    // Balloon and wall both press on it; implicit in r.
     const double c = m.viscous_Pa_s_m / dt;
     const double alone = r - (own.p_Pa + outside.p_Pa) / (c + own.slope_Pa_m + outside.slope_Pa_m);
     any_on = any_on || a >= alone;
@@ -157,11 +157,11 @@ void move_rings(const StentModel& m, const PlaqueModel& plaque, const StentInput
     s.peak_m[k] = std::max(s.peak_m[k], r);
     mean += r / m.rings;
   }
-  // Open, and its balloon no longer in touch.
+  // It has opened, and no longer touches its balloon.
   if (s.where == StentState::on_balloon && !any_on && mean > 1.6 * m.crimped_m) s.where = StentState::deployed;
 }
 
-/// Struts and links find their lengths, the middle of the stent stays.
+/// Relaxes struts and links to their lengths; the stent's middle is fixed.
 void settle_points(const StentModel& m, StentState& s) {
   const int around = 2 * m.crowns, every = m.crowns / m.links;
   const auto pull = [](double& a, double& b, double wanted, double share) {
@@ -185,7 +185,7 @@ void settle_points(const StentModel& m, StentState& s) {
   }
 }
 
-/// An edge that pushes it on: rings close up one after another, and stay so.
+/// An edge pushes the stent distally: rings are pressed together one after another, permanently.
 void crush(const StentModel& m, const StentInputs& in, StentState& s) {
   if (in.edge_N < m.crush_N) return;
   const int around = 2 * m.crowns;
@@ -211,7 +211,7 @@ void step(const StentModel& m, const PlaqueModel& plaque, const StentInputs& in,
   if (s.where == StentState::lost) return;
   if (s.where == StentState::on_balloon) {
     s.middle_m = in.balloon_middle_m + (in.balloon_state ? in.balloon_state->slip_m : 0);
-    // Pulled against an edge it slides on its balloon, and is off when half of it is.
+    // Pulled against an edge it slides on its balloon, and comes off once half of it has.
     if (const double over = std::fabs(in.drag_N) - m.held_N; over > 0 && s.radius_m[m.rings / 2] < 1.2 * m.crimped_m)
       s.shift_m += std::copysign(over * dt * 5e-3, in.drag_N);
     if (std::fabs(s.shift_m) > m.length_m / 2) {

@@ -11,10 +11,10 @@ namespace ostium::vascular {
 
 namespace {
 
-/// Round about, where point j of a ring is; the first crown lies to the side of the path's frame.
+/// Angle of point j of a ring; the first crown is at the side direction of the path's frame.
 double angle_of(const StentModel& m, int j) { return units::pi * j / m.crowns; }
 
-/// Inside the vessel a stent that is too small for it lies on one wall: there the gap is 0, opposite twice the mean.
+/// A stent too small for its vessel lies against one side: its gap is 0 there, and twice the mean on the opposite side.
 double gap_of(const StentModel& m, const StentState& s, const VesselPath& path, const PlaqueState& wall, int point) {
   const int around = 2 * m.crowns, ring = point / around;
   const double at = s.middle_m + s.shift_m + s.along_m[point];

@@ -9,8 +9,8 @@ namespace ostium::vascular {
 
 namespace {
 
-constexpr double pool_m3 = 1.5e-6;               // of blood beside a hole
-constexpr double fills_s = 0.4, empties_s = 15;  // a pocket beside the lumen
+constexpr double pool_m3 = 1.5e-6;               // blood beside a hole
+constexpr double fills_s = 0.4, empties_s = 15;  // filling and emptying of a pocket beside the lumen
 
 void run_injuries(const FlowTree& tree, double dt, TreatmentState& s, PhysiologyState& physiology) {
   ContrastState& contrast = physiology.contrast;
@@ -25,7 +25,7 @@ void run_injuries(const FlowTree& tree, double dt, TreatmentState& s, Physiology
     injury.outside_m3 = std::max(injury.outside_m3, pocket);
     const double inside = injury.outside_kg / injury.outside_m3;
     double kg = leak_m3_s(injury) * dt * here;
-    // A pool by the hole; what it cannot hold goes on into the pericardium, thinned.
+    // A pool beside the hole; the excess flows into the pericardium and is diluted.
     const double leaked = leak_m3_s(injury) * dt, over = std::max(0.0, injury.outside_m3 + leaked - pool_m3);
     injury.outside_kg *= 1 - over / (injury.outside_m3 + leaked);
     injury.outside_m3 += leaked - over;
@@ -43,7 +43,7 @@ void set_radii(const TreatmentModel& model, const FlowTree& tree, const Treatmen
   const double wider = model.drugs.nitrate_widens * s.drugs.nitrate;
   for (std::size_t b = 0; b < tree.branches.size(); ++b)
     for (int c = tree.branches[b].first; c < tree.branches[b].last; ++c) {
-      // Muscle that is not stiffened by plaque, nor held by a device.
+      // Muscular wall that is neither stiffened by plaque nor held by a device.
       const PlaqueCell& cell = model.plaque.cells[c];
       const bool free = cell.diseased_m > 0.9 * cell.healthy_m && s.wall.radius_m[c] <= s.wall.rest_m[c];
       physiology.radius_m[c] = s.wall.radius_m[c] * (free ? (1 + wider) * (1 - s.spasm[b]) : 1);
@@ -56,12 +56,12 @@ const BalloonModel* balloon_of(const TreatmentModel& model, const TreatmentInput
 const VesselPath* path_of(const TreatmentModel& model, const TreatmentInputs& in) {
   return in.branch >= 0 ? &model.paths[in.branch] : nullptr;
 }
-/// The stent that is crimped on the balloon in use, or was: -1 if none.
+/// The stent that is, or was, crimped on the balloon in use; -1 if none.
 int own_stent(const TreatmentModel& model, const TreatmentInputs& in) {
   return in.balloon >= 0 ? model.stent_on[in.balloon] : -1;
 }
 
-/// Whether a stent is in the wall of the vessel that the balloon lies in.
+/// Whether a stent lies in the wall of the balloon's vessel.
 bool is_beside(const TreatmentModel& model, const TreatmentInputs& in, const StentState& stent) {
   const VesselPath* path = path_of(model, in);
   return path && stent.where == StentState::deployed && stent.branch >= 0 &&
@@ -73,12 +73,12 @@ void change_balloon(const TreatmentModel& model, const TreatmentInputs& in, Trea
     s.balloon_in = in.balloon;
     if (in.balloon >= 0) s.balloon = make_balloon_state(model.balloons[in.balloon]);
   }
-  // A crimped stent is where its balloon is, before the balloon feels it.
+  // A crimped stent moves with its balloon; set before the balloon's step.
   if (const int own = own_stent(model, in); own >= 0 && s.stents[own].where == StentState::on_balloon)
     s.stents[own].branch = in.branch, s.stents[own].middle_m = in.middle_m + s.balloon.slip_m;
 }
 
-/// Whether a stent that is not open is in the balloon's way.
+/// Whether an unopened stent blocks the balloon's position.
 bool is_blocked(const TreatmentModel& model, const TreatmentInputs& in, const TreatmentState& s) {
   const BalloonModel* balloon = balloon_of(model, in);
   if (!balloon || !path_of(model, in)) return false;
@@ -89,7 +89,7 @@ bool is_blocked(const TreatmentModel& model, const TreatmentInputs& in, const Tr
   return false;
 }
 
-/// What a balloon that burst lets out goes into the vessel.
+/// Releases the contents of a burst balloon into the vessel.
 void spill(const VesselPath& path, double middle_m, double spilt_m3, double iodine_kg_m3, std::size_t cells,
            ContrastState& contrast) {
   const auto cell = static_cast<std::size_t>(path.cells[path.at(middle_m).index]);
@@ -104,7 +104,7 @@ BalloonReport inflate(const TreatmentModel& model, const TreatmentInputs& in, do
   const VesselPath* path = path_of(model, in);
   const int own = own_stent(model, in);
   const bool whole = !s.balloon.burst;
-  // Stents that lie in a wall, and the one on this very balloon; others are not in the vessel.
+  // Stents in the wall, and the one on this balloon; others are not in the vessel.
   Sleeve sleeve;
   for (std::size_t i = 0; i < s.stents.size(); ++i)
     if (is_beside(model, in, s.stents[i]) ||
@@ -121,7 +121,7 @@ BalloonReport inflate(const TreatmentModel& model, const TreatmentInputs& in, do
   return report;
 }
 
-/// Stents in walls, and the one on the balloon; returns one that was left in the wall, or -1.
+/// Steps stents in the wall and the one on the balloon; returns one that was just deployed, or -1.
 int step_stents(const TreatmentModel& model, const TreatmentInputs& in, bool blocked, double dt, TreatmentState& s) {
   const BalloonModel* balloon = balloon_of(model, in);
   const int own = own_stent(model, in);
@@ -146,7 +146,7 @@ int step_stents(const TreatmentModel& model, const TreatmentInputs& in, bool blo
   return deployed;
 }
 
-/// What fills the lumen beside blood: shafts and the balloon.
+/// Sets what occupies the lumen besides blood: shafts and the balloon.
 void fill_lumen(const TreatmentModel& model, const TreatmentInputs& in, bool blocked, const TreatmentState& s,
                 const TreatedVessels& vessels) {
   std::vector<double>& occupied_m = vessels.occupied_m;

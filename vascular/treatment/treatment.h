@@ -1,5 +1,5 @@
 #pragma once
-/// What is done to the arteries: balloons, stents, the wall under them, injuries, drugs. Stepped before the physiology
+/// Treatment of the arteries: balloons, stents, the wall under them, injuries, drugs. Stepped before the physiology
 /// (physiology.h), whose radii and occupied lumen it sets.
 #include "vascular/physiology/physiology.h"
 #include "vascular/treatment/drugs.h"
@@ -12,31 +12,31 @@ struct TreatmentModel {
   PlaqueModel plaque;
   InjuryModel injury;
   DrugModel drugs;
-  std::vector<BalloonModel> balloons;  ///< that may be used, and
-  std::vector<StentModel> stents;      ///< with
-  std::vector<int> stent_on;           ///< (#balloons) the stent crimped on it, or -1
+  std::vector<BalloonModel> balloons;  ///< all that may be used
+  std::vector<StentModel> stents;      ///< likewise
+  std::vector<int> stent_on;           ///< (#balloons) stent crimped on it, or -1
   std::vector<VesselPath> paths;       ///< all_paths of the flow tree
 };
 
 struct TreatmentInputs {
-  int balloon = -1;     ///< of the model, which is in the vessel; -1: none. Another one starts deflated
-  int branch = -1;      ///< along whose path it lies (cell_locator.h finds it); -1: not in the coronaries
-  double middle_m = 0;  ///< between its markers, along that path
+  int balloon = -1;     ///< index of the balloon in the vessel; -1: none. A new one starts deflated
+  int branch = -1;      ///< branch whose path contains it (from cell_locator.h); -1: not in the coronaries
+  double middle_m = 0;  ///< midpoint of its markers along that path
   double gauge_Pa = 0;
   double drag_N = 0;                     ///< StentInputs
   double edge_m = -1e9, edge_N = 0;      ///< StentInputs
-  int wire_tip_cell = -1;                ///< where a wire presses the wall, and
-  double wire_tip_N = 0;                 ///< how hard
-  std::span<const double> shaft_m = {};  ///< (#cells) radius of what else lies in the lumen; empty: nothing
+  int wire_tip_cell = -1;                ///< where a wire presses against the wall
+  double wire_tip_N = 0;                 ///< and its force
+  std::span<const double> shaft_m = {};  ///< (#cells) radius of other instruments in the lumen; empty: none
   Doses doses = {};
 };
 
 struct TreatmentState {
   PlaqueState wall;
   BalloonState balloon;
-  int balloon_in = -1;             ///< of the model; -1: none yet
-  std::vector<StentState> stents;  ///< (#stents), crimped ones on a balloon in use or not
-  std::vector<double> spasm;       ///< (#branches) [0, 1): of the diameter, may be set
+  int balloon_in = -1;             ///< index in the model; -1: none yet
+  std::vector<StentState> stents;  ///< (#stents), including crimped ones
+  std::vector<double> spasm;       ///< (#branches) [0, 1): of the diameter; may be set from outside
   InjuryState injury;
   DrugState drugs;
 };
@@ -56,13 +56,13 @@ struct TreatmentScratch {
 
 struct TreatmentReport {
   BalloonReport balloon;
-  int deployed = -1;     ///< a stent that was left in the wall in this step: tie it (stent_shape.h)
-  bool blocked = false;  ///< the balloon cannot lie there: a stent that is not open is in its way
-  bool tore = false;     ///< an injury came about in this step
+  int deployed = -1;     ///< a stent deployed in this step: attach it to the wall (stent_shape.h)
+  bool blocked = false;  ///< an unopened stent is in the balloon's way
+  bool tore = false;     ///< an injury occurred in this step
 };
 
-/// What a treatment acts on: `physiology`'s radii are set and contrast goes out through injuries; `occupied_m` (#cells)
-/// becomes what fills the lumen.
+/// What a treatment changes: `physiology`'s radii, and contrast that leaves through injuries; sets `occupied_m`
+/// (#cells) to the radius of everything in the lumen besides blood.
 struct TreatedVessels {
   const FlowTree& tree;
   PhysiologyState& physiology;

@@ -11,13 +11,13 @@ namespace ostium::vascular {
 namespace {
 
 using units::mm;
-constexpr double aorta_radius_m = 7e-3;  // an aorta is wider
+constexpr double aorta_radius_m = 7e-3;  // lower limit for an aorta
 
-/// How unlike the mean aorta a course is, in metres; `fit` gets how that is laid on it.
+/// Distance of a course from the mean aorta, m; `fit` receives the transform of the mean aorta.
 double unlike_aorta(const MeanCourses& mean, const Course& course, Similarity& fit) {
   const std::vector<Eigen::Vector3d> theirs = course.points(0, labelling_step_m, 0.3);
   double best = 1e9;
-  // The root may have been cut off somewhere.
+  // The root may be cut off anywhere.
   for (double from = 0; from < 60 * mm; from += labelling_step_m) {
     std::vector<Eigen::Vector3d> ours = mean.aorta.points(from, labelling_step_m, 0.3), same = theirs;
     const std::size_t n = std::min(ours.size(), same.size());
@@ -32,7 +32,8 @@ double unlike_aorta(const MeanCourses& mean, const Course& course, Similarity& f
   return best;
 }
 
-/// A root that coronary arteries leave is no end of the tree: it ends where a way becomes narrow.
+/// If coronary arteries leave the root, the root is not an end of the tree: adds a course that ends where the vessel
+/// becomes narrow.
 std::vector<Course> with_wide_ends(std::vector<Course> courses) {
   const std::size_t n = courses.size();
   for (std::size_t c = 0; c < n; ++c) {
@@ -50,7 +51,7 @@ std::vector<Course> with_wide_ends(std::vector<Course> courses) {
   return courses;
 }
 
-/// On from the last sphere to just before the wall.
+/// Extends the course from its last sphere to just before the wall.
 Eigen::Vector3d to_the_end(const Course& course, const Mesh& mesh) {
   const TreeSphere& last = course.spheres.back();
   std::size_t before = course.spheres.size() - 1;
@@ -60,7 +61,7 @@ Eigen::Vector3d to_the_end(const Course& course, const Mesh& mesh) {
   return hits.empty() ? last.p : Eigen::Vector3d(last.p + std::max(0.0, hits[0].distance_m - 2 * mm) * along);
 }
 
-/// Within 30 mm of the end of a course, or of the root (-1).
+/// Largest radius within 30 mm of the end of a course, or of the root (-1).
 double widest_at_end(const std::vector<Course>& courses, int from) {
   const Course& course = courses[static_cast<std::size_t>(std::max(from, 0))];
   double widest = 0;
@@ -69,30 +70,30 @@ double widest_at_end(const std::vector<Course>& courses, int from) {
   return widest;
 }
 
-/// Of all ways between two ends, the one that is most like the mean aorta begins at the root; the tree is found anew
+/// Among all paths between two ends, the one most like the mean aorta begins at the root; the tree is then recomputed
 /// from there.
 void begin_at_root(const MeanCourses& mean, const Progress& say, LumenPart& part) {
-  struct VesselIndex {
+  struct Candidate {
     double unlike, length;
     int root;
   };
-  std::vector<VesselIndex> found;
+  std::vector<Candidate> found;
   const std::vector<Course> candidates = with_wide_ends(part.courses);
   for (int from = -1; from < static_cast<int>(candidates.size()); ++from) {
-    const std::vector<Course> ways = courses_from(candidates, from);
-    if (ways.empty() || widest_at_end(candidates, from) < aorta_radius_m) continue;
+    const std::vector<Course> paths = courses_from(candidates, from);
+    if (paths.empty() || widest_at_end(candidates, from) < aorta_radius_m) continue;
     double longest = 0;
-    for (const Course& way : ways) longest = std::max(longest, way.length_m());
+    for (const Course& path : paths) longest = std::max(longest, path.length_m());
     Similarity fit;
-    for (const Course& way : ways)
-      if (way.length_m() >= 0.6 * longest) found.push_back({unlike_aorta(mean, way, fit), way.length_m(), from});
+    for (const Course& path : paths)
+      if (path.length_m() >= 0.6 * longest) found.push_back({unlike_aorta(mean, path, fit), path.length_m(), from});
   }
   double best = 1e9, farthest = 0;
   int root = -1;
-  for (const VesselIndex& way : found) best = std::min(best, way.unlike);
-  // Of several that are much the same, the one that begins deepest in the root.
-  for (const VesselIndex& way : found)
-    if (way.unlike < best + 4 * mm && way.length > farthest) farthest = way.length, root = way.root;
+  for (const Candidate& c : found) best = std::min(best, c.unlike);
+  // Among similar ones, the longest, which begins deepest in the root.
+  for (const Candidate& c : found)
+    if (c.unlike < best + 4 * mm && c.length > farthest) farthest = c.length, root = c.root;
   if (root >= 0) {
     say("looking for centrelines from the aortic root");
     part.root = to_the_end(candidates[static_cast<std::size_t>(root)], part.mesh);
@@ -117,7 +118,7 @@ std::optional<AortaMatch> match_aorta(LumenPart& part, const MeanCourses& mean, 
     compared.emplace_back(unlike_aorta(mean, course, fit) + (course.length_m() < 0.6 * longest ? 1 : 0), fit);
     best = std::min(best, compared.back().first);
   }
-  // Ways into side branches are like it too, as far as they go.
+  // Paths into side branches are similar too, as far as they follow the aorta.
   double farthest = 0;
   for (std::size_t c = 0; c < compared.size(); ++c)
     if (const double length = part.courses[c].length_m(); compared[c].first < best + 4 * mm && length > farthest)

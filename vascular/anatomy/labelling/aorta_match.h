@@ -1,5 +1,5 @@
 #pragma once
-/// Which way through a lumen is its aorta: the one most like the mean aorta.
+/// Finds the aorta: the path through a lumen that is most like the mean aorta.
 #include <optional>
 
 #include "vascular/anatomy/labelling/fit.h"
@@ -15,7 +15,7 @@ struct AortaMatch {
 
 inline constexpr double labelling_step_m = 5e-3;  ///< between the points of two courses that are compared
 
-/// None if `widest` is too narrow for an aorta. Otherwise `widest` gets its tree from the aortic root, and the aorta's
+/// None if `widest` is too narrow for an aorta. Otherwise gives `widest` the tree from the aortic root, and the aorta's
 /// role.
 std::optional<AortaMatch> match_aorta(LumenPart& widest, const MeanCourses& mean, const Progress& say);
 

@@ -20,7 +20,7 @@ int tube_named(const Anatomy& anatomy, const std::string& name) {
   return -1;
 }
 
-/// Names of what leaves the aorta between root and diaphragm: from right to left, as they leave it.
+/// Names the branches between root and diaphragm, from right to left in the order of their origins.
 void name_arch(Anatomy& anatomy, std::vector<std::string>& notes) {
   std::vector<Tube>& tubes = anatomy.tubes;
   const Tube& aorta = tubes[0];
@@ -34,7 +34,7 @@ void name_arch(Anatomy& anatomy, std::vector<std::string>& notes) {
     if (std::fabs(s - top) < 60 * mm && tubes[t].nodes.back().p.y() > aorta.at(s).p.y()) leaving.push_back({s, t});
   }
   std::sort(leaving.begin(), leaving.end());
-  // What leaves the arch is held by the neck.
+  // The arch's branches are held in place by the neck.
   anatomy.ascending_m = std::clamp(0.8 * (leaving.empty() ? top : leaving.front().first), 30 * mm, 75 * mm);
   const std::vector<const char*> names =
       leaving.size() == 3   ? std::vector<const char*>{"brachiocephalic", "left carotid", "left subclavian"}
@@ -45,7 +45,7 @@ void name_arch(Anatomy& anatomy, std::vector<std::string>& notes) {
                               leaving.size(), names.empty() ? ", which stay numbers" : ""));
 }
 
-/// The aorta, and the iliac arteries that it parts into.
+/// Names the aorta and the iliac arteries it divides into.
 void name_aorta(const std::vector<double>& leaves_m, Anatomy& anatomy) {
   std::vector<Tube>& tubes = anatomy.tubes;
   const Tube& aorta = tubes[0];

@@ -1,5 +1,5 @@
 #pragma once
-/// Names of an anatomy's branches: those recognised, of the arch, the iliac arteries; numbers for the others.
+/// Names of an anatomy's branches: labelled arteries, arch branches and iliac arteries; numbers for all others.
 #include <map>
 #include <string>
 #include <vector>
@@ -8,8 +8,8 @@
 
 namespace ostium::vascular {
 
-/// `leaves_m`: of each tube, where it leaves its parent's wall; `names`: found name to wanted name. Throws MeshError if
-/// a name to be changed is not there.
+/// `leaves_m`: per tube, arc length at its parent's wall; `names`: found name to wanted name. Throws MeshError if a
+/// name to be changed does not exist.
 void name_branches(const std::vector<double>& leaves_m, const std::map<std::string, std::string>& names,
                    Anatomy& anatomy, std::vector<std::string>& notes);
 

@@ -9,9 +9,9 @@ namespace ostium::vascular {
 namespace {
 
 using units::mm;
-constexpr double coronary_radius_m = 3.5e-3;  // a coronary artery is narrower
-constexpr double coronary_length_m = 25e-3;   // and longer
-constexpr double root_m = 75e-3;              // it leaves the aorta so near to its root
+constexpr double coronary_radius_m = 3.5e-3;  // upper limit for a coronary artery
+constexpr double coronary_length_m = 25e-3;   // lower limit for its length
+constexpr double root_m = 75e-3;              // largest distance of its origin from the root
 
 bool like_coronary(const Course& course) {
   if (course.spheres.size() < 4 || course.length_m() < coronary_length_m) return false;
@@ -35,7 +35,7 @@ void add_aortic_trunks(const LumenPart& part, const AortaMatch& aorta, std::vect
   }
 }
 
-/// Of a part of its own: any of its wider ends may be its ostium.
+/// A part separate from the aorta: any of its wider ends may be the ostium.
 void add_loose_trunks(const LumenPart& part, std::size_t p, std::vector<Trunk>& trunks) {
   const std::vector<Course>& courses = part.courses;
   double widest = 0;

@@ -16,7 +16,7 @@ using units::mm, units::degree;
 struct HeartFit {
   Similarity fit;
   double score = 1e9;
-  int left = -1, right = -1;  ///< trunks
+  int left = -1, right = -1;  ///< indices of trunks
   std::size_t lad = 0, lcx = 0, rca = 0;
   bool circumflex = false;
 };
@@ -56,14 +56,14 @@ void try_fit(const HeartSearch& known, HeartFit candidate, HeartFit& best) {
     const double turn = Eigen::AngleAxisd(candidate.fit.R * known.aorta->fit.R.transpose()).angle();
     candidate.score += 0.2 * mm * std::max(0.0, turn / degree - 20);
   }
-  // Where the aorta says that the ostia are.
+  // Penalty for ostia far from where the aorta's fit puts them.
   const auto misplaced = [&](int trunk, const Eigen::Vector3d& ostium) {
     const double off = (known.trunks[trunk].courses[0].spheres.front().p - known.aorta->fit * ostium).norm();
     candidate.score += 0.3 * std::max(0.0, off - 20 * mm);
   };
   if (known.aorta && candidate.left >= 0) misplaced(candidate.left, known.mean.anatomy.landmarks.p_left_ostium);
   if (known.aorta && candidate.right >= 0) misplaced(candidate.right, known.mean.anatomy.landmarks.p_right_ostium);
-  // More arteries recognised is better than fewer.
+  // Prefer matches with more arteries.
   candidate.score += (candidate.left < 0 || candidate.right < 0 ? 10 * mm : 0) + (candidate.circumflex ? 0 : 5 * mm);
   if (candidate.score < best.score) best = candidate;
 }
@@ -95,7 +95,7 @@ HeartFit best_fit(const HeartSearch& known) {
   return best;
 }
 
-/// One that is not like the mean, but nearer to it than all others.
+/// Finds a circumflex that did not match the mean but is nearer to it than all other courses.
 void find_circumflex(const MeanCourses& mean, const Trunk& left, HeartFit& best) {
   double nearest = 25 * mm;
   for (std::size_t c = 0; c < left.courses.size(); ++c) {

@@ -1,5 +1,5 @@
 #pragma once
-/// Which ways are the coronary arteries: the rotation, shift and scale that bring the mean ones nearest to them.
+/// Finds the coronary arteries: the courses that the mean ones fit best by rotation, shift and scale.
 #include <map>
 
 #include "vascular/anatomy/labelling/aorta_match.h"
@@ -8,10 +8,10 @@ namespace ostium::vascular {
 
 struct HeartMatch {
   Similarity fit;                                ///< from the mean anatomy to the file's frame
-  std::map<std::string, Eigen::Vector3d> ostia;  ///< of "LM" and "RCA", those recognised
+  std::map<std::string, Eigen::Vector3d> ostia;  ///< of "LM" and "RCA", if found
 };
 
-/// None if nothing is like coronary arteries. Those recognised get their roles in `parts`; `aorta`: that of the first
+/// None if nothing resembles coronary arteries. Found arteries get their roles in `parts`; `aorta`: match of the first
 /// part, or null.
 std::optional<HeartMatch> match_heart(std::vector<LumenPart>& parts, const AortaMatch* aorta, const MeanCourses& mean,
                                       std::vector<std::string>& notes);

@@ -19,7 +19,7 @@ namespace {
 using units::mm, units::degree;
 constexpr double most_turned = 40 * degree;  // the file's axes are kept if the anatomy is turned by less
 
-/// From the file's axes to the patient's.
+/// Rotation from the file's axes to the patient's.
 Eigen::Matrix3d settled_axes(const LabellingOptions& options, const Similarity* aorta, const Similarity* heart,
                              std::vector<std::string>& notes) {
   Eigen::Matrix3d R = Eigen::Matrix3d::Identity();
@@ -41,7 +41,7 @@ Eigen::Matrix3d settled_axes(const LabellingOptions& options, const Similarity* 
   return R;
 }
 
-/// The tree once more, with the ends in the order of their importance: what comes first runs through.
+/// Recomputes the tree with its ends in order of importance: the first ones become the main branches.
 void find_tree_anew(LumenPart& part) {
   CentrelineOptions wanted;
   wanted.start = part.root;
@@ -99,7 +99,7 @@ LabelledVessels label_vessels(const Mesh& lumen, const LabellingOptions& options
     find_tree_anew(part);
   }
 
-  // All that follows is in the patient's axes.
+  // From here on everything is in the patient's axes.
   const Eigen::Matrix3d& R = out.R_PF;
   for (LumenPart& part : parts) turn(R, part);
   out.lumen = lumen;

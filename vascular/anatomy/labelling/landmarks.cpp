@@ -12,7 +12,7 @@ namespace {
 
 using units::mm;
 
-/// Where the introducer is, and which way it points.
+/// Sets the introducer's position and direction.
 void set_access(const std::optional<Eigen::Vector3d>& entry, Anatomy& anatomy, std::vector<std::string>& notes) {
   Landmarks& marks = anatomy.landmarks;
   const std::vector<Tube>& tubes = anatomy.tubes;
@@ -30,7 +30,7 @@ void set_access(const std::optional<Eigen::Vector3d>& entry, Anatomy& anatomy, s
     if (nearest > 10 * mm)
       notes.push_back(fmt::format("the entry asked for lies {:.0f} mm outside the lumen", nearest / mm));
   }
-  // Not in the very tip.
+  // Not at the very tip.
   s = std::clamp(s, 1 * mm, std::max(1 * mm, tubes[tube].length_m() - 2 * tubes[tube].nodes.back().radius_m));
   marks.p_access = tubes[tube].at(s).p;
   marks.access_direction = (inwards ? 1 : -1) * tubes[tube].tangent(s);
@@ -55,7 +55,7 @@ void set_landmarks(const LandmarkInputs& in, Anatomy& anatomy, std::vector<std::
   marks.root_axis = in.fit.R * mean.root_axis;
   if (anatomy.aorta) {
     marks.root_axis = tubes[0].tangent(8 * mm);
-    // The tube begins where the widest sphere fits; the annulus lies before it.
+    // The tube begins where the widest sphere fits; the annulus is proximal to that.
     marks.p_annulus = tubes[0].nodes.front().p - 0.8 * tubes[0].nodes.front().radius_m * marks.root_axis;
   }
   set_access(in.entry, anatomy, notes);

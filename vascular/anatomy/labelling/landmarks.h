@@ -1,5 +1,5 @@
 #pragma once
-/// Landmarks of a labelled anatomy: laid on from the mean one, put where its own vessels say.
+/// Landmarks of a labelled anatomy: transformed from the mean anatomy, then adjusted to its own vessels.
 #include <map>
 #include <optional>
 #include <string>
@@ -12,8 +12,8 @@ namespace ostium::vascular {
 struct LandmarkInputs {
   const Landmarks& mean;
   Similarity fit;                                       ///< from the mean anatomy to this one's frame
-  const std::map<std::string, Eigen::Vector3d>& ostia;  ///< of "LM" and "RCA", those recognised
-  std::optional<Eigen::Vector3d> entry;                 ///< the introducer's place that was asked for, same frame
+  const std::map<std::string, Eigen::Vector3d>& ostia;  ///< of "LM" and "RCA", if found
+  std::optional<Eigen::Vector3d> entry;                 ///< wanted position of the introducer, same frame
 };
 
 void set_landmarks(const LandmarkInputs& inputs, Anatomy& anatomy, std::vector<std::string>& notes);

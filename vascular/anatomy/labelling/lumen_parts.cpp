@@ -13,7 +13,7 @@ namespace ostium::vascular {
 namespace {
 
 using units::mm;
-constexpr double vessel_shape = 6;  // a vessel is longer than so many of its widths
+constexpr double vessel_shape = 6;  // a vessel is longer than this many of its widths
 
 }  // namespace
 

@@ -1,5 +1,5 @@
 #pragma once
-/// The closed pieces of a lumen, each with its tree of centrelines.
+/// The closed pieces of a lumen, each with its centreline-sphere tree.
 #include <functional>
 #include <string>
 #include <vector>
@@ -21,10 +21,10 @@ struct LumenPart {
     Eigen::Vector3d end;
     std::string name;
   };
-  std::vector<Role> roles;  ///< ends that are recognised, in the order of their importance
+  std::vector<Role> roles;  ///< identified ends, most important first
 };
 
-/// Widest first. Throws MeshError if none holds a vessel.
+/// Widest first. Throws MeshError if none contains a vessel.
 std::vector<LumenPart> lumen_parts(const Mesh& lumen, const Progress& say);
 
 }  // namespace ostium::vascular

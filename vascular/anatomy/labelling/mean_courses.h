@@ -1,5 +1,5 @@
 #pragma once
-/// The courses of the mean anatomy that others are compared with.
+/// Courses of the mean anatomy, the reference for labelling.
 #include "vascular/anatomy/anatomy.h"
 #include "vascular/anatomy/labelling/courses.h"
 
@@ -8,7 +8,7 @@ namespace ostium::vascular {
 struct MeanCourses {
   Anatomy anatomy;
   Course aorta;          ///< from the root to the right groin
-  Course lad, lcx, rca;  ///< from the ostium to the end, the left main included
+  Course lad, lcx, rca;  ///< from the ostium to the end, including the left main
 };
 
 MeanCourses mean_courses();

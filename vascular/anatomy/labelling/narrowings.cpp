@@ -6,7 +6,7 @@ namespace ostium::vascular {
 
 namespace {
 
-constexpr double near_m = 4e-3, far_m = 16e-3;  // the stretch that is compared, before and behind
+constexpr double near_m = 4e-3, far_m = 16e-3;  // stretch to compare with, proximally and distally
 constexpr double widest_m = 4e-3;               // radius
 
 double median_between(const TreeBranch& branch, double from, double to) {
@@ -29,7 +29,7 @@ std::vector<FoundNarrowing> find_narrowings(const SphereTree& tree, double least
       double stenosis = 0, reference = 0;
       const double before = median_between(branch, sphere.s_m - far_m, sphere.s_m - near_m);
       const double behind = median_between(branch, sphere.s_m + near_m, sphere.s_m + far_m);
-      // An end tapers; a narrowing is wide on both sides.
+      // An end tapers; a narrowing has wide vessel on both sides.
       if (before > 0 && behind > 0 && sphere.s_m < length - 2 * near_m && before < widest_m) {
         reference = (before + behind) / 2;
         stenosis = 1 - sphere.radius_m / reference;

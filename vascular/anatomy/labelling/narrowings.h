@@ -1,5 +1,5 @@
 #pragma once
-/// Narrowings that a lumen came with.
+/// Narrowings already present in a given lumen.
 #include <string>
 #include <vector>
 
@@ -11,11 +11,11 @@ struct FoundNarrowing {
   std::string branch;
   double at_m = 0;         ///< from the branch's first sphere
   double stenosis = 0;     ///< of the diameter
-  double reference_m = 0;  ///< the diameter around it
+  double reference_m = 0;  ///< diameter around it
   Eigen::Vector3d p = Eigen::Vector3d::Zero();
 };
 
-/// In branches narrower than 8 mm: where the diameter is less by at least `least` than before and behind it.
+/// In branches narrower than 8 mm: where the diameter is smaller, by the fraction `least` or more, than on both sides.
 std::vector<FoundNarrowing> find_narrowings(const SphereTree& tree, double least = 0.3);
 
 }  // namespace ostium::vascular

@@ -10,7 +10,7 @@ namespace ostium::vascular {
 namespace {
 
 constexpr double cell_m = 6e-3;
-constexpr double reach = 1.5, more_m = 3e-3;  // a wall lies within so many radii of its tube, and a little more
+constexpr double reach = 1.5, more_m = 3e-3;  // the wall lies within this many radii of its tube plus a margin
 
 long key_of(const Eigen::Vector3d& p) {
   const auto part = [](double x) { return (static_cast<long>(std::floor(x / cell_m)) + (1L << 20)) & 0x1fffff; };

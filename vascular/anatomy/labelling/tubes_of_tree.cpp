@@ -9,9 +9,9 @@ namespace ostium::vascular {
 namespace {
 
 using units::mm;
-constexpr double branch_blend = 1.6;  // in radii: over so much a branch takes over from its parent in the beat
+constexpr double branch_blend = 1.6;  // in radii: distance over which a branch takes over from its parent's motion
 
-/// From where it leaves its parent's wall, with a little of it inside; false if it never does.
+/// Trims a branch to start just inside its parent's wall; false if it never leaves it.
 bool trimmed(const TreeBranch& branch, const Tube* parent, Tube& tube, double& leaves_m) {
   const std::vector<TreeSphere>& s = branch.spheres;
   std::size_t begin = 0, exit = 0;
@@ -25,7 +25,7 @@ bool trimmed(const TreeBranch& branch, const Tube* parent, Tube& tube, double& l
     while (begin < exit && depth(begin) < 0.55) ++begin;
     if (begin == exit && begin > 0) --begin;
   } else {
-    // A root runs up to the wall, where spheres shrink.
+    // A root extends up to the wall, where spheres shrink.
     std::vector<double> radii;
     for (std::size_t i = 0; i < std::min<std::size_t>(12, s.size()); ++i) radii.push_back(s[i].radius_m);
     std::nth_element(radii.begin(), radii.begin() + static_cast<long>(radii.size() / 2), radii.end());

@@ -1,12 +1,12 @@
 #pragma once
-/// A part's tree of centrelines as tubes, each from where it leaves its parent's wall.
+/// Converts a part's centreline-sphere tree to tubes, each starting at its parent's wall.
 #include "vascular/anatomy/labelling/lumen_parts.h"
 #include "vascular/geometry/implicit/tube.h"
 
 namespace ostium::vascular {
 
-/// Adds the tubes of one part to `tubes`, named by the part's roles, and to `leaves_m` the arc length of each at which
-/// it leaves its parent's wall.
+/// Adds a part's tubes, named by its roles, to `tubes`, and to `leaves_m` the arc length at which each one leaves its
+/// parent's wall.
 void add_tubes(const LumenPart& part, std::vector<Tube>& tubes, std::vector<double>& leaves_m);
 
 }  // namespace ostium::vascular

@@ -15,11 +15,11 @@ namespace ostium::vascular {
 namespace {
 
 constexpr double unreached = std::numeric_limits<double>::infinity();
-constexpr double reach = 2;  // a path has come near to what lies within so many radii of it
+constexpr double reach = 2;  // a path covers what lies within this many radii
 
 struct Paths {
   std::vector<double> length_m;  ///< along the cheapest path from the root
-  std::vector<int> before;       ///< the voxel before on that path; -1 at the root
+  std::vector<int> before;       ///< previous voxel on that path; -1 at the root
 };
 
 /// Dijkstra's cheapest paths from `root`.
@@ -47,10 +47,10 @@ Paths cheapest_paths(const Voxels& voxels, int root) {
   return paths;
 }
 
-/// A path's voxels from where it leaves those before (or the root) to its end.
+/// A path's voxels from where it leaves earlier paths (or the root) to its end.
 struct Strand {
   std::vector<int> voxels;
-  int parent = -1;     ///< strand that it leaves
+  int parent = -1;     ///< strand it leaves
   int leaves_at = -1;  ///< position in the parent's voxels
 };
 
@@ -73,7 +73,7 @@ class Skeleton {
       strand.leaves_at = static_cast<int>(std::find(parent.begin(), parent.end(), v) - parent.begin());
     }
     for (int s : strand.voxels) owner_[s] = static_cast<int>(strands_.size());
-    // Not from every voxel: neighbours come near to much the same.
+    // Not from every voxel: neighbours cover much the same.
     int last = -1;
     for (int s : strand.voxels) {
       near_[s] = true;
@@ -85,7 +85,7 @@ class Skeleton {
     strands_.push_back(std::move(strand));
   }
 
-  /// All that stand out from those before by more than the wall's radius there.
+  /// Adds every path that protrudes from the earlier ones by more than the local radius.
   void add_all() {
     std::vector<int> by_length;
     for (int v = 0; v < voxels_.count(); ++v)
@@ -135,8 +135,8 @@ class Skeleton {
   std::vector<Strand> strands_;
 };
 
-/// The widest end: the widest place itself if only one strand leaves it, or else, of the strands from there, the end of
-/// the one whose last third is widest.
+/// The widest end: the widest point itself if only one strand leaves it, otherwise the end of the strand from there
+/// whose last third is widest.
 int widest_end(const Voxels& voxels) {
   int widest = 0;
   for (int v = 1; v < voxels.count(); ++v)
@@ -159,7 +159,7 @@ int widest_end(const Voxels& voxels) {
   return end;
 }
 
-/// Off the voxels: smoothed, then each moved across the line to where its sphere is largest.
+/// Refines the voxel path: smooths it, then moves each point across the line to where its sphere is largest.
 std::vector<TreeSphere> fitted(std::vector<Eigen::Vector3d> line, const BoundingVolumeHierarchy& wall, double voxel_m) {
   const std::size_t n = line.size();
   for (int round = 0; round < 8; ++round) {
@@ -167,7 +167,7 @@ std::vector<TreeSphere> fitted(std::vector<Eigen::Vector3d> line, const Bounding
     for (std::size_t i = 1; i + 1 < n; ++i) next[i] = (line[i - 1] + 2 * line[i] + line[i + 1]) / 4;
     line = std::move(next);
     for (std::size_t i = 1; i + 1 < n && round < 5; ++i) {
-      // Half-way towards the middle of the wall's nearest point and the wall opposite to it.
+      // Move half-way to the midpoint between the nearest wall point and the wall opposite.
       const Eigen::Vector3d along = (line[i + 1] - line[i - 1]).normalized();
       const BoundingVolumeHierarchy::Nearest near = wall.nearest(line[i], 1);
       Eigen::Vector3d away = line[i] - near.point;
@@ -188,7 +188,7 @@ std::vector<TreeSphere> fitted(std::vector<Eigen::Vector3d> line, const Bounding
   return spheres;
 }
 
-/// A strand runs up to the wall at its tip, where spheres shrink much faster than a vessel tapers: these go.
+/// A strand extends up to the wall at its tip, where spheres shrink much faster than a vessel tapers: removes these.
 void trim(std::vector<TreeSphere>& spheres) {
   while (spheres.size() > 2 && spheres.back().radius_m < 0.75 * spheres[spheres.size() - 2].radius_m)
     spheres.pop_back();

@@ -1,11 +1,11 @@
 #pragma once
-/// The centreline-sphere tree of any closed mesh: automatic, or from a start, ends and points to pass that a user
-/// picked.
+/// The centreline-sphere tree of any closed mesh: fully automatic, or with a start, ends and intermediate points chosen
+/// by a user.
 ///
-/// Voxels inside the mesh carry their distance to the wall; cheapest paths from the start, where a step costs its
-/// length over the squared distance to the wall, keep to the middle (as VMTK does: Antiga et al., Med Biol Eng Comput
-/// 2008;46:1097). Without ends, the farthest voxel that no path has come near begins the next path (Sato et al.,
-/// TEASAR, 2000). Then spheres are moved to where they are largest.
+/// Voxels inside the mesh store their distance to the wall. Cheapest paths from the start, with a cost of length over
+/// squared wall distance, stay in the middle (as in VMTK: Antiga et al., Med Biol Eng Comput 2008;46:1097). Without
+/// given ends, the farthest voxel not yet covered by a path starts the next one (Sato et al., TEASAR, 2000). Finally,
+/// spheres are moved to where they are largest.
 #include <optional>
 #include <string>
 #include <vector>
@@ -17,16 +17,16 @@ namespace ostium::vascular {
 
 struct CentrelineOptions {
   std::optional<Eigen::Vector3d> start;  ///< none: the widest end
-  std::vector<Eigen::Vector3d> ends;     ///< empty: all that stand out; picked points need not lie inside
+  std::vector<Eigen::Vector3d> ends;     ///< empty: all that are found; picked points need not lie inside
   std::size_t most_voxels = 24'000'000;  ///< of the box around the mesh: sets the resolution
 };
 
 struct CentrelineResult {
-  SphereTree tree;     ///< branches "1", "2", ... in the order of their length
+  SphereTree tree;     ///< branches "1", "2", ... longest first
   double voxel_m = 0;  ///< vessels narrower than two of these may be missed
 };
 
-/// Throws MeshError if the mesh has no inside, or a picked point is in another piece than the start.
+/// Throws MeshError if the mesh has no interior, or a picked point is in a different piece than the start.
 CentrelineResult find_centrelines(const Mesh& mesh, const CentrelineOptions& options = {});
 
 }  // namespace ostium::vascular

@@ -1,6 +1,6 @@
 #pragma once
 /// The centreline-sphere tree: spheres fitted into the lumen, grouped in branches (P. Korzeniowski's thesis, 2015,
-/// 5.3.4.3). Flow, contrast and measuring go along it.
+/// 5.3.4.3). Flow, contrast and measurements use it.
 #include <Eigen/Geometry>
 #include <string>
 #include <vector>
@@ -9,14 +9,14 @@ namespace ostium::vascular {
 
 struct TreeSphere {
   Eigen::Vector3d p = Eigen::Vector3d::Zero();  ///< patient frame, metres
-  double radius_m = 0;                          ///< the largest sphere about p in the lumen
+  double radius_m = 0;                          ///< largest sphere about p within the lumen
   double s_m = 0;                               ///< arc length from the branch's first sphere
 };
 
 struct TreeBranch {
   std::string name;
-  int parent = -1;         ///< branch that it comes out of, less than its own; -1: a root
-  int parent_sphere = -1;  ///< of the parent's, the one nearest to its first
+  int parent = -1;         ///< branch it leaves, less than its own index; -1: a root
+  int parent_sphere = -1;  ///< sphere of the parent nearest to its first
   std::vector<TreeSphere> spheres;
 };
 

@@ -8,10 +8,10 @@ namespace ostium::vascular {
 Voxels::Voxels(const Mesh& mesh, const BoundingVolumeHierarchy& wall, std::size_t most) {
   Eigen::AlignedBox3d box;
   for (const Eigen::Vector3d& p : mesh.vertices) box.extend(p);
-  // A stout mesh would fill the box: no more voxels inside than 300,000.
+  // A compact mesh would fill the box: at most 300,000 voxels inside.
   constexpr double most_inside = 3e5;
   size_ = std::cbrt(std::max(box.volume() / static_cast<double>(most), std::fabs(volume_m3(mesh)) / most_inside));
-  // Off the grid of the mesh's own coordinates, so that no ray runs along an edge.
+  // Offset from the grid of the mesh's own coordinates, so that no ray runs along an edge.
   const Eigen::Vector3d origin = box.min() - size_ * Eigen::Vector3d(2.137, 2.271, 2.313);
   for (int axis = 0; axis < 3; ++axis) n_[axis] = static_cast<long>(box.sizes()[axis] / size_) + 6;
   std::vector<std::vector<float>> crossings(static_cast<std::size_t>(n_[0] * n_[1]));

@@ -8,7 +8,7 @@ namespace ostium::vascular {
 
 class Voxels {
  public:
-  /// Inside by the parity of crossings along z; columns with an odd number (a hole) stay outside.
+  /// Inside by parity of crossings along z; columns with an odd number (a hole) count as outside.
   Voxels(const Mesh& mesh, const BoundingVolumeHierarchy& wall, std::size_t most);
 
   double size_m() const { return size_; }
@@ -16,7 +16,7 @@ class Voxels {
   const Eigen::Vector3d& place(int voxel) const { return places_[static_cast<std::size_t>(voxel)]; }
   double to_wall_m(int voxel) const { return to_wall_[static_cast<std::size_t>(voxel)]; }
   int nearest(const Eigen::Vector3d& p) const;
-  /// Inside neighbours, of 26.
+  /// Visits the inside ones of 26 neighbours.
   template <class Visit>
   void neighbours(int voxel, Visit visit) const {
     const long cell = cells_[static_cast<std::size_t>(voxel)];

@@ -13,13 +13,13 @@ namespace ostium::vascular {
 
 namespace {
 
-using Near = std::vector<const std::vector<int>*>;  // segments that decide the surface, of each vertex
+using Near = std::vector<const std::vector<int>*>;  // per vertex: segments that determine the surface there
 
 constexpr double least_cosine = 0.3;  // between a triangle's normal and the surface's
 constexpr int most_refinements = 12;
 constexpr int most_attempts = 4;
 
-/// Vertices move towards the middle of their neighbours, along the surface.
+/// Moves vertices along the surface towards the mean of their neighbours.
 void even_out(const TubeUnion& lumen, const Near& near, const std::vector<Quad>& quads,
               std::vector<Eigen::Vector3d>& vertices, std::vector<Eigen::Vector3d>& outwards) {
   const std::size_t n = vertices.size();
@@ -41,7 +41,7 @@ void even_out(const TubeUnion& lumen, const Near& near, const std::vector<Quad>&
   });
 }
 
-/// How many faces have an edge.
+/// Number of faces per edge.
 class Edges {
  public:
   template <class Faces>
@@ -67,10 +67,10 @@ class Edges {
   }
 
  private:
-  std::vector<int> first_, others_;  ///< of each vertex, those with a higher number that it shares an edge with
+  std::vector<int> first_, others_;  ///< per vertex: higher-numbered vertices that share an edge with it
 };
 
-/// Two triangles a quadrilateral, split along its shorter diagonal, unless an edge is there already.
+/// Splits each quadrilateral along its shorter diagonal, unless that edge already exists.
 std::vector<std::array<int, 3>> split(const std::vector<Quad>& quads, const std::vector<Eigen::Vector3d>& vertices) {
   const Edges edges(vertices.size(), quads);
   const auto there = [&](int i, int j) { return edges.count(i, j) > 0; };
@@ -88,8 +88,8 @@ std::vector<std::array<int, 3>> split(const std::vector<Quad>& quads, const std:
   return triangles;
 }
 
-/// Vertices around which the contour is no surface or is folded, and their neighbours (or the step in size would only
-/// move): the cells are too coarse there. Looking for crossings takes as long as all else.
+/// Vertices where the contour is not a surface or is folded, plus their neighbours (otherwise the jump in cell size
+/// would only move the fault): cells are too coarse there. Checking for crossings takes as long as everything else.
 std::vector<int> faulty(const Mesh& mesh, const std::vector<Eigen::Vector3d>& outwards, bool crossings) {
   std::vector<bool> fault(mesh.vertices.size()), near_fault(mesh.vertices.size());
   const Edges edges(mesh.vertices.size(), mesh.triangles);

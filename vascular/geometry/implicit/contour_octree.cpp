@@ -10,8 +10,8 @@ namespace ostium::vascular {
 
 namespace {
 
-constexpr double lipschitz = 1.15;   // of the union's function: smooth minimum and tapering tubes included
-constexpr int units_per_finest = 8;  // cells may be halved three times more where the contour asks for it
+constexpr double lipschitz = 1.15;   // of the union's function, including smooth minimum and tapering tubes
+constexpr int units_per_finest = 8;  // cells may be halved three more times where the contour needs it
 
 /// Child k of a cube: bits are x, y, z.
 std::array<int, 3> offset(int k) { return {k & 1, k >> 1 & 1, k >> 2 & 1}; }
@@ -100,7 +100,7 @@ void ContourOctree::grow(int c, const std::vector<int>& candidates) {
   for (std::size_t i = 0; i < candidates.size(); ++i)
     margin = std::max(margin, lumen_.tubes()[lumen_.segments()[candidates[i]].tube].blend * radius[i]);
   if (least > lipschitz * reach + margin / 6) return;
-  // A tube matters if it may be blended with the nearest one, a segment of it if it may be the tube's nearest.
+  // A tube matters if it may be blended with the nearest one; a segment if it may be its tube's nearest.
   std::vector<int> near;
   double wanted = std::numeric_limits<double>::infinity();
   for (std::size_t first = 0, last = 0; first < candidates.size(); first = last) {
@@ -200,7 +200,7 @@ void ContourOctree::emit(const std::array<int, 4>& around, int axis, const std::
   const Eigen::Vector3d p = p0 + f0 / (f0 - f1) * (p1 - p0);
   std::array<int, 4> v;
   for (int k = 0; k < 4; ++k) v[k] = cells_[around[k]].vertex;
-  // Each cell counts once, though it may lie on two sides of the edge.
+  // Count each cell once, although it may lie on two sides of the edge.
   std::array<int, 4> once = v;
   std::sort(once.begin(), once.end());
   for (auto it = once.begin(), last = std::unique(once.begin(), once.end()); it != last; ++it) {
@@ -208,7 +208,7 @@ void ContourOctree::emit(const std::array<int, 4>& around, int axis, const std::
     vertices_[*it].sum += p;
     ++vertices_[*it].count;
   }
-  // Counter-clockwise about +axis: 0, 1, 3, 2. Outwards is where f grows.
+  // Counter-clockwise about +axis: 0, 1, 3, 2. f grows outwards.
   std::array<int, 4> ring = {v[0], v[1], v[3], v[2]};
   if (!(f0 < 0)) std::reverse(ring.begin(), ring.end());
   quads_.push_back(ring);

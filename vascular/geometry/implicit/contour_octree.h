@@ -1,6 +1,6 @@
 #pragma once
-/// An octree around the surface of a union of tubes, and the quadrilaterals of its dual contour. Used by contour.cpp
-/// only.
+/// An octree around the surface of a union of tubes, and the quadrilaterals of its dual contour. Internal to
+/// contour.cpp.
 #include <array>
 #include <unordered_map>
 #include <vector>
@@ -14,15 +14,15 @@ using Quad = std::array<int, 4>;
 
 class ContourOctree {
  public:
-  /// `shift`, in finest cells, moves the grid.
+  /// `shift`, in finest cells, offsets the grid.
   ContourOctree(const TubeUnion& lumen, const ContourSettings& settings, double shift);
 
-  /// The dual contour. `places` and `near` are filled for each of its vertices: a point of the surface in its cell, and
-  /// the segments that decide the surface there (valid until the next call of refine).
+  /// The dual contour. Fills `places` and `near` per vertex: a surface point in its cell, and the segments that
+  /// determine the surface there (valid until the next call of refine).
   std::vector<Quad> extract(std::vector<Eigen::Vector3d>& places, std::vector<Eigen::Vector3d>& outwards,
                             std::vector<const std::vector<int>*>& near);
 
-  /// Halves the cells of some vertices of the last contour. False if none of them can be halved.
+  /// Halves the cells of some vertices of the last contour. False if none can be halved.
   bool refine(const std::vector<int>& vertices);
 
  private:
@@ -30,16 +30,16 @@ class ContourOctree {
     std::array<int, 3> corner;  ///< in units
     int size;                   ///< edge in units, a power of two
     int children = -1;          ///< index of the first of eight; -1: a leaf
-    int vertex = -1;            ///< of a leaf that may hold the surface
+    int vertex = -1;            ///< for a leaf that may contain the surface
   };
   struct Vertex {
     int cell;
     std::vector<int> segments;
-    Eigen::Vector3d sum = Eigen::Vector3d::Zero();  ///< of crossings of the surface with edges
+    Eigen::Vector3d sum = Eigen::Vector3d::Zero();  ///< of the surface's crossings with edges
     int count = 0;
     bool placed = false;  ///< `sum` is now a point of the surface
     Eigen::Vector3d outwards = Eigen::Vector3d::Zero();
-    std::array<double, 8> corners{};  ///< the union's function there
+    std::array<double, 8> corners{};  ///< the union's function at the corners
     int index = -1;                   ///< in the last contour
   };
 
@@ -54,8 +54,8 @@ class ContourOctree {
   void grow(int c, const std::vector<int>& candidates);
   void divide(int c, const std::vector<int>& candidates);
 
-  // The three walks of dual contouring: through a cell; across a face (cells a, b, with b further along `axis`); around
-  // an edge along `axis` (bit 0 of the cell's number along sides[0], bit 1 along sides[1], which follow `axis`
+  // The three recursions of dual contouring: within a cell; across a face (cells a, b, with b further along `axis`);
+  // around an edge along `axis` (bit 0 of the cell's number along sides[0], bit 1 along sides[1], which follow `axis`
   // cyclically).
   void cell_edges(int c);
   void face_edges(int a, int b, int axis);
@@ -64,7 +64,7 @@ class ContourOctree {
 
   const TubeUnion& lumen_;
   const ContourSettings& settings_;
-  double unit_m_;  ///< no cell is smaller
+  double unit_m_;  ///< smallest possible cell
   Eigen::Vector3d origin_;
   std::vector<Cell> cells_;
   std::vector<Vertex> vertices_;
@@ -73,7 +73,7 @@ class ContourOctree {
   std::unordered_map<long, double> values_;
 };
 
-/// Newton steps along the gradient; `outwards` becomes the unit normal of the last.
+/// Moves p onto the surface by Newton steps along the gradient; `outwards` becomes the unit normal.
 Eigen::Vector3d onto_surface(const TubeUnion& lumen, const std::vector<int>& near, Eigen::Vector3d p, int steps,
                              Eigen::Vector3d& outwards);
 

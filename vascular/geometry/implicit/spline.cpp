@@ -50,7 +50,7 @@ Eigen::MatrixXd periodic_b_spline(const Eigen::MatrixXd& values) {
     A(i, (i + 1) % n) += 1.0 / 6;
     A(i, (i + n - 1) % n) += 1.0 / 6;
   }
-  const Eigen::MatrixXd inverse = A.inverse();  // well conditioned: 3 at most
+  const Eigen::MatrixXd inverse = A.inverse();  // well conditioned: condition number at most 3
   return inverse * values;
 }
 

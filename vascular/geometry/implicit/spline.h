@@ -5,10 +5,10 @@
 
 namespace ostium::vascular {
 
-/// Through points in space, with natural ends; the parameter is the chord length so far, in metres.
+/// Through points in space, with natural ends; the parameter is the cumulative chord length, m.
 class CurveSpline {
  public:
-  /// At least two points, no two neighbours equal.
+  /// At least two points; neighbours must differ.
   explicit CurveSpline(const std::vector<Eigen::Vector3d>& points);
 
   double end() const { return knots_.back(); }

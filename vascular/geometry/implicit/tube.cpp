@@ -130,7 +130,7 @@ double TubeUnion::value(const Eigen::Vector3d& p, const std::vector<int>& segmen
       if (d_i < d) d = d_i, nearest = segments[i], radius = radius_i;
     }
     if (gradient || shares) distance(nearest, p, &s);
-    // Smooth minimum min(f, d) - k h^3 / 6, h = max(0, 1 - |f - d| / k); weight of the larger of both: h^2 / 2.
+    // Smooth minimum min(f, d) - k h^3 / 6, h = max(0, 1 - |f - d| / k); weight of the larger one: h^2 / 2.
     const double k = tubes_[tube].blend * radius;
     const double h = std::isinf(f) ? 0 : std::max(0.0, 1 - std::fabs(f - d) / k);
     const double weight_of_d = d < f ? 1 - h * h / 2 : h * h / 2;

@@ -108,7 +108,7 @@ std::vector<BoundingVolumeHierarchy::Hit> BoundingVolumeHierarchy::hits(const Ei
       const double inverse = 1 / along[axis];
       double a = (box.min()[axis] - p[axis]) * inverse, b = (box.max()[axis] - p[axis]) * inverse;
       if (a > b) std::swap(a, b);
-      if (a > from) from = a;  // not a number, where the ray lies in a side: no limit
+      if (a > from) from = a;  // not-a-number where the ray lies in a box face: no limit
       if (b < to) to = b;
     }
     return from > to;

@@ -1,6 +1,6 @@
 #pragma once
-/// A tree of axis-aligned boxes over the triangles of a mesh: which triangles come near a box, and how far a point is
-/// from the surface. For checks and for preparing anatomy; the step has its own (core).
+/// Axis-aligned bounding boxes over a mesh's triangles: which triangles are near a box, and the distance of a point
+/// from the surface. For checks and preparing anatomy; the step has its own (core/wall).
 #include <Eigen/Geometry>
 #include <functional>
 
@@ -13,7 +13,7 @@ class BoundingVolumeHierarchy {
   /// Keeps a reference to `mesh`, whose triangles must not be degenerate beyond zero area.
   explicit BoundingVolumeHierarchy(const Mesh& mesh);
 
-  /// Calls `visit(i, j)` once for each two triangles, i < j, whose boxes touch.
+  /// Calls `visit(i, j)` once for each pair of triangles, i < j, whose boxes touch.
   void for_each_pair(const std::function<void(int, int)>& visit) const;
 
   struct Nearest {
@@ -21,21 +21,21 @@ class BoundingVolumeHierarchy {
     int triangle = -1;
     Eigen::Vector3d point = Eigen::Vector3d::Zero();
   };
-  /// The nearest point of the surface that is nearer than `limit_m`; triangle -1 if there is none.
+  /// The nearest point of the surface within `limit_m`; triangle -1 if none.
   Nearest nearest(const Eigen::Vector3d& p, double limit_m) const;
 
   struct Hit {
     double distance_m = 0;
     int triangle = -1;
   };
-  /// Triangles that the ray from `p` along the unit vector `along` goes through within `limit_m`, the nearest first.
+  /// Triangles hit by the ray from `p` along the unit vector `along` within `limit_m`, nearest first.
   std::vector<Hit> hits(const Eigen::Vector3d& p, const Eigen::Vector3d& along, double limit_m) const;
 
  private:
   struct Node {
     Eigen::AlignedBox3d box;
     int first = 0, last = 0;  ///< triangles order_[first..last)
-    int right = -1;           ///< the second child; the first is the next node; -1: a leaf
+    int right = -1;           ///< second child (the first is the next node); -1: a leaf
   };
   void build(int first, int last, const std::vector<Eigen::Vector3d>& middles);
   void pairs(int a, int b, const std::function<void(int, int)>& visit) const;

@@ -1,5 +1,5 @@
 #pragma once
-/// A triangle mesh, and its way from and to files (assimp).
+/// A triangle mesh, read from and written to files (assimp).
 #include <Eigen/Core>
 #include <array>
 #include <stdexcept>
@@ -13,40 +13,40 @@ struct Mesh {
   std::vector<std::array<int, 3>> triangles;  ///< counter-clockwise as seen from outside
 };
 
-/// A mesh that cannot be read, written or used. The message names the file, what is wrong with it and the cure.
+/// A mesh that cannot be read, written or used. The message names the file, the fault and the remedy.
 struct MeshError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// What a number in a file means: metres per unit.
+/// Length unit of a file: metres per unit.
 enum class LengthUnit { millimetre, centimetre, metre, inch };
 double metres(LengthUnit unit);
 
 struct MeshFile {
   Mesh mesh;
-  int welded_vertices = 0;    ///< corners that became one with an earlier one, beyond exact copies
-  int dropped_triangles = 0;  ///< those of which two corners became one
+  int welded_vertices = 0;    ///< corners merged with an earlier one, beyond exact copies
+  int dropped_triangles = 0;  ///< those with two corners merged
   int skipped_faces = 0;      ///< points and lines
 };
 
-/// Corners nearer than this are one vertex.
+/// Corners closer than this are merged into one vertex.
 constexpr double default_weld_m = 1e-6;
 
-/// Reads any format of assimp (OBJ, STL, PLY, glTF, Collada, ...); the file's parts become one mesh, axes stay as they
-/// are. Throws MeshError if the file cannot be read, holds no triangle, or a number that is not finite.
+/// Reads any format of assimp (OBJ, STL, PLY, glTF, Collada, ...); all parts become one mesh, axes are kept. Throws
+/// MeshError if the file cannot be read, has no triangle, or contains a non-finite number.
 MeshFile read_mesh(const std::string& path, LengthUnit unit, double weld_m = default_weld_m);
 
-/// The same shape in several positions: file by file the same triangles in the same order. What is welded is decided by
-/// the first. Throws MeshError also if a file has another number of triangles, or others, with
-/// the file and how many.
+/// One shape in several positions: every file must have the same triangles in the same order. The first file decides
+/// which corners are merged. Also throws MeshError if a file has a different number of triangles, or different ones,
+/// naming the file and the numbers.
 std::vector<Mesh> read_mesh_sequence(const std::vector<std::string>& paths, LengthUnit unit,
                                      double weld_m = default_weld_m);
 
-/// Writes .obj, .stl or .ply, by the name's ending, in single precision as these formats have it.
+/// Writes .obj, .stl or .ply, by extension, in single precision as these formats require.
 void write_mesh(const std::string& path, const Mesh& mesh, LengthUnit unit);
 
-/// Corners within `weld_m` of each other become one vertex. `corners` holds three points a triangle; the index of each
-/// one's vertex is returned, counted in order of first appearance.
+/// Merges corners within `weld_m` of each other. `corners` holds three points per triangle; returns the vertex index of
+/// each, numbered by first appearance.
 std::vector<int> weld(const std::vector<Eigen::Vector3d>& corners, double weld_m);
 
 /// Signed volume in m3: positive if the triangles face outwards.
@@ -55,7 +55,7 @@ double area_m2(const Mesh& mesh);
 /// Generalised winding number of a point: 1 inside a closed mesh that faces outwards, 0 outside. O(#triangles).
 double winding_number(const Mesh& mesh, const Eigen::Vector3d& p);
 
-/// `b` behind `a`, in one mesh.
+/// Appends `b` to `a`.
 void append(Mesh& a, const Mesh& b);
 
 }  // namespace ostium::vascular

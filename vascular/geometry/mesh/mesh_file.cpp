@@ -16,9 +16,9 @@ namespace ostium::vascular {
 
 namespace {
 
-using Corners = std::vector<Eigen::Vector3d>;  // three a triangle
+using Corners = std::vector<Eigen::Vector3d>;  // three per triangle
 
-/// Not all of assimp's readers do, and what follows trusts them.
+/// Checks indices, since not all of assimp's readers do and the code below relies on them.
 void check_indices(const std::string& path, const aiScene& scene) {
   for (unsigned m = 0; m < scene.mNumMeshes; ++m) {
     const aiMesh& part = *scene.mMeshes[m];
@@ -64,7 +64,7 @@ Corners read_corners(const std::string& path, LengthUnit unit, int* skipped = nu
   return corners;
 }
 
-/// Vertices of the corners as `vertex_of` names them: the first of those that became one.
+/// Vertices for the corner indices in `vertex_of`: the first corner merged into each.
 std::vector<Eigen::Vector3d> welded(const Corners& corners, const std::vector<int>& vertex_of) {
   std::vector<Eigen::Vector3d> vertices;
   for (std::size_t i = 0; i < corners.size(); ++i)
@@ -134,7 +134,8 @@ std::vector<Mesh> read_mesh_sequence(const std::vector<std::string>& paths, Leng
     if (corners.size() != vertex_of.size())
       throw MeshError(fmt::format("{}: has {} triangles; expected {}, as in {}: the same surface in every frame", path,
                                   corners.size() / 3, vertex_of.size() / 3, paths.front()));
-    // As many triangles may still be others, or in another order: then corners of one vertex lie apart.
+    // The same number of triangles may still be different ones, or in another order: then corners of one vertex are
+    // apart.
     std::vector<Eigen::Vector3d> vertices = welded(corners, vertex_of);
     const double apart_m = std::max(1e-9, 10 * weld_m);
     std::size_t torn = 0;
@@ -150,7 +151,7 @@ std::vector<Mesh> read_mesh_sequence(const std::vector<std::string>& paths, Leng
 }
 
 Mesh as_written(Mesh mesh, LengthUnit unit) {
-  // In two loops: GCC 12.2 at -O3 leaves the rounding of a vertex out where one goes to float and back.
+  // Two loops, because GCC 12.2 at -O3 omits the rounding of a vertex that goes to float and back in one.
   std::vector<Eigen::Vector3f> kept;
   for (const Eigen::Vector3d& p : mesh.vertices) kept.push_back(in_file(p, unit));
   for (std::size_t v = 0; v < kept.size(); ++v) mesh.vertices[v] = metres(unit) * kept[v].cast<double>();

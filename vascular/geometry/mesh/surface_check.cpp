@@ -14,7 +14,7 @@ namespace ostium::vascular {
 
 namespace {
 
-/// A triangle's edge, from its lower vertex.
+/// A triangle's edge, by its lower vertex.
 struct Edge {
   int low, high, triangle;
   bool forwards;  ///< the triangle runs from low to high
@@ -34,7 +34,7 @@ std::vector<Edge> edges_of(const Mesh& mesh) {
   return edges;
 }
 
-/// Sets that grow together.
+/// Union-find sets.
 class Groups {
  public:
   explicit Groups(std::size_t n) : parent_(n) { std::iota(parent_.begin(), parent_.end(), 0); }
@@ -50,7 +50,7 @@ class Groups {
 
 Eigen::Vector3d middle(const Mesh& mesh, const Edge& e) { return (mesh.vertices[e.low] + mesh.vertices[e.high]) / 2; }
 
-/// Faults of edges; joins triangles that share one.
+/// Finds faulty edges; joins triangles that share one.
 void check_edges(const Mesh& mesh, const std::vector<Edge>& edges, SurfaceReport& report, Groups& connected) {
   for (std::size_t i = 0, j = 0; i < edges.size(); i = j) {
     while (j < edges.size() && edges[j].low == edges[i].low && edges[j].high == edges[i].high) ++j;
@@ -61,7 +61,7 @@ void check_edges(const Mesh& mesh, const std::vector<Edge>& edges, SurfaceReport
   }
 }
 
-/// A vertex whose triangles do not all hang together by edges at it.
+/// Finds vertices whose triangles are not all connected by edges at that vertex.
 void check_vertices(const Mesh& mesh, const std::vector<Edge>& edges, SurfaceReport& report) {
   // Corner 3 t + k; corners of one vertex are joined along the edges there.
   Groups fans(3 * mesh.triangles.size());
@@ -101,7 +101,7 @@ double six_volume(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eige
   return (b - a).cross(c - a).dot(d - a);
 }
 
-/// Whether the open segment (p, q) goes through the inside of triangle (a, b, c). Touching is no crossing.
+/// Whether the open segment (p, q) passes through the interior of triangle (a, b, c). Touching is not crossing.
 bool pierces(const Eigen::Vector3d& p, const Eigen::Vector3d& q, const Eigen::Vector3d& a, const Eigen::Vector3d& b,
              const Eigen::Vector3d& c) {
   if (six_volume(a, b, c, p) * six_volume(a, b, c, q) >= 0) return false;

@@ -1,8 +1,8 @@
 #pragma once
-/// What is wrong with a surface: whether it is closed, faces outwards and does not cross itself, and where not.
+/// Checks a surface: is it closed, facing outwards, free of self-crossings, and if not, where.
 ///
-/// Everything that moves inside a surface needs it closed and facing outwards: inside and outside, path lengths of
-/// X-rays, volumes. Triangles face outwards when they run counter-clockwise as seen from outside.
+/// Everything that moves inside a surface requires this: inside and outside, X-ray path lengths, volumes. Triangles
+/// face outwards if they run counter-clockwise as seen from outside.
 #include <array>
 #include <string>
 #include <vector>
@@ -11,7 +11,7 @@
 
 namespace ostium::vascular {
 
-/// One kind of fault: how often, and where the first ones are.
+/// One kind of fault: how many, and where the first ones are.
 struct SurfaceFault {
   int count = 0;
   std::vector<Eigen::Vector3d> where;  ///< patient frame; at most `places_kept`
@@ -27,7 +27,7 @@ struct SurfaceReport {
   SurfaceFault flipped_edges;     ///< edges whose two triangles face opposite ways
   SurfaceFault pinched_vertices;  ///< vertices in which two sheets touch
   SurfaceFault slivers;           ///< triangles without area
-  SurfaceFault inverted;          ///< closed components that face inwards; their first vertex
+  SurfaceFault inverted;          ///< closed components that face inwards; `where`: their first vertex
   SurfaceFault crossings;         ///< pairs of triangles that cross
 
   bool closed() const { return !open_edges.count && !branching_edges.count && !flipped_edges.count; }
@@ -41,7 +41,7 @@ SurfaceReport check_surface(const Mesh& mesh, bool cavities = false);
 /// Pairs of triangles that cross each other. Sharing a vertex or touching is no crossing.
 std::vector<std::array<int, 2>> crossing_triangles(const Mesh& mesh);
 
-/// One line a fault, in millimetres, with its first place; "sound" if there is none.
+/// One line per fault with its first position in mm; "sound" if there is none.
 std::string describe(const SurfaceReport& report);
 
 }  // namespace ostium::vascular

@@ -27,7 +27,7 @@ long size_of(const std::string& type) {
 struct Promise {
   bool ascii = false;
   long long elements = 0, bytes = 0;
-  bool complete = false;  ///< the header ended
+  bool complete = false;  ///< the header was terminated
 };
 
 Promise promised(std::istream& file) {

@@ -1,11 +1,11 @@
 #pragma once
-/// Whether a PLY file is all there: assimp reads what is left of one that was cut short, and more behind its end.
+/// Checks that a PLY file is complete: assimp reads whatever is left of a truncated file, and beyond its end.
 #include <string>
 
 namespace ostium::vascular {
 
-/// Throws MeshError if the file ends before what its header promises. Lists are taken to be of three, as triangles are:
-/// what is cut shorter than that is found. Files without a header of PLY pass; assimp says what is wrong with them.
+/// Throws MeshError if the file is shorter than its header promises. Lists are assumed to have three entries, as
+/// triangles do. Files without a PLY header pass; assimp reports their faults.
 void check_ply_whole(const std::string& path);
 
 }  // namespace ostium::vascular

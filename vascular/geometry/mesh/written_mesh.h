@@ -1,10 +1,10 @@
 #pragma once
-/// What a file makes of a mesh.
+/// A mesh as it is after being written to a file.
 #include "vascular/geometry/mesh/mesh.h"
 
 namespace ostium::vascular {
 
-/// As the mesh is after `write_mesh` and `read_mesh`: in single precision. What is checked is then what the file holds.
+/// As after `write_mesh` and `read_mesh`, in single precision, so that a check applies to the file's contents.
 Mesh as_written(Mesh mesh, LengthUnit unit);
 
 }  // namespace ostium::vascular

@@ -16,10 +16,10 @@ namespace ostium::vascular {
 namespace {
 
 constexpr std::size_t most_voxels = 1'500'000;
-constexpr double widest_share = 0.85;  // of the widest end: that may be the origin too
+constexpr double widest_share = 0.85;  // of the widest end: an end this wide may be the origin, too
 constexpr double much_wider = 2;
-constexpr double like = 1.5;           // ratio of the radii of two ends that are joined
-constexpr double facing_cosine = 0.5;  // between the end's direction and the gap
+constexpr double like = 1.5;           // largest ratio of the radii of two joined ends
+constexpr double facing_cosine = 0.5;  // between an end's direction and the gap
 constexpr double end_to_end_cosine = 0.7;
 
 double widest_radius(const std::vector<TreeSphere>& spheres, std::size_t first, std::size_t last) {
@@ -55,7 +55,7 @@ std::vector<VesselEnd> ends_of(const SphereTree& tree) {
   return ends;
 }
 
-/// Of the widest vessel whose wall is at `p`.
+/// Radius of the widest vessel whose wall contains `p`.
 double radius_at(const SphereTree& tree, const Eigen::Vector3d& p) {
   double radius = 0;
   for (const TreeBranch& branch : tree.branches)
@@ -113,12 +113,12 @@ std::vector<Bridge> find_bridges(const std::vector<Mesh>& lumens, double longest
           if ((o.p - near.point).norm() < 2 * o.radius_m &&
               (!other || (o.p - near.point).norm() < (other->p - near.point).norm()))
             other = &o;
-        // Straight on, if that is not much farther.
+        // Go straight ahead, unless that is much farther.
         if (const auto ahead = trees[j]->hits(end.p, end.outwards, near.distance_m * 1.5); !ahead.empty()) {
           candidate.bridge.p_to = end.p + ahead[0].distance_m * end.outwards;
           candidate.bridge.arriving = end.outwards;
         }
-        // People draw origins that stop short in any direction.
+        // Origins that stop short are drawn in any direction.
         if (towards.dot(end.outwards) < (candidate.to_wider ? -facing_cosine : facing_cosine)) continue;
         if (!candidate.to_wider) {
           if (other) {
@@ -151,7 +151,7 @@ std::vector<Bridge> find_bridges(const std::vector<Mesh>& lumens, double longest
 
 Mesh body_of(const Bridge& bridge, double reach_m) {
   constexpr int columns = 24, pieces = 12;
-  // Of the way: a third of it straight on, more the farther the end looks elsewhere, so that the bend is wide.
+  // Share of the length that runs straight: a third, more if the end points elsewhere, so that the bend is wide.
   const auto handle = [](double cosine) { return 1.0 / 3 + 0.6 * (1 - cosine) / 2; };
   const Eigen::Vector3d way = bridge.p_to - bridge.p_from, straight = way.normalized();
   const Eigen::Vector3d leaving = bridge.leaving.isZero() ? straight : bridge.leaving;
@@ -170,7 +170,7 @@ Mesh body_of(const Bridge& bridge, double reach_m) {
   Mesh mesh;
   Eigen::Vector3d x = along[0].unitOrthogonal();
   for (int i = 0; i < rings; ++i) {
-    x = (x - x.dot(along[i]) * along[i]).normalized();  // carried along without a twist
+    x = (x - x.dot(along[i]) * along[i]).normalized();  // parallel transport
     const Eigen::Vector3d y = along[i].cross(x);
     for (int k = 0; k < columns; ++k) {
       const double angle = 2 * units::pi * k / columns;

@@ -9,13 +9,13 @@ namespace ostium::vascular {
 
 namespace {
 
-constexpr double shortest = 0.75, longest = 1.5;  // of the edges asked for
-constexpr double least_cosine = 0.5;              // of a triangle's turn
-constexpr double least_shape = 0.04;              // area over the sum of squared sides; equilateral: 0.14
-constexpr double sliver = 0.01;                   // below this shape a triangle's normal is chance
-constexpr double much_too_short = 0.3;            // of the edges asked for
+constexpr double shortest = 0.75, longest = 1.5;  // relative to the requested edge length
+constexpr double least_cosine = 0.5;              // for a triangle's change of direction
+constexpr double least_shape = 0.04;              // area over the sum of squared edges; equilateral: 0.14
+constexpr double sliver = 0.01;                   // below this shape a triangle's normal is arbitrary
+constexpr double much_too_short = 0.3;            // relative to the requested edge length
 constexpr int most_rounds = 6;
-constexpr double to_middle = 1e-3;  // where planes do not decide: weight of the edge's middle
+constexpr double to_middle = 1e-3;  // weight of the edge's midpoint, where planes do not determine the position
 
 using Quadric = Eigen::Matrix4d;
 
@@ -41,7 +41,7 @@ class Decimator {
   }
 
   Mesh run() {
-    // What is much too short and could not go at first may go once its neighbours went.
+    // Very short edges that could not collapse at first may do so once their neighbours have.
     for (int round = 0, before = -1; round < most_rounds && collapsed_ != before; ++round) {
       before = collapsed_;
       for (const auto& t : triangles_)
@@ -61,7 +61,7 @@ class Decimator {
 
  private:
   struct Edge {
-    double length;  ///< over the one asked for
+    double length;  ///< relative to the requested one
     int a, b, stamp;
     bool operator<(const Edge& other) const {
       return length != other.length ? length > other.length : std::tie(a, b) > std::tie(other.a, other.b);
@@ -103,9 +103,9 @@ class Decimator {
     return (b - a).squaredNorm() + (c - b).squaredNorm() + (a - c).squaredNorm();
   }
 
-  /// Whether the triangles of `v` without `other` stay as they face when it moves to `p`, and become no slivers. Those
-  /// that are slivers already have no say (side by side they would keep each other for ever), but if they become more
-  /// they face as what is around them, `around`.
+  /// Whether the triangles of `v` without `other` keep their direction when it moves to `p`, and do not become slivers.
+  /// Existing slivers do not count (neighbouring slivers would block each other for ever), but if they grow out of that
+  /// shape they must face like their surroundings, `around`.
   bool keeps_facing(int v, int other, const Eigen::Vector3d& p, const Eigen::Vector3d& around) const {
     for (int t : of_vertex_[v]) {
       const auto& tri = triangles_[t];
@@ -140,7 +140,7 @@ class Decimator {
     const std::vector<int> near_a = neighbours(a), near_b = neighbours(b);
     std::vector<int> both, all;
     std::set_intersection(near_a.begin(), near_a.end(), near_b.begin(), near_b.end(), std::back_inserter(both));
-    if (both.size() != 2) return;  // else two sheets would touch
+    if (both.size() != 2) return;  // otherwise two sheets would touch
     const Eigen::Vector3d p = place(a, b);
     const double wanted = std::min(wanted_[a], wanted_[b]);
     std::set_union(near_a.begin(), near_a.end(), near_b.begin(), near_b.end(), std::back_inserter(all));

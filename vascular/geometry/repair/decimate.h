@@ -1,13 +1,13 @@
 #pragma once
-/// Fewer triangles: short edges collapse, with the place of the new vertex by quadrics (Garland and Heckbert, SIGGRAPH
-/// 1997), until edges are as long as asked.
+/// Mesh decimation: short edges collapse, new vertices are placed by quadrics (Garland and Heckbert, SIGGRAPH 1997),
+/// until edges have the requested length.
 #include "vascular/geometry/mesh/mesh.h"
 
 namespace ostium::vascular {
 
-/// `edge_m[v]`: how long edges at vertex v should become. Closed stays closed; nothing folds. Edges shorter than
-/// `chance_m`, within which the mesh does not know where its vertices are, go whatever the triangles beside them
-/// become: a level set has some of no length, and slivers side by side would keep each other.
+/// `edge_m[v]`: requested edge length at vertex v. A closed mesh stays closed and does not fold. Edges shorter than
+/// `chance_m`, the mesh's positional noise, collapse whatever happens to adjacent triangles: a level set has some of
+/// zero length, and neighbouring slivers would block each other for ever.
 Mesh decimate(const Mesh& mesh, const std::vector<double>& edge_m, double chance_m);
 
 }  // namespace ostium::vascular

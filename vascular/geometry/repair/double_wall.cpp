@@ -13,12 +13,12 @@ namespace ostium::vascular {
 namespace {
 
 constexpr double thickest_m = 5e-3;
-constexpr double farthest_m = 60e-3;  // the opposite side of the widest lumen
-constexpr double along_surface = 4;   // so many thicknesses away, a shell is another one
-constexpr double narrowest = 0.8;     // a lumen is wider than so many thicknesses of its wall
-constexpr double rim = 4;             // so many thicknesses from an outer shell may be what joins it to the inner one
-constexpr double least_patch = 25;    // area of a patch, in squared thicknesses
-constexpr int most_rays = 60'000;     // of finer meshes, triangles take the label of one near them
+constexpr double farthest_m = 60e-3;  // opposite side of the widest lumen
+constexpr double along_surface = 4;   // a shell this many thicknesses away along the surface is a different one
+constexpr double narrowest = 0.8;     // a lumen is wider than this many wall thicknesses
+constexpr double rim = 4;             // thicknesses from an outer shell: triangles that may join it to the inner one
+constexpr double least_patch = 25;    // smallest area of a patch, in squared thicknesses
+constexpr int most_rays = 60'000;     // in finer meshes, triangles take the label of a nearby one
 
 class ShellFinder {
  public:
@@ -31,7 +31,7 @@ class ShellFinder {
     }
   }
 
-  /// Thickness of the wall if triangle `t` is of an outer shell, else 0.
+  /// Wall thickness if triangle `t` is part of an outer shell, else 0.
   double thickness(int t) const {
     for (double side : {1.0, -1.0}) {
       const Eigen::Vector3d in = -side * normals_[t];
@@ -91,7 +91,7 @@ class ShellFinder {
   std::vector<Eigen::Vector3d> normals_, middles_;
 };
 
-/// Patches of triangles of one label: those for which `small` says so take the other one.
+/// Patches of equally labelled triangles; those that satisfy `small` get the other label.
 template <class Small>
 void absorb(const Sheets& sheets, std::vector<bool>& label, const Small& small) {
   std::vector<bool> seen(label.size());
@@ -128,7 +128,7 @@ DoubleWall find_double_wall(const Mesh& mesh, const Sheets& sheets) {
   const ShellFinder finder(mesh, sheets);
   const int stride = 1 + n / most_rays;
   std::vector<double> thickness;
-  // A look first: most meshes have one wall.
+  // Sample first: most meshes have a single wall.
   int looked = 0, doubled = 0;
   for (int t = 0; t < n; t += std::max(1, n / 3000)) ++looked, doubled += finder.thickness(t) > 0 ? 1 : 0;
   if (doubled < 0.01 * looked) return result;
@@ -176,7 +176,7 @@ DoubleWall find_double_wall(const Mesh& mesh, const Sheets& sheets) {
          [&](const std::vector<int>& patch, bool, bool bordered) { return bordered && area_of(patch) < least; });
   absorb(sheets, result.outer,
          [&](const std::vector<int>& patch, bool outer, bool) { return outer && area_of(patch) < least; });
-  // Rims at the ends, between the shells.
+  // Rims at the ends that join the shells.
   const std::vector<bool> shell = result.outer;
   std::queue<std::pair<int, double>> open;
   for (int t = 0; t < n; ++t)

@@ -1,19 +1,19 @@
 #pragma once
-/// Vessels that were drawn or segmented with a thick wall: two shells, of which the lumen needs the inner one.
+/// Vessels drawn or segmented with a thick wall: two shells, of which the inner one is the lumen.
 #include "vascular/geometry/repair/sheets.h"
 
 namespace ostium::vascular {
 
 struct DoubleWall {
-  std::vector<bool> outer;                          ///< of each triangle: part of an outer shell
-  int triangles = 0;                                ///< so many are
-  double thickness_m = 0;                           ///< median distance of the shells
-  Eigen::Vector3d where = Eigen::Vector3d::Zero();  ///< the first of them
+  std::vector<bool> outer;                          ///< per triangle: part of an outer shell
+  int triangles = 0;                                ///< number of those
+  double thickness_m = 0;                           ///< median distance between the shells
+  Eigen::Vector3d where = Eigen::Vector3d::Zero();  ///< first one
 };
 
-/// A triangle is of an outer shell if there is nothing near on one side, and on the other, within 5 mm, another shell
-/// that is not reached along the surface, with a wider room (the lumen) behind it. Patches of them count, not single
-/// ones.
+/// A triangle is part of an outer shell if there is nothing close on one side and, within 5 mm on the other, another
+/// shell that is not reached along the surface, with a wider space (the lumen) behind it. Only patches count, not
+/// single triangles.
 DoubleWall find_double_wall(const Mesh& mesh, const Sheets& sheets);
 
 }  // namespace ostium::vascular

@@ -6,7 +6,7 @@ namespace ostium::vascular {
 
 namespace {
 
-/// Two openings are one cut vessel if they are alike and face each other.
+/// Gap between two openings if they are the ends of one cut vessel: similar and facing each other.
 double gap_between(const Opening& a, const Opening& b, double longest_gap_m) {
   const Eigen::Vector3d gap = b.middle - a.middle;
   const double wide = (a.diameter_m + b.diameter_m) / 2, ratio = a.diameter_m / b.diameter_m;

@@ -9,7 +9,7 @@ struct FacingEnds {
   std::size_t a, b;  ///< openings
 };
 
-/// Those nearest to each other first; an opening may be in several.
+/// Nearest pairs first; an opening may be in several pairs.
 std::vector<FacingEnds> facing_ends(const std::vector<Opening>& openings, double longest_gap_m);
 
 }  // namespace ostium::vascular

@@ -15,11 +15,11 @@ namespace {
 using units::mm;
 constexpr int calibre_stride = 4, most_uncrossings = 12;
 constexpr double longest_edge_m = 2.2e-3;
-constexpr double chance_voxels = 0.05;         // where the level set puts a vertex within these is chance
-constexpr double most_turn = 0 - 1 - 1;        // cosine, of a triangle whose corners go onto the wall
-constexpr double least_height = 0.02 - 1 - 1;  // of a triangle over its longest edge, the same
+constexpr double chance_voxels = 0.05;         // within this distance, a level set's vertex positions are arbitrary
+constexpr double most_turn = 0 - 1 - 1;        // cosine, of a triangle whose corners move onto the wall
+constexpr double least_height = 0.02 - 1 - 1;  // of a triangle over its longest edge, likewise
 constexpr int most_returns = 6;
-constexpr double cell_at_1_mm_m = 0.6e-3;  // as the contour of our own anatomy has it
+constexpr double cell_at_1_mm_m = 0.6e-3;  // same as the contour of our own anatomy
 
 bool spoils(const std::array<int, 3>& t, const std::vector<Eigen::Vector3d>& before,
             const std::vector<Eigen::Vector3d>& after) {
@@ -35,7 +35,7 @@ bool spoils(const std::array<int, 3>& t, const std::vector<Eigen::Vector3d>& bef
   return was.dot(is) < most_turn * was.norm() * is.norm() || height < std::min(least_height, 0.5 * had);
 }
 
-/// The level set and its coarsening are off by a part of a voxel; the wall is where the mesh said.
+/// Moves vertices onto the original wall: level set and decimation are off by a fraction of a voxel.
 void onto_wall(const BoundingVolumeHierarchy& wall, double voxel_m, Mesh& mesh) {
   std::vector<Eigen::Vector3d> normal(mesh.vertices.size(), Eigen::Vector3d::Zero());
   for (const auto& [a, b, c] : mesh.triangles)
@@ -48,7 +48,7 @@ void onto_wall(const BoundingVolumeHierarchy& wall, double voxel_m, Mesh& mesh) 
     const Eigen::Vector3d out = normal[v].normalized();
     if (near.triangle >= 0) step[v] = (near.point - mesh.vertices[v]).dot(out) * out;
   }
-  // Where a triangle would turn over or go flat, its corners go half as far, and not at all in the end.
+  // If a triangle would flip or flatten, its corners move half as far, and finally not at all.
   const std::vector<Eigen::Vector3d> from = mesh.vertices;
   for (int round = 0; round <= most_returns; ++round) {
     for (std::size_t v = 0; v < from.size(); ++v) mesh.vertices[v] = from[v] + step[v];
@@ -65,7 +65,7 @@ void onto_wall(const BoundingVolumeHierarchy& wall, double voxel_m, Mesh& mesh) 
   }
 }
 
-/// Where triangles cross, the surface is evened out until they do not.
+/// Smooths the surface where triangles cross until none do.
 void uncross(Mesh& mesh) {
   for (int round = 0; round < most_uncrossings; ++round) {
     const auto pairs = crossing_triangles(mesh);
@@ -99,7 +99,7 @@ std::vector<double> wanted_edges(const Mesh& fine, double voxel_m) {
   }
   for (std::size_t v = 0; v < edge.size(); ++v)
     if (count[v]) edge[v] /= count[v];
-  // Vertices that none of the triangles looked at has take their neighbours'.
+  // Vertices without a sampled triangle take their neighbours' value.
   for (int round = 0; round < 2; ++round)
     for (const auto& t : fine.triangles)
       for (int k = 0; k < 3; ++k)

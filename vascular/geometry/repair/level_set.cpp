@@ -19,7 +19,7 @@ namespace {
 constexpr float band = 3;  // voxels to each side
 constexpr std::size_t most_sampled = 400'000;
 
-/// Triangles with the outside on one side: those that lie in another piece would spoil distances.
+/// Triangles that border on the outside; those inside another piece would spoil distances.
 std::vector<std::array<int, 3>> bordering(const Mesh& mesh, const WindingNumber& winding, double step_m) {
   if (mesh.triangles.size() > most_sampled) return mesh.triangles;
   std::vector<std::array<int, 3>> kept;
@@ -40,7 +40,7 @@ std::vector<std::array<int, 3>> bordering(const Mesh& mesh, const WindingNumber&
   return kept;
 }
 
-/// As OpenVDB asks for a mesh: in voxels.
+/// Mesh interface required by OpenVDB: in voxel units.
 struct Adapter {
   const Mesh& mesh;
   const std::vector<std::array<int, 3>>& triangles;
@@ -58,8 +58,8 @@ struct Adapter {
 
 using Leaf = openvdb::FloatTree::LeafNodeType;
 
-/// Two neighbours lie on two sides of the wall only if their distances to it add up to no more than their own; so one
-/// winding number does for many voxels.
+/// Two neighbouring voxels can only be on different sides of the wall if their distances to it add up to no more than
+/// their spacing, so one winding number serves many voxels.
 void set_signs(Leaf& leaf, const WindingNumber& winding, const Eigen::Vector3d& origin, double voxel_m) {
   constexpr int n = static_cast<int>(Leaf::DIM), size = n * n * n;
   constexpr float slack = 1.02F;
@@ -106,7 +106,7 @@ Mesh outer_surface(const Mesh& closed, double voxel_m) {
   const std::vector<std::array<int, 3>> wall = bordering(closed, winding, voxel_m / 20);
   Eigen::AlignedBox3d box;
   for (const Eigen::Vector3d& p : closed.vertices) box.extend(p);
-  // Off the round numbers on which people put vertices and flat ends.
+  // Offset from the round numbers at which people place vertices and flat ends.
   const Eigen::Vector3d origin = box.min() - voxel_m * Eigen::Vector3d(0.137, 0.271, 0.313);
   const Adapter adapter{closed, wall, origin, voxel_m};
   const auto grid =

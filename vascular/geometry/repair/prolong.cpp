@@ -6,10 +6,10 @@ namespace ostium::vascular {
 
 namespace {
 
-constexpr double much_wider = 4;          // an aorta beside its coronary arteries
+constexpr double much_wider = 4;          // as an aorta compared with its coronary arteries
 constexpr double below_ostium_m = 12e-3;  // ostia lie 14 and 17 mm above the annulus (Tops 2008), 3 mm either way
 constexpr double most_diameters = 1.5;
-constexpr double aside_share = 0.5;  // of the longest gap: beside what is missing
+constexpr double aside_share = 0.5;  // of the longest gap: sideways distance from the missing part
 
 }  // namespace
 
@@ -39,7 +39,7 @@ Mesh carried_on(const CutEnd& cut, double overlap_m, double length_m) {
       mesh.vertices.push_back(p + (s - (s > 0 ? out : 0)) * cut.outwards);
     }
   for (const double s : {-overlap_m, length_m}) mesh.vertices.push_back(cut.middle + s * cut.outwards);
-  // The rim runs as its opening's half-edges do: the wall lies to their left, seen from outside.
+  // The rim runs in the direction of its opening's half-edges: the wall is to their left, seen from outside.
   for (int k = 0; k < n; ++k) {
     const int next = (k + 1) % n;
     mesh.triangles.push_back({next, k, n + k});

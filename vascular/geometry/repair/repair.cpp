@@ -28,11 +28,11 @@ namespace {
 
 using units::mm;
 constexpr double least_voxel_m = 0.12e-3, most_voxel_m = 0.4e-3;
-constexpr double voxels_across = 3.5;       // of the narrowest vessels
+constexpr double voxels_across = 3.5;       // across the narrowest vessels
 constexpr double most_wall_voxels = 1.5e6;  // of the level set's surface
-constexpr double crumb_m3 = 8e-9;           // lumens smaller than this are left out
+constexpr double crumb_m3 = 8e-9;           // smaller lumens are dropped
 constexpr int smoothing_rounds = 16;
-constexpr double least_missing_m = 0.8e-3;  // a gap between ends is a missing piece from here on
+constexpr double least_missing_m = 0.8e-3;  // a larger gap between ends means a missing piece
 
 class Mender {
  public:
@@ -63,7 +63,7 @@ class Mender {
       throw MeshError(
           "nothing closed comes out of the mesh; expected the wall of a vessel, with openings narrower than itself");
     if (left_out_ > 0) note("crumb left out (smaller than 8 mm3)", left_out_, {});
-    // Of the mesh, what borders on the outside.
+    // Only the part of the mesh that borders on the outside.
     const Mesh outside{mesh_.vertices, bordering_triangles(mesh_, result_.voxel_m / 20)};
     const BoundingVolumeHierarchy wall(outside);
     for (const Mesh& part : lumens) {
@@ -132,7 +132,7 @@ class Mender {
     orient(mesh_, sheets_);
   }
 
-  /// What is left of the outer wall.
+  /// Removes remains of the outer wall.
   void drop_shreds(double least_m2) {
     std::vector<double> area(static_cast<std::size_t>(sheets_.pieces), 0);
     for (std::size_t t = 0; t < mesh_.triangles.size(); ++t) {
@@ -159,7 +159,7 @@ class Mender {
         highest_step = std::max(highest_step, done.step_m);
       }
       join(mesh_, openings[pair.a], openings[pair.b]);
-      // Where a piece is missing, rims are jagged: a tube through them fills the dents.
+      // Rims of a missing piece are jagged: a tube through them fills the dents.
       if (pair.gap_m > least_missing_m) {
         const double radius = std::min(openings[pair.a].diameter_m, openings[pair.b].diameter_m) / 2;
         append(mesh_, body_of({.p_from = openings[pair.a].middle, .p_to = openings[pair.b].middle, .radius_m = radius},
@@ -189,11 +189,11 @@ class Mender {
     cut_ends_.push_back(std::move(cut));
   }
 
-  /// What was cut off before a branch leaves it.
+  /// Extends a vessel that was cut off before a branch leaves it.
   bool prolong(const std::vector<Mesh>& lumens) {
     say("looking for branches beyond the end of their vessel");
     std::vector<VesselEnd> branches;
-    for (std::size_t i = 1; i < lumens.size(); ++i)  // the largest is whose branches they are
+    for (std::size_t i = 1; i < lumens.size(); ++i)  // the largest lumen is the parent vessel
       for (const VesselEnd& end : ends_of(lumens[i])) branches.push_back(end);
     const BoundingVolumeHierarchy largest(lumens[0]);
     std::vector<Eigen::Vector3d> where;

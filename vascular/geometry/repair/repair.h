@@ -1,6 +1,6 @@
 #pragma once
-/// Anyone's mesh becomes closed lumens: what is turned is turned back, outer walls go, holes are closed, ends are
-/// joined to ends and walls, overlapping pieces become one. Where the mesh was sound its calibre stays.
+/// Turns any mesh into closed lumens: flipped triangles are turned, outer walls removed, holes closed, ends joined to
+/// ends and walls, overlapping pieces merged. Where the mesh was sound, its calibre is kept.
 #include <functional>
 #include <string>
 
@@ -9,14 +9,14 @@
 namespace ostium::vascular {
 
 struct RepairOptions {
-  double voxel_m = 0;                                ///< of the level set; 0: by the narrowest vessels
-  double longest_gap_m = 8e-3;                       ///< no gap is bridged that is longer
+  double voxel_m = 0;                                ///< of the level set; 0: from the narrowest vessels
+  double longest_gap_m = 8e-3;                       ///< longer gaps are not bridged
   bool smooth_noise = true;                          ///< where the surface is rough
   std::size_t most_triangles = 200'000;              ///< of the result, about
-  std::function<void(const std::string&)> progress;  ///< told what is being done; may be empty
+  std::function<void(const std::string&)> progress;  ///< reports each stage; may be empty
 };
 
-/// One kind of mend: what was done, how often, where (at most 16 places).
+/// One kind of repair: what, how often, and where (at most 16 positions).
 struct RepairNote {
   std::string what;
   int count = 0;
@@ -24,17 +24,17 @@ struct RepairNote {
 };
 
 struct RepairedMesh {
-  Mesh lumen;  ///< closed, facing outwards; one component for each lumen, the largest first
+  Mesh lumen;  ///< closed, facing outwards; one component per lumen, largest first
   int lumens = 0;
   std::vector<RepairNote> notes;
-  std::vector<Eigen::Vector3d> ends;  ///< middles of real openings that were closed: where vessels were cut off
+  std::vector<Eigen::Vector3d> ends;  ///< centres of real openings that were closed: where vessels were cut off
   double voxel_m = 0;
 };
 
-/// Throws MeshError if nothing closed comes out of it.
+/// Throws MeshError if no closed lumen results.
 RepairedMesh repair_mesh(Mesh mesh, const RepairOptions& options = {});
 
-/// Connected parts, the one with the largest volume first.
+/// Connected components, largest volume first.
 std::vector<Mesh> components_of(const Mesh& mesh);
 
 }  // namespace ostium::vascular

@@ -12,17 +12,17 @@ namespace ostium::vascular {
 
 namespace {
 
-constexpr double pinhole_m = 1e-3;        // in diameter
-constexpr std::size_t pinhole_edges = 4;  // or so few edges
-constexpr double end_cosine = 0.6;        // between wall and lid: below, a vessel ends there
+constexpr double pinhole_m = 1e-3;        // diameter
+constexpr std::size_t pinhole_edges = 4;  // or this few edges
+constexpr double end_cosine = 0.6;        // between wall and lid: below this, the opening is a vessel end
 
-constexpr std::size_t most_around = 64;  // triangles of one edge: no wall has more, and pairs take their cube in time
+constexpr std::size_t most_around = 64;  // triangles at one edge: no real wall has more, and pairing takes cubic time
 
 int next_in_triangle(int h) { return h % 3 == 2 ? h - 2 : h + 1; }
 int from_of(const Mesh& mesh, int h) { return mesh.triangles[h / 3][h % 3]; }
 int to_of(const Mesh& mesh, int h) { return mesh.triangles[h / 3][(h + 1) % 3]; }
 
-/// From the edge towards the triangle's third corner, unit.
+/// Unit vector from the edge towards the triangle's third corner.
 Eigen::Vector3d away_from_edge(const Mesh& mesh, int h) {
   const Eigen::Vector3d &a = mesh.vertices[from_of(mesh, h)], &b = mesh.vertices[to_of(mesh, h)];
   const Eigen::Vector3d along = (b - a).normalized(), c = mesh.vertices[mesh.triangles[h / 3][(h + 2) % 3]] - a;
@@ -68,7 +68,7 @@ void number_pieces(Sheets& sheets) {
   }
 }
 
-/// Half-edges that face one way cannot be partners.
+/// Separates half-edges with the same direction, which cannot be partners.
 void part_where_one_sided(const Mesh& mesh, Sheets& sheets) {
   for (int h = 0; h < static_cast<int>(sheets.opposite.size()); ++h)
     if (const int o = sheets.opposite[h]; o >= 0 && from_of(mesh, h) == from_of(mesh, o))
@@ -152,7 +152,7 @@ Orientation orient(Mesh& mesh, Sheets& sheets) {
   std::vector<int> first(static_cast<std::size_t>(sheets.pieces), -1);
   bool any = false;
   for (int t = n - 1; t >= 0; --t) first[sheets.piece[t]] = t;
-  if (sheets.pieces < 2000)  // a soup of loose triangles has no side
+  if (sheets.pieces < 2000)  // a soup of loose triangles has no sides
     for (int p = 0; p < sheets.pieces; ++p)
       if (six_volumes(mesh, openings, sheets, p) < 0) {
         inverted[p] = any = true;
@@ -180,7 +180,7 @@ std::vector<Opening> openings_of(const Mesh& mesh, const Sheets& sheets) {
     for (int h = seed; !done[h];) {
       done[h] = true;
       opening.half_edges.push_back(h);
-      // On around the vertex at its end, through the triangles that hang together there.
+      // Rotate around the vertex at its end, through connected triangles.
       for (h = next_in_triangle(h); sheets.opposite[h] >= 0; h = next_in_triangle(sheets.opposite[h])) {
       }
     }
@@ -219,7 +219,7 @@ void cap(Mesh& mesh, const Opening& opening) {
 }
 
 void join(Mesh& mesh, const Opening& a, const Opening& b) {
-  // Both rims as rows of vertices, the second backwards: they run side by side.
+  // Both rims as rows of vertices, the second reversed so that they run side by side.
   std::vector<int> from, to;
   for (int h : a.half_edges) from.push_back(from_of(mesh, h));
   for (int h : b.half_edges) to.push_back(from_of(mesh, h));
@@ -234,7 +234,7 @@ void join(Mesh& mesh, const Opening& a, const Opening& b) {
     if (const double cosine = flat(from[0], a).normalized().dot(flat(to[j], b).normalized()); cosine > best)
       best = cosine, start = j;
   std::rotate(to.begin(), to.begin() + static_cast<long>(start), to.end());
-  // Always on along the rim whose next rung is the shorter.
+  // Advance along the rim with the shorter next rung.
   const auto place = [&](const std::vector<int>& rim, std::size_t i) { return mesh.vertices[rim[i % rim.size()]]; };
   std::vector<std::array<int, 3>> band;
   for (std::size_t i = 0, j = 0; i < from.size() || j < to.size();) {

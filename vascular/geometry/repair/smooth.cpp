@@ -10,7 +10,7 @@ namespace {
 
 constexpr double inwards = 0.5, outwards = -0.53;
 
-/// Of each vertex; empty for those of open or branching edges.
+/// Neighbours of each vertex, in order; empty at open or branching edges.
 std::vector<std::vector<int>> rings(const Mesh& mesh) {
   std::vector<std::array<int, 2>> edges;
   for (const auto& t : mesh.triangles)
@@ -58,7 +58,7 @@ Roughness roughness(const Mesh& mesh) {
   std::vector<double> height, edges;
   for (std::size_t v = 0; v < ring.size(); ++v) {
     if (ring[v].empty() || normal[v].isZero(0)) continue;
-    // A curved surface has steps too, but its neighbours have the same.
+    // A curved surface also deviates, but so do its neighbours, by the same amount.
     double mean = 0, edge = 0;
     for (int n : ring[v]) {
       mean += step[n].dot(normal[v].normalized());

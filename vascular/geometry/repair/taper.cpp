@@ -13,13 +13,13 @@ namespace ostium::vascular {
 namespace {
 
 constexpr double least_step_m = 0.3e-3;
-constexpr double least_share = 0.08;    // of the narrower radius
-constexpr double gentle = 4;            // a gap of so many steps makes a slope already
-constexpr double steps_long = 8;        // at its steepest, a taper rises by 1.5 in so many: 11 degrees
-constexpr double diameters_long = 1.5;  // and it is no longer than so many diameters
+constexpr double least_share = 0.08;    // smallest step, relative to the narrower radius
+constexpr double gentle = 4;            // a gap of this many steps is a gentle slope already
+constexpr double steps_long = 8;        // at its steepest, a taper rises by 1.5 over this many steps: 11 degrees
+constexpr double diameters_long = 1.5;  // and is at most this many diameters long
 constexpr int sectors = 72;
 
-/// Distance of a rim from a line, by direction around it.
+/// Distance of a rim from a line, by direction around the line.
 class RimRadius {
  public:
   RimRadius(const Mesh& mesh, const Opening& rim, const Eigen::Vector3d& middle, const Eigen::Vector3d& axis)
@@ -66,10 +66,10 @@ class RimRadius {
 
 struct Nearest {
   double distance_m = 0;
-  int rim = -1;  ///< a vertex of it
+  int rim = -1;  ///< nearest vertex of the rim
 };
 
-/// Along the edges of the opening's piece, no farther than `limit_m`.
+/// Distances along the edges of the opening's piece, up to `limit_m`.
 std::map<int, Nearest> along_wall(const Mesh& mesh, const Sheets& sheets, const Opening& from, double limit_m) {
   std::map<int, std::vector<int>> around;
   for (std::size_t t = 0; t < sheets.piece.size(); ++t) {
@@ -115,7 +115,7 @@ Taper taper(Mesh& mesh, const Sheets& sheets, const Opening& a, const Opening& b
   const Eigen::Vector3d axis = (wide.outwards - narrow.outwards).normalized();
   const double gap = std::max(0.0, (narrow.middle - wide.middle).dot(axis));
   const RimRadius here(mesh, wide, narrow.middle, axis), there(mesh, narrow, narrow.middle, axis);
-  std::map<int, double> step;  // of each vertex of the wide rim
+  std::map<int, double> step;  // per vertex of the wide rim
   double highest = 0, mean = 0;
   for (int h : wide.half_edges) {
     const int v = mesh.triangles[h / 3][h % 3];

@@ -15,8 +15,8 @@ struct Prototype {
 };
 constexpr Prototype prototypes[] = {{110, 4}, {150, 30}, {250, 8}, {420, 24}, {600, 22}, {650, 30}};
 constexpr LengthUnit units[] = {LengthUnit::millimetre, LengthUnit::centimetre, LengthUnit::metre, LengthUnit::inch};
-constexpr double farthest = 1.2;  // sum of the two logarithms
-constexpr double clearly = 0.5;   // farther than the best
+constexpr double farthest = 1.2;  // largest accepted sum of the two logarithms
+constexpr double clearly = 0.5;   // required distance to the second best
 
 }  // namespace
 

@@ -12,7 +12,7 @@ namespace ostium::vascular {
 
 namespace {
 constexpr int leaf_size = 8;
-constexpr double far_enough = 2;  // in reaches: off by about 1 %
+constexpr double far_enough = 2;  // in reaches: error about 1 %
 }  // namespace
 
 WindingNumber::WindingNumber(const Mesh& mesh) : mesh_(mesh), order_(mesh.triangles.size()) {

@@ -1,7 +1,7 @@
 #pragma once
-/// How often a surface runs around a point: 1 inside a closed surface that faces outwards, 0 outside, 2 where two
-/// overlap, and something between near what is open (Jacobson et al., ACM TOG 2013;32:33). Far triangles are taken
-/// together as dipoles (Barill et al., ACM TOG 2018;37:43).
+/// Generalised winding number: 1 inside a closed surface that faces outwards, 0 outside, 2 where two overlap, and
+/// something in between near openings (Jacobson et al., ACM TOG 2013;32:33). Far triangles are combined into dipoles
+/// (Barill et al., ACM TOG 2018;37:43).
 #include "vascular/geometry/mesh/mesh.h"
 
 namespace ostium::vascular {
@@ -15,8 +15,8 @@ class WindingNumber {
 
  private:
   struct Node {
-    Eigen::Vector3d middle, dipole;  ///< of its triangles, by area; sum of areas times normals
-    double reach;                    ///< no triangle of it is farther from the middle
+    Eigen::Vector3d middle, dipole;  ///< area-weighted centre of its triangles; sum of areas times normals
+    double reach;                    ///< largest distance of its triangles from that centre
     int first, last, right;          ///< triangles order_[first..last); second child, -1: a leaf
   };
   int build(int first, int last);
