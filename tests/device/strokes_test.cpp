@@ -40,7 +40,7 @@ struct Rig {
   }
 };
 
-TEST(Hands, AToolAppearsAtItsStation) {
+TEST(Strokes, AToolAppearsAtItsStation) {
   Rig rig;
   EXPECT_EQ(rig.hands.tool[wire].sight, ToolPresence::absent);
   rig.show(0, Tool::wire);
@@ -54,7 +54,7 @@ TEST(Hands, AToolAppearsAtItsStation) {
 }
 
 /// A balloon for a stent, over a wire that stays: the wire does not notice.
-TEST(Hands, ExchangeOverTheWire) {
+TEST(Strokes, ExchangeOverTheWire) {
   Rig rig;
   rig.show(0, Tool::wire);
   rig.push(0, 200);
@@ -73,7 +73,7 @@ TEST(Hands, ExchangeOverTheWire) {
 }
 
 /// A wire that is in the patient cannot be gone: it is lost, and found where it was.
-TEST(Hands, ALostWireIsSaidToBeLost) {
+TEST(Strokes, ALostWireIsSaidToBeLost) {
   Rig rig;
   rig.show(0, Tool::wire);
   rig.push(0, 100);
@@ -89,7 +89,7 @@ TEST(Hands, ALostWireIsSaidToBeLost) {
   EXPECT_EQ(rig.hands.tool[wire].arrivals, 1u);
 }
 
-TEST(Hands, FullTravelPausesAndResumesInPlace) {
+TEST(Strokes, FullTravelPausesAndResumesInPlace) {
   Rig rig;
   rig.show(0, Tool::wire);
   rig.push(0, 315);
@@ -117,7 +117,7 @@ TEST(Hands, FullTravelPausesAndResumesInPlace) {
 }
 
 /// 1.1 m, as from the groin to the aortic root, and out again, 30 cm at a time.
-TEST(Hands, ManyStrokesReachTheRootAndComeBack) {
+TEST(Strokes, ManyStrokesReachTheRootAndComeBack) {
   Rig rig;
   rig.show(0, Tool::wire);
   int strokes = 0;
@@ -143,7 +143,7 @@ TEST(Hands, ManyStrokesReachTheRootAndComeBack) {
 }
 
 /// While the wire is drawn back, the shaft is moved along: neither instrument moves.
-TEST(Hands, APauseHoldsAllInstruments) {
+TEST(Strokes, APauseHoldsAllInstruments) {
   Rig rig;
   rig.show(0, Tool::wire), rig.show(1, Tool::shaft);
   rig.push(1, 100);

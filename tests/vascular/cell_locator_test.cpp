@@ -24,7 +24,7 @@ const Ward& ward() {
   return the_one;
 }
 
-TEST(Place, AMarkerPairIsFoundAgainAtEveryMomentOfTheBeat) {
+TEST(CellLocator, AMarkerPairIsFoundAgainAtEveryMomentOfTheBeat) {
   const Ward& w = ward();
   CellLocator locator(w.map, w.tree);
   const int near = w.tree.cell_at(w.tree.branch("RCA"), 40e-3), far = w.tree.cell_at(w.tree.branch("RCA"), 52e-3);
@@ -45,7 +45,7 @@ TEST(Place, AMarkerPairIsFoundAgainAtEveryMomentOfTheBeat) {
   EXPECT_FALSE(seat_of(locator, w.tree, paths, locator.centre(far) + Eigen::Vector3d(0.05, 0, 0), locator.centre(far)));
 }
 
-TEST(Place, ByAForkADeviceLiesWhereItsWireGoes) {
+TEST(CellLocator, ByAForkADeviceLiesWhereItsWireGoes) {
   const Ward& w = ward();
   CellLocator locator(w.map, w.tree);
   const std::vector<VesselPath> paths = all_paths(w.tree);
@@ -70,7 +70,7 @@ TEST(Place, ByAForkADeviceLiesWhereItsWireGoes) {
   }
 }
 
-TEST(Place, AShaftFillsTheCellsItRunsThroughAndNoOthers) {
+TEST(CellLocator, AShaftFillsTheCellsItRunsThroughAndNoOthers) {
   const Ward& w = ward();
   CellLocator locator(w.map, w.tree);
   locator.set_moment(0.5, 0);
@@ -86,7 +86,7 @@ TEST(Place, AShaftFillsTheCellsItRunsThroughAndNoOthers) {
   for (int cell : path.cells) EXPECT_EQ(occupied[cell], 0.5e-3);
 }
 
-TEST(Place, ATipIsInTheCoronaryAtItsOstiumOrInTheAorta) {
+TEST(CellLocator, ATipIsInTheCoronaryAtItsOstiumOrInTheAorta) {
   const Ward& w = ward();
   CellLocator locator(w.map, w.tree);
   locator.set_moment(0, 0);
@@ -107,7 +107,7 @@ TEST(Place, ATipIsInTheCoronaryAtItsOstiumOrInTheAorta) {
   EXPECT_LT(beyond_valve_m(marks, marks.p_access), 0) << "the groin lies beyond the plane, but not in the ventricle";
 }
 
-TEST(Place, StepsOfPhysiologyAndTreatmentAllocateNothing) {
+TEST(CellLocator, StepsOfPhysiologyAndTreatmentAllocateNothing) {
   const Ward& w = ward();
   TreatmentModel model{.plaque = make_plaque_model(w.tree, w.patient.lesions),
                        .injury = {},

@@ -130,7 +130,7 @@ TEST_F(OwnAnatomy, SideBySideIsNoGap) {
   EXPECT_FALSE(note(repaired, "gap bridged"));
 }
 
-TEST(Mend, AShelfBetweenPiecesBecomesATaper) {
+TEST(Repair, AShelfBetweenPiecesBecomesATaper) {
   // A vessel of 8 mm radius whose second half was drawn by its outer wall, 2.5 mm farther out.
   const std::vector<Tube> tube = {
       make_tube("aorta", -1, {{{0, 0, 0}, 8 * mm}, {{0.06, 0, 0}, 8 * mm}, {{0.12, 0, 0}, 8 * mm}})};
@@ -165,7 +165,7 @@ TEST(Mend, AShelfBetweenPiecesBecomesATaper) {
   EXPECT_LT(steepest, std::tan(16 * 3.14159265358979 / 180));
 }
 
-TEST(Mend, AnAortaCutAboveItsRootIsCarriedOn) {
+TEST(Repair, AnAortaCutAboveItsRootIsCarriedOn) {
   // An aorta that ends at x = 0; an artery begins 6 mm beyond, outside the position of the missing wall.
   const std::vector<Tube> aorta = {
       make_tube("aorta", -1, {{{-0.02, 0, 0}, 10 * mm}, {{0.03, 0, 0}, 10 * mm}, {{0.08, 0, 0}, 10 * mm}})};
@@ -195,7 +195,7 @@ TEST(Mend, AnAortaCutAboveItsRootIsCarriedOn) {
   EXPECT_NEAR(0.02 - end[0].distance_m, -0.018, 1 * mm);
 }
 
-TEST(Mend, BridgesBendAndDoNotKink) {
+TEST(Repair, BridgesBendAndDoNotKink) {
   // A quarter circle: leaves along x, arrives along y.
   const Bridge bridge{
       .p_from = {0, 0, 0}, .p_to = {0.01, 0.01, 0}, .radius_m = 1 * mm, .leaving = {1, 0, 0}, .arriving = {0, 1, 0}};
@@ -306,7 +306,7 @@ TEST(Decimate, SliversSideBySideGo) {
   }
 }
 
-TEST(Mend, WhatHoldsNothingIsRefused) {
+TEST(Repair, WhatHoldsNothingIsRefused) {
   EXPECT_THROW(repair_mesh({{{0, 0, 0}, {0.01, 0, 0}, {0, 0.01, 0}}, {{0, 1, 2}}}), MeshError);
 }
 

@@ -14,12 +14,12 @@ from sources import read
 def main(arguments):
     here = os.path.dirname(os.path.abspath(__file__))
     root = arguments[0] if arguments else os.path.join(here, "..", "..", "..")
-    layers, tables, to_be_divided = read_layers(os.path.join(here, "layers.txt"))
+    layers, tables = read_layers(os.path.join(here, "layers.txt"))
     sources = read(root)
     if not sources:
         print(f"{root}: no sources here\n  cure: name the root of the checkout")
         return 1
-    findings = all_findings(sources, layers, tables, to_be_divided)
+    findings = all_findings(sources, layers, tables)
     for finding in findings:
         print(finding)
     print(f"{len(sources)} sources, {len(findings)} findings")

@@ -18,7 +18,7 @@ class Finding:
 
 
 def read_layers(path):
-    """{folder: {name in it: level}}; the files that may be long; those that are, and are still to be divided."""
+    """{folder: {name in it: level}}; and the files that may be long."""
     layers, section = {}, None
     with open(path, encoding="utf-8") as file:
         for line in file:
@@ -28,7 +28,7 @@ def read_layers(path):
             elif line:
                 level = 1 + max(section.values(), default=-1)
                 section.update({name: level for name in line.split()})
-    return layers, set(layers.pop("tables", {})), set(layers.pop("to be divided", {}))
+    return layers, set(layers.pop("tables", {}))
 
 
 def edges(sources):
@@ -140,14 +140,19 @@ def rings(sources):
         yield Finding(steps[0][0], steps[0][1], what, "cut one of these includes: move what it needs below both folders")
 
 
-def long_files(sources, tables, to_be_divided):
+def long_files(sources, tables):
     long = {source.path for source in sources if source.lines > LONGEST}
     for source in sources:
-        if source.path in long - tables - to_be_divided:
+        if source.path in long - tables:
             yield Finding(source.path, source.lines, f"{source.lines} lines, more than {LONGEST}",
                           "divide it into what it consists of; a mere table goes on the list [tables] of layers.txt")
-    for path in sorted(to_be_divided - long):
-        yield Finding(path, 1, "is no longer too long", "strike it off the list [to be divided] of layers.txt")
+
+
+def lost_files(sources):
+    """Comments that send their reader to a file that is not there."""
+    for source in sources:
+        for line, path in source.lost:
+            yield Finding(source.path, line, f"the comment names {path}, which is not there", "name where it is today")
 
 
 def twins(sources):
@@ -166,6 +171,6 @@ def twins(sources):
                           "namespace without a name")
 
 
-def all_findings(sources, layers, tables, to_be_divided):
+def all_findings(sources, layers, tables):
     return [*rings(sources), *unlisted(sources, layers), *arrows(sources, layers),
-            *long_files(sources, tables, to_be_divided), *twins(sources)]
+            *long_files(sources, tables), *lost_files(sources), *twins(sources)]

@@ -6,6 +6,7 @@ from dataclasses import dataclass, field
 LIBRARIES = ("core", "vascular", "fluoro", "device", "data", "app", "tests")
 SUFFIXES = (".h", ".hpp", ".cpp", ".c")
 
+NAMED = re.compile(r"(?<![\w./])(?:core|vascular|fluoro|device|data|app|tests)/[\w/-]+\.(?:h|cpp|c|py|sh|md|def|txt)\b")
 INCLUDE = re.compile(r'^\s*#\s*include\s+"([^"]+)"')
 # Comments and literals: they may hold braces and words that are no code.
 NO_CODE = re.compile(
@@ -30,6 +31,7 @@ class Source:
     path: str
     lines: int = 0
     includes: list = field(default_factory=list)  # (line, path)
+    lost: list = field(default_factory=list)  # (line, path) of files that a comment names and that are not there
     types: list = field(default_factory=list)
 
     @property
@@ -83,6 +85,9 @@ def read(root):
                     for number, line in enumerate(text.splitlines(), 1):
                         if match := INCLUDE.match(line):
                             source.includes.append((number, match.group(1)))
+                        comment = line.partition("//")[2]
+                        source.lost += [(number, named) for named in NAMED.findall(comment)
+                                        if not os.path.exists(os.path.join(root, named))]
                     source.types = defined_types(text)
                     sources.append(source)
     return sorted(sources, key=lambda source: source.path)

@@ -32,8 +32,8 @@ def findings(files, layers_text=LAYERS):
             os.makedirs(os.path.dirname(os.path.join(root, path)), exist_ok=True)
             with open(os.path.join(root, path), "w", encoding="utf-8") as file:
                 file.write(text)
-        layers, tables, to_be_divided = read_layers(os.path.join(root, "layers.txt"))
-        return [(f.path, f.line, f.what) for f in all_findings(read(root), layers, tables, to_be_divided)]
+        layers, tables = read_layers(os.path.join(root, "layers.txt"))
+        return [(f.path, f.line, f.what) for f in all_findings(read(root), layers, tables)]
 
 
 class Structure(unittest.TestCase):
@@ -74,11 +74,10 @@ class Structure(unittest.TestCase):
         self.assertEqual(path, "tests/core/rod_test.cpp")
         self.assertIn("core may not include app", what)
 
-    def test_what_is_to_be_divided_is_struck_off_when_it_is(self):
-        layers = LAYERS + "[to be divided]\ncore/rod/long.cpp\n"
-        self.assertEqual(findings({"core/rod/long.cpp": "int a;\n" * 500}, layers), [])
-        self.assertEqual(findings({"core/rod/long.cpp": "int a;\n" * 5}, layers),
-                         [("core/rod/long.cpp", 1, "is no longer too long")])
+    def test_a_comment_names_files_that_are_there(self):
+        (path, line, what), = findings({"core/rod/rod.h": "int a;  // core/rod/rod.h, core/rod/gone.h\n"})
+        self.assertEqual((path, line), ("core/rod/rod.h", 1))
+        self.assertIn("names core/rod/gone.h", what)
 
     def test_twins(self):
         found = findings({

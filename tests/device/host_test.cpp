@@ -45,7 +45,7 @@ struct Host {
 };
 
 /// Reports that keep the protocol's rules and no other.
-TEST(BlockTridiagonal, WildReportsStayWithinLimits) {
+TEST(HostChain, WildReportsStayWithinLimits) {
   Host host;
   plugged_in(host.link);
   std::mt19937_64 generator(11);
@@ -76,7 +76,7 @@ TEST(BlockTridiagonal, WildReportsStayWithinLimits) {
 }
 
 /// A wire and a guide in strokes, with forces and pauses: what was recorded, alone, gives the same inputs to the bit.
-TEST(BlockTridiagonal, ReplaysFromItsRecordedBytes) {
+TEST(HostChain, ReplaysFromItsRecordedBytes) {
   Host live;
   EmulatedBox box{live.calibration};
   std::vector<Bytes> recorded;
