@@ -90,7 +90,7 @@ void read_measured(const JsonObject& entry, Experiment& e) {
   }
 }
 
-/// Core loads the end of what reaches furthest.
+/// Core applies the tip load to the end of the instrument that reaches furthest.
 void require_loaded_tip(const JsonObject& entry, const Experiment& e) {
   for (const Placement& p : e.set)
     if (!e.tip_force_N.isZero() && p.inserted_m > e.set.back().inserted_m)
