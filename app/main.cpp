@@ -5,7 +5,8 @@
 #include "app/commands/program.h"
 
 int main(int argc, char** argv) {
-  // What a case takes while it is made goes back at once; else a tenth of a run's memory would be such leftovers.
+  // Returns large temporary blocks to the system at once; otherwise a tenth of a run's memory would be leftovers from
+  // building the case.
   mallopt(M_MMAP_THRESHOLD, 1 << 20);
   return ostium::app::run_command_line(ostium::app::program(), argc, argv);
 }

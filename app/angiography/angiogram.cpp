@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "core/base/units.h"
 #include "data/formats/load_error.h"
@@ -15,7 +14,7 @@ namespace {
 using units::mL;
 
 constexpr double step_s = 1e-3;
-constexpr double seen = 0.15, filled = 0.5;  // of the darkness of a full vessel
+constexpr double seen = 0.15, filled = 0.5;  // relative to the darkness of a full vessel
 
 }  // namespace
 
@@ -109,7 +108,7 @@ void Angiogram::draw(fluoro::Imager& imager, fluoro::ImagerState& into) {
 
 std::vector<double> Angiogram::read(const fluoro::Plane& with, const fluoro::Plane& without,
                                     const std::vector<int>& cells, const vascular::PhysiologyState& state) const {
-  // Automatic brightness answers to contrast: what most of the picture changed by is no iodine.
+  // Automatic brightness reacts to contrast, so the picture's median change is not due to iodine.
   std::vector<float> change;
   for (int r = 8; r < view_.pixels; r += 16)
     for (int c = 8; c < view_.pixels; c += 16)
@@ -142,7 +141,7 @@ std::vector<double> Angiogram::read(const fluoro::Plane& with, const fluoro::Pla
 std::vector<double> Angiogram::darkness(const std::vector<int>& cells, const vascular::PhysiologyState& state) {
   fluoro::ImagerState with;
   draw(imager_, with);
-  // Bodies keep their places; only the iodine goes.
+  // The bodies stay where they are; only the iodine is removed.
   fluoro::Contrast& contrast = scene_.lumen().contrast;
   const fluoro::Contrast kept = contrast;
   contrast.iodine_kg_m3.setZero(), contrast.along_kg_m2.setZero();
@@ -172,7 +171,7 @@ int timi_landmark(const vascular::FlowTree& tree, const std::string& artery) {
     return length;
   };
   if (artery == "LAD") {
-    // Its last stretch goes round the apex.
+    // The last stretch of the LAD goes round the apex.
     const int b = tree.branch("LAD");
     return b < 0 ? -1 : tree.cell_at(b, tree.cells[tree.branches[b].last - 1].s_m - 21.5e-3);
   }
@@ -212,7 +211,7 @@ TimiCount timi_count(const vascular::PhysiologyModel& model, PatientScene& scene
   for (int n = 0; n < 30 * longest_s; ++n) {
     angiogram.advance(injection, inputs, state);
     const std::vector<double> dark = angiogram.darkness(cells, state);
-    // Between frames the crossing is interpolated, so that a count has no grain.
+    // Interpolates the crossing between frames, so that counts are not limited to whole frames.
     const auto crossing = [&](int k, double level) {
       const double x = dark[k] / full[k], x0 = before[k];
       return n - 1 + std::clamp((level - x0) / std::max(x - x0, 1e-9), 0.0, 1.0);

@@ -1,7 +1,6 @@
 #include "app/angiography/device_scene.h"
 
 #include <cmath>
-#include <numbers>
 
 #include "core/base/units.h"
 #include "fluoro/matter/tissue.h"
@@ -26,7 +25,7 @@ fluoro::Shaft line(const std::string& name, const std::vector<Eigen::Vector3d>& 
   return shaft;
 }
 
-/// A closed surface of revolution about the path, its ends drawn together.
+/// A closed surface of revolution about the path, tapered at its ends.
 fluoro::Body body_of(const std::string& name, const std::vector<Eigen::Vector3d>& axis,
                      const std::vector<vascular::PathFrame>& frames, const std::vector<double>& radius_m,
                      double iodine_kg_m3) {
@@ -79,7 +78,7 @@ void add_balloon(const vascular::BalloonModel& model, const vascular::BalloonSta
     axis.push_back(frames.back().centre);
     radius.push_back(state.radius_m[i]);
   }
-  // Its fill displaces blood; folded there is none to see.
+  // Its contrast displaces blood; a folded balloon holds none.
   if (state.pressure_Pa > 0 || state.was_filled)
     scene.moving.push_back(body_of("balloon", axis, frames, radius, model.iodine_kg_m3));
   if (!markers) return;
@@ -105,7 +104,7 @@ void add_pools(const vascular::InjuryState& injuries, const vascular::LumenMap& 
                double phase, double breath, fluoro::Scene& scene) {
   for (const vascular::Injury& injury : injuries.injuries) {
     if (injury.cell < 0 || injury.outside_kg <= 0) continue;
-    // A cloud beside the lumen, as large as what is in it.
+    // A cloud beside the lumen with the volume that has leaked.
     const auto cell = static_cast<std::size_t>(injury.cell);
     const Eigen::Vector3d p = map.centre(cell, phase, breath);
     const double r = std::cbrt(injury.outside_m3 * 3 / (4 * pi)), out = radius_m[cell] + 0.6 * r;

@@ -1,5 +1,5 @@
 #pragma once
-/// A patient under X-rays: thorax and lumen as bodies, carried by beat and breath, with the iodine that is in them.
+/// A patient under X-rays: thorax and lumen as bodies, moved by heartbeat and breath, with the iodine in the vessels.
 #include "fluoro/matter/scene.h"
 #include "vascular/contrast/opacity.h"
 #include "vascular/patient/patient.h"
@@ -14,7 +14,7 @@ class PatientScene {
   /// Keeps references. Takes some seconds: the thorax is contoured.
   PatientScene(const vascular::Patient& patient, const vascular::PhysiologyModel& physiology);
 
-  /// The patient at this moment; what the caller has added to `scene()` since is taken out.
+  /// The patient at this moment; removes whatever the caller has added to `scene()` since the last call.
   const fluoro::Scene& at(const vascular::PhysiologyState& state, std::span<const double> occupied_m,
                           double breath_depth = 0);
   fluoro::Scene& scene() { return scene_; }
@@ -27,9 +27,9 @@ class PatientScene {
   const vascular::PhysiologyModel& physiology_;
   vascular::LumenMap map_;
   vascular::WallShape shape_;
-  std::vector<vascular::XrayBody> thorax_;  ///< those that move
+  std::vector<vascular::XrayBody> thorax_;  ///< the thorax bodies that move
   fluoro::Scene scene_;
-  std::size_t own_ = 0;  ///< bodies of the patient; others stand behind them
+  std::size_t own_ = 0;  ///< number of the patient's bodies; added ones follow
   vascular::OpacityScratch scratch_;
   std::vector<Eigen::Vector3d> vertices_;
 };

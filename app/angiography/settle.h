@@ -3,7 +3,7 @@
 
 namespace ostium::app {
 
-/// A circulation that has beaten until pressure and flow repeat, at phase 0.
+/// The circulation once pressure and flow repeat from beat to beat, at phase 0.
 inline vascular::PhysiologyState at_rest(const vascular::PhysiologyModel& model, double rate_1_min,
                                          double seconds = 20) {
   vascular::PhysiologyState state = make_state(model);

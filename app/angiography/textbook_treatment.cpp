@@ -16,7 +16,7 @@ constexpr double reference_stretch = 5 * mm;
 
 double quarter(double diameter_m) { return std::round(diameter_m / (0.25 * mm)) * 0.25 * mm; }
 
-/// The next length that is sold.
+/// The shortest available length that suffices.
 double sold_length(std::initializer_list<double> lengths_mm, double wanted_m) {
   for (double l : lengths_mm)
     if (l * mm >= wanted_m - 0.5 * mm) return l * mm;
@@ -40,7 +40,7 @@ std::vector<double> healthy_radii(const vascular::FlowTree& tree) {
   return radii;
 }
 
-/// The branch that goes on from a branch's end, for devices that reach beyond it.
+/// The last branch along the continuation of a branch, for devices that reach beyond its end.
 int far_branch(const vascular::FlowTree& tree, int branch) {
   int end = tree.branches[branch].last - 1;
   for (bool more = true; more;) {
@@ -91,8 +91,8 @@ Treatable plan_treatment(const vascular::Patient& patient, const vascular::FlowM
               -1);
       plan.predilate_Pa = o.pressure * (hard > 0 ? 16 : 10) * atm;
     }
-    // A stent for the distal reference that reaches two millimetres beyond the lesion, once it has foreshortened; a
-    // stout one in the left main.
+    // A stent sized for the distal reference that still reaches 2 mm beyond the lesion after foreshortening; a strong
+    // design in the left main.
     const double diameter = o.oversize * std::clamp(quarter(plan.distal_m), 2.25 * mm, 4.5 * mm);
     const double length = sold_length({8, 12, 15, 18, 23, 28, 33, 38}, lesion.length_m + 5 * mm);
     if (o.stent) {
@@ -109,7 +109,7 @@ Treatable plan_treatment(const vascular::Patient& patient, const vascular::FlowM
           -1);
       plan.postdilate_Pa = o.pressure * (hard > 0 ? 20 : 16) * atm;
     }
-    // Wider ahead than that balloon reaches: the stent's first stretch is pressed to the wall by one of its own.
+    // If the artery is wider proximally than that balloon: a second balloon for the stent's proximal end.
     if (const double wide = quarter(plan.proximal_m);
         o.stent && o.postdilate && wide > quarter(plan.reference_m) + 0.1 * mm) {
       plan.proximal = add(make_balloon(vascular::Compliance::non, o.oversize * std::min(wide, 5 * mm), 8 * mm), -1);

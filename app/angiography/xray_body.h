@@ -1,5 +1,5 @@
 #pragma once
-/// A patient's bodies as fluoro's.
+/// Converts a patient's bodies to fluoro's.
 #include <memory>
 #include <vector>
 
@@ -11,7 +11,7 @@ namespace ostium::app {
 std::shared_ptr<const fluoro::Triangles> triangles_of(const std::vector<std::array<int, 3>>& triangles);
 Eigen::Matrix3Xf points_of(const std::vector<Eigen::Vector3d>& points);
 
-/// With its own triangles, or with those that were made of them, and other points.
+/// With the body's own triangles, or with triangles already converted and other points.
 fluoro::Body body_of(const vascular::XrayBody& body);
 fluoro::Body body_of(const vascular::XrayBody& body, std::shared_ptr<const fluoro::Triangles> triangles,
                      const std::vector<Eigen::Vector3d>& points);

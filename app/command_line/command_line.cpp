@@ -42,7 +42,7 @@ namespace {
 
 constexpr int done = 0, usage = 2, bad_input = 3;
 
-/// `chosen` becomes the command that the parsed line names.
+/// `chosen` is set to the command that the parsed line names.
 void declare(const Command& command, CLI::App& app, const Command*& chosen) {
   Options options(app);
   if (command.declare) command.declare(options);
@@ -62,7 +62,7 @@ void declare(const Command& command, CLI::App& app, const Command*& chosen) {
 int run_command_line(const Command& program, int argc, char** argv) {
   CLI::App app(program.help, program.name);
   app.set_version_flag("--version", OSTIUM_VERSION);
-  // Commands that are declared later and have no examples end with it too.
+  // Also used for commands declared later that have no examples.
   app.footer("Exit codes: 0 done, 1 failed or did not hold, 2 usage, 3 bad input.");
   const Command* chosen = &program;
   declare(program, app, chosen);

@@ -3,9 +3,9 @@
 
 namespace ostium::app {
 
-/// Becomes true when somebody wants the command to end. One for the process, as signals are.
+/// Becomes true when the user asks the command to end. Global, as signals are.
 inline std::atomic<bool> interrupted{false};
-/// From here on Ctrl-C and SIGTERM set it, and no longer kill.
+/// From this call on, Ctrl-C and SIGTERM set `interrupted` instead of killing the process.
 void stop_on_signals();
 
 }  // namespace ostium::app

@@ -1,6 +1,6 @@
 #pragma once
-/// How a command declares its options. CLI11 stays behind it: its headers take seconds to compile, once for every
-/// command otherwise.
+/// How a command declares its options. Hides CLI11, whose headers take seconds to compile, which every command would
+/// pay.
 #include <initializer_list>
 #include <string>
 #include <vector>
@@ -12,15 +12,15 @@ class Option;
 
 namespace ostium::app {
 
-/// What more there is to say of an option; each returns the option again.
+/// Further properties of an option; each call returns the option again.
 class Option {
  public:
   explicit Option(CLI::Option* option) : option_(option) {}
 
   Option required();
-  Option show_default();                 ///< in --help: what the variable holds by then
-  Option type(const std::string& name);  ///< in --help instead of TEXT
-  Option count(int values);              ///< so many, with commas between
+  Option show_default();                 ///< shows the variable's current value in --help
+  Option type(const std::string& name);  ///< shown in --help instead of TEXT
+  Option count(int values);              ///< this many values, separated by commas
   Option one_of(std::initializer_list<const char*> allowed);
   Option one_of(const std::vector<int>& allowed);
   Option range(double least, double most);
@@ -36,8 +36,8 @@ class Options {
  public:
   explicit Options(CLI::App& app) : app_(app) {}
 
-  /// `names`: "--units", "-o,--out", or "mesh", which stands without dashes. `value` keeps what it holds if the option
-  /// is not given. Of text, int, double, std::uint64_t, std::optional<double>, or a vector of texts or doubles.
+  /// `names`: "--units", "-o,--out", or "mesh" for a positional argument. `value` keeps its value if the option is not
+  /// given. For text, int, double, std::uint64_t, std::optional<double>, or a vector of texts or doubles.
   template <class Value>
   Option add(const std::string& names, Value& value, const std::string& help);
   void flag(const std::string& names, bool& value, const std::string& help);

@@ -1,5 +1,5 @@
 #pragma once
-/// What commands that make X-ray pictures have in common: options, and pictures put together.
+/// Shared by the commands that make X-ray pictures: options, and joining pictures.
 #include <limits>
 #include <optional>
 
@@ -10,7 +10,7 @@
 
 namespace ostium::app {
 
-/// A standard view, and angles instead of its own.
+/// A standard view, and angles that override its own.
 struct ViewArguments {
   static constexpr double as_view = std::numeric_limits<double>::quiet_NaN();
   std::string view;
@@ -19,7 +19,7 @@ struct ViewArguments {
 
 /// --lao and --cran.
 void add_angle_options(Options& options, ViewArguments& arguments);
-/// Of an artery that has a usual view.
+/// One of the standard views of an artery.
 void add_view_option(Options& options, std::string& view);
 /// `smallest`: 64 or 256.
 void add_pixels_option(Options& options, int& pixels, int smallest);
@@ -31,9 +31,10 @@ void add_fill_option(Options& options, std::string& fill);
 fluoro::StandardView named_view(const std::string& name);
 Fill fill_named(const std::string& name);
 
-/// Ends a film, if one is made. Where it could not be written, says why in the command's name; then false.
+/// Finishes a film, if there is one. If it could not be written, prints the reason prefixed by the command's name and
+/// returns false.
 bool finish_film(std::optional<data::VideoWriter>& writer, const char* command);
-/// One picture above the other, of the same width.
+/// One picture above the other; they must have the same width.
 fluoro::Picture stacked(fluoro::Picture above, const fluoro::Picture& below);
 
 }  // namespace ostium::app

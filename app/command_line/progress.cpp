@@ -14,7 +14,7 @@ bool on_terminal() { return isatty(STDERR_FILENO); }
 }  // namespace
 
 void show_progress(const std::string& what) {
-  // The cursor stays at the beginning, so that whatever is printed next stands there.
+  // Leaves the cursor at the start of the line, so that later output overwrites it.
   if (on_terminal()) fmt::print(stderr, "\033[K{}\r", what);
 }
 

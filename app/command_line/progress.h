@@ -1,17 +1,17 @@
 #pragma once
-/// What is being done, on stderr, for people who wait.
+/// Progress messages on stderr.
 #include <chrono>
 #include <string>
 
 namespace ostium::app {
 
-/// On a terminal: in place of the line before. Empty: clears it. Elsewhere nothing is said.
+/// On a terminal, replaces the last message; an empty text clears it. Otherwise prints nothing.
 void show_progress(const std::string& what);
 
-/// For work of minutes: with the seconds so far, and into logs too.
+/// For work that takes minutes: adds the elapsed seconds, and also writes to logs.
 class TimedProgress {
  public:
-  /// `of`: what every line begins with; `quiet_s`: logs are told only of what begins later than that.
+  /// `of`: prefix of every line; `quiet_s`: logs get only messages that begin after this time.
   explicit TimedProgress(std::string of = "", double quiet_s = 0) : of_(std::move(of)), quiet_s_(quiet_s) {}
   void operator()(const std::string& what) const;
 

@@ -20,7 +20,7 @@ namespace {
 struct Arguments {
   std::string name;  ///< empty: all
   bool json = false;
-  std::string folder;  ///< if not empty: the case's surfaces and centrelines are written there
+  std::string folder;  ///< if not empty, the case's surfaces and centrelines are written there
 };
 
 void declare(Options& options, Arguments& a) {
@@ -31,7 +31,7 @@ void declare(Options& options, Arguments& a) {
 
 namespace fs = std::filesystem;
 
-/// 24 surfaces of the beat, the tree in each of them, and what else an X-ray meets.
+/// Writes 24 surfaces of the beat, the tree for each of them, and the other bodies an X-ray sees.
 void write_case(const data::Case& c, const std::string& folder) {
   show_progress("building " + c.name);
   const vascular::Patient patient = patient_of(c);

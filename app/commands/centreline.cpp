@@ -18,7 +18,7 @@ struct Arguments {
   std::string mesh;
   std::string unit = "mm";        ///< mm, cm or m
   std::string start;              ///< "x,y,z" in the file's unit; empty: the widest end
-  std::vector<std::string> ends;  ///< the same; empty: all that stand out
+  std::vector<std::string> ends;  ///< the same; empty: all prominent ends
   std::string output;             ///< .json or .vtp
 };
 

@@ -43,7 +43,7 @@ nlohmann::ordered_json fault_json(const vascular::SurfaceFault& fault) {
   return {{"count", fault.count}, {"where_mm", where}};
 }
 
-/// All that is known of one file.
+/// All findings about one file.
 struct Checked {
   std::string file;
   vascular::MeshFile mesh;
@@ -54,7 +54,7 @@ struct Checked {
   vascular::DoubleWall wall;
   std::size_t flipped = 0, inverted = 0;
   vascular::Roughness rough;
-  std::vector<double> diameters;  ///< below which 2, 25, 50, 75, 98 % of the wall's area are, m
+  std::vector<double> diameters;  ///< below which 2, 25, 50, 75, 98 % of the wall's area lies, m
 };
 
 constexpr double shares[] = {0.02, 0.25, 0.5, 0.75, 0.98};
@@ -65,7 +65,7 @@ void find_unit(const Arguments& a, Checked& c) {
   if (c.unit_said)
     take_unit(vascular::unit_named(a.unit), c.unit);
   else if (!c.unit.vessel)
-    take_unit(vascular::LengthUnit::millimetre, c.unit);  // as most files are
+    take_unit(vascular::LengthUnit::millimetre, c.unit);  // the commonest unit
 }
 
 void find_openings(const vascular::Mesh& turned, const vascular::Sheets& sheets, Checked& c) {

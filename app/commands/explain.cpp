@@ -19,12 +19,12 @@ namespace ostium::app {
 namespace {
 
 struct Arguments {
-  std::string set;                 ///< folder or measurement.json
+  std::string set;                 ///< the set's folder or its measurement.json
   std::string folder = ".";        ///< where explanation.json, explanation.html and amended/ go
   std::vector<std::string> tries;  ///< "shaft_torsion", or several together: "shaft_torsion+stress_relaxation"
-  std::string instrument;          ///< file for the innermost instrument as it was found; empty: only in `folder`
-  int threads = 0;                 ///< 0: one for each core
-  bool json = false;               ///< explanation.json to stdout instead of words
+  std::string instrument;          ///< where to write the fitted innermost instrument; empty: only in `folder`
+  int threads = 0;                 ///< 0: one per core
+  bool json = false;               ///< explanation.json to stdout instead of text
 };
 
 void declare(Options& options, Arguments& a) {
@@ -67,7 +67,7 @@ void write_found(const Arguments& a, const data::MeasurementSet& set, const data
   }
 }
 
-/// Under mpirun the first rank alone writes.
+/// Under mpirun only the first rank writes.
 int run(const Arguments& a) {
   const data::Ranks mpi;
   const data::MeasurementSet set = data::load_measurement(a.set);

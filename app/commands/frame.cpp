@@ -3,7 +3,6 @@
 #include <cmath>
 #include <functional>
 #include <nlohmann/json.hpp>
-#include <numbers>
 
 #include "app/command_line/arguments.h"
 #include "app/command_line/command.h"
@@ -28,19 +27,19 @@ namespace {
 using units::degree;
 
 struct Arguments {
-  std::string of = "phantom";  ///< what is in the beam: that, or a case
-  double phase = 0.75;         ///< of the heart, of a case; a film begins there
+  std::string of = "phantom";  ///< the object: "phantom", or a case
+  double phase = 0.75;         ///< cardiac phase of a case; a film starts there
   ViewArguments view{.view = "ap"};
   double sid_mm = 1100, field_mm = 200;
-  std::vector<double> table_mm{0, 0, 0};             ///< of the isocentre in the patient: left, head, front
-  std::vector<double> shutters{0.5, 0.5, 0.5, 0.5};  ///< left, right, top, bottom, in shares of the picture's side
+  std::vector<double> table_mm{0, 0, 0};             ///< isocentre in the patient: left, head, front
+  std::vector<double> shutters{0.5, 0.5, 0.5, 0.5};  ///< left, right, top, bottom, as shares of the picture's side
   int pixels = 512;
   bool cine = false;
   double frames_per_s = 15;
-  int frames = 0;             ///< 0: 8 before the one of a still picture; 30 of a video
-  std::string fill = "none";  ///< left, right: coronary full of contrast
+  int frames = 0;             ///< 0: 8 frames before a still picture, 30 for a video
+  std::string fill = "none";  ///< left, right: coronary tree full of contrast
   double stenosis_percent = 60;
-  std::string guide = "left";  ///< where guide and wire are: left, right, none
+  std::string guide = "left";  ///< vessel that holds guide and wire: left, right, none
   std::uint64_t seed = 1;
   std::string renderer = "scanline";
   bool overlay = false, json = false;
@@ -99,7 +98,7 @@ fluoro::View view_of(const Arguments& a) {
   return view;
 }
 
-/// What is in the beam, frame by frame.
+/// The scene of each frame.
 using Scenes = std::function<fluoro::Scene(int frame)>;
 
 Scenes phantom_scenes(const Arguments& a) {
@@ -113,7 +112,7 @@ Scenes phantom_scenes(const Arguments& a) {
   return [scene = fluoro::phantom::chest(chest)](int) { return scene; };
 }
 
-/// A case's patient; the heart beats from frame to frame. `middle` is where the C-arm looks.
+/// A case's patient, with the heart beating from frame to frame. Sets `middle` to the C-arm's isocentre.
 Scenes patient_scenes(const Arguments& a, Eigen::Vector3d& middle) {
   show_progress("building " + a.of);
   const CaseScene made = scene_of_case(a.of, fill_named(a.fill), middle);
@@ -157,7 +156,7 @@ fluoro::Picture shown(const Arguments& a, const fluoro::FluoroscopeInput& in, co
   return picture;
 }
 
-/// The frames, one after the other; none of them leaks.
+/// The frames taken one after the other.
 struct Filmed {
   fluoro::FluoroscopeState state;
   fluoro::FrameReport report;
@@ -170,7 +169,7 @@ Filmed film(const Arguments& a, const Scenes& scenes, const fluoro::FluoroscopeI
   fluoro::Imager imager({}, a.renderer == "osmesa" ? fluoro::make_osmesa_renderer() : fluoro::make_scanline_renderer());
   fluoro::DisplayScratch scratch;
   const int frames = a.frames ? a.frames : a.video() ? 30 : 8;
-  // A still picture stands at its phase; the frames before it only feed the lag.
+  // A still picture stays at its phase; the frames before it only build up the lag.
   const bool moves = a.video() || (a.dicom() && a.frames);
   for (int i = 0; i < frames; ++i) {
     if (moves) scene = scenes(i);

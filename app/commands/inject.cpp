@@ -24,18 +24,18 @@ using units::mL;
 struct Arguments {
   std::string of = "rca-mid-focal";  ///< case
   std::string at = "right";          ///< left, right: the ostium; left-sinus, right-sinus, aorta
-  double rate_mL_s = 0;              ///< 0: as measured by hand, 2.1 left and 1.7 right
+  double rate_mL_s = 0;              ///< 0: as measured for hand injection, 2.1 left and 1.7 right
   double volume_mL = 0;              ///< 0: 7.1 left, 4.8 right
   double iodine_mg_mL = 350;
-  double phase = 0.9;  ///< of the heart, as the contrast reaches the tip
+  double phase = 0.9;  ///< cardiac phase when contrast reaches the tip
   double seconds = 5;
   double frames_per_s = 15;
-  std::string view;  ///< "": lao for the right, rao-cranial for the left
+  std::string view;  ///< "": lao for the right coronary, rao-cranial for the left
   int pixels = 512;
   bool healthy = false;  ///< without lesions
   bool count = false, json = false;
   std::uint64_t seed = 1;
-  std::string out = "inject.png";  ///< .png: moments side by side; .mp4
+  std::string out = "inject.png";  ///< .png: several moments side by side; .mp4: a film
 
   bool left() const { return at.starts_with("left") || at == "aorta"; }
 };
@@ -72,13 +72,13 @@ Injection injection_of(const Arguments& a, const vascular::PhysiologyModel& mode
   return injection;
 }
 
-/// Six moments, three above three.
+/// Six moments in two rows of three.
 fluoro::Picture sheet_of(const std::vector<fluoro::Picture>& kept) {
   const auto row = [&](std::size_t from) { return beside(beside(kept[from], kept[from + 1]), kept[from + 2]); };
   return stacked(row(0), row(3));
 }
 
-/// What became of the iodine. `before_kg` was in the body, `in_line_kg` in the catheter.
+/// Iodine balance. `before_kg` was in the body before, `in_line_kg` is in the catheter.
 nlohmann::ordered_json balance(const data::Case& c, const vascular::ContrastState& s, double before_kg,
                                double in_line_kg) {
   const double off = (accounted_kg(s) - before_kg - in_line_kg - s.injected_kg) / (s.injected_kg + in_line_kg);

@@ -11,9 +11,9 @@ namespace ostium::app {
 namespace {
 
 struct Arguments {
-  std::string name;  ///< one of them, in detail; empty: all
+  std::string name;  ///< one instrument, in detail; empty: list all
   bool json = false;
-  std::string picture;  ///< SVG file to draw too; empty: none
+  std::string picture;  ///< SVG file to draw; empty: none
 };
 
 void declare(Options& options, Arguments& a) {

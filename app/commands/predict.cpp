@@ -15,7 +15,7 @@ namespace ostium::app {
 namespace {
 
 struct Arguments {
-  std::string set;           ///< folder or measurement.json
+  std::string set;           ///< the set's folder or its measurement.json
   std::string folder = ".";  ///< where prediction.json and prediction.csv go
   bool json = false;         ///< prediction.json to stdout instead of a table
 };

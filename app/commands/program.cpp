@@ -2,7 +2,7 @@
 
 namespace ostium::app {
 
-// Each is defined in the file of its name. To add one: its name here twice.
+// Each is defined in the file of its name. To add one, list its name twice below.
 Command demonstration();
 Command verify_command();
 Command instruments_command();

@@ -4,7 +4,6 @@
 
 #include <cmath>
 #include <nlohmann/json.hpp>
-#include <numbers>
 
 #include "app/command_line/command.h"
 #include "app/command_line/common_options.h"
@@ -22,14 +21,14 @@ namespace ostium::app {
 
 namespace {
 
-/// How its pictures differ from the run's.
+/// How the pictures differ from what the run showed.
 struct PictureArguments {
-  ViewArguments view;  ///< empty: as the run has it
+  ViewArguments view;  ///< empty: the run's view
   double field_mm = ViewArguments::as_view;
-  std::vector<double> table_mm;  ///< empty: as the run has it
+  std::vector<double> table_mm;  ///< empty: the run's table position
   int pixels = 512;
   bool cine = false, plain = false;  ///< plain: without overlay
-  bool monitor = false;              ///< ECG, pressure and gauge under the picture
+  bool monitor = false;              ///< ECG, pressure and gauge below the picture
   double frames_per_s = 15;
   std::string fill = "none";
 };
@@ -37,8 +36,8 @@ struct PictureArguments {
 struct Arguments {
   std::string file;
   bool verify = false;
-  double from_s = 0, seconds = 0;  ///< seconds 0: to the end
-  std::string video, dicom, png;   ///< empty: none
+  double from_s = 0, seconds = 0;  ///< `seconds` 0: to the end
+  std::string video, dicom, png;   ///< file names; empty: none
   PictureArguments picture;
   bool json = false;
 };
@@ -94,16 +93,16 @@ FilmOptions film_options(const PictureArguments& a) {
   return film;
 }
 
-constexpr double lag_s = 0.7;  // in which what a monitor shows has come up
+constexpr double lag_s = 0.7;  // time for the display's recursive filter to settle
 
 bool is_still(const Arguments& a) { return a.video.empty() && a.dicom.empty() && a.seconds == 0; }
 
-/// Films until the recording or the time is over; of a still picture what is before it, whose lag it shows.
+/// Films until the recording or the time ends; a still picture needs the preceding frames, whose lag it shows.
 int make_film(const Arguments& a, Replay& replay) {
   FilmOptions options = film_options(a.picture);
   if (!a.dicom.empty()) {
     options.overlay = options.monitor = false;
-    if (!options.mode) options.mode = fluoro::Mode::fluoroscopy;  // one header for all its frames
+    if (!options.mode) options.mode = fluoro::Mode::fluoroscopy;  // one DICOM header for all frames
   }
   show_progress("building the patient's chest");
   Film film(replay.model, options);
@@ -163,7 +162,7 @@ int check_same(const Arguments& a, Replay& replay) {
   return report.first_step ? 1 : 0;
 }
 
-/// 0 if what was asked for is done and, with `verify`, the same.
+/// Exit code: 0 if everything was done and, with `verify`, the replay is identical.
 int run(const Arguments& a) {
   show_progress("building the vessel of " + a.file);
   Replay replay(a.file);
@@ -175,7 +174,7 @@ int run(const Arguments& a) {
   const bool film = !a.video.empty() || !a.dicom.empty() || !a.png.empty();
   if (a.verify || !film) code = check_same(a, replay);
   if (!film) return code;
-  // Strips show what was before, too.
+  // Strips also show the seconds before.
   const double before_s = std::max(is_still(a) ? lag_s : 0, a.picture.monitor ? monitor_s : 0);
   replay.go_to(std::max(0.0, a.from_s - before_s));
   return std::max(code, make_film(a, replay));

@@ -19,7 +19,7 @@ namespace ostium::app {
 
 namespace {
 
-/// Where something is to be seen: what the script marks, the end of each injection and inflation, the last moment.
+/// A moment worth a picture: marks of the script, the end of each injection and inflation, the last moment.
 struct Moment {
   std::uint64_t step;
   std::string caption;
@@ -51,7 +51,7 @@ std::vector<data::ReportPicture> pictures_of(Replay& replay, const data::RunReco
   options.pixels = 384, options.overlay = false;
   Film film(replay.model, options);
   for (const Moment& moment : moments(record, replay.setup.script)) {
-    // Recursive filter and exposure settle in some frames.
+    // Recursive filter and exposure take some frames to settle.
     const double second = static_cast<double>(moment.step) * record.step_s, before = std::max(second - 0.4, 0.0);
     show_progress(fmt::format("picture at {:.1f} s", second));
     replay.go_to(before);
@@ -81,7 +81,7 @@ data::ReportRun run_of(Replay& replay, const std::string& code, const data::Scor
   if (const auto end = replay.recording.end()) {
     const auto json = nlohmann::json::parse(*end);
     run.outcome = json.value("outcome", ""), run.reason = json.value("reason", "");
-    // Dose is counted while it runs, over poses that signals do not have.
+    // Dose was accumulated during the run, over C-arm poses that the signals do not contain.
     for (const auto& metric : json.value("metrics", nlohmann::json::array()))
       for (data::Metric& mine : run.metrics)
         if (mine.name == metric.value("name", "") && metric.contains("value") && metric["value"].is_number())
@@ -117,7 +117,7 @@ struct Arguments {
   std::string csv, events;               ///< empty: none
   std::string questionnaire;             ///< empty: none
   std::string scoring = "pci-elective";  ///< a list of data/scoring, or a file
-  std::vector<std::string> codes;        ///< one a recording; else run 1, run 2, ...
+  std::vector<std::string> codes;        ///< one per recording; default: run 1, run 2, ...
   bool pictures = true;
 };
 

@@ -14,10 +14,10 @@ namespace ostium::app {
 namespace {
 
 struct Arguments {
-  std::string only;    ///< a gate's name, or the beginning of several
+  std::string only;    ///< a gate's name, or a prefix of several
   bool quick = false;  ///< fewer elements and cases, the same tolerances
   bool json = false;
-  bool list = false;  ///< names and what they compare, instead of running
+  bool list = false;  ///< list names and descriptions instead of running
 };
 
 void declare(Options& options, Arguments& a) {
@@ -43,14 +43,14 @@ void print_list(const std::vector<gates::Gate>& chosen, bool json) {
   }
 }
 
-/// A result that could not be written is not one.
+/// Fails if the results could not be written.
 int with_output_checked(int code) {
   if (std::fflush(stdout) == 0 && !std::ferror(stdout)) return code;
   fmt::print(stderr, "ostium verify: the results could not be written; is the disk full, or the pipe closed?\n");
   return 1;
 }
 
-/// 0 all pass, 1 one did not, 2 `only` names no gate. Results go to stdout.
+/// Exit code: 0 all pass, 1 a gate fails, 2 `only` names no gate. Results go to stdout.
 int run(const Arguments& a) {
   const auto chosen = gates::selected(a.only);
   if (chosen.empty()) return unknown_gate(a.only);

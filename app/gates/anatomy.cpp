@@ -1,7 +1,6 @@
-/// The generated anatomy against published numbers. Where a source gives a standard deviation, that is the tolerance.
+/// The generated anatomy against published numbers. If a source gives a standard deviation, it is the tolerance.
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "app/gates/dodge.h"
 #include "app/gates/gate.h"
@@ -27,7 +26,7 @@ double origin_s(const vascular::Anatomy& anatomy, const char* child, const char*
                    anatomy.tubes[branch(anatomy, child).tube].nodes.front().p);
 }
 
-/// Diameter of the largest sphere that the surface lets in, `from_mm` behind a branch's origin.
+/// Diameter of the largest sphere that fits into the surface, `from_mm` beyond a branch's origin.
 double diameter_mm(const vascular::Anatomy& anatomy, const vascular::BoundingVolumeHierarchy& wall, const char* name,
                    double from_mm) {
   const vascular::NamedBranch& b = branch(anatomy, name);
@@ -40,7 +39,7 @@ double diameter_at_mm(const vascular::Anatomy& anatomy, const vascular::Bounding
   return 2 * per_mm * wall.nearest(t.at(nearest_s(t, p_mm / per_mm)).p, 0.05).distance_m;
 }
 
-/// Direction of a branch between two distances from `s`, mm.
+/// Mean direction of a branch between two distances from `s`, mm.
 Eigen::Vector3d direction(const vascular::Tube& tube, double s_m, double from_mm, double to_mm) {
   return (tube.at(s_m + to_mm / per_mm).p - tube.at(s_m + from_mm / per_mm).p).normalized();
 }
@@ -49,13 +48,13 @@ double angle_deg(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
   return std::acos(std::clamp(a.dot(b), -1.0, 1.0)) / degree;
 }
 
-/// From the middle of a sinus to the opposite commissure, mean of the three.
+/// Mean distance from the middle of a sinus to the opposite commissure, over the three sinuses.
 double sinus_mm(const vascular::Anatomy& anatomy, const vascular::BoundingVolumeHierarchy& wall) {
   const vascular::Landmarks& marks = anatomy.landmarks;
   const double height = 13e-3;
   const Eigen::Vector3d middle = marks.p_annulus + height * marks.root_axis;
   const auto to_wall = [&](const Eigen::Vector3d& direction) {
-    // Sphere tracing from the axis outwards.
+    // Sphere tracing outwards from the axis.
     double t = 0;
     for (int i = 0; i < 200; ++i) {
       const double d = wall.nearest(middle + t * direction, 0.05).distance_m;
@@ -78,8 +77,8 @@ struct Motion {
   std::array<double, 10> by_tenth_mm_s{};
 };
 
-/// Of the middle third of a branch at 70 beats a minute: speed in the transverse plane, which is what electron beam CT
-/// sees, and the longest time within 1 mm.
+/// Motion of the middle third of a branch at 70 beats a minute: speed in the transverse plane, as seen by electron beam
+/// CT, and the longest time it stays within 1 mm.
 Motion motion_of(const vascular::Anatomy& anatomy, const vascular::TubeMotion& motion, const char* name) {
   const vascular::NamedBranch& b = branch(anatomy, name);
   constexpr int places = 9, samples = 240;
@@ -135,7 +134,7 @@ std::vector<data::GateResult> anatomy_lengths(bool) {
   const double r4 = (origin_s(a, "PDA", "RCA") + origin_s(a, "PLV2", "RCA")) / 2;
   const vascular::Landmarks& marks = a.landmarks;
   const auto height = [&](const Eigen::Vector3d& p) { return per_mm * (p - marks.p_annulus).dot(marks.root_axis); };
-  // The arch: what lies above the level at which it is 83.6 mm wide, along the centreline.
+  // Height of the arch: from the level at which it is 83.6 mm wide, along the centreline.
   const vascular::Tube& aorta = a.tubes[0];
   double up = 0, down = 0, top = 0;
   for (const vascular::TubeNode& node : aorta.nodes) {
@@ -236,7 +235,7 @@ std::vector<data::GateResult> anatomy_motion(bool) {
     for (int i = from; i < to; ++i) sum += m.by_tenth_mm_s[i % 10];
     return sum / (to - from);
   };
-  // Windows of a fifth of the cycle, by where they begin.
+  // Windows of a fifth of the cycle, by their starting phase.
   double fastest = 0, slowest = 0;
   for (int i = 1; i < 10; ++i) {
     if (mean(rca, i, i + 2) > mean(rca, static_cast<int>(fastest), static_cast<int>(fastest) + 2)) fastest = i;

@@ -2,7 +2,6 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "app/gates/gate.h"
 #include "core/base/units.h"
@@ -47,7 +46,7 @@ struct Bed {
   core::StepReport report;
 };
 
-/// A wire that is pulled through a bent tube: T2 / T1 = exp(mu phi) (Euler, Eytelwein).
+/// A wire pulled through a bent tube: T2 / T1 = exp(mu phi) (Euler, Eytelwein).
 data::GateResult capstan(double mu, double phi) {
   constexpr double R = 0.05, lumen = 2e-3, radius = 0.45e-3, tension = 1, lead = 0.05;
   const double inside = lead + R * phi + 0.05;
@@ -57,7 +56,7 @@ data::GateResult capstan(double mu, double phi) {
   core::RodDescription d = wire(inside + 0.1, 2e-5, radius, 4e-3, 300);  // EI / R^2 is 0.8 % of the tension
   d.damping = {0.5, 0.25, 1e-3};
   Bed bed(d, wall, Vector3d::Zero());
-  // Laid in along the middle of the tube.
+  // Placed along the middle of the tube.
   core::RodDescription bent = d;
   const double tip_straight = 0.05;
   core::Section s = d.sections[0];
@@ -83,7 +82,7 @@ data::GateResult capstan(double mu, double phi) {
   return {"contact-capstan", sum / tension, reference, 0.05 * reference, "1"};
 }
 
-/// A flat floor, as the bottom of a wide box.
+/// A flat floor: the bottom of a wide box.
 core::SurfaceDescription box(double half_m) {
   core::SurfaceDescription d;
   auto& v = d.frames.emplace_back();
@@ -112,13 +111,13 @@ data::GateResult slope() {
     const double angle = std::atan(t);
     bed.model.gravity_W = 9.81 * Vector3d(std::sin(angle), 0, -std::cos(angle));
     bed.step(scratch, 5);
-    // It gives elastically by some 20 um before it slips.
+    // Friction gives elastically by about 20 um before slip.
     if (bed.state.rods[0].position[25].x() - start > 50e-6) return {"contact-slope", t / mu, 1, 0.01, "1"};
   }
   return {"contact-slope", 0, 1, 0.01, "1"};
 }
 
-/// A heavy rod in a straight level tube, pushed: it leaves the bottom of the tube in waves (Dawson, Paslay 1984).
+/// A heavy rod pushed in a straight horizontal tube: it buckles off the bottom in a sine wave (Dawson, Paslay 1984).
 data::GateResult sinusoidal_buckling(bool quick) {
   constexpr double EI = 8e-6, weight = 8.04e-3, clearance = 0.5e-3, radius = 0.2e-3, length = 1.7;
   const double reference = 2 * std::sqrt(EI * weight / clearance);
@@ -130,7 +129,7 @@ data::GateResult sinusoidal_buckling(bool quick) {
   core::EndState at = core::along_x();
   at.p_W.z() = -clearance;
   bed.state = make_state(bed.model, {at});
-  // A ripple of a micrometre, and of every length.
+  // Perturbations of a micrometre at every wavelength.
   core::RodState& rod = bed.state.rods[0];
   for (int i = 0; i < 512; ++i) {
     const double y = 1e-3 * std::sin(0.9 * i) * std::cos(0.23 * i * i);

@@ -1,4 +1,5 @@
-/// Contrast: nothing lost, divided as blood is, delayed by the dead volume; TIMI frame counts from rendered frames.
+/// Contrast: mass is conserved, it splits like blood, and it is delayed by the dead volume; TIMI frame counts from
+/// rendered frames.
 #include <algorithm>
 #include <cmath>
 
@@ -13,7 +14,7 @@ namespace {
 
 using units::mL, units::mL_min, units::mmHg;
 
-/// A balloon shuts the LAD while contrast runs, drugs and rates change: what was injected is somewhere.
+/// Mass balance while a balloon closes the LAD during injection and drugs and heart rates change.
 data::GateResult balance(const vascular::PhysiologyModel& model, vascular::PhysiologyState state) {
   const vascular::FlowTree& tree = model.flow.tree;
   vascular::PhysiologyScratch scratch;
@@ -37,7 +38,7 @@ data::GateResult balance(const vascular::PhysiologyModel& model, vascular::Physi
   return {"contrast-balance", worst, 0, 1e-6, "1"};
 }
 
-/// A Y: iodine that went into each limb, over the flow there.
+/// At a Y: iodine into each limb relative to the flow there.
 data::GateResult split() {
   const vascular::FlowModel flow = vascular::make_flow_model(
       vascular::plain_tree({{-1, 30, 1e-3, 1.5e-3}, {0, 60, 1e-3, 1.2e-3}, {0, 60, 1e-3, 0.8e-3}}), 40 * mL_min);
@@ -66,20 +67,20 @@ data::GateResult split() {
       return kg;
     };
     step(model, {flow, blood, lumen, 0}, in, 8e-3, s, scratch);
-    if (n == 30) through = {in_limb(1), in_limb(2)};  // while it runs in, and before any runs out
+    if (n == 30) through = {in_limb(1), in_limb(2)};  // while it flows in, before any flows out
   }
   const double reference = blood.flow_m3_s[limb] / blood.flow_m3_s[flow.tree.branches[2].first];
   return {"contrast-y-split", through[0] / through[1], reference, 1e-9 * reference, "1"};
 }
 
-/// The first contrast leaves the tip once the saline ahead of it has.
+/// Contrast leaves the tip once the saline ahead of it has.
 data::GateResult lag(const vascular::PhysiologyModel& model, vascular::PhysiologyState state) {
   vascular::PhysiologyScratch scratch;
   vascular::PhysiologyInputs inputs;
   inputs.contrast.injection_m3_s = 2 * mL;
   inputs.contrast.tip = {vascular::TipPlace::aorta, 3, 0};
   double t = 0;
-  // Its front has been spread a little in the line: the moment at which half of the rate is contrast.
+  // The front is dispersed in the line: use the moment at which half of the flow is contrast.
   for (double before = 0; t < 3; t += 1e-3) {
     step(model, inputs, 1e-3, state, scratch);
     const double out = state.contrast.from_tip_kg - before;
@@ -98,7 +99,7 @@ std::vector<data::GateResult> contrast(bool quick) {
   std::vector<data::GateResult> out = {balance(model, rest), split(), lag(model, rest)};
   if (quick) return out;
   PatientScene scene(patient, model);
-  // Gibson 1996; injected by hand as in Dodge 1998, at two moments of the beat.
+  // Gibson 1996; hand injection as in Dodge 1998, at two cardiac phases.
   for (const auto& [artery, frames, deviation] :
        {std::tuple{"LAD", 36.2, 2.6}, std::tuple{"LCx", 22.2, 4.1}, std::tuple{"RCA", 20.4, 3.0}}) {
     double sum = 0;

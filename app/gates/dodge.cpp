@@ -2,7 +2,6 @@
 
 #include <cassert>
 #include <cmath>
-#include <numbers>
 
 #include "core/base/units.h"
 
@@ -12,7 +11,7 @@ namespace {
 
 using units::degree, units::cm;
 
-/// Along a tube: a place as its arc length.
+/// Points of a tube by arc length.
 class Places {
  public:
   explicit Places(const vascular::Anatomy& anatomy) : anatomy_(anatomy) {}
@@ -36,9 +35,8 @@ class Places {
   const vascular::Anatomy& anatomy_;
 };
 
-/// The segments of BARI and CASS: the LAD's first ends at S1, its second half-way from there to the apex; the right
-/// coronary's first half-way to the acute margin, its second there, its third at the PDA; the circumflex's at its
-/// marginals.
+/// Segments as in BARI and CASS. LAD: the first ends at S1, the second half-way from there to the apex. Right coronary:
+/// the first ends half-way to the acute margin, the second there, the third at the PDA. Circumflex: at its marginals.
 Eigen::Vector3d in_patient(const std::string& point, const vascular::Anatomy& anatomy) {
   const Places p(anatomy);
   const double s1 = p.origin("S1", "LAD"), lad = p.start("LAD"), apex = p.end("LAD") - 22e-3;

@@ -26,12 +26,11 @@ inline constexpr DodgePoint dodge_points[] = {
     {"RD-mid", true, 7.6, 80, -76, 1.1, 60, 8},   {"RP-mid", true, 8.0, 145, -56, 0.8, 21, 9},
 };
 
-/// The point's place from its ostium (metres), and its covariance.
+/// Position of the point relative to its ostium (metres), and its covariance.
 Eigen::Vector3d place(const DodgePoint& point);
 Eigen::Matrix3d covariance(const DodgePoint& point);
 
-/// The same point of our anatomy, from the same ostium: segments end at the origins of their side branches, as Dodge's
-/// do.
+/// The same point of our anatomy, from the same ostium: segments end at the origins of side branches, as Dodge's do.
 Eigen::Vector3d our_place(const DodgePoint& point, const vascular::Anatomy& anatomy);
 
 }  // namespace ostium::app::gates

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <random>
 
 #include "core/base/units.h"
@@ -81,7 +80,7 @@ void Rehearsal::lay_wire(const std::vector<Vector3d>& way_W, double inserted_m) 
   q = Eigen::Quaterniond::FromTwoVectors(q * Vector3d::UnitZ(), way_W[1] - way_W[0]) * q;
   base.q_W = Eigen::Vector4d(q.w(), q.x(), q.y(), q.z());
   state = make_state(model, std::vector<core::EndState>(model.rods.size(), base), inserted);
-  // Element by element, its far end on the way.
+  // Element by element, with each distal end on the path.
   core::RodState& s = state.rods[wire()];
   std::vector<Eigen::Vector4d> frames;
   Vector3d p = way_W[0];
@@ -92,7 +91,7 @@ void Rehearsal::lay_wire(const std::vector<Vector3d>& way_W, double inserted_m) 
     if (j >= s.first) {
       const double length = inside.length.at(0)[j];
       while (next + 1 < way_W.size() && (way_W[next] - p).norm() < length) ++next;
-      // On the piece that ends at `next`, where it is `length` away.
+      // The point of the segment ending at `next` that is `length` away.
       const Vector3d a = way_W[next - 1] - p, d = way_W[next] - way_W[next - 1];
       const double A = d.squaredNorm(), B = a.dot(d), C = a.squaredNorm() - length * length;
       const Vector3d to = p + a + (-B + std::sqrt(std::max(0.0, B * B - A * C))) / A * d;
@@ -108,7 +107,8 @@ void Rehearsal::lay_wire(const std::vector<Vector3d>& way_W, double inserted_m) 
 }
 
 void Rehearsal::settle() {
-  // The way has corners that a wire does not: in honey it comes to lean on the walls without leaping at them.
+  // The path has corners that a wire does not: with high viscous drag the wire settles against the walls without
+  // bouncing.
   core::Model honey = model;
   for (core::Rod& rod : honey.rods) rod.damping.drag_across_N_s_m2 = rod.damping.drag_along_N_s_m2 = 50;
   scratch = core::Scratch(honey);
@@ -177,7 +177,7 @@ Holding random_drive(const TestVessel& vessel, std::uint64_t seed, double second
   for (int n = 0; n < steps; ++n) {
     if (n == redraw) {
       for (core::RodInputs& rod : run.inputs.rods) {
-        // Inwards more often than outwards, or it would soon be out.
+        // Inwards more often than outwards, or the tool would soon be out of the body.
         rod.feed_m_s = uniform(-0.1, 0.2);
         rod.base.turn_rate_W_rad_s = Vector3d(2 * pi * uniform(-10, 10), 0, 0);
       }
@@ -192,7 +192,7 @@ Holding random_drive(const TestVessel& vessel, std::uint64_t seed, double second
 
 std::vector<data::GateResult> contact_in_vessel(bool quick) {
   const TestVessel vessel = test_vessel();
-  // A node outside is not a depth: then nothing passes.
+  // A node outside the vessel has no meaningful depth: the gate must fail.
   const auto depth_mm = [](const Holding& holding) {
     return holding.escapes > 0 ? std::numeric_limits<double>::infinity() : 1e3 * holding.deepest_m;
   };

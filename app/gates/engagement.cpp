@@ -1,8 +1,7 @@
-/// Guides in the aortic root: whether they find the ostia as they do in people (JR4 and JL4), and go where Amplatz's
-/// goes. The scripts of data/scripts are run with everything that a session has; mirrored turns must fail.
+/// Guides in the aortic root: JR4 and JL4 must engage the ostia as they do in people, and Amplatz must move as it does.
+/// Runs the scripts of data/scripts in a full session; turns in the wrong direction must fail.
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "app/gates/gate.h"
 #include "app/session/run/run.h"
@@ -14,11 +13,11 @@ namespace {
 
 using units::per_mm, units::degree;
 constexpr int people = 10;
-constexpr int hands = 3;  // seeds
+constexpr int hands = 3;  // seeds of the operator
 
-/// What a guide did from one step of a script to another.
+/// What a guide did between two steps of a script.
 struct Manoeuvre {
-  bool done = false;  ///< the script went on behind it, not back
+  bool done = false;  ///< the script went on after it rather than back
   double fed_m = 0, turned_rad = 0;
 };
 
@@ -36,14 +35,14 @@ RunSetup setup_of(const std::string& script, int person) {
   return setup;
 }
 
-/// Runs until step `s` begins; false: the script has failed before.
+/// Runs until step `s` begins; false if the script fails before.
 bool run_to(int s, ScriptedRun& run) {
   while (static_cast<int>(run.hands.step) != s)
     if (!run.tick()) return false;
   return true;
 }
 
-/// Runs steps `first` to `last`, once.
+/// Runs steps `first` to `last` once.
 Manoeuvre run_steps(int first, int last, ScriptedRun& run) {
   Manoeuvre out;
   const double fed = run.state.hands[0].fed_m, turned = run.state.hands[0].turned_rad;
@@ -67,7 +66,8 @@ struct Counted {
   int clockwise = 0, counter_clockwise = 0;
 };
 
-/// From where a run is: 20 mm back and 135 degrees counter-clockwise; then, over three beats, is the tip in the RCA?
+/// Continues a copy of the run with 20 mm of withdrawal and 135 degrees counter-clockwise; true if the tip then stays
+/// in the RCA for three beats.
 bool engages_counter_clockwise(const ScriptedRun& at) {
   const SessionModel& model = at.model;
   const VesselIndex& way = *model.vessel->way;
@@ -87,7 +87,7 @@ bool engages_counter_clockwise(const ScriptedRun& at) {
   return in_artery;
 }
 
-/// JR4 at the valve; then clockwise as it is drawn back, and from the same moment counter-clockwise.
+/// JR4 starting at the valve: turned clockwise while drawn back, and from the same state counter-clockwise.
 Counted judkins_right(int person) {
   const RunSetup setup = setup_of("jr4-engages-rca", person);
   const int turn = step_named(setup.script, "clockwise"), back = step_named(setup.script, "drawn back");
@@ -110,8 +110,8 @@ int judkins_left(int person) {
   return stays(run);
 }
 
-/// How far the guide's tip is in the left main, along it, m: the mean over a beat, as the root moves by more than this
-/// is about. `run` goes on by that beat.
+/// How far the guide's tip is in the left main, along it, m: averaged over a beat, since the root moves by more than
+/// that. Advances `run` by that beat.
 double depth_in_left_main(ScriptedRun& run) {
   const VesselIndex& way = *run.model.vessel->way;
   const int ostium = way.place("LM"), further = way.place("LM+6");
@@ -127,8 +127,8 @@ double depth_in_left_main(ScriptedRun& run) {
   return sum / count;
 }
 
-/// An Amplatz in the left main, its curve on the valve: by how much its tip goes deeper as the guide is drawn back by
-/// 10 mm, m. How it came to lie there matters, so it differs between hands (seeds).
+/// An Amplatz in the left main, its curve on the valve: how much deeper its tip goes when the guide is drawn back by 10
+/// mm, m. This depends on how it was placed, so it differs between seeds.
 double amplatz_drawn_back(std::uint64_t seed) {
   RunSetup setup = setup_of("al1-engages-lm", 0);
   setup.seed = seed;

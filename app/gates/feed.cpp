@@ -1,5 +1,5 @@
-/// A wire fed a metre in and out through its introducer comes back to the same rest, without friction; and elements
-/// that enter leave no mark in what the fingers feel.
+/// A wire fed a metre in and out through its introducer returns to the same rest state without friction; and entering
+/// elements do not show in the push force.
 #include <algorithm>
 #include <cmath>
 
@@ -14,7 +14,7 @@ namespace {
 
 constexpr double start_m = 0.1, feed_m_s = 0.05;
 
-/// 1.2 m of slightly curved wire in 2 mm elements, the first 10 cm inside, in a fluid that lets it come to rest.
+/// 1.2 m of slightly curved wire in 2 mm elements, the first 10 cm inside, in a fluid that damps it to rest.
 core::Bench introducer(double curvature_per_m) {
   core::RodDescription wire = core::steel_wire({.elements = 600, .length_m = 1.2});
   wire.sections[0].rest_curvature_per_m = Eigen::Vector3d(0, curvature_per_m, 0);
@@ -50,8 +50,8 @@ std::vector<data::GateResult> feed_round_trips(int trips, double length_m) {
           {"feed-round-trip-energy", std::fabs(energy_after / energy_before - 1), 0, 1e-6, "1"}};
 }
 
-/// While a curved wire (radius 100 mm) is fed, each element that enters may change the push by what is nothing beside
-/// the push that its bending makes, EI k^2 / 2.
+/// While a curved wire (radius 100 mm) is fed, an entering element may change the push only by a negligible part of the
+/// push from bending, EI k^2 / 2.
 data::GateResult feed_ripple() {
   const double curvature = 10;
   core::Bench bench = introducer(curvature);
@@ -61,7 +61,7 @@ data::GateResult feed_ripple() {
   for (int ms = 0; ms < 2000; ++ms) {
     bench.step();
     const double push = bench.report.rods[0].push_N;
-    if (ms > 200) worst = std::max(worst, std::fabs(push - 2 * last + before_last));  // a smooth push has none
+    if (ms > 200) worst = std::max(worst, std::fabs(push - 2 * last + before_last));  // zero for a smooth push
     before_last = last, last = push;
   }
   return {"feed-ripple", worst / scale_N, 0, 5e-3, "1"};

@@ -1,7 +1,6 @@
-/// Blood flow against closed forms and published velocities; the beat's pressures and what ischaemia does to the ECG.
+/// Blood flow against closed forms and published velocities; the pressures of a beat, and the ECG in ischaemia.
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "app/angiography/settle.h"
 #include "app/gates/gate.h"
@@ -24,7 +23,7 @@ struct Steady {
 
   explicit Steady(const std::vector<vascular::PlainBranch>& branches) : model(make_flow_model(plain_tree(branches))) {
     for (const vascular::FlowCell& cell : model.tree.cells) radius_m.push_back(cell.healthy_m);
-    // Constant muscle: its answer is another matter.
+    // Constant muscle resistance: autoregulation is tested elsewhere.
     model.tone_s = 1e12;
     state = make_flow_state(model);
   }
@@ -44,7 +43,7 @@ data::GateResult poiseuille() {
           1e-6 * reference / mmHg, "mmHg"};
 }
 
-/// Two tubes from one: their flows are as the conductances of tube and muscle behind them.
+/// Two tubes branching from one: flows are in the ratio of the conductances of tube and muscle.
 data::GateResult split() {
   constexpr double r1 = 1.2e-3, r2 = 0.8e-3, L1 = 40e-3, L2 = 60e-3;
   Steady y({{-1, 30, 1e-3, 1.5e-3}, {0, 40, L1 / 40, r1}, {0, 60, L2 / 60, r2}});
@@ -58,7 +57,7 @@ data::GateResult split() {
           "1"};
 }
 
-/// A stenosis of 70 % of the diameter, abrupt, in a tube: Young and Tsai's loss behind it, Poiseuille's in it.
+/// An abrupt stenosis of 70 % of the diameter in a tube: Young and Tsai's loss behind it, Poiseuille's in it.
 data::GateResult stenosis() {
   constexpr double r0 = 1.5e-3, rs = 0.45e-3, dx = 0.5e-3;
   constexpr int cells = 100, from = 40, to = 50;
@@ -75,7 +74,7 @@ data::GateResult stenosis() {
 }
 
 struct Beat {
-  double systolic = 0, diastolic = 0, mean = 0;  // peak velocities of blood in a section's mean, m/s
+  double systolic = 0, diastolic = 0, mean = 0;  // peak section-mean velocities, m/s
 };
 
 Beat velocities(const vascular::PhysiologyModel& model, vascular::PhysiologyState state, const char* branch,
@@ -114,7 +113,7 @@ void add_pressures(const vascular::PhysiologyModel& model, vascular::PhysiologyS
   out.push_back({"flow-aorta-mean", sum / mmHg, 93, 5, "mmHg"});
 }
 
-/// The LAD closed by a balloon for a minute, then open.
+/// The LAD is closed by a balloon for a minute, then opened.
 void add_ischaemia(const vascular::PhysiologyModel& model, vascular::PhysiologyState state,
                    std::vector<data::GateResult>& out) {
   vascular::PhysiologyScratch scratch;
@@ -145,7 +144,7 @@ std::vector<data::GateResult> flow(bool quick) {
   const vascular::PhysiologyModel model = make_physiology(patient);
   const vascular::PhysiologyState rest = at_rest(model, 70);
   add_pressures(model, rest, out);
-  // Hadjiloizou 2008: left main and right; PMID 16932084: LAD; Doppler meters read the middle, twice the mean.
+  // Hadjiloizou 2008: left main and right; PMID 16932084: LAD. Doppler measures the centre, twice the mean.
   const Beat lm = velocities(model, rest, "LM", 70), lad = velocities(model, rest, "LAD", 70),
              rca = velocities(model, rest, "RCA", 70);
   out.push_back({"flow-diastolic-to-systolic-LM", lm.diastolic / lm.systolic, 1.79, 0.48, "1"});

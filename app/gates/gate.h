@@ -1,9 +1,9 @@
 #pragma once
-/// The physics gates of `ostium verify`. Each compares what ships, at the settings that ship, with a closed form, an
-/// independent solver or a published measurement; never with earlier output of our own.
+/// The physics gates of `ostium verify`. Each compares the shipped code, at the shipped settings, with a closed form,
+/// an independent solver or a published measurement; never with our own earlier output.
 ///
-/// Adding one: a source file here with a function of this shape, its declaration below, its line in gates.cpp and its
-/// name in tests/CMakeLists.txt.
+/// To add one: a source file here with a function of this signature, its declaration below, its line in gates.cpp and
+/// its name in tests/CMakeLists.txt.
 #include <string>
 #include <vector>
 
@@ -12,7 +12,7 @@
 namespace ostium::app::gates {
 
 struct Gate {
-  const char* name;                                  ///< its results' names begin with it
+  const char* name;                                  ///< prefix of its results' names
   const char* what;                                  ///< one line: what is compared with what
   std::vector<data::GateResult> (*run)(bool quick);  ///< quick: fewer elements or cases, the same tolerances
 };
@@ -20,15 +20,15 @@ struct Gate {
 /// All gates, in the order in which they run.
 const std::vector<Gate>& gates();
 
-/// Gates that `--only only` asks for: those whose name begins with it or that it begins with; all if it is empty.
+/// The gates matching `--only only`: those whose name is a prefix of it or begins with it; all if it is empty.
 std::vector<Gate> selected(const std::string& only);
 
-/// Results of one gate that `only` asks for: those whose name begins with it.
+/// The results of one gate that match `only`: those whose name begins with it.
 std::vector<data::GateResult> run(const Gate& gate, const std::string& only, bool quick);
 
 // --- rods --------------------------------------------------------------------------------------------------------
 std::vector<data::GateResult> rod_swing(bool quick);
-/// The first gate alone, at any number of elements: what a speed is reported beside.
+/// The first result alone, at any number of elements: reported beside speeds.
 data::GateResult swing_tip(int elements);
 std::vector<data::GateResult> rod_static(bool quick);
 std::vector<data::GateResult> rod_torsion(bool quick);
@@ -47,7 +47,7 @@ std::vector<data::GateResult> contact(bool quick);
 
 // --- driving -----------------------------------------------------------------------------------------------------
 std::vector<data::GateResult> feed(bool quick);
-/// Its first part with any number of trips: fed `length_m` in and out so often.
+/// The first part with any number of trips: fed `length_m` in and out that often.
 std::vector<data::GateResult> feed_round_trips(int trips, double length_m);
 
 // --- anatomy -----------------------------------------------------------------------------------------------------

@@ -4,7 +4,6 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "app/gates/gate.h"
 #include "core/base/units.h"
@@ -39,7 +38,7 @@ core::RodDescription uniform(const Shape& shape, int elements, double drag) {
   return rod;
 }
 
-/// Two rods at one introducer, the second in the first if `bound`; no weight.
+/// Two rods at one introducer, the second nested in the first if `bound`; no weight.
 struct Pair {
   Pair(const core::RodDescription& outer, const core::RodDescription& inner, bool bound,
        std::vector<double> inserted_m = {})
@@ -76,7 +75,7 @@ struct Pair {
   core::StepReport report;
 };
 
-/// The outer rod's centreline as a cubic through its nodes: nearest distance of p, sampled finely.
+/// Nearest distance from p to the outer rod's centreline, a finely sampled cubic through its nodes.
 double distance_to_centreline(const core::Rod& rod, const core::RodState& s, const Vector3d& p, bool& beyond) {
   const int first = s.first, N = rod.elements;
   const auto tangent = [&](int i) -> Vector3d {
@@ -112,7 +111,7 @@ data::GateResult aligned_pair(const char* name, double EI_outer, double EI_inner
   return {name, 100 * worst, 0, tolerance_percent, "%"};
 }
 
-/// Degrees that the inner tip turns by against the outer one while the base is rolled by half a degree, at most.
+/// The largest jump, in degrees, of the inner tip relative to the outer one when the base is rolled by half a degree.
 double largest_jump_deg(double ratio, bool bound) {
   constexpr double k = 20, EI = 1e-3, wire = 0.45e-3, clearance = 0.002e-3;
   constexpr int elements = 40;
@@ -136,9 +135,9 @@ double largest_jump_deg(double ratio, bool bound) {
   return largest * 180 / pi;
 }
 
-/// L sqrt((1 + nu) k1 k2) / (pi / 2) at which it begins to jump.
+/// L sqrt((1 + nu) k1 k2) / (pi / 2) at which jumps begin.
 data::GateResult snap(bool quick, bool bound) {
-  // Just below the critical length the tip turns by up to 10 degrees, just above it jumps by 70.
+  // Just below the critical length the tip turns by up to 10 degrees, just above it by 70.
   double smooth = 0.94, jumps = 1.06;
   constexpr double jump_deg = 25;
   const bool bracketed = largest_jump_deg(smooth, bound) < jump_deg && largest_jump_deg(jumps, bound) > jump_deg;
@@ -169,12 +168,12 @@ data::GateResult push(bool bound) {
     sum += pair.report.rods[1].push_N;
     ++count;
   }
-  // Along the outer or the inner side of the bend, k = 1 / (R +- c): here 0.4 % about the middle.
+  // Along the outer or inner side of the bend, k = 1 / (R +- c): here within 0.4 % of the middle.
   const double reference = EI / (2 * R * R);
   return {"nesting-push", sum / count, reference, 0.03 * reference, "N"};
 }
 
-/// Fed and rolled like a hand does; how far any node of the inner rod leaves the bore.
+/// Fed and rolled as by hand: how far any node of the inner rod leaves the bore.
 data::GateResult containment(bool quick, bool bound) {
   constexpr double wire = 0.45e-3, clearance = 0.15e-3;
   core::RodDescription outer = uniform({0.4, 1.5e-3, 0, 0.9e-3, wire + clearance, 4e-3}, 200, 0.007);
@@ -193,7 +192,7 @@ data::GateResult containment(bool quick, bool bound) {
     pair.inputs.rods[0].base.turn_rate_W_rad_s = Vector3d(2 * std::sin(2 * pi * 0.4 * t), 0, 0);
     pair.inputs.rods[1].base.turn_rate_W_rad_s = Vector3d(5 * std::cos(2 * pi * 0.2 * t), 0, 0);
     pair.step();
-    if (n % 10 != 0 || n < 100) continue;  // the first 0.1 s are the release from shapes that do not fit each other
+    if (n % 10 != 0 || n < 100) continue;  // the first 0.1 s release the initial shapes, which do not match
     for (int i = pair.state.rods[1].first + 1; i <= pair.model.rods[1].elements; ++i) {
       bool beyond = false;
       const double d =
@@ -205,8 +204,8 @@ data::GateResult containment(bool quick, bool bound) {
   return {"nesting-containment", 1e3 * worst, 0, 0.02, "mm"};
 }
 
-/// A catheter, soft and straight by itself, is drawn back over a stiff bent wire that is held: how far the wire's tip
-/// leaves its own shape, or the catheter's tip the wire.
+/// A catheter that is soft and straight is drawn back over a stiff bent wire that is held: how far the wire's tip moves
+/// from its own shape, or the catheter's tip from the wire.
 data::GateResult draw_back(bool quick, bool bound) {
   constexpr double wire = 0.45e-3, clearance = 0.05e-3, k = 0.4;
   const auto catheter = [&](double curvature) {

@@ -1,11 +1,10 @@
 #pragma once
-/// The nesting gates, with the binding or without it: without, every one must fail.
+/// The nesting gates with or without nesting contact: without it every one must fail.
 #include "data/assessment/gate_report.h"
 
 namespace ostium::app::gates {
 
-/// Each result stands for itself; `quick` takes fewer cases.
-/// The first of them alone.
+/// The first result alone. Each result is independent; `quick` runs fewer cases.
 data::GateResult nesting_pair();
 std::vector<data::GateResult> nesting_with(bool quick, bool bound);
 

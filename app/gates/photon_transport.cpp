@@ -5,7 +5,6 @@
 #include <Eigen/Geometry>
 #include <array>
 #include <cmath>
-#include <numbers>
 #include <random>
 
 #include "core/base/units.h"
@@ -73,7 +72,8 @@ Vector3d turned(const Vector3d& direction, double polar, double azimuth) {
   return std::cos(polar) * direction + std::sin(polar) * (std::cos(azimuth) * across + std::sin(azimuth) * other);
 }
 
-/// Lead strips run along y and point at the source: a photon that is off their plane is shadowed in proportion.
+/// Lead strips run along y and point at the source: the shadow on a photon is proportional to its angle from their
+/// plane.
 double through_grid(const SlabExperiment& e, const Vector3d& at_detector, const Vector3d& direction) {
   const double along_strips = at_detector.x() / e.source_to_detector_m;
   const double off = std::fabs(direction.x() / direction.z() - along_strips);

@@ -1,5 +1,5 @@
-/// Loads at which straight or circular equilibria lose their stability: those at which the engine's linear system gets
-/// a direction of negative stiffness, found by bisection. (That the step itself leaves them there is a test of `core`.)
+/// Critical loads of straight or circular equilibria: the loads at which the simulator's linear system gets a direction
+/// of negative stiffness, found by bisection. (A test of `core` checks that the step leaves the equilibrium there.)
 #include <cmath>
 
 #include "app/gates/gate.h"
@@ -28,8 +28,8 @@ std::vector<data::GateResult> rod_euler(bool) {
   return {{"rod-euler", load_N, euler_N, 0.01 * euler_N, "N"}};
 }
 
-/// Both ends clamped, the far one sliding along the axis, and turned against each other: M L / EI = 8.987, the first
-/// root of tan(x) = x, x = M L / 2 EI (Greenhill 1883).
+/// Both ends clamped, the far one sliding along the axis, and twisted relative to each other: M L / EI = 8.987, the
+/// first root of tan(x) = x, x = M L / 2 EI (Greenhill 1883).
 std::vector<data::GateResult> rod_greenhill(bool) {
   constexpr int elements = 100;
   core::Bench bench = core::steel_bench({.elements = elements, .gravity = false});
@@ -48,9 +48,9 @@ std::vector<data::GateResult> rod_greenhill(bool) {
   return {{"rod-greenhill", moment, 8.987, 0.02 * 8.987, "1"}};
 }
 
-/// A naturally straight rod bent into a circle and closed with a twist: the plane circle is stable up to
-/// 2 pi sqrt(3) EI / GJ (Michell 1889, Zajac 1962). The ring is held by its closing section, which takes its rigid
-/// motions away and nothing else: a ring in equilibrium needs no force from there.
+/// A naturally straight rod bent into a circle and closed with a twist: the planar circle is stable up to 2 pi sqrt(3)
+/// EI / GJ (Michell 1889, Zajac 1962). Only the closing section holds the ring, which removes its rigid motions: a ring
+/// in equilibrium needs no force there.
 std::vector<data::GateResult> rod_ring(bool) {
   constexpr int elements = 128;
   core::Bench bench = core::steel_bench({.elements = elements, .gravity = false});

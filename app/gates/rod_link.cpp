@@ -1,9 +1,8 @@
-/// Link number of a closed rod, Lk = Tw + Wr (Calugareanu 1959, White 1969), while a ring twisted beyond its stability
-/// writhes out of its plane: it stays what it was, as long as the rod does not cross itself.
+/// Linking number of a closed rod, Lk = Tw + Wr (Calugareanu 1959, White 1969), while a ring twisted beyond its
+/// stability writhes out of its plane: it stays constant as long as the rod does not cross itself.
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "app/gates/gate.h"
 #include "core/base/units.h"
@@ -37,7 +36,7 @@ double writhe(const std::vector<Vector3d>& p) {
   return sum / (2 * pi);
 }
 
-/// Smallest distance between nodes that are at least a tenth of the ring apart along it.
+/// Smallest distance between nodes at least a tenth of the ring apart along it.
 double closest_approach(const core::RodState& rod) {
   const int N = rod.orientation.size(), apart = N / 10;
   double least = 1e9;
@@ -47,14 +46,14 @@ double closest_approach(const core::RodState& rod) {
   return least;
 }
 
-/// Angle from director d1 of `a`, carried parallel along the shortest rotation of its tangent, to d1 of `b`.
+/// Angle between director d1 of `a`, parallel transported along the shortest rotation of its tangent, and d1 of `b`.
 double twist_between(const Quaterniond& a, const Quaterniond& b) {
   const Vector3d ta = a * Vector3d::UnitZ(), tb = b * Vector3d::UnitZ();
   const Vector3d carried = Quaterniond::FromTwoVectors(ta, tb) * (a * Vector3d::UnitX()), d1 = b * Vector3d::UnitX();
   return std::atan2(carried.cross(d1).dot(tb), carried.dot(d1));
 }
 
-/// Tw + Wr in turns, up to the whole turns of the closing joint's twist, which the caller keeps track of.
+/// Tw + Wr in turns, except for whole turns of the closing joint's twist, which the caller counts.
 double link(const core::RodState& rod, double closing_twist_rad) {
   const int N = rod.orientation.size();
   const auto frame = [&](int j) {
@@ -81,10 +80,10 @@ std::vector<data::GateResult> rod_link(bool quick) {
   lay_out_ring(rod, twist_rad, bench.rod());
   bench.inputs.rods[0].tip.hold = core::Hold::clamped;
   bench.inputs.rods[0].base.hold = core::Hold::clamped;
-  // Something has to break the symmetry.
+  // Breaks the symmetry.
   for (int i = elements / 4; i < elements / 2; ++i) bench.rod().velocity.set(i, Vector3d(0, 0.01, 0));
 
-  // The closing section joins the last element to the first; its own twist is followed, so that whole turns count.
+  // The closing section joins the last element to the first; its twist is tracked so that whole turns count.
   const auto closing = [&] {
     const Eigen::Vector4d a = bench.rod().orientation[elements - 1], b = bench.rod().orientation[0];
     // The far frame is the near one turned by `twist_rad` about the tangent.
@@ -93,7 +92,7 @@ std::vector<data::GateResult> rod_link(bool quick) {
   };
   double closing_before = closing(), closing_sum = closing_before;
   const double before = link(bench.rod(), closing_sum);
-  // Until the rod is about to cross itself, which nothing hinders here.
+  // Until the rod is about to cross itself, which nothing prevents here.
   double worst = 0, writhe_turns = 0;
   for (int ms = 1; ms <= 2000 && closest_approach(bench.rod()) > 0.02; ++ms) {
     bench.step();
@@ -106,7 +105,8 @@ std::vector<data::GateResult> rod_link(bool quick) {
     writhe_turns = std::max(writhe_turns, std::fabs(writhe(nodes)));
   }
   return {{"rod-link-constant", worst, 0, 1e-6, "turns"},
-          // A ring that stays plane has no writhe and would pass the first; a figure of eight has about one turn.
+          // A ring that stays planar has no writhe and would pass the first check; a figure of eight has about one
+          // turn.
           {"rod-link-writhe-reached", writhe_turns, 1, 0.4, "turns"}};
 }
 

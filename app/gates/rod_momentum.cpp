@@ -1,5 +1,5 @@
-/// A free rod without load keeps its momentum: linear, for a bent one that springs open in flight, and angular, for a
-/// straight one that spins about its middle at one turn a second.
+/// A free unloaded rod conserves its momentum: linear for a bent one that springs open in flight, and angular for a
+/// straight one spinning about its middle at one turn a second.
 #include <Eigen/Geometry>
 #include <algorithm>
 

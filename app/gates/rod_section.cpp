@@ -1,5 +1,5 @@
-/// A boundary between a soft and a stiff section, swept in small steps through one element, moves the tip smoothly.
-/// Reference: the plane elastica with piecewise stiffness, EI(s) theta' = M, M' = -w (L - s) cos(theta), M(L) = 0,
+/// Sweeping a boundary between a soft and a stiff section through one element in small steps moves the tip smoothly.
+/// Reference: the planar elastica with piecewise stiffness, EI(s) theta' = M, M' = -w (L - s) cos(theta), M(L) = 0,
 /// solved as a boundary-value problem by shooting with Runge-Kutta steps that end on the boundary.
 #include <algorithm>
 #include <cmath>
@@ -64,10 +64,10 @@ std::vector<data::GateResult> rod_section(bool quick) {
   constexpr int elements = 200, sweep = 8;
   double worst_mm = 0;
   for (int k = 0; k <= sweep; k += quick ? 4 : 1) {
-    const double soft_m = 0.1 + length / elements * k / sweep;  // of the distal part, through one whole element
+    const double soft_m = 0.1 + length / elements * k / sweep;  // of the distal section, sweeping one whole element
     core::RodDescription wire;
     wire.name = "two sections";
-    // A fifth of the diameter makes 1/625 of the stiffness: the joint at the boundary must not jump.
+    // A fifth of the diameter gives 1/625 of the stiffness: the joint at the boundary must not jump.
     wire.sections = {core::round_section(0, soft_m, 0.09e-3, 0, 60e9, 0.3, 6500),
                      core::round_section(soft_m, length, 0.45e-3, 0, 60e9, 0.3, 6500)};
     wire.element_lengths_m = equal_elements(wire.sections, elements);

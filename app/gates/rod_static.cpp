@@ -1,5 +1,5 @@
-/// Horizontal cantilever under its own weight at rest, found by the static solver from the straight shape. References:
-/// the exact elastica, EI theta'' = w (L - s) cos(theta).
+/// A horizontal cantilever at rest under its own weight, solved statically from the straight shape. Reference: the
+/// exact elastica, EI theta'' = w (L - s) cos(theta).
 #include "app/gates/gate.h"
 #include "core/samples/steel_wire.h"
 
@@ -21,7 +21,7 @@ std::vector<data::GateResult> rod_static(bool) {
   std::vector<data::GateResult> out;
   for (const Case& c : cases) {
     core::Bench bench = steel_bench(c.wire);
-    bench.settle();  // a shape that is not found stays straight, and fails
+    bench.settle();  // if no equilibrium is found, the shape stays straight and the gate fails
     out.push_back({c.name, 1e3 * (bench.tip() - Eigen::Vector3d(c.x_m, 0, -c.drop_m)).norm(), 0, c.tolerance_mm, "mm"});
   }
   return out;

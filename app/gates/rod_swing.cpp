@@ -1,4 +1,4 @@
-/// Horizontal clamped wire released from rest, no loss. References: adaptive and second-order integrators, 200
+/// A horizontal clamped wire released from rest, without losses. Reference: adaptive and second-order integrators, 200
 /// elements, converged: the tip is at x 0.79467, drop 0.57652 m after 0.3 s and at x -0.3886, drop 0.5578 m after 0.8
 /// s.
 #include <algorithm>

@@ -2,7 +2,6 @@
 
 #include <Eigen/Geometry>
 #include <cmath>
-#include <numbers>
 
 #include "core/base/units.h"
 #include "vascular/geometry/implicit/contour.h"
@@ -16,7 +15,7 @@ namespace {
 using units::pi;
 constexpr int frames = 24;
 
-/// Descending part along x, an arch of 35 mm, and back down to a root.
+/// A descending part along x, an arch of 35 mm radius, and back down to a root.
 std::vector<vascular::CoursePoint> trunk() {
   std::vector<vascular::CoursePoint> course;
   for (double x = -0.01; x < 0.2; x += 0.03) course.push_back({Vector3d(x, 0.006 * std::sin(x / 0.05), 0), 0});
@@ -39,7 +38,7 @@ std::vector<vascular::CoursePoint> branch(const Vector3d& root, double side) {
   return course;
 }
 
-/// The far side of the vessel swings to and fro and along a loop, like a heart's surface.
+/// The vessel's far side oscillates and moves along a loop, like the surface of a heart.
 Vector3d beat(const Vector3d& p, const Vector3d& root, double beat_m, double phase) {
   const double from_trunk = std::max(0.0, std::fabs(p.y() - root.y()) - 0.01);
   const double share = std::min(1.0, from_trunk / 0.04);

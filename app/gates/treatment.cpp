@@ -1,4 +1,5 @@
-/// Balloons against their charts; stents against what is published, in the five cases; a stent that rides on the beat.
+/// Balloons against their compliance charts; stents against published numbers, in the five cases; a stent that moves
+/// with the beat.
 #include <algorithm>
 #include <cmath>
 
@@ -14,7 +15,7 @@ namespace {
 
 using units::atm;
 
-/// Unconfined, from 3 atm up to the rated pressure: the worst, in per cent.
+/// Unconfined, from 3 atm to the rated pressure: the largest error, in per cent.
 data::GateResult chart(vascular::Compliance compliance, const char* name) {
   double worst = 0;
   for (double diameter : {2e-3, 3e-3, 4e-3}) {
@@ -33,15 +34,15 @@ data::GateResult chart(vascular::Compliance compliance, const char* name) {
   return {name, worst, 0, 2, "%"};
 }
 
-/// From 2 to 10 atm, of the diameter: 7 to 18 % measured (AJC 1986;57:26).
+/// Growth of the diameter from 2 to 10 atm: 7 to 18 % measured (AJC 1986;57:26).
 data::GateResult growth() {
   const vascular::BalloonModel model = make_balloon(vascular::Compliance::semi, 3e-3, 15e-3);
   return {"treatment-balloon-growth", 100 * (chart_diameter_m(model, 10 * atm) / chart_diameter_m(model, 2 * atm) - 1),
           12.5, 5.5, "%"};
 }
 
-/// How far points that touched leave the wall in a hundred beats of the surface that contact knows; that wall is looked
-/// up from scratch, by another way than the points are carried.
+/// How far stent points that touched the wall leave it in a hundred beats. The wall is contact's surface, evaluated
+/// independently of how the points are carried.
 data::GateResult rides(const vascular::Patient& patient, const vascular::PhysiologyModel& physiology, const Plan& plan,
                        const vascular::StentModel& model, vascular::StentState stent, const vascular::PlaqueState& wall,
                        const std::vector<double>& radius_m) {
@@ -56,7 +57,7 @@ data::GateResult rides(const vascular::Patient& patient, const vascular::Physiol
   vascular::Mesh mesh{.vertices = {}, .triangles = patient.lumen.triangles};
   int beat = 0;
   for (int sample = 0; beat < 100; ++sample) {
-    // A prime number of steps between looks: phases differ from beat to beat.
+    // A prime number of steps between checks, so that phases differ from beat to beat.
     for (int n = 0; n < 5003; ++n) {
       const double before = heart.phase;
       step(beating, {}, 1e-3, heart);
@@ -97,7 +98,7 @@ std::vector<data::GateResult> treatment(bool quick) {
       recoil = std::max(recoil, s.recoil_percent), shorter = std::max(shorter, s.foreshortening_percent);
     }
     const std::string prefix = std::string("treatment-") + name;
-    out.push_back({prefix + "-residual", residual, 10, 10, "%"});         // below 20 % is success
+    out.push_back({prefix + "-residual", residual, 10, 10, "%"});         // below 20 % counts as success
     out.push_back({prefix + "-recoil", recoil, 7, 2, "%"});               // 5.0 to 8.6 in four stents
     out.push_back({prefix + "-foreshortening", shorter, 2.5, 2.5, "%"});  // 0 to 5 %
     if (name == std::string("rca-mid-focal")) {

@@ -32,10 +32,9 @@ double filter_of_rqr5_mm() {
 }  // namespace
 
 std::vector<data::GateResult> xray_spectrum(bool) {
-  // Kramers' straight line is a little too rich in soft photons: 4 % of a half-value layer are allowed for it, what a
-  // change of 3 kV makes.
-  // IEC 61267: RQR 5 behind 21 mm of aluminium is RQA 5, half-value layer 6.8 mm; the same tube at 80 kV is RQR
-  // 6, 3.01. IEC 62220-1: RQA 5 has 30174 photons a mm2 and uGy.
+  // Kramers' straight line has slightly too many soft photons: 4 % of a half-value layer is allowed for it, equivalent
+  // to 3 kV. IEC 61267: RQR 5 behind 21 mm of aluminium is RQA 5, half-value layer 6.8 mm; the same tube at 80 kV is
+  // RQR 6, 3.01. IEC 62220-1: RQA 5 has 30174 photons per mm2 and uGy.
   const double filter_mm = filter_of_rqr5_mm();
   const fluoro::Spectrum rqa5 = fluoro::spectrum({70, filter_mm + 21, 0});
   double kerma_Gy_m2 = 0;
@@ -56,7 +55,7 @@ std::vector<data::GateResult> xray_wedge(bool) {
     double worst = 0;
     for (double soft_m = 0.10; soft_m < 0.351; soft_m += 0.025)
       for (double bone_m : {0.0, 0.01, 0.02, 0.04})
-        for (double iodine_kg_m2 : {0.0, 0.3, 0.7, 1.05, 1.4}) {  // to 4 mm of undiluted contrast
+        for (double iodine_kg_m2 : {0.0, 0.3, 0.7, 1.05, 1.4}) {  // up to 4 mm of undiluted contrast
           const double exact = absorbed_by_keV(tube, detector, soft_m, bone_m, iodine_kg_m2).keV;
           worst = std::max(worst, std::fabs(signal_keV(beam, soft_m, bone_m, iodine_kg_m2) / exact - 1));
         }

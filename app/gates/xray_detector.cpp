@@ -1,4 +1,4 @@
-/// What the detector adds, measured in pictures as a physicist would: noise, blur, lag, scatter.
+/// The detector's contributions, measured in pictures as a physicist would: noise, blur, lag, scatter.
 #include <Eigen/Geometry>
 #include <cmath>
 
@@ -14,8 +14,8 @@ struct Statistics {
   double mean = 0, variance = 0;
 };
 
-/// Of the difference of two pictures in a square in the middle, so that what both have in common (scatter's slow fall)
-/// does not count as noise.
+/// Of the difference of two pictures in a central square, so that structure common to both (scatter's slow fall) does
+/// not count as noise.
 Statistics of_pair(const fluoro::Plane& a, const fluoro::Plane& b) {
   const Eigen::Index side = a.rows() / 2, from = a.rows() / 4;
   const Eigen::ArrayXXd first = a.block(from, from, side, side).cast<double>(),
@@ -32,7 +32,7 @@ fluoro::ImagerModel without_blur() {
   return model;
 }
 
-/// Least squares through the middle of the points.
+/// Least-squares line through the mean of the points.
 double slope(const std::vector<Statistics>& points) {
   double mean = 0, variance = 0, up = 0, across = 0;
   for (const Statistics& p : points) {
@@ -71,19 +71,19 @@ std::vector<data::GateResult> xray_noise(bool quick) {
     if (dose_nGy == 30) at_30_nGy = points.back();
     if (quick && points.size() == 3) break;
   }
-  // Variance over mean of a counter of energies, in steps of 1 keV, in the picture's unit.
+  // Variance over mean of an energy-integrating counter, in steps of 1 keV, in the picture's unit.
   const Absorbed behind = absorbed_by_keV(exposure.tube, model.detector, soft_m, 0, 0);
   const fluoro::Beam beam = make_beam(exposure.tube, model.detector);
   const double unit_keV = beam.open_keV() / beam.photons_absorbed();
   const double expected = behind.keV2 / behind.keV / unit_keV / model.detector.swank;
   effective_photons = at_30_nGy.mean * at_30_nGy.mean / at_30_nGy.variance;
   return {{"xray-noise-slope", slope(points) / expected, 1, 0.03, "1"},
-          // 30 nGy a frame on 0.39 mm pixels: about 100 photons, 10 % noise.
+          // 30 nGy per frame on 0.39 mm pixels: about 100 photons, 10 % noise.
           {"xray-noise-photons", effective_photons, 100, 15, "1"}};
 }
 
 std::vector<data::GateResult> xray_edge(bool) {
-  // A steel foil that covers one side of the picture, its edge 3 degrees off the columns, at the isocentre.
+  // A steel foil covering one side of the picture, its edge 3 degrees from the columns, at the isocentre.
   const double tilt = 3 * 3.14159265358979 / 180;
   auto bodies = std::make_shared<std::vector<fluoro::Body>>();
   fluoro::phantom::Surface foil = fluoro::phantom::brick({0, -0.3, -0.0005}, {0.3, 0.3, 0.0005});
@@ -97,11 +97,11 @@ std::vector<data::GateResult> xray_edge(bool) {
   fluoro::View view;
   view.pixels = 1024;
   fluoro::Programme bright = fluoro::cine();
-  bright.detector_dose_nGy = 1e6;  // no noise to speak of
+  bright.detector_dose_nGy = 1e6;  // negligible noise
   fluoro::ImagerState state;
   imager.frame({scene, view, {}, bright, 1}, state);
 
-  // Edge spread function, oversampled by the tilt; its derivative's second moment is the blur.
+  // Edge spread function, oversampled because of the tilt; the second moment of its derivative is the blur.
   const double pixel_m = view.field_m / view.pixels;
   constexpr int bins = 200;
   constexpr double bin_m = 0.02e-3;
@@ -122,7 +122,7 @@ std::vector<data::GateResult> xray_edge(bool) {
     second += step * at * at;
   }
   const double measured_m = std::sqrt(second / weight - std::pow(first / weight, 2));
-  // Light in the scintillator, the focal spot's even shadow, the pixel's own width.
+  // Light in the scintillator, the uniform focal spot, the pixel's width.
   const double penumbra_m = model.focal_spot_m * (view.arm.source_to_detector_m / view.arm.source_to_isocentre_m - 1);
   const double set_m =
       std::sqrt(std::pow(model.detector_blur_m, 2) + (penumbra_m * penumbra_m + pixel_m * pixel_m) / 12);
@@ -130,8 +130,8 @@ std::vector<data::GateResult> xray_edge(bool) {
 }
 
 std::vector<data::GateResult> xray_lag(bool) {
-  // A wire appears, too thin for automatic brightness to answer: after n pictures its shadow is 1 - lag^n of what it
-  // becomes.
+  // A wire appears that is too thin to affect automatic brightness: after n pictures its shadow is 1 - lag^n of the
+  // final one.
   const fluoro::Scene without = slab(0.1, fluoro::tissue::soft);
   fluoro::Scene with = without;
   Eigen::Matrix3Xd axis(3, 2);
@@ -139,7 +139,7 @@ std::vector<data::GateResult> xray_lag(bool) {
   with.shafts.push_back({"wire", axis, {{0, 0.1, fluoro::Material::steel, 0.001, 0, 1}}, 0, {}});
   fluoro::Imager imager(without_blur(), fluoro::make_scanline_renderer());
   fluoro::Programme programme = fluoro::fluoroscopy();
-  programme.detector_dose_nGy = 1e8;  // no noise to speak of
+  programme.detector_dose_nGy = 1e8;  // negligible noise
   programme.kerma_limit_Gy_s = 1e9;
   fluoro::View view;
   view.pixels = 128;

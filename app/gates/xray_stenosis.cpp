@@ -12,7 +12,7 @@ namespace {
 
 constexpr double healthy_m = 3e-3, narrowing = 0.6;
 
-/// Along x in the isocentre: healthy, 4 mm of slope, 4 mm of throat, and back.
+/// Along x at the isocentre: healthy, 4 mm of slope, 4 mm of throat, and back.
 fluoro::Scene vessel_in_water() {
   fluoro::Scene scene = slab(0.2, fluoro::tissue::soft);
   const Eigen::Matrix3Xd line = fluoro::phantom::smooth_line({{-0.05, 0, 0}, {0.05, 0, 0}}, 0.25e-3);
@@ -29,8 +29,8 @@ fluoro::Scene vessel_in_water() {
   return scene;
 }
 
-/// Width at half its height of the logarithmic profile across the vessel, mean over some columns, against a straight
-/// background on either side.
+/// Full width at half maximum of the logarithmic profile across the vessel, averaged over some columns, against a
+/// linear background on either side.
 double width_m(const fluoro::Plane& signal, int from, int to, double pixel_m) {
   const int middle = static_cast<int>(signal.rows()) / 2, half = static_cast<int>(4e-3 / pixel_m),
             far = static_cast<int>(9e-3 / pixel_m);
@@ -42,7 +42,7 @@ double width_m(const fluoro::Plane& signal, int from, int to, double pixel_m) {
     const double t = (row + 0.5 - (middle - 0.5 * (far + half))) / (far + half);
     depth.push_back(-std::log(profile[row] / (above + t * (below - above))));
   }
-  // The top is the mean of the middle four pixels: the vessel's axis is known here.
+  // The maximum is the mean of the middle four pixels, as the vessel's axis is known here.
   const auto top = static_cast<std::size_t>(half);
   const double level = 0.5 * (depth[top - 2] + depth[top - 1] + depth[top] + depth[top + 1]) / 4;
   const auto crossing = [&](int step) {

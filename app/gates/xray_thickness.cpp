@@ -1,4 +1,4 @@
-/// Thickness along each pixel's ray of a sphere, a cylinder and an oblique slab, against closed forms.
+/// Thickness of a sphere, a cylinder and an oblique slab along each pixel's ray, against closed forms.
 #include <Eigen/Geometry>
 #include <cmath>
 #include <functional>
@@ -12,7 +12,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// Length within the body of the ray from p_PS in the unit direction d; a negative number: leave this pixel out.
+/// Length within the body of the ray from p_PS in the unit direction d; negative: skip this pixel.
 using Exact = std::function<double(const Vector3d& p_PS, const Vector3d& d)>;
 
 struct Case {
@@ -31,14 +31,14 @@ double in_sphere(const Vector3d& p_PS, const Vector3d& d) {
   return chord(radius * radius - (to - to.dot(d) * d).squaredNorm());
 }
 
-/// Along y; the picture does not reach its ends.
+/// A cylinder along y that extends beyond the picture.
 double in_cylinder(const Vector3d& p_PS, const Vector3d& d) {
   const Eigen::Vector2d across(d.x(), d.z()), to(centre.x() - p_PS.x(), centre.z() - p_PS.z());
   const Eigen::Vector2d unit = across.normalized();
   return chord(radius * radius - (to - to.dot(unit) * unit).squaredNorm()) / across.norm();
 }
 
-/// Between z = -thickness / 2 and thickness / 2; wider than the picture.
+/// A slab from z = -thickness / 2 to thickness / 2, wider than the picture.
 constexpr double thickness = 0.05;
 double in_slab(const Vector3d&, const Vector3d& d) { return thickness / std::fabs(d.z()); }
 
@@ -79,7 +79,7 @@ std::vector<data::GateResult> xray_thickness(bool quick) {
   cases.push_back({"sphere",
                    fluoro::phantom::star(
                        centre, [](const Vector3d&) { return radius; }, 100),
-                   in_sphere});  // 40,000
+                   in_sphere});  // 40,000 triangles
   if (!quick) {
     cases.push_back({"cylinder",
                      fluoro::phantom::tube(axis, Eigen::VectorXd::Constant(axis.cols(), radius), 640, false),

@@ -1,5 +1,5 @@
 #pragma once
-/// What the X-ray gates share: slabs across the beam, and the beam summed in steps of 1 keV.
+/// Shared by the X-ray gates: slabs across the beam, and the beam summed in steps of 1 keV.
 #include "fluoro/detector/imager.h"
 #include "fluoro/matter/tissue.h"
 #include "fluoro/phantom/shapes.h"
@@ -15,7 +15,7 @@ inline fluoro::Scene slab(double thickness_m, fluoro::Tissue tissue) {
   return {bodies, {}, {}};
 }
 
-/// Sums over the spectrum in steps of 1 keV of what the detector absorbs per photon that left the tube.
+/// What the detector absorbs per photon that left the tube, summed over the spectrum in steps of 1 keV.
 struct Absorbed {
   double keV = 0, keV2 = 0;
 };

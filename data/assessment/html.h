@@ -1,10 +1,10 @@
 #pragma once
-/// What the pages and tables of a run are written with.
+/// Helpers for the pages and tables of a run.
 #include <string>
 
 namespace ostium::data {
 
-/// A whole HTML page; `save(id, file)` in it saves a table, with the boxes and choices in it, as CSV.
+/// A whole HTML page. Its script's `save(id, file)` saves a table as CSV, including its boxes and choices.
 std::string html_page(const std::string& title, const std::string& body);
 
 std::string time_text(double s);               ///< "2:03.5"

@@ -1,5 +1,5 @@
 #pragma once
-/// What rows of several metrics are made of: each returns a metric's function.
+/// Building blocks for the rows of the metric tables: each returns a metric's function.
 #include <cmath>
 #include <functional>
 #include <limits>
@@ -13,7 +13,7 @@ using MetricFunction = std::function<double(const RunRecord&)>;
 
 inline constexpr double does_not_apply = std::numeric_limits<double>::quiet_NaN();
 
-/// How often the event came.
+/// How often the event occurred.
 inline MetricFunction count_of(EventCode code) {
   return [code](const RunRecord& r) { return static_cast<double>(events_of(r, code).size()); };
 }
@@ -34,7 +34,7 @@ inline MetricFunction most(const std::string& signal) {
   };
 }
 
-/// Time for which the signal is in [least, below).
+/// Time for which the signal lies in [least, below).
 inline MetricFunction time_within(const std::string& signal, double least, double below) {
   return [=](const RunRecord& r) {
     const std::vector<double> column = all_of(r, signal);

@@ -13,18 +13,18 @@ namespace ostium::data {
 
 struct Metric {
   std::string name;
-  double value = 0;  ///< not a number: it does not apply
+  double value = 0;  ///< NaN: does not apply
   std::string unit;
 };
 
-/// Which way a metric is better, all else being equal. `neither`: it describes, or there is a best in between.
+/// Whether lower or higher is better, all else being equal. `neither`: descriptive, or the best lies in between.
 enum class Better { lower, higher, neither };
 
 struct MetricDefinition {
   std::string name;  ///< snake case, with the unit last
   std::string unit;
   Better better = Better::neither;
-  std::string definition;  ///< which includes the clock
+  std::string definition;  ///< says when the clock starts and stops
   std::function<double(const RunRecord&)> of;
 };
 
@@ -32,7 +32,7 @@ std::vector<MetricDefinition> procedure_metrics();          ///< time, radiation
 std::vector<MetricDefinition> treatment_metrics();          ///< contrast, lesion, balloon, stent, flow, injury
 const std::vector<MetricDefinition>& metric_definitions();  ///< all, in the order of metrics.json
 
-/// All of the table, in its order.
+/// All metrics, in the order of the table.
 std::vector<Metric> metrics_of(const RunRecord& record);
 
 /// metrics.json (data/schemas/metrics.schema.json).

@@ -13,7 +13,7 @@ namespace {
 const char* const colours[] = {"#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9"};
 const char* colour(std::size_t i) { return colours[i % std::size(colours)]; }
 
-/// Of one column, thinned to what a plot shows.
+/// One column, thinned to what a plot can show.
 Plot::Points series(const RunRecord& r, std::size_t column) {
   constexpr std::size_t most = 900;
   Plot::Points points;
@@ -25,7 +25,7 @@ Plot::Points series(const RunRecord& r, std::size_t column) {
   return points;
 }
 
-/// A plot of every column with this ending: of all tools that move, of all runs.
+/// A plot of every column with this ending: all tools that move, all runs.
 std::string plot_of(const std::vector<ReportRun>& runs, const std::string& title, const std::string& ending,
                     const std::string& unit) {
   Plot plot("", "time, s", unit, 520, 230);
@@ -50,7 +50,7 @@ std::string plot_of(const std::vector<ReportRun>& runs, const std::string& title
              : "";
 }
 
-/// ECG, pressures and gauge about the last inflation, as a monitor had them.
+/// ECG, pressures and gauge around the last inflation, as the monitor showed them.
 std::string inflation_strips(const ReportRun& run, bool named) {
   constexpr double before_s = 3, after_s = 10, longest_s = 60;
   double from_s = -1, to_s = -1;
@@ -82,7 +82,7 @@ std::string inflation_strips(const ReportRun& run, bool named) {
                            "The last inflation, as the monitor had it</figcaption>" + out + "</figure>\n";
 }
 
-/// What is plotted, in this order: tools' signals of this name, or the patient's.
+/// The plots in order; each shows the tools' signals of this name, or the patient's.
 constexpr struct {
   const char *title, *signal, *unit;
 } plots[] = {{"Length in the body", "inserted_mm", "mm"},

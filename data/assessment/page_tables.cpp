@@ -26,7 +26,7 @@ std::string score_cell(const ScoreItem& item, const Score& score) {
                      holds ? " checked" : "", escaped(words));
 }
 
-/// "of <run>" where runs have names.
+/// "of <run>" if runs have names.
 std::string of_run(const ReportRun& run) { return run.code.empty() ? "" : " of " + escaped(run.code); }
 
 }  // namespace

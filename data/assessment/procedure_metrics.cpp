@@ -34,7 +34,7 @@ MetricFunction time_until_tip_enters(const std::vector<std::string>& branches) {
   };
 }
 
-/// Between an event that switches on and one that switches off, to the end of the run.
+/// Total time between `on` events and the `off` events that follow, or the end of the run.
 MetricFunction time_on(EventCode on, EventCode off) {
   return [=](const RunRecord& r) {
     double steps = 0, since = -1;
@@ -47,7 +47,7 @@ MetricFunction time_on(EventCode on, EventCode off) {
   };
 }
 
-/// Events of at least that severity.
+/// Number of errors of at least that severity.
 MetricFunction errors_of(Severity least) {
   return [least](const RunRecord& r) {
     double n = 0;
@@ -57,12 +57,12 @@ MetricFunction errors_of(Severity least) {
   };
 }
 
-/// A force of tools behind the low pass that forces are judged behind.
+/// A force of the tools after the low pass (wall_force_cut_off_Hz).
 struct FilteredForce {
-  double largest_N = 0, mean_N = 0;  ///< of the tool that has most
-  double above_limit = 0;            ///< share of the time
+  double largest_N = 0, mean_N = 0;  ///< largest over the tools
+  double above_limit = 0;            ///< share of the time above wall_force_limit_N
 };
-/// `less`: a signal that is taken off the force; empty: none.
+/// `less`: a signal to subtract from the force; empty: none.
 FilteredForce filtered(const RunRecord& r, const std::string& force, const std::string& less = "") {
   const double share = 1 - std::exp(-2 * units::pi * wall_force_cut_off_Hz * row_spacing_s(r));
   const std::vector<SignalColumn> forces = tool_columns(r, force), taken = tool_columns(r, less);
@@ -79,7 +79,7 @@ FilteredForce filtered(const RunRecord& r, const std::string& force, const std::
   return out;
 }
 
-/// Largest size, over tools and the run.
+/// Largest magnitude over tools and the run.
 MetricFunction largest(const std::string& signal) {
   return [signal](const RunRecord& r) {
     double most = 0;
@@ -89,10 +89,10 @@ MetricFunction largest(const std::string& signal) {
   };
 }
 
-/// Along the vessel, of all tools; within a branch only, so that a heartbeat that shifts a tip to the next adds
-/// nothing.
+/// Tip travel along the vessel, summed over tools. Counted within a branch only, so that a heartbeat that moves a tip
+/// into the next branch adds nothing.
 double tip_path_mm(const RunRecord& r) {
-  // Smaller moves may be the steps of the tree's spheres.
+  // Smaller moves may only be the spacing of the tree's spheres.
   constexpr double least_move_mm = 5;
   double sum = 0;
   const std::vector<SignalColumn> along = tool_columns(r, "tip_along_mm"), branch = tool_columns(r, "tip_branch");

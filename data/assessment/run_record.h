@@ -1,5 +1,5 @@
 #pragma once
-/// A run as its recording has it, and how metrics and pages look at it.
+/// A run as read from its recording, for metrics and pages.
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -11,7 +11,7 @@ namespace ostium::data {
 struct RunRecord {
   double step_s = 1e-3;
   std::uint64_t steps = 0;
-  std::vector<std::string> signal_columns;  ///< "time_s" is the first; those of a tool are "wire.push_N"
+  std::vector<std::string> signal_columns;  ///< "time_s" is the first; a tool's are called "wire.push_N"
   std::vector<double> signals;              ///< row by row
   std::vector<double> events;               ///< step, code, tool, value; row by row
   std::vector<std::string> branches;
@@ -38,11 +38,11 @@ struct SignalColumn {
 /// A signal of tools, "push_N": that of each tool that has it.
 std::vector<SignalColumn> tool_columns(const RunRecord& record, const std::string& signal);
 
-/// Time between two rows.
+/// Time between two rows, s.
 double row_spacing_s(const RunRecord& record);
 
-// Of a signal that is not a tool's. What the record does not have is not a number.
-std::vector<double> all_of(const RunRecord& record, const std::string& signal);  ///< empty: there is none
+// For signals that do not belong to a tool. Values that the recording lacks are NaN.
+std::vector<double> all_of(const RunRecord& record, const std::string& signal);  ///< empty: no such signal
 double first_of(const RunRecord& record, const std::string& signal);
 double last_of(const RunRecord& record, const std::string& signal);
 

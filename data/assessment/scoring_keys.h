@@ -1,6 +1,6 @@
 #pragma once
-/// The keys of a scoring list, object by object: what the reader accepts, and what it says of each. The schema
-/// (data/schemas/scoring.schema.json) is made of them.
+/// The keys of a scoring list, object by object: what the reader accepts, and how each is described. The schema
+/// (data/schemas/scoring.schema.json) is generated from them.
 #include "data/formats/json_object.h"
 
 namespace ostium::data::scoring_keys {

@@ -24,7 +24,7 @@ double coverage_percent(const RunRecord& r) {
   return std::isnan(from) ? 0 : 100 * std::max(0.0, std::min(to, length) - std::max(from, 0.0)) / length;
 }
 
-/// Length of what was ill or pressed by a balloon above 1 atm, and no stent covers.
+/// Length that was diseased, or pressed by a balloon above 1 atm, and is not covered by a stent.
 double geographic_miss_mm(const RunRecord& r) {
   const double length = last_of(r, "lesion_length_mm"), stent_from = last_of(r, "stent_from_mm"),
                stent_to = last_of(r, "stent_to_mm");
@@ -44,7 +44,8 @@ double geographic_miss_mm(const RunRecord& r) {
   return missed;
 }
 
-/// As on films: the balloon's diameter at the last inflation's highest pressure against the lumen at the end.
+/// As measured on films: the balloon's diameter at the highest pressure of the last inflation against the lumen at the
+/// end.
 double acute_recoil_percent(const RunRecord& r) {
   const std::vector<double> pressure = all_of(r, "balloon_atm"), width = all_of(r, "balloon_mm");
   double highest = 1, widest = does_not_apply;
@@ -65,7 +66,7 @@ double ffr_after(const RunRecord& r) {
   return changes.empty() ? does_not_apply : changes.back().value;
 }
 
-/// TIMI frames of each injection that filled the ostium; not a number: contrast did not come to the landmark.
+/// TIMI frames of each injection that filled the ostium; NaN if contrast did not reach the landmark.
 std::vector<double> timi_frames(const RunRecord& r) {
   constexpr double per_s = 30, given_up_s = 10;
   const std::vector<double> time = all_of(r, "time_s"), ostium = all_of(r, "contrast_ostium"),
@@ -78,13 +79,13 @@ std::vector<double> timi_frames(const RunRecord& r) {
   };
   for (std::size_t i = 0; i < time.size(); ++i) {
     const bool fills = ostium[i] > filled_share && (i == 0 || ostium[i - 1] <= filled_share);
-    // What is there from before hides what comes.
+    // Contrast left from an earlier injection hides the new front.
     if (!fills || landmark[i] > seen_share) continue;
     const double begun = crossing(ostium, i, filled_share);
     std::size_t k = i;
     while (k < time.size() && landmark[k] <= seen_share && time[k] - begun < given_up_s) ++k;
     const bool reached = k < time.size() && landmark[k] > seen_share;
-    // A puff that is thinned on its way says nothing: it must run for half a second.
+    // A short puff that is diluted before the landmark says nothing: the injection must last half a second.
     std::size_t full = i;
     while (full < time.size() && ostium[full] > filled_share) ++full;
     if (!reached && (full == time.size() ? time.back() : time[full]) - begun < 0.5) continue;

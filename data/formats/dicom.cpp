@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <numbers>
 #include <stdexcept>
 
 #include "core/base/units.h"
@@ -18,7 +17,7 @@ namespace ostium::data {
 
 namespace {
 
-/// Letters of DICOM's patient orientation for a direction in frame P, the strongest first: L left, H head, A front.
+/// DICOM patient orientation letters for a direction in frame P, strongest first: L left, H head, A front.
 std::string orientation(const Eigen::Vector3d& direction) {
   std::vector<std::pair<double, char>> parts;
   for (int i = 0; i < 3; ++i) {
@@ -61,7 +60,7 @@ class Writer {
   static void require(const OFCondition& done, const DcmTagKey& tag) {
     if (done.bad()) throw std::logic_error(std::string("DICOM: ") + tag.toString().c_str() + ": " + done.text());
   }
-  /// DCMTK does not tell when a full disk cuts a file short.
+  /// DCMTK does not report a file cut short by a full disk.
   bool whole(const std::string& file) {
     const auto length = [](DcmItem& item) { return item.getLength(EXS_LittleEndianExplicit, EET_UndefinedLength); };
     constexpr unsigned preamble = 132;

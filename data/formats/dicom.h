@@ -1,5 +1,5 @@
 #pragma once
-/// X-ray angiography as DICOM keeps it (X-Ray Angiographic Image Storage; PS3.3 A.14), through DCMTK.
+/// X-ray angiography in DICOM (X-Ray Angiographic Image Storage; PS3.3 A.14), written with DCMTK.
 #include <string>
 
 #include "fluoro/console/fluoroscope.h"
@@ -14,7 +14,7 @@ struct DicomPatient {
 
 /// A run of one or more frames of one size: 8 bits as displayed, with positioner angles, SID, pixel spacing at the
 /// detector, frame time, tube voltage and dose-area product. Throws LoadError naming the file if it cannot be written;
-/// what was begun is removed.
+/// a partial file is removed.
 void write_dicom(const std::string& file, const fluoro::CineRun& run, const DicomPatient& patient = {});
 
 }  // namespace ostium::data

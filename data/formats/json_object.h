@@ -1,6 +1,6 @@
 #pragma once
-/// Strict access to a JSON object whose keys are known: what is unknown, missing or of the wrong kind throws LoadError
-/// with file, line, key, value found and what was expected.
+/// Strict access to a JSON object with known keys: an unknown or missing key or a value of the wrong type throws
+/// LoadError with file, line, key, value found and what was expected.
 #include <utility>
 
 #include "data/formats/json_type.h"
@@ -11,39 +11,37 @@ namespace ostium::data {
 struct JsonKey {
   std::string name;
   bool required = true;
-  std::string expected;  ///< what a message and the schema say of it: "bending stiffness in N mm2, > 0"
+  std::string expected;  ///< how messages and the schema describe it: "bending stiffness in N mm2, > 0"
   JsonType type = {};
 };
 
-/// The keys of one kind of object, under the name that the schema gives it ("$defs"). Readers and schemas both go by
-/// it.
+/// The keys of one kind of object, under its name in the schema ("$defs"). Shared by readers and schemas.
 struct JsonObjectKeys {
   std::string object;
   std::vector<JsonKey> keys;
-  std::vector<SchemaKeyword> rules = {};  ///< which keys go together, for the schema; the reader has its own words
+  std::vector<SchemaKeyword> rules = {};  ///< which keys go together; the reader checks this itself
 };
 
 class JsonObject {
  public:
-  /// Refuses what is no object, a key that `keys` does not list and a required one that is missing. Keeps references to
-  /// both.
+  /// Refuses a value that is not an object, a key not in `keys` and a missing required key. Keeps references to both.
   JsonObject(const JsonValue& value, const JsonObjectKeys& keys);
 
   const JsonValue& value() const { return value_; }
   bool has(const std::string& key) const { return value_.find(key) != nullptr; }
-  const JsonValue& operator[](const std::string& key) const;  ///< `key` is there
+  const JsonValue& operator[](const std::string& key) const;  ///< the key must be present
 
   double positive(const std::string& key) const;
   double not_negative(const std::string& key) const;
-  double number(const std::string& key) const;  ///< within the range that the key's type says
-  int whole(const std::string& key) const;      ///< the same, without a fraction
+  double number(const std::string& key) const;  ///< within the range of the key's type
+  int whole(const std::string& key) const;      ///< the same, an integer
   std::vector<double> numbers(const std::string& key, std::size_t count) const;
   bool boolean(const std::string& key) const;
   std::string text(const std::string& key) const;  ///< not empty
   const std::vector<JsonValue>& list(const std::string& key) const;
-  /// Index of the text among `choices`; the message lists them.
+  /// Index of the text among `choices`, which the message lists.
   std::size_t choice(const std::string& key, const std::vector<std::string>& choices) const;
-  /// Refuses the value of `key`, in the words of the list of keys.
+  /// Refuses the value of `key`; the message gives the description from `keys`.
   [[noreturn]] void refuse(const std::string& key) const;
 
  private:

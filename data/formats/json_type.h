@@ -1,5 +1,5 @@
 #pragma once
-/// What a key's value may be: the words of a JSON schema for it, and the range that a reader holds a number to.
+/// The type of a key's value: its JSON schema keywords, and the range that a reader enforces.
 #include <limits>
 #include <string>
 #include <utility>
@@ -19,12 +19,12 @@ inline constexpr JsonRange above_zero = {.above = 0}, from_zero = {.least = 0};
 constexpr JsonRange above_zero_to(double most) { return {.above = 0, .most = most}; }
 constexpr JsonRange from_to(double least, double most) { return {.least = least, .most = most}; }
 
-/// One keyword of a schema with its value.
+/// A keyword of a schema and its value.
 using SchemaKeyword = std::pair<std::string, JsonValue>;
 
 struct JsonType {
   std::vector<SchemaKeyword> schema;
-  JsonRange range = {};  ///< of a number; JsonObject::number refuses what is outside
+  JsonRange range = {};  ///< of a number; JsonObject::number refuses values outside
 };
 
 namespace json_type {
@@ -46,12 +46,12 @@ JsonType null_or(const JsonType& type);
 
 }  // namespace json_type
 
-/// Rules about which keys of an object go together.
+/// Rules on which keys of an object go together.
 SchemaKeyword one_of_required(const std::vector<std::vector<std::string>>& sets);
 SchemaKeyword required_together(const std::string& a, const std::string& b);
 SchemaKeyword at_least_properties(int count);
 
-/// Values of a schema.
+/// JSON values for schemas.
 JsonValue json_text(const std::string& text);
 JsonValue json_number(double number);
 JsonValue json_boolean(bool value);

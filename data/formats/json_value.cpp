@@ -15,8 +15,8 @@ namespace {
 
 constexpr std::size_t deepest_nesting = 32;
 
-/// How far the parser has read. It looks one character ahead behind a number, so the line of the last character that
-/// is no white space is the line of the token it reports.
+/// How far the parser has read. After a number it reads one character ahead, so a token's line is the line of the last
+/// character that is not white space.
 struct Place {
   int line = 1, visible_line = 1;
 
@@ -26,7 +26,7 @@ struct Place {
   }
 };
 
-/// Iterator over the text that tells `Place` what was read.
+/// Iterator over the text that updates `Place`.
 class CountingIterator {
  public:
   using iterator_category = std::input_iterator_tag;
@@ -54,7 +54,7 @@ class CountingIterator {
   Place* place_;
 };
 
-/// Takes the parser's events and builds the tree.
+/// Builds the tree from the parser's events.
 class Builder {
  public:
   Builder(std::shared_ptr<const std::string> file, const Place& place) : file_(std::move(file)), place_(place) {}
@@ -65,7 +65,7 @@ class Builder {
   bool number_unsigned(std::uint64_t value) { return add(JsonValue::Type::number, static_cast<double>(value), ""); }
   bool number_float(double value, const std::string&) { return add(JsonValue::Type::number, value, ""); }
   bool string(std::string& value) { return add(JsonValue::Type::text, 0, value); }
-  bool binary(nlohmann::json::binary_t&) { return false; }  // not in text
+  bool binary(nlohmann::json::binary_t&) { return false; }  // does not occur in text
   bool start_object(std::size_t) { return open(JsonValue::Type::object); }
   bool start_array(std::size_t) { return open(JsonValue::Type::array); }
   bool end_object() { return close(); }
@@ -119,7 +119,7 @@ class Builder {
     if (open_.size() == deepest_nesting) here().fail(fmt::format("nests deeper than {}", deepest_nesting));
     JsonValue value = here();
     value.type = type;
-    // A parent's list grows only while none of its children is open, so pointers to open values stay good.
+    // A parent's list grows only while none of its children is open, so pointers to open values stay valid.
     open_.push_back(&place_value(std::move(value)));
     return true;
   }
@@ -136,7 +136,7 @@ class Builder {
   std::string key_;
 };
 
-/// A value as a message shows it: short, on one line.
+/// A value as shown in messages: short, on one line.
 std::string found(const JsonValue& value) {
   switch (value.type) {
     case JsonValue::Type::null:

@@ -1,6 +1,6 @@
 #pragma once
-/// JSON as people write it by hand: every value knows its file, line and path, so that what is wrong can be named.
-/// Stricter than JSON asks for: a key that stands twice in one object is an error.
+/// JSON written by hand: every value knows its file, line and path, so that messages can say where an error is.
+/// Stricter than JSON: a repeated key in an object is an error.
 #include <memory>
 #include <string>
 #include <utility>
@@ -13,14 +13,14 @@ namespace ostium::data {
 struct JsonValue {
   enum class Type { null, boolean, number, text, array, object };
   Type type = Type::null;
-  double number = 0;                                       ///< of a number; 0 or 1 of a boolean
-  std::string text;                                        ///< of a text, UTF-8
-  std::vector<JsonValue> items;                            ///< of an array
-  std::vector<std::pair<std::string, JsonValue>> members;  ///< of an object, in the order of the file
+  double number = 0;                                       ///< number, or 0 or 1 for a boolean
+  std::string text;                                        ///< text, UTF-8
+  std::vector<JsonValue> items;                            ///< elements of an array
+  std::vector<std::pair<std::string, JsonValue>> members;  ///< members of an object, in file order
 
-  int line = 0;                             ///< where it begins, from 1
+  int line = 0;                             ///< where the value begins, from 1
   std::string path;                         ///< "sections.list[2].EI_Nmm2"; empty for the whole file
-  std::shared_ptr<const std::string> file;  ///< its name
+  std::shared_ptr<const std::string> file;  ///< file name
 
   const JsonValue* find(const std::string& key) const;  ///< null if there is no such member
 
@@ -33,10 +33,10 @@ struct JsonValue {
 /// Throws LoadError if `text` is not JSON, nests deeper than 32, or repeats a key.
 JsonValue parse_json(const std::string& file, const std::string& text);
 
-/// The whole file. Throws LoadError also if it cannot be read.
+/// Parses the whole file. Throws LoadError also if it cannot be read.
 JsonValue load_json(const std::string& file);
 
-/// As text that `parse_json` makes the same values of; lines, paths and files are not in it.
+/// Text that `parse_json` reads back to the same values; lines, paths and file names are not kept.
 std::string to_json(const JsonValue& value);
 
 }  // namespace ostium::data

@@ -26,7 +26,7 @@ struct Range {
   }
 };
 
-/// 1, 2 or 5 times a power of ten, so that about five fit.
+/// 1, 2 or 5 times a power of ten, giving about five ticks.
 double tick_step(const Range& r) {
   const double rough = (r.high - r.low) / 5, power = std::pow(10, std::floor(std::log10(rough)));
   for (double m : {1.0, 2.0, 5.0})

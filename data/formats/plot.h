@@ -1,5 +1,5 @@
 #pragma once
-/// Small plots as SVG text, for pages that people read.
+/// Small plots as SVG text, for reports.
 #include <Eigen/Core>
 #include <cmath>
 #include <optional>
@@ -8,7 +8,7 @@
 
 namespace ostium::data {
 
-/// `words` as text in HTML and SVG.
+/// `words` escaped for HTML and SVG.
 std::string escaped(const std::string& words);
 
 class Plot {
@@ -18,13 +18,13 @@ class Plot {
   using Points = std::vector<Eigen::Vector2d>;
   void line(const Points& points, const std::string& colour, double width = 1.6, const std::string& dashes = "");
   void dots(const Points& points, const std::string& colour, double radius = 2.2);
-  /// A line across the whole plot at y, with words at its right end.
+  /// A line across the whole plot at y, labelled at its right end.
   void level(double y, const std::string& words);
-  /// Vertical bars from zero: one for each value and series, side by side, named below.
+  /// Vertical bars from zero: one per value and series, side by side, labelled below.
   void bars(const std::vector<std::string>& names, const std::vector<std::vector<double>>& series,
             const std::vector<std::string>& colours);
   void legend(const std::string& words, const std::string& colour, bool dot = false, const std::string& dashes = "");
-  /// One unit of x as long as one of y.
+  /// Uses the same scale for x and y.
   void equal_scales() { equal_ = true; }
   void y_from_zero() { include_.push_back({NAN, 0}); }
 

@@ -12,7 +12,7 @@ namespace ostium::data {
 
 namespace {
 
-/// Compressed in memory first: libpng, given a name, would on failure remove whatever bears it.
+/// Compresses in memory first: given a file name, libpng would on failure remove whatever has that name.
 std::vector<std::uint8_t> compressed(int width, int height, png_uint_32 format, const std::uint8_t* pixels) {
   png_image image{};
   image.version = PNG_IMAGE_VERSION;

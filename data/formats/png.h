@@ -7,11 +7,11 @@
 
 namespace ostium::data {
 
-/// 8-bit greyscale PNG. Throws LoadError naming the file if it cannot be written; what was begun is removed.
+/// 8-bit greyscale PNG. Throws LoadError naming the file if it cannot be written; a partial file is removed.
 void write_png(const std::string& file, const fluoro::Picture& picture);
-/// The same for colours: `rgb` has 3 width height bytes, rows from the top.
+/// The same in colour: `rgb` has 3 * width * height bytes, rows from the top.
 void write_rgb_png(const std::string& file, int width, int height, const std::vector<std::uint8_t>& rgb);
-/// The file's bytes.
+/// The bytes of the PNG file.
 std::vector<std::uint8_t> png_of(const fluoro::Picture& picture);
 
 }  // namespace ostium::data

@@ -1,12 +1,12 @@
 #pragma once
-/// A plain SVG drawing in millimetres, for the pictures of the README pages and of `ostium instruments --picture`.
+/// A plain SVG drawing in millimetres, for README pictures and `ostium instruments --picture`.
 #include <Eigen/Core>
 #include <string>
 #include <vector>
 
 namespace ostium::data {
 
-/// x to the right, y downwards, mm. What is drawn later covers what was drawn before.
+/// x to the right, y down, mm. Later shapes cover earlier ones.
 class Drawing {
  public:
   Drawing(double width_mm, double height_mm) : width_(width_mm), height_(height_mm) {}
@@ -17,7 +17,7 @@ class Drawing {
   void rectangle(const Eigen::Vector2d& corner_mm, const Eigen::Vector2d& size_mm, const std::string& colour);
   void text(const Eigen::Vector2d& at_mm, const std::string& words, double size_mm = 3.5);
 
-  /// Throws std::runtime_error naming the file if it cannot be written whole.
+  /// Throws std::runtime_error naming the file if it cannot be written completely.
   void write(const std::string& path) const;
 
  private:

@@ -20,7 +20,7 @@ namespace ostium::data {
 
 VideoWriter::VideoWriter(const std::string& file, int width, int height, double frames_per_s)
     : file_(file), width_(width), height_(height) {
-  // A pair of sockets rather than a pipe: a write to an ffmpeg that has ended then fails instead of raising SIGPIPE.
+  // A pair of sockets rather than a pipe: a write to an ffmpeg that has exited then fails instead of raising SIGPIPE.
   int in[2], words[2];
   if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, in) || pipe2(words, O_CLOEXEC)) {
     problem_ = file_ + ": no video: " + std::strerror(errno);
@@ -81,7 +81,7 @@ bool VideoWriter::finish() {
   if (to_ffmpeg_ >= 0) close(to_ffmpeg_);
   to_ffmpeg_ = -1;
   if (process_ < 0) return problem_.empty();
-  const std::string words = ffmpegs_words();  // until it closes them, so that it never waits for us
+  const std::string words = ffmpegs_words();  // read to the end, so that ffmpeg never blocks on us
   int status = 0;
   while (waitpid(process_, &status, 0) < 0 && errno == EINTR) {
   }

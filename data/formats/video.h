@@ -1,27 +1,27 @@
 #pragma once
-/// MP4 video, made by the program ffmpeg, which is run beside us: linking it would bind our licence.
+/// MP4 video, encoded by the ffmpeg program in its own process: linking to it would affect our licence.
 #include <string>
 
 #include "fluoro/display/display.h"
 
 namespace ostium::data {
 
-/// Feeds frames to ffmpeg. What goes wrong (no ffmpeg, a full disk) ends the video and nothing else: `problem` then
-/// says what, and further frames are ignored. Adding waits while ffmpeg is busy; do not call it from the simulation's
+/// Feeds frames to ffmpeg. Any failure (no ffmpeg, a full disk) ends only the video: `problem` then says what happened,
+/// and further frames are ignored. Adding a frame blocks while ffmpeg is busy; do not call it from the simulation
 /// thread.
 class VideoWriter {
  public:
-  /// Frames of this size. Sizes that are odd are padded by a black line, as H.264 wants.
+  /// Size and rate of the frames. Odd sizes are padded by a black line, as H.264 requires.
   VideoWriter(const std::string& file, int width, int height, double frames_per_s);
   ~VideoWriter();  ///< finishes
   VideoWriter(const VideoWriter&) = delete;
   VideoWriter& operator=(const VideoWriter&) = delete;
 
   void add(const fluoro::Picture& picture);
-  /// Waits for ffmpeg's end. True if the whole video is written; a video that is not is removed.
+  /// Waits for ffmpeg to exit. True if the whole video was written; otherwise it is removed.
   bool finish();
-  const std::string& problem() const { return problem_; }  ///< empty while all is well
-  long frames() const { return frames_; }                  ///< taken so far
+  const std::string& problem() const { return problem_; }  ///< empty if all is well
+  long frames() const { return frames_; }                  ///< accepted so far
 
  private:
   void stop(const std::string& why);

@@ -39,7 +39,7 @@ void append(TableFile& file, const char* table, const std::vector<T>& numbers, s
 
 RecordingWriter::RecordingWriter(std::string path, const RecordingHeader& header, const std::vector<FixedTable>& tables)
     : path_(std::move(path)), next_(path_ + ".next"), header_(header) {
-  // Whole and shut before either has the recording's name.
+  // Each file is complete and closed before it gets the recording's name.
   for (const bool first : {true, false}) {
     TableFile file = TableFile::create(next_);
     file.set_text("schema", schema + std::to_string(recording_version));
@@ -73,7 +73,8 @@ void RecordingWriter::write(TableFile& file, const RecordingBlock& block) const 
   append(file, "hands", block.hands, static_cast<std::size_t>(header_.operator_width));
 }
 
-/// The name goes from one whole file to the other in one rename; the former keeps a second name until then.
+/// Swaps the two files. The recording's name moves to the newer file in one rename; the older one keeps a second name
+/// until then.
 void RecordingWriter::take_turns() const {
   const std::string before = path_ + ".before";
   std::remove(before.c_str());

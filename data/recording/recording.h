@@ -1,9 +1,10 @@
 #pragma once
-/// A recording: every input of a run, what came of it, and enough to go on from any second. HDF5; data/README.md says
-/// what is in it.
+/// A recording: every input of a run, its results, and enough state to resume from any second. HDF5; the contents are
+/// described in data/README.md.
 ///
-/// Writing survives the program's death at any moment, and a full disk: two files take turns. One is whole and shut
-/// under the recording's name while the other, NAME.next, is opened, gets what it lacks, is shut, and takes its place.
+/// Writing survives a crash of the program at any moment, and a full disk, by alternating two files: one is complete
+/// and closed under the recording's name, while the other, NAME.next, is opened, brought up to date, closed and renamed
+/// to take its place.
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -13,31 +14,31 @@
 
 namespace ostium::data {
 
-inline constexpr int recording_version = 2;  ///< 1: flags and indices of state in other places and order
-inline constexpr int steps_per_block = 500;  ///< that are written together
+inline constexpr int recording_version = 2;  ///< version 1 had the flags and indices of state in another layout
+inline constexpr int steps_per_block = 500;  ///< steps written together
 inline constexpr int steps_per_signal = 10;
 inline constexpr int steps_per_state = 1000;
 
-/// What a run of steps brought. Rows as the tables have them.
+/// The results of a block of steps. Rows are laid out like the tables.
 struct RecordingBlock {
-  std::vector<double> inputs;         ///< one row a step
-  std::vector<std::uint64_t> hashes;  ///< one a step, of the state after it
-  std::vector<float> signals;         ///< one row every steps_per_signal steps
-  std::vector<double> states;         ///< one row every steps_per_state steps, from the beginning on
-  std::vector<double> hands;          ///< beside each state: what the script's operator remembers
+  std::vector<double> inputs;         ///< one row per step
+  std::vector<std::uint64_t> hashes;  ///< one per step, of the state after it
+  std::vector<float> signals;         ///< one row per steps_per_signal steps
+  std::vector<double> states;         ///< one row per steps_per_state steps, including the start
+  std::vector<double> hands;          ///< one row per state: the script operator's memory
   std::vector<double> events;         ///< step, code, tool, value
 };
 
 struct RecordingHeader {
-  std::string software;  ///< who wrote it: "ostium 0.1.0"
+  std::string software;  ///< program that wrote it: "ostium 0.1.0"
   std::string setup;     ///< JSON: case, script, instruments, seed
   double step_s = 1e-3;
-  bool full = true;  ///< states are kept
+  bool full = true;  ///< whether states are kept
   std::vector<std::string> input_columns, signal_columns;
   int state_width = 1, operator_width = 1;
 };
 
-/// A table that does not grow with the run: a mesh.
+/// A table that does not grow during the run: a mesh.
 struct FixedTable {
   TableLayout layout;
   const void* rows = nullptr;  ///< of the layout's type
@@ -46,14 +47,14 @@ struct FixedTable {
 
 class RecordingWriter {
  public:
-  /// Makes both files. Throws LoadError.
+  /// Creates both files. Throws LoadError.
   RecordingWriter(std::string path, const RecordingHeader& header, const std::vector<FixedTable>& tables = {});
-  ~RecordingWriter();  ///< the other file goes; the recording stays as it was last whole
+  ~RecordingWriter();  ///< removes the other file; the recording stays as last committed
   RecordingWriter(const RecordingWriter&) = delete;
   RecordingWriter& operator=(const RecordingWriter&) = delete;
-  /// Throws LoadError if it cannot be written; the recording stays as it was.
+  /// Throws LoadError if it cannot be written; the recording then stays as it was.
   void commit(RecordingBlock block);
-  /// The last words: outcome, reason, metrics, as JSON. Removes the other file.
+  /// Writes the end of the run: outcome, reason, metrics, as JSON. Removes the other file.
   void finish(const std::string& end);
 
  private:
@@ -63,19 +64,19 @@ class RecordingWriter {
 
   std::string path_, next_;
   RecordingHeader header_;
-  RecordingBlock last_;  ///< is in the recording, but not yet in the other file
+  RecordingBlock last_;  ///< in the recording, but not yet in the other file
 };
 
 class RecordingReader {
  public:
-  /// Throws LoadError saying what it is if it is no recording of this version.
+  /// Throws LoadError saying what the file is if it is not a recording of this version.
   explicit RecordingReader(const std::string& path);
 
   const std::string& path() const { return path_; }
   std::string software() const { return file_.text("software"); }
   std::string setup() const { return file_.text("setup"); }
   double step_s() const;
-  std::optional<std::string> end() const;  ///< empty: it was cut off
+  std::optional<std::string> end() const;  ///< empty: the recording was cut off
   std::size_t steps() const { return file_.rows("hash"); }
   std::size_t states() const { return file_.has("state") ? file_.rows("state") : 0; }
   int state_width() const { return file_.width("state"); }

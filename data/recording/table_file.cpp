@@ -13,7 +13,7 @@ namespace ostium::data {
 
 namespace {
 
-/// Closes what HDF5 opened.
+/// Owns an HDF5 identifier and closes it.
 class Id {
  public:
   using Close = herr_t (*)(hid_t);
@@ -35,7 +35,7 @@ hid_t in_file(NumberType type) {
   return type == NumberType::float64 ? H5T_IEEE_F64LE : type == NumberType::float32 ? H5T_IEEE_F32LE : H5T_STD_U64LE;
 }
 
-/// The innermost of HDF5's own words.
+/// HDF5's innermost error message.
 std::string last_words() {
   std::string words;
   H5Ewalk2(
@@ -48,14 +48,14 @@ std::string last_words() {
   return words;
 }
 
-/// Errors are ours to tell. And all files are shut by us: what a full disk left half open in the library, it must not
-/// try to write again as the program ends (version 1.10 then reads freed memory).
+/// We report errors ourselves and close all files ourselves: the library must not try at exit to write a file left open
+/// after a full disk (version 1.10 then reads freed memory).
 void begin() {
   [[maybe_unused]] static const herr_t no_cleaning_up = H5dont_atexit();
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
 }
 
-/// Without a lock: somebody who looks into a recording while it is written must not end it.
+/// No file locking: reading a recording while it is being written must not stop the writer.
 hid_t unlocked() {
   const hid_t access = H5Pcreate(H5P_FILE_ACCESS);
   H5Pset_file_locking(access, false, true);

@@ -1,7 +1,7 @@
 #pragma once
-/// Tables of numbers and texts in an HDF5 file, which h5py, h5dump, MATLAB and the like read as they are. The only
-/// place that knows HDF5. A table is a two-dimensional data set, rows by columns, that grows; a text is a data set of
-/// one string.
+/// Tables of numbers and texts in an HDF5 file that h5py, h5dump, MATLAB and others can read directly. The only code
+/// that uses HDF5. A table is a two-dimensional data set (rows by columns) that can grow; a text is a data set of one
+/// string.
 #include <cstdint>
 #include <memory>
 #include <string>
@@ -15,25 +15,25 @@ struct TableLayout {
   std::string name;  ///< "inputs"
   NumberType type = NumberType::float64;
   std::vector<std::string> columns;  ///< attribute "columns": name and unit of each; may be empty
-  int width = 1;                     ///< numbers a row; columns.size() if there are columns
-  int chunk_rows = 1;                ///< rows that are compressed together
+  int width = 1;                     ///< numbers per row; columns.size() if there are columns
+  int chunk_rows = 1;                ///< rows compressed together
 };
 
-/// Any trouble throws LoadError that names the file. Not for the thread that steps. One file, one thread.
+/// All errors throw LoadError naming the file. Not for the simulation thread. One file, one thread.
 class TableFile {
  public:
-  /// Makes the file anew.
+  /// Creates the file, replacing an existing one.
   static TableFile create(const std::string& path);
-  /// Opens one that there is; refuses what is no HDF5 file, or is shorter than it says.
+  /// Opens an existing file; refuses one that is not HDF5, or is truncated.
   static TableFile open(const std::string& path, bool to_write = false);
   ~TableFile();
   TableFile(TableFile&&) noexcept;
   TableFile& operator=(TableFile&&) noexcept;
 
   void add_table(const TableLayout& layout);
-  /// `count` rows of the table's own type, row by row.
+  /// `count` rows of the table's type, row-major.
   void append(const std::string& table, const void* rows, std::size_t count);
-  /// Sets or replaces.
+  /// Creates or replaces a text.
   void set_text(const std::string& name, const std::string& text);
 
   bool has(const std::string& name) const;
@@ -44,7 +44,7 @@ class TableFile {
   std::vector<std::uint64_t> integers(const std::string& table, std::size_t first, std::size_t count) const;
   std::string text(const std::string& name) const;
 
-  /// Everything to the file and shut. Errors are thrown, which a destructor cannot.
+  /// Flushes and closes the file. Throws errors, which a destructor cannot.
   void close();
 
  private:

@@ -10,7 +10,7 @@ namespace {
 using Reply = std::optional<std::vector<std::uint8_t>>;
 constexpr std::uint16_t firmware_version = 1;
 
-/// Rounded, and wrapped as a counter of 32 bits is.
+/// Rounded, and wrapped like a 32-bit counter.
 std::int32_t counter(double counts) {
   return static_cast<std::int32_t>(static_cast<std::uint32_t>(std::llround(counts)));
 }

@@ -1,7 +1,6 @@
 #pragma once
-/// A tracking box without the box: what its firmware does, as a state machine in device time. It speaks the bytes of
-/// the protocol and nothing else, so that a driver, a test or a socket can be put in front of it. A firmware may be
-/// written after it.
+/// A software tracking box: its firmware's behaviour as a state machine in device time. Its only interface is the bytes
+/// of the protocol, so a driver, a test or a socket can be connected to it. It can serve as a model for firmware.
 #include <array>
 #include <cstdint>
 #include <optional>
@@ -14,7 +13,7 @@
 
 namespace ostium::device {
 
-/// What a station of the box looks at.
+/// What a sensor station of the box sees.
 struct EmulatedTool {
   Tool tool = Tool::none;
   std::uint8_t quality = 0;
@@ -25,26 +24,26 @@ class EmulatedBox {
  public:
   explicit EmulatedBox(const Calibration& calibration) : calibration_(calibration) {}
 
-  // The world around it, to be changed at will between two samples.
+  // The box's surroundings; may be changed at will between two samples.
   std::array<EmulatedTool, 4> station;
   double pressure_atm = 0, flow_mL_s = 0;
   std::uint16_t pedals = 0;
   bool emergency_stop = false, over_temperature = false;
 
-  /// The next sample: time goes on by 1 / rate.
+  /// The next sample: advances time by 1 / rate.
   std::array<std::uint8_t, in_report_bytes> sample();
 
-  /// An OUT report. What breaks a rule is ignored whole and counted.
+  /// Takes an OUT report. One that breaks a rule is ignored as a whole and counted.
   void take(std::span<const std::uint8_t> bytes);
 
-  /// The answer to a control request, empty for one without data; nothing: it stalls, and nothing was changed.
+  /// The answer to a control request, empty for one without data; nullopt: stall, and nothing was changed.
   std::optional<std::vector<std::uint8_t>> control(std::uint8_t request, std::uint16_t value,
                                                    std::span<const std::uint8_t> data = {});
 
-  /// Suspended, reset or unplugged: the clamps open. Counts, time and calibration go on.
+  /// Suspended, reset or unplugged: the clamps open. Counts, time and calibration are kept.
   void release();
 
-  /// What the clamps are at; 0 unless armed.
+  /// Levels of the clamps; 0 unless armed.
   const std::array<std::uint16_t, 4>& clamp() const { return clamp_; }
   const Calibration& calibration() const { return calibration_; }
   double time_s() const { return 1e-6 * static_cast<double>(time_us_); }
@@ -58,7 +57,7 @@ class EmulatedBox {
   std::array<std::array<std::int32_t, 2>, 4> zero_{};
   std::array<std::uint16_t, 4> clamp_{};
   bool armed_ = false, watchdog_released_ = false;
-  bool arm_was_low_ = false;  ///< an OUT without ARM came since the clamps opened
+  bool arm_was_low_ = false;  ///< an OUT report without ARM has come since the clamps opened
   std::uint64_t time_us_ = 0, last_out_us_ = 0;
   bool any_out_ = false;
   std::uint16_t rate_Hz_ = 1000, watchdog_ms_ = 50, last_out_sequence_ = 0;

@@ -16,7 +16,7 @@ PortState EmulatedPort::poll(double, ReportSink& sink) {
     state_.open = plugged;
     if (plugged) {
       ++state_.openings;
-      return state_;  // it is asked before it streams
+      return state_;  // the caller reads it before it streams
     }
     box_.release();
     underway_ = {};

@@ -1,6 +1,6 @@
 #pragma once
-/// A box in this process, without a cable: its bytes, its time. Each poll is one sample of the box, whatever the clock
-/// says, so that what is done with it is the same every time.
+/// An emulated box in this process, connected without a cable but with its protocol and timing. Each poll is one sample
+/// of the box, whatever the clock says, so that results are reproducible.
 #include <functional>
 
 #include "device/emulator/emulated_box.h"
@@ -10,12 +10,12 @@ namespace ostium::device {
 
 class EmulatedPort : public Port {
  public:
-  /// `box` and what `hand` refers to must live as long. `hand` is called before each sample, to move the world around
-  /// the box. `delay`: samples until an OUT report arrives, 1 to longest_delay - 1.
+  /// `box` and whatever `hand` refers to must outlive this. `hand` is called before each sample to move the box's
+  /// surroundings. `delay`: samples until an OUT report arrives, 1 to longest_delay - 1.
   static constexpr int longest_delay = 64;
   EmulatedPort(EmulatedBox& box, std::function<void(EmulatedBox&)> hand, int delay = 1);
 
-  bool plugged = true;  ///< may be pulled, and put in again
+  bool plugged = true;  ///< may be unplugged and plugged in again
 
   PortState poll(double wait_s, ReportSink& sink) override;
   void send(std::span<const std::uint8_t> bytes) override;
@@ -32,7 +32,7 @@ class EmulatedPort : public Port {
   PortState state_;
   PortIdentity identity_;
   PortCounts counts_;
-  /// By the sample before which it arrives.
+  /// OUT reports in flight: a ring, indexed by the sample before which each arrives.
   struct Underway {
     std::uint64_t at = 0;
     std::array<std::uint8_t, out_report_bytes> bytes{};

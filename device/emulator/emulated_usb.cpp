@@ -27,7 +27,7 @@ Bytes string_descriptor(std::string_view text) {
   return d;
 }
 
-/// Binary object store: one platform capability, which says where Windows finds what follows.
+/// Binary object store: one platform capability, which tells Windows how to get the descriptor set below.
 Bytes bos_descriptor() {
   Bytes d{5, 15, 33, 0, 1, 28, 16, 5, 0};
   for (const int b : {0xDF, 0x60, 0xDD, 0xD8, 0x89, 0x45, 0xC7, 0x4C, 0x9C, 0xD2, 0x65, 0x9D, 0x9E, 0x64, 0x8A, 0x9F})
@@ -38,7 +38,7 @@ Bytes bos_descriptor() {
   return d;
 }
 
-/// Microsoft OS 2.0 descriptor set: WinUSB is the driver, and programs find it by an interface GUID.
+/// Microsoft OS 2.0 descriptor set: selects WinUSB as the driver, and an interface GUID by which programs find the box.
 Bytes microsoft_set() {
   Bytes d;
   append_u16(d, 10), append_u16(d, 0), append_u16(d, 0), append_u16(d, 0x0603), append_u16(d, microsoft_set_length);
@@ -58,7 +58,7 @@ bool reads(std::uint8_t request) {
 }  // namespace
 
 std::vector<std::uint8_t> device_descriptor() {
-  Bytes d{18, 1, 0x10, 0x02, 0, 0, 0, 64, 0, 0, 0, 0, 0, 1, 1, 2, 3, 1};  // ends: strings of maker, product, serial
+  Bytes d{18, 1, 0x10, 0x02, 0, 0, 0, 64, 0, 0, 0, 0, 0, 1, 1, 2, 3, 1};  // last: strings of maker, product, serial
   put(d, 8, usb_vendor), put(d, 10, usb_product);
   return d;
 }

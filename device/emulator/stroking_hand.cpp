@@ -5,8 +5,8 @@
 
 namespace ostium::device {
 
-/// In: to the end (which pauses the simulation), back, still; the last one short of the end. Out: the same mirrored, so
-/// that tool and instrument end where they began.
+/// In: to the end of the travel (which pauses the simulation), back, still; the last stroke stops short of the end.
+/// Out: the reverse, so that tool and instrument end where they began.
 StrokingHand::Move StrokingHand::move_of(int n, double station_mm) const {
   constexpr double still_s = 0.5;
   const int pauses = strokes - 1, in = 2 * pauses + 1, out = 2 * pauses;

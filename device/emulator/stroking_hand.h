@@ -1,6 +1,6 @@
 #pragma once
-/// A hand for an emulated box that nobody else moves: a guide that rests, and a wire that is pushed in and turned, in
-/// strokes, each to the end of the travel, drawn back and held still; then taken out in as many. It sees nothing.
+/// A scripted hand for an emulated box: the guide rests, and the wire is pushed in and turned in strokes, each to the
+/// end of the travel, drawn back and held still; then it is taken out in as many strokes. It has no feedback.
 #include "device/emulator/emulated_box.h"
 
 namespace ostium::device {
@@ -10,18 +10,18 @@ class StrokingHand {
   double mm_s = 120, deg_s = 90;
   int strokes = 4;
 
-  /// Moves the tools by the box's time since the last call.
+  /// Moves the tools for the box time since the last call.
   void move(EmulatedBox& box);
 
  private:
-  /// Towards a depth of the wire's tip beyond the introducer, and then still for a while.
+  /// Moves the wire's tip to a depth beyond the introducer, then holds still for a while.
   struct Move {
     double to_mm = 0, still_s = 0;
-    bool outside = false;  ///< nothing is in the box then
+    bool outside = false;  ///< the box is then empty
   };
   Move move_of(int n, double station_mm) const;
 
-  int next_ = 0;  ///< of the moves
+  int next_ = 0;  ///< index of the next move
   double last_s_ = 0, arrived_s_ = -1, tip_mm_ = 0;
   bool begun_ = false;
 };

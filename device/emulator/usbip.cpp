@@ -23,8 +23,8 @@ using Bytes = std::vector<std::uint8_t>;
 
 constexpr std::size_t header_bytes = 48;
 constexpr std::uint32_t cmd_submit = 1, cmd_unlink = 2, ret_submit = 3, ret_unlink = 4;
-constexpr std::uint32_t most_bytes = 4096;  // of a transfer: the box has none longer
-constexpr int longest_put_off = 200;        // samples, before they are lost as on a bus, until the host is back
+constexpr std::uint32_t most_bytes = 4096;  // largest transfer: the box has none longer
+constexpr int longest_put_off = 200;        // samples kept for an absent host; later ones are lost, as on a bus
 
 std::uint32_t get_u32(const std::uint8_t* at) {
   return std::uint32_t{at[0]} << 24 | std::uint32_t{at[1]} << 16 | std::uint32_t{at[2]} << 8 | at[3];
@@ -101,7 +101,7 @@ bool UsbipLink::take_command(const std::uint8_t* h, const Bytes& data) {
   return true;
 }
 
-/// Takes all whole commands that have come. False: the host has left, or speaks otherwise.
+/// Processes all complete commands received. False: the host has left, or broke the protocol.
 bool UsbipLink::receive() {
   std::uint8_t some[4096];
   const ssize_t count = recv(socket_, some, sizeof some, MSG_DONTWAIT);
@@ -120,7 +120,7 @@ bool UsbipLink::receive() {
   return true;
 }
 
-/// A millisecond of the bus. False: the host has left.
+/// One millisecond of the bus. False: the host has left.
 bool UsbipLink::tick(bool even_if_lost) {
   sampled_ = !in_.empty();
   if (!sampled_ && !even_if_lost) return true;
@@ -184,7 +184,7 @@ void add_device(Bytes& to) {
   for (const int b : {0, 0, 0, 1, 1, 1}) to.push_back(static_cast<std::uint8_t>(b));
 }
 
-/// What a host asks first. True: it has the box now.
+/// Handles a host's first request. True: the host has attached the box.
 bool imported(int socket) {
   std::uint8_t request[8], busid[32];
   if (!receive_all(socket, request, sizeof request)) return false;

@@ -9,7 +9,7 @@ namespace ostium::device {
 
 namespace {
 
-constexpr double least_counts = 100;  // fewer are no scale: 1 % is asked for
+constexpr double least_counts = 100;  // minimum for a scale: 1 % accuracy is required
 
 void require(double counts, const char* what) {
   if (std::abs(counts) < least_counts)

@@ -10,7 +10,7 @@ namespace {
 void follow(Direction& d, double moved, double reversal) {
   d.position += moved;
   const double since = d.position - d.turned_at;
-  if (d.sign * since > 0) d.turned_at = d.position;  // the farthest it got
+  if (d.sign * since > 0) d.turned_at = d.position;  // the farthest position so far
   if (std::abs(d.position - d.turned_at) <= reversal) return;
   d.sign = since > 0 ? 1 : -1;
   d.turned_at = d.position;
@@ -19,7 +19,7 @@ void follow(Direction& d, double moved, double reversal) {
 double resisted(int sign, double load) { return std::isfinite(load) ? std::max(0.0, sign * load) : 0.0; }
 
 double hold(const ClampSettings& s, double load, double least, double elapsed_s, HeldLoad& l) {
-  if (load == 0) return l = {}, 0;  // it helps the hand now
+  if (load == 0) return l = {}, 0;  // the load now helps the hand's movement
   l.smooth += (s.smooth_s > 0 ? 1 - std::exp(-elapsed_s / s.smooth_s) : 1) * (load - l.smooth);
   if (std::abs(l.smooth - l.followed_at) > std::max(least, s.least_felt * std::max(l.smooth, l.followed_at)))
     l.followed_at = l.smooth, l.follow_for_s = s.settle_s;

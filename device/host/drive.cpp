@@ -10,7 +10,7 @@ namespace ostium::device {
 
 namespace {
 
-/// Takes from `pending` what a step can do of it; returns its rate. What is less than `least` is taken whole.
+/// Takes from `pending` what one step can do, and returns it as a rate. A remainder below `least` is taken whole.
 double take(double& pending, double share, double least, double fastest, double step_s) {
   const double wanted = std::abs(pending) < least ? pending : share * pending;
   const double part = std::clamp(wanted, -fastest * step_s, fastest * step_s);

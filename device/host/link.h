@@ -1,5 +1,5 @@
 #pragma once
-/// How the box is doing, as the operator is told it. Pure: time and events in, a state out.
+/// The state of the connection to the box, as shown to the operator. Pure: time and events in, a state out.
 #include <cstdint>
 #include <string_view>
 
@@ -10,7 +10,7 @@ namespace ostium::device {
 enum class Link : std::uint8_t {
   unplugged,
   silent,         ///< plugged in, but no valid report for silent_after_s
-  wrong_version,  ///< it speaks another version of the protocol
+  wrong_version,  ///< uses another version of the protocol
   stopped,        ///< emergency stop or over-temperature
   running,
 };
@@ -19,7 +19,7 @@ struct LinkState {
   bool plugged = false, heard = false, stopped = false, wrong_version = false;
   double quiet_s = 0;         ///< since the last valid report, or since it was plugged in
   std::uint64_t taken = 0;    ///< valid reports
-  std::uint64_t ignored = 0;  ///< that broke a rule
+  std::uint64_t ignored = 0;  ///< reports that broke a rule
 };
 
 inline constexpr double silent_after_s = 0.1;
@@ -28,12 +28,12 @@ void plugged_in(LinkState& state);
 void unplugged(LinkState& state);
 void time_passed(double elapsed_s, LinkState& state);
 
-/// An IN report's bytes came: the report, if it is one.
+/// Parses the bytes of an IN report; returns it if it is valid.
 std::optional<InReport> received(std::span<const std::uint8_t> bytes, LinkState& state);
 
 Link link(const LinkState& state);
 
-/// One line for the operator: what is wrong, and the cure. Empty while running.
+/// One line for the operator: the problem and its remedy. Empty while running.
 std::string_view advice(Link link);
 
 }  // namespace ostium::device

@@ -1,5 +1,5 @@
 #pragma once
-/// How long it took until the box said that it had an OUT report: percentiles, without keeping them all.
+/// Time until the box acknowledges an OUT report: percentiles without storing every value.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -11,7 +11,7 @@ namespace ostium::device {
 
 class RoundTrips {
  public:
-  /// The newest of a snapshot; counted once.
+  /// Adds the newest round trip of a snapshot, once.
   void add(const RoundTrip& newest) {
     if (newest.count == counted_) return;
     counted_ = newest.count;
@@ -30,7 +30,7 @@ class RoundTrips {
   }
 
  private:
-  static constexpr double least_s = 1e-5, step = 0.02;  // 2 % fine, up to 30 s
+  static constexpr double least_s = 1e-5, step = 0.02;  // bins of 2 %, up to 30 s
   std::array<std::uint64_t, 750> bins_{};
   std::uint64_t all_ = 0, counted_ = 0;
 };

@@ -4,7 +4,7 @@ namespace ostium::device {
 
 namespace {
 
-/// b - a of counters that wrap.
+/// b - a for wrapping counters.
 std::int32_t difference(std::uint32_t a, std::uint32_t b) { return static_cast<std::int32_t>(b - a); }
 
 double counted(std::int32_t before, std::int32_t now) {
@@ -16,7 +16,7 @@ bool seen_well(const InReport& report, std::size_t k, const TrackMemory& before)
   return report.tool[k] != Tool::none && report.quality[k] >= (followed ? lost_below_quality : found_from_quality);
 }
 
-/// What the sequence and the clock say.
+/// Evaluates sequence number and clock.
 Movements since(const InReport& report, const TrackingState& state) {
   Movements m;
   const std::int32_t steps = difference(state.sequence, report.sequence);

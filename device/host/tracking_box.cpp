@@ -13,7 +13,8 @@ constexpr double Pa_per_atm = 101'325, m3_per_mL = 1e-6, rad_per_deg = units::pi
 TrackingBox::TrackingBox(Port& port, const TrackingBoxSettings& settings)
     : port_(port), settings_(settings), polled_s_(port.now_s()) {}
 
-/// A box was plugged in, the first or once more: what it is, and what its counts mean. Instruments stay where they are.
+/// A box was plugged in, for the first time or again: reads its identity and calibration. Instruments stay where they
+/// are.
 void TrackingBox::begin() {
   unplugged(link_);
   plugged_in(link_);
@@ -49,7 +50,7 @@ void TrackingBox::poll(double wait_s, const BoxRequest& request) {
   if (state.openings != now_.openings) {
     now_.openings = state.openings;
     begin();
-    polled_s_ = port_.now_s();  // asking took time, in which it could not be heard
+    polled_s_ = port_.now_s();  // the requests took time in which reports could not be received
   } else {
     if (!some_came_) time_passed(now_s - polled_s_, link_);
     polled_s_ = now_s;

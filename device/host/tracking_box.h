@@ -1,10 +1,10 @@
 #pragma once
-/// The host's side of a tracking box: everything between a port's bytes and what the operator does, and back to the
-/// clamps. One thread has it (box_thread.h gives it one of its own).
+/// The host's side of a tracking box: from a port's bytes to the operator's movements, and back to the clamps. Used by
+/// one thread (box_thread.h provides one).
 ///
-/// Each report goes through link, tracking and hands as it comes; what the hands did is summed, so that whoever looks
-/// at the newest snapshot alone misses nothing. One OUT report answers what came at once; none is sent when nothing
-/// comes, so that the box's watchdog opens its clamps.
+/// Each report is passed through link, tracking and strokes as it comes; movements are summed, so that nothing is
+/// missed by reading only the newest snapshot. One OUT report answers all reports received together; none is sent when
+/// nothing comes, so that the box's watchdog opens its clamps.
 #include <array>
 #include <cstdint>
 #include <string>
@@ -20,26 +20,26 @@ namespace ostium::device {
 struct TrackingBoxSettings {
   StrokeSettings hands;
   ClampSettings clamp;
-  bool clamps = true;  ///< false: it is never armed
+  bool clamps = true;  ///< false: the box is never armed
 };
 
-/// What a simulation asks of the box.
+/// What the simulation asks of the box.
 struct BoxRequest {
   std::array<ClampLoad, tools> load{};
-  double step_s = 0;  ///< simulated time of the step that gave the loads: if it stands still, they become stale
+  double step_s = 0;  ///< simulated time of the step that gave the loads; if it stops advancing, they become stale
   bool arm = false, identify = false;
-  std::array<std::uint32_t, tools> zeroings{};  ///< one more: that tool's tip is at the introducer now
+  std::array<std::uint32_t, tools> zeroings{};  ///< increment one to say that this tool's tip is at the introducer now
 };
 
-/// One tool as the operator holds it. Sums are since the box was first seen, and go on over an unplug.
+/// One tool in the operator's hands. Sums count from when the box was first seen and continue over an unplug.
 struct ToolSnapshot {
-  double fed_m = 0;       ///< sum of what its instruments were moved; positive into the patient
+  double fed_m = 0;       ///< total movement of its instruments; positive into the patient
   double turned_rad = 0;  ///< clockwise as seen from the hub
   ToolPresence sight = ToolPresence::absent;
   std::uint8_t quality = 0;
-  std::uint32_t arrivals = 0;           ///< instruments so far
-  double in_box_m = 0, inserted_m = 0;  ///< of the tool's tip, of its instrument's
-  double clamp_N = 0;                   ///< what its clamp is asked to hold
+  std::uint32_t arrivals = 0;           ///< number of instruments so far
+  double in_box_m = 0, inserted_m = 0;  ///< tip of the tool, and of its instrument
+  double clamp_N = 0;                   ///< force its clamp is asked to hold
 };
 
 struct RoundTrip {
@@ -47,23 +47,23 @@ struct RoundTrip {
   double last_s = 0;
 };
 
-/// Everything that is known of the operator now. Plain values: it is copied between threads.
+/// The operator's current state. Plain values, copied between threads.
 struct BoxSnapshot {
   Link link = Link::unplugged;
   PortTrouble trouble = PortTrouble::none;
-  bool calibrated = false;  ///< by a valid record of its own; else nominal scales are used, and clamps stay open
+  bool calibrated = false;  ///< has a valid record of its own; otherwise nominal scales are used, and clamps stay open
   bool armed = false, watchdog = false;
   std::array<ToolSnapshot, tools> tool{};
   Pause pause = Pause::none;
   Tool paused_by = Tool::none;
-  double picture = 1;                                ///< its brightness, 0 to 1
-  double pressure_Pa = 0;                            ///< of the indeflator, above the air's; negative: vacuum
+  double picture = 1;                                ///< brightness of the picture, 0 to 1
+  double pressure_Pa = 0;                            ///< of the indeflator, above atmospheric; negative: vacuum
   double flow_m3_s = 0;                              ///< out of the syringe; negative: aspiration
   std::uint16_t pedals = 0;                          ///< bit 0 fluoroscopy, 1 cine
   std::uint32_t openings = 0;                        ///< how often a box was plugged in
-  std::uint64_t reports = 0, ignored = 0, lost = 0;  ///< taken; broke a rule; missing by sequence
+  std::uint64_t reports = 0, ignored = 0, lost = 0;  ///< valid; broke a rule; missing by sequence number
   std::uint32_t sequence = 0;                        ///< of the last report
-  double box_s = 0;                                  ///< its clock
+  double box_s = 0;                                  ///< the box's clock
   std::uint16_t overruns = 0;
   PortCounts port;
   RoundTrip round_trip;
@@ -73,12 +73,12 @@ class TrackingBox : private ReportSink {
  public:
   TrackingBox(Port& port, const TrackingBoxSettings& settings);
 
-  /// Waits for what comes, at most `wait_s`; answers it. Does not allocate, except when a box is plugged in.
+  /// Waits for reports, at most `wait_s`, and answers them. Does not allocate, except when a box is plugged in.
   void poll(double wait_s, const BoxRequest& request);
 
   const BoxSnapshot& now() const { return now_; }
   const Calibration& calibration() const { return calibration_; }
-  const std::string& calibration_problem() const { return calibration_problem_; }  ///< empty: there is none
+  const std::string& calibration_problem() const { return calibration_problem_; }  ///< empty if there is none
   const BoxInfo& info() const { return info_; }
   const InReport& report() const { return report_; }  ///< the last
 
@@ -114,7 +114,7 @@ class TrackingBox : private ReportSink {
   BoxSnapshot now_;
 };
 
-/// One line for the operator: what is wrong, and what to do; empty if nothing is.
+/// One line for the operator: the problem and its remedy; empty if there is none.
 std::string_view advice(const BoxSnapshot& now);
 
 }  // namespace ostium::device

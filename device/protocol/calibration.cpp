@@ -25,7 +25,7 @@ std::uint32_t crc_of(std::span<const std::uint8_t> bytes) {
 
 const char* const calibrate_again = "calibrate the box again";
 
-/// Reads each number of a record, or writes it: one list of places for both.
+/// Reads or writes every number of a record: one list of positions for both.
 template <class Record, class Number>
 void each_number(Record& c, Number number) {
   for (std::size_t k = 0; k < 4; ++k) {

@@ -1,6 +1,6 @@
 #pragma once
-/// The reports of the tracking box, protocol version 1, as pure bytes-to-values code: little endian, counts raw. No USB
-/// here.
+/// The reports of the tracking box, protocol version 1: converts between bytes and values; little endian, raw counts.
+/// No USB here.
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -12,16 +12,16 @@ namespace ostium::device {
 inline constexpr std::size_t in_report_bytes = 64, out_report_bytes = 16;
 inline constexpr std::uint8_t device_protocol_version = 1;
 
-/// What a track's sensor station sees.
+/// The kind of tool at a track's sensor station.
 enum class Tool : std::uint8_t { none, guide, wire, shaft, second_wire };
 
 /// One sample of the box.
 struct InReport {
   bool armed = false, watchdog = false, emergency_stop = false, over_temperature = false, calibrated = false;
-  std::uint32_t sequence = 0;  ///< one more per sample; a gap is a loss
+  std::uint32_t sequence = 0;  ///< incremented per sample; a gap means lost reports
   std::uint32_t time_us = 0;   ///< wraps in 71.6 min
   std::uint16_t overruns = 0;
-  std::uint16_t last_out_sequence = 0;      ///< of the last OUT report that the box took
+  std::uint16_t last_out_sequence = 0;      ///< of the last OUT report that the box accepted
   std::array<std::int32_t, 4> insertion{};  ///< counts, positive into the patient
   std::array<std::int32_t, 4> roll{};       ///< counts, positive clockwise as seen from the hub
   std::array<std::uint8_t, 4> quality{};    ///< 0: no tool
@@ -39,14 +39,14 @@ struct OutReport {
   bool arm = false, identify = false;
 };
 
-/// What rule of the protocol bytes break, the first of them.
+/// The first protocol rule that the bytes break.
 enum class Flaw : std::uint8_t { none, type, length, version, reserved_bits, tool };
 
 Flaw flaw_of_in_report(std::span<const std::uint8_t> bytes);
 Flaw flaw_of_out_report(std::span<const std::uint8_t> bytes);
 
-/// Empty if there is a flaw: such a report is to be ignored whole, and counted by the caller. (Flaw::type alone may be
-/// a report of a later protocol, and is no sign of damage.)
+/// Empty if there is a flaw: the caller must ignore the whole report and count it. (Flaw::type alone may be a report of
+/// a later protocol, and is no sign of damage.)
 std::optional<InReport> parse_in_report(std::span<const std::uint8_t> bytes);
 std::optional<OutReport> parse_out_report(std::span<const std::uint8_t> bytes);
 

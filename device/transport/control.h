@@ -11,9 +11,9 @@ namespace ostium::device {
 enum class Request : std::uint8_t {
   info = 1,            ///< in, 8 bytes: BoxInfo
   read_calibration,    ///< in, 128 bytes
-  write_calibration,   ///< out, 128 bytes, kept aside; value = calibration_key, only disarmed
-  commit_calibration,  ///< takes what was written if it is a valid record; value = calibration_key, only disarmed
-  zero,                ///< counts of the tracks in value (bit k: track k) become 0
+  write_calibration,   ///< out, 128 bytes, stored temporarily; value = calibration_key, only while disarmed
+  commit_calibration,  ///< activates the written record if it is valid; value = calibration_key, only while disarmed
+  zero,                ///< resets the counts of the tracks in value (bit k: track k)
   watchdog_time,       ///< value = 10 .. 500 ms
   rate,                ///< value = 125, 250, 500 or 1000 Hz
   statistics,          ///< in, 16 bytes: BoxStatistics
@@ -26,7 +26,7 @@ struct BoxInfo {
 };
 
 struct BoxStatistics {
-  std::uint32_t sent = 0, taken = 0, ignored = 0;  ///< reports: IN, OUT, OUT that broke a rule
+  std::uint32_t sent = 0, taken = 0, ignored = 0;  ///< reports: IN sent, OUT accepted, OUT that broke a rule
   std::uint32_t watchdog_releases = 0;
 };
 
@@ -34,14 +34,14 @@ inline constexpr std::size_t info_bytes = 8, statistics_bytes = 16;
 
 std::array<std::uint8_t, info_bytes> bytes_of(const BoxInfo& info);
 std::array<std::uint8_t, statistics_bytes> bytes_of(const BoxStatistics& statistics);
-/// Nothing if the length is another.
+/// Empty if the length is wrong.
 std::optional<BoxInfo> parse_info(std::span<const std::uint8_t> bytes);
 std::optional<BoxStatistics> parse_statistics(std::span<const std::uint8_t> bytes);
 
 class Port;
-/// The record as the box has it, or as much of it as it gives: parse_calibration looks at that.
+/// The record as the box returns it, complete or not; parse_calibration checks it.
 std::vector<std::uint8_t> read_calibration(Port& port);
-/// Written and committed. False: the box refused it, being armed or finding the record wrong.
+/// Writes and commits the record. False: the box refused, because it is armed or the record is invalid.
 bool write_calibration(Port& port, std::span<const std::uint8_t> record);
 
 }  // namespace ostium::device

@@ -1,12 +1,11 @@
 #pragma once
-/// A tracking box on USB, by libusb: interrupt transfers, asynchronous.
+/// A tracking box on USB, with asynchronous interrupt transfers by libusb.
 ///
-/// Eight IN transfers are in flight, allocated once; one OUT transfer, and what waits behind it is replaced by what is
-/// newer. Nothing is queued besides. (libusb itself allocates a request block whenever a transfer is submitted.)
-/// Endpoints are found by direction and type. A box may be plugged in at any time, taken out, and plugged in again:
-/// by hot-plug events, and a look around every half second for systems that have none, or whose permissions come late.
-/// After an error it waits longer each time (10 to 160 ms), then opens the box anew; a stall is cleared. It never
-/// spins.
+/// Eight IN transfers, allocated once, are in flight, and one OUT transfer; a pending OUT report is replaced by a newer
+/// one. Nothing else is queued. (libusb itself allocates a request block whenever a transfer is submitted.) Endpoints
+/// are found by direction and type. A box may be plugged in, removed and plugged in again at any time: it is detected
+/// by hot-plug events, and by a scan every half second for systems that have none or grant permissions late. After an
+/// error it waits longer each time (10 to 160 ms), then reopens the box; a stall is cleared. It never busy-waits.
 #include <memory>
 #include <vector>
 
@@ -19,21 +18,21 @@ namespace ostium::device {
 inline constexpr std::uint16_t usb_vendor = 0x1209, usb_product = 0x0001;
 inline constexpr std::uint8_t usb_class = 0xff, usb_subclass = 1, usb_protocol = 1;
 
-/// A box that is plugged in, as `ostium device list` shows it.
+/// A connected box, as `ostium device list` shows it.
 struct FoundBox {
   PortIdentity identity;
   PortTrouble trouble = PortTrouble::none;
-  std::optional<BoxInfo> info;             ///< as it answers
+  std::optional<BoxInfo> info;             ///< its answer to the info request
   std::optional<Calibration> calibration;  ///< its record
   std::string calibration_problem;         ///< why there is none
 };
 
-/// Throws std::runtime_error if libusb cannot be started, as everything here does.
+/// Throws std::runtime_error if libusb cannot be started, like all functions here.
 std::vector<FoundBox> find_boxes();
 
 class UsbPort : public Port {
  public:
-  /// The box of this serial number; empty: the first that is found.
+  /// The box with this serial number; empty: the first one found.
   explicit UsbPort(std::string serial = "");
   ~UsbPort() override;
 
@@ -46,7 +45,7 @@ class UsbPort : public Port {
   double now_s() const override;
 
  private:
-  struct Driver;  ///< libusb is seen in one source only
+  struct Driver;  ///< hides libusb from other sources
   std::unique_ptr<Driver> driver_;
 };
 

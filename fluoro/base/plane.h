@@ -3,7 +3,7 @@
 
 namespace ostium::fluoro {
 
-/// One number a pixel; row 0 is the top of the picture, column 0 its left edge as it is read.
+/// One number per pixel; row 0 is the top of the picture, column 0 its left edge as viewed.
 using Plane = Eigen::Array<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
 }  // namespace ostium::fluoro

@@ -35,14 +35,14 @@ std::vector<Between> between(Index coarse, Index size) {
   return out;
 }
 
-/// Weights of the pixels 0, 1, 2 ... away: exp(-t) I_n(t) with t = sigma^2, whose variance is sigma^2 however narrow
-/// (Lindeberg 1990, IEEE PAMI 12:234); for wide ones, whose Bessel functions overflow, the Gaussian that they become.
+/// Weights of the pixels 0, 1, 2 ... away: exp(-t) I_n(t) with t = sigma^2, whose variance is exactly sigma^2 for any
+/// width (Lindeberg 1990, IEEE PAMI 12:234). For wide kernels, where the Bessel functions overflow, the Gaussian limit.
 std::vector<float> gaussian(double sigma) {
   const double t = sigma * sigma;
   std::vector<double> weights;
   double sum = 0;
   for (int n = 0; n == 0 || weights.back() > 1e-4 * weights[0]; ++n) {
-    // Beyond t = 700 the Bessel function is larger than any number; there the sampled Gaussian differs by 1 / (8 t).
+    // Beyond t = 700 the Bessel function overflows; there the sampled Gaussian differs by only 1 / (8 t).
     weights.push_back(t < 500 ? std::exp(-t) * std::cyl_bessel_i(n, t) : std::exp(-0.5 * n * n / t));
     sum += (n ? 2 : 1) * weights.back();
   }

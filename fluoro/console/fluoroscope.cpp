@@ -5,7 +5,7 @@ namespace ostium::fluoro {
 namespace {
 
 void begin(const FluoroscopeInput& in, const Programme& programme, FluoroscopeState& state) {
-  state.imager.lag = {};  // the held image is none of the new ones
+  state.imager.lag = {};  // the held image must not blend into new ones
   if (programme.mode == Mode::fluoroscopy) return;
   state.runs.push_back({in.view, programme, {}, {}});
   state.roadmap = {};

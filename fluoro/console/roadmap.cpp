@@ -38,7 +38,7 @@ void Roadmap::record(const View& view, const Plane& signal, double beat_phase) {
 }
 
 Plane Roadmap::over(const Plane& signal, double beat_phase) const {
-  constexpr float noise = 0.15f, strength = 0.6f;  // of the logarithm: what is less is taken for noise
+  constexpr float noise = 0.15f, strength = 0.6f;  // of the logarithm: smaller values count as noise
   const int wanted = moment_of(beat_phase);
   for (int off = 0; off <= moments / 2; ++off)
     for (int at : {wanted + off, wanted - off}) {

@@ -1,5 +1,5 @@
 #pragma once
-/// Where contrast was, laid over the live picture at the same moment of the beat.
+/// Roadmap: the earlier contrast, overlaid on the live picture at the same cardiac phase.
 #include <array>
 #include <optional>
 
@@ -7,18 +7,18 @@
 
 namespace ostium::fluoro {
 
-/// The beat is cut into `moments`. In each, the first picture of a run is the mask, and what later ones have more
-/// attenuation than it is the map: the most of it at each pixel.
+/// The cardiac cycle is divided into `moments`. In each, the first picture of a run is the mask, and the map is the
+/// largest additional attenuation of later pictures at each pixel.
 class Roadmap {
  public:
   static constexpr int moments = 12;
 
-  /// A picture of a run with contrast; the first beat should be without any.
+  /// Adds a picture of a contrast run; the first beat should be without contrast.
   void record(const View& view, const Plane& signal, double beat_phase);
-  /// Whether there is a map, taken from this very view.
+  /// Whether there is a map, recorded in exactly this view.
   bool fits(const View& view) const { return view_ && *view_ == view; }
-  /// The live signal with the map of that moment, or of the nearest that has one, drawn into it lighter than the live
-  /// contrast would be.
+  /// The live signal with the map of that moment, or of the nearest recorded one, blended in fainter than live
+  /// contrast.
   Plane over(const Plane& signal, double beat_phase) const;
 
  private:

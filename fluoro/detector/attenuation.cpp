@@ -14,7 +14,7 @@ void attenuate(const Beam& beam, const Plane& stretch, const PathLengths& length
   const PerEnergy &soft = beam.mu(Material::soft_tissue), &bone = beam.mu(Material::cortical_bone),
                   &iodine = beam.mu(Material::iodine);
   out.leaks = false;
-  for (Eigen::Index row = 0; row < rows; ++row) {  // a row at a time stays in the cache
+  for (Eigen::Index row = 0; row < rows; ++row) {  // one row at a time stays in the cache
     soft_m = lengths.soft_m().row(row);
     bone_m = lengths.bone_m().row(row);
     iodine_kg_m2 = lengths.iodine_kg_m2().row(row);

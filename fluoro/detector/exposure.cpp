@@ -10,13 +10,13 @@ namespace {
 
 constexpr double reference_point_m = 0.15;  // from the isocentre towards the source
 
-/// Of the middle of the picture, where brightness is measured.
+/// Over the middle of the picture, where brightness is measured.
 double geometric_mean_of_middle(const Plane& plane) {
   const Eigen::Index quarter = plane.rows() / 4, half = 2 * quarter;
   return std::exp(double(plane.block(quarter, quarter, half, half).max(1e-30f).log().mean()));
 }
 
-/// Air kerma at the detector per photon that left the tube; the primary one alone if there is no kernel.
+/// Air kerma at the detector per photon that left the tube; without a kernel, of the primary radiation only.
 double kerma_through(const Beam& beam, const View& view, const PathLengths& coarse, const ScatterKernel* kernel) {
   const Plane stretch = ray_stretch(view);
   Plane kerma = Plane::Zero(stretch.rows(), stretch.cols());
@@ -36,7 +36,7 @@ double kerma_through(const Beam& beam, const View& view, const PathLengths& coar
   return geometric_mean_of_middle(kerma + scattered);
 }
 
-/// Soft tissue that lets as much primary kerma through.
+/// Thickness of soft tissue that transmits the same primary kerma.
 double equivalent_thickness(const Beam& beam, double kerma) {
   double low = 0, high = 0.6;
   while (high - low > 1e-4) {
@@ -50,7 +50,7 @@ double equivalent_thickness(const Beam& beam, double kerma) {
   return low;
 }
 
-/// Whole kilovolts: as systems step, and so that beams can be kept.
+/// Whole kilovolts, as in real systems; also limits the number of cached beams.
 double tube_voltage(Mode mode, double patient_m) {
   const double kV = mode == Mode::cine ? 68 + 130 * (patient_m - 0.15) : 70 + 190 * (patient_m - 0.15);
   return std::round(std::clamp(kV, 64.0, 120.0));
@@ -63,7 +63,7 @@ Programme fluoroscopy(double frames_per_s) { return {.frames_per_s = frames_per_
 Programme cine(double frames_per_s) {
   return {.mode = Mode::cine,
           .frames_per_s = frames_per_s,
-          .detector_dose_nGy = 300,  // estimate: 21 cm of patient then get 180 mGy/min at 15 frames/s
+          .detector_dose_nGy = 300,  // estimate: a 21 cm patient then gets 180 mGy/min at 15 frames/s
           .copper_mm = 0.1,
           .lag = 0.05,
           .kerma_limit_Gy_s = 0.02};
@@ -103,7 +103,7 @@ Exposure automatic_exposure(const Programme& programme, const View& view, const 
   out.tube.peak_kV = tube_voltage(programme.mode, out.patient_m);
   const Beam& beam = beams(out.tube);
 
-  // Smaller fields are magnified more on the screen, and get more dose a pixel: in proportion to 1 / field.
+  // Smaller fields are magnified more on screen and get more dose per pixel: proportional to 1 / field.
   const double wanted_nGy = programme.detector_dose_nGy * 0.2 / view.field_m;
   const double through = kerma_through(beam, coarse_view, coarse, &kernel) * grid_transmission;
   const double to_reference =

@@ -31,7 +31,7 @@ FrameReport Imager::frame(const FrameInput& in, ImagerState& state) {
     primary_.variance_keV2 *= exposed_;
   }
 
-  // Focal spot, and the pixel's own width, before the photons are counted.
+  // Focal spot and pixel width blur before the photons are counted.
   const double pixel_m = in.view.field_m / in.view.pixels;
   const double penumbra_m =
       model_.focal_spot_m * (in.view.arm.source_to_detector_m / in.view.arm.source_to_isocentre_m - 1);
@@ -94,7 +94,7 @@ void Imager::collimate(const FrameInput& in) {
   gaussian_blur(exposed_, model_.shutter_blur_m / in.view.field_m * pixels, Beyond::same, scratch_);
 }
 
-/// Slow: each body is drawn alone.
+/// Slow: draws each body separately.
 std::string Imager::name_leaks(const FrameInput& in) {
   std::string names;
   const auto look = [&](const Body& body) {

@@ -1,6 +1,6 @@
 #pragma once
-/// The chain from a scene to the picture that the detector gives: path lengths, attenuation, scatter, noise, blur, lag.
-/// One imager belongs to one thread; it draws in that thread and starts no other.
+/// From a scene to the detector's picture: path lengths, attenuation, scatter, noise, blur, lag. An imager belongs to
+/// one thread; it draws in that thread and starts no other.
 #include <optional>
 
 #include "fluoro/detector/attenuation.h"
@@ -10,12 +10,12 @@
 
 namespace ostium::fluoro {
 
-/// Const while an imager lives.
+/// Constant for the lifetime of an imager.
 struct ImagerModel {
   Detector detector;
   ScatterKernel scatter;
   double grid_transmission = 0.7;    ///< of primary radiation
-  double focal_spot_m = 0.6e-3;      ///< blurs by the magnification of the isocentre
+  double focal_spot_m = 0.6e-3;      ///< blur grows with the magnification of the isocentre
   double detector_blur_m = 0.16e-3;  ///< standard deviation of the scintillator's light: MTF 0.6 at 1/mm
   double shutter_blur_m = 1.2e-3;    ///< standard deviation of the shutters' shadow at the detector
 };
@@ -28,7 +28,7 @@ struct FrameInput {
   std::uint64_t seed = 1;
 };
 
-/// All that the next frame needs of those before.
+/// State carried from frame to frame.
 struct ImagerState {
   std::uint64_t frame = 0;
   Lag lag;
@@ -36,24 +36,24 @@ struct ImagerState {
 
 struct FrameReport {
   Exposure exposure;
-  Leak leak;            ///< a surface that is not closed, or lies where it cannot
+  Leak leak;            ///< a surface that is open or badly placed
   std::string leaking;  ///< names of the bodies that leak, if any
 };
 
 class Imager {
  public:
-  /// Throws what the renderer's maker throws.
+  /// Rethrows what making the renderer throws.
   explicit Imager(const ImagerModel& model, std::unique_ptr<PathLengthRenderer> renderer);
   ~Imager();
 
-  /// One frame; state.lag.shown is the picture, in photons of mean energy that the detector absorbed. Degrades on a
-  /// leak (negative lengths count as zero) and says so.
+  /// One frame; state.lag.shown is the picture, in absorbed photons of mean energy. With a leak the picture degrades
+  /// (negative lengths count as zero) and the report says so.
   FrameReport frame(const FrameInput& in, ImagerState& state);
-  /// Dose and automatic brightness alone, from a coarse estimate, without a picture.
+  /// Only dose and automatic brightness, from a coarse estimate, without a picture.
   Exposure exposure(const FrameInput& in);
 
-  const Plane& exposed() const { return exposed_; }  ///< where the last frame's beam was, 0 to 1
-  /// Path lengths of the last frame, for whoever measures.
+  const Plane& exposed() const { return exposed_; }  ///< exposed area of the last frame, 0 to 1
+  /// Path lengths of the last frame, for measurements.
   const PathLengths& lengths() const { return lengths_; }
   const char* renderer() const { return renderer_->name(); }
 
@@ -65,7 +65,7 @@ class Imager {
   ImagerModel model_;
   std::unique_ptr<PathLengthRenderer> renderer_, coarse_renderer_;
   Beams beams_;
-  // What is kept while neither C-arm nor fixed scene change.
+  // Cached while neither the C-arm nor the fixed scene changes:
   std::shared_ptr<const std::vector<Body>> fixed_, coarse_fixed_;
   std::optional<View> view_, coarse_view_;
   PathLengths fixed_lengths_, coarse_fixed_lengths_;

@@ -10,7 +10,7 @@ namespace {
 
 using Row = Eigen::Array<float, 1, Eigen::Dynamic>;
 
-/// Mean where the beam is, weights `exposed`.
+/// Mean over the exposed area, weighted by `exposed`.
 float mean_over(const Plane& plane, const Plane& exposed) {
   const float sum = exposed.sum();
   return sum > 0 ? (plane * exposed).sum() / sum : 0;
@@ -29,7 +29,7 @@ void display(const Plane& signal, const Plane& exposed, double field_m, const Di
   for (int row = 0; row < pixels; ++row)
     if (open)
       logarithm.row(row) = signal.row(row).max(floor).log();
-    else  // the shutters' shadow is taken out, or its edge would ring in the slow part
+    else  // the shutters' shadow is excluded, or its edge would ring in the low frequencies
       logarithm.row(row) = (signal.row(row) / exposed.row(row).max(0.02f)).max(floor).log();
   Plane coarse = block_means(logarithm, cells);
   const float mean = mean_over(coarse, block_means(exposed, cells));
@@ -42,7 +42,7 @@ void display(const Plane& signal, const Plane& exposed, double field_m, const Di
   out.grey.resize(static_cast<std::size_t>(pixels) * static_cast<std::size_t>(pixels));
   Row level(pixels), end(pixels);
   for (int row = 0; row < pixels; ++row) {
-    // A curve of slope 1 at the middle that nears black and white without reaching them: x / sqrt(1 + (x / end)^2).
+    // A curve of slope 1 at the middle that approaches black and white asymptotically: x / sqrt(1 + (x / end)^2).
     level = contrast * (logarithm.row(row) - mean - share * (slow.row(row) - mean));
     end = (level > 0).select(Row::Constant(pixels, 1 / (1 - middle)), 1 / middle);
     level = middle + level / (1 + (level * end).square()).sqrt();

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <cstdio>
 #include <memory>
-#include <numbers>
 
 #include "core/base/units.h"
 #include "fluoro/projection/views.h"
@@ -15,7 +14,7 @@ namespace ostium::fluoro {
 
 namespace {
 
-/// Draws white on a transparent sheet, which is then laid over the picture.
+/// Draws in white on a transparent sheet that is then composited onto the picture.
 class Sheet {
  public:
   Sheet(int width, int height)
@@ -33,7 +32,7 @@ class Sheet {
     cairo_show_text(pen(), text.c_str());
   }
 
-  /// Where letters are, `white` takes the picture's place; a dark rim keeps them legible on white lung.
+  /// Draws letters in white, with a dark rim that keeps them legible on bright lung.
   void lay_over(Picture& picture, int top) {
     cairo_surface_flush(surface_.get());
     const int width = cairo_image_surface_get_width(surface_.get()),
@@ -68,7 +67,7 @@ std::string text(const char* format, Values... values) {
 }
 
 std::string minutes(double seconds) {
-  const auto whole = static_cast<long>(seconds);  // that are over
+  const auto whole = static_cast<long>(seconds);  // completed
   return text("%ld:%02ld", whole / 60, whole % 60);
 }
 
@@ -144,7 +143,7 @@ void append_strips(const std::vector<Strip>& strips, double seconds, int height,
                 text("%.*f", strip.most - strip.least < 10 ? 1 : 0, double(strip.samples.back())));
     sheet.write(right + 0.4 * size, from + 0.5 * share + 1.2 * size, 0.75 * size, strip.unit);
     const auto count = std::min(strip.samples.size(), static_cast<std::size_t>(seconds * strip.samples_per_s));
-    cairo_new_path(sheet.pen());  // words leave their end as its beginning
+    cairo_new_path(sheet.pen());  // text leaves the current point at its end
     for (std::size_t i = 0; i < count; ++i) {
       const double back_s = double(i) / strip.samples_per_s;
       const double value = double(strip.samples[strip.samples.size() - 1 - i]);

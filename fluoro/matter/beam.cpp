@@ -11,8 +11,8 @@ struct Quadrature {
   Eigen::VectorXd nodes, weights;
 };
 
-/// Golub and Welsch: nodes are the eigenvalues of the Jacobi matrix of the polynomials that are orthogonal under
-/// `weights` at `points`, weights the first components of its eigenvectors.
+/// Golub and Welsch: the nodes are the eigenvalues of the Jacobi matrix of the polynomials orthogonal under `weights`
+/// at `points`, the weights come from the first components of its eigenvectors.
 Quadrature gauss(const Eigen::ArrayXd& points, const Eigen::ArrayXd& weights, int count) {
   const double total = weights.sum();
   Eigen::MatrixXd jacobi = Eigen::MatrixXd::Zero(count, count);
@@ -31,7 +31,7 @@ Quadrature gauss(const Eigen::ArrayXd& points, const Eigen::ArrayXd& weights, in
   return {eigen.eigenvalues(), total * eigen.eigenvectors().row(0).transpose().array().square()};
 }
 
-/// The energy at which soft tissue attenuates so much; attenuation falls with energy.
+/// The energy at which soft tissue has that attenuation, which decreases with energy.
 double energy_where(const Spectrum& s, const Eigen::ArrayXd& soft, double soft_1_m) {
   Eigen::Index i = 0;
   while (i + 2 < soft.size() && soft[i + 1] > soft_1_m) ++i;

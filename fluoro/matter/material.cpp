@@ -10,7 +10,7 @@ namespace ostium::fluoro {
 namespace {
 
 struct Recipe {
-  const char* compound;  // of xraylib's parser, or of its NIST list
+  const char* compound;  // in the notation of xraylib's parser or its NIST list
   double density_kg_m3;
   double share = 1;  // mass fraction, the rest is `rest`
   const char* rest = nullptr;
@@ -24,10 +24,10 @@ constexpr std::array<Recipe, 16> recipes{{
     {"Bone, Cortical (ICRP)", 1850},
     {"I", 1},
     {"C12H22N2O", 1060},                   // nylon, PEBAX
-    {"BaSO4", 1330, 0.25, "C12H22N2O"},    // catheter walls, a quarter of their mass barium sulphate
-    {"Fe0.68Cr0.185Ni0.12Mo0.015", 8000},  // 316L, atoms
+    {"BaSO4", 1330, 0.25, "C12H22N2O"},    // catheter walls, a quarter barium sulphate by mass
+    {"Fe0.68Cr0.185Ni0.12Mo0.015", 8000},  // 316L, atomic fractions
     {"NiTi", 6450},
-    {"Co0.545Cr0.235Ni0.105W0.05Mn0.015Fe0.02", 9100},  // L605, atoms
+    {"Co0.545Cr0.235Ni0.105W0.05Mn0.015Fe0.02", 9100},  // L605, atomic fractions
     {"Pt", 21450},
     {"W", 19250},
     {"Au", 19300},
@@ -48,7 +48,7 @@ double mixed(const Recipe& r, double energy_keV, double (*cross_section)(const c
   return r.share * m2_kg(r.compound) + (r.rest ? (1 - r.share) * m2_kg(r.rest) : 0);
 }
 
-/// Mean share of a photon's energy that the recoiling electron takes (Klein and Nishina 1929).
+/// Mean share of a photon's energy transferred to the recoil electron (Klein and Nishina 1929).
 double compton_transfer(double energy_keV) {
   constexpr int steps = 200;
   const double a = energy_keV / 510.999;

@@ -17,7 +17,7 @@ std::string in_mm(const Eigen::Vector3f& p_P) {
   return "(" + mm(p_P.x()) + ", " + mm(p_P.y()) + ", " + mm(p_P.z()) + ") mm";
 }
 
-/// Half-edges, the two directions of an edge under one key; a closed surface has as many of one as of the other.
+/// Half-edges, both directions of an edge under one key; in a closed surface the two are equally frequent.
 void require_closed(const Body& body) {
   std::vector<std::pair<std::uint64_t, int>> edges;
   edges.reserve(3 * static_cast<std::size_t>(body.triangles->cols()));

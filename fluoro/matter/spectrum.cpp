@@ -8,7 +8,7 @@ namespace ostium::fluoro {
 
 namespace {
 
-constexpr double anode_path_m = 10e-6;  // tungsten on the way out
+constexpr double anode_path_m = 10e-6;  // tungsten crossed by the photons leaving the anode
 constexpr double joule_per_keV = 1.602176634e-16;
 
 double kerma_through_aluminium(const Spectrum& s, double aluminium_m) {
@@ -22,7 +22,7 @@ double kerma_through_aluminium(const Spectrum& s, double aluminium_m) {
 }  // namespace
 
 Spectrum spectrum(const XrayTube& tube) {
-  constexpr int lowest_keV = 15;  // nothing below it comes through the filters
+  constexpr int lowest_keV = 15;  // lower energies do not pass the filters
   const int bins = static_cast<int>(std::ceil(tube.peak_kV)) - lowest_keV;
   Spectrum s{Eigen::ArrayXd(bins), Eigen::ArrayXd(bins)};
   for (int i = 0; i < bins; ++i) {

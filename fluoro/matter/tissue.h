@@ -3,8 +3,8 @@
 
 namespace ostium::fluoro::tissue {
 
-/// Mixtures (scene.h) that attenuate as xraylib's ICRP tissues do at 40 and 80 keV, by the linear coefficients that
-/// tests/fluoro/material_test.cpp compares: soft tissue 1.00 g/cm3, blood 1.06, muscle 1.04, adipose 0.92, lung at
+/// Mixtures (scene.h) that match the attenuation of xraylib's ICRP tissues at 40 and 80 keV, by the linear coefficients
+/// checked in tests/fluoro/material_test.cpp: soft tissue 1.00 g/cm3, blood 1.06, muscle 1.04, adipose 0.92, lung at
 /// total lung capacity less a breath 0.26.
 inline constexpr Tissue air{0, 0};
 inline constexpr Tissue soft{1, 0};
@@ -13,8 +13,8 @@ inline constexpr Tissue muscle{1.035f, 0.007f};
 inline constexpr Tissue adipose{0.987f, -0.033f};
 inline constexpr Tissue lung{0.26f, 0.0012f};
 inline constexpr Tissue cortical_bone{0, 1};
-inline constexpr Tissue spongy_bone{0.93f, 0.12f};  ///< a tenth to an eighth of it is mineralised
-inline constexpr Tissue loose_bone{0.97f, 0.05f};   ///< of ribs and sternum: half as dense
+inline constexpr Tissue spongy_bone{0.93f, 0.12f};  ///< about a tenth to an eighth mineralised
+inline constexpr Tissue loose_bone{0.97f, 0.05f};   ///< ribs and sternum: half as dense
 inline constexpr Tissue calcified_plaque{0.6f, 0.55f};
 
 }  // namespace ostium::fluoro::tissue

@@ -3,7 +3,6 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "core/base/units.h"
 
@@ -21,7 +20,7 @@ double smooth(double t) {
   return t * t * (3 - 2 * t);
 }
 
-/// A sum of waves whose lengths share no measure.
+/// A sum of waves with incommensurable lengths.
 class Sway {
  public:
   explicit Sway(Random& random) {
@@ -95,7 +94,7 @@ Eigen::VectorXd calibre(Index points, const std::vector<std::pair<double, double
     out[i] = 0.5e-3 * (from_mm + (to_mm - from_mm) * std::clamp((share - from) / (to - from), 0.0, 1.0)) *
              (1 + 0.022 * uneven(0.8 * s));
   }
-  // Knots rounded over some millimetres.
+  // Rounds the knots over some millimetres.
   for (int pass = 0; pass < 24; ++pass) {
     const Eigen::VectorXd before = out;
     for (Index i = 1; i + 1 < points; ++i) out[i] = 0.25 * (before[i - 1] + 2 * before[i] + before[i + 1]);
@@ -109,7 +108,7 @@ double from_course(const Course& course, const Vector3d& p) {
   double least = 1;
   for (Index i = 0; i + 1 < course.line.cols(); ++i) {
     const Vector3d a = course.line.col(i);
-    // Points lie half a millimetre apart: far ones need no segment.
+    // Points are half a millimetre apart, so segments of far points need no test.
     if ((p - a).squaredNorm() > std::pow(course.radius_m[i] + least + 2e-3, 2)) continue;
     least = std::min(least, from_rod(p, a, course.line.col(i + 1), course.radius_m[i], course.radius_m[i + 1]));
   }
@@ -128,7 +127,7 @@ Lumen lumen(const std::vector<Course>& courses, std::size_t which) {
   Eigen::VectorXd radius_m(line.cols());
   for (Index i = 0; i < line.cols(); ++i) {
     line.col(i) = course.line.col(kept[static_cast<std::size_t>(i)]);
-    // A polygon of the circle's area.
+    // A polygon with the area of the circle.
     radius_m[i] =
         course.radius_m[kept[static_cast<std::size_t>(i)]] * std::sqrt(2 * pi / sides / std::sin(2 * pi / sides));
   }

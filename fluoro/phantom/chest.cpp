@@ -3,7 +3,6 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "core/base/units.h"
 #include "fluoro/matter/tissue.h"
@@ -20,7 +19,7 @@ namespace {
 
 constexpr double midline_x = -0.022, spine_z = -0.098, chest_z = -0.022, vertebra_m = 0.0262;
 
-/// Inside an elliptic cross-section of that half width and half depth, in shares of it.
+/// Relative depth within a rounded ellipse of that half width and half depth: 1 at its middle, negative outside.
 double across_chest(const Vector3d& p, double wide_m, double deep_m) {
   const double x = (p.x() - midline_x) / wide_m, z = (p.z() - chest_z) / deep_m;
   return 1 - std::pow(std::pow(std::fabs(x), 2.4) + std::pow(std::fabs(z), 2.4), 1 / 2.4);
@@ -30,7 +29,7 @@ constexpr double rib_wide_m = 0.1535, rib_deep_m = 0.0985;
 /// Height of the diaphragm's domes.
 double diaphragm_y(const Vector3d& p, bool right) {
   const double beside = p.x() - (right ? -0.10 : 0.075), z = p.z() / 0.12;
-  const bool medial = (beside > 0) == right;  // towards the heart's bed it falls less
+  const bool medial = (beside > 0) == right;  // slopes less towards the heart
   const double x = beside / (medial ? 0.125 : 0.085);
   return (right ? -0.045 : -0.060) - 0.06 * (x * x + z * z);
 }
@@ -40,10 +39,10 @@ Vector3d descending_aorta(double y) {
   return {-0.004 + 0.006 * std::sin((y + 0.03) / 0.04), y, -0.081 + 0.003 * std::sin(y / 0.05)};
 }
 
-/// Distance to the lungs' surface, negative inside them.
+/// Signed distance to the lungs' surface, negative inside.
 double from_lung(const Vector3d& p, bool right) {
   const double side = right ? midline_x - p.x() : p.x() - midline_x;
-  // Wide about spine, aorta and heart; in front the lungs nearly meet.
+  // Wide around spine, aorta and heart; in front the lungs almost meet.
   const double front = std::clamp((p.z() - 0.005) / 0.05, 0.0, 1.0);
   const double mediastinum_m = 0.024 - 0.017 * front * front * (3 - 2 * front) +
                                0.01 * std::exp(-std::pow((p.y() - 0.04) / 0.05, 2)) +
@@ -51,7 +50,7 @@ double from_lung(const Vector3d& p, bool right) {
   const Vector3d from_middle = p - heart_middle();
   const double heart = from_middle.norm() - heart_radius(from_middle.normalized()) - 0.003;
   const double aorta = (p - descending_aorta(p.y())).norm() - 0.0145;
-  // What the lung goes round, with the grooves between filled.
+  // The structures the lung surrounds, with the grooves between them filled.
   const double solid = joined(joined(side - mediastinum_m, heart, 0.022), aorta, 0.010);
   const double base = p.y() - diaphragm_y(p, right), apex = 0.16 - p.y() - 6.6 * side * side;
   return -joined(std::min(0.1 * across_chest(p, 0.146, 0.091), apex), joined(solid, base, 0.035), 0.012);
@@ -110,7 +109,7 @@ void add_spine(std::vector<Body>& out) {
   }
 }
 
-/// From the head at the spine to where cartilage takes over, where cortex and height run out.
+/// From the head at the spine to the cartilage, where the cortex and the height taper off.
 void add_ribs(std::vector<Body>& out) {
   Random random(3);
   for (int i = -5; i <= 6; ++i) {
@@ -149,19 +148,19 @@ void add_ribs(std::vector<Body>& out) {
   }
 }
 
-/// Loose throughout: its cortex is thinner than a mesh would show.
+/// Spongy throughout: its cortex is thinner than a mesh would show.
 double from_sternum_mm(const Vector3d& p) {  // x to a side, y along it, z through it
   const double y = p.y();
   // Manubrium above, angle of Louis, body with notches for the ribs.
   const double notches = 1.6 * std::sin(0.27 * y + 0.6) + 0.7 * std::sin(0.61 * y);
   const double wide = 15 + 9 / (1 + std::exp(-(y - 46) / 4)) - 3 * std::exp(-std::pow((y - 42) / 7, 2)) -
                       5 * std::clamp(-(y + 30) / 40, 0.0, 1.0) + notches;
-  // A lens across, so that its margin is soft.
+  // Lens-shaped in cross-section, so that its margin is soft.
   const double across = 0.85 * (std::fabs(p.z()) - 5 * (1 - std::pow(p.x() / wide, 2)));
   return common(across, std::max(y - 78, -72 - y + 2.5 * std::cos(0.2 * p.x())), 14);
 }
 
-/// Arteries and veins of the lungs: a few from each hilum, on to the fissures, dividing unevenly.
+/// Arteries and veins of the lungs: a few from each hilum, ending at the fissures, branching unevenly.
 void add_lung_vessels(std::vector<Body>& out) {
   Random random(7);
   const Normal nowhere = [](const Vector3d&) { return Vector3d(Vector3d::Zero()); };
@@ -230,7 +229,7 @@ std::vector<Body> fixed_bodies() {
   out.push_back(body("sternum", net(sternum, {midline_x - 0.035, -0.06, 0.055}, {midline_x + 0.035, 0.12, 0.1}, 0.002),
                      tissue::loose_bone, tissue::soft));
   add_lung_vessels(out);
-  // Stands in the mediastinum and shows where the left lung lies against it.
+  // Lies in the mediastinum and is visible against the left lung.
   const Matrix3Xd aorta = smooth_line({descending_aorta(-0.25),
                                        descending_aorta(-0.17),
                                        descending_aorta(-0.10),
@@ -263,8 +262,8 @@ std::vector<Body> moving_bodies(const ChestOptions& options) {
     if (!filled(options.filling, course.left)) continue;
     const auto [surface, point] = lumen(courses, i);
     Body vessel = body(course.name, surface, tissue::soft, tissue::soft);
-    // What escapes into the aorta thins out upstream of the ostium; elsewhere the filling is uniform, and concentration
-    // times the way counts from the far end.
+    // Contrast that refluxes into the aorta thins out upstream of the ostium; elsewhere the filling is uniform, and
+    // concentration times distance is integrated from the far end.
     const Eigen::Index last = course.line.cols() - 1;
     const auto iodine = [&](Eigen::Index k) {
       const double t = course.parent < 0 ? std::min(1.0, double(k) / double(mouth_points)) : 1;

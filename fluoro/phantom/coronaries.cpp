@@ -2,7 +2,6 @@
 
 #include <Eigen/Geometry>
 #include <cmath>
-#include <numbers>
 
 #include "core/base/units.h"
 #include "fluoro/phantom/heart.h"
@@ -23,9 +22,9 @@ Vector3d dodge(double r_cm, double theta_deg, double phi_deg) {
 struct Stem {
   const char* name;
   bool left;
-  std::vector<Vector3d> through;                    // from its ostium
+  std::vector<Vector3d> through;                    // points it passes through, from its ostium
   std::vector<std::pair<double, double>> share_mm;  // diameters by share of its length
-  const char* from = "";                            // what it leaves
+  const char* from = "";                            // the vessel it branches from
 };
 
 const std::vector<Stem>& stems() {
@@ -128,7 +127,7 @@ constexpr double lesion_at = 0.27;  // share of the stem's length
 Vector3d outwards(const Vector3d& p) { return (p - heart_middle()).normalized(); }
 Vector3d nowhere(const Vector3d&) { return Vector3d::Zero(); }
 
-/// Over the heart's surface.
+/// Height above the heart's surface.
 double height(const Vector3d& p) {
   const Vector3d out = p - heart_middle();
   return out.norm() - heart_radius(out.normalized());
@@ -144,13 +143,13 @@ class Tree {
     Course course{stem.name, stem.left, smooth_line(through, course_step_m), {}, index_of(stem.from)};
     const bool main = stem.share_mm.size() > 2;
     const bool septal = stem.name[0] == 'S';
-    if (!septal)  // nearer to the surface, unless deep within
+    if (!septal)  // closer to the surface, unless deep within
       for (Eigen::Index i = 0; i < course.line.cols(); ++i) {
         const Vector3d p = course.line.col(i);
         const double h = height(p), deep = std::clamp((-0.003 - h) / 0.009, 0.0, 1.0);
         course.line.col(i) += (1 - deep) * 0.65 * (0.0008 - h) * outwards(p);
       }
-    if (course.parent >= 0) {  // the parent has wound away from the published point
+    if (course.parent >= 0) {  // the parent has wandered from the published point
       const Course& parent = at(course.parent);
       Eigen::Index nearest = 0;
       (parent.line.colwise() - course.line.col(0)).colwise().squaredNorm().minCoeff(&nearest);
@@ -163,7 +162,7 @@ class Tree {
     courses.push_back(std::move(course));
   }
 
-  /// Twigs of a course, theirs, and the two that it ends in.
+  /// Adds a course's side twigs, their twigs, and its two terminal branches.
   void sprout(int parent, int generation) {
     const Eigen::Index n = at(parent).line.cols();
     const double length_m = double(n) * course_step_m;

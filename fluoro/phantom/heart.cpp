@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <vector>
 
 #include "core/base/units.h"
@@ -17,7 +16,7 @@ namespace {
 
 constexpr int rows = 90, columns = 180;  // of the table: polar angle about y, azimuth
 
-/// Round every point: the hull of spheres that have middle and point as poles.
+/// Around every point: the hull of spheres that have the middle and the point as poles.
 double hull(const std::vector<Vector3d>& points, const Vector3d& direction) {
   double sum = 0;
   for (const Vector3d& p : points) sum += std::exp(500 * std::max(0.0, (p - heart_middle()).dot(direction)));
@@ -29,16 +28,16 @@ Vector3d direction_at(double row, double column) {
   return {std::sin(polar) * std::cos(azimuth), std::cos(polar), std::sin(polar) * std::sin(azimuth)};
 }
 
-/// Means of the hull over some ten degrees round each direction.
+/// The hull averaged over about ten degrees around each direction.
 Eigen::ArrayXXd table() {
   std::vector<Vector3d> points = epicardial_points();
   points.emplace_back(-0.052, -0.015, 0.02);  // right atrium
   points.emplace_back(-0.05, -0.035, 0.018);
-  points.emplace_back(-0.02, 0.05, 0.03);  // outflow
+  points.emplace_back(-0.02, 0.05, 0.03);  // outflow tract
   constexpr int samples = 1500;
   std::vector<Vector3d> towards;
   std::vector<double> far;
-  for (int i = 0; i < samples; ++i) {  // evenly over the sphere: Fibonacci's spiral
+  for (int i = 0; i < samples; ++i) {  // uniform on the sphere: Fibonacci spiral
     const double y = 1 - (2 * i + 1.0) / samples, turn = pi * (1 + std::sqrt(5.0)) * i, flat = std::sqrt(1 - y * y);
     towards.emplace_back(flat * std::cos(turn), y, flat * std::sin(turn));
     far.push_back(hull(points, towards.back()));

@@ -4,7 +4,7 @@
 
 namespace ostium::fluoro::phantom {
 
-/// The same numbers everywhere: the engine is fixed by the standard, distributions are not.
+/// Reproducible everywhere: the engine is fixed by the standard, library distributions are not.
 class Random {
  public:
   explicit Random(unsigned seed) : engine_(seed) {}

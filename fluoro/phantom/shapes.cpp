@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 
 #include "core/base/units.h"
 
@@ -17,7 +16,7 @@ using units::pi;
 
 namespace {
 
-/// Rings of `sides` vertices one after another, closed at both ends by a vertex each, which come last.
+/// Consecutive rings of `sides` vertices, closed at each end by a pole vertex; the poles come last.
 Triangles rings_with_poles(int rings, int sides) {
   Triangles out(3, 2 * sides * rings);
   const int first_pole = rings * sides, last_pole = first_pole + 1;
@@ -38,10 +37,10 @@ Surface surface(Triangles triangles, const Matrix3Xd& p_P) {
   return {std::make_shared<const Triangles>(std::move(triangles)), p_P.cast<float>()};
 }
 
-/// Where the rings of a tube are: along the line, and for a round end on a few points of a half circle beyond it.
+/// Positions of a tube's rings: along the line, and at round ends on a half circle beyond it.
 struct Ring {
-  Index point;        // of the line
-  double beyond = 0;  // in radii, outwards
+  Index point;        // index on the line
+  double beyond = 0;  // in radii, beyond the end
   double shrunk = 1;
 };
 
@@ -82,7 +81,7 @@ Surface star(const Vector3d& centre, const std::function<double(const Vector3d&)
   p.col(rings * sides) = at(-Vector3d::UnitZ());
   p.col(rings * sides + 1) = at(Vector3d::UnitZ());
   Triangles t = rings_with_poles(rings, sides);
-  t.row(1).swap(t.row(2));  // the azimuth runs the other way here
+  t.row(1).swap(t.row(2));  // the azimuth has the opposite sense here
   return surface(std::move(t), p);
 }
 
@@ -116,7 +115,7 @@ Surface tube(const Matrix3Xd& line, const Eigen::VectorXd& radius_m, int sides, 
   for (Index i = 0; i < count; ++i) {
     const Ring& ring = rings[static_cast<std::size_t>(i)];
     const Vector3d along = tangent(line, ring.point);
-    across = (across - across.dot(along) * along).normalized();  // carried along: no twist
+    across = (across - across.dot(along) * along).normalized();  // parallel transport: no twist
     const Vector3d beside = along.cross(across);
     const double radius = radius_m[ring.point];
     for (int j = 0; j < sides; ++j) {
@@ -155,7 +154,7 @@ void begin_outside(Surface& tube, int sides, Index longest, const Distance& with
   const auto vertex = [&](Index ring, int side) -> Vector3d {
     return tube.p_P.col(ring * sides + side).cast<double>();
   };
-  /// Between an inner and an outer point.
+  /// Crossing between an inner and an outer point.
   const auto crossing = [&](Vector3d inner, Vector3d outer) {
     for (int i = 0; i < 20; ++i) {
       const Vector3d middle = 0.5 * (inner + outer);
@@ -173,7 +172,7 @@ void begin_outside(Surface& tube, int sides, Index longest, const Distance& with
     for (Index i = 0; i <= last; ++i) tube.p_P.col(i * sides + j) = p.cast<float>();
     lid += p / sides;
   }
-  // The lid bulges as the surface does.
+  // The lid follows the curvature of the surface.
   const Vector3d beyond = start + 1.6 * (lid - start);
   if (within(beyond) > 0) lid = crossing(start, beyond);
   tube.p_P.col(first_pole) = lid.cast<float>();
@@ -204,7 +203,7 @@ Surface net(const Distance& inside, const Vector3d& low, const Vector3d& high, d
   std::vector<Vector3d> sum;
   std::vector<int> crossings;
   std::vector<Eigen::Vector3i> triangles;
-  // A cell's vertex starts as the middle of the crossings on its edges; cell (x, y, z) has its low corner there.
+  // A cell's vertex starts at the mean of the crossings on its edges; (x, y, z) is the cell's low corner.
   const auto touch = [&](int cell, const Vector3d& p) {
     int& v = vertex[static_cast<std::size_t>(cell)];
     if (v < 0) {

@@ -1,5 +1,5 @@
-/// OSMesa (llvmpipe) draws the path lengths: each triangle adds its depth where the ray leaves and takes it away where
-/// it enters (additive blending of 32-bit floats). OSMesa ends with Mesa 25; this is the one file that knows it.
+/// Path lengths drawn by OSMesa (llvmpipe): each triangle adds its depth where the ray exits and subtracts it where it
+/// enters (additive blending of 32-bit floats). OSMesa ends with Mesa 25; only this file uses it.
 #define GL_GLEXT_PROTOTYPES
 #include <GL/gl.h>
 #include <GL/osmesa.h>
@@ -15,10 +15,10 @@ namespace ostium::fluoro {
 
 namespace {
 
-/// Depths count from the isocentre, so that float keeps them to a few hundredths of a micrometre. The third component
-/// of `p_S` is the depth from the source; nothing is clipped by depth. llvmpipe decides which pixels a triangle covers
-/// on a grid of 1/256 pixel, but takes its slopes from where the corners really were: on a steep triangle it would
-/// reach far beyond them. So the corners are put on that grid here.
+/// Depths are measured from the isocentre, so that floats keep them to a few hundredths of a micrometre. The third
+/// component of `p_S` is the depth from the source; nothing is clipped by depth. llvmpipe decides which pixels a
+/// triangle covers on a grid of 1/256 pixel, but computes slopes from the exact corners, so a steep triangle would
+/// reach far beyond them. So the corners are rounded to that grid here.
 constexpr const char* vertex_shader = R"(#version 130
 uniform mat3 R_SP;         // patient to source frame: right, up, outwards
 uniform vec3 p_PS;         // the source
@@ -38,7 +38,7 @@ void main() {
   gl_Position = vec4((2.0 * at / pixels - 1.0) * p_S.z, 0.0, p_S.z);
 })";
 
-/// Image axes look at the patient from the detector, so that what faces the source winds clockwise in the picture.
+/// Image axes look at the patient from the detector, so triangles facing the source are clockwise in the picture.
 constexpr const char* fragment_shader = R"(#version 130
 uniform vec2 tissue;  // soft, bone
 in float depth;
@@ -64,7 +64,7 @@ GLuint compiled(GLenum kind, const char* text) {
 class OSMesaRenderer final : public PathLengthRenderer {
  public:
   OSMesaRenderer() {
-    // Threads of its own would take the core that the simulation steps on, and cost short frames more than they save.
+    // Threads of its own would take the core of the simulation, and cost short frames more than they save.
     setenv("LP_NUM_THREADS", "0", /*overwrite=*/0);
     context_ = OSMesaCreateContextExt(OSMESA_RGBA, 0, 0, 0, nullptr);
     if (!context_) throw std::runtime_error("X-ray rendering: OSMesa gives no context; is libosmesa6 installed?");
@@ -165,7 +165,7 @@ class OSMesaRenderer final : public PathLengthRenderer {
   void read_back(PathLengths& out) {
     rgba_.resize(4, Eigen::Index(pixels_) * pixels_);
     glReadPixels(0, 0, pixels_, pixels_, GL_RGBA, GL_FLOAT, rgba_.data());
-    for (int row = 0; row < pixels_; ++row)  // GL counts rows from below
+    for (int row = 0; row < pixels_; ++row)  // GL counts rows from the bottom
       out.pixels().middleCols(Eigen::Index(row) * pixels_, pixels_) +=
           rgba_.middleCols(Eigen::Index(pixels_ - 1 - row) * pixels_, pixels_);
   }
@@ -173,7 +173,7 @@ class OSMesaRenderer final : public PathLengthRenderer {
   GLint uniform(const char* name) const { return glGetUniformLocation(program_, name); }
 
   OSMesaContext context_ = nullptr;
-  GLubyte window_[4] = {};  // OSMesa wants one; the picture goes to the texture
+  GLubyte window_[4] = {};  // required by OSMesa; the picture is drawn to the texture
   GLuint program_ = 0, framebuffer_ = 0, texture_ = 0;
   int pixels_ = 0;
   Eigen::Matrix3Xf contrast_;

@@ -25,7 +25,7 @@ Leak find_leak(const PathLengths& lengths) {
     most_unmatched = std::max(most_unmatched, std::fabs(pixel[3]));
   }
   Leak leak;
-  if (!((least < limit).any() || most_unmatched > 0)) return leak;  // nearly always
+  if (!((least < limit).any() || most_unmatched > 0)) return leak;  // the usual case
   leak.worst_m = std::min({least[0], least[1], least[2] / leak_iodine_kg_m3});
   for (const auto& pixel : lengths.pixels().colwise())
     if ((pixel < limit).any() || pixel[3] != 0) ++leak.pixels;

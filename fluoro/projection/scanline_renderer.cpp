@@ -1,9 +1,9 @@
-/// A rasteriser that knows nothing but path lengths. Each triangle is cut into spans of pixel centres; a span adds
-/// depth where rays leave and takes it away where they enter.
+/// A rasteriser for path lengths only. Each triangle is cut into spans of pixel centres; a span adds depth where rays
+/// exit and subtracts it where they enter.
 ///
-/// Nothing is lost between triangles: the place where a row of pixel centres crosses an edge is computed from the upper
-/// end of that edge, so that both its triangles get the same bits, and a span's sign comes from which of its two
-/// crossings is left. Entries and exits of a closed surface therefore cancel exactly in every pixel.
+/// No gaps between triangles: the crossing of a row of pixel centres with an edge is computed from the upper end of
+/// that edge, so that both its triangles get the same bits, and a span's sign depends on which of its two crossings is
+/// on the left. So entries and exits of a closed surface cancel exactly in every pixel.
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -18,8 +18,8 @@ namespace {
 struct Corner {
   double x, y;
   float depth;
-  float iodine, from_centreline;  // of contrast: concentration; depth less that of its centreline;
-  float along;                    // and what is counted along that, kg/m2
+  float iodine, from_centreline;  // of contrast: concentration; depth minus that of its centreline;
+  float along;                    // and the integral along the centreline, kg/m2
 };
 
 /// value = at + per_x column + per_y row.
@@ -33,7 +33,7 @@ struct Slopes {
   Slopes(const Corner& a, const Corner& b, const Corner& c)
       : x1(b.x - a.x), y1(b.y - a.y), x2(c.x - a.x), y2(c.y - a.y) {
     const double area = x1 * y2 - x2 * y1;
-    over_area = std::fabs(area) > 1e-12 ? 1 / area : 0;  // a sliver is flat: its first corner's value
+    over_area = std::fabs(area) > 1e-12 ? 1 / area : 0;  // for a sliver: constant, the first corner's value
   }
 
   Linear through(const Corner& a, double va, double vb, double vc) const {
@@ -44,7 +44,7 @@ struct Slopes {
   }
 };
 
-/// Where an edge crosses the middle of a row; the same bits whichever triangle asks.
+/// Where an edge crosses the middle of a row; bit-identical for both triangles.
 struct Edge {
   double x, y, slope;
   Edge(const Corner& upper, const Corner& lower)
@@ -56,19 +56,19 @@ int first_centre_from(double position, int pixels) {
   return static_cast<int>(std::clamp(std::ceil(position - 0.5), 0.0, static_cast<double>(pixels)));
 }
 
-/// The first row and column of centres from a vertex on.
+/// The first row and column of pixel centres at or after a vertex.
 struct Cell {
   std::int16_t row, column;
 };
 
-/// Whether a triangle can have the centre of a pixel inside. Most of a fine mesh cannot, and is done with here.
+/// Whether a triangle can contain a pixel centre. Most triangles of a fine mesh cannot, and are rejected here.
 bool meets_a_centre(Cell a, Cell b, Cell c) {
   const auto differ = [](int x, int y, int z) { return x != y || y != z; };
   return differ(a.row, b.row, c.row) && differ(a.column, b.column, c.column);
 }
 
-/// Calls span(row, from, to, sign) for each row; sign is +1 where the ray leaves: the triangle winds anticlockwise as
-/// the picture is seen.
+/// Calls span(row, from, to, sign) for each row; sign is +1 where the ray exits: the triangle is anticlockwise in the
+/// picture.
 template <typename Span>
 void for_each_span(const Corner& a, const Corner& b, const Corner& c, int pixels, Span&& span) {
   const Corner* top = &a;
@@ -122,7 +122,7 @@ class ScanlineRenderer final : public PathLengthRenderer {
   const char* name() const override { return "scanline"; }
 
  private:
-  static constexpr float nearest_m = 0.05f;  // nothing of a patient is nearer to the source
+  static constexpr float nearest_m = 0.05f;  // no part of a patient is nearer to the source
 
   void project(const View& view, const Body& body, bool filled) {
     const ImageAxes axes(view.arm);
@@ -147,17 +147,17 @@ class ScanlineRenderer final : public PathLengthRenderer {
     }
   }
 
-  /// The inverse of the depth is linear on the picture.
+  /// The inverse of the depth is linear in the picture.
   void add_tissue(const Corner& a, const Corner& b, const Corner& c, Tissue net, PathLengths& out) {
     const Linear inverse = Slopes(a, b, c).through(a, 1.0 / a.depth, 1.0 / b.depth, 1.0 / c.depth);
     const float nearest = std::min({a.depth, b.depth, c.depth}), farthest = std::max({a.depth, b.depth, c.depth});
-    // Two pixels are one register, and one store.
+    // Two pixels fill one register and need one store.
     using Pair = Eigen::Array<float, 8, 1>;
     const Pair per_depth{{net.soft, net.bone, 0, 0, net.soft, net.bone, 0, 0}}, once{{0, 0, 0, 1, 0, 0, 0, 1}};
     const float isocentre = isocentre_;
     const int side = out.side();
     float* const pixels = out.pixels().data();
-    // Captured by value, so that no store into a pixel makes the compiler read them again.
+    // Captured by value, so that the compiler need not reload them after each store into a pixel.
     for_each_span(a, b, c, side, [=](int row, int from, int to, float sign) {
       const float start = inverse.at + inverse.per_y * static_cast<float>(row);
       const auto depth_at = [&](float x) {
@@ -178,7 +178,8 @@ class ScanlineRenderer final : public PathLengthRenderer {
     });
   }
 
-  /// Vessels are cut finely: depth from the centreline as linear on the picture is within a micrometre.
+  /// Vessels are finely meshed: taking the depth from the centreline as linear in the picture is accurate to a
+  /// micrometre.
   void add_iodine(const Corner& a, const Corner& b, const Corner& c, PathLengths& out) {
     const Slopes slopes(a, b, c);
     const Linear iodine = slopes.through(a, a.iodine, b.iodine, c.iodine);

@@ -8,7 +8,7 @@ namespace ostium::fluoro {
 
 namespace {
 
-/// Integral of sqrt(1 - x^2) from 0, tabled.
+/// Integral of sqrt(1 - x^2) from 0, tabulated.
 class HalfDisc {
  public:
   HalfDisc() {
@@ -29,7 +29,7 @@ class HalfDisc {
   std::array<double, steps + 2> table_;
 };
 
-/// Mean over a pixel of that width of the chord of a rod at distance d.
+/// Chord of a rod at distance d, averaged over a pixel of that width.
 double mean_chord(double radius, double d, double width) {
   static const HalfDisc half_disc;
   if (radius <= 0) return 0;
@@ -38,7 +38,7 @@ double mean_chord(double radius, double d, double width) {
 
 /// A point of the axis.
 struct Node {
-  Eigen::Vector2d at;   // on the picture: pixels, centres at one half
+  Eigen::Vector2d at;   // in the picture: pixels, centres at one half
   Eigen::Vector3d ray;  // from the source
   double pixel_m = 0;   // width of a pixel at this depth
   double along_m = 0;   // from the tip
@@ -49,7 +49,8 @@ struct Ring {
   PerEnergy mu{};  // 1/m
 };
 
-/// What a ring's piece is made from: its ends, and at each end the direction that splits pixels with its neighbour.
+/// A piece of a ring-shaped section: its ends, and at each end the direction along which pixels are shared with its
+/// neighbour.
 struct Piece {
   Node from, to;
   Eigen::Vector2d split_from, split_to;
@@ -70,7 +71,7 @@ class Painter {
                 along_m};
   }
 
-  /// All rings are drawn with the same pixels: what these have in common is computed once.
+  /// All rings cover the same pixels: their common part is computed once.
   void paint(const Piece& piece, std::span<const Ring> rings) {
     double outermost = 0;
     for (const Ring& ring : rings) outermost = std::max(outermost, ring.outer);
@@ -89,7 +90,7 @@ class Painter {
     const auto [left, right] = bound(piece.from.at.x(), piece.to.at.x(), reach);
     const auto [top, bottom] = bound(piece.from.at.y(), piece.to.at.y(), reach);
     for (int row = top; row <= bottom; ++row) {
-      // Only columns whose distance from the axis is within reach.
+      // Only columns within reach of the axis.
       int first = left, last = right;
       if (std::fabs(beside.x()) > 1e-3) {
         const double axis_column = piece.from.at.x() - (row + 0.5 - piece.from.at.y()) * beside.y() / beside.x();
@@ -119,7 +120,7 @@ class Painter {
   }
 
  private:
-  /// Of a pixel, the share beyond a line across `direction`: a ramp one pixel long.
+  /// The share of a pixel beyond a line across `direction`: a ramp one pixel long.
   static double share_beyond(const Eigen::Vector2d& from_line, const Eigen::Vector2d& direction) {
     return std::clamp(from_line.dot(direction) + 0.5, 0.0, 1.0);
   }
@@ -152,7 +153,8 @@ Nodes nodes_of(const Shaft& shaft, const Painter& painter) {
   return nodes;
 }
 
-/// Across the bisector of the two pieces that meet at a joint; across the piece itself (direction `own`) at an end.
+/// Normal of the line that divides pixels: at a joint the mean direction of the two pieces, at an end `own`, the
+/// piece's direction.
 Eigen::Vector2d split_at(const Nodes& nodes, std::size_t joint, const Eigen::Vector2d& own) {
   if (joint == 0 || joint + 1 == nodes.size() || !nodes[joint - 1] || !nodes[joint + 1]) return own;
   const Eigen::Vector2d sum =
@@ -160,7 +162,7 @@ Eigen::Vector2d split_at(const Nodes& nodes, std::size_t joint, const Eigen::Vec
   return sum.norm() > 0.2 ? Eigen::Vector2d(sum.normalized()) : own;
 }
 
-/// What fills the bore between two points; outer radius 0 if nothing does.
+/// The contents of the bore between two points; outer radius 0 if there are none.
 Ring bore_of(const Beam& beam, const Shaft& shaft, Eigen::Index from) {
   if (shaft.lumen_iodine_kg_m3.size() == 0) return {};
   const double kg_m3 = 0.5 * (shaft.lumen_iodine_kg_m3[from] + shaft.lumen_iodine_kg_m3[from + 1]);
@@ -172,7 +174,7 @@ Ring bore_of(const Beam& beam, const Shaft& shaft, Eigen::Index from) {
 
 void draw_shaft(const Beam& beam, const Shaft& shaft, Painter& painter) {
   const Nodes nodes = nodes_of(shaft, painter);
-  std::vector<Ring> whole;  // rings that go through all of a piece
+  std::vector<Ring> whole;  // rings that run through the whole piece
   for (std::size_t i = 0; i + 1 < nodes.size(); ++i) {
     if (!nodes[i] || !nodes[i + 1] || !(nodes[i + 1]->along_m > nodes[i]->along_m)) continue;
     const Node &a = *nodes[i], &b = *nodes[i + 1];

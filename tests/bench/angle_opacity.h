@@ -1,7 +1,7 @@
 #pragma once
-/// The yardstick for frames: the picture of P. Korzeniowski's thesis (2015), whose opacity grows with the angle between
-/// surface and line of sight. Every triangle is drawn every frame, blended into 8 bits, by OSMesa in the calling
-/// thread.
+/// Reference implementation for frame times: the picture of P. Korzeniowski's thesis (2015), whose opacity grows with
+/// the angle between surface and line of sight. Every triangle is drawn every frame, blended into 8 bits, by OSMesa in
+/// the calling thread.
 #include <memory>
 #include <span>
 
@@ -13,7 +13,7 @@ class AngleOpacity {
  public:
   explicit AngleOpacity(std::vector<fluoro::Body> bodies);
   ~AngleOpacity();
-  /// Draws and reads back; returns the mean grey level, so that nothing is left out.
+  /// Draws and reads back; returns the mean grey level, so that no work can be skipped.
   double draw(const fluoro::View& view);
 
  private:

@@ -1,5 +1,5 @@
-/// `ostium-bench`: how long a simulated millisecond takes, beside the gate it was reached with and beside the
-/// yardstick.
+/// `ostium-bench`: CPU time of a simulated millisecond, beside the gate's accuracy at the same settings and the
+/// reference implementation's time.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -15,7 +15,7 @@ namespace {
 
 using namespace ostium::bench;
 
-/// The thesis' explicit CoRdE with 512 elements at real stiffness and its own largest stable step.
+/// The thesis's explicit CoRdE with 512 elements at real stiffness and its own largest stable step.
 double yardstick_ms(bool quick) {
   CordeSettings settings;
   settings.step_s = largest_stable_step(settings, quick ? 0.002 : 0.02);

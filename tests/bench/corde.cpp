@@ -7,7 +7,6 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
-#include <numbers>
 
 #include "core/base/units.h"
 
@@ -64,7 +63,7 @@ Corde::Corde(const CordeSettings& settings)
   }
 }
 
-// The loops below are the model's cost. `ivdep` lets the compiler vectorise them: none reads what another of its rounds
+// The loops below are the model's cost. `ivdep` lets the compiler vectorise them: no iteration reads what another
 // writes.
 void Corde::step() {
   measure_elements();
@@ -79,7 +78,7 @@ void Corde::step() {
   integrate_velocities();
 }
 
-/// Length of r', and its direction still times that length: `align_frames` goes on with eq. 4.
+/// Length of r', and the unnormalised direction; `align_frames` continues with eq. 4.
 void Corde::measure_elements() {
   const int n = settings_.elements;
 #pragma GCC ivdep
@@ -148,7 +147,7 @@ void Corde::pull_elements() {
   }
 }
 
-/// CoRdE's rotational friction: a moment gamma_r times the rate at which neighbouring frames turn against each other.
+/// CoRdE's rotational friction: a moment gamma_r times the relative rotation rate of neighbouring frames.
 void Corde::rub_joints() {
   for (int j = 1; j < settings_.elements; ++j) {
     const Eigen::Quaterniond p = frame(j - 1).conjugate() * frame(j);
@@ -182,8 +181,8 @@ void Corde::integrate_forces() {
   }
 }
 
-/// Eq. 17, J W J^T lambda = -k_d J v - (k_s / h) C, with C_i = |r_{i+1} - r_i| - l: tridiagonal. The Thomas algorithm
-/// from both ends at once, since its cost is the wait for one division after the other.
+/// Eq. 17, J W J^T lambda = -k_d J v - (k_s / h) C, with C_i = |r_{i+1} - r_i| - l: tridiagonal. Thomas algorithm from
+/// both ends at once, since its cost is the latency of one division after another.
 void Corde::solve_distances_globally() {
   const int n = settings_.elements, mid = n / 2;
   const double beta = settings_.k_s / settings_.step_s, k_d = settings_.k_d, l = l_;
@@ -319,7 +318,7 @@ double free_alignment_spring(const CordeSettings& s) {
 bool is_stable(CordeSettings s, double step_s, double trial_s) {
   s.step_s = step_s;
   Corde rod(s);
-  // Every mode is there to grow if it can: from rest in a plane, twist would stay exactly zero.
+  // Excites all modes: from rest in a plane, twist would stay exactly zero.
   std::uint32_t seed = 1;
   const auto noise = [&seed] {
     seed = 1664525u * seed + 1013904223u;  // Numerical Recipes' linear congruential generator
@@ -330,7 +329,7 @@ bool is_stable(CordeSettings s, double step_s, double trial_s) {
     rod.set_spin(i, {a, b, c});
   }
   const int steps = std::max(2000, static_cast<int>(std::ceil(trial_s / step_s)));
-  // Bounded modes stay far below the one per cent of the rod's weight times length; growing ones pass it in no time.
+  // Bounded modes stay far below one per cent of the rod's weight times length; growing ones exceed it quickly.
   const double limit = rod.energy_J() * 10.0 + 0.01 * element_mass(s) * s.elements * s.length_m * s.gravity_m_s2.norm();
   for (int i = 1; i <= steps; ++i) {
     rod.step();

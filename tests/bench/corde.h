@@ -1,26 +1,27 @@
 #pragma once
-/// The yardstick: the published explicit CoRdE rod (Spillmann and Teschner, Proc. SCA 2007, pp. 63-72) with the
-/// distance constraints of Korzeniowski (PhD thesis, Imperial College London, 2015, chapter 3), written anew from the
-/// equations. The benchmark alone uses it: nothing in Ostium is built on this model. Equation numbers are the thesis'.
+/// Reference implementation: the published explicit CoRdE rod (Spillmann and Teschner, Proc. SCA 2007, pp. 63-72) with
+/// the distance constraints of Korzeniowski (PhD thesis, Imperial College London, 2015, chapter 3), reimplemented from
+/// the equations. Used by the benchmark only; nothing in Ostium builds on this model. Equation numbers are the
+/// thesis's.
 ///
-/// n elements join n + 1 mass points r_i; each element carries a unit quaternion q_j whose third director d3 a penalty
-/// spring holds to the tangent (eq. 8). Point 0 is clamped, and so is a frame at s = 0, half an element before the
-/// first: the rod starts straight along +x, at rest, with d3 = x and d1 = -z.
+/// n elements join n + 1 mass points r_i; each element carries a unit quaternion q_j whose third director d3 is aligned
+/// with the tangent by a penalty spring (eq. 8). Point 0 is clamped, and so is a frame at s = 0, half an element before
+/// the first: the rod starts straight along +x, at rest, with d3 = x and d1 = -z.
 ///
-/// Where the sources leave a choice, it was made in favour of the model:
+/// Where the sources leave a choice, it favours the model:
 /// - Second moments of area are pi r^4 / 4 and pi r^4 / 2; below eq. 3 stands r^2, which lacks the unit of a stiffness.
-/// - The frames are integrated as rigid bodies, so an element turns with the inertia of a cylinder of its own length,
-///   m (3 r^2 + l^2) / 12, by default. That of the cross-section alone, m r^2 / 4, makes the frames so light that their
-///   own chatter decides the step: 1.7 times shorter at 512 elements.
+/// - The frames are integrated as rigid bodies; by default an element has the rotational inertia of a cylinder of its
+/// length, m (3 r^2 + l^2) / 12. That of the cross-section alone, m r^2 / 4, makes the frames so light that their own
+/// oscillation limits the step: 1.7 times shorter at 512 elements.
 /// - The Baumgarte constant k_s is a fraction of the error per step (k_s C / h in eq. 17), as in engines of its time.
-/// - Neither friction nor natural curvature is computed unless asked for: both would only make a step dearer.
+/// - Friction and natural curvature are computed only if asked for: both would only make a step more expensive.
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <vector>
 
 namespace ostium::bench {
 
-/// How the rod keeps its length.
+/// How the rod's length is preserved.
 enum class Stretch {
   global,   ///< '1G': all distance constraints at once, a tridiagonal system (eq. 17)
   local,    ///< 'nL': n Gauss-Seidel sweeps over eq. 17, clamp to tip, started from zero in every step
@@ -38,7 +39,7 @@ struct CordeSettings {
   double density_kg_m3 = 6500.0;
   Eigen::Vector3d gravity_m_s2{0.0, 0.0, -9.81};
   double step_s = 1e-6;  ///< h
-  /// K_p of eq. 8, N: a shear stiffness in all but name (a frame leaves the tangent by shear force / K_p). Zero: the
+  /// K_p of eq. 8, N: effectively a shear stiffness (a frame deviates from the tangent by shear force / K_p). Zero: the
   /// value of `free_alignment_spring`.
   double alignment_N = 0.0;
   FrameInertia inertia = FrameInertia::cylinder;
@@ -64,14 +65,14 @@ class Corde {
   Eigen::Quaterniond frame(int element) const;
   /// (Sum of element lengths / rest length - 1) * 100.
   double stretch_percent() const;
-  /// Largest angle between an element's d3 and its tangent, rad: what is left of eq. 7.
+  /// Largest angle between an element's d3 and its tangent, rad: the residual of eq. 7.
   double misalignment() const;
   /// Kinetic, elastic, alignment and gravitational energy, J; zero for the straight rod at rest.
   double energy_J() const;
   /// Moment in the joint before `element` (0: the clamp's), N m, in material axes (d1, d2, d3).
   Eigen::Vector3d moment_N_m(int element) const;
 
-  /// Pose and set the rod going, for a test.
+  /// Set pose and velocity, for tests.
   void set_frame(int element, const Eigen::Quaterniond&);
   /// Angular velocity, rad/s, in material axes.
   void set_spin(int element, const Eigen::Vector3d& omega);
@@ -100,31 +101,31 @@ class Corde {
   Column diagonal_, off_, lambda_;                           // distance constraints: J W J^T, impulses
 };
 
-/// The largest K_p that does not dictate the step: with it, the fastest frame mode is at most 5 % faster. At
-/// real stiffness and 512 elements it is 3,000 N, a fifth of the rod's true shear stiffness GA: the frames leave the
+/// The largest K_p that does not limit the step: the fastest frame mode is at most 5 % faster with it. At real
+/// stiffness and 512 elements it is 3,000 N, a fifth of the rod's true shear stiffness GA: the frames deviate from the
 /// tangent by 1e-5 rad per 0.03 N of shear (the rod weighs 0.04 N).
 double free_alignment_spring(const CordeSettings&);
 
-/// Does the rod, let go from the horizontal with every frame disturbed by 1e-3 rad/s, keep its energy for `trial_s` (at
-/// least 2,000 steps)? Gravity must not be zero.
+/// Whether the rod, released from the horizontal with every frame disturbed by 1e-3 rad/s, keeps its energy for
+/// `trial_s` (at least 2,000 steps). Gravity must not be zero.
 bool is_stable(CordeSettings, double step_s, double trial_s);
-/// The largest stable step, s, by bisection to 0.5 %. 20 ms suffice for growing modes; the step found at 512 elements
-/// has been run for 3 s.
+/// The largest stable step, s, by bisection to 0.5 %. 20 ms suffice to reveal growing modes; the step found at 512
+/// elements was run for 3 s.
 double largest_stable_step(const CordeSettings&, double trial_s = 0.02);
 
 /// CPU time of this thread per simulated millisecond at `step_s`, ms: the mean over `simulated_s`, after a warm-up.
 double cpu_ms_per_simulated_ms(const CordeSettings&, double simulated_s = 0.02);
 
 /// The rod of the stretch experiment (thesis, fig. 3.6), stable at 1, 2.5 and 5 ms and up to 1,024 elements: elements
-/// of 1 m (more of them make a longer rod, as there), radius 0.25 m, E 60 MPa (a thousandth of real), 1,000 kg/m3,
-/// nu 0.3, gamma_r 100 N m2 s, E_s 0.8 rho l^2 / h^2 (the highest stable in all cases). None of it is an instrument.
-/// The metre is forced: an explicit chain swings stably only for n g h^2 / l below about a third, and every stretch in
-/// that figure is a multiple of the same number (1L 10 to 25 times it, 1I a sixth of that).
+/// of 1 m (more elements make a longer rod, as in the thesis), radius 0.25 m, E 60 MPa (a thousandth of real), 1,000
+/// kg/m3, nu 0.3, gamma_r 100 N m2 s, E_s 0.8 rho l^2 / h^2 (the highest that is stable in all cases). These are no
+/// instrument's values. The length of 1 m is forced: an explicit chain swings stably only for n g h^2 / l below about a
+/// third, and every stretch in that figure is a multiple of the same number (1L 10 to 25 times it, 1I a sixth of that).
 CordeSettings soft_rod(int elements, double step_s, Stretch, int local_sweeps = 1);
 /// 3 sqrt(L / g), s: from the horizontal down and past the vertical, short of the first crack of the free end.
 double swing_s(const CordeSettings&);
-/// Largest |stretch_percent()| while the rod, let go from the horizontal, swings for `duration_s`; infinity if it
-/// blows up.
+/// Largest |stretch_percent()| while the rod, released from the horizontal, swings for `duration_s`; infinity if it
+/// becomes unstable.
 double stretch_percent(const CordeSettings&, double duration_s);
 
 }  // namespace ostium::bench

@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
 
 #include "core/base/units.h"
 
@@ -59,7 +58,8 @@ TEST(Corde, TwistedEvenlyCarriesTorqueGJThetaOverL) {
 }
 
 TEST(Corde, TwistWaveReachesTheEndInTime) {
-  // Let go from an even twist, the end keeps its speed until the wave from the clamp arrives: it passes zero at L / c.
+  // Released from a uniform twist, the end keeps its speed until the wave from the clamp arrives: it passes zero at L /
+  // c.
   CordeSettings s = test_rod(64, 4e-6);
   s.gravity_m_s2.setZero();
   Corde rod(s);
@@ -86,7 +86,7 @@ TEST(Corde, ShortCantileverSwingsAboutItsStaticDeflection) {
     if (i == steps / 2) half = -rod.tip().z();
   }
   EXPECT_NEAR(mean, tip, 0.005 * tip);
-  // The first mode carries 97 % of it; the others, a few per cent in all, are anywhere.
+  // The first mode carries 97 % of it; the phases of the others, a few per cent in all, are unknown.
   EXPECT_NEAR(half, 2.0 * tip, 0.04 * tip);
   EXPECT_NEAR(-rod.tip().z(), 0.0, 0.04 * tip);
 }
@@ -124,7 +124,8 @@ TEST(Corde, FrameAloneMovesLikeAFreeTop) {
 }
 
 TEST(Corde, KeepsItsEnergyInThreeDimensions) {
-  // A twisted rod flung aslant at ten g, so that torsion and both bends work against each other; nothing dissipates.
+  // A twisted rod thrown obliquely at ten g, so that torsion and both bending directions are coupled; nothing
+  // dissipates.
   const auto gain_J = [](double step_s) {
     CordeSettings s = test_rod(16, step_s);
     s.gravity_m_s2 = {0.0, 49.0, -98.1};
@@ -135,8 +136,8 @@ TEST(Corde, KeepsItsEnergyInThreeDimensions) {
     EXPECT_GT(rod.tip().y(), 0.2);
     return rod.energy_J() - start;
   };
-  // Semi-implicit Euler errs in proportion to h; what is left at h = 0 would be forces that are not the energy's
-  // gradient (p x M left out: 21e-6 J). The fall turns over some tenths of a joule.
+  // Semi-implicit Euler's error is proportional to h; any residual at h = 0 would mean forces that are not the energy's
+  // gradient (without p x M: 21e-6 J). The fall converts some tenths of a joule.
   EXPECT_NEAR(2.0 * gain_J(1e-6) - gain_J(2e-6), 0.0, 5e-6);
 }
 

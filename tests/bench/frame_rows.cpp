@@ -77,7 +77,7 @@ double yardstick_ms(int pixels, int frames) {
   return best;
 }
 
-/// Share of ticks of a 1 kHz loop that end after the next one should have begun. A tick steps a rod of 512 elements.
+/// Share of ticks of a 1 kHz loop that end after the next one should have begun. Each tick steps a rod of 512 elements.
 double late_share(double seconds, Session* drawing) {
   std::atomic<bool> stop = false;
   std::thread drawer([&] {

@@ -1,4 +1,4 @@
-/// Flow and contrast for a frame; balloon, stent and wall for a step: in the default case.
+/// Flow and contrast for one frame; balloon, stent and wall for one step; in the default case.
 #include <time.h>
 
 #include <algorithm>
@@ -28,7 +28,7 @@ void set_times(std::vector<double> times, double quantile, Row& row) {
   row.p999_ms = times[std::min(times.size() - 1, static_cast<std::size_t>(quantile * double(times.size())))];
 }
 
-/// The gate's first row, run now.
+/// Sets the row's gate to the first result with that name.
 void set_gate(const std::vector<data::GateResult>& results, const std::string& name, Row& row) {
   for (const data::GateResult& r : results)
     if (r.gate == name) row.gate = {r.gate, r.value, r.unit, r.pass()};

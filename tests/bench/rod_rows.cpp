@@ -36,7 +36,7 @@ std::vector<double> ticks(const Duration& duration, Tick&& tick) {
   return times;
 }
 
-/// Of a swinging rod.
+/// Tick times of a swinging rod.
 std::vector<double> swing_ticks(int elements, const Duration& duration) {
   core::Bench bench = core::steel_bench({.elements = elements});
   return ticks(duration, [&] {
@@ -130,7 +130,7 @@ std::vector<Row> nested_rods(const Duration& duration) {
     }
   };
   Nested pair(2), three(3);
-  // In turns, so that a noisy minute falls on both alike.
+  // Alternates, so that background load affects both equally.
   constexpr int turn = 100;
   for (int done = 0; done < duration.steps; done += turn)
     for (Nested* n : {&pair, &three}) n->run({done == 0 ? duration.warm_up_steps : 0, turn});

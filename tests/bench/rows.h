@@ -1,6 +1,6 @@
 #pragma once
-/// Rows of `ostium-bench`: the whole tick of the step, timed as CPU time of the thread that works, beside the accuracy
-/// gate that the same settings reach.
+/// Rows of `ostium-bench`: CPU time of a whole step in the working thread, beside the gate accuracy at the same
+/// settings.
 #include <string>
 #include <vector>
 
@@ -8,9 +8,9 @@ namespace ostium::bench {
 
 struct Row {
   std::string name;
-  double ms = 0;            ///< CPU time of a simulated millisecond, mean
+  double ms = 0;            ///< CPU time per simulated millisecond, mean
   double p999_ms = 0;       ///< its 99.9th percentile
-  double yardstick_ms = 0;  ///< where it has one of its own
+  double yardstick_ms = 0;  ///< time of the reference implementation, if it has its own
   struct {
     std::string name;
     double value = 0;
@@ -28,16 +28,16 @@ struct Duration {
 /// step and state hash.
 Row free_rod(const std::string& name, int elements, const Duration& duration);
 
-/// Two and three coaxial rods of 512 elements each and 1 m, the inner ones 50 mm longer than those around them,
-/// clamped, swinging under their weight with the damping of the catalogue's shafts (verification: nesting-pair); in
-/// turns.
+/// Two and three coaxial rods of 512 elements and 1 m each, the inner ones 50 mm longer than those around them,
+/// clamped, swinging under their weight with the damping of the catalogue's shafts (verification: nesting-pair); run
+/// alternately.
 std::vector<Row> nested_rods(const Duration& duration);
 
-/// Guide and wire of the catalogue in the beating test vessel, by the scripted procedure of app/verify/drives.h.
+/// Guide and wire of the catalogue in the moving test vessel, with the scripted procedure of app/gates/drives.h.
 Row vessel_pair(const std::string& name, bool quick);
 
-/// Random drives 0 to count - 1 of 5 s, and how the wall held them; or the scripted procedure, over and over, with
-/// energy and memory, a line a minute. Printed; false if any wire got out, or deeper than the gates allow.
+/// Random drives 0 to count - 1 of 5 s, and their penetration; or the scripted procedure repeatedly, with energy and
+/// memory, one line a minute. Printed; false if any wire escaped, or was deeper than the gates allow.
 bool print_drives(int count);
 bool print_soak(double minutes);
 
@@ -48,19 +48,20 @@ struct GrowthPoint {
 };
 std::vector<GrowthPoint> growth(const Duration& duration);
 
-/// The thesis' stretch experiment (its figure 3.6) with the yardstick, and ours beside it. Printed as it is computed.
+/// The thesis's stretch experiment (its figure 3.6) with the reference implementation, and our rod beside it. Printed
+/// as it is computed.
 void print_stretch_table(bool quick);
 
 /// CPU time of one fluoroscopy frame from scene to grey levels (`ms`; p999_ms is the slowest of 150), beside the
-/// angle-opacity shader. `rotating`: the C-arm turns between frames, so that nothing can be kept.
+/// angle-opacity shader. `rotating`: the C-arm turns between frames, so that nothing can be cached.
 Row frame_row(const std::string& name, int pixels, bool rotating, bool quick);
 
-/// CPU time of flow and contrast for a frame at 15 a second (`ms`; p999_ms is the slowest), while both coronaries fill.
+/// CPU time of flow and contrast per frame at 15 a second (`ms`; p999_ms is the slowest), while both coronaries fill.
 Row circulation_row(bool quick);
-/// CPU time of a step of balloon, stent and wall (ms, and 99.9th percentile), while a stent is opened in a lesion.
+/// CPU time of a step of balloon, stent and wall (ms, and 99.9th percentile), while a stent is expanded in a lesion.
 Row treatment_row(bool quick);
 
-/// How many ticks of a 1 kHz loop are late, alone and with another thread drawing frames. Printed.
+/// The number of late ticks of a 1 kHz loop, alone and with another thread drawing frames. Printed.
 void print_late_ticks(double seconds);
 
 }  // namespace ostium::bench

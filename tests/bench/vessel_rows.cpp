@@ -15,7 +15,7 @@ namespace ostium::bench {
 namespace {
 
 constexpr double beats_per_min = 75;
-constexpr double procedure_m = 0.05e-3, drive_m = 0.178e-3;  // that the gates allow
+constexpr double procedure_m = 0.05e-3, drive_m = 0.178e-3;  // allowed by the gates
 
 double thread_cpu_ms() {
   timespec t;
@@ -23,7 +23,7 @@ double thread_cpu_ms() {
   return 1e3 * static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_nsec);
 }
 
-/// MiB that the process holds.
+/// Memory of the process, MiB.
 double memory_MiB() {
   std::ifstream file("/proc/self/statm");
   long size = 0, resident = 0;

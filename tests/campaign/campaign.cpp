@@ -25,7 +25,7 @@ struct Options {
   std::vector<std::string> kinds;
   unsigned first_seed = 1;
   int seeds = 10, clean = 40, threads = 0;
-  std::string sets;  ///< folder to write the sets to, and nothing else
+  std::string sets;  ///< write the sets to this folder, and do nothing else
 };
 
 Json line_of(const Judged& j) {
@@ -51,7 +51,7 @@ Judged judged_of(const Json& line) {
   return j;
 }
 
-/// What an interrupted campaign has already; its last line may be half written.
+/// Reads the results of an interrupted campaign; the last line may be incomplete.
 std::vector<Judged> read(const std::string& file) {
   std::vector<Judged> out;
   std::ifstream in(file);

@@ -1,4 +1,5 @@
-/// Cases that ship load; what is wrong in a case file is named with what exists. Trees survive their files.
+/// Shipped cases load; errors in a case file are named along with the valid choices. Trees survive a round trip through
+/// files.
 #include "data/catalogue/case/case.h"
 
 #include <gtest/gtest.h>
@@ -115,7 +116,7 @@ TEST(Case, OtherMistakesAreNamed) {
   }
 }
 
-/// A straight tube of ours as an imported case, in a folder of its own.
+/// A straight generated tube as an imported case, in a folder of its own.
 fs::path imported_case(const std::string& lumen_name = "lumen.ply") {
   static const struct Place {
     fs::path path = fs::path(testing::TempDir()) / ("ostium-case-" + std::to_string(getpid()));
@@ -153,9 +154,9 @@ TEST(Case, AnImportedOneIsACaseLikeAnyOther) {
   ASSERT_EQ(c.lesions.size(), 1u);
   const vascular::Patient patient = patient_of(c);
   EXPECT_EQ(patient.lumen.triangles.size(), c.imported->lumen.triangles.size());
-  EXPECT_EQ(patient.lumen.moving, patient.lumen.vertices());  // an LAD beats
+  EXPECT_EQ(patient.lumen.moving, patient.lumen.vertices());  // an LAD moves
   EXPECT_EQ(patient.tree_frames.size(), static_cast<std::size_t>(vascular::beat_frames));
-  // The lesion that was put in: 70 % in its middle, nothing away from it.
+  // The given lesion: 70 % in its middle, none away from it.
   for (const vascular::TreeSphere& sphere : patient.tree.branches[0].spheres) {
     const double healthy = c.imported->anatomy.tubes[0].at(sphere.p.x()).radius_m;
     if (std::fabs(sphere.p.x() - 0.0245) < 1e-3) {
@@ -226,7 +227,7 @@ TEST(TreeFile, ABrokenTreeIsRefusedByLine) {
 
 TEST(TreeFile, VtkHasALineABranchInLps) {
   const std::string vtp = tree_to_vtp(fork());
-  EXPECT_NE(vtp.find("NumberOfPoints=\"4\""), std::string::npos);  // the twig's line begins on its parent's sphere
+  EXPECT_NE(vtp.find("NumberOfPoints=\"4\""), std::string::npos);  // the side branch begins at its parent
   EXPECT_NE(vtp.find("NumberOfLines=\"2\""), std::string::npos);
   EXPECT_NE(vtp.find("MaximumInscribedSphereRadius"), std::string::npos);
   EXPECT_NE(vtp.find("10.0000 -30.0000 20.0000"), std::string::npos);  // left, back, head

@@ -1,4 +1,4 @@
-/// The catalogue that ships, its schema, and that loading is all or nothing.
+/// The shipped catalogue, its schema, and that loading is all or nothing.
 #include "data/catalogue/catalogue.h"
 
 #include <gtest/gtest.h>
@@ -95,11 +95,11 @@ TEST(Catalogue, PublishedStiffnessIsUsedWhereThereIsOne) {
 TEST(Catalogue, EveryInstrumentIsARodForCore) {
   for (const Instrument& i : load_catalogue()) {
     SCOPED_TRACE(i.name);
-    const int millimetres = static_cast<int>(std::lround(1e3 * i.length_m));  // a J tip wants elements as short as that
+    const int millimetres = static_cast<int>(std::lround(1e3 * i.length_m));  // elements as short as a J tip needs
     const core::Rod rod = core::make_rod(rod_description(i, equal_elements(i.sections, millimetres)));
     EXPECT_NEAR(rod.total_length_m, i.length_m, 1e-9);
     EXPECT_GE(i.sources.size(), 3u);
-    // Tips are softer than shafts, but for the plain tube of a sheath.
+    // Tips are softer than shafts, except the plain tube of a sheath.
     if (i.kind != InstrumentKind::sheath) {
       EXPECT_LT(i.sections.front().EI1_N_m2, 0.5 * i.sections.back().EI1_N_m2);
     }
@@ -120,7 +120,7 @@ TEST(Catalogue, IsAllOrNothing) {
                with(with(small_catheter, "\"hook\"", "\"zebra\""), "\"EI_Nmm2\": 30", "\"EI_Nmm2\": -30"));
   EXPECT_NE(message(folder.instruments()).find("zebra.json:12: sections.list[0].EI_Nmm2 is -30"), std::string::npos)
       << message(folder.instruments());
-  folder.write("apple.json", "{}");  // the first error in the order of names is told
+  folder.write("apple.json", "{}");  // the first error in the order of names is reported
   EXPECT_NE(message(folder.instruments()).find("apple.json:1:"), std::string::npos) << message(folder.instruments());
 }
 
@@ -148,7 +148,7 @@ TEST(Catalogue, JsonHasTheSchemasKeys) {
   }
 }
 
-/// Same text, and numbers the same to `tolerance`: another mathematics library may round the last digit otherwise.
+/// Same text, and numbers equal to `tolerance`: another mathematics library may round the last digit differently.
 bool alike(const std::string& a, const std::string& b, double tolerance) {
   const char *p = a.c_str(), *q = b.c_str();
   while (*p && *q) {

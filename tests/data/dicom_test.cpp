@@ -6,7 +6,6 @@
 #include <array>
 #include <cstdio>
 #include <filesystem>
-#include <numbers>
 
 #include "core/base/units.h"
 #include "data/formats/load_error.h"
@@ -95,7 +94,7 @@ TEST(Dicom, WhatCannotBeWrittenIsNamed) {
   EXPECT_THROW(write_png("/nowhere/frame.png", ramp(1, 8, 8).frames[0]), LoadError);
   EXPECT_THROW(write_png("/dev/full", ramp(1, 8, 8).frames[0]), LoadError);
   EXPECT_THROW(write_dicom("/dev/full", ramp(1, 8, 8)), LoadError);
-  EXPECT_TRUE(std::filesystem::is_character_file("/dev/full"));  // what is no file of ours is left alone
+  EXPECT_TRUE(std::filesystem::is_character_file("/dev/full"));  // only our own files are removed
 }
 
 }  // namespace

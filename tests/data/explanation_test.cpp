@@ -1,4 +1,4 @@
-/// The fit is held to sets that the boundary-value solver made: what it says must be what was put in.
+/// Fits of sets made by the boundary-value solver must find what was put in.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -43,7 +43,7 @@ TEST(Explanation, StiffnessOfAFreeWireIsFoundWithinThreeStandardErrors) {
     expect_within_three_sigma(x.declared, "EI_scale[0][0]", tip);
     expect_within_three_sigma(x.declared, "EI_scale[0][1]", shaft);
     EXPECT_LT(parameter(x.declared, "EI_scale[0][1]").sigma, 0.02);
-    // The floor of distances to a curve: two coordinates a point.
+    // Noise floor of distances to a curve: two coordinates per point.
     const double floor = std::sqrt(2) * 0.15e-3;
     EXPECT_NEAR(x.declared.rms_m, floor, 0.09 * floor);  // four standard deviations of 1,040 numbers
     EXPECT_NEAR(*x.declared.rms_held_out_m, floor, 0.09 * floor);
@@ -64,7 +64,7 @@ TEST(Explanation, NoiseIsToldFromPointToPoint) {
 
 TEST(Explanation, ADifferenceThatNobodyDeclaredIsNotExplainedAway) {
   MeasurementSet set = synthetic::free_wire(12), world = set;
-  // A set of the shaft: 1 mm in 100 mm, in the material frame.
+  // A permanent set of the shaft: 1 mm in 100 mm, in the material frame.
   world.instruments[0].sections[1].rest_curvature_per_m = {0, 0.2, 0};
   synthetic::measure(world, stiffness(1, 1, 3));
   set.experiments = world.experiments;
@@ -99,7 +99,7 @@ TEST(Explanation, ATwistingShaftIsFoundAndItsComplianceToo) {
   expect_within_three_sigma(found, "tip_offset.y_mm", -3);
   expect_within_three_sigma(found, "tip_offset.z_mm", 6);
   EXPECT_LT((found.view.R.conjugate() * truth.R).vec().norm(), 0.01);
-  // Without loads only the ratio of stiffness shows.
+  // Without loads only the ratio of stiffnesses can be determined.
   EXPECT_NEAR(parameter(found, "EI_scale[0]").value / parameter(found, "EI_scale[1]").value, 1.1 / 0.95, 0.1);
 
   const auto json = nlohmann::json::parse(to_json(x));
@@ -107,7 +107,7 @@ TEST(Explanation, ATwistingShaftIsFoundAndItsComplianceToo) {
   EXPECT_EQ(json["effects"], nlohmann::json({"shaft_torsion"}));
   EXPECT_LT(json["candidates"][0]["delta_bic"].get<double>(), -10);
 
-  // The amended set says what was found: its predictions, seen as the fit saw them, are the shapes after.
+  // The amended set contains the findings: its predictions, seen with the fitted view, are the fitted shapes.
   const std::string text = synthetic::to_json(set);
   const MeasurementSet after = read_measurement("amended/measurement.json", amended(text, set, x));
   const auto predictions = predict(after);
@@ -115,7 +115,7 @@ TEST(Explanation, ATwistingShaftIsFoundAndItsComplianceToo) {
     EXPECT_LT((predictions[e].shape.points_m.back() - found.shapes[e].points_m.back()).norm(), 1e-6);
 }
 
-/// Where there is no effect, none is found.
+/// Without an effect, none is found.
 TEST(Explanation, AnEffectThatIsNotThereDoesNotWin) {
   MeasurementSet set = synthetic::two_tubes(16);
   synthetic::Truth truth;
@@ -126,7 +126,7 @@ TEST(Explanation, AnEffectThatIsNotThereDoesNotWin) {
   EXPECT_LT(parameter(x.candidates[0], "shaft_torsion.compliance").value, 0.2);
 }
 
-/// A pair of tubes of which the curved one relaxes: k = g E1 k1 / (g E1 + E2), by hand.
+/// A pair of tubes of which the curved one relaxes: k = g E1 k1 / (g E1 + E2), computed by hand.
 TEST(Explanation, RelaxationOfACurvedTubeIsFound) {
   MeasurementSet set = synthetic::two_tubes(1);
   set.imaging = {};
@@ -160,7 +160,7 @@ TEST(Explanation, RelaxationOfACurvedTubeIsFound) {
   expect_within_three_sigma(x.candidates[0], "stress_relaxation.fraction_2", f2);
   EXPECT_LT(x.candidates[0].rms_m, 0.4e-3);
 
-  // And core has it: the file that `ostium run` takes says what is lost, and its sections are those of the beginning.
+  // The exported instrument for `ostium run` contains the relaxation, and its sections are those before relaxation.
   const std::string name = nlohmann::json::parse(instrument_json(set, x, 0)).at("name").get<std::string>() + ".json";
   const Instrument curved = read_instrument(name, instrument_json(set, x, 0));
   EXPECT_NEAR(curved.relaxation.branches[0].fraction, f1, 0.05);

@@ -1,4 +1,4 @@
-/// Folds, noise, dependence and workers, each by numbers that can be done by hand.
+/// Folds, noise, residual tests and workers, each with numbers computed by hand.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -35,7 +35,7 @@ TEST(Folds, AreContiguousAndKeepGroupsWhole) {
   EXPECT_EQ(folds_of(of_groups(std::vector<std::string>(5))), (Folds{{0, 1}, {2}, {3}, {4}}));
   EXPECT_EQ(folds_of(of_groups(std::vector<std::string>(3))), (Folds{{0}, {1}, {2}}));
   EXPECT_EQ(folds_of(of_groups({""})), Folds{});
-  // Fewer than eight groups: one fold each, wherever their members stand.
+  // Fewer than eight groups: one fold each, wherever their members are listed.
   EXPECT_EQ(folds_of(of_groups({"a", "b", "a", "c", "b"})), (Folds{{0, 2}, {1, 4}, {3}}));
   EXPECT_EQ(folds_of(of_groups({"a", "b", "c", "d", "e", "f", "g", "h"})), (Folds{{0, 1}, {2, 3}, {4, 5}, {6, 7}}));
 }
@@ -45,7 +45,7 @@ double normal(std::mt19937& random) {
   return std::sqrt(-2 * std::log(u)) * std::cos(6.283185307179586 * v);
 }
 
-/// A cubic misfit passes, noise across the wire stays.
+/// A cubic misfit is ignored, noise across the wire is measured.
 TEST(Noise, PointToPointDoesNotSeeASmoothMisfit) {
   std::mt19937 random(3);
   MeasurementSet set = of_groups({"", "", "", ""});
@@ -68,7 +68,7 @@ TEST(Noise, PointToPointDoesNotSeeASmoothMisfit) {
 
 TEST(Noise, RepeatsTellThatOfTips) {
   MeasurementSet set = of_groups({"", "", "", "", ""});
-  const double x[] = {0, 2e-3, 4e-3, 7e-3, 9e-3};  // alike: three, then two
+  const double x[] = {0, 2e-3, 4e-3, 7e-3, 9e-3};  // repeats: three, then two
   for (int i = 0; i < 5; ++i) {
     set.experiments[i].kind = Experiment::Kind::tip;
     set.experiments[i].points_m = {Vector3d(x[i], 0, 0)};
@@ -76,13 +76,13 @@ TEST(Noise, RepeatsTellThatOfTips) {
   }
   const Noise noise = noise_of(set, {});
   ASSERT_TRUE(noise.sigma_m);
-  // Squares about the means: 8 and 2 mm2, over 2 and 1 repeats of three coordinates.
+  // Sums of squares about the means: 8 and 2 mm2, over 2 and 1 repeats of three coordinates.
   EXPECT_NEAR(*noise.sigma_m, std::sqrt(10e-6 / 9), 1e-12);
   set.experiments.resize(1);
   EXPECT_FALSE(noise_of(set, {}).sigma_m);
 }
 
-/// Misfits that turn with the roll are common in the material frame; those that do not, in the set's.
+/// Misfits that turn with the roll are constant in the material frame; those that do not, in the set's frame.
 TEST(ResidualTest, TellsTheMaterialFrameFromTheSets) {
   for (bool material : {true, false}) {
     std::mt19937 random(5);
@@ -124,7 +124,7 @@ TEST(Plot, WordsAreEscapedAndEmptyPlotsAreDrawn) {
   EXPECT_EQ(plot.svg().find("inf"), std::string::npos);
 }
 
-/// A curved valley with a bound across it, and a number that is free to move: where it must end, in few evaluations.
+/// A curved valley crossed by a bound, and a free number: the minimum is found in few evaluations.
 TEST(SecantDescent, FindsTheLeastOfACurvedValley) {
   SecantDescent d;
   d.problem.residuals = 3;
@@ -140,7 +140,7 @@ TEST(SecantDescent, FindsTheLeastOfACurvedValley) {
   const LeastSquaresResult free = minimise(d);
   EXPECT_LT((free.x - Eigen::Vector3d(1, 1, 4)).norm(), 1e-3);
   EXPECT_LE(free.iterations, d.most_evaluations);
-  d.problem.most[0] = 0.5;  // then the least is at x = 1/2, y = 1/4
+  d.problem.most[0] = 0.5;  // then the minimum is at x = 1/2, y = 1/4
   const LeastSquaresResult bound = minimise(d);
   EXPECT_LT((bound.x - Eigen::Vector3d(0.5, 0.25, 1)).norm(), 1e-3);
 }

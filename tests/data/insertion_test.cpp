@@ -1,4 +1,4 @@
-/// Insertion in a vessel: what walls do not touch is as free rods are, and what they do touch stays inside.
+/// Insertion in a vessel: untouched instruments behave as free rods, and touching ones stay inside.
 #include "data/identification/forward/insertion.h"
 
 #include <gtest/gtest.h>
@@ -14,7 +14,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// A wire from the origin along x; `experiments` at rising insertions.
+/// A wire from the origin along x; `experiments` at increasing insertions.
 MeasurementSet wire_in(const core::SurfaceDescription& wall, int experiments, double longest_m) {
   MeasurementSet set = synthetic::free_wire(1);
   Experiment e = set.experiments[0];
@@ -30,7 +30,7 @@ MeasurementSet wire_in(const core::SurfaceDescription& wall, int experiments, do
   return set;
 }
 
-/// A wide tube: the wire hangs free in it, and comes to rest where statics has it.
+/// A wide tube: the wire hangs freely and comes to rest at the static solution.
 TEST(Insertion, AWireThatTouchesNothingComesToRestAsAFreeOne) {
   const auto wide = core::tube({{{-0.01, 0, 0}, 0.1}, {{0.1, 0, 0}, 0.1}, {{0.3, 0, 0}, 0.1}}, 24);
   MeasurementSet set = wire_in(wide, 2, 0.16);
@@ -40,12 +40,12 @@ TEST(Insertion, AWireThatTouchesNothingComesToRestAsAFreeOne) {
   for (std::size_t e = 0; e < 2; ++e) {
     ASSERT_TRUE(in_vessel[e].converged);
     const PredictedShape free = shape_from(setup_of(set, set.experiments[e], {}), anchors[e]);
-    // Elements of 2 mm here, and a motion of up to 0.2 mm/s that is left.
+    // Elements here are 2 mm, and a residual motion of up to 0.2 mm/s is left.
     EXPECT_LT((in_vessel[e].points_m.back() - free.points_m.back()).norm(), 0.3e-3) << e;
   }
 }
 
-/// A bent tube of 5 mm: the wire follows it, no point of it is outside, and friction costs push.
+/// A bent tube of 5 mm: the wire follows it and stays inside, and friction increases the push.
 TEST(Insertion, AWireStaysInABentTubeAndFrictionCostsPush) {
   const auto points = core::bend(0.05, 1.2, 0.06, 0.1, 2.5e-3, 2e-3);
   const auto wall = core::tube(points, 24);

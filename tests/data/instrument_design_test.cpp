@@ -1,5 +1,5 @@
-/// A new make of stent or balloon is one file with a `design` block: its numbers reach the models, what it leaves out
-/// stays as it is, and what is wrong is said with file, place and cure.
+/// A new design of stent or balloon is one file with a `design` block: its numbers reach the models, omitted ones keep
+/// their defaults, and errors are reported with file, place and remedy.
 #include "data/catalogue/instrument/instrument_design.h"
 
 #include <gtest/gtest.h>
@@ -22,7 +22,7 @@ std::string shipped(const std::string& name) {
   return text.str();
 }
 
-/// The shipped 3.0 x 18 mm stent with a design of its own, and of its balloon's.
+/// The shipped 3.0 x 18 mm stent with a design of its own, and one for its balloon.
 std::string stent_with(const std::string& design) {
   return with(shipped("stent-30x18"), R"("length_mm": 18,)", R"("length_mm": 18, "design": {)" + design + "},");
 }

@@ -1,4 +1,4 @@
-/// What is wrong in an instrument file is named: file, line, key, value found, what was expected.
+/// Errors in an instrument file are reported: file, line, key, value found, what was expected.
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -73,7 +73,7 @@ TEST(InstrumentErrors, WrongTypes) {
 }
 
 TEST(InstrumentErrors, TheLineIsThatOfTheValueWhereverItStands) {
-  // A number at the end of its line, before its comma, is where the parser has already read on.
+  // After a number at the end of its line, before its comma, the parser has already read ahead.
   expect_words(refusal(R"("EI_Nmm2": 30,)", "\"EI_Nmm2\":\n  -30\n,"),
                {"folder/hook.json:13: sections.list[0].EI_Nmm2 is -30"});
   expect_words(refusal(R"("GJ_Nmm2": 20,)", "\"GJ_Nmm2\": \n\n\n 0,"),
@@ -116,7 +116,7 @@ TEST(InstrumentErrors, WhatCoreDoesNotTakeIsRefusedHereToo) {
 }
 
 TEST(InstrumentErrors, EveryGroupOfNumbersNeedsItsSource) {
-  // One group after the other loses its source (the keys come in alphabetical order here, so lines are of no interest).
+  // Each group in turn loses its source (the keys are in alphabetical order here, so lines are not checked).
   const auto whole = nlohmann::json::parse(small_catheter);
   for (const char* group : {"size", "sections", "shape", "radiopacity", "markers", "clearance"}) {
     auto spoilt = whole;

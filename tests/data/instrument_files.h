@@ -1,5 +1,5 @@
 #pragma once
-/// A small valid instrument, and what the reader says of a spoilt one.
+/// A small valid instrument, and the reader's message for a modified one.
 #include <string>
 
 #include "data/catalogue/instrument/instrument_reader.h"
@@ -45,7 +45,7 @@ inline const std::string small_catheter = R"({
 }
 )";
 
-/// `text` with its first `what` replaced.
+/// `text` with the first `what` replaced.
 inline std::string with(std::string text, const std::string& what, const std::string& by) {
   const std::size_t at = text.find(what);
   return at == std::string::npos ? "no " + what : text.replace(at, what.size(), by);
@@ -61,7 +61,7 @@ inline std::string refusal(const std::string& text) {
   return "accepted";
 }
 
-/// ... after replacing `what` in the small catheter.
+/// The same after replacing `what` in the small catheter.
 inline std::string refusal(const std::string& what, const std::string& by) {
   return refusal(with(small_catheter, what, by));
 }

@@ -1,4 +1,4 @@
-/// What a file says arrives in SI, bends as it should, and fits where it should.
+/// Values of a file arrive in SI, shapes bend as they should, and instruments fit where they should.
 #include "data/catalogue/instrument/instrument.h"
 
 #include <gtest/gtest.h>
@@ -14,7 +14,7 @@
 namespace ostium::data {
 namespace {
 
-/// The tip of the distal `length_m` at rest, in the frame of the material there: (d1, d2, d3).
+/// The tip of the distal `length_m` at rest, in the material frame at its proximal end: (d1, d2, d3).
 Eigen::Vector3d tip_at_rest(const Instrument& instrument, double length_m, int elements = 1024) {
   core::Model model;
   model.rods = {core::make_rod(rod_description(instrument, std::vector<double>(elements, length_m / elements)))};
@@ -70,8 +70,8 @@ TEST(Instrument, SectionsAreCutWhereTheShapeChanges) {
 }
 
 TEST(Instrument, AHookBendsAsItsArcsSay) {
-  // From 100 mm behind: straight to the arc, a quarter circle of 20 mm, 10 mm straight. The chain of 0.1 mm links cuts
-  // the corners of arcs by less than length^2 / radius / 24 per radian: micrometres.
+  // From 100 mm proximally: straight to the arc, a quarter circle of 20 mm, 10 mm straight. Links of 0.1 mm cut the
+  // corners of arcs by less than length^2 / radius / 24 per radian: micrometres.
   const double straight_mm = 100 - 10 * units::pi - 10;
   for (const double plane_deg : {0.0, 90.0, 180.0, 30.0}) {
     const double plane = plane_deg * units::pi / 180;
@@ -82,7 +82,7 @@ TEST(Instrument, AHookBendsAsItsArcsSay) {
   }
 }
 
-/// Tip of a row of arcs in one plane, by closed form, in mm: (towards plane 0, along the base's tangent).
+/// Tip of a sequence of arcs in one plane, in closed form, in mm: (towards plane 0, along the base's tangent).
 Eigen::Vector2d tip_of_arcs(const std::vector<ShapePiece>& pieces) {
   Eigen::Vector2d p(0, 0);
   double angle = 0;  // of the tangent from the base's, towards plane 0

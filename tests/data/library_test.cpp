@@ -1,5 +1,5 @@
-/// A dozen sets with an undeclared effect, as `ostium-campaign` makes them by the hundred: what is found must be what
-/// was put in, and nothing where nothing was.
+/// A dozen sets with an undeclared effect, of the kind that `ostium-campaign` makes by the hundred: the effect must be
+/// found, and nothing where there is none.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -45,7 +45,7 @@ INSTANTIATE_TEST_SUITE_P(Library, Undeclared,
                            return name;
                          });
 
-/// A curved wire alone, whose curvature relaxes with time.
+/// A single curved wire whose curvature relaxes with time.
 TEST(Library, RelaxationOfAnInstrumentAlone) {
   const synthetic::Undeclared made = synthetic::undeclared_set("stress_relaxation", 1);
   const Explanation x = explain(made.set, {{{"stress_relaxation"}}, 0, {}});
@@ -56,7 +56,7 @@ TEST(Library, RelaxationOfAnInstrumentAlone) {
   EXPECT_LT(*x.candidates[0].rms_held_out_m, 1.2 * std::sqrt(2.0) * *made.set.imaging.noise_sigma_m);
 }
 
-/// The file that other commands take has what was found in the instrument, and nothing of the rig.
+/// The instrument file for other commands contains the effects of the instrument, and none of the rig.
 TEST(Library, TheInstrumentIsWrittenAsItWasFound) {
   const synthetic::Undeclared made = synthetic::undeclared_set("rest_curvature", 1);
   const Explanation x = explain(made.set, {{{"rest_curvature"}}, 0, {}});
@@ -73,7 +73,7 @@ TEST(Library, TheInstrumentIsWrittenAsItWasFound) {
   }
 }
 
-/// Too few numbers: no verdict, but what to measure.
+/// Too few numbers: no verdict, but a suggestion of what to measure.
 TEST(Library, ASetTooSmallToDecideIsAmbiguous) {
   synthetic::Undeclared made = synthetic::undeclared_set("clean", 1);
   made.set.experiments.resize(2);

@@ -1,4 +1,4 @@
-/// Measured sets: what is read, and that what is wrong is named by its entry.
+/// Measured sets: correct reading, and errors reported by entry.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -1,4 +1,4 @@
-/// Metrics of records that were made by hand: the answers can be done in the head.
+/// Metrics of records made by hand: the answers can be computed in the head.
 #include "data/assessment/metrics.h"
 
 #include <gtest/gtest.h>
@@ -19,8 +19,8 @@ double value(const RunRecord& record, const std::string& name) {
   return 0;
 }
 
-/// 10 s; one tool is fed at 50 mm/s for 4 s, drawn back at 100 mm/s for 1 s, and rests; the wall pushes with 2 N from
-/// second 2 to 4.
+/// 10 s; one tool is fed at 50 mm/s for 4 s, drawn back at 100 mm/s for 1 s, and rests; the wall pushes with 2 N from 2
+/// to 4 s.
 RunRecord record() {
   RunRecord r{.step_s = 1e-3,
               .steps = 10000,
@@ -48,7 +48,7 @@ RunRecord record() {
 }
 
 /// A lesion of 10 mm, 1 mm wide in an artery of 4 mm; two inflations, at -2 to 10 and at 8 to 18 mm; a stent from -3 to
-/// 14 mm, in which it is 3.8 mm wide. Flow stops from second 2 to 4.
+/// 14 mm, with a lumen of 3.8 mm. Flow stops from 2 to 4 s.
 RunRecord treated() {
   RunRecord r{.step_s = 1e-3,
               .steps = 10000,
@@ -84,8 +84,8 @@ RunRecord treated() {
   for (int i = 0; i < 1000; ++i) {
     const double t = 0.01 * i;
     const bool first = t >= 2 && t < 4, second = t >= 6 && t < 8, stent = t >= 8;
-    // Injections at 1 s, that comes to the landmark 0.8 s later; a puff at 5 s, thinned on its way; at 8.5 s one that
-    // stays where it is.
+    // Injections: at 1 s, reaching the landmark 0.8 s later; a puff at 5 s, diluted on the way; at 8.5 s one that does
+    // not move on.
     const double ostium = (t >= 1 && t < 3) || (t >= 5 && t < 5.2) || t >= 8.5 ? 0.9 : 0.0;
     const double landmark = t >= 1.8 && t < 4 ? 0.5 : 0.0;
     r.signals.insert(r.signals.end(), {t,
@@ -162,7 +162,7 @@ TEST(Metrics, OfATreatmentMadeByHand) {
   EXPECT_EQ(value(r, "ffr_model_after"), 0.97);
   EXPECT_NEAR(value(r, "timi_frame_count_before"), 30 * 0.8, 0.1);
   EXPECT_TRUE(std::isnan(value(r, "timi_frame_count_after"))) << "it did not come through";
-  // Of a run without a patient none of them applies.
+  // None of them applies to a run without a patient.
   for (const char* name :
        {"residual_stenosis_percent", "geographic_miss_mm", "occlusion_time_s", "ST_max_mV", "contrast_volume_mL",
         "lesion_coverage_percent", "balloon_artery_ratio", "stent_apposed_percent", "ffr_model_after",

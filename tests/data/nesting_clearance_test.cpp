@@ -1,4 +1,4 @@
-/// Play between nested instruments against two beams, and two chains, each with its own deflection, that touch where
+/// Clearance of nested instruments against two beams, and two chains, each with its own deflection and in contact where
 /// they meet.
 #include <gtest/gtest.h>
 
@@ -24,7 +24,7 @@ struct Beams {
   double outer_EI, inner_EI, outer_k, inner_k, outer_m, inner_m;
 };
 
-/// Small deflection of the inner beam's tip: both clamped, never further apart than `play`; the energy's minimum under
+/// Small deflection of the inner beam's tip: both clamped, never farther apart than `play`; the energy minimum under
 /// these inequalities by augmented Lagrangians on a grid.
 double tip_of_two_beams(const Beams& b, double play, int n) {
   const double h = b.inner_m / n;
@@ -102,7 +102,7 @@ double tip_of_the_model(const Beams& b, double play) {
   return (base.conjugate() * (shape.points_m.back() - e.base.p_W)).x();
 }
 
-/// What play takes off the tip's deflection, over deflections small enough for beams.
+/// Reduction of the tip's deflection by play, for deflections small enough for beam theory.
 TEST(NestingClearance, TakesAsMuchOffTheTipAsBetweenTwoBeamsThatTouch) {
   for (const auto& [outer_k, inner_k] : {std::pair(1.0, 0.0), std::pair(1.0, -0.6), std::pair(0.6, 1.0)})
     for (const double play : {1e-5, 3e-5}) {
@@ -116,7 +116,7 @@ TEST(NestingClearance, TakesAsMuchOffTheTipAsBetweenTwoBeamsThatTouch) {
     }
 }
 
-/// Where all is even, d crosses the bore at the end, and comes out at sqrt(3 play differ).
+/// In a uniform nest, d crosses the bore at the end with a slope of sqrt(3 play differ).
 TEST(NestingClearance, BeamsComeOutAtTheAngleOfTheClosedForm) {
   for (const double play : {1e-5, 1e-4})
     for (const double differ : {1.0, 5.0}) {
@@ -131,8 +131,8 @@ TEST(NestingClearance, BeamsComeOutAtTheAngleOfTheClosedForm) {
     }
 }
 
-/// The line of two tubes, the outer one's and then the inner one's, against two chains in a plane: large bends, tubes
-/// to the same side and to opposite ones.
+/// The line of two tubes, the outer one's and then the inner one's, against two planar chains: large bends, tubes
+/// curved to the same side and to opposite sides.
 TEST(NestingClearance, LinesAgreeWithTwoChains) {
   constexpr double play = 0.1e-3, curved_m[] = {0.05, 0.042}, bend_per_m[] = {11, 6}, inserted_m[] = {0.075, 0.1};
   for (const bool opposed : {false, true}) {
@@ -163,7 +163,7 @@ TEST(NestingClearance, LinesAgreeWithTwoChains) {
                          without = shape_from(setup_of(set, e, none), walk(set, none)[0]);
     double off = 0, off_without = 0;
     for (std::size_t k = 0; k < chains.inner.size(); ++k) {
-      // From the one's middle to the other's a line goes over two steps.
+      // The transition from the outer to the inner centreline takes two steps.
       if (k + 8 >= chains.outer.size() && k < chains.outer.size() + 8) continue;
       const Eigen::Vector2d& p = k < chains.outer.size() ? chains.outer[k] : chains.inner[k];
       const Eigen::Vector3d q(p.x(), 0, p.y());

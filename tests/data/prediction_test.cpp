@@ -20,7 +20,7 @@ MeasurementSet through_file(const MeasurementSet& set) {
   return read_measurement("set/measurement.json", synthetic::to_json(set));
 }
 
-/// Largest distance at the same arc length, mm.
+/// Largest distance between points of the same arc length, mm.
 double furthest_mm(const PredictedShape& shape, const boundary_value::Solution& exact, double length_m) {
   double worst = 0, s = 0;
   for (std::size_t i = 0; i < shape.points_m.size(); ++i) {
@@ -53,7 +53,7 @@ TEST(Prediction, SoAreNestedTubesAtTheirTips) {
   for (const Prediction& p : predict(through_file(set))) EXPECT_FALSE(p.rms_to_measured_m);
 }
 
-/// An effect that the file declares: shafts that twist as their GJ says.
+/// A declared effect: shafts that twist according to their GJ.
 TEST(Prediction, DeclaredEffectsAreInTheModel) {
   MeasurementSet set = synthetic::two_tubes(6);
   set.imaging.registration_free = set.imaging.tip_offset_free = false;
@@ -69,7 +69,7 @@ TEST(Prediction, DeclaredEffectsAreInTheModel) {
     EXPECT_LT(*p.rms_to_measured_m, 0.02e-3) << p.id;
 }
 
-/// Two tubes wound up against each other have two stable shapes; which one is found depends on where they come from.
+/// Two tubes twisted against each other have two stable shapes; which one is found depends on the previous shape.
 TEST(Prediction, ContinuesFromTheExperimentBefore) {
   MeasurementSet set = synthetic::two_tubes(1);
   set.imaging.registration_free = set.imaging.tip_offset_free = false;
@@ -87,11 +87,11 @@ TEST(Prediction, ContinuesFromTheExperimentBefore) {
   const auto forwards = predict(through_file(set));
   set.experiments = {with_roll(360), with_roll(190)};
   const auto backwards = predict(through_file(set));
-  // The same drives, mirror images of each other but for 10 degrees.
+  // The same drive positions; the shapes are mirror images except for 10 degrees.
   EXPECT_GT((forwards[1].shape.points_m.back() - backwards[1].shape.points_m.back()).norm(), 5e-3);
 }
 
-/// From another that has as many elements, only longer ones.
+/// From a shape with the same number of elements, but longer ones.
 TEST(Prediction, AShapeThatContinuesFromAnotherInsertionHasItsOwnLength) {
   MeasurementSet set = through_file(synthetic::free_wire(1));
   const std::vector<StaticEquilibrium> before = walk(set, {});
@@ -107,7 +107,7 @@ TEST(Prediction, AShapeThatContinuesFromAnotherInsertionHasItsOwnLength) {
   EXPECT_NEAR(length, set.experiments[0].set[0].inserted_m, 1e-9);
 }
 
-/// Of an aligned pair, by hand: (E1 I1 k1 + E2 I2 k2) / (E1 I1 + E2 I2), with the curvature of the specimen at hand.
+/// For an aligned pair, by hand: (E1 I1 k1 + E2 I2 k2) / (E1 I1 + E2 I2), with the specimen's own curvature.
 TEST(Prediction, RadiusOfAPairIsThatOfACompositeBeam) {
   MeasurementSet set = synthetic::two_tubes(1);
   set.imaging = {};
@@ -159,7 +159,7 @@ TEST(Shape, RadiusOfAnArcAndDistancesBeyondTheEnds) {
   EXPECT_LT((nearest_point(line, {0.01, 0, 0.5}) - Vector3d(0, 0, 0.5)).norm(), 1e-12);
   EXPECT_LT((nearest_point(line, {0.01, 0, -0.5}) - Vector3d(0, 0, -0.5)).norm(), 1e-12);
   EXPECT_LT((nearest_point(line, {0.01, 0, 0.05}) - Vector3d(0, 0, 0.05)).norm(), 1e-12);
-  // Of many at once, on a coil, against a search through all edges.
+  // Many points at once, on a coil, against a search of all edges.
   std::vector<Vector3d> coil, many;
   for (int i = 0; i <= 200; ++i) coil.emplace_back(0.02 * std::cos(0.1 * i), 0.02 * std::sin(0.1 * i), 1e-4 * i);
   for (int i = 0; i < 50; ++i)

@@ -28,7 +28,7 @@ struct Pushed {
   pushed_chain::Setting setting{0, {0.012, 0}, 9.81, 0.5e-3};
   std::vector<double> inserted{0.08, 0.11, 0.14, 0.17, 0.15, 0.13};
 
-  /// What declares it, without measurements.
+  /// Its declaration, without measurements.
   MeasurementSet set() const {
     MeasurementSet out;
     out.title = "pushed", out.source = "tests";
@@ -52,7 +52,7 @@ struct Pushed {
 
 Vector3d in_space(const Vector2d& p) { return {p.x(), 0, p.y()}; }
 
-/// The chain itself, where nothing is touched: the closed form of a light load on a straight cantilever, w L^4 / 8 EI.
+/// The chain itself without contact: a light load on a straight cantilever, w L^4 / 8 EI.
 TEST(PushedChain, ACantileverSagsAsBeamTheorySays) {
   const pushed_chain::Tube wide{1, 1, 0, 1};
   const pushed_chain::Wire wire{{{1, 30 * Nmm2, 0.8e-3, 0}}, 0.2e-3};
@@ -62,7 +62,7 @@ TEST(PushedChain, ACantileverSagsAsBeamTheorySays) {
   EXPECT_NEAR(-rest[0].curve.back().y(), sag, 0.01 * sag);
 }
 
-/// Root mean square of how far the chains' nodes lie from the shapes.
+/// Root mean square distance of the chains' nodes from the shapes.
 double rms_between(const std::vector<pushed_chain::Rest>& chain, const std::vector<PredictedShape>& shapes) {
   double sum = 0, count = 0;
   for (std::size_t e = 0; e < shapes.size(); ++e)
@@ -71,7 +71,7 @@ double rms_between(const std::vector<pushed_chain::Rest>& chain, const std::vect
   return std::sqrt(sum / count);
 }
 
-/// Shapes and what the hand feels, pushed round a bend and drawn back.
+/// Shapes and push, pushed round a bend and drawn back.
 TEST(PushedChain, InsertionAgrees) {
   std::vector<double> push_N;
   for (const double friction : {0.0, 0.3}) {
@@ -88,18 +88,18 @@ TEST(PushedChain, InsertionAgrees) {
     }
     push_N.push_back(chain[3].push_N), push_N.push_back(chain[4].push_N);
     if (friction == 0) continue;
-    // A friction that is not declared shows: without it the shapes are further off.
+    // Omitting the friction shows: the shapes are then further off.
     set.vessel->friction = 0;
     const double with = rms_between(chain, shapes), without = rms_between(chain, insert(set, {}));
     EXPECT_LT(with, 0.07 * mm);
     EXPECT_GT(without, 3 * with);
   }
-  // Friction is in it: without, pushed in and drawn back is 3.7 and 5.8 mN; with it, 10.0 and -1.1 mN.
+  // Friction matters: without it, pushing in and drawing back take 3.7 and 5.8 mN; with it, 10.0 and -1.1 mN.
   EXPECT_GT(push_N[2], 2 * push_N[0]);
   EXPECT_LT(push_N[3], 0);
 }
 
-/// A catheter in a tube whose wall gives way by more than the catheter's radius; without friction and with.
+/// A catheter in a tube whose wall yields by more than the catheter's radius; without friction and with.
 TEST(PushedChain, InsertionIntoASoftWallAgrees) {
   for (const double friction : {0.0, 0.3}) {
     Pushed pushed;

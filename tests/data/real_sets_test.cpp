@@ -1,5 +1,5 @@
-/// Published measurements of others, where they lie beside the checkout (they are not ours to ship): what an effect
-/// does for experiments that the fit has not seen, against what others reached with the same idea.
+/// Published measurements of other groups, if they lie beside the checkout (we may not ship them): improvement on
+/// held-out experiments by an effect, against what the authors reached with the same idea.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -31,7 +31,7 @@ TEST(RealSets, TwistingShaftsOfTwoTubes) {
   if (set.empty()) GTEST_SKIP() << "set OSTIUM_MEASURED to the folder of the measured sets";
   const Explanation x = explained(set, {{"shaft_torsion"}});
   EXPECT_EQ(x.verdict, Verdict::effect);
-  EXPECT_LT(*x.candidates[0].rms_held_out_m, 3.50e-3);  // what others reached, cross-validated
+  EXPECT_LT(*x.candidates[0].rms_held_out_m, 3.50e-3);  // the authors' result, cross-validated
   EXPECT_LT(*x.declared.rms_held_out_m, 8.78e-3);
 }
 

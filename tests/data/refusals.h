@@ -1,5 +1,5 @@
 #pragma once
-/// What tests of strict readers share.
+/// Shared by tests of strict readers.
 #include <gtest/gtest.h>
 
 #include <initializer_list>

@@ -1,5 +1,5 @@
 #pragma once
-/// The formats whose schemas are made of their readers' tables of keys.
+/// The formats whose schemas are generated from their readers' tables of keys.
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>

@@ -1,4 +1,4 @@
-/// Schemas are made of the tables of keys that readers go by.
+/// Schemas are generated from the readers' tables of keys.
 #include <gtest/gtest.h>
 
 #include <filesystem>

@@ -1,5 +1,5 @@
-/// What only an insertion shows: sets pushed into a tube by an independent solver (tests/support/pushed_chain.h), with
-/// a friction or a wall that their file does not declare, are given the right name and number.
+/// Effects that only an insertion shows: sets pushed into a tube by an independent solver
+/// (tests/support/pushed_chain.h), with an undeclared friction or wall; the fit must name the effect and its value.
 #include "core/samples/tube.h"
 
 #include <gtest/gtest.h>
@@ -16,7 +16,7 @@
 namespace ostium::data {
 namespace {
 
-/// Against something that could be taken for it.
+/// Against an effect that could be mistaken for it.
 void is_named(const std::string& effect, const std::string& rival, unsigned seed) {
   const synthetic::Undeclared made = synthetic::undeclared_set("tube:" + effect, seed);
   const Explanation x = explain(made.set, {{{rival}, {effect}}, 0, {}});

@@ -26,7 +26,7 @@ Calibration example() {
   return c;
 }
 
-/// The CRC-32 of IEEE 802.3, bit by bit, as its definition says.
+/// The CRC-32 of IEEE 802.3, bit by bit, from its definition.
 std::uint32_t crc_by_definition(std::span<const std::uint8_t> bytes) {
   std::uint32_t crc = 0xffffffff;
   for (const auto byte : bytes) {
@@ -73,7 +73,7 @@ TEST(Calibration, EveryFlippedBitIsNoticed) {
   }
 }
 
-/// With a fitting CRC, so that only the rule itself refuses them.
+/// With a correct CRC, so that only the rule itself refuses them.
 TEST(Calibration, RefusesNumbersThatMeanNothing) {
   const auto message = [](std::size_t at, float value) -> std::string {
     auto bytes = bytes_of(example());
@@ -116,7 +116,7 @@ TEST(Calibration, AnyRecordWithAFittingCrcIsTakenOrRefusedWhole) {
   EXPECT_GT(taken, 50'000);
 }
 
-/// An instrument that is only turned is not pushed, whatever its sensor makes of it.
+/// An instrument that is only turned is not fed, whatever its sensor reports.
 TEST(Calibration, TakesTheCrossTalkOut) {
   TrackCalibration t{0.02f, 0.5f, 0.004f, 0};
   const double turned_counts = 200, seen_counts = 0.004 * 100 / 0.02;

@@ -24,7 +24,7 @@ Movements moved(double mm, double deg, double elapsed_s = 1e-3) {
   return m;
 }
 
-/// Level after a long time of going one way against a load.
+/// Level after moving one way against a load for a long time.
 double settled_N(double mm, double deg, ClampLoad load, double age_s = 0, bool paused = false) {
   ClampState state;
   ClampRequest request;
@@ -35,8 +35,8 @@ double settled_N(double mm, double deg, ClampLoad load, double age_s = 0, bool p
 
 TEST(Clamp, ResistsTheWayTheHandGoes) {
   const double r = ClampSettings{}.radius_m[wire];
-  EXPECT_NEAR(settled_N(0.1, 0, {2, 0}), 2, 2e-3);  // it rests within a part of what is felt
-  EXPECT_DOUBLE_EQ(settled_N(-0.1, 0, {2, 0}), 0);  // it pushes back by itself: a brake would be in the way
+  EXPECT_NEAR(settled_N(0.1, 0, {2, 0}), 2, 2e-3);  // held within a fraction of the perceptible change
+  EXPECT_DOUBLE_EQ(settled_N(-0.1, 0, {2, 0}), 0);  // the load pushes back by itself: a brake would be in the way
   EXPECT_NEAR(settled_N(-0.1, 0, {-2, 0}), 2, 2e-3);
   EXPECT_NEAR(settled_N(0, 1, {0, 3 * r}), 3, 3e-3);
   EXPECT_DOUBLE_EQ(settled_N(0, -1, {0, 3 * r}), 0);
@@ -64,9 +64,9 @@ TEST(Clamp, KeepsItsLimits) {
   EXPECT_EQ(state.level_N[wire], 0);
 }
 
-/// A hand on a wire in the emulated box, and an instrument that resists it: a wall that yields, and dry friction of the
-/// whole length, which holds until it slips. Between hand and clamp there is a delay, and the sensor trembles.
-/// Turning, the hand is on a torque device of 2 mm radius; its rim is what is measured in mm.
+/// A hand on a wire in the emulated box, against an instrument: a compliant wall, and dry friction over the whole
+/// length, which holds until it slips. There is a delay between hand and clamp, and sensor noise. When turning, the
+/// hand is on a torque device of 2 mm radius; mm are measured at its rim.
 struct Loop {
   bool turning = false;
   ClampSettings settings;
@@ -86,7 +86,7 @@ struct Loop {
 
   double level_N() const { return box.clamp()[0] / 65535.0 * calibration.clamp_full_scale_N[0]; }
 
-  /// Hand of 0.1 kg, 300 N/m and 4 N s/m about where it wants to be; the clamp is dry friction.
+  /// Hand of 0.1 kg, 300 N/m and 4 N s/m around its target; the clamp is dry friction.
   void move_hand(double wanted_mm) {
     const double dt = 1e-4, mass = 0.1;
     for (int i = 0; i < 10; ++i) {
@@ -99,7 +99,7 @@ struct Loop {
   }
 
   double resistance_N(double advance_mm) {
-    const double give_mm = 0.5;  // of the instrument before it slips
+    const double give_mm = 0.5;  // elastic travel of the instrument before it slips
     sim_mm += advance_mm;
     stuck_at_mm = std::clamp(stuck_at_mm, sim_mm - give_mm, sim_mm + give_mm);
     return friction_N * (sim_mm - stuck_at_mm) / give_mm + 1e-3 * wall_N_m * std::max(0.0, sim_mm - wall_at_mm);
@@ -123,7 +123,7 @@ struct Loop {
     if (static_cast<int>(underway.size()) > delay_ms) box.take(underway.front()), underway.pop_front();
   }
 
-  /// In, held, out, held: how far the level goes up and down while the hand is held, in N per second; the largest.
+  /// In, held, out, held: the level's total variation while the hand is held, in N per second; the largest.
   double buzz_N_s() {
     double worst = 0;
     for (const auto& [from_mm, to_mm] : {std::pair{0.0, 40.0}, {40.0, 10.0}, {10.0, 30.0}}) {
@@ -155,8 +155,8 @@ void expect_no_buzz(Loop loop) {
   EXPECT_TRUE(parse_in_report(loop.box.sample())->armed);
 }
 
-/// Friction up to 16 times, a wall up to 25 times stiffer, delays up to 40 ms: held, the level rests. In the same loop
-/// a clamp that believes every count, and jumps, does buzz.
+/// Friction up to 16 times, a wall up to 25 times stiffer, delays up to 40 ms: while held, the level is constant. In
+/// the same loop a clamp without dead bands and slew limit does buzz.
 TEST(Clamp, NeverBuzzesHoweverHighTheFriction) {
   for (const int delay_ms : {1, 5, 20, 40})
     for (const double friction_N : {0.25, 1.0, 4.0})
@@ -178,7 +178,7 @@ TEST(Clamp, NeverBuzzesWhenTurned) {
     }
 }
 
-/// Small loads, in which the trembling sensor's share is large: a clamp that follows a change of a tenth alone wavers
+/// Small loads, for which sensor noise is relatively large: a clamp with only the relative dead band of a tenth wavers
 /// by up to 27 N/s at 0.1 N.
 TEST(Clamp, IsQuietUnderSmallLoads) {
   double follows_a_tenth = 0;
@@ -197,7 +197,7 @@ TEST(Clamp, IsQuietUnderSmallLoads) {
   EXPECT_GT(follows_a_tenth, 5);
 }
 
-/// Turning friction up while the wire is held, turned or pushed: the level grows with it and comes to rest.
+/// Friction increases while the wire is held, turned or pushed: the level grows with it and comes to rest.
 TEST(Clamp, RestsWhileFrictionIsTurnedUp) {
   for (const bool turning : {false, true})
     for (const int delay_ms : {1, 40}) {
@@ -220,7 +220,7 @@ TEST(Clamp, RestsWhileFrictionIsTurnedUp) {
     }
 }
 
-/// The hand feels it: pushed as hard, the wire goes less deep.
+/// The hand feels it: with the same effort the wire goes less deep.
 TEST(Clamp, HoldsTheHandBack) {
   const auto depth_mm = [](double wall_N_m) {
     Loop loop;
@@ -229,7 +229,7 @@ TEST(Clamp, HoldsTheHandBack) {
     return loop.hand_mm;
   };
   EXPECT_NEAR(depth_mm(0), 40, 0.1);
-  // Where hand and wall balance: 300 (40 - x) = 400 (x - 20), less what the slew and the delay let through.
+  // Equilibrium of hand and wall: 300 (40 - x) = 400 (x - 20), less the effect of slew limit and delay.
   EXPECT_NEAR(depth_mm(400), (300 * 40 + 400 * 20) / 700.0, 1.5);
 }
 
@@ -237,7 +237,7 @@ TEST(Clamp, ArmsAgainAfterTheWatchdogButNotAfterAStop) {
   Loop loop;
   for (int i = 0; i < 300; ++i) loop.tick(25);
   EXPECT_TRUE(parse_in_report(loop.box.sample())->armed);
-  for (int i = 0; i < 60; ++i) loop.box.sample();  // the host hangs
+  for (int i = 0; i < 60; ++i) loop.box.sample();  // the host stops responding
   EXPECT_FALSE(parse_in_report(loop.box.sample())->armed);
   for (int i = 0; i < 100; ++i) loop.tick(25);
   EXPECT_TRUE(parse_in_report(loop.box.sample())->armed);

@@ -8,7 +8,7 @@
 namespace ostium::device {
 namespace {
 
-/// However hand and steps are out of time, what the hand moved is what is fed, at no more than the engine allows.
+/// However the timing of hand and steps differs, the hand's whole movement is fed, within the simulation's speed limit.
 TEST(Drive, NothingOfTheHandIsLost) {
   const Eigen::Vector3d axis_W(0, 0.6, 0.8);
   PendingDrive pending;

@@ -32,7 +32,7 @@ TEST(EmulatedBox, WatchdogOpensWithinItsTimeAndStaysOpen) {
   EmulatedBox box = armed_box();
   int ms = 0;
   while (box.clamp()[0] != 0 && ms < 1000) box.sample(), ++ms;
-  EXPECT_EQ(ms, 50);  // the protocol's default; 60 is what must hold
+  EXPECT_EQ(ms, 50);  // the protocol's default; the requirement is 60
   EXPECT_TRUE(read(box).watchdog);
   send(box, true);
   EXPECT_EQ(box.clamp()[0], 0);

@@ -1,4 +1,4 @@
-/// The firmware's part in C against the emulated box, which every other test knows: the same events, the same bytes.
+/// The firmware's C code against the emulated box, which all other tests use: the same events give the same bytes.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -11,7 +11,7 @@
 namespace ostium::device {
 namespace {
 
-/// Counts are what the tools were moved by, whole numbers.
+/// A calibration in which one count is one unit of tool movement.
 Calibration by_counts() {
   Calibration c;
   c.serial = "FW-1";
@@ -100,9 +100,9 @@ TEST(Firmware, DoesWhatTheEmulatedBoxDoes) {
       if (dice < 30) both.out();
       if (dice == 99) both.control();
       if (dice == 98 && both.any(10) == 0) both.emulated.release(), box_release(&both.firmware);
-      if (dice == 97 && both.any(10) == 0)  // the host hangs
+      if (dice == 97 && both.any(10) == 0)  // the host stops responding
         for (int n = 0; n < 300; ++n) both.sample();
-      if (dice < 20) both.move_world();  // what a sample sees, not before
+      if (dice < 20) both.move_world();  // visible to this sample, not before
       both.sample();
       armed += both.firmware.armed, watchdogs += both.firmware.watchdog_released;
     }
@@ -111,8 +111,7 @@ TEST(Firmware, DoesWhatTheEmulatedBoxDoes) {
   }
 }
 
-/// Every record that the host's reader refuses, the firmware refuses too, and the other way round: with the CRC right,
-/// and any one number of it wild.
+/// Firmware and host's reader refuse the same records: with a correct CRC, and any one number random.
 TEST(Firmware, TakesTheRecordsThatTheHostTakes) {
   std::mt19937 generator(3);
   int taken = 0, refused = 0;
@@ -121,7 +120,7 @@ TEST(Firmware, TakesTheRecordsThatTheHostTakes) {
     static constexpr std::uint32_t wild[] = {0, 0x80000000, 0x7f800000, 0xff800000, 0x7fc00000, 0x3f800000, 0xbf800000};
     const std::size_t at = 4 * (generator() % 31);
     put<std::uint32_t>(record, at, generator() % 2 ? wild[generator() % 7] : static_cast<std::uint32_t>(generator()));
-    // The right CRC, by the polynomial.
+    // The correct CRC, from the polynomial.
     std::uint32_t crc = 0xffffffff;
     for (std::size_t b = 0; b < 124; ++b) {
       crc ^= record[b];

@@ -1,4 +1,4 @@
-/// All of it, from bytes to a step's inputs and back to bytes.
+/// The whole path, from bytes to a step's inputs and back to bytes.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -16,7 +16,7 @@ namespace {
 
 using Bytes = std::array<std::uint8_t, in_report_bytes>;
 
-/// The host's side: what a session would hold.
+/// The host's side, as a session holds it.
 struct Host {
   Calibration calibration;
   LinkState link;
@@ -26,7 +26,7 @@ struct Host {
   std::array<PendingDrive, tools> pending{};
   std::array<core::RodInputs, tools> inputs{};
 
-  /// One report in, one step's inputs made, one report out.
+  /// Takes one report, makes one step's inputs, returns one report.
   OutReport step(const Bytes& bytes, ClampLoad load = {}) {
     const auto report = received(bytes, link);
     if (!report) return {};
@@ -44,7 +44,7 @@ struct Host {
   }
 };
 
-/// Reports that keep the protocol's rules and no other.
+/// Reports that keep the protocol's rules but are otherwise random.
 TEST(HostChain, WildReportsStayWithinLimits) {
   Host host;
   plugged_in(host.link);
@@ -75,7 +75,7 @@ TEST(HostChain, WildReportsStayWithinLimits) {
   EXPECT_EQ(host.link.taken, 600'000u);
 }
 
-/// A wire and a guide in strokes, with forces and pauses: what was recorded, alone, gives the same inputs to the bit.
+/// A wire and a guide in strokes, with forces and pauses: the recorded bytes alone give the same inputs bit for bit.
 TEST(HostChain, ReplaysFromItsRecordedBytes) {
   Host live;
   EmulatedBox box{live.calibration};

@@ -12,7 +12,7 @@ namespace {
 
 using Bytes = std::vector<std::uint8_t>;
 
-/// A report written out by hand, byte by byte, from the protocol's table.
+/// A report written by hand, byte by byte, from the protocol's table.
 Bytes by_hand() {
   return {0x01, 0x01, 0x11, 0x00,                           // type, version, status: armed, calibrated
           0x78, 0x56, 0x34, 0x12, 0x40, 0x42, 0x0f, 0x00,   // sequence 0x12345678, 1 s
@@ -93,7 +93,7 @@ TEST(Report, SaysWhichRuleIsBroken) {
   EXPECT_EQ(flaw_of_out_report(by_hand()), Flaw::type);
 }
 
-/// The rules, said a second time and differently: by the protocol's table alone.
+/// A second, independent implementation of the rules, from the protocol's table.
 bool keeps_rules_in(const Bytes& b) {
   return b.size() == 64 && b[0] == 1 && b[1] == 1 && b[2] < 32 && b[3] == 0 && b[52] < 5 && b[53] < 5 && b[54] < 5 &&
          b[55] < 5;
@@ -102,8 +102,8 @@ bool keeps_rules_out(const Bytes& b) {
   return b.size() == 16 && b[0] == 0x81 && b[1] == 1 && b[12] < 4 && b[13] == 0 && b[14] == 0 && b[15] == 0;
 }
 
-/// Reports of any length, mostly nearly right. What is taken is just what keeps the rules, and writes itself back.
-/// OSTIUM_FUZZ_REPORTS=10000000 for the long run.
+/// Reports of any length, mostly nearly valid. Exactly those that keep the rules are accepted, and they are written
+/// back identically. OSTIUM_FUZZ_REPORTS=10000000 for the long run.
 TEST(Report, RandomBytesKeepTheRules) {
   const char* wanted = std::getenv("OSTIUM_FUZZ_REPORTS");
   const long reports = wanted ? std::atol(wanted) : 1'000'000;

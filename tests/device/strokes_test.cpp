@@ -9,7 +9,7 @@ namespace {
 
 constexpr std::size_t wire = index_of(Tool::wire), shaft = index_of(Tool::shaft);
 
-/// Hands on an emulated box: through its bytes, and nothing else.
+/// Moves tools of an emulated box; connected only through its bytes.
 struct Rig {
   Calibration calibration;
   EmulatedBox box;
@@ -53,7 +53,7 @@ TEST(Strokes, AToolAppearsAtItsStation) {
   EXPECT_NEAR(rig.hands.tool[wire].inserted_mm, 10, 0.022);
 }
 
-/// A balloon for a stent, over a wire that stays: the wire does not notice.
+/// A balloon is exchanged for a stent over a stationary wire, which is not affected.
 TEST(Strokes, ExchangeOverTheWire) {
   Rig rig;
   rig.show(0, Tool::wire);
@@ -64,7 +64,7 @@ TEST(Strokes, ExchangeOverTheWire) {
   rig.push(1, -150);
   rig.show(1, Tool::none);
   EXPECT_EQ(rig.hands.tool[shaft].sight, ToolPresence::absent);
-  rig.push(1, 37);  // the next one is brought: not seen yet
+  rig.push(1, 37);  // the next one approaches: not seen yet
   rig.show(1, Tool::shaft);
   EXPECT_EQ(rig.hands.tool[shaft].arrivals, 2u);
   EXPECT_EQ(rig.hands.tool[shaft].inserted_mm, -20);
@@ -72,7 +72,7 @@ TEST(Strokes, ExchangeOverTheWire) {
   EXPECT_EQ(rig.hands.tool[wire].arrivals, 1u);
 }
 
-/// A wire that is in the patient cannot be gone: it is lost, and found where it was.
+/// A wire inside the patient cannot have been removed: it is lost, and found again where it was.
 TEST(Strokes, ALostWireIsSaidToBeLost) {
   Rig rig;
   rig.show(0, Tool::wire);
@@ -101,10 +101,10 @@ TEST(Strokes, FullTravelPausesAndResumesInPlace) {
   EXPECT_NEAR(there_mm, 295, 0.21);
   rig.wait(300);
   EXPECT_EQ(rig.hands.picture, 0);
-  EXPECT_EQ(rig.hands.pause, Pause::travel_full);  // still, but not drawn back
+  EXPECT_EQ(rig.hands.pause, Pause::travel_full);  // held still, but not drawn back
   rig.box.station[0].turned_deg += 90;
   rig.push(0, -200);
-  EXPECT_EQ(rig.hands.pause, Pause::travel_full);  // drawn back, but not still
+  EXPECT_EQ(rig.hands.pause, Pause::travel_full);  // drawn back, but not held still
   EXPECT_EQ(rig.hands.tool[wire].inserted_mm, there_mm);
   rig.wait(320);
   EXPECT_EQ(rig.hands.pause, Pause::none);
@@ -142,7 +142,7 @@ TEST(Strokes, ManyStrokesReachTheRootAndComeBack) {
   EXPECT_NEAR(rig.advanced_mm, 0, 1.1);
 }
 
-/// While the wire is drawn back, the shaft is moved along: neither instrument moves.
+/// While the wire is drawn back, the shaft moves along: neither instrument moves.
 TEST(Strokes, APauseHoldsAllInstruments) {
   Rig rig;
   rig.show(0, Tool::wire), rig.show(1, Tool::shaft);

@@ -1,4 +1,4 @@
-/// The host's side of a box over a port in memory: what the USB benches show of a bus, without one.
+/// The host's side of a box over an in-memory port: what the USB benches test on a bus, without one.
 #include "device/host/tracking_box.h"
 
 #include <gtest/gtest.h>
@@ -94,13 +94,13 @@ TEST(TrackingBox, ClosesAClampAndKnowsItsRoundTrip) {
     }
     EXPECT_NEAR(box.clamp()[2] / 65535.0 * 10, 2, 0.01);
     EXPECT_NEAR(trips.percentile_s(0.5), 1e-3 * delay, 0.03e-3 * delay);
-    request.load[wire].push_N = 2;  // and from here on the simulation stands: `step_s` too
+    request.load[wire].push_N = 2;  // from here on the simulation stands still, and so does `step_s`
     for (int i = 0; i < 60; ++i) host.poll(0, request);
     EXPECT_EQ(box.clamp()[2], 0) << "loads of a step that is over open it";
   }
 }
 
-/// A box whose sensors are off, and what is done at it with a ruler, by full turns, with a gauge: the scales come back.
+/// A box with wrong scales is calibrated with a ruler, full turns and a gauge: the scales are recovered.
 TEST(Calibrating, FindsTheScalesOfABox) {
   Calibration truth;
   truth.track[1] = {0.0127f, -0.09f, 0.0021f, 20};

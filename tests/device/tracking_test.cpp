@@ -9,7 +9,7 @@
 namespace ostium::device {
 namespace {
 
-/// A box with a wire under its first station; what the host makes of it.
+/// A box with a wire under its first station, and the host's tracking.
 struct Rig {
   Calibration calibration;
   EmulatedBox box{calibration};
@@ -41,7 +41,7 @@ TEST(Tracking, FollowsAHandWithinACount) {
   EXPECT_GT(rig.advanced_mm, 500);
 }
 
-/// Across the largest and the smallest count, both ways.
+/// Across the largest and the smallest count, in both directions.
 TEST(Tracking, CountsWrapAround) {
   for (const double way : {1.0, -1.0}) {
     Rig rig;
@@ -92,7 +92,7 @@ TEST(Tracking, ClockAndSequenceWrapAround) {
   EXPECT_NEAR(m.elapsed_s, 1e-3, 1e-9);
 }
 
-/// What a hand does while it is not seen is not known, so it is not made up.
+/// Movement while a tool is not seen is unknown, so none is reported.
 TEST(Tracking, QualityLosesAndFindsWithHysteresis) {
   Rig rig;
   rig.follow();
@@ -122,7 +122,7 @@ TEST(Tracking, ARestartedBoxDoesNotJump) {
   EXPECT_EQ(rig.advanced_mm, 0);
 }
 
-/// Two stations see one wire: it moves once, and a change of station does not show.
+/// Two stations see one wire: it moves once, and switching stations causes no jump.
 TEST(Tracking, StationsHandAToolOver) {
   Rig rig;
   auto& a = rig.box.station[0];

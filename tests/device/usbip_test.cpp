@@ -1,4 +1,4 @@
-/// The emulator on a socket, as a kernel at the other end sees it: the bytes of USB/IP, written down a second time.
+/// The emulator on a socket, as seen by a kernel at the other end: an independent implementation of the USB/IP bytes.
 #include "device/emulator/usbip.h"
 
 #include <arpa/inet.h>
@@ -137,7 +137,7 @@ TEST(UsbipServer, IsListedImportedAndAttachedOverTcp) {
   std::uint16_t port = 0;
   std::string problem;
   std::thread server;
-  // Some port that nobody has.
+  // Finds a free port.
   for (port = 33240; port < 33340; ++port) {
     const int probe = socket(AF_INET, SOCK_STREAM, 0);
     sockaddr_in a{};

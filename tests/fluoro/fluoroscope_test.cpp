@@ -153,7 +153,7 @@ TEST(Overlay, LettersAndStripsLeaveTheRestAlone) {
   append_strips({{"II", "mV", 250, square, 0, 1}}, 2, 100, picture);
   EXPECT_EQ(picture.height, 356);
   EXPECT_EQ(picture.grey.size(), 256u * 356u);
-  // Low in the older half, high in the newer one.
+  // Low values in the older half, high ones in the newer half.
   const auto bright = [&](int column, int from, int to) {
     int most = 0;
     for (int row = from; row < to; ++row)

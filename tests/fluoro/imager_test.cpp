@@ -91,7 +91,7 @@ TEST(Imager, NoiseFallsWithTheLagFilterAsItMust) {
   EXPECT_NEAR(deviation(0.5) / deviation(0), std::sqrt(0.5 / 1.5), 0.03);
 }
 
-/// How much darker a layer of blood with iodine makes the middle of a picture, as a logarithm.
+/// How much a layer of blood with iodine darkens the middle of a picture, as a logarithm.
 double shadow(double iodine_kg_m3, float thickness_m) {
   Scene scene = water(0.15);
   Body cell = phantom::body("cell", phantom::brick({-0.03, -0.03, -thickness_m / 2}, {0.03, 0.03, thickness_m / 2}),
@@ -113,7 +113,7 @@ double shadow(double iodine_kg_m3, float thickness_m) {
 TEST(Imager, AHalfFilledVesselIsHalfAsDark) {
   const double none = shadow(0, 1e-3f), half = shadow(50, 1e-3f) - none, full = shadow(100, 1e-3f) - none;
   EXPECT_GT(full, 0.03);
-  EXPECT_NEAR(half / full, 0.5, 0.02);  // beam hardening and scatter take a little off
+  EXPECT_NEAR(half / full, 0.5, 0.02);  // slightly less because of beam hardening and scatter
 }
 
 TEST(Imager, WhatIsLeftOutOfAVesselCouldNotBeSeen) {
@@ -137,7 +137,7 @@ TEST(Imager, AutomaticBrightnessHoldsTheDetectorDose) {
     kerma_before = e.kerma_Gy;
     kV_before = e.tube.peak_kV;
   }
-  // 88 mGy/min at the reference point is where fluoroscopy stops.
+  // Fluoroscopy is limited to 88 mGy/min at the reference point.
   const Scene thick = water(0.45);
   const Exposure limited = imager.exposure({thick, {}, {}, fluoroscopy(), 1});
   EXPECT_NEAR(limited.kerma_Gy * 15 * 60, 0.088, 1e-6);
@@ -157,7 +157,7 @@ TEST(Imager, DoseAreaProductIsKermaTimesAreaAtAnyDistance) {
 }
 
 TEST(Imager, EveryFieldHasAPicture) {
-  // Blurs are wider in pixels the smaller the field is: their weights must not overflow.
+  // Blurs are wider in pixels for smaller fields: the weights must not overflow.
   for (double field_m : {0.20, 0.16, 0.13, 0.10}) {
     View view = small_view();
     view.field_m = field_m;
@@ -184,7 +184,7 @@ TEST(Imager, MagnifiedFieldsGetDoseInProportion) {
 }
 
 TEST(Imager, ABlurAsWideAsThePictureKeepsWhatIsEven) {
-  for (const double sigma : {10.0, 22.0, 23.0, 60.0}) {  // two laws meet at 22.4
+  for (const double sigma : {10.0, 22.0, 23.0, 60.0}) {  // the two formulas meet at 22.4
     Plane even = Plane::Constant(32, 32, 2), scratch;
     gaussian_blur(even, sigma, Beyond::same, scratch);
     EXPECT_LT((even - 2).abs().maxCoeff(), 1e-4) << sigma;
@@ -196,7 +196,7 @@ TEST(Imager, ABlurAsWideAsThePictureKeepsWhatIsEven) {
 }
 
 TEST(Imager, ScatterIsAsMuchAsPrimaryBehindTheMediastinum) {
-  // Even with a grid: about as much, within a factor of two, behind the spine in an AP view.
+  // Even with a grid, scatter behind the spine in an AP view is comparable to the primary, within a factor of two.
   const Scene scene = phantom::chest({});
   PathLengths lengths(128);
   View view;

@@ -24,7 +24,7 @@ PathLengths drawn(PathLengthRenderer& renderer, const std::vector<Body>& bodies,
 }
 
 TEST(PathLengths, TheVolumeOfABallIsWhatItsShadowHolds) {
-  // In depth, and with each pixel as wide as it is at the ball: parallel enough at 1 m for a ball of 1 cm.
+  // In depth, and with the pixel width at the ball: rays are nearly parallel at 1 m for a ball of 1 cm.
   const double radius = 0.01;
   const std::vector<Body> ball{phantom::body("ball",
                                              phantom::star(
@@ -49,13 +49,13 @@ TEST(PathLengths, BothRenderersAgreeWithinASilhouette) {
   const PathLengths a = drawn(*both[0], bodies), b = drawn(*both[1], bodies);
   EXPECT_FALSE(find_leak(a));
   EXPECT_FALSE(find_leak(b));
-  // Silhouettes differ by the grid of OSMesa (1/256 pixel): a few pixels there; a steep wall makes much of it.
+  // Silhouettes differ by OSMesa's grid (1/256 pixel): in a few pixels, and noticeably on steep walls.
   EXPECT_LT(std::sqrt((a.soft_m() - b.soft_m()).square().mean()), 2e-5);
   EXPECT_LT(std::sqrt((a.bone_m() - b.bone_m()).square().mean()), 2e-5);
 }
 
 TEST(PathLengths, ConcentrationCountsAlongTheRayNotFromTheSource) {
-  // A vessel along the ray's plane whose concentration falls along it: the middle ray meets concentration times chord.
+  // A vessel in the ray's plane with a concentration gradient: the middle ray crosses concentration times chord.
   const Eigen::Matrix3Xd line = phantom::smooth_line({{-0.03, 0, 0}, {0.03, 0, 0}}, 0.0005);
   const double radius = 0.002;
   constexpr int sides = 64;
@@ -78,7 +78,7 @@ TEST(PathLengths, ConcentrationCountsAlongTheRayNotFromTheSource) {
 }
 
 TEST(PathLengths, AVesselAtAnyAngleHoldsItsIodine) {
-  // What its shadow holds is concentration times volume, however far the vessel points at the detector.
+  // The total of its shadow is concentration times volume, even if the vessel points at the detector.
   const double radius = 0.002, length = 0.04;
   constexpr int sides = 48;
   View view;
@@ -91,12 +91,12 @@ TEST(PathLengths, AVesselAtAnyAngleHoldsItsIodine) {
                                 tissue::soft, tissue::soft);
     vessel.contrast.p_PC = phantom::tube_centres(line, sides);
     vessel.contrast.iodine_kg_m3 = Eigen::VectorXf::Constant(vessel.p_P.cols(), 300);
-    vessel.contrast.along_kg_m2 = 300 * vessel.contrast.p_PC;  // uniform: concentration times the way
+    vessel.contrast.along_kg_m2 = 300 * vessel.contrast.p_PC;  // uniform: concentration times distance
     const double volume = 3.14159265 * radius * radius * length + 4.0 / 3 * 3.14159265 * std::pow(radius, 3);
     for (const auto& renderer : renderers()) {
       const PathLengths lengths = drawn(*renderer, {vessel}, view);
       const double held = double(lengths.iodine_kg_m2().cast<double>().sum()) * pixel_m * pixel_m;
-      // Nearer than the isocentre it is larger on the picture: by (40 mm / 765 mm)^2 / 12 at most, in the mean.
+      // Parts nearer than the isocentre are magnified: by (40 mm / 765 mm)^2 / 12 at most, on average.
       EXPECT_NEAR(held / (300 * volume), 1, 0.015) << renderer->name() << " " << angle;
     }
   }
@@ -112,7 +112,7 @@ TEST(PathLengths, TwoHalvesMakeAWhole) {
   view.arm.lao_rad = 0.3;
   for (const auto& renderer : renderers()) {
     const PathLengths one = drawn(*renderer, {whole}, view), two = drawn(*renderer, {left, right}, view);
-    // OSMesa puts corners on a grid of 1/256 pixel: 1.5 um here, seven times that down the steep sides.
+    // OSMesa rounds corners to a grid of 1/256 pixel: 1.5 um here, seven times that on steep sides.
     EXPECT_LT((one.soft_m() - two.soft_m()).abs().maxCoeff(), 2e-5f) << renderer->name();
   }
 }
@@ -120,7 +120,7 @@ TEST(PathLengths, TwoHalvesMakeAWhole) {
 TEST(PathLengths, TheRayIsLongerThanItsDepth) {
   View view;
   view.pixels = 2;
-  const double half = 0.25 * view.field_m;  // pixel middles
+  const double half = 0.25 * view.field_m;  // pixel centres
   EXPECT_NEAR(double(ray_stretch(view)(0, 1)),
               std::sqrt(1 + 2 * half * half / std::pow(view.arm.source_to_detector_m, 2)), 1e-6);
 }

@@ -42,7 +42,8 @@ TEST(Phantom, ABranchAddsWhatLiesBeyondItsParentsWall) {
                                     straight({0, 0, 0}, {0, length_m, 0}, branch_m, 0)};
   const Surface branch = lumen(courses, 1).surface;
   EXPECT_NO_THROW(check(body("branch", branch, tissue::soft, tissue::soft)));
-  // A cylinder with a half ball at its end, less what the parent holds: the mean of sqrt(R^2 - z^2) over the disc.
+  // A cylinder with a hemisphere at its end, minus the part inside the parent: the mean of sqrt(R^2 - z^2) over the
+  // disc.
   double within = 0;
   constexpr int steps = 2000;
   for (int i = 0; i < steps; ++i) {

@@ -32,7 +32,7 @@ Shaft steel(const Eigen::Matrix3Xd& line, double outer_m, double inner_m = 0) {
 }
 
 TEST(ShaftLayer, NoMetalIsLostHoweverThinTheWire) {
-  // A closed form: what all pixels hold is the wire's volume, straight or bent, a tenth of a pixel or ten.
+  // Closed form: the sum over all pixels is the wire's volume, straight or bent, a tenth of a pixel or ten.
   const Eigen::Matrix3Xd straight = phantom::smooth_line({{-0.03, -0.011, 0}, {0.03, 0.017, 0}}, 0.002);
   Eigen::Matrix3Xd arc(3, 60);
   for (int i = 0; i < 60; ++i) arc.col(i) = 0.02 * Vector3d(std::cos(0.04 * i), std::sin(0.04 * i), 0);
@@ -86,7 +86,7 @@ TEST(ShaftLayer, AMarkerIsAsLongAsItIs) {
   const Plane thickness = drawn.thickness(shaft);
   const double volume = thickness.cast<double>().sum() * drawn.pixel_m() * drawn.pixel_m();
   EXPECT_NEAR(volume / (3.14159265 * 0.16e-6 * 0.001), 1, 0.02);
-  // Drawn again without it, nothing stays behind.
+  // Drawing again without it leaves nothing behind.
   EXPECT_EQ(drawn.thickness(steel(Eigen::Matrix3Xd::Constant(3, 2, 5.0), 1e-3)).abs().maxCoeff(), 0);
 }
 

@@ -1,3 +1,3 @@
 #pragma once
-/// Allocations by operator new of this program so far, counted in allocations.cpp.
+/// Number of this program's allocations by operator new so far, counted in allocations.cpp.
 long allocations();

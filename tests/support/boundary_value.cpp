@@ -16,8 +16,8 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 
-/// y = (p, R column by column, m world [sum of all tubes], then per tube: angle against the frame, twist rate).
-/// The frame R has no twist of its own: a tube's material frame is R Rz(angle).
+/// y = (p, R column by column, m world [sum of all tubes], then per tube: angle relative to the frame, twist rate). The
+/// frame R has no twist of its own: a tube's material frame is R Rz(angle).
 class Shooter {
  public:
   Shooter(const Problem& p, double amount) : p_(p), amount_(amount), n_(static_cast<int>(p.tubes.size())) {
@@ -51,7 +51,7 @@ class Shooter {
     return y;
   }
 
-  /// To the far end; what should vanish there; and, if asked for, points on the way.
+  /// Integrates to the far end; returns the conditions that should vanish there and, if asked for, points on the way.
   VectorXd shoot(const VectorXd& unknown, int points, Solution* out) {
     VectorXd y = start(unknown), miss = VectorXd::Zero(2 + n_);
     std::vector<double> targets = stops_;
@@ -92,7 +92,7 @@ class Shooter {
     return t.sections.back();
   }
 
-  /// Weight and load beyond s.
+  /// Weight and load distal to s.
   Vector3d force(double s) const {
     Vector3d f = p_.tip_force;
     for (const Tube& t : p_.tubes)
@@ -110,12 +110,12 @@ class Shooter {
     return amount_ * f;
   }
 
-  /// Curvature beyond rest that answers a bending moment: the softening law turned round, by Newton's method on how
-  /// much of the linear moment is left.
+  /// Curvature beyond rest for a bending moment: inverts the softening law by Newton's method on the remaining share of
+  /// the linear moment.
   static Vector2d curvature_of(const core::Section& c, const Vector2d& moment) {
     Vector2d k(moment.x() / c.EI1_N_m2, moment.y() / c.EI2_N_m2);
     if (c.softening_per_m <= 0 || c.softened_ratio >= 1) return k;
-    // k = k_linear / part(k): one number, the part, between the ratio and 1.
+    // k = k_linear / part(k): the only unknown, the part, lies between the ratio and 1.
     const double mean = 0.5 * (c.EI1_N_m2 + c.EI2_N_m2), r = c.softened_ratio;
     const double q =
         (c.EI1_N_m2 * k.x() * k.x() + c.EI2_N_m2 * k.y() * k.y()) / mean / c.softening_per_m / c.softening_per_m;
@@ -135,7 +135,7 @@ class Shooter {
   void derivative(double s, const double y[], double dy[]) const {
     const Eigen::Map<const Matrix3d> R(y + 3);
     const Eigen::Map<const Vector3d> m(y + 12);
-    const double middle = 0.5 * (from_ + to_);  // between two stops nothing changes
+    const double middle = 0.5 * (from_ + to_);  // constant between two stops
     if (n_ == 1) return alone(s, y, dy, middle);
     Vector2d pull = (R.transpose() * m).head<2>();
     double EI = 0;
@@ -162,7 +162,7 @@ class Shooter {
     }
   }
 
-  /// An instrument alone may bend differently about its two axes, soften, and be twisted at rest.
+  /// A single instrument may have different bending stiffnesses about its two axes, soften, and be twisted at rest.
   void alone(double s, const double y[], double dy[], double middle) const {
     const Eigen::Map<const Matrix3d> R(y + 3);
     const Eigen::Map<const Vector3d> m_W(y + 12);
@@ -202,7 +202,7 @@ class Shooter {
 Solution solve(const Problem& problem, int points, int stages) {
   const int n = static_cast<int>(problem.tubes.size());
   VectorXd x = VectorXd::Zero(2 + n);
-  double scale = 0;  // a moment to compare with
+  double scale = 0;  // reference moment for comparison
   for (const Tube& t : problem.tubes) scale = std::max(scale, t.sections.back().EI1_N_m2);
   Solution out;
   for (int stage = 1; stage <= stages; ++stage) {

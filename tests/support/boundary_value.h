@@ -1,8 +1,8 @@
 #pragma once
-/// An independent solver for nested instruments that share one centreline, or for one: the differential equations of
-/// Rucker, Jones, Webster (2010, IEEE Trans Robot 26:769) integrated by adaptive Runge-Kutta steps (GSL, rk8pd) from
-/// the base, with what is unknown there found by shooting. Rotation matrices, arc length, no elements: nothing of
-/// `core` but its structs goes in.
+/// An independent solver for nested instruments on one shared centreline, or for a single one: the differential
+/// equations of Rucker, Jones, Webster (2010, IEEE Trans Robot 26:769) integrated by adaptive Runge-Kutta steps (GSL,
+/// rk8pd) from the base, with the unknowns there found by shooting. Rotation matrices, arc length, no elements: of
+/// `core` only its structs are used.
 #include <Eigen/Core>
 #include <vector>
 
@@ -11,16 +11,16 @@
 namespace ostium::boundary_value {
 
 struct Tube {
-  std::vector<core::Section> sections;  ///< from its tip backwards; several: EI1 = EI2, linear, without twist at rest
+  std::vector<core::Section> sections;  ///< from its tip; of several tubes linear, EI1 = EI2, untwisted at rest
   double inserted_m = 0;
   double roll_rad = 0;
   double shaft_rad_per_Nm = 0;
 };
 
-/// A force on the centreline: at a place, or per length over a stretch.
+/// A point force on the centreline, or a force spread over a stretch.
 struct Load {
-  double from_base_m = 0, to_base_m = 0;            ///< equal: at a place
-  Eigen::Vector3d force = Eigen::Vector3d::Zero();  ///< N, of the whole stretch
+  double from_base_m = 0, to_base_m = 0;            ///< equal: a point force
+  Eigen::Vector3d force = Eigen::Vector3d::Zero();  ///< N, total over the stretch
 };
 
 struct Problem {
@@ -34,12 +34,12 @@ struct Problem {
 
 struct Solution {
   bool converged = false;
-  double mismatch = 0;                 ///< of the tip's conditions, N m
+  double mismatch = 0;                 ///< residual of the tip's conditions, N m
   std::vector<Eigen::Vector3d> curve;  ///< m, evenly spaced from base to tip
   Eigen::Matrix3d tip_R;               ///< of the last tube
 };
 
-/// From the unloaded, uncurved instrument, load and curvature growing in `stages`; `points` along the curve.
+/// Starts from the unloaded, uncurved instrument; load and curvature grow in `stages`. `points` along the curve.
 Solution solve(const Problem& problem, int points = 201, int stages = 8);
 
 }  // namespace ostium::boundary_value

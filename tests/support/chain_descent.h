@@ -1,5 +1,5 @@
 #pragma once
-/// Newton's method downhill, for chains by their angles.
+/// Damped Newton descent for chains described by their angles.
 #include <Eigen/Dense>
 #include <cmath>
 
@@ -10,8 +10,8 @@ struct ChainDescent {
   int most_iterations = 200;
 };
 
-/// Takes `angle` to a minimum of energy(angle), whose slope and curvature linearise(gradient, hessian) gives at
-/// `angle`. False if there is none near enough.
+/// Takes `angle` to a minimum of energy(angle), whose gradient and Hessian linearise(gradient, hessian) gives at
+/// `angle`. False if no minimum is found.
 template <class Energy, class Linearise>
 bool descend(const ChainDescent& d, const Energy& energy, const Linearise& linearise, Eigen::VectorXd& angle) {
   const Eigen::Index n = angle.size();
@@ -29,7 +29,7 @@ bool descend(const ChainDescent& d, const Energy& energy, const Linearise& linea
     if (longest < d.tolerance_rad) return true;
     if (longest > d.longest_turn_rad) step *= d.longest_turn_rad / longest;
     double part = 1, tried = energy(angle + step);
-    // Near the minimum energies differ by less than they are rounded to.
+    // Near the minimum, energies differ by less than their rounding errors.
     while (tried > now + 1e-14 * std::fabs(now) && part > 1e-8) part /= 2, tried = energy(angle + part * step);
     if (part <= 1e-8) return longest < 1e-6;
     angle += part * step, now = tried;

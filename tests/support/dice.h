@@ -1,5 +1,5 @@
 #pragma once
-/// Random numbers for made-up sets.
+/// Random numbers for synthetic sets.
 #include <Eigen/Geometry>
 #include <cmath>
 #include <random>
@@ -9,7 +9,7 @@
 
 namespace ostium::synthetic {
 
-/// Numbers that are the same with every library.
+/// The same numbers with every library.
 class Dice {
  public:
   Dice(const std::string& kind, unsigned seed) {

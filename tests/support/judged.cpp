@@ -32,7 +32,7 @@ std::string joined(const std::vector<std::string>& ids) {
   return out;
 }
 
-/// Whether two lists differ by one effect each, and these are of a pair that some data cannot part.
+/// Whether the two lists differ in one effect each, and some data cannot distinguish these two.
 bool confusable(const std::vector<std::string>& a, const std::vector<std::string>& b) {
   std::vector<std::string> x, y;
   for (const std::string& id : a)
@@ -42,7 +42,7 @@ bool confusable(const std::vector<std::string>& a, const std::vector<std::string
   return x.size() == 1 && y.size() == 1 && data::often_confused(x[0], y[0]);
 }
 
-/// As files, as anyone's would be.
+/// Writes the set to files and reads it back, like a user's.
 data::MeasurementSet as_read(const data::MeasurementSet& set, const std::string& kind, unsigned seed) {
   if (!set.vessel) return data::read_measurement("measurement.json", to_json(set));
   const std::filesystem::path folder = std::filesystem::temp_directory_path() /

@@ -1,5 +1,5 @@
 #pragma once
-/// Of the posed corners of a wall, how far the nearest is from a point.
+/// Distance from a point to the nearest of a wall's corners in its current pose.
 #include <algorithm>
 
 #include "core/math/field.h"

@@ -14,14 +14,14 @@ using Eigen::MatrixXd;
 using Eigen::Vector2d;
 using Eigen::VectorXd;
 
-constexpr double hold_N_m2 = 5e10;  // of a bore, per length: 10 N on a node go 0.4 um deep
+constexpr double hold_N_m2 = 5e10;  // stiffness of a bore per length: 10 N on a node penetrate 0.4 um
 constexpr test::ChainDescent how{1e-10, 0.05, 400};
 constexpr int load_steps = 10;
 
 Vector2d along(double angle) { return {std::cos(angle), std::sin(angle)}; }
 Vector2d across(const Vector2d& t) { return {-t.y(), t.x()}; }
 
-/// The angles of the outer's segments come first, then those of the inner's, each from the base on.
+/// The angles of the outer chain's segments come first, then the inner's, each from the base.
 class Pair {
  public:
   explicit Pair(const Problem& problem)
@@ -33,7 +33,7 @@ class Pair {
 
   Solution run() {
     Solution out;
-    for (int k = 1; k <= load_steps; ++k) {  // of curvatures and load
+    for (int k = 1; k <= load_steps; ++k) {  // steps in which curvatures and load grow
       part_ = static_cast<double>(k) / load_steps;
       out.converged = minimise();
       if (!out.converged) break;
@@ -57,10 +57,10 @@ class Pair {
     return out;
   }
 
-  /// Where an outer node is beside the inner one's line.
+  /// The position of an outer node relative to the inner line.
   struct Beside {
     int segment = 0;
-    double part = 0, offset = 0;  ///< of the segment; to its left
+    double part = 0, offset = 0;  ///< share along the segment; distance to its left
   };
   Beside beside(const Vector2d& q, int guess, const std::vector<Vector2d>& line, const VectorXd& angle) const {
     int j = std::clamp(guess, 0, n_ - 1);
@@ -77,7 +77,7 @@ class Pair {
   struct Joint {
     double stiffness, rest;
   };
-  /// Half of a segment on either side, as far as there is one.
+  /// Half a segment on either side, where there is one.
   Joint joint(const Tube& tube, int j) const {
     const double at = tube.inserted_m - j * h_;
     const Piece &ahead = piece(tube, at - h_ / 4), &behind = piece(tube, at + h_ / 4);
@@ -130,7 +130,7 @@ class Pair {
       const Beside b = beside(outer[i], i, inner, angle_);
       const double deep = std::fabs(b.offset) - p_.play_m;
       if (deep <= 0) continue;
-      // The offset's derivatives; its second ones count as little as it is deep.
+      // Derivatives of the offset; its second derivatives are weighted by the small penetration and neglected.
       const Vector2d t = along(angle_[m_ + b.segment]), e = (b.offset > 0 ? 1 : -1) * across(t);
       lever.setZero();
       for (int j = 0; j < i; ++j) lever[j] = h_ * e.dot(across(along(angle_[j])));

@@ -1,17 +1,17 @@
 #pragma once
-/// An independent solver for two nested instruments with play, in a plane: two chains of segments by their angles,
-/// clamped at the same place, whose energy is least where neither leaves the other's bore. Each has its own line; no
-/// rotations in space, no shared centreline: nothing of `core` and of the effect that it judges goes in.
+/// An independent solver for two nested instruments with play, in a plane: two chains of segments described by their
+/// angles, clamped at the same point, whose energy is minimised such that neither leaves the other's bore. Each has its
+/// own line; no spatial rotations, no shared centreline: it uses nothing of `core` or of the effect that it tests.
 ///
 ///   bending of both - F . tip of the inner + k h sum (|offset_i| - play)+^2 / 2
-/// with offset_i of the outer's nodes from the inner one's line.
+/// with offset_i the distance of the outer chain's nodes from the inner line.
 #include <Eigen/Core>
 #include <vector>
 
 namespace ostium::nested_chains {
 
 struct Piece {
-  double to_tip_m = 0;  ///< from the tip on; the last goes on for ever
+  double to_tip_m = 0;  ///< from the tip; the last one is unlimited
   double EI_N_m2 = 0, curvature_per_m = 0;
 };
 
@@ -21,7 +21,7 @@ struct Tube {
 };
 
 struct Problem {
-  Tube outer, inner;  ///< the inner one reaches further
+  Tube outer, inner;  ///< the inner one is longer
   double play_m = 0;  ///< on each side
   Eigen::Vector2d tip_force_N = Eigen::Vector2d::Zero();
   double segment_m = 0.5e-3;

@@ -14,19 +14,19 @@ using Eigen::MatrixXd;
 using Eigen::Vector2d;
 using Eigen::VectorXd;
 
-constexpr double smooth_m = 0.5e-6;  // of friction: what has slid less is thought to stick
+constexpr double smooth_m = 0.5e-6;  // friction: smaller displacements count as sticking
 constexpr test::ChainDescent how{};
 constexpr int most_rounds = 60;
-constexpr double force_tolerance = 1e-3;  // of the largest wall force
+constexpr double force_tolerance = 1e-3;  // relative to the largest wall force
 
 Vector2d along(double angle) { return {std::cos(angle), std::sin(angle)}; }
 Vector2d across(const Vector2d& t) { return {-t.y(), t.x()}; }
 
-/// Off the centreline: how far, the direction, and how the direction turns on the way along.
+/// Offset from the centreline: distance, direction, and the rate at which the direction turns along the tube.
 struct Offset {
   double distance = 0;  ///< >= 0
   Vector2d outwards = Vector2d::UnitY(), tangent = Vector2d::UnitX();
-  double bend_per_m = 0;  ///< of the line of equal distance: > 0 if its centre lies behind
+  double bend_per_m = 0;  ///< of the line at that distance: > 0 if its centre lies on the inward side
 };
 
 Offset off_centreline(const Tube& tube, const Vector2d& p) {
@@ -47,7 +47,7 @@ Offset off_centreline(const Tube& tube, const Vector2d& p) {
           (outside ? 1 : -1) / distance};
 }
 
-/// Segments and nodes are counted from the tip: segment j leads from node j + 1 to node j, node n is the base.
+/// Segments and nodes are counted from the tip: segment j connects node j + 1 to node j, node n is the base.
 class BlockTridiagonal {
  public:
   BlockTridiagonal(const Tube& tube, const Wire& wire, const Setting& setting)
@@ -55,7 +55,7 @@ class BlockTridiagonal {
 
   int size() const { return static_cast<int>(angle_.size()); }
 
-  /// One segment more, or one less: every node goes to where the one before it was.
+  /// Adds or removes one segment: every node takes the position of its neighbour.
   bool advance(bool forward) {
     const std::vector<Vector2d> before = nodes(angle_);
     const int n = size() + (forward ? 1 : -1);
@@ -64,11 +64,11 @@ class BlockTridiagonal {
       const int from = forward ? j - 1 : j + 1;
       next[j] = from >= 0 && from < size() ? angle_[from] : forward && size() > 0 ? angle_[0] : 0;
     }
-    // Where material is now that is still inside; what has just come in was on the axis behind the base.
+    // Previous positions of material that is still inside; material that has just entered was on the axis at the base.
     old_.assign(n, setting_.base_m);
     for (int i = 0; i < n && i <= size(); ++i) old_[i] = before[i];
     if (forward && n > 0) old_[n - 1] = setting_.base_m;
-    std::vector<double> force(n, 0.0);  // of friction: nodes keep what they had
+    std::vector<double> force(n, 0.0);  // of friction: nodes keep their previous values
     for (int i = 0; i < n && i < static_cast<int>(normal_.size()); ++i) force[i] = normal_[i];
     normal_ = force;
     angle_ = next;
@@ -109,7 +109,7 @@ class BlockTridiagonal {
            setting_.friction * normal_[i] * (std::hypot(u, smooth_m) - smooth_m);
   }
 
-  /// Along the wall where the node was at the beginning of the increment.
+  /// Direction along the wall at the node's position at the beginning of the increment.
   Vector2d way(int i) const { return off_centreline(tube_, old_[i]).tangent; }
   double slid(int i, const Vector2d& p) const { return way(i).dot(p - old_[i]); }
 
@@ -126,8 +126,8 @@ class BlockTridiagonal {
     return Vector2d(0, weight(i)) + k * d * o.outwards + drag * u / root * t;
   }
 
-  /// Of the joint behind segment j, half of a segment on either side as far as there is one: its stiffness, and the
-  /// angle there beyond rest.
+  /// Joint proximal to segment j, half a segment on either side where there is one: its stiffness, and its angle beyond
+  /// rest.
   double behind(int j) const { return j + 1 == size() ? 0 : h_ / 2; }
   double stiffness(int j) const {
     const double at = (j + 1) * h_;
@@ -154,7 +154,7 @@ class BlockTridiagonal {
     const std::vector<Vector2d> p = nodes(angle_);
     gradient.setZero(n), hessian.setZero(n, n);
     std::vector<Vector2d> lever(n);
-    std::vector<Matrix2d> curves(n);  // of all nodes up to here
+    std::vector<Matrix2d> curves(n);  // accumulated over the nodes so far
     Vector2d slopes = Vector2d::Zero();
     Matrix2d sum = Matrix2d::Zero(), one;
     for (int j = 0; j < n; ++j) {
@@ -180,7 +180,7 @@ class BlockTridiagonal {
     }
   }
 
-  /// Downhill with the normal forces of friction held.
+  /// Descends with the normal forces of friction held constant.
   bool minimise() {
     return test::descend(
         how, [this](const VectorXd& a) { return energy(a); },
@@ -200,7 +200,7 @@ class BlockTridiagonal {
       }
       if (change < force_tolerance * largest) return true;
     }
-    return true;  // as near as it comes
+    return true;  // as close as it gets
   }
 
   const Tube& tube_;
@@ -208,7 +208,7 @@ class BlockTridiagonal {
   const Setting& setting_;
   double h_;
   VectorXd angle_;              ///< of segments
-  std::vector<Vector2d> old_;   ///< of nodes: where they were
+  std::vector<Vector2d> old_;   ///< previous positions of nodes
   std::vector<double> normal_;  ///< of nodes, N
 };
 

@@ -3,7 +3,6 @@
 #include <Eigen/Geometry>
 #include <cmath>
 #include <nlohmann/json.hpp>
-#include <numbers>
 #include <random>
 #include <stdexcept>
 
@@ -68,7 +67,7 @@ boundary_value::Problem problem_of(const data::MeasurementSet& set, const data::
     for (std::size_t s = 0; s < tube.sections.size(); ++s) {
       const double scale = truth.stiffness_scale.empty() ? 1 : truth.stiffness_scale[i][s];
       tube.sections[s].EI1_N_m2 *= scale, tube.sections[s].EI2_N_m2 *= scale, tube.sections[s].GJ_N_m2 *= scale;
-      // The shaft is the stretch behind what is inserted; these sets have it within the last section.
+      // The shaft is the part proximal to the insertion; in these sets it lies within the last section.
       if (s + 1 == tube.sections.size())
         tube.shaft_rad_per_Nm = truth.shaft_compliance * e.set[i].shaft_m / tube.sections[s].GJ_N_m2;
     }

@@ -2,7 +2,6 @@
 
 #include <cmath>
 #include <functional>
-#include <numbers>
 #include <stdexcept>
 
 #include "core/base/units.h"
@@ -20,10 +19,10 @@ using Eigen::Vector3d;
 
 using units::pi, units::mm, units::Nmm2, units::degree, units::gram;
 
-/// What the world does that the file does not say.
+/// How the world differs from the file.
 struct World {
   std::vector<std::function<void(const data::Experiment&, boundary_value::Problem&)>> mechanics;
-  std::vector<std::function<Vector3d(const data::Experiment&, const Vector3d&)>> picture;  ///< one after the other
+  std::vector<std::function<Vector3d(const data::Experiment&, const Vector3d&)>> picture;  ///< applied in order
 };
 
 core::Section section(double from_mm, double to_mm, double EI, double GJ, double kg_per_m, const Vector2d& k_per_m,
@@ -84,7 +83,7 @@ data::MeasurementSet free_instrument(Dice& dice, bool curved, bool timed) {
     e.base = at;
     e.set = {{longest * mm * (0.45 + 0.55 * std::fmod(0.618 * i + 0.3, 1.0)), dice.uniform(-180, 180) * degree, 0}};
     e.specimen.resize(1);
-    // What bends the shaft by a tenth or so of its length.
+    // Bends the shaft by about a tenth of its length.
     const double inserted = e.set[0].inserted_m, load = 0.2 * shaft * Nmm2 / (inserted * inserted);
     if (i % 3 != 0) e.tip_force_N = load * dice.uniform(0.5, 1.2) * dice.direction();
     if (timed) e.elapsed_s = i == 0 ? 0 : 15 * std::pow(1.5, i) * dice.uniform(0.8, 1.2);
@@ -180,7 +179,7 @@ void add_effect(const std::string& id, Dice& dice, Undeclared& u, World& world) 
       t.roll_rad += axis * degree;
     });
   } else if (id == "superelastic_softening") {
-    // Somewhere among the curvatures that the loads make.
+    // Within the range of curvatures that the loads cause.
     const double at = dice.log_uniform(1.5, 4), ratio = dice.uniform(0.15, 0.5);
     u.truth[id + ".curvature_per_mm"] = at * mm, u.truth[id + ".ratio"] = ratio;
     each([=](boundary_value::Tube& t) {
@@ -241,7 +240,7 @@ void add_effect(const std::string& id, Dice& dice, Undeclared& u, World& world) 
       for (std::size_t i = 0; i < p.tubes.size(); ++i)
         p.tubes[i].shaft_rad_per_Nm = compliance * e.set[i].shaft_m / p.tubes[i].sections.back().GJ_N_m2;
     });
-  } else if (id == "out:side_wind") {  // a force that stays in the room, across gravity
+  } else if (id == "out:side_wind") {  // a force fixed in the room, across gravity
     u.in_library = false, u.frame = "lab";
     const double per_m = dice.uniform(0.15, 0.6) * 9.81 * set.instruments[0].sections.back().kg_per_m * dice.sign();
     const Vector3d across(0, per_m, 0);
@@ -249,19 +248,19 @@ void add_effect(const std::string& id, Dice& dice, Undeclared& u, World& world) 
       const double length = e.set.back().inserted_m;
       p.loads.push_back({0, length, length * across});
     });
-  } else if (id == "out:twist_at_rest") {  // the shaft is wound up at rest
+  } else if (id == "out:twist_at_rest") {  // the shaft is twisted at rest
     u.in_library = false, u.frame = "material";
     const double twist = dice.either(3, 10);
     each([=](boundary_value::Tube& t) {
       for (core::Section& s : t.sections) s.rest_curvature_per_m.z() += twist;
     });
-  } else if (id == "out:shear") {  // a picture whose pixels are not square, and sheared
+  } else if (id == "out:shear") {  // an image with non-square, sheared pixels
     u.in_library = false, u.frame = "image";
     Matrix3d A = Matrix3d::Identity();
     A(0, 0) += dice.either(0.02, 0.06), A(1, 1) += dice.either(0.02, 0.06), A(0, 1) += dice.either(0.02, 0.06);
     A(2, 0) += dice.either(0.02, 0.06);
     world.picture.push_back([=](const data::Experiment&, const Vector3d& p) -> Vector3d { return A * p; });
-  } else if (id == "out:drift") {  // the tracker's frame wanders from one experiment to the next
+  } else if (id == "out:drift") {  // the tracker's frame drifts from one experiment to the next
     u.in_library = false, u.frame = "time";
     const Vector3d shift = dice.uniform(2, 5) * mm * dice.direction(), axis = dice.direction();
     const double turn = dice.uniform(1, 3) * degree;
@@ -324,7 +323,7 @@ Undeclared undeclared_set(const std::string& kind, unsigned seed) {
   Dice dice(kind, seed);
   Undeclared u;
   const bool nested = kind == "shaft_torsion", timed = kind == "stress_relaxation";
-  const bool curved = timed || kind.find("roll_loss") != std::string::npos;  // else nothing shows
+  const bool curved = timed || kind.find("roll_loss") != std::string::npos;  // otherwise the effect would not show
   u.set = nested ? tubes(dice) : free_instrument(dice, curved, timed);
   Truth truth;
   for (const data::MeasuredInstrument& i : u.set.instruments) {

@@ -1,7 +1,7 @@
 #pragma once
-/// Measured sets that show an effect of which their file says nothing, made by the boundary-value solver, in a tube by
-/// the pushed chain, or of two tubes with play by nested ones: what `ostium explain` is judged by. Everything about a
-/// set follows from its kind and seed.
+/// Measured sets with an effect that their file does not declare, made by the boundary-value solver, in a tube by the
+/// pushed chain, or of two tubes with play by nested chains; `ostium explain` is tested with them. A set is determined
+/// by its kind and seed.
 #include <map>
 
 #include "tests/support/synthetic_set.h"
@@ -10,13 +10,13 @@ namespace ostium::synthetic {
 
 struct Undeclared {
   data::MeasurementSet set;
-  std::vector<std::string> effects;     ///< ids that would be right; empty: a clean set, or nothing of the library
-  bool in_library = true;               ///< false: the right verdict is "unexplained"
-  std::string frame;                    ///< of an effect outside the library: what its signature should say
-  std::map<std::string, double> truth;  ///< parameters as the library names them, "roll_loss.fraction"
+  std::vector<std::string> effects;  ///< ids that would be right; empty: a clean set, or an effect outside the library
+  bool in_library = true;            ///< false: the right verdict is "unexplained"
+  std::string frame;                 ///< for an effect outside the library: the signature's expected frame
+  std::map<std::string, double> truth;  ///< parameters by their library names, "roll_loss.fraction"
 };
 
-/// Kinds that begin so are pushed into a tube, and drawn back.
+/// Kinds with this prefix are pushed into a tube, and drawn back.
 inline constexpr const char* in_tube = "tube:";
 
 /// "clean", ids of the library, two of them joined by "+", and effects outside the library ("out:...");

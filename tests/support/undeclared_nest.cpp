@@ -74,7 +74,7 @@ Undeclared undeclared_play(unsigned seed) {
     pair.tip_force_N = Vector2d(e.tip_force_N.x(), e.tip_force_N.z());
     const nested_chains::Solution rest = nested_chains::solve(pair);
     if (!rest.converged) throw std::runtime_error("the nested chains come to no rest");
-    // What a photograph shows: the outer one as far as it goes.
+    // As in a photograph: the outer one as far as it goes.
     for (std::size_t k = 0; k < rest.inner.size(); k += static_cast<std::size_t>(points_m / segment_m)) {
       const Vector2d& p = k < rest.outer.size() ? rest.outer[k] : rest.inner[k];
       e.points_m.push_back(Vector3d(p.x(), 0, p.y()) + *set.imaging.noise_sigma_m * dice.normals());

@@ -4,8 +4,8 @@
 
 namespace ostium::synthetic {
 
-/// Tubes in one plane, curved to the same side or to opposite ones, some with a load at the tip, whose play no file
-/// declares. Throws std::runtime_error if the chains come to no rest.
+/// Planar tubes, curved to the same side or to opposite sides, some with a load at the tip, whose play is not declared.
+/// Throws std::runtime_error if the chains find no equilibrium.
 Undeclared undeclared_play(unsigned seed);
 
 }  // namespace ostium::synthetic

@@ -17,12 +17,12 @@ using Eigen::Vector3d;
 
 using units::mm, units::Nmm2;
 constexpr double plastic_kg_m3 = 1200;
-constexpr double coil_kg_m3 = 12000;  // platinum wound about nitinol, with the air between
+constexpr double coil_kg_m3 = 12000;  // platinum wound around nitinol, including the air between
 constexpr double base_x_m = 12e-3, segment_m = 0.5e-3, points_m = 5e-3, push_noise = 0.03;
 
 double rounded(double length) { return segment_m * std::round(length / segment_m); }
 
-/// A wire so soft and heavy that what rubs on it moves it, or a catheter, which is stiff enough to press a wall in.
+/// A wire so soft and heavy that friction moves it, or a catheter stiff enough to indent the wall.
 pushed_chain::Wire drawn(Dice& dice, bool catheter) {
   const double radius = (catheter ? dice.uniform(0.7, 0.95) : dice.uniform(0.17, 0.25)) * mm;
   const double shaft = (catheter ? dice.log_uniform(150, 500) : dice.log_uniform(3, 10)) * Nmm2;
@@ -107,8 +107,8 @@ Undeclared undeclared_in_tube(const std::string& kind, unsigned seed) {
       const Vector2d& p = rests[k].curve[i];
       e.points_m.push_back(Vector3d(p.x(), 0, p.y()) + *set.imaging.noise_sigma_m * dice.normals());
     }
-    // A catheter's push is felt, a wire's is not. Without it nothing tells a stiff one in a stiff wall from a soft one
-    // in a soft wall.
+    // The push is measured for a catheter, not for a wire. Without it, a stiff instrument in a stiff wall cannot be
+    // distinguished from a soft one in a soft wall.
     if (catheter) e.proximal_force_N = rests[k].push_N + push_noise * hardest * dice.normals().x();
     set.experiments.push_back(e);
   }

@@ -1,4 +1,4 @@
-/// write_schemas FOLDER: writes the schemas that are made of readers' tables of keys (data/schemas).
+/// write_schemas FOLDER: writes the schemas that are generated from the readers' tables of keys (data/schemas).
 #include <filesystem>
 #include <fstream>
 #include <iostream>

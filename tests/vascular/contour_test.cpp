@@ -3,8 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include <numbers>
-
 #include "core/base/units.h"
 #include "vascular/geometry/mesh/surface_check.h"
 

@@ -6,7 +6,6 @@
 
 #include <filesystem>
 #include <fstream>
-#include <numbers>
 
 #include "tests/vascular/shapes.h"
 #include "vascular/geometry/mesh/written_mesh.h"

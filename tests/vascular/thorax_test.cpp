@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include <map>
-#include <numbers>
 
 #include "core/base/units.h"
 #include "vascular/geometry/mesh/bounding_volume_hierarchy.h"

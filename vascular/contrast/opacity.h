@@ -18,7 +18,7 @@ struct OpacityInputs {
 struct Opacity {
   std::span<float> iodine_kg_m3;
   Eigen::Ref<Eigen::Matrix3Xf> p;  ///< centreline point of each vertex, m
-  /// Integral of concentration times centreline element up to that point, kg/m2 (explained in fluoro/scene.h).
+  /// Integral of concentration times centreline element up to that point, kg/m2 (explained in fluoro/matter/scene.h).
   Eigen::Ref<Eigen::Matrix3Xf> along;
 };
 

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
-#include <numbers>
 
 #include "core/base/units.h"
 #include "vascular/motion/heart_cycle.h"

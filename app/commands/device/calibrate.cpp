@@ -15,15 +15,15 @@ namespace ostium::app {
 namespace {
 
 struct Arguments {
-  std::string serial;                         ///< of the box; empty: the first that is found
-  std::string write;                          ///< a record as JSON, to be written into the box
-  int track = 0;                              ///< 1 to 4: that length, turns, station and clamp belong to
-  std::optional<double> length_mm, turns;     ///< done between two moments
+  std::string serial;                         ///< of the box; empty: the first one found
+  std::string write;                          ///< a JSON file with the record to write into the box
+  int track = 0;                              ///< 1 to 4: the track to which length, turns, station and clamp apply
+  std::optional<double> length_mm, turns;     ///< fed and turned by the user between the two readings
   std::optional<double> station_mm, clamp_N;  ///< measured by hand
   bool pressure_zero = false, flow_zero = false;
   std::optional<double> pressure_atm, volume_mL;
-  double seconds = 0;    ///< of a measurement; 0: until Enter
-  bool dry_run = false;  ///< nothing is written into the box
+  double seconds = 0;    ///< of a measurement; 0: until Enter is pressed
+  bool dry_run = false;  ///< do not write to the box
 
   bool of_a_track() const { return length_mm || turns || station_mm || clamp_N; }
   bool changes() const { return of_a_track() || pressure_zero || pressure_atm || flow_zero || volume_mL; }
@@ -96,7 +96,7 @@ void change_flow(Measurement& at, const Arguments& a, device::Calibration& c) {
   }
 }
 
-/// The box's own, or as it leaves the factory; then `problem` says why.
+/// The box's own record, or the factory default with the reason in `problem`.
 device::Calibration calibration_of(device::UsbPort& port, std::string& problem) {
   device::Calibration c;
   try {
@@ -108,7 +108,7 @@ device::Calibration calibration_of(device::UsbPort& port, std::string& problem) 
   return c;
 }
 
-/// Throws LoadError unless the box has the record afterwards.
+/// Throws LoadError unless the box then has the record.
 void write_into_box(device::UsbPort& port, const device::Calibration& c) {
   const auto bytes = bytes_of(c);
   if (!write_calibration(port, bytes))
@@ -118,14 +118,14 @@ void write_into_box(device::UsbPort& port, const device::Calibration& c) {
   fmt::print(stderr, "written to {}\n", port.identity().serial);
 }
 
-/// Prints the record, as it is or becomes.
+/// Prints the record, or the record as it would become.
 int run(const Arguments& a) {
   if (a.of_a_track() && a.track == 0)
     throw data::LoadError("--length, --turns, --station and --clamp are of a track: --track 1 to 4");
   std::optional<device::Calibration> from_file;
   if (!a.write.empty()) {
     from_file = read_calibration_record(a.write);
-    (void)bytes_of(*from_file);  // refuses what no box may have, before one is looked for
+    (void)bytes_of(*from_file);  // refuses impossible records before looking for a box
   }
   Measurement at(a.serial);
   std::string problem;

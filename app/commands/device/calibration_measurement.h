@@ -1,5 +1,5 @@
 #pragma once
-/// What a box counts while somebody does something that is known.
+/// Reads a box's counts while the user makes a known movement.
 #include <array>
 #include <string>
 
@@ -8,14 +8,14 @@
 
 namespace ostium::app {
 
-/// The box's raw counts from `begin` on. Throws LoadError where there is no box, or it is unplugged meanwhile.
+/// The box's raw counts since `begin`. Throws LoadError if there is no box or it is unplugged.
 class Measurement : private device::ReportSink {
  public:
   explicit Measurement(const std::string& serial);
 
   device::UsbPort& port() { return port_; }
 
-  /// Until Enter, or so many seconds.
+  /// Waits for Enter, or for that many seconds.
   void wait(const std::string& what, double seconds);
 
   void begin() {

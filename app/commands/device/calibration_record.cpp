@@ -28,7 +28,7 @@ const data::JsonObjectKeys record_keys{"calibration",
                                         {"mL_s_per_count", true, a_number},
                                         {"flow_offset_mL_s", true, a_number}}};
 
-/// Nearest float in the fewest digits.
+/// The float as a double with the fewest digits that round to it.
 double short_number(float value) { return std::stod(fmt::format("{}", value)); }
 
 }  // namespace

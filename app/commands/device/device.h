@@ -1,5 +1,5 @@
 #pragma once
-/// The parts of `ostium device`.
+/// The subcommands of `ostium device`.
 #include "app/command_line/command.h"
 
 namespace ostium::app {
@@ -9,7 +9,7 @@ Command device_monitor_command();
 Command device_emulate_command();
 Command device_calibrate_command();
 
-/// Seconds of a clock that only goes forward.
+/// Seconds of a monotonic clock.
 double clock_s();
 
 }  // namespace ostium::app

@@ -17,8 +17,8 @@ namespace {
 struct Arguments {
   double seconds = 0;  ///< 0: until Ctrl-C
   int port = 3240;
-  bool any_host = false;  ///< answers other machines too
-  bool still = false;     ///< nobody moves the emulated tools
+  bool any_host = false;  ///< also answers other machines
+  bool still = false;     ///< do not move the emulated tools
 };
 
 void declare(Options& options, Arguments& a) {

@@ -50,7 +50,7 @@ void print(const device::FoundBox& box) {
              box.trouble == device::PortTrouble::none ? "" : advice(now));
 }
 
-/// 0 if a box is there, else 1.
+/// Exit code: 0 if a box is found, else 1.
 int run(const Arguments& a) {
   const std::vector<device::FoundBox> boxes = device::find_boxes();
   if (a.json) {

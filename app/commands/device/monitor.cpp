@@ -24,11 +24,11 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 struct Arguments {
-  std::string serial;     ///< of the box; empty: the first that is found
+  std::string serial;     ///< of the box; empty: the first one found
   double seconds = 0;     ///< 0: until Ctrl-C
-  bool arm = false;       ///< the clamps, open
-  double push_N = 0;      ///< arms them, and resists every push so
-  bool emulator = false;  ///< an emulated box in this process
+  bool arm = false;       ///< arms the clamps, which stay open
+  double push_N = 0;      ///< arms the clamps and resists every push with this force
+  bool emulator = false;  ///< use an emulated box in this process
   bool json = false;
 };
 
@@ -43,7 +43,7 @@ void declare(Options& options, Arguments& a) {
 
 constexpr const char* tool_names[device::tools] = {"guide", "wire", "shaft", "second wire"};
 
-/// The port that is asked for, with what belongs to it.
+/// The chosen port and the objects it needs.
 struct Source {
   std::unique_ptr<device::EmulatedBox> box;
   std::unique_ptr<device::StrokingHand> hand;
@@ -109,12 +109,12 @@ std::string table(const device::BoxSnapshot& now, const device::RoundTrips& trip
   return out + fmt::format("  {}\n", advice(now));
 }
 
-/// What is on the screen of the box.
+/// Shows the state of the box on the terminal.
 class Display {
  public:
   explicit Display(bool json) : json_(json), redraw_(isatty(STDOUT_FILENO) && !json) {}
 
-  /// Ten times a second where it is drawn over, else once, and whenever the box comes or goes.
+  /// Ten times a second on a terminal, else once; and whenever the box comes or goes.
   bool is_due(const device::BoxSnapshot& now, double now_s) const {
     return now_s - shown_s_ >= (redraw_ ? 0.1 : 1) || (now.link != shown_link_ && now_s - begin_s_ > 0.2);
   }
@@ -143,7 +143,7 @@ class Display {
   int lines_ = 0;
 };
 
-/// 0 if reports came and none was lost, else 1.
+/// Exit code: 0 if reports came and none was lost, else 1.
 int run(const Arguments& a) {
   stop_on_signals();
   Source source(a);

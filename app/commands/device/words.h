@@ -3,7 +3,7 @@
 
 namespace ostium::app {
 
-/// As tables and JSON say them.
+/// Texts for tables and JSON.
 const char* words(device::ToolPresence sight);
 const char* words(device::Link link);
 const char* words(device::PortTrouble trouble);

@@ -19,7 +19,7 @@ void declare(Options& options, Arguments& a) {
       .show_default();
 }
 
-/// An angioplasty from start to end, with everything that is to be had of it.
+/// An angioplasty from start to end, with all outputs.
 int run(const Arguments& arguments) {
   const std::string& folder = arguments.folder;
   RunArguments a;

@@ -12,7 +12,8 @@
 
 namespace ostium::app {
 
-/// What is asked for; null: no box. With a box and people, `setup` loses what its script does to tools.
+/// The tracking box that was asked for; null: none. If people move the tools at it, the tool movements are removed from
+/// `setup`'s script.
 std::unique_ptr<BoxRun> device_of(const RunArguments& a, RunSetup& setup) {
   if (a.device == "keyboard") {
     setup.script = free_hands(setup.script);
@@ -24,7 +25,7 @@ std::unique_ptr<BoxRun> device_of(const RunArguments& a, RunSetup& setup) {
     settings.views.emplace_back(view.lao_deg * units::pi / 180, view.cran_deg * units::pi / 180);
   settings.watch = [before = device::Pause::none](const device::BoxSnapshot& now) mutable {
     if (now.pause != before && now.pause != device::Pause::none)
-      show_progress(std::string(advice(now)));  // nothing steps now
+      show_progress(std::string(advice(now)));  // nothing is simulated now
     before = now.pause;
   };
   if (a.device == "emulator") return run_at_emulator(settings, &interrupted);
@@ -57,7 +58,8 @@ WindowOptions window_of(const RunArguments& a, BoxRun* device, Filming* film, st
   return window;
 }
 
-/// Plays in another thread while the window is up in this one, with the film's pictures if a film is made; else null.
+/// Plays in another thread while this thread shows the window. The window shows the film's pictures if a film is made,
+/// else its own.
 PlayReport play_in_window(const RunArguments& a, ScriptedRun& run, const RunSetup& setup, BoxRun* device,
                           LiveDriver& hand, Filming* film, PlayOptions options) {
   options.real = true;

@@ -1,5 +1,5 @@
 #pragma once
-/// Who moves the instruments of a run: its script, a tracking box, or hands at the window.
+/// Who moves the instruments of a run: its script, a tracking box, or keyboard, mouse and gamepad in the window.
 #include <memory>
 #include <optional>
 
@@ -11,10 +11,11 @@
 
 namespace ostium::app {
 
-/// What is asked for; null: no box. With a box and people, `setup` loses what its script does to tools.
+/// The tracking box that was asked for; null: none. If people move the tools at it, the tool movements are removed from
+/// `setup`'s script.
 std::unique_ptr<BoxRun> device_of(const RunArguments& arguments, RunSetup& setup);
 
-/// Each asks the next: the film sees what hands ask for, they what the box says.
+/// Drivers are chained: the film sees the inputs of the live driver, which sees those of the box.
 struct Drivers {
   std::optional<LiveDriver> hand;
   std::optional<Filming> film;
@@ -22,7 +23,7 @@ struct Drivers {
   Drivers(const RunArguments& arguments, BoxRun* device, ScriptedRun& run);
 };
 
-/// Here, or in the window.
+/// Plays here, or in the window.
 PlayReport play_with(Drivers& drivers, const RunArguments& arguments, BoxRun* device, ScriptedRun& run,
                      const RunSetup& setup, const PlayOptions& options);
 

@@ -1,5 +1,5 @@
 #pragma once
-/// What a run came to, in words and as JSON.
+/// The result of a run, as text and as JSON.
 #include <nlohmann/json_fwd.hpp>
 
 #include "app/session/device/box_run.h"
@@ -7,7 +7,7 @@
 
 namespace ostium::app {
 
-/// `file`: the recording, or empty.
+/// `file`: path of the recording; may be empty.
 nlohmann::ordered_json to_json(const RunSetup& setup, const ScriptedRun& run, const PlayReport& report,
                                const std::string& file);
 nlohmann::ordered_json to_json(const BoxDriver& hand);

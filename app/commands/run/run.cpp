@@ -51,7 +51,7 @@ void declare(Options& options, RunArguments& a) {
   add_json_flag(options, a.json, "run.schema.json");
 }
 
-/// What the script does, and how deep the tools are.
+/// Shows the script's current step, and how deep the tools are.
 void show_tools(const ScriptedRun& run) {
   const double now = seconds(run.model, run.state);
   const auto s = static_cast<std::size_t>(run.hands.step);
@@ -74,7 +74,7 @@ RecorderOptions recorder_of(const RunArguments& a) {
   return recorder;
 }
 
-/// With the sizes that fit it chosen.
+/// Builds the vessel; chooses the tool sizes that fit it.
 std::shared_ptr<const Vessel> build_vessel(RunSetup& setup) {
   show_progress("building " + setup.vessel);
   std::string warnings;

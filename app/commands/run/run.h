@@ -7,14 +7,14 @@ struct RunArguments {
   SessionArguments session;
   std::string folder;            ///< where recording and metrics go; empty: nowhere
   std::string record = "full";   ///< none, events, full
-  std::string speed = "max";     ///< real: paced at 1 kHz
-  std::string device;            ///< empty: the script moves the tools; auto, usb, emulator: hands at a tracking box;
-                                 ///< keyboard: hands at keyboard, mouse or gamepad, in the window
+  std::string speed = "max";     ///< real: paced by the clock at 1 kHz
+  std::string device;            ///< empty: the script moves the tools; auto, usb, emulator: a tracking box does;
+                                 ///< keyboard: people do, with keyboard, mouse or gamepad in the window
   std::string display = "none";  ///< or window
-  std::string last_frame;        ///< the window's last picture goes into this PNG; empty: nowhere
-  std::string serial;            ///< of the box
-  bool film = false;             ///< DIR/procedure.mp4
-  bool report = false;           ///< DIR/report.html, events.csv, key-frames/
+  std::string last_frame;        ///< PNG file for the window's last picture; empty: none
+  std::string serial;            ///< serial number of the box
+  bool film = false;             ///< write DIR/procedure.mp4
+  bool report = false;           ///< write DIR/report.html, events.csv, key-frames/
   bool json = false;
 
   bool in_window() const { return display == "window" || device == "keyboard"; }

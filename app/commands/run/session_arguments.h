@@ -1,5 +1,5 @@
 #pragma once
-/// What `run` and `sweep` are told in common: vessel, script, and what is otherwise than there.
+/// Arguments shared by `run` and `sweep`: vessel, script, and changes to them.
 #include "app/command_line/options.h"
 #include "app/session/operator/setup.h"
 
@@ -10,15 +10,15 @@ struct SessionArguments {
   std::string script = "aorta-arch-wire";
   std::vector<std::string> set;  ///< KEY=VALUE
   std::uint64_t seed = 0;
-  double seconds = 0;          ///< most that are simulated; 0: until the script ends
+  double seconds = 0;          ///< limit of simulated time; 0: until the script ends
   std::string unit = "mm";     ///< of a mesh
   std::string entry, towards;  ///< of a mesh: X,Y,Z
 };
 
-/// All but vessel and seed.
+/// All options except vessel and seed.
 void add_session_options(Options& options, SessionArguments& arguments);
 
-/// What the arguments ask for. Throws LoadError or MeshError.
+/// The setup that the arguments describe. Throws LoadError or MeshError.
 RunSetup setup_of(const SessionArguments& arguments);
 
 }  // namespace ostium::app

@@ -59,7 +59,7 @@ void SweepJournal::read(const std::string& first) {
     throw data::LoadError(
         fmt::format("{} is of another sweep; expected the same cases, script, seeds and parameters", file_));
   kept = line + "\n";
-  // What follows the last line end was cut off by a kill.
+  // A last line without a line end was cut off when the program was killed.
   while (std::getline(in, line) && !in.eof()) {
     std::size_t used = 0;
     const std::size_t task = std::stoul(line, &used);

@@ -5,7 +5,7 @@
 
 namespace ostium::app {
 
-/// What is done, in a file beside the table: a line a run, each written at once. Its first line says of which
+/// The runs already done, in a file beside the table: one line per run, flushed at once. Its first line identifies the
 /// sweep. Throws LoadError.
 class SweepJournal {
  public:
@@ -13,7 +13,7 @@ class SweepJournal {
   bool has(std::size_t task) const { return !lines_[task].empty(); }
   void add(std::size_t task, const std::string& line);
   std::size_t done() const { return done_; }
-  /// Puts the table, whole and in order, in its place.
+  /// Replaces the journal by the complete, sorted table.
   void finish(const std::string& table, const std::string& head);
 
  private:

@@ -35,7 +35,7 @@ Values values_of(const SweepArguments& a, std::vector<std::string>& keys) {
   return values;
 }
 
-/// Counts on, the last key's values first. False: all have been there.
+/// Advances to the next combination; the last key's values change fastest. False if there are no more.
 bool next(const Values& values, std::vector<std::size_t>& at) {
   for (std::size_t k = values.size(); k-- > 0;) {
     if (++at[k] < values[k].size()) return true;

@@ -26,13 +26,13 @@ void declare(Options& options, SweepArguments& a) {
   options.add("-o,--output", a.table, "The table").type("TABLE.csv").required();
 }
 
-/// The runs of a sweep that are still to be done, on several threads.
+/// Runs the remaining runs of a sweep on several threads.
 class Sweeper {
  public:
   Sweeper(const SweepArguments& arguments, const Sweep& sweep, SweepJournal& journal)
       : arguments_(arguments), sweep_(sweep), journal_(journal) {}
 
-  /// A vessel at a time, so that no more than one is in memory.
+  /// One vessel at a time, so that only one is in memory.
   void run() {
     for (std::size_t v = 0; v < sweep_.vessels.size() && !interrupted && problem_.empty(); ++v) {
       std::vector<std::size_t> open;
@@ -45,10 +45,10 @@ class Sweeper {
   }
 
   std::size_t refused() const { return refused_; }         ///< runs whose vessel cannot be built
-  const std::string& problem() const { return problem_; }  ///< that ended the sweep
+  const std::string& problem() const { return problem_; }  ///< why the sweep ended early
 
  private:
-  /// Null: it cannot be built, and its runs are aborted.
+  /// Null if it cannot be built; its runs are then reported as aborted.
   std::shared_ptr<const Vessel> vessel_for(const RunSetup& setup, const std::vector<std::size_t>& open) {
     show_progress("building " + setup.vessel);
     try {
@@ -97,7 +97,7 @@ class Sweeper {
     options.dosimeter = dosimeter;
     options.stop = &interrupted;
     const PlayReport report = play(run, setup, options);
-    if (interrupted) return;  // it did not come to its own end
+    if (interrupted) return;  // the run was interrupted: do not record it as done
     const std::lock_guard lock(mutex_);
     journal_.add(t, line_of(task, run, report));
     show_progress(fmt::format("{} of {} runs, {} seed {}: {}", journal_.done(), sweep_.tasks.size(), task.setup.vessel,
@@ -112,7 +112,7 @@ class Sweeper {
   std::size_t refused_ = 0;
 };
 
-/// 0 if every run came to an end, whatever its outcome.
+/// Exit code: 0 if every run ended, whatever its outcome.
 int run(const SweepArguments& a) {
   const Sweep sweep = plan_sweep(a);
   const std::string unfinished = a.table + ".part";

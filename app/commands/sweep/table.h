@@ -7,8 +7,8 @@ namespace ostium::app {
 
 std::string heading(const Sweep& sweep);
 std::string line_of(const SweepTask& task, const ScriptedRun& run, const PlayReport& report);
-/// Of a run whose vessel cannot be built: one person whose artery has no room for a lesion must not end a sweep over a
-/// thousand.
+/// A line for a run whose vessel cannot be built: a person whose artery has no room for the lesion must not end a sweep
+/// over a thousand people.
 std::string line_without_vessel(const SweepTask& task, const std::string& why);
 
 }  // namespace ostium::app

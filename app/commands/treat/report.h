@@ -1,5 +1,5 @@
 #pragma once
-/// What a treatment came to, as JSON and as a table of it.
+/// The result of a treatment, as JSON and as a table.
 #include <nlohmann/json_fwd.hpp>
 
 #include "app/angiography/textbook_treatment.h"
@@ -8,7 +8,7 @@ namespace ostium::app {
 
 nlohmann::ordered_json to_json(const InflationRecord& record);
 nlohmann::ordered_json to_json(const StentNumbers& stent);
-/// Those that there are.
+/// The injuries present.
 nlohmann::ordered_json to_json(const vascular::InjuryState& state, const vascular::FlowTree& tree);
 void print_treatment(const nlohmann::ordered_json& report);
 

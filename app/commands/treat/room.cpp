@@ -54,7 +54,7 @@ fluoro::View TreatmentRoom::view_on(const Plan& p) const {
   fluoro::View view =
       view_of(arguments.view.empty() ? usual_view(p, artery) : arguments.view, patient, left, arguments.pixels);
   view.field_m = 0.16;
-  // What is treated is well within the picture.
+  // Places what is treated well within the picture.
   const int cell = p.path.cells[p.path.at(p.middle_m).index];
   const Eigen::Vector3d to = scene.map().coronary.position(static_cast<std::size_t>(cell), 0.7) - view.arm.p_PI;
   constexpr double from_middle_m = 0.035;
@@ -63,7 +63,7 @@ fluoro::View TreatmentRoom::view_on(const Plan& p) const {
 }
 
 Bedside TreatmentRoom::opacified(Angiogram& angiogram, bool left) const {
-  // Filmed on a copy: a film changes nothing but the contrast that it needs.
+  // Films a copy, so that the contrast injected for the film does not change the treatment.
   Bedside film = bed;
   film.each_step = nullptr;
   angiogram.wait_for(0.9, bed.inputs.heart.rate_1_min, film.blood);

@@ -10,8 +10,8 @@ namespace ostium::app {
 struct TreatArguments {
   std::string of = "rca-mid-focal";   ///< case
   double hold_s = 20;                 ///< of each inflation
-  double pressure = 1, oversize = 1;  ///< of what is usual
-  double shift_mm = 0;                ///< beside the lesion, distally
+  double pressure = 1, oversize = 1;  ///< factors on the usual pressure and diameter
+  double shift_mm = 0;                ///< offset from the lesion, positive distally
   bool no_stent = false, no_predilatation = false, no_postdilatation = false, no_pictures = false, json = false;
   std::string view;
   int pixels = 512;
@@ -22,15 +22,15 @@ struct TreatArguments {
 /// LAD, LCx or RCA.
 std::string artery_of(const Plan& plan, const vascular::FlowTree& tree);
 
-/// One patient on the table.
+/// One patient being treated.
 class TreatmentRoom {
  public:
   /// Keeps a reference to the arguments.
   TreatmentRoom(const data::Case& c, const TreatArguments& a);
 
-  /// `words`: which moment it is. With contrast, or as it stands and with the wire.
+  /// `words`: label of the moment. With contrast; or without, showing the wire.
   fluoro::Picture picture(const Plan& p, const std::string& words, bool with_contrast);
-  /// The lesion in numbers, as it is now.
+  /// The lesion's current numbers.
   nlohmann::ordered_json lesion(const Plan& p);
 
   const TreatArguments& arguments;
@@ -42,7 +42,7 @@ class TreatmentRoom {
 
  private:
   fluoro::View view_on(const Plan& p) const;
-  /// A copy of what is, with the coronary full of contrast.
+  /// A copy of the state with the coronary tree full of contrast.
   Bedside opacified(Angiogram& angiogram, bool left) const;
 };
 

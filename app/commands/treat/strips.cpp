@@ -10,7 +10,7 @@ namespace {
 
 using units::atm, units::mmHg;
 
-/// A lead's strip, as high as the lead needs.
+/// A lead's strip, scaled to the lead's amplitude.
 fluoro::Strip strip_of(vascular::Lead lead) {
   constexpr std::pair<float, float> range[vascular::leads] = {{-0.3F, 1.15F}, {-0.3F, 0.8F}, {-0.3F, 0.9F},
                                                               {-0.4F, 0.6F},  {-1.1F, 0.8F}, {-0.4F, 1.5F}};
@@ -18,7 +18,7 @@ fluoro::Strip strip_of(vascular::Lead lead) {
   return {vascular::lead_names[static_cast<int>(lead)], "mV", 250, {}, low, high};
 }
 
-/// Two that tell of the territory.
+/// The two leads that show ischaemia of the territory best.
 std::array<vascular::Lead, 2> telling_leads(const std::string& artery) {
   if (artery == "RCA") return {vascular::Lead::III, vascular::Lead::aVL};
   if (artery == "LCx") return {vascular::Lead::V5, vascular::Lead::V2};

@@ -1,5 +1,5 @@
 #pragma once
-/// ECG, pressure and gauge of an inflation, as the monitor beside the pictures shows them.
+/// ECG, pressure and gauge during an inflation, as shown on the monitor.
 #include <array>
 
 #include "app/angiography/textbook_treatment.h"
@@ -15,7 +15,7 @@ struct InflationStrips {
 
   explicit InflationStrips(const std::string& artery);
   double seconds() const { return static_cast<double>(strips[0].samples.size()) / 250; }
-  /// Keeps no more than so many seconds from the beginning.
+  /// Keeps at most that many seconds from the beginning.
   void end(double seconds);
   void listen(const Bedside& bed);
 };

@@ -39,13 +39,13 @@ void declare(Options& options, TreatArguments& a) {
   options.add("-o,--out", a.out, "FILE.png: before, while inflating, after, and the strips").show_default();
 }
 
-constexpr double before_s = 2, recovers_s = 10;  // of the strips, beside the inflation
+constexpr double before_s = 2, recovers_s = 10;  // shown before and after the inflation
 
 void step(TreatmentRoom& room, double seconds) {
   for (int n = 0; n < 1000 * seconds; ++n) room.bed.step();
 }
 
-/// As an operator begins: blood thinned, arteries wide.
+/// The usual preparation: anticoagulation and vasodilatation.
 void prepare(TreatmentRoom& room) {
   room.bed.device.doses = {.heparin_U = 100 * room.plan.model.drugs.weight_kg, .nitrate_ug = 200};
   room.bed.step();
@@ -67,7 +67,7 @@ struct Inflated {
   InflationStrips strips;
 };
 
-/// `inflating`: the picture while the waist still stands, in mid-diastole; what is there is kept.
+/// `inflating`: set to the picture with the waist still visible, in mid-diastole; kept if already set.
 Inflated inflate_one(TreatmentRoom& room, const Plan& plan, const PlannedInflation& planned,
                      fluoro::Picture& inflating) {
   const TreatArguments& a = room.arguments;
@@ -94,7 +94,7 @@ Inflated inflate_one(TreatmentRoom& room, const Plan& plan, const PlannedInflati
   return {record, strips};
 }
 
-/// One lesion from before to after; its sheet of pictures goes to `sheets`.
+/// Treats one lesion and reports before and after; appends its sheet of pictures to `sheets`.
 json treat_lesion(TreatmentRoom& room, const Plan& plan, std::vector<fluoro::Picture>& sheets) {
   const TreatArguments& a = room.arguments;
   Bedside& bed = room.bed;
@@ -113,7 +113,7 @@ json treat_lesion(TreatmentRoom& room, const Plan& plan, std::vector<fluoro::Pic
   bed.device.balloon = -1;
   show_progress("blood flows as at rest again");
   step(room, 60);
-  // Postdilatation moved the wall: the stent's points with it.
+  // Postdilatation moved the wall, so the stent's points are moved with it.
   if (const int stent = plan.stent >= 0 ? room.plan.model.stent_on[plan.stent] : -1; is_deployed(room, stent)) {
     tie(room, plan, stent);
     lesion["stent"] = to_json(measure(plan, room.plan.model.stents[stent], bed.state.stents[stent], bed.state.wall));

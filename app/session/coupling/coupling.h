@@ -1,10 +1,10 @@
 #pragma once
-/// What instruments are to the coronary arteries, and these to them: where balloons, tips and shafts lie, what holds a
-/// balloon, what reaches guide, muscle and valve.
+/// Instrument-vessel coupling: where balloons, tips and shafts lie in the coronary arteries, what holds a balloon, and
+/// how instruments affect guide pressure, muscle and valve.
 ///
-/// Rods know no balloon and balloons no rod. Every `look_every` steps the rods are looked at, and what matters of them
-/// is kept in CouplingState: from there come TreatmentInputs and PhysiologyInputs of every step. What the wall and
-/// other devices do to a tool's rod in turn: device_constraints.h.
+/// Rods and balloons do not know of each other. Every `look_every` steps the rods are evaluated and the result is
+/// stored in CouplingState, from which TreatmentInputs and PhysiologyInputs of every step are derived. For the forces
+/// of the wall and other devices on a tool's rod see device_constraints.h.
 #include "app/session/vessel/vessel.h"
 #include "core/step/step.h"
 #include "data/catalogue/instrument/instrument.h"
@@ -13,17 +13,17 @@
 namespace ostium::app {
 
 struct SessionTool {
-  std::string name;  ///< what a script calls it
+  std::string name;  ///< its name in a script
   data::Instrument instrument;
 };
 
-inline constexpr int look_every = 8;  ///< steps: as often as blood and contrast move (circulation_step_s)
+inline constexpr int look_every = 8;  ///< steps; as often as blood and contrast are updated (circulation_step_s)
 
-/// What a hand asks of the circulation; all are recorded inputs.
+/// What the operator gives: contrast, pressure and drugs. All are recorded inputs.
 struct DeliveryInputs {
-  double injection_m3_s = 0;  ///< by the thumb, into the guide's line
-  double iodine_kg_m3 = 350;  ///< of what is in the syringe; 0: saline
-  double gauge_Pa = 0;        ///< of the inflation device, on the balloon that is in the body; below 0: vacuum
+  double injection_m3_s = 0;  ///< from the syringe into the guide's line
+  double iodine_kg_m3 = 350;  ///< of the syringe's contents; 0: saline
+  double gauge_Pa = 0;        ///< of the inflation device, on the balloon in the body; below 0: vacuum
   double heparin_U = 0, nitrate_ug = 0, adenosine_ug = 0;  ///< given in this step
 };
 constexpr auto fields(const DeliveryInputs*) {
@@ -37,33 +37,33 @@ constexpr auto fields(const DeliveryInputs*) {
 }
 
 struct CouplingState {
-  // Of the balloon that is in the body.
+  // The balloon in the body:
   int balloon = -1;        ///< of TreatmentModel::balloons; -1: none is
-  int branch = -1;         ///< its seat (cell_locator.h); -1: it is not in one artery
+  int branch = -1;         ///< its seat (cell_locator.h); -1: not in a single artery
   double middle_m = 0;     ///< along the path
-  bool held = false;       ///< the wall holds it, with its middle at
+  bool held = false;       ///< the wall holds it, with its middle at anchor_m
   double anchor_m = 0;     ///< along the path
-  bool blocked = false;    ///< a stent that is not open lies in its way
-  double drag_N = 0;       ///< of the wall on what is folded there, distally
-  bool stent_out = false;  ///< the stent crimped on it has left the guide, and has not gone back into it
-  bool caught = false;     ///< drawn back it hangs on the guide's edge, which pushes it distally with
+  bool blocked = false;    ///< an unexpanded stent blocks its way
+  double drag_N = 0;       ///< of the wall on the folded device, distally
+  bool stent_out = false;  ///< its crimped stent has left the guide and has not re-entered it
+  bool caught = false;  ///< while being drawn back, the stent hangs on the guide's edge, which pushes it distally with
   double caught_N = 0;
-  // Of the guide: the catheter that contrast comes through.
-  int guide = -1;                    ///< tool; -1: none is in the body
-  vascular::TipPlace tip;            ///< of its end hole
-  double covered = 0;                ///< TipPressureInputs
-  bool in_ventricle = false;         ///< TipPressureInputs
-  double filled_m = 0;               ///< radius of what lies in it
-  bool thick_wire = false;           ///< that is a wire that leaves no room for pressure
-  double edge_m = -1e9, edge_N = 0;  ///< StentInputs: its edge on a stent that lies ahead
-  double edge_push_N = 0;            ///< what the guide feels of that
-  // Of the others.
-  double irritation = 0;        ///< HeartInputs
-  bool through_valve = false;   ///< a wire lies through the aortic valve, or as good as: it cannot close
-  int wire_cell = -1;           ///< of the flow tree, where a coronary wire's tip is; -1: nowhere
-  double wire_tip_N = 0;        ///< how hard it presses
-  std::vector<double> shaft_m;  ///< (#cells) radius of the widest shaft in each
-  int wall_cursor = 0;          ///< of follow_lumen
+  // The guide: the catheter that contrast is injected through.
+  int guide = -1;                    ///< tool; -1: none in the body
+  vascular::TipPlace tip;            ///< position of its end hole
+  double covered = 0;                ///< input of TipPressureInputs
+  bool in_ventricle = false;         ///< input of TipPressureInputs
+  double filled_m = 0;               ///< radius of the instrument inside it
+  bool thick_wire = false;           ///< that is a wire so thick that no pressure is transmitted
+  double edge_m = -1e9, edge_N = 0;  ///< StentInputs: its edge, and the force on a stent ahead
+  double edge_push_N = 0;            ///< reaction of that on the guide
+  // The other tools:
+  double irritation = 0;        ///< input of HeartInputs
+  bool through_valve = false;   ///< a wire lies in or close to the aortic valve, which cannot close
+  int wire_cell = -1;           ///< cell of the flow tree at a coronary wire's tip; -1: none
+  double wire_tip_N = 0;        ///< force that it presses with
+  std::vector<double> shaft_m;  ///< (#cells) radius of the thickest shaft in each
+  int wall_cursor = 0;          ///< cursor of follow_lumen
 };
 constexpr auto fields(const CouplingState*) {
   using S = CouplingState;
@@ -93,19 +93,19 @@ constexpr auto fields(const CouplingState*) {
                     core::field("shaft_m", &S::shaft_m),
                     core::field("wall_cursor", &S::wall_cursor)};
 }
-/// Where the balloon's middle is along its path: where the wall holds it, or where its shaft has it.
+/// Position of the balloon's middle along its path: held by the wall, or given by its shaft.
 inline double seat_m(const CouplingState& s) { return s.held ? s.anchor_m : s.middle_m; }
 CouplingState make_coupling(const Vessel& vessel);
 
-/// The balloons and stents that tools carry, added to `model`; of each tool its balloon, or -1. Throws LoadError for
+/// Adds the balloons and stents that tools carry to `model`. Returns each tool's balloon, or -1. Throws LoadError for
 /// sizes that vascular refuses.
 std::vector<int> add_devices(const std::vector<SessionTool>& tools, std::uint64_t seed,
                              vascular::TreatmentModel& model);
 
-/// Whether a balloon's folds are together again.
+/// Whether the balloon has refolded.
 bool is_empty(const vascular::BalloonModel& model, const vascular::BalloonState& state);
 
-/// Everything of a session that is const, as this part needs it.
+/// The constant parts of a session that coupling needs.
 struct CouplingModel {
   const Vessel& vessel;
   const std::vector<SessionTool>& tools;
@@ -121,19 +121,19 @@ struct CouplingScratch {
   std::vector<Eigen::Vector3d> points;
 };
 
-/// Looks at the rods as they are after a step, at a phase of the heart and a depth of breath.
+/// Updates the coupling from the rods after a step, at a phase of the heart and a depth of breath.
 void look(const CouplingModel& model, const core::State& rods, const vascular::TreatmentState& treatment,
           const core::StepReport& report, double phase, double breath, CouplingScratch& scratch, CouplingState& state);
 
-/// How hard a coronary wire's tip presses the wall, behind the low pass of all wall forces: what lasts a millisecond
-/// makes no hole. At each step.
+/// The force of a coronary wire's tip on the wall, low-pass filtered like all wall forces: a millisecond's peak does
+/// not perforate. Call at every step.
 void press_with_wire(const CouplingModel& model, const core::StepReport& report, double step_s, CouplingState& state);
 vascular::TreatmentInputs treatment_inputs(const DeliveryInputs& inputs, const CouplingState& state);
-/// Contrast and pressure; the heart's and what is occupied are the caller's.
+/// Sets contrast and pressure; the caller sets the heart's inputs and the occupied cross-sections.
 void set_physiology_inputs(const CouplingModel& model, const DeliveryInputs& inputs, const CouplingState& state,
                            vascular::PhysiologyInputs& to);
 
-/// What contrast runs through to a guide's tip.
+/// The line through which contrast reaches a guide's tip.
 vascular::Line line_of(const data::Instrument& guide);
 
 }  // namespace ostium::app

@@ -11,11 +11,11 @@ using Eigen::Vector3d;
 
 namespace {
 
-constexpr double anchor_N_m = 1000;  // of an open balloon to its place: shaft and artery give along it [estimate]
-constexpr double most_held_N = 3;    // a shaft kinks before it bears more [estimate]
-constexpr double on_guide_m = 3e-3;  // of its tip, that a stent pushes
+constexpr double anchor_N_m = 1000;  // an open balloon to its place: shaft and artery give [estimate]
+constexpr double most_held_N = 3;    // a shaft kinks at higher force [estimate]
+constexpr double on_guide_m = 3e-3;  // length at the guide's tip that a stent pushes on
 
-/// The path's line as it is then, which goes on straight beyond its ends.
+/// The path's frame at that moment; the path is extended straight beyond its ends.
 vascular::PathFrame place_of(const CouplingModel& model, const CouplingState& s, Moment moment) {
   const vascular::VesselPath& path = model.treatment.paths[static_cast<std::size_t>(s.branch)];
   vascular::PathFrame frame = frame_at(model.vessel.coronaries->map, path, s.anchor_m, moment.phase, moment.breath);
@@ -56,7 +56,7 @@ core::Tether tether_on_shaft(const CouplingModel& model, const vascular::Treatme
   if (!s.held || model.balloon_of[t] < 0 || model.balloon_of[t] != s.balloon) return {};
   const vascular::BalloonModel& own = model.treatment.balloons[static_cast<std::size_t>(s.balloon)];
   const vascular::PathFrame frame = place_of(model, s, moment);
-  // A balloon that slid along the artery draws its shaft after it.
+  // A balloon that slides along the artery pulls its shaft with it.
   const double drawn_N = std::clamp(own.grip_N_m * treatment.balloon.slip_m, -most_held_N, most_held_N);
   return {middle_from_tip_m(model.tools[t].instrument), frame.centre + drawn_N / anchor_N_m * frame.along, frame.along,
           anchor_N_m};

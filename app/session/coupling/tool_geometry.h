@@ -5,11 +5,11 @@
 
 namespace ostium::app {
 
-/// Of a rod's last two elements.
+/// Direction of a rod's last two elements.
 Eigen::Vector3d direction_at_tip(const core::Rod& rod, const core::RodState& state);
-/// The distance of a marker's middle from the tip, m; 0 proximal, 1 distal.
+/// Distance of a marker's middle from the tip, m; `which`: 0 proximal, 1 distal.
 double marker_from_tip_m(const data::Instrument& instrument, int which);
-/// A point of a rod that is so far from its tip, m; the introducer if that is outside.
+/// Point of a rod at that distance from its tip, m; the introducer if the point is outside the body.
 Eigen::Vector3d point_from_tip(const core::Rod& rod, const core::RodState& state, double from_tip_m);
 
 }  // namespace ostium::app

@@ -8,8 +8,8 @@ namespace ostium::app {
 
 namespace {
 
-constexpr double draw_back_m_s = 0.25, drawn_back_m = 0.03;  // how far in a tool is left for the next stroke
-constexpr double away_s = 0.1;                               // that nothing lies there, and as long until it is seen
+constexpr double draw_back_m_s = 0.25, drawn_back_m = 0.03;  // depth left for the next stroke
+constexpr double away_s = 0.1;  // time without a tool in an exchange, and again until the next is tracked
 
 }  // namespace
 
@@ -24,8 +24,8 @@ void EmulatedBoxDriver::see(const device::BoxSnapshot& now) {
   if (paused_by_ != device::Tool::none) in_box_m_ = now.tool[index_of(paused_by_)].in_box_m;
 }
 
-/// The instrument that the script wants to move is another one than lies there: that is taken away, nothing lies there
-/// for a moment, the next one does.
+/// If the script moves another instrument than the one in the box, exchanges them: the old one is removed, the station
+/// is empty for a moment, the next one appears.
 void EmulatedBoxDriver::exchange(double elapsed_s) {
   for (std::size_t t = 0; t < held_.size(); ++t) {
     const bool moves = wish_.tools[t].feed_m_s != 0 || wish_.tools[t].turn_rad_s != 0;

@@ -1,6 +1,6 @@
 #pragma once
-/// A scripted hand at an emulated box: it moves the box's tools as a script asks, within the travel that a box has, and
-/// draws back when the picture fades, and takes the next instrument of a kind when the script wants to move that.
+/// A scripted hand at an emulated box: moves the box's tools as a script asks within the travel of the box, draws back
+/// when the picture fades, and exchanges instruments of one kind when the script moves another.
 #include "app/session/device/box_driver.h"
 #include "device/emulator/emulated_box.h"
 
@@ -8,21 +8,22 @@ namespace ostium::app {
 
 class EmulatedBoxDriver {
  public:
-  /// What the script asks for, and what the operator sees. `held`: which of the box's tools each of the session's is.
+  /// The script's inputs, and the box state that the operator sees. `held`: which of the box's tools moves each of the
+  /// session's.
   void ask(const std::vector<device::Tool>& held, const SessionInputs& inputs);
   void see(const device::BoxSnapshot& now);
 
-  /// Moves what is in the box by its time since the last call.
+  /// Moves the box's tools for the box time since the last call.
   void move(device::EmulatedBox& box);
 
-  /// Strokes drawn back, of all tools.
+  /// Number of strokes drawn back, over all tools.
   long drawn_back() const { return drawn_back_; }
 
  private:
-  /// One of the box's tools: which instrument of its kind lies there, counted, and since when it is being exchanged.
+  /// One of the box's tools: index of the instrument of its kind in the box, and for how long it has been exchanged.
   struct Station {
     std::uint32_t place = 0, count = 1;
-    double changing_s = -1;  ///< negative: it does not
+    double changing_s = -1;  ///< negative: no exchange
   };
   void exchange(double elapsed_s);
 
@@ -32,12 +33,12 @@ class EmulatedBoxDriver {
   SessionInputs wish_;
   device::Pause pause_ = device::Pause::none;
   device::Tool paused_by_ = device::Tool::none;
-  double in_box_m_ = 0;  ///< of the tool that paused, as it is shown
+  double in_box_m_ = 0;  ///< of the tool that caused the pause, as displayed
   double last_s_ = 0;
   long drawn_back_ = 0;
 };
 
-/// Passes on what the script asks for to the hand, and lets the box's driver make inputs of what comes.
+/// Passes the script's inputs to the scripted hand; the box driver then makes the session's inputs.
 class EmulatedOperator : public Driver {
  public:
   EmulatedOperator(BoxDriver& device, EmulatedBoxDriver& hand) : device_(device), hand_(hand) {}

@@ -1,5 +1,5 @@
 #pragma once
-/// What goes wrong with guides and diagnostic catheters.
+/// Handling errors with guides and diagnostic catheters.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -12,7 +12,7 @@
 
 namespace ostium::app {
 
-/// From the sheath to the arch alone: in the root a shaped guide moves without a wire.
+/// Only between the sheath and the arch: in the root a shaped guide is moved without a wire.
 class CatheterWithoutWire {
  public:
   void look(const HandlingMap& map, const HandlingScene& x, const EventSink& say) {
@@ -31,7 +31,7 @@ class CatheterWithoutWire {
 
  private:
   static constexpr double led_m = 20e-3, alone_m = 10e-3;
-  int catheter_ = -1;  ///< that what follows is of
+  int catheter_ = -1;  ///< the tool the members below refer to
   double alone_m_ = 0, inserted_m_ = 0;
   Episode episode_;
 };
@@ -62,8 +62,8 @@ class TipWhips {
 
  private:
   static constexpr double most_rad = units::pi;
-  int catheter_ = -1;                    ///< that what follows is of
-  std::array<double, 30> twists_rad_{};  ///< the last 0.3 s, a number every look
+  int catheter_ = -1;                    ///< the tool the members below refer to
+  std::array<double, 30> twists_rad_{};  ///< the last 0.3 s, one value per look
   std::size_t looks_ = 0;
   Episode episode_;
 };

@@ -1,6 +1,5 @@
 #pragma once
-/// What goes wrong with balloons and stents. While there is none in the body, what was seen of the last one is
-/// forgotten.
+/// Handling errors with balloons and stents. When no device is in the body, the record of the last one is cleared.
 #include <cmath>
 #include <tuple>
 
@@ -23,11 +22,11 @@ class OpenBalloonDragged {
  private:
   static constexpr double most_m = 2e-3;
   bool open_ = false;
-  double opened_at_m_ = 0;  ///< what the hand had fed as it opened
+  double opened_at_m_ = 0;  ///< fed length when it opened
   Episode episode_;
 };
 
-/// In itself, and after the ST segment has shifted.
+/// Too long by itself, or after an ST shift.
 class LongInflation {
  public:
   void look(const HandlingMap&, const HandlingScene& x, const EventSink& say) {

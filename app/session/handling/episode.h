@@ -1,12 +1,12 @@
 #pragma once
-/// How long something has held, and when it is a new error.
+/// Tracks how long a condition has held, and when it is a new error.
 
 namespace ostium::app {
 
-/// One event an episode: what comes again within 3 s of its end is the same one.
+/// One event per episode: a recurrence within 3 s of the end belongs to the same episode.
 class Episode {
  public:
-  /// True as one begins.
+  /// True when an episode begins.
   bool begins(bool holds, double time_s) {
     if (!holds) return false;
     const bool is_new = time_s - last_s_ > again_after_s;
@@ -19,7 +19,7 @@ class Episode {
   double last_s_ = -1e9;
 };
 
-/// For how long something has held without a break.
+/// How long a condition has held without interruption.
 class Held {
  public:
   double seconds(bool holds, double time_s) {
@@ -31,7 +31,7 @@ class Held {
   double since_s_ = -1;
 };
 
-/// An episode of what has held for some time.
+/// An episode of a condition that has held for some time.
 class HeldEpisode {
  public:
   bool begins(bool holds, double for_s, double time_s) {

@@ -1,6 +1,6 @@
 #pragma once
-/// All errors of handling, in the order in which those of one look are said. Each is a small class with its limits in
-/// the file of its group; a group is the list of them at that file's end.
+/// All handling errors, in the order in which they are reported. Each is a small class, with its limits, in the file of
+/// its group; the group's list is at the end of that file.
 #include "app/session/handling/catheter_errors.h"
 #include "app/session/handling/device_errors.h"
 #include "app/session/handling/operation_errors.h"
@@ -8,7 +8,7 @@
 
 namespace ostium::app {
 
-/// Looks for each error of a group.
+/// Checks every error of a group.
 template <class... Errors>
 void look_for(std::tuple<Errors...>& group, const HandlingMap& map, const HandlingScene& x, const EventSink& say) {
   std::apply([&](Errors&... error) { (error.look(map, x, say), ...); }, group);

@@ -1,10 +1,10 @@
 #pragma once
-/// Handling errors: what an instructor would stop an operator for, found from what happens, each an event of
-/// data/assessment/events.def with its definition and its severity. Limits are a draft for raters, as data/scoring is;
+/// Handling errors: mistakes for which an instructor would stop an operator, detected during the run; each is an event
+/// of data/assessment/events.def with definition and severity. The limits are a draft for raters, as is data/scoring;
 /// none is validated.
 ///
-/// One more: its row in data/assessment/events.def, its class in the file of its group (errors.h), an item in
-/// data/scoring, a test (tests/app/session/handling_test.cpp).
+/// To add one: a row in data/assessment/events.def, a class in the file of its group (errors.h), an item in
+/// data/scoring and a test (tests/app/session/handling_test.cpp).
 #include <memory>
 
 #include "app/session/handling/scene.h"
@@ -14,8 +14,8 @@ namespace ostium::app {
 
 struct HandlingErrors;
 
-/// Part of the loop, not of the simulation. Allocates only while it is made, at its first look, and if events must
-/// grow.
+/// Part of the loop, not of the simulation. Allocates only when constructed, at its first look, and when the events
+/// must grow.
 class HandlingWatch {
  public:
   static constexpr int every = 10;  ///< steps between looks

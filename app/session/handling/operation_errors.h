@@ -1,5 +1,5 @@
 #pragma once
-/// What goes wrong with any tool, and with the beam.
+/// Handling errors with any tool, and with the X-ray beam.
 #include <tuple>
 #include <vector>
 
@@ -28,10 +28,10 @@ class PushWithoutAdvance {
  private:
   static constexpr double pushed_m = 15e-3, gain_share = 0.2, rises_N = 0.2;
   struct Push {
-    double fed_m = 0, along_m = 0, push_N = 0;  ///< as 15 mm of pushing began
+    double fed_m = 0, along_m = 0, push_N = 0;  ///< when the current 15 mm of pushing began
     Episode episode;
   };
-  std::vector<Push> pushes_;  ///< one a tool
+  std::vector<Push> pushes_;  ///< one per tool
 };
 
 class IdleBeam {

@@ -12,9 +12,9 @@ namespace ostium::app {
 
 namespace {
 
-constexpr double thick_m = 0.7e-3;  // in diameter: 0.035 in wires and those like them
+constexpr double thick_m = 0.7e-3;  // diameter: 0.035 in wires and the like
 
-/// How far from the access the last branch leaves the way to the ascending aorta: there the arch ends.
+/// Distance from the access of the last branch before the ascending aorta, where the arch ends.
 double arch_ends_m(const VesselIndex& way, int ascending, int spheres) {
   double end_m = 0;
   for (const vascular::TreeBranch& branch : way.branches())
@@ -50,7 +50,8 @@ void map_way(const VesselIndex& way, HandlingMap& map) {
   }
 }
 
-/// Where lesions end that no other lies behind: what leaves the artery before them leads a wire astray.
+/// Ends of the lesions that have no other lesion beyond them: side branches before these ends are the wrong way for a
+/// wire.
 std::vector<int> lesion_ends(const vascular::FlowTree& tree, const std::vector<Plan>& lesions) {
   std::vector<int> ends;
   for (const Plan& lesion : lesions)
@@ -68,7 +69,7 @@ void map_arteries(const SessionModel& model, HandlingMap& map) {
   const std::size_t n = tree.cells.size();
   map.from_ostium_m.assign(n, 0), map.to_end_m.assign(n, 0), map.unplanned_m.assign(n, 0), map.healthy_m.assign(n, 0);
   map.behind_lesion.assign(n, 0);
-  // Farther in than 1 cm, or past the middle of the left main.
+  // Deeper than 1 cm, or past the middle of the left main.
   constexpr double deep_m = 10e-3;
   map.deep_m.assign(n, deep_m);
   const std::vector<int> ends = lesion_ends(tree, model.vessel->coronaries->lesions);
@@ -102,7 +103,7 @@ void map_arteries(const SessionModel& model, HandlingMap& map) {
   }
 }
 
-/// Of the material about the rod's axis, summed over its joints.
+/// Twist of the material about the rod's axis, summed over its joints.
 double twist_rad(const core::Rod& rod, const core::RodState& state) {
   double sum = 0;
   const core::Field<4>& q = state.orientation;

@@ -6,7 +6,7 @@
 
 namespace ostium::app {
 
-/// What a step of the loop says to the recording besides its numbers.
+/// An event of one step of the loop, for the recording.
 struct SessionEvent {
   std::uint64_t step = 0;
   int code = 0;   ///< EventCode of data/assessment/events.h
@@ -14,7 +14,7 @@ struct SessionEvent {
   double value = 0;
 };
 
-/// Where events of one step go.
+/// Collects the events of one step.
 struct EventSink {
   std::uint64_t step;
   std::vector<SessionEvent>& events;

@@ -1,5 +1,5 @@
 #pragma once
-/// What goes wrong with the thick wire that leads catheters, and with the coronary wire.
+/// Handling errors with the thick wire that leads catheters, and with the coronary wire.
 #include <cmath>
 #include <tuple>
 
@@ -51,8 +51,8 @@ class ThickWireInCoronary {
 
 using ThickWireErrors = std::tuple<WireStrays, WireInVentricle, ThickWireInCoronary>;
 
-// The coronary wire: while there is none in the body, what was seen of the last one is forgotten. Places of its tip are
-// compared along the artery while the heart rests.
+// The coronary wire: when none is in the body, the record of the last one is cleared. Tip positions along the artery
+// are compared only while the heart is at rest.
 
 class BlindWire {
  public:
@@ -102,12 +102,12 @@ class WireTooFar {
   HeldEpisode episode_;
 };
 
-/// Where its tip is, from the ostium; 0: not in an artery.
+/// Distance of its tip from the ostium; 0: not in an artery.
 inline double wire_along_m(const HandlingMap& map, const HandlingScene& x) {
   return x.wire_cell < 0 ? 0 : map.from_ostium_m[static_cast<std::size_t>(x.wire_cell)];
 }
 
-/// A device should slide over a wire that stays.
+/// A device should slide over a stationary wire.
 class WireDrift {
  public:
   void look(const HandlingMap& map, const HandlingScene& x, const EventSink& say) {
@@ -123,10 +123,10 @@ class WireDrift {
 
  private:
   static constexpr double most_m = 5e-3;
-  double parked_m_ = -1;  ///< where the tip was as a device began to move; -1: none does
+  double parked_m_ = -1;  ///< tip position when a device began to move; -1: none moves
 };
 
-/// What the hand drew back on purpose is no loss.
+/// Deliberate withdrawal by the hand does not count.
 class WirePositionLost {
  public:
   void look(const HandlingMap& map, const HandlingScene& x, const EventSink& say) {
@@ -142,7 +142,7 @@ class WirePositionLost {
 
  private:
   static constexpr double most_m = 10e-3;
-  double farthest_m_ = -1, fed_at_farthest_m_ = 0;  ///< behind the lesion; -1: it is not across
+  double farthest_m_ = -1, fed_at_farthest_m_ = 0;  ///< distal to the lesion; -1: not across it
 };
 
 using CoronaryWireErrors = std::tuple<BlindWire, SideBranchPushed, WireTooFar, WireDrift, WirePositionLost>;

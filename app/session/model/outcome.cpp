@@ -19,7 +19,7 @@ bool in_artery_of(const Plan& plan, const SessionModel& model, double branch, do
   return branch >= 0 && same_vessel(model.treatment.paths[static_cast<std::size_t>(branch)], plan.path, s_m);
 }
 
-/// Of a deployed stent that lies in the lesion's artery, from the lesion's proximal end.
+/// Extent of a deployed stent in the lesion's artery, from the lesion's proximal end.
 std::optional<Stretch> stretch_of(const vascular::StentState& stent, const Plan& plan, const SessionModel& model) {
   if (stent.where != vascular::StentState::deployed || !in_artery_of(plan, model, stent.branch, stent.middle_m))
     return {};
@@ -27,7 +27,7 @@ std::optional<Stretch> stretch_of(const vascular::StentState& stent, const Plan&
   return Stretch{from - plan.from_m, to - plan.from_m};
 }
 
-/// Length that both have in common; negative: that of the gap between them.
+/// Length of the overlap; negative: of the gap.
 double common_m(const Stretch& a, const Stretch& b) { return std::min(a.to_m, b.to_m) - std::max(a.from_m, b.from_m); }
 
 }  // namespace
@@ -86,7 +86,7 @@ std::optional<Stretch> stented(const SessionModel& model, const SessionState& st
   for (const vascular::StentState& stent : state.treatment.stents)
     if (const auto own = stretch_of(stent, plan, model); own && (!out || common_m(*own, ill) > common_m(*out, ill)))
       out = own;
-  // Each round joins at least one stent that touches what there is.
+  // Each pass adds at least one stent that touches the stretch so far.
   for (bool grows = out.has_value(); grows;) {
     grows = false;
     for (const vascular::StentState& stent : state.treatment.stents) {

@@ -39,7 +39,7 @@ Cell cell_of(const Vector3d& p) {
   return {n(p.x()), n(p.y()), n(p.z())};
 }
 
-/// Whether an outer instrument's lumen holds what of `rod` is `from_tip_m` behind its tip.
+/// Whether the point of `rod` at `from_tip` from its tip lies inside another instrument's lumen.
 bool is_covered(const SessionModel& model, const SessionState& state, int rod, double from_tip_m) {
   const std::vector<core::RodState>& rods = state.rods.rods;
   const double inserted_m = rods[rod].inserted_m - from_tip_m;
@@ -63,7 +63,7 @@ std::vector<Ball> balls_of(const SessionModel& model, const SessionState& state)
   return balls;
 }
 
-/// The door hangs within what is closed without it.
+/// The door is left out: the wall is closed without it.
 double winding(const std::vector<Vector3d>& vertices, const core::SurfaceDescription& wall,
                const std::vector<char>& door, const Vector3d& p) {
   double sum = 0;

@@ -22,8 +22,8 @@ using Eigen::Vector3d;
 
 namespace {
 
-constexpr double wire_friction = 0.05;  // of a wire in a catheter: PTFE on steel, an estimate
-constexpr double tip_length_m = 0.01;   // what counts as the tip for its force
+constexpr double wire_friction = 0.05;  // wire in a catheter: PTFE on steel, an estimate
+constexpr double tip_length_m = 0.01;   // length over which the tip force is summed
 
 /// 1 mm over the last 150 mm, growing to 4 mm.
 std::vector<double> element_lengths(double length_m) {
@@ -47,7 +47,7 @@ core::Rod rod_of(const data::Instrument& instrument) {
 
 bool has_lumen(const data::Instrument& instrument) { return instrument.inner_diameter_m > 0; }
 
-/// Every pair of which one goes through the other's lumen.
+/// All pairs of which one fits through the other's lumen.
 std::vector<core::Nesting> nestings_of(const std::vector<SessionTool>& tools) {
   std::vector<core::Nesting> nestings;
   for (int inner = 1; inner < static_cast<int>(tools.size()); ++inner)
@@ -143,7 +143,7 @@ void take_inputs(const double* row, SessionInputs& inputs) { core::take_fields(r
 std::uint64_t hash(const SessionState& state) {
   std::uint64_t h = hash(state.rods);
   core::for_each_field(state, [&](const char*, const auto& part) {
-    // Rods have a hash of their own, which leaves out what is outside.
+    // Rods have their own hash, which excludes what is outside the body.
     if constexpr (!std::is_same_v<std::decay_t<decltype(part)>, core::State>) h = core::hash_fields(part, h);
   });
   return h;
@@ -228,7 +228,7 @@ double vessel_frame(const Vessel& vessel, double phase) {
 
 namespace {
 
-/// Heart and breath go on, and the wall with them. True: an R wave.
+/// Advances heart and breath, and moves the wall. Returns true at an R wave.
 bool beat(const SessionModel& model, const SessionInputs& inputs, SessionState& state, core::SurfaceMotion& motion) {
   vascular::HeartState& heart = state.blood.heart;
   const int beats = heart.beats;
@@ -244,7 +244,8 @@ bool beat(const SessionModel& model, const SessionInputs& inputs, SessionState& 
   return heart.beats > beats;
 }
 
-/// A hand's tool cannot enter beside one that it is not nested with, nor pass a stent that is not open.
+/// The inputs a tool may follow: it cannot enter beside a tool that it is not nested with, nor pass an unexpanded
+/// stent.
 ToolInputs allowed(const SessionModel& model, const SessionState& state, int tool, const ToolInputs& hand,
                    SessionReport& report) {
   ToolInputs out = hand;
@@ -275,7 +276,7 @@ CouplingModel coupling_of(const SessionModel& model) {
   return {*model.vessel, model.tools, model.rods, model.physiology, model.treatment, model.balloon_of};
 }
 
-/// When the step ends that is being made.
+/// The phases at the end of the current step.
 Moment moment(const SessionModel& model, const SessionState& state, std::uint64_t steps) {
   return {state.blood.heart.phase, breath_after(model, steps)};
 }
@@ -290,7 +291,8 @@ void hold_shafts(const SessionModel& model, const SessionState& state, core::Inp
   }
 }
 
-/// A stent that was left in the wall rides with it from now on. Once a stent; the one place of a step that allocates.
+/// Ties a deployed stent to the wall, with which it moves from now on. Once per stent; the only place in a step that
+/// allocates.
 void tie(const SessionModel& model, int stent, SessionState& state) {
   vascular::StentState& own = state.treatment.stents[static_cast<std::size_t>(stent)];
   if (own.branch < 0) return;
@@ -300,7 +302,7 @@ void tie(const SessionModel& model, int stent, SessionState& state) {
               state.blood.heart.phase, own);
 }
 
-/// Balloon and stent, then blood and contrast, by where the rods are now.
+/// Advances balloon and stent, then blood and contrast, with the rods' current positions.
 void treat(const SessionModel& model, const SessionInputs& inputs, bool R_wave, SessionState& state, SessionScratch& x,
            SessionReport& report) {
   const CouplingModel coupling = coupling_of(model);

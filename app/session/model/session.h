@@ -1,10 +1,9 @@
 #pragma once
-/// A session: everything that a simulation consists of, put together, and one step of it.
+/// A session: all parts of a simulation, and one step of it.
 ///
-/// Four kinds of memory, as in core. Adding one more part (contrast, a balloon, signals): its const part in
-/// SessionModel, what it asks of the hand in SessionInputs, its state in SessionState, both with a line in the list of
-/// fields beside them (core/base/fields.h), and its call in `step`. Recording, replay, hash and comparison follow from
-/// the lists.
+/// Four kinds of memory, as in core. To add a part (contrast, a balloon, signals): its constant part in SessionModel,
+/// its inputs in SessionInputs and its state in SessionState, both with a line in the list of fields beside them
+/// (core/base/fields.h), and its call in `step`. Recording, replay, hash and comparison follow from the lists.
 #include <memory>
 #include <optional>
 #include <string>
@@ -17,28 +16,28 @@
 
 namespace ostium::app {
 
-/// Const after it is made; one vessel may be shared by many.
+/// Const once made; one vessel may be shared by many sessions.
 struct SessionModel {
   std::shared_ptr<const Vessel> vessel;
-  std::vector<SessionTool> tools;  ///< the outermost first; tool i is rod i
+  std::vector<SessionTool> tools;  ///< outermost first; tool i is rod i
   core::Model rods;
   core::EndState entry;                  ///< the introducer
-  vascular::PhysiologyModel physiology;  ///< of a mesh, the heart alone
-  vascular::TreatmentModel treatment;    ///< with the balloons and stents that the tools carry; of a mesh, empty
-  std::vector<int> balloon_of;           ///< (#tools) of treatment.balloons, or -1
-  double breaths_1_min = 0;              ///< of the patient; 0: the breath is held, breathed out
+  vascular::PhysiologyModel physiology;  ///< for a mesh, the heart only
+  vascular::TreatmentModel treatment;    ///< with the balloons and stents that the tools carry; empty for a mesh
+  std::vector<int> balloon_of;           ///< (#tools) index in treatment.balloons, or -1
+  double breaths_1_min = 0;              ///< of the patient; 0: breath held at expiration
   double step_s() const { return rods.step_s; }
   bool has_patient() const { return vessel->coronaries != nullptr; }
 };
 
-/// Tools are nested wherever one goes through the other's lumen. Two of which neither does (two balloons for one wire)
-/// are alternatives: one of them is in the body at a time. `seed`: of the person's answers and of chance. Throws
-/// LoadError naming tools that are in the wrong order, or devices that a mesh has no arteries for.
+/// Tools are nested where one fits through the other's lumen. Two that do not fit (two balloons for one wire) are
+/// alternatives: only one can be in the body at a time. `seed`: for the person's physiology and for chance. Throws
+/// LoadError naming tools in the wrong order, or devices for which a mesh has no arteries.
 SessionModel make_session(std::shared_ptr<const Vessel> vessel, std::vector<SessionTool> tools, std::uint64_t seed = 0);
-/// The first tool in the body that `tool` cannot be beside, or -1.
+/// The first tool in the body that `tool` cannot lie beside, or -1.
 int in_the_way(const SessionModel& model, const core::State& rods, int tool);
 
-// --- the only door in ------------------------------------------------------------------------------------------------
+// --- inputs: the only way to act on a session ------------------------------------------------------------------------
 
 struct ToolInputs {
   double feed_m_s = 0;
@@ -52,8 +51,8 @@ constexpr auto fields(const ToolInputs*) {
 struct CArmInputs {
   double lao_rad = 0, cran_rad = 0;
   double field_m = 0.2;
-  Eigen::Vector3d p_PI = Eigen::Vector3d::Zero();  ///< the isocentre in the patient
-  bool fluoroscopy = false, cine = false;          ///< pedals that are down
+  Eigen::Vector3d p_PI = Eigen::Vector3d::Zero();  ///< isocentre in the patient frame
+  bool fluoroscopy = false, cine = false;          ///< pedals pressed
 };
 constexpr auto fields(const CArmInputs*) {
   using S = CArmInputs;
@@ -65,7 +64,7 @@ constexpr auto fields(const CArmInputs*) {
 struct SessionInputs {
   std::vector<ToolInputs> tools;
   CArmInputs c_arm;
-  double rate_1_min = 70;  ///< of the heart
+  double rate_1_min = 70;  ///< heart rate
   DeliveryInputs delivery;
 };
 constexpr auto fields(const SessionInputs*) {
@@ -79,11 +78,11 @@ std::vector<std::string> input_names(const SessionModel& model);  ///< "wire.adv
 void put_inputs(const SessionInputs& inputs, double* row);
 void take_inputs(const double* row, SessionInputs& inputs);
 
-// --- all that is needed to go on bit-identically ---------------------------------------------------------------------
+// --- state: all that is needed to continue bit-identically -----------------------------------------------------------
 
 struct HandState {
-  double fed_m = 0, turned_rad = 0;      ///< sums of what the hand did
-  double path_m = 0, turn_path_rad = 0;  ///< the same without sign
+  double fed_m = 0, turned_rad = 0;      ///< sums of the hand's inputs
+  double path_m = 0, turn_path_rad = 0;  ///< sums of their magnitudes
 };
 constexpr auto fields(const HandState*) {
   return std::tuple{core::field("fed_m", &HandState::fed_m), core::field("turned_rad", &HandState::turned_rad),
@@ -93,7 +92,7 @@ constexpr auto fields(const HandState*) {
 struct CArmState {
   double fluoroscopy_s = 0, cine_s = 0;
   int cine_runs = 0;
-  bool fluoroscopy = false, cine = false;  ///< pedals of the last step
+  bool fluoroscopy = false, cine = false;  ///< pedals in the last step
 };
 constexpr auto fields(const CArmState*) {
   using S = CArmState;
@@ -104,12 +103,12 @@ constexpr auto fields(const CArmState*) {
 
 struct SessionState {
   core::State rods;
-  std::vector<HandState> hands;  ///< one a tool
+  std::vector<HandState> hands;  ///< one per tool
   CArmState c_arm;
-  vascular::PhysiologyState blood;  ///< its heart is the one owner of the beat; of a mesh, the heart alone
+  vascular::PhysiologyState blood;  ///< owns the heart's phase; for a mesh, the heart only
   vascular::TreatmentState treatment;
   CouplingState coupling;
-  std::vector<double> wall_m;  ///< (#cells) radius of the wall that contact has (opened_wall.h)
+  std::vector<double> wall_m;  ///< (#cells) radius of contact's wall (opened_wall.h)
 };
 constexpr auto fields(const SessionState*) {
   using S = SessionState;
@@ -119,13 +118,13 @@ constexpr auto fields(const SessionState*) {
                     core::field("wall_m", &S::wall_m)};
 }
 
-/// How a session begins: a circulation at rest. Seed 0: the heart at its R wave, tools as they come out of their
-/// packing; others draw both.
+/// The initial state: a circulation in its periodic state. Seed 0: the heart at its R wave, tools as packaged; other
+/// seeds draw both at random.
 SessionState make_state(const SessionModel& model, std::uint64_t seed);
 
 std::uint64_t hash(const SessionState& state);
 std::size_t state_count(const SessionModel& model);
-/// `row` has state_count numbers. Do not allocate.
+/// `row` has state_count numbers. These functions do not allocate.
 void put_state(const SessionState& state, double* row);
 void take_state(const double* row, SessionState& state);
 /// "rod 0 (wire), velocity[12]: 0.1 != 0.2", "hands[0].fed_m: 0.1 != 0.2", or empty if they are bit-identical.
@@ -136,10 +135,10 @@ std::string first_difference(const SessionModel& model, const SessionState& a, c
 struct SessionScratch {
   explicit SessionScratch(const SessionModel& model);
   SessionScratch(const SessionScratch&) = delete;
-  core::Model now;  ///< model.rods, with the wall as it is now
+  core::Model now;  ///< model.rods, with the current wall
   core::Scratch rods;
   core::Inputs inputs;  ///< of core
-  // Of a patient.
+  // For a patient.
   std::optional<OpenedWall> wall;
   std::optional<CouplingScratch> coupling;
   vascular::PhysiologyInputs physiology_inputs;
@@ -147,10 +146,10 @@ struct SessionScratch {
   vascular::TreatmentScratch treatment;
 };
 
-/// What a tool meets: what an operator could read off instruments.
+/// Forces on a tool that an operator could measure.
 struct ToolReport {
   double push_N = 0, torque_Nm = 0;          ///< at the hand
-  double wall_force_N = 0, tip_force_N = 0;  ///< sum of the walls' normal forces; on its last 10 mm
+  double wall_force_N = 0, tip_force_N = 0;  ///< sum of the walls' normal forces; the same on its last 10 mm
   int touches = 0;
   bool in_body = false;
 };
@@ -159,9 +158,9 @@ struct SessionReport {
   core::StepReport rods;
   std::vector<ToolReport> tools;  ///< sized at the first step
   vascular::TreatmentReport treatment;
-  vascular::ContrastReport contrast;  ///< of the last time that blood moved
-  int refused = -1;                   ///< a tool that was fed but may not enter, since
-  int in_its_way = -1;                ///< this one is in the body
+  vascular::ContrastReport contrast;  ///< from the last circulation step
+  int refused = -1;                   ///< a tool that was fed but may not enter, because
+  int in_its_way = -1;                ///< this tool is in the body
 };
 
 /// Advances `state` by model.step_s(). Never throws; does not allocate after the first call with the same report.
@@ -169,16 +168,16 @@ void step(const SessionModel& model, const SessionInputs& inputs, SessionState& 
           SessionReport& report);
 
 double seconds(const SessionModel& model, const SessionState& state);
-/// Its distal end, m, and where it points; the introducer's while it is not in the body.
+/// Position of its distal end, m, and its direction; the introducer's while it is outside the body.
 Eigen::Vector3d tip(const SessionModel& model, const SessionState& state, int tool);
 Eigen::Vector3d tip_direction(const SessionModel& model, const SessionState& state, int tool);
-/// Between the markers, of a balloon: narrowest over widest.
+/// Waist of a balloon between its markers: smallest over largest diameter.
 double waist(const vascular::BalloonModel& model, const vascular::BalloonState& state);
 
-/// How deep the patient's breath is as a step ends (0: breathed out, 1: at its top): a function of time alone.
+/// Depth of the patient's breath at the end of a step (0: expiration, 1: full inspiration): a function of time alone.
 double breath(const SessionModel& model, const SessionState& state);
 
-/// The vessel's frame that belongs to a phase, for SurfaceDescription.
+/// The vessel's frame number at a phase, for SurfaceDescription.
 double vessel_frame(const Vessel& vessel, double phase);
 
 }  // namespace ostium::app

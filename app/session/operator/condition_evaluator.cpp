@@ -14,7 +14,7 @@ namespace {
 
 using Evaluator = ConditionEvaluator;
 using Condition = data::ScriptCondition;
-/// Whether a condition holds, at its place.
+/// Tests a condition at its place.
 using Test = bool (*)(const Evaluator&, const Condition&, int place);
 struct TestOfKind {
   data::ConditionKind kind;
@@ -25,7 +25,7 @@ std::size_t index(int tool) { return static_cast<std::size_t>(tool); }
 
 bool is_beyond(const Evaluator& e, const Condition& c, int place) { return e.tip_is_beyond(c.tool, place); }
 
-/// One a kind, in any order.
+/// One per kind, in any order.
 constexpr TestOfKind tests[] = {
     {data::ConditionKind::tip_passes, is_beyond},
     {data::ConditionKind::tip_in, is_beyond},
@@ -110,7 +110,7 @@ constexpr TestOfKind tests[] = {
     {data::ConditionKind::unharmed,
      [](const Evaluator& e, const Condition&, int) { return is_unharmed(e.model, e.session); }}};
 
-/// By kind. Does not compile where a kind has no test, or two.
+/// Indexed by kind. Does not compile if a kind has no test, or two.
 constexpr std::array<Test, data::condition_kinds> test_of = [] {
   static_assert(std::size(tests) == data::condition_kinds, "each kind of condition has one test");
   std::array<Test, data::condition_kinds> by_kind{};
@@ -160,7 +160,7 @@ int ConditionEvaluator::tip_sphere(int tool) const {
   return located_sphere_;
 }
 
-/// In the body, and there or further along; not where there is no such place.
+/// True if the tip is in the body, at the place or beyond it; false if the place does not exist.
 bool ConditionEvaluator::tip_is_beyond(int at, int place) const {
   return tool(at).in_body && place >= 0 && model.vessel->way->beyond(tip_sphere(at), place);
 }
@@ -169,7 +169,7 @@ double ConditionEvaluator::astray_m(int tool, int place) const {
   return model.vessel->way->astray_m(tip_sphere(tool), model.vessel->way->branch(place));
 }
 
-/// Round the vessel, seen along it, does the tip point to where a branch leaves?
+/// Whether the tip points to the side of the vessel where the branch leaves, seen along the vessel.
 bool ConditionEvaluator::faces(int tool, int branch, double cosine) const {
   const VesselIndex::Departure it = model.vessel->way->departure(branch, session.blood.heart.phase);
   const Eigen::Vector3d points = tip_direction(model, session, tool), round = points - points.dot(it.along) * it.along;
@@ -181,8 +181,8 @@ const vascular::BalloonModel* ConditionEvaluator::balloon() const {
   return b < 0 ? nullptr : &model.treatment.balloons[static_cast<std::size_t>(b)];
 }
 
-/// A beat carries artery and shaft past each other by millimetres, so places are judged while the heart rests, before
-/// the R wave.
+/// A beat moves artery and shaft relative to each other by millimetres, so positions are evaluated while the heart
+/// rests, before the R wave.
 std::optional<double> ConditionEvaluator::balloon_at_rest_m(int lesion) const {
   if (!heart_rests(session)) return {};
   return balloon_from_lesion_m(model, session, lesion);
@@ -193,8 +193,8 @@ bool ConditionEvaluator::balloon_is_within(double most_m, int lesion) const {
   return at && std::fabs(*at) <= most_m;
 }
 
-/// Whether this step feeds a tool; what the hand has done so far says it only of steps that are about other tools: a
-/// hand at a box begins some milliseconds late.
+/// Whether the tool is being advanced. Decided by the step's action; only for steps about other tools by the movement
+/// so far, because a hand at a box starts some milliseconds late.
 bool ConditionEvaluator::comes_in(int tool) const {
   const data::ScriptStep& step = plan.script.steps[static_cast<std::size_t>(state.step)];
   const bool own = std::count(step.tools.begin(), step.tools.end(), tool) > 0;
@@ -203,7 +203,7 @@ bool ConditionEvaluator::comes_in(int tool) const {
   return session.hands[index(tool)].fed_m >= state.began_fed_m[index(tool)];
 }
 
-/// Reached from the side that the shaft's hand comes from.
+/// Whether the balloon has reached the offset from the side it comes from.
 bool ConditionEvaluator::balloon_is_at(double offset_m, int lesion) const {
   const auto at = balloon_at_rest_m(lesion);
   if (!at) return false;
@@ -233,17 +233,17 @@ bool ConditionEvaluator::guide_is_in(int branch) const {
          b.tip.into_ostium > 0.6;
 }
 
-/// While the beam is on.
+/// Only while the beam is on.
 bool ConditionEvaluator::contrast_is_seen(int cell) const {
   const double r = session.blood.radius_m[static_cast<std::size_t>(cell)];
   const double there = concentration(session.blood.contrast, model.physiology.flow, cell, units::pi * r * r);
   return there > seen_kg_m3 && (session.c_arm.fluoroscopy || session.c_arm.cine);
 }
 
-/// How far the tip went since the oldest note beyond what the hand moved.
+/// How far the tip moved since the oldest note, beyond the hand's movement.
 double ConditionEvaluator::dropped_m(int tool) const {
   const double* notes = &state.tips[static_cast<std::size_t>(4 * noted_tips * tool)];
-  if (!(notes[3] == notes[3])) return 0;  // not a number: not noted for long enough
+  if (!(notes[3] == notes[3])) return 0;  // NaN: not noted for long enough
   const Eigen::Vector3d then(notes[0], notes[1], notes[2]);
   const double hand = std::fabs(session.hands[static_cast<std::size_t>(tool)].fed_m - notes[3]);
   return (tip(model, session, tool) - then).norm() - hand;

@@ -1,5 +1,5 @@
 #pragma once
-/// Whether the conditions of a script hold, by what an operator sees of a session.
+/// Evaluates the conditions of a script from what an operator can see of a session.
 #include <optional>
 #include <vector>
 
@@ -19,14 +19,14 @@ class ConditionEvaluator {
   const SessionReport& report;
   const OperatorState& state;
 
-  /// `place`: of the condition, as the plan has it.
+  /// `place`: the condition's place as resolved in the plan.
   bool holds(const data::ScriptCondition& condition, int place) const;
-  /// Which of them, or -1; `at` are their places.
+  /// Index of the first that holds, or -1; `at`: their places.
   int first_that_holds(const std::vector<data::ScriptCondition>& conditions, const std::vector<int>& at) const;
 
-  // What conditions look at.
+  // Quantities that conditions use:
   double now_s() const;
-  ToolReport tool(int tool) const;  ///< as reported; of a session that has not begun, none
+  ToolReport tool(int tool) const;  ///< as reported; all zero before the session begins
   double fed_m(int tool) const;     ///< since the step began
   double turned_rad(int tool) const;
   bool tip_is_beyond(int tool, int place) const;
@@ -34,7 +34,7 @@ class ConditionEvaluator {
   bool faces(int tool, int branch, double cosine) const;
   double dropped_m(int tool) const;
   bool comes_in(int tool) const;
-  const vascular::BalloonModel* balloon() const;  ///< in the body, or null
+  const vascular::BalloonModel* balloon() const;  ///< the one in the body, or null
   std::optional<double> balloon_at_rest_m(int lesion) const;
   bool balloon_is_at(double offset_m, int lesion) const;
   bool balloon_is_within(double most_m, int lesion) const;
@@ -44,7 +44,7 @@ class ConditionEvaluator {
 
  private:
   int tip_sphere(int tool) const;
-  /// Several conditions of a step ask for the same tip.
+  /// Cached, since several conditions of a step use the same tip.
   mutable int located_tool_ = -1, located_sphere_ = -1;
 };
 

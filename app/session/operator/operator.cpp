@@ -18,7 +18,7 @@ using Eigen::Vector3d;
 
 namespace {
 
-/// The flow tree's cell nearest to a sphere of the way, or -1.
+/// The flow tree's cell nearest to a sphere of the vessel index, or -1.
 int cell_at(const Coronaries& c, const VesselIndex& way, int sphere) {
   const Eigen::Vector3d p = way.p(sphere, 0);
   int best = -1;
@@ -29,7 +29,7 @@ int cell_at(const Coronaries& c, const VesselIndex& way, int sphere) {
   return best;
 }
 
-/// Refuses a condition about what this session does not have.
+/// Refuses a condition about something this session does not have.
 void require_subject(const data::ScriptCondition& c, const SessionModel& model) {
   if (needs_patient(c.kind) && !model.has_patient())
     refuse(c, c.words + ": a mesh has no circulation; expected a case");
@@ -48,7 +48,7 @@ void require_subject(const data::ScriptCondition& c, const SessionModel& model) 
                         c.place, known));
 }
 
-/// A place of the script's own, or one of the vessel's; -1: there is none.
+/// A landmark of the script, or a place of the vessel; -1: there is none.
 int place_called(const data::Script& script, const std::string& name, const VesselIndex& way) {
   int place = -1;
   for (const data::ScriptLandmark& landmark : script.landmarks)
@@ -56,7 +56,7 @@ int place_called(const data::Script& script, const std::string& name, const Vess
   return place < 0 ? way.place(name) : place;
 }
 
-/// What a condition's place is in this session: a sphere of the vessel's, a branch, a cell of the flow, a trace; -1:
+/// Resolves a condition's place in this session: a sphere of the vessel index, a branch, a flow cell or a trace; -1:
 /// none.
 int place_of(const data::Script& script, const data::ScriptCondition& c, const SessionModel& model) {
   const VesselIndex& way = *model.vessel->way;
@@ -99,7 +99,7 @@ std::vector<int> places(const data::Script& script, const std::vector<data::Scri
   return out;
 }
 
-/// A hand's own speed in a step: log-normal, 15 %.
+/// Random factor on the hand's speed in a step: log-normal, 15 %.
 double hand_factor(std::uint64_t seed, int step) {
   if (seed == 0) return 1;
   std::mt19937_64 random(seed * 1000003 + static_cast<std::uint64_t>(step));
@@ -123,7 +123,8 @@ void note_tips(const SessionModel& model, const SessionState& session, OperatorS
   }
 }
 
-/// A hand does not feel what lasts a millisecond, nor forces of a step that had to give way: they are no real rod's.
+/// Forces low-pass filtered, as a hand feels no millisecond peaks. Steps with trouble are skipped: their forces are not
+/// physical.
 void feel(const SessionModel& model, const SessionReport& report, OperatorState& state) {
   if (report.rods.trouble & (core::not_converged | core::motion_lost | core::no_solution | core::pulled_apart)) return;
   const double share = 1 - std::exp(-2 * units::pi * data::wall_force_cut_off_Hz * model.step_s());
@@ -165,7 +166,7 @@ void end(Outcome outcome, int condition, OperatorState& state) {
 
 void go_to(int step, OperatorState& state) { state.step = step, state.began = true; }
 
-/// The step after `s`: past detours, unless that is one, too.
+/// The step after `s`, skipping detours unless `s` is one itself.
 int after(const data::Script& script, int s) {
   const auto is_detour = [&](int one) { return script.steps[static_cast<std::size_t>(one)].detour; };
   int next = s + 1;
@@ -174,7 +175,7 @@ int after(const data::Script& script, int s) {
   return next;
 }
 
-/// Where step `s` leads if it failed; -1: nowhere. `tries` counts what it led to, its last resort as one.
+/// The step that `s` jumps to when it fails; -1: none. `tries` counts its jumps, including the last resort.
 int leads_to(const data::Script& script, int s, int& tries) {
   const data::ScriptStep& step = script.steps[static_cast<std::size_t>(s)];
   if (step.otherwise == data::ScriptStep::Otherwise::go_on) return after(script, s);
@@ -229,7 +230,7 @@ Outcome decide(const ScriptPlan& plan, const SessionModel& model, const SessionS
   using Kind = OperatorEvent::Kind;
   const ConditionEvaluator evaluator(plan, model, session, report, state);
   const int count = static_cast<int>(plan.script.steps.size());
-  // A step that takes no time leads to the next at once; `count` bounds jumps among such.
+  // A step that takes no time is followed by the next at once; `count` limits jumps among such steps.
   for (int guard = 0; guard <= count && state.outcome == Outcome::running; ++guard) {
     const int s = state.step;
     if (s >= count) {

@@ -1,6 +1,6 @@
 #pragma once
-/// The operator of a script: looks at the session, moves the hands. All that it remembers is in OperatorState; what
-/// it asks for is SessionInputs, as from any hand.
+/// The operator of a script: observes the session and moves the instruments. Its whole memory is OperatorState; its
+/// output is SessionInputs, as for any driver.
 #include <string>
 #include <vector>
 
@@ -9,12 +9,12 @@
 
 namespace ostium::app {
 
-/// A script whose places are known in a vessel.
+/// A script with its places resolved in a vessel.
 struct ScriptPlan {
   data::Script script;
-  std::vector<std::vector<int>> until_places, unless_places;  ///< of each step's conditions; -1 where they have none
-  std::uint64_t seed = 0;  ///< 0: hands keep their speeds; others vary them by 15 % (one standard deviation) a step
-  double hand_speed = 1;   ///< times the script's speeds
+  std::vector<std::vector<int>> until_places, unless_places;  ///< of each step's conditions; -1 if they have none
+  std::uint64_t seed = 0;  ///< 0: exact speeds; otherwise they vary from step to step, standard deviation 15 %
+  double hand_speed = 1;   ///< factor on the script's speeds
 };
 
 /// Throws LoadError with the script's line for a place that the vessel does not have.
@@ -24,25 +24,25 @@ enum class Outcome { running, success, failure, timed_out, aborted };
 std::string words_for(Outcome outcome);
 
 struct OperatorState {
-  int step = 0;       ///< of the script
+  int step = 0;       ///< index in the script
   bool began = true;  ///< the step has yet to begin
   double began_s = 0, began_beats = 0;
-  std::vector<double> began_fed_m, began_turned_rad;  ///< one a tool
-  std::vector<int> tries;                             ///< one a step of the script
-  std::vector<double> felt;  ///< (#tools by 4): push, torque, wall and tip force, behind a low pass of 10 Hz
+  std::vector<double> began_fed_m, began_turned_rad;  ///< one per tool
+  std::vector<int> tries;                             ///< one per step of the script
+  std::vector<double> felt;  ///< (#tools by 4): push, torque, wall and tip force, low-pass filtered at 10 Hz
   double next_s = 0;         ///< when tips are noted next
-  std::vector<double> tips;  ///< m, (#tools by noted_tips by 4): of the last 0.25 s, with fed
+  std::vector<double> tips;  ///< (#tools by noted_tips by 4): tip position and fed length over the last 0.25 s, m
   double rate_1_min = 0;
   double lao_rad = 0, cran_rad = 0, field_m = 0.2;
   bool fluoroscopy = false, cine = false;
   Eigen::Vector3d p_PI = Eigen::Vector3d::Zero();
-  double iodine_kg_m3 = 350, injection_m3_s = 0;  ///< syringe, thumb
+  double iodine_kg_m3 = 350, injection_m3_s = 0;  ///< of the syringe
   double began_injected_m3 = 0;
   double gauge_Pa = 0, began_gauge_Pa = 0;                 ///< of the inflation device
   double heparin_U = 0, nitrate_ug = 0, adenosine_ug = 0;  ///< to be given in the next step
-  int in_the_way = -1;  ///< a tool that ended the script: another could not enter beside it
+  int in_the_way = -1;  ///< the tool that ended the script: another could not enter beside it
   Outcome outcome = Outcome::running;
-  int by_condition = -1;  ///< which of `unless` held; -1: the timeout
+  int by_condition = -1;  ///< index of the `unless` condition that held; -1: the timeout
 };
 constexpr auto fields(const OperatorState*) {
   using S = OperatorState;
@@ -75,23 +75,23 @@ constexpr auto fields(const OperatorState*) {
                     core::field("outcome", &S::outcome),
                     core::field("by_condition", &S::by_condition)};
 }
-inline constexpr int noted_tips = 6;  ///< every 50 ms
+inline constexpr int noted_tips = 6;  ///< one every 50 ms
 inline constexpr double note_every_s = 0.05;
 
 OperatorState make_state(const ScriptPlan& plan, const SessionModel& model);
 std::vector<double> save(const OperatorState& state);
-/// Throws std::invalid_argument if the count is another script's.
+/// Throws std::invalid_argument if the number of values does not match the script.
 void restore(const std::vector<double>& saved, OperatorState& state);
 
-/// What the operator did in deciding.
+/// An event of the operator's decisions.
 struct OperatorEvent {
   enum class Kind { begins, done, failed, timed_out, marked } kind = Kind::begins;
   int step = 0;
-  int condition = -1;  ///< of until (done) or unless (failed)
+  int condition = -1;  ///< index in `until` (done) or `unless` (failed)
 };
 
-/// Reads the session as it is after `report`, says what the hands do in the next step. Does not allocate once `events`
-/// has grown. `events` is cleared first.
+/// Evaluates the session after `report`, and sets the inputs of the next step. Does not allocate once `events` has
+/// grown. `events` is cleared first.
 Outcome decide(const ScriptPlan& plan, const SessionModel& model, const SessionState& session,
                const SessionReport& report, OperatorState& state, SessionInputs& inputs,
                std::vector<OperatorEvent>& events);
@@ -99,7 +99,8 @@ Outcome decide(const ScriptPlan& plan, const SessionModel& model, const SessionS
 /// "advance (up the aorta): push_exceeds_N 8"; empty after success.
 std::string reason(const ScriptPlan& plan, const OperatorState& state);
 
-/// "guide 3 mm into RCA, wire 25 mm into RV": tips in a patient's body; a step often fails for where another tool lies.
+/// "guide 3 mm into RCA, wire 25 mm into RV": tips in a patient's body; a step often fails because of where another
+/// tool lies.
 std::string where_tips_lie(const SessionModel& model, const SessionState& session, const SessionReport& report);
 
 }  // namespace ostium::app

@@ -10,12 +10,12 @@ namespace {
 constexpr double vacuum_Pa = 101325;
 
 using Step = data::ScriptStep;
-/// Parts of an action; null where there is nothing to do. Movements of tools are in every step's inputs.
+/// The functions of an action; null if not needed. Tool movements are not here: they are set in every step's inputs.
 struct Handling {
   data::ScriptAction action;
   void (*begin)(const Step&, const SessionState&, OperatorState&) = nullptr;
   void (*go_on)(const Step&, const SessionState&, double now_s, OperatorState&) = nullptr;
-  bool (*is_over)(const Step&, const ConditionEvaluator&) = nullptr;  ///< of one that ends by itself
+  bool (*is_over)(const Step&, const ConditionEvaluator&) = nullptr;  ///< for actions that end by themselves
 };
 
 void move_c_arm(const Step& step, const SessionState&, OperatorState& state) {
@@ -45,7 +45,7 @@ void give_drug(const Step& step, const SessionState&, OperatorState& state) {
   state.heparin_U = step.heparin_U, state.nitrate_ug = step.nitrate_ug, state.adenosine_ug = step.adenosine_ug;
 }
 
-/// One an action, in any order.
+/// One per action, in any order.
 constexpr Handling handlings[] = {
     {.action = data::ScriptAction::advance},
     {.action = data::ScriptAction::withdraw},
@@ -76,7 +76,7 @@ constexpr Handling handlings[] = {
          }},
     {.action = data::ScriptAction::drug, .begin = give_drug}};
 
-/// By action. Does not compile where an action has no handling, or two.
+/// Indexed by action. Does not compile if an action has no handling, or two.
 constexpr std::array<Handling, data::action_kinds> handling_of = [] {
   static_assert(std::size(handlings) == data::action_kinds, "each action has one handling");
   std::array<Handling, data::action_kinds> by_action{};

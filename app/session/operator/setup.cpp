@@ -36,7 +36,7 @@ std::string instrument_file(const std::string& name_or_file) {
   const fs::path known = fs::path(data::data_folder()) / "instruments" / (name_or_file + ".json");
   if (fs::is_regular_file(known)) return known.string();
   if (name_or_file.ends_with(".json")) return name_or_file;
-  data::find_instrument(data::load_catalogue(), name_or_file);  // throws with what there is
+  data::find_instrument(data::load_catalogue(), name_or_file);  // throws, listing the catalogue, if there is none
   return known.string();
 }
 
@@ -59,7 +59,7 @@ void set_vessel(const std::string& case_or_mesh, vascular::LengthUnit unit, RunS
   const data::Case c = data::load_case(file.string());
   setup.case_text = all_of(file.string());
   if (!c.imported) setup.access = c.anatomy.access;
-  // An imported case's vessels lie beside its file: replay finds them there.
+  // An imported case's vessels are stored beside its file, where replay finds them.
   setup.vessel = c.imported ? (file.parent_path() / c.name).string() : c.name;
 }
 
@@ -78,7 +78,7 @@ void set_script(const data::Script& script, RunSetup& setup) {
 
 namespace {
 
-/// How wide the instrument may be that is taken; nothing: there is nothing to measure.
+/// Largest diameter that fits; empty if there is nothing to measure.
 std::optional<double> most_that_fits_m(const Vessel& vessel, const data::Script& script, const data::ScriptTool& tool) {
   if (tool.of_aorta > 0) {
     const double aorta_m = ascending_diameter_m(vessel);
@@ -180,7 +180,7 @@ void set_value(const std::string& key, const std::string& value, RunSetup& setup
 std::shared_ptr<const Vessel> make_vessel(const RunSetup& setup, std::string& warnings) {
   auto vessel = setup.is_mesh() ? vessel_of(setup.vessel, setup.mesh, setup.entry, warnings)
                                 : vessel_of(data::read_case(setup.vessel + ".json", setup.case_text), setup.person);
-  malloc_trim(0);  // what building it took beside goes back
+  malloc_trim(0);  // returns the memory used while building to the system
   return vessel;
 }
 

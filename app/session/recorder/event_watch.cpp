@@ -47,7 +47,7 @@ void EventWatch::look_at_syringe(const SessionInputs& inputs, const SessionState
 }
 
 void EventWatch::look_at_heart(const SessionState& state, const EventSink& say) {
-  // While contrast or a thick wire is in the guide there is no trace to judge.
+  // With contrast or a thick wire in the guide there is no pressure trace to classify.
   const vascular::Trace trace = state.coupling.guide >= 0 ? state.blood.line.trace : vascular::Trace::absent;
   if (trace != trace_) say(data::EventCode::trace_changes, -1, static_cast<double>(trace));
   trace_ = trace;
@@ -161,7 +161,7 @@ void EventWatch::look(const SessionModel& model, const SessionInputs& inputs, co
   if (trouble && !trouble_) say(data::EventCode::step_trouble, -1, trouble);
   trouble_ = trouble;
   if (!model.has_patient()) return;
-  look_at_syringe(inputs, state, say);  // judges by the trace of before
+  look_at_syringe(inputs, state, say);  // uses the previous trace
   look_at_heart(state, say);
   look_at_balloon(model, inputs, state, say);
   look_at_stents(model, state, say);

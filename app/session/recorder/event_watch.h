@@ -1,6 +1,6 @@
 #pragma once
-/// Finds a run's events by comparing a step with the one before. Part of the loop, not of the simulation: replay does
-/// without.
+/// Detects a run's events by comparing each step with the one before. Part of the loop, not of the simulation: replay
+/// does not need it.
 #include <array>
 #include <vector>
 
@@ -21,7 +21,7 @@ class EventWatch {
   struct Tool {
     bool in_body = false, pressed = false;
     SettledBranch branch;
-    double wall_force_N = 0;  ///< behind the low pass that metrics use
+    double wall_force_N = 0;  ///< low-pass filtered as for the metrics
   };
   void look_at_tools(const SessionModel& model, const SessionReport& report, std::uint64_t now, bool handling_looked,
                      const EventSink& say);
@@ -35,10 +35,10 @@ class EventWatch {
   void look_at_injuries(const SessionState& state, const EventSink& say);
   void look_at_entry(const SessionReport& report, const EventSink& say);
 
-  // As they were at the step before.
+  // Values at the step before:
   std::vector<Tool> tools_;
   HandlingWatch handling_;
-  std::vector<vascular::StentState::Where> stents_;  ///< where they were
+  std::vector<vascular::StentState::Where> stents_;  ///< where each was
   std::array<double, vascular::most_injuries> injuries_{};
   bool injects_ = false, inflated_ = false, filled_ = false, over_ = false, closed_ = false;
   double inflated_since_s_ = 0, closed_since_s_ = 0;

@@ -51,12 +51,12 @@ Recorder::Recorder(const RecorderOptions& options, const SessionModel& model, co
     slot.block.inputs.resize(data::steps_per_block * input_width_);
     slot.block.hashes.resize(data::steps_per_block);
     slot.block.signals.resize(data::steps_per_block / data::steps_per_signal * signal_width_);
-    slot.block.states.resize(state_width_);  // a block is half as long as states are apart
+    slot.block.states.resize(state_width_);  // one: a block is half as long as states are apart
     slot.block.hands.resize(operator_width_);
     slot.events.reserve(events_a_block);
   }
   record_.step_s = model.step_s();
-  // For a quarter of an hour: what is not used yet takes no memory, growing would for a moment take it twice.
+  // Reserves a quarter of an hour: unused memory costs nothing, while growing would briefly need it twice.
   record_.signals.reserve(static_cast<std::size_t>(900 / (model.step_s() * data::steps_per_signal)) * signal_width_);
   record_.signal_columns = signal_names(model);
   for (const vascular::TreeBranch& branch : model.vessel->way->branches()) record_.branches.push_back(branch.name);
@@ -135,7 +135,7 @@ void Recorder::finish(const std::string& end) {
 void Recorder::follow() {
   core::give_way_to_steps();
   while (true) {
-    const bool over = over_.load(std::memory_order_acquire);  // before looking: nothing comes after it
+    const bool over = over_.load(std::memory_order_acquire);  // read before looking: no block is added after it
     const std::size_t next = taken_.load(std::memory_order_relaxed);
     if (next == filled_.load(std::memory_order_acquire)) {
       if (over) return;
@@ -147,7 +147,7 @@ void Recorder::follow() {
   }
 }
 
-/// At walls and flow, as they are in the slot's state: once a second, and too dear for the thread that steps.
+/// Checks walls and flow of the slot's state: once a second, and too slow for the simulation thread.
 void Recorder::look(const Slot& slot, std::vector<double>& events) {
   take_state(slot.block.states.data(), looked_at_);
   if (options_.penetration) {
@@ -159,7 +159,7 @@ void Recorder::look(const Slot& slot, std::vector<double>& events) {
   const double ffr = ffr_behind_lesion(model_, looked_at_);
   if (std::fabs(ffr - ffr_) < ffr_step) return;
   ffr_ = ffr;
-  // A slot's state is that of its beginning.
+  // The state belongs to the beginning of the slot.
   events.insert(events.begin(), {static_cast<double>(looked_at_.rods.step),
                                  static_cast<double>(static_cast<int>(data::EventCode::ffr_changes)), -1, ffr});
 }

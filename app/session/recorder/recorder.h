@@ -1,9 +1,9 @@
 #pragma once
-/// What follows a run without holding it up: the recording, and a look at the walls once a second.
+/// Records a run without slowing it down, and measures wall penetration once a second.
 ///
-/// The thread that steps fills blocks of memory that were made beforehand and hands them over, half a second at a time,
-/// without a lock; one other thread owns the file. If that falls behind by all blocks, stepping waits for it and
-/// `waits` counts that: nothing of a run is left out.
+/// The simulation thread fills preallocated blocks and hands them over every half second without a lock; another thread
+/// owns the file. If that thread falls behind by all blocks, the simulation waits and `waits` counts it: nothing of a
+/// run is lost.
 #include <atomic>
 #include <memory>
 #include <thread>
@@ -21,31 +21,31 @@ enum class RecordMode { none, events, full };
 
 struct RecorderOptions {
   RecordMode mode = RecordMode::full;
-  std::string file;         ///< empty with RecordMode::none
-  bool penetration = true;  ///< look at it once a second
+  std::string file;         ///< empty if RecordMode::none
+  bool penetration = true;  ///< measure it once a second
 };
 
 class Recorder {
  public:
-  /// Throws LoadError if the file cannot be made.
+  /// Throws LoadError if the file cannot be created.
   Recorder(const RecorderOptions& options, const SessionModel& model, const RunSetup& setup,
            std::size_t operator_count);
-  ~Recorder();  ///< ends the thread; what was handed over is written
+  ~Recorder();  ///< ends the thread; blocks already handed over are written
 
-  /// Of the state that a run begins with, before its first step.
+  /// Call with the initial state, before the first step.
   void begin(const SessionState& state, const OperatorState& hands);
-  /// After each step.
+  /// Call after each step.
   void add(const SessionInputs& inputs, const SessionState& state, const SessionReport& report,
            const OperatorState& hands, const std::vector<OperatorEvent>& script);
-  /// Hands over the rest, waits for the thread.
+  /// Hands over the last block and waits for the thread.
   void stop();
-  /// After `stop`: the last words. Throws LoadError if they cannot be written.
+  /// After `stop`: writes the end of the run. Throws LoadError if it cannot be written.
   void finish(const std::string& end);
 
   // After `stop`:
   const data::RunRecord& record() const { return record_; }  ///< of the whole run
   const Penetration& penetration() const { return deepest_; }
-  const std::string& problem() const { return problem_; }  ///< why recording ended early; empty: it did not
+  const std::string& problem() const { return problem_; }  ///< why recording ended early; empty if it did not
   long waits() const { return waits_; }
 
  private:
@@ -71,12 +71,12 @@ class Recorder {
   std::atomic<bool> over_{false};
   long waits_ = 0;
   EventWatch watch_;
-  // Of the other thread.
+  // Used by the writing thread:
   std::unique_ptr<data::RecordingWriter> writer_;
   SessionState looked_at_;
   data::RunRecord record_;
   Penetration deepest_;
-  double ffr_ = -1;  ///< as last said
+  double ffr_ = -1;  ///< last reported
   std::string problem_;
   std::thread thread_;
 };

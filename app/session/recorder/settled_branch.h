@@ -1,5 +1,5 @@
 #pragma once
-/// Which branch a tip is in, for people: at the border between two it is now in one, now in the other.
+/// The branch a tip is in, with hysteresis: at a border a tip would flicker between two.
 #include <cstdint>
 
 #include "data/assessment/events.h"
@@ -8,8 +8,8 @@ namespace ostium::app {
 
 class SettledBranch {
  public:
-  /// Takes where the tip is `now`, a step (-1: out of the body, which is known at once). True once it has been in
-  /// another branch for `tip_settles_s`.
+  /// Call with the branch at step `now` (-1: outside the body, reported at once). True once the tip has been in another
+  /// branch for `tip_settles_s`.
   bool comes_to(int branch, std::uint64_t now, double step_s) {
     if (branch != seen_) seen_ = branch, since_ = now;
     const bool settled = branch < 0 || static_cast<double>(now - since_) * step_s >= data::tip_settles_s;
@@ -20,7 +20,7 @@ class SettledBranch {
 
  private:
   int settled_ = -1, seen_ = -1;
-  std::uint64_t since_ = 0;  ///< that it is where it is seen
+  std::uint64_t since_ = 0;  ///< step since which the tip has been there
 };
 
 }  // namespace ostium::app

@@ -18,14 +18,14 @@ using units::atm, units::mmHg;
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 constexpr double undiluted_kg_m3 = 350;
 
-/// A row of a table of signals; `Now` is what its numbers are taken from.
+/// A row of a table of signals; `Now` holds what the values are computed from.
 template <class Now>
 struct Signal {
   const char *name, *unit, *definition;
   double (*of)(const Now&);
 };
 
-/// The run at this moment.
+/// The current state of the run.
 struct RunNow {
   const SessionModel& model;
   const SessionState& state;
@@ -42,7 +42,7 @@ constexpr Signal<RunNow> of_the_breath[] = {
     {"breath_depth", "1", "0 breathed out, 1 breathed in", [](const RunNow& x) { return breath(x.model, x.state); }},
 };
 
-/// Where contrast comes into the first lesion's artery: behind its ostium, or where a guide's tip is farther in.
+/// The cell where contrast enters the first lesion's artery: beyond its ostium, or at a guide's tip deeper in.
 int contrast_enters(const SessionModel& model, const SessionState& state) {
   const Coronaries& c = *model.vessel->coronaries;
   const int tip = state.coupling.tip.where == vascular::TipPlace::coronary ? state.coupling.tip.cell : -1;
@@ -51,7 +51,7 @@ int contrast_enters(const SessionModel& model, const SessionState& state) {
   return farther ? tip : c.ostium_cell;
 }
 
-/// The first lesion is the nearest of those that the balloon's artery has.
+/// Whether the first lesion is the nearest of those in the balloon's artery.
 bool is_at_first(const SessionModel& model, const SessionState& state) {
   const auto from_m = [&](int lesion) {
     const auto at = balloon_from_lesion_m(model, state, lesion);
@@ -63,10 +63,10 @@ bool is_at_first(const SessionModel& model, const SessionState& state) {
   return std::isfinite(first_m);
 }
 
-/// A patient at this moment: what several signals are taken from.
+/// The current state of a patient, shared by several signals.
 struct PatientNow {
   PatientNow(const SessionModel& own_model, const SessionState& own_state, const SessionInputs& own_inputs);
-  double contrast_at(int cell) const;        ///< over the undiluted; not a number: no such cell
+  double contrast_at(int cell) const;        ///< relative to undiluted; NaN: no such cell
   double balloon_end_mm(double side) const;  ///< from the lesion's proximal end; side -1: proximal, 1: distal
   bool has_guide() const { return state.coupling.guide >= 0; }
 
@@ -78,7 +78,7 @@ struct PatientNow {
   const vascular::BalloonModel* balloon = nullptr;  ///< in the body
   bool has_lesion;
   double lesion_length_m = 0;
-  std::optional<double> balloon_from_middle_m;  ///< of the first lesion, while no other is nearer
+  std::optional<double> balloon_from_middle_m;  ///< from the first lesion's middle, while no other lesion is nearer
   LesionNow lesion{none, none, none, none};
   std::optional<Stretch> stents;
   std::optional<StentNow> open;
@@ -121,7 +121,7 @@ double widest_mm(const PatientNow& x) {
   return x.balloon ? widest : 0;
 }
 
-/// "The lesion" is the first of the case; places along its artery are from its proximal end.
+/// "The lesion" is the first of the case; positions along its artery are measured from its proximal end.
 constexpr Signal<PatientNow> of_a_patient[] = {
     {"ecg_II_mV", "mV", "lead II",
      [](const PatientNow& x) -> double { return x.ecg_mV[static_cast<int>(vascular::Lead::II)]; }},
@@ -185,7 +185,7 @@ constexpr Signal<PatientNow> of_a_patient[] = {
      [](const PatientNow& x) -> double { return x.state.treatment.injury.wire_H; }},
 };
 
-/// A tool at this moment.
+/// The current state of a tool.
 struct ToolNow {
   ToolNow(const SessionModel& model, const SessionState& state, const SessionReport& own, int t)
       : rod(state.rods.rods[static_cast<std::size_t>(t)]),
@@ -200,7 +200,7 @@ struct ToolNow {
   const ToolReport& report;
   const VesselIndex& way;
   Eigen::Vector3d tip_m;
-  int sphere;  ///< of the vessel index, where the tip is; -1: out of the body
+  int sphere;  ///< of the vessel index, at the tip; -1: outside the body
 };
 
 constexpr Signal<ToolNow> of_a_tool[] = {

@@ -1,6 +1,6 @@
 #pragma once
-/// What a recording shows of a run a hundred times a second, for metrics, for people and for debriefing; not needed for
-/// replay. A signal is one row in a table of signals.cpp: name, unit, what it is, how it is taken.
+/// The signals of a run, recorded a hundred times a second, for metrics, display and debriefing; not needed for replay.
+/// Each signal is one row in a table of signals.cpp: name, unit, description, function.
 #include <string>
 #include <vector>
 
@@ -10,10 +10,10 @@ namespace ostium::app {
 
 struct SignalDefinition {
   std::string name;  ///< "wire.tip_x_mm"
-  std::string unit;  ///< "1": none
+  std::string unit;  ///< "1" if dimensionless
   std::string definition;
 };
-/// The columns, in their order.
+/// The columns in order.
 std::vector<SignalDefinition> signal_definitions(const SessionModel& model);
 
 std::size_t signal_count(const SessionModel& model);

@@ -14,8 +14,8 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// As much as the clock may be ahead: more than a beat's hard half loses, which its easy half makes up for. More is let
-/// go. What is made up for goes at most twice as fast as the clock.
+/// How far the simulation may fall behind the clock: more than the demanding half of a beat costs, which the easy half
+/// makes up for. Any further delay is dropped. Catching up runs at most at twice real time.
 constexpr auto most_behind = std::chrono::milliseconds(500);
 constexpr int most_haste = 2;
 
@@ -29,7 +29,7 @@ double thread_cpu_s() {
   return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
 }
 
-/// Times of steps in bins of 1 %, from 1 us to 20 s: percentiles without keeping them all.
+/// Histogram of step times with bins of 1 %, from 1 us to 20 s: gives percentiles without storing every value.
 class TimeBins {
  public:
   TimeBins() : bins_(count, 0) {}

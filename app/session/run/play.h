@@ -1,5 +1,5 @@
 #pragma once
-/// The loop around a run: pace, recording, times, the end.
+/// The loop around a run: pacing, recording, timing, the end.
 #include <atomic>
 #include <functional>
 #include <memory>
@@ -12,22 +12,22 @@ namespace ostium::app {
 
 struct PlayOptions {
   RecorderOptions recorder;
-  /// One step a millisecond of the clock, and where one takes longer the next ones follow sooner until it is caught up
-  /// with; else as fast as it goes, with the same result.
+  /// true: one step per millisecond of clock time; after a slow step the next ones follow faster until it has caught
+  /// up. false: as fast as possible, with the same result.
   bool real = false;
-  double seconds = 0;    ///< most that are simulated; 0: no end but the script's
-  double give_up_s = 0;  ///< of the clock; 0: never
-  /// Called now and then, at least every 0.1 s simulated: for progress. May be empty.
+  double seconds = 0;    ///< limit of simulated time; 0: none but the script's end
+  double give_up_s = 0;  ///< limit of clock time; 0: none
+  /// Called at least every 0.1 s of simulated time, for progress. May be empty.
   std::function<void(const ScriptedRun&)> progress;
-  std::shared_ptr<const Dosimeter> dosimeter;  ///< of the vessel, where many runs share it; null: made if needed
-  const std::atomic<bool>* stop = nullptr;     ///< becomes true: the run ends as aborted
+  std::shared_ptr<const Dosimeter> dosimeter;  ///< of the vessel, if shared by many runs; null: made if needed
+  const std::atomic<bool>* stop = nullptr;     ///< becomes true to abort the run
 };
 
-/// CPU time of the thread that steps: operator, step, hash, recording.
+/// CPU time of the simulation thread: operator, step, hash, recording.
 struct StepTimes {
   double mean_ms = 0, p50_ms = 0, p99_ms = 0, p999_ms = 0, most_ms = 0;
   long overruns = 0;          ///< steps that began over 1 ms late, with `real`
-  double behind_most_ms = 0;  ///< the clock, with `real`
+  double behind_most_ms = 0;  ///< largest delay against the clock, with `real`
 };
 
 struct PlayReport {
@@ -41,7 +41,7 @@ struct PlayReport {
   std::uint64_t hash = 0;  ///< of the last state
 };
 
-/// Runs to the end. Throws LoadError if the recording cannot be begun; what goes wrong with it later is in `problem`.
+/// Runs to the end. Throws LoadError if the recording cannot be started; later recording errors are in `problem`.
 PlayReport play(ScriptedRun& run, const RunSetup& setup, const PlayOptions& options);
 
 }  // namespace ostium::app

@@ -40,7 +40,7 @@ void require_same_layout(const data::RecordingReader& r, const SessionModel& mod
                     r.path(), r.software()));
 }
 
-/// What was used in the steps from `from` to `to`.
+/// Adds the X-ray use of the steps from `from` to `to`.
 void add_xrays(const data::RecordingReader& recording, const SessionModel& model, std::size_t from, std::size_t to,
                XrayUse& xrays) {
   constexpr std::size_t at_once = 10000;

@@ -9,25 +9,25 @@ class ScriptedRun;
 
 enum class Driven { on, after_a_stand, over };
 
-/// Drives the instruments instead of the script's operator, who goes on looking: real hands at a tracking box.
+/// Moves the instruments instead of the script's operator, who keeps observing: for example hands at a tracking box.
 class Driver {
  public:
   virtual ~Driver() = default;
-  /// Before each step. `inputs` is what the script asks for, and becomes what is done. Waits while the simulation is to
-  /// stand.
+  /// Called before each step. `inputs` holds what the script asks for; the driver changes it to what is done. Blocks
+  /// while the simulation is to stand still.
   virtual Driven drive(const ScriptedRun& run, SessionInputs& inputs) = 0;
 };
 
 class ScriptedRun {
  public:
-  /// Throws LoadError, with the script's line where it is the script's fault. `driver` must live as long; null: the
-  /// script moves the instruments.
+  /// Throws LoadError, with the script's line if the script is at fault. `driver` must outlive this; null: the script
+  /// moves the instruments.
   ScriptedRun(const RunSetup& setup, std::shared_ptr<const Vessel> vessel, Driver* driver = nullptr);
 
-  /// From the next step on; null: the script moves the instruments.
+  /// Takes effect from the next step; null: the script moves the instruments.
   void take_over(Driver* driver) { driver_ = driver; }
 
-  /// The operator looks and decides; then one step, unless the script is at its end. False: it is.
+  /// One decision of the operator, then one step. False: the script has ended.
   bool tick();
 
   const SessionModel model;
@@ -38,15 +38,15 @@ class ScriptedRun {
   SessionReport report;
   std::vector<OperatorEvent> events;  ///< of the last tick
   Outcome outcome = Outcome::running;
-  long troubled = 0;           ///< steps that had to give way, other than at an instrument's end
-  std::uint32_t troubles = 0;  ///< what they gave way on, bits of Trouble
-  XrayUse xrays;               ///< so far, drawn or not
-  bool stood = false;          ///< the driver let it stand before the last step
-  long overruns = 0;           ///< steps that began over 1 ms late; whoever paces the run counts them
+  long troubled = 0;           ///< steps with trouble flags, other than at an instrument's end
+  std::uint32_t troubles = 0;  ///< their Trouble bits
+  XrayUse xrays;               ///< so far, whether drawn or not
+  bool stood = false;          ///< the driver made it stand still before the last step
+  long overruns = 0;           ///< steps that began over 1 ms late; counted by the pacing loop
 
  private:
   SessionScratch scratch_;
-  int stuck_ = -1;  ///< the tool whose drive is out
+  int stuck_ = -1;  ///< the tool with a failed drive
   Driver* driver_;
 };
 

@@ -1,6 +1,7 @@
 #pragma once
-/// Dose of a run, drawn or not: how many frames were taken in which pose, and what one costs there. A frame's dose is
-/// that of automatic exposure on a coarse grid of rays through the patient at end-diastole, without instruments.
+/// Dose of a run, whether drawn or not: counts the frames in each C-arm pose, and computes the dose of one frame there.
+/// A frame's dose is that of automatic exposure on a coarse grid of rays through the patient at end-diastole, without
+/// instruments.
 #include <optional>
 #include <utility>
 #include <vector>
@@ -11,7 +12,7 @@
 
 namespace ostium::app {
 
-/// Frames so far, pose by pose.
+/// Frames so far, by pose.
 class XrayUse {
  public:
   struct Pose {
@@ -19,7 +20,7 @@ class XrayUse {
     double frames = 0;
   };
   XrayUse() { poses_.reserve(256); }
-  /// After each step; a frame falls on some of them.
+  /// Call after each step; some steps take a frame.
   void add(const CArmInputs& arm, std::uint64_t step, double step_s);
   const std::vector<Pose>& poses() const { return poses_; }
 
@@ -27,28 +28,28 @@ class XrayUse {
   std::vector<Pose> poses_;
 };
 
-inline constexpr double dose_frames_per_s = 15;  ///< until the operator can choose
+inline constexpr double dose_frames_per_s = 15;  ///< fixed, as the operator cannot choose it yet
 
-/// Of one vessel; may be used by several threads.
+/// For one vessel; may be used by several threads.
 class Dosimeter {
  public:
   explicit Dosimeter(const Vessel& vessel);  ///< takes some seconds
   explicit Dosimeter(fluoro::Scene patient) : scene_(std::move(patient)) {}
-  /// Of a frame; nothing: a pose that cannot be reached, which costs nothing.
+  /// Exposure of a frame; empty if the pose cannot be reached, which costs no dose.
   std::optional<fluoro::Exposure> exposure(fluoro::Imager& imager, const CArmInputs& arm) const;
-  /// Adds up.
+  /// Adds the dose to the record.
   void measure(const XrayUse& use, data::RunRecord& record) const;
 
  private:
   fluoro::Scene scene_;
 };
 
-/// What a run that goes on has used so far, for whoever watches it. What a frame costs in a pose is worked out once.
+/// X-ray use of a run in progress, for display. The dose of a frame is computed once per pose.
 class RunningDose {
  public:
-  /// `patient`: without instruments and contrast; whoever shows the run has it at hand.
+  /// `patient`: scene without instruments and contrast, which the display already has.
   explicit RunningDose(fluoro::Scene patient);
-  /// `use` of the same run at each call.
+  /// Pass the `use` of the same run at each call.
   fluoro::DoseMeter of(const XrayUse& use, const CArmState& arm);
 
  private:

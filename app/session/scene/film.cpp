@@ -8,8 +8,8 @@ namespace ostium::app {
 struct Film::Parts {
   explicit Parts(const FilmOptions& o) : options(o), imager({}, fluoro::make_scanline_renderer()) {}
   FilmOptions options;
-  std::unique_ptr<PatientScene> patient;      ///< with the blood and the contrast of the session,
-  std::unique_ptr<const XrayPatient> filled;  ///< or a tree full of contrast, whatever was injected,
+  std::unique_ptr<PatientScene> patient;      ///< with the session's blood and contrast,
+  std::unique_ptr<const XrayPatient> filled;  ///< or with a tree full of contrast, whatever was injected,
   fluoro::Scene mesh;                         ///< or a mesh
   fluoro::Imager imager;
   fluoro::FluoroscopeState state;
@@ -73,7 +73,7 @@ const fluoro::Picture& Film::frame(const SessionModel& model, const SessionState
                                     .seed = o.seed};
   const fluoro::TickReport report = tick(p.imager, in, p.state, p.scratch);
   if (report.xray_on) p.report = report.frame;
-  if (!p.state.runs.empty()) p.state.runs.back().frames.clear();  // whoever films keeps what they want
+  if (!p.state.runs.empty()) p.state.runs.back().frames.clear();  // callers keep the frames they want
   p.picture = p.state.live;
   if (p.picture.grey.empty()) {
     p.picture.width = p.picture.height = o.pixels;

@@ -22,7 +22,7 @@ void Monitor::listen(const SessionModel& model, const SessionState& state, const
   const auto every = static_cast<std::uint64_t>(std::llround(1 / (samples_per_s * model.step_s())));
   if (!model.has_patient() || state.rods.step % every != 0) return;
   const auto leads = ecg(state.blood.heart, inputs.rate_1_min, model.physiology.ischaemia, state.blood.ischaemia);
-  // Contrast in the line, or a thick wire, and no trace is left.
+  // With contrast in the line, or a thick wire, there is no pressure trace.
   const bool damped_out = inputs.delivery.injection_m3_s > 0 || state.coupling.thick_wire;
   add(II, leads[static_cast<int>(vascular::Lead::II)]), add(V2, leads[static_cast<int>(vascular::Lead::V2)]);
   add(guide, state.coupling.guide >= 0 && !damped_out ? state.blood.line.reading_Pa / mmHg : 0);

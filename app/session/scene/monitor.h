@@ -1,11 +1,11 @@
 #pragma once
-/// What a case's monitor shows beside the X-rays: ECG, the guide's pressure, the gauge, of the last seconds.
+/// The monitor of a case beside the X-rays: ECG, guide pressure and gauge over the last seconds.
 #include "app/session/model/session.h"
 #include "fluoro/display/overlay.h"
 
 namespace ostium::app {
 
-inline constexpr double monitor_s = 5;  ///< that strips show
+inline constexpr double monitor_s = 5;  ///< time span of the strips
 
 struct Monitor {
   static constexpr double samples_per_s = 250;
@@ -14,7 +14,7 @@ struct Monitor {
   fluoro::Strip guide{"P", "mmHg", samples_per_s, {}, 0, 150};
   fluoro::Strip gauge{"gauge", "atm", samples_per_s, {}, -2, 22};
 
-  /// After every step; of a mesh there is nothing to hear.
+  /// Call after every step; does nothing for a mesh.
   void listen(const SessionModel& model, const SessionState& state, const SessionInputs& inputs);
 };
 

@@ -41,11 +41,11 @@ fluoro::Material material_of(data::OpaqueMaterial material) {
   return fluoro::Material::polymer;
 }
 
-/// Of fluoro's barium-filled polymer, the share of volume that is barium sulphate: a quarter of 1330 kg/m3, at 4500.
+/// Volume share of barium sulphate in fluoro's barium-filled polymer: a quarter of the mass of 1330 kg/m3, at 4500.
 constexpr double barium_share = 0.25 * 1330 / 4500;
 
-/// Material of a cross-section thickness times diameter, spread over the ring between lumen and surface, as braids and
-/// fillings are; of a wire it is a core in the middle. More than there is room for is denser than solid.
+/// The material's cross-section (thickness times diameter), spread over the ring between lumen and surface, as braids
+/// and fillings are; in a wire it is a central core. If there is more material than room, it is denser than solid.
 fluoro::OpaqueSection section(const data::Instrument& instrument, double from_m, double to_m,
                               data::OpaqueMaterial material, double thickness_m) {
   const double outer = 0.5 * instrument.outer_diameter_m, inner = 0.5 * instrument.inner_diameter_m;
@@ -56,7 +56,7 @@ fluoro::OpaqueSection section(const data::Instrument& instrument, double from_m,
   return {from_m, to_m, material_of(material), radius, inner, ring > 0 ? area / ring : 0};
 }
 
-/// What a guide has in its bore: of the line's cells (contrast.h), those of the catheter.
+/// Sets the contrast in a guide's bore from the line's cells (contrast.h), those of the catheter.
 void fill_bore(const SessionModel& model, const SessionState& state, const core::Rod& rod, fluoro::Shaft& shaft) {
   const vascular::Line line = line_of(model.tools[static_cast<std::size_t>(state.coupling.guide)].instrument);
   const double cell_m3 = line.dead_m3 / vascular::line_cells, area = units::pi * line.bore_m * line.bore_m;
@@ -69,7 +69,8 @@ void fill_bore(const SessionModel& model, const SessionState& state, const core:
   }
 }
 
-/// Once its balloon is filled, struts are drawn where they are; the catalogue's opaque stretch is of the crimped stent.
+/// Whether the stent must be drawn strut by strut, because its balloon was filled; the catalogue's opaque stretch is
+/// for the crimped stent.
 bool has_left_its_stent(const SessionModel& model, const SessionState& state, std::size_t tool) {
   const int balloon = model.balloon_of[tool];
   if (balloon < 0) return false;
@@ -112,7 +113,7 @@ void add_treatment(const SessionModel& model, const SessionState& state, fluoro:
   }
   if (b.balloon >= 0 && b.branch >= 0)
     add_balloon(model.treatment.balloons[static_cast<std::size_t>(b.balloon)], state.treatment.balloon,
-                path_of(b.branch), b.middle_m, c.map, phase, depth, false, scene);  // between the markers of its shaft
+                path_of(b.branch), b.middle_m, c.map, phase, depth, false, scene);  // its shaft draws the markers
   add_pools(state.treatment.injury, c.map, state.blood.radius_m, phase, depth, scene);
 }
 
@@ -188,7 +189,7 @@ void XrayPatient::fill(Fill which) {
     triangles.push_back(mine);
     for (std::size_t k = 0; k < 3; ++k) edges[{mine[k], mine[(k + 1) % 3]}] = 1;
   }
-  // Rims: edges without a partner, strung to loops; each gets a lid about a vertex of its own.
+  // Rims: edges without a partner, joined into loops; each gets a lid around a new vertex.
   std::multimap<int, int> next;
   for (const auto& [edge, one] : edges)
     if (!edges.count({edge.second, edge.first})) next.emplace(edge.first, edge.second);
@@ -229,7 +230,7 @@ fluoro::Scene XrayPatient::at(double phase, double breath) const {
                     .tissue = fluoro::tissue::blood,
                     .within = fluoro::tissue::blood,
                     .contrast = {}};
-  // Of one concentration, so depths may be counted from anywhere, as long as it is the same for all.
+  // The concentration is uniform, so depths may be counted from any common origin.
   body.contrast.iodine_kg_m3 = Eigen::VectorXf::Constant(body.p_P.cols(), iodine_kg_m3);
   body.contrast.p_PC = body.p_P.col(0).replicate(1, body.p_P.cols());
   scene.moving.push_back(std::move(body));

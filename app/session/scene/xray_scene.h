@@ -1,5 +1,5 @@
 #pragma once
-/// What an X-ray meets of a patient and of a session: the scene that fluoro takes a picture of.
+/// The X-ray scene of a patient or a session, as fluoro draws it.
 #include <functional>
 #include <vector>
 
@@ -11,27 +11,26 @@ namespace ostium::app {
 
 enum class Fill { none, left, right };  ///< a coronary tree full of undiluted contrast, 350 mg of iodine per mL
 
-/// What treatment adds to a case's scene: filled balloons, stents, contrast beside the lumen. The shafts and their
-/// markers are the rods' own (shafts_of).
+/// What treatment adds to a case's scene: filled balloons, stents, contrast outside the lumen. Shafts and their markers
+/// come from the rods (shafts_of).
 void add_treatment(const SessionModel& model, const SessionState& state, fluoro::Scene& scene);
-/// (#cells) radius of what lies in each: shafts and balloon.
+/// (#cells) radius of the instruments in each: shafts and balloon.
 std::vector<double> occupied_m(const SessionModel& model, const SessionState& state);
 
-/// A rod's points as fluoro wants them, with what the catalogue says is opaque in it. Empty if less than two nodes are
-/// in the body.
+/// A rod's points and its radiopaque sections from the catalogue. Empty if fewer than two nodes are in the body.
 std::vector<fluoro::Shaft> shafts_of(const SessionModel& model, const SessionState& state);
 
-/// The patient's chest; makes meshes once, then a scene for any phase. Takes some seconds to make.
+/// The patient's chest. Builds the meshes once (some seconds), then a scene for any phase.
 class XrayPatient {
  public:
-  /// `breathes`: what the breath moves is not among what stands still.
+  /// `breathes`: bodies moved by breath are not treated as fixed.
   XrayPatient(std::shared_ptr<const vascular::Patient> patient, Fill fill, bool breathes = false);
   fluoro::Scene at(double phase, double breath_depth = 0) const;
 
  private:
   struct Filled {
-    std::vector<int> vertices;           ///< of the lumen
-    std::vector<std::vector<int>> rims;  ///< where it is cut off: of `vertices`, closed by a lid
+    std::vector<int> vertices;           ///< vertices of the lumen
+    std::vector<std::vector<int>> rims;  ///< where it is cut off; indices into `vertices`, each closed by a lid
     std::shared_ptr<const fluoro::Triangles> triangles;
   };
   void fill(Fill which);
@@ -43,15 +42,15 @@ class XrayPatient {
   Filled filled_;
 };
 
-/// A case without a session: a scene for each phase of its heart.
+/// A case without a session: a scene for each cardiac phase.
 struct CaseScene {
   std::function<fluoro::Scene(double phase)> at;
-  std::function<double(double phase, double seconds)> later;  ///< the phase after a while at the case's heart rate
+  std::function<double(double phase, double seconds)> later;  ///< the phase after some time at the case's heart rate
 };
-/// By name; `middle`: of the heart. Throws LoadError.
+/// By name; `middle` is set to the heart's. Throws LoadError.
 CaseScene scene_of_case(const std::string& name, Fill fill, Eigen::Vector3d& middle);
 
-/// A mesh of anyone: it lies in a block of soft tissue.
+/// Any mesh, embedded in a block of soft tissue.
 fluoro::Scene scene_of_mesh(const Vessel& vessel);
 
 }  // namespace ostium::app

@@ -8,7 +8,7 @@ namespace ostium::app {
 
 namespace {
 
-/// Calls take(cell, vertex) for each vertex of the lumen and each of the cells that it follows.
+/// Calls take(cell, vertex) for each vertex of the lumen and each cell whose radius it follows.
 template <class Take>
 void for_each_follower(const vascular::LumenMap& map, Take&& take) {
   for (std::size_t v = 0; v < map.sources.size(); ++v) {

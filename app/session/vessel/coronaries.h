@@ -7,14 +7,14 @@ namespace ostium::app {
 
 struct Coronaries {
   std::shared_ptr<const vascular::Patient> patient;
-  vascular::PhysiologyModel physiology;  ///< of the mean person; a session has its own, by its seed
+  vascular::PhysiologyModel physiology;  ///< of the mean person; a session has its own, by seed
   vascular::LumenMap map;
   std::unique_ptr<const vascular::WallShape> shape;
   vascular::TreatmentModel treatment;  ///< without devices
   std::vector<Plan> lesions;           ///< in the case's order, without devices
-  /// Of the first lesion's artery: cells behind its ostium and at the landmark that TIMI frames are counted to, or -1.
+  /// In the first lesion's artery: the cell beyond its ostium and the TIMI landmark, or -1.
   int ostium_cell = -1, landmark_cell = -1;
-  vascular::PhysiologyState at_rest;  ///< a circulation that has beaten until pressure and flow repeat
+  vascular::PhysiologyState at_rest;  ///< the circulation once pressure and flow repeat from beat to beat
   /// Vertices of the lumen that follow a cell's radius: vertices[first_vertex[c], first_vertex[c + 1]).
   std::vector<int> first_vertex, vertices;
 

@@ -57,7 +57,7 @@ void OpenedWall::set(const std::vector<double>& wall_m) {
 Eigen::Vector3d wall_vertex(const Vessel& vessel, const std::vector<double>& wall_m, int vertex, double frame,
                             double breath) {
   if (!vessel.coronaries || static_cast<std::size_t>(vertex) >= vessel.coronaries->map.sources.size())
-    return vertex_at(vessel.wall, vertex, frame, breath);  // of a mesh, or of the ventricle
+    return vertex_at(vessel.wall, vertex, frame, breath);  // a mesh or the ventricle
   const Coronaries& c = *vessel.coronaries;
   const vascular::VertexSource& from = c.map.sources[static_cast<std::size_t>(vertex)].first;
   const auto untouched = [&](int cell) { return wall_m[cell] == c.tree().cells[cell].diseased_m; };

@@ -1,26 +1,26 @@
 #pragma once
-/// The wall that a session's instruments meet, as balloons, stents and drugs have left it.
+/// The wall that instruments meet in a session, as changed by balloons, stents and drugs.
 ///
-/// SessionState::wall_m says which radius contact's wall has in each cell; the wall is a function of that alone. It
-/// follows the lumen in small moves, a cell at a time: each costs its vertices in all frames of the beat, so a vessel
-/// that opens is spread over many steps, and one that stays as it is costs nothing.
+/// The wall is a function of SessionState::wall_m alone, the radius of contact's wall in each cell. It follows the
+/// lumen in small moves, one cell at a time, because each move updates the cell's vertices in all frames of the beat:
+/// opening a vessel is spread over many steps, and an unchanged one costs nothing.
 #include "app/session/vessel/vessel.h"
 
 namespace ostium::app {
 
-inline constexpr double wall_follows_m = 0.02e-3;   ///< what the lumen may be ahead by, where there is plaque,
-inline constexpr double wall_follows_share = 0.03;  ///< and elsewhere, as a share of the radius
-inline constexpr int wall_cells_a_step = 2;         ///< most that move in a step
+inline constexpr double wall_follows_m = 0.02e-3;   ///< allowed lag behind the lumen where there is plaque,
+inline constexpr double wall_follows_share = 0.03;  ///< and elsewhere, relative to the radius
+inline constexpr int wall_cells_a_step = 2;         ///< cells moved per step, at most
 
-/// Lets contact's radii follow those of the lumen, from `cursor` on, which it moves. All (#cells).
+/// Makes contact's radii follow the lumen's, starting at `cursor`, which it advances. All (#cells).
 void follow_lumen(const vascular::FlowTree& tree, const std::vector<double>& radius_m, int& cursor,
                   std::vector<double>& wall_m);
 
 class OpenedWall {
  public:
-  /// Keeps references; `surface` is a copy of the vessel's own, and is changed.
+  /// Keeps references; `surface` is a copy of the vessel's own, and is modified.
   OpenedWall(const Vessel& vessel, core::Surface& surface);
-  /// Makes the surface that of these radii.
+  /// Updates the surface to these radii.
   void set(const std::vector<double>& wall_m);
 
  private:
@@ -30,8 +30,8 @@ class OpenedWall {
   std::vector<int> changed_;
 };
 
-/// A vertex of that wall in a frame of the beat and a depth of breath, for those who judge: as contact has it, in
-/// double precision.
+/// A vertex of that wall in a frame of the beat and a depth of breath, as contact has it but in double precision, for
+/// penetration checks.
 Eigen::Vector3d wall_vertex(const Vessel& vessel, const std::vector<double>& wall_m, int vertex, double frame,
                             double breath);
 

@@ -17,12 +17,12 @@ using Eigen::Vector3d;
 
 namespace {
 
-constexpr double folded_share = 0.05;  // of crossing pairs, to triangles; untidy meshes of real people have 0.002
+constexpr double folded_share = 0.05;  // crossing pairs per triangle; real patients' untidy meshes have 0.002
 
 /// Patient frame, m.
 const Vector3d in_the_ascending_aorta(-0.025, 0.014, 0.0155);
 
-/// What an operator calls places of the aorta.
+/// The operator's names for places of the aorta.
 std::vector<std::pair<std::string, Vector3d>> places_of(const vascular::Patient& patient) {
   const vascular::Landmarks& marks = patient.anatomy.landmarks;
   std::vector<std::pair<std::string, Vector3d>> places;
@@ -47,7 +47,7 @@ std::vector<std::pair<std::string, Vector3d>> places_of(const vascular::Patient&
   return places;
 }
 
-/// The tree's frames with the ventricle as a branch of the aorta, so that a tip in it has a place.
+/// The tree's frames with the ventricle added as a branch of the aorta, so that a tip in it can be located.
 std::vector<vascular::SphereTree> with_ventricle(std::vector<vascular::SphereTree> frames,
                                                  const vascular::Ventricle& ventricle,
                                                  const vascular::Landmarks& marks) {
@@ -56,7 +56,7 @@ std::vector<vascular::SphereTree> with_ventricle(std::vector<vascular::SphereTre
     vascular::TreeBranch branch{
         .name = "left ventricle", .parent = -1, .parent_sphere = -1, .spheres = ventricle.spheres};
     for (std::size_t k = 0; k < branch.spheres.size(); ++k) {
-      // None reaches up through the valve, where a tip is in a sinus.
+      // No sphere reaches up through the valve, where a tip is in a sinus.
       vascular::TreeSphere& sphere = branch.spheres[k];
       const double below_m = (marks.p_annulus - ventricle.spheres[k].p).dot(marks.root_axis);
       sphere.p = ventricle.centres[f][k], sphere.radius_m = std::clamp(below_m - 1e-3, 0.5e-3, sphere.radius_m);
@@ -73,7 +73,7 @@ std::vector<vascular::SphereTree> with_ventricle(std::vector<vascular::SphereTre
   return frames;
 }
 
-/// The same for how far the tree's spheres are displaced at the top of a breath.
+/// The same for the displacement of the tree's spheres at full inspiration.
 std::vector<std::vector<Vector3d>> with_ventricle(std::vector<std::vector<Vector3d>> breath,
                                                   const vascular::Ventricle& ventricle,
                                                   const vascular::Landmarks& marks) {
@@ -84,14 +84,14 @@ std::vector<std::vector<Vector3d>> with_ventricle(std::vector<std::vector<Vector
   return breath;
 }
 
-/// As opened_wall.h changes it.
+/// The wall before opened_wall.h changes it.
 core::SurfaceDescription untreated_wall(const Coronaries& coronaries) {
   std::vector<double> radii;
   for (const vascular::FlowCell& cell : coronaries.tree().cells) radii.push_back(cell.diseased_m);
   return coronaries.shape->wall(radii);
 }
 
-/// Of the box around some points.
+/// Middle of the bounding box.
 Vector3d middle(const std::vector<Vector3d>& points) {
   Vector3d low = points.front(), high = low;
   for (const Vector3d& p : points) low = low.cwiseMin(p), high = high.cwiseMax(p);

@@ -20,7 +20,7 @@ VesselIndex::VesselIndex(std::vector<vascular::SphereTree> frames, const Vector3
       node.branch = static_cast<int>(b), node.in_branch = static_cast<int>(s);
       if (all[b].parent < 0) continue;
       const vascular::TreeSphere& from = all[static_cast<std::size_t>(all[b].parent)].spheres[all[b].parent_sphere];
-      // What goes on in its parent's line (LAD after LM) leaves at once.
+      // A branch that continues its parent's line (LAD after LM) is outside the parent at once.
       node.inside_parent = s + 1 < all[b].spheres.size() && (s == 0 || nodes_[nodes_.size() - 2].inside_parent) &&
                            (all[b].spheres[s].p - from.p).norm() < from.radius_m;
     }
@@ -35,7 +35,7 @@ VesselIndex::VesselIndex(std::vector<vascular::SphereTree> frames, const Vector3
       join(offset_[b] + static_cast<int>(s) - 1, offset_[b] + static_cast<int>(s));
     if (all[b].parent >= 0) join(offset_[b], offset_[static_cast<std::size_t>(all[b].parent)] + all[b].parent_sphere);
   }
-  // Depth first from the access; a root without way to it stays at infinity and is beyond nothing.
+  // Depth first from the access; a root that is not connected stays at infinity and beyond nothing.
   for (Node& node : nodes_) node.from_access_m = std::numeric_limits<double>::infinity(), node.first = node.last = -1;
   struct Visit {
     int node, from;

@@ -60,7 +60,7 @@ vascular::Tube read_tube(const JsonObject& object, std::size_t before) {
 
 vascular::NamedBranch read_branch(const JsonObject& object, const std::vector<vascular::Tube>& tubes) {
   vascular::NamedBranch branch{.name = object.text("name"), .tube = index(object, "tube", 0, tubes.size())};
-  // Written with five digits: a branch may seem to end behind its tube.
+  // Files have five digits, so rounding may put a branch's end beyond its tube's.
   const double length = tubes[static_cast<std::size_t>(branch.tube)].length_m();
   branch.from_m = mm * object.not_negative("from_mm");
   branch.to_m = std::min(mm * object.not_negative("to_mm"), length);

@@ -13,61 +13,60 @@ struct CaseCard {
   std::string history, ecg, planned_access;
 };
 
-/// Someone's own vessels, as `ostium import` wrote them.
+/// A patient's own vessels, as `ostium import` wrote them.
 struct ImportedVessels {
   vascular::Anatomy anatomy;
   vascular::Mesh lumen;  ///< patient frame, end-diastole
-  /// Its vertices through one beat as they were given, beat_frames of them, the first `lumen`'s; empty: they were not.
+  /// The lumen's vertices through one beat as given: beat_frames of them, the first being `lumen`'s; empty if none were
+  /// given.
   std::vector<std::vector<Eigen::Vector3d>> frames;
 };
 
-/// The lumen of someone's vessels, and its frames, from meshes of the same triangles at even spaces of one beat, at
-/// least four.
+/// Sets the lumen and its frames from meshes with the same triangles, evenly spaced over one beat; at least four.
 void set_frames(std::vector<vascular::Mesh> frames, ImportedVessels& vessels);
 
 struct Case {
   std::string name;  ///< the file's name without .json
   std::string title;
   CaseCard card;
-  vascular::AnatomyParameters anatomy;              ///< of a built anatomy
-  std::shared_ptr<const ImportedVessels> imported;  ///< or these; null: the anatomy is built
-  std::uint64_t seed = 0;                           ///< of the person; 0: the mean
-  double rate_1_min = 70;                           ///< heart beats
+  vascular::AnatomyParameters anatomy;              ///< of a generated anatomy
+  std::shared_ptr<const ImportedVessels> imported;  ///< or an imported one; null: the anatomy is generated
+  std::uint64_t seed = 0;                           ///< of the person; 0: the population mean
+  double rate_1_min = 70;                           ///< heart rate
   std::vector<vascular::Lesion> lesions;
 };
 
-/// As files say them, in Access' order.
+/// Names as files use them, in the order of Access.
 const std::vector<std::string>& access_names();
 
-/// Throws LoadError with file, line, key, value found and what was expected. The anatomy is built for that: a lesion
-/// that does not fit its branch is refused with what exists.
+/// Throws LoadError with file, line, key, value found and what was expected. Generates the anatomy to check the
+/// lesions: one that does not fit its branch is refused, and the message lists the branches.
 Case read_case(const std::string& file, const std::string& text);
 Case load_case(const std::string& file);
 
-/// All of data/cases; with those that were imported under a name (`imported_folder`).
+/// All cases of data/cases and those imported under a name (`imported_folder`).
 std::vector<Case> load_cases();
 
-/// By name; or by a path: a case file, or an imported case's folder. Throws LoadError, for a name that is none with
-/// those that are.
+/// By name, or by path: a case file or an imported case's folder. Throws LoadError; for an unknown name it lists the
+/// known ones.
 Case find_case(const std::string& name);
-/// Its file, found in the same way.
+/// The path of the case's file; `name` as for `find_case`.
 std::string case_file(const std::string& name);
 
-/// Where imported cases without a path go: $OSTIUM_CASES, else $XDG_DATA_HOME/ostium/cases, else
+/// Where cases imported without a path go: $OSTIUM_CASES, else $XDG_DATA_HOME/ostium/cases, else
 /// ~/.local/share/ostium/cases.
 std::string imported_folder();
 
-/// Another person with the same disease; 0: the mean. A lesion that would reach beyond an artery that is shorter in
-/// them lies at its end.
+/// Another person with the same disease; seed 0: the population mean. If that person's artery is too short for a
+/// lesion, the lesion is put at its end.
 Case with_person(const Case& c, std::uint64_t seed);
 
-/// The vessels, beating, with the case's lesions: built, or as they were imported. Every command makes its patient
-/// here.
+/// The beating vessels with the case's lesions, generated or imported. Every command makes its patient with this.
 vascular::Patient patient_of(const Case& c);
 /// The vessels at rest, without lesions.
 vascular::Anatomy anatomy_of(const Case& c);
 
-/// A table's line, and everything as JSON (data/schemas/cases.schema.json).
+/// A table's heading and line, and everything as JSON (data/schemas/cases.schema.json).
 std::string case_heading();
 std::string case_line(const Case& c);
 std::string case_details(const Case& c);

@@ -1,6 +1,6 @@
 #pragma once
-/// The keys of a case file, object by object: what the reader accepts, and what it says of each. The schema
-/// (data/schemas/case.schema.json) is made of them.
+/// The keys of a case file, object by object: what the reader accepts, and how each is described. The schema
+/// (data/schemas/case.schema.json) is generated from them.
 #include "data/catalogue/case/case.h"
 #include "data/formats/json_object.h"
 

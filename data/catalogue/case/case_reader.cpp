@@ -52,7 +52,7 @@ vascular::Lesion read_lesion(const JsonObject& entry, const vascular::Anatomy& a
   return lesion;
 }
 
-/// All files lie beside the case's.
+/// All of its files lie beside the case's file.
 void read_imported(const JsonObject& imported, const fs::path& folder, Case& c) {
   const auto file = [&](const std::string& key, const std::string& name) {
     if (name.empty() || name != fs::path(name).filename().string()) imported.refuse(key);
@@ -101,7 +101,7 @@ Case read(const JsonValue& file) {
   return c;
 }
 
-/// An imported case's folder has its name.
+/// An imported case's file has the name of its folder.
 fs::path case_file_in(const fs::path& folder) {
   const fs::path named = folder.has_filename() ? folder : folder.parent_path();
   return folder / (fs::absolute(named).filename().string() + ".json");

@@ -17,7 +17,7 @@ namespace {
 
 constexpr int margin = 20, longest = 900;  // pixels
 
-/// What is to the right, upwards and towards the eye.
+/// The mesh axes that point right, up and towards the viewer.
 struct View {
   int right, up, towards;
   double right_sign;
@@ -56,12 +56,12 @@ class Drawer {
     for (std::size_t v = 0; v < std::size(views); ++v) draw(v);
   }
 
-  /// x, y in pixels, and towards the eye.
+  /// x, y in pixels, and the depth towards the viewer.
   Eigen::Vector3d seen(std::size_t v, const Eigen::Vector3d& p) const {
     const View& view = views[v];
     const double right =
         view.right_sign > 0 ? p[view.right] - box_.min()[view.right] : box_.max()[view.right] - p[view.right];
-    // From below, the front is up: as a chest lies in a scanner.
+    // Seen from below, with the front up, as in an axial CT slice.
     const double towards = v == 2 ? -p[view.towards] : p[view.towards];
     return {left_[v] + scale_ * right, margin + scale_ * (box_.max()[view.up] - p[view.up]), towards};
   }

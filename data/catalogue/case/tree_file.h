@@ -7,7 +7,7 @@
 
 namespace ostium::data {
 
-/// By the name's ending: .json or .vtp. Throws LoadError if it is another one or the file cannot be written.
+/// Format by the name's ending: .json or .vtp. Throws LoadError for any other ending, or if the file cannot be written.
 void write_tree(const std::string& file, const vascular::SphereTree& tree);
 
 /// .json only. Throws LoadError with file, line and what was expected.
@@ -15,8 +15,8 @@ vascular::SphereTree load_tree(const std::string& file);
 vascular::SphereTree read_tree(const std::string& file, const std::string& text);
 
 std::string tree_to_json(const vascular::SphereTree& tree);
-/// A polyline a branch, point data "MaximumInscribedSphereRadius" (as VMTK has it), cell data "BranchId", "ParentId";
-/// the names stand in field data "BranchNames". A branch's line begins at its parent's sphere.
+/// One polyline per branch, with point data "MaximumInscribedSphereRadius" (VMTK's name) and cell data "BranchId",
+/// "ParentId"; the names are in field data "BranchNames". A branch's line begins at its parent's sphere.
 std::string tree_to_vtp(const vascular::SphereTree& tree);
 
 }  // namespace ostium::data

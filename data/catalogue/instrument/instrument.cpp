@@ -58,7 +58,7 @@ Instrument with_tip_shape(const Instrument& wire, const std::vector<ShapePiece>&
   if (!(length <= stretch + rounding_m))
     throw std::invalid_argument(fmt::format("{}: the tip's shape is {:g} mm long; only {:g} mm can be shaped",
                                             wire.name, length * 1e3, stretch * 1e3));
-  std::vector<ShapePiece> whole = pieces;  // straight behind what is asked for, whatever was there before
+  std::vector<ShapePiece> whole = pieces;  // straight proximal to the new shape, whatever was there before
   if (stretch - length > rounding_m) whole.push_back({.length_m = stretch - length});
   Instrument shaped = wire;
   shaped.sections = bent(wire.sections, whole);

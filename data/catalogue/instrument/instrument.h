@@ -1,8 +1,8 @@
 #pragma once
-/// An instrument as the catalogue describes it: what it is, how stiff it is where, its shape at rest, what an X-ray
-/// shows of it, and what fits into what. SI; lengths are measured from the distal tip.
+/// An instrument of the catalogue: kind, stiffness along its length, shape at rest, radiopacity, and what fits into
+/// what. SI; lengths are measured from the distal tip.
 ///
-/// Files: one an instrument, `data/instruments/NAME.json` (schema ostium-instrument/1); read by instrument_reader.h.
+/// One file per instrument, `data/instruments/NAME.json` (schema ostium-instrument/1); read by instrument_reader.h.
 #include <optional>
 #include <string>
 #include <vector>
@@ -15,19 +15,19 @@
 namespace ostium::data {
 
 enum class InstrumentKind { wire, guide_catheter, diagnostic_catheter, sheath, balloon_shaft, stent_shaft };
-/// As files name them, in the order of the enumeration: "guide_catheter".
+/// Names used in files, in the order of the enumeration: "guide_catheter".
 const std::vector<std::string>& instrument_kinds();
 std::string words_for(InstrumentKind kind);  ///< "guide catheter"
 
-/// What absorbs X-rays.
+/// The material that absorbs X-rays.
 enum class OpaqueMaterial { polymer, steel, nitinol, cobalt_chromium, platinum, tungsten, gold, barium_sulphate };
 const std::vector<std::string>& opaque_materials();
 
-/// A stretch as an X-ray sees it.
+/// A stretch of uniform radiopacity.
 struct OpaqueStretch {
   double from_tip_m = 0, to_tip_m = 0;
   OpaqueMaterial material = OpaqueMaterial::polymer;
-  /// The solid material's cross-section divided by the outer diameter: what a ray across meets on average; >= 0.
+  /// Cross-section of the solid material divided by the outer diameter: the mean thickness a ray across it meets; >= 0.
   double thickness_m = 0;
 };
 
@@ -36,39 +36,39 @@ struct Marker {
   double from_tip_m = 0;  ///< its distal edge
   double length_m = 0;
   OpaqueMaterial material = OpaqueMaterial::platinum;
-  double thickness_m = 0;  ///< as OpaqueStretch has it, of the band alone
+  double thickness_m = 0;  ///< as in OpaqueStretch, of the band alone
 };
 
 /// How a balloon or stent shaft runs over its wire.
 struct WireLumen {
   bool rapid_exchange = true;  ///< false: over the wire
-  double length_m = 0;         ///< from the tip to the port where the wire leaves; the whole length over the wire
+  double length_m = 0;         ///< from the tip to the port where the wire leaves; over the wire: the whole length
 };
 
 /// The stretch of a wire that the operator bends before use.
 struct ShapeableTip {
   double length_m = 0;                    ///< from the tip
-  std::vector<ShapePiece> default_shape;  ///< as it comes here; not longer than length_m
+  std::vector<ShapePiece> default_shape;  ///< as delivered; not longer than length_m
 };
 
-/// What a balloon or stent shaft carries, folded about its tip between two markers.
+/// The balloon of a balloon or stent shaft, folded around its distal end between two markers.
 struct CarriedBalloon {
   double nominal_m = 0;   ///< diameter at the nominal pressure
-  double length_m = 0;    ///< between the markers' middles
+  double length_m = 0;    ///< between the centres of the markers
   bool compliant = true;  ///< semi-compliant; false: non-compliant
   double nominal_Pa = 0, rated_Pa = 0;
   vascular::BalloonDesign design;
-  bool own_folds = false;  ///< `design` says how thick it is folded; otherwise a bare one is as its sections are
+  bool own_folds = false;  ///< `design` gives the folded thickness; otherwise, without a stent, the shaft's sections do
 };
 
-/// And the stent that is crimped on it.
+/// The stent crimped on the balloon.
 struct CarriedStent {
-  double nominal_m = 0;  ///< diameter, open
+  double nominal_m = 0;  ///< nominal diameter, expanded
   double length_m = 0;   ///< crimped
   vascular::StentDesign design;
 };
 
-/// Where a group of numbers is from.
+/// The source of a group of numbers.
 struct Source {
   std::string of;        ///< "size", "sections", "sections.list[2]"
   std::string citation;  ///< a publication or standard, or "estimate: " and the reasoning
@@ -77,27 +77,27 @@ struct Source {
 
 struct Instrument {
   std::string name;   ///< id, the file's name without .json
-  std::string title;  ///< for people
+  std::string title;  ///< name to show
   InstrumentKind kind = InstrumentKind::wire;
   double outer_diameter_m = 0;          ///< the largest anywhere
   double inner_diameter_m = 0;          ///< of the lumen that a wire or catheter goes through; 0 for a wire
   double length_m = 0;                  ///< usable length
-  std::vector<core::Section> sections;  ///< with the shape at rest, the tip's default shape included
-  core::Relaxation relaxation;          ///< of all of them
-  std::vector<ShapePiece> shape;        ///< of a preformed catheter or J wire; empty where straight
-  double width_m = 0;                   ///< of that shape, from the shaft to the tip; 0: not said
+  std::vector<core::Section> sections;  ///< with the shape at rest, including the tip's default shape
+  core::Relaxation relaxation;          ///< of all sections
+  std::vector<ShapePiece> shape;        ///< of a preformed catheter or J wire; empty if straight
+  double width_m = 0;                   ///< of that shape, from the shaft to the tip; 0 if not given
   std::vector<OpaqueStretch> opaque;    ///< the whole length, from the tip
   std::vector<Marker> markers;
   std::optional<WireLumen> wire_lumen;        ///< of balloon and stent shafts
   std::optional<CarriedBalloon> balloon;      ///< of balloon and stent shafts
   std::optional<CarriedStent> stent;          ///< of stent shafts
   std::optional<ShapeableTip> shapeable_tip;  ///< of wires
-  double passes_m = 0;                        ///< largest diameter that its lumen lets through; <= inner diameter
-  double needs_m = 0;                         ///< smallest lumen that it goes through; >= outer diameter
-  std::vector<Source> sources;                ///< in the order of the file
+  double passes_m = 0;                        ///< largest diameter that fits through its lumen; <= inner diameter
+  double needs_m = 0;                         ///< smallest lumen that it fits through; >= outer diameter
+  std::vector<Source> sources;                ///< in file order
 };
 
-/// What contrast is given through: a guide or a diagnostic catheter.
+/// Whether contrast can be given through it: a guide or a diagnostic catheter.
 inline bool is_catheter(const Instrument& i) {
   return i.kind == InstrumentKind::guide_catheter || i.kind == InstrumentKind::diagnostic_catheter;
 }
@@ -105,17 +105,17 @@ inline bool is_catheter(const Instrument& i) {
 /// "published" if no source is an estimate, "estimate" if all are, else "mixed".
 std::string source_mark(const Instrument& instrument);
 
-/// What `core` wants to know of it. Elements from base to tip, their sum at most the length (the rest stays behind the
-/// base). Undamped: damping is the caller's. Throws std::invalid_argument as core's `check` does.
+/// The description `core` needs. Elements run from base to tip; their sum is at most the length (the rest stays
+/// proximal to the base). Undamped: the caller sets the damping. Throws std::invalid_argument as core's `check` does.
 core::RodDescription rod_description(const Instrument& instrument, std::vector<double> element_lengths_m);
 
-/// The same wire with its tip bent into `pieces`, which begin at the tip. Throws std::invalid_argument if the tip
+/// The same wire with its tip bent into `pieces`, which start at the tip. Throws std::invalid_argument if the tip
 /// cannot be shaped or the pieces are longer than its shapeable stretch.
 Instrument with_tip_shape(const Instrument& wire, const std::vector<ShapePiece>& pieces);
 
-/// Whether `inner` goes through the lumen of `outer`.
+/// Whether `inner` fits through the lumen of `outer`.
 bool fits_inside(const Instrument& inner, const Instrument& outer);
-/// Throws std::invalid_argument naming both and their diameters if it does not.
+/// Throws std::invalid_argument with both names and diameters if it does not.
 void require_fit(const Instrument& inner, const Instrument& outer);
 
 }  // namespace ostium::data

@@ -1,6 +1,6 @@
 #pragma once
-/// The numbers of a balloon's or stent's `design` block, one row a number: its key, the member that it sets and what it
-/// may be. The reader goes through these rows and the keys are made of them; a number more is one more row.
+/// The numbers of a balloon's or stent's `design` block, one row each: key, member and limits. The reader loops over
+/// these rows and the keys are generated from them, so a new number is one new row.
 #include "data/formats/json_object.h"
 #include "vascular/treatment/balloon_design.h"
 #include "vascular/treatment/stent_design.h"
@@ -11,9 +11,9 @@ template <class Design>
 struct DesignNumber {
   std::string key;
   double Design::*member;
-  double unit;         ///< the member is the file's number times this
+  double unit;         ///< multiplies the file's number to give the member
   double least, most;  ///< of the file's number
-  std::string text;    ///< what a message says of it, before its limits
+  std::string text;    ///< how messages describe it, before its limits
 };
 
 struct StentCount {

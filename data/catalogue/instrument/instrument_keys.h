@@ -1,6 +1,6 @@
 #pragma once
-/// The keys of an instrument file, object by object: what the reader accepts, and what it says of each. The schema
-/// (data/schemas/instrument.schema.json) is made of them.
+/// The keys of an instrument file, object by object: what the reader accepts, and how each is described. The schema
+/// (data/schemas/instrument.schema.json) is generated from them.
 #include <fmt/format.h>
 
 #include <type_traits>
@@ -146,7 +146,7 @@ inline const JsonObjectKeys wire_lumen = {
      {"source", true, source_text, json_type::text()}},
     {{"description", json_text("of balloon and stent shafts, which need it")}}};
 
-/// The keys of a design are the rows of its tables; none must be there, but the source must.
+/// The keys of a design block come from the rows of its tables; all are optional except the source.
 template <class... Tables>
 JsonObjectKeys design_keys(const char* object, const Tables&... tables) {
   JsonObjectKeys out{object, {}};
@@ -199,7 +199,7 @@ inline const JsonObjectKeys clearance = {
      {"source", true, source_text, json_type::text()}},
     {at_least_properties(2)}};
 
-/// All of them, the file's own first.
+/// All of them; the file's own object comes first.
 inline const std::vector<const JsonObjectKeys*> all = {
     &instrument,     &size,        &sections,     &relaxation_branch, &section, &shape,      &piece,
     &shapeable_tip,  &radiopacity, &stretch,      &markers,           &marker,  &wire_lumen, &balloon,

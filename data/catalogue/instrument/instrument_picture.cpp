@@ -39,7 +39,7 @@ struct Colour {
   double red, green, blue;
 };
 
-/// Soft is yellow, stiff is dark blue: logarithmic from 0.2 to 2000 N mm2.
+/// Yellow is soft, dark blue is stiff: logarithmic from 0.2 to 2000 N mm2.
 std::string colour_of(double EI_Nmm2) {
   constexpr Colour ramp[] = {{247, 208, 60}, {240, 130, 60}, {200, 62, 90}, {110, 50, 140}, {20, 25, 90}};
   const double place = std::clamp(std::log10(EI_Nmm2 / 0.2) / 4, 0.0, 1.0) * 4;
@@ -51,12 +51,12 @@ std::string colour_of(double EI_Nmm2) {
 
 double EI_Nmm2(const core::Section& section) { return 0.5e6 * (section.EI1_N_m2 + section.EI2_N_m2); }
 
-/// The distal `shown_m` at rest, node by node from the base, which points down the page, in mm of the instrument.
+/// The distal `shown_m` at rest, as node positions from the base, which points down the page, in mm.
 std::vector<Vector2d> shape_at_rest(const Instrument& instrument, double shown_m) {
   constexpr int elements = 512;
   core::Model model;
   model.rods = {make_rod(rod_description(instrument, std::vector<double>(elements, shown_m / elements)))};
-  // d3 down the page; d1, towards which plane 0 bends, to the right; page x and y are world x and -z.
+  // d3 points down the page and d1, towards which plane 0 bends, to the right; page x and y are world x and -z.
   core::EndState base;
   base.q_W = {0, 1, 0, 0};  // half a turn about x
   const core::RodState rod = make_state_at_rest_shape(model, {base}).rods[0];
@@ -72,7 +72,7 @@ double height(const std::vector<Vector2d>& points) {
   return lowest;
 }
 
-/// Length from the tip that is bent, and a straight piece behind it.
+/// Length from the tip that is bent, plus a straight piece proximal to it.
 double bent_length(const Instrument& instrument) {
   double length = 0;
   for (const core::Section& s : instrument.sections)
@@ -80,7 +80,7 @@ double bent_length(const Instrument& instrument) {
   return length;
 }
 
-/// So much of it that it fills the height of the cell, down to the distal 6 cm.
+/// As much as fills the height of the cell, at least the distal 6 cm.
 double shown_length(const Instrument& instrument) {
   const double height_mm = shape_height / scale(instrument), bent = bent_length(instrument);
   if (bent == 0) return std::min(1e-3 * height_mm, instrument.length_m);
@@ -115,7 +115,7 @@ class Cell {
   /// Thickness on paper: to scale, but never too thin to be seen.
   double thickness(double diameter_m) const { return std::max(1e3 * diameter_m * scale_, 0.45); }
 
-  /// The part between two distances from the tip, m; empty if it is not on the page.
+  /// The part between two distances from the tip, m; empty if it is off the page.
   std::vector<Vector2d> part(double from_tip_m, double to_tip_m) const {
     const int last = static_cast<int>(points_.size()) - 1;
     const auto node = [&](double from_tip) { return last - from_tip * 1e3 / shown_mm_ * last; };
@@ -212,7 +212,7 @@ void draw_instruments(const std::vector<Instrument>& instruments, const std::str
   const int rows = (count + columns - 1) / columns;
   Drawing drawing(2 * margin + std::max(across, 4) * cell_width, heading + rows * cell_height + margin);
   draw_legend(drawing);
-  // Like with like: catalogues show guides together, then diagnostic catheters, wires, shafts.
+  // Grouped as in catalogues: guides, then diagnostic catheters, wires, shafts.
   std::vector<const Instrument*> order;
   const auto rank = [](const Instrument& i) {
     if (i.kind == InstrumentKind::guide_catheter) return 0;

@@ -4,7 +4,6 @@
 
 #include <cmath>
 #include <filesystem>
-#include <numbers>
 #include <stdexcept>
 
 #include "core/base/units.h"
@@ -22,16 +21,16 @@ using units::atm;
 using units::mm, units::Nmm2, units::per_mm, units::degree;
 constexpr double gap_tolerance_mm = 1e-6;
 
-/// The source of `object`, kept under its path; a group must have one, a list's entry may.
+/// Stores the source of `object` under its path. Groups must have one; entries of a list may.
 void keep_source(const JsonObject& object, Instrument& instrument) {
   if (!object.has("source")) return;
   Source source{object.value().path, object.text("source")};
-  // An estimate without a reason is none.
+  // An estimate must give its reason.
   if (source.estimate() && source.citation.size() < std::string("estimate: ").size() + 10) object.refuse("source");
   instrument.sources.push_back(std::move(source));
 }
 
-/// [from, to] of one entry of a list that goes on without gaps from `reached_mm`, which it moves on.
+/// [from, to] of a list entry, which must start at `reached_mm`, the end of the entry before. Advances `reached_mm`.
 std::pair<double, double> next_stretch(const JsonObject& entry, double length_mm, double& reached_mm) {
   const std::vector<double> ends = entry.numbers("from_tip_mm", 2);
   if (std::fabs(ends[0] - reached_mm) > gap_tolerance_mm)
@@ -42,7 +41,7 @@ std::pair<double, double> next_stretch(const JsonObject& entry, double length_mm
   return {ends[0] * mm, ends[1] * mm};
 }
 
-/// A list that `next_stretch` has gone through must have reached the proximal end.
+/// Checks that a list read with `next_stretch` reached the proximal end.
 void require_whole_length(const JsonObject& group, double reached_mm, double length_mm) {
   if (std::fabs(reached_mm - length_mm) > gap_tolerance_mm)
     group["list"].fail(fmt::format("{} ends {} mm from the tip; expected {} mm, size.length_mm", group["list"].path,
@@ -137,7 +136,7 @@ std::vector<ShapePiece> read_pieces(const JsonObject& group, double longest_m) {
   return pieces;
 }
 
-/// The preformed shape, or the default shape of a tip that can be shaped; into the sections too.
+/// The preformed shape, or the default shape of a shapeable tip; also applied to the sections.
 void read_rest_shape(const JsonObject& root, Instrument& instrument) {
   if (root.has("shape")) {
     for (const core::Section& s : instrument.sections)
@@ -251,7 +250,7 @@ void read_balloon(const JsonObject& group, Instrument& instrument) {
   balloon.compliant = group.choice("compliance", {"semi", "non"}) == 0;
   balloon.nominal_Pa = group.positive("nominal_atm") * atm;
   balloon.rated_Pa = within(group, "rated_atm", group.number("nominal_atm"), 30) * atm;
-  // It lies between its markers: who reads its place off them must find it there.
+  // Its length must agree with its markers, since its position is read from them.
   const std::vector<Marker>& bands = instrument.markers;
   if (bands.size() != 2) group.value().fail("balloon lies between two markers; expected markers with two bands");
   const double apart =
@@ -285,7 +284,7 @@ void read_clearance(const JsonObject& group, Instrument& instrument) {
   }
 }
 
-/// Core has limits of its own, on numbers that are of the right sign and still no instrument's.
+/// Core has limits of its own, for numbers of the right sign that no instrument has.
 void require_rod(const JsonObject& root, const Instrument& instrument) {
   try {
     check(rod_description(instrument, equal_elements(instrument.sections, 64)));

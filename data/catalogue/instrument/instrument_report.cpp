@@ -4,7 +4,6 @@
 
 #include <cmath>
 #include <nlohmann/json.hpp>
-#include <numbers>
 
 #include "core/base/units.h"
 
@@ -12,7 +11,7 @@ namespace ostium::data {
 
 namespace {
 
-/// What rounds to zero in four digits prints without a sign.
+/// Prints numbers that round to zero in four digits without a sign.
 double unsigned_zero(double x) { return std::fabs(x) < 5e-5 ? 0.0 : x; }
 
 using units::inch, units::degree;

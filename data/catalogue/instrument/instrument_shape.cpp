@@ -8,7 +8,7 @@ namespace ostium::data {
 
 namespace {
 
-constexpr double shortest_cut_m = 1e-9;  ///< closer ends of section and piece are one
+constexpr double shortest_cut_m = 1e-9;  ///< ends of sections and pieces closer than this count as one
 
 }  // namespace
 

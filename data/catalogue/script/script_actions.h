@@ -1,6 +1,6 @@
 #pragma once
-/// What a step of a script may do, one row each, and which keys that has. What the operator does then stands in
-/// app/session/operator_actions.cpp, which does not compile while an action is missing.
+/// What a step of a script may do, one row each, and its keys. The operator carries actions out in
+/// app/session/operator/operator_actions.cpp, which does not compile while an action is missing.
 #include <initializer_list>
 #include <iterator>
 #include <string>
@@ -26,8 +26,8 @@ enum class ScriptAction {
   drug
 };
 
-/// Every step may have a `label` and be a `detour`; one that may fail has `unless`, `timeout_s`, `otherwise`, `tries`
-/// and `last_resort` too.
+/// Every step may have a `label` and be a `detour`; one that can fail may also have `unless`, `timeout_s`, `otherwise`,
+/// `tries` and `last_resort`.
 struct ScriptActionRow {
   ScriptAction action;
   const char* name;
@@ -52,30 +52,30 @@ inline constexpr ScriptActionRow script_actions[] = {
 
 inline constexpr int action_kinds = static_cast<int>(std::size(script_actions));
 
-/// The row of an action, wherever it stands.
+/// The row of an action.
 constexpr const ScriptActionRow& row_of(ScriptAction action) {
   for (const ScriptActionRow& row : script_actions)
     if (row.action == action) return row;
   throw "every action has a row";
 }
 
-/// Each action has one row: as many rows as actions, and none twice.
+/// Checks that each action has exactly one row.
 constexpr bool each_action_has_a_row() {
   for (int action = 0; action < action_kinds; ++action) row_of(static_cast<ScriptAction>(action));
   return true;
 }
 static_assert(each_action_has_a_row());
 
-/// What "do" says where the steps of another script stand.
+/// The value of "do" for a step that stands for the steps of another script.
 inline constexpr const char* stands_for_steps = "script";
 
-/// All that "do" may say.
+/// All allowed values of "do".
 std::vector<std::string> action_names();
 
-/// A step that says until when: only such may lead elsewhere.
+/// Whether the action has an `until`: only such a step can fail and jump elsewhere.
 bool may_fail(const std::string& action);
 
-/// Throws LoadError for a key that the step's action needs and that is missing, and for one that it does not have.
+/// Throws LoadError if a key that the step's action needs is missing, or if it has a key that does not belong to it.
 void require_keys(const JsonObject& step);
 
 }  // namespace ostium::data

@@ -28,7 +28,7 @@ JsonType type_of(const ConditionRow& row) {
   }
 }
 
-/// The one row that the condition's keys name.
+/// The row of the one condition key that the object has.
 const ConditionRow& row_in(const JsonObject& object) {
   const ConditionRow* found = nullptr;
   for (const ConditionRow& row : condition_rows) {
@@ -44,7 +44,7 @@ const ConditionRow& row_in(const JsonObject& object) {
   return *found;
 }
 
-/// What stands behind the condition's own key.
+/// Reads the value of the condition's own key.
 void read_own_value(const JsonObject& object, const ConditionRow& row, ScriptCondition& c) {
   switch (row.value) {
     case ConditionValue::number:
@@ -70,7 +70,7 @@ void read_own_value(const JsonObject& object, const ConditionRow& row, ScriptCon
   c.words = fmt::format("{} {}", row.key, c.place);
 }
 
-/// What stands beside it and says more: how far, how exactly, or that the place may be missing.
+/// Reads the keys beside it: distance, tolerance, or that the place may be missing.
 void read_companions(const JsonObject& object, const ConditionRow& row, ScriptCondition& c) {
   for (const ConditionCompanion& one : condition_companions) {
     const bool belongs = std::string(row.beside) == one.key;

@@ -1,5 +1,5 @@
 #pragma once
-/// What a step of a script looks at: its conditions, read from JSON. All throw LoadError with file, line and cure.
+/// Reads the conditions of a script's steps from JSON. All functions throw LoadError with file, line and how to fix it.
 #include <string>
 #include <vector>
 
@@ -8,20 +8,21 @@
 
 namespace ostium::data {
 
-/// The keys of a condition: those of the rows, those that stand beside them, `lesion` and `of`.
+/// The keys of a condition: those of the rows, their companions, `lesion` and `of`.
 JsonObjectKeys condition_keys();
 
-/// Of `step`'s list `key`, or none; one that does not name its tool means the first of `tools`.
+/// The conditions in `step`'s list `key`; empty if it has none. A condition that names no tool is about the first of
+/// `tools`.
 std::vector<ScriptCondition> read_conditions(const JsonObject& step, const char* key, const Script& script,
                                              const std::vector<int>& tools);
 
-/// Whether it is about one of the case's lesions, which it may not say.
+/// Whether the condition is about one of the case's lesions, named or not.
 bool has_condition_about_a_lesion(const JsonValue& condition);
 
-/// Which of the case's lesions, from 0; in files from 1, and the first if it is not said.
+/// Index of the lesion, from 0 (files count from 1); 0 if it is not given.
 int read_lesion(const JsonObject& object);
 
-/// Which of the script's tools, from 0.
+/// Index of the script's tool, from 0.
 int tool_called(const Script& script, const JsonValue& name);
 
 }  // namespace ostium::data

@@ -1,6 +1,6 @@
 #pragma once
-/// The conditions that a step of a script may look at, one row each: reader, schema and messages follow from the row.
-/// Whether one holds is judged in app/session/condition_evaluator.cpp, which does not compile while one is missing.
+/// The conditions that a step of a script may check, one row each: reader, schema and messages follow from the rows.
+/// They are evaluated in app/session/operator/condition_evaluator.cpp, which does not compile while one is missing.
 #include <iterator>
 
 #include "core/base/units.h"
@@ -44,19 +44,19 @@ enum class ConditionKind {
   unharmed
 };
 
-/// What stands behind the key.
+/// The type of the condition key's value.
 enum class ConditionValue {
   number,
   only_true,
-  place,          ///< a branch, so far beyond its origin, or a landmark
+  place,          ///< a distance beyond a branch's origin, or a landmark
   branch,         ///< the name of a branch
   ostium,         ///< an artery that leaves the aorta
-  contrast,       ///< a place in a coronary artery
+  contrast,       ///< a point in a coronary artery
   direction,      ///< left, right, head, feet, front, back
   pressure_trace  ///< normal, damped, ...
 };
 
-/// What is looked at, and so what there must be.
+/// What the condition is about, and so what must exist.
 enum class ConditionOf { tool, time, patient, lesion };
 
 struct ConditionRow {
@@ -64,9 +64,9 @@ struct ConditionRow {
   const char* key;
   ConditionValue value;
   ConditionOf of;
-  double unit;         ///< of a number: SI for one of the file's
-  JsonRange range;     ///< of a number, in the file's unit
-  const char* beside;  ///< a key that stands beside it, of `condition_companions`; empty: none
+  double unit;         ///< converts the file's number to SI
+  JsonRange range;     ///< allowed numbers, in the file's unit
+  const char* beside;  ///< a companion key of `condition_companions`; empty if none
   const char* expected;
 };
 
@@ -148,25 +148,25 @@ inline constexpr ConditionRow condition_rows[] = {
 
 inline constexpr int condition_kinds = static_cast<int>(std::size(condition_rows));
 
-/// The row of a kind, wherever it stands.
+/// The row of a kind.
 constexpr const ConditionRow& row_of(ConditionKind kind) {
   for (const ConditionRow& row : condition_rows)
     if (row.kind == kind) return row;
   throw "every kind has a row";
 }
 
-/// Each kind has one row: as many rows as kinds, and none twice.
+/// Checks that each kind has exactly one row.
 constexpr bool each_condition_has_a_row() {
   for (int kind = 0; kind < condition_kinds; ++kind) row_of(static_cast<ConditionKind>(kind));
   return true;
 }
 static_assert(each_condition_has_a_row());
 
-/// A key that stands beside some conditions and says more of them.
+/// A companion key that some conditions take.
 struct ConditionCompanion {
   const char* key;
-  bool required;  ///< with those conditions
-  double unit;    ///< of a number, which becomes the condition's value; 0: it is true or false
+  bool required;  ///< whether those conditions need it
+  double unit;    ///< converts the number, which becomes the condition's value; 0: the key is true or false
   JsonRange range;
   const char* expected;  ///< before "; beside ..."
 };
@@ -178,12 +178,12 @@ inline constexpr ConditionCompanion condition_companions[] = {
 inline constexpr const char* direction_names[] = {"left", "right", "head", "feet", "front", "back"};
 inline constexpr const char* trace_names[] = {"normal", "damped", "ventricularised", "ventricle", "absent"};
 
-/// Whether it needs arteries and a lesion: what is looked at in treatment.
+/// Whether the condition needs arteries and a lesion, as treatment does.
 constexpr bool needs_patient(ConditionKind kind) {
   return row_of(kind).of == ConditionOf::patient || row_of(kind).of == ConditionOf::lesion;
 }
 
-/// Whether what is looked at is one of the case's lesions.
+/// Whether the condition is about one of the case's lesions.
 constexpr bool is_about_a_lesion(ConditionKind kind) { return row_of(kind).of == ConditionOf::lesion; }
 
 }  // namespace ostium::data

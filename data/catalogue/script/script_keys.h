@@ -1,6 +1,6 @@
 #pragma once
-/// The keys of a script, object by object: what the reader accepts, and what it says of each. The schema
-/// (data/schemas/script.schema.json) is made of them.
+/// The keys of a script, object by object: what the reader accepts, and how each is described. The schema
+/// (data/schemas/script.schema.json) is generated from them.
 #include "data/catalogue/case/case.h"
 #include "data/catalogue/script/script_actions.h"
 #include "data/catalogue/script/script_condition_reader.h"
@@ -120,7 +120,7 @@ inline const JsonObjectKeys step = {
      {"nitrate_ug", false, "dose, into the coronary, > 0 and at most 1000", json_type::number(above_zero_to(1000))},
      {"adenosine_ug", false, "dose, into the coronary, > 0 and at most 1000", json_type::number(above_zero_to(1000))}}};
 
-/// Made of the rows of script_conditions.h.
+/// Generated from the rows of script_conditions.h.
 inline const JsonObjectKeys condition = condition_keys();
 
 inline const std::vector<const JsonObjectKeys*> all = {&root, &tool, &landmark, &step, &condition};

@@ -26,14 +26,14 @@ JsonValue* member(JsonValue& object, const std::string& key) {
 
 bool is_label(const std::string& otherwise) { return otherwise != "fail" && otherwise != "go on"; }
 
-/// Where a step of a part leads that says nothing of its failure, or whose tries are used up: to the label that stands
-/// beside the part.
+/// Sends a failing step of a part to the label given beside the part: if the step has no `otherwise` of its own, or
+/// once its own tries are used up.
 void lead_out(const JsonObject& step, JsonValue& one) {
   const JsonValue* action = one.find("do");
   if (!action || !may_fail(action->text)) return;
   if (const JsonValue* own = one.find("otherwise")) {
     if (is_label(own->text) && !one.find("last_resort")) one.members.emplace_back("last_resort", step["otherwise"]);
-  } else if (!one.find("tries")) {  // which the reader refuses there
+  } else if (!one.find("tries")) {  // `tries` without `otherwise` is left for the reader to refuse
     for (const char* key : {"otherwise", "tries"})
       if (step.has(key)) one.members.emplace_back(key, step[key]);
   }
@@ -45,8 +45,8 @@ bool has_tool(const JsonObject& script, const std::string& name) {
                      [&](const JsonValue& tool) { return JsonObject(tool, keys::tool).text("name") == name; });
 }
 
-/// What a script that names another says of it, said in that one's own steps: under which labels they stand, with which
-/// tools, at which lesion, and where they lead when they fail.
+/// Applies what the calling step says to the part's steps: prefix of the labels, tools, lesion, and where they jump
+/// when they fail.
 void say_in_steps(const JsonObject& step, JsonValue& part) {
   const JsonValue* with = step.value().find("with");
   const auto rename = [&](JsonValue& tool) {
@@ -76,7 +76,7 @@ void say_in_steps(const JsonObject& step, JsonValue& part) {
   }
 }
 
-/// Writes out the values of `file`, those of `given` instead of its own where it says some; then its parts.
+/// Substitutes the values of `file`, overridden by those of `given`; then expands its parts.
 bool write_out(JsonValue& file, const JsonValue* given, int depth) {
   bool any = write_out_values(file, given);
   const JsonObject root(file, keys::root);

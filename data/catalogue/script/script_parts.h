@@ -1,11 +1,12 @@
 #pragma once
-/// Scripts in scripts: a step that names another script stands for its steps.
+/// Scripts within scripts: a step that names another script is replaced by its steps.
 #include "data/formats/json_value.h"
 
 namespace ostium::data {
 
-/// Puts the steps of other scripts where `script` names them, with the values that it gives them; their values keep
-/// their own file and line. Returns whether anything was written out. Throws LoadError with file, line and cure.
+/// Replaces the steps of `script` that name other scripts by those scripts' steps, with the values given there.
+/// Expanded steps keep their own file and line. Returns whether anything was expanded. Throws LoadError with file, line
+/// and how to fix it.
 bool write_out_parts(JsonValue& script);
 
 }  // namespace ostium::data

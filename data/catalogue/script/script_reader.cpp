@@ -6,7 +6,6 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
-#include <numbers>
 
 #include "core/base/units.h"
 #include "data/catalogue/case/case.h"
@@ -91,7 +90,7 @@ ScriptStep read_step(const JsonValue& value, const Script& script) {
   ScriptStep step;
   step.line = value.line;
   const std::size_t action = object.choice("do", action_names());
-  assert(action < std::size(script_actions));  // steps that stand for others are written out by now
+  assert(action < std::size(script_actions));  // steps that stand for others have been expanded by now
   require_keys(object);
   step.action = script_actions[action].action;
   if (object.has("label")) step.label = object.text("label");
@@ -110,7 +109,7 @@ ScriptStep read_step(const JsonValue& value, const Script& script) {
   return step;
 }
 
-/// Second time round, when all labels are known.
+/// Second pass, when all labels are known.
 void read_otherwise(const JsonValue& value, Script& script, ScriptStep& step) {
   const JsonObject object(value, keys::step);
   if (object.has("last_resort") && !object.has("otherwise")) object.refuse("last_resort");

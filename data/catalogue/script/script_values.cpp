@@ -24,7 +24,7 @@ void require_object(const JsonValue& values) {
   if (values.type != Type::object) values.refuse("values by their names, an object");
 }
 
-/// Values of the script's own, with those that are given in their place.
+/// The script's own values, overridden by the given ones.
 JsonValue merged(JsonValue own, const JsonValue& given) {
   require_object(given);
   for (const auto& [name, value] : given.members) {
@@ -38,8 +38,8 @@ JsonValue merged(JsonValue own, const JsonValue& given) {
   return own;
 }
 
-/// Puts values wherever "$NAME" stands in `where`. A message about one names the place where it stands and the file
-/// and line that gave it.
+/// Substitutes values wherever "$NAME" occurs in `where`. Error messages about a value name both the place of use and
+/// the file and line where it was given.
 void put(const JsonValue& values, JsonValue& where) {
   if (where.type == Type::text && where.text.starts_with("$")) {
     const JsonValue* value = values.find(where.text.substr(1));
@@ -52,7 +52,7 @@ void put(const JsonValue& values, JsonValue& where) {
   for (auto& [name, member] : where.members) put(values, member);
 }
 
-/// Whether a step stays, by its `when` and `when_not`, which it loses.
+/// Whether a step is kept, by its `when` and `when_not`, which are removed from it.
 bool stays(JsonValue& step) {
   bool stays = true;
   for (const bool wanted : {true, false}) {

@@ -1,13 +1,13 @@
 #pragma once
-/// Values of a script: what its steps leave open, so that one script serves where others differ by a number.
+/// Values of a script: parameters of its steps, so that one script serves where others would differ only by a number.
 #include "data/formats/json_value.h"
 
 namespace ostium::data {
 
-/// Puts a script's values in place: `"values": { "pushed_mm": 40 }` says what "$pushed_mm" stands for in its steps,
-/// unless `given` (may be null) says otherwise. A step with `"when": "$NAME"` goes where that is false, one with
-/// `"when_not"` where it is true. Scripts without `values` stay as they are. Returns whether there were values. Throws
-/// LoadError with file, line and cure.
+/// Substitutes a script's values: `"values": { "pushed_mm": 40 }` defines what "$pushed_mm" stands for in its steps,
+/// unless `given` (may be null) overrides it. A step with `"when": "$NAME"` is removed where that is false, one with
+/// `"when_not"` where it is true. Scripts without `values` are left unchanged. Returns whether there were values.
+/// Throws LoadError with file, line and how to fix it.
 bool write_out_values(JsonValue& script, const JsonValue* given);
 
 }  // namespace ostium::data

@@ -12,8 +12,8 @@ using Eigen::Vector2d;
 using Eigen::VectorXd;
 using Sparse = Eigen::SparseMatrix<double>;
 
-constexpr double hard = 30;         // the bore, to a cell of the beams
-constexpr double tolerance = 1e-7;  // of the play
+constexpr double hard = 30;         // stiffness of the bore relative to one cell of the beams
+constexpr double tolerance = 1e-7;  // relative to the play
 constexpr int most_iterations = 100, halvings = 20;
 
 class Obstacle {
@@ -54,7 +54,7 @@ class Obstacle {
     pull_ = VectorXd::Zero(2 * n_);
     const double h2 = b_.cell_m * b_.cell_m;
     for (int i = 0; i < n_; ++i) {
-      // d'' at node i of those that move, 1 to n; at the base, which is node 0, by a mirrored one.
+      // d'' at node i; free nodes are 1 to n. At the base, node 0, a mirrored node is used.
       const int nodes[] = {i - 1, i, i + 1};
       const double by[] = {i == 0 ? 0 : 1 / h2, -2 / h2, i == 0 ? 2 / h2 : 1 / h2};
       for (int a = 0; a < 3; ++a) {
@@ -68,7 +68,7 @@ class Obstacle {
     pull_.segment<2>(2 * n_ - 2) += b_.tip_force_N + b_.tip_couple_Nm / b_.cell_m;
     pull_.segment<2>(2 * n_ - 4) -= b_.tip_couple_Nm / b_.cell_m;
     for (int i = 0; i < n_; ++i)
-      for (int k = 0; k < 4; ++k) entries.emplace_back(2 * i + k / 2, 2 * i + k % 2, 0);  // room for the bore
+      for (int k = 0; k < 4; ++k) entries.emplace_back(2 * i + k / 2, 2 * i + k % 2, 0);  // entries for the bore
     K_.resize(2 * n_, 2 * n_);
     K_.setFromTriplets(entries.begin(), entries.end());
   }
@@ -83,7 +83,7 @@ class Obstacle {
     return out;
   }
 
-  /// The part of a step that leads to the least energy on the way, which is convex.
+  /// Exact line search: the share of the step at which the energy, which is convex, is least.
   double least_along(const VectorXd& d, const VectorXd& step) const {
     double low = 0, high = 1;
     if (slope(d + step).dot(step) <= 0) return 1;

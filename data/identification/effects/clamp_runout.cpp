@@ -1,6 +1,6 @@
-/// The base tangent is off and turns with the roll, as in a collet that does not run true: the frame at the base is
-/// tilted by `tilt_1_deg` about d1 and `tilt_2_deg` about d2 of the rolled frame. Nested: of the chosen instrument's
-/// drive, the outermost if none is.
+/// Runout of the clamp: the base tangent is off axis and turns with the roll, as in a collet that does not run true.
+/// The frame at the base is tilted by `tilt_1_deg` about d1 and `tilt_2_deg` about d2 of the rolled frame. Nested:
+/// applies to the chosen instrument's drive, or the outermost one's if none is chosen.
 #include <Eigen/Geometry>
 
 #include "core/base/units.h"
@@ -14,7 +14,7 @@ std::string why_not(const MeasurementSet&, std::optional<int>) { return ""; }
 
 void apply(const ActiveEffect& effect, const MeasurementSet&, const Experiment&, ExperimentSetup& setup) {
   const double degree = units::pi / 180;
-  // With what arrives of the roll, whatever other effects leave of it; in the instrument's own directors.
+  // Uses the roll that arrives after all other effects, in the instrument's own directors.
   const double roll = setup.nest.parts[effect.instrument.value_or(0)].roll_rad - setup.material_turn_rad;
   const Eigen::Vector3d tilt(effect.values[0] * degree, effect.values[1] * degree, 0);
   const double angle = tilt.norm();

@@ -6,7 +6,7 @@
 
 namespace ostium::data {
 
-// Each is defined in a source file of its name, which states its law.
+// Each is defined in the source file of its name, which states its law.
 Effect rest_curvature();
 Effect soft_section();
 Effect bending_anisotropy();

@@ -1,5 +1,5 @@
 #pragma once
-/// One experiment as the forward models take it.
+/// One experiment as input to the forward models.
 #include <optional>
 
 #include "core/concentric_tubes/concentric.h"
@@ -10,10 +10,10 @@ struct ExperimentSetup {
   core::ConcentricDescription nest;
   core::EndState base;  ///< before any roll
   Eigen::Vector3d gravity_m_s2 = Eigen::Vector3d::Zero(), tip_force_N = Eigen::Vector3d::Zero();
-  /// Angle about d3 from the instrument's own directors to those that the sections are given in.
+  /// Angle about d3 from the instrument's own directors to the directors in which the sections are given.
   double material_turn_rad = 0;
-  std::optional<double> wall_friction;  ///< none: as the set declares it
-  double wall_stiffness_N_m2 = 0;       ///< 0: rigid; core/surface/surface.h
+  std::optional<double> wall_friction;  ///< none: as declared in the set
+  double wall_stiffness_N_m2 = 0;       ///< 0: rigid; see core/wall/surface.h
 };
 
 }  // namespace ostium::data

@@ -1,5 +1,5 @@
-/// The picture is too large or too small, as with a wrong magnification: measured = c + scale (true - c), with c the
-/// origin of the measuring frame (`about_base` 0) or the first base (1).
+/// Image magnification error: measured = c + scale (true - c), where c is the origin of the measuring frame
+/// (`about_base` 0) or the first base (1).
 #include "data/identification/effects/tools.h"
 
 namespace ostium::data {
@@ -8,7 +8,7 @@ namespace {
 
 std::string why_not(const MeasurementSet&, std::optional<int>) { return ""; }
 
-/// Also of measured radii, which no frame shifts: see `misfit`.
+/// Also scales measured radii, which no frame shifts: see `misfit`.
 void see(const ActiveEffect& effect, const MeasurementSet& set, const Experiment&, MeasuredView& view) {
   const double scale = effect.values[0];
   const Eigen::Vector3d about = effect.values[1] * set.experiments[0].base.p_W;

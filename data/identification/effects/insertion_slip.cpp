@@ -1,4 +1,4 @@
-/// A fraction of the commanded insertion, or a length, does not arrive: rollers slip, the zero is off.
+/// Part of the commanded insertion is lost, as a fraction or a length: the rollers slip or the zero is off.
 #include "core/base/units.h"
 #include "data/identification/effects/tools.h"
 

@@ -1,5 +1,5 @@
-/// A weight on the instrument that is declared nowhere: a marker, a torquer, a drop of glue. A dead load m g at a place
-/// of its centreline.
+/// An undeclared weight on the instrument: a marker, a torquer, a drop of glue. A dead load m g at a point of its
+/// centreline.
 #include <cmath>
 
 #include "core/base/units.h"

@@ -1,15 +1,15 @@
 #pragma once
-/// How a model's shape appears in a measurement.
+/// How a model's shape appears in the measurement.
 #include <Eigen/Geometry>
 
 namespace ostium::data {
 
-/// measured = A (R model + t) + b; the tracked point is the tip + R_tip offset.
+/// measured = A (R model + t) + b; the tracked point is tip + R_tip offset.
 struct MeasuredView {
   Eigen::Quaterniond R = Eigen::Quaterniond::Identity();
   Eigen::Vector3d t_m = Eigen::Vector3d::Zero();
   Eigen::Vector3d tip_offset_m = Eigen::Vector3d::Zero();
-  /// Errors of the picture itself: A is near the identity. Only effects change these two.
+  /// Imaging errors; A is close to the identity. Only effects change A and b.
   Eigen::Matrix3d A = Eigen::Matrix3d::Identity();
   Eigen::Vector3d b_m = Eigen::Vector3d::Zero();
 

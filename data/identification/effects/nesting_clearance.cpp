@@ -1,7 +1,7 @@
-/// Play between nested instruments: near the end of an outer one its inner neighbour crosses from one side of the bore
-/// to the other, and comes out at an angle. How far and at which angle is worked out for two beams of small deflection
-/// that touch as they must (beams_with_play.h), and put into the shared centreline as a kink; loads at the innermost
-/// tip included, twist and weight left out.
+/// Clearance between nested instruments: near the end of an outer one, the inner one crosses from one side of the bore
+/// to the other and leaves it at an angle. Offset and angle are computed for two beams in contact at small deflection
+/// (beams_with_play.h) and applied to the shared centreline as a kink. Includes loads at the innermost tip; twist and
+/// weight are neglected.
 #include <Eigen/Geometry>
 #include <cmath>
 
@@ -18,8 +18,8 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 
 using units::mm;
-constexpr int cells = 100;         // of what two instruments have in common
-constexpr double step_m = 1.5e-3;  // of a line from the one's middle to the other's
+constexpr int cells = 100;         // along the overlap of two instruments
+constexpr double step_m = 1.5e-3;  // length of the transition from the outer to the inner centreline
 
 std::string why_not(const MeasurementSet& set, std::optional<int>) {
   if (set.vessel) return "in a vessel instruments have their clearance";
@@ -35,12 +35,12 @@ const core::Section& section_at(const core::ConcentricPart& part, double from_ba
 
 double stiffness(const core::Section& s) { return std::sqrt(s.EI1_N_m2 * s.EI2_N_m2); }
 
-/// How a part bends where it is free, towards d1 and d2 of the unrolled base, 1/m. What shafts twist is left out.
+/// Free curvature of a part towards d1 and d2 of the unrolled base, 1/m. Twist of the shafts is neglected.
 Vector2d bend_of(const core::ConcentricPart& part, const core::Section& s) {
   return Eigen::Rotation2Dd(part.roll_rad) * Vector2d(s.rest_curvature_per_m.y(), -s.rest_curvature_per_m.x());
 }
 
-/// Bends a frame by a piece of a line.
+/// Advances frame and position along a piece of constant curvature.
 void go_on(double length, const Vector2d& bend_per_m, Matrix3d& R, Vector3d& p) {
   const Vector3d turn(-bend_per_m.y() * length, bend_per_m.x() * length, 0);
   const Matrix3d half = (turn.norm() > 0 ? Eigen::AngleAxisd(turn.norm() / 2, turn.normalized())
@@ -56,7 +56,7 @@ BeamsWithPlay beams_of(const core::ConcentricPart& outer, const core::Concentric
                        const ExperimentSetup& setup) {
   BeamsWithPlay beams;
   beams.play_m = play_m;
-  double share = 0;  // of the outer one in their stiffness
+  double share = 0;  // outer beam's share of the total stiffness
   beams.cell_m = outer.inserted_m / cells;
   Matrix3d R = Matrix3d::Identity();
   Vector3d p = Vector3d::Zero();
@@ -70,7 +70,7 @@ BeamsWithPlay beams_of(const core::ConcentricPart& outer, const core::Concentric
     go_on(beams.cell_m, share * bend_of(outer, a) + (1 - share) * bend_of(inner, b), R, p);
   }
   if (setup.tip_force_N.isZero()) return beams;
-  // What pulls at the inner one's tip, which d moves by its offset, and by its slope times the lever.
+  // Load on the inner tip. d moves that tip by its offset, and by its slope times the lever arm.
   const Matrix3d tip = R;
   Vector3d lever = Vector3d::Zero();
   const double piece = (inner.inserted_m - outer.inserted_m) / cells;
@@ -84,16 +84,16 @@ BeamsWithPlay beams_of(const core::ConcentricPart& outer, const core::Concentric
   return beams;
 }
 
-/// Bends a part by so much more at rest between two places, from the base.
+/// Adds rest curvature to a part between two distances from the base.
 void bend(core::ConcentricPart& part, double from_base, double to_base, const Vector2d& more_per_m) {
   const Vector2d own = Eigen::Rotation2Dd(-part.roll_rad) * more_per_m;
   change_stretch(part.sections, part.inserted_m - to_base, part.inserted_m - from_base,
                  [&](core::Section& s) { s.rest_curvature_per_m.head<2>() += Vector2d(-own.y(), own.x()); });
 }
 
-/// Leads the shared line, which bends as if there were no play, along the outer one's middle, and from its tip on along
-/// the inner one's. The outer one lies off that line by -d EI_inner / (EI_inner + EI_outer); as the inner one has the
-/// same say in how the line bends, it is bent by -d'' for it.
+/// Makes the shared line, which bends as if there were no play, follow the outer centreline and, past its tip, the
+/// inner one. The outer centreline is offset from that line by -d EI_inner / (EI_inner + EI_outer); since the inner
+/// part has the same weight in the line's bending, it gets the extra curvature -d''.
 void lead(const BeamsWithPlay& beams, const core::ConcentricPart& outer, core::ConcentricPart& inner) {
   const Offsets d = offsets_of(beams);
   const double h = beams.cell_m, tip = outer.inserted_m;
@@ -113,7 +113,7 @@ void apply(const ActiveEffect& effect, const MeasurementSet&, const Experiment&,
   }
 }
 
-/// What bores and radii say.
+/// Sets spread and limit from the declared bores and radii.
 void adapt(const MeasurementSet& set, std::optional<int>, std::vector<EffectParameter>& p) {
   double most = 0;
   for (std::size_t i = 0; i + 1 < set.instruments.size(); ++i)

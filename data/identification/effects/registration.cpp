@@ -1,4 +1,5 @@
-/// The measuring frame is rigidly off although it is declared given: turned about the first base, and shifted.
+/// Rigid registration error although registration is declared given: the measuring frame is turned about the first
+/// base, and shifted.
 #include <Eigen/Geometry>
 
 #include "core/base/units.h"

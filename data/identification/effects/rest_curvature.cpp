@@ -1,6 +1,6 @@
-/// A set of the shaft that the declaration leaves out: k (material frame) is added to the rest curvature of the whole
-/// instrument or of a stretch of it. Wires take a set where they are coiled in their hoop or bent over a finger.
-/// Law: the rod's own, m = K (u - u_rest - k).
+/// An undeclared permanent set of the shaft: k (material frame) is added to the rest curvature of the whole instrument
+/// or of a stretch of it. Wires take a set from being coiled in their hoop or bent over a finger. Law: the rod's own, m
+/// = K (u - u_rest - k).
 #include "core/base/units.h"
 #include "data/identification/effects/tools.h"
 

@@ -1,5 +1,5 @@
-/// A fraction of the commanded roll, or a dead band counted from zero, does not arrive at the base: slip in the drive,
-/// play, friction along the shaft.
+/// Part of the commanded roll does not reach the base, as a fraction or as a dead band counted from zero: slip in the
+/// drive, play, friction along the shaft.
 #include <cmath>
 
 #include "core/base/units.h"

@@ -1,6 +1,5 @@
-/// A weight that is declared wrong or not at all: the declared one times `scale`; where next to nothing is declared,
-/// `scale` times that of solid nitinol (6,450 kg/m3) of the instrument's cross-section.
-
+/// Weight declared wrongly or not at all: `scale` times the declared weight; if almost nothing is declared, `scale`
+/// times that of solid nitinol (6,450 kg/m3) with the instrument's cross-section.
 #include "core/base/units.h"
 #include "data/identification/effects/tools.h"
 

@@ -1,5 +1,5 @@
-/// Twist of the straight shafts between the drives and the base: a tube of GJ and length l turns by `compliance` T l /
-/// GJ under the torque T. 0: as if rigid, which is what a set declares; 1: as its own sections say.
+/// Twist of the straight shafts between the drives and the base: a shaft of GJ and length l turns by `compliance` T l /
+/// GJ under the torque T. 0: rigid, as a set declares; 1: as its own sections give.
 #include "data/identification/effects/tools.h"
 
 namespace ostium::data {
@@ -14,7 +14,7 @@ std::string why_not(const MeasurementSet& set, std::optional<int> instrument) {
   return "no experiment gives shaft_mm";
 }
 
-/// Twist per torque of the stretch of an instrument that begins `from_m` behind its tip.
+/// Twist per torque of the stretch of an instrument proximal to `from_m` from its tip.
 double twist_per_torque(const std::vector<core::Section>& sections, double from_m, double length_m) {
   double sum = 0;
   for (const core::Section& s : sections) {

@@ -1,5 +1,5 @@
-/// A stretch of other stiffness, declared nowhere: a solder joint, a kink, a braid that ends. EI and GJ times `factor`
-/// from `from_tip_mm` on, over `length_mm`. Law: the rod's own.
+/// An undeclared stretch of different stiffness: a solder joint, a kink, a braid that ends. EI and GJ are multiplied by
+/// `factor` from `from_tip_mm` on, over `length_mm`. Law: the rod's own.
 #include <cmath>
 
 #include "core/base/units.h"

@@ -1,6 +1,6 @@
-/// What a heat-set instrument, one that is curved at rest, loses with the time t in position, with two branches
-/// (generalised Maxwell solid): 1 - f1 (1 - exp(-t / t1)) - f2 (1 - exp(-t / t2)). Nested with others, which hold it
-/// off its shape, it is its modulus that relaxes; alone, its rest curvature.
+/// Stress relaxation of a heat-set (curved at rest) instrument with the time t in position, with two branches
+/// (generalised Maxwell solid): 1 - f1 (1 - exp(-t / t1)) - f2 (1 - exp(-t / t2)). If nested instruments hold it away
+/// from its rest shape, its modulus relaxes; alone, its rest curvature does.
 #include <cmath>
 
 #include "data/identification/effects/effect.h"
@@ -42,7 +42,7 @@ void apply(const ActiveEffect& effect, const MeasurementSet&, const Experiment& 
   }
 }
 
-/// One branch or two; of what an instrument alone and nested ones lose by nature, or of the other.
+/// One branch or two, acting on the quantity above or on the other one.
 std::vector<EffectForm> forms(const MeasurementSet& set, std::optional<int>) {
   const double usual = set.instruments.size() > 1 ? 1 : 0;
   std::vector<EffectForm> out;

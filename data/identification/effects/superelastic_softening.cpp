@@ -1,5 +1,5 @@
-/// Bending that softens beyond a curvature, as superelastic nitinol does; core/rod/superelastic.h has the law. For an
-/// instrument alone.
+/// Bending that softens beyond a curvature, as in superelastic nitinol; the law is in core/material/superelastic.h. For
+/// a single instrument.
 #include <cmath>
 
 #include "core/base/units.h"
@@ -20,7 +20,7 @@ void apply(const ActiveEffect& effect, const MeasurementSet&, const Experiment&,
     s.softening_per_m = effect.values[0] / mm, s.softened_ratio = effect.values[1];
 }
 
-/// Austenite begins to turn at a strain of about 1 %.
+/// Austenite begins to transform at a strain of about 1 %.
 void adapt(const MeasurementSet& set, std::optional<int>, std::vector<EffectParameter>& p) {
   p[0].prior = std::min(0.01 / (set.instruments[0].radius_m / mm), p[0].most);
 }

@@ -1,5 +1,5 @@
 #pragma once
-/// What several effects need.
+/// Helpers shared by several effects.
 #include <algorithm>
 
 #include "data/identification/effects/effect.h"
@@ -10,7 +10,7 @@ inline bool chosen(std::optional<int> instrument, std::size_t i) {
   return !instrument || *instrument == static_cast<int>(i);
 }
 
-/// The longest that any of the chosen instruments was inserted, m.
+/// The longest insertion of any of the chosen instruments, m.
 inline double longest_inserted(const MeasurementSet& set, std::optional<int> instrument) {
   double longest = 0;
   for (const Experiment& e : set.experiments)
@@ -22,7 +22,7 @@ inline double longest_inserted(const MeasurementSet& set, std::optional<int> ins
 /// Cuts `sections` at from and to and calls change(section) for those in between.
 template <class Change>
 void change_stretch(std::vector<core::Section>& sections, double from_m, double to_m, Change&& change) {
-  constexpr double least = 1e-6;  // shorter pieces are none
+  constexpr double least = 1e-6;  // ignore shorter pieces
   std::vector<core::Section> out;
   for (const core::Section& s : sections) {
     double at = s.from_tip_m;
@@ -41,7 +41,7 @@ void change_stretch(std::vector<core::Section>& sections, double from_m, double 
   sections = out;
 }
 
-/// Whether any experiment turns an instrument further than another does, about the base or with it.
+/// Whether the roll of any chosen instrument differs between experiments, whether turned at the base or with it.
 inline bool roll_varies(const MeasurementSet& set, std::optional<int> instrument) {
   for (const Experiment& e : set.experiments)
     for (std::size_t i = 0; i < e.set.size(); ++i)

@@ -1,5 +1,5 @@
-/// A wall that gives way: a force per length of instrument and depth, in place of a rigid one (core/surface). A
-/// silicone or arterial wall of modulus E and thickness h on a lumen of radius R: of the order of E h / R.
+/// A compliant wall: a force per length of instrument and depth, instead of a rigid one (core/wall). A silicone or
+/// arterial wall of modulus E and thickness h around a lumen of radius R has a stiffness of the order of E h / R.
 #include "core/base/units.h"
 #include "data/identification/effects/effect.h"
 

@@ -1,4 +1,5 @@
-/// Another friction between wall and instruments than declared: Coulomb's law (core/contact), static and kinetic alike.
+/// Friction between wall and instruments that differs from the declared one: Coulomb's law (core/contact), static and
+/// kinetic alike.
 #include "data/identification/effects/effect.h"
 
 namespace ostium::data {
@@ -11,7 +12,7 @@ void apply(const ActiveEffect& effect, const MeasurementSet&, const Experiment&,
   setup.wall_friction = effect.values[0];
 }
 
-/// Around what is declared.
+/// Centres the prior on the declared friction.
 void adapt(const MeasurementSet& set, std::optional<int>, std::vector<EffectParameter>& p) {
   if (set.vessel && set.vessel->friction > 0.005) p[0].prior = set.vessel->friction;
 }

@@ -19,13 +19,13 @@ using Eigen::VectorXd;
 
 constexpr double rough_tolerance = 1e-5;
 constexpr int rough_iterations = 25;
-constexpr std::size_t tasted = 3;  // of each sort of starts
+constexpr std::size_t tasted = 3;  // starts of each group that are tried for a few iterations
 constexpr int taste_iterations = 4;
 
-/// A point and what it costs there.
+/// The cost at a point, and the point.
 using Start = std::pair<double, VectorXd>;
 
-/// The starts by what they cost, those that have no shapes left out.
+/// The starts sorted by cost, without those that have no shapes.
 std::vector<Start> screened(const FitProblem& problem, const std::vector<VectorXd>& starts) {
   std::vector<Start> out;
   for (const VectorXd& start : starts) {
@@ -44,7 +44,7 @@ LeastSquaresResult descend(const FitProblem& problem, const VectorXd& start, boo
   return minimise(descent);
 }
 
-/// Screens the starts by what they cost, and goes downhill from the best.
+/// Sorts the starts by cost and descends from the best ones.
 LeastSquaresResult best_of(const FitProblem& problem, const FitOptions& options, const std::vector<VectorXd>& starts,
                            const std::vector<VectorXd>& other_starts) {
   std::vector<Start> from = screened(problem, starts);
@@ -81,7 +81,8 @@ Fit fit(const ForwardModel& forward, const Parameters& parameters, const FitOpti
     out.measured += static_cast<double>(numbers_measured(experiment)) + (pushes && experiment.proximal_force_N ? 1 : 0);
   }
   std::vector<VectorXd> starts = options.starts, other_starts = options.other_starts;
-  // Without a known noise, that of the residuals; the weight of the priors follows it, so a few times over.
+  // If the noise is unknown, it is estimated from the residuals. The weight of the priors depends on it, so this takes
+  // a few rounds.
   double sigma = options.sigma_m.value_or(options.guess_m);
   const int rounds = options.sigma_m ? 1 : options.rounds;
   for (int round = 0; round < rounds; ++round) {

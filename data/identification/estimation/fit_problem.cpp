@@ -13,11 +13,11 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double snapped = 2;  // times the derivative to the other side
+constexpr double snapped = 2;  // ratio of one-sided derivatives that counts as a snap
 
-/// Of the finite differences, in the optimiser's numbers.
+/// Step of the finite differences, in the optimiser's numbers.
 double step_of(const Parameter& p) {
-  if (p.step > 0) return p.step;  // set by what the model can resolve
+  if (p.step > 0) return p.step;  // set by the model's resolution
   return p.logarithmic ? 1e-4 : 1e-4 * std::max(p.spread, 1e-3);
 }
 

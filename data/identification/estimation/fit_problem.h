@@ -1,6 +1,6 @@
 #pragma once
-/// One fit as a problem of least squares: the residuals are the misfits over sigma, and the distances from the priors
-/// over their spreads.
+/// One fit as a least-squares problem. Residuals: the misfits over sigma, and the deviations from the priors over their
+/// spreads.
 #include "data/identification/estimation/forward_model.h"
 #include "data/identification/estimation/parameters.h"
 #include "data/identification/estimation/secant_descent.h"
@@ -9,7 +9,7 @@ namespace ostium::data {
 
 class FitProblem {
  public:
-  /// `rough`: finite differences to one side only.
+  /// `rough`: one-sided finite differences.
   FitProblem(const ForwardModel& forward, const Parameters& parameters, const std::vector<int>& chosen, double sigma_m,
              bool rough);
 
@@ -17,11 +17,11 @@ class FitProblem {
   bool in_vessel() const { return forward_.set().vessel.has_value(); }
 
   LeastSquares least_squares(const Eigen::VectorXd& start) const;
-  /// Of a set in a vessel, where one history takes as long as hundreds of shapes.
+  /// For a set in a vessel, where one insertion history costs as much as hundreds of static shapes.
   SecantDescent by_secants(const LeastSquares& descent, bool rough) const;
-  /// From here on differences go to both sides and are as wide as the noise: J, taken so far, says which step moves the
-  /// data by one standard deviation. Kinks finer than that do not matter to what the data say, and a difference between
-  /// two histories that has no cause is not taken for a derivative.
+  /// From here on, uses central differences as wide as the noise: from J, the Jacobian so far, it finds the step that
+  /// changes the data by one standard deviation. Kinks finer than that do not affect what the data say, and spurious
+  /// differences between two histories are not mistaken for a derivative.
   void widen_to_noise(const Eigen::MatrixXd& J);
 
   bool evaluate(const Eigen::VectorXd& x, Eigen::VectorXd& residuals, Eigen::MatrixXd* jacobian) const;
@@ -29,10 +29,10 @@ class FitProblem {
  private:
   bool fill_jacobian(const Eigen::VectorXd& x, const Eigen::VectorXd& residuals,
                      const std::vector<std::vector<PredictedShape>>& found, Eigen::MatrixXd& J) const;
-  /// x with its i-th number a step to one side, but within its range.
+  /// x with its i-th number moved by one step, within its range.
   Eigen::VectorXd moved(Eigen::VectorXd x, int i, double sign) const;
-  /// The mean of derivatives to both sides; of an experiment in which only one of them is large, the other: there a
-  /// wire snaps to another place, which says no more of the number than on which side of it it is.
+  /// Mean of the two one-sided derivatives. For an experiment in which one of them is much larger, the other: there a
+  /// wire snaps to another place, which says no more about the parameter than on which side of a threshold it is.
   Eigen::VectorXd without_snaps(const Eigen::VectorXd& up, const Eigen::VectorXd& down) const;
   bool data(const std::vector<PredictedShape>& shapes, const Eigen::VectorXd& x, Eigen::VectorXd& residuals) const;
 
@@ -41,10 +41,10 @@ class FitProblem {
   const std::vector<int>& chosen_;
   double sigma_;
   std::optional<double> push_sigma_N_;
-  bool rough_;             ///< differences to one side
-  Eigen::VectorXd steps_;  ///< of differences; empty: as the parameters have them
+  bool rough_;             ///< one-sided differences
+  Eigen::VectorXd steps_;  ///< step sizes; empty: those of the parameters
   int rows_ = 0;
-  std::vector<int> block_ends_;  ///< of the rows of each experiment
+  std::vector<int> block_ends_;  ///< last row + 1 of each experiment
 };
 
 }  // namespace ostium::data

@@ -1,11 +1,11 @@
 #pragma once
-/// Where fits begin.
+/// Starting points of fits.
 #include "data/identification/estimation/parameters.h"
 
 namespace ostium::data {
 
-/// `from`, and `count` points more whose numbers from `first` on (ten at most) are spread over the middle of their
-/// priors, so that a rugged landscape is not taken for its first valley.
+/// `from`, followed by `count` more points whose numbers from `first` on (ten at most) are spread over the middle of
+/// their priors, so that the fit does not settle for the first local minimum.
 std::vector<Eigen::VectorXd> starts_of(const Parameters& parameters, const Eigen::VectorXd& from, int first, int count);
 
 }  // namespace ostium::data

@@ -5,7 +5,7 @@
 namespace ostium::data {
 
 std::vector<std::vector<int>> folds_of(const MeasurementSet& set) {
-  // What stays together: a group, or an experiment without one.
+  // Units that stay together: a group, or an experiment without one.
   std::vector<std::vector<int>> blocks;
   std::vector<std::string> names;
   bool groups = false;

@@ -1,11 +1,11 @@
 #pragma once
-/// Held-out data: each experiment is scored once, by the fit that has not seen it.
+/// Cross-validation folds: each experiment is scored once, by a fit that did not use it.
 #include "data/identification/measurement/measurement_set.h"
 
 namespace ostium::data {
 
-/// Four folds, contiguous in listed order; whole groups where there are groups, one fold for each if there are fewer
-/// than eight. One fold an experiment if there are fewer than four; none for a single experiment.
+/// Four folds, contiguous in listed order. Groups are never split; with fewer than eight groups there is one fold per
+/// group. With fewer than four experiments, one fold per experiment; none for a single experiment.
 std::vector<std::vector<int>> folds_of(const MeasurementSet& set);
 
 }  // namespace ostium::data

@@ -26,14 +26,14 @@ PredictedShape unpacked(const std::vector<double>& in) {
   return shape;
 }
 
-/// Behind what `out` has: how many numbers, and these.
+/// Appends the shape to `out`: its count of numbers, then the numbers.
 void append(const PredictedShape& shape, std::vector<double>& out) {
   const std::vector<double> one = packed(shape);
   out.push_back(static_cast<double>(one.size()));
   out.insert(out.end(), one.begin(), one.end());
 }
 
-/// shapes[v][k]: the v-th of `count` that were appended to found[k].
+/// shapes[v][k]: the v-th of the `count` shapes appended to found[k].
 std::vector<std::vector<PredictedShape>> unpacked(const std::vector<std::vector<double>>& found, std::size_t count) {
   std::vector<std::vector<PredictedShape>> shapes(count);
   for (const std::vector<double>& list : found)
@@ -46,7 +46,7 @@ std::vector<std::vector<PredictedShape>> unpacked(const std::vector<std::vector<
   return shapes;
 }
 
-/// All that tells one set of changes from another of the same model.
+/// All numbers that distinguish one set of changes from another of the same model.
 std::vector<double> key_of(const Changes& changes) {
   std::vector<double> key;
   for (const auto& scales : changes.stiffness_scale) key.insert(key.end(), scales.begin(), scales.end());
@@ -61,7 +61,7 @@ std::vector<std::vector<PredictedShape>> ForwardModel::shapes(const std::vector<
                                                               const std::vector<int>& chosen) const {
   const std::size_t n = chosen.size();
   if (set_.vessel) return histories(changes, chosen);
-  // The first from its anchor, the others, which are near it, from where that ended.
+  // The first starts from its anchor; the others, being close to it, start from its result.
   const auto found = workers_.map(n, [&](std::size_t job) {
     const int e = chosen[job];
     std::vector<double> out;
@@ -74,7 +74,7 @@ std::vector<std::vector<PredictedShape>> ForwardModel::shapes(const std::vector<
           shape = shape_from(setup, anchors_[e], first);
         else
           shape = shape_from(setup, first.converged ? first : anchors_[e]);
-      } catch (const std::invalid_argument&) {  // with these numbers it is no rod any more
+      } catch (const std::invalid_argument&) {  // these numbers do not describe a rod
         shape = PredictedShape{};
       }
       append(shape, out);
@@ -87,18 +87,18 @@ std::vector<std::vector<PredictedShape>> ForwardModel::shapes(const std::vector<
 std::vector<std::vector<PredictedShape>> ForwardModel::histories(const std::vector<Changes>& changes,
                                                                  const std::vector<int>& chosen) const {
   std::vector<std::vector<double>> keys;
-  std::vector<std::size_t> unknown;  // the first of each that was never run
+  std::vector<std::size_t> unknown;  // index of the first of each key not run before
   for (std::size_t v = 0; v < changes.size(); ++v) {
     keys.push_back(key_of(changes[v]));
     if (!known_.contains(keys[v]) && std::find(keys.begin(), keys.end() - 1, keys[v]) == keys.end() - 1)
       unknown.push_back(v);
   }
-  // What is not chosen is run all the same: it was done.
+  // Runs all experiments, chosen or not: one history contains them all.
   const auto found = workers_.map(unknown.size(), [&](std::size_t job) {
     std::vector<PredictedShape> shapes(set_.experiments.size());
     try {
       shapes = insert(set_, changes[unknown[job]]);
-    } catch (const std::invalid_argument&) {  // with these numbers it is no rod any more
+    } catch (const std::invalid_argument&) {  // these numbers do not describe a rod
     }
     std::vector<double> out;
     for (const PredictedShape& shape : shapes) append(shape, out);

@@ -1,5 +1,5 @@
 #pragma once
-/// The shapes that a fit asks for.
+/// Computes the shapes that a fit needs.
 #include <map>
 
 #include "data/identification/estimation/workers.h"
@@ -7,8 +7,8 @@
 
 namespace ostium::data {
 
-/// Shapes of a set's experiments for any parameters, each from its anchor, so that no result depends on which came
-/// before it.
+/// Shapes of a set's experiments for any parameters. Each starts from its anchor, so no result depends on earlier
+/// calls.
 class ForwardModel {
  public:
   ForwardModel(const MeasurementSet& set, const Workers& workers, std::vector<StaticEquilibrium> anchors)
@@ -16,7 +16,7 @@ class ForwardModel {
 
   const MeasurementSet& set() const { return set_; }
   void set_longest_element(double longest_m) { longest_element_m_ = longest_m; }
-  /// shapes[v][k]: of experiment chosen[k] under changes[v].
+  /// shapes[v][k]: experiment chosen[k] under changes[v].
   std::vector<std::vector<PredictedShape>> shapes(const std::vector<Changes>& changes,
                                                   const std::vector<int>& chosen) const;
 
@@ -28,7 +28,7 @@ class ForwardModel {
   const Workers& workers_;
   std::vector<StaticEquilibrium> anchors_;
   double longest_element_m_ = fine_elements_m;
-  /// Histories that were run before, by what was changed: folds ask for the same ones again. Filled between jobs only.
+  /// Histories already run, by what was changed: folds ask for the same ones again. Written between jobs only.
   mutable std::map<std::vector<double>, std::vector<PredictedShape>> known_;
 };
 

@@ -1,4 +1,4 @@
-/// Scores a model on experiments that its fit has not seen.
+/// Scores a model on experiments that its fit did not use.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -27,7 +27,7 @@ void ModelFit::score_held_out(FitOptions options, FittedModel& model) const {
     try {
       x = fit(*forward_, parameters_, options).x;
     } catch (const std::runtime_error&) {
-      return;  // no shape where this fold ends
+      return;  // no shape at this fold's result
     }
     const std::vector<Eigen::VectorXd> off = misfits(*forward_, parameters_, x, folds[f]);
     const std::vector<PredictedShape> seen = forward_->shapes({parameters_.changes(x)}, folds[f])[0];

@@ -9,9 +9,9 @@ namespace ostium::data {
 struct LeastSquares {
   int residuals = 0;
   Eigen::VectorXd start, least, most;
-  double tolerance = 1e-8;  ///< relative, of the cost and of the step
+  double tolerance = 1e-8;  ///< relative, on cost and step
   int most_iterations = 60;
-  /// Residuals at x and, if asked for, their Jacobian; false where there is no solution.
+  /// Computes the residuals at x and, if not null, their Jacobian; false if there is no solution.
   std::function<bool(const Eigen::VectorXd& x, Eigen::VectorXd& residuals, Eigen::MatrixXd* jacobian)> evaluate;
 };
 

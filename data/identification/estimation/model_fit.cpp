@@ -21,11 +21,11 @@ using Eigen::VectorXd;
 
 constexpr int further_starts = 7;
 constexpr std::size_t most_descents = 2;
-constexpr int starts_for_each = 12;  // at most, of what is added
+constexpr int starts_for_each = 12;  // at most, per added parameter
 constexpr int starts_ahead = 6;
-constexpr int starts_in_vessel = 8;          // a history takes as long as hundreds of shapes
-constexpr double most_stiffer = 3;           // at once, by what the push says
-constexpr double another_branch_m = 0.1e-3;  // tips further apart than this are on other branches
+constexpr int starts_in_vessel = 8;          // a history costs as much as hundreds of shapes
+constexpr double most_stiffer = 3;           // largest factor on all stiffness in one refit by push
+constexpr double another_branch_m = 0.1e-3;  // tips farther apart than this are on different branches
 
 std::vector<int> everyone(const MeasurementSet& set) {
   std::vector<int> all(set.experiments.size());
@@ -85,7 +85,7 @@ FitOptions ModelFit::options_near(const FittedModel& near, std::optional<double>
     for (const FittedParameter& p : near.parameters)
       if (p.parameter.name == parameters_.list()[i].name) x[i] = parameters_.inner(i, p.value);
   anchor(x);
-  // What the other model has not: spread over its prior.
+  // Parameters that the other model lacks are spread over their priors.
   int first = 0;
   const auto known = [&](int i) {
     return std::any_of(near.parameters.begin(), near.parameters.end(),
@@ -94,10 +94,10 @@ FitOptions ModelFit::options_near(const FittedModel& near, std::optional<double>
   while (first < parameters_.shape_parameters() && known(first)) ++first;
   const int spread = std::min(starts, starts_for_each * (parameters_.shape_parameters() - first));
   FitOptions options{all_, noise_m, starts_of(parameters_, x, first, spread), descents()};
-  // Without what it lacks, the other model's stiffness may have gone far astray.
+  // Because it lacks these, the other model's stiffness may be far off; also start from the priors.
   if (starts > 0) {
     const auto others = starts_of(parameters_, parameters_.start(), first, spread / 2);
-    if (set_.vessel)  // no time to follow both sorts
+    if (set_.vessel)  // no time to follow both groups
       options.starts.insert(options.starts.end(), others.begin(), others.end());
     else
       options.other_starts = others;
@@ -127,8 +127,8 @@ FittedModel ModelFit::run_near(const FittedModel& near, std::optional<double> no
   return model;
 }
 
-/// Shapes alone hardly tell a stiff instrument in a stiff wall from a soft one in a soft wall: descents along that
-/// valley are slow and end early. The push tells, by how much all of it is to be stiffer.
+/// Shapes alone hardly distinguish a stiff instrument in a stiff wall from a soft one in a soft wall: descents along
+/// that valley are slow and stop early. The ratio of measured to computed push gives the common stiffness factor.
 void ModelFit::refit_by_push(FitOptions options) {
   if (!push_sigma_N(set_)) return;
   const std::vector<PredictedShape> shapes = forward_->shapes({parameters_.changes(fit_.x)}, all_)[0];
@@ -180,14 +180,15 @@ void ModelFit::judge(FittedModel& model, const Noise& noise) const {
   const double chi2 = squares_m2 / (*noise.sigma_m * *noise.sigma_m);
   model.chi2_per_dof = chi2 / model.degrees_of_freedom;
   model.bic = chi2 + fit_.parameters_used * std::log(n);
-  // What a model leaves beyond a declared noise makes its numbers less sure; without one the fit has reckoned with it.
+  // A residual above the declared noise widens the parameters' uncertainty; if the noise was estimated, the fit has
+  // included it.
   const double wider = noise.declared ? std::max(1.0, std::sqrt(*model.chi2_per_dof)) : 1;
   for (int i = 0; i < parameters_.size(); ++i)
     model.parameters[i].sigma = wider * parameters_.sigma(i, fit_.x[i], std::sqrt(fit_.covariance(i, i)));
 }
 
 void ModelFit::anchor(const VectorXd& x) {
-  if (set_.vessel) {  // a history begins outside, and needs nothing to continue from
+  if (set_.vessel) {  // a history begins outside the vessel and needs no anchor
     if (!forward_) forward_.emplace(set_, workers_, std::vector<StaticEquilibrium>{});
     if (!viewed_ && set_.imaging.registration_free)
       parameters_.set_nominal_view(registered(set_, forward_->shapes({parameters_.changes(x)}, all_)[0]));

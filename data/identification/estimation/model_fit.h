@@ -1,5 +1,5 @@
 #pragma once
-/// One model of a set, declared or with effects, fitted in full and fold by fold.
+/// Fits one model of a set, as declared or with effects, to all data and fold by fold.
 #include "data/identification/estimation/fit.h"
 #include "data/identification/estimation/fitted_model.h"
 
@@ -7,41 +7,41 @@ namespace ostium::data {
 
 class ModelFit {
  public:
-  /// `spread`: priors of the effects' parameters are so many times as wide as they say.
+  /// `spread`: factor on the prior widths of the effects' parameters.
   ModelFit(const MeasurementSet& set, const Workers& workers, const std::vector<ActiveEffect>& tried,
            const std::function<void(const std::string&)>& progress, double spread = 1);
   ModelFit(const ModelFit&) = delete;
 
-  /// Everything but what needs the noise, which `judge` adds. `noise_m`: none if it is not declared. Throws LoadError
-  /// naming the experiment that has no static shape.
+  /// Fits and scores everything except what depends on the noise, which `judge` adds. `noise_m`: none if it is not
+  /// declared. Throws LoadError naming the experiment that has no static shape.
   FittedModel run(std::optional<double> noise_m);
-  /// A rough fit to all data alone, begun from another model's values of the parameters that both have. `guess_m`:
-  /// about what is left, where the noise is not known.
+  /// A rough fit to all data only, started from another model's values of the shared parameters. `guess_m`: expected
+  /// residual if the noise is unknown.
   FittedModel run_near(const FittedModel& near, std::optional<double> noise_m, double guess_m, int starts);
-  /// About what `run_near` could come to, at a tenth of its price (`cost_ahead`).
+  /// Estimate of what `run_near` would reach, at a tenth of its cost (`cost_ahead`).
   double cost_ahead_near(const FittedModel& near, std::optional<double> noise_m, double guess_m);
-  /// Fits what `run_near` has found to the end, and adds held-out errors and what the rest goes with.
+  /// Completes the fit that `run_near` began, and adds held-out errors and the residual tests.
   void complete(FittedModel& model, std::optional<double> noise_m);
-  /// Of the model after its fit (Laplace): the logarithm of how likely it makes the data, up to a constant that models
-  /// of the same set and noise share.
+  /// Log evidence of the fitted model (Laplace), up to a constant that is the same for all models of the same set and
+  /// noise.
   double log_evidence() const;
   void judge(FittedModel& model, const Noise& noise) const;
-  /// After `run`: before anything was fitted.
+  /// Call after `run`: the misfits before anything was fitted.
   std::vector<Eigen::VectorXd> misfits_at_start() const;
 
  private:
-  std::size_t descents() const;  ///< from how many starts a fit goes downhill
+  std::size_t descents() const;  ///< number of starts to descend from
   void say(const std::string& what) const;
   FitOptions options_near(const FittedModel& near, std::optional<double> noise_m, double guess_m, int starts);
-  /// Once more from where the measured pushes point to, if there are any.
+  /// Refits, starting also from the stiffness that the measured pushes suggest, if there are any.
   void refit_by_push(FitOptions options);
-  /// Finds the shapes to continue from: those that the walk through the experiments comes to at x.
+  /// Computes the anchors: the shapes that walking through the experiments reaches at x.
   void anchor(const Eigen::VectorXd& x);
-  /// Anchors anew at what was fitted, and names the experiments that this brings to another shape.
+  /// Recomputes the anchors at the fitted values, and returns the experiments whose shape changes.
   std::vector<std::string> on_other_branches();
   FittedModel report() const;
   void add_residual_tests(FittedModel& model) const;
-  /// Adds each experiment's misfits by the fit that has not seen it, where that can be said.
+  /// Adds each experiment's misfits by the fit that left it out, where there is one.
   void score_held_out(FitOptions options, FittedModel& model) const;
 
   const MeasurementSet& set_;

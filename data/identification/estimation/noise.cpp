@@ -14,7 +14,7 @@ struct Mean {
   double sum = 0, count = 0;
 };
 
-/// Unit weights that no polynomial of degree n - 2 in `t` (n places) passes.
+/// Unit weights on n points at `t` that cancel every polynomial of degree n - 2.
 VectorXd annihilator(const VectorXd& t) {
   const Eigen::Index n = t.size();
   Eigen::MatrixXd powers(n, n - 1);
@@ -24,7 +24,7 @@ VectorXd annihilator(const VectorXd& t) {
   return Q.col(n - 1);
 }
 
-/// Square of what a cubic cannot follow, per coordinate, over all windows of five points.
+/// Adds the squared part that a cubic cannot follow, per coordinate, over all windows of five points.
 void add_point_to_point(const Experiment& e, const VectorXd& off, Mean& mean) {
   const Eigen::Index count = static_cast<Eigen::Index>(e.points_m.size()), window = std::min<Eigen::Index>(5, count);
   if (window < 3) return;
@@ -34,7 +34,7 @@ void add_point_to_point(const Experiment& e, const VectorXd& off, Mean& mean) {
     const VectorXd w = annihilator(s.segment(i, window));
     Vector3d left = Vector3d::Zero();
     for (Eigen::Index k = 0; k < window; ++k) left += w[k] * off.segment<3>(3 * (i + k));
-    mean.sum += left.squaredNorm(), mean.count += 2;  // misfits lie across the wire
+    mean.sum += left.squaredNorm(), mean.count += 2;  // misfits are perpendicular to the wire
   }
 }
 
@@ -100,7 +100,7 @@ std::optional<Correlation> correlation_along(const MeasurementSet& set, const st
   }
   if (pairs < 5 || squares == 0) return {};
   const double value = products / squares;
-  return Correlation{value, value * std::sqrt(2 * pairs)};  // two coordinates a pair
+  return Correlation{value, value * std::sqrt(2 * pairs)};  // two coordinates per pair
 }
 
 }  // namespace ostium::data

@@ -4,7 +4,6 @@
 
 #include <Eigen/Dense>
 #include <cmath>
-#include <numbers>
 
 #include "core/base/units.h"
 
@@ -17,12 +16,12 @@ using Eigen::VectorXd;
 
 using units::mm, units::degree;
 
-/// A declared stiffness is known to perhaps 30 %.
+/// A declared stiffness is uncertain by perhaps 30 %.
 constexpr double stiffness_spread = 0.3, least_scale = 0.1, most_scale = 10;
-/// Of an effect's finite differences, of its prior's spread: a place must move by more than what the elements' edges
-/// leave to the shape.
+/// Finite-difference step of an effect, relative to its prior's spread: positions along the instrument must move by
+/// more than the shape's sensitivity to element boundaries.
 constexpr double effect_step = 1e-2;
-/// Weak: they only decide what the data leave open.
+/// Weak priors: they only decide what the data leave open.
 constexpr double rotation_spread_deg = 60, translation_spread_mm = 300, offset_spread_mm = 15;
 constexpr double most_rotation_deg = 170, most_translation_mm = 2000, most_offset_mm = 60;
 
@@ -87,7 +86,7 @@ void Parameters::add_effect(const MeasurementSet& set, std::size_t tried) {
     const EffectParameter& p = parameters[i];
     std::string name = active.effect->id;
     if (active.instrument) name += fmt::format("[{}]", *active.instrument);
-    // Twice the same effect on two stretches.
+    // The same effect on two stretches.
     for (std::size_t other = 0; other < tried; ++other)
       if (tried_[other].effect == active.effect && tried_[other].instrument == active.instrument)
         name += " (" + active.form + ")";

@@ -14,11 +14,11 @@ using Eigen::MatrixXd;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 
-constexpr int stretches = 6;  // of a centreline
+constexpr int stretches = 6;  // per centreline
 constexpr int draws = 3999;
-constexpr double level = 0.01;  // of all tests together
+constexpr double level = 0.01;  // significance level of all tests together
 
-/// One row an experiment: its mean misfits, stretch by stretch, each turned by `turn`.
+/// One row per experiment: its mean misfit in each stretch, rotated by `turn`.
 template <class Turn>
 MatrixXd summary(const MeasurementSet& set, const std::vector<VectorXd>& misfits, Turn&& turn) {
   const auto& all = set.experiments;
@@ -45,19 +45,19 @@ double common_share(const MatrixXd& rows) {
   return rows.colwise().sum().squaredNorm() / static_cast<double>(rows.rows()) / rows.squaredNorm();
 }
 
-/// Orthonormal columns that span those of `with` about their means.
+/// Orthonormal basis of the column space of `with`, centred.
 MatrixXd basis(const MatrixXd& with) {
   const MatrixXd centred = with.rowwise() - with.colwise().mean();
   const Eigen::ColPivHouseholderQR<MatrixXd> qr(centred);
   return MatrixXd(qr.householderQ()).leftCols(qr.rank());
 }
 
-/// The share of the scatter of `rows` about their mean that lies along the columns of `basis`.
+/// Share of the scatter of `rows` about their mean that lies in the span of `basis`.
 double linear_share(const MatrixXd& centred_rows, const MatrixXd& basis) {
   return (basis.transpose() * centred_rows).squaredNorm() / centred_rows.squaredNorm();
 }
 
-/// How often signs thrown at random make as large a share.
+/// p-value of the common share, by random sign flips.
 double p_of_common(const MatrixXd& rows, std::mt19937& random) {
   const double found = common_share(rows);
   int as_large = 1;
@@ -70,7 +70,7 @@ double p_of_common(const MatrixXd& rows, std::mt19937& random) {
   return static_cast<double>(as_large) / (draws + 1);
 }
 
-/// How often experiments in another order make as large a share.
+/// p-value of the linear share, by permuting the experiments.
 ResidualTest linear(const std::string& on, const MatrixXd& rows, const MatrixXd& with, std::mt19937& random) {
   const MatrixXd along = basis(with), centred = rows.rowwise() - rows.colwise().mean();
   const double found = linear_share(centred, along);
@@ -78,7 +78,7 @@ ResidualTest linear(const std::string& on, const MatrixXd& rows, const MatrixXd&
   std::iota(order.begin(), order.end(), 0);
   int as_large = 1;
   for (int d = 0; d < draws; ++d) {
-    // Fisher and Yates, so that the draw does not depend on a library's shuffle.
+    // Fisher-Yates, so that the draw does not depend on the library's shuffle.
     for (std::size_t i = order.size() - 1; i > 0; --i) std::swap(order[i], order[random() % (i + 1)]);
     as_large += linear_share(centred(order, Eigen::all), along) >= found;
   }
@@ -90,7 +90,7 @@ struct Covariate {
   MatrixXd columns;
 };
 
-/// What was varied; columns that do not vary are left out.
+/// The quantities that were varied; those that do not vary are left out.
 std::vector<Covariate> covariates(const MeasurementSet& set) {
   const auto& all = set.experiments;
   const auto n = static_cast<Eigen::Index>(all.size()), tools = static_cast<Eigen::Index>(set.instruments.size());
@@ -122,7 +122,7 @@ std::vector<Covariate> covariates(const MeasurementSet& set) {
   return list;
 }
 
-/// The shortest stretch, by tenths of the instrument, that has four fifths of the squares.
+/// The shortest stretch, in tenths of the instrument, that holds four fifths of the sum of squares.
 std::optional<Eigen::Vector2d> where(const MeasurementSet& set, const std::vector<VectorXd>& misfits) {
   constexpr int parts = 10;
   double longest = 0;
@@ -145,8 +145,8 @@ std::optional<Eigen::Vector2d> where(const MeasurementSet& set, const std::vecto
   return {};
 }
 
-/// What the strongest dependence says of the frame. What is common in the rolled frame goes round with the roll in the
-/// set's, and the other way round. Place goes with most of what is varied, so it counts only where nothing else does.
+/// Frame suggested by the strongest dependence. What is constant in the rolled frame turns with the roll in the set's
+/// frame, and vice versa. Place correlates with most varied quantities, so it counts only if nothing else does.
 std::string frame_of(const std::vector<ResidualTest>& strongest_first) {
   static const std::vector<std::pair<std::string, std::string>> frames = {{"common in the rolled frame", "material"},
                                                                           {"roll", "material"},
@@ -174,7 +174,7 @@ ResidualTests residual_tests(const MeasurementSet& set, const std::vector<Vector
   ResidualTests out;
   if (set.experiments.size() < 4) return out;
   for (std::size_t e = 1; e < misfits.size(); ++e)
-    if (set.experiments[e].kind != set.experiments[0].kind) return out;  // not to be compared
+    if (set.experiments[e].kind != set.experiments[0].kind) return out;  // mixed kinds cannot be compared
   const MatrixXd lab =
       summary(set, misfits, [&](const Experiment&, const Vector3d& v) -> Vector3d { return view.R.conjugate() * v; });
   const MatrixXd material = summary(set, misfits, [&](const Experiment& e, const Vector3d& v) -> Vector3d {

@@ -12,7 +12,7 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double free_step = 1e-4;  // of finite differences where they cost nothing, in scales
+constexpr double free_step = 1e-4;  // finite-difference step of the free numbers, in scales
 constexpr double good = 0.7, bad = 0.1, shrink = 0.4, near_enough = 2;
 
 class SecantSearch {
@@ -36,7 +36,7 @@ class SecantSearch {
       const VectorXd p = step(radius, gain);
       const double least_gain = std::max(d_.least_gain, 1e-4 * cost_);
       if (gain < least_gain) {
-        // Believed only of points that are near.
+        // Trusted only if the points of the model are close.
         if (radius <= d_.last_radius) {
           out.converged = true;
           break;
@@ -72,7 +72,7 @@ class SecantSearch {
     ++evaluations_;
     return seen(u, r);
   }
-  /// Where the dear numbers have been before.
+  /// Residuals at u without counting an evaluation: the dear numbers have been here before.
   double seen(const VectorXd& u, VectorXd& r) const {
     const VectorXd x =
         (d_.problem.start + u.cwiseProduct(d_.scale)).cwiseMax(d_.problem.least).cwiseMin(d_.problem.most);
@@ -80,7 +80,7 @@ class SecantSearch {
     return r.squaredNorm() / 2;
   }
 
-  /// The first points, one along each dear number.
+  /// Evaluates the first points, one along each dear number.
   bool begin() {
     const VectorXd from = at_;
     for (int i = 0; i < m_; ++i) {
@@ -107,7 +107,7 @@ class SecantSearch {
   }
   double farthest() const { return m_ > 0 ? offsets().colwise().norm().maxCoeff() : 0; }
 
-  /// J_ of what `r_` is here.
+  /// Sets J_, the Jacobian of `r_` at `at_`.
   bool model() {
     J_.resize(r_.size(), n_);
     MatrixXd change(r_.size(), m_);
@@ -128,7 +128,7 @@ class SecantSearch {
     return J_.allFinite();
   }
 
-  /// To the model's least, within the bounds and, of the dear numbers, the radius.
+  /// The step to the minimum of the linear model, within the bounds and, for the dear numbers, the radius.
   VectorXd step(double radius, double& gain) const {
     VectorXd p = VectorXd::Zero(n_);
     std::vector<bool> held(n_, false);
@@ -176,12 +176,12 @@ class SecantSearch {
     return p;
   }
 
-  /// Takes a point in, in place of the one that it does most without; the better of it and the centre is the centre.
+  /// Adds a point to the model, replacing the least useful one; if it is better than the centre, it becomes the centre.
   void add(const VectorXd& u, const VectorXd& r, double cost) {
     if (!std::isfinite(cost)) return;
     const VectorXd share = offsets().colPivHouseholderQr().solve(u.head(m_) - at_.head(m_));
     int out = -1;
-    double most = 1e-3;  // flatter than this it would make the model worse
+    double most = 1e-3;  // below this the point would degrade the model
     for (int k = 0; k < m_; ++k) {
       const double far = (others_[k] - u.head(m_)).norm();
       const double weight = std::fabs(share[k]) * std::max(1.0, far * far / (d_.last_radius * d_.last_radius));
@@ -195,7 +195,7 @@ class SecantSearch {
     }
   }
 
-  /// Brings the farthest point near, across all the others. False if all of them are.
+  /// Replaces the farthest point by a near one, perpendicular to the others. False if all points are near.
   bool improve(double radius) {
     const MatrixXd D = offsets();
     int k = 0;
@@ -229,10 +229,10 @@ class SecantSearch {
 
   const SecantDescent& d_;
   const int m_, n_;
-  VectorXd low_, high_;  ///< all from here on in scales, from the start
+  VectorXd low_, high_;  ///< this and all below in units of scale, relative to the start
   VectorXd at_, r_;
   double cost_ = 0;
-  std::vector<VectorXd> others_;  ///< dear numbers of the other points of the model
+  std::vector<VectorXd> others_;  ///< dear numbers of the model's other points
   MatrixXd J_;
   int evaluations_ = 0;
 };

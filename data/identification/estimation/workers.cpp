@@ -21,7 +21,7 @@ bool initialised() {
   return yes && !over;
 }
 
-/// Everyone's numbers, one rank's after the other's.
+/// Gathers every rank's numbers, in the order of the ranks.
 std::vector<double> gathered(const std::vector<double>& mine, std::vector<int>& counts) {
   counts.resize(ranks());
   const int count = static_cast<int>(mine.size());
@@ -33,7 +33,7 @@ std::vector<double> gathered(const std::vector<double>& mine, std::vector<int>& 
   return all;
 }
 
-/// Tells the other ranks of each result: its index, length and numbers.
+/// Sends each result to the other ranks: its index, length and numbers.
 void share(std::vector<std::vector<double>>& results) {
   std::vector<double> mine;
   for (std::size_t i = rank(); i < results.size(); i += ranks()) {
@@ -65,14 +65,14 @@ int ranks() {
 }
 
 Ranks::Ranks() {
-  // Open MPI's and other launchers' marks: without mpirun there is nothing to start.
+  // Variables set by Open MPI and other launchers; without mpirun there is nothing to initialise.
   if (std::getenv("OMPI_COMM_WORLD_SIZE") || std::getenv("PMI_SIZE")) {
     int provided = 0;
     MPI_Init_thread(nullptr, nullptr, MPI_THREAD_FUNNELED, &provided);
   }
 }
 Ranks::~Ranks() {
-  // A rank that gives up must not wait for the others: mpirun sees it leave, and stops them.
+  // After an exception do not wait for the other ranks: mpirun sees this one exit and stops them.
   if (initialised() && std::uncaught_exceptions() == 0) MPI_Finalize();
 }
 

@@ -1,6 +1,6 @@
 #pragma once
-/// Independent jobs spread over the threads of a machine and, under mpirun, over ranks. Every rank runs the same fit
-/// and has the same results, bit for bit; only the jobs are shared out.
+/// Distributes independent jobs over the machine's threads and, under mpirun, over ranks. Every rank runs the same fit
+/// and has the same results, bit for bit; only the jobs are shared.
 #include <cstddef>
 #include <functional>
 #include <vector>
@@ -11,10 +11,10 @@ class Workers {
  public:
   using Job = std::function<std::vector<double>(std::size_t)>;
 
-  /// `threads` per rank; 0: one for each core.
+  /// `threads` per rank; 0: one per core.
   explicit Workers(int threads = 0);
 
-  /// job(0), ..., job(count - 1), in this order, whoever does them. What a job throws is thrown here.
+  /// Results of job(0), ..., job(count - 1) in this order, wherever they ran. Rethrows a job's exception.
   std::vector<std::vector<double>> map(std::size_t count, const Job& job) const;
 
   int threads() const { return threads_; }
@@ -23,7 +23,7 @@ class Workers {
   int threads_;
 };
 
-/// The ranks of mpirun, for as long as this lives: one without it. Made once, in main.
+/// MPI for the lifetime of this object; a single rank without mpirun. Create one in main.
 class Ranks {
  public:
   Ranks();

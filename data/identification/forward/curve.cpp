@@ -31,8 +31,8 @@ std::vector<Vector3d> nearest_points(const std::vector<Vector3d>& curve, const s
       const double distance = (p - q).norm();
       if (distance < least) least = distance, best = q, found = i;
     };
-    // What lies near where the last one was bounds the rest: from a node so far off, none of the next edges can come
-    // as near. The first and the last edge go on for ever.
+    // The distance to the last nearest edge bounds the search: from a node that far away, none of the following edges
+    // can be nearer. The first and last edges extend to infinity.
     look_at(0), look_at(last), look_at(guess);
     for (std::size_t i = 1; i < last;) {
       const double spare = (p - curve[i]).norm() - least;

@@ -16,11 +16,13 @@ namespace {
 using Eigen::Quaterniond;
 using Eigen::Vector3d;
 
-/// With steps of 2 ms at this speed a wire that is drawn back with friction slips where it should stick.
+/// With steps of 2 ms at this speed, a wire drawn back with friction slips where it should stick.
 constexpr double feed_m_s = 0.02, turn_rad_s = units::pi / 2, step_s = 1e-3;
-/// Hands slow down before they stop: a wire that is stopped at once slides back on its friction by what it was moving.
+/// The feed slows down before it stops: a wire stopped abruptly slides back on its friction by the distance it was
+/// moving in a step.
 constexpr double slowing_s = 0.2;
-/// Drag that stands for slowness: far more than blood's, and still a tenth of a millinewton while a wire is fed.
+/// Damping that makes motion quasi-static: far more than blood's, yet only a tenth of a millinewton while a wire is
+/// fed.
 constexpr core::Damping slow{0.1, 0.02, 2e-3};
 constexpr double element_m = 2e-3, element_rad = 0.1, reserve_m = 20e-3;
 constexpr double rest_speed_m_s = 2e-4, least_rest_s = 0.1, most_rest_s = 2;
@@ -28,7 +30,7 @@ constexpr double bore_friction = 0.05;
 
 Quaterniond quaternion(const Eigen::Vector4d& q) { return {q[0], q[1], q[2], q[3]}; }
 
-/// A tip meets a wall at an angle: in one that gives way it is in contact over some millimetres only.
+/// A tip meets a wall at an angle: if the wall is compliant, only the last few millimetres are in contact.
 constexpr double tip_m = 6e-3, tip_element_m = 0.5e-3;
 
 std::vector<double> elements_of(const core::ConcentricPart& part, double length) {
@@ -98,7 +100,7 @@ class History {
       const double done = part_done(k, steps), next = part_done(k + 1, steps);
       for (std::size_t i = 0; i < at_.size(); ++i) {
         inputs_.rods[i].feed_m_s = (next - done) / step_s * way[i];
-        // As a rate about the base's axis, and what tilts it.
+        // Angular velocity of the base, from its roll and its tilt.
         const Quaterniond a = frame(to, i, done, &from), b = frame(to, i, next, &from);
         const Eigen::AngleAxisd turn(b * a.conjugate());
         inputs_.rods[i].base.turn_rate_W_rad_s = turn.angle() / step_s * turn.axis();
@@ -111,13 +113,13 @@ class History {
   }
 
  private:
-  /// Of the way, after k of so many steps: evenly, and slower and slower at the end.
+  /// Share of the path done after k of `steps` steps: constant speed, then slowing down at the end.
   static double part_done(int k, int steps) {
     const double all = steps * step_s, left = all - k * step_s, even = all - slowing_s / 2;
     return 1 - (left > slowing_s ? left - slowing_s / 2 : left * left / (2 * slowing_s)) / even;
   }
 
-  /// The base's frame of an instrument on the way from one setup to the next.
+  /// The base frame of instrument i, `part` of the way between two setups.
   static Quaterniond frame(const ExperimentSetup& to, std::size_t i, double part, const ExperimentSetup* from) {
     const ExperimentSetup& before = from ? *from : to;
     const double roll = (1 - part) * before.nest.parts[i].roll_rad + part * to.nest.parts[i].roll_rad;
@@ -149,7 +151,7 @@ class History {
     return most;
   }
 
-  /// Of what reaches furthest, cut at the innermost tip; that is the innermost one.
+  /// The shape of the innermost instrument, which reaches furthest.
   PredictedShape shape(const ExperimentSetup& to) const {
     PredictedShape out;
     out.converged = !lost_;

@@ -17,8 +17,8 @@ namespace {
 
 using units::mm;
 
-/// Distances to the shapes that other starts lead to, each shape once: a straight one, and straight ones in which an
-/// instrument is wound up against the others on the way to its tip, either way round.
+/// Distances to other equilibria, each counted once. They are searched from the straight shape and from straight shapes
+/// in which an instrument is pre-twisted against the others towards its tip, in either direction.
 std::vector<double> other_branches(const ExperimentSetup& setup, const PredictedShape& shape) {
   StaticEquilibrium straight{make_concentric(setup.nest, setup.gravity_m_s2), {}, false};
   straight.state = straight_state(straight.nest, setup.base);
@@ -45,7 +45,7 @@ std::vector<double> other_branches(const ExperimentSetup& setup, const Predicted
   return apart;
 }
 
-/// Rounded to a nanometre: what the solver leaves open.
+/// Rounded to a nanometre, the solver's accuracy.
 double rounded_mm(double x_m) { return std::round(x_m / mm * 1e6) / 1e6 + 0.0; }
 
 }  // namespace

@@ -1,5 +1,5 @@
 #pragma once
-/// What a set's declared model predicts, nothing fitted: prediction.json (schema ostium-prediction/1) and .csv.
+/// Predictions of a set's declared model, without fitting: prediction.json (schema ostium-prediction/1) and .csv.
 #include "data/identification/forward/shape.h"
 
 namespace ostium::data {
@@ -7,12 +7,13 @@ namespace ostium::data {
 struct Prediction {
   std::string id;
   PredictedShape shape;
-  std::optional<double> rms_to_measured_m;  ///< none where registration or offset is free
-  /// How far the ends of other stable shapes, those that were found, lie from this one's.
+  std::optional<double> rms_to_measured_m;  ///< none if registration or offset is free
+  /// Tip distances from this shape to the other stable shapes found.
   std::vector<double> other_branches_m;
 };
 
-/// Throws LoadError for what the model does not know (require_known), or names the experiment that has no static shape.
+/// Throws LoadError for sets that the model cannot handle (require_known), or naming the experiment without a static
+/// shape.
 std::vector<Prediction> predict(const MeasurementSet& set,
                                 const std::function<void(std::size_t, std::size_t)>& progress = {});
 

@@ -4,7 +4,7 @@ namespace ostium::data {
 
 namespace {
 
-/// 0.08 rad bends a chord off its arc by a hundredth of its length.
+/// At 0.08 rad the sagitta of a chord is a hundredth of its length.
 constexpr double longest_element_rad = 0.08;
 
 core::ConcentricPart part_of(const MeasurementSet& set, const Experiment& e, std::size_t i, const Changes& changes) {
@@ -31,7 +31,8 @@ ExperimentSetup setup_of(const MeasurementSet& set, const Experiment& experiment
   setup.base = experiment.base;
   setup.gravity_m_s2 = set.gravity_m_s2;
   setup.tip_force_N = experiment.tip_force_N;
-  // Elements end where declared sections do, so that what an effect moves slides through them without a jump.
+  // Elements end where the declared sections do, so that a boundary moved by an effect slides through elements without
+  // a jump.
   std::vector<core::ConcentricPart> declared = setup.nest.parts;
   for (const ActiveEffect& active : changes.effects)
     if (active.effect->apply) active.effect->apply(active, set, experiment, setup);

@@ -15,11 +15,11 @@ using Eigen::Vector3d;
 
 Eigen::Quaterniond quaternion(const Eigen::Vector4d& q) { return {q[0], q[1], q[2], q[3]}; }
 
-/// The largest change between two neighbours on the way from one experiment to the next.
+/// The largest change per step when walking from one experiment to the next.
 constexpr double step_insertion_m = 10e-3, step_turn_rad = 20 * units::pi / 180;
 constexpr int most_steps = 100;
 
-/// Where between `a` and `b`, at t of the way, the drives, base and loads are.
+/// Drives, base and loads interpolated between `a` and `b` at t in [0, 1].
 ExperimentSetup between(const ExperimentSetup& a, const ExperimentSetup& b, double t) {
   ExperimentSetup s = b;
   for (std::size_t i = 0; i < s.nest.parts.size(); ++i) {
@@ -32,7 +32,7 @@ ExperimentSetup between(const ExperimentSetup& a, const ExperimentSetup& b, doub
   const Eigen::Quaterniond q = quaternion(a.base.q_W).slerp(t, quaternion(b.base.q_W));
   s.base.q_W = {q.w(), q.x(), q.y(), q.z()};
   s.tip_force_N = (1 - t) * a.tip_force_N + t * b.tip_force_N;
-  s.nest.element_lengths_m = concentric_elements(s.nest.parts, 3e-3, 0.15);  // the way need not be as fine as its end
+  s.nest.element_lengths_m = concentric_elements(s.nest.parts, 3e-3, 0.15);  // intermediate shapes may be coarser
   return s;
 }
 
@@ -57,7 +57,7 @@ StaticEquilibrium settled(const ExperimentSetup& setup, const StaticEquilibrium*
   return anchor;
 }
 
-/// As many elements are not enough: a state knows how long its rod is.
+/// Compares element lengths, not only their number: a state depends on them.
 bool same_elements(const core::Concentric& a, const core::Concentric& b) {
   const core::Rod &x = a.carrier.rods[0], &y = b.carrier.rods[0];
   if (x.elements != y.elements) return false;

@@ -6,28 +6,28 @@
 
 namespace ostium::data {
 
-/// A centreline, in the frame of the set.
+/// A centreline in the set's frame.
 struct PredictedShape {
   bool converged = false;
   std::vector<Eigen::Vector3d> points_m;                ///< base to the innermost tip
   Eigen::Vector4d tip_q = Eigen::Vector4d(1, 0, 0, 0);  ///< frame of the innermost tip, w x y z
-  double base_push_N = 0;                               ///< axial, what holds it at the base
+  double base_push_N = 0;                               ///< axial force that holds it at the base
 };
 
-/// An experiment's equilibrium, to continue from.
+/// An experiment's equilibrium, used as a starting point.
 struct StaticEquilibrium {
   core::Concentric nest;
   core::ConcentricState state;
   bool converged = false;
 };
 
-/// Brings `anchor.state` into the equilibrium of `setup` that continues from it.
+/// Finds the equilibrium of `setup` that continues from `anchor.state`.
 PredictedShape shape_from(const ExperimentSetup& setup, const StaticEquilibrium& anchor);
-/// The same, and where it ended, for others near it to continue from.
+/// The same, and returns the equilibrium as a starting point for nearby setups.
 PredictedShape shape_from(const ExperimentSetup& setup, const StaticEquilibrium& anchor, StaticEquilibrium& end);
 
 /// The equilibria of all experiments in listed order, each reached from the one before by small steps in insertion,
-/// roll, base and load, the first from straight. `progress(done, of)` may be empty.
+/// roll, base and load; the first one starts straight. `progress(done, of)` may be empty.
 std::vector<StaticEquilibrium> walk(const MeasurementSet& set, const Changes& changes,
                                     const std::function<void(std::size_t, std::size_t)>& progress = {},
                                     double longest_element_m = fine_elements_m);

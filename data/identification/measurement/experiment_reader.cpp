@@ -3,7 +3,6 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "core/base/units.h"
 #include "data/identification/measurement/measurement_keys.h"
@@ -90,7 +89,7 @@ void read_measured(const JsonObject& entry, Experiment& e) {
   }
 }
 
-/// Core loads the end of what reaches furthest.
+/// Core applies the tip load to the end of the instrument that reaches furthest.
 void require_loaded_tip(const JsonObject& entry, const Experiment& e) {
   for (const Placement& p : e.set)
     if (!e.tip_force_N.isZero() && p.inserted_m > e.set.back().inserted_m)

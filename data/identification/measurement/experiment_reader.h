@@ -5,7 +5,7 @@
 
 namespace ostium::data {
 
-/// `set` has the instruments and the experiments before this one. Throws LoadError.
+/// `set` contains the instruments and the earlier experiments. Throws LoadError.
 Experiment read_experiment(const JsonValue& value, const MeasurementSet& set);
 
 }  // namespace ostium::data

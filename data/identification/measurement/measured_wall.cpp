@@ -5,7 +5,6 @@
 #include <Eigen/Geometry>
 #include <cmath>
 #include <filesystem>
-#include <numbers>
 
 #include "vascular/geometry/mesh/mesh.h"
 

@@ -1,6 +1,6 @@
 #pragma once
-/// The keys of a measured set, object by object: what the reader accepts, and what it says of each. The schema
-/// (data/schemas/measurement.schema.json) is made of them.
+/// The keys of a measured set, object by object: what the reader accepts, and how each is described. The schema
+/// (data/schemas/measurement.schema.json) is generated from them.
 #include "data/formats/json_object.h"
 
 namespace ostium::data::measurement_keys {
@@ -98,7 +98,7 @@ inline const JsonObjectKeys placement = {
 inline const JsonObjectKeys specimen = {
     "specimen", {{"rest_curvature_per_mm", true, "two numbers in 1/mm, [k1, k2]", json_type::numbers(2)}}};
 
-/// All of them, the file's own first.
+/// All of them; the file's own object comes first.
 inline const std::vector<const JsonObjectKeys*> all = {&set,    &instrument, &section, &environment, &vessel,  &imaging,
                                                        &effect, &experiment, &base,    &placement,   &specimen};
 

@@ -30,7 +30,7 @@ core::Section read_section(const JsonObject& entry, const MeasuredInstrument& in
   reached_mm = ends[1];
   s.EI1_N_m2 = s.EI2_N_m2 = entry.positive("EI_Nmm2") * Nmm2;
   s.GJ_N_m2 = entry.positive("GJ_Nmm2") * Nmm2;
-  // Core takes no rod without weight; this is a thousandth of the lightest wire's.
+  // Core refuses rods without weight; this is a thousandth of the lightest wire's.
   s.kg_per_m = std::max(entry.not_negative("kg_per_mm") / mm, 1e-6);
   s.radius_m = instrument.radius_m, s.inner_radius_m = instrument.inner_radius_m;
   if (entry.has("rest_curvature_per_mm"))
@@ -38,7 +38,7 @@ core::Section read_section(const JsonObject& entry, const MeasuredInstrument& in
   return s;
 }
 
-/// Core has limits of its own, on numbers that are of the right sign and still no instrument's.
+/// Core has limits of its own, for numbers of the right sign that no instrument has.
 void require_rod(const JsonObject& entry, const MeasuredInstrument& instrument) {
   try {
     core::check({instrument.name, instrument.sections, equal_elements(instrument.sections, 64), {}, {}});

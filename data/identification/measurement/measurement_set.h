@@ -1,5 +1,5 @@
 #pragma once
-/// A measured set: one instrument, or a few nested ones, measured several times. SI inside; the file's schema is
+/// A measured set: one instrument, or several nested ones, measured several times. SI internally; the file's schema is
 /// data/schemas/measurement.schema.json.
 #include <memory>
 #include <optional>
@@ -13,30 +13,30 @@ struct MeasuredInstrument {
   std::string name;
   double length_m = 0;
   double radius_m = 0, inner_radius_m = 0;
-  std::vector<core::Section> sections;  ///< from the distal tip backwards
+  std::vector<core::Section> sections;  ///< from the distal tip towards the hub
 };
 
-/// Where one instrument was put.
+/// Insertion and roll of one instrument.
 struct Placement {
   double inserted_m = 0;  ///< from the base to its tip
-  double roll_rad = 0;    ///< as commanded, right-handed about the base's d3; whole turns count
-  double shaft_m = 0;     ///< straight, between the drive that rolls it and the base
+  double roll_rad = 0;    ///< as commanded, right-handed about the base's d3; full turns are kept
+  double shaft_m = 0;     ///< straight shaft between the drive that rolls it and the base
 };
 
 struct Experiment {
   std::string id;
-  std::string place;                                     ///< "experiments[3]", for messages
-  core::EndState base;                                   ///< d3 = tangent, d1 = up made orthogonal to it; unrolled
-  std::vector<Placement> set;                            ///< one per instrument
-  std::vector<std::optional<Eigen::Vector2d>> specimen;  ///< rest curvature, 1/m, in place of what is not zero
+  std::string place;           ///< "experiments[3]", for messages
+  core::EndState base;         ///< d3 is the tangent, d1 is `up` made orthogonal to it; before roll
+  std::vector<Placement> set;  ///< one per instrument
+  std::vector<std::optional<Eigen::Vector2d>> specimen;  ///< rest curvature, 1/m, replacing nonzero declared ones
   Eigen::Vector3d tip_force_N = Eigen::Vector3d::Zero();
   std::optional<double> proximal_force_N;
   std::optional<double> elapsed_s;
-  std::string group;  ///< empty: none
+  std::string group;  ///< empty if none
 
   enum class Kind { centreline, tip, radius };
   Kind kind = Kind::centreline;
-  std::vector<Eigen::Vector3d> points_m;  ///< base to tip; one for a tip
+  std::vector<Eigen::Vector3d> points_m;  ///< base to tip; a single point for a tip
   double radius_m = 0;
 };
 
@@ -49,10 +49,10 @@ struct Imaging {
 struct MeasuredVessel {
   std::string mesh, units;
   double friction = 0;
-  std::shared_ptr<const core::SurfaceDescription> wall;  ///< facing outwards, in the frame of the set
+  std::shared_ptr<const core::SurfaceDescription> wall;  ///< oriented outwards, in the set's frame
 };
 
-/// An effect that the file says the model is to include.
+/// An effect that the file asks the model to include.
 struct DeclaredEffect {
   std::string id;
   std::optional<int> instrument;  ///< none: all that it can act on

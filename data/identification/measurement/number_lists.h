@@ -9,7 +9,7 @@
 
 namespace ostium::data {
 
-/// `value` as `count` numbers; the message tells how many there are.
+/// `value` as `count` numbers; the error message says how many there are.
 inline std::vector<double> numbers(const JsonValue& value, std::size_t count) {
   if (value.type != JsonValue::Type::array) value.refuse(fmt::format("{} numbers, [...]", count));
   std::vector<double> result;

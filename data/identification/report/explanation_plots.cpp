@@ -21,7 +21,7 @@ const std::string measured_colour = "#222222", before_colour = "#d55e00", after_
 const char* const axes[] = {"x", "y", "z"};
 
 bool has_after(const Explanation& x) { return &x.best() != &x.declared || !x.candidates.empty(); }
-/// What is shown beside the declared model: the winner, or the best that was tried.
+/// The model shown beside the declared one: the winner, or the best candidate.
 const FittedModel& after(const Explanation& x) { return x.candidates.empty() ? x.declared : x.candidates.front(); }
 
 void name_models(Plot& plot, const Explanation& x, bool measured) {
@@ -36,14 +36,14 @@ Plot::Points seen(const std::vector<Vector3d>& points, int across, int up) {
   return out;
 }
 
-/// Measured points brought into the frame of the set.
+/// Measured points transformed to the set's frame.
 std::vector<Vector3d> in_set(const std::vector<Vector3d>& points, const MeasuredView& view) {
   std::vector<Vector3d> out;
   for (const Vector3d& p : points) out.push_back(view.R.conjugate() * (view.A.inverse() * (p - view.b_m) - view.t_m));
   return out;
 }
 
-/// The axis that the first base points along goes up or to the right: the wire's own length.
+/// The axis closest to the first base's direction, along the wire; drawn up or to the right.
 int length_axis(const MeasurementSet& set) {
   const Eigen::Vector4d& q = set.experiments.front().base.q_W;
   const Vector3d d3 = Eigen::Quaterniond(q[0], q[1], q[2], q[3]) * Vector3d::UnitZ();
@@ -67,7 +67,7 @@ std::string shapes_plot(const MeasurementSet& set, const Explanation& x, int whi
     const bool tip = set.experiments[e].kind == Experiment::Kind::tip;
     const MeasuredView view = seen(set, set.experiments[e], shown.changes, shown.view);
     plot.dots(seen(in_set(set.experiments[e].points_m, view), length, across), measured_colour, tip ? 2.2 : 1.3);
-    // A tracked point lies off the tip: what joins it to the model's is part of the model.
+    // A tracked point is offset from the tip: the line to the modelled tip is drawn as part of the model.
     if (set.experiments[e].kind == Experiment::Kind::tip && set.imaging.tip_offset_free) {
       const Vector3d tracked = in_set({tracked_tip(shown.shapes[e], view)}, view)[0];
       plot.line(seen({shown.shapes[e].points_m.back(), tracked}, length, across), "#999999", 0.8, "2 2");

@@ -18,7 +18,7 @@ using Json = nlohmann::ordered_json;
 using units::mm, units::Nmm2;
 constexpr double weight_length_m = 2e-3;
 
-/// A name that a file can have.
+/// Converts the text to a valid file name.
 std::string file_name(const std::string& words) {
   std::string out;
   for (const char c : words) {
@@ -47,7 +47,7 @@ Json section(const core::Section& s) {
   return out;
 }
 
-/// Branches of what is lost with time, of an instrument that has a shape to lose.
+/// Relaxation branches of an instrument that has a rest shape to lose.
 Json relaxation(const std::vector<ActiveEffect>& effects, const std::vector<core::Section>& sections, std::size_t i) {
   Json out = Json::array();
   if (std::all_of(sections.begin(), sections.end(),
@@ -69,7 +69,7 @@ std::string instrument_json(const MeasurementSet& set, const Explanation& x, std
   std::string found;
   std::erase_if(changes.effects, [](const ActiveEffect& e) { return !e.effect->in_instrument; });
   for (const ActiveEffect& e : changes.effects) found += (found.empty() ? " with " : " and ") + e.effect->what;
-  // As it comes out of its package: what it loses with time is written as such.
+  // As delivered: relaxation is written separately.
   Experiment fresh = set.experiments.front();
   if (fresh.elapsed_s) fresh.elapsed_s = 0;
   std::vector<core::Section> sections = setup_of(set, fresh, changes).nest.parts[i].sections;

@@ -7,7 +7,7 @@ namespace ostium::data {
 
 namespace {
 
-constexpr double clearly = 0.95;  // of another model's held-out error
+constexpr double clearly = 0.95;  // relative to another model's held-out error
 
 }  // namespace
 
@@ -18,7 +18,7 @@ bool at_an_edge(const FittedModel& model) {
       return false;
     const bool low = q.logarithmic ? p.value < q.least * 1.01 : p.value < q.least + 1e-3 * (q.most - q.least);
     const bool high = q.logarithmic ? p.value > q.most * 0.99 : p.value > q.most - 1e-3 * (q.most - q.least);
-    // Zero is no edge of what can only be positive: it says that the effect is not there.
+    // A zero limit of a positive parameter is no edge: it means that the effect is absent.
     return high || (low && q.least != 0);
   });
 }
@@ -38,7 +38,7 @@ bool wins(const FittedModel& candidate, const FittedModel& declared, const Noise
 
 bool is_noise(const FittedModel& model, const Noise& noise) {
   if (noise.sigma_m) {
-    // Four standard deviations of chi2 per degree of freedom; an estimated noise is itself known to some per cent.
+    // Four standard deviations of chi2 per degree of freedom; an estimated noise is itself uncertain by some per cent.
     const double allowed = 1 + 4 * std::sqrt(2 / model.degrees_of_freedom) + (noise.declared ? 0 : 0.15);
     if (*model.chi2_per_dof > allowed) return false;
   }

@@ -1,24 +1,22 @@
 #pragma once
-/// When one model counts as better than another, and when a model counts as complete.
+/// Criteria for one model being better than another, and for a model being complete.
 #include "data/identification/estimation/fitted_model.h"
 
 namespace ostium::data {
 
-/// A difference in BIC that is strong evidence, and one that is positive evidence (Kass, Raftery 1995, J Am Stat Assoc
-/// 90:773).
+/// BIC differences that are strong and positive evidence (Kass, Raftery 1995, J Am Stat Assoc 90:773).
 inline constexpr double strong_evidence = 6, positive_evidence = 2;
 
-/// Whether one model's held-out error is below another's by 5 %: that of shapes, or, if these are predicted about as
-/// well, that of pushes.
+/// Whether a's held-out error is below b's by 5 %: that of the shapes or, if these are about equal, that of the pushes.
 bool predicts_better(const FittedModel& a, const FittedModel& b);
 
-/// An effect counts if it predicts what it has not seen better, and pays for its numbers.
+/// Whether the candidate predicts held-out data better and its BIC justifies its parameters.
 bool wins(const FittedModel& candidate, const FittedModel& declared, const Noise& noise);
 
-/// Whether what a model leaves is noise: chi2, correlation along the wire, dependence on what was varied.
+/// Whether a model's residual is noise, by chi2, correlation along the wire and dependence on the varied quantities.
 bool is_noise(const FittedModel& model, const Noise& noise);
 
-/// Whether a number of the model stands at the edge of its range: then it stands in for something else.
+/// Whether a parameter is at the edge of its range: then it stands in for something else.
 bool at_an_edge(const FittedModel& model);
 
 }  // namespace ostium::data

@@ -17,7 +17,7 @@ namespace ostium::data {
 
 namespace {
 
-/// "shaft_torsion[1]": with the instrument that it is to act on.
+/// "shaft_torsion[1]": an effect and the instrument it acts on.
 ActiveEffect parsed(const std::string& word, const MeasurementSet& set) {
   ActiveEffect active;
   const std::size_t bracket = word.find('[');
@@ -40,9 +40,9 @@ ActiveEffect parsed(const std::string& word, const MeasurementSet& set) {
   return active;
 }
 
-/// By BIC; first, of those that the best has no strong evidence against, the one with the fewest parameters.
+/// Sorts by BIC; first comes the model with the fewest parameters among those not ruled out by strong evidence.
 void put_best_first(std::vector<FittedModel>& candidates) {
-  // Not stable_sort: its buffer does not know of the alignment that Eigen asks for (g++ 12).
+  // Not stable_sort: its buffer ignores the alignment that Eigen needs (g++ 12).
   std::sort(candidates.begin(), candidates.end(),
             [](const FittedModel& a, const FittedModel& b) { return a.bic < b.bic; });
   if (candidates.empty()) return;
@@ -95,7 +95,7 @@ Explanation explain(const MeasurementSet& set, const ExplainOptions& options) {
     model_fits.emplace_back(set, workers, tried, options.progress);
     out.candidates.push_back(model_fits.back().run(set.imaging.noise_sigma_m));
   }
-  // An estimate of the noise gains from a model that leaves little else.
+  // The model with the smallest residual gives the best noise estimate.
   const FittedModel* closest = &out.declared;
   for (const FittedModel& c : out.candidates)
     if (c.rms_m < closest->rms_m) closest = &c;
@@ -104,7 +104,7 @@ Explanation explain(const MeasurementSet& set, const ExplainOptions& options) {
   for (std::size_t i = 0; i < model_fits.size(); ++i) model_fits[i].judge(out.candidates[i], out.noise);
   put_best_first(out.candidates);
 
-  // Without a known noise nobody can say that a model fits to it: then what predicts better wins.
+  // Without a known noise no model can be said to fit; then the one that predicts better wins.
   const bool fits = is_noise(out.declared, out.noise);
   if ((!fits || !out.noise.sigma_m) && !out.candidates.empty() && wins(out.candidates.front(), out.declared, out.noise))
     out.verdict = Verdict::effect;

@@ -1,5 +1,5 @@
 #pragma once
-/// Fits what a set declares and the effects that are to be tried, and says what is left.
+/// Fits a set's declared model and the effects to be tried, and explains what is left.
 #include <functional>
 
 #include "data/identification/selection/explanation.h"
@@ -7,12 +7,11 @@
 namespace ostium::data {
 
 struct ExplainOptions {
-  /// Candidates: each a list of effects to be switched on together, of ids such as "shaft_torsion" or
-  /// "shaft_torsion[1]".
+  /// Candidates: each a list of effects to switch on together, by ids such as "shaft_torsion" or "shaft_torsion[1]".
   std::vector<std::vector<std::string>> tries;
-  int threads = 0;  ///< 0: one for each core
+  int threads = 0;  ///< 0: one per core
   std::function<void(const std::string&)> progress;
-  /// Every effect that there is, and several together, instead: where the declared model does not fit.
+  /// If the declared model does not fit: search all effects and their combinations instead.
   bool library = false;
 };
 

@@ -1,5 +1,5 @@
 #pragma once
-/// What was found out about a set, and the verdict on it.
+/// The findings about a set, and the verdict.
 #include "data/identification/estimation/fitted_model.h"
 #include "data/identification/selection/next_experiment.h"
 #include "data/identification/selection/residual_attribution.h"
@@ -13,16 +13,16 @@ std::string to_string(Verdict verdict);
 struct Explanation {
   Verdict verdict = Verdict::unexplained;
   Noise noise;
-  double rms_nominal_m = 0;  ///< before anything was fitted but the frame that leaves the tip offset out
+  double rms_nominal_m = 0;  ///< before fitting anything except, ignoring the tip offset, the frame
   std::vector<Eigen::VectorXd> nominal_misfits;
   FittedModel declared;
   std::vector<FittedModel> candidates;    ///< best first
-  std::vector<std::string> verdict_text;  ///< what was found, in words
+  std::vector<std::string> verdict_text;  ///< the findings, in words
   std::vector<ResidualAttribution>
       attributions;  ///< of the declared model's residual, best first; empty if it is noise
   Signature signature;
   std::optional<NextExperiment> next_experiment;
-  /// Of an ambiguous verdict: so many of the candidates explain the set equally.
+  /// For an ambiguous verdict: how many of the candidates explain the set equally well.
   std::size_t rivals = 0;
   const FittedModel& best() const { return verdict == Verdict::effect ? candidates.front() : declared; }
 };

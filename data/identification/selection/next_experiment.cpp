@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <stdexcept>
 
 #include "core/base/units.h"
@@ -16,7 +15,7 @@ namespace {
 
 using units::degree;
 
-/// Settings about what was done: rolls a quarter turn apart and insertions from half to once and a half, for one
+/// Settings around those of the set: rolls a quarter turn apart and insertions from 0.5 to 1.5 times, varied for one
 /// instrument at a time.
 std::vector<Experiment> settings(const MeasurementSet& set) {
   std::vector<Experiment> out;
@@ -32,7 +31,7 @@ std::vector<Experiment> settings(const MeasurementSet& set) {
           Placement& p = other.set[i];
           const double whole = set.instruments[i].length_m, drive = p.inserted_m + p.shaft_m;
           p.roll_rad += turn * degree;
-          // The drive moves along with the instrument, or the shaft would change by itself.
+          // The drive moves with the instrument; otherwise the shaft's length would change.
           p.inserted_m = std::min(p.inserted_m * length, p.shaft_m > 0 ? std::min(drive, whole) : whole);
           if (p.shaft_m > 0) p.shaft_m = std::max(drive - p.inserted_m, 0.0);
           out.push_back(other);
@@ -40,7 +39,7 @@ std::vector<Experiment> settings(const MeasurementSet& set) {
   return out;
 }
 
-/// The points that would be measured: the centreline, or its tracked tip alone.
+/// The points that would be measured: the centreline, or only the tracked tip.
 std::vector<Eigen::Vector3d> predicted(const MeasurementSet& set, const Experiment& e, const FittedModel& model,
                                        bool& found) {
   MeasurementSet alone = set;

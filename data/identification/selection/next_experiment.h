@@ -1,5 +1,5 @@
 #pragma once
-/// What to measure next: the setting at which two explanations of a set predict the most different shapes.
+/// The next experiment to make: the setting at which two explanations of a set predict the most different shapes.
 #include "data/identification/estimation/fitted_model.h"
 #include "data/identification/estimation/workers.h"
 
@@ -8,10 +8,10 @@ namespace ostium::data {
 struct NextExperiment {
   std::string why;
   std::vector<Placement> set;
-  double difference_m = 0;  ///< between what two explanations predict
+  double difference_m = 0;  ///< between the two explanations' predictions
 };
 
-/// None if no setting tells them apart by more than the noise (or 0.1 mm where it is unknown).
+/// None if no setting separates them by more than the noise (or 0.1 mm if that is unknown).
 std::optional<NextExperiment> next_experiment(const MeasurementSet& set, const Workers& workers, const FittedModel& a,
                                               const FittedModel& b, const Noise& noise);
 

@@ -11,7 +11,7 @@ namespace ostium::data {
 
 namespace {
 
-/// Where four fifths of a field's squares lie, by its knots.
+/// The stretch between knots that holds four fifths of a field's sum of squares.
 std::optional<Eigen::Vector2d> stretch_of(const MeasurementSet& set, const std::vector<double>& v, int width) {
   Eigen::VectorXd squares(field_knots);
   for (int k = 0; k < field_knots; ++k) {
@@ -28,8 +28,8 @@ std::optional<Eigen::Vector2d> stretch_of(const MeasurementSet& set, const std::
   return {};
 }
 
-/// The place on the model's shapes where a field of force has its middle, if it is the same place in all experiments:
-/// within a quarter of the longest insertion.
+/// The point on the model's shapes at the middle of a force field, if it is the same in all experiments to within a
+/// quarter of the longest insertion.
 std::optional<Eigen::Vector3d> place_of(const MeasurementSet& set, const FittedModel& model,
                                         const Eigen::Vector2d& stretch) {
   std::vector<Eigen::Vector3d> at;
@@ -66,7 +66,7 @@ std::vector<ResidualAttribution> attribute_residual(const MeasurementSet& set, c
                                    {&lateral_force_field(), "lab", "a force that stays where it is in the room", 3},
                                    {&image_field(), "image", "a rigid or affine error of the picture", 0},
                                    {&time_field(), "time", "a change with time", 0}};
-  // All against the same noise: where it is not known, what the declared model leaves.
+  // All against the same noise; if it is unknown, the declared model's residual.
   const double floor = noise.sigma_m.value_or(0);
   std::vector<ResidualAttribution> out;
   if (set.experiments.size() < 2) return out;
@@ -76,7 +76,7 @@ std::vector<ResidualAttribution> attribute_residual(const MeasurementSet& set, c
     if (radii && field.effect == &lateral_force_field()) continue;
     std::optional<ResidualAttribution> best;
     FittedModel from = near;
-    for (const double spread : {1.0, 0.25, 4.0}) {  // each from where the one before it ended
+    for (const double spread : {1.0, 0.25, 4.0}) {  // each starts from the previous result
       ModelFit study(set, workers, {active(*field.effect, set, {}, {"", {}})}, progress, spread);
       FittedModel model;
       try {

@@ -16,7 +16,7 @@ using units::mm;
 
 std::string always(const MeasurementSet&, std::optional<int>) { return ""; }
 
-/// Value at `from_tip` of numbers given at the knots, `width` of them each.
+/// Interpolates values given at the knots, `width` numbers each, at `from_tip`.
 double between_knots(const MeasurementSet& set, const std::vector<double>& v, int width, int component,
                      double from_tip) {
   const double at = std::clamp(from_tip / field_knot(set, 1), 0.0, field_knots - 1.0);
@@ -64,8 +64,8 @@ void distort(const ActiveEffect& field, const MeasurementSet& set, const Experim
   view.A = A * view.A;
 }
 
-/// 0 to 1 from the first experiment to the last, or from the shortest time in position to the longest: what changes was
-/// as declared in the beginning.
+/// 0 to 1 from the first experiment to the last, or from the shortest time in position to the longest; at 0 everything
+/// is as declared.
 double time_of(const MeasurementSet& set, const Experiment& e) {
   double least = 1e300, most = -1e300;
   for (const Experiment& x : set.experiments)
@@ -97,7 +97,7 @@ void drift_seen(const ActiveEffect& field, const MeasurementSet& set, const Expe
 }
 
 void scale_forces(const MeasurementSet& set, std::optional<int>, std::vector<EffectParameter>& p) {
-  // Against what bends the instrument visibly: EI / L^3.
+  // Scaled to a visible bending: EI / L^3.
   const double length = longest_inserted(set, {});
   double EI = 0;
   for (const MeasuredInstrument& i : set.instruments) EI = std::max(EI, i.sections.back().EI1_N_m2);

@@ -12,14 +12,14 @@ namespace ostium::data {
 
 namespace {
 
-constexpr int starts_for_one = 24;    // of an effect's numbers, screened
-constexpr std::size_t bases = 3;      // models that another effect is added to
-constexpr std::size_t finalists = 4;  // that are scored on held-out data
+constexpr int starts_for_one = 24;    // screened starts per added effect
+constexpr std::size_t bases = 3;      // models to which another effect is added
+constexpr std::size_t finalists = 4;  // models scored on held-out data
 constexpr std::size_t most_effects = 4;
-constexpr std::size_t ahead = 6;   // of what could join a model: fitted
-constexpr double far_behind = 30;  // in BIC, of the best: not looked at again
+constexpr std::size_t ahead = 6;   // most promising additions to a model that are fitted
+constexpr double far_behind = 30;  // in BIC behind the best; not considered further
 
-/// The same effect twice only on other stretches of the instrument, and once everywhere takes in its stretches.
+/// An effect may be added again only on another stretch; one that acts everywhere already includes its stretches.
 bool can_join(const std::vector<ActiveEffect>& base, const ActiveEffect& more) {
   for (const ActiveEffect& b : base) {
     if (b.effect != more.effect) continue;
@@ -50,7 +50,7 @@ void EffectSearch::add(const std::vector<ActiveEffect>& effects, const FittedMod
   try {
     tried.model = fits_.back().run_near(near, set_.imaging.noise_sigma_m, near.rms_m / std::sqrt(2.0),
                                         set_.instruments.size() > 1 ? starts_for_one / 3 : starts_for_one);
-  } catch (const std::runtime_error&) {  // no shapes with it
+  } catch (const std::runtime_error&) {  // no shapes with this effect
     fits_.pop_back();
     return;
   }
@@ -69,7 +69,7 @@ double EffectSearch::cost_ahead_of(const std::vector<ActiveEffect>& effects, con
 
 void EffectSearch::add_to(const Tried* base, const FittedModel& near, const Noise& noise) {
   const std::vector<ActiveEffect> before = base ? base->effects : std::vector<ActiveEffect>{};
-  const FittedModel model = near;  // what is added may move it
+  const FittedModel model = near;  // copied, since `add` may move it
   std::vector<std::pair<double, std::vector<ActiveEffect>>> joined;
   for (const ActiveEffect& more : everything_to_try(set_)) {
     if (std::any_of(set_.effects.begin(), set_.effects.end(),
@@ -80,7 +80,7 @@ void EffectSearch::add_to(const Tried* base, const FittedModel& near, const Nois
     effects.push_back(more);
     joined.emplace_back(0, effects);
   }
-  // Alone everything is fitted; to what has effects already only what promises most is added.
+  // All single effects are fitted; to a model with effects only the most promising are added.
   if (base && joined.size() > ahead) {
     for (auto& [cost, effects] : joined) cost = cost_ahead_of(effects, model);
     std::sort(joined.begin(), joined.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
@@ -104,7 +104,7 @@ void EffectSearch::complete(Tried& tried, const Noise& noise) {
   tried.study->judge(tried.model, noise);
 }
 
-/// An estimate of the noise gains from a model that leaves little else.
+/// Re-estimates the noise from the model with the smallest residual.
 void EffectSearch::judge_again(const ModelFit& declared, FittedModel& of_declared, Noise& noise) {
   if (noise.declared || tried_.empty()) return;
   const FittedModel* closest = &of_declared;
@@ -115,11 +115,11 @@ void EffectSearch::judge_again(const ModelFit& declared, FittedModel& of_declare
   for (Tried& t : tried_) t.study->judge(t.model, noise);
 }
 
-/// Where the noise is known: effects are added until noise is all that is left.
+/// Known noise: adds effects until only noise is left.
 void EffectSearch::grow_to_noise(FittedModel& of_declared, const Noise& noise) {
   for (std::size_t count = 1; count < 3; ++count) {
     sort_by_bic();
-    // Rough fits may leave a little: the foremost are fitted to the end before anything is added to them.
+    // Rough fits may leave some residual: complete the best before adding to them.
     for (std::size_t i = 0, polished = 0; i < tried_.size() && polished < 3; ++i)
       if (tried_[i].effects.size() == count) complete(tried_[i], noise), ++polished;
     sort_by_bic();
@@ -140,7 +140,7 @@ void EffectSearch::grow_to_noise(FittedModel& of_declared, const Noise& noise) {
   sort_by_bic();
 }
 
-/// Where it is not: as long as what is added predicts unseen data better.
+/// Unknown noise: adds effects as long as they improve the prediction of held-out data.
 void EffectSearch::grow_by_held_out(const FittedModel& of_declared, const Noise& noise) {
   FittedModel current = of_declared;
   for (std::size_t count = 1; count <= most_effects; ++count) {
@@ -162,8 +162,8 @@ void EffectSearch::grow_by_held_out(const FittedModel& of_declared, const Noise&
   }
 }
 
-/// What was chosen before the last was added may not be needed with it, or fit better in another form: of the foremost,
-/// every effect is left out once, and taken in its other forms.
+/// An early choice may be unnecessary once later effects are added, or fit better in another form: for the best model,
+/// tries leaving out each effect, and each effect's other forms.
 void EffectSearch::prune(const Noise& noise) {
   sort_by_bic();
   if (tried_.empty() || tried_.front().effects.size() < 2) return;
@@ -196,7 +196,7 @@ std::vector<FittedModel> EffectSearch::run(const ModelFit& declared, FittedModel
   for (std::size_t i = 0; i < std::min(finalists, tried_.size()); ++i) complete(tried_[i], noise);
   sort_by_bic();
 
-  // Finalists: what may be all there is, the best of each list of effects; without any, the best by BIC.
+  // Finalists: models that fit, the best of each combination of effects; if there are none, the best by BIC.
   std::vector<Tried*> chosen;
   std::set<std::set<std::string>> seen;
   for (bool only_fitting : {true, false})

@@ -1,5 +1,5 @@
 #pragma once
-/// Looks for the effects that a set shows among all that could be switched on: singly, then added one to the other.
+/// Searches all available effects for those that a set shows: singly, then in combination.
 #include <deque>
 
 #include "data/identification/estimation/model_fit.h"
@@ -13,7 +13,7 @@ class EffectSearch {
                const std::function<void(const std::string&)>& progress)
       : set_(set), workers_(workers), progress_(progress) {}
 
-  /// Models with effects, best first, finalists scored on held-out data. `noise` is made better where it was estimated.
+  /// Models with effects, best first, finalists scored on held-out data. Refines `noise` if it was estimated.
   std::vector<FittedModel> run(const ModelFit& declared, FittedModel& of_declared, Noise& noise);
 
  private:
@@ -25,10 +25,10 @@ class EffectSearch {
   };
   void add(const std::vector<ActiveEffect>& effects, const FittedModel& near, const Noise& noise);
   double cost_ahead_of(const std::vector<ActiveEffect>& effects, const FittedModel& near);
-  /// Of everything that can join `base`, what promises most; nullptr: everything, alone.
+  /// Adds the most promising effects to `base`; nullptr: fits every single effect.
   void add_to(const Tried* base, const FittedModel& near, const Noise& noise);
   void sort_by_bic();
-  /// Whether a model may be all there is: noise is left, and no number stands at the edge of its range.
+  /// Whether the model may be complete: only noise is left, and no parameter is at the edge of its range.
   bool fits(const FittedModel& model, const Noise& noise) const;
   void complete(Tried& tried, const Noise& noise);
   void judge_again(const ModelFit& declared, FittedModel& of_declared, Noise& noise);

@@ -15,14 +15,14 @@ bool same_effects(const FittedModel& a, const FittedModel& b) {
          std::set<std::string>(b.effects.begin(), b.effects.end());
 }
 
-/// Whether `more` has all effects of `fewer`, and others.
+/// Whether `more` contains all effects of `fewer`, and others.
 bool adds_to(const FittedModel& fewer, const FittedModel& more) {
   const std::set<std::string> a(fewer.effects.begin(), fewer.effects.end()),
       b(more.effects.begin(), more.effects.end());
   return a.size() < b.size() && std::includes(b.begin(), b.end(), a.begin(), a.end());
 }
 
-/// Of those that the first has no evidence against, the one with the fewest effects, and numbers, comes first.
+/// Puts first the model with the fewest effects, then parameters, among those the best has no evidence against.
 void put_simplest_first(std::vector<FittedModel>& by_bic) {
   auto best = by_bic.begin();
   const auto simpler = [](const FittedModel& a, const FittedModel& b) {
@@ -33,7 +33,7 @@ void put_simplest_first(std::vector<FittedModel>& by_bic) {
   if (best != by_bic.end()) std::rotate(by_bic.begin(), best, best + 1);
 }
 
-/// Where two lists of effects differ in one each.
+/// Whether the lists differ in one effect each, and these two are often confused.
 bool differ_in_a_pair(const FittedModel& a, const FittedModel& b) {
   std::vector<std::string> only_a, only_b;
   for (const std::string& id : a.effects)
@@ -43,8 +43,8 @@ bool differ_in_a_pair(const FittedModel& a, const FittedModel& b) {
   return only_a.size() == 1 && only_b.size() == 1 && often_confused(only_a[0], only_b[0]);
 }
 
-/// Whether `rival` explains the set as well as `best`. Of what is often confused, one may have more numbers that a
-/// poorer one needs not: then it is chi-square that counts.
+/// Whether `rival` explains the set as well as `best`. If the two differ in an often confused effect and the rival has
+/// more parameters, chi-square decides instead of BIC.
 bool rivals(const FittedModel& best, const FittedModel& rival, bool noise_known) {
   if (same_effects(best, rival) || adds_to(best, rival)) return false;
   if (differ_in_a_pair(best, rival)) {
@@ -77,7 +77,7 @@ bool too_small(const MeasurementSet& set, const FittedModel& declared) {
   return set.experiments.size() < 3 || declared.degrees_of_freedom < 6;
 }
 
-/// From candidates by BIC: the verdict, and the rivals after the best.
+/// From candidates sorted by BIC: the verdict, and the rivals of the best.
 void decide(const MeasurementSet& set, const Workers& workers, Explanation& out) {
   const bool fits = is_noise(out.declared, out.noise), known = out.noise.sigma_m.has_value();
   const bool small = too_small(set, out.declared);
@@ -92,7 +92,7 @@ void decide(const MeasurementSet& set, const Workers& workers, Explanation& out)
   put_simplest_first(winners);
   out.candidates = std::move(winners);
   const std::size_t count = out.candidates.size();
-  // Best, then what rivals it, then the rest.
+  // Order: the best, its rivals, the rest.
   auto end_of_rivals = out.candidates.begin();
   if (count > 0)
     end_of_rivals = std::partition(out.candidates.begin() + 1, out.candidates.end(), [&](const FittedModel& c) {

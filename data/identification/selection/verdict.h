@@ -1,13 +1,14 @@
 #pragma once
-/// The verdict on models that were fitted and scored.
+/// The verdict on fitted and scored models.
 #include "data/identification/selection/explanation.h"
 
 namespace ostium::data {
 
-/// So few numbers beyond what is fitted that nothing can be decided, or no experiment to hold out.
+/// Whether too few measured numbers exceed the fitted ones to decide anything, or no experiment can be held out.
 bool too_small(const MeasurementSet& set, const FittedModel& declared);
 
-/// Decides on the candidates: the verdict, the best first, then its rivals, and what to measure where it is open.
+/// Sets the verdict, sorts the candidates (the best, its rivals, the rest), and suggests the next experiment if it is
+/// open.
 void decide(const MeasurementSet& set, const Workers& workers, Explanation& out);
 
 }  // namespace ostium::data

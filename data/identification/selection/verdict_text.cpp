@@ -45,7 +45,7 @@ std::string of_verdict(const Explanation& x) {
   }
 }
 
-/// Radii as relative errors of curvature, as people who bend tubes state them; empty if not all are radii.
+/// Radii as relative errors of curvature, as is usual in tube bending; empty if not all are radii.
 std::string in_curvature(const MeasurementSet& set, const std::vector<Eigen::VectorXd>& misfits) {
   double sum = 0;
   for (std::size_t e = 0; e < misfits.size(); ++e) {
@@ -103,7 +103,7 @@ void of_parameters(const MeasurementSet& set, const FittedModel& m, std::vector<
     stiffness_open = stiffness_open || (stiffness && p.informed < 0.5);
     const double range = p.parameter.most - p.parameter.least;
     at_edge = p.value < p.parameter.least + 1e-6 * range || p.value > p.parameter.most - 1e-6 * range;
-    if (at_edge && p.informed > 0.01)  // what the data say nothing of stays where it was
+    if (at_edge && p.informed > 0.01)  // a parameter on which there are no data stays at its start
       out.push_back(fmt::format("{} ended at the edge of its range, {:.3g}: it stands in for something else.",
                                 p.parameter.label, p.value));
   }

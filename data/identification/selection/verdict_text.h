@@ -1,5 +1,5 @@
 #pragma once
-/// What an explanation found, in plain words.
+/// The findings of an explanation, in plain words.
 #include "data/identification/selection/explanation.h"
 
 namespace ostium::data {

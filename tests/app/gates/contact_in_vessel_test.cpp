@@ -1,5 +1,4 @@
-/// Walls and contact in the test vessel of the gates, which beats and has branches; a wire and a guide of the
-/// catalogue.
+/// Walls and contact in the gates' test vessel, which moves and has branches, with a wire and a guide of the catalogue.
 #include <gtest/gtest.h>
 
 #include <random>
@@ -15,7 +14,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// Of the corners, at both ends of the step, of the clusters that were found.
+/// Distance to the nearest corner, at either end of the step, of the clusters found.
 double nearest_found_m(const core::Surface& surface, const std::vector<int>& found, core::SurfacePose& pose,
                        const Vector3d& p) {
   double nearest_m = 1;
@@ -25,7 +24,7 @@ double nearest_found_m(const core::Surface& surface, const std::vector<int>& fou
   return nearest_m;
 }
 
-/// The boxes hold a cluster through all of an interval, so a query misses nothing.
+/// The boxes contain a cluster throughout an interval, so a query misses nothing.
 TEST(Surface, AQueryFindsWhatIsNearAtAnyMoment) {
   const gates::TestVessel vessel = gates::test_vessel();
   const core::Surface surface = make_surface(vessel.wall);
@@ -46,7 +45,7 @@ TEST(Surface, AQueryFindsWhatIsNearAtAnyMoment) {
   }
 }
 
-/// Of a beating vessel, too; and what does not sway now is to the bit what cannot.
+/// Also for a beating vessel; and with no sway the result is bit-identical to a surface that cannot sway.
 TEST(Surface, WhatBeatsAndSwaysIsFoundAtAnyMoment) {
   const gates::TestVessel vessel = gates::test_vessel();
   core::SurfaceDescription d = vessel.wall;
@@ -83,7 +82,7 @@ TEST(Surface, WhatBeatsAndSwaysIsFoundAtAnyMoment) {
   }
 }
 
-/// Vertices that are placed anew are found where they are; placed back, the surface is what it was to the bit.
+/// Vertices that were moved are found at their new places; moved back, the surface is bit-identical to before.
 TEST(Surface, VerticesArePlacedAnewAndBack) {
   const gates::TestVessel vessel = gates::test_vessel();
   const core::Surface before = make_surface(vessel.wall);
@@ -131,7 +130,7 @@ TEST(Contact, AStepDoesNotAllocateAndIsBitIdentical) {
   }
   for (int n = 0; n < 300; ++n) a.step(75), b.step(75);
   EXPECT_EQ(hash(a.state), hash(b.state));
-  b.scratch = core::Scratch(b.model);  // nothing is lost with it
+  b.scratch = core::Scratch(b.model);  // the scratch holds nothing that is needed
   long allocated = 0;
   for (int n = 0; n < 300; ++n) {
     const long before = allocations();
@@ -143,7 +142,7 @@ TEST(Contact, AStepDoesNotAllocateAndIsBitIdentical) {
   EXPECT_LT(allocated, 10) << "the list of touches grows at first";
 }
 
-/// A wire in a branch that beats, driven at random; whether it is still inside is for the triangles to say.
+/// A wire in a moving branch, driven at random, stays inside, as tested with the triangles.
 TEST(Contact, AWireStaysInABeatingBranch) {
   const gates::TestVessel vessel = gates::test_vessel();
   const gates::Holding held = gates::random_drive(vessel, 5, 2);
@@ -151,7 +150,7 @@ TEST(Contact, AWireStaysInABeatingBranch) {
   EXPECT_LT(held.deepest_m, 0.178e-3);
 }
 
-/// The same without what is between both ends of a step: wires escape.
+/// The same without contact between the two ends of a step: wires escape.
 TEST(Contact, WithoutTheSweepWiresEscape) {
   const gates::TestVessel vessel = gates::test_vessel();
   int escapes = 0;

@@ -1,5 +1,5 @@
-/// A patient who breathes: the wall, the operator's way and the picture move by what the anatomy says, instruments stay
-/// inside, a recording replays to the bit; and a breath that is held is what it was.
+/// A breathing patient: wall, vessel index and picture move as the anatomy says, instruments stay inside, a recording
+/// replays bit-identically; a held breath changes nothing.
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -30,7 +30,7 @@ const char* const at_the_ostium = R"({
   ]
 })";
 
-/// 40 breaths a minute: a top every 1.5 s, the first after 0.75 s.
+/// 40 breaths a minute: full inspiration every 1.5 s, first after 0.75 s.
 RunSetup setup(const char* breathing) {
   RunSetup out;
   set_vessel("rca-mid-focal", vascular::LengthUnit::millimetre, out);

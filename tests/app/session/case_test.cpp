@@ -1,4 +1,4 @@
-/// A case as a session has it: places on the operator's way, the heart's time, contrast that is closed, shafts.
+/// A case in a session: places of the vessel index, cardiac timing, closed contrast bodies, shafts.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -1,4 +1,4 @@
-/// Hands at a tracking box drive a session: where the instruments are, what stands still when, what is recorded.
+/// Hands at a tracking box drive a session: instrument positions, pauses, recording.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -17,7 +17,7 @@
 namespace ostium::app {
 namespace {
 
-/// A wire in the tube, and a box whose station 1 sees it, moved by the test.
+/// A wire in the tube, and a box whose station 1 sees it; the test moves it.
 struct AtTheBox {
   explicit AtTheBox(int delay = 1, std::optional<double> friction = {}, const char* script = there_and_back)
       : port{box, [this](device::EmulatedBox& b) { move(b); }, delay},
@@ -39,7 +39,7 @@ struct AtTheBox {
 
   device::EmulatedBox box{calibration()};
   double mm_s = 0, deg_s = 0;
-  std::function<void(device::EmulatedBox&)> moves;  ///< instead of these two
+  std::function<void(device::EmulatedBox&)> moves;  ///< used instead of these two
   device::EmulatedPort port;
   void move(device::EmulatedBox& b) {
     if (moves) return moves(b);
@@ -90,7 +90,7 @@ TEST(BoxDriver, TheInstrumentIsWhereTheHandHasIt) {
 
 TEST(BoxDriver, SingleCountsAreNoJerks) {
   AtTheBox at;
-  at.mm_s = 5;  // a count of 0.01 mm every other millisecond
+  at.mm_s = 5;  // one count of 0.01 mm every other millisecond
   at.ticks(2500);
   double least = 1, most = 0;
   for (int i = 0; i < 200; ++i) {
@@ -225,7 +225,7 @@ TEST(BoxDriver, PedalsButtonsPressureAndFlow) {
   EXPECT_DOUBLE_EQ(at.run.inputs.c_arm.lao_rad, 0.7);
 }
 
-/// In a patient, the box's indeflator and syringe are the bedside's.
+/// In a patient, the box's indeflator and syringe set the delivery inputs.
 TEST(BoxDriver, PressureInflatesAndFlowInjects) {
   RunSetup setup;
   set_vessel("rca-mid-focal", vascular::LengthUnit::millimetre, setup);
@@ -279,9 +279,9 @@ TEST(BoxDriver, TheClampHoldsWhatTheWirePushes) {
   EXPECT_NEAR(level_N, at.run.report.tools[0].push_N, 0.15 * most_push_N + 0.03);
 }
 
-/// The whole loop, rods and walls in it: an arm of 0.1 kg, 300 N/m and 4 N s/m pushes the wire, turning it, to the
-/// tube's closed end and holds still; sensors tremble by 0.02 mm, and what the clamp is told arrives 20 ms late. The
-/// wall's friction is turned up: the clamp holds more, and is quiet.
+/// The closed loop including rods and walls: an arm of 0.1 kg, 300 N/m and 4 N s/m pushes and turns the wire to the
+/// tube's closed end and holds still; sensor noise is 0.02 mm, and clamp commands arrive 20 ms late. With higher wall
+/// friction the clamp holds more, and is quiet.
 TEST(BoxDriver, TheClampIsQuietHoweverHighTheWallsFriction) {
   double before_N = 0;
   for (const double friction : {0.05, 0.3, 0.9}) {

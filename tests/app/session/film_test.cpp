@@ -1,4 +1,4 @@
-/// Pictures of a session: on which steps they fall, what they show, whose dose they take.
+/// Pictures of a session: the steps they fall on, their content, and the mode that sets their dose.
 #include "app/session/scene/film.h"
 
 #include <gtest/gtest.h>
@@ -31,7 +31,7 @@ TEST(Film, OfARunShowsTheWireAndIsTheSameTwice) {
   for (int i = 0; i < 1200; ++i) run.tick();
   FilmOptions options;
   options.pixels = 256;
-  options.field_m = 0.3;  // the tube reaches beyond 20 cm at the detector
+  options.field_m = 0.3;  // the tube extends beyond 20 cm at the detector
   options.overlay = false;
   Film one(run.model, options), two(run.model, options);
   const fluoro::Picture a = one.frame(run.model, run.state, run.inputs);

@@ -1,4 +1,4 @@
-/// Errors of handling: what each is found by, with scenes made by hand; then a case's own map, and a run.
+/// Handling errors: each is detected in scenes made by hand; then a case's own map, and a run.
 #include "app/session/handling/handling.h"
 
 #include <gtest/gtest.h>
@@ -15,8 +15,8 @@ namespace {
 
 enum Tool { guide, thick, thin, balloon };
 
-/// A way of three places (aorta, its branch, ventricle), and an artery of 100 cells a millimetre each with its lesion
-/// from 30 to 40 mm; the cells from 50 on are again numbered 100 to 149 in a side branch that leaves at 20 mm.
+/// A vessel index of three places (aorta, its branch, ventricle), and an artery of 100 cells of 1 mm with its lesion
+/// from 30 to 40 mm; a side branch that leaves at 20 mm has cells 100 to 149, copies of those from 50 on.
 struct Played {
   HandlingMap map;
   HandlingScene scene;
@@ -51,7 +51,7 @@ struct Played {
       look_for(errors, map, scene, EventSink{static_cast<std::uint64_t>(1e3 * scene.time_s), events});
     }
   }
-  /// How many there were of a kind, which are forgotten.
+  /// The number of events of a kind, which it then clears.
   int took(data::EventCode code) {
     const auto n = std::count_if(events.begin(), events.end(),
                                  [&](const SessionEvent& e) { return e.code == static_cast<int>(code); });
@@ -68,7 +68,7 @@ TEST(Handling, ACatheterFollowsAWireBelowTheRoot) {
   p[thick].inserted_m = 0.5;
   p.play(errors, 1, [&](int) { p.feed(guide, 4e-3); });
   EXPECT_TRUE(p.events.empty()) << "to 10 cm behind the wire's tip";
-  // 80 mm bring it to 20 mm behind the tip, 10 mm more to the error, which is one however far it goes on.
+  // 80 mm bring it to 20 mm behind the tip, 10 mm more to the error, which is reported once however far it goes on.
   p.play(errors, 0.2, [&](int) { p.feed(guide, 4e-3); });
   EXPECT_EQ(p.took(data::EventCode::catheter_without_wire), 0);
   p.play(errors, 0.5, [&](int) { p.feed(guide, 4e-3); });
@@ -178,7 +178,7 @@ TEST(Handling, ACoronaryWireStaysBehindTheLesion) {
   lie(95, 0.2);
   EXPECT_EQ(p.took(data::EventCode::wire_too_far), 1) << "5 mm from the artery's end";
   lie(80);
-  // A device comes; the wire goes with it, beats do not count.
+  // A device is advanced; the wire moves with it; cardiac motion does not count.
   p.scene.device = balloon;
   p[balloon].feed_m_s = 0.02;
   lie(80);
@@ -245,7 +245,7 @@ TEST(Handling, BalloonsAreEmptyAsTheyMoveAndNotHeldForLong) {
   play(0.3);
   EXPECT_EQ(p.took(data::EventCode::long_inflation), 1);
 
-  // In the stent: 12 mm of balloon in the middle of 15 mm of stent, then at its edge.
+  // 12 mm of balloon in the middle of the 15 mm stent, then at its edge.
   const Plan& plan = run.model.vessel->coronaries->lesions[0];
   const double branch = run.model.physiology.flow.tree.branch("RCA"), middle = (plan.from_m + plan.to_m) / 2;
   vascular::StentState& stent = run.state.treatment.stents[0];
@@ -293,7 +293,7 @@ TEST(Handling, BeamAndPushAreForSomething) {
   inputs.delivery.injection_m3_s = 1e-6;
   play(10, [] {});
   EXPECT_TRUE(p.events.empty());
-  // A tool whose tip stays where it is, easily at first.
+  // A tool whose tip stays where it is, at first with little force.
   report.tools[0].in_body = true;
   inputs.tools[0].feed_m_s = 0.05;
   play(2, [&] { run.state.hands[0].fed_m += 5e-4; });

@@ -1,4 +1,4 @@
-/// The operator of a script: what ends a step, what a failure leads to, what is looked at.
+/// The operator of a script: what ends a step, where a failure leads, which conditions are checked.
 #include "app/session/operator/operator.h"
 
 #include <gtest/gtest.h>
@@ -54,7 +54,7 @@ TEST(Operator, HasALastResortWhenTriesAreUsedUp) {
   EXPECT_NEAR(run.state.hands[0].fed_m, 2 * (0.01 + 4 * 0.001), 0.001);
 }
 
-/// Gone past on the way on, in no time; gone through when a label leads to it.
+/// Steps skip a detour without using time; a jump to its label goes through it.
 TEST(Operator, TakesADetourOnlyWhereALabelLeadsToIt) {
   for (const double needed_mm : {5., 25.}) {
     const std::string script = R"({ "schema": "ostium-script/1", "name": "detour", "title": "A test",
@@ -77,7 +77,7 @@ TEST(Operator, TakesADetourOnlyWhereALabelLeadsToIt) {
   }
 }
 
-/// "Is this needed?": a wait whose `unless` holds at once jumps past what is not; one whose `until` comes first does
+/// "Is this needed?": a wait whose `unless` holds at once skips unnecessary steps; one whose `until` holds first does
 /// not.
 TEST(Operator, LeavesOutStepsThatAreNotNeeded) {
   for (const bool needed : {false, true}) {
@@ -127,11 +127,11 @@ TEST(Operator, TurnsAHubBackToHowItCameIn) {
   while (run.tick()) {
   }
   EXPECT_EQ(run.outcome, Outcome::success) << reason(run.plan, run.hands);
-  // A whole turn counts, so -400 degrees are not near 0; two steps late at most, of 0.4 degrees each.
+  // Whole turns count, so -400 degrees are not near 0; at most two steps late, of 0.4 degrees each.
   EXPECT_NEAR(run.state.hands[0].turned_rad * 180 / units::pi, -10, 0.9);
 }
 
-/// The step of a wait's end when the tip is carried to `at(step)` mm further and the hand by `hand(step)` mm.
+/// The step at which a wait ends when the tip has moved by `at(step)` mm and the hand by `hand(step)` mm.
 template <class At, class Hand>
 std::uint64_t ends_waiting(const std::string& until, At&& at, Hand&& hand) {
   const RunSetup setup = tube_setup(R"({ "schema": "ostium-script/1", "name": "waits", "title": "A test",

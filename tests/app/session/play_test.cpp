@@ -1,4 +1,4 @@
-/// The pace of a run that somebody watches: what is late is caught up with, what is long is let go, a stand is neither.
+/// Pacing of a run in real time: short delays are caught up, long ones are dropped, pauses are neither.
 #include "app/session/run/play.h"
 
 #include <gtest/gtest.h>
@@ -12,7 +12,7 @@
 namespace ostium::app {
 namespace {
 
-/// Holds the run up once.
+/// Delays the run once.
 struct Dawdling : Driver {
   Dawdling(int ms, Driven after) : held(ms), then(after) {}
   Driven drive(const ScriptedRun& run, SessionInputs&) override {
@@ -29,7 +29,7 @@ struct Pace {
   long overruns = 0;
 };
 
-/// The best of five: a busy machine only adds to what was lost.
+/// The best of five, since load on the machine only adds delay.
 Pace pace_with(Dawdling slow) {
   Pace best;
   for (int i = 0; i < 5; ++i) {
@@ -61,7 +61,7 @@ TEST(Play, LetsALongStallGoInsteadOfRacingAfterIt) {
 }
 
 TEST(Play, CatchesUpAtMostTwiceAsFastAsTheClock) {
-  const Pace slow = pace_with({200, Driven::on});  // 150 steps are left, of half a millisecond
+  const Pace slow = pace_with({200, Driven::on});  // 150 steps remain, of half a millisecond each
   EXPECT_GE(slow.lost_s, 0.12);
 }
 

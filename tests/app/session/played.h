@@ -1,5 +1,5 @@
 #pragma once
-/// Runs of a wire in the small vessel, to their end.
+/// Runs of a wire in the small vessel, to the end of the script.
 #include <gtest/gtest.h>
 
 #include "app/session/run/play.h"
@@ -16,7 +16,7 @@ inline PlayReport played(const RunSetup& setup, bool real = false, RecordMode mo
   return play(run, setup, options);
 }
 
-/// `script` with its first `from` said otherwise.
+/// `script` with the first `from` replaced.
 inline std::string with(std::string script, const std::string& from, const std::string& to) {
   const std::size_t at = script.find(from);
   EXPECT_NE(at, std::string::npos) << from;

@@ -1,4 +1,4 @@
-/// A wire through meshes of others, as untidy as they come; skipped where they are absent.
+/// A wire through other people's meshes, however untidy; skipped if the meshes are absent.
 #include <gtest/gtest.h>
 
 #include <cstdlib>

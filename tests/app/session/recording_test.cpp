@@ -1,5 +1,5 @@
-/// Recordings: replayed to the bit, from any second; whole whatever happens to the program or the disk; refused by name
-/// if they are none.
+/// Recordings replay bit-identically from any second; they stay intact whatever happens to the program or the disk;
+/// files that are no recordings are refused by name.
 #include "data/recording/recording.h"
 
 #include <fcntl.h>
@@ -26,7 +26,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A folder that goes when the test does.
+/// A temporary folder, removed at the end.
 struct Folder {
   Folder() : path(fs::temp_directory_path() / ("ostium-" + std::to_string(getpid()))) { fs::create_directories(path); }
   ~Folder() { fs::remove_all(path); }
@@ -68,13 +68,13 @@ TEST(Recording, ReplaysToTheBitFromAnySecond) {
   }
   Replay replay(folder("run.h5"), tube_vessel());
   EXPECT_THROW(replay.go_to(1e3), data::LoadError);
-  // Metrics are a function of the record.
+  // Metrics are a function of the record alone.
   const std::string end = *replay.recording.end();
   const std::vector<data::Metric> again = metrics_of(record_of(replay.recording, replay.model));
   EXPECT_EQ(nlohmann::json::parse(metrics_json("tube", 0, "success", "", again)), nlohmann::json::parse(end));
 }
 
-/// The overlay's clocks and dose are the run's, whatever of it was drawn.
+/// The overlay's clocks and dose are those of the whole run, however little of it is drawn.
 TEST(Recording, AFilmOfItsEndSaysWhatTheWholeRunHasUsed) {
   const Folder folder;
   const PlayReport report = recorded(folder("run.h5"), RecordMode::full);
@@ -95,7 +95,7 @@ TEST(Recording, AFilmOfItsEndSaysWhatTheWholeRunHasUsed) {
   EXPECT_NEAR(1e4 * film.dose().dose_area_Gy_m2, metric("dap_Gy_cm2"), 1e-9);
   EXPECT_NEAR(1e3 * film.dose().kerma_Gy, metric("air_kerma_mGy"), 1e-9);
   EXPECT_NEAR(film.dose().fluoroscopy_s, metric("fluoroscopy_time_s"), 2e-3);
-  replay.go_to(1);  // back again
+  replay.go_to(1);  // backwards
   film.frame(replay.model, replay.state, replay.inputs, replay.xrays());
   EXPECT_NEAR(1e4 * film.dose().dose_area_Gy_m2 / metric("dap_Gy_cm2"), 1 / report.simulated_s, 0.05);
 }
@@ -140,9 +140,9 @@ TEST(Recording, OfAnotherPhysicsIsToldByStepAndField) {
   EXPECT_EQ(verified.field.rfind("rod 0 (wire), ", 0), 0u) << verified.field;
 }
 
-/// What a child process records until it is killed; it tells by shared memory how far it is.
+/// Recorded by a child process until it is killed; it reports its progress through shared memory.
 TEST(Recording, IsWholeWheneverTheProgramIsKilled) {
-  tube_vessel();  // made before the children are
+  tube_vessel();  // built before forking the children
   std::mt19937 random(1);
   auto* now = static_cast<volatile std::uint64_t*>(
       mmap(nullptr, sizeof(std::uint64_t), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0));
@@ -156,7 +156,7 @@ TEST(Recording, IsWholeWheneverTheProgramIsKilled) {
       ScriptedRun run(setup, tube_vessel());
       Recorder recorder({RecordMode::full, folder("run.h5"), false}, run.model, setup, save(run.hands).size());
       recorder.begin(run.state, run.hands);
-      while (run.tick() || true) {  // goes on standing still when the script is over
+      while (run.tick() || true) {  // goes on at rest when the script has ended
         recorder.add(run.inputs, run.state, run.report, run.hands, run.events);
         *now = *now + 1;
         if (*now > 3 * 1000) usleep(200);
@@ -164,15 +164,15 @@ TEST(Recording, IsWholeWheneverTheProgramIsKilled) {
     }
     const std::uint64_t until = 600 + random() % 2500;
     while (*now < until) usleep(50);
-    usleep(random() % 20000);  // anywhere within writing
+    usleep(random() % 20000);  // at any moment of writing
     kill(child, SIGKILL);
     waitpid(child, nullptr, 0);
     const std::uint64_t reached = *now;
     ASSERT_NO_THROW({
       const data::RecordingReader reader(folder("run.h5"));
       EXPECT_FALSE(reader.end());
-      // The writer may be as far behind as the blocks that it had no time for; a simulation that runs many times faster
-      // than the clock is ahead by more than one.
+      // The writer may be behind by blocks it had no time for; a simulation much faster than real time is ahead by more
+      // than one.
       EXPECT_LE(reader.steps(), reached + 1);
       EXPECT_EQ(reader.steps() % data::steps_per_block, 0u);
       EXPECT_EQ(reader.states(), (reader.steps() + 999) / 1000);
@@ -217,7 +217,7 @@ TEST(Recording, OutlivesAFullDisk) {
   const pid_t child = fork();
   if (child == 0) {
     std::signal(SIGXFSZ, SIG_IGN);
-    const rlimit limit{most, most};  // no file may grow beyond this: as a full disk, for one program
+    const rlimit limit{most, most};  // limits the file size, which for this program acts like a full disk
     setrlimit(RLIMIT_FSIZE, &limit);
     const PlayReport report = recorded(folder("run.h5"), RecordMode::full, tube_setup());
     _exit(report.problem.find("is the disk full?") != std::string::npos && report.outcome == "success" ? 0 : 1);
@@ -266,7 +266,7 @@ TEST(Recording, WhatIsNoneIsRefusedByName) {
   }
 }
 
-/// As h5dump, h5py and the like do, who lock what they look into.
+/// Like h5dump, h5py and others, which lock the file they read.
 TEST(Recording, GoesOnWhileSomebodyLooksIntoIt) {
   const Folder folder;
   { data::TableFile::create(folder("run.h5")).close(); }

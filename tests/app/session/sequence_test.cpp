@@ -1,4 +1,5 @@
-/// A case whose lumen is a sequence of meshes: contact, tree and way follow the frames; what is no sequence is refused.
+/// A case whose lumen is a sequence of meshes: contact, tree and vessel index follow the frames; invalid sequences are
+/// refused.
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -22,13 +23,14 @@ namespace fs = std::filesystem;
 constexpr int frames = 6;
 constexpr double swing_m = 8e-3;
 
-/// How far along z a point of the bent tube is in a frame; x and y stay. The tube's first third rests.
+/// Displacement along z of a point of the bent tube in a frame; x and y do not change. The tube's first third is at
+/// rest.
 double lift_m(double x, double y, int frame) {
   const double along = std::clamp((x + y - 0.1) / 0.1, 0.0, 1.0);
   return swing_m * along * along * (3 - 2 * along) * std::pow(std::sin(units::pi * frame / frames), 2);
 }
 
-/// That tube as a case: a folder of its name, in the frame that recognition gave it.
+/// That tube as a case: a folder of its own, in the frame found by vessel labelling.
 class Swing {
  public:
   Swing() : folder(fs::temp_directory_path() / ("ostium-sequence-" + std::to_string(getpid())) / "swing") {
@@ -80,7 +82,7 @@ TEST(Sequence, TheWallAndTheTreeGoThroughItsFrames) {
     const vascular::Mesh now = patient.lumen.at(static_cast<double>(f) / frames, 0);
     ASSERT_EQ(now.vertices.size(), swing.meshes[f].vertices.size());
     double off = 0;
-    // Vertices that beat stand first: by number they are no longer the file's, by place they are.
+    // Moving vertices come first: their numbers differ from the file's, but not their positions.
     std::vector<double> there, here;
     for (const Eigen::Vector3d& p : now.vertices) here.push_back(p.x() + 2 * p.y() + 3 * p.z());
     for (const Eigen::Vector3d& p : swing.meshes[f].vertices) there.push_back(p.x() + 2 * p.y() + 3 * p.z());
@@ -91,7 +93,7 @@ TEST(Sequence, TheWallAndTheTreeGoThroughItsFrames) {
   EXPECT_GT(patient.lumen.moving, 0u);
   EXPECT_LT(patient.lumen.moving, patient.lumen.vertices()) << "its first third rests";
 
-  // Centres of the tree go where the tube goes.
+  // Centres of the tree move with the tube.
   const Eigen::Matrix3d back = swing.found.R_PF.transpose();
   double farthest = 0;
   for (std::size_t b = 0; b < patient.tree.branches.size(); ++b)

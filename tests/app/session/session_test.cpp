@@ -1,4 +1,4 @@
-/// A session's lists, and that the same run is the same to the bit, however it is run.
+/// A session's lists of fields, and bit-identical results however a run is executed.
 #include "app/session/model/session.h"
 
 #include <gtest/gtest.h>
@@ -51,7 +51,7 @@ TEST(Session, GoesOnFromAStateAsIfNothingHadHappened) {
   put_state(run.state, row.data());
   take_state(row.data(), other.state);
   restore(save(run.hands), other.hands);
-  other.report = run.report;  // the operator looks at the last step
+  other.report = run.report;  // the operator uses the last step's report
   for (int i = 0; i < 300; ++i) run.tick(), other.tick();
   EXPECT_EQ(hash(run.state), hash(other.state));
   EXPECT_EQ(save(run.hands), save(other.hands));
@@ -67,7 +67,7 @@ TEST(Session, DoesNotAllocateBetweenBlocks) {
     recorder.add(run.inputs, run.state, run.report, run.hands, run.events);
   };
   while (run.state.rods.step < 1010) tick();
-  std::this_thread::sleep_for(std::chrono::milliseconds(100));  // the other thread has taken what it was given
+  std::this_thread::sleep_for(std::chrono::milliseconds(100));  // gives the other thread time to take the block
   const long before = allocations();
   while (run.state.rods.step < 1490) tick();
   EXPECT_EQ(allocations(), before);

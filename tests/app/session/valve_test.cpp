@@ -1,5 +1,5 @@
-/// The aortic valve in a session: a wire that is pushed on it comes into the ventricle and gives extrasystoles; a guide
-/// stands on it.
+/// The aortic valve in a session: a wire pushed against it enters the ventricle and causes extrasystoles; a guide stops
+/// at it.
 #include <gtest/gtest.h>
 
 #include "app/session/model/penetration.h"
@@ -13,7 +13,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// Instruments that come straight down on the valve from 30 mm above it.
+/// Instruments that come straight down onto the valve from 30 mm above it.
 struct AboveTheValve {
   std::shared_ptr<const Vessel> vessel = vessel_of(data::find_case("rca-mid-focal"), std::nullopt);
   SessionModel model;
@@ -40,7 +40,7 @@ struct AboveTheValve {
       troubled += (report.rods.trouble & ~static_cast<std::uint32_t>(core::feed_stopped)) != 0;
     }
   }
-  /// Of the tip, along the root's axis.
+  /// Height of the tip along the root's axis.
   double above_annulus_m() const {
     const vascular::Landmarks& marks = vessel->patient->anatomy.landmarks;
     const Vector3d shift =
@@ -66,7 +66,7 @@ TEST(Valve, AWireGoesThroughItIntoTheVentricleAndGivesExtrasystoles) {
   const Penetration depth = penetration(root.model, root.state);
   EXPECT_LT(depth.deepest_m, 0.05e-3);
   EXPECT_EQ(depth.outside, 0);
-  // Drawn back it leaves the ventricle in peace.
+  // Once withdrawn it no longer irritates the ventricle.
   root.run(-60, 2.1);
   EXPECT_GT(root.above_annulus_m(), 5e-3);
   root.run(0, 2);

@@ -1,4 +1,4 @@
-/// Where a tip is: in which branch, and what lies beyond it as seen from the access.
+/// The branch a tip is in, and what lies beyond it as seen from the access.
 #include "app/session/vessel/vessel_index.h"
 
 #include <gtest/gtest.h>
@@ -25,7 +25,7 @@ TEST(SettledBranch, CountsBranchesThatATipStaysIn) {
   EXPECT_EQ(came, (std::vector<int>{2, 5, 5})) << "out of the body it is at once";
 }
 
-/// A trunk from the access, a branch that leaves its wall at 5 mm from its axis.
+/// A trunk from the access, with a branch whose origin is 5 mm from the trunk's axis.
 TEST(VesselIndex, KnowsWhatIsBeyondWhat) {
   vascular::SphereTree tree;
   vascular::TreeBranch trunk{.name = "trunk", .spheres = {}},

@@ -1,4 +1,4 @@
-/// The live window without a screen: hands at keys, the picture of it, the exchange between threads.
+/// The live window without a screen: keyboard control, the rendered panel, the exchange between threads.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -78,7 +78,7 @@ TEST(LiveDriver, PauseStandsAndTheEndEnds) {
     std::this_thread::sleep_for(std::chrono::milliseconds(60));
     p.hand.controls.press(Action::pause);
   });
-  p.steps(1);  // stands until the other presses again
+  p.steps(1);  // paused until the key is pressed again
   other.join();
   EXPECT_EQ(p.run.state.rods.step, 101u);
   p.hand.controls.press(Action::quit);

@@ -1,5 +1,5 @@
 #pragma once
-/// A bus with an emulated box on it, on which libusb finds the box as it finds any.
+/// A bus with an emulated box, which libusb finds like any other device.
 #include <memory>
 #include <string>
 
@@ -24,27 +24,27 @@ class Bench {
   virtual void unplug() = 0;
   virtual std::string name() const = 0;
 
-  /// Samples fall every millisecond of the clock, or as soon as the host waits for one: then nothing depends on the
+  /// Samples come every millisecond of clock time, or as soon as the host waits for one: then nothing depends on the
   /// clock, and time is the box's own.
   enum class Pace { real, fast, stepped };
   virtual void set_pace(Pace pace) = 0;
-  /// With Pace::stepped, the next sample. False: the host does not wait for one.
+  /// With Pace::stepped, gives the next sample. False: the host does not wait for one.
   virtual bool step() { return false; }
 
   virtual bool can_deny() const { return false; }
   virtual void deny_access(bool) {}
 
-  /// Whether udev has marked the box by the project's rule; nothing: there is no udev here.
+  /// Whether the project's udev rule has tagged the box; nullopt: there is no udev here.
   virtual std::optional<bool> marked_by_udev() const { return {}; }
 
-  /// Samples that were put off because the host had no transfer in flight. (Machines that run tests are busy. After
-  /// `longest_put_off_ms` they are lost, as on a bus, until the host is back.)
+  /// Samples delayed because the host had no transfer in flight (test machines may be busy). After `longest_put_off_ms`
+  /// they are lost, as on a bus, until the host is back.
   virtual long late() const = 0;
 };
 
-/// The bench that this process can have; null, with the reason: none.
+/// The bench that is available to this process; null, with the reason, if there is none.
 std::unique_ptr<Bench> make_bench(std::string& why_not);
-/// Before anything else in main: what the bench needs in the environment; may start the program anew.
+/// Call first in main: sets up the environment for the bench; may restart the program.
 void prepare_bench(char** arguments);
 
 Bench& bench();

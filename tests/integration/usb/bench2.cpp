@@ -1,5 +1,6 @@
 /// Bench 2: a real Linux kernel's USB stack, udev and usbfs. The box speaks USB/IP on one end of a pair of sockets; the
-/// other is handed to the kernel's virtual host controller (vhci_hcd). Runs as root in a virtual machine (bench2.sh).
+/// other end is given to the kernel's virtual host controller (vhci_hcd). Runs as root in a virtual machine
+/// (bench2.sh).
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/socket.h>
@@ -21,7 +22,7 @@ namespace {
 
 constexpr const char* controller = "/sys/devices/platform/vhci_hcd.0/";
 
-/// False: refused.
+/// False: the kernel refused.
 bool tell(const char* what, const std::string& text) {
   const int file = open((std::string(controller) + what).c_str(), O_WRONLY | O_CLOEXEC);
   const bool done = file >= 0 && write(file, text.data(), text.size()) == static_cast<ssize_t>(text.size());
@@ -49,7 +50,7 @@ class VhciBench : public Bench {
     link_ = std::make_unique<device::UsbipLink>(usb, ends[0]);
     thread_ = std::thread([this] { link_->serve(over_, &fast_); });
     bool attached = false;
-    // A port that was detached is free again a moment later.
+    // A detached port becomes free a moment later.
     for (int tries = 0; tries < 200 && !attached; ++tries) {
       attached = tell("attach", fmt::format("0 {} {} {}", ends[1], device::usbip_device, device::usbip_speed));
       if (!attached) std::this_thread::sleep_for(std::chrono::milliseconds(10));
@@ -61,7 +62,7 @@ class VhciBench : public Bench {
   void unplug() override {
     if (!link_) return;
     tell("detach", "0");
-    // vhci_hcd loses for ever what is submitted while it shuts a connection down, so nothing is until it has.
+    // vhci_hcd loses for good what is submitted while it shuts a connection down, so wait until it has finished.
     for (int tries = 0; tries < 500 && !port_is_free(); ++tries)
       std::this_thread::sleep_for(std::chrono::milliseconds(10));
     over_ = true;
@@ -71,7 +72,7 @@ class VhciBench : public Bench {
   }
 
  private:
-  /// "hs  0000 004 ..." is what the controller's table says of port 0 then.
+  /// The controller's table then has the line "hs  0000 004 ..." for port 0.
   static bool port_is_free() {
     std::ifstream table(std::string(controller) + "status");
     std::string heading, hub, port, status;

@@ -1,5 +1,5 @@
-/// The driver against a box on a bus, whichever bus it is. What goes wrong on a real one is done here: pulled cables,
-/// stalls, silence, another version, wild bytes.
+/// The driver against a box on a bus, whichever bench provides it, with the faults of a real one: pulled cables,
+/// stalls, silence, another version, random bytes.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -47,7 +47,7 @@ struct Usb : testing::Test {
   device::TrackingBox box{port, {}};
   device::BoxRequest request;
 
-  /// Polls until `done`, at most so long.
+  /// Polls until `done`, for a limited time.
   template <class Done>
   bool until(Done done, double longest_s = 5) {
     for (const double end = now_s() + longest_s; now_s() < end;) {
@@ -246,7 +246,7 @@ TEST_F(Usb, TheWatchdogOpensTheClampsOfAHostThatHangs) {
     request.step_s += 1e-3;
     return clamps()[0] > 0;
   }));
-  // Nothing is polled from here on; the eight transfers that are in flight still come back.
+  // No polls from here on; the eight transfers in flight still return.
   const double last_out_s =
       bench().usb.with([](device::EmulatedBox& b, device::EmulatedFaults&) { return b.time_s(); });
   for (const double end = now_s() + 3; now_s() < end && open_s == 0;)
@@ -257,7 +257,7 @@ TEST_F(Usb, TheWatchdogOpensTheClampsOfAHostThatHangs) {
   bench().usb.hand = {};
 }
 
-/// Half of them keep all rules, half have bytes turned over: what is taken is what the rules take.
+/// Half of them keep all rules, half have bytes inverted: exactly those that keep the rules are accepted.
 TEST_F(Usb, TenThousandWildReportsOnTheWire) {
   ASSERT_TRUE(running());
   bench().set_pace(Bench::Pace::fast);

@@ -1,6 +1,6 @@
-/// Bench 1 for a program that knows nothing of it: LD_PRELOAD=libusb_bench.so:libumockdev-preload.so.0 COMMAND sees a
-/// box on USB, at which a hand moves a wire in strokes. OSTIUM_BENCH_FAULT: after two seconds the wire is lost (lost),
-/// the hand stays at the end of the travel (full), or the cable is pulled (unplugged).
+/// Bench 1 for an unmodified program: with LD_PRELOAD=libusb_bench.so:libumockdev-preload.so.0, COMMAND sees a box on
+/// USB at which a hand moves a wire in strokes. OSTIUM_BENCH_FAULT: after two seconds the wire is lost (lost), the hand
+/// stays at the end of the travel (full), or the cable is pulled (unplugged).
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>

@@ -1,5 +1,5 @@
-/// A whole run through the USB path: a scripted hand moves wire and guide in an emulated box, libusb brings the counts,
-/// the session follows; what was recorded replays without any of it.
+/// A whole run over USB: a scripted hand moves wire and guide in an emulated box, libusb delivers the counts, the
+/// session follows; the recording replays without any of these.
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -13,7 +13,7 @@
 namespace ostium::test {
 namespace {
 
-/// A run at a box on the bench, a step for a sample.
+/// A run at a box on the bench, one step per sample.
 struct RunAtBench {
   device::UsbPort port;
   device::TrackingBox host{port, {}};

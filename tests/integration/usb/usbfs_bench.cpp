@@ -1,8 +1,8 @@
-/// Bench 1: libusb and libudev as they are; umockdev plays sysfs and uevents, and this file /dev/bus/usb/001/...: its
-/// `open`, `ioctl` and `close` are found before libc's by libusb, and pass on what is not the node's.
+/// Bench 1: the real libusb and libudev; umockdev simulates sysfs and uevents, and this file /dev/bus/usb/001/...:
+/// libusb finds its `open`, `ioctl` and `close` before libc's; calls for other files are passed on.
 ///
-/// The node's descriptor is the write end of a pipe with one slot: full, nothing is to be reaped; drained, a transfer
-/// is ready (POLLOUT, as usbfs says it); its reader closed, the box was unplugged (POLLERR).
+/// The node's descriptor is the write end of a pipe with one slot: full, there is nothing to reap; drained, a transfer
+/// is ready (POLLOUT, as in usbfs); with its reader closed, the box was unplugged (POLLERR).
 #include "tests/integration/usb/usbfs_bench.h"
 
 #include <dlfcn.h>
@@ -43,7 +43,7 @@ int real_close(int fd) {
   return call(fd);
 }
 
-/// One file that is open on the node.
+/// One open file of the node.
 struct Opening {
   int reader = -1, writer = -1;
   bool claimed = false;
@@ -130,7 +130,7 @@ class UsbfsBench : public Bench {
     umockdev_testbed_remove_device(testbed_, sys_.c_str());
   }
 
-  /// A millisecond of the bus. False: no transfer waits, and nothing was sampled unless `even_if_lost`.
+  /// One millisecond of the bus. False: no transfer waits, and nothing was sampled unless `even_if_lost`.
   bool tick(bool even_if_lost) {
     const std::lock_guard guard(mutex_);
     if (!plugged_) return true;

@@ -1,6 +1,5 @@
 /// The contact sheet of fluoro's README: six views of the chest phantom, fluoroscopy above, cine below.
 #include <cstdio>
-#include <numbers>
 
 #include "core/base/units.h"
 #include "data/formats/png.h"

@@ -19,7 +19,7 @@ constexpr double element_m = 1.5e-3, catheter_m = 0.22;
 core::Rod rod_of(const data::Instrument& instrument, double inserted_m) {
   core::RodDescription d =
       rod_description(instrument, std::vector<double>(static_cast<int>(inserted_m / element_m), element_m));
-  d.damping = {1, 0.5, 1e-3};  // so that it comes to rest soon
+  d.damping = {1, 0.5, 1e-3};  // to come to rest soon
   return core::make_rod(d);
 }
 

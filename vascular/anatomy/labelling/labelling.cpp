@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <numbers>
 
 #include "core/base/units.h"
 #include "vascular/anatomy/labelling/branch_names.h"
