@@ -242,7 +242,7 @@ class Live {
       return true;
     }
     // Each frame is drawn once, with its picture; while the run is paused there are none.
-    if (!filmed_->look()) return fresh && now.paused;
+    if (!filmed_->update()) return fresh && now.paused;
     const Filmed& last = filmed_->front();
     take(last.picture, last.dose, last.xray_on, last.cine);
     return true;

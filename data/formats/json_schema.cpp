@@ -4,8 +4,20 @@ namespace ostium::data {
 
 namespace {
 
-JsonValue property(const JsonKey& key) {
-  std::vector<SchemaKeyword> words = key.type.schema;
+/// Whether a value is a number, a boolean or one of a list: no text, nothing nested.
+bool is_plain(const JsonType& type) {
+  const auto& [word, value] = type.schema.front();
+  return word == "enum" || word == "const" ||
+         (word == "type" && (value.text == "number" || value.text == "integer" || value.text == "boolean"));
+}
+
+JsonType or_a_values_name(const JsonType& type) {
+  return json_type::either({type, {{{"type", json_text("string")}, {"pattern", json_text("^\\$.")}}}});
+}
+
+JsonValue property(const JsonKey& key, bool values_stand_in) {
+  std::vector<SchemaKeyword> words =
+      (values_stand_in && is_plain(key.type) ? or_a_values_name(key.type) : key.type).schema;
   words.emplace_back("description", json_text(key.expected));
   return json_object(std::move(words));
 }
@@ -14,7 +26,7 @@ JsonValue definition(const JsonObjectKeys& object) {
   std::vector<SchemaKeyword> properties;
   std::vector<std::string> required;
   for (const JsonKey& key : object.keys) {
-    properties.emplace_back(key.name, property(key));
+    properties.emplace_back(key.name, property(key, object.values_stand_in));
     if (key.required) required.push_back(key.name);
   }
   std::vector<SchemaKeyword> words = {

@@ -32,6 +32,16 @@ TEST(Schemas, HaveAnObjectForEveryReference) {
   }
 }
 
+TEST(Schemas, LetAValuesNameStandForANumberInAStepAndNowhereElse) {
+  const auto defs = nlohmann::json::parse(schema_text(json_formats().front()))["$defs"];
+  const auto& speed = defs["step"]["properties"]["speed_mm_s"]["oneOf"];
+  EXPECT_EQ(speed[0]["maximum"], 500);
+  EXPECT_EQ(speed[1]["pattern"], "^\\$.");
+  EXPECT_TRUE(defs["condition"]["properties"]["seconds"].contains("oneOf"));
+  EXPECT_EQ(defs["step"]["properties"]["label"]["type"], "string") << "a text may be one as it is";
+  EXPECT_FALSE(defs["tool"]["properties"]["of_reference"].contains("oneOf"));
+}
+
 TEST(JsonRange, IsWhatANumberIsHeldTo) {
   const JsonObjectKeys keys{"thing",
                             {{"of_mm", true, "a number, > 0 and at most 3", json_type::number(above_zero_to(3))}}};

@@ -132,7 +132,7 @@ std::vector<ScriptCondition> read_conditions(const JsonObject& step, const char*
 }
 
 JsonObjectKeys condition_keys() {
-  JsonObjectKeys keys{"condition", {}, {at_least_properties(1)}};
+  JsonObjectKeys keys{"condition", {}, {at_least_properties(1)}, true};
   for (const ConditionRow& row : condition_rows) keys.keys.push_back({row.key, false, row.expected, type_of(row)});
   for (const ConditionCompanion& one : condition_companions) {
     std::string beside;

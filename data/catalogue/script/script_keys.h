@@ -118,7 +118,9 @@ inline const JsonObjectKeys step = {
      {"over_s", false, "in how many seconds that is reached, > 0 and at most 60", json_type::number(above_zero_to(60))},
      {"heparin_U", false, "dose, > 0 and at most 20000", json_type::number(above_zero_to(20000))},
      {"nitrate_ug", false, "dose, into the coronary, > 0 and at most 1000", json_type::number(above_zero_to(1000))},
-     {"adenosine_ug", false, "dose, into the coronary, > 0 and at most 1000", json_type::number(above_zero_to(1000))}}};
+     {"adenosine_ug", false, "dose, into the coronary, > 0 and at most 1000", json_type::number(above_zero_to(1000))}},
+    {},
+    true};
 
 /// Generated from the rows of script_conditions.h.
 inline const JsonObjectKeys condition = condition_keys();

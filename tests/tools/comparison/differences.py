@@ -2,7 +2,7 @@
 from dataclasses import dataclass
 
 # What a machine took, not what was computed.
-TIMES = {"step_ms", "overruns", "behind_most_ms", "wall_s", "took_s", "seconds_taken", "cpu_s", "version", "file"}
+TIMES = {"step_ms", "overruns", "behind_most_ms", "wall_s", "took_s", "seconds_taken", "cpu_s", "clock_s", "version", "file"}
 HASHES = {"hash", "state", "state_hash"}
 
 
