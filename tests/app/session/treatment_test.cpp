@@ -348,5 +348,27 @@ TEST(Treatment, AFoldedBalloonIsAsThickAsItsShaftShows) {
   EXPECT_LT(2 * model.balloons[3].folded_m, 0.99e-3);
 }
 
+TEST(Treatment, APerforationHarmsAndATearThatNoStentCovers) {
+  StentAhead s;
+  const SessionModel& model = s.run.model;
+  const Plan& plan = model.vessel->coronaries->lesions[0];
+  vascular::StentState& stent = s.crimped();
+  vascular::Injury& injury = s.run.state.treatment.injury.injuries[0];
+  EXPECT_TRUE(is_unharmed(model, s.run.state));
+  const int cell = plan.path.cells[static_cast<std::size_t>(plan.path.at((plan.from_m + plan.to_m) / 2).index)];
+  injury = {.kind = vascular::InjuryKind::dissection, .cell = cell, .grade = 1};
+  EXPECT_TRUE(is_unharmed(model, s.run.state)) << "type B";
+  injury.grade = 2;
+  EXPECT_FALSE(is_unharmed(model, s.run.state)) << "type C";
+  stent.where = vascular::StentState::deployed, stent.branch = model.physiology.flow.tree.branch("RCA");
+  stent.middle_m = (plan.from_m + plan.to_m) / 2, stent.shift_m = 0;
+  EXPECT_TRUE(is_unharmed(model, s.run.state)) << "it is tacked up";
+  stent.middle_m += 40e-3;
+  EXPECT_FALSE(is_unharmed(model, s.run.state));
+  injury = {.kind = vascular::InjuryKind::perforation, .cell = cell, .grade = 1};
+  stent.middle_m -= 40e-3;
+  EXPECT_FALSE(is_unharmed(model, s.run.state));
+}
+
 }  // namespace
 }  // namespace ostium::app
