@@ -3,9 +3,13 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <cmath>
 #include <cstdint>
 #include <exception>
 #include <optional>
+#include <type_traits>
+
+#include "data/formats/decimal.h"
 
 namespace ostium::app {
 
@@ -22,9 +26,34 @@ Option Option::range(int least, int most) { return option_->check(CLI::Range(lea
 Option Option::not_negative() { return option_->check(CLI::NonNegativeNumber), *this; }
 Option Option::positive() { return option_->check(CLI::PositiveNumber), *this; }
 
+namespace {
+
+/// CLI11 reads "nan", "0x10" and, as a number without a sign, "-1"; its ranges let NaN through.
+template <class Value>
+void check_number(CLI::Option& option) {
+  constexpr bool is_unsigned = std::is_same_v<Value, std::uint64_t>,
+                 is_whole = is_unsigned || std::is_same_v<Value, int>;
+  constexpr bool is_number = is_whole || std::is_same_v<Value, double> ||
+                             std::is_same_v<Value, std::optional<double>> || std::is_same_v<Value, std::vector<double>>;
+  if constexpr (is_number)
+    option.check(CLI::Validator(
+        [](const std::string& text) -> std::string {
+          const std::optional<double> number = data::decimal(text);
+          if (!number) return "\"" + text + "\" is not a number";
+          if (is_unsigned && !data::whole(text)) return text + " is not a whole number from 0 on";
+          if (is_whole && *number != std::floor(*number)) return text + " is not a whole number";
+          return "";
+        },
+        ""));
+}
+
+}  // namespace
+
 template <class Value>
 Option Options::add(const std::string& names, Value& value, const std::string& help) {
-  return Option(app_.add_option(names, value, help));
+  CLI::Option* option = app_.add_option(names, value, help);
+  check_number<Value>(*option);
+  return Option(option);
 }
 template Option Options::add(const std::string&, std::string&, const std::string&);
 template Option Options::add(const std::string&, int&, const std::string&);
