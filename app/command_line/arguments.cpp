@@ -4,6 +4,7 @@
 
 #include "data/formats/decimal.h"
 #include "data/formats/load_error.h"
+#include "data/formats/write_file.h"
 
 namespace ostium::app {
 
@@ -54,7 +55,7 @@ void make_folder(const std::filesystem::path& folder) {
   std::error_code error;
   std::filesystem::create_directories(folder, error);
   if (error)
-    throw data::LoadError(fmt::format("{}: cannot be made ({}); expected a folder", folder.string(), error.message()));
+    throw data::WriteError(fmt::format("{}: cannot be made ({}); expected a folder", folder.string(), error.message()));
 }
 
 }  // namespace ostium::app

@@ -21,7 +21,7 @@ Eigen::Vector3d mesh_point(const std::string& text);
 /// Throws LoadError unless the file name has one of these endings: {".png", ".mp4"}.
 void require_ending(const std::string& file, const std::vector<std::string>& known);
 
-/// Throws LoadError if the folder does not exist and cannot be created.
+/// Throws WriteError if the folder does not exist and cannot be created.
 void make_folder(const std::filesystem::path& folder);
 
 }  // namespace ostium::app

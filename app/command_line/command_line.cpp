@@ -10,6 +10,7 @@
 #include <type_traits>
 
 #include "data/formats/decimal.h"
+#include "data/formats/write_file.h"
 
 namespace ostium::app {
 
@@ -69,7 +70,7 @@ void Options::flag(const std::string& names, bool& value, const std::string& hel
 
 namespace {
 
-constexpr int done = 0, usage = 2, bad_input = 3;
+constexpr int done = 0, failed = 1, usage = 2, bad_input = 3;
 
 /// `chosen` is set to the command that the parsed line names.
 void declare(const Command& command, CLI::App& app, const Command*& chosen) {
@@ -102,6 +103,9 @@ int run_command_line(const Command& program, int argc, char** argv) {
   }
   try {
     return chosen->run();
+  } catch (const data::WriteError& error) {
+    fmt::print(stderr, "{}: {}\n", program.name, error.what());
+    return failed;
   } catch (const std::exception& error) {
     fmt::print(stderr, "{}: {}\n", program.name, error.what());
     return bad_input;

@@ -91,9 +91,9 @@ TEST(Dicom, WhatCannotBeWrittenIsNamed) {
   } catch (const LoadError& error) {
     EXPECT_NE(std::string(error.what()).find("/nowhere/run.dcm"), std::string::npos);
   }
-  EXPECT_THROW(write_png("/nowhere/frame.png", ramp(1, 8, 8).frames[0]), LoadError);
-  EXPECT_THROW(write_png("/dev/full", ramp(1, 8, 8).frames[0]), LoadError);
-  EXPECT_THROW(write_dicom("/dev/full", ramp(1, 8, 8)), LoadError);
+  EXPECT_THROW(write_png("/nowhere/frame.png", ramp(1, 8, 8).frames[0]), WriteError);
+  EXPECT_THROW(write_png("/dev/full", ramp(1, 8, 8).frames[0]), WriteError);
+  EXPECT_THROW(write_dicom("/dev/full", ramp(1, 8, 8)), WriteError);
   EXPECT_TRUE(std::filesystem::is_character_file("/dev/full"));  // only our own files are removed
 }
 
