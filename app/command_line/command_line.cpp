@@ -9,6 +9,7 @@
 #include <optional>
 #include <type_traits>
 
+#include "app/command_line/interrupt.h"
 #include "data/formats/decimal.h"
 #include "data/formats/write_file.h"
 
@@ -93,7 +94,7 @@ int run_command_line(const Command& program, int argc, char** argv) {
   CLI::App app(program.help, program.name);
   app.set_version_flag("--version", OSTIUM_VERSION);
   // Also used for commands declared later that have no examples.
-  app.footer("Exit codes: 0 done, 1 failed or did not hold, 2 usage, 3 bad input.");
+  app.footer("Exit codes: 0 done, 1 failed or did not hold, 2 usage, 3 bad input, 128 + N ended by signal N.");
   const Command* chosen = &program;
   declare(program, app, chosen);
   try {
@@ -102,7 +103,8 @@ int run_command_line(const Command& program, int argc, char** argv) {
     return app.exit(error) == 0 ? done : usage;
   }
   try {
-    return chosen->run();
+    const int code = chosen->run();
+    return interrupting_signal ? 128 + interrupting_signal : code;
   } catch (const data::WriteError& error) {
     fmt::print(stderr, "{}: {}\n", program.name, error.what());
     return failed;
