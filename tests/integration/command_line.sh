@@ -139,11 +139,14 @@ SDL_VIDEODRIVER=dummy expect 1 "time limit" "$ostium" run rca-mid-focal --script
 SDL_VIDEODRIVER=none expect 3 "there is no window here" "$ostium" run rca-mid-focal --device keyboard
 expect 1 "time limit" "$ostium" run rca-mid-focal --script iliac-wire --seconds 0.4 --out "$out/filmed" --film --report
 [[ -s $out/filmed/procedure.mp4 && -s $out/filmed/report.html && -s $out/filmed/key-frames/01.png ]]
-expect 130 "time limit" "$ostium" run rca-mid-focal --seconds 0.2 --speed real --record none --out "$out"
-expect 130 '"outcome": "aborted"' "$ostium" run rca-mid-focal --seconds 0.1 --json
+expect 1 "time limit" "$ostium" run rca-mid-focal --seconds 0.2 --speed real --record none --out "$out"
+expect 1 '"outcome": "aborted"' "$ostium" run rca-mid-focal --seconds 0.1 --json
 expect 130 "stopped by the operator" timeout -s INT 120 bash -c "'$ostium' run rca-mid-focal --speed real --out '$out/int' & p=\$!
   while [[ ! -e '$out/int/run.h5' ]]; do sleep 0.05; done; sleep 0.7; kill -INT \$p; wait \$p"
 expect 0 "bit for bit" "$ostium" replay "$out/int/run.h5"
+expect 3 "another ostium writes there" bash -c "'$ostium' run rca-mid-focal --speed real --record none --out '$out/two' & p=\$!
+  trap 'kill -INT \$p; wait \$p' EXIT; while [[ ! -e '$out/two' ]]; do sleep 0.05; done; sleep 0.3
+  '$ostium' run rca-mid-focal --seconds 0.1 --out '$out/two'"
 expect 1 "is the disk full" bash -c "ulimit -f 50; trap '' XFSZ; '$ostium' run rca-mid-focal --script iliac-wire --out '$out/full'"
 expect 0 "bit for bit" "$ostium" replay "$out/full/run.h5"
 expect 3 "there is no case" "$ostium" run no-such-case
