@@ -7,8 +7,8 @@
 
 #include "app/command_line/arguments.h"
 #include "app/command_line/command.h"
-#include "app/command_line/folder_lock.h"
 #include "app/command_line/common_options.h"
+#include "app/command_line/folder_lock.h"
 #include "app/command_line/interrupt.h"
 #include "app/command_line/progress.h"
 #include "app/commands/report.h"
