@@ -2,10 +2,9 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
-#include <cstdio>
-
+#include "data/formats/decimal.h"
 #include "data/formats/load_error.h"
+#include "data/formats/write_file.h"
 
 namespace ostium::app {
 
@@ -26,10 +25,15 @@ std::pair<std::string, std::string> key_and_value(const std::string& text) {
 }
 
 std::optional<Eigen::Vector3d> three_numbers(const std::string& text) {
-  double x, y, z;
-  char rest;
-  if (std::sscanf(text.c_str(), "%lf,%lf,%lf%c", &x, &y, &z, &rest) != 3) return std::nullopt;
-  return Eigen::Vector3d(x, y, z);
+  const std::vector<std::string> parts = split(text, ',');
+  if (parts.size() != 3) return std::nullopt;
+  Eigen::Vector3d point;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::optional<double> number = data::decimal(parts[i]);
+    if (!number) return std::nullopt;
+    point[static_cast<Eigen::Index>(i)] = *number;
+  }
+  return point;
 }
 
 Eigen::Vector3d mesh_point(const std::string& text) {
@@ -47,16 +51,11 @@ void require_ending(const std::string& file, const std::vector<std::string>& kno
   throw data::LoadError(fmt::format("{}: what is it to be? {} {} known", file, list, known.size() == 1 ? "is" : "are"));
 }
 
-void require_finite(std::initializer_list<std::pair<const char*, double>> options) {
-  for (const auto& [name, value] : options)
-    if (!std::isfinite(value)) throw data::LoadError(std::string(name) + " is not a number");
-}
-
 void make_folder(const std::filesystem::path& folder) {
   std::error_code error;
   std::filesystem::create_directories(folder, error);
   if (error)
-    throw data::LoadError(fmt::format("{}: cannot be made ({}); expected a folder", folder.string(), error.message()));
+    throw data::WriteError(fmt::format("{}: cannot be made ({}); expected a folder", folder.string(), error.message()));
 }
 
 }  // namespace ostium::app

@@ -2,7 +2,6 @@
 /// Parses command-line values, and refuses impossible ones.
 #include <Eigen/Core>
 #include <filesystem>
-#include <initializer_list>
 #include <optional>
 #include <string>
 #include <utility>
@@ -21,10 +20,8 @@ Eigen::Vector3d mesh_point(const std::string& text);
 
 /// Throws LoadError unless the file name has one of these endings: {".png", ".mp4"}.
 void require_ending(const std::string& file, const std::vector<std::string>& known);
-/// Throws LoadError for an option that is infinite or NaN.
-void require_finite(std::initializer_list<std::pair<const char*, double>> options);
 
-/// Throws LoadError if the folder does not exist and cannot be created.
+/// Throws WriteError if the folder does not exist and cannot be created.
 void make_folder(const std::filesystem::path& folder);
 
 }  // namespace ostium::app

@@ -3,9 +3,15 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <cmath>
 #include <cstdint>
 #include <exception>
 #include <optional>
+#include <type_traits>
+
+#include "app/command_line/interrupt.h"
+#include "data/formats/decimal.h"
+#include "data/formats/write_file.h"
 
 namespace ostium::app {
 
@@ -22,9 +28,34 @@ Option Option::range(int least, int most) { return option_->check(CLI::Range(lea
 Option Option::not_negative() { return option_->check(CLI::NonNegativeNumber), *this; }
 Option Option::positive() { return option_->check(CLI::PositiveNumber), *this; }
 
+namespace {
+
+/// CLI11 reads "nan", "0x10" and, as a number without a sign, "-1"; its ranges let NaN through.
+template <class Value>
+void check_number(CLI::Option& option) {
+  constexpr bool is_unsigned = std::is_same_v<Value, std::uint64_t>,
+                 is_whole = is_unsigned || std::is_same_v<Value, int>;
+  constexpr bool is_number = is_whole || std::is_same_v<Value, double> ||
+                             std::is_same_v<Value, std::optional<double>> || std::is_same_v<Value, std::vector<double>>;
+  if constexpr (is_number)
+    option.check(CLI::Validator(
+        [](const std::string& text) -> std::string {
+          const std::optional<double> number = data::decimal(text);
+          if (!number) return "\"" + text + "\" is not a number";
+          if (is_unsigned && !data::whole(text)) return text + " is not a whole number from 0 on";
+          if (is_whole && *number != std::floor(*number)) return text + " is not a whole number";
+          return "";
+        },
+        ""));
+}
+
+}  // namespace
+
 template <class Value>
 Option Options::add(const std::string& names, Value& value, const std::string& help) {
-  return Option(app_.add_option(names, value, help));
+  CLI::Option* option = app_.add_option(names, value, help);
+  check_number<Value>(*option);
+  return Option(option);
 }
 template Option Options::add(const std::string&, std::string&, const std::string&);
 template Option Options::add(const std::string&, int&, const std::string&);
@@ -40,7 +71,7 @@ void Options::flag(const std::string& names, bool& value, const std::string& hel
 
 namespace {
 
-constexpr int done = 0, usage = 2, bad_input = 3;
+constexpr int done = 0, failed = 1, usage = 2, bad_input = 3;
 
 /// `chosen` is set to the command that the parsed line names.
 void declare(const Command& command, CLI::App& app, const Command*& chosen) {
@@ -63,7 +94,7 @@ int run_command_line(const Command& program, int argc, char** argv) {
   CLI::App app(program.help, program.name);
   app.set_version_flag("--version", OSTIUM_VERSION);
   // Also used for commands declared later that have no examples.
-  app.footer("Exit codes: 0 done, 1 failed or did not hold, 2 usage, 3 bad input.");
+  app.footer("Exit codes: 0 done, 1 failed or did not hold, 2 usage, 3 bad input, 128 + N ended by signal N.");
   const Command* chosen = &program;
   declare(program, app, chosen);
   try {
@@ -72,7 +103,11 @@ int run_command_line(const Command& program, int argc, char** argv) {
     return app.exit(error) == 0 ? done : usage;
   }
   try {
-    return chosen->run();
+    const int code = chosen->run();
+    return interrupting_signal ? 128 + interrupting_signal : code;
+  } catch (const data::WriteError& error) {
+    fmt::print(stderr, "{}: {}\n", program.name, error.what());
+    return failed;
   } catch (const std::exception& error) {
     fmt::print(stderr, "{}: {}\n", program.name, error.what());
     return bad_input;

@@ -5,9 +5,10 @@
 namespace ostium::app {
 
 void stop_on_signals() {
-  const auto ask_to_stop = [](int) { interrupted = true; };
-  std::signal(SIGINT, ask_to_stop);
-  std::signal(SIGTERM, ask_to_stop);
+  struct sigaction ask_to_stop {};
+  ask_to_stop.sa_handler = [](int signal) { interrupting_signal = signal, interrupted = true; };
+  ask_to_stop.sa_flags = static_cast<int>(SA_RESETHAND) | SA_RESTART;
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) sigaction(signal, &ask_to_stop, nullptr);
 }
 
 }  // namespace ostium::app

@@ -5,7 +5,10 @@ namespace ostium::app {
 
 /// Becomes true when the user asks the command to end. Global, as signals are.
 inline std::atomic<bool> interrupted{false};
-/// From this call on, Ctrl-C and SIGTERM set `interrupted` instead of killing the process.
+/// The signal that asked for it; 0: none did. The command then ends with exit code 128 + signal, as a shell says it.
+inline std::atomic<int> interrupting_signal{0};
+/// From this call on, Ctrl-C, SIGTERM and SIGHUP (a closed terminal) set both instead of killing the process. A second
+/// one kills it.
 void stop_on_signals();
 
 }  // namespace ostium::app

@@ -10,6 +10,7 @@
 #include "data/catalogue/case/case.h"
 #include "data/catalogue/case/tree_file.h"
 #include "data/formats/load_error.h"
+#include "data/formats/mesh_writer.h"
 #include "vascular/geometry/mesh/mesh.h"
 #include "vascular/thorax/thorax.h"
 
@@ -39,8 +40,9 @@ void write_case(const data::Case& c, const std::string& folder) {
   for (int f = 0; f < vascular::beat_frames; ++f) {
     show_progress(fmt::format("frame {} of {}", f + 1, vascular::beat_frames));
     const fs::path base = folder;
-    write_mesh((base / fmt::format("lumen-{:02}.obj", f)).string(),
-               patient.lumen.at(static_cast<double>(f) / vascular::beat_frames, 0), vascular::LengthUnit::millimetre);
+    data::write_mesh((base / fmt::format("lumen-{:02}.obj", f)).string(),
+                     patient.lumen.at(static_cast<double>(f) / vascular::beat_frames, 0),
+                     vascular::LengthUnit::millimetre);
     data::write_tree((base / fmt::format("tree-{:02}.json", f)).string(),
                      patient.tree_frames[static_cast<std::size_t>(f)]);
     data::write_tree((base / fmt::format("tree-{:02}.vtp", f)).string(),
@@ -51,7 +53,8 @@ void write_case(const data::Case& c, const std::string& folder) {
     std::string name = body.name;
     std::replace(name.begin(), name.end(), ' ', '-');
     std::erase(name, ',');
-    write_mesh((fs::path(folder) / ("body-" + name + ".obj")).string(), body.mesh, vascular::LengthUnit::millimetre);
+    data::write_mesh((fs::path(folder) / ("body-" + name + ".obj")).string(), body.mesh,
+                     vascular::LengthUnit::millimetre);
   }
   show_progress("");
   fmt::print("{}: {} triangles and {} spheres in each of {} frames, {} bodies\n", folder,

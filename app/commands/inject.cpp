@@ -94,8 +94,6 @@ int run(const Arguments& a) {
   const bool video = a.out.ends_with(".mp4");
   require_ending(a.out, {".png", ".mp4"});
   fluoro::require_rate(a.frames_per_s);
-  require_finite(
-      {{"--rate", a.rate_mL_s}, {"--volume", a.volume_mL}, {"--iodine", a.iodine_mg_mL}, {"--phase", a.phase}});
   data::Case c = data::find_case(a.of);
   if (a.healthy) c.lesions.clear();
   show_progress("building " + c.name);

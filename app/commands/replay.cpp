@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <cstdlib>
 #include <nlohmann/json.hpp>
 
 #include "app/command_line/command.h"
@@ -11,7 +12,7 @@
 #include "app/command_line/progress.h"
 #include "app/session/scene/film.h"
 #include "core/base/units.h"
-#include "data/formats/dicom.h"
+#include "data/formats/dicom_runs.h"
 #include "data/formats/load_error.h"
 #include "data/formats/png.h"
 #include "data/formats/video.h"
@@ -61,7 +62,8 @@ void declare(Options& options, Arguments& a) {
   options.add("--from", a.from_s, "Second to begin at").not_negative();
   options.add("--seconds", a.seconds, "Length of the film").positive();
   options.add("--video", a.video, "Film it").type("FILE.mp4");
-  options.add("--dicom", a.dicom, "Film it").type("FILE.dcm");
+  options.add("--dicom", a.dicom, "Film it; each change of view, field or mode begins FILE-2.dcm, ...")
+      .type("FILE.dcm");
   options.add("--png", a.png, "One picture, at --from").type("FILE.png");
   declare_picture(options, a.picture);
   add_json_flag(options, a.json);
@@ -100,39 +102,40 @@ bool is_still(const Arguments& a) { return a.video.empty() && a.dicom.empty() &&
 /// Films until the recording or the time ends; a still picture needs the preceding frames, whose lag it shows.
 int make_film(const Arguments& a, Replay& replay) {
   FilmOptions options = film_options(a.picture);
-  if (!a.dicom.empty()) {
-    options.overlay = options.monitor = false;
-    if (!options.mode) options.mode = fluoro::Mode::fluoroscopy;  // one DICOM header for all frames
-  }
+  if (!a.dicom.empty()) options.overlay = options.monitor = false;
   show_progress("building the patient's chest");
   Film film(replay.model, options);
   std::optional<data::VideoWriter> writer;
   if (!a.video.empty()) writer.emplace(a.video, options.pixels, film.height(), options.frames_per_s);
-  fluoro::CineRun run;
+  data::DicomRuns runs;
   fluoro::Picture last;
+  const auto anchor = std::llround(a.from_s / replay.model.step_s());  // of the frames: there is one at --from
   const double from_s = is_still(a) ? a.from_s - lag_s : a.from_s;
   const double end_s = is_still(a) ? std::max(a.from_s, lag_s) : a.seconds > 0 ? a.from_s + a.seconds : 1e300;
   long frames = 0;
-  while (seconds(replay.model, replay.state) < end_s - 1e-9 && replay.tick()) {
+  do {
     film.listen(replay.model, replay.state, replay.inputs);
     const double now = seconds(replay.model, replay.state);
-    if (now < from_s - 1e-9 || !is_frame(replay.state.rods.step, options.frames_per_s, replay.model.step_s())) continue;
+    const auto from_anchor = std::llabs(static_cast<long long>(replay.state.rods.step) - anchor);
+    if (now < from_s - 1e-9 ||
+        !is_frame(static_cast<std::uint64_t>(from_anchor), options.frames_per_s, replay.model.step_s()))
+      continue;
     last = film.frame(replay.model, replay.state, replay.inputs, replay.xrays());
     ++frames;
     if (writer) writer->add(last);
-    if (!a.dicom.empty()) run.frames.push_back(last);
+    if (!a.dicom.empty()) runs.add(film.run(), last);
     show_progress(fmt::format("frame {}, {:.1f} s", frames, now));
-  }
+  } while (seconds(replay.model, replay.state) < end_s - 1e-9 && replay.tick());
   show_progress("");
   if (frames == 0) throw data::LoadError(fmt::format("{}: there is no frame from {:g} s on", a.file, a.from_s));
   if (!finish_film(writer, "replay")) return 1;
-  if (!a.dicom.empty()) {
-    const fluoro::CineRun header = film.run();
-    run.view = header.view, run.programme = header.programme, run.exposure = header.exposure;
-    data::write_dicom(a.dicom, run);
-  }
   if (!a.png.empty()) data::write_png(a.png, last);
-  for (const std::string& file : {a.video, a.dicom, a.png})
+  if (!a.dicom.empty()) {
+    const std::vector<std::string> names = runs.write(a.dicom);
+    for (std::size_t n = 0; n < names.size(); ++n)
+      fmt::print("{}: {} frames of {}\n", names[n], runs.runs()[n].frames.size(), replay.setup.vessel);
+  }
+  for (const std::string& file : {a.video, a.png})
     if (!file.empty()) fmt::print("{}: {} frames of {}\n", file, file == a.png ? 1 : frames, replay.setup.vessel);
   return 0;
 }

@@ -1,15 +1,16 @@
 #pragma once
 /// The frozen picture beside the live one: what the operator chose, or else the frame of the last cine run in which
-/// most contrast was seen.
+/// most contrast was seen. A run in which none could be seen leaves it as it was.
+#include "app/session/coupling/coupling.h"
 #include "fluoro/display/display.h"
 
 namespace ostium::app {
 
 class Reference {
  public:
-  /// After each frame; `seen`: contrast behind the lesion, in the same measure at each call; not a number: none.
+  /// After each frame; `seen`: contrast behind the lesion, as a share of undiluted contrast; not a number: none.
   void take(const fluoro::Picture& picture, bool cine, double seen) {
-    if (cine && seen > most_seen_) best_ = picture, most_seen_ = seen;
+    if (cine && seen >= visible_share && seen > most_seen_) best_ = picture, most_seen_ = seen;
     if (cine || best_.grey.empty()) return;
     if (!chosen_) frozen_ = best_;
     best_ = {}, most_seen_ = 0;
@@ -20,6 +21,7 @@ class Reference {
   const fluoro::Picture* picture() const { return frozen_.grey.empty() ? nullptr : &frozen_; }
 
  private:
+  static constexpr double visible_share = visible_kg_m3 / undiluted_kg_m3;
   fluoro::Picture frozen_, best_;
   double most_seen_ = 0;
   bool chosen_ = false;

@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "app/session/scene/film.h"
+#include "app/window/live_picture.h"
 #include "app/window/reference.h"
 #include "core/base/thread_priority.h"
 #include "data/formats/png.h"
@@ -220,52 +221,6 @@ class Events {
   Owned<SDL_GameController> pad_{nullptr, SDL_GameControllerClose};
 };
 
-/// The live picture: the film's where there is a film, else one of its own. A pedal that is up leaves it as it was
-/// (last image hold).
-class Live {
- public:
-  Live(const SessionModel& model, const WindowOptions& options)
-      : model_(model), filmed_(options.filmed), holds_(options.plays || options.filmed) {
-    if (filmed_) return;
-    FilmOptions look;
-    look.always_on = !options.plays;
-    look.frames_per_s = options.frames_per_s;
-    look.pixels = options.pixels;
-    own_.emplace(model, look);
-  }
-  /// Whether there is something new to show. `fresh`: `now` is a newer one than at the last call.
-  bool look(const Snapshot& now, bool fresh) {
-    if (own_) {
-      if (!fresh) return false;
-      const CArmInputs& arm = now.inputs.c_arm;
-      take(own_->frame(model_, now.state, now.inputs, now.xrays), own_->dose(), arm.fluoroscopy, arm.cine);
-      return true;
-    }
-    // Each frame is drawn once, with its picture; while the run is paused there are none.
-    if (!filmed_->update()) return fresh && now.paused;
-    const Filmed& last = filmed_->front();
-    take(last.picture, last.dose, last.xray_on, last.cine);
-    return true;
-  }
-  const fluoro::Picture& picture() const { return picture_; }
-  const fluoro::DoseMeter& dose() const { return dose_; }
-  bool cine() const { return cine_; }
-
- private:
-  void take(const fluoro::Picture& picture, const fluoro::DoseMeter& dose, bool xray_on, bool cine) {
-    if (xray_on || !holds_) picture_ = picture;
-    dose_ = dose, cine_ = cine;
-  }
-
-  const SessionModel& model_;
-  std::optional<Film> own_;
-  core::TripleBuffer<Filmed>* filmed_;
-  bool holds_;
-  fluoro::Picture picture_;
-  fluoro::DoseMeter dose_;
-  bool cine_ = false;
-};
-
 }  // namespace
 
 bool has_display(std::string& why) {
@@ -303,7 +258,7 @@ long show_window(const SessionModel& model, const ScriptPlan& plan, LiveDriver& 
                                    SDL_DestroyTexture);
   if (!texture) give_up("the window cannot be drawn in");
 
-  Live live(model, options);
+  LivePicture live(model, {options.filmed, options.has_pedals, options.frames_per_s, options.pixels});
   const PanelTexts texts = panel_texts(model, plan, hand, options.plays);
   Events events(hand);
   fluoro::Picture faded;

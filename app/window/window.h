@@ -15,7 +15,8 @@ namespace ostium::app {
 bool has_display(std::string& why);
 
 struct WindowOptions {
-  bool plays = false;
+  bool plays = false;      ///< keys and gamepad move the instruments
+  bool has_pedals = true;  ///< false: nobody has any, neither keys nor box nor script; then the beam is always on
   double frames_per_s = 15;
   int pixels = 512;
   core::TripleBuffer<Filmed>* filmed =

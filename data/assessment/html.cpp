@@ -30,7 +30,8 @@ function save(id, name) {
           text = cell.querySelector('textarea, input[type=text]');
     const value = box ? (box.checked ? '1' : '0') : pick ? pick.value : text ? text.value :
                   cell.querySelector('input') ? '' : cell.innerText;
-    return '"' + value.replace(/"/g, '""').replace(/\n/g, ' ') + '"';
+    const safe = /^[=+\-@\t\r]/.test(value) && isNaN(value) ? "'" + value : value;
+    return '"' + safe.replace(/"/g, '""').replace(/\n/g, ' ') + '"';
   }).join(','));
   const link = document.createElement('a');
   link.href = URL.createObjectURL(new Blob([rows.join('\n') + '\n'], { type: 'text/csv' }));
@@ -52,12 +53,6 @@ std::string html_page(const std::string& title, const std::string& body) {
 
 std::string time_text(double s) {
   return fmt::format("{}:{:04.1f}", static_cast<int>(s) / 60, s - 60 * (static_cast<int>(s) / 60));
-}
-
-std::string quoted(const std::string& words) {
-  std::string out = "\"";
-  for (const char c : words) out += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return out + "\"";
 }
 
 }  // namespace ostium::data

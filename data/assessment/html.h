@@ -8,6 +8,5 @@ namespace ostium::data {
 std::string html_page(const std::string& title, const std::string& body);
 
 std::string time_text(double s);               ///< "2:03.5"
-std::string quoted(const std::string& words);  ///< a field of a CSV file
 
 }  // namespace ostium::data

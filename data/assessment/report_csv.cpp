@@ -2,19 +2,19 @@
 
 #include <cmath>
 
-#include "data/assessment/html.h"
 #include "data/assessment/page_parts.h"
+#include "data/formats/csv.h"
 
 namespace ostium::data {
 
 std::string report_csv(const std::vector<ReportRun>& runs, const ScoreList& list) {
   std::string out = "code,case,script,seed,outcome,reason,simulated_s";
   for (const MetricDefinition& m : metric_definitions()) out += "," + m.name;
-  for (const ScoreItem& item : list.items) out += "," + quoted("item_" + item.id);
+  for (const ScoreItem& item : list.items) out += "," + csv_field("item_" + item.id);
   out += "\n";
   for (const ReportRun& run : runs) {
-    out += fmt::format("{},{},{},{},{},{},{:.3f}", quoted(run.code), quoted(run.case_name), quoted(run.script),
-                       run.seed, run.outcome, quoted(run.reason), run.simulated_s);
+    out += fmt::format("{},{},{},{},{},{},{:.3f}", csv_field(run.code), csv_field(run.case_name), csv_field(run.script),
+                       run.seed, run.outcome, csv_field(run.reason), run.simulated_s);
     for (const MetricDefinition& m : metric_definitions()) {
       out += ",";
       for (const Metric& metric : run.metrics)
@@ -35,8 +35,8 @@ std::string events_csv(const ReportRun& run) {
     const EventDefinition* d = definition_of(e.code);
     if (!d) continue;
     const std::string tool = tool_of(run, e);
-    out += fmt::format("{:.3f},{},{},{},{},{}\n", e.time_s, d->name, tool.empty() ? "" : quoted(tool),
-                       d->value.empty() ? "" : fmt::format("{:.6g}", e.value), quoted(d->value),
+    out += fmt::format("{:.3f},{},{},{},{},{}\n", e.time_s, d->name, tool.empty() ? "" : csv_field(tool),
+                       d->value.empty() ? "" : fmt::format("{:.6g}", e.value), csv_field(d->value),
                        severity_name(d->severity));
   }
   return out;

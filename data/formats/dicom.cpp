@@ -11,7 +11,7 @@
 
 #include "core/base/units.h"
 #include "data/formats/load_error.h"
-#include "data/formats/unfinished_file.h"
+#include "data/formats/write_file.h"
 
 namespace ostium::data {
 
@@ -48,11 +48,10 @@ class Writer {
     text(tag, dcmGenerateUniqueIdentifier(uid, root));
   }
   void save(const std::string& file) {
-    const OFCondition saved = format_.saveFile(file.c_str(), EXS_LittleEndianExplicit);
-    if (saved.good() && whole(file)) return;
-    remove_unfinished(file);
-    throw LoadError(file + ": cannot be written (" + (saved.bad() ? saved.text() : "it was cut short") +
-                    "); does its folder exist, and is there room?");
+    NewFile out(file);
+    const OFCondition saved = format_.saveFile(out.beside().c_str(), EXS_LittleEndianExplicit);
+    if (saved.bad() || !whole(out.beside())) throw write_error(file, saved.bad() ? saved.text() : "it was cut short");
+    out.finish();
   }
 
  private:
@@ -135,7 +134,8 @@ void write_pixels(Writer& out, const fluoro::CineRun& run) {
     out.text(DCM_NumberOfFrames, std::to_string(run.frames.size()));
     out.pointer(DCM_FrameIncrementPointer, DCM_FrameTime);
     out.number(DCM_FrameTime, 1000 / run.programme.frames_per_s);
-    out.number(DCM_CineRate, std::max(1.0, run.programme.frames_per_s));
+    // A whole number by the standard; the frame time above is exact.
+    out.text(DCM_CineRate, std::to_string(std::max(1L, std::lround(run.programme.frames_per_s))));
     out.text(DCM_PositionerMotion, "STATIC");
   }
   std::vector<Uint8> pixels;

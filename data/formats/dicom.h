@@ -13,8 +13,7 @@ struct DicomPatient {
 };
 
 /// A run of one or more frames of one size: 8 bits as displayed, with positioner angles, SID, pixel spacing at the
-/// detector, frame time, tube voltage and dose-area product. Throws LoadError naming the file if it cannot be written;
-/// a partial file is removed.
+/// detector, frame time, tube voltage and dose-area product. Throws WriteError.
 void write_dicom(const std::string& file, const fluoro::CineRun& run, const DicomPatient& patient = {});
 
 }  // namespace ostium::data

@@ -2,11 +2,10 @@
 
 #include <png.h>
 
-#include <cstdio>
 #include <vector>
 
 #include "data/formats/load_error.h"
-#include "data/formats/unfinished_file.h"
+#include "data/formats/write_file.h"
 
 namespace ostium::data {
 
@@ -28,12 +27,7 @@ std::vector<std::uint8_t> compressed(int width, int height, png_uint_32 format, 
 }
 
 void write_bytes(const std::string& file, const std::vector<std::uint8_t>& bytes) {
-  std::FILE* out = std::fopen(file.c_str(), "wb");
-  const bool written = out && std::fwrite(bytes.data(), 1, bytes.size(), out) == bytes.size();
-  const bool closed = out && std::fclose(out) == 0;
-  if (written && closed) return;
-  if (out) remove_unfinished(file);
-  throw LoadError(file + ": cannot be written; does its folder exist, and is there room?");
+  write_file(file, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
 }
 
 }  // namespace

@@ -7,7 +7,7 @@
 
 namespace ostium::data {
 
-/// 8-bit greyscale PNG. Throws LoadError naming the file if it cannot be written; a partial file is removed.
+/// 8-bit greyscale PNG. Throws WriteError.
 void write_png(const std::string& file, const fluoro::Picture& picture);
 /// The same in colour: `rgb` has 3 * width * height bytes, rows from the top.
 void write_rgb_png(const std::string& file, int width, int height, const std::vector<std::uint8_t>& rgb);

@@ -2,8 +2,7 @@
 
 #include <fmt/format.h>
 
-#include <fstream>
-#include <stdexcept>
+#include "data/formats/write_file.h"
 
 namespace ostium::data {
 
@@ -43,15 +42,11 @@ void Drawing::rectangle(const Eigen::Vector2d& corner, const Eigen::Vector2d& si
 }
 
 void Drawing::write(const std::string& path) const {
-  std::ofstream file(path);
-  file << fmt::format(
-      "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0}mm\" height=\"{1}mm\" viewBox=\"0 0 {0} {1}\" "
-      "fill=\"none\" "
-      "stroke-linecap=\"round\" stroke-linejoin=\"round\">\n<rect width=\"100%\" height=\"100%\" "
-      "fill=\"white\"/>\n{2}</svg>\n",
-      width_, height_, body_);
-  file.flush();
-  if (!file) throw std::runtime_error(path + ": cannot be written; is its folder there, and the disk not full?");
+  write_file(path, fmt::format("<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0}mm\" height=\"{1}mm\" "
+                               "viewBox=\"0 0 {0} {1}\" fill=\"none\" stroke-linecap=\"round\" "
+                               "stroke-linejoin=\"round\">\n<rect width=\"100%\" height=\"100%\" fill=\"white\"/>\n"
+                               "{2}</svg>\n",
+                               width_, height_, body_));
 }
 
 }  // namespace ostium::data

@@ -17,7 +17,7 @@ class Drawing {
   void rectangle(const Eigen::Vector2d& corner_mm, const Eigen::Vector2d& size_mm, const std::string& colour);
   void text(const Eigen::Vector2d& at_mm, const std::string& words, double size_mm = 3.5);
 
-  /// Throws std::runtime_error naming the file if it cannot be written completely.
+  /// Throws WriteError.
   void write(const std::string& path) const;
 
  private:

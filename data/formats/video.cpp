@@ -12,14 +12,12 @@
 #include <cstring>
 #include <vector>
 
-#include "data/formats/unfinished_file.h"
-
 extern char** environ;
 
 namespace ostium::data {
 
 VideoWriter::VideoWriter(const std::string& file, int width, int height, double frames_per_s)
-    : file_(file), width_(width), height_(height) {
+    : file_(file), out_(file), width_(width), height_(height) {
   // A pair of sockets rather than a pipe: a write to an ffmpeg that has exited then fails instead of raising SIGPIPE.
   int in[2], words[2];
   if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, in) || pipe2(words, O_CLOEXEC)) {
@@ -38,7 +36,7 @@ VideoWriter::VideoWriter(const std::string& file, int width, int height, double 
                                      "-i",          "-",         "-vf",        "pad=ceil(iw/2)*2:ceil(ih/2)*2",
                                      "-c:v",        "libx264",   "-crf",       "25",
                                      "-preset",     "superfast", "-pix_fmt",   "yuv420p",
-                                     "-f",          "mp4",       file};
+                                     "-f",          "mp4",       out_.beside()};
   std::vector<char*> argv;
   for (std::string& argument : arguments) argv.push_back(argument.data());
   argv.push_back(nullptr);
@@ -87,8 +85,13 @@ bool VideoWriter::finish() {
   }
   process_ = -1;
   const bool good = WIFEXITED(status) && WEXITSTATUS(status) == 0;
-  if (good && problem_.empty()) return true;
-  remove_unfinished(file_);
+  if (good && problem_.empty()) try {
+      out_.finish();
+      return true;
+    } catch (const WriteError& error) {
+      problem_ = error.what();
+      return false;
+    }
   if (problem_.empty()) problem_ = file_ + ": the video ended";
   if (!words.empty()) problem_ += ": " + words;
   problem_ += fmt::format(" (after {} frames; is the disk full, does the folder exist?)", frames_);

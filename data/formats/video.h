@@ -2,6 +2,7 @@
 /// MP4 video, encoded by the ffmpeg program in its own process: linking to it would affect our licence.
 #include <string>
 
+#include "data/formats/write_file.h"
 #include "fluoro/display/display.h"
 
 namespace ostium::data {
@@ -18,7 +19,8 @@ class VideoWriter {
   VideoWriter& operator=(const VideoWriter&) = delete;
 
   void add(const fluoro::Picture& picture);
-  /// Waits for ffmpeg to exit. True if the whole video was written; otherwise it is removed.
+  /// Waits for ffmpeg to exit. True if the whole video was written; otherwise there is none,
+  /// and an older one stays as it was.
   bool finish();
   const std::string& problem() const { return problem_; }  ///< empty if all is well
   long frames() const { return frames_; }                  ///< accepted so far
@@ -28,6 +30,7 @@ class VideoWriter {
   std::string ffmpegs_words();
 
   std::string file_;
+  NewFile out_;
   int width_, height_;
   int to_ffmpeg_ = -1, words_ = -1;
   int process_ = -1;

@@ -1,19 +1,51 @@
 #include "data/formats/write_file.h"
 
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
 #include <filesystem>
-#include <fstream>
-#include <stdexcept>
 
 namespace ostium::data {
 
-void write_file(const std::string& path, const std::string& text) {
+namespace fs = std::filesystem;
+
+WriteError write_error(const std::string& path, const std::string& why) {
+  return WriteError(path + ": cannot be written" + (why.empty() ? "" : " (" + why + ")") +
+                    "; does its folder exist, may you write there, and is there room?");
+}
+
+NewFile::NewFile(const std::string& path) : path_(path), beside_(path + ".unfinished") {
   std::error_code none;
-  const auto folder = std::filesystem::path(path).parent_path();
-  if (!folder.empty()) std::filesystem::create_directories(folder, none);
-  std::ofstream file(path, std::ios::binary);
-  file << text;
-  file.flush();
-  if (!file) throw std::runtime_error(path + ": cannot be written; is its folder there, and the disk not full?");
+  if (fs::is_symlink(path, none))
+    if (const fs::path target = fs::weakly_canonical(path, none); !none)
+      path_ = target.string(), beside_ = path_ + ".unfinished";
+  // Neither a device nor a folder can be replaced; what is written to a folder fails.
+  if (fs::exists(path_, none) && !fs::is_regular_file(path_, none)) beside_ = path_;
+}
+
+NewFile::~NewFile() {
+  if (!over_ && beside_ != path_) std::remove(beside_.c_str());
+}
+
+void NewFile::finish() {
+  over_ = true;
+  if (beside_ == path_ || std::rename(beside_.c_str(), path_.c_str()) == 0) return;
+  const std::string why = std::strerror(errno);
+  std::remove(beside_.c_str());
+  throw write_error(path_, why);
+}
+
+void write_file(const std::string& path, std::string_view bytes) {
+  std::error_code none;
+  if (const auto folder = fs::path(path).parent_path(); !folder.empty()) fs::create_directories(folder, none);
+  NewFile file(path);
+  std::FILE* out = std::fopen(file.beside().c_str(), "wb");
+  if (!out) throw write_error(path, std::strerror(errno));
+  errno = 0;
+  const bool written = std::fwrite(bytes.data(), 1, bytes.size(), out) == bytes.size() && std::fflush(out) == 0;
+  const std::string why = written ? "" : std::strerror(errno);
+  if (std::fclose(out) != 0 || !written) throw write_error(path, why);
+  file.finish();
 }
 
 }  // namespace ostium::data

@@ -1,10 +1,39 @@
 #pragma once
+/// Files that appear whole or not at all: written beside their place, then renamed.
+#include <stdexcept>
 #include <string>
+#include <string_view>
 
 namespace ostium::data {
 
-/// Writes `text`, creating folders as needed. Throws std::runtime_error naming the file if it cannot be written
-/// completely.
-void write_file(const std::string& path, const std::string& text);
+/// Something could not be written, whatever the input was. The message names the file and the cure; exit code 1.
+struct WriteError : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+/// A file that is being written. What has its name stays as it is until `finish`, and if that is never called. A device
+/// such as /dev/stdout is written to directly; of a link, the file that it leads to is replaced.
+class NewFile {
+ public:
+  explicit NewFile(const std::string& path);
+  NewFile(const NewFile&) = delete;
+  NewFile& operator=(const NewFile&) = delete;
+  ~NewFile();  ///< removes what was written, unless it is finished
+
+  /// Where to write: `path` + ".unfinished", in the same folder.
+  const std::string& beside() const { return beside_; }
+  /// Gives the file its name. Throws WriteError.
+  void finish();
+
+ private:
+  std::string path_, beside_;
+  bool over_ = false;
+};
+
+/// Writes `bytes`, creating folders as needed. Throws WriteError; what was there is then as it was.
+void write_file(const std::string& path, std::string_view bytes);
+
+/// "FILE: cannot be written (why); ..."
+WriteError write_error(const std::string& path, const std::string& why = "");
 
 }  // namespace ostium::data

@@ -18,6 +18,7 @@
 #include "data/catalogue/case/tree_keys.h"
 #include "data/catalogue/catalogue.h"
 #include "data/formats/load_error.h"
+#include "data/formats/mesh_writer.h"
 #include "data/formats/write_file.h"
 #include "tests/data/refusals.h"
 #include "vascular/geometry/implicit/contour.h"

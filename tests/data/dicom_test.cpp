@@ -1,13 +1,13 @@
-#include "data/formats/dicom.h"
-
 #include <gtest/gtest.h>
 #include <unistd.h>
 
 #include <array>
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
 
 #include "core/base/units.h"
+#include "data/formats/dicom_runs.h"
 #include "data/formats/load_error.h"
 #include "data/formats/png.h"
 
@@ -88,13 +88,47 @@ TEST(Dicom, WhatCannotBeWrittenIsNamed) {
   try {
     write_dicom("/nowhere/run.dcm", ramp(1, 8, 8));
     FAIL();
-  } catch (const LoadError& error) {
+  } catch (const WriteError& error) {
     EXPECT_NE(std::string(error.what()).find("/nowhere/run.dcm"), std::string::npos);
   }
-  EXPECT_THROW(write_png("/nowhere/frame.png", ramp(1, 8, 8).frames[0]), LoadError);
-  EXPECT_THROW(write_png("/dev/full", ramp(1, 8, 8).frames[0]), LoadError);
-  EXPECT_THROW(write_dicom("/dev/full", ramp(1, 8, 8)), LoadError);
+  EXPECT_THROW(write_png("/nowhere/frame.png", ramp(1, 8, 8).frames[0]), WriteError);
+  EXPECT_THROW(write_png("/dev/full", ramp(1, 8, 8).frames[0]), WriteError);
+  EXPECT_THROW(write_dicom("/dev/full", ramp(1, 8, 8)), WriteError);
   EXPECT_TRUE(std::filesystem::is_character_file("/dev/full"));  // only our own files are removed
+}
+
+/// CineRate is a whole number (IS); the frame time is exact.
+TEST(Dicom, EveryRateModeAndFieldPassesTheStandardsValidator) {
+  if (!there_is("dciodvfy") || !there_is("dcmdump")) GTEST_SKIP() << "dciodvfy (dicom3tools) or dcmdump is missing";
+  for (const double rate : {3.75, 7.5, 15.0, 30.0})
+    for (const bool cine : {false, true})
+      for (const double field_m : {0.2, 0.16, 0.13}) {
+        const std::string file = file_for("ostium-dicom-rate.dcm");
+        fluoro::CineRun made = ramp(3, 32, 32);
+        made.programme = cine ? fluoro::cine(rate) : fluoro::fluoroscopy(rate), made.view.field_m = field_m;
+        write_dicom(file, made);
+        const Outcome checked = run("dciodvfy " + file), dumped = run("dcmdump " + file);
+        EXPECT_EQ(checked.words.find("Error"), std::string::npos) << rate << " " << cine << "\n" << checked.words;
+        EXPECT_NE(dumped.words.find("(0018,0040) IS [" + std::to_string(std::lround(rate)) + "]"), std::string::npos)
+            << dumped.words;
+        std::filesystem::remove(file);
+      }
+}
+
+TEST(DicomRuns, AnotherViewOrFieldIsAnotherFile) {
+  const fluoro::CineRun first = ramp(1, 8, 8);
+  fluoro::CineRun turned = first, zoomed = first;
+  turned.view.arm.lao_rad += 0.1, zoomed.view.field_m = 0.13;
+  DicomRuns runs;
+  runs.add(first, first.frames[0]), runs.add(first, first.frames[0]);
+  runs.add(turned, first.frames[0]), runs.add(zoomed, first.frames[0]), runs.add(first, first.frames[0]);
+  const std::string file = file_for("runs.dcm");
+  const std::vector<std::string> names = runs.write(file);
+  ASSERT_EQ(names.size(), 4u);
+  EXPECT_EQ(names[0], file);
+  EXPECT_NE(names[3].find("runs-4.dcm"), std::string::npos);
+  EXPECT_EQ(runs.runs()[0].frames.size(), 2u);
+  for (const std::string& name : names) EXPECT_TRUE(std::filesystem::remove(name)) << name;
 }
 
 }  // namespace

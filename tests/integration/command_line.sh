@@ -33,7 +33,7 @@ expect 0 "guide-jl4-6f" "$ostium" instruments
 expect 0 "sources:" "$ostium" instruments guide-jl4-6f
 expect 0 '"EI1_Nmm2"' "$ostium" instruments wire-014-workhorse --json
 expect 3 "there is no instrument" "$ostium" instruments no-such-thing
-expect 3 "cannot be written" "$ostium" instruments --picture /nowhere/all.svg
+expect 1 "cannot be written" "$ostium" instruments --picture /nowhere/all.svg
 expect 3 "OSTIUM_DATA" env OSTIUM_DATA=/nowhere "$ostium" instruments
 
 dir=$(mktemp -d)
@@ -58,8 +58,8 @@ expect 3 "from -120.0 to 120.0 degrees" frame --lao 150 -o "$dir/frame.png"
 expect 3 "from 85.0 to 125.0 cm" frame --sid 1400 -o "$dir/frame.png"
 expect 3 "3.75, 7.5, 15 and 30" frame --rate 12 -o "$dir/frame.png"
 expect 3 "shutter" frame --shutters 0.5,0.5,0,0.5 -o "$dir/frame.png"
-expect 3 "cannot be written" frame -o /nowhere/frame.png
-expect 3 "cannot be written" frame -o /nowhere/frame.dcm
+expect 1 "cannot be written" frame -o /nowhere/frame.png
+expect 1 "cannot be written" frame -o /nowhere/frame.dcm
 expect 3 "png, .dcm and .mp4" frame -o "$dir/frame.jpg"
 expect 0 "kV" frame rca-mid-focal --view lao --fill right --phase 0.4 -o "$dir/case.png"
 expect 3 "there is no case" frame no-such-case -o "$dir/frame.png"
@@ -141,9 +141,12 @@ expect 1 "time limit" "$ostium" run rca-mid-focal --script iliac-wire --seconds 
 [[ -s $out/filmed/procedure.mp4 && -s $out/filmed/report.html && -s $out/filmed/key-frames/01.png ]]
 expect 1 "time limit" "$ostium" run rca-mid-focal --seconds 0.2 --speed real --record none --out "$out"
 expect 1 '"outcome": "aborted"' "$ostium" run rca-mid-focal --seconds 0.1 --json
-expect 1 "stopped by the operator" timeout -s INT 120 bash -c "'$ostium' run rca-mid-focal --speed real --out '$out/int' & p=\$!
+expect 130 "stopped by the operator" timeout -s INT 120 bash -c "'$ostium' run rca-mid-focal --speed real --out '$out/int' & p=\$!
   while [[ ! -e '$out/int/run.h5' ]]; do sleep 0.05; done; sleep 0.7; kill -INT \$p; wait \$p"
 expect 0 "bit for bit" "$ostium" replay "$out/int/run.h5"
+expect 3 "another ostium writes there" bash -c "'$ostium' run rca-mid-focal --speed real --record none --out '$out/two' & p=\$!
+  trap 'kill -INT \$p; wait \$p' EXIT; while [[ ! -e '$out/two' ]]; do sleep 0.05; done; sleep 0.3
+  '$ostium' run rca-mid-focal --seconds 0.1 --out '$out/two'"
 expect 1 "is the disk full" bash -c "ulimit -f 50; trap '' XFSZ; '$ostium' run rca-mid-focal --script iliac-wire --out '$out/full'"
 expect 0 "bit for bit" "$ostium" replay "$out/full/run.h5"
 expect 3 "there is no case" "$ostium" run no-such-case

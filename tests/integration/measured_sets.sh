@@ -37,7 +37,7 @@ expect 0 "root mean square" "$ostium" predict "$folder/wire" -o "$folder/predict
 expect 0 "ostium-prediction/1" "$ostium" predict "$folder/wire/measurement.json" --json -o "$folder/predicted"
 grep -q "experiment,s_mm" "$folder/predicted/prediction.csv"
 expect 3 "no-such-set" "$ostium" predict "$folder/no-such-set"
-expect 3 "cannot be written" "$ostium" predict "$folder/wire" -o /proc/nowhere
+expect 1 "cannot be written" "$ostium" predict "$folder/wire" -o /proc/nowhere
 expect 2 "SET is required\|set is required" "$ostium" predict
 
 expect 0 "verdict: " "$ostium" explain "$folder/wire" --try self_weight -o "$folder/one" --threads 1

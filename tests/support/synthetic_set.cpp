@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "core/base/units.h"
+#include "data/formats/mesh_writer.h"
 #include "data/formats/write_file.h"
 #include "vascular/geometry/mesh/mesh.h"
 

@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <cstdio>
 #include <filesystem>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -15,6 +14,7 @@
 #include "app/commands/import/mesh_files.h"
 #include "core/base/units.h"
 #include "data/catalogue/case/case.h"
+#include "data/formats/decimal.h"
 #include "data/formats/load_error.h"
 #include "vascular/anatomy/labelling/labelling.h"
 #include "vascular/anatomy/labelling/narrowings.h"
@@ -85,14 +85,14 @@ Eigen::Matrix3d axes_of(const std::string& letters) {
 }
 
 vascular::Lesion lesion_of(const std::string& text) {
-  const auto colon = text.find(':');
-  double from, length, percent;
-  char rest;
-  if (colon == std::string::npos ||
-      std::sscanf(text.c_str() + colon, ":%lf:%lf:%lf%c", &from, &length, &percent, &rest) != 3)
+  const std::vector<std::string> parts = split(text, ':');
+  std::optional<double> from, length, percent;
+  if (parts.size() == 4)
+    from = data::decimal(parts[1]), length = data::decimal(parts[2]), percent = data::decimal(parts[3]);
+  if (!from || !length || !percent)
     throw data::LoadError(fmt::format(
         "the lesion \"{}\" is not BRANCH:FROM:LENGTH:PERCENT; expected for instance RCA:40:12:75 (mm, mm, %)", text));
-  return {.branch = text.substr(0, colon), .from_m = from * mm, .length_m = length * mm, .stenosis = percent / 100};
+  return {.branch = parts[0], .from_m = *from * mm, .length_m = *length * mm, .stenosis = *percent / 100};
 }
 
 std::map<std::string, std::string> names_of(const std::vector<std::string>& renames) {

@@ -8,6 +8,7 @@
 #include "data/catalogue/case/anatomy_file.h"
 #include "data/catalogue/case/tree_file.h"
 #include "data/formats/load_error.h"
+#include "data/formats/mesh_writer.h"
 #include "data/formats/write_file.h"
 #include "vascular/geometry/mesh/written_mesh.h"
 
@@ -58,15 +59,15 @@ void write_case(const Imported& x, const Json& report, const std::string& pictur
   fs::remove_all(unfinished, error);
   fs::create_directory(unfinished, error);
   if (error)
-    throw data::LoadError(
+    throw data::WriteError(
         fmt::format("{}: cannot be made ({}); expected a folder", unfinished.string(), error.message()));
   try {
     data::write_file((unfinished / (x.the_case.name + ".json")).string(), case_json(x));
     data::write_file((unfinished / "anatomy.json").string(), data::anatomy_to_json(x.found.anatomy));
     data::write_file((unfinished / "import.json").string(), report.dump(2) + "\n");
-    write_mesh((unfinished / frame_name(0)).string(), x.found.lumen, vascular::LengthUnit::millimetre);
+    data::write_mesh((unfinished / frame_name(0)).string(), x.found.lumen, vascular::LengthUnit::millimetre);
     for (std::size_t f = 1; f < x.frames.size(); ++f)
-      write_mesh((unfinished / frame_name(f)).string(), x.frames[f], vascular::LengthUnit::millimetre);
+      data::write_mesh((unfinished / frame_name(f)).string(), x.frames[f], vascular::LengthUnit::millimetre);
     data::write_tree((unfinished / "tree.json").string(), x.patient.tree);
     data::write_tree((unfinished / "tree.vtp").string(), x.patient.tree);
     if (!picture.empty()) draw(x, picture);
@@ -79,7 +80,7 @@ void write_case(const Imported& x, const Json& report, const std::string& pictur
   if (error) {
     const std::string why = error.message();
     fs::remove_all(unfinished, error);
-    throw data::LoadError(fmt::format("{}: cannot be written ({})", x.folder.string(), why));
+    throw data::write_error(x.folder.string(), why);
   }
 }
 

@@ -1,5 +1,6 @@
 #include "app/commands/run/drivers.h"
 
+#include <algorithm>
 #include <exception>
 #include <filesystem>
 #include <thread>
@@ -47,9 +48,18 @@ Drivers::Drivers(const RunArguments& a, BoxRun* device, ScriptedRun& run) {
 
 namespace {
 
-WindowOptions window_of(const RunArguments& a, BoxRun* device, Filming* film, std::atomic<bool>& over) {
+bool uses_the_beam(const data::Script& script) {
+  return std::any_of(script.steps.begin(), script.steps.end(), [](const data::ScriptStep& step) {
+    return step.action == data::ScriptAction::fluoroscopy || step.action == data::ScriptAction::cine;
+  });
+}
+
+WindowOptions window_of(const RunArguments& a, const data::Script& script, BoxRun* device, Filming* film,
+                        std::atomic<bool>& over) {
   WindowOptions window;
-  window.plays = a.device == "keyboard", window.over = &over, window.last_frame_png = a.last_frame;
+  window.plays = a.device == "keyboard";
+  window.has_pedals = window.plays || device || uses_the_beam(script);
+  window.over = &over, window.last_frame_png = a.last_frame;
   if (film) window.filmed = &film->pictures();
   if (device) {
     window.problem = [device] { return std::string(advice(device->hand().shown())); };
@@ -75,7 +85,7 @@ PlayReport play_in_window(const RunArguments& a, ScriptedRun& run, const RunSetu
     over = true;
   });
   try {
-    show_window(run.model, run.plan, hand, window_of(a, device, film, over));
+    show_window(run.model, run.plan, hand, window_of(a, run.plan.script, device, film, over));
   } catch (...) {
     hand.controls.press(Action::quit);
     steps.join();

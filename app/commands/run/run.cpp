@@ -8,6 +8,7 @@
 #include "app/command_line/arguments.h"
 #include "app/command_line/command.h"
 #include "app/command_line/common_options.h"
+#include "app/command_line/folder_lock.h"
 #include "app/command_line/interrupt.h"
 #include "app/command_line/progress.h"
 #include "app/commands/report.h"
@@ -69,7 +70,6 @@ RecorderOptions recorder_of(const RunArguments& a) {
                   : a.record == "events"                 ? RecordMode::events
                                                          : RecordMode::full;
   if (a.folder.empty()) return recorder;
-  make_folder(a.folder);
   recorder.file = (fs::path(a.folder) / "run.h5").string();
   return recorder;
 }
@@ -119,6 +119,8 @@ int run_script(const RunArguments& a) {
   if (std::string why; a.in_window() && !has_display(why))
     throw data::LoadError("there is no window here (" + why + "); expected a display, or --display none with a script");
   RunSetup setup = setup_of(a.session);
+  if (!a.folder.empty()) make_folder(a.folder);
+  const FolderLock lock = a.folder.empty() ? FolderLock() : FolderLock(a.folder);
   const auto device = device_of(a, setup);
   const PlayOptions options = play_options(a, device.get());
   const auto vessel = build_vessel(setup);

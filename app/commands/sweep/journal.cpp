@@ -7,6 +7,7 @@
 
 #include "app/commands/sweep/table.h"
 #include "data/formats/load_error.h"
+#include "data/formats/write_file.h"
 
 namespace ostium::app {
 
@@ -27,26 +28,20 @@ SweepJournal::SweepJournal(const std::string& file, const Sweep& sweep, bool res
   out_.open(file, std::ios::app | std::ios::binary);
   if (done_ == 0 && fs::file_size(file) == 0) out_ << first << "\n";
   out_.flush();
-  if (!out_) throw data::LoadError(file + ": cannot be written; is its folder there, and the disk not full?");
+  if (!out_) throw data::write_error(file);
 }
 
 void SweepJournal::add(std::size_t task, const std::string& line) {
   lines_[task] = line;
   ++done_;
   out_ << task << " " << line << std::flush;
-  if (!out_) throw data::LoadError(file_ + ": cannot be written; is the disk full?");
+  if (!out_) throw data::write_error(file_);
 }
 
 void SweepJournal::finish(const std::string& table, const std::string& head) {
-  const std::string unfinished = table + ".unfinished";
-  std::ofstream out(unfinished, std::ios::binary);
-  out << head;
-  for (const std::string& line : lines_) out << line;
-  out.close();
-  if (!out || std::rename(unfinished.c_str(), table.c_str()) != 0) {
-    std::remove(unfinished.c_str());
-    throw data::LoadError(table + ": cannot be written; is its folder there, and the disk not full?");
-  }
+  std::string text = head;
+  for (const std::string& line : lines_) text += line;
+  data::write_file(table, text);
   out_.close();
   std::remove(file_.c_str());
 }
@@ -69,7 +64,7 @@ void SweepJournal::read(const std::string& first) {
     kept += line + "\n";
   }
   in.close();
-  std::ofstream(file_, std::ios::binary) << kept;
+  data::write_file(file_, kept);
 }
 
 }  // namespace ostium::app

@@ -2,24 +2,26 @@
 
 #include <fmt/format.h>
 
-#include <cstdio>
 #include <map>
 
 #include "app/command_line/arguments.h"
+#include "data/formats/decimal.h"
 #include "data/formats/load_error.h"
 
 namespace ostium::app {
 
 namespace {
 
+constexpr std::uint64_t most_runs = 1'000'000;  // each keeps its setup in memory
+
 std::pair<std::uint64_t, std::uint64_t> seeds_of(const std::string& text) {
-  unsigned long long from = 0, to = 0;
-  char rest;
-  const int read = std::sscanf(text.c_str(), "%llu..%llu%c", &from, &to, &rest);
-  if (text.find_first_not_of("0123456789.") != std::string::npos ||
-      (read != 2 && text.find('.') != std::string::npos) || read < 1 || (read == 2 && to < from))
-    throw data::LoadError(fmt::format("--seeds is \"{}\"; expected FROM..TO", text));
-  return {from, read == 2 ? to : from};
+  const auto dots = text.find("..");
+  const std::optional<std::uint64_t> from = data::whole(text.substr(0, dots));
+  const std::optional<std::uint64_t> to = dots == std::string::npos ? from : data::whole(text.substr(dots + 2));
+  if (!from || !to || *to < *from || *to - *from >= most_runs)
+    throw data::LoadError(fmt::format(
+        "--seeds is \"{}\"; expected FROM..TO, or one: whole numbers from 0 on, at most {} of them", text, most_runs));
+  return {*from, *to};
 }
 
 using Values = std::vector<std::vector<std::string>>;  // of each varied key
@@ -68,8 +70,13 @@ Sweep plan_sweep(const SweepArguments& a) {
       if (is_new) sweep.vessels.push_back(task.setup);
       task.vessel = found->second;
       task.setup.mesh = {};
-      for (std::uint64_t seed = first; seed <= last; ++seed) {
-        task.seed = task.setup.seed = seed;
+      if (sweep.tasks.size() + (last - first) >= most_runs)
+        throw data::LoadError(
+            fmt::format("the sweep has more than {} runs; expected fewer: vessels times values of "
+                        "--vary times --seeds",
+                        most_runs));
+      for (std::uint64_t n = 0; n <= last - first; ++n) {
+        task.seed = task.setup.seed = first + n;
         sweep.tasks.push_back(task);
       }
     } while (next(values, at));

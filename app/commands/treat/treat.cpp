@@ -130,8 +130,6 @@ json treat_lesion(TreatmentRoom& room, const Plan& plan, std::vector<fluoro::Pic
 int run(const TreatArguments& a) {
   require_ending(a.out, {".png"});
   if (!a.view.empty()) named_view(a.view);
-  require_finite(
-      {{"--hold", a.hold_s}, {"--pressure", a.pressure}, {"--oversize", a.oversize}, {"--shift", a.shift_mm}});
   const data::Case c = data::find_case(a.of);
   show_progress("building " + c.name);
   TreatmentRoom room(c, a);

@@ -17,6 +17,8 @@ struct SessionTool {
   data::Instrument instrument;
 };
 
+inline constexpr double undiluted_kg_m3 = 350;  ///< iodine in the syringe unless something else is said
+inline constexpr double visible_kg_m3 = 60;     ///< of iodine in an artery, from which on contrast is seen there
 inline constexpr int look_every = 8;  ///< steps; as often as blood and contrast are updated (circulation_step_s)
 
 /// What the operator gives: contrast, pressure and drugs. All are recorded inputs.

@@ -154,7 +154,7 @@ void see(const SessionModel& model, const SessionInputs& inputs, const SessionSt
   x.time_s = seconds(model, state);
   const double phase = state.blood.heart.phase;
   x.diastasis = heart_rests(state);
-  x.beam = inputs.c_arm.fluoroscopy || inputs.c_arm.cine;
+  x.beam = inputs.c_arm.beam();
   x.injects = inputs.delivery.injection_m3_s > 0;
   x.gauge_atm = inputs.delivery.gauge_Pa / 101325;
   x.tools.resize(model.tools.size());

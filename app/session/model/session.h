@@ -53,6 +53,7 @@ struct CArmInputs {
   double field_m = 0.2;
   Eigen::Vector3d p_PI = Eigen::Vector3d::Zero();  ///< isocentre in the patient frame
   bool fluoroscopy = false, cine = false;          ///< pedals pressed
+  bool beam() const { return fluoroscopy || cine; }
 };
 constexpr auto fields(const CArmInputs*) {
   using S = CArmInputs;

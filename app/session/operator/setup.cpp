@@ -13,6 +13,7 @@
 
 #include "data/catalogue/catalogue.h"
 #include "data/catalogue/instrument/instrument_reader.h"
+#include "data/formats/decimal.h"
 #include "data/formats/load_error.h"
 
 namespace ostium::app {
@@ -126,11 +127,10 @@ std::vector<std::string> choose_sizes(const Vessel& vessel, RunSetup& setup) {
 namespace {
 
 double number(const std::string& key, const std::string& text, double least, double most, const char* expected) {
-  char* end = nullptr;
-  const double value = std::strtod(text.c_str(), &end);
-  if (text.empty() || *end != '\0' || !(value >= least && value <= most))
+  const std::optional<double> value = data::decimal(text);
+  if (!value || *value < least || *value > most)
     throw data::LoadError(fmt::format("{} is \"{}\"; expected {}", key, text, expected));
-  return value;
+  return *value;
 }
 
 }  // namespace
@@ -146,7 +146,7 @@ void set_value(const std::string& key, const std::string& value, RunSetup& setup
     return;
   }
   if (key == "person") {
-    const double person = number(key, value, 0, 1e15, "a whole number from 0 on");
+    const double person = number(key, value, 0, 9e15, "a whole number from 0 on");
     if (person != std::floor(person) || setup.is_mesh())
       throw data::LoadError(fmt::format("person is \"{}\"; expected a whole number from 0 on, and a case", value));
     setup.person = static_cast<std::uint64_t>(person);

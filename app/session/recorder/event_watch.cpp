@@ -12,7 +12,6 @@ namespace {
 
 using units::atm;
 
-constexpr double undiluted_kg_m3 = 350;
 
 data::EventCode code_of(OperatorEvent::Kind kind) {
   using Kind = OperatorEvent::Kind;

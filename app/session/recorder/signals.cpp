@@ -16,7 +16,6 @@ namespace {
 using units::atm, units::mmHg;
 
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
-constexpr double undiluted_kg_m3 = 350;
 
 /// A row of a table of signals; `Now` holds what the values are computed from.
 template <class Now>

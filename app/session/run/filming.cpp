@@ -48,7 +48,7 @@ struct Filming::Parts {
     filmed.picture.height = picture.width;
     filmed.picture.grey.resize(static_cast<std::size_t>(picture.width) * picture.width);
     filmed.dose = film.dose();
-    filmed.cine = arm.cine, filmed.xray_on = filmed.cine || arm.fluoroscopy;
+    filmed.cine = arm.cine, filmed.xray_on = arm.beam();
     pictures.publish();
   }
 

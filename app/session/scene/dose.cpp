@@ -9,7 +9,7 @@
 namespace ostium::app {
 
 void XrayUse::add(const CArmInputs& arm, std::uint64_t step, double step_s) {
-  if (!(arm.fluoroscopy || arm.cine) || !is_frame(step, dose_frames_per_s, step_s)) return;
+  if (!arm.beam() || !is_frame(step, dose_frames_per_s, step_s)) return;
   for (Pose& pose : poses_) {
     const CArmInputs& other = pose.arm;
     if (other.lao_rad != arm.lao_rad || other.cran_rad != arm.cran_rad || other.field_m != arm.field_m ||

@@ -61,7 +61,7 @@ const fluoro::Picture& Film::frame(const SessionModel& model, const SessionState
   p.view.arm.p_PI = o.p_PI.value_or(arm.p_PI);
   p.view.field_m = o.field_m.value_or(arm.field_m);
   p.view.pixels = o.pixels;
-  const bool on = o.always_on || arm.fluoroscopy || arm.cine;
+  const bool on = o.always_on || arm.beam();
   p.is_cine = o.mode ? *o.mode == fluoro::Mode::cine : arm.cine;
   const fluoro::FluoroscopeInput in{.scene = scene,
                                     .view = p.view,

@@ -5,6 +5,8 @@
 #include <cstdlib>
 #include <limits>
 
+#include "data/formats/decimal.h"
+
 namespace ostium::app {
 
 using Eigen::Vector3d;
@@ -143,11 +145,10 @@ int VesselIndex::place(const std::string& name) const {
   if (const int whole = entry(name); whole >= 0) return whole;
   const std::size_t plus = name.rfind('+');
   if (plus == std::string::npos) return -1;
-  char* end = nullptr;
-  const std::string number = name.substr(plus + 1);
-  const double beyond_m = 1e-3 * std::strtod(number.c_str(), &end);
+  const std::optional<double> beyond_mm = data::decimal(std::string_view(name).substr(plus + 1));
   const int from = entry(name.substr(0, plus));
-  if (from < 0 || number.empty() || *end != '\0' || !(beyond_m >= 0)) return -1;
+  if (from < 0 || !beyond_mm || *beyond_mm < 0) return -1;
+  const double beyond_m = 1e-3 * *beyond_mm;
   for (int n = 0; n < static_cast<int>(nodes_.size()); ++n)
     if (branch(n) == branch(from) && beyond(n, from) && from_access_m(n) - from_access_m(from) >= beyond_m) return n;
   return -1;

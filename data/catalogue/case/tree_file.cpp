@@ -3,11 +3,11 @@
 #include <fmt/format.h>
 
 #include <filesystem>
-#include <fstream>
 
 #include "core/base/units.h"
 #include "data/catalogue/case/tree_keys.h"
 #include "data/formats/json_object.h"
+#include "data/formats/write_file.h"
 #include "vascular/geometry/mesh/patient_frame.h"
 
 namespace ostium::data {
@@ -124,9 +124,7 @@ void write_tree(const std::string& file, const vascular::SphereTree& tree) {
   if (ending != ".json" && ending != ".vtp")
     throw LoadError(
         fmt::format("{}: the ending \"{}\" names no format of a tree; expected .json or .vtp", file, ending));
-  std::ofstream out(file);
-  out << (ending == ".json" ? tree_to_json(tree) : tree_to_vtp(tree));
-  if (!out.flush()) throw LoadError(file + ": cannot be written; is the folder there, and the disk not full?");
+  write_file(file, ending == ".json" ? tree_to_json(tree) : tree_to_vtp(tree));
 }
 
 }  // namespace ostium::data

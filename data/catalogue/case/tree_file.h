@@ -7,7 +7,7 @@
 
 namespace ostium::data {
 
-/// Format by the name's ending: .json or .vtp. Throws LoadError for any other ending, or if the file cannot be written.
+/// Format by the name's ending: .json or .vtp. Throws LoadError for any other ending, WriteError.
 void write_tree(const std::string& file, const vascular::SphereTree& tree);
 
 /// .json only. Throws LoadError with file, line and what was expected.

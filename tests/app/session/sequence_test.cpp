@@ -11,6 +11,7 @@
 #include "app/session/run/run.h"
 #include "core/base/units.h"
 #include "data/catalogue/case/anatomy_file.h"
+#include "data/formats/mesh_writer.h"
 #include "tests/app/session/tube_vessel.h"
 #include "vascular/anatomy/labelling/labelling.h"
 #include "vascular/geometry/mesh/written_mesh.h"
@@ -44,7 +45,7 @@ class Swing {
         p = found.R_PF * p - found.shift_P;
       }
       meshes.push_back(as_written(mesh, vascular::LengthUnit::millimetre));
-      write_mesh((folder / name(f)).string(), meshes.back(), vascular::LengthUnit::millimetre);
+      data::write_mesh((folder / name(f)).string(), meshes.back(), vascular::LengthUnit::millimetre);
     }
     std::ofstream(folder / "anatomy.json") << data::anatomy_to_json(found.anatomy);
     write_case(R"("lumen-01.ply", "lumen-02.ply", "lumen-03.ply", "lumen-04.ply", "lumen-05.ply")");
@@ -145,13 +146,13 @@ TEST(Sequence, WhatIsNoneIsRefusedByFileAndCount) {
   swing.write_case(R"("lumen-01.ply", "lumen-02.ply", "lumen-03.ply")");
   vascular::Mesh fewer = swing.meshes[2];
   fewer.triangles.pop_back();
-  write_mesh((swing.folder / Swing::name(2)).string(), fewer, vascular::LengthUnit::millimetre);
+  data::write_mesh((swing.folder / Swing::name(2)).string(), fewer, vascular::LengthUnit::millimetre);
   const std::string one_less = std::to_string(fewer.triangles.size());
   EXPECT_NE(swing.refusal().find("lumen-02.ply: has " + one_less + " triangles"), std::string::npos) << swing.refusal();
 
   vascular::Mesh mixed = swing.meshes[2];
   std::swap(mixed.triangles[10], mixed.triangles[500]);
-  write_mesh((swing.folder / Swing::name(2)).string(), mixed, vascular::LengthUnit::millimetre);
+  data::write_mesh((swing.folder / Swing::name(2)).string(), mixed, vascular::LengthUnit::millimetre);
   EXPECT_NE(swing.refusal().find("lumen-02.ply: "), std::string::npos) << swing.refusal();
   EXPECT_NE(swing.refusal().find("lie apart"), std::string::npos) << swing.refusal();
 }

@@ -1,9 +1,11 @@
 /// The live window without a screen: keyboard control, the rendered panel, the exchange between threads.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <thread>
 
+#include "app/window/live_picture.h"
 #include "app/window/panel.h"
 #include "app/window/reference.h"
 #include "tests/app/session/tube_vessel.h"
@@ -102,13 +104,38 @@ TEST(Panel, TheReferenceIsTheFullestOfTheLastCineUntilSomebodyChooses) {
   EXPECT_EQ(shown(), -1) << "it goes on";
   reference.take(shade(2), false, 0);
   EXPECT_EQ(shown(), 12);
-  reference.take(shade(20), true, NAN), reference.take(shade(21), true, 0), reference.take(shade(2), false, 0);
-  EXPECT_EQ(shown(), 12) << "a run without contrast";
-  reference.take(shade(30), true, 0.1), reference.take(shade(2), false, 0);
+  reference.take(shade(20), true, NAN), reference.take(shade(21), true, 0.1), reference.take(shade(2), false, 0);
+  EXPECT_EQ(shown(), 12) << "a run in which no contrast could be seen";
+  reference.take(shade(30), true, 0.2), reference.take(shade(2), false, 0);
   EXPECT_EQ(shown(), 30) << "the last run, however full the one before";
   reference.freeze(shade(40));
   reference.take(shade(50), true, 0.9), reference.take(shade(2), false, 0);
   EXPECT_EQ(shown(), 40);
+}
+
+/// Any picture of a film that nobody exposes is black or the one before.
+TEST(LivePicture, FollowsThePedalsWhoeverPressesThem) {
+  for (const Level pedal : {Level::fluoroscopy, Level::cine}) {
+    Played p;
+    LivePicture live(p.run.model, {.filmed = nullptr, .has_pedals = true, .frames_per_s = 15, .pixels = 64});
+    const auto look = [&] {
+      p.steps(70);
+      ASSERT_TRUE(p.hand.snapshots().update());
+      live.look(p.hand.snapshots().front(), true);
+    };
+    look();
+    EXPECT_TRUE(live.picture().grey.empty()) << "no pedal has been pressed";
+    p.hand.controls.set(pedal, 1);
+    look();
+    ASSERT_FALSE(live.picture().grey.empty()) << "a pedal alone";
+    const std::vector<std::uint8_t> last = live.picture().grey;
+    EXPECT_GT(*std::max_element(last.begin(), last.end()), 0);
+    EXPECT_EQ(live.cine(), pedal == Level::cine);
+    p.hand.controls.set(pedal, 0);
+    p.hand.controls.set(Level::guide_feed, 1);
+    look();
+    EXPECT_EQ(live.picture().grey, last) << "last image hold";
+  }
 }
 
 TEST(Panel, ShowsPictureToolsAndWhatIsWrong) {

@@ -42,8 +42,9 @@ MeshFile read_mesh(const std::string& path, LengthUnit unit, double weld_m = def
 std::vector<Mesh> read_mesh_sequence(const std::vector<std::string>& paths, LengthUnit unit,
                                      double weld_m = default_weld_m);
 
-/// Writes .obj, .stl or .ply, by extension, in single precision as these formats require.
-void write_mesh(const std::string& path, const Mesh& mesh, LengthUnit unit);
+/// The bytes of a file: .obj, .stl or .ply, by the name's ending, in single precision as these formats have it. Throws
+/// MeshError for another ending. (data/formats/mesh_writer.h writes it.)
+std::string mesh_bytes(const std::string& path, const Mesh& mesh, LengthUnit unit);
 
 /// Merges corners within `weld_m` of each other. `corners` holds three points per triangle; returns the vertex index of
 /// each, numbered by first appearance.

@@ -158,7 +158,7 @@ Mesh as_written(Mesh mesh, LengthUnit unit) {
   return mesh;
 }
 
-void write_mesh(const std::string& path, const Mesh& mesh, LengthUnit unit) {
+std::string mesh_bytes(const std::string& path, const Mesh& mesh, LengthUnit unit) {
   const std::string id = format_id(path);
   aiScene scene;  // owns and deletes all of the following
   scene.mRootNode = new aiNode();
@@ -184,8 +184,9 @@ void write_mesh(const std::string& path, const Mesh& mesh, LengthUnit unit) {
     for (int k = 0; k < 3; ++k) out.mFaces[i].mIndices[k] = static_cast<unsigned>(mesh.triangles[i][k]);
   }
   Assimp::Exporter exporter;
-  if (exporter.Export(&scene, id, path) != aiReturn_SUCCESS)
-    throw MeshError(fmt::format("{}: cannot be written: {}", path, exporter.GetErrorString()));
+  const aiExportDataBlob* blob = exporter.ExportToBlob(&scene, id);
+  if (!blob) throw MeshError(fmt::format("{}: cannot be written: {}", path, exporter.GetErrorString()));
+  return {static_cast<const char*>(blob->data), blob->size};
 }
 
 }  // namespace ostium::vascular

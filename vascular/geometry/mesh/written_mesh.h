@@ -4,7 +4,7 @@
 
 namespace ostium::vascular {
 
-/// As after `write_mesh` and `read_mesh`, in single precision, so that a check applies to the file's contents.
+/// As `read_mesh` reads what `mesh_bytes` made, in single precision, so that a check applies to the file's contents.
 Mesh as_written(Mesh mesh, LengthUnit unit);
 
 }  // namespace ostium::vascular
