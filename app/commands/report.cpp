@@ -105,7 +105,8 @@ void report_folder(const std::string& folder, std::shared_ptr<const Vessel> vess
   data::write_file((at / "events.csv").string(), events_csv(runs[0]));
   for (std::size_t i = 0; i < runs[0].pictures.size(); ++i) {
     const data::ReportPicture& p = runs[0].pictures[i];
-    data::write_file((at / "key-frames" / fmt::format("{:02}.png", i + 1)).string(), {p.png.begin(), p.png.end()});
+    data::write_file((at / "key-frames" / fmt::format("{:02}.png", i + 1)).string(),
+                     {reinterpret_cast<const char*>(p.png.data()), p.png.size()});
   }
 }
 

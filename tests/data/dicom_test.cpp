@@ -8,8 +8,8 @@
 
 #include "core/base/units.h"
 #include "data/formats/dicom_runs.h"
-#include "data/formats/load_error.h"
 #include "data/formats/png.h"
+#include "data/formats/write_file.h"
 
 namespace ostium::data {
 namespace {

@@ -206,7 +206,7 @@ std::string write_set(const std::string& folder, const data::MeasurementSet& set
   const std::string file = folder + "/measurement.json";
   data::write_file(file, to_json(set));
   if (set.vessel)
-    write_mesh(folder + "/" + set.vessel->mesh, {set.vessel->wall->frames[0], set.vessel->wall->triangles},
+    data::write_mesh(folder + "/" + set.vessel->mesh, {set.vessel->wall->frames[0], set.vessel->wall->triangles},
                vascular::LengthUnit::metre);
   return file;
 }

@@ -235,7 +235,7 @@ bool ConditionEvaluator::guide_is_in(int branch) const {
 bool ConditionEvaluator::contrast_is_seen(int cell) const {
   const double r = session.blood.radius_m[static_cast<std::size_t>(cell)];
   const double there = concentration(session.blood.contrast, model.physiology.flow, cell, units::pi * r * r);
-  return there > visible_kg_m3 && session.c_arm.beam();
+  return there > visible_kg_m3 && (session.c_arm.fluoroscopy || session.c_arm.cine);
 }
 
 /// How far the tip moved since the oldest note, beyond the hand's movement.
