@@ -23,7 +23,7 @@ struct Arguments {
 };
 
 void declare(Options& options, Arguments& a) {
-  options.add("mesh", a.mesh, "OBJ, STL, PLY, ...").type("MESH").required();
+  options.add("mesh", a.mesh, "STL, PLY, OBJ, VTP, ...").type("MESH").required();
   add_unit_option(options, a.unit, "What a number in the file means");
   options.add("--start", a.start, "Where to begin; else at the widest end").type("X,Y,Z");
   options.add("--end", a.ends, "Where branches end; else all that stand out").type("X,Y,Z");

@@ -28,7 +28,7 @@ struct Arguments {
 };
 
 void declare(Options& options, Arguments& a) {
-  options.add("mesh", a.files, "OBJ, STL, PLY, ...").type("MESH").required();
+  options.add("mesh", a.files, "STL, PLY, OBJ, VTP, ...").type("MESH").required();
   add_guessed_unit_option(options, a.unit, "What a number in the file means");
   add_json_flag(options, a.json);
   options.add("--picture", a.picture, "The mesh with its faults (one file only)").type("FILE.png|FILE.svg");

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <map>
 
-#include "vascular/geometry/mesh/surface_check.h"
+#include "vascular/geometry/mesh/formats.h"
 
 namespace ostium::app {
 
@@ -16,8 +16,7 @@ std::vector<std::string> numbered_meshes(const std::string& folder) {
     const std::string stem = entry.path().stem().string(), ending = entry.path().extension().string();
     const auto digits = stem.find_last_not_of("0123456789") + 1;
     if (!entry.is_regular_file() || digits == stem.size() || stem.size() - digits > 9) continue;
-    if (std::string known = ".obj.ply.stl.gltf.glb.dae.fbx.off.3ds.x3d"; known.find(ending) == std::string::npos)
-      continue;
+    if (!vascular::has_mesh_ending(entry.path().string())) continue;
     rows[{stem.substr(0, digits), ending}][std::stol(stem.substr(digits))] = entry.path().string();
   }
   const auto longest = std::max_element(rows.begin(), rows.end(),

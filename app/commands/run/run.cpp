@@ -24,7 +24,8 @@ namespace {
 namespace fs = std::filesystem;
 
 void declare(Options& options, RunArguments& a) {
-  options.add("vessel", a.session.vessel, "A case (`ostium cases`, or a file), or a closed mesh: OBJ, STL, PLY")
+  options
+      .add("vessel", a.session.vessel, "A case (`ostium cases`, or a file), or a closed mesh: STL, PLY, OBJ, VTP, ...")
       .type("CASE|MESH")
       .required();
   add_session_options(options, a.session);

@@ -15,6 +15,7 @@
 #include "data/catalogue/instrument/instrument_reader.h"
 #include "data/formats/decimal.h"
 #include "data/formats/load_error.h"
+#include "vascular/geometry/mesh/formats.h"
 
 namespace ostium::app {
 
@@ -26,11 +27,6 @@ std::string all_of(const std::string& file) {
   std::ifstream in(file, std::ios::binary);
   if (!in) throw data::LoadError(file + ": cannot be read; expected a file");
   return {std::istreambuf_iterator<char>(in), {}};
-}
-
-bool is_mesh_file(const std::string& name) {
-  const std::string ending = fs::path(name).extension().string();
-  return ending == ".obj" || ending == ".stl" || ending == ".ply";
 }
 
 std::string instrument_file(const std::string& name_or_file) {
@@ -52,7 +48,7 @@ Eigen::Vector3d point(const nlohmann::json& p) {
 
 void set_vessel(const std::string& case_or_mesh, vascular::LengthUnit unit, RunSetup& setup) {
   setup.vessel = case_or_mesh;
-  if (is_mesh_file(case_or_mesh)) {
+  if (vascular::has_mesh_ending(case_or_mesh)) {
     setup.mesh = read_mesh(case_or_mesh, unit).mesh;
     return;
   }

@@ -30,8 +30,8 @@ struct RunSetup {
   bool is_mesh() const { return case_text.empty(); }
 };
 
-/// A file ending in .obj, .stl or .ply is a mesh; otherwise a case name or a file NAME.json. Throws LoadError or
-/// MeshError.
+/// A file with the ending of a mesh (mesh_endings) is one; otherwise a case name or a file NAME.json. Throws LoadError
+/// or MeshError.
 void set_vessel(const std::string& case_or_mesh, vascular::LengthUnit unit, RunSetup& setup);
 /// Sets the script and finds its instruments. Call after set_vessel. Throws LoadError if the case has another access.
 void set_script(const data::Script& script, RunSetup& setup);

@@ -15,7 +15,9 @@ using Cell = std::array<long, 3>;
 
 struct CellHash {
   std::size_t operator()(const Cell& c) const {
-    return static_cast<std::size_t>(c[0] * 73856093L ^ c[1] * 19349663L ^ c[2] * 83492791L);
+    // Unsigned, as these products overflow.
+    return static_cast<std::size_t>(c[0]) * 73856093 ^ static_cast<std::size_t>(c[1]) * 19349663 ^
+           static_cast<std::size_t>(c[2]) * 83492791;
   }
 };
 

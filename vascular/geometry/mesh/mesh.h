@@ -1,5 +1,5 @@
 #pragma once
-/// A triangle mesh, read from and written to files (assimp).
+/// A triangle mesh, read from and written to files.
 #include <Eigen/Core>
 #include <array>
 #include <stdexcept>
@@ -32,8 +32,9 @@ struct MeshFile {
 /// Corners closer than this are merged into one vertex.
 constexpr double default_weld_m = 1e-6;
 
-/// Reads any format of assimp (OBJ, STL, PLY, glTF, Collada, ...); all parts become one mesh, axes are kept. Throws
-/// MeshError if the file cannot be read, has no triangle, or contains a non-finite number.
+/// Reads VTK's surfaces (.vtp, .vtu, .vtk) and any format of assimp (OBJ, STL, PLY, glTF, Collada, ...); all parts
+/// become one mesh, axes are kept. Throws MeshError, and nothing else, if the file cannot be read, is cut short, has no
+/// triangle, or contains a non-finite number.
 MeshFile read_mesh(const std::string& path, LengthUnit unit, double weld_m = default_weld_m);
 
 /// One shape in several positions: every file must have the same triangles in the same order. The first file decides

@@ -1,15 +1,15 @@
-#include <assimp/postprocess.h>
 #include <assimp/scene.h>
 #include <fmt/format.h>
 
 #include <assimp/Exporter.hpp>
-#include <assimp/Importer.hpp>
 #include <filesystem>
+#include <limits>
 #include <map>
 #include <memory>
 
+#include "vascular/geometry/mesh/formats.h"
 #include "vascular/geometry/mesh/mesh.h"
-#include "vascular/geometry/mesh/whole_ply.h"
+#include "vascular/geometry/mesh/raw_surface.h"
 #include "vascular/geometry/mesh/written_mesh.h"
 
 namespace ostium::vascular {
@@ -18,50 +18,43 @@ namespace {
 
 using Corners = std::vector<Eigen::Vector3d>;  // three per triangle
 
-/// Checks indices, since not all of assimp's readers do and the code below relies on them.
-void check_indices(const std::string& path, const aiScene& scene) {
-  for (unsigned m = 0; m < scene.mNumMeshes; ++m) {
-    const aiMesh& part = *scene.mMeshes[m];
-    for (unsigned f = 0; f < part.mNumFaces; ++f)
-      for (unsigned k = 0; k < part.mFaces[f].mNumIndices; ++k)
-        if (part.mFaces[f].mIndices[k] >= part.mNumVertices)
-          throw MeshError(fmt::format("{}: part {} (\"{}\"), face {} names vertex {} of {}; expected a whole file",
-                                      path, m, part.mName.C_Str(), f, part.mFaces[f].mIndices[k], part.mNumVertices));
+/// Farther out than any file has a patient, in whatever unit; beyond, welding could no longer number its cells.
+constexpr double farthest = 1e7;
+
+RawSurface read_raw(const std::string& path) {
+  if (std::error_code unseen; !std::filesystem::is_regular_file(path, unseen))
+    throw MeshError(fmt::format("{}: is no file; expected a mesh ({})", path, listed_mesh_endings()));
+  const std::string ending = ending_of(path);
+  try {
+    return ending == ".vtp" || ending == ".vtu" || ending == ".vtk" ? read_vtk(path) : read_assimp(path);
+  } catch (const MeshError&) {
+    throw;
+  } catch (const std::exception& error) {  // such as std::bad_alloc
+    throw MeshError(fmt::format("{}: cannot be read as a mesh: {}; expected a whole file that fits into memory", path,
+                                error.what()));
   }
 }
 
 Corners read_corners(const std::string& path, LengthUnit unit, int* skipped = nullptr) {
-  if (!std::filesystem::is_regular_file(path)) throw MeshError(path + ": is no file; expected a mesh (OBJ, STL, PLY)");
-  Assimp::Importer importer;
-  importer.SetPropertyBool(AI_CONFIG_PP_PTV_KEEP_HIERARCHY, false);
-  if (std::filesystem::path(path).extension() == ".ply") check_ply_whole(path);
-  const aiScene* scene = importer.ReadFile(path, 0);
-  if (!scene) throw MeshError(fmt::format("{}: cannot be read as a mesh: {}", path, importer.GetErrorString()));
-  check_indices(path, *scene);
-  scene = importer.ApplyPostProcessing(aiProcess_Triangulate | aiProcess_PreTransformVertices);
-  if (!scene) throw MeshError(fmt::format("{}: cannot be read as a mesh: {}", path, importer.GetErrorString()));
-  Corners corners;
-  for (unsigned m = 0; m < scene->mNumMeshes; ++m) {
-    const aiMesh& part = *scene->mMeshes[m];
-    for (unsigned f = 0; f < part.mNumFaces; ++f) {
-      const aiFace& face = part.mFaces[f];
-      if (face.mNumIndices < 3) {
-        if (skipped) ++*skipped;
-        continue;
-      }
-      for (unsigned k = 0; k < 3; ++k) {
-        const aiVector3D& p = part.mVertices[face.mIndices[k]];
-        corners.push_back(metres(unit) * Eigen::Vector3d(p.x, p.y, p.z));
-        if (!corners.back().allFinite())
-          throw MeshError(
-              fmt::format("{}: part {} (\"{}\"), face {} has a corner that is no finite number; expected three "
-                          "coordinates",
-                          path, m, part.mName.C_Str(), f));
-      }
-    }
+  RawSurface surface = read_raw(path);
+  if (surface.corners.empty())
+    throw MeshError(
+        surface.skipped
+            ? fmt::format("{}: holds no triangle, but {} points or lines, as a centreline does; expected a surface",
+                          path, surface.skipped)
+            : path + ": holds no triangle; expected a surface");
+  if (surface.corners.size() > std::numeric_limits<int>::max())
+    throw MeshError(fmt::format("{}: has {} triangles; expected at most {}: simplify it", path,
+                                surface.corners.size() / 3, std::numeric_limits<int>::max() / 3));
+  for (Eigen::Vector3d& p : surface.corners) {
+    if (!(p.array().abs() <= farthest).all())
+      throw MeshError(
+          fmt::format("{}: has a corner at {:g} {:g} {:g}; expected finite numbers up to {:g}: is the file damaged?",
+                      path, p.x(), p.y(), p.z(), farthest));
+    p *= metres(unit);
   }
-  if (corners.empty()) throw MeshError(path + ": holds no triangle; expected a surface");
-  return corners;
+  if (skipped) *skipped = surface.skipped;
+  return std::move(surface.corners);
 }
 
 /// Vertices for the corner indices in `vertex_of`: the first corner merged into each.
@@ -90,7 +83,7 @@ MeshFile from_corners(const Corners& corners, double weld_m) {
 Eigen::Vector3f in_file(const Eigen::Vector3d& p, LengthUnit unit) { return (p / metres(unit)).cast<float>(); }
 
 std::string format_id(const std::string& path) {
-  const std::string ending = std::filesystem::path(path).extension().string();
+  const std::string ending = ending_of(path);
   const std::map<std::string, std::string> ids = {{".obj", "objnomtl"}, {".stl", "stlb"}, {".ply", "plyb"}};
   const auto found = ids.find(ending);
   if (found == ids.end())

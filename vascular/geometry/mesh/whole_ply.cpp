@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <map>
@@ -30,7 +31,20 @@ struct Promise {
   bool complete = false;  ///< the header was terminated
 };
 
-Promise promised(std::istream& file) {
+/// No element takes less than a byte, so that sums and products of what passes cannot overflow.
+long long checked_count(const std::string& path, const std::string& element, const std::string& count) {
+  const auto size = static_cast<long long>(std::filesystem::file_size(path));
+  char* end = nullptr;
+  const long long value = std::strtoll(count.c_str(), &end, 10);  // saturates
+  if (count.empty() || *end || value < 0 || value > size)
+    throw MeshError(
+        fmt::format("{}: its header promises \"{}\" of \"{}\", and the file has {} bytes; expected a number that fits "
+                    "into it: copy or export the file again",
+                    path, count, element, size));
+  return value;
+}
+
+Promise promised(const std::string& path, std::istream& file) {
   Promise promise;
   std::string line;
   long long count = 0;
@@ -42,7 +56,8 @@ Promise promised(std::istream& file) {
       words >> type;
       promise.ascii = type == "ascii";
     } else if (what == "element") {
-      words >> type >> count;
+      words >> type >> list;
+      count = checked_count(path, type, list);
       promise.elements += count;
     } else if (what == "property") {
       words >> type >> of >> list;
@@ -61,7 +76,7 @@ void check_ply_whole(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
   std::string magic;
   if (!std::getline(file, magic) || !magic.starts_with("ply")) return;
-  const Promise promise = promised(file);
+  const Promise promise = promised(path, file);
   long long there = 0;
   if (promise.ascii) {
     for (std::string line; std::getline(file, line);)

@@ -4,8 +4,8 @@
 
 namespace ostium::vascular {
 
-/// Throws MeshError if the file is shorter than its header promises. Lists are assumed to have three entries, as
-/// triangles do. Files without a PLY header pass; assimp reports their faults.
+/// Throws MeshError if the file is shorter than its header promises, or could never hold that much. Lists are assumed
+/// to have three entries, as triangles do. Files without a PLY header pass; assimp reports their faults.
 void check_ply_whole(const std::string& path);
 
 }  // namespace ostium::vascular

@@ -1,0 +1,35 @@
+#include "vascular/geometry/mesh/formats.h"
+
+#include <algorithm>
+#include <filesystem>
+
+namespace ostium::vascular {
+
+const std::vector<std::string>& mesh_endings() {
+  static const std::vector<std::string> endings = {".stl", ".ply",  ".obj", ".vtp", ".vtu", ".vtk", ".off",
+                                                   ".glb", ".gltf", ".dae", ".fbx", ".3ds", ".x3d"};
+  return endings;
+}
+
+std::string listed_mesh_endings() {
+  std::string list;
+  for (const std::string& ending : mesh_endings()) list += (list.empty() ? "" : ", ") + ending;
+  return list;
+}
+
+std::string in_lower_case(std::string text) {
+  // Not std::tolower, which goes by the locale.
+  for (char& c : text)
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  return text;
+}
+
+std::string ending_of(const std::string& path) {
+  return in_lower_case(std::filesystem::path(path).extension().string());
+}
+
+bool has_mesh_ending(const std::string& path) {
+  return std::ranges::find(mesh_endings(), ending_of(path)) != mesh_endings().end();
+}
+
+}  // namespace ostium::vascular

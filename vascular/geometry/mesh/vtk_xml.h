@@ -1,0 +1,12 @@
+#pragma once
+/// VTK's XML files, as VMTK, 3D Slicer, SimVascular and ParaView write them: PolyData (.vtp), UnstructuredGrid (.vtu).
+#include <string>
+
+#include "vascular/geometry/mesh/raw_surface.h"
+
+namespace ostium::vascular {
+
+/// `path` is for messages, `text` the whole file. Throws MeshError.
+RawSurface read_vtk_xml(const std::string& path, const std::string& text);
+
+}  // namespace ostium::vascular
