@@ -19,6 +19,7 @@ NewFile::NewFile(const std::string& path) : path_(path), beside_(path + ".unfini
   if (fs::is_symlink(path, none))
     if (const fs::path target = fs::weakly_canonical(path, none); !none)
       path_ = target.string(), beside_ = path_ + ".unfinished";
+  if (const fs::path folder = fs::path(path_).parent_path(); !folder.empty()) fs::create_directories(folder, none);
   // Neither a device nor a folder can be replaced; what is written to a folder fails.
   if (fs::exists(path_, none) && !fs::is_regular_file(path_, none)) beside_ = path_;
 }
@@ -36,8 +37,6 @@ void NewFile::finish() {
 }
 
 void write_file(const std::string& path, std::string_view bytes) {
-  std::error_code none;
-  if (const auto folder = fs::path(path).parent_path(); !folder.empty()) fs::create_directories(folder, none);
   NewFile file(path);
   std::FILE* out = std::fopen(file.beside().c_str(), "wb");
   if (!out) throw write_error(path, std::strerror(errno));

@@ -12,7 +12,8 @@ struct WriteError : std::runtime_error {
 };
 
 /// A file that is being written. What has its name stays as it is until `finish`, and if that is never called. A device
-/// such as /dev/stdout is written to directly; of a link, the file that it leads to is replaced.
+/// such as /dev/stdout is written to directly; of a link, the file that it leads to is replaced. Folders are made as
+/// needed.
 class NewFile {
  public:
   explicit NewFile(const std::string& path);
@@ -30,7 +31,7 @@ class NewFile {
   bool over_ = false;
 };
 
-/// Writes `bytes`, creating folders as needed. Throws WriteError; what was there is then as it was.
+/// Writes `bytes`. Throws WriteError; what was there is then as it was.
 void write_file(const std::string& path, std::string_view bytes);
 
 /// "FILE: cannot be written (why); ..."

@@ -33,7 +33,7 @@ expect 0 "guide-jl4-6f" "$ostium" instruments
 expect 0 "sources:" "$ostium" instruments guide-jl4-6f
 expect 0 '"EI1_Nmm2"' "$ostium" instruments wire-014-workhorse --json
 expect 3 "there is no instrument" "$ostium" instruments no-such-thing
-expect 1 "cannot be written" "$ostium" instruments --picture /nowhere/all.svg
+expect 1 "cannot be written" "$ostium" instruments --picture /proc/nowhere/all.svg
 expect 3 "OSTIUM_DATA" env OSTIUM_DATA=/nowhere "$ostium" instruments
 
 dir=$(mktemp -d)
@@ -58,8 +58,8 @@ expect 3 "from -120.0 to 120.0 degrees" frame --lao 150 -o "$dir/frame.png"
 expect 3 "from 85.0 to 125.0 cm" frame --sid 1400 -o "$dir/frame.png"
 expect 3 "3.75, 7.5, 15 and 30" frame --rate 12 -o "$dir/frame.png"
 expect 3 "shutter" frame --shutters 0.5,0.5,0,0.5 -o "$dir/frame.png"
-expect 1 "cannot be written" frame -o /nowhere/frame.png
-expect 1 "cannot be written" frame -o /nowhere/frame.dcm
+expect 1 "cannot be written" frame -o /proc/nowhere/frame.png
+expect 1 "cannot be written" frame -o /proc/nowhere/frame.dcm
 expect 3 "png, .dcm and .mp4" frame -o "$dir/frame.jpg"
 expect 0 "kV" frame rca-mid-focal --view lao --fill right --phase 0.4 -o "$dir/case.png"
 expect 3 "there is no case" frame no-such-case -o "$dir/frame.png"
