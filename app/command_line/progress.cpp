@@ -18,6 +18,16 @@ void show_progress(const std::string& what) {
   if (on_terminal()) fmt::print(stderr, "\033[K{}\r", what);
 }
 
+void LastingProblem::show(const std::string& when, std::string_view what) {
+  const bool begins = last_ != what;
+  last_ = what;
+  if (what.empty()) return;
+  show_progress(fmt::format("{}  {}", when, what));
+  if (!begins || on_terminal()) return;
+  fmt::print(stderr, "{}  {}\n", when, what);
+  std::fflush(stderr);
+}
+
 void TimedProgress::operator()(const std::string& what) const {
   const double s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
   const std::string line = fmt::format("{:5.1f} s  {}{}", s, of_, what);

@@ -2,11 +2,22 @@
 /// Progress messages on stderr.
 #include <chrono>
 #include <string>
+#include <string_view>
 
 namespace ostium::app {
 
 /// On a terminal, replaces the last message; an empty text clears it. Otherwise prints nothing.
 void show_progress(const std::string& what);
+
+/// A problem that lasts. On a terminal it is shown like progress; a log gets it once, when it begins.
+class LastingProblem {
+ public:
+  /// `when`: stands before it; an empty `what`: there is no problem now.
+  void show(const std::string& when, std::string_view what);
+
+ private:
+  std::string last_;
+};
 
 /// For work that takes minutes: adds the elapsed seconds, and also writes to logs.
 class TimedProgress {

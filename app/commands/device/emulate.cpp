@@ -1,14 +1,13 @@
 #include <fmt/format.h>
 
-#include <chrono>
-#include <exception>
-#include <thread>
+#include <memory>
+#include <stdexcept>
 
 #include "app/command_line/interrupt.h"
 #include "app/commands/device/device.h"
 #include "data/formats/load_error.h"
 #include "device/emulator/stroking_hand.h"
-#include "device/emulator/usbip.h"
+#include "device/emulator/usbip_server.h"
 
 namespace ostium::app {
 
@@ -16,7 +15,7 @@ namespace {
 
 struct Arguments {
   double seconds = 0;  ///< 0: until Ctrl-C
-  int port = 3240;
+  int port = device::usbip_port;
   bool any_host = false;  ///< also answers other machines
   bool still = false;     ///< do not move the emulated tools
 };
@@ -28,6 +27,13 @@ void declare(Options& options, Arguments& a) {
   options.add("--seconds", a.seconds, "Then end; else at Ctrl-C").range(0.01, 1e6);
 }
 
+std::unique_ptr<device::UsbipServer> make_server(const Arguments& a, device::EmulatedUsb& usb) try {
+  return std::make_unique<device::UsbipServer>(usb, static_cast<std::uint16_t>(a.port), a.any_host,
+                                               [](const std::string& what) { fmt::print(stderr, "{}\n", what); });
+} catch (const std::runtime_error& error) {
+  throw data::LoadError(error.what());
+}
+
 int run(const Arguments& a) {
   stop_on_signals();
   device::Calibration c;
@@ -36,26 +42,13 @@ int run(const Arguments& a) {
   device::EmulatedUsb usb(c);
   device::StrokingHand hand;
   if (!a.still) usb.hand = [&](device::EmulatedBox& box) { hand.move(box); };
-  std::atomic<bool> over{false};
-  std::thread clock([&] {
-    for (const double begin_s = clock_s(); !interrupted && (a.seconds <= 0 || clock_s() < begin_s + a.seconds);)
-      std::this_thread::sleep_for(std::chrono::milliseconds(20));
-    over = true;
-  });
+  const auto server = make_server(a, usb);
   fmt::print(stderr,
              "an emulated box on port {}; on Linux, as root:\n  modprobe vhci_hcd && usbip attach -r {} -b 1-1\n"
              "Ctrl-C ends it\n",
              a.port, a.any_host ? "THIS_MACHINE" : "127.0.0.1");
-  std::string problem;
-  try {
-    serve_usbip(usb, static_cast<std::uint16_t>(a.port), a.any_host, over,
-                [](const std::string& what) { fmt::print(stderr, "{}\n", what); });
-  } catch (const std::exception& error) {
-    problem = error.what();
-    interrupted = true;
-  }
-  clock.join();
-  if (!problem.empty()) throw data::LoadError(problem);
+  const double begin_s = clock_s();
+  server->serve([&] { return interrupted || (a.seconds > 0 && clock_s() >= begin_s + a.seconds); });
   return 0;
 }
 

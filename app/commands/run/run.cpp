@@ -91,12 +91,10 @@ PlayOptions play_options(const RunArguments& a, BoxRun* device) {
   options.recorder = recorder_of(a);
   options.real = a.speed == "real" || (device && device->real());
   options.seconds = a.session.seconds;
-  options.progress = [device](const ScriptedRun& now) {
+  options.progress = [device, shown = LastingProblem()](const ScriptedRun& now) mutable {
     const std::string_view problem = device ? advice(device->hand().now()) : "";
-    if (problem.empty())
-      show_tools(now);
-    else
-      show_progress(fmt::format("{:7.1f} s  {}", seconds(now.model, now.state), problem));
+    if (problem.empty()) show_tools(now);
+    shown.show(fmt::format("{:7.1f} s", seconds(now.model, now.state)), problem);
   };
   options.stop = &interrupted;
   return options;

@@ -13,7 +13,7 @@
 #include <stdexcept>
 #include <thread>
 
-#include "device/emulator/usbip.h"
+#include "device/emulator/usbip_link.h"
 #include "tests/integration/usb/bench.h"
 
 namespace ostium::test {
@@ -47,7 +47,7 @@ class VhciBench : public Bench {
     int ends[2];
     if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0) throw std::runtime_error("no sockets");
     over_ = false;
-    link_ = std::make_unique<device::UsbipLink>(usb, ends[0]);
+    link_ = std::make_unique<device::UsbipLink>(usb, device::Connection(ends[0]));
     thread_ = std::thread([this] { link_->serve(over_, &fast_); });
     bool attached = false;
     // A detached port becomes free a moment later.

@@ -41,6 +41,10 @@ expect 3 "wrong.json:[0-9]*: .*trakcs" plugged "$ostium" device calibrate --writ
 sed 's/"mm_per_count": 0.01/"mm_per_count": 0/' "$dir/record.json" >"$dir/zero.json"
 expect 3 "mm per count is 0" plugged "$ostium" device calibrate --write "$dir/zero.json"
 
+# Without a box a log says so, once.
+"$ostium" run rca-mid-focal --script iliac-wire --device usb --seconds 0.5 >/dev/null 2>"$dir/log" || true
+(($(grep -c "not plugged in" "$dir/log") == 1)) || { cat "$dir/log" && exit 1; }
+
 # People at the box: the script's instruments, their hands; the recording replays without it.
 expect 1 "time limit" plugged "$ostium" run rca-mid-focal --script iliac-wire --device usb --seconds 2 --out "$dir/usb"
 expect 0 "bit for bit" "$ostium" replay "$dir/usb/run.h5" --verify
