@@ -223,7 +223,7 @@ TEST(TreeFile, ABrokenTreeIsRefusedByLine) {
   EXPECT_NE(broken("\"parent_sphere\": 1", "\"parent_sphere\": 2").find("sphere of the parent"), std::string::npos);
   EXPECT_NE(broken("2.0000]", "0]").find("t.json:5"), std::string::npos);
   EXPECT_THROW(write_tree("tree.txt", fork()), LoadError);
-  EXPECT_THROW(write_tree("/nowhere/tree.json", fork()), LoadError);
+  EXPECT_THROW(write_tree("/proc/nowhere/tree.json", fork()), WriteError);
 }
 
 TEST(TreeFile, VtkHasALineABranchInLps) {

@@ -69,7 +69,7 @@ TEST(Filming, ShowsEachPictureToWhoeverWatchesAlsoWhereTheVideoCannotBeWritten) 
   FilmOptions options;
   options.pixels = 128;
   Film same(run.model, options);
-  Filming filming(run.model, "/nowhere/film.mp4", options);
+  Filming filming(run.model, "/proc/nowhere/film.mp4", options);
   core::TripleBuffer<Filmed>& pictures = filming.pictures();
   int shown = 0;
   for (; shown < 5; run.tick()) {
