@@ -17,7 +17,7 @@ TEST(Schemas, AreWhatTheReadersTablesMake) {
     text << std::ifstream(std::filesystem::path(data_folder()) / "schemas" / schema_file(format)).rdbuf();
     EXPECT_EQ(text.str(), schema_text(format))
         << schema_file(format) << " is stale: cmake --build build --target write_schemas && "
-        << "build/tests/write_schemas data/schemas";
+        << "build/tests/tools/write_schemas data/schemas";
   }
 }
 

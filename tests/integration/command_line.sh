@@ -48,8 +48,23 @@ expect 0 '"iodine_balance"' "$ostium" inject --pixels 256 --seconds 0.3 --json -
 expect 3 "there is no case" "$ostium" inject no-such-case -o "$dir/inject.png"
 expect 3 "png and .mp4" "$ostium" inject -o "$dir/inject.jpg"
 expect 2 "volume" "$ostium" inject --volume -3 -o "$dir/inject.png"
-expect 3 "not a number" "$ostium" inject --volume nan -o "$dir/inject.png"
-expect 3 "not a number" "$ostium" treat --pressure nan -o "$dir/treat.png"
+# Every option of every command that takes a number: finite decimals only.
+tried=0
+for command in $("$ostium" --help | awk '/^Subcommands:/ { on = 1; next } on && /^  [a-z]/ { print $1 }') \
+  "device monitor" "device emulate"; do
+  # shellcheck disable=SC2086
+  for option in $("$ostium" $command --help | grep -E '^  .*(FLOAT|INT)' | grep -oE -- '--[a-z-]+' | sort -u); do
+    for value in nan inf 0x10 1e999 " 7" 7mm; do
+      expect 2 "not a number" "$ostium" $command "$option=$value"
+      tried=$((tried + 1))
+    done
+  done
+done
+((tried > 200)) || { echo "only $tried numbers were tried"; exit 1; }
+expect 2 "not a whole number from 0 on" "$ostium" frame --seed=-1
+expect 3 "at most 1000000 of them" "$ostium" sweep rca-mid-focal --seeds 0..18446744073709551615 -o "$dir/sweep.csv"
+expect 3 "FROM..TO" "$ostium" sweep rca-mid-focal --seeds=-1 -o "$dir/sweep.csv"
+expect 3 'heart_rate is " 70"' "$ostium" run rca-mid-focal --set "heart_rate= 70"
 expect 0 '"ffr_model"' "$ostium" treat --no-pictures --no-predilatation --no-postdilatation --hold 1 --json
 expect 3 "there is no view" "$ostium" treat --view upwards -o "$dir/treat.png"
 expect 3 "png is known" "$ostium" treat -o "$dir/treat.mp4"

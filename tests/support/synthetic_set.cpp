@@ -207,7 +207,7 @@ std::string write_set(const std::string& folder, const data::MeasurementSet& set
   data::write_file(file, to_json(set));
   if (set.vessel)
     data::write_mesh(folder + "/" + set.vessel->mesh, {set.vessel->wall->frames[0], set.vessel->wall->triangles},
-               vascular::LengthUnit::metre);
+                     vascular::LengthUnit::metre);
   return file;
 }
 

@@ -11,7 +11,8 @@ namespace ostium::app {
 namespace {
 
 std::string beginning_of(const SweepTask& task) {
-  std::string line = fmt::format("{},{},{}", data::csv_field(task.setup.vessel), data::csv_field(task.setup.script.name), task.seed);
+  std::string line =
+      fmt::format("{},{},{}", data::csv_field(task.setup.vessel), data::csv_field(task.setup.script.name), task.seed);
   for (const std::string& value : task.values) line += "," + data::csv_field(value);
   return line;
 }

@@ -12,7 +12,6 @@ namespace {
 
 using units::atm;
 
-
 data::EventCode code_of(OperatorEvent::Kind kind) {
   using Kind = OperatorEvent::Kind;
   return kind == Kind::begins   ? data::EventCode::script_step_begins

@@ -1,7 +1,6 @@
 /// Which lesions a treatment is judged by, and which sizes and guides are chosen for a vessel.
 #include <gtest/gtest.h>
 
-
 #include "app/session/model/outcome.h"
 #include "app/session/run/run.h"
 #include "data/assessment/metrics.h"
