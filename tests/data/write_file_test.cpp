@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <fstream>
 #include <functional>
+#include <random>
 #include <sstream>
 
 #include "data/catalogue/case/tree_file.h"
@@ -52,7 +53,8 @@ struct Written {
 std::vector<Written> writers() {
   fluoro::Picture picture;
   picture.width = picture.height = 64;
-  for (int i = 0; i < 64 * 64; ++i) picture.grey.push_back(static_cast<std::uint8_t>(i * 7919 >> 3));
+  std::mt19937 noise(1);  // so that no compression makes it small
+  for (int i = 0; i < 64 * 64; ++i) picture.grey.push_back(static_cast<std::uint8_t>(noise()));
   vascular::Mesh mesh;
   for (int i = 0; i < 300; ++i) mesh.vertices.emplace_back(1e-3 * i, 1e-3 * (i % 7), 1e-3 * (i % 11));
   for (int i = 0; i + 2 < 300; ++i) mesh.triangles.push_back({i, i + 1, i + 2});
