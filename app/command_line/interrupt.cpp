@@ -11,7 +11,9 @@ void stop_on_signals() {
   for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
     struct sigaction before {};
     sigaction(signal, nullptr, &before);
-    if (before.sa_handler != SIG_IGN) sigaction(signal, &ask_to_stop, nullptr);  // nohup's wish stands
+    // What nohup ignores stays ignored. (A shell's background jobs are born with SIGINT ignored, and obey it all the
+    // same.)
+    if (signal != SIGHUP || before.sa_handler != SIG_IGN) sigaction(signal, &ask_to_stop, nullptr);
   }
 }
 
