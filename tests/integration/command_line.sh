@@ -159,7 +159,7 @@ expect 130 "stopped by the operator" timeout -s INT 120 bash -c "'$ostium' run r
   while [[ ! -e '$out/int/run.h5' ]]; do sleep 0.05; done; sleep 0.7; kill -INT \$p; wait \$p"
 expect 0 "bit for bit" "$ostium" replay "$out/int/run.h5"
 expect 3 "another ostium writes there" bash -c "'$ostium' run rca-mid-focal --speed real --record none --out '$out/two' & p=\$!
-  trap 'kill -INT \$p; wait \$p' EXIT; while [[ ! -e '$out/two' ]]; do sleep 0.05; done; sleep 0.3
+  trap 'kill -TERM \$p; wait \$p' EXIT; while [[ ! -e '$out/two' ]]; do sleep 0.05; done; sleep 0.3
   '$ostium' run rca-mid-focal --seconds 0.1 --out '$out/two'"
 expect 1 "is the disk full" bash -c "ulimit -f 50; trap '' XFSZ; '$ostium' run rca-mid-focal --script iliac-wire --out '$out/full'"
 expect 0 "bit for bit" "$ostium" replay "$out/full/run.h5"
