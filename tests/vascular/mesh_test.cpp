@@ -8,7 +8,7 @@
 #include <fstream>
 
 #include "tests/vascular/shapes.h"
-#include "vascular/geometry/mesh/written_mesh.h"
+#include "vascular/geometry/mesh_files/written_mesh.h"
 
 namespace ostium::vascular {
 namespace {

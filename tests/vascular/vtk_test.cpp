@@ -8,8 +8,8 @@
 
 #include "tests/vascular/shapes.h"
 #include "tests/vascular/vtk_files.h"
-#include "vascular/geometry/mesh/formats.h"
 #include "vascular/geometry/mesh/mesh.h"
+#include "vascular/geometry/mesh_files/formats.h"
 
 namespace ostium::vascular {
 namespace {

@@ -20,7 +20,7 @@
 #include "vascular/anatomy/labelling/narrowings.h"
 #include "vascular/geometry/mesh/patient_frame.h"
 #include "vascular/geometry/mesh/surface_check.h"
-#include "vascular/geometry/mesh/written_mesh.h"
+#include "vascular/geometry/mesh_files/written_mesh.h"
 #include "vascular/geometry/repair/repair.h"
 #include "vascular/geometry/repair/units.h"
 #include "vascular/motion/heart_cycle.h"

@@ -10,7 +10,7 @@
 #include "data/formats/load_error.h"
 #include "data/formats/mesh_writer.h"
 #include "data/formats/write_file.h"
-#include "vascular/geometry/mesh/written_mesh.h"
+#include "vascular/geometry/mesh_files/written_mesh.h"
 
 namespace ostium::app {
 

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <map>
 
-#include "vascular/geometry/mesh/formats.h"
+#include "vascular/geometry/mesh_files/formats.h"
 
 namespace ostium::app {
 

@@ -15,7 +15,7 @@
 #include "data/catalogue/instrument/instrument_reader.h"
 #include "data/formats/decimal.h"
 #include "data/formats/load_error.h"
-#include "vascular/geometry/mesh/formats.h"
+#include "vascular/geometry/mesh_files/formats.h"
 
 namespace ostium::app {
 

@@ -14,7 +14,7 @@
 #include "data/formats/mesh_writer.h"
 #include "tests/app/session/tube_vessel.h"
 #include "vascular/anatomy/labelling/labelling.h"
-#include "vascular/geometry/mesh/written_mesh.h"
+#include "vascular/geometry/mesh_files/written_mesh.h"
 
 namespace ostium::app {
 namespace {

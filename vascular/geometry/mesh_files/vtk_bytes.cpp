@@ -1,4 +1,4 @@
-#include "vascular/geometry/mesh/vtk_bytes.h"
+#include "vascular/geometry/mesh_files/vtk_bytes.h"
 
 #include <fmt/format.h>
 #include <zlib.h>
@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "vascular/geometry/mesh/mesh.h"
-#include "vascular/geometry/mesh/vtk_numbers.h"
+#include "vascular/geometry/mesh_files/vtk_numbers.h"
 
 namespace ostium::vascular {
 

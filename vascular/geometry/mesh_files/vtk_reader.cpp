@@ -2,9 +2,9 @@
 #include <fstream>
 
 #include "vascular/geometry/mesh/mesh.h"
-#include "vascular/geometry/mesh/raw_surface.h"
-#include "vascular/geometry/mesh/vtk_legacy.h"
-#include "vascular/geometry/mesh/vtk_xml.h"
+#include "vascular/geometry/mesh_files/raw_surface.h"
+#include "vascular/geometry/mesh_files/vtk_legacy.h"
+#include "vascular/geometry/mesh_files/vtk_xml.h"
 
 namespace ostium::vascular {
 

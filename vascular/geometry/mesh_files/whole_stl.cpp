@@ -1,4 +1,4 @@
-#include "vascular/geometry/mesh/whole_stl.h"
+#include "vascular/geometry/mesh_files/whole_stl.h"
 
 #include <fmt/format.h>
 
@@ -6,8 +6,8 @@
 #include <filesystem>
 #include <fstream>
 
-#include "vascular/geometry/mesh/formats.h"
 #include "vascular/geometry/mesh/mesh.h"
+#include "vascular/geometry/mesh_files/formats.h"
 
 namespace ostium::vascular {
 

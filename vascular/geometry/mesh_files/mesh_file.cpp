@@ -7,10 +7,10 @@
 #include <map>
 #include <memory>
 
-#include "vascular/geometry/mesh/formats.h"
 #include "vascular/geometry/mesh/mesh.h"
-#include "vascular/geometry/mesh/raw_surface.h"
-#include "vascular/geometry/mesh/written_mesh.h"
+#include "vascular/geometry/mesh_files/formats.h"
+#include "vascular/geometry/mesh_files/raw_surface.h"
+#include "vascular/geometry/mesh_files/written_mesh.h"
 
 namespace ostium::vascular {
 

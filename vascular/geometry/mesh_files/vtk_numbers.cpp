@@ -1,4 +1,4 @@
-#include "vascular/geometry/mesh/vtk_numbers.h"
+#include "vascular/geometry/mesh_files/vtk_numbers.h"
 
 #include <bit>
 #include <charconv>

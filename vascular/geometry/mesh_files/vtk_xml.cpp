@@ -1,4 +1,4 @@
-#include "vascular/geometry/mesh/vtk_xml.h"
+#include "vascular/geometry/mesh_files/vtk_xml.h"
 
 #include <fmt/format.h>
 
@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "vascular/geometry/mesh/mesh.h"
-#include "vascular/geometry/mesh/vtk_bytes.h"
-#include "vascular/geometry/mesh/vtk_cells.h"
-#include "vascular/geometry/mesh/vtk_numbers.h"
+#include "vascular/geometry/mesh_files/vtk_bytes.h"
+#include "vascular/geometry/mesh_files/vtk_cells.h"
+#include "vascular/geometry/mesh_files/vtk_numbers.h"
 
 namespace ostium::vascular {
 

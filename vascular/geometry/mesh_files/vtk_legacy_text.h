@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "vascular/geometry/mesh/vtk_numbers.h"
+#include "vascular/geometry/mesh_files/vtk_numbers.h"
 
 namespace ostium::vascular {
 

@@ -1,11 +1,11 @@
-#include "vascular/geometry/mesh/vtk_legacy_text.h"
+#include "vascular/geometry/mesh_files/vtk_legacy_text.h"
 
 #include <fmt/format.h>
 
 #include <utility>
 
-#include "vascular/geometry/mesh/formats.h"
 #include "vascular/geometry/mesh/mesh.h"
+#include "vascular/geometry/mesh_files/formats.h"
 
 namespace ostium::vascular {
 

@@ -4,12 +4,12 @@
 
 #include <assimp/Importer.hpp>
 
-#include "vascular/geometry/mesh/formats.h"
 #include "vascular/geometry/mesh/mesh.h"
-#include "vascular/geometry/mesh/raw_surface.h"
-#include "vascular/geometry/mesh/whole_off.h"
-#include "vascular/geometry/mesh/whole_ply.h"
-#include "vascular/geometry/mesh/whole_stl.h"
+#include "vascular/geometry/mesh_files/formats.h"
+#include "vascular/geometry/mesh_files/raw_surface.h"
+#include "vascular/geometry/mesh_files/whole_off.h"
+#include "vascular/geometry/mesh_files/whole_ply.h"
+#include "vascular/geometry/mesh_files/whole_stl.h"
 
 namespace ostium::vascular {
 

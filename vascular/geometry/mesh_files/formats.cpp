@@ -1,4 +1,4 @@
-#include "vascular/geometry/mesh/formats.h"
+#include "vascular/geometry/mesh_files/formats.h"
 
 #include <algorithm>
 #include <filesystem>

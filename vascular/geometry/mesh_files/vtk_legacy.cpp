@@ -1,4 +1,4 @@
-#include "vascular/geometry/mesh/vtk_legacy.h"
+#include "vascular/geometry/mesh_files/vtk_legacy.h"
 
 #include <fmt/format.h>
 
@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "vascular/geometry/mesh/mesh.h"
-#include "vascular/geometry/mesh/vtk_cells.h"
-#include "vascular/geometry/mesh/vtk_legacy_text.h"
+#include "vascular/geometry/mesh_files/vtk_cells.h"
+#include "vascular/geometry/mesh_files/vtk_legacy_text.h"
 
 namespace ostium::vascular {
 

@@ -1,4 +1,4 @@
-#include "vascular/geometry/mesh/whole_off.h"
+#include "vascular/geometry/mesh_files/whole_off.h"
 
 #include <fmt/format.h>
 

@@ -2,7 +2,7 @@
 /// VTK's legacy files (.vtk), ASCII or BINARY, versions 1 to 5.1.
 #include <string>
 
-#include "vascular/geometry/mesh/raw_surface.h"
+#include "vascular/geometry/mesh_files/raw_surface.h"
 
 namespace ostium::vascular {
 

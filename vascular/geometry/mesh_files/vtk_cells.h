@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "vascular/geometry/mesh/raw_surface.h"
+#include "vascular/geometry/mesh_files/raw_surface.h"
 
 namespace ostium::vascular {
 

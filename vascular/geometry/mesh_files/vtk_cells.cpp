@@ -1,4 +1,4 @@
-#include "vascular/geometry/mesh/vtk_cells.h"
+#include "vascular/geometry/mesh_files/vtk_cells.h"
 
 #include <fmt/format.h>
 

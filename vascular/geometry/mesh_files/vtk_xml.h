@@ -2,7 +2,7 @@
 /// VTK's XML files, as VMTK, 3D Slicer, SimVascular and ParaView write them: PolyData (.vtp), UnstructuredGrid (.vtu).
 #include <string>
 
-#include "vascular/geometry/mesh/raw_surface.h"
+#include "vascular/geometry/mesh_files/raw_surface.h"
 
 namespace ostium::vascular {
 

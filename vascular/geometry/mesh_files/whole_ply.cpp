@@ -1,4 +1,4 @@
-#include "vascular/geometry/mesh/whole_ply.h"
+#include "vascular/geometry/mesh_files/whole_ply.h"
 
 #include <fmt/format.h>
 
