@@ -243,7 +243,7 @@ configure() {
   fi
   say "configuring (Release${options[*]:+ ${options[*]}}, $generator, $compiler_version)"
   if ! quietly "$build/configure.log" cmake -S "$root" -B "$build" -G "$generator" \
-    -DCMAKE_BUILD_TYPE:STRING=Release "${options[@]}"; then
+    -DCMAKE_BUILD_TYPE:STRING=Release -DCMAKE_UNITY_BUILD:BOOL=ON "${options[@]}"; then
     show "$build/configure.log"
     die "cmake could not configure the build (its words are above)" \
       "mend what they name and call this again; it starts from an empty ${build##*/}/"

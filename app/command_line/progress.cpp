@@ -32,7 +32,7 @@ void TimedProgress::operator()(const std::string& what) const {
   const double s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
   const std::string line = fmt::format("{:5.1f} s  {}{}", s, of_, what);
   show_progress(line);
-  if (!on_terminal() && s >= quiet_s_) fmt::print(stderr, "{}\n", line);
+  if (!on_terminal() && s >= quiet_s_ && s >= logged_s_ + every_s_) fmt::print(stderr, "{}\n", line), logged_s_ = s;
   std::fflush(stderr);
 }
 

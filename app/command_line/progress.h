@@ -22,13 +22,15 @@ class LastingProblem {
 /// For work that takes minutes: adds the elapsed seconds, and also writes to logs.
 class TimedProgress {
  public:
-  /// `of`: prefix of every line; `quiet_s`: logs get only messages that begin after this time.
-  explicit TimedProgress(std::string of = "", double quiet_s = 0) : of_(std::move(of)), quiet_s_(quiet_s) {}
+  /// `of`: prefix of every line; `quiet_s`: logs get only messages that begin after this time, and one in `every_s`.
+  explicit TimedProgress(std::string of = "", double quiet_s = 0, double every_s = 0)
+      : of_(std::move(of)), quiet_s_(quiet_s), every_s_(every_s) {}
   void operator()(const std::string& what) const;
 
  private:
   std::string of_;
-  double quiet_s_;
+  double quiet_s_, every_s_;
+  mutable double logged_s_ = -1e9;
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 

@@ -9,6 +9,7 @@
 #include "app/command_line/arguments.h"
 #include "app/command_line/command.h"
 #include "app/command_line/common_options.h"
+#include "app/command_line/interrupt.h"
 #include "app/command_line/progress.h"
 #include "data/formats/write_file.h"
 #include "data/identification/measurement/measurement_reader.h"
@@ -71,9 +72,14 @@ void write_found(const Arguments& a, const data::MeasurementSet& set, const data
 int run(const Arguments& a) {
   const data::Ranks mpi;
   const data::MeasurementSet set = data::load_measurement(a.set);
-  data::ExplainOptions explain_options{{}, a.threads, {}, a.tries.empty()};
+  data::ExplainOptions explain_options;
+  explain_options.threads = a.threads, explain_options.library = a.tries.empty();
   for (const std::string& words : a.tries) explain_options.tries.push_back(split(words, '+'));
-  if (data::rank() == 0) explain_options.progress = show_progress;
+  if (data::rank() == 0) explain_options.progress = TimedProgress(set.file + ": ", 60, 60);
+  if (data::ranks() == 1) {
+    stop_on_signals();
+    explain_options.stop = [] { return interrupted.load(); };
+  }
   const data::Explanation found = explain(set, explain_options);
   if (data::rank() != 0) return 0;
   show_progress("");

@@ -30,7 +30,8 @@ std::vector<Moment> moments(const data::RunRecord& record, const data::Script& s
   for (const data::RecordedEvent& e : events_of(record)) {
     const auto step = static_cast<std::uint64_t>(e.step);
     const auto of = static_cast<std::size_t>(e.value);
-    if (e.code == data::EventCode::mark && of < script.steps.size()) out.push_back({step, script.steps[of].text});
+    if (e.code == data::EventCode::mark && of < script.steps.size())
+      out.push_back({step, script.steps[of].text.empty() ? "marked by hand" : script.steps[of].text});
     if (e.code == data::EventCode::injection_ends) out.push_back({step, "contrast"});
     if (e.code == data::EventCode::deflated) out.push_back({step, "balloon empty"});
     if (e.code == data::EventCode::stent_deployed || e.code == data::EventCode::stent_elsewhere)

@@ -44,7 +44,7 @@ data::GateResult poiseuille() {
 }
 
 /// Two tubes branching from one: flows are in the ratio of the conductances of tube and muscle.
-data::GateResult split() {
+data::GateResult y_split() {
   constexpr double r1 = 1.2e-3, r2 = 0.8e-3, L1 = 40e-3, L2 = 60e-3;
   Steady y({{-1, 30, 1e-3, 1.5e-3}, {0, 40, L1 / 40, r1}, {0, 60, L2 / 60, r2}});
   y.run();
@@ -139,7 +139,7 @@ void add_ischaemia(const vascular::PhysiologyModel& model, vascular::PhysiologyS
 }  // namespace
 
 std::vector<data::GateResult> flow(bool quick) {
-  std::vector<data::GateResult> out = {poiseuille(), split(), stenosis()};
+  std::vector<data::GateResult> out = {poiseuille(), y_split(), stenosis()};
   const vascular::Patient patient = vascular::make_patient({}, {});
   const vascular::PhysiologyModel model = make_physiology(patient);
   const vascular::PhysiologyState rest = at_rest(model, 70);

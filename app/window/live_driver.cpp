@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <thread>
+#include <utility>
 
 #include "app/session/scene/film.h"
 #include "core/base/units.h"
@@ -14,7 +15,7 @@ namespace ostium::app {
 
 namespace {
 
-using units::atm;
+using units::atm, units::mmHg;
 
 constexpr double degree = units::pi / 180;
 constexpr std::uint64_t steps_a_sample = 10;
@@ -77,6 +78,7 @@ Driven LiveDriver::drive(const ScriptedRun& run, SessionInputs& inputs) {
   if (const Driven inner = inner_ ? inner_->drive(run, inputs) : Driven::on; inner != Driven::on) driven = inner;
   if (driven == Driven::over) return driven;
   if (plays_) play(model, inputs);
+  read_pressure(model, state);
   if (report.refused >= 0) refused_ = report.refused, in_its_way_ = report.in_its_way, refused_at_ = state.rods.step;
   if (state.rods.step > refused_at_ + 1000) refused_ = -1;
 
@@ -90,6 +92,21 @@ Driven LiveDriver::drive(const ScriptedRun& run, SessionInputs& inputs) {
   }
   if (is_frame(state.rods.step, frames_per_s_, model.step_s())) show(run, inputs);
   return driven;
+}
+
+bool LiveDriver::marks() {
+  const bool own = std::exchange(marks_, false);
+  return (inner_ && inner_->marks()) || own;
+}
+
+void LiveDriver::read_pressure(const SessionModel& model, const SessionState& state) {
+  if (!model.has_patient()) return;
+  const vascular::TipPressureState& line = state.blood.line;
+  if (line.count < line_count_) {
+    const bool has_trace = line_low_Pa_ >= 0 && state.coupling.guide >= 0;
+    guide_low_mmHg_ = has_trace ? line_low_Pa_ / mmHg : NAN, guide_high_mmHg_ = has_trace ? line_high_Pa_ / mmHg : NAN;
+  }
+  line_count_ = line.count, line_low_Pa_ = line.low_Pa, line_high_Pa_ = line.high_Pa;
 }
 
 void LiveDriver::act(const SessionModel& model, Action action) {
@@ -155,8 +172,10 @@ void LiveDriver::act(const SessionModel& model, Action action) {
       arm_.field_m = fluoro::fields_m[(now + 1) % std::size(fluoro::fields_m)];
       break;
     }
-    case Action::reference:
     case Action::mark:
+      marks_ = true;
+      return;
+    case Action::reference:
     case Action::help:
       return;  // of the window
     default: {
@@ -203,6 +222,7 @@ void LiveDriver::show(const ScriptedRun& run, const SessionInputs& inputs) {
   put_signals(run.model, run.state, inputs, report, s.signals.data());
   for (std::size_t t = 0; t < report.tools.size(); ++t) s.in_body[t] = report.tools[t].in_body;
   s.ecg_mV = ecg_, s.line_mmHg = line_;
+  s.guide_low_mmHg = guide_low_mmHg_, s.guide_high_mmHg = guide_high_mmHg_;
   s.right_hand = right_;
   s.script_step = plays_ ? -1 : static_cast<int>(run.hands.step);
   s.refused = refused_, s.in_its_way = in_its_way_;

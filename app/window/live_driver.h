@@ -2,6 +2,7 @@
 /// The driver of a run that somebody watches: it shows the run to the window and, if they play, moves the instruments
 /// as they ask. All that it does to the simulation is SessionInputs, so a recording of it replays like any other.
 #include <atomic>
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -26,7 +27,9 @@ struct Snapshot {
   std::vector<char> in_body;             ///< (#tools)
   std::vector<float> signals;            ///< as signal_names says
   std::vector<float> ecg_mV, line_mmHg;  ///< of the last 5 s, oldest first; not a number: no trace
-  int right_hand = -1;                   ///< tool
+  /// The guide's pressure, lowest and highest, in its last complete beat; not a number: no trace, as in an injection.
+  double guide_low_mmHg = NAN, guide_high_mmHg = NAN;
+  int right_hand = -1;  ///< tool
   int script_step = -1;
   int refused = -1, in_its_way = -1;  ///< tools, of the last second
   bool paused = false;
@@ -40,6 +43,7 @@ class LiveDriver : public Driver {
   LiveDriver(const SessionModel& model, bool plays, double frames_per_s, Driver* inner = nullptr);
 
   Driven drive(const ScriptedRun& run, SessionInputs& inputs) override;
+  bool marks() override;
 
   Controls controls;
   core::TripleBuffer<Snapshot>& snapshots() { return snapshots_; }
@@ -48,6 +52,7 @@ class LiveDriver : public Driver {
 
  private:
   void act(const SessionModel& model, Action action);
+  void read_pressure(const SessionModel& model, const SessionState& state);
   void play(const SessionModel& model, SessionInputs& inputs);
   void show(const ScriptedRun& run, const SessionInputs& inputs);
 
@@ -58,7 +63,10 @@ class LiveDriver : public Driver {
   CArmInputs arm_;
   bool arm_is_set_ = false;
   double gauge_Pa_ = 0, heparin_U_ = 0, nitrate_ug_ = 0;
-  bool paused_ = false, over_ = false;
+  bool paused_ = false, over_ = false, marks_ = false;
+  int line_count_ = 0;
+  double line_low_Pa_ = -1, line_high_Pa_ = 0;  ///< of the beat that goes on
+  double guide_low_mmHg_ = NAN, guide_high_mmHg_ = NAN;
   int refused_ = -1, in_its_way_ = -1;
   std::uint64_t refused_at_ = 0;
   std::size_t ecg_at_, line_at_;

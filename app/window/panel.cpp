@@ -91,16 +91,14 @@ void draw_strip(const Pen& pen, const std::vector<float>& samples, const Colour&
   pen.write(c, 20, x + trace_w + 2, y + h / 2 + 9, value);
 }
 
+std::string pressure_words(const Snapshot& now) {
+  return std::isnan(now.guide_low_mmHg) ? "—" : fmt::format("{:.0f}/{:.0f}", now.guide_high_mmHg, now.guide_low_mmHg);
+}
+
 void draw_strips(const Pen& pen, const PanelTexts& texts, const Snapshot& now, double x, double y, double w) {
   const double rate = now.inputs.rate_1_min;
   draw_strip(pen, now.ecg_mV, green, -0.6, 1.6, "II", fmt::format("{:.0f}", rate), x, y, w, 74);
-  float least = 1e9f, most = -1e9f;
-  for (std::size_t i = now.line_mmHg.size() / 2; i < now.line_mmHg.size(); ++i)
-    if (now.line_mmHg[i] == now.line_mmHg[i])
-      least = std::min(least, now.line_mmHg[i]), most = std::max(most, now.line_mmHg[i]);
-  const bool there = most > least;
-  draw_strip(pen, now.line_mmHg, red, 0, 180, "guide, mmHg", there ? fmt::format("{:.0f}/{:.0f}", most, least) : "—", x,
-             y + 78, w, 88);
+  draw_strip(pen, now.line_mmHg, red, 0, 180, "guide, mmHg", pressure_words(now), x, y + 78, w, 88);
   const double trace = signal(texts, now, "trace");
   const char* kinds[] = {"", "damped", "ventricularised", "ventricle", "no trace"};
   if (trace >= 1 && trace < 5) pen.write(yellow, 12, x + 100, y + 93, kinds[static_cast<int>(trace)]);
@@ -156,13 +154,16 @@ void draw_numbers(const Pen& pen, const PanelTexts& texts, const Snapshot& now, 
   }
 }
 
-void draw_help(const Pen& pen) {
+void draw_help(const Pen& pen, const PanelTexts& texts) {
   cairo_set_source_rgba(pen.cr(), 0.03, 0.04, 0.05, 0.88);
   cairo_rectangle(pen.cr(), 60, 60, 650, 640);
   cairo_fill(pen.cr());
   double y = 96;
   pen.write(pale, 18, 84, y, "Keys");
   for (const KeyHelp& help : key_help()) {
+    if ((help.needs == KeyNeeds::hands && !texts.plays) ||
+        (help.needs == KeyNeeds::hands_and_patient && !(texts.plays && texts.has_patient)))
+      continue;
     y += 25;
     pen.write(yellow, 14, 84, y, help.keys);
     pen.write(pale, 14, 270, y, help.what);
@@ -172,22 +173,24 @@ void draw_help(const Pen& pen) {
 }  // namespace
 
 const std::vector<KeyHelp>& key_help() {
+  using enum KeyNeeds;
   static const std::vector<KeyHelp> all = {
-      {"W / S, A / D", "guide: push / pull, turn (left stick)"},
-      {"I / K, J / L", "right hand: push / pull, turn (right stick)"},
-      {"Tab", "right hand: next tool (button A)"},
-      {"Shift", "fine (LB)"},
-      {"Space", "fluoroscopy, while held (RT)"},
-      {"V", "cine, while held (RB)"},
-      {"F, G", "contrast, saline, while held (LT)"},
-      {"[  ]  \\", "gauge: 1 atm less, more; vacuum while held (X, Y)"},
-      {"Backspace", "gauge: back to 0"},
-      {"arrows; Ctrl + arrows", "C-arm by 5 degrees; table by 1 cm (D-pad)"},
-      {"1 to 8, Z", "standard views; field"},
-      {"H", "this picture becomes the reference"},
-      {"N, E", "nitrate 200 ug; heparin 5000 U"},
-      {"P, Escape", "pause; end"},
-      {"F1", "these keys"},
+      {"W / S, A / D", "guide: push / pull, turn (left stick)", hands},
+      {"I / K, J / L", "right hand: push / pull, turn (right stick)", hands},
+      {"Tab", "right hand: next tool (button A)", hands},
+      {"Shift", "fine (LB)", hands},
+      {"Space", "fluoroscopy, while held (RT)", hands},
+      {"V", "cine, while held (RB)", hands},
+      {"F, G", "contrast, saline, while held (LT, B)", hands_and_patient},
+      {"[  ]  \\", "gauge: 1 atm less, more; vacuum while held (X, Y)", hands_and_patient},
+      {"Backspace", "gauge: back to 0", hands_and_patient},
+      {"arrows; Ctrl + arrows", "C-arm by 5 degrees; table by 1 cm (D-pad)", hands},
+      {"1 to 8, Z", "standard views; field", hands},
+      {"N, E", "nitrate 200 ug; heparin 5000 U", hands_and_patient},
+      {"H", "this picture becomes the reference", nothing},
+      {"B", "marks this moment: an event, and a picture in the report", nothing},
+      {"P, Escape", "pause; end", nothing},
+      {"F1", "these keys", nothing},
   };
   return all;
 }
@@ -205,7 +208,7 @@ PanelTexts panel_texts(const SessionModel& model, const ScriptPlan& plan, const 
   for (std::size_t s = 0; s < plan.script.steps.size(); ++s) texts.steps.push_back(plan.script.steps[s].words());
   texts.signal_names = signal_names(model);
   texts.left_hand = hand.left_hand();
-  texts.plays = plays;
+  texts.plays = plays, texts.has_patient = model.has_patient();
   return texts;
 }
 
@@ -245,7 +248,7 @@ void draw_panel(const PanelTexts& texts, const Snapshot& now, const PanelView& v
     pen.fill(yellow, 324, 20, 128, 30);
     pen.write({0, 0, 0}, 16, 350, 41, "PAUSED");
   }
-  if (view.help) draw_help(pen);
+  if (view.help) draw_help(pen, texts);
 }
 
 }  // namespace ostium::app

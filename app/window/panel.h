@@ -20,7 +20,7 @@ struct PanelTexts {
   std::vector<std::string> steps;         ///< of the script
   std::vector<std::string> signal_names;  ///< of Snapshot::signals
   int left_hand = 0;
-  bool plays = false;
+  bool plays = false, has_patient = false;
 };
 PanelTexts panel_texts(const SessionModel& model, const ScriptPlan& plan, const LiveDriver& hand, bool plays);
 
@@ -39,10 +39,14 @@ struct PanelView {
 void draw_panel(const PanelTexts& texts, const Snapshot& now, const PanelView& view,
                 std::vector<std::uint32_t>& pixels);
 
-/// What a key does, for the help and for READMEs.
+/// When a key does something: always, where the keys move the instruments, or only if there is a patient as well.
+enum class KeyNeeds { nothing, hands, hands_and_patient };
+
+/// What a key does. The help lists those that do something in this run.
 struct KeyHelp {
   const char* keys;
   const char* what;
+  KeyNeeds needs;
 };
 const std::vector<KeyHelp>& key_help();
 

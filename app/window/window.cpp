@@ -264,6 +264,7 @@ long show_window(const SessionModel& model, const ScriptPlan& plan, LiveDriver& 
   fluoro::Picture faded;
   Reference reference;
   double shown_brightness = 1;
+  bool shown_help = false;
   std::string shown_problem;
   std::vector<std::uint32_t> pixels;
   core::TripleBuffer<Snapshot>& latest = hand.snapshots();
@@ -282,8 +283,9 @@ long show_window(const SessionModel& model, const ScriptPlan& plan, LiveDriver& 
     const double brightness = options.brightness ? options.brightness() : 1;
     const std::string problem = options.problem ? options.problem() : "";
     // While hands have to draw back nothing steps, and what the box says is shown all the same.
-    if (!live_is_new && brightness == shown_brightness && problem == shown_problem) continue;
-    shown_brightness = brightness, shown_problem = problem;
+    if (!live_is_new && brightness == shown_brightness && problem == shown_problem && events.help == shown_help)
+      continue;
+    shown_brightness = brightness, shown_problem = problem, shown_help = events.help;
     if (live_is_new) reference.take(live.picture(), live.cine(), signal(texts, now, "contrast_landmark"));
     if (events.reference) reference.freeze(live.picture()), events.reference = false;
     faded = live.picture();

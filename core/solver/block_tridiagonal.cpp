@@ -108,8 +108,8 @@ template <int R>
 }
 
 template <int R>
-void store(BlockTridiagonal& chain, int j, const V3<double>& turn, const Rolls<double, R>& rolls,
-           const V3<double>& force) {
+void store_solution(BlockTridiagonal& chain, int j, const V3<double>& turn, const Rolls<double, R>& rolls,
+                    const V3<double>& force) {
   store3(chain.turn, j, turn), store3(chain.force, j, force);
   for (int m = 0; m < R; ++m) chain.rolls[m].turn.at(0)[j] = rolls[m];
 }
@@ -127,7 +127,7 @@ bool solve_middle(BlockTridiagonal& chain, int front, const BlockRow<Lanes, R>& 
   Turn<double, R> phi;
   V3<double> n;
   apply_inverse(S_inv, A_inv, W, r.torque, r.gap, phi, n);
-  store<R>(chain, middle(chain), phi.v, phi.r, n);
+  store_solution<R>(chain, middle(chain), phi.v, phi.r, n);
   for (int l : {front, front + 1}) {
     set_lane(turn.v, l, phi.v), set_lane(force, l, n);
     for (int m = 0; m < R; ++m) turn.r[m][l] = phi.r[m];
@@ -158,7 +158,8 @@ template <int R>
       if (t < walks.lane(l).wait) continue;
       Rolls<double, R> rolls;
       for (int m = 0; m < R; ++m) rolls[m] = turn.r[m][l];
-      store<R>(l < halves ? first : *second, walks.lane(l).element(t), lane_of(turn.v, l), rolls, lane_of(force, l));
+      store_solution<R>(l < halves ? first : *second, walks.lane(l).element(t), lane_of(turn.v, l), rolls,
+                        lane_of(force, l));
     }
   }
 }

@@ -31,6 +31,9 @@ const EventDefinition* definition_of(EventCode code);
 /// report peak forces of this order for novices.
 inline constexpr double wall_force_limit_N = 1.0;
 inline constexpr double wall_force_cut_off_Hz = 10;  ///< of the first-order low pass on assessed forces
+/// It is over once the force was below 0.8 of the limit for this long: longer than a beat, since each beat presses
+/// anew.
+inline constexpr double wall_force_over_s = 2;
 
 /// A tip must be in another branch of the tree for this long before it counts as having entered it, s.
 inline constexpr double tip_settles_s = 0.3;

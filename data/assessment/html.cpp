@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "data/formats/plot.h"
+#include "data/formats/markup.h"
 
 namespace ostium::data {
 

@@ -1,22 +1,14 @@
 #include "data/assessment/page.h"
 
-#include <dcmtk/config/osconfig.h>
-#include <dcmtk/ofstd/ofstd.h>
 #include <fmt/format.h>
 
 #include "data/assessment/html.h"
 #include "data/assessment/page_parts.h"
-#include "data/formats/plot.h"
+#include "data/formats/markup.h"
 
 namespace ostium::data {
 
 namespace {
-
-std::string data_uri(const std::vector<std::uint8_t>& png) {
-  OFString text;
-  OFStandard::encodeBase64(png.data(), png.size(), text);
-  return "data:image/png;base64," + std::string(text.c_str());
-}
 
 std::string header(const std::vector<ReportRun>& runs) {
   std::string out =
@@ -27,8 +19,11 @@ std::string header(const std::vector<ReportRun>& runs) {
         "<tr><td>{}</td><td>{}</td><td>{}</td><td class=\"n\">{}</td><td class=\"{}\">{}{}</td><td "
         "class=\"n\">{}</td><td>{}</td></tr>\n",
         escaped(run.code), escaped(run.case_name), escaped(run.script), run.seed,
-        run.outcome == "success" ? "yes" : "no", escaped(run.outcome),
-        run.reason.empty() ? "" : ": " + escaped(run.reason), time_text(run.simulated_s), escaped(run.software));
+        run.outcome == "success" ? "yes"
+        : run.outcome == "ended" ? ""
+                                 : "no",
+        escaped(run.outcome), run.reason.empty() ? "" : ": " + escaped(run.reason), time_text(run.simulated_s),
+        escaped(run.software));
   return out + "</table>\n";
 }
 

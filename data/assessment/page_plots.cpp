@@ -4,6 +4,7 @@
 #include <string_view>
 
 #include "data/assessment/page_parts.h"
+#include "data/formats/markup.h"
 #include "data/formats/plot.h"
 
 namespace ostium::data {

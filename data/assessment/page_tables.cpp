@@ -5,7 +5,7 @@
 
 #include "data/assessment/html.h"
 #include "data/assessment/page_parts.h"
-#include "data/formats/plot.h"
+#include "data/formats/markup.h"
 
 namespace ostium::data {
 

@@ -2,7 +2,7 @@
 
 #include "data/assessment/html.h"
 #include "data/assessment/page.h"
-#include "data/formats/plot.h"
+#include "data/formats/markup.h"
 
 namespace ostium::data {
 

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <limits>
 
+#include "data/formats/markup.h"
+
 namespace ostium::data {
 
 namespace {
@@ -41,13 +43,6 @@ std::string text(double x, double y, const std::string& words, const char* ancho
 }
 
 }  // namespace
-
-std::string escaped(const std::string& words) {
-  std::string out;
-  for (char c : words)
-    out += c == '&' ? "&amp;" : c == '<' ? "&lt;" : c == '>' ? "&gt;" : c == '"' ? "&quot;" : std::string(1, c);
-  return out;
-}
 
 Plot::Plot(std::string title, std::string x_label, std::string y_label, double width, double height)
     : title_(std::move(title)),

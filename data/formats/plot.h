@@ -8,9 +8,6 @@
 
 namespace ostium::data {
 
-/// `words` escaped for HTML and SVG.
-std::string escaped(const std::string& words);
-
 class Plot {
  public:
   Plot(std::string title, std::string x_label, std::string y_label, double width = 460, double height = 300);

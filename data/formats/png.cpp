@@ -39,7 +39,11 @@ std::vector<std::uint8_t> png_of(const fluoro::Picture& picture) {
 void write_png(const std::string& file, const fluoro::Picture& picture) { write_bytes(file, png_of(picture)); }
 
 void write_rgb_png(const std::string& file, int width, int height, const std::vector<std::uint8_t>& rgb) {
-  write_bytes(file, compressed(width, height, PNG_FORMAT_RGB, rgb.data()));
+  write_bytes(file, rgb_png_of(width, height, rgb));
+}
+
+std::vector<std::uint8_t> rgb_png_of(int width, int height, const std::vector<std::uint8_t>& rgb) {
+  return compressed(width, height, PNG_FORMAT_RGB, rgb.data());
 }
 
 }  // namespace ostium::data

@@ -13,5 +13,6 @@ void write_png(const std::string& file, const fluoro::Picture& picture);
 void write_rgb_png(const std::string& file, int width, int height, const std::vector<std::uint8_t>& rgb);
 /// The bytes of the PNG file.
 std::vector<std::uint8_t> png_of(const fluoro::Picture& picture);
+std::vector<std::uint8_t> rgb_png_of(int width, int height, const std::vector<std::uint8_t>& rgb);
 
 }  // namespace ostium::data

@@ -2,19 +2,10 @@
 
 #include <fmt/format.h>
 
+#include "data/formats/markup.h"
 #include "data/formats/write_file.h"
 
 namespace ostium::data {
-
-namespace {
-
-std::string escaped(const std::string& words) {
-  std::string result;
-  for (char c : words) result += c == '&' ? "&amp;" : c == '<' ? "&lt;" : c == '>' ? "&gt;" : std::string(1, c);
-  return result;
-}
-
-}  // namespace
 
 void Drawing::line(const std::vector<Eigen::Vector2d>& points_mm, const std::string& colour, double thickness_mm,
                    bool round_ends) {

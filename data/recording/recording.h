@@ -15,7 +15,8 @@
 namespace ostium::data {
 
 inline constexpr int recording_version = 2;  ///< version 1 had the flags and indices of state in another layout
-inline constexpr int steps_per_block = 500;  ///< steps written together
+/// Steps written together. With the time to write them, a kill loses at most half a second.
+inline constexpr int steps_per_block = 200;
 inline constexpr int steps_per_signal = 10;
 inline constexpr int steps_per_state = 1000;
 

@@ -1,5 +1,3 @@
-#include <time.h>
-
 #include <algorithm>
 #include <numeric>
 
@@ -12,12 +10,6 @@
 namespace ostium::bench {
 
 namespace {
-
-double thread_cpu_ms() {
-  timespec t;
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
-  return 1e3 * static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_nsec);
-}
 
 /// Times of single ticks; `tick` returns the state's hash.
 template <class Tick>

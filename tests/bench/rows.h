@@ -1,6 +1,8 @@
 #pragma once
 /// Rows of `ostium-bench`: CPU time of a whole step in the working thread, beside the gate accuracy at the same
 /// settings.
+#include <time.h>
+
 #include <string>
 #include <vector>
 
@@ -18,6 +20,13 @@ struct Row {
     bool pass = false;
   } gate;
 };
+
+/// Of the calling thread.
+inline double thread_cpu_ms() {
+  timespec t;
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
+  return 1e3 * static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_nsec);
+}
 
 struct Duration {
   int warm_up_steps = 500;

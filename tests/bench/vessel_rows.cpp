@@ -1,5 +1,4 @@
 #include <fmt/format.h>
-#include <time.h>
 
 #include <algorithm>
 #include <cmath>
@@ -16,12 +15,6 @@ namespace {
 
 constexpr double beats_per_min = 75;
 constexpr double procedure_m = 0.05e-3, drive_m = 0.178e-3;  // allowed by the gates
-
-double thread_cpu_ms() {
-  timespec t;
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
-  return 1e3 * static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_nsec);
-}
 
 /// Memory of the process, MiB.
 double memory_MiB() {

@@ -40,7 +40,7 @@ const std::string small_case = R"({
   ]
 })";
 
-std::string refusal(const std::string& from, const std::string& to) {
+std::string case_refusal(const std::string& from, const std::string& to) {
   std::string text = small_case;
   const auto at = text.find(from);
   EXPECT_NE(at, std::string::npos) << from;
@@ -72,12 +72,12 @@ TEST(Case, TheTenOfTheProductAreThere) {
 }
 
 TEST(Case, ALesionThatDoesNotFitIsRefusedWithWhatExists) {
-  EXPECT_EQ(refusal("A test", "Another test"), "accepted");
-  expect_words(refusal("\"length_mm\": 9", "\"length_mm\": 90"),
+  EXPECT_EQ(case_refusal("A test", "Another test"), "accepted");
+  expect_words(case_refusal("\"length_mm\": 9", "\"length_mm\": 90"),
                {"folder/small.json:9: lesions[0]", "from 40 to 130 mm of RCA", "within the branch's 101."});
-  expect_words(refusal("\"stenosis_percent\": 70", "\"stenosis_percent\": 120"),
+  expect_words(case_refusal("\"stenosis_percent\": 70", "\"stenosis_percent\": 120"),
                {"folder/small.json:9: lesions[0].stenosis_percent", "120", "at most 95"});
-  expect_words(refusal("\"RCA\"", "\"RAC\""),
+  expect_words(case_refusal("\"RCA\"", "\"RAC\""),
                {"folder/small.json:9: lesions[0]", "no branch \"RAC\"", "LAD", "LCx", "RCA", "PDA"});
 }
 
@@ -102,13 +102,13 @@ TEST(Case, ALesionLiesAtTheEndOfAnArteryThatIsShorterInSomebody) {
 }
 
 TEST(Case, OtherMistakesAreNamed) {
-  expect_words(refusal("\"right\"", "\"middle\""), {"small.json:6: anatomy.dominance is \"middle\"", "balanced"});
-  expect_words(refusal("\"seed\": 0", "\"seed\": 1.5"), {"small.json:6: anatomy.seed is 1.5", "whole number"});
-  expect_words(refusal("\"heart_rate_1_min\": 70", "\"heart_rate_1_min\": 300"), {"small.json:7:", "40 to 180"});
-  expect_words(refusal("\"calcified\": false", "\"calcified\": 0"), {"small.json:9:", "true or false"});
-  expect_words(refusal("\"calcified\": false", "\"calcified\": false, \"side_deg\": 3"), {"eccentric ones only"});
-  expect_words(refusal("\"name\": \"small\"", "\"name\": \"big\""), {"small.json:3: name is \"big\""});
-  expect_words(refusal("\"title\"", "\"titel\""), {"titel is not a key of the case", "title"});
+  expect_words(case_refusal("\"right\"", "\"middle\""), {"small.json:6: anatomy.dominance is \"middle\"", "balanced"});
+  expect_words(case_refusal("\"seed\": 0", "\"seed\": 1.5"), {"small.json:6: anatomy.seed is 1.5", "whole number"});
+  expect_words(case_refusal("\"heart_rate_1_min\": 70", "\"heart_rate_1_min\": 300"), {"small.json:7:", "40 to 180"});
+  expect_words(case_refusal("\"calcified\": false", "\"calcified\": 0"), {"small.json:9:", "true or false"});
+  expect_words(case_refusal("\"calcified\": false", "\"calcified\": false, \"side_deg\": 3"), {"eccentric ones only"});
+  expect_words(case_refusal("\"name\": \"small\"", "\"name\": \"big\""), {"small.json:3: name is \"big\""});
+  expect_words(case_refusal("\"title\"", "\"titel\""), {"titel is not a key of the case", "title"});
   try {
     find_case("rca-mid");
     FAIL();
@@ -187,7 +187,7 @@ TEST(Case, ABrokenImportedOneIsRefused) {
   broken.replace(broken.find("\"parent\": -1"), 12, "\"parent\": 0 ");
   write_file((folder / "anatomy.json").string(), broken);
   expect_words(message(folder), {"anatomy.json:", "tubes[0].parent is 0", "earlier tube"});
-  expect_words(refusal("\"anatomy\":", "\"imported\": {}, \"anatomy\":"), {"both"});
+  expect_words(case_refusal("\"anatomy\":", "\"imported\": {}, \"anatomy\":"), {"both"});
 }
 
 vascular::SphereTree fork() {

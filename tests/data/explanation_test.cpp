@@ -115,6 +115,38 @@ TEST(Explanation, ATwistingShaftIsFoundAndItsComplianceToo) {
     EXPECT_LT((predictions[e].shape.points_m.back() - found.shapes[e].points_m.back()).norm(), 1e-6);
 }
 
+TEST(Explanation, WithoutANoiseItCannotBeJudgedAndSaysWhatWouldLetIt) {
+  MeasurementSet set = synthetic::two_tubes(16);
+  synthetic::Truth truth;
+  truth.sigma_m = 0.3e-3;
+  synthetic::measure(set, truth);
+  set.imaging.noise_sigma_m.reset();
+  const Explanation x = explain(set, {});
+  EXPECT_FALSE(x.noise.sigma_m);
+  EXPECT_EQ(x.verdict, Verdict::cannot_be_judged);
+  ASSERT_TRUE(x.next_experiment);
+  EXPECT_NE(x.next_experiment->why.find("imaging.noise_sigma_mm"), std::string::npos);
+  // What it asks for lets it be judged.
+  set.imaging.noise_sigma_m = truth.sigma_m;
+  EXPECT_EQ(explain(set, {}).verdict, Verdict::explained);
+}
+
+TEST(Explanation, EndedEarlyItTellsWhatItHas) {
+  MeasurementSet set = synthetic::free_wire(12), world = set;
+  world.instruments[0].sections[1].rest_curvature_per_m = {0, 0.2, 0};
+  synthetic::measure(world, stiffness(1, 1, 3));
+  set.experiments = world.experiments;
+  ExplainOptions options;
+  options.library = true;
+  options.stop = [] { return true; };
+  const Explanation x = explain(set, options);
+  EXPECT_TRUE(x.ended_early);
+  EXPECT_EQ(x.verdict, Verdict::unexplained);
+  EXPECT_TRUE(x.candidates.empty());
+  EXPECT_NE(x.verdict_text[1].find("Ended before everything was tried"), std::string::npos) << x.verdict_text[1];
+  EXPECT_TRUE(nlohmann::json::parse(to_json(x))["ended_early"].get<bool>());
+}
+
 /// Without an effect, none is found.
 TEST(Explanation, AnEffectThatIsNotThereDoesNotWin) {
   MeasurementSet set = synthetic::two_tubes(16);

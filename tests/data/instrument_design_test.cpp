@@ -10,6 +10,7 @@
 
 #include "data/catalogue/catalogue.h"
 #include "tests/data/instrument_files.h"
+#include "tests/data/refusals.h"
 #include "vascular/treatment/stent.h"
 
 namespace ostium::data {
@@ -37,10 +38,6 @@ std::string said_of(const std::string& name, const std::string& text) {
     return error.what();
   }
   return "accepted";
-}
-
-void expect_words(const std::string& message, std::initializer_list<const char*> words) {
-  for (const char* word : words) EXPECT_NE(message.find(word), std::string::npos) << message << "\n  lacks: " << word;
 }
 
 TEST(InstrumentDesign, WithoutABlockAllIsAsBefore) {

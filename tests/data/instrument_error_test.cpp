@@ -7,13 +7,10 @@
 
 #include "data/catalogue/catalogue.h"
 #include "tests/data/instrument_files.h"
+#include "tests/data/refusals.h"
 
 namespace ostium::data {
 namespace {
-
-void expect_words(const std::string& message, std::initializer_list<const char*> words) {
-  for (const char* word : words) EXPECT_NE(message.find(word), std::string::npos) << message << "\n  lacks: " << word;
-}
 
 TEST(InstrumentErrors, TheSmallCatheterItselfIsFine) { EXPECT_EQ(refusal(small_catheter), "accepted"); }
 

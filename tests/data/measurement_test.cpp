@@ -20,7 +20,7 @@ using Json = nlohmann::ordered_json;
 
 Json good() { return Json::parse(synthetic::to_json(synthetic::two_tubes(4))); }
 
-std::string refusal(const Json& file) {
+std::string set_refusal(const Json& file) {
   try {
     read_measurement("set/measurement.json", file.dump(1));
   } catch (const LoadError& error) {
@@ -31,7 +31,7 @@ std::string refusal(const Json& file) {
 
 TEST(Measurement, TheSetItselfIsFineAndRead) {
   const Json file = good();
-  EXPECT_EQ(refusal(file), "accepted");
+  EXPECT_EQ(set_refusal(file), "accepted");
   const MeasurementSet set = read_measurement("m.json", file.dump());
   ASSERT_EQ(set.instruments.size(), 2u);
   EXPECT_NEAR(set.instruments[0].sections[0].EI1_N_m2, 5500e-6, 1e-12);
@@ -61,43 +61,43 @@ TEST(Measurement, TheExactEntryIsNamed) {
   file["experiments"][3]["centreline_mm"] = Json::array();
   for (int i = 0; i < 18; ++i) file["experiments"][3]["centreline_mm"].push_back({0, 0, i});
   file["experiments"][3]["centreline_mm"][17] = {1, 2};
-  expect_words(refusal(file),
+  expect_words(set_refusal(file),
                {"set/measurement.json:", "experiments[3].centreline_mm[17]", "expected 3 numbers, got 2"});
   file["experiments"][3]["centreline_mm"][17] = {1, 2, "3"};
-  expect_words(refusal(file), {"experiments[3].centreline_mm[17][2] is \"3\"", "a number"});
+  expect_words(set_refusal(file), {"experiments[3].centreline_mm[17][2] is \"3\"", "a number"});
   file["experiments"][3]["centreline_mm"] = {{0, 0, 0}};
-  expect_words(refusal(file), {"experiments[3].centreline_mm is", "at least two points"});
+  expect_words(set_refusal(file), {"experiments[3].centreline_mm is", "at least two points"});
 }
 
 TEST(Measurement, KeysUnknownMissingOrTooMany) {
   Json file = good();
   file["experiments"][1]["inserted"] = 3;
-  expect_words(refusal(file), {"experiments[1].inserted is not a key of the experiment"});
+  expect_words(set_refusal(file), {"experiments[1].inserted is not a key of the experiment"});
   file = good();
   file["experiments"][1]["set"][1].erase("roll_deg");
-  expect_words(refusal(file), {"experiments[1].set[1].roll_deg is missing", "degrees"});
+  expect_words(set_refusal(file), {"experiments[1].set[1].roll_deg is missing", "degrees"});
   file = good();
   file["experiments"][1]["radius_of_curvature_mm"] = 100;
-  expect_words(refusal(file), {"experiments[1] has 2 of centreline_mm", "exactly one"});
+  expect_words(set_refusal(file), {"experiments[1] has 2 of centreline_mm", "exactly one"});
   file["experiments"][1].erase("radius_of_curvature_mm");
   file["experiments"][1].erase("tip_mm");
-  expect_words(refusal(file), {"experiments[1] has 0 of centreline_mm"});
+  expect_words(set_refusal(file), {"experiments[1] has 0 of centreline_mm"});
   file = good();
   file["experiments"][2]["id"] = "p0";
-  expect_words(refusal(file), {"experiments[2].id is \"p0\"", "no other experiment", "experiments[0]"});
+  expect_words(set_refusal(file), {"experiments[2].id is \"p0\"", "no other experiment", "experiments[0]"});
   file = good();
   file["schema"] = "ostium-measurement/2";
-  expect_words(refusal(file), {"schema is", "ostium-measurement/1"});
+  expect_words(set_refusal(file), {"schema is", "ostium-measurement/1"});
   file = good();
   file["experiments"][0]["set"].erase(1);
-  expect_words(refusal(file), {"experiments[0].set is", "one entry for each of 2 instruments, got 1"});
+  expect_words(set_refusal(file), {"experiments[0].set is", "one entry for each of 2 instruments, got 1"});
 }
 
 TEST(Measurement, WhatCannotBeIsRefused) {
   const auto with = [](const char* pointer, const Json& value) {
     Json file = good();
     file[Json::json_pointer(pointer)] = value;
-    return refusal(file);
+    return set_refusal(file);
   };
   expect_words(with("/experiments/1/base/tangent", {0, 0, 0}),
                {"experiments[1].base.tangent is [0, 0, 0]", "not all zero"});
@@ -121,7 +121,7 @@ TEST(Measurement, WhatCannotBeIsRefused) {
   file["experiments"][0]["set"][0] = {{"inserted_length_mm", 120}, {"roll_deg", 0}};
   file["experiments"][0]["set"][1] = {{"inserted_length_mm", 80}, {"roll_deg", 0}};
   file["experiments"][0]["tip_force_N"] = {0, 0, 0.1};
-  expect_words(refusal(file), {"experiments[0].tip_force_N", "inside another instrument"});
+  expect_words(set_refusal(file), {"experiments[0].tip_force_N", "inside another instrument"});
 }
 
 TEST(Measurement, EffectsAreCheckedAgainstWhatThereIs) {

@@ -31,7 +31,7 @@ RunRecord record_with(std::vector<double> events) {
   return r;
 }
 
-std::string refusal(const std::string& from, const std::string& to) {
+std::string report_refusal(const std::string& from, const std::string& to) {
   std::string text = small;
   text.replace(text.find(from), from.size(), to);
   try {
@@ -71,13 +71,13 @@ TEST(ScoreList, MistakesAreNamed) {
   const auto says = [](const std::string& what, const std::string& words) {
     EXPECT_NE(what.find(words), std::string::npos) << what;
   };
-  says(refusal("\"heparin\"", "\"heparine\""), "small.json:4:");
-  says(refusal("\"heparin\"", "\"heparine\""), "one of: script_step_begins");
-  says(refusal("\"procedure_time_s\"", "\"procedure_time\""), "small.json:8:");
-  says(refusal("\"most\": 0", "\"mosst\": 0"), "mosst is not a key");
-  says(refusal(", \"most\": 0 }", " }"), "no bound");
-  says(refusal("\"event\": \"over_pressure\", ", ""), "an event or at a metric");
-  says(refusal("\"name\": \"small\"", "\"name\": \"other\""), "the file's name");
+  says(report_refusal("\"heparin\"", "\"heparine\""), "small.json:4:");
+  says(report_refusal("\"heparin\"", "\"heparine\""), "one of: script_step_begins");
+  says(report_refusal("\"procedure_time_s\"", "\"procedure_time\""), "small.json:8:");
+  says(report_refusal("\"most\": 0", "\"mosst\": 0"), "mosst is not a key");
+  says(report_refusal(", \"most\": 0 }", " }"), "no bound");
+  says(report_refusal("\"event\": \"over_pressure\", ", ""), "an event or at a metric");
+  says(report_refusal("\"name\": \"small\"", "\"name\": \"other\""), "the file's name");
 }
 
 TEST(ScoreList, TheOneThatShipsLoadsAndItsItemsAreTold) {

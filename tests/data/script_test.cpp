@@ -31,7 +31,7 @@ const std::string small_script = R"({
   ]
 })";
 
-std::string refusal(const std::string& from, const std::string& to) {
+std::string script_refusal(const std::string& from, const std::string& to) {
   std::string text = small_script;
   const auto at = text.find(from);
   EXPECT_NE(at, std::string::npos) << from;
@@ -59,47 +59,49 @@ TEST(Script, IsReadInSiUnits) {
 }
 
 TEST(Script, MistakesAreNamedByLine) {
-  expect_words(refusal("\"speed_mm_s\"", "\"speed_mms\""),
+  expect_words(script_refusal("\"speed_mm_s\"", "\"speed_mms\""),
                {"folder/small.json:8:", "speed_mms is not a key of the step"});
-  expect_words(refusal("\"tip_passes\"", "\"tip_pases\""),
+  expect_words(script_refusal("\"tip_passes\"", "\"tip_pases\""),
                {"folder/small.json:9:", "tip_pases is not a key of the condition"});
-  expect_words(refusal("\"tool\": \"wire\"", "\"tool\": \"wyre\""),
+  expect_words(script_refusal("\"tool\": \"wire\"", "\"tool\": \"wyre\""),
                {"small.json:8:", "one of the script's tools: guide, wire"});
-  expect_words(refusal("\"speed_mm_s\": 50,", ""), {"small.json:8:", "speed_mm_s is missing", "\"advance\" needs it"});
-  expect_words(refusal("\"speed_mm_s\": 50", "\"speed_mm_s\": -50"), {"small.json:8:", "is -50", "> 0"});
-  expect_words(refusal("\"do\": \"advance\"", "\"do\": \"push\""), {"small.json:8:", "advance, withdraw, turn"});
-  expect_words(refusal("\"view\": \"spider\"", "\"view\": \"spyder\""), {"small.json:7:", "ostium views"});
-  expect_words(refusal("\"view\": \"spider\"", "\"view\": \"spider\", \"on\": true"),
+  expect_words(script_refusal("\"speed_mm_s\": 50,", ""),
+               {"small.json:8:", "speed_mm_s is missing", "\"advance\" needs it"});
+  expect_words(script_refusal("\"speed_mm_s\": 50", "\"speed_mm_s\": -50"), {"small.json:8:", "is -50", "> 0"});
+  expect_words(script_refusal("\"do\": \"advance\"", "\"do\": \"push\""), {"small.json:8:", "advance, withdraw, turn"});
+  expect_words(script_refusal("\"view\": \"spider\"", "\"view\": \"spyder\""), {"small.json:7:", "ostium views"});
+  expect_words(script_refusal("\"view\": \"spider\"", "\"view\": \"spider\", \"on\": true"),
                {"small.json:7:", "no meaning for \"view\""});
-  expect_words(refusal("\"otherwise\": \"up\"", "\"otherwise\": \"down\""), {"small.json:11:", "the label of a step"});
-  expect_words(refusal("\"tries\": 2", "\"tries\": 0"), {"small.json:11:", "1 to 100"});
-  expect_words(refusal("\"otherwise\": \"up\", \"tries\": 2", "\"last_resort\": \"up\""),
-               {"small.json:11:", "beside otherwise"});
-  EXPECT_EQ(refusal("\"tries\": 2", "\"last_resort\": \"up\""), "accepted") << "once, then there";
-  expect_words(refusal("\"tries\": 2", "\"tries\": 2, \"last_resort\": \"down\""),
+  expect_words(script_refusal("\"otherwise\": \"up\"", "\"otherwise\": \"down\""),
                {"small.json:11:", "the label of a step"});
-  EXPECT_EQ(refusal("\"label\": \"up\"", "\"label\": \"up\", \"detour\": true"), "accepted");
-  expect_words(refusal("\"label\": \"up\"", "\"label\": \"up\", \"detour\": 1"), {"small.json:8:", "true"});
-  expect_words(refusal("\"view\": \"spider\"", "\"view\": \"spider\", \"detour\": true"),
+  expect_words(script_refusal("\"tries\": 2", "\"tries\": 0"), {"small.json:11:", "1 to 100"});
+  expect_words(script_refusal("\"otherwise\": \"up\", \"tries\": 2", "\"last_resort\": \"up\""),
+               {"small.json:11:", "beside otherwise"});
+  EXPECT_EQ(script_refusal("\"tries\": 2", "\"last_resort\": \"up\""), "accepted") << "once, then there";
+  expect_words(script_refusal("\"tries\": 2", "\"tries\": 2, \"last_resort\": \"down\""),
+               {"small.json:11:", "the label of a step"});
+  EXPECT_EQ(script_refusal("\"label\": \"up\"", "\"label\": \"up\", \"detour\": true"), "accepted");
+  expect_words(script_refusal("\"label\": \"up\"", "\"label\": \"up\", \"detour\": 1"), {"small.json:8:", "true"});
+  expect_words(script_refusal("\"view\": \"spider\"", "\"view\": \"spider\", \"detour\": true"),
                {"small.json:7:", "Not the first step"});
-  expect_words(refusal(", \"within_deg\": 20", ""), {"small.json:12:", "within_deg is missing"});
-  expect_words(refusal("\"tip_points\": \"left\", \"within_deg\": 20", "\"tip_faces\": \"RCA\""),
+  expect_words(script_refusal(", \"within_deg\": 20", ""), {"small.json:12:", "within_deg is missing"});
+  expect_words(script_refusal("\"tip_points\": \"left\", \"within_deg\": 20", "\"tip_faces\": \"RCA\""),
                {"small.json:12:", "within_deg is missing"});
-  EXPECT_EQ(refusal("\"tip_points\": \"left\"", "\"tip_faces\": \"RCA\""), "accepted");
+  EXPECT_EQ(script_refusal("\"tip_points\": \"left\"", "\"tip_faces\": \"RCA\""), "accepted");
   const std::string points = "\"tip_points\": \"left\", \"within_deg\": 20";
-  EXPECT_EQ(refusal(points, "\"tip_on\": \"LAD\""), "accepted");
-  EXPECT_EQ(refusal(points, "\"tip_astray\": \"LAD\", \"by_mm\": 5"), "accepted");
-  expect_words(refusal(points, "\"tip_astray\": \"LAD\""), {"small.json:12:", "by_mm is missing"});
-  expect_words(refusal(points, "\"tip_on\": \"LAD\", \"by_mm\": 5"), {"small.json:12:", "by_mm"});
-  expect_words(refusal("{ \"seconds\": 3 }", "{ \"seconds\": 3, \"beats\": 2 }"),
+  EXPECT_EQ(script_refusal(points, "\"tip_on\": \"LAD\""), "accepted");
+  EXPECT_EQ(script_refusal(points, "\"tip_astray\": \"LAD\", \"by_mm\": 5"), "accepted");
+  expect_words(script_refusal(points, "\"tip_astray\": \"LAD\""), {"small.json:12:", "by_mm is missing"});
+  expect_words(script_refusal(points, "\"tip_on\": \"LAD\", \"by_mm\": 5"), {"small.json:12:", "by_mm"});
+  expect_words(script_refusal("{ \"seconds\": 3 }", "{ \"seconds\": 3, \"beats\": 2 }"),
                {"small.json:10:", "both seconds and beats"});
-  expect_words(refusal("{ \"seconds\": 3 }", "{ }"), {"small.json:10:", "says nothing to look at"});
-  expect_words(refusal("\"label\": \"up\"", "\"label\": \"up\", \"timeout_s\": 0"), {"small.json:"});
-  expect_words(refusal("{ \"name\": \"wire\"", "{ \"name\": \"guide\""),
+  expect_words(script_refusal("{ \"seconds\": 3 }", "{ }"), {"small.json:10:", "says nothing to look at"});
+  expect_words(script_refusal("\"label\": \"up\"", "\"label\": \"up\", \"timeout_s\": 0"), {"small.json:"});
+  expect_words(script_refusal("{ \"name\": \"wire\"", "{ \"name\": \"guide\""),
                {"small.json:5:", "another tool of that name"});
-  expect_words(refusal("\"until\": [{ \"tip_passes\": \"arch\" }],", "\"until\": [],"),
+  expect_words(script_refusal("\"until\": [{ \"tip_passes\": \"arch\" }],", "\"until\": [],"),
                {"small.json:9:", "a list of conditions"});
-  expect_words(refusal(", \"of\": \"wire\"", ""), {"small.json:12:", "does not say of which tool"});
+  expect_words(script_refusal(", \"of\": \"wire\"", ""), {"small.json:12:", "does not say of which tool"});
 }
 
 const std::string treatment = R"({

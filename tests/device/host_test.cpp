@@ -14,7 +14,7 @@
 namespace ostium::device {
 namespace {
 
-using Bytes = std::array<std::uint8_t, in_report_bytes>;
+using InReportBytes = std::array<std::uint8_t, in_report_bytes>;
 
 /// The host's side, as a session holds it.
 struct Host {
@@ -27,7 +27,7 @@ struct Host {
   std::array<core::RodInputs, tools> inputs{};
 
   /// Takes one report, makes one step's inputs, returns one report.
-  OutReport step(const Bytes& bytes, ClampLoad load = {}) {
+  OutReport step(const InReportBytes& bytes, ClampLoad load = {}) {
     const auto report = received(bytes, link);
     if (!report) return {};
     const Movements m = movements(calibration, *report, tracking);
@@ -79,7 +79,7 @@ TEST(HostChain, WildReportsStayWithinLimits) {
 TEST(HostChain, ReplaysFromItsRecordedBytes) {
   Host live;
   EmulatedBox box{live.calibration};
-  std::vector<Bytes> recorded;
+  std::vector<InReportBytes> recorded;
   std::vector<double> fed, again;
   box.station[0] = {Tool::guide, 200, 0, 0}, box.station[1] = {Tool::wire, 200, 0, 0};
   int pauses = 0;
@@ -101,7 +101,7 @@ TEST(HostChain, ReplaysFromItsRecordedBytes) {
   EXPECT_GT(live.hands.tool[index_of(Tool::wire)].inserted_mm, 1000);
 
   Host replay;
-  for (const Bytes& bytes : recorded) {
+  for (const InReportBytes& bytes : recorded) {
     replay.step(bytes, {0.5, 1e-5});
     for (const core::RodInputs& inputs : replay.inputs)
       again.push_back(inputs.feed_m_s), again.push_back(inputs.base.turn_rate_W_rad_s.z());

@@ -10,10 +10,10 @@
 namespace ostium::device {
 namespace {
 
-using Bytes = std::vector<std::uint8_t>;
+using ReportBytes = std::vector<std::uint8_t>;
 
 /// A report written by hand, byte by byte, from the protocol's table.
-Bytes by_hand() {
+ReportBytes by_hand() {
   return {0x01, 0x01, 0x11, 0x00,                           // type, version, status: armed, calibrated
           0x78, 0x56, 0x34, 0x12, 0x40, 0x42, 0x0f, 0x00,   // sequence 0x12345678, 1 s
           0x02, 0x00, 0x34, 0x12,                           // overruns 2, last OUT 0x1234
@@ -40,12 +40,12 @@ TEST(Report, ReadsWhatWasWrittenByHand) {
   EXPECT_EQ(r->pedals, 3);
   EXPECT_EQ(r->age_of_last_out_ms, 7);
   const auto again = bytes_of(*r);
-  EXPECT_EQ(Bytes(again.begin(), again.end()), by_hand());
+  EXPECT_EQ(ReportBytes(again.begin(), again.end()), by_hand());
 }
 
 TEST(Report, WhatBreaksARuleIsIgnoredWhole) {
   const auto refused = [](std::size_t at, std::uint8_t value) {
-    Bytes bytes = by_hand();
+    ReportBytes bytes = by_hand();
     bytes[at] = value;
     return !parse_in_report(bytes);
   };
@@ -55,7 +55,7 @@ TEST(Report, WhatBreaksARuleIsIgnoredWhole) {
   EXPECT_TRUE(refused(3, 0x01));
   EXPECT_TRUE(refused(55, 5));
   EXPECT_FALSE(refused(60, 0xff));
-  Bytes shorter = by_hand(), longer = by_hand();
+  ReportBytes shorter = by_hand(), longer = by_hand();
   shorter.pop_back(), longer.push_back(0);
   EXPECT_FALSE(parse_in_report(shorter));
   EXPECT_FALSE(parse_in_report(longer));
@@ -65,8 +65,8 @@ TEST(Report, WhatBreaksARuleIsIgnoredWhole) {
 TEST(Report, OutReportsGoThereAndBack) {
   const OutReport asked{0xabcd, {0, 1, 0x1234, 0xffff}, true, false};
   auto bytes = bytes_of(asked);
-  const Bytes expected = {0x81, 1, 0xcd, 0xab, 0, 0, 1, 0, 0x34, 0x12, 0xff, 0xff, 1, 0, 0, 0};
-  EXPECT_EQ(Bytes(bytes.begin(), bytes.end()), expected);
+  const ReportBytes expected = {0x81, 1, 0xcd, 0xab, 0, 0, 1, 0, 0x34, 0x12, 0xff, 0xff, 1, 0, 0, 0};
+  EXPECT_EQ(ReportBytes(bytes.begin(), bytes.end()), expected);
   const auto read = parse_out_report(bytes);
   ASSERT_TRUE(read);
   EXPECT_EQ(read->clamp, asked.clamp);
@@ -79,7 +79,7 @@ TEST(Report, OutReportsGoThereAndBack) {
 
 TEST(Report, SaysWhichRuleIsBroken) {
   const auto flaw = [](std::size_t at, std::uint8_t value) {
-    Bytes bytes = by_hand();
+    ReportBytes bytes = by_hand();
     bytes[at] = value;
     return flaw_of_in_report(bytes);
   };
@@ -87,18 +87,18 @@ TEST(Report, SaysWhichRuleIsBroken) {
   EXPECT_EQ(flaw(1, 2), Flaw::version);
   EXPECT_EQ(flaw(2, 0x20), Flaw::reserved_bits);
   EXPECT_EQ(flaw(53, 5), Flaw::tool);
-  const Bytes whole = by_hand();
+  const ReportBytes whole = by_hand();
   EXPECT_EQ(flaw_of_in_report(std::span(whole).first(63)), Flaw::length);
   EXPECT_EQ(flaw_of_in_report({}), Flaw::length);
   EXPECT_EQ(flaw_of_out_report(by_hand()), Flaw::type);
 }
 
 /// A second, independent implementation of the rules, from the protocol's table.
-bool keeps_rules_in(const Bytes& b) {
+bool keeps_rules_in(const ReportBytes& b) {
   return b.size() == 64 && b[0] == 1 && b[1] == 1 && b[2] < 32 && b[3] == 0 && b[52] < 5 && b[53] < 5 && b[54] < 5 &&
          b[55] < 5;
 }
-bool keeps_rules_out(const Bytes& b) {
+bool keeps_rules_out(const ReportBytes& b) {
   return b.size() == 16 && b[0] == 0x81 && b[1] == 1 && b[12] < 4 && b[13] == 0 && b[14] == 0 && b[15] == 0;
 }
 
@@ -108,10 +108,10 @@ TEST(Report, RandomBytesKeepTheRules) {
   const char* wanted = std::getenv("OSTIUM_FUZZ_REPORTS");
   const long reports = wanted ? std::atol(wanted) : 1'000'000;
   std::mt19937_64 generator(1);
-  const Bytes in = by_hand();
+  const ReportBytes in = by_hand();
   const auto out = bytes_of(OutReport{7, {1, 2, 3, 4}, true, true});
   long taken[2] = {}, refused = 0;
-  Bytes bytes;
+  ReportBytes bytes;
   for (long i = 0; i < reports; ++i) {
     const auto dice = generator();
     if (dice & 1)

@@ -14,7 +14,7 @@
 namespace ostium::device {
 namespace {
 
-constexpr std::size_t wire = index_of(Tool::wire);
+constexpr std::size_t wire_at = index_of(Tool::wire);
 
 TEST(TrackingBox, FollowsAHandInStrokesInAndOut) {
   Calibration c;
@@ -26,23 +26,23 @@ TEST(TrackingBox, FollowsAHandInStrokesInAndOut) {
   int full = 0, empty = 0;
   double deepest_m = 0, most_in_box_m = 0, paused_fed_m = 0;
   Pause before = Pause::none;
-  while (host.now().box_s < 60 && host.now().tool[wire].arrivals < 2) {
-    const double fed_m = host.now().tool[wire].fed_m;
+  while (host.now().box_s < 60 && host.now().tool[wire_at].arrivals < 2) {
+    const double fed_m = host.now().tool[wire_at].fed_m;
     host.poll(0, {});
     const BoxSnapshot& now = host.now();
     full += now.pause == Pause::travel_full && before != now.pause;
     empty += now.pause == Pause::travel_empty && before != now.pause;
-    if (now.pause != Pause::none && before == now.pause) paused_fed_m += std::abs(now.tool[wire].fed_m - fed_m);
+    if (now.pause != Pause::none && before == now.pause) paused_fed_m += std::abs(now.tool[wire_at].fed_m - fed_m);
     before = now.pause;
-    deepest_m = std::max(deepest_m, now.tool[wire].inserted_m);
-    most_in_box_m = std::max(most_in_box_m, now.tool[wire].in_box_m);
+    deepest_m = std::max(deepest_m, now.tool[wire_at].inserted_m);
+    most_in_box_m = std::max(most_in_box_m, now.tool[wire_at].in_box_m);
   }
   EXPECT_EQ(full, 3);
   EXPECT_EQ(empty, 3);
   EXPECT_NEAR(deepest_m, 3 * 0.195 + 0.29, 1e-3);
   EXPECT_LE(most_in_box_m, 0.3);
   EXPECT_EQ(paused_fed_m, 0);
-  EXPECT_EQ(host.now().tool[wire].arrivals, 2u) << "out, and a new one in";
+  EXPECT_EQ(host.now().tool[wire_at].arrivals, 2u) << "out, and a new one in";
   EXPECT_EQ(host.now().lost, 0u);
 }
 
@@ -57,7 +57,7 @@ TEST(TrackingBox, PulledAndPutInAgainItGoesOnWhereItWas) {
   polls(10);
   box.station[0].advanced_mm = 50;
   polls(10);
-  EXPECT_NEAR(host.now().tool[wire].fed_m, 0.05, 1e-8);
+  EXPECT_NEAR(host.now().tool[wire_at].fed_m, 0.05, 1e-8);
   port.plugged = false;
   polls(10);
   EXPECT_EQ(host.now().link, Link::unplugged);
@@ -66,15 +66,15 @@ TEST(TrackingBox, PulledAndPutInAgainItGoesOnWhereItWas) {
   polls(10);
   EXPECT_EQ(host.now().link, Link::running);
   EXPECT_EQ(host.now().openings, 2u);
-  EXPECT_NEAR(host.now().tool[wire].fed_m, 0.05, 1e-8);
+  EXPECT_NEAR(host.now().tool[wire_at].fed_m, 0.05, 1e-8);
   box.station[0].advanced_mm = 100;
   polls(10);
-  EXPECT_NEAR(host.now().tool[wire].fed_m, 0.06, 1e-8);
+  EXPECT_NEAR(host.now().tool[wire_at].fed_m, 0.06, 1e-8);
   BoxRequest zeroed;
-  zeroed.zeroings[wire] = 1;
+  zeroed.zeroings[wire_at] = 1;
   host.poll(0, zeroed);
   host.poll(0, zeroed);
-  EXPECT_EQ(host.now().tool[wire].inserted_m, 0);
+  EXPECT_EQ(host.now().tool[wire_at].inserted_m, 0);
 }
 
 TEST(TrackingBox, ClosesAClampAndKnowsItsRoundTrip) {
@@ -86,7 +86,7 @@ TEST(TrackingBox, ClosesAClampAndKnowsItsRoundTrip) {
     RoundTrips trips;
     BoxRequest request;
     request.arm = true;
-    request.load[wire].push_N = 2;
+    request.load[wire_at].push_N = 2;
     for (int i = 0; i < 2000; ++i) {
       request.step_s += 1e-3;
       host.poll(0, request);
@@ -94,7 +94,7 @@ TEST(TrackingBox, ClosesAClampAndKnowsItsRoundTrip) {
     }
     EXPECT_NEAR(box.clamp()[2] / 65535.0 * 10, 2, 0.01);
     EXPECT_NEAR(trips.percentile_s(0.5), 1e-3 * delay, 0.03e-3 * delay);
-    request.load[wire].push_N = 2;  // from here on the simulation stands still, and so does `step_s`
+    request.load[wire_at].push_N = 2;  // from here on the simulation stands still, and so does `step_s`
     for (int i = 0; i < 60; ++i) host.poll(0, request);
     EXPECT_EQ(box.clamp()[2], 0) << "loads of a step that is over open it";
   }

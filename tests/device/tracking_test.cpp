@@ -10,13 +10,13 @@ namespace ostium::device {
 namespace {
 
 /// A box with a wire under its first station, and the host's tracking.
-struct Rig {
+struct TrackedWire {
   Calibration calibration;
   EmulatedBox box{calibration};
   TrackingState state;
   double advanced_mm = 0, turned_deg = 0;
 
-  Rig() { box.station[0] = {Tool::wire, 200, 0, 0}; }
+  TrackedWire() { box.station[0] = {Tool::wire, 200, 0, 0}; }
   Movements read() { return movements(calibration, parse_in_report(box.sample()).value(), state); }
   Movements follow() {
     const Movements m = read();
@@ -27,7 +27,7 @@ struct Rig {
 };
 
 TEST(Tracking, FollowsAHandWithinACount) {
-  Rig rig;
+  TrackedWire rig;
   std::mt19937 generator(2);
   std::uniform_real_distribution<double> hand(-0.5, 0.6);
   rig.follow();
@@ -44,7 +44,7 @@ TEST(Tracking, FollowsAHandWithinACount) {
 /// Across the largest and the smallest count, in both directions.
 TEST(Tracking, CountsWrapAround) {
   for (const double way : {1.0, -1.0}) {
-    Rig rig;
+    TrackedWire rig;
     auto& wire = rig.box.station[0];
     const double edge_mm = way * 2147483640.0 * rig.calibration.track[0].mm_per_count;
     wire.advanced_mm = edge_mm;
@@ -58,7 +58,7 @@ TEST(Tracking, CountsWrapAround) {
 }
 
 TEST(Tracking, LostReportsLoseNoMovement) {
-  Rig rig;
+  TrackedWire rig;
   rig.follow();
   for (int i = 0; i < 7; ++i) rig.box.sample();
   rig.box.station[0].advanced_mm = 3;
@@ -69,7 +69,7 @@ TEST(Tracking, LostReportsLoseNoMovement) {
 }
 
 TEST(Tracking, ARepeatedReportMovesNothing) {
-  Rig rig;
+  TrackedWire rig;
   rig.follow();
   rig.box.station[0].advanced_mm = 2;
   const InReport report = parse_in_report(rig.box.sample()).value();
@@ -82,7 +82,7 @@ TEST(Tracking, ARepeatedReportMovesNothing) {
 
 /// The clock wraps after 71.6 min, the sequence after 50 days.
 TEST(Tracking, ClockAndSequenceWrapAround) {
-  Rig rig;
+  TrackedWire rig;
   InReport r = parse_in_report(rig.box.sample()).value();
   r.sequence = 0xffffffff, r.time_us = 0xffffff00;
   movements(rig.calibration, r, rig.state);
@@ -94,7 +94,7 @@ TEST(Tracking, ClockAndSequenceWrapAround) {
 
 /// Movement while a tool is not seen is unknown, so none is reported.
 TEST(Tracking, QualityLosesAndFindsWithHysteresis) {
-  Rig rig;
+  TrackedWire rig;
   rig.follow();
   auto& wire = rig.box.station[0];
   const auto seen_at = [&](int quality) {
@@ -113,7 +113,7 @@ TEST(Tracking, QualityLosesAndFindsWithHysteresis) {
 }
 
 TEST(Tracking, ARestartedBoxDoesNotJump) {
-  Rig rig;
+  TrackedWire rig;
   rig.follow();
   for (int i = 0; i < 100; ++i) rig.follow();
   rig.box = EmulatedBox(rig.calibration);
@@ -124,7 +124,7 @@ TEST(Tracking, ARestartedBoxDoesNotJump) {
 
 /// Two stations see one wire: it moves once, and switching stations causes no jump.
 TEST(Tracking, StationsHandAToolOver) {
-  Rig rig;
+  TrackedWire rig;
   auto& a = rig.box.station[0];
   auto& b = rig.box.station[1];
   b = {Tool::wire, 100, 77, 0};

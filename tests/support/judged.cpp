@@ -90,7 +90,7 @@ Judged judge(const std::string& kind, unsigned seed, int threads) {
     out.said += " (" + x.signature.frame + ")";
     out.right = !truth.in_library && x.signature.frame == truth.frame;
   } else {
-    out.right = truth.in_library && truth.effects.empty();
+    out.right = x.verdict == data::Verdict::explained && truth.in_library && truth.effects.empty();
   }
   if (out.right && x.verdict == data::Verdict::effect)
     for (const auto& [name, value] : truth.truth)

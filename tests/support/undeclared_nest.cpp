@@ -16,10 +16,7 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 
 using units::mm;
-constexpr double segment_m = 0.5e-3, points_m = 5e-3;
 constexpr int experiments = 12;
-
-double rounded(double length) { return segment_m * std::round(length / segment_m); }
 
 nested_chains::Tube chain_of(const data::MeasuredInstrument& tube, double stiffer, double inserted_m, double side) {
   nested_chains::Tube out;
@@ -45,7 +42,7 @@ Undeclared undeclared_play(unsigned seed) {
     auto& s = set.instruments[i].sections;
     const double nominal = dice.uniform(0.8, 1.25);
     for (core::Section& c : s) c.EI1_N_m2 *= nominal, c.EI2_N_m2 *= nominal, c.GJ_N_m2 *= nominal;
-    s[0].to_tip_m = s[1].from_tip_m = rounded(dice.uniform(40, 60) * mm);
+    s[0].to_tip_m = s[1].from_tip_m = rounded_m(dice.uniform(40, 60) * mm);
     s[0].rest_curvature_per_m = {0, i == 0 ? dice.uniform(8, 14) : dice.uniform(2, 10), 0};
     stiffer[i] = dice.uniform(0.75, 1.3);
   }
@@ -62,7 +59,7 @@ Undeclared undeclared_play(unsigned seed) {
     e.id = "n" + std::to_string(i);
     e.place = "experiments[" + std::to_string(i) + "]";
     e.points_m.clear();
-    const double a = rounded(dice.uniform(55, 90) * mm), b = a + rounded(dice.uniform(12, 38) * mm);
+    const double a = rounded_m(dice.uniform(55, 90) * mm), b = a + rounded_m(dice.uniform(12, 38) * mm);
     const bool opposed = i % 2 == 1;
     e.set = {{a, 0, 0}, {b, opposed ? units::pi : 0, 0}};
     if (i % 3 == 2) e.tip_force_N = Vector3d(0, 0, dice.either(0.05, 0.15));

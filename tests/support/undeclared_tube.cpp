@@ -18,9 +18,7 @@ using Eigen::Vector3d;
 using units::mm, units::Nmm2;
 constexpr double plastic_kg_m3 = 1200;
 constexpr double coil_kg_m3 = 12000;  // platinum wound around nitinol, including the air between
-constexpr double base_x_m = 12e-3, segment_m = 0.5e-3, points_m = 5e-3, push_noise = 0.03;
-
-double rounded(double length) { return segment_m * std::round(length / segment_m); }
+constexpr double base_x_m = 12e-3, push_noise = 0.03;
 
 /// A wire so soft and heavy that friction moves it, or a catheter stiff enough to indent the wall.
 pushed_chain::Wire drawn(Dice& dice, bool catheter) {
@@ -28,7 +26,7 @@ pushed_chain::Wire drawn(Dice& dice, bool catheter) {
   const double shaft = (catheter ? dice.log_uniform(150, 500) : dice.log_uniform(3, 10)) * Nmm2;
   const double soft = catheter ? dice.uniform(0.3, 0.7) : dice.uniform(0.12, 0.35);
   const double weight = (catheter ? 0.6 * plastic_kg_m3 : coil_kg_m3) * units::pi * radius * radius;
-  const double tip = rounded(dice.uniform(30, 60) * mm), bend = dice.uniform(0, 9);
+  const double tip = rounded_m(dice.uniform(30, 60) * mm), bend = dice.uniform(0, 9);
   return {{{tip, soft * shaft, weight, bend}, {1, shaft, weight, 0}}, radius};
 }
 
@@ -64,7 +62,7 @@ Undeclared undeclared_in_tube(const std::string& kind, unsigned seed) {
   const bool soft_wall = effect == "wall_compliance", rubs = effect == "wall_friction";
   const bool catheter = soft_wall || (!rubs && dice.uniform(0, 1) < 0.5);
   pushed_chain::Wire wire = drawn(dice, catheter);
-  const pushed_chain::Tube tube{rounded(dice.uniform(40, 65) * mm), dice.uniform(35, 55) * mm,
+  const pushed_chain::Tube tube{rounded_m(dice.uniform(40, 65) * mm), dice.uniform(35, 55) * mm,
                                 catheter ? dice.uniform(1.0, 1.6) : dice.uniform(1.4, 2.2),
                                 (catheter ? dice.uniform(2.5, 3.5) : dice.uniform(5, 8)) * mm};
   const double friction = dice.uniform(0.03, 0.08);
@@ -92,7 +90,7 @@ Undeclared undeclared_in_tube(const std::string& kind, unsigned seed) {
   const double deepest = tube.lead_m - base_x_m + tube.bend_radius_m * tube.angle_rad + dice.uniform(0, 25) * mm;
   std::vector<double> inserted;
   for (const double part : {0.6, 0.82, 1.0, 0.86, 0.7})
-    inserted.push_back(rounded(part * deepest + dice.uniform(-4, 4) * mm));
+    inserted.push_back(rounded_m(part * deepest + dice.uniform(-4, 4) * mm));
   const auto rests = pushed_chain::push(tube, wire, setting, inserted);
   double hardest = 0;
   for (const pushed_chain::Rest& r : rests) hardest = std::max(hardest, std::fabs(r.push_N));

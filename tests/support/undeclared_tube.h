@@ -1,9 +1,15 @@
 #pragma once
 /// Sets in a tube, made by the pushed chain.
+#include <cmath>
+
 #include "tests/support/pushed_chain.h"
 #include "tests/support/undeclared.h"
 
 namespace ostium::synthetic {
+
+/// Of the chains, and between measured points.
+inline constexpr double segment_m = 0.5e-3, points_m = 5e-3;
+inline double rounded_m(double length_m) { return segment_m * std::round(length_m / segment_m); }
 
 /// `kind`: one of undeclared_kinds() with the prefix `in_tube`. Throws std::runtime_error if the chain finds no
 /// equilibrium.

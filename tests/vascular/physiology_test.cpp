@@ -91,6 +91,28 @@ TEST(Heart, TheLineReadsWhatItsEndHoleMeets) {
   EXPECT_EQ(read(), Trace::ventricle);
 }
 
+TEST(Heart, AnInjectionIsNoBeatOfTheTrace) {
+  Body body;
+  body.inputs.contrast.tip = {TipPlace::coronary, 2, 1};
+  body.run(6);
+  const double mean = body.state.line.mean_Pa, pulse = body.state.line.pulse_Pa;
+  // Short ones, that begin and end anywhere in a beat: what the line reads while it fills again is no diastole.
+  for (int i = 0; i < 12; ++i) {
+    body.inputs.contrast.injection_m3_s = 3e-6;
+    body.run(0.3);
+    body.inputs.contrast.injection_m3_s = 0;
+    for (int n = 0; n < 20; ++n) {
+      body.run(0.1);
+      const Trace trace = body.state.line.trace;
+      EXPECT_TRUE(trace == Trace::normal || trace == Trace::absent) << trace_name(trace);
+      EXPECT_NEAR(body.state.line.mean_Pa, mean, 0.05 * mean);
+      EXPECT_NEAR(body.state.line.pulse_Pa, pulse, 0.15 * pulse);
+    }
+    EXPECT_EQ(body.state.line.trace, Trace::normal);
+    body.run(0.07);
+  }
+}
+
 TEST(Flow, WhatGoesInComesOutAtEveryCell) {
   Body body;
   body.run(10);

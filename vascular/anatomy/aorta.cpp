@@ -15,7 +15,7 @@ std::vector<CoursePoint> course(const std::vector<TableRow>& rows) {
 
 CoursePoint point(const Eigen::Vector3d& p, double diameter_mm = 0) { return {p, diameter_mm / 2e3}; }
 
-Eigen::Vector3d mm(double x, double y, double z) { return Eigen::Vector3d(x, y, z) * 1e-3; }
+Eigen::Vector3d at_mm(double x, double y, double z) { return Eigen::Vector3d(x, y, z) * 1e-3; }
 
 /// The three sinuses with the closed leaflets between them: a wire lands on their floor.
 void add_sinuses(AnatomyBuilder& builder, const Root& root, double sinus_mm) {
@@ -47,8 +47,8 @@ void add_arch_branches(AnatomyBuilder& builder, bool radial, Landmarks& marks) {
                                                      {-247, -412, -22, 2.6}})
       right.push_back(row);
     builder.add("right arm", 0, course(right), 0.8);
-    builder.name_trunk("right subclavian", mm(-112, 99, -38));
-    marks.p_access = mm(-243, -385, -25);
+    builder.name_trunk("right subclavian", at_mm(-112, 99, -38));
+    marks.p_access = at_mm(-243, -385, -25);
   }
   const int trunk = builder.tube("right subclavian");
   builder.add("right carotid", trunk, course({{-29, 104, -6, 7.4}, {-33, 122, -4, 7}, {-36, 160, -4, 6.4}}), 0.8);
@@ -81,7 +81,7 @@ void add_abdomen(AnatomyBuilder& builder, const AnatomyParameters& p, Landmarks&
               course({{-31, -316, -54, 6}, {-40, -330, -68, 5.6}, {-46, -352, -82, 5}}), 0.8);
   builder.add("left internal iliac", builder.tube("left iliac"),
               course({{29, -317, -55, 6}, {38, -330, -68, 5.6}, {44, -352, -82, 5}}), 0.8);
-  marks.p_access = mm(-81, -446, 12);
+  marks.p_access = at_mm(-81, -446, 12);
 }
 
 }  // namespace
@@ -90,9 +90,9 @@ void add_aorta(AnatomyBuilder& builder, const Root& root, const AnatomyParameter
   const Eigen::Vector3d from = root.p_annulus, a = root.axis;
   const double k = p.sinus_mm / 29.8;
   std::vector<CoursePoint> aorta = {point(from + 13e-3 * k * a, 23.5 * k), point(from + 23e-3 * k * a, 27 * k),
-                                    point(mm(-21.5, 5.5, 13.5)), point(mm(-25, 14, 15.5), p.ascending_mm)};
+                                    point(at_mm(-21.5, 5.5, 13.5)), point(at_mm(-25, 14, 15.5), p.ascending_mm)};
   // The arch: half an ellipse of the published width and height, in a plane from right anterior to left posterior.
-  const Eigen::Vector3d first = mm(-25, 25, 14), across = mm(0.51, 0, -0.86).normalized();
+  const Eigen::Vector3d first = at_mm(-25, 25, 14), across = at_mm(0.51, 0, -0.86).normalized();
   const double half_width = p.arch_width_mm / 2e3, height = p.arch_height_mm / 1e3;
   for (int i = 0; i <= 6; ++i) {
     const double u = units::pi * i / 6;
@@ -123,7 +123,7 @@ void add_aorta(AnatomyBuilder& builder, const Root& root, const AnatomyParameter
   }
   for (const CoursePoint& c : course(down)) aorta.push_back(c);
   builder.add(p.access == Access::femoral ? "right iliac" : "aorta", -1, aorta);
-  if (p.access == Access::femoral) builder.name_trunk("aorta", mm(-5, -283, -36));
+  if (p.access == Access::femoral) builder.name_trunk("aorta", at_mm(-5, -283, -36));
   add_sinuses(builder, root, p.sinus_mm);
   add_arch_branches(builder, p.access == Access::radial, marks);
   if (p.access == Access::femoral) add_abdomen(builder, p, marks);

@@ -80,6 +80,21 @@ double concentration(const ContrastState& s, const FlowModel& flow, int cell, do
   return sum / std::max(area_m2 * flow.tree.cells[cell].length_m, least_m3);
 }
 
+void fill_tree(const ContrastModel& model, const FlowModel& flow, int side, double iodine_kg_m3,
+               std::span<const double> radius_m, std::span<const double> occupied_m, ContrastState& s) {
+  const int trunk = model.coronary_branch[static_cast<std::size_t>(side)];
+  if (trunk < 0) return;
+  const std::size_t n = flow.tree.cells.size();
+  const int first = flow.tree.branches[static_cast<std::size_t>(trunk)].first;
+  for (std::size_t c = 0; c < n; ++c) {
+    if (!flow.tree.is_downstream(static_cast<int>(c), first)) continue;
+    const double area_m2 = free_area_m2(radius_m[c], occupied_m.empty() ? 0 : occupied_m[c]);
+    for (std::size_t k = 0; k < layers; ++k)
+      s.sheath_kg[k * n + c] =
+          model.share[k] * iodine_kg_m3 * std::max(area_m2 * flow.tree.cells[c].length_m, least_m3);
+  }
+}
+
 double aorta_concentration(const ContrastModel& model, const ContrastState& s, int cell) {
   return s.aorta_kg[cell] / (pi * model.aorta_radius_m[cell] * model.aorta_radius_m[cell] * model.aorta_length_m[cell]);
 }

@@ -113,6 +113,10 @@ ContrastReport step(const ContrastModel& model, const BloodNow& now, const Contr
 /// Mean over the cross-section of a coronary cell, kg/m3; `area_m2`: free for blood.
 double concentration(const ContrastState& state, const FlowModel& flow, int cell, double area_m2);
 double aorta_concentration(const ContrastModel& model, const ContrastState& state, int cell);
+/// A coronary tree, `side` 0: left, 1: right, as it is in a picture full of contrast; nothing elsewhere changes.
+/// `radius_m` and `occupied_m` (or empty): (#cells), as in FlowInputs.
+void fill_tree(const ContrastModel& model, const FlowModel& flow, int side, double iodine_kg_m3,
+               std::span<const double> radius_m, std::span<const double> occupied_m, ContrastState& state);
 /// All iodine: in line, vessels and everywhere it went; equals injected_kg.
 double accounted_kg(const ContrastState& state);
 

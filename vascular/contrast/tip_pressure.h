@@ -27,11 +27,11 @@ struct TipPressureInputs {
 
 struct TipPressureState {
   double reading_Pa = 0;
-  double low_Pa = 1e6, high_Pa = 0, sum_Pa = 0;  ///< of the current beat
+  double low_Pa = 1e6, high_Pa = 0, sum_Pa = 0;  ///< of the current beat; low_Pa < 0: it has been blocked
   int count = 0;                                 ///< number of readings in it
   double aorta_low_Pa = 1e6, aorta_high_Pa = 0;
   Trace trace = Trace::normal;       ///< of the last complete beat
-  double mean_Pa = 0, pulse_Pa = 0;  ///< likewise
+  double mean_Pa = 0, pulse_Pa = 0;  ///< of the last complete beat with a trace
 };
 constexpr auto fields(const TipPressureState*) {
   using S = TipPressureState;

@@ -140,7 +140,7 @@ int run_script(const RunArguments& a) {
     fmt::print(stderr, "ostium run: the recording ends early: {}\n", report.problem);
     return 1;
   }
-  return report.outcome == "success" ? 0 : 1;
+  return report.outcome == "success" || report.outcome == "ended" ? 0 : 1;
 }
 
 Command run_command() {

@@ -46,10 +46,11 @@ data::Script free_hands(data::Script script) {
     return moved;
   });
   data::ScriptStep wait;
-  wait.label = "hands at the box";
+  wait.label = "moved by hand";
   wait.timeout_s = 1e9;
   wait.until.emplace_back().value = 1e9;  // seconds
   script.steps.push_back(wait);
+  script.by_hand = true;
   return script;
 }
 

@@ -282,6 +282,8 @@ std::string words_for(Outcome outcome) {
       return "failure";
     case Outcome::aborted:
       return "aborted";
+    case Outcome::ended:
+      return "ended";
   }
   return "";
 }
@@ -289,7 +291,7 @@ std::string words_for(Outcome outcome) {
 std::string reason(const ScriptPlan& plan, const OperatorState& state) {
   const auto outcome = state.outcome;
   const auto s = static_cast<std::size_t>(state.step);
-  if (outcome == Outcome::success || s >= plan.script.steps.size()) return "";
+  if (outcome == Outcome::success || outcome == Outcome::ended || s >= plan.script.steps.size()) return "";
   const data::ScriptStep& step = plan.script.steps[s];
   const std::string where = fmt::format("step {} of {}, {}", s + 1, plan.script.steps.size(), step.words());
   if (outcome == Outcome::timed_out) return fmt::format("{}: timed out after {:g} s", where, step.timeout_s);

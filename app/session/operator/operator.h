@@ -20,7 +20,8 @@ struct ScriptPlan {
 /// Throws LoadError with the script's line for a place that the vessel does not have.
 ScriptPlan make_plan(const data::Script& script, const SessionModel& model, std::uint64_t seed);
 
-enum class Outcome { running, success, failure, timed_out, aborted };
+/// `ended`: by the person who moved the instruments, whose run has no step that must be done.
+enum class Outcome { running, success, failure, timed_out, aborted, ended };
 std::string words_for(Outcome outcome);
 
 struct OperatorState {

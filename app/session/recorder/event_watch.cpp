@@ -107,7 +107,11 @@ void EventWatch::look_at_injuries(const SessionState& state, const EventSink& sa
   const auto& injuries = state.treatment.injury.injuries;
   for (std::size_t i = 0; i < injuries.size(); ++i) {
     const double value = injuries[i].cell < 0 ? 0 : 10 * static_cast<int>(injuries[i].kind) + injuries[i].grade;
-    if (value > injuries_[i]) say(data::EventCode::injury, -1, value);
+    if (value > injuries_[i]) {
+      say(data::EventCode::injury, -1, value);
+      if (injuries[i].kind == vascular::InjuryKind::perforation)
+        say(data::EventCode::perforation, -1, injuries[i].grade);
+    }
     injuries_[i] = value;
   }
 }
@@ -127,9 +131,12 @@ void EventWatch::look_at_tools(const SessionModel& model, const SessionReport& r
     before.in_body = tool.in_body;
     before.wall_force_N += (1 - std::exp(-2 * units::pi * data::wall_force_cut_off_Hz * model.step_s())) *
                            (tool.wall_force_N - before.wall_force_N);
-    const bool pressed = before.wall_force_N > (before.pressed ? 0.8 : 1) * data::wall_force_limit_N;
-    if (pressed && !before.pressed) say(data::EventCode::wall_force_high, t, before.wall_force_N);
-    before.pressed = pressed;
+    if (before.wall_force_N > data::wall_force_limit_N && !before.pressed) {
+      say(data::EventCode::wall_force_high, t, before.wall_force_N);
+      before.pressed = true;
+    }
+    before.eased_s = before.wall_force_N > 0.8 * data::wall_force_limit_N ? 0 : before.eased_s + model.step_s();
+    if (before.eased_s > data::wall_force_over_s) before.pressed = false;
     if (!handling_looked) continue;
     const int sphere = handling_.scene().tools[static_cast<std::size_t>(t)].sphere;
     const int branch = tool.in_body ? model.vessel->way->branch(sphere) : -1;

@@ -22,6 +22,7 @@ class EventWatch {
     bool in_body = false, pressed = false;
     SettledBranch branch;
     double wall_force_N = 0;  ///< low-pass filtered as for the metrics
+    double eased_s = 0;       ///< how long it has been well below the limit
   };
   void look_at_tools(const SessionModel& model, const SessionReport& report, std::uint64_t now, bool handling_looked,
                      const EventSink& say);

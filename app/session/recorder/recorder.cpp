@@ -51,7 +51,7 @@ Recorder::Recorder(const RecorderOptions& options, const SessionModel& model, co
     slot.block.inputs.resize(data::steps_per_block * input_width_);
     slot.block.hashes.resize(data::steps_per_block);
     slot.block.signals.resize(data::steps_per_block / data::steps_per_signal * signal_width_);
-    slot.block.states.resize(state_width_);  // one: a block is half as long as states are apart
+    slot.block.states.resize(state_width_);  // one: a block is shorter than states are apart
     slot.block.hands.resize(operator_width_);
     slot.events.reserve(events_a_block);
   }

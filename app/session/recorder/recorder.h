@@ -1,7 +1,7 @@
 #pragma once
 /// Records a run without slowing it down, and measures wall penetration once a second.
 ///
-/// The simulation thread fills preallocated blocks and hands them over every half second without a lock; another thread
+/// The simulation thread fills preallocated blocks and hands them over five times a second without a lock; another thread
 /// owns the file. If that thread falls behind by all blocks, the simulation waits and `waits` counts it: nothing of a
 /// run is lost.
 #include <atomic>
@@ -54,7 +54,7 @@ class Recorder {
     std::size_t steps = 0, signal_rows = 0, state_rows = 0;
     std::vector<SessionEvent> events;
   };
-  static constexpr std::size_t slots = 4;  ///< 2 s
+  static constexpr std::size_t slots = 10;  ///< 2 s
 
   Slot& current() { return slots_[filled_.load(std::memory_order_relaxed) % slots]; }
   void put_state(const SessionState& state, const OperatorState& hands);

@@ -12,18 +12,18 @@ namespace ostium::app {
 
 namespace {
 
-constexpr int places = 8;
-
-struct Exposed {
-  SessionState state;
-  SessionInputs inputs;
-  Monitor monitor;
-  XrayUse xrays;
-};
+constexpr int queued_frames = 8;
 
 }  // namespace
 
 struct Filming::Parts {
+  struct Exposed {
+    SessionState state;
+    SessionInputs inputs;
+    Monitor monitor;
+    XrayUse xrays;
+  };
+
   Parts(const SessionModel& m, const std::string& mp4, const FilmOptions& o, Driver* i)
       : model(m), file(mp4), pixels(o.pixels), film(m, o), rate(o.frames_per_s), inner(i) {}
 
@@ -34,9 +34,9 @@ struct Filming::Parts {
   double rate;
   Driver* inner;
   Monitor monitor;  // of the thread that steps
-  std::array<Exposed, places> queue;
+  std::array<Exposed, queued_frames> queue;
   core::TripleBuffer<Filmed> pictures{{}};
-  std::counting_semaphore<places> free{places}, taken{0};
+  std::counting_semaphore<queued_frames> free{queued_frames}, taken{0};
   int next = 0;
   std::atomic<bool> over{false}, watched{false};
   std::string problem;
@@ -55,7 +55,7 @@ struct Filming::Parts {
   void develop() {
     core::give_way_to_steps();
     data::VideoWriter video(file, pixels, film.height(), rate);  // here, so that the encoder gives way, too
-    for (int at = 0;; at = (at + 1) % places) {
+    for (int at = 0;; at = (at + 1) % queued_frames) {
       taken.acquire();
       if (over.load(std::memory_order_acquire) && at == next) break;
       Exposed& e = queue[static_cast<std::size_t>(at)];
@@ -82,6 +82,8 @@ Filming::Filming(const SessionModel& model, const std::string& mp4, const FilmOp
 
 Filming::~Filming() { finish(); }
 
+bool Filming::marks() { return parts_->inner && parts_->inner->marks(); }
+
 Driven Filming::drive(const ScriptedRun& run, SessionInputs& inputs) {
   Parts& p = *parts_;
   const Driven driven = p.inner ? p.inner->drive(run, inputs) : Driven::on;
@@ -89,9 +91,9 @@ Driven Filming::drive(const ScriptedRun& run, SessionInputs& inputs) {
   p.monitor.listen(run.model, run.state, inputs);
   if (is_frame(run.state.rods.step, p.rate, run.model.step_s())) {
     p.free.acquire();
-    Exposed& e = p.queue[static_cast<std::size_t>(p.next)];
+    Parts::Exposed& e = p.queue[static_cast<std::size_t>(p.next)];
     e.state = run.state, e.inputs = inputs, e.monitor = p.monitor, e.xrays = run.xrays;
-    p.next = (p.next + 1) % places;
+    p.next = (p.next + 1) % queued_frames;
     p.taken.release();
   }
   return driven;
@@ -105,8 +107,8 @@ core::TripleBuffer<Filmed>& Filming::pictures() {
 std::string Filming::finish() {
   Parts& p = *parts_;
   if (p.thread.joinable()) {
-    // All places are free again once the last picture is taken.
-    for (int i = 0; i < places; ++i) p.free.acquire();
+    // All places in the queue are free again once the last picture is taken.
+    for (int i = 0; i < queued_frames; ++i) p.free.acquire();
     p.over.store(true, std::memory_order_release);
     p.taken.release();
     p.thread.join();

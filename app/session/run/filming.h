@@ -24,6 +24,7 @@ class Filming : public Driver {
   ~Filming() override;  ///< finishes
 
   Driven drive(const ScriptedRun& run, SessionInputs& inputs) override;
+  bool marks() override;
 
   /// The newest picture, for one other thread, from this call on: what is filmed need not be taken twice. They go on
   /// where the video has ended early.

@@ -32,9 +32,10 @@ bool ScriptedRun::tick() {
   outcome = decide(plan, model, state, report, hands, inputs, events);
   if (outcome != Outcome::running) return false;
   const Driven driven = driver_ ? driver_->drive(*this, inputs) : Driven::on;
+  if (driver_ && driver_->marks()) events.push_back({OperatorEvent::Kind::marked, hands.step, -1});
   stood = driven == Driven::after_a_stand;
   if (driven == Driven::over) {
-    outcome = Outcome::aborted;
+    outcome = plan.script.by_hand ? Outcome::ended : Outcome::aborted;
     return false;
   }
   if (stuck_ >= 0) inputs.tools[stuck_] = {};

@@ -16,6 +16,8 @@ class Driver {
   /// Called before each step. `inputs` holds what the script asks for; the driver changes it to what is done. Blocks
   /// while the simulation is to stand still.
   virtual Driven drive(const ScriptedRun& run, SessionInputs& inputs) = 0;
+  /// Whether this moment has been marked since the last call.
+  virtual bool marks() { return false; }
 };
 
 class ScriptedRun {

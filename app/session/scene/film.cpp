@@ -5,12 +5,25 @@
 
 namespace ostium::app {
 
+namespace {
+
+/// The blood as it is, or with a tree full of contrast, whatever was injected.
+vascular::PhysiologyState blood_to_show(const SessionModel& model, const SessionState& state, Fill fill) {
+  vascular::PhysiologyState blood = state.blood;
+  if (fill != Fill::none)
+    fill_tree(model.physiology.contrast, model.physiology.flow, fill == Fill::right, undiluted_kg_m3, blood.radius_m,
+              occupied_m(model, state), blood.contrast);
+  return blood;
+}
+
+}  // namespace
+
 struct Film::Parts {
   explicit Parts(const FilmOptions& o) : options(o), imager({}, fluoro::make_scanline_renderer()) {}
   FilmOptions options;
-  std::unique_ptr<PatientScene> patient;      ///< with the session's blood and contrast,
-  std::unique_ptr<const XrayPatient> filled;  ///< or with a tree full of contrast, whatever was injected,
-  fluoro::Scene mesh;                         ///< or a mesh
+  std::unique_ptr<PatientScene> patient;        ///< with the session's blood and contrast,
+  std::unique_ptr<const XrayPatient> no_blood;  ///< or without any,
+  fluoro::Scene mesh;                           ///< or a mesh
   fluoro::Imager imager;
   fluoro::FluoroscopeState state;
   fluoro::DisplayScratch scratch;
@@ -29,17 +42,18 @@ struct Film::Parts {
 
 Film::Film(const SessionModel& model, const FilmOptions& options) : parts_(std::make_unique<Parts>(options)) {
   fluoro::require_rate(options.frames_per_s);
-  if (model.has_patient() && options.fill == Fill::none)
+  if (model.has_patient())
     parts_->patient = std::make_unique<PatientScene>(*model.vessel->patient, model.physiology);
   else if (model.vessel->patient)
-    parts_->filled = std::make_unique<const XrayPatient>(model.vessel->patient, options.fill, model.breaths_1_min > 0);
+    parts_->no_blood =
+        std::make_unique<const XrayPatient>(model.vessel->patient, options.fill, model.breaths_1_min > 0);
   else
     parts_->mesh = scene_of_mesh(*model.vessel);
   if (!options.overlay) return;
   const SessionState first = make_state(model, 0);
-  parts_->running_dose.emplace(parts_->patient  ? parts_->patient->at(first.blood, occupied_m(model, first))
-                               : parts_->filled ? parts_->filled->at(0)
-                                                : parts_->mesh);
+  parts_->running_dose.emplace(parts_->patient    ? parts_->patient->at(first.blood, occupied_m(model, first))
+                               : parts_->no_blood ? parts_->no_blood->at(0)
+                                                  : parts_->mesh);
 }
 
 Film::~Film() = default;
@@ -50,9 +64,9 @@ const fluoro::Picture& Film::frame(const SessionModel& model, const SessionState
   const FilmOptions& o = p.options;
   fluoro::Scene other;
   if (p.patient)
-    p.patient->at(state.blood, occupied_m(model, state), breath(model, state));
+    p.patient->at(blood_to_show(model, state, o.fill), occupied_m(model, state), breath(model, state));
   else
-    other = p.filled ? p.filled->at(state.blood.heart.phase, breath(model, state)) : p.mesh;
+    other = p.no_blood ? p.no_blood->at(state.blood.heart.phase, breath(model, state)) : p.mesh;
   fluoro::Scene& scene = p.patient ? p.patient->scene() : other;
   scene.shafts = shafts_of(model, state);
   if (model.has_patient()) add_treatment(model, state, scene);
@@ -95,7 +109,8 @@ void Film::listen(const SessionModel& model, const SessionState& state, const Se
 Monitor& Film::monitor() { return parts_->monitor; }
 
 int Film::height() const {
-  return parts_->options.pixels + (parts_->options.monitor && (parts_->patient || parts_->filled) ? monitor_pixels : 0);
+  return parts_->options.pixels +
+         (parts_->options.monitor && (parts_->patient || parts_->no_blood) ? monitor_pixels : 0);
 }
 
 fluoro::CineRun Film::run() const { return {parts_->view, parts_->programme(), parts_->report.exposure, {}}; }

@@ -1,7 +1,6 @@
 #include "data/catalogue/case/mesh_picture.h"
 
 #include <fmt/format.h>
-#include <png.h>
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -9,6 +8,8 @@
 #include <limits>
 
 #include "data/formats/load_error.h"
+#include "data/formats/markup.h"
+#include "data/formats/png.h"
 #include "data/formats/write_file.h"
 
 namespace ostium::data {
@@ -105,38 +106,6 @@ class Drawer {
   Image image_;
 };
 
-std::string png_of(const Image& image) {
-  png_image png{};
-  png.version = PNG_IMAGE_VERSION;
-  png.width = static_cast<png_uint_32>(image.width);
-  png.height = static_cast<png_uint_32>(image.height);
-  png.format = PNG_FORMAT_RGB;
-  png_alloc_size_t size = PNG_IMAGE_PNG_SIZE_MAX(png);
-  std::string bytes(size, 0);
-  if (!png_image_write_to_memory(&png, bytes.data(), &size, 0, image.rgb.data(), 0, nullptr))
-    throw LoadError(std::string("PNG: ") + png.message);
-  bytes.resize(size);
-  return bytes;
-}
-
-std::string base64(const std::string& bytes) {
-  const char* digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string text;
-  for (std::size_t i = 0; i < bytes.size(); i += 3) {
-    unsigned n = 0;
-    for (std::size_t k = 0; k < 3; ++k)
-      n = n << 8 | (i + k < bytes.size() ? static_cast<unsigned char>(bytes[i + k]) : 0U);
-    for (std::size_t k = 0; k < 4; ++k) text += i + k > bytes.size() ? '=' : digits[n >> (18 - 6 * k) & 63];
-  }
-  return text;
-}
-
-std::string escaped(const std::string& words) {
-  std::string text;
-  for (char c : words) text += c == '<' ? "&lt;" : c == '&' ? "&amp;" : c == '"' ? "&quot;" : std::string(1, c);
-  return text;
-}
-
 }  // namespace
 
 void draw_mesh(const std::string& file, const vascular::Mesh& mesh, const std::vector<Eigen::Vector3d>& rgb_of_vertex,
@@ -154,15 +123,16 @@ void draw_mesh(const std::string& file, const vascular::Mesh& mesh, const std::v
             if (const int r2 = x * x + y * y; r2 <= 17 && r2 >= 6)
               image.paint(static_cast<int>(at.x()) + x, static_cast<int>(at.y()) + y, mark.rgb);
       }
-    write_file(file, png_of(image));
+    write_rgb_png(file, image.width, image.height, image.rgb);
     return;
   }
   std::string text = fmt::format(
       "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0}\" height=\"{1}\" viewBox=\"0 -30 {0} {1}\" "
       "font-family=\"sans-serif\" font-size=\"11\">\n<rect y=\"-30\" width=\"{0}\" height=\"{1}\" fill=\"white\"/>\n"
-      "<image width=\"{0}\" height=\"{2}\" href=\"data:image/png;base64,{3}\"/>\n"
+      "<image width=\"{0}\" height=\"{2}\" href=\"{3}\"/>\n"
       "<text x=\"{4}\" y=\"-12\" font-size=\"13\">{5}</text>\n",
-      image.width, image.height + 30, image.height, base64(png_of(image)), margin, escaped(title));
+      image.width, image.height + 30, image.height, data_uri(rgb_png_of(image.width, image.height, image.rgb)), margin,
+      escaped(title));
   for (std::size_t v = 0; v < std::size(views); ++v)
     text += fmt::format("<text x=\"{}\" y=\"10\" fill=\"#666\">{}</text>\n", drawer.left(v), views[v].name);
   for (const PictureMark& mark : marks)

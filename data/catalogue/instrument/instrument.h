@@ -14,6 +14,9 @@
 
 namespace ostium::data {
 
+/// Lengths in a file that differ by less are the same.
+inline constexpr double gap_tolerance_mm = 1e-6;
+
 enum class InstrumentKind { wire, guide_catheter, diagnostic_catheter, sheath, balloon_shaft, stent_shaft };
 /// Names used in files, in the order of the enumeration: "guide_catheter".
 const std::vector<std::string>& instrument_kinds();

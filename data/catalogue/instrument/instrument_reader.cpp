@@ -19,7 +19,6 @@ namespace keys = instrument_keys;
 
 using units::atm;
 using units::mm, units::Nmm2, units::per_mm, units::degree;
-constexpr double gap_tolerance_mm = 1e-6;
 
 /// Stores the source of `object` under its path. Groups must have one; entries of a list may.
 void keep_source(const JsonObject& object, Instrument& instrument) {

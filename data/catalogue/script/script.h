@@ -77,7 +77,8 @@ struct Script {
   std::vector<ScriptTool> tools;
   std::vector<ScriptLandmark> landmarks;
   std::vector<ScriptStep> steps;
-  std::string source;  ///< the file's text, with the steps of other scripts written out
+  bool by_hand = false;  ///< people move the instruments: no step has to be done, and they end the run
+  std::string source;    ///< the file's text, with the steps of other scripts written out
 };
 
 /// A step { "do": "script", "script": "parts/treat" } stands for the steps of that file, whose path is relative to the

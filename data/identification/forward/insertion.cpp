@@ -28,8 +28,6 @@ constexpr double element_m = 2e-3, element_rad = 0.1, reserve_m = 20e-3;
 constexpr double rest_speed_m_s = 2e-4, least_rest_s = 0.1, most_rest_s = 2;
 constexpr double bore_friction = 0.05;
 
-Quaterniond quaternion(const Eigen::Vector4d& q) { return {q[0], q[1], q[2], q[3]}; }
-
 /// A tip meets a wall at an angle: if the wall is compliant, only the last few millimetres are in contact.
 constexpr double tip_m = 6e-3, tip_element_m = 0.5e-3;
 

@@ -4,6 +4,9 @@
 
 namespace ostium::data {
 
+/// A frame that is kept as w, x, y, z.
+inline Eigen::Quaterniond quaternion(const Eigen::Vector4d& wxyz) { return {wxyz[0], wxyz[1], wxyz[2], wxyz[3]}; }
+
 /// Element lengths of a rod, m: 1.5 mm agrees with a boundary-value solution for tubes to half a micrometre; twice that
 /// to a few, which is enough to compare models.
 inline constexpr double fine_elements_m = 1.5e-3, coarse_elements_m = 3e-3;

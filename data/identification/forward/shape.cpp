@@ -13,8 +13,6 @@ namespace {
 
 using Eigen::Vector3d;
 
-Eigen::Quaterniond quaternion(const Eigen::Vector4d& q) { return {q[0], q[1], q[2], q[3]}; }
-
 /// The largest change per step when walking from one experiment to the next.
 constexpr double step_insertion_m = 10e-3, step_turn_rad = 20 * units::pi / 180;
 constexpr int most_steps = 100;

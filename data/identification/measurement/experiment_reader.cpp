@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/base/units.h"
+#include "data/catalogue/instrument/instrument.h"
 #include "data/identification/measurement/measurement_keys.h"
 #include "data/identification/measurement/number_lists.h"
 
@@ -16,7 +17,6 @@ namespace keys = measurement_keys;
 using Eigen::Vector3d;
 
 using units::mm, units::per_mm, units::degree;
-constexpr double gap_tolerance_mm = 1e-6;
 
 core::EndState read_base(const JsonObject& entry) {
   core::EndState base;

@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "core/base/units.h"
+#include "data/catalogue/instrument/instrument.h"
 #include "data/identification/measurement/experiment_reader.h"
 #include "data/identification/measurement/measured_wall.h"
 #include "data/identification/measurement/measurement_keys.h"
@@ -18,7 +19,6 @@ namespace {
 namespace keys = measurement_keys;
 
 using units::mm, units::Nmm2, units::per_mm;
-constexpr double gap_tolerance_mm = 1e-6;
 
 core::Section read_section(const JsonObject& entry, const MeasuredInstrument& instrument, double& reached_mm) {
   const auto ends = numbers(entry["from_tip_mm"], 2);

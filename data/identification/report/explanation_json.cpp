@@ -50,7 +50,7 @@ Json next(const std::optional<NextExperiment>& n) {
 }  // namespace
 
 std::string to_json(const Explanation& x) {
-  Json out = {{"schema", "ostium-explanation/1"}, {"verdict", to_string(x.verdict)}};
+  Json out = {{"schema", "ostium-explanation/1"}, {"verdict", to_string(x.verdict)}, {"ended_early", x.ended_early}};
   out["declared"] = {{"parameters", parameters(x.declared, false)},
                      {"rms", rms_of(x.declared)},
                      {"unit", "mm"},

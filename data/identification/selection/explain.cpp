@@ -63,9 +63,11 @@ Explanation explain_with_library(const MeasurementSet& set, const ExplainOptions
   declared.judge(out.declared, out.noise);
   const bool done = out.noise.sigma_m && is_noise(out.declared, out.noise) && !too_small(set, out.declared);
   if (!done) {
-    EffectSearch search(set, workers, options.progress);
+    EffectSearch search(set, workers, options.progress, options.stop);
     out.candidates = search.run(declared, out.declared, out.noise);
-    out.attributions = attribute_residual(set, workers, out.declared, out.noise, options.progress);
+    out.ended_early = options.stop && options.stop();
+    if (!out.ended_early)
+      out.attributions = attribute_residual(set, workers, out.declared, out.noise, options.progress);
     out.signature = signature_of(out.attributions);
   }
   decide(set, workers, out);
@@ -92,6 +94,8 @@ Explanation explain(const MeasurementSet& set, const ExplainOptions& options) {
   out.rms_nominal_m = rms(set, out.nominal_misfits);
   std::deque<ModelFit> model_fits;
   for (const auto& tried : tries) {
+    out.ended_early = options.stop && options.stop();
+    if (out.ended_early) break;
     model_fits.emplace_back(set, workers, tried, options.progress);
     out.candidates.push_back(model_fits.back().run(set.imaging.noise_sigma_m));
   }
@@ -109,7 +113,8 @@ Explanation explain(const MeasurementSet& set, const ExplainOptions& options) {
   if ((!fits || !out.noise.sigma_m) && !out.candidates.empty() && wins(out.candidates.front(), out.declared, out.noise))
     out.verdict = Verdict::effect;
   else
-    out.verdict = fits ? Verdict::explained : Verdict::unexplained;
+    out.verdict = without_an_effect(fits, out.noise.sigma_m.has_value());
+  if (out.verdict == Verdict::cannot_be_judged) out.next_experiment = repeat_for_noise(set);
   out.signature = out.declared.residual_tests.signature;
   out.verdict_text = verdict_text(set, out);
   return out;

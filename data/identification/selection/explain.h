@@ -13,6 +13,9 @@ struct ExplainOptions {
   std::function<void(const std::string&)> progress;
   /// If the declared model does not fit: search all effects and their combinations instead.
   bool library = false;
+  /// Asked between fits: true ends the search with what it has found; empty: never. Not under MPI, whose ranks would
+  /// part.
+  std::function<bool()> stop = {};
 };
 
 /// Throws LoadError for a set that cannot be explained (in a vessel), an unknown effect, or one that cannot show.

@@ -6,7 +6,8 @@
 
 namespace ostium::data {
 
-enum class Verdict { explained, effect, ambiguous, unexplained };
+/// `cannot_be_judged`: the noise is unknown, so nothing says whether what is left is more than that.
+enum class Verdict { explained, effect, ambiguous, unexplained, cannot_be_judged };
 
 std::string to_string(Verdict verdict);
 
@@ -24,6 +25,7 @@ struct Explanation {
   std::optional<NextExperiment> next_experiment;
   /// For an ambiguous verdict: how many of the candidates explain the set equally well.
   std::size_t rivals = 0;
+  bool ended_early = false;  ///< the search was ended; what is here holds, and more might have been found
   const FittedModel& best() const { return verdict == Verdict::effect ? candidates.front() : declared; }
 };
 

@@ -1,6 +1,9 @@
 #include "data/identification/selection/search.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <limits>
 #include <set>
@@ -40,11 +43,15 @@ std::string key_of(const std::vector<ActiveEffect>& effects) {
 
 }  // namespace
 
-void EffectSearch::add(const std::vector<ActiveEffect>& effects, const FittedModel& near, const Noise& noise) {
+void EffectSearch::add(const std::vector<ActiveEffect>& effects, const FittedModel& near, const Noise& noise,
+                       const std::string& of) {
+  if (stopped()) return;
   const std::string key = key_of(effects);
   for (const Tried& t : tried_)
     if (key_of(t.effects) == key) return;
-  fits_.emplace_back(set_, workers_, effects, progress_);
+  std::function<void(const std::string&)> told;
+  if (progress_) told = [this, of](const std::string& words) { progress_(of + words); };
+  fits_.emplace_back(set_, workers_, effects, told);
   Tried tried;
   tried.study = &fits_.back(), tried.effects = effects;
   try {
@@ -81,12 +88,21 @@ void EffectSearch::add_to(const Tried* base, const FittedModel& near, const Nois
     joined.emplace_back(0, effects);
   }
   // All single effects are fitted; to a model with effects only the most promising are added.
-  if (base && joined.size() > ahead) {
+  if (base && joined.size() > ahead && !stopped()) {
     for (auto& [cost, effects] : joined) cost = cost_ahead_of(effects, model);
     std::sort(joined.begin(), joined.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
     joined.resize(ahead);
   }
-  for (const auto& [cost, effects] : joined) add(effects, model, noise);
+  using Clock = std::chrono::steady_clock;
+  const auto begin = Clock::now();
+  for (std::size_t i = 0; i < joined.size(); ++i) {
+    std::string of = fmt::format("{} of {}", i + 1, joined.size());
+    if (i > 0) {
+      const double each_s = std::chrono::duration<double>(Clock::now() - begin).count() / static_cast<double>(i);
+      of += fmt::format(", {:.0f} s left for these", each_s * static_cast<double>(joined.size() - i));
+    }
+    add(joined[i].second, model, noise, of + ": ");
+  }
 }
 
 void EffectSearch::sort_by_bic() {
@@ -98,7 +114,7 @@ bool EffectSearch::fits(const FittedModel& model, const Noise& noise) const {
 }
 
 void EffectSearch::complete(Tried& tried, const Noise& noise) {
-  if (tried.complete) return;
+  if (tried.complete || stopped()) return;
   tried.complete = true;
   tried.study->complete(tried.model, set_.imaging.noise_sigma_m);
   tried.study->judge(tried.model, noise);

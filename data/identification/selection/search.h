@@ -10,10 +10,11 @@ namespace ostium::data {
 class EffectSearch {
  public:
   EffectSearch(const MeasurementSet& set, const Workers& workers,
-               const std::function<void(const std::string&)>& progress)
-      : set_(set), workers_(workers), progress_(progress) {}
+               const std::function<void(const std::string&)>& progress, const std::function<bool()>& stop = {})
+      : set_(set), workers_(workers), progress_(progress), stop_(stop) {}
 
-  /// Models with effects, best first, finalists scored on held-out data. Refines `noise` if it was estimated.
+  /// Models with effects, best first, finalists scored on held-out data. Refines `noise` if it was estimated. Once
+  /// `stop` says true nothing more is fitted.
   std::vector<FittedModel> run(const ModelFit& declared, FittedModel& of_declared, Noise& noise);
 
  private:
@@ -23,7 +24,10 @@ class EffectSearch {
     std::vector<ActiveEffect> effects;
     bool complete = false;
   };
-  void add(const std::vector<ActiveEffect>& effects, const FittedModel& near, const Noise& noise);
+  bool stopped() const { return stop_ && stop_(); }
+  /// `of`: what the progress says before the fit's own words.
+  void add(const std::vector<ActiveEffect>& effects, const FittedModel& near, const Noise& noise,
+           const std::string& of = "");
   double cost_ahead_of(const std::vector<ActiveEffect>& effects, const FittedModel& near);
   /// Adds the most promising effects to `base`; nullptr: fits every single effect.
   void add_to(const Tried* base, const FittedModel& near, const Noise& noise);
@@ -39,6 +43,7 @@ class EffectSearch {
   const MeasurementSet& set_;
   const Workers& workers_;
   std::function<void(const std::string&)> progress_;
+  std::function<bool()> stop_;
   std::deque<ModelFit> fits_;
   std::deque<Tried> tried_;
 };

@@ -68,9 +68,22 @@ std::string to_string(Verdict verdict) {
       return "effect";
     case Verdict::ambiguous:
       return "ambiguous";
+    case Verdict::cannot_be_judged:
+      return "cannot_be_judged";
     default:
       return "unexplained";
   }
+}
+
+Verdict without_an_effect(bool fits, bool noise_known) {
+  return !fits ? Verdict::unexplained : noise_known ? Verdict::explained : Verdict::cannot_be_judged;
+}
+
+NextExperiment repeat_for_noise(const MeasurementSet& set) {
+  NextExperiment next;
+  next.why = "this once more, as the scatter of repeats tells the noise; or declare it (imaging.noise_sigma_mm)";
+  next.set = set.experiments.back().set;
+  return next;
 }
 
 bool too_small(const MeasurementSet& set, const FittedModel& declared) {
@@ -104,14 +117,15 @@ void decide(const MeasurementSet& set, const Workers& workers, Explanation& out)
     out.verdict = Verdict::ambiguous;
     out.rivals = tied;
   } else if (count == 0) {
-    out.verdict = fits ? Verdict::explained : Verdict::unexplained;
+    out.verdict = without_an_effect(fits, known);
   } else if (tied > 1) {
     out.verdict = Verdict::ambiguous;
     out.rivals = tied;
   } else {
     out.verdict = Verdict::effect;
   }
-  if (out.verdict != Verdict::ambiguous) return;
+  if (out.verdict == Verdict::cannot_be_judged) out.next_experiment = repeat_for_noise(set);
+  if (out.verdict != Verdict::ambiguous || out.ended_early) return;
   const FittedModel& second = out.candidates.size() > 1 ? out.candidates[1] : out.declared;
   if (!out.candidates.empty())
     out.next_experiment = next_experiment(set, workers, out.candidates[0], second, out.noise);

@@ -7,6 +7,12 @@ namespace ostium::data {
 /// Whether too few measured numbers exceed the fitted ones to decide anything, or no experiment can be held out.
 bool too_small(const MeasurementSet& set, const FittedModel& declared);
 
+/// Where no effect is named; `fits`: nothing but noise, or no pattern, is left.
+Verdict without_an_effect(bool fits, bool noise_known);
+
+/// What lets an unknown noise be known.
+NextExperiment repeat_for_noise(const MeasurementSet& set);
+
 /// Sets the verdict, sorts the candidates (the best, its rivals, the rest), and suggests the next experiment if it is
 /// open.
 void decide(const MeasurementSet& set, const Workers& workers, Explanation& out);

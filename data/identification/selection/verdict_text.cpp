@@ -21,10 +21,10 @@ std::string held_out(const FittedModel& m) {
 std::string of_verdict(const Explanation& x) {
   switch (x.verdict) {
     case Verdict::explained:
-      return x.noise.sigma_m
-                 ? "What is declared explains the measurements: what the fit leaves is noise."
-                 : "What the fit of the declared model leaves shows no pattern; without a known noise more cannot "
-                   "be said.";
+      return "What is declared explains the measurements: what the fit leaves is noise.";
+    case Verdict::cannot_be_judged:
+      return "This cannot be judged: what the fit of the declared model leaves shows no pattern, but without a known "
+             "noise nothing says whether it is noise.";
     case Verdict::effect:
       return fmt::format(
           "What is declared does not explain the measurements; with {} it does better on data it has not seen{}.",
@@ -144,6 +144,7 @@ void of_residual(const FittedModel& m, std::vector<std::string>& out) {
 
 std::vector<std::string> verdict_text(const MeasurementSet& set, const Explanation& x) {
   std::vector<std::string> out = {of_verdict(x)};
+  if (x.ended_early) out.push_back("Ended before everything was tried: another effect may do better than these.");
   out.push_back(fmt::format("{}: {:.3g} mm. Declared model, fitted: {:.3g} mm, {}.",
                             set.imaging.registration_free ? "Nothing fitted but the measuring frame" : "Nothing fitted",
                             x.rms_nominal_m / mm, x.declared.rms_m / mm, held_out(x.declared)));

@@ -31,7 +31,7 @@ const char* const at_the_ostium = R"({
 })";
 
 /// 40 breaths a minute: full inspiration every 1.5 s, first after 0.75 s.
-RunSetup setup(const char* breathing) {
+RunSetup breathing_setup(const char* breathing) {
   RunSetup out;
   set_vessel("rca-mid-focal", vascular::LengthUnit::millimetre, out);
   set_script(data::read_script("at-the-ostium.json", at_the_ostium), out);
@@ -40,10 +40,10 @@ RunSetup setup(const char* breathing) {
   return out;
 }
 
-std::shared_ptr<const Vessel> vessel() {
+std::shared_ptr<const Vessel> breathing_vessel() {
   static const std::shared_ptr<const Vessel> made = [] {
     std::string warnings;
-    return make_vessel(setup(""), warnings);
+    return make_vessel(breathing_setup(""), warnings);
   }();
   return made;
 }
@@ -54,13 +54,13 @@ TEST(Breathing, InstrumentsStayInsideAndTheRecordingReplays) {
   const std::string file = (folder / "run.h5").string();
   PlayOptions options;
   options.recorder = {RecordMode::full, file, true};
-  ScriptedRun run(setup("40"), vessel());
-  const PlayReport report = play(run, setup("40"), options);
+  ScriptedRun run(breathing_setup("40"), breathing_vessel());
+  const PlayReport report = play(run, breathing_setup("40"), options);
   EXPECT_EQ(report.outcome, "success") << report.reason;
   EXPECT_EQ(report.penetration.outside, 0);
   EXPECT_LT(report.penetration.deepest_m, 0.05e-3);
 
-  Replay replay(file, vessel());
+  Replay replay(file, breathing_vessel());
   EXPECT_EQ(replay.setup.breaths_1_min, 40);
   EXPECT_FALSE(verify(replay).first_step);
   EXPECT_EQ(hash(replay.state), report.hash);
@@ -76,7 +76,7 @@ TEST(Breathing, InstrumentsStayInsideAndTheRecordingReplays) {
 
 TEST(Breathing, HeldItIsTheRunThatItWas) {
   const auto hash_of = [](const char* breathing) {
-    ScriptedRun run(setup(breathing), vessel());
+    ScriptedRun run(breathing_setup(breathing), breathing_vessel());
     while (run.state.rods.step < 1000 && run.tick()) {
     }
     return hash(run.state);
@@ -87,8 +87,8 @@ TEST(Breathing, HeldItIsTheRunThatItWas) {
 }
 
 TEST(Breathing, WallWayAndPictureMoveAsTheAnatomySays) {
-  const RunSetup s = setup("40");
-  const SessionModel model = make_session(s, vessel());
+  const RunSetup s = breathing_setup("40");
+  const SessionModel model = make_session(s, breathing_vessel());
   SessionState out = make_state(model, 0), in = out;
   in.rods.step = 750;
   EXPECT_EQ(breath(model, out), 0);
@@ -136,7 +136,7 @@ TEST(Breathing, WallWayAndPictureMoveAsTheAnatomySays) {
 }
 
 TEST(Breathing, WhatCannotBeIsRefused) {
-  RunSetup s = setup("");
+  RunSetup s = breathing_setup("");
   for (const char* rate : {"2", "61", "-12", "often"})
     EXPECT_THROW(set_value("breathing", rate, s), data::LoadError) << rate;
   RunSetup mesh = tube_setup();

@@ -200,23 +200,23 @@ TEST(Handling, ACoronaryWireStaysBehindTheLesion) {
   EXPECT_TRUE(p.events.empty()) << "drawn back on purpose";
 }
 
-RunSetup setup() {
+RunSetup tools_in_place() {
   RunSetup out;
   set_vessel("rca-mid-focal", vascular::LengthUnit::millimetre, out);
   set_script(data::find_script("rca-from-the-ostium"), out);
   return out;
 }
 
-std::shared_ptr<const Vessel> vessel() {
+std::shared_ptr<const Vessel> vessel_in_place() {
   static const std::shared_ptr<const Vessel> made = [] {
     std::string warnings;
-    return make_vessel(setup(), warnings);
+    return make_vessel(tools_in_place(), warnings);
   }();
   return made;
 }
 
 TEST(Handling, BalloonsAreEmptyAsTheyMoveAndNotHeldForLong) {
-  ScriptedRun run(setup(), vessel());
+  ScriptedRun run(tools_in_place(), vessel_in_place());
   Played p;
   DeviceErrors errors;
   const auto play = [&](double seconds, double fed_m = 0) {
@@ -269,7 +269,7 @@ TEST(Handling, BalloonsAreEmptyAsTheyMoveAndNotHeldForLong) {
 }
 
 TEST(Handling, BeamAndPushAreForSomething) {
-  ScriptedRun run(setup(), vessel());
+  ScriptedRun run(tools_in_place(), vessel_in_place());
   HandlingWatch watch(run.model);
   SessionInputs inputs;
   inputs.tools.resize(run.model.tools.size());
@@ -304,7 +304,7 @@ TEST(Handling, BeamAndPushAreForSomething) {
 }
 
 TEST(Handling, ACasesMapKnowsItsWaysAndItsLesion) {
-  const ScriptedRun run(setup(), vessel());
+  const ScriptedRun run(tools_in_place(), vessel_in_place());
   const HandlingMap map(run.model);
   const VesselIndex& way = *run.model.vessel->way;
   const auto at = [&](const char* place) {
@@ -339,7 +339,7 @@ TEST(Handling, ACasesMapKnowsItsWaysAndItsLesion) {
 }
 
 TEST(Handling, ABranchBetweenTwoLesionsLeadsAWireAstray) {
-  RunSetup two = setup();
+  RunSetup two = tools_in_place();
   set_vessel("rca-diffuse", vascular::LengthUnit::millimetre, two);
   std::string warnings;
   const ScriptedRun run(two, make_vessel(two, warnings));

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <thread>
 
+#include "app/session/device/box_driver.h"
 #include "app/window/live_picture.h"
 #include "app/window/panel.h"
 #include "app/window/reference.h"
@@ -23,10 +24,15 @@ TEST(Controls, KeepActionsInOrderAndDropWhatNobodyCouldPress) {
   EXPECT_EQ(taken, 63);
 }
 
+RunSetup by_hand(RunSetup setup) {
+  setup.script = free_hands(setup.script);
+  return setup;
+}
+
 struct Played {
-  RunSetup setup = tube_setup(R"({ "schema": "ostium-script/1", "name": "plays", "title": "A test",
+  RunSetup setup = by_hand(tube_setup(R"({ "schema": "ostium-script/1", "name": "plays", "title": "A test",
     "tools": [ { "name": "wire", "instrument": "cook-j" } ],
-    "steps": [ { "do": "wait", "timeout_s": 100, "until": [{ "seconds": 90, "of": "wire" }] } ] })");
+    "steps": [ { "do": "wait", "timeout_s": 100, "until": [{ "seconds": 90, "of": "wire" }] } ] })"));
   ScriptedRun run{setup, tube_vessel()};
   LiveDriver hand{run.model, true, 15};
   Played() { run.take_over(&hand); }
@@ -85,8 +91,24 @@ TEST(LiveDriver, PauseStandsAndTheEndEnds) {
   EXPECT_EQ(p.run.state.rods.step, 101u);
   p.hand.controls.press(Action::quit);
   EXPECT_FALSE(p.run.tick());
-  EXPECT_EQ(p.run.outcome, Outcome::aborted);
+  EXPECT_EQ(p.run.outcome, Outcome::ended) << "by the one who played";
+  EXPECT_EQ(reason(p.run.plan, p.run.hands), "");
   EXPECT_EQ(p.run.state.rods.step, 101u);
+}
+
+TEST(LiveDriver, AMarkIsAnEventOfItsStep) {
+  Played p;
+  const auto marked = [&] {
+    return std::count_if(p.run.events.begin(), p.run.events.end(),
+                         [](const OperatorEvent& e) { return e.kind == OperatorEvent::Kind::marked; });
+  };
+  p.steps(10);
+  EXPECT_EQ(marked(), 0);
+  p.hand.controls.press(Action::mark);
+  p.steps(1);
+  EXPECT_EQ(marked(), 1);
+  p.steps(1);
+  EXPECT_EQ(marked(), 0);
 }
 
 TEST(Panel, TheReferenceIsTheFullestOfTheLastCineUntilSomebodyChooses) {

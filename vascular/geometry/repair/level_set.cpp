@@ -40,22 +40,6 @@ std::vector<std::array<int, 3>> bordering(const Mesh& mesh, const WindingNumber&
   return kept;
 }
 
-/// Mesh interface required by OpenVDB: in voxel units.
-struct Adapter {
-  const Mesh& mesh;
-  const std::vector<std::array<int, 3>>& triangles;
-  Eigen::Vector3d origin;
-  double voxel_m;
-
-  std::size_t polygonCount() const { return triangles.size(); }
-  std::size_t pointCount() const { return mesh.vertices.size(); }
-  std::size_t vertexCount(std::size_t) const { return 3; }
-  void getIndexSpacePoint(std::size_t t, std::size_t k, openvdb::Vec3d& p) const {
-    const Eigen::Vector3d at = (mesh.vertices[triangles[t][k]] - origin) / voxel_m;
-    p = {at.x(), at.y(), at.z()};
-  }
-};
-
 using Leaf = openvdb::FloatTree::LeafNodeType;
 
 /// Two neighbouring voxels can only be on different sides of the wall if their distances to it add up to no more than
@@ -108,10 +92,20 @@ Mesh outer_surface(const Mesh& closed, double voxel_m) {
   for (const Eigen::Vector3d& p : closed.vertices) box.extend(p);
   // Offset from the round numbers at which people place vertices and flat ends.
   const Eigen::Vector3d origin = box.min() - voxel_m * Eigen::Vector3d(0.137, 0.271, 0.313);
-  const Adapter adapter{closed, wall, origin, voxel_m};
-  const auto grid =
-      openvdb::tools::meshToVolume<openvdb::FloatGrid>(adapter, *openvdb::math::Transform::createLinearTransform(1.0),
-                                                       band, band, openvdb::tools::UNSIGNED_DISTANCE_FIELD);
+  // With these very types OpenVDB's functions are in its library, and need not be compiled here.
+  std::vector<openvdb::Vec3s> corners;
+  for (const Eigen::Vector3d& p : closed.vertices) {
+    const Eigen::Vector3f at = ((p - origin) / voxel_m).cast<float>();
+    corners.emplace_back(at.x(), at.y(), at.z());
+  }
+  std::vector<openvdb::Vec3I> faces;
+  for (const auto& t : wall)
+    faces.emplace_back(static_cast<unsigned>(t[0]), static_cast<unsigned>(t[1]), static_cast<unsigned>(t[2]));
+  openvdb::util::NullInterrupter never;
+  const auto grid = openvdb::tools::meshToVolume<openvdb::FloatGrid>(
+      never, openvdb::tools::QuadAndTriangleDataAdapter<openvdb::Vec3s, openvdb::Vec3I>(corners, faces),
+      *openvdb::math::Transform::createLinearTransform(1.0), band, band, openvdb::tools::UNSIGNED_DISTANCE_FIELD,
+      nullptr);
   openvdb::tree::LeafManager<openvdb::FloatTree> leaves(grid->tree());
   leaves.foreach ([&](Leaf& leaf, std::size_t) { set_signs(leaf, winding, origin, voxel_m); });
   openvdb::tools::signedFloodFill(grid->tree());
