@@ -1,9 +1,9 @@
 #pragma once
 /// Records a run without slowing it down, and measures wall penetration once a second.
 ///
-/// The simulation thread fills preallocated blocks and hands them over five times a second without a lock; another thread
-/// owns the file. If that thread falls behind by all blocks, the simulation waits and `waits` counts it: nothing of a
-/// run is lost.
+/// The simulation thread fills preallocated blocks and hands them over five times a second without a lock; another
+/// thread owns the file. If that thread falls behind by all blocks, the simulation waits and `waits` counts it: nothing
+/// of a run is lost.
 #include <atomic>
 #include <memory>
 #include <thread>
