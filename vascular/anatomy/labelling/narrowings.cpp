@@ -8,6 +8,8 @@ namespace {
 
 constexpr double near_m = 4e-3, far_m = 16e-3;  // stretch to compare with, proximally and distally
 constexpr double widest_m = 4e-3;               // radius
+/// Narrow places with less between them are one lesion: Sianos et al. 2005 (SYNTAX score), EuroIntervention 1:219.
+constexpr double apart_diameters = 3;
 
 double median_between(const TreeBranch& branch, double from, double to) {
   std::vector<double> radii;
@@ -24,25 +26,22 @@ std::vector<FoundNarrowing> find_narrowings(const SphereTree& tree, double least
   std::vector<FoundNarrowing> found;
   for (const TreeBranch& branch : tree.branches) {
     const double length = branch.spheres.back().s_m;
-    FoundNarrowing current;
+    double last_m = -1;  // where the branch was narrow last; < 0: nowhere yet
     for (const TreeSphere& sphere : branch.spheres) {
-      double stenosis = 0, reference = 0;
       const double before = median_between(branch, sphere.s_m - far_m, sphere.s_m - near_m);
       const double behind = median_between(branch, sphere.s_m + near_m, sphere.s_m + far_m);
       // An end tapers; a narrowing has wide vessel on both sides.
-      if (before > 0 && behind > 0 && sphere.s_m < length - 2 * near_m && before < widest_m) {
-        reference = (before + behind) / 2;
-        stenosis = 1 - sphere.radius_m / reference;
-        if (behind < 0.5 * before || before < 0.5 * behind) stenosis = 0;
-      }
-      if (stenosis >= least && stenosis > current.stenosis)
-        current = {branch.name, sphere.s_m, stenosis, 2 * reference, sphere.p};
-      if (current.stenosis > 0 && (stenosis < 0.5 * least)) {
-        found.push_back(current);
-        current = {};
-      }
+      if (before <= 0 || behind <= 0 || sphere.s_m >= length - 2 * near_m || before >= widest_m) continue;
+      if (behind < 0.5 * before || before < 0.5 * behind) continue;
+      const double reference = (before + behind) / 2, stenosis = 1 - sphere.radius_m / reference;
+      if (stenosis < least) continue;
+      const FoundNarrowing here = {branch.name, sphere.s_m, stenosis, 2 * reference, sphere.p};
+      if (last_m < 0 || sphere.s_m - last_m > apart_diameters * here.reference_m)
+        found.push_back(here);
+      else if (stenosis > found.back().stenosis)
+        found.back() = here;
+      last_m = sphere.s_m;
     }
-    if (current.stenosis > 0) found.push_back(current);
   }
   return found;
 }

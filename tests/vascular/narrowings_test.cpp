@@ -1,0 +1,56 @@
+/// Narrowings that a lumen already has, on branches of known radii.
+#include "vascular/anatomy/labelling/narrowings.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+
+#include "core/base/units.h"
+
+namespace ostium::vascular {
+namespace {
+
+/// A straight branch of 100 mm along x.
+SphereTree branch_with(const std::function<double(double)>& radius_mm) {
+  TreeBranch branch;
+  branch.name = "LAD";
+  for (double s = 0; s <= 100; s += 0.5) {
+    TreeSphere sphere;
+    sphere.s_m = 1e-3 * s, sphere.p = {1e-3 * s, 0, 0}, sphere.radius_m = 1e-3 * radius_mm(s);
+    branch.spheres.push_back(sphere);
+  }
+  SphereTree tree;
+  tree.branches.push_back(branch);
+  return tree;
+}
+
+double notch(double s, double at_mm, double half_mm) {
+  const double x = (s - at_mm) / half_mm;
+  return std::fabs(x) < 1 ? 0.5 * (1 + std::cos(units::pi * x)) : 0;
+}
+
+TEST(Narrowings, OneWithThreeTightPlacesIsOne) {
+  // 20 mm of 3 mm, tight at 43, 50 and 57 mm, and wide again in between.
+  const auto found = find_narrowings(branch_with(
+      [](double s) { return 1.5 * (1 - 0.6 * notch(s, 43, 3) - 0.7 * notch(s, 50, 3) - 0.55 * notch(s, 57, 3)); }));
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_NEAR(found[0].at_m, 50e-3, 0.6e-3);
+  EXPECT_NEAR(found[0].stenosis, 0.7, 0.05);
+  EXPECT_NEAR(found[0].reference_m, 3e-3, 0.3e-3);
+}
+
+TEST(Narrowings, ThreeDiametersApartTheyAreTwo) {
+  const auto found =
+      find_narrowings(branch_with([](double s) { return 1.5 * (1 - 0.6 * notch(s, 35, 4) - 0.5 * notch(s, 60, 4)); }));
+  ASSERT_EQ(found.size(), 2u);
+  EXPECT_NEAR(found[0].at_m, 35e-3, 0.6e-3);
+  EXPECT_NEAR(found[1].at_m, 60e-3, 0.6e-3);
+}
+
+TEST(Narrowings, AHealthyVesselHasNone) {
+  EXPECT_TRUE(find_narrowings(branch_with([](double s) { return 2 - 0.01 * s + 0.1 * std::sin(s); })).empty());
+}
+
+}  // namespace
+}  // namespace ostium::vascular
