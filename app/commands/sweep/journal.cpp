@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <charconv>
 #include <cstdio>
 #include <filesystem>
 
@@ -25,7 +26,10 @@ SweepJournal::SweepJournal(const std::string& file, const Sweep& sweep, bool res
           fmt::format("{} is of a sweep that was not finished; --resume goes on with it, or remove it", file));
     read(first);
   }
+  std::error_code none;
+  if (fs::path(file).has_parent_path()) fs::create_directories(fs::path(file).parent_path(), none);
   out_.open(file, std::ios::app | std::ios::binary);
+  if (!out_) throw data::write_error(file);
   if (done_ == 0 && fs::file_size(file) == 0) out_ << first << "\n";
   out_.flush();
   if (!out_) throw data::write_error(file);
@@ -56,11 +60,13 @@ void SweepJournal::read(const std::string& first) {
   kept = line + "\n";
   // A last line without a line end was cut off when the program was killed.
   while (std::getline(in, line) && !in.eof()) {
-    std::size_t used = 0;
-    const std::size_t task = std::stoul(line, &used);
-    if (task >= lines_.size()) throw data::LoadError(file_ + ": is damaged");
+    std::size_t task = 0;
+    const char* const last = line.data() + line.size();
+    const auto [end, problem] = std::from_chars(line.data(), last, task);
+    if (problem != std::errc() || task >= lines_.size() || end == last || *end != ' ')
+      throw data::LoadError(file_ + " is damaged; remove it, and the sweep begins anew");
     if (lines_[task].empty()) ++done_;
-    lines_[task] = line.substr(used + 1) + "\n";
+    lines_[task] = std::string(end + 1, last) + "\n";
     kept += line + "\n";
   }
   in.close();

@@ -35,7 +35,7 @@ bool ScriptedRun::tick() {
   if (driver_ && driver_->marks()) events.push_back({OperatorEvent::Kind::marked, hands.step, -1});
   stood = driven == Driven::after_a_stand;
   if (driven == Driven::over) {
-    outcome = plan.script.by_hand ? Outcome::ended : Outcome::aborted;
+    outcome = hands.outcome = plan.script.by_hand ? Outcome::ended : Outcome::aborted;
     return false;
   }
   if (stuck_ >= 0) inputs.tools[stuck_] = {};

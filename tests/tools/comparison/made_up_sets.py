@@ -16,7 +16,7 @@ def measurement(title, tips):
         "environment": {"gravity_m_s2": [0, 0, -9.81], "vessel": None},
         "imaging": {"noise_sigma_mm": 0.2, "registration": "given", "tip_offset": "none"},
         "experiments": [{"id": f"e{n}", "base": {"position_mm": [0, 0, 0], "tangent": [1, 0, 0], "up": [0, 0, 1]},
-                         "set": [{"inserted_length_mm": length, "roll_deg": 0}], "tip_mm": [list(tip)]}
+                         "set": [{"inserted_length_mm": length, "roll_deg": 0}], "tip_mm": list(tip)}
                         for n, (length, tip) in enumerate(tips)],
     }
 
