@@ -69,7 +69,7 @@ TEST(Session, DoesNotAllocateBetweenBlocks) {
   while (run.state.rods.step < 1010) tick();
   std::this_thread::sleep_for(std::chrono::milliseconds(100));  // gives the other thread time to take the block
   const long before = allocations();
-  while (run.state.rods.step < 1490) tick();
+  while (run.state.rods.step < 1190) tick();
   EXPECT_EQ(allocations(), before);
 }
 
