@@ -8,6 +8,7 @@
 #include <numeric>
 
 #include "vascular/geometry/mesh/bounding_volume_hierarchy.h"
+#include "vascular/geometry/mesh/box_middle.h"
 #include "vascular/geometry/mesh/crossing.h"
 #include "vascular/geometry/mesh/patient_frame.h"
 
@@ -87,10 +88,12 @@ void check_vertices(const Mesh& mesh, const std::vector<Edge>& edges, SurfaceRep
 }
 
 void check_components(const Mesh& mesh, bool cavities, SurfaceReport& report, Groups& connected) {
+  const Eigen::Vector3d origin = box_middle(mesh);
   std::map<int, double> six_volumes;
   for (int t = 0; t < report.triangles; ++t) {
     const auto& [a, b, c] = mesh.triangles[t];
-    six_volumes[connected.of(t)] += mesh.vertices[a].dot(mesh.vertices[b].cross(mesh.vertices[c]));
+    six_volumes[connected.of(t)] +=
+        (mesh.vertices[a] - origin).dot((mesh.vertices[b] - origin).cross(mesh.vertices[c] - origin));
   }
   report.components = static_cast<int>(six_volumes.size());
   for (const auto& [first, volume] : six_volumes)
