@@ -222,6 +222,14 @@ void cap(Mesh& mesh, const Opening& opening) {
   mesh.triangles.insert(mesh.triangles.end(), lid.begin(), lid.end());
 }
 
+std::vector<Opening> close_all(Mesh& mesh) {
+  Sheets sheets = sheets_of(mesh);
+  orient(mesh, sheets);
+  std::vector<Opening> openings = openings_of(mesh, sheets);
+  for (const Opening& opening : openings) cap(mesh, opening);
+  return openings;
+}
+
 void join(Mesh& mesh, const Opening& a, const Opening& b) {
   // Both rims as rows of vertices, the second reversed so that they run side by side.
   std::vector<int> from, to;
