@@ -8,6 +8,8 @@
 #include "app/command_line/progress.h"
 #include "data/catalogue/case/tree_file.h"
 #include "vascular/geometry/mesh/surface_check.h"
+#include "vascular/geometry/repair/double_wall.h"
+#include "vascular/geometry/repair/sheets.h"
 #include "vascular/geometry/repair/units.h"
 
 namespace ostium::app {
@@ -27,7 +29,9 @@ void declare(Options& options, Arguments& a) {
   add_unit_option(options, a.unit, "What a number in the file means");
   options.add("--start", a.start, "Where to begin; else at the widest end").type("X,Y,Z");
   options.add("--end", a.ends, "Where branches end; else all that stand out").type("X,Y,Z");
-  options.add("-o,--output", a.output, "A file that ends in .json or .vtp").required();
+  options.add("-o,--output", a.output, "In the mesh's axes: .json, in mm, or .vtp, in the mesh's unit")
+      .type("FILE.json|FILE.vtp")
+      .required();
 }
 
 int run(const Arguments& a) {
@@ -35,14 +39,25 @@ int run(const Arguments& a) {
   vascular::CentrelineOptions wanted;
   if (!a.start.empty()) wanted.start = metres(unit) * mesh_point(a.start);
   for (const std::string& end : a.ends) wanted.ends.push_back(metres(unit) * mesh_point(end));
-  const vascular::Mesh mesh = read_mesh(a.mesh, unit).mesh;
-  if (const vascular::SurfaceReport report = check_surface(mesh); !report.sound())
-    fmt::print(stderr, "{}: not sound, so parts may be missing:\n{}", a.mesh, describe(report));
+  vascular::Mesh mesh = read_mesh(a.mesh, unit).mesh;
+  vascular::SurfaceReport report = check_surface(mesh);
+  report.open_edges = {};  // get lids
+  if (!report.sound()) fmt::print(stderr, "{}: not sound, so parts may be missing:\n{}", a.mesh, describe(report));
   show_progress("looking for centrelines");
+  const std::vector<vascular::Opening> openings = close_all(mesh);
+  if (find_double_wall(mesh, sheets_of(mesh)).triangles)
+    throw vascular::MeshError(a.mesh +
+                              ": has a double wall; expected the lumen, which `ostium import` takes out of it");
   const vascular::CentrelineResult found = find_centrelines(mesh, wanted);
-  data::write_tree(a.output, found.tree);
-  fmt::print("{}: {} branches, {} spheres; looked at {:.2f} mm\n", a.output, found.tree.branches.size(),
-             found.tree.spheres(), 1e3 * found.voxel_m);
+  data::write_tree(a.output, found.tree, unit);
+  show_progress("");
+  for (const vascular::Opening& opening : openings) {
+    const Eigen::Vector3d p = opening.middle / metres(unit);
+    fmt::print("open, so it got a lid: at {:.2f} {:.2f} {:.2f} {}\n", p.x(), p.y(), p.z(), a.unit);
+  }
+  fmt::print("{}: {} branches, {} spheres, in the mesh's axes and in {}; looked at {:.2f} mm\n", a.output,
+             found.tree.branches.size(), found.tree.spheres(), a.output.ends_with(".vtp") ? a.unit : "mm",
+             1e3 * found.voxel_m);
   for (const vascular::TreeBranch& branch : found.tree.branches)
     fmt::print("  {:>3} from {:>3}  {:7.1f} mm, radius {:.2f} to {:.2f} mm\n", branch.name,
                branch.parent < 0 ? "-" : found.tree.branches[static_cast<std::size_t>(branch.parent)].name,
@@ -54,7 +69,7 @@ int run(const Arguments& a) {
 }  // namespace
 
 Command centreline_command() {
-  return make_command("centreline", "The centreline-sphere tree of a closed mesh",
+  return make_command("centreline", "The centreline-sphere tree of a mesh, closed where it is open",
                       {"ostium centreline coronaries.stl -o tree.json",
                        "ostium centreline aorta.obj --start 0,120,-30 --end 5,-200,-40 --end -60,-380,10 -o tree.vtp"},
                       declare, run);

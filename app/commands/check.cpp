@@ -11,6 +11,7 @@
 #include "vascular/geometry/mesh/mesh.h"
 #include "vascular/geometry/mesh/patient_frame.h"
 #include "vascular/geometry/mesh/surface_check.h"
+#include "vascular/geometry/mesh_files/rounding.h"
 #include "vascular/geometry/repair/calibre.h"
 #include "vascular/geometry/repair/double_wall.h"
 #include "vascular/geometry/repair/smooth.h"
@@ -54,18 +55,23 @@ struct Checked {
   vascular::DoubleWall wall;
   std::size_t flipped = 0, inverted = 0;
   vascular::Roughness rough;
+  double rounding_m = 0;          ///< between neighbouring numbers of the file
   std::vector<double> diameters;  ///< below which 2, 25, 50, 75, 98 % of the wall's area lies, m
 };
 
+constexpr double matters = 0.005;  // of rounding, in widths of the vessels
 constexpr double shares[] = {0.02, 0.25, 0.5, 0.75, 0.98};
 
 void find_unit(const Arguments& a, Checked& c) {
-  c.unit = guess_unit(read_mesh(c.file, vascular::LengthUnit::metre, 0).mesh);
+  const vascular::Mesh raw = read_mesh(c.file, vascular::LengthUnit::metre, 0).mesh;
+  c.unit = guess_lumen_unit(raw);
   c.unit_said = a.unit != "auto";
   if (c.unit_said)
     take_unit(vascular::unit_named(a.unit), c.unit);
   else if (!c.unit.vessel)
     take_unit(vascular::LengthUnit::millimetre, c.unit);  // the commonest unit
+  require_size(c.file, c.unit);
+  c.rounding_m = metres(c.unit.unit) * rounding_step(raw);
 }
 
 void find_openings(const vascular::Mesh& turned, const vascular::Sheets& sheets, Checked& c) {
@@ -128,6 +134,7 @@ nlohmann::ordered_json report_json(const Checked& c) {
           {"components", r.components},
           {"volume_mL", 1e6 * r.volume_m3},
           {"area_cm2", 1e4 * r.area_m2},
+          {"rounding_mm", 1e3 * c.rounding_m},
           {"welded_vertices", c.mesh.welded_vertices},
           {"dropped_triangles", c.mesh.dropped_triangles},
           {"skipped_faces", c.mesh.skipped_faces},
@@ -178,6 +185,15 @@ void print_size(const Checked& c) {
              1e3 * c.diameters[2], 1e3 * c.diameters[0], 1e3 * c.diameters[4]);
 }
 
+void print_rounding(const Checked& c) {
+  if (c.rounding_m > matters * c.diameters[2])
+    fmt::print(
+        "rounded: the file's numbers are {:.2g} mm apart, {:.0f} % of the vessels' width, and hide what is finer; save "
+        "it "
+        "with more digits, or moved to its origin\n",
+        1e3 * c.rounding_m, 100 * c.rounding_m / c.diameters[2]);
+}
+
 void print_faults(const Checked& c) {
   if (c.mesh.welded_vertices || c.mesh.dropped_triangles || c.mesh.skipped_faces)
     fmt::print("mended: {} vertices welded, {} triangles without width dropped, {} points and lines left out\n",
@@ -190,11 +206,13 @@ void print_faults(const Checked& c) {
   if (c.wall.triangles) {
     const Eigen::Vector3d p = vascular::mm_from_patient(c.wall.where);
     fmt::print(
-        "double wall: {} triangles are of an outer one, {:.2f} mm outside, the first at {:.2f} {:.2f} {:.2f} mm\n",
+        "double wall: {} triangles are of an outer one, {:.2f} mm outside, the first at {:.2f} {:.2f} {:.2f} mm; "
+        "import "
+        "keeps the lumen inside the inner one\n",
         c.wall.triangles, 1e3 * c.wall.thickness_m, p.x(), p.y(), p.z());
   }
   if (c.rough.noisy(c.diameters[2] / 2)) fmt::print("rough: vertices stand out by {:.2f} mm\n", 1e3 * c.rough.height_m);
-  fmt::print("{}", describe(c.report));
+  if (!c.report.sound() || !c.wall.triangles) fmt::print("{}", describe(c.report));
 }
 
 void draw(const Checked& c, const std::string& picture) {
@@ -230,7 +248,7 @@ int run(const Arguments& a) {
     if (a.json)
       all.push_back(report_json(checked));
     else
-      print_size(checked), print_faults(checked);
+      print_size(checked), print_rounding(checked), print_faults(checked);
     if (!a.picture.empty()) draw(checked, a.picture);
   }
   if (a.json) fmt::print("{}\n", all.dump(2));

@@ -234,5 +234,13 @@ TEST(TreeFile, VtkHasALineABranchInLps) {
   EXPECT_NE(vtp.find("10.0000 -30.0000 20.0000"), std::string::npos);  // left, back, head
 }
 
+TEST(TreeFile, VtkOfSomebodysMeshKeepsItsAxesAndUnit) {
+  const std::string in_mm = tree_to_vtp(fork(), vascular::LengthUnit::millimetre);
+  EXPECT_NE(in_mm.find("10.0000 20.0000 30.0000"), std::string::npos);
+  const std::string in_m = tree_to_vtp(fork(), vascular::LengthUnit::metre);
+  EXPECT_NE(in_m.find("0.0100000 0.0200000 0.0300000"), std::string::npos);
+  EXPECT_NE(in_m.find("\n0.0015000\n"), std::string::npos);  // a radius
+}
+
 }  // namespace
 }  // namespace ostium::data

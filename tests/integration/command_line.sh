@@ -126,6 +126,9 @@ expect 3 "FOUND=WANTED" "$ostium" import "$folder/whole.obj" --rename x -o "$fol
 expect 3 "BRANCH:FROM" "$ostium" import "$folder/whole.obj" --lesion RCA -o "$folder/case"
 [[ ! -e $folder/case && ! -e $folder/case.unfinished ]] || { echo "a refused import left something"; exit 1; }
 expect 0 "branches" "$ostium" centreline "$folder/whole.obj" -o "$folder/tree.json"
+expect 0 "in the mesh's axes and in cm;" "$ostium" centreline "$folder/whole.obj" --units cm -o "$folder/tree.vtp"
+sed -E 's/^v ([^ ]*) ([^ ]*) (.*)/v \1e4 \2e4 \3e4/' "$folder/whole.obj" >"$folder/huge.obj"
+expect 3 "expected vessels" "$ostium" check --units mm "$folder/huge.obj"
 expect 3 "three numbers" "$ostium" centreline "$folder/whole.obj" --start 1,2 -o "$folder/tree.json"
 expect 3 "no format of a tree" "$ostium" centreline "$folder/whole.obj" -o "$folder/tree.txt"
 

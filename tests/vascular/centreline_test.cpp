@@ -3,9 +3,12 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
+
 #include "tests/vascular/shapes.h"
 #include "vascular/anatomy/anatomy.h"
 #include "vascular/geometry/implicit/contour.h"
+#include "vascular/geometry/repair/sheets.h"
 
 namespace ostium::vascular {
 namespace {
@@ -78,6 +81,37 @@ TEST(Centreline, AllBranchesOfTheLeftCoronaryTree) {
       }
   EXPECT_EQ(reached, static_cast<int>(left.size()));
   EXPECT_LT((found.tree.branches[0].spheres.front().p - left[0].nodes.front().p).norm(), 4e-3);
+}
+
+TEST(Centreline, OfATubeGoesFromLidToLidHoweverItLiesOpenOrClosed) {
+  constexpr double radius = 2.5e-3, length = 100e-3;
+  for (bool open : {false, true})
+    for (int turn = 0; turn < 4; ++turn) {
+      Mesh mesh = test::tube(radius, length, 32, 100, open);
+      const Eigen::Matrix3d R = Eigen::AngleAxisd(turn == 3 ? 0.7 : turn * units::pi / 2,
+                                                  Eigen::Vector3d(turn == 1, turn != 1, turn == 3).normalized())
+                                    .matrix();
+      for (Eigen::Vector3d& p : mesh.vertices) p = R * p;
+      EXPECT_EQ(close_all(mesh).size(), open ? 2u : 0u);
+      const CentrelineResult found = find_centrelines(mesh, {.start = {}, .ends = {}, .most_voxels = 200'000});
+      ASSERT_EQ(found.tree.branches.size(), 1u);
+      const std::vector<TreeSphere>& spheres = found.tree.branches[0].spheres;
+      EXPECT_NEAR(spheres.back().s_m, length, 0.2e-3);
+      // 32 flat strips are inscribed: 0.5 % narrower.
+      for (const TreeSphere& sphere : spheres) {
+        EXPECT_NEAR(sphere.radius_m, radius * std::cos(units::pi / 32), 0.01 * radius) << turn << " at " << sphere.s_m;
+        EXPECT_LT((R.transpose() * sphere.p).head<2>().norm(), 0.02 * radius) << turn << " at " << sphere.s_m;
+      }
+    }
+}
+
+TEST(Centreline, OfPiecesThatOverlapRunsThroughBoth) {
+  Mesh mesh = test::tube(2e-3, 40e-3, 32, 40), other = mesh;
+  for (Eigen::Vector3d& p : other.vertices) p += Eigen::Vector3d(1e-4, 2e-4, 30e-3);
+  append(mesh, other);
+  const CentrelineResult found = find_centrelines(mesh, {.start = {}, .ends = {}, .most_voxels = 200'000});
+  ASSERT_FALSE(found.tree.branches.empty());
+  EXPECT_GT(found.tree.branches[0].spheres.back().s_m, 65e-3);
 }
 
 TEST(Centreline, WhatHasNoInsideOrIsInPiecesIsRefused) {

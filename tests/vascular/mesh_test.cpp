@@ -8,6 +8,8 @@
 #include <fstream>
 
 #include "tests/vascular/shapes.h"
+#include "vascular/geometry/mesh/surface_check.h"
+#include "vascular/geometry/mesh_files/rounding.h"
 #include "vascular/geometry/mesh_files/written_mesh.h"
 
 namespace ostium::vascular {
@@ -40,6 +42,26 @@ TEST(Mesh, VolumeAndAreaOfACube) {
   const Mesh cube = test::cube(0.02);
   EXPECT_NEAR(volume_m3(cube), 8e-6, 1e-18);
   EXPECT_NEAR(area_m2(cube), 6 * 4e-4, 1e-15);
+}
+
+TEST(Mesh, VolumeIsTheSameFarFromTheOrigin) {
+  Mesh mesh = test::sphere(0.03, 24);
+  const double volume = volume_m3(mesh);
+  for (Eigen::Vector3d& p : mesh.vertices) p += Eigen::Vector3d(4000, -3000, 5000);
+  // What is left is the rounding of the coordinates themselves, 1e-12 m.
+  EXPECT_NEAR(volume_m3(mesh), volume, 1e-9 * volume);
+  EXPECT_TRUE(check_surface(mesh).sound());
+}
+
+TEST(Mesh, RoundingIsThatOfTheFilesNumbers) {
+  Mesh mesh = test::sphere(10, 16);
+  EXPECT_LT(rounding_step(mesh), 1e-14);
+  for (Eigen::Vector3d& p : mesh.vertices) p.x() += 4e6;
+  mesh = test::in_single(mesh);
+  EXPECT_EQ(rounding_step(mesh), 0.25);  // 24 bits for 2^21 to 2^22
+  for (Eigen::Vector3d& p : mesh.vertices) p.x() -= 4e6;
+  for (Eigen::Vector3d& p : mesh.vertices) p = (p * 100).array().round() / 100;
+  EXPECT_NEAR(rounding_step(mesh), 0.01, 1e-12);
 }
 
 TEST(Mesh, EveryFormatBringsBackWhatWasWritten) {

@@ -15,6 +15,7 @@
 #include "vascular/geometry/mesh/surface_check.h"
 #include "vascular/geometry/repair/bridges.h"
 #include "vascular/geometry/repair/decimate.h"
+#include "vascular/geometry/repair/double_wall.h"
 #include "vascular/geometry/repair/sheets.h"
 #include "vascular/geometry/repair/units.h"
 #include "vascular/geometry/repair/winding.h"
@@ -230,6 +231,40 @@ TEST_F(OwnAnatomy, DoubledWallLosesTheOuterOne) {
   expect_one_sound_lumen(repaired);
   ASSERT_TRUE(note(repaired, "outer wall dropped (0.")) << words(repaired);
   EXPECT_LT(worst_radius_mm(repaired.lumen), 0.15);
+}
+
+TEST(Repair, OfAWallThatIsASolidTheLumenIsWhatItHolds) {
+  constexpr double length = 0.2;
+  for (const auto& [radius, thickness] : {std::pair{10 * mm, 2 * mm}, {10 * mm, 6 * mm}, {3 * mm, 6 * mm}}) {
+    const Mesh mesh = test::wall(radius, thickness, length, 36, 80);
+    ASSERT_TRUE(check_surface(mesh).sound());
+    const RepairedMesh repaired = repair_mesh(mesh);
+    EXPECT_EQ(repaired.lumens, 1);
+    EXPECT_EQ(repaired.ends.size(), 2u);
+    // The corners of the result lie on the wall, its edges are chords of it: up to 0.6 mm (r / 1 mm)^0.75 and 2.2 mm.
+    const double chord = std::min(0.6 * mm * std::pow(radius / mm, 0.75), 2.2 * mm),
+                 cut = std::pow(chord / radius, 2) / 6;
+    const double expected = length * test::polygon_area(radius, 36);
+    EXPECT_NEAR(volume_m3(repaired.lumen), (1 - cut / 2) * expected, (0.005 + cut / 2) * expected)
+        << radius << thickness;
+  }
+}
+
+TEST(Repair, TwoTubesSideBySideAreNoWall) {
+  Mesh mesh = test::tube(5 * mm, 0.2, 36, 80, true), other = mesh;
+  for (Eigen::Vector3d& p : other.vertices) p.x() += 20 * mm;
+  append(mesh, other);
+  const Sheets sheets = sheets_of(mesh);
+  EXPECT_EQ(find_double_wall(mesh, sheets).triangles, 0);
+}
+
+TEST(Repair, AWallsUnitIsThatOfItsLumen) {
+  const Mesh in_mm = test::scaled(test::wall(10 * mm, 2 * mm, 0.25, 36, 80), 1e3);
+  EXPECT_FALSE(guess_unit(in_mm).vessel);
+  const UnitGuess guess = guess_unit(without_outer_wall(in_mm));
+  EXPECT_TRUE(guess.vessel);
+  EXPECT_EQ(guess.unit, LengthUnit::millimetre);
+  EXPECT_NEAR(guess.calibre_m, 20 * mm, 0.2 * mm);
 }
 
 TEST_F(OwnAnatomy, NoiseIsSmoothed) {

@@ -40,4 +40,59 @@ inline vascular::Mesh sphere(double radius, int n, const Eigen::Vector3d& centre
   return m;
 }
 
+/// A straight tube along z from 0 to `length`, of `columns` and `rows`; its lids are fans, if it has any.
+inline vascular::Mesh tube(double radius, double length, int columns, int rows, bool open = false) {
+  vascular::Mesh m;
+  for (int i = 0; i <= rows; ++i)
+    for (int j = 0; j < columns; ++j) {
+      const double phi = 2 * units::pi * j / columns;
+      m.vertices.emplace_back(radius * std::cos(phi), radius * std::sin(phi), length * i / rows);
+    }
+  const auto at = [&](int i, int j) { return i * columns + j % columns; };
+  for (int i = 0; i < rows; ++i)
+    for (int j = 0; j < columns; ++j) {
+      m.triangles.push_back({at(i, j), at(i, j + 1), at(i + 1, j)});
+      m.triangles.push_back({at(i, j + 1), at(i + 1, j + 1), at(i + 1, j)});
+    }
+  if (open) return m;
+  const int bottom = static_cast<int>(m.vertices.size()), top = bottom + 1;
+  m.vertices.emplace_back(0, 0, 0);
+  m.vertices.emplace_back(0, 0, length);
+  for (int j = 0; j < columns; ++j) {
+    m.triangles.push_back({bottom, at(0, j + 1), at(0, j)});
+    m.triangles.push_back({top, at(rows, j), at(rows, j + 1)});
+  }
+  return m;
+}
+
+/// The wall of a straight tube along z as one solid: two surfaces, and rims that join them at both ends.
+inline vascular::Mesh wall(double inner_radius, double thickness, double length, int columns, int rows) {
+  vascular::Mesh m = tube(inner_radius + thickness, length, columns, rows, true);
+  vascular::Mesh inner = tube(inner_radius, length, columns, rows, true);
+  for (auto& t : inner.triangles) std::swap(t[1], t[2]);
+  const int from = static_cast<int>(m.vertices.size());
+  append(m, inner);
+  for (int j = 0; j < columns; ++j) {
+    const int k = (j + 1) % columns, top = rows * columns;
+    m.triangles.push_back({j, from + j, from + k});
+    m.triangles.push_back({j, from + k, k});
+    m.triangles.push_back({top + j, from + top + k, from + top + j});
+    m.triangles.push_back({top + j, top + k, from + top + k});
+  }
+  return m;
+}
+
+/// In single precision, as files have it. Two loops: see as_written.
+inline vascular::Mesh in_single(vascular::Mesh m) {
+  std::vector<Eigen::Vector3f> kept;
+  for (const Eigen::Vector3d& p : m.vertices) kept.push_back(p.cast<float>());
+  for (std::size_t v = 0; v < kept.size(); ++v) m.vertices[v] = kept[v].cast<double>();
+  return m;
+}
+
+/// Area of a regular polygon with its corners on a circle.
+inline double polygon_area(double radius, int corners) {
+  return corners * radius * radius * std::sin(2 * units::pi / corners) / 2;
+}
+
 }  // namespace ostium::test

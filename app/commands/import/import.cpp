@@ -20,6 +20,7 @@
 #include "vascular/anatomy/labelling/narrowings.h"
 #include "vascular/geometry/mesh/patient_frame.h"
 #include "vascular/geometry/mesh/surface_check.h"
+#include "vascular/geometry/mesh_files/rounding.h"
 #include "vascular/geometry/mesh_files/written_mesh.h"
 #include "vascular/geometry/repair/repair.h"
 #include "vascular/geometry/repair/units.h"
@@ -165,7 +166,7 @@ class Import {
   vascular::LengthUnit find_unit(const vascular::Mesh& raw) {
     made_.triangles = static_cast<int>(raw.triangles.size());
     progress_(fmt::format("{} triangles; looking for their unit", made_.triangles));
-    made_.unit = guess_unit(raw);
+    made_.unit = guess_lumen_unit(raw);
     made_.unit_said = options_.unit != "auto";
     if (made_.unit_said) {
       take_unit(vascular::unit_named(options_.unit), made_.unit);
@@ -175,6 +176,8 @@ class Import {
           "unit with --units",
           options_.files.front(), name_of(made_.unit.unit), made_.unit.extent_m / mm, made_.unit.calibre_m / mm));
     }
+    require_size(options_.files.front(), made_.unit);
+    rounding_m_ = metres(made_.unit.unit) * rounding_step(raw);
     if (!options_.entry.empty()) wanted_.entry = metres(made_.unit.unit) * mesh_point(options_.entry);
     return made_.unit.unit;
   }
@@ -218,6 +221,11 @@ class Import {
     const vascular::SurfaceReport report = check_surface(made_.found.lumen);
     if (!report.sound())
       made_.found.notes.push_back("the lumen is not sound: " + describe(report).substr(0, describe(report).find('\n')));
+    if (rounding_m_ > 0.005 * made_.unit.calibre_m)
+      made_.found.notes.push_back(
+          fmt::format("the file's numbers are {:.2g} mm apart and hide what is finer: save it with more digits, or "
+                      "moved to its origin",
+                      rounding_m_ / mm));
   }
 
   void make_case() {
@@ -265,6 +273,7 @@ class Import {
   vascular::LabellingOptions wanted_;
   vascular::Mesh mesh_;
   std::vector<std::string> files_;  ///< of a sequence
+  double rounding_m_ = 0;           ///< between neighbouring numbers of the file
   Imported made_;
 };
 

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <filesystem>
 
 #include "core/base/units.h"
@@ -80,7 +81,9 @@ std::string tree_to_json(const vascular::SphereTree& tree) {
   return text + "\n]\n}\n";
 }
 
-std::string tree_to_vtp(const vascular::SphereTree& tree) {
+std::string tree_to_vtp(const vascular::SphereTree& tree, std::optional<vascular::LengthUnit> own_unit) {
+  const double unit_m = own_unit ? metres(*own_unit) : mm;
+  const int digits = own_unit ? 4 + static_cast<int>(std::lround(std::log10(unit_m / mm))) : 4;
   std::string points, radii, connectivity, offsets, ids, parents, names;
   std::size_t count = 0, lines = 0;
   for (std::size_t b = 0; b < tree.branches.size(); ++b) {
@@ -90,9 +93,9 @@ std::string tree_to_vtp(const vascular::SphereTree& tree) {
       line.insert(line.begin(), tree.branches[static_cast<std::size_t>(branch.parent)]
                                     .spheres[static_cast<std::size_t>(branch.parent_sphere)]);
     for (const vascular::TreeSphere& sphere : line) {
-      const Eigen::Vector3d p = vascular::lps_mm_from_patient(sphere.p);
-      points += fmt::format("{:.4f} {:.4f} {:.4f}\n", p.x(), p.y(), p.z());
-      radii += fmt::format("{:.4f}\n", sphere.radius_m / mm);
+      const Eigen::Vector3d p = own_unit ? Eigen::Vector3d(sphere.p / unit_m) : vascular::lps_mm_from_patient(sphere.p);
+      points += fmt::format("{0:.{3}f} {1:.{3}f} {2:.{3}f}\n", p.x(), p.y(), p.z(), digits);
+      radii += fmt::format("{:.{}f}\n", sphere.radius_m / unit_m, digits);
       connectivity += fmt::format("{}\n", count++);
     }
     offsets += fmt::format("{}\n", count);
@@ -114,17 +117,18 @@ std::string tree_to_vtp(const vascular::SphereTree& tree) {
          "<PointData Scalars=\"MaximumInscribedSphereRadius\">\n" +
          data_array("Float32", "MaximumInscribedSphereRadius", radii) + "</PointData>\n<CellData>\n" +
          data_array("Int32", "BranchId", ids) + data_array("Int32", "ParentId", parents) + "</CellData>\n<Points>\n" +
-         data_array("Float32", "", points, " NumberOfComponents=\"3\"") + "</Points>\n<Lines>\n" +
+         data_array("Float64", "", points, " NumberOfComponents=\"3\"") + "</Points>\n<Lines>\n" +
          data_array("Int32", "connectivity", connectivity) + data_array("Int32", "offsets", offsets) +
          "</Lines>\n</Piece>\n</PolyData>\n</VTKFile>\n";
 }
 
-void write_tree(const std::string& file, const vascular::SphereTree& tree) {
+void write_tree(const std::string& file, const vascular::SphereTree& tree,
+                std::optional<vascular::LengthUnit> own_unit) {
   const std::string ending = std::filesystem::path(file).extension().string();
   if (ending != ".json" && ending != ".vtp")
     throw LoadError(
         fmt::format("{}: the ending \"{}\" names no format of a tree; expected .json or .vtp", file, ending));
-  write_file(file, ending == ".json" ? tree_to_json(tree) : tree_to_vtp(tree));
+  write_file(file, ending == ".json" ? tree_to_json(tree) : tree_to_vtp(tree, own_unit));
 }
 
 }  // namespace ostium::data

@@ -1,14 +1,18 @@
 #pragma once
-/// The centreline-sphere tree in files: JSON (data/schemas/tree.schema.json; patient frame, mm), and VTK polydata for
-/// VMTK and 3D Slicer (LPS, mm).
+/// The centreline-sphere tree in files: JSON (data/schemas/tree.schema.json; the tree's own axes, mm), and VTK polydata
+/// for VMTK and 3D Slicer.
+#include <optional>
 #include <string>
 
 #include "vascular/geometry/centreline/sphere_tree.h"
+#include "vascular/geometry/mesh/mesh.h"
 
 namespace ostium::data {
 
-/// Format by the name's ending: .json or .vtp. Throws LoadError for any other ending, WriteError.
-void write_tree(const std::string& file, const vascular::SphereTree& tree);
+/// Format by the name's ending: .json or .vtp. `own_unit`: see tree_to_vtp. Throws LoadError for any other ending,
+/// WriteError.
+void write_tree(const std::string& file, const vascular::SphereTree& tree,
+                std::optional<vascular::LengthUnit> own_unit = {});
 
 /// .json only. Throws LoadError with file, line and what was expected.
 vascular::SphereTree load_tree(const std::string& file);
@@ -16,7 +20,8 @@ vascular::SphereTree read_tree(const std::string& file, const std::string& text)
 
 std::string tree_to_json(const vascular::SphereTree& tree);
 /// One polyline per branch, with point data "MaximumInscribedSphereRadius" (VMTK's name) and cell data "BranchId",
-/// "ParentId"; the names are in field data "BranchNames". A branch's line begins at its parent's sphere.
-std::string tree_to_vtp(const vascular::SphereTree& tree);
+/// "ParentId"; the names are in field data "BranchNames". A branch's line begins at its parent's sphere. The tree of a
+/// patient goes from frame P to LPS, mm; that of somebody's mesh keeps its axes, in `own_unit`, and so fits the mesh.
+std::string tree_to_vtp(const vascular::SphereTree& tree, std::optional<vascular::LengthUnit> own_unit = {});
 
 }  // namespace ostium::data

@@ -7,6 +7,7 @@
 #include <limits>
 #include <queue>
 
+#include "vascular/geometry/centreline/line_fit.h"
 #include "vascular/geometry/centreline/voxels.h"
 #include "vascular/geometry/mesh/patient_frame.h"
 
@@ -15,7 +16,8 @@ namespace ostium::vascular {
 namespace {
 
 constexpr double unreached = std::numeric_limits<double>::infinity();
-constexpr double reach = 2;  // a path covers what lies within this many radii
+constexpr double reach = 2;            // a path covers what lies within this many radii
+constexpr double widest_from_lid = 3;  // radii: a widest place this near to a lid has no strand of its own to it
 
 struct Paths {
   std::vector<double> length_m;  ///< along the cheapest path from the root
@@ -159,41 +161,6 @@ int widest_end(const Voxels& voxels) {
   return end;
 }
 
-/// Refines the voxel path: smooths it, then moves each point across the line to where its sphere is largest.
-std::vector<TreeSphere> fitted(std::vector<Eigen::Vector3d> line, const BoundingVolumeHierarchy& wall, double voxel_m) {
-  const std::size_t n = line.size();
-  for (int round = 0; round < 8; ++round) {
-    std::vector<Eigen::Vector3d> next = line;
-    for (std::size_t i = 1; i + 1 < n; ++i) next[i] = (line[i - 1] + 2 * line[i] + line[i + 1]) / 4;
-    line = std::move(next);
-    for (std::size_t i = 1; i + 1 < n && round < 5; ++i) {
-      // Move half-way to the midpoint between the nearest wall point and the wall opposite.
-      const Eigen::Vector3d along = (line[i + 1] - line[i - 1]).normalized();
-      const BoundingVolumeHierarchy::Nearest near = wall.nearest(line[i], 1);
-      Eigen::Vector3d away = line[i] - near.point;
-      away -= away.dot(along) * along;
-      if (away.norm() < 1e-9) continue;
-      away.normalize();
-      const double step = std::min(voxel_m / 2, near.distance_m / 4);
-      if (wall.nearest(line[i] + step * away, 1).distance_m > near.distance_m + step / 2) line[i] += step * away / 2;
-    }
-  }
-  std::vector<TreeSphere> spheres;
-  for (std::size_t i = 0; i < n; ++i) {
-    const double radius = wall.nearest(line[i], 1).distance_m;
-    const double step = spheres.empty() ? 0 : (line[i] - spheres.back().p).norm();
-    if (!spheres.empty() && step < radius / 2 && i + 1 < n) continue;
-    spheres.push_back({line[i], radius, spheres.empty() ? 0 : spheres.back().s_m + step});
-  }
-  return spheres;
-}
-
-/// A strand extends up to the wall at its tip, where spheres shrink much faster than a vessel tapers: removes these.
-void trim(std::vector<TreeSphere>& spheres) {
-  while (spheres.size() > 2 && spheres.back().radius_m < 0.75 * spheres[spheres.size() - 2].radius_m)
-    spheres.pop_back();
-}
-
 }  // namespace
 
 CentrelineResult find_centrelines(const Mesh& mesh, const CentrelineOptions& options) {
@@ -222,9 +189,13 @@ CentrelineResult find_centrelines(const Mesh& mesh, const CentrelineOptions& opt
     std::vector<Eigen::Vector3d> line;
     if (strand.parent >= 0) line.push_back(voxels.place(skeleton.strands()[strand.parent].voxels[strand.leaves_at]));
     for (int v : strand.voxels) line.push_back(voxels.place(v));
-    branch.spheres = fitted(line, wall, voxels.size_m());
-    trim(branch.spheres);
-    if (strand.parent >= 0) {
+    branch.spheres = fitted_spheres(line, wall, voxels.size_m());
+    carry_to_lid(branch.spheres, wall);
+    if (strand.parent < 0) {
+      turn_round(branch.spheres);
+      carry_to_lid(branch.spheres, wall, options.start ? 1 : widest_from_lid);
+      turn_round(branch.spheres);
+    } else {
       const std::vector<TreeSphere>& on = result.tree.branches[strand.parent].spheres;
       const auto nearest = std::min_element(on.begin(), on.end(), [&](const TreeSphere& a, const TreeSphere& b) {
         return (a.p - line.front()).squaredNorm() < (b.p - line.front()).squaredNorm();

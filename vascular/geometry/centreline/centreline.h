@@ -5,7 +5,7 @@
 /// Voxels inside the mesh store their distance to the wall. Cheapest paths from the start, with a cost of length over
 /// squared wall distance, stay in the middle (as in VMTK: Antiga et al., Med Biol Eng Comput 2008;46:1097). Without
 /// given ends, the farthest voxel not yet covered by a path starts the next one (Sato et al., TEASAR, 2000). Finally,
-/// spheres are moved to where they are largest.
+/// spheres are moved to where they are largest, and lines carried on to the lids of the lumen (line_fit.h).
 #include <optional>
 #include <string>
 #include <vector>

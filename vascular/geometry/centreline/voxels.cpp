@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 namespace ostium::vascular {
 
@@ -14,7 +15,11 @@ Voxels::Voxels(const Mesh& mesh, const BoundingVolumeHierarchy& wall, std::size_
   // Offset from the grid of the mesh's own coordinates, so that no ray runs along an edge.
   const Eigen::Vector3d origin = box.min() - size_ * Eigen::Vector3d(2.137, 2.271, 2.313);
   for (int axis = 0; axis < 3; ++axis) n_[axis] = static_cast<long>(box.sizes()[axis] / size_) + 6;
-  std::vector<std::vector<float>> crossings(static_cast<std::size_t>(n_[0] * n_[1]));
+  struct Crossing {
+    float z;
+    int enters;  ///< 1 into the surface, -1 out of it
+  };
+  std::vector<std::vector<Crossing>> crossings(static_cast<std::size_t>(n_[0] * n_[1]));
   for (const auto& [i, j, k] : mesh.triangles) {
     const Eigen::Vector3d a = (mesh.vertices[i] - origin) / size_, b = (mesh.vertices[j] - origin) / size_,
                           c = (mesh.vertices[k] - origin) / size_;
@@ -29,16 +34,20 @@ Voxels::Voxels(const Mesh& mesh, const BoundingVolumeHierarchy& wall, std::size_
         const double v = ((c.x() - X) * (a.y() - Y) - (c.y() - Y) * (a.x() - X)) / area;
         if (u < 0 || v < 0 || u + v > 1) continue;
         crossings[static_cast<std::size_t>(y * n_[0] + x)].push_back(
-            static_cast<float>(u * a.z() + v * b.z() + (1 - u - v) * c.z()));
+            {static_cast<float>(u * a.z() + v * b.z() + (1 - u - v) * c.z()), area < 0 ? 1 : -1});
       }
   }
   index_.assign(static_cast<std::size_t>(n_[0] * n_[1] * n_[2]), -1);
   for (long column = 0; column < n_[0] * n_[1]; ++column) {
-    std::vector<float>& z = crossings[static_cast<std::size_t>(column)];
-    if (z.size() % 2) continue;
-    std::sort(z.begin(), z.end());
-    for (std::size_t i = 0; i + 1 < z.size(); i += 2)
-      for (long k = static_cast<long>(std::ceil(z[i])); static_cast<float>(k) < z[i + 1]; ++k) {
+    std::vector<Crossing>& z = crossings[static_cast<std::size_t>(column)];
+    int winding = 0;
+    for (const Crossing& crossing : z) winding += crossing.enters;
+    if (winding != 0) continue;
+    std::sort(z.begin(), z.end(),
+              [](const Crossing& a, const Crossing& b) { return std::tie(a.z, b.enters) < std::tie(b.z, a.enters); });
+    for (std::size_t i = 0; i + 1 < z.size(); ++i) {
+      if ((winding += z[i].enters) == 0) continue;
+      for (long k = static_cast<long>(std::ceil(z[i].z)); static_cast<float>(k) < z[i + 1].z; ++k) {
         const long cell = k * n_[0] * n_[1] + column;
         if (index_[static_cast<std::size_t>(cell)] >= 0) continue;
         index_[static_cast<std::size_t>(cell)] = count();
@@ -48,6 +57,7 @@ Voxels::Voxels(const Mesh& mesh, const BoundingVolumeHierarchy& wall, std::size_
                                                            static_cast<double>(k)));
         to_wall_.push_back(wall.nearest(places_.back(), 1).distance_m);
       }
+    }
   }
 }
 

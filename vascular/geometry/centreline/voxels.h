@@ -8,7 +8,8 @@ namespace ostium::vascular {
 
 class Voxels {
  public:
-  /// Inside by parity of crossings along z; columns with an odd number (a hole) count as outside.
+  /// Inside by the winding number along z, so pieces may overlap; columns that do not come out again (a hole) count as
+  /// outside.
   Voxels(const Mesh& mesh, const BoundingVolumeHierarchy& wall, std::size_t most);
 
   double size_m() const { return size_; }

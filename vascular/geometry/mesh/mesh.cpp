@@ -6,6 +6,7 @@
 
 #include "core/base/units.h"
 #include "core/math/solid_angle.h"
+#include "vascular/geometry/mesh/box_middle.h"
 
 namespace ostium::vascular {
 
@@ -50,10 +51,17 @@ std::vector<int> weld(const std::vector<Eigen::Vector3d>& corners, double weld_m
   return vertex_of;
 }
 
+Eigen::Vector3d box_middle(const Mesh& mesh) {
+  Eigen::AlignedBox3d box;
+  for (const Eigen::Vector3d& p : mesh.vertices) box.extend(p);
+  return box.isEmpty() ? Eigen::Vector3d(Eigen::Vector3d::Zero()) : box.center();
+}
+
 double volume_m3(const Mesh& mesh) {
+  const Eigen::Vector3d origin = box_middle(mesh);
   double six_volumes = 0;
   for (const auto& [a, b, c] : mesh.triangles)
-    six_volumes += mesh.vertices[a].dot(mesh.vertices[b].cross(mesh.vertices[c]));
+    six_volumes += (mesh.vertices[a] - origin).dot((mesh.vertices[b] - origin).cross(mesh.vertices[c] - origin));
   return six_volumes / 6;
 }
 

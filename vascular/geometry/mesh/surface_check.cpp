@@ -8,6 +8,8 @@
 #include <numeric>
 
 #include "vascular/geometry/mesh/bounding_volume_hierarchy.h"
+#include "vascular/geometry/mesh/box_middle.h"
+#include "vascular/geometry/mesh/crossing.h"
 #include "vascular/geometry/mesh/patient_frame.h"
 
 namespace ostium::vascular {
@@ -86,42 +88,16 @@ void check_vertices(const Mesh& mesh, const std::vector<Edge>& edges, SurfaceRep
 }
 
 void check_components(const Mesh& mesh, bool cavities, SurfaceReport& report, Groups& connected) {
+  const Eigen::Vector3d origin = box_middle(mesh);
   std::map<int, double> six_volumes;
   for (int t = 0; t < report.triangles; ++t) {
     const auto& [a, b, c] = mesh.triangles[t];
-    six_volumes[connected.of(t)] += mesh.vertices[a].dot(mesh.vertices[b].cross(mesh.vertices[c]));
+    six_volumes[connected.of(t)] +=
+        (mesh.vertices[a] - origin).dot((mesh.vertices[b] - origin).cross(mesh.vertices[c] - origin));
   }
   report.components = static_cast<int>(six_volumes.size());
   for (const auto& [first, volume] : six_volumes)
     if (volume < 0 && !cavities) report.inverted.add(mesh.vertices[mesh.triangles[first][0]]);
-}
-
-double six_volume(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c,
-                  const Eigen::Vector3d& d) {
-  return (b - a).cross(c - a).dot(d - a);
-}
-
-/// Whether the open segment (p, q) passes through the interior of triangle (a, b, c). Touching is not crossing.
-bool pierces(const Eigen::Vector3d& p, const Eigen::Vector3d& q, const Eigen::Vector3d& a, const Eigen::Vector3d& b,
-             const Eigen::Vector3d& c) {
-  if (six_volume(a, b, c, p) * six_volume(a, b, c, q) >= 0) return false;
-  const double u = six_volume(p, q, a, b), v = six_volume(p, q, b, c), w = six_volume(p, q, c, a);
-  return (u > 0 && v > 0 && w > 0) || (u < 0 && v < 0 && w < 0);
-}
-
-bool cross(const Mesh& mesh, const std::array<int, 3>& s, const std::array<int, 3>& t) {
-  const auto holds = [](const std::array<int, 3>& tri, int v) { return tri[0] == v || tri[1] == v || tri[2] == v; };
-  const auto one_way = [&](const std::array<int, 3>& edges, const std::array<int, 3>& face) {
-    for (int k = 0; k < 3; ++k) {
-      const int i = edges[k], j = edges[(k + 1) % 3];
-      if (holds(face, i) || holds(face, j)) continue;
-      if (pierces(mesh.vertices[i], mesh.vertices[j], mesh.vertices[face[0]], mesh.vertices[face[1]],
-                  mesh.vertices[face[2]]))
-        return true;
-    }
-    return false;
-  };
-  return one_way(s, t) || one_way(t, s);
 }
 
 void describe_fault(std::string& text, const char* what, const SurfaceFault& fault) {
@@ -144,7 +120,7 @@ bool SurfaceReport::sound() const {
 std::vector<std::array<int, 2>> crossing_triangles(const Mesh& mesh) {
   std::vector<std::array<int, 2>> pairs;
   BoundingVolumeHierarchy(mesh).for_each_pair([&](int i, int j) {
-    if (cross(mesh, mesh.triangles[i], mesh.triangles[j])) pairs.push_back({i, j});
+    if (triangles_cross(mesh, i, j)) pairs.push_back({i, j});
   });
   return pairs;
 }

@@ -38,7 +38,7 @@ struct SurfaceReport {
 /// Components inside others (a cavity) may face inwards only if `cavities`.
 SurfaceReport check_surface(const Mesh& mesh, bool cavities = false);
 
-/// Pairs of triangles that cross each other. Sharing a vertex or touching is no crossing.
+/// Pairs of triangles that cross each other, as crossing.h has it. Touching is no crossing.
 std::vector<std::array<int, 2>> crossing_triangles(const Mesh& mesh);
 
 /// One line per fault with its first position in mm; "sound" if there is none.

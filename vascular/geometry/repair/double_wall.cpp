@@ -12,13 +12,16 @@ namespace ostium::vascular {
 
 namespace {
 
-constexpr double thickest_m = 5e-3;
-constexpr double farthest_m = 60e-3;  // opposite side of the widest lumen
-constexpr double along_surface = 4;   // a shell this many thicknesses away along the surface is a different one
-constexpr double narrowest = 0.8;     // a lumen is wider than this many wall thicknesses
-constexpr double rim = 4;             // thicknesses from an outer shell: triangles that may join it to the inner one
-constexpr double least_patch = 25;    // smallest area of a patch, in squared thicknesses
-constexpr int most_rays = 60'000;     // in finer meshes, triangles take the label of a nearby one
+constexpr double thickest_m = 5e-3, thickest_solid_m = 20e-3;
+constexpr double farthest_m = 60e-3;     // opposite side of the widest lumen
+constexpr double along_surface = 4;      // a shell this many thicknesses away along the surface is a different one
+constexpr double narrowest = 0.8;        // a lumen is wider than this many wall thicknesses,
+constexpr double narrowest_solid = 0.1;  // or than this many of a wall that is a solid
+constexpr double most_uneven = 1.5;      // ratio of a solid's thicknesses on opposite sides of the lumen
+constexpr double usual_extent_m = 0.25;
+constexpr double rim = 4;           // thicknesses from an outer shell: triangles that may join it to the inner one
+constexpr double least_patch = 25;  // smallest area of a patch, in squared thicknesses
+constexpr int most_rays = 60'000;   // in finer meshes, triangles take the label of a nearby one
 
 class ShellFinder {
  public:
@@ -36,21 +39,25 @@ class ShellFinder {
     for (double side : {1.0, -1.0}) {
       const Eigen::Vector3d in = -side * normals_[t];
       const auto inside = tree_.hits(middles_[t] + 1e-7 * in, in, farthest_m);
-      if (inside.size() < 2 || inside[0].distance_m > thickest_m) continue;
-      const double wall = inside[0].distance_m;
-      if (wall < 2e-5 || inside[1].distance_m - wall < narrowest * wall) continue;
+      if (inside.size() < 2) continue;
+      const double wall = inside[0].distance_m, lumen = inside[1].distance_m - wall;
+      const bool solid = side > 0 && solid_wall(t, inside);
+      if (wall < 2e-5 || wall > (solid ? thickest_solid_m : thickest_m)) continue;
+      if (lumen < (solid ? narrowest_solid : narrowest) * wall) continue;
       if (std::fabs(normals_[inside[0].triangle].dot(normals_[t])) < 0.7) continue;
-      if (!tree_.hits(middles_[t] - 1e-7 * in, -in, 2 * wall).empty()) continue;
+      // Of the two sides of a solid, the lumen is the narrower.
+      const double free = solid ? std::max(2 * wall, lumen) : 2 * wall;
+      if (!tree_.hits(middles_[t] - 1e-7 * in, -in, free).empty()) continue;
       if (reached(t, inside[0].triangle, along_surface * wall)) continue;
       return wall;
     }
     return 0;
   }
 
-  /// Whether an outer shell lies close behind triangle `t`.
-  bool inner(int t, const std::vector<bool>& outer) const {
+  /// Whether an outer shell lies within `reach_m` behind triangle `t`.
+  bool inner(int t, const std::vector<bool>& outer, double reach_m) const {
     for (double side : {1.0, -1.0}) {
-      const auto hits = tree_.hits(middles_[t] + side * 1e-7 * normals_[t], side * normals_[t], thickest_m);
+      const auto hits = tree_.hits(middles_[t] + side * 1e-7 * normals_[t], side * normals_[t], reach_m);
       if (!hits.empty() && outer[hits[0].triangle] && std::fabs(normals_[hits[0].triangle].dot(normals_[t])) > 0.5)
         return true;
     }
@@ -61,6 +68,19 @@ class ShellFinder {
   const Eigen::Vector3d& middle(int t) const { return middles_[t]; }
 
  private:
+  /// Whether a ray inwards from triangle `t` goes through a wall that was drawn as one solid: out of it into the lumen,
+  /// into it again, and out of as thick a wall as before.
+  bool solid_wall(int t, const std::vector<BoundingVolumeHierarchy::Hit>& inside) const {
+    if (inside.size() < 3) return false;
+    for (int k = 0; k < 3; ++k) {
+      const int hit = inside[k].triangle;
+      const bool leaves = normals_[hit].dot(normals_[t]) < 0;
+      if (sheets_.piece[hit] != sheets_.piece[t] || leaves != (k % 2 == 0)) return false;
+    }
+    const double ratio = (inside[2].distance_m - inside[1].distance_m) / inside[0].distance_m;
+    return ratio < most_uneven && ratio > 1 / most_uneven;
+  }
+
   bool reached(int from, int to, double limit_m) const {
     std::priority_queue<std::pair<double, int>, std::vector<std::pair<double, int>>, std::greater<>> open;
     std::unordered_map<int, double> best;
@@ -76,7 +96,7 @@ class ShellFinder {
         if (o < 0) continue;
         const double next = d + (middles_[o / 3] - middles_[t]).norm();
         const auto [entry, fresh] = best.try_emplace(o / 3, next);
-        if (next > limit_m || (!fresh && entry->second <= next)) continue;
+        if (next + (middles_[o / 3] - middles_[to]).norm() > limit_m || (!fresh && entry->second <= next)) continue;
         entry->second = next;
         open.push({next, o / 3});
       }
@@ -177,10 +197,10 @@ DoubleWall find_double_wall(const Mesh& mesh, const Sheets& sheets) {
   absorb(sheets, result.outer,
          [&](const std::vector<int>& patch, bool outer, bool) { return outer && area_of(patch) < least; });
   // Rims at the ends that join the shells.
-  const std::vector<bool> shell = result.outer;
+  const double reach = std::max(thickest_m, 2 * result.thickness_m);
   std::queue<std::pair<int, double>> open;
   for (int t = 0; t < n; ++t)
-    if (shell[t]) open.push({t, 0});
+    if (result.outer[t]) open.push({t, 0});
   while (!open.empty()) {
     const auto [t, d] = open.front();
     open.pop();
@@ -188,7 +208,7 @@ DoubleWall find_double_wall(const Mesh& mesh, const Sheets& sheets) {
       const int o = sheets.opposite[3 * t + k];
       if (o < 0 || result.outer[o / 3]) continue;
       const double next = d + (finder.middle(o / 3) - finder.middle(t)).norm();
-      if (next > rim * result.thickness_m || finder.inner(o / 3, shell)) continue;
+      if (next > rim * result.thickness_m || finder.inner(o / 3, result.outer, reach)) continue;
       result.outer[o / 3] = true;
       open.push({o / 3, next});
     }
@@ -196,6 +216,19 @@ DoubleWall find_double_wall(const Mesh& mesh, const Sheets& sheets) {
   for (int t = n - 1; t >= 0; --t)
     if (result.outer[t]) ++result.triangles, result.where = finder.middle(t);
   return result;
+}
+
+Mesh without_outer_wall(Mesh mesh) {
+  Eigen::AlignedBox3d box;
+  for (const Eigen::Vector3d& p : mesh.vertices) box.extend(p);
+  Mesh usual = mesh;
+  for (Eigen::Vector3d& p : usual.vertices) p = usual_extent_m / box.sizes().maxCoeff() * (p - box.center());
+  Sheets sheets = sheets_of(usual);
+  orient(usual, sheets);
+  const DoubleWall wall = find_double_wall(usual, sheets);
+  std::size_t t = 0;
+  std::erase_if(mesh.triangles, [&](const std::array<int, 3>&) { return wall.outer[t++]; });
+  return mesh;
 }
 
 }  // namespace ostium::vascular

@@ -7,6 +7,7 @@
 #include <queue>
 
 #include "core/base/units.h"
+#include "vascular/geometry/mesh/box_middle.h"
 
 namespace ostium::vascular {
 
@@ -76,15 +77,18 @@ void part_where_one_sided(const Mesh& mesh, Sheets& sheets) {
 }
 
 double six_volumes(const Mesh& mesh, const std::vector<Opening>& openings, const Sheets& sheets, int piece) {
+  const Eigen::Vector3d origin = box_middle(mesh);
+  const auto place = [&](int v) -> Eigen::Vector3d { return mesh.vertices[v] - origin; };
   double sum = 0;
   for (int t = 0; t < static_cast<int>(mesh.triangles.size()); ++t)
-    if (sheets.piece[t] == piece)
-      sum += mesh.vertices[mesh.triangles[t][0]].dot(
-          mesh.vertices[mesh.triangles[t][1]].cross(mesh.vertices[mesh.triangles[t][2]]));
+    if (sheets.piece[t] == piece) {
+      const auto& [a, b, c] = mesh.triangles[t];
+      sum += place(a).dot(place(b).cross(place(c)));
+    }
   for (const Opening& opening : openings)
     if (opening.piece == piece)
       for (int h : opening.half_edges)
-        sum += mesh.vertices[to_of(mesh, h)].dot(mesh.vertices[from_of(mesh, h)].cross(opening.middle));
+        sum += place(to_of(mesh, h)).dot(place(from_of(mesh, h)).cross(opening.middle - origin));
   return sum;
 }
 
@@ -216,6 +220,14 @@ void cap(Mesh& mesh, const Opening& opening) {
   for (int h : opening.half_edges) lid.push_back({to_of(mesh, h), from_of(mesh, h), middle});
   mesh.vertices.push_back(opening.middle);
   mesh.triangles.insert(mesh.triangles.end(), lid.begin(), lid.end());
+}
+
+std::vector<Opening> close_all(Mesh& mesh) {
+  Sheets sheets = sheets_of(mesh);
+  orient(mesh, sheets);
+  std::vector<Opening> openings = openings_of(mesh, sheets);
+  for (const Opening& opening : openings) cap(mesh, opening);
+  return openings;
 }
 
 void join(Mesh& mesh, const Opening& a, const Opening& b) {

@@ -46,6 +46,9 @@ std::vector<Opening> openings_of(const Mesh& mesh, const Sheets& sheets);
 /// Closes an opening by a fan of triangles about its centre.
 void cap(Mesh& mesh, const Opening& opening);
 
+/// Turns all pieces outwards and closes every opening; returns those.
+std::vector<Opening> close_all(Mesh& mesh);
+
 /// Joins two facing openings by a band of triangles.
 void join(Mesh& mesh, const Opening& a, const Opening& b);
 
