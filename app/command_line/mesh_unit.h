@@ -1,12 +1,26 @@
 #pragma once
+/// The length unit of mesh files, for every command that reads some.
 #include "vascular/geometry/repair/units.h"
 
 namespace ostium::app {
 
-/// Replaces the guessed unit, and converts the mesh's measurements to it.
-inline void take_unit(vascular::LengthUnit unit, vascular::UnitGuess& guess) {
-  const double ratio = metres(unit) / metres(guess.unit);
-  guess.unit = unit, guess.extent_m *= ratio, guess.calibre_m *= ratio;
-}
+struct MeshUnit {
+  vascular::LengthUnit unit = vascular::LengthUnit::millimetre;
+  enum class Source { option, file, size, none } source = Source::none;  ///< none: no unit makes a vessel of it
+  std::string vessel;  ///< what its size is that of; empty: of no artery
+  double extent_m = 0, calibre_m = 0;
+
+  bool known() const { return source != Source::none; }
+};
+
+/// Of `raw`: the files' numbers taken as metres, nothing welded. What the user said goes first ("auto": nothing), then
+/// what the files say, then the size of the vessels. Throws MeshError if several units are possible, or if two files
+/// say different ones.
+MeshUnit unit_of(const std::vector<std::string>& files, const vascular::Mesh& raw, const std::string& said);
+
+/// "mm, as you said".
+std::string describe(const MeshUnit& unit);
+/// For JSON: option, file, size or none.
+std::string name_of(MeshUnit::Source source);
 
 }  // namespace ostium::app

@@ -5,10 +5,10 @@
 #include "app/command_line/arguments.h"
 #include "app/command_line/command.h"
 #include "app/command_line/common_options.h"
+#include "app/command_line/mesh_unit.h"
 #include "app/command_line/progress.h"
 #include "data/catalogue/case/tree_file.h"
 #include "vascular/geometry/mesh/surface_check.h"
-#include "vascular/geometry/repair/units.h"
 
 namespace ostium::app {
 
@@ -16,7 +16,7 @@ namespace {
 
 struct Arguments {
   std::string mesh;
-  std::string unit = "mm";        ///< mm, cm or m
+  std::string unit = "auto";      ///< auto, mm, cm, m or in
   std::string start;              ///< "x,y,z" in the file's unit; empty: the widest end
   std::vector<std::string> ends;  ///< the same; empty: all prominent ends
   std::string output;             ///< .json or .vtp
@@ -24,18 +24,20 @@ struct Arguments {
 
 void declare(Options& options, Arguments& a) {
   options.add("mesh", a.mesh, "STL, PLY, OBJ, VTP, ...").type("MESH").required();
-  add_unit_option(options, a.unit, "What a number in the file means");
+  add_guessed_unit_option(options, a.unit, "What a number in the file means");
   options.add("--start", a.start, "Where to begin; else at the widest end").type("X,Y,Z");
   options.add("--end", a.ends, "Where branches end; else all that stand out").type("X,Y,Z");
   options.add("-o,--output", a.output, "A file that ends in .json or .vtp").required();
 }
 
 int run(const Arguments& a) {
-  const vascular::LengthUnit unit = vascular::unit_named(a.unit);
+  const MeshUnit found_unit = unit_of({a.mesh}, read_mesh(a.mesh, vascular::LengthUnit::metre, 0).mesh, a.unit);
+  if (!found_unit.known()) fmt::print(stderr, "{}: units: {}\n", a.mesh, describe(found_unit));
+  const vascular::LengthUnit unit = found_unit.unit;
   vascular::CentrelineOptions wanted;
   if (!a.start.empty()) wanted.start = metres(unit) * mesh_point(a.start);
   for (const std::string& end : a.ends) wanted.ends.push_back(metres(unit) * mesh_point(end));
-  const vascular::Mesh mesh = read_mesh(a.mesh, unit).mesh;
+  const vascular::Mesh mesh = read_mesh(a.mesh, unit, found_unit.known() ? vascular::default_weld_m : 0).mesh;
   if (const vascular::SurfaceReport report = check_surface(mesh); !report.sound())
     fmt::print(stderr, "{}: not sound, so parts may be missing:\n{}", a.mesh, describe(report));
   show_progress("looking for centrelines");

@@ -16,7 +16,6 @@
 #include "vascular/geometry/repair/bridges.h"
 #include "vascular/geometry/repair/decimate.h"
 #include "vascular/geometry/repair/sheets.h"
-#include "vascular/geometry/repair/units.h"
 #include "vascular/geometry/repair/winding.h"
 
 namespace ostium::vascular {
@@ -259,21 +258,6 @@ TEST_F(OwnAnatomy, StenosisOfThreeQuartersSurvives) {
   expect_one_sound_lumen(repaired);
   const double radius = BoundingVolumeHierarchy(repaired.lumen).nearest(lad.at(middle).p, 1).distance_m;
   EXPECT_NEAR(100 * (1 - radius / healthy), 75, 5);
-}
-
-TEST_F(OwnAnatomy, UnitsAreTold) {
-  const std::vector<Tube> course = {make_tube("aorta", -1,
-                                              {{{0, 0, 0}, 15 * mm},
-                                               {{-0.02, 0.1, 0}, 14 * mm},
-                                               {{0.05, 0.1, -0.03}, 13 * mm},
-                                               {{0.05, -0.3, -0.03}, 8 * mm}})};
-  const Mesh aorta = contour(TubeUnion(course), {.cell_at_1_mm_m = 2 * mm, .finest_m = 2 * mm, .relaxations = 0}).mesh;
-  for (const Mesh* mesh : {&aorta, static_cast<const Mesh*>(whole_)})
-    for (LengthUnit unit : {LengthUnit::metre, LengthUnit::centimetre, LengthUnit::millimetre, LengthUnit::inch}) {
-      const UnitGuess guess = guess_unit(test::scaled(*mesh, 1 / metres(unit)));
-      EXPECT_EQ(name_of(guess.unit), name_of(unit));
-      EXPECT_TRUE(guess.vessel);
-    }
 }
 
 TEST(Decimate, SliversSideBySideGo) {

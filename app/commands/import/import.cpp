@@ -8,7 +8,6 @@
 #include "app/command_line/arguments.h"
 #include "app/command_line/command.h"
 #include "app/command_line/common_options.h"
-#include "app/command_line/mesh_unit.h"
 #include "app/command_line/progress.h"
 #include "app/commands/import/imported.h"
 #include "app/commands/import/mesh_files.h"
@@ -22,7 +21,6 @@
 #include "vascular/geometry/mesh/surface_check.h"
 #include "vascular/geometry/mesh_files/written_mesh.h"
 #include "vascular/geometry/repair/repair.h"
-#include "vascular/geometry/repair/units.h"
 #include "vascular/motion/heart_cycle.h"
 
 namespace ostium::app {
@@ -157,24 +155,20 @@ class Import {
       made_.skipped += found.skipped_faces;
       append(raw, found.mesh);
     }
-    const double scale = metres(find_unit(raw));
+    const double scale = metres(find_unit(options_.files, raw));
     for (Eigen::Vector3d& p : raw.vertices) p *= scale;
     mesh_ = welded(raw);
   }
 
-  vascular::LengthUnit find_unit(const vascular::Mesh& raw) {
+  vascular::LengthUnit find_unit(const std::vector<std::string>& files, const vascular::Mesh& raw) {
     made_.triangles = static_cast<int>(raw.triangles.size());
     progress_(fmt::format("{} triangles; looking for their unit", made_.triangles));
-    made_.unit = guess_unit(raw);
-    made_.unit_said = options_.unit != "auto";
-    if (made_.unit_said) {
-      take_unit(vascular::unit_named(options_.unit), made_.unit);
-    } else if (!made_.unit.vessel) {
+    made_.unit = unit_of(files, raw, options_.unit);
+    if (!made_.unit.known())
       throw vascular::MeshError(fmt::format(
-          "{}: no unit makes a vessel of this: as {} it is {:.0f} mm long and {:.1f} mm wide; if it is one, say its "
+          "{}: no unit makes a vessel of this: as {} it is {:.3g} mm long and {:.3g} mm wide; if it is one, say its "
           "unit with --units",
-          options_.files.front(), name_of(made_.unit.unit), made_.unit.extent_m / mm, made_.unit.calibre_m / mm));
-    }
+          files.front(), name_of(made_.unit.unit), made_.unit.extent_m / mm, made_.unit.calibre_m / mm));
     if (!options_.entry.empty()) wanted_.entry = metres(made_.unit.unit) * mesh_point(options_.entry);
     return made_.unit.unit;
   }
@@ -188,7 +182,7 @@ class Import {
                                             options_.files.front(), files_.size()));
     progress_(fmt::format("reading {} frames, the first is {}", files_.size(), files_.front()));
     made_.frames = read_mesh_sequence(files_, vascular::LengthUnit::metre, 0);
-    const double scale = metres(find_unit(made_.frames.front()));
+    const double scale = metres(find_unit(files_, made_.frames.front()));
     for (vascular::Mesh& frame : made_.frames)
       for (Eigen::Vector3d& p : frame.vertices) p *= scale;
     if (volume_m3(made_.frames.front()) < 0)

@@ -38,7 +38,7 @@ Json report_of(const Imported& x) {
           {"files", x.files},
           {"triangles_in", x.triangles},
           {"unit", name_of(x.unit.unit)},
-          {"unit_said", x.unit_said},
+          {"unit_from", name_of(x.unit.source)},
           {"extent_mm", x.unit.extent_m / mm},
           {"lumens", x.repaired.lumens},
           {"triangles", x.found.lumen.triangles.size()},
@@ -63,9 +63,8 @@ void tell(const Imported& x, const std::string& called) {
              : x.found.heart              ? "beating"
              : x.patient.lumen.moving > 0 ? "beating at the root of the aorta"
                                           : "still");
-  fmt::print("units: {}, {}: {:.0f} mm long, {:.1f} mm wide{}\n", name_of(x.unit.unit),
-             x.unit_said ? "as you said" : "guessed", x.unit.extent_m / mm, x.unit.calibre_m / mm,
-             !x.unit_said && !x.unit.certain ? "; confirm with --units, others are possible" : "");
+  fmt::print("units: {}: {:.0f} mm long, {:.1f} mm wide\n", describe(x.unit), x.unit.extent_m / mm,
+             x.unit.calibre_m / mm);
   if (x.skipped) fmt::print("{} points or lines in the files were left out\n", x.skipped);
   for (const vascular::RepairNote& note : x.repaired.notes) {
     fmt::print("mended: {} x {}", note.count, note.what);
