@@ -126,6 +126,13 @@ for command in "import -o $folder/case" check "centreline -o $folder/tree.json";
   expect 3 "its numbers may be mm or cm" "$ostium" $command "$folder/vessel.obj"
 done
 (printf '# unit: mm\n'; cat "$folder/vessel.obj") >"$folder/marked.obj"
+# It is no heart, unless somebody says so.
+expect 0 "vessel 1" "$ostium" import "$folder/marked.obj" -o "$folder/single"
+expect 0 '"beats": false' "$ostium" import "$folder/marked.obj" -o "$folder/single" --motion none --json
+expect 0 '"beats": true' "$ostium" import "$folder/marked.obj" -o "$folder/single" --motion coronary --json
+expect 3 "an RCA beats" "$ostium" import "$folder/marked.obj" -o "$folder/case" --rename "vessel 1=RCA"
+expect 3 "add --sequence" "$ostium" import "$folder/marked.obj" -o "$folder/case" --motion own
+expect 3 "leave one of them out" "$ostium" import "$folder/marked.obj" -o "$folder/case" --motion none --sequence
 expect 1 '"unit_from": "file"' "$ostium" check --json "$folder/marked.obj"
 expect 1 '"unit": "cm"' "$ostium" check --json --units cm "$folder/marked.obj"
 (printf '# unit: cm\n'; cat "$folder/vessel.obj") >"$folder/other.obj"

@@ -39,6 +39,7 @@ struct ImportArguments {
   std::vector<std::string> renames;  ///< "3=OM1"
   std::vector<std::string> lesions;  ///< "RCA:40:12:75": branch, from mm, length mm, percent of the diameter
   bool sequence = false;             ///< the files are frames of one beat, from the R wave on
+  std::string motion = "auto";       ///< auto, none, own or coronary
   std::string title;
   double voxel_mm = 0;
   double longest_gap_mm = 8;
@@ -50,6 +51,13 @@ void declare(Options& options, ImportArguments& a) {
   options.add("mesh", a.files, "STL, OBJ, PLY, glTF, ...; several are one patient's parts").type("MESH").required();
   options.flag("--sequence", a.sequence,
                "The files, or those of a folder, are one surface through a beat, from the R wave on");
+  options
+      .add("--motion", a.motion,
+           "none: still, with numbers for names; own: the files' frames; coronary: a heart's, as which it is named; "
+           "auto: "
+           "own, or coronary where it is recognised")
+      .one_of({"auto", "none", "own", "coronary"})
+      .show_default();
   options.add("-o,--out", a.output, "A folder for the case, or a name to keep it under").type("DIR|NAME").required();
   add_guessed_unit_option(options, a.unit, "What a number in the files means");
   options.add("--axes", a.axes, "Where x, y, z point to: LPS, RAS, LSA, ...; auto tells by the anatomy").show_default();
@@ -132,6 +140,7 @@ class Import {
   /// What can be refused before the work.
   void prepare() {
     made_.files = options_.files;
+    choose_motion();
     if (options_.axes != "auto") wanted_.axes = axes_of(options_.axes);
     wanted_.names = names_of(options_.renames);
     if (!options_.entry.empty()) mesh_point(options_.entry);
@@ -145,6 +154,17 @@ class Import {
         !fs::is_empty(made_.folder))
       throw data::LoadError(made_.folder.string() +
                             ": is there and holds no imported case; expected a new folder, or one to renew");
+  }
+
+  void choose_motion() {
+    if (options_.sequence ? options_.motion == "none" || options_.motion == "coronary" : options_.motion == "own")
+      throw data::LoadError(
+          options_.sequence
+              ? fmt::format("--motion {} with --sequence, whose frames are the motion; leave one of them out",
+                            options_.motion)
+              : "--motion own is that of several files, frames of one beat; add --sequence, or say --motion none");
+    if (options_.motion == "none") wanted_.heart = vascular::HeartSearch::none;
+    if (options_.motion == "coronary") wanted_.heart = vascular::HeartSearch::assumed;
   }
 
   void read() {
@@ -208,6 +228,13 @@ class Import {
   void label() {
     wanted_.progress = std::ref(progress_);
     made_.found = label_vessels(made_.repaired.lumen, wanted_);
+    // A right coronary artery is known by its name.
+    if (!made_.found.heart)
+      for (const auto& [found, wanted] : wanted_.names)
+        if (wanted == "RCA")
+          throw data::LoadError(fmt::format(
+              "--rename {}=RCA: no heart was recognised, and an RCA beats; expected another name, or --motion coronary",
+              found));
     made_.found.lumen = as_written(std::move(made_.found.lumen), vascular::LengthUnit::millimetre);
     const vascular::SurfaceReport report = check_surface(made_.found.lumen);
     if (!report.sound())
@@ -267,12 +294,13 @@ int run(const ImportArguments& arguments) { return Import(arguments).run(); }
 }  // namespace
 
 Command import_command() {
-  return make_command("import", "Anyone's own mesh becomes a case: mended, named, beating",
-                      {"ostium import aorta.stl coronaries.stl -o anna --picture anna.svg",
-                       "ostium import aorta.obj -o cases/aorta --units mm --entry -5,18,-11 --rename 3=coeliac",
-                       "ostium import heart.ply -o tight-rca --lesion RCA:40:12:75 && ostium cases tight-rca",
-                       "ostium import frames/ --sequence -o beating-heart"},
-                      declare, run);
+  return make_command(
+      "import", "Anyone's own mesh becomes a case: mended, named, beating",
+      {"ostium import aorta.stl coronaries.stl -o anna --picture anna.svg",
+       "ostium import aorta.obj -o cases/aorta --units mm --entry -5,18,-11 --rename 3=coeliac",
+       "ostium import heart.ply -o tight-rca --lesion RCA:40:12:75 && ostium cases tight-rca",
+       "ostium import frames/ --sequence -o beating-heart", "ostium import carotid.stl -o carotid --motion none"},
+      declare, run);
 }
 
 }  // namespace ostium::app
