@@ -23,7 +23,7 @@ void add_unit_option(Options& options, std::string& unit, const std::string& hel
 }
 
 void add_guessed_unit_option(Options& options, std::string& unit, const std::string& help) {
-  options.add("--units", unit, help + "; auto guesses and says so")
+  options.add("--units", unit, help + "; auto: as the file says, or the only one that makes an artery of it")
       .one_of({"auto", "mm", "cm", "m", "in"})
       .show_default();
 }

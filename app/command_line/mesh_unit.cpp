@@ -2,30 +2,102 @@
 
 #include <fmt/format.h>
 
+#include <optional>
+
+#include "vascular/geometry/mesh_files/unit_mark.h"
 #include "vascular/geometry/repair/double_wall.h"
 
 namespace ostium::app {
 
 namespace {
+
 constexpr double largest_m = 10;
+
+std::optional<vascular::LengthUnit> marked_unit(const std::vector<std::string>& files) {
+  std::optional<vascular::LengthUnit> found;
+  std::string where;
+  for (const std::string& file : files) {
+    const auto unit = vascular::unit_mark_of(file);
+    if (!unit) continue;
+    if (found && *found != *unit)
+      throw vascular::MeshError(
+          fmt::format("{}: says that its unit is {}, and {} says {}; expected files of one unit: convert one, or say "
+                      "the unit of all with --units",
+                      file, name_of(*unit), where, name_of(*found)));
+    found = unit, where = file;
+  }
+  return found;
 }
 
-vascular::UnitGuess guess_lumen_unit(const vascular::Mesh& raw) {
-  const vascular::UnitGuess guess = guess_unit(raw);
-  return guess.vessel ? guess : guess_unit(without_outer_wall(raw));
+[[noreturn]] void ask(const std::string& file, const vascular::VesselSize& size,
+                      const std::vector<vascular::UnitReading>& readings) {
+  std::string list, names;
+  for (const vascular::UnitReading& reading : readings) {
+    const double mm = 1e3 * metres(reading.unit);
+    list += fmt::format("\n  --units {:<2}  {:.4g} mm long and {:.3g} mm wide: {}", name_of(reading.unit),
+                        mm * size.extent, mm * size.wide, reading.vessel);
+    names += (names.empty() ? "" : " or ") + name_of(reading.unit);
+  }
+  throw vascular::MeshError(fmt::format("{}: its numbers may be {}; say which:{}", file, names, list));
 }
 
-void take_unit(vascular::LengthUnit unit, vascular::UnitGuess& guess) {
-  const double ratio = metres(unit) / metres(guess.unit);
-  guess.unit = unit, guess.extent_m *= ratio, guess.calibre_m *= ratio;
-}
+}  // namespace
 
-void require_size(const std::string& file, const vascular::UnitGuess& guess) {
-  if (guess.extent_m > largest_m)
+MeshUnit unit_of(const std::vector<std::string>& files, const vascular::Mesh& raw, const std::string& said) {
+  vascular::VesselSize size = vessel_size(raw);
+  std::vector<vascular::UnitReading> readings = unit_readings(size);
+  if (readings.empty()) {
+    size = vessel_size(without_outer_wall(raw));
+    readings = unit_readings(size);
+  }
+  MeshUnit unit;
+  if (said != "auto") {
+    unit.unit = vascular::unit_named(said), unit.source = MeshUnit::Source::option;
+  } else if (const auto marked = marked_unit(files)) {
+    unit.unit = *marked, unit.source = MeshUnit::Source::file;
+  } else if (readings.size() == 1) {
+    unit.unit = readings.front().unit, unit.source = MeshUnit::Source::size;
+  } else if (readings.size() > 1) {
+    ask(files.front(), size, readings);
+  }
+  for (const vascular::UnitReading& reading : readings)
+    if (reading.unit == unit.unit) unit.vessel = reading.vessel;
+  unit.extent_m = metres(unit.unit) * size.extent;
+  unit.calibre_m = metres(unit.unit) * size.wide;
+  if (unit.extent_m > largest_m)
     throw vascular::MeshError(
         fmt::format("{}: is {:.3g} m long if its numbers are {}; expected vessels, {:g} m long at most: say its unit "
                     "with --units, or is the file damaged?",
-                    file, guess.extent_m, name_of(guess.unit), largest_m));
+                    files.front(), unit.extent_m, name_of(unit.unit), largest_m));
+  return unit;
+}
+
+std::string describe(const MeshUnit& unit) {
+  switch (unit.source) {
+    case MeshUnit::Source::option:
+      return name_of(unit.unit) + ", as you said";
+    case MeshUnit::Source::file:
+      return name_of(unit.unit) + ", as the file says";
+    case MeshUnit::Source::size:
+      return name_of(unit.unit) + ", since no other makes an artery of it";
+    case MeshUnit::Source::none:
+      break;
+  }
+  return "taken for " + name_of(unit.unit) + ", and none makes an artery of it: say it with --units";
+}
+
+std::string name_of(MeshUnit::Source source) {
+  switch (source) {
+    case MeshUnit::Source::option:
+      return "option";
+    case MeshUnit::Source::file:
+      return "file";
+    case MeshUnit::Source::size:
+      return "size";
+    case MeshUnit::Source::none:
+      break;
+  }
+  return "none";
 }
 
 }  // namespace ostium::app

@@ -1,19 +1,26 @@
 #pragma once
-/// The unit of a mesh that somebody brings, and whether it can be a vessel in it.
-#include <string>
-
+/// The length unit of mesh files, for every command that reads some.
 #include "vascular/geometry/repair/units.h"
 
 namespace ostium::app {
 
-/// Of a mesh that makes no vessel in any unit, by the lumen inside it if it is a wall. `raw`: the file's numbers taken
-/// as metres.
-vascular::UnitGuess guess_lumen_unit(const vascular::Mesh& raw);
+struct MeshUnit {
+  vascular::LengthUnit unit = vascular::LengthUnit::millimetre;
+  enum class Source { option, file, size, none } source = Source::none;  ///< none: no unit makes a vessel of it
+  std::string vessel;  ///< what its size is that of; empty: of no artery
+  double extent_m = 0, calibre_m = 0;
 
-/// Replaces the guessed unit, and converts the mesh's measurements to it.
-void take_unit(vascular::LengthUnit unit, vascular::UnitGuess& guess);
+  bool known() const { return source != Source::none; }
+};
 
-/// Throws MeshError if the mesh is larger than any body.
-void require_size(const std::string& file, const vascular::UnitGuess& guess);
+/// Of `raw`: the files' numbers taken as metres, nothing welded. What the user said goes first ("auto": nothing), then
+/// what the files say, then the size of the vessels: of a wall, of the lumen inside it. Throws MeshError if several
+/// units are possible, if two files say different ones, or if it is longer than any body.
+MeshUnit unit_of(const std::vector<std::string>& files, const vascular::Mesh& raw, const std::string& said);
+
+/// "mm, as you said".
+std::string describe(const MeshUnit& unit);
+/// For JSON: option, file, size or none.
+std::string name_of(MeshUnit::Source source);
 
 }  // namespace ostium::app

@@ -5,12 +5,12 @@
 #include "app/command_line/arguments.h"
 #include "app/command_line/command.h"
 #include "app/command_line/common_options.h"
+#include "app/command_line/mesh_unit.h"
 #include "app/command_line/progress.h"
 #include "data/catalogue/case/tree_file.h"
 #include "vascular/geometry/mesh/surface_check.h"
 #include "vascular/geometry/repair/double_wall.h"
 #include "vascular/geometry/repair/sheets.h"
-#include "vascular/geometry/repair/units.h"
 
 namespace ostium::app {
 
@@ -18,7 +18,7 @@ namespace {
 
 struct Arguments {
   std::string mesh;
-  std::string unit = "mm";        ///< mm, cm or m
+  std::string unit = "auto";      ///< auto, mm, cm, m or in
   std::string start;              ///< "x,y,z" in the file's unit; empty: the widest end
   std::vector<std::string> ends;  ///< the same; empty: all prominent ends
   std::string output;             ///< .json or .vtp
@@ -26,7 +26,7 @@ struct Arguments {
 
 void declare(Options& options, Arguments& a) {
   options.add("mesh", a.mesh, "STL, PLY, OBJ, VTP, ...").type("MESH").required();
-  add_unit_option(options, a.unit, "What a number in the file means");
+  add_guessed_unit_option(options, a.unit, "What a number in the file means");
   options.add("--start", a.start, "Where to begin; else at the widest end").type("X,Y,Z");
   options.add("--end", a.ends, "Where branches end; else all that stand out").type("X,Y,Z");
   options.add("-o,--output", a.output, "In the mesh's axes: .json, in mm, or .vtp, in the mesh's unit")
@@ -35,11 +35,13 @@ void declare(Options& options, Arguments& a) {
 }
 
 int run(const Arguments& a) {
-  const vascular::LengthUnit unit = vascular::unit_named(a.unit);
+  const MeshUnit found_unit = unit_of({a.mesh}, read_mesh(a.mesh, vascular::LengthUnit::metre, 0).mesh, a.unit);
+  if (!found_unit.known()) fmt::print(stderr, "{}: units: {}\n", a.mesh, describe(found_unit));
+  const vascular::LengthUnit unit = found_unit.unit;
   vascular::CentrelineOptions wanted;
   if (!a.start.empty()) wanted.start = metres(unit) * mesh_point(a.start);
   for (const std::string& end : a.ends) wanted.ends.push_back(metres(unit) * mesh_point(end));
-  vascular::Mesh mesh = read_mesh(a.mesh, unit).mesh;
+  vascular::Mesh mesh = read_mesh(a.mesh, unit, found_unit.known() ? vascular::default_weld_m : 0).mesh;
   vascular::SurfaceReport report = check_surface(mesh);
   report.open_edges = {};  // get lids
   if (!report.sound()) fmt::print(stderr, "{}: not sound, so parts may be missing:\n{}", a.mesh, describe(report));
@@ -53,10 +55,10 @@ int run(const Arguments& a) {
   show_progress("");
   for (const vascular::Opening& opening : openings) {
     const Eigen::Vector3d p = opening.middle / metres(unit);
-    fmt::print("open, so it got a lid: at {:.2f} {:.2f} {:.2f} {}\n", p.x(), p.y(), p.z(), a.unit);
+    fmt::print("open, so it got a lid: at {:.2f} {:.2f} {:.2f} {}\n", p.x(), p.y(), p.z(), name_of(unit));
   }
   fmt::print("{}: {} branches, {} spheres, in the mesh's axes and in {}; looked at {:.2f} mm\n", a.output,
-             found.tree.branches.size(), found.tree.spheres(), a.output.ends_with(".vtp") ? a.unit : "mm",
+             found.tree.branches.size(), found.tree.spheres(), a.output.ends_with(".vtp") ? name_of(unit) : "mm",
              1e3 * found.voxel_m);
   for (const vascular::TreeBranch& branch : found.tree.branches)
     fmt::print("  {:>3} from {:>3}  {:7.1f} mm, radius {:.2f} to {:.2f} mm\n", branch.name,

@@ -15,7 +15,6 @@
 #include "vascular/geometry/repair/calibre.h"
 #include "vascular/geometry/repair/double_wall.h"
 #include "vascular/geometry/repair/smooth.h"
-#include "vascular/geometry/repair/units.h"
 
 namespace ostium::app {
 
@@ -48,8 +47,7 @@ nlohmann::ordered_json fault_json(const vascular::SurfaceFault& fault) {
 struct Checked {
   std::string file;
   vascular::MeshFile mesh;
-  vascular::UnitGuess unit;
-  bool unit_said = false;
+  MeshUnit unit;
   vascular::SurfaceReport report;
   std::vector<vascular::Opening> ends, holes, pinholes;
   vascular::DoubleWall wall;
@@ -62,16 +60,12 @@ struct Checked {
 constexpr double matters = 0.005;  // of rounding, in widths of the vessels
 constexpr double shares[] = {0.02, 0.25, 0.5, 0.75, 0.98};
 
-void find_unit(const Arguments& a, Checked& c) {
+/// Nothing is welded before the unit is known.
+void read(const Arguments& a, Checked& c) {
   const vascular::Mesh raw = read_mesh(c.file, vascular::LengthUnit::metre, 0).mesh;
-  c.unit = guess_lumen_unit(raw);
-  c.unit_said = a.unit != "auto";
-  if (c.unit_said)
-    take_unit(vascular::unit_named(a.unit), c.unit);
-  else if (!c.unit.vessel)
-    take_unit(vascular::LengthUnit::millimetre, c.unit);  // the commonest unit
-  require_size(c.file, c.unit);
+  c.unit = unit_of({c.file}, raw, a.unit);
   c.rounding_m = metres(c.unit.unit) * rounding_step(raw);
+  c.mesh = read_mesh(c.file, c.unit.unit, c.unit.known() ? vascular::default_weld_m : 0);
 }
 
 void find_openings(const vascular::Mesh& turned, const vascular::Sheets& sheets, Checked& c) {
@@ -91,9 +85,7 @@ Checked look_at(const std::string& file, const Arguments& a) {
   c.file = file;
   const TimedProgress progress(file + ": ", 1);
   progress("reading");
-  find_unit(a, c);
-  progress("looking for its unit and its faults");
-  c.mesh = read_mesh(file, c.unit.unit);
+  read(a, c);
   progress("looking for faults");
   c.report = check_surface(c.mesh.mesh);
   vascular::Mesh turned = c.mesh.mesh;
@@ -126,8 +118,7 @@ nlohmann::ordered_json report_json(const Checked& c) {
   const vascular::SurfaceReport& r = c.report;
   return {{"file", c.file},
           {"unit", name_of(c.unit.unit)},
-          {"unit_said", c.unit_said},
-          {"unit_certain", c.unit.certain},
+          {"unit_from", name_of(c.unit.source)},
           {"extent_mm", 1e3 * c.unit.extent_m},
           {"vertices", r.vertices},
           {"triangles", r.triangles},
@@ -175,12 +166,8 @@ void print_size(const Checked& c) {
   const vascular::SurfaceReport& r = c.report;
   fmt::print("{}: {} triangles, {} vertices, {} component{}, {:.2f} mL, {:.1f} cm2\n", c.file, r.triangles, r.vertices,
              r.components, r.components == 1 ? "" : "s", 1e6 * r.volume_m3, 1e4 * r.area_m2);
-  fmt::print("units: {}, {}; {:.1f} mm long\n", name_of(c.unit.unit),
-             c.unit_said      ? "as you said"
-             : !c.unit.vessel ? "as most are, but no unit makes a vessel of it"
-             : c.unit.certain ? "guessed, no other makes a vessel of it"
-                              : "guessed, others are possible: confirm with --units",
-             1e3 * c.unit.extent_m);
+  fmt::print("units: {}; {:.1f} mm long{}\n", describe(c.unit), 1e3 * c.unit.extent_m,
+             c.unit.vessel.empty() ? "" : ", the size of " + c.unit.vessel);
   fmt::print("vessels: {:.2f} mm wide at most of the wall (2 % below {:.2f}, 98 % below {:.2f})\n",
              1e3 * c.diameters[2], 1e3 * c.diameters[0], 1e3 * c.diameters[4]);
 }

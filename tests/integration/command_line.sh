@@ -115,7 +115,32 @@ awk 'function row(x, z, r, n,  i) { for (i = 0; i < n; ++i) print "v", x + r * c
     printf "f"; for (i = 0; i < n; ++i) printf " %d", first + (rows - 1) * n + i; print "" }
   BEGIN { split("12 18 20 19 15 9 3", r); for (j = 1; j <= 7; ++j) row(0, 4 * j, r[j], 24); for (j = 0; j < 4; ++j) row(16 + 5 * j, 12 + 4 * j, 5 - j, 12)
     tube(1, 7, 24); tube(169, 4, 12) }' >"$folder/teapot.obj"
-expect 3 "this is no vessel" "$ostium" import "$folder/teapot.obj" -o "$folder/case"
+expect 3 "no unit makes a vessel" "$ostium" import "$folder/teapot.obj" -o "$folder/case"
+expect 3 "this is no vessel" "$ostium" import --units mm "$folder/teapot.obj" -o "$folder/case"
+# A straight vessel, 40 long and 3 wide: a coronary artery in mm, an aorta in cm. Its file may say which.
+awk 'BEGIN { n = 24; r = 60; for (j = 0; j < r; ++j) for (i = 0; i < n; ++i)
+    print "v", 1.5 * cos(6.2831853 * i / n), 1.5 * sin(6.2831853 * i / n), 40 * j / (r - 1)
+  for (j = 0; j + 1 < r; ++j) for (i = 0; i < n; ++i) { a = 1 + j * n; b = (i + 1) % n
+    print "f", a + i, a + b, a + n + b, a + n + i } }' >"$folder/vessel.obj"
+for command in "import -o $folder/case" check "centreline -o $folder/tree.json"; do
+  expect 3 "its numbers may be mm or cm" "$ostium" $command "$folder/vessel.obj"
+done
+(printf '# unit: mm\n'; cat "$folder/vessel.obj") >"$folder/marked.obj"
+# It is no heart, unless somebody says so.
+expect 0 "vessel 1" "$ostium" import "$folder/marked.obj" -o "$folder/single"
+expect 0 '"beats": false' "$ostium" import "$folder/marked.obj" -o "$folder/single" --motion none --json
+expect 0 '"beats": true' "$ostium" import "$folder/marked.obj" -o "$folder/single" --motion coronary --json
+expect 3 "an RCA beats" "$ostium" import "$folder/marked.obj" -o "$folder/case" --rename "vessel 1=RCA"
+expect 3 "add --sequence" "$ostium" import "$folder/marked.obj" -o "$folder/case" --motion own
+expect 3 "leave one of them out" "$ostium" import "$folder/marked.obj" -o "$folder/case" --motion none --sequence
+expect 1 '"unit_from": "file"' "$ostium" check --json "$folder/marked.obj"
+expect 1 '"unit": "cm"' "$ostium" check --json --units cm "$folder/marked.obj"
+(printf '# unit: cm\n'; cat "$folder/vessel.obj") >"$folder/other.obj"
+expect 3 "expected files of one unit" "$ostium" import "$folder/marked.obj" "$folder/other.obj" -o "$folder/case"
+# In metres nothing is welded that should not be.
+awk '$1 == "v" { print "v", $2 / 1000, $3 / 1000, $4 / 1000; next } { print }' "$folder/vessel.obj" >"$folder/metres.obj"
+expect 1 '"welded_vertices": 0' "$ostium" check --json "$folder/metres.obj"
+expect 1 '"unit": "m"' "$ostium" check --json "$folder/metres.obj"
 head -c 40 "$folder/teapot.obj" >"$folder/cut.obj"
 expect 3 "cut.obj: cannot be read" "$ostium" import "$folder/cut.obj" -o "$folder/case"
 printf 'ply\nformat ascii 1.0\nelement vertex 3\n' >"$folder/cut.ply"

@@ -8,7 +8,6 @@
 #include "app/command_line/arguments.h"
 #include "app/command_line/command.h"
 #include "app/command_line/common_options.h"
-#include "app/command_line/mesh_unit.h"
 #include "app/command_line/progress.h"
 #include "app/commands/import/imported.h"
 #include "app/commands/import/mesh_files.h"
@@ -23,7 +22,6 @@
 #include "vascular/geometry/mesh_files/rounding.h"
 #include "vascular/geometry/mesh_files/written_mesh.h"
 #include "vascular/geometry/repair/repair.h"
-#include "vascular/geometry/repair/units.h"
 #include "vascular/motion/heart_cycle.h"
 
 namespace ostium::app {
@@ -42,6 +40,7 @@ struct ImportArguments {
   std::vector<std::string> renames;  ///< "3=OM1"
   std::vector<std::string> lesions;  ///< "RCA:40:12:75": branch, from mm, length mm, percent of the diameter
   bool sequence = false;             ///< the files are frames of one beat, from the R wave on
+  std::string motion = "auto";       ///< auto, none, own or coronary
   std::string title;
   double voxel_mm = 0;
   double longest_gap_mm = 8;
@@ -53,6 +52,13 @@ void declare(Options& options, ImportArguments& a) {
   options.add("mesh", a.files, "STL, OBJ, PLY, glTF, ...; several are one patient's parts").type("MESH").required();
   options.flag("--sequence", a.sequence,
                "The files, or those of a folder, are one surface through a beat, from the R wave on");
+  options
+      .add("--motion", a.motion,
+           "none: still, with numbers for names; own: the files' frames; coronary: a heart's, as which it is named; "
+           "auto: "
+           "own, or coronary where it is recognised")
+      .one_of({"auto", "none", "own", "coronary"})
+      .show_default();
   options.add("-o,--out", a.output, "A folder for the case, or a name to keep it under").type("DIR|NAME").required();
   add_guessed_unit_option(options, a.unit, "What a number in the files means");
   options.add("--axes", a.axes, "Where x, y, z point to: LPS, RAS, LSA, ...; auto tells by the anatomy").show_default();
@@ -135,6 +141,7 @@ class Import {
   /// What can be refused before the work.
   void prepare() {
     made_.files = options_.files;
+    choose_motion();
     if (options_.axes != "auto") wanted_.axes = axes_of(options_.axes);
     wanted_.names = names_of(options_.renames);
     if (!options_.entry.empty()) mesh_point(options_.entry);
@@ -150,6 +157,17 @@ class Import {
                             ": is there and holds no imported case; expected a new folder, or one to renew");
   }
 
+  void choose_motion() {
+    if (options_.sequence ? options_.motion == "none" || options_.motion == "coronary" : options_.motion == "own")
+      throw data::LoadError(
+          options_.sequence
+              ? fmt::format("--motion {} with --sequence, whose frames are the motion; leave one of them out",
+                            options_.motion)
+              : "--motion own is that of several files, frames of one beat; add --sequence, or say --motion none");
+    if (options_.motion == "none") wanted_.heart = vascular::HeartSearch::none;
+    if (options_.motion == "coronary") wanted_.heart = vascular::HeartSearch::assumed;
+  }
+
   void read() {
     progress_("reading");
     vascular::Mesh raw;
@@ -158,25 +176,20 @@ class Import {
       made_.skipped += found.skipped_faces;
       append(raw, found.mesh);
     }
-    const double scale = metres(find_unit(raw));
+    const double scale = metres(find_unit(options_.files, raw));
     for (Eigen::Vector3d& p : raw.vertices) p *= scale;
     mesh_ = welded(raw);
   }
 
-  vascular::LengthUnit find_unit(const vascular::Mesh& raw) {
+  vascular::LengthUnit find_unit(const std::vector<std::string>& files, const vascular::Mesh& raw) {
     made_.triangles = static_cast<int>(raw.triangles.size());
     progress_(fmt::format("{} triangles; looking for their unit", made_.triangles));
-    made_.unit = guess_lumen_unit(raw);
-    made_.unit_said = options_.unit != "auto";
-    if (made_.unit_said) {
-      take_unit(vascular::unit_named(options_.unit), made_.unit);
-    } else if (!made_.unit.vessel) {
+    made_.unit = unit_of(files, raw, options_.unit);
+    if (!made_.unit.known())
       throw vascular::MeshError(fmt::format(
-          "{}: no unit makes a vessel of this: as {} it is {:.0f} mm long and {:.1f} mm wide; if it is one, say its "
+          "{}: no unit makes a vessel of this: as {} it is {:.3g} mm long and {:.3g} mm wide; if it is one, say its "
           "unit with --units",
-          options_.files.front(), name_of(made_.unit.unit), made_.unit.extent_m / mm, made_.unit.calibre_m / mm));
-    }
-    require_size(options_.files.front(), made_.unit);
+          files.front(), name_of(made_.unit.unit), made_.unit.extent_m / mm, made_.unit.calibre_m / mm));
     rounding_m_ = metres(made_.unit.unit) * rounding_step(raw);
     if (!options_.entry.empty()) wanted_.entry = metres(made_.unit.unit) * mesh_point(options_.entry);
     return made_.unit.unit;
@@ -191,7 +204,7 @@ class Import {
                                             options_.files.front(), files_.size()));
     progress_(fmt::format("reading {} frames, the first is {}", files_.size(), files_.front()));
     made_.frames = read_mesh_sequence(files_, vascular::LengthUnit::metre, 0);
-    const double scale = metres(find_unit(made_.frames.front()));
+    const double scale = metres(find_unit(files_, made_.frames.front()));
     for (vascular::Mesh& frame : made_.frames)
       for (Eigen::Vector3d& p : frame.vertices) p *= scale;
     if (volume_m3(made_.frames.front()) < 0)
@@ -217,6 +230,13 @@ class Import {
   void label() {
     wanted_.progress = std::ref(progress_);
     made_.found = label_vessels(made_.repaired.lumen, wanted_);
+    // A right coronary artery is known by its name.
+    if (!made_.found.heart)
+      for (const auto& [found, wanted] : wanted_.names)
+        if (wanted == "RCA")
+          throw data::LoadError(fmt::format(
+              "--rename {}=RCA: no heart was recognised, and an RCA beats; expected another name, or --motion coronary",
+              found));
     made_.found.lumen = as_written(std::move(made_.found.lumen), vascular::LengthUnit::millimetre);
     const vascular::SurfaceReport report = check_surface(made_.found.lumen);
     if (!report.sound())
@@ -282,12 +302,13 @@ int run(const ImportArguments& arguments) { return Import(arguments).run(); }
 }  // namespace
 
 Command import_command() {
-  return make_command("import", "Anyone's own mesh becomes a case: mended, named, beating",
-                      {"ostium import aorta.stl coronaries.stl -o anna --picture anna.svg",
-                       "ostium import aorta.obj -o cases/aorta --units mm --entry -5,18,-11 --rename 3=coeliac",
-                       "ostium import heart.ply -o tight-rca --lesion RCA:40:12:75 && ostium cases tight-rca",
-                       "ostium import frames/ --sequence -o beating-heart"},
-                      declare, run);
+  return make_command(
+      "import", "Anyone's own mesh becomes a case: mended, named, beating",
+      {"ostium import aorta.stl coronaries.stl -o anna --picture anna.svg",
+       "ostium import aorta.obj -o cases/aorta --units mm --entry -5,18,-11 --rename 3=coeliac",
+       "ostium import heart.ply -o tight-rca --lesion RCA:40:12:75 && ostium cases tight-rca",
+       "ostium import frames/ --sequence -o beating-heart", "ostium import carotid.stl -o carotid --motion none"},
+      declare, run);
 }
 
 }  // namespace ostium::app

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "app/commands/import/imported.h"
@@ -18,6 +19,9 @@ Json places(const std::vector<Eigen::Vector3d>& where) {
   for (const Eigen::Vector3d& p : where) list.push_back({p.x() / mm, p.y() / mm, p.z() / mm});
   return list;
 }
+
+/// Null if there is no candidate, or one that can never be recognised.
+Json doubt(double doubt) { return doubt > 0 && std::isfinite(doubt) ? Json(doubt) : Json(); }
 
 }  // namespace
 
@@ -38,7 +42,7 @@ Json report_of(const Imported& x) {
           {"files", x.files},
           {"triangles_in", x.triangles},
           {"unit", name_of(x.unit.unit)},
-          {"unit_said", x.unit_said},
+          {"unit_from", name_of(x.unit.source)},
           {"extent_mm", x.unit.extent_m / mm},
           {"lumens", x.repaired.lumens},
           {"triangles", x.found.lumen.triangles.size()},
@@ -49,6 +53,8 @@ Json report_of(const Imported& x) {
           {"mends", mends},
           {"aorta_rms_mm", x.found.aorta_rms_m / mm},
           {"heart_rms_mm", x.found.heart_rms_m / mm},
+          {"aorta_doubt", doubt(x.found.aorta_doubt)},
+          {"heart_doubt", doubt(x.found.heart_doubt)},
           {"axes", {{R(0, 0), R(0, 1), R(0, 2)}, {R(1, 0), R(1, 1), R(1, 2)}, {R(2, 0), R(2, 1), R(2, 2)}}},
           {"origin_mm", {x.found.shift_P.x() / mm, x.found.shift_P.y() / mm, x.found.shift_P.z() / mm}},
           {"branches", branches},
@@ -63,9 +69,8 @@ void tell(const Imported& x, const std::string& called) {
              : x.found.heart              ? "beating"
              : x.patient.lumen.moving > 0 ? "beating at the root of the aorta"
                                           : "still");
-  fmt::print("units: {}, {}: {:.0f} mm long, {:.1f} mm wide{}\n", name_of(x.unit.unit),
-             x.unit_said ? "as you said" : "guessed", x.unit.extent_m / mm, x.unit.calibre_m / mm,
-             !x.unit_said && !x.unit.certain ? "; confirm with --units, others are possible" : "");
+  fmt::print("units: {}: {:.0f} mm long, {:.1f} mm wide\n", describe(x.unit), x.unit.extent_m / mm,
+             x.unit.calibre_m / mm);
   if (x.skipped) fmt::print("{} points or lines in the files were left out\n", x.skipped);
   for (const vascular::RepairNote& note : x.repaired.notes) {
     fmt::print("mended: {} x {}", note.count, note.what);
@@ -79,6 +84,9 @@ void tell(const Imported& x, const std::string& called) {
     fmt::print("aorta: {:.1f} mm from the mean one's course (rms)\n", x.found.aorta_rms_m / mm);
   if (x.found.heart)
     fmt::print("coronary arteries: {:.1f} mm from the mean ones' courses (rms)\n", x.found.heart_rms_m / mm);
+  if (!x.found.heart && x.found.heart_doubt > 0)
+    fmt::print(
+        "no coronary arteries were recognised; if they are some, let them be named and beat: --motion coronary\n");
   const vascular::Anatomy& a = x.found.anatomy;
   fmt::print("  {:<18} {:>9} {:>12} {:>10}\n", "branch", "length mm", "proximal mm", "distal mm");
   for (const vascular::NamedBranch& b : a.branches)

@@ -5,11 +5,11 @@
 #include <string>
 #include <vector>
 
+#include "app/command_line/mesh_unit.h"
 #include "data/catalogue/case/case.h"
 #include "vascular/anatomy/labelling/labelling.h"
 #include "vascular/anatomy/labelling/narrowings.h"
 #include "vascular/geometry/repair/repair.h"
-#include "vascular/geometry/repair/units.h"
 
 namespace ostium::app {
 
@@ -17,8 +17,7 @@ struct Imported {
   std::filesystem::path folder;    ///< of the case
   std::vector<std::string> files;  ///< as they were given
   int triangles = 0, skipped = 0;  ///< read; points and lines that were left out
-  vascular::UnitGuess unit;
-  bool unit_said = false;              ///< by the user, not guessed
+  MeshUnit unit;
   vascular::RepairedMesh repaired;     ///< in the files' frame, m
   vascular::LabelledVessels found;     ///< in the patient frame
   std::vector<vascular::Mesh> frames;  ///< of a beat, in the patient frame; empty: one surface, at rest

@@ -5,7 +5,7 @@
 #include "app/command_line/arguments.h"
 #include "app/command_line/common_options.h"
 #include "data/formats/load_error.h"
-#include "vascular/geometry/repair/units.h"
+#include "vascular/geometry/mesh/length_unit.h"
 
 namespace ostium::app {
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/base/units.h"
+#include "vascular/anatomy/labelling/recognition.h"
 #include "vascular/geometry/centreline/centreline.h"
 #include "vascular/geometry/mesh/bounding_volume_hierarchy.h"
 
@@ -12,11 +13,12 @@ namespace {
 
 using units::mm;
 constexpr double aorta_radius_m = 7e-3;  // lower limit for an aorta
+constexpr double unlike_any = 1e9;       // m: no fit is possible
 
 /// Distance of a course from the mean aorta, m; `fit` receives the transform of the mean aorta.
 double unlike_aorta(const MeanCourses& mean, const Course& course, Similarity& fit) {
   const std::vector<Eigen::Vector3d> theirs = course.points(0, labelling_step_m, 0.3);
-  double best = 1e9;
+  double best = unlike_any;
   // The root may be cut off anywhere.
   for (double from = 0; from < 60 * mm; from += labelling_step_m) {
     std::vector<Eigen::Vector3d> ours = mean.aorta.points(from, labelling_step_m, 0.3), same = theirs;
@@ -88,7 +90,7 @@ void begin_at_root(const MeanCourses& mean, const Progress& say, LumenPart& part
     for (const Course& path : paths)
       if (path.length_m() >= 0.6 * longest) found.push_back({unlike_aorta(mean, path, fit), path.length_m(), from});
   }
-  double best = 1e9, farthest = 0;
+  double best = unlike_any, farthest = 0;
   int root = -1;
   for (const Candidate& c : found) best = std::min(best, c.unlike);
   // Among similar ones, the longest, which begins deepest in the root.
@@ -112,7 +114,7 @@ std::optional<AortaMatch> match_aorta(LumenPart& part, const MeanCourses& mean, 
   for (const Course& course : part.courses) longest = std::max(longest, course.length_m());
   std::size_t chosen = 0;
   std::vector<std::pair<double, Similarity>> compared;
-  double best = 1e9;
+  double best = unlike_any;
   for (const Course& course : part.courses) {
     Similarity fit;
     compared.emplace_back(unlike_aorta(mean, course, fit) + (course.length_m() < 0.6 * longest ? 1 : 0), fit);
@@ -123,8 +125,10 @@ std::optional<AortaMatch> match_aorta(LumenPart& part, const MeanCourses& mean, 
   for (std::size_t c = 0; c < compared.size(); ++c)
     if (const double length = part.courses[c].length_m(); compared[c].first < best + 4 * mm && length > farthest)
       farthest = length, chosen = c, match.fit = compared[c].second;
-  part.roles.push_back({part.courses[chosen].spheres.back().p, "aorta"});
+  if (farthest == 0 || best >= unlike_any) return std::nullopt;
   match.course = part.courses[chosen];
+  match.doubt = aorta_doubt(match.fit, match.course.length_m());
+  if (match.doubt < 1) part.roles.push_back({match.course.spheres.back().p, "aorta"});
   return match;
 }
 

@@ -10,13 +10,14 @@ namespace ostium::vascular {
 
 struct AortaMatch {
   Course course;
-  Similarity fit;  ///< from the mean anatomy to the file's frame
+  Similarity fit;    ///< from the mean anatomy to the file's frame
+  double doubt = 0;  ///< recognition.h
 };
 
 inline constexpr double labelling_step_m = 5e-3;  ///< between the points of two courses that are compared
 
-/// None if `widest` is too narrow for an aorta. Otherwise gives `widest` the tree from the aortic root, and the aorta's
-/// role.
+/// None if `widest` is too narrow for an aorta, or in no size like one. Otherwise gives `widest` the tree from the
+/// aortic root, and if it is recognised, the aorta's role.
 std::optional<AortaMatch> match_aorta(LumenPart& widest, const MeanCourses& mean, const Progress& say);
 
 }  // namespace ostium::vascular

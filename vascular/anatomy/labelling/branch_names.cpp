@@ -89,6 +89,7 @@ void name_branches(const std::vector<double>& leaves_m, const std::map<std::stri
     name_arch(anatomy, notes);
     name_aorta(leaves_m, anatomy);
   }
+  const bool unknown = std::ranges::all_of(tubes, [](const Tube& tube) { return tube.name.empty(); });
   int number = 0;
   const int lad = tube_named(anatomy, "LAD"), lcx = tube_named(anatomy, "LCx");
   for (int t = anatomy.aorta ? 1 : 0; t < static_cast<int>(tubes.size()); ++t) {
@@ -98,7 +99,7 @@ void name_branches(const std::vector<double>& leaves_m, const std::map<std::stri
       anatomy.branches.push_back({"LM", t, from, parting});
       from = parting;
     }
-    if (tubes[t].name.empty()) tubes[t].name = std::to_string(++number);
+    if (tubes[t].name.empty()) tubes[t].name = (unknown ? "vessel " : "") + std::to_string(++number);
     anatomy.branches.push_back({tubes[t].name, t, from, tubes[t].length_m()});
   }
   rename(names, anatomy);

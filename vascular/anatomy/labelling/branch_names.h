@@ -1,5 +1,6 @@
 #pragma once
-/// Names of an anatomy's branches: labelled arteries, arch branches and iliac arteries; numbers for all others.
+/// Names of an anatomy's branches: labelled arteries, arch branches and iliac arteries; numbers for all others ("vessel
+/// 1" if there are only such).
 #include <map>
 #include <string>
 #include <vector>

@@ -11,6 +11,7 @@ namespace {
 using units::mm;
 constexpr double coronary_radius_m = 3.5e-3;  // upper limit for a coronary artery
 constexpr double coronary_length_m = 25e-3;   // lower limit for its length
+constexpr double end_m = 6e-3;                // what counts as near an end
 constexpr double root_m = 75e-3;              // largest distance of its origin from the root
 
 bool like_coronary(const Course& course) {
@@ -21,6 +22,14 @@ bool like_coronary(const Course& course) {
   if (first.empty()) return false;
   std::nth_element(first.begin(), first.begin() + static_cast<long>(first.size() / 2), first.end());
   return first[first.size() / 2] < coronary_radius_m && median_radius(course) < coronary_radius_m;
+}
+
+/// Of the widest sphere near an end: the last one may be tiny, in the tip of a rounded end.
+double radius_near_end(const Course& course, bool front) {
+  double widest = 0;
+  for (const TreeSphere& sphere : course.spheres)
+    if ((front ? sphere.s_m : course.length_m() - sphere.s_m) < end_m) widest = std::max(widest, sphere.radius_m);
+  return widest;
 }
 
 void add_aortic_trunks(const LumenPart& part, const AortaMatch& aorta, std::vector<Trunk>& trunks) {
@@ -40,8 +49,7 @@ void add_loose_trunks(const LumenPart& part, std::size_t p, std::vector<Trunk>& 
   const std::vector<Course>& courses = part.courses;
   double widest = 0;
   for (const Course& course : courses)
-    for (std::size_t i = 0; i < course.spheres.size(); i += course.spheres.size() - 1)
-      widest = std::max(widest, course.spheres[i].radius_m);
+    for (const bool front : {true, false}) widest = std::max(widest, radius_near_end(course, front));
   for (int from = -1; from < static_cast<int>(courses.size()); ++from) {
     Trunk trunk{p, {}, {}, {}};
     for (const Course& course : courses_from(courses, from))
@@ -50,7 +58,7 @@ void add_loose_trunks(const LumenPart& part, std::size_t p, std::vector<Trunk>& 
         trunk.ends.push_back(course.spheres.back().p);
         trunk.courses.push_back(course);
       }
-    if (!trunk.ends.empty() && trunk.courses[0].spheres.front().radius_m > 0.5 * widest)
+    if (!trunk.ends.empty() && radius_near_end(trunk.courses[0], true) > 0.5 * widest)
       trunks.push_back(std::move(trunk));
   }
 }

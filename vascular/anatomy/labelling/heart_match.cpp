@@ -5,12 +5,14 @@
 
 #include "core/base/units.h"
 #include "vascular/anatomy/labelling/coronary_trunks.h"
+#include "vascular/anatomy/labelling/recognition.h"
 
 namespace ostium::vascular {
 
 namespace {
 
 using units::mm, units::degree;
+constexpr double worst_score_m = 25 * mm;  // with what counts against a fit besides its distance
 
 struct HeartFit {
   Similarity fit;
@@ -20,7 +22,7 @@ struct HeartFit {
   bool circumflex = false;
 };
 
-struct HeartSearch {
+struct HeartTrunks {
   const MeanCourses& mean;
   const AortaMatch* aorta;
   const std::vector<Trunk>& trunks;
@@ -34,7 +36,7 @@ void add_pairs(const Course& ours, const Course& theirs, std::vector<Eigen::Vect
   to.insert(to.end(), b.begin(), b.begin() + static_cast<long>(n));
 }
 
-void try_fit(const HeartSearch& known, HeartFit candidate, HeartFit& best) {
+void try_fit(const HeartTrunks& known, HeartFit candidate, HeartFit& best) {
   std::vector<Eigen::Vector3d> from, to;
   double unused = 0;
   const auto add = [&](const Course& ours, int trunk, std::size_t end) {
@@ -68,7 +70,7 @@ void try_fit(const HeartSearch& known, HeartFit candidate, HeartFit& best) {
 }
 
 /// Tries all pairs of trunks and their ends.
-HeartFit best_fit(const HeartSearch& known) {
+HeartFit best_fit(const HeartTrunks& known) {
   const std::vector<Trunk>& trunks = known.trunks;
   HeartFit best;
   const int n = static_cast<int>(trunks.size());
@@ -108,18 +110,30 @@ void find_circumflex(const MeanCourses& mean, const Trunk& left, HeartFit& best)
   }
 }
 
+/// By all arteries that were found, which the fit itself may have left out.
+double doubt_of(const HeartFit& best, const HeartTrunks& known) {
+  std::vector<Eigen::Vector3d> from, to;
+  const auto course = [&](int trunk, std::size_t end) -> const Course& {
+    return known.trunks[static_cast<std::size_t>(trunk)].courses[end];
+  };
+  if (best.left >= 0) add_pairs(known.mean.lad, course(best.left, best.lad), from, to);
+  if (best.circumflex) add_pairs(known.mean.lcx, course(best.left, best.lcx), from, to);
+  if (best.right >= 0) add_pairs(known.mean.rca, course(best.right, best.rca), from, to);
+  const double doubt = heart_doubt(nearest_similarity(from, to),
+                                   {best.left >= 0, best.circumflex, best.right >= 0, known.aorta != nullptr});
+  return std::max(doubt, best.score / worst_score_m);
+}
+
 }  // namespace
 
 std::optional<HeartMatch> match_heart(std::vector<LumenPart>& parts, const AortaMatch* aorta, const MeanCourses& mean,
-                                      std::vector<std::string>& notes) {
+                                      bool assumed, std::vector<std::string>& notes) {
   const std::vector<Trunk> trunks = coronary_trunks(parts, aorta);
   HeartFit best = best_fit({mean, aorta, trunks});
-  if (best.score > 25 * mm) {
-    if (!trunks.empty()) notes.push_back("narrow vessels near the root are not like coronary arteries: nothing beats");
-    return std::nullopt;
-  }
-  HeartMatch match{.fit = best.fit, .ostia = {}};
+  if (best.left < 0 && best.right < 0) return std::nullopt;
   if (best.left >= 0 && !best.circumflex) find_circumflex(mean, trunks[static_cast<std::size_t>(best.left)], best);
+  HeartMatch match{.fit = best.fit, .ostia = {}, .doubt = doubt_of(best, {mean, aorta, trunks})};
+  if (match.doubt >= 1 && !assumed) return match;
   if (best.left >= 0) {
     const Trunk& left = trunks[best.left];
     parts[left.part].root = left.root;

@@ -25,7 +25,9 @@ Eigen::Matrix3d settled_axes(const LabellingOptions& options, const Similarity* 
   if (options.axes) {
     R = *options.axes;
   } else if (!aorta && !heart) {
-    notes.push_back("neither aorta nor heart was recognised: the file's axes are taken as left, head, front");
+    notes.push_back(
+        "neither aorta nor heart was recognised: vessels have numbers and stay still, and the file's axes are taken "
+        "as left, head, front");
   } else {
     const Eigen::Matrix3d found = (aorta ? aorta->R : heart->R).transpose();
     double turn = 0;
@@ -87,8 +89,21 @@ LabelledVessels label_vessels(const Mesh& lumen, const LabellingOptions& options
   const MeanCourses mean = mean_courses();
   LabelledVessels out;
   std::vector<LumenPart> parts = lumen_parts(lumen, say);
-  std::optional<AortaMatch> aorta = match_aorta(parts.front(), mean, say);
-  std::optional<HeartMatch> heart = match_heart(parts, aorta ? &*aorta : nullptr, mean, out.notes);
+  std::optional<AortaMatch> aorta;
+  std::optional<HeartMatch> heart;
+  if (options.heart != HeartSearch::none) {
+    aorta = match_aorta(parts.front(), mean, say);
+    if (aorta) out.aorta_doubt = aorta->doubt;
+    if (out.aorta_doubt >= 1) aorta.reset();
+    const bool assumed = options.heart == HeartSearch::assumed;
+    heart = match_heart(parts, aorta ? &*aorta : nullptr, mean, assumed, out.notes);
+    if (assumed && !heart)
+      throw MeshError(
+          "nothing in it can be a coronary artery, at least 25 mm long and less than 7 mm wide; expected one, or that "
+          "none is assumed");
+    if (heart) out.heart_doubt = heart->doubt;
+    if (out.heart_doubt >= 1 && !assumed) heart.reset();
+  }
   out.heart = heart.has_value();
   if (aorta) out.aorta_rms_m = aorta->fit.rms_m;
   if (heart) out.heart_rms_m = heart->fit.rms_m;

@@ -10,6 +10,7 @@
 #include "vascular/geometry/mesh/mesh.h"
 #include "vascular/geometry/mesh_files/formats.h"
 #include "vascular/geometry/mesh_files/raw_surface.h"
+#include "vascular/geometry/mesh_files/unit_mark.h"
 #include "vascular/geometry/mesh_files/written_mesh.h"
 
 namespace ostium::vascular {
@@ -93,20 +94,6 @@ std::string format_id(const std::string& path) {
 
 }  // namespace
 
-double metres(LengthUnit unit) {
-  switch (unit) {
-    case LengthUnit::millimetre:
-      return 1e-3;
-    case LengthUnit::centimetre:
-      return 1e-2;
-    case LengthUnit::inch:
-      return 25.4e-3;
-    case LengthUnit::metre:
-      break;
-  }
-  return 1;
-}
-
 MeshFile read_mesh(const std::string& path, LengthUnit unit, double weld_m) {
   int skipped = 0;
   MeshFile file = from_corners(read_corners(path, unit, &skipped), weld_m);
@@ -179,7 +166,7 @@ std::string mesh_bytes(const std::string& path, const Mesh& mesh, LengthUnit uni
   Assimp::Exporter exporter;
   const aiExportDataBlob* blob = exporter.ExportToBlob(&scene, id);
   if (!blob) throw MeshError(fmt::format("{}: cannot be written: {}", path, exporter.GetErrorString()));
-  return {static_cast<const char*>(blob->data), blob->size};
+  return with_unit_mark({static_cast<const char*>(blob->data), blob->size}, ending_of(path), unit);
 }
 
 }  // namespace ostium::vascular

@@ -15,9 +15,9 @@ namespace {
 using units::mm;
 constexpr int calibre_stride = 4, most_uncrossings = 12;
 constexpr double longest_edge_m = 2.2e-3;
-constexpr double chance_voxels = 0.05;         // within this distance, a level set's vertex positions are arbitrary
-constexpr double most_turn = 0 - 1 - 1;        // cosine, of a triangle whose corners move onto the wall
-constexpr double least_height = 0.02 - 1 - 1;  // of a triangle over its longest edge, likewise
+constexpr double chance_voxels = 0.05;  // within this distance, a level set's vertex positions are arbitrary
+constexpr double most_turn = 0;         // cosine, of a triangle whose corners move onto the wall
+constexpr double least_height = 0.02;   // of a triangle over its longest edge, likewise
 constexpr int most_returns = 6;
 constexpr double cell_at_1_mm_m = 0.6e-3;  // same as the contour of our own anatomy
 

@@ -1,23 +1,25 @@
 #pragma once
-/// Guesses the length unit of a mesh file from the length and width of the vessels.
-#include "vascular/geometry/mesh/mesh.h"
+/// What a number in a mesh file may mean: the length units in which its vessels are as long and as wide as arteries
+/// are.
+#include "vascular/geometry/mesh/length_unit.h"
 
 namespace ostium::vascular {
 
-struct UnitGuess {
+/// Of the vessels in a mesh, in the mesh's unit. Lids hardly count: they are a small part of the wall.
+struct VesselSize {
+  double extent = 0;  ///< longest side of the bounding box
+  double wide = 0;    ///< vessels narrower than this have 75 % of the wall's area
+  double narrow = 0;  ///< likewise 10 %
+};
+VesselSize vessel_size(const Mesh& mesh);
+
+struct UnitReading {
   LengthUnit unit = LengthUnit::millimetre;
-  double extent_m = 0;   ///< longest side of the bounding box, in that unit
-  double calibre_m = 0;  ///< vessels narrower than this have 90 % of the wall's area
-  bool certain = false;  ///< no other unit gives plausible vessels
-  bool vessel = false;   ///< this unit does
+  std::string vessel;  ///< what it is then, for messages: "a coronary artery"
 };
 
-/// `raw`: the file's numbers taken as metres. Compared with a coronary tree (110 mm long, 4 mm wide), and with aortas
-/// with and without branches (150 to 650 mm, 8 to 30 mm).
-UnitGuess guess_unit(const Mesh& raw);
-
-std::string name_of(LengthUnit unit);
-/// "mm", "cm", "m" or "in".
-LengthUnit unit_named(const std::string& name);
+/// All units in which a vessel of that size is an artery, a part of one, or a tree of them. One reading is certain; of
+/// several only the user knows which one is right; with none, it is no artery.
+std::vector<UnitReading> unit_readings(const VesselSize& size);
 
 }  // namespace ostium::vascular

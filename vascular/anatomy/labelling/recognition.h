@@ -1,0 +1,21 @@
+#pragma once
+/// From where on a vessel is taken for an aorta, or vessels for coronary arteries.
+///
+/// The limits are estimates that made-up people and made-up vessels of other organs did not contradict (seeds 1 to 4 of
+/// each kind), and were then left; tests/RESULTS.md has what others are taken for. One artery alone is never
+/// recognised: turned and scaled, a mean course comes as near to any bend.
+#include "vascular/anatomy/labelling/fit.h"
+
+namespace ostium::vascular {
+
+/// What a fit of the mean coronary arteries rests on.
+struct HeartEvidence {
+  bool left = false, circumflex = false, right = false;
+  bool aorta = false;  ///< they leave a recognised aorta
+};
+
+/// How unlike the mean anatomy, over what is allowed; below 1 it is recognised.
+double aorta_doubt(const Similarity& fit, double length_m);
+double heart_doubt(const Similarity& fit, const HeartEvidence& evidence);
+
+}  // namespace ostium::vascular
