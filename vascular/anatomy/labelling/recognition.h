@@ -1,9 +1,8 @@
 #pragma once
 /// From where on a vessel is taken for an aorta, or vessels for coronary arteries.
 ///
-/// The limits are estimates that made-up people and made-up vessels of other organs did not contradict (seeds 1 to 4 of
-/// each kind), and were then left; tests/RESULTS.md has what others are taken for. One artery alone is never
-/// recognised: turned and scaled, a mean course comes as near to any bend.
+/// The limits are estimates; tests/RESULTS.md has what made-up people and made-up vessels of other organs are taken
+/// for. One artery alone is never recognised: turned and scaled, a mean course comes as near to any bend.
 #include "vascular/anatomy/labelling/fit.h"
 
 namespace ostium::vascular {
