@@ -10,6 +10,7 @@
 #include "app/command_line/common_options.h"
 #include "app/command_line/pictures.h"
 #include "app/command_line/progress.h"
+#include "app/reader/read_apart.h"
 #include "app/session/scene/film.h"
 #include "core/base/units.h"
 #include "data/formats/dicom_runs.h"
@@ -167,6 +168,7 @@ int check_same(const Arguments& a, Replay& replay) {
 
 /// Exit code: 0 if everything was done and, with `verify`, the replay is identical.
 int run(const Arguments& a) {
+  require_whole_recording(a.file);
   show_progress("building the vessel of " + a.file);
   Replay replay(a.file);
   if (!replay.recording.end() && !a.json)

@@ -8,6 +8,7 @@
 
 #include "app/command_line/command.h"
 #include "app/command_line/progress.h"
+#include "app/reader/read_apart.h"
 #include "app/session/run/replay.h"
 #include "app/session/scene/film.h"
 #include "data/assessment/page.h"
@@ -69,6 +70,17 @@ std::vector<data::ReportPicture> pictures_of(Replay& replay, const data::RunReco
   return out;
 }
 
+/// Takes what the run itself said at its end.
+void add_end(const std::string& end, data::ReportRun& run) {
+  const auto json = nlohmann::json::parse(end);
+  run.outcome = json.value("outcome", ""), run.reason = json.value("reason", "");
+  // Dose was accumulated during the run, over C-arm poses that the signals do not contain.
+  for (const auto& metric : json.value("metrics", nlohmann::json::array()))
+    for (data::Metric& mine : run.metrics)
+      if (mine.name == metric.value("name", "") && metric.contains("value") && metric["value"].is_number())
+        mine.value = metric["value"].get<double>();
+}
+
 data::ReportRun run_of(Replay& replay, const std::string& code, const data::ScoreList& list, bool pictures) {
   data::ReportRun run;
   run.code = code;
@@ -79,14 +91,11 @@ data::ReportRun run_of(Replay& replay, const std::string& code, const data::Scor
   run.record = record_of(replay.recording, replay.model);
   run.simulated_s = static_cast<double>(run.record.steps) * run.record.step_s;
   run.metrics = metrics_of(run.record);
-  if (const auto end = replay.recording.end()) {
-    const auto json = nlohmann::json::parse(*end);
-    run.outcome = json.value("outcome", ""), run.reason = json.value("reason", "");
-    // Dose was accumulated during the run, over C-arm poses that the signals do not contain.
-    for (const auto& metric : json.value("metrics", nlohmann::json::array()))
-      for (data::Metric& mine : run.metrics)
-        if (mine.name == metric.value("name", "") && metric.contains("value") && metric["value"].is_number())
-          mine.value = metric["value"].get<double>();
+  try {
+    if (const auto end = replay.recording.end()) add_end(*end, run);
+  } catch (const nlohmann::json::exception& error) {
+    throw data::LoadError(fmt::format("{}: its end cannot be read ({}); the file is damaged: copy it again",
+                                      replay.recording.path(), error.what()));
   }
   run.scores = score(list, run.record, run.metrics);
   if (pictures && replay.recording.states() > 0) run.pictures = pictures_of(replay, run.record);
@@ -150,6 +159,7 @@ int run(const Arguments& a) {
   std::vector<data::ReportRun> runs;
   for (std::size_t i = 0; i < a.files.size(); ++i) {
     show_progress("reading " + a.files[i]);
+    require_whole_recording(a.files[i]);
     Replay replay(a.files[i]);
     runs.push_back(run_of(replay, a.codes.empty() ? fmt::format("run {}", i + 1) : a.codes[i], list, a.pictures));
     if (i == 0 && !a.events.empty()) data::write_file(a.events, events_csv(runs[0]));

@@ -79,10 +79,10 @@ Rod make_rod(const RodDescription& description) {
     set_cell(rod, i, rod.node_from_tip_m[i]);
     rod.bending.at(0)[i] = stiffness_at_rest(rod, i).head<2>().maxCoeff();
     if (rod.rest_curvature[i].norm() * rod.joint_length.at(0)[i] > tolerances::max_rest_angle_rad)
-      throw std::invalid_argument("rod \"" + description.name +
-                                  "\": its elements are too long for the curvature at rest " +
+      throw std::invalid_argument("rod \"" + description.name + "\": at rest it bends too sharply " +
                                   std::to_string(1e3 * rod.node_from_tip_m[i]) +
-                                  " mm from the tip (more than 2 rad between two of them); take shorter ones there");
+                                  " mm from the tip, by more than 2 rad from one element to the next; give it a larger "
+                                  "radius (less curvature) there, or shorter elements");
   }
   return rod;
 }

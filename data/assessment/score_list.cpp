@@ -33,7 +33,7 @@ ScoreCheck read_check(const JsonValue& value) {
   const JsonObject object(value, scoring_keys::check);
   ScoreCheck check;
   if (object.has("event") == object.has("metric"))
-    value.fail(value.path + " must look at an event or at a metric; expected one of the two");
+    value.fail(value.path() + " must look at an event or at a metric; expected one of the two");
   if (object.has("event")) check.event = event_called(object, "event");
   if (object.has("before")) event_called(object, "before"), check.before = object.text("before");
   if (object.has("metric")) {
@@ -45,7 +45,7 @@ ScoreCheck read_check(const JsonValue& value) {
   if (object.has("least")) check.least = object.number("least");
   if (object.has("most")) check.most = object.number("most");
   if (check.before.empty() && !check.least && !check.most)
-    value.fail(value.path + " has no bound; expected least, most or before");
+    value.fail(value.path() + " has no bound; expected least, most or before");
   return check;
 }
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <limits>
 
 namespace ostium::data {
 
@@ -15,11 +16,11 @@ JsonObject::JsonObject(const JsonValue& value, const JsonObjectKeys& keys) : val
       continue;
     std::string known;
     for (const JsonKey& key : keys.keys) known += (known.empty() ? "" : ", ") + key.name;
-    member.fail(fmt::format("{} is not a key of the {}; expected one of {}", member.path, keys.object, known));
+    member.fail(fmt::format("{} is not a key of the {}; expected one of {}", member.path(), keys.object, known));
   }
   for (const JsonKey& key : keys.keys)
     if (key.required && !has(key.name))
-      value.fail(fmt::format("{}{}{} is missing; expected {}", value.path, value.path.empty() ? "" : ".", key.name,
+      value.fail(fmt::format("{}{}{} is missing; expected {}", value.path(), value.path().empty() ? "" : ".", key.name,
                              key.expected));
 }
 
@@ -45,8 +46,9 @@ double JsonObject::number(const std::string& key) const {
 }
 
 int JsonObject::whole(const std::string& key) const {
-  if (number(key) != std::floor(number(key))) refuse(key);
-  return static_cast<int>(number(key));
+  const double value = number(key);
+  if (value != std::floor(value) || std::fabs(value) > std::numeric_limits<int>::max()) refuse(key);
+  return static_cast<int>(value);
 }
 
 double JsonObject::positive(const std::string& key) const {

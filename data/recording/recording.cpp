@@ -3,11 +3,13 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdio>
-#include <cstdlib>
 #include <cstring>
+#include <string_view>
 
+#include "data/formats/decimal.h"
 #include "data/formats/load_error.h"
 
 namespace ostium::data {
@@ -113,13 +115,53 @@ RecordingReader::RecordingReader(const std::string& path) : path_(path), file_(T
         path, found.substr(schema.size()), file_.has("software") ? file_.text("software") : "?", recording_version));
   if (file_.rows("inputs") != steps())
     throw LoadError(path + ": has another number of inputs than of steps; it is damaged");
+  require_layout();
 }
 
-double RecordingReader::step_s() const { return std::strtod(file_.text("step_s").c_str(), nullptr); }
+/// What readers rely on as they index rows.
+void RecordingReader::require_layout() const {
+  const auto columns = [&](const char* table) { return static_cast<int>(file_.columns(table).size()); };
+  if (file_.width("inputs") != columns("inputs") || file_.width("signals") != columns("signals") ||
+      file_.width("hash") != 1 || file_.width("events") != 4)
+    throw LoadError(path_ + ": has rows of another width than its columns' names say; it is damaged");
+  if (file_.rows("signals") > steps() / steps_per_signal + 1 || states() > steps() / steps_per_state + 1)
+    throw LoadError(path_ + ": has more signals or states than its steps have; it is damaged");
+}
+
+double RecordingReader::step_s() const {
+  const std::optional<double> step_s = decimal(file_.text("step_s"));
+  if (!step_s || !(*step_s > 0 && *step_s <= 0.01))
+    throw LoadError(fmt::format("{}: its step is \"{:.40}\" s; expected a number above 0, up to 0.01: it is damaged",
+                                path_, file_.text("step_s")));
+  return *step_s;
+}
 
 std::optional<std::string> RecordingReader::end() const {
   if (!file_.has("end")) return {};
   return file_.text("end");
+}
+
+void read_to_end(const std::string& path) {
+  constexpr std::size_t at_once = 1 << 20;  // numbers
+  const RecordingReader recording(path);
+  const TableFile& file = recording.tables();
+  for (const char* text : {"software", "setup"}) file.text(text);
+  recording.step_s();
+  recording.end();
+  for (const char* table :
+       {"inputs", "hash", "signals", "events", "state", "hands", "mesh_vertices", "mesh_triangles"}) {
+    if (!file.has(table)) continue;
+    file.columns(table);
+    const std::size_t rows = file.rows(table), piece = 1 + at_once / static_cast<std::size_t>(file.width(table));
+    const bool whole = std::string_view(table) == "hash" || std::string_view(table) == "mesh_triangles";
+    for (std::size_t first = 0; first < rows; first += piece) {
+      const std::size_t count = std::min(piece, rows - first);
+      if (whole)
+        file.integers(table, first, count);
+      else
+        file.numbers(table, first, count);
+    }
+  }
 }
 
 }  // namespace ostium::data

@@ -95,8 +95,13 @@ class RecordingReader {
   const TableFile& tables() const { return file_; }
 
  private:
+  void require_layout() const;
+
   std::string path_;
   TableFile file_;
 };
+
+/// Reads all of a recording once, in pieces, and keeps nothing. Throws LoadError if anything in it cannot be read.
+void read_to_end(const std::string& path);
 
 }  // namespace ostium::data

@@ -62,6 +62,10 @@ hid_t unlocked() {
   return access;
 }
 
+/// Beyond these a file is damaged: a day's steps; a state's numbers a hundred times over; a text.
+constexpr hsize_t most_rows = 100'000'000, most_columns = 10'000'000;
+constexpr std::size_t longest_text = 256 << 20, most_names = 10'000;
+
 hid_t text_type(std::size_t length) {
   const hid_t type = H5Tcopy(H5T_C_S1);
   H5Tset_size(type, length);
@@ -95,6 +99,8 @@ struct TableFile::Handle {
     require(
         space.ok() && H5Sget_simple_extent_ndims(space) == 2 && H5Sget_simple_extent_dims(space, extent, nullptr) == 2,
         "has a table that is not rows by columns");
+    require(extent[0] <= most_rows && extent[1] >= 1 && extent[1] <= most_columns,
+            fmt::format("has a table of {} rows by {} columns; it is damaged", extent[0], extent[1]));
   }
   void read(const std::string& name, std::size_t first, std::size_t count, hid_t type, void* out) const {
     const Id set(table(name), H5Dclose);
@@ -106,7 +112,8 @@ struct TableFile::Handle {
     const hsize_t start[2] = {first, 0}, size[2] = {count, extent[1]};
     const Id space(H5Dget_space(set), H5Sclose), memory(H5Screate_simple(2, size, nullptr), H5Sclose);
     H5Sselect_hyperslab(space, H5S_SELECT_SET, start, nullptr, size, nullptr);
-    require(H5Dread(set, type, memory, space, H5P_DEFAULT, out) >= 0, "table " + name + " cannot be read");
+    require(H5Dread(set, type, memory, space, H5P_DEFAULT, out) >= 0,
+            "table " + name + " is damaged; copy the file again");
   }
 };
 
@@ -215,9 +222,11 @@ std::vector<std::string> TableFile::columns(const std::string& name) const {
   const Id names(H5Aopen(set, "columns", H5P_DEFAULT), H5Aclose);
   const Id space(H5Aget_space(names), H5Sclose), type(H5Aget_type(names), H5Tclose);
   const hssize_t count = H5Sget_simple_extent_npoints(space);
-  file_->require(count >= 0 && H5Tis_variable_str(type) > 0, "columns of table " + name + " are no texts");
+  file_->require(count >= 0 && static_cast<std::size_t>(count) <= most_names && H5Tis_variable_str(type) > 0,
+                 "columns of table " + name + " are no texts");
   std::vector<char*> pointers(static_cast<std::size_t>(count), nullptr);
-  file_->require(H5Aread(names, type, pointers.data()) >= 0, "columns of table " + name + " cannot be read");
+  file_->require(H5Aread(names, type, pointers.data()) >= 0,
+                 "columns of table " + name + " are damaged; copy the file again");
   std::vector<std::string> columns;
   for (const char* p : pointers) columns.emplace_back(p ? p : "");
   H5Dvlen_reclaim(type, space, H5P_DEFAULT, pointers.data());
@@ -241,11 +250,11 @@ std::string TableFile::text(const std::string& name) const {
   const Id set(H5Dopen2(file_->id, name.c_str(), H5P_DEFAULT), H5Dclose);
   const Id type(H5Dget_type(set), H5Tclose), space(H5Dget_space(set), H5Sclose);
   file_->require(set.ok() && H5Tget_class(type) == H5T_STRING && H5Tis_variable_str(type) == 0 &&
-                     H5Sget_simple_extent_npoints(space) == 1,
+                     H5Sget_simple_extent_npoints(space) == 1 && H5Tget_size(type) <= longest_text,
                  "\"" + name + "\" is no text");
   std::string text(H5Tget_size(type), '\0');
   file_->require(H5Dread(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, text.data()) >= 0,
-                 "\"" + name + "\" cannot be read");
+                 "\"" + name + "\" is damaged; copy the file again");
   while (!text.empty() && text.back() == '\0') text.pop_back();
   return text;
 }

@@ -122,7 +122,7 @@ TEST(InstrumentErrors, EveryGroupOfNumbersNeedsItsSource) {
     spoilt[group]["source"] = "";
     expect_words(refusal(spoilt.dump(1)), {group, ".source is \"\""});
     spoilt[group]["source"] = "estimate: ";
-    expect_words(refusal(spoilt.dump(1)), {group, ".source is \"estimate: \"", "and the reasoning"});
+    expect_words(refusal(spoilt.dump(1)), {group, ".source is \"estimate: \"", "the reasoning in at least 10"});
   }
 }
 

@@ -199,5 +199,25 @@ TEST(ScriptParts, WhatIsWrongInAnotherScriptIsNamedThere) {
   expect_words(refused(bad, named), {"deeper than"});
 }
 
+TEST(ScriptParts, PartsOfPartsAreCounted) {
+  const Folder folder;
+  const auto named = [](const std::string& name, const std::string& step, int times) {
+    std::string steps;
+    for (int i = 0; i < times; ++i) steps += (i ? ", " : "") + step;
+    return R"({ "schema": "ostium-script/1", "name": ")" + name +
+           R"(", "title": "A part", "tools": [ { "name": "wire", "instrument": "cook-j" } ], "steps": [)" + steps +
+           "] }";
+  };
+  const auto refusal = [&] { return refusal_of([&] { load_script((folder.path / "whole.json").string()); }); };
+  folder.write("some.json", named("some", R"({ "do": "wait", "until": [{ "seconds": 1 }] })", 200));
+  folder.write("whole.json", named("whole", R"({ "do": "script", "script": "some" })", 51));
+  expect_words(refusal(), {"whole.json:1: steps[50]", "more than 10000 steps"});
+  // 32 x 32 parts, the innermost of one step.
+  folder.write("one.json", named("one", R"({ "do": "wait", "until": [{ "seconds": 1 }] })", 1));
+  folder.write("many.json", named("many", R"({ "do": "script", "script": "one" })", 32));
+  folder.write("whole.json", named("whole", R"({ "do": "script", "script": "many" })", 32));
+  expect_words(refusal(), {"many.json:1: steps[", "more than 1000 parts"});
+}
+
 }  // namespace
 }  // namespace ostium::data

@@ -146,6 +146,17 @@ expect 3 "cut.obj: cannot be read" "$ostium" import "$folder/cut.obj" -o "$folde
 printf 'ply\nformat ascii 1.0\nelement vertex 3\n' >"$folder/cut.ply"
 expect 3 "is cut short" "$ostium" import "$folder/cut.ply" -o "$folder/case"
 expect 3 "cannot be read" bash -c "printf '{\"asset\":{\"version\":\"2.0\"}' >'$folder/cut.gltf'; '$ostium' check '$folder/cut.gltf'"
+# What others made may be damaged in any way: it is named, and nothing is ended by it.
+printf 'ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n9 0 0\n0 9 0\n0\n' >"$folder/no-corners.ply"
+expect 3 "no-corners.ply: .*has no corners" "$ostium" check "$folder/no-corners.ply"
+printf 'mtllib /etc/passwd\n' | cat - "$folder/whole.obj" >"$folder/outside.obj"
+expect 3 "does not lie in its folder" "$ostium" check "$folder/outside.obj"
+for ending in glb fbx 3ds dae x3d off vtp; do
+  head -c 3000 "$ostium" >"$folder/program.$ending"
+  expect 3 "program.$ending: " "$ostium" check "$folder/program.$ending"
+done
+cp "$folder/whole.obj" "$folder/whole.blend"
+expect 3 "names no format" "$ostium" check "$folder/whole.blend"
 expect 3 "right-handed" "$ostium" import "$folder/whole.obj" --axes LPI -o "$folder/case"
 expect 3 "FOUND=WANTED" "$ostium" import "$folder/whole.obj" --rename x -o "$folder/case"
 expect 3 "BRANCH:FROM" "$ostium" import "$folder/whole.obj" --lesion RCA -o "$folder/case"
@@ -201,6 +212,13 @@ expect 3 "there is no view" "$ostium" replay "$out/run.h5" --view upwards --png 
 expect 3 "s long" "$ostium" replay "$out/run.h5" --from 60
 head -c 3000 "$out/run.h5" >"$out/cut.h5"
 expect 3 "cut short" "$ostium" replay "$out/cut.h5"
+# A byte here and there: read, or refused by name.
+for at in 9 60 100 150 700 2100; do
+  cp "$out/run.h5" "$out/byte.h5"
+  printf '\377' | dd of="$out/byte.h5" bs=1 seek="$at" conv=notrunc status=none
+  rc=0 said=$("$ostium" report --no-pictures "$out/byte.h5" -o "$out/byte.html" 2>&1) || rc=$?
+  ((rc == 0)) || { ((rc == 3)) && grep -q "byte.h5: " <<<"$said"; } || { echo "byte $at: exit $rc, $said"; exit 1; }
+done
 sed 's/"speed_mm_s"/"speed_mms"/' "$(dirname "$0")/../../data/scripts/iliac-wire.json" >"$folder/iliac-wire.json"
 expect 3 "iliac-wire.json:9: steps\[0\].speed_mms is not a key" "$ostium" run rca-mid-focal --script "$folder/iliac-wire.json"
 

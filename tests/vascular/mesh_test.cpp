@@ -124,6 +124,34 @@ TEST(Mesh, WhatWasCutShortOrBrokenIsRefused) {
   }
 }
 
+TEST(Mesh, AFaceThatWouldBeLeftOutIsRefused) {
+  const std::string points = "0 0 0\n9 0 0\n0 9 0\n0 0 9\n";
+  const std::string off = "OFF\n4 2 0\n" + points + "3 0 1 2\n";
+  EXPECT_EQ(refusal(written("whole.off", off + "3 0 2 3\n")), "accepted");
+  EXPECT_NE(refusal(written("none.off", off + "0\n")).find("promises 2 faces, and 1 could be read"), std::string::npos);
+  EXPECT_NE(refusal(written("ten.off", off + "10 0 1 2 3 0 1 2 3 0 1\n")).find("export it as triangles"),
+            std::string::npos);
+  const std::string ply =
+      "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\nelement face 2\n"
+      "property list uchar int vertex_indices\nend_header\n" +
+      points + "3 0 1 2\n";
+  EXPECT_NE(refusal(written("none.ply", ply + "0\n")).find("face 1 has no corners"), std::string::npos);
+}
+
+TEST(Mesh, ARefusalIsShortWhateverTheFileHolds) {
+  const std::string stl = "solid a\n facet normal 0 0 1\n  outer loop\n   vertex \x1b[2J" + std::string(20000, 'x') +
+                          "\n  endloop\n endfacet\nendsolid a\n";
+  const std::string said = refusal(written("words.stl", stl));
+  EXPECT_LT(said.size(), 1000u);
+  EXPECT_EQ(said.find('\x1b'), std::string::npos);
+}
+
+TEST(Mesh, OnlyTheFormatsThatAreListedAreTried) {
+  for (const char* name : {"a.blend", "a.assbin", "a.3mf", "a.zip", "a"})
+    EXPECT_NE(refusal(written(name, "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")).find("names no format"), std::string::npos)
+        << name;
+}
+
 TEST(Mesh, AsWrittenIsWhatAFileBringsBack) {
   Mesh mesh = test::sphere(0.0123456789, 8, {0.3, -0.1, 0.7});
   const std::string path = testing::TempDir() + "ostium_as_written.ply";

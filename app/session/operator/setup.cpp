@@ -29,13 +29,23 @@ std::string all_of(const std::string& file) {
   return {std::istreambuf_iterator<char>(in), {}};
 }
 
-std::string instrument_file(const std::string& name_or_file) {
+/// A name of the catalogue, or a file, which is looked for from `folder` and then from where we are.
+std::string instrument_file(const std::string& name_or_file, const fs::path& folder = {}) {
   const fs::path known = fs::path(data::data_folder()) / "instruments" / (name_or_file + ".json");
   if (fs::is_regular_file(known)) return known.string();
-  if (name_or_file.ends_with(".json")) return name_or_file;
+  if (name_or_file.ends_with(".json")) {
+    std::error_code unseen;
+    for (const fs::path& file : {folder / name_or_file, fs::path(name_or_file)})
+      if (fs::is_regular_file(file, unseen)) return file.string();
+    throw data::LoadError(
+        fmt::format("there is no instrument file \"{}\"{}; expected a file there, or a name of `ostium instruments`",
+                    name_or_file, folder.empty() ? "" : " in " + folder.string() + " nor from here"));
+  }
   data::find_instrument(data::load_catalogue(), name_or_file);  // throws, listing the catalogue, if there is none
   return known.string();
 }
+
+fs::path folder_of(const data::Script& script) { return fs::path(script.file).parent_path(); }
 
 const std::string& name_of(vascular::Access access) { return data::access_names()[static_cast<std::size_t>(access)]; }
 
@@ -68,7 +78,7 @@ void set_script(const data::Script& script, RunSetup& setup) {
   setup.script = script;
   setup.tool_texts.clear(), setup.tool_files.clear();
   for (const data::ScriptTool& tool : script.tools) {
-    setup.tool_files.push_back(instrument_file(tool.instrument));
+    setup.tool_files.push_back(instrument_file(tool.instrument, folder_of(script)));
     setup.tool_texts.push_back(all_of(setup.tool_files.back()));
   }
 }
@@ -107,7 +117,7 @@ std::vector<std::string> choose_sizes(const Vessel& vessel, RunSetup& setup) {
     if (!most_m) continue;
     double best_m = 0;
     for (const std::string& size : tool.sizes) {
-      const std::string file = instrument_file(size), text = all_of(file);
+      const std::string file = instrument_file(size, folder_of(setup.script)), text = all_of(file);
       const double own_m = width_of(data::read_instrument(file, text), setup.script, tool);
       const bool better = best_m == 0 || (own_m <= *most_m ? best_m > *most_m || own_m > best_m : own_m < best_m);
       if (!better) continue;

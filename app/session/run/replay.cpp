@@ -80,6 +80,11 @@ void Replay::go_to(double second) {
   const double apart_s = recording.step_s() * data::steps_per_state;
   const std::size_t row = std::min(static_cast<std::size_t>(second / apart_s + 1e-9), recording.states() - 1);
   take_state(recording.state(row).data(), state);
+  const std::size_t step = row * data::steps_per_state;
+  if (state.rods.step != step || (step > 0 && recording.hashes(step - 1, 1).front() != hash(state)))
+    throw data::LoadError(fmt::format("{}: its state at {:g} s is not the one that its hash was made of; the file is "
+                                      "damaged, replay it from 0",
+                                      recording.path(), apart_s * static_cast<double>(row)));
 }
 
 void Replay::read_ahead() {

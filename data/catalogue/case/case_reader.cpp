@@ -47,7 +47,7 @@ vascular::Lesion read_lesion(const JsonObject& entry, const vascular::Anatomy& a
   try {
     check(anatomy, lesion);
   } catch (const std::invalid_argument& error) {
-    entry.value().fail(fmt::format("{}: {}", entry.value().path, error.what()));
+    entry.value().fail(fmt::format("{}: {}", entry.value().path(), error.what()));
   }
   return lesion;
 }

@@ -33,8 +33,8 @@ vascular::TreeSphere read_sphere(const JsonValue& value, const vascular::TreeBra
 vascular::TreeBranch read_branch(const JsonValue& value, const vascular::SphereTree& before) {
   const JsonObject object(value, tree_keys::branch);
   vascular::TreeBranch branch{.name = object.text("name"), .spheres = {}};
-  branch.parent = static_cast<int>(object.number("parent"));
-  branch.parent_sphere = static_cast<int>(object.number("parent_sphere"));
+  branch.parent = object.whole("parent");
+  branch.parent_sphere = object.whole("parent_sphere");
   if (branch.parent < -1 || branch.parent >= static_cast<int>(before.branches.size())) object.refuse("parent");
   const int spheres =
       branch.parent < 0 ? 0 : static_cast<int>(before.branches[static_cast<std::size_t>(branch.parent)].spheres.size());

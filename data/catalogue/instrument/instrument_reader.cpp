@@ -23,9 +23,14 @@ using units::mm, units::Nmm2, units::per_mm, units::degree;
 /// Stores the source of `object` under its path. Groups must have one; entries of a list may.
 void keep_source(const JsonObject& object, Instrument& instrument) {
   if (!object.has("source")) return;
-  Source source{object.value().path, object.text("source")};
+  Source source{object.value().path(), object.text("source")};
   // An estimate must give its reason.
-  if (source.estimate() && source.citation.size() < std::string("estimate: ").size() + 10) object.refuse("source");
+  constexpr std::size_t shortest_reason = 10;
+  if (source.estimate() && source.citation.size() < std::string("estimate: ").size() + shortest_reason)
+    object["source"].refuse(
+        fmt::format("\"estimate: \" and the reasoning in at least {} characters, such as \"estimate: as stiff as "
+                    "guide-jl4-6f, whose wall it has\"",
+                    shortest_reason));
   instrument.sources.push_back(std::move(source));
 }
 
@@ -43,7 +48,7 @@ std::pair<double, double> next_stretch(const JsonObject& entry, double length_mm
 /// Checks that a list read with `next_stretch` reached the proximal end.
 void require_whole_length(const JsonObject& group, double reached_mm, double length_mm) {
   if (std::fabs(reached_mm - length_mm) > gap_tolerance_mm)
-    group["list"].fail(fmt::format("{} ends {} mm from the tip; expected {} mm, size.length_mm", group["list"].path,
+    group["list"].fail(fmt::format("{} ends {} mm from the tip; expected {} mm, size.length_mm", group["list"].path(),
                                    reached_mm, length_mm));
 }
 
@@ -65,7 +70,7 @@ core::Section read_section(const JsonObject& entry, const Instrument& instrument
   if (one == first || first != second)
     entry.value().fail(
         fmt::format("{} has {} of the bending stiffnesses; expected EI_Nmm2, or both EI1_Nmm2 and EI2_Nmm2",
-                    entry.value().path, one + first + second));
+                    entry.value().path(), one + first + second));
   s.EI1_N_m2 = entry.positive(one ? "EI_Nmm2" : "EI1_Nmm2") * Nmm2;
   s.EI2_N_m2 = entry.positive(one ? "EI_Nmm2" : "EI2_Nmm2") * Nmm2;
   s.GJ_N_m2 = entry.positive("GJ_Nmm2") * Nmm2;
@@ -222,7 +227,7 @@ void read_balloon_design(const JsonObject& design, Instrument& instrument, Carri
   read_design_numbers(design, balloon_design_numbers, balloon.design);
   balloon.own_folds = design.has("folded_radius_mm");
   if (balloon.own_folds != design.has("refolded_radius_mm"))
-    design.value().fail(design.value().path + " has one of folded_radius_mm and refolded_radius_mm; expected both");
+    design.value().fail(design.value().path() + " has one of folded_radius_mm and refolded_radius_mm; expected both");
 }
 
 void read_stent_design(const JsonObject& design, Instrument& instrument, CarriedStent& stent) {
@@ -237,7 +242,7 @@ void read_stent_design(const JsonObject& design, Instrument& instrument, Carried
   try {
     make_stent(stent.nominal_m, stent.length_m, stent.design);
   } catch (const std::invalid_argument& error) {
-    design.value().fail(fmt::format("{} makes no stent: {}", design.value().path, error.what()));
+    design.value().fail(fmt::format("{} makes no stent: {}", design.value().path(), error.what()));
   }
 }
 

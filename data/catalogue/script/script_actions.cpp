@@ -48,10 +48,10 @@ void require_keys(const JsonObject& step) {
   const KeysOfAction keys = keys_of(action);
   for (const std::string& key : keys.needs)
     if (!step.has(key))
-      step.value().fail(fmt::format("{}.{} is missing; \"{}\" needs it", step.value().path, key, action));
+      step.value().fail(fmt::format("{}.{} is missing; \"{}\" needs it", step.value().path(), key, action));
   for (const auto& [key, value] : step.value().members)
     if (key != "do" && !is_in(keys.needs, key) && !is_in(keys.may, key))
-      value.fail(fmt::format("{} has no meaning for \"{}\"", value.path, action));
+      value.fail(fmt::format("{} has no meaning for \"{}\"", value.path(), action));
 }
 
 }  // namespace ostium::data

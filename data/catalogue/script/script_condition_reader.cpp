@@ -35,11 +35,11 @@ const ConditionRow& row_in(const JsonObject& object) {
     if (!object.has(row.key)) continue;
     if (found)
       object.value().fail(
-          fmt::format("{} has both {} and {}; expected one of them", object.value().path, found->key, row.key));
+          fmt::format("{} has both {} and {}; expected one of them", object.value().path(), found->key, row.key));
     found = &row;
   }
   if (!found)
-    object.value().fail(object.value().path +
+    object.value().fail(object.value().path() +
                         " says nothing to look at; expected one of tip_passes, fed_mm, seconds, ...");
   return *found;
 }
@@ -76,7 +76,7 @@ void read_companions(const JsonObject& object, const ConditionRow& row, ScriptCo
     const bool belongs = std::string(row.beside) == one.key;
     if (!object.has(one.key)) {
       if (belongs && one.required)
-        object.value().fail(fmt::format("{}.{} is missing; expected {}", object.value().path, one.key, one.expected));
+        object.value().fail(fmt::format("{}.{} is missing; expected {}", object.value().path(), one.key, one.expected));
       continue;
     }
     if (!belongs) object.refuse(one.key);
@@ -99,7 +99,7 @@ ScriptCondition read_condition(const JsonValue& value, const Script& script, con
   else if (!tools.empty())
     c.tool = tools.front();
   else if (row.of == ConditionOf::tool && script.tools.size() > 1)
-    value.fail(value.path + " does not say of which tool; expected \"of\"");
+    value.fail(value.path() + " does not say of which tool; expected \"of\"");
   read_own_value(object, row, c);
   read_companions(object, row, c);
   if (object.has("lesion") && row.of != ConditionOf::lesion) object.refuse("lesion");

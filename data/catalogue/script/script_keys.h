@@ -28,7 +28,8 @@ inline const JsonObjectKeys root = {
 inline const JsonObjectKeys tool = {
     "tool",
     {{"name", true, "what the script calls it: \"wire\"", json_type::text()},
-     {"instrument", true, "a name of `ostium instruments`, or a file", json_type::text()},
+     {"instrument", true, "a name of `ostium instruments`, or a file, looked for from the script's folder",
+      json_type::text()},
      {"sizes", false, "balloons or stents to choose from by the artery, or guides by the aorta, a list of such names",
       json_type::list_of(json_type::text(), 1)},
      {"of_reference", false,

@@ -18,6 +18,10 @@ namespace fs = std::filesystem;
 namespace keys = script_keys;
 constexpr int deepest_script = 8;
 
+/// Far beyond what a procedure needs. Parts of parts multiply, so depth alone would be no limit.
+constexpr int most_parts = 1000;
+constexpr std::size_t most_steps = 10'000;
+
 JsonValue* member(JsonValue& object, const std::string& key) {
   for (auto& [name, value] : object.members)
     if (name == key) return &value;
@@ -76,8 +80,8 @@ void say_in_steps(const JsonObject& step, JsonValue& part) {
   }
 }
 
-/// Substitutes the values of `file`, overridden by those of `given`; then expands its parts.
-bool write_out(JsonValue& file, const JsonValue* given, int depth) {
+/// Substitutes the values of `file`, overridden by those of `given`; then expands its parts. `parts` counts them.
+bool write_out(JsonValue& file, const JsonValue* given, int depth, int& parts) {
   bool any = write_out_values(file, given);
   const JsonObject root(file, keys::root);
   if (root.text("schema") != "ostium-script/1") root.refuse("schema");
@@ -90,25 +94,33 @@ bool write_out(JsonValue& file, const JsonValue* given, int depth) {
     }
     const JsonObject step(value, keys::step);
     require_keys(step);
-    if (depth == deepest_script) value.fail(fmt::format("{}: scripts in scripts deeper than {}", value.path, depth));
+    if (depth == deepest_script)
+      value.fail(fmt::format("{}: scripts in scripts deeper than {}; expected at most that: is there a ring of them?",
+                             value.path(), depth));
+    if (++parts > most_parts)
+      value.fail(fmt::format("{}: the script stands for more than {} parts; expected fewer: split it", value.path(),
+                             most_parts));
     any = true;
     JsonValue part = load_json((fs::path(*file.file).parent_path() / (step.text("script") + ".json")).string());
-    write_out(part, step.value().find("values"), depth + 1);
+    write_out(part, step.value().find("values"), depth + 1, parts);
     read_lesion(step);
     if (step.has("with") && step["with"].type != JsonValue::Type::object) step.refuse("with");
     if (step.has("with"))
       for (const auto& [theirs, ours] : step["with"].members)
         if (!has_tool(JsonObject(part, keys::root), theirs) || !has_tool(root, ours.text))
-          ours.fail(fmt::format("{}: expected a tool of {} and the name of one of this script's", ours.path,
+          ours.fail(fmt::format("{}: expected a tool of {} and the name of one of this script's", ours.path(),
                                 step.text("script")));
     if (step.has("otherwise") && !is_label(step.text("otherwise"))) step.refuse("otherwise");
     if (step.has("tries") && !step.has("otherwise")) step.refuse("tries");
     say_in_steps(step, part);
     for (const JsonValue& tool : JsonObject(part, keys::root).list("tools"))
       if (const std::string name = JsonObject(tool, keys::tool).text("name"); !has_tool(root, name))
-        value.fail(
-            fmt::format("{}: {} moves a tool \"{}\", and this script has none", value.path, step.text("script"), name));
+        value.fail(fmt::format("{}: {} moves a tool \"{}\", and this script has none", value.path(),
+                               step.text("script"), name));
     for (JsonValue& one : member(part, "steps")->items) steps.push_back(std::move(one));
+    if (steps.size() > most_steps)
+      value.fail(fmt::format("{}: the script stands for more than {} steps; expected fewer: split it", value.path(),
+                             most_steps));
   }
   if (any) member(file, "steps")->items = std::move(steps);
   return any;
@@ -116,6 +128,9 @@ bool write_out(JsonValue& file, const JsonValue* given, int depth) {
 
 }  // namespace
 
-bool write_out_parts(JsonValue& script) { return write_out(script, nullptr, 0); }
+bool write_out_parts(JsonValue& script) {
+  int parts = 0;
+  return write_out(script, nullptr, 0, parts);
+}
 
 }  // namespace ostium::data

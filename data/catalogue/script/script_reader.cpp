@@ -58,7 +58,7 @@ void read_treatment(const JsonObject& object, ScriptStep& step) {
   number("iodine_mg_mL", 1, step.iodine_kg_m3);
   number("gauge_atm", 101325, step.gauge_Pa);
   if (step.action == ScriptAction::drug && step.heparin_U + step.nitrate_ug + step.adenosine_ug == 0)
-    object.value().fail(object.value().path + " gives nothing; expected heparin_U, nitrate_ug or adenosine_ug");
+    object.value().fail(object.value().path() + " gives nothing; expected heparin_U, nitrate_ug or adenosine_ug");
 }
 
 std::vector<int> read_tools(const JsonObject& object, const Script& script) {
@@ -135,7 +135,7 @@ void read_otherwise(const JsonValue& value, Script& script, ScriptStep& step) {
 ScriptTool read_tool(const JsonObject& tool) {
   ScriptTool out{tool.text("name"), tool.text("instrument"), tool.value().line, {}, 0, 0, read_lesion(tool)};
   if (tool.has("sizes") != (tool.has("of_reference") || tool.has("of_aorta")))
-    tool.value().fail(tool.value().path + " has sizes or what they are measured by; expected both or neither");
+    tool.value().fail(tool.value().path() + " has sizes or what they are measured by; expected both or neither");
   if (tool.has("of_reference") && tool.has("of_aorta")) tool.refuse("of_aorta");
   if (tool.has("lesion") && !tool.has("of_reference")) tool.refuse("lesion");
   if (!tool.has("sizes")) return out;
@@ -163,7 +163,7 @@ Script read(JsonValue file, const std::string& text) {
   for (const JsonValue& value : root.list("tools")) {
     const JsonObject tool(value, keys::tool);
     for (const ScriptTool& other : script.tools)
-      if (other.name == tool.text("name")) value.fail(value.path + ".name: there is another tool of that name");
+      if (other.name == tool.text("name")) value.fail(value.path() + ".name: there is another tool of that name");
     script.tools.push_back(read_tool(tool));
   }
   if (root.has("landmarks"))
@@ -179,7 +179,7 @@ Script read(JsonValue file, const std::string& text) {
     const std::string& label = script.steps.back().label;
     for (std::size_t s = 0; s + 1 < script.steps.size(); ++s)
       if (!label.empty() && script.steps[s].label == label)
-        value.fail(value.path + ".label: there is another step \"" + label + "\"");
+        value.fail(value.path() + ".label: there is another step \"" + label + "\"");
   }
   for (std::size_t s = 0; s < steps.size(); ++s) read_otherwise(steps[s], script, script.steps[s]);
   return script;

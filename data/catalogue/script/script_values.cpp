@@ -3,12 +3,20 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <string_view>
+#include <unordered_map>
 
 namespace ostium::data {
 
 namespace {
 
 using Type = JsonValue::Type;
+
+/// What "$NAME" stands for, by NAME.
+using ValuesByName = std::unordered_map<std::string_view, const JsonValue*>;
+
+/// Of a value that is a text: the name of a place or of a label. It may be put into every step.
+constexpr std::size_t longest_text = 200;
 
 std::string names_of(const JsonValue& values) {
   std::string names;
@@ -31,7 +39,7 @@ JsonValue merged(JsonValue own, const JsonValue& given) {
     const auto is_it = [&, n = &name](const auto& member) { return member.first == *n; };
     const auto found = std::find_if(own.members.begin(), own.members.end(), is_it);
     if (found == own.members.end())
-      value.fail(fmt::format("{} is no value of {}; expected one of {}", value.path, *own.file, names_of(own)));
+      value.fail(fmt::format("{} is no value of {}; expected one of {}", value.path(), *own.file, names_of(own)));
     if (value.type != found->second.type) value.refuse(word_for(found->second.type));
     found->second = value;
   }
@@ -40,16 +48,17 @@ JsonValue merged(JsonValue own, const JsonValue& given) {
 
 /// Substitutes values wherever "$NAME" occurs in `where`. Error messages about a value name both the place of use and
 /// the file and line where it was given.
-void put(const JsonValue& values, JsonValue& where) {
+void put(const JsonValue& values, const ValuesByName& by_name, JsonValue& where) {
   if (where.type == Type::text && where.text.starts_with("$")) {
-    const JsonValue* value = values.find(where.text.substr(1));
-    if (!value) where.refuse("the name of one of the script's values: " + names_of(values));
-    std::string path = where.path;
+    const auto found = by_name.find(std::string_view(where.text).substr(1));
+    if (found == by_name.end()) where.refuse("the name of one of the script's values: " + names_of(values));
+    const JsonValue* value = found->second;
+    std::shared_ptr<const JsonPlace> place = where.place;
     where = *value;
-    where.path = std::move(path);
+    where.place = std::move(place);
   }
-  for (JsonValue& item : where.items) put(values, item);
-  for (auto& [name, member] : where.members) put(values, member);
+  for (JsonValue& item : where.items) put(values, by_name, item);
+  for (auto& [name, member] : where.members) put(values, by_name, member);
 }
 
 /// Whether a step is kept, by its `when` and `when_not`, which are removed from it.
@@ -73,13 +82,19 @@ bool write_out_values(JsonValue& script, const JsonValue* given) {
   for (auto& [name, member] : script.members)
     if (name == "steps") steps = &member;
   const JsonValue* own = script.find("values");
-  if (!own && given) given->fail(fmt::format("{}: {} has no values", given->path, *script.file));
+  if (!own && given) given->fail(fmt::format("{}: {} has no values", given->path(), *script.file));
   if (!own || !steps) return false;
   require_object(*own);
   for (const auto& [name, value] : own->members)
     if (value.type != Type::number && value.type != Type::boolean && value.type != Type::text)
       value.refuse("a number, a text, true or false");
-  put(given ? merged(*own, *given) : *own, *steps);
+  const JsonValue values = given ? merged(*own, *given) : *own;
+  ValuesByName by_name;
+  for (const auto& [name, value] : values.members) {
+    if (value.text.size() > longest_text) value.refuse(fmt::format("a text of at most {} bytes", longest_text));
+    by_name[name] = &value;
+  }
+  put(values, by_name, *steps);
   std::vector<JsonValue> kept;
   for (JsonValue& step : steps->items)
     if (stays(step)) kept.push_back(std::move(step));

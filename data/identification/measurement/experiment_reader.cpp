@@ -75,7 +75,7 @@ void read_measured(const JsonObject& entry, Experiment& e) {
   if (count != 1)
     entry.value().fail(
         fmt::format("{} has {} of centreline_mm, tip_mm and radius_of_curvature_mm; expected exactly one",
-                    entry.value().path, count));
+                    entry.value().path(), count));
   if (entry.has("centreline_mm")) {
     e.kind = Experiment::Kind::centreline;
     for (const JsonValue& point : entry.list("centreline_mm")) e.points_m.push_back(vector3(point) * mm);
@@ -102,7 +102,7 @@ Experiment read_experiment(const JsonValue& value, const MeasurementSet& set) {
   const JsonObject entry(value, keys::experiment);
   Experiment e;
   e.id = entry.text("id");
-  e.place = value.path;
+  e.place = value.path();
   for (const Experiment& other : set.experiments)
     if (other.id == e.id) entry["id"].refuse("an id that no other experiment has; " + other.place + " has it");
   e.base = read_base(JsonObject(entry["base"], keys::base));

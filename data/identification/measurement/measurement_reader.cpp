@@ -43,7 +43,7 @@ void require_rod(const JsonObject& entry, const MeasuredInstrument& instrument) 
   try {
     core::check({instrument.name, instrument.sections, equal_elements(instrument.sections, 64), {}, {}});
   } catch (const std::invalid_argument& error) {
-    entry["sections"].fail(fmt::format("{} make no rod: {}", entry["sections"].path, error.what()));
+    entry["sections"].fail(fmt::format("{} make no rod: {}", entry["sections"].path(), error.what()));
   }
 }
 
@@ -60,7 +60,7 @@ MeasuredInstrument read_instrument(const JsonValue& value) {
     instrument.sections.push_back(read_section(JsonObject(section, keys::section), instrument, reached_mm));
   if (std::fabs(reached_mm - instrument.length_m / mm) > gap_tolerance_mm)
     entry["sections"].fail(fmt::format("{} end {} mm from the tip; expected them to reach total_length_mm, {} mm",
-                                       entry["sections"].path, reached_mm, instrument.length_m / mm));
+                                       entry["sections"].path(), reached_mm, instrument.length_m / mm));
   require_rod(entry, instrument);
   return instrument;
 }
@@ -97,7 +97,7 @@ DeclaredEffect read_effect(const JsonValue& value, const MeasurementSet& set) {
   const JsonObject entry(value, keys::effect);
   DeclaredEffect effect;
   effect.id = entry.text("id");
-  effect.place = fmt::format("{}:{}: {}", *value.file, value.line, value.path);
+  effect.place = fmt::format("{}:{}: {}", *value.file, value.line, value.path());
   if (entry.has("instrument") && entry["instrument"].type != JsonValue::Type::null) {
     const double index = entry.number("instrument");
     if (index != std::floor(index) || index < 0 || index >= static_cast<double>(set.instruments.size()))

@@ -2,9 +2,13 @@
 #include "app/session/operator/operator.h"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <filesystem>
 
 #include "app/session/run/play.h"
 #include "core/base/units.h"
+#include "data/catalogue/catalogue.h"
 #include "tests/app/session/played.h"
 #include "tests/app/session/tube_vessel.h"
 
@@ -198,6 +202,33 @@ TEST(Operator, APlaceThatIsNotThereIsNamed) {
         << error.what();
     EXPECT_NE(std::string(error.what()).find("bend"), std::string::npos);
   }
+}
+
+TEST(ScriptFiles, AnInstrumentIsLookedForFromTheScriptsFolderFirst) {
+  namespace fs = std::filesystem;
+  const fs::path folder = fs::path(testing::TempDir()) / ("ostium-script-files-" + std::to_string(::getpid()));
+  fs::create_directories(folder);
+  const fs::path known = fs::path(data::data_folder()) / "instruments" / "cook-j.json";
+  fs::copy_file(known, folder / "cook-j.json", fs::copy_options::overwrite_existing);
+  const auto script = [&](const std::string& instrument) {
+    return data::read_script(
+        (folder / "one.json").string(),
+        R"({ "schema": "ostium-script/1", "name": "one", "title": "One", "tools": [ { "name": "wire",
+                                  "instrument": ")" +
+            instrument + R"(" } ], "steps": [ { "do": "fluoroscopy", "on": true } ] })");
+  };
+  RunSetup setup;
+  set_script(script("cook-j.json"), setup);
+  EXPECT_EQ(setup.tool_files.front(), (folder / "cook-j.json").string());
+  set_script(script("cook-j"), setup);
+  EXPECT_EQ(setup.tool_files.front(), known.string());
+  try {
+    set_script(script("none.json"), setup);
+    ADD_FAILURE() << "accepted";
+  } catch (const data::LoadError& error) {
+    EXPECT_NE(std::string(error.what()).find("\"none.json\" in " + folder.string()), std::string::npos) << error.what();
+  }
+  fs::remove_all(folder);
 }
 
 }  // namespace

@@ -32,9 +32,9 @@ struct MeshFile {
 /// Corners closer than this are merged into one vertex.
 constexpr double default_weld_m = 1e-6;
 
-/// Reads VTK's surfaces (.vtp, .vtu, .vtk) and any format of assimp (OBJ, STL, PLY, glTF, Collada, ...); all parts
-/// become one mesh, axes are kept. Throws MeshError, and nothing else, if the file cannot be read, is cut short, has no
-/// triangle, or contains a non-finite number.
+/// Reads the formats of mesh_files/formats.h: VTK's surfaces and, by assimp, STL, PLY, OBJ, glTF and a few more; all
+/// parts become one mesh, axes are kept. Throws MeshError, and nothing else, if the file cannot be read, is cut short,
+/// has no triangle or more than a limit, or contains a non-finite number.
 MeshFile read_mesh(const std::string& path, LengthUnit unit, double weld_m = default_weld_m);
 
 /// One shape in several positions: every file must have the same triangles in the same order. The first file decides

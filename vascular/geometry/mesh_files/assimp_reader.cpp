@@ -1,8 +1,12 @@
+#include <assimp/DefaultIOSystem.h>
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
 #include <fmt/format.h>
 
 #include <assimp/Importer.hpp>
+#include <filesystem>
+#include <new>
+#include <string_view>
 
 #include "vascular/geometry/mesh/mesh.h"
 #include "vascular/geometry/mesh_files/formats.h"
@@ -15,16 +19,56 @@ namespace ostium::vascular {
 
 namespace {
 
+namespace fs = std::filesystem;
+
+/// Opens the mesh and the files that it names (buffers of glTF, materials of OBJ) where they lie in its folder or
+/// below, and no others: a mesh from somewhere must not read what is ours.
+class FilesBeside : public Assimp::DefaultIOSystem {
+ public:
+  explicit FilesBeside(const std::string& path) : folder_(fs::weakly_canonical(path).parent_path()) {}
+
+  Assimp::IOStream* Open(const char* name, const char* mode) override {
+    std::error_code unseen;
+    const fs::path file = fs::weakly_canonical(name, unseen);
+    const fs::path within = file.lexically_relative(folder_);
+    // Assimp puts the folder before every name, so that of "/etc/x" or "http://x" has two slashes together.
+    const bool elsewhere = std::string_view(name).find("//") != std::string_view::npos;
+    if (elsewhere || unseen || within.empty() || *within.begin() == "..") {
+      outside_ = name;
+      return nullptr;
+    }
+    return fs::is_regular_file(file, unseen) ? DefaultIOSystem::Open(name, mode) : nullptr;
+  }
+
+  /// The last one that was refused; empty: none.
+  const std::string& outside() const { return outside_; }
+
+ private:
+  fs::path folder_;
+  std::string outside_;
+};
+
 /// Checks indices, since not all of assimp's readers do and the code below relies on them.
 void check_indices(const std::string& path, const aiScene& scene) {
   for (unsigned m = 0; m < scene.mNumMeshes; ++m) {
     const aiMesh& part = *scene.mMeshes[m];
-    for (unsigned f = 0; f < part.mNumFaces; ++f)
+    for (unsigned f = 0; f < part.mNumFaces; ++f) {
+      if (part.mFaces[f].mNumIndices == 0)
+        throw MeshError(
+            fmt::format("{}: part {} (\"{}\"), face {} has no corners; expected a whole file: export it again", path, m,
+                        part.mName.C_Str(), f));
       for (unsigned k = 0; k < part.mFaces[f].mNumIndices; ++k)
         if (part.mFaces[f].mIndices[k] >= part.mNumVertices)
           throw MeshError(fmt::format("{}: part {} (\"{}\"), face {} names vertex {} of {}; expected a whole file",
                                       path, m, part.mName.C_Str(), f, part.mFaces[f].mIndices[k], part.mNumVertices));
+    }
   }
+}
+
+std::size_t faces_of(const aiScene& scene) {
+  std::size_t faces = 0;
+  for (unsigned m = 0; m < scene.mNumMeshes; ++m) faces += scene.mMeshes[m]->mNumFaces;
+  return faces;
 }
 
 /// What assimp would take as a smaller mesh, or as a reason to ask for more memory than there is.
@@ -35,12 +79,19 @@ void check_whole(const std::string& path) {
   if (ending == ".off") check_off_whole(path);
 }
 
+/// Assimp's words, which may hold all that is left of the file.
+std::string short_words(const std::string& words) {
+  constexpr std::size_t most = 200;
+  std::string out = words.substr(0, most);
+  for (char& c : out)
+    if (c < ' ' || c == 0x7f) c = '?';
+  return out + (words.size() > most ? "..." : "");
+}
+
 [[noreturn]] void refuse(const std::string& path, const std::string& why) {
-  if (!has_mesh_ending(path))
-    throw MeshError(fmt::format("{}: the ending \"{}\" names no format that is read as a mesh; expected one of {}",
-                                path, ending_of(path), listed_mesh_endings()));
+  if (why.find("bad_alloc") != std::string::npos) throw std::bad_alloc();  // which assimp caught
   throw MeshError(fmt::format("{}: cannot be read as a mesh: {}; export it again, best as .stl, .ply or .vtp", path,
-                              why.empty() ? "its content is not what its ending says" : why));
+                              why.empty() ? "its content is not what its ending says" : short_words(why)));
 }
 
 }  // namespace
@@ -49,9 +100,17 @@ RawSurface read_assimp(const std::string& path) {
   Assimp::Importer importer;
   importer.SetPropertyBool(AI_CONFIG_PP_PTV_KEEP_HIERARCHY, false);
   check_whole(path);
-  const aiScene* scene = importer.ReadFile(path, 0);
+  auto* files = new FilesBeside(path);
+  importer.SetIOHandler(files);  // which owns it from now on
+  const aiScene* scene = importer.ReadFile(fs::path(path).lexically_normal().string(), 0);
+  if (!files->outside().empty())
+    throw MeshError(
+        fmt::format("{}: names the file \"{}\", which does not lie in its folder; expected all of a mesh in "
+                    "one folder: put it there, and name it without a path",
+                    path, files->outside()));
   if (!scene) refuse(path, importer.GetErrorString());
   check_indices(path, *scene);
+  if (ending_of(path) == ".off") check_off_faces(path, faces_of(*scene));
   scene = importer.ApplyPostProcessing(aiProcess_Triangulate | aiProcess_PreTransformVertices);
   if (!scene) refuse(path, importer.GetErrorString());
   RawSurface surface;

@@ -5,7 +5,7 @@
 
 namespace ostium::vascular {
 
-/// Endings of meshes that are read, in lower case with their dot. Assimp knows more, and those are tried too.
+/// Endings of meshes that are read, in lower case with their dot; no other file is tried.
 const std::vector<std::string>& mesh_endings();
 /// ".stl, .ply, ...", for messages.
 std::string listed_mesh_endings();

@@ -2,8 +2,6 @@
 #include <fmt/format.h>
 
 #include <assimp/Exporter.hpp>
-#include <filesystem>
-#include <limits>
 #include <map>
 #include <memory>
 
@@ -22,31 +20,19 @@ using Corners = std::vector<Eigen::Vector3d>;  // three per triangle
 /// Farther out than any file has a patient, in whatever unit; beyond, welding could no longer number its cells.
 constexpr double farthest = 1e7;
 
-RawSurface read_raw(const std::string& path) {
-  if (std::error_code unseen; !std::filesystem::is_regular_file(path, unseen))
-    throw MeshError(fmt::format("{}: is no file; expected a mesh ({})", path, listed_mesh_endings()));
-  const std::string ending = ending_of(path);
-  try {
-    return ending == ".vtp" || ending == ".vtu" || ending == ".vtk" ? read_vtk(path) : read_assimp(path);
-  } catch (const MeshError&) {
-    throw;
-  } catch (const std::exception& error) {  // such as std::bad_alloc
-    throw MeshError(fmt::format("{}: cannot be read as a mesh: {}; expected a whole file that fits into memory", path,
-                                error.what()));
-  }
-}
+RawSurface (*surface_reader)(const std::string& path) = read_surface;
 
 Corners read_corners(const std::string& path, LengthUnit unit, int* skipped = nullptr) {
-  RawSurface surface = read_raw(path);
+  RawSurface surface = surface_reader(path);
   if (surface.corners.empty())
     throw MeshError(
         surface.skipped
             ? fmt::format("{}: holds no triangle, but {} points or lines, as a centreline does; expected a surface",
                           path, surface.skipped)
             : path + ": holds no triangle; expected a surface");
-  if (surface.corners.size() > std::numeric_limits<int>::max())
+  if (surface.corners.size() > 3 * most_triangles)
     throw MeshError(fmt::format("{}: has {} triangles; expected at most {}: simplify it", path,
-                                surface.corners.size() / 3, std::numeric_limits<int>::max() / 3));
+                                surface.corners.size() / 3, most_triangles));
   for (Eigen::Vector3d& p : surface.corners) {
     if (!(p.array().abs() <= farthest).all())
       throw MeshError(
@@ -93,6 +79,8 @@ std::string format_id(const std::string& path) {
 }
 
 }  // namespace
+
+void read_meshes_with(RawSurface (*reader)(const std::string& path)) { surface_reader = reader; }
 
 MeshFile read_mesh(const std::string& path, LengthUnit unit, double weld_m) {
   int skipped = 0;

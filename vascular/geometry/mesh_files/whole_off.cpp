@@ -43,4 +43,18 @@ void check_off_whole(const std::string& path) {
   }
 }
 
+void check_off_faces(const std::string& path, std::size_t read) {
+  std::vector<std::size_t> counts;
+  for (const std::string& word : first_words(path)) {
+    char* end = nullptr;
+    const unsigned long long count = std::strtoull(word.c_str(), &end, 10);
+    if (end != word.c_str() && *end == '\0') counts.push_back(count);
+  }
+  if (counts.size() >= 2 && counts[1] != read)
+    throw MeshError(
+        fmt::format("{}: promises {} faces, and {} could be read; expected faces of one to nine corners: export it as "
+                    "triangles",
+                    path, counts[1], read));
+}
+
 }  // namespace ostium::vascular

@@ -1,0 +1,36 @@
+#pragma once
+/// Files that others made are read by a program of its own, `ostium-reader`, with limits of memory and time. The
+/// libraries that read meshes and recordings may end by a signal, ask for gigabytes or never end where a file is
+/// damaged; then the reader ends, and the program says so.
+#include <string>
+
+#include "vascular/geometry/mesh_files/raw_surface.h"
+
+namespace ostium::app {
+
+/// What `ostium-reader` allows itself, but for `seconds`, which its caller watches as well.
+struct ReaderLimits {
+  static constexpr unsigned long long bytes = 2ull << 30;  ///< of address space
+  unsigned seconds = 20;                                   ///< of processor, and on the clock
+};
+
+/// How a file is asked for: `ostium-reader KIND SECONDS FILE`.
+struct ReaderCall {
+  std::string kind;  ///< "mesh" or "recording"
+  std::string cure;  ///< of a file that the reader cannot cope with, for the message
+  ReaderLimits limits = {};
+  std::string program = {};  ///< empty: the one beside the running program
+};
+
+/// What the reader wrote. Throws data::LoadError that begins with the file's name: what the reader refuses, or how it
+/// ended.
+std::string read_apart(const ReaderCall& call, const std::string& file);
+
+/// As vascular::read_surface, apart. Throws MeshError.
+vascular::RawSurface read_surface_apart(const std::string& file);
+
+/// Reads the recording apart, from beginning to end; what is read after that is known to be whole. Throws
+/// data::LoadError.
+void require_whole_recording(const std::string& file);
+
+}  // namespace ostium::app

@@ -1,0 +1,34 @@
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <new>
+
+#include "vascular/geometry/mesh/mesh.h"
+#include "vascular/geometry/mesh_files/formats.h"
+#include "vascular/geometry/mesh_files/raw_surface.h"
+
+namespace ostium::vascular {
+
+RawSurface read_surface(const std::string& path) {
+  std::error_code unseen;
+  if (!std::filesystem::is_regular_file(path, unseen))
+    throw MeshError(fmt::format("{}: is no file; expected a mesh ({})", path, listed_mesh_endings()));
+  const std::string ending = ending_of(path);
+  if (!has_mesh_ending(path))
+    throw MeshError(fmt::format("{}: the ending \"{}\" names no format that is read as a mesh; expected one of {}",
+                                path, ending, listed_mesh_endings()));
+  if (const std::uintmax_t bytes = std::filesystem::file_size(path, unseen); bytes > longest_mesh_file)
+    throw MeshError(fmt::format("{}: has {} MB; expected at most {}: simplify the mesh", path, bytes / 1'000'000,
+                                longest_mesh_file / 1'000'000));
+  try {
+    return ending == ".vtp" || ending == ".vtu" || ending == ".vtk" ? read_vtk(path) : read_assimp(path);
+  } catch (const MeshError&) {
+    throw;
+  } catch (const std::bad_alloc&) {
+    throw MeshError(path + ": asks for more memory than a reader has; expected a whole file, or a simpler mesh");
+  } catch (const std::exception& error) {
+    throw MeshError(fmt::format("{}: cannot be read as a mesh: {}; expected a whole file", path, error.what()));
+  }
+}
+
+}  // namespace ostium::vascular
