@@ -11,7 +11,7 @@ namespace ostium::app {
 /// What `ostium-reader` allows itself, but for `seconds`, which its caller watches as well.
 struct ReaderLimits {
   static constexpr unsigned long long bytes = 2ull << 30;  ///< of address space
-  unsigned seconds = 20;                                   ///< of processor, and on the clock
+  unsigned seconds = 20;                                   ///< of processor; three times that on the clock
 };
 
 /// How a file is asked for: `ostium-reader KIND SECONDS FILE`.

@@ -52,7 +52,7 @@ TEST(Section, RefusalsNameTheRodTheSectionAndTheValue) {
   expect(refusal([](RodDescription& d) { d.element_lengths_m[3] = -0.1; }), {"element", "positive"});
   expect(refusal([](RodDescription& d) { d.element_lengths_m[3] = 0.1; }), {"sections only"});
   expect(refusal([](RodDescription& d) { d.sections[0].rest_curvature_per_m.y() = 1000; }),
-         {"test wire", "too long", "curvature", "from the tip"});
+         {"test wire", "bends too sharply", "shorter elements", "curvature", "from the tip"});
   expect(refusal([](RodDescription& d) { d.damping.drag_along_N_s_m2 = -1; }), {"damping"});
 }
 

@@ -46,6 +46,6 @@ expect 3 "mm per count is 0" plugged "$ostium" device calibrate --write "$dir/ze
 (($(grep -c "not plugged in" "$dir/log") == 1)) || { cat "$dir/log" && exit 1; }
 
 # People at the box: the script's instruments, their hands; the recording replays without it.
-expect 1 "time limit" plugged "$ostium" run rca-mid-focal --script iliac-wire --device usb --seconds 2 --out "$dir/usb"
+expect 0 "ended: time limit" plugged "$ostium" run rca-mid-focal --script iliac-wire --device usb --seconds 2 --out "$dir/usb"
 expect 0 "bit for bit" "$ostium" replay "$dir/usb/run.h5" --verify
 expect 0 '"device": {' "$ostium" run rca-mid-focal --script iliac-wire --device emulator --json
