@@ -190,12 +190,16 @@ CentrelineResult find_centrelines(const Mesh& mesh, const CentrelineOptions& opt
     if (strand.parent >= 0) line.push_back(voxels.place(skeleton.strands()[strand.parent].voxels[strand.leaves_at]));
     for (int v : strand.voxels) line.push_back(voxels.place(v));
     branch.spheres = fitted_spheres(line, wall, voxels.size_m());
-    carry_to_lid(branch.spheres, wall);
-    if (strand.parent < 0) {
+    if (options.to_lids)
+      carry_to_lid(branch.spheres, wall);
+    else
+      trim(branch.spheres);
+    if (strand.parent < 0 && options.to_lids) {
       turn_round(branch.spheres);
       carry_to_lid(branch.spheres, wall, options.start ? 1 : widest_from_lid);
       turn_round(branch.spheres);
-    } else {
+    }
+    if (strand.parent >= 0) {
       const std::vector<TreeSphere>& on = result.tree.branches[strand.parent].spheres;
       const auto nearest = std::min_element(on.begin(), on.end(), [&](const TreeSphere& a, const TreeSphere& b) {
         return (a.p - line.front()).squaredNorm() < (b.p - line.front()).squaredNorm();

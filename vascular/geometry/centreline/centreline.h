@@ -18,6 +18,7 @@ namespace ostium::vascular {
 struct CentrelineOptions {
   std::optional<Eigen::Vector3d> start;  ///< none: the widest end
   std::vector<Eigen::Vector3d> ends;     ///< empty: all that are found; picked points need not lie inside
+  bool to_lids = true;  ///< lines end at the lids of the lumen; false: with the last whole sphere inside it
   std::size_t most_voxels = 24'000'000;  ///< of the box around the mesh: sets the resolution
 };
 

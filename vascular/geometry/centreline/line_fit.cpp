@@ -90,12 +90,6 @@ std::optional<std::size_t> last_clear(const std::vector<TreeSphere>& spheres) {
   return {};
 }
 
-/// Removes spheres at the tip that shrink much faster than a vessel tapers.
-void trim(std::vector<TreeSphere>& spheres) {
-  while (spheres.size() > 2 && spheres.back().radius_m < 0.75 * spheres[spheres.size() - 2].radius_m)
-    spheres.pop_back();
-}
-
 }  // namespace
 
 std::vector<TreeSphere> fitted_spheres(std::vector<Eigen::Vector3d> line, const BoundingVolumeHierarchy& wall,
@@ -139,6 +133,11 @@ void carry_to_lid(std::vector<TreeSphere>& spheres, const BoundingVolumeHierarch
     on.push_back(at);
     gone += step;
   }
+}
+
+void trim(std::vector<TreeSphere>& spheres) {
+  while (spheres.size() > 2 && spheres.back().radius_m < 0.75 * spheres[spheres.size() - 2].radius_m)
+    spheres.pop_back();
 }
 
 void turn_round(std::vector<TreeSphere>& spheres) {

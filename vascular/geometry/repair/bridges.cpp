@@ -74,8 +74,9 @@ struct Candidate {
   bool to_wider;
 };
 
+/// A bridge begins inside its vessel, so lines do, too.
 SphereTree lines_of(const Mesh& lumen) {
-  return find_centrelines(lumen, {.start = {}, .ends = {}, .most_voxels = most_voxels}).tree;
+  return find_centrelines(lumen, {.start = {}, .ends = {}, .to_lids = false, .most_voxels = most_voxels}).tree;
 }
 
 }  // namespace
