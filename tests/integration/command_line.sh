@@ -103,7 +103,7 @@ expect 0 '"unit": "cm"' "$ostium" check --json --units cm "$folder/whole.obj"
 expect 0 "sound" "$ostium" check "$folder/whole.obj" --picture "$folder/whole.svg"
 expect 3 "png and .svg are known" "$ostium" check "$folder/whole.obj" --picture "$folder/whole.bmp"
 sed 's/9/900000/g' "$folder/whole.obj" >"$folder/huge.obj"
-expect 3 "no unit makes a vessel" "$ostium" import "$folder/huge.obj" -o "$folder/case"
+expect 3 "expected vessels" "$ostium" import "$folder/huge.obj" -o "$folder/case"
 expect 3 "this is no vessel" "$ostium" import --units mm "$folder/whole.obj" -o "$folder/case"
 expect 3 "cannot be read as a mesh" bash -c "printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\n' > '$folder/none.obj'; '$ostium' import '$folder/none.obj' -o '$folder/case'"
 # A body of revolution with a spout: no vessel, in whatever unit.

@@ -99,7 +99,7 @@ void begin_at_root(const MeanCourses& mean, const Progress& say, LumenPart& part
   if (root >= 0) {
     say("looking for centrelines from the aortic root");
     part.root = to_the_end(candidates[static_cast<std::size_t>(root)], part.mesh);
-    part.tree = find_centrelines(part.mesh, {.start = part.root, .ends = {}}).tree;
+    part.tree = find_centrelines(part.mesh, {.start = part.root, .ends = {}, .to_lids = false}).tree;
     part.courses = courses_of(part.tree);
   }
 }

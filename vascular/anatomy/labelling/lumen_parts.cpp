@@ -23,7 +23,7 @@ std::vector<LumenPart> lumen_parts(const Mesh& lumen, const Progress& say) {
   for (Mesh& mesh : components_of(lumen)) {
     say(fmt::format("looking for centrelines in lumen {}", parts.size() + 1));
     LumenPart part{.mesh = std::move(mesh), .tree = {}, .courses = {}, .root = {}, .roles = {}};
-    part.tree = find_centrelines(part.mesh).tree;
+    part.tree = find_centrelines(part.mesh, {.start = {}, .ends = {}, .to_lids = false}).tree;
     if (part.tree.branches.empty() || part.tree.branches[0].spheres.size() < 2) continue;
     part.courses = courses_of(part.tree);
     part.root = part.tree.branches[0].spheres.front().p;
