@@ -46,7 +46,7 @@ std::optional<vascular::LengthUnit> marked_unit(const std::vector<std::string>& 
 MeshUnit unit_of(const std::vector<std::string>& files, const vascular::Mesh& raw, const std::string& said) {
   vascular::VesselSize size = vessel_size(raw);
   std::vector<vascular::UnitReading> readings = unit_readings(size);
-  if (readings.empty()) {
+  if (readings.empty() && size.extent > 0) {
     size = vessel_size(without_outer_wall(raw));
     readings = unit_readings(size);
   }

@@ -57,7 +57,6 @@ struct Checked {
   std::vector<double> diameters;  ///< below which 2, 25, 50, 75, 98 % of the wall's area lies, m
 };
 
-constexpr double matters = 0.005;  // of rounding, in widths of the vessels
 constexpr double shares[] = {0.02, 0.25, 0.5, 0.75, 0.98};
 
 /// Nothing is welded before the unit is known.
@@ -173,11 +172,10 @@ void print_size(const Checked& c) {
 }
 
 void print_rounding(const Checked& c) {
-  if (c.rounding_m > matters * c.diameters[2])
+  if (c.rounding_m > vascular::rounding_matters * c.diameters[2])
     fmt::print(
         "rounded: the file's numbers are {:.2g} mm apart, {:.0f} % of the vessels' width, and hide what is finer; save "
-        "it "
-        "with more digits, or moved to its origin\n",
+        "it with more digits, or moved to its origin\n",
         1e3 * c.rounding_m, 100 * c.rounding_m / c.diameters[2]);
 }
 
@@ -194,8 +192,7 @@ void print_faults(const Checked& c) {
     const Eigen::Vector3d p = vascular::mm_from_patient(c.wall.where);
     fmt::print(
         "double wall: {} triangles are of an outer one, {:.2f} mm outside, the first at {:.2f} {:.2f} {:.2f} mm; "
-        "import "
-        "keeps the lumen inside the inner one\n",
+        "import keeps the lumen inside the inner one\n",
         c.wall.triangles, 1e3 * c.wall.thickness_m, p.x(), p.y(), p.z());
   }
   if (c.rough.noisy(c.diameters[2] / 2)) fmt::print("rough: vertices stand out by {:.2f} mm\n", 1e3 * c.rough.height_m);

@@ -33,8 +33,7 @@ std::string reader_beside_us() {
   const fs::path reader = fs::read_symlink("/proc/self/exe", no_proc).parent_path() / "ostium-reader";
   if (!fs::exists(reader, no_proc))
     throw data::LoadError(reader.string() +
-                          ": is not there, and files are read by it; build or install it beside "
-                          "ostium");
+                          ": is not there, and files are read by it; build or install it beside ostium");
   return reader.string();
 }
 

@@ -55,8 +55,7 @@ void declare(Options& options, ImportArguments& a) {
   options
       .add("--motion", a.motion,
            "none: still, with numbers for names; own: the files' frames; coronary: a heart's, as which it is named; "
-           "auto: "
-           "own, or coronary where it is recognised")
+           "auto: own, or coronary where it is recognised")
       .one_of({"auto", "none", "own", "coronary"})
       .show_default();
   options.add("-o,--out", a.output, "A folder for the case, or a name to keep it under").type("DIR|NAME").required();
@@ -241,7 +240,7 @@ class Import {
     const vascular::SurfaceReport report = check_surface(made_.found.lumen);
     if (!report.sound())
       made_.found.notes.push_back("the lumen is not sound: " + describe(report).substr(0, describe(report).find('\n')));
-    if (rounding_m_ > 0.005 * made_.unit.calibre_m)
+    if (rounding_m_ > vascular::rounding_matters * made_.unit.calibre_m)
       made_.found.notes.push_back(
           fmt::format("the file's numbers are {:.2g} mm apart and hide what is finer: save it with more digits, or "
                       "moved to its origin",

@@ -13,8 +13,8 @@ std::vector<TreeSphere> fitted_spheres(std::vector<Eigen::Vector3d> line, const 
 
 /// The last spheres of a vessel lean towards the rim of its lid and are as narrow as they are near to it. Replaces
 /// them: the line goes on in the middle of the lumen to the lid, with radii from where the lid is no nearer than the
-/// wall around. A line that ends more than `beyond` radii before a lid, as at a picked point, stays as it is, and a
-/// stub only loses its tip.
+/// wall around. A line that ends more than `beyond` radii before a lid, as at a picked point, is left alone, and
+/// one shorter than the lid's reach only loses its tip.
 void carry_to_lid(std::vector<TreeSphere>& spheres, const BoundingVolumeHierarchy& wall, double beyond = 1);
 
 /// Removes spheres at the tip that shrink much faster than a vessel tapers: the line then ends inside the lumen.

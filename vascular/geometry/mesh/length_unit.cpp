@@ -1,5 +1,7 @@
 #include "vascular/geometry/mesh/length_unit.h"
 
+#include "vascular/geometry/mesh/mesh.h"
+
 namespace ostium::vascular {
 
 double metres(LengthUnit unit) {

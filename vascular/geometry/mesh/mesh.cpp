@@ -6,7 +6,6 @@
 
 #include "core/base/units.h"
 #include "core/math/solid_angle.h"
-#include "vascular/geometry/mesh/box_middle.h"
 
 namespace ostium::vascular {
 

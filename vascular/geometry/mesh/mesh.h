@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "vascular/geometry/mesh/length_unit.h"
+
 namespace ostium::vascular {
 
 struct Mesh {
@@ -17,10 +19,6 @@ struct Mesh {
 struct MeshError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
-
-/// Length unit of a file: metres per unit.
-enum class LengthUnit { millimetre, centimetre, metre, inch };
-double metres(LengthUnit unit);
 
 struct MeshFile {
   Mesh mesh;
@@ -51,6 +49,9 @@ std::string mesh_bytes(const std::string& path, const Mesh& mesh, LengthUnit uni
 /// each, numbered by first appearance.
 std::vector<int> weld(const std::vector<Eigen::Vector3d>& corners, double weld_m);
 
+/// Middle of the bounding box: an origin for sums over a mesh, which about one kilometres away would cancel to nothing
+/// but rounding.
+Eigen::Vector3d box_middle(const Mesh& mesh);
 /// Signed volume in m3: positive if the triangles face outwards.
 double volume_m3(const Mesh& mesh);
 double area_m2(const Mesh& mesh);

@@ -8,7 +8,6 @@
 #include <numeric>
 
 #include "vascular/geometry/mesh/bounding_volume_hierarchy.h"
-#include "vascular/geometry/mesh/box_middle.h"
 #include "vascular/geometry/mesh/crossing.h"
 #include "vascular/geometry/mesh/patient_frame.h"
 

@@ -4,7 +4,6 @@
 #include <fstream>
 #include <sstream>
 
-#include "vascular/geometry/mesh/length_unit.h"
 #include "vascular/geometry/mesh_files/formats.h"
 
 namespace ostium::vascular {

@@ -7,7 +7,6 @@
 #include <queue>
 
 #include "core/base/units.h"
-#include "vascular/geometry/mesh/box_middle.h"
 
 namespace ostium::vascular {
 

@@ -1,7 +1,7 @@
 #pragma once
 /// What a number in a mesh file may mean: the length units in which its vessels are as long and as wide as arteries
 /// are.
-#include "vascular/geometry/mesh/length_unit.h"
+#include "vascular/geometry/mesh/mesh.h"
 
 namespace ostium::vascular {
 
