@@ -114,7 +114,8 @@ std::string read_apart(const ReaderCall& call, const std::string& file) {
   const std::string program = call.program.empty() ? reader_beside_us() : call.program;
   Child reader({program, call.kind, std::to_string(call.limits.seconds), file});
   std::string bytes;
-  const bool in_time = reader.read_all(bytes, Clock::now() + std::chrono::seconds(call.limits.seconds));
+  const bool in_time =
+      reader.read_all(bytes, Clock::now() + std::chrono::seconds(ReaderLimits::patience * call.limits.seconds));
   const std::string too_long =
       fmt::format("{}: takes longer than {} s to read; {}", file, call.limits.seconds, call.cure);
   if (!in_time) throw data::LoadError(too_long);
