@@ -82,9 +82,10 @@ void Replay::go_to(double second) {
   take_state(recording.state(row).data(), state);
   const std::size_t step = row * data::steps_per_state;
   if (state.rods.step != step || (step > 0 && recording.hashes(step - 1, 1).front() != hash(state)))
-    throw data::LoadError(fmt::format("{}: its state at {:g} s is not the one that its hash was made of; the file is "
-                                      "damaged, replay it from 0",
-                                      recording.path(), apart_s * static_cast<double>(row)));
+    throw data::LoadError(
+        fmt::format("{}: its state at {:g} s is not the one that its hash was made of; the file is "
+                    "damaged, replay it from 0",
+                    recording.path(), apart_s * static_cast<double>(row)));
 }
 
 void Replay::read_ahead() {
