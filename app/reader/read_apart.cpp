@@ -26,7 +26,6 @@ namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
 constexpr std::size_t longest_refusal = 4096;  // bytes
-constexpr int busy = 3;                        // times as long as alone
 
 std::string reader_beside_us() {
   std::error_code no_proc;
@@ -114,8 +113,8 @@ std::string read_apart(const ReaderCall& call, const std::string& file) {
   const std::string program = call.program.empty() ? reader_beside_us() : call.program;
   Child reader({program, call.kind, std::to_string(call.limits.seconds), file});
   std::string bytes;
-  // The reader ends itself after so many seconds of work; on a busy machine they take longer.
-  const bool in_time = reader.read_all(bytes, Clock::now() + busy * std::chrono::seconds(call.limits.seconds));
+  const bool in_time =
+      reader.read_all(bytes, Clock::now() + std::chrono::seconds(ReaderLimits::patience * call.limits.seconds));
   const std::string too_long =
       fmt::format("{}: takes longer than {} s to read; {}", file, call.limits.seconds, call.cure);
   if (!in_time) throw data::LoadError(too_long);

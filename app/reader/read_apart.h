@@ -8,10 +8,12 @@
 
 namespace ostium::app {
 
-/// What `ostium-reader` allows itself, but for `seconds`, which its caller watches as well.
+/// What `ostium-reader` allows itself; whoever called it also looks at the clock.
 struct ReaderLimits {
   static constexpr unsigned long long bytes = 2ull << 30;  ///< of address space
-  unsigned seconds = 20;                                   ///< of processor; three times that on the clock
+  unsigned seconds = 20;                                   ///< of processor
+  /// On the clock, so many times that: a machine may be busy with other things.
+  static constexpr unsigned patience = 3;
 };
 
 /// How a file is asked for: `ostium-reader KIND SECONDS FILE`.
