@@ -91,7 +91,7 @@ std::vector<Seed> vtk_legacy() {
   return seeds;
 }
 
-Answer read(const Seed& input) {
+Answer read_mesh(const Seed& input) {
   const InputFile file(input);
   return answer_of<vascular::MeshError>([&] {
     const Mesh mesh = read_mesh(file.path(), vascular::LengthUnit::millimetre).mesh;
@@ -109,31 +109,31 @@ std::vector<Target> mesh_targets() {
            [] {
              return std::vector{written("mesh.stl"), exported("mesh.stl", "stl")};
            },
-           read, true},
+           read_mesh, true},
           {"mesh-ply",
            [] {
              return std::vector{written("mesh.ply"), exported("mesh.ply", "ply")};
            },
-           read, true},
-          {"mesh-obj", [] { return std::vector{written("mesh.obj")}; }, read, true},
+           read_mesh, true},
+          {"mesh-obj", [] { return std::vector{written("mesh.obj")}; }, read_mesh, true},
           {"mesh-off",
            [] {
              return std::vector{Seed{"mesh.off", off()}};
            },
-           read, true},
+           read_mesh, true},
           {"mesh-gltf",
            [] {
              return std::vector{Seed{"mesh.gltf", gltf()}};
            },
-           read, true},
-          {"mesh-glb", [] { return std::vector{exported("mesh.glb", "glb2")}; }, read, true},
-          {"mesh-dae", [] { return std::vector{exported("mesh.dae", "collada")}; }, read, true},
-          {"mesh-fbx", [] { return std::vector{exported("mesh.fbx", "fbxa")}; }, read, true},
-          {"mesh-3ds", [] { return std::vector{exported("mesh.3ds", "3ds")}; }, read, true},
-          {"mesh-x3d", [] { return std::vector{exported("mesh.x3d", "x3d")}; }, read, true},
-          {"mesh-vtp", [] { return vtk_xml(false); }, read},
-          {"mesh-vtu", [] { return vtk_xml(true); }, read},
-          {"mesh-vtk", vtk_legacy, read}};
+           read_mesh, true},
+          {"mesh-glb", [] { return std::vector{exported("mesh.glb", "glb2")}; }, read_mesh, true},
+          {"mesh-dae", [] { return std::vector{exported("mesh.dae", "collada")}; }, read_mesh, true},
+          {"mesh-fbx", [] { return std::vector{exported("mesh.fbx", "fbxa")}; }, read_mesh, true},
+          {"mesh-3ds", [] { return std::vector{exported("mesh.3ds", "3ds")}; }, read_mesh, true},
+          {"mesh-x3d", [] { return std::vector{exported("mesh.x3d", "x3d")}; }, read_mesh, true},
+          {"mesh-vtp", [] { return vtk_xml(false); }, read_mesh},
+          {"mesh-vtu", [] { return vtk_xml(true); }, read_mesh},
+          {"mesh-vtk", vtk_legacy, read_mesh}};
 }
 
 }  // namespace ostium::fuzz

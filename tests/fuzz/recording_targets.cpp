@@ -55,19 +55,19 @@ std::string recording(bool mesh, bool full, bool whole) {
   return bytes;
 }
 
-std::vector<Seed> seeds() {
+std::vector<Seed> recordings() {
   return {{"run.h5", recording(false, true, true)},
           {"run.h5", recording(true, false, true)},
           {"run.h5", recording(true, true, false)}};
 }
 
-Answer read(const Seed& input) {
+Answer read_stored(const Seed& input) {
   const InputFile file(input);
   return answer_of<data::LoadError>([&] { data::read_to_end(file.path()); });
 }
 
 }  // namespace
 
-std::vector<Target> recording_targets() { return {{"recording", seeds, read, true}}; }
+std::vector<Target> recording_targets() { return {{"recording", recordings, read_stored, true}}; }
 
 }  // namespace ostium::fuzz
