@@ -81,20 +81,20 @@ bool print_soak(double minutes) {
   app::gates::Holding all;
   double first_MiB = 0;
   bool bounded = true;
-  const long steps = std::lround(60e3 * minutes);
-  for (long minute = 0; minute * 60'000 < steps; ++minute) {
+  const long steps = std::lround(60e3 * minutes), row = minutes > 4 ? 60'000 : 15'000;
+  for (long from = 0; from < steps; from += row) {
     app::gates::Holding holding;
     double energy_J = 0;
-    for (long n = minute * 60'000; n < std::min(steps, (minute + 1) * 60'000); ++n) {
+    for (long n = from; n < std::min(steps, from + row); ++n) {
       app::gates::follow_script(1e-3 * static_cast<double>(n), run);
       run.step(beats_per_min);
       energy_J = std::max(energy_J, kinetic_J(run));
       if (run.report.trouble & ~static_cast<unsigned>(core::feed_stopped)) ++holding.troubled;
       if (n % 20 == 19) app::gates::judge(run, truth, n % 2000 == 1999, holding);
     }
-    if (minute == 0) first_MiB = memory_MiB();
-    fmt::print("minute {:3}: {:.4f} mm, {} outside, {} steps in trouble, kinetic energy up to {:.2g} mJ, {:.0f} MiB\n",
-               minute + 1, 1e3 * holding.deepest_m, holding.escapes, holding.troubled, 1e3 * energy_J, memory_MiB());
+    if (from == 0) first_MiB = memory_MiB();
+    fmt::print("to {:6.2f} min: {:.4f} mm, {} outside, {} steps in trouble, kinetic energy up to {:.2g} mJ, {:.0f} MiB\n",
+               1.0 / 60'000 * static_cast<double>(from + row), 1e3 * holding.deepest_m, holding.escapes, holding.troubled, 1e3 * energy_J, memory_MiB());
     std::fflush(stdout);
     all.deepest_m = std::max(all.deepest_m, holding.deepest_m);
     all.escapes += holding.escapes;

@@ -44,7 +44,7 @@ std::string recording(bool mesh, bool full, bool whole) {
                                 .hands = {},
                                 .events = {double(block), 3, 0, 1.5}};
       for (std::size_t i = 0; i < steps; ++i) rows.inputs[3 * i] = 1.0 / double(1 + i), rows.hashes[i] = i * i * i;
-      if (full && block % 2 == 0) rows.states.assign(7, 0.125), rows.hands.assign(2, 4);
+      if (full && block == 0) rows.states.assign(7, 0.125), rows.hands.assign(2, 4);
       writer.commit(rows);
     }
     if (whole) writer.finish(R"({"outcome": "success", "metrics": []})");
