@@ -19,10 +19,6 @@ void add_box_serial_option(Options& options, std::string& serial) {
 }
 
 void add_unit_option(Options& options, std::string& unit, const std::string& help) {
-  options.add("--units", unit, help).one_of({"mm", "cm", "m"}).show_default();
-}
-
-void add_guessed_unit_option(Options& options, std::string& unit, const std::string& help) {
   options.add("--units", unit, help + "; auto: as the file says, or the only one that makes an artery of it")
       .one_of({"auto", "mm", "cm", "m", "in"})
       .show_default();

@@ -10,9 +10,7 @@ void add_measured_set_option(Options& options, std::string& set);
 void add_json_flag(Options& options, bool& json, const std::string& schema = "");
 void add_box_serial_option(Options& options, std::string& serial);
 
-/// mm, cm or m.
+/// mm, cm, m or in, or auto (unit_of).
 void add_unit_option(Options& options, std::string& unit, const std::string& help);
-/// As above plus inches, or auto: the unit is guessed.
-void add_guessed_unit_option(Options& options, std::string& unit, const std::string& help);
 
 }  // namespace ostium::app

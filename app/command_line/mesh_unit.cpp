@@ -4,6 +4,7 @@
 
 #include <optional>
 
+#include "data/catalogue/case/markups_file.h"
 #include "vascular/geometry/mesh_files/unit_mark.h"
 #include "vascular/geometry/repair/double_wall.h"
 
@@ -17,7 +18,7 @@ std::optional<vascular::LengthUnit> marked_unit(const std::vector<std::string>& 
   std::optional<vascular::LengthUnit> found;
   std::string where;
   for (const std::string& file : files) {
-    const auto unit = vascular::unit_mark_of(file);
+    const auto unit = data::is_markups_file(file) ? vascular::LengthUnit::millimetre : vascular::unit_mark_of(file);
     if (!unit) continue;
     if (found && *found != *unit)
       throw vascular::MeshError(

@@ -6,6 +6,7 @@
 #include "app/command_line/command.h"
 #include "app/command_line/common_options.h"
 #include "app/command_line/mesh_unit.h"
+#include "app/command_line/read_vessel.h"
 #include "app/command_line/progress.h"
 #include "data/catalogue/case/tree_file.h"
 #include "vascular/geometry/mesh/surface_check.h"
@@ -26,7 +27,7 @@ struct Arguments {
 
 void declare(Options& options, Arguments& a) {
   options.add("mesh", a.mesh, "STL, PLY, OBJ, VTP, ...").type("MESH").required();
-  add_guessed_unit_option(options, a.unit, "What a number in the file means");
+  add_unit_option(options, a.unit, "What a number in the file means");
   options.add("--start", a.start, "Where to begin; else at the widest end").type("X,Y,Z");
   options.add("--end", a.ends, "Where branches end; else all that stand out").type("X,Y,Z");
   options.add("-o,--output", a.output, "In the mesh's axes: .json, in mm, or .vtp, in the mesh's unit")
@@ -35,13 +36,13 @@ void declare(Options& options, Arguments& a) {
 }
 
 int run(const Arguments& a) {
-  const MeshUnit found_unit = unit_of({a.mesh}, read_mesh(a.mesh, vascular::LengthUnit::metre, 0).mesh, a.unit);
+  const MeshUnit found_unit = unit_of({a.mesh}, read_vessel(a.mesh, vascular::LengthUnit::metre, 0).mesh, a.unit);
   if (!found_unit.known()) fmt::print(stderr, "{}: units: {}\n", a.mesh, describe(found_unit));
   const vascular::LengthUnit unit = found_unit.unit;
   vascular::CentrelineOptions wanted;
   if (!a.start.empty()) wanted.start = metres(unit) * mesh_point(a.start);
   for (const std::string& end : a.ends) wanted.ends.push_back(metres(unit) * mesh_point(end));
-  vascular::Mesh mesh = read_mesh(a.mesh, unit, found_unit.known() ? vascular::default_weld_m : 0).mesh;
+  vascular::Mesh mesh = read_vessel(a.mesh, unit, found_unit.known() ? vascular::default_weld_m : 0).mesh;
   vascular::SurfaceReport report = check_surface(mesh);
   report.open_edges = {};  // get lids
   if (!report.sound()) fmt::print(stderr, "{}: not sound, so parts may be missing:\n{}", a.mesh, describe(report));

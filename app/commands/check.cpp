@@ -5,6 +5,7 @@
 #include "app/command_line/command.h"
 #include "app/command_line/common_options.h"
 #include "app/command_line/mesh_unit.h"
+#include "app/command_line/read_vessel.h"
 #include "app/command_line/progress.h"
 #include "data/catalogue/case/mesh_picture.h"
 #include "data/formats/load_error.h"
@@ -29,7 +30,7 @@ struct Arguments {
 
 void declare(Options& options, Arguments& a) {
   options.add("mesh", a.files, "STL, PLY, OBJ, VTP, ...").type("MESH").required();
-  add_guessed_unit_option(options, a.unit, "What a number in the file means");
+  add_unit_option(options, a.unit, "What a number in the file means");
   add_json_flag(options, a.json);
   options.add("--picture", a.picture, "The mesh with its faults (one file only)").type("FILE.png|FILE.svg");
 }
@@ -61,10 +62,10 @@ constexpr double shares[] = {0.02, 0.25, 0.5, 0.75, 0.98};
 
 /// Nothing is welded before the unit is known.
 void read(const Arguments& a, Checked& c) {
-  const vascular::Mesh raw = read_mesh(c.file, vascular::LengthUnit::metre, 0).mesh;
+  const vascular::Mesh raw = read_vessel(c.file, vascular::LengthUnit::metre, 0).mesh;
   c.unit = unit_of({c.file}, raw, a.unit);
   c.rounding_m = metres(c.unit.unit) * rounding_step(raw);
-  c.mesh = read_mesh(c.file, c.unit.unit, c.unit.known() ? vascular::default_weld_m : 0);
+  c.mesh = read_vessel(c.file, c.unit.unit, c.unit.known() ? vascular::default_weld_m : 0);
 }
 
 void find_openings(const vascular::Mesh& turned, const vascular::Sheets& sheets, Checked& c) {
@@ -172,7 +173,7 @@ void print_size(const Checked& c) {
 }
 
 void print_rounding(const Checked& c) {
-  if (c.rounding_m > vascular::rounding_matters * c.diameters[2])
+  if (c.diameters[2] > 0 && c.rounding_m > vascular::rounding_matters * c.diameters[2])
     fmt::print(
         "rounded: the file's numbers are {:.2g} mm apart, {:.0f} % of the vessels' width, and hide what is finer; save "
         "it with more digits, or moved to its origin\n",

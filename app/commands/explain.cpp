@@ -9,6 +9,7 @@
 #include "app/command_line/arguments.h"
 #include "app/command_line/command.h"
 #include "app/command_line/common_options.h"
+#include "app/command_line/folder_lock.h"
 #include "app/command_line/interrupt.h"
 #include "app/command_line/progress.h"
 #include "data/formats/write_file.h"
@@ -72,6 +73,8 @@ void write_found(const Arguments& a, const data::MeasurementSet& set, const data
 int run(const Arguments& a) {
   const data::Ranks mpi;
   const data::MeasurementSet set = data::load_measurement(a.set);
+  if (data::rank() == 0) make_folder(a.folder);
+  const FolderLock lock = data::rank() == 0 ? FolderLock(a.folder) : FolderLock();
   data::ExplainOptions explain_options;
   explain_options.threads = a.threads, explain_options.library = a.tries.empty();
   for (const std::string& words : a.tries) explain_options.tries.push_back(split(words, '+'));

@@ -1,8 +1,7 @@
-/// A dozen sets with an undeclared effect, of the kind that `ostium-campaign` makes by the hundred: the effect must be
-/// found, and nothing where there is none.
+/// Ten of the sets that `ostium-campaign` makes by the hundred: an undeclared effect must be found, and nothing where
+/// there is none.
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <string>
 
@@ -30,20 +29,24 @@ class Undeclared : public testing::TestWithParam<Case> {};
 TEST_P(Undeclared, IsFound) {
   const Judged judged = synthetic::judge(GetParam().kind, GetParam().seed, 0);
   EXPECT_TRUE(judged.right) << "said: " << judged.said;
-  const bool outside = std::string(GetParam().kind).rfind("out:", 0) == 0;
-  EXPECT_TRUE(outside || judged.after < 1.2) << judged.after;
+  EXPECT_LT(judged.after, 1.2);
 }
 
 INSTANTIATE_TEST_SUITE_P(Library, Undeclared,
                          testing::Values(Case{"clean", 1}, Case{"clean", 2}, Case{"clean", 3}, Case{"clean", 4},
                                          Case{"rest_curvature", 1}, Case{"soft_section", 1}, Case{"lumped_mass", 1},
-                                         Case{"roll_loss", 1}, Case{"clamp_runout", 1}, Case{"registration", 1},
-                                         Case{"imaging_scale", 1}, Case{"out:shear", 1}),
+                                         Case{"clamp_runout", 1}, Case{"registration", 1}, Case{"imaging_scale", 1}),
                          [](const testing::TestParamInfo<Case>& tested) {
-                           std::string name = std::string(tested.param.kind) + "_" + std::to_string(tested.param.seed);
-                           std::replace(name.begin(), name.end(), ':', '_');
-                           return name;
+                           return std::string(tested.param.kind) + "_" + std::to_string(tested.param.seed);
                          });
+
+/// An effect that no law of the library has is given none of their names.
+TEST(Library, WhatItLacksIsUnexplained) {
+  const synthetic::Undeclared made = synthetic::undeclared_set("out:shear", 1);
+  const Explanation x = explain(made.set, {{{"registration"}, {"rest_curvature"}, {"imaging_scale"}}, 0, {}});
+  EXPECT_EQ(x.verdict, Verdict::unexplained);
+  EXPECT_GT(*x.declared.chi2_per_dof, 1.5);
+}
 
 /// A single curved wire whose curvature relaxes with time.
 TEST(Library, RelaxationOfAnInstrumentAlone) {

@@ -7,6 +7,7 @@
 #include "data/assessment/score_list.h"
 #include "data/catalogue/case/anatomy_file.h"
 #include "data/catalogue/case/case.h"
+#include "data/catalogue/case/markups_file.h"
 #include "data/catalogue/case/tree_file.h"
 #include "data/catalogue/catalogue.h"
 #include "data/catalogue/instrument/instrument_reader.h"
@@ -57,6 +58,18 @@ std::vector<Seed> measurements() {
   return {{"measurement.json", synthetic::to_json(wire)}};
 }
 
+/// A curve with radii, as 3D Slicer saves it.
+std::vector<Seed> markups() {
+  return {{"lines.mrk.json", R"({"@schema": "markups-schema-v1.0.3.json#", "markups": [{"type": "Curve",
+ "coordinateSystem": "LPS", "coordinateUnits": "mm", "controlPoints": [
+  {"id": "1", "label": "C-1", "position": [0.5, -12.25, 3.0], "positionStatus": "defined"},
+  {"id": "2", "label": "C-2", "position": [8.5, -14.0, 9.0], "positionStatus": "defined"},
+  {"id": "3", "label": "C-3", "position": [19.0, -10.0, 14.5], "positionStatus": "defined"}],
+ "measurements": [{"name": "length", "enabled": true, "value": 21.5, "units": "mm"},
+  {"name": "Radius", "enabled": false, "controlPointValues": [1.9, 1.7, 1.25]}]}]}
+)"}};
+}
+
 std::vector<Seed> setups() {
   app::RunSetup setup;
   app::set_vessel("rca-mid-focal", vascular::LengthUnit::millimetre, setup);
@@ -91,6 +104,8 @@ std::vector<Target> json_targets() {
       {"tree", trees, [](const Seed& in) { return answer_of<LoadError>([&] { data::read_tree(in.name, in.bytes); }); }},
       {"anatomy", anatomies,
        [](const Seed& in) { return answer_of<LoadError>([&] { data::read_anatomy(in.name, in.bytes); }); }},
+      {"markups", markups,
+       [](const Seed& in) { return answer_of<LoadError>([&] { data::read_markups(in.name, in.bytes); }); }},
       {"setup", setups, read_setup}};
 }
 

@@ -137,6 +137,17 @@ expect 1 '"unit_from": "file"' "$ostium" check --json "$folder/marked.obj"
 expect 1 '"unit": "cm"' "$ostium" check --json --units cm "$folder/marked.obj"
 (printf '# unit: cm\n'; cat "$folder/vessel.obj") >"$folder/other.obj"
 expect 3 "expected files of one unit" "$ostium" import "$folder/marked.obj" "$folder/other.obj" -o "$folder/case"
+expect 3 "its numbers may be mm or cm" "$ostium" run "$folder/vessel.obj" --entry 0,0,1 --towards 0,0,9
+expect 3 "has no inside" "$ostium" run "$folder/marked.obj" --entry 0,0,1 --towards 0,0,9
+# 3D Slicer's centrelines, with radii.
+cat >"$folder/lines.mrk.json" <<'END'
+{"markups": [{"type": "Curve", "coordinateUnits": "mm", "controlPoints": [{"position": [0, 0, 0]}, {"position": [20, 5, 0]},
+  {"position": [40, 0, 0]}], "measurements": [{"name": "Radius", "controlPointValues": [2, 1.8, 1.5]}]}]}
+END
+expect 0 "mm, as the file says" "$ostium" check "$folder/lines.mrk.json"
+expect 0 "vessel 1" "$ostium" import "$folder/lines.mrk.json" -o "$folder/lines"
+sed 's/Radius/Curvature/' "$folder/lines.mrk.json" >"$folder/bare.mrk.json"
+expect 3 "has no radii; expected a measurement" "$ostium" centreline "$folder/bare.mrk.json" -o "$folder/tree.json"
 # In metres nothing is welded that should not be.
 awk '$1 == "v" { print "v", $2 / 1000, $3 / 1000, $4 / 1000; next } { print }' "$folder/vessel.obj" >"$folder/metres.obj"
 expect 1 '"welded_vertices": 0' "$ostium" check --json "$folder/metres.obj"

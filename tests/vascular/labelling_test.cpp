@@ -35,7 +35,7 @@ TEST(Labelling, ASingleArteryIsAVesselAndStill) {
   const LabelledVessels found = label_vessels(mesh);
   expect_as_it_was(found, found.lumen);
   ASSERT_EQ(found.anatomy.branches.size(), 1U);
-  EXPECT_NEAR(found.anatomy.branches[0].length_m(), 0.06, 0.006);
+  EXPECT_NEAR(found.anatomy.branches[0].length_m(), 0.06, 0.0005);
   EXPECT_LT((found.lumen.vertices.front() - mesh.vertices.front()).norm(), 1e-9);
 }
 

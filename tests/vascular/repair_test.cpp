@@ -25,6 +25,18 @@ namespace {
 
 using units::mm;
 
+/// The lumen that is stored, of some 20 triangles around, holds as much as the smooth one.
+TEST(Repair, ATubeKeepsItsCalibre) {
+  for (double diameter : {1.5 * mm, 3 * mm, 5 * mm}) {
+    const double length = 12 * diameter;
+    const Mesh tube = test::tube(diameter / 2, length, 96, 200);
+    const RepairedMesh repaired = repair_mesh(tube);
+    const double whole = volume_m3(tube), stored = volume_m3(repaired.lumen);
+    EXPECT_NEAR(std::sqrt(stored / whole) * diameter, diameter, std::min(0.05 * mm, 0.03 * diameter))
+        << diameter / mm << " mm wide";
+  }
+}
+
 /// The first 80 mm of the left coronary tree: left main and LAD, circumflex, a diagonal, from an aorta 30 mm long.
 class OwnAnatomy : public testing::Test {
  protected:

@@ -9,6 +9,7 @@
 #include "app/command_line/command.h"
 #include "app/command_line/common_options.h"
 #include "app/command_line/progress.h"
+#include "app/command_line/read_vessel.h"
 #include "app/commands/import/imported.h"
 #include "app/commands/import/mesh_files.h"
 #include "core/base/units.h"
@@ -59,7 +60,7 @@ void declare(Options& options, ImportArguments& a) {
       .one_of({"auto", "none", "own", "coronary"})
       .show_default();
   options.add("-o,--out", a.output, "A folder for the case, or a name to keep it under").type("DIR|NAME").required();
-  add_guessed_unit_option(options, a.unit, "What a number in the files means");
+  add_unit_option(options, a.unit, "What a number in the files means");
   options.add("--axes", a.axes, "Where x, y, z point to: LPS, RAS, LSA, ...; auto tells by the anatomy").show_default();
   options.add("--entry", a.entry, "Instruments enter at the centreline's point nearest to this one").type("X,Y,Z");
   options.add("--rename", a.renames, "Another name for a branch that was found").type("FOUND=WANTED");
@@ -171,7 +172,7 @@ class Import {
     progress_("reading");
     vascular::Mesh raw;
     for (const std::string& file : options_.files) {
-      const vascular::MeshFile found = read_mesh(file, vascular::LengthUnit::metre, 0);
+      const vascular::MeshFile found = read_vessel(file, vascular::LengthUnit::metre, 0);
       made_.skipped += found.skipped_faces;
       append(raw, found.mesh);
     }

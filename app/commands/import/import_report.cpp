@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -23,6 +24,14 @@ Json places(const std::vector<Eigen::Vector3d>& where) {
 /// Null if there is no candidate, or one that can never be recognised.
 Json doubt(double doubt) { return doubt > 0 && std::isfinite(doubt) ? Json(doubt) : Json(); }
 
+/// A diameter inside of the end, where no lid or carina is nearer than the wall.
+double end_calibre_m(const vascular::Anatomy& anatomy, const vascular::NamedBranch& branch, bool proximal) {
+  const vascular::Tube& tube = anatomy.tubes[static_cast<std::size_t>(branch.tube)];
+  const double end_m = proximal ? branch.from_m : branch.to_m;
+  const double inside_m = std::min(2 * tube.at(end_m).radius_m, branch.length_m() / 2);
+  return 2 * tube.at(end_m + (proximal ? inside_m : -inside_m)).radius_m;
+}
+
 }  // namespace
 
 Json report_of(const Imported& x) {
@@ -33,8 +42,8 @@ Json report_of(const Imported& x) {
   for (const vascular::NamedBranch& b : a.branches)
     branches.push_back({{"name", b.name},
                         {"length_mm", b.length_m() / mm},
-                        {"proximal_mm", 2 * a.tubes[static_cast<std::size_t>(b.tube)].at(b.from_m).radius_m / mm},
-                        {"distal_mm", 2 * a.tubes[static_cast<std::size_t>(b.tube)].at(b.to_m).radius_m / mm}});
+                        {"proximal_mm", end_calibre_m(a, b, true) / mm},
+                        {"distal_mm", end_calibre_m(a, b, false) / mm}});
   for (const vascular::FoundNarrowing& n : x.narrowings)
     narrow.push_back({{"branch", n.branch}, {"at_mm", n.at_m / mm}, {"stenosis_percent", 100 * n.stenosis}});
   const Eigen::Matrix3d& R = x.found.R_PF;
@@ -90,9 +99,8 @@ void tell(const Imported& x, const std::string& called) {
   const vascular::Anatomy& a = x.found.anatomy;
   fmt::print("  {:<18} {:>9} {:>12} {:>10}\n", "branch", "length mm", "proximal mm", "distal mm");
   for (const vascular::NamedBranch& b : a.branches)
-    fmt::print("  {:<18} {:9.1f} {:12.2f} {:10.2f}\n", b.name, b.length_m() / mm,
-               2 * a.tubes[static_cast<std::size_t>(b.tube)].at(b.from_m).radius_m / mm,
-               2 * a.tubes[static_cast<std::size_t>(b.tube)].at(b.to_m).radius_m / mm);
+    fmt::print("  {:<18} {:9.1f} {:12.2f} {:10.2f}\n", b.name, b.length_m() / mm, end_calibre_m(a, b, true) / mm,
+               end_calibre_m(a, b, false) / mm);
   for (const vascular::FoundNarrowing& n : x.narrowings)
     fmt::print("narrowing kept: {} at {:.0f} mm, {:.0f} % of {:.1f} mm\n", n.branch, n.at_m / mm, 100 * n.stenosis,
                n.reference_m / mm);

@@ -4,8 +4,10 @@
 
 #include "app/command_line/arguments.h"
 #include "app/command_line/common_options.h"
+#include "app/command_line/mesh_unit.h"
 #include "data/formats/load_error.h"
 #include "vascular/geometry/mesh/length_unit.h"
+#include "vascular/geometry/mesh_files/formats.h"
 
 namespace ostium::app {
 
@@ -33,17 +35,20 @@ Eigen::Vector3d point(const std::string& text, const char* option, vascular::Len
 }  // namespace
 
 RunSetup setup_of(const SessionArguments& a) {
-  const vascular::LengthUnit unit = vascular::unit_named(a.unit);
   RunSetup setup;
   setup.seed = a.seed;
-  set_vessel(a.vessel, unit, setup);
-  if (setup.is_mesh()) {
+  if (vascular::has_mesh_ending(a.vessel)) {
     if (a.entry.empty() || a.towards.empty())
       throw data::LoadError(a.vessel +
                             " is a mesh: --entry X,Y,Z and --towards X,Y,Z say where an instrument comes in");
+    const auto raw = read_mesh(a.vessel, vascular::LengthUnit::metre, 0).mesh;
+    const vascular::LengthUnit unit = unit_of({a.vessel}, raw, a.unit).unit;
+    set_vessel(a.vessel, unit, setup);
     setup.entry = {point(a.entry, "--entry", unit), point(a.towards, "--towards", unit)};
   } else if (!a.entry.empty() || !a.towards.empty()) {
     throw data::LoadError("--entry and --towards are for a mesh; a case has its access");
+  } else {
+    set_vessel(a.vessel, {}, setup);
   }
   set_script(data::find_script(a.script), setup);
   for (const std::string& set : a.set) {

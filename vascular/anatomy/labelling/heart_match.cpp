@@ -13,6 +13,7 @@ namespace {
 
 using units::mm, units::degree;
 constexpr double worst_score_m = 25 * mm;  // with what counts against a fit besides its distance
+constexpr double least_of_mean = 0.35;     // of an artery's length: a short piece bends like many others
 
 struct HeartFit {
   Similarity fit;
@@ -110,7 +111,7 @@ void find_circumflex(const MeanCourses& mean, const Trunk& left, HeartFit& best)
   }
 }
 
-/// By all arteries that were found, which the fit itself may have left out.
+/// By all arteries that were found, which the fit itself may have left out; too short ones are no evidence.
 double doubt_of(const HeartFit& best, const HeartTrunks& known) {
   std::vector<Eigen::Vector3d> from, to;
   const auto course = [&](int trunk, std::size_t end) -> const Course& {
@@ -119,8 +120,16 @@ double doubt_of(const HeartFit& best, const HeartTrunks& known) {
   if (best.left >= 0) add_pairs(known.mean.lad, course(best.left, best.lad), from, to);
   if (best.circumflex) add_pairs(known.mean.lcx, course(best.left, best.lcx), from, to);
   if (best.right >= 0) add_pairs(known.mean.rca, course(best.right, best.rca), from, to);
-  const double doubt = heart_doubt(nearest_similarity(from, to),
-                                   {best.left >= 0, best.circumflex, best.right >= 0, known.aorta != nullptr});
+  const Similarity fit = nearest_similarity(from, to);
+  const auto whole = [&](const Course& ours, int trunk, std::size_t end) {
+    return course(trunk, end).length_m() > least_of_mean * fit.scale * ours.length_m();
+  };
+  const bool left = best.left >= 0 && whole(known.mean.lad, best.left, best.lad);
+  const double doubt =
+      heart_doubt(fit, {.left = left,
+                        .circumflex = left && best.circumflex && whole(known.mean.lcx, best.left, best.lcx),
+                        .right = best.right >= 0 && whole(known.mean.rca, best.right, best.rca),
+                        .aorta = known.aorta != nullptr});
   return std::max(doubt, best.score / worst_score_m);
 }
 

@@ -35,20 +35,20 @@ bool spoils(const std::array<int, 3>& t, const std::vector<Eigen::Vector3d>& bef
   return was.dot(is) < most_turn * was.norm() * is.norm() || height < std::min(least_height, 0.5 * had);
 }
 
-/// Moves vertices onto the original wall: level set and decimation are off by a fraction of a voxel.
-void onto_wall(const BoundingVolumeHierarchy& wall, double voxel_m, Mesh& mesh) {
+Eigen::Vector3d twice_area(const Mesh& mesh, const std::array<int, 3>& t) {
+  return (mesh.vertices[t[1]] - mesh.vertices[t[0]]).cross(mesh.vertices[t[2]] - mesh.vertices[t[0]]);
+}
+
+std::vector<Eigen::Vector3d> normals(const Mesh& mesh) {
   std::vector<Eigen::Vector3d> normal(mesh.vertices.size(), Eigen::Vector3d::Zero());
-  for (const auto& [a, b, c] : mesh.triangles)
-    for (int v : {a, b, c})
-      normal[v] += (mesh.vertices[b] - mesh.vertices[a]).cross(mesh.vertices[c] - mesh.vertices[a]);
-  std::vector<Eigen::Vector3d> step(mesh.vertices.size(), Eigen::Vector3d::Zero());
-  for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
-    const BoundingVolumeHierarchy::Nearest near = wall.nearest(mesh.vertices[v], voxel_m);
-    // Along the normal only: sideways, vertices would come together where the wall has an edge.
-    const Eigen::Vector3d out = normal[v].normalized();
-    if (near.triangle >= 0) step[v] = (near.point - mesh.vertices[v]).dot(out) * out;
-  }
-  // If a triangle would flip or flatten, its corners move half as far, and finally not at all.
+  for (const auto& t : mesh.triangles)
+    for (int v : t) normal[v] += twice_area(mesh, t);
+  for (Eigen::Vector3d& n : normal) n.normalize();
+  return normal;
+}
+
+/// If a triangle would flip or flatten, its corners move half as far, and finally not at all.
+void move_vertices(std::vector<Eigen::Vector3d> step, Mesh& mesh) {
   const std::vector<Eigen::Vector3d> from = mesh.vertices;
   for (int round = 0; round <= most_returns; ++round) {
     for (std::size_t v = 0; v < from.size(); ++v) mesh.vertices[v] = from[v] + step[v];
@@ -63,6 +63,39 @@ void onto_wall(const BoundingVolumeHierarchy& wall, double voxel_m, Mesh& mesh) 
     for (std::size_t v = 0; v < from.size(); ++v)
       if (returns[v]) step[v] *= round + 1 < most_returns ? 0.5 : 0;
   }
+}
+
+/// Moves vertices onto the original wall: level set and decimation are off by a fraction of a voxel.
+void onto_wall(const BoundingVolumeHierarchy& wall, double voxel_m, Mesh& mesh) {
+  // Along the normal only: sideways, vertices would come together where the wall has an edge.
+  std::vector<Eigen::Vector3d> step = normals(mesh);
+  for (std::size_t v = 0; v < step.size(); ++v) {
+    const BoundingVolumeHierarchy::Nearest near = wall.nearest(mesh.vertices[v], voxel_m);
+    step[v] *= near.triangle >= 0 ? (near.point - mesh.vertices[v]).dot(step[v]) : 0;
+  }
+  move_vertices(std::move(step), mesh);
+}
+
+/// Triangles whose corners lie on a curved wall cut its inside off. Moves vertices outwards until the wall lies as much
+/// inside as outside of the triangles about each: the mean over a triangle of a deviation that grows with the square
+/// is that at the middles of its edges.
+void astride_wall(const BoundingVolumeHierarchy& wall, double voxel_m, Mesh& mesh) {
+  std::vector<double> volume(mesh.vertices.size(), 0), area(mesh.vertices.size(), 0);
+  for (const auto& t : mesh.triangles) {
+    const Eigen::Vector3d n = twice_area(mesh, t);
+    double deviation = 0;
+    int near_edges = 0;
+    for (int k = 0; k < 3; ++k) {
+      const Eigen::Vector3d middle = (mesh.vertices[t[k]] + mesh.vertices[t[(k + 1) % 3]]) / 2;
+      const BoundingVolumeHierarchy::Nearest near = wall.nearest(middle, voxel_m);
+      if (near.triangle >= 0) deviation += (near.point - middle).dot(n), ++near_edges;
+    }
+    if (near_edges < 3) continue;
+    for (int v : t) volume[v] += deviation / 3, area[v] += n.norm();
+  }
+  std::vector<Eigen::Vector3d> step = normals(mesh);
+  for (std::size_t v = 0; v < step.size(); ++v) step[v] *= area[v] > 0 ? volume[v] / area[v] : 0;
+  move_vertices(std::move(step), mesh);
 }
 
 /// Smooths the surface where triangles cross until none do.
@@ -125,6 +158,7 @@ Mesh finished_surface(const Mesh& fine, const BoundingVolumeHierarchy& wall, dou
     mesh = decimate(fine, edge, chance_voxels * voxel_m);
   }
   onto_wall(wall, voxel_m, mesh);
+  astride_wall(wall, voxel_m, mesh);
   uncross(mesh);
   return mesh;
 }
