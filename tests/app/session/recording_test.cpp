@@ -14,6 +14,7 @@
 #include <csignal>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <nlohmann/json.hpp>
 #include <random>
 #include <thread>
@@ -74,6 +75,57 @@ TEST(Recording, ReplaysToTheBitFromAnySecond) {
   const std::string end = *replay.recording.end();
   const std::vector<data::Metric> again = metrics_of(record_of(replay.recording, replay.model));
   EXPECT_EQ(nlohmann::json::parse(metrics_json("tube", 0, "success", "", again)), nlohmann::json::parse(end));
+}
+
+/// A copy of a recording in which `change` was done to the numbers of one of its tables.
+void copy_with(const std::string& from, const std::string& to, const std::string& changed,
+               const std::function<void(std::vector<double>&)>& change) {
+  const data::TableFile file = data::TableFile::open(from);
+  data::TableFile copy = data::TableFile::create(to);
+  for (const char* text : {"schema", "software", "setup", "step_s", "end"}) copy.set_text(text, file.text(text));
+  for (const std::string table :
+       {"inputs", "hash", "signals", "events", "state", "hands", "mesh_vertices", "mesh_triangles"}) {
+    const bool whole = table == "hash" || table == "mesh_triangles", single = table == "signals";
+    copy.add_table({table,
+                    whole    ? data::NumberType::uint64
+                    : single ? data::NumberType::float32
+                             : data::NumberType::float64,
+                    file.columns(table), file.width(table), 64});
+    const std::size_t rows = file.rows(table);
+    if (whole) {
+      copy.append(table, file.integers(table, 0, rows).data(), rows);
+      continue;
+    }
+    std::vector<double> numbers = file.numbers(table, 0, rows);
+    if (table == changed) change(numbers);
+    const std::vector<float> singles(numbers.begin(), numbers.end());
+    copy.append(table, single ? static_cast<const void*>(singles.data()) : numbers.data(), rows);
+  }
+  copy.close();
+}
+
+/// Whoever looks at a moment of a recording sees the state that was hashed then, or is told.
+TEST(Recording, AStateThatWasChangedIsRefused) {
+  const Folder folder;
+  recorded(folder("run.h5"), RecordMode::full);
+  copy_with(folder("run.h5"), folder("copy.h5"), "", {});
+  Replay copy(folder("copy.h5"), tube_vessel());
+  EXPECT_NO_THROW(copy.go_to(1.2));
+  const std::size_t width = copy.recording.tables().numbers("state", 0, 1).size();
+  copy_with(folder("run.h5"), folder("changed.h5"), "state", [&](std::vector<double>& states) {
+    // The last number that is no count: what lies outside of the body, which is not hashed, comes first.
+    std::size_t i = 2 * width - 1;
+    while (states.at(i) == std::floor(states.at(i))) --i;
+    states[i] *= 1 + 1e-12;
+  });
+  Replay changed(folder("changed.h5"), tube_vessel());
+  EXPECT_NO_THROW(changed.go_to(0.5));
+  try {
+    changed.go_to(1.2);
+    ADD_FAILURE() << "it was accepted";
+  } catch (const data::LoadError& error) {
+    EXPECT_NE(std::string(error.what()).find("its state at 1 s is not the one"), std::string::npos) << error.what();
+  }
 }
 
 /// The overlay's clocks and dose are those of the whole run, however little of it is drawn.
