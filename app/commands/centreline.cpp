@@ -6,8 +6,8 @@
 #include "app/command_line/command.h"
 #include "app/command_line/common_options.h"
 #include "app/command_line/mesh_unit.h"
-#include "app/command_line/read_vessel.h"
 #include "app/command_line/progress.h"
+#include "app/command_line/read_vessel.h"
 #include "data/catalogue/case/tree_file.h"
 #include "vascular/geometry/mesh/surface_check.h"
 #include "vascular/geometry/repair/double_wall.h"
@@ -36,6 +36,7 @@ void declare(Options& options, Arguments& a) {
 }
 
 int run(const Arguments& a) {
+  const bool in_json = data::writes_tree_as_json(a.output);
   const MeshUnit found_unit = unit_of({a.mesh}, read_vessel(a.mesh, vascular::LengthUnit::metre, 0).mesh, a.unit);
   if (!found_unit.known()) fmt::print(stderr, "{}: units: {}\n", a.mesh, describe(found_unit));
   const vascular::LengthUnit unit = found_unit.unit;
@@ -59,8 +60,7 @@ int run(const Arguments& a) {
     fmt::print("open, so it got a lid: at {:.2f} {:.2f} {:.2f} {}\n", p.x(), p.y(), p.z(), name_of(unit));
   }
   fmt::print("{}: {} branches, {} spheres, in the mesh's axes and in {}; looked at {:.2f} mm\n", a.output,
-             found.tree.branches.size(), found.tree.spheres(), a.output.ends_with(".vtp") ? name_of(unit) : "mm",
-             1e3 * found.voxel_m);
+             found.tree.branches.size(), found.tree.spheres(), in_json ? "mm" : name_of(unit), 1e3 * found.voxel_m);
   for (const vascular::TreeBranch& branch : found.tree.branches)
     fmt::print("  {:>3} from {:>3}  {:7.1f} mm, radius {:.2f} to {:.2f} mm\n", branch.name,
                branch.parent < 0 ? "-" : found.tree.branches[static_cast<std::size_t>(branch.parent)].name,

@@ -283,7 +283,9 @@ long show_window(const SessionModel& model, const ScriptPlan& plan, LiveDriver& 
     const double brightness = options.brightness ? options.brightness() : 1;
     const std::string problem = options.problem ? options.problem() : "";
     // While hands have to draw back nothing steps, and what the box says is shown all the same.
-    if (!live_is_new && brightness == shown_brightness && problem == shown_problem && events.help == shown_help)
+    const bool owed = over && pixels.empty() && !options.last_frame_png.empty();  // a run shorter than a picture takes
+    if (!live_is_new && !owed && brightness == shown_brightness && problem == shown_problem &&
+        events.help == shown_help)
       continue;
     shown_brightness = brightness, shown_problem = problem, shown_help = events.help;
     if (live_is_new) reference.take(live.picture(), live.cine(), signal(texts, now, "contrast_landmark"));

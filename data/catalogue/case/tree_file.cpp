@@ -122,13 +122,17 @@ std::string tree_to_vtp(const vascular::SphereTree& tree, std::optional<vascular
          "</Lines>\n</Piece>\n</PolyData>\n</VTKFile>\n";
 }
 
-void write_tree(const std::string& file, const vascular::SphereTree& tree,
-                std::optional<vascular::LengthUnit> own_unit) {
+bool writes_tree_as_json(const std::string& file) {
   const std::string ending = std::filesystem::path(file).extension().string();
   if (ending != ".json" && ending != ".vtp")
     throw LoadError(
         fmt::format("{}: the ending \"{}\" names no format of a tree; expected .json or .vtp", file, ending));
-  write_file(file, ending == ".json" ? tree_to_json(tree) : tree_to_vtp(tree, own_unit));
+  return ending == ".json";
+}
+
+void write_tree(const std::string& file, const vascular::SphereTree& tree,
+                std::optional<vascular::LengthUnit> own_unit) {
+  write_file(file, writes_tree_as_json(file) ? tree_to_json(tree) : tree_to_vtp(tree, own_unit));
 }
 
 }  // namespace ostium::data

@@ -9,8 +9,10 @@
 
 namespace ostium::data {
 
-/// Format by the name's ending: .json or .vtp. `own_unit`: see tree_to_vtp. Throws LoadError for any other ending,
-/// WriteError.
+/// The format of a name's ending: .json, or else .vtp. Throws LoadError for any other, so that a command can refuse it
+/// before it begins to work.
+bool writes_tree_as_json(const std::string& file);
+/// `own_unit`: see tree_to_vtp. Throws LoadError as above, WriteError.
 void write_tree(const std::string& file, const vascular::SphereTree& tree,
                 std::optional<vascular::LengthUnit> own_unit = {});
 
