@@ -93,8 +93,10 @@ bool print_soak(double minutes) {
       if (n % 20 == 19) app::gates::judge(run, truth, n % 2000 == 1999, holding);
     }
     if (from == 0) first_MiB = memory_MiB();
-    fmt::print("to {:6.2f} min: {:.4f} mm, {} outside, {} steps in trouble, kinetic energy up to {:.2g} mJ, {:.0f} MiB\n",
-               1.0 / 60'000 * static_cast<double>(from + row), 1e3 * holding.deepest_m, holding.escapes, holding.troubled, 1e3 * energy_J, memory_MiB());
+    fmt::print(
+        "to {:6.2f} min: {:.4f} mm, {} outside, {} steps in trouble, kinetic energy up to {:.2g} mJ, {:.0f} MiB\n",
+        1.0 / 60'000 * static_cast<double>(from + row), 1e3 * holding.deepest_m, holding.escapes, holding.troubled,
+        1e3 * energy_J, memory_MiB());
     std::fflush(stdout);
     all.deepest_m = std::max(all.deepest_m, holding.deepest_m);
     all.escapes += holding.escapes;

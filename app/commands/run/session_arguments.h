@@ -11,7 +11,7 @@ struct SessionArguments {
   std::vector<std::string> set;  ///< KEY=VALUE
   std::uint64_t seed = 0;
   double seconds = 0;          ///< limit of simulated time; 0: until the script ends
-  std::string unit = "auto";     ///< of a mesh
+  std::string unit = "auto";   ///< of a mesh
   std::string entry, towards;  ///< of a mesh: X,Y,Z
 };
 
