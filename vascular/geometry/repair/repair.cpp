@@ -65,7 +65,8 @@ class Mender {
     // Only the part of the mesh that borders on the outside.
     const Mesh outside{mesh_.vertices, bordering_triangles(mesh_, result_.voxel_m / 20)};
     const BoundingVolumeHierarchy wall(outside);
-    for (const Mesh& part : lumens) {
+    for (Mesh& part : lumens) {
+      close_holes(part);
       say("coarsening the surface");
       append(result_.lumen, finished_surface(part, wall, result_.voxel_m, lumens.size(), options_.most_triangles));
     }
@@ -74,6 +75,13 @@ class Mender {
   }
 
  private:
+  /// Where remains of another wall lie askew in a lumen, no wall may be near enough to where inside ends.
+  void close_holes(Mesh& lumen) {
+    std::vector<Eigen::Vector3d> where;
+    for (const Opening& hole : close_all(lumen)) where.push_back(hole.middle);
+    note("hole in the filled lumen closed", static_cast<int>(where.size()), where);
+  }
+
   void say(const std::string& what) const {
     if (options_.progress) options_.progress(what);
   }
