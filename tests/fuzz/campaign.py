@@ -106,7 +106,7 @@ def main():
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--seconds", type=float, default=3)
     parser.add_argument("--minutes", type=float)
-    options = parser.parse_args()
+    options = parser.parse_intermixed_args()
     listed = subprocess.run([options.program, "--list"], check=True, capture_output=True, text=True).stdout
     known = {line.split()[0]: line.endswith(" apart") for line in listed.splitlines()}
     targets = options.targets or list(known)
