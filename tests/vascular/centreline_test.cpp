@@ -105,6 +105,15 @@ TEST(Centreline, OfATubeGoesFromLidToLidHoweverItLiesOpenOrClosed) {
     }
 }
 
+/// Steps towards a lid go by the radius, and here there is none at the end of ever smaller ones.
+TEST(Centreline, OfASpikeEnds) {
+  Mesh mesh = test::tube(3e-3, 60e-3, 32, 60);
+  for (Eigen::Vector3d& p : mesh.vertices) p.head<2>() *= std::max(1e-7, 1 - p.z() / 60e-3);
+  const CentrelineResult found = find_centrelines(mesh, {.start = {}, .ends = {}, .most_voxels = 200'000});
+  ASSERT_FALSE(found.tree.branches.empty());
+  EXPECT_GT(found.tree.branches[0].spheres.back().s_m, 30e-3);
+}
+
 TEST(Centreline, OfPiecesThatOverlapRunsThroughBoth) {
   Mesh mesh = test::tube(2e-3, 40e-3, 32, 40), other = mesh;
   for (Eigen::Vector3d& p : other.vertices) p += Eigen::Vector3d(1e-4, 2e-4, 30e-3);

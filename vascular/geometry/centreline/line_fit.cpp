@@ -113,8 +113,9 @@ void carry_to_lid(std::vector<TreeSphere>& spheres, const BoundingVolumeHierarch
   TreeSphere at = spheres[*clear];
   Eigen::Vector3d along = (at.p - spheres[*clear - 1].p).normalized();
   const double farthest = spheres.back().s_m - at.s_m + beyond * at.radius_m;
+  const double narrowest = at.radius_m / 4;  // where it narrows further, no lid of this vessel is ahead
   std::vector<TreeSphere> on;
-  for (double gone = 0; gone < farthest;) {
+  for (double gone = 0; gone < farthest && at.radius_m > narrowest;) {
     const auto ahead = wall.hits(at.p, along, farthest);
     if (ahead.empty()) return;
     const double step = at.radius_m / 2;
