@@ -20,23 +20,9 @@ namespace {
 using units::pi;
 constexpr double wire_friction = 0.05, guide_friction = 0.1;
 
-/// 1 mm over the last 150 mm, growing to 4 mm.
-std::vector<double> element_lengths(double length_m) {
-  std::vector<double> from_tip;
-  double sum = 0, length = 1e-3;
-  while (sum < length_m) {
-    if (sum > 0.15) length = std::min(4e-3, 1.02 * length);
-    from_tip.push_back(std::min(length, length_m - sum));
-    sum += length;
-  }
-  if (from_tip.size() > 1 && from_tip.back() < 0.5e-3)
-    from_tip[from_tip.size() - 2] += from_tip.back(), from_tip.pop_back();
-  return {from_tip.rbegin(), from_tip.rend()};
-}
-
 core::Rod rod_of(const std::vector<data::Instrument>& catalogue, const std::string& name) {
   const data::Instrument& instrument = find_instrument(catalogue, name);
-  core::RodDescription d = rod_description(instrument, element_lengths(instrument.length_m));
+  core::RodDescription d = rod_description(instrument, element_lengths(instrument));
   d.damping = {0.007, 0.0035, 1e-3};  // blood, and a polymer's
   return make_rod(d);
 }

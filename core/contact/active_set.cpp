@@ -90,14 +90,19 @@ void tie_to_walls(const Strand& strand) {
 
 namespace {
 
-/// Whether the node moved far enough to meet walls that the broad phase did not find.
+/// Whether the node may have met walls that the broad phase did not look at: it looked at those that come nearer than
+/// the slack to where the node was expected, or to where it would be if the wall carried it along.
 bool went_far(const Strand& strand, int i, const V3<double>& to) {
+  constexpr double slack2 = tolerances::wall_slack_m * tolerances::wall_slack_m,
+                   slid2 = tolerances::slid_far_m * tolerances::slid_far_m;
   const ContactScratch& c = *strand.contact;
   const NodeWalls& walls = c.walls[i];
-  const V3<double> moved = to - load3<double>(strand.own->position, i);
-  const V3<double> slid = walls.count > 0 ? moved - walls.planes[0].carried : moved;
-  const double far = walls.count > 0 ? least(c.travel.at(0)[i], tolerances::slid_far_m) : c.travel.at(0)[i];
-  return dot(slid, slid) > far * far;
+  const V3<double> off = to - load3<double>(c.expected, i);
+  const bool as_expected = dot(off, off) <= slack2;
+  if (walls.count == 0) return !as_expected;
+  const V3<double> slid = to - load3<double>(strand.own->position, i) - walls.planes[0].carried;
+  const double far2 = dot(slid, slid);
+  return far2 > slid2 || (far2 > slack2 && !as_expected);
 }
 
 /// Sweeps nodes that moved far through the triangles. True if this adds active walls.
@@ -131,27 +136,48 @@ void drop_stay(int i, WallPlane& w, ContactScratch& c) {
 
 }  // namespace
 
+namespace {
+
+bool any_wrong(const Strand& strand, const ContactScratch& c) {
+  const RodScratch& s = *strand.s;
+  for (int i = first_free(s); i <= last_free(s); ++i)
+    for (int k = 0; k < c.walls[i].count; ++k)
+      if (!c.changed[i] && is_wrong(c.walls[i].planes[k], load3<double>(c.ahead, i))) return true;
+  return false;
+}
+
+/// Looks at the walls anew from where the solution leads; true if planes changed or are now behind it.
+bool see_anew(const Model& model, const Strand& strand, Scratch& scratch) {
+  ContactScratch& c = *strand.contact;
+  const RodScratch& s = *strand.s;
+  const bool met = model.sweep && follow_far(model, strand, scratch);
+  for (int i = first_free(s); i <= last_free(s); ++i)
+    if (!c.changed[i]) look_again(model, strand, i, load3<double>(c.ahead, i), scratch);
+  return met || any_wrong(strand, c);
+}
+
+}  // namespace
+
 bool change_walls(const Model& model, const Strand& strand, Scratch& scratch) {
   ContactScratch& c = *strand.contact;
   if (c.walls.empty() || c.changes >= tolerances::max_wall_changes) return false;
   RodScratch& s = *strand.s;
   std::fill(c.changed.begin(), c.changed.end(), 0);
   look_ahead(strand);
-  bool any = model.sweep && follow_far(model, strand, scratch);
-  for (int i = first_free(s); i <= last_free(s); ++i) {
-    if (!c.changed[i]) look_again(model, strand, i, load3<double>(c.ahead, i), scratch);
-    for (int k = 0; k < c.walls[i].count; ++k)
-      any = any || (!c.changed[i] && is_wrong(c.walls[i].planes[k], load3<double>(c.ahead, i)));
+  // While many ties settle, the walls stay as they were seen: a trial solution leads to places that are never reached.
+  const bool settling = c.settling >= tolerances::quick_wall_changes;
+  if (!settling || !any_wrong(strand, c)) {
+    if (!see_anew(model, strand, scratch)) return false;
+    if (settling) c.settling = 0;
   }
-  if (!any) return false;
 
-  const bool slow = c.changes >= tolerances::quick_wall_changes;
-  if (c.changes == tolerances::quick_wall_changes)
+  const bool slow = c.settling >= tolerances::quick_wall_changes;
+  if (c.settling == tolerances::quick_wall_changes)
     start_descent(strand);
   else if (slow)
     descend(strand);
-  ++c.changes;
-  any = false;
+  ++c.changes, ++c.settling, ++scratch.counts.changes;
+  bool any = false;
   c.same = s.chain.elements;
   for (int i = first_free(s); i <= last_free(s); ++i) {
     NodeWalls& walls = c.walls[i];
@@ -162,6 +188,7 @@ bool change_walls(const Model& model, const Strand& strand, Scratch& scratch) {
                               : !c.changed[i] && is_wrong(w, load3<double>(c.ahead, i));
       if (!wrong) continue;
       w.active = !w.active, changed = true;
+      ++scratch.counts.flips;
       if (slow)
         drop_stay(i, w, c);
       else

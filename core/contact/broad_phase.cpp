@@ -12,7 +12,7 @@ namespace ostium::core {
 
 namespace {
 
-constexpr int block = 8;             ///< nodes that share a query
+constexpr int block = query_nodes;
 constexpr double rounding_m = 1e-9;  ///< rounding margin of a coarse test, before the exact one
 
 /// Recomputes a plane from `to`, with the wall as it is at the end of the step. False if another plane already stands
@@ -42,22 +42,41 @@ bool is_in_the_way(const Model& model, const Strand& strand, int i, const V3<dou
   return true;
 }
 
-/// The nodes of a query, one per SIMD lane; unused lanes reach nothing.
+/// The nodes of a query, one per SIMD lane, at the beginning of the step; unused lanes reach nothing.
 struct Block {
-  double x[block], y[block], z[block], reach[block];
+  double x[block], y[block], z[block], reach[block];  ///< how near a wall must come to count
+  double dx[block], dy[block], dz[block];             ///< expected move
+  double far[block];                                  ///< reach and the length of that move
 
-  void set(int at, const V3<double>& p, double how_far) { x[at] = p.x, y[at] = p.y, z[at] = p.z, reach[at] = how_far; }
-  /// Which nodes may be within reach of a box that moves by `move`: one bit each.
-  unsigned near(const V3<double>& low, const V3<double>& high, double move) const {
+  void set(int at, const V3<double>& p, const V3<double>& move, double how_near) {
+    x[at] = p.x, y[at] = p.y, z[at] = p.z, reach[at] = how_near;
+    dx[at] = move.x, dy[at] = move.y, dz[at] = move.z, far[at] = how_near + norm(move);
+  }
+  /// Which nodes may be near a box in which something lies throughout the step: one bit each.
+  unsigned near(const V3<double>& low, const V3<double>& high) const {
+    return each(low, high, [this](int k) { return load<Lanes>(far + k); });
+  }
+  /// Which nodes may be near something that begins in a box and moves like that.
+  unsigned near(const V3<double>& low, const V3<double>& high, const ClusterDrift& move) const {
+    return each(low, high, [&](int k) {
+      const V3<Lanes> past{load<Lanes>(dx + k) - move.drift.x, load<Lanes>(dy + k) - move.drift.y,
+                           load<Lanes>(dz + k) - move.drift.z};
+      return load<Lanes>(reach + k) + square_root(dot(past, past)) + move.spread;
+    });
+  }
+
+ private:
+  template <class Reach>
+  unsigned each(const V3<double>& low, const V3<double>& high, Reach&& how_near) const {
     const auto outside = [](Lanes p, double a, double b) { return largest(Lanes{}, largest(a - p, p - b)); };
     unsigned any = 0;
     for (int k = 0; k < block; k += lane_count) {
       const V3<Lanes> away{outside(load<Lanes>(x + k), low.x, high.x), outside(load<Lanes>(y + k), low.y, high.y),
                            outside(load<Lanes>(z + k), low.z, high.z)};
-      const Lanes far = load<Lanes>(reach + k) + (move + rounding_m);
-      const Lanes within =
-          _mm256_and_pd(_mm256_cmp_pd(dot(away, away), far * far, _CMP_LE_OQ), _mm256_cmp_pd(far, Lanes{}, _CMP_GT_OQ));
-      any |= static_cast<unsigned>(_mm256_movemask_pd(within)) << k;
+      const Lanes within = how_near(k) + rounding_m;
+      const Lanes counts = _mm256_and_pd(_mm256_cmp_pd(dot(away, away), within * within, _CMP_LE_OQ),
+                                         _mm256_cmp_pd(load<Lanes>(reach + k), Lanes{}, _CMP_GT_OQ));
+      any |= static_cast<unsigned>(_mm256_movemask_pd(counts)) << k;
     }
     return any;
   }
@@ -85,29 +104,37 @@ void find_walls(const Model& model, const Strand& strand, Scratch& scratch) {
     Bounds bounds;
     Block nodes;
     NodeView views[block];
-    for (int k = 0; k < block; ++k) nodes.set(k, {}, -1);
+    for (int k = 0; k < block; ++k) nodes.set(k, {}, {}, -1);
     for (int i = begin; i < end; ++i) {
-      const V3<double> p = load3<double>(own.position, i);
-      const double expected = norm(load3<double>(s.position, i) - p);
-      c.travel.at(0)[i] = model.sweep ? expected + tolerances::wall_slack_m : 0;
-      const double reach = rod.radius.at(0)[i] + c.travel.at(0)[i];
-      bounds.take(p, reach);
-      nodes.set(i - begin, p, reach);
+      const V3<double> p = load3<double>(own.position, i), expected = load3<double>(s.position, i);
+      store3(c.expected, i, expected);
+      nodes.set(i - begin, p, model.sweep ? expected - p : V3<double>{},
+                rod.radius.at(0)[i] + (model.sweep ? tolerances::wall_slack_m : 0));
+      bounds.take(p, nodes.far[i - begin]);
       views[i - begin] = view_of(rod, own, i, p, 0);
     }
     for (std::size_t k = 0; k < model.surfaces.size(); ++k) {
       const Surface& surface = *model.surfaces[k];
-      find_clusters(surface, bounds.low, bounds.high, scratch.surfaces[k], c.clusters,
-                    [&](const V3<double>& low, const V3<double>& high) { return nodes.near(low, high, 0) != 0; });
+      SurfacePose& whole = scratch.surfaces[k];
+      LeafList& list =
+          c.leaves[static_cast<std::size_t>((begin - first_free(s)) / block) * model.surfaces.size() + k];
+      find_clusters_again(surface, bounds.low, bounds.high, whole, list, c.clusters,
+                          [&](int n, const V3<double>& low, const V3<double>& high) {
+                            if (nodes.near(low, high) == 0) return false;
+                            if (!model.sweep) return true;
+                            const RoughPose rough = rough_pose(surface, n, low, high, whole);
+                            return nodes.near(rough.low, rough.high, rough.move) != 0;
+                          });
       for (int cluster : c.clusters) {
-        const ClusterPose& pose = pose_of(surface, cluster, scratch.surfaces[k]);
-        const double move = model.sweep ? pose.largest_move : 0;
+        const ClusterPose& pose = pose_of(surface, cluster, whole);
+        const ClusterDrift move = model.sweep ? pose.move : ClusterDrift{};
         for (unsigned left = nodes.near(pose.low, pose.high, move); left != 0; left &= left - 1) {
-          const int i = begin + std::countr_zero(left);
-          NodeView view = views[i - begin];
-          view.reach = view.radius + (c.travel.at(0)[i] + move);
-          look(model, static_cast<int>(k), cluster, pose, pose.before, view,
-               lets_through(surface, scratch.surfaces[k], view.radius), c.walls[i]);
+          const int at = std::countr_zero(left);
+          NodeView view = views[at];
+          const V3<double> past = V3<double>{nodes.dx[at], nodes.dy[at], nodes.dz[at]} - move.drift;
+          view.reach = nodes.reach[at] + norm(past) + move.spread;
+          look(model, static_cast<int>(k), cluster, pose, StepEnd::before, view,
+               lets_through(surface, whole, view.radius), c.walls[begin + at]);
         }
       }
     }

@@ -84,7 +84,7 @@ void look_around(const Model& model, const NodeView& view, Scratch& scratch, std
     find_clusters(surface, bounds.low, bounds.high, scratch.surfaces[k], clusters);
     for (int cluster : clusters) {
       const ClusterPose& pose = pose_of(surface, cluster, scratch.surfaces[k]);
-      look(model, static_cast<int>(k), cluster, pose, pose.after, view,
+      look(model, static_cast<int>(k), cluster, pose, StepEnd::after, view,
            lets_through(surface, scratch.surfaces[k], view.radius), walls);
     }
   }

@@ -93,21 +93,24 @@ void join_soft_walls(const NodeView& view, NodeWalls& walls) {
 }
 
 /// Which of a cluster's triangles may be within reach, one bit each: both its bounding ball and its plane must be.
-unsigned may_meet(const ClusterPose& pose, int triangles, const NodeView& view) {
-  const V3<double> from = view.centre - pose.low, size = pose.high - pose.low;
-  const double reach = view.reach + rounding_share * (size.x + size.y + size.z + view.reach);
+unsigned may_meet(const ClusterPose& pose, StepEnd end, int triangles, const NodeView& view) {
+  // At the end of the step, seen as if the wall had stayed.
+  const bool before = end == StepEnd::before;
+  const V3<double> from = view.centre - pose.low - (before ? V3<double>{} : pose.move.drift),
+                   size = pose.high - pose.low;
+  const double reach = view.reach + (before ? 0 : pose.move.spread);
   const auto all = [](double a) { return _mm256_set1_ps(static_cast<float>(a)); };
-  const __m256 x = all(from.x), y = all(from.y), z = all(from.z), still = all(reach),
-               moving = all(reach + pose.largest_move);
+  const __m256 x = all(from.x), y = all(from.y), z = all(from.z),
+               near = all(reach + rounding_share * (size.x + size.y + size.z + reach));
   const TriangleBounds& t = pose.bounds;
   unsigned any = 0;
   for (int k = 0; k < triangles; k += 8) {
     const auto at = [k](const float* p) { return _mm256_loadu_ps(p + k); };
-    const __m256 dx = x - at(t.x), dy = y - at(t.y), dz = z - at(t.z), within = still + at(t.radius);
+    const __m256 dx = x - at(t.x), dy = y - at(t.y), dz = z - at(t.z), within = near + at(t.radius);
     const __m256 height = at(t.normal_x) * x + at(t.normal_y) * y + at(t.normal_z) * z - at(t.height);
-    const __m256 near = _mm256_and_ps(_mm256_cmp_ps(dx * dx + dy * dy + dz * dz, within * within, _CMP_LE_OQ),
-                                      _mm256_cmp_ps(height * height, moving * moving, _CMP_LE_OQ));
-    any |= static_cast<unsigned>(_mm256_movemask_ps(near)) << k;
+    const __m256 both = _mm256_and_ps(_mm256_cmp_ps(dx * dx + dy * dy + dz * dz, within * within, _CMP_LE_OQ),
+                                      _mm256_cmp_ps(height * height, near * near, _CMP_LE_OQ));
+    any |= static_cast<unsigned>(_mm256_movemask_ps(both)) << k;
   }
   return any & ((1U << triangles) - 1);
 }
@@ -181,11 +184,12 @@ WallPlane plane_of(const Surface& surface, const NodeView& view, const Surface::
   return plane;
 }
 
-void look(const Model& model, int at_surface, int cluster, const ClusterPose& pose, const Field<3>& now,
-          const NodeView& view, bool passes, NodeWalls& walls) {
+void look(const Model& model, int at_surface, int cluster, const ClusterPose& pose, StepEnd end, const NodeView& view,
+          bool passes, NodeWalls& walls) {
+  const Field<3>& now = end == StepEnd::before ? pose.before : pose.after;
   const Surface& surface = *model.surfaces[at_surface];
   const Surface::Cluster& c = surface.clusters[cluster];
-  for (unsigned left = may_meet(pose, c.triangles, view); left != 0; left &= left - 1) {
+  for (unsigned left = may_meet(pose, end, c.triangles, view); left != 0; left &= left - 1) {
     const int triangle = c.first_triangle + std::countr_zero(left);
     const Surface::Triangle& t = surface.triangles[triangle];
     SeenTriangle sight;

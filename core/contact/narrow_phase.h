@@ -11,6 +11,8 @@ namespace ostium::core {
 
 inline double norm(const V3<double>& v) { return std::sqrt(dot(v, v)); }
 
+enum class StepEnd { before, after };
+
 /// A node as a ball, at the beginning or the end of the step.
 struct NodeView {
   V3<double> centre;
@@ -46,9 +48,9 @@ bool see(const Surface& surface, const Surface::Cluster& c, const Surface::Trian
 WallPlane plane_of(const Surface& surface, const NodeView& view, const Surface::Triangle& t, const ClusterPose& pose,
                    const Field<3>& now, const SeenTriangle& sight);
 
-/// Adds the planes of a cluster's triangles within reach, with corners at `now`; `passes`: ignores its door.
-void look(const Model& model, int at_surface, int cluster, const ClusterPose& pose, const Field<3>& now,
-          const NodeView& view, bool passes, NodeWalls& walls);
+/// Adds the planes of a cluster's triangles within reach at one end of the step; `passes`: ignores its door.
+void look(const Model& model, int at_surface, int cluster, const ClusterPose& pose, StepEnd end, const NodeView& view,
+          bool passes, NodeWalls& walls);
 
 /// After the last look: joins soft walls and removes walls seen from behind.
 void sum_up(const NodeView& view, NodeWalls& walls);

@@ -3,10 +3,12 @@
 #include <vector>
 
 #include "core/math/field.h"
+#include "core/wall/pose.h"
 
 namespace ostium::core {
 
-inline constexpr int max_planes = 6;  ///< per node
+inline constexpr int max_planes = 6;   ///< per node
+inline constexpr int query_nodes = 8;  ///< neighbours whose walls are looked for together
 
 /// A wall near a node, as a plane that moves with the wall: normal . r >= place.
 struct WallPlane {
@@ -53,8 +55,9 @@ struct RodContact {
 
 struct ContactScratch {
   std::vector<NodeWalls> walls;  ///< (#nodes)
-  Field<1> travel;               ///< m, (#nodes): how far a node may move without checking for further walls
+  Field<3> expected;             ///< m, (#nodes): where a node was expected to go when its walls were looked for
   int changes = 0;               ///< changes of ties since the last linearisation
+  int settling = 0;              ///< ... and since the planes last changed
   std::vector<char> changed;     ///< (#nodes): changed by continuous collision
   int same = 0;                  ///< elements at either end that the last change of ties left unchanged
   Field<6> free_compliance;      ///< (#nodes), compliance without walls
@@ -71,6 +74,7 @@ struct ContactScratch {
   std::vector<double> rod_shares;  ///< (#nodes): total share of rod contacts
   // --- queries
   std::vector<int> clusters;
+  std::vector<LeafList> leaves;  ///< [block of nodes][surface]
 };
 
 }  // namespace ostium::core

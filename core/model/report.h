@@ -47,11 +47,24 @@ struct RodTouch {
   Eigen::Vector3d force_W_N;          ///< on `rod`; the other gets the opposite
 };
 
+/// What a step cost, in counts that are the same on every machine.
+struct StepCounts {
+  int iterations = 0;  ///< of Newton's method, over all strands and parts
+  int solves = 0;      ///< linear solves, the first of each iteration included
+  int eliminated = 0;  ///< elements that these eliminated
+  int changes = 0;     ///< rounds in which ties to walls were changed
+  int flips = 0;       ///< ties that were changed
+  int clusters = 0;    ///< pieces of wall whose positions were computed
+  int halvings = 0;    ///< of the step, since a part of it had no solution
+  int retries = 0;     ///< from rest
+};
+
 struct StepReport {
   std::vector<RodReport> rods;  ///< reused between steps by the caller; sized at the first step
   std::vector<Touch> touches;   ///< at walls, by rod and node
   std::vector<RodTouch> rod_touches;
   std::uint32_t trouble = 0;  ///< of all rods
+  StepCounts counts;
 };
 
 }  // namespace ostium::core

@@ -26,14 +26,15 @@ void resize_contact(const Model& model, int elements, ContactScratch& c) {
   c.walls.resize(nodes);
   c.rubs.resize(nodes);
   c.changed.resize(nodes);
-  for (Field<1>* f : {&c.travel, &c.stiffness}) f->resize(nodes);
-  for (Field<3>* f : {&c.along, &c.across, &c.from, &c.anchor, &c.ahead, &c.anchor_push, &c.ahead_push})
+  c.stiffness.resize(nodes);
+  for (Field<3>* f : {&c.expected, &c.along, &c.across, &c.from, &c.anchor, &c.ahead, &c.anchor_push, &c.ahead_push})
     f->resize(nodes);
   c.free_compliance.resize(nodes);
   c.free_target.resize(nodes);
   std::size_t clusters = 0;
   for (const auto& surface : model.surfaces) clusters = std::max(clusters, surface->clusters.size());
   c.clusters.reserve(clusters);
+  c.leaves.resize(model.surfaces.size() * static_cast<std::size_t>(nodes / query_nodes + 1));
 }
 
 void resize_layer(int elements, int own_nodes, Layer& l) {

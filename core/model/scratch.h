@@ -2,8 +2,10 @@
 /// Working memory of a step. May be destroyed or recreated between any two steps.
 #include <vector>
 
+#include "core/base/phase_clock.h"
 #include "core/model/model.h"
 #include "core/model/nest_scratch.h"
+#include "core/model/report.h"
 #include "core/wall/pose.h"
 
 namespace ostium::core {
@@ -32,6 +34,8 @@ struct Scratch {
   double step_s = 0;                  ///< of this step, or of the part being attempted
   std::vector<SurfacePose> surfaces;  ///< one per surface
   TridiagonalFactors factors;
+  StepCounts counts;            ///< of this step
+  PhaseClock* clock = nullptr;  ///< counts the time of phases (step/phases.h), if there is one
 };
 
 }  // namespace ostium::core

@@ -17,6 +17,7 @@
 #include "core/rod/relaxation.h"
 #include "core/rod/stretch.h"
 #include "core/step/finish.h"
+#include "core/step/phases.h"
 
 namespace ostium::core {
 
@@ -84,6 +85,7 @@ void creep_all(const Model& model, const Scratch& scratch, State& state) {
 }
 
 void meet_walls(const Model& model, const Inputs& inputs, Piece piece, Scratch& scratch) {
+  const InPhase phase(scratch.clock, finding_walls);
   move_walls(model, inputs, piece.from, piece.to, scratch);
   for (const Strand& strand : scratch.strands) {
     guess_nodes(*strand.own, *strand.s);
@@ -121,11 +123,15 @@ void predict(const Model& model, const State& state, Scratch& scratch, const Str
     find_slides(model, state, *strand.nest);
   }
   guess_nodes(*strand.own, s);
-  expect_touches(model, strand, scratch);
+  {
+    const InPhase phase(scratch.clock, changing_ties);
+    expect_touches(model, strand, scratch);
+  }
   constrain(model, scratch, strand);
 }
 
-void linearise(const State& state, const Strand& strand) {
+void linearise(const State& state, const Strand& strand, PhaseClock* clock) {
+  const InPhase phase(clock, linearising);
   RodScratch& s = *strand.s;
   if (strand.nest)
     linearise_layers(state, *strand.nest);
@@ -146,13 +152,30 @@ bool is_near(const RodScratch& s) {
   return s.chain.definite && largest_turn(s.inside, s.chain) <= tolerances::max_turn_rad;
 }
 
+/// Solves a whole chain, and another one beside it if there is one.
+void solve_first(BlockTridiagonal& chain, BlockTridiagonal* second, Scratch& scratch) {
+  const InPhase phase(scratch.clock, first_solving);
+  scratch.counts.solves += second ? 2 : 1;
+  scratch.counts.eliminated += chain.elements - chain.first + (second ? second->elements - second->first : 0);
+  solve(chain, second, scratch.factors);
+}
+
+/// Solves a chain again whose ties were changed, except in `same` elements at either end.
+void solve_later(BlockTridiagonal& chain, int same, Scratch& scratch) {
+  const InPhase phase(scratch.clock, later_solving);
+  ++scratch.counts.solves;
+  scratch.counts.eliminated += std::max(0, chain.elements - chain.first - 2 * same);
+  solve_again(chain, same, scratch.factors);
+}
+
 /// Solves a strand in contact until its ties are those that push.
 void solve_held(const Model& model, const Strand& strand, Scratch& scratch) {
-  strand.contact->changes = 0;
+  strand.contact->changes = strand.contact->settling = 0;
   BlockTridiagonal& chain = strand.s->chain;
-  solve(chain, nullptr, scratch.factors);
+  solve_first(chain, nullptr, scratch);
+  const InPhase phase(scratch.clock, changing_ties);
   while (is_near(*strand.s) && change_walls(model, strand, scratch))
-    solve_again(chain, strand.contact->same, scratch.factors);
+    solve_later(chain, strand.contact->same, scratch);
 }
 
 /// Solves strands that have not converged; single rods without walls two at a time, since a register holds two.
@@ -166,16 +189,16 @@ void solve_open(const Model& model, Scratch& scratch) {
     } else if (!waiting) {
       waiting = &s;
     } else {
-      solve(waiting->chain, &s.chain, scratch.factors);
+      solve_first(waiting->chain, &s.chain, scratch);
       waiting = nullptr;
     }
   }
-  if (waiting) solve(waiting->chain, nullptr, scratch.factors);
+  if (waiting) solve_first(waiting->chain, nullptr, scratch);
 }
 
-void take_solution(const Strand& strand, RodReport& report) {
+void take_solution(const Strand& strand, RodReport& report, StepCounts& counts) {
   RodScratch& s = *strand.s;
-  ++report.iterations;
+  ++report.iterations, ++counts.iterations;
   // A rod loaded beyond buckling within a step would be solved onto the ridge between its buckling directions.
   if (!s.chain.definite && s.geometric == GeometricStiffness::with) {
     s.geometric = GeometricStiffness::without;
@@ -203,10 +226,10 @@ bool any(const Scratch& scratch, Progress progress) {
 void iterate(const Model& model, const State& state, Scratch& scratch, StepReport& report) {
   for (int i = 0; i < tolerances::max_newton_iterations && any(scratch, Progress::open); ++i) {
     for (const Strand& strand : scratch.strands)
-      if (strand.s->progress == Progress::open) linearise(state, strand);
+      if (strand.s->progress == Progress::open) linearise(state, strand, scratch.clock);
     solve_open(model, scratch);
     for (const Strand& strand : scratch.strands)
-      if (strand.s->progress == Progress::open) take_solution(strand, report.rods[strand.lead]);
+      if (strand.s->progress == Progress::open) take_solution(strand, report.rods[strand.lead], scratch.counts);
   }
 }
 
@@ -246,6 +269,7 @@ void retry_from_rest(const Model& model, const State& state, Scratch& scratch, S
         continue;
       }
       again = true;
+      ++scratch.counts.retries;
       report.rods[strand.lead].trouble |= motion_lost;
       halt(s.inside, *strand.own);
       s.step_s = share * scratch.step_s;
@@ -283,6 +307,7 @@ void advance(const Model& model, const Inputs& inputs, Piece piece, State& state
   iterate(model, state, scratch, report);
   settle_rod_contacts(model, state, scratch, report);
   if (!model.surfaces.empty() && !piece.is_least() && !all_done(model, scratch)) {
+    ++scratch.counts.halvings;
     take_drives_back(scratch, state);
     rescale_histories(model, 0.5, state);
     advance(model, inputs, piece.first_half(), state, scratch, report);
@@ -291,6 +316,7 @@ void advance(const Model& model, const Inputs& inputs, Piece piece, State& state
     return;
   }
   retry_from_rest(model, state, scratch, report);
+  const InPhase phase(scratch.clock, finishing);
   finish_all(model, piece.halvings > 0, state, scratch, report);
 }
 
@@ -298,13 +324,18 @@ void advance(const Model& model, const Inputs& inputs, Piece piece, State& state
 
 void step(const Model& model, const Inputs& inputs, State& state, Scratch& scratch, StepReport& report) {
   assert(fits(model, inputs, state, scratch));
+  const InPhase phase(scratch.clock, predicting);
   make_room(model, report);
+  scratch.counts = {};
+  for (SurfacePose& surface : scratch.surfaces) surface.posed = 0;
   for (std::size_t r = 0; r < model.rods.size(); ++r) {
     report.rods[r] = {};
     scratch.rods[r].inputs = limited(inputs.rods[r], report.rods[r].trouble);
   }
   advance(model, inputs, {}, state, scratch, report);
   creep_all(model, scratch, state);
+  for (const SurfacePose& surface : scratch.surfaces) scratch.counts.clusters += surface.posed;
+  report.counts = scratch.counts;
   report.trouble = 0;
   for (const RodReport& rod : report.rods) report.trouble |= rod.trouble;
   ++state.step;

@@ -51,22 +51,33 @@ void place(const Surface& surface, const Surface::Cluster& c, const SurfaceMomen
   }
 }
 
-/// Bounding box of the corners over the step, and their largest displacement.
+V3<Lanes> all(const V3<double>& a) { return {Lanes{} + a.x, Lanes{} + a.y, Lanes{} + a.z}; }
+
+/// Bounding box of the corners at the beginning of the step, and how they move.
 void bound(int corners, ClusterPose& c) {
-  V3<Lanes> low = splat<Lanes>(1e9) * V3<Lanes>{Lanes{} + 1, Lanes{} + 1, Lanes{} + 1}, high = V3<Lanes>{} - low;
-  Lanes move2{};
+  V3<Lanes> low = all({1e9, 1e9, 1e9}), high = V3<Lanes>{} - low, after_low = low, after_high = high;
+  const auto take = [](const auto& p, V3<Lanes>& lower, V3<Lanes>& upper) {
+    lower = {least(lower.x, Lanes{} + p.x), least(lower.y, Lanes{} + p.y), least(lower.z, Lanes{} + p.z)};
+    upper = {largest(upper.x, Lanes{} + p.x), largest(upper.y, Lanes{} + p.y), largest(upper.z, Lanes{} + p.z)};
+  };
   for_packs(0, corners, [&]<class T>(T, int i) {
-    const V3<T> p = load3<T>(c.before, i), q = load3<T>(c.after, i), move = q - p;
-    const auto all = [](T x) { return Lanes{} + x; };
-    low = {least(low.x, all(least(p.x, q.x))), least(low.y, all(least(p.y, q.y))), least(low.z, all(least(p.z, q.z)))};
-    high = {largest(high.x, all(largest(p.x, q.x))), largest(high.y, all(largest(p.y, q.y))),
-            largest(high.z, all(largest(p.z, q.z)))};
-    move2 = largest(move2, all(dot(move, move)));
+    take(load3<T>(c.before, i), low, high), take(load3<T>(c.after, i), after_low, after_high);
   });
-  const auto lowest = [](Lanes x) { return -horizontal_max(-x); };
-  c.low = {lowest(low.x), lowest(low.y), lowest(low.z)};
-  c.high = {horizontal_max(high.x), horizontal_max(high.y), horizontal_max(high.z)};
-  c.largest_move = std::sqrt(horizontal_max(move2));
+  const auto lowest = [](const V3<Lanes>& a) {
+    return V3<double>{-horizontal_max(-a.x), -horizontal_max(-a.y), -horizontal_max(-a.z)};
+  };
+  const auto highest = [](const V3<Lanes>& a) {
+    return V3<double>{horizontal_max(a.x), horizontal_max(a.y), horizontal_max(a.z)};
+  };
+  c.low = lowest(low), c.high = highest(high);
+  c.move.drift = 0.5 * (lowest(after_low) + highest(after_high) - c.low - c.high);
+  Lanes beside2{};
+  for_packs(0, corners, [&]<class T>(T, int i) {
+    const V3<T> drift{T{} + c.move.drift.x, T{} + c.move.drift.y, T{} + c.move.drift.z},
+        beside = load3<T>(c.after, i) - load3<T>(c.before, i) - drift;
+    beside2 = largest(beside2, Lanes{} + dot(beside, beside));
+  });
+  c.move.spread = std::sqrt(horizontal_max(beside2));
 }
 
 void wrap(const Surface& surface, const Surface::Cluster& cluster, ClusterPose& c) {
@@ -87,12 +98,17 @@ void wrap(const Surface& surface, const Surface::Cluster& cluster, ClusterPose& 
     const V3<T> a = corner(0), b = corner(1), d = corner(2), centre = (T{} + 1.0 / 3) * (a + b + d);
     const auto from = [&](const V3<T>& p) { return dot(p - centre, p - centre); };
     store(to.x + k, centre.x), store(to.y + k, centre.y), store(to.z + k, centre.z);
-    store(to.radius + k, square_root(largest(from(a), largest(from(b), from(d)))) + c.largest_move);
+    store(to.radius + k, square_root(largest(from(a), largest(from(b), from(d)))));
     const V3<T> out = cross(b - a, d - a);
     const V3<T> normal = ((T{} + 1) / square_root(largest(dot(out, out), T{} + smallest_area2))) * out;
     store(to.normal_x + k, normal.x), store(to.normal_y + k, normal.y), store(to.normal_z + k, normal.z);
     store(to.height + k, dot(normal, a));
   });
+}
+
+/// Whether its pose of this step has been computed.
+bool is_known(const Surface::Cluster& described, const ClusterPose& c, const SurfacePose& pose) {
+  return c.computed == pose.step || (described.stands_still && c.computed >= pose.stands_since);
 }
 
 }  // namespace
@@ -119,12 +135,132 @@ void set_motion(const Surface& surface, const SurfaceMotion& motion, SurfacePose
   if (!stays(pose.before, pose.after)) pose.stands_since = pose.step + 1;
 }
 
+namespace {
+
+constexpr double unknown_m = 1;  ///< a bound on what cannot be told cheaply
+
+/// A box with x, y, z in the first three places.
+struct Mix {
+  __m128 low, high;
+
+  V3<double> lowest() const { return {low[0], low[1], low[2]}; }
+  V3<double> highest() const { return {high[0], high[1], high[2]}; }
+};
+
+/// Around the corners of a leaf of the tree at a moment: boxes are mixed as positions are. Its middle is the mixed
+/// middle.
+Mix mixed(const FrameBounds* frames, int node, const SurfaceMoment& m, const Surface& surface) {
+  const __m128 shift = _mm_setr_ps(static_cast<float>(m.shift_W[0]), static_cast<float>(m.shift_W[1]),
+                                   static_cast<float>(m.shift_W[2]), 0);
+  Mix sum{shift, shift};
+  const auto add = [&sum](double weight, const float* low_end, const float* high_end) {
+    const __m128 w = _mm_set1_ps(static_cast<float>(weight)), low = _mm_mul_ps(w, _mm_loadu_ps(low_end)),
+                 high = _mm_mul_ps(w, _mm_loadu_ps(high_end));
+    sum.low = _mm_add_ps(sum.low, _mm_min_ps(low, high)), sum.high = _mm_add_ps(sum.high, _mm_max_ps(low, high));
+  };
+  for (int j = 0; j < 4; ++j) {
+    const float* first = reinterpret_cast<const float*>(&frames[j].box);
+    add(m.weight[j], first, first + 3);
+  }
+  if (m.sway != 0) {
+    const Box& box = surface.sway_boxes[node];
+    const float low[4] = {box.low[0], box.low[1], box.low[2], 0}, high[4] = {box.high[0], box.high[1], box.high[2], 0};
+    add(m.sway, low, high);
+  }
+  return sum;
+}
+
+/// Half the diagonal of a box.
+double half_size(const Box& box) {
+  double sum2 = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double size = box.high[axis] - box.low[axis];
+    sum2 += size * size;
+  }
+  return std::sqrt(sum2) / 2;
+}
+
+}  // namespace
+
+RoughPose rough_pose(const Surface& surface, int node, const V3<double>& low, const V3<double>& high,
+                     const SurfacePose& pose) {
+  const int cluster = surface.nodes[node].cluster;
+  const ClusterPose& known = pose.clusters[cluster];
+  if (is_known(surface.clusters[cluster], known, pose)) return {known.low, known.high, known.move};
+  const SurfaceMoment &a = pose.before, &b = pose.after;
+  const Surface::Cluster& described = surface.clusters[cluster];
+  if (described.stands_still || a.interval != b.interval) return {low, high, {{}, unknown_m}};
+  constexpr double rounding_m = 2e-6;  // of single precision, a metre from the origin
+  const FrameBounds* frames = surface.bounds_of(cluster, a.interval);
+  const Mix before = mixed(frames, node, a, surface), after = mixed(frames, node, b, surface);
+  RoughPose rough{before.lowest(), before.highest(), {}};
+  rough.move.drift = 0.5 * (after.lowest() + after.highest() - rough.low - rough.high);
+  double share = 0;
+  rough.move.spread = rounding_m;
+  for (int j = 3; j > 0; --j) {
+    share += b.weight[j] - a.weight[j];
+    rough.move.spread += std::fabs(share) * frames[j - 1].spread_m;
+  }
+  if (b.sway != a.sway) rough.move.spread += std::fabs(b.sway - a.sway) * half_size(surface.sway_boxes[node]);
+  const V3<double> margin{rounding_m, rounding_m, rounding_m};
+  rough.low = rough.low - margin, rough.high = rough.high + margin;
+  return rough;
+}
+
+namespace {
+
+bool lies_within(const V3<double>& low, const V3<double>& high, const LeafList& list, double margin_m) {
+  return low.x >= list.low.x + margin_m && low.y >= list.low.y + margin_m && low.z >= list.low.z + margin_m &&
+         high.x <= list.high.x - margin_m && high.y <= list.high.y - margin_m && high.z <= list.high.z - margin_m;
+}
+
+/// How far the sway has carried any corner beyond what the list was made for, m.
+double swayed_m(const Surface& surface, const SurfacePose& pose, const LeafList& list) {
+  const double low = std::min(pose.before.sway, pose.after.sway), high = std::max(pose.before.sway, pose.after.sway),
+               beyond = std::max({0.0, list.sway_low - low, high - list.sway_high});
+  if (beyond == 0) return 0;
+  const Box& all = surface.sway_boxes[0];
+  double most2 = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double most = std::max(std::fabs(all.low[axis]), std::fabs(all.high[axis]));
+    most2 += most * most;
+  }
+  return beyond * std::sqrt(most2);
+}
+
+}  // namespace
+
+bool renew(const Surface& surface, const V3<double>& low, const V3<double>& high, const SurfacePose& pose,
+           LeafList& list) {
+  constexpr double margin_m = 1e-3, rounding_m = 1e-6;
+  const SurfaceMoment &a = pose.before, &b = pose.after;
+  if (a.interval != b.interval || a.shift_W != b.shift_W) return false;
+  if (list.interval == a.interval && list.edits == surface.edits && list.shift_W == a.shift_W &&
+      lies_within(low, high, list, swayed_m(surface, pose, list) + rounding_m))
+    return true;
+  const V3<double> margin{margin_m, margin_m, margin_m}, shift{a.shift_W[0], a.shift_W[1], a.shift_W[2]};
+  list.low = low - margin, list.high = high + margin;
+  list.sway_low = std::min(a.sway, b.sway), list.sway_high = std::max(a.sway, b.sway);
+  list.edits = surface.edits, list.shift_W = a.shift_W;
+  list.leaves.clear();
+  bool all = true;
+  const Box* over_interval = &surface.boxes[std::size_t{1} * a.interval * surface.nodes.size()];
+  visit_leaves(surface, a.interval, StepBoxes(surface, pose), BoxQuery(list.low - shift, list.high - shift),
+               [&](int n, const BoxEnds&) {
+                 all = all && list.leaves.size() < LeafList::most;
+                 if (all) list.leaves.push_back({over_interval[n], n});
+               });
+  list.interval = all ? a.interval : -1;
+  return all;
+}
+
 const ClusterPose& pose_of(const Surface& surface, int cluster, SurfacePose& pose) {
   ClusterPose& c = pose.clusters[cluster];
   const Surface::Cluster& described = surface.clusters[cluster];
-  if (c.computed == pose.step || (described.stands_still && c.computed >= pose.stands_since)) return c;
+  if (is_known(described, c, pose)) return c;
   const bool known = pose.goes_on && c.computed == pose.step - 1;
   c.computed = pose.step;
+  ++pose.posed;
   if (known)
     std::swap(c.before, c.after);
   else

@@ -20,21 +20,35 @@ struct SurfaceMoment {
   bool operator==(const SurfaceMoment&) const = default;
 };
 
-/// Rough bounds of a cluster's triangles during a step, for a first test of eight at a time. Relative to `low` of the
-/// cluster's box, m.
+/// Rough bounds of a cluster's triangles at the beginning of a step, for a first test of eight at a time. Relative to
+/// `low` of the cluster's box, m.
 struct TriangleBounds {
   float x[cluster_size], y[cluster_size], z[cluster_size], radius[cluster_size];  ///< bounding ball of each
-  /// Plane of each at the beginning of the step: unit normal n, and n.p of its points p.
+  /// Plane of each: unit normal n, and n.p of its points p.
   float normal_x[cluster_size], normal_y[cluster_size], normal_z[cluster_size], height[cluster_size];
+};
+
+/// How a cluster's corners move during the step, m: all by `drift`, and each by at most `spread` beside that. What moves
+/// along with a wall stays as far from it as it was, however far both go.
+struct ClusterDrift {
+  V3<double> drift;
+  double spread = 0;
 };
 
 /// A cluster during the step, m.
 struct ClusterPose {
-  V3<double> low, high;     ///< box of its corners during the step
-  double largest_move = 0;  ///< of a corner during the step
-  Field<3> before, after;   ///< (#corners)
+  V3<double> low, high;  ///< box of its corners at the beginning of the step
+  ClusterDrift move;
+  Field<3> before, after;  ///< (#corners)
   TriangleBounds bounds{};
   long computed = -1;  ///< step for which it was computed
+};
+
+/// Where a cluster lies, without computing its corners: a box around them at the beginning of the step, and how they
+/// move, at most.
+struct RoughPose {
+  V3<double> low, high;
+  ClusterDrift move;
 };
 
 struct SurfacePose {
@@ -45,6 +59,7 @@ struct SurfacePose {
   std::vector<long> listed;  ///< per cluster: last query that listed it
   long step = 0, query = 0, edits = -1;
   long stands_since = 0;  ///< the step since which parts that stand still in the cycle have not moved
+  int posed = 0;  ///< clusters whose pose was computed since this was set to 0
   bool door_open = false;
   bool goes_on = false;  ///< this step begins where the last one ended, on the same surface
 };
@@ -78,49 +93,115 @@ struct BoxQuery {
   }
 };
 
-/// Clusters that may touch a box during the step and whose own box over the step satisfies near(low, high): writes
-/// their numbers to `found`, in a fixed order.
+/// Leaves of a surface's tree near a box that is larger than what a query needs, kept for queries of later steps. What a
+/// query finds does not depend on it.
+struct LeafList {
+  static constexpr std::size_t most = 192;
+  struct Leaf {
+    Box box;  ///< over the interval
+    int node;
+  };
+  V3<double> low, high;  ///< the box that was searched; its leaves are all here
+  int interval = -1;     ///< -1: nothing is kept
+  long edits = 0;
+  double sway_low = 0, sway_high = 0;
+  Eigen::Vector3d shift_W = Eigen::Vector3d::Zero();
+  std::vector<Leaf> leaves;
+
+  LeafList() { leaves.reserve(most); }
+};
+
+/// The boxes of the tree at both ends of a step: those of an interval, extended by how far their corners may sway.
+class StepBoxes {
+ public:
+  StepBoxes(const Surface& surface, const SurfacePose& pose)
+      : surface_(surface), sways_(pose.before.sway != 0 || pose.after.sway != 0) {
+    least_ = _mm_set1_ps(static_cast<float>(std::min(pose.before.sway, pose.after.sway)));
+    most_ = _mm_set1_ps(static_cast<float>(std::max(pose.before.sway, pose.after.sway)));
+  }
+  BoxEnds of(int node, const Box& over_interval) const {
+    BoxEnds box = BoxEnds::of(over_interval);
+    if (!sways_) return box;
+    const auto [low_by, high_by] = BoxEnds::of(surface_.sway_boxes[node]);
+    const __m128 down = _mm_cmplt_ps(low_by, _mm_setzero_ps()), up = _mm_cmpgt_ps(high_by, _mm_setzero_ps());
+    box.low = _mm_add_ps(box.low, _mm_mul_ps(low_by, _mm_blendv_ps(least_, most_, down)));
+    box.high = _mm_add_ps(box.high, _mm_mul_ps(high_by, _mm_blendv_ps(least_, most_, up)));
+    return box;
+  }
+
+ private:
+  const Surface& surface_;
+  bool sways_;
+  __m128 least_, most_;
+};
+
+/// Calls visit(node, box) for the leaves that a box may touch during an interval, depth first.
+template <class Visit>
+void visit_leaves(const Surface& surface, int interval, const StepBoxes& boxes, const BoxQuery& query, Visit&& visit) {
+  const int nodes = static_cast<int>(surface.nodes.size());
+  const Box* over_interval = &surface.boxes[std::size_t{1} * interval * nodes];
+  for (int n = 0; n < nodes;) {
+    const BoxEnds box = boxes.of(n, over_interval[n]);
+    const Surface::Node& node = surface.nodes[n];
+    if (query.misses(box)) {
+      n = node.skip;
+      continue;
+    }
+    if (node.cluster >= 0) visit(n, box);
+    ++n;
+  }
+}
+
+/// Clusters that may touch a box during the step and satisfy near(node, low, high) as leaves of the tree, with their own
+/// box over the interval between frames: writes their numbers to `found`, in a fixed order.
 template <class Near>
 void find_clusters(const Surface& surface, const V3<double>& low, const V3<double>& high, SurfacePose& pose,
                    std::vector<int>& found, Near&& near) {
   found.clear();
   ++pose.query;
-  const int nodes = static_cast<int>(surface.nodes.size());
-  // Boxes are extended by how far their corners may sway during the step; usually there is none.
-  const bool sways = pose.before.sway != 0 || pose.after.sway != 0;
-  const __m128 least = _mm_set1_ps(static_cast<float>(std::min(pose.before.sway, pose.after.sway))),
-               most = _mm_set1_ps(static_cast<float>(std::max(pose.before.sway, pose.after.sway)));
-  const auto sway = [&](int n, BoxEnds& b) {
-    const auto [low_by, high_by] = BoxEnds::of(surface.sway_boxes[n]);
-    const __m128 down = _mm_cmplt_ps(low_by, _mm_setzero_ps()), up = _mm_cmpgt_ps(high_by, _mm_setzero_ps());
-    b.low = _mm_add_ps(b.low, _mm_mul_ps(low_by, _mm_blendv_ps(least, most, down)));
-    b.high = _mm_add_ps(b.high, _mm_mul_ps(high_by, _mm_blendv_ps(least, most, up)));
-  };
+  const StepBoxes boxes(surface, pose);
   for (const SurfaceMoment* m : {&pose.before, &pose.after}) {
     if (m == &pose.after && m->interval == pose.before.interval && m->shift_W == pose.before.shift_W) break;
-    const Box* boxes = &surface.boxes[std::size_t{1} * m->interval * nodes];
     const V3<double> shift{m->shift_W[0], m->shift_W[1], m->shift_W[2]};
-    const BoxQuery query(low - shift, high - shift);
-    for (int n = 0; n < nodes;) {
-      BoxEnds box = BoxEnds::of(boxes[n]);
-      if (sways) sway(n, box);
-      const Surface::Node& node = surface.nodes[n];
-      if (query.misses(box)) {
-        n = node.skip;
-        continue;
-      }
-      ++n;
-      if (node.cluster < 0 || pose.listed[node.cluster] == pose.query) continue;
-      if (!near(shift + box.lowest(), shift + box.highest())) continue;
-      pose.listed[node.cluster] = pose.query;
-      found.push_back(node.cluster);
-    }
+    visit_leaves(surface, m->interval, boxes, BoxQuery(low - shift, high - shift), [&](int n, const BoxEnds& box) {
+      const int cluster = surface.nodes[n].cluster;
+      if (pose.listed[cluster] == pose.query || !near(n, shift + box.lowest(), shift + box.highest())) return;
+      pose.listed[cluster] = pose.query;
+      found.push_back(cluster);
+    });
   }
 }
 inline void find_clusters(const Surface& surface, const V3<double>& low, const V3<double>& high, SurfacePose& pose,
                           std::vector<int>& found) {
-  find_clusters(surface, low, high, pose, found, [](const V3<double>&, const V3<double>&) { return true; });
+  find_clusters(surface, low, high, pose, found, [](int, const V3<double>&, const V3<double>&) { return true; });
 }
+
+/// Makes `list` hold every leaf that the box may touch in this step. False if it cannot: the step passes from one
+/// interval to the next or shifts the wall, or there are too many.
+bool renew(const Surface& surface, const V3<double>& low, const V3<double>& high, const SurfacePose& pose,
+           LeafList& list);
+
+/// The same as find_clusters, bit for bit, mostly without a walk through the tree.
+template <class Near>
+void find_clusters_again(const Surface& surface, const V3<double>& low, const V3<double>& high, SurfacePose& pose,
+                         LeafList& list, std::vector<int>& found, Near&& near) {
+  if (!renew(surface, low, high, pose, list)) return find_clusters(surface, low, high, pose, found, near);
+  found.clear();
+  const StepBoxes boxes(surface, pose);
+  const V3<double> shift{list.shift_W[0], list.shift_W[1], list.shift_W[2]};
+  const BoxQuery query(low - shift, high - shift);
+  for (const LeafList::Leaf& leaf : list.leaves) {
+    const BoxEnds box = boxes.of(leaf.node, leaf.box);
+    if (!query.misses(box) && near(leaf.node, shift + box.lowest(), shift + box.highest()))
+      found.push_back(surface.nodes[leaf.node].cluster);
+  }
+}
+
+/// The rough pose, in this step, of the cluster at a leaf of the tree whose box over the interval is `low` to `high`;
+/// the exact one if that is known already. Of a cluster that stands still, or between two intervals, only the box is
+/// known.
+RoughPose rough_pose(const Surface& surface, int node, const V3<double>& low, const V3<double>& high,
+                     const SurfacePose& pose);
 
 /// A cluster's pose in this step, computed if needed.
 const ClusterPose& pose_of(const Surface& surface, int cluster, SurfacePose& pose);

@@ -56,6 +56,7 @@ void SurfaceEditor::refit() {
     if (surface_.nodes[n].cluster < 0) continue;
     Surface::Cluster& c = surface_.clusters[surface_.nodes[n].cluster];
     c.stands_still = stands_still(surface_, c);
+    bound_frames(surface_.nodes[n].cluster, surface_);
   }
   if (!pending_.empty()) ++surface_.edits;
   pending_.clear();

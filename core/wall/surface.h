@@ -37,6 +37,13 @@ struct Box {
   std::array<float, 3> low, high;
 };
 
+/// Bounds of a cluster's corners in one frame of the cycle.
+struct FrameBounds {
+  Box box;
+  float spread_m = 0;  ///< farthest that a corner moves to the next frame beside what the box's middle moves
+  float unused = 0;    ///< one register's size
+};
+
 struct Surface {
   struct Cluster {
     int first_triangle = 0, triangles = 0;
@@ -66,6 +73,8 @@ struct Surface {
   std::vector<Node> nodes;
   std::vector<Box, OnHugePages<Box>> boxes;  ///< [interval][node]
   std::vector<Box> sway_boxes;               ///< [node], of displacements; empty: it does not sway
+  /// [cluster][frame - 1 to frames + 1]: those of an interval are side by side. For clusters that move in the cycle.
+  std::vector<FrameBounds, OnHugePages<FrameBounds>> frame_bounds;
   double stiffness_N_m2 = 0, friction = 0, door_passes_m = 0;
   int largest_cluster = 0;  ///< in corners
   long edits = 0;           ///< number of changes by a SurfaceEditor
@@ -79,6 +88,10 @@ struct Surface {
     return std::size_t{3} * c.first_corner + std::size_t{1} * axis * c.corners;
   }
   bool sways() const { return !corner_sway.empty(); }
+  /// Bounds in the four frames from which positions of an interval are made.
+  const FrameBounds* bounds_of(int cluster, int interval) const {
+    return &frame_bounds[std::size_t{1} * cluster * (frames + 3) + interval];
+  }
 };
 
 /// Throws std::invalid_argument if there is no triangle or frame, a triangle names a missing vertex, frames differ in

@@ -1,6 +1,7 @@
 #include "core/wall/surface_boxes.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace ostium::core {
@@ -35,6 +36,36 @@ bool stands_still(const Surface& surface, const Surface::Cluster& c) {
       if (!std::equal(first, first + c.corners, &surface.corner_frames[surface.row(c, frame, axis)])) return false;
   }
   return true;
+}
+
+void bound_frames(int cluster, Surface& surface) {
+  constexpr float rounding = 1e-6f;
+  const Surface::Cluster& c = surface.clusters[cluster];
+  const int n = surface.frames;
+  FrameBounds* to = &surface.frame_bounds[std::size_t{1} * cluster * (n + 3)] + 1;
+  for (int f = 0; f < n; ++f)
+    for (int axis = 0; axis < 3; ++axis) {
+      const float* row = &surface.corner_frames[surface.row(c, f, axis)];
+      const auto [low, high] = std::minmax_element(row, row + c.corners);
+      to[f].box.low[axis] = *low, to[f].box.high[axis] = *high;
+    }
+  for (int f = 0; f < n; ++f) {
+    const int g = (f + 1) % n;
+    float most2 = 0;
+    for (int i = 0; i < c.corners; ++i) {
+      float beside2 = 0;
+      for (int axis = 0; axis < 3; ++axis) {
+        const Box &here = to[f].box, &there = to[g].box;
+        const float drift = (there.low[axis] + there.high[axis] - here.low[axis] - here.high[axis]) / 2;
+        const float beside = surface.corner_frames[surface.row(c, g, axis) + i] -
+                             surface.corner_frames[surface.row(c, f, axis) + i] - drift;
+        beside2 += beside * beside;
+      }
+      most2 = std::max(most2, beside2);
+    }
+    to[f].spread_m = std::sqrt(most2) + rounding;
+  }
+  to[-1] = to[n - 1], to[n] = to[0], to[n + 1] = to[1 % n];
 }
 
 Box leaf_sway(const Surface& surface, const Surface::Cluster& c) {

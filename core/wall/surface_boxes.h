@@ -7,6 +7,8 @@ namespace ostium::core {
 inline int wrapped(int frame, int frames) { return ((frame % frames) + frames) % frames; }
 
 bool stands_still(const Surface& surface, const Surface::Cluster& cluster);
+/// Writes the bounds of a cluster in all frames.
+void bound_frames(int cluster, Surface& surface);
 /// Box of a cluster's displacements at a sway of 1.
 Box leaf_sway(const Surface& surface, const Surface::Cluster& cluster);
 /// Box of a node, from those of its children.

@@ -181,6 +181,8 @@ class Builder {
         Box* boxes = &out_.boxes[std::size_t{1} * k * nodes];
         boxes[n] = box_of(out_, boxes, n, k);
       }
+    out_.frame_bounds.resize(out_.clusters.size() * std::size_t{1} * (out_.frames + 3));
+    for (int c = 0; c < static_cast<int>(out_.clusters.size()); ++c) bound_frames(c, out_);
     if (!out_.sways()) return;
     out_.sway_boxes.resize(nodes);
     for (int n = nodes - 1; n >= 0; --n) {

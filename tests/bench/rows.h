@@ -12,6 +12,7 @@ struct Row {
   std::string name;
   double ms = 0;            ///< CPU time per simulated millisecond, mean
   double p999_ms = 0;       ///< its 99.9th percentile
+  double most_ms = 0;       ///< of the slowest step or frame; 0: not measured
   double yardstick_ms = 0;  ///< time of the reference implementation, if it has its own
   struct {
     std::string name;

@@ -51,7 +51,7 @@ Row vessel_pair(const std::string& name, bool quick) {
   row.ms = std::accumulate(times.begin(), times.end(), 0.0) / static_cast<double>(times.size());
   const auto nth = times.begin() + static_cast<std::ptrdiff_t>(0.999 * static_cast<double>(times.size() - 1));
   std::nth_element(times.begin(), nth, times.end());
-  row.p999_ms = *nth;
+  row.p999_ms = *nth, row.most_ms = *std::max_element(times.begin(), times.end());
   row.gate = {"contact-vessel-script", 1e3 * holding.deepest_m, "mm",
               holding.escapes == 0 && holding.deepest_m < procedure_m};
   return row;

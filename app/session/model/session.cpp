@@ -25,22 +25,8 @@ namespace {
 constexpr double wire_friction = 0.05;  // wire in a catheter: PTFE on steel, an estimate
 constexpr double tip_length_m = 0.01;   // length over which the tip force is summed
 
-/// 1 mm over the last 150 mm, growing to 4 mm.
-std::vector<double> element_lengths(double length_m) {
-  std::vector<double> from_tip;
-  double sum = 0, length = 1e-3;
-  while (sum < length_m - 1e-9) {
-    if (sum > 0.15) length = std::min(4e-3, 1.02 * length);
-    from_tip.push_back(std::min(length, length_m - sum));
-    sum += from_tip.back();
-  }
-  if (from_tip.size() > 1 && from_tip.back() < 0.5e-3)
-    from_tip[from_tip.size() - 2] += from_tip.back(), from_tip.pop_back();
-  return {from_tip.rbegin(), from_tip.rend()};
-}
-
 core::Rod rod_of(const data::Instrument& instrument) {
-  core::RodDescription d = rod_description(instrument, element_lengths(instrument.length_m));
+  core::RodDescription d = rod_description(instrument, element_lengths(instrument));
   d.damping = {0.007, 0.0035, 1e-3};  // blood, and a polymer's (section.h)
   return make_rod(d);
 }
@@ -200,6 +186,13 @@ SessionState make_state(const SessionModel& model, std::uint64_t seed) {
 
 // --- a step ----------------------------------------------------------------------------------------------------------
 
+const char* phase_name(int phase) {
+  static constexpr const char* own[] = {"heart, hands, wall", "look", "treat", "blood", "hash"};
+  constexpr int first = core::step_phases;
+  static_assert(std::size(own) == std::size_t{session_phases} - first);
+  return phase < first ? core::step_phase_names[phase] : own[phase - first];
+}
+
 SessionScratch::SessionScratch(const SessionModel& model) : now(model.rods), rods(model.rods) {
   inputs.rods.resize(model.tools.size());
   inputs.surfaces.resize(1);
@@ -306,9 +299,12 @@ void tie(const SessionModel& model, int stent, SessionState& state) {
 void treat(const SessionModel& model, const SessionInputs& inputs, bool R_wave, SessionState& state, SessionScratch& x,
            SessionReport& report) {
   const CouplingModel coupling = coupling_of(model);
-  if (state.rods.step % look_every == 0)
+  const core::InPhase phase(x.rods.clock, treating);
+  if (state.rods.step % look_every == 0) {
+    const core::InPhase look_phase(x.rods.clock, looking);
     look(coupling, state.rods, state.treatment, report.rods, state.blood.heart.phase, breath(model, state), *x.coupling,
          state.coupling);
+  }
   press_with_wire(coupling, report.rods, model.step_s(), state.coupling);
   report.treatment =
       step(model.treatment, treatment_inputs(inputs.delivery, state.coupling), model.step_s(), state.treatment,
@@ -318,6 +314,7 @@ void treat(const SessionModel& model, const SessionInputs& inputs, bool R_wave, 
   hold_balloon(coupling, state.rods, report.treatment.balloon, moment(model, state, state.rods.step), state.coupling);
   set_physiology_inputs(coupling, inputs.delivery, state.coupling, x.physiology_inputs);
   x.physiology_inputs.hyperaemia = state.treatment.drugs.adenosine;
+  const core::InPhase blood_phase(x.rods.clock, moving_blood);
   const bool blood_moves = state.blood.circulation_s + model.step_s() >= vascular::circulation_step_s * (1 - 1e-9);
   const vascular::ContrastReport contrast =
       circulate(model.physiology, x.physiology_inputs, model.step_s(), R_wave, state.blood, x.physiology);
@@ -356,6 +353,7 @@ void report_tools(const SessionModel& model, const SessionState& state, SessionR
 void step(const SessionModel& model, const SessionInputs& inputs, SessionState& state, SessionScratch& scratch,
           SessionReport& report) {
   assert(inputs.tools.size() == model.tools.size());
+  const core::InPhase phase(scratch.rods.clock, moving_heart);
   const bool R_wave = beat(model, inputs, state, scratch.inputs.surfaces[0]);
   if (scratch.wall) scratch.wall->set(state.wall_m);
   move_hands(model, inputs, state, report, scratch.inputs);

@@ -11,6 +11,7 @@
 
 #include "app/session/coupling/coupling.h"
 #include "app/session/vessel/opened_wall.h"
+#include "core/step/phases.h"
 #include "core/step/step.h"
 #include "fluoro/projection/c_arm.h"
 
@@ -133,12 +134,25 @@ std::string first_difference(const SessionModel& model, const SessionState& a, c
 
 // --- a step ----------------------------------------------------------------------------------------------------------
 
+/// The phases of a session's step that a clock tells apart, after those of core (core/step/phases.h).
+enum SessionPhase {
+  moving_heart = core::step_phases,  ///< heart, breath, hands, the wall's shape
+  looking,                           ///< where instruments lie
+  treating,                          ///< balloon, stent, plaque
+  moving_blood,                      ///< flow, contrast
+  hashing,                           ///< of the state, by whoever asks for it
+  session_phases
+};
+const char* phase_name(int phase);  ///< of core or of a session
+
 struct SessionScratch {
   explicit SessionScratch(const SessionModel& model);
   SessionScratch(const SessionScratch&) = delete;
   core::Model now;  ///< model.rods, with the current wall
   core::Scratch rods;
   core::Inputs inputs;  ///< of core
+  /// Counts the time of the phases of a step, for a profile; null: nobody does.
+  void count_time(core::PhaseClock* clock) { rods.clock = clock; }
   // For a patient.
   std::optional<OpenedWall> wall;
   std::optional<CouplingScratch> coupling;

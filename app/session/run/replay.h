@@ -21,6 +21,8 @@ class Replay {
   void go_to(double second);
   /// One step of the recording. False: there are no more.
   bool tick();
+  /// Counts the time of the phases of its steps; null: nobody does.
+  void count_time(core::PhaseClock* clock) { scratch_.count_time(clock); }
   /// The run's X-ray use so far, including before the state that was jumped to.
   const XrayUse& xrays();
 

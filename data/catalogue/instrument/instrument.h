@@ -108,6 +108,11 @@ inline bool is_catheter(const Instrument& i) {
 /// "published" if no source is an estimate, "estimate" if all are, else "mixed".
 std::string source_mark(const Instrument& instrument);
 
+/// Lengths of the elements with which a session simulates it, base first: 1 mm over its last 150 mm, from there growing
+/// to 4 mm. A catheter that stays in the aorta has 2 mm behind its last 40 mm, growing to 8 mm. No element is so long
+/// that its rest shape bends by more than 0.2 rad within it.
+std::vector<double> element_lengths(const Instrument& instrument);
+
 /// The description `core` needs. Elements run from base to tip; their sum is at most the length (the rest stays
 /// proximal to the base). Undamped: the caller sets the damping. Throws std::invalid_argument as core's `check` does.
 core::RodDescription rod_description(const Instrument& instrument, std::vector<double> element_lengths_m);
