@@ -50,6 +50,8 @@ inline constexpr double most_curved_wall_per_m = 2e4;
 inline constexpr double wall_slip_m = 20e-6;     // elastic slip of friction at a wall
 inline constexpr int quick_wall_changes = 3;     // changes of ties per linearisation before the line search starts
 inline constexpr int max_wall_changes = 60;      // changes of ties per linearisation
+inline constexpr int window_margin = 10;         // nodes beside those whose ties changed that are settled with them
+inline constexpr int longest_window = 90;        // nodes
 inline constexpr double least_descent = 1e-4;    // resolution of the line search, as a share of its direction
 inline constexpr double usable_depth_m = 20e-6;  // behind a wall that does not hold the node; see usable_stretch
 

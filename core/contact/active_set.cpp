@@ -139,47 +139,53 @@ void drop_stay(int i, WallPlane& w, ContactScratch& c) {
 namespace {
 
 bool any_wrong(const Strand& strand, const ContactScratch& c) {
-  const RodScratch& s = *strand.s;
-  for (int i = first_free(s); i <= last_free(s); ++i)
+  const auto [first, last] = settling_nodes(*strand.s, c);
+  for (int i = first; i <= last; ++i)
     for (int k = 0; k < c.walls[i].count; ++k)
       if (!c.changed[i] && is_wrong(c.walls[i].planes[k], load3<double>(c.ahead, i))) return true;
   return false;
 }
 
-/// Looks at the walls anew from where the solution leads; true if planes changed or are now behind it.
-bool see_anew(const Model& model, const Strand& strand, Scratch& scratch) {
+/// Looks at rims anew from where the solution leads; whether a tie contradicts it then.
+bool any_wrong_now(const Model& model, const Strand& strand, Scratch& scratch) {
   ContactScratch& c = *strand.contact;
-  const RodScratch& s = *strand.s;
-  const bool met = model.sweep && follow_far(model, strand, scratch);
-  for (int i = first_free(s); i <= last_free(s); ++i)
+  const auto [first, last] = settling_nodes(*strand.s, c);
+  for (int i = first; i <= last; ++i)
     if (!c.changed[i]) look_again(model, strand, i, load3<double>(c.ahead, i), scratch);
-  return met || any_wrong(strand, c);
+  return any_wrong(strand, c);
 }
 
-}  // namespace
-
-bool change_walls(const Model& model, const Strand& strand, Scratch& scratch) {
+/// Ends the settling of a window's ties: the whole chain's solution is that of its ties.
+void leave_window(const Strand& strand, Scratch& scratch) {
   ContactScratch& c = *strand.contact;
-  if (c.walls.empty() || c.changes >= tolerances::max_wall_changes) return false;
-  RodScratch& s = *strand.s;
-  std::fill(c.changed.begin(), c.changed.end(), 0);
-  look_ahead(strand);
-  // While many ties settle, the walls stay as they were seen: a trial solution leads to places that are never reached.
-  const bool settling = c.settling >= tolerances::quick_wall_changes;
-  if (!settling || !any_wrong(strand, c)) {
-    if (!see_anew(model, strand, scratch)) return false;
-    if (settling) c.settling = 0;
-  }
+  complete(strand.s->chain, scratch.factors);
+  c.window_first = c.window_last = -1;
+  c.settling = 0;
+}
 
+/// After a second change in a row in one short stretch: settles the ties there first.
+void enter_window(int first, int last, const Strand& strand, ContactScratch& c) {
+  const RodScratch& s = *strand.s;
+  first = std::max(first - tolerances::window_margin, first_free(s));
+  last = std::min(last + tolerances::window_margin, last_free(s));
+  if (c.window_first < 0 && c.changes > 1 && c.settling <= tolerances::quick_wall_changes &&
+      last - first <= tolerances::longest_window)
+    c.window_first = first, c.window_last = last;
+}
+
+/// Changes the ties that the last solution contradicts; false if none are.
+bool flip_ties(const Strand& strand, Scratch& scratch) {
+  ContactScratch& c = *strand.contact;
+  RodScratch& s = *strand.s;
   const bool slow = c.settling >= tolerances::quick_wall_changes;
   if (c.settling == tolerances::quick_wall_changes)
     start_descent(strand);
   else if (slow)
     descend(strand);
   ++c.changes, ++c.settling, ++scratch.counts.changes;
-  bool any = false;
-  c.same = s.chain.elements;
-  for (int i = first_free(s); i <= last_free(s); ++i) {
+  const auto [first, last] = settling_nodes(s, c);
+  int first_changed = last + 1, last_changed = first - 1;
+  for (int i = first; i <= last; ++i) {
     NodeWalls& walls = c.walls[i];
     bool changed = c.changed[i];
     for (int k = 0; k < walls.count; ++k) {
@@ -196,11 +202,39 @@ bool change_walls(const Model& model, const Strand& strand, Scratch& scratch) {
     }
     if (!changed) continue;
     renew_node(i, c, s);
-    any = true;
-    // A node affects the elements on both sides of it.
-    c.same = std::max(0, std::min({c.same, i - 1 - s.chain.first, s.chain.elements - 1 - i}));
+    first_changed = std::min(first_changed, i), last_changed = i;
   }
-  return any;
+  if (first_changed > last_changed) return false;
+  // A node affects the elements on both sides of it.
+  c.same = std::max(0, std::min(first_changed - 1 - s.chain.first, s.chain.elements - 1 - last_changed));
+  enter_window(first_changed, last_changed, strand, c);
+  return true;
+}
+
+}  // namespace
+
+bool change_walls(const Model& model, const Strand& strand, Scratch& scratch) {
+  ContactScratch& c = *strand.contact;
+  if (c.walls.empty()) return false;
+  const bool spent = c.changes >= tolerances::max_wall_changes;
+  std::fill(c.changed.begin(), c.changed.end(), 0);
+  look_ahead(strand);
+  // While many ties settle, the walls stay as they were seen: a trial solution leads to places that are never reached.
+  const auto contradicted = [&] {
+    return c.settling < tolerances::quick_wall_changes ? any_wrong_now(model, strand, scratch) : any_wrong(strand, c);
+  };
+  if (c.window_first >= 0) {
+    if (!spent && contradicted()) return flip_ties(strand, scratch);
+    leave_window(strand, scratch);
+    look_ahead(strand);
+  }
+  if (spent) return false;
+  if (c.settling >= tolerances::quick_wall_changes) {
+    if (contradicted()) return flip_ties(strand, scratch);
+    c.settling = 0;
+  }
+  const bool met = model.sweep && follow_far(model, strand, scratch);
+  return (contradicted() || met) && flip_ties(strand, scratch);
 }
 
 double behind_walls(const Model& model, const Strand& strand, Scratch& scratch) {
@@ -221,6 +255,15 @@ double behind_walls(const Model& model, const Strand& strand, Scratch& scratch) 
 }
 
 namespace {
+double depth_in_walls(const RodScratch& s, const ContactScratch& c, int i) {
+  double most = 0;
+  for (int k = 0; k < c.walls[i].count; ++k) {
+    const WallPlane& w = c.walls[i].planes[k];
+    if (w.active && !w.soft) most = largest(most, w.place - dot(w.normal, load3<double>(s.position, i)));
+  }
+  return most;
+}
+
 V3<double> pushing_force(const RodScratch& s, const ContactScratch& c, int i) {
   V3<double> force{};
   const V3<double> p = load3<double>(s.position, i);
@@ -236,7 +279,7 @@ V3<double> pushing_force(const RodScratch& s, const ContactScratch& c, int i) {
 
 }  // namespace
 
-void commit_walls(const Strand& strand, std::vector<Touch>& touches) {
+void commit_walls(const Strand& strand, StepReport& report) {
   const ContactScratch& c = *strand.contact;
   if (c.walls.empty()) return;
   const RodScratch& s = *strand.s;
@@ -254,8 +297,9 @@ void commit_walls(const Strand& strand, std::vector<Touch>& touches) {
     store3(own.wall_force, i, force);
     if (push == 0) continue;
     const NodeOfRod node = node_of_rod(strand, i);
-    touches.push_back({node.rod, node.node, own.position[i] - s.inside.radius.at(0)[i] / push * to_eigen(force),
-                       to_eigen(force), to_eigen(rubbed)});
+    report.deepest_m = std::max(report.deepest_m, depth_in_walls(s, c, i));
+    report.touches.push_back({node.rod, node.node, own.position[i] - s.inside.radius.at(0)[i] / push * to_eigen(force),
+                              to_eigen(force), to_eigen(rubbed)});
   }
 }
 

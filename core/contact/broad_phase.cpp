@@ -13,6 +13,7 @@ namespace ostium::core {
 namespace {
 
 constexpr int block = query_nodes;
+constexpr double longest_block_m = 16e-3;
 constexpr double rounding_m = 1e-9;  ///< rounding margin of a coarse test, before the exact one
 
 /// Recomputes a plane from `to`, with the wall as it is at the end of the step. False if another plane already stands
@@ -40,6 +41,16 @@ bool is_in_the_way(const Model& model, const Strand& strand, int i, const V3<dou
   seen.surface = wall.surface, seen.cluster = wall.cluster, seen.triangle = wall.triangle;
   wall = seen;
   return true;
+}
+
+/// Neighbours share a query while they are not far apart: long boxes meet many walls.
+int end_of_block(const Rod& rod, int begin, int last) {
+  int end = begin + 1;
+  for (double length_m = 0; end < last && end - begin < block; ++end) {
+    length_m += rod.length.at(0)[end - 1];
+    if (length_m > longest_block_m) break;
+  }
+  return end;
 }
 
 /// The nodes of a query, one per SIMD lane, at the beginning of the step; unused lanes reach nothing.
@@ -99,8 +110,9 @@ void find_walls(const Model& model, const Strand& strand, Scratch& scratch) {
   const Rod& rod = s.inside;
   const RodState& own = *strand.own;
   for (int i = rod.first; i < rod.nodes(); ++i) c.walls[i].count = 0;
-  for (int begin = first_free(s); begin <= last_free(s); begin += block) {
-    const int end = std::min(begin + block, last_free(s) + 1);
+  std::size_t lists = 0;
+  for (int begin = first_free(s), end; begin <= last_free(s); begin = end) {
+    end = end_of_block(rod, begin, last_free(s) + 1);
     Bounds bounds;
     Block nodes;
     NodeView views[block];
@@ -116,9 +128,7 @@ void find_walls(const Model& model, const Strand& strand, Scratch& scratch) {
     for (std::size_t k = 0; k < model.surfaces.size(); ++k) {
       const Surface& surface = *model.surfaces[k];
       SurfacePose& whole = scratch.surfaces[k];
-      LeafList& list =
-          c.leaves[static_cast<std::size_t>((begin - first_free(s)) / block) * model.surfaces.size() + k];
-      find_clusters_again(surface, bounds.low, bounds.high, whole, list, c.clusters,
+      find_clusters_again(surface, bounds.low, bounds.high, whole, c.leaves[lists++], c.clusters,
                           [&](int n, const V3<double>& low, const V3<double>& high) {
                             if (nodes.near(low, high) == 0) return false;
                             if (!model.sweep) return true;

@@ -9,6 +9,15 @@ namespace ostium::core {
 inline int first_free(const RodScratch& s) { return s.inside.first + (s.inputs.base.hold == Hold::free ? 0 : 1); }
 inline int last_free(const RodScratch& s) { return s.inside.elements - (s.inputs.tip.hold == Hold::free ? 0 : 1); }
 
+/// The nodes whose ties are being settled.
+struct NodeRange {
+  int first, last;
+};
+inline NodeRange settling_nodes(const RodScratch& s, const ContactScratch& c) {
+  if (c.window_first < 0) return {first_free(s), last_free(s)};
+  return {c.window_first, c.window_last};
+}
+
 /// Recomputes, from `to` (m), the planes of triangle rims that node i would be behind there. The nearest point of a
 /// triangle moves along as the node passes, so a rim that seemed to block the node may lie beneath it.
 void look_again(const Model& model, const Strand& strand, int i, const V3<double>& to, Scratch& scratch);

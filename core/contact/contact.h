@@ -38,7 +38,8 @@ double behind_walls(const Model& model, const Strand& strand, Scratch& scratch);
 /// Adds the torque of friction; after linearise_joints and assemble_elements.
 void turn_at_walls(const Strand& strand);
 
-/// Writes forces and slips into the strand's state and appends its touches; after the commit.
-void commit_walls(const Strand& strand, std::vector<Touch>& touches);
+/// Writes forces and slips into the strand's state, appends its touches to the report and notes its depth; after the
+/// commit.
+void commit_walls(const Strand& strand, StepReport& report);
 
 }  // namespace ostium::core

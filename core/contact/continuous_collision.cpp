@@ -26,6 +26,18 @@ bool drop_passed_walls(const V3<double>& from, const V3<double>& to, double radi
   return any;
 }
 
+/// Clusters that may touch a box at the end of the step.
+void find_at_end(const Surface& surface, const Bounds& bounds, SurfacePose& pose, std::vector<int>& clusters) {
+  find_clusters(surface, bounds.low, bounds.high, pose, clusters,
+                [&](int n, const V3<double>& low, const V3<double>& high) {
+                  const RoughPose rough = rough_pose(surface, n, low, high, pose);
+                  const V3<double> by{rough.move.spread, rough.move.spread, rough.move.spread},
+                      lowest = rough.low + rough.move.drift - by, highest = rough.high + rough.move.drift + by;
+                  return lowest.x <= bounds.high.x && bounds.low.x <= highest.x && lowest.y <= bounds.high.y &&
+                         bounds.low.y <= highest.y && lowest.z <= bounds.high.z && bounds.low.z <= highest.z;
+                });
+}
+
 /// The first triangle through which the path leaves the lumen, as a plane, and the point; with the corners at the end
 /// of the step.
 bool first_exit(const Model& model, const V3<double>& from, const V3<double>& to, NodeView view, Scratch& scratch,
@@ -36,7 +48,7 @@ bool first_exit(const Model& model, const V3<double>& from, const V3<double>& to
   for (std::size_t k = 0; k < model.surfaces.size(); ++k) {
     const Surface& surface = *model.surfaces[k];
     const bool passes = lets_through(surface, scratch.surfaces[k], view.radius);
-    find_clusters(surface, bounds.low, bounds.high, scratch.surfaces[k], clusters);
+    find_at_end(surface, bounds, scratch.surfaces[k], clusters);
     for (int cluster : clusters) {
       const ClusterPose& pose = pose_of(surface, cluster, scratch.surfaces[k]);
       const Surface::Cluster& c = surface.clusters[cluster];
@@ -81,7 +93,7 @@ void look_around(const Model& model, const NodeView& view, Scratch& scratch, std
   bounds.take(view.centre, view.reach);
   for (std::size_t k = 0; k < model.surfaces.size(); ++k) {
     const Surface& surface = *model.surfaces[k];
-    find_clusters(surface, bounds.low, bounds.high, scratch.surfaces[k], clusters);
+    find_at_end(surface, bounds, scratch.surfaces[k], clusters);
     for (int cluster : clusters) {
       const ClusterPose& pose = pose_of(surface, cluster, scratch.surfaces[k]);
       look(model, static_cast<int>(k), cluster, pose, StepEnd::after, view,

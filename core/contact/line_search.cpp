@@ -18,7 +18,8 @@ struct EndSlopes {
 
 EndSlopes end_slopes(const ContactScratch& c, const RodScratch& s) {
   EndSlopes slopes;
-  for (int i = first_free(s); i <= last_free(s); ++i) {
+  const auto [first, last] = settling_nodes(s, c);
+  for (int i = first; i <= last; ++i) {
     const V3<double> d = load3<double>(c.ahead, i) - load3<double>(c.anchor, i);
     slopes.at_anchor += dot(load3<double>(c.anchor_push, i), d);
     slopes.at_ahead += dot(load3<double>(c.ahead_push, i), d);
@@ -29,7 +30,8 @@ EndSlopes end_slopes(const ContactScratch& c, const RodScratch& s) {
 /// Slope of the whole energy at the share `part` of the direction.
 double slope(const EndSlopes& slopes, double part, const ContactScratch& c, const RodScratch& s) {
   double sum = slopes.at_anchor + part * (slopes.at_ahead - slopes.at_anchor);
-  for (int i = first_free(s); i <= last_free(s); ++i) {
+  const auto [first, last] = settling_nodes(s, c);
+  for (int i = first; i <= last; ++i) {
     const NodeWalls& walls = c.walls[i];
     if (walls.count == 0) continue;
     const V3<double> from = load3<double>(c.anchor, i), d = load3<double>(c.ahead, i) - from, p = madd(part, d, from);
@@ -44,7 +46,8 @@ double slope(const EndSlopes& slopes, double part, const ContactScratch& c, cons
 void look_ahead(const Strand& strand) {
   const RodScratch& s = *strand.s;
   ContactScratch& c = *strand.contact;
-  for (int i = first_free(s); i <= last_free(s); ++i) {
+  const auto [first, last] = settling_nodes(s, c);
+  for (int i = first; i <= last; ++i) {
     const NodeWalls& walls = c.walls[i];
     const V3<double> p = solved_position(s, i);
     V3<double> push{};
@@ -72,7 +75,8 @@ void descend(const Strand& strand) {
     (slope(slopes, middle, c, s) > 0 ? high : low) = middle;
   }
   const double part = low > 0 ? low : high;
-  for (int i = first_free(s); i <= last_free(s); ++i) {
+  const auto [first, last] = settling_nodes(s, c);
+  for (int i = first; i <= last; ++i) {
     const V3<double> from = load3<double>(c.anchor, i), push = load3<double>(c.anchor_push, i);
     store3(c.anchor, i, madd(part, load3<double>(c.ahead, i) - from, from));
     store3(c.anchor_push, i, madd(part, load3<double>(c.ahead_push, i) - push, push));

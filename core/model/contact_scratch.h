@@ -58,9 +58,11 @@ struct ContactScratch {
   Field<3> expected;             ///< m, (#nodes): where a node was expected to go when its walls were looked for
   int changes = 0;               ///< changes of ties since the last linearisation
   int settling = 0;              ///< ... and since the planes last changed
-  std::vector<char> changed;     ///< (#nodes): changed by continuous collision
-  int same = 0;                  ///< elements at either end that the last change of ties left unchanged
-  Field<6> free_compliance;      ///< (#nodes), compliance without walls
+  /// The nodes whose ties are being settled, while the others' are left alone; -1: all.
+  int window_first = -1, window_last = -1;
+  std::vector<char> changed;  ///< (#nodes): changed by continuous collision
+  int same = 0;               ///< elements at either end that the last change of ties left unchanged
+  Field<6> free_compliance;   ///< (#nodes), compliance without walls
   Field<3> free_target;
   // --- friction, at nodes
   std::vector<char> rubs;  ///< whether the node has any

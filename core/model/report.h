@@ -64,6 +64,9 @@ struct StepReport {
   std::vector<Touch> touches;   ///< at walls, by rod and node
   std::vector<RodTouch> rod_touches;
   std::uint32_t trouble = 0;  ///< of all rods
+  /// How deep a node lies in a rigid wall that holds it, m, at most: by contact's own planes, at every step. For a
+  /// judgement that shares nothing with contact see contact/penetration_oracle.h.
+  double deepest_m = 0;
   StepCounts counts;
 };
 

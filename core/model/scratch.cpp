@@ -34,7 +34,7 @@ void resize_contact(const Model& model, int elements, ContactScratch& c) {
   std::size_t clusters = 0;
   for (const auto& surface : model.surfaces) clusters = std::max(clusters, surface->clusters.size());
   c.clusters.reserve(clusters);
-  c.leaves.resize(model.surfaces.size() * static_cast<std::size_t>(nodes / query_nodes + 1));
+  c.leaves.resize(model.surfaces.size() * static_cast<std::size_t>(nodes));
 }
 
 void resize_layer(int elements, int own_nodes, Layer& l) {

@@ -58,7 +58,7 @@ void set_lane(S3<Lanes>& a, int l, const S3<double>& b) {
 
 template <int R>
 BlockRow<double, R> middle_row(const BlockTridiagonal& c) {
-  const int m = middle(c);
+  const int m = c.meets_at;
   const double* from[at_P_behind];
   const auto take = [&](int number, const auto& field, int components) {
     for (int k = 0; k < components; ++k) from[number + k] = field.at(k) + m;
@@ -75,17 +75,42 @@ BlockRow<double, R> middle_row(const BlockTridiagonal& c) {
       load6<double>(c.compliance, m) + load6<double>(c.compliance, m + 1), [&](int n) { return *from[n]; }, of_roll);
 }
 
-/// Eliminates towards the middle from step `from`, or from the last halt before it, filling the blocks. Returns the
-/// Schur complements of all lanes on their middle elements.
+/// Lanes that run backward have eliminated nothing yet.
 template <int R>
-[[gnu::flatten]] EliminationHalt<R> eliminate_halves(Walks<R>& walks, int from, TridiagonalFactors& factors) {
+void restart_backward(EliminationHalt<R>& halt) {
+  const BlockRow<double, R> nothing{};
+  BlockRow<Lanes, R>& c = halt.carried;
+  for (int l = 1; l < lane_count; l += halves) {
+    set_lane(c.K.v, l, nothing.K.v), set_lane(c.A, l, nothing.A);
+    set_lane(c.G.v.r0, l, nothing.G.v.r0), set_lane(c.G.v.r1, l, nothing.G.v.r1), set_lane(c.G.v.r2, l, nothing.G.v.r2);
+    set_lane(c.torque.v, l, nothing.torque.v), set_lane(c.gap, l, nothing.gap);
+    for (int m = 0; m < R; ++m) {
+      set_lane(c.K.vr[m], l, {}), set_lane(c.G.r[m], l, {});
+      c.torque.r[m][l] = 0;
+      for (int k = 0; k < R; ++k) c.K.rr[m][k][l] = 0;
+    }
+    halt.minor[l] = 1;
+  }
+}
+
+/// Where an elimination begins: from scratch, or where nothing has changed before.
+struct Resume {
+  int step = 0;
+  bool backward_anew = false;  ///< lanes that run backward have not begun there
+};
+
+/// Eliminates towards the meeting point from a step, or from the last halt before it, filling the blocks. Returns the
+/// Schur complements of all lanes on the elements where they meet.
+template <int R>
+[[gnu::flatten]] EliminationHalt<R> eliminate_halves(Walks<R>& walks, Resume from, TridiagonalFactors& factors) {
   std::vector<TridiagonalBlock<R>>& blocks = factors.blocks<R>();
   std::vector<EliminationHalt<R>>& halts = factors.halts<R>();
   const Lanes half = 0.5 * walks.direction();
   EliminationHalt<R> now;
   auto& [carried, minor] = now;
-  const int begin = std::min(from, walks.steps() - 1) / between_halts;
+  const int begin = std::min(from.step, walks.steps() - 1) / between_halts;
   if (begin > 0) now = halts[begin];
+  if (from.backward_anew) restart_backward(now);
   for (int t = begin * between_halts; t < walks.steps(); ++t) {
     if (t % between_halts == 0) halts[t / between_halts] = now;
     walks.move_to(t);
@@ -114,7 +139,8 @@ void store_solution(BlockTridiagonal& chain, int j, const V3<double>& turn, cons
   for (int m = 0; m < R; ++m) chain.rolls[m].turn.at(0)[j] = rolls[m];
 }
 
-/// Solves a chain's middle element and passes its solution to both lanes; false if the matrix is not definite.
+/// Solves the element where both eliminations of a chain meet and passes its solution to both lanes; false if the
+/// matrix is not definite.
 template <int R>
 bool solve_middle(BlockTridiagonal& chain, int front, const BlockRow<Lanes, R>& carried, const Lanes& minor,
                   TridiagonalBlock<R>& block, Turn<Lanes, R>& turn, V3<Lanes>& force) {
@@ -127,7 +153,7 @@ bool solve_middle(BlockTridiagonal& chain, int front, const BlockRow<Lanes, R>& 
   Turn<double, R> phi;
   V3<double> n;
   apply_inverse(S_inv, A_inv, W, r.torque, r.gap, phi, n);
-  store_solution<R>(chain, middle(chain), phi.v, phi.r, n);
+  store_solution<R>(chain, chain.meets_at, phi.v, phi.r, n);
   for (int l : {front, front + 1}) {
     set_lane(turn.v, l, phi.v), set_lane(force, l, n);
     for (int m = 0; m < R; ++m) turn.r[m][l] = phi.r[m];
@@ -136,13 +162,13 @@ bool solve_middle(BlockTridiagonal& chain, int front, const BlockRow<Lanes, R>& 
   return minor[front] > 0 && minor[front + 1] > 0 && own_minor > 0;
 }
 
-/// Back substitution from the middle to the ends.
+/// Back substitution from the meeting point towards the ends, down to step `last`.
 template <int R>
-[[gnu::flatten]] void substitute_back(const Walks<R>& walks, const std::vector<TridiagonalBlock<R>>& blocks,
+[[gnu::flatten]] void substitute_back(const Walks<R>& walks, const std::vector<TridiagonalBlock<R>>& blocks, int last,
                                       BlockTridiagonal& first, BlockTridiagonal* second, Turn<Lanes, R> turn,
                                       V3<Lanes> force) {
   const int lanes = second ? lane_count : halves;
-  for (int t = walks.steps() - 1; t >= 0; --t) {
+  for (int t = walks.steps() - 1; t >= last; --t) {
     const TridiagonalBlock<R>& b = blocks[t];
     const Coupling<Lanes, R>& C = b.turn_coupling;
     Turn<Lanes, R> torque = b.torque;
@@ -172,44 +198,93 @@ int negatives(const S3<double>& s) {
   return (first < 0) + (second < 0) + (third < 0);
 }
 
+/// Solves from where `resume` says, and writes the solution down to step `last`.
 template <int R>
-void solve_with(BlockTridiagonal& first, BlockTridiagonal* second, int same, TridiagonalFactors& factors) {
+void solve_with(BlockTridiagonal& first, BlockTridiagonal* second, Resume resume, int last,
+                TridiagonalFactors& factors) {
   std::vector<TridiagonalBlock<R>>& blocks = factors.blocks<R>();
-  assert(static_cast<int>(blocks.size()) > std::max(first.elements, second ? second->elements : 0) / 2);
   Walks<R> walks(first, second ? *second : first);
-  const auto [carried, minor] = eliminate_halves(walks, same, factors);
+  assert(static_cast<int>(blocks.size()) > walks.steps());
+  const auto [carried, minor] = eliminate_halves(walks, resume, factors);
 
   Turn<Lanes, R> turn{};
   V3<Lanes> force{};
   TridiagonalBlock<R>& middle_block = blocks[walks.steps()];
   first.definite = solve_middle(first, 0, carried, minor, middle_block, turn, force);
   if (second) second->definite = solve_middle(*second, halves, carried, minor, middle_block, turn, force);
-  substitute_back(walks, blocks, first, second, turn, force);
+  substitute_back(walks, blocks, last, first, second, turn, force);
 }
 
-void solve_from(int same, BlockTridiagonal& first, BlockTridiagonal* second, TridiagonalFactors& factors) {
-  switch (first.roll_count) {
-    case 0:
-      return solve_with<0>(first, second, same, factors);
-    case 1:
-      return solve_with<1>(first, second, same, factors);
-    case 2:
-      return solve_with<2>(first, second, same, factors);
-    default:
-      return solve_with<3>(first, second, same, factors);
+/// Writes the whole solution from that of the element where the eliminations meet.
+template <int R>
+void complete_with(BlockTridiagonal& chain, const TridiagonalFactors& factors) {
+  const Walks<R> walks(chain, chain);
+  const V3<double> phi = load3<double>(chain.turn, chain.meets_at), n = load3<double>(chain.force, chain.meets_at);
+  Turn<Lanes, R> turn{};
+  V3<Lanes> force{};
+  for (int l = 0; l < lane_count; ++l) {
+    set_lane(turn.v, l, phi), set_lane(force, l, n);
+    for (int m = 0; m < R; ++m) turn.r[m][l] = chain.rolls[m].turn.at(0)[chain.meets_at];
   }
+  substitute_back(walks, factors.blocks<R>(), 0, chain, nullptr, turn, force);
+}
+
+/// Calls call(integral constant) with the number of rolls.
+template <class Call>
+void by_rolls(int rolls, Call&& call) {
+  switch (rolls) {
+    case 0:
+      return call(std::integral_constant<int, 0>());
+    case 1:
+      return call(std::integral_constant<int, 1>());
+    case 2:
+      return call(std::integral_constant<int, 2>());
+    default:
+      return call(std::integral_constant<int, 3>());
+  }
+}
+
+void solve_from(Resume resume, int last, BlockTridiagonal& first, BlockTridiagonal* second,
+                TridiagonalFactors& factors) {
+  by_rolls(first.roll_count, [&](auto rolls) { solve_with<rolls>(first, second, resume, last, factors); });
 }
 
 }  // namespace
 
 void solve(BlockTridiagonal& first, BlockTridiagonal* second, TridiagonalFactors& factors) {
   assert(!second || second->roll_count == first.roll_count);
-  solve_from(0, first, second, factors);
+  for (BlockTridiagonal* chain : {&first, second})
+    if (chain) chain->meets_at = middle(*chain), chain->in_part = false;
+  solve_from({}, 0, first, second, factors);
 }
 
 void solve_again(BlockTridiagonal& chain, int same, TridiagonalFactors& factors) {
   assert(same >= 0);
-  solve_from(same, chain, nullptr, factors);
+  if (chain.meets_at != middle(chain)) return solve(chain, nullptr, factors);
+  solve_from({same, false}, 0, chain, nullptr, factors);
+}
+
+bool solve_within(BlockTridiagonal& chain, int from, int to, TridiagonalFactors& factors) {
+  const int first = chain.first, N = chain.elements, before = chain.meets_at;
+  assert(first <= from && from <= to && to < N);
+  if (from <= middle(chain)) return false;
+  const bool moves = before < from || before > to;
+  if (moves) chain.meets_at = (from + to) / 2;
+  // A forward lane begins at step 0, a backward one so late that both arrive together. Halts reach to before the last
+  // meeting point.
+  const int wait = chain.meets_at - first - (N - 1 - chain.meets_at);
+  const int behind = wait + N - 1 - to, ahead = from - first;
+  const Resume resume =
+      moves ? Resume{std::min({before - first - 1, ahead, wait}), true} : Resume{std::min(ahead, behind)};
+  solve_from(resume, std::max(0, std::min(ahead, behind)), chain, nullptr, factors);
+  chain.in_part = true;
+  return true;
+}
+
+void complete(BlockTridiagonal& chain, const TridiagonalFactors& factors) {
+  if (!chain.in_part) return;
+  by_rolls(chain.roll_count, [&](auto rolls) { complete_with<rolls>(chain, factors); });
+  chain.in_part = false;
 }
 
 int negative_pivots(const BlockTridiagonal& chain, const TridiagonalFactors& factors) {

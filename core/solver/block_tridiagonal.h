@@ -63,6 +63,8 @@ struct BlockTridiagonal {
   // --- the solution
   Field<3> turn;         ///< phi_j, rad, (#elements)
   Field<3> force;        ///< n_j, N, (#elements)
+  int meets_at = 0;      ///< element at which the eliminations from both ends met
+  bool in_part = false;  ///< only a stretch of the solution is that of the last solve (solve_within)
   bool definite = true;  ///< every motion within the constraints costs energy; else the solution is a saddle point
 };
 
@@ -102,8 +104,17 @@ void solve(BlockTridiagonal& first, BlockTridiagonal* second, TridiagonalFactors
 
 /// Solves the chain of the last `solve(chain, nullptr, factors)` or `solve_again` once more after compliance and gap
 /// have changed, except for the `same` elements at either end, which are not eliminated again. Bit-identical to
-/// `solve`.
+/// `solve`; after `solve_within`, all are eliminated again.
 void solve_again(BlockTridiagonal& chain, int same, TridiagonalFactors& factors);
+
+/// The same where compliance and gap have changed only in elements `from` to `to`: writes the solution of these alone.
+/// The first time, the eliminations go on to meet among them; from then on, only these elements are eliminated again.
+/// The same solution as that of `solve`, but for rounding. False, and nothing done, unless the stretch lies beyond the
+/// chain's middle.
+bool solve_within(BlockTridiagonal& chain, int from, int to, TridiagonalFactors& factors);
+
+/// Writes the rest of the solution after `solve_within`; nothing to do otherwise.
+void complete(BlockTridiagonal& chain, const TridiagonalFactors& factors);
 
 /// Number of directions with negative stiffness in the system of the last `solve(chain, nullptr, factors)`, among
 /// motions that satisfy its constraints (Sylvester's law of inertia, from the pivots): 0 for a stable equilibrium. For

@@ -12,7 +12,7 @@ TridiagonalFactors& TridiagonalFactors::operator=(TridiagonalFactors&&) noexcept
 
 void TridiagonalFactors::resize(int elements, int rolls) {
   const auto make_room = [&](auto& own) {
-    own.blocks.resize(std::max<std::size_t>(own.blocks.size(), elements / 2 + 1));
+    own.blocks.resize(std::max<std::size_t>(own.blocks.size(), elements + 1));
     own.halts.resize(own.blocks.size() / between_halts + 1);
   };
   rolls == 0   ? make_room(std::get<0>(blocks_->by_rolls))

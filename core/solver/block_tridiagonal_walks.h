@@ -10,14 +10,15 @@ namespace ostium::core {
 
 inline constexpr int halves = 2;
 
+/// Where eliminations from both ends take the same time.
 inline int middle(const BlockTridiagonal& chain) { return (chain.first + chain.elements) / 2; }
 
-/// The path of one lane: from one end of a chain towards its middle. A lane with fewer elements starts later and idles
-/// until then.
+/// The path of one lane: from one end of a chain towards the element where both meet. A lane with fewer elements starts
+/// later and idles until then.
 struct Walk {
   const BlockTridiagonal* chain;
   bool forward;  ///< starts at the base
-  int blocks;    ///< elements before the middle
+  int blocks;    ///< elements before that
   int wait;      ///< steps before it starts
 
   int element(int t) const { return forward ? chain->first + t - wait : chain->elements - 1 - (t - wait); }
@@ -62,7 +63,7 @@ class Walks {
     for (int l = 0; l < lane_count; ++l) {
       const bool forward = l % halves == 0;
       const BlockTridiagonal& chain = l < halves ? first : second;
-      lanes_[l] = {&chain, forward, forward ? middle(chain) - chain.first : chain.elements - 1 - middle(chain), 0};
+      lanes_[l] = {&chain, forward, forward ? chain.meets_at - chain.first : chain.elements - 1 - chain.meets_at, 0};
       direction_[l] = forward ? 1.0 : -1.0;
       steps_ = std::max(steps_, lanes_[l].blocks);
     }

@@ -58,7 +58,7 @@ void finish(const State& state, const Scratch& scratch, const Strand& strand, bo
     commit(rod, s, scratch.step_s, own);
     // A snap-through among walls, too fast for a whole step, continues from rest, part by part, heavily damped.
     if (s.step_s < scratch.step_s || halved) halt(rod, own);
-    commit_walls(strand, report.touches);
+    commit_walls(strand, report);
   } else {
     commit_at_rest(rod, s, own);
   }
@@ -90,6 +90,7 @@ void unnest(const Model& model, const Strand& strand, State& state, Scratch& scr
 
 void finish_all(const Model& model, bool halved, State& state, Scratch& scratch, StepReport& report) {
   report.touches.clear();
+  report.deepest_m = 0;
   commit_rod_contacts(scratch, report.rod_touches);
   for (const Strand& strand : scratch.strands) {
     finish(state, scratch, strand, halved, report);

@@ -160,22 +160,31 @@ void solve_first(BlockTridiagonal& chain, BlockTridiagonal* second, Scratch& scr
   solve(chain, second, scratch.factors);
 }
 
-/// Solves a chain again whose ties were changed, except in `same` elements at either end.
-void solve_later(BlockTridiagonal& chain, int same, Scratch& scratch) {
+/// Solves a chain again whose ties were changed: the window in which they settle, or all but the elements at either end
+/// that stayed the same.
+void solve_later(BlockTridiagonal& chain, ContactScratch& c, Scratch& scratch) {
   const InPhase phase(scratch.clock, later_solving);
   ++scratch.counts.solves;
-  scratch.counts.eliminated += std::max(0, chain.elements - chain.first - 2 * same);
-  solve_again(chain, same, scratch.factors);
+  const int from = std::max(chain.first, c.window_first - 1), to = std::min(chain.elements - 1, c.window_last);
+  if (c.window_first >= 0 && solve_within(chain, from, to, scratch.factors)) {
+    scratch.counts.eliminated += to - from + 1;
+    return;
+  }
+  c.window_first = c.window_last = -1;
+  scratch.counts.eliminated += std::max(0, chain.elements - chain.first - 2 * c.same);
+  solve_again(chain, c.same, scratch.factors);
 }
 
 /// Solves a strand in contact until its ties are those that push.
 void solve_held(const Model& model, const Strand& strand, Scratch& scratch) {
-  strand.contact->changes = strand.contact->settling = 0;
+  ContactScratch& c = *strand.contact;
+  c.changes = c.settling = 0;
+  c.window_first = c.window_last = -1;
   BlockTridiagonal& chain = strand.s->chain;
   solve_first(chain, nullptr, scratch);
   const InPhase phase(scratch.clock, changing_ties);
-  while (is_near(*strand.s) && change_walls(model, strand, scratch))
-    solve_later(chain, strand.contact->same, scratch);
+  while (is_near(*strand.s) && change_walls(model, strand, scratch)) solve_later(chain, c, scratch);
+  complete(chain, scratch.factors);
 }
 
 /// Solves strands that have not converged; single rods without walls two at a time, since a register holds two.

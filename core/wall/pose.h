@@ -28,8 +28,8 @@ struct TriangleBounds {
   float normal_x[cluster_size], normal_y[cluster_size], normal_z[cluster_size], height[cluster_size];
 };
 
-/// How a cluster's corners move during the step, m: all by `drift`, and each by at most `spread` beside that. What moves
-/// along with a wall stays as far from it as it was, however far both go.
+/// How a cluster's corners move during the step, m: all by `drift`, and each by at most `spread` beside that. What
+/// moves along with a wall stays as far from it as it was, however far both go.
 struct ClusterDrift {
   V3<double> drift;
   double spread = 0;
@@ -59,7 +59,7 @@ struct SurfacePose {
   std::vector<long> listed;  ///< per cluster: last query that listed it
   long step = 0, query = 0, edits = -1;
   long stands_since = 0;  ///< the step since which parts that stand still in the cycle have not moved
-  int posed = 0;  ///< clusters whose pose was computed since this was set to 0
+  int posed = 0;          ///< clusters whose pose was computed since this was set to 0
   bool door_open = false;
   bool goes_on = false;  ///< this step begins where the last one ended, on the same surface
 };
@@ -93,8 +93,8 @@ struct BoxQuery {
   }
 };
 
-/// Leaves of a surface's tree near a box that is larger than what a query needs, kept for queries of later steps. What a
-/// query finds does not depend on it.
+/// Leaves of a surface's tree near a box that is larger than what a query needs, kept for queries of later steps. What
+/// a query finds does not depend on it.
 struct LeafList {
   static constexpr std::size_t most = 192;
   struct Leaf {
@@ -152,8 +152,8 @@ void visit_leaves(const Surface& surface, int interval, const StepBoxes& boxes, 
   }
 }
 
-/// Clusters that may touch a box during the step and satisfy near(node, low, high) as leaves of the tree, with their own
-/// box over the interval between frames: writes their numbers to `found`, in a fixed order.
+/// Clusters that may touch a box during the step and satisfy near(node, low, high) as leaves of the tree, with their
+/// own box over the interval between frames: writes their numbers to `found`, in a fixed order.
 template <class Near>
 void find_clusters(const Surface& surface, const V3<double>& low, const V3<double>& high, SurfacePose& pose,
                    std::vector<int>& found, Near&& near) {

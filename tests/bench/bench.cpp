@@ -89,7 +89,8 @@ int main(int argc, char** argv) {
   app.add_option("--seconds", replays.seconds, "With --profile: how many; 0: to the end");
   app.add_option("--replays", replays.replays, "A step's time is the least of so many bit-identical replays")
       ->check(CLI::Range(1, 20));
-  app.footer("Examples:\n  ostium-bench\n  ostium-bench --json > bench.json\n  ostium-bench --growth\n"
+  app.footer(
+      "Examples:\n  ostium-bench\n  ostium-bench --json > bench.json\n  ostium-bench --growth\n"
       "  ostium-bench --procedure pci-rca-mid-focal\n  ostium-bench --profile out/run.h5 --from 80 --seconds 10");
   CLI11_PARSE(app, argc, argv);
 

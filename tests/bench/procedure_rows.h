@@ -15,6 +15,7 @@ struct StepCosts {
     float ms = 0;                  ///< CPU time, the least of the replays
     std::vector<float> phases_ms;  ///< in that replay
     core::StepCounts counts;
+    float deepest_mm = 0;  ///< in a wall
     std::uint32_t trouble = 0;
   };
   std::vector<Step> steps;

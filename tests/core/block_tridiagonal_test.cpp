@@ -158,6 +158,44 @@ TEST(BlockTridiagonal, SolutionDoesNotDependOnItsCompany) {
   }
 }
 
+TEST(BlockTridiagonal, SolvedWithinAStretchIsAsSolvedWhole) {
+  for (int rolls : {0, 2})
+    for (int N : {16, 47, 64})
+      for (int first : {0, N / 4})
+        for (int from = (first + N) / 2 + 1; from < N; from += 3)
+          for (int to : {from, std::min(from + 6, N - 1), N - 1}) {
+            RandomChain within(N, 1, 0, rolls), whole(N, 1, 0, rolls);
+            TridiagonalFactors factors = factors_for(N, rolls), others = factors_for(N, rolls);
+            within.chain.first = whole.chain.first = first;
+            solve(within.chain, nullptr, factors);
+            for (int node = from + 1; node <= to; ++node) {  // one after the other, as ties are
+              for (RandomChain* random : {&within, &whole}) {
+                for (int k : {0, 3, 5}) random->chain.compliance.at(k)[node] += 1;
+                random->chain.gap.at(1)[node - 1] += 1;
+                random->chain.gap.at(1)[node] -= 1;
+              }
+              ASSERT_TRUE(solve_within(within.chain, from, to, factors));
+              solve(whole.chain, nullptr, others);
+              for (int j = from; j <= to; ++j)
+                ASSERT_LT((within.chain.force[j] - whole.chain.force[j]).norm(),
+                          1e-9 * (1 + whole.chain.force[j].norm()))
+                    << rolls << " rolls, " << from << " to " << to << " of " << N << " at " << j;
+              EXPECT_EQ(within.chain.definite, whole.chain.definite);
+            }
+            if (to == from) continue;
+            complete(within.chain, factors);
+            for (int j = first; j < N; ++j) {
+              ASSERT_LT((within.chain.force[j] - whole.chain.force[j]).norm(),
+                        1e-9 * (1 + whole.chain.force[j].norm()));
+              ASSERT_LT((within.chain.turn[j] - whole.chain.turn[j]).norm(), 1e-9 * (1 + whole.chain.turn[j].norm()));
+            }
+          }
+  RandomChain short_of_it(16, 1, 0, 0);
+  TridiagonalFactors factors = factors_for(16);
+  solve(short_of_it.chain, nullptr, factors);
+  EXPECT_FALSE(solve_within(short_of_it.chain, 8, 12, factors)) << "the middle itself";
+}
+
 TEST(BlockTridiagonal, SolvedAgainFromWhereItChangedIsAsSolvedAnew) {
   for (int rolls : {0, 2})
     for (int N : {3, 16, 47, 64})

@@ -129,6 +129,28 @@ TEST(Instrument, OnlyATipThatCanBeShapedIsShaped) {
   EXPECT_THROW(with_tip_shape(find_instrument(all, "guide-jl4-6f"), {}), std::invalid_argument);
 }
 
+TEST(Instrument, ElementsAreAsLongAsShapeAllows) {
+  for (const Instrument& instrument : load_catalogue()) {
+    const std::vector<double> lengths = element_lengths(instrument);
+    double from_tip = 0, longest = 0;
+    for (auto length = lengths.rbegin(); length != lengths.rend(); ++length) {
+      EXPECT_GT(*length, 0.4e-3) << instrument.name;
+      if (from_tip < 0.03) {
+        EXPECT_LE(*length, 1e-3 + 1e-12) << instrument.name << ": its tip is as fine as any";
+      }
+      for (const core::Section& section : instrument.sections)
+        if (section.from_tip_m < from_tip + 1e-6 && section.to_tip_m > from_tip + *length - 1e-6) {
+          EXPECT_LT(*length * section.rest_curvature_per_m.norm(), 0.201) << instrument.name << " at " << from_tip;
+        }
+      from_tip += *length, longest = std::max(longest, *length);
+    }
+    EXPECT_NEAR(from_tip, instrument.length_m, 1e-6) << instrument.name;
+    EXPECT_LE(longest, 8.5e-3) << instrument.name;
+  }
+  const std::vector<Instrument> all = load_catalogue();
+  EXPECT_LT(element_lengths(find_instrument(all, "guide-jr4-6f")).size(), 230u);
+}
+
 TEST(Instrument, AWireTooThickForItsCatheterIsRefused) {
   const std::vector<Instrument> all = load_catalogue();
   const auto get = [&](const char* name) -> const Instrument& { return find_instrument(all, name); };

@@ -76,6 +76,8 @@ PlayReport play(ScriptedRun& run, const RunSetup& setup, const PlayOptions& opti
     if (!aborted.empty() || !run.tick()) break;
     recorder.add(run.inputs, run.state, run.report, run.hands, run.events);
     bins.add(thread_cpu_s() - cpu);
+    if (run.report.rods.deepest_m > out.deepest_m)
+      out.deepest_m = run.report.rods.deepest_m, out.deepest_s = seconds(run.model, run.state);
     if (options.progress && run.state.rods.step % 100 == 0) options.progress(run);
     if (options.real) {
       if (now - due > step_length) ++run.overruns;

@@ -35,8 +35,9 @@ struct PlayReport {
   double simulated_s = 0, clock_s = 0;
   StepTimes times;
   std::vector<data::Metric> metrics;
-  Penetration penetration;
-  std::string problem;  ///< of the recording
+  Penetration penetration;              ///< once a second, by an independent judge
+  double deepest_m = 0, deepest_s = 0;  ///< of all steps, by contact's own planes; and when
+  std::string problem;                  ///< of the recording
   long waits = 0;
   std::uint64_t hash = 0;  ///< of the last state
 };

@@ -41,8 +41,7 @@ std::string source_mark(const Instrument& instrument) {
 std::vector<double> element_lengths(const Instrument& instrument) {
   constexpr double tip_m = 0.04, fine_m = 0.15, growth = 1.02, most_bent_rad = 0.2, least_m = 0.5e-3;
   const bool wide = instrument.kind == InstrumentKind::guide_catheter ||
-                    instrument.kind == InstrumentKind::diagnostic_catheter ||
-                    instrument.kind == InstrumentKind::sheath;
+                    instrument.kind == InstrumentKind::diagnostic_catheter || instrument.kind == InstrumentKind::sheath;
   const double body_m = wide ? 2e-3 : 1e-3, coarse_m = 4 * body_m;
   const auto bent_by_m = [&](double from_m, double to_m) {  // the longest allowed by the rest shape there
     double longest = coarse_m;
@@ -54,8 +53,10 @@ std::vector<double> element_lengths(const Instrument& instrument) {
   std::vector<double> from_tip;
   double at_m = 0, length_m = 1e-3;
   while (at_m < instrument.length_m - rounding_m) {
-    if (at_m > fine_m) length_m = std::min(coarse_m, growth * length_m);
-    else if (at_m > tip_m) length_m = body_m;
+    if (at_m > fine_m)
+      length_m = std::min(coarse_m, growth * length_m);
+    else if (at_m > tip_m)
+      length_m = body_m;
     const double here_m = std::min(length_m, bent_by_m(at_m, at_m + length_m));
     from_tip.push_back(std::min(here_m, instrument.length_m - at_m));
     at_m += from_tip.back();
