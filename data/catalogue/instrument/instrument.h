@@ -109,8 +109,8 @@ inline bool is_catheter(const Instrument& i) {
 std::string source_mark(const Instrument& instrument);
 
 /// Lengths of the elements with which a session simulates it, base first: 1 mm over its last 150 mm, from there growing
-/// to 4 mm. A catheter that stays in the aorta has 2 mm behind its last 40 mm, growing to 8 mm. No element is so long
-/// that its rest shape bends by more than 0.2 rad within it.
+/// to 4 mm. A catheter that stays in the aorta has 2 mm behind its last 40 mm, growing to 8 mm. No element longer than
+/// 0.5 mm is so long that its rest shape bends by more than 0.2 rad within it.
 std::vector<double> element_lengths(const Instrument& instrument);
 
 /// The description `core` needs. Elements run from base to tip; their sum is at most the length (the rest stays
