@@ -149,7 +149,7 @@ TEST(Instrument, ElementsAreAsLongAsShapeAllows) {
     EXPECT_LE(longest, 8.5e-3) << instrument.name;
   }
   const std::vector<Instrument> all = load_catalogue();
-  EXPECT_LT(element_lengths(find_instrument(all, "guide-jr4-6f")).size(), 230u);
+  EXPECT_LT(element_lengths(find_instrument(all, "guide-jr4-6f")).size(), 240u) << "some 395 at 1 to 4 mm";
 }
 
 TEST(Instrument, AWireTooThickForItsCatheterIsRefused) {
