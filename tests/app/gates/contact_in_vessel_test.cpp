@@ -82,6 +82,87 @@ TEST(Surface, WhatBeatsAndSwaysIsFoundAtAnyMoment) {
   }
 }
 
+/// A vessel that beats and sways, in steps of a sixtieth of a frame from a random moment; every other one with a sway.
+core::SurfaceMotion small_step(int n, double frame, double sway) {
+  core::SurfaceMotion motion;
+  motion.frame_before = frame, motion.frame_after = frame + 1.0 / 60;
+  if (n % 2) motion.sway_before = sway, motion.sway_after = sway + 1e-3;
+  return motion;
+}
+
+core::SurfaceDescription swaying(const gates::TestVessel& vessel) {
+  core::SurfaceDescription d = vessel.wall;
+  for (const Vector3d& p : d.frames[0])
+    d.sway.push_back(Vector3d(3e-3, -4e-3, 2e-3) + 0.1 * Vector3d(p.y(), p.z(), p.x()));
+  return d;
+}
+
+/// What is known of a cluster without computing its corners holds for each of them.
+TEST(Surface, ARoughPoseHoldsTheExactOne) {
+  const gates::TestVessel vessel = gates::test_vessel();
+  const core::Surface surface = make_surface(swaying(vessel));
+  core::SurfacePose pose(surface);
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> u(0, 1);
+  int rough_ones = 0;
+  double loosest_m = 0;
+  for (int n = 0; n < 40; ++n) {
+    set_motion(surface, small_step(n, 24 * u(random), u(random)), pose);
+    for (int node = static_cast<int>(random() % 7); node < static_cast<int>(surface.nodes.size()); node += 7) {
+      const int cluster = surface.nodes[node].cluster;
+      if (cluster < 0) continue;
+      const core::RoughPose rough = rough_pose(surface, node, {-1, -1, -1}, {1, 1, 1}, pose);
+      if (rough.low.x == -1) continue;  // between two intervals only its box is known
+      ++rough_ones;
+      const core::ClusterPose& exact = pose_of(surface, cluster, pose);
+      for (int i = 0; i < exact.before.size(); ++i) {
+        const Vector3d p = exact.before[i], moved = exact.after[i] - p - to_eigen(rough.move.drift);
+        ASSERT_TRUE((p - to_eigen(rough.low)).minCoeff() >= 0 && (to_eigen(rough.high) - p).minCoeff() >= 0) << n;
+        ASSERT_LE(moved.norm(), rough.move.spread) << n;
+      }
+      loosest_m = std::max(loosest_m, rough.move.spread - exact.move.spread);
+    }
+  }
+  EXPECT_GT(rough_ones, 1000);
+  EXPECT_LT(loosest_m, 0.1e-3) << "a bound that says nothing is of no use";
+}
+
+/// A list of leaves that is kept from step to step finds what a walk through the tree finds, in the same order.
+TEST(Surface, AKeptListFindsWhatTheTreeFinds) {
+  const gates::TestVessel vessel = gates::test_vessel();
+  const core::SurfaceDescription d = swaying(vessel);
+  core::Surface surface = make_surface(d);
+  core::SurfaceEditor editor(d, surface);
+  core::SurfacePose pose(surface);
+  core::LeafList list;
+  std::vector<int> kept, found;
+  for (std::vector<int>* v : {&kept, &found}) v->reserve(surface.clusters.size());
+  std::mt19937 random(6);
+  std::uniform_real_distribution<double> u(0, 1);
+  const auto all = [](int, const core::V3<double>&, const core::V3<double>&) { return true; };
+  int again = 0, some = 0;
+  for (int walk = 0; walk < 20; ++walk) {
+    const int v = d.triangles[random() % d.triangles.size()][0];
+    double frame = 24 * u(random);
+    const double sway = u(random);
+    Vector3d p = vertex_at(d, v, frame, walk % 2 ? sway : 0);
+    for (int n = 0; n < 100; ++n, frame += 1.0 / 60) {
+      p += 0.1e-3 * Vector3d(u(random) - 0.4, u(random) - 0.5, u(random) - 0.5);
+      if (n == 50) editor.place(v, 3, d.frames[3][v] + Vector3d(1e-3, 0, 0)), editor.refit();
+      set_motion(surface, small_step(walk, frame, sway + 1e-3 * n), pose);
+      const core::V3<double> q = core::from_eigen(p), pad{2e-3, 2e-3, 2e-3};
+      const long edits = list.edits;
+      const core::V3<double> low = list.low;
+      find_clusters_again(surface, q - pad, q + pad, pose, list, kept, all);
+      find_clusters(surface, q - pad, q + pad, pose, found);
+      ASSERT_EQ(kept, found) << walk << ", " << n;
+      again += list.edits == edits && list.low.x == low.x, some += !found.empty();
+    }
+  }
+  EXPECT_GT(some, 1500);
+  EXPECT_GT(again, 1000) << "it was hardly ever kept";
+}
+
 /// Vertices that were moved are found at their new places; moved back, the surface is bit-identical to before.
 TEST(Surface, VerticesArePlacedAnewAndBack) {
   const gates::TestVessel vessel = gates::test_vessel();
