@@ -109,15 +109,17 @@ void print_profile(const StepCosts& costs) {
   fmt::print("ms of CPU: mean {:.4f}, median {:.4f}, 99 % {:.3f}, 99.9 % {:.3f}, most {:.3f}\n\n", mean_ms(all),
              share(sorted, 0.5), share(sorted, 0.99), share(sorted, 0.999), sorted.back()->ms);
   fmt::print("{:<20} {:>9} {:>7} {:>14}\n", "phase", "mean ms", "share", "of slowest");
-  for (int p = 0; p < app::session_phases; ++p) {
-    const auto sum = [&](std::span<const StepCosts::Step* const> steps) {
-      double ms = 0;
-      for (const auto* step : steps) ms += step->phases_ms[static_cast<std::size_t>(p)];
-      return ms / static_cast<double>(steps.size());
-    };
-    fmt::print("{:<20} {:>9.4f} {:>5.1f} % {:>12.1f} %\n", app::phase_name(p), sum(all), 100 * sum(all) / mean_ms(all),
-               100 * sum(slow) / mean_ms(slow));
-  }
+  // Phases are timed by the clock on the wall, steps by the processor: shares are of the sum of phases.
+  const auto mean_of = [](std::span<const StepCosts::Step* const> steps, int phase) {
+    double ms = 0;
+    for (const auto* step : steps) ms += step->phases_ms[static_cast<std::size_t>(phase)];
+    return ms / static_cast<double>(steps.size());
+  };
+  double sum_all = 0, sum_slow = 0;
+  for (int p = 0; p < app::session_phases; ++p) sum_all += mean_of(all, p), sum_slow += mean_of(slow, p);
+  for (int p = 0; p < app::session_phases; ++p)
+    fmt::print("{:<20} {:>9.4f} {:>5.1f} % {:>12.1f} %\n", app::phase_name(p), mean_of(all, p),
+               100 * mean_of(all, p) / sum_all, 100 * mean_of(slow, p) / sum_slow);
   const auto deepest = std::max_element(costs.steps.begin(), costs.steps.end(),
                                         [](const auto& a, const auto& b) { return a.deepest_mm < b.deepest_mm; });
   fmt::print("\ndeepest in a wall: {:.4f} mm, {:.3f} s from where this begins; {} steps in trouble\n",

@@ -18,6 +18,7 @@ using Clock = std::chrono::steady_clock;
 /// makes up for. Any further delay is dropped. Catching up runs at most at twice real time.
 constexpr auto most_behind = std::chrono::milliseconds(500);
 constexpr int most_haste = 2;
+constexpr double judged_from_m = 10e-6;  ///< depth from which every new maximum is judged
 
 double seconds_between(Clock::time_point a, Clock::time_point b) {
   return std::chrono::duration<double>(b - a).count();
@@ -62,6 +63,7 @@ PlayReport play(ScriptedRun& run, const RunSetup& setup, const PlayOptions& opti
   recorder.begin(run.state, run.hands);
   TimeBins bins;
   PlayReport out;
+  Penetration judged;
   const auto begin = Clock::now();
   std::string aborted;
   const auto step_length =
@@ -76,8 +78,13 @@ PlayReport play(ScriptedRun& run, const RunSetup& setup, const PlayOptions& opti
     if (!aborted.empty() || !run.tick()) break;
     recorder.add(run.inputs, run.state, run.report, run.hands, run.events);
     bins.add(thread_cpu_s() - cpu);
-    if (run.report.rods.deepest_m > out.deepest_m)
+    if (run.report.rods.deepest_m > out.deepest_m) {
       out.deepest_m = run.report.rods.deepest_m, out.deepest_s = seconds(run.model, run.state);
+      if (!options.real && options.recorder.penetration && out.deepest_m > judged_from_m) {
+        const Penetration here = penetration(run.model, run.state);
+        judged.deepest_m = std::max(judged.deepest_m, here.deepest_m), judged.outside += here.outside;
+      }
+    }
     if (options.progress && run.state.rods.step % 100 == 0) options.progress(run);
     if (options.real) {
       if (now - due > step_length) ++run.overruns;
@@ -108,6 +115,8 @@ PlayReport play(ScriptedRun& run, const RunSetup& setup, const PlayOptions& opti
   }
   out.metrics = metrics_of(record);
   out.penetration = recorder.penetration();
+  out.penetration.deepest_m = std::max(out.penetration.deepest_m, judged.deepest_m);
+  out.penetration.outside += judged.outside;
   out.waits = recorder.waits();
   out.hash = hash(run.state);
   out.problem = recorder.problem();

@@ -35,7 +35,8 @@ struct PlayReport {
   double simulated_s = 0, clock_s = 0;
   StepTimes times;
   std::vector<data::Metric> metrics;
-  Penetration penetration;              ///< once a second, by an independent judge
+  /// By an independent judge: once a second and, unless in real time, wherever contact says that it was never deeper.
+  Penetration penetration;
   double deepest_m = 0, deepest_s = 0;  ///< of all steps, by contact's own planes; and when
   std::string problem;                  ///< of the recording
   long waits = 0;
