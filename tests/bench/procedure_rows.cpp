@@ -122,7 +122,7 @@ void print_profile(const StepCosts& costs) {
                100 * mean_of(all, p) / sum_all, 100 * mean_of(slow, p) / sum_slow);
   const auto deepest = std::max_element(costs.steps.begin(), costs.steps.end(),
                                         [](const auto& a, const auto& b) { return a.deepest_mm < b.deepest_mm; });
-  fmt::print("\ndeepest in a wall: {:.4f} mm, {:.3f} s from where this begins; {} steps in trouble\n",
+  fmt::print("\ndeepest in a wall, at most: {:.4f} mm, {:.3f} s from where this begins; {} steps in trouble\n",
              deepest->deepest_mm, 1e-3 * static_cast<double>(deepest - costs.steps.begin() + 1),
              std::count_if(costs.steps.begin(), costs.steps.end(), [](const auto& step) {
                return (step.trouble & ~static_cast<std::uint32_t>(core::feed_stopped)) != 0;
@@ -168,8 +168,7 @@ Row procedure_row(const std::string& vessel, const std::string& script, const Pr
   Row row;
   row.name = script;
   row.ms = mean_ms(sorted), row.p999_ms = share(sorted, 0.999), row.most_ms = share(sorted, 1);
-  double deepest_mm = 1e3 * report.penetration.deepest_m;
-  for (const StepCosts::Step& step : own.steps) deepest_mm = std::max(deepest_mm, double{step.deepest_mm});
+  const double deepest_mm = 1e3 * report.penetration.deepest_m;
   row.gate = {report.outcome + ", in walls", deepest_mm, "mm",
               own.same && report.outcome == "success" && report.penetration.outside == 0 &&
                   deepest_mm < 1e3 * deepest_scripted_m};

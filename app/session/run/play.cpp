@@ -18,7 +18,6 @@ using Clock = std::chrono::steady_clock;
 /// makes up for. Any further delay is dropped. Catching up runs at most at twice real time.
 constexpr auto most_behind = std::chrono::milliseconds(500);
 constexpr int most_haste = 2;
-constexpr double judged_from_m = 10e-6;  ///< depth from which every new maximum is judged
 
 double seconds_between(Clock::time_point a, Clock::time_point b) {
   return std::chrono::duration<double>(b - a).count();
@@ -56,6 +55,28 @@ class TimeBins {
   double sum_ = 0, most_ = 0;
 };
 
+/// Has the depth judged independently where contact says that it is deep. Contact's planes reach beyond their
+/// triangles, so what they say is an upper bound, and one false alarm must not hide what follows: each second counts
+/// anew.
+class DepthJudge {
+ public:
+  void look(double deep_m, const SessionModel& model, const SessionState& state) {
+    const std::uint64_t second = state.rods.step / 1000;
+    if (second != second_) second_ = second, deepest_here_m_ = least_m;
+    if (deep_m < 1.5 * deepest_here_m_ || deep_m < found_.deepest_m + least_m) return;
+    deepest_here_m_ = deep_m;
+    const Penetration now = penetration(model, state);
+    found_.deepest_m = std::max(found_.deepest_m, now.deepest_m), found_.outside += now.outside;
+  }
+  const Penetration& found() const { return found_; }
+
+ private:
+  static constexpr double least_m = 10e-6;
+  std::uint64_t second_ = 0;
+  double deepest_here_m_ = least_m;
+  Penetration found_;
+};
+
 }  // namespace
 
 PlayReport play(ScriptedRun& run, const RunSetup& setup, const PlayOptions& options) {
@@ -63,7 +84,7 @@ PlayReport play(ScriptedRun& run, const RunSetup& setup, const PlayOptions& opti
   recorder.begin(run.state, run.hands);
   TimeBins bins;
   PlayReport out;
-  Penetration judged;
+  DepthJudge judge;
   const auto begin = Clock::now();
   std::string aborted;
   const auto step_length =
@@ -78,13 +99,9 @@ PlayReport play(ScriptedRun& run, const RunSetup& setup, const PlayOptions& opti
     if (!aborted.empty() || !run.tick()) break;
     recorder.add(run.inputs, run.state, run.report, run.hands, run.events);
     bins.add(thread_cpu_s() - cpu);
-    if (run.report.rods.deepest_m > out.deepest_m) {
-      out.deepest_m = run.report.rods.deepest_m, out.deepest_s = seconds(run.model, run.state);
-      if (!options.real && options.recorder.penetration && out.deepest_m > judged_from_m) {
-        const Penetration here = penetration(run.model, run.state);
-        judged.deepest_m = std::max(judged.deepest_m, here.deepest_m), judged.outside += here.outside;
-      }
-    }
+    const double deep_m = run.report.rods.deepest_m;
+    if (deep_m > out.deepest_m) out.deepest_m = deep_m, out.deepest_s = seconds(run.model, run.state);
+    if (!options.real && options.recorder.penetration) judge.look(deep_m, run.model, run.state);
     if (options.progress && run.state.rods.step % 100 == 0) options.progress(run);
     if (options.real) {
       if (now - due > step_length) ++run.overruns;
@@ -115,8 +132,8 @@ PlayReport play(ScriptedRun& run, const RunSetup& setup, const PlayOptions& opti
   }
   out.metrics = metrics_of(record);
   out.penetration = recorder.penetration();
-  out.penetration.deepest_m = std::max(out.penetration.deepest_m, judged.deepest_m);
-  out.penetration.outside += judged.outside;
+  out.penetration.deepest_m = std::max(out.penetration.deepest_m, judge.found().deepest_m);
+  out.penetration.outside += judge.found().outside;
   out.waits = recorder.waits();
   out.hash = hash(run.state);
   out.problem = recorder.problem();
