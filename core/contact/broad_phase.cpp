@@ -12,7 +12,7 @@ namespace ostium::core {
 
 namespace {
 
-constexpr int block = query_nodes;
+constexpr int block = 8;  ///< most nodes that share a query
 constexpr double longest_block_m = 16e-3;
 constexpr double rounding_m = 1e-9;  ///< rounding margin of a coarse test, before the exact one
 

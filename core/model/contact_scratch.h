@@ -7,8 +7,7 @@
 
 namespace ostium::core {
 
-inline constexpr int max_planes = 6;   ///< per node
-inline constexpr int query_nodes = 8;  ///< neighbours whose walls are looked for together
+inline constexpr int max_planes = 6;  ///< per node
 
 /// A wall near a node, as a plane that moves with the wall: normal . r >= place.
 struct WallPlane {

@@ -92,7 +92,6 @@ double share(const std::vector<const StepCosts::Step*>& sorted, double of) {
 
 StepCosts profile(const std::string& recording, const ProfileOptions& options) {
   StepCosts costs;
-  costs.label = recording;
   for (int n = 0; n < options.replays; ++n) {
     fmt::print(stderr, "replay {} of {} ...\n", n + 1, options.replays);
     replay_once(recording, options, n == 0, costs);
@@ -148,8 +147,7 @@ void print_profile(const StepCosts& costs) {
   row("retries from rest", [](const Step& s) { return s.counts.retries; });
 }
 
-Row procedure_row(const std::string& vessel, const std::string& script, const ProfileOptions& options,
-                  StepCosts* costs) {
+Row procedure_row(const std::string& vessel, const std::string& script, const ProfileOptions& options) {
   app::RunSetup setup;
   set_vessel(vessel, {}, setup);
   set_script(data::find_script(script), setup);
@@ -172,7 +170,6 @@ Row procedure_row(const std::string& vessel, const std::string& script, const Pr
   row.gate = {report.outcome + ", in walls", deepest_mm, "mm",
               own.same && report.outcome == "success" && report.penetration.outside == 0 &&
                   deepest_mm < 1e3 * deepest_scripted_m};
-  if (costs) *costs = own;
   return row;
 }
 

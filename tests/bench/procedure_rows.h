@@ -20,7 +20,6 @@ struct StepCosts {
   };
   std::vector<Step> steps;
   bool same = true;  ///< every step's state was that of the recording
-  std::string label;
 };
 
 struct ProfileOptions {
@@ -33,7 +32,6 @@ StepCosts profile(const std::string& recording, const ProfileOptions& options);
 /// Phases with their shares of all steps and of the slowest 0.1 %, and counts, mean and most.
 void print_profile(const StepCosts& costs);
 /// Runs a procedure as `ostium run` does, and replays it: its row, beside the depth of its instruments in the walls.
-Row procedure_row(const std::string& vessel, const std::string& script, const ProfileOptions& options,
-                  StepCosts* costs = nullptr);
+Row procedure_row(const std::string& vessel, const std::string& script, const ProfileOptions& options);
 
 }  // namespace ostium::bench
