@@ -8,6 +8,7 @@
 #include "app/gates/gate.h"
 #include "core/base/units.h"
 #include "vascular/geometry/mesh/bounding_volume_hierarchy.h"
+#include "vascular/treatment/stent_ties.h"
 
 namespace ostium::app::gates {
 
@@ -48,7 +49,7 @@ data::GateResult rides(const vascular::Patient& patient, const vascular::Physiol
                        const std::vector<double>& radius_m) {
   const vascular::LumenMap map = make_lumen_map(patient, physiology.flow);
   const vascular::WallShape shape(patient, map, physiology.flow.tree);
-  tie_to_wall(model, patient, shape, map, plan.path, wall, 0.7, stent);
+  tie_to_wall({patient, shape, map, physiology.flow.tree}, model, plan.path, wall, 0.7, stent);
   const std::vector<double> gap = gaps(model, stent, plan.path, wall);
   std::vector<double> first(stent.ties.size(), -1);
   double worst = 0;

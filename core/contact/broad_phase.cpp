@@ -7,14 +7,13 @@
 #include "core/base/tolerances.h"
 #include "core/contact/contact.h"
 #include "core/contact/narrow_phase.h"
+#include "core/contact/sleep.h"
 
 namespace ostium::core {
 
 namespace {
 
-constexpr int block = 8;  ///< most nodes that share a query
 constexpr double longest_block_m = 16e-3;
-constexpr double rounding_m = 1e-9;  ///< rounding margin of a coarse test, before the exact one
 
 /// Recomputes a plane from `to`, with the wall as it is at the end of the step. False if another plane already stands
 /// for it there.
@@ -46,52 +45,12 @@ bool is_in_the_way(const Model& model, const Strand& strand, int i, const V3<dou
 /// Neighbours share a query while they are not far apart: long boxes meet many walls.
 int end_of_block(const Rod& rod, int begin, int last) {
   int end = begin + 1;
-  for (double length_m = 0; end < last && end - begin < block; ++end) {
+  for (double length_m = 0; end < last && end - begin < NodeBlock::most; ++end) {
     length_m += rod.length.at(0)[end - 1];
     if (length_m > longest_block_m) break;
   }
   return end;
 }
-
-/// The nodes of a query, one per SIMD lane, at the beginning of the step; unused lanes reach nothing.
-struct Block {
-  double x[block], y[block], z[block], reach[block];  ///< how near a wall must come to count
-  double dx[block], dy[block], dz[block];             ///< expected move
-  double far[block];                                  ///< reach and the length of that move
-
-  void set(int at, const V3<double>& p, const V3<double>& move, double how_near) {
-    x[at] = p.x, y[at] = p.y, z[at] = p.z, reach[at] = how_near;
-    dx[at] = move.x, dy[at] = move.y, dz[at] = move.z, far[at] = how_near + norm(move);
-  }
-  /// Which nodes may be near a box in which something lies throughout the step: one bit each.
-  unsigned near(const V3<double>& low, const V3<double>& high) const {
-    return each(low, high, [this](int k) { return load<Lanes>(far + k); });
-  }
-  /// Which nodes may be near something that begins in a box and moves like that.
-  unsigned near(const V3<double>& low, const V3<double>& high, const ClusterDrift& move) const {
-    return each(low, high, [&](int k) {
-      const V3<Lanes> past{load<Lanes>(dx + k) - move.drift.x, load<Lanes>(dy + k) - move.drift.y,
-                           load<Lanes>(dz + k) - move.drift.z};
-      return load<Lanes>(reach + k) + square_root(dot(past, past)) + move.spread;
-    });
-  }
-
- private:
-  template <class Reach>
-  unsigned each(const V3<double>& low, const V3<double>& high, Reach&& how_near) const {
-    const auto outside = [](Lanes p, double a, double b) { return largest(Lanes{}, largest(a - p, p - b)); };
-    unsigned any = 0;
-    for (int k = 0; k < block; k += lane_count) {
-      const V3<Lanes> away{outside(load<Lanes>(x + k), low.x, high.x), outside(load<Lanes>(y + k), low.y, high.y),
-                           outside(load<Lanes>(z + k), low.z, high.z)};
-      const Lanes within = how_near(k) + rounding_m;
-      const Lanes counts = _mm256_and_pd(_mm256_cmp_pd(dot(away, away), within * within, _CMP_LE_OQ),
-                                         _mm256_cmp_pd(load<Lanes>(reach + k), Lanes{}, _CMP_GT_OQ));
-      any |= static_cast<unsigned>(_mm256_movemask_pd(counts)) << k;
-    }
-    return any;
-  }
-};
 
 }  // namespace
 
@@ -103,54 +62,99 @@ void move_walls(const Model& model, const Inputs& inputs, double from, double to
   }
 }
 
+namespace {
+
+/// A block of a strand's nodes that looks for walls.
+struct Lookout {
+  int begin, end;  ///< nodes of the strand
+  NodeBlock nodes;
+  NodeView views[NodeBlock::most];
+  Bounds bounds;  ///< of all that they may meet
+
+  Lookout(const Model& model, const Strand& strand, int first) : begin(first) {
+    const RodScratch& s = *strand.s;
+    const Rod& rod = s.inside;
+    end = end_of_block(rod, begin, last_free(s) + 1);
+    for (int i = begin; i < end; ++i) {
+      const V3<double> p = load3<double>(strand.own->position, i), expected = load3<double>(s.position, i);
+      store3(strand.contact->expected, i, expected);
+      nodes.add(p, model.sweep ? expected - p : V3<double>{},
+                rod.radius.at(0)[i] + (model.sweep ? tolerances::wall_slack_m : 0));
+      bounds.take(p, nodes.far[i - begin]);
+      views[i - begin] = view_of(rod, *strand.own, i, p, 0);
+    }
+  }
+};
+
+/// Adds the planes of one cluster to the walls of the nodes. Returns how far outside of their reach it lies.
+double look_at(const Model& model, const Lookout& from, int k, int cluster, SurfacePose& whole, NodeWalls* walls) {
+  const Surface& surface = *model.surfaces[static_cast<std::size_t>(k)];
+  const ClusterPose& pose = pose_of(surface, cluster, whole);
+  const ClusterDrift move = model.sweep ? pose.move : ClusterDrift{};
+  const unsigned near = from.nodes.near(pose.low, pose.high, move);
+  double clearance = from.nodes.clearance(pose.low, pose.high, near);
+  for (unsigned left = near; left != 0; left &= left - 1) {
+    const int at = std::countr_zero(left);
+    NodeView view = from.views[at];
+    const V3<double> past = from.nodes.move(at) - move.drift;
+    view.reach = from.nodes.reach[at] + norm(past) + move.spread;
+    look(model, k, cluster, pose, StepEnd::before, view, lets_through(surface, whole, view.radius),
+         walls[from.begin + at]);
+    clearance =
+        least(clearance, least_distance(pose, surface.clusters[cluster].triangles, view.centre) - from.nodes.reach[at]);
+  }
+  return clearance;
+}
+
+/// Adds the planes of one surface: of those leaves kept from earlier steps that do not sleep.
+void look_at_kept(const Model& model, const Lookout& from, int k, SurfacePose& whole, KeptLeaves& kept,
+                  NodeWalls* walls) {
+  const Surface& surface = *model.surfaces[static_cast<std::size_t>(k)];
+  const StepBoxes boxes(surface, whole);
+  SleepWatch watch(surface, whole, from.nodes, kept);
+  const Eigen::Vector3d& by = kept.list.shift_W;
+  const V3<double> shift{by[0], by[1], by[2]};
+  for (std::size_t n = 0; n < kept.list.leaves.size(); ++n) {
+    if (watch.sleeps(n)) continue;
+    const LeafList::Leaf& leaf = kept.list.leaves[n];
+    const BoxEnds box = boxes.of(leaf.node, leaf.box);
+    const RoughPose rough = rough_pose(surface, leaf.node, shift + box.lowest(), shift + box.highest(), whole);
+    watch.lay_down(n, from.nodes.near(rough.low, rough.high, rough.move) == 0
+                          ? from.nodes.clearance(rough.low, rough.high)
+                          : look_at(model, from, k, surface.nodes[leaf.node].cluster, whole, walls));
+  }
+}
+
+}  // namespace
+
 void find_walls(const Model& model, const Strand& strand, Scratch& scratch) {
   if (model.surfaces.empty()) return;
   RodScratch& s = *strand.s;
   ContactScratch& c = *strand.contact;
-  const Rod& rod = s.inside;
-  const RodState& own = *strand.own;
-  for (int i = rod.first; i < rod.nodes(); ++i) c.walls[i].count = 0;
+  for (int i = s.inside.first; i < s.inside.nodes(); ++i) c.walls[i].count = 0;
   std::size_t lists = 0;
-  for (int begin = first_free(s), end; begin <= last_free(s); begin = end) {
-    end = end_of_block(rod, begin, last_free(s) + 1);
-    Bounds bounds;
-    Block nodes;
-    NodeView views[block];
-    for (int k = 0; k < block; ++k) nodes.set(k, {}, {}, -1);
-    for (int i = begin; i < end; ++i) {
-      const V3<double> p = load3<double>(own.position, i), expected = load3<double>(s.position, i);
-      store3(c.expected, i, expected);
-      nodes.set(i - begin, p, model.sweep ? expected - p : V3<double>{},
-                rod.radius.at(0)[i] + (model.sweep ? tolerances::wall_slack_m : 0));
-      bounds.take(p, nodes.far[i - begin]);
-      views[i - begin] = view_of(rod, own, i, p, 0);
-    }
-    for (std::size_t k = 0; k < model.surfaces.size(); ++k) {
-      const Surface& surface = *model.surfaces[k];
-      SurfacePose& whole = scratch.surfaces[k];
-      find_clusters_again(surface, bounds.low, bounds.high, whole, c.leaves[lists++], c.clusters,
-                          [&](int n, const V3<double>& low, const V3<double>& high) {
-                            if (nodes.near(low, high) == 0) return false;
-                            if (!model.sweep) return true;
-                            const RoughPose rough = rough_pose(surface, n, low, high, whole);
-                            return nodes.near(rough.low, rough.high, rough.move) != 0;
-                          });
-      for (int cluster : c.clusters) {
-        const ClusterPose& pose = pose_of(surface, cluster, whole);
-        const ClusterDrift move = model.sweep ? pose.move : ClusterDrift{};
-        for (unsigned left = nodes.near(pose.low, pose.high, move); left != 0; left &= left - 1) {
-          const int at = std::countr_zero(left);
-          NodeView view = views[at];
-          const V3<double> past = V3<double>{nodes.dx[at], nodes.dy[at], nodes.dz[at]} - move.drift;
-          view.reach = nodes.reach[at] + norm(past) + move.spread;
-          look(model, static_cast<int>(k), cluster, pose, StepEnd::before, view,
-               lets_through(surface, whole, view.radius), c.walls[begin + at]);
-        }
+  for (int begin = first_free(s); begin <= last_free(s);) {
+    const Lookout from(model, strand, begin);
+    const auto& [low, high] = from.bounds;
+    for (int k = 0; k < static_cast<int>(model.surfaces.size()); ++k) {
+      const Surface& surface = *model.surfaces[static_cast<std::size_t>(k)];
+      SurfacePose& whole = scratch.surfaces[static_cast<std::size_t>(k)];
+      KeptLeaves& kept = c.leaves[lists++];
+      if (renew(surface, low, high, whole, kept.list)) {
+        look_at_kept(model, from, k, whole, kept, c.walls.data());
+        continue;
       }
+      find_clusters(surface, low, high, whole, c.clusters, [&](int n, const V3<double>& l, const V3<double>& h) {
+        if (from.nodes.near(l, h) == 0) return false;
+        if (!model.sweep) return true;
+        const RoughPose rough = rough_pose(surface, n, l, h, whole);
+        return from.nodes.near(rough.low, rough.high, rough.move) != 0;
+      });
+      for (int cluster : c.clusters) look_at(model, from, k, cluster, whole, c.walls.data());
     }
-    for (int i = begin; i < end; ++i) {
-      if (c.walls[i].count > 0) sum_up(views[i - begin], c.walls[i]);
-    }
+    for (int i = begin; i < from.end; ++i)
+      if (c.walls[i].count > 0) sum_up(from.views[i - begin], c.walls[i]);
+    begin = from.end;
   }
 }
 

@@ -27,17 +27,25 @@ EndSlopes end_slopes(const ContactScratch& c, const RodScratch& s) {
   return slopes;
 }
 
-/// Slope of the whole energy at the share `part` of the direction.
-double slope(const EndSlopes& slopes, double part, const ContactScratch& c, const RodScratch& s) {
-  double sum = slopes.at_anchor + part * (slopes.at_ahead - slopes.at_anchor);
+void list_planes_ahead(const RodScratch& s, ContactScratch& c) {
+  c.planes_ahead.clear();
   const auto [first, last] = settling_nodes(s, c);
   for (int i = first; i <= last; ++i) {
     const NodeWalls& walls = c.walls[i];
     if (walls.count == 0) continue;
-    const V3<double> from = load3<double>(c.anchor, i), d = load3<double>(c.ahead, i) - from, p = madd(part, d, from);
-    for (int k = 0; k < walls.count; ++k)
-      sum -= largest(0, push_N(walls.planes[k], p)) * dot(walls.planes[k].normal, d);
+    const V3<double> from = load3<double>(c.anchor, i), d = load3<double>(c.ahead, i) - from;
+    for (int k = 0; k < walls.count; ++k) {
+      const WallPlane& w = walls.planes[k];
+      const double push = push_N(w, from), along = dot(w.normal, d), change = -along / w.softness;
+      if (push > 0 || push + change > 0) c.planes_ahead.push_back({push, change, along});
+    }
   }
+}
+
+/// Slope of the whole energy at the share `part` of the direction.
+double slope(const EndSlopes& slopes, double part, const ContactScratch& c) {
+  double sum = slopes.at_anchor + part * (slopes.at_ahead - slopes.at_anchor);
+  for (const ContactScratch::PlaneAhead& w : c.planes_ahead) sum -= largest(0, w.push + part * w.change) * w.along;
   return sum;
 }
 
@@ -68,11 +76,12 @@ void descend(const Strand& strand) {
   const RodScratch& s = *strand.s;
   ContactScratch& c = *strand.contact;
   const EndSlopes slopes = end_slopes(c, s);
+  list_planes_ahead(s, c);
   double low = 0, high = 1;
-  if (slope(slopes, 1, c, s) <= 0) low = 1;
+  if (slope(slopes, 1, c) <= 0) low = 1;
   while (high - low > tolerances::least_descent) {
     const double middle = (low + high) / 2;
-    (slope(slopes, middle, c, s) > 0 ? high : low) = middle;
+    (slope(slopes, middle, c) > 0 ? high : low) = middle;
   }
   const double part = low > 0 ? low : high;
   const auto [first, last] = settling_nodes(s, c);

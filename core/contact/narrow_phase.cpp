@@ -202,6 +202,28 @@ void look(const Model& model, int at_surface, int cluster, const ClusterPose& po
   }
 }
 
+double least_distance(const ClusterPose& pose, int triangles, const V3<double>& p) {
+  const V3<double> from = p - pose.low, size = pose.high - pose.low;
+  const auto all = [](double a) { return _mm256_set1_ps(static_cast<float>(a)); };
+  const __m256 x = all(from.x), y = all(from.y), z = all(from.z), sign = _mm256_set1_ps(-0.0F), none = all(1),
+               lane = _mm256_setr_ps(0, 1, 2, 3, 4, 5, 6, 7);
+  const TriangleBounds& t = pose.bounds;
+  __m256 least_of = none;
+  for (int k = 0; k < triangles; k += 8) {
+    const auto at = [k](const float* bound) { return _mm256_loadu_ps(bound + k); };
+    const __m256 dx = x - at(t.x), dy = y - at(t.y), dz = z - at(t.z);
+    const __m256 ball = _mm256_sqrt_ps(dx * dx + dy * dy + dz * dz) - at(t.radius);
+    const __m256 height = at(t.normal_x) * x + at(t.normal_y) * y + at(t.normal_z) * z - at(t.height);
+    const __m256 apart = _mm256_max_ps(ball, _mm256_andnot_ps(sign, height));
+    least_of =
+        _mm256_min_ps(least_of, _mm256_blendv_ps(none, apart, _mm256_cmp_ps(lane, all(triangles - k), _CMP_LT_OQ)));
+  }
+  float each[8];
+  _mm256_storeu_ps(each, least_of);
+  const double apart = *std::min_element(each, each + 8);
+  return apart - rounding_share * (size.x + size.y + size.z + std::fabs(apart) + norm(from));
+}
+
 void sum_up(const NodeView& view, NodeWalls& walls) {
   if (any_soft(walls)) join_soft_walls(view, walls);
   drop_walls_seen_from_behind(walls);

@@ -52,6 +52,9 @@ WallPlane plane_of(const Surface& surface, const NodeView& view, const Surface::
 void look(const Model& model, int at_surface, int cluster, const ClusterPose& pose, StepEnd end, const NodeView& view,
           bool passes, NodeWalls& walls);
 
+/// No triangle of the cluster is nearer to a point at the beginning of the step, m.
+double least_distance(const ClusterPose& pose, int triangles, const V3<double>& p);
+
 /// After the last look: joins soft walls and removes walls seen from behind.
 void sum_up(const NodeView& view, NodeWalls& walls);
 

@@ -52,6 +52,30 @@ struct RodContact {
   V3<double> seen_a, seen_b;  ///< m: the two points as this round began
 };
 
+inline constexpr int most_in_block = 8;  ///< nodes that share a query for walls
+
+/// Leaves of a surface's tree near a block of nodes, kept from step to step; most of them sleep (core/contact/sleep.h).
+struct KeptLeaves {
+  struct Sleep {
+    float speed_m = 0;     ///< per frame of the cycle, relative to the reference: at most
+    float wakes_at_m = 0;  ///< way at which a node may meet it
+  };
+  LeafList list;
+  std::vector<Sleep> sleep;  ///< of each leaf
+  long made = -1;            ///< LeafList::made for which they were set
+  int reference = 0;         ///< node of the tree: the middle of its box moves as the walls here do, about
+  double sway_m = 0;         ///< per unit of sway, relative to the reference: any leaf, at most
+  double way_m = 0;          ///< how far the block's nodes have gone relative to the reference: at most
+  double frames = 0;         ///< how far the cycle has gone
+  // --- as of the last step
+  int nodes = 0;
+  V3<double> seen[most_in_block];  ///< m, relative to the reference
+  double reach[most_in_block];     ///< m
+  double share = 0, sway = 0;      ///< of SurfaceMoment
+
+  KeptLeaves() { sleep.reserve(LeafList::most); }
+};
+
 struct ContactScratch {
   std::vector<NodeWalls> walls;  ///< (#nodes)
   Field<3> expected;             ///< m, (#nodes): where a node was expected to go when its walls were looked for
@@ -71,11 +95,17 @@ struct ContactScratch {
   // --- line search, at nodes
   Field<3> anchor, ahead;            ///< m: best point so far of this linearisation; solution of the last solve
   Field<3> anchor_push, ahead_push;  ///< N: wall forces that would balance the node there
+  /// A plane on the way from the anchor: the wall's push there, N, how it changes until the point ahead, and how far
+  /// the way goes along the normal, m.
+  struct PlaneAhead {
+    double push, change, along;
+  };
+  std::vector<PlaneAhead> planes_ahead;
   // --- other rods
   std::vector<double> rod_shares;  ///< (#nodes): total share of rod contacts
   // --- queries
   std::vector<int> clusters;
-  std::vector<LeafList> leaves;  ///< [block of nodes][surface]
+  std::vector<KeptLeaves> leaves;  ///< [block of nodes][surface]
 };
 
 }  // namespace ostium::core

@@ -28,7 +28,8 @@ struct RodScratch {
   TimeScheme scheme = TimeScheme::bdf2;
   double step_s = 0;  ///< of this attempt; shorter than the model's when retried from rest
   Progress progress = Progress::open;
-  double defect = 0;  ///< residual of inextensibility in the iterate
+  double defect = 0;       ///< residual of inextensibility in the iterate
+  double last_defect = 0;  ///< ... in the one before
   GeometricStiffness geometric = GeometricStiffness::with;
   BlockTridiagonal chain;  ///< the linear system and its solution
   Field<3> target;         ///< m, (#nodes): where a node would go without internal force

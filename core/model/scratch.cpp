@@ -34,6 +34,7 @@ void resize_contact(const Model& model, int elements, ContactScratch& c) {
   std::size_t clusters = 0;
   for (const auto& surface : model.surfaces) clusters = std::max(clusters, surface->clusters.size());
   c.clusters.reserve(clusters);
+  c.planes_ahead.reserve(static_cast<std::size_t>(nodes) * max_planes);
   c.leaves.resize(model.surfaces.size() * static_cast<std::size_t>(nodes));
 }
 

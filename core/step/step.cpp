@@ -216,7 +216,7 @@ void take_solution(const Strand& strand, RodReport& report, StepCounts& counts) 
   const IterateChange change = update_iterate(s.inside, tolerances::max_turn_rad, s);
   if (strand.nest && change.finite) update_layers(change.fraction, *strand.nest);
   report.stretch = change.stretch;
-  s.defect = change.defect;
+  s.last_defect = s.defect, s.defect = change.defect;
   // The defect is quadratic in this iteration's turn, so a small defect means that moments balance, too. A large axial
   // stretch means a rod that has not buckled yet, or cannot.
   const bool whole = change.turn_rad <= tolerances::max_turn_rad;
@@ -232,8 +232,18 @@ bool any(const Scratch& scratch, Progress progress) {
                      [&](const Strand& strand) { return strand.s->progress == progress; });
 }
 
-void iterate(const Model& model, const State& state, Scratch& scratch, StepReport& report) {
+/// Whether a strand is far from its solution and went still farther away with the last iteration.
+bool goes_astray(const Scratch& scratch) {
+  return std::any_of(scratch.strands.begin(), scratch.strands.end(), [](const Strand& strand) {
+    const RodScratch& s = *strand.s;
+    return s.progress == Progress::open && s.defect > std::max(tolerances::astray_defect, s.last_defect);
+  });
+}
+
+/// `halves`: what does not converge is done again in halves, so no time is spent on it.
+void iterate(const Model& model, const State& state, bool halves, Scratch& scratch, StepReport& report) {
   for (int i = 0; i < tolerances::max_newton_iterations && any(scratch, Progress::open); ++i) {
+    if (halves && i >= tolerances::patient_iterations && goes_astray(scratch)) return;
     for (const Strand& strand : scratch.strands)
       if (strand.s->progress == Progress::open) linearise(state, strand, scratch.clock);
     solve_open(model, scratch);
@@ -243,13 +253,13 @@ void iterate(const Model& model, const State& state, Scratch& scratch, StepRepor
 }
 
 /// Solves touching rods alternately until both feel the same force.
-void settle_rod_contacts(const Model& model, const State& state, Scratch& scratch, StepReport& report) {
+void settle_rod_contacts(const Model& model, const State& state, bool halves, Scratch& scratch, StepReport& report) {
   while (!any(scratch, Progress::failed) && renew_rod_contacts(scratch)) {
     for (const Strand& strand : scratch.strands) {
       strand.s->progress = Progress::open;
       constrain(model, scratch, strand);
     }
-    iterate(model, state, scratch, report);
+    iterate(model, state, halves, scratch, report);
   }
 }
 
@@ -285,7 +295,7 @@ void retry_from_rest(const Model& model, const State& state, Scratch& scratch, S
       predict(model, state, scratch, strand, TimeScheme::from_rest);
     }
     if (!again) return;
-    iterate(model, state, scratch, report);
+    iterate(model, state, false, scratch, report);
   }
 }
 
@@ -313,9 +323,10 @@ void advance(const Model& model, const Inputs& inputs, Piece piece, State& state
   meet_walls(model, inputs, piece, scratch);
   find_rod_contacts(model, scratch);
   for (const Strand& strand : scratch.strands) predict(model, state, scratch, strand, strand.s->scheme);
-  iterate(model, state, scratch, report);
-  settle_rod_contacts(model, state, scratch, report);
-  if (!model.surfaces.empty() && !piece.is_least() && !all_done(model, scratch)) {
+  const bool halves = !model.surfaces.empty() && !piece.is_least();
+  iterate(model, state, halves, scratch, report);
+  settle_rod_contacts(model, state, halves, scratch, report);
+  if (halves && !all_done(model, scratch)) {
     ++scratch.counts.halvings;
     take_drives_back(scratch, state);
     rescale_histories(model, 0.5, state);

@@ -20,7 +20,8 @@ SurfaceMoment moment(const Surface& surface, double frame, const Eigen::Vector3d
   }
   const double within = frame - n * std::floor(frame / n);
   m.interval = static_cast<int>(within) % n;
-  const std::array<double, 4> w = frame_weights(within - std::floor(within));
+  m.share = within - std::floor(within);
+  const std::array<double, 4> w = frame_weights(m.share);
   for (int j = 0; j < 4; ++j) m.frame[j] = (m.interval + j - 1 + n) % n, m.weight[j] = w[j];
   return m;
 }
@@ -120,10 +121,11 @@ SurfacePose::SurfacePose(const Surface& surface)
 }
 
 void set_motion(const Surface& surface, const SurfaceMotion& motion, SurfacePose& pose) {
-  const SurfaceMoment ended = pose.after;
+  const SurfaceMoment began = pose.before, ended = pose.after;
   pose.before = moment(surface, motion.frame_before, motion.shift_before_W, motion.sway_before);
   const bool edited = pose.edits != surface.edits;
   pose.goes_on = pose.before == ended && !edited;
+  pose.begins_again = pose.before == began && !edited;
   pose.edits = surface.edits;
   pose.door_open = motion.door_open;
   pose.after = moment(surface, motion.frame_after, motion.shift_after_W, motion.sway_after);
@@ -180,6 +182,16 @@ double half_size(const Box& box) {
   return std::sqrt(sum2) / 2;
 }
 
+/// How far corners move beside the middle of their box, from one mixture of the frames of an interval to another.
+double spread_between(const FrameBounds* frames, const double* weight, const double* then) {
+  double share = 0, spread = 0;
+  for (int j = 3; j > 0; --j) {
+    share += then[j] - weight[j];
+    spread += std::fabs(share) * frames[j - 1].spread_m;
+  }
+  return spread;
+}
+
 }  // namespace
 
 RoughPose rough_pose(const Surface& surface, int node, const V3<double>& low, const V3<double>& high,
@@ -188,18 +200,20 @@ RoughPose rough_pose(const Surface& surface, int node, const V3<double>& low, co
   const ClusterPose& known = pose.clusters[cluster];
   if (is_known(surface.clusters[cluster], known, pose)) return {known.low, known.high, known.move};
   const SurfaceMoment &a = pose.before, &b = pose.after;
-  const Surface::Cluster& described = surface.clusters[cluster];
-  if (described.stands_still || a.interval != b.interval) return {low, high, {{}, unknown_m}};
+  const bool goes_over = b.interval == (a.interval + 1) % surface.frames;
+  if (surface.clusters[cluster].stands_still || (a.interval != b.interval && !goes_over))
+    return {low, high, {{}, unknown_m}};
   constexpr double rounding_m = 2e-6;  // of single precision, a metre from the origin
-  const FrameBounds* frames = surface.bounds_of(cluster, a.interval);
-  const Mix before = mixed(frames, node, a, surface), after = mixed(frames, node, b, surface);
+  const FrameBounds *from = surface.bounds_of(cluster, a.interval), *to = surface.bounds_of(cluster, b.interval);
+  const Mix before = mixed(from, node, a, surface), after = mixed(to, node, b, surface);
   RoughPose rough{before.lowest(), before.highest(), {}};
   rough.move.drift = 0.5 * (after.lowest() + after.highest() - rough.low - rough.high);
-  double share = 0;
   rough.move.spread = rounding_m;
-  for (int j = 3; j > 0; --j) {
-    share += b.weight[j] - a.weight[j];
-    rough.move.spread += std::fabs(share) * frames[j - 1].spread_m;
+  if (a.interval == b.interval) {
+    rough.move.spread += spread_between(from, a.weight, b.weight);
+  } else {
+    constexpr double begins[] = {0, 1, 0, 0}, ends[] = {0, 0, 1, 0};
+    rough.move.spread += spread_between(from, a.weight, ends) + spread_between(to, begins, b.weight);
   }
   if (b.sway != a.sway) rough.move.spread += std::fabs(b.sway - a.sway) * half_size(surface.sway_boxes[node]);
   const V3<double> margin{rounding_m, rounding_m, rounding_m};
@@ -243,6 +257,7 @@ bool renew(const Surface& surface, const V3<double>& low, const V3<double>& high
   list.sway_low = std::min(a.sway, b.sway), list.sway_high = std::max(a.sway, b.sway);
   list.edits = surface.edits, list.shift_W = a.shift_W;
   list.leaves.clear();
+  ++list.made;
   bool all = true;
   const Box* over_interval = &surface.boxes[std::size_t{1} * a.interval * surface.nodes.size()];
   visit_leaves(surface, a.interval, StepBoxes(surface, pose), BoxQuery(list.low - shift, list.high - shift),
@@ -254,20 +269,59 @@ bool renew(const Surface& surface, const V3<double>& low, const V3<double>& high
   return all;
 }
 
+namespace {
+
+V3<double> middle(const Box& box) {
+  const auto at = [&](int axis) { return 0.5 * (double{box.low[axis]} + double{box.high[axis]}); };
+  return {at(0), at(1), at(2)};
+}
+
+double length(const V3<double>& a) { return std::sqrt(dot(a, a)); }
+
+}  // namespace
+
+V3<double> middle_of(const Surface& surface, int node, const SurfaceMoment& m) {
+  const FrameBounds* frames = surface.bounds_of(surface.nodes[node].cluster, m.interval);
+  V3<double> sum{m.shift_W[0], m.shift_W[1], m.shift_W[2]};
+  for (int j = 0; j < 4; ++j) sum = madd(m.weight[j], middle(frames[j].box), sum);
+  return m.sway != 0 ? madd(m.sway, middle(surface.sway_boxes[node]), sum) : sum;
+}
+
+double relative_speed(const Surface& surface, int interval, int cluster, int other) {
+  const FrameBounds *own = surface.bounds_of(cluster, interval), *its = surface.bounds_of(other, interval);
+  V3<double> d[3];  // from frame to frame
+  double beside[3];
+  for (int j = 0; j < 3; ++j) {
+    d[j] = middle(own[j + 1].box) - middle(own[j].box) - (middle(its[j + 1].box) - middle(its[j].box));
+    beside[j] = own[j].spread_m;
+  }
+  // The velocity within the interval is a quadratic Bezier curve: it stays within its three points.
+  const V3<double> ends = 0.5 * (d[0] + d[2]);
+  return largest(largest(length(0.5 * (d[0] + d[1])) + 0.5 * (beside[0] + beside[1]),
+                         length(0.5 * (d[1] + d[2])) + 0.5 * (beside[1] + beside[2])),
+                 length(2.0 * d[1] - ends) + 2 * beside[1] + 0.5 * (beside[0] + beside[2]));
+}
+
+double relative_sway(const Surface& surface, int node, int other_node) {
+  if (!surface.sways()) return 0;
+  const Box &own = surface.sway_boxes[node], &its = surface.sway_boxes[other_node];
+  return length(middle(own) - middle(its)) + half_size(own);
+}
+
 const ClusterPose& pose_of(const Surface& surface, int cluster, SurfacePose& pose) {
   ClusterPose& c = pose.clusters[cluster];
   const Surface::Cluster& described = surface.clusters[cluster];
   if (is_known(described, c, pose)) return c;
-  const bool known = pose.goes_on && c.computed == pose.step - 1;
+  const bool was_known = c.computed == pose.step - 1, begins_again = was_known && pose.begins_again;
   c.computed = pose.step;
   ++pose.posed;
-  if (known)
+  if (was_known && pose.goes_on)
     std::swap(c.before, c.after);
-  else
+  else if (!begins_again)
     place(surface, described, pose.before, c.before);
   place(surface, described, pose.after, c.after);
   bound(described.corners, c);
-  wrap(surface, described, c);
+  if (!begins_again) wrap(surface, described, c);
   return c;
 }
 

@@ -17,6 +17,7 @@ struct SurfaceMoment {
   Eigen::Vector3d shift_W = Eigen::Vector3d::Zero();
   double sway = 0;  ///< 0 if the surface does not sway
   int interval = 0;
+  double share = 0;  ///< of the interval that has passed
   bool operator==(const SurfaceMoment&) const = default;
 };
 
@@ -61,7 +62,8 @@ struct SurfacePose {
   long stands_since = 0;  ///< the step since which parts that stand still in the cycle have not moved
   int posed = 0;          ///< clusters whose pose was computed since this was set to 0
   bool door_open = false;
-  bool goes_on = false;  ///< this step begins where the last one ended, on the same surface
+  bool goes_on = false;       ///< this step begins where the last one ended, on the same surface
+  bool begins_again = false;  ///< ... or where the last one began: a part of it is tried
 };
 
 /// Sets `pose` to a new step.
@@ -107,6 +109,8 @@ struct LeafList {
   double sway_low = 0, sway_high = 0;
   Eigen::Vector3d shift_W = Eigen::Vector3d::Zero();
   std::vector<Leaf> leaves;
+
+  long made = 0;  ///< times that the leaves were searched anew
 
   LeafList() { leaves.reserve(most); }
 };
@@ -176,32 +180,23 @@ inline void find_clusters(const Surface& surface, const V3<double>& low, const V
   find_clusters(surface, low, high, pose, found, [](int, const V3<double>&, const V3<double>&) { return true; });
 }
 
-/// Makes `list` hold every leaf that the box may touch in this step. False if it cannot: the step passes from one
-/// interval to the next or shifts the wall, or there are too many.
+/// Makes `list` hold every leaf that the box may touch in this step, in the order of find_clusters. False if it cannot:
+/// the step passes from one interval to the next or shifts the wall, or there are too many.
 bool renew(const Surface& surface, const V3<double>& low, const V3<double>& high, const SurfacePose& pose,
            LeafList& list);
 
-/// The same as find_clusters, bit for bit, mostly without a walk through the tree.
-template <class Near>
-void find_clusters_again(const Surface& surface, const V3<double>& low, const V3<double>& high, SurfacePose& pose,
-                         LeafList& list, std::vector<int>& found, Near&& near) {
-  if (!renew(surface, low, high, pose, list)) return find_clusters(surface, low, high, pose, found, near);
-  found.clear();
-  const StepBoxes boxes(surface, pose);
-  const V3<double> shift{list.shift_W[0], list.shift_W[1], list.shift_W[2]};
-  const BoxQuery query(low - shift, high - shift);
-  for (const LeafList::Leaf& leaf : list.leaves) {
-    const BoxEnds box = boxes.of(leaf.node, leaf.box);
-    if (!query.misses(box) && near(leaf.node, shift + box.lowest(), shift + box.highest()))
-      found.push_back(surface.nodes[leaf.node].cluster);
-  }
-}
-
 /// The rough pose, in this step, of the cluster at a leaf of the tree whose box over the interval is `low` to `high`;
-/// the exact one if that is known already. Of a cluster that stands still, or between two intervals, only the box is
-/// known.
+/// the exact one if that is known already. Of a cluster that stands still only the box is known.
 RoughPose rough_pose(const Surface& surface, int node, const V3<double>& low, const V3<double>& high,
                      const SurfacePose& pose);
+
+/// The middle of a cluster's box at a moment, mixed as its corners are: a point that moves with the wall, exactly.
+V3<double> middle_of(const Surface& surface, int node, const SurfaceMoment& m);
+
+/// Bounds on how a cluster's corners move, relative to the middle of another: m per frame in the cycle, and m per unit
+/// of sway.
+double relative_speed(const Surface& surface, int interval, int cluster, int other);
+double relative_sway(const Surface& surface, int node, int other_node);
 
 /// A cluster's pose in this step, computed if needed.
 const ClusterPose& pose_of(const Surface& surface, int cluster, SurfacePose& pose);

@@ -84,6 +84,22 @@ double mean_ms(std::span<const StepCosts::Step* const> steps) {
   return steps.empty() ? 0 : sum / static_cast<double>(steps.size());
 }
 
+/// The slowest steps: when, and what took the time.
+void print_slowest(const StepCosts& costs, std::span<const StepCosts::Step* const> sorted) {
+  fmt::print("\n{:>10} {:>9}  {:<22} {:>10} {:>7} {:>6} {:>9} {:>9}\n", "slowest, s", "ms", "most of it in",
+             "iterations", "changes", "flips", "clusters", "halvings");
+  constexpr std::size_t shown = 12;
+  for (std::size_t n = 0; n < std::min(shown, sorted.size()); ++n) {
+    const StepCosts::Step& step = *sorted[sorted.size() - 1 - n];
+    const auto most = std::max_element(step.phases_ms.begin(), step.phases_ms.end());
+    fmt::print("{:>10.3f} {:>9.3f}  {:<22} {:>10} {:>7} {:>6} {:>9} {:>9}\n",
+               1e-3 * static_cast<double>(&step - costs.steps.data() + 1), step.ms,
+               fmt::format("{} {:.2f}", app::phase_name(static_cast<int>(most - step.phases_ms.begin())), *most),
+               step.counts.iterations, step.counts.changes, step.counts.flips, step.counts.clusters,
+               step.counts.halvings);
+  }
+}
+
 double share(const std::vector<const StepCosts::Step*>& sorted, double of) {
   return sorted.empty() ? 0 : sorted[static_cast<std::size_t>(of * static_cast<double>(sorted.size() - 1))]->ms;
 }
@@ -145,6 +161,7 @@ void print_profile(const StepCosts& costs) {
   row("clusters posed", [](const Step& s) { return s.counts.clusters; });
   row("halvings", [](const Step& s) { return s.counts.halvings; });
   row("retries from rest", [](const Step& s) { return s.counts.retries; });
+  print_slowest(costs, all);
 }
 
 Row procedure_row(const std::string& vessel, const std::string& script, const ProfileOptions& options) {

@@ -77,8 +77,9 @@ void check(const StentModel& m) {
   if (!(m.nominal_m >= 2e-3 && m.nominal_m <= 5e-3 && m.length_m >= 6e-3 && m.length_m <= 50e-3))
     throw std::invalid_argument(
         fmt::format("stent: {:g} x {:g} mm; expected 2 to 5 mm by 6 to 50 mm", 1e3 * m.nominal_m, 1e3 * m.length_m));
-  if (m.rings < 2 || m.crowns < 3 || m.links < 1 || m.crowns % m.links != 0)
-    throw std::invalid_argument("stent: expected at least 2 rings, 3 crowns, and links that divide the crowns");
+  if (m.rings < 2 || m.crowns < 3 || m.crowns > most_crowns || m.links < 1 || m.crowns % m.links != 0)
+    throw std::invalid_argument(
+        fmt::format("stent: expected at least 2 rings, 3 to {} crowns, and links that divide the crowns", most_crowns));
 }
 
 StentState make_stent_state(const StentModel& m) {

@@ -15,6 +15,8 @@
 
 namespace ostium::vascular {
 
+inline constexpr int most_crowns = 24;  ///< per ring
+
 /// A stent of one size. `make_stent` sets the crowns and rings left open by its design.
 struct StentModel : StentDesign {
   std::string name;
@@ -30,9 +32,10 @@ void check(const StentModel& model);  ///< throws std::invalid_argument
 
 /// Where a point of a deployed stent is attached to the wall.
 struct StentTie {
-  int triangle = -1;    ///< of MovingLumen; -1: none
-  double u = 0, v = 0;  ///< barycentric weights of the second and third corner
-  double depth_m = 0;   ///< inwards from that point
+  static constexpr int untied = -1, out_of_reach = -2;
+  int triangle = untied;  ///< of MovingLumen
+  double u = 0, v = 0;    ///< barycentric weights of the second and third corner
+  double depth_m = 0;     ///< inwards from that point
 };
 constexpr auto fields(const StentTie*) {
   return std::tuple{core::field("triangle", &StentTie::triangle), core::field("u", &StentTie::u),

@@ -5,24 +5,17 @@
 #include <cmath>
 
 #include "core/base/units.h"
-#include "vascular/geometry/mesh/bounding_volume_hierarchy.h"
 
 namespace ostium::vascular {
 
-namespace {
-
-/// Angle of point j of a ring; the first crown is at the side direction of the path's frame.
 double angle_of(const StentModel& m, int j) { return units::pi * j / m.crowns; }
 
-/// A stent too small for its vessel lies against one side: its gap is 0 there, and twice the mean on the opposite side.
 double gap_of(const StentModel& m, const StentState& s, const VesselPath& path, const PlaqueState& wall, int point) {
   const int around = 2 * m.crowns, ring = point / around;
   const double at = s.middle_m + s.shift_m + s.along_m[point];
   const double room = path.value(wall.radius_m, at) - s.radius_m[ring] - m.strut_m;
   return std::max(0.0, room) * (1 - std::cos(angle_of(m, point % around)));
 }
-
-}  // namespace
 
 std::vector<std::pair<int, int>> struts_of(const StentModel& m) {
   std::vector<std::pair<int, int>> out;
@@ -38,54 +31,60 @@ std::vector<std::pair<int, int>> struts_of(const StentModel& m) {
   return out;
 }
 
-PathFrame frame_at(const LumenMap& map, const VesselPath& path, double s_m, double phase, double breath) {
-  const auto centre = [&](int i) {
-    const int last = static_cast<int>(path.cells.size()) - 1;
-    return map.centre(static_cast<std::size_t>(path.cells[std::clamp(i, 0, last)]), phase, breath);
-  };
-  const VesselPath::Place place = path.at(s_m);
-  PathFrame f;
-  f.centre = (1 - place.share) * centre(place.index) + place.share * centre(place.index + 1);
-  Eigen::Vector3d side = Eigen::Vector3d::UnitX(), along = (centre(2) - centre(0)).normalized();
-  if (std::fabs(along.x()) > 0.9) side = Eigen::Vector3d::UnitY();
-  side = (side - side.dot(along) * along).normalized();
-  for (int i = 0; i <= place.index; ++i) {
-    const Eigen::Vector3d next = (centre(i + 2) - centre(i - 1)).normalized();
+PathFrames::PathFrames(const LumenMap& map, const VesselPath& path, double least_m, double phase, double breath)
+    : map_(map), path_(path), phase_(phase), breath_(breath), side_(Eigen::Vector3d::UnitX()) {
+  along_ = (centre(2) - centre(0)).normalized();
+  if (std::fabs(along_.x()) > 0.9) side_ = Eigen::Vector3d::UnitY();
+  side_ = (side_ - side_.dot(along_) * along_).normalized();
+  carry(first_, path.at(least_m).index, along_, side_);
+}
+
+Eigen::Vector3d PathFrames::centre(int i) const {
+  const int last = static_cast<int>(path_.cells.size()) - 1;
+  return map_.centre(static_cast<std::size_t>(path_.cells[std::clamp(i, 0, last)]), phase_, breath_);
+}
+
+void PathFrames::carry(int& index, int to, Eigen::Vector3d& along, Eigen::Vector3d& side) const {
+  while (index < to) {
+    ++index;
+    const Eigen::Vector3d next = (centre(index + 2) - centre(index - 1)).normalized();
     side = Eigen::Quaterniond::FromTwoVectors(along, next) * side;
     along = next;
   }
+}
+
+PathFrame PathFrames::at(double s_m) const {
+  const VesselPath::Place place = path_.at(s_m);
+  int index = first_;
+  Eigen::Vector3d along = along_, side = side_;
+  carry(index, place.index, along, side);
+  PathFrame f;
+  f.centre = (1 - place.share) * centre(place.index) + place.share * centre(place.index + 1);
   f.along = along, f.side = (side - side.dot(along) * along).normalized(), f.up = f.along.cross(f.side);
   return f;
+}
+
+PathFrame frame_at(const LumenMap& map, const VesselPath& path, double s_m, double phase, double breath) {
+  return PathFrames(map, path, s_m, phase, breath).at(s_m);
 }
 
 std::vector<Eigen::Vector3d> points_on_path(const StentModel& m, const StentState& s, const LumenMap& map,
                                             const VesselPath& path, double phase, double breath) {
   std::vector<Eigen::Vector3d> out;
-  const int around = 2 * m.crowns;
-  for (int i = 0; i < m.points(); ++i) {
-    const PathFrame f = frame_at(map, path, s.middle_m + s.shift_m + s.along_m[i], phase, breath);
-    const double a = angle_of(m, i % around), r = s.radius_m[i / around] + m.strut_m / 2;
-    out.push_back(f.centre + r * (std::cos(a) * f.side + std::sin(a) * f.up));
-  }
+  const PathFrames frames(map, path, span_of(s).first, phase, breath);
+  for (int i = 0; i < m.points(); ++i) out.push_back(point_on_path(m, s, frames, i));
   return out;
 }
 
-bool is_tied(const StentState& s) { return !s.ties.empty() && s.ties.front().triangle >= 0; }
+Eigen::Vector3d point_on_path(const StentModel& m, const StentState& s, const PathFrames& frames, int i) {
+  const int around = 2 * m.crowns;
+  const PathFrame f = frames.at(s.middle_m + s.shift_m + s.along_m[i]);
+  const double a = angle_of(m, i % around), r = s.radius_m[i / around] + m.strut_m / 2;
+  return f.centre + r * (std::cos(a) * f.side + std::sin(a) * f.up);
+}
 
-void tie_to_wall(const StentModel& m, const Patient& patient, const WallShape& shape, const LumenMap& map,
-                 const VesselPath& path, const PlaqueState& wall, double phase, StentState& s) {
-  Mesh mesh{.vertices = {}, .triangles = patient.lumen.triangles};
-  shape.at(wall.radius_m, phase, 0, mesh.vertices);
-  const BoundingVolumeHierarchy surface(mesh);
-  const std::vector<Eigen::Vector3d> points = points_on_path(m, s, map, path, phase);
-  for (int i = 0; i < m.points(); ++i) {
-    const auto found = surface.nearest(points[i], 10e-3);
-    const auto& [a, b, c] = mesh.triangles[found.triangle];
-    const Eigen::Vector3d p = mesh.vertices[a], u = mesh.vertices[b] - p, v = mesh.vertices[c] - p, w = found.point - p;
-    const double uu = u.dot(u), uv = u.dot(v), vv = v.dot(v), wu = w.dot(u), wv = w.dot(v), d = uu * vv - uv * uv;
-    s.ties[i] = {found.triangle, (vv * wu - uv * wv) / d, (uu * wv - uv * wu) / d,
-                 m.strut_m / 2 + gap_of(m, s, path, wall, i)};
-  }
+bool is_tied(const StentState& s) {
+  return std::all_of(s.ties.begin(), s.ties.end(), [](const StentTie& tie) { return tie.triangle >= 0; });
 }
 
 std::vector<Eigen::Vector3d> points_on_wall(const StentModel& m, const StentState& s, const Patient& patient,

@@ -14,14 +14,32 @@ struct PathFrame {
 };
 PathFrame frame_at(const LumenMap& map, const VesselPath& path, double s_m, double phase, double breath = 0);
 
-/// Positions of its points from the path alone.
+/// The same for many places: goes on from the first of them instead of from the path's beginning. Keeps references.
+class PathFrames {
+ public:
+  /// `least_m`: no place lies before it.
+  PathFrames(const LumenMap& map, const VesselPath& path, double least_m, double phase, double breath);
+  PathFrame at(double s_m) const;
+
+ private:
+  Eigen::Vector3d centre(int i) const;
+  /// Carries the side direction to cell `to` of the path.
+  void carry(int& index, int to, Eigen::Vector3d& along, Eigen::Vector3d& side) const;
+
+  const LumenMap& map_;
+  const VesselPath& path_;
+  double phase_, breath_;
+  int first_ = -1;
+  Eigen::Vector3d along_, side_;  ///< at cell `first_`
+};
+
+/// Position of one of its points from the path alone; `frames` begins at or before it.
+Eigen::Vector3d point_on_path(const StentModel& model, const StentState& state, const PathFrames& frames, int point);
+/// That of all of them.
 std::vector<Eigen::Vector3d> points_on_path(const StentModel& model, const StentState& state, const LumenMap& map,
                                             const VesselPath& path, double phase, double breath = 0);
 
-/// Attaches a deployed stent to the wall, both in their present shape; once, between two steps. `gap_m`: from each
-/// point to the wall.
-void tie_to_wall(const StentModel& model, const Patient& patient, const WallShape& shape, const LumenMap& map,
-                 const VesselPath& path, const PlaqueState& wall, double phase, StentState& state);
+/// Whether every point is attached to the wall (stent_ties.h).
 bool is_tied(const StentState& state);
 
 /// Positions of the attached points at a phase.
@@ -29,7 +47,13 @@ std::vector<Eigen::Vector3d> points_on_wall(const StentModel& model, const Stent
                                             const WallShape& shape, std::span<const double> radius_m, double phase,
                                             double breath);
 
-/// Gap between the middle of a strut at each point and the wall's surface, less half its thickness: 0 is contact.
+/// Angle of point j of a ring; the first crown is at the side direction of the path's frame.
+double angle_of(const StentModel& model, int j);
+/// Gap between the middle of a strut at one point and the wall's surface, less half its thickness. A stent too small
+/// for its vessel lies against one side: its gap is 0 there, and twice the mean on the opposite side.
+double gap_of(const StentModel& model, const StentState& state, const VesselPath& path, const PlaqueState& wall,
+              int point);
+/// That of each point: 0 is contact.
 std::vector<double> gaps(const StentModel& model, const StentState& state, const VesselPath& path,
                          const PlaqueState& wall);
 

@@ -13,6 +13,7 @@
 #include "app/commands/treat/strips.h"
 #include "core/base/units.h"
 #include "data/formats/png.h"
+#include "vascular/treatment/stent_ties.h"
 
 namespace ostium::app {
 
@@ -54,8 +55,9 @@ void prepare(TreatmentRoom& room) {
 }
 
 void tie(TreatmentRoom& room, const Plan& plan, int stent) {
-  tie_to_wall(room.plan.model.stents[stent], room.patient, room.scene.shape(), room.scene.map(), plan.path,
-              room.bed.state.wall, room.bed.blood.heart.phase, room.bed.state.stents[stent]);
+  const vascular::StentTies ties(room.patient, room.scene.shape(), room.scene.map(), room.physiology.flow.tree);
+  tie_to_wall(ties, room.plan.model.stents[stent], plan.path, room.bed.state.wall, room.bed.blood.heart.phase,
+              room.bed.state.stents[stent]);
 }
 
 bool is_deployed(const TreatmentRoom& room, int stent) {

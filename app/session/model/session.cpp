@@ -14,7 +14,6 @@
 #include "core/rod/introducer.h"
 #include "data/formats/load_error.h"
 #include "vascular/motion/heart_cycle.h"
-#include "vascular/treatment/stent_shape.h"
 
 namespace ostium::app {
 
@@ -284,15 +283,18 @@ void hold_shafts(const SessionModel& model, const SessionState& state, core::Inp
   }
 }
 
-/// Ties a deployed stent to the wall, with which it moves from now on. Once per stent; the only place in a step that
-/// allocates.
-void tie(const SessionModel& model, int stent, SessionState& state) {
-  vascular::StentState& own = state.treatment.stents[static_cast<std::size_t>(stent)];
-  if (own.branch < 0) return;
-  const Coronaries& c = *model.vessel->coronaries;
-  tie_to_wall(model.treatment.stents[static_cast<std::size_t>(stent)], *c.patient, *c.shape, c.map,
-              model.treatment.paths[static_cast<std::size_t>(own.branch)], state.treatment.wall,
-              state.blood.heart.phase, own);
+/// Ties deployed stents to the wall, with which they move from then on; one ring a step.
+void tie_stents(const SessionModel& model, SessionState& state) {
+  for (std::size_t n = 0; n < state.treatment.stents.size(); ++n) {
+    vascular::StentState& stent = state.treatment.stents[n];
+    if (stent.where != vascular::StentState::deployed || stent.branch < 0 ||
+        stent.ties.back().triangle != vascular::StentTie::untied)
+      continue;
+    model.vessel->coronaries->ties->tie_next(model.treatment.stents[n],
+                                             model.treatment.paths[static_cast<std::size_t>(stent.branch)],
+                                             state.treatment.wall, state.blood.heart.phase, stent);
+    return;
+  }
 }
 
 /// Advances balloon and stent, then blood and contrast, with the rods' current positions.
@@ -310,7 +312,7 @@ void treat(const SessionModel& model, const SessionInputs& inputs, bool R_wave, 
       step(model.treatment, treatment_inputs(inputs.delivery, state.coupling), model.step_s(), state.treatment,
            {model.physiology.flow.tree, state.blood, x.physiology_inputs.occupied_m}, x.treatment);
   state.coupling.blocked = report.treatment.blocked;
-  if (report.treatment.deployed >= 0) tie(model, report.treatment.deployed, state);
+  tie_stents(model, state);
   hold_balloon(coupling, state.rods, report.treatment.balloon, moment(model, state, state.rods.step), state.coupling);
   set_physiology_inputs(coupling, inputs.delivery, state.coupling, x.physiology_inputs);
   x.physiology_inputs.hyperaemia = state.treatment.drugs.adenosine;

@@ -28,6 +28,7 @@ std::unique_ptr<const Coronaries> make_coronaries(std::shared_ptr<const vascular
   if (out->tree().cells.empty()) return nullptr;
   out->map = make_lumen_map(*out->patient, out->physiology.flow);
   out->shape = std::make_unique<const vascular::WallShape>(*out->patient, out->map, out->tree());
+  out->ties = std::make_unique<const vascular::StentTies>(*out->patient, *out->shape, out->map, out->tree());
   Treatable plan =
       plan_treatment(*out->patient, out->physiology.flow, 0, {.stent = false, .predilate = false, .postdilate = false});
   out->treatment = std::move(plan.model), out->lesions = std::move(plan.plans);

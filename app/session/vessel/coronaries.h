@@ -1,7 +1,7 @@
 #pragma once
 /// A case's coronary arteries as contrast, balloons and stents need them. Const once made; runs share them.
 #include "app/angiography/textbook_treatment.h"
-#include "vascular/treatment/wall_shape.h"
+#include "vascular/treatment/stent_ties.h"
 
 namespace ostium::app {
 
@@ -10,6 +10,7 @@ struct Coronaries {
   vascular::PhysiologyModel physiology;  ///< of the mean person; a session has its own, by seed
   vascular::LumenMap map;
   std::unique_ptr<const vascular::WallShape> shape;
+  std::unique_ptr<const vascular::StentTies> ties;
   vascular::TreatmentModel treatment;  ///< without devices
   std::vector<Plan> lesions;           ///< in the case's order, without devices
   /// In the first lesion's artery: the cell beyond its ostium and the TIMI landmark, or -1.

@@ -10,7 +10,7 @@ namespace ostium::app {
 
 inline constexpr double wall_follows_m = 0.02e-3;   ///< allowed lag behind the lumen where there is plaque,
 inline constexpr double wall_follows_share = 0.03;  ///< and elsewhere, relative to the radius
-inline constexpr int wall_cells_a_step = 2;         ///< cells moved per step, at most
+inline constexpr int wall_cells_a_step = 1;         ///< cells moved per step, at most
 
 /// Makes contact's radii follow the lumen's, starting at `cursor`, which it advances. All (#cells).
 void follow_lumen(const vascular::FlowTree& tree, const std::vector<double>& radius_m, int& cursor,
