@@ -45,6 +45,7 @@ inline constexpr double followed_m = 5e-6;      // depth at which a wall found b
 inline constexpr double spared_m = 50e-6;       // most that such a wall pushes a node away from its start
 inline constexpr double passed_wall_m = 20e-6;  // behind a plane on a path that meets no wall: the wall ended
 inline constexpr double same_wall = 0.999;      // cosine between planes that replace one another
+inline constexpr double about_same_wall = 0.9;  // ... between a plane and the wall that it stands for
 inline constexpr double same_side = 0.5;        // ... between two views of one wall from the same side
 inline constexpr double same_soft_wall = 0.1;   // ... between planes of a soft wall that push as one
 inline constexpr double joined_m = 20e-6;       // a plane farther than the nearest by this is not joined with it
@@ -55,6 +56,7 @@ inline constexpr int max_wall_changes = 60;      // changes of ties per linearis
 inline constexpr int window_margin = 10;         // nodes beside those whose ties changed that are settled with them
 inline constexpr int longest_window = 90;        // nodes
 inline constexpr double least_descent = 1e-4;    // resolution of the line search, as a share of its direction
+inline constexpr int max_looks_anew = 2;         // per step, at walls between which a node is pressed deep
 inline constexpr double usable_depth_m = 20e-6;  // behind a wall that does not hold the node; see usable_stretch
 
 // Contact of rods with each other.

@@ -146,13 +146,15 @@ bool any_wrong(const Strand& strand, const ContactScratch& c) {
   return false;
 }
 
-/// Looks at rims anew from where the solution leads; whether a tie contradicts it then.
+/// Looks at rims anew from where the solution leads; whether a tie contradicts it then, or is gone.
 bool any_wrong_now(const Model& model, const Strand& strand, Scratch& scratch) {
   ContactScratch& c = *strand.contact;
   const auto [first, last] = settling_nodes(*strand.s, c);
+  bool any_gone = false;
   for (int i = first; i <= last; ++i)
-    if (!c.changed[i]) look_again(model, strand, i, load3<double>(c.ahead, i), scratch);
-  return any_wrong(strand, c);
+    if (!c.changed[i] && look_again(model, strand, i, load3<double>(c.ahead, i), scratch))
+      c.changed[i] = any_gone = true;
+  return any_wrong(strand, c) || any_gone;
 }
 
 /// Ends the settling of a window's ties: the whole chain's solution is that of its ties.
@@ -235,6 +237,41 @@ bool change_walls(const Model& model, const Strand& strand, Scratch& scratch) {
   }
   const bool met = model.sweep && follow_far(model, strand, scratch);
   return (contradicted() || met) && flip_ties(strand, scratch);
+}
+
+namespace {
+
+bool is_pressed(const WallPlane& w, const V3<double>& p) {
+  return w.active && !w.soft && w.place - dot(w.normal, p) > tolerances::usable_depth_m;
+}
+
+/// Whether a plane that presses a node at p is none of the walls that are there.
+bool presses_without_wall(const NodeWalls& walls, const V3<double>& p, const NodeWalls& there) {
+  return std::any_of(walls.planes, walls.planes + walls.count, [&](const WallPlane& w) {
+    return is_pressed(w, p) && std::none_of(there.planes, there.planes + there.count, [&](const WallPlane& other) {
+             return dot(w.normal, other.normal) > tolerances::about_same_wall;
+           });
+  });
+}
+
+}  // namespace
+
+bool find_pressing_walls_anew(const Model& model, const Strand& strand, Scratch& scratch) {
+  ContactScratch& c = *strand.contact;
+  if (c.walls.empty() || !model.sweep) return false;
+  RodScratch& s = *strand.s;
+  bool any = false;
+  for (int i = first_free(s); i <= last_free(s); ++i) {
+    const V3<double> p = load3<double>(s.position, i);
+    NodeWalls& walls = c.walls[i];
+    if (std::none_of(walls.planes, walls.planes + walls.count, [&](const WallPlane& w) { return is_pressed(w, p); }))
+      continue;
+    const NodeWalls there = walls_at(model, *strand.own, i, p, scratch, s, c);
+    if (!presses_without_wall(walls, p, there)) continue;
+    walls = there;
+    any = true;
+  }
+  return any;
 }
 
 double behind_walls(const Model& model, const Strand& strand, Scratch& scratch) {

@@ -158,15 +158,49 @@ void find_walls(const Model& model, const Strand& strand, Scratch& scratch) {
   }
 }
 
-void look_again(const Model& model, const Strand& strand, int i, const V3<double>& to, Scratch& scratch) {
+namespace {
+
+void remove(int k, NodeWalls& walls) {
+  std::copy(walls.planes + k + 1, walls.planes + walls.count, walls.planes + k);
+  --walls.count;
+}
+
+/// Whether another active plane holds the node from the opposite side.
+bool is_opposed(const WallPlane& wall, const NodeWalls& walls) {
+  return std::any_of(walls.planes, walls.planes + walls.count, [&](const WallPlane& other) {
+    return other.active && dot(other.normal, wall.normal) < -tolerances::same_side;
+  });
+}
+
+/// Whether a rim, seen from `to`, does not face the node as its plane does, or is out of sight.
+bool has_turned(const Model& model, const Strand& strand, int i, const V3<double>& to, Scratch& scratch,
+                const WallPlane& wall) {
+  const Surface& surface = *model.surfaces[wall.surface];
+  const ClusterPose& pose = pose_of(surface, wall.cluster, scratch.surfaces[wall.surface]);
+  NodeView view = view_of(strand.s->inside, *strand.own, i, to, 0);
+  view.reach *= 2;
+  SeenTriangle sight;
+  return !see(surface, surface.clusters[wall.cluster], surface.triangles[wall.triangle], pose.after, view, sight) ||
+         dot(sight.normal, wall.normal) < 0;
+}
+
+}  // namespace
+
+bool look_again(const Model& model, const Strand& strand, int i, const V3<double>& to, Scratch& scratch) {
   NodeWalls& walls = strand.contact->walls[i];
+  bool any = false;
   for (int k = walls.count - 1; k >= 0; --k) {
     WallPlane& w = walls.planes[k];
-    if (w.triangle < 0 || w.active || dot(w.normal, to) >= w.place) continue;
-    if (is_in_the_way(model, strand, i, to, scratch, w)) continue;
-    std::copy(walls.planes + k + 1, walls.planes + walls.count, walls.planes + k);
-    --walls.count;
+    if (w.triangle < 0) continue;
+    if (w.active) {
+      if (!is_opposed(w, walls) || !has_turned(model, strand, i, to, scratch, w)) continue;
+      any = true;
+      remove(k, walls);
+    } else if (dot(w.normal, to) < w.place && !is_in_the_way(model, strand, i, to, scratch, w)) {
+      remove(k, walls);
+    }
   }
+  return any;
 }
 
 }  // namespace ostium::core

@@ -31,6 +31,11 @@ void tie_to_walls(const Strand& strand);
 /// chain is to be solved again; it has been updated except for ContactScratch::same elements at either end.
 bool change_walls(const Model& model, const Strand& strand, Scratch& scratch);
 
+/// Once a strand has converged: where a plane presses a node deep and no wall faces it like that from where the node
+/// is, finds its walls anew. Trial solutions on several sides of a ridge may have left planes that hold a node from all
+/// of them. True if there are any: the strand is to be constrained and solved again.
+bool find_pressing_walls_anew(const Model& model, const Strand& strand, Scratch& scratch);
+
 /// How deep the iterate is behind walls that do not hold it, m. More than a little if the ties were not settled, or if
 /// a node went round a ridge, which planes do not show.
 double behind_walls(const Model& model, const Strand& strand, Scratch& scratch);

@@ -127,23 +127,46 @@ double deeper_than_planes(const Model& model, const RodState& own, int i, const 
          deepest(c.walls[i], [](const WallPlane& w) { return w.active; });
 }
 
+namespace {
+
+/// The walls that a node meets on its way through the step, and where its path leaves the lumen or ends.
+struct Way {
+  V3<double> from, reached;
+  double radius = 0;
+  NodeWalls met;
+};
+
+Way way_to(const Model& model, const RodState& own, int i, const V3<double>& to, Scratch& scratch, const RodScratch& s,
+           ContactScratch& c) {
+  const NodeWalls& walls = c.walls[i];
+  const V3<double> start = load3<double>(own.position, i);
+  const NodeView view = view_of(s.inside, own, i, to, tolerances::wall_slack_m);
+  Way way{walls.count > 0 ? start + walls.planes[0].carried : start, to, view.radius, {}};
+  WallPlane exit;
+  if (first_exit(model, way.from, to, view, scratch, c.clusters, exit, way.reached))
+    way.met.planes[way.met.count++] = exit;
+  else
+    look_around(model, view, scratch, c.clusters, way.met);
+  for (int k = 0; k < way.met.count; ++k) spare(start, way.met.planes[k]);
+  return way;
+}
+
+}  // namespace
+
+NodeWalls walls_at(const Model& model, const RodState& own, int i, const V3<double>& at, Scratch& scratch,
+                   const RodScratch& s, ContactScratch& c) {
+  NodeWalls met = way_to(model, own, i, at, scratch, s, c).met;
+  for (int k = 0; k < met.count; ++k) met.planes[k].active = dot(met.planes[k].normal, at) < met.planes[k].place;
+  return met;
+}
+
 bool follow(const Model& model, const RodState& own, int i, const V3<double>& to, Scratch& scratch, RodScratch& s,
             ContactScratch& c) {
   NodeWalls& walls = c.walls[i];
-  const V3<double> start = load3<double>(own.position, i);
-  const V3<double> from = walls.count > 0 ? start + walls.planes[0].carried : start;
-  const NodeView view = view_of(s.inside, own, i, to, tolerances::wall_slack_m);
-  NodeWalls met;
-  WallPlane exit;
-  V3<double> reached = to;
-  if (first_exit(model, from, to, view, scratch, c.clusters, exit, reached))
-    met.planes[met.count++] = exit;
-  else
-    look_around(model, view, scratch, c.clusters, met);
-  bool any = drop_passed_walls(from, reached, view.radius, walls), taken[max_planes] = {};
-  for (int k = 0; k < met.count; ++k) {
-    WallPlane& plane = met.planes[k];
-    spare(start, plane);
+  Way way = way_to(model, own, i, to, scratch, s, c);
+  bool any = drop_passed_walls(way.from, way.reached, way.radius, walls), taken[max_planes] = {};
+  for (int k = 0; k < way.met.count; ++k) {
+    WallPlane& plane = way.met.planes[k];
     const double behind = plane.place - dot(plane.normal, to);
     if (!(behind > tolerances::followed_m)) continue;
     const int at = slot_for(plane, to, taken, walls);

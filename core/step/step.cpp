@@ -232,6 +232,12 @@ bool any(const Scratch& scratch, Progress progress) {
                      [&](const Strand& strand) { return strand.s->progress == progress; });
 }
 
+/// What an attempt at a step is.
+struct Attempt {
+  bool whole = false;   ///< the step, not a part of it
+  bool halves = false;  ///< without a solution, it is done again in halves
+};
+
 /// Whether a strand is far from its solution and went still farther away with the last iteration.
 bool goes_astray(const Scratch& scratch) {
   return std::any_of(scratch.strands.begin(), scratch.strands.end(), [](const Strand& strand) {
@@ -240,8 +246,19 @@ bool goes_astray(const Scratch& scratch) {
   });
 }
 
-/// `halves`: what does not converge is done again in halves, so no time is spent on it.
-void iterate(const Model& model, const State& state, bool halves, Scratch& scratch, StepReport& report) {
+/// Reopens strands that have converged with a node pressed deep between walls, if looking anew may free it.
+void free_pressed_nodes(const Model& model, Scratch& scratch) {
+  for (const Strand& strand : scratch.strands) {
+    if (strand.s->progress != Progress::done || !find_pressing_walls_anew(model, strand, scratch)) continue;
+    strand.s->progress = Progress::open;
+    constrain(model, scratch, strand);
+  }
+}
+
+/// What does not converge is done again in halves if it can be, so no time is spent on it.
+void iterate(const Model& model, const State& state, Attempt attempt, Scratch& scratch, StepReport& report) {
+  const auto [whole, halves] = attempt;
+  int looks = 0;
   for (int i = 0; i < tolerances::max_newton_iterations && any(scratch, Progress::open); ++i) {
     if (halves && i >= tolerances::patient_iterations && goes_astray(scratch)) return;
     for (const Strand& strand : scratch.strands)
@@ -249,17 +266,22 @@ void iterate(const Model& model, const State& state, bool halves, Scratch& scrat
     solve_open(model, scratch);
     for (const Strand& strand : scratch.strands)
       if (strand.s->progress == Progress::open) take_solution(strand, report.rods[strand.lead], scratch.counts);
+    if (whole && looks < tolerances::max_looks_anew && !any(scratch, Progress::open)) {
+      ++looks;
+      free_pressed_nodes(model, scratch);
+    }
   }
 }
 
 /// Solves touching rods alternately until both feel the same force.
-void settle_rod_contacts(const Model& model, const State& state, bool halves, Scratch& scratch, StepReport& report) {
+void settle_rod_contacts(const Model& model, const State& state, Attempt attempt, Scratch& scratch,
+                         StepReport& report) {
   while (!any(scratch, Progress::failed) && renew_rod_contacts(scratch)) {
     for (const Strand& strand : scratch.strands) {
       strand.s->progress = Progress::open;
       constrain(model, scratch, strand);
     }
-    iterate(model, state, halves, scratch, report);
+    iterate(model, state, attempt, scratch, report);
   }
 }
 
@@ -295,7 +317,7 @@ void retry_from_rest(const Model& model, const State& state, Scratch& scratch, S
       predict(model, state, scratch, strand, TimeScheme::from_rest);
     }
     if (!again) return;
-    iterate(model, state, false, scratch, report);
+    iterate(model, state, {}, scratch, report);
   }
 }
 
@@ -323,10 +345,10 @@ void advance(const Model& model, const Inputs& inputs, Piece piece, State& state
   meet_walls(model, inputs, piece, scratch);
   find_rod_contacts(model, scratch);
   for (const Strand& strand : scratch.strands) predict(model, state, scratch, strand, strand.s->scheme);
-  const bool halves = !model.surfaces.empty() && !piece.is_least();
-  iterate(model, state, halves, scratch, report);
-  settle_rod_contacts(model, state, halves, scratch, report);
-  if (halves && !all_done(model, scratch)) {
+  const Attempt attempt{piece.halvings == 0, !model.surfaces.empty() && !piece.is_least()};
+  iterate(model, state, attempt, scratch, report);
+  settle_rod_contacts(model, state, attempt, scratch, report);
+  if (attempt.halves && !all_done(model, scratch)) {
     ++scratch.counts.halvings;
     take_drives_back(scratch, state);
     rescale_histories(model, 0.5, state);
