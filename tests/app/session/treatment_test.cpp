@@ -31,7 +31,7 @@ TEST(Treatment, ABalloonOpensTheLesionAndTheWallThatRodsMeet) {
   EXPECT_GT(run.state.blood.contrast.from_tip_kg, 0);
   ASSERT_TRUE(run_to(run, 6)) << reason(run.plan, run.hands);
   ASSERT_TRUE(balloon_from_lesion_m(run.model, run.state));
-  EXPECT_NEAR(*balloon_from_lesion_m(run.model, run.state), 0, 4e-3);
+  EXPECT_NEAR(*balloon_from_lesion_m(run.model, run.state), 0, 6e-3) << "its 12 mm lie over the lesion's middle";
   const double open_flow = supply_behind_lesion(run.model, run.state);
   ASSERT_TRUE(run_to(run, 9)) << reason(run.plan, run.hands);
   EXPECT_GT(run.state.treatment.balloon.pressure_Pa, 3 * 101325.0);
