@@ -121,17 +121,15 @@ BalloonReport inflate(const TreatmentModel& model, const TreatmentInputs& in, do
   return report;
 }
 
-/// Steps stents in the wall and the one on the balloon; returns one that was just deployed, or -1.
-int step_stents(const TreatmentModel& model, const TreatmentInputs& in, bool blocked, double dt, TreatmentState& s) {
+/// Steps stents in the wall and the one on the balloon.
+void step_stents(const TreatmentModel& model, const TreatmentInputs& in, bool blocked, double dt, TreatmentState& s) {
   const BalloonModel* balloon = balloon_of(model, in);
   const int own = own_stent(model, in);
-  int deployed = -1;
   for (std::size_t i = 0; i < s.stents.size(); ++i) {
     StentState& stent = s.stents[i];
     const bool mine = static_cast<int>(i) == own && balloon,
                within = balloon && !blocked && (mine || is_beside(model, in, stent));
     if (stent.where == StentState::lost || (stent.where == StentState::on_balloon && !mine)) continue;
-    const bool was_crimped = stent.where == StentState::on_balloon;
     step(model.stents[i], model.plaque,
          {.path = stent.branch >= 0 ? &model.paths[static_cast<std::size_t>(stent.branch)] : nullptr,
           .balloon = within ? balloon : nullptr,
@@ -141,9 +139,7 @@ int step_stents(const TreatmentModel& model, const TreatmentInputs& in, bool blo
           .edge_m = in.edge_m,
           .edge_N = is_beside(model, in, stent) ? in.edge_N : 0},
          dt, stent, s.wall);
-    if (was_crimped && stent.where == StentState::deployed) deployed = static_cast<int>(i);
   }
-  return deployed;
 }
 
 /// Sets what occupies the lumen besides blood: shafts and the balloon.
@@ -184,7 +180,7 @@ TreatmentReport step(const TreatmentModel& model, const TreatmentInputs& in, dou
   report.blocked = is_blocked(model, in, s);
   const int injured = s.injury.count;
   if (in.balloon >= 0 && !report.blocked) report.balloon = inflate(model, in, dt, s, vessels, x);
-  report.deployed = step_stents(model, in, report.blocked, dt, s);
+  step_stents(model, in, report.blocked, dt, s);
   if (in.wire_tip_cell >= 0)
     judge_wire(model.injury, in.wire_tip_cell, s.wall.radius_m[in.wire_tip_cell], in.wire_tip_N, dt,
                vessels.physiology.heart.time_s, s.injury);

@@ -56,7 +56,6 @@ struct TreatmentScratch {
 
 struct TreatmentReport {
   BalloonReport balloon;
-  int deployed = -1;     ///< a stent deployed in this step, or -1
   bool blocked = false;  ///< an unopened stent is in the balloon's way
   bool tore = false;     ///< an injury occurred in this step
 };
