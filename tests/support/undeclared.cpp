@@ -8,6 +8,7 @@
 #include "tests/support/dice.h"
 #include "tests/support/undeclared_nest.h"
 #include "tests/support/undeclared_tube.h"
+#include "tests/support/undeclared_world.h"
 
 namespace ostium::synthetic {
 
@@ -18,12 +19,6 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 
 using units::pi, units::mm, units::Nmm2, units::degree, units::gram;
-
-/// How the world differs from the file.
-struct World {
-  std::vector<std::function<void(const data::Experiment&, boundary_value::Problem&)>> mechanics;
-  std::vector<std::function<Vector3d(const data::Experiment&, const Vector3d&)>> picture;  ///< applied in order
-};
 
 core::Section section(double from_mm, double to_mm, double EI, double GJ, double kg_per_m, const Vector2d& k_per_m,
                       double radius_mm, double bore_mm) {
@@ -311,6 +306,28 @@ const std::vector<std::string>& undeclared_kinds() {
                                                  "out:shear",
                                                  "out:drift",
                                                  "out:kink_in_time",
+                                                 "form:anisotropy_by_section",
+                                                 "form:softening_by_moment",
+                                                 "taper",
+                                                 "torsion_ratio",
+                                                 "level",
+                                                 "reclamping",
+                                                 "noise:shared",
+                                                 "noise:smooth",
+                                                 "noise:heavy",
+                                                 "noise:blunders",
+                                                 "noise:twice",
+                                                 "noise:shared+rest_curvature",
+                                                 "noise:heavy+clamp_runout",
+                                                 "fault:roll_in_radians",
+                                                 "fault:insertion_in_cm",
+                                                 "fault:all_in_cm",
+                                                 "fault:centreline_in_inches",
+                                                 "fault:load_in_gram_force",
+                                                 "fault:swapped",
+                                                 "fault:clamp_off",
+                                                 "fault:slipped_9mm",
+                                                 "fault:reversed",
                                                  "tube:clean",
                                                  "tube:wall_friction",
                                                  "tube:wall_compliance"};
@@ -323,7 +340,7 @@ Undeclared undeclared_set(const std::string& kind, unsigned seed) {
   Dice dice(kind, seed);
   Undeclared u;
   const bool nested = kind == "shaft_torsion", timed = kind == "stress_relaxation";
-  const bool curved = timed || kind.find("roll_loss") != std::string::npos;  // otherwise the effect would not show
+  const bool curved = timed || kind.find("roll") != std::string::npos;  // otherwise the effect would not show
   u.set = nested ? tubes(dice) : free_instrument(dice, curved, timed);
   Truth truth;
   for (const data::MeasuredInstrument& i : u.set.instruments) {
@@ -333,9 +350,16 @@ Undeclared undeclared_set(const std::string& kind, unsigned seed) {
                                                              : dice.uniform(0.7, 1.3));
   }
   World world;
+  std::string fault;
   for (std::size_t from = 0; kind != "clean" && from <= kind.size();) {
     const std::size_t to = std::min(kind.find('+', from), kind.size());
-    add_effect(kind.substr(from, to - from), dice, u, world);
+    const std::string part = kind.substr(from, to - from);
+    if (part.starts_with("noise:"))
+      u.noise = part;
+    else if (part.starts_with("fault:"))
+      add_fault(fault = part, dice, u, world);
+    else if (!add_form(part, dice, u, world))
+      add_effect(part, dice, u, world);
     from = to + 1;
   }
   constexpr double spacing_m = 5e-3;
@@ -346,11 +370,11 @@ Undeclared undeclared_set(const std::string& kind, unsigned seed) {
     const boundary_value::Solution exact = boundary_value::solve(p, points);
     if (!exact.converged) throw std::runtime_error("no boundary-value solution");
     e.points_m = exact.curve;
-    for (Vector3d& q : e.points_m) {
+    for (Vector3d& q : e.points_m)
       for (const auto& see : world.picture) q = see(e, q);
-      q += *u.set.imaging.noise_sigma_m * dice.normals();
-    }
+    add_noise(u.noise, dice, *u.set.imaging.noise_sigma_m, e.points_m);
   }
+  write_wrongly(fault, u);
   return u;
 }
 

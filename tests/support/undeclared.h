@@ -14,13 +14,17 @@ struct Undeclared {
   bool in_library = true;            ///< false: the right verdict is "unexplained"
   std::string frame;                 ///< for an effect outside the library: the signature's expected frame
   std::map<std::string, double> truth;  ///< parameters by their library names, "roll_loss.fraction"
+  std::vector<std::string> faults;      ///< ids of data faults of which one must be named; empty: there is none
+  std::vector<std::string> culprits;    ///< whose fault it is: ids of experiments
+  std::string noise;                    ///< how the noise is not as declared, "noise:shared"; empty: it is
 };
 
 /// Kinds with this prefix are pushed into a tube, and drawn back.
 inline constexpr const char* in_tube = "tube:";
 
-/// "clean", ids of the library, two of them joined by "+", and effects outside the library ("out:...");
-/// "tube:clean", "tube:wall_friction", "tube:wall_compliance".
+/// "clean", ids of the library, two of them joined by "+", and effects outside the library ("out:..."); laws of another
+/// form ("form:..."), other noise ("noise:...") and faults of the data ("fault:..."), undeclared_world.h; "tube:clean",
+/// "tube:wall_friction", "tube:wall_compliance". What the list joins are examples: any may be joined.
 const std::vector<std::string>& undeclared_kinds();
 
 /// Throws std::runtime_error if the solver finds no shape of this seed's instrument.
