@@ -2,6 +2,7 @@
 /// there is none.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <string>
 
@@ -35,9 +36,15 @@ TEST_P(Undeclared, IsFound) {
 INSTANTIATE_TEST_SUITE_P(Library, Undeclared,
                          testing::Values(Case{"clean", 1}, Case{"clean", 2}, Case{"clean", 3}, Case{"clean", 4},
                                          Case{"rest_curvature", 1}, Case{"soft_section", 1}, Case{"lumped_mass", 1},
-                                         Case{"clamp_runout", 1}, Case{"registration", 1}, Case{"imaging_scale", 1}),
+                                         Case{"clamp_runout", 1}, Case{"registration", 1}, Case{"imaging_scale", 1},
+                                         Case{"fault:roll_in_radians", 1}, Case{"fault:insertion_in_cm", 1},
+                                         Case{"fault:all_in_cm", 1}, Case{"fault:centreline_in_inches", 1},
+                                         Case{"fault:load_in_gram_force", 1}, Case{"fault:swapped", 1},
+                                         Case{"noise:shared", 1}),
                          [](const testing::TestParamInfo<Case>& tested) {
-                           return std::string(tested.param.kind) + "_" + std::to_string(tested.param.seed);
+                           std::string kind = tested.param.kind;
+                           std::replace(kind.begin(), kind.end(), ':', '_');
+                           return kind + "_" + std::to_string(tested.param.seed);
                          });
 
 /// An effect that no law of the library has is given none of their names.
@@ -74,6 +81,54 @@ TEST(Library, TheInstrumentIsWrittenAsItWasFound) {
     EXPECT_NEAR(add.x(), 1e3 * x.best().changes.effects[0].values[0], 1e-6);
     EXPECT_NEAR(add.y(), 1e3 * x.best().changes.effects[0].values[1], 1e-6);
   }
+}
+
+/// A unit that was wrong once is right in the amended set, and the explanation's file says whose it was.
+TEST(Library, AFaultIsMendedInTheAmendedSet) {
+  synthetic::Undeclared made = synthetic::undeclared_set("clean", 1);
+  const double roll = made.set.experiments[4].set[0].roll_rad;
+  made.set.experiments[4].set[0].inserted_m /= 10;
+  ExplainOptions options;
+  options.library = true;
+  const Explanation x = explain(made.set, options);
+  EXPECT_EQ(x.verdict, Verdict::effect);
+  const auto json = nlohmann::json::parse(to_json(x));
+  EXPECT_EQ(json["effects"], nlohmann::json({"unit_error"}));
+  EXPECT_EQ(json["faults"][0]["experiments"], nlohmann::json({"x4"}));
+  EXPECT_EQ(json["noise"]["as_declared"], true);
+  const std::string text = amended(synthetic::to_json(made.set), made.set, x);
+  const MeasurementSet after = read_measurement("amended/measurement.json", text);
+  EXPECT_NEAR(after.experiments[4].set[0].inserted_m, 10 * made.set.experiments[4].set[0].inserted_m, 1e-9);
+  EXPECT_NEAR(after.experiments[4].set[0].roll_rad, roll, 1e-9);
+  EXPECT_FALSE(to_html(made.set, x).empty());
+}
+
+/// A line that was measured from the tip to the base is read so, with a word; one that is too short is told.
+TEST(Library, LengthsThatDoNotFitAreSaid) {
+  synthetic::Undeclared made = synthetic::undeclared_set("clean", 2);
+  std::vector<Eigen::Vector3d>& turned = made.set.experiments[3].points_m;
+  std::reverse(turned.begin(), turned.end());
+  made.set.experiments[5].points_m.resize(made.set.experiments[5].points_m.size() / 2);
+  ExplainOptions options;
+  options.library = true;
+  const Explanation x = explain(made.set, options);
+  EXPECT_EQ(x.verdict, Verdict::explained);
+  ASSERT_EQ(x.warnings.size(), 2u);
+  EXPECT_NE(x.warnings[0].find("x3"), std::string::npos);
+  EXPECT_NE(x.warnings[1].find("x5"), std::string::npos);
+}
+
+/// Two centrelines have numbers enough.
+TEST(Library, TwoExperimentsAreEnoughForAnEffect) {
+  synthetic::Undeclared made = synthetic::undeclared_set("registration", 1);
+  made.set.experiments.resize(2);
+  ExplainOptions options;
+  options.library = true;
+  const Explanation x = explain(made.set, options);
+  EXPECT_NE(x.verdict, Verdict::unexplained);
+  EXPECT_NE(x.verdict, Verdict::explained);
+  ASSERT_FALSE(x.candidates.empty());
+  EXPECT_LT(*x.candidates[0].chi2_per_dof, 1.5);
 }
 
 /// Too few numbers: no verdict, but a suggestion of what to measure.

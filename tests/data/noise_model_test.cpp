@@ -70,6 +70,31 @@ TEST(NoiseModel, BlundersAreTailsAndNotSize) {
   EXPECT_NEAR(m.sigma, 2e-4, 0.2 * 2e-4);
 }
 
+TEST(NoiseModel, SmoothNoiseHasALengthToo) {
+  // A window over independent numbers, exp(-(d / length)^2): covariance exp(-(d / length)^2 / 2); and a little of each
+  // point's own.
+  synthetic::Dice dice("smooth", 1);
+  std::vector<ResidualTrace> traces = traces_of(1, 1, 0, 0);
+  constexpr int reach = 15;
+  for (ResidualTrace& t : traces)
+    for (int c = 0; c < 2; ++c) {
+      std::vector<double> own(50 + 2 * reach);
+      for (double& o : own) o = dice.normal();
+      for (int i = 0; i < 50; ++i) {
+        double sum = 0, squares = 0;
+        for (int j = -reach; j <= reach; ++j) {
+          const double weight = std::exp(-std::pow(j * spacing / 25e-3, 2));
+          sum += weight * own[i + reach + j], squares += weight * weight;
+        }
+        t.values(i, c) = 2e-4 * (sum / std::sqrt(squares) + 0.2 * dice.normal());
+      }
+    }
+  const NoiseModel m = noise_model_of(traces, 2e-4);
+  EXPECT_TRUE(m.smooth);
+  EXPECT_NEAR(m.length, 25e-3, 0.3 * 25e-3);
+  EXPECT_NEAR(m.sigma, 2e-4, 0.3 * 2e-4);
+}
+
 /// A smooth error of every trace is no less correlated than such a noise: telling them apart is not this function's.
 TEST(NoiseModel, TooFewPointsLeaveTheDeclaredOne) {
   std::vector<ResidualTrace> few = {traces_of(1, 9e-4, 0, 0)[0]};

@@ -42,6 +42,37 @@ bool confusable(const std::vector<std::string>& a, const std::vector<std::string
   return x.size() == 1 && y.size() == 1 && data::often_confused(x[0], y[0]);
 }
 
+/// "unit_error x3", "explained, noise 2.1 x, 25 mm, heavy": what was said of data and noise besides.
+std::string of_data(const data::Explanation& x) {
+  std::string out;
+  for (const data::DataFault& f : x.faults)
+    for (const std::string& e : f.experiments) out += " " + e;
+  if (x.noise.model)
+    out += fmt::format(" [noise {:.1f} x, {:.0f} mm{}]", x.noise.model->sigma / x.declared_sigma_m.value_or(1),
+                       1e3 * x.noise.model->length, x.noise.model->heavy() ? ", heavy" : "");
+  return out;
+}
+
+/// Whether what is said of the noise is what was done to it.
+bool noise_is_right(const data::Explanation& x, const std::string& kind) {
+  const auto& m = x.noise.model;
+  if (kind.empty()) return !m;
+  if (!m) return false;
+  if (kind == "noise:shared" || kind == "noise:smooth") return m->correlated();
+  if (kind == "noise:twice") return std::fabs(m->sigma / *x.declared_sigma_m - 2) < 0.3;
+  return m->heavy();
+}
+
+/// Whether one of the faults that were made is named with its culprits, and no other.
+bool faults_are_right(const data::Explanation& x, const Undeclared& truth) {
+  if (truth.faults.empty()) return x.faults.empty();
+  if (x.faults.size() != 1) return false;
+  const data::DataFault& f = x.faults[0];
+  const std::set<std::string> said(f.experiments.begin(), f.experiments.end()),
+      made(truth.culprits.begin(), truth.culprits.end());
+  return said == made && std::find(truth.faults.begin(), truth.faults.end(), f.id) != truth.faults.end();
+}
+
 /// Writes the set to files and reads it back, like a user's.
 data::MeasurementSet as_read(const data::MeasurementSet& set, const std::string& kind, unsigned seed) {
   if (!set.vessel) return data::read_measurement("measurement.json", to_json(set));
@@ -73,9 +104,12 @@ Judged judge(const std::string& kind, unsigned seed, int threads) {
   out.after = best.rms_held_out_m.value_or(best.rms_m) / floor;
   out.chi2_after = best.chi2_per_dof.value_or(0);
   out.said = to_string(x.verdict);
-  if (x.verdict == data::Verdict::effect) {
-    out.said = joined(x.best().effects);
-    out.right = truth.in_library && out.said == joined(truth.effects);
+  const std::vector<std::string> added = x.adds_effects ? x.best().effects : std::vector<std::string>{};
+  if (x.verdict == data::Verdict::effect || x.verdict == data::Verdict::mostly) {
+    out.said = (x.verdict == data::Verdict::mostly ? "mostly " : "") + joined(x.effects());
+    // Laws of another form than the library's are named, and something may be left.
+    const bool whole = x.verdict == data::Verdict::effect || kind.starts_with("form:");
+    out.right = truth.in_library && whole && joined(added) == joined(truth.effects);
   } else if (x.verdict == data::Verdict::ambiguous) {
     bool among = false, listed = true;
     out.said += ":";
@@ -92,6 +126,8 @@ Judged judge(const std::string& kind, unsigned seed, int threads) {
   } else {
     out.right = x.verdict == data::Verdict::explained && truth.in_library && truth.effects.empty();
   }
+  out.right = out.right && noise_is_right(x, truth.noise) && faults_are_right(x, truth);
+  out.said += of_data(x);
   if (out.right && x.verdict == data::Verdict::effect)
     for (const auto& [name, value] : truth.truth)
       for (const data::FittedParameter& p : best.parameters)

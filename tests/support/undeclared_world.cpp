@@ -124,7 +124,12 @@ void add_fault(const std::string& id, Dice& dice, Undeclared& made, World& world
       if (std::fabs(all[i].set[0].roll_rad) > std::fabs(all[k].set[0].roll_rad)) k = i;
   made.culprits = {all[k].id};
   made.faults = {"unit_error"};
-  if (id == "fault:swapped") {
+  if (id == "fault:all_in_cm") {
+    made.culprits.clear();
+    for (const data::Experiment& e : all) made.culprits.push_back(e.id);
+  } else if (id == "fault:reversed") {
+    made.faults.clear();  // read the other way round, with a word
+  } else if (id == "fault:swapped") {
     int other = (k + 3) % n;
     if (other == 0) other = 1;
     made.culprits.push_back(all[other].id);

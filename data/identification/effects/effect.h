@@ -25,6 +25,9 @@ struct EffectForm {
   std::vector<std::pair<std::string, double>> held;
 };
 
+/// The name of a form that is the same as the one before and makes sense beside that alone.
+inline constexpr const char* another_form = "another";
+
 struct ActiveEffect;
 
 struct Effect {
@@ -42,7 +45,7 @@ struct Effect {
   /// The forms to try in this set; null: one, with nothing held fixed.
   std::vector<EffectForm> (*forms)(const MeasurementSet&, std::optional<int> instrument) = nullptr;
   bool of_one_instrument = false;     ///< each nested instrument can have its own
-  bool of_several_stretches = false;  ///< may be switched on several times, on different stretches
+  bool of_several_stretches = false;  ///< may be switched on several times, in different forms
   bool in_instrument = false;         ///< a property of the instrument, not of the rig, the room or the imaging
   std::string confused_with;          ///< id of an effect that some data cannot distinguish from this one; "" if none
 };

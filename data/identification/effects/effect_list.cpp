@@ -23,13 +23,30 @@ Effect nesting_clearance();
 Effect stress_relaxation();
 Effect wall_friction();
 Effect wall_compliance();
+Effect taper();
+Effect torsion_ratio();
+Effect level();
 
 const std::vector<Effect>& effects() {
-  static const std::vector<Effect> all = {
-      rest_curvature(),    soft_section(),      bending_anisotropy(), superelastic_softening(),
-      lumped_mass(),       self_weight(),       roll_loss(),          clamp_runout(),
-      insertion_slip(),    registration(),      imaging_scale(),      shaft_torsion(),
-      nesting_clearance(), stress_relaxation(), wall_friction(),      wall_compliance()};
+  static const std::vector<Effect> all = {rest_curvature(),
+                                          soft_section(),
+                                          bending_anisotropy(),
+                                          superelastic_softening(),
+                                          lumped_mass(),
+                                          self_weight(),
+                                          roll_loss(),
+                                          clamp_runout(),
+                                          insertion_slip(),
+                                          registration(),
+                                          imaging_scale(),
+                                          shaft_torsion(),
+                                          nesting_clearance(),
+                                          stress_relaxation(),
+                                          wall_friction(),
+                                          wall_compliance(),
+                                          taper(),
+                                          torsion_ratio(),
+                                          level()};
   return all;
 }
 

@@ -9,7 +9,6 @@ namespace ostium::data {
 namespace {
 
 using units::mm;
-constexpr double everywhere_mm = 1e5;
 
 std::string why_not(const MeasurementSet&, std::optional<int>) { return ""; }
 
@@ -19,20 +18,6 @@ void apply(const ActiveEffect& effect, const MeasurementSet&, const Experiment&,
     if (chosen(effect.instrument, i))
       change_stretch(setup.nest.parts[i].sections, v[2] * mm, v[3] * mm,
                      [&](core::Section& s) { s.rest_curvature_per_m.head<2>() += Eigen::Vector2d(v[0], v[1]) / mm; });
-}
-
-/// Everywhere, or in one section.
-std::vector<EffectForm> forms(const MeasurementSet& set, std::optional<int> instrument) {
-  std::vector<EffectForm> out = {{"", {{"from_tip_mm", 0}, {"to_tip_mm", everywhere_mm}}}};
-  if (!instrument && set.instruments.size() > 1) return out;
-  const auto& sections = set.instruments[instrument.value_or(0)].sections;
-  if (sections.size() < 2) return out;
-  const double longest = longest_inserted(set, instrument);
-  for (const core::Section& s : sections)
-    if (s.from_tip_m < longest)
-      out.push_back({"from " + std::to_string(static_cast<int>(s.from_tip_m / mm)) + " mm",
-                     {{"from_tip_mm", s.from_tip_m / mm}, {"to_tip_mm", s.to_tip_m / mm}}});
-  return out;
 }
 
 }  // namespace
@@ -45,7 +30,7 @@ Effect rest_curvature() {
                        {"k2_per_mm", "1/mm", "curvature at rest that is added about d2", 0, 0.002, -0.1, 0.1, false},
                        {"from_tip_mm", "mm", "where it begins, from the tip", 0, 1, 0, everywhere_mm, false},
                        {"to_tip_mm", "mm", "where it ends, from the tip", everywhere_mm, 1, 0, everywhere_mm, false}};
-  effect.why_not = why_not, effect.apply = apply, effect.forms = forms;
+  effect.why_not = why_not, effect.apply = apply, effect.forms = stretches_of;
   effect.of_one_instrument = true;
   effect.in_instrument = true;
   effect.of_several_stretches = true;

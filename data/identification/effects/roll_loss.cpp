@@ -42,6 +42,7 @@ Effect roll_loss() {
   effect.why_not = why_not, effect.apply = apply, effect.forms = forms;
   effect.of_one_instrument = true;
   effect.confused_with = "shaft_torsion";
+  effect.of_several_stretches = true;  // a fraction and a dead band
   return effect;
 }
 

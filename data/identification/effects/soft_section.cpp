@@ -28,6 +28,9 @@ void adapt(const MeasurementSet& set, std::optional<int> instrument, std::vector
   p[1].least = longest / 100;
 }
 
+/// Two of them are two forms of the same; the second is tried where the first is.
+std::vector<EffectForm> forms(const MeasurementSet&, std::optional<int>) { return {{"", {}}, {another_form, {}}}; }
+
 }  // namespace
 
 Effect soft_section() {
@@ -37,7 +40,8 @@ Effect soft_section() {
   effect.parameters = {{"from_tip_mm", "mm", "where the other stiffness begins, from the tip", 100, 60, 0, 5000, false},
                        {"length_mm", "mm", "length of the stretch", 20, 0.6, 0.5, 5000, true},
                        {"factor", "1", "its stiffness against what is declared there", 1, 0.9, 0.02, 50, true}};
-  effect.why_not = why_not, effect.apply = apply, effect.adapt = adapt;
+  effect.why_not = why_not, effect.apply = apply, effect.adapt = adapt, effect.forms = forms;
+  effect.of_several_stretches = true;
   effect.of_one_instrument = true;
   effect.in_instrument = true;
   return effect;

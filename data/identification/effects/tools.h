@@ -2,6 +2,7 @@
 /// Helpers shared by several effects.
 #include <algorithm>
 
+#include "core/base/units.h"
 #include "data/identification/effects/effect.h"
 
 namespace ostium::data {
@@ -39,6 +40,23 @@ void change_stretch(std::vector<core::Section>& sections, double from_m, double 
     }
   }
   sections = out;
+}
+
+inline constexpr double everywhere_mm = 1e5;  ///< behind every hub
+
+/// Stretches that an effect may act on: everywhere, and each section that is inserted. They hold from_tip_mm and
+/// to_tip_mm.
+inline std::vector<EffectForm> stretches_of(const MeasurementSet& set, std::optional<int> instrument) {
+  std::vector<EffectForm> out = {{"", {{"from_tip_mm", 0}, {"to_tip_mm", everywhere_mm}}}};
+  if (!instrument && set.instruments.size() > 1) return out;
+  const auto& sections = set.instruments[instrument.value_or(0)].sections;
+  if (sections.size() < 2) return out;
+  const double longest = longest_inserted(set, instrument);
+  for (const core::Section& s : sections)
+    if (s.from_tip_m < longest)
+      out.push_back({"from " + std::to_string(static_cast<int>(s.from_tip_m / units::mm)) + " mm",
+                     {{"from_tip_mm", s.from_tip_m / units::mm}, {"to_tip_mm", s.to_tip_m / units::mm}}});
+  return out;
 }
 
 /// Whether the roll of any chosen instrument differs between experiments, whether turned at the base or with it.

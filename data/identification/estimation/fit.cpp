@@ -86,7 +86,8 @@ Fit fit(const ForwardModel& forward, const Parameters& parameters, const FitOpti
   double sigma = options.sigma_m.value_or(options.guess_m);
   const int rounds = options.sigma_m ? 1 : options.rounds;
   for (int round = 0; round < rounds; ++round) {
-    FitProblem problem(forward, parameters, options.experiments, sigma, options.rough || forward.set().vessel);
+    FitProblem problem(forward, parameters, options.experiments, {sigma, options.noise},
+                       options.rough || forward.set().vessel);
     const LeastSquaresResult found = best_of(problem, options, starts, other_starts);
     VectorXd r;
     MatrixXd J;
@@ -117,7 +118,8 @@ Fit fit(const ForwardModel& forward, const Parameters& parameters, const FitOpti
 }
 
 double cost_ahead(const ForwardModel& forward, const Parameters& parameters, const FitOptions& options) {
-  const FitProblem problem(forward, parameters, options.experiments, options.sigma_m.value_or(options.guess_m), true);
+  const FitProblem problem(forward, parameters, options.experiments,
+                           {options.sigma_m.value_or(options.guess_m), options.noise}, true);
   double least = std::numeric_limits<double>::infinity();
   for (const VectorXd& start : options.starts) {
     const LeastSquares bounds = problem.least_squares(start);

@@ -1,6 +1,7 @@
 #pragma once
 /// Fits a model to the experiments of a set: weighted least squares with priors.
 #include "data/identification/estimation/forward_model.h"
+#include "data/identification/estimation/noise_model.h"
 #include "data/identification/estimation/parameters.h"
 
 namespace ostium::data {
@@ -31,7 +32,9 @@ struct FitOptions {
   double guess_m = 1e-3;  ///< initial guess of an unknown noise
   int rounds = 4;         ///< of estimating the noise
   bool only_x = false;    ///< skip covariance and misfits
-  bool rough = false;     ///< accurate enough to compare models, at a fraction of the time
+  /// Generalised least squares, robust if the tails are heavy: of centrelines; then sigma_m is its sigma.
+  std::optional<NoiseModel> noise = {};
+  bool rough = false;  ///< accurate enough to compare models, at a fraction of the time
 };
 
 /// Throws std::runtime_error if the model has no shapes at any start.

@@ -24,11 +24,11 @@ double step_of(const Parameter& p) {
 }  // namespace
 
 FitProblem::FitProblem(const ForwardModel& forward, const Parameters& parameters, const std::vector<int>& chosen,
-                       double sigma_m, bool rough)
+                       const Weighing& weighing, bool rough)
     : forward_(forward),
       parameters_(parameters),
       chosen_(chosen),
-      sigma_(sigma_m),
+      sigma_(weighing.sigma_m),
       push_sigma_N_(push_sigma_N(forward.set())),
       rough_(rough) {
   for (int e : chosen) {
@@ -36,6 +36,7 @@ FitProblem::FitProblem(const ForwardModel& forward, const Parameters& parameters
     rows_ += experiment.kind == Experiment::Kind::radius ? 1 : 3 * static_cast<int>(experiment.points_m.size());
     if (push_sigma_N_ && experiment.proximal_force_N) ++rows_;
     block_ends_.push_back(rows_);
+    if (weighing.noise) decorrelators_.emplace_back(along(experiment), 2, *weighing.noise);
   }
 }
 
@@ -144,7 +145,11 @@ bool FitProblem::data(const std::vector<PredictedShape>& shapes, const VectorXd&
     if (!shapes[k].converged) return false;
     const Experiment& e = forward_.set().experiments[chosen_[k]];
     const VectorXd off = misfit(e, shapes[k], seen(forward_.set(), e, changes, view));
-    residuals.segment(row, off.size()) = off / sigma_;
+    if (decorrelators_.empty())
+      residuals.segment(row, off.size()) = off / sigma_;
+    else
+      residuals.segment(row, off.size()) =
+          decorrelators_[k](off.reshaped(3, off.size() / 3).transpose()).transpose().reshaped();
     row += static_cast<int>(off.size());
     const std::optional<double> push_off_N = push_misfit_N(e, shapes[k]);
     if (push_sigma_N_ && push_off_N) residuals[row++] = *push_off_N / *push_sigma_N_;

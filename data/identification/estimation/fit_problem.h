@@ -2,16 +2,23 @@
 /// One fit as a least-squares problem. Residuals: the misfits over sigma, and the deviations from the priors over their
 /// spreads.
 #include "data/identification/estimation/forward_model.h"
+#include "data/identification/estimation/noise.h"
 #include "data/identification/estimation/parameters.h"
 #include "data/identification/estimation/secant_descent.h"
 
 namespace ostium::data {
 
+/// How the data are weighed: by one sigma or, along centrelines, by a noise model.
+struct Weighing {
+  double sigma_m = 0;
+  std::optional<NoiseModel> noise = {};
+};
+
 class FitProblem {
  public:
   /// `rough`: one-sided finite differences.
-  FitProblem(const ForwardModel& forward, const Parameters& parameters, const std::vector<int>& chosen, double sigma_m,
-             bool rough);
+  FitProblem(const ForwardModel& forward, const Parameters& parameters, const std::vector<int>& chosen,
+             const Weighing& weighing, bool rough);
 
   int data_rows() const { return rows_; }
   bool in_vessel() const { return forward_.set().vessel.has_value(); }
@@ -40,6 +47,7 @@ class FitProblem {
   const Parameters& parameters_;
   const std::vector<int>& chosen_;
   double sigma_;
+  std::vector<Decorrelator> decorrelators_;  ///< one per experiment; empty: independent normal noise
   std::optional<double> push_sigma_N_;
   bool rough_;             ///< one-sided differences
   Eigen::VectorXd steps_;  ///< step sizes; empty: those of the parameters

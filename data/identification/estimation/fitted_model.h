@@ -23,7 +23,7 @@ struct FittedModel {
   std::optional<double> rms_held_out_m;
   std::optional<double> push_rms_N, push_rms_held_out_N;  ///< if pushes were measured in a vessel
   std::optional<double> chi2_per_dof;                     ///< none if the noise is unknown
-  double degrees_of_freedom = 0;
+  double degrees_of_freedom = 0, parameters_used = 0;
   double bic = 0;
   bool converged = false;
   std::vector<PredictedShape> shapes;    ///< one per experiment

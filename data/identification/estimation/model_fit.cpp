@@ -44,7 +44,7 @@ ModelFit::ModelFit(const MeasurementSet& set, const Workers& workers, const std:
       tried_(tried),
       progress_(progress) {
   for (const ActiveEffect& effect : tried_) name_ += (name_.empty() ? "" : " + ") + effect.name();
-  parameters_.widen_effects(spread);
+  parameters_.widen_last_effect(spread);
   if (set_.vessel) parameters_.coarsen_steps();
   if (name_.empty()) name_ = "what is declared";
 }
@@ -62,6 +62,7 @@ FittedModel ModelFit::run(std::optional<double> noise_m) {
   say("fit");
   const int further = set_.vessel ? starts_in_vessel : further_starts;
   FitOptions options{all_, noise_m, starts_of(parameters_, parameters_.start(), 0, further), descents()};
+  options.noise = weighing_;
   fit_ = fit(*forward_, parameters_, options);
   const std::vector<std::string> others = on_other_branches();
   if (!others.empty()) {
@@ -94,6 +95,7 @@ FitOptions ModelFit::options_near(const FittedModel& near, std::optional<double>
   while (first < parameters_.shape_parameters() && known(first)) ++first;
   const int spread = std::min(starts, starts_for_each * (parameters_.shape_parameters() - first));
   FitOptions options{all_, noise_m, starts_of(parameters_, x, first, spread), descents()};
+  options.noise = weighing_;
   // Because it lacks these, the other model's stiffness may be far off; also start from the priors.
   if (starts > 0) {
     const auto others = starts_of(parameters_, parameters_.start(), first, spread / 2);
@@ -150,7 +152,7 @@ void ModelFit::complete(FittedModel& model, std::optional<double> noise_m) {
   longest_element_m_ = fine_elements_m;
   forward_->set_longest_element(longest_element_m_);
   FitOptions options{all_, noise_m, {fit_.x}, 1};
-  options.guess_m = fit_.sigma_m, options.rounds = 2;
+  options.guess_m = fit_.sigma_m, options.rounds = 2, options.noise = weighing_;
   fit_ = fit(*forward_, parameters_, options);
   const std::vector<std::string> others = model.other_branches;
   model = report();
@@ -170,9 +172,26 @@ std::vector<VectorXd> ModelFit::misfits_at_start() const {
   return misfits(*forward_, parameters_, parameters_.start(), all_);
 }
 
+/// Independent numbers and their likelihood, as the noise model has them.
+void ModelFit::judge_by(const NoiseModel& noise, FittedModel& model) const {
+  const std::vector<ResidualTrace> traces = traces_of(set_, model.misfits);
+  double chi2 = 0;
+  std::vector<VectorXd> independent;
+  for (const ResidualTrace& t : traces) {
+    independent.emplace_back(decorrelated(t, noise).transpose().reshaped());
+    chi2 += independent.back().squaredNorm() / expected_square(noise, t.numbers);
+  }
+  model.chi2_per_dof = chi2 / model.degrees_of_freedom;
+  model.bic =
+      minus_two_log_likelihood(traces, noise) + fit_.parameters_used * std::log(effective_numbers(traces, noise));
+  model.correlation = correlation_along(set_, independent);
+}
+
 void ModelFit::judge(FittedModel& model, const Noise& noise) const {
   const double squares_m2 = fit_.chi2 * fit_.sigma_m * fit_.sigma_m, n = fit_.measured;
   model.degrees_of_freedom = fit_.degrees_of_freedom();
+  model.parameters_used = fit_.parameters_used;
+  if (noise.model) return judge_by(*noise.model, model);
   if (!noise.sigma_m) {
     model.bic = n * std::log(std::max(squares_m2, 1e-30) / n) + fit_.parameters_used * std::log(n);
     return;

@@ -7,11 +7,13 @@ namespace ostium::data {
 
 class ModelFit {
  public:
-  /// `spread`: factor on the prior widths of the effects' parameters.
+  /// `spread`: factor on the prior widths of the last effect's parameters.
   ModelFit(const MeasurementSet& set, const Workers& workers, const std::vector<ActiveEffect>& tried,
            const std::function<void(const std::string&)>& progress, double spread = 1);
   ModelFit(const ModelFit&) = delete;
 
+  /// From here on, fits weigh the data by this noise model, if there is one.
+  void weigh_by(const Noise& noise) { weighing_ = noise.model; }
   /// Fits and scores everything except what depends on the noise, which `judge` adds. `noise_m`: none if it is not
   /// declared. Throws LoadError naming the experiment that has no static shape.
   FittedModel run(std::optional<double> noise_m);
@@ -32,6 +34,7 @@ class ModelFit {
  private:
   std::size_t descents() const;  ///< number of starts to descend from
   void say(const std::string& what) const;
+  void judge_by(const NoiseModel& noise, FittedModel& model) const;
   FitOptions options_near(const FittedModel& near, std::optional<double> noise_m, double guess_m, int starts);
   /// Refits, starting also from the stiffness that the measured pushes suggest, if there are any.
   void refit_by_push(FitOptions options);
@@ -54,6 +57,7 @@ class ModelFit {
   std::optional<ForwardModel> forward_;
   double longest_element_m_ = fine_elements_m;
   bool viewed_ = false;
+  std::optional<NoiseModel> weighing_;
   Fit fit_;
 };
 

@@ -28,8 +28,7 @@ VectorXd annihilator(const VectorXd& t) {
 void add_point_to_point(const Experiment& e, const VectorXd& off, Mean& mean) {
   const Eigen::Index count = static_cast<Eigen::Index>(e.points_m.size()), window = std::min<Eigen::Index>(5, count);
   if (window < 3) return;
-  VectorXd s = VectorXd::Zero(count);
-  for (Eigen::Index i = 1; i < count; ++i) s[i] = s[i - 1] + std::max((e.points_m[i] - e.points_m[i - 1]).norm(), 1e-9);
+  const VectorXd s = along(e);
   for (Eigen::Index i = 0; i + window <= count; ++i) {
     const VectorXd w = annihilator(s.segment(i, window));
     Vector3d left = Vector3d::Zero();
@@ -75,16 +74,44 @@ Mean over_repeats(const MeasurementSet& set) {
 
 }  // namespace
 
+VectorXd along(const Experiment& e) {
+  const auto count = static_cast<Eigen::Index>(e.points_m.size());
+  VectorXd s = VectorXd::Zero(count);
+  for (Eigen::Index i = 1; i < count; ++i) s[i] = s[i - 1] + std::max((e.points_m[i] - e.points_m[i - 1]).norm(), 1e-9);
+  return s;
+}
+
+bool has_traces(const MeasurementSet& set) {
+  if (set.vessel) return false;
+  for (const Experiment& e : set.experiments)
+    if (e.kind != Experiment::Kind::centreline) return false;
+  return true;
+}
+
+std::vector<ResidualTrace> traces_of(const MeasurementSet& set, const std::vector<VectorXd>& misfits) {
+  std::vector<ResidualTrace> out;
+  for (std::size_t i = 0; i < set.experiments.size(); ++i)
+    out.push_back({along(set.experiments[i]), misfits[i].reshaped(3, misfits[i].size() / 3).transpose(), 2});
+  return out;
+}
+
+std::optional<NoiseModel> other_noise(const MeasurementSet& set, const std::vector<VectorXd>& misfits) {
+  if (!has_traces(set)) return {};
+  const NoiseModel m = noise_model_of(traces_of(set, misfits), set.imaging.noise_sigma_m);
+  if (m.as_declared || (!set.imaging.noise_sigma_m && !m.correlated() && !m.heavy())) return {};
+  return m;
+}
+
 Noise noise_of(const MeasurementSet& set, const std::vector<VectorXd>& misfits) {
-  if (set.imaging.noise_sigma_m) return {set.imaging.noise_sigma_m, true, "declared"};
+  if (set.imaging.noise_sigma_m) return {set.imaging.noise_sigma_m, true, "declared", {}};
   Mean along;
   for (std::size_t i = 0; i < set.experiments.size(); ++i)
     if (set.experiments[i].kind == Experiment::Kind::centreline)
       add_point_to_point(set.experiments[i], misfits[i], along);
-  if (along.count >= 10) return {std::sqrt(along.sum / along.count), false, "point to point"};
+  if (along.count >= 10) return {std::sqrt(along.sum / along.count), false, "point to point", {}};
   const Mean repeats = over_repeats(set);
-  if (repeats.count >= 6) return {std::sqrt(repeats.sum / repeats.count), false, "repeats"};
-  return {{}, false, "unknown"};
+  if (repeats.count >= 6) return {std::sqrt(repeats.sum / repeats.count), false, "repeats", {}};
+  return {{}, false, "unknown", {}};
 }
 
 std::optional<Correlation> correlation_along(const MeasurementSet& set, const std::vector<VectorXd>& misfits) {

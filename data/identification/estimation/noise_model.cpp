@@ -17,6 +17,7 @@ using Eigen::VectorXd;
 constexpr double few_points = 30;  // leave correlation and tails open
 constexpr int lengths_tried = 14;
 constexpr double whites_tried[] = {0, 0.1, 0.3, 0.6};
+constexpr double least_white = 1e-3;  // smooth correlations alone are singular
 constexpr double degrees_tried[] = {2, 3, 5, 10};
 constexpr double longest_share = 0.5;  // of a trace: what is shared farther than that is its mean
 constexpr int scale_rounds = 40;
@@ -33,12 +34,14 @@ double numbers_of(const std::vector<ResidualTrace>& traces) {
   return n;
 }
 
+double shared(double lengths, bool smooth) { return smooth ? std::exp(-lengths * lengths / 2) : std::exp(-lengths); }
+
 MatrixXd correlations(const VectorXd& at, const NoiseModel& m) {
   const Eigen::Index n = at.size();
   MatrixXd R = MatrixXd::Identity(n, n);
   for (Eigen::Index i = 0; i < n && m.correlated(); ++i)
     for (Eigen::Index j = 0; j < i; ++j)
-      R(i, j) = R(j, i) = (1 - m.white) * std::exp(-std::fabs(at[i] - at[j]) / m.length);
+      R(i, j) = R(j, i) = (1 - m.white) * shared(std::fabs(at[i] - at[j]) / m.length, m.smooth);
   return R;
 }
 
@@ -147,8 +150,10 @@ NoiseModel noise_model_of(const std::vector<ResidualTrace>& traces, std::optiona
   }
   const auto [longest, spacing] = spans(traces);
   for (int k = 0; enough && longest > 2 * spacing && k < lengths_tried; ++k)
-    for (const double white : whites_tried) {
+    for (int kind = 0; kind < 2 * static_cast<int>(std::size(whites_tried)); ++kind) {
       NoiseModel m;
+      m.smooth = kind % 2 == 1;
+      const double white = std::max(whites_tried[kind / 2], m.smooth ? least_white : 0.0);
       m.length = spacing / 2 * std::pow(2 * longest_share * longest / spacing, k / (lengths_tried - 1.0));
       m.white = white;
       const Decorrelated d = all_decorrelated(traces, m);
@@ -166,13 +171,23 @@ NoiseModel noise_model_of(const std::vector<ResidualTrace>& traces, std::optiona
   return chosen->model;
 }
 
-MatrixXd decorrelated(const ResidualTrace& trace, const NoiseModel& m) {
-  MatrixXd out = decorrelate(trace, m) / m.sigma;
-  for (Eigen::Index i = 0; m.heavy() && i < out.rows(); ++i) {
+Decorrelator::Decorrelator(const VectorXd& at, double numbers, const NoiseModel& model)
+    : model_(model), numbers_(numbers) {
+  if (model.correlated()) factor_ = Eigen::LLT<MatrixXd>(correlations(at, model)).matrixL();
+}
+
+MatrixXd Decorrelator::operator()(const MatrixXd& values) const {
+  MatrixXd out = values / model_.sigma;
+  if (factor_.size() > 0) out = factor_.triangularView<Eigen::Lower>().solve(out).eval();
+  for (Eigen::Index i = 0; model_.heavy() && i < out.rows(); ++i) {
     const double square = out.row(i).squaredNorm();
-    if (square > 0) out.row(i) *= std::sqrt(cost_of(square, trace.numbers, m.degrees) / square);
+    if (square > 0) out.row(i) *= std::sqrt(cost_of(square, numbers_, model_.degrees) / square);
   }
   return out;
+}
+
+MatrixXd decorrelated(const ResidualTrace& t, const NoiseModel& m) {
+  return Decorrelator(t.at, t.numbers, m)(t.values);
 }
 
 double expected_square(const NoiseModel& m, double numbers) {
@@ -182,6 +197,12 @@ double expected_square(const NoiseModel& m, double numbers) {
 
 double minus_two_log_likelihood(const std::vector<ResidualTrace>& traces, const NoiseModel& m) {
   return likelihood_of(traces, all_decorrelated(traces, m), m);
+}
+
+double own_noise_cost(const std::vector<ResidualTrace>& traces, std::optional<double> declared) {
+  const NoiseModel m = noise_model_of(traces, declared);
+  const double fitted = m.as_declared ? 0 : 1 + m.heavy() + m.correlated() + (m.correlated() && m.white > 0);
+  return minus_two_log_likelihood(traces, m) + fitted * std::log(numbers_of(traces));
 }
 
 double effective_numbers(const std::vector<ResidualTrace>& traces, const NoiseModel& m) {

@@ -129,10 +129,10 @@ double Parameters::within(int i, double part) const {
   return least + part * (most - least);
 }
 
-void Parameters::widen_effects(double factor) {
-  for (const auto& indices : index_of_)
-    for (int i : indices)
-      if (i >= 0) list_[i].spread *= factor, list_[i].step *= factor;
+void Parameters::widen_last_effect(double factor) {
+  if (index_of_.empty()) return;
+  for (int i : index_of_.back())
+    if (i >= 0) list_[i].spread *= factor, list_[i].step *= factor;
 }
 
 void Parameters::coarsen_steps() {

@@ -31,8 +31,8 @@ class Parameters {
   double inner(int i, double value) const;  ///< the x that gives this value
   /// x at `part` (0 to 1) of the interval of two spreads on either side of the prior, within the range.
   double within(int i, double part) const;
-  /// Multiplies the prior widths of the tried effects' parameters by `factor`.
-  void widen_effects(double factor);
+  /// Multiplies the prior widths of the last tried effect's parameters by `factor`.
+  void widen_last_effect(double factor);
   /// Widens the finite differences for a model that comes to rest only approximately.
   void coarsen_steps();
   double sigma(int i, double x, double sigma_x) const;

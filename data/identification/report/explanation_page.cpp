@@ -19,7 +19,7 @@ body { font: 15px/1.45 system-ui, sans-serif; color: #222; max-width: 980px; mar
 h1 { font-size: 22px; margin: 0 0 4px; } h2 { font-size: 17px; margin: 28px 0 8px; }
 .source { color: #666; font-size: 13px; }
 .verdict { border-left: 6px solid #888; padding: 8px 14px; background: #f6f6f6; margin: 14px 0; font-size: 17px; }
-.verdict.explained { border-color: #009e73; } .verdict.effect { border-color: #0072b2; }
+.verdict.explained { border-color: #009e73; } .verdict.effect, .verdict.mostly { border-color: #0072b2; }
 .verdict.unexplained { border-color: #d55e00; } .verdict.ambiguous { border-color: #cc79a7; }
 .verdict.cannot_be_judged { border-color: #cc79a7; }
 table { border-collapse: collapse; font-size: 14px; } th { text-align: left; font-weight: 600; }
@@ -98,7 +98,8 @@ std::string plots(const MeasurementSet& set, const Explanation& x) {
 
 }  // namespace
 
-std::string to_html(const MeasurementSet& set, const Explanation& x) {
+std::string to_html(const MeasurementSet& as_read, const Explanation& x) {
+  const MeasurementSet& set = x.judged(as_read);
   std::string out =
       "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" "
       "content=\"width=device-width\">\n<title>" +

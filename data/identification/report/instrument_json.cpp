@@ -63,7 +63,8 @@ Json relaxation(const std::vector<ActiveEffect>& effects, const std::vector<core
 
 }  // namespace
 
-std::string instrument_json(const MeasurementSet& set, const Explanation& x, std::size_t i) {
+std::string instrument_json(const MeasurementSet& as_read, const Explanation& x, std::size_t i) {
+  const MeasurementSet& set = x.judged(as_read);
   const MeasuredInstrument& measured = set.instruments[i];
   Changes changes = x.best().changes;
   std::string found;

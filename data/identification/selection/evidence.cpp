@@ -43,8 +43,23 @@ bool is_noise(const FittedModel& model, const Noise& noise) {
     if (*model.chi2_per_dof > allowed) return false;
   }
   if (model.correlation && model.correlation->standard_errors > 4) return false;
-  return std::none_of(model.residual_tests.list.begin(), model.residual_tests.list.end(),
-                      [](const ResidualTest& d) { return d.significant; });
+  return !has_pattern(model);
+}
+
+bool has_pattern(const FittedModel& model) {
+  return std::any_of(model.residual_tests.list.begin(), model.residual_tests.list.end(),
+                     [](const ResidualTest& d) { return d.significant; });
+}
+
+double own_noise_bic(const MeasurementSet& set, const FittedModel& model) {
+  const std::vector<ResidualTrace> traces = traces_of(set, model.misfits);
+  const NoiseModel own = noise_model_of(traces, set.imaging.noise_sigma_m);
+  return own_noise_cost(traces, set.imaging.noise_sigma_m) +
+         model.parameters_used * std::log(effective_numbers(traces, own));
+}
+
+Misfit misfit_of(const FittedModel& model) {
+  return {model.chi2_per_dof.value_or(0) * model.degrees_of_freedom, model.degrees_of_freedom};
 }
 
 }  // namespace ostium::data

@@ -1,6 +1,7 @@
 #pragma once
 /// Criteria for one model being better than another, and for a model being complete.
 #include "data/identification/estimation/fitted_model.h"
+#include "data/identification/selection/degrees.h"
 
 namespace ostium::data {
 
@@ -15,6 +16,15 @@ bool wins(const FittedModel& candidate, const FittedModel& declared, const Noise
 
 /// Whether a model's residual is noise, by chi2, correlation along the wire and dependence on the varied quantities.
 bool is_noise(const FittedModel& model, const Noise& noise);
+
+/// Whether the residual goes with something that was varied: a pattern, which noise of whatever kind has not. False
+/// where it was not tested.
+bool has_pattern(const FittedModel& model);
+
+/// BIC with the noise that the model's own residual shows.
+double own_noise_bic(const MeasurementSet& set, const FittedModel& model);
+
+Misfit misfit_of(const FittedModel& model);
 
 /// Whether a parameter is at the edge of its range: then it stands in for something else.
 bool at_an_edge(const FittedModel& model);

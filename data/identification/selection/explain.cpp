@@ -8,6 +8,7 @@
 #include "data/identification/effects/effect_list.h"
 #include "data/identification/estimation/model_fit.h"
 #include "data/identification/forward/setup.h"
+#include "data/identification/selection/data_faults.h"
 #include "data/identification/selection/residual_attribution.h"
 #include "data/identification/selection/search.h"
 #include "data/identification/selection/verdict.h"
@@ -16,6 +17,19 @@
 namespace ostium::data {
 
 namespace {
+
+/// What every form of an effect holds, as the first holds it: all else is fitted.
+EffectForm held_in_all_forms(const Effect& effect, const MeasurementSet& set, std::optional<int> instrument) {
+  EffectForm out;
+  if (!effect.forms) return out;
+  const std::vector<EffectForm> forms = effect.forms(set, instrument);
+  for (const auto& [name, value] : forms.front().held)
+    if (std::all_of(forms.begin(), forms.end(), [&, key = &name](const EffectForm& f) {
+          return std::any_of(f.held.begin(), f.held.end(), [&](const auto& h) { return h.first == *key; });
+        }))
+      out.held.emplace_back(name, value);
+  return out;
+}
 
 /// "shaft_torsion[1]": an effect and the instrument it acts on.
 ActiveEffect parsed(const std::string& word, const MeasurementSet& set) {
@@ -36,8 +50,8 @@ ActiveEffect parsed(const std::string& word, const MeasurementSet& set) {
   }
   if (const std::string why = active.effect->why_not(set, active.instrument); !why.empty())
     throw LoadError(fmt::format("{}: {} cannot show in this set: {}", set.file, word, why));
-  for (const EffectParameter& p : active.effect->parameters) active.values.push_back(p.prior);
-  return active;
+  return data::active(*active.effect, set, active.instrument,
+                      held_in_all_forms(*active.effect, set, active.instrument));
 }
 
 /// Sorts by BIC; first comes the model with the fewest parameters among those not ruled out by strong evidence.
@@ -52,9 +66,87 @@ void put_best_first(std::vector<FittedModel>& candidates) {
   std::rotate(candidates.begin(), best, best + 1);
 }
 
-Explanation explain_with_library(const MeasurementSet& set, const ExplainOptions& options) {
+/// The effects that the model has besides those that the set declares.
+std::vector<ActiveEffect> tried_effects(const MeasurementSet& set, const FittedModel& model) {
+  const auto& all = model.changes.effects;
+  return {all.begin() + static_cast<std::ptrdiff_t>(set.effects.size()), all.end()};
+}
+
+bool ends(const ExplainOptions& options) { return options.stop && options.stop(); }
+
+/// Searches the effects one by one: whether any explains all experiments alone.
+void search_single_effects(const MeasurementSet& set, const Workers& workers, const ExplainOptions& options,
+                           const ModelFit& declared, Explanation& out) {
+  EffectSearch search(set, workers, options.progress, options.stop);
+  out.candidates = search.run(declared, out.declared, out.noise, 1);
+  out.ended_early = ends(options);
+}
+
+/// Searches the effects, and the fields that have no name.
+void search_effects(const MeasurementSet& set, const Workers& workers, const ExplainOptions& options,
+                    const ModelFit& declared, Explanation& out) {
+  EffectSearch search(set, workers, options.progress, options.stop);
+  out.candidates = search.run(declared, out.declared, out.noise);
+  out.ended_early = ends(options);
+  if (!out.ended_early)
+    out.attributions = attribute_residual(set, workers, out.declared, {}, out.noise, options.progress);
+  out.signature = signature_of(out.attributions);
+}
+
+/// Where the declared model's residual goes with nothing that was varied, it may be noise of another kind than
+/// declared. It is if no effect wins, and no field has evidence, against that noise. Otherwise nothing is said.
+std::optional<Explanation> explained_by_noise(const MeasurementSet& set, const Workers& workers,
+                                              const ExplainOptions& options, Explanation out) {
+  if (has_pattern(out.declared) || too_small(set, out.declared)) return {};
+  std::optional<NoiseModel> other = other_noise(set, out.declared.misfits);
+  if (!other) return {};
+  ModelFit declared(set, workers, {}, options.progress);
+  out.noise = {other->sigma, false, "residual", other};
+  declared.weigh_by(out.noise);
+  out.declared = declared.run(other->sigma);
+  declared.judge(out.declared, out.noise);
+  search_effects(set, workers, options, declared, out);
+  if (out.ended_early || !out.noise.model) return {};
+  decide(set, workers, out);
+  const bool field =
+      !out.attributions.empty() && out.attributions.front().log_evidence > convincing_log_evidence(out.attributions);
+  if (out.verdict == Verdict::effect || (out.verdict == Verdict::explained && !field)) return out;
+  return {};
+}
+
+/// Describes what the best model leaves beyond noise.
+void describe_remaining(const MeasurementSet& set, const Workers& workers, const ExplainOptions& options,
+                        Explanation& out) {
+  if (out.verdict != Verdict::mostly && out.verdict != Verdict::unexplained) return;
+  if (!out.noise.sigma_m) return;
+  Remaining left;
+  left.share = 1 - share_removed(misfit_of(out.declared), misfit_of(out.best())).value_or(1);
+  left.signature = out.signature;
+  std::vector<ResidualAttribution> fields = out.attributions;
+  if (out.adds_effects && !out.ended_early) {
+    fields = attribute_residual(set, workers, out.best(), tried_effects(set, out.best()), out.noise, options.progress);
+    left.signature = signature_of(fields);
+  }
+  left.text = remaining_text(out, fields, left);
+  out.remaining = left;
+  if (!out.next_experiment) out.next_experiment = where_most_is_left(set, out.best());
+}
+
+/// A set without the faults that its lengths show. `looks_for_faults`: whether others are looked for.
+Explanation explain_mended(const MeasurementSet& set, const ExplainOptions& options, bool looks_for_faults);
+
+/// What is left of a set whose fault was found; the fault heads the findings.
+Explanation without_fault(const Mended& mended, const ExplainOptions& options) {
+  Explanation out = explain_mended(mended.set, options, false);
+  if (!out.mended) out.mended = std::make_shared<const MeasurementSet>(mended.set);
+  add_faults(mended.faults, out);
+  return out;
+}
+
+Explanation explain_mended(const MeasurementSet& set, const ExplainOptions& options, bool looks_for_faults) {
   const Workers workers(options.threads);
   Explanation out;
+  out.declared_sigma_m = set.imaging.noise_sigma_m;
   ModelFit declared(set, workers, {}, options.progress);
   out.declared = declared.run(set.imaging.noise_sigma_m);
   out.nominal_misfits = declared.misfits_at_start();
@@ -62,16 +154,34 @@ Explanation explain_with_library(const MeasurementSet& set, const ExplainOptions
   out.noise = noise_of(set, out.declared.misfits);
   declared.judge(out.declared, out.noise);
   const bool done = out.noise.sigma_m && is_noise(out.declared, out.noise) && !too_small(set, out.declared);
-  if (!done) {
-    EffectSearch search(set, workers, options.progress, options.stop);
-    out.candidates = search.run(declared, out.declared, out.noise);
-    out.ended_early = options.stop && options.stop();
-    if (!out.ended_early)
-      out.attributions = attribute_residual(set, workers, out.declared, out.noise, options.progress);
-    out.signature = signature_of(out.attributions);
+  std::optional<Mended> fault;
+  if (!done && looks_for_faults && !ends(options))
+    fault = find_fault(set, workers, out.declared, out.noise, options.progress);
+  if (fault && !fault->left_out) return without_fault(*fault, options);
+  std::optional<Explanation> by_noise;
+  if (!done && !fault && !ends(options)) by_noise = explained_by_noise(set, workers, options, out);
+  if (by_noise) {
+    out = std::move(*by_noise);
+  } else {
+    // An effect that explains all experiments is believed before one of them is given up.
+    if (!done) (fault ? search_single_effects : search_effects)(set, workers, options, declared, out);
+    decide(set, workers, out);
+    if (fault && out.verdict != Verdict::effect && !out.ended_early) return without_fault(*fault, options);
+    describe_remaining(set, workers, options, out);
   }
-  decide(set, workers, out);
+  warn_of_scales(out.best(), out.warnings);
   out.verdict_text = verdict_text(set, out);
+  return out;
+}
+
+Explanation explain_with_library(const MeasurementSet& set, const ExplainOptions& options) {
+  std::vector<std::string> warnings;
+  const std::optional<Mended> lengths = mend_lengths(set, warnings);
+  Explanation out = explain_mended(lengths ? lengths->set : set, options, true);
+  if (lengths && !out.mended) out.mended = std::make_shared<const MeasurementSet>(lengths->set);
+  if (lengths) add_faults(lengths->faults, out);
+  out.warnings.insert(out.warnings.begin(), warnings.begin(), warnings.end());
+  out.verdict_text.insert(out.verdict_text.begin() + 1, warnings.begin(), warnings.end());
   return out;
 }
 
@@ -87,7 +197,7 @@ Explanation explain(const MeasurementSet& set, const ExplainOptions& options) {
   }
   const Workers workers(options.threads);
   Explanation out;
-
+  out.declared_sigma_m = set.imaging.noise_sigma_m;
   ModelFit declared(set, workers, {}, options.progress);
   out.declared = declared.run(set.imaging.noise_sigma_m);
   out.nominal_misfits = declared.misfits_at_start();
@@ -110,12 +220,22 @@ Explanation explain(const MeasurementSet& set, const ExplainOptions& options) {
 
   // Without a known noise no model can be said to fit; then the one that predicts better wins.
   const bool fits = is_noise(out.declared, out.noise);
-  if ((!fits || !out.noise.sigma_m) && !out.candidates.empty() && wins(out.candidates.front(), out.declared, out.noise))
-    out.verdict = Verdict::effect;
+  const bool open = !fits || !out.noise.sigma_m;
+  const FittedModel* first = open && !out.candidates.empty() ? &out.candidates.front() : nullptr;
+  const bool most = first && !fits && out.noise.sigma_m && removes_most_of_it(out, *first);
+  if (most) out.attributions = attribute_residual(set, workers, out.declared, {}, out.noise, options.progress);
+  if (first && wins(*first, out.declared, out.noise))
+    out.verdict = Verdict::effect, out.adds_effects = true;
+  else if (most && removes_most_of_it(out, *first))  // with more evidence than a field without a name
+    out.verdict = Verdict::mostly, out.adds_effects = true;
   else
     out.verdict = without_an_effect(fits, out.noise.sigma_m.has_value());
   if (out.verdict == Verdict::cannot_be_judged) out.next_experiment = repeat_for_noise(set);
   out.signature = out.declared.residual_tests.signature;
+  describe_remaining(set, workers, options, out);
+  if (const std::optional<Mended> lengths = mend_lengths(set, out.warnings))
+    for (const DataFault& f : lengths->faults) out.warnings.push_back(f.what + ": " + f.mend + ".");
+  warn_of_scales(out.best(), out.warnings);
   out.verdict_text = verdict_text(set, out);
   return out;
 }

@@ -1,20 +1,32 @@
 #pragma once
 /// The findings about a set, and the verdict.
+#include <memory>
+
 #include "data/identification/estimation/fitted_model.h"
+#include "data/identification/selection/data_fault.h"
 #include "data/identification/selection/next_experiment.h"
 #include "data/identification/selection/residual_attribution.h"
 
 namespace ostium::data {
 
-/// `cannot_be_judged`: the noise is unknown, so nothing says whether what is left is more than that.
-enum class Verdict { explained, effect, ambiguous, unexplained, cannot_be_judged };
+/// `mostly`: an effect removes most of what is beyond noise, and something is left (`remaining`). `cannot_be_judged`:
+/// the noise is unknown, so nothing says whether what is left is more than that.
+enum class Verdict { explained, effect, mostly, ambiguous, unexplained, cannot_be_judged };
 
 std::string to_string(Verdict verdict);
+
+/// What the best model leaves beyond noise.
+struct Remaining {
+  double share = 0;  ///< of what the declared model leaves beyond noise, in chi-square, 0 to 1
+  Signature signature;
+  std::string text;
+};
 
 struct Explanation {
   Verdict verdict = Verdict::unexplained;
   Noise noise;
-  double rms_nominal_m = 0;  ///< before fitting anything except, ignoring the tip offset, the frame
+  std::optional<double> declared_sigma_m;  ///< what the set says of its noise
+  double rms_nominal_m = 0;                ///< before fitting anything except, ignoring the tip offset, the frame
   std::vector<Eigen::VectorXd> nominal_misfits;
   FittedModel declared;
   std::vector<FittedModel> candidates;    ///< best first
@@ -26,7 +38,17 @@ struct Explanation {
   /// For an ambiguous verdict: how many of the candidates explain the set equally well.
   std::size_t rivals = 0;
   bool ended_early = false;  ///< the search was ended; what is here holds, and more might have been found
-  const FittedModel& best() const { return verdict == Verdict::effect ? candidates.front() : declared; }
+  /// Whether the first candidate's effects are added; otherwise the declared model is the best.
+  bool adds_effects = false;
+  std::vector<DataFault> faults;                 ///< mended or left out before anything was judged
+  std::shared_ptr<const MeasurementSet> mended;  ///< what was judged, if that is not the set as it was read
+  std::optional<Remaining> remaining;
+  std::vector<std::string> warnings;  ///< what to doubt in whatever the verdict says
+
+  const FittedModel& best() const { return adds_effects ? candidates.front() : declared; }
+  const MeasurementSet& judged(const MeasurementSet& as_read) const { return mended ? *mended : as_read; }
+  /// Ids of the faults and of the effects that are added.
+  std::vector<std::string> effects() const;
 };
 
 }  // namespace ostium::data

@@ -5,11 +5,14 @@
 #include <stdexcept>
 
 #include "data/identification/estimation/model_fit.h"
+#include "data/identification/selection/evidence.h"
 #include "data/identification/selection/residual_fields.h"
 
 namespace ostium::data {
 
 namespace {
+
+constexpr double widths[] = {1.0, 0.25, 4.0};  // of a field's prior
 
 /// The stretch between knots that holds four fifths of a field's sum of squares.
 std::optional<Eigen::Vector2d> stretch_of(const MeasurementSet& set, const std::vector<double>& v, int width) {
@@ -55,7 +58,8 @@ std::optional<Eigen::Vector3d> place_of(const MeasurementSet& set, const FittedM
 }  // namespace
 
 std::vector<ResidualAttribution> attribute_residual(const MeasurementSet& set, const Workers& workers,
-                                                    const FittedModel& near, const Noise& noise,
+                                                    const FittedModel& near, const std::vector<ActiveEffect>& with,
+                                                    const Noise& noise,
                                                     const std::function<void(const std::string&)>& progress) {
   struct CandidateField {
     const Effect* effect;
@@ -66,8 +70,8 @@ std::vector<ResidualAttribution> attribute_residual(const MeasurementSet& set, c
                                    {&lateral_force_field(), "lab", "a force that stays where it is in the room", 3},
                                    {&image_field(), "image", "a rigid or affine error of the picture", 0},
                                    {&time_field(), "time", "a change with time", 0}};
-  // All against the same noise; if it is unknown, the declared model's residual.
-  const double floor = noise.sigma_m.value_or(0);
+  // All against the same noise; if it is unknown, the residual.
+  const double sigma = noise.sigma_m.value_or(near.rms_m / std::sqrt(3.0));
   std::vector<ResidualAttribution> out;
   if (set.experiments.size() < 2) return out;
   for (const CandidateField& field : fields) {
@@ -76,11 +80,14 @@ std::vector<ResidualAttribution> attribute_residual(const MeasurementSet& set, c
     if (radii && field.effect == &lateral_force_field()) continue;
     std::optional<ResidualAttribution> best;
     FittedModel from = near;
-    for (const double spread : {1.0, 0.25, 4.0}) {  // each starts from the previous result
-      ModelFit study(set, workers, {active(*field.effect, set, {}, {"", {}})}, progress, spread);
+    for (const double spread : widths) {  // each starts from the previous result
+      std::vector<ActiveEffect> effects = with;
+      effects.push_back(active(*field.effect, set, {}, {"", {}}));
+      ModelFit study(set, workers, effects, progress, spread);
+      study.weigh_by(noise);
       FittedModel model;
       try {
-        model = study.run_near(from, noise.sigma_m ? *noise.sigma_m : near.rms_m / std::sqrt(3.0), 0, 0);
+        model = study.run_near(from, sigma, 0, 0);
       } catch (const std::runtime_error&) {
         continue;
       }
@@ -89,9 +96,10 @@ std::vector<ResidualAttribution> attribute_residual(const MeasurementSet& set, c
       trace.frame = field.frame, trace.what = field.what;
       trace.log_evidence = study.log_evidence();
       if (best && best->log_evidence > trace.log_evidence) continue;
-      const double distances_floor = 2 * floor * floor, before = near.rms_m * near.rms_m - distances_floor;
-      trace.removed =
-          before > 0 ? std::clamp((near.rms_m * near.rms_m - model.rms_m * model.rms_m) / before, 0.0, 1.0) : 0;
+      study.judge(model, noise);
+      const double ratio = model.rms_m / near.rms_m;
+      trace.removed = noise.sigma_m ? share_removed(misfit_of(near), misfit_of(model)).value_or(0)
+                                    : std::clamp(1 - ratio * ratio, 0.0, 1.0);
       trace.rms_m = model.rms_m;
       for (const FittedParameter& p : model.parameters)
         if (p.parameter.name.starts_with(field.effect->id)) trace.numbers_used += p.informed;
@@ -104,17 +112,25 @@ std::vector<ResidualAttribution> attribute_residual(const MeasurementSet& set, c
     }
     if (best) out.push_back(*best);
   }
-  ModelFit plain(set, workers, {}, progress);
-  plain.run_near(near, noise.sigma_m ? *noise.sigma_m : near.rms_m / std::sqrt(3.0), 0, 0);
+  ModelFit plain(set, workers, with, progress);
+  plain.weigh_by(noise);
+  plain.run_near(near, sigma, 0, 0);
   for (ResidualAttribution& t : out) t.log_evidence -= plain.log_evidence();
   std::sort(out.begin(), out.end(),
             [](const ResidualAttribution& a, const ResidualAttribution& b) { return a.log_evidence > b.log_evidence; });
   return out;
 }
 
+double convincing_log_evidence(const std::vector<ResidualAttribution>& attributions) {
+  const double looks = static_cast<double>(std::max<std::size_t>(attributions.size(), 1) * std::size(widths));
+  return strong_evidence / 2 + std::log(looks);
+}
+
 Signature signature_of(const std::vector<ResidualAttribution>& attributions) {
   Signature out;
-  if (attributions.empty() || attributions.front().log_evidence < 3) return out;
+  if (attributions.empty() || attributions.front().log_evidence < convincing_log_evidence(attributions) ||
+      attributions.front().removed < part_of_it)
+    return out;
   const ResidualAttribution& best = attributions.front();
   out.frame = best.frame;
   out.from_tip_m = best.from_tip_m, out.at_m = best.at_m;

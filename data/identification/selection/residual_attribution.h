@@ -12,7 +12,7 @@ namespace ostium::data {
 struct ResidualAttribution {
   std::string frame;        ///< material, lab, image, time
   std::string what;         ///< description
-  double removed = 0;       ///< share of the squares above the noise, 0 to 1
+  double removed = 0;       ///< share of chi-square beyond noise, 0 to 1
   double log_evidence = 0;  ///< relative to the declared model
   double numbers_used = 0;  ///< effective number of the field's parameters determined by the data
   double rms_m = 0;         ///< remaining residual
@@ -20,13 +20,18 @@ struct ResidualAttribution {
   std::optional<Eigen::Vector3d> at_m;
 };
 
-/// The attributions of `near`'s residual to each field, best first by evidence. The evidence is Laplace's, the largest
-/// over a few priors whose widths differ by factors of four (MacKay 1992, Neural Comput 4:415).
+/// The attributions of the residual of `near`, a model with the effects `with`, to each field, best first by evidence.
+/// The evidence is Laplace's, the largest over a few priors whose widths differ by factors of four (MacKay 1992, Neural
+/// Comput 4:415).
 std::vector<ResidualAttribution> attribute_residual(const MeasurementSet& set, const Workers& workers,
-                                                    const FittedModel& near, const Noise& noise,
+                                                    const FittedModel& near, const std::vector<ActiveEffect>& with,
+                                                    const Noise& noise,
                                                     const std::function<void(const std::string&)>& progress);
 
-/// The signature implied by the attributions; "none" if none has strong evidence.
+/// Log evidence that a field needs to be more than chance, as the best of all that were looked at.
+double convincing_log_evidence(const std::vector<ResidualAttribution>& attributions);
+
+/// The signature implied by the attributions; "none" if none has strong evidence or removes a tenth of the residual.
 Signature signature_of(const std::vector<ResidualAttribution>& attributions);
 
 }  // namespace ostium::data

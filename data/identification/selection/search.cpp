@@ -22,8 +22,12 @@ constexpr std::size_t most_effects = 4;
 constexpr std::size_t ahead = 6;   // most promising additions to a model that are fitted
 constexpr double far_behind = 30;  // in BIC behind the best; not considered further
 
-/// An effect may be added again only on another stretch; one that acts everywhere already includes its stretches.
+/// An effect may be added again only in another form, on another stretch say.
 bool can_join(const std::vector<ActiveEffect>& base, const ActiveEffect& more) {
+  const auto is_first = [&](const ActiveEffect& b) {
+    return b.effect == more.effect && b.instrument == more.instrument;
+  };
+  if (more.form == another_form && std::none_of(base.begin(), base.end(), is_first)) return false;
   for (const ActiveEffect& b : base) {
     if (b.effect != more.effect) continue;
     if (b.instrument == more.instrument && more.effect->of_several_stretches && b.form != more.form) continue;
@@ -41,6 +45,11 @@ std::string key_of(const std::vector<ActiveEffect>& effects) {
   return key;
 }
 
+/// None: the fit estimates it.
+std::optional<double> sigma_to_fit_by(const MeasurementSet& set, const Noise& noise) {
+  return noise.model ? noise.sigma_m : set.imaging.noise_sigma_m;
+}
+
 }  // namespace
 
 void EffectSearch::add(const std::vector<ActiveEffect>& effects, const FittedModel& near, const Noise& noise,
@@ -54,8 +63,9 @@ void EffectSearch::add(const std::vector<ActiveEffect>& effects, const FittedMod
   fits_.emplace_back(set_, workers_, effects, told);
   Tried tried;
   tried.study = &fits_.back(), tried.effects = effects;
+  tried.study->weigh_by(noise);
   try {
-    tried.model = fits_.back().run_near(near, set_.imaging.noise_sigma_m, near.rms_m / std::sqrt(2.0),
+    tried.model = fits_.back().run_near(near, sigma_to_fit_by(set_, noise), near.rms_m / std::sqrt(2.0),
                                         set_.instruments.size() > 1 ? starts_for_one / 3 : starts_for_one);
   } catch (const std::runtime_error&) {  // no shapes with this effect
     fits_.pop_back();
@@ -65,10 +75,12 @@ void EffectSearch::add(const std::vector<ActiveEffect>& effects, const FittedMod
   tried_.push_back(std::move(tried));
 }
 
-double EffectSearch::cost_ahead_of(const std::vector<ActiveEffect>& effects, const FittedModel& near) {
+double EffectSearch::cost_ahead_of(const std::vector<ActiveEffect>& effects, const FittedModel& near,
+                                   const Noise& noise) {
   ModelFit study(set_, workers_, effects, {});
+  study.weigh_by(noise);
   try {
-    return study.cost_ahead_near(near, set_.imaging.noise_sigma_m, near.rms_m / std::sqrt(2.0));
+    return study.cost_ahead_near(near, sigma_to_fit_by(set_, noise), near.rms_m / std::sqrt(2.0));
   } catch (const std::runtime_error&) {
     return std::numeric_limits<double>::infinity();
   }
@@ -89,7 +101,7 @@ void EffectSearch::add_to(const Tried* base, const FittedModel& near, const Nois
   }
   // All single effects are fitted; to a model with effects only the most promising are added.
   if (base && joined.size() > ahead && !stopped()) {
-    for (auto& [cost, effects] : joined) cost = cost_ahead_of(effects, model);
+    for (auto& [cost, effects] : joined) cost = cost_ahead_of(effects, model, noise);
     std::sort(joined.begin(), joined.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
     joined.resize(ahead);
   }
@@ -116,28 +128,57 @@ bool EffectSearch::fits(const FittedModel& model, const Noise& noise) const {
 void EffectSearch::complete(Tried& tried, const Noise& noise) {
   if (tried.complete || stopped()) return;
   tried.complete = true;
-  tried.study->complete(tried.model, set_.imaging.noise_sigma_m);
+  tried.study->weigh_by(noise);
+  tried.study->complete(tried.model, sigma_to_fit_by(set_, noise));
   tried.study->judge(tried.model, noise);
 }
 
 /// Re-estimates the noise from the model with the smallest residual.
 void EffectSearch::judge_again(const ModelFit& declared, FittedModel& of_declared, Noise& noise) {
-  if (noise.declared || tried_.empty()) return;
+  if (tried_.empty()) return;
+  if (noise.model) return adopt_noise(declared, of_declared, noise);
+  if (noise.declared) return;
   const FittedModel* closest = &of_declared;
   for (const Tried& t : tried_)
     if (t.model.rms_m < closest->rms_m) closest = &t.model;
   noise = noise_of(set_, closest->misfits);
+  judge_all(declared, of_declared, noise);
+}
+
+void EffectSearch::judge_all(const ModelFit& declared, FittedModel& of_declared, const Noise& noise) {
   declared.judge(of_declared, noise);
   for (Tried& t : tried_) t.study->judge(t.model, noise);
 }
 
+void EffectSearch::adopt_noise(const ModelFit& declared, FittedModel& of_declared, Noise& noise) {
+  if (!has_traces(set_)) return;
+  const FittedModel* best = &of_declared;
+  double least = own_noise_bic(set_, of_declared);
+  std::size_t effects = 0;
+  for (const Tried& t : tried_) {
+    const double bic = own_noise_bic(set_, t.model);
+    // An effect more is believed only on strong evidence.
+    const double more = static_cast<double>(t.effects.size()) - static_cast<double>(effects);
+    if (bic < least - (more > 0 ? strong_evidence : 0)) best = &t.model, least = bic, effects = t.effects.size();
+  }
+  if (has_pattern(*best)) return;
+  const std::optional<NoiseModel> other = other_noise(set_, best->misfits);
+  const bool changes = other || noise.model;
+  if (!changes) return;
+  noise = other ? Noise{other->sigma, false, "residual", other} : noise_of(set_, best->misfits);
+  for (Tried& t : tried_) t.complete = false;
+  judge_all(declared, of_declared, noise);
+}
+
 /// Known noise: adds effects until only noise is left.
-void EffectSearch::grow_to_noise(FittedModel& of_declared, const Noise& noise) {
-  for (std::size_t count = 1; count < 3; ++count) {
+void EffectSearch::grow_to_noise(const ModelFit& declared, FittedModel& of_declared, Noise& noise, std::size_t most) {
+  for (std::size_t count = 1; count < most; ++count) {
     sort_by_bic();
     // Rough fits may leave some residual: complete the best before adding to them.
     for (std::size_t i = 0, polished = 0; i < tried_.size() && polished < 3; ++i)
       if (tried_[i].effects.size() == count) complete(tried_[i], noise), ++polished;
+    // One effect and another noise, rather than a third effect.
+    if (count == 2 && !noise.model) adopt_noise(declared, of_declared, noise);
     sort_by_bic();
     const double best = tried_.empty() ? 0 : tried_.front().model.bic;
     bool enough = false;
@@ -199,11 +240,12 @@ void EffectSearch::prune(const Noise& noise) {
   }
 }
 
-std::vector<FittedModel> EffectSearch::run(const ModelFit& declared, FittedModel& of_declared, Noise& noise) {
+std::vector<FittedModel> EffectSearch::run(const ModelFit& declared, FittedModel& of_declared, Noise& noise,
+                                           std::size_t most_of_known_noise) {
   add_to(nullptr, of_declared, noise);
   judge_again(declared, of_declared, noise);
   if (noise.sigma_m)
-    grow_to_noise(of_declared, noise);
+    grow_to_noise(declared, of_declared, noise, most_of_known_noise);
   else
     grow_by_held_out(of_declared, noise);
   prune(noise);

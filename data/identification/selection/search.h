@@ -13,9 +13,11 @@ class EffectSearch {
                const std::function<void(const std::string&)>& progress, const std::function<bool()>& stop = {})
       : set_(set), workers_(workers), progress_(progress), stop_(stop) {}
 
-  /// Models with effects, best first, finalists scored on held-out data. Refines `noise` if it was estimated. Once
-  /// `stop` says true nothing more is fitted.
-  std::vector<FittedModel> run(const ModelFit& declared, FittedModel& of_declared, Noise& noise);
+  /// Models with effects, best first, finalists scored on held-out data. Refines `noise` if it was estimated; replaces
+  /// it where what the best models leave goes with nothing that was varied and yet is no noise as declared. Once `stop`
+  /// says true nothing more is fitted. `most_effects`: in a model, where the noise is known.
+  std::vector<FittedModel> run(const ModelFit& declared, FittedModel& of_declared, Noise& noise,
+                               std::size_t most_effects = 3);
 
  private:
   struct Tried {
@@ -28,7 +30,7 @@ class EffectSearch {
   /// `of`: what the progress says before the fit's own words.
   void add(const std::vector<ActiveEffect>& effects, const FittedModel& near, const Noise& noise,
            const std::string& of = "");
-  double cost_ahead_of(const std::vector<ActiveEffect>& effects, const FittedModel& near);
+  double cost_ahead_of(const std::vector<ActiveEffect>& effects, const FittedModel& near, const Noise& noise);
   /// Adds the most promising effects to `base`; nullptr: fits every single effect.
   void add_to(const Tried* base, const FittedModel& near, const Noise& noise);
   void sort_by_bic();
@@ -37,7 +39,11 @@ class EffectSearch {
   void complete(Tried& tried, const Noise& noise);
   void judge_again(const ModelFit& declared, FittedModel& of_declared, Noise& noise);
   void prune(const Noise& noise);
-  void grow_to_noise(FittedModel& of_declared, const Noise& noise);
+  void grow_to_noise(const ModelFit& declared, FittedModel& of_declared, Noise& noise, std::size_t most_effects);
+  /// The noise of the model of most evidence, each with its own noise, if that has no pattern; if it is not as
+  /// declared, all are judged by it.
+  void adopt_noise(const ModelFit& declared, FittedModel& of_declared, Noise& noise);
+  void judge_all(const ModelFit& declared, FittedModel& of_declared, const Noise& noise);
   void grow_by_held_out(const FittedModel& of_declared, const Noise& noise);
 
   const MeasurementSet& set_;

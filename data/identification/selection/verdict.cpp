@@ -1,6 +1,7 @@
 #include "data/identification/selection/verdict.h"
 
 #include <algorithm>
+#include <numeric>
 #include <set>
 
 #include "data/identification/effects/effect_list.h"
@@ -66,6 +67,8 @@ std::string to_string(Verdict verdict) {
       return "explained";
     case Verdict::effect:
       return "effect";
+    case Verdict::mostly:
+      return "mostly";
     case Verdict::ambiguous:
       return "ambiguous";
     case Verdict::cannot_be_judged:
@@ -73,6 +76,13 @@ std::string to_string(Verdict verdict) {
     default:
       return "unexplained";
   }
+}
+
+std::vector<std::string> Explanation::effects() const {
+  std::vector<std::string> out;
+  for (const DataFault& f : faults) out.push_back(f.id);
+  if (adds_effects) out.insert(out.end(), best().effects.begin(), best().effects.end());
+  return out;
 }
 
 Verdict without_an_effect(bool fits, bool noise_known) {
@@ -87,8 +97,52 @@ NextExperiment repeat_for_noise(const MeasurementSet& set) {
 }
 
 bool too_small(const MeasurementSet& set, const FittedModel& declared) {
-  return set.experiments.size() < 3 || declared.degrees_of_freedom < 6;
+  return set.experiments.size() < 2 || declared.degrees_of_freedom < 6;
 }
+
+NextExperiment where_most_is_left(const MeasurementSet& set, const FittedModel& model) {
+  const auto& each = model.experiment_rms_m;
+  const auto worst = std::max_element(each.begin(), each.end()) - each.begin();
+  NextExperiment next;
+  next.why = "this once more, where most is left (\"" + set.experiments[worst].id +
+             "\"), and with other rolls, insertions and loads about it: what the rest moves with tells its kind";
+  next.set = set.experiments[worst].set;
+  return next;
+}
+
+bool removes_most_of_it(const Explanation& x, const FittedModel& c) {
+  if (!predicts_better(c, x.declared) || c.bic > x.declared.bic - strong_evidence || at_an_edge(c)) return false;
+  const double log_evidence = (x.declared.bic - c.bic) / 2;
+  return removes_most(misfit_of(x.declared), misfit_of(c)) &&
+         std::none_of(x.attributions.begin(), x.attributions.end(),
+                      [&](const ResidualAttribution& field) { return field.log_evidence > log_evidence; });
+}
+
+namespace {
+
+/// The candidate of the fewest effects that removes most of it; one with more only if these again remove most of what
+/// that leaves.
+std::optional<std::size_t> mostly(const Explanation& x) {
+  std::vector<std::size_t> order(x.candidates.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return std::pair(x.candidates[a].effects.size(), x.candidates[a].bic) <
+           std::pair(x.candidates[b].effects.size(), x.candidates[b].bic);
+  });
+  std::optional<std::size_t> best;
+  for (const std::size_t i : order) {
+    const FittedModel& c = x.candidates[i];
+    if (!removes_most_of_it(x, c)) continue;
+    if (!best)
+      best = i;
+    else if (const FittedModel& b = x.candidates[*best];
+             adds_to(b, c) && c.bic < b.bic - strong_evidence && removes_most(misfit_of(b), misfit_of(c)))
+      best = i;
+  }
+  return best;
+}
+
+}  // namespace
 
 /// From candidates sorted by BIC: the verdict, and the rivals of the best.
 void decide(const MeasurementSet& set, const Workers& workers, Explanation& out) {
@@ -116,6 +170,11 @@ void decide(const MeasurementSet& set, const Workers& workers, Explanation& out)
   if (small) {
     out.verdict = Verdict::ambiguous;
     out.rivals = tied;
+  } else if (const auto part = count == 0 && known && !fits ? mostly(out) : std::nullopt) {
+    out.verdict = Verdict::mostly;
+    out.adds_effects = true;
+    std::rotate(out.candidates.begin(), out.candidates.begin() + static_cast<std::ptrdiff_t>(*part),
+                out.candidates.begin() + static_cast<std::ptrdiff_t>(*part) + 1);
   } else if (count == 0) {
     out.verdict = without_an_effect(fits, known);
   } else if (tied > 1) {
@@ -123,6 +182,7 @@ void decide(const MeasurementSet& set, const Workers& workers, Explanation& out)
     out.rivals = tied;
   } else {
     out.verdict = Verdict::effect;
+    out.adds_effects = true;
   }
   if (out.verdict == Verdict::cannot_be_judged) out.next_experiment = repeat_for_noise(set);
   if (out.verdict != Verdict::ambiguous || out.ended_early) return;

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/base/units.h"
+#include "data/identification/selection/evidence.h"
 
 namespace ostium::data {
 
@@ -18,10 +19,29 @@ std::string held_out(const FittedModel& m) {
                           : "held-out experiments could not be scored";
 }
 
+/// " The noise is not as declared: ..." or nothing.
+std::string of_other_noise(const Explanation& x) {
+  if (!x.noise.model) return "";
+  const std::string words = in_words(*x.noise.model, x.declared_sigma_m, mm, "mm");
+  return fmt::format(" The noise is not {}: it is {}.", x.declared_sigma_m ? "as declared" : "independent and normal",
+                     words);
+}
+
+/// "removes 97 % of what is beyond noise", or nothing where there is nothing beyond it.
+std::string removal(const Explanation& x, const FittedModel& m) {
+  const auto share = x.noise.sigma_m ? share_removed(misfit_of(x.declared), misfit_of(m)) : std::nullopt;
+  return share ? fmt::format("removes {:.3g} % of what is beyond noise and leaves {:.2f} times the noise", 100 * *share,
+                             rms_over_noise(misfit_of(m)))
+               : "";
+}
+
 std::string of_verdict(const Explanation& x) {
   switch (x.verdict) {
     case Verdict::explained:
       return "What is declared explains the measurements: what the fit leaves is noise.";
+    case Verdict::mostly:
+      return fmt::format("{} is missing from what is declared: it {}. The rest is more than noise, and is described.",
+                         x.candidates.front().name, removal(x, x.candidates.front()));
     case Verdict::cannot_be_judged:
       return "This cannot be judged: what the fit of the declared model leaves shows no pattern, but without a known "
              "noise nothing says whether it is noise.";
@@ -88,10 +108,11 @@ void of_noise(const Explanation& x, std::vector<std::string>& out) {
         "take what the fit leaves for noise.");
     return;
   }
-  const std::string from = x.noise.declared ? "declared" : "estimated from " + x.noise.from;
+  const std::string from = x.noise.declared ? "declared" : "estimated from the " + x.noise.from;
   out.push_back(
       fmt::format("Noise {:.3g} mm per coordinate, {}; chi-square per degree of freedom {:.3g} over {:.0f} degrees.",
-                  *x.noise.sigma_m / mm, from, *x.declared.chi2_per_dof, x.declared.degrees_of_freedom));
+                  *x.noise.sigma_m / mm, from, *x.declared.chi2_per_dof, x.declared.degrees_of_freedom) +
+      of_other_noise(x));
 }
 
 void of_parameters(const MeasurementSet& set, const FittedModel& m, std::vector<std::string>& out) {
@@ -142,25 +163,67 @@ void of_residual(const FittedModel& m, std::vector<std::string>& out) {
 
 }  // namespace
 
+std::string remaining_text(const Explanation& x, const std::vector<ResidualAttribution>& fields,
+                           const Remaining& left) {
+  std::string out = fmt::format("Left beyond noise: {:.2g} %, {:.2f} times the noise.", 100 * left.share,
+                                rms_over_noise(misfit_of(x.best())));
+  if (fields.empty()) return out;
+  if (left.signature.frame == "none") return out + " No field without a hypothesis removes a part of it.";
+  const ResidualAttribution& field = fields.front();
+  out += fmt::format(" {} would remove {:.0f} % of that, with {:.0f} numbers", field.what, 100 * field.removed,
+                     field.numbers_used);
+  if (left.signature.from_tip_m)
+    out += fmt::format(", {:.0f} to {:.0f} mm from the tip", left.signature.from_tip_m->x() / mm,
+                       left.signature.from_tip_m->y() / mm);
+  return out + ".";
+}
+
+void warn_of_scales(const FittedModel& model, std::vector<std::string>& warnings) {
+  constexpr double far = 3;
+  for (const FittedParameter& p : model.parameters) {
+    if (!p.parameter.name.starts_with("EI_scale")) continue;
+    const double deviations = std::fabs(std::log(p.value / p.parameter.start)) / p.parameter.spread;
+    if (deviations > far)
+      warnings.push_back(
+          fmt::format("Suspicious: {} is {:.2g} times what is declared, {:.1f} standard deviations from it. A section "
+                      "that ends elsewhere than declared, or a wrong number, looks like this.",
+                      p.parameter.label, p.value, deviations));
+  }
+}
+
+void add_faults(const std::vector<DataFault>& faults, Explanation& x) {
+  if (faults.empty()) return;
+  std::string words;
+  for (const DataFault& f : faults) words += fmt::format("{}: {}; {} ({}). ", f.id, f.what, f.mend, f.told_by);
+  x.faults.insert(x.faults.begin(), faults.begin(), faults.end());
+  x.verdict_text.front() = words + "The rest: " + x.verdict_text.front();
+  if (x.verdict == Verdict::explained) x.verdict = Verdict::effect;
+}
+
 std::vector<std::string> verdict_text(const MeasurementSet& set, const Explanation& x) {
   std::vector<std::string> out = {of_verdict(x)};
   if (x.ended_early) out.push_back("Ended before everything was tried: another effect may do better than these.");
   out.push_back(fmt::format("{}: {:.3g} mm. Declared model, fitted: {:.3g} mm, {}.",
                             set.imaging.registration_free ? "Nothing fitted but the measuring frame" : "Nothing fitted",
                             x.rms_nominal_m / mm, x.declared.rms_m / mm, held_out(x.declared)));
-  for (const FittedModel& c : x.candidates)
-    out.push_back(fmt::format("With {}: {:.3g} mm, {}; BIC changes by {:+.1f}.", c.name, c.rms_m / mm, held_out(c),
-                              c.bic - x.declared.bic));
+  for (const FittedModel& c : x.candidates) {
+    const std::string removed = removal(x, c);
+    out.push_back(fmt::format("With {}: {:.3g} mm, {}; BIC changes by {:+.1f}{}.", c.name, c.rms_m / mm, held_out(c),
+                              c.bic - x.declared.bic, removed.empty() ? "" : "; it " + removed));
+  }
+  if (x.remaining) out.push_back(x.remaining->text);
+  out.insert(out.end(), x.warnings.begin(), x.warnings.end());
   of_pushes(x, out);
   of_curvature(set, x, out);
   of_noise(x, out);
   of_parameters(set, x.best(), out);
   of_residual(x.best(), out);
   for (const ResidualAttribution& t : x.attributions)
-    out.push_back(
-        fmt::format("Without a hypothesis: {} would remove {:.0f} % of what is not noise, with {:.0f} numbers; "
-                    "log evidence {:+.0f}.",
-                    t.what, 100 * t.removed, t.numbers_used, t.log_evidence));
+    if (t.removed >= part_of_it && t.log_evidence > convincing_log_evidence(x.attributions))
+      out.push_back(
+          fmt::format("Without a hypothesis: {} would remove {:.0f} % of what is not noise, with {:.0f} numbers; "
+                      "log evidence {:+.0f}.",
+                      t.what, 100 * t.removed, t.numbers_used, t.log_evidence));
   if (!x.attributions.empty() && x.signature.frame != "none" && x.signature.from_tip_m)
     out.push_back(fmt::format("It would sit {:.0f} to {:.0f} mm from the tip.", x.signature.from_tip_m->x() / mm,
                               x.signature.from_tip_m->y() / mm));
