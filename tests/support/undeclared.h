@@ -19,8 +19,11 @@ struct Undeclared {
 /// Kinds with this prefix are pushed into a tube, and drawn back.
 inline constexpr const char* in_tube = "tube:";
 
+/// Kinds with this prefix are seen by two views of a C-arm, in pixels.
+inline constexpr const char* in_views = "views:";
+
 /// "clean", ids of the library, two of them joined by "+", and effects outside the library ("out:...");
-/// "tube:clean", "tube:wall_friction", "tube:wall_compliance".
+/// "tube:clean", "tube:wall_friction", "tube:wall_compliance"; "views:clean", effects of the views, some of the wire.
 const std::vector<std::string>& undeclared_kinds();
 
 /// Throws std::runtime_error if the solver finds no shape of this seed's instrument.

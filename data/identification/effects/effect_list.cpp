@@ -23,13 +23,22 @@ Effect nesting_clearance();
 Effect stress_relaxation();
 Effect wall_friction();
 Effect wall_compliance();
+Effect view_angle();
+Effect view_shift();
+Effect source_distance();
+Effect pincushion();
+Effect s_distortion();
+Effect table_sag();
+Effect gantry_flex();
+Effect second_plane_late();
 
 const std::vector<Effect>& effects() {
   static const std::vector<Effect> all = {
-      rest_curvature(),    soft_section(),      bending_anisotropy(), superelastic_softening(),
-      lumped_mass(),       self_weight(),       roll_loss(),          clamp_runout(),
-      insertion_slip(),    registration(),      imaging_scale(),      shaft_torsion(),
-      nesting_clearance(), stress_relaxation(), wall_friction(),      wall_compliance()};
+      rest_curvature(),  soft_section(),  bending_anisotropy(), superelastic_softening(), lumped_mass(),
+      self_weight(),     roll_loss(),     clamp_runout(),       insertion_slip(),         registration(),
+      imaging_scale(),   shaft_torsion(), nesting_clearance(),  stress_relaxation(),      wall_friction(),
+      wall_compliance(), view_angle(),    view_shift(),         source_distance(),        pincushion(),
+      s_distortion(),    table_sag(),     gantry_flex(),        second_plane_late()};
   return all;
 }
 

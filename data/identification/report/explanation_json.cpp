@@ -24,8 +24,8 @@ Json parameters(const FittedModel& m, bool units) {
   return out;
 }
 
-Json rms_of(const FittedModel& m) {
-  Json out = {{"fit", m.rms_m / mm}, {"held_out", or_null(m.rms_held_out_m, mm)}};
+Json rms_of(const FittedModel& m, const MisfitUnit& unit) {
+  Json out = {{"fit", m.rms_m / unit.size}, {"held_out", or_null(m.rms_held_out_m, unit.size)}};
   if (m.push_rms_N) out["push_fit_N"] = *m.push_rms_N, out["push_held_out_N"] = or_null(m.push_rms_held_out_N);
   return out;
 }
@@ -37,14 +37,14 @@ Json signature(const Signature& s) {
   return out;
 }
 
-Json next(const std::optional<NextExperiment>& n) {
+Json next(const std::optional<NextExperiment>& n, const MisfitUnit& unit) {
   if (!n) return nullptr;
   Json set = Json::array();
   for (const Placement& p : n->set)
     set.push_back({{"inserted_length_mm", p.inserted_m / mm},
                    {"roll_deg", p.roll_rad * 180 / units::pi},
                    {"shaft_mm", p.shaft_m / mm}});
-  return {{"why", n->why}, {"set", set}, {"predicted_difference_mm", n->difference_m / mm}};
+  return {{"why", n->why}, {"set", set}, {"predicted_difference_" + unit.name, n->difference_m / unit.size}};
 }
 
 }  // namespace
@@ -52,9 +52,9 @@ Json next(const std::optional<NextExperiment>& n) {
 std::string to_json(const Explanation& x) {
   Json out = {{"schema", "ostium-explanation/1"}, {"verdict", to_string(x.verdict)}, {"ended_early", x.ended_early}};
   out["declared"] = {{"parameters", parameters(x.declared, false)},
-                     {"rms", rms_of(x.declared)},
-                     {"unit", "mm"},
-                     {"noise_sigma_mm", or_null(x.noise.sigma_m, mm)},
+                     {"rms", rms_of(x.declared, x.unit)},
+                     {"unit", x.unit.name},
+                     {"noise_sigma_" + x.unit.name, or_null(x.noise.sigma_m, x.unit.size)},
                      {"chi2_per_dof", or_null(x.declared.chi2_per_dof)}};
   const bool won = x.verdict == Verdict::effect;
   out["effects"] = won ? Json(x.best().effects) : Json::array();
@@ -62,16 +62,16 @@ std::string to_json(const Explanation& x) {
   for (const FittedModel& c : x.candidates)
     out["candidates"].push_back({{"effects", c.effects},
                                  {"parameters", parameters(c, true)},
-                                 {"rms", rms_of(c)},
+                                 {"rms", rms_of(c, x.unit)},
                                  {"chi2_per_dof", or_null(c.chi2_per_dof)},
                                  {"delta_bic", c.bic - x.declared.bic}});
   out["after"] = nullptr;
   if (won)
     out["after"] = {{"parameters", parameters(x.best(), true)},
-                    {"rms", rms_of(x.best())},
+                    {"rms", rms_of(x.best(), x.unit)},
                     {"chi2_per_dof", or_null(x.best().chi2_per_dof)}};
   out["signature"] = signature(x.signature);
-  out["next_experiment"] = next(x.next_experiment);
+  out["next_experiment"] = next(x.next_experiment, x.unit);
   return out.dump(1) + "\n";
 }
 

@@ -13,6 +13,7 @@ std::string to_string(Verdict verdict);
 
 struct Explanation {
   Verdict verdict = Verdict::unexplained;
+  MisfitUnit unit;  ///< of misfits and their root mean squares
   Noise noise;
   double rms_nominal_m = 0;  ///< before fitting anything except, ignoring the tip offset, the frame
   std::vector<Eigen::VectorXd> nominal_misfits;

@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "data/identification/estimation/model_fit.h"
+#include "data/identification/forward/misfit.h"
 #include "data/identification/selection/residual_fields.h"
 
 namespace ostium::data {
@@ -67,7 +68,7 @@ std::vector<ResidualAttribution> attribute_residual(const MeasurementSet& set, c
                                    {&image_field(), "image", "a rigid or affine error of the picture", 0},
                                    {&time_field(), "time", "a change with time", 0}};
   // All against the same noise; if it is unknown, the declared model's residual.
-  const double floor = noise.sigma_m.value_or(0);
+  const double floor = noise_floor(set, noise.sigma_m.value_or(0));
   std::vector<ResidualAttribution> out;
   if (set.experiments.size() < 2) return out;
   for (const CandidateField& field : fields) {
@@ -89,7 +90,7 @@ std::vector<ResidualAttribution> attribute_residual(const MeasurementSet& set, c
       trace.frame = field.frame, trace.what = field.what;
       trace.log_evidence = study.log_evidence();
       if (best && best->log_evidence > trace.log_evidence) continue;
-      const double distances_floor = 2 * floor * floor, before = near.rms_m * near.rms_m - distances_floor;
+      const double before = near.rms_m * near.rms_m - floor * floor;
       trace.removed =
           before > 0 ? std::clamp((near.rms_m * near.rms_m - model.rms_m * model.rms_m) / before, 0.0, 1.0) : 0;
       trace.rms_m = model.rms_m;
