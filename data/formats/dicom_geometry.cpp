@@ -17,7 +17,7 @@ class TagReader {
  public:
   explicit TagReader(const std::string& file) : file_(file) {
     if (!std::filesystem::is_regular_file(file)) throw LoadError(file + " cannot be read; expected a DICOM file");
-    const OFCondition read = format_.loadFile(file.c_str(), EXS_Unknown, EGL_noChange, 64);
+    const OFCondition read = format_.loadFile(file.c_str(), EXS_Unknown, EGL_noChange, 64, ERM_fileOnly);
     if (read.bad()) throw LoadError(fmt::format("{} is not a DICOM file: {}", file, read.text()));
   }
 

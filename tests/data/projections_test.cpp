@@ -14,6 +14,7 @@
 #include "data/identification/forward/prediction.h"
 #include "data/identification/measurement/measured_curves.h"
 #include "data/identification/measurement/measurement_reader.h"
+#include "data/identification/report/explanation_report.h"
 #include "tests/data/refusals.h"
 #include "tests/support/undeclared.h"
 
@@ -188,6 +189,17 @@ TEST(Projections, ATableInTheirPlace) {
   }
 }
 
+/// The amended set lies in another folder than the table.
+TEST(Projections, ATableIsWrittenOut) {
+  const SetFolder folder;
+  std::string table;
+  const std::string text = tabled(seen_set(), table, ',').dump();
+  const std::string file = folder.write("measurement.json", text);
+  folder.write("clicks.csv", table);
+  const MeasurementSet set = load_measurement(file);
+  expect_same(read_measurement("elsewhere/measurement.json", written_out(text, set)), set, 1e-12);
+}
+
 TEST(Projections, ATableIsReadStrictly) {
   const SetFolder folder;
   std::string table;
@@ -261,6 +273,8 @@ TEST(Projections, AViewOfAFrameSeesWhatTheRendererSees) {
     const Vector2d on_detector = *project(run.view.arm, of_patient * mm) / (0.4 * mm);
     EXPECT_LT((set.views[0].camera(p * mm) - Vector2d(31.5 + on_detector.x(), 31.5 - on_detector.y())).norm(), 1e-6);
   }
+  const MeasurementSet moved = read_measurement("elsewhere/m.json", written_out(file.dump(), set));
+  EXPECT_LT((moved.views[0].camera.source_m - set.views[0].camera.source_m).norm(), 1e-12);
   expect_words(refusal_of([&] { read_dicom_geometry((folder.path / "measurement.json").string()); }),
                {"measurement.json is not a DICOM file"});
   expect_words(refusal_of([&] { read_dicom_geometry((folder.path / "none.dcm").string()); }), {"cannot be read"});

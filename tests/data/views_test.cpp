@@ -65,6 +65,13 @@ TEST(Views, AnAngleIsFoundAmongAllEffects) {
   EXPECT_LT(judged.after, 1.2);
 }
 
+/// A frame that is off along gravity looks the same, and both are said, each once.
+TEST(Views, ATableThatSagsIsAmbiguous) {
+  const synthetic::Judged judged = synthetic::judge("views:table_sag", 1, 0);
+  EXPECT_EQ(judged.said, "ambiguous: table_sag or registration");
+  EXPECT_TRUE(judged.right);
+}
+
 TEST(Views, NoiseIsToldFromPointToPoint) {
   MeasurementSet set = synthetic::undeclared_set("views:clean", 4).set;
   const double sigma = *set.imaging.noise_sigma_m;

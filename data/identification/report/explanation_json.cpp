@@ -76,7 +76,7 @@ std::string to_json(const Explanation& x) {
 }
 
 std::string amended(const std::string& text, const MeasurementSet& set, const Explanation& x) {
-  Json file = Json::parse(text);
+  Json file = Json::parse(written_out(text, set));
   const FittedModel& m = x.best();
   for (std::size_t i = 0; i < set.instruments.size(); ++i)
     for (std::size_t s = 0; s < set.instruments[i].sections.size(); ++s) {
