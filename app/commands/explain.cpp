@@ -12,6 +12,7 @@
 #include "app/command_line/folder_lock.h"
 #include "app/command_line/interrupt.h"
 #include "app/command_line/progress.h"
+#include "app/command_line/templates.h"
 #include "data/formats/write_file.h"
 #include "data/identification/measurement/measurement_reader.h"
 #include "data/identification/report/explanation_report.h"
@@ -22,6 +23,7 @@ namespace {
 
 struct Arguments {
   std::string set;                 ///< the set's folder or its measurement.json
+  std::string kind;                ///< of a template to write into `folder`, in place of explaining a set
   std::string folder = ".";        ///< where explanation.json, explanation.html and amended/ go
   std::vector<std::string> tries;  ///< "shaft_torsion", or several together: "shaft_torsion+stress_relaxation"
   std::string instrument;          ///< where to write the fitted innermost instrument; empty: only in `folder`
@@ -30,7 +32,9 @@ struct Arguments {
 };
 
 void declare(Options& options, Arguments& a) {
-  add_measured_set_option(options, a.set);
+  options.add("set", a.set, "The set's folder, or its measurement.json").type("SET");
+  options.add("--template", a.kind, "Write a small set of this kind to begin from, and explain none: projections")
+      .type("KIND");
   options.add("-o,--out", a.folder, "Where explanation.json, explanation.html and amended/ go").type("DIR");
   options.add("--try", a.tries, "An effect to switch on; with + between them, several together").type("EFFECT");
   options
@@ -69,8 +73,19 @@ void write_found(const Arguments& a, const data::MeasurementSet& set, const data
   }
 }
 
+int write_a_template(const Arguments& a) {
+  make_folder(a.folder);
+  for (const std::string& file : write_template(a.kind, a.folder)) fmt::print("{}\n", file);
+  return 0;
+}
+
 /// Under mpirun only the first rank writes.
 int run(const Arguments& a) {
+  if (!a.kind.empty()) return write_a_template(a);
+  if (a.set.empty()) {
+    fmt::print(stderr, "SET is required, or --template KIND\n");
+    return 2;
+  }
   const data::Ranks mpi;
   const data::MeasurementSet set = data::load_measurement(a.set);
   if (data::rank() == 0) make_folder(a.folder);
@@ -99,6 +114,7 @@ int run(const Arguments& a) {
 Command explain_command() {
   return make_command("explain", "Fits a measured set, says what is left, and what an effect would change",
                       {"ostium explain my-wire -o found", "ostium explain my-tubes --try shaft_torsion -o found",
+                       "ostium explain --template projections -o my-wire",
                        "mpirun -n 8 ostium explain my-tubes --try shaft_torsion[0] --threads 1 -o found"},
                       declare, run);
 }

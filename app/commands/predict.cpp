@@ -27,20 +27,21 @@ void declare(Options& options, Arguments& a) {
 }
 
 void print_table(const std::vector<data::Prediction>& predictions) {
-  fmt::print("{:<24} {:>10} {:>10} {:>10} {:>12}\n", "experiment", "tip x mm", "y", "z", "off by mm");
+  const data::MisfitUnit unit = predictions.front().unit;
+  fmt::print("{:<24} {:>10} {:>10} {:>10} {:>12}\n", "experiment", "tip x mm", "y", "z", "off by " + unit.name);
   double sum = 0;
   std::size_t compared = 0;
   for (const data::Prediction& p : predictions) {
     const Eigen::Vector3d tip = 1e3 * p.shape.points_m.back();
     fmt::print("{:<24} {:>10.3f} {:>10.3f} {:>10.3f} {:>12}\n", p.id, tip.x(), tip.y(), tip.z(),
-               p.rms_to_measured_m ? fmt::format("{:.3f}", 1e3 * *p.rms_to_measured_m) : "-");
+               p.rms_to_measured_m ? fmt::format("{:.3f}", *p.rms_to_measured_m / unit.size) : "-");
     if (!p.rms_to_measured_m) continue;
     sum += *p.rms_to_measured_m * *p.rms_to_measured_m;
     ++compared;
   }
   if (compared > 0)
-    fmt::print("root mean square over {} experiments: {:.3f} mm\n", compared,
-               1e3 * std::sqrt(sum / static_cast<double>(compared)));
+    fmt::print("root mean square over {} experiments: {:.3f} {}\n", compared,
+               std::sqrt(sum / static_cast<double>(compared)) / unit.size, unit.name);
   else
     fmt::print("the measuring frame or the tracked point is free: ostium explain fits them\n");
 }

@@ -84,7 +84,7 @@ std::string Plot::svg() const {
     x.low -= more_x / 2, x.high += more_x / 2, y.low -= more_y / 2, y.high += more_y / 2;
   }
   const auto px = [&](double v) { return left + wide * (v - x.low) / (x.high - x.low); };
-  const auto py = [&](double v) { return top + high * (y.high - v) / (y.high - y.low); };
+  const auto py = [&](double v) { return top + high * (downwards_ ? v - y.low : y.high - v) / (y.high - y.low); };
 
   std::string out = fmt::format(
       "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0} {1}\" width=\"{0}\" height=\"{1}\" "

@@ -23,6 +23,8 @@ class Plot {
   void legend(const std::string& words, const std::string& colour, bool dot = false, const std::string& dashes = "");
   /// Uses the same scale for x and y.
   void equal_scales() { equal_ = true; }
+  /// Larger values of y are further down, as rows of pictures are.
+  void y_downwards() { downwards_ = true; }
   void y_from_zero() { include_.push_back({NAN, 0}); }
 
   std::string svg() const;
@@ -40,7 +42,7 @@ class Plot {
   };
   std::string title_, x_label_, y_label_;
   double width_, height_;
-  bool equal_ = false;
+  bool equal_ = false, downwards_ = false;
   std::vector<Item> items_;
   std::vector<std::pair<double, std::string>> levels_;
   std::vector<Entry> legend_;

@@ -74,7 +74,7 @@ void print(const std::vector<Judged>& all) {
     for (const Judged& j : all) {
       if (j.kind != kind) continue;
       ++n, right += j.right, size += j.size, after += j.after, cpu = std::max(cpu, j.cpu_s);
-      if (kind == "clean" || kind == std::string(ostium::synthetic::in_tube) + "clean")
+      if (kind.ends_with("clean"))
         ++clean, clean_right += j.right;
       else if (j.size > 2)
         ++strong, strong_right += j.right;

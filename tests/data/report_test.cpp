@@ -19,7 +19,7 @@ const std::string small = R"({ "schema": "ostium-scoring/1", "name": "small", "t
       "check": { "metric": "procedure_time_s", "least": 5, "most": 20 } },
     { "id": "4", "phase": "p", "kind": "step", "what": "said so", "when": "a person listens" } ] })";
 
-double code(EventCode c) { return static_cast<double>(c); }
+double code_number(EventCode c) { return static_cast<double>(c); }
 
 RunRecord record_with(std::vector<double> events) {
   RunRecord r;
@@ -44,8 +44,8 @@ std::string report_refusal(const std::string& from, const std::string& to) {
 
 TEST(ScoreList, IsTickedByWhatTheRecordSays) {
   const ScoreList list = read_score_list("folder/small.json", small);
-  const RunRecord good = record_with({1000, code(EventCode::heparin), -1, 5000,  //
-                                      4000, code(EventCode::inflation_begins), -1, 0});
+  const RunRecord good = record_with({1000, code_number(EventCode::heparin), -1, 5000,  //
+                                      4000, code_number(EventCode::inflation_begins), -1, 0});
   const std::vector<Score> yes = score(list, good, metrics_of(good));
   ASSERT_EQ(yes.size(), 4u);
   EXPECT_EQ(yes[0].holds, Ticked::yes);
@@ -54,10 +54,10 @@ TEST(ScoreList, IsTickedByWhatTheRecordSays) {
   EXPECT_EQ(yes[2].holds, Ticked::yes) << yes[2].value;
   EXPECT_EQ(yes[3].holds, Ticked::not_seen) << "only a person can tell";
 
-  const RunRecord bad = record_with({4000, code(EventCode::inflation_begins), -1, 0,  //
-                                     5000, code(EventCode::over_pressure), -1, 22,    //
-                                     6000, code(EventCode::heparin), -1, 5000,        //
-                                     7000, code(EventCode::over_pressure), -1, 23});
+  const RunRecord bad = record_with({4000, code_number(EventCode::inflation_begins), -1, 0,  //
+                                     5000, code_number(EventCode::over_pressure), -1, 22,    //
+                                     6000, code_number(EventCode::heparin), -1, 5000,        //
+                                     7000, code_number(EventCode::over_pressure), -1, 23});
   const std::vector<Score> no = score(list, bad, metrics_of(bad));
   EXPECT_EQ(no[0].holds, Ticked::no) << "too late";
   EXPECT_EQ(no[1].holds, Ticked::no);
@@ -92,7 +92,7 @@ TEST(ScoreList, TheOneThatShipsLoadsAndItsItemsAreTold) {
 ReportRun run_with(const std::string& name) {
   ReportRun run;
   run.code = name, run.case_name = "a <case>", run.outcome = "success";
-  run.record = record_with({1000, code(EventCode::mark), -1, 0});
+  run.record = record_with({1000, code_number(EventCode::mark), -1, 0});
   run.metrics = metrics_of(run.record);
   run.scores = score(read_score_list("folder/small.json", small), run.record, run.metrics);
   run.pictures = {{"a picture", {1, 2, 3}}};
@@ -119,7 +119,8 @@ TEST(Report, ShowsTheMonitorOfTheLastInflation) {
   run.record.signals.clear();
   for (int i = 0; i < 1000; ++i)
     for (const double v : {0.01 * i, 0.1 * (i % 70), i > 400 ? 12.0 : 0.0}) run.record.signals.push_back(v);
-  run.record.events = {4000, code(EventCode::inflation_begins), -1, 0, 6000, code(EventCode::deflated), -1, 2};
+  run.record.events = {4000, code_number(EventCode::inflation_begins), -1, 0,
+                       6000, code_number(EventCode::deflated),         -1, 2};
   const std::string page = report_page({run}, {});
   const std::size_t at = page.find("The last inflation");
   ASSERT_NE(at, std::string::npos);
@@ -144,7 +145,8 @@ TEST(Report, ErrorsOfHandlingAreListedWithTheirMeaning) {
   ReportRun run = run_with("");
   EXPECT_NE(report_page({run}, list).find("No error of handling was found"), std::string::npos);
   run.tools = {"guide", "wire"};
-  run.record.events = {2000, code(EventCode::side_branch_pushed), 1, 12.5, 3000, code(EventCode::stent_lost), -1, 0};
+  run.record.events = {2000, code_number(EventCode::side_branch_pushed), 1,  12.5,
+                       3000, code_number(EventCode::stent_lost),         -1, 0};
   const std::string page = report_page({run}, list), csv = events_csv(run);
   EXPECT_EQ(page.find("No error of handling"), std::string::npos);
   EXPECT_NE(page.find("<td>error</td><td>side_branch_pushed</td><td>wire</td><td>12.5"), std::string::npos);

@@ -12,24 +12,30 @@
 #include "data/catalogue/script/script_keys.h"
 #include "data/formats/json_schema.h"
 #include "data/identification/measurement/measurement_keys.h"
+#include "data/identification/measurement/projection_keys.h"
 
 namespace ostium::data {
 
 inline std::vector<JsonFormat> json_formats() {
-  return {{"ostium-script/1", "What an operator does", script_keys::all},
-          {"ostium-case/1", "A case to rehearse on", case_keys::all},
-          {"ostium-instrument/1",
-           "An instrument of the catalogue. The reader also refuses gaps, and numbers that do not go together.",
-           instrument_keys::all},
-          {"ostium-measurement/1",
-           "A measured set: one instrument or nested ones, measured several times. The reader also refuses gaps, "
-           "instruments pushed in further than they are long, and bases without a direction.",
-           measurement_keys::all},
-          {"ostium-anatomy/1",
-           "Tubes, names and landmarks of an imported lumen; patient frame (x left, y head, z front), mm",
-           anatomy_keys::all},
-          {"ostium-tree/1", "A centreline-sphere tree; patient frame (x left, y head, z front), mm", tree_keys::all},
-          {"ostium-scoring/1", "Steps, errors and critical errors of a procedure (data/scoring)", scoring_keys::all}};
+  return {
+      {"ostium-script/1", "What an operator does", script_keys::all},
+      {"ostium-case/1", "A case to rehearse on", case_keys::all},
+      {"ostium-instrument/1",
+       "An instrument of the catalogue. The reader also refuses gaps, and numbers that do not go together.",
+       instrument_keys::all},
+      {"ostium-measurement/1",
+       "A measured set: one instrument or nested ones, measured several times. The reader also refuses gaps, "
+       "instruments pushed in further than they are long, and bases without a direction.",
+       measurement_keys::all},
+      {"ostium-projections/2",
+       "A measured set of kind projections: a wire seen by the views of a C-arm, as pixels along it. The reader also "
+       "refuses views whose numbers do not go together, and polylines outside the picture or in other units.",
+       projection_keys::all},
+      {"ostium-anatomy/1",
+       "Tubes, names and landmarks of an imported lumen; patient frame (x left, y head, z front), mm",
+       anatomy_keys::all},
+      {"ostium-tree/1", "A centreline-sphere tree; patient frame (x left, y head, z front), mm", tree_keys::all},
+      {"ostium-scoring/1", "Steps, errors and critical errors of a procedure (data/scoring)", scoring_keys::all}};
 }
 
 /// "script.schema.json" of "ostium-script/1".

@@ -52,6 +52,16 @@ expect 3 'experiments\[1\].set\[0\].inserted_length_mm is 350' "$ostium" explain
 sed 's/"tangent": \[1, 0, 0\]/"tangent": [0, 0, 0]/' "$folder/wire/measurement.json" >"$folder/still.json"
 expect 3 'experiments\[0\].base.tangent is \[0, 0, 0\]' "$ostium" predict "$folder/still.json" -o "$folder/one"
 
+# A wire seen by two views: the template is a set, and is explained as it is.
+expect 0 "clicks.csv" "$ostium" explain --template projections -o "$folder/seen"
+expect 3 "is there already" "$ostium" explain --template projections -o "$folder/seen"
+expect 3 'there is no template of "views"; there are .*projections' "$ostium" explain --template views -o "$folder/seen"
+expect 0 "verdict: explained" "$ostium" explain "$folder/seen" -o "$folder/found" --threads 1
+expect 0 '"noise_sigma_px"' "$ostium" explain "$folder/seen/measurement.json" -o "$folder/found" --threads 1 --json
+expect 0 "experiments: .* px" "$ostium" predict "$folder/seen" -o "$folder/found"
+grep -q "View B" "$folder/found/explanation.html"
+expect 2 "SET is required" "$ostium" explain
+
 # Two ranks and three, bit for bit what one says. (As root, and with fewer cores than ranks, Open MPI wants to be asked
 # nicely.)
 if command -v mpirun >/dev/null; then

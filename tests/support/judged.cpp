@@ -10,6 +10,7 @@
 #include <set>
 
 #include "data/identification/effects/effect_list.h"
+#include "data/identification/forward/misfit.h"
 #include "data/identification/measurement/measurement_reader.h"
 #include "data/identification/selection/explain.h"
 #include "tests/support/undeclared.h"
@@ -96,7 +97,7 @@ Judged judge(const std::string& kind, unsigned seed, int threads) {
   Judged out;
   out.kind = kind, out.seed = seed;
   out.cpu_s = cpu_seconds() - begin;
-  const double floor = std::sqrt(2.0) * *set.imaging.noise_sigma_m;
+  const double floor = data::noise_floor(set, *set.imaging.noise_sigma_m);
   out.size = std::sqrt(std::max(x.declared.rms_m * x.declared.rms_m - floor * floor, 0.0)) / floor;
   out.chi2_before = *x.declared.chi2_per_dof;
   const data::FittedModel& best =

@@ -151,10 +151,33 @@ data::MeasurementSet two_tubes(int experiments) {
   return set;
 }
 
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json vector(const Vector3d& v, double unit) { return {v.x() / unit, v.y() / unit, v.z() / unit}; }
+
+Json views_of(const data::MeasurementSet& set) {
+  Json out = Json::array();
+  for (const data::MeasuredCArm& arm : set.views)
+    out.push_back({{"id", arm.id},
+                   {"source_mm", vector(arm.camera.source_m, mm)},
+                   {"pixel_0_0_mm", vector(arm.camera.pixel_0_0_m, mm)},
+                   {"u", vector(arm.camera.u, 1)},
+                   {"v", vector(arm.camera.v, 1)},
+                   {"pixel_mm", arm.camera.pixel_m / mm},
+                   {"columns", arm.camera.columns},
+                   {"rows", arm.camera.rows}});
+  return out;
+}
+
+}  // namespace
+
 std::string to_json(const data::MeasurementSet& set) {
-  using Json = nlohmann::ordered_json;
-  const auto vector = [](const Vector3d& v, double unit) { return Json{v.x() / unit, v.y() / unit, v.z() / unit}; };
-  Json file = {{"schema", "ostium-measurement/1"}, {"title", set.title}, {"source", set.source}};
+  const bool seen = !set.views.empty();
+  Json file = {{"schema", seen ? "ostium-measurement/2" : "ostium-measurement/1"}};
+  if (seen) file["kind"] = "projections";
+  file["title"] = set.title, file["source"] = set.source;
   for (const data::MeasuredInstrument& i : set.instruments) {
     Json sections = Json::array();
     for (const core::Section& s : i.sections)
@@ -174,10 +197,16 @@ std::string to_json(const data::MeasurementSet& set) {
   if (set.vessel)
     file["environment"]["vessel"] = {
         {"mesh", set.vessel->mesh}, {"units", set.vessel->units}, {"friction", set.vessel->friction}};
-  file["imaging"] = {{"noise_sigma_mm", nullptr},
-                     {"registration", set.imaging.registration_free ? "free" : "given"},
-                     {"tip_offset", set.imaging.tip_offset_free ? "free" : "none"}};
-  if (set.imaging.noise_sigma_m) file["imaging"]["noise_sigma_mm"] = *set.imaging.noise_sigma_m / mm;
+  const std::string noise = "noise_sigma_" + set.unit().name;
+  file["imaging"] = {{noise, nullptr}};
+  if (set.imaging.noise_sigma_m) file["imaging"][noise] = *set.imaging.noise_sigma_m / set.unit().size;
+  if (seen) {
+    file["imaging"]["views"] = "given";
+    file["views"] = views_of(set);
+  } else {
+    file["imaging"]["registration"] = set.imaging.registration_free ? "free" : "given";
+    file["imaging"]["tip_offset"] = set.imaging.tip_offset_free ? "free" : "none";
+  }
   for (const data::Experiment& e : set.experiments) {
     const Eigen::Matrix3d R = Eigen::Quaterniond(e.base.q_W[0], e.base.q_W[1], e.base.q_W[2], e.base.q_W[3]).matrix();
     Json entry = {
@@ -196,6 +225,11 @@ std::string to_json(const data::MeasurementSet& set) {
     if (e.kind == data::Experiment::Kind::tip) entry["tip_mm"] = vector(e.points_m[0], mm);
     if (e.kind == data::Experiment::Kind::centreline)
       for (const Vector3d& p : e.points_m) entry["centreline_mm"].push_back(vector(p, mm));
+    for (const data::ClickedPolyline& polyline : e.polylines) {
+      Json points = Json::array();
+      for (const Eigen::Vector2d& p : polyline.points_px) points.push_back({p.x(), p.y()});
+      entry["projections"].push_back({{"view", set.views[polyline.view].id}, {"polyline_px", points}});
+    }
     if (e.kind == data::Experiment::Kind::radius) entry["radius_of_curvature_mm"] = e.radius_m / mm;
     file["experiments"].push_back(entry);
   }

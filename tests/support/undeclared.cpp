@@ -1,18 +1,16 @@
 #include "tests/support/undeclared.h"
 
 #include <cmath>
-#include <functional>
 #include <stdexcept>
 
 #include "core/base/units.h"
 #include "tests/support/dice.h"
 #include "tests/support/undeclared_nest.h"
 #include "tests/support/undeclared_tube.h"
+#include "tests/support/undeclared_views.h"
 #include "tests/support/undeclared_world.h"
 
 namespace ostium::synthetic {
-
-namespace {
 
 using Eigen::Matrix3d;
 using Eigen::Vector2d;
@@ -20,8 +18,8 @@ using Eigen::Vector3d;
 
 using units::pi, units::mm, units::Nmm2, units::degree, units::gram;
 
-core::Section section(double from_mm, double to_mm, double EI, double GJ, double kg_per_m, const Vector2d& k_per_m,
-                      double radius_mm, double bore_mm) {
+core::Section made_section(double from_mm, double to_mm, double EI, double GJ, double kg_per_m, const Vector2d& k_per_m,
+                           double radius_mm, double bore_mm) {
   core::Section s;
   s.from_tip_m = from_mm * mm, s.to_tip_m = to_mm * mm;
   s.EI1_N_m2 = s.EI2_N_m2 = EI * Nmm2, s.GJ_N_m2 = GJ * Nmm2;
@@ -30,6 +28,8 @@ core::Section section(double from_mm, double to_mm, double EI, double GJ, double
   s.radius_m = radius_mm * mm, s.inner_radius_m = bore_mm * mm;
   return s;
 }
+
+namespace {
 
 core::EndState base(Dice& dice) {
   core::EndState out;
@@ -57,13 +57,13 @@ data::MeasurementSet free_instrument(Dice& dice, bool curved, bool timed) {
   const Vector2d k = bend * Vector2d(std::cos(side), std::sin(side));
   data::MeasuredInstrument instrument{"instrument", length_mm * mm, radius * mm, 0, {}};
   auto& s = instrument.sections;
-  s.push_back(section(0, tip_mm, tip, ratio * tip, weight * dice.uniform(0.7, 1.2), k, radius, 0));
+  s.push_back(made_section(0, tip_mm, tip, ratio * tip, weight * dice.uniform(0.7, 1.2), k, radius, 0));
   if (dice.uniform(0, 1) < 0.5) {
     const double EI = shaft * dice.uniform(0.4, 0.7);
-    s.push_back(section(tip_mm, middle_mm, EI, ratio * EI, weight, {0, 0}, radius, 0));
-    s.push_back(section(middle_mm, length_mm, shaft, ratio * shaft, weight, {0, 0}, radius, 0));
+    s.push_back(made_section(tip_mm, middle_mm, EI, ratio * EI, weight, {0, 0}, radius, 0));
+    s.push_back(made_section(middle_mm, length_mm, shaft, ratio * shaft, weight, {0, 0}, radius, 0));
   } else {
-    s.push_back(section(tip_mm, length_mm, shaft, ratio * shaft, weight, {0, 0}, radius, 0));
+    s.push_back(made_section(tip_mm, length_mm, shaft, ratio * shaft, weight, {0, 0}, radius, 0));
   }
   set.instruments = {instrument};
   set.gravity_m_s2 = {0, 0, -9.81};
@@ -135,6 +135,8 @@ void change(std::vector<core::Section>& sections, double from, double to,
 }
 
 Matrix3d about(const Vector3d& axis, double angle) { return Eigen::AngleAxisd(angle, axis).toRotationMatrix(); }
+
+}  // namespace
 
 void add_effect(const std::string& id, Dice& dice, Undeclared& u, World& world) {
   data::MeasurementSet& set = u.set;
@@ -280,8 +282,6 @@ void add_effect(const std::string& id, Dice& dice, Undeclared& u, World& world) 
   if (u.in_library) u.effects.push_back(id);
 }
 
-}  // namespace
-
 const std::vector<std::string>& undeclared_kinds() {
   static const std::vector<std::string> kinds = {"clean",
                                                  "rest_curvature",
@@ -330,12 +330,28 @@ const std::vector<std::string>& undeclared_kinds() {
                                                  "fault:reversed",
                                                  "tube:clean",
                                                  "tube:wall_friction",
-                                                 "tube:wall_compliance"};
+                                                 "tube:wall_compliance",
+                                                 "views:clean",
+                                                 "views:view_angle",
+                                                 "views:view_shift",
+                                                 "views:source_distance",
+                                                 "views:pincushion",
+                                                 "views:s_distortion",
+                                                 "views:table_sag",
+                                                 "views:gantry_flex",
+                                                 "views:second_plane_late",
+                                                 "views:rest_curvature",
+                                                 "views:roll_loss",
+                                                 "views:insertion_slip",
+                                                 "views:registration",
+                                                 "views:imaging_scale",
+                                                 "views:rest_curvature+view_angle"};
   return kinds;
 }
 
 Undeclared undeclared_set(const std::string& kind, unsigned seed) {
   if (kind.rfind(in_tube, 0) == 0) return undeclared_in_tube(kind, seed);
+  if (kind.rfind(in_views, 0) == 0) return undeclared_in_views(kind, seed);
   if (kind == "nesting_clearance") return undeclared_play(seed);
   Dice dice(kind, seed);
   Undeclared u;

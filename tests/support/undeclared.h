@@ -25,6 +25,11 @@ inline constexpr const char* in_tube = "tube:";
 /// "clean", ids of the library, two of them joined by "+", and effects outside the library ("out:..."); laws of another
 /// form ("form:..."), other noise ("noise:...") and faults of the data ("fault:..."), undeclared_world.h; "tube:clean",
 /// "tube:wall_friction", "tube:wall_compliance". What the list joins are examples: any may be joined.
+/// Kinds with this prefix are seen by two views of a C-arm, in pixels.
+inline constexpr const char* in_views = "views:";
+
+/// "clean", ids of the library, two of them joined by "+", and effects outside the library ("out:...");
+/// "tube:clean", "tube:wall_friction", "tube:wall_compliance"; "views:clean", effects of the views, some of the wire.
 const std::vector<std::string>& undeclared_kinds();
 
 /// Throws std::runtime_error if the solver finds no shape of this seed's instrument.

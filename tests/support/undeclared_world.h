@@ -27,4 +27,10 @@ void write_wrongly(const std::string& id, Undeclared& made);
 /// "noise:blunders" (3 % of points), "noise:twice", or "" for what is declared: adds it to the points.
 void add_noise(const std::string& id, Dice& dice, double sigma_m, std::vector<Eigen::Vector3d>& points_m);
 
+/// Adds an effect of the library, or one outside it, by its kind.
+void add_effect(const std::string& id, Dice& dice, Undeclared& u, World& world);
+
+core::Section made_section(double from_mm, double to_mm, double EI, double GJ, double kg_per_m,
+                           const Eigen::Vector2d& k_per_m, double radius_mm, double bore_mm);
+
 }  // namespace ostium::synthetic

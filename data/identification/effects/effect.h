@@ -47,6 +47,7 @@ struct Effect {
   bool of_one_instrument = false;     ///< each nested instrument can have its own
   bool of_several_stretches = false;  ///< may be switched on several times, in different forms
   bool in_instrument = false;         ///< a property of the instrument, not of the rig, the room or the imaging
+  bool parts_views = false;           ///< the later views of a set see another shape than the first
   std::string confused_with;          ///< id of an effect that some data cannot distinguish from this one; "" if none
 };
 

@@ -26,6 +26,14 @@ Effect wall_compliance();
 Effect taper();
 Effect torsion_ratio();
 Effect level();
+Effect view_angle();
+Effect view_shift();
+Effect source_distance();
+Effect pincushion();
+Effect s_distortion();
+Effect table_sag();
+Effect gantry_flex();
+Effect second_plane_late();
 
 const std::vector<Effect>& effects() {
   static const std::vector<Effect> all = {rest_curvature(),
@@ -46,7 +54,15 @@ const std::vector<Effect>& effects() {
                                           wall_compliance(),
                                           taper(),
                                           torsion_ratio(),
-                                          level()};
+                                          level(),
+                                          view_angle(),
+                                          view_shift(),
+                                          source_distance(),
+                                          pincushion(),
+                                          s_distortion(),
+                                          table_sag(),
+                                          gantry_flex(),
+                                          second_plane_late()};
   return all;
 }
 

@@ -1,6 +1,9 @@
 #pragma once
 /// How a model's shape appears in the measurement.
 #include <Eigen/Geometry>
+#include <vector>
+
+#include "data/identification/measurement/camera.h"
 
 namespace ostium::data {
 
@@ -12,6 +15,8 @@ struct MeasuredView {
   /// Imaging errors; A is close to the identity. Only effects change A and b.
   Eigen::Matrix3d A = Eigen::Matrix3d::Identity();
   Eigen::Vector3d b_m = Eigen::Vector3d::Zero();
+  /// Of projections: what is measured is seen by these, one for each view of the set.
+  std::vector<Camera> cameras = {};
 
   Eigen::Vector3d operator()(const Eigen::Vector3d& model) const { return A * (R * model + t_m) + b_m; }
 };

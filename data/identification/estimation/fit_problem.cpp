@@ -33,7 +33,7 @@ FitProblem::FitProblem(const ForwardModel& forward, const Parameters& parameters
       rough_(rough) {
   for (int e : chosen) {
     const Experiment& experiment = forward.set().experiments[e];
-    rows_ += experiment.kind == Experiment::Kind::radius ? 1 : 3 * static_cast<int>(experiment.points_m.size());
+    rows_ += static_cast<int>(misfit_rows(experiment));
     if (push_sigma_N_ && experiment.proximal_force_N) ++rows_;
     block_ends_.push_back(rows_);
     if (weighing.noise) decorrelators_.emplace_back(along(experiment), 2, *weighing.noise);

@@ -13,7 +13,12 @@ namespace {
 std::vector<double> packed(const PredictedShape& shape) {
   std::vector<double> out = {shape.converged ? 1.0 : 0.0, shape.base_push_N};
   for (int i = 0; i < 4; ++i) out.push_back(shape.tip_q[i]);
-  for (const Eigen::Vector3d& p : shape.points_m) out.insert(out.end(), {p.x(), p.y(), p.z()});
+  const auto add = [&](const std::vector<Eigen::Vector3d>& points) {
+    out.push_back(static_cast<double>(points.size()));
+    for (const Eigen::Vector3d& p : points) out.insert(out.end(), {p.x(), p.y(), p.z()});
+  };
+  add(shape.points_m);
+  for (const auto& points : shape.later_views_m) add(points);
   return out;
 }
 
@@ -22,7 +27,14 @@ PredictedShape unpacked(const std::vector<double>& in) {
   shape.converged = in[0] != 0;
   shape.base_push_N = in[1];
   for (int i = 0; i < 4; ++i) shape.tip_q[i] = in[2 + i];
-  for (std::size_t i = 6; i + 2 < in.size(); i += 3) shape.points_m.emplace_back(in[i], in[i + 1], in[i + 2]);
+  std::size_t at = 6;
+  const auto next = [&] {
+    std::vector<Eigen::Vector3d> points(static_cast<std::size_t>(in[at++]));
+    for (Eigen::Vector3d& p : points) p = {in[at], in[at + 1], in[at + 2]}, at += 3;
+    return points;
+  };
+  shape.points_m = next();
+  while (at < in.size()) shape.later_views_m.push_back(next());
   return shape;
 }
 
@@ -74,6 +86,8 @@ std::vector<std::vector<PredictedShape>> ForwardModel::shapes(const std::vector<
           shape = shape_from(setup, anchors_[e], first);
         else
           shape = shape_from(setup, first.converged ? first : anchors_[e]);
+        add_later_views(set_, set_.experiments[e], changed, longest_element_m_, first.converged ? first : anchors_[e],
+                        shape);
       } catch (const std::invalid_argument&) {  // these numbers do not describe a rod
         shape = PredictedShape{};
       }

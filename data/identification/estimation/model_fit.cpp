@@ -63,6 +63,7 @@ FittedModel ModelFit::run(std::optional<double> noise_m) {
   const int further = set_.vessel ? starts_in_vessel : further_starts;
   FitOptions options{all_, noise_m, starts_of(parameters_, parameters_.start(), 0, further), descents()};
   options.noise = weighing_;
+  options.guess_m = set_.unit().size;
   fit_ = fit(*forward_, parameters_, options);
   const std::vector<std::string> others = on_other_branches();
   if (!others.empty()) {

@@ -3,6 +3,9 @@
 #include <Eigen/QR>
 #include <cmath>
 
+#include "data/identification/forward/misfit.h"
+#include "data/identification/measurement/measured_curves.h"
+
 namespace ostium::data {
 
 namespace {
@@ -24,16 +27,25 @@ VectorXd annihilator(const VectorXd& t) {
   return Q.col(n - 1);
 }
 
+/// Misfits are perpendicular to the wire: how many of a point's three numbers are free.
+double free_numbers(const Experiment& e) {
+  return static_cast<double>(numbers_measured(e)) / static_cast<double>(distances(e));
+}
+
 /// Adds the squared part that a cubic cannot follow, per coordinate, over all windows of five points.
-void add_point_to_point(const Experiment& e, const VectorXd& off, Mean& mean) {
-  const Eigen::Index count = static_cast<Eigen::Index>(e.points_m.size()), window = std::min<Eigen::Index>(5, count);
+void add_point_to_point(const MeasuredCurve& curve, double numbers, const VectorXd& off, Mean& mean) {
+  const Eigen::Index count = static_cast<Eigen::Index>(curve.from_tip_m.size()),
+                     window = std::min<Eigen::Index>(5, count);
   if (window < 3) return;
-  const VectorXd s = along(e);
+  VectorXd s = VectorXd::Zero(count);
+  for (Eigen::Index i = 1; i < count; ++i)
+    s[i] = s[i - 1] + std::max(curve.from_tip_m[i - 1] - curve.from_tip_m[i], 1e-9);
+  const auto first = static_cast<Eigen::Index>(curve.first);
   for (Eigen::Index i = 0; i + window <= count; ++i) {
     const VectorXd w = annihilator(s.segment(i, window));
     Vector3d left = Vector3d::Zero();
-    for (Eigen::Index k = 0; k < window; ++k) left += w[k] * off.segment<3>(3 * (i + k));
-    mean.sum += left.squaredNorm(), mean.count += 2;  // misfits are perpendicular to the wire
+    for (Eigen::Index k = 0; k < window; ++k) left += w[k] * off.segment<3>(3 * (first + i + k));
+    mean.sum += left.squaredNorm(), mean.count += numbers;
   }
 }
 
@@ -57,7 +69,7 @@ Mean over_repeats(const MeasurementSet& set) {
   std::vector<bool> seen(set.experiments.size(), false);
   for (std::size_t i = 0; i < seen.size(); ++i) {
     const Experiment& e = set.experiments[i];
-    if (seen[i] || e.kind == Experiment::Kind::centreline) continue;
+    if (seen[i] || !measured_curves(e).empty()) continue;
     VectorXd sum = measured(e);
     double squares = sum.squaredNorm(), n = 1;
     for (std::size_t j = i + 1; j < seen.size(); ++j)
@@ -106,8 +118,8 @@ Noise noise_of(const MeasurementSet& set, const std::vector<VectorXd>& misfits) 
   if (set.imaging.noise_sigma_m) return {set.imaging.noise_sigma_m, true, "declared", {}};
   Mean along;
   for (std::size_t i = 0; i < set.experiments.size(); ++i)
-    if (set.experiments[i].kind == Experiment::Kind::centreline)
-      add_point_to_point(set.experiments[i], misfits[i], along);
+    for (const MeasuredCurve& curve : measured_curves(set.experiments[i]))
+      add_point_to_point(curve, free_numbers(set.experiments[i]), misfits[i], along);
   if (along.count >= 10) return {std::sqrt(along.sum / along.count), false, "point to point", {}};
   const Mean repeats = over_repeats(set);
   if (repeats.count >= 6) return {std::sqrt(repeats.sum / repeats.count), false, "repeats", {}};
@@ -115,19 +127,20 @@ Noise noise_of(const MeasurementSet& set, const std::vector<VectorXd>& misfits) 
 }
 
 std::optional<Correlation> correlation_along(const MeasurementSet& set, const std::vector<VectorXd>& misfits) {
-  double products = 0, squares = 0, pairs = 0;
-  for (std::size_t i = 0; i < set.experiments.size(); ++i) {
-    if (set.experiments[i].kind != Experiment::Kind::centreline) continue;
-    const Eigen::Index n = misfits[i].size() / 3;
-    for (Eigen::Index k = 0; k + 1 < n; ++k) {
-      products += misfits[i].segment<3>(3 * k).dot(misfits[i].segment<3>(3 * k + 3));
-      squares += (misfits[i].segment<3>(3 * k).squaredNorm() + misfits[i].segment<3>(3 * k + 3).squaredNorm()) / 2;
-      pairs += 1;
+  double products = 0, squares = 0, pairs = 0, numbers = 0;
+  for (std::size_t i = 0; i < set.experiments.size(); ++i)
+    for (const MeasuredCurve& curve : measured_curves(set.experiments[i])) {
+      const auto first = static_cast<Eigen::Index>(curve.first),
+                 end = first + static_cast<Eigen::Index>(curve.from_tip_m.size());
+      for (Eigen::Index k = first; k + 1 < end; ++k) {
+        products += misfits[i].segment<3>(3 * k).dot(misfits[i].segment<3>(3 * k + 3));
+        squares += (misfits[i].segment<3>(3 * k).squaredNorm() + misfits[i].segment<3>(3 * k + 3).squaredNorm()) / 2;
+        pairs += 1, numbers += free_numbers(set.experiments[i]);
+      }
     }
-  }
   if (pairs < 5 || squares == 0) return {};
   const double value = products / squares;
-  return Correlation{value, value * std::sqrt(2 * pairs)};  // two coordinates per pair
+  return Correlation{value, value * std::sqrt(numbers)};
 }
 
 }  // namespace ostium::data

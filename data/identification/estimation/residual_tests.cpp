@@ -6,6 +6,8 @@
 #include <numeric>
 #include <random>
 
+#include "data/identification/measurement/measured_curves.h"
+
 namespace ostium::data {
 
 namespace {
@@ -14,29 +16,29 @@ using Eigen::MatrixXd;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 
-constexpr int stretches = 6;  // per centreline
+constexpr int stretches = 6;  // per measured curve
 constexpr int draws = 3999;
 constexpr double level = 0.01;  // significance level of all tests together
 
-/// One row per experiment: its mean misfit in each stretch, rotated by `turn`.
+/// One row per experiment: its mean misfit in each stretch of each curve, rotated by `turn`.
 template <class Turn>
 MatrixXd summary(const MeasurementSet& set, const std::vector<VectorXd>& misfits, Turn&& turn) {
   const auto& all = set.experiments;
-  const bool curves = all[0].kind == Experiment::Kind::centreline;
-  MatrixXd rows = MatrixXd::Zero(all.size(), curves ? 3 * stretches : misfits[0].size());
+  const auto views = static_cast<Eigen::Index>(std::max<std::size_t>(set.views.size(), 1));
+  const bool curves = !measured_curves(all[0]).empty();
+  MatrixXd rows = MatrixXd::Zero(all.size(), curves ? 3 * stretches * views : misfits[0].size());
   for (std::size_t e = 0; e < all.size(); ++e) {
-    if (misfits[e].size() == 1) {
-      rows(e, 0) = misfits[e][0];
-      continue;
+    if (misfits[e].size() == 1) rows(e, 0) = misfits[e][0];
+    if (misfits[e].size() == 3 && !curves) rows.row(e) = turn(all[e], Vector3d(misfits[e])).transpose();
+    for (const MeasuredCurve& curve : measured_curves(all[e])) {
+      const auto n = static_cast<Eigen::Index>(curve.from_tip_m.size()), first = static_cast<Eigen::Index>(curve.first);
+      VectorXd count = VectorXd::Zero(stretches);
+      const auto stretch_of = [&](Eigen::Index i) { return (n - 1 - i) * stretches / n; };
+      for (Eigen::Index i = 0; i < n; ++i) count[stretch_of(i)] += 1;
+      for (Eigen::Index i = 0; i < n; ++i)
+        rows.row(e).segment<3>(3 * (curve.view * stretches + stretch_of(i))) +=
+            turn(all[e], Vector3d(misfits[e].segment<3>(3 * (first + i)))).transpose() / count[stretch_of(i)];
     }
-    const Eigen::Index n = misfits[e].size() / 3;
-    VectorXd count = VectorXd::Zero(stretches);
-    for (Eigen::Index i = 0; i < n; ++i) {
-      const Eigen::Index b = curves ? (n - 1 - i) * stretches / n : 0;
-      rows.row(e).segment<3>(3 * b) += turn(all[e], Vector3d(misfits[e].segment<3>(3 * i))).transpose();
-      count[b] += 1;
-    }
-    for (Eigen::Index b = 0; b < rows.cols() / 3; ++b) rows.row(e).segment<3>(3 * b) /= std::max(count[b], 1.0);
   }
   return rows;
 }
@@ -129,14 +131,13 @@ std::optional<Eigen::Vector2d> where(const MeasurementSet& set, const std::vecto
   for (const Experiment& e : set.experiments) longest = std::max(longest, e.set.back().inserted_m);
   VectorXd squares = VectorXd::Zero(parts);
   for (std::size_t e = 0; e < misfits.size(); ++e) {
-    const Experiment& x = set.experiments[e];
-    if (x.kind != Experiment::Kind::centreline) return {};
-    double from_tip = 0;
-    for (std::size_t i = x.points_m.size(); i-- > 0;) {
-      if (i + 1 < x.points_m.size()) from_tip += (x.points_m[i + 1] - x.points_m[i]).norm();
-      const int part = std::min(parts - 1, static_cast<int>(parts * from_tip / longest));
-      squares[part] += misfits[e].segment<3>(3 * static_cast<Eigen::Index>(i)).squaredNorm();
-    }
+    const std::vector<MeasuredCurve> curves = measured_curves(set.experiments[e]);
+    if (curves.empty()) return {};
+    for (const MeasuredCurve& curve : curves)
+      for (std::size_t i = 0; i < curve.from_tip_m.size(); ++i) {
+        const int part = std::min(parts - 1, static_cast<int>(parts * curve.from_tip_m[i] / longest));
+        squares[part] += misfits[e].segment<3>(3 * static_cast<Eigen::Index>(curve.first + i)).squaredNorm();
+      }
   }
   for (int length = 1; length <= parts; ++length)
     for (int first = 0; first + length <= parts; ++first)

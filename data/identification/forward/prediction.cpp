@@ -10,6 +10,7 @@
 #include "data/identification/effects/effect_list.h"
 #include "data/identification/forward/insertion.h"
 #include "data/identification/forward/misfit.h"
+#include "data/identification/forward/projected.h"
 
 namespace ostium::data {
 
@@ -45,8 +46,8 @@ std::vector<double> other_branches(const ExperimentSetup& setup, const Predicted
   return apart;
 }
 
-/// Rounded to a nanometre, the solver's accuracy.
-double rounded_mm(double x_m) { return std::round(x_m / mm * 1e6) / 1e6 + 0.0; }
+/// Rounded to a millionth of a unit: of a mm, that is the solver's accuracy.
+double rounded(double x) { return std::round(x * 1e6) / 1e6 + 0.0; }
 
 }  // namespace
 
@@ -66,12 +67,15 @@ std::vector<Prediction> predict(const MeasurementSet& set,
   for (std::size_t i = 0; i < set.experiments.size(); ++i) {
     const Experiment& e = set.experiments[i];
     const ExperimentSetup setup = setup_of(set, e, declared);
-    const PredictedShape shape = set.vessel ? inserted[i] : shape_from(setup, anchors[i]);
+    PredictedShape shape = set.vessel ? inserted[i] : shape_from(setup, anchors[i]);
+    if (!set.vessel) add_later_views(set, e, declared, fine_elements_m, anchors[i], shape);
     if (!shape.converged)
       throw LoadError(fmt::format("{}: {} (\"{}\"): no static shape was found; is its load more than it can bear?",
                                   set.file, e.place, e.id));
     const MeasuredView view = seen(set, e, declared, {});
-    Prediction p{e.id, shape, {}, set.vessel ? std::vector<double>{} : other_branches(setup, shape)};
+    Prediction p{e.id, shape, {}, set.vessel ? std::vector<double>{} : other_branches(setup, shape), set.unit(), {}};
+    for (std::size_t v = 0; v < set.views.size(); ++v)
+      p.projections.push_back({set.views[v].id, projected_px(shape, view, static_cast<int>(v))});
     if (comparable) p.rms_to_measured_m = rms({&e}, {misfit(e, shape, view)});
     for (Eigen::Vector3d& q : p.shape.points_m) q = view(q);
     predictions.push_back(std::move(p));
@@ -84,10 +88,15 @@ std::string to_json(const std::vector<Prediction>& predictions) {
   for (const Prediction& p : predictions) {
     auto points = nlohmann::ordered_json::array();
     for (const Eigen::Vector3d& q : p.shape.points_m)
-      points.push_back({rounded_mm(q.x()), rounded_mm(q.y()), rounded_mm(q.z())});
-    nlohmann::ordered_json entry = {
-        {"id", p.id}, {"centreline_mm", std::move(points)}, {"rms_to_measured_mm", nullptr}};
-    if (p.rms_to_measured_m) entry["rms_to_measured_mm"] = rounded_mm(*p.rms_to_measured_m);
+      points.push_back({rounded(q.x() / mm), rounded(q.y() / mm), rounded(q.z() / mm)});
+    nlohmann::ordered_json entry = {{"id", p.id}, {"centreline_mm", std::move(points)}};
+    for (const ProjectedWire& seen : p.projections) {
+      auto pixels = nlohmann::ordered_json::array();
+      for (const Eigen::Vector2d& q : seen.points_px) pixels.push_back({rounded(q.x()), rounded(q.y())});
+      entry["projections"].push_back({{"view", seen.view}, {"polyline_px", std::move(pixels)}});
+    }
+    auto& rms = entry["rms_to_measured_" + p.unit.name] = nullptr;
+    if (p.rms_to_measured_m) rms = rounded(*p.rms_to_measured_m / p.unit.size);
     list.push_back(std::move(entry));
   }
   return nlohmann::ordered_json{{"schema", "ostium-prediction/1"}, {"experiments", std::move(list)}}.dump(1) + "\n";

@@ -4,12 +4,20 @@
 
 namespace ostium::data {
 
+/// What one view sees.
+struct ProjectedWire {
+  std::string view;  ///< its id
+  std::vector<Eigen::Vector2d> points_px;
+};
+
 struct Prediction {
   std::string id;
   PredictedShape shape;
   std::optional<double> rms_to_measured_m;  ///< none if registration or offset is free
   /// Tip distances from this shape to the other stable shapes found.
   std::vector<double> other_branches_m;
+  MisfitUnit unit = {};  ///< of rms_to_measured_m
+  std::vector<ProjectedWire> projections = {};
 };
 
 /// Throws LoadError for sets that the model cannot handle (require_known), or naming the experiment without a static

@@ -23,8 +23,9 @@ core::ConcentricPart part_of(const MeasurementSet& set, const Experiment& e, std
 }  // namespace
 
 ExperimentSetup setup_of(const MeasurementSet& set, const Experiment& experiment, const Changes& changes,
-                         double longest_element_m) {
+                         double longest_element_m, int view) {
   ExperimentSetup setup;
+  setup.view = view;
   setup.nest.name = experiment.id;
   for (std::size_t i = 0; i < set.instruments.size(); ++i)
     setup.nest.parts.push_back(part_of(set, experiment, i, changes));

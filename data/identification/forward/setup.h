@@ -11,10 +11,10 @@ inline Eigen::Quaterniond quaternion(const Eigen::Vector4d& wxyz) { return {wxyz
 /// to a few, which is enough to compare models.
 inline constexpr double fine_elements_m = 1.5e-3, coarse_elements_m = 3e-3;
 
-/// `longest_element_m`: limit on element length. Throws LoadError naming the experiment if the changed numbers do not
-/// describe a rod.
+/// `longest_element_m`: limit on element length. `view`: the view that sees it, for effects that part the views. Throws
+/// LoadError naming the experiment if the changed numbers do not describe a rod.
 ExperimentSetup setup_of(const MeasurementSet& set, const Experiment& experiment, const Changes& changes,
-                         double longest_element_m = fine_elements_m);
+                         double longest_element_m = fine_elements_m, int view = 0);
 
 /// Refuses what the models cannot handle: in a vessel, a moving base, shafts that twist, specimens, or an innermost
 /// instrument that ends inside another; and a vessel that was not read (load_measurement reads it).

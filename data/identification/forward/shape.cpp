@@ -105,6 +105,18 @@ PredictedShape shape_from(const ExperimentSetup& setup, const StaticEquilibrium&
   return shape;
 }
 
+void add_later_views(const MeasurementSet& set, const Experiment& e, const Changes& changes, double longest_element_m,
+                     const StaticEquilibrium& anchor, PredictedShape& shape) {
+  if (std::none_of(changes.effects.begin(), changes.effects.end(),
+                   [](const ActiveEffect& active) { return active.effect->parts_views; }))
+    return;
+  for (std::size_t v = 1; v < set.views.size(); ++v) {
+    const PredictedShape seen = shape_from(setup_of(set, e, changes, longest_element_m, static_cast<int>(v)), anchor);
+    shape.converged = shape.converged && seen.converged;
+    shape.later_views_m.push_back(seen.points_m);
+  }
+}
+
 std::vector<StaticEquilibrium> walk(const MeasurementSet& set, const Changes& changes,
                                     const std::function<void(std::size_t, std::size_t)>& progress,
                                     double longest_element_m) {

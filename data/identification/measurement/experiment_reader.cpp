@@ -98,11 +98,10 @@ void require_loaded_tip(const JsonObject& entry, const Experiment& e) {
 
 }  // namespace
 
-Experiment read_experiment(const JsonValue& value, const MeasurementSet& set) {
-  const JsonObject entry(value, keys::experiment);
+Experiment read_setting(const JsonObject& entry, const MeasurementSet& set) {
   Experiment e;
   e.id = entry.text("id");
-  e.place = value.path();
+  e.place = entry.value().path();
   for (const Experiment& other : set.experiments)
     if (other.id == e.id) entry["id"].refuse("an id that no other experiment has; " + other.place + " has it");
   e.base = read_base(JsonObject(entry["base"], keys::base));
@@ -112,8 +111,14 @@ Experiment read_experiment(const JsonValue& value, const MeasurementSet& set) {
   if (entry.has("proximal_force_N")) e.proximal_force_N = entry.number("proximal_force_N");
   if (entry.has("elapsed_s")) e.elapsed_s = entry.not_negative("elapsed_s");
   if (entry.has("group")) e.group = entry.text("group");
-  read_measured(entry, e);
   require_loaded_tip(entry, e);
+  return e;
+}
+
+Experiment read_experiment(const JsonValue& value, const MeasurementSet& set) {
+  const JsonObject entry(value, keys::experiment);
+  Experiment e = read_setting(entry, set);
+  read_measured(entry, e);
   return e;
 }
 

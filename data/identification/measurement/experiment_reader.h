@@ -5,6 +5,9 @@
 
 namespace ostium::data {
 
+/// All but what was measured. `set` contains the instruments and the earlier experiments. Throws LoadError.
+Experiment read_setting(const JsonObject& entry, const MeasurementSet& set);
+
 /// `set` contains the instruments and the earlier experiments. Throws LoadError.
 Experiment read_experiment(const JsonValue& value, const MeasurementSet& set);
 

@@ -10,7 +10,9 @@
 #include "data/identification/measurement/experiment_reader.h"
 #include "data/identification/measurement/measured_wall.h"
 #include "data/identification/measurement/measurement_keys.h"
+#include "data/identification/measurement/measurement_parts.h"
 #include "data/identification/measurement/number_lists.h"
+#include "data/identification/measurement/projection_reader.h"
 
 namespace ostium::data {
 
@@ -65,6 +67,8 @@ MeasuredInstrument read_instrument(const JsonValue& value) {
   return instrument;
 }
 
+}  // namespace
+
 void read_instruments(const JsonObject& root, MeasurementSet& set) {
   for (const JsonValue& value : root.list("instruments")) {
     set.instruments.push_back(read_instrument(value));
@@ -77,7 +81,8 @@ void read_instruments(const JsonObject& root, MeasurementSet& set) {
   if (set.instruments.empty()) root.refuse("instruments");
 }
 
-void read_environment(const JsonObject& entry, MeasurementSet& set) {
+void read_environment(const JsonValue& environment, MeasurementSet& set) {
+  const JsonObject entry(environment, keys::environment);
   set.gravity_m_s2 = vector3(entry["gravity_m_s2"]);
   if (entry["vessel"].type == JsonValue::Type::null) return;
   const JsonObject vessel(entry["vessel"], keys::vessel);
@@ -85,6 +90,8 @@ void read_environment(const JsonObject& entry, MeasurementSet& set) {
   set.vessel = MeasuredVessel{vessel.text("mesh"), units[vessel.choice("units", units)],
                               vessel.not_negative("friction"), nullptr};
 }
+
+namespace {
 
 void read_imaging(const JsonObject& entry, MeasurementSet& set) {
   if (entry["noise_sigma_mm"].type != JsonValue::Type::null)
@@ -112,7 +119,23 @@ DeclaredEffect read_effect(const JsonValue& value, const MeasurementSet& set) {
   return effect;
 }
 
+}  // namespace
+
+void read_effects(const JsonObject& root, MeasurementSet& set) {
+  if (!root.has("effects")) return;
+  for (const JsonValue& value : root.list("effects")) set.effects.push_back(read_effect(value, set));
+}
+
+namespace {
+
+/// Of a set of version 2; empty for version 1, which has no kinds.
+std::string kind_of(const JsonValue& file) {
+  const JsonValue *schema = file.find("schema"), *kind = file.find("kind");
+  return schema && kind && schema->text == "ostium-measurement/2" ? kind->text : "";
+}
+
 MeasurementSet read(const JsonValue& file) {
+  if (kind_of(file) == "projections") return read_projections(file);
   const JsonObject root(file, keys::set);
   MeasurementSet set;
   set.file = *file.file;
@@ -120,10 +143,9 @@ MeasurementSet read(const JsonValue& file) {
   set.title = root.text("title");
   set.source = root.text("source");
   read_instruments(root, set);
-  read_environment(JsonObject(root["environment"], keys::environment), set);
+  read_environment(root["environment"], set);
   read_imaging(JsonObject(root["imaging"], keys::imaging), set);
-  if (root.has("effects"))
-    for (const JsonValue& value : root.list("effects")) set.effects.push_back(read_effect(value, set));
+  read_effects(root, set);
   for (const JsonValue& value : root.list("experiments")) set.experiments.push_back(read_experiment(value, set));
   if (set.experiments.empty()) root.refuse("experiments");
   return set;

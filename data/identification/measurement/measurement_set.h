@@ -6,6 +6,7 @@
 
 #include "core/model/state.h"
 #include "data/formats/load_error.h"
+#include "data/identification/measurement/camera.h"
 
 namespace ostium::data {
 
@@ -23,6 +24,12 @@ struct Placement {
   double shaft_m = 0;     ///< straight shaft between the drive that rolls it and the base
 };
 
+/// A wire as a person clicked it along in one view, base to tip.
+struct ClickedPolyline {
+  int view = 0;  ///< of the set's views
+  std::vector<Eigen::Vector2d> points_px;
+};
+
 struct Experiment {
   std::string id;
   std::string place;           ///< "experiments[3]", for messages
@@ -34,14 +41,15 @@ struct Experiment {
   std::optional<double> elapsed_s;
   std::string group;  ///< empty if none
 
-  enum class Kind { centreline, tip, radius };
+  enum class Kind { centreline, tip, radius, projections };
   Kind kind = Kind::centreline;
   std::vector<Eigen::Vector3d> points_m;  ///< base to tip; a single point for a tip
   double radius_m = 0;
+  std::vector<ClickedPolyline> polylines;  ///< of projections, one for each view that saw it
 };
 
 struct Imaging {
-  std::optional<double> noise_sigma_m;  ///< per coordinate
+  std::optional<double> noise_sigma_m;  ///< per coordinate; px for projections (MisfitUnit)
   bool registration_free = false;       ///< measured = R model + t
   bool tip_offset_free = false;         ///< tracked = tip + R_tip o
 };
@@ -50,6 +58,19 @@ struct MeasuredVessel {
   std::string mesh, units;
   double friction = 0;
   std::shared_ptr<const core::SurfaceDescription> wall;  ///< oriented outwards, in the set's frame
+};
+
+/// One view of a C-arm.
+struct MeasuredCArm {
+  std::string id;
+  Camera camera;
+};
+
+/// The unit of misfits, of their noise and their root mean squares. Where names end in _m, they are in m, or in px
+/// where a set was measured in pixels; divided by `size` they are in the unit that people see.
+struct MisfitUnit {
+  std::string name = "mm";
+  double size = 1e-3;
 };
 
 /// An effect that the file asks the model to include.
@@ -67,8 +88,11 @@ struct MeasurementSet {
   Eigen::Vector3d gravity_m_s2 = Eigen::Vector3d::Zero();
   std::optional<MeasuredVessel> vessel;
   Imaging imaging;
+  std::vector<MeasuredCArm> views;  ///< of a set of projections; others have none
   std::vector<DeclaredEffect> effects;
   std::vector<Experiment> experiments;
+
+  MisfitUnit unit() const { return views.empty() ? MisfitUnit{} : MisfitUnit{"px", 1}; }
 };
 
 }  // namespace ostium::data

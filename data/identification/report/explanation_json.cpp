@@ -26,8 +26,8 @@ Json parameters(const FittedModel& m, bool units) {
   return out;
 }
 
-Json rms_of(const FittedModel& m) {
-  Json out = {{"fit", m.rms_m / mm}, {"held_out", or_null(m.rms_held_out_m, mm)}};
+Json rms_of(const FittedModel& m, const MisfitUnit& unit) {
+  Json out = {{"fit", m.rms_m / unit.size}, {"held_out", or_null(m.rms_held_out_m, unit.size)}};
   if (m.push_rms_N) out["push_fit_N"] = *m.push_rms_N, out["push_held_out_N"] = or_null(m.push_rms_held_out_N);
   return out;
 }
@@ -47,7 +47,7 @@ Json over_noise(const Explanation& x, const FittedModel& m) {
 Json noise_of(const Explanation& x) {
   const auto& m = x.noise.model;
   return {{"as_declared", x.declared_sigma_m ? Json(!m) : Json(nullptr)},
-          {"sigma_mm", or_null(x.noise.sigma_m, mm)},
+          {"sigma", or_null(x.noise.sigma_m, x.unit.size)},
           {"correlation_mm", m ? m->length / mm : 0.0},
           {"tail", m && m->heavy() ? "heavy" : "normal"}};
 }
@@ -67,14 +67,14 @@ Json signature(const Signature& s) {
   return out;
 }
 
-Json next(const std::optional<NextExperiment>& n) {
+Json next(const std::optional<NextExperiment>& n, const MisfitUnit& unit) {
   if (!n) return nullptr;
   Json set = Json::array();
   for (const Placement& p : n->set)
     set.push_back({{"inserted_length_mm", p.inserted_m / mm},
                    {"roll_deg", p.roll_rad * 180 / units::pi},
                    {"shaft_mm", p.shaft_m / mm}});
-  return {{"why", n->why}, {"set", set}, {"predicted_difference_mm", n->difference_m / mm}};
+  return {{"why", n->why}, {"set", set}, {"predicted_difference_" + unit.name, n->difference_m / unit.size}};
 }
 
 /// Writes the experiments of a mended set over those of the file, and leaves out those that it lacks.
@@ -106,9 +106,9 @@ Json mended_experiments(const Json& list, const MeasurementSet& set) {
 std::string to_json(const Explanation& x) {
   Json out = {{"schema", "ostium-explanation/1"}, {"verdict", to_string(x.verdict)}, {"ended_early", x.ended_early}};
   out["declared"] = {{"parameters", parameters(x.declared, false)},
-                     {"rms", rms_of(x.declared)},
-                     {"unit", "mm"},
-                     {"noise_sigma_mm", or_null(x.noise.sigma_m, mm)},
+                     {"rms", rms_of(x.declared, x.unit)},
+                     {"unit", x.unit.name},
+                     {"noise_sigma_" + x.unit.name, or_null(x.noise.sigma_m, x.unit.size)},
                      {"chi2_per_dof", or_null(x.declared.chi2_per_dof)}};
   const bool won = x.verdict == Verdict::effect || x.verdict == Verdict::mostly;
   out["effects"] = x.effects();
@@ -117,7 +117,7 @@ std::string to_json(const Explanation& x) {
   for (const FittedModel& c : x.candidates)
     out["candidates"].push_back({{"effects", c.effects},
                                  {"parameters", parameters(c, true)},
-                                 {"rms", rms_of(c)},
+                                 {"rms", rms_of(c, x.unit)},
                                  {"chi2_per_dof", or_null(c.chi2_per_dof)},
                                  {"share_removed", share_of(x, c)},
                                  {"rms_over_noise", over_noise(x, c)},
@@ -125,7 +125,7 @@ std::string to_json(const Explanation& x) {
   out["after"] = nullptr;
   if (won)
     out["after"] = {{"parameters", parameters(x.best(), true)},
-                    {"rms", rms_of(x.best())},
+                    {"rms", rms_of(x.best(), x.unit)},
                     {"chi2_per_dof", or_null(x.best().chi2_per_dof)},
                     {"share_removed", share_of(x, x.best())},
                     {"rms_over_noise", over_noise(x, x.best())}};
@@ -138,12 +138,12 @@ std::string to_json(const Explanation& x) {
   out["noise"] = noise_of(x);
   out["warnings"] = x.warnings;
   out["signature"] = signature(x.signature);
-  out["next_experiment"] = next(x.next_experiment);
+  out["next_experiment"] = next(x.next_experiment, x.unit);
   return out.dump(1) + "\n";
 }
 
 std::string amended(const std::string& text, const MeasurementSet& set, const Explanation& x) {
-  Json file = Json::parse(text);
+  Json file = Json::parse(written_out(text, set));
   const FittedModel& m = x.best();
   for (std::size_t i = 0; i < set.instruments.size(); ++i)
     for (std::size_t s = 0; s < set.instruments[i].sections.size(); ++s) {

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/base/units.h"
 #include "data/formats/markup.h"
 #include "data/identification/report/explanation_plots.h"
 #include "data/identification/report/explanation_report.h"
@@ -11,8 +10,6 @@
 namespace ostium::data {
 
 namespace {
-
-using units::mm;
 
 const char* const style = R"(
 body { font: 15px/1.45 system-ui, sans-serif; color: #222; max-width: 980px; margin: 24px auto; padding: 0 16px; }
@@ -32,20 +29,21 @@ std::string number(const std::optional<double>& value, double unit = 1, const ch
   return value ? fmt::format("{:.3g}", *value / unit) : none;
 }
 
-std::string model_row(const FittedModel& m, double declared_bic) {
-  return "<tr><td>" + escaped(m.name) + "</td>" + cell(number(m.rms_m, mm)) + cell(number(m.rms_held_out_m, mm)) +
-         cell(number(m.chi2_per_dof)) + cell(fmt::format("{:+.1f}", m.bic - declared_bic)) + "</tr>\n";
+std::string model_row(const FittedModel& m, const Explanation& x) {
+  return "<tr><td>" + escaped(m.name) + "</td>" + cell(number(m.rms_m, x.unit.size)) +
+         cell(number(m.rms_held_out_m, x.unit.size)) + cell(number(m.chi2_per_dof)) +
+         cell(fmt::format("{:+.1f}", m.bic - x.declared.bic)) + "</tr>\n";
 }
 
 std::string models(const Explanation& x) {
-  std::string out =
-      "<table><tr><th>model</th><th>all data, mm</th><th>held out, mm</th><th>chi&sup2; per degree of "
-      "freedom</th><th>BIC "
-      "against declared</th></tr>\n";
-  out += "<tr><td>as declared, nothing fitted</td>" + cell(number(x.rms_nominal_m, mm)) + cell("") + cell("") +
+  std::string out = fmt::format(
+      "<table><tr><th>model</th><th>all data, {0}</th><th>held out, {0}</th><th>chi&sup2; per degree of "
+      "freedom</th><th>BIC against declared</th></tr>\n",
+      x.unit.name);
+  out += "<tr><td>as declared, nothing fitted</td>" + cell(number(x.rms_nominal_m, x.unit.size)) + cell("") + cell("") +
          cell("") + "</tr>\n";
-  out += model_row(x.declared, x.declared.bic);
-  for (const FittedModel& c : x.candidates) out += model_row(c, x.declared.bic);
+  out += model_row(x.declared, x);
+  for (const FittedModel& c : x.candidates) out += model_row(c, x);
   return out + "</table>\n";
 }
 
@@ -90,8 +88,9 @@ std::string plots(const MeasurementSet& set, const Explanation& x) {
   if (any(Experiment::Kind::centreline) || any(Experiment::Kind::tip))
     out += shapes_plot(set, x, 0) + shapes_plot(set, x, 1);
   if (any(Experiment::Kind::radius)) out += radius_plot(set, x);
+  for (std::size_t v = 0; v < set.views.size(); ++v) out += view_plot(set, x, static_cast<int>(v));
   out += "<h2>What is left</h2>\n";
-  if (any(Experiment::Kind::centreline)) out += along_wire_plot(set, x);
+  if (any(Experiment::Kind::centreline) || any(Experiment::Kind::projections)) out += along_wire_plot(set, x);
   if (any(Experiment::Kind::tip)) out += tip_residual_plot(set, x, 0) + tip_residual_plot(set, x, 1);
   return out + experiments_plot(set, x);
 }

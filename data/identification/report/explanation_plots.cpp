@@ -8,6 +8,8 @@
 #include "core/base/units.h"
 #include "data/formats/plot.h"
 #include "data/identification/forward/misfit.h"
+#include "data/identification/forward/projected.h"
+#include "data/identification/measurement/measured_curves.h"
 
 namespace ostium::data {
 
@@ -77,33 +79,49 @@ std::string shapes_plot(const MeasurementSet& set, const Explanation& x, int whi
   return plot.svg();
 }
 
+std::string view_plot(const MeasurementSet& set, const Explanation& x, int v) {
+  Plot plot("View " + set.views[v].id, "column, px", "row, px", 460, 420);
+  plot.equal_scales();
+  plot.y_downwards();
+  const auto model = [&](const FittedModel& m, std::size_t e, const std::string& colour, double width) {
+    const MeasuredView view = seen(set, set.experiments[e], m.changes, m.view);
+    plot.line(projected_px(m.shapes[e], view, v), colour, width);
+  };
+  for (std::size_t e = 0; e < set.experiments.size(); ++e)
+    for (const ClickedPolyline& polyline : set.experiments[e].polylines) {
+      if (polyline.view != v) continue;
+      model(x.declared, e, before_colour, 1.1);
+      if (has_after(x)) model(after(x), e, after_colour, 1.3);
+      plot.dots(polyline.points_px, measured_colour, 1.1);
+    }
+  name_models(plot, x, true);
+  return plot.svg();
+}
+
 std::string along_wire_plot(const MeasurementSet& set, const Explanation& x) {
-  Plot plot("Residual along the wire", "distance from the tip, mm", "root mean square, mm", 940, 260);
+  Plot plot("Residual along the wire", "distance from the tip, mm", "root mean square, " + x.unit.name, 940, 260);
   plot.y_from_zero();
   constexpr int parts = 30;
   double longest = 0;
   for (const Experiment& e : set.experiments) longest = std::max(longest, e.set.back().inserted_m);
   const auto profile = [&](const FittedModel& m) {
     Eigen::VectorXd squares = Eigen::VectorXd::Zero(parts), count = squares;
-    for (std::size_t e = 0; e < set.experiments.size(); ++e) {
-      const Experiment& measured = set.experiments[e];
-      if (measured.kind != Experiment::Kind::centreline) continue;
-      double from_tip = 0;
-      for (std::size_t i = measured.points_m.size(); i-- > 0;) {
-        if (i + 1 < measured.points_m.size()) from_tip += (measured.points_m[i + 1] - measured.points_m[i]).norm();
-        const int part = std::min(parts - 1, static_cast<int>(parts * from_tip / longest));
-        squares[part] += m.misfits[e].segment<3>(3 * static_cast<Eigen::Index>(i)).squaredNorm();
-        count[part] += 1;
-      }
-    }
+    for (std::size_t e = 0; e < set.experiments.size(); ++e)
+      for (const MeasuredCurve& curve : measured_curves(set.experiments[e]))
+        for (std::size_t i = 0; i < curve.from_tip_m.size(); ++i) {
+          const int part = std::min(parts - 1, static_cast<int>(parts * curve.from_tip_m[i] / longest));
+          squares[part] += m.misfits[e].segment<3>(3 * static_cast<Eigen::Index>(curve.first + i)).squaredNorm();
+          count[part] += 1;
+        }
     Plot::Points points;
     for (int k = 0; k < parts; ++k)
-      if (count[k] > 0) points.emplace_back((k + 0.5) * longest / parts / mm, std::sqrt(squares[k] / count[k]) / mm);
+      if (count[k] > 0)
+        points.emplace_back((k + 0.5) * longest / parts / mm, std::sqrt(squares[k] / count[k]) / x.unit.size);
     return points;
   };
   plot.line(profile(x.declared), before_colour, 2);
   if (has_after(x)) plot.line(profile(after(x)), after_colour, 2);
-  if (x.noise.sigma_m) plot.level(std::sqrt(2.0) * *x.noise.sigma_m / mm, "noise");
+  if (x.noise.sigma_m) plot.level(noise_floor(set, *x.noise.sigma_m) / x.unit.size, "noise");
   name_models(plot, x, false);
   return plot.svg();
 }
@@ -160,13 +178,13 @@ std::string radius_plot(const MeasurementSet& set, const Explanation& x) {
 }
 
 std::string experiments_plot(const MeasurementSet& set, const Explanation& x) {
-  Plot plot("Residual of each experiment", "", "root mean square, mm", 940, 280);
+  Plot plot("Residual of each experiment", "", "root mean square, " + x.unit.name, 940, 280);
   std::vector<std::string> names;
   std::vector<std::vector<double>> series(has_after(x) ? 2 : 1);
   for (std::size_t e = 0; e < set.experiments.size(); ++e) {
     names.push_back(set.experiments[e].id);
-    series[0].push_back(x.declared.experiment_rms_m[e] / mm);
-    if (has_after(x)) series[1].push_back(after(x).experiment_rms_m[e] / mm);
+    series[0].push_back(x.declared.experiment_rms_m[e] / x.unit.size);
+    if (has_after(x)) series[1].push_back(after(x).experiment_rms_m[e] / x.unit.size);
   }
   plot.bars(names, series, {before_colour, after_colour});
   name_models(plot, x, false);

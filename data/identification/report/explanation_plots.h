@@ -6,7 +6,9 @@ namespace ostium::data {
 
 /// Measured and modelled shapes, projected on two axes of the set's frame.
 std::string shapes_plot(const MeasurementSet& set, const Explanation& x, int across);
-/// For centrelines: root mean square residual against distance from the tip.
+/// For projections: what one view saw, and the modelled shapes as it sees them.
+std::string view_plot(const MeasurementSet& set, const Explanation& x, int view);
+/// For centrelines and polylines: root mean square residual against distance from the tip.
 std::string along_wire_plot(const MeasurementSet& set, const Explanation& x);
 /// For tips: residuals projected on two axes.
 std::string tip_residual_plot(const MeasurementSet& set, const Explanation& x, int across);

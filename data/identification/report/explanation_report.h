@@ -10,7 +10,11 @@ std::string to_json(const Explanation& explanation);
 /// A self-contained page: plots inline, no scripts.
 std::string to_html(const MeasurementSet& set, const Explanation& explanation);
 
-/// `text`, the set's measurement.json, with the fitted stiffness and the accepted effects added.
+/// `text`, the set's measurement.json, with what it names in other files (frames of views, a table of clicks) written
+/// out, so that it can lie elsewhere.
+std::string written_out(const std::string& text, const MeasurementSet& set);
+
+/// `text`, the set's measurement.json, written out, with the fitted stiffness and the accepted effects added.
 std::string amended(const std::string& text, const MeasurementSet& set, const Explanation& explanation);
 
 /// Instrument `i` of the set as a file (schema ostium-instrument/1) for all other commands, with the fitted stiffness

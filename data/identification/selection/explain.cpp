@@ -31,8 +31,9 @@ EffectForm held_in_all_forms(const Effect& effect, const MeasurementSet& set, st
   return out;
 }
 
-/// "shaft_torsion[1]": an effect and the instrument it acts on.
-ActiveEffect parsed(const std::string& word, const MeasurementSet& set) {
+/// "shaft_torsion[1]": an effect and the instrument it acts on. An effect of one view is tried in each of its forms,
+/// as no fit can choose a view; others in one, with everything fitted.
+std::vector<ActiveEffect> parsed(const std::string& word, const MeasurementSet& set) {
   ActiveEffect active;
   const std::size_t bracket = word.find('[');
   active.effect = &find_effect(word.substr(0, bracket));
@@ -50,8 +51,28 @@ ActiveEffect parsed(const std::string& word, const MeasurementSet& set) {
   }
   if (const std::string why = active.effect->why_not(set, active.instrument); !why.empty())
     throw LoadError(fmt::format("{}: {} cannot show in this set: {}", set.file, word, why));
-  return data::active(*active.effect, set, active.instrument,
-                      held_in_all_forms(*active.effect, set, active.instrument));
+  std::vector<ActiveEffect> out;
+  if (!active.effect->parameters.empty() && active.effect->parameters.front().name == "view")
+    for (const EffectForm& form : active.effect->forms(set, active.instrument))
+      out.push_back(data::active(*active.effect, set, active.instrument, form));
+  if (!out.empty()) return out;
+  return {
+      data::active(*active.effect, set, active.instrument, held_in_all_forms(*active.effect, set, active.instrument))};
+}
+
+/// The candidates that `words` stand for, one for each choice of forms.
+std::vector<std::vector<ActiveEffect>> candidates_of(const std::vector<std::string>& words, const MeasurementSet& set) {
+  std::vector<std::vector<ActiveEffect>> out = {{}};
+  for (const std::string& word : words) {
+    std::vector<std::vector<ActiveEffect>> longer;
+    for (const std::vector<ActiveEffect>& before : out)
+      for (const ActiveEffect& form : parsed(word, set)) {
+        longer.push_back(before);
+        longer.back().push_back(form);
+      }
+    out = longer;
+  }
+  return out;
 }
 
 /// Sorts by BIC; first comes the model with the fewest parameters among those not ruled out by strong evidence.
@@ -147,6 +168,7 @@ Explanation explain_mended(const MeasurementSet& set, const ExplainOptions& opti
   const Workers workers(options.threads);
   Explanation out;
   out.declared_sigma_m = set.imaging.noise_sigma_m;
+  out.unit = set.unit();
   ModelFit declared(set, workers, {}, options.progress);
   out.declared = declared.run(set.imaging.noise_sigma_m);
   out.nominal_misfits = declared.misfits_at_start();
@@ -191,13 +213,13 @@ Explanation explain(const MeasurementSet& set, const ExplainOptions& options) {
   require_known(set);
   if (options.library) return explain_with_library(set, options);
   std::vector<std::vector<ActiveEffect>> tries;
-  for (const auto& words : options.tries) {
-    tries.emplace_back();
-    for (const std::string& word : words) tries.back().push_back(parsed(word, set));
-  }
+  for (const auto& words : options.tries)
+    for (const auto& candidate : candidates_of(words, set)) tries.push_back(candidate);
   const Workers workers(options.threads);
   Explanation out;
   out.declared_sigma_m = set.imaging.noise_sigma_m;
+  out.unit = set.unit();
+
   ModelFit declared(set, workers, {}, options.progress);
   out.declared = declared.run(set.imaging.noise_sigma_m);
   out.nominal_misfits = declared.misfits_at_start();

@@ -24,6 +24,7 @@ struct Remaining {
 
 struct Explanation {
   Verdict verdict = Verdict::unexplained;
+  MisfitUnit unit;  ///< of misfits and their root mean squares
   Noise noise;
   std::optional<double> declared_sigma_m;  ///< what the set says of its noise
   double rms_nominal_m = 0;                ///< before fitting anything except, ignoring the tip offset, the frame

@@ -8,6 +8,7 @@
 
 #include "core/base/units.h"
 #include "data/identification/estimation/workers.h"
+#include "data/identification/forward/projected.h"
 
 namespace ostium::data {
 
@@ -39,18 +40,35 @@ std::vector<Experiment> settings(const MeasurementSet& set) {
   return out;
 }
 
-/// The points that would be measured: the centreline, or only the tracked tip.
+constexpr int points = 40;  // that are compared along a shape
+
+/// Evenly over a curve's points, the pixels of a view as points of a plane.
+void add_projected(const PredictedShape& shape, const MeasuredView& view, std::vector<Eigen::Vector3d>& out) {
+  for (std::size_t v = 0; v < view.cameras.size(); ++v) {
+    const std::vector<Eigen::Vector2d> px = projected_px(shape, view, static_cast<int>(v));
+    for (int k = 0; k <= points; ++k) {
+      const Eigen::Vector2d& at = px[static_cast<std::size_t>(k) * (px.size() - 1) / points];
+      out.emplace_back(at.x(), at.y(), 0);
+    }
+  }
+}
+
+/// The points that would be measured: the centreline, what the views see of it, or only the tracked tip.
 std::vector<Eigen::Vector3d> predicted(const MeasurementSet& set, const Experiment& e, const FittedModel& model,
                                        bool& found) {
   MeasurementSet alone = set;
   alone.experiments = {e};
   const std::vector<StaticEquilibrium> anchors = walk(alone, model.changes);
-  const PredictedShape shape = shape_from(setup_of(alone, alone.experiments[0], model.changes), anchors[0]);
+  PredictedShape shape = shape_from(setup_of(alone, alone.experiments[0], model.changes), anchors[0]);
+  add_later_views(alone, alone.experiments[0], model.changes, fine_elements_m, anchors[0], shape);
   found = found && shape.converged;
   const MeasuredView view = seen(set, e, model.changes, model.view);
   if (e.kind == Experiment::Kind::tip) return {tracked_tip(shape, view)};
   std::vector<Eigen::Vector3d> out;
-  constexpr int points = 40;
+  if (e.kind == Experiment::Kind::projections) {
+    add_projected(shape, view, out);
+    return out;
+  }
   for (int k = 0; k <= points; ++k) {
     const auto at = static_cast<std::size_t>(k * (static_cast<int>(shape.points_m.size()) - 1) / points);
     out.push_back(view(shape.points_m[at]));
@@ -89,9 +107,10 @@ std::optional<NextExperiment> next_experiment(const MeasurementSet& set, const W
   NextExperiment next;
   next.difference_m = differences[best][0];
   next.set = list[best].set;
-  if (next.difference_m < std::max(2 * noise.sigma_m.value_or(0), 0.1e-3)) return {};
-  next.why = fmt::format("{} and {} predict shapes up to {:.2g} mm apart with {}", a.name, b.name,
-                         1e3 * next.difference_m, setting_in_words(set, list[best]));
+  const MisfitUnit unit = set.unit();
+  if (next.difference_m < std::max(2 * noise.sigma_m.value_or(0), 0.1 * unit.size)) return {};
+  next.why = fmt::format("{} and {} predict shapes up to {:.2g} {} apart with {}", a.name, b.name,
+                         next.difference_m / unit.size, unit.name, setting_in_words(set, list[best]));
   return next;
 }
 

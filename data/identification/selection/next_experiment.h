@@ -8,10 +8,10 @@ namespace ostium::data {
 struct NextExperiment {
   std::string why;
   std::vector<Placement> set;
-  double difference_m = 0;  ///< between the two explanations' predictions
+  double difference_m = 0;  ///< between the two explanations' predictions; MisfitUnit
 };
 
-/// None if no setting separates them by more than the noise (or 0.1 mm if that is unknown).
+/// None if no setting separates them by more than the noise (or 0.1 mm or px if that is unknown).
 std::optional<NextExperiment> next_experiment(const MeasurementSet& set, const Workers& workers, const FittedModel& a,
                                               const FittedModel& b, const Noise& noise);
 

@@ -156,8 +156,15 @@ void decide(const MeasurementSet& set, const Workers& workers, Explanation& out)
   for (FittedModel& c : out.candidates)
     (small || wins(c, out.declared, out.noise) ? winners : others).push_back(std::move(c));
   std::sort(winners.begin(), winners.end(), [](const FittedModel& a, const FittedModel& b) { return a.bic < b.bic; });
-  put_simplest_first(winners);
-  out.candidates = std::move(winners);
+  // Of the forms of the same effects, the best.
+  std::vector<FittedModel> one_of_each;
+  for (FittedModel& c : winners) {
+    const bool again = std::any_of(one_of_each.begin(), one_of_each.end(),
+                                   [&](const FittedModel& better) { return same_effects(better, c); });
+    (again ? others : one_of_each).push_back(std::move(c));
+  }
+  put_simplest_first(one_of_each);
+  out.candidates = std::move(one_of_each);
   const std::size_t count = out.candidates.size();
   // Order: the best, its rivals, the rest.
   auto end_of_rivals = out.candidates.begin();

@@ -14,8 +14,13 @@ namespace {
 
 using units::mm;
 
-std::string held_out(const FittedModel& m) {
-  return m.rms_held_out_m ? fmt::format("{:.3g} mm on held-out experiments", *m.rms_held_out_m / mm)
+/// A misfit in the unit that people see.
+std::string with_unit(double misfit, const MisfitUnit& unit) {
+  return fmt::format("{:.3g} {}", misfit / unit.size, unit.name);
+}
+
+std::string held_out(const FittedModel& m, const MisfitUnit& unit) {
+  return m.rms_held_out_m ? with_unit(*m.rms_held_out_m, unit) + " on held-out experiments"
                           : "held-out experiments could not be scored";
 }
 
@@ -109,10 +114,10 @@ void of_noise(const Explanation& x, std::vector<std::string>& out) {
     return;
   }
   const std::string from = x.noise.declared ? "declared" : "estimated from the " + x.noise.from;
-  out.push_back(
-      fmt::format("Noise {:.3g} mm per coordinate, {}; chi-square per degree of freedom {:.3g} over {:.0f} degrees.",
-                  *x.noise.sigma_m / mm, from, *x.declared.chi2_per_dof, x.declared.degrees_of_freedom) +
-      of_other_noise(x));
+  out.push_back(fmt::format("Noise {} per coordinate, {}; chi-square per degree of freedom {:.3g} over {:.0f} degrees.",
+                            with_unit(*x.noise.sigma_m, x.unit), from, *x.declared.chi2_per_dof,
+                            x.declared.degrees_of_freedom) +
+                of_other_noise(x));
 }
 
 void of_parameters(const MeasurementSet& set, const FittedModel& m, std::vector<std::string>& out) {
@@ -203,13 +208,14 @@ void add_faults(const std::vector<DataFault>& faults, Explanation& x) {
 std::vector<std::string> verdict_text(const MeasurementSet& set, const Explanation& x) {
   std::vector<std::string> out = {of_verdict(x)};
   if (x.ended_early) out.push_back("Ended before everything was tried: another effect may do better than these.");
-  out.push_back(fmt::format("{}: {:.3g} mm. Declared model, fitted: {:.3g} mm, {}.",
+  out.push_back(fmt::format("{}: {}. Declared model, fitted: {}, {}.",
                             set.imaging.registration_free ? "Nothing fitted but the measuring frame" : "Nothing fitted",
-                            x.rms_nominal_m / mm, x.declared.rms_m / mm, held_out(x.declared)));
+                            with_unit(x.rms_nominal_m, x.unit), with_unit(x.declared.rms_m, x.unit),
+                            held_out(x.declared, x.unit)));
   for (const FittedModel& c : x.candidates) {
     const std::string removed = removal(x, c);
-    out.push_back(fmt::format("With {}: {:.3g} mm, {}; BIC changes by {:+.1f}{}.", c.name, c.rms_m / mm, held_out(c),
-                              c.bic - x.declared.bic, removed.empty() ? "" : "; it " + removed));
+    out.push_back(fmt::format("With {}: {}, {}; BIC changes by {:+.1f}{}.", c.name, with_unit(c.rms_m, x.unit),
+                              held_out(c, x.unit), c.bic - x.declared.bic, removed.empty() ? "" : "; it " + removed));
   }
   if (x.remaining) out.push_back(x.remaining->text);
   out.insert(out.end(), x.warnings.begin(), x.warnings.end());

@@ -1,0 +1,53 @@
+#include "app/command_line/templates.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "data/catalogue/catalogue.h"
+#include "data/formats/load_error.h"
+#include "data/formats/write_file.h"
+
+namespace ostium::app {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+fs::path templates_folder() { return fs::path(data::data_folder()) / "templates"; }
+
+}  // namespace
+
+std::vector<std::string> template_kinds() {
+  std::vector<std::string> kinds;
+  for (const fs::directory_entry& entry : fs::directory_iterator(templates_folder()))
+    if (entry.is_directory()) kinds.push_back(entry.path().filename().string());
+  std::sort(kinds.begin(), kinds.end());
+  return kinds;
+}
+
+std::vector<std::string> write_template(const std::string& kind, const std::string& folder) {
+  const std::vector<std::string> kinds = template_kinds();
+  if (std::find(kinds.begin(), kinds.end(), kind) == kinds.end()) {
+    std::string known;
+    for (const std::string& k : kinds) known += (known.empty() ? "" : ", ") + k;
+    throw data::LoadError("there is no template of \"" + kind + "\"; there are " + known);
+  }
+  std::vector<fs::path> files;
+  for (const fs::directory_entry& entry : fs::directory_iterator(templates_folder() / kind))
+    files.push_back(entry.path());
+  std::sort(files.begin(), files.end());
+  std::vector<std::string> written;
+  for (const fs::path& file : files) {
+    const fs::path to = fs::path(folder) / file.filename();
+    if (fs::exists(to)) throw data::LoadError(to.string() + " is there already; expected a folder without it");
+    std::stringstream text;
+    text << std::ifstream(file, std::ios::binary).rdbuf();
+    data::write_file(to.string(), text.str());
+    written.push_back(to.string());
+  }
+  return written;
+}
+
+}  // namespace ostium::app

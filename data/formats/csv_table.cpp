@@ -1,0 +1,85 @@
+#include "data/formats/csv_table.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <fstream>
+
+#include "data/formats/decimal.h"
+#include "data/formats/load_error.h"
+
+namespace ostium::data {
+
+namespace {
+
+std::string trimmed(const std::string& text) {
+  const std::size_t from = text.find_first_not_of(" \r\t"), to = text.find_last_not_of(" \r\t");
+  return from == std::string::npos ? "" : text.substr(from, to - from + 1);
+}
+
+std::vector<std::string> split_fields(const std::string& line, char separator) {
+  std::vector<std::string> out = {""};
+  bool quoted = false;
+  for (std::size_t i = 0; i < line.size(); ++i) {
+    if (line[i] == '"' && quoted && i + 1 < line.size() && line[i + 1] == '"')
+      out.back() += line[i++];
+    else if (line[i] == '"')
+      quoted = !quoted;
+    else if (line[i] == separator && !quoted)
+      out.emplace_back();
+    else
+      out.back() += line[i];
+  }
+  for (std::string& field : out) field = trimmed(field);
+  return out;
+}
+
+std::string listed(const std::vector<std::string>& names) {
+  std::string out;
+  for (const std::string& name : names) out += (out.empty() ? "" : ", ") + name;
+  return out;
+}
+
+}  // namespace
+
+std::vector<CsvRow> load_csv(const std::string& file, const std::vector<std::string>& columns) {
+  std::ifstream in(file, std::ios::binary);
+  if (!in) throw LoadError(file + " cannot be read; expected a table with the columns " + listed(columns));
+  std::vector<CsvRow> rows;
+  std::vector<std::size_t> at;  // of each of `columns`, its place in a line
+  std::size_t count = 0;
+  char separator = ',';
+  int number = 0;
+  for (std::string line; std::getline(in, line);) {
+    if (++number == 1 && line.starts_with("\xEF\xBB\xBF")) line.erase(0, 3);
+    if (trimmed(line).empty() || line[0] == '#') continue;
+    const auto fail = [&](const std::string& what) { throw LoadError(fmt::format("{}:{}: {}", file, number, what)); };
+    if (at.empty()) {
+      for (const char other : {';', '\t'})
+        if (line.find(other) != std::string::npos) separator = other;
+      const std::vector<std::string> header = split_fields(line, separator);
+      count = header.size();
+      for (const std::string& name : columns) {
+        const auto found = std::find(header.begin(), header.end(), name);
+        if (found == header.end() || count != columns.size())
+          fail("the header is " + listed(header) + "; expected " + listed(columns));
+        at.push_back(static_cast<std::size_t>(found - header.begin()));
+      }
+      continue;
+    }
+    const std::vector<std::string> fields = split_fields(line, separator);
+    if (fields.size() != count) fail(fmt::format("{} fields; expected {}, as the header has", fields.size(), count));
+    rows.push_back({number, {}});
+    for (const std::size_t i : at) rows.back().fields.push_back(fields[i]);
+  }
+  if (at.empty()) throw LoadError(file + " is empty; expected a header with the columns " + listed(columns));
+  return rows;
+}
+
+double csv_number(const std::string& file, const CsvRow& row, const std::string& column, const std::string& field) {
+  if (const std::optional<double> value = decimal(field)) return *value;
+  throw LoadError(fmt::format("{}:{}: {} is \"{}\"; expected a number, with a point before its decimals", file,
+                              row.line, column, field));
+}
+
+}  // namespace ostium::data
