@@ -6,8 +6,9 @@
 
 namespace ostium::data {
 
-/// `cannot_be_judged`: the noise is unknown, so nothing says whether what is left is more than that.
-enum class Verdict { explained, effect, ambiguous, unexplained, cannot_be_judged };
+/// `mostly`: an effect is named and added, and more than noise is left. `cannot_be_judged`: the noise is unknown, so
+/// nothing says whether what is left is more than that.
+enum class Verdict { explained, effect, mostly, ambiguous, unexplained, cannot_be_judged };
 
 std::string to_string(Verdict verdict);
 

@@ -66,6 +66,8 @@ std::string to_string(Verdict verdict) {
       return "explained";
     case Verdict::effect:
       return "effect";
+    case Verdict::mostly:
+      return "mostly";
     case Verdict::ambiguous:
       return "ambiguous";
     case Verdict::cannot_be_judged:
