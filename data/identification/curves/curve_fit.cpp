@@ -137,8 +137,7 @@ std::vector<VectorXd> starts(const VectorXd& from, const VectorXd& spread, const
 }
 
 constexpr double difference = 1e-3;   // step of derivatives, in spreads
-constexpr int look = 8, finish = 60;  // iterations of a first look at each start, and of the best ones
-constexpr std::size_t most_finished = 2;
+constexpr int look = 5, finish = 40;   // iterations of a first look at each start, and of the best one
 
 }  // namespace
 
@@ -155,11 +154,10 @@ Model Fit::run(const std::vector<std::size_t>& effects, const Model* near) const
     if (!J) return true;
     J->resize(r.size(), x.size());
     for (Eigen::Index i = 0; i < x.size(); ++i) {
-      VectorXd up = x, down = x, r_up, r_down;
-      up[i] = std::min(x[i] + difference * spread[i], most[i]),
-      down[i] = std::max(x[i] - difference * spread[i], least[i]);
-      if (!residuals(up, r_up) || !residuals(down, r_down)) return false;
-      J->col(i) = (r_up - r_down) / (up[i] - down[i]);
+      VectorXd to = x, r_to;
+      to[i] += x[i] + difference * spread[i] > most[i] ? -difference * spread[i] : difference * spread[i];
+      if (!residuals(to, r_to)) return false;
+      J->col(i) = (r_to - r) / (to[i] - x[i]);
     }
     return true;
   };
@@ -176,20 +174,16 @@ Model Fit::run(const std::vector<std::size_t>& effects, const Model* near) const
   }
   descent.residuals = static_cast<int>(r.size());
   std::vector<LeastSquaresResult> found;
-  descent.most_iterations = look;
+  descent.most_iterations = look, descent.tolerance = 1e-4;
   for (const VectorXd& start : starts(from, spread, least, most, near ? known : from.size())) {
     descent.start = start;
     VectorXd at_start;
     if (residuals(start, at_start)) found.push_back(minimise(descent));
   }
   std::sort(found.begin(), found.end(), [](const auto& a, const auto& b) { return a.cost < b.cost; });
-  descent.most_iterations = finish;
-  LeastSquaresResult best = found.front();
-  for (std::size_t k = 0; k < std::min(most_finished, found.size()); ++k) {
-    descent.start = found[k].x;
-    const LeastSquaresResult end = minimise(descent);
-    if (k == 0 || end.cost < best.cost) best = end;
-  }
+  descent.most_iterations = finish, descent.tolerance = 1e-7;
+  descent.start = found.front().x;
+  const LeastSquaresResult best = minimise(descent);
   Model out;
   out.x = best.x, out.converged = best.converged;
   judge(p, out);
@@ -207,10 +201,38 @@ void Fit::judge(const Problem& p, Model& model) const {
     for (std::size_t c = 0; c < model.misfits[r].size(); ++c) {
       if (!chosen_[r][c]) continue;
       const auto samples = static_cast<double>(model.misfits[r][c].size());
+      model.clipped_squares += clipped(model.misfits[r][c], noise_.channels[c]).squaredNorm();
       model.measured += samples, independent += worth(noise_.channels[c], samples);
     }
   const double priors = (model.x - p.prior()).cwiseQuotient(p.spread()).squaredNorm();
   model.bic = model.squares + priors + model.numbers * std::log(std::max(independent, 2.0));
+}
+
+double Fit::ahead(const Model& near, std::size_t effect) const {
+  std::vector<std::size_t> effects;
+  for (const Switched& s : near.on) effects.push_back(s.effect);
+  effects.push_back(effect);
+  const Problem p = problem(effects);
+  const VectorXd prior = p.prior(), spread = p.spread(), least = p.least(), most = p.most();
+  double best = near.squares;
+  VectorXd from = prior;
+  from.head(near.x.size()) = near.x;
+  for (const VectorXd& start : starts(from, spread, least, most, near.x.size())) {
+    const VectorXd r = data_rows(p.misfits(start), noise_, chosen_);
+    MatrixXd J(r.size() + start.size(), start.size());
+    VectorXd rhs(J.rows());
+    for (Eigen::Index i = 0; i < start.size(); ++i) {
+      VectorXd to = start;
+      to[i] += start[i] + difference * spread[i] > most[i] ? -difference * spread[i] : difference * spread[i];
+      J.col(i).head(r.size()) = (data_rows(p.misfits(to), noise_, chosen_) - r) / (to[i] - start[i]);
+    }
+    J.bottomRows(start.size()) = spread.cwiseInverse().asDiagonal();
+    rhs << r, (start - prior).cwiseQuotient(spread);
+    if (!J.allFinite() || !rhs.allFinite()) continue;
+    const VectorXd step = J.colPivHouseholderQr().solve(-rhs);
+    best = std::min(best, (rhs + J * step).squaredNorm());
+  }
+  return best;
 }
 
 std::vector<Fitted> Fit::parameters(const Model& model) const {

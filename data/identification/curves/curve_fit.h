@@ -21,13 +21,14 @@ struct Model {
   Eigen::VectorXd x;                 ///< the optimiser's numbers; logarithms of logarithmic parameters
   std::vector<Curves> misfits;       ///< measured minus model, in units of the noise as declared
   double squares = 0;                ///< of the chosen misfits, whitened and robust, in units of the noise
+  double clipped_squares = 0;   ///< of the same, large ones cut if tails are heavy
   double measured = 0, numbers = 0;  ///< how many numbers were fitted, and with how many
   double bic = 0;
   std::optional<double> held_out;  ///< root mean square misfit of runs that the fit has not seen, in units of the noise
   bool converged = false;
 
   double degrees_of_freedom() const { return std::max(measured - numbers, 1.0); }
-  double per_freedom() const { return squares / degrees_of_freedom(); }
+  double per_freedom() const { return clipped_squares / degrees_of_freedom(); }
   double rms() const;  ///< of the misfits, in units of the noise as declared
 };
 
@@ -38,6 +39,8 @@ class Fit {
 
   /// From `near`'s values of what both have, and from several starts of what is new.
   Model run(const std::vector<std::size_t>& effects, const Model* near) const;
+  /// What the squares of `near` with one more effect would be, by one linear step from each start: a preview.
+  double ahead(const Model& near, std::size_t effect) const;
   /// What `run` found, with its standard errors.
   std::vector<Fitted> parameters(const Model& model) const;
   /// Adds the held-out error: folds of runs, each scored by a fit that has not seen it.

@@ -2,7 +2,7 @@
 /// The noise of curves: its size against what is declared, what neighbours share of it, and its tails.
 ///
 /// Noise is told from a wrong model by what it does not do: it does not last over a run, and it does not come back in
-/// the next one. What a first-order autoregression of at most a twentieth of a run explains is noise; what is left of
+/// the next one. What a first-order autoregression of at most an eighth of a run explains is noise; what is left of
 /// slow shapes after that is not (`slow_shapes`).
 #include <optional>
 
@@ -36,6 +36,10 @@ double worth(const ChannelNoise& noise, double samples);
 /// Misfits of one channel of one run as independent numbers of variance 1: whitened, divided by their size, large ones
 /// drawn in (Huber 1964, Ann Math Stat 35:73) if tails are heavy.
 Eigen::VectorXd whitened(const Eigen::VectorXd& misfit, const ChannelNoise& noise);
+
+/// The same, for judging what is left: large ones count no more than 2.5, so that a few blunders are not taken for a
+/// wrong model.
+Eigen::VectorXd clipped(const Eigen::VectorXd& misfit, const ChannelNoise& noise);
 
 /// By how many standard deviations the slow shapes of the runs (mean, slope and bends, there and back) exceed what
 /// independent noise has in them: a wrong model is slow.

@@ -9,7 +9,7 @@ namespace ostium::data::curves {
 
 namespace {
 
-constexpr std::size_t most_effects = 3, grown = 2, looked_at = 5;
+constexpr std::size_t most_effects = 3, grown = 2, joined = 4, looked_at = 5;
 constexpr double left_of_slow = 4;  // standard deviations of slow shapes that noise may have
 
 std::vector<std::size_t> effects_of(const Model& model) {
@@ -92,9 +92,24 @@ void Search::judge(Candidate& c, const Candidate& declared, const Noise& noise) 
   if (excess > 0) c.share_removed = std::clamp((declared.model.squares - c.model.squares) / excess, 0.0, 1.0);
 }
 
+/// The effects that may join a model, those first that promise most. Two forms of one effect are one effect.
+std::vector<std::size_t> Search::promising(const Candidate& c, std::size_t most) const {
+  std::vector<std::pair<double, std::size_t>> order;
+  const Fit fit(*set_, noise_);
+  for (std::size_t e = 0; e < set_->effects().size(); ++e) {
+    const bool there = std::find(c.effects.begin(), c.effects.end(), set_->effects()[e].id) != c.effects.end();
+    if (!there) order.emplace_back(most < set_->effects().size() ? fit.ahead(c.model, e) : 0, e);
+  }
+  std::stable_sort(order.begin(), order.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  if (order.size() > most) order.resize(most);
+  std::vector<std::size_t> out;
+  for (const auto& [squares, e] : order) out.push_back(e);
+  return out;
+}
+
 /// Adds to the best models, one effect at a time, until nothing but noise is left or nothing more helps.
 void Search::grow(std::vector<Candidate>& list, const Candidate& declared) {
-  for (std::size_t size = 1; size <= most_effects && !stopped(); ++size) {
+  for (std::size_t size = 1; size <= (declared.is_noise ? 1 : most_effects) && !stopped(); ++size) {
     std::vector<Candidate> from;
     if (size == 1) from.push_back(declared);
     sort_by_bic(list);
@@ -102,16 +117,12 @@ void Search::grow(std::vector<Candidate>& list, const Candidate& declared) {
       if (from.size() < grown && c.model.on.size() + 1 == size) from.push_back(c);
     const double before = list.empty() ? declared.bic() : std::min(list.front().bic(), declared.bic());
     for (const Candidate& c : from)
-      for (std::size_t e = 0; e < set_->effects().size() && !stopped(); ++e) {
+      for (const std::size_t e : promising(c, size == 1 ? set_->effects().size() : joined)) {
+        if (stopped()) break;
         std::vector<std::size_t> effects = effects_of(c.model);
-        // Two forms of one effect are one effect.
-        if (std::any_of(effects.begin(), effects.end(),
-                        [&](std::size_t o) { return set_->effects()[o].id == set_->effects()[e].id; }))
-          continue;
         effects.push_back(e);
-        Candidate next = candidate(effects, &c.model, noise_);
-        say(next.name);
-        list.push_back(std::move(next));
+        list.push_back(candidate(effects, &c.model, noise_));
+        say(list.back().name);
       }
     sort_by_bic(list);
     if (list.empty() || list.front().bic() > before - strong) break;
@@ -181,11 +192,19 @@ void Search::run(CurveExplanation& out) {
   judge(out.declared, out.declared, noise_);
   out.noise = noise_;
   if (out.declared.is_noise && options_.tries.empty()) return;
+  // Noise that is not as declared may be all there is: then effects are tried one at a time, against that noise.
+  const Noise own = noise_of(set_->runs(), out.declared.model.misfits, noise_);
+  if (!own.as_declared) {
+    Candidate again = out.declared;
+    again.model = Fit(*set_, own).run({}, &out.declared.model);
+    judge(again, again, own);
+    if (again.is_noise) noise_ = own, out.declared = again;
+  }
   std::vector<Candidate>& list = out.candidates;
   if (options_.tries.empty()) {
     grow(list, out.declared);
     prune(list);
-    add_faults(list, out.declared);
+    if (!out.declared.is_noise) add_faults(list, out.declared);
   }
   for (const std::vector<std::string>& ids : options_.tries)
     for (const std::vector<std::size_t>& effects : combinations(*set_, ids))

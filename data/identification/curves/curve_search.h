@@ -16,6 +16,7 @@ class Search {
 
  private:
   Candidate candidate(const std::vector<std::size_t>& effects, const Model* near, const Noise& noise) const;
+  std::vector<std::size_t> promising(const Candidate& c, std::size_t most) const;
   void grow(std::vector<Candidate>& list, const Candidate& declared);
   void prune(std::vector<Candidate>& list) const;
   void add_faults(std::vector<Candidate>& list, const Candidate& declared) const;

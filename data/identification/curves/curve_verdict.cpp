@@ -21,6 +21,7 @@ bool predicts_better(const Candidate& c, const Candidate& declared) {
 }
 
 bool wins(const Candidate& c, const Candidate& declared) {
+  if (c.fault && !c.is_noise) return false;  // to leave a run out or to mend it always helps a little
   return c.bic() < declared.bic() - strong && predicts_better(c, declared) && !c.at_an_edge;
 }
 

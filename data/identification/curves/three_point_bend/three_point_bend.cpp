@@ -14,35 +14,36 @@ namespace {
 using Eigen::VectorXd;
 using units::mm, units::Nmm2;
 
-/// Force over EI against deflection, for one span, roller and friction.
+/// Force over EI against deflection, for one span, roller and friction, as far as `most_m`.
 class Elastica {
  public:
-  Elastica(double span_m, double roller_m, double friction) {
+  Elastica(double span_m, double roller_m, double friction, double most_m) {
     const double phi = std::atan(friction);
-    constexpr int count = 240;
-    constexpr double most = 1.1;  // angle at the rollers; no bench bends a wire further
-    deflection_m.push_back(0), force_per_m2.push_back(0);
+    constexpr int count = 48;
+    // The angle at the rollers, about 3 deflections a span; no bench bends a wire further than 1.1.
+    const double most = std::min(5 * most_m / span_m + 0.02, 1.1);
     for (int k = 1; k <= count; ++k) {
-      const double theta = most * k / count, U = std::sqrt(std::sin(phi + theta) - std::sin(phi));
+      const double theta = most * k / count, turn = phi + theta, U = std::sqrt(std::sin(turn) - std::sin(phi));
       if (!(U > 0)) break;
       const double X = std::sqrt(2.0) * U, Y = across(phi, U) / std::sqrt(2.0);
       // The axis of the elastica is turned by phi + theta from the level tangent in the middle.
-      const double turn = phi + theta, level = X * std::cos(turn) + Y * std::sin(turn),
-                   down = X * std::sin(turn) - Y * std::cos(turn);
+      const double c = std::cos(turn), s = std::sin(turn), level = X * c + Y * s, down = X * s - Y * c;
       const double size = (span_m / 2 - roller_m * std::sin(theta)) / level;  // sqrt(EI / N)
       if (!(size > 0)) break;
       const double to = roller_m * (1 - std::cos(theta)) + size * down;
-      if (to <= deflection_m.back()) continue;
+      if (to <= (deflection_m.empty() ? 0 : deflection_m.back())) continue;
       deflection_m.push_back(to);
-      force_per_m2.push_back(2 * std::cos(turn) / (size * size));
+      stiffness_per_m3.push_back(2 * c / (size * size) / to);
     }
   }
+  /// Interpolated in force over deflection, which changes little.
   double at(double deflection) const {
-    if (deflection <= 0) return 0;
+    if (deflection <= 0 || deflection_m.empty()) return 0;
+    if (deflection_m.size() == 1) return deflection * stiffness_per_m3[0];
     const auto above = std::upper_bound(deflection_m.begin(), deflection_m.end() - 1, deflection);
     const auto i = std::max<std::ptrdiff_t>(above - deflection_m.begin(), 1);
     const double part = (deflection - deflection_m[i - 1]) / (deflection_m[i] - deflection_m[i - 1]);
-    return force_per_m2[i - 1] + part * (force_per_m2[i] - force_per_m2[i - 1]);
+    return deflection * (stiffness_per_m3[i - 1] + part * (stiffness_per_m3[i] - stiffness_per_m3[i - 1]));
   }
 
  private:
@@ -61,10 +62,10 @@ class Elastica {
     return sum * U / 2;
   }
 
-  std::vector<double> deflection_m, force_per_m2;
+  std::vector<double> deflection_m, stiffness_per_m3;
 };
 
-constexpr std::size_t stations = 12;
+constexpr std::size_t stations = 8;
 using States = std::array<SectionState, stations>;
 
 /// Deflection of a beam of small slope under `force_per_m2` = F / EI, and what its sections then remember.
@@ -83,18 +84,30 @@ double deflection(const SectionLaw& law, double span_m, double force_per_m2, con
 
 /// The force that a beam of small slope needs for a deflection, over EI.
 double force_for(const SectionLaw& law, double span_m, double to_m, States& states) {
-  const double stiff = 48 / (span_m * span_m * span_m);
-  double low = 0, high = std::max(stiff * to_m, 0.0) * 1.5 + 1e-12;
+  double low = 0, high = 1.5 * 48 / (span_m * span_m * span_m) * to_m;
   if (deflection(law, span_m, 0, states, nullptr) >= to_m) {  // it has lifted off
     deflection(law, span_m, 0, States(states), &states);
     return 0;
   }
-  for (int i = 0; i < 60 && high - low > 1e-9 * high; ++i) {
-    const double middle = (low + high) / 2;
-    (deflection(law, span_m, middle, states, nullptr) < to_m ? low : high) = middle;
+  // Secants within the bracket (regula falsi; Illinois), as the deflection rises with the force.
+  double at_low = deflection(law, span_m, low, states, nullptr) - to_m, at_high = deflection(law, span_m, high, states, nullptr) - to_m;
+  double force = low;
+  for (int i = 0, side = 0; i < 50; ++i) {
+    force = (low * at_high - high * at_low) / (at_high - at_low);
+    const double off = deflection(law, span_m, force, states, nullptr) - to_m;
+    if (std::fabs(off) < 1e-9 * to_m) break;
+    if (off < 0) {
+      low = force, at_low = off;
+      if (side < 0) at_high /= 2;
+      side = -1;
+    } else {
+      high = force, at_high = off;
+      if (side > 0) at_low /= 2;
+      side = 1;
+    }
   }
-  deflection(law, span_m, (low + high) / 2, States(states), &states);
-  return (low + high) / 2;
+  deflection(law, span_m, force, States(states), &states);
+  return force;
 }
 
 double stiffness_of(const Setup& setup, const Pass& pass) {
@@ -112,8 +125,8 @@ class Passage {
         states_(states),
         span_m_(pass.span_m + setup.span_more_m),
         EI_(stiffness_of(setup, pass)),
-        there_(span_m_, pass.roller_m, setup.friction),
-        back_(span_m_, pass.roller_m, -setup.friction) {}
+        there_(span_m_, pass.roller_m, -setup.friction, pass.displacement_m.maxCoeff()),
+        back_(span_m_, pass.roller_m, setup.friction, pass.displacement_m.maxCoeff()) {}
 
   VectorXd run() {
     const VectorXd& x = pass_.displacement_m;

@@ -1,17 +1,18 @@
 #pragma once
 /// Three-point bending of a wire or catheter: force against displacement, there and back.
 ///
-/// Two rollers carry the wire, a third presses it down in the middle. Law: half of it is an elastica from the middle,
-/// where its tangent is level, to the roller, whose reaction N stands on it under the angle of friction phi. With psi
-/// the angle of the tangent to the perpendicular of N, from phi at the roller to phi + theta in the middle,
+/// Two rollers carry the wire, a third presses it down in the middle. Law: half of it is an elastica from the roller to
+/// the middle, where its tangent is level. With psi the angle of the tangent to the perpendicular of the roller's
+/// reaction N, from phi at the roller to phi + theta in the middle,
 ///   EI psi'^2 / 2 = N (sin psi - sin phi),
 /// so that the distances along and across that perpendicular are
-///   x = sqrt(2 EI / N) sqrt(sin(phi + theta) - sin phi),  y = sqrt(EI / (2 N)) integral of sin psi / sqrt(sin psi -
-///   sin phi),
+///   x = sqrt(2 EI / N) sqrt(sin(phi + theta) - sin phi),  y = sqrt(EI / (2 N)) integral of sin psi / sqrt(sin psi - sin phi),
 /// and the roller is where the span says: N follows for each theta (Frisch-Fay 1962, Flexible Bars, for phi = 0).
+/// Friction holds the wire back as it slides in over the rollers, and as it slides out: phi = -atan(friction) while it
+/// is pressed, + on its way back.
 ///
 /// A section law that is not linear, or that remembers, changes this force by the ratio that beams of small slope have
-/// with it and without: curvature at 12 stations from the moment's history (`section.h`), deflection by virtual work.
+/// with it and without: curvature at 8 stations from the moment's history (`section.h`), deflection by virtual work.
 #include "data/identification/curves/set_reader.h"
 #include "data/identification/curves/three_point_bend/section.h"
 
