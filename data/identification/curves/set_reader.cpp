@@ -9,6 +9,12 @@
 
 namespace ostium::data::curves {
 
+const JsonObjectKeys effect_keys = {
+    "effect",
+    {{"id", true, "the id of an effect, a text", json_type::text()},
+     {"form", false, "the form of an effect that has several, a text", json_type::text()},
+     {"parameters", true, "numbers by their names, an object", json_type::values_by_name({json_type::number()})}}};
+
 const std::vector<Kind>& kinds() {
   static const std::vector<Kind> list = {three_point_bend::kind()};
   return list;
@@ -80,13 +86,8 @@ namespace {
 std::vector<Switched> read_effects(const JsonObject& root, const Set& set) {
   std::vector<Switched> out;
   if (!root.has("effects")) return out;
-  static const JsonObjectKeys keys = {
-      "effect",
-      {{"id", true, "the id of an effect, a text", json_type::text()},
-       {"form", false, "the form of an effect that has several, a text", json_type::text()},
-       {"parameters", true, "numbers by their names, an object", json_type::values_by_name({json_type::number()})}}};
   for (const JsonValue& value : root.list("effects")) {
-    const JsonObject entry(value, keys);
+    const JsonObject entry(value, effect_keys);
     const std::string id = entry.text("id"), form = entry.has("form") ? entry.text("form") : "";
     const auto known = std::find_if(set.effects().begin(), set.effects().end(), [&](const EffectHead& e) {
       return e.id == id && (form.empty() || e.form == form);

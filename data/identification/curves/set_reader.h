@@ -25,6 +25,7 @@ std::unique_ptr<Set> read_set(const JsonValue& root);
 
 /// Keys of the file's own object that every kind has.
 std::vector<JsonKey> with_common_keys(const std::string& kind, std::vector<JsonKey> own);
+extern const JsonObjectKeys effect_keys;  ///< of an effect that a file declares
 inline constexpr const char* one_or_more = "runs in the order in which they were made, not empty";
 
 /// What every kind has: title, source, what a fit found before, and the effects that the file declares.

@@ -90,7 +90,8 @@ double force_for(const SectionLaw& law, double span_m, double to_m, States& stat
     return 0;
   }
   // Secants within the bracket (regula falsi; Illinois), as the deflection rises with the force.
-  double at_low = deflection(law, span_m, low, states, nullptr) - to_m, at_high = deflection(law, span_m, high, states, nullptr) - to_m;
+  double at_low = deflection(law, span_m, low, states, nullptr) - to_m,
+         at_high = deflection(law, span_m, high, states, nullptr) - to_m;
   double force = low;
   for (int i = 0, side = 0; i < 50; ++i) {
     force = (low * at_high - high * at_low) / (at_high - at_low);
@@ -343,7 +344,7 @@ curves::Kind kind() {
   return {"three_point_bend",
           "force against displacement of a wire on two rollers, there and back",
           read,
-          {&set_keys, &instrument_keys, &section_keys, &rig_keys, &noise_keys, &run_keys},
+          {&set_keys, &instrument_keys, &section_keys, &rig_keys, &noise_keys, &run_keys, &curves::effect_keys},
           "run,time_s,displacement_mm,force_N\nb0,0.5,0.026,0.0061\n"};
 }
 
