@@ -13,7 +13,9 @@
 #include "app/command_line/interrupt.h"
 #include "app/command_line/progress.h"
 #include "app/command_line/templates.h"
+#include "app/commands/explain_curves.h"
 #include "data/formats/write_file.h"
+#include "data/identification/curves/set_reader.h"
 #include "data/identification/measurement/measurement_reader.h"
 #include "data/identification/report/explanation_report.h"
 
@@ -79,6 +81,20 @@ int write_a_template(const Arguments& a) {
   return 0;
 }
 
+/// A set of curves is quick: the first rank does it all.
+int run_curves(const Arguments& a, const data::JsonValue& root) {
+  if (data::rank() != 0) return 0;
+  make_folder(a.folder);
+  const FolderLock lock(a.folder);
+  data::curves::CurveOptions options;
+  for (const std::string& words : a.tries) options.tries.push_back(split(words, '+'));
+  options.progress = TimedProgress(*root.file + ": ", 60, 60);
+  stop_on_signals();
+  options.stop = [] { return interrupted.load(); };
+  explain_curves(root, options, a.folder, a.json);
+  return 0;
+}
+
 /// Under mpirun only the first rank writes.
 int run(const Arguments& a) {
   if (!a.kind.empty()) return write_a_template(a);
@@ -87,6 +103,8 @@ int run(const Arguments& a) {
     return 2;
   }
   const data::Ranks mpi;
+  const data::JsonValue root = data::load_json(data::measurement_file(a.set));
+  if (data::curves::kind_of(root)) return run_curves(a, root);
   const data::MeasurementSet set = data::load_measurement(a.set);
   if (data::rank() == 0) make_folder(a.folder);
   const FolderLock lock = data::rank() == 0 ? FolderLock(a.folder) : FolderLock();

@@ -6,7 +6,9 @@
 #include "app/command_line/command.h"
 #include "app/command_line/common_options.h"
 #include "app/command_line/progress.h"
+#include "app/commands/explain_curves.h"
 #include "data/formats/write_file.h"
+#include "data/identification/curves/set_reader.h"
 #include "data/identification/forward/prediction.h"
 #include "data/identification/measurement/measurement_reader.h"
 
@@ -47,6 +49,11 @@ void print_table(const std::vector<data::Prediction>& predictions) {
 }
 
 int run(const Arguments& a) {
+  const data::JsonValue root = data::load_json(data::measurement_file(a.set));
+  if (data::curves::kind_of(root)) {
+    predict_curves(root, a.folder, a.json);
+    return 0;
+  }
   const data::MeasurementSet set = data::load_measurement(a.set);
   const auto predictions = predict(set, [&](std::size_t done, std::size_t of) {
     show_progress(done < of ? fmt::format("experiment {} of {}", done, of) : "");

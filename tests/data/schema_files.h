@@ -11,13 +11,14 @@
 #include "data/catalogue/instrument/instrument_keys.h"
 #include "data/catalogue/script/script_keys.h"
 #include "data/formats/json_schema.h"
+#include "data/identification/curves/set_reader.h"
 #include "data/identification/measurement/measurement_keys.h"
 #include "data/identification/measurement/projection_keys.h"
 
 namespace ostium::data {
 
 inline std::vector<JsonFormat> json_formats() {
-  return {
+  std::vector<JsonFormat> formats = {
       {"ostium-script/1", "What an operator does", script_keys::all},
       {"ostium-case/1", "A case to rehearse on", case_keys::all},
       {"ostium-instrument/1",
@@ -27,21 +28,25 @@ inline std::vector<JsonFormat> json_formats() {
        "A measured set: one instrument or nested ones, measured several times. The reader also refuses gaps, "
        "instruments pushed in further than they are long, and bases without a direction.",
        measurement_keys::all},
-      {"ostium-projections/2",
+      {"ostium-measurement/2",
        "A measured set of kind projections: a wire seen by the views of a C-arm, as pixels along it. The reader also "
        "refuses views whose numbers do not go together, and polylines outside the picture or in other units.",
-       projection_keys::all},
+       projection_keys::all, "projections"},
       {"ostium-anatomy/1",
        "Tubes, names and landmarks of an imported lumen; patient frame (x left, y head, z front), mm",
        anatomy_keys::all},
       {"ostium-tree/1", "A centreline-sphere tree; patient frame (x left, y head, z front), mm", tree_keys::all},
       {"ostium-scoring/1", "Steps, errors and critical errors of a procedure (data/scoring)", scoring_keys::all}};
+  for (const curves::Kind& kind : curves::kinds())
+    formats.push_back({"ostium-measurement/2", "A measured set: " + kind.what, kind.keys, kind.name});
+  return formats;
 }
 
-/// "script.schema.json" of "ostium-script/1".
+/// "script.schema.json" of "ostium-script/1", "measurement-density.schema.json" of a form.
 inline std::string schema_file(const JsonFormat& format) {
   const std::size_t from = format.id.find('-') + 1;
-  return format.id.substr(from, format.id.find('/') - from) + ".schema.json";
+  const std::string form = format.form.empty() ? "" : "-" + format.form;
+  return format.id.substr(from, format.id.find('/') - from) + form + ".schema.json";
 }
 
 inline std::string schema_text(const JsonFormat& format) {

@@ -1,6 +1,7 @@
 #pragma once
 /// The keys of a set of projections: a wire seen by the views of a C-arm, as pixels along it. What such a set shares
-/// with others is in measurement_keys.h; the schema (data/schemas/projections.schema.json) is generated from both.
+/// with others is in measurement_keys.h; the schema (data/schemas/measurement-projections.schema.json) is generated
+/// from both.
 #include <algorithm>
 
 #include "data/identification/measurement/measurement_keys.h"

@@ -6,23 +6,11 @@
 #include "data/formats/markup.h"
 #include "data/identification/report/explanation_plots.h"
 #include "data/identification/report/explanation_report.h"
+#include "data/identification/report/explanation_style.h"
 
 namespace ostium::data {
 
 namespace {
-
-const char* const style = R"(
-body { font: 15px/1.45 system-ui, sans-serif; color: #222; max-width: 980px; margin: 24px auto; padding: 0 16px; }
-h1 { font-size: 22px; margin: 0 0 4px; } h2 { font-size: 17px; margin: 28px 0 8px; }
-.source { color: #666; font-size: 13px; }
-.verdict { border-left: 6px solid #888; padding: 8px 14px; background: #f6f6f6; margin: 14px 0; font-size: 17px; }
-.verdict.explained { border-color: #009e73; } .verdict.effect, .verdict.mostly { border-color: #0072b2; }
-.verdict.unexplained { border-color: #d55e00; } .verdict.ambiguous { border-color: #cc79a7; }
-.verdict.cannot_be_judged { border-color: #cc79a7; }
-table { border-collapse: collapse; font-size: 14px; } th { text-align: left; font-weight: 600; }
-th { vertical-align: bottom; } th, td { padding: 3px 14px 3px 0; border-bottom: 1px solid #e4e4e4; } td.n { text-align: right; font-variant-numeric: tabular-nums; }
-tr.weak td { color: #888; } svg { max-width: 100%; height: auto; margin: 4px 6px 4px 0; }
-)";
 
 std::string cell(const std::string& words) { return "<td class=\"n\">" + words + "</td>"; }
 std::string number(const std::optional<double>& value, double unit = 1, const char* none = "&ndash;") {
@@ -102,7 +90,7 @@ std::string to_html(const MeasurementSet& as_read, const Explanation& x) {
   std::string out =
       "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" "
       "content=\"width=device-width\">\n<title>" +
-      escaped(set.title) + "</title><style>" + style + "</style></head><body>\n";
+      escaped(set.title) + "</title><style>" + explanation_style + "</style></head><body>\n";
   out += "<h1>" + escaped(set.title) + "</h1>\n<div class=\"source\">" + escaped(set.source) + "</div>\n";
   out += fmt::format("<div class=\"verdict {0}\"><b>{0}</b>: {1}</div>\n<ul>\n", to_string(x.verdict),
                      escaped(x.verdict_text[0]));

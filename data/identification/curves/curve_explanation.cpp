@@ -1,0 +1,17 @@
+#include "data/identification/curves/curve_explanation.h"
+
+#include "data/identification/curves/curve_search.h"
+#include "data/identification/curves/curve_verdict.h"
+#include "data/identification/curves/set_reader.h"
+
+namespace ostium::data::curves {
+
+CurveExplanation explain_curves(const JsonValue& root, const CurveOptions& options) {
+  CurveExplanation out;
+  out.set = read_set(root);
+  Search(out.set, root, options).run(out);
+  decide(out);
+  return out;
+}
+
+}  // namespace ostium::data::curves

@@ -1,0 +1,295 @@
+#include "data/identification/curves/curve_fit.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+
+#include "data/identification/estimation/least_squares.h"
+
+namespace ostium::data::curves {
+
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+double inner(const EffectParameter& p, double value) { return p.logarithmic ? std::log(value) : value; }
+double outer(const EffectParameter& p, double x) { return p.logarithmic ? std::exp(x) : x; }
+
+}  // namespace
+
+double Model::rms() const {
+  double sum = 0, count = 0;
+  for (const Curves& run : misfits)
+    for (const VectorXd& channel : run) sum += channel.squaredNorm(), count += static_cast<double>(channel.size());
+  return count > 0 ? std::sqrt(sum / count) : 0;
+}
+
+/// A model's numbers: those that are free in what is declared, then those of each effect.
+struct Fit::Problem {
+  const Set& set;
+  std::vector<std::size_t> effects;
+  std::vector<EffectParameter> list;
+  std::vector<std::string> labels;
+
+  VectorXd each(double (*of)(const EffectParameter&)) const {
+    VectorXd out(static_cast<Eigen::Index>(list.size()));
+    for (std::size_t i = 0; i < list.size(); ++i) out[static_cast<Eigen::Index>(i)] = of(list[i]);
+    return out;
+  }
+  VectorXd prior() const {
+    return each([](const EffectParameter& p) { return inner(p, p.prior); });
+  }
+  VectorXd spread() const {
+    return each([](const EffectParameter& p) { return p.spread; });
+  }
+  VectorXd least() const {
+    return each([](const EffectParameter& p) { return inner(p, p.least); });
+  }
+  VectorXd most() const {
+    return each([](const EffectParameter& p) { return inner(p, p.most); });
+  }
+
+  std::vector<double> free_at(const VectorXd& x) const {
+    std::vector<double> out;
+    for (std::size_t i = 0; i < set.free().size(); ++i) out.push_back(outer(list[i], x[static_cast<Eigen::Index>(i)]));
+    return out;
+  }
+  std::vector<Switched> on_at(const VectorXd& x) const {
+    std::vector<Switched> out;
+    std::size_t at = set.free().size();
+    for (const std::size_t e : effects) {
+      out.push_back({e, {}});
+      for (std::size_t p = 0; p < set.effects()[e].parameters.size(); ++p, ++at)
+        out.back().values.push_back(outer(list[at], x[static_cast<Eigen::Index>(at)]));
+    }
+    return out;
+  }
+  /// Measured minus model, in units of the noise as declared.
+  std::vector<Curves> misfits(const VectorXd& x) const {
+    std::vector<Curves> out = set.predict(free_at(x), on_at(x));
+    for (std::size_t r = 0; r < out.size(); ++r)
+      for (std::size_t c = 0; c < out[r].size(); ++c) {
+        const Channel& channel = set.runs()[r].channels[c];
+        out[r][c] = (channel.measured - out[r][c]).cwiseQuotient(channel.sigma);
+      }
+    return out;
+  }
+};
+
+Fit::Fit(const Set& set, const Noise& noise, std::vector<std::vector<bool>> chosen)
+    : set_(set), noise_(noise), chosen_(std::move(chosen)) {
+  if (chosen_.empty())
+    for (const Run& run : set.runs()) chosen_.emplace_back(run.channels.size(), true);
+}
+
+Fit::Problem Fit::problem(const std::vector<std::size_t>& effects) const {
+  Problem out{set_, effects, set_.free(), {}};
+  for (const EffectParameter& p : set_.free()) out.labels.push_back(p.name);
+  for (std::size_t k = 0; k < effects.size(); ++k) {
+    const EffectHead& head = set_.effects()[effects[k]];
+    const auto again = std::count(effects.begin(), effects.begin() + static_cast<std::ptrdiff_t>(k), effects[k]);
+    for (const EffectParameter& p : head.parameters) {
+      out.list.push_back(p);
+      out.labels.push_back(head.id + (again > 0 ? "(" + std::to_string(again + 1) + ")." : ".") + p.name);
+    }
+  }
+  return out;
+}
+
+namespace {
+
+/// The misfits of what is chosen as independent numbers of variance 1.
+VectorXd data_rows(const std::vector<Curves>& misfits, const Noise& noise,
+                   const std::vector<std::vector<bool>>& chosen) {
+  std::vector<VectorXd> parts;
+  Eigen::Index rows = 0;
+  for (std::size_t r = 0; r < misfits.size(); ++r)
+    for (std::size_t c = 0; c < misfits[r].size(); ++c)
+      if (chosen[r][c]) parts.push_back(whitened(misfits[r][c], noise.channels[c])), rows += parts.back().size();
+  VectorXd out(rows);
+  Eigen::Index at = 0;
+  for (const VectorXd& part : parts) out.segment(at, part.size()) = part, at += part.size();
+  return out;
+}
+
+/// Rows of the data, then of the priors; false if the model has no curves there.
+bool rows_at(const std::vector<Curves>& misfits, const Noise& noise, const std::vector<std::vector<bool>>& chosen,
+             const VectorXd& prior, VectorXd& out) {
+  const VectorXd data = data_rows(misfits, noise, chosen);
+  out.resize(data.size() + prior.size());
+  out << data, prior;
+  return out.allFinite();
+}
+
+/// The prior, and to either side of it for each new number in turn.
+std::vector<VectorXd> starts(const VectorXd& from, const VectorXd& spread, const VectorXd& least, const VectorXd& most,
+                             Eigen::Index first) {
+  std::vector<VectorXd> out = {from};
+  for (Eigen::Index i = first; i < from.size(); ++i)
+    for (const double side : {1.5, -1.5}) {
+      VectorXd to = from;
+      to[i] = std::clamp(from[i] + side * spread[i], least[i] + 0.05 * (most[i] - least[i]),
+                         most[i] - 0.05 * (most[i] - least[i]));
+      out.push_back(to);
+    }
+  return out;
+}
+
+constexpr double difference = 1e-3;   // step of derivatives, in spreads
+constexpr int look = 5, finish = 40;  // iterations of a first look at each start, and of the best one
+
+}  // namespace
+
+Model Fit::run(const std::vector<std::size_t>& effects, const Model* near) const {
+  const Problem p = problem(effects);
+  const VectorXd prior = p.prior(), spread = p.spread(), least = p.least(), most = p.most();
+  const auto residuals = [&](const VectorXd& x, VectorXd& r) {
+    return rows_at(p.misfits(x), noise_, chosen_, (x - prior).cwiseQuotient(spread), r);
+  };
+  LeastSquares descent;
+  descent.least = least, descent.most = most;
+  descent.evaluate = [&](const VectorXd& x, VectorXd& r, MatrixXd* J) {
+    if (!residuals(x, r)) return false;
+    if (!J) return true;
+    J->resize(r.size(), x.size());
+    for (Eigen::Index i = 0; i < x.size(); ++i) {
+      VectorXd to = x, r_to;
+      to[i] += x[i] + difference * spread[i] > most[i] ? -difference * spread[i] : difference * spread[i];
+      if (!residuals(to, r_to)) return false;
+      J->col(i) = (r_to - r) / (to[i] - x[i]);
+    }
+    return true;
+  };
+  VectorXd from = prior;
+  Eigen::Index known = 0;
+  if (near) {
+    known = std::min(near->x.size(), from.size());
+    from.head(known) = near->x.head(known);
+  }
+  VectorXd r;
+  if (!residuals(from, r)) {
+    from = prior;
+    if (!residuals(from, r)) throw LoadError(set_.file + ": the model has no curves for what is declared");
+  }
+  descent.residuals = static_cast<int>(r.size());
+  std::vector<LeastSquaresResult> found;
+  descent.most_iterations = look, descent.tolerance = 1e-4;
+  for (const VectorXd& start : starts(from, spread, least, most, near ? known : from.size())) {
+    descent.start = start;
+    VectorXd at_start;
+    if (residuals(start, at_start)) found.push_back(minimise(descent));
+  }
+  std::sort(found.begin(), found.end(), [](const auto& a, const auto& b) { return a.cost < b.cost; });
+  descent.most_iterations = finish, descent.tolerance = 1e-7;
+  descent.start = found.front().x;
+  const LeastSquaresResult best = minimise(descent);
+  Model out;
+  out.x = best.x, out.converged = best.converged;
+  judge(p, out);
+  return out;
+}
+
+void Fit::judge(const Problem& p, Model& model) const {
+  model.on = p.on_at(model.x);
+  model.misfits = p.misfits(model.x);
+  model.squares = data_rows(model.misfits, noise_, chosen_).squaredNorm();
+  model.numbers = static_cast<double>(model.x.size());
+  double independent = 0;
+  model.measured = 0;
+  for (std::size_t r = 0; r < model.misfits.size(); ++r)
+    for (std::size_t c = 0; c < model.misfits[r].size(); ++c) {
+      if (!chosen_[r][c]) continue;
+      const auto samples = static_cast<double>(model.misfits[r][c].size());
+      model.clipped_squares += clipped(model.misfits[r][c], noise_.channels[c]).squaredNorm();
+      model.measured += samples, independent += worth(noise_.channels[c], samples);
+    }
+  const double priors = (model.x - p.prior()).cwiseQuotient(p.spread()).squaredNorm();
+  model.bic = model.squares + priors + model.numbers * std::log(std::max(independent, 2.0));
+}
+
+double Fit::ahead(const Model& near, std::size_t effect) const {
+  std::vector<std::size_t> effects;
+  for (const Switched& s : near.on) effects.push_back(s.effect);
+  effects.push_back(effect);
+  const Problem p = problem(effects);
+  const VectorXd prior = p.prior(), spread = p.spread(), least = p.least(), most = p.most();
+  double best = near.squares;
+  VectorXd from = prior;
+  from.head(near.x.size()) = near.x;
+  for (const VectorXd& start : starts(from, spread, least, most, near.x.size())) {
+    const VectorXd r = data_rows(p.misfits(start), noise_, chosen_);
+    MatrixXd J(r.size() + start.size(), start.size());
+    VectorXd rhs(J.rows());
+    for (Eigen::Index i = 0; i < start.size(); ++i) {
+      VectorXd to = start;
+      to[i] += start[i] + difference * spread[i] > most[i] ? -difference * spread[i] : difference * spread[i];
+      J.col(i).head(r.size()) = (data_rows(p.misfits(to), noise_, chosen_) - r) / (to[i] - start[i]);
+    }
+    J.bottomRows(start.size()) = spread.cwiseInverse().asDiagonal();
+    rhs << r, (start - prior).cwiseQuotient(spread);
+    if (!J.allFinite() || !rhs.allFinite()) continue;
+    const VectorXd step = J.colPivHouseholderQr().solve(-rhs);
+    best = std::min(best, (rhs + J * step).squaredNorm());
+  }
+  return best;
+}
+
+std::vector<Fitted> Fit::parameters(const Model& model) const {
+  std::vector<std::size_t> effects;
+  for (const Switched& s : model.on) effects.push_back(s.effect);
+  const Problem p = problem(effects);
+  const VectorXd spread = p.spread(), least = p.least(), most = p.most();
+  MatrixXd J(data_rows(model.misfits, noise_, chosen_).size(), model.x.size());
+  for (Eigen::Index i = 0; i < model.x.size(); ++i) {
+    VectorXd up = model.x, down = model.x;
+    up[i] = std::min(up[i] + difference * spread[i], most[i]),
+    down[i] = std::max(down[i] - difference * spread[i], least[i]);
+    J.col(i) =
+        (data_rows(p.misfits(up), noise_, chosen_) - data_rows(p.misfits(down), noise_, chosen_)) / (up[i] - down[i]);
+  }
+  MatrixXd H = J.transpose() * J;
+  H.diagonal() += spread.cwiseAbs2().cwiseInverse();
+  // More scatter than the noise has widens what is known.
+  const MatrixXd covariance =
+      H.ldlt().solve(MatrixXd::Identity(H.rows(), H.cols())) * std::max(model.per_freedom(), 1.0);
+  std::vector<Fitted> out;
+  for (std::size_t i = 0; i < p.list.size(); ++i) {
+    const auto k = static_cast<Eigen::Index>(i);
+    Fitted f{p.list[i], p.labels[i]};
+    f.value = outer(f.parameter, model.x[k]);
+    const double sigma = std::sqrt(std::max(covariance(k, k), 0.0));
+    f.sigma = f.parameter.logarithmic ? f.value * sigma : sigma;
+    f.informed = std::clamp(1 - covariance(k, k) / (spread[k] * spread[k]), 0.0, 1.0);
+    out.push_back(f);
+  }
+  return out;
+}
+
+void Fit::hold_out(Model& model) const {
+  std::vector<std::size_t> effects;
+  for (const Switched& s : model.on) effects.push_back(s.effect);
+  const std::size_t runs = set_.runs().size(), channels = set_.runs()[0].channels.size();
+  const std::size_t units = set_.hold_out_channels ? channels : runs, folds = std::min<std::size_t>(4, units);
+  if (units < 2) return;
+  double sum = 0, count = 0;
+  for (std::size_t fold = 0; fold < folds; ++fold) {
+    std::vector<std::vector<bool>> fitted = chosen_, scored = chosen_;
+    for (std::size_t r = 0; r < runs; ++r)
+      for (std::size_t c = 0; c < channels; ++c) {
+        const bool out = (set_.hold_out_channels ? c : r) * folds / units == fold;
+        fitted[r][c] = chosen_[r][c] && !out, scored[r][c] = chosen_[r][c] && out;
+      }
+    const auto any = [](const auto& list) {
+      return std::any_of(list.begin(), list.end(),
+                         [](const auto& run) { return std::any_of(run.begin(), run.end(), [](bool b) { return b; }); });
+    };
+    if (!any(fitted) || !any(scored)) continue;
+    const Model without = Fit(set_, noise_, fitted).run(effects, &model);
+    const VectorXd left = data_rows(without.misfits, noise_, scored);
+    sum += left.squaredNorm(), count += static_cast<double>(left.size());
+  }
+  if (count > 0) model.held_out = std::sqrt(sum / count);
+}
+
+}  // namespace ostium::data::curves

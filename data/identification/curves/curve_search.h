@@ -1,0 +1,33 @@
+#pragma once
+/// Searches effects and mistakes of the data for what removes a set's residual.
+#include "data/identification/curves/curve_explanation.h"
+
+namespace ostium::data::curves {
+
+/// BIC differences that count as strong and as positive evidence (Kass, Raftery 1995, J Am Stat Assoc 90:773).
+inline constexpr double strong = 6, positive = 2;
+
+class Search {
+ public:
+  Search(std::shared_ptr<const Set> set, const JsonValue& root, const CurveOptions& options);
+
+  /// The declared model and candidates, best first, all judged with one noise.
+  void run(CurveExplanation& out);
+
+ private:
+  Candidate candidate(const std::vector<std::size_t>& effects, const Model* near, const Noise& noise) const;
+  std::vector<std::size_t> promising(const Candidate& c, std::size_t most) const;
+  void grow(std::vector<Candidate>& list, const Candidate& declared);
+  void prune(std::vector<Candidate>& list) const;
+  void add_faults(std::vector<Candidate>& list, const Candidate& declared) const;
+  void judge(Candidate& c, const Candidate& declared, const Noise& noise) const;
+  bool stopped() const { return options_.stop && options_.stop(); }
+  void say(const std::string& what) const;
+
+  std::shared_ptr<const Set> set_;
+  const JsonValue& root_;
+  const CurveOptions& options_;
+  Noise noise_;
+};
+
+}  // namespace ostium::data::curves

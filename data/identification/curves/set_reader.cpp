@@ -1,0 +1,139 @@
+#include "data/identification/curves/set_reader.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "data/identification/curves/three_point_bend/three_point_bend.h"
+
+namespace ostium::data::curves {
+
+const JsonObjectKeys effect_keys = {
+    "effect",
+    {{"id", true, "the id of an effect, a text", json_type::text()},
+     {"form", false, "the form of an effect that has several, a text", json_type::text()},
+     {"parameters", true, "numbers by their names, an object", json_type::values_by_name({json_type::number()})}}};
+
+const std::vector<Kind>& kinds() {
+  static const std::vector<Kind> list = {three_point_bend::kind()};
+  return list;
+}
+
+const Kind* kind_of(const JsonValue& root) {
+  const JsonValue* named = root.find("kind");
+  if (!named || named->type != JsonValue::Type::text) return nullptr;
+  if (named->text == "centrelines" || named->text == "projections") return nullptr;
+  std::string names = "\"centrelines\", \"projections\"";
+  for (const Kind& kind : kinds()) {
+    if (kind.name == named->text) return &kind;
+    names += ", \"" + kind.name + "\"";
+  }
+  named->refuse("a kind of measurement: " + names);
+}
+
+std::unique_ptr<Set> read_set(const JsonValue& root) {
+  const Kind* kind = kind_of(root);
+  if (!kind) root.fail("no \"kind\"; expected one whose runs are curves");
+  return kind->read(root);
+}
+
+std::vector<JsonKey> with_common_keys(const std::string& kind, std::vector<JsonKey> own) {
+  std::vector<JsonKey> keys = {
+      {"schema", true, "\"ostium-measurement/2\"", json_type::constant("ostium-measurement/2")},
+      {"kind", true, "\"" + kind + "\"", json_type::constant(kind)},
+      {"title", true, "what was measured, a text", json_type::text()},
+      {"source", false, "who measured, how, under which licence, a text", json_type::text()},
+      {"effects", false, "effects that the model is to include, a list",
+       json_type::list_of(json_type::object("effect"))},
+      {"fitted", false, "numbers that a fit found, by their names, an object",
+       json_type::values_by_name({json_type::number()})}};
+  keys.insert(keys.end(), own.begin(), own.end());
+  return keys;
+}
+
+Eigen::VectorXd read_samples(const JsonObject& run, const std::string& key, Eigen::Index least) {
+  const std::vector<JsonValue>& list = run.list(key);
+  Eigen::VectorXd out(static_cast<Eigen::Index>(list.size()));
+  for (std::size_t k = 0; k < list.size(); ++k) {
+    if (list[k].type != JsonValue::Type::number) list[k].refuse("a number");
+    out[static_cast<Eigen::Index>(k)] = list[k].number;
+  }
+  if (out.size() < least)
+    run[key].fail(fmt::format("{} has {} numbers; expected at least {}", run[key].path(), out.size(), least));
+  return out;
+}
+
+Eigen::VectorXd read_samples_like(const JsonObject& run, const std::string& key, const Eigen::VectorXd& of,
+                                  const std::string& of_key) {
+  const Eigen::VectorXd out = read_samples(run, key, 0);
+  if (out.size() != of.size())
+    run[key].fail(
+        fmt::format("{} has {} numbers; expected {}, as {} has", run[key].path(), out.size(), of.size(), of_key));
+  return out;
+}
+
+Run begin_run(const JsonObject& entry, const std::vector<Run>& others) {
+  Run run;
+  run.id = entry.text("id"), run.place = entry.value().path();
+  if (entry.has("group")) run.group = entry.text("group");
+  for (const Run& other : others)
+    if (other.id == run.id) entry["id"].refuse("an id that no other run has; " + other.place + " has it");
+  return run;
+}
+
+namespace {
+
+std::vector<Switched> read_effects(const JsonObject& root, const Set& set) {
+  std::vector<Switched> out;
+  if (!root.has("effects")) return out;
+  for (const JsonValue& value : root.list("effects")) {
+    const JsonObject entry(value, effect_keys);
+    const std::string id = entry.text("id"), form = entry.has("form") ? entry.text("form") : "";
+    const auto known = std::find_if(set.effects().begin(), set.effects().end(), [&](const EffectHead& e) {
+      return e.id == id && (form.empty() || e.form == form);
+    });
+    if (known == set.effects().end()) {
+      std::string names;
+      for (const EffectHead& e : set.effects()) names += (names.empty() ? "" : ", ") + e.name();
+      entry["id"].refuse("an effect that can show in this set: " + names);
+    }
+    Switched on{static_cast<std::size_t>(known - set.effects().begin()), {}};
+    for (const EffectParameter& p : known->parameters) {
+      const JsonValue* number = entry["parameters"].find(p.name);
+      on.values.push_back(number ? number->number : p.prior);
+      if (on.values.back() < p.least || on.values.back() > p.most)
+        number->refuse(fmt::format("{} from {:g} to {:g} {}", p.what, p.least, p.most, p.unit));
+    }
+    for (const auto& [name, number] : entry["parameters"].members)
+      if (std::none_of(known->parameters.begin(), known->parameters.end(),
+                       [&, &key = name](const EffectParameter& p) { return p.name == key; }))
+        number.fail(fmt::format("{} has no number \"{}\"", id, name));
+    out.push_back(on);
+  }
+  return out;
+}
+
+void read_fitted(const JsonValue& fitted, std::vector<EffectParameter>& free) {
+  if (fitted.type != JsonValue::Type::object) fitted.refuse("an object");
+  for (const auto& [name, number] : fitted.members) {
+    const auto known =
+        std::find_if(free.begin(), free.end(), [&, &key = name](const EffectParameter& p) { return p.name == key; });
+    if (known == free.end()) number.fail(fmt::format("no fit of this set has a number \"{}\"", name));
+    if (number.type != JsonValue::Type::number || number.number < known->least || number.number > known->most)
+      number.refuse(fmt::format("a number from {:g} to {:g}", known->least, known->most));
+    known->prior = number.number;
+  }
+}
+
+}  // namespace
+
+void declare(const JsonObject& root, Set& set) {
+  if (root.text("schema") != "ostium-measurement/2") root.refuse("schema");
+  set.file = *root.value().file, set.kind = root.text("kind"), set.title = root.text("title");
+  if (root.has("source")) set.source = root.text("source");
+  if (root.has("fitted")) read_fitted(root["fitted"], set.free_);
+  set.declared_ = read_effects(root, set);
+}
+
+}  // namespace ostium::data::curves

@@ -1,0 +1,41 @@
+#pragma once
+/// What sets of all kinds of curves share in their files (schema ostium-measurement/2), and the list of kinds.
+#include <memory>
+
+#include "data/formats/json_object.h"
+#include "data/identification/curves/curve_kind.h"
+
+namespace ostium::data::curves {
+
+/// A kind of curves: its name in files, and its reader.
+struct Kind {
+  std::string name, what;
+  std::unique_ptr<Set> (*read)(const JsonValue& root);
+  std::vector<const JsonObjectKeys*> keys;  ///< for its schema; the file's own object comes first
+};
+
+/// In the order in which they are listed to users.
+const std::vector<Kind>& kinds();
+
+/// The kind that the file names, or null: then it is a set of shapes. Throws LoadError for a kind that is unknown.
+const Kind* kind_of(const JsonValue& root);
+
+std::unique_ptr<Set> read_set(const JsonValue& root);
+
+/// Keys of the file's own object that every kind has.
+std::vector<JsonKey> with_common_keys(const std::string& kind, std::vector<JsonKey> own);
+extern const JsonObjectKeys effect_keys;  ///< of an effect that a file declares
+inline constexpr const char* one_or_more = "runs in the order in which they were made, not empty";
+
+/// What every kind has: title, source, what a fit found before, and the effects that the file declares.
+void declare(const JsonObject& root, Set& set);
+
+/// Numbers of one key, all finite, at least `least` of them.
+Eigen::VectorXd read_samples(const JsonObject& run, const std::string& key, Eigen::Index least = 4);
+/// The same, as many as `of` has.
+Eigen::VectorXd read_samples_like(const JsonObject& run, const std::string& key, const Eigen::VectorXd& of,
+                                  const std::string& of_key);
+/// id, group and place; refuses an id that another run has.
+Run begin_run(const JsonObject& entry, const std::vector<Run>& others);
+
+}  // namespace ostium::data::curves

@@ -1,0 +1,15 @@
+/// The load cell was not zeroed: the same force is added to every sample of every run.
+#include "data/identification/curves/three_point_bend/three_point_bend.h"
+
+namespace ostium::data::three_point_bend {
+
+Effect zero_offset() {
+  Effect effect;
+  effect.head.id = "zero_offset";
+  effect.head.what = "a load cell that was not zeroed";
+  effect.head.parameters = {{"force_N", "N", "what it shows without a load", 0, 0.05, -2, 2, false}};
+  effect.apply = [](const std::vector<double>& v, Setup& setup) { setup.zero_N += v[0]; };
+  return effect;
+}
+
+}  // namespace ostium::data::three_point_bend

@@ -1,0 +1,12 @@
+#include "tests/support/bench_set.h"
+
+#include "tests/support/bend_set.h"
+
+namespace ostium::synthetic {
+
+const std::vector<BenchKind>& bench_kinds() {
+  static const std::vector<BenchKind> list = {bend_kind()};
+  return list;
+}
+
+}  // namespace ostium::synthetic
