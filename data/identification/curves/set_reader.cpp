@@ -6,11 +6,12 @@
 #include <cmath>
 
 #include "data/identification/curves/three_point_bend/three_point_bend.h"
+#include "data/identification/curves/torque_response/torque_response.h"
 
 namespace ostium::data::curves {
 
 const std::vector<Kind>& kinds() {
-  static const std::vector<Kind> list = {three_point_bend::kind()};
+  static const std::vector<Kind> list = {three_point_bend::kind(), torque_response::kind()};
   return list;
 }
 
