@@ -5,13 +5,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "data/identification/curves/push_pull/push_pull.h"
 #include "data/identification/curves/three_point_bend/three_point_bend.h"
 #include "data/identification/curves/torque_response/torque_response.h"
 
 namespace ostium::data::curves {
 
 const std::vector<Kind>& kinds() {
-  static const std::vector<Kind> list = {three_point_bend::kind(), torque_response::kind()};
+  static const std::vector<Kind> list = {three_point_bend::kind(), torque_response::kind(), push_pull::kind()};
   return list;
 }
 

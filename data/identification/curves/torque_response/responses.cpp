@@ -12,7 +12,7 @@ namespace {
 using Eigen::VectorXd;
 using units::degree, units::mm;
 
-constexpr double cell_m = 0.012;  // of a bend in which a wire that is curved at rest is pulled
+constexpr double cell_m = 0.025;  // of a bend in which a wire that is curved at rest is pulled
 constexpr int fewest_cells = 3;
 constexpr double least_compliance = 1;  // rad/(N m), of some 30 um of wire: contacts at one place turn as one
 

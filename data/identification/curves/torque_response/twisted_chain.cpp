@@ -7,9 +7,11 @@ namespace ostium::data::torque_response {
 
 namespace {
 
-constexpr double most_turned = 0.07;  // rad a step where a wire may snap, so that it snaps from where it should
-constexpr double most_step = 0.4;     // rad of Newton's method
-constexpr double settled = 1e-10;     // rad
+// rad a step, and where a wire may snap, so that it snaps from where it should
+constexpr double most_turned = 0.3, most_turned_near_snap = 0.07;
+constexpr double near_snap = 0.4;  // pull of a whole wire times its compliance; it has several angles at rest from 1
+constexpr double most_step = 0.4;  // rad of Newton's method
+constexpr double settled = 1e-9;   // rad
 constexpr int most_changes = 100, most_newton = 60;
 
 }  // namespace
@@ -18,13 +20,19 @@ TwistedChain::TwistedChain(std::vector<Node> nodes, double handed)
     : nodes_(std::move(nodes)), root_of_handed_(std::sqrt(handed)) {
   angle_ = Vector::Zero(static_cast<Eigen::Index>(nodes_.size()));
   state_.resize(nodes_.size(), State::stands);
-  for (const Node& node : nodes_) pulled_ = pulled_ || node.pull_Nm[0] != 0 || node.pull_Nm[1] != 0;
+  double compliance = 0, unsteady = 0;
+  spring_.resize(angle_.size());
+  for (std::size_t k = 0; k < nodes_.size(); ++k) {
+    const double pull = std::hypot(nodes_[k].pull_Nm[0], nodes_[k].pull_Nm[1]);
+    spring_[static_cast<Eigen::Index>(k)] = 1 / nodes_[k].compliance;
+    compliance += nodes_[k].compliance, unsteady += pull * compliance, pulled_ = pulled_ || pull > 0;
+  }
+  most_turned_ = unsteady > near_snap ? most_turned_near_snap : most_turned;
   settle(angle_);
 }
 
 double TwistedChain::stiffness(Eigen::Index spring) const {
-  const double k = 1 / nodes_[static_cast<std::size_t>(spring)].compliance;
-  return twist(spring) > 0 ? k * root_of_handed_ : k / root_of_handed_;
+  return twist(spring) > 0 ? spring_[spring] * root_of_handed_ : spring_[spring] / root_of_handed_;
 }
 
 /// What springs and pull turn a node with, without friction.
@@ -107,7 +115,7 @@ void TwistedChain::settle(const Vector& before) {
 
 void TwistedChain::turn(double proximal_rad) {
   const double from = proximal_, by = proximal_rad - from;
-  const int steps = pulled_ ? std::max(1, static_cast<int>(std::ceil(std::fabs(by) / most_turned))) : 1;
+  const int steps = pulled_ ? std::max(1, static_cast<int>(std::ceil(std::fabs(by) / most_turned_))) : 1;
   for (int k = 1; k <= steps; ++k) {
     const Vector before = angle_;
     proximal_ = from + by * k / steps;

@@ -36,7 +36,8 @@ class TwistedChain {
   std::vector<Node> nodes_;
   double root_of_handed_;
   bool pulled_ = false;
-  double proximal_ = 0;
+  double most_turned_ = 0, proximal_ = 0;
+  Vector spring_;  ///< stiffness towards the drive
   Vector angle_;
   std::vector<State> state_;
 };
