@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "data/identification/curves/push_pull/push_pull.h"
 #include "data/identification/curves/three_point_bend/three_point_bend.h"
+#include "data/identification/curves/torque_response/torque_response.h"
 
 namespace ostium::data::curves {
 
@@ -16,7 +18,7 @@ const JsonObjectKeys effect_keys = {
      {"parameters", true, "numbers by their names, an object", json_type::values_by_name({json_type::number()})}}};
 
 const std::vector<Kind>& kinds() {
-  static const std::vector<Kind> list = {three_point_bend::kind()};
+  static const std::vector<Kind> list = {three_point_bend::kind(), torque_response::kind(), push_pull::kind()};
   return list;
 }
 
