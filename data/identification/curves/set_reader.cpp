@@ -5,12 +5,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "data/identification/curves/density/density.h"
+#include "data/identification/curves/pressure_diameter/pressure_diameter.h"
 #include "data/identification/curves/three_point_bend/three_point_bend.h"
 
 namespace ostium::data::curves {
 
 const std::vector<Kind>& kinds() {
-  static const std::vector<Kind> list = {three_point_bend::kind()};
+  static const std::vector<Kind> list = {three_point_bend::kind(), density::kind(), pressure_diameter::kind()};
   return list;
 }
 
