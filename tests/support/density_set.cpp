@@ -96,7 +96,8 @@ std::vector<List> film(const Truth& t, const Run& run) {
     const double now = time + dt / 2, since = now - inj_start - t.injection_s;
     if (since > 0) opened += dt * (1 - opened) / t.rise_s;
     const double q = 1000 * run.flow * t.shape((now + run.phase_s) / beat) * (1 + t.rise * opened);
-    const double up = std::clamp(since / inj_ramp, 0.0, 1.0), down = std::clamp((inj_length - since) / inj_ramp, 0.0, 1.0);
+    const double up = std::clamp(since / inj_ramp, 0.0, 1.0),
+                 down = std::clamp((inj_length - since) / inj_ramp, 0.0, 1.0);
     const double r = 1000 * run.rate * (1 - t.back) * std::min(up, down);
     const double c = t.iodine * strength_mg_mL / 1000 * std::min(1.0, r / q);
     // What passes in this step is shared out to the cells that it reaches.

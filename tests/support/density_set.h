@@ -9,9 +9,9 @@
 namespace ostium::bench_sets {
 
 struct MadeSet {
-  std::string json;                ///< the file
-  std::vector<double> flow_mL_s;   ///< true mean flow of each run
-  double strength = 0;             ///< of the effect, 0 to 1 of the strongest that is made
+  std::string json;               ///< the file
+  std::vector<double> flow_mL_s;  ///< true mean flow of each run
+  double strength = 0;            ///< of the effect, 0 to 1 of the strongest that is made
 };
 
 /// `effect`: an id, or "id form"; empty: nothing undeclared. `over_noise`: what the declared model leaves against the

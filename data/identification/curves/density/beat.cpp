@@ -39,8 +39,7 @@ Beat with_steps(const Beat& sampled, const std::vector<Step>& steps) {
     for (const Step& step : steps) {
       if (step.after != i) continue;
       add(step.at_phase, sampled.relative[i] + slope_before(sampled, i) * (step.at_phase - sampled.phase[i]));
-      add(step.at_phase,
-          sampled.relative[i + 1] - slope(sampled, i + 1) * (sampled.phase[i + 1] - step.at_phase));
+      add(step.at_phase, sampled.relative[i + 1] - slope(sampled, i + 1) * (sampled.phase[i + 1] - step.at_phase));
     }
   }
   return out;

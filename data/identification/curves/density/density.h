@@ -4,8 +4,8 @@
 /// Law. Blood enters at the ostium with a flow q(t) = mean * shape(phase). What the catheter injects, at the rate r(t),
 /// mixes with it at once; what exceeds q runs back into the aorta:
 ///   c_0(t) = C min(1, r / q).
-/// It moves as a plug in V = integral of q dt and spreads like diffusion with the volume passed (Taylor 1953, Proc R Soc
-/// A 219:186, whose spread grows with the way): behind a volume W of lumen the plug is later by W, and smeared by a
+/// It moves as a plug in V = integral of q dt and spreads like diffusion with the volume passed (Taylor 1953, Proc R
+/// Soc A 219:186, whose spread grows with the way): behind a volume W of lumen the plug is later by W, and smeared by a
 /// normal law of variance 2 D W. The picture shows k c A, with A the lumen's area.
 ///
 /// Behind a branch or an inflow only the share f of q flows: W = integral of A / f ds, and D counts 1 / f more.

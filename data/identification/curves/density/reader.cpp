@@ -18,31 +18,32 @@ constexpr double mm3 = mm * mm * mm;
 const JsonObjectKeys set_keys = {
     "density_set",
     curves::with_common_keys(
-        "density",
-        {{"artery", true, "its lumen, an object", json_type::object("density_artery")},
-         {"sites_mm", true, "from the ostium along the artery, rising, one or more, in mm, >= 0",
-          json_type::list_of(json_type::number(from_zero), 1)},
-         {"beats_per_min", true, "the heart's rate in 1/min, > 0", json_type::number(above_zero)},
-         {"flow_shape", true, "flow over a beat, an object", json_type::object("density_flow_shape")},
-         {"detector", true, "an object", json_type::object("density_detector")},
-         {"dispersion_mm3", true, "half the variance of volume by which contrast spreads, over the volume passed, in mm3",
-          json_type::number(from_zero)},
-         {"noise_sigma_mm", true, "noise of a density in mm, > 0, or null if it is unknown",
-          json_type::null_or(json_type::number(above_zero))},
-         {"free", false, "\"flow of each injection\", in a list",
-          json_type::list_of(json_type::constant("flow of each injection"))},
-         {"runs", true, curves::one_or_more, json_type::list_of(json_type::object("density_run"), 1)}})};
+        "density", {{"artery", true, "its lumen, an object", json_type::object("density_artery")},
+                    {"sites_mm", true, "from the ostium along the artery, rising, one or more, in mm, >= 0",
+                     json_type::list_of(json_type::number(from_zero), 1)},
+                    {"beats_per_min", true, "the heart's rate in 1/min, > 0", json_type::number(above_zero)},
+                    {"flow_shape", true, "flow over a beat, an object", json_type::object("density_flow_shape")},
+                    {"detector", true, "an object", json_type::object("density_detector")},
+                    {"dispersion_mm3", true,
+                     "half the variance of volume by which contrast spreads, over the volume passed, in mm3",
+                     json_type::number(from_zero)},
+                    {"noise_sigma_mm", true, "noise of a density in mm, > 0, or null if it is unknown",
+                     json_type::null_or(json_type::number(above_zero))},
+                    {"free", false, "\"flow of each injection\", in a list",
+                     json_type::list_of(json_type::constant("flow of each injection"))},
+                    {"runs", true, curves::one_or_more, json_type::list_of(json_type::object("density_run"), 1)}})};
 
-const JsonObjectKeys artery_keys = {
-    "density_artery",
-    {{"from_ostium_mm", true, "places along it in mm, rising from 0, two or more",
-      json_type::list_of(json_type::number(from_zero), 2)},
-     {"diameter_mm", true, "of the lumen in mm, > 0, one a place", json_type::list_of(json_type::number(above_zero), 2)}}};
+const JsonObjectKeys artery_keys = {"density_artery",
+                                    {{"from_ostium_mm", true, "places along it in mm, rising from 0, two or more",
+                                      json_type::list_of(json_type::number(from_zero), 2)},
+                                     {"diameter_mm", true, "of the lumen in mm, > 0, one a place",
+                                      json_type::list_of(json_type::number(above_zero), 2)}}};
 
 const JsonObjectKeys shape_keys = {
     "density_flow_shape",
     {{"phase", true, "of the beat, rising from 0 to 1", json_type::list_of(json_type::number(from_to(0, 1)), 3)},
-     {"relative", true, "flow there against its mean, > 0, one a phase", json_type::list_of(json_type::number(above_zero), 3)}}};
+     {"relative", true, "flow there against its mean, > 0, one a phase",
+      json_type::list_of(json_type::number(above_zero), 3)}}};
 
 const JsonObjectKeys detector_keys = {
     "density_detector",
@@ -83,9 +84,8 @@ void read_beat(const JsonObject& root, Setup& setup) {
   must_rise(shape, "phase", phase);
   if (phase[0] != 0 || phase.tail<1>()[0] != 1) shape.refuse("phase");
   if (!(relative.minCoeff() > 0)) shape.refuse("relative");
-  setup.sampled = {60 / root.positive("beats_per_min"),
-                   {phase.begin(), phase.end()},
-                   {relative.begin(), relative.end()}};
+  setup.sampled = {
+      60 / root.positive("beats_per_min"), {phase.begin(), phase.end()}, {relative.begin(), relative.end()}};
   setup.steps = steps_of(setup.sampled);
 }
 
@@ -110,7 +110,8 @@ Injection read_injection(const JsonValue& value) {
   out.rate_m3_s = entry.positive("rate_mL_s") * mL, out.iodine_kg_m3 = entry.positive("iodine_mg_mL");
   out.start_s = entry.number("start_s"), out.length_s = entry.positive("length_s");
   out.ramp_s = entry.not_negative("ramp_s");
-  if (out.ramp_s > out.length_s / 2) entry["ramp_s"].refuse(fmt::format("at most half the length, {:g} s", out.length_s / 2));
+  if (out.ramp_s > out.length_s / 2)
+    entry["ramp_s"].refuse(fmt::format("at most half the length, {:g} s", out.length_s / 2));
   return out;
 }
 
@@ -120,8 +121,8 @@ VectorXd read_times(const JsonObject& entry) {
   const double rate = entry.positive("frames_per_s"),
                seen = static_cast<double>(time.size() - 1) / (time.tail<1>()[0] - time[0]);
   if (seen < rate / 3 || seen > rate * 3)
-    entry["frames_per_s"].refuse(
-        fmt::format("a rate like that of time_s, which has {:.3g} frames a second; are its times in another unit?", seen));
+    entry["frames_per_s"].refuse(fmt::format(
+        "a rate like that of time_s, which has {:.3g} frames a second; are its times in another unit?", seen));
   return time;
 }
 

@@ -9,11 +9,11 @@ namespace {
 
 using Eigen::VectorXd;
 
-constexpr double grid_m = 0.5e-3;   // along the artery
-constexpr double grid_s = 6e-3;     // at the inlet
-constexpr double edge_m = 2e-3;     // over which a narrowing begins and ends
+constexpr double grid_m = 0.5e-3;      // along the artery
+constexpr double grid_s = 6e-3;        // at the inlet
+constexpr double edge_m = 2e-3;        // over which a narrowing begins and ends
 constexpr double of_spread = 1.0 / 6;  // volume of a cell, of the least spread
-constexpr double reach = 4.5;       // spreads that a smear is followed to
+constexpr double reach = 4.5;          // spreads that a smear is followed to
 
 /// Of samples in rising order, linear between them.
 template <class List>
@@ -34,8 +34,7 @@ double true_place(const Stretch& seen, double at_m) {
 double area_m2(const Setup& setup, double at_m) {
   const Stretch& n = setup.narrow;
   const double inside = std::min(at_m - n.from_m, n.to_m - at_m) / edge_m + 0.5;
-  const double d =
-      between(setup.place_m, setup.diameter_m, at_m) * (1 + (n.factor - 1) * std::clamp(inside, 0.0, 1.0));
+  const double d = between(setup.place_m, setup.diameter_m, at_m) * (1 + (n.factor - 1) * std::clamp(inside, 0.0, 1.0));
   return M_PI / 4 * d * d;
 }
 
@@ -58,8 +57,8 @@ std::vector<Way> ways(const Setup& setup) {
   for (Eigen::Index i = 0; i < cells; ++i) {
     const double from = static_cast<double>(i) * grid_m;
     const double cell = grid_m * area_m2(setup, from + grid_m / 2);
-    const double share = (1 - setup.branch.share * behind(setup.branch, from)) *
-                         (1 + setup.inflow.share * behind(setup.inflow, from));
+    const double share =
+        (1 - setup.branch.share * behind(setup.branch, from)) * (1 + setup.inflow.share * behind(setup.inflow, from));
     place[i + 1] = from + grid_m;
     volume[i + 1] = volume[i] + cell / share;
     variance[i + 1] = variance[i] + 2 * setup.dispersion_m3 * cell / (share * share);
@@ -96,9 +95,7 @@ class Inlet {
     }
   }
   double true_time(double frame_s) const { return setup_.time_scale * frame_s + setup_.film_later_s; }
-  double volume_m3(double time_s) const {
-    return between(time_s_, volume_m3_, time_s);
-  }
+  double volume_m3(double time_s) const { return between(time_s_, volume_m3_, time_s); }
   /// Mean concentration in cells of volume.
   VectorXd cells(double cell_m3) const {
     VectorXd out(static_cast<Eigen::Index>(std::ceil(volume_m3_.back() / cell_m3)) + 1);

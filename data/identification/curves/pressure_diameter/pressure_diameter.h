@@ -4,8 +4,9 @@
 /// Law. A free balloon has the diameter B(p) of its chart (monotone cubic between its rows, Fritsch, Butland 1984, SIAM
 /// J Sci Stat Comput 5:300; straight beyond). In a vessel the wall bears a part of the pressure:
 ///   d = B(p - w(d)),   w(d) = E (d - rest) / healthy + p_m (exp(k ((d / healthy)^2 - 1)) - 1) for d > rest,
-/// the exponential beyond the healthy diameter only (media and adventitia), as the wall of `vascular/treatment/plaque.h`
-/// before it yields. A stent keeps the largest diameter that it was given when the pressure falls.
+/// the exponential beyond the healthy diameter only (media and adventitia), as the wall of
+/// `vascular/treatment/plaque.h` before it yields. A stent keeps the largest diameter that it was given when the
+/// pressure falls.
 #include "data/identification/curves/set_reader.h"
 
 namespace ostium::data::pressure_diameter {
@@ -28,7 +29,7 @@ class Chart {
 struct Vessel {
   std::string name;
   double rest_m = 0, healthy_m = 0;
-  double stiffness_Pa = 0;               ///< E
+  double stiffness_Pa = 0;                       ///< E
   double media_Pa = 0.05 * 101325, media_k = 5;  ///< p_m, k
 };
 
@@ -44,14 +45,14 @@ struct Setup {
   Chart chart;
   std::vector<Vessel> vessels;
   std::vector<Inflation> inflations;
-  std::vector<double> place_m;   ///< where diameters are measured, along the balloon from its middle
-  double chart_scale = 1;        ///< of its diameters
-  double chart_more_m = 0;       ///< added to them
-  double gauge_Pa = 0;           ///< true pressure minus that shown
-  double counter_Pa = 0;         ///< by which a vessel presses more than declared wherever it is touched
-  double recoil = 0;             ///< share of a stent's diameter that comes back
-  double taper = 0;              ///< diameter per length along the balloon
-  double creep_per_Pa_s = 0;     ///< relative growth of the balloon
+  std::vector<double> place_m;  ///< where diameters are measured, along the balloon from its middle
+  double chart_scale = 1;       ///< of its diameters
+  double chart_more_m = 0;      ///< added to them
+  double gauge_Pa = 0;          ///< true pressure minus that shown
+  double counter_Pa = 0;        ///< by which a vessel presses more than declared wherever it is touched
+  double recoil = 0;            ///< share of a stent's diameter that comes back
+  double taper = 0;             ///< diameter per length along the balloon
+  double creep_per_Pa_s = 0;    ///< relative growth of the balloon
 };
 
 curves::Kind kind();

@@ -39,18 +39,21 @@ const JsonObjectKeys vessel_keys = {
     "inflation_vessel",
     {{"name", true, "a text other than \"free\"", json_type::text()},
      {"rest_mm", true, "diameter at rest in mm, > 0", json_type::number(above_zero)},
-     {"healthy_mm", true, "diameter beyond which media and adventitia resist, in mm, > 0", json_type::number(above_zero)},
-     {"stiffness_atm", true, "pressure over widening against healthy_mm in atm, > 0: 1.5 of a healthy artery, 32 with soft plaque, 75 with calcified",
+     {"healthy_mm", true, "diameter beyond which media and adventitia resist, in mm, > 0",
       json_type::number(above_zero)},
-     {"media_atm", false, "of the law beyond healthy_mm in atm, >= 0 (0.05 if it is not given)", json_type::number(from_zero)},
+     {"stiffness_atm", true,
+      "pressure over widening against healthy_mm in atm, > 0: 1.5 of a healthy artery, 32 with soft plaque, 75 with "
+      "calcified",
+      json_type::number(above_zero)},
+     {"media_atm", false, "of the law beyond healthy_mm in atm, >= 0 (0.05 if it is not given)",
+      json_type::number(from_zero)},
      {"media_k", false, "its exponent, > 0 (5 if it is not given)", json_type::number(above_zero)}}};
 
-const JsonObjectKeys noise_keys = {
-    "inflation_noise",
-    {{"pressure_atm", true, "of the pressure in atm, >= 0, or null if it is unknown",
-      json_type::null_or(json_type::number(from_zero))},
-     {"diameter_mm", true, "of the diameter in mm, > 0, or null if it is unknown",
-      json_type::null_or(json_type::number(above_zero))}}};
+const JsonObjectKeys noise_keys = {"inflation_noise",
+                                   {{"pressure_atm", true, "of the pressure in atm, >= 0, or null if it is unknown",
+                                     json_type::null_or(json_type::number(from_zero))},
+                                    {"diameter_mm", true, "of the diameter in mm, > 0, or null if it is unknown",
+                                     json_type::null_or(json_type::number(above_zero))}}};
 
 const JsonObjectKeys run_keys = {
     "inflation_run",
@@ -81,7 +84,8 @@ void read_balloon(const JsonValue& value, Setup& setup) {
   if (p[0] < 0) chart.refuse("pressure_atm");
   const double nominal = entry.positive("nominal_mm");
   if (!(nominal > 0.7 * d[0] && nominal < 1.3 * d.tail<1>()[0]))
-    entry["nominal_mm"].refuse(fmt::format("a diameter like those of the chart, from {:g} to {:g}", d[0], d.tail<1>()[0]));
+    entry["nominal_mm"].refuse(
+        fmt::format("a diameter like those of the chart, from {:g} to {:g}", d[0], d.tail<1>()[0]));
   const VectorXd Pa = p * atm, m = d * mm;
   setup.chart = Chart({Pa.begin(), Pa.end()}, {m.begin(), m.end()});
 }
@@ -103,11 +107,12 @@ Vessel read_vessel(const JsonValue& value, const std::vector<Vessel>& others) {
 VectorXd read_diameters(const JsonValue& list, const Inflation& run) {
   if (list.type != JsonValue::Type::array) list.refuse("a list of diameters");
   if (static_cast<Eigen::Index>(list.items.size()) != run.time_s.size())
-    list.fail(
-        fmt::format("{} has {} numbers; expected {}, as time_s has", list.path(), list.items.size(), run.time_s.size()));
+    list.fail(fmt::format("{} has {} numbers; expected {}, as time_s has", list.path(), list.items.size(),
+                          run.time_s.size()));
   VectorXd out(run.time_s.size());
   for (std::size_t k = 0; k < list.items.size(); ++k) {
-    if (list.items[k].type != JsonValue::Type::number || !(list.items[k].number > 0)) list.items[k].refuse("a diameter in mm, > 0");
+    if (list.items[k].type != JsonValue::Type::number || !(list.items[k].number > 0))
+      list.items[k].refuse("a diameter in mm, > 0");
     out[static_cast<Eigen::Index>(k)] = list.items[k].number;
   }
   return out;
@@ -119,8 +124,8 @@ void check_pressures(const JsonObject& entry, const Setup& setup, const Inflatio
   for (Eigen::Index k = 0; k < run.pressure_Pa.size(); ++k)
     if (run.pressure_Pa[k] < least || run.pressure_Pa[k] > most)
       entry.list("pressure_atm")[static_cast<std::size_t>(k)].refuse(
-          fmt::format("from {:.3g} to {:.3g} atm, as the chart says nothing of others; leave the sample out", least / atm,
-                      most / atm));
+          fmt::format("from {:.3g} to {:.3g} atm, as the chart says nothing of others; leave the sample out",
+                      least / atm, most / atm));
 }
 
 curves::Run read_run(const JsonValue& value, const JsonObject& noise, bool places, Setup& setup,
@@ -152,8 +157,9 @@ curves::Run read_run(const JsonValue& value, const JsonObject& noise, bool place
       // Noise of the pressure is seen as one of the diameter, by the slope of the chart.
       channel.sigma.resize(pressure.size());
       for (Eigen::Index k = 0; k < pressure.size(); ++k)
-        channel.sigma[k] = std::hypot(noise.positive("diameter_mm"), noise.not_negative("pressure_atm") * atm *
-                                                                         setup.chart.slope(inflation.pressure_Pa[k]) / mm);
+        channel.sigma[k] =
+            std::hypot(noise.positive("diameter_mm"),
+                       noise.not_negative("pressure_atm") * atm * setup.chart.slope(inflation.pressure_Pa[k]) / mm);
     }
     run.channels.push_back(channel);
   }

@@ -1,5 +1,5 @@
-/// Contrast opens the small vessels: the flow rises, q (1 + gain (1 - exp(-t / time))) since the injection began. A flow
-/// 15 % larger was measured (Molloi 1996, Circulation 93:1919).
+/// Contrast opens the small vessels: the flow rises, q (1 + gain (1 - exp(-t / time))) since the injection began. A
+/// flow 15 % larger was measured (Molloi 1996, Circulation 93:1919).
 #include "data/identification/curves/density/density.h"
 
 namespace ostium::data::density {

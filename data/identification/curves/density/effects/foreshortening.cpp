@@ -1,5 +1,5 @@
-/// The artery runs towards the tube or away from it, all of it or a stretch: lengths along it look shorter, so that more
-/// iodine lies on each mm of the picture, and a site lies further from the ostium than it seems.
+/// The artery runs towards the tube or away from it, all of it or a stretch: lengths along it look shorter, so that
+/// more iodine lies on each mm of the picture, and a site lies further from the ostium than it seems.
 #include "data/identification/curves/density/density.h"
 
 namespace ostium::data::density {
