@@ -12,13 +12,12 @@ namespace ostium::data::pressure_diameter_test {
 namespace {
 
 using pressure_diameter::Chart;
-using pressure_diameter::Setup;
 
 constexpr double atm = 101325, mm = 1e-3;
 
 /// A straight chart, 3 mm at 8 atm and 0.05 mm more with each, and pressures that rise to 14 atm and fall.
-Setup straight(int vessel, bool stented) {
-  Setup out;
+pressure_diameter::Setup straight(int vessel, bool stented) {
+  pressure_diameter::Setup out;
   out.chart = Chart({2 * atm, 6 * atm, 10 * atm, 14 * atm}, {2.7 * mm, 2.9 * mm, 3.1 * mm, 3.3 * mm});
   out.vessels = {{"v", 2.8 * mm, 3.5 * mm, 4 * atm, 0.05 * atm, 5}};
   out.place_m = {0};
@@ -46,7 +45,7 @@ TEST(PressureDiameter, BalloonAndWallShareThePressure) {
 }
 
 TEST(PressureDiameter, CounterPressureHoldsAtRest) {
-  Setup setup = straight(0, false);
+  pressure_diameter::Setup setup = straight(0, false);
   setup.counter_Pa = 3 * atm;
   const Eigen::VectorXd d = pressure_diameter::diameters(setup)[0][0];
   EXPECT_NEAR(d[4], 2.8, 1e-9);  // 6 atm make 2.9 mm, and 3 of them are borne before the lumen opens
@@ -54,14 +53,14 @@ TEST(PressureDiameter, CounterPressureHoldsAtRest) {
 }
 
 TEST(PressureDiameter, AStentStaysOrSpringsBack) {
-  Setup setup = straight(-1, true);
+  pressure_diameter::Setup setup = straight(-1, true);
   EXPECT_NEAR(pressure_diameter::diameters(setup)[0][0][24], 3.3, 1e-9);
   setup.recoil = 0.07;
   EXPECT_NEAR(pressure_diameter::diameters(setup)[0][0][24], 3.3 * (1 - 0.07 * 12 / 14), 1e-9);
 }
 
 TEST(PressureDiameter, CreepIsTheIntegralOfPressure) {
-  Setup setup = straight(-1, false);
+  pressure_diameter::Setup setup = straight(-1, false);
   setup.inflations[0].pressure_Pa.setConstant(10 * atm);
   setup.creep_per_Pa_s = 1e-3 / 60 / atm;
   const Eigen::VectorXd d = pressure_diameter::diameters(setup)[0][0];

@@ -76,6 +76,9 @@ struct Setup {
 
 curves::Kind kind();
 
+/// Of the lumen at a place.
+double area_m2(const Setup& setup, double at_m);
+
 /// Densities of each film, in mm, a curve for each site.
 std::vector<curves::Curves> densities(const Setup& setup);
 

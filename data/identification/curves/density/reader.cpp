@@ -14,6 +14,7 @@ using Eigen::VectorXd;
 using units::mm, units::mL;
 
 constexpr double mm3 = mm * mm * mm;
+constexpr double near_peak = 0.8;  // of the density of undiluted contrast: beyond it only a linear detector is trusted
 
 const JsonObjectKeys set_keys = {
     "density_set",
@@ -126,8 +127,14 @@ VectorXd read_times(const JsonObject& entry) {
   return time;
 }
 
+/// How densities are seen.
+struct View {
+  std::optional<double> noise_mm;
+  bool linear = true;
+};
+
 curves::Channel read_site(const JsonObject& entry, std::size_t s, const Setup& setup, const Film& film,
-                          std::optional<double> noise) {
+                          const View& view) {
   const auto k = static_cast<Eigen::Index>(s);
   const double at = setup.site_m[k] / mm;
   curves::Channel out{fmt::format("density_mm[{}]", s), fmt::format("density at {:g} mm", at), "mm", {}, {}};
@@ -141,12 +148,17 @@ curves::Channel read_site(const JsonObject& entry, std::size_t s, const Setup& s
     if (list.items[i].type != JsonValue::Type::number) list.items[i].refuse("a number");
     out.measured[static_cast<Eigen::Index>(i)] = list.items[i].number;
   }
-  if (noise) out.sigma = VectorXd::Constant(film.time_s.size(), *noise);
+  const double most = near_peak * setup.m2_per_kg * film.injection.iodine_kg_m3 * area_m2(setup, setup.site_m[k]) / mm;
+  for (std::size_t i = 0; i < list.items.size() && !view.linear; ++i)
+    if (list.items[i].number > most)
+      list.items[i].refuse(fmt::format(
+          "at most {:.3g}, {:g} % of undiluted contrast, as the detector is not linear; leave frames near the peak out",
+          most, 100 * near_peak));
+  if (view.noise_mm) out.sigma = VectorXd::Constant(film.time_s.size(), *view.noise_mm);
   return out;
 }
 
-curves::Run read_run(const JsonValue& value, std::optional<double> noise, Setup& setup,
-                     const std::vector<curves::Run>& others) {
+curves::Run read_run(const JsonValue& value, const View& view, Setup& setup, const std::vector<curves::Run>& others) {
   const JsonObject entry(value, run_keys);
   curves::Run run = curves::begin_run(entry, others);
   Film film;
@@ -157,7 +169,7 @@ curves::Run read_run(const JsonValue& value, std::optional<double> noise, Setup&
   if (entry.list("density_mm").size() != sites)
     entry["density_mm"].fail(fmt::format("{} has {} lists; expected {}, one for each of sites_mm",
                                          entry["density_mm"].path(), entry.list("density_mm").size(), sites));
-  for (std::size_t s = 0; s < sites; ++s) run.channels.push_back(read_site(entry, s, setup, film, noise));
+  for (std::size_t s = 0; s < sites; ++s) run.channels.push_back(read_site(entry, s, setup, film, view));
   run.along = film.time_s, run.along_label = "time", run.along_unit = "s";
   setup.films.push_back(film);
   return run;
@@ -192,10 +204,10 @@ std::unique_ptr<curves::Set> read(const JsonValue& file) {
   read_beat(root, setup);
   setup.m2_per_kg = detector.positive("mm2_per_mg");
   setup.dispersion_m3 = root.not_negative("dispersion_mm3") * mm3;
-  std::optional<double> noise;
-  if (root["noise_sigma_mm"].type != JsonValue::Type::null) noise = root.positive("noise_sigma_mm");
+  View view{{}, detector.boolean("linear")};
+  if (root["noise_sigma_mm"].type != JsonValue::Type::null) view.noise_mm = root.positive("noise_sigma_mm");
   std::vector<curves::Run> runs;
-  for (const JsonValue& value : root.list("runs")) runs.push_back(read_run(value, noise, setup, runs));
+  for (const JsonValue& value : root.list("runs")) runs.push_back(read_run(value, view, setup, runs));
   if (runs.empty()) root.refuse("runs");
   const std::vector<EffectParameter> free = free_numbers(setup, runs);
   auto set = std::make_unique<curves::SetOf<Setup>>(

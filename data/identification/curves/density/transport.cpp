@@ -31,12 +31,16 @@ double true_place(const Stretch& seen, double at_m) {
   return at_m + within * (1 / seen.factor - 1);
 }
 
+}  // namespace
+
 double area_m2(const Setup& setup, double at_m) {
   const Stretch& n = setup.narrow;
   const double inside = std::min(at_m - n.from_m, n.to_m - at_m) / edge_m + 0.5;
   const double d = between(setup.place_m, setup.diameter_m, at_m) * (1 + (n.factor - 1) * std::clamp(inside, 0.0, 1.0));
   return M_PI / 4 * d * d;
 }
+
+namespace {
 
 /// What lies before a site.
 struct Way {
