@@ -73,13 +73,19 @@ void add(Fault fault, const JsonValue& mended, std::vector<Fault>& out) {
   out.push_back(std::move(fault));
 }
 
+/// Whether a number is in the unit: "time_s" is in s, but "frames_per_s" and "rate_mL_s" are not.
+bool in_unit(const std::string& key, const std::string& suffix) {
+  if (!key.ends_with(suffix) || key.ends_with("_per" + suffix)) return false;
+  return suffix != "_s" || !key.ends_with("_mL_s");
+}
+
 void add_units(const JsonValue& root, std::size_t r, std::vector<Fault>& out) {
   JsonValue copy = root;
   JsonValue& run = runs_of(copy)->items[r];
   for (auto& [key, value] : run.members) {
     if (!numeric(value)) continue;
     for (const OtherUnit& unit : other_units) {
-      if (!key.ends_with(unit.suffix) || unit.factor == 1) continue;
+      if (!in_unit(key, unit.suffix) || unit.factor == 1) continue;
       const JsonValue before = value;
       multiply(value, unit.factor);
       add({"unit_error",

@@ -122,17 +122,26 @@ bool rows_at(const std::vector<Curves>& misfits, const Noise& noise, const std::
   return out.allFinite();
 }
 
-/// The prior, and to either side of it for each new number in turn.
+constexpr double anywhere = 0.4;  // of a range: a spread as large says that nothing is known of where in it
+
+/// The prior, and to either side of it for each new number in turn; all over its range if it may be anywhere.
 std::vector<VectorXd> starts(const VectorXd& from, const VectorXd& spread, const VectorXd& least, const VectorXd& most,
                              Eigen::Index first) {
   std::vector<VectorXd> out = {from};
-  for (Eigen::Index i = first; i < from.size(); ++i)
+  for (Eigen::Index i = first; i < from.size(); ++i) {
+    const double range = most[i] - least[i];
+    for (double place = 0.1; place < 1 && spread[i] > anywhere * range; place += 0.2) {
+      out.push_back(from);
+      out.back()[i] = least[i] + place * range;
+    }
     for (const double side : {1.5, -1.5}) {
+      if (spread[i] > anywhere * range) break;
       VectorXd to = from;
       to[i] = std::clamp(from[i] + side * spread[i], least[i] + 0.05 * (most[i] - least[i]),
                          most[i] - 0.05 * (most[i] - least[i]));
       out.push_back(to);
     }
+  }
   return out;
 }
 

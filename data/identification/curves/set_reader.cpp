@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "data/identification/curves/density/density.h"
+#include "data/identification/curves/pressure_diameter/pressure_diameter.h"
 #include "data/identification/curves/push_pull/push_pull.h"
 #include "data/identification/curves/three_point_bend/three_point_bend.h"
 #include "data/identification/curves/torque_response/torque_response.h"
@@ -18,7 +20,8 @@ const JsonObjectKeys effect_keys = {
      {"parameters", true, "numbers by their names, an object", json_type::values_by_name({json_type::number()})}}};
 
 const std::vector<Kind>& kinds() {
-  static const std::vector<Kind> list = {three_point_bend::kind(), torque_response::kind(), push_pull::kind()};
+  static const std::vector<Kind> list = {three_point_bend::kind(), torque_response::kind(), push_pull::kind(),
+                                         density::kind(), pressure_diameter::kind()};
   return list;
 }
 

@@ -226,8 +226,8 @@ curves::Kind kind() {
   return {"push_pull",
           "force at the hand of a wire that is fed into a path and pulled out",
           read,
-          {&set_keys, &instrument_keys, &section_keys, &rig_keys, &noise_keys, &run_keys, &path_keys, &bend_keys},
-          "run,time_s,inserted_mm,hand_force_N,tip_force_N\np0,0.5,5,0.021,0\n"};
+          {&set_keys, &instrument_keys, &section_keys, &rig_keys, &noise_keys, &run_keys, &path_keys, &bend_keys,
+           &curves::effect_keys}};
 }
 
 }  // namespace ostium::data::push_pull

@@ -224,8 +224,8 @@ curves::Kind kind() {
   return {"torque_response",
           "angle of the distal end and torque against the angle of the drive, in a path",
           read,
-          {&set_keys, &instrument_keys, &section_keys, &rig_keys, &noise_keys, &run_keys, &bend_keys, &contact_keys},
-          "run,proximal_deg,distal_deg,torque_Nmm\nt0,12,9.8,0.0147\n"};
+          {&set_keys, &instrument_keys, &section_keys, &rig_keys, &noise_keys, &run_keys, &bend_keys, &contact_keys,
+           &curves::effect_keys}};
 }
 
 }  // namespace ostium::data::torque_response
