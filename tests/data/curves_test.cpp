@@ -36,7 +36,7 @@ TEST(Curves, NoiseThatNeighboursShareIsNoEffect) {
 }
 
 TEST(Curves, AnEffectIsNamedAndWhatIsAmendedPredictsIt) {
-  const synthetic::BenchSet set = made("three_point_bend", "machine_compliance", 4, 101);
+  const synthetic::BenchSet set = made("three_point_bend", "span_error", 4, 101);
   const JsonValue root = parse_json("set.json", set.json);
   const CurveExplanation x = curves::explain_curves(root, {});
   EXPECT_EQ(to_string(x.verdict), "effect");

@@ -136,16 +136,17 @@ class Machine {
     Series out;
     double dying = 0, before = 0, time = 0;
     for (std::size_t k = 0; k < p_.displacement.size(); ++k) {
-      double elastic = out.empty() ? 0 : before;
       // The machine gives way by the force that it presses with.
-      for (int i = 0; i < (b_.compliance > 0 ? 25 : 1); ++i) {
-        std::vector<Station> kept = memory_;
-        const double force = at(p_.displacement[k] - b_.compliance * elastic, k <= turn);
-        const bool settled = std::fabs(force - elastic) < 1e-9;
-        elastic = b_.compliance > 0 ? elastic + 0.6 * (force - elastic) : force;
-        if (b_.compliance > 0 && !settled) memory_ = kept;
-        if (settled) break;
+      double to = p_.displacement[k] * share_there_, elastic = 0;
+      for (int i = 0; i < 12; ++i) {
+        const std::vector<Station> kept = memory_;
+        elastic = at(to, k <= turn);
+        const double off = to + b_.compliance * elastic - p_.displacement[k];
+        if (std::fabs(off) < 1e-9) break;
+        memory_ = kept;
+        to -= off / (1 + b_.compliance * elastic / to);
       }
+      share_there_ = to / p_.displacement[k];
       dying = dying * std::exp(-(p_.time_s[k] - time) / b_.relaxation_s) + elastic - before;
       before = elastic, time = p_.time_s[k];
       const double force = (1 - b_.relaxing) * elastic + b_.relaxing * dying;
@@ -159,6 +160,7 @@ class Machine {
   const Pass& p_;
   std::vector<Station>& memory_;
   double span_, slope_ = 0, normal_ = 0.01;
+  double share_there_ = 1;  ///< of the displacement that reaches the wire
 };
 
 std::vector<Series> measure(const Bench& b, const std::vector<Pass>& passes) {

@@ -17,7 +17,6 @@ namespace ostium::data {
 
 namespace {
 
-namespace keys = projection_keys;
 
 std::optional<int> view_index(const MeasurementSet& set, const std::string& id) {
   for (std::size_t v = 0; v < set.views.size(); ++v)
@@ -38,7 +37,7 @@ const ClickedPolyline* polyline_in(const Experiment& e, int view) {
 }
 
 ClickedPolyline read_polyline(const JsonValue& value, const MeasurementSet& set, const Experiment& e) {
-  const JsonObject entry(value, keys::projection);
+  const JsonObject entry(value, projection_keys::projection);
   ClickedPolyline out;
   const std::optional<int> view = view_index(set, entry.text("view"));
   if (!view) entry["view"].refuse("the id of a view: " + view_ids(set));
@@ -55,7 +54,7 @@ ClickedPolyline read_polyline(const JsonValue& value, const MeasurementSet& set,
 }
 
 Experiment read_projected(const JsonValue& value, const MeasurementSet& set) {
-  const JsonObject entry(value, keys::experiment);
+  const JsonObject entry(value, projection_keys::experiment);
   Experiment e = read_setting(entry, set);
   e.kind = Experiment::Kind::projections;
   if (entry.has("projections"))
@@ -96,7 +95,7 @@ void read_table(const std::string& file, MeasurementSet& set) {
 }
 
 void read_clicking(const JsonValue& value, MeasurementSet& set) {
-  const JsonObject entry(value, keys::imaging);
+  const JsonObject entry(value, projection_keys::imaging);
   if (entry["noise_sigma_px"].type != JsonValue::Type::null)
     set.imaging.noise_sigma_m = entry.positive("noise_sigma_px") * set.unit().size;
   entry.choice("views", {"given"});
@@ -105,7 +104,7 @@ void read_clicking(const JsonValue& value, MeasurementSet& set) {
 }  // namespace
 
 MeasurementSet read_projections(const JsonValue& file) {
-  const JsonObject root(file, keys::set);
+  const JsonObject root(file, projection_keys::set);
   MeasurementSet set;
   set.file = *file.file;
   set.title = root.text("title");

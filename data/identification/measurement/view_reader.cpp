@@ -14,7 +14,6 @@ namespace ostium::data {
 
 namespace {
 
-namespace keys = projection_keys;
 using Eigen::Vector3d;
 using units::mm, units::degree;
 
@@ -96,7 +95,7 @@ Camera written_out(const JsonObject& entry) {
 
 /// DICOM's rows go down the picture, away from the head; its columns to the patient's left in an AP view.
 Camera of_dicom(const JsonObject& entry, const std::string& set_file) {
-  for (const JsonKey& key : keys::view.keys)
+  for (const JsonKey& key : projection_keys::view.keys)
     if (key.name != "id" && key.name != "dicom" && key.name != "isocentre_mm" && entry.has(key.name))
       entry[key.name].fail(fmt::format("{}.{} and dicom; expected one of them", entry.value().path(), key.name));
   const DicomGeometry tags =
@@ -120,7 +119,7 @@ Camera of_dicom(const JsonObject& entry, const std::string& set_file) {
 }  // namespace
 
 MeasuredCArm read_view(const JsonValue& value, const MeasurementSet& set) {
-  const JsonObject entry(value, keys::view);
+  const JsonObject entry(value, projection_keys::view);
   MeasuredCArm arm;
   arm.id = entry.text("id");
   for (const MeasuredCArm& other : set.views)
