@@ -146,6 +146,7 @@ TEST(Density, WhatIsWrongIsNamed) {
   expect_words(refused("\"frames_per_s\": 30", "\"frames_per_s\": 0.03"), {"runs[0].frames_per_s", "another unit"});
   expect_words(refused("\"rate_mL_s\": 1.2", "\"rate_mL_s\": -1.2"), {"runs[0].injection.rate_mL_s"});
   expect_words(refused("\"id\": \"i1\"", "\"id\": \"i0\""), {"runs[1].id"});
+  expect_words(refused("\"linear\": true", "\"linear\": false"), {"density_mm[0]", "not linear", "leave frames"});
 }
 
 /// The set of another group's generator, where it lies beside the checkout.
