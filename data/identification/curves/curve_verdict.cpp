@@ -36,6 +36,11 @@ bool often_confused(const Candidate& a, const Candidate& b) {
   return names(a, b) || names(b, a);
 }
 
+/// BIC without what priors add.
+double by_data(const Candidate& c) {
+  return c.model.squares + c.model.numbers * std::log(std::max(c.model.measured, 2.0)) + c.paid;
+}
+
 /// The best, then those that explain the set as well by another cause.
 std::size_t rivals_of(std::vector<Candidate>& list, const Candidate& declared) {
   std::size_t rivals = 1;
@@ -45,8 +50,10 @@ std::size_t rivals_of(std::vector<Candidate>& list, const Candidate& declared) {
     if (c.effects == best.effects || !c.is_noise || !wins(c, declared)) continue;
     // More effects than it takes are no rival.
     if (c.model.on.size() > best.model.on.size() && !best.fault) continue;
-    const double apart = often_confused(best, c) ? strong : positive;
-    if (c.bic() > best.bic() + apart) continue;
+    // Two that data often confuse are told apart by the data alone, not by what was expected before.
+    const bool confused = often_confused(best, c);
+    const double further = confused ? by_data(c) - by_data(best) : c.bic() - best.bic();
+    if (further > (confused ? strong : positive)) continue;
     std::rotate(list.begin() + static_cast<std::ptrdiff_t>(rivals), list.begin() + static_cast<std::ptrdiff_t>(k),
                 list.begin() + static_cast<std::ptrdiff_t>(k) + 1);
     ++rivals;

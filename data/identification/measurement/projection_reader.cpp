@@ -17,7 +17,6 @@ namespace ostium::data {
 
 namespace {
 
-
 std::optional<int> view_index(const MeasurementSet& set, const std::string& id) {
   for (std::size_t v = 0; v < set.views.size(); ++v)
     if (set.views[v].id == id) return static_cast<int>(v);
