@@ -55,6 +55,13 @@ inline double tip_beyond(double beyond, double length) {
   return low + (at - static_cast<double>(above - 1)) * (high - low);
 }
 
+/// Of a place in a bend where the stiffness changes, in units of the larger EI.
+inline double at_change(double smaller_over_larger) {
+  constexpr std::array<double, 7> x = {0, 0.05, 0.1, 0.2, 0.3, 0.5, 0.7},
+                                  y = {0.577, 0.431, 0.362, 0.253, 0.162, 0.01, 0};
+  return between(x, y, smaller_over_larger);
+}
+
 }  // namespace contact
 
 /// `depth`, `length`: of the tip behind the bend's beginning, and of the bend, over sqrt(R c).

@@ -10,7 +10,7 @@ namespace {
 
 using Eigen::VectorXd;
 
-constexpr double least_clearance_m = 1e-6;
+constexpr double least_clearance_m = 1e-6, nearby_m = 1e-6;
 
 double stiffness(const Setup& setup, double from_tip_m) {
   double EI = setup.sections.back().EI_N_m2;
@@ -21,6 +21,18 @@ double stiffness(const Setup& setup, double from_tip_m) {
     }
   return from_tip_m < setup.soft_m ? EI * setup.soft_share : EI;
 }
+
+/// Distances from the tip at which the stiffness changes, rising.
+std::vector<double> changes(const Setup& setup) {
+  std::vector<double> out;
+  for (std::size_t i = 0; i + 1 < setup.sections.size(); ++i) out.push_back(setup.sections[i].to_m);
+  if (setup.soft_m > 0) out.push_back(setup.soft_m);
+  std::sort(out.begin(), out.end());
+  return out;
+}
+
+/// Axial force after a bend by an angle (capstan).
+double around(double T, double mu, double angle) { return T * std::exp(mu * (T > 0 ? 1 : -1) * angle); }
 
 /// Friction at rest, less that in motion, builds up while the wire stands, and falls to nothing when it slips. The hand
 /// moves on meanwhile. `standing`: how much has built up, N.
@@ -68,6 +80,7 @@ double hand_force(const Setup& setup, const Passage& run, double inserted_m, dou
                   double friction) {
   const double mu = friction * direction;
   const double c = std::max(run.bore_radius_m + setup.bore_more_m - setup.radius_m, least_clearance_m);
+  const std::vector<double> places = changes(setup);
   double T = tip_N;
   for (std::size_t b = run.bends.size(); b-- > 0;) {
     const Bend& bend = run.bends[b];
@@ -77,7 +90,16 @@ double hand_force(const Setup& setup, const Passage& run, double inserted_m, dou
                  in_bend = std::min(depth, length);
     const ContactForces N = contact_forces(depth / root, length / root);
     T += mu * N.at_end * unit * stiffness(setup, std::max(depth - length, 0.0));
-    T *= std::exp(mu * (T > 0 ? 1 : -1) * in_bend / bend.radius_m);
+    double at = in_bend;
+    for (const double place : places) {
+      const double there = depth - place;
+      if (there <= 0 || there >= at) continue;
+      const double before = stiffness(setup, place - nearby_m), behind = stiffness(setup, place + nearby_m);
+      const double larger = std::max(before, behind), smaller = std::min(before, behind);
+      T = around(T, mu, (at - there) / bend.radius_m) + mu * contact::at_change(smaller / larger) * unit * larger;
+      at = there;
+    }
+    T = around(T, mu, at / bend.radius_m);
     T += mu * N.at_beginning * unit * stiffness(setup, depth);
   }
   return T;
