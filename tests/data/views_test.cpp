@@ -2,9 +2,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 
-#include "core/base/units.h"
+#include "data/catalogue/catalogue.h"
 #include "data/identification/measurement/measurement_reader.h"
 #include "data/identification/report/explanation_report.h"
 #include "data/identification/selection/explain.h"
@@ -116,6 +117,12 @@ TEST(Views, OneViewIsEnoughForTheWire) {
   EXPECT_EQ(x.best().effects, made.effects);
   EXPECT_THROW(explain(made.set, {{{"second_plane_late"}}, 0, {}}), LoadError);
   EXPECT_THROW(explain(made.set, {{{"gantry_flex"}}, 0, {}}), LoadError);
+}
+
+TEST(Views, TheTemplateIsASetThatIsExplained) {
+  const MeasurementSet set =
+      load_measurement((std::filesystem::path(data_folder()) / "templates/projections").string());
+  EXPECT_EQ(explain(set, {}).verdict, Verdict::explained);
 }
 
 TEST(Views, TheirEffectsNeedViews) {
