@@ -7,7 +7,7 @@
 #include "app/command_line/progress.h"
 #include "data/formats/write_file.h"
 #include "data/identification/curves/curve_report.h"
-#include "data/identification/curves/set_reader.h"
+#include "data/identification/curves/kinds.h"
 
 namespace ostium::app {
 

@@ -8,7 +8,7 @@
 #include "app/command_line/progress.h"
 #include "app/commands/explain_curves.h"
 #include "data/formats/write_file.h"
-#include "data/identification/curves/set_reader.h"
+#include "data/identification/curves/kinds.h"
 #include "data/identification/forward/prediction.h"
 #include "data/identification/measurement/measurement_reader.h"
 

@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "data/identification/curves/curve_report.h"
-#include "data/identification/curves/set_reader.h"
+#include "data/identification/curves/kinds.h"
 #include "data/identification/curves/three_point_bend/three_point_bend.h"
 #include "tests/support/bench_set.h"
 

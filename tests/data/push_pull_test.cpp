@@ -9,8 +9,8 @@
 
 #include "core/base/units.h"
 #include "data/identification/curves/curve_explanation.h"
+#include "data/identification/curves/kinds.h"
 #include "data/identification/curves/push_pull/contact.h"
-#include "data/identification/curves/set_reader.h"
 #include "tests/data/refusals.h"
 #include "tests/support/push_set.h"
 

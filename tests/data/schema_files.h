@@ -11,7 +11,7 @@
 #include "data/catalogue/instrument/instrument_keys.h"
 #include "data/catalogue/script/script_keys.h"
 #include "data/formats/json_schema.h"
-#include "data/identification/curves/set_reader.h"
+#include "data/identification/curves/kinds.h"
 #include "data/identification/measurement/measurement_keys.h"
 #include "data/identification/measurement/projection_keys.h"
 

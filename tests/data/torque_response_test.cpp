@@ -11,7 +11,7 @@
 
 #include "core/base/units.h"
 #include "data/identification/curves/curve_explanation.h"
-#include "data/identification/curves/set_reader.h"
+#include "data/identification/curves/kinds.h"
 #include "data/identification/curves/torque_response/twisted_chain.h"
 #include "tests/data/refusals.h"
 #include "tests/support/torque_set.h"

@@ -2,7 +2,7 @@
 
 #include "data/identification/curves/curve_search.h"
 #include "data/identification/curves/curve_verdict.h"
-#include "data/identification/curves/set_reader.h"
+#include "data/identification/curves/kinds.h"
 
 namespace ostium::data::curves {
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <numeric>
 
-#include "data/identification/curves/set_reader.h"
+#include "data/identification/curves/kinds.h"
 
 namespace ostium::data::curves {
 

@@ -2,7 +2,7 @@
 /// Mistakes in the data themselves: one run in another unit, two that changed places, samples out of order, a run that
 /// went wrong. Each is tried by mending it in the file's values and reading them again, so that it needs to know
 /// nothing of the kind.
-#include "data/identification/curves/curve_kind.h"
+#include "data/identification/curves/set/curve_kind.h"
 
 namespace ostium::data::curves {
 

@@ -3,8 +3,8 @@
 /// and its tails.
 #include <optional>
 
-#include "data/identification/curves/curve_kind.h"
-#include "data/identification/curves/curve_noise.h"
+#include "data/identification/curves/set/curve_kind.h"
+#include "data/identification/curves/set/curve_noise.h"
 
 namespace ostium::data::curves {
 

@@ -9,7 +9,7 @@
 /// normal law of variance 2 D W. The picture shows k c A, with A the lumen's area.
 ///
 /// Behind a branch or an inflow only the share f of q flows: W = integral of A / f ds, and D counts 1 / f more.
-#include "data/identification/curves/set_reader.h"
+#include "data/identification/curves/set/set_reader.h"
 
 namespace ostium::data::density {
 

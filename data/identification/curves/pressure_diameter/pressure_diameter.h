@@ -7,7 +7,7 @@
 /// the exponential beyond the healthy diameter only (media and adventitia), as the wall of
 /// `vascular/treatment/plaque.h` before it yields. A stent keeps the largest diameter that it was given when the
 /// pressure falls.
-#include "data/identification/curves/set_reader.h"
+#include "data/identification/curves/set/set_reader.h"
 
 namespace ostium::data::pressure_diameter {
 

@@ -8,7 +8,7 @@
 /// force. Straight parts take no force. Friction acts against the motion: the direction of a sample is that in which
 /// `inserted_mm` changed last. A force that is measured at the tip is what the law begins with there, and its noise
 /// counts as one at the hand.
-#include "data/identification/curves/set_reader.h"
+#include "data/identification/curves/set/set_reader.h"
 
 namespace ostium::data::push_pull {
 

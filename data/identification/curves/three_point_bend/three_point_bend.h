@@ -14,7 +14,7 @@
 ///
 /// A section law that is not linear, or that remembers, changes this force by the ratio that beams of small slope have
 /// with it and without: curvature at 8 stations from the moment's history (`section.h`), deflection by virtual work.
-#include "data/identification/curves/set_reader.h"
+#include "data/identification/curves/set/set_reader.h"
 #include "data/identification/curves/three_point_bend/section.h"
 
 namespace ostium::data::three_point_bend {

@@ -9,7 +9,7 @@
 /// A wire that is turned back lets its twist go at once, and how far contacts slip then depends on inertia and on
 /// friction at rest, which this law lacks. So samples within that stretch (four times the lag, which is twice the turn
 /// that the law needs, if its lag is wrong by half) count with a standard deviation of half the lag.
-#include "data/identification/curves/set_reader.h"
+#include "data/identification/curves/set/set_reader.h"
 
 namespace ostium::data::torque_response {
 

@@ -6,7 +6,7 @@
 /// slow shapes after that is not (`slow_shapes`).
 #include <optional>
 
-#include "data/identification/curves/curve.h"
+#include "data/identification/curves/set/curve.h"
 
 namespace ostium::data::curves {
 

@@ -1,4 +1,4 @@
-#include "data/identification/curves/curve_noise.h"
+#include "data/identification/curves/set/curve_noise.h"
 
 #include <Eigen/QR>
 #include <algorithm>

@@ -7,7 +7,7 @@
 #include <memory>
 #include <span>
 
-#include "data/identification/curves/curve_noise.h"
+#include "data/identification/curves/set/curve_noise.h"
 #include "data/identification/effects/effect.h"
 
 namespace ostium::data {

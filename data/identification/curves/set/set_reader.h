@@ -1,9 +1,9 @@
 #pragma once
-/// What sets of all kinds of curves share in their files (schema ostium-measurement/2), and the list of kinds.
+/// What sets of all kinds of curves share in their files (schema ostium-measurement/2).
 #include <memory>
 
 #include "data/formats/json_object.h"
-#include "data/identification/curves/curve_kind.h"
+#include "data/identification/curves/set/curve_kind.h"
 
 namespace ostium::data::curves {
 
@@ -13,14 +13,6 @@ struct Kind {
   std::unique_ptr<Set> (*read)(const JsonValue& root);
   std::vector<const JsonObjectKeys*> keys;  ///< for its schema; the file's own object comes first
 };
-
-/// In the order in which they are listed to users.
-const std::vector<Kind>& kinds();
-
-/// The kind that the file names, or null: then it is a set of shapes. Throws LoadError for a kind that is unknown.
-const Kind* kind_of(const JsonValue& root);
-
-std::unique_ptr<Set> read_set(const JsonValue& root);
 
 /// Keys of the file's own object that every kind has.
 std::vector<JsonKey> with_common_keys(const std::string& kind, std::vector<JsonKey> own);
