@@ -1,4 +1,4 @@
-/// The noise model against noise that is made by a law, and its sums against closed forms.
+/// The noise model against noise that is made by a law, its sums against closed forms; and verdicts in degrees.
 #include "data/identification/estimation/noise_model.h"
 
 #include <gtest/gtest.h>
@@ -6,7 +6,10 @@
 #include <cmath>
 
 #include "data/identification/selection/degrees.h"
+#include "data/identification/selection/verdict.h"
+#include "data/identification/selection/verdict_text.h"
 #include "tests/support/dice.h"
+#include "tests/support/synthetic_set.h"
 
 namespace ostium::data {
 namespace {
@@ -149,6 +152,63 @@ TEST(Degrees, AShareIsOfWhatIsBeyondNoise) {
   EXPECT_TRUE(removes_most({1100, 100}, {200, 100}));
   EXPECT_FALSE(removes_most({1100, 100}, {300, 100}));
   EXPECT_EQ(rms_over_noise({400, 100}), 2);
+}
+
+FittedModel model_of(const std::vector<std::string>& effects, double chi2_per_dof, double held_out_m) {
+  FittedModel m;
+  m.effects = effects;
+  for (const std::string& id : effects) m.name += (m.name.empty() ? "" : " + ") + id;
+  m.degrees_of_freedom = 100, m.chi2_per_dof = chi2_per_dof, m.bic = 100 * chi2_per_dof + 5.0 * effects.size();
+  m.rms_held_out_m = held_out_m;
+  return m;
+}
+
+/// Chi-square 50, 4 and 3.9: an effect removes 94 %, another of what it leaves 3 % and is not named. A field with more
+/// evidence, or an effect that removes half, leaves it unexplained.
+TEST(Degrees, WhatRemovesMostIsNamedAndNoMore) {
+  const MeasurementSet set = synthetic::free_wire(4);
+  const Workers workers(1);
+  Explanation x;
+  x.noise = {1e-4, true, "declared", {}};
+  x.declared = model_of({}, 50, 1e-3);
+  x.candidates = {model_of({"registration", "self_weight"}, 3.9, 2e-4), model_of({"registration"}, 4, 2e-4)};
+  Explanation most = x;
+  decide(set, workers, most);
+  EXPECT_EQ(most.verdict, Verdict::mostly);
+  EXPECT_EQ(most.effects(), std::vector<std::string>{"registration"});
+  EXPECT_EQ(most.best().chi2_per_dof, 4);
+
+  Explanation field = x;
+  field.attributions.resize(1);
+  field.attributions[0].log_evidence = 3000;
+  decide(set, workers, field);
+  EXPECT_EQ(field.verdict, Verdict::unexplained);
+  EXPECT_TRUE(field.effects().empty());
+
+  Explanation half = x;
+  half.candidates = {model_of({"registration"}, 25, 5e-4)};
+  decide(set, workers, half);
+  EXPECT_EQ(half.verdict, Verdict::unexplained);
+
+  Explanation all = x;
+  all.candidates = {model_of({"registration"}, 1, 1e-4)};
+  decide(set, workers, all);
+  EXPECT_EQ(all.verdict, Verdict::effect);
+}
+
+/// Three deviations of 30 %: a factor of 2.46.
+TEST(Degrees, StiffnessFarFromWhatIsDeclaredIsSuspicious) {
+  FittedModel m;
+  Parameter scale;
+  scale.name = "EI_scale[0]", scale.label = "stiffness of wire", scale.start = 1, scale.spread = 0.3;
+  m.parameters = {{scale, 2.4, 0.1, 1}};
+  std::vector<std::string> warnings;
+  warn_of_scales(m, warnings);
+  EXPECT_TRUE(warnings.empty());
+  m.parameters[0].value = 2.6;
+  warn_of_scales(m, warnings);
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_NE(warnings[0].find("stiffness of wire is 2.6 times"), std::string::npos) << warnings[0];
 }
 
 }  // namespace

@@ -17,7 +17,7 @@ using Eigen::VectorXd;
 constexpr double few_points = 30;  // leave correlation and tails open
 constexpr int lengths_tried = 14;
 constexpr double whites_tried[] = {0, 0.1, 0.3, 0.6};
-constexpr double least_white = 1e-3;  // smooth correlations alone are singular
+constexpr double most_white = 0.95, least_white = 1e-3;  // smooth correlations alone are singular
 constexpr double degrees_tried[] = {2, 3, 5, 10};
 constexpr double longest_share = 0.5;  // of a trace: what is shared farther than that is its mean
 constexpr int scale_rounds = 40;
@@ -118,6 +118,19 @@ void try_out(const std::vector<ResidualTrace>& traces, const Decorrelated& d, No
   if (bic < best.bic) best = {m, bic};
 }
 
+/// Length and white part between those that were tried: where noise is smooth, its size hangs on them.
+void refine(const std::vector<ResidualTrace>& traces, double numbers_fitted, Candidate& best) {
+  if (!best.model.correlated()) return;
+  for (const double step : {1.5, 1.2, 1.5, 1.2, 1.1, 1.05})
+    for (const double factor : {step, 1 / step}) {
+      NoiseModel longer = best.model, whiter = best.model;
+      longer.length *= factor;
+      try_out(traces, all_decorrelated(traces, longer), longer, numbers_fitted, best);
+      whiter.white = std::min(whiter.white * factor * factor, most_white);
+      if (whiter.white > 0) try_out(traces, all_decorrelated(traces, whiter), whiter, numbers_fitted, best);
+    }
+}
+
 /// Longest distance along a trace, and the mean one between neighbours.
 std::pair<double, double> spans(const std::vector<ResidualTrace>& traces) {
   double longest = 0, sum = 0, pairs = 0;
@@ -164,6 +177,8 @@ NoiseModel noise_model_of(const std::vector<ResidualTrace>& traces, std::optiona
         try_out(traces, d, m, 3 + more, both);
       }
     }
+  refine(traces, correlated.model.white > 0 ? 3 : 2, correlated);
+  refine(traces, both.model.white > 0 ? 4 : 3, both);
   for (const Candidate& c : {sized, heavy, correlated, both}) simplest_first.push_back(c);
   const Candidate* chosen = &simplest_first.front();
   for (const Candidate& c : simplest_first)
