@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "data/identification/curves/curve_explanation.h"
+#include "data/identification/curves/kinds.h"
 #include "tests/data/refusals.h"
 #include "tests/support/density_set.h"
 

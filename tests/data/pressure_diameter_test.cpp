@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "data/identification/curves/curve_explanation.h"
+#include "data/identification/curves/kinds.h"
 #include "tests/data/refusals.h"
 #include "tests/support/inflation_set.h"
 

@@ -69,7 +69,7 @@ std::string models(const CurveExplanation& x) {
   return out + "</table>\n";
 }
 
-std::string parameters(const Candidate& c) {
+std::string parameter_table(const Candidate& c) {
   std::string out =
       "<table><tr><th>parameter</th><th>value</th><th>standard error</th><th>unit</th><th>found in the "
       "data</th></tr>\n";
@@ -94,8 +94,9 @@ std::string to_html(const CurveExplanation& x) {
   for (std::size_t i = 1; i < x.text.size(); ++i) out += "<li>" + escaped(x.text[i]) + "</li>\n";
   if (!x.next.empty()) out += "<li>To measure next: " + escaped(x.next) + ".</li>\n";
   out += "</ul>\n<h2>Models</h2>\n" + models(x) + "<h2>Measured and modelled</h2>\n" + plots(x);
-  out += "<h2>Parameters of the declared model</h2>\n" + parameters(x.declared);
-  for (const Candidate& c : x.candidates) out += "<h2>Parameters with " + escaped(c.name) + "</h2>\n" + parameters(c);
+  out += "<h2>Parameters of the declared model</h2>\n" + parameter_table(x.declared);
+  for (const Candidate& c : x.candidates)
+    out += "<h2>Parameters with " + escaped(c.name) + "</h2>\n" + parameter_table(c);
   return out +
          "<p class=\"source\">Made by ostium explain. For training and research, not for decisions on a "
          "patient.</p>\n</body></html>\n";

@@ -16,6 +16,8 @@ constexpr double most_of = 0.5;       // of the excess over noise: an effect tha
 constexpr double far_from_prior = 3;  // standard deviations
 
 bool predicts_better(const Candidate& c, const Candidate& declared) {
+  const auto of_data = [&](const Switched& s) { return c.set->effects()[s.effect].of_data; };
+  if (std::any_of(c.model.on.begin(), c.model.on.end(), of_data)) return c.is_noise;
   if (!c.model.held_out || !declared.model.held_out) return true;  // one run: BIC alone
   return *c.model.held_out < clearly * *declared.model.held_out;
 }

@@ -22,8 +22,8 @@ struct EffectHead {
   std::string form;  ///< "" if the effect has only one; effects of one id have different forms
   std::string what;  ///< phrase that follows "with"
   std::vector<EffectParameter> parameters;
-  std::string confused_with;   ///< id of an effect that some data cannot distinguish from this one; "" if none
-  bool in_instrument = false;  ///< a property of the instrument or vessel, not of the rig
+  std::string confused_with;  ///< id of an effect that some data cannot distinguish from this one; "" if none
+  bool of_data = false;       ///< a mistake in some of the runs: the others, fitted alone, cannot tell of it
 
   std::string name() const { return form.empty() ? id : id + " (" + form + ")"; }
 };

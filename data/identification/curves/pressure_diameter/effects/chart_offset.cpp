@@ -9,7 +9,6 @@ Effect chart_offset() {
   effect.head.what = "a chart that is off by a diameter";
   effect.head.parameters = {{"mm", "mm", "by how much the balloon is wider", 0, 0.2, -1, 1, false}};
   effect.head.confused_with = "gauge_offset";
-  effect.head.in_instrument = true;
   effect.apply = [](const std::vector<double>& v, Setup& setup) { setup.chart_more_m += v[0] * 1e-3; };
   return effect;
 }

@@ -9,7 +9,6 @@ Effect counter_pressure() {
   effect.head.id = "counter_pressure";
   effect.head.what = "a vessel that presses more than declared";
   effect.head.parameters = {{"atm", "atm", "the pressure by which it presses more", 0.5, 1, 0.01, 10, true}};
-  effect.head.in_instrument = true;
   effect.apply = [](const std::vector<double>& v, Setup& setup) { setup.counter_Pa += v[0] * 101325; };
   effect.why_not = [](const Setup& declared) -> std::string {
     for (const Inflation& run : declared.inflations)

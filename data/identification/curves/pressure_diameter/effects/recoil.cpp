@@ -9,7 +9,6 @@ Effect recoil() {
   effect.head.id = "recoil";
   effect.head.what = "a stent that springs back";
   effect.head.parameters = {{"share", "1", "of its largest diameter", 0.05, 0.05, 0, 0.5, false}};
-  effect.head.in_instrument = true;
   effect.apply = [](const std::vector<double>& v, Setup& setup) { setup.recoil += v[0]; };
   effect.why_not = [](const Setup& declared) -> std::string {
     for (const Inflation& run : declared.inflations)

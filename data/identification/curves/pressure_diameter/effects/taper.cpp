@@ -8,7 +8,6 @@ Effect taper() {
   effect.head.id = "taper";
   effect.head.what = "a balloon that tapers";
   effect.head.parameters = {{"mm_per_mm", "1", "diameter per length", 0, 0.02, -0.3, 0.3, false}};
-  effect.head.in_instrument = true;
   effect.apply = [](const std::vector<double>& v, Setup& setup) { setup.taper += v[0]; };
   effect.why_not = [](const Setup& declared) -> std::string {
     return declared.place_m.size() > 1 ? "" : "diameters are measured at one place";

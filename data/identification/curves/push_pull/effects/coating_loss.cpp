@@ -10,7 +10,6 @@ Effect coating_loss() {
   effect.head.what = "a coating that wears off";
   effect.head.parameters = {
       {"per_m", "1/m", "growth of friction by a metre run, against that at first", 0, 0.2, -0.05, 10, false}};
-  effect.head.in_instrument = true;
   effect.apply = [](const std::vector<double>& v, Setup& setup) { setup.worn_per_m = v[0]; };
   return effect;
 }

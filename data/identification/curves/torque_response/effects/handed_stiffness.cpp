@@ -20,7 +20,6 @@ Effect handed_stiffness() {
   effect.head.what = "torsional stiffness that differs by the sense of the torque";
   effect.head.parameters = {
       {"ratio", "1", "stiffness under positive torque against that under negative", 1, 0.4, 0.05, 20, true}};
-  effect.head.in_instrument = true;
   effect.apply = [](const std::vector<double>& v, Setup& setup) { setup.handed = v[0]; };
   effect.why_not = never_twisted;
   return effect;

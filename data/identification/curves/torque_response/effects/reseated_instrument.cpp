@@ -20,6 +20,7 @@ Effect reseated_instrument(std::size_t from, const std::string& id) {
   Effect effect;
   effect.head.id = "reseated_instrument";
   effect.head.form = "from " + id + " on";
+  effect.head.of_data = true;
   effect.head.what = "an instrument that was put back at another angle before " + id;
   const auto run = static_cast<double>(from);
   // The run is not fitted: one form for each, with its number held.

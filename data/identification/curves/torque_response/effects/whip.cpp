@@ -24,7 +24,6 @@ Effect whip() {
       {"to_mark_per_mm", "1/mm", "its curvature at rest, in the plane of bends at 0 degrees", 0, 1e-3, -0.02, 0.02,
        false},
       {"across_per_mm", "1/mm", "its curvature at rest a quarter turn from there", 0, 1e-3, -0.02, 0.02, false}};
-  effect.head.in_instrument = true;
   effect.apply = [](const std::vector<double>& v, Setup& setup) {
     setup.rest_per_m[0] = v[0] * 1e3, setup.rest_per_m[1] = v[1] * 1e3;
   };
