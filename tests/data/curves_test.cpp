@@ -69,7 +69,7 @@ TEST(Curves, ABeamOfSmallDeflectionIsEulersOwn) {
   setup.EI_N_m2 = {40e-6}, setup.radius_m = 0.18e-3;
   three_point_bend::Pass pass;
   pass.span_m = 20e-3, pass.share = {{0, 1.0}};
-  pass.displacement_m = Eigen::VectorXd::LinSpaced(10, 0.01e-3, 0.1e-3),
+  pass.displacement_m = Eigen::VectorXd::LinSpaced(10, 0.005e-3, 0.05e-3),
   pass.time_s = Eigen::VectorXd::LinSpaced(10, 0, 9);
   setup.passes = {pass};
   const Eigen::VectorXd F = three_point_bend::forces(setup)[0][0];
