@@ -280,7 +280,6 @@ BenchSet make(const std::string& content, double size, unsigned seed) {
     out.effects = {"unit_error"};
     if (content == "fault:gram_force") scaled("force_N", 1 / 9.80665e-3);
     if (content == "fault:inches") scaled("displacement_mm", 1 / 25.4);
-    if (content == "fault:span_cm") runs[r]["span_mm"] = runs[r]["span_mm"].get<double>() / 10;
     if (content == "fault:swapped") {
       const std::size_t other = (r + 1 + 2 * static_cast<std::size_t>(dice.whole(0, 2))) % 8;
       for (const char* key : {"time_s", "displacement_mm", "force_N"}) std::swap(runs[r][key], runs[other][key]);
@@ -312,7 +311,7 @@ BenchKind bend_kind() {
   return {"three_point_bend",
           {"clean", "noise:shared", "noise:heavy", "noise:twice", "support_friction", "coil_core_slip", "plastic_set",
            "superelastic_flag", "relaxation", "machine_compliance", "span_error", "zero_offset", "force_drift",
-           "fault:gram_force", "fault:inches", "fault:span_cm", "fault:swapped", "fault:outlier"},
+           "fault:gram_force", "fault:inches", "fault:swapped", "fault:outlier"},
           make};
 }
 

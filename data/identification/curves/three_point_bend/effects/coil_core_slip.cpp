@@ -12,10 +12,10 @@ Effect coil_core_slip() {
   effect.head.what = "a coil that slips on its core";
   effect.head.parameters = {
       {"curvature_per_mm", "1/mm", "curvature at which the coil slips", 0.005, 0.8, 1e-4, 0.2, true},
-      {"ratio", "1", "stiffness beyond it against that below", 0.7, 0.3, 0.05, 0.98, true}};
+      {"stiffness_lost", "1", "share of the stiffness that is lost when it slips", 0.3, 0.3, 0, 0.99, false}};
   effect.apply = [](const std::vector<double>& v, Setup& setup) {
-    setup.section.slip = {v[0] / 1e-3, v[1]};
-    for (double& EI : setup.EI_N_m2) EI /= v[1];
+    setup.section.slip = {v[0] / 1e-3, 1 - v[1]};
+    for (double& EI : setup.EI_N_m2) EI /= 1 - v[1];
   };
   effect.adapt = [](const Setup& declared, std::vector<EffectParameter>& p) {
     // Beyond a strain of 0.2 % at the surface it would be yield (plastic_set.cpp).

@@ -12,8 +12,8 @@ Effect plastic_set() {
   effect.head.what = "a bend that stays (the wire yields)";
   effect.head.parameters = {
       {"curvature_per_mm", "1/mm", "curvature at which the wire yields", 0.02, 0.8, 5e-4, 0.5, true},
-      {"ratio", "1", "stiffness beyond it against that below", 0.2, 0.8, 0.005, 0.9, true}};
-  effect.apply = [](const std::vector<double>& v, Setup& setup) { setup.section.yield = {v[0] / 1e-3, v[1]}; };
+      {"stiffness_lost", "1", "share of the stiffness that is lost beyond it", 0.7, 0.3, 0, 0.99, false}};
+  effect.apply = [](const std::vector<double>& v, Setup& setup) { setup.section.yield = {v[0] / 1e-3, 1 - v[1]}; };
   effect.adapt = [](const Setup& declared, std::vector<EffectParameter>& p) {
     // No metal of instruments yields below a strain of 0.2 % at its surface; what gives way before slips.
     p[0].least = 0.002 / (declared.radius_m / 1e-3);
