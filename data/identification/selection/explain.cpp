@@ -244,9 +244,10 @@ Explanation explain(const MeasurementSet& set, const ExplainOptions& options) {
   const bool fits = is_noise(out.declared, out.noise);
   const bool open = !fits || !out.noise.sigma_m;
   const FittedModel* first = open && !out.candidates.empty() ? &out.candidates.front() : nullptr;
-  const bool most = first && !fits && out.noise.sigma_m && removes_most_of_it(out, *first);
+  const bool won = first && wins(*first, out.declared, out.noise);
+  const bool most = first && !won && !fits && out.noise.sigma_m && removes_most_of_it(out, *first);
   if (most) out.attributions = attribute_residual(set, workers, out.declared, {}, out.noise, options.progress);
-  if (first && wins(*first, out.declared, out.noise))
+  if (won)
     out.verdict = Verdict::effect, out.adds_effects = true;
   else if (most && removes_most_of_it(out, *first))  // with more evidence than a field without a name
     out.verdict = Verdict::mostly, out.adds_effects = true;
