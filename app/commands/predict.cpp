@@ -7,7 +7,10 @@
 #include "app/command_line/common_options.h"
 #include "app/command_line/progress.h"
 #include "app/commands/explain_curves.h"
+#include "data/catalogue/catalogue.h"
+#include "data/catalogue/instrument/instrument_reader.h"
 #include "data/formats/write_file.h"
+#include "data/identification/characterisation/characterisation_report.h"
 #include "data/identification/curves/kinds.h"
 #include "data/identification/forward/prediction.h"
 #include "data/identification/measurement/measurement_reader.h"
@@ -19,12 +22,19 @@ namespace {
 struct Arguments {
   std::string set;           ///< the set's folder or its measurement.json
   std::string folder = ".";  ///< where prediction.json and prediction.csv go
+  std::string with;          ///< an instrument whose stiffness takes the place of the declared one; empty: none
   bool json = false;         ///< prediction.json to stdout instead of a table
 };
 
 void declare(Options& options, Arguments& a) {
   add_measured_set_option(options, a.set);
   options.add("-o,--out", a.folder, "Where prediction.json and prediction.csv go").type("DIR");
+  options
+      .add("--with", a.with,
+           "An instrument of the catalogue, or its file, in place of what the set declares of stiffness (and of "
+           "friction, "
+           "if the file has it); says in check.json whether it agrees with the set, errors and noise considered")
+      .type("NAME|FILE");
   options.flag("--json", a.json, "Print prediction.json, see data/schemas/prediction.schema.json");
 }
 
@@ -48,13 +58,8 @@ void print_table(const std::vector<data::Prediction>& predictions) {
     fmt::print("the measuring frame or the tracked point is free: ostium explain fits them\n");
 }
 
-int run(const Arguments& a) {
-  const data::JsonValue root = data::load_json(data::measurement_file(a.set));
-  if (data::curves::kind_of(root)) {
-    predict_curves(root, a.folder, a.json);
-    return 0;
-  }
-  const data::MeasurementSet set = data::load_measurement(a.set);
+void predict_shapes(const Arguments& a, const data::JsonValue& root) {
+  const data::MeasurementSet set = data::read_measurement(*root.file, to_json(root));
   const auto predictions = predict(set, [&](std::size_t done, std::size_t of) {
     show_progress(done < of ? fmt::format("experiment {} of {}", done, of) : "");
   });
@@ -68,6 +73,23 @@ int run(const Arguments& a) {
     fmt::print("{}", to_json(predictions));
   else
     print_table(predictions);
+}
+
+int run(const Arguments& a) {
+  const data::JsonValue as_read = data::load_json(data::measurement_file(a.set));
+  if (a.with.empty() && !data::curves::kind_of(as_read)) data::load_measurement(a.set);  // messages with its lines
+  data::CharacterisedWire wire;
+  if (!a.with.empty()) wire = data::wire_in(data::load_instrument(data::instrument_file(a.with)));
+  const data::JsonValue root = a.with.empty() ? as_read : set_with(as_read, in_set(wire));
+  if (data::curves::kind_of(root))
+    predict_curves(root, a.folder, a.json);
+  else
+    predict_shapes(a, root);
+  if (a.with.empty()) return 0;
+  const data::WireCheck found = check(as_read, wire, [](const std::string& words) { show_progress(words); });
+  show_progress("");
+  data::write_file((std::filesystem::path(a.folder) / "check.json").string(), to_json(found));
+  fmt::print(a.json ? stderr : stdout, "with {}: off by {}\n", a.with, words_of(found));
   return 0;
 }
 
@@ -75,7 +97,9 @@ int run(const Arguments& a) {
 
 Command predict_command() {
   return make_command("predict", "The static shapes that a measured set declares, nothing fitted",
-                      {"ostium predict my-wire", "ostium predict my-wire/measurement.json -o shapes"}, declare, run);
+                      {"ostium predict my-wire", "ostium predict my-wire/measurement.json -o shapes",
+                       "ostium predict push --with my-wire.json"},
+                      declare, run);
 }
 
 }  // namespace ostium::app

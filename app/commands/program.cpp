@@ -16,6 +16,7 @@ Command views_command();
 Command centreline_command();
 Command predict_command();
 Command explain_command();
+Command characterise_command();
 Command run_command();
 Command report_command();
 Command scripts_command();
@@ -26,11 +27,11 @@ Command device_command();
 Command program() {
   Command ostium = demonstration();
   // In the order of --help.
-  ostium.subcommands = {verify_command(), instruments_command(), cases_command(),   check_command(),
-                        import_command(), frame_command(),       inject_command(),  treat_command(),
-                        views_command(),  centreline_command(),  predict_command(), explain_command(),
-                        run_command(),    report_command(),      scripts_command(), sweep_command(),
-                        replay_command(), device_command()};
+  ostium.subcommands = {verify_command(),       instruments_command(), cases_command(),   check_command(),
+                        import_command(),       frame_command(),       inject_command(),  treat_command(),
+                        views_command(),        centreline_command(),  predict_command(), explain_command(),
+                        characterise_command(), run_command(),         report_command(),  scripts_command(),
+                        sweep_command(),        replay_command(),      device_command()};
   return ostium;
 }
 

@@ -50,4 +50,19 @@ const Instrument& find_instrument(const std::vector<Instrument>& catalogue, cons
   throw LoadError(fmt::format("there is no instrument \"{}\"; expected one of:{}", name, known));
 }
 
+std::string instrument_file(const std::string& name_or_file, const std::string& folder) {
+  const fs::path known = fs::path(data_folder()) / "instruments" / (name_or_file + ".json");
+  if (fs::is_regular_file(known)) return known.string();
+  if (name_or_file.ends_with(".json")) {
+    std::error_code unseen;
+    for (const fs::path& file : {fs::path(folder) / name_or_file, fs::path(name_or_file)})
+      if (fs::is_regular_file(file, unseen)) return file.string();
+    throw LoadError(
+        fmt::format("there is no instrument file \"{}\"{}; expected a file there, or a name of `ostium instruments`",
+                    name_or_file, folder.empty() ? "" : " in " + folder + " nor from here"));
+  }
+  find_instrument(load_catalogue(), name_or_file);  // throws, listing the catalogue, if there is none
+  return known.string();
+}
+
 }  // namespace ostium::data

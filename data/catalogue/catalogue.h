@@ -18,4 +18,8 @@ std::vector<Instrument> load_catalogue();
 /// Throws LoadError, listing the names there are, if `name` is not among them.
 const Instrument& find_instrument(const std::vector<Instrument>& catalogue, const std::string& name);
 
+/// The file of an instrument: a name of the catalogue, or a file NAME.json, which is looked for from `folder` and then
+/// from where we are. Throws LoadError if there is none.
+std::string instrument_file(const std::string& name_or_file, const std::string& folder = "");
+
 }  // namespace ostium::data

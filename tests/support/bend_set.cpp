@@ -225,11 +225,12 @@ double excess(const std::vector<Series>& with, const std::vector<Series>& withou
   return std::sqrt(left / count);
 }
 
-BenchSet make(const std::string& content, double size, unsigned seed) {
+BenchSet make_of(const BenchWire* wire, const std::string& content, double size, unsigned seed) {
   Dice dice("bend:" + content, seed);
   Bench plain;
-  const double declared_EI = dice.log_uniform(20, 80);
+  double declared_EI = dice.log_uniform(20, 80);
   plain.EI = declared_EI * dice.log_uniform(0.75, 1.33), plain.roller = dice.uniform(1, 3);
+  if (wire) declared_EI = wire->declared_EI, plain.EI = wire->EI;
   const std::vector<Pass> passes = design(dice);
   const std::vector<Series> without = measure(plain, passes);
   const double force_noise = 0.003 * declared_EI / 40 * dice.log_uniform(0.5, 1.5), displacement_noise = 0.002;
@@ -295,7 +296,8 @@ BenchSet make(const std::string& content, double size, unsigned seed) {
       {"instruments",
        {{{"name", "0.014in wire"},
          {"outer_radius_mm", 0.178},
-         {"sections", {{{"from_tip_mm", {300, 1500}}, {"EI_Nmm2", declared_EI}, {"GJ_Nmm2", 0.77 * declared_EI}}}}}}},
+         {"sections",
+          {{{"from_tip_mm", {wire ? 0 : 300, 1500}}, {"EI_Nmm2", declared_EI}, {"GJ_Nmm2", 0.77 * declared_EI}}}}}}},
       {"rig", {{"friction", 0.0}, {"machine_stiffness_N_per_mm", nullptr}}},
       {"noise",
        {{"force_N", force_noise * noise.declared_share()},
@@ -305,7 +307,11 @@ BenchSet make(const std::string& content, double size, unsigned seed) {
   return out;
 }
 
+BenchSet make(const std::string& content, double size, unsigned seed) { return make_of(nullptr, content, size, seed); }
+
 }  // namespace
+
+BenchSet bend_of(const BenchWire& wire, unsigned seed) { return make_of(&wire, "clean", 0, seed); }
 
 BenchKind bend_kind() {
   return {"three_point_bend",

@@ -262,7 +262,7 @@ void spoil(const std::string& content, Dice& dice, Json& runs, BenchSet& out) {
   if (content == "fault:outlier") scaled("hand_force_N", dice.uniform(1.2, 1.4)), out.effects = {"outlier_experiment"};
 }
 
-BenchSet make(const std::string& content, double size, unsigned seed) {
+BenchSet make_of(const BenchWire* wire, const std::string& content, double size, unsigned seed) {
   Dice dice("push:" + content, seed);
   Pushed declared;
   declared.EI = dice.log_uniform(10, 30), declared.tip_EI = declared.EI * dice.uniform(0.15, 0.4);
@@ -270,6 +270,12 @@ BenchSet make(const std::string& content, double size, unsigned seed) {
   declared.tip_length = content == "soft_tip" ? 0 : dice.uniform(40, 90), declared.friction = dice.uniform(0.06, 0.15);
   Pushed plain = declared;
   plain.EI *= dice.log_uniform(0.75, 1.33), plain.tip_EI *= dice.log_uniform(0.75, 1.33);
+  if (wire) {
+    declared.tip_length = 0, declared.EI = declared.tip_EI = wire->declared_EI;
+    declared.friction = wire->declared_friction;
+    plain = declared;
+    plain.EI = plain.tip_EI = wire->EI, plain.friction = wire->friction;
+  }
   const std::vector<Tube> tubes = make_tubes(dice);
   const std::vector<Feed> feeds = design(dice);
   const double noise_N = 0.01 * dice.log_uniform(0.7, 1.5), tip_noise_N = 0.003;
@@ -338,7 +344,11 @@ BenchSet make(const std::string& content, double size, unsigned seed) {
   return out;
 }
 
+BenchSet make(const std::string& content, double size, unsigned seed) { return make_of(nullptr, content, size, seed); }
+
 }  // namespace
+
+BenchSet push_of(const BenchWire& wire, unsigned seed) { return make_of(&wire, "clean", 0, seed); }
 
 BenchKind push_kind() {
   return {"push_pull",

@@ -2,6 +2,7 @@
 /// Wires pushed into tubes with bends and pulled out: their shape in the tube by an interior-point method, friction
 /// from node to node.
 #include "tests/support/bench_set.h"
+#include "tests/support/one_wire.h"
 
 namespace ostium::synthetic {
 
@@ -20,5 +21,7 @@ std::vector<Touch> touches_of(const std::vector<TubeBend>& bends, double clearan
                               double step, double (*stiffness)(double from_tip, const void* data), const void* data);
 
 BenchKind push_kind();
+/// A clean set of this wire.
+BenchSet push_of(const BenchWire& wire, unsigned seed);
 
 }  // namespace ostium::synthetic

@@ -121,6 +121,20 @@ data::MeasurementSet free_wire(int experiments) {
   return set;
 }
 
+data::MeasurementSet free_shapes_of(const BenchWire& wire, unsigned seed) {
+  data::MeasurementSet set = free_wire(8);
+  set.title = "a wire beyond the end of a tube, made by a boundary-value solver";
+  set.instruments = {
+      {"wire", 1.5, 0.178 * mm, 0, {section(0, 1500, wire.declared_EI, wire.declared_GJ, 7e-4, 0, 0.178, 0)}}};
+  for (std::size_t i = 0; i < set.experiments.size(); ++i)
+    set.experiments[i].set[0].inserted_m = 0.09 + 0.1 * std::fmod(0.618 * static_cast<double>(i + seed), 1);
+  Truth truth;
+  truth.stiffness_scale = {{wire.EI / wire.declared_EI}};
+  truth.sigma_m = *set.imaging.noise_sigma_m, truth.seed = seed;
+  measure(set, truth);
+  return set;
+}
+
 data::MeasurementSet two_tubes(int experiments) {
   data::MeasurementSet set;
   set.title = "two tubes, made by a boundary-value solver", set.source = "tests";

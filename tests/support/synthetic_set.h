@@ -4,6 +4,7 @@
 
 #include "data/identification/measurement/measurement_set.h"
 #include "tests/support/boundary_value.h"
+#include "tests/support/one_wire.h"
 
 namespace ostium::synthetic {
 
@@ -27,6 +28,9 @@ void measure(data::MeasurementSet& set, const Truth& truth, double spacing_m = 5
 /// A wire with a soft curved tip, 120 to 300 mm of it inserted horizontally, rolled; some experiments have a load at
 /// its tip.
 data::MeasurementSet free_wire(int experiments);
+
+/// The free part of this wire beyond the end of a tube, 90 to 190 mm of it, some with a load at its tip.
+data::MeasurementSet free_shapes_of(const BenchWire& wire, unsigned seed);
 
 /// Two tubes with curved ends and shafts behind the base; tips tracked in a separate frame.
 data::MeasurementSet two_tubes(int experiments);

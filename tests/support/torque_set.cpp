@@ -212,13 +212,19 @@ void spoil(const std::string& content, Dice& dice, Json& runs, BenchSet& out) {
   if (content == "fault:outlier") scaled("distal_deg", dice.uniform(0.85, 0.95)), out.effects = {"outlier_experiment"};
 }
 
-BenchSet make(const std::string& content, double size, unsigned seed) {
+BenchSet make_of(const BenchWire* wire, const std::string& content, double size, unsigned seed) {
   Dice dice("torque:" + content, seed);
   Torqued declared;
   declared.GJ = dice.log_uniform(20, 45), declared.tip_GJ = declared.GJ, declared.friction = dice.uniform(0.03, 0.08);
   if (dice.uniform(0, 1) < 0.5) declared.tip_length = dice.uniform(450, 550), declared.tip_GJ *= dice.uniform(0.5, 0.8);
   Torqued plain = declared;
   plain.GJ *= dice.log_uniform(0.75, 1.33), plain.tip_GJ *= dice.log_uniform(0.75, 1.33);
+  if (wire) {
+    declared.tip_length = 0, declared.EI = wire->declared_EI;
+    declared.GJ = declared.tip_GJ = wire->declared_GJ, declared.friction = wire->declared_friction;
+    plain = declared;
+    plain.EI = wire->EI, plain.GJ = plain.tip_GJ = wire->GJ, plain.friction = wire->friction;
+  }
   const std::vector<Path> paths = design(dice);
   const double distal_noise = dice.uniform(1, 2), torque_noise = 0.002 * dice.log_uniform(0.5, 1.5);
   std::vector<Measured> measured = measure(plain, paths);
@@ -292,7 +298,11 @@ BenchSet make(const std::string& content, double size, unsigned seed) {
   return out;
 }
 
+BenchSet make(const std::string& content, double size, unsigned seed) { return make_of(nullptr, content, size, seed); }
+
 }  // namespace
+
+BenchSet torque_of(const BenchWire& wire, unsigned seed) { return make_of(&wire, "clean", 0, seed); }
 
 BenchKind torque_kind() {
   return {"torque_response",

@@ -37,11 +37,12 @@ core::EndState base_towards(const Vector3d& p_m, const Vector3d& along, const Ve
 }
 
 /// A wire with a soft curved tip, pushed out of three places near the isocentre; some weights at its tip.
-data::MeasurementSet seen_wire(Dice& dice) {
+data::MeasurementSet seen_wire(Dice& dice, const BenchWire* wire) {
   data::MeasurementSet set;
   set.title = "seen by a pinhole camera", set.source = "tests";
-  const double shaft = dice.log_uniform(6, 20), tip = shaft * dice.uniform(0.12, 0.3), tip_mm = dice.uniform(20, 40),
-               ratio = dice.uniform(0.7, 0.8), weight = dice.uniform(6e-4, 9e-4), side = dice.uniform(0, 2 * units::pi);
+  const double drawn = dice.log_uniform(6, 20), shaft = wire ? wire->declared_EI : drawn,
+               tip = shaft * dice.uniform(0.12, 0.3), tip_mm = dice.uniform(20, 40), ratio = dice.uniform(0.7, 0.8),
+               weight = dice.uniform(6e-4, 9e-4), side = dice.uniform(0, 2 * units::pi);
   const Vector2d bend = dice.uniform(10, 25) * Vector2d(std::cos(side), std::sin(side));
   set.instruments = {{"wire",
                       0.6,
@@ -49,6 +50,9 @@ data::MeasurementSet seen_wire(Dice& dice) {
                       0,
                       {made_section(0, tip_mm, tip, ratio * tip, weight, bend, 0.178, 0),
                        made_section(tip_mm, 600, shaft, ratio * shaft, weight, {0, 0}, 0.178, 0)}}};
+  if (wire)
+    set.instruments[0] = {
+        "wire", 1.5, 0.178 * mm, 0, {made_section(0, 1500, shaft, wire->declared_GJ, weight, {0, 0}, 0.178, 0)}};
   set.gravity_m_s2 = {0, 9.81, 0};
   set.imaging.noise_sigma_m = dice.uniform(0.4, 0.9);
   const core::EndState bases[] = {
@@ -158,16 +162,15 @@ std::vector<Vector2d> clicked(const std::vector<Vector3d>& curve, const Pinhole&
   return out;
 }
 
-}  // namespace
-
-Undeclared undeclared_in_views(const std::string& kind, unsigned seed) {
+Undeclared make(const BenchWire* wire, const std::string& kind, unsigned seed) {
   Dice dice(kind, seed);
   Undeclared u;
-  u.set = seen_wire(dice);
+  u.set = seen_wire(dice, wire);
   Room room{two_views(dice), 0};
   u.set.views = declared(room.cameras);
   Truth truth;
   truth.stiffness_scale = {{dice.uniform(0.7, 1.3), dice.uniform(0.7, 1.3)}};
+  if (wire) truth.stiffness_scale = {{wire->EI / wire->declared_EI}};
   World world;
   const std::string ids = kind.substr(std::string(in_views).size());
   for (std::size_t from = 0; ids != "clean" && from <= ids.size();) {
@@ -194,6 +197,14 @@ Undeclared undeclared_in_views(const std::string& kind, unsigned seed) {
     }
   std::erase_if(u.set.experiments, [](const data::Experiment& e) { return e.polylines.empty(); });
   return u;
+}
+
+}  // namespace
+
+Undeclared undeclared_in_views(const std::string& kind, unsigned seed) { return make(nullptr, kind, seed); }
+
+data::MeasurementSet views_of(const BenchWire& wire, unsigned seed) {
+  return make(&wire, std::string(in_views) + "clean", seed).set;
 }
 
 }  // namespace ostium::synthetic

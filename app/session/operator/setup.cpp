@@ -29,22 +29,6 @@ std::string all_of(const std::string& file) {
   return {std::istreambuf_iterator<char>(in), {}};
 }
 
-/// A name of the catalogue, or a file, which is looked for from `folder` and then from where we are.
-std::string instrument_file(const std::string& name_or_file, const fs::path& folder = {}) {
-  const fs::path known = fs::path(data::data_folder()) / "instruments" / (name_or_file + ".json");
-  if (fs::is_regular_file(known)) return known.string();
-  if (name_or_file.ends_with(".json")) {
-    std::error_code unseen;
-    for (const fs::path& file : {folder / name_or_file, fs::path(name_or_file)})
-      if (fs::is_regular_file(file, unseen)) return file.string();
-    throw data::LoadError(
-        fmt::format("there is no instrument file \"{}\"{}; expected a file there, or a name of `ostium instruments`",
-                    name_or_file, folder.empty() ? "" : " in " + folder.string() + " nor from here"));
-  }
-  data::find_instrument(data::load_catalogue(), name_or_file);  // throws, listing the catalogue, if there is none
-  return known.string();
-}
-
 fs::path folder_of(const data::Script& script) { return fs::path(script.file).parent_path(); }
 
 const std::string& name_of(vascular::Access access) { return data::access_names()[static_cast<std::size_t>(access)]; }
@@ -78,7 +62,7 @@ void set_script(const data::Script& script, RunSetup& setup) {
   setup.script = script;
   setup.tool_texts.clear(), setup.tool_files.clear();
   for (const data::ScriptTool& tool : script.tools) {
-    setup.tool_files.push_back(instrument_file(tool.instrument, folder_of(script)));
+    setup.tool_files.push_back(data::instrument_file(tool.instrument, folder_of(script)));
     setup.tool_texts.push_back(all_of(setup.tool_files.back()));
   }
 }
@@ -117,7 +101,7 @@ std::vector<std::string> choose_sizes(const Vessel& vessel, RunSetup& setup) {
     if (!most_m) continue;
     double best_m = 0;
     for (const std::string& size : tool.sizes) {
-      const std::string file = instrument_file(size, folder_of(setup.script)), text = all_of(file);
+      const std::string file = data::instrument_file(size, folder_of(setup.script)), text = all_of(file);
       const double own_m = width_of(data::read_instrument(file, text), setup.script, tool);
       const bool better = best_m == 0 || (own_m <= *most_m ? best_m > *most_m || own_m > best_m : own_m < best_m);
       if (!better) continue;
@@ -146,7 +130,7 @@ void set_value(const std::string& key, const std::string& value, RunSetup& setup
   for (std::size_t t = 0; t < setup.script.tools.size(); ++t) {
     known += setup.script.tools[t].name + ", ";
     if (setup.script.tools[t].name != key) continue;
-    setup.tool_files[t] = instrument_file(value);
+    setup.tool_files[t] = data::instrument_file(value);
     setup.tool_texts[t] = all_of(setup.tool_files[t]);
     setup.script.tools[t].sizes.clear();
     return;

@@ -32,10 +32,10 @@ const std::vector<std::string>& opaque_materials() {
 }
 
 std::string source_mark(const Instrument& instrument) {
-  const auto estimates = std::count_if(instrument.sources.begin(), instrument.sources.end(),
-                                       [](const Source& source) { return source.estimate(); });
-  if (estimates == 0) return "published";
-  return static_cast<std::size_t>(estimates) == instrument.sources.size() ? "estimate" : "mixed";
+  const auto all = [&](auto is) { return std::all_of(instrument.sources.begin(), instrument.sources.end(), is); };
+  if (all([](const Source& s) { return s.estimate(); })) return "estimate";
+  if (all([](const Source& s) { return s.measured(); })) return "measured";
+  return all([](const Source& s) { return !s.estimate() && !s.measured(); }) ? "published" : "mixed";
 }
 
 std::vector<double> element_lengths(const Instrument& instrument) {

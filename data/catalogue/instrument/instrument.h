@@ -71,11 +71,22 @@ struct CarriedStent {
   vascular::StentDesign design;
 };
 
+/// Standard errors of what was measured on a stretch, N m2; 0: it was not measured.
+struct StiffnessError {
+  double from_tip_m = 0, to_tip_m = 0, EI_N_m2 = 0, GJ_N_m2 = 0;
+};
+
+/// Friction against the tubes of a bench, with its standard error.
+struct MeasuredFriction {
+  double coefficient = 0, sigma = 0;
+};
+
 /// The source of a group of numbers.
 struct Source {
   std::string of;        ///< "size", "sections", "sections.list[2]"
-  std::string citation;  ///< a publication or standard, or "estimate: " and the reasoning
+  std::string citation;  ///< a publication or standard, "measured: " and on what, or "estimate: " and the reasoning
   bool estimate() const { return citation.rfind("estimate:", 0) == 0; }
+  bool measured() const { return citation.rfind("measured:", 0) == 0; }
 };
 
 struct Instrument {
@@ -91,13 +102,15 @@ struct Instrument {
   double width_m = 0;                   ///< of that shape, from the shaft to the tip; 0 if not given
   std::vector<OpaqueStretch> opaque;    ///< the whole length, from the tip
   std::vector<Marker> markers;
-  std::optional<WireLumen> wire_lumen;        ///< of balloon and stent shafts
-  std::optional<CarriedBalloon> balloon;      ///< of balloon and stent shafts
-  std::optional<CarriedStent> stent;          ///< of stent shafts
-  std::optional<ShapeableTip> shapeable_tip;  ///< of wires
-  double passes_m = 0;                        ///< largest diameter that fits through its lumen; <= inner diameter
-  double needs_m = 0;                         ///< smallest lumen that it fits through; >= outer diameter
-  std::vector<Source> sources;                ///< in file order
+  std::optional<WireLumen> wire_lumen;           ///< of balloon and stent shafts
+  std::optional<CarriedBalloon> balloon;         ///< of balloon and stent shafts
+  std::optional<CarriedStent> stent;             ///< of stent shafts
+  std::optional<ShapeableTip> shapeable_tip;     ///< of wires
+  double passes_m = 0;                           ///< largest diameter that fits through its lumen; <= inner diameter
+  double needs_m = 0;                            ///< smallest lumen that it fits through; >= outer diameter
+  std::vector<StiffnessError> stiffness_errors;  ///< of sections that were measured
+  std::optional<MeasuredFriction> friction;      ///< a session has the vessel's own
+  std::vector<Source> sources;                   ///< in file order
 };
 
 /// Whether contrast can be given through it: a guide or a diagnostic catheter.
@@ -105,7 +118,7 @@ inline bool is_catheter(const Instrument& i) {
   return i.kind == InstrumentKind::guide_catheter || i.kind == InstrumentKind::diagnostic_catheter;
 }
 
-/// "published" if no source is an estimate, "estimate" if all are, else "mixed".
+/// "published", "measured" or "estimate" if all sources are that, else "mixed".
 std::string source_mark(const Instrument& instrument);
 
 /// Lengths of the elements with which a session simulates it, base first: 1 mm over its last 150 mm, from there growing

@@ -35,7 +35,15 @@ inline const JsonObjectKeys instrument = {
       json_type::object("balloon")},
      {"stent", false, "what is crimped on the balloon, an object; for stent_shaft, which needs it",
       json_type::object("stent")},
-     {"clearance", false, "what goes through it and what it goes through, an object", json_type::object("clearance")}}};
+     {"clearance", false, "what goes through it and what it goes through, an object", json_type::object("clearance")},
+     {"friction", false, "its friction on the benches that measured it, an object; a session has the vessel's own",
+      json_type::object("friction")}}};
+
+inline const JsonObjectKeys friction = {
+    "friction",
+    {{"coefficient", true, "the coefficient of friction, > 0", json_type::number(above_zero)},
+     {"sigma", true, "its standard error, > 0", json_type::number(above_zero)},
+     {"source", true, source_text, json_type::text()}}};
 
 inline const JsonObjectKeys size = {
     "size",
@@ -69,6 +77,10 @@ inline const JsonObjectKeys section = {
       json_type::number(above_zero)},
      {"GJ_Nmm2", true, "torsional stiffness in N mm2, > 0", json_type::number(above_zero)},
      {"kg_per_m", true, "weight in kg/m, > 0", json_type::number(above_zero)},
+     {"EI_sigma_Nmm2", false, "the standard error of the bending stiffness in N mm2, > 0, if it was measured",
+      json_type::number(above_zero)},
+     {"GJ_sigma_Nmm2", false, "the standard error of the torsional stiffness in N mm2, > 0, if it was measured",
+      json_type::number(above_zero)},
      {"outer_diameter_mm", false, "this section's outer diameter in mm, > 0 and at most size.outer_diameter_mm",
       json_type::number(above_zero)},
      {"inner_diameter_mm", false, "this section's inner diameter in mm, >= 0 and less than its outer one",

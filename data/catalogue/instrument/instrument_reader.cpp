@@ -117,6 +117,11 @@ void read_sections(const JsonObject& group, Instrument& instrument) {
     const JsonObject entry(value, keys::section);
     keep_source(entry, instrument);
     instrument.sections.push_back(read_section(entry, instrument, reached_mm));
+    const core::Section& s = instrument.sections.back();
+    StiffnessError error{s.from_tip_m, s.to_tip_m, 0, 0};
+    if (entry.has("EI_sigma_Nmm2")) error.EI_N_m2 = entry.positive("EI_sigma_Nmm2") * Nmm2;
+    if (entry.has("GJ_sigma_Nmm2")) error.GJ_N_m2 = entry.positive("GJ_sigma_Nmm2") * Nmm2;
+    if (error.EI_N_m2 > 0 || error.GJ_N_m2 > 0) instrument.stiffness_errors.push_back(error);
   }
   require_whole_length(group, reached_mm, instrument.length_m / mm);
   if (group.has("relaxation")) instrument.relaxation = read_relaxation(group);
@@ -288,6 +293,11 @@ void read_clearance(const JsonObject& group, Instrument& instrument) {
   }
 }
 
+MeasuredFriction read_friction(const JsonObject& group, Instrument& instrument) {
+  keep_source(group, instrument);
+  return {group.positive("coefficient"), group.positive("sigma")};
+}
+
 /// Core has limits of its own, for numbers of the right sign that no instrument has.
 void require_rod(const JsonObject& root, const Instrument& instrument) {
   try {
@@ -327,6 +337,8 @@ Instrument read(const JsonValue& file) {
     if (needed && !root.has(key)) root["kind"].refuse(fmt::format("a {} with it: what it carries", key));
     if (!needed && root.has(key)) root.refuse(key);
   }
+  if (root.has("friction"))
+    instrument.friction = read_friction(JsonObject(root["friction"], keys::friction), instrument);
   if (root.has("balloon")) read_balloon(JsonObject(root["balloon"], keys::balloon), instrument);
   if (root.has("stent")) read_stent(JsonObject(root["stent"], keys::stent), instrument);
   if (root.has("clearance")) read_clearance(JsonObject(root["clearance"], keys::clearance), instrument);

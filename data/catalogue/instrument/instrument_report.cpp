@@ -82,6 +82,13 @@ std::string instrument_details(const Instrument& i) {
                       : fmt::format("  {:.4f}, {:.4f}, {:.4f}\n", unsigned_zero(u.x()), unsigned_zero(u.y()),
                                     unsigned_zero(u.z()));
   }
+  if (!i.stiffness_errors.empty()) out += "\nmeasured, with standard errors, N mm2:\n";
+  for (const StiffnessError& e : i.stiffness_errors)
+    out += fmt::format("{:>7.1f} .. {:>6.1f}{}{}\n", e.from_tip_m * m_in_mm, e.to_tip_m * m_in_mm,
+                       e.EI_N_m2 > 0 ? fmt::format("  EI +- {:.2g}", e.EI_N_m2 * N_m2_in_N_mm2) : "",
+                       e.GJ_N_m2 > 0 ? fmt::format("  GJ +- {:.2g}", e.GJ_N_m2 * N_m2_in_N_mm2) : "");
+  if (i.friction)
+    out += fmt::format("friction on benches {:.3g} +- {:.2g}\n", i.friction->coefficient, i.friction->sigma);
   if (!i.shape.empty()) out += "\nshape at rest, from the tip:\n" + shape_lines(i.shape);
   if (i.width_m > 0) out += fmt::format("  {:.4g} mm from the shaft to the tip\n", i.width_m * m_in_mm);
   if (i.shapeable_tip)

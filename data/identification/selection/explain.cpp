@@ -109,7 +109,11 @@ void search_effects(const MeasurementSet& set, const Workers& workers, const Exp
   EffectSearch search(set, workers, options.progress, options.stop);
   out.candidates = search.run(declared, out.declared, out.noise);
   out.ended_early = ends(options);
-  if (!out.ended_early)
+  // In a vessel fields take hundreds of histories, and are not asked where an effect explains all.
+  const bool explained =
+      set.vessel && std::any_of(out.candidates.begin(), out.candidates.end(),
+                                [&](const FittedModel& c) { return wins(c, out.declared, out.noise); });
+  if (!out.ended_early && !explained)
     out.attributions = attribute_residual(set, workers, out.declared, {}, out.noise, options.progress);
   out.signature = signature_of(out.attributions);
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <stdexcept>
 
 #include "data/identification/estimation/model_fit.h"
@@ -13,6 +14,7 @@ namespace ostium::data {
 namespace {
 
 constexpr double widths[] = {1.0, 0.25, 4.0};  // of a field's prior
+constexpr std::size_t widths_in_vessel = 1;    // each takes a hundred histories and more
 
 /// The stretch between knots that holds four fifths of a field's sum of squares.
 std::optional<Eigen::Vector2d> stretch_of(const MeasurementSet& set, const std::vector<double>& v, int width) {
@@ -80,7 +82,8 @@ std::vector<ResidualAttribution> attribute_residual(const MeasurementSet& set, c
     if (radii && field.effect == &lateral_force_field()) continue;
     std::optional<ResidualAttribution> best;
     FittedModel from = near;
-    for (const double spread : widths) {  // each starts from the previous result
+    const std::size_t tried = set.vessel ? widths_in_vessel : std::size(widths);
+    for (const double spread : std::span(widths).first(tried)) {  // each starts from the previous result
       std::vector<ActiveEffect> effects = with;
       effects.push_back(active(*field.effect, set, {}, {"", {}}));
       ModelFit study(set, workers, effects, progress, spread);

@@ -6,6 +6,8 @@
 #include <chrono>
 #include <cmath>
 #include <limits>
+#include <memory>
+#include <mutex>
 #include <set>
 #include <stdexcept>
 
@@ -45,6 +47,41 @@ std::string key_of(const std::vector<ActiveEffect>& effects) {
   return key;
 }
 
+/// Tells how far a list of fits has come. Threads may share it.
+class Countdown {
+ public:
+  Countdown(std::size_t of, const std::function<void(const std::string&)>& progress) : of_(of), progress_(progress) {}
+  void one_done() {
+    const std::lock_guard lock(telling_);
+    ++done_;
+  }
+  /// "3 of 12, 40 s left for these: " and the words.
+  void tell(const std::string& words) {
+    if (!progress_) return;
+    const std::lock_guard lock(telling_);
+    std::string before;
+    if (done_ < of_) before = fmt::format("{} of {}", done_ + 1, of_);
+    if (done_ > 0 && done_ < of_) {
+      const double each_s = std::chrono::duration<double>(Clock::now() - begin_).count() / static_cast<double>(done_);
+      before += fmt::format(", {:.0f} s left for these", each_s * static_cast<double>(of_ - done_));
+    }
+    progress_(before.empty() ? words : before + ": " + words);
+  }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  std::size_t of_, done_ = 0;
+  std::function<void(const std::string&)> progress_;
+  Clock::time_point begin_ = Clock::now();
+  std::mutex telling_;
+};
+
+template <class List>
+bool is_in(const List& list, const std::vector<ActiveEffect>& effects) {
+  const std::string key = key_of(effects);
+  return std::any_of(list.begin(), list.end(), [&](const auto& t) { return key_of(t.effects) == key; });
+}
+
 /// None: the fit estimates it.
 std::optional<double> sigma_to_fit_by(const MeasurementSet& set, const Noise& noise) {
   return noise.model ? noise.sigma_m : set.imaging.noise_sigma_m;
@@ -52,27 +89,38 @@ std::optional<double> sigma_to_fit_by(const MeasurementSet& set, const Noise& no
 
 }  // namespace
 
-void EffectSearch::add(const std::vector<ActiveEffect>& effects, const FittedModel& near, const Noise& noise,
-                       const std::string& of) {
-  if (stopped()) return;
-  const std::string key = key_of(effects);
-  for (const Tried& t : tried_)
-    if (key_of(t.effects) == key) return;
-  std::function<void(const std::string&)> told;
-  if (progress_) told = [this, of](const std::string& words) { progress_(of + words); };
-  fits_.emplace_back(set_, workers_, effects, told);
-  Tried tried;
-  tried.study = &fits_.back(), tried.effects = effects;
-  tried.study->weigh_by(noise);
-  try {
-    tried.model = fits_.back().run_near(near, sigma_to_fit_by(set_, noise), near.rms_m / std::sqrt(2.0),
-                                        set_.instruments.size() > 1 ? starts_for_one / 3 : starts_for_one);
-  } catch (const std::runtime_error&) {  // no shapes with this effect
-    fits_.pop_back();
-    return;
+void EffectSearch::add(const std::vector<std::vector<ActiveEffect>>& models, const FittedModel& near,
+                       const Noise& noise) {
+  std::vector<Tried> fresh;
+  const auto countdown = std::make_shared<Countdown>(models.size(), progress_);  // the fits keep it
+  for (const std::vector<ActiveEffect>& effects : models) {
+    if (is_in(tried_, effects) || is_in(fresh, effects)) continue;
+    fits_.emplace_back(set_, workers_, effects, [countdown](const std::string& words) { countdown->tell(words); });
+    fresh.push_back({{}, &fits_.back(), effects, false});
+    fits_.back().weigh_by(noise);
   }
-  fits_.back().judge(tried.model, noise);
-  tried_.push_back(std::move(tried));
+  const int starts = set_.instruments.size() > 1 ? starts_for_one / 3 : starts_for_one;
+  const auto fit = [&](std::size_t k) {
+    if (stopped()) return;
+    try {
+      fresh[k].model =
+          fresh[k].study->run_near(near, sigma_to_fit_by(set_, noise), near.rms_m / std::sqrt(2.0), starts);
+      fresh[k].fitted = true;
+    } catch (const std::runtime_error&) {  // no shapes with this effect
+    }
+    countdown->one_done();
+  };
+  // At rest the shapes of one fit are found side by side; in a vessel its histories come one after the other, and fits
+  // run side by side.
+  if (set_.vessel && ranks() == 1)
+    workers_.map(fresh.size(), [&](std::size_t k) { return fit(k), std::vector<double>{}; });
+  else
+    for (std::size_t k = 0; k < fresh.size(); ++k) fit(k);
+  for (Tried& t : fresh) {
+    if (!t.fitted) continue;
+    t.study->judge(t.model, noise);
+    tried_.push_back(std::move(t));
+  }
 }
 
 double EffectSearch::cost_ahead_of(const std::vector<ActiveEffect>& effects, const FittedModel& near,
@@ -88,7 +136,6 @@ double EffectSearch::cost_ahead_of(const std::vector<ActiveEffect>& effects, con
 
 void EffectSearch::add_to(const Tried* base, const FittedModel& near, const Noise& noise) {
   const std::vector<ActiveEffect> before = base ? base->effects : std::vector<ActiveEffect>{};
-  const FittedModel model = near;  // copied, since `add` may move it
   std::vector<std::pair<double, std::vector<ActiveEffect>>> joined;
   for (const ActiveEffect& more : everything_to_try(set_)) {
     if (std::any_of(set_.effects.begin(), set_.effects.end(),
@@ -99,22 +146,17 @@ void EffectSearch::add_to(const Tried* base, const FittedModel& near, const Nois
     effects.push_back(more);
     joined.emplace_back(0, effects);
   }
-  // All single effects are fitted; to a model with effects only the most promising are added.
-  if (base && joined.size() > ahead && !stopped()) {
-    for (auto& [cost, effects] : joined) cost = cost_ahead_of(effects, model, noise);
+  // At rest all single effects are fitted; to a model with effects, and in a vessel, where a fit takes some forty
+  // histories and a look ahead a few, only the most promising.
+  if ((base || set_.vessel) && joined.size() > ahead && !stopped()) {
+    if (progress_) progress_(fmt::format("which of {} effects promise most", joined.size()));
+    for (auto& [cost, effects] : joined) cost = cost_ahead_of(effects, near, noise);
     std::sort(joined.begin(), joined.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
     joined.resize(ahead);
   }
-  using Clock = std::chrono::steady_clock;
-  const auto begin = Clock::now();
-  for (std::size_t i = 0; i < joined.size(); ++i) {
-    std::string of = fmt::format("{} of {}", i + 1, joined.size());
-    if (i > 0) {
-      const double each_s = std::chrono::duration<double>(Clock::now() - begin).count() / static_cast<double>(i);
-      of += fmt::format(", {:.0f} s left for these", each_s * static_cast<double>(joined.size() - i));
-    }
-    add(joined[i].second, model, noise, of + ": ");
-  }
+  std::vector<std::vector<ActiveEffect>> models;
+  for (auto& [cost, effects] : joined) models.push_back(std::move(effects));
+  add(models, near, noise);
 }
 
 void EffectSearch::sort_by_bic() {
@@ -225,19 +267,19 @@ void EffectSearch::prune(const Noise& noise) {
   sort_by_bic();
   if (tried_.empty() || tried_.front().effects.size() < 2) return;
   const Tried best = tried_.front();
+  std::vector<std::vector<ActiveEffect>> models;
   for (std::size_t i = 0; i < best.effects.size(); ++i) {
     std::vector<ActiveEffect> others = best.effects;
     others.erase(others.begin() + static_cast<std::ptrdiff_t>(i));
-    const FittedModel near = best.model;
-    add(others, near, noise);
+    models.push_back(others);
     for (const ActiveEffect& form : everything_to_try(set_)) {
       if (form.effect != best.effects[i].effect || form.instrument != best.effects[i].instrument) continue;
       if (!can_join(others, form)) continue;
-      std::vector<ActiveEffect> swapped = others;
-      swapped.push_back(form);
-      add(swapped, near, noise);
+      models.push_back(others);
+      models.back().push_back(form);
     }
   }
+  add(models, best.model, noise);
 }
 
 std::vector<FittedModel> EffectSearch::run(const ModelFit& declared, FittedModel& of_declared, Noise& noise,

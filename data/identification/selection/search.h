@@ -24,12 +24,11 @@ class EffectSearch {
     FittedModel model;
     ModelFit* study = nullptr;
     std::vector<ActiveEffect> effects;
-    bool complete = false;
+    bool fitted = false, complete = false;
   };
   bool stopped() const { return stop_ && stop_(); }
-  /// `of`: what the progress says before the fit's own words.
-  void add(const std::vector<ActiveEffect>& effects, const FittedModel& near, const Noise& noise,
-           const std::string& of = "");
+  /// Fits and judges those models that were not tried before.
+  void add(const std::vector<std::vector<ActiveEffect>>& models, const FittedModel& near, const Noise& noise);
   double cost_ahead_of(const std::vector<ActiveEffect>& effects, const FittedModel& near, const Noise& noise);
   /// Adds the most promising effects to `base`; nullptr: fits every single effect.
   void add_to(const Tried* base, const FittedModel& near, const Noise& noise);
