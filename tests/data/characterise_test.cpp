@@ -84,9 +84,9 @@ TEST_F(Characterise, AWireFromThreeBenchesPredictsWhatItsBenchesDidNotSee) {
 TEST_F(Characterise, SetsThatDisagreeAreSaidToAndWidenTheError) {
   BenchWire other = wire;
   other.EI *= 1.3;
-  const Characterisation found = characterise(
-      {write("bend", synthetic::bend_of(wire, 3).json), write("views", synthetic::to_json(synthetic::views_of(other, 3)))}, "",
-      {});
+  const Characterisation found = characterise({write("bend", synthetic::bend_of(wire, 3).json),
+                                               write("views", synthetic::to_json(synthetic::views_of(other, 3)))},
+                                              "", {});
   const Combined& EI = found.wire.stretches[0].EI_N_m2;
   EXPECT_TRUE(EI.disagree());
   EXPECT_GT(EI.sigma, 0.05);

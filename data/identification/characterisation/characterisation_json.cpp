@@ -60,9 +60,13 @@ Json number(const Characterisation& c, const Combined& n, double unit) {
 Json as_json(const WireCheck& check) {
   Json runs = Json::array();
   for (const RunCheck& r : check.runs) runs.push_back({{"id", r.id}, {"rms_over_noise", r.over_noise}});
+  Json moves = Json::array();
+  for (const AskedMove& m : check.moves) moves.push_back({{"what", m.what}, {"errors", m.errors}});
   return {{"rms_over_noise", check.over_noise},
           {"beyond_errors", check.beyond_errors},
+          {"asked_moves", moves},
           {"agrees_within", agrees_within},
+          {"agrees_within_errors", agrees_within_errors},
           {"agrees", check.agrees()},
           {"runs", runs}};
 }
@@ -132,10 +136,14 @@ std::string to_json(const Characterisation& c) {
 }
 
 std::string words_of(const WireCheck& check) {
-  return fmt::format(
-      "{:.2f} times the noise, {:.2f} beyond what the errors of its stiffness and friction may do: {} ({:g} is the "
-      "limit)",
-      check.over_noise, check.beyond_errors, check.agrees() ? "it agrees" : "it does not agree", agrees_within);
+  std::string out =
+      fmt::format("{:.2f} times the noise, {:.2f} beyond what the errors of its stiffness and friction may do",
+                  check.over_noise, check.beyond_errors);
+  if (!check.moves.empty())
+    out += fmt::format("; it would have {} otherwise by {:+.1f} standard errors", check.moves[0].what,
+                       check.moves[0].errors);
+  return out + (check.agrees() ? ": it agrees" : ": it does not agree") +
+         fmt::format(" (the limits are {:g} and {:g})", agrees_within, agrees_within_errors);
 }
 
 std::string to_json(const WireCheck& check) {

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/base/units.h"
+#include "data/identification/characterisation/characterisation_report.h"
 #include "data/identification/curves/curve_report.h"
 #include "data/identification/curves/kinds.h"
 #include "data/identification/measurement/measurement_reader.h"
@@ -160,10 +161,7 @@ void put_into_words(Characterisation& c) {
                                             measured / mm, c.declared.back().to_tip_m / mm));
   for (const CharacterisedSet& s : c.sets)
     if (s.check)
-      c.text.push_back(fmt::format(
-          "{}, predicted by the others with nothing fitted, is {:.2f} times its noise off, "
-          "{:.2f} beyond what their errors may do: {}.",
-          s.name, s.check->over_noise, s.check->beyond_errors, s.check->agrees() ? "it agrees" : "it does not agree"));
+      c.text.push_back(s.name + ", predicted by the others with nothing fitted: off by " + words_of(*s.check) + ".");
 }
 
 }  // namespace

@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 
 #include <Eigen/Cholesky>
+#include <algorithm>
 #include <cmath>
 
+#include "core/base/units.h"
 #include "data/identification/curves/kinds.h"
 #include "data/identification/effects/effect_list.h"
 #include "data/identification/estimation/measured_push.h"
@@ -18,6 +20,7 @@ namespace {
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
+using units::mm;
 
 /// Misfits of one run over their noise, and how many independent numbers they are.
 struct Misfits {
@@ -94,30 +97,40 @@ VectorXd all_of(const std::vector<Misfits>& list) {
   return out;
 }
 
-/// The wire with one of its measured numbers larger by its standard error, for each of them. One estimate that covers
-/// several stretches moves them together.
-std::vector<WireInSet> one_error_off(const CharacterisedWire& wire) {
-  std::vector<WireInSet> out;
-  const auto add = [&](auto stiffness, auto change) {
+/// The wire with one of its numbers larger by its standard error.
+struct OneOff {
+  std::string what;
+  WireInSet wire;
+};
+
+/// For each of the measured numbers. One estimate that covers several stretches moves them together.
+std::vector<OneOff> one_error_off(const CharacterisedWire& wire) {
+  std::vector<OneOff> out;
+  const auto add = [&](const std::string& name, auto stiffness, auto change) {
     std::vector<const Combined*> done;
     for (const Stretch& s : wire.stretches) {
       const Combined& c = stiffness(s);
       const auto same = [&](const Combined* d) { return d->value == c.value && d->sets == c.sets; };
       if (!c.measured() || std::any_of(done.begin(), done.end(), same)) continue;
       done.push_back(&c);
-      WireInSet moved = in_set(wire);
-      for (std::size_t i = 0; i < moved.stretches.size(); ++i)
-        if (same(&stiffness(wire.stretches[i]))) change(moved.stretches[i], std::exp(c.sigma));
+      OneOff moved{"", in_set(wire)};
+      double to_m = s.to_tip_m;
+      for (std::size_t i = 0; i < moved.wire.stretches.size(); ++i)
+        if (same(&stiffness(wire.stretches[i])))
+          change(moved.wire.stretches[i], std::exp(c.sigma)), to_m = wire.stretches[i].to_tip_m;
+      moved.what = fmt::format("{}, {:g} to {:g} mm from the tip", name, s.from_tip_m / mm, to_m / mm);
       out.push_back(std::move(moved));
     }
   };
-  add([](const Stretch& s) -> const Combined& { return s.EI_N_m2; },
+  add(
+      "EI", [](const Stretch& s) -> const Combined& { return s.EI_N_m2; },
       [](DeclaredStretch& s, double by) { s.EI_N_m2 *= by; });
-  add([](const Stretch& s) -> const Combined& { return s.GJ_N_m2; },
+  add(
+      "GJ", [](const Stretch& s) -> const Combined& { return s.GJ_N_m2; },
       [](DeclaredStretch& s, double by) { s.GJ_N_m2 *= by; });
   if (wire.friction.measured()) {
-    WireInSet moved = in_set(wire);
-    *moved.friction *= std::exp(wire.friction.sigma);
+    OneOff moved{"friction", in_set(wire)};
+    *moved.wire.friction *= std::exp(wire.friction.sigma);
     out.push_back(std::move(moved));
   }
   return out;
@@ -144,15 +157,20 @@ WireCheck check(const JsonValue& root, const CharacterisedWire& wire,
     numbers += m.numbers;
   }
   out.over_noise = std::sqrt(r.squaredNorm() / numbers);
-  const std::vector<WireInSet> moved = one_error_off(wire);
+  const std::vector<OneOff> moved = one_error_off(wire);
   MatrixXd D(r.size(), static_cast<Eigen::Index>(moved.size()));
   for (std::size_t k = 0; k < moved.size(); ++k) {
     if (progress) progress(fmt::format("what errors do: {} of {}", k + 1, moved.size()));
-    D.col(static_cast<Eigen::Index>(k)) = all_of(misfits_of(root, moved[k])) - r;
+    D.col(static_cast<Eigen::Index>(k)) = all_of(misfits_of(root, moved[k].wire)) - r;
   }
   const VectorXd Dr = D.transpose() * r;
   const MatrixXd inner = MatrixXd::Identity(D.cols(), D.cols()) + D.transpose() * D;
-  out.beyond_errors = std::sqrt((r.squaredNorm() - Dr.dot(inner.ldlt().solve(Dr))) / numbers);
+  const VectorXd asked = -inner.ldlt().solve(Dr);
+  out.beyond_errors = std::sqrt(std::max(r.squaredNorm() + Dr.dot(asked), 0.0) / numbers);
+  for (std::size_t k = 0; k < moved.size(); ++k)
+    out.moves.push_back({moved[k].what, asked[static_cast<Eigen::Index>(k)]});
+  std::sort(out.moves.begin(), out.moves.end(),
+            [](const AskedMove& a, const AskedMove& b) { return std::fabs(a.errors) > std::fabs(b.errors); });
   return out;
 }
 
