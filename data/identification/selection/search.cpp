@@ -65,8 +65,12 @@ void EffectSearch::add(const std::vector<ActiveEffect>& effects, const FittedMod
   tried.study = &fits_.back(), tried.effects = effects;
   tried.study->weigh_by(noise);
   try {
+    // A law begins as what is declared: its numbers are many, and all about zero.
+    const bool law = std::any_of(effects.begin(), effects.end(), [](const ActiveEffect& e) { return e.effect->law; });
     tried.model = fits_.back().run_near(near, sigma_to_fit_by(set_, noise), near.rms_m / std::sqrt(2.0),
-                                        set_.instruments.size() > 1 ? starts_for_one / 3 : starts_for_one);
+                                        law                           ? 0
+                                        : set_.instruments.size() > 1 ? starts_for_one / 3
+                                                                      : starts_for_one);
   } catch (const std::runtime_error&) {  // no shapes with this effect
     fits_.pop_back();
     return;
@@ -273,6 +277,37 @@ std::vector<FittedModel> EffectSearch::run(const ModelFit& declared, FittedModel
     out.push_back(t->model);
   }
   std::sort(out.begin(), out.end(), [](const FittedModel& a, const FittedModel& b) { return a.bic < b.bic; });
+  return out;
+}
+
+std::vector<FittedModel> EffectSearch::learn(const FittedModel& of_declared, const FittedModel& library,
+                                             const Noise& noise) {
+  tried_.clear(), fits_.clear();
+  const std::vector<ActiveEffect> laws = laws_to_try(set_);
+  const auto declares = [&](const ActiveEffect& law) {
+    return std::any_of(set_.effects.begin(), set_.effects.end(),
+                       [&](const DeclaredEffect& d) { return d.id == law.effect->id; });
+  };
+  for (const ActiveEffect& law : laws)
+    if (!declares(law)) add({law}, of_declared, noise);
+  for (Tried& t : tried_) complete(t, noise);
+  const bool enough = std::any_of(tried_.begin(), tried_.end(), [&](const Tried& t) { return fits(t.model, noise); });
+  const auto& all = library.changes.effects;
+  std::vector<ActiveEffect> beside(all.begin() + static_cast<std::ptrdiff_t>(set_.effects.size()), all.end());
+  if (!enough && !beside.empty()) {
+    sort_by_bic();
+    for (const ActiveEffect& law : laws) {
+      if (declares(law)) continue;
+      std::vector<ActiveEffect> joined = beside;
+      joined.push_back(law);
+      add(joined, library, noise);
+    }
+    for (Tried& t : tried_) complete(t, noise);
+  }
+  sort_by_bic();
+  std::vector<FittedModel> out;
+  for (const Tried& t : tried_)
+    if (t.complete) out.push_back(t.model);
   return out;
 }
 

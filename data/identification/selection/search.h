@@ -19,6 +19,10 @@ class EffectSearch {
   std::vector<FittedModel> run(const ModelFit& declared, FittedModel& of_declared, Noise& noise,
                                std::size_t most_effects = 3);
 
+  /// Models with laws learned from the data, each alone and, where that leaves more than noise, with the effects of
+  /// `library`, the best model without; complete, best first.
+  std::vector<FittedModel> learn(const FittedModel& of_declared, const FittedModel& library, const Noise& noise);
+
  private:
   struct Tried {
     FittedModel model;
