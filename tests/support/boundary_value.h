@@ -17,7 +17,7 @@ struct Tube {
   double roll_rad = 0;
   double shaft_rad_per_Nm = 0;
   /// Of a single tube: curvature beyond rest over the linear one, by the linear one (1/m); empty: linear, or softening.
-  std::function<double(double)> more_curved;
+  std::function<double(double)> more_curved = {};
 };
 
 /// A point force on the centreline, or a force spread over a stretch.

@@ -10,11 +10,14 @@
 
 namespace ostium::data::bending_law {
 
-inline constexpr int knots = 9;             ///< from a sixteenth of the reach to the reach, each a factor of sqrt 2 on
-inline constexpr double step_spread = 0.4;  ///< of ln(tangent) from a knot to the next
+inline constexpr int knots = core::BendingCurve::most;  ///< from `first` of the reach to the reach, evenly in logarithm
+inline constexpr double first = 1.0 / 16;
+inline constexpr double step_spread = 0.5;  ///< of ln(tangent) from a knot to the next
 inline constexpr double most_step = 4;
 
-inline double knot_per_m(int j, double reach_per_m) { return reach_per_m * std::pow(2.0, 0.5 * (j + 1 - knots)); }
+inline double knot_per_m(int j, double reach_per_m) {
+  return reach_per_m * std::pow(first, (knots - 1.0 - j) / (knots - 1));
+}
 
 /// `steps`: of ln(tangent), `knots` of them.
 inline core::BendingCurve curve_of(std::span<const double> steps, double reach_per_m) {

@@ -138,9 +138,8 @@ std::string in_words(const LearnedLaw& law) {
   if (widths.empty()) return fmt::format("{}: the data do not reach it; it is its prior.", law.curve.id);
   std::sort(widths.begin(), widths.end());
   std::string out = fmt::format(
-      "{}: {} from {:.3g} to {:.3g}, known to {:.2g} % (half the band, median), {:.3g} to "
-      "{:.3g} {} {}{}.",
-      law.curve.id, law.curve.y, least, most, 100 * widths[widths.size() / 2], from, to, law.curve.x_unit, law.curve.x,
+      "{}: {} from {:.3g} to {:.3g}, known to {:.2g} % (half the band, median), for a {} of {:.3g} to {:.3g} {}{}.",
+      law.curve.id, law.curve.y, least, most, 100 * widths[widths.size() / 2], law.curve.x, from, to, law.curve.x_unit,
       widths.size() < points.size() ? "; elsewhere it is its prior" : "");
   if (!law.looks_like.empty()) out += " It looks like " + law.looks_like + ".";
   return out;

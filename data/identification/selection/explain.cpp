@@ -103,27 +103,11 @@ void search_single_effects(const MeasurementSet& set, const Workers& workers, co
   out.ended_early = ends(options);
 }
 
-/// Laws are learned where no single effect of the library explains the set, with a noise that is known.
-bool laws_are_due(const Explanation& x) {
-  if (!x.noise.sigma_m || is_noise(x.declared, x.noise)) return false;
-  return std::none_of(x.candidates.begin(), x.candidates.end(), [&](const FittedModel& c) {
-    return c.effects.size() == 1 && wins(c, x.declared, x.noise) && !at_an_edge(c);
-  });
-}
-
-void learn_laws(EffectSearch& search, Explanation& out) {
-  const FittedModel library = out.candidates.empty() ? out.declared : out.candidates.front();
-  for (FittedModel& learned : search.learn(out.declared, library, out.noise)) out.candidates.push_back(learned);
-  std::sort(out.candidates.begin(), out.candidates.end(),
-            [](const FittedModel& a, const FittedModel& b) { return a.bic < b.bic; });
-}
-
 /// Searches the effects, laws where these leave something, and the fields that have no name.
 void search_effects(const MeasurementSet& set, const Workers& workers, const ExplainOptions& options,
                     const ModelFit& declared, Explanation& out) {
   EffectSearch search(set, workers, options.progress, options.stop);
   out.candidates = search.run(declared, out.declared, out.noise);
-  if (!ends(options) && laws_are_due(out)) learn_laws(search, out);
   out.ended_early = ends(options);
   if (!out.ended_early)
     out.attributions = attribute_residual(set, workers, out.declared, {}, out.noise, options.progress);

@@ -19,10 +19,6 @@ class EffectSearch {
   std::vector<FittedModel> run(const ModelFit& declared, FittedModel& of_declared, Noise& noise,
                                std::size_t most_effects = 3);
 
-  /// Models with laws learned from the data, each alone and, where that leaves more than noise, with the effects of
-  /// `library`, the best model without; complete, best first.
-  std::vector<FittedModel> learn(const FittedModel& of_declared, const FittedModel& library, const Noise& noise);
-
  private:
   struct Tried {
     FittedModel model;
@@ -37,6 +33,7 @@ class EffectSearch {
   double cost_ahead_of(const std::vector<ActiveEffect>& effects, const FittedModel& near, const Noise& noise);
   /// Adds the most promising effects to `base`; nullptr: fits every single effect.
   void add_to(const Tried* base, const FittedModel& near, const Noise& noise);
+  void add_laws(const Tried* library, const FittedModel& near, const Noise& noise);
   void sort_by_bic();
   /// Whether the model may be complete: only noise is left, and no parameter is at the edge of its range.
   bool fits(const FittedModel& model, const Noise& noise) const;
