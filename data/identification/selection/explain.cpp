@@ -135,6 +135,20 @@ std::optional<Explanation> explained_by_noise(const MeasurementSet& set, const W
   return {};
 }
 
+/// Whether a law alone leaves only noise as it is declared: then no effect with another noise is believed.
+bool a_law_leaves_noise(const MeasurementSet& set, const Workers& workers, const ExplainOptions& options,
+                        const Explanation& x) {
+  if (!x.noise.sigma_m) return false;
+  for (const ActiveEffect& law : laws_to_try(set)) {
+    if (ends(options)) return false;
+    ModelFit fit(set, workers, {law}, options.progress);
+    FittedModel learned = fit.run(x.noise.sigma_m);
+    fit.judge(learned, x.noise);
+    if (wins(learned, x.declared, x.noise)) return true;
+  }
+  return false;
+}
+
 /// Describes what the best model leaves beyond noise.
 void describe_remaining(const MeasurementSet& set, const Workers& workers, const ExplainOptions& options,
                         Explanation& out) {
@@ -182,6 +196,8 @@ Explanation explain_mended(const MeasurementSet& set, const ExplainOptions& opti
   if (fault && !fault->left_out) return without_fault(*fault, options);
   std::optional<Explanation> by_noise;
   if (!done && !fault && !ends(options)) by_noise = explained_by_noise(set, workers, options, out);
+  if (by_noise && by_noise->verdict == Verdict::effect && a_law_leaves_noise(set, workers, options, out))
+    by_noise.reset();
   if (by_noise) {
     out = std::move(*by_noise);
   } else {
