@@ -22,7 +22,7 @@ using Json = nlohmann::ordered_json;
 
 struct Options {
   std::string file = "campaign.jsonl";
-  std::vector<std::string> kinds;
+  std::vector<std::string> kinds, only;
   unsigned first_seed = 1;
   int seeds = 10, clean = 40, threads = 0;
   std::string sets;  ///< write the sets to this folder, and do nothing else
@@ -149,7 +149,7 @@ int run(const Options& o) {
     for (std::size_t i = next++; i < left.size(); i = next++) {
       Judged judged;
       try {
-        judged = ostium::synthetic::judge(left[i].first, left[i].second, 1);
+        judged = ostium::synthetic::judge(left[i].first, left[i].second, 1, o.only);
       } catch (const std::runtime_error& error) {
         const std::lock_guard lock(mutex);
         fmt::print(stderr, "{} {}: {}\n", left[i].first, left[i].second, error.what());
@@ -180,6 +180,7 @@ int main(int argc, char** argv) {
   app.add_option("-o,--out", o.file, "Results, a line of JSON each; what is in it is not done again")
       ->capture_default_str();
   app.add_option("--kinds", o.kinds, "Only these")->delimiter(',');
+  app.add_option("--try", o.only, "These effects together, instead of all; for law:bending, say")->delimiter(',');
   app.add_option("--seeds", o.seeds, "Sets of each kind")->capture_default_str();
   app.add_option("--clean", o.clean, "Sets without an effect")->capture_default_str();
   app.add_option("--first-seed", o.first_seed, "Where the seeds begin")->capture_default_str();

@@ -100,12 +100,13 @@ data::MeasurementSet as_read(const data::MeasurementSet& set, const std::string&
 
 }  // namespace
 
-Judged judge(const std::string& kind, unsigned seed, int threads) {
+Judged judge(const std::string& kind, unsigned seed, int threads, const std::vector<std::string>& only) {
   const Undeclared truth = undeclared_set(kind, seed);
   const data::MeasurementSet set = as_read(truth.set, kind, seed);
   const double begin = cpu_seconds();
   data::ExplainOptions options;
-  options.library = true, options.threads = threads;
+  options.library = only.empty(), options.threads = threads;
+  if (!only.empty()) options.tries = {only};
   const data::Explanation x = explain(set, options);
 
   Judged out;

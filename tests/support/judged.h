@@ -22,6 +22,7 @@ struct Judged {
 };
 
 /// Throws std::runtime_error if no set can be made from this seed.
-Judged judge(const std::string& kind, unsigned seed, int threads);
+/// `only`: effects that are tried, together; empty: all that there are.
+Judged judge(const std::string& kind, unsigned seed, int threads, const std::vector<std::string>& only = {});
 
 }  // namespace ostium::synthetic
