@@ -48,6 +48,8 @@ void check_parts(const ConcentricDescription& d) {
         refuse(i, "nested instruments must be equally stiff about both axes and without twist at rest");
     for (const Section& s : part.sections)
       if (s.softening_per_m > 0 && s.softened_ratio < 1) refuse(i, "nested instruments must not soften");
+    for (const Section& s : part.sections)
+      if (!s.bending.linear()) refuse(i, "nested instruments must bend linearly");
   }
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 /// m_k = K_k (u_k - u_rest,k), with K = (EI1, EI2, GJ) (Kirchhoff's rod; thesis, eq. 3).
+#include "core/material/bending_curve.h"
 #include "core/material/moment_response.h"
 #include "core/math/field.h"
 
@@ -19,7 +20,7 @@ struct LinearElastic {
   }
 
   /// Sets a joint's cell from the integrals of (1/EI1, 1/EI2, 1/GJ) over its length.
-  void set_cell(int joint, double length_m, const Eigen::Vector3d& compliance, const Eigen::Vector2d&) {
+  void set_cell(int joint, double length_m, const Eigen::Vector3d& compliance, const BendingIntegrals&) {
     stiffness.set(joint, length_m * compliance.cwiseInverse());
   }
 

@@ -4,7 +4,7 @@
 /// A law is a plain struct in a header of its own, with its parameters per joint and
 ///   `template <class T> MomentResponse<T> operator()(const V3<T>& strain, int joint) const;`
 ///   double energy(const V3<double>& strain, int joint) const;                              // per length, J/m
-///   void set_cell(int joint, double length_m, const Eigen::Vector3d& compliance, const Eigen::Vector2d& softening);
+///   void set_cell(int joint, double length_m, const Eigen::Vector3d& compliance, const BendingIntegrals&);
 ///       // when a rod is cut
 ///   void resize(int joints);   void copy(const Law&, int from, int to, int joint);         // when rods are nested
 /// where `strain` = u - u_rest (1/m, material axes d1, d2, d3) and T is double or four neighbouring joints in SIMD
@@ -15,6 +15,14 @@
 
 namespace ostium::core {
 
-using MomentLaw = std::variant<LinearElastic, Superelastic, Relaxing>;
+using MomentLaw = std::variant<LinearElastic, Superelastic, Tabulated, Relaxing>;
+
+/// The curve's knots of a law that has one; null: it has none.
+template <class Law>
+auto* curve_knots(Law& law) {
+  auto* tabulated = std::get_if<Tabulated>(&law);
+  auto* relaxing = std::get_if<Relaxing>(&law);
+  return tabulated ? &tabulated->knots : relaxing ? &relaxing->at_once.knots : nullptr;
+}
 
 }  // namespace ostium::core

@@ -4,12 +4,12 @@
 /// Held still, the moment decays to 1 - f_1 (1 - exp(-t / t_1)) - f_2 (1 - exp(-t / t_2)) of its first value; once
 /// released, the rod returns to a rest shape that has moved towards where it was held. Polymers do this (Ferry 1980,
 /// Viscoelastic properties of polymers, ch. 3). `law` is the instantaneous law below.
-#include "core/material/superelastic.h"
+#include "core/material/tabulated.h"
 
 namespace ostium::core {
 
 struct Relaxing {
-  Superelastic at_once;
+  Tabulated at_once;
   Field<3> crept;  ///< 1/m, (#joints): f_1 c_1 + f_2 c_2, as the step begins (relaxation.h)
 
   template <class T>
@@ -21,9 +21,8 @@ struct Relaxing {
     return at_once.energy(strain - load3<double>(crept, joint), joint);
   }
 
-  void set_cell(int joint, double length_m, const Eigen::Vector3d& compliance,
-                const Eigen::Vector2d& softening_integral) {
-    at_once.set_cell(joint, length_m, compliance, softening_integral);
+  void set_cell(int joint, double length_m, const Eigen::Vector3d& compliance, const BendingIntegrals& cell) {
+    at_once.set_cell(joint, length_m, compliance, cell);
   }
   void resize(int joints) { at_once.resize(joints), crept.resize(joints); }
   void copy(const Relaxing& other, int from, int to, int joint) { at_once.copy(other.at_once, from, to, joint); }

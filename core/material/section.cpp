@@ -31,6 +31,30 @@ void require_between(const RodDescription& d, std::size_t section, const char* n
                text(least) + " and " + text(most));
 }
 
+/// A section's moment-curvature curve.
+void check_curve(const RodDescription& d, std::size_t section) {
+  const Section& s = d.sections[section];
+  const BendingCurve& curve = s.bending;
+  if (curve.linear()) return;
+  if (curve.knots < 0 || curve.knots > BendingCurve::most)
+    refuse(d, section,
+           "its moment-curvature curve has " + std::to_string(curve.knots) + " knots; at most " +
+               std::to_string(BendingCurve::most) + " are possible");
+  if (s.softening_per_m > 0 && s.softened_ratio < 1)
+    refuse(d, section, "has both a softening and a moment-curvature curve; give one of them");
+  double before = 0;
+  for (int j = 0; j < curve.knots; ++j) {
+    if (!(curve.curvature_per_m[j] >= before + 1e-6 && curve.curvature_per_m[j] <= 1e6))
+      refuse(d, section, "the curvatures of its moment-curvature curve must rise from above 0 to 1e6 1/m at most");
+    require_between(d, section, "tangent against EI", curve.tangent[j], 0.01, 100, "");
+    before = curve.curvature_per_m[j];
+  }
+  const auto first =
+      std::find_if(d.sections.begin(), d.sections.end(), [](const Section& other) { return !other.bending.linear(); });
+  if (first->bending.knots != curve.knots || first->bending.curvature_per_m != curve.curvature_per_m)
+    refuse(d, section, "its moment-curvature curve has other curvatures than another section's; give all the same");
+}
+
 }  // namespace
 
 std::vector<double> equal_elements(const std::vector<Section>& sections, int count) {
@@ -77,6 +101,7 @@ void check(const RodDescription& d) {
       refuse(d, i, "softens at " + text(s.softening_per_m) + " 1/m; it must be 0 or between 0.001 and 1e6");
     if (!(s.softened_ratio >= 0.01 && s.softened_ratio <= 1))
       refuse(d, i, "softens to " + text(s.softened_ratio) + " of its stiffness; it must lie between 0.01 and 1");
+    check_curve(d, i);
     reached = s.to_tip_m;
   }
   const auto in_name = [&](const std::string& what) {
@@ -118,7 +143,10 @@ SectionIntegrals integrate(const std::vector<Section>& sections, double a, doubl
     sum.polar_inertia += length * s.kg_per_m * gyration2 * 2;
     sum.compliance += length * Eigen::Vector3d(1 / s.EI1_N_m2, 1 / s.EI2_N_m2, 1 / s.GJ_N_m2);
     sum.rest_angle += length * s.rest_curvature_per_m;
-    if (s.softening_per_m > 0) sum.softening += length * Eigen::Vector2d(1 / s.softening_per_m, 1 - s.softened_ratio);
+    for (int j = 0; s.bending.knots > 0 && j <= s.bending.knots; ++j)
+      sum.bending.bends_m2[j] += length * slope_change_m(s.bending, j);
+    if (s.softening_per_m > 0)
+      sum.bending.softening += length * Eigen::Vector2d(1 / s.softening_per_m, 1 - s.softened_ratio);
   }
   return sum;
 }

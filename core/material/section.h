@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "core/material/bending_curve.h"
+
 namespace ostium::core {
 
 /// A stretch of an instrument with uniform properties. SI.
@@ -23,6 +25,8 @@ struct Section {
   /// nitinol this begins at a strain of about 1 %: 0.01 / r for a wire of radius r.
   double softening_per_m = 0;
   double softened_ratio = 1;  ///< ratio of the bending stiffness far beyond softening_per_m to that below it; 0.01 to 1
+  /// Bending of another form, by its tangent; not with softening. All sections of a rod have the same knots, or none.
+  BendingCurve bending;
 };
 
 /// Drag of the surrounding fluid and damping of the material. All zero by default.
@@ -64,7 +68,7 @@ struct SectionIntegrals {
   double mass = 0, transverse_inertia = 0, polar_inertia = 0;
   Eigen::Vector3d compliance = Eigen::Vector3d::Zero();  ///< of (1/EI1, 1/EI2, 1/GJ)
   Eigen::Vector3d rest_angle = Eigen::Vector3d::Zero();  ///< of the rest curvature
-  Eigen::Vector2d softening = Eigen::Vector2d::Zero();   ///< of (1 / softening_per_m or 0, 1 - softened_ratio)
+  BendingIntegrals bending;
 };
 
 /// Integrals over a <= distance from the tip <= b. `from`: first section to consider, one that can reach beyond a.

@@ -35,14 +35,13 @@ struct Superelastic {
     return 0.5 * ((1 - lost) * square + K.z * strain.z * strain.z) + lost * soft;
   }
 
-  /// As LinearElastic's; `softening_integral`: SectionIntegrals::softening over the cell.
-  void set_cell(int joint, double length_m, const Eigen::Vector3d& compliance,
-                const Eigen::Vector2d& softening_integral) {
+  /// As LinearElastic's.
+  void set_cell(int joint, double length_m, const Eigen::Vector3d& compliance, const BendingIntegrals& cell) {
     const Eigen::Vector3d K = length_m * compliance.cwiseInverse();
     stiffness.set(joint, K);
-    const double per_kc = softening_integral.x() / length_m;
+    const double per_kc = cell.softening.x() / length_m;
     softening.at(0)[joint] = per_kc * per_kc / (0.5 * (K.x() + K.y()));
-    softening.at(1)[joint] = softening_integral.y() / length_m;
+    softening.at(1)[joint] = cell.softening.y() / length_m;
   }
 
   void resize(int joints) { stiffness.resize(joints), softening.resize(joints); }

@@ -26,7 +26,7 @@ void set_cell(Rod& rod, int i, double from_tip) {
   rod.joint_length.at(0)[i] = length;
   rod.mass.at(0)[i] = cell.mass;
   rod.rest_curvature.set(i, cell.rest_angle / length);
-  std::visit([&](auto& law) { law.set_cell(i, length, cell.compliance, cell.softening); }, rod.law);
+  std::visit([&](auto& law) { law.set_cell(i, length, cell.compliance, cell.bending); }, rod.law);
 }
 
 /// Outer radius: the largest next to a node. Bore: the smallest along an element.
@@ -66,7 +66,11 @@ Rod make_rod(const RodDescription& description) {
   const bool softens = std::any_of(rod.sections.begin(), rod.sections.end(),
                                    [](const Section& s) { return s.softening_per_m > 0 && s.softened_ratio < 1; });
   if (softens) rod.law = Superelastic{};
+  const auto curved =
+      std::find_if(rod.sections.begin(), rod.sections.end(), [](const Section& s) { return !s.bending.linear(); });
+  if (curved != rod.sections.end()) rod.law = Tabulated{};
   if (rod.relaxation.any()) rod.law = Relaxing{};
+  if (curved != rod.sections.end()) *curve_knots(rod.law) = knots_of(curved->bending);
   std::visit([&](auto& law) { law.resize(N + 1); }, rod.law);
 
   rod.node_from_tip_m.assign(N + 1, 0.0);

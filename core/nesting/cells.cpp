@@ -47,7 +47,7 @@ void cut_cells(const Rod& rod, int last, Nest& nest, int k) {
       compliance = length * partial(nest, k, i, part, part * length * tip.compliance.cwiseInverse()).cwiseInverse();
     }
     layer.rest.set(i, rest);
-    std::visit([&](auto& law) { law.set_cell(i, length, compliance, cell.softening); }, layer.law);
+    std::visit([&](auto& law) { law.set_cell(i, length, compliance, cell.bending); }, layer.law);
   }
   hint = rod.sections.size() - 1;
   for (int e = 0; e < layer.covered; ++e) {
@@ -81,6 +81,10 @@ void lay_layers(const Model& model, const Scratch& scratch, Nest& nest) {
   for (int k = 0; k < nest.layer_count; ++k) {
     Layer& layer = nest.layers[k];
     const Rod& rod = k == 0 ? scratch.rods[layer.rod].inside : model.rods[layer.rod];
+    if (BendingKnots* knots = curve_knots(layer.law)) {  // a layer's law may have been made for another rod
+      const BendingKnots* own = curve_knots(rod.law);
+      *knots = own ? *own : BendingKnots{};
+    }
     layer.damping_s = rod.damping.material_time_s;
     layer.viscous = layer.damping_s / nest.step_s;
     const bool protrudes = layer.end > 0;

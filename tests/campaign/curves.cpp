@@ -26,9 +26,27 @@ struct Options {
 
 struct Said {
   std::string verdict, effects, line;
+  std::string law;  ///< how well a learned law holds the truth; empty if there is none
   bool right = false, effect_named = false;
   double cpu_s = 0, before = 0, after = 0;
 };
+
+/// Points that the data reach, those whose band holds the truth, and half the band against the law.
+std::string of_law(const data::LearnedLaw& law, const std::function<double(double)>& truth) {
+  int reached = 0, within = 0;
+  std::vector<double> widths;
+  for (std::size_t i = 0; i < law.sigma.size(); ++i) {
+    if (!law.reached(i)) continue;
+    const Eigen::Vector2d p = law.curve.points[i];
+    ++reached, within += std::fabs(p.y() - truth(p.x())) < data::band_sigmas * law.sigma[i];
+    widths.push_back(data::band_sigmas * law.sigma[i] / p.y());
+  }
+  std::sort(widths.begin(), widths.end());
+  if (widths.empty()) return "not reached";
+  return fmt::format(
+      "within its band at {} of {} points that the data reach (of {}), half the band {:.1f} % ({:.1f} %)", within,
+      reached, law.sigma.size(), 100 * widths[widths.size() / 2], 100 * widths[widths.size() * 9 / 10]);
+}
 
 Said judged(const synthetic::BenchSet& set) {
   Said out;
@@ -51,6 +69,8 @@ Said judged(const synthetic::BenchSet& set) {
       for (const std::string& id : x.candidates[k].effects) out.effects += id;
       if (x.candidates[k].effects == set.effects) out.right = true;
     }
+  if (set.law && x.found() && !x.best().laws.empty())
+    out.law = of_law(x.best().laws[0], set.law) + fmt::format(", held out {:.2f}", x.best().model.held_out.value_or(0));
   for (std::size_t k = 0; k < std::min<std::size_t>(3, x.candidates.size()); ++k) {
     const auto& c = x.candidates[k];
     out.line += fmt::format("\n      {} bic {:+.0f} chi2 {:.2f} slow {:.1f} noise {} edge {}", c.name,
@@ -78,6 +98,7 @@ int run(const Options& o) {
             std::ofstream(fmt::format("{}/{}-{}-{}.json", o.sets, kind.name, content, seed)) << set.json;
           const Said j = judged(set);
           right += j.right, before += j.before, after += j.after, longest = std::max(longest, j.cpu_s);
+          if (!j.law.empty()) fmt::print("   seed {}: {} {}: {}\n", seed, j.verdict, j.effects, j.law);
           ++said[j.verdict + (j.effects.empty() ? "" : " " + j.effects)];
           if (o.verbose && !j.right)
             fmt::print("   seed {}: {} {} ({:.2f}){}\n", seed, j.verdict, j.effects, j.before, j.line);

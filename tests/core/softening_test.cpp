@@ -15,7 +15,7 @@ Superelastic law_of(double K1, double K2, double kc, double ratio) {
   law.resize(4);
   const double length = 2e-3;
   law.set_cell(0, length, length * Eigen::Vector3d(1 / K1, 1 / K2, 1 / 30e-6),
-               length * Eigen::Vector2d(1 / kc, 1 - ratio));
+               {length * Eigen::Vector2d(1 / kc, 1 - ratio), {}});
   return law;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 /// Sets of curves with one thing in them that their file does not declare, made by solvers that share nothing with
 /// core or data/identification. A set is determined by kind, what is in it, its size, and seed.
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -9,6 +10,8 @@ namespace ostium::synthetic {
 struct BenchSet {
   std::string json;                  ///< measurement.json
   std::vector<std::string> effects;  ///< ids that would be right; empty: the right verdict is "explained"
+  /// The true law, of x and in units as in explanation.json, if what is in it is a law that no effect has.
+  std::function<double(double)> law;
 };
 
 struct BenchKind {

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/support/bench_noise.h"
+#include "tests/support/bend_law.h"
 #include "tests/support/dice.h"
 
 namespace ostium::synthetic {
@@ -24,6 +25,7 @@ struct Bench {
   double slider = 0, slips_at = 0;  ///< curvature at which it gives way
   // A flag: beyond `flag_at` the tangent is `flag_ratio` of EI; back at `flag_back` of that moment.
   double flag_at = 0, flag_back = 1, flag_ratio = 1;
+  BendLaw law;  ///< if it is not linear, instead of these
 };
 
 struct Pass {
@@ -34,10 +36,13 @@ struct Pass {
 /// A station along the half wire: where its slider stands, and how much has transformed.
 struct Station {
   double slider_at = 0, transformed = 0;
+  double curvature = 0;
+  SlidersAt sliders_at{};
 };
 
 /// Curvature under a moment, and what the station then remembers.
 double curvature(const Bench& b, double moment, Station& s) {
+  if (!b.law.linear()) return b.law.curvature(moment / b.EI, s.curvature, s.sliders_at);
   if (b.flag_at > 0) {
     const double M1 = b.EI * b.flag_at, H = b.EI * b.flag_ratio / (1 - b.flag_ratio);
     if (moment > M1 + H * s.transformed) s.transformed = (moment - M1) / H;
@@ -241,6 +246,12 @@ BenchSet make_of(const BenchWire* wire, const std::string& content, double size,
   std::vector<Series> force = without;
   BenchSet out;
   const bool noise_or_fault = content.find(':') != std::string::npos;
+  if (content.starts_with("law:")) {  // as strong as it comes, whatever `size` says
+    Bench b = plain;
+    b.law = BendLaw(content, dice);
+    force = measure(b, passes), out.effects = {b.law.id()};
+    out.law = [b, declared_EI](double k_per_mm) { return b.EI / declared_EI * b.law.secant(k_per_mm); };
+  }
   if (content != "clean" && !noise_or_fault) {
     const Dice at = dice;
     const auto with = [&](double amount) {
@@ -315,9 +326,11 @@ BenchSet bend_of(const BenchWire& wire, unsigned seed) { return make_of(&wire, "
 
 BenchKind bend_kind() {
   return {"three_point_bend",
-          {"clean", "noise:shared", "noise:heavy", "noise:twice", "support_friction", "coil_core_slip", "plastic_set",
-           "superelastic_flag", "relaxation", "machine_compliance", "span_error", "zero_offset", "force_drift",
-           "fault:gram_force", "fault:inches", "fault:swapped", "fault:outlier"},
+          {"clean",          "noise:shared",     "noise:heavy",       "noise:twice",   "support_friction",
+           "coil_core_slip", "plastic_set",      "superelastic_flag", "relaxation",    "machine_compliance",
+           "span_error",     "zero_offset",      "force_drift",       "law:two_stage", "law:locking",
+           "law:stiffening", "law:many_sliders", "fault:gram_force",  "fault:inches",  "fault:swapped",
+           "fault:outlier"},
           make};
 }
 

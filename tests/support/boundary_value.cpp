@@ -170,7 +170,9 @@ class Shooter {
     const Vector3d m = R.transpose() * m_W, rest = amount_ * c.rest_curvature_per_m;
     const Eigen::Rotation2Dd turn(y[15]);
     const Vector2d own = turn.inverse() * Vector2d(m.head<2>());
-    const Vector2d u = turn * Vector2d(curvature_of(c, own) + rest.head<2>());
+    Vector2d beyond = curvature_of(c, own);
+    if (p_.tubes[0].more_curved) beyond *= p_.tubes[0].more_curved(beyond.norm());
+    const Vector2d u = turn * Vector2d(beyond + rest.head<2>());
     Eigen::Map<Vector3d>(dy + 0) = R.col(2);
     const Vector3d u_W = R * Vector3d(u.x(), u.y(), 0);
     for (int k = 0; k < 3; ++k) Eigen::Map<Vector3d>(dy + 3 + 3 * k) = u_W.cross(Vector3d(R.col(k)));

@@ -4,6 +4,7 @@
 /// rk8pd) from the base, with the unknowns there found by shooting. Rotation matrices, arc length, no elements: of
 /// `core` only its structs are used.
 #include <Eigen/Core>
+#include <functional>
 #include <vector>
 
 #include "core/material/section.h"
@@ -15,6 +16,8 @@ struct Tube {
   double inserted_m = 0;
   double roll_rad = 0;
   double shaft_rad_per_Nm = 0;
+  /// Of a single tube: curvature beyond rest over the linear one, by the linear one (1/m); empty: linear, or softening.
+  std::function<double(double)> more_curved = {};
 };
 
 /// A point force on the centreline, or a force spread over a stretch.

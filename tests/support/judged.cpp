@@ -74,6 +74,20 @@ bool faults_are_right(const data::Explanation& x, const Undeclared& truth) {
   return said == made && std::find(truth.faults.begin(), truth.faults.end(), f.id) != truth.faults.end();
 }
 
+/// Compares a learned law with the truth.
+void judge_law(const data::LearnedLaw& law, const std::function<double(double)>& truth, Judged& out) {
+  std::vector<double> widths;
+  for (std::size_t i = 0; i < law.sigma.size(); ++i) {
+    ++out.law_points;
+    if (!law.reached(i)) continue;
+    const Eigen::Vector2d p = law.curve.points[i];
+    ++out.law_reached, out.law_within += std::fabs(p.y() - truth(p.x())) < data::band_sigmas * law.sigma[i];
+    widths.push_back(data::band_sigmas * law.sigma[i] / std::fabs(p.y()));
+  }
+  std::sort(widths.begin(), widths.end());
+  if (!widths.empty()) out.law_half_width = widths[widths.size() / 2], out.law_widest = widths[widths.size() * 9 / 10];
+}
+
 /// Writes the set to files and reads it back, like a user's.
 data::MeasurementSet as_read(const data::MeasurementSet& set, const std::string& kind, unsigned seed) {
   if (!set.vessel) return data::read_measurement("measurement.json", to_json(set));
@@ -86,12 +100,13 @@ data::MeasurementSet as_read(const data::MeasurementSet& set, const std::string&
 
 }  // namespace
 
-Judged judge(const std::string& kind, unsigned seed, int threads) {
+Judged judge(const std::string& kind, unsigned seed, int threads, const std::vector<std::string>& only) {
   const Undeclared truth = undeclared_set(kind, seed);
   const data::MeasurementSet set = as_read(truth.set, kind, seed);
   const double begin = cpu_seconds();
   data::ExplainOptions options;
-  options.library = true, options.threads = threads;
+  options.library = only.empty(), options.threads = threads;
+  if (!only.empty()) options.tries = {only};
   const data::Explanation x = explain(set, options);
 
   Judged out;
@@ -129,6 +144,7 @@ Judged judge(const std::string& kind, unsigned seed, int threads) {
   }
   out.right = out.right && noise_is_right(x, truth.noise) && faults_are_right(x, truth);
   out.said += of_data(x);
+  if (truth.law && x.adds_effects && !best.laws.empty()) judge_law(best.laws[0], truth.law, out);
   if (out.right && x.verdict == data::Verdict::effect)
     for (const auto& [name, value] : truth.truth)
       for (const data::FittedParameter& p : best.parameters)

@@ -2,6 +2,7 @@
 /// Measured sets with an effect that their file does not declare, made by the boundary-value solver, in a tube by the
 /// pushed chain, or of two tubes with play by nested chains; `ostium explain` is tested with them. A set is determined
 /// by its kind and seed.
+#include <functional>
 #include <map>
 
 #include "tests/support/synthetic_set.h"
@@ -16,6 +17,7 @@ struct Undeclared {
   std::map<std::string, double> truth;  ///< parameters by their library names, "roll_loss.fraction"
   std::vector<std::string> faults;      ///< ids of data faults of which one must be named; empty: there is none
   std::vector<std::string> culprits;    ///< whose fault it is: ids of experiments
+  std::function<double(double)> law;    ///< of x as in explanation.json: the true law; empty if there is none
   std::string noise;                    ///< how the noise is not as declared, "noise:shared"; empty: it is
 };
 

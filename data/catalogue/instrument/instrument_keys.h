@@ -91,8 +91,20 @@ inline const JsonObjectKeys section = {
       json_type::number(above_zero)},
      {"softened_ratio", false, "stiffness far beyond it against that below it, 0.01 to 1; with softening_per_mm",
       json_type::number(from_to(0.01, 1))},
+     {"moment_curvature", false, "bending that is not linear, by its tangent; without softening",
+      json_type::object("moment_curvature")},
      {"source", false, source_text, json_type::text()}},
     {one_of_required({{"EI_Nmm2"}, {"EI1_Nmm2", "EI2_Nmm2"}})}};
+
+inline const JsonObjectKeys moment_curvature = {
+    "moment_curvature",
+    {{"curvature_per_mm", true,
+      "curvatures beyond rest in 1/mm, > 0, rising, the same in all sections that have them; at most 12",
+      json_type::list_of(json_type::number(above_zero), 1)},
+     {"tangent", true,
+      "tangent stiffness there against EI, 0.01 to 100; straight between, 1 at no curvature, constant "
+      "beyond the last",
+      json_type::list_of(json_type::number(from_to(0.01, 100)), 1)}}};
 
 inline const JsonObjectKeys shape = {
     "shape",
@@ -213,8 +225,8 @@ inline const JsonObjectKeys clearance = {
 
 /// All of them; the file's own object comes first.
 inline const std::vector<const JsonObjectKeys*> all = {
-    &instrument,     &size,        &sections,     &relaxation_branch, &section, &shape,      &piece,
-    &shapeable_tip,  &radiopacity, &stretch,      &markers,           &marker,  &wire_lumen, &balloon,
-    &balloon_design, &stent,       &stent_design, &clearance};
+    &instrument, &size,           &sections,    &relaxation_branch, &section,  &moment_curvature, &shape,
+    &piece,      &shapeable_tip,  &radiopacity, &stretch,           &markers,  &marker,           &wire_lumen,
+    &balloon,    &balloon_design, &stent,       &stent_design,      &clearance};
 
 }  // namespace ostium::data::instrument_keys

@@ -63,6 +63,22 @@ void read_size(const JsonObject& size, Instrument& instrument) {
   instrument.needs_m = instrument.outer_diameter_m;
 }
 
+core::BendingCurve read_curve(const JsonObject& entry) {
+  const JsonObject table(entry["moment_curvature"], keys::moment_curvature);
+  const std::vector<JsonValue>& curvature = table.list("curvature_per_mm");
+  core::BendingCurve out;
+  if (curvature.empty() || curvature.size() > core::BendingCurve::most) table.refuse("curvature_per_mm");
+  out.knots = static_cast<int>(curvature.size());
+  const std::vector<double> at = table.numbers("curvature_per_mm", curvature.size()),
+                            tangent = table.numbers("tangent", curvature.size());
+  for (int j = 0; j < out.knots; ++j) {
+    out.curvature_per_m[j] = at[j] * per_mm, out.tangent[j] = tangent[j];
+    if (!(at[j] > (j > 0 ? at[j - 1] : 0))) table.refuse("curvature_per_mm");
+    if (!(tangent[j] >= 0.01 && tangent[j] <= 100)) table.refuse("tangent");
+  }
+  return out;
+}
+
 core::Section read_section(const JsonObject& entry, const Instrument& instrument, double& reached_mm) {
   core::Section s;
   std::tie(s.from_tip_m, s.to_tip_m) = next_stretch(entry, instrument.length_m / mm, reached_mm);
@@ -91,6 +107,10 @@ core::Section read_section(const JsonObject& entry, const Instrument& instrument
     s.softening_per_m = entry.positive("softening_per_mm") * per_mm;
     s.softened_ratio = entry.positive("softened_ratio");
     if (s.softened_ratio > 1 || s.softened_ratio < 0.01) entry.refuse("softened_ratio");
+  }
+  if (entry.has("moment_curvature")) {
+    if (entry.has("softening_per_mm")) entry.refuse("moment_curvature");
+    s.bending = read_curve(entry);
   }
   return s;
 }

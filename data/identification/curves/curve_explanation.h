@@ -15,6 +15,7 @@ struct Candidate {
   std::vector<std::string> effects;  ///< ids, without duplicates
   Model model;
   std::vector<Fitted> parameters;
+  std::vector<LearnedLaw> laws;
   std::optional<Fault> fault;
   std::shared_ptr<const Set> set;  ///< that the model is of: mended, if there is a fault
   double paid = 0;                 ///< what choosing it among many costs in BIC

@@ -25,7 +25,7 @@ double Model::rms() const {
   return count > 0 ? std::sqrt(sum / count) : 0;
 }
 
-/// A model's numbers: those that are free in what is declared, then those of each effect.
+/// A model's numbers: those that are free in what is declared, then those of each effect; what has no spread is held.
 struct Fit::Problem {
   const Set& set;
   std::vector<std::size_t> effects;
@@ -60,8 +60,8 @@ struct Fit::Problem {
     std::size_t at = set.free().size();
     for (const std::size_t e : effects) {
       out.push_back({e, {}});
-      for (std::size_t p = 0; p < set.effects()[e].parameters.size(); ++p, ++at)
-        out.back().values.push_back(outer(list[at], x[static_cast<Eigen::Index>(at)]));
+      for (const EffectParameter& p : set.effects()[e].parameters)
+        out.back().values.push_back(p.spread > 0 ? outer(p, x[static_cast<Eigen::Index>(at++)]) : p.prior);
     }
     return out;
   }
@@ -90,6 +90,7 @@ Fit::Problem Fit::problem(const std::vector<std::size_t>& effects) const {
     const EffectHead& head = set_.effects()[effects[k]];
     const auto again = std::count(effects.begin(), effects.begin() + static_cast<std::ptrdiff_t>(k), effects[k]);
     for (const EffectParameter& p : head.parameters) {
+      if (!(p.spread > 0)) continue;
       out.list.push_back(p);
       out.labels.push_back(head.id + (again > 0 ? "(" + std::to_string(again + 1) + ")." : ".") + p.name);
     }
@@ -184,7 +185,9 @@ Model Fit::run(const std::vector<std::size_t>& effects, const Model* near) const
   descent.residuals = static_cast<int>(r.size());
   std::vector<LeastSquaresResult> found;
   descent.most_iterations = look, descent.tolerance = 1e-4;
-  for (const VectorXd& start : starts(from, spread, least, most, near ? known : from.size())) {
+  // A law begins as what is declared: its numbers are many, and the squares nearly quadratic in them.
+  const bool law = std::any_of(effects.begin(), effects.end(), [&](std::size_t e) { return set_.effects()[e].law; });
+  for (const VectorXd& start : starts(from, spread, least, most, near && !law ? known : from.size())) {
     descent.start = start;
     VectorXd at_start;
     if (residuals(start, at_start)) found.push_back(minimise(descent));
@@ -203,7 +206,10 @@ void Fit::judge(const Problem& p, Model& model) const {
   model.on = p.on_at(model.x);
   model.misfits = p.misfits(model.x);
   model.squares = data_rows(model.misfits, noise_, chosen_).squaredNorm();
+  const VectorXd spread = p.spread();
   model.numbers = static_cast<double>(model.x.size());
+  if (std::any_of(p.effects.begin(), p.effects.end(), [&](std::size_t e) { return set_.effects()[e].law; }))
+    model.numbers -= covariance(p, model).diagonal().cwiseQuotient(spread.cwiseAbs2()).sum();
   double independent = 0;
   model.measured = 0;
   for (std::size_t r = 0; r < model.misfits.size(); ++r)
@@ -213,13 +219,22 @@ void Fit::judge(const Problem& p, Model& model) const {
       model.clipped_squares += clipped(model.misfits[r][c], noise_.channels[c]).squaredNorm();
       model.measured += samples, independent += worth(noise_.channels[c], samples);
     }
-  const double priors = (model.x - p.prior()).cwiseQuotient(p.spread()).squaredNorm();
+  const double priors = (model.x - p.prior()).cwiseQuotient(spread).squaredNorm();
   model.bic = model.squares + priors + model.numbers * std::log(std::max(independent, 2.0));
 }
 
+namespace {
+
+std::vector<std::size_t> effects_in(const Model& model) {
+  std::vector<std::size_t> out;
+  for (const Switched& s : model.on) out.push_back(s.effect);
+  return out;
+}
+
+}  // namespace
+
 double Fit::ahead(const Model& near, std::size_t effect) const {
-  std::vector<std::size_t> effects;
-  for (const Switched& s : near.on) effects.push_back(s.effect);
+  std::vector<std::size_t> effects = effects_in(near);
   effects.push_back(effect);
   const Problem p = problem(effects);
   const VectorXd prior = p.prior(), spread = p.spread(), least = p.least(), most = p.most();
@@ -244,10 +259,8 @@ double Fit::ahead(const Model& near, std::size_t effect) const {
   return best;
 }
 
-std::vector<Fitted> Fit::parameters(const Model& model) const {
-  std::vector<std::size_t> effects;
-  for (const Switched& s : model.on) effects.push_back(s.effect);
-  const Problem p = problem(effects);
+/// As if the noise were what it is taken to be.
+MatrixXd Fit::covariance(const Problem& p, const Model& model) const {
   const VectorXd spread = p.spread(), least = p.least(), most = p.most();
   MatrixXd J(data_rows(model.misfits, noise_, chosen_).size(), model.x.size());
   for (Eigen::Index i = 0; i < model.x.size(); ++i) {
@@ -259,25 +272,42 @@ std::vector<Fitted> Fit::parameters(const Model& model) const {
   }
   MatrixXd H = J.transpose() * J;
   H.diagonal() += spread.cwiseAbs2().cwiseInverse();
+  return H.ldlt().solve(MatrixXd::Identity(H.rows(), H.cols()));
+}
+
+std::vector<Fitted> Fit::parameters(const Model& model) const {
+  const Problem p = problem(effects_in(model));
+  const VectorXd spread = p.spread();
   // More scatter than the noise has widens what is known.
-  const MatrixXd covariance =
-      H.ldlt().solve(MatrixXd::Identity(H.rows(), H.cols())) * std::max(model.per_freedom(), 1.0);
+  const MatrixXd known = covariance(p, model) * std::max(model.per_freedom(), 1.0);
   std::vector<Fitted> out;
   for (std::size_t i = 0; i < p.list.size(); ++i) {
     const auto k = static_cast<Eigen::Index>(i);
     Fitted f{p.list[i], p.labels[i]};
     f.value = outer(f.parameter, model.x[k]);
-    const double sigma = std::sqrt(std::max(covariance(k, k), 0.0));
+    const double sigma = std::sqrt(std::max(known(k, k), 0.0));
     f.sigma = f.parameter.logarithmic ? f.value * sigma : sigma;
-    f.informed = std::clamp(1 - covariance(k, k) / (spread[k] * spread[k]), 0.0, 1.0);
+    f.informed = std::clamp(1 - known(k, k) / (spread[k] * spread[k]), 0.0, 1.0);
     out.push_back(f);
   }
   return out;
 }
 
+std::vector<LearnedLaw> Fit::laws(const Model& model) const {
+  const Problem p = problem(effects_in(model));
+  std::vector<LearnedLaw> out;
+  for (std::size_t k = 0; k < model.on.size(); ++k) {
+    const EffectHead& head = set_.effects()[model.on[k].effect];
+    if (!head.law) continue;
+    const MatrixXd known = covariance(p, model) * std::max(model.per_freedom(), 1.0);
+    out.push_back(with_band([&](const VectorXd& x) { return head.law(p.on_at(x)[k].values, p.free_at(x)); }, model.x,
+                            known, p.spread()));
+  }
+  return out;
+}
+
 void Fit::hold_out(Model& model) const {
-  std::vector<std::size_t> effects;
-  for (const Switched& s : model.on) effects.push_back(s.effect);
+  const std::vector<std::size_t> effects = effects_in(model);
   const std::size_t runs = set_.runs().size(), channels = set_.runs()[0].channels.size();
   const std::size_t units = set_.hold_out_channels ? channels : runs, folds = std::min<std::size_t>(4, units);
   if (units < 2) return;

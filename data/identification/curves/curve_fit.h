@@ -5,6 +5,7 @@
 
 #include "data/identification/curves/set/curve_kind.h"
 #include "data/identification/curves/set/curve_noise.h"
+#include "data/identification/estimation/learned_law.h"
 
 namespace ostium::data::curves {
 
@@ -18,11 +19,12 @@ struct Fitted {
 /// One model of a set: what is declared, or with effects switched on.
 struct Model {
   std::vector<Switched> on;
-  Eigen::VectorXd x;                 ///< the optimiser's numbers; logarithms of logarithmic parameters
-  std::vector<Curves> misfits;       ///< measured minus model, in units of the noise as declared
-  double squares = 0;                ///< of the chosen misfits, whitened and robust, in units of the noise
-  double clipped_squares = 0;        ///< of the same, large ones cut if tails are heavy
-  double measured = 0, numbers = 0;  ///< how many numbers were fitted, and with how many
+  Eigen::VectorXd x;            ///< the optimiser's numbers; logarithms of logarithmic parameters
+  std::vector<Curves> misfits;  ///< measured minus model, in units of the noise as declared
+  double squares = 0;           ///< of the chosen misfits, whitened and robust, in units of the noise
+  double clipped_squares = 0;   ///< of the same, large ones cut if tails are heavy
+  double measured = 0;          ///< how many numbers were fitted
+  double numbers = 0;           ///< with how many; of a law, those that the data determine
   double bic = 0;
   std::optional<double> held_out;  ///< root mean square misfit of runs that the fit has not seen, in units of the noise
   bool converged = false;
@@ -43,6 +45,8 @@ class Fit {
   double ahead(const Model& near, std::size_t effect) const;
   /// What `run` found, with its standard errors.
   std::vector<Fitted> parameters(const Model& model) const;
+  /// The laws among its effects, with their bands.
+  std::vector<LearnedLaw> laws(const Model& model) const;
   /// Adds the held-out error: folds of runs, each scored by a fit that has not seen it.
   void hold_out(Model& model) const;
 
@@ -50,6 +54,7 @@ class Fit {
   struct Problem;
   Problem problem(const std::vector<std::size_t>& effects) const;
   void judge(const Problem& problem, Model& model) const;
+  Eigen::MatrixXd covariance(const Problem& problem, const Model& model) const;
 
   const Set& set_;
   Noise noise_;

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "data/identification/curves/curve_report.h"
+#include "data/identification/report/law_report.h"
 
 namespace ostium::data::curves {
 
@@ -40,6 +41,7 @@ Json model(const Candidate& c) {
   // Held out is scored over noise; in the unit of the first channel it is that share of its residual.
   if (c.model.held_out && c.model.per_freedom() > 0)
     out["rms"]["held_out"] = rms_in_unit(c) * *c.model.held_out / std::sqrt(c.model.squares / c.model.measured);
+  if (!c.laws.empty()) out["laws"] = json_of(c.laws);
   return out;
 }
 

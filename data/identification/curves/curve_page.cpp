@@ -6,6 +6,7 @@
 #include "data/formats/plot.h"
 #include "data/identification/curves/curve_report.h"
 #include "data/identification/report/explanation_style.h"
+#include "data/identification/report/law_report.h"
 
 namespace ostium::data::curves {
 
@@ -27,6 +28,16 @@ Plot::Points points(const Run& run, const Eigen::VectorXd& y) {
 Eigen::VectorXd modelled(const Candidate& c, std::size_t r, std::size_t channel) {
   const Channel& measured = c.set->runs()[r].channels[channel];
   return measured.measured - c.model.misfits[r][channel].cwiseProduct(measured.sigma);
+}
+
+std::string laws(const CurveExplanation& x) {
+  for (const Candidate& c : x.candidates) {
+    if (c.laws.empty()) continue;
+    std::string out = "<h2>What was learned with " + escaped(c.name) + "</h2>\n";
+    for (const LearnedLaw& law : c.laws) out += law_plot(law);
+    return out;
+  }
+  return "";
 }
 
 std::string plots(const CurveExplanation& x) {
@@ -93,7 +104,7 @@ std::string to_html(const CurveExplanation& x) {
       fmt::format("<div class=\"verdict {0}\"><b>{0}</b>: {1}</div>\n<ul>\n", to_string(x.verdict), escaped(x.text[0]));
   for (std::size_t i = 1; i < x.text.size(); ++i) out += "<li>" + escaped(x.text[i]) + "</li>\n";
   if (!x.next.empty()) out += "<li>To measure next: " + escaped(x.next) + ".</li>\n";
-  out += "</ul>\n<h2>Models</h2>\n" + models(x) + "<h2>Measured and modelled</h2>\n" + plots(x);
+  out += "</ul>\n<h2>Models</h2>\n" + models(x) + laws(x) + "<h2>Measured and modelled</h2>\n" + plots(x);
   out += "<h2>Parameters of the declared model</h2>\n" + parameter_table(x.declared);
   for (const Candidate& c : x.candidates)
     out += "<h2>Parameters with " + escaped(c.name) + "</h2>\n" + parameter_table(c);

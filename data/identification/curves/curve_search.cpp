@@ -78,6 +78,7 @@ Candidate Search::candidate(const std::vector<std::size_t>& effects, const Model
 void Search::judge(Candidate& c, const Candidate& declared, const Noise& noise) const {
   const Fit fit(*c.set, noise, c.fault ? c.fault->chosen : std::vector<std::vector<bool>>{});
   c.parameters = fit.parameters(c.model);
+  c.laws = fit.laws(c.model);
   fit.hold_out(c.model);
   std::vector<Run> runs;
   std::vector<Curves> misfits;
@@ -98,7 +99,8 @@ std::vector<std::size_t> Search::promising(const Candidate& c, std::size_t most)
   const Fit fit(*set_, noise_);
   for (std::size_t e = 0; e < set_->effects().size(); ++e) {
     const bool there = std::find(c.effects.begin(), c.effects.end(), set_->effects()[e].id) != c.effects.end();
-    if (!there) order.emplace_back(most < set_->effects().size() ? fit.ahead(c.model, e) : 0, e);
+    if (!there && !set_->effects()[e].law)
+      order.emplace_back(most < set_->effects().size() ? fit.ahead(c.model, e) : 0, e);
   }
   std::stable_sort(order.begin(), order.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
   if (order.size() > most) order.resize(most);
@@ -147,6 +149,38 @@ void Search::prune(std::vector<Candidate>& list) const {
       again = true;
       break;
     }
+  }
+}
+
+void Search::add_laws(std::vector<Candidate>& list, const Candidate& declared) const {
+  std::vector<std::size_t> laws;
+  for (std::size_t e = 0; e < set_->effects().size(); ++e)
+    if (set_->effects()[e].law) laws.push_back(e);
+  if (laws.empty() || stopped()) return;
+  sort_by_bic(list);
+  std::vector<std::size_t> beside;
+  if (!list.empty()) {
+    Candidate best = list.front();
+    judge(best, declared, noise_);
+    if (best.is_noise && best.model.on.size() == 1 && !best.at_an_edge) return;
+    beside = effects_of(best.model);
+  }
+  // Chosen with the freedom to look like any effect: strong evidence over the best of them is asked for.
+  const auto learned = [&](const std::vector<std::size_t>& effects, const Model* near) {
+    Candidate c = candidate(effects, near, noise_);
+    c.paid = strong;
+    say(c.name);
+    judge(c, declared, noise_);
+    list.push_back(c);
+    return c.is_noise;
+  };
+  bool enough = false;
+  for (const std::size_t law : laws) enough = learned({law}, &declared.model) || enough;
+  for (const std::size_t law : laws) {
+    if (enough || beside.empty() || stopped()) break;
+    std::vector<std::size_t> joined = beside;
+    joined.push_back(law);
+    learned(joined, nullptr);
   }
 }
 
@@ -204,6 +238,7 @@ void Search::run(CurveExplanation& out) {
   if (options_.tries.empty()) {
     grow(list, out.declared);
     prune(list);
+    if (!out.declared.is_noise) add_laws(list, out.declared);
     if (!out.declared.is_noise) add_faults(list, out.declared);
   }
   for (const std::vector<std::string>& ids : options_.tries)

@@ -19,6 +19,9 @@ class Search {
   std::vector<std::size_t> promising(const Candidate& c, std::size_t most) const;
   void grow(std::vector<Candidate>& list, const Candidate& declared);
   void prune(std::vector<Candidate>& list) const;
+  /// Laws that are learned from the data, where no effect alone leaves only noise; with the best model where they leave
+  /// more than noise.
+  void add_laws(std::vector<Candidate>& list, const Candidate& declared) const;
   void add_faults(std::vector<Candidate>& list, const Candidate& declared) const;
   void judge(Candidate& c, const Candidate& declared, const Noise& noise) const;
   bool stopped() const { return options_.stop && options_.stop(); }

@@ -77,6 +77,14 @@ std::string in_words(const Candidate& c) {
   return out;
 }
 
+/// Of the first candidate that has laws, whether it won or not.
+void add_laws(CurveExplanation& x) {
+  for (const Candidate& c : x.candidates) {
+    for (const LearnedLaw& law : c.laws) x.text.push_back("Learned " + data::in_words(law));
+    if (!c.laws.empty()) return;
+  }
+}
+
 void add_noise(CurveExplanation& x) {
   if (!x.noise.declared)
     x.text.push_back(
@@ -171,6 +179,7 @@ void decide(CurveExplanation& x) {
     x.verdict = Verdict::unexplained;
   }
   sentence(x);
+  add_laws(x);
   add_noise(x);
   add_warnings(x);
 }

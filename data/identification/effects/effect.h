@@ -4,6 +4,7 @@
 #include <functional>
 
 #include "data/identification/effects/experiment_setup.h"
+#include "data/identification/effects/law_curve.h"
 #include "data/identification/effects/measured_view.h"
 #include "data/identification/measurement/measurement_set.h"
 
@@ -29,6 +30,7 @@ struct EffectForm {
 inline constexpr const char* another_form = "another";
 
 struct ActiveEffect;
+struct Changes;
 
 struct Effect {
   std::string id;
@@ -44,6 +46,8 @@ struct Effect {
   void (*adapt)(const MeasurementSet&, std::optional<int> instrument, std::vector<EffectParameter>&) = nullptr;
   /// The forms to try in this set; null: one, with nothing held fixed.
   std::vector<EffectForm> (*forms)(const MeasurementSet&, std::optional<int> instrument) = nullptr;
+  /// A law that is learned: its curve. Such effects are tried where the others leave something. Null: it is none.
+  LawCurve (*law)(const ActiveEffect&, const MeasurementSet&, const Changes&) = nullptr;
   bool of_one_instrument = false;     ///< each nested instrument can have its own
   bool of_several_stretches = false;  ///< may be switched on several times, in different forms
   bool in_instrument = false;         ///< a property of the instrument, not of the rig, the room or the imaging

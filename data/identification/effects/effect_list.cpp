@@ -34,6 +34,8 @@ Effect s_distortion();
 Effect table_sag();
 Effect gantry_flex();
 Effect second_plane_late();
+Effect law_stiffness();
+Effect law_bending();
 
 const std::vector<Effect>& effects() {
   static const std::vector<Effect> all = {rest_curvature(),
@@ -62,7 +64,9 @@ const std::vector<Effect>& effects() {
                                           s_distortion(),
                                           table_sag(),
                                           gantry_flex(),
-                                          second_plane_late()};
+                                          second_plane_late(),
+                                          law_stiffness(),
+                                          law_bending()};
   return all;
 }
 
@@ -112,9 +116,12 @@ bool often_confused(const std::string& a, const std::string& b) {
   return names(a, b) || names(b, a);
 }
 
-std::vector<ActiveEffect> everything_to_try(const MeasurementSet& set) {
+namespace {
+
+std::vector<ActiveEffect> to_try(const MeasurementSet& set, bool laws) {
   std::vector<ActiveEffect> out;
   for (const Effect& effect : effects()) {
+    if ((effect.law != nullptr) != laws) continue;
     std::vector<std::optional<int>> on = {std::nullopt};
     if (effect.of_one_instrument && set.instruments.size() > 1)
       for (std::size_t i = 0; i < set.instruments.size(); ++i) on.emplace_back(static_cast<int>(i));
@@ -127,6 +134,12 @@ std::vector<ActiveEffect> everything_to_try(const MeasurementSet& set) {
   }
   return out;
 }
+
+}  // namespace
+
+std::vector<ActiveEffect> everything_to_try(const MeasurementSet& set) { return to_try(set, false); }
+
+std::vector<ActiveEffect> laws_to_try(const MeasurementSet& set) { return to_try(set, true); }
 
 const Effect& find_effect(const std::string& id) {
   const Effect* effect = find(id);

@@ -13,8 +13,11 @@ const Effect& find_effect(const std::string& id);
 /// Whether some data cannot distinguish the two effects.
 bool often_confused(const std::string& a, const std::string& b);
 
-/// All candidates for this set: every effect that can show, on every instrument, in every form.
+/// All candidates for this set but laws: every effect that can show, on every instrument, in every form.
 std::vector<ActiveEffect> everything_to_try(const MeasurementSet& set);
+
+/// The laws that can be learned from this set.
+std::vector<ActiveEffect> laws_to_try(const MeasurementSet& set);
 
 /// The effects that the set's file declares. Throws LoadError for an effect that is unknown, out of range or cannot act
 /// there.

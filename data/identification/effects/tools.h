@@ -67,6 +67,17 @@ inline bool roll_varies(const MeasurementSet& set, std::optional<int> instrument
   return false;
 }
 
+/// Why a law of the instrument cannot be learned from this set; "" if it can.
+inline std::string why_not_learned(const MeasurementSet& set, std::optional<int>) {
+  constexpr int least = 4;
+  if (set.instruments.size() > 1) return "laws are learned of an instrument alone";
+  if (set.vessel) return "in a vessel a history is too dear to learn a law from";
+  const auto shapes = std::count_if(set.experiments.begin(), set.experiments.end(), [](const Experiment& e) {
+    return e.kind == Experiment::Kind::centreline || e.kind == Experiment::Kind::projections;
+  });
+  return shapes < least ? "a law is learned from whole shapes, of four experiments or more" : "";
+}
+
 inline bool tip_loads(const MeasurementSet& set) {
   return std::any_of(set.experiments.begin(), set.experiments.end(),
                      [](const Experiment& e) { return !e.tip_force_N.isZero(); });

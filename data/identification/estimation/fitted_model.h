@@ -1,5 +1,6 @@
 #pragma once
 /// The result of fitting one model.
+#include "data/identification/estimation/learned_law.h"
 #include "data/identification/estimation/noise.h"
 #include "data/identification/estimation/parameters.h"
 #include "data/identification/estimation/residual_tests.h"
@@ -17,6 +18,7 @@ struct FittedModel {
   std::string name;                  ///< "shaft_torsion + roll_loss[0]", or "what is declared"
   std::vector<std::string> effects;  ///< ids, without duplicates
   std::vector<FittedParameter> parameters;
+  std::vector<LearnedLaw> laws;  ///< of the effects that are laws
   Changes changes;
   MeasuredView view;
   double rms_m = 0;

@@ -205,6 +205,19 @@ void ModelFit::judge(FittedModel& model, const Noise& noise) const {
   const double wider = noise.declared ? std::max(1.0, std::sqrt(*model.chi2_per_dof)) : 1;
   for (int i = 0; i < parameters_.size(); ++i)
     model.parameters[i].sigma = wider * parameters_.sigma(i, fit_.x[i], std::sqrt(fit_.covariance(i, i)));
+  add_laws(model, wider);
+}
+
+void ModelFit::add_laws(FittedModel& model, double wider) const {
+  model.laws.clear();
+  for (std::size_t k = 0; k < tried_.size(); ++k) {
+    if (!tried_[k].effect->law) continue;
+    const auto law = [&](const VectorXd& x) {
+      const Changes changes = parameters_.changes(x);
+      return tried_[k].effect->law(changes.effects[set_.effects.size() + k], set_, changes);
+    };
+    model.laws.push_back(with_band(law, fit_.x, wider * wider * fit_.covariance, fit_.prior_sigma));
+  }
 }
 
 void ModelFit::anchor(const VectorXd& x) {
@@ -248,6 +261,7 @@ FittedModel ModelFit::report() const {
   for (int i = 0; i < parameters_.size(); ++i)
     model.parameters.push_back({parameters_.list()[i], parameters_.value(i, fit_.x[i]),
                                 parameters_.sigma(i, fit_.x[i], std::sqrt(fit_.covariance(i, i))), fit_.informed(i)});
+  add_laws(model, 1);
   model.changes = parameters_.changes(fit_.x);
   model.view = parameters_.view(fit_.x);
   model.rms_m = rms(set_, fit_.misfits);

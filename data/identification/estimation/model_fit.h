@@ -43,6 +43,8 @@ class ModelFit {
   /// Recomputes the anchors at the fitted values, and returns the experiments whose shape changes.
   std::vector<std::string> on_other_branches();
   FittedModel report() const;
+  /// `wider`: factor on standard deviations.
+  void add_laws(FittedModel& model, double wider) const;
   void add_residual_tests(FittedModel& model) const;
   /// Adds each experiment's misfits by the fit that left it out, where there is one.
   void score_held_out(FitOptions options, FittedModel& model) const;

@@ -4,6 +4,7 @@
 
 #include "core/base/units.h"
 #include "data/identification/report/explanation_report.h"
+#include "data/identification/report/law_report.h"
 #include "data/identification/selection/evidence.h"
 
 namespace ostium::data {
@@ -50,6 +51,11 @@ Json noise_of(const Explanation& x) {
           {"sigma", or_null(x.noise.sigma_m, x.unit.size)},
           {"correlation_mm", m ? m->length / mm : 0.0},
           {"tail", m && m->heavy() ? "heavy" : "normal"}};
+}
+
+/// Added where a model has laws.
+void add_laws(const FittedModel& m, Json& out) {
+  if (!m.laws.empty()) out["laws"] = json_of(m.laws);
 }
 
 Json faults_of(const Explanation& x) {
@@ -114,7 +120,7 @@ std::string to_json(const Explanation& x) {
   out["effects"] = x.effects();
   out["faults"] = faults_of(x);
   out["candidates"] = Json::array();
-  for (const FittedModel& c : x.candidates)
+  for (const FittedModel& c : x.candidates) {
     out["candidates"].push_back({{"effects", c.effects},
                                  {"parameters", parameters(c, true)},
                                  {"rms", rms_of(c, x.unit)},
@@ -122,6 +128,8 @@ std::string to_json(const Explanation& x) {
                                  {"share_removed", share_of(x, c)},
                                  {"rms_over_noise", over_noise(x, c)},
                                  {"delta_bic", c.bic - x.declared.bic}});
+    add_laws(c, out["candidates"].back());
+  }
   out["after"] = nullptr;
   if (won)
     out["after"] = {{"parameters", parameters(x.best(), true)},
@@ -129,6 +137,7 @@ std::string to_json(const Explanation& x) {
                     {"chi2_per_dof", or_null(x.best().chi2_per_dof)},
                     {"share_removed", share_of(x, x.best())},
                     {"rms_over_noise", over_noise(x, x.best())}};
+  if (won) add_laws(x.best(), out["after"]);
   out["remaining"] = nullptr;
   if (x.remaining)
     out["remaining"] = {{"share", x.remaining->share},

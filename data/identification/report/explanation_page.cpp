@@ -7,6 +7,7 @@
 #include "data/identification/report/explanation_plots.h"
 #include "data/identification/report/explanation_report.h"
 #include "data/identification/report/explanation_style.h"
+#include "data/identification/report/law_report.h"
 
 namespace ostium::data {
 
@@ -67,6 +68,16 @@ std::string residual_test_table(const FittedModel& m) {
          "with it (permutations). Significant after allowing for how many were tried.</p>\n";
 }
 
+/// The laws of the first candidate that has any.
+std::string laws(const Explanation& x) {
+  const auto c =
+      std::find_if(x.candidates.begin(), x.candidates.end(), [](const FittedModel& m) { return !m.laws.empty(); });
+  if (c == x.candidates.end()) return "";
+  std::string out = "<h2>What was learned with " + escaped(c->name) + "</h2>\n";
+  for (const LearnedLaw& law : c->laws) out += law_plot(law);
+  return out;
+}
+
 std::string plots(const MeasurementSet& set, const Explanation& x) {
   const auto any = [&](Experiment::Kind kind) {
     return std::any_of(set.experiments.begin(), set.experiments.end(),
@@ -95,7 +106,7 @@ std::string to_html(const MeasurementSet& as_read, const Explanation& x) {
   out += fmt::format("<div class=\"verdict {0}\"><b>{0}</b>: {1}</div>\n<ul>\n", to_string(x.verdict),
                      escaped(x.verdict_text[0]));
   for (std::size_t i = 1; i < x.verdict_text.size(); ++i) out += "<li>" + escaped(x.verdict_text[i]) + "</li>\n";
-  out += "</ul>\n<h2>Models</h2>\n" + models(x) + plots(set, x);
+  out += "</ul>\n<h2>Models</h2>\n" + models(x) + laws(x) + plots(set, x);
   out += "<h2>What the residual of the declared model goes with</h2>\n" + residual_test_table(x.declared);
   for (const FittedModel& c : x.candidates)
     out += "<h2>What the residual with " + escaped(c.name) + " goes with</h2>\n" + residual_test_table(c);

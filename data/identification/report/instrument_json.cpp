@@ -44,6 +44,12 @@ Json section(const core::Section& s) {
                                     s.rest_curvature_per_m.z() * mm};
   if (s.softening_per_m > 0 && s.softened_ratio < 1)
     out["softening_per_mm"] = s.softening_per_m * mm, out["softened_ratio"] = s.softened_ratio;
+  if (!s.bending.linear()) {
+    Json& curve = out["moment_curvature"];
+    for (int j = 0; j < s.bending.knots; ++j)
+      curve["curvature_per_mm"].push_back(s.bending.curvature_per_m[j] * mm),
+          curve["tangent"].push_back(s.bending.tangent[j]);
+  }
   return out;
 }
 

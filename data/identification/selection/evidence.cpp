@@ -58,6 +58,8 @@ double own_noise_bic(const MeasurementSet& set, const FittedModel& model) {
          model.parameters_used * std::log(effective_numbers(traces, own));
 }
 
+bool has_law(const FittedModel& model) { return std::any_of(model.effects.begin(), model.effects.end(), is_law); }
+
 Misfit misfit_of(const FittedModel& model) {
   return {model.chi2_per_dof.value_or(0) * model.degrees_of_freedom, model.degrees_of_freedom};
 }

@@ -24,6 +24,9 @@ bool has_pattern(const FittedModel& model);
 /// BIC with the noise that the model's own residual shows.
 double own_noise_bic(const MeasurementSet& set, const FittedModel& model);
 
+/// Whether one of its effects is a law learned from the data.
+bool has_law(const FittedModel& model);
+
 Misfit misfit_of(const FittedModel& model);
 
 /// Whether a parameter is at the edge of its range: then it stands in for something else.

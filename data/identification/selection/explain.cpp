@@ -103,7 +103,7 @@ void search_single_effects(const MeasurementSet& set, const Workers& workers, co
   out.ended_early = ends(options);
 }
 
-/// Searches the effects, and the fields that have no name.
+/// Searches the effects, laws where these leave something, and the fields that have no name.
 void search_effects(const MeasurementSet& set, const Workers& workers, const ExplainOptions& options,
                     const ModelFit& declared, Explanation& out) {
   EffectSearch search(set, workers, options.progress, options.stop);
@@ -137,6 +137,20 @@ std::optional<Explanation> explained_by_noise(const MeasurementSet& set, const W
       !out.attributions.empty() && out.attributions.front().log_evidence > convincing_log_evidence(out.attributions);
   if (out.verdict == Verdict::effect || (out.verdict == Verdict::explained && !field)) return out;
   return {};
+}
+
+/// Whether a law alone leaves only noise as it is declared: then no effect with another noise is believed.
+bool a_law_leaves_noise(const MeasurementSet& set, const Workers& workers, const ExplainOptions& options,
+                        const Explanation& x) {
+  if (!x.noise.sigma_m) return false;
+  for (const ActiveEffect& law : laws_to_try(set)) {
+    if (ends(options)) return false;
+    ModelFit fit(set, workers, {law}, options.progress);
+    FittedModel learned = fit.run(x.noise.sigma_m);
+    fit.judge(learned, x.noise);
+    if (wins(learned, x.declared, x.noise)) return true;
+  }
+  return false;
 }
 
 /// Describes what the best model leaves beyond noise.
@@ -186,6 +200,8 @@ Explanation explain_mended(const MeasurementSet& set, const ExplainOptions& opti
   if (fault && !fault->left_out) return without_fault(*fault, options);
   std::optional<Explanation> by_noise;
   if (!done && !fault && !ends(options)) by_noise = explained_by_noise(set, workers, options, out);
+  if (by_noise && by_noise->verdict == Verdict::effect && a_law_leaves_noise(set, workers, options, out))
+    by_noise.reset();
   if (by_noise) {
     out = std::move(*by_noise);
   } else {

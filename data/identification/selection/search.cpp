@@ -99,9 +99,12 @@ void EffectSearch::add(const std::vector<std::vector<ActiveEffect>>& models, con
     fresh.push_back({{}, &fits_.back(), effects, false});
     fits_.back().weigh_by(noise);
   }
-  const int starts = set_.instruments.size() > 1 ? starts_for_one / 3 : starts_for_one;
   const auto fit = [&](std::size_t k) {
     if (stopped()) return;
+    const std::vector<ActiveEffect>& effects = fresh[k].effects;
+    // A law begins as what is declared: its numbers are many, and all about zero.
+    const bool law = std::any_of(effects.begin(), effects.end(), [](const ActiveEffect& e) { return e.effect->law; });
+    const int starts = law ? 0 : set_.instruments.size() > 1 ? starts_for_one / 3 : starts_for_one;
     try {
       fresh[k].model =
           fresh[k].study->run_near(near, sigma_to_fit_by(set_, noise), near.rms_m / std::sqrt(2.0), starts);
@@ -212,6 +215,22 @@ void EffectSearch::adopt_noise(const ModelFit& declared, FittedModel& of_declare
   judge_all(declared, of_declared, noise);
 }
 
+/// Each law alone; or, with the effects of the best model without a law.
+void EffectSearch::add_laws(const Tried* library, const FittedModel& near, const Noise& noise) {
+  const std::vector<ActiveEffect> beside = library ? library->effects : std::vector<ActiveEffect>{};
+  std::vector<std::vector<ActiveEffect>> models;
+  for (const ActiveEffect& law : laws_to_try(set_)) {
+    if (std::any_of(set_.effects.begin(), set_.effects.end(),
+                    [&](const DeclaredEffect& d) { return d.id == law.effect->id; }))
+      continue;
+    models.push_back(beside);
+    models.back().push_back(law);
+  }
+  const std::size_t before = tried_.size();
+  add(models, near, noise);
+  for (std::size_t i = before; i < tried_.size(); ++i) complete(tried_[i], noise);
+}
+
 /// Known noise: adds effects until only noise is left.
 void EffectSearch::grow_to_noise(const ModelFit& declared, FittedModel& of_declared, Noise& noise, std::size_t most) {
   for (std::size_t count = 1; count < most; ++count) {
@@ -219,22 +238,39 @@ void EffectSearch::grow_to_noise(const ModelFit& declared, FittedModel& of_decla
     // Rough fits may leave some residual: complete the best before adding to them.
     for (std::size_t i = 0, polished = 0; i < tried_.size() && polished < 3; ++i)
       if (tried_[i].effects.size() == count) complete(tried_[i], noise), ++polished;
+    // Before another noise is thought of, which would swallow what a law explains.
+    const bool single = std::any_of(tried_.begin(), tried_.end(), [&](const Tried& t) { return fits(t.model, noise); });
+    if (count == 1 && !single && !is_noise(of_declared, noise)) add_laws(nullptr, of_declared, noise);
     // One effect and another noise, rather than a third effect.
     if (count == 2 && !noise.model) adopt_noise(declared, of_declared, noise);
     sort_by_bic();
     const double best = tried_.empty() ? 0 : tried_.front().model.bic;
     bool enough = false;
-    for (const Tried& t : tried_) enough = enough || (fits(t.model, noise) && t.model.bic < best + far_behind);
-    if (enough) return;
+    for (const Tried& t : tried_)
+      enough = enough || (fits(t.model, noise) && t.model.bic < best + far_behind && !has_law(t.model));
+    // A law that leaves only noise, rather than a third effect.
+    const bool law = std::any_of(tried_.begin(), tried_.end(),
+                                 [&](const Tried& t) { return has_law(t.model) && fits(t.model, noise); });
+    if (enough || (law && count > 1)) return;
     std::vector<std::size_t> chosen;
     std::set<std::string> ids;
     for (std::size_t i = 0; i < tried_.size() && chosen.size() < (count == 1 ? bases : 1); ++i)
-      if (tried_[i].effects.size() == count && tried_[i].model.bic < of_declared.bic - strong_evidence &&
+      if (tried_[i].effects.size() == count && !has_law(tried_[i].model) &&
+          tried_[i].model.bic < of_declared.bic - strong_evidence &&
           ids.insert(tried_[i].effects.back().effect->id).second)
         chosen.push_back(i);
     std::deque<Tried> from;
     for (std::size_t i : chosen) from.push_back(tried_[i]);
     for (const Tried& base : from) add_to(&base, base.model, noise);
+  }
+  sort_by_bic();
+  if (is_noise(of_declared, noise) || most < 2) return;
+  if (std::any_of(tried_.begin(), tried_.end(), [&](const Tried& t) { return fits(t.model, noise); })) return;
+  for (std::size_t i = 0; i < tried_.size(); ++i) {
+    if (has_law(tried_[i].model)) continue;
+    const Tried library = tried_[i];
+    add_laws(&library, library.model, noise);
+    break;
   }
   sort_by_bic();
 }

@@ -32,6 +32,7 @@ class EffectSearch {
   double cost_ahead_of(const std::vector<ActiveEffect>& effects, const FittedModel& near, const Noise& noise);
   /// Adds the most promising effects to `base`; nullptr: fits every single effect.
   void add_to(const Tried* base, const FittedModel& near, const Noise& noise);
+  void add_laws(const Tried* library, const FittedModel& near, const Noise& noise);
   void sort_by_bic();
   /// Whether the model may be complete: only noise is left, and no parameter is at the edge of its range.
   bool fits(const FittedModel& model, const Noise& noise) const;

@@ -1,6 +1,7 @@
 #include "data/identification/selection/verdict.h"
 
 #include <algorithm>
+#include <limits>
 #include <numeric>
 #include <set>
 
@@ -57,6 +58,19 @@ bool rivals(const FittedModel& best, const FittedModel& rival, bool noise_known)
                best.chi2_per_dof.value_or(0) * best.degrees_of_freedom + strong_evidence;
   }
   return rival.effects.size() <= best.effects.size() && rival.bic < best.bic + positive_evidence;
+}
+
+/// A law has the freedom to look like any form of the library: it needs strong evidence over the best of them.
+void give_way_to_the_library(std::vector<FittedModel>& winners, std::vector<FittedModel>& others) {
+  double library = std::numeric_limits<double>::infinity();
+  for (const FittedModel& c : winners)
+    if (!has_law(c)) library = std::min(library, c.bic);
+  for (auto c = winners.begin(); c != winners.end();) {
+    if (has_law(*c) && c->bic > library - strong_evidence)
+      others.push_back(std::move(*c)), c = winners.erase(c);
+    else
+      ++c;
+  }
 }
 
 }  // namespace
@@ -126,8 +140,10 @@ std::optional<std::size_t> mostly(const Explanation& x) {
   std::vector<std::size_t> order(x.candidates.size());
   std::iota(order.begin(), order.end(), 0);
   std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-    return std::pair(x.candidates[a].effects.size(), x.candidates[a].bic) <
-           std::pair(x.candidates[b].effects.size(), x.candidates[b].bic);
+    const auto rank = [&](const FittedModel& c) {
+      return std::pair(c.effects.size(), c.bic + (has_law(c) ? strong_evidence : 0));
+    };
+    return rank(x.candidates[a]) < rank(x.candidates[b]);
   });
   std::optional<std::size_t> best;
   for (const std::size_t i : order) {
@@ -155,6 +171,7 @@ void decide(const MeasurementSet& set, const Workers& workers, Explanation& out)
   std::vector<FittedModel> winners, others;
   for (FittedModel& c : out.candidates)
     (small || wins(c, out.declared, out.noise) ? winners : others).push_back(std::move(c));
+  give_way_to_the_library(winners, others);
   std::sort(winners.begin(), winners.end(), [](const FittedModel& a, const FittedModel& b) { return a.bic < b.bic; });
   // Of the forms of the same effects, the best.
   std::vector<FittedModel> one_of_each;

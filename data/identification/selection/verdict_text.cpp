@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -166,6 +167,14 @@ void of_residual(const FittedModel& m, std::vector<std::string>& out) {
   if (told == 0) out.push_back("The residual goes with nothing that was varied.");
 }
 
+/// Of the first candidate that has laws, whether it won or not.
+void of_laws(const Explanation& x, std::vector<std::string>& out) {
+  const auto c =
+      std::find_if(x.candidates.begin(), x.candidates.end(), [](const FittedModel& m) { return !m.laws.empty(); });
+  if (c == x.candidates.end()) return;
+  for (const LearnedLaw& law : c->laws) out.push_back("Learned " + in_words(law));
+}
+
 }  // namespace
 
 std::string remaining_text(const Explanation& x, const std::vector<ResidualAttribution>& fields,
@@ -217,6 +226,7 @@ std::vector<std::string> verdict_text(const MeasurementSet& set, const Explanati
     out.push_back(fmt::format("With {}: {}, {}; BIC changes by {:+.1f}{}.", c.name, with_unit(c.rms_m, x.unit),
                               held_out(c, x.unit), c.bic - x.declared.bic, removed.empty() ? "" : "; it " + removed));
   }
+  of_laws(x, out);
   if (x.remaining) out.push_back(x.remaining->text);
   out.insert(out.end(), x.warnings.begin(), x.warnings.end());
   of_pushes(x, out);

@@ -23,7 +23,10 @@ struct EffectHead {
   std::string what;  ///< phrase that follows "with"
   std::vector<EffectParameter> parameters;
   std::string confused_with;  ///< id of an effect that some data cannot distinguish from this one; "" if none
-  bool of_data = false;       ///< a mistake in some of the runs: the others, fitted alone, cannot tell of it
+  /// A law that is learned: its curve, from its values and the numbers that are free in what is declared. Null: it is
+  /// none.
+  LawCurve (*law)(const std::vector<double>& values, std::span<const double> free) = nullptr;
+  bool of_data = false;  ///< a mistake in some of the runs: the others, fitted alone, cannot tell of it
 
   std::string name() const { return form.empty() ? id : id + " (" + form + ")"; }
 };

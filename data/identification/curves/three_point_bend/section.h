@@ -5,7 +5,10 @@
 /// (Prager 1956, J Appl Mech 23:493). Transformation has a loading branch above M_1 and an unloading branch below M_2
 /// (a flag; Auricchio, Taylor 1997, Comput Methods Appl Mech Eng 146:281).
 #include <algorithm>
+#include <array>
 #include <cmath>
+
+#include "core/material/bending_curve.h"
 
 namespace ostium::data::three_point_bend {
 
@@ -32,21 +35,45 @@ struct Flag {
   }
 };
 
+/// Play elements in series (Prandtl, Ishlinskii): each gives by `weight` times what the moment has moved beyond its
+/// threshold, on either side.
+struct Plays {
+  static constexpr int most = 8;
+  int count = 0;
+  std::array<double, most> from_per_m{}, weight{};
+};
+
 struct SectionLaw {
   Hardening slip, yield;
   Flag flag;
-  bool linear() const { return slip.from_per_m <= 0 && yield.from_per_m <= 0 && flag.up_per_m <= 0; }
+  core::BendingCurve bending;
+  Plays plays;
+  bool linear() const {
+    return slip.from_per_m <= 0 && yield.from_per_m <= 0 && flag.up_per_m <= 0 && bending.linear() && plays.count == 0;
+  }
 };
 
 /// What a section remembers.
 struct SectionState {
   double slipped_per_m = 0, yielded_per_m = 0, transformed_per_m = 0;
+  std::array<double, Plays::most> played_per_m{};
 
   SectionState after(const SectionLaw& law, double moment_per_m) const {
-    return {law.slip.slipped(slipped_per_m, moment_per_m), law.yield.slipped(yielded_per_m, moment_per_m),
-            law.flag.transformed(transformed_per_m, moment_per_m)};
+    SectionState out{law.slip.slipped(slipped_per_m, moment_per_m), law.yield.slipped(yielded_per_m, moment_per_m),
+                     law.flag.transformed(transformed_per_m, moment_per_m)};
+    for (int j = 0; j < law.plays.count; ++j)
+      out.played_per_m[j] =
+          std::clamp(played_per_m[j], moment_per_m - law.plays.from_per_m[j], moment_per_m + law.plays.from_per_m[j]);
+    return out;
   }
-  double extra_per_m() const { return slipped_per_m + yielded_per_m + transformed_per_m; }
+  /// Curvature beyond moment / EI.
+  double extra_per_m(const SectionLaw& law, double moment_per_m) const {
+    double out = slipped_per_m + yielded_per_m + transformed_per_m;
+    for (int j = 0; j < law.plays.count; ++j) out += law.plays.weight[j] * played_per_m[j];
+    if (!law.bending.linear())
+      out += std::copysign(law.bending.curvature_at(std::fabs(moment_per_m)), moment_per_m) - moment_per_m;
+    return out;
+  }
 };
 
 }  // namespace ostium::data::three_point_bend

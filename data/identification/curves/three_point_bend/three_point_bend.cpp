@@ -76,7 +76,7 @@ double deflection(const SectionLaw& law, double span_m, double force_per_m2, con
     const double x = (static_cast<double>(k) + 0.5) * cell, moment = force_per_m2 * x / 2;
     const SectionState state = before[k].after(law, moment);
     // Over a cell x^2 has more than at its middle.
-    sum += (moment / x * (x * x + cell * cell / 12) + state.extra_per_m() * x) * cell;
+    sum += (moment / x * (x * x + cell * cell / 12) + state.extra_per_m(law, moment) * x) * cell;
     if (after) (*after)[k] = state;
   }
   return sum;
@@ -171,6 +171,13 @@ class Passage {
 };
 
 }  // namespace
+
+double largest_curvature_per_m(const Setup& setup) {
+  double out = 0;
+  for (const Pass& pass : setup.passes)
+    out = std::max(out, 12 * pass.displacement_m.maxCoeff() / (pass.span_m * pass.span_m));
+  return out;
+}
 
 std::vector<curves::Curves> forces(const Setup& setup) {
   std::map<long, States> remembered;  // by place, um from the tip: a set stays where the wire was bent
@@ -333,7 +340,8 @@ std::unique_ptr<curves::Set> read(const JsonValue& file) {
   auto set = std::make_unique<curves::SetOf<Setup>>(
       setup, runs, free, set_free, forces,
       std::vector<Effect>{support_friction(), coil_core_slip(), plastic_set(), superelastic_flag(), relaxation(),
-                          machine_compliance(), span_error(), zero_offset(), force_drift()});
+                          machine_compliance(), span_error(), zero_offset(), force_drift(), law_bending(),
+                          law_bending_hysteresis()});
   curves::declare(root, *set);
   return set;
 }

@@ -46,6 +46,9 @@ curves::Kind kind();
 /// Forces of each pass, N.
 std::vector<curves::Curves> forces(const Setup& setup);
 
+/// The largest curvature of a linear beam of small slope in any pass, 12 deflection / span^2.
+double largest_curvature_per_m(const Setup& setup);
+
 /// Each states its law in its source file.
 using Effect = curves::EffectOn<Setup>;
 Effect support_friction();
@@ -57,5 +60,7 @@ Effect machine_compliance();
 Effect span_error();
 Effect zero_offset();
 Effect force_drift();
+Effect law_bending();
+Effect law_bending_hysteresis();
 
 }  // namespace ostium::data::three_point_bend
