@@ -35,7 +35,9 @@ struct Arguments {
 
 void declare(Options& options, Arguments& a) {
   options.add("set", a.set, "The set's folder, or its measurement.json").type("SET");
-  options.add("--template", a.kind, "Write a small set of this kind to begin from, and explain none: projections")
+  options
+      .add("--template", a.kind,
+           "Write a small set of this kind to begin from, and explain none: projections, push_pull, ...")
       .type("KIND");
   options.add("-o,--out", a.folder, "Where explanation.json, explanation.html and amended/ go").type("DIR");
   options.add("--try", a.tries, "An effect to switch on; with + between them, several together").type("EFFECT");

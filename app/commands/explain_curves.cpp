@@ -8,6 +8,7 @@
 #include "data/formats/write_file.h"
 #include "data/identification/curves/curve_report.h"
 #include "data/identification/curves/kinds.h"
+#include "data/identification/curves/set/run_table.h"
 
 namespace ostium::app {
 
@@ -25,8 +26,9 @@ void print(const data::curves::CurveExplanation& x) {
 
 }  // namespace
 
-void explain_curves(const data::JsonValue& root, const data::curves::CurveOptions& options, const std::string& to,
+void explain_curves(const data::JsonValue& file, const data::curves::CurveOptions& options, const std::string& to,
                     bool json) {
+  const data::JsonValue root = data::curves::with_tables(file);
   const data::curves::CurveExplanation found = data::curves::explain_curves(root, options);
   show_progress("");
   const std::filesystem::path folder(to);
@@ -39,8 +41,8 @@ void explain_curves(const data::JsonValue& root, const data::curves::CurveOption
     print(found);
 }
 
-void predict_curves(const data::JsonValue& root, const std::string& to, bool json) {
-  const auto set = data::curves::read_set(root);
+void predict_curves(const data::JsonValue& file, const std::string& to, bool json) {
+  const auto set = data::curves::read_set(data::curves::with_tables(file));
   const std::string text = prediction_json(*set);
   const std::filesystem::path folder(to);
   data::write_file((folder / "prediction.json").string(), text);

@@ -42,38 +42,46 @@ std::string listed(const std::vector<std::string>& names) {
 
 }  // namespace
 
-std::vector<CsvRow> load_csv(const std::string& file, const std::vector<std::string>& columns) {
+CsvTable load_csv(const std::string& file, const std::string& expected) {
   std::ifstream in(file, std::ios::binary);
-  if (!in) throw LoadError(file + " cannot be read; expected a table with the columns " + listed(columns));
-  std::vector<CsvRow> rows;
-  std::vector<std::size_t> at;  // of each of `columns`, its place in a line
-  std::size_t count = 0;
+  if (!in) throw LoadError(file + " cannot be read; expected a table with the columns " + expected);
+  CsvTable out;
   char separator = ',';
   int number = 0;
   for (std::string line; std::getline(in, line);) {
     if (++number == 1 && line.starts_with("\xEF\xBB\xBF")) line.erase(0, 3);
     if (trimmed(line).empty() || line[0] == '#') continue;
-    const auto fail = [&](const std::string& what) { throw LoadError(fmt::format("{}:{}: {}", file, number, what)); };
-    if (at.empty()) {
+    if (out.columns.empty()) {
       for (const char other : {';', '\t'})
         if (line.find(other) != std::string::npos) separator = other;
-      const std::vector<std::string> header = split_fields(line, separator);
-      count = header.size();
-      for (const std::string& name : columns) {
-        const auto found = std::find(header.begin(), header.end(), name);
-        if (found == header.end() || count != columns.size())
-          fail("the header is " + listed(header) + "; expected " + listed(columns));
-        at.push_back(static_cast<std::size_t>(found - header.begin()));
-      }
+      out.header_line = number, out.columns = split_fields(line, separator);
       continue;
     }
-    const std::vector<std::string> fields = split_fields(line, separator);
-    if (fields.size() != count) fail(fmt::format("{} fields; expected {}, as the header has", fields.size(), count));
-    rows.push_back({number, {}});
-    for (const std::size_t i : at) rows.back().fields.push_back(fields[i]);
+    out.rows.push_back({number, split_fields(line, separator)});
+    if (const std::size_t fields = out.rows.back().fields.size(); fields != out.columns.size())
+      throw LoadError(
+          fmt::format("{}:{}: {} fields; expected {}, as the header has", file, number, fields, out.columns.size()));
   }
-  if (at.empty()) throw LoadError(file + " is empty; expected a header with the columns " + listed(columns));
-  return rows;
+  if (out.columns.empty()) throw LoadError(file + " is empty; expected a header with the columns " + expected);
+  return out;
+}
+
+std::vector<CsvRow> load_csv(const std::string& file, const std::vector<std::string>& columns) {
+  CsvTable table = load_csv(file, listed(columns));
+  std::vector<std::size_t> at;  // of each of `columns`, its place in a line
+  for (const std::string& name : columns) {
+    const auto found = std::find(table.columns.begin(), table.columns.end(), name);
+    if (found == table.columns.end() || table.columns.size() != columns.size())
+      throw LoadError(fmt::format("{}:{}: the header is {}; expected {}", file, table.header_line,
+                                  listed(table.columns), listed(columns)));
+    at.push_back(static_cast<std::size_t>(found - table.columns.begin()));
+  }
+  for (CsvRow& row : table.rows) {
+    std::vector<std::string> fields;
+    for (const std::size_t i : at) fields.push_back(row.fields[i]);
+    row.fields = fields;
+  }
+  return table.rows;
 }
 
 double csv_number(const std::string& file, const CsvRow& row, const std::string& column, const std::string& field) {

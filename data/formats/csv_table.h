@@ -11,6 +11,15 @@ struct CsvRow {
   std::vector<std::string> fields;  ///< in the order of the columns that were asked for
 };
 
+struct CsvTable {
+  int header_line = 0;               ///< from 1
+  std::vector<std::string> columns;  ///< as the header names them
+  std::vector<CsvRow> rows;          ///< below it, as many fields each
+};
+
+/// A table whose header names its columns. Throws LoadError with file and line; `expected` says of what, for messages.
+CsvTable load_csv(const std::string& file, const std::string& expected);
+
 /// The rows below the header, which names `columns` in any order, and no others. Throws LoadError with file and line.
 std::vector<CsvRow> load_csv(const std::string& file, const std::vector<std::string>& columns);
 

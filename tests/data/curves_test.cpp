@@ -1,10 +1,14 @@
 /// Sets of curves by solvers of their own: what is declared is enough, effects and mistakes are named.
 #include <gtest/gtest.h>
 
+#include <filesystem>
+#include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "data/catalogue/catalogue.h"
 #include "data/identification/curves/curve_report.h"
 #include "data/identification/curves/kinds.h"
+#include "data/identification/curves/set/run_table.h"
 #include "data/identification/curves/three_point_bend/three_point_bend.h"
 #include "tests/support/bench_set.h"
 
@@ -75,6 +79,80 @@ TEST(Curves, ABeamOfSmallDeflectionIsEulersOwn) {
   const Eigen::VectorXd F = three_point_bend::forces(setup)[0][0];
   for (Eigen::Index k = 0; k < F.size(); ++k)
     EXPECT_NEAR(F[k], 48 * 40e-6 / std::pow(20e-3, 3) * pass.displacement_m[k], 2e-4 * F[k]);
+}
+
+/// Every kind has a template: a small set with tables that is explained as it is.
+TEST(Curves, TemplatesAreSetsThatAreExplained) {
+  for (const curves::Kind& kind : curves::kinds()) {
+    const auto file = std::filesystem::path(data_folder()) / "templates" / kind.name / "measurement.json";
+    const JsonValue root = curves::with_tables(load_json(file.string()));
+    EXPECT_EQ(root.find("kind")->text, kind.name);
+    const CurveExplanation x = curves::explain_curves(root, {});
+    EXPECT_EQ(to_string(x.verdict), "explained") << kind.name;
+    EXPECT_NEAR(x.declared.model.rms(), 1, 0.2) << kind.name;
+  }
+}
+
+/// A set of two runs, the first with its samples in a table.
+class Tabled : public testing::Test {
+ protected:
+  Tabled() {
+    std::filesystem::create_directories(folder_);
+    file_ = nlohmann::ordered_json::parse(made("three_point_bend", "clean", 0, 101).json);
+    auto& run = file_["runs"][0];
+    table_ = "# made by a machine\nforce_N;time_s;displacement_mm\n";
+    for (std::size_t k = 0; k < run["force_N"].size(); ++k)
+      table_ +=
+          run["force_N"][k].dump() + ";" + run["time_s"][k].dump() + ";" + run["displacement_mm"][k].dump() + "\n";
+    for (const char* key : {"force_N", "time_s", "displacement_mm"}) run.erase(key);
+    run["csv"] = "run 1.csv";
+  }
+  ~Tabled() override { std::filesystem::remove_all(folder_); }
+
+  JsonValue read() const {
+    std::ofstream(folder_ / "run 1.csv") << table_;
+    std::ofstream(folder_ / "measurement.json") << file_.dump();
+    return curves::with_tables(load_json((folder_ / "measurement.json").string()));
+  }
+  void expect_refused(const std::vector<std::string>& words) const {
+    try {
+      curves::read_set(read());
+    } catch (const LoadError& error) {
+      for (const std::string& word : words)
+        EXPECT_NE(std::string(error.what()).find(word), std::string::npos) << error.what();
+      return;
+    }
+    ADD_FAILURE() << "nothing was refused: " << words[0];
+  }
+
+  const std::filesystem::path folder_ = std::filesystem::path(testing::TempDir()) / "ostium-tabled";
+  nlohmann::ordered_json file_;
+  std::string table_;
+};
+
+TEST_F(Tabled, AreReadAsTheListsThatTheyStandFor) {
+  const auto whole = curves::read_set(parse_json("set.json", made("three_point_bend", "clean", 0, 101).json));
+  const auto tabled = curves::read_set(read());
+  EXPECT_EQ(tabled->runs()[0].along, whole->runs()[0].along);
+  EXPECT_EQ(tabled->runs()[0].channels[0].measured, whole->runs()[0].channels[0].measured);
+}
+
+TEST_F(Tabled, AreReadStrictly) {
+  const std::string table = table_;
+  const auto with = [&](const std::string& from, const std::string& to) {
+    table_ = table;
+    table_.replace(table_.find(from), from.size(), to);
+  };
+  with("force_N", "load_N"), expect_refused({"run 1.csv:2: runs[0].load_N is not a key"});
+  with("force_N", "time_s"), expect_refused({"run 1.csv:2: column \"time_s\"", "before"});
+  with("force_N", "force_N[1]"), expect_refused({"run 1.csv:2: column \"force_N[1]\"", "force_N[0]"});
+  table_ = table + "1;2\n", expect_refused({"run 1.csv:", "2 fields"});
+  table_ = table + "1;much;2\n", expect_refused({"run 1.csv:", "time_s is \"much\""});
+  table_ = "time_s;displacement_mm\n1;2\n2;3\n3;4\n4;5\n", expect_refused({"runs[0].force_N is missing", "csv"});
+  table_ = table, file_["runs"][0]["time_s"] = {1, 2, 3};
+  expect_refused({"run 1.csv:2: column \"time_s\"", "itself"});
+  file_["runs"][0].erase("time_s"), file_["runs"][0]["csv"] = "run 2.csv";
+  expect_refused({"run 2.csv cannot be read"});
 }
 
 TEST(Curves, BadInputIsNamed) {

@@ -201,7 +201,7 @@ std::vector<Tube> make_tubes(Dice& dice) {
   return out;
 }
 
-/// Each tube twice: free and against a force at the tip; slow and fast; in and back.
+/// Each tube twice: free and against a force at the tip; slow, with samples 1 mm apart, and fast, 5 mm; in and back.
 std::vector<Feed> design(Dice& dice) {
   std::vector<Feed> out;
   double start = 0;
@@ -210,12 +210,14 @@ std::vector<Feed> design(Dice& dice) {
     f.tube = static_cast<std::size_t>(r % 3), f.start_s = start;
     const bool slow = r == 0 || r == 4;
     const double speed = slow ? 1 : 10, load = r >= 3 ? dice.uniform(0.2, 0.4) : 0;
+    const double apart = slow ? 1 : 5;
+    const int deepest = slow ? 240 : 48;
     double time = 0;
-    for (int k = 1; k <= 96; ++k) {
-      f.inserted.push_back(5.0 * (k <= 48 ? k : 97 - k));
-      time += 5 / speed, f.time_s.push_back(time);
+    for (int k = 1; k <= 2 * deepest; ++k) {
+      f.inserted.push_back(apart * (k <= deepest ? k : 2 * deepest + 1 - k));
+      time += apart / speed, f.time_s.push_back(time);
       // A spring before the tip, pushed only on the way in.
-      f.tip_force.push_back(k <= 48 ? load * k / 48 : 0);
+      f.tip_force.push_back(k <= deepest ? load * k / deepest : 0);
     }
     start += time + 60, out.push_back(f);
   }
@@ -278,7 +280,7 @@ BenchSet make_of(const BenchWire* wire, const std::string& content, double size,
   }
   const std::vector<Tube> tubes = make_tubes(dice);
   const std::vector<Feed> feeds = design(dice);
-  const double noise_N = 0.01 * dice.log_uniform(0.7, 1.5), tip_noise_N = 0.003;
+  const double noise_N = 4e-3 * dice.log_uniform(0.75, 1.33), tip_noise_N = 0.003;
   Known known;
   std::vector<Series> force = measure(plain, tubes, feeds, known);
   BenchSet out;

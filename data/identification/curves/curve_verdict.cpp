@@ -43,6 +43,22 @@ double by_data(const Candidate& c) {
   return c.model.squares + c.model.numbers * std::log(std::max(c.model.measured, 2.0)) + c.paid;
 }
 
+/// Before the best, one that explains the set as well with some of its effects and no others.
+void prefer_fewer(std::vector<Candidate>& list, const Candidate& declared) {
+  for (std::size_t k = 1; k < list.size(); ++k) {
+    const Candidate &c = list[k], &best = list.front();
+    if (c.fault || best.fault || c.model.on.size() >= best.model.on.size()) continue;
+    if (!c.is_noise || !wins(c, declared) || c.bic() > best.bic() + positive) continue;
+    const auto in_best = [&](const Switched& s) {
+      return std::any_of(best.model.on.begin(), best.model.on.end(),
+                         [&](const Switched& b) { return b.effect == s.effect; });
+    };
+    if (std::all_of(c.model.on.begin(), c.model.on.end(), in_best))
+      std::rotate(list.begin(), list.begin() + static_cast<std::ptrdiff_t>(k),
+                  list.begin() + static_cast<std::ptrdiff_t>(k) + 1);
+  }
+}
+
 /// The best, then those that explain the set as well by another cause.
 std::size_t rivals_of(std::vector<Candidate>& list, const Candidate& declared) {
   std::size_t rivals = 1;
@@ -169,6 +185,7 @@ void decide(CurveExplanation& x) {
   if (too_small(x)) {
     x.verdict = Verdict::cannot_be_judged;
   } else if (any && list.front().is_noise) {
+    prefer_fewer(list, x.declared);
     x.rivals = rivals_of(list, x.declared);
     x.verdict = x.rivals > 1 ? Verdict::ambiguous : Verdict::effect;
   } else if (x.declared.is_noise) {

@@ -59,17 +59,15 @@ const JsonObjectKeys injection_keys = {
      {"ramp_s", true, "over which its rate rises, and falls, in s, >= 0", json_type::number(from_zero)},
      {"iodine_mg_mL", true, "of the contrast in mg/mL, > 0", json_type::number(above_zero)}}};
 
-const JsonObjectKeys run_keys = {
+const JsonObjectKeys run_keys = curves::run_keys(
     "density_run",
-    {{"id", true, "a name that no other run has, a text", json_type::text()},
-     {"group", false, "what runs share, a text", json_type::text()},
-     {"injection", true, "an object", json_type::object("density_injection")},
+    {{"injection", true, "an object", json_type::object("density_injection")},
      {"flow_guess_mL_s", true, "mean flow as far as it is known in mL/s, > 0", json_type::number(above_zero)},
      {"phase_s", true, "into the beat at time 0 in s, >= 0", json_type::number(from_zero)},
-     {"frames_per_s", true, "of the film in 1/s, > 0", json_type::number(above_zero)},
-     {"time_s", true, "of each frame in s, rising", json_type::list_of(json_type::number(), 8)},
+     {"frames_per_s", true, "of the film in 1/s, > 0", json_type::number(above_zero)}},
+    {{"time_s", true, "of each frame in s, rising", json_type::list_of(json_type::number(), 8)},
      {"density_mm", true, "a list for each site, with a density in mm for each frame",
-      json_type::list_of(json_type::list_of(json_type::number(), 8), 1)}}};
+      json_type::list_of(json_type::list_of(json_type::number(), 8), 1)}});
 
 /// Refuses numbers that do not rise.
 void must_rise(const JsonObject& entry, const std::string& key, const VectorXd& x) {
@@ -166,7 +164,7 @@ curves::Run read_run(const JsonValue& value, const View& view, Setup& setup, con
   film.flow_m3_s = entry.positive("flow_guess_mL_s") * mL, film.phase_s = entry.not_negative("phase_s");
   film.time_s = read_times(entry);
   const auto sites = static_cast<std::size_t>(setup.site_m.size());
-  if (entry.list("density_mm").size() != sites)
+  if (curves::samples(entry, "density_mm").items.size() != sites)
     entry["density_mm"].fail(fmt::format("{} has {} lists; expected {}, one for each of sites_mm",
                                          entry["density_mm"].path(), entry.list("density_mm").size(), sites));
   for (std::size_t s = 0; s < sites; ++s) run.channels.push_back(read_site(entry, s, setup, film, view));

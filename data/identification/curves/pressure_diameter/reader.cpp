@@ -55,17 +55,15 @@ const JsonObjectKeys noise_keys = {"inflation_noise",
                                     {"diameter_mm", true, "of the diameter in mm, > 0, or null if it is unknown",
                                      json_type::null_or(json_type::number(above_zero))}}};
 
-const JsonObjectKeys run_keys = {
+const JsonObjectKeys run_keys = curves::run_keys(
     "inflation_run",
-    {{"id", true, "a name that no other run has, a text", json_type::text()},
-     {"group", false, "what runs share, a text", json_type::text()},
-     {"in", true, "\"free\", or the name of a vessel", json_type::text()},
-     {"stented", false, "whether a stent is around the balloon (false if it is not given)", json_type::boolean()},
-     {"time_s", true, "since the run began in s, rising, one a sample", json_type::list_of(json_type::number(), 6)},
+    {{"in", true, "\"free\", or the name of a vessel", json_type::text()},
+     {"stented", false, "whether a stent is around the balloon (false if it is not given)", json_type::boolean()}},
+    {{"time_s", true, "since the run began in s, rising, one a sample", json_type::list_of(json_type::number(), 6)},
      {"pressure_atm", true, "in the balloon in atm, one a sample", json_type::list_of(json_type::number(), 6)},
      {"diameter_mm", true, "of the balloon in mm, one a sample; with places_mm a list of them for each place",
       json_type::either({json_type::list_of(json_type::number(), 6),
-                         json_type::list_of(json_type::list_of(json_type::number(), 6), 2)})}}};
+                         json_type::list_of(json_type::list_of(json_type::number(), 6), 2)})}});
 
 constexpr double beyond_chart = 0.25;  // of its range: how far from it a sample may lie
 
@@ -143,7 +141,7 @@ curves::Run read_run(const JsonValue& value, const JsonObject& noise, bool place
   const VectorXd pressure = curves::read_samples_like(entry, "pressure_atm", inflation.time_s, "time_s");
   inflation.pressure_Pa = pressure * atm;
   check_pressures(entry, setup, inflation);
-  const std::vector<JsonValue>& lists = entry.list("diameter_mm");
+  const std::vector<JsonValue>& lists = curves::samples(entry, "diameter_mm").items;
   if (places && lists.size() != setup.place_m.size())
     entry["diameter_mm"].refuse(fmt::format("{} lists, one for each of places_mm", setup.place_m.size()));
   for (std::size_t i = 0; i < setup.place_m.size(); ++i) {

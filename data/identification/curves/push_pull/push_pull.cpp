@@ -12,30 +12,17 @@ namespace ostium::data::push_pull {
 namespace {
 
 using Eigen::VectorXd;
-using units::degree, units::mm, units::Nmm2;
+using units::degree, units::mm;
+
+const curves::InstrumentKeys instrument_keys({.no_gaps = true});
 
 const JsonObjectKeys set_keys = {
     "push_pull",
     curves::with_common_keys(
-        "push_pull",
-        {{"instruments", true, "the instrument, one", json_type::list_of(json_type::object("push_instrument"), 1, 1)},
-         {"rig", true, "what is known of the path's walls, an object", json_type::object("push_rig")},
-         {"noise", true, "standard deviations, an object", json_type::object("push_noise")},
-         {"runs", true, curves::one_or_more, json_type::list_of(json_type::object("push_run"), 1)}})};
-
-const JsonObjectKeys instrument_keys = {
-    "push_instrument",
-    {{"name", true, "what people call it, a text", json_type::text()},
-     {"outer_radius_mm", true, "its outer radius in mm, > 0", json_type::number(above_zero)},
-     {"length_mm", false, "its length in mm, > 0", json_type::number(above_zero)},
-     {"sections", true, "sections from the tip backwards, without gaps",
-      json_type::list_of(json_type::object("push_section"), 1)}}};
-
-const JsonObjectKeys section_keys = {
-    "push_section",
-    {{"from_tip_mm", true, "two distances from the distal tip in mm, [from, to]", json_type::numbers(2)},
-     {"EI_Nmm2", true, "bending stiffness in N mm2, > 0", json_type::number(above_zero)},
-     {"GJ_Nmm2", false, "torsional stiffness in N mm2, > 0", json_type::number(above_zero)}}};
+        "push_pull", {instrument_keys.in_set(),
+                      {"rig", true, "what is known of the path's walls, an object", json_type::object("push_rig")},
+                      {"noise", true, "standard deviations, an object", json_type::object("push_noise")},
+                      {"runs", true, curves::one_or_more, json_type::list_of(json_type::object("push_run"), 1)}})};
 
 const JsonObjectKeys rig_keys = {
     "push_rig", {{"friction", true, "the coefficient of friction at the walls, > 0", json_type::number(above_zero)}}};
@@ -47,19 +34,17 @@ const JsonObjectKeys noise_keys = {
      {"tip_force_N", false, "of the force at the tip in N, >= 0, or null if it is unknown",
       json_type::null_or(json_type::number(from_zero))}}};
 
-const JsonObjectKeys run_keys = {
+const JsonObjectKeys run_keys = curves::run_keys(
     "push_run",
-    {{"id", true, "a name that no other run has, a text", json_type::text()},
-     {"group", false, "what runs share, a text", json_type::text()},
-     {"path", true, "bends and bore, an object", json_type::object("push_path")},
-     {"start_s", false, "when the run began in s, >= 0", json_type::number(from_zero)},
-     {"time_s", false, "since the run began in s, one a sample", json_type::list_of(json_type::number(), 4)},
+    {{"path", true, "bends and bore, an object", json_type::object("push_path")},
+     {"start_s", false, "when the run began in s, >= 0", json_type::number(from_zero)}},
+    {{"time_s", false, "since the run began in s, one a sample", json_type::list_of(json_type::number(), 4)},
      {"inserted_mm", true, "from the path's entrance to the tip in mm, one a sample",
       json_type::list_of(json_type::number(), 4)},
      {"hand_force_N", true, "push of the hand in N, negative for a pull, one a sample",
       json_type::list_of(json_type::number(), 4)},
      {"tip_force_N", false, "push of the tip on what is before it in N, one a sample; 0 if not given",
-      json_type::list_of(json_type::number(), 4)}}};
+      json_type::list_of(json_type::number(), 4)}});
 
 const JsonObjectKeys path_keys = {
     "push_path",
@@ -74,22 +59,6 @@ const JsonObjectKeys bend_keys = {
      {"radius_mm", true, "of its axis in mm, > 0", json_type::number(above_zero)},
      {"angle_deg", false, "by which it turns in degrees, > 0; or length_mm", json_type::number(above_zero)},
      {"length_mm", false, "of its arc in mm, > 0; or angle_deg", json_type::number(above_zero)}}};
-
-void read_instrument(const JsonValue& value, Setup& setup) {
-  const JsonObject entry(value, instrument_keys);
-  entry.text("name");
-  setup.radius_m = entry.positive("outer_radius_mm") * mm;
-  if (entry.has("length_mm")) entry.positive("length_mm");
-  double end_mm = 0;
-  for (const JsonValue& item : entry.list("sections")) {
-    const JsonObject section(item, section_keys);
-    const auto ends = section.numbers("from_tip_mm", 2);
-    if (!(ends[1] > ends[0]) || std::fabs(ends[0] - end_mm) > 1e-6)
-      section["from_tip_mm"].refuse(fmt::format("a section from {:g} mm on, where the one before it ends", end_mm));
-    end_mm = ends[1];
-    setup.sections.push_back({ends[0] * mm, ends[1] * mm, section.positive("EI_Nmm2") * Nmm2});
-  }
-}
 
 void read_path(const JsonValue& value, double radius_m, Passage& passage) {
   const JsonObject path(value, path_keys);
@@ -125,6 +94,12 @@ VectorXd directions(const VectorXd& inserted) {
   return out;
 }
 
+/// Distance run in and out.
+double travel_of(const VectorXd& inserted) {
+  const Eigen::Index steps = inserted.size() - 1;
+  return (inserted.tail(steps) - inserted.head(steps)).cwiseAbs().sum();
+}
+
 void read_times(const JsonObject& entry, Passage& passage) {
   if (!entry.has("time_s")) return;
   passage.time_s = curves::read_samples_like(entry, "time_s", passage.inserted_m, "inserted_mm");
@@ -152,10 +127,11 @@ curves::Run read_run(const JsonValue& value, const JsonObject& noise, Setup& set
                                            : VectorXd::Zero(run.along.size());
   if (!setup.runs.empty()) {
     const Passage& before = setup.runs.back();
-    passage.run_before_m = before.run_before_m;
-    for (Eigen::Index k = 1; k < before.inserted_m.size(); ++k)
-      passage.run_before_m += std::fabs(before.inserted_m[k] - before.inserted_m[k - 1]);
+    passage.run_before_m = before.run_before_m + travel_of(before.inserted_m);
   }
+  const std::size_t path = setup.walls->path(passage.bends, passage.bore_radius_m - setup.radius_m);
+  passage.between_samples =
+      travel_of(passage.inserted_m) < static_cast<double>(run.samples() - 1) * setup.walls->spacing_m(path) / 2;
   curves::Channel hand{"hand_force_N", "force at the hand", "N", {}, {}};
   hand.measured = curves::read_samples_like(entry, "hand_force_N", run.along, "inserted_mm");
   if (noise["hand_force_N"].type == JsonValue::Type::number) {
@@ -164,10 +140,8 @@ curves::Run read_run(const JsonValue& value, const JsonObject& noise, Setup& set
         entry.has("tip_force_N") && noise.has("tip_force_N") && noise["tip_force_N"].type == JsonValue::Type::number;
     for (Eigen::Index k = 0; k < run.samples() && tip; ++k) {
       // The tip's noise reaches the hand through the bends.
-      double turned = 0;
-      for (const Bend& b : passage.bends)
-        turned += std::clamp((passage.inserted_m[k] - b.at_m) / b.radius_m, 0.0, b.angle_rad);
-      const double gain = std::exp(setup.friction * passage.direction[k] * turned);
+      const double gain =
+          std::exp(setup.friction * passage.direction[k] * turned(passage.bends, passage.inserted_m[k]));
       hand.sigma[k] = std::hypot(hand.sigma[k], gain * noise.not_negative("tip_force_N"));
     }
   }
@@ -175,6 +149,27 @@ curves::Run read_run(const JsonValue& value, const JsonObject& noise, Setup& set
   run.channels = {hand};
   setup.runs.push_back(passage);
   return run;
+}
+
+/// Noise of a force that declares none, N: what three neighbours do not share.
+double quick_noise(const VectorXd& force) {
+  std::vector<double> bends;
+  for (Eigen::Index k = 2; k < force.size(); ++k)
+    bends.push_back(std::fabs(force[k] - 2 * force[k - 1] + force[k - 2]));
+  const auto middle = bends.begin() + static_cast<std::ptrdiff_t>(bends.size() / 2);
+  std::nth_element(bends.begin(), middle, bends.end());
+  return 1.4826 / std::sqrt(6.0) * *middle;
+}
+
+/// When each run has slipped, from what the force does against the law as declared.
+void find_slips(const std::vector<curves::Run>& runs, const JsonObject& noise, Setup& setup) {
+  const std::vector<curves::Curves> expected = hand_forces(setup);
+  for (std::size_t r = 0; r < runs.size(); ++r) {
+    const VectorXd off = runs[r].channels[0].measured - expected[r][0];
+    const bool declared = noise["hand_force_N"].type == JsonValue::Type::number;
+    setup.runs[r].slips =
+        falls_of(off, setup.runs[r].direction, declared ? noise.positive("hand_force_N") : quick_noise(off));
+  }
 }
 
 /// Sections that reach a bend in some run.
@@ -206,11 +201,13 @@ std::vector<EffectParameter> free_numbers(const Setup& setup) {
 std::unique_ptr<curves::Set> read(const JsonValue& file) {
   const JsonObject root(file, set_keys), rig(root["rig"], rig_keys), noise(root["noise"], noise_keys);
   Setup setup;
-  read_instrument(root.list("instruments").at(0), setup);
+  const curves::Instrument instrument = instrument_keys.read(root);
+  setup.radius_m = instrument.radius_m, setup.sections = instrument.sections;
   setup.friction = rig.positive("friction");
   std::vector<curves::Run> runs;
   for (const JsonValue& value : root.list("runs")) runs.push_back(read_run(value, noise, setup, runs));
   if (runs.empty()) root.refuse("runs");
+  find_slips(runs, noise, setup);
   const std::vector<EffectParameter> free = free_numbers(setup);
   auto set = std::make_unique<curves::SetOf<Setup>>(
       setup, runs, free, set_free, hand_forces,
@@ -223,11 +220,9 @@ std::unique_ptr<curves::Set> read(const JsonValue& file) {
 }  // namespace
 
 curves::Kind kind() {
-  return {"push_pull",
-          "force at the hand of a wire that is fed into a path and pulled out",
-          read,
-          {&set_keys, &instrument_keys, &section_keys, &rig_keys, &noise_keys, &run_keys, &path_keys, &bend_keys,
-           &curves::effect_keys}};
+  return {"push_pull", "force at the hand of a wire that is fed into a path and pulled out", read,
+          instrument_keys.with(
+              {&set_keys, &rig_keys, &noise_keys, &run_keys, &path_keys, &bend_keys, &curves::effect_keys})};
 }
 
 }  // namespace ostium::data::push_pull

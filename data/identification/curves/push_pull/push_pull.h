@@ -4,18 +4,17 @@
 /// Law: a wire without weight in a tube with Coulomb's friction mu. T is its axial force, positive under compression.
 /// In a bend of radius R it presses on the wall with |T| / R a length, so that towards the hand T grows by exp(mu
 /// angle) under a push (capstan; Euler 1769, Eytelwein 1808), and with the stiffness of a wire in a bend with clearance
-/// c around it (`contact.h`). Both are added: the wire is taken to press by its stiffness as it would without an axial
-/// force. Straight parts take no force. Friction acts against the motion: the direction of a sample is that in which
-/// `inserted_mm` changed last. A force that is measured at the tip is what the law begins with there, and its noise
-/// counts as one at the hand.
+/// c around it (`channel_beam.h`). Both act together from the tip to the hand, each pressing as it would alone: T does
+/// not change the shape. Friction acts against the motion: the direction of a sample is that in which `inserted_mm`
+/// changed last. A force that is measured at the tip is what the law begins with there, and its noise counts as one at
+/// the hand.
+#include <memory>
+
+#include "data/identification/curves/push_pull/known_walls.h"
+#include "data/identification/curves/set/instrument_keys.h"
 #include "data/identification/curves/set/set_reader.h"
 
 namespace ostium::data::push_pull {
-
-struct Bend {
-  double at_m = 0, radius_m = 0, angle_rad = 0;  ///< begins so far from the entrance
-  double end_m() const { return at_m + radius_m * angle_rad; }
-};
 
 /// One run: in, or in and back.
 struct Passage {
@@ -24,31 +23,35 @@ struct Passage {
   Eigen::VectorXd inserted_m, tip_N, direction;  ///< direction: 1 in, -1 out
   Eigen::VectorXd time_s;                        ///< since the first run began; empty: unknown
   double run_before_m = 0;                       ///< distance run in and out by the wire before this run
-};
-
-struct Section {
-  double from_tip_m = 0, to_m = 0, EI_N_m2 = 0;
+  std::vector<bool> slips;                       ///< samples at which the wire has slipped; empty: it does not stick
+  /// Samples are so close together that wall forces are computed for insertions further apart, and interpolated.
+  bool between_samples = false;
 };
 
 /// Everything that an effect may change.
 struct Setup {
   std::vector<Passage> runs;
-  std::vector<Section> sections;  ///< from the tip on
-  double radius_m = 0;            ///< of the instrument
+  std::vector<curves::InstrumentSection> sections;  ///< from the tip on
+  double radius_m = 0;                              ///< of the instrument
   double friction = 0;
   double soft_m = 0, soft_share = 1;  ///< a tip of other stiffness
   double bore_more_m = 0;             ///< radius of the bore against what is declared
   double worn_per_m = 0;              ///< growth of friction with the distance run
   double zero_N = 0, drift_N_per_s = 0;
-  double sticking = 0;          ///< friction at rest against that in motion, less 1
-  double hand_N_per_m = 1;      ///< stiffness of hand and wire before it slips
-  double sticks_below_m_s = 0;  ///< speed from which on it does not stick
+  double sticking = 0;      ///< friction at rest against that in motion, less 1
+  double hand_N_per_m = 1;  ///< stiffness of hand and wire before it slips
+  /// What is remembered of wall forces, by all copies of a setup together; so one of them at a time may be asked.
+  std::shared_ptr<KnownWalls> walls = std::make_shared<KnownWalls>();
 };
 
 curves::Kind kind();
 
 /// Forces at the hand of each run, N.
 std::vector<curves::Curves> hand_forces(const Setup& setup);
+
+/// Where a force, less what is expected of it, falls at once, against the motion's direction, by more than noise of
+/// `sigma_N` does, and neither just before nor just after rises as much, as blunders do. Empty if that is rare.
+std::vector<bool> falls_of(const Eigen::VectorXd& force_N, const Eigen::VectorXd& direction, double sigma_N);
 
 /// Of one sample, N, with what friction alone adds to the tip's force.
 double hand_force(const Setup& setup, const Passage& run, double inserted_m, double tip_N, double direction,

@@ -27,8 +27,33 @@ std::vector<JsonKey> with_common_keys(const std::string& kind, std::vector<JsonK
   return keys;
 }
 
+JsonObjectKeys run_keys(const std::string& object, std::vector<JsonKey> own, std::vector<JsonKey> samples) {
+  JsonObjectKeys out{object,
+                     {{"id", true, "a name that no other run has, a text", json_type::text()},
+                      {"group", false, "what runs share, a text", json_type::text()},
+                      {"csv", false, "a table beside this file with samples as columns, in place of the lists, a text",
+                       json_type::text()}}};
+  std::vector<std::string> lists;
+  out.keys.insert(out.keys.end(), own.begin(), own.end());
+  for (JsonKey& key : samples) {
+    if (key.required) lists.push_back(key.name);
+    key.required = false;
+    out.keys.push_back(key);
+  }
+  out.rules = {one_of_required({{"csv"}, lists})};
+  return out;
+}
+
+const JsonValue& samples(const JsonObject& run, const std::string& key) {
+  if (!run.has(key))
+    run.value().fail(fmt::format("{}.{} is missing; expected a list, or a column of that name in the table of \"csv\"",
+                                 run.value().path(), key));
+  run.list(key);
+  return run[key];
+}
+
 Eigen::VectorXd read_samples(const JsonObject& run, const std::string& key, Eigen::Index least) {
-  const std::vector<JsonValue>& list = run.list(key);
+  const std::vector<JsonValue>& list = samples(run, key).items;
   Eigen::VectorXd out(static_cast<Eigen::Index>(list.size()));
   for (std::size_t k = 0; k < list.size(); ++k) {
     if (list[k].type != JsonValue::Type::number) list[k].refuse("a number");
@@ -51,6 +76,7 @@ Eigen::VectorXd read_samples_like(const JsonObject& run, const std::string& key,
 Run begin_run(const JsonObject& entry, const std::vector<Run>& others) {
   Run run;
   run.id = entry.text("id"), run.place = entry.value().path();
+  if (entry.has("csv")) entry["csv"].fail(run.place + ".csv: the table was not read (with_tables)");
   if (entry.has("group")) run.group = entry.text("group");
   for (const Run& other : others)
     if (other.id == run.id) entry["id"].refuse("an id that no other run has; " + other.place + " has it");

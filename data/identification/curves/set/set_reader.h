@@ -16,12 +16,16 @@ struct Kind {
 
 /// Keys of the file's own object that every kind has.
 std::vector<JsonKey> with_common_keys(const std::string& kind, std::vector<JsonKey> own);
+/// Of a run: id and group, `own`, and `samples`, its lists, which may be columns of a table (run_table.h) instead.
+JsonObjectKeys run_keys(const std::string& object, std::vector<JsonKey> own, std::vector<JsonKey> samples);
 extern const JsonObjectKeys effect_keys;  ///< of an effect that a file declares
 inline constexpr const char* one_or_more = "runs in the order in which they were made, not empty";
 
 /// What every kind has: title, source, what a fit found before, and the effects that the file declares.
 void declare(const JsonObject& root, Set& set);
 
+/// A run's list, or LoadError if it has none.
+const JsonValue& samples(const JsonObject& run, const std::string& key);
 /// Numbers of one key, all finite, at least `least` of them.
 Eigen::VectorXd read_samples(const JsonObject& run, const std::string& key, Eigen::Index least = 4);
 /// The same, as many as `of` has.

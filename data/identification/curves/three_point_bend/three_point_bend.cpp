@@ -6,13 +6,14 @@
 #include <map>
 
 #include "core/base/units.h"
+#include "data/identification/curves/set/instrument_keys.h"
 
 namespace ostium::data::three_point_bend {
 
 namespace {
 
 using Eigen::VectorXd;
-using units::mm, units::Nmm2;
+using units::mm;
 
 /// Force over EI against deflection, for one span, roller and friction, as far as `most_m`.
 class Elastica {
@@ -193,26 +194,16 @@ std::vector<curves::Curves> forces(const Setup& setup) {
 
 namespace {
 
+const curves::InstrumentKeys instrument_keys({});
+
 const JsonObjectKeys set_keys = {
     "three_point_bend",
     curves::with_common_keys(
         "three_point_bend",
-        {{"instruments", true, "the instrument, one", json_type::list_of(json_type::object("bend_instrument"), 1, 1)},
+        {instrument_keys.in_set(),
          {"rig", true, "what is known of the machine, an object", json_type::object("bend_rig")},
          {"noise", true, "standard deviations, an object", json_type::object("bend_noise")},
          {"runs", true, curves::one_or_more, json_type::list_of(json_type::object("bend_run"), 1)}})};
-
-const JsonObjectKeys instrument_keys = {
-    "bend_instrument",
-    {{"name", true, "what people call it, a text", json_type::text()},
-     {"outer_radius_mm", true, "its outer radius in mm, > 0", json_type::number(above_zero)},
-     {"sections", true, "sections in which it was bent", json_type::list_of(json_type::object("bend_section"), 1)}}};
-
-const JsonObjectKeys section_keys = {
-    "bend_section",
-    {{"from_tip_mm", true, "two distances from the distal tip in mm, [from, to]", json_type::numbers(2)},
-     {"EI_Nmm2", true, "bending stiffness in N mm2, > 0", json_type::number(above_zero)},
-     {"GJ_Nmm2", false, "torsional stiffness in N mm2, > 0", json_type::number(above_zero)}}};
 
 const JsonObjectKeys rig_keys = {
     "bend_rig",
@@ -228,47 +219,26 @@ const JsonObjectKeys noise_keys = {
      {"displacement_mm", true, "of the displacement in mm, >= 0, or null if it is unknown",
       json_type::null_or(json_type::number(from_zero))}}};
 
-const JsonObjectKeys run_keys = {
+const JsonObjectKeys run_keys = curves::run_keys(
     "bend_run",
-    {{"id", true, "a name that no other run has, a text", json_type::text()},
-     {"group", false, "what runs share, a text", json_type::text()},
-     {"span_mm", true, "between the rollers' axes in mm, > 0", json_type::number(above_zero)},
+    {{"span_mm", true, "between the rollers' axes in mm, > 0", json_type::number(above_zero)},
      {"roller_radius_mm", true, "from a roller's axis to the wire's axis in mm, >= 0", json_type::number(from_zero)},
      {"from_tip_mm", true, "where it was pressed, from the distal tip in mm, >= 0", json_type::number(from_zero)},
-     {"start_s", false, "when the run began in s, >= 0", json_type::number(from_zero)},
-     {"time_s", true, "since the run began in s, one a sample", json_type::list_of(json_type::number(), 4)},
+     {"start_s", false, "when the run began in s, >= 0", json_type::number(from_zero)}},
+    {{"time_s", true, "since the run began in s, one a sample", json_type::list_of(json_type::number(), 4)},
      {"displacement_mm", true, "of the middle roller in mm, one a sample", json_type::list_of(json_type::number(), 4)},
-     {"force_N", true, "on the middle roller in N, one a sample", json_type::list_of(json_type::number(), 4)}}};
-
-struct Section {
-  double from_m, to_m;
-};
-
-std::vector<Section> read_instrument(const JsonValue& value, Setup& setup) {
-  const JsonObject entry(value, instrument_keys);
-  entry.text("name");
-  setup.radius_m = entry.positive("outer_radius_mm") * mm;
-  std::vector<Section> out;
-  for (const JsonValue& item : entry.list("sections")) {
-    const JsonObject section(item, section_keys);
-    const auto ends = section.numbers("from_tip_mm", 2);
-    if (!(ends[1] > ends[0]) || ends[0] < 0) section.refuse("from_tip_mm");
-    out.push_back({ends[0] * mm, ends[1] * mm});
-    setup.EI_N_m2.push_back(section.positive("EI_Nmm2") * Nmm2);
-  }
-  return out;
-}
+     {"force_N", true, "on the middle roller in N, one a sample", json_type::list_of(json_type::number(), 4)}});
 
 /// Weights of a pass's compliance, integral of moment squared: the middle counts most.
 std::vector<std::pair<std::size_t, double>> shares(const JsonObject& entry, const Pass& pass,
-                                                   const std::vector<Section>& sections) {
+                                                   const std::vector<curves::InstrumentSection>& sections) {
   std::vector<std::pair<std::size_t, double>> out;
   constexpr int cells = 200;
   for (int k = 0; k < cells; ++k) {
     const double u = (k + 0.5) / cells * 2 - 1, at = pass.from_tip_m + u * pass.span_m / 2;
     const double weight = 1.5 * (1 - std::fabs(u)) * (1 - std::fabs(u)) * 2 / cells;
     std::size_t in = 0;
-    while (in < sections.size() && !(sections[in].from_m <= at && at <= sections[in].to_m)) ++in;
+    while (in < sections.size() && !(sections[in].from_tip_m <= at && at <= sections[in].to_m)) ++in;
     if (in == sections.size())
       entry["from_tip_mm"].refuse(fmt::format(
           "the span, {:g} mm on either side, to lie within sections of the instrument", pass.span_m / mm / 2));
@@ -278,8 +248,9 @@ std::vector<std::pair<std::size_t, double>> shares(const JsonObject& entry, cons
   return out;
 }
 
-curves::Run read_run(const JsonValue& value, const JsonObject& noise, const std::vector<Section>& sections,
-                     Setup& setup, const std::vector<curves::Run>& others) {
+curves::Run read_run(const JsonValue& value, const JsonObject& noise,
+                     const std::vector<curves::InstrumentSection>& sections, Setup& setup,
+                     const std::vector<curves::Run>& others) {
   const JsonObject entry(value, run_keys);
   curves::Run run = curves::begin_run(entry, others);
   Pass pass;
@@ -329,12 +300,15 @@ std::vector<EffectParameter> free_numbers(const Setup& setup) {
 std::unique_ptr<curves::Set> read(const JsonValue& file) {
   const JsonObject root(file, set_keys), rig(root["rig"], rig_keys), noise(root["noise"], noise_keys);
   Setup setup;
-  const std::vector<Section> sections = read_instrument(root.list("instruments").at(0), setup);
+  const curves::Instrument instrument = instrument_keys.read(root);
+  setup.radius_m = instrument.radius_m;
+  for (const curves::InstrumentSection& s : instrument.sections) setup.EI_N_m2.push_back(s.EI_N_m2);
   setup.friction = rig.not_negative("friction");
   if (rig["machine_stiffness_N_per_mm"].type != JsonValue::Type::null)
     setup.machine_m_per_N = mm / rig.positive("machine_stiffness_N_per_mm");
   std::vector<curves::Run> runs;
-  for (const JsonValue& value : root.list("runs")) runs.push_back(read_run(value, noise, sections, setup, runs));
+  for (const JsonValue& value : root.list("runs"))
+    runs.push_back(read_run(value, noise, instrument.sections, setup, runs));
   if (runs.empty()) root.refuse("runs");
   const std::vector<EffectParameter> free = free_numbers(setup);
   auto set = std::make_unique<curves::SetOf<Setup>>(
@@ -349,10 +323,8 @@ std::unique_ptr<curves::Set> read(const JsonValue& file) {
 }  // namespace
 
 curves::Kind kind() {
-  return {"three_point_bend",
-          "force against displacement of a wire on two rollers, there and back",
-          read,
-          {&set_keys, &instrument_keys, &section_keys, &rig_keys, &noise_keys, &run_keys, &curves::effect_keys}};
+  return {"three_point_bend", "force against displacement of a wire on two rollers, there and back", read,
+          instrument_keys.with({&set_keys, &rig_keys, &noise_keys, &run_keys, &curves::effect_keys})};
 }
 
 }  // namespace ostium::data::three_point_bend

@@ -6,36 +6,25 @@
 #include <cmath>
 
 #include "core/base/units.h"
+#include "data/identification/curves/set/instrument_keys.h"
 
 namespace ostium::data::torque_response {
 
 namespace {
 
 using Eigen::VectorXd;
-using units::degree, units::mm, units::Nmm2;
+using units::degree, units::mm;
+
+const curves::InstrumentKeys instrument_keys({.length = true, .no_gaps = true, .torsion = true});
 
 const JsonObjectKeys set_keys = {
     "torque_response",
     curves::with_common_keys(
         "torque_response",
-        {{"instruments", true, "the instrument, one", json_type::list_of(json_type::object("torque_instrument"), 1, 1)},
+        {instrument_keys.in_set(),
          {"rig", true, "what is known of the path's walls, an object", json_type::object("torque_rig")},
          {"noise", true, "standard deviations, an object", json_type::object("torque_noise")},
          {"runs", true, curves::one_or_more, json_type::list_of(json_type::object("torque_run"), 1)}})};
-
-const JsonObjectKeys instrument_keys = {
-    "torque_instrument",
-    {{"name", true, "what people call it, a text", json_type::text()},
-     {"outer_radius_mm", true, "its outer radius in mm, > 0", json_type::number(above_zero)},
-     {"length_mm", true, "from the drive to the distal tip in mm, > 0", json_type::number(above_zero)},
-     {"sections", true, "sections from the tip to the drive, without gaps",
-      json_type::list_of(json_type::object("torque_section"), 1)}}};
-
-const JsonObjectKeys section_keys = {
-    "torque_section",
-    {{"from_tip_mm", true, "two distances from the distal tip in mm, [from, to]", json_type::numbers(2)},
-     {"EI_Nmm2", true, "bending stiffness in N mm2, > 0", json_type::number(above_zero)},
-     {"GJ_Nmm2", true, "torsional stiffness in N mm2, > 0", json_type::number(above_zero)}}};
 
 const JsonObjectKeys rig_keys = {
     "torque_rig",
@@ -49,18 +38,16 @@ const JsonObjectKeys noise_keys = {
      {"torque_Nmm", true, "of the torque in N mm, > 0, or null if it is unknown",
       json_type::null_or(json_type::number(above_zero))}}};
 
-const JsonObjectKeys run_keys = {
+const JsonObjectKeys run_keys = curves::run_keys(
     "torque_run",
-    {{"id", true, "a name that no other run has, a text", json_type::text()},
-     {"group", false, "what runs share, a text", json_type::text()},
-     {"path", false, "what the path is called, a text", json_type::text()},
+    {{"path", false, "what the path is called, a text", json_type::text()},
      {"bends", true, "bends of the path, a list", json_type::list_of(json_type::object("torque_bend"))},
      {"contacts", true, "where the wire presses on the wall, a list",
-      json_type::list_of(json_type::object("torque_contact"))},
-     {"proximal_deg", true, "angle of the drive in degrees, one a sample", json_type::list_of(json_type::number(), 4)},
+      json_type::list_of(json_type::object("torque_contact"))}},
+    {{"proximal_deg", true, "angle of the drive in degrees, one a sample", json_type::list_of(json_type::number(), 4)},
      {"distal_deg", true, "angle of the distal end in degrees, one a sample",
       json_type::list_of(json_type::number(), 4)},
-     {"torque_Nmm", true, "at the drive in N mm, one a sample", json_type::list_of(json_type::number(), 4)}}};
+     {"torque_Nmm", true, "at the drive in N mm, one a sample", json_type::list_of(json_type::number(), 4)}});
 
 const JsonObjectKeys bend_keys = {
     "torque_bend",
@@ -75,24 +62,13 @@ const JsonObjectKeys contact_keys = {
     {{"at_mm", true, "from the drive in mm, > 0", json_type::number(above_zero)},
      {"contact_force_N", true, "with which the wire presses on the wall in N, >= 0", json_type::number(from_zero)}}};
 
-double read_instrument(const JsonValue& value, Setup& setup) {
-  const JsonObject entry(value, instrument_keys);
-  entry.text("name");
-  setup.radius_m = entry.positive("outer_radius_mm") * mm;
-  const double length_mm = entry.positive("length_mm");
-  double end_mm = 0;
-  for (const JsonValue& item : entry.list("sections")) {
-    const JsonObject section(item, section_keys);
-    const auto ends = section.numbers("from_tip_mm", 2);
-    if (!(ends[1] > ends[0]) || std::fabs(ends[0] - end_mm) > 1e-6)
-      section["from_tip_mm"].refuse(fmt::format("a section from {:g} mm on, where the one before it ends", end_mm));
-    end_mm = ends[1];
-    setup.sections.push_back({(length_mm - ends[1]) * mm, (length_mm - ends[0]) * mm,
-                              section.positive("GJ_Nmm2") * Nmm2, section.positive("EI_Nmm2") * Nmm2});
-  }
-  if (end_mm < length_mm - 1e-6)
-    entry["sections"].refuse(fmt::format("sections as far as the drive, {:g} mm from the tip", length_mm));
-  return length_mm;
+/// Returns its length in mm.
+double read_instrument(const JsonObject& root, Setup& setup) {
+  const curves::Instrument instrument = instrument_keys.read(root);
+  setup.radius_m = instrument.radius_m;
+  for (const curves::InstrumentSection& s : instrument.sections)
+    setup.sections.push_back({instrument.length_m - s.to_m, instrument.length_m - s.from_tip_m, s.GJ_N_m2, s.EI_N_m2});
+  return instrument.length_m / mm;
 }
 
 void read_path(const JsonObject& entry, double length_mm, Turning& turning) {
@@ -202,7 +178,7 @@ std::vector<EffectParameter> free_numbers(const Setup& setup) {
 std::unique_ptr<curves::Set> read(const JsonValue& file) {
   const JsonObject root(file, set_keys), rig(root["rig"], rig_keys), noise(root["noise"], noise_keys);
   Setup setup;
-  const double length_mm = read_instrument(root.list("instruments").at(0), setup);
+  const double length_mm = read_instrument(root, setup);
   setup.friction = rig.not_negative("friction");
   if (rig.has("lumen_clearance_mm")) rig.not_negative("lumen_clearance_mm");
   std::vector<curves::Run> runs;
@@ -221,11 +197,9 @@ std::unique_ptr<curves::Set> read(const JsonValue& file) {
 }  // namespace
 
 curves::Kind kind() {
-  return {"torque_response",
-          "angle of the distal end and torque against the angle of the drive, in a path",
-          read,
-          {&set_keys, &instrument_keys, &section_keys, &rig_keys, &noise_keys, &run_keys, &bend_keys, &contact_keys,
-           &curves::effect_keys}};
+  return {"torque_response", "angle of the distal end and torque against the angle of the drive, in a path", read,
+          instrument_keys.with(
+              {&set_keys, &rig_keys, &noise_keys, &run_keys, &bend_keys, &contact_keys, &curves::effect_keys})};
 }
 
 }  // namespace ostium::data::torque_response

@@ -1,5 +1,5 @@
 /// The bore is wider or narrower than declared: a wire presses by its stiffness as 1 / sqrt(clearance), and a tip goes
-/// further into a bend before it touches (contact.h). In one bore a stiffer wire looks much the same.
+/// further into a bend before it touches (channel_beam.h). In one bore a stiffer wire looks much the same.
 #include <algorithm>
 
 #include "data/identification/curves/push_pull/push_pull.h"
