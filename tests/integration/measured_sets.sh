@@ -62,6 +62,13 @@ expect 0 "experiments: .* px" "$ostium" predict "$folder/seen" -o "$folder/found
 grep -q "View B" "$folder/found/explanation.html"
 expect 2 "SET is required" "$ostium" explain
 
+# Curves: so is each of theirs, with its samples in tables, which the amended set has written out.
+for kind in three_point_bend torque_response push_pull density pressure_diameter; do
+  expect 0 "measurement.json" "$ostium" explain --template "$kind" -o "$folder/$kind"
+  expect 0 "verdict: explained" "$ostium" explain "$folder/$kind" -o "$folder/found-$kind"
+  expect 0 "off by" "$ostium" predict "$folder/found-$kind/amended" -o "$folder/found-$kind"
+done
+
 # Two ranks and three, bit for bit what one says. (As root, and with fewer cores than ranks, Open MPI wants to be asked
 # nicely.)
 if command -v mpirun >/dev/null; then
