@@ -32,16 +32,25 @@ inline core::BendingCurve curve_of(std::span<const double> steps, double reach_p
   return out;
 }
 
+/// Standard deviation of ln(moment) that the random walk has between its knots, where a straight line is drawn: a
+/// Brownian bridge's integral has the variance step^2 / 12 of an interval, of which each is narrower than the next by
+/// the ratio q of the knots.
+inline double too_fine() {
+  const double q = std::pow(1 / first, 1.0 / (knots - 1));
+  return step_spread / std::sqrt(12.0) * (1 - 1 / q) / std::sqrt(1 - 1 / (q * q));
+}
+
 /// Moment over curvature, against the declared EI; `scale`: EI where it is not bent, against that declared.
-/// `moment_per_m(k)`: moment over EI at a curvature.
-template <class Moment>
-LawCurve table(const std::string& id, double scale, double reach_per_m, Moment&& moment_per_m) {
+/// `moment_per_m(k)`: moment over EI at a curvature; `fine(k)`: LawCurve::too_fine there.
+template <class Moment, class Fine>
+LawCurve table(const std::string& id, double scale, double reach_per_m, Moment&& moment_per_m, Fine&& fine) {
   constexpr int points = 41;
   constexpr double per_mm = 1e3;
   LawCurve out{id, "curvature", "1/mm", "moment over curvature, against the declared EI", "1", {}, 1};
   for (int i = 0; i < points; ++i) {
     const double k = reach_per_m * std::pow(20.0, static_cast<double>(i) / (points - 1) - 1);
     out.points.emplace_back(k / per_mm, scale * moment_per_m(k) / k);
+    out.too_fine.push_back(fine(k));
   }
   return out;
 }

@@ -30,8 +30,9 @@ void apply(const ActiveEffect& effect, const MeasurementSet&, const Experiment&,
 LawCurve law(const ActiveEffect& effect, const MeasurementSet&, const Changes& changes) {
   const core::BendingCurve curve = curve_of(effect);
   const double scale = changes.stiffness_scale.empty() ? 1 : changes.stiffness_scale[0].back();
-  return bending_law::table("law:bending", scale, effect.values[0] / mm,
-                            [&](double k) { return curve.moment_per_m(k); });
+  return bending_law::table(
+      "law:bending", scale, effect.values[0] / mm, [&](double k) { return curve.moment_per_m(k); },
+      [](double) { return bending_law::too_fine(); });
 }
 
 /// The largest curvature that loads and weight can cause in any experiment, as far as a quarter turn over what is

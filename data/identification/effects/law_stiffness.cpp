@@ -37,8 +37,23 @@ void apply(const ActiveEffect& effect, const MeasurementSet&, const Experiment&,
   scale(reach, sections.back().to_tip_m, reach);
 }
 
+/// Standard deviation of the prior of a wave of k half periods.
+double spread_of(int k) {
+  const double wave = pi * k * correlation;
+  return size / (1 + wave * wave / 3);
+}
+
+/// Standard deviation of the waves that the law leaves out, in the mean over the reach.
+double too_fine() {
+  constexpr int endless = 500;
+  double variance = 0;
+  for (int k = modes + 1; k < endless; ++k) variance += spread_of(k) * spread_of(k) / 2;
+  return std::sqrt(variance);
+}
+
 LawCurve law(const ActiveEffect& effect, const MeasurementSet& set, const Changes& changes) {
   LawCurve out{"law:stiffness", "distance from the tip", "mm", "EI against what is declared", "1", {}, 1};
+  out.too_fine.assign(table_points, too_fine());
   const auto& sections = set.instruments[0].sections;
   for (int i = 0; i < table_points; ++i) {
     const double s_mm = effect.values[0] * i / (table_points - 1);
@@ -61,12 +76,10 @@ Effect law_stiffness() {
   effect.id = "law:stiffness";
   effect.what = "stiffness along the instrument as the data show it";
   effect.parameters = {{"reach_mm", "mm", "how far from the tip the law goes", 300, 1, 1, 5000, false}};
-  for (int k = 1; k <= modes; ++k) {
-    const double wave = pi * k * correlation;
+  for (int k = 1; k <= modes; ++k)
     effect.parameters.push_back({"c_" + std::to_string(k), "1",
                                  "of ln(EI / declared), the wave of " + std::to_string(k) + " half periods", 0,
-                                 size / (1 + wave * wave / 3), -4, 4, false});
-  }
+                                 spread_of(k), -4, 4, false});
   effect.why_not = why_not_learned, effect.apply = apply, effect.forms = forms, effect.law = law;
   effect.in_instrument = true;
   return effect;

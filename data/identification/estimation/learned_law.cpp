@@ -118,7 +118,9 @@ LearnedLaw with_band(const std::function<LawCurve(const VectorXd&)>& law, const 
   for (Eigen::Index i = 0; i < points; ++i) {
     const double now = slope.row(i) * covariance * slope.row(i).transpose(),
                  before = slope.row(i).cwiseProduct(prior_sigma.transpose()).squaredNorm();
-    out.sigma.push_back(std::sqrt(std::max(now, 0.0)));
+    const auto k = static_cast<std::size_t>(i);
+    const double too_fine = out.curve.too_fine.empty() ? 0 : out.curve.too_fine[k] * out.curve.points[k].y();
+    out.sigma.push_back(std::sqrt(std::max(now, 0.0) + too_fine * too_fine));
     out.from_data.push_back(before > 0 ? std::clamp(1 - now / before, 0.0, 1.0) : 0);
   }
   out.looks_like = form_of(out);

@@ -27,7 +27,9 @@ Effect law_bending() {
   };
   effect.head.law = [](const std::vector<double>& v, std::span<const double> free) {
     const core::BendingCurve curve = curve_of(v);
-    return bending_law::table("law:bending", free[0], v[0] / 1e-3, [&](double k) { return curve.moment_per_m(k); });
+    return bending_law::table(
+        "law:bending", free[0], v[0] / 1e-3, [&](double k) { return curve.moment_per_m(k); },
+        [](double) { return bending_law::too_fine(); });
   };
   return effect;
 }

@@ -37,6 +37,16 @@ double moment_per_m(const Plays& plays, double k) {
   return moment + (k - at) / compliance;
 }
 
+/// What slips between two thresholds all slips at the first here; slipping evenly it would move the curve by up to an
+/// eighth of what it gives over the interval.
+double too_fine(const Plays& plays, double k) {
+  const double moment = moment_per_m(plays, k);
+  double most = 0;
+  for (int j = 0; j + 1 < plays.count && plays.from_per_m[j] < moment; ++j)
+    most = plays.weight[j] * (plays.from_per_m[j + 1] - plays.from_per_m[j]) / 8;
+  return most / k;
+}
+
 }  // namespace
 
 Effect law_bending_hysteresis() {
@@ -53,8 +63,9 @@ Effect law_bending_hysteresis() {
   };
   effect.head.law = [](const std::vector<double>& v, std::span<const double> free) {
     const Plays plays = plays_of(v);
-    return bending_law::table("law:bending_hysteresis", free[0], v[0] / 1e-3,
-                              [&](double k) { return moment_per_m(plays, k); });
+    return bending_law::table(
+        "law:bending_hysteresis", free[0], v[0] / 1e-3, [&](double k) { return moment_per_m(plays, k); },
+        [&](double k) { return too_fine(plays, k); });
   };
   return effect;
 }
