@@ -12,8 +12,10 @@ namespace {
 
 /// "veiling_glare constant" is a form of veiling_glare.
 BenchSet with_effect(const std::string& json, const std::string& effect) {
-  if (effect.empty()) return {json, {}};
-  return {json, {effect.substr(0, effect.find(' '))}};
+  BenchSet out;
+  out.json = json;
+  if (!effect.empty()) out.effects = {effect.substr(0, effect.find(' '))};
+  return out;
 }
 
 std::string effect_of(const std::string& content) { return content == "clean" ? "" : content; }
