@@ -80,7 +80,8 @@ core::Model nested(int rods, int elements) {
                    .GJ_N_m2 = t.EI_N_m2 / 1.3,
                    .kg_per_m = t.kg_per_m,
                    .radius_m = t.radius_m,
-                   .inner_radius_m = t.bore_m}};
+                   .inner_radius_m = t.bore_m,
+                   .bending = {}}};
     d.element_lengths_m = equal_elements(d.sections, elements);
     d.damping = {0.007, 0.0035, 1e-3};
     all.push_back(static_cast<int>(model.rods.size()));
