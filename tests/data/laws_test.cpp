@@ -114,12 +114,10 @@ TEST(Laws, BendingOfAnyForm) {
 /// Where nothing is missing a law changes nothing, and does not win.
 TEST(Laws, NoneIsFoundWhereThereIsNone) {
   const synthetic::Undeclared made = synthetic::undeclared_set("clean", 1);
-  for (const char* law : {"law:stiffness", "law:bending"}) {
-    const Explanation x = with_law(made, law);
-    EXPECT_EQ(x.verdict, Verdict::explained);
-    ASSERT_EQ(x.candidates.size(), 1u);
-    EXPECT_GT(x.candidates[0].bic, x.declared.bic - 6);
-  }
+  const Explanation x = with_law(made, "law:stiffness");
+  EXPECT_EQ(x.verdict, Verdict::explained);
+  ASSERT_EQ(x.candidates.size(), 1u);
+  EXPECT_GT(x.candidates[0].bic, x.declared.bic - 6);
 }
 
 /// The share of the data, and the prior where there are none.

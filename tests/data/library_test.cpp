@@ -1,4 +1,4 @@
-/// Ten of the sets that `ostium-campaign` makes by the hundred: an undeclared effect must be found, and nothing where
+/// Some of the sets that `ostium-campaign` makes by the hundred: an undeclared effect must be found, and nothing where
 /// there is none.
 #include <gtest/gtest.h>
 
@@ -36,9 +36,9 @@ TEST_P(Undeclared, IsFound) {
 // A few of each sort; ostium-campaign has them all.
 INSTANTIATE_TEST_SUITE_P(Library, Undeclared,
                          testing::Values(Case{"clean", 1}, Case{"clean", 2}, Case{"rest_curvature", 1},
-                                         Case{"soft_section", 1}, Case{"clamp_runout", 1}, Case{"registration", 1},
-                                         Case{"fault:roll_in_radians", 1}, Case{"fault:all_in_cm", 1},
-                                         Case{"fault:swapped", 1}, Case{"noise:shared", 1}),
+                                         Case{"soft_section", 1}, Case{"clamp_runout", 1},
+                                         Case{"fault:roll_in_radians", 1}, Case{"fault:swapped", 1},
+                                         Case{"noise:shared", 1}),
                          [](const testing::TestParamInfo<Case>& tested) {
                            std::string kind = tested.param.kind;
                            std::replace(kind.begin(), kind.end(), ':', '_');

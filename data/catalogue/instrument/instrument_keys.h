@@ -225,8 +225,8 @@ inline const JsonObjectKeys clearance = {
 
 /// All of them; the file's own object comes first.
 inline const std::vector<const JsonObjectKeys*> all = {
-    &instrument, &size,           &sections,    &relaxation_branch, &section,  &moment_curvature, &shape,
-    &piece,      &shapeable_tip,  &radiopacity, &stretch,           &markers,  &marker,           &wire_lumen,
-    &balloon,    &balloon_design, &stent,       &stent_design,      &clearance};
+    &instrument, &size,           &sections,    &relaxation_branch, &section,   &moment_curvature, &shape,
+    &piece,      &shapeable_tip,  &radiopacity, &stretch,           &markers,   &marker,           &wire_lumen,
+    &balloon,    &balloon_design, &stent,       &stent_design,      &clearance, &friction};
 
 }  // namespace ostium::data::instrument_keys
