@@ -71,9 +71,12 @@ void write_found(const Arguments& a, const data::MeasurementSet& set, const data
   data::write_file((folder / "amended" / "measurement.json").string(), amended(contents(set.file), set, found));
   for (std::size_t i = 0; i < set.instruments.size(); ++i) {
     const bool one = set.instruments.size() == 1, innermost = i + 1 == set.instruments.size();
-    const std::string text = instrument_json(set, found, i);
-    data::write_file((folder / (one ? "instrument.json" : fmt::format("instrument-{}.json", i))).string(), text);
-    if (innermost && !a.instrument.empty()) data::write_file(a.instrument, text);
+    // Instruments are found by their file's name.
+    const std::string name = one ? "instrument" : fmt::format("instrument-{}", i);
+    data::write_file((folder / (name + ".json")).string(), instrument_json(set, found, i, name));
+    if (innermost && !a.instrument.empty())
+      data::write_file(a.instrument,
+                       instrument_json(set, found, i, std::filesystem::path(a.instrument).stem().string()));
   }
 }
 

@@ -139,8 +139,9 @@ TEST(Laws, BandsAreThePriorsWhereDataDoNotReach) {
 
 TEST(Laws, AMomentCurveInAFileIsReadAndRefused) {
   const synthetic::Undeclared made = synthetic::undeclared_set("clean", 1);
-  auto file = nlohmann::json::parse(instrument_json(made.set, explain(made.set, {}), 0));
-  file["name"] = "instrument";
+  const Explanation explained = explain(made.set, {});
+  EXPECT_EQ(read_instrument("mine.json", instrument_json(made.set, explained, 0, "mine")).name, "mine");
+  auto file = nlohmann::json::parse(instrument_json(made.set, explained, 0, "instrument"));
   auto& section = file["sections"]["list"][0];
   section["moment_curvature"] = {{"curvature_per_mm", {0.001, 0.003}}, {"tangent", {0.8, 0.3}}};
   const Instrument read = read_instrument("instrument.json", file.dump());

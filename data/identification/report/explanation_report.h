@@ -19,7 +19,9 @@ std::string amended(const std::string& text, const MeasurementSet& set, const Ex
 
 /// Instrument `i` of the set as a file (schema ostium-instrument/1) for all other commands, with the fitted stiffness
 /// and the effects that belong to the instrument; effects of the rig, the room or the imaging stay in the amended set.
-/// Relaxation is applied for the time of the set's longest experiment.
-std::string instrument_json(const MeasurementSet& set, const Explanation& explanation, std::size_t i);
+/// Relaxation is applied for the time of the set's longest experiment. `name`: what its file is called, without .json;
+/// empty: made from the instrument's.
+std::string instrument_json(const MeasurementSet& set, const Explanation& explanation, std::size_t i,
+                            const std::string& name = "");
 
 }  // namespace ostium::data

@@ -69,7 +69,8 @@ Json relaxation(const std::vector<ActiveEffect>& effects, const std::vector<core
 
 }  // namespace
 
-std::string instrument_json(const MeasurementSet& as_read, const Explanation& x, std::size_t i) {
+std::string instrument_json(const MeasurementSet& as_read, const Explanation& x, std::size_t i,
+                            const std::string& name) {
   const MeasurementSet& set = x.judged(as_read);
   const MeasuredInstrument& measured = set.instruments[i];
   Changes changes = x.best().changes;
@@ -95,7 +96,7 @@ std::string instrument_json(const MeasurementSet& as_read, const Explanation& x,
   Json all = {{"list", list}, {"source", source}};
   if (!lost.empty()) all["relaxation"] = lost;
   const Json file = {{"schema", "ostium-instrument/1"},
-                     {"name", file_name(measured.name)},
+                     {"name", name.empty() ? file_name(measured.name) : name},
                      {"title", measured.name + found},
                      {"kind", inner > 0 ? "diagnostic_catheter" : "wire"},
                      {"size",
