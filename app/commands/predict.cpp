@@ -58,8 +58,7 @@ void print_table(const std::vector<data::Prediction>& predictions) {
     fmt::print("the measuring frame or the tracked point is free: ostium explain fits them\n");
 }
 
-void predict_shapes(const Arguments& a, const data::JsonValue& root) {
-  const data::MeasurementSet set = data::read_measurement(*root.file, to_json(root));
+void predict_shapes(const Arguments& a, const data::MeasurementSet& set) {
   const auto predictions = predict(set, [&](std::size_t done, std::size_t of) {
     show_progress(done < of ? fmt::format("experiment {} of {}", done, of) : "");
   });
@@ -77,14 +76,14 @@ void predict_shapes(const Arguments& a, const data::JsonValue& root) {
 
 int run(const Arguments& a) {
   const data::JsonValue as_read = data::load_json(data::measurement_file(a.set));
-  if (a.with.empty() && !data::curves::kind_of(as_read)) data::load_measurement(a.set);  // messages with its lines
   data::CharacterisedWire wire;
   if (!a.with.empty()) wire = data::wire_in(data::load_instrument(data::instrument_file(a.with)));
   const data::JsonValue root = a.with.empty() ? as_read : set_with(as_read, in_set(wire));
   if (data::curves::kind_of(root))
     predict_curves(root, a.folder, a.json);
-  else
-    predict_shapes(a, root);
+  else  // as it lies there, where nothing is changed: messages have its lines
+    predict_shapes(a,
+                   a.with.empty() ? data::load_measurement(a.set) : data::read_measurement(*root.file, to_json(root)));
   if (a.with.empty()) return 0;
   const data::WireCheck found = check(as_read, wire, [](const std::string& words) { show_progress(words); });
   show_progress("");

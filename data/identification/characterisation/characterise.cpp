@@ -11,6 +11,7 @@
 #include "data/identification/characterisation/characterisation_report.h"
 #include "data/identification/curves/curve_report.h"
 #include "data/identification/curves/kinds.h"
+#include "data/identification/curves/set/run_table.h"
 #include "data/identification/measurement/measurement_reader.h"
 #include "data/identification/report/explanation_report.h"
 
@@ -188,7 +189,7 @@ Characterisation characterise(const std::vector<std::string>& files, const std::
     s.why_unused = "it was not reached";
     set_with(s.root, {});
     if (curves::kind_of(s.root))
-      curves::read_set(s.root);
+      s.root = curves::with_tables(s.root), curves::read_set(s.root);
     else
       load_measurement(file);
     c.sets.push_back(std::move(s));

@@ -8,6 +8,7 @@
 
 #include "core/base/units.h"
 #include "data/identification/curves/kinds.h"
+#include "data/identification/curves/set/run_table.h"
 #include "data/identification/effects/effect_list.h"
 #include "data/identification/estimation/measured_push.h"
 #include "data/identification/forward/insertion.h"
@@ -30,7 +31,7 @@ struct Misfits {
 };
 
 std::vector<Misfits> of_curves(const JsonValue& root) {
-  const auto set = curves::read_set(root);
+  const auto set = curves::read_set(curves::with_tables(root));
   if (!set->noise().declared) root.fail("its noise is not declared, so nothing says what is far off");
   std::vector<double> free;
   for (const EffectParameter& p : set->free()) free.push_back(p.prior);
