@@ -8,6 +8,7 @@
 #include <filesystem>
 
 #include "core/base/units.h"
+#include "data/catalogue/catalogue.h"
 #include "data/catalogue/instrument/instrument_reader.h"
 #include "data/formats/write_file.h"
 #include "data/identification/characterisation/characterisation_report.h"
@@ -101,6 +102,15 @@ TEST_F(Characterise, WithoutWeightAndSizesAnInstrumentIsAskedFor) {
   } catch (const LoadError& error) {
     EXPECT_NE(std::string(error.what()).find("--like"), std::string::npos);
   }
+}
+
+/// The templates have their samples in tables beside them.
+TEST_F(Characterise, TablesOfSamplesAreRead) {
+  const std::string templates = data_folder() + "/templates/", like = instrument_file("wire-014-workhorse");
+  const Characterisation found =
+      characterise({templates + "three_point_bend", templates + "torque_response"}, to_json(load_json(like)), {});
+  for (const CharacterisedSet& s : found.sets) EXPECT_FALSE(s.stiffness.empty()) << s.name << ": " << s.why_unused;
+  EXPECT_GT(check(read(templates + "push_pull"), found.wire).runs.size(), 1u);
 }
 
 TEST(WithoutPrior, IsWhatTheDataAloneSay) {
