@@ -3,7 +3,7 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
-#include <queue>
+#include <tuple>
 
 namespace ostium::vascular {
 
@@ -15,9 +15,56 @@ constexpr double least_shape = 0.04;              // area over the sum of square
 constexpr double sliver = 0.01;                   // below this shape a triangle's normal is arbitrary
 constexpr double much_too_short = 0.3;            // relative to the requested edge length
 constexpr int most_rounds = 6;
-constexpr double to_middle = 1e-3;  // weight of the edge's midpoint, where planes do not determine the position
+constexpr int gone = -1'000'000'000;  // a vertex's count of changes, so that no edge's stamp fits any more
+constexpr double to_middle = 1e-3;    // weight of the edge's midpoint, where planes do not determine the position
 
 using Quadric = Eigen::Matrix4d;
+
+/// An edge that may collapse.
+struct Edge {
+  double length;  ///< relative to the requested one, [0, shortest)
+  int a, b, stamp;
+  bool operator<(const Edge& other) const {  // for a heap: the shortest on top
+    return length != other.length ? length > other.length : std::tie(a, b) > std::tie(other.a, other.b);
+  }
+};
+
+/// Edges, shortest first. Millions of them in one heap miss the cache at each level, so they lie in buckets by length,
+/// and a bucket becomes a heap when its turn comes.
+class EdgeQueue {
+ public:
+  EdgeQueue() : buckets_(count) {}
+
+  void push(const Edge& edge) {
+    const int i = std::min(count - 1, static_cast<int>(edge.length * (count / shortest)));
+    Bucket& bucket = buckets_[i];
+    bucket.edges.push_back(edge);
+    if (bucket.is_heap) std::push_heap(bucket.edges.begin(), bucket.edges.end());
+    first_ = std::min(first_, i);
+  }
+
+  /// False when none is left.
+  bool pop(Edge& edge) {
+    while (first_ < count && buckets_[first_].edges.empty()) ++first_;
+    if (first_ == count) return false;
+    auto& [edges, is_heap] = buckets_[first_];
+    if (!is_heap) std::make_heap(edges.begin(), edges.end());
+    is_heap = true;
+    std::pop_heap(edges.begin(), edges.end());
+    edge = edges.back();
+    edges.pop_back();
+    return true;
+  }
+
+ private:
+  struct Bucket {
+    std::vector<Edge> edges;
+    bool is_heap = false;
+  };
+  static constexpr int count = 4096;
+  std::vector<Bucket> buckets_;
+  int first_ = count;  ///< none before it has any
+};
 
 class Decimator {
  public:
@@ -47,27 +94,14 @@ class Decimator {
       for (const auto& t : triangles_)
         for (int k = 0; k < 3; ++k)
           if (t[k] < t[(k + 1) % 3]) push(t[k], t[(k + 1) % 3], round == 0 ? shortest : much_too_short);
-      while (!edges_.empty()) {
-        const Edge edge = edges_.top();
-        edges_.pop();
-        if (edge.stamp != changed_[edge.a] + changed_[edge.b] || of_vertex_[edge.a].empty() ||
-            of_vertex_[edge.b].empty())
-          continue;
-        collapse(edge.a, edge.b);
+      for (Edge edge; edges_.pop(edge);) {
+        if (edge.stamp == changed_[edge.a] + changed_[edge.b]) collapse(edge.a, edge.b);
       }
     }
     return result();
   }
 
  private:
-  struct Edge {
-    double length;  ///< relative to the requested one
-    int a, b, stamp;
-    bool operator<(const Edge& other) const {
-      return length != other.length ? length > other.length : std::tie(a, b) > std::tie(other.a, other.b);
-    }
-  };
-
   Eigen::Vector3d area_of(const std::array<int, 3>& t) const {
     return (p_[t[1]] - p_[t[0]]).cross(p_[t[2]] - p_[t[0]]) / 2;
   }
@@ -77,14 +111,13 @@ class Decimator {
     if (length < most) edges_.push({length, a, b, changed_[a] + changed_[b]});
   }
 
-  std::vector<int> neighbours(int v) const {
-    std::vector<int> result;
+  void neighbours(int v, std::vector<int>& result) const {
+    result.clear();
     for (int t : of_vertex_[v])
       for (int other : triangles_[t])
         if (other != v) result.push_back(other);
     std::sort(result.begin(), result.end());
     result.erase(std::unique(result.begin(), result.end()), result.end());
-    return result;
   }
 
   Eigen::Vector3d place(int a, int b) const {
@@ -126,9 +159,9 @@ class Decimator {
     return true;
   }
 
-  bool fits(int a, int b, const Eigen::Vector3d& p, const std::vector<int>& all) const {
+  bool fits(int a, int b, const Eigen::Vector3d& p) const {
     const double wanted = std::min(wanted_[a], wanted_[b]);
-    for (int v : all)
+    for (int v : all_)
       if (v != a && v != b && (p_[v] - p).norm() > longest * std::min(wanted, wanted_[v])) return false;
     Eigen::Vector3d around = Eigen::Vector3d::Zero();
     for (int v : {a, b})
@@ -137,15 +170,17 @@ class Decimator {
   }
 
   void collapse(int a, int b) {
-    const std::vector<int> near_a = neighbours(a), near_b = neighbours(b);
-    std::vector<int> both, all;
-    std::set_intersection(near_a.begin(), near_a.end(), near_b.begin(), near_b.end(), std::back_inserter(both));
-    if (both.size() != 2) return;  // otherwise two sheets would touch
+    neighbours(a, near_a_);
+    neighbours(b, near_b_);
+    both_.clear();
+    all_.clear();
+    std::set_intersection(near_a_.begin(), near_a_.end(), near_b_.begin(), near_b_.end(), std::back_inserter(both_));
+    if (both_.size() != 2) return;  // otherwise two sheets would touch
     const Eigen::Vector3d p = place(a, b);
     const double wanted = std::min(wanted_[a], wanted_[b]);
-    std::set_union(near_a.begin(), near_a.end(), near_b.begin(), near_b.end(), std::back_inserter(all));
-    if (all.size() < 5) return;
-    if ((p_[a] - p_[b]).norm() >= chance_ && !fits(a, b, p, all)) return;
+    std::set_union(near_a_.begin(), near_a_.end(), near_b_.begin(), near_b_.end(), std::back_inserter(all_));
+    if (all_.size() < 5) return;
+    if ((p_[a] - p_[b]).norm() >= chance_ && !fits(a, b, p)) return;
     ++collapsed_;
     p_[a] = p;
     wanted_[a] = wanted;
@@ -162,8 +197,10 @@ class Decimator {
       of_vertex_[a].push_back(t);
     }
     of_vertex_[b].clear();
+    changed_[b] = gone;
     ++changed_[a];
-    for (int v : neighbours(a)) push(std::min(a, v), std::max(a, v));
+    neighbours(a, near_a_);
+    for (int v : near_a_) push(std::min(a, v), std::max(a, v));
   }
 
   Mesh result() const {
@@ -191,8 +228,9 @@ class Decimator {
   std::vector<double> wanted_;
   std::vector<std::vector<int>> of_vertex_;
   std::vector<Quadric> quadrics_;
-  std::vector<int> changed_;
-  std::priority_queue<Edge> edges_;
+  std::vector<int> changed_;  ///< how often, or `gone`
+  EdgeQueue edges_;
+  std::vector<int> near_a_, near_b_, both_, all_;  ///< of the edge that collapses: vertices beside its ends
   int collapsed_ = 0;
 };
 
