@@ -12,15 +12,17 @@ PatientScene::PatientScene(const vascular::Patient& patient, const vascular::Phy
       map_(make_lumen_map(patient, physiology.flow)),
       shape_(patient, map_, physiology.flow.tree) {
   std::vector<fluoro::Body> still;
+  std::vector<vascular::XrayBody> moving;
   for (vascular::XrayBody& body : make_thorax(patient.anatomy)) {
     if (body.beat.empty() && body.breath.empty()) {
       still.push_back(body_of(body));
     } else {
       scene_.moving.push_back(body_of(body));
-      thorax_.push_back(std::move(body));
+      moving.push_back(std::move(body));
     }
   }
   scene_.fixed = std::make_shared<const std::vector<fluoro::Body>>(std::move(still));
+  thorax_ = std::make_shared<const std::vector<vascular::XrayBody>>(std::move(moving));
   const auto n = static_cast<Eigen::Index>(patient.lumen.vertices());
   fluoro::Body lumen{.name = "lumen",
                      .triangles = triangles_of(patient.lumen.triangles),
@@ -34,14 +36,26 @@ PatientScene::PatientScene(const vascular::Patient& patient, const vascular::Phy
   own_ = scene_.moving.size();
 }
 
+PatientScene::PatientScene(const PatientScene& same, const vascular::PhysiologyModel& physiology)
+    : patient_(same.patient_),
+      physiology_(physiology),
+      map_(same.map_),
+      shape_(patient_, map_, physiology.flow.tree),
+      thorax_(same.thorax_),
+      scene_(same.scene_),
+      own_(same.own_) {
+  scene_.moving.resize(own_);
+  scene_.shafts.clear();
+}
+
 const fluoro::Scene& PatientScene::at(const vascular::PhysiologyState& state, std::span<const double> occupied_m,
                                       double breath) {
   const double phase = state.heart.phase;
   scene_.moving.resize(own_);
   scene_.shafts.clear();
-  for (std::size_t b = 0; b < thorax_.size(); ++b)
-    scene_.moving[b].p_P = points_of(vascular::at(thorax_[b], vascular::contraction(phase), breath).vertices);
-  fluoro::Body& lumen = scene_.moving[thorax_.size()];
+  for (std::size_t b = 0; b < thorax_->size(); ++b)
+    scene_.moving[b].p_P = points_of(vascular::at((*thorax_)[b], vascular::contraction(phase), breath).vertices);
+  fluoro::Body& lumen = scene_.moving[thorax_->size()];
   shape_.at(state.radius_m, phase, breath, vertices_);
   lumen.p_P = points_of(vertices_);
   const vascular::FlowInputs in{{}, state.radius_m, occupied_m, 0};

@@ -13,12 +13,14 @@ class PatientScene {
  public:
   /// Keeps references. Takes some seconds: the thorax is contoured.
   PatientScene(const vascular::Patient& patient, const vascular::PhysiologyModel& physiology);
+  /// The same patient with another session's physiology, in milliseconds: what is contoured is shared.
+  PatientScene(const PatientScene& same, const vascular::PhysiologyModel& physiology);
 
   /// The patient at this moment; removes whatever the caller has added to `scene()` since the last call.
   const fluoro::Scene& at(const vascular::PhysiologyState& state, std::span<const double> occupied_m,
                           double breath_depth = 0);
   fluoro::Scene& scene() { return scene_; }
-  fluoro::Body& lumen() { return scene_.moving[thorax_.size()]; }
+  fluoro::Body& lumen() { return scene_.moving[thorax_->size()]; }
   const vascular::LumenMap& map() const { return map_; }
   const vascular::WallShape& shape() const { return shape_; }
 
@@ -27,7 +29,7 @@ class PatientScene {
   const vascular::PhysiologyModel& physiology_;
   vascular::LumenMap map_;
   vascular::WallShape shape_;
-  std::vector<vascular::XrayBody> thorax_;  ///< the thorax bodies that move
+  std::shared_ptr<const std::vector<vascular::XrayBody>> thorax_;  ///< the thorax bodies that move
   fluoro::Scene scene_;
   std::size_t own_ = 0;  ///< number of the patient's bodies; added ones follow
   vascular::OpacityScratch scratch_;

@@ -24,6 +24,9 @@ struct ReaderCall {
   std::string program = {};  ///< empty: the one beside the running program
 };
 
+/// Where ostium-reader is, if not beside the running program. For the start of a program, before it has threads.
+void set_reader(const std::string& program);
+
 /// What the reader wrote. Throws data::LoadError that begins with the file's name: what the reader refuses, or how it
 /// ended.
 std::string read_apart(const ReaderCall& call, const std::string& file);

@@ -12,7 +12,16 @@ namespace ostium::data {
 
 namespace fs = std::filesystem;
 
+namespace {
+
+std::string folder_set;  // empty: none was
+
+}  // namespace
+
+void set_data_folder(const std::string& folder) { folder_set = folder; }
+
 std::string data_folder() {
+  if (!folder_set.empty()) return folder_set;
   if (const char* set = std::getenv("OSTIUM_DATA"); set && *set) {
     if (!fs::is_directory(set))
       throw LoadError(fmt::format("OSTIUM_DATA is \"{}\"; expected the folder that holds instruments/", set));

@@ -9,6 +9,9 @@ namespace ostium::data {
 /// executable's folder (the layout of `cmake --install`); else `data/` of the source tree it was built from. Throws
 /// LoadError if that is not a folder.
 std::string data_folder();
+/// From now on data lie there, whatever OSTIUM_DATA says: for a program that is not ours, as Python is. For its start,
+/// before it has threads.
+void set_data_folder(const std::string& folder);
 
 /// All of `folder`/*.json, sorted by name. Throws LoadError for the first bad file, or if the folder has none.
 std::vector<Instrument> load_catalogue(const std::string& folder);

@@ -46,6 +46,12 @@ std::vector<core::Nesting> nestings_of(const std::vector<SessionTool>& tools) {
   return nestings;
 }
 
+std::shared_ptr<const core::Surface> with_friction(const core::Surface& surface, double friction) {
+  const auto other = std::make_shared<core::Surface>(surface);
+  other->friction = friction;
+  return other;
+}
+
 void require_order(const std::vector<SessionTool>& tools) {
   for (std::size_t i = 0; i < tools.size(); ++i)
     for (std::size_t j = i + 1; j < tools.size(); ++j)
@@ -56,25 +62,28 @@ void require_order(const std::vector<SessionTool>& tools) {
 
 }  // namespace
 
-SessionModel make_session(std::shared_ptr<const Vessel> vessel, std::vector<SessionTool> tools, std::uint64_t seed) {
+SessionModel make_session(std::shared_ptr<const Vessel> vessel, std::vector<SessionTool> tools,
+                          const SessionOptions& options) {
   require_order(tools);
   SessionModel model;
   model.vessel = std::move(vessel);
   model.tools = std::move(tools);
-  model.entry = model.vessel->entry;
+  model.entry = options.begin.empty() ? model.vessel->entry : entry_ahead_of(options.begin, *model.vessel);
+  if (!model.vessel->wall.sway.empty()) model.breaths_1_min = options.breaths_1_min;
   if (model.has_patient()) {
     model.physiology = model.vessel->coronaries->physiology;
     model.treatment = model.vessel->coronaries->treatment;
-    model.treatment.injury.seed = seed;
-    model.balloon_of = add_devices(model.tools, seed, model.treatment);
+    model.treatment.injury.seed = options.seed;
+    model.balloon_of = add_devices(model.tools, options.seed, model.treatment);
   } else {
     model.balloon_of.assign(model.tools.size(), -1);
   }
-  model.physiology.ischaemia = vascular::ischaemia_of(seed);
-  model.physiology.heart.seed = seed;
+  model.physiology.ischaemia = vascular::ischaemia_of(options.seed);
+  model.physiology.heart.seed = options.seed;
   for (const SessionTool& tool : model.tools) model.rods.rods.push_back(rod_of(tool.instrument));
   model.rods.nestings = nestings_of(model.tools);
-  model.rods.surfaces = {model.vessel->surface};
+  model.rods.surfaces = {options.friction ? with_friction(*model.vessel->surface, *options.friction)
+                                          : model.vessel->surface};
   try {
     check(model.rods);
   } catch (const std::invalid_argument& error) {
@@ -98,20 +107,18 @@ int in_the_way(const SessionModel& model, const core::State& rods, int tool) {
 
 // --- lists -----------------------------------------------------------------------------------------------------------
 
-namespace {
-
-SessionInputs inputs_for(const SessionModel& model) {
+SessionInputs inputs_at_rest(const SessionModel& model) {
   SessionInputs inputs;
   inputs.tools.resize(model.tools.size());
+  inputs.c_arm.p_PI = model.vessel->p_middle;
+  inputs.rate_1_min = model.vessel->rate_1_min;
   return inputs;
 }
 
-}  // namespace
-
-std::size_t input_count(const SessionModel& model) { return core::count_fields(inputs_for(model)); }
+std::size_t input_count(const SessionModel& model) { return core::count_fields(inputs_at_rest(model)); }
 
 std::vector<std::string> input_names(const SessionModel& model) {
-  const SessionInputs inputs = inputs_for(model);
+  const SessionInputs inputs = inputs_at_rest(model);
   std::vector<std::string> names;
   core::for_each_number(inputs, [&](const core::FieldPath& path, auto numbers) {
     const int tool = path.outer->index;
@@ -190,17 +197,6 @@ const char* phase_name(int phase) {
   constexpr int first = core::step_phases;
   static_assert(std::size(own) == std::size_t{session_phases} - first);
   return phase < first ? core::step_phase_names[phase] : own[phase - first];
-}
-
-SessionScratch::SessionScratch(const SessionModel& model) : now(model.rods), rods(model.rods) {
-  inputs.rods.resize(model.tools.size());
-  inputs.surfaces.resize(1);
-  if (!model.has_patient()) return;
-  const auto own_wall = std::make_shared<core::Surface>(*now.surfaces[0]);
-  now.surfaces = {own_wall};
-  wall.emplace(*model.vessel, *own_wall);
-  coupling.emplace(*model.vessel);
-  physiology_inputs.occupied_m.reserve(model.physiology.flow.tree.cells.size());
 }
 
 namespace {
@@ -357,7 +353,7 @@ void step(const SessionModel& model, const SessionInputs& inputs, SessionState& 
   assert(inputs.tools.size() == model.tools.size());
   const core::InPhase phase(scratch.rods.clock, moving_heart);
   const bool R_wave = beat(model, inputs, state, scratch.inputs.surfaces[0]);
-  if (scratch.wall) scratch.wall->set(state.wall_m);
+  if (model.has_patient()) scratch.set_wall(model, state.wall_m);
   move_hands(model, inputs, state, report, scratch.inputs);
   if (model.has_patient()) hold_shafts(model, state, scratch.inputs);
   step(scratch.now, scratch.inputs, state.rods, scratch.rods, report.rods);

@@ -31,10 +31,18 @@ struct SessionModel {
   bool has_patient() const { return vessel->coronaries != nullptr; }
 };
 
+struct SessionOptions {
+  std::uint64_t seed = 0;          ///< for the person's physiology and for chance
+  double breaths_1_min = 0;        ///< of a case's patient, 4 to 60; 0: the breath is held
+  std::optional<double> friction;  ///< of the vessel's wall, overrides vessel_friction; [0, 1]
+  std::string begin;  ///< an artery: the introducer is placed before its ostium (entry_ahead_of); empty: at the access
+};
+
 /// Tools are nested where one fits through the other's lumen. Two that do not fit (two balloons for one wire) are
-/// alternatives: only one can be in the body at a time. `seed`: for the person's physiology and for chance. Throws
-/// LoadError naming tools in the wrong order, or devices for which a mesh has no arteries.
-SessionModel make_session(std::shared_ptr<const Vessel> vessel, std::vector<SessionTool> tools, std::uint64_t seed = 0);
+/// alternatives: only one can be in the body at a time. Throws LoadError naming tools in the wrong order, or devices
+/// for which a mesh has no arteries, or an artery that is not there.
+SessionModel make_session(std::shared_ptr<const Vessel> vessel, std::vector<SessionTool> tools,
+                          const SessionOptions& options = {});
 /// The first tool in the body that `tool` cannot lie beside, or -1.
 int in_the_way(const SessionModel& model, const core::State& rods, int tool);
 
@@ -74,6 +82,9 @@ constexpr auto fields(const SessionInputs*) {
                     core::field("heart_rate_1_min", &SessionInputs::rate_1_min),
                     core::field("bedside", &SessionInputs::delivery)};
 }
+
+/// The inputs before anybody acts: hands at rest, the C-arm on the vessel's middle, its heart rate.
+SessionInputs inputs_at_rest(const SessionModel& model);
 
 std::size_t input_count(const SessionModel& model);
 std::vector<std::string> input_names(const SessionModel& model);  ///< "wire.advance_m_s"
@@ -145,8 +156,12 @@ enum SessionPhase {
 };
 const char* phase_name(int phase);  ///< of core or of a session
 
+/// A wall that treatment opens is the session's own: a copy of the vessel's surface, which takes 0.2 s and 100 MB. Made
+/// at once, no step waits for it; made when the wall first changes, sessions that only navigate share the vessel's.
+enum class WallCopy { at_once, when_it_opens };
+
 struct SessionScratch {
-  explicit SessionScratch(const SessionModel& model);
+  explicit SessionScratch(const SessionModel& model, WallCopy copy = WallCopy::at_once);
   SessionScratch(const SessionScratch&) = delete;
   core::Model now;  ///< model.rods, with the current wall
   core::Scratch rods;
@@ -154,11 +169,16 @@ struct SessionScratch {
   /// Counts the time of the phases of a step, for a profile; null: nobody does.
   void count_time(core::PhaseClock* clock) { rods.clock = clock; }
   // For a patient.
-  std::optional<OpenedWall> wall;
+  std::optional<OpenedWall> wall;  ///< none: that of the vessel
+  /// The wall of this state, which is a copy from the first change on.
+  void set_wall(const SessionModel& model, const std::vector<double>& wall_m);
   std::optional<CouplingScratch> coupling;
   vascular::PhysiologyInputs physiology_inputs;
   vascular::PhysiologyScratch physiology;
   vascular::TreatmentScratch treatment;
+
+ private:
+  void own_the_wall(const SessionModel& model);
 };
 
 /// Forces on a tool that an operator could measure.

@@ -178,15 +178,9 @@ SessionModel make_session(const RunSetup& setup, std::shared_ptr<const Vessel> v
   std::vector<SessionTool> tools;
   for (std::size_t t = 0; t < setup.script.tools.size(); ++t)
     tools.push_back({setup.script.tools[t].name, data::read_instrument(setup.tool_files[t], setup.tool_texts[t])});
-  SessionModel model = make_session(std::move(vessel), std::move(tools), setup.seed);
-  if (setup.breaths_1_min > 0 && !model.vessel->wall.sway.empty()) model.breaths_1_min = setup.breaths_1_min;
-  if (!setup.begin.empty()) model.entry = entry_ahead_of(setup.begin, *model.vessel);
-  if (setup.friction) {
-    const auto wall = std::make_shared<core::Surface>(*model.rods.surfaces[0]);
-    wall->friction = *setup.friction;
-    model.rods.surfaces = {wall};
-  }
-  return model;
+  return make_session(
+      std::move(vessel), std::move(tools),
+      {.seed = setup.seed, .breaths_1_min = setup.breaths_1_min, .friction = setup.friction, .begin = setup.begin});
 }
 
 std::string to_json(const RunSetup& setup) {

@@ -1,6 +1,5 @@
 #include "app/session/scene/film.h"
 
-#include "app/angiography/patient_scene.h"
 #include "fluoro/display/overlay.h"
 
 namespace ostium::app {
@@ -40,10 +39,12 @@ struct Film::Parts {
   }
 };
 
-Film::Film(const SessionModel& model, const FilmOptions& options) : parts_(std::make_unique<Parts>(options)) {
+Film::Film(const SessionModel& model, const FilmOptions& options, const PatientScene* same)
+    : parts_(std::make_unique<Parts>(options)) {
   fluoro::require_rate(options.frames_per_s);
   if (model.has_patient())
-    parts_->patient = std::make_unique<PatientScene>(*model.vessel->patient, model.physiology);
+    parts_->patient = same ? std::make_unique<PatientScene>(*same, model.physiology)
+                           : std::make_unique<PatientScene>(*model.vessel->patient, model.physiology);
   else if (model.vessel->patient)
     parts_->no_blood =
         std::make_unique<const XrayPatient>(model.vessel->patient, options.fill, model.breaths_1_min > 0);

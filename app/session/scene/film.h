@@ -2,6 +2,7 @@
 /// Pictures of a session from any view, including ones never shown. A film is reproducible whenever it is made.
 #include <memory>
 
+#include "app/angiography/patient_scene.h"
 #include "app/session/scene/dose.h"
 #include "app/session/scene/frames.h"
 #include "app/session/scene/monitor.h"
@@ -28,8 +29,9 @@ inline constexpr int monitor_pixels = 144;  ///< height of the monitor's strips
 
 class Film {
  public:
-  /// Throws std::invalid_argument for an impossible rate or pose.
-  Film(const SessionModel& model, const FilmOptions& options);
+  /// `same`: the scene of the vessel's patient, if there is one already, which saves a second. Throws
+  /// std::invalid_argument for an impossible rate or pose.
+  Film(const SessionModel& model, const FilmOptions& options, const PatientScene* same = nullptr);
   ~Film();
   /// Call after every step that is to appear on the monitor.
   void listen(const SessionModel& model, const SessionState& state, const SessionInputs& inputs);

@@ -32,6 +32,12 @@ void follow_lumen(const vascular::FlowTree& tree, const std::vector<double>& rad
   }
 }
 
+bool is_opened(const Vessel& vessel, const std::vector<double>& wall_m) {
+  const std::vector<vascular::FlowCell>& cells = vessel.coronaries->tree().cells;
+  return !std::equal(wall_m.begin(), wall_m.end(), cells.begin(), cells.end(),
+                     [](double radius_m, const vascular::FlowCell& cell) { return radius_m == cell.diseased_m; });
+}
+
 OpenedWall::OpenedWall(const Vessel& vessel, core::Surface& surface)
     : coronaries_(*vessel.coronaries), editor_(vessel.wall, surface), now_m_(untreated(vessel.coronaries->tree())) {
   changed_.reserve(now_m_.size());

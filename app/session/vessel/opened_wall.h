@@ -16,6 +16,9 @@ inline constexpr int wall_cells_a_step = 1;         ///< cells moved per step, a
 void follow_lumen(const vascular::FlowTree& tree, const std::vector<double>& radius_m, int& cursor,
                   std::vector<double>& wall_m);
 
+/// Whether the wall differs from the vessel's own. `wall_m`: (#cells).
+bool is_opened(const Vessel& vessel, const std::vector<double>& wall_m);
+
 class OpenedWall {
  public:
   /// Keeps references; `surface` is a copy of the vessel's own, and is modified.

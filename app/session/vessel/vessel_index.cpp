@@ -118,6 +118,14 @@ bool VesselIndex::beyond(int sphere, int place) const {
   return a.first >= 0 && b.first >= 0 && b.first <= a.first && a.first < b.last;
 }
 
+double VesselIndex::between_m(int a, int b) const {
+  double parts_m = 0;  // where their ways from the access part
+  for (std::size_t c = 0; c < nodes_.size(); ++c)
+    if (beyond(a, static_cast<int>(c)) && beyond(b, static_cast<int>(c)))
+      parts_m = std::max(parts_m, nodes_[c].from_access_m);
+  return from_access_m(a) + from_access_m(b) - 2 * parts_m;
+}
+
 double VesselIndex::astray_m(int sphere, int branch) const {
   int left = -1, at = this->branch(sphere);
   while (at >= 0 && at != branch) left = at, at = branches()[static_cast<std::size_t>(at)].parent;

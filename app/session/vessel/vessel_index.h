@@ -27,6 +27,8 @@ class VesselIndex {
   double astray_m(int sphere, int branch) const;
   /// Path length from the access, m.
   double from_access_m(int sphere) const { return nodes_[static_cast<std::size_t>(sphere)].from_access_m; }
+  /// Path length from one sphere to another along the tree, m.
+  double between_m(int a, int b) const;
   int branch(int sphere) const { return nodes_[static_cast<std::size_t>(sphere)].branch; }
   const std::vector<vascular::TreeBranch>& branches() const { return frames_.front().branches; }
 

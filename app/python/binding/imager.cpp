@@ -1,0 +1,100 @@
+#include <fmt/format.h>
+#include <pybind11/stl.h>
+
+#include <cmath>
+
+#include "app/python/binding/arrays.h"
+#include "app/python/binding/bindings.h"
+#include "app/python/binding/data.h"
+#include "app/session/scene/film.h"
+#include "core/base/units.h"
+#include "fluoro/projection/views.h"
+
+namespace ostium::python {
+
+namespace {
+
+constexpr int fewest_pixels = 64, most_pixels = 1024;
+
+struct ImagerHandle {
+  std::shared_ptr<ModelHandle> model;
+  app::FilmOptions options;
+  std::unique_ptr<app::Film> film;
+  std::atomic<bool> used{false};
+};
+
+app::Fill fill_of(const std::optional<std::string>& fill) {
+  if (!fill) return app::Fill::none;
+  if (*fill == "left") return app::Fill::left;
+  if (*fill == "right") return app::Fill::right;
+  throw py::value_error("fill is \"" + *fill + "\"; expected None, \"left\" or \"right\"");
+}
+
+double require_between(double number, double least, double most, const char* name) {
+  if (!(number >= least && number <= most))
+    throw py::value_error(fmt::format("{} is {}; expected a number from {} to {}", name, number, least, most));
+  return number;
+}
+
+std::shared_ptr<ImagerHandle> make(std::shared_ptr<ModelHandle> model, const std::optional<std::string>& view,
+                                   std::optional<double> lao_deg, std::optional<double> cran_deg, int pixels,
+                                   std::optional<double> field_m, bool cine, const std::optional<std::string>& fill,
+                                   bool overlay, std::uint64_t seed) {
+  auto self = std::make_shared<ImagerHandle>();
+  app::FilmOptions& o = self->options;
+  if (view) {
+    const auto found = fluoro::find_view(*view);
+    if (!found) {
+      std::string known;
+      for (const fluoro::StandardView& one : fluoro::standard_views()) known += (known.empty() ? "" : ", ") + one.name;
+      throw py::value_error("there is no view \"" + *view + "\"; expected one of " + known);
+    }
+    o.lao_rad = found->lao_deg * units::degree, o.cran_rad = found->cran_deg * units::degree;
+  }
+  if (lao_deg) o.lao_rad = require_between(*lao_deg, -180, 180, "lao") * units::degree;
+  if (cran_deg) o.cran_rad = require_between(*cran_deg, -90, 90, "cran") * units::degree;
+  o.pixels = static_cast<int>(require_between(pixels, fewest_pixels, most_pixels, "pixels"));
+  if (field_m) o.field_m = require_between(*field_m, 0.05, 0.5, "field");
+  o.mode = cine ? fluoro::Mode::cine : fluoro::Mode::fluoroscopy;
+  o.fill = fill_of(fill);
+  o.overlay = overlay;
+  o.seed = seed;
+  self->model = std::move(model);
+  const py::gil_scoped_release others_run;
+  self->film = std::make_unique<app::Film>(self->model->model->session, o, self->model->recipe.vessel->patient());
+  return self;
+}
+
+py::array_t<std::uint8_t> frame(ImagerHandle& self, DataHandle& data) {
+  if (data.model != self.model) throw py::value_error("this Data is one of another model");
+  const InUse used(self.used, "Imager"), data_used(data.used, "Data");
+  const fluoro::Picture* picture = nullptr;
+  {
+    const py::gil_scoped_release others_run;
+    app::SessionInputs inputs = data.model->model->at_rest;
+    app::take_inputs(data.run.row.data(), inputs);
+    picture = &self.film->frame(data.model->model->session, data.run.state, inputs);
+  }
+  return py::array_t<std::uint8_t>({picture->height, picture->width}, picture->grey.data());
+}
+
+}  // namespace
+
+void bind_imager(py::module_& module) {
+  py::class_<ImagerHandle, std::shared_ptr<ImagerHandle>>(module, "Imager",
+                                                          R"(Takes X-ray pictures of sessions of a model.
+
+Imager(model, view=None, lao=None, cran=None, pixels=256, field=None, cine=False, fill=None, overlay=False, seed=1)
+  view     a name of `ostium views`; lao, cran: degrees instead. None: as Data.inputs have the C-arm
+  pixels   on a side, 64 to 1024; field: width of the detector, m
+  cine     with the dose of cine rather than fluoroscopy
+  fill     "left" or "right": that coronary full of contrast, whatever was injected
+The first one of a vessel takes a second.)")
+      .def(py::init(&make), py::arg("model").none(false), py::arg("view") = py::none(), py::arg("lao") = py::none(),
+           py::arg("cran") = py::none(), py::arg("pixels") = 256, py::arg("field") = py::none(),
+           py::arg("cine") = false, py::arg("fill") = py::none(), py::arg("overlay") = false, py::arg("seed") = 1)
+      .def("frame", frame, py::arg("data").none(false),
+           "(pixels, pixels) uint8: this moment, as the display shows it; noise and lag go on from frame to frame.");
+}
+
+}  // namespace ostium::python

@@ -1,0 +1,72 @@
+#include "data/recording/recording.h"
+
+#include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
+
+#include <filesystem>
+
+#include "app/python/binding/arrays.h"
+#include "app/python/binding/bindings.h"
+#include "app/reader/read_apart.h"
+#include "data/assessment/events.h"
+#include "data/formats/load_error.h"
+
+namespace ostium::python {
+
+namespace {
+
+using data::RecordingReader;
+
+template <class T>
+py::array_t<T> table(const std::vector<T>& numbers, std::size_t columns) {
+  const auto width = static_cast<py::ssize_t>(columns);
+  return py::array_t<T>({static_cast<py::ssize_t>(numbers.size()) / width, width}, numbers.data());
+}
+
+py::object from_json(const std::string& text) { return py::module_::import("json").attr("loads")(text); }
+
+}  // namespace
+
+void bind_recording(py::module_& module) {
+  py::class_<RecordingReader, std::shared_ptr<RecordingReader>>(module, "RecordingFile",
+                                                                R"(A recording as `ostium run` writes it: run.h5.
+
+RecordingFile(path) raises OstiumError for a file that is damaged, or is none of this version.)")
+      .def(py::init([](const std::filesystem::path& path) {
+             const py::gil_scoped_release others_run;
+             app::require_whole_recording(path.string());
+             return std::make_shared<RecordingReader>(path.string());
+           }),
+           py::arg("path"))
+      .def_property_readonly("path", [](const RecordingReader& self) { return self.path(); })
+      .def_property_readonly("software", [](const RecordingReader& self) { return self.software(); })
+      .def_property_readonly(
+          "setup", [](const RecordingReader& self) { return from_json(self.setup()); },
+          "dict: case, script, instruments, seed.")
+      .def_property_readonly(
+          "end",
+          [](const RecordingReader& self) -> py::object {
+            const auto end = self.end();
+            return end ? from_json(*end) : py::none();
+          },
+          "dict: outcome, reason, metrics; None where the recording was cut off.")
+      .def_property_readonly("step_s", [](const RecordingReader& self) { return self.step_s(); })
+      .def_property_readonly("steps", [](const RecordingReader& self) { return self.steps(); })
+      .def_property_readonly("signal_names", [](const RecordingReader& self) { return self.signal_columns(); })
+      .def_property_readonly("input_names", [](const RecordingReader& self) { return self.input_columns(); })
+      .def_property_readonly(
+          "signals", [](const RecordingReader& self) { return table(self.signals(), self.signal_columns().size()); },
+          "(samples, signals), one every 10 steps.")
+      .def_property_readonly(
+          "inputs",
+          [](const RecordingReader& self) { return table(self.inputs(0, self.steps()), self.input_columns().size()); },
+          "(steps, inputs).")
+      .def_property_readonly(
+          "hashes", [](const RecordingReader& self) { return copy_of(self.hashes(0, self.steps())); },
+          "(steps) uint64, of the state after each.")
+      .def_property_readonly(
+          "events", [](const RecordingReader& self) { return table(self.events(), 4); },
+          "(events, 4): step, code, tool, value.");
+}
+
+}  // namespace ostium::python

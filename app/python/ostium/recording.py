@@ -1,0 +1,64 @@
+"""Recordings of `ostium run` as tables."""
+
+import numpy as np
+
+from ._ostium import RecordingFile
+
+
+class Table:
+    """Columns with names. table["wire.tip_x_mm"] is one of them, (rows)."""
+
+    def __init__(self, names, numbers):
+        self.names, self.numbers = list(names), np.asarray(numbers)
+
+    def __getitem__(self, name):
+        if name not in self.names:
+            raise KeyError(f'there is no column "{name}"; there are {", ".join(self.names)}')
+        return self.numbers[:, self.names.index(name)]
+
+    def __len__(self):
+        return len(self.numbers)
+
+    def __repr__(self):
+        return f"<ostium.Table of {len(self)} rows: {', '.join(self.names)}>"
+
+    def to_dict(self):
+        """{name: column}, which pandas.DataFrame takes."""
+        return {name: self.numbers[:, i] for i, name in enumerate(self.names)}
+
+
+class Recording:
+    """A recording: run.h5. Raises OstiumError for a file that is damaged, or is none of this version.
+
+    signals  Table of what was measured, a hundred times a second; signals["time_s"] is the first column
+    inputs   Table of what the operator did, one row a step
+    events   Table: step, code, tool, value
+    setup    dict: case, script, instruments, seed;  end: dict of outcome, reason, metrics, or None if it was cut off
+    """
+
+    def __init__(self, path):
+        self._file = RecordingFile(path)
+        self.path, self.software = self._file.path, self._file.software
+        self.setup, self.end = self._file.setup, self._file.end
+        self.step_s, self.steps = self._file.step_s, self._file.steps
+
+    @property
+    def signals(self):
+        numbers = self._file.signals
+        return Table(self._file.signal_names, numbers)
+
+    @property
+    def inputs(self):
+        return Table(self._file.input_names, self._file.inputs)
+
+    @property
+    def events(self):
+        return Table(["step", "code", "tool", "value"], self._file.events)
+
+    @property
+    def hashes(self):
+        """(steps) uint64, of the state after each step."""
+        return self._file.hashes
+
+    def __repr__(self):
+        return f"<ostium.Recording {self.path}: {self.steps * self.step_s:.1f} s>"
