@@ -21,7 +21,9 @@ class CMakeBuild(build_ext):
         options = {
             "CMAKE_BUILD_TYPE": "Release",
             "CMAKE_UNITY_BUILD": "ON",
-            "OSTIUM_TESTS": "OFF",
+            "OSTIUM_PROGRAM": "OFF",
+            "OSTIUM_MPI": "OFF",
+            "OSTIUM_DICOM": "OFF",
             "Python_EXECUTABLE": sys.executable,
             "OSTIUM_PYTHON_FOLDER": ".",
         }

@@ -1,7 +1,7 @@
 #include "data/formats/markup.h"
 
-#include <dcmtk/config/osconfig.h>
-#include <dcmtk/ofstd/ofstd.h>
+#include <boost/archive/iterators/base64_from_binary.hpp>
+#include <boost/archive/iterators/transform_width.hpp>
 
 namespace ostium::data {
 
@@ -13,9 +13,10 @@ std::string escaped(const std::string& words) {
 }
 
 std::string data_uri(std::span<const std::uint8_t> png) {
-  OFString text;
-  OFStandard::encodeBase64(png.data(), png.size(), text);
-  return "data:image/png;base64," + std::string(text.c_str());
+  using namespace boost::archive::iterators;
+  using Letters = base64_from_binary<transform_width<const std::uint8_t*, 6, 8>>;
+  const std::string text(Letters(png.data()), Letters(png.data() + png.size()));
+  return "data:image/png;base64," + text + std::string((3 - png.size() % 3) % 3, '=');
 }
 
 }  // namespace ostium::data

@@ -13,8 +13,8 @@ import time
 
 import numpy as np
 import ostium
-from ostium.gym.course import patient
-from ostium.gym.tasks import CORONARY_WIRE, GUIDE_AND_WIRE, TASKS, WIRE, Task
+from ostium.navigation import patient
+from ostium.navigation.tasks import CORONARY_WIRE, GUIDE_AND_WIRE, TASKS, WIRE, Task
 
 SETUPS = {
     "J wire from the groin": (Task(WIRE, "", max_feed_m_s=0.035), 100),

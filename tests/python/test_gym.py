@@ -7,8 +7,8 @@ import numpy as np
 import ostium
 import pytest
 from ostium.gym import TASKS, NavigationEnv
-from ostium.gym.course import points_along
-from ostium.gym.tasks import Moment, cathsim, steve
+from ostium.navigation import points_along
+from ostium.navigation.tasks import Moment, cathsim, steve
 
 FORWARDS = np.array([1.0, 0.1], dtype=np.float32)
 NEAR = dataclasses.replace(TASKS["CrossLesion"], targets=("RCA+25",), steps=60)  # a few steps away

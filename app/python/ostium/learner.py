@@ -19,8 +19,7 @@ from pathlib import Path
 import numpy as np
 
 import ostium
-from ostium.gym.course import Course, patient
-from ostium.gym.tasks import TASKS
+from ostium.navigation import TASKS, Course, patient
 
 
 def features(seen, task):
@@ -78,36 +77,42 @@ def learn(task, who, rounds, drawn, random, targets, say=print):
     return middle, curve
 
 
-def film(task, who, policy, seed, target, path, pixels=512):
-    """Plays one episode and films it, by ffmpeg; -> whether it arrived."""
-    data, random = ostium.Data(who.model), np.random.default_rng(seed)
-    who.begin(lambda to: data.reset(to) if np.isscalar(to) else data.set_state(to), data.step, random)
-    course = Course(task, who, random, data.nodes(who.leader), data.tip(who.leader), target)
-    at = course.p_target - who.vessel.middle
-    imager = ostium.Imager(who.model, lao=40, pixels=pixels, field=0.25, cine=True)
-    data.inputs[[i for i, name in enumerate(who.model.input_names) if name.startswith("isocentre")]] += at / 2
+def film(task, who, policy, seeds, targets, path, pixels=512):
+    """Plays an episode for each seed and films them, 15 frames a second in life's time, by ffmpeg."""
+    data = ostium.Data(who.model)
+    imager = ostium.Imager(who.model, lao=40, pixels=pixels, field=0.2, cine=True)
+    isocentre = [i for i, name in enumerate(who.model.input_names) if name.startswith("isocentre")]
     command = ["ffmpeg", "-y", "-loglevel", "error", "-f", "rawvideo", "-pix_fmt", "gray", "-s", f"{pixels}x{pixels}",
-               "-r", "7.5", "-i", "-", "-pix_fmt", "yuv420p", str(path)]
+               "-r", "15", "-i", "-", "-pix_fmt", "yuv420p", str(path)]
     with subprocess.Popen(command, stdin=subprocess.PIPE) as encoder:
-        while True:
-            seen = course.observation([data.nodes(name) for name, _ in task.tools], data.signals[who.inserted])
-            drives, _ = course.drives(np.tanh(policy @ features(seen, task)), physical=False)
-            for drive, columns in zip(drives, who.moved):
-                data.inputs[columns] = drive
-            data.step(who.hops)
-            encoder.stdin.write(imager.frame(data).tobytes())
-            _, arrived, cut, _ = course.see(data.nodes(who.leader), data.tip(who.leader), data.phase,
-                                            float(data.peaks[who.felt, 2].max()))
-            if arrived or cut:
-                encoder.stdin.close()
-                return arrived
+        for seed, target in zip(seeds, targets):
+            random = np.random.default_rng(seed)
+            data.reset()
+            who.begin(lambda to: data.reset(to) if np.isscalar(to) else data.set_state(to), data.step, random)
+            course = Course(task, who, random, data.nodes(who.leader), data.tip(who.leader), target)
+            data.inputs[isocentre] = (course.p_target + course.tip) / 2
+            over = False
+            while not over:
+                seen = course.observation([data.nodes(name) for name, _ in task.tools], data.signals[who.inserted])
+                drives, _ = course.drives(np.tanh(policy @ features(seen, task)), physical=False)
+                for drive, columns in zip(drives, who.moved):
+                    data.inputs[columns] = drive
+                for half in (who.hops // 2, who.hops - who.hops // 2):
+                    data.step(half)
+                    encoder.stdin.write(imager.frame(data).tobytes())
+                _, arrived, cut, _ = course.see(data.nodes(who.leader), data.tip(who.leader), data.phase,
+                                                float(data.peaks[who.felt, 2].max()))
+                over = arrived or cut
+        encoder.stdin.close()
+    if encoder.returncode != 0:
+        raise ostium.OstiumError(f"{path}: ffmpeg could not write it")
 
 
 def main(arguments=None):
     parser = argparse.ArgumentParser(prog="python3 -m ostium.learner", description=__doc__.split("\n")[0],
-                                     epilog="example: python3 -m ostium.learner --task CrossLesion --target RCA+40 --out out")
+                                     epilog="example: python3 -m ostium.learner --task CrossLesion --target RCA+30 RCA+80 --out out")
     parser.add_argument("--task", default="CrossLesion", choices=sorted(TASKS))
-    parser.add_argument("--target", default=["RCA+30"], nargs="+", help="places to reach; drawn for each episode")
+    parser.add_argument("--target", default=["RCA+60"], nargs="+", help="places to reach; drawn for each episode")
     parser.add_argument("--rounds", type=int, default=12)
     parser.add_argument("--drawn", type=int, default=24, help="policies a round")
     parser.add_argument("--steps", type=int, default=80, help="of the environment, an episode at most")
@@ -129,7 +134,7 @@ def main(arguments=None):
     np.savez(a.out / "policy.npz", policy=policy)
     print(f"wrote {a.out / 'curve.csv'}, {a.out / 'policy.npz'}")
     if shutil.which("ffmpeg"):
-        film(task, who, policy, 1000, targets[1000 % len(targets)], a.out / "film.mp4")
+        film(task, who, policy, fresh[:3], [targets[s % len(targets)] for s in fresh[:3]], a.out / "film.mp4")
         print(f"wrote {a.out / 'film.mp4'}")
     else:
         print("no film: ffmpeg is not installed", file=sys.stderr)

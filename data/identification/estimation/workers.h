@@ -5,6 +5,8 @@
 #include <functional>
 #include <vector>
 
+#include "data/identification/estimation/ranks.h"
+
 namespace ostium::data {
 
 class Workers {
@@ -22,16 +24,5 @@ class Workers {
  private:
   int threads_;
 };
-
-/// MPI for the lifetime of this object; a single rank without mpirun. Create one in main.
-class Ranks {
- public:
-  Ranks();
-  ~Ranks();
-  Ranks(const Ranks&) = delete;
-  Ranks& operator=(const Ranks&) = delete;
-};
-int rank();
-int ranks();
 
 }  // namespace ostium::data

@@ -11,7 +11,7 @@ except ImportError as missing:
     raise ImportError("ostium.gym needs gymnasium 1.0 or later: pip install gymnasium") from missing
 
 from .environment import NavigationEnv
-from .tasks import TASKS, Moment, Task
+from ostium.navigation import TASKS, Moment, Task
 from .vector import NavigationVectorEnv
 
 __all__ = ["TASKS", "Moment", "NavigationEnv", "NavigationVectorEnv", "Task"]

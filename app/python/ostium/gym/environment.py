@@ -4,9 +4,7 @@ import gymnasium
 import numpy as np
 
 import ostium
-
-from .course import Course, patient, spaces_of
-from .tasks import TASKS, Task
+from ostium.navigation import TASKS, Course, Task, patient, spaces_of
 
 
 def require_task(task) -> Task:

@@ -12,7 +12,7 @@ try:
 except ImportError:  # Gymnasium 1.0 knows this one way and has no name for it
     AutoresetMode = None
 
-from .course import Course, patient, spaces_of
+from ostium.navigation import Course, patient, spaces_of
 from .environment import require_actions, require_image, require_task
 
 

@@ -1,0 +1,48 @@
+"""Recordings of `ostium run` in Python, and the same run stepped from there."""
+
+import os
+import subprocess
+
+import numpy as np
+import ostium
+import pytest
+
+
+@pytest.fixture(scope="module")
+def recording(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("run")
+    subprocess.run([os.environ["OSTIUM"], "run", "rca-mid-focal", "--script", "aorta-arch-wire", "--seconds", "2",
+                    "--out", str(folder)], check=False, capture_output=True)
+    return ostium.Recording(folder / "run.h5")
+
+
+def test_the_same_inputs_give_the_same_states(recording):
+    vessel = ostium.Vessel("rca-mid-focal")
+    model = ostium.Model(vessel, tools=[("wire", "j-wire-035-150")])
+    assert model.input_names == recording.inputs.names
+    assert model.signal_names == recording.signals.names
+    data = ostium.Data(model)
+    for row, expected in zip(recording.inputs.numbers, recording.hashes):
+        data.inputs[:] = row
+        data.step()
+        assert data.hash() == expected
+
+
+def test_tables_have_their_columns(recording):
+    signals = recording.signals
+    assert len(signals) == recording.steps // 10
+    inserted = signals["wire.inserted_mm"]
+    assert (np.diff(inserted) >= -1e-6).all() and inserted[-1] > 50
+    assert set(signals.to_dict()) == set(signals.names)
+    with pytest.raises(KeyError, match="wire.tip_x_mm"):
+        signals["nothing"]
+    assert recording.setup["seed"] == 0 and recording.step_s == 1e-3
+    assert recording.end is not None and "outcome" in recording.end
+
+
+def test_what_is_no_recording_is_refused(tmp_path):
+    file = tmp_path / "run.h5"
+    file.write_bytes(b"not HDF5")
+    with pytest.raises(ostium.OstiumError) as raised:
+        ostium.Recording(file)
+    assert raised.value.file == str(file)
