@@ -311,3 +311,46 @@ def test_the_types_are_those_of_the_classes():
         told = {one.target.id if isinstance(one, ast.AnnAssign) else one.name for one in node.body}
         there = {name for name in vars(getattr(ostium._ostium, node.name)) if not name.startswith("_")}
         assert {name for name in told if not name.startswith("_")} == there, node.name
+
+
+def tube(path, length_mm=120.0, radius_mm=6.0, around=24, along=40):
+    """A closed tube along x as ASCII STL, in mm."""
+    angle = 2 * np.pi * np.arange(around) / around
+    ring = np.stack([np.zeros(around), np.cos(angle), np.sin(angle)], axis=1) * radius_mm
+    rings = [ring + [x, 0, 0] for x in np.linspace(0, length_mm, along)]
+    corners = []
+    for a, b in zip(rings, rings[1:]):
+        for i in range(around):
+            j = (i + 1) % around
+            corners += [(a[i], a[j], b[i]), (b[i], a[j], b[j])]
+    for ring, turned in ((rings[0], True), (rings[-1], False)):
+        middle = ring.mean(axis=0)
+        for i in range(around):
+            j = (i + 1) % around
+            corners.append((middle, ring[j], ring[i]) if turned else (middle, ring[i], ring[j]))
+    lines = ["solid tube"]
+    for triangle in corners:
+        lines += ["facet normal 0 0 0", "outer loop", *("vertex {:.6f} {:.6f} {:.6f}".format(*p) for p in triangle),
+                  "endloop", "endfacet"]
+    path.write_text("\n".join([*lines, "endsolid tube"]))
+
+
+def test_a_mesh_of_ones_own(tmp_path):
+    tube(tmp_path / "tube.stl")
+    vessel = ostium.Vessel.from_mesh(tmp_path / "tube.stl", "mm", entry=(3, 0, 0), towards=(60, 0, 0))
+    assert not vessel.beats
+    model = ostium.Model(vessel, tools=[("wire", "wire-014-workhorse")])
+    data = drive(ostium.Data(model), 1, calls=30, n=50)
+    nodes = data.nodes("wire")
+    assert np.linalg.norm(nodes[:, 1:], axis=1).max() < 6e-3  # within the wall
+    vessel.save(tmp_path / "tube.npz")
+    again = ostium.Model(ostium.Vessel.load(tmp_path / "tube.npz"), tools=[("wire", "wire-014-workhorse")])
+    assert drive(ostium.Data(again), 1, calls=30, n=50).hash() == data.hash()
+    with pytest.raises(ostium.OstiumError, match="outside"):
+        ostium.Vessel.from_mesh(tmp_path / "tube.stl", "mm", entry=(3, 50, 0), towards=(60, 0, 0))
+    (tmp_path / "bad.stl").write_bytes(b"solid" + bytes(200))
+    with pytest.raises(ostium.OstiumError) as raised:
+        ostium.Vessel.from_mesh(tmp_path / "bad.stl", "mm", entry=(3, 0, 0), towards=(60, 0, 0))
+    assert raised.value.file == str(tmp_path / "bad.stl")
+    with pytest.raises(ostium.OstiumError, match="furlong"):
+        ostium.Vessel.from_mesh(tmp_path / "tube.stl", "furlong", entry=(3, 0, 0), towards=(60, 0, 0))
