@@ -217,6 +217,10 @@ def test_wrong_things_raise(model, vessel, data):
         data.inputs = "fast"
     with pytest.raises(ValueError, match="another model"):
         data.set_state(np.zeros(5))
+    edited = data.get_state()
+    edited[100] += 1
+    with pytest.raises(ValueError, match="cannot be edited"):
+        data.set_state(edited)
     other = ostium.Model(vessel, tools=[("wire", "wire-014-workhorse")], begin="RCA", seed=3)
     with pytest.raises(ValueError, match="another model"):
         data.set_state(ostium.Data(other).get_state())

@@ -147,7 +147,7 @@ py::tuple rollout(const ModelHandle& model, const Doubles& states, const Doubles
     const app::FreeRun first(model.model);
     core::for_each_on(most, n, [&](std::size_t i) {
       app::FreeRun e(first);
-      e.set_state(from + i * model.state_size() + 1);
+      e.set_state(from + i * model.state_size() + ModelHandle::head);
       for (std::size_t k = 0; k < steps; ++k) {
         std::copy_n(rows + (i * steps + k) * e.row.size(), e.row.size(), e.row.begin());
         e.step(each);

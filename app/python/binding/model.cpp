@@ -35,6 +35,11 @@ std::shared_ptr<const app::FreeRunModel> model_of(const ModelRecipe& recipe) {
                                              recipe.options.seed);
 }
 
+/// A whole number below 2^53, which a double holds.
+double checksum(const void* first, std::size_t doubles) {
+  return static_cast<double>(core::hash_bytes(first, doubles * sizeof(double), 0) >> 11);
+}
+
 double fingerprint_of(const ModelRecipe& recipe) {
   std::string all = recipe.vessel->key;
   for (const ModelRecipe::Tool& tool : recipe.tools) all += '\0' + tool.name + '\0' + tool.text;
@@ -103,13 +108,16 @@ int ModelHandle::tool(const std::string& name) const {
 
 void ModelHandle::put_state(const app::SessionState& state, double* numbers) const {
   numbers[0] = fingerprint;
-  app::put_state(state, numbers + 1);
+  app::put_state(state, numbers + head);
+  numbers[1] = checksum(numbers + head, model->state_count());
 }
 
 const double* ModelHandle::state_of(const double* numbers, std::size_t count) const {
   if (count != state_size() || numbers[0] != fingerprint)
     throw py::value_error("this is a state of another model; expected one of the same vessel, tools and options");
-  return numbers + 1;
+  if (numbers[1] != checksum(numbers + head, count - head))
+    throw py::value_error("this state is not as get_state gave it; states cannot be edited");
+  return numbers + head;
 }
 
 void bind_model(py::module_& module) {

@@ -25,15 +25,18 @@ class ModelHandle {
   explicit ModelHandle(ModelRecipe from);
   const ModelRecipe recipe;
   const std::shared_ptr<const app::FreeRunModel> model;
-  /// Of all that a state depends on: a whole number below 2^53, the first number of a state outside.
+  /// Of all that a state depends on: a whole number below 2^53.
   const double fingerprint;
 
   /// The tool of a name. Throws ValueError naming all.
   int tool(const std::string& name) const;
-  std::size_t state_size() const { return 1 + model->state_count(); }
+  /// A state outside begins with the model's fingerprint and a checksum: the engine trusts what it is given, and
+  /// numbers that somebody changed might lead it anywhere.
+  static constexpr std::size_t head = 2;
+  std::size_t state_size() const { return head + model->state_count(); }
   /// `numbers`: state_size.
   void put_state(const app::SessionState& state, double* numbers) const;
-  /// Throws ValueError for the state of another model.
+  /// The numbers after the head. Throws ValueError for the state of another model, or one that was changed.
   const double* state_of(const double* numbers, std::size_t count) const;
 };
 
