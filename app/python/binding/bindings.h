@@ -10,6 +10,7 @@ void bind_data(pybind11::module_& module);
 void bind_batch(pybind11::module_& module);
 void bind_imager(pybind11::module_& module);
 void bind_recording(pybind11::module_& module);
+void bind_script(pybind11::module_& module);
 void bind_explain(pybind11::module_& module);
 
 }  // namespace ostium::python

@@ -45,5 +45,6 @@ PYBIND11_MODULE(_ostium, module) {
   ostium::python::bind_batch(module);
   ostium::python::bind_imager(module);
   ostium::python::bind_recording(module);
+  ostium::python::bind_script(module);
   ostium::python::bind_explain(module);
 }

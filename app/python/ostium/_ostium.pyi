@@ -16,6 +16,14 @@ def rollout(
 def explain(
     set: Union[str, PathLike[str]], tries: Sequence[str] = ..., threads: int = 0
 ) -> dict[str, Any]: ...
+def run_script(
+    case: str,
+    script: str,
+    seed: int = 0,
+    values: dict[str, Any] = ...,
+    seconds: float = 0.0,
+    recording: Union[None, str, PathLike[str]] = None,
+) -> dict[str, Any]: ...
 
 class Vessel:
     def __init__(self, case: str, person: Optional[int] = None) -> None: ...
