@@ -48,7 +48,7 @@ struct FixedTable {
 
 class RecordingWriter {
  public:
-  /// Creates both files. Throws LoadError.
+  /// Creates both files. Throws WriteError or LoadError.
   RecordingWriter(std::string path, const RecordingHeader& header, const std::vector<FixedTable>& tables = {});
   ~RecordingWriter();  ///< removes the other file; the recording stays as last committed
   RecordingWriter(const RecordingWriter&) = delete;

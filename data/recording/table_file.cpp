@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "data/formats/load_error.h"
+#include "data/formats/write_file.h"
 
 namespace ostium::data {
 
@@ -127,7 +128,7 @@ TableFile TableFile::create(const std::string& path) {
   auto handle = std::make_unique<Handle>();
   handle->path = path;
   handle->id = H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, Id(unlocked(), H5Pclose));
-  handle->require(handle->id >= 0, "cannot be written; is its folder there, and the disk not full?");
+  if (handle->id < 0) throw write_error(path, last_words());
   return TableFile(std::move(handle));
 }
 

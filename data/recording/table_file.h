@@ -22,7 +22,7 @@ struct TableLayout {
 /// All errors throw LoadError naming the file. Not for the simulation thread. One file, one thread.
 class TableFile {
  public:
-  /// Creates the file, replacing an existing one.
+  /// Creates the file, replacing an existing one. Throws WriteError.
   static TableFile create(const std::string& path);
   /// Opens an existing file; refuses one that is not HDF5, or is truncated.
   static TableFile open(const std::string& path, bool to_write = false);

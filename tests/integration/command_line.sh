@@ -2,17 +2,7 @@
 # The command line: exit codes, help with examples, and JSON that parses.
 set -euo pipefail
 ostium=$1
-trap 'echo "line $LINENO: $BASH_COMMAND"' ERR
-
-expect() { # expect CODE WORD COMMAND...: exit code and a word of the output
-  local code=$1 word=$2 rc=0 out
-  shift 2
-  out=$("$@" 2>&1) || rc=$?
-  if ((rc != code)) || ! grep -q -- "$word" <<<"$out"; then
-    printf 'wanted exit %s and "%s" from: %s\ngot exit %s and:\n%s\n' "$code" "$word" "$*" "$rc" "$out"
-    exit 1
-  fi
-}
+. "$(dirname "$(readlink -f "$0")")/expect.sh"
 
 expect 0 "verify" "$ostium" --help
 for command in $("$ostium" --help | sed '1,/^Subcommands:/d; /^$/,$d' | awk '{print $1}'); do
@@ -257,7 +247,7 @@ sed 's/"name": "rca-diffuse"/"name": "long"/; s/"from_mm": 24, "length_mm": 32/"
   "$(dirname "$0")/../../data/cases/rca-diffuse.json" >"$folder/long.json"
 expect 0 "for person 12" "$ostium" sweep "$folder/long.json" --script iliac-wire --seconds 0.1 --vary person=0,12 --seeds 0..0 -o "$out/four.csv"
 grep -q "0,12,aborted,.*expected it within the branch" "$out/four.csv"
-expect 3 "no vessel of the sweep can be built" "$ostium" sweep "$folder/long.json" --script iliac-wire --vary person=12 --seeds 0..0 -o "$out/five.csv"
+expect 3 "no run of the sweep can be made" "$ostium" sweep "$folder/long.json" --script iliac-wire --vary person=12 --seeds 0..0 -o "$out/five.csv"
 [[ ! -e $out/five.csv.part ]]
 expect 3 "FROM..TO" "$ostium" sweep rca-mid-focal --seeds 9..1 -o "$out/table.csv"
 expect 3 "KEY=A,B,C" "$ostium" sweep rca-mid-focal --vary wire= -o "$out/table.csv"

@@ -27,7 +27,7 @@ struct RecorderOptions {
 
 class Recorder {
  public:
-  /// Throws LoadError if the file cannot be created.
+  /// Throws WriteError or LoadError if the file cannot be created.
   Recorder(const RecorderOptions& options, const SessionModel& model, const RunSetup& setup,
            std::size_t operator_count);
   ~Recorder();  ///< ends the thread; blocks already handed over are written
