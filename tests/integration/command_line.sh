@@ -195,6 +195,11 @@ expect 1 "time limit" "$ostium" run rca-mid-focal --script iliac-wire --seconds 
 [[ -s $out/filmed/procedure.mp4 && -s $out/filmed/report.html && -s $out/filmed/key-frames/01.png ]]
 expect 1 "time limit" "$ostium" run rca-mid-focal --seconds 0.2 --speed real --record none --out "$out"
 expect 1 '"outcome": "aborted"' "$ostium" run rca-mid-focal --seconds 0.1 --json
+for record in all shapes=0 shapes=1e9 shapes=x full,; do
+  expect 3 "expected none|events|full|shapes" "$ostium" run rca-mid-focal --record "$record" --out "$out"
+done
+sed 's/"name": "iliac-wire"/"name": "mine"/' "$(dirname "$0")/../../data/scripts/iliac-wire.json" >"$folder/copy-2.json"
+expect 1 '"script": "mine"' "$ostium" run rca-mid-focal --script "$folder/copy-2.json" --seconds 0.1 --json
 expect 130 "stopped by the operator" timeout -s INT 120 bash -c "'$ostium' run rca-mid-focal --speed real --out '$out/int' & p=\$!
   while [[ ! -e '$out/int/run.h5' ]]; do sleep 0.05; done; sleep 0.7; kill -INT \$p; wait \$p"
 expect 0 "bit for bit" "$ostium" replay "$out/int/run.h5"

@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cctype>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "data/formats/load_error.h"
@@ -32,6 +35,17 @@ std::string SweepGrid::words_of(std::size_t setting) const {
   const std::vector<std::string> own = values_of(setting);
   for (std::size_t k = 0; k < keys.size(); ++k) words += fmt::format(" {}={}", keys[k], own[k]);
   return words;
+}
+
+std::string SweepGrid::name_of(std::size_t run) const {
+  const std::size_t setting = setting_of(run), digits = std::to_string(runs()).size();
+  std::string name =
+      fmt::format("{:0{}}-{}", run + 1, digits, std::filesystem::path(case_of(setting)).filename().string());
+  for (const std::string& value : values_of(setting)) name += "-" + value;
+  name = fmt::format("{:.150}-{}", name, seed_of(run));
+  const auto odd = [](char c) { return !std::isalnum(static_cast<unsigned char>(c)) && c != '.' && c != '-'; };
+  std::replace_if(name.begin(), name.end(), odd, '_');
+  return name;
 }
 
 void require_size(const SweepGrid& grid) {

@@ -24,6 +24,8 @@ struct SweepGrid {
   const std::string& case_of(std::size_t setting) const { return cases[setting / combinations()]; }
   std::vector<std::string> values_of(std::size_t setting) const;  ///< one of each key
   std::string words_of(std::size_t setting) const;                ///< "rca-mid-focal wire=rosen person=2"
+  /// For files, "012-rca-mid-focal-rosen-2-7": the line of the table below its heading, from 1, and what it is.
+  std::string name_of(std::size_t run) const;
 };
 
 /// Throws LoadError if there are more than a million runs, or no combination.

@@ -20,17 +20,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// "0012-rca-mid-focal-rosen-7": the line of the table below its heading, from 1, and what it is.
-std::string folder_name(const SweepGrid& grid, std::size_t run) {
-  const std::size_t setting = grid.setting_of(run), digits = std::to_string(grid.runs()).size();
-  std::string name = fmt::format("{:0{}}-{}", run + 1, digits, fs::path(grid.case_of(setting)).filename().string());
-  for (const std::string& value : grid.values_of(setting)) name += "-" + value;
-  name = fmt::format("{:.150}-{}", name, grid.seed_of(run));
-  const auto odd = [](char c) { return !std::isalnum(static_cast<unsigned char>(c)) && c != '.' && c != '-'; };
-  std::replace_if(name.begin(), name.end(), odd, '_');
-  return name;
-}
-
 std::size_t threads_for(const SweepArguments& a, std::size_t open) {
   const std::size_t jobs =
       a.jobs > 0 ? static_cast<std::size_t>(a.jobs) : std::max(1u, std::thread::hardware_concurrency());
@@ -105,7 +94,7 @@ std::string Sweeper::line_for(std::size_t run, const RunSetup& vessel_setup,
   PlayOptions options;
   options.recorder = recorder_of(arguments_.keep.empty() ? "none" : arguments_.record);
   const bool kept = !arguments_.keep.empty();
-  const fs::path folder = kept ? fs::path(arguments_.keep) / folder_name(sweep_.grid, run) : "";
+  const fs::path folder = kept ? fs::path(arguments_.keep) / sweep_.grid.name_of(run) : "";
   options.recorder.file = (folder / "run.h5").string();
   options.seconds = arguments_.session.seconds;
   options.dosimeter = dosimeter;
