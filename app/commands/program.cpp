@@ -21,6 +21,7 @@ Command run_command();
 Command report_command();
 Command scripts_command();
 Command sweep_command();
+Command dataset_command();
 Command replay_command();
 Command device_command();
 
@@ -31,7 +32,7 @@ Command program() {
                         import_command(),       frame_command(),       inject_command(),  treat_command(),
                         views_command(),        centreline_command(),  predict_command(), explain_command(),
                         characterise_command(), run_command(),         report_command(),  scripts_command(),
-                        sweep_command(),        replay_command(),      device_command()};
+                        sweep_command(),        dataset_command(),     replay_command(),  device_command()};
   return ostium;
 }
 

@@ -20,6 +20,12 @@ namespace ostium::app {
 
 namespace {
 
+/// What a mark says. A hand marks during any step.
+std::string words_of_mark(const data::ScriptStep& step) {
+  if (step.action != data::ScriptAction::mark) return "marked by hand";
+  return step.text.empty() ? step.label : step.text;
+}
+
 /// A moment worth a picture: marks of the script, the end of each injection and inflation, the last moment.
 struct Moment {
   std::uint64_t step;
@@ -32,7 +38,7 @@ std::vector<Moment> moments(const data::RunRecord& record, const data::Script& s
     const auto step = static_cast<std::uint64_t>(e.step);
     const auto of = static_cast<std::size_t>(e.value);
     if (e.code == data::EventCode::mark && of < script.steps.size())
-      out.push_back({step, script.steps[of].text.empty() ? "marked by hand" : script.steps[of].text});
+      out.push_back({step, words_of_mark(script.steps[of])});
     if (e.code == data::EventCode::injection_ends) out.push_back({step, "contrast"});
     if (e.code == data::EventCode::deflated) out.push_back({step, "balloon empty"});
     if (e.code == data::EventCode::stent_deployed || e.code == data::EventCode::stent_elsewhere)

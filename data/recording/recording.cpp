@@ -8,6 +8,7 @@
 #include <cstdio>
 #include <cstring>
 #include <string_view>
+#include <utility>
 
 #include "data/formats/decimal.h"
 #include "data/formats/load_error.h"
@@ -18,17 +19,54 @@ namespace {
 
 const std::string schema = "ostium-recording/";
 
-std::vector<TableLayout> layouts(const RecordingHeader& h) {
+TableAttribute every(int steps) { return {"steps_per_row", static_cast<double>(steps)}; }
+
+std::vector<TableLayout> shape_layouts(const RecordingHeader& h) {
+  if (h.steps_per_shape == 0 || h.shapes.empty()) return {};
+  const int rows = std::max(1, steps_per_block / h.steps_per_shape);
+  const auto count = static_cast<int>(h.shapes.size());
   std::vector<TableLayout> all = {
-      {"inputs", NumberType::float64, h.input_columns, static_cast<int>(h.input_columns.size()), steps_per_block},
-      {"hash", NumberType::uint64, {}, 1, steps_per_block},
-      {"signals", NumberType::float32, h.signal_columns, static_cast<int>(h.signal_columns.size()),
-       steps_per_block / steps_per_signal},
-      {"events", NumberType::float64, {"step", "code", "tool", "value"}, 4, 256}};
+      {"shapes_step", NumberType::uint64, {}, 1, rows, 1, {every(h.steps_per_shape)}},
+      {"shapes_inserted", NumberType::float64, h.tools, count, rows, 1, {{"unit", std::string("m")}}}};
+  for (const RecordedShape& shape : h.shapes)
+    all.push_back({shape_table(shape.tool),
+                   NumberType::float32,
+                   {},
+                   3 * static_cast<int>(shape.from_tip_m.size()),
+                   rows,
+                   3,
+                   {{"tool", shape.tool},
+                    {"from_tip_m", shape.from_tip_m},
+                    {"unit", std::string("m")},
+                    {"frame", h.frame},
+                    every(h.steps_per_shape)}});
+  return all;
+}
+
+std::vector<TableLayout> layouts(const RecordingHeader& h) {
+  const auto width = [](const std::vector<std::string>& columns) { return static_cast<int>(columns.size()); };
+  std::vector<TableLayout> all = {
+      {"inputs",
+       NumberType::float64,
+       h.input_columns,
+       width(h.input_columns),
+       steps_per_block,
+       1,
+       {{"units", h.input_units}, every(1)}},
+      {"hash", NumberType::uint64, {}, 1, steps_per_block, 1, {every(1)}},
+      {"signals",
+       NumberType::float32,
+       h.signal_columns,
+       width(h.signal_columns),
+       steps_per_block / steps_per_signal,
+       1,
+       {{"units", h.signal_units}, {"definitions", h.signal_definitions}, every(steps_per_signal)}},
+      {"events", NumberType::float64, {"step", "code", "tool", "value"}, 4, 256, 1, h.of_events}};
   if (h.full) {
-    all.push_back({"state", NumberType::float64, {}, h.state_width, 1});
-    all.push_back({"hands", NumberType::float64, {}, h.operator_width, 1});
+    all.push_back({"state", NumberType::float64, {}, h.state_width, 1, 1, {every(steps_per_state)}});
+    all.push_back({"hands", NumberType::float64, {}, h.operator_width, 1, 1, {every(steps_per_state)}});
   }
+  for (TableLayout& layout : shape_layouts(h)) all.push_back(std::move(layout));
   return all;
 }
 
@@ -47,7 +85,11 @@ RecordingWriter::RecordingWriter(std::string path, const RecordingHeader& header
     file.set_text("schema", schema + std::to_string(recording_version));
     file.set_text("software", header.software);
     file.set_text("setup", header.setup);
-    file.set_text("step_s", fmt::format("{:.17g}", header.step_s));
+    file.set_number("step_s", header.step_s);
+    file.set_attribute("", {"tools", header.tools});
+    file.set_attribute("", {"branches", header.branches});
+    file.set_attribute("", {"script_steps", header.script_steps});
+    file.set_attribute("", {"frame", header.frame});
     for (const TableLayout& layout : layouts(header)) file.add_table(layout);
     for (const FixedTable& table : tables) {
       file.add_table(table.layout);
@@ -70,6 +112,13 @@ void RecordingWriter::write(TableFile& file, const RecordingBlock& block) const 
   append(file, "hash", block.hashes, 1);
   append(file, "signals", block.signals, header_.signal_columns.size());
   append(file, "events", block.events, 4);
+  if (!block.shape_steps.empty()) {
+    append(file, "shapes_step", block.shape_steps, 1);
+    append(file, "shapes_inserted", block.shape_inserted_m, header_.shapes.size());
+    for (std::size_t t = 0; t < header_.shapes.size(); ++t)
+      append(file, shape_table(header_.shapes[t].tool).c_str(), block.shapes_m[t],
+             3 * header_.shapes[t].from_tip_m.size());
+  }
   if (!header_.full) return;
   append(file, "state", block.states, static_cast<std::size_t>(header_.state_width));
   append(file, "hands", block.hands, static_cast<std::size_t>(header_.operator_width));
@@ -105,17 +154,23 @@ void RecordingWriter::finish(const std::string& end) {
 RecordingReader::RecordingReader(const std::string& path) : path_(path), file_(TableFile::open(path)) {
   if (!file_.has("schema"))
     throw LoadError(path + ": is an HDF5 file of another program; expected a recording of `ostium run`");
-  const std::string found = file_.text("schema");
-  if (found.rfind(schema, 0) != 0)
-    throw LoadError(fmt::format("{}: is of schema \"{}\"; expected {}{}", path, found, schema, recording_version));
-  if (found != schema + std::to_string(recording_version))
-    throw LoadError(fmt::format(
-        "{}: is a recording of version {}, written by {}; this ostium reads version {}, whose "
-        "state and inputs are laid out otherwise",
-        path, found.substr(schema.size()), file_.has("software") ? file_.text("software") : "?", recording_version));
+  require_version();
   if (file_.rows("inputs") != steps())
     throw LoadError(path + ": has another number of inputs than of steps; it is damaged");
   require_layout();
+}
+
+void RecordingReader::require_version() {
+  const std::string found = file_.text("schema");
+  if (found.rfind(schema, 0) != 0)
+    throw LoadError(fmt::format("{}: is of schema \"{}\"; expected {}{}", path_, found, schema, recording_version));
+  for (version_ = oldest_recording_version; version_ <= recording_version; ++version_)
+    if (found == schema + std::to_string(version_)) return;
+  throw LoadError(
+      fmt::format("{}: is a recording of version {}, written by {}; this ostium reads versions {} to {}, whose "
+                  "state and inputs are laid out otherwise",
+                  path_, found.substr(schema.size()), file_.has("software") ? file_.text("software") : "?",
+                  oldest_recording_version, recording_version));
 }
 
 /// What readers rely on as they index rows.
@@ -129,16 +184,33 @@ void RecordingReader::require_layout() const {
 }
 
 double RecordingReader::step_s() const {
-  const std::optional<double> step_s = decimal(file_.text("step_s"));
+  const bool as_text = version_ == 2;
+  const std::optional<double> step_s = as_text ? decimal(file_.text("step_s")) : file_.number("step_s");
   if (!step_s || !(*step_s > 0 && *step_s <= 0.01))
-    throw LoadError(fmt::format("{}: its step is \"{:.40}\" s; expected a number above 0, up to 0.01: it is damaged",
-                                path_, file_.text("step_s")));
+    throw LoadError(fmt::format("{}: its step is {:.40} s; expected a number above 0, up to 0.01: it is damaged", path_,
+                                as_text ? file_.text("step_s") : fmt::format("{}", *step_s)));
   return *step_s;
 }
 
 std::optional<std::string> RecordingReader::end() const {
   if (!file_.has("end")) return {};
   return file_.text("end");
+}
+
+std::string shape_table(const std::string& tool) {
+  std::string name = tool;
+  std::replace(name.begin(), name.end(), '/', '_');  // which makes groups
+  return "shapes/" + name;
+}
+
+std::string unit_in_name(const std::string& column) {
+  static constexpr std::pair<std::string_view, const char*> endings[] = {
+      {"_rad_s", "rad/s"}, {"_m3_s", "m3/s"}, {"_kg_m3", "kg/m3"}, {"_1_min", "1/min"}, {"_m_s", "m/s"},
+      {"_rad", "rad"},     {"_Pa", "Pa"},     {"_ug", "ug"},       {"_U", "U"},         {"_m", "m"}};
+  const std::string_view name = std::string_view(column).substr(0, column.find('['));
+  for (const auto& [ending, unit] : endings)
+    if (name.ends_with(ending)) return unit;
+  return "1";
 }
 
 void read_to_end(const std::string& path) {
@@ -148,12 +220,15 @@ void read_to_end(const std::string& path) {
   for (const char* text : {"software", "setup"}) file.text(text);
   recording.step_s();
   recording.end();
-  for (const char* table :
-       {"inputs", "hash", "signals", "events", "state", "hands", "mesh_vertices", "mesh_triangles"}) {
+  std::vector<std::string> tables = {"inputs", "hash",          "signals",        "events",      "state",
+                                     "hands",  "mesh_vertices", "mesh_triangles", "shapes_step", "shapes_inserted"};
+  if (file.has("shapes"))
+    for (const std::string& tool : recording.tools()) tables.push_back(shape_table(tool));
+  for (const std::string& table : tables) {
     if (!file.has(table)) continue;
     file.columns(table);
     const std::size_t rows = file.rows(table), piece = 1 + at_once / static_cast<std::size_t>(file.width(table));
-    const bool whole = std::string_view(table) == "hash" || std::string_view(table) == "mesh_triangles";
+    const bool whole = table == "hash" || table == "mesh_triangles" || table == "shapes_step";
     for (std::size_t first = 0; first < rows; first += piece) {
       const std::size_t count = std::min(piece, rows - first);
       if (whole)

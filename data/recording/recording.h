@@ -1,6 +1,6 @@
 #pragma once
 /// A recording: every input of a run, its results, and enough state to resume from any second. HDF5; the contents are
-/// described in data/README.md.
+/// described in data/recording/README.md.
 ///
 /// Writing survives a crash of the program at any moment, and a full disk, by alternating two files: one is complete
 /// and closed under the recording's name, while the other, NAME.next, is opened, brought up to date, closed and renamed
@@ -14,7 +14,9 @@
 
 namespace ostium::data {
 
-inline constexpr int recording_version = 2;  ///< version 1 had the flags and indices of state in another layout
+/// Version 1 had the flags and indices of state in another layout. Version 2 had no shapes and no names, and a text for
+/// the step; it is read.
+inline constexpr int recording_version = 3, oldest_recording_version = 2;
 /// Steps written together. With the time to write them, a kill loses at most half a second.
 inline constexpr int steps_per_block = 200;
 inline constexpr int steps_per_signal = 10;
@@ -28,6 +30,16 @@ struct RecordingBlock {
   std::vector<double> states;         ///< one row per steps_per_state steps, including the start
   std::vector<double> hands;          ///< one row per state: the script operator's memory
   std::vector<double> events;         ///< step, code, tool, value
+  // One row per moment at which shapes are recorded:
+  std::vector<std::uint64_t> shape_steps;    ///< its step
+  std::vector<double> shape_inserted_m;      ///< of each tool, length in the body
+  std::vector<std::vector<float>> shapes_m;  ///< of each tool, its nodes; NaN: not in the body
+};
+
+/// A tool whose nodes are recorded.
+struct RecordedShape {
+  std::string tool;
+  std::vector<double> from_tip_m;  ///< of each node, along the unloaded tool, from the base on: falling to 0
 };
 
 struct RecordingHeader {
@@ -37,6 +49,13 @@ struct RecordingHeader {
   bool full = true;  ///< whether states are kept
   std::vector<std::string> input_columns, signal_columns;
   int state_width = 1, operator_width = 1;
+  // What numbers stand for. May be empty:
+  std::vector<std::string> input_units = {}, signal_units = {}, signal_definitions = {};  ///< of each column
+  std::vector<std::string> tools = {}, branches = {}, script_steps = {};  ///< by index, as events and signals have it
+  std::string frame = "";                                                 ///< of positions
+  std::vector<TableAttribute> of_events = {};                             ///< what codes stand for
+  int steps_per_shape = 0;                                                ///< 0: no shapes
+  std::vector<RecordedShape> shapes = {};                                 ///< one per tool
 };
 
 /// A table that does not grow during the run: a mesh.
@@ -48,7 +67,7 @@ struct FixedTable {
 
 class RecordingWriter {
  public:
-  /// Creates both files. Throws LoadError.
+  /// Creates both files. Throws WriteError or LoadError.
   RecordingWriter(std::string path, const RecordingHeader& header, const std::vector<FixedTable>& tables = {});
   ~RecordingWriter();  ///< removes the other file; the recording stays as last committed
   RecordingWriter(const RecordingWriter&) = delete;
@@ -92,14 +111,23 @@ class RecordingReader {
   std::vector<double> state(std::size_t second) const { return file_.numbers("state", second, 1); }
   std::vector<double> signals() const { return file_.numbers("signals", 0, file_.rows("signals")); }
   std::vector<double> events() const { return file_.numbers("events", 0, file_.rows("events")); }
+  std::vector<std::string> tools() const { return file_.texts("", "tools"); }  ///< empty in version 2
   const TableFile& tables() const { return file_; }
 
  private:
+  void require_version();
   void require_layout() const;
 
   std::string path_;
   TableFile file_;
+  int version_ = recording_version;
 };
+
+/// The table of a tool's nodes: "shapes/wire".
+std::string shape_table(const std::string& tool);
+
+/// The unit that a column's name ends with, as it is written elsewhere: "m/s" of "wire.advance_m_s"; "1" if none.
+std::string unit_in_name(const std::string& column);
 
 /// Reads all of a recording once, in pieces, and keeps nothing. Throws LoadError if anything in it cannot be read.
 void read_to_end(const std::string& path);

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "data/formats/load_error.h"
+#include "data/formats/write_file.h"
 
 namespace ostium::data {
 
@@ -76,6 +77,17 @@ hid_t text_type(std::size_t length) {
 
 }  // namespace
 
+namespace {
+
+struct Extent {
+  int rank = 2;
+  hsize_t sizes[3] = {0, 1, 1};
+  hsize_t rows() const { return sizes[0]; }
+  hsize_t width() const { return sizes[1] * sizes[2]; }
+};
+
+}  // namespace
+
 struct TableFile::Handle {
   std::string path;
   hid_t id = -1;
@@ -94,23 +106,33 @@ struct TableFile::Handle {
     require(set >= 0, "has no table \"" + name + "\"");
     return set;
   }
-  void shape(hid_t set, hsize_t (&extent)[2]) const {
+  hid_t object(const std::string& name) const {
+    const hid_t found = H5Oopen(id, name.empty() ? "/" : name.c_str(), H5P_DEFAULT);
+    require(found >= 0, "has no table \"" + name + "\"");
+    return found;
+  }
+  /// Rows, columns, and numbers per column.
+  Extent extent(hid_t set) const {
     const Id space(H5Dget_space(set), H5Sclose);
-    require(
-        space.ok() && H5Sget_simple_extent_ndims(space) == 2 && H5Sget_simple_extent_dims(space, extent, nullptr) == 2,
-        "has a table that is not rows by columns");
-    require(extent[0] <= most_rows && extent[1] >= 1 && extent[1] <= most_columns,
-            fmt::format("has a table of {} rows by {} columns; it is damaged", extent[0], extent[1]));
+    const int rank = space.ok() ? H5Sget_simple_extent_ndims(space) : -1;
+    Extent out;
+    require((rank == 2 || rank == 3) && H5Sget_simple_extent_dims(space, out.sizes, nullptr) == rank,
+            "has a table that is not rows by columns");
+    out.rank = rank;
+    const hsize_t columns = out.sizes[1], depth = out.sizes[2];
+    require(out.sizes[0] <= most_rows && columns >= 1 && columns <= most_columns && depth >= 1 &&
+                depth <= most_columns && columns * depth <= most_columns,
+            fmt::format("has a table of {} rows by {} columns; it is damaged", out.sizes[0], columns));
+    return out;
   }
   void read(const std::string& name, std::size_t first, std::size_t count, hid_t type, void* out) const {
     const Id set(table(name), H5Dclose);
-    hsize_t extent[2];
-    shape(set, extent);
-    require(first + count <= extent[0],
-            fmt::format("table {} has {} rows; {} were wanted", name, extent[0], first + count));
+    const Extent whole = extent(set);
+    require(first + count <= whole.rows(),
+            fmt::format("table {} has {} rows; {} were wanted", name, whole.rows(), first + count));
     if (count == 0) return;
-    const hsize_t start[2] = {first, 0}, size[2] = {count, extent[1]};
-    const Id space(H5Dget_space(set), H5Sclose), memory(H5Screate_simple(2, size, nullptr), H5Sclose);
+    const hsize_t start[3] = {first, 0, 0}, size[3] = {count, whole.sizes[1], whole.sizes[2]};
+    const Id space(H5Dget_space(set), H5Sclose), memory(H5Screate_simple(whole.rank, size, nullptr), H5Sclose);
     H5Sselect_hyperslab(space, H5S_SELECT_SET, start, nullptr, size, nullptr);
     require(H5Dread(set, type, memory, space, H5P_DEFAULT, out) >= 0,
             "table " + name + " is damaged; copy the file again");
@@ -127,7 +149,7 @@ TableFile TableFile::create(const std::string& path) {
   auto handle = std::make_unique<Handle>();
   handle->path = path;
   handle->id = H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, Id(unlocked(), H5Pclose));
-  handle->require(handle->id >= 0, "cannot be written; is its folder there, and the disk not full?");
+  if (handle->id < 0) throw write_error(path, last_words());
   return TableFile(std::move(handle));
 }
 
@@ -153,42 +175,70 @@ void TableFile::close() {
 }
 
 void TableFile::add_table(const TableLayout& layout) {
-  const auto width = static_cast<hsize_t>(layout.width);
-  const hsize_t now[2] = {0, width}, most[2] = {H5S_UNLIMITED, width},
-                chunk[2] = {static_cast<hsize_t>(layout.chunk_rows), width};
-  const Id space(H5Screate_simple(2, now, most), H5Sclose);
-  const Id how(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
-  H5Pset_chunk(how, 2, chunk);
+  const int rank = layout.depth > 1 ? 3 : 2;
+  const auto depth = static_cast<hsize_t>(layout.depth), columns = static_cast<hsize_t>(layout.width) / depth;
+  const hsize_t now[3] = {0, columns, depth}, most[3] = {H5S_UNLIMITED, columns, depth},
+                chunk[3] = {static_cast<hsize_t>(layout.chunk_rows), columns, depth};
+  const Id space(H5Screate_simple(rank, now, most), H5Sclose);
+  const Id how(H5Pcreate(H5P_DATASET_CREATE), H5Pclose), link(H5Pcreate(H5P_LINK_CREATE), H5Pclose);
+  H5Pset_create_intermediate_group(link, 1);
+  H5Pset_chunk(how, rank, chunk);
   H5Pset_shuffle(how);
   H5Pset_deflate(how, 1);
-  const Id set(H5Dcreate2(file_->id, layout.name.c_str(), in_file(layout.type), space, H5P_DEFAULT, how, H5P_DEFAULT),
-               H5Dclose);
-  file_->require(set.ok(), "table " + layout.name + " cannot be made");
-  if (layout.columns.empty()) return;
-  const Id type(H5Tcopy(H5T_C_S1), H5Tclose);
-  H5Tset_size(type, H5T_VARIABLE);
-  H5Tset_cset(type, H5T_CSET_UTF8);
-  const hsize_t count = layout.columns.size();
-  const Id names_space(H5Screate_simple(1, &count, nullptr), H5Sclose);
-  const Id names(H5Acreate2(set, "columns", type, names_space, H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
+  {
+    const Id set(H5Dcreate2(file_->id, layout.name.c_str(), in_file(layout.type), space, link, how, H5P_DEFAULT),
+                 H5Dclose);
+    file_->require(set.ok(), "table " + layout.name + " cannot be made");
+  }
+  set_attribute(layout.name, {"columns", layout.columns});
+  for (const TableAttribute& attribute : layout.attributes) set_attribute(layout.name, attribute);
+}
+
+void TableFile::set_attribute(const std::string& table, const TableAttribute& attribute) {
+  const auto& value = attribute.value;
+  const auto* const number = std::get_if<double>(&value);
+  const auto* const numbers = std::get_if<std::vector<double>>(&value);
+  const auto* const text = std::get_if<std::string>(&value);
+  const auto* const texts = std::get_if<std::vector<std::string>>(&value);
+  const hsize_t count = numbers ? numbers->size() : texts ? texts->size() : 1;
+  if (count == 0) return;
   std::vector<const char*> pointers;
-  for (const std::string& column : layout.columns) pointers.push_back(column.c_str());
-  file_->require(names.ok() && H5Awrite(names, type, pointers.data()) >= 0,
-                 "columns of table " + layout.name + " cannot be written");
+  if (text) pointers.push_back(text->c_str());
+  if (texts)
+    for (const std::string& one : *texts) pointers.push_back(one.c_str());
+  const Id object(file_->object(table), H5Oclose);
+  const Id space(number || text ? H5Screate(H5S_SCALAR) : H5Screate_simple(1, &count, nullptr), H5Sclose);
+  const Id type(pointers.empty() ? H5Tcopy(H5T_IEEE_F64LE) : H5Tcopy(H5T_C_S1), H5Tclose);
+  if (!pointers.empty()) H5Tset_size(type, H5T_VARIABLE), H5Tset_cset(type, H5T_CSET_UTF8);
+  const Id made(H5Acreate2(object, attribute.name.c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
+  const void* const bytes = number    ? static_cast<const void*>(number)
+                            : numbers ? static_cast<const void*>(numbers->data())
+                                      : static_cast<const void*>(pointers.data());
+  file_->require(made.ok() && H5Awrite(made, pointers.empty() ? H5T_NATIVE_DOUBLE : hid_t(type), bytes) >= 0,
+                 fmt::format("\"{}\" of table {} cannot be written", attribute.name, table));
 }
 
 void TableFile::append(const std::string& name, const void* rows, std::size_t count) {
   if (count == 0) return;
   const Id set(file_->table(name), H5Dclose);
-  hsize_t extent[2];
-  file_->shape(set, extent);
-  const hsize_t start[2] = {extent[0], 0}, size[2] = {count, extent[1]}, whole[2] = {extent[0] + count, extent[1]};
+  const Extent before = file_->extent(set);
+  const hsize_t columns = before.sizes[1], depth = before.sizes[2];
+  const hsize_t start[3] = {before.rows(), 0, 0}, size[3] = {count, columns, depth},
+                whole[3] = {before.rows() + count, columns, depth};
   file_->require(H5Dset_extent(set, whole) >= 0, "table " + name + " cannot grow");
-  const Id space(H5Dget_space(set), H5Sclose), memory(H5Screate_simple(2, size, nullptr), H5Sclose);
+  const Id space(H5Dget_space(set), H5Sclose), memory(H5Screate_simple(before.rank, size, nullptr), H5Sclose);
   H5Sselect_hyperslab(space, H5S_SELECT_SET, start, nullptr, size, nullptr);
   const Id type(H5Dget_type(set), H5Tclose), native(H5Tget_native_type(type, H5T_DIR_ASCEND), H5Tclose);
   file_->require(H5Dwrite(set, native, memory, space, H5P_DEFAULT, rows) >= 0,
                  "table " + name + " cannot be written; is the disk full?");
+}
+
+void TableFile::set_number(const std::string& name, double number) {
+  const Id space(H5Screate(H5S_SCALAR), H5Sclose);
+  const Id set(H5Dcreate2(file_->id, name.c_str(), H5T_IEEE_F64LE, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
+               H5Dclose);
+  file_->require(set.ok() && H5Dwrite(set, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, &number) >= 0,
+                 name + " cannot be written; is the disk full?");
 }
 
 void TableFile::set_text(const std::string& name, const std::string& text) {
@@ -204,33 +254,29 @@ bool TableFile::has(const std::string& name) const { return H5Lexists(file_->id,
 
 std::size_t TableFile::rows(const std::string& name) const {
   const Id set(file_->table(name), H5Dclose);
-  hsize_t extent[2];
-  file_->shape(set, extent);
-  return extent[0];
+  return file_->extent(set).rows();
 }
 
 int TableFile::width(const std::string& name) const {
   const Id set(file_->table(name), H5Dclose);
-  hsize_t extent[2];
-  file_->shape(set, extent);
-  return static_cast<int>(extent[1]);
+  return static_cast<int>(file_->extent(set).width());
 }
 
-std::vector<std::string> TableFile::columns(const std::string& name) const {
-  const Id set(file_->table(name), H5Dclose);
-  if (H5Aexists(set, "columns") <= 0) return {};
-  const Id names(H5Aopen(set, "columns", H5P_DEFAULT), H5Aclose);
+std::vector<std::string> TableFile::texts(const std::string& table, const std::string& attribute) const {
+  const Id object(file_->object(table), H5Oclose);
+  if (H5Aexists(object, attribute.c_str()) <= 0) return {};
+  const std::string what = fmt::format("\"{}\" of table \"{}\"", attribute, table);
+  const Id names(H5Aopen(object, attribute.c_str(), H5P_DEFAULT), H5Aclose);
   const Id space(H5Aget_space(names), H5Sclose), type(H5Aget_type(names), H5Tclose);
   const hssize_t count = H5Sget_simple_extent_npoints(space);
   file_->require(count >= 0 && static_cast<std::size_t>(count) <= most_names && H5Tis_variable_str(type) > 0,
-                 "columns of table " + name + " are no texts");
+                 what + " is no list of texts");
   std::vector<char*> pointers(static_cast<std::size_t>(count), nullptr);
-  file_->require(H5Aread(names, type, pointers.data()) >= 0,
-                 "columns of table " + name + " are damaged; copy the file again");
-  std::vector<std::string> columns;
-  for (const char* p : pointers) columns.emplace_back(p ? p : "");
+  file_->require(H5Aread(names, type, pointers.data()) >= 0, what + " is damaged; copy the file again");
+  std::vector<std::string> out;
+  for (const char* p : pointers) out.emplace_back(p ? p : "");
   H5Dvlen_reclaim(type, space, H5P_DEFAULT, pointers.data());
-  return columns;
+  return out;
 }
 
 std::vector<double> TableFile::numbers(const std::string& table, std::size_t first, std::size_t count) const {
@@ -243,6 +289,15 @@ std::vector<std::uint64_t> TableFile::integers(const std::string& table, std::si
   std::vector<std::uint64_t> out(count * static_cast<std::size_t>(width(table)));
   file_->read(table, first, count, H5T_NATIVE_UINT64, out.data());
   return out;
+}
+
+double TableFile::number(const std::string& name) const {
+  const Id set(file_->table(name), H5Dclose), space(H5Dget_space(set), H5Sclose), type(H5Dget_type(set), H5Tclose);
+  double number = 0;
+  file_->require(H5Tget_class(type) == H5T_FLOAT && H5Sget_simple_extent_npoints(space) == 1 &&
+                     H5Dread(set, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, &number) >= 0,
+                 "\"" + name + "\" is no number");
+  return number;
 }
 
 std::string TableFile::text(const std::string& name) const {

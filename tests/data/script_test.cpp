@@ -58,6 +58,19 @@ TEST(Script, IsReadInSiUnits) {
   EXPECT_EQ(script.steps[3].until[0].words, "tip_points left of wire");
 }
 
+/// But those of the catalogue are found by it.
+TEST(Script, MayBeCalledOtherwiseThanItsFile) {
+  EXPECT_EQ(read_script("folder/copy-2.json", small_script).name, "small");
+  for (const Script& script : load_scripts()) EXPECT_EQ(fs::path(script.file).stem(), script.name);
+}
+
+TEST(Script, AMarkHasATextOrALabel) {
+  const std::string view = "{ \"do\": \"view\", \"view\": \"spider\" }";
+  EXPECT_EQ(script_refusal(view, R"({ "do": "mark", "label": "here" })"), "accepted");
+  EXPECT_EQ(script_refusal(view, R"({ "do": "mark", "text": "here" })"), "accepted");
+  expect_words(script_refusal(view, R"({ "do": "mark" })"), {"small.json:7:", "expected text or label"});
+}
+
 TEST(Script, MistakesAreNamedByLine) {
   expect_words(script_refusal("\"speed_mm_s\"", "\"speed_mms\""),
                {"folder/small.json:8:", "speed_mms is not a key of the step"});

@@ -26,7 +26,11 @@ std::string recording(bool mesh, bool full, bool whole) {
                                .input_columns = {"a", "b", "c"},
                                .signal_columns = {"x", "y"},
                                .state_width = 7,
-                               .operator_width = 2};
+                               .operator_width = 2,
+                               .input_units = {"m", "1", "1"},
+                               .tools = {"wire"},
+                               .steps_per_shape = 100,
+                               .shapes = {{"wire", {0.2, 0.1, 0}}}};
   const std::vector<double> vertices(9, 0.5);
   const std::vector<std::uint64_t> triangle = {0, 1, 2};
   std::vector<data::FixedTable> tables;
@@ -42,7 +46,10 @@ std::string recording(bool mesh, bool full, bool whole) {
                                 .signals = std::vector<float>(2 * steps / data::steps_per_signal, 0.25f),
                                 .states = {},
                                 .hands = {},
-                                .events = {double(block), 3, 0, 1.5}};
+                                .events = {double(block), 3, 0, 1.5},
+                                .shape_steps = {200 * block, 200 * block + 100},
+                                .shape_inserted_m = {0.1, 0.15},
+                                .shapes_m = {std::vector<float>(18, 0.5f)}};
       for (std::size_t i = 0; i < steps; ++i) rows.inputs[3 * i] = 1.0 / double(1 + i), rows.hashes[i] = i * i * i;
       if (full && block == 0) rows.states.assign(7, 0.125), rows.hands.assign(2, 4);
       writer.commit(rows);

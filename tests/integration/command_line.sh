@@ -2,17 +2,7 @@
 # The command line: exit codes, help with examples, and JSON that parses.
 set -euo pipefail
 ostium=$1
-trap 'echo "line $LINENO: $BASH_COMMAND"' ERR
-
-expect() { # expect CODE WORD COMMAND...: exit code and a word of the output
-  local code=$1 word=$2 rc=0 out
-  shift 2
-  out=$("$@" 2>&1) || rc=$?
-  if ((rc != code)) || ! grep -q -- "$word" <<<"$out"; then
-    printf 'wanted exit %s and "%s" from: %s\ngot exit %s and:\n%s\n' "$code" "$word" "$*" "$rc" "$out"
-    exit 1
-  fi
-}
+. "$(dirname "$(readlink -f "$0")")/expect.sh"
 
 expect 0 "verify" "$ostium" --help
 for command in $("$ostium" --help | sed '1,/^Subcommands:/d; /^$/,$d' | awk '{print $1}'); do
@@ -205,6 +195,11 @@ expect 1 "time limit" "$ostium" run rca-mid-focal --script iliac-wire --seconds 
 [[ -s $out/filmed/procedure.mp4 && -s $out/filmed/report.html && -s $out/filmed/key-frames/01.png ]]
 expect 1 "time limit" "$ostium" run rca-mid-focal --seconds 0.2 --speed real --record none --out "$out"
 expect 1 '"outcome": "aborted"' "$ostium" run rca-mid-focal --seconds 0.1 --json
+for record in all shapes=0 shapes=1e9 shapes=x full,; do
+  expect 3 "expected none|events|full|shapes" "$ostium" run rca-mid-focal --record "$record" --out "$out"
+done
+sed 's/"name": "iliac-wire"/"name": "mine"/' "$(dirname "$0")/../../data/scripts/iliac-wire.json" >"$folder/copy-2.json"
+expect 1 '"script": "mine"' "$ostium" run rca-mid-focal --script "$folder/copy-2.json" --seconds 0.1 --json
 expect 130 "stopped by the operator" timeout -s INT 120 bash -c "'$ostium' run rca-mid-focal --speed real --out '$out/int' & p=\$!
   while [[ ! -e '$out/int/run.h5' ]]; do sleep 0.05; done; sleep 0.7; kill -INT \$p; wait \$p"
 expect 0 "bit for bit" "$ostium" replay "$out/int/run.h5"
@@ -257,7 +252,7 @@ sed 's/"name": "rca-diffuse"/"name": "long"/; s/"from_mm": 24, "length_mm": 32/"
   "$(dirname "$0")/../../data/cases/rca-diffuse.json" >"$folder/long.json"
 expect 0 "for person 12" "$ostium" sweep "$folder/long.json" --script iliac-wire --seconds 0.1 --vary person=0,12 --seeds 0..0 -o "$out/four.csv"
 grep -q "0,12,aborted,.*expected it within the branch" "$out/four.csv"
-expect 3 "no vessel of the sweep can be built" "$ostium" sweep "$folder/long.json" --script iliac-wire --vary person=12 --seeds 0..0 -o "$out/five.csv"
+expect 3 "no run of the sweep can be made" "$ostium" sweep "$folder/long.json" --script iliac-wire --vary person=12 --seeds 0..0 -o "$out/five.csv"
 [[ ! -e $out/five.csv.part ]]
 expect 3 "FROM..TO" "$ostium" sweep rca-mid-focal --seeds 9..1 -o "$out/table.csv"
 expect 3 "KEY=A,B,C" "$ostium" sweep rca-mid-focal --vary wire= -o "$out/table.csv"

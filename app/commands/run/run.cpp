@@ -13,6 +13,7 @@
 #include "app/command_line/progress.h"
 #include "app/commands/report.h"
 #include "app/commands/run/drivers.h"
+#include "app/commands/run/record_option.h"
 #include "app/commands/run/report.h"
 #include "data/formats/load_error.h"
 #include "data/formats/write_file.h"
@@ -32,9 +33,7 @@ void declare(Options& options, RunArguments& a) {
   options.add("--seed", a.session.seed, "0: exactly as the script says; others vary hands, roll and the heart's moment")
       .show_default();
   options.add("--out", a.folder, "Where run.h5 and metrics.json go").type("DIR");
-  options.add("--record", a.record, "What run.h5 holds; events: no states, so replay starts at the beginning")
-      .one_of({"none", "events", "full"})
-      .show_default();
+  options.add("--record", a.record, record_help()).type(record_words()).show_default();
   options.add("--speed", a.speed, "real: a step a millisecond; the result is the same")
       .one_of({"real", "max"})
       .show_default();
@@ -66,12 +65,11 @@ void show_tools(const ScriptedRun& run) {
 }
 
 RecorderOptions recorder_of(const RunArguments& a) {
-  RecorderOptions recorder;
-  recorder.mode = a.folder.empty() || a.record == "none" ? RecordMode::none
-                  : a.record == "events"                 ? RecordMode::events
-                                                         : RecordMode::full;
-  if (a.folder.empty()) return recorder;
-  recorder.file = (fs::path(a.folder) / "run.h5").string();
+  RecorderOptions recorder = app::recorder_of(a.record);
+  if (a.folder.empty())
+    recorder.mode = RecordMode::none;
+  else
+    recorder.file = (fs::path(a.folder) / "run.h5").string();
   return recorder;
 }
 

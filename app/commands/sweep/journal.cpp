@@ -2,9 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cstdio>
 #include <filesystem>
+#include <nlohmann/json.hpp>
 
 #include "app/commands/sweep/table.h"
 #include "data/formats/load_error.h"
@@ -14,63 +16,115 @@ namespace ostium::app {
 
 namespace fs = std::filesystem;
 
-SweepJournal::SweepJournal(const std::string& file, const Sweep& sweep, bool resume)
-    : file_(file), lines_(sweep.tasks.size()) {
-  std::string what = heading(sweep);
-  for (const SweepTask& task : sweep.tasks) what += to_json(task.setup);
-  const std::string first =
-      fmt::format("sweep of {} runs, {:016x}", sweep.tasks.size(), std::hash<std::string>{}(what));
+namespace {
+
+const std::string schema = "ostium-sweep-part/1";
+
+std::string to_line(const JournalHead& head) {
+  return nlohmann::ordered_json({{"schema", schema},
+                                 {"sweep", head.sweep},
+                                 {"part", {head.part.number, head.part.of}},
+                                 {"heading", head.heading},
+                                 {"grid", to_json(head.grid)},
+                                 {"vessel_of", head.vessel_of}})
+      .dump();
+}
+
+JournalHead head_from(const std::string& file, const std::string& line) {
+  try {
+    const auto in = nlohmann::ordered_json::parse(line);
+    if (in.at("schema") != schema) throw data::LoadError("another schema");
+    JournalHead head{.sweep = in.at("sweep"),
+                     .part = {in.at("part").at(0), in.at("part").at(1), false},
+                     .heading = in.at("heading"),
+                     .grid = grid_from_json(in.at("grid")),
+                     .vessel_of = in.at("vessel_of")};
+    const auto beyond = [&](std::size_t vessel) { return vessel >= head.vessel_of.size(); };
+    if (head.vessel_of.size() != head.grid.settings() || head.part.number < 1 || head.part.number > head.part.of ||
+        std::any_of(head.vessel_of.begin(), head.vessel_of.end(), beyond))
+      throw data::LoadError("its numbers contradict each other");
+    return head;
+  } catch (const std::exception& error) {
+    throw data::LoadError(
+        fmt::format("{}: is no unfinished table of `ostium sweep` ({}); remove it", file, error.what()));
+  }
+}
+
+}  // namespace
+
+std::vector<std::size_t> parts_of_runs(const JournalHead& head) {
+  std::vector<std::size_t> vessel_of_run(head.grid.runs());
+  for (std::size_t run = 0; run < vessel_of_run.size(); ++run)
+    vessel_of_run[run] = head.vessel_of[head.grid.setting_of(run)];
+  const std::size_t vessels = *std::max_element(head.vessel_of.begin(), head.vessel_of.end()) + 1;
+  return parts_of_runs(vessel_of_run, vessels, head.part.of);
+}
+
+JournalHead head_of(const Sweep& sweep, const SweepPart& part) {
+  JournalHead head{
+      .sweep = "", .part = part, .heading = heading(sweep.grid), .grid = sweep.grid, .vessel_of = sweep.vessel_of};
+  std::string what = OSTIUM_VERSION + head.heading + to_json(sweep.grid).dump();
+  for (const RunSetup& setup : sweep.settings) what += to_json(setup);
+  head.sweep = fmt::format("{:016x}", std::hash<std::string>{}(what));
+  return head;
+}
+
+StoredJournal read_journal(const std::string& file) {
+  std::ifstream in(file, std::ios::binary);
+  if (!in) throw data::LoadError(file + ": cannot be read");
+  StoredJournal out;
+  std::getline(in, out.first);
+  out.head = head_from(file, out.first);
+  const std::size_t runs = out.head.grid.runs();
+  // A last line without a line end was cut off when the program was killed.
+  for (std::string line; std::getline(in, line) && !in.eof();) {
+    std::size_t run = 0;
+    const char* const last = line.data() + line.size();
+    const auto [end, problem] = std::from_chars(line.data(), last, run);
+    if (problem != std::errc() || run >= runs || end == last || *end != ' ')
+      throw data::LoadError(file + " is damaged; remove it, and the sweep begins anew");
+    out.lines[run] = std::string(end + 1, last) + "\n";
+  }
+  return out;
+}
+
+SweepJournal::SweepJournal(const std::string& file, const JournalHead& head, bool resume) : file_(file) {
+  const std::string first = to_line(head);
+  std::string kept = first + "\n";
   if (fs::exists(file)) {
     if (!resume)
       throw data::LoadError(
           fmt::format("{} is of a sweep that was not finished; --resume goes on with it, or remove it", file));
-    read(first);
+    StoredJournal stored = read_journal(file);
+    if (stored.first != first)
+      throw data::LoadError(
+          fmt::format("{} is of another sweep; expected the same ostium, cases, script, seeds and parameters", file));
+    lines_ = std::move(stored.lines);
+    for (const auto& [run, line] : lines_) kept += fmt::format("{} {}", run, line);
   }
-  std::error_code none;
-  if (fs::path(file).has_parent_path()) fs::create_directories(fs::path(file).parent_path(), none);
+  data::write_file(file, kept);  // without what was cut off
   out_.open(file, std::ios::app | std::ios::binary);
-  if (!out_) throw data::write_error(file);
-  if (done_ == 0 && fs::file_size(file) == 0) out_ << first << "\n";
-  out_.flush();
   if (!out_) throw data::write_error(file);
 }
 
-void SweepJournal::add(std::size_t task, const std::string& line) {
-  lines_[task] = line;
-  ++done_;
-  out_ << task << " " << line << std::flush;
+void SweepJournal::add(std::size_t run, const std::string& line) {
+  lines_[run] = line;
+  out_ << run << " " << line << std::flush;
   if (!out_) throw data::write_error(file_);
 }
 
-void SweepJournal::finish(const std::string& table, const std::string& head) {
-  std::string text = head;
-  for (const std::string& line : lines_) text += line;
-  data::write_file(table, text);
+void SweepJournal::remove() {
   out_.close();
   std::remove(file_.c_str());
 }
 
-void SweepJournal::read(const std::string& first) {
-  std::ifstream in(file_, std::ios::binary);
-  std::string line, kept;
-  std::getline(in, line);
-  if (line != first)
-    throw data::LoadError(
-        fmt::format("{} is of another sweep; expected the same cases, script, seeds and parameters", file_));
-  kept = line + "\n";
-  // A last line without a line end was cut off when the program was killed.
-  while (std::getline(in, line) && !in.eof()) {
-    std::size_t task = 0;
-    const char* const last = line.data() + line.size();
-    const auto [end, problem] = std::from_chars(line.data(), last, task);
-    if (problem != std::errc() || task >= lines_.size() || end == last || *end != ' ')
-      throw data::LoadError(file_ + " is damaged; remove it, and the sweep begins anew");
-    if (lines_[task].empty()) ++done_;
-    lines_[task] = std::string(end + 1, last) + "\n";
-    kept += line + "\n";
-  }
-  in.close();
-  data::write_file(file_, kept);
+void write_table(const std::string& table, const std::string& head, const std::map<std::size_t, std::string>& lines) {
+  const auto nothing = [](const auto& line) { return has_no_result(line.second); };
+  if (std::all_of(lines.begin(), lines.end(), nothing))
+    throw data::LoadError("no run of the sweep can be made; the first: " + without_end(lines.begin()->second));
+  std::string text = head;
+  for (const auto& [run, line] : lines) text += line;
+  data::write_file(table, text);
 }
 
 }  // namespace ostium::app

@@ -1,28 +1,53 @@
 #pragma once
+/// The runs already done, in a file beside the table: one line per run, flushed at once. Its first line says which part
+/// of which sweep it is.
 #include <fstream>
+#include <map>
 
+#include "app/commands/sweep/part.h"
 #include "app/commands/sweep/plan.h"
 
 namespace ostium::app {
 
-/// The runs already done, in a file beside the table: one line per run, flushed at once. Its first line identifies the
-/// sweep. Throws LoadError.
+struct JournalHead {
+  std::string sweep;  ///< a number made of everything that is run
+  SweepPart part;
+  std::string heading;  ///< of the table
+  SweepGrid grid;
+  std::vector<std::size_t> vessel_of;  ///< of each setting of the grid
+};
+
+/// By part, from 1, of each run.
+std::vector<std::size_t> parts_of_runs(const JournalHead& head);
+
+struct StoredJournal {
+  JournalHead head;
+  std::string first;                         ///< its first line
+  std::map<std::size_t, std::string> lines;  ///< by run
+};
+/// Throws LoadError if it is none. A last line that was cut off is left out.
+StoredJournal read_journal(const std::string& file);
+
 class SweepJournal {
  public:
-  SweepJournal(const std::string& file, const Sweep& sweep, bool resume);
-  bool has(std::size_t task) const { return !lines_[task].empty(); }
-  void add(std::size_t task, const std::string& line);
-  std::size_t done() const { return done_; }
-  /// Replaces the journal by the complete, sorted table.
-  void finish(const std::string& table, const std::string& head);
+  /// Throws LoadError if the file is of another sweep, or of this one without `resume`; WriteError.
+  SweepJournal(const std::string& file, const JournalHead& head, bool resume);
+  bool has(std::size_t run) const { return lines_.count(run) > 0; }
+  /// Throws WriteError.
+  void add(std::size_t run, const std::string& line);
+  std::size_t done() const { return lines_.size(); }
+  const std::map<std::size_t, std::string>& lines() const { return lines_; }
+  void remove();
 
  private:
-  void read(const std::string& first);
-
   std::string file_;
   std::ofstream out_;
-  std::vector<std::string> lines_;
-  std::size_t done_ = 0;
+  std::map<std::size_t, std::string> lines_;
 };
+
+JournalHead head_of(const Sweep& sweep, const SweepPart& part);
+
+/// Writes the table from the lines of all its runs. Throws WriteError; LoadError if none of them has a result.
+void write_table(const std::string& table, const std::string& head, const std::map<std::size_t, std::string>& lines);
 
 }  // namespace ostium::app

@@ -1,6 +1,7 @@
 #pragma once
 /// Expands a sweep into its runs.
 #include "app/commands/run/session_arguments.h"
+#include "app/commands/sweep/grid.h"
 
 namespace ostium::app {
 
@@ -12,23 +13,23 @@ struct SweepArguments {
   int jobs = 0;                   ///< 0: one per core
   bool resume = false;
   std::string table;
+  std::string part;    ///< K/N or auto; empty: all of it
+  std::string merge;   ///< a table, whose parts are put together; empty: the sweep is run
+  std::string keep;    ///< folder for what each run recorded; empty: nothing is kept
+  std::string record;  ///< none, events, full; empty: events with `keep`, else none
 };
 
-struct SweepTask {
-  std::size_t vessel = 0;           ///< index into the sweep's vessels
-  std::vector<std::string> values;  ///< of the varied keys
-  std::uint64_t seed = 0;
-  RunSetup setup;  ///< without mesh
-};
-
-/// A sweep: its runs in the order of the table.
 struct Sweep {
-  std::vector<std::string> keys;
-  std::vector<RunSetup> vessels;  ///< one for each vessel to be built
-  std::vector<SweepTask> tasks;
+  SweepGrid grid;
+  std::vector<RunSetup> vessels;       ///< one for each vessel to be built
+  std::vector<RunSetup> settings;      ///< of the grid's, without mesh and seed
+  std::vector<std::size_t> vessel_of;  ///< index into `vessels` of each setting
 };
 
 /// Throws LoadError or MeshError.
 Sweep plan_sweep(const SweepArguments& arguments);
+
+/// Of a run, without mesh.
+RunSetup setup_of(const Sweep& sweep, std::size_t run);
 
 }  // namespace ostium::app

@@ -5,10 +5,14 @@
 
 namespace ostium::app {
 
-std::string heading(const Sweep& sweep);
-std::string line_of(const SweepTask& task, const ScriptedRun& run, const PlayReport& report);
-/// A line for a run whose vessel cannot be built: a person whose artery has no room for the lesion must not end a sweep
-/// over a thousand people.
-std::string line_without_vessel(const SweepTask& task, const std::string& why);
+std::string heading(const SweepGrid& grid);
+std::string line_of(const SweepGrid& grid, std::size_t run, const ScriptedRun& scripted, const PlayReport& report);
+/// A line for a run that could not be made, as its vessel cannot be built, or that threw: one person whose artery has
+/// no room for the lesion must not end a sweep over a thousand people.
+std::string line_without_result(const SweepGrid& grid, std::size_t run, const std::string& why);
+/// Whether a line is one of those.
+bool has_no_result(const std::string& line);
+/// The beginning of such a line, up to its reason.
+std::string without_end(const std::string& line);
 
 }  // namespace ostium::app

@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "app/session/model/outcome.h"
+#include "app/session/recorder/recording_header.h"
 #include "core/base/thread_priority.h"
 #include "data/formats/load_error.h"
 
@@ -22,18 +23,6 @@ std::vector<double> flat(const std::vector<Eigen::Vector3d>& points) {
   return out;
 }
 
-data::RecordingHeader header_of(const SessionModel& model, const RunSetup& setup, std::size_t operator_count,
-                                bool full) {
-  return {.software = "ostium " OSTIUM_VERSION,
-          .setup = to_json(setup),
-          .step_s = model.step_s(),
-          .full = full,
-          .input_columns = input_names(model),
-          .signal_columns = signal_names(model),
-          .state_width = static_cast<int>(state_count(model)),
-          .operator_width = static_cast<int>(operator_count)};
-}
-
 }  // namespace
 
 Recorder::Recorder(const RecorderOptions& options, const SessionModel& model, const RunSetup& setup,
@@ -44,9 +33,13 @@ Recorder::Recorder(const RecorderOptions& options, const SessionModel& model, co
       signal_width_(signal_count(model)),
       state_width_(state_count(model)),
       operator_width_(operator_count),
+      shape_width_(shape_count(model)),
       slots_(slots),
       watch_(model),
       looked_at_(make_state(model, 0)) {
+  const bool full = options.mode == RecordMode::full;
+  const data::RecordingHeader header = header_of(model, setup, operator_count, full, options.shapes_Hz);
+  if (options.mode != RecordMode::none) shape_every_ = static_cast<std::size_t>(header.steps_per_shape);
   for (Slot& slot : slots_) {
     slot.block.inputs.resize(data::steps_per_block * input_width_);
     slot.block.hashes.resize(data::steps_per_block);
@@ -54,14 +47,18 @@ Recorder::Recorder(const RecorderOptions& options, const SessionModel& model, co
     slot.block.states.resize(state_width_);  // one: a block is shorter than states are apart
     slot.block.hands.resize(operator_width_);
     slot.events.reserve(events_a_block);
+    if (shape_every_ == 0) continue;
+    const std::size_t most = data::steps_per_block / shape_every_ + 2;  // with the beginning
+    slot.shapes_m.resize(most * shape_width_);
+    slot.block.shape_steps.resize(most);
+    slot.block.shape_inserted_m.resize(most * model.tools.size());
   }
   record_.step_s = model.step_s();
   // Reserves a quarter of an hour: unused memory costs nothing, while growing would briefly need it twice.
   record_.signals.reserve(static_cast<std::size_t>(900 / (model.step_s() * data::steps_per_signal)) * signal_width_);
-  record_.signal_columns = signal_names(model);
-  for (const vascular::TreeBranch& branch : model.vessel->way->branches()) record_.branches.push_back(branch.name);
+  record_.signal_columns = header.signal_columns;
+  record_.branches = header.branches;
   if (options.mode != RecordMode::none) {
-    const bool full = options.mode == RecordMode::full;
     const std::vector<double> vertices = flat(setup.mesh.vertices);
     std::vector<std::uint64_t> triangles;
     for (const auto& t : setup.mesh.triangles)
@@ -72,8 +69,7 @@ Recorder::Recorder(const RecorderOptions& options, const SessionModel& model, co
                  vertices.data(),
                  vertices.size() / 3},
                 {{"mesh_triangles", data::NumberType::uint64, {}, 3, 4096}, triangles.data(), triangles.size() / 3}};
-    writer_ =
-        std::make_unique<data::RecordingWriter>(options.file, header_of(model, setup, operator_count, full), tables);
+    writer_ = std::make_unique<data::RecordingWriter>(options.file, header, tables);
   }
   thread_ = std::thread([this] { follow(); });
 }
@@ -92,7 +88,19 @@ void Recorder::put_state(const SessionState& state, const OperatorState& hands) 
   slot.state_rows = 1;
 }
 
-void Recorder::begin(const SessionState& state, const OperatorState& hands) { put_state(state, hands); }
+void Recorder::put_shape(const SessionState& state) {
+  if (shape_every_ == 0 || state.rods.step % shape_every_ != 0) return;
+  Slot& slot = current();
+  const std::size_t row = slot.shape_rows++;
+  slot.block.shape_steps[row] = state.rods.step;
+  put_shapes(model_, state, slot.shapes_m.data() + row * shape_width_,
+             slot.block.shape_inserted_m.data() + row * model_.tools.size());
+}
+
+void Recorder::begin(const SessionState& state, const OperatorState& hands) {
+  put_state(state, hands);
+  put_shape(state);
+}
 
 void Recorder::add(const SessionInputs& inputs, const SessionState& state, const SessionReport& report,
                    const OperatorState& hands, const std::vector<OperatorEvent>& script) {
@@ -103,6 +111,7 @@ void Recorder::add(const SessionInputs& inputs, const SessionState& state, const
     ++slot.steps;
     if (state.rods.step % data::steps_per_signal == 0)
       put_signals(model_, state, inputs, report, slot.block.signals.data() + signal_width_ * slot.signal_rows++);
+    put_shape(state);
     if (slot.events.size() + 16 < events_a_block) watch_.look(model_, inputs, state, report, script, slot.events);
     if (slot.steps == data::steps_per_block) hand_over();
   }
@@ -117,7 +126,7 @@ void Recorder::hand_over() {
     while (next - taken_.load(std::memory_order_acquire) >= slots) std::this_thread::sleep_for(1ms);
   }
   Slot& slot = current();
-  slot.steps = slot.signal_rows = slot.state_rows = 0;
+  slot.steps = slot.signal_rows = slot.state_rows = slot.shape_rows = 0;
   slot.events.clear();
 }
 
@@ -164,6 +173,19 @@ void Recorder::look(const Slot& slot, std::vector<double>& events) {
                                  static_cast<double>(static_cast<int>(data::EventCode::ffr_changes)), -1, ffr});
 }
 
+/// Rows of all tools, parted by tool.
+void Recorder::part_shapes(const Slot& slot, data::RecordingBlock& block) const {
+  block.shapes_m.resize(model_.tools.size());
+  for (std::size_t row = 0; row < slot.shape_rows; ++row) {
+    const float* at = slot.shapes_m.data() + row * shape_width_;
+    for (std::size_t t = 0; t < model_.tools.size(); ++t) {
+      const std::size_t width = 3 * static_cast<std::size_t>(model_.rods.rods[t].nodes());
+      block.shapes_m[t].insert(block.shapes_m[t].end(), at, at + width);
+      at += width;
+    }
+  }
+}
+
 void Recorder::take(Slot& slot) {
   data::RecordingBlock block;
   const auto part = [](const auto& all, std::size_t count) {
@@ -174,6 +196,9 @@ void Recorder::take(Slot& slot) {
   block.signals = part(slot.block.signals, slot.signal_rows * signal_width_);
   block.states = part(slot.block.states, slot.state_rows * state_width_);
   block.hands = part(slot.block.hands, slot.state_rows * operator_width_);
+  block.shape_steps = part(slot.block.shape_steps, slot.shape_rows);
+  block.shape_inserted_m = part(slot.block.shape_inserted_m, slot.shape_rows * model_.tools.size());
+  part_shapes(slot, block);
   for (const SessionEvent& e : slot.events)
     block.events.insert(block.events.end(), {static_cast<double>(e.step), static_cast<double>(e.code),
                                              static_cast<double>(e.tool), e.value});

@@ -23,11 +23,12 @@ struct RecorderOptions {
   RecordMode mode = RecordMode::full;
   std::string file;         ///< empty if RecordMode::none
   bool penetration = true;  ///< measure it once a second
+  double shapes_Hz = 0;     ///< how often the tools' nodes are recorded, to the nearest whole number of steps; 0: never
 };
 
 class Recorder {
  public:
-  /// Throws LoadError if the file cannot be created.
+  /// Throws WriteError or LoadError if the file cannot be created.
   Recorder(const RecorderOptions& options, const SessionModel& model, const RunSetup& setup,
            std::size_t operator_count);
   ~Recorder();  ///< ends the thread; blocks already handed over are written
@@ -51,13 +52,16 @@ class Recorder {
  private:
   struct Slot {
     data::RecordingBlock block;
-    std::size_t steps = 0, signal_rows = 0, state_rows = 0;
+    std::vector<float> shapes_m;  ///< one row per shape row, of all tools
+    std::size_t steps = 0, signal_rows = 0, state_rows = 0, shape_rows = 0;
     std::vector<SessionEvent> events;
   };
   static constexpr std::size_t slots = 10;  ///< 2 s
 
   Slot& current() { return slots_[filled_.load(std::memory_order_relaxed) % slots]; }
   void put_state(const SessionState& state, const OperatorState& hands);
+  void put_shape(const SessionState& state);
+  void part_shapes(const Slot& slot, data::RecordingBlock& block) const;
   void hand_over();
   void follow();
   void take(Slot& slot);
@@ -65,7 +69,8 @@ class Recorder {
 
   const SessionModel& model_;
   RecorderOptions options_;
-  std::size_t input_width_, signal_width_, state_width_, operator_width_;
+  std::size_t input_width_, signal_width_, state_width_, operator_width_, shape_width_;
+  std::size_t shape_every_ = 0;  ///< steps; 0: never
   std::vector<Slot> slots_;
   std::atomic<std::size_t> filled_{0}, taken_{0};
   std::atomic<bool> over_{false};

@@ -43,7 +43,8 @@ struct PlayReport {
   std::uint64_t hash = 0;  ///< of the last state
 };
 
-/// Runs to the end. Throws LoadError if the recording cannot be started; later recording errors are in `problem`.
+/// Runs to the end. Throws WriteError or LoadError if the recording cannot be started; later recording errors are in
+/// `problem`.
 PlayReport play(ScriptedRun& run, const RunSetup& setup, const PlayOptions& options);
 
 }  // namespace ostium::app

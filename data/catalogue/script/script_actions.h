@@ -44,7 +44,7 @@ inline constexpr ScriptActionRow script_actions[] = {
     {ScriptAction::fluoroscopy, "fluoroscopy", {"on"}, {}, false},
     {ScriptAction::cine, "cine", {"on"}, {}, false},
     {ScriptAction::heart_rate, "heart rate", {"rate_1_min"}, {}, false},
-    {ScriptAction::mark, "mark", {"text"}, {}, false},
+    {ScriptAction::mark, "mark", {}, {"text"}, false},
     {ScriptAction::inject, "inject", {"rate_mL_s", "volume_mL"}, {"iodine_mg_mL", "until"}, true},
     {ScriptAction::inflate, "inflate", {"gauge_atm", "over_s"}, {"until"}, true},
     {ScriptAction::deflate, "deflate", {}, {"until"}, true},

@@ -105,6 +105,8 @@ ScriptStep read_step(const JsonValue& value, const Script& script) {
   if (object.has("on")) step.on = object.boolean("on");
   if (object.has("rate_1_min")) step.rate_1_min = object.number("rate_1_min");
   if (object.has("text")) step.text = object.text("text");
+  if (step.action == ScriptAction::mark && step.text.empty() && step.label.empty())
+    value.fail(value.path() + " marks nothing; expected text or label");
   read_treatment(object, step);
   return step;
 }
@@ -156,7 +158,6 @@ Script read(JsonValue file, const std::string& text) {
   script.file = *file.file;
   script.source = written_out ? to_json(file) : text;
   script.name = root.text("name");
-  if (script.name != fs::path(*file.file).stem().string()) root.refuse("name");
   script.title = root.text("title");
   if (root.has("access")) script.access = static_cast<vascular::Access>(root.choice("access", access_names()));
   if (root.list("tools").empty()) root.refuse("tools");

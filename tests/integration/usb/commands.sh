@@ -3,15 +3,7 @@
 set -euo pipefail
 ostium=$1 bench=$2
 
-expect() { # expect CODE WORD COMMAND...: exit code and a word of the output
-  local code=$1 word=$2 rc=0 out
-  shift 2
-  out=$("$@" 2>&1) || rc=$?
-  if ((rc != code)) || ! grep -q -- "$word" <<<"$out"; then
-    printf 'wanted exit %s and "%s" from: %s\ngot exit %s and:\n%s\n' "$code" "$word" "$*" "$rc" "$out"
-    exit 1
-  fi
-}
+. "$(dirname "$(readlink -f "$0")")/../expect.sh"
 plugged() { LD_PRELOAD=$bench:libumockdev-preload.so.0 "$@"; }
 plugged true 2>/dev/null || exit 77
 dir=$(mktemp -d)

@@ -1,0 +1,214 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "app/command_line/arguments.h"
+#include "app/command_line/command.h"
+#include "app/command_line/interrupt.h"
+#include "app/command_line/pictures.h"
+#include "app/command_line/progress.h"
+#include "app/commands/dataset/coco.h"
+#include "app/commands/dataset/frames.h"
+#include "app/commands/dataset/splits.h"
+#include "app/commands/sweep/journal.h"
+#include "data/formats/load_error.h"
+#include "data/formats/write_file.h"
+
+namespace ostium::app {
+
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+struct Arguments {
+  SweepArguments runs;
+  std::string folder;
+  FrameOptions frames;
+};
+
+void declare(Options& options, Arguments& a) {
+  options.add("vessel", a.runs.vessels, "Cases, or meshes").type("CASE|MESH").required();
+  add_session_options(options, a.runs.session);
+  options.add("--seeds", a.runs.seeds, "FROM..TO, or one").show_default();
+  options.add("--vary", a.runs.vary, "What --set takes, with several values").type("KEY=A,B,C");
+  options.add("--every", a.frames.every_s, "Seconds of simulated time between pictures")
+      .range(0.05, 3600.0)
+      .show_default();
+  add_pixels_option(options, a.frames.pixels, 64);
+  options.add("--part", a.runs.part, "Only this part of the runs; auto: by the rank that Slurm or mpirun gives")
+      .type("K/N|auto");
+  options.add("-o,--output", a.folder, "Where it goes; runs that are done there are left as they are")
+      .type("DIR")
+      .required();
+}
+
+class Dataset {
+ public:
+  Dataset(const Arguments& arguments, Sweep sweep, const SweepPart& part)
+      : arguments_(arguments), sweep_(std::move(sweep)), head_(head_of(sweep_, part)), part_of_(parts_of_runs(head_)) {
+    id_ = fmt::format("{} {:g} {} {:g}", head_.sweep, arguments.frames.every_s, arguments.frames.pixels,
+                      arguments.runs.session.seconds);
+  }
+
+  /// One vessel at a time, so that only one is in memory.
+  void run() {
+    for (std::size_t v = 0; v < sweep_.vessels.size() && !interrupted; ++v) {
+      std::shared_ptr<const Vessel> vessel;
+      for (std::size_t run = 0; run < part_of_.size() && !interrupted; ++run) {
+        if (part_of_[run] != head_.part.number || sweep_.vessel_of[sweep_.grid.setting_of(run)] != v) continue;
+        if (is_done(run)) continue;
+        show_progress(fmt::format("{} of {}: {}", run + 1, part_of_.size(), sweep_.grid.name_of(run)));
+        make(run, vessel);
+      }
+    }
+    show_progress("");
+  }
+
+  /// Runs of all parts that are not done.
+  std::size_t missing() const {
+    std::size_t count = 0;
+    for (std::size_t run = 0; run < part_of_.size(); ++run) count += is_done(run) ? 0 : 1;
+    return count;
+  }
+
+  /// Once all runs are done. Returns the number of pictures.
+  std::size_t finish() const {
+    std::vector<Json> runs;
+    std::vector<std::string> groups;
+    std::set<std::string> names;
+    for (std::size_t run = 0; run < part_of_.size(); ++run) {
+      runs.push_back(stored(run));
+      groups.push_back(runs.back().at("person"));
+      for (const Json& picture : runs.back().at("pictures"))
+        for (const Json& one : picture.at("annotations")) names.insert(one.at("category_id"));
+    }
+    const Json categories = categories_of({names.begin(), names.end()});
+    const std::vector<Split> split_of = splits_of(groups);
+    std::size_t pictures = 0;
+    Json listed = Json::array();
+    for (const Split split : {Split::train, Split::val, Split::test}) {
+      std::vector<Json> own;
+      for (std::size_t run = 0; run < runs.size(); ++run)
+        if (split_of[run] == split) own.push_back(runs[run]);
+      const Json coco = coco_of(own, categories);
+      pictures += coco.at("images").size();
+      data::write_file(file(fmt::format("{}.json", split_name(split))), coco.dump() + "\n");
+    }
+    for (std::size_t run = 0; run < runs.size(); ++run) {
+      Json one = runs[run];
+      one["pictures"] = one.at("pictures").size();
+      one["split"] = split_name(split_of[run]);
+      one.erase("dataset");
+      listed.push_back(one);
+    }
+    data::write_file(file("manifest.json"), manifest(listed).dump(2) + "\n");
+    return pictures;
+  }
+
+ private:
+  std::string file(const std::string& name) const { return (fs::path(arguments_.folder) / name).string(); }
+  std::string run_file(std::size_t run) const { return file("runs/" + sweep_.grid.name_of(run) + ".json"); }
+
+  Json stored(std::size_t run) const {
+    std::ifstream in(run_file(run), std::ios::binary);
+    try {
+      Json out = Json::parse(in);
+      if (out.at("dataset") == id_) return out;
+    } catch (const Json::exception&) {
+    }
+    throw data::LoadError(
+        fmt::format("{}: is of another set of pictures, or damaged; remove it, or name another folder", run_file(run)));
+  }
+
+  bool is_done(std::size_t run) const {
+    if (!fs::exists(run_file(run))) return false;
+    stored(run);
+    return true;
+  }
+
+  /// A run that throws is one without pictures, with its reason.
+  void make(std::size_t run, std::shared_ptr<const Vessel>& vessel) const {
+    const RunSetup& built = sweep_.vessels[sweep_.vessel_of[sweep_.grid.setting_of(run)]];
+    Json out = {{"dataset", id_},
+                {"name", sweep_.grid.name_of(run)},
+                {"case", sweep_.grid.case_of(sweep_.grid.setting_of(run))},
+                {"script", sweep_.grid.script},
+                {"seed", sweep_.grid.seed_of(run)},
+                {"values", sweep_.grid.values_of(sweep_.grid.setting_of(run))},
+                {"person", person_of(built)}};
+    try {
+      std::string warnings;
+      if (!vessel) vessel = make_vessel(built, warnings);
+      RunSetup setup = setup_of(sweep_, run);
+      choose_sizes(*vessel, setup);
+      FrameOptions options = arguments_.frames;
+      options.seconds = arguments_.runs.session.seconds;
+      const Json made = frames_of_run(setup, vessel, sweep_.grid.name_of(run), arguments_.folder, options);
+      if (made.empty()) return;
+      out.update(made);
+    } catch (const data::WriteError&) {
+      throw;
+    } catch (const std::bad_alloc&) {
+      throw;
+    } catch (const std::exception& error) {
+      show_progress("");
+      fmt::print(stderr, "ostium dataset: {}: {}\n", sweep_.grid.name_of(run), error.what());
+      out.update(
+          Json({{"outcome", "aborted"}, {"reason", error.what()}, {"simulated_s", 0}, {"pictures", Json::array()}}));
+    }
+    data::write_file(run_file(run), out.dump() + "\n");
+  }
+
+  Json manifest(const Json& runs) const {
+    Json classes = Json::array();
+    for (const char* name : label_class_names) classes.push_back(name);
+    return {{"software", "ostium " OSTIUM_VERSION},
+            {"every_s", arguments_.frames.every_s},
+            {"pixels", arguments_.frames.pixels},
+            {"units",
+             "px from the upper left corner, centres of pixels at one half; mm in the patient's frame: x left, y "
+             "head, z front"},
+            {"mask_values", classes},
+            {"keys", sweep_.grid.keys},
+            {"runs", runs}};
+  }
+
+  const Arguments& arguments_;
+  const Sweep sweep_;
+  const JournalHead head_;
+  const std::vector<std::size_t> part_of_;
+  std::string id_;
+};
+
+/// Exit code: 0 if every run of this part is done.
+int run(const Arguments& a) {
+  const SweepPart part = part_from(a.runs.part);
+  Dataset dataset(a, plan_sweep(a.runs), part);
+  for (const char* folder : {"images", "masks", "runs"}) make_folder(fs::path(a.folder) / folder);
+  stop_on_signals();
+  dataset.run();
+  const std::size_t missing = dataset.missing();
+  if (interrupted || missing > 0) {
+    fmt::print("{}: {} runs are not done; the same command goes on\n", a.folder, missing);
+    return interrupted ? 1 : 0;
+  }
+  fmt::print("{}: {} pictures\n", a.folder, dataset.finish());
+  return 0;
+}
+
+}  // namespace
+
+Command dataset_command() {
+  return make_command(
+      "dataset", "Labelled pictures of a script's runs: COCO, masks, key points, centrelines, C-arm",
+      {"ostium dataset rca-mid-focal --script pci-rca-mid-focal --vary person=0,1,2,3 --seeds 1..3 -o set",
+       "ostium dataset rca-mid-focal lcx-tubular --every 0.2 --pixels 256 --part 1/4 -o set"},
+      declare, run);
+}
+
+}  // namespace ostium::app

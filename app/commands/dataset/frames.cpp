@@ -1,0 +1,73 @@
+#include "app/commands/dataset/frames.h"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "app/command_line/interrupt.h"
+#include "app/commands/dataset/coco.h"
+#include "app/session/run/run.h"
+#include "app/session/scene/film.h"
+#include "data/formats/png.h"
+
+namespace ostium::app {
+
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+constexpr double frames_per_s = 15;
+/// Frames drawn before one that is kept, in which exposure, noise filter and lag settle.
+constexpr long settling = 5;
+
+fluoro::View view_of(const CArmInputs& arm, int pixels) {
+  fluoro::View view;
+  view.arm.lao_rad = arm.lao_rad, view.arm.cran_rad = arm.cran_rad, view.arm.p_PI = arm.p_PI;
+  view.field_m = arm.field_m, view.pixels = pixels;
+  return view;
+}
+
+bool any_in_body(const SessionReport& report) {
+  return std::any_of(report.tools.begin(), report.tools.end(), [](const ToolReport& tool) { return tool.in_body; });
+}
+
+}  // namespace
+
+Json frames_of_run(const RunSetup& setup, std::shared_ptr<const Vessel> vessel, const std::string& run_name,
+                   const std::string& folder, const FrameOptions& options) {
+  ScriptedRun run(setup, std::move(vessel));
+  const Labeller labeller(run.model);
+  FilmOptions film_options;
+  film_options.pixels = options.pixels, film_options.overlay = false, film_options.seed = setup.seed + 1;
+  Film film(run.model, film_options);
+  const long apart = std::max(1L, std::lround(options.every_s * frames_per_s));
+  Json pictures = Json::array();
+  std::string reason;
+  for (long frame = 0; !interrupted && run.tick();) {
+    if (options.seconds > 0 && seconds(run.model, run.state) >= options.seconds - 1e-9) {
+      reason = "time limit";
+      break;
+    }
+    if (!is_frame(run.state.rods.step, frames_per_s, run.model.step_s())) continue;
+    const long ahead = (apart - ++frame % apart) % apart;  // frames until the next that is kept
+    if (ahead > settling) continue;
+    const fluoro::Picture& picture = film.frame(run.model, run.state, run.inputs);
+    if (ahead > 0 || !any_in_body(run.report)) continue;
+    const fluoro::View view = view_of(run.inputs.c_arm, options.pixels);
+    const Labels labels = labeller.at(run.state, view);
+    const PictureName name{run_name, run.state.rods.step};
+    data::write_png((fs::path(folder) / name.picture()).string(), picture);
+    data::write_png((fs::path(folder) / name.mask()).string(), mask_of(view, labels));
+    pictures.push_back({{"image", image_of(name, run.model, run.state, run.report, view, labels)},
+                        {"annotations", annotations_of(view, labels)}});
+  }
+  if (interrupted) return {};
+  return {{"outcome", reason.empty() ? words_for(run.outcome) : "aborted"},
+          {"reason", reason.empty() ? app::reason(run.plan, run.hands) : reason},
+          {"simulated_s", seconds(run.model, run.state)},
+          {"pictures", pictures}};
+}
+
+}  // namespace ostium::app

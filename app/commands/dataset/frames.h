@@ -1,0 +1,20 @@
+#pragma once
+#include <nlohmann/json_fwd.hpp>
+
+#include "app/session/operator/setup.h"
+
+namespace ostium::app {
+
+struct FrameOptions {
+  double every_s = 0.5;  ///< of simulated time, to a frame of 15 a second
+  int pixels = 512;
+  double seconds = 0;  ///< limit of simulated time; 0: none
+};
+
+/// Plays a script and writes its pictures and masks below `folder`. Returns what `coco_of` takes; empty if it was
+/// interrupted. Throws LoadError, WriteError.
+nlohmann::ordered_json frames_of_run(const RunSetup& setup, std::shared_ptr<const Vessel> vessel,
+                                     const std::string& run_name, const std::string& folder,
+                                     const FrameOptions& options);
+
+}  // namespace ostium::app

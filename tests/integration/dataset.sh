@@ -1,0 +1,30 @@
+#!/usr/bin/env bash
+# Labelled pictures: what their labels say agrees with one another, parts give the same bytes, and what is done is not
+# done again.
+#   tests/integration/dataset.sh OSTIUM
+set -euo pipefail
+ostium=$1
+here=$(dirname "$(readlink -f "$0")")
+. "$here/expect.sh"
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+cd "$work"
+
+dataset() {
+  "$ostium" dataset rca-mid-focal --script rca-from-the-ostium --set begin=RCA --seconds 2 --pixels 128 --every 0.8 \
+    --vary person=0,1,2,3 --seeds 1 "$@"
+}
+expect 0 "one: 8 pictures" dataset -o one
+"$here/../tools/comparison/check_dataset.py" one
+# In parts, one of which was ended before its last run was written.
+expect 0 "2 runs are not done" dataset -o two --part 1/2
+mv two/runs "two/before" && mkdir two/runs && find two/before -name '1-*' -exec mv {} two/runs \;
+expect 0 "1 runs are not done" dataset -o two --part 2/2
+touch -d 2000-01-01 two/runs/1-*
+expect 0 "two: 8 pictures" dataset -o two
+[[ -n $(find two/runs -name '1-*' ! -newermt 2001-01-01) ]] || { echo "a run that was done was made again"; exit 1; }
+rm -r two/before
+diff -r one two
+expect 3 "another set of pictures" dataset -o two --every 0.2
+# A case whose vessel has no room for the lesion is a run without pictures.
+expect 3 "there is no case" "$ostium" dataset no-such-case -o none
