@@ -14,7 +14,7 @@ def recording(tmp_path_factory):
         pytest.skip("the environment names no program of ours: OSTIUM=build/ostium")
     folder = tmp_path_factory.mktemp("run")
     subprocess.run([os.environ["OSTIUM"], "run", "rca-mid-focal", "--script", "aorta-arch-wire", "--seconds", "2",
-                    "--out", str(folder)], check=False, capture_output=True)
+                    "--record", "shapes", "--out", str(folder)], check=False, capture_output=True)
     return ostium.Recording(folder / "run.h5")
 
 
@@ -40,6 +40,20 @@ def test_tables_have_their_columns(recording):
         signals["nothing"]
     assert recording.setup["seed"] == 0 and recording.step_s == 1e-3
     assert recording.end is not None and "outcome" in recording.end
+    assert recording.tools == ["wire"] and "RCA" in recording.branches
+    assert {"time_s", "name", "tool", "value"} == set(recording.events[0])
+    assert all(isinstance(event["name"], str) for event in recording.events)
+
+
+def test_shapes_end_at_the_tip(recording):
+    times, points = recording.shapes("wire")
+    signals = recording.signals
+    last = points[-1][~np.isnan(points[-1][:, 0])]
+    at = int(round(times[-1] * 100)) - 1
+    tip = np.array([signals[f"wire.tip_{axis}_mm"][at] for axis in "xyz"])
+    assert np.linalg.norm(1e3 * last[-1] - tip) < 2  # a sample apart at most
+    with pytest.raises(ValueError, match="guide"):
+        recording.shapes("guide")
 
 
 def test_what_is_no_recording_is_refused(tmp_path):

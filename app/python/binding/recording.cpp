@@ -25,6 +25,26 @@ py::array_t<T> table(const std::vector<T>& numbers, std::size_t columns) {
 
 py::object from_json(const std::string& text) { return py::module_::import("json").attr("loads")(text); }
 
+/// Names by index, as the file has them.
+auto names_of(const char* of_table, const char* attribute) {
+  return [=](const RecordingReader& self) { return self.tables().texts(of_table, attribute); };
+}
+
+/// (moments) steps and (moments, nodes, 3) points.
+py::tuple shapes(const RecordingReader& self, const std::string& tool) {
+  const data::TableFile& file = self.tables();
+  const std::string name = data::shape_table(tool);
+  if (!file.has(name))
+    throw py::value_error(self.path() + ": has no shapes of \"" + tool +
+                          "\"; expected a tool of a run with --record shapes");
+  const std::size_t moments = file.rows(name);
+  const std::vector<double> numbers = file.numbers(name, 0, moments);
+  const auto nodes = static_cast<py::ssize_t>(file.width(name)) / 3;
+  return py::make_tuple(
+      copy_of(file.integers("shapes_step", 0, moments)),
+      py::array_t<double>({static_cast<py::ssize_t>(moments), nodes, py::ssize_t{3}}, numbers.data()));
+}
+
 }  // namespace
 
 void bind_recording(py::module_& module) {
@@ -66,7 +86,12 @@ RecordingFile(path) raises OstiumError for a file that is damaged, or is none of
           "(steps) uint64, of the state after each.")
       .def_property_readonly(
           "events", [](const RecordingReader& self) { return table(self.events(), 4); },
-          "(events, 4): step, code, tool, value.");
+          "(events, 4): step, code, tool, value.")
+      .def_property_readonly("event_names", names_of("events", "names"), "By code.")
+      .def_property_readonly("tools", names_of("", "tools"))
+      .def_property_readonly("branches", names_of("", "branches"), "By index, as tip_branch has them.")
+      .def("shapes", shapes, py::arg("tool"),
+           "(steps (n), points (n, nodes, 3) m, hub to tip, NaN outside the body), of a run with --record shapes.");
 }
 
 }  // namespace ostium::python

@@ -32,7 +32,8 @@ class Recording:
 
     signals  Table of what was measured, a hundred times a second; signals["time_s"] is the first column
     inputs   Table of what the operator did, one row a step
-    events   Table: step, code, tool, value
+    events   list of dict: time_s, name, tool (None: of none), value
+    tools, branches   names by index, as signals have them (tip_branch)
     setup    dict: case, script, instruments, seed;  end: dict of outcome, reason, metrics, or None if it was cut off
     """
 
@@ -41,6 +42,7 @@ class Recording:
         self.path, self.software = self._file.path, self._file.software
         self.setup, self.end = self._file.setup, self._file.end
         self.step_s, self.steps = self._file.step_s, self._file.steps
+        self.tools, self.branches = self._file.tools, self._file.branches
 
     @property
     def signals(self):
@@ -53,7 +55,15 @@ class Recording:
 
     @property
     def events(self):
-        return Table(["step", "code", "tool", "value"], self._file.events)
+        names = self._file.event_names
+        return [{"time_s": step * self.step_s, "name": names[int(code)] if names else int(code),
+                 "tool": self.tools[int(tool)] if self.tools and tool >= 0 else None, "value": value}
+                for step, code, tool, value in self._file.events]
+
+    def shapes(self, tool):
+        """(times (n) s, points (n, nodes, 3) m, hub to tip, NaN outside the body), of a run with --record shapes."""
+        steps, points = self._file.shapes(tool)
+        return steps * self.step_s, points
 
     @property
     def hashes(self):
