@@ -25,6 +25,6 @@ expect 0 "two: 8 pictures" dataset -o two
 [[ -n $(find two/runs -name '1-*' ! -newermt 2001-01-01) ]] || { echo "a run that was done was made again"; exit 1; }
 rm -r two/before
 diff -r one two
-expect 3 "another set of pictures" dataset -o two --every 0.2
+expect 3 "another set of pictures" dataset -o two --set hand_speed=2
 # A case whose vessel has no room for the lesion is a run without pictures.
 expect 3 "there is no case" "$ostium" dataset no-such-case -o none
