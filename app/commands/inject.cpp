@@ -103,10 +103,10 @@ int run(const Arguments& a) {
   show_progress("the heart beats until blood flows as it does at rest");
   vascular::PhysiologyState state = at_rest(model, c.rate_1_min);
   const vascular::PhysiologyState rest = state;
-  const fluoro::View view = view_of(!a.view.empty() ? a.view
-                                    : a.left()      ? "rao-cranial"
-                                                    : "lao",
-                                    patient, a.left(), a.pixels);
+  const fluoro::View view = app::view_of(!a.view.empty() ? a.view
+                                         : a.left()      ? "rao-cranial"
+                                                         : "lao",
+                                         patient, a.left(), a.pixels);
   require_reachable(view.arm);
   Angiogram angiogram(model, scene, view, a.frames_per_s, a.seed);
   angiogram.wait_for(a.phase, c.rate_1_min, state);

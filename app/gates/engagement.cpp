@@ -35,6 +35,12 @@ RunSetup setup_of(const std::string& script, int person) {
   return setup;
 }
 
+/// Of the case, whatever the script.
+std::shared_ptr<const Vessel> vessel_of_person(int person) {
+  std::string warnings;
+  return make_vessel(setup_of("jr4-engages-rca", person), warnings);
+}
+
 /// Runs until step `s` begins; false if the script fails before.
 bool run_to(int s, ScriptedRun& run) {
   while (static_cast<int>(run.hands.step) != s)
@@ -88,11 +94,9 @@ bool engages_counter_clockwise(const ScriptedRun& at) {
 }
 
 /// JR4 starting at the valve: turned clockwise while drawn back, and from the same state counter-clockwise.
-Counted judkins_right(int person) {
+Counted judkins_right(int person, const std::shared_ptr<const Vessel>& vessel) {
   const RunSetup setup = setup_of("jr4-engages-rca", person);
   const int turn = step_named(setup.script, "clockwise"), back = step_named(setup.script, "drawn back");
-  std::string warnings;
-  const std::shared_ptr<const Vessel> vessel = make_vessel(setup, warnings);
   ScriptedRun run(setup, vessel);
   if (!run_to(turn, run)) return {};
   Counted out;
@@ -103,10 +107,9 @@ Counted judkins_right(int person) {
   return out;
 }
 
-int judkins_left(int person) {
+int judkins_left(int person, const std::shared_ptr<const Vessel>& vessel) {
   const RunSetup setup = setup_of("jl4-engages-lm", person);
-  std::string warnings;
-  ScriptedRun run(setup, make_vessel(setup, warnings));
+  ScriptedRun run(setup, vessel);
   return stays(run);
 }
 
@@ -129,12 +132,11 @@ double depth_in_left_main(ScriptedRun& run) {
 
 /// An Amplatz in the left main, its curve on the valve: how much deeper its tip goes when the guide is drawn back by 10
 /// mm, m. This depends on how it was placed, so it differs between seeds.
-double amplatz_drawn_back(std::uint64_t seed) {
+double amplatz_drawn_back(std::uint64_t seed, const std::shared_ptr<const Vessel>& vessel) {
   RunSetup setup = setup_of("al1-engages-lm", 0);
   setup.seed = seed;
   const int settles = step_named(setup.script, "it settles"), back = step_named(setup.script, "drawn back");
-  std::string warnings;
-  ScriptedRun run(setup, make_vessel(setup, warnings));
+  ScriptedRun run(setup, vessel);
   if (!run_to(settles, run)) return -1;
   depth_in_left_main(run);
   const double before = depth_in_left_main(run);
@@ -151,12 +153,15 @@ std::vector<data::GateResult> engagement(bool quick) {
   Counted right;
   int left = 0;
   for (int person = 1; person <= n; ++person) {
-    const Counted r = judkins_right(person);
+    const std::shared_ptr<const Vessel> vessel = vessel_of_person(person);
+    const Counted r = judkins_right(person, vessel);
     right.clockwise += r.clockwise, right.counter_clockwise += r.counter_clockwise;
-    left += judkins_left(person);
+    left += judkins_left(person, vessel);
   }
   double deeper_m = 0;
-  for (int seed = 0; seed < hands; ++seed) deeper_m += amplatz_drawn_back(static_cast<std::uint64_t>(seed)) / hands;
+  const std::shared_ptr<const Vessel> mean = vessel_of_person(0);
+  for (int seed = 0; seed < hands; ++seed)
+    deeper_m += amplatz_drawn_back(static_cast<std::uint64_t>(seed), mean) / hands;
   const double tenths = n;
   return {{"engagement-jr4-clockwise", right.clockwise / tenths, 1, 0.2, ""},
           {"engagement-jr4-counter-clockwise", right.counter_clockwise / tenths, 0, 0, ""},

@@ -33,12 +33,12 @@ TEST_P(Undeclared, IsFound) {
   EXPECT_LT(judged.after, 1.2);
 }
 
-// A few of each sort; ostium-campaign has them all.
+// Of each sort one: nothing, an effect of the instrument, one of the rig, faults that are named alone and with another
+// experiment, noise; ostium-campaign has them all.
 INSTANTIATE_TEST_SUITE_P(Library, Undeclared,
-                         testing::Values(Case{"clean", 1}, Case{"clean", 2}, Case{"rest_curvature", 1},
-                                         Case{"soft_section", 1}, Case{"clamp_runout", 1},
-                                         Case{"fault:roll_in_radians", 1}, Case{"fault:swapped", 1},
-                                         Case{"noise:shared", 1}),
+                         testing::Values(Case{"clean", 1}, Case{"clean", 2}, Case{"soft_section", 1},
+                                         Case{"clamp_runout", 1}, Case{"fault:roll_in_radians", 1},
+                                         Case{"fault:swapped", 1}, Case{"noise:shared", 1}),
                          [](const testing::TestParamInfo<Case>& tested) {
                            std::string kind = tested.param.kind;
                            std::replace(kind.begin(), kind.end(), ':', '_');

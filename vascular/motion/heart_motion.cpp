@@ -9,10 +9,9 @@ namespace ostium::vascular {
 
 namespace {
 
-using units::mm;
+using units::mm, units::degree;
 constexpr double lateral_descent = 16.0 * mm;  // of the left groove
 constexpr double right_surplus = 0.30;         // excess of the right groove over the left one: 21 mm
-constexpr double degree = 3.14159265358979323846 / 180;
 constexpr double base_twist = -2 * degree, apex_twist = 8 * degree;  // counter-clockwise as seen from the apex
 constexpr double root_descent = 7.5 * mm;
 constexpr double root_share = 0.8;  // of the shift of the whole heart

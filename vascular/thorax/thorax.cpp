@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <numeric>
 
 #include "core/base/units.h"
 #include "vascular/geometry/implicit/contour.h"
@@ -35,6 +36,34 @@ double cage_width_mm(double y_mm) { return 147 * std::sqrt(std::max(0.05, 1 - st
 double cage_depth_mm(double y_mm) { return 103 * std::sqrt(std::max(0.05, 1 - std::pow((y_mm + 70) / 260, 2))); }
 constexpr double cage_z_mm = -8;
 
+/// Tubes whose distance is wanted at many points, most of them far away.
+class Displacing {
+ public:
+  explicit Displacing(const std::vector<Tube>& tubes) : shape_(tubes), all_(shape_.segments().size()) {
+    std::iota(all_.begin(), all_.end(), 0);
+    for (const Tube& tube : tubes)
+      for (const TubeNode& node : tube.nodes)
+        for (double side : {-1.0, 1.0}) box_.extend(node.p + Eigen::Vector3d::Constant(side * node.radius_m));
+    // Each tube more is blended with those before, which takes a sixth of the blend's width from the distance at most.
+    lowered_m_ = static_cast<double>(tubes.size()) * shape_.largest_blend_m() / 6 + 0.01 * mm;
+  }
+  double distance(const Eigen::Vector3d& p) const { return shape_.value(p, all_); }
+
+  /// The same as joined(mm, distance(p) in mm less `margin_mm`, k), bit for bit, without that distance where it is too
+  /// long to matter.
+  double joined_to(double other_mm, const Eigen::Vector3d& p, double margin_mm, double k) const {
+    const double outside = box_.exteriorDistance(p);
+    if (outside > 0 && (outside - lowered_m_) / mm - margin_mm > other_mm + k) return other_mm;
+    return joined(other_mm, distance(p) / mm - margin_mm, k);
+  }
+
+ private:
+  TubeUnion shape_;
+  std::vector<int> all_;
+  Eigen::AlignedBox3d box_;
+  double lowered_m_ = 0;
+};
+
 /// The heart as spheres along its chambers; negative inside. Walls `wall_m` thick surround the blood.
 class Heart {
  public:
@@ -58,10 +87,10 @@ class Heart {
         {{along(0.05, 34, 2), 22 * mm}, {along(0.35, 30, -8), 22 * mm}, {along(0.75, 18, -10), 13 * mm}});
     add("left atrium", {{along(-0.28, -2, 14), 24 * mm}, {along(-0.30, 8, 22), 22 * mm}});
     add("right atrium", {{along(-0.22, 44, 8), 21 * mm}, {along(-0.30, 38, 18), 22 * mm}});
-    shape_ = std::make_unique<TubeUnion>(tubes_);
-    for (int i = 0; i < static_cast<int>(shape_->segments().size()); ++i) all_.push_back(i);
+    shape_ = std::make_unique<Displacing>(tubes_);
   }
-  double distance(const Eigen::Vector3d& p) const { return shape_->value(p, all_); }
+  const Displacing& shape() const { return *shape_; }
+  double distance(const Eigen::Vector3d& p) const { return shape_->distance(p); }
   Eigen::AlignedBox3d box() const {
     Eigen::AlignedBox3d b;
     for (const Tube& tube : tubes_)
@@ -72,8 +101,7 @@ class Heart {
 
  private:
   std::vector<Tube> tubes_;
-  std::unique_ptr<TubeUnion> shape_;
-  std::vector<int> all_;
+  std::unique_ptr<Displacing> shape_;
 };
 
 void add_bone(std::vector<XrayBody>& bodies, const std::string& name, Mesh outer, Mesh inner,
@@ -184,13 +212,8 @@ double diaphragm_mm(double x_mm, double z_mm) {
   return -158 + 70 * right + 58 * left - 50 * std::pow((z_mm - 5) / 100, 2);
 }
 
-void add_lungs(std::vector<XrayBody>& bodies, const Heart& heart, const std::vector<TubeUnion>& vessels,
+void add_lungs(std::vector<XrayBody>& bodies, const Heart& heart, const std::vector<Displacing>& vessels,
                const HeartMotion& motion) {
-  std::vector<std::vector<int>> all;
-  for (const TubeUnion& vessel : vessels) {
-    all.emplace_back();
-    for (int i = 0; i < static_cast<int>(vessel.segments().size()); ++i) all.back().push_back(i);
-  }
   const auto lung = [&](const Eigen::Vector3d& p) {
     const Eigen::Vector3d q = p / mm;
     const double x = q.x() - middle_x / mm, z = q.z() - cage_z_mm;
@@ -199,8 +222,8 @@ void add_lungs(std::vector<XrayBody>& bodies, const Heart& heart, const std::vec
     const double base = diaphragm_mm(q.x(), q.z()) - q.y();
     // The mediastinum: oesophagus, spine, great vessels, heart; wider at the top. In front the lungs almost meet.
     double solid = std::fabs(x) - 17 + 12 * smooth_step(5, 60, q.z()) - 12 * smooth_step(30, 100, q.y());
-    solid = joined(solid, heart.distance(p) / mm - 3, 40);
-    for (std::size_t v = 0; v < vessels.size(); ++v) solid = joined(solid, vessels[v].value(p, all[v]) / mm - 3, 12);
+    solid = heart.shape().joined_to(solid, p, 3, 40);
+    for (const Displacing& vessel : vessels) solid = vessel.joined_to(solid, p, 3, 12);
     return mm * std::max({cage, base, -solid, q.y() - 122});
   };
   XrayBody body{"lungs",
@@ -283,7 +306,7 @@ std::vector<XrayBody> make_thorax(const Anatomy& anatomy) {
   const std::vector<std::vector<Tube>> tubes = great_vessels();
   const std::vector<TubeUnion> vessels(tubes.begin(), tubes.end());
   const std::vector<Tube> aorta = {coarse(anatomy.tubes.front())};
-  std::vector<TubeUnion> displacing = vessels;
+  std::vector<Displacing> displacing(tubes.begin(), tubes.end());
   displacing.emplace_back(aorta);
   add_lungs(bodies, heart, displacing, motion);
   add_blood(bodies, heart, vessels, motion);

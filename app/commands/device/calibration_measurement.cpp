@@ -15,7 +15,7 @@ bool enter_pressed() {
   pollfd in{STDIN_FILENO, POLLIN, 0};
   if (::poll(&in, 1, 0) <= 0) return false;
   char some[256];
-  return read(STDIN_FILENO, some, sizeof some) >= 0;
+  return ::read(STDIN_FILENO, some, sizeof some) >= 0;
 }
 
 }  // namespace

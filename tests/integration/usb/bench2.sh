@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # Bench 2: bench2.sh TEST FOLDER [arguments of the test]: runs TEST in a virtual machine with Debian's own kernel, which is unpacked
-# into FOLDER, not installed. Exit code 77: it cannot be done here. OSTIUM_USB_REPORTS goes through to the test.
+# into FOLDER, not installed. Exit code 77: it cannot be done here. OSTIUM_USB_REPORTS goes through to the test. With
+# --fetch-only as the third argument: only fetches the kernel.
 set -euo pipefail
 test=$1 folder=$2
 shift 2
@@ -33,6 +34,7 @@ kernel_package=$(apt-cache depends linux-image-amd64 2>/dev/null | sed -n 's/.*D
 [[ -n $kernel_package ]] || [[ -d $folder/kernel ]] || skip "linux-image-amd64 is unknown: apt-get update"
 fetch kernel "$kernel_package"
 fetch udev udev
+[[ ${1:-} != --fetch-only ]] || exit 0
 
 # What runs in there: busybox, udev, the test and their libraries.
 root=$folder/root

@@ -6,7 +6,7 @@ namespace ostium::vascular {
 
 namespace {
 
-constexpr double much_wider = 4;          // as an aorta compared with its coronary arteries
+constexpr double trunk_wider = 4;         // as an aorta compared with its coronary arteries
 constexpr double below_ostium_m = 12e-3;  // ostia lie 14 and 17 mm above the annulus (Tops 2008), 3 mm either way
 constexpr double most_diameters = 1.5;
 constexpr double aside_share = 0.5;  // of the longest gap: sideways distance from the missing part
@@ -17,7 +17,7 @@ std::optional<double> missing_length_m(const CutEnd& cut, const std::vector<Vess
                                        double longest_gap_m) {
   double farthest = 0;
   for (const VesselEnd& end : branches) {
-    if (!end.origin || cut.radius_m < much_wider * end.radius_m) continue;
+    if (!end.origin || cut.radius_m < trunk_wider * end.radius_m) continue;
     const Eigen::Vector3d arm = end.p - cut.middle;
     const double ahead = arm.dot(cut.outwards);
     const Eigen::Vector3d aside = arm - ahead * cut.outwards;
