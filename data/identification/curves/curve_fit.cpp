@@ -18,9 +18,16 @@ double outer(const EffectParameter& p, double x) { return p.logarithmic ? std::e
 
 }  // namespace
 
+std::vector<Curves> Model::standardised() const {
+  std::vector<Curves> out = misfits;
+  for (std::size_t r = 0; r < wider.size(); ++r)
+    for (std::size_t c = 0; c < wider[r].size(); ++c) out[r][c] = out[r][c].cwiseQuotient(wider[r][c]);
+  return out;
+}
+
 double Model::rms() const {
   double sum = 0, count = 0;
-  for (const Curves& run : misfits)
+  for (const Curves& run : standardised())
     for (const VectorXd& channel : run) sum += channel.squaredNorm(), count += static_cast<double>(channel.size());
   return count > 0 ? std::sqrt(sum / count) : 0;
 }
@@ -65,13 +72,19 @@ struct Fit::Problem {
     }
     return out;
   }
-  /// Measured minus model, in units of the noise as declared.
-  std::vector<Curves> misfits(const VectorXd& x) const {
-    std::vector<Curves> out = set.predict(free_at(x), on_at(x));
-    for (std::size_t r = 0; r < out.size(); ++r)
-      for (std::size_t c = 0; c < out[r].size(); ++c) {
+  /// A model there, with its misfits only.
+  Model at(const VectorXd& x) const {
+    Foretold told = set.foretell(free_at(x), on_at(x));
+    Model out;
+    out.x = x, out.misfits = std::move(told.curves), out.wider = std::move(told.open);
+    for (std::size_t r = 0; r < out.misfits.size(); ++r)
+      for (std::size_t c = 0; c < out.misfits[r].size(); ++c) {
         const Channel& channel = set.runs()[r].channels[c];
-        out[r][c] = (channel.measured - out[r][c]).cwiseQuotient(channel.sigma);
+        VectorXd& off = out.misfits[r][c];
+        off = (channel.measured - off).cwiseQuotient(channel.sigma);
+        if (out.wider.empty()) continue;
+        VectorXd& wider = out.wider[r][c];
+        wider = (1 + wider.cwiseQuotient(channel.sigma).array().square()).sqrt();
       }
     return out;
   }
@@ -100,14 +113,19 @@ Fit::Problem Fit::problem(const std::vector<std::size_t>& effects) const {
 
 namespace {
 
-/// The misfits of what is chosen as independent numbers of variance 1.
-VectorXd data_rows(const std::vector<Curves>& misfits, const Noise& noise,
-                   const std::vector<std::vector<bool>>& chosen) {
+/// The misfits of what is chosen as independent numbers of variance 1; then, where the law leaves something open, rows
+/// whose squares are what the wider normal laws cost, 2 log(width).
+VectorXd data_rows(const Model& model, const Noise& noise, const std::vector<std::vector<bool>>& chosen) {
   std::vector<VectorXd> parts;
   Eigen::Index rows = 0;
+  const auto add = [&](VectorXd part) { rows += part.size(), parts.push_back(std::move(part)); };
+  const std::vector<Curves> misfits = model.standardised();
   for (std::size_t r = 0; r < misfits.size(); ++r)
     for (std::size_t c = 0; c < misfits[r].size(); ++c)
-      if (chosen[r][c]) parts.push_back(whitened(misfits[r][c], noise.channels[c])), rows += parts.back().size();
+      if (chosen[r][c]) add(whitened(misfits[r][c], noise.channels[c]));
+  for (std::size_t r = 0; r < model.wider.size(); ++r)
+    for (std::size_t c = 0; c < model.wider[r].size(); ++c)
+      if (chosen[r][c]) add((2 * model.wider[r][c].array().log()).sqrt());
   VectorXd out(rows);
   Eigen::Index at = 0;
   for (const VectorXd& part : parts) out.segment(at, part.size()) = part, at += part.size();
@@ -115,9 +133,9 @@ VectorXd data_rows(const std::vector<Curves>& misfits, const Noise& noise,
 }
 
 /// Rows of the data, then of the priors; false if the model has no curves there.
-bool rows_at(const std::vector<Curves>& misfits, const Noise& noise, const std::vector<std::vector<bool>>& chosen,
+bool rows_at(const Model& model, const Noise& noise, const std::vector<std::vector<bool>>& chosen,
              const VectorXd& prior, VectorXd& out) {
-  const VectorXd data = data_rows(misfits, noise, chosen);
+  const VectorXd data = data_rows(model, noise, chosen);
   out.resize(data.size() + prior.size());
   out << data, prior;
   return out.allFinite();
@@ -155,7 +173,7 @@ Model Fit::run(const std::vector<std::size_t>& effects, const Model* near) const
   const Problem p = problem(effects);
   const VectorXd prior = p.prior(), spread = p.spread(), least = p.least(), most = p.most();
   const auto residuals = [&](const VectorXd& x, VectorXd& r) {
-    return rows_at(p.misfits(x), noise_, chosen_, (x - prior).cwiseQuotient(spread), r);
+    return rows_at(p.at(x), noise_, chosen_, (x - prior).cwiseQuotient(spread), r);
   };
   LeastSquares descent;
   descent.least = least, descent.most = most;
@@ -196,27 +214,27 @@ Model Fit::run(const std::vector<std::size_t>& effects, const Model* near) const
   descent.most_iterations = finish, descent.tolerance = 1e-7;
   descent.start = found.front().x;
   const LeastSquaresResult best = minimise(descent);
-  Model out;
-  out.x = best.x, out.converged = best.converged;
+  Model out = p.at(best.x);
+  out.converged = best.converged;
   judge(p, out);
   return out;
 }
 
 void Fit::judge(const Problem& p, Model& model) const {
   model.on = p.on_at(model.x);
-  model.misfits = p.misfits(model.x);
-  model.squares = data_rows(model.misfits, noise_, chosen_).squaredNorm();
+  model.squares = data_rows(model, noise_, chosen_).squaredNorm();
   const VectorXd spread = p.spread();
   model.numbers = static_cast<double>(model.x.size());
   if (std::any_of(p.effects.begin(), p.effects.end(), [&](std::size_t e) { return set_.effects()[e].law; }))
     model.numbers -= covariance(p, model).diagonal().cwiseQuotient(spread.cwiseAbs2()).sum();
   double independent = 0;
   model.measured = 0;
+  const std::vector<Curves> misfits = model.standardised();
   for (std::size_t r = 0; r < model.misfits.size(); ++r)
     for (std::size_t c = 0; c < model.misfits[r].size(); ++c) {
       if (!chosen_[r][c]) continue;
       const auto samples = static_cast<double>(model.misfits[r][c].size());
-      model.clipped_squares += clipped(model.misfits[r][c], noise_.channels[c]).squaredNorm();
+      model.clipped_squares += clipped(misfits[r][c], noise_.channels[c]).squaredNorm();
       model.measured += samples, independent += worth(noise_.channels[c], samples);
     }
   const double priors = (model.x - p.prior()).cwiseQuotient(spread).squaredNorm();
@@ -242,13 +260,13 @@ double Fit::ahead(const Model& near, std::size_t effect) const {
   VectorXd from = prior;
   from.head(near.x.size()) = near.x;
   for (const VectorXd& start : starts(from, spread, least, most, near.x.size())) {
-    const VectorXd r = data_rows(p.misfits(start), noise_, chosen_);
+    const VectorXd r = data_rows(p.at(start), noise_, chosen_);
     MatrixXd J(r.size() + start.size(), start.size());
     VectorXd rhs(J.rows());
     for (Eigen::Index i = 0; i < start.size(); ++i) {
       VectorXd to = start;
       to[i] += start[i] + difference * spread[i] > most[i] ? -difference * spread[i] : difference * spread[i];
-      J.col(i).head(r.size()) = (data_rows(p.misfits(to), noise_, chosen_) - r) / (to[i] - start[i]);
+      J.col(i).head(r.size()) = (data_rows(p.at(to), noise_, chosen_) - r) / (to[i] - start[i]);
     }
     J.bottomRows(start.size()) = spread.cwiseInverse().asDiagonal();
     rhs << r, (start - prior).cwiseQuotient(spread);
@@ -262,13 +280,12 @@ double Fit::ahead(const Model& near, std::size_t effect) const {
 /// As if the noise were what it is taken to be.
 MatrixXd Fit::covariance(const Problem& p, const Model& model) const {
   const VectorXd spread = p.spread(), least = p.least(), most = p.most();
-  MatrixXd J(data_rows(model.misfits, noise_, chosen_).size(), model.x.size());
+  MatrixXd J(data_rows(model, noise_, chosen_).size(), model.x.size());
   for (Eigen::Index i = 0; i < model.x.size(); ++i) {
     VectorXd up = model.x, down = model.x;
     up[i] = std::min(up[i] + difference * spread[i], most[i]),
     down[i] = std::max(down[i] - difference * spread[i], least[i]);
-    J.col(i) =
-        (data_rows(p.misfits(up), noise_, chosen_) - data_rows(p.misfits(down), noise_, chosen_)) / (up[i] - down[i]);
+    J.col(i) = (data_rows(p.at(up), noise_, chosen_) - data_rows(p.at(down), noise_, chosen_)) / (up[i] - down[i]);
   }
   MatrixXd H = J.transpose() * J;
   H.diagonal() += spread.cwiseAbs2().cwiseInverse();
@@ -325,8 +342,10 @@ void Fit::hold_out(Model& model) const {
     };
     if (!any(fitted) || !any(scored)) continue;
     const Model without = Fit(set_, noise_, fitted).run(effects, &model);
-    const VectorXd left = data_rows(without.misfits, noise_, scored);
-    sum += left.squaredNorm(), count += static_cast<double>(left.size());
+    sum += data_rows(without, noise_, scored).squaredNorm();
+    for (std::size_t r = 0; r < runs; ++r)
+      for (std::size_t c = 0; c < channels; ++c)
+        if (scored[r][c]) count += static_cast<double>(set_.runs()[r].samples());
   }
   if (count > 0) model.held_out = std::sqrt(sum / count);
 }

@@ -53,6 +53,21 @@ std::vector<std::vector<std::size_t>> combinations(const Set& set, const std::ve
   return out;
 }
 
+/// Whether a run is much farther off than any other: only noisier it may well be, by the noise of a second instrument.
+bool stands_out(const Model& model, std::size_t run) {
+  constexpr double much = 2;
+  const std::vector<Curves> misfits = model.standardised();
+  const auto off = [&](std::size_t r) {
+    double squares = 0, count = 0;
+    for (const Eigen::VectorXd& channel : misfits[r])
+      squares += channel.squaredNorm(), count += static_cast<double>(channel.size());
+    return squares / std::max(count, 1.0);
+  };
+  for (std::size_t r = 0; r < misfits.size(); ++r)
+    if (r != run && off(run) < much * much * off(r)) return false;
+  return true;
+}
+
 }  // namespace
 
 Search::Search(std::shared_ptr<const Set> set, const JsonValue& root, const CurveOptions& options)
@@ -82,9 +97,10 @@ void Search::judge(Candidate& c, const Candidate& declared, const Noise& noise) 
   fit.hold_out(c.model);
   std::vector<Run> runs;
   std::vector<Curves> misfits;
+  const std::vector<Curves> left = c.model.standardised();
   for (std::size_t r = 0; r < c.set->runs().size(); ++r)
     if (!c.fault || c.fault->chosen.empty() || c.fault->chosen[r][0])
-      runs.push_back(c.set->runs()[r]), misfits.push_back(c.model.misfits[r]);
+      runs.push_back(c.set->runs()[r]), misfits.push_back(left[r]);
   c.slow_shapes = slow_shapes(runs, misfits, noise, c.model.numbers);
   const double allowed = 1 + 4 * std::sqrt(2 / c.model.degrees_of_freedom()) + (noise.declared ? 0 : 0.3);
   c.is_noise = c.slow_shapes < left_of_slow && c.model.per_freedom() < allowed;
@@ -128,7 +144,7 @@ void Search::grow(std::vector<Candidate>& list, const Candidate& declared) {
       }
     sort_by_bic(list);
     if (list.empty() || list.front().bic() > before - strong) break;
-    noise_ = noise_of(set_->runs(), list.front().model.misfits, noise_);
+    noise_ = noise_of(set_->runs(), list.front().model.standardised(), noise_);
     Candidate best = list.front();
     judge(best, declared, noise_);
     if (best.is_noise) break;
@@ -214,6 +230,7 @@ void Search::add_faults(std::vector<Candidate>& list, const Candidate& declared)
     }
   // A run that is left out counts as if each of its samples had a number of its own, up to a fiftieth.
   Candidate& outlier = outliers[worst];
+  if (!stands_out(outlier.model, worst)) return;
   const double gone = declared.model.measured - outlier.model.measured;
   outlier.paid += gone + std::max(5.0, gone / 50) * std::log(declared.model.measured);
   if (outlier.bic() < declared.bic() - strong) list.push_back(std::move(outlier));
@@ -227,7 +244,7 @@ void Search::run(CurveExplanation& out) {
   out.noise = noise_;
   if (out.declared.is_noise && options_.tries.empty()) return;
   // Noise that is not as declared may be all there is: then effects are tried one at a time, against that noise.
-  const Noise own = noise_of(set_->runs(), out.declared.model.misfits, noise_);
+  const Noise own = noise_of(set_->runs(), out.declared.model.standardised(), noise_);
   if (!own.as_declared) {
     Candidate again = out.declared;
     again.model = Fit(*set_, own).run({}, &out.declared.model);
@@ -248,7 +265,7 @@ void Search::run(CurveExplanation& out) {
   // One noise for all: that which the best model leaves.
   const bool better = !list.empty() && list.front().bic() < out.declared.bic();
   const Candidate& best = better ? list.front() : out.declared;
-  if (!best.fault) noise_ = noise_of(set_->runs(), best.model.misfits, noise_);
+  if (!best.fault) noise_ = noise_of(set_->runs(), best.model.standardised(), noise_);
   out.noise = noise_;
   if (list.size() > looked_at) list.resize(looked_at);
   const auto again = [&](Candidate& c) {

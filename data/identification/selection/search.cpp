@@ -89,6 +89,13 @@ std::optional<double> sigma_to_fit_by(const MeasurementSet& set, const Noise& no
 
 }  // namespace
 
+void EffectSearch::for_each(std::size_t count, const std::function<void(std::size_t)>& model) const {
+  if (set_.vessel && ranks() == 1)
+    workers_.map(count, [&](std::size_t k) { return model(k), std::vector<double>{}; });
+  else
+    for (std::size_t k = 0; k < count; ++k) model(k);
+}
+
 void EffectSearch::add(const std::vector<std::vector<ActiveEffect>>& models, const FittedModel& near,
                        const Noise& noise) {
   std::vector<Tried> fresh;
@@ -113,12 +120,7 @@ void EffectSearch::add(const std::vector<std::vector<ActiveEffect>>& models, con
     }
     countdown->one_done();
   };
-  // At rest the shapes of one fit are found side by side; in a vessel its histories come one after the other, and fits
-  // run side by side.
-  if (set_.vessel && ranks() == 1)
-    workers_.map(fresh.size(), [&](std::size_t k) { return fit(k), std::vector<double>{}; });
-  else
-    for (std::size_t k = 0; k < fresh.size(); ++k) fit(k);
+  for_each(fresh.size(), fit);
   for (Tried& t : fresh) {
     if (!t.fitted) continue;
     t.study->judge(t.model, noise);
@@ -153,7 +155,7 @@ void EffectSearch::add_to(const Tried* base, const FittedModel& near, const Nois
   // histories and a look ahead a few, only the most promising.
   if ((base || set_.vessel) && joined.size() > ahead && !stopped()) {
     if (progress_) progress_(fmt::format("which of {} effects promise most", joined.size()));
-    for (auto& [cost, effects] : joined) cost = cost_ahead_of(effects, near, noise);
+    for_each(joined.size(), [&](std::size_t k) { joined[k].first = cost_ahead_of(joined[k].second, near, noise); });
     std::sort(joined.begin(), joined.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
     joined.resize(ahead);
   }
@@ -170,8 +172,15 @@ bool EffectSearch::fits(const FittedModel& model, const Noise& noise) const {
   return noise.sigma_m && is_noise(model, noise) && !at_an_edge(model);
 }
 
+/// Folds of histories cost as much as all the fits together: none for what cannot win any more.
+bool EffectSearch::is_worth_folds(const Tried& tried) const {
+  return !set_.vessel || std::all_of(tried_.begin(), tried_.end(), [&](const Tried& other) {
+    return tried.model.bic < other.model.bic + far_behind;
+  });
+}
+
 void EffectSearch::complete(Tried& tried, const Noise& noise) {
-  if (tried.complete || stopped()) return;
+  if (tried.complete || stopped() || !is_worth_folds(tried)) return;
   tried.complete = true;
   tried.study->weigh_by(noise);
   tried.study->complete(tried.model, sigma_to_fit_by(set_, noise));

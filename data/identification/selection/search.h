@@ -13,9 +13,10 @@ class EffectSearch {
                const std::function<void(const std::string&)>& progress, const std::function<bool()>& stop = {})
       : set_(set), workers_(workers), progress_(progress), stop_(stop) {}
 
-  /// Models with effects, best first, finalists scored on held-out data. Refines `noise` if it was estimated; replaces
-  /// it where what the best models leave goes with nothing that was varied and yet is no noise as declared. Once `stop`
-  /// says true nothing more is fitted. `most_effects`: in a model, where the noise is known.
+  /// Models with effects, best first, finalists scored on held-out data (in a vessel those not far behind). Refines
+  /// `noise` if it was estimated; replaces it where what the best models leave goes with nothing that was varied and
+  /// yet is no noise as declared. Once `stop` says true nothing more is fitted. `most_effects`: in a model, where the
+  /// noise is known.
   std::vector<FittedModel> run(const ModelFit& declared, FittedModel& of_declared, Noise& noise,
                                std::size_t most_effects = 3);
 
@@ -27,6 +28,9 @@ class EffectSearch {
     bool fitted = false, complete = false;
   };
   bool stopped() const { return stop_ && stop_(); }
+  /// At rest the shapes of one model are found side by side; in a vessel its histories come one after the other, and
+  /// models side by side.
+  void for_each(std::size_t count, const std::function<void(std::size_t)>& model) const;
   /// Fits and judges those models that were not tried before.
   void add(const std::vector<std::vector<ActiveEffect>>& models, const FittedModel& near, const Noise& noise);
   double cost_ahead_of(const std::vector<ActiveEffect>& effects, const FittedModel& near, const Noise& noise);
@@ -36,6 +40,8 @@ class EffectSearch {
   void sort_by_bic();
   /// Whether the model may be complete: only noise is left, and no parameter is at the edge of its range.
   bool fits(const FittedModel& model, const Noise& noise) const;
+  bool is_worth_folds(const Tried& tried) const;
+  /// Fits to the end and scores on held-out data; nothing for models in a vessel that are far behind the best.
   void complete(Tried& tried, const Noise& noise);
   void judge_again(const ModelFit& declared, FittedModel& of_declared, Noise& noise);
   void prune(const Noise& noise);

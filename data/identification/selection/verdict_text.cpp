@@ -22,7 +22,7 @@ std::string with_unit(double misfit, const MisfitUnit& unit) {
 
 std::string held_out(const FittedModel& m, const MisfitUnit& unit) {
   return m.rms_held_out_m ? with_unit(*m.rms_held_out_m, unit) + " on held-out experiments"
-                          : "held-out experiments could not be scored";
+                          : "not scored on held-out experiments";
 }
 
 /// " The noise is not as declared: ..." or nothing.

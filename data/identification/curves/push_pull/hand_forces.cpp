@@ -1,6 +1,6 @@
 #include <algorithm>
 #include <cmath>
-#include <optional>
+#include <limits>
 
 #include "data/identification/curves/push_pull/push_pull.h"
 
@@ -64,81 +64,46 @@ class Path {
   KnownWalls::Shape* walls_;
 };
 
-/// From one slip that is seen, or from where the hand turned round, to the next.
-struct Stretch {
-  double since_m = 0, whole_m = 0;  ///< what the hand has moved in it, and moves in all
-  bool slips_after = false;         ///< at its end
-};
-
-/// Of each sample.
-std::vector<Stretch> stretches(const Passage& run) {
-  const Eigen::Index n = run.inserted_m.size();
-  std::vector<Stretch> out(static_cast<std::size_t>(n));
-  Eigen::Index from = 0;
-  const auto close = [&](Eigen::Index end, bool slips) {
-    const double last = run.inserted_m[std::min(end, n - 1)];
-    for (Eigen::Index k = from; k < end; ++k) {
-      const double begun = run.inserted_m[from];
-      out[static_cast<std::size_t>(k)] = {std::fabs(run.inserted_m[k] - begun), std::fabs(last - begun), slips};
-    }
-    from = end;
-  };
-  for (Eigen::Index k = 1; k < n; ++k) {
-    const bool slips = run.slips[static_cast<std::size_t>(k)];
-    if (slips || run.direction[k] != run.direction[k - 1]) close(k, slips);
+/// What is known of a run beside its teeth.
+SlidingRun sliding(const Setup& setup, const Passage& run) {
+  const VectorXd& x = run.inserted_m;
+  const Path path(setup, run);
+  SlidingRun out{run.measured_N, VectorXd(x.size()), VectorXd(x.size()), run.direction, x, run.sigma_N};
+  double distance = run.run_before_m;
+  for (Eigen::Index k = 0; k < x.size(); ++k) {
+    distance += k > 0 ? std::fabs(x[k] - x[k - 1]) : 0;
+    const double friction = setup.friction * (1 + setup.worn_per_m * distance);
+    const double moving = path.at_hand(x[k], run.tip_N[k], friction * run.direction[k]);
+    out.friction_N[k] = std::fabs(moving - run.tip_N[k]);
+    out.moving_N[k] = moving + setup.zero_N;
+    if (run.time_s.size() > 0) out.moving_N[k] += setup.drift_N_per_s * run.time_s[k];
   }
-  close(n, false);
   return out;
 }
 
-/// Friction at rest, less that in motion, builds up while the wire stands, and falls to nothing when it slips. The hand
-/// moves on meanwhile. `standing`: how much has built up, N.
-class Sticking {
- public:
-  Sticking(const Setup& setup, const Passage& run) : setup_(setup), run_(run), stretches_(stretches(run)) {}
-
-  /// What the hand feels more at sample `k`, of friction that is `moving_N` in motion, after it moved by `by_m`.
-  double more(Eigen::Index k, double moving_N, double by_m) {
-    constexpr double most_hidden = 3;  // teeth in a stretch of which it is still known where they are
-    const double most = setup_.sticking * std::fabs(moving_N), rate = setup_.hand_N_per_m;
-    const Stretch& s = stretches_[static_cast<std::size_t>(k)];
-    if (most <= 0) return 0;
-    // When it slipped within a step follows from what had built up before.
-    const double built = rate * std::fabs(by_m);
-    if (run_.slips[static_cast<std::size_t>(k)]) left_ = std::clamp(standing_ + built - most, 0.0, built);
-    if (k > 0 && run_.direction[k] != run_.direction[k - 1]) left_ = 0;
-    // Slips in between are too small to be seen: as many as fit, or half of what they hold.
-    const double all = left_ + rate * s.whole_m, hidden = std::max(std::round(all / most), 1.0);
-    const double now = left_ + rate * s.since_m;
-    if (s.slips_after && hidden <= most_hidden)
-      standing_ = std::min(std::fmod(now, all / hidden), most);
-    else
-      standing_ = now <= most && all <= most_hidden * most ? now : most / 2;
-    return run_.direction[k] * standing_;
+/// In the middle of a run's samples, m/s; 0 if its times are unknown.
+double speed_of(const Passage& run) {
+  std::vector<double> speeds;
+  for (Eigen::Index k = 1; k < run.time_s.size(); ++k) {
+    const double by = std::fabs(run.inserted_m[k] - run.inserted_m[k - 1]), in = run.time_s[k] - run.time_s[k - 1];
+    if (by > 0 && in > 0) speeds.push_back(by / in);
   }
+  if (speeds.empty()) return 0;
+  const auto middle = speeds.begin() + static_cast<std::ptrdiff_t>(speeds.size() / 2);
+  std::nth_element(speeds.begin(), middle, speeds.end());
+  return *middle;
+}
 
- private:
-  const Setup& setup_;
-  const Passage& run_;
-  std::vector<Stretch> stretches_;
-  double standing_ = 0, left_ = 0;
-};
-
-VectorXd forces_of(const Setup& setup, const Passage& run) {
-  const VectorXd& x = run.inserted_m;
-  VectorXd out(x.size());
-  const Path path(setup, run);
-  std::optional<Sticking> sticking;
-  if (!run.slips.empty() && setup.sticking > 0) sticking.emplace(setup, run);
-  double distance = run.run_before_m;
-  for (Eigen::Index k = 0; k < x.size(); ++k) {
-    const double by = k > 0 ? x[k] - x[k - 1] : 0;
-    distance += std::fabs(by);
-    const double friction = setup.friction * (1 + setup.worn_per_m * distance);
-    const double moving = path.at_hand(x[k], run.tip_N[k], friction * run.direction[k]);
-    out[k] = moving + setup.zero_N;
-    if (run.time_s.size() > 0) out[k] += setup.drift_N_per_s * run.time_s[k];
-    if (sticking) out[k] += sticking->more(k, moving - run.tip_N[k], by);
+/// Up to which speed wires stick, from what likelihoods say: `less`, by how much teeth make a run less surprising. The
+/// slowest run always has teeth; speeds that differ little are one.
+double sticks_up_to(const std::vector<double>& speeds, const std::vector<double>& less) {
+  constexpr double alike = 1.2;
+  double best = -std::numeric_limits<double>::infinity(), out = 0;
+  for (const double slow : speeds) {
+    double sum = 0;
+    for (std::size_t r = 0; r < speeds.size(); ++r)
+      if (speeds[r] <= alike * slow) sum += less[r];
+    if (sum > best) best = sum, out = alike * slow;
   }
   return out;
 }
@@ -150,27 +115,31 @@ double hand_force(const Setup& setup, const Passage& run, double inserted_m, dou
   return Path(setup, run).at_hand(inserted_m, tip_N, friction * direction);
 }
 
-std::vector<bool> falls_of(const VectorXd& force, const VectorXd& direction, double sigma) {
-  constexpr double far_off = 3, rare = 0.025;
-  constexpr Eigen::Index few = 8;
-  const Eigen::Index n = force.size();
-  const double least = far_off * std::sqrt(2.0) * sigma;
-  const auto rise = [&](Eigen::Index k) {  // to sample k, if the hand went on as before
-    return k > 0 && k < n && direction[k] == direction[k - 1] ? direction[k] * (force[k] - force[k - 1]) : 0;
-  };
-  std::vector<bool> out(static_cast<std::size_t>(n), false);
-  Eigen::Index count = 0;
-  for (Eigen::Index k = 1; k < n; ++k) {
-    if (rise(k) > -least || rise(k - 1) > least || rise(k + 1) > least) continue;
-    out[static_cast<std::size_t>(k)] = true, ++count;
-  }
-  if (count < few || static_cast<double>(count) < rare * static_cast<double>(n)) out.clear();
-  return out;
+Sticking likely_sticking(const Setup& setup) {
+  const auto slowest = std::min_element(setup.runs.begin(), setup.runs.end(),
+                                        [](const Passage& a, const Passage& b) { return speed_of(a) < speed_of(b); });
+  return likely_sticking(sliding(setup, *slowest));
 }
 
-std::vector<curves::Curves> hand_forces(const Setup& setup) {
-  std::vector<curves::Curves> out;
-  for (const Passage& run : setup.runs) out.push_back({forces_of(setup, run)});
+curves::Foretold hand_forces(const Setup& setup) {
+  std::vector<SlidingRun> runs;
+  for (const Passage& run : setup.runs) runs.push_back(sliding(setup, run));
+  std::vector<curves::Curves> forces;
+  for (const SlidingRun& run : runs) forces.push_back({run.moving_N});
+  curves::Foretold out(std::move(forces));
+  if (!(setup.sticking > 0)) return out;
+  std::vector<SawTeeth> teeth;
+  std::vector<double> speeds, less;
+  for (std::size_t r = 0; r < runs.size(); ++r) {
+    teeth.push_back(saw_teeth(runs[r], {setup.sticking, setup.hand_N_per_m}));
+    const VectorXd none = VectorXd::Zero(runs[r].moving_N.size());
+    less.push_back(surprise(runs[r], {none, none}) - surprise(runs[r], teeth[r]));
+    speeds.push_back(speed_of(setup.runs[r]));
+    out.open.push_back({none});
+  }
+  const double slow = sticks_up_to(speeds, less);
+  for (std::size_t r = 0; r < runs.size(); ++r)
+    if (speeds[r] <= slow) out.curves[r][0] += teeth[r].mean_N, out.open[r][0] = teeth[r].spread_N;
   return out;
 }
 

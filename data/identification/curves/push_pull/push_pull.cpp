@@ -151,27 +151,6 @@ curves::Run read_run(const JsonValue& value, const JsonObject& noise, Setup& set
   return run;
 }
 
-/// Noise of a force that declares none, N: what three neighbours do not share.
-double quick_noise(const VectorXd& force) {
-  std::vector<double> bends;
-  for (Eigen::Index k = 2; k < force.size(); ++k)
-    bends.push_back(std::fabs(force[k] - 2 * force[k - 1] + force[k - 2]));
-  const auto middle = bends.begin() + static_cast<std::ptrdiff_t>(bends.size() / 2);
-  std::nth_element(bends.begin(), middle, bends.end());
-  return 1.4826 / std::sqrt(6.0) * *middle;
-}
-
-/// When each run has slipped, from what the force does against the law as declared.
-void find_slips(const std::vector<curves::Run>& runs, const JsonObject& noise, Setup& setup) {
-  const std::vector<curves::Curves> expected = hand_forces(setup);
-  for (std::size_t r = 0; r < runs.size(); ++r) {
-    const VectorXd off = runs[r].channels[0].measured - expected[r][0];
-    const bool declared = noise["hand_force_N"].type == JsonValue::Type::number;
-    setup.runs[r].slips =
-        falls_of(off, setup.runs[r].direction, declared ? noise.positive("hand_force_N") : quick_noise(off));
-  }
-}
-
 /// Sections that reach a bend in some run.
 std::vector<bool> bent(const Setup& setup) {
   std::vector<bool> out(setup.sections.size(), false);
@@ -207,7 +186,12 @@ std::unique_ptr<curves::Set> read(const JsonValue& file) {
   std::vector<curves::Run> runs;
   for (const JsonValue& value : root.list("runs")) runs.push_back(read_run(value, noise, setup, runs));
   if (runs.empty()) root.refuse("runs");
-  find_slips(runs, noise, setup);
+  std::vector<curves::Run> with_noise = runs;
+  curves::declared_noise(with_noise);
+  for (std::size_t r = 0; r < runs.size(); ++r) {
+    const curves::Channel& hand = with_noise[r].channels[0];
+    setup.runs[r].measured_N = hand.measured, setup.runs[r].sigma_N = hand.sigma;
+  }
   const std::vector<EffectParameter> free = free_numbers(setup);
   auto set = std::make_unique<curves::SetOf<Setup>>(
       setup, runs, free, set_free, hand_forces,

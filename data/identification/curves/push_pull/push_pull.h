@@ -11,6 +11,7 @@
 #include <memory>
 
 #include "data/identification/curves/push_pull/known_walls.h"
+#include "data/identification/curves/push_pull/saw_teeth.h"
 #include "data/identification/curves/set/instrument_keys.h"
 #include "data/identification/curves/set/set_reader.h"
 
@@ -23,7 +24,7 @@ struct Passage {
   Eigen::VectorXd inserted_m, tip_N, direction;  ///< direction: 1 in, -1 out
   Eigen::VectorXd time_s;                        ///< since the first run began; empty: unknown
   double run_before_m = 0;                       ///< distance run in and out by the wire before this run
-  std::vector<bool> slips;                       ///< samples at which the wire has slipped; empty: it does not stick
+  Eigen::VectorXd measured_N, sigma_N;           ///< at the hand, and its noise; for what only teeth before tell
   /// Samples are so close together that wall forces are computed for insertions further apart, and interpolated.
   bool between_samples = false;
 };
@@ -38,7 +39,7 @@ struct Setup {
   double bore_more_m = 0;             ///< radius of the bore against what is declared
   double worn_per_m = 0;              ///< growth of friction with the distance run
   double zero_N = 0, drift_N_per_s = 0;
-  double sticking = 0;      ///< friction at rest against that in motion, less 1
+  double sticking = 0;      ///< friction at rest against that in motion, less 1; 0: it does not stick
   double hand_N_per_m = 1;  ///< stiffness of hand and wire before it slips
   /// What is remembered of wall forces, by all copies of a setup together; so one of them at a time may be asked.
   std::shared_ptr<KnownWalls> walls = std::make_shared<KnownWalls>();
@@ -46,12 +47,10 @@ struct Setup {
 
 curves::Kind kind();
 
-/// Forces at the hand of each run, N.
-std::vector<curves::Curves> hand_forces(const Setup& setup);
-
-/// Where a force, less what is expected of it, falls at once, against the motion's direction, by more than noise of
-/// `sigma_N` does, and neither just before nor just after rises as much, as blunders do. Empty if that is rare.
-std::vector<bool> falls_of(const Eigen::VectorXd& force_N, const Eigen::VectorXd& direction, double sigma_N);
+/// Forces at the hand of each run, N; of a wire that sticks, from what was measured before each sample (saw_teeth.h).
+curves::Foretold hand_forces(const Setup& setup);
+/// Of the slowest run.
+Sticking likely_sticking(const Setup& setup);
 
 /// Of one sample, N, with what friction alone adds to the tip's force.
 double hand_force(const Setup& setup, const Passage& run, double inserted_m, double tip_N, double direction,

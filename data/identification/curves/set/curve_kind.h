@@ -37,6 +37,15 @@ struct Switched {
   std::vector<double> values;
 };
 
+/// What a law says of every run.
+struct Foretold {
+  Foretold(std::vector<Curves> of_runs) : curves(std::move(of_runs)) {}  // most laws leave nothing open
+  std::vector<Curves> curves;
+  /// Standard deviations, in the unit of each channel, of what the law leaves open beside the noise, such as when a
+  /// wire slips; one for each number of `curves`, or empty: nothing is left open.
+  std::vector<Curves> open;
+};
+
 /// A measured set of one kind.
 class Set {
  public:
@@ -47,7 +56,11 @@ class Set {
   const std::vector<Switched>& declared() const { return declared_; }
   const Noise& noise() const { return noise_; }  ///< as declared
   /// The curves of every run, with the numbers in `free` and the effects that are declared or switched on.
-  virtual std::vector<Curves> predict(std::span<const double> free, std::span<const Switched> on) const = 0;
+  std::vector<Curves> predict(std::span<const double> free, std::span<const Switched> on) const {
+    return foretell(free, on).curves;
+  }
+  /// The same, and what the law leaves open.
+  virtual Foretold foretell(std::span<const double> free, std::span<const Switched> on) const = 0;
 
   std::string file, kind, title, source;
   /// What is held out to score a model: whole runs, or channels where each run has numbers of its own to fit.
@@ -76,12 +89,12 @@ struct EffectOn {
 template <class Setup>
 class SetOf : public Set {
  public:
-  using Law = std::vector<Curves> (*)(const Setup& setup);
+  using Law = std::function<Foretold(const Setup& setup)>;
   using Free = void (*)(std::span<const double> free, Setup& setup);
 
   SetOf(Setup setup, std::vector<Run> runs, std::vector<EffectParameter> free, Free set_free, Law law,
         const std::vector<EffectOn<Setup>>& effects)
-      : setup_(std::move(setup)), set_free_(set_free), law_(law) {
+      : setup_(std::move(setup)), set_free_(set_free), law_(std::move(law)) {
     runs_ = std::move(runs), free_ = std::move(free);
     noise_ = declared_noise(runs_);
     for (const EffectOn<Setup>& e : effects) {
@@ -93,7 +106,7 @@ class SetOf : public Set {
   }
   const Setup& setup() const { return setup_; }
 
-  std::vector<Curves> predict(std::span<const double> free, std::span<const Switched> on) const override {
+  Foretold foretell(std::span<const double> free, std::span<const Switched> on) const override {
     Setup setup = setup_;
     set_free_(free, setup);
     for (const Switched& s : declared_) effects_[s.effect].apply(s.values, setup);

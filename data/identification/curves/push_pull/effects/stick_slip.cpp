@@ -1,7 +1,9 @@
 /// Friction at rest is larger than in motion: a wire that is pushed slowly stands while the hand goes on and force
 /// builds up by the stiffness of hand and wire, then slips to where friction in motion holds it; forces have saw-teeth.
-/// Friction at rest is not the same at each place, so that no law foresees the tenth slip: when it slips is read from
-/// the measured force, in runs that have such falls (`falls_of`); what builds up between them, and to what, is fitted.
+/// No law foresees the tenth slip, so that teeth are scored by a likelihood averaged over their phase (saw_teeth.h).
+/// Up to which speed the wire sticks follows from the likelihoods of the runs.
+#include <algorithm>
+
 #include "data/identification/curves/push_pull/push_pull.h"
 
 namespace ostium::data::push_pull {
@@ -16,10 +18,10 @@ Effect stick_slip() {
   effect.apply = [](const std::vector<double>& v, Setup& setup) {
     setup.sticking = v[0], setup.hand_N_per_m = v[1] * 1e3;
   };
-  effect.why_not = [](const Setup& declared) -> std::string {
-    for (const Passage& run : declared.runs)
-      if (!run.slips.empty()) return "";
-    return "no run has falls of force as a slip makes them";
+  effect.adapt = [](const Setup& declared, std::vector<EffectParameter>& parameters) {
+    const Sticking likely = likely_sticking(declared);
+    parameters[0].prior = std::clamp(likely.static_more, parameters[0].least, parameters[0].most);
+    parameters[1].prior = std::clamp(likely.stiffness_N_per_m * 1e-3, parameters[1].least, parameters[1].most);
   };
   return effect;
 }
