@@ -100,6 +100,52 @@ def test_it_is_cut_off_after_its_steps():
     assert ends == [(False, False), (False, False), (False, True)]
 
 
+def test_pictures_are_the_same_for_the_same_seed():
+    env = NavigationEnv("CrossLesion", image=84, render_mode="rgb_array")
+    first = env.reset(seed=1)[0]["image"], env.step(FORWARDS)[0]["image"]
+    env.reset(seed=2)
+    again = [env.reset(seed=1)[0]["image"]]
+    env.render()
+    again.append(env.step(FORWARDS)[0]["image"])
+    assert (first[0] == again[0]).all() and (first[1] == again[1]).all()
+
+
+def test_one_of_many_is_as_alone():
+    task = dataclasses.replace(TASKS["CrossLesion"], persons=(0, 0, 0))
+    envs = ostium.gym.NavigationVectorEnv(task, num_envs=2)
+    envs.reset(seed=[3, 9])
+    for _ in range(3):
+        envs.step(np.tile(FORWARDS, (2, 1)))
+    for i, seed in enumerate((3, 9)):
+        env = NavigationEnv(task)
+        run(env, seed, steps=3)
+        assert env.course.target == envs.courses[i].target
+        assert env.data.hash() == envs.batch.hash(i)
+
+
+def test_wrong_actions_and_tasks_raise():
+    env = NavigationEnv("CrossLesion")
+    env.reset(seed=1)
+    for wrong in (np.zeros(3), np.zeros((1, 2)), np.zeros(4)):
+        with pytest.raises(ValueError, match="shape"):
+            env.step(wrong)
+    envs = ostium.gym.NavigationVectorEnv("CrossLesion", num_envs=3)
+    envs.reset(seed=1)
+    for wrong in (np.zeros(6), np.zeros((2, 3))):
+        with pytest.raises(ValueError, match="shape"):
+            envs.step(wrong)
+    with pytest.raises(ValueError, match="num_envs"):
+        ostium.gym.NavigationVectorEnv("CrossLesion", num_envs=0)
+    with pytest.raises(ValueError, match="spider"):
+        NavigationEnv("CrossLesion", view="nope")
+    for fault in ({"targets": ()}, {"persons": ()}, {"max_feed_m_s": 0}, {"moves": ("stent",)}):
+        with pytest.raises(ValueError, match=next(iter(fault)) if fault != {"moves": ("stent",)} else "stent"):
+            dataclasses.replace(TASKS["CrossLesion"], **fault)
+    assert hash(dataclasses.replace(TASKS["CrossLesion"], targets=["RCA+30"]))
+    with pytest.raises(RuntimeError, match="reset"):
+        NavigationEnv("CrossLesion", render_mode="rgb_array").render()
+
+
 def test_nan_counts_as_zero_and_is_reported():
     a, b = NavigationEnv("CrossLesion"), NavigationEnv("CrossLesion")
     a.reset(seed=1), b.reset(seed=1)

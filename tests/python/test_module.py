@@ -6,6 +6,8 @@ import gc
 import multiprocessing
 import pickle
 import resource
+import subprocess
+import sys
 import threading
 from pathlib import Path
 
@@ -358,3 +360,71 @@ def test_a_mesh_of_ones_own(tmp_path):
     assert raised.value.file == str(tmp_path / "bad.stl")
     with pytest.raises(ostium.OstiumError, match="furlong"):
         ostium.Vessel.from_mesh(tmp_path / "tube.stl", "furlong", entry=(3, 0, 0), towards=(60, 0, 0))
+
+
+@pytest.mark.parametrize("protocol", range(pickle.HIGHEST_PROTOCOL + 1))
+def test_every_protocol_of_pickle(data, protocol):
+    assert pickle.loads(pickle.dumps(drive(data, 1), protocol)).hash() == data.hash()
+    for whole in (ostium.Batch(data.model, 1), ostium.Imager(data.model)):
+        with pytest.raises(TypeError, match="cannot be pickled"):
+            pickle.dumps(whole, protocol)
+
+
+def test_a_pickled_data_is_of_its_model(data):
+    other = pickle.loads(pickle.dumps(data))
+    ostium.step(data.model, other)
+    ostium.Imager(data.model, pixels=64).frame(other)
+
+
+@pytest.mark.parametrize("kind", [ostium.Vessel, ostium.Model, ostium.Data, ostium.Batch, ostium.Imager])
+def test_half_made_objects_raise(kind):
+    half = kind.__new__(kind)
+    for name in (name for name in dir(kind) if not name.startswith("_")):
+        with pytest.raises(TypeError):
+            value = getattr(half, name)
+            value()
+            raise AssertionError(f"{kind.__name__}.{name} answered")
+
+
+def test_the_end_with_a_thread_in_a_step():
+    program = """
+import threading, time, ostium
+data = ostium.Data(ostium.Model(ostium.Vessel("rca-mid-focal"), tools=[("w", "wire-014-workhorse")], begin="RCA"))
+threading.Thread(target=data.step, args=(10**6,), daemon=True).start()
+time.sleep(0.5)
+"""
+    assert subprocess.run([sys.executable, "-c", program], capture_output=True).returncode == 0
+
+
+@pytest.mark.parametrize("call", ["data.step(10**6)", "ostium.Batch(model, 2).step(10**6)"])
+def test_ctrl_c_ends_a_step(call):
+    program = f"""
+import os, signal, threading, time, ostium
+model = ostium.Model(ostium.Vessel("rca-mid-focal"), tools=[("w", "wire-014-workhorse")], begin="RCA")
+data = ostium.Data(model)
+threading.Timer(0.5, os.kill, (os.getpid(), signal.SIGINT)).start()
+began = time.time()
+try:
+    {call}
+except KeyboardInterrupt:
+    raise SystemExit(0 if time.time() - began < 10 else 2)
+"""
+    assert subprocess.run([sys.executable, "-c", program], capture_output=True).returncode == 0
+
+
+def test_odd_arguments(model, vessel, tmp_path):
+    batch = ostium.Batch(model, 2)
+    for wrong in (-1, 2**64, [[1.0]]):
+        with pytest.raises(ValueError, match="seed"):
+            batch.reset(0, wrong)
+    batch.step(1, mask=[1, 0])
+    batch.step(1, mask=np.array([1, 0]))
+    with pytest.raises(ostium.OstiumError):
+        ostium.Vessel("")
+    tube(tmp_path / "tube.stl")
+    with pytest.raises(ValueError, match="another unit"):
+        ostium.Vessel.from_mesh(tmp_path / "tube.stl", "m", entry=(3, 0, 0), towards=(60, 0, 0))
+    assert "rca-mid-focal" in ostium.cases() and "rosen" in ostium.instruments()
+    assert "aorta-arch-wire" in ostium.scripts() and "spider" in ostium.views()
+    with pytest.raises(ValueError, match="reach"):
+        ostium.Imager(model, cran=89)

@@ -4,9 +4,10 @@
 #include <pybind11/stl.h>
 
 #include <algorithm>
+#include <atomic>
+#include <functional>
 #include <stdexcept>
 #include <thread>
-#include <variant>
 
 #include "app/python/binding/arrays.h"
 #include "app/python/binding/bindings.h"
@@ -45,7 +46,7 @@ void BatchHandle::gather(std::size_t i) {
   }
 }
 
-void BatchHandle::step(int count, const bool* mask) {
+void BatchHandle::step(int count, const bool* mask, const std::function<bool()>& stop) {
   const app::FreeRunModel& m = *model->model;
   const std::size_t width = m.input_names.size();
   std::vector<std::size_t> chosen;
@@ -59,7 +60,7 @@ void BatchHandle::step(int count, const bool* mask) {
     const std::size_t i = chosen[k];
     app::FreeRun& e = *runs[i];
     std::copy_n(&inputs[i * width], width, e.row.begin());
-    e.step(count);
+    e.step(count, stop);
     gather(i);
   });
 }
@@ -80,9 +81,29 @@ namespace {
 
 using Self = std::shared_ptr<BatchHandle>;
 
+/// Ctrl-C, which the main thread alone is told of, for all threads.
+class Stop {
+ public:
+  bool operator()() {
+    if (!stopped_ && interrupted()) stopped_ = true;
+    return stopped_;
+  }
+
+ private:
+  std::atomic<bool> stopped_{false};
+};
+
 int threads_or_all(std::optional<int> threads) {
   if (threads && *threads < 1) throw py::value_error(fmt::format("threads is {}; expected 1 or more", *threads));
   return threads ? *threads : static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+}
+
+std::uint64_t seed_of(const py::object& number) {
+  const unsigned long long seed = PyLong_AsUnsignedLongLong(number.ptr());
+  if (!PyErr_Occurred()) return seed;
+  PyErr_Clear();
+  throw py::value_error("the seed is " + py::str(number).cast<std::string>() +
+                        "; expected a whole number from 0 to 2^64 - 1");
 }
 
 std::size_t index(const BatchHandle& self, py::ssize_t i) {
@@ -91,29 +112,35 @@ std::size_t index(const BatchHandle& self, py::ssize_t i) {
   return static_cast<std::size_t>(i < 0 ? i + num : i);
 }
 
-void step(BatchHandle& self, long long n, const std::optional<py::array_t<bool, py::array::c_style>>& mask) {
+void step(BatchHandle& self, long long n,
+          const std::optional<py::array_t<bool, py::array::c_style | py::array::forcecast>>& mask) {
   const int count = require_steps(n);
   if (mask) require_shape(*mask, {static_cast<py::ssize_t>(self.runs.size())}, "mask", "one for each session");
   const bool* of = mask ? mask->data() : nullptr;
   const InUse used(self.used, "Batch");
-  const py::gil_scoped_release others_run;
-  self.step(count, of);
+  {
+    const OthersRun others_run;
+    Stop stop;
+    self.step(count, of, std::ref(stop));
+  }
+  raise_if_interrupted();
 }
 
-void reset(BatchHandle& self, std::optional<py::ssize_t> which,
-           const std::variant<std::monostate, std::uint64_t, Doubles>& to) {
+void reset(BatchHandle& self, std::optional<py::ssize_t> which, const py::object& to) {
   const InUse used(self.used, "Batch");
   std::size_t first = 0, last = self.runs.size();
   if (which) first = index(self, *which), last = first + 1;
-  if (const auto* state = std::get_if<Doubles>(&to)) {
-    const double* numbers = self.model->state_of(state->data(), static_cast<std::size_t>(state->size()));
+  if (!to.is_none() && !py::isinstance<py::int_>(to)) {
+    const auto state = Doubles::ensure(to);
+    if (!state || state.ndim() != 1)
+      throw py::value_error("to is no seed and no state; expected a whole number from 0 on, or what get_state gave");
+    const double* numbers = self.model->state_of(state.data(), static_cast<std::size_t>(state.size()));
     for (std::size_t i = first; i < last; ++i) self.set_state(i, numbers);
     return;
   }
-  const auto* seed = std::get_if<std::uint64_t>(&to);
-  const std::uint64_t of = seed ? *seed : self.model->model->seed;
-  const py::gil_scoped_release others_run;
-  core::for_each_on(self.threads, last - first, [&](std::size_t k) { self.reset(first + k, of); });
+  const std::uint64_t seed = to.is_none() ? self.model->model->seed : seed_of(to);
+  const OthersRun others_run;
+  core::for_each_on(self.threads, last - first, [&](std::size_t k) { self.reset(first + k, seed); });
 }
 
 template <class T>
@@ -143,136 +170,144 @@ py::tuple rollout(const ModelHandle& model, const Doubles& states, const Doubles
   float* out = signals.mutable_data();
   double* last = ends.mutable_data();
   {
-    const py::gil_scoped_release others_run;
+    const OthersRun others_run;
     const app::FreeRun first(model.model);
+    Stop stop;
     core::for_each_on(most, n, [&](std::size_t i) {
       app::FreeRun e(first);
       e.set_state(from + i * model.state_size() + ModelHandle::head);
       for (std::size_t k = 0; k < steps; ++k) {
         std::copy_n(rows + (i * steps + k) * e.row.size(), e.row.size(), e.row.begin());
-        e.step(each);
+        if (stop()) return;
+        e.step(each, std::ref(stop));
         std::copy(e.signals.begin(), e.signals.end(), out + (i * steps + k) * e.signals.size());
       }
       model.put_state(e.state, last + i * model.state_size());
     });
   }
+  raise_if_interrupted();
   return py::make_tuple(signals, ends);
 }
 
 }  // namespace
 
 void bind_batch(py::module_& module) {
-  py::class_<BatchHandle, Self>(module, "Batch", R"(Many sessions of one model, stepped side by side.
+  auto of =
+      py::class_<BatchHandle, Self>(module, "Batch", R"(Many sessions of one model, stepped side by side.
 
 Batch(model, num, threads=None): on all cores, or so many threads. What comes of a session does not depend on the others
 or on the threads. Arrays are views, as those of Data.)")
-      .def(py::init([](std::shared_ptr<ModelHandle> model, long long num, std::optional<int> threads) {
-             if (num < 1 || num > 100'000) throw py::value_error(fmt::format("num is {}; expected 1 to 100000", num));
-             const int most = threads_or_all(threads);
-             const py::gil_scoped_release others_run;
-             return std::make_shared<BatchHandle>(std::move(model), static_cast<std::size_t>(num), most);
-           }),
-           py::arg("model").none(false), py::arg("num"), py::arg("threads") = py::none())
-      .def_property_readonly("model",
-                             [](const BatchHandle& self) { return std::const_pointer_cast<ModelHandle>(self.model); })
-      .def_property_readonly("num", [](const BatchHandle& self) { return self.runs.size(); })
-      .def("__len__", [](const BatchHandle& self) { return self.runs.size(); })
-      .def_property(
-          "inputs",
-          [](const py::object& self) {
-            auto& b = self.cast<BatchHandle&>();
-            const auto num = static_cast<py::ssize_t>(b.runs.size());
-            return block(b.inputs, {num, static_cast<py::ssize_t>(b.inputs.size()) / num}, self);
-          },
-          [](BatchHandle& self, const Doubles& to) {
-            const auto num = static_cast<py::ssize_t>(self.runs.size());
-            require_shape(to, {num, static_cast<py::ssize_t>(self.inputs.size()) / num}, "inputs", "(num, inputs)");
-            std::copy(to.data(), to.data() + to.size(), self.inputs.begin());
-          },
-          "(num, inputs) of the next steps, to be written to.")
-      .def_property_readonly(
-          "signals",
-          [](const py::object& self) {
-            auto& b = self.cast<BatchHandle&>();
-            const auto num = static_cast<py::ssize_t>(b.runs.size());
-            return read_only(block(b.signals, {num, static_cast<py::ssize_t>(b.signals.size()) / num}, self));
-          },
-          "(num, signals) float32, after the last step.")
-      .def_property_readonly(
-          "tips",
-          [](const py::object& self) {
-            auto& b = self.cast<BatchHandle&>();
-            const auto num = static_cast<py::ssize_t>(b.runs.size());
-            return read_only(block(b.tips, {num, static_cast<py::ssize_t>(b.forces.size()) / num, 3}, self));
-          },
-          "(num, tools, 3) m.")
-      .def_property_readonly(
-          "forces",
-          [](const py::object& self) {
-            auto& b = self.cast<BatchHandle&>();
-            const auto num = static_cast<py::ssize_t>(b.runs.size());
-            return read_only(
-                view_of(&b.forces.data()->push_N, {num, static_cast<py::ssize_t>(b.forces.size()) / num, 4}, self));
-          },
-          "(num, tools, 4) as Data.forces.")
-      .def_property_readonly(
-          "peaks",
-          [](const py::object& self) {
-            auto& b = self.cast<BatchHandle&>();
-            const auto num = static_cast<py::ssize_t>(b.runs.size());
-            return read_only(
-                view_of(&b.peaks.data()->push_N, {num, static_cast<py::ssize_t>(b.peaks.size()) / num, 4}, self));
-          },
-          "(num, tools, 4) as Data.peaks.")
-      .def_property_readonly(
-          "phases",
-          [](const BatchHandle& self) {
-            py::array_t<double> phases(static_cast<py::ssize_t>(self.runs.size()));
-            for (std::size_t i = 0; i < self.runs.size(); ++i)
-              phases.mutable_data()[i] = self.runs[i]->state.blood.heart.phase;
-            return phases;
-          },
-          "(num) of the heartbeats, [0, 1).")
-      .def_property_readonly(
-          "trouble",
-          [](const py::object& self) {
-            auto& b = self.cast<BatchHandle&>();
-            return read_only(block(b.trouble, {static_cast<py::ssize_t>(b.trouble.size())}, self));
-          },
-          "(num) uint32: bits of what gave way in the last call; 0: nothing.")
-      .def("step", step, py::arg("n") = 1, py::arg("mask") = py::none(),
-           "n steps of all, or of those where mask (num) is true. Raises ValueError, and steps none, for an input out "
-           "of "
-           "its range.")
-      .def("reset", reset, py::arg("i") = py::none(), py::arg("to") = py::none(),
-           "Session i, or all, to the beginning of a seed (the model's), or to a state.")
-      .def(
-          "get_state",
-          [](const BatchHandle& self, py::ssize_t i) {
-            const InUse used(self.used, "Batch");
-            py::array_t<double> numbers(static_cast<py::ssize_t>(self.model->state_size()));
-            self.model->put_state(self.runs[index(self, i)]->state, numbers.mutable_data());
-            return numbers;
-          },
-          py::arg("i"))
-      .def(
-          "hash", [](const BatchHandle& self, py::ssize_t i) { return app::hash(self.runs[index(self, i)]->state); },
-          py::arg("i"))
-      .def(
-          "nodes",
-          [](const py::object& self, py::ssize_t i, const std::string& tool) {
-            auto& b = self.cast<BatchHandle&>();
-            return nodes_of(*b.model, b.runs[index(b, i)]->state, tool, self);
-          },
-          py::arg("i"), py::arg("tool"), "As Data.nodes, of session i.")
-      .def(
-          "data",
-          [](const BatchHandle& self, py::ssize_t i) {
-            const InUse used(self.used, "Batch");
-            const app::FreeRun& from = *self.runs[index(self, i)];
-            return std::make_shared<DataHandle>(self.model, from);
-          },
-          py::arg("i"), "A copy of session i.");
+          .def(py::init([](std::shared_ptr<ModelHandle> model, long long num, std::optional<int> threads) {
+                 if (num < 1 || num > 100'000)
+                   throw py::value_error(fmt::format("num is {}; expected 1 to 100000", num));
+                 const int most = threads_or_all(threads);
+                 const OthersRun others_run;
+                 return std::make_shared<BatchHandle>(std::move(model), static_cast<std::size_t>(num), most);
+               }),
+               py::arg("model").none(false), py::arg("num"), py::arg("threads") = py::none())
+          .def_property_readonly(
+              "model", [](const BatchHandle& self) { return std::const_pointer_cast<ModelHandle>(self.model); })
+          .def_property_readonly("num", [](const BatchHandle& self) { return self.runs.size(); })
+          .def("__len__", [](const BatchHandle& self) { return self.runs.size(); })
+          .def_property(
+              "inputs",
+              [](const py::object& self) {
+                auto& b = self.cast<BatchHandle&>();
+                const auto num = static_cast<py::ssize_t>(b.runs.size());
+                return block(b.inputs, {num, static_cast<py::ssize_t>(b.inputs.size()) / num}, self);
+              },
+              [](BatchHandle& self, const Doubles& to) {
+                const auto num = static_cast<py::ssize_t>(self.runs.size());
+                require_shape(to, {num, static_cast<py::ssize_t>(self.inputs.size()) / num}, "inputs", "(num, inputs)");
+                std::copy(to.data(), to.data() + to.size(), self.inputs.begin());
+              },
+              "(num, inputs) of the next steps, to be written to.")
+          .def_property_readonly(
+              "signals",
+              [](const py::object& self) {
+                auto& b = self.cast<BatchHandle&>();
+                const auto num = static_cast<py::ssize_t>(b.runs.size());
+                return read_only(block(b.signals, {num, static_cast<py::ssize_t>(b.signals.size()) / num}, self));
+              },
+              "(num, signals) float32, after the last step.")
+          .def_property_readonly(
+              "tips",
+              [](const py::object& self) {
+                auto& b = self.cast<BatchHandle&>();
+                const auto num = static_cast<py::ssize_t>(b.runs.size());
+                return read_only(block(b.tips, {num, static_cast<py::ssize_t>(b.forces.size()) / num, 3}, self));
+              },
+              "(num, tools, 3) m.")
+          .def_property_readonly(
+              "forces",
+              [](const py::object& self) {
+                auto& b = self.cast<BatchHandle&>();
+                const auto num = static_cast<py::ssize_t>(b.runs.size());
+                return read_only(
+                    view_of(&b.forces.data()->push_N, {num, static_cast<py::ssize_t>(b.forces.size()) / num, 4}, self));
+              },
+              "(num, tools, 4) as Data.forces.")
+          .def_property_readonly(
+              "peaks",
+              [](const py::object& self) {
+                auto& b = self.cast<BatchHandle&>();
+                const auto num = static_cast<py::ssize_t>(b.runs.size());
+                return read_only(
+                    view_of(&b.peaks.data()->push_N, {num, static_cast<py::ssize_t>(b.peaks.size()) / num, 4}, self));
+              },
+              "(num, tools, 4) as Data.peaks.")
+          .def_property_readonly(
+              "phases",
+              [](const BatchHandle& self) {
+                py::array_t<double> phases(static_cast<py::ssize_t>(self.runs.size()));
+                for (std::size_t i = 0; i < self.runs.size(); ++i)
+                  phases.mutable_data()[i] = self.runs[i]->state.blood.heart.phase;
+                return phases;
+              },
+              "(num) of the heartbeats, [0, 1), a copy.")
+          .def_property_readonly(
+              "trouble",
+              [](const py::object& self) {
+                auto& b = self.cast<BatchHandle&>();
+                return read_only(block(b.trouble, {static_cast<py::ssize_t>(b.trouble.size())}, self));
+              },
+              "(num) uint32: bits of what gave way in the last call (core/model/report.h); 0: nothing.")
+          .def("step", step, py::arg("n") = 1, py::arg("mask") = py::none(),
+               "n steps of all, or of those where mask (num) is true. Raises ValueError, and steps none, for an input "
+               "out "
+               "of "
+               "its range.")
+          .def("reset", reset, py::arg("i") = py::none(), py::arg("to") = py::none(),
+               "Session i, or all, to the beginning of a seed (the model's), or to a state.")
+          .def(
+              "get_state",
+              [](const BatchHandle& self, py::ssize_t i) {
+                const InUse used(self.used, "Batch");
+                py::array_t<double> numbers(static_cast<py::ssize_t>(self.model->state_size()));
+                self.model->put_state(self.runs[index(self, i)]->state, numbers.mutable_data());
+                return numbers;
+              },
+              py::arg("i"))
+          .def(
+              "hash",
+              [](const BatchHandle& self, py::ssize_t i) { return app::hash(self.runs[index(self, i)]->state); },
+              py::arg("i"))
+          .def(
+              "nodes",
+              [](const py::object& self, py::ssize_t i, const std::string& tool) {
+                auto& b = self.cast<BatchHandle&>();
+                return nodes_of(*b.model, b.runs[index(b, i)]->state, tool, self);
+              },
+              py::arg("i"), py::arg("tool"), "As Data.nodes, of session i.")
+          .def(
+              "data",
+              [](const BatchHandle& self, py::ssize_t i) {
+                const InUse used(self.used, "Batch");
+                const app::FreeRun& from = *self.runs[index(self, i)];
+                return std::make_shared<DataHandle>(self.model, from);
+              },
+              py::arg("i"), "A copy of session i.");
+  refuse_to_pickle(of);
   module.def("rollout", rollout, py::arg("model").none(false), py::arg("states"), py::arg("inputs"),
              py::arg("hold") = 1, py::arg("threads") = py::none(),
              R"(Sequences of inputs from states, side by side.

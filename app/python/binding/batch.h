@@ -1,12 +1,13 @@
 #pragma once
 /// Many sessions of one model, stepped side by side.
+#include <functional>
 #include <vector>
 
 #include "app/python/binding/data.h"
 
 namespace ostium::python {
 
-class BatchHandle {
+class BatchHandle : public MadeByInit {
  public:
   BatchHandle(std::shared_ptr<const ModelHandle> of, std::size_t num, int most_threads);
 
@@ -22,7 +23,8 @@ class BatchHandle {
   mutable std::atomic<bool> used{false};
 
   /// Throws std::invalid_argument, and steps none, if an input of one that is stepped is out of its range.
-  void step(int count, const bool* mask);
+  /// After Ctrl-C some have come less far than others.
+  void step(int count, const bool* mask, const std::function<bool()>& stop);
   void reset(std::size_t i, std::uint64_t seed);
   void set_state(std::size_t i, const double* numbers);
 

@@ -11,6 +11,7 @@ void bind_batch(pybind11::module_& module);
 void bind_imager(pybind11::module_& module);
 void bind_recording(pybind11::module_& module);
 void bind_script(pybind11::module_& module);
+void bind_catalogue(pybind11::module_& module);
 void bind_explain(pybind11::module_& module);
 
 }  // namespace ostium::python

@@ -25,15 +25,6 @@ int require_steps(long long n) {
   return static_cast<int>(n);
 }
 
-bool interrupted() {
-  const py::gil_scoped_acquire lock;
-  return PyErr_CheckSignals() != 0;
-}
-
-void raise_if_interrupted() {
-  if (PyErr_Occurred()) throw py::error_already_set();
-}
-
 py::object nodes_of(const ModelHandle& model, app::SessionState& state, const std::string& tool,
                     const py::object& owner) {
   const auto t = static_cast<std::size_t>(model.tool(tool));
@@ -52,11 +43,11 @@ using Self = std::shared_ptr<DataHandle>;
 DataHandle& of(const py::object& self) { return self.cast<DataHandle&>(); }
 
 void step(const ModelHandle& model, DataHandle& data, long long n) {
-  if (&model != data.model.get()) throw py::value_error("this Data is one of another model");
+  if (model.fingerprint != data.model->fingerprint) throw py::value_error("this Data is one of another model");
   const int count = require_steps(n);
   const InUse used(data.used, "Data");
   {
-    const py::gil_scoped_release others_run;
+    const OthersRun others_run;
     data.run.step(count, interrupted);
   }
   raise_if_interrupted();
@@ -76,7 +67,7 @@ void set_state(DataHandle& self, const Doubles& numbers) {
 
 void reset(DataHandle& self, std::optional<std::uint64_t> seed) {
   const InUse used(self.used, "Data");
-  const py::gil_scoped_release others_run;
+  const OthersRun others_run;
   self.run.reset(seed.value_or(self.model->model->seed));
 }
 
@@ -93,118 +84,126 @@ Self copy(const DataHandle& self) {
 }  // namespace
 
 void bind_data(py::module_& module) {
-  py::class_<DataHandle, Self>(
-      module, "Data", R"(A session of a model: its state, the inputs of its next steps, and what came of the last ones.
+  auto of =
+      py::class_<DataHandle, Self>(
+          module, "Data",
+          R"(A session of a model: its state, the inputs of its next steps, and what came of the last ones.
 
 Data(model). Arrays are views of the engine's own memory, and show what the last step made of them; they outlive this
-object. One thread at a time: a second one gets RuntimeError.)")
-      .def(py::init([](std::shared_ptr<ModelHandle> model) {
-             const py::gil_scoped_release others_run;
-             return std::make_shared<DataHandle>(std::move(model));
-           }),
-           py::arg("model").none(false))
-      .def_property_readonly("model",
-                             [](const DataHandle& self) { return std::const_pointer_cast<ModelHandle>(self.model); })
-      .def_property(
-          "inputs",
-          [](const py::object& self) {
-            auto& row = of(self).run.row;
-            return view_of(row.data(), {static_cast<py::ssize_t>(row.size())}, self);
-          },
-          [](DataHandle& self, const Doubles& to) {
-            auto& row = self.run.row;
-            require_shape(to, {static_cast<py::ssize_t>(row.size())}, "inputs", "one for each of input_names");
-            std::copy(to.data(), to.data() + to.size(), row.begin());
-          },
-          "(inputs) of the next steps, to be written to; names, units and ranges: Model.input_names, input_ranges.")
-      .def_property_readonly("input_names", [](const DataHandle& self) { return self.model->model->input_names; })
-      .def_property_readonly(
-          "signals",
-          [](const py::object& self) {
-            auto& row = of(self).run.signals;
-            return read_only(view_of(row.data(), {static_cast<py::ssize_t>(row.size())}, self));
-          },
-          "(signals) float32, after the last step; Model.signals says what they are.")
-      .def(
-          "signal",
-          [](const DataHandle& self, const std::string& name) {
-            const auto& names = self.model->model->signal_names;
-            const auto found = std::find(names.begin(), names.end(), name);
-            if (found == names.end()) throw py::value_error("there is no signal \"" + name + "\"; see Model.signals");
-            return self.run.signals[static_cast<std::size_t>(found - names.begin())];
-          },
-          py::arg("name"), "One signal by its name.")
-      .def_property_readonly(
-          "forces", [](const py::object& self) { return forces_view(of(self).run.forces, self); },
-          "(tools, 4) after the last step: push N, torque N m (of the hand), normal force of the walls "
-          "N, the same on the last 10 mm N.")
-      .def_property_readonly(
-          "peaks", [](const py::object& self) { return forces_view(of(self).run.peaks, self); },
-          "(tools, 4) the largest magnitudes of these during the last call of step.")
-      .def(
-          "nodes",
-          [](const py::object& self, const std::string& tool) {
-            DataHandle& d = of(self);
-            return nodes_of(*d.model, d.run.state, tool, self);
-          },
-          py::arg("tool"),
-          "(n, 3) points of a tool from the introducer to its tip, m; empty outside the body. A view: "
-          "ask again after a step, as more of it may have come in.")
-      .def(
-          "tip",
-          [](const DataHandle& self, const std::string& tool) {
-            return app::tip(self.model->model->session, self.run.state, self.model->tool(tool));
-          },
-          py::arg("tool"), "(3) its tip, m; the introducer while it is outside.")
-      .def(
-          "tip_direction",
-          [](const DataHandle& self, const std::string& tool) {
-            return app::tip_direction(self.model->model->session, self.run.state, self.model->tool(tool));
-          },
-          py::arg("tool"), "(3) unit vector.")
-      .def_property_readonly(
-          "time", [](const DataHandle& self) { return app::seconds(self.model->model->session, self.run.state); },
-          "Simulated time, s.")
-      .def_property_readonly(
-          "phase", [](const DataHandle& self) { return self.run.state.blood.heart.phase; }, "Of the heartbeat, [0, 1).")
-      .def_property_readonly(
-          "trouble", [](const DataHandle& self) { return app::trouble_words(self.run.trouble); },
-          "What gave way in the last call: \"drive_limited, feed_stopped\"; empty: nothing.")
-      .def_property_readonly(
-          "depth", [](const DataHandle& self) { return self.run.deepest_m; },
-          "Deepest that a node lay in the wall in the last call, m.")
-      .def(
-          "step", [](DataHandle& self, long long n) { step(*self.model, self, n); }, py::arg("n") = 1,
-          "n steps with these inputs; doses are given by the first. Raises ValueError, and does nothing, for an input "
-          "out of its range; drives of tools are limited instead, and `trouble` says so.")
-      .def("reset", reset, py::arg("seed") = py::none(), "To the beginning: of a seed, or the model's.")
-      .def("get_state", get_state, "(Model.state_size) all that it takes to go on to the bit.")
-      .def("set_state", set_state, py::arg("state"), "Raises ValueError for the state of another model.")
-      .def(
-          "hash", [](const DataHandle& self) { return app::hash(self.run.state); },
-          "64 bits of all that affects later steps, as recordings have it.")
-      .def("copy", copy)
-      .def("__copy__", copy)
-      .def("__deepcopy__", [](const DataHandle& self, const py::dict&) { return copy(self); })
-      .def("__repr__",
-           [](const DataHandle& self) {
-             return fmt::format("<ostium.Data of {} at {:.3f} s>", self.model->recipe.vessel->vessel->name,
-                                app::seconds(self.model->model->session, self.run.state));
-           })
-      .def(py::pickle(
-          [](const DataHandle& self) {
-            return py::make_tuple(std::const_pointer_cast<ModelHandle>(self.model), get_state(self),
-                                  copy_of(self.run.row));
-          },
-          [](const py::tuple& r) {
-            if (r.size() != 3) throw py::value_error("this is no data of this version");
-            const auto data = std::make_shared<DataHandle>(r[0].cast<std::shared_ptr<ModelHandle>>());
-            set_state(*data, r[1].cast<Doubles>());
-            const auto row = r[2].cast<Doubles>();
-            require_shape(row, {static_cast<py::ssize_t>(data->run.row.size())}, "inputs", "of this model");
-            std::copy(row.data(), row.data() + row.size(), data->run.row.begin());
-            return data;
-          }));
+object. One thread at a time: a second one that steps, copies, saves or restores gets RuntimeError.)")
+          .def(py::init([](std::shared_ptr<ModelHandle> model) {
+                 const OthersRun others_run;
+                 return std::make_shared<DataHandle>(std::move(model));
+               }),
+               py::arg("model").none(false))
+          .def_property_readonly(
+              "model", [](const DataHandle& self) { return std::const_pointer_cast<ModelHandle>(self.model); })
+          .def_property(
+              "inputs",
+              [](const py::object& self) {
+                auto& row = of(self).run.row;
+                return view_of(row.data(), {static_cast<py::ssize_t>(row.size())}, self);
+              },
+              [](DataHandle& self, const Doubles& to) {
+                auto& row = self.run.row;
+                require_shape(to, {static_cast<py::ssize_t>(row.size())}, "inputs", "one for each of input_names");
+                std::copy(to.data(), to.data() + to.size(), row.begin());
+              },
+              "(inputs) of the next steps, to be written to; names, units and ranges: Model.input_names, input_ranges.")
+          .def_property_readonly("input_names", [](const DataHandle& self) { return self.model->model->input_names; })
+          .def_property_readonly(
+              "signals",
+              [](const py::object& self) {
+                auto& row = of(self).run.signals;
+                return read_only(view_of(row.data(), {static_cast<py::ssize_t>(row.size())}, self));
+              },
+              "(signals) float32, after the last step; Model.signals says what they are. NaN: there is none, such as "
+              "the "
+              "pressure of a guide that is not in the body.")
+          .def(
+              "signal",
+              [](const DataHandle& self, const std::string& name) {
+                const auto& names = self.model->model->signal_names;
+                const auto found = std::find(names.begin(), names.end(), name);
+                if (found == names.end())
+                  throw py::value_error("there is no signal \"" + name + "\"; see Model.signals");
+                return self.run.signals[static_cast<std::size_t>(found - names.begin())];
+              },
+              py::arg("name"), "One signal by its name.")
+          .def_property_readonly(
+              "forces", [](const py::object& self) { return forces_view(of(self).run.forces, self); },
+              "(tools, 4) after the last step: push N, torque N m (of the hand), normal force of the walls "
+              "N, the same on the last 10 mm N.")
+          .def_property_readonly(
+              "peaks", [](const py::object& self) { return forces_view(of(self).run.peaks, self); },
+              "(tools, 4) the largest magnitudes of these during the last call of step.")
+          .def(
+              "nodes",
+              [](const py::object& self, const std::string& tool) {
+                DataHandle& d = of(self);
+                return nodes_of(*d.model, d.run.state, tool, self);
+              },
+              py::arg("tool"),
+              "(n, 3) points of a tool from the introducer to its tip, m; empty outside the body. A view: "
+              "ask again after a step, as more of it may have come in.")
+          .def(
+              "tip",
+              [](const DataHandle& self, const std::string& tool) {
+                return app::tip(self.model->model->session, self.run.state, self.model->tool(tool));
+              },
+              py::arg("tool"), "(3) its tip, m; the introducer while it is outside.")
+          .def(
+              "tip_direction",
+              [](const DataHandle& self, const std::string& tool) {
+                return app::tip_direction(self.model->model->session, self.run.state, self.model->tool(tool));
+              },
+              py::arg("tool"), "(3) unit vector.")
+          .def_property_readonly(
+              "time", [](const DataHandle& self) { return app::seconds(self.model->model->session, self.run.state); },
+              "Simulated time, s.")
+          .def_property_readonly(
+              "phase", [](const DataHandle& self) { return self.run.state.blood.heart.phase; },
+              "Of the heartbeat, [0, 1).")
+          .def_property_readonly(
+              "trouble", [](const DataHandle& self) { return app::trouble_words(self.run.trouble); },
+              "What gave way in the last call: \"drive_limited, feed_stopped\"; empty: nothing.")
+          .def_property_readonly(
+              "depth", [](const DataHandle& self) { return self.run.deepest_m; },
+              "Deepest that a node lay in the wall in the last call, m.")
+          .def(
+              "step", [](DataHandle& self, long long n) { step(*self.model, self, n); }, py::arg("n") = 1,
+              "n steps with these inputs; doses are given by the first. Raises ValueError, and does nothing, for an "
+              "input "
+              "out of its range; drives of tools are limited instead, and `trouble` says so.")
+          .def("reset", reset, py::arg("seed") = py::none(), "To the beginning: of a seed, or the model's.")
+          .def("get_state", get_state, "(Model.state_size) all that it takes to go on to the bit.")
+          .def("set_state", set_state, py::arg("state"), "Raises ValueError for the state of another model.")
+          .def(
+              "hash", [](const DataHandle& self) { return app::hash(self.run.state); },
+              "64 bits of all that affects later steps, as recordings have it.")
+          .def("copy", copy)
+          .def("__copy__", copy)
+          .def("__deepcopy__", [](const DataHandle& self, const py::dict&) { return copy(self); })
+          .def("__repr__",
+               [](const DataHandle& self) {
+                 return fmt::format("<ostium.Data of {} at {:.3f} s>", self.model->recipe.vessel->vessel->name,
+                                    app::seconds(self.model->model->session, self.run.state));
+               })
+          .def(py::pickle(
+              [](const DataHandle& self) {
+                return py::make_tuple(std::const_pointer_cast<ModelHandle>(self.model), get_state(self),
+                                      copy_of(self.run.row));
+              },
+              [](const py::tuple& r) {
+                if (r.size() != 3) throw py::value_error("this is no data of this version");
+                const auto data = std::make_shared<DataHandle>(r[0].cast<std::shared_ptr<ModelHandle>>());
+                set_state(*data, r[1].cast<Doubles>());
+                const auto row = r[2].cast<Doubles>();
+                require_shape(row, {static_cast<py::ssize_t>(data->run.row.size())}, "inputs", "of this model");
+                std::copy(row.data(), row.data() + row.size(), data->run.row.begin());
+                return data;
+              }));
+  pickle_in_every_protocol(of);
   module.def(
       "step", [](const ModelHandle& model, DataHandle& data, long long n) { step(model, data, n); },
       py::arg("model").none(false), py::arg("data").none(false), py::arg("n") = 1,

@@ -17,7 +17,7 @@ class InUse {
   std::atomic<bool>& mark_;
 };
 
-struct DataHandle {
+struct DataHandle : MadeByInit {
   explicit DataHandle(std::shared_ptr<const ModelHandle> of) : model(std::move(of)), run(model->model) {}
   DataHandle(std::shared_ptr<const ModelHandle> of, const app::FreeRun& from) : model(std::move(of)), run(from) {}
   DataHandle(const DataHandle& other) : model(other.model), run(other.run) {}
@@ -30,10 +30,6 @@ struct DataHandle {
 /// Nodes of a tool in the body, base to tip: a view of the state's own numbers.
 pybind11::object nodes_of(const ModelHandle& model, app::SessionState& state, const std::string& tool,
                           const pybind11::object& owner);
-/// Whether somebody pressed Ctrl-C. For threads without the interpreter's lock.
-bool interrupted();
-/// Throws KeyboardInterrupt if so, after `interrupted` was true. With the lock.
-void raise_if_interrupted();
 /// Number of steps of a call: 1 to a day. Throws ValueError.
 int require_steps(long long n);
 

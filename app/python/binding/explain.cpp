@@ -57,7 +57,7 @@ void bind_explain(py::module_& module) {
       [](const std::filesystem::path& set, const std::vector<std::string>& tries, int threads) {
         std::string text;
         {
-          const py::gil_scoped_release others_run;
+          const OthersRun others_run;
           text = explanation_of(set.string(), tries, threads);
         }
         raise_if_interrupted();

@@ -16,7 +16,7 @@ namespace {
 
 constexpr int fewest_pixels = 64, most_pixels = 1024;
 
-struct ImagerHandle {
+struct ImagerHandle : MadeByInit {
   std::shared_ptr<ModelHandle> model;
   app::FilmOptions options;
   std::unique_ptr<app::Film> film;
@@ -53,6 +53,9 @@ std::shared_ptr<ImagerHandle> make(std::shared_ptr<ModelHandle> model, const std
   }
   if (lao_deg) o.lao_rad = require_between(*lao_deg, -180, 180, "lao") * units::degree;
   if (cran_deg) o.cran_rad = require_between(*cran_deg, -90, 90, "cran") * units::degree;
+  fluoro::CArm arm;
+  arm.lao_rad = o.lao_rad.value_or(0), arm.cran_rad = o.cran_rad.value_or(0);
+  require_reachable(arm);
   o.pixels = static_cast<int>(require_between(pixels, fewest_pixels, most_pixels, "pixels"));
   if (field_m) o.field_m = require_between(*field_m, 0.05, 0.5, "field");
   o.mode = cine ? fluoro::Mode::cine : fluoro::Mode::fluoroscopy;
@@ -60,17 +63,17 @@ std::shared_ptr<ImagerHandle> make(std::shared_ptr<ModelHandle> model, const std
   o.overlay = overlay;
   o.seed = seed;
   self->model = std::move(model);
-  const py::gil_scoped_release others_run;
+  const OthersRun others_run;
   self->film = std::make_unique<app::Film>(self->model->model->session, o, self->model->recipe.vessel->patient());
   return self;
 }
 
 py::array_t<std::uint8_t> frame(ImagerHandle& self, DataHandle& data) {
-  if (data.model != self.model) throw py::value_error("this Data is one of another model");
+  if (data.model->fingerprint != self.model->fingerprint) throw py::value_error("this Data is one of another model");
   const InUse used(self.used, "Imager"), data_used(data.used, "Data");
   const fluoro::Picture* picture = nullptr;
   {
-    const py::gil_scoped_release others_run;
+    const OthersRun others_run;
     app::SessionInputs inputs = data.model->model->at_rest;
     app::take_inputs(data.run.row.data(), inputs);
     picture = &self.film->frame(data.model->model->session, data.run.state, inputs);
@@ -81,8 +84,9 @@ py::array_t<std::uint8_t> frame(ImagerHandle& self, DataHandle& data) {
 }  // namespace
 
 void bind_imager(py::module_& module) {
-  py::class_<ImagerHandle, std::shared_ptr<ImagerHandle>>(module, "Imager",
-                                                          R"(Takes X-ray pictures of sessions of a model.
+  auto of =
+      py::class_<ImagerHandle, std::shared_ptr<ImagerHandle>>(module, "Imager",
+                                                              R"(Takes X-ray pictures of sessions of a model.
 
 Imager(model, view=None, lao=None, cran=None, pixels=256, field=None, cine=False, fill=None, overlay=False, seed=1)
   view     a name of `ostium views`; lao, cran: degrees instead. None: as Data.inputs have the C-arm
@@ -90,11 +94,20 @@ Imager(model, view=None, lao=None, cran=None, pixels=256, field=None, cine=False
   cine     with the dose of cine rather than fluoroscopy
   fill     "left" or "right": that coronary full of contrast, whatever was injected
 The first one of a vessel takes a second.)")
-      .def(py::init(&make), py::arg("model").none(false), py::arg("view") = py::none(), py::arg("lao") = py::none(),
-           py::arg("cran") = py::none(), py::arg("pixels") = 256, py::arg("field") = py::none(),
-           py::arg("cine") = false, py::arg("fill") = py::none(), py::arg("overlay") = false, py::arg("seed") = 1)
-      .def("frame", frame, py::arg("data").none(false),
-           "(pixels, pixels) uint8: this moment, as the display shows it; noise and lag go on from frame to frame.");
+          .def(py::init(&make), py::arg("model").none(false), py::arg("view") = py::none(), py::arg("lao") = py::none(),
+               py::arg("cran") = py::none(), py::arg("pixels") = 256, py::arg("field") = py::none(),
+               py::arg("cine") = false, py::arg("fill") = py::none(), py::arg("overlay") = false, py::arg("seed") = 1)
+          .def(
+              "reset",
+              [](ImagerHandle& self, std::uint64_t seed) {
+                const InUse used(self.used, "Imager");
+                self.film->restart(seed);
+              },
+              py::arg("seed") = 1, "Begins noise and lag anew, as of a fresh Imager of that seed.")
+          .def(
+              "frame", frame, py::arg("data").none(false),
+              "(pixels, pixels) uint8: this moment, as the display shows it; noise and lag go on from frame to frame.");
+  refuse_to_pickle(of);
 }
 
 }  // namespace ostium::python

@@ -88,7 +88,7 @@ std::shared_ptr<ModelHandle> from_python(const py::tuple& r) {
                     .breaths_1_min = r[3].cast<double>(),
                     .friction = r[4].cast<std::optional<double>>(),
                     .begin = r[5].cast<std::string>()};
-  const py::gil_scoped_release others_run;
+  const OthersRun others_run;
   return std::make_shared<ModelHandle>(std::move(recipe));
 }
 
@@ -121,7 +121,9 @@ const double* ModelHandle::state_of(const double* numbers, std::size_t count) co
 }
 
 void bind_model(py::module_& module) {
-  py::class_<ModelHandle, std::shared_ptr<ModelHandle>>(module, "Model", R"(Instruments in a vessel; does not change.
+  auto of =
+      py::class_<ModelHandle, std::shared_ptr<ModelHandle>>(module, "Model",
+                                                            R"(Instruments in a vessel; does not change.
 
 Model(vessel, tools, seed=0, begin=None, friction=None, breathing=0)
   tools      [(name, instrument), ...], outermost first; an instrument is a name of `ostium instruments` or a file
@@ -129,63 +131,66 @@ Model(vessel, tools, seed=0, begin=None, friction=None, breathing=0)
   begin      an artery ("RCA"): instruments come in before its ostium, not at the access
   friction   of the wall, [0, 1]; breathing: breaths a minute, 4 to 60, or 0
 Many threads may use one. Raises OstiumError for instruments that are not there or do not go together.)")
-      .def(
-          py::init([](std::shared_ptr<VesselHandle> vessel, const NamedTools& tools, std::uint64_t seed,
-                      const std::optional<std::string>& begin, std::optional<double> friction, double breathing) {
-            const py::gil_scoped_release others_run;
-            return std::make_shared<ModelHandle>(recipe_of(std::move(vessel), tools, seed, begin, friction, breathing));
-          }),
-          py::arg("vessel").none(false), py::arg("tools"), py::arg("seed") = 0, py::arg("begin") = py::none(),
-          py::arg("friction") = py::none(), py::arg("breathing") = 0.0)
-      .def_property_readonly(
-          "vessel", [](const ModelHandle& self) { return std::const_pointer_cast<VesselHandle>(self.recipe.vessel); })
-      .def_property_readonly(
-          "tools",
-          [](const ModelHandle& self) {
-            NamedTools names;
-            for (std::size_t t = 0; t < self.recipe.tools.size(); ++t)
-              names.emplace_back(self.recipe.tools[t].name, self.model->session.tools[t].instrument.name);
-            return names;
-          },
-          "[(name, instrument), ...].")
-      .def_property_readonly("seed", [](const ModelHandle& self) { return self.recipe.options.seed; })
-      .def_property_readonly(
-          "step_s", [](const ModelHandle& self) { return self.model->session.step_s(); }, "Length of a step, s.")
-      .def_property_readonly(
-          "input_names", [](const ModelHandle& self) { return self.model->input_names; },
-          "Names of the columns of inputs, with their units: \"wire.advance_m_s\".")
-      .def_property_readonly(
-          "input_ranges",
-          [](const ModelHandle& self) {
-            Eigen::Matrix<double, Eigen::Dynamic, 2, Eigen::RowMajor> ranges(self.model->ranges.size(), 2);
-            for (Eigen::Index i = 0; i < ranges.rows(); ++i) {
-              const app::InputRange& one = self.model->ranges[static_cast<std::size_t>(i)];
-              ranges.row(i) << one.least, one.most;
-            }
-            return ranges;
-          },
-          "(inputs, 2) least and most of each.")
-      .def_property_readonly("signal_names", [](const ModelHandle& self) { return self.model->signal_names; })
-      .def_property_readonly(
-          "signals",
-          [](const ModelHandle& self) {
-            std::vector<std::tuple<std::string, std::string, std::string>> out;
-            for (const app::SignalDefinition& s : signal_definitions(self.model->session))
-              out.emplace_back(s.name, s.unit, s.definition);
-            return out;
-          },
-          "[(name, unit, what it is), ...].")
-      .def_property_readonly("state_size", [](const ModelHandle& self) { return self.state_size(); })
-      .def("__copy__", [](const std::shared_ptr<ModelHandle>& self) { return self; })
-      .def("__deepcopy__", [](const std::shared_ptr<ModelHandle>& self, const py::dict&) { return self; })
-      .def("__repr__",
-           [](const ModelHandle& self) {
-             std::string tools;
-             for (const ModelRecipe::Tool& tool : self.recipe.tools) tools += (tools.empty() ? "" : ", ") + tool.name;
-             return fmt::format("<ostium.Model of {} with {}>", self.recipe.vessel->vessel->name, tools);
-           })
-      .def(py::pickle([](const ModelHandle& self) { return recipe_to_python(self); },
-                      [](const py::tuple& recipe) { return from_python(recipe); }));
+          .def(py::init([](std::shared_ptr<VesselHandle> vessel, const NamedTools& tools, std::uint64_t seed,
+                           const std::optional<std::string>& begin, std::optional<double> friction, double breathing) {
+                 const OthersRun others_run;
+                 return std::make_shared<ModelHandle>(
+                     recipe_of(std::move(vessel), tools, seed, begin, friction, breathing));
+               }),
+               py::arg("vessel").none(false), py::arg("tools"), py::arg("seed") = 0, py::arg("begin") = py::none(),
+               py::arg("friction") = py::none(), py::arg("breathing") = 0.0)
+          .def_property_readonly(
+              "vessel",
+              [](const ModelHandle& self) { return std::const_pointer_cast<VesselHandle>(self.recipe.vessel); })
+          .def_property_readonly(
+              "tools",
+              [](const ModelHandle& self) {
+                NamedTools names;
+                for (std::size_t t = 0; t < self.recipe.tools.size(); ++t)
+                  names.emplace_back(self.recipe.tools[t].name, self.model->session.tools[t].instrument.name);
+                return names;
+              },
+              "[(name, instrument), ...].")
+          .def_property_readonly("seed", [](const ModelHandle& self) { return self.recipe.options.seed; })
+          .def_property_readonly(
+              "step_s", [](const ModelHandle& self) { return self.model->session.step_s(); }, "Length of a step, s.")
+          .def_property_readonly(
+              "input_names", [](const ModelHandle& self) { return self.model->input_names; },
+              "Names of the columns of inputs, with their units: \"wire.advance_m_s\".")
+          .def_property_readonly(
+              "input_ranges",
+              [](const ModelHandle& self) {
+                Eigen::Matrix<double, Eigen::Dynamic, 2, Eigen::RowMajor> ranges(self.model->ranges.size(), 2);
+                for (Eigen::Index i = 0; i < ranges.rows(); ++i) {
+                  const app::InputRange& one = self.model->ranges[static_cast<std::size_t>(i)];
+                  ranges.row(i) << one.least, one.most;
+                }
+                return ranges;
+              },
+              "(inputs, 2) least and most of each.")
+          .def_property_readonly("signal_names", [](const ModelHandle& self) { return self.model->signal_names; })
+          .def_property_readonly(
+              "signals",
+              [](const ModelHandle& self) {
+                std::vector<std::tuple<std::string, std::string, std::string>> out;
+                for (const app::SignalDefinition& s : signal_definitions(self.model->session))
+                  out.emplace_back(s.name, s.unit, s.definition);
+                return out;
+              },
+              "[(name, unit, what it is), ...].")
+          .def_property_readonly("state_size", [](const ModelHandle& self) { return self.state_size(); })
+          .def("__copy__", [](const std::shared_ptr<ModelHandle>& self) { return self; })
+          .def("__deepcopy__", [](const std::shared_ptr<ModelHandle>& self, const py::dict&) { return self; })
+          .def("__repr__",
+               [](const ModelHandle& self) {
+                 std::string tools;
+                 for (const ModelRecipe::Tool& tool : self.recipe.tools)
+                   tools += (tools.empty() ? "" : ", ") + tool.name;
+                 return fmt::format("<ostium.Model of {} with {}>", self.recipe.vessel->vessel->name, tools);
+               })
+          .def(py::pickle([](const ModelHandle& self) { return recipe_to_python(self); },
+                          [](const py::tuple& recipe) { return from_python(recipe); }));
+  pickle_in_every_protocol(of);
 }
 
 }  // namespace ostium::python

@@ -19,7 +19,7 @@ struct ModelRecipe {
   app::SessionOptions options;
 };
 
-class ModelHandle {
+class ModelHandle : public MadeByInit {
  public:
   /// Throws LoadError.
   explicit ModelHandle(ModelRecipe from);

@@ -1,6 +1,8 @@
 /// The module `_ostium`: what Python calls of the engine. The package `ostium` beside it is what people import.
 #include <pybind11/pybind11.h>
 
+#include <filesystem>
+
 #include "app/python/binding/bindings.h"
 #include "app/reader/read_apart.h"
 #include "data/catalogue/catalogue.h"
@@ -24,6 +26,8 @@ void raise_as_ostium_error(std::exception_ptr thrown) {
     raise(error);
   } catch (const ostium::vascular::MeshError& error) {
     raise(error);
+  } catch (const std::filesystem::filesystem_error& error) {
+    raise(error);
   }
 }
 
@@ -46,5 +50,6 @@ PYBIND11_MODULE(_ostium, module) {
   ostium::python::bind_imager(module);
   ostium::python::bind_recording(module);
   ostium::python::bind_script(module);
+  ostium::python::bind_catalogue(module);
   ostium::python::bind_explain(module);
 }

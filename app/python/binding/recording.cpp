@@ -7,6 +7,7 @@
 
 #include "app/python/binding/arrays.h"
 #include "app/python/binding/bindings.h"
+#include "app/python/binding/interpreter.h"
 #include "app/reader/read_apart.h"
 #include "data/assessment/events.h"
 #include "data/formats/load_error.h"
@@ -15,7 +16,9 @@ namespace ostium::python {
 
 namespace {
 
-using data::RecordingReader;
+struct RecordingHandle : data::RecordingReader, MadeByInit {
+  using data::RecordingReader::RecordingReader;
+};
 
 template <class T>
 py::array_t<T> table(const std::vector<T>& numbers, std::size_t columns) {
@@ -27,11 +30,11 @@ py::object from_json(const std::string& text) { return py::module_::import("json
 
 /// Names by index, as the file has them.
 auto names_of(const char* of_table, const char* attribute) {
-  return [=](const RecordingReader& self) { return self.tables().texts(of_table, attribute); };
+  return [=](const RecordingHandle& self) { return self.tables().texts(of_table, attribute); };
 }
 
 /// (moments) steps and (moments, nodes, 3) points.
-py::tuple shapes(const RecordingReader& self, const std::string& tool) {
+py::tuple shapes(const RecordingHandle& self, const std::string& tool) {
   const data::TableFile& file = self.tables();
   const std::string name = data::shape_table(tool);
   if (!file.has(name))
@@ -48,50 +51,55 @@ py::tuple shapes(const RecordingReader& self, const std::string& tool) {
 }  // namespace
 
 void bind_recording(py::module_& module) {
-  py::class_<RecordingReader, std::shared_ptr<RecordingReader>>(module, "RecordingFile",
-                                                                R"(A recording as `ostium run` writes it: run.h5.
+  auto of =
+      py::class_<RecordingHandle, std::shared_ptr<RecordingHandle>>(module, "RecordingFile",
+                                                                    R"(A recording as `ostium run` writes it: run.h5.
 
 RecordingFile(path) raises OstiumError for a file that is damaged, or is none of this version.)")
-      .def(py::init([](const std::filesystem::path& path) {
-             const py::gil_scoped_release others_run;
-             app::require_whole_recording(path.string());
-             return std::make_shared<RecordingReader>(path.string());
-           }),
-           py::arg("path"))
-      .def_property_readonly("path", [](const RecordingReader& self) { return self.path(); })
-      .def_property_readonly("software", [](const RecordingReader& self) { return self.software(); })
-      .def_property_readonly(
-          "setup", [](const RecordingReader& self) { return from_json(self.setup()); },
-          "dict: case, script, instruments, seed.")
-      .def_property_readonly(
-          "end",
-          [](const RecordingReader& self) -> py::object {
-            const auto end = self.end();
-            return end ? from_json(*end) : py::none();
-          },
-          "dict: outcome, reason, metrics; None where the recording was cut off.")
-      .def_property_readonly("step_s", [](const RecordingReader& self) { return self.step_s(); })
-      .def_property_readonly("steps", [](const RecordingReader& self) { return self.steps(); })
-      .def_property_readonly("signal_names", [](const RecordingReader& self) { return self.signal_columns(); })
-      .def_property_readonly("input_names", [](const RecordingReader& self) { return self.input_columns(); })
-      .def_property_readonly(
-          "signals", [](const RecordingReader& self) { return table(self.signals(), self.signal_columns().size()); },
-          "(samples, signals), one every 10 steps.")
-      .def_property_readonly(
-          "inputs",
-          [](const RecordingReader& self) { return table(self.inputs(0, self.steps()), self.input_columns().size()); },
-          "(steps, inputs).")
-      .def_property_readonly(
-          "hashes", [](const RecordingReader& self) { return copy_of(self.hashes(0, self.steps())); },
-          "(steps) uint64, of the state after each.")
-      .def_property_readonly(
-          "events", [](const RecordingReader& self) { return table(self.events(), 4); },
-          "(events, 4): step, code, tool, value.")
-      .def_property_readonly("event_names", names_of("events", "names"), "By code.")
-      .def_property_readonly("tools", names_of("", "tools"))
-      .def_property_readonly("branches", names_of("", "branches"), "By index, as tip_branch has them.")
-      .def("shapes", shapes, py::arg("tool"),
-           "(steps (n), points (n, nodes, 3) m, hub to tip, NaN outside the body), of a run with --record shapes.");
+          .def(py::init([](const std::filesystem::path& path) {
+                 const OthersRun others_run;
+                 app::require_whole_recording(path.string());
+                 return std::make_shared<RecordingHandle>(path.string());
+               }),
+               py::arg("path"))
+          .def_property_readonly("path", [](const RecordingHandle& self) { return self.path(); })
+          .def_property_readonly("software", [](const RecordingHandle& self) { return self.software(); })
+          .def_property_readonly(
+              "setup", [](const RecordingHandle& self) { return from_json(self.setup()); },
+              "dict: case, script, instruments, seed.")
+          .def_property_readonly(
+              "end",
+              [](const RecordingHandle& self) -> py::object {
+                const auto end = self.end();
+                return end ? from_json(*end) : py::none();
+              },
+              "dict: outcome, reason, metrics; None where the recording was cut off.")
+          .def_property_readonly("step_s", [](const RecordingHandle& self) { return self.step_s(); })
+          .def_property_readonly("steps", [](const RecordingHandle& self) { return self.steps(); })
+          .def_property_readonly("signal_names", [](const RecordingHandle& self) { return self.signal_columns(); })
+          .def_property_readonly("input_names", [](const RecordingHandle& self) { return self.input_columns(); })
+          .def_property_readonly(
+              "signals",
+              [](const RecordingHandle& self) { return table(self.signals(), self.signal_columns().size()); },
+              "(samples, signals), one every 10 steps.")
+          .def_property_readonly(
+              "inputs",
+              [](const RecordingHandle& self) {
+                return table(self.inputs(0, self.steps()), self.input_columns().size());
+              },
+              "(steps, inputs).")
+          .def_property_readonly(
+              "hashes", [](const RecordingHandle& self) { return copy_of(self.hashes(0, self.steps())); },
+              "(steps) uint64, of the state after each.")
+          .def_property_readonly(
+              "events", [](const RecordingHandle& self) { return table(self.events(), 4); },
+              "(events, 4): step, code, tool, value.")
+          .def_property_readonly("event_names", names_of("events", "names"), "By code.")
+          .def_property_readonly("tools", names_of("", "tools"))
+          .def_property_readonly("branches", names_of("", "branches"), "By index, as tip_branch has them.")
+          .def("shapes", shapes, py::arg("tool"),
+               "(steps (n), points (n, nodes, 3) m, hub to tip, NaN outside the body), of a run with --record shapes.");
+  refuse_to_pickle(of);
 }
 
 }  // namespace ostium::python

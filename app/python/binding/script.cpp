@@ -62,7 +62,7 @@ void bind_script(py::module_& module) {
         for (const auto& [key, value] : values) texts[py::str(key)] = py::str(value);
         Played played;
         {
-          const py::gil_scoped_release others_run;
+          const OthersRun others_run;
           played = play_script(case_name, script, seed, texts, seconds, recording);
         }
         raise_if_interrupted();

@@ -5,6 +5,7 @@
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
+#include <Eigen/Geometry>
 #include <filesystem>
 #include <map>
 
@@ -49,6 +50,12 @@ std::shared_ptr<const VesselHandle> of_mesh(const std::filesystem::path& path, c
   const vascular::LengthUnit length = vascular::unit_named(unit);
   set_vessel(path.string(), length, setup);
   if (!setup.is_mesh()) throw py::value_error(path.string() + ": is a case; expected a mesh, or Vessel(name)");
+  Eigen::AlignedBox3d box;
+  for (const Eigen::Vector3d& p : setup.mesh.vertices) box.extend(p);
+  constexpr double shortest_m = 5e-3, longest_m = 3;
+  if (const double long_m = box.sizes().maxCoeff(); long_m < shortest_m || long_m > longest_m)
+    throw py::value_error(fmt::format("{}: is {:.3g} m long in {}; expected a vessel from 5 mm to 3 m, or another unit",
+                                      path.string(), long_m, unit));
   setup.entry = {metres(length) * entry, metres(length) * towards};
   return VesselHandle::of(std::move(setup));
 }
@@ -126,7 +133,7 @@ std::shared_ptr<VesselHandle> from_recipe(const py::tuple& r) {
     s.mesh.triangles.push_back(one);
   }
   s.entry = {r[5].cast<Eigen::Vector3d>(), r[6].cast<Eigen::Vector3d>()};
-  const py::gil_scoped_release others_run;
+  const OthersRun others_run;
   return std::const_pointer_cast<VesselHandle>(VesselHandle::of(std::move(s)));
 }
 
@@ -156,87 +163,94 @@ std::shared_ptr<const VesselHandle> VesselHandle::of(RunSetup setup) {
 }
 
 void bind_vessel(py::module_& module) {
-  py::class_<VesselHandle, std::shared_ptr<VesselHandle>>(module, "Vessel", R"(A vessel: a case's beating lumen.
+  auto of =
+      py::class_<VesselHandle, std::shared_ptr<VesselHandle>>(module, "Vessel", R"(A vessel: a case's beating lumen.
 
 Vessel(case, person=None): `case` is a name of `ostium cases`, or a case's file; `person` (0, 1, ...) another person with
 the same disease. Takes some seconds, once for equal vessels. All in metres, in the patient's frame: x to the patient's
 left, y to the head, z to the front. Raises OstiumError for a case that is not there.)")
-      .def(py::init([](const std::string& name, std::optional<std::uint64_t> person) {
-             const py::gil_scoped_release others_run;
-             return std::const_pointer_cast<VesselHandle>(of_case(name, person));
-           }),
-           py::arg("case"), py::arg("person") = py::none())
-      .def_static(
-          "from_mesh",
-          [](const std::filesystem::path& path, const std::string& unit, const Eigen::Vector3d& entry,
-             const Eigen::Vector3d& towards) {
-            const py::gil_scoped_release others_run;
-            return std::const_pointer_cast<VesselHandle>(of_mesh(path, unit, entry, towards));
-          },
-          py::arg("path"), py::arg("unit"), py::arg("entry"), py::arg("towards"),
-          "A mesh at rest, in its file's unit (\"mm\", ...): `entry` (3) within the lumen, where instruments come in, "
-          "and "
-          "`towards` (3) a point they aim at, both in that unit and in the file's axes.")
-      .def_property_readonly("name", [](const VesselHandle& self) { return self.vessel->name; })
-      .def_property_readonly("person", [](const VesselHandle& self) { return self.setup.person; })
-      .def_property_readonly("beats", [](const VesselHandle& self) { return self.vessel->beats(); })
-      .def_property_readonly(
-          "heart_rate", [](const VesselHandle& self) { return self.vessel->rate_1_min; },
-          "Beats a minute at the start.")
-      .def_property_readonly(
-          "warnings", [](const VesselHandle& self) { return self.warnings; },
-          "What is wrong with a mesh; empty: nothing.")
-      .def_property_readonly(
-          "entry", [](const VesselHandle& self) { return self.vessel->entry.p_W; }, "(3) the introducer, m.")
-      .def_property_readonly(
-          "middle", [](const VesselHandle& self) { return self.vessel->p_middle; },
-          "(3) where the C-arm looks at first, m.")
-      .def_property_readonly(
-          "branches", branches,
-          "List of dict: name, parent (its index or -1), parent_sphere, points (n, 3) m, radii (n) m; "
-          "the tree of centreline spheres at end-diastole.")
-      .def_property_readonly(
-          "places", [](const VesselHandle& self) { return self.vessel->way->places(); }, "Names that `sphere` knows.")
-      .def("sphere", sphere_at, py::arg("place"),
-           "Number of the sphere at a place: a branch, a named place, or one of these and millimetres beyond, "
-           "\"RCA+20\". Raises ValueError with the names there are.")
-      .def(
-          "locate",
-          [](const VesselHandle& self, const Eigen::Vector3d& point, double phase) {
-            if (!point.allFinite() || !(phase >= 0 && phase <= 1))
-              throw py::value_error("point has to be finite, and phase in [0, 1]");
-            return self.vessel->way->locate(point, phase);
-          },
-          py::arg("point"), py::arg("phase") = 0.0, "Number of the sphere that holds a point (3), or is nearest to it.")
-      .def(
-          "point",
-          [](const VesselHandle& self, int sphere, double phase) {
-            return self.vessel->way->p(require_sphere(self, sphere), phase);
-          },
-          py::arg("sphere"), py::arg("phase") = 0.0, "(3) the sphere's middle at a phase of the beat, m.")
-      .def(
-          "between",
-          [](const VesselHandle& self, int a, int b) {
-            return self.vessel->way->between_m(require_sphere(self, a), require_sphere(self, b));
-          },
-          py::arg("a"), py::arg("b"), "Way from sphere to sphere along the tree, m.")
-      .def(
-          "branch_of",
-          [](const VesselHandle& self, int sphere) { return self.vessel->way->branch(require_sphere(self, sphere)); },
-          py::arg("sphere"), "Index in `branches` of a sphere.")
-      .def("mesh", mesh, py::arg("phase") = 0.0,
-           "(vertices (n, 3) m, triangles (m, 3)) of the wall at a phase of the beat, [0, 1].")
-      .def_property_readonly(
-          "key", [](const VesselHandle& self) { return self.key; }, "Equal for equal vessels.")
-      .def("__copy__", [](const std::shared_ptr<VesselHandle>& self) { return self; })
-      .def("__deepcopy__", [](const std::shared_ptr<VesselHandle>& self, const py::dict&) { return self; })
-      .def("__repr__",
-           [](const VesselHandle& self) {
-             return fmt::format("<ostium.Vessel {}{}>", self.vessel->name,
-                                self.setup.person ? fmt::format(", person {}", *self.setup.person) : "");
-           })
-      .def(py::pickle([](const VesselHandle& self) { return recipe(self); },
-                      [](const py::tuple& r) { return from_recipe(r); }));
+          .def(py::init([](const std::filesystem::path& name, std::optional<std::uint64_t> person) {
+                 const OthersRun others_run;
+                 return std::const_pointer_cast<VesselHandle>(of_case(name.string(), person));
+               }),
+               py::arg("case"), py::arg("person") = py::none())
+          .def_static(
+              "from_mesh",
+              [](const std::filesystem::path& path, const std::string& unit, const Eigen::Vector3d& entry,
+                 const Eigen::Vector3d& towards) {
+                const OthersRun others_run;
+                return std::const_pointer_cast<VesselHandle>(of_mesh(path, unit, entry, towards));
+              },
+              py::arg("path"), py::arg("unit"), py::arg("entry"), py::arg("towards"),
+              "A mesh at rest, in its file's unit (\"mm\", ...): `entry` (3) within the lumen, where instruments come "
+              "in, "
+              "and "
+              "`towards` (3) a point they aim at, both in that unit and in the file's axes.")
+          .def_property_readonly("name", [](const VesselHandle& self) { return self.vessel->name; })
+          .def_property_readonly("person", [](const VesselHandle& self) { return self.setup.person; })
+          .def_property_readonly("beats", [](const VesselHandle& self) { return self.vessel->beats(); })
+          .def_property_readonly(
+              "heart_rate", [](const VesselHandle& self) { return self.vessel->rate_1_min; },
+              "Beats a minute at the start.")
+          .def_property_readonly(
+              "warnings", [](const VesselHandle& self) { return self.warnings; },
+              "What is wrong with a mesh; empty: nothing.")
+          .def_property_readonly(
+              "entry", [](const VesselHandle& self) { return self.vessel->entry.p_W; }, "(3) the introducer, m.")
+          .def_property_readonly(
+              "middle", [](const VesselHandle& self) { return self.vessel->p_middle; },
+              "(3) where the C-arm looks at first, m.")
+          .def_property_readonly(
+              "branches", branches,
+              "List of dict: name, parent (its index or -1), parent_sphere, points (n, 3) m, radii (n) m; "
+              "the tree of centreline spheres at end-diastole.")
+          .def_property_readonly(
+              "places", [](const VesselHandle& self) { return self.vessel->way->places(); },
+              "Names that `sphere` knows.")
+          .def("sphere", sphere_at, py::arg("place"),
+               "Number of the sphere at a place: a branch, a named place, or one of these and millimetres beyond, "
+               "\"RCA+20\". Raises ValueError with the names there are.")
+          .def(
+              "locate",
+              [](const VesselHandle& self, const Eigen::Vector3d& point, double phase) {
+                if (!point.allFinite() || !(phase >= 0 && phase <= 1))
+                  throw py::value_error("point has to be finite, and phase in [0, 1]");
+                return self.vessel->way->locate(point, phase);
+              },
+              py::arg("point"), py::arg("phase") = 0.0,
+              "Number of the sphere that holds a point (3), or is nearest to it.")
+          .def(
+              "point",
+              [](const VesselHandle& self, int sphere, double phase) {
+                return self.vessel->way->p(require_sphere(self, sphere), phase);
+              },
+              py::arg("sphere"), py::arg("phase") = 0.0, "(3) the sphere's middle at a phase of the beat, m.")
+          .def(
+              "between",
+              [](const VesselHandle& self, int a, int b) {
+                return self.vessel->way->between_m(require_sphere(self, a), require_sphere(self, b));
+              },
+              py::arg("a"), py::arg("b"), "Way from sphere to sphere along the tree, m.")
+          .def(
+              "branch_of",
+              [](const VesselHandle& self, int sphere) {
+                return self.vessel->way->branch(require_sphere(self, sphere));
+              },
+              py::arg("sphere"), "Index in `branches` of a sphere.")
+          .def("mesh", mesh, py::arg("phase") = 0.0,
+               "(vertices (n, 3) m, triangles (m, 3)) of the wall at a phase of the beat, [0, 1].")
+          .def_property_readonly(
+              "key", [](const VesselHandle& self) { return self.key; }, "Equal for equal vessels.")
+          .def("__copy__", [](const std::shared_ptr<VesselHandle>& self) { return self; })
+          .def("__deepcopy__", [](const std::shared_ptr<VesselHandle>& self, const py::dict&) { return self; })
+          .def("__repr__",
+               [](const VesselHandle& self) {
+                 return fmt::format("<ostium.Vessel {}{}>", self.vessel->name,
+                                    self.setup.person ? fmt::format(", person {}", *self.setup.person) : "");
+               })
+          .def(py::pickle([](const VesselHandle& self) { return recipe(self); },
+                          [](const py::tuple& r) { return from_recipe(r); }));
+  pickle_in_every_protocol(of);
 }
 
 }  // namespace ostium::python

@@ -8,11 +8,12 @@
 #include <string>
 
 #include "app/angiography/patient_scene.h"
+#include "app/python/binding/interpreter.h"
 #include "app/session/operator/setup.h"
 
 namespace ostium::python {
 
-class VesselHandle {
+class VesselHandle : public MadeByInit {
  public:
   /// Made once for equal setups, as long as one of them lives. `setup`: its vessel's part. Without the interpreter's
   /// lock; throws LoadError or MeshError.

@@ -18,7 +18,7 @@ def save(self, path):
 def load(path):
     """A vessel that `save` wrote. Raises ValueError for another file."""
     with np.load(path, allow_pickle=False) as file:
-        if "format" not in file or str(file["format"]) != "ostium-vessel/1":
+        if not {"format", *_NAMES} <= set(file.files) or str(file["format"]) != "ostium-vessel/1":
             raise ValueError(f"{path}: is no vessel; expected a file of Vessel.save")
         person = int(file["person"])
         vessel = Vessel.__new__(Vessel)

@@ -103,6 +103,11 @@ const fluoro::Picture& Film::frame(const SessionModel& model, const SessionState
   return p.picture;
 }
 
+void Film::restart(std::uint64_t seed) {
+  parts_->options.seed = seed;
+  parts_->state = {};
+}
+
 void Film::listen(const SessionModel& model, const SessionState& state, const SessionInputs& inputs) {
   if (parts_->options.monitor) parts_->monitor.listen(model, state, inputs);
 }

@@ -33,6 +33,8 @@ class Film {
   /// std::invalid_argument for an impossible rate or pose.
   Film(const SessionModel& model, const FilmOptions& options, const PatientScene* same = nullptr);
   ~Film();
+  /// As if no picture had been taken yet: noise of that seed, no lag.
+  void restart(std::uint64_t seed);
   /// Call after every step that is to appear on the monitor.
   void listen(const SessionModel& model, const SessionState& state, const SessionInputs& inputs);
   Monitor& monitor();  ///< the strips recorded so far

@@ -10,11 +10,12 @@ try:
 except ImportError as missing:
     raise ImportError("ostium.gym needs gymnasium 1.0 or later: pip install gymnasium") from missing
 
+from . import sb3
 from .environment import NavigationEnv
 from ostium.navigation import TASKS, Moment, Task
 from .vector import NavigationVectorEnv
 
-__all__ = ["TASKS", "Moment", "NavigationEnv", "NavigationVectorEnv", "Task"]
+__all__ = ["TASKS", "Moment", "NavigationEnv", "NavigationVectorEnv", "Task", "sb3"]
 
 for _name in TASKS:
     gymnasium.register(

@@ -21,6 +21,12 @@ def require_image(image):
     return image
 
 
+def require_view(view):
+    if view is not None and view not in ostium.views():
+        raise ValueError(f'there is no view "{view}"; expected one of {", ".join(ostium.views())}')
+    return view
+
+
 def require_actions(actions):
     if actions not in ("unit", "physical"):
         raise ValueError(f'actions is "{actions}"; expected "unit" or "physical"')
@@ -41,7 +47,7 @@ class NavigationEnv(gymnasium.Env):
 
     def __init__(self, task="BasicWireNav", image=None, actions="unit", view=None, render_mode=None, pixels=256):
         self.task = require_task(task)
-        self.image, self.physical, self.view = require_image(image), require_actions(actions), view
+        self.image, self.physical, self.view = require_image(image), require_actions(actions), require_view(view)
         if render_mode not in (None, "rgb_array"):
             raise ValueError(f'render_mode is "{render_mode}"; expected None or "rgb_array"')
         self.render_mode, self.pixels = render_mode, pixels
@@ -63,6 +69,8 @@ class NavigationEnv(gymnasium.Env):
         if who.person not in self._datas:
             self._datas[who.person] = ostium.Data(who.model)
         self.data = self._datas[who.person]
+        for imager in self._imagers.values():
+            imager.reset()
         self.data.reset()
         who.begin(lambda to: self.data.reset(to) if np.isscalar(to) else self.data.set_state(to), self.data.step,
                   self.np_random)
@@ -85,7 +93,9 @@ class NavigationEnv(gymnasium.Env):
     def render(self):
         if self.render_mode is None:
             return None
-        return np.repeat(self._picture(self.pixels)[:, :, None], 3, axis=2)
+        if self.course is None:
+            raise RuntimeError("reset this environment before its first picture")
+        return np.repeat(self._picture("rendered", self.pixels)[:, :, None], 3, axis=2)
 
     def close(self):
         self.data = self.course = None
@@ -95,8 +105,8 @@ class NavigationEnv(gymnasium.Env):
         leader = patient(self.task, self.data.model.vessel.person).leader
         return self.data.nodes(leader), self.data.tip(leader)
 
-    def _picture(self, pixels):
-        key = self.course.patient.person, pixels
+    def _picture(self, use, pixels):
+        key = self.course.patient.person, use  # one for each: noise and lag go on from picture to picture
         if key not in self._imagers:
             # A field that shows the whole way from the arch on.
             self._imagers[key] = ostium.Imager(self.data.model, view=self.view, pixels=pixels, field=0.3)
@@ -107,7 +117,7 @@ class NavigationEnv(gymnasium.Env):
         seen = self.course.observation([self.data.nodes(name) for name, _ in self.task.tools],
                                        self.data.signals[who.inserted])
         if self.image:
-            seen["image"] = self._picture(self.image)[:, :, None]
+            seen["image"] = self._picture("seen", self.image)[:, :, None]
         return seen
 
     def _info(self, reached, nan):

@@ -13,7 +13,7 @@ except ImportError:  # Gymnasium 1.0 knows this one way and has no name for it
     AutoresetMode = None
 
 from ostium.navigation import Course, patient, spaces_of
-from .environment import require_actions, require_image, require_task
+from .environment import require_actions, require_image, require_task, require_view
 
 
 class NavigationVectorEnv(VectorEnv):
@@ -28,16 +28,18 @@ class NavigationVectorEnv(VectorEnv):
     def __init__(self, task="BasicWireNav", num_envs=1, image=None, actions="unit", view=None, threads=None,
                  render_mode=None):
         self.task = require_task(task)
-        self.image, self.physical, self.view = require_image(image), require_actions(actions), view
+        self.image, self.physical, self.view = require_image(image), require_actions(actions), require_view(view)
         if render_mode is not None:
             raise ValueError("vector environments are not rendered; take one environment")
         self.render_mode = None
+        if num_envs < 1:
+            raise ValueError(f"num_envs is {num_envs}; expected 1 or more")
         self.num_envs, self.threads = num_envs, threads
         self.single_observation_space, self.single_action_space = spaces_of(self.task, self.physical, self.image,
                                                                             gymnasium.spaces)
         self.observation_space = batch_space(self.single_observation_space, num_envs)
         self.action_space = batch_space(self.single_action_space, num_envs)
-        self.batch = self._imager = None
+        self.batch = self._imagers = None
         self._random = [np.random.default_rng() for _ in range(num_envs)]
 
     def reset(self, *, seed=None, options=None):
@@ -51,11 +53,13 @@ class NavigationVectorEnv(VectorEnv):
         if options:
             raise ValueError(f"options has {sorted(options)}; expected person, target")
         if person is None:
-            person = self.task.persons[self._random[0].integers(len(self.task.persons))]
+            # Each generator draws, as that of one environment would; the first decides.
+            drawn = [random.integers(len(self.task.persons)) for random in self._random]
+            person = self.task.persons[drawn[0]]
         who = patient(self.task, int(person))
         if self.batch is None or self.batch.model is not who.model:
             self.batch = ostium.Batch(who.model, self.num_envs, self.threads)
-            self._imager = None
+            self._imagers = None
         self.patient = who
         self.courses = [None] * self.num_envs
         self._over = np.zeros(self.num_envs, dtype=bool)
@@ -64,10 +68,19 @@ class NavigationVectorEnv(VectorEnv):
         return self._observations(), self._infos(np.zeros(self.num_envs, bool), np.zeros(self.num_envs, int))
 
     def step(self, actions):
+        try:
+            return self._step(actions)
+        except KeyboardInterrupt:  # some sessions may have come farther than others
+            self.batch = None
+            raise
+
+    def _step(self, actions):
         if self.batch is None:
             raise RuntimeError("reset this environment before its first step")
         nan = np.zeros(self.num_envs, dtype=int)
-        actions = np.asarray(actions).reshape(self.num_envs, -1)
+        if np.shape(actions) != self.action_space.shape:
+            raise ValueError(f"actions have shape {np.shape(actions)}; expected {self.action_space.shape}")
+        actions = np.asarray(actions)
         going = ~self._over
         for i in np.flatnonzero(~going):
             self._begin(i)
@@ -97,6 +110,8 @@ class NavigationVectorEnv(VectorEnv):
         self.batch = None
 
     def _begin(self, i, target=None):
+        if self._imagers is not None:
+            self._imagers[i].reset()
         random, only = self._random[i], np.arange(self.num_envs) == i
         self.batch.reset(i)
         self.patient.begin(lambda to: self.batch.reset(i, to), lambda steps: self.batch.step(steps, mask=only), random)
@@ -111,11 +126,11 @@ class NavigationVectorEnv(VectorEnv):
                                    self.batch.signals[i, self.patient.inserted])
                 for i, course in enumerate(self.courses)]
         if self.image:
-            if self._imager is None:
-                self._imager = [ostium.Imager(self.batch.model, view=self.view, pixels=self.image, field=0.3)
+            if self._imagers is None:
+                self._imagers = [ostium.Imager(self.batch.model, view=self.view, pixels=self.image, field=0.3)
                                 for _ in range(self.num_envs)]
             for i, one in enumerate(each):
-                one["image"] = self._imager[i].frame(self.batch.data(i))[:, :, None]
+                one["image"] = self._imagers[i].frame(self.batch.data(i))[:, :, None]
         return {key: np.stack([one[key] for one in each]) for key in each[0]}
 
     def _infos(self, reached, nan):

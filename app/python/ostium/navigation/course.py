@@ -134,7 +134,10 @@ class Course:
 
     def drives(self, action, physical):
         """-> ((moved tools, 2) m/s and rad/s, how many numbers were NaN). Unit actions are scaled, all are clipped."""
-        action = np.asarray(action, dtype=float).reshape(len(self.task.moved), 2)
+        action = np.asarray(action, dtype=float)
+        if action.shape != (2 * len(self.task.moved),):
+            raise ValueError(f"the action has shape {action.shape}; expected ({2 * len(self.task.moved)},)")
+        action = action.reshape(-1, 2)
         bad = int(np.isnan(action).sum())
         action = np.nan_to_num(action, nan=0.0)
         most = np.array([self.task.max_feed_m_s, self.task.max_turn_rad_s])

@@ -58,6 +58,23 @@ class Task:
     reward: Callable[[Moment], float] = steve
     safe_wall_N: float = 2.0  # a step is safe up to this force (CathSim's threshold)
 
+    def __post_init__(self):
+        for name in ("tools", "persons", "targets", "moves", "prepared", "along", "beyond_m"):
+            of = getattr(self, name)
+            if of is not None:  # hashable, whatever sequences were given
+                of = tuple(tuple(one) if isinstance(one, list) else one for one in of)
+                object.__setattr__(self, name, of)
+        for name in ("tools", "persons", "targets", "along"):
+            if not getattr(self, name):
+                raise ValueError(f"{name} is empty; expected one at least")
+        for name in ("reach_m", "max_feed_m_s", "max_turn_rad_s", "step_s", "steps"):
+            if not getattr(self, name) > 0:
+                raise ValueError(f"{name} is {getattr(self, name)}; expected more than 0")
+        known = [name for name, _ in self.tools]
+        for name in (*(self.moves or ()), *([self.leader] if self.leader else [])):
+            if name not in known:
+                raise ValueError(f'there is no tool "{name}"; expected one of {", ".join(known)}')
+
     @property
     def moved(self):
         """(name, instrument) of the tools that actions move."""
