@@ -18,8 +18,8 @@ using Json = nlohmann::ordered_json;
 double rounded(double x, double to) { return std::round(x / to) * to; }
 /// To a hundredth of a pixel, and to a micrometre.
 double px(double x) { return rounded(100 * x, 1) / 100; }
-double mm(double x_m) { return rounded(1e6 * x_m, 1) / 1000; }
-Json mm(const Eigen::Vector3d& p_m) { return {mm(p_m.x()), mm(p_m.y()), mm(p_m.z())}; }
+double in_mm(double x_m) { return rounded(1e6 * x_m, 1) / 1000; }
+Json in_mm(const Eigen::Vector3d& p_m) { return {in_mm(p_m.x()), in_mm(p_m.y()), in_mm(p_m.z())}; }
 
 bool is_in(const fluoro::View& view, const fluoro::PicturePoint& p) {
   return p.at.minCoeff() >= 0 && p.at.maxCoeff() < view.pixels;
@@ -57,8 +57,8 @@ Json centreline_of(const fluoro::View& view, const Eigen::Matrix3Xd& line_P) {
     const auto p = picture_point(view, line_P.col(i));
     if (!p || !is_in(view, *p)) continue;
     at.push_back({px(p->at.x()), px(p->at.y())});
-    depth.push_back(mm(p->depth_m));
-    space.push_back(mm(Eigen::Vector3d(line_P.col(i))));
+    depth.push_back(in_mm(p->depth_m));
+    space.push_back(in_mm(Eigen::Vector3d(line_P.col(i))));
   }
   return {{"px", at}, {"depth_mm", depth}, {"mm", space}};
 }
@@ -70,10 +70,10 @@ Json c_arm_of(const fluoro::View& view) {
   for (int r = 0; r < 3; ++r) rows.push_back({P(r, 0), P(r, 1), P(r, 2), P(r, 3)});
   return {{"lao_deg", view.arm.lao_rad / units::degree},
           {"cran_deg", view.arm.cran_rad / units::degree},
-          {"source_to_isocentre_mm", mm(view.arm.source_to_isocentre_m)},
-          {"source_to_detector_mm", mm(view.arm.source_to_detector_m)},
-          {"isocentre_mm", mm(view.arm.p_PI)},
-          {"field_mm", mm(view.field_m)},
+          {"source_to_isocentre_mm", in_mm(view.arm.source_to_isocentre_m)},
+          {"source_to_detector_mm", in_mm(view.arm.source_to_detector_m)},
+          {"isocentre_mm", in_mm(view.arm.p_PI)},
+          {"field_mm", in_mm(view.field_m)},
           {"pixel_mm", 1e3 * view.field_m / view.pixels},
           {"projection", rows}};
 }
@@ -91,14 +91,14 @@ Json image_of(const PictureName& name, const SessionModel& model, const SessionS
       points.push_back({{"name", point.name},
                         {"px", {px(p->at.x()), px(p->at.y())}},
                         {"in_picture", is_in(view, *p)},
-                        {"depth_mm", mm(p->depth_m)},
-                        {"mm", mm(point.p_P)}});
+                        {"depth_mm", in_mm(p->depth_m)},
+                        {"mm", in_mm(point.p_P)}});
   for (std::size_t t = 0; t < model.tools.size(); ++t) {
     const ToolReport& tool = report.tools[t];
     if (!tool.in_body) continue;
     tools.push_back({{"name", model.tools[t].name},
                      {"instrument", model.tools[t].instrument.name},
-                     {"inserted_mm", mm(state.rods.rods[t].inserted_m)},
+                     {"inserted_mm", in_mm(state.rods.rods[t].inserted_m)},
                      {"push_N", tool.push_N},
                      {"torque_mNm", 1e3 * tool.torque_Nm},
                      {"wall_force_N", tool.wall_force_N},

@@ -64,8 +64,8 @@ void show_tools(const ScriptedRun& run) {
   show_progress(fmt::format("{:7.1f} s  {}{}", now, run.plan.script.steps[s].words(), tools));
 }
 
-RecorderOptions recorder_of(const RunArguments& a) {
-  RecorderOptions recorder = app::recorder_of(a.record);
+RecorderOptions recorder_options_of(const RunArguments& a) {
+  RecorderOptions recorder = recorder_of(a.record);
   if (a.folder.empty())
     recorder.mode = RecordMode::none;
   else
@@ -86,7 +86,7 @@ std::shared_ptr<const Vessel> build_vessel(RunSetup& setup) {
 
 PlayOptions play_options(const RunArguments& a, BoxRun* device) {
   PlayOptions options;
-  options.recorder = recorder_of(a);
+  options.recorder = recorder_options_of(a);
   options.real = a.speed == "real" || (device && device->real());
   options.seconds = a.session.seconds;
   options.progress = [device, shown = LastingProblem()](const ScriptedRun& now) mutable {

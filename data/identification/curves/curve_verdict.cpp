@@ -65,7 +65,9 @@ std::size_t rivals_of(std::vector<Candidate>& list, const Candidate& declared) {
   const Candidate best = list.front();
   for (std::size_t k = 1; k < list.size(); ++k) {
     const Candidate& c = list[k];
-    if (c.effects == best.effects || !c.is_noise || !wins(c, declared)) continue;
+    // The same effects, in whatever order they were found, are one explanation.
+    const bool same = std::is_permutation(c.effects.begin(), c.effects.end(), best.effects.begin(), best.effects.end());
+    if (same || !c.is_noise || !wins(c, declared)) continue;
     // More effects than it takes are no rival.
     if (c.model.on.size() > best.model.on.size() && !best.fault) continue;
     // Two that data often confuse are told apart by the data alone, not by what was expected before.
