@@ -192,7 +192,7 @@ py::tuple rollout(const ModelHandle& model, const Doubles& states, const Doubles
 }  // namespace
 
 void bind_batch(py::module_& module) {
-  auto of =
+  auto bound =
       py::class_<BatchHandle, Self>(module, "Batch", R"(Many sessions of one model, stepped side by side.
 
 Batch(model, num, threads=None): on all cores, or so many threads. What comes of a session does not depend on the others
@@ -307,7 +307,7 @@ or on the threads. Arrays are views, as those of Data.)")
                 return std::make_shared<DataHandle>(self.model, from);
               },
               py::arg("i"), "A copy of session i.");
-  refuse_to_pickle(of);
+  refuse_to_pickle(bound);
   module.def("rollout", rollout, py::arg("model").none(false), py::arg("states"), py::arg("inputs"),
              py::arg("hold") = 1, py::arg("threads") = py::none(),
              R"(Sequences of inputs from states, side by side.

@@ -84,7 +84,7 @@ Self copy(const DataHandle& self) {
 }  // namespace
 
 void bind_data(py::module_& module) {
-  auto of =
+  auto bound =
       py::class_<DataHandle, Self>(
           module, "Data",
           R"(A session of a model: its state, the inputs of its next steps, and what came of the last ones.
@@ -203,7 +203,7 @@ object. One thread at a time: a second one that steps, copies, saves or restores
                 std::copy(row.data(), row.data() + row.size(), data->run.row.begin());
                 return data;
               }));
-  pickle_in_every_protocol(of);
+  pickle_in_every_protocol(bound);
   module.def(
       "step", [](const ModelHandle& model, DataHandle& data, long long n) { step(model, data, n); },
       py::arg("model").none(false), py::arg("data").none(false), py::arg("n") = 1,

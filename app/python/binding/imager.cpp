@@ -84,7 +84,7 @@ py::array_t<std::uint8_t> frame(ImagerHandle& self, DataHandle& data) {
 }  // namespace
 
 void bind_imager(py::module_& module) {
-  auto of =
+  auto bound =
       py::class_<ImagerHandle, std::shared_ptr<ImagerHandle>>(module, "Imager",
                                                               R"(Takes X-ray pictures of sessions of a model.
 
@@ -107,7 +107,7 @@ The first one of a vessel takes a second.)")
           .def(
               "frame", frame, py::arg("data").none(false),
               "(pixels, pixels) uint8: this moment, as the display shows it; noise and lag go on from frame to frame.");
-  refuse_to_pickle(of);
+  refuse_to_pickle(bound);
 }
 
 }  // namespace ostium::python

@@ -121,7 +121,7 @@ const double* ModelHandle::state_of(const double* numbers, std::size_t count) co
 }
 
 void bind_model(py::module_& module) {
-  auto of =
+  auto bound =
       py::class_<ModelHandle, std::shared_ptr<ModelHandle>>(module, "Model",
                                                             R"(Instruments in a vessel; does not change.
 
@@ -190,7 +190,7 @@ Many threads may use one. Raises OstiumError for instruments that are not there 
                })
           .def(py::pickle([](const ModelHandle& self) { return recipe_to_python(self); },
                           [](const py::tuple& recipe) { return from_python(recipe); }));
-  pickle_in_every_protocol(of);
+  pickle_in_every_protocol(bound);
 }
 
 }  // namespace ostium::python

@@ -51,7 +51,7 @@ py::tuple shapes(const RecordingHandle& self, const std::string& tool) {
 }  // namespace
 
 void bind_recording(py::module_& module) {
-  auto of =
+  auto bound =
       py::class_<RecordingHandle, std::shared_ptr<RecordingHandle>>(module, "RecordingFile",
                                                                     R"(A recording as `ostium run` writes it: run.h5.
 
@@ -99,7 +99,7 @@ RecordingFile(path) raises OstiumError for a file that is damaged, or is none of
           .def_property_readonly("branches", names_of("", "branches"), "By index, as tip_branch has them.")
           .def("shapes", shapes, py::arg("tool"),
                "(steps (n), points (n, nodes, 3) m, hub to tip, NaN outside the body), of a run with --record shapes.");
-  refuse_to_pickle(of);
+  refuse_to_pickle(bound);
 }
 
 }  // namespace ostium::python

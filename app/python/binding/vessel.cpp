@@ -163,7 +163,7 @@ std::shared_ptr<const VesselHandle> VesselHandle::of(RunSetup setup) {
 }
 
 void bind_vessel(py::module_& module) {
-  auto of =
+  auto bound =
       py::class_<VesselHandle, std::shared_ptr<VesselHandle>>(module, "Vessel", R"(A vessel: a case's beating lumen.
 
 Vessel(case, person=None): `case` is a name of `ostium cases`, or a case's file; `person` (0, 1, ...) another person with
@@ -250,7 +250,7 @@ left, y to the head, z to the front. Raises OstiumError for a case that is not t
                })
           .def(py::pickle([](const VesselHandle& self) { return recipe(self); },
                           [](const py::tuple& r) { return from_recipe(r); }));
-  pickle_in_every_protocol(of);
+  pickle_in_every_protocol(bound);
 }
 
 }  // namespace ostium::python
