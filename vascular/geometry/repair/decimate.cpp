@@ -21,10 +21,10 @@ constexpr double to_middle = 1e-3;    // weight of the edge's midpoint, where pl
 using Quadric = Eigen::Matrix4d;
 
 /// An edge that may collapse.
-struct Edge {
+struct ShortEdge {
   double length;  ///< relative to the requested one, [0, shortest)
   int a, b, stamp;
-  bool operator<(const Edge& other) const {  // for a heap: the shortest on top
+  bool operator<(const ShortEdge& other) const {  // for a heap: the shortest on top
     return length != other.length ? length > other.length : std::tie(a, b) > std::tie(other.a, other.b);
   }
 };
@@ -35,7 +35,7 @@ class EdgeQueue {
  public:
   EdgeQueue() : buckets_(count) {}
 
-  void push(const Edge& edge) {
+  void push(const ShortEdge& edge) {
     const int i = std::min(count - 1, static_cast<int>(edge.length * (count / shortest)));
     Bucket& bucket = buckets_[i];
     bucket.edges.push_back(edge);
@@ -44,7 +44,7 @@ class EdgeQueue {
   }
 
   /// False when none is left.
-  bool pop(Edge& edge) {
+  bool pop(ShortEdge& edge) {
     while (first_ < count && buckets_[first_].edges.empty()) ++first_;
     if (first_ == count) return false;
     auto& [edges, is_heap] = buckets_[first_];
@@ -58,7 +58,7 @@ class EdgeQueue {
 
  private:
   struct Bucket {
-    std::vector<Edge> edges;
+    std::vector<ShortEdge> edges;
     bool is_heap = false;
   };
   static constexpr int count = 4096;
@@ -94,7 +94,7 @@ class Decimator {
       for (const auto& t : triangles_)
         for (int k = 0; k < 3; ++k)
           if (t[k] < t[(k + 1) % 3]) push(t[k], t[(k + 1) % 3], round == 0 ? shortest : much_too_short);
-      for (Edge edge; edges_.pop(edge);) {
+      for (ShortEdge edge; edges_.pop(edge);) {
         if (edge.stamp == changed_[edge.a] + changed_[edge.b]) collapse(edge.a, edge.b);
       }
     }
