@@ -36,6 +36,7 @@ def test_tables_have_their_columns(recording):
     inserted = signals["wire.inserted_mm"]
     assert (np.diff(inserted) >= -1e-6).all() and inserted[-1] > 50
     assert set(signals.to_dict()) == set(signals.names)
+    assert list(signals) == signals.names and "wire.push_N" in signals and 0 not in signals
     with pytest.raises(KeyError, match="wire.tip_x_mm"):
         signals["nothing"]
     assert recording.setup["seed"] == 0 and recording.step_s == 1e-3

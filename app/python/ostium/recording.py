@@ -6,7 +6,7 @@ from ._ostium import RecordingFile
 
 
 class Table:
-    """Columns with names. table["wire.tip_x_mm"] is one of them, (rows)."""
+    """Columns with names, as pandas has them: table["wire.tip_x_mm"] is one of them, (rows); it iterates over names."""
 
     def __init__(self, names, numbers):
         self.names, self.numbers = list(names), np.asarray(numbers)
@@ -15,6 +15,12 @@ class Table:
         if name not in self.names:
             raise KeyError(f'there is no column "{name}"; there are {", ".join(self.names)}')
         return self.numbers[:, self.names.index(name)]
+
+    def __iter__(self):
+        return iter(self.names)
+
+    def __contains__(self, name):
+        return name in self.names
 
     def __len__(self):
         return len(self.numbers)
