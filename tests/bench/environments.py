@@ -28,9 +28,9 @@ def drive(batch, who, task, random, steps):
     n = len(batch)
     began = time.perf_counter()
     for _ in range(steps):
-        for columns in who.moved:
-            batch.inputs[:, columns] = np.stack([random.uniform(-0.3, 1, n) * task.max_feed_m_s,
-                                                 random.uniform(-1, 1, n) * task.max_turn_rad_s], axis=1)
+        for feed, turn in zip(who.driven[::2], who.driven[1::2]):
+            batch.inputs[:, feed] = random.uniform(-0.3, 1, n) * task.max_feed_m_s
+            batch.inputs[:, turn] = random.uniform(-1, 1, n) * task.max_turn_rad_s
         batch.step(who.hops)
     return n * steps / (time.perf_counter() - began)
 

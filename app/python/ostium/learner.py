@@ -42,14 +42,12 @@ def play(task, who, policies, seeds, targets, threads=None):
     while going.any():
         for i in np.flatnonzero(going):
             seen = courses[i].observation([batch.nodes(i, name) for name in names], batch.signals[i, who.inserted])
-            drives, _ = courses[i].drives(np.tanh(policies[i] @ features(seen, task)), physical=False)
-            for drive, columns in zip(drives, who.moved):
-                batch.inputs[i, columns] = drive
+            batch.inputs[i, who.driven], _ = courses[i].drives(np.tanh(policies[i] @ features(seen, task)), physical=False)
         batch.step(who.hops, mask=going)
         peaks, phases = batch.peaks[:, who.felt, 2].max(axis=1), batch.phases
         for i in np.flatnonzero(going):
             reward, arrived, cut, _ = courses[i].see(batch.nodes(i, who.leader), batch.tips[i, who.led], phases[i],
-                                                      peaks[i])
+                                                      peaks[i], batch.signals[i])
             returns[i] += reward
             reached[i] = arrived
             going[i] = not (arrived or cut)
@@ -60,7 +58,7 @@ def learn(task, who, rounds, drawn, random, targets, say=print):
     """-> (policy, [(round, simulated episodes, mean return, best return, share that arrived), ...])."""
     empty = np.zeros((0, 3))
     seen = Course(task, who, random, empty, who.vessel.entry).observation([empty] * len(task.tools), [0.0] * len(task.tools))
-    shape = 2 * len(task.moved), len(features(seen, task))
+    shape = len(who.driven), len(features(seen, task))
     middle, spread = np.zeros(shape), np.ones(shape)
     curve, began = [], time.time()
     for k in range(rounds):
@@ -94,14 +92,12 @@ def film(task, who, policy, seeds, targets, path, pixels=512):
             over = False
             while not over:
                 seen = course.observation([data.nodes(name) for name, _ in task.tools], data.signals[who.inserted])
-                drives, _ = course.drives(np.tanh(policy @ features(seen, task)), physical=False)
-                for drive, columns in zip(drives, who.moved):
-                    data.inputs[columns] = drive
+                data.inputs[who.driven], _ = course.drives(np.tanh(policy @ features(seen, task)), physical=False)
                 for half in (who.hops // 2, who.hops - who.hops // 2):
                     data.step(half)
                     encoder.stdin.write(imager.frame(data).tobytes())
                 _, arrived, cut, _ = course.see(data.nodes(who.leader), data.tip(who.leader), data.phase,
-                                                float(data.peaks[who.felt, 2].max()))
+                                                float(data.peaks[who.felt, 2].max()), data.signals)
                 over = arrived or cut
         encoder.stdin.close()
     if encoder.returncode != 0:

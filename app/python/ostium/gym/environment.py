@@ -83,11 +83,11 @@ class NavigationEnv(gymnasium.Env):
         if self.data is None:
             raise RuntimeError("reset this environment before its first step")
         drives, nan = self.course.drives(action, self.physical)
-        for (feed, turn), columns in zip(drives, self.course.patient.moved):
-            self.data.inputs[columns] = feed, turn
+        self.data.inputs[self.course.patient.driven] = drives
         self.data.step(self.course.patient.hops)
         reward, reached, truncated, _ = self.course.see(*self._leading(), self.data.phase,
-                                                        float(self.data.peaks[self.course.patient.felt, 2].max()))
+                                                        float(self.data.peaks[self.course.patient.felt, 2].max()),
+                                                        self.data.signals)
         return self._observation(), reward, reached, truncated, self._info(reached, nan)
 
     def render(self):

@@ -85,9 +85,7 @@ class NavigationVectorEnv(VectorEnv):
         for i in np.flatnonzero(~going):
             self._begin(i)
         for i in np.flatnonzero(going):
-            drives, nan[i] = self.courses[i].drives(actions[i], self.physical)
-            for (feed, turn), columns in zip(drives, self.patient.moved):
-                self.batch.inputs[i, columns] = feed, turn
+            self.batch.inputs[i, self.patient.driven], nan[i] = self.courses[i].drives(actions[i], self.physical)
         self.batch.step(self.patient.hops, mask=going)
         rewards = np.zeros(self.num_envs)
         reached, truncated = np.zeros(self.num_envs, bool), np.zeros(self.num_envs, bool)
@@ -95,7 +93,7 @@ class NavigationVectorEnv(VectorEnv):
         for i in np.flatnonzero(going):
             course = self.courses[i]
             rewards[i], reached[i], truncated[i], _ = course.see(*self._leading(i), phases[i],
-                                                                 float(peaks[i]))
+                                                                 float(peaks[i]), self.batch.signals[i])
         self._over = reached | truncated
         return self._observations(), rewards, reached, truncated, self._infos(reached, nan)
 

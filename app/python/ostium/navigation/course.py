@@ -22,7 +22,9 @@ class Patient:
         names = self.model.input_names
         self.columns = {tool: [names.index(f"{tool}.advance_m_s"), names.index(f"{tool}.turn_rad_s")]
                         for tool, _ in task.tools}
-        self.moved = [self.columns[tool] for tool, _ in task.moved]
+        self.driven = [column for tool, _ in task.moved for column in self.columns[tool]]  # by actions, in their order
+        if task.max_gauge_Pa > 0:
+            self.driven.append(names.index("gauge_Pa"))
         self.inserted = [self.model.signal_names.index(f"{tool}.inserted_mm") for tool, _ in task.tools]
         self.leader = task.leader or task.tools[-1][0]  # and its number
         tools = [name for name, _ in task.tools]
@@ -86,7 +88,7 @@ class Course:
         self.left_m = self.first_left_m = who.vessel.between(self.sphere, self.target)
         self.path_m = 0.0  # what the leading point has come along the tree, to and fro
         self.forces, self.safe_steps = [], 0
-        self.last_action = np.zeros(2 * len(task.moved), dtype=np.float32)
+        self.last_action = np.zeros(len(who.driven), dtype=np.float32)
 
     def leading_point(self, nodes, tip):
         """The point that has to arrive; `tip`, which is the introducer then, while it is not in the body."""
@@ -94,13 +96,16 @@ class Course:
             return np.array(tip)
         return points_along(nodes, (self.task.lead_m,))[0]
 
-    def see(self, nodes, tip, phase, peak_wall_N):
-        """`nodes`, `tip`: of the leading tool. -> (reward, reached, truncated, moment)."""
+    def see(self, nodes, tip, phase, peak_wall_N, signals):
+        """`nodes`, `tip`: of the leading tool; `signals` as the model names them. -> (reward, reached, truncated, moment)."""
         v, tip = self.patient.vessel, self.leading_point(nodes, tip)
         sphere = v.locate(tip, phase)
         left = v.between(sphere, self.target)
         distance = float(np.linalg.norm(tip - v.point(self.target, phase)))
-        reached = distance <= self.task.reach_m
+        if self.task.goal:
+            reached = bool(self.task.goal(dict(zip(self.patient.model.signal_names, signals))))
+        else:
+            reached = distance <= self.task.reach_m
         moment = Moment(left, self.left_m - left, distance, reached, peak_wall_N)
         self.path_m += v.between(self.sphere, sphere)
         self.left_m, self.tip, self.sphere = left, tip, sphere
@@ -133,30 +138,29 @@ class Course:
         }
 
     def drives(self, action, physical):
-        """-> ((moved tools, 2) m/s and rad/s, how many numbers were NaN). Unit actions are scaled, all are clipped."""
+        """-> (what the driven inputs become, how many numbers were NaN). Unit actions are scaled, all are clipped."""
+        least, most = self.task.limits
         action = np.asarray(action, dtype=float)
-        if action.shape != (2 * len(self.task.moved),):
-            raise ValueError(f"the action has shape {action.shape}; expected ({2 * len(self.task.moved)},)")
-        action = action.reshape(-1, 2)
+        if action.shape != most.shape:
+            raise ValueError(f"the action has shape {action.shape}; expected {most.shape}")
         bad = int(np.isnan(action).sum())
         action = np.nan_to_num(action, nan=0.0)
-        most = np.array([self.task.max_feed_m_s, self.task.max_turn_rad_s])
-        drives = np.clip(action if physical else action * most, -most, most)
-        self.last_action = (drives / most).astype(np.float32).ravel()
+        drives = np.clip(action if physical else np.where(action < 0, -action * least, action * most), least, most)
+        self.last_action = self.task.as_unit(drives)
         return drives, bad
 
 
 def spaces_of(task: Task, physical: bool, image, spaces):
     """(observation space, action space) of one environment; `spaces` is gymnasium.spaces."""
     tools = len(task.tools)
-    moved = len(task.moved)
-    most = np.tile([task.max_feed_m_s, task.max_turn_rad_s] if physical else [1.0, 1.0], moved).astype(np.float32)
+    least, most = (limit.astype(np.float32) for limit in task.limits)
     inside = {
         "points": spaces.Box(-1.0, 1.0, (tools, len(task.along), 3), np.float32),
         "inserted": spaces.Box(0.0, 1.0, (tools,), np.float32),
         "target": spaces.Box(-1.0, 1.0, (3,), np.float32),
-        "action": spaces.Box(-1.0, 1.0, (2 * moved,), np.float32),
+        "action": spaces.Box(-1.0, 1.0, most.shape, np.float32),
     }
     if image:
         inside["image"] = spaces.Box(0, 255, (image, image, 1), np.uint8)
-    return spaces.Dict(inside), spaces.Box(-most, most, dtype=np.float32)
+    return spaces.Dict(inside), (spaces.Box(least, most, dtype=np.float32) if physical else
+                                 spaces.Box(-1.0, 1.0, most.shape, np.float32))

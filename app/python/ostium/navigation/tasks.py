@@ -4,12 +4,15 @@ Numbers of tasks that others published are theirs, so that results can be laid s
 """
 
 from dataclasses import dataclass, field
-from typing import Callable, Optional, Sequence, Tuple
+from typing import Callable, Mapping, Optional, Sequence, Tuple
 
 import numpy as np
 
 # The brachiocephalic trunk is the first part of the right subclavian artery here.
 ARCH = ("right subclavian", "right carotid", "left carotid", "left subclavian")
+
+
+VACUUM_PA = 0.8e5  # drawn on a balloon to empty it
 
 
 @dataclass(frozen=True)
@@ -26,6 +29,13 @@ class Moment:
 def steve(m: Moment) -> float:
     """Karstensen et al. 2025, stEVE, BasicWireNav: +1 on arrival, -0.005 a step, 0.001 a millimetre of way."""
     return float(m.reached) - 0.005 + 0.001 * 1e3 * m.came_m
+
+
+def treated(signals) -> bool:
+    """Angiographic success: less than 20 % of the diameter is missing anywhere in the lesions, stents cover them, and the
+    balloon is empty. (20 % under a stent: Levine et al. 2011, guideline for PCI, 5.1.)"""
+    return (signals["stenosis_worst_percent"] < 20 and signals["stent_margin_least_mm"] >= 0
+            and signals["balloon_atm"] < 0.1)
 
 
 def cathsim(m: Moment) -> float:
@@ -54,6 +64,8 @@ class Task:
     max_feed_m_s: float = 0.035
     max_turn_rad_s: float = 3.14
     step_s: float = 0.132
+    max_gauge_Pa: float = 0.0  # of the inflation device, one more action where it is above 0
+    goal: Optional[Callable[[Mapping[str, float]], bool]] = None  # of signals by name: success instead of the reach
     steps: int = 1000  # then an episode is truncated
     reward: Callable[[Moment], float] = steve
     safe_wall_N: float = 2.0  # a step is safe up to this force (CathSim's threshold)
@@ -64,6 +76,8 @@ class Task:
             if of is not None:  # hashable, whatever sequences were given
                 of = tuple(tuple(one) if isinstance(one, list) else one for one in of)
                 object.__setattr__(self, name, of)
+        if not self.max_gauge_Pa >= 0:
+            raise ValueError(f"max_gauge_Pa is {self.max_gauge_Pa}; expected 0 or more")
         for name in ("tools", "persons", "targets", "along"):
             if not getattr(self, name):
                 raise ValueError(f"{name} is empty; expected one at least")
@@ -80,6 +94,20 @@ class Task:
         """(name, instrument) of the tools that actions move."""
         return [tool for name in self.moves or [n for n, _ in self.tools] for tool in self.tools if tool[0] == name]
 
+    @property
+    def limits(self):
+        """(least, most) of each action: m/s and rad/s for each tool that moves, and Pa."""
+        most = [self.max_feed_m_s, self.max_turn_rad_s] * len(self.moved)
+        least = [-x for x in most]
+        if self.max_gauge_Pa > 0:
+            least, most = [*least, -VACUUM_PA], [*most, self.max_gauge_Pa]
+        return np.array(least), np.array(most)
+
+    def as_unit(self, drives):
+        """Inputs as actions from -1 to 1."""
+        least, most = self.limits
+        return np.where(drives < 0, -drives / least, drives / most).astype(np.float32)
+
     along: Sequence[float] = field(default=(0.0, 0.02, 0.04))  # m from the tip: the points that are observed
 
 
@@ -87,7 +115,8 @@ WIRE = (("wire", "j-wire-035-150"),)
 GUIDE_AND_WIRE = (("guide", "guide-jr4-6f"), ("wire", "j-wire-035-150"))
 CORONARY_WIRE = (("wire", "wire-014-workhorse"),)
 ENGAGED = (("guide", 0.01, 0.0, 2.3), ("wire", 0.02, 0.0, 1.0))  # from before the ostium into it, and a wire up to its tip
-ACROSS = (*ENGAGED, ("wire", 0.025, 1.6, 4.5), ("balloon", 0.02, 0.0, 1.5))  # then through the lesion, and a balloon after it
+CROSSED = (*ENGAGED, ("wire", 0.025, 1.6, 4.5))  # then through the lesion
+ACROSS = (*CROSSED, ("balloon", 0.02, 0.0, 1.5))  # and a balloon after it
 
 TASKS = {
     "BasicWireNav": Task(WIRE, "a J wire from the groin into a branch of the arch; stEVE's numbers"),
@@ -108,6 +137,10 @@ TASKS = {
                          "a balloon's middle into the lesion, over a wire that lies across it", begin="RCA",
                          prepared=ACROSS, moves=("balloon", "wire"), leader="balloon", lead_m=0.011,
                          targets=("RCA+45",), reach_m=2e-3, max_feed_m_s=0.02, steps=300),
+    "PCI": Task((("guide", "guide-jr4-6f"), ("stent", "stent-35x18"), *CORONARY_WIRE),
+                "a stent into the lesion over a wire that lies across it, opened, its balloon emptied", begin="RCA",
+                prepared=(*CROSSED, ("stent", 0.02, 0.0, 1.5)), moves=("stent", "wire"), leader="stent", lead_m=0.013,
+                targets=("RCA+46.5",), max_feed_m_s=0.02, max_gauge_Pa=14 * 101325.0, goal=treated, steps=600),
 }
 
 
