@@ -7,6 +7,7 @@
 #include <random>
 
 #include "core/base/units.h"
+#include "core/math/alignment.h"
 #include "core/rod/initial_state.h"
 #include "core/samples/steel_wire.h"
 #include "data/catalogue/catalogue.h"
@@ -63,7 +64,7 @@ void Rehearsal::lay_wire(const std::vector<Vector3d>& way_W, double inserted_m) 
   inserted.back() = inserted_m;
   core::EndState base = entry({.wall = {}, .entry_W = way_W[0], .ways_W = {}});
   Eigen::Quaterniond q = Eigen::Quaterniond(base.q_W[0], base.q_W[1], base.q_W[2], base.q_W[3]);
-  q = Eigen::Quaterniond::FromTwoVectors(q * Vector3d::UnitZ(), way_W[1] - way_W[0]) * q;
+  q = core::rotation_between(q * Vector3d::UnitZ(), way_W[1] - way_W[0]) * q;
   base.q_W = Eigen::Vector4d(q.w(), q.x(), q.y(), q.z());
   state = make_state(model, std::vector<core::EndState>(model.rods.size(), base), inserted);
   // Element by element, with each distal end on the path.
@@ -81,7 +82,7 @@ void Rehearsal::lay_wire(const std::vector<Vector3d>& way_W, double inserted_m) 
       const Vector3d a = way_W[next - 1] - p, d = way_W[next] - way_W[next - 1];
       const double A = d.squaredNorm(), B = a.dot(d), C = a.squaredNorm() - length * length;
       const Vector3d to = p + a + (-B + std::sqrt(std::max(0.0, B * B - A * C))) / A * d;
-      q = Eigen::Quaterniond::FromTwoVectors(q * Vector3d::UnitZ(), to - p) * q;
+      q = core::rotation_between(q * Vector3d::UnitZ(), to - p) * q;
       p += length * (q * Vector3d::UnitZ());
     }
     frames.emplace_back(q.w(), q.x(), q.y(), q.z());

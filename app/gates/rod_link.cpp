@@ -6,6 +6,7 @@
 
 #include "app/gates/gate.h"
 #include "core/base/units.h"
+#include "core/math/alignment.h"
 #include "core/samples/steel_wire.h"
 
 namespace ostium::app::gates {
@@ -49,7 +50,7 @@ double closest_approach(const core::RodState& rod) {
 /// Angle between director d1 of `a`, parallel transported along the shortest rotation of its tangent, and d1 of `b`.
 double twist_between(const Quaterniond& a, const Quaterniond& b) {
   const Vector3d ta = a * Vector3d::UnitZ(), tb = b * Vector3d::UnitZ();
-  const Vector3d carried = Quaterniond::FromTwoVectors(ta, tb) * (a * Vector3d::UnitX()), d1 = b * Vector3d::UnitX();
+  const Vector3d carried = core::rotation_between(ta, tb) * (a * Vector3d::UnitX()), d1 = b * Vector3d::UnitX();
   return std::atan2(carried.cross(d1).dot(tb), carried.dot(d1));
 }
 

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "core/base/tolerances.h"
+#include "core/math/alignment.h"
 #include "core/math/rotation.h"
 #include "core/nesting/nest.h"
 #include "core/rod/introducer.h"
@@ -20,7 +21,7 @@ double norm(const V3<double>& v) { return std::sqrt(dot(v, v)); }
 /// Turns element j of a rod so that its tangent lies along `chord`.
 void swing(const V3<double>& chord, int j, RodState& s) {
   const Q4<double> q = load4<double>(s.orientation, j);
-  const Eigen::Quaterniond onto = Eigen::Quaterniond::FromTwoVectors(to_eigen(director3(q)), to_eigen(chord));
+  const Eigen::Quaterniond onto = rotation_between(to_eigen(director3(q)), to_eigen(chord));
   store4(s.orientation, j, from_eigen((onto * to_eigen(q)).normalized()));
 }
 

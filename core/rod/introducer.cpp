@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/math/alignment.h"
 #include "core/math/rotation.h"
 #include "core/model/report.h"
 
@@ -85,7 +86,7 @@ void leave_element(const Rod& rod, RodState& s) {
   const Q4<double> q = load4<double>(s.orientation, next);
   const Vector3d chord = s.position[next + 1] - s.base.p_W;
   s.slack_m = chord.norm() - (s.inserted_m - rod.node_from_tip_m[next + 1]);
-  const Eigen::Quaterniond onto_chord = Eigen::Quaterniond::FromTwoVectors(to_eigen(director3(q)), chord);
+  const Eigen::Quaterniond onto_chord = rotation_between(to_eigen(director3(q)), chord);
   store4(s.orientation, next, from_eigen((onto_chord * to_eigen(q)).normalized()));
   s.position.set(next, s.base.p_W);
   s.position_before.set(next, s.base.p_W);

@@ -1,7 +1,9 @@
 #include "fluoro/matter/beam.h"
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <cmath>
+
+#include "core/math/dense.h"
 
 namespace ostium::fluoro {
 
@@ -27,8 +29,8 @@ Quadrature gauss(const Eigen::ArrayXd& points, const Eigen::ArrayXd& weights, in
     before = polynomial;
     polynomial = next / off_diagonal;
   }
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(jacobi);
-  return {eigen.eigenvalues(), total * eigen.eigenvectors().row(0).transpose().array().square()};
+  const core::SymmetricEigen eigen = core::eigen_of_symmetric(jacobi);
+  return {eigen.values, total * eigen.vectors.row(0).transpose().array().square()};
 }
 
 /// The energy at which soft tissue has that attenuation, which decreases with energy.

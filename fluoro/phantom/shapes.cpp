@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/base/units.h"
+#include "core/math/alignment.h"
 
 namespace ostium::fluoro::phantom {
 
@@ -66,7 +67,7 @@ Vector3d tangent(const Matrix3Xd& line, Index i) {
 Surface star(const Vector3d& centre, const std::function<double(const Vector3d&)>& radius, int rings,
              const Vector3d& axis) {
   const int sides = 2 * rings;
-  const Eigen::Quaterniond turn = Eigen::Quaterniond::FromTwoVectors(Vector3d::UnitZ(), axis);
+  const Eigen::Quaterniond turn = core::rotation_between(Vector3d::UnitZ(), axis);
   Matrix3Xd p(3, rings * sides + 2);
   const auto at = [&](const Vector3d& direction) -> Vector3d {
     const Vector3d d = turn * direction;

@@ -1,8 +1,9 @@
 #include "vascular/motion/tube_motion.h"
 
-#include <Eigen/SVD>
+#include <Eigen/Core>
 #include <algorithm>
 
+#include "core/math/alignment.h"
 #include "vascular/motion/heart_cycle.h"
 
 namespace ostium::vascular {
@@ -90,7 +91,7 @@ void TubeMotion::set_frame(int t, int frame, const std::vector<Tissue>& tissues,
     const Eigen::Matrix3d turn = rotation_in(F[i]);
     const std::size_t a = i ? i - 1 : 0, b = std::min(i + 1, n - 1);
     const Eigen::Vector3d before = nodes[b].p - nodes[a].p, after = poses[b].centre - poses[a].centre;
-    poses[i].turn = (Eigen::Quaterniond::FromTwoVectors(turn * before, after).toRotationMatrix() * turn).cast<float>();
+    poses[i].turn = (core::rotation_between(turn * before, after).toRotationMatrix() * turn).cast<float>();
   }
 }
 
@@ -155,10 +156,7 @@ TubeMotion::TubeMotion(const Anatomy& anatomy, const std::vector<Eigen::Vector3d
         for (int v : near) from += rest[v] / double(near.size()), to += frames[f][v] / double(near.size());
         Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
         for (int v : near) spread += (frames[f][v] - to) * (rest[v] - from).transpose();
-        const Eigen::JacobiSVD<Eigen::Matrix3d> svd(spread, Eigen::ComputeFullU | Eigen::ComputeFullV);
-        Eigen::Matrix3d U = svd.matrixU();
-        if ((U * svd.matrixV().transpose()).determinant() < 0) U.col(2) *= -1;
-        const Eigen::Matrix3d turn = U * svd.matrixV().transpose();
+        const Eigen::Matrix3d turn = core::nearest_rotation(spread);
         pose = {turn.cast<float>(), to + turn * (node.p - from)};
       }
     }

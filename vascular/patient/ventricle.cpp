@@ -6,6 +6,7 @@
 #include <map>
 
 #include "core/base/units.h"
+#include "core/math/alignment.h"
 #include "vascular/heart/heart.h"
 #include "vascular/motion/heart_cycle.h"
 #include "vascular/motion/heart_motion.h"
@@ -112,7 +113,7 @@ Ventricle add_ventricle(const Patient& patient, core::SurfaceDescription& wall) 
     const double s = middle.length_m() * k / (rings - 1);
     const TubeNode node = middle.at(s);
     const Vector3d tangent = middle.tangent(s);
-    const Eigen::Quaterniond turn = Eigen::Quaterniond::FromTwoVectors(along, tangent);
+    const Eigen::Quaterniond turn = core::rotation_between(along, tangent);
     along = tangent;
     for (Vector3d& direction : side) direction = turn * direction, added.push_back(node.p + node.radius_m * direction);
     out.spheres.push_back({node.p, node.radius_m, s});

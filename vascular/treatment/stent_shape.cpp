@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/base/units.h"
+#include "core/math/alignment.h"
 
 namespace ostium::vascular {
 
@@ -48,7 +49,7 @@ void PathFrames::carry(int& index, int to, Eigen::Vector3d& along, Eigen::Vector
   while (index < to) {
     ++index;
     const Eigen::Vector3d next = (centre(index + 2) - centre(index - 1)).normalized();
-    side = Eigen::Quaterniond::FromTwoVectors(along, next) * side;
+    side = core::rotation_between(along, next) * side;
     along = next;
   }
 }

@@ -79,7 +79,7 @@ void BatchHandle::set_state(std::size_t i, const double* numbers) {
 
 namespace {
 
-using Self = std::shared_ptr<BatchHandle>;
+using SharedBatch = std::shared_ptr<BatchHandle>;
 
 /// Ctrl-C, which the main thread alone is told of, for all threads.
 class Stop {
@@ -193,7 +193,7 @@ py::tuple rollout(const ModelHandle& model, const Doubles& states, const Doubles
 
 void bind_batch(py::module_& module) {
   auto bound =
-      py::class_<BatchHandle, Self>(module, "Batch", R"(Many sessions of one model, stepped side by side.
+      py::class_<BatchHandle, SharedBatch>(module, "Batch", R"(Many sessions of one model, stepped side by side.
 
 Batch(model, num, threads=None): on all cores, or so many threads. What comes of a session does not depend on the others
 or on the threads. Arrays are views, as those of Data.)")

@@ -38,7 +38,7 @@ py::object nodes_of(const ModelHandle& model, app::SessionState& state, const st
 
 namespace {
 
-using Self = std::shared_ptr<DataHandle>;
+using SharedData = std::shared_ptr<DataHandle>;
 
 DataHandle& of(const py::object& self) { return self.cast<DataHandle&>(); }
 
@@ -65,7 +65,7 @@ void set_state(DataHandle& self, const Doubles& numbers) {
   self.run.set_state(self.model->state_of(numbers.data(), static_cast<std::size_t>(numbers.size())));
 }
 
-void reset(DataHandle& self, std::optional<std::uint64_t> seed) {
+void reset_data(DataHandle& self, std::optional<std::uint64_t> seed) {
   const InUse used(self.used, "Data");
   const OthersRun others_run;
   self.run.reset(seed.value_or(self.model->model->seed));
@@ -76,7 +76,7 @@ py::array forces_view(std::vector<app::ToolForces>& forces, const py::object& ow
   return read_only(view_of(&forces.data()->push_N, {static_cast<py::ssize_t>(forces.size()), 4}, owner));
 }
 
-Self copy(const DataHandle& self) {
+SharedData copy(const DataHandle& self) {
   const InUse used(self.used, "Data");
   return std::make_shared<DataHandle>(self);
 }
@@ -85,7 +85,7 @@ Self copy(const DataHandle& self) {
 
 void bind_data(py::module_& module) {
   auto bound =
-      py::class_<DataHandle, Self>(
+      py::class_<DataHandle, SharedData>(
           module, "Data",
           R"(A session of a model: its state, the inputs of its next steps, and what came of the last ones.
 
@@ -175,7 +175,7 @@ object. One thread at a time: a second one that steps, copies, saves or restores
               "n steps with these inputs; doses are given by the first. Raises ValueError, and does nothing, for an "
               "input "
               "out of its range; drives of tools are limited instead, and `trouble` says so.")
-          .def("reset", reset, py::arg("seed") = py::none(), "To the beginning: of a seed, or the model's.")
+          .def("reset", reset_data, py::arg("seed") = py::none(), "To the beginning: of a seed, or the model's.")
           .def("get_state", get_state, "(Model.state_size) all that it takes to go on to the bit.")
           .def("set_state", set_state, py::arg("state"), "Raises ValueError for the state of another model.")
           .def(

@@ -5,6 +5,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 
+#include "core/math/alignment.h"
 #include "data/formats/load_error.h"
 #include "vascular/geometry/centreline/centreline.h"
 #include "vascular/geometry/mesh/patient_frame.h"
@@ -117,7 +118,7 @@ Vector3d heart_middle(const vascular::Patient& patient) {
 }
 
 core::EndState end_at(const Vector3d& p_W, const Vector3d& direction_W) {
-  const Eigen::Quaterniond q = Eigen::Quaterniond::FromTwoVectors(Vector3d::UnitZ(), direction_W.normalized());
+  const Eigen::Quaterniond q = core::rotation_between(Vector3d::UnitZ(), direction_W.normalized());
   core::EndState end;
   end.p_W = p_W;
   end.q_W = {q.w(), q.x(), q.y(), q.z()};

@@ -12,7 +12,6 @@ namespace ostium::data {
 
 namespace {
 
-namespace keys = anatomy_keys;
 using units::mm;
 
 std::string quoted(const std::string& text) { return nlohmann::json(text).dump(); }
@@ -84,19 +83,19 @@ vascular::Landmarks read_landmarks(const JsonObject& object) {
   return marks;
 }
 
-vascular::Anatomy read(const JsonValue& file) {
-  const JsonObject root(file, keys::root);
+vascular::Anatomy anatomy_of(const JsonValue& file) {
+  const JsonObject root(file, anatomy_keys::root);
   if (root.text("schema") != "ostium-anatomy/1") root.refuse("schema");
   vascular::Anatomy anatomy;
   anatomy.aorta = root.boolean("aorta");
   anatomy.ascending_m = mm * root.positive("ascending_mm");
   if (anatomy.ascending_m <= 20 * mm) root.refuse("ascending_mm");
   for (const JsonValue& value : root.list("tubes"))
-    anatomy.tubes.push_back(read_tube(JsonObject(value, keys::tube), anatomy.tubes.size()));
+    anatomy.tubes.push_back(read_tube(JsonObject(value, anatomy_keys::tube), anatomy.tubes.size()));
   if (anatomy.tubes.empty()) root.refuse("tubes");
   for (const JsonValue& value : root.list("branches"))
-    anatomy.branches.push_back(read_branch(JsonObject(value, keys::branch), anatomy.tubes));
-  anatomy.landmarks = read_landmarks(JsonObject(root["landmarks"], keys::landmarks));
+    anatomy.branches.push_back(read_branch(JsonObject(value, anatomy_keys::branch), anatomy.tubes));
+  anatomy.landmarks = read_landmarks(JsonObject(root["landmarks"], anatomy_keys::landmarks));
   return anatomy;
 }
 
@@ -135,8 +134,8 @@ std::string anatomy_to_json(const vascular::Anatomy& anatomy) {
 }
 
 vascular::Anatomy read_anatomy(const std::string& file, const std::string& text) {
-  return read(parse_json(file, text));
+  return anatomy_of(parse_json(file, text));
 }
-vascular::Anatomy load_anatomy(const std::string& file) { return read(load_json(file)); }
+vascular::Anatomy load_anatomy(const std::string& file) { return anatomy_of(load_json(file)); }
 
 }  // namespace ostium::data

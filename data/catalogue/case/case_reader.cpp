@@ -18,8 +18,6 @@ namespace ostium::data {
 namespace {
 
 namespace fs = std::filesystem;
-namespace keys = case_keys;
-
 CaseCard read_card(const JsonObject& card) {
   return {card.text("history"), card.text("ecg"), card.text("planned_access")};
 }
@@ -78,26 +76,26 @@ void read_imported(const JsonObject& imported, const fs::path& folder, Case& c) 
   c.imported = std::make_shared<const ImportedVessels>(std::move(vessels));
 }
 
-Case read(const JsonValue& file) {
-  const JsonObject root(file, keys::root);
+Case case_of(const JsonValue& file) {
+  const JsonObject root(file, case_keys::root);
   Case c;
   if (root.text("schema") != "ostium-case/1") root.refuse("schema");
   c.name = root.text("name");
   if (c.name != fs::path(*file.file).stem().string()) root.refuse("name");
   c.title = root.text("title");
-  c.card = read_card(JsonObject(root["card"], keys::card));
+  c.card = read_card(JsonObject(root["card"], case_keys::card));
   if (root.has("anatomy") == root.has("imported"))
     file.fail("the case has both \"anatomy\" and \"imported\", or neither; expected one of them");
   if (root.has("anatomy"))
-    read_anatomy(JsonObject(root["anatomy"], keys::anatomy), c);
+    read_anatomy(JsonObject(root["anatomy"], case_keys::anatomy), c);
   else
-    read_imported(JsonObject(root["imported"], keys::imported), fs::path(*file.file).parent_path(), c);
+    read_imported(JsonObject(root["imported"], case_keys::imported), fs::path(*file.file).parent_path(), c);
   c.rate_1_min = root.positive("heart_rate_1_min");
   if (c.rate_1_min < vascular::least_rate_1_min || c.rate_1_min > vascular::highest_rate_1_min)
     root.refuse("heart_rate_1_min");
   const vascular::Anatomy anatomy = anatomy_of(c);
   for (const JsonValue& value : root.list("lesions"))
-    c.lesions.push_back(read_lesion(JsonObject(value, keys::lesion), anatomy));
+    c.lesions.push_back(read_lesion(JsonObject(value, case_keys::lesion), anatomy));
   return c;
 }
 
@@ -114,9 +112,9 @@ const std::vector<std::string>& access_names() {
   return names;
 }
 
-Case read_case(const std::string& file, const std::string& text) { return read(parse_json(file, text)); }
+Case read_case(const std::string& file, const std::string& text) { return case_of(parse_json(file, text)); }
 
-Case load_case(const std::string& file) { return read(load_json(file)); }
+Case load_case(const std::string& file) { return case_of(load_json(file)); }
 
 std::vector<Case> load_cases() {
   const fs::path folder = fs::path(data_folder()) / "cases";

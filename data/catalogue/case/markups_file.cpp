@@ -88,7 +88,7 @@ int tube_about(const Eigen::Vector3d& p, const std::vector<vascular::Tube>& tube
   return -1;
 }
 
-std::vector<vascular::Tube> read(const JsonValue& file) {
+std::vector<vascular::Tube> tubes_of(const JsonValue& file) {
   constexpr const char* wanted = "a list of markups, as 3D Slicer saves it";
   std::vector<vascular::Tube> tubes;
   if (file.type != JsonValue::Type::object) file.refuse(wanted);
@@ -107,8 +107,8 @@ std::vector<vascular::Tube> read(const JsonValue& file) {
 
 bool is_markups_file(const std::string& path) { return vascular::in_lower_case(path).ends_with(".mrk.json"); }
 std::vector<vascular::Tube> read_markups(const std::string& file, const std::string& text) {
-  return read(parse_json(file, text));
+  return tubes_of(parse_json(file, text));
 }
-std::vector<vascular::Tube> load_markups(const std::string& file) { return read(load_json(file)); }
+std::vector<vascular::Tube> load_markups(const std::string& file) { return tubes_of(load_json(file)); }
 
 }  // namespace ostium::data

@@ -16,7 +16,7 @@ namespace ostium::data {
 
 namespace {
 
-constexpr int margin = 20, longest = 900;  // pixels
+constexpr int margin_px = 20, longest_px = 900;
 
 /// The mesh axes that point right, up and towards the viewer.
 struct View {
@@ -42,13 +42,13 @@ class Drawer {
   Drawer(const vascular::Mesh& mesh, const std::vector<Eigen::Vector3d>& colours) : mesh_(mesh), colours_(colours) {
     for (const Eigen::Vector3d& p : mesh.vertices) box_.extend(p);
     const Eigen::Vector3d size = box_.sizes();
-    scale_ = longest / std::max({size.x() + size.z() + size.x(), size.y(), size.z(), 1e-9});
-    scale_ = std::min(scale_, longest / std::max(size.y(), 1e-9));
-    int x = margin;
+    scale_ = longest_px / std::max({size.x() + size.z() + size.x(), size.y(), size.z(), 1e-9});
+    scale_ = std::min(scale_, longest_px / std::max(size.y(), 1e-9));
+    int x = margin_px;
     for (const View& view : views) {
       left_.push_back(x);
-      x += static_cast<int>(scale_ * size[view.right]) + 2 * margin;
-      image_.height = std::max(image_.height, static_cast<int>(scale_ * size[view.up]) + 2 * margin);
+      x += static_cast<int>(scale_ * size[view.right]) + 2 * margin_px;
+      image_.height = std::max(image_.height, static_cast<int>(scale_ * size[view.up]) + 2 * margin_px);
     }
     image_.width = x;
     image_.depth.assign(static_cast<std::size_t>(image_.width * image_.height),
@@ -64,7 +64,7 @@ class Drawer {
         view.right_sign > 0 ? p[view.right] - box_.min()[view.right] : box_.max()[view.right] - p[view.right];
     // Seen from below, with the front up, as in an axial CT slice.
     const double towards = v == 2 ? -p[view.towards] : p[view.towards];
-    return {left_[v] + scale_ * right, margin + scale_ * (box_.max()[view.up] - p[view.up]), towards};
+    return {left_[v] + scale_ * right, margin_px + scale_ * (box_.max()[view.up] - p[view.up]), towards};
   }
 
   Image& image() { return image_; }
@@ -131,8 +131,8 @@ void draw_mesh(const std::string& file, const vascular::Mesh& mesh, const std::v
       "font-family=\"sans-serif\" font-size=\"11\">\n<rect y=\"-30\" width=\"{0}\" height=\"{1}\" fill=\"white\"/>\n"
       "<image width=\"{0}\" height=\"{2}\" href=\"{3}\"/>\n"
       "<text x=\"{4}\" y=\"-12\" font-size=\"13\">{5}</text>\n",
-      image.width, image.height + 30, image.height, data_uri(rgb_png_of(image.width, image.height, image.rgb)), margin,
-      escaped(title));
+      image.width, image.height + 30, image.height, data_uri(rgb_png_of(image.width, image.height, image.rgb)),
+      margin_px, escaped(title));
   for (std::size_t v = 0; v < std::size(views); ++v)
     text += fmt::format("<text x=\"{}\" y=\"10\" fill=\"#666\">{}</text>\n", drawer.left(v), views[v].name);
   for (const PictureMark& mark : marks)

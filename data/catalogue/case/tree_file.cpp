@@ -45,7 +45,7 @@ vascular::TreeBranch read_branch(const JsonValue& value, const vascular::SphereT
   return branch;
 }
 
-vascular::SphereTree read(const JsonValue& file) {
+vascular::SphereTree tree_of(const JsonValue& file) {
   const JsonObject root(file, tree_keys::tree);
   if (root.text("schema") != "ostium-tree/1") root.refuse("schema");
   vascular::SphereTree tree;
@@ -61,9 +61,9 @@ std::string data_array(const char* type, const char* name, const std::string& va
 }  // namespace
 
 vascular::SphereTree read_tree(const std::string& file, const std::string& text) {
-  return read(parse_json(file, text));
+  return tree_of(parse_json(file, text));
 }
-vascular::SphereTree load_tree(const std::string& file) { return read(load_json(file)); }
+vascular::SphereTree load_tree(const std::string& file) { return tree_of(load_json(file)); }
 
 std::string tree_to_json(const vascular::SphereTree& tree) {
   std::string text = "{\n\"schema\": \"ostium-tree/1\",\n\"branches\": [";

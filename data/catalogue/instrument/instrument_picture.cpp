@@ -7,6 +7,7 @@
 
 #include "core/model/state.h"
 #include "core/rod/initial_state.h"
+#include "data/catalogue/instrument/instrument_report.h"
 #include "data/formats/svg.h"
 
 namespace ostium::data {
@@ -48,8 +49,6 @@ std::string colour_of(double EI_Nmm2) {
   return fmt::format("rgb({},{},{})", mix(ramp[k].red, ramp[k + 1].red), mix(ramp[k].green, ramp[k + 1].green),
                      mix(ramp[k].blue, ramp[k + 1].blue));
 }
-
-double EI_Nmm2(const core::Section& section) { return 0.5e6 * (section.EI1_N_m2 + section.EI2_N_m2); }
 
 /// The distal `shown_m` at rest, as node positions from the base, which points down the page, in mm.
 std::vector<Vector2d> shape_at_rest(const Instrument& instrument, double shown_m) {

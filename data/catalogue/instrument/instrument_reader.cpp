@@ -15,8 +15,6 @@ namespace ostium::data {
 
 namespace {
 
-namespace keys = instrument_keys;
-
 using units::atm;
 using units::mm, units::Nmm2, units::per_mm, units::degree;
 
@@ -64,7 +62,7 @@ void read_size(const JsonObject& size, Instrument& instrument) {
 }
 
 core::BendingCurve read_curve(const JsonObject& entry) {
-  const JsonObject table(entry["moment_curvature"], keys::moment_curvature);
+  const JsonObject table(entry["moment_curvature"], instrument_keys::moment_curvature);
   const std::vector<JsonValue>& curvature = table.list("curvature_per_mm");
   core::BendingCurve out;
   if (curvature.empty() || curvature.size() > core::BendingCurve::most) table.refuse("curvature_per_mm");
@@ -121,7 +119,7 @@ core::Relaxation read_relaxation(const JsonObject& group) {
     group.refuse("relaxation");
   double sum = 0;
   for (std::size_t k = 0; k < group.list("relaxation").size(); ++k) {
-    const JsonObject branch(group.list("relaxation")[k], keys::relaxation_branch);
+    const JsonObject branch(group.list("relaxation")[k], instrument_keys::relaxation_branch);
     out.branches[k] = {branch.positive("fraction"), branch.positive("time_s")};
     sum += out.branches[k].fraction;
     if (!(sum < 1)) branch.refuse("fraction");
@@ -134,7 +132,7 @@ void read_sections(const JsonObject& group, Instrument& instrument) {
   if (group.list("list").empty()) group.refuse("list");
   double reached_mm = 0;
   for (const JsonValue& value : group.list("list")) {
-    const JsonObject entry(value, keys::section);
+    const JsonObject entry(value, instrument_keys::section);
     keep_source(entry, instrument);
     instrument.sections.push_back(read_section(entry, instrument, reached_mm));
     const core::Section& s = instrument.sections.back();
@@ -150,7 +148,7 @@ void read_sections(const JsonObject& group, Instrument& instrument) {
 std::vector<ShapePiece> read_pieces(const JsonObject& group, double longest_m) {
   std::vector<ShapePiece> pieces;
   for (const JsonValue& value : group.list("pieces")) {
-    const JsonObject piece(value, keys::piece);
+    const JsonObject piece(value, instrument_keys::piece);
     if (piece.has("name")) piece.text("name");
     ShapePiece read{.length_m = piece.positive("length_mm") * mm};
     if (piece.has("radius_mm") != piece.has("plane_deg"))
@@ -171,7 +169,7 @@ void read_rest_shape(const JsonObject& root, Instrument& instrument) {
     for (const core::Section& s : instrument.sections)
       if (!s.rest_curvature_per_m.isZero()) root.refuse("shape");
     if (root.has("shapeable_tip")) root.refuse("shape");
-    const JsonObject shape(root["shape"], keys::shape);
+    const JsonObject shape(root["shape"], instrument_keys::shape);
     keep_source(shape, instrument);
     instrument.shape = read_pieces(shape, instrument.length_m);
     if (shape.has("width_mm")) instrument.width_m = shape.positive("width_mm") * mm;
@@ -179,7 +177,7 @@ void read_rest_shape(const JsonObject& root, Instrument& instrument) {
   }
   if (root.has("shapeable_tip")) {
     if (instrument.kind != InstrumentKind::wire) root.refuse("shapeable_tip");
-    const JsonObject tip(root["shapeable_tip"], keys::shapeable_tip);
+    const JsonObject tip(root["shapeable_tip"], instrument_keys::shapeable_tip);
     keep_source(tip, instrument);
     ShapeableTip read{.length_m = tip.positive("length_mm") * mm, .default_shape = {}};
     if (read.length_m > instrument.length_m) tip.refuse("length_mm");
@@ -197,7 +195,7 @@ void read_radiopacity(const JsonObject& group, Instrument& instrument) {
   keep_source(group, instrument);
   double reached_mm = 0;
   for (const JsonValue& value : group.list("list")) {
-    const JsonObject entry(value, keys::stretch);
+    const JsonObject entry(value, instrument_keys::stretch);
     keep_source(entry, instrument);
     const auto [from, to] = next_stretch(entry, instrument.length_m / mm, reached_mm);
     instrument.opaque.push_back({from, to, read_material(entry), entry.not_negative("thickness_mm") * mm});
@@ -208,7 +206,7 @@ void read_radiopacity(const JsonObject& group, Instrument& instrument) {
 void read_markers(const JsonObject& group, Instrument& instrument) {
   keep_source(group, instrument);
   for (const JsonValue& value : group.list("list")) {
-    const JsonObject entry(value, keys::marker);
+    const JsonObject entry(value, instrument_keys::marker);
     keep_source(entry, instrument);
     const Marker marker{.from_tip_m = entry.not_negative("from_tip_mm") * mm,
                         .length_m = entry.positive("length_mm") * mm,
@@ -285,7 +283,8 @@ void read_balloon(const JsonObject& group, Instrument& instrument) {
   const double apart =
       std::fabs(bands[1].from_tip_m + bands[1].length_m / 2 - bands[0].from_tip_m - bands[0].length_m / 2);
   if (std::fabs(apart - balloon.length_m) > 1.1 * mm) group.refuse("length_mm");
-  if (group.has("design")) read_balloon_design(JsonObject(group["design"], keys::balloon_design), instrument, balloon);
+  if (group.has("design"))
+    read_balloon_design(JsonObject(group["design"], instrument_keys::balloon_design), instrument, balloon);
   instrument.balloon = balloon;
 }
 
@@ -295,7 +294,8 @@ void read_stent(const JsonObject& group, Instrument& instrument) {
   stent.nominal_m = within(group, "nominal_diameter_mm", 1, 8) * mm;
   stent.length_m = within(group, "length_mm", 5, 60) * mm;
   if (stent.length_m > instrument.balloon->length_m + 0.01 * mm) group.refuse("length_mm");
-  if (group.has("design")) read_stent_design(JsonObject(group["design"], keys::stent_design), instrument, stent);
+  if (group.has("design"))
+    read_stent_design(JsonObject(group["design"], instrument_keys::stent_design), instrument, stent);
   instrument.stent = stent;
 }
 
@@ -327,8 +327,8 @@ void require_rod(const JsonObject& root, const Instrument& instrument) {
   }
 }
 
-Instrument read(const JsonValue& file) {
-  const JsonObject root(file, keys::instrument);
+Instrument instrument_of(const JsonValue& file) {
+  const JsonObject root(file, instrument_keys::instrument);
   Instrument instrument;
   if (root.text("schema") != "ostium-instrument/1") root.refuse("schema");
   instrument.name = root.text("name");
@@ -336,20 +336,20 @@ Instrument read(const JsonValue& file) {
   instrument.title = root.text("title");
   instrument.kind = static_cast<InstrumentKind>(root.choice("kind", instrument_kinds()));
 
-  const JsonObject size(root["size"], keys::size);
+  const JsonObject size(root["size"], instrument_keys::size);
   keep_source(size, instrument);
   read_size(size, instrument);
-  read_sections(JsonObject(root["sections"], keys::sections), instrument);
+  read_sections(JsonObject(root["sections"], instrument_keys::sections), instrument);
   read_rest_shape(root, instrument);
-  read_radiopacity(JsonObject(root["radiopacity"], keys::radiopacity), instrument);
-  if (root.has("markers")) read_markers(JsonObject(root["markers"], keys::markers), instrument);
+  read_radiopacity(JsonObject(root["radiopacity"], instrument_keys::radiopacity), instrument);
+  if (root.has("markers")) read_markers(JsonObject(root["markers"], instrument_keys::markers), instrument);
 
   const bool shaft = instrument.kind == InstrumentKind::balloon_shaft || instrument.kind == InstrumentKind::stent_shaft;
   if (shaft && !root.has("wire_lumen"))
     root["kind"].refuse("a wire_lumen with it: how a " + words_for(instrument.kind) + " runs over its wire");
   if (root.has("wire_lumen")) {
     if (!shaft) root.refuse("wire_lumen");
-    read_wire_lumen(JsonObject(root["wire_lumen"], keys::wire_lumen), instrument);
+    read_wire_lumen(JsonObject(root["wire_lumen"], instrument_keys::wire_lumen), instrument);
   }
   const bool carries_stent = instrument.kind == InstrumentKind::stent_shaft;
   for (const char* key : {"balloon", "stent"}) {
@@ -358,18 +358,20 @@ Instrument read(const JsonValue& file) {
     if (!needed && root.has(key)) root.refuse(key);
   }
   if (root.has("friction"))
-    instrument.friction = read_friction(JsonObject(root["friction"], keys::friction), instrument);
-  if (root.has("balloon")) read_balloon(JsonObject(root["balloon"], keys::balloon), instrument);
-  if (root.has("stent")) read_stent(JsonObject(root["stent"], keys::stent), instrument);
-  if (root.has("clearance")) read_clearance(JsonObject(root["clearance"], keys::clearance), instrument);
+    instrument.friction = read_friction(JsonObject(root["friction"], instrument_keys::friction), instrument);
+  if (root.has("balloon")) read_balloon(JsonObject(root["balloon"], instrument_keys::balloon), instrument);
+  if (root.has("stent")) read_stent(JsonObject(root["stent"], instrument_keys::stent), instrument);
+  if (root.has("clearance")) read_clearance(JsonObject(root["clearance"], instrument_keys::clearance), instrument);
   require_rod(root, instrument);
   return instrument;
 }
 
 }  // namespace
 
-Instrument read_instrument(const std::string& file, const std::string& text) { return read(parse_json(file, text)); }
+Instrument read_instrument(const std::string& file, const std::string& text) {
+  return instrument_of(parse_json(file, text));
+}
 
-Instrument load_instrument(const std::string& file) { return read(load_json(file)); }
+Instrument load_instrument(const std::string& file) { return instrument_of(load_json(file)); }
 
 }  // namespace ostium::data

@@ -17,8 +17,6 @@ double unsigned_zero(double x) { return std::fabs(x) < 5e-5 ? 0.0 : x; }
 using units::inch, units::degree;
 constexpr double m_in_mm = 1e3, N_m2_in_N_mm2 = 1e6;
 
-double EI_Nmm2(const core::Section& section) { return 0.5 * (section.EI1_N_m2 + section.EI2_N_m2) * N_m2_in_N_mm2; }
-
 std::string shape_text(const ShapePiece& piece) {
   if (piece.radius_m == 0) return fmt::format("{:.4g} mm straight", piece.length_m * m_in_mm);
   return fmt::format("{:.0f} degrees of {:.4g} mm radius, plane {:g}", piece.length_m / piece.radius_m / degree,
@@ -34,6 +32,8 @@ std::string shape_lines(const std::vector<ShapePiece>& pieces) {
 std::string material_name(OpaqueMaterial material) { return opaque_materials().at(static_cast<std::size_t>(material)); }
 
 }  // namespace
+
+double EI_Nmm2(const core::Section& section) { return 0.5 * (section.EI1_N_m2 + section.EI2_N_m2) * N_m2_in_N_mm2; }
 
 std::string nominal_size(const Instrument& i) {
   switch (i.kind) {

@@ -9,6 +9,9 @@ namespace ostium::data {
 std::string instrument_heading();
 std::string instrument_line(const Instrument& instrument);
 
+/// Mean bending stiffness of a section's two axes, N mm2.
+double EI_Nmm2(const core::Section& section);
+
 /// "5.0F" for catheters and sheaths, "0.014 in" for wires, "0.99 mm" for balloon and stent shafts.
 std::string nominal_size(const Instrument& instrument);
 

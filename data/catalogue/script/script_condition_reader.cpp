@@ -11,8 +11,6 @@ namespace ostium::data {
 
 namespace {
 
-namespace keys = script_keys;
-
 JsonType type_of(const ConditionRow& row) {
   switch (row.value) {
     case ConditionValue::number:
@@ -88,7 +86,7 @@ void read_companions(const JsonObject& object, const ConditionRow& row, ScriptCo
 }
 
 ScriptCondition read_condition(const JsonValue& value, const Script& script, const std::vector<int>& tools) {
-  const JsonObject object(value, keys::condition);
+  const JsonObject object(value, script_keys::condition);
   const ConditionRow& row = row_in(object);
   ScriptCondition c;
   c.file = *value.file;

@@ -15,7 +15,6 @@ namespace ostium::data {
 namespace {
 
 namespace fs = std::filesystem;
-namespace keys = script_keys;
 constexpr int deepest_script = 8;
 
 /// Far beyond what a procedure needs. Parts of parts multiply, so depth alone would be no limit.
@@ -46,7 +45,7 @@ void lead_out(const JsonObject& step, JsonValue& one) {
 bool has_tool(const JsonObject& script, const std::string& name) {
   const std::vector<JsonValue>& tools = script.list("tools");
   return std::any_of(tools.begin(), tools.end(),
-                     [&](const JsonValue& tool) { return JsonObject(tool, keys::tool).text("name") == name; });
+                     [&](const JsonValue& tool) { return JsonObject(tool, script_keys::tool).text("name") == name; });
 }
 
 /// Applies what the calling step says to the part's steps: prefix of the labels, tools, lesion, and where they jump
@@ -83,7 +82,7 @@ void say_in_steps(const JsonObject& step, JsonValue& part) {
 /// Substitutes the values of `file`, overridden by those of `given`; then expands its parts. `parts` counts them.
 bool write_out(JsonValue& file, const JsonValue* given, int depth, int& parts) {
   bool any = write_out_values(file, given);
-  const JsonObject root(file, keys::root);
+  const JsonObject root(file, script_keys::root);
   if (root.text("schema") != "ostium-script/1") root.refuse("schema");
   std::vector<JsonValue> steps;
   for (const JsonValue& value : root.list("steps")) {
@@ -92,7 +91,7 @@ bool write_out(JsonValue& file, const JsonValue* given, int depth, int& parts) {
       steps.push_back(value);
       continue;
     }
-    const JsonObject step(value, keys::step);
+    const JsonObject step(value, script_keys::step);
     require_keys(step);
     if (depth == deepest_script)
       value.fail(fmt::format("{}: scripts in scripts deeper than {}; expected at most that: is there a ring of them?",
@@ -107,14 +106,14 @@ bool write_out(JsonValue& file, const JsonValue* given, int depth, int& parts) {
     if (step.has("with") && step["with"].type != JsonValue::Type::object) step.refuse("with");
     if (step.has("with"))
       for (const auto& [theirs, ours] : step["with"].members)
-        if (!has_tool(JsonObject(part, keys::root), theirs) || !has_tool(root, ours.text))
+        if (!has_tool(JsonObject(part, script_keys::root), theirs) || !has_tool(root, ours.text))
           ours.fail(fmt::format("{}: expected a tool of {} and the name of one of this script's", ours.path(),
                                 step.text("script")));
     if (step.has("otherwise") && !is_label(step.text("otherwise"))) step.refuse("otherwise");
     if (step.has("tries") && !step.has("otherwise")) step.refuse("tries");
     say_in_steps(step, part);
-    for (const JsonValue& tool : JsonObject(part, keys::root).list("tools"))
-      if (const std::string name = JsonObject(tool, keys::tool).text("name"); !has_tool(root, name))
+    for (const JsonValue& tool : JsonObject(part, script_keys::root).list("tools"))
+      if (const std::string name = JsonObject(tool, script_keys::tool).text("name"); !has_tool(root, name))
         value.fail(fmt::format("{}: {} moves a tool \"{}\", and this script has none", value.path(),
                                step.text("script"), name));
     for (JsonValue& one : member(part, "steps")->items) steps.push_back(std::move(one));

@@ -22,7 +22,6 @@ namespace ostium::data {
 namespace {
 
 namespace fs = std::filesystem;
-namespace keys = script_keys;
 using units::degree;
 
 void read_view(const JsonObject& object, ScriptStep& step) {
@@ -86,7 +85,7 @@ void read_motion(const JsonObject& object, const Script& script, ScriptStep& ste
 }
 
 ScriptStep read_step(const JsonValue& value, const Script& script) {
-  const JsonObject object(value, keys::step);
+  const JsonObject object(value, script_keys::step);
   ScriptStep step;
   step.line = value.line;
   const std::size_t action = object.choice("do", action_names());
@@ -113,7 +112,7 @@ ScriptStep read_step(const JsonValue& value, const Script& script) {
 
 /// Second pass, when all labels are known.
 void read_otherwise(const JsonValue& value, Script& script, ScriptStep& step) {
-  const JsonObject object(value, keys::step);
+  const JsonObject object(value, script_keys::step);
   if (object.has("last_resort") && !object.has("otherwise")) object.refuse("last_resort");
   if (!object.has("otherwise")) return;
   const std::string to = object.text("otherwise");
@@ -153,7 +152,7 @@ ScriptTool read_tool(const JsonObject& tool) {
 
 Script read(JsonValue file, const std::string& text) {
   const bool written_out = write_out_parts(file);
-  const JsonObject root(file, keys::root);
+  const JsonObject root(file, script_keys::root);
   Script script;
   script.file = *file.file;
   script.source = written_out ? to_json(file) : text;
@@ -162,14 +161,14 @@ Script read(JsonValue file, const std::string& text) {
   if (root.has("access")) script.access = static_cast<vascular::Access>(root.choice("access", access_names()));
   if (root.list("tools").empty()) root.refuse("tools");
   for (const JsonValue& value : root.list("tools")) {
-    const JsonObject tool(value, keys::tool);
+    const JsonObject tool(value, script_keys::tool);
     for (const ScriptTool& other : script.tools)
       if (other.name == tool.text("name")) value.fail(value.path() + ".name: there is another tool of that name");
     script.tools.push_back(read_tool(tool));
   }
   if (root.has("landmarks"))
     for (const JsonValue& value : root.list("landmarks")) {
-      const JsonObject landmark(value, keys::landmark);
+      const JsonObject landmark(value, script_keys::landmark);
       const std::vector<double> mm = landmark.numbers("at_mm", 3);
       script.landmarks.push_back({landmark.text("name"), 1e-3 * Eigen::Vector3d(mm[0], mm[1], mm[2])});
     }

@@ -2,11 +2,12 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Cholesky>
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 
 #include "core/base/units.h"
+#include "core/math/dense.h"
 #include "data/identification/curves/kinds.h"
 #include "data/identification/curves/set/run_table.h"
 #include "data/identification/effects/effect_list.h"
@@ -166,7 +167,7 @@ WireCheck check(const JsonValue& root, const CharacterisedWire& wire,
   }
   const VectorXd Dr = D.transpose() * r;
   const MatrixXd inner = MatrixXd::Identity(D.cols(), D.cols()) + D.transpose() * D;
-  const VectorXd asked = -inner.ldlt().solve(Dr);
+  const VectorXd asked = -core::solve_symmetric(inner, Dr);
   out.beyond_errors = std::sqrt(std::max(r.squaredNorm() + Dr.dot(asked), 0.0) / numbers);
   for (std::size_t k = 0; k < moved.size(); ++k)
     out.moves.push_back({moved[k].what, asked[static_cast<Eigen::Index>(k)]});

@@ -1,9 +1,10 @@
 #include "data/identification/curves/curve_fit.h"
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 
+#include "core/math/dense.h"
 #include "data/identification/estimation/least_squares.h"
 
 namespace ostium::data::curves {
@@ -271,7 +272,7 @@ double Fit::ahead(const Model& near, std::size_t effect) const {
     J.bottomRows(start.size()) = spread.cwiseInverse().asDiagonal();
     rhs << r, (start - prior).cwiseQuotient(spread);
     if (!J.allFinite() || !rhs.allFinite()) continue;
-    const VectorXd step = J.colPivHouseholderQr().solve(-rhs);
+    const VectorXd step = core::least_squares(J, -rhs);
     best = std::min(best, (rhs + J * step).squaredNorm());
   }
   return best;
@@ -289,7 +290,7 @@ MatrixXd Fit::covariance(const Problem& p, const Model& model) const {
   }
   MatrixXd H = J.transpose() * J;
   H.diagonal() += spread.cwiseAbs2().cwiseInverse();
-  return H.ldlt().solve(MatrixXd::Identity(H.rows(), H.cols()));
+  return core::inverse_of_symmetric(H);
 }
 
 std::vector<Fitted> Fit::parameters(const Model& model) const {

@@ -10,7 +10,7 @@
 
 namespace ostium::data {
 
-namespace {
+namespace bending_anisotropy_parts {
 
 std::string why_not(const MeasurementSet& set, std::optional<int>) {
   return set.instruments.size() > 1 ? "nested instruments are modelled with one bending stiffness" : "";
@@ -40,9 +40,10 @@ std::vector<EffectForm> forms(const MeasurementSet& set, std::optional<int> inst
   return out;
 }
 
-}  // namespace
+}  // namespace bending_anisotropy_parts
 
 Effect bending_anisotropy() {
+  using namespace bending_anisotropy_parts;
   Effect effect;
   effect.id = "bending_anisotropy";
   effect.what = "bending stiffness that differs between two axes";

@@ -8,7 +8,7 @@
 
 namespace ostium::data {
 
-namespace {
+namespace clamp_runout_parts {
 
 std::string why_not(const MeasurementSet&, std::optional<int>) { return ""; }
 
@@ -26,9 +26,10 @@ void apply(const ActiveEffect& effect, const MeasurementSet&, const Experiment&,
   setup.base.q_W = {q.w(), q.x(), q.y(), q.z()};
 }
 
-}  // namespace
+}  // namespace clamp_runout_parts
 
 Effect clamp_runout() {
+  using namespace clamp_runout_parts;
   Effect effect;
   effect.id = "clamp_runout";
   effect.what = "a base that does not run true";

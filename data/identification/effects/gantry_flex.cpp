@@ -8,7 +8,7 @@
 
 namespace ostium::data {
 
-namespace {
+namespace gantry_flex_parts {
 
 using units::degree;
 
@@ -43,9 +43,10 @@ std::vector<EffectForm> forms(const MeasurementSet&, std::optional<int>) {
           {"flex", {{"primary_share", 0}, {"secondary_share", 0}}}};
 }
 
-}  // namespace
+}  // namespace gantry_flex_parts
 
 Effect gantry_flex() {
+  using namespace gantry_flex_parts;
   Effect effect;
   effect.id = "gantry_flex";
   effect.what = "a gantry that gives with its angle";

@@ -4,7 +4,7 @@
 
 namespace ostium::data {
 
-namespace {
+namespace imaging_scale_parts {
 
 std::string why_not(const MeasurementSet&, std::optional<int>) { return ""; }
 
@@ -21,9 +21,10 @@ std::vector<EffectForm> forms(const MeasurementSet& set, std::optional<int>) {
   return {{"about the origin", {{"about_base", 0}}}, {"about the base", {{"about_base", 1}}}};
 }
 
-}  // namespace
+}  // namespace imaging_scale_parts
 
 Effect imaging_scale() {
+  using namespace imaging_scale_parts;
   Effect effect;
   effect.id = "imaging_scale";
   effect.what = "a wrong scale of the picture";

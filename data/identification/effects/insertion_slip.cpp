@@ -4,7 +4,7 @@
 
 namespace ostium::data {
 
-namespace {
+namespace insertion_slip_parts {
 
 using units::mm;
 constexpr double least_m = 2e-3;
@@ -28,9 +28,10 @@ std::vector<EffectForm> forms(const MeasurementSet& set, std::optional<int> inst
   return {{"fraction", {{"offset_mm", 0}}}, {"offset", {{"fraction", 0}}}};
 }
 
-}  // namespace
+}  // namespace insertion_slip_parts
 
 Effect insertion_slip() {
+  using namespace insertion_slip_parts;
   Effect effect;
   effect.id = "insertion_slip";
   effect.what = "loss of commanded insertion";

@@ -8,7 +8,7 @@
 
 namespace ostium::data {
 
-namespace {
+namespace law_bending_parts {
 
 using units::mm;
 
@@ -57,9 +57,10 @@ std::vector<EffectForm> forms(const MeasurementSet& set, std::optional<int>) {
   return {{"", {{"reach_per_mm", std::clamp(reach_per_m(set) * mm, 1e-5, 10.0)}}}};
 }
 
-}  // namespace
+}  // namespace law_bending_parts
 
 Effect law_bending() {
+  using namespace law_bending_parts;
   Effect effect;
   effect.id = "law:bending";
   effect.what = "bending as the data show it";

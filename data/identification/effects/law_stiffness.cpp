@@ -11,7 +11,7 @@
 
 namespace ostium::data {
 
-namespace {
+namespace law_stiffness_parts {
 
 using units::mm, units::pi;
 
@@ -69,9 +69,10 @@ std::vector<EffectForm> forms(const MeasurementSet& set, std::optional<int> inst
   return {{"", {{"reach_mm", longest_inserted(set, instrument) / mm}}}};
 }
 
-}  // namespace
+}  // namespace law_stiffness_parts
 
 Effect law_stiffness() {
+  using namespace law_stiffness_parts;
   Effect effect;
   effect.id = "law:stiffness";
   effect.what = "stiffness along the instrument as the data show it";

@@ -8,7 +8,7 @@
 
 namespace ostium::data {
 
-namespace {
+namespace level_parts {
 
 std::string why_not(const MeasurementSet& set, std::optional<int>) {
   if (set.gravity_m_s2.isZero()) return "there is no gravity";
@@ -26,9 +26,10 @@ void apply(const ActiveEffect& effect, const MeasurementSet& set, const Experime
   if (turn.norm() > 0) setup.gravity_m_s2 = Eigen::AngleAxisd(turn.norm(), turn.normalized()) * setup.gravity_m_s2;
 }
 
-}  // namespace
+}  // namespace level_parts
 
 Effect level() {
+  using namespace level_parts;
   Effect effect;
   effect.id = "level";
   effect.what = "a rig that is not level";

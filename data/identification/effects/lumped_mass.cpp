@@ -7,7 +7,7 @@
 
 namespace ostium::data {
 
-namespace {
+namespace lumped_mass_parts {
 
 using units::mm, units::gram;
 
@@ -30,9 +30,10 @@ void adapt(const MeasurementSet& set, std::optional<int> instrument, std::vector
   p[1].prior = longest / 2 / mm, p[1].spread = longest / 3 / mm, p[1].most = longest / mm;
 }
 
-}  // namespace
+}  // namespace lumped_mass_parts
 
 Effect lumped_mass() {
+  using namespace lumped_mass_parts;
   Effect effect;
   effect.id = "lumped_mass";
   effect.what = "a weight that hangs on the instrument";

@@ -11,7 +11,7 @@
 
 namespace ostium::data {
 
-namespace {
+namespace nesting_clearance_parts {
 
 using Eigen::Matrix3d;
 using Eigen::Vector2d;
@@ -121,9 +121,10 @@ void adapt(const MeasurementSet& set, std::optional<int>, std::vector<EffectPara
   p[0].spread = std::clamp(most / mm, 0.02, 0.3), p[0].most = std::max(4 * p[0].spread, 0.2);
 }
 
-}  // namespace
+}  // namespace nesting_clearance_parts
 
 Effect nesting_clearance() {
+  using namespace nesting_clearance_parts;
   Effect effect;
   effect.id = "nesting_clearance";
   effect.what = "play between nested instruments";

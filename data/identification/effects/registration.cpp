@@ -7,7 +7,7 @@
 
 namespace ostium::data {
 
-namespace {
+namespace registration_parts {
 
 std::string why_not(const MeasurementSet& set, std::optional<int>) {
   if (set.imaging.registration_free) return "the measuring frame is fitted anyway";
@@ -32,9 +32,10 @@ std::vector<EffectForm> forms(const MeasurementSet&, std::optional<int>) {
           {"turn", {{"x_mm", 0}, {"y_mm", 0}, {"z_mm", 0}}}};
 }
 
-}  // namespace
+}  // namespace registration_parts
 
 Effect registration() {
+  using namespace registration_parts;
   Effect effect;
   effect.id = "registration";
   effect.what = "a measuring frame that is off";

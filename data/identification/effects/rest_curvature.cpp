@@ -6,7 +6,7 @@
 
 namespace ostium::data {
 
-namespace {
+namespace rest_curvature_parts {
 
 using units::mm;
 
@@ -20,9 +20,10 @@ void apply(const ActiveEffect& effect, const MeasurementSet&, const Experiment&,
                      [&](core::Section& s) { s.rest_curvature_per_m.head<2>() += Eigen::Vector2d(v[0], v[1]) / mm; });
 }
 
-}  // namespace
+}  // namespace rest_curvature_parts
 
 Effect rest_curvature() {
+  using namespace rest_curvature_parts;
   Effect effect;
   effect.id = "rest_curvature";
   effect.what = "a set of the shaft";

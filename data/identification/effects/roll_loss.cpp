@@ -7,7 +7,7 @@
 
 namespace ostium::data {
 
-namespace {
+namespace roll_loss_parts {
 
 std::string why_not(const MeasurementSet& set, std::optional<int> instrument) {
   for (const Experiment& e : set.experiments)
@@ -30,9 +30,10 @@ std::vector<EffectForm> forms(const MeasurementSet&, std::optional<int>) {
   return {{"fraction", {{"dead_band_deg", 0}}}, {"dead band", {{"fraction", 0}}}};
 }
 
-}  // namespace
+}  // namespace roll_loss_parts
 
 Effect roll_loss() {
+  using namespace roll_loss_parts;
   Effect effect;
   effect.id = "roll_loss";
   effect.what = "loss of commanded roll";

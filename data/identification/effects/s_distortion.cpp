@@ -6,7 +6,7 @@
 
 namespace ostium::data {
 
-namespace {
+namespace s_distortion_parts {
 
 void see(const ActiveEffect& effect, const MeasurementSet&, const Experiment&, MeasuredView& view) {
   for (std::size_t v = 0; v < view.cameras.size(); ++v)
@@ -15,9 +15,10 @@ void see(const ActiveEffect& effect, const MeasurementSet&, const Experiment&, M
 
 std::vector<EffectForm> forms(const MeasurementSet& set, std::optional<int>) { return forms_of_views(set, true); }
 
-}  // namespace
+}  // namespace s_distortion_parts
 
 Effect s_distortion() {
+  using namespace s_distortion_parts;
   Effect effect;
   effect.id = "s_distortion";
   effect.what = "S-distortion";

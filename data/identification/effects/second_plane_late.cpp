@@ -5,7 +5,7 @@
 
 namespace ostium::data {
 
-namespace {
+namespace second_plane_late_parts {
 
 using units::mm;
 constexpr double least_left_m = 2e-3;
@@ -23,9 +23,10 @@ void apply(const ActiveEffect& effect, const MeasurementSet& set, const Experime
   }
 }
 
-}  // namespace
+}  // namespace second_plane_late_parts
 
 Effect second_plane_late() {
+  using namespace second_plane_late_parts;
   Effect effect;
   effect.id = "second_plane_late";
   effect.what = "a second plane that comes later";

@@ -5,7 +5,7 @@
 
 namespace ostium::data {
 
-namespace {
+namespace self_weight_parts {
 
 constexpr double nitinol_kg_m3 = 6450, hardly_any_kg_m3 = 300;
 
@@ -24,9 +24,10 @@ void apply(const ActiveEffect& effect, const MeasurementSet&, const Experiment&,
   }
 }
 
-}  // namespace
+}  // namespace self_weight_parts
 
 Effect self_weight() {
+  using namespace self_weight_parts;
   Effect effect;
   effect.id = "self_weight";
   effect.what = "another weight than declared";

@@ -4,7 +4,7 @@
 
 namespace ostium::data {
 
-namespace {
+namespace shaft_torsion_parts {
 
 std::string why_not(const MeasurementSet& set, std::optional<int> instrument) {
   if (set.vessel) return "in a vessel shafts are not modelled";
@@ -32,9 +32,10 @@ void apply(const ActiveEffect& effect, const MeasurementSet&, const Experiment& 
   }
 }
 
-}  // namespace
+}  // namespace shaft_torsion_parts
 
 Effect shaft_torsion() {
+  using namespace shaft_torsion_parts;
   Effect effect;
   effect.id = "shaft_torsion";
   effect.what = "twist of the shafts behind the base";

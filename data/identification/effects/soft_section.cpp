@@ -7,7 +7,7 @@
 
 namespace ostium::data {
 
-namespace {
+namespace soft_section_parts {
 
 using units::mm;
 
@@ -31,9 +31,10 @@ void adapt(const MeasurementSet& set, std::optional<int> instrument, std::vector
 /// Two of them are two forms of the same; the second is tried where the first is.
 std::vector<EffectForm> forms(const MeasurementSet&, std::optional<int>) { return {{"", {}}, {another_form, {}}}; }
 
-}  // namespace
+}  // namespace soft_section_parts
 
 Effect soft_section() {
+  using namespace soft_section_parts;
   Effect effect;
   effect.id = "soft_section";
   effect.what = "a stretch of other stiffness";

@@ -6,7 +6,7 @@
 
 namespace ostium::data {
 
-namespace {
+namespace source_distance_parts {
 
 using units::mm;
 
@@ -26,9 +26,10 @@ std::vector<EffectForm> forms(const MeasurementSet& set, std::optional<int>) {
   return out;
 }
 
-}  // namespace
+}  // namespace source_distance_parts
 
 Effect source_distance() {
+  using namespace source_distance_parts;
   Effect effect;
   effect.id = "source_distance";
   effect.what = "another distance of source and detector";

@@ -7,7 +7,7 @@
 
 namespace ostium::data {
 
-namespace {
+namespace stress_relaxation_parts {
 
 bool curved(const std::vector<core::Section>& sections) {
   for (const core::Section& s : sections)
@@ -54,9 +54,10 @@ std::vector<EffectForm> forms(const MeasurementSet& set, std::optional<int>) {
   return out;
 }
 
-}  // namespace
+}  // namespace stress_relaxation_parts
 
 Effect stress_relaxation() {
+  using namespace stress_relaxation_parts;
   Effect effect;
   effect.id = "stress_relaxation";
   effect.what = "relaxation of the heat-set instrument";

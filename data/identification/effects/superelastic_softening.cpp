@@ -8,7 +8,7 @@
 
 namespace ostium::data {
 
-namespace {
+namespace superelastic_softening_parts {
 
 using units::mm;
 
@@ -36,9 +36,10 @@ void adapt(const MeasurementSet& set, std::optional<int>, std::vector<EffectPara
   p[0].prior = std::min(0.01 / (set.instruments[0].radius_m / mm), p[0].most);
 }
 
-}  // namespace
+}  // namespace superelastic_softening_parts
 
 Effect superelastic_softening() {
+  using namespace superelastic_softening_parts;
   Effect effect;
   effect.id = "superelastic_softening";
   effect.what = "bending that softens beyond a curvature";

@@ -9,7 +9,7 @@
 
 namespace ostium::data {
 
-namespace {
+namespace table_sag_parts {
 
 using Eigen::Vector3d;
 using units::mm;
@@ -32,9 +32,10 @@ std::vector<EffectForm> forms(const MeasurementSet&, std::optional<int>) {
   return {{"level", {{"slope_mm_per_m", 0}}}, {"bent", {}}};
 }
 
-}  // namespace
+}  // namespace table_sag_parts
 
 Effect table_sag() {
+  using namespace table_sag_parts;
   Effect effect;
   effect.id = "table_sag";
   effect.what = "a table that sags";

@@ -8,7 +8,7 @@
 
 namespace ostium::data {
 
-namespace {
+namespace taper_parts {
 
 using units::mm;
 
@@ -50,9 +50,10 @@ void adapt(const MeasurementSet& set, std::optional<int> instrument, std::vector
   p[0].most = p[1].most = longest_inserted(set, instrument) / mm;
 }
 
-}  // namespace
+}  // namespace taper_parts
 
 Effect taper() {
+  using namespace taper_parts;
   Effect effect;
   effect.id = "taper";
   effect.what = "a taper where a step is declared";

@@ -5,7 +5,7 @@
 
 namespace ostium::data {
 
-namespace {
+namespace torsion_ratio_parts {
 
 std::string why_not(const MeasurementSet& set, std::optional<int>) {
   return set.instruments.size() > 1 ? "nested instruments twist along their shafts: shaft_torsion" : "";
@@ -15,9 +15,10 @@ void apply(const ActiveEffect& effect, const MeasurementSet&, const Experiment&,
   for (core::Section& s : setup.nest.parts[0].sections) s.GJ_N_m2 *= effect.values[0];
 }
 
-}  // namespace
+}  // namespace torsion_ratio_parts
 
 Effect torsion_ratio() {
+  using namespace torsion_ratio_parts;
   Effect effect;
   effect.id = "torsion_ratio";
   effect.what = "torsional stiffness of another ratio to bending stiffness";

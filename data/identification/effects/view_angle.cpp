@@ -6,7 +6,7 @@
 
 namespace ostium::data {
 
-namespace {
+namespace view_angle_parts {
 
 using units::degree;
 
@@ -20,9 +20,10 @@ void see(const ActiveEffect& effect, const MeasurementSet&, const Experiment&, M
 
 std::vector<EffectForm> forms(const MeasurementSet& set, std::optional<int>) { return forms_of_views(set, false); }
 
-}  // namespace
+}  // namespace view_angle_parts
 
 Effect view_angle() {
+  using namespace view_angle_parts;
   Effect effect;
   effect.id = "view_angle";
   effect.what = "a C-arm's angle that is off";

@@ -4,7 +4,7 @@
 
 namespace ostium::data {
 
-namespace {
+namespace view_shift_parts {
 
 void see(const ActiveEffect& effect, const MeasurementSet&, const Experiment&, MeasuredView& view) {
   for (std::size_t v = 0; v < view.cameras.size(); ++v)
@@ -13,9 +13,10 @@ void see(const ActiveEffect& effect, const MeasurementSet&, const Experiment&, M
 
 std::vector<EffectForm> forms(const MeasurementSet& set, std::optional<int>) { return forms_of_views(set, false); }
 
-}  // namespace
+}  // namespace view_shift_parts
 
 Effect view_shift() {
+  using namespace view_shift_parts;
   Effect effect;
   effect.id = "view_shift";
   effect.what = "a picture that is shifted";

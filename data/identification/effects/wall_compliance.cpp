@@ -5,7 +5,7 @@
 
 namespace ostium::data {
 
-namespace {
+namespace wall_compliance_parts {
 
 using units::N_per_mm2;
 
@@ -15,9 +15,10 @@ void apply(const ActiveEffect& effect, const MeasurementSet&, const Experiment&,
   setup.wall_stiffness_N_m2 = effect.values[0] * N_per_mm2;
 }
 
-}  // namespace
+}  // namespace wall_compliance_parts
 
 Effect wall_compliance() {
+  using namespace wall_compliance_parts;
   Effect effect;
   effect.id = "wall_compliance";
   effect.what = "a wall that gives way";

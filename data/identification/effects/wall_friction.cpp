@@ -4,7 +4,7 @@
 
 namespace ostium::data {
 
-namespace {
+namespace wall_friction_parts {
 
 std::string why_not(const MeasurementSet& set, std::optional<int>) { return set.vessel ? "" : "there is no vessel"; }
 
@@ -17,9 +17,10 @@ void adapt(const MeasurementSet& set, std::optional<int>, std::vector<EffectPara
   if (set.vessel && set.vessel->friction > 0.005) p[0].prior = set.vessel->friction;
 }
 
-}  // namespace
+}  // namespace wall_friction_parts
 
 Effect wall_friction() {
+  using namespace wall_friction_parts;
   Effect effect;
   effect.id = "wall_friction";
   effect.what = "another friction of the wall";

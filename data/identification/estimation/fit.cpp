@@ -1,11 +1,12 @@
 #include "data/identification/estimation/fit.h"
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
 
+#include "core/math/dense.h"
 #include "data/identification/estimation/fit_problem.h"
 #include "data/identification/estimation/measured_push.h"
 #include "data/identification/forward/misfit.h"
@@ -102,7 +103,7 @@ Fit fit(const ForwardModel& forward, const Parameters& parameters, const FitOpti
     }
     const int n = problem.data_rows();
     const MatrixXd JtJ = J.transpose() * J;
-    out.covariance = JtJ.completeOrthogonalDecomposition().pseudoInverse();
+    out.covariance = core::pseudo_inverse_of_symmetric(JtJ);
     out.parameters_used = (out.covariance * (J.topRows(n).transpose() * J.topRows(n))).trace();
     out.chi2 = r.head(n).squaredNorm();
     out.converged = found.converged;
@@ -126,7 +127,7 @@ double cost_ahead(const ForwardModel& forward, const Parameters& parameters, con
     VectorXd r;
     MatrixXd J;
     if (!problem.evaluate(bounds.start, r, &J)) continue;
-    const VectorXd to = (bounds.start - (J.transpose() * J).completeOrthogonalDecomposition().solve(J.transpose() * r))
+    const VectorXd to = (bounds.start - core::pseudo_inverse_of_symmetric(J.transpose() * J) * (J.transpose() * r))
                             .cwiseMax(bounds.least)
                             .cwiseMin(bounds.most);
     least = std::min(least, (r + J * (to - bounds.start)).squaredNorm() / 2);

@@ -2,12 +2,13 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Cholesky>
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 #include <stdexcept>
 
+#include "core/math/dense.h"
 #include "data/identification/effects/effect_list.h"
 #include "data/identification/estimation/fit_starts.h"
 #include "data/identification/estimation/measured_push.h"
@@ -164,8 +165,7 @@ void ModelFit::complete(FittedModel& model, std::optional<double> noise_m) {
 
 double ModelFit::log_evidence() const {
   const VectorXd off = (fit_.x - parameters_.start()).cwiseQuotient(fit_.prior_sigma);
-  const Eigen::LDLT<Eigen::MatrixXd> factors(fit_.covariance);
-  const double log_det = factors.vectorD().array().max(1e-300).log().sum() - 2 * fit_.prior_sigma.array().log().sum();
+  const double log_det = core::log_determinant_of_symmetric(fit_.covariance) - 2 * fit_.prior_sigma.array().log().sum();
   return -0.5 * (fit_.chi2 + off.squaredNorm()) + 0.5 * log_det;
 }
 

@@ -1,8 +1,9 @@
 #include "data/identification/estimation/noise.h"
 
-#include <Eigen/QR>
+#include <Eigen/Core>
 #include <cmath>
 
+#include "core/math/dense.h"
 #include "data/identification/forward/misfit.h"
 #include "data/identification/measurement/measured_curves.h"
 
@@ -23,8 +24,7 @@ VectorXd annihilator(const VectorXd& t) {
   Eigen::MatrixXd powers(n, n - 1);
   for (Eigen::Index i = 0; i < n; ++i)
     for (Eigen::Index d = 0; d < n - 1; ++d) powers(i, d) = std::pow((t[i] - t.mean()) / (t[n - 1] - t[0]), d);
-  const Eigen::MatrixXd Q = powers.householderQr().householderQ();
-  return Q.col(n - 1);
+  return core::perpendicular_to_columns(powers);
 }
 
 /// Misfits are perpendicular to the wire: how many of a point's three numbers are free.

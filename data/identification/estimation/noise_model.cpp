@@ -2,10 +2,11 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Cholesky>
+#include <Eigen/Core>
 #include <cmath>
 
 #include "core/base/units.h"
+#include "core/math/dense.h"
 
 namespace ostium::data {
 
@@ -53,9 +54,9 @@ struct Decorrelated {
 
 MatrixXd decorrelate(const ResidualTrace& t, const NoiseModel& m, double* log_det = nullptr) {
   if (!m.correlated()) return t.values;
-  const Eigen::LLT<MatrixXd> factors(correlations(t.at, m));
-  if (log_det) *log_det += 2 * MatrixXd(factors.matrixL()).diagonal().array().log().sum() * t.numbers;
-  return factors.matrixL().solve(t.values);
+  const MatrixXd L = core::cholesky(correlations(t.at, m));
+  if (log_det) *log_det += 2 * L.diagonal().array().log().sum() * t.numbers;
+  return core::solve_lower(L, t.values);
 }
 
 Decorrelated all_decorrelated(const std::vector<ResidualTrace>& traces, const NoiseModel& m) {
@@ -188,12 +189,12 @@ NoiseModel noise_model_of(const std::vector<ResidualTrace>& traces, std::optiona
 
 Decorrelator::Decorrelator(const VectorXd& at, double numbers, const NoiseModel& model)
     : model_(model), numbers_(numbers) {
-  if (model.correlated()) factor_ = Eigen::LLT<MatrixXd>(correlations(at, model)).matrixL();
+  if (model.correlated()) factor_ = core::cholesky(correlations(at, model));
 }
 
 MatrixXd Decorrelator::operator()(const MatrixXd& values) const {
   MatrixXd out = values / model_.sigma;
-  if (factor_.size() > 0) out = factor_.triangularView<Eigen::Lower>().solve(out).eval();
+  if (factor_.size() > 0) out = core::solve_lower(factor_, out);
   for (Eigen::Index i = 0; model_.heavy() && i < out.rows(); ++i) {
     const double square = out.row(i).squaredNorm();
     if (square > 0) out.row(i) *= std::sqrt(cost_of(square, numbers_, model_.degrees) / square);

@@ -2,10 +2,11 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Dense>
+#include <Eigen/Geometry>
 #include <cmath>
 
 #include "core/base/units.h"
+#include "core/math/alignment.h"
 
 namespace ostium::data {
 
@@ -188,11 +189,8 @@ MeasuredView registered(const MeasurementSet& set, const std::vector<PredictedSh
   for (std::size_t i = 0; i < model.size(); ++i) mean_model += model[i] / n, mean_measured += measured[i] / n;
   Eigen::Matrix3d H = Eigen::Matrix3d::Zero();
   for (std::size_t i = 0; i < model.size(); ++i)
-    H += (model[i] - mean_model) * (measured[i] - mean_measured).transpose();
-  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(H, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  Eigen::Matrix3d V = svd.matrixV();
-  if ((V * svd.matrixU().transpose()).determinant() < 0) V.col(2) *= -1;
-  view.R = Eigen::Quaterniond(V * svd.matrixU().transpose());
+    H += (measured[i] - mean_measured) * (model[i] - mean_model).transpose();
+  view.R = Eigen::Quaterniond(core::nearest_rotation(H));
   view.t_m = mean_measured - view.R * mean_model;
   return view;
 }

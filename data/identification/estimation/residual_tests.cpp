@@ -1,11 +1,12 @@
 #include "data/identification/estimation/residual_tests.h"
 
-#include <Eigen/QR>
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 #include <random>
 
+#include "core/math/dense.h"
 #include "data/identification/measurement/measured_curves.h"
 
 namespace ostium::data {
@@ -48,11 +49,7 @@ double common_share(const MatrixXd& rows) {
 }
 
 /// Orthonormal basis of the column space of `with`, centred.
-MatrixXd basis(const MatrixXd& with) {
-  const MatrixXd centred = with.rowwise() - with.colwise().mean();
-  const Eigen::ColPivHouseholderQR<MatrixXd> qr(centred);
-  return MatrixXd(qr.householderQ()).leftCols(qr.rank());
-}
+MatrixXd basis(const MatrixXd& with) { return core::orthonormal_of_range(with.rowwise() - with.colwise().mean()); }
 
 /// Share of the scatter of `rows` about their mean that lies in the span of `basis`.
 double linear_share(const MatrixXd& centred_rows, const MatrixXd& basis) {

@@ -1,9 +1,11 @@
 #include "data/identification/estimation/secant_descent.h"
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <vector>
+
+#include "core/math/dense.h"
 
 namespace ostium::data {
 
@@ -118,7 +120,7 @@ class SecantSearch {
       if (!std::isfinite(seen(u, r))) return false;
       change.col(k) = r - r_;
     }
-    J_.leftCols(m_) = offsets().transpose().colPivHouseholderQr().solve(change.transpose()).transpose();
+    J_.leftCols(m_) = core::least_squares_of_columns(offsets().transpose(), change.transpose()).transpose();
     for (int i = m_; i < n_; ++i) {
       VectorXd u = at_;
       u[i] += at_[i] + free_step > high_[i] ? -free_step : free_step;
@@ -152,7 +154,7 @@ class SecantSearch {
       const auto at = [&](double damping) -> VectorXd {
         MatrixXd K = H;
         K.diagonal() += damping * dear + VectorXd::Constant(count, small);
-        return -K.ldlt().solve(g);
+        return -core::solve_symmetric(K, g);
       };
       VectorXd q = at(0);
       if (q.cwiseProduct(dear).norm() > left) {
@@ -179,7 +181,7 @@ class SecantSearch {
   /// Adds a point to the model, replacing the least useful one; if it is better than the centre, it becomes the centre.
   void add(const VectorXd& u, const VectorXd& r, double cost) {
     if (!std::isfinite(cost)) return;
-    const VectorXd share = offsets().colPivHouseholderQr().solve(u.head(m_) - at_.head(m_));
+    const VectorXd share = core::least_squares(offsets(), u.head(m_) - at_.head(m_));
     int out = -1;
     double most = 1e-3;  // below this the point would degrade the model
     for (int k = 0; k < m_; ++k) {
@@ -205,8 +207,7 @@ class SecantSearch {
       MatrixXd rest(m_, m_ - 1);
       for (int j = 0, c = 0; j < m_; ++j)
         if (j != k) rest.col(c++) = D.col(j);
-      const Eigen::HouseholderQR<MatrixXd> qr(rest);
-      across = MatrixXd(qr.householderQ()).col(m_ - 1);
+      across = core::perpendicular_to_columns(rest);
     }
     across.normalize();
     if (J_.size() > 0 && (J_.leftCols(m_).transpose() * r_).dot(across) > 0) across = -across;

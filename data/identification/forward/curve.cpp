@@ -1,8 +1,10 @@
 #include "data/identification/forward/curve.h"
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <cmath>
 #include <limits>
+
+#include "core/math/dense.h"
 
 namespace ostium::data {
 
@@ -55,13 +57,12 @@ double radius_of_curvature(const std::vector<Vector3d>& curve) {
   Eigen::MatrixXd off(n, 3);
   for (Eigen::Index i = 0; i < n; ++i) off.row(i) = (curve[i] - mean).transpose();
   const double size = off.rowwise().norm().maxCoeff();
-  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(off, Eigen::ComputeThinV);
   // |q|^2 = 2 c q + d in the plane of the curve (Kasa 1976): exact for the noiseless arcs it is used on.
-  const Eigen::MatrixXd q = off * svd.matrixV().leftCols(2) / size;
+  const Eigen::MatrixXd q = off * core::principal_directions(off).leftCols(2) / size;
   if (q.col(1).cwiseAbs().maxCoeff() < 1e-9) return std::numeric_limits<double>::infinity();
   Eigen::MatrixXd A(n, 3);
   A << 2 * q, Eigen::VectorXd::Ones(n);
-  const Vector3d c = A.colPivHouseholderQr().solve(q.rowwise().squaredNorm());
+  const Vector3d c = core::least_squares(A, q.rowwise().squaredNorm());
   return size * std::sqrt(c[2] + c.head<2>().squaredNorm());
 }
 

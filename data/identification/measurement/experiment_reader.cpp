@@ -13,7 +13,6 @@ namespace ostium::data {
 
 namespace {
 
-namespace keys = measurement_keys;
 using Eigen::Vector3d;
 
 using units::mm, units::per_mm, units::degree;
@@ -34,7 +33,7 @@ core::EndState read_base(const JsonObject& entry) {
 }
 
 Placement read_placement(const JsonValue& value, const MeasuredInstrument& instrument) {
-  const JsonObject entry(value, keys::placement);
+  const JsonObject entry(value, measurement_keys::placement);
   Placement p;
   const double length_mm = instrument.length_m / mm, inserted_mm = entry.positive("inserted_length_mm");
   if (inserted_mm > length_mm + gap_tolerance_mm)
@@ -67,7 +66,7 @@ void read_specimen(const JsonObject& entry, const MeasurementSet& set, Experimen
         fmt::format("one entry for each of {} instruments, got {}", set.instruments.size(), list.size()));
   for (std::size_t i = 0; i < list.size(); ++i)
     if (list[i].type != JsonValue::Type::null)
-      e.specimen[i] = vector2(JsonObject(list[i], keys::specimen)["rest_curvature_per_mm"]) * per_mm;
+      e.specimen[i] = vector2(JsonObject(list[i], measurement_keys::specimen)["rest_curvature_per_mm"]) * per_mm;
 }
 
 void read_measured(const JsonObject& entry, Experiment& e) {
@@ -104,7 +103,7 @@ Experiment read_setting(const JsonObject& entry, const MeasurementSet& set) {
   e.place = entry.value().path();
   for (const Experiment& other : set.experiments)
     if (other.id == e.id) entry["id"].refuse("an id that no other experiment has; " + other.place + " has it");
-  e.base = read_base(JsonObject(entry["base"], keys::base));
+  e.base = read_base(JsonObject(entry["base"], measurement_keys::base));
   read_set(entry, set, e);
   read_specimen(entry, set, e);
   if (entry.has("tip_force_N")) e.tip_force_N = vector3(entry["tip_force_N"]);
@@ -116,7 +115,7 @@ Experiment read_setting(const JsonObject& entry, const MeasurementSet& set) {
 }
 
 Experiment read_experiment(const JsonValue& value, const MeasurementSet& set) {
-  const JsonObject entry(value, keys::experiment);
+  const JsonObject entry(value, measurement_keys::experiment);
   Experiment e = read_setting(entry, set);
   read_measured(entry, e);
   return e;

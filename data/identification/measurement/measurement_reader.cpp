@@ -18,8 +18,6 @@ namespace ostium::data {
 
 namespace {
 
-namespace keys = measurement_keys;
-
 using units::mm, units::Nmm2, units::per_mm;
 
 core::Section read_section(const JsonObject& entry, const MeasuredInstrument& instrument, double& reached_mm) {
@@ -50,7 +48,7 @@ void require_rod(const JsonObject& entry, const MeasuredInstrument& instrument) 
 }
 
 MeasuredInstrument read_instrument(const JsonValue& value) {
-  const JsonObject entry(value, keys::instrument);
+  const JsonObject entry(value, measurement_keys::instrument);
   MeasuredInstrument instrument;
   instrument.name = entry.text("name");
   instrument.length_m = entry.positive("total_length_mm") * mm;
@@ -59,7 +57,7 @@ MeasuredInstrument read_instrument(const JsonValue& value) {
   if (instrument.inner_radius_m >= instrument.radius_m) entry.refuse("inner_radius_mm");
   double reached_mm = 0;
   for (const JsonValue& section : entry.list("sections"))
-    instrument.sections.push_back(read_section(JsonObject(section, keys::section), instrument, reached_mm));
+    instrument.sections.push_back(read_section(JsonObject(section, measurement_keys::section), instrument, reached_mm));
   if (std::fabs(reached_mm - instrument.length_m / mm) > gap_tolerance_mm)
     entry["sections"].fail(fmt::format("{} end {} mm from the tip; expected them to reach total_length_mm, {} mm",
                                        entry["sections"].path(), reached_mm, instrument.length_m / mm));
@@ -82,10 +80,10 @@ void read_instruments(const JsonObject& root, MeasurementSet& set) {
 }
 
 void read_environment(const JsonValue& environment, MeasurementSet& set) {
-  const JsonObject entry(environment, keys::environment);
+  const JsonObject entry(environment, measurement_keys::environment);
   set.gravity_m_s2 = vector3(entry["gravity_m_s2"]);
   if (entry["vessel"].type == JsonValue::Type::null) return;
-  const JsonObject vessel(entry["vessel"], keys::vessel);
+  const JsonObject vessel(entry["vessel"], measurement_keys::vessel);
   static const std::vector<std::string> units = {"mm", "cm", "m", "in"};
   set.vessel = MeasuredVessel{vessel.text("mesh"), units[vessel.choice("units", units)],
                               vessel.not_negative("friction"), nullptr};
@@ -101,7 +99,7 @@ void read_imaging(const JsonObject& entry, MeasurementSet& set) {
 }
 
 DeclaredEffect read_effect(const JsonValue& value, const MeasurementSet& set) {
-  const JsonObject entry(value, keys::effect);
+  const JsonObject entry(value, measurement_keys::effect);
   DeclaredEffect effect;
   effect.id = entry.text("id");
   effect.place = fmt::format("{}:{}: {}", *value.file, value.line, value.path());
@@ -136,7 +134,7 @@ std::string kind_of(const JsonValue& file) {
 
 MeasurementSet read(const JsonValue& file) {
   if (kind_of(file) == "projections") return read_projections(file);
-  const JsonObject root(file, keys::set);
+  const JsonObject root(file, measurement_keys::set);
   MeasurementSet set;
   set.file = *file.file;
   if (root.text("schema") != "ostium-measurement/1") root.refuse("schema");
@@ -144,7 +142,7 @@ MeasurementSet read(const JsonValue& file) {
   set.source = root.text("source");
   read_instruments(root, set);
   read_environment(root["environment"], set);
-  read_imaging(JsonObject(root["imaging"], keys::imaging), set);
+  read_imaging(JsonObject(root["imaging"], measurement_keys::imaging), set);
   read_effects(root, set);
   for (const JsonValue& value : root.list("experiments")) set.experiments.push_back(read_experiment(value, set));
   if (set.experiments.empty()) root.refuse("experiments");

@@ -1,8 +1,10 @@
 #include "vascular/geometry/implicit/spline.h"
 
-#include <Eigen/LU>
+#include <Eigen/Core>
 #include <algorithm>
 #include <cassert>
+
+#include "core/math/dense.h"
 
 namespace ostium::vascular {
 
@@ -50,8 +52,7 @@ Eigen::MatrixXd periodic_b_spline(const Eigen::MatrixXd& values) {
     A(i, (i + 1) % n) += 1.0 / 6;
     A(i, (i + n - 1) % n) += 1.0 / 6;
   }
-  const Eigen::MatrixXd inverse = A.inverse();  // well conditioned: condition number at most 3
-  return inverse * values;
+  return core::inverse(A) * values;  // well conditioned: condition number at most 3
 }
 
 }  // namespace ostium::vascular

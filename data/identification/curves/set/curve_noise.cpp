@@ -1,8 +1,10 @@
 #include "data/identification/curves/set/curve_noise.h"
 
-#include <Eigen/QR>
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
+
+#include "core/math/dense.h"
 
 namespace ostium::data::curves {
 
@@ -38,8 +40,7 @@ MatrixXd slow_basis(const Run& run) {
     const double side = k <= turn ? 1 : -1, all[] = {1, t, t * t, t * t * t, side, side * t};
     for (Eigen::Index c = 0; c < columns; ++c) shapes(k, c) = all[c];
   }
-  const Eigen::HouseholderQR<MatrixXd> qr(shapes);
-  return MatrixXd(qr.householderQ() * MatrixXd::Identity(n, columns));
+  return core::orthonormal(shapes);
 }
 
 /// What is left of a run's misfit without its slow shapes.
