@@ -1,10 +1,14 @@
 #include "app/command_line/command_line.h"
 
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <CLI/CLI.hpp>
+#include <cerrno>
 #include <cmath>
 #include <cstdint>
+#include <cstdio>
 #include <exception>
 #include <optional>
 #include <type_traits>
@@ -88,9 +92,44 @@ void declare(const Command& command, CLI::App& app, const Command*& chosen) {
   if (!footer.empty()) app.footer(footer);
 }
 
+/// A stream that whoever calls has closed becomes one that nothing can be written to; else the first file that is
+/// opened would take its place, and get what is printed.
+void hold_standard_streams() {
+  for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
+    if (fcntl(stream, F_GETFD) < 0) open("/dev/null", stream == STDIN_FILENO ? O_WRONLY : O_RDONLY);
+}
+
+/// What cannot be written to the standard error stream, as to a log on a full disk, is lost, and nothing else is: fmt
+/// would throw.
+void let_messages_be_lost() {
+  cookie_io_functions_t functions{};
+  functions.write = [](void*, const char* bytes, std::size_t size) {
+    for (std::size_t sent = 0; sent < size;) {
+      const ssize_t n = write(STDERR_FILENO, bytes + sent, size - sent);
+      if (n < 0 && errno == EINTR) continue;
+      if (n <= 0) break;
+      sent += static_cast<std::size_t>(n);
+    }
+    return static_cast<ssize_t>(size);
+  };
+  std::FILE* const all_taken = fopencookie(nullptr, "w", functions);
+  if (!all_taken) return;
+  std::setvbuf(all_taken, nullptr, _IONBF, 0);
+  stderr = all_taken;
+}
+
+/// `code`, if all that was printed has been written.
+int with_output_checked(int code) {
+  if (std::fflush(stdout) == 0 && !std::ferror(stdout)) return code;
+  fmt::print(stderr, "ostium: what it prints could not be written; is the disk full, or the pipe closed?\n");
+  return failed;
+}
+
 }  // namespace
 
 int run_command_line(const Command& program, int argc, char** argv) {
+  hold_standard_streams();
+  let_messages_be_lost();
   CLI::App app(program.help, program.name);
   app.set_version_flag("--version", OSTIUM_VERSION);
   // Also used for commands declared later that have no examples.
@@ -100,15 +139,16 @@ int run_command_line(const Command& program, int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? done : usage;
+    return with_output_checked(app.exit(error) == 0 ? done : usage);
   }
   try {
-    const int code = chosen->run();
+    const int code = with_output_checked(chosen->run());
     return interrupting_signal ? 128 + interrupting_signal : code;
   } catch (const data::WriteError& error) {
     fmt::print(stderr, "{}: {}\n", program.name, error.what());
     return failed;
   } catch (const std::exception& error) {
+    if (std::ferror(stdout)) return with_output_checked(failed);  // fmt throws where it cannot print
     fmt::print(stderr, "{}: {}\n", program.name, error.what());
     return bad_input;
   }

@@ -11,4 +11,14 @@ inline std::atomic<int> interrupting_signal{0};
 /// one kills it.
 void stop_on_signals();
 
+/// While it lives, they kill the process at once, whatever stop_on_signals says: for what takes seconds and leaves
+/// nothing, as a vessel that is built.
+class EndsAtOnce {
+ public:
+  EndsAtOnce();
+  EndsAtOnce(const EndsAtOnce&) = delete;
+  EndsAtOnce& operator=(const EndsAtOnce&) = delete;
+  ~EndsAtOnce();
+};
+
 }  // namespace ostium::app

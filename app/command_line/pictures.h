@@ -10,6 +10,8 @@
 
 namespace ostium::app {
 
+inline constexpr double table_reach_mm = 1000;  ///< of a patient under the beam nothing is farther away
+
 /// A standard view, and angles that override its own.
 struct ViewArguments {
   static constexpr double as_view = std::numeric_limits<double>::quiet_NaN();

@@ -7,6 +7,7 @@
 #include "app/command_line/arguments.h"
 #include "app/command_line/command.h"
 #include "app/command_line/common_options.h"
+#include "app/command_line/interrupt.h"
 #include "app/command_line/pictures.h"
 #include "app/command_line/progress.h"
 #include "app/session/scene/xray_scene.h"
@@ -57,7 +58,9 @@ void declare_geometry(Options& options, Arguments& a) {
   options.add("--field", a.field_mm, "Side of the detector's field, mm: 200, 160, 130")
       .range(50.0, 400.0)
       .show_default();
-  options.add("--table", a.table_mm, "Isocentre from the heart's middle: left, head, front, mm").count(3);
+  options.add("--table", a.table_mm, "Isocentre from the heart's middle: left, head, front, mm")
+      .count(3)
+      .range(-table_reach_mm, table_reach_mm);
   options.add("--shutters", a.shutters, "Left, right, top, bottom, from the middle; 0.5 is open").count(4);
   add_pixels_option(options, a.pixels, 64);
 }
@@ -176,7 +179,8 @@ Filmed film(const Arguments& a, const Scenes& scenes, const fluoro::FluoroscopeI
   const int frames = a.frames ? a.frames : a.video() ? 30 : 8;
   // A still picture stays at its phase; the frames before it only build up the lag.
   const bool moves = a.video() || (a.dicom() && a.frames);
-  for (int i = 0; i < frames; ++i) {
+  if (a.video()) stop_on_signals();  // a film ends with the frames that it has
+  for (int i = 0; i < frames && !interrupted; ++i) {
     if (moves) scene = scenes(i);
     out.report = tick(imager, in, out.state, scratch).frame;
     if (const auto& leak = out.report.leak;

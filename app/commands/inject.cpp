@@ -8,6 +8,7 @@
 #include "app/command_line/arguments.h"
 #include "app/command_line/command.h"
 #include "app/command_line/common_options.h"
+#include "app/command_line/interrupt.h"
 #include "app/command_line/pictures.h"
 #include "app/command_line/progress.h"
 #include "core/base/units.h"
@@ -93,6 +94,7 @@ nlohmann::ordered_json balance(const data::Case& c, const vascular::ContrastStat
 int run(const Arguments& a) {
   const bool video = a.out.ends_with(".mp4");
   require_ending(a.out, {".png", ".mp4"});
+  if (!a.view.empty()) named_view(a.view);
   fluoro::require_rate(a.frames_per_s);
   data::Case c = data::find_case(a.of);
   if (a.healthy) c.lesions.clear();
@@ -119,7 +121,8 @@ int run(const Arguments& a) {
   const int frames = static_cast<int>(std::lround(a.seconds * a.frames_per_s));
   std::vector<fluoro::Picture> kept;
   double in_line_kg = 0;
-  for (int n = 0; n < frames; ++n) {
+  if (video) stop_on_signals();  // a film ends with the frames that it has
+  for (int n = 0; n < frames && !interrupted; ++n) {
     fluoro::Picture picture = angiogram.frame(injection, inputs, state);
     if (n == 0) in_line_kg = injection.iodine_kg_m3 * inputs.contrast.line.dead_m3;
     draw_overlay({view, fluoro::cine(a.frames_per_s), angiogram.report().frame.exposure, angiogram.fluoroscope().dose,
@@ -133,7 +136,7 @@ int run(const Arguments& a) {
   if (!finish_film(writer, "inject")) return 1;
   if (!video) data::write_png(a.out, sheet_of(kept));
   nlohmann::ordered_json numbers = balance(c, state.contrast, before_kg, in_line_kg);
-  if (a.count)
+  if (a.count && !interrupted)
     for (const char* artery : {"LAD", "LCx", "RCA"}) {
       show_progress(fmt::format("frame count of {}", artery));
       const TimiCount count = timi_count(model, scene, patient, artery, rest, c.rate_1_min, a.phase);

@@ -6,8 +6,10 @@
 #include <cstdlib>
 #include <nlohmann/json.hpp>
 
+#include "app/command_line/arguments.h"
 #include "app/command_line/command.h"
 #include "app/command_line/common_options.h"
+#include "app/command_line/interrupt.h"
 #include "app/command_line/pictures.h"
 #include "app/command_line/progress.h"
 #include "app/reader/read_apart.h"
@@ -17,6 +19,8 @@
 #include "data/formats/load_error.h"
 #include "data/formats/png.h"
 #include "data/formats/video.h"
+#include "fluoro/detector/exposure.h"
+#include "fluoro/projection/c_arm.h"
 #include "fluoro/projection/views.h"
 
 namespace ostium::app {
@@ -33,6 +37,12 @@ struct PictureArguments {
   bool monitor = false;              ///< ECG, pressure and gauge below the picture
   double frames_per_s = 15;
   std::string fill = "none";
+
+  /// Whether something was asked for that only a picture shows.
+  bool asked_for() const {
+    return !view.view.empty() || !std::isnan(view.lao_deg) || !std::isnan(view.cran_deg) || !std::isnan(field_mm) ||
+           !table_mm.empty() || cine || plain || monitor || fill != "none";
+  }
 };
 
 struct Arguments {
@@ -42,13 +52,18 @@ struct Arguments {
   std::string video, dicom, png;   ///< file names; empty: none
   PictureArguments picture;
   bool json = false;
+
+  bool films() const { return !video.empty() || !dicom.empty(); }
+  bool shows() const { return films() || !png.empty(); }
 };
 
 void declare_picture(Options& options, PictureArguments& a) {
   options.add("--view", a.view.view, "Standard view (`ostium views`), instead of the run's").type("VIEW");
   add_angle_options(options, a.view);
   options.add("--field", a.field_mm, "Side of the detector's field, mm").range(50.0, 400.0);
-  options.add("--table", a.table_mm, "Isocentre in the patient: left, head, front, mm").count(3);
+  options.add("--table", a.table_mm, "Isocentre in the patient: left, head, front, mm")
+      .count(3)
+      .range(-table_reach_mm, table_reach_mm);
   add_pixels_option(options, a.pixels, 64);
   add_cine_flag(options, a.cine);
   options.flag("--plain", a.plain, "Without angles, times and dose on the picture");
@@ -98,7 +113,7 @@ FilmOptions film_options(const PictureArguments& a) {
 
 constexpr double lag_s = 0.7;  // time for the display's recursive filter to settle
 
-bool is_still(const Arguments& a) { return a.video.empty() && a.dicom.empty() && a.seconds == 0; }
+bool is_still(const Arguments& a) { return !a.films() && a.seconds == 0; }
 
 /// Films until the recording or the time ends; a still picture needs the preceding frames, whose lag it shows.
 int make_film(const Arguments& a, Replay& replay) {
@@ -114,6 +129,7 @@ int make_film(const Arguments& a, Replay& replay) {
   const double from_s = is_still(a) ? a.from_s - lag_s : a.from_s;
   const double end_s = is_still(a) ? std::max(a.from_s, lag_s) : a.seconds > 0 ? a.from_s + a.seconds : 1e300;
   long frames = 0;
+  if (a.films()) stop_on_signals();  // a film ends with the frames that it has
   do {
     film.listen(replay.model, replay.state, replay.inputs);
     const double now = seconds(replay.model, replay.state);
@@ -126,8 +142,9 @@ int make_film(const Arguments& a, Replay& replay) {
     if (writer) writer->add(last);
     if (!a.dicom.empty()) runs.add(film.run(), last);
     show_progress(fmt::format("frame {}, {:.1f} s", frames, now));
-  } while (seconds(replay.model, replay.state) < end_s - 1e-9 && replay.tick());
+  } while (seconds(replay.model, replay.state) < end_s - 1e-9 && !interrupted && replay.tick());
   show_progress("");
+  if (frames == 0 && interrupted) return 1;
   if (frames == 0) throw data::LoadError(fmt::format("{}: there is no frame from {:g} s on", a.file, a.from_s));
   if (!finish_film(writer, "replay")) return 1;
   if (!a.png.empty()) data::write_png(a.png, last);
@@ -166,9 +183,26 @@ int check_same(const Arguments& a, Replay& replay) {
   return report.first_step ? 1 : 0;
 }
 
+/// Before the vessel is built, which takes seconds.
+void require_arguments(const Arguments& a) {
+  if (!a.video.empty()) require_ending(a.video, {".mp4"});
+  if (!a.dicom.empty()) require_ending(a.dicom, {".dcm"});
+  if (!a.png.empty()) require_ending(a.png, {".png"});
+  if (!a.shows() && (a.picture.asked_for() || a.seconds > 0))
+    throw data::LoadError(
+        "there is no picture to show that in; expected --png FILE.png, --video FILE.mp4 or --dicom FILE.dcm with it");
+  const FilmOptions film = film_options(a.picture);
+  fluoro::CArm arm;
+  arm.lao_rad = film.lao_rad.value_or(0), arm.cran_rad = film.cran_rad.value_or(0);
+  require_reachable(arm);
+  fluoro::require_rate(film.frames_per_s);
+}
+
 /// Exit code: 0 if everything was done and, with `verify`, the replay is identical.
 int run(const Arguments& a) {
+  require_arguments(a);
   require_whole_recording(a.file);
+  require_within(data::RecordingReader(a.file), a.from_s);
   show_progress("building the vessel of " + a.file);
   Replay replay(a.file);
   if (!replay.recording.end() && !a.json)
@@ -176,9 +210,8 @@ int run(const Arguments& a) {
                replay.recording.step_s() * static_cast<double>(replay.recording.steps()));
   replay.go_to(a.from_s);
   int code = 0;
-  const bool film = !a.video.empty() || !a.dicom.empty() || !a.png.empty();
-  if (a.verify || !film) code = check_same(a, replay);
-  if (!film) return code;
+  if (a.verify || !a.shows()) code = check_same(a, replay);
+  if (!a.shows()) return code;
   // Strips also show the seconds before.
   const double before_s = std::max(is_still(a) ? lag_s : 0, a.picture.monitor ? monitor_s : 0);
   replay.go_to(std::max(0.0, a.from_s - before_s));

@@ -40,7 +40,13 @@ VideoWriter::VideoWriter(const std::string& file, int width, int height, double 
   std::vector<char*> argv;
   for (std::string& argument : arguments) argv.push_back(argument.data());
   argv.push_back(nullptr);
-  const int failed = posix_spawnp(&process_, "ffmpeg", &actions, nullptr, argv.data(), environ);
+  // In a group of its own: Ctrl-C would end ffmpeg before it has the last frames.
+  posix_spawnattr_t attributes;
+  posix_spawnattr_init(&attributes);
+  posix_spawnattr_setpgroup(&attributes, 0);
+  posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);
+  const int failed = posix_spawnp(&process_, "ffmpeg", &actions, &attributes, argv.data(), environ);
+  posix_spawnattr_destroy(&attributes);
   posix_spawn_file_actions_destroy(&actions);
   close(in[1]);
   close(words[1]);

@@ -32,6 +32,7 @@ std::vector<Target> mesh_targets();
 std::vector<Target> recording_targets();
 std::vector<Target> protocol_targets();
 std::vector<Target> text_targets();
+std::vector<Target> sweep_targets();
 
 /// A promise that does not hold.
 struct Finding : std::logic_error {

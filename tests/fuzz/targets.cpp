@@ -10,7 +10,8 @@ namespace ostium::fuzz {
 const std::vector<Target>& targets() {
   static const std::vector<Target> all = [] {
     std::vector<Target> list;
-    for (const auto& some : {json_targets(), mesh_targets(), recording_targets(), protocol_targets(), text_targets()})
+    for (const auto& some :
+         {json_targets(), mesh_targets(), recording_targets(), protocol_targets(), text_targets(), sweep_targets()})
       list.insert(list.end(), some.begin(), some.end());
     return list;
   }();

@@ -16,6 +16,14 @@ expect 0 '"what"' "$ostium" verify --list --json
 expect 2 "no gate begins" "$ostium" verify --only no-such-gate
 expect 2 "no gate begins" "$ostium" verify --only rod-staticX
 expect 1 "could not be written" bash -c "'$ostium' verify --only rod-static --json > /dev/full"
+# What cannot be printed is said, by every command alike; no file takes the place of a stream that is closed.
+for command in views scripts "cases rca-mid-focal --json" --help; do
+  expect 1 "could not be written" bash -c "'$ostium' $command > /dev/full"
+  expect 1 "could not be written" bash -c "'$ostium' $command >&-"
+done
+expect 3 "" bash -c "'$ostium' check no-such.stl 2> /dev/full"
+expect 3 "" bash -c "'$ostium' check no-such.stl 2>&-"
+expect 0 "of [0-9]* pass" bash -c "'$ostium' verify --only rod-static-0.4m-100 2> /dev/full"
 expect 2 "not expected" "$ostium" verify --quik
 expect 2 "not expected" "$ostium" nonsense
 
@@ -38,6 +46,10 @@ expect 0 '"iodine_balance"' "$ostium" inject --pixels 256 --seconds 0.3 --json -
 expect 3 "there is no case" "$ostium" inject no-such-case -o "$dir/inject.png"
 expect 3 "png and .mp4" "$ostium" inject -o "$dir/inject.jpg"
 expect 2 "volume" "$ostium" inject --volume -3 -o "$dir/inject.png"
+# Ctrl-C, which ffmpeg gets too, leaves a film of what there was.
+expect 0 "^130$" bash -mc '"$ostium" frame --pixels 64 --frames 9000 -o "$0/cut.mp4" & p=$!
+  until [[ -s $0/cut.mp4.unfinished ]]; do sleep 0.05; done; kill -INT -- -$p; wait $p; echo $?' "$dir"
+[[ -s $dir/cut.mp4 && ! -e $dir/cut.mp4.unfinished ]]
 # Every option of every command that takes a number: finite decimals only.
 tried=0
 for command in $("$ostium" --help | awk '/^Subcommands:/ { on = 1; next } on && /^  [a-z]/ { print $1 }') \
@@ -138,6 +150,7 @@ expect 0 "mm, as the file says" "$ostium" check "$folder/lines.mrk.json"
 expect 0 "vessel 1" "$ostium" import "$folder/lines.mrk.json" -o "$folder/lines"
 sed 's/Radius/Curvature/' "$folder/lines.mrk.json" >"$folder/bare.mrk.json"
 expect 3 "has no radii; expected a measurement" "$ostium" centreline "$folder/bare.mrk.json" -o "$folder/tree.json"
+expect 3 "makes a case of them" "$ostium" frame "$folder/lines.mrk.json" -o "$folder/frame.png"
 # In metres nothing is welded that should not be.
 awk '$1 == "v" { print "v", $2 / 1000, $3 / 1000, $4 / 1000; next } { print }' "$folder/vessel.obj" >"$folder/metres.obj"
 expect 1 '"welded_vertices": 0' "$ostium" check --json "$folder/metres.obj"
@@ -157,7 +170,8 @@ for ending in glb fbx 3ds dae x3d off vtp; do
   expect 3 "program.$ending: " "$ostium" check "$folder/program.$ending"
 done
 cp "$folder/whole.obj" "$folder/whole.blend"
-expect 3 "names no format" "$ostium" check "$folder/whole.blend"
+expect 3 "names nothing that is read .*\.vtp.*\.mrk\.json" "$ostium" check "$folder/whole.blend"
+expect 3 "names nothing that is read" "$ostium" import "$folder/whole.blend" -o "$folder/case"
 expect 3 "right-handed" "$ostium" import "$folder/whole.obj" --axes LPI -o "$folder/case"
 expect 3 "FOUND=WANTED" "$ostium" import "$folder/whole.obj" --rename x -o "$folder/case"
 expect 3 "BRANCH:FROM" "$ostium" import "$folder/whole.obj" --lesion RCA -o "$folder/case"
@@ -214,8 +228,26 @@ expect 3 "there is no instrument" "$ostium" run rca-mid-focal --set wire=no-such
 expect 3 "expected one of wire, person" "$ostium" run rca-mid-focal --set wyre=cook-j
 expect 3 "where an instrument comes in" "$ostium" run "$folder/whole.obj"
 expect 3 "there is no such file" "$ostium" replay "$out/none.h5"
-expect 3 "there is no view" "$ostium" replay "$out/run.h5" --view upwards --png "$out/moment.png"
-expect 3 "s long" "$ostium" replay "$out/run.h5" --from 60
+# What cannot be done is refused before anything is built or made.
+soon() { # soon WORD ARGUMENTS...: refused within two seconds of processor
+  expect 3 "$1" bash -c 'ulimit -t 2; "$@"' soon "$ostium" "${@:2}"
+}
+soon "there is no view" replay "$out/run.h5" --view upwards --png "$out/moment.png"
+soon "there is no picture to show that in" replay "$out/run.h5" --view lao
+soon "there is no picture to show that in" replay "$out/run.h5" --seconds 1
+soon "s long" replay "$out/run.h5" --from 60
+soon "no frame rate" replay "$out/run.h5" --rate 7 --video "$out/moment.mp4"
+soon "cannot be reached" replay "$out/run.h5" --lao 300 --png "$out/moment.png"
+soon "png is known" replay "$out/run.h5" --png "$out/moment.bmp"
+soon "mp4 is known" replay "$out/run.h5" --video "$out/moment.avi"
+soon "dcm is known" replay "$out/run.h5" --dicom "$out/moment.png"
+soon "there is no view" inject --view upwards -o "$out/inject.png"
+soon "has no place" run rca-mid-focal --film
+soon "has no place" run rca-mid-focal --report
+soon "made of a recording" run rca-mid-focal --report --record none --out "$out/refused"
+soon "is of the window" run rca-mid-focal --last-frame "$out/last.png" --out "$out/refused"
+soon "expected none|events" run rca-mid-focal --record all --out "$out/refused"
+[[ ! -e $out/refused ]]
 head -c 3000 "$out/run.h5" >"$out/cut.h5"
 expect 3 "cut short" "$ostium" replay "$out/cut.h5"
 # A byte here and there: read, or refused by name.

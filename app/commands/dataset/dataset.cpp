@@ -142,8 +142,11 @@ class Dataset {
                 {"values", sweep_.grid.values_of(sweep_.grid.setting_of(run))},
                 {"person", person_of(built)}};
     try {
-      std::string warnings;
-      if (!vessel) vessel = make_vessel(built, warnings);
+      if (!vessel) {
+        const EndsAtOnce at_once;
+        std::string warnings;
+        vessel = make_vessel(built, warnings);
+      }
       RunSetup setup = setup_of(sweep_, run);
       choose_sizes(*vessel, setup);
       FrameOptions options = arguments_.frames;

@@ -110,9 +110,22 @@ void tell(const RunArguments& a, const RunSetup& setup, const ScriptedRun& run, 
   }
 }
 
+/// Before anything is made.
+void require_arguments(const RunArguments& a) {
+  const RecorderOptions recorder = recorder_of(a.record);
+  if (a.folder.empty() && (a.film || a.report))
+    throw data::LoadError(std::string(a.film ? "--film" : "--report") + " has no place; expected --out DIR with it");
+  if (a.report && recorder.mode == RecordMode::none)
+    throw data::LoadError("--report is made of a recording; expected another --record than none");
+  if (!a.last_frame.empty() && !a.in_window())
+    throw data::LoadError("--last-frame is of the window; expected --display window with it");
+  if (!a.last_frame.empty()) require_ending(a.last_frame, {".png"});
+}
+
 }  // namespace
 
 int run_script(const RunArguments& a) {
+  require_arguments(a);
   if (std::string why; a.in_window() && !has_display(why))
     throw data::LoadError("there is no window here (" + why + "); expected a display, or --display none with a script");
   RunSetup setup = setup_of(a.session);

@@ -41,7 +41,7 @@ JournalHead head_from(const std::string& file, const std::string& line) {
                      .vessel_of = in.at("vessel_of")};
     const auto beyond = [&](std::size_t vessel) { return vessel >= head.vessel_of.size(); };
     if (head.vessel_of.size() != head.grid.settings() || head.part.number < 1 || head.part.number > head.part.of ||
-        std::any_of(head.vessel_of.begin(), head.vessel_of.end(), beyond))
+        head.part.of > most_parts || std::any_of(head.vessel_of.begin(), head.vessel_of.end(), beyond))
       throw data::LoadError("its numbers contradict each other");
     return head;
   } catch (const std::exception& error) {

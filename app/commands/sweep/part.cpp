@@ -12,8 +12,6 @@ namespace ostium::app {
 
 namespace {
 
-constexpr std::size_t most_parts = 100'000;
-
 /// A place among several, from 0.
 struct Rank {
   std::size_t at = 0, of = 1;

@@ -5,6 +5,8 @@
 
 namespace ostium::app {
 
+inline constexpr std::size_t most_parts = 100'000;
+
 struct SweepPart {
   std::size_t number = 1, of = 1;  ///< counted from 1
   bool is_all = true;              ///< no part was asked for

@@ -52,6 +52,7 @@ void Sweeper::run() {
 std::shared_ptr<const Vessel> Sweeper::vessel_for(const RunSetup& setup, const std::vector<std::size_t>& open) {
   show_progress("building " + setup.vessel);
   try {
+    const EndsAtOnce at_once;
     std::string warnings;
     return make_vessel(setup, warnings);
   } catch (const std::bad_alloc&) {

@@ -68,15 +68,18 @@ Replay::Replay(const std::string& file, std::shared_ptr<const Vessel> vessel)
   inputs.tools.resize(model.tools.size());
 }
 
-void Replay::go_to(double second) {
+void require_within(const data::RecordingReader& recording, double second) {
   if (!(second >= 0)) throw data::LoadError(fmt::format("--from {:g}: expected a second from 0 on", second));
   const double length_s = recording.step_s() * static_cast<double>(recording.steps());
   if (second > length_s)
     throw data::LoadError(fmt::format("--from {:g}: the recording is {:.3f} s long", second, length_s));
-  if (recording.states() == 0) {
-    if (second >= 1) throw data::LoadError(recording.path() + ": holds no states (--record events); replay it from 0");
-    return;
-  }
+  if (recording.states() == 0 && second >= 1)
+    throw data::LoadError(recording.path() + ": holds no states (--record events); replay it from 0");
+}
+
+void Replay::go_to(double second) {
+  require_within(recording, second);
+  if (recording.states() == 0) return;
   const double apart_s = recording.step_s() * data::steps_per_state;
   const std::size_t row = std::min(static_cast<std::size_t>(second / apart_s + 1e-9), recording.states() - 1);
   take_state(recording.state(row).data(), state);

@@ -10,6 +10,9 @@
 
 namespace ostium::app {
 
+/// Throws LoadError unless a replay can begin at this second.
+void require_within(const data::RecordingReader& recording, double second);
+
 class Replay {
  public:
   /// Reads the recording and rebuilds its vessel and tools. Throws LoadError or MeshError. `vessel`: one made from the

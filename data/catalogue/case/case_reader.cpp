@@ -10,6 +10,7 @@
 #include "data/catalogue/case/anatomy_file.h"
 #include "data/catalogue/case/case.h"
 #include "data/catalogue/case/case_keys.h"
+#include "data/catalogue/case/markups_file.h"
 #include "data/catalogue/catalogue.h"
 #include "vascular/motion/heart_cycle.h"
 
@@ -114,7 +115,12 @@ const std::vector<std::string>& access_names() {
 
 Case read_case(const std::string& file, const std::string& text) { return case_of(parse_json(file, text)); }
 
-Case load_case(const std::string& file) { return case_of(load_json(file)); }
+Case load_case(const std::string& file) {
+  if (is_markups_file(file))
+    throw LoadError(file + ": holds centrelines, not a case; `ostium import` makes a case of them, `check` and " +
+                    "`centreline` read them too");
+  return case_of(load_json(file));
+}
 
 std::vector<Case> load_cases() {
   const fs::path folder = fs::path(data_folder()) / "cases";

@@ -45,8 +45,8 @@ Eigen::Matrix3d settled_axes(const LabellingOptions& options, const Similarity* 
 /// Recomputes the tree with its ends in order of importance: the first ones become the main branches.
 void find_tree_anew(LumenPart& part) {
   CentrelineOptions wanted;
-  wanted.to_lids = part.roles.empty();  // an aorta's valve and an artery's bed are not where a lid was put
-  wanted.start = part.root;
+  wanted.to_lids = part.roles.empty();            // an aorta's valve and an artery's bed are not where a lid was put
+  if (!wanted.to_lids) wanted.start = part.root;  // else the widest end, once more, which has a lid of its own
   for (const LumenPart::Role& role : part.roles) wanted.ends.push_back(role.end);
   std::vector<const Course*> rest;
   for (const Course& course : part.courses) rest.push_back(&course);
