@@ -237,8 +237,7 @@ fluoro::Scene XrayPatient::at(double phase, double breath) const {
   return scene;
 }
 
-CaseScene scene_of_case(const std::string& name, Fill fill, Vector3d& middle) {
-  const data::Case c = data::find_case(name);
+CaseScene scene_of_case(const data::Case& c, Fill fill, Vector3d& middle) {
   const auto patient = std::make_shared<const vascular::Patient>(patient_of(c));
   const auto xray = std::make_shared<const XrayPatient>(patient, fill);
   middle = heart_middle(*patient);

@@ -47,8 +47,8 @@ struct CaseScene {
   std::function<fluoro::Scene(double phase)> at;
   std::function<double(double phase, double seconds)> later;  ///< the phase after some time at the case's heart rate
 };
-/// By name; `middle` is set to the heart's. Throws LoadError.
-CaseScene scene_of_case(const std::string& name, Fill fill, Eigen::Vector3d& middle);
+/// `middle` is set to the heart's.
+CaseScene scene_of_case(const data::Case& c, Fill fill, Eigen::Vector3d& middle);
 
 /// Any mesh, embedded in a block of soft tissue.
 fluoro::Scene scene_of_mesh(const Vessel& vessel);
