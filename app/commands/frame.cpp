@@ -33,8 +33,9 @@ struct Arguments {
   double phase = 0.75;           ///< cardiac phase of a case; a film starts there
   ViewArguments view{.view = "ap"};
   double sid_mm = 1100, field_mm = 200;
-  std::vector<double> table_mm{0, 0, 0};             ///< isocentre in the patient: left, head, front
-  std::vector<double> shutters{0.5, 0.5, 0.5, 0.5};  ///< left, right, top, bottom, as shares of the picture's side
+  std::vector<double> table_mm{0, 0, 0};  ///< isocentre in the patient: left, head, front
+  std::vector<double> shutters{0.474, 0.474, 0.474,
+                               0.474};  ///< left, right, top, bottom, as shares of the picture's side
   int pixels = 512;
   bool cine = false;
   double frames_per_s = 15;
@@ -60,7 +61,7 @@ void declare_geometry(Options& options, Arguments& a) {
       .range(50.0, 400.0)
       .show_default();
   options.add("--table", a.table_mm, "Isocentre from the heart's middle: left, head, front, mm").count(3);
-  options.add("--shutters", a.shutters, "Left, right, top, bottom, from the middle; 0.5 is open").count(4);
+  options.add("--shutters", a.shutters, "Left, right, top, bottom, from the middle; 0.5 is open; 0.474 else").count(4);
   add_pixels_option(options, a.pixels, 64);
 }
 
