@@ -208,6 +208,9 @@ void XrayPatient::fill(Fill which) {
     ++lid;
   }
   filled_.triangles = triangles_of(triangles);
+  twigs_ = grow_twigs(*patient_);
+  twig_filled_.resize(lumen.vertices());
+  for (int root : twigs_->root) twig_filled_[static_cast<std::size_t>(root)] = belongs(root);
 }
 
 fluoro::Scene XrayPatient::at(double phase, double breath) const {
@@ -234,6 +237,12 @@ fluoro::Scene XrayPatient::at(double phase, double breath) const {
   body.contrast.iodine_kg_m3 = Eigen::VectorXf::Constant(body.p_P.cols(), iodine_kg_m3);
   body.contrast.p_PC = body.p_P.col(0).replicate(1, body.p_P.cols());
   scene.moving.push_back(std::move(body));
+  fluoro::Body twigs = body_of(*twigs_);
+  app::fill(
+      *twigs_, [&](int root) { return twig_filled_[static_cast<std::size_t>(root)] ? iodine_kg_m3 : 0; }, twigs);
+  vascular::at(*twigs_, patient_->lumen, phase, breath, vertices);
+  place(*twigs_, vertices, twigs);
+  scene.moving.push_back(std::move(twigs));
   return scene;
 }
 

@@ -1,11 +1,13 @@
 #pragma once
 /// The X-ray scene of a patient or a session, as fluoro draws it.
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include "app/session/model/session.h"
 #include "fluoro/matter/scene.h"
 #include "vascular/thorax/thorax.h"
+#include "vascular/twigs/twigs.h"
 
 namespace ostium::app {
 
@@ -40,6 +42,8 @@ class XrayPatient {
   std::vector<vascular::XrayBody> moving_;
   std::vector<std::shared_ptr<const fluoro::Triangles>> moving_triangles_;
   Filled filled_;
+  std::optional<vascular::Twigs> twigs_;  ///< if filled
+  std::vector<bool> twig_filled_;         ///< by the lumen's vertex from which it comes
 };
 
 /// A case without a session: a scene for each cardiac phase.
