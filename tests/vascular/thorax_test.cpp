@@ -100,20 +100,20 @@ TEST(Thorax, LungVesselsFillALungByTheirLaw) {
   few.ends = 60;
   const std::vector<LungVessel> vessels = grow_lung_vessels(lung, few);
   ASSERT_GT(vessels.size(), 4u * 60);
-  // Where one piece ends and others begin, r^2.6 is kept, except for what ends there itself.
+  // Where one piece ends and others begin, r^3 is kept, except for what ends there itself.
   const auto same = [](const Eigen::Vector3d& a, const Eigen::Vector3d& b) { return (a - b).norm() < 1e-12; };
   double thickest = 0;
   for (const LungVessel& v : vessels) {
     thickest = std::max(thickest, v.radius_a_m);
     double on = 0;
     for (const LungVessel& next : vessels)
-      if (same(next.a, v.b)) on += std::pow(next.radius_a_m, 2.6);
-    const double own = std::pow(v.radius_a_m, 2.6) - on;
-    const double least = std::pow(0.59 * few.end_radius_m, 2.6), most = std::pow(1.41 * few.end_radius_m, 2.6);
+      if (same(next.a, v.b)) on += std::pow(next.radius_a_m, 3);
+    const double own = std::pow(v.radius_a_m, 3) - on;
+    const double least = std::pow(0.59 * few.end_radius_m, 3), most = std::pow(1.41 * few.end_radius_m, 3);
     EXPECT_TRUE(std::fabs(own) < 1e-3 * most || (own > least && own < most)) << own / most;
   }
-  // Each of four trees carries its ends: 60^(1/2.6) times as thick as one of them, at most.
-  EXPECT_LT(thickest, 1.41 * few.end_radius_m * std::pow(60, 1 / 2.6));
+  // Each of four trees carries its ends: 60^(1/3) times as thick as one of them, at most.
+  EXPECT_LT(thickest, 1.41 * few.end_radius_m * std::pow(60, 1.0 / 3));
   const std::vector<LungVessel> again = grow_lung_vessels(lung, few);
   EXPECT_EQ(again.back().b, vessels.back().b);
 }

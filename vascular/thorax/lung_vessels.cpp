@@ -14,7 +14,7 @@ namespace {
 using Eigen::Vector3d;
 using units::mm;
 
-constexpr double exponent = 2.6;
+constexpr double exponent = 3;
 constexpr double piece_m = 9 * mm;  // straight for so long
 
 struct Node {

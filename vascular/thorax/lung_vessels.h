@@ -3,8 +3,9 @@
 ///
 /// Ends are spread evenly over the lung; each, from the hilum outwards, joins what is there already where it is nearest
 /// (as in constrained constructive optimisation, Schreiner and Buxbaum 1993, IEEE Trans Biomed Eng 40:482, without its
-/// optimisation). Radii follow r_0^e = r_1^e + r_2^e with e = 2.6: the ratios of diameters 1.56 and of numbers 3.2 from
-/// order to order of human pulmonary arteries (Huang 1996, J Appl Physiol 81:2123) [from memory].
+/// optimisation). Radii follow Murray: r_0^3 = r_1^3 + r_2^3 (1926, PNAS 12:207); of human pulmonary arteries 2.6 is
+/// measured too (from the ratios of Huang 1996, J Appl Physiol 81:2123 [from memory]), with which the few largest of as
+/// many ends would be too wide.
 #include <functional>
 
 #include "vascular/geometry/mesh/mesh.h"

@@ -35,7 +35,7 @@ XrayBody wall_fat(const ChestWall& wall, int lobules, Draws& draw) {
     const Vector3d normal = Vector3d(std::sin(angle) / half[0], 0, std::cos(angle) / half[1]).normalized();
     // Long along the ribs, thin across: layers between muscles.
     const double size = std::exp(0.45 * draw.normal());
-    append(body.mesh, superellipsoid(p * mm, Vector3d(9 * size, 5 * size, 2.6 * size) * mm, 2,
+    append(body.mesh, superellipsoid(p * mm, Vector3d(6.5 * size, 3.6 * size, 1.9 * size) * mm, 2,
                                      axes_about(normal, draw.between(0, pi)), lobule_rows));
   }
   return body;

@@ -337,7 +337,7 @@ void add_trunk(std::vector<XrayBody>& bodies, Draws& draw) {
   wall.middle_x_mm = middle_x / mm;
   wall.inner_mm = [](double y) { return Eigen::Vector2d(cage_width_mm(y) + 9, cage_depth_mm(y) + 9); };
   wall.outer_mm = [](double) { return Eigen::Vector2d(trunk_width_mm - 6, trunk_depth_mm - 8); };
-  bodies.push_back(wall_fat(wall, 420, draw));
+  bodies.push_back(wall_fat(wall, 480, draw));
 }
 
 /// Every fourth node: enough for a vessel's imprint on the lung.
