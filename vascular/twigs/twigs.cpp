@@ -34,7 +34,9 @@ struct Start {
 class Growth {
  public:
   Growth(const Patient& patient, std::uint64_t seed)
-      : patient_(patient), motion_(patient.anatomy.landmarks), draw_(seed) {}
+      : patient_(patient), motion_(patient.anatomy.landmarks), draw_(seed) {
+    for (std::size_t v = 0; v < patient.lumen.moving; ++v) rest_.push_back(patient.lumen.healthy(v, 0, 0));
+  }
 
   Twigs grow() {
     const auto& branches = patient_.tree.branches;
@@ -62,8 +64,8 @@ class Growth {
   int nearest_vertex(const Vector3d& p) const {
     int best = 0;
     double least = 1;
-    for (std::size_t v = 0; v < patient_.lumen.moving; ++v) {
-      const double d = (patient_.lumen.healthy(v, 0, 0) - p).squaredNorm();
+    for (std::size_t v = 0; v < rest_.size(); ++v) {
+      const double d = (rest_[v] - p).squaredNorm();
       if (d < least) least = d, best = static_cast<int>(v);
     }
     return best;
@@ -157,6 +159,7 @@ class Growth {
   const Patient& patient_;
   HeartMotion motion_;
   Draws draw_;
+  std::vector<Vector3d> rest_;  ///< the lumen's moving vertices at end-diastole
   Twigs twigs_;
 };
 
