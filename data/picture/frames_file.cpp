@@ -80,7 +80,7 @@ bool seems_to_have_text(const Image& image) {
       const double grey = image(y, x);
       if (grey < white) continue;
       const auto thin = [&](double before, double after) { return std::max(before, after) < grey - darker; };
-      strokes += thin(image(y, x - 3), image(y, x + 3)) && thin(image(y - 3, x), image(y + 3, x));
+      strokes += thin(image(y, x - 3), image(y, x + 3)) || thin(image(y - 3, x), image(y + 3, x));
     }
   return strokes >= least_pixels;
 }
