@@ -91,7 +91,7 @@ const fluoro::Picture& Angiogram::frame(const std::optional<Injection>& injectio
 const fluoro::Picture& Angiogram::take(double phase) {
   const fluoro::FluoroscopeInput in{.scene = scene_.scene(),
                                     .view = view_,
-                                    .collimator = {},
+                                    .collimator = fluoro::to_field,
                                     .pedals = {.fluoroscopy = false, .cine = true},
                                     .cine_per_s = frames_per_s_,
                                     .beat_phase = phase,

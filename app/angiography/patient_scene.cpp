@@ -6,7 +6,7 @@
 
 namespace ostium::app {
 
-PatientScene::PatientScene(const vascular::Patient& patient, const vascular::PhysiologyModel& physiology)
+PatientScene::PatientScene(const vascular::Patient& patient, const vascular::PhysiologyModel& physiology, bool breathes)
     : patient_(patient),
       physiology_(physiology),
       map_(make_lumen_map(patient, physiology.flow)),
@@ -14,7 +14,7 @@ PatientScene::PatientScene(const vascular::Patient& patient, const vascular::Phy
   std::vector<fluoro::Body> still;
   std::vector<vascular::XrayBody> moving;
   for (vascular::XrayBody& body : make_thorax(patient.anatomy)) {
-    if (body.beat.empty() && body.breath.empty()) {
+    if (body.beat.empty() && !(breathes && !body.breath.empty())) {
       still.push_back(body_of(body));
     } else {
       scene_.moving.push_back(body_of(body));
@@ -33,6 +33,8 @@ PatientScene::PatientScene(const vascular::Patient& patient, const vascular::Phy
   lumen.contrast.iodine_kg_m3 = Eigen::VectorXf::Zero(n);
   lumen.contrast.p_PC = lumen.contrast.along_kg_m2 = Eigen::Matrix3Xf::Zero(3, n);
   scene_.moving.push_back(std::move(lumen));
+  twigs_ = std::make_shared<const vascular::Twigs>(grow_twigs(patient));
+  scene_.moving.push_back(body_of(*twigs_));
   own_ = scene_.moving.size();
 }
 
@@ -42,6 +44,7 @@ PatientScene::PatientScene(const PatientScene& same, const vascular::PhysiologyM
       map_(same.map_),
       shape_(patient_, map_, physiology.flow.tree),
       thorax_(same.thorax_),
+      twigs_(same.twigs_),
       scene_(same.scene_),
       own_(same.own_) {
   scene_.moving.resize(own_);
@@ -64,7 +67,19 @@ const fluoro::Scene& PatientScene::at(const vascular::PhysiologyState& state, st
            lumen.contrast.p_PC,
            lumen.contrast.along_kg_m2},
           scratch_);
+  fill_twigs(phase, breath);
   return scene_;
+}
+
+/// As dense as the blood where each leaves its vessel.
+void PatientScene::fill_twigs(double phase, double breath) {
+  const fluoro::Contrast& from = lumen().contrast;
+  fluoro::Body& body = scene_.moving[thorax_->size() + 1];
+  fill(
+      *twigs_, [&](int root) { return from.iodine_kg_m3[root]; }, body);
+  if (!is_seen(body.contrast)) return;  // they have no tissue of their own
+  vascular::at(*twigs_, patient_.lumen, phase, breath, vertices_);
+  place(*twigs_, vertices_, body);
 }
 
 }  // namespace ostium::app

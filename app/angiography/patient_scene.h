@@ -1,18 +1,21 @@
 #pragma once
-/// A patient under X-rays: thorax and lumen as bodies, moved by heartbeat and breath, with the iodine in the vessels.
+/// A patient under X-rays: thorax, lumen and its twigs as bodies, moved by heartbeat and breath, with the iodine in the
+/// vessels.
 #include "fluoro/matter/scene.h"
 #include "vascular/contrast/opacity.h"
 #include "vascular/patient/patient.h"
 #include "vascular/physiology/physiology.h"
 #include "vascular/thorax/thorax.h"
 #include "vascular/treatment/wall_shape.h"
+#include "vascular/twigs/twigs.h"
 
 namespace ostium::app {
 
 class PatientScene {
  public:
-  /// Keeps references. Takes some seconds: the thorax is contoured.
-  PatientScene(const vascular::Patient& patient, const vascular::PhysiologyModel& physiology);
+  /// Keeps references. Takes some seconds: the thorax is contoured. `breathes`: what only the breath moves is not drawn
+  /// once for all.
+  PatientScene(const vascular::Patient& patient, const vascular::PhysiologyModel& physiology, bool breathes = false);
   /// The same patient with another session's physiology, in milliseconds: what is contoured is shared.
   PatientScene(const PatientScene& same, const vascular::PhysiologyModel& physiology);
 
@@ -25,11 +28,14 @@ class PatientScene {
   const vascular::WallShape& shape() const { return shape_; }
 
  private:
+  void fill_twigs(double phase, double breath);
+
   const vascular::Patient& patient_;
   const vascular::PhysiologyModel& physiology_;
   vascular::LumenMap map_;
   vascular::WallShape shape_;
   std::shared_ptr<const std::vector<vascular::XrayBody>> thorax_;  ///< the thorax bodies that move
+  std::shared_ptr<const vascular::Twigs> twigs_;
   fluoro::Scene scene_;
   std::size_t own_ = 0;  ///< number of the patient's bodies; added ones follow
   vascular::OpacityScratch scratch_;

@@ -8,6 +8,7 @@
 #include "app/command_line/command.h"
 #include "app/command_line/common_options.h"
 #include "app/command_line/interrupt.h"
+#include "app/command_line/patient_options.h"
 #include "app/command_line/pictures.h"
 #include "app/command_line/progress.h"
 #include "app/session/scene/xray_scene.h"
@@ -28,12 +29,14 @@ namespace {
 using units::degree;
 
 struct Arguments {
-  std::string of = "phantom";  ///< the object: "phantom", or a case
-  double phase = 0.75;         ///< cardiac phase of a case; a film starts there
+  std::string of = "phantom";    ///< the object: "phantom", or a case
+  std::vector<std::string> set;  ///< of a case: which person
+  double phase = 0.75;           ///< cardiac phase of a case; a film starts there
   ViewArguments view{.view = "ap"};
   double sid_mm = 1100, field_mm = 200;
-  std::vector<double> table_mm{0, 0, 0};             ///< isocentre in the patient: left, head, front
-  std::vector<double> shutters{0.5, 0.5, 0.5, 0.5};  ///< left, right, top, bottom, as shares of the picture's side
+  std::vector<double> table_mm{0, 0, 0};  ///< isocentre in the patient: left, head, front
+  std::vector<double> shutters{0.474, 0.474, 0.474,
+                               0.474};  ///< left, right, top, bottom, as shares of the picture's side
   int pixels = 512;
   bool cine = false;
   double frames_per_s = 15;
@@ -61,13 +64,14 @@ void declare_geometry(Options& options, Arguments& a) {
   options.add("--table", a.table_mm, "Isocentre from the heart's middle: left, head, front, mm")
       .count(3)
       .range(-table_reach_mm, table_reach_mm);
-  options.add("--shutters", a.shutters, "Left, right, top, bottom, from the middle; 0.5 is open").count(4);
+  options.add("--shutters", a.shutters, "Left, right, top, bottom, from the middle; 0.5 is open; 0.474 else").count(4);
   add_pixels_option(options, a.pixels, 64);
 }
 
 void declare(Options& options, Arguments& a) {
   options.add("of", a.of, "What is in the beam: a case (`ostium cases`), or phantom: fluoro's test chest")
       .show_default();
+  add_patient_option(options, a.set);
   options.add("--phase", a.phase, "Of the heart, 0 is the R wave; a film begins there. Cases")
       .range(0.0, 1.0)
       .show_default();
@@ -118,7 +122,7 @@ Scenes phantom_scenes(const Arguments& a) {
 /// A case's patient, with the heart beating from frame to frame. Sets `middle` to the C-arm's isocentre.
 Scenes patient_scenes(const Arguments& a, Eigen::Vector3d& middle) {
   show_progress("building " + a.of);
-  const CaseScene made = scene_of_case(a.of, fill_named(a.fill), middle);
+  const CaseScene made = scene_of_case(case_with(a.of, a.set), fill_named(a.fill), middle);
   const double step_s = 1 / a.frames_per_s;
   return [made, step_s, phase = a.phase, at = 0](int frame) mutable {
     for (; at < frame; ++at) phase = made.later(phase, step_s);
@@ -204,6 +208,7 @@ int run(const Arguments& a) {
   require_reachable(view.arm);
   fluoro::require_rate(a.frames_per_s);
   Eigen::Vector3d middle = Eigen::Vector3d::Zero();
+  if (a.of == "phantom" && !a.set.empty()) throw data::LoadError("--set is for a case; the phantom is nobody");
   const Scenes scenes = a.of == "phantom" ? phantom_scenes(a) : patient_scenes(a, middle);
   view.arm.p_PI += middle;
   fluoro::Scene scene = scenes(0);
@@ -234,12 +239,13 @@ int run(const Arguments& a) {
 }  // namespace
 
 Command frame_command() {
-  return make_command("frame", "One X-ray picture, or a short run of them",
-                      {"ostium frame --view spider --fill left -o spider.png",
-                       "ostium frame --lao -30 --cran -20 --cine --pixels 1024 --fill left --overlay -o cine.png",
-                       "ostium frame --view lao --fill right --guide right --frames 15 -o run.dcm",
-                       "ostium frame lad-proximal-eccentric --view spider --fill left --overlay -o case.png"},
-                      declare, run);
+  return make_command(
+      "frame", "One X-ray picture, or a short run of them",
+      {"ostium frame --view spider --fill left -o spider.png",
+       "ostium frame --lao -30 --cran -20 --cine --pixels 1024 --fill left --overlay -o cine.png",
+       "ostium frame --view lao --fill right --guide right --frames 15 -o run.dcm",
+       "ostium frame lad-proximal-eccentric --set person=4 --view spider --fill left --cine -o case.png"},
+      declare, run);
 }
 
 }  // namespace ostium::app

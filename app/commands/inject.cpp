@@ -9,6 +9,7 @@
 #include "app/command_line/command.h"
 #include "app/command_line/common_options.h"
 #include "app/command_line/interrupt.h"
+#include "app/command_line/patient_options.h"
 #include "app/command_line/pictures.h"
 #include "app/command_line/progress.h"
 #include "core/base/units.h"
@@ -24,6 +25,7 @@ using units::mL;
 
 struct Arguments {
   std::string of = "rca-mid-focal";  ///< case
+  std::vector<std::string> set;      ///< which person
   std::string at = "right";          ///< left, right: the ostium; left-sinus, right-sinus, aorta
   double rate_mL_s = 0;              ///< 0: as measured for hand injection, 2.1 left and 1.7 right
   double volume_mL = 0;              ///< 0: 7.1 left, 4.8 right
@@ -34,6 +36,7 @@ struct Arguments {
   std::string view;  ///< "": lao for the right coronary, rao-cranial for the left
   int pixels = 512;
   bool healthy = false;  ///< without lesions
+  bool plain = false;    ///< no text on the pictures
   bool count = false, json = false;
   std::uint64_t seed = 1;
   std::string out = "inject.png";  ///< .png: several moments side by side; .mp4: a film
@@ -43,6 +46,7 @@ struct Arguments {
 
 void declare(Options& options, Arguments& a) {
   add_case_option(options, a.of);
+  add_patient_option(options, a.set);
   options.add("--at", a.at, "Where the catheter's tip is")
       .one_of({"left", "right", "left-sinus", "right-sinus", "aorta"})
       .show_default();
@@ -55,6 +59,7 @@ void declare(Options& options, Arguments& a) {
   add_view_option(options, a.view);
   add_pixels_option(options, a.pixels, 256);
   options.flag("--healthy", a.healthy, "The same person without lesions");
+  options.flag("--plain", a.plain, "No text on the pictures");
   options.flag("--count", a.count, "TIMI frame counts too (30 frames/s, a run for each artery)");
   options.add("--seed", a.seed, "Of noise and chance").show_default();
   add_json_flag(options, a.json);
@@ -96,7 +101,7 @@ int run(const Arguments& a) {
   require_ending(a.out, {".png", ".mp4"});
   if (!a.view.empty()) named_view(a.view);
   fluoro::require_rate(a.frames_per_s);
-  data::Case c = data::find_case(a.of);
+  data::Case c = case_with(a.of, a.set);
   if (a.healthy) c.lesions.clear();
   show_progress("building " + c.name);
   const vascular::Patient patient = patient_of(c);
@@ -125,9 +130,10 @@ int run(const Arguments& a) {
   for (int n = 0; n < frames && !interrupted; ++n) {
     fluoro::Picture picture = angiogram.frame(injection, inputs, state);
     if (n == 0) in_line_kg = injection.iodine_kg_m3 * inputs.contrast.line.dead_m3;
-    draw_overlay({view, fluoro::cine(a.frames_per_s), angiogram.report().frame.exposure, angiogram.fluoroscope().dose,
-                  true, "", c.name},
-                 picture);
+    if (!a.plain)
+      draw_overlay({view, fluoro::cine(a.frames_per_s), angiogram.report().frame.exposure, angiogram.fluoroscope().dose,
+                    true, "", c.name},
+                   picture);
     if (writer) writer->add(picture);
     if (n * 6 / frames != (n - 1) * 6 / frames || n == 0) kept.push_back(picture);
     show_progress(fmt::format("frame {} of {}", n + 1, frames));

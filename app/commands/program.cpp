@@ -13,6 +13,7 @@ Command frame_command();
 Command inject_command();
 Command treat_command();
 Command views_command();
+Command picture_command();
 Command centreline_command();
 Command predict_command();
 Command explain_command();
@@ -28,11 +29,12 @@ Command device_command();
 Command program() {
   Command ostium = demonstration();
   // In the order of --help.
-  ostium.subcommands = {verify_command(),       instruments_command(), cases_command(),   check_command(),
-                        import_command(),       frame_command(),       inject_command(),  treat_command(),
-                        views_command(),        centreline_command(),  predict_command(), explain_command(),
-                        characterise_command(), run_command(),         report_command(),  scripts_command(),
-                        sweep_command(),        dataset_command(),     replay_command(),  device_command()};
+  ostium.subcommands = {verify_command(),  instruments_command(),  cases_command(),      check_command(),
+                        import_command(),  frame_command(),        inject_command(),     treat_command(),
+                        views_command(),   picture_command(),      centreline_command(), predict_command(),
+                        explain_command(), characterise_command(), run_command(),        report_command(),
+                        scripts_command(), sweep_command(),        dataset_command(),    replay_command(),
+                        device_command()};
   return ostium;
 }
 

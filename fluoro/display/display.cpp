@@ -23,29 +23,31 @@ void display(const Plane& signal, const Plane& exposed, double field_m, const Di
   const int pixels = static_cast<int>(signal.rows());
   const int cells = std::max(1, pixels / 8);
   const float floor = 1e-4f * std::max(signal.maxCoeff(), 1e-30f);
+  Plane& smooth = scratch.smooth;
+  smooth = signal;
+  gaussian_blur(smooth, settings.smooth_m / field_m * pixels, Beyond::same, scratch.blurred);
   const bool open = exposed.minCoeff() >= 1;
   Plane &logarithm = scratch.logarithm, &slow = scratch.slow;
   logarithm.resize(pixels, pixels);
   for (int row = 0; row < pixels; ++row)
     if (open)
-      logarithm.row(row) = signal.row(row).max(floor).log();
+      logarithm.row(row) = smooth.row(row).max(floor).log();
     else  // the shutters' shadow is excluded, or its edge would ring in the low frequencies
-      logarithm.row(row) = (signal.row(row) / exposed.row(row).max(0.02f)).max(floor).log();
+      logarithm.row(row) = (smooth.row(row) / exposed.row(row).max(0.02f)).max(floor).log();
   Plane coarse = block_means(logarithm, cells);
   const float mean = mean_over(coarse, block_means(exposed, cells));
   gaussian_blur(coarse, settings.slow_m / field_m * cells, Beyond::same, scratch.blurred);
   enlarge(coarse, pixels, slow);
 
-  const auto share = static_cast<float>(settings.compression), contrast = static_cast<float>(settings.contrast),
-             middle = static_cast<float>(settings.mean_level);
+  const auto share = static_cast<float>(settings.compression), gamma = static_cast<float>(settings.gamma);
+  const float middle = std::log(static_cast<float>(settings.mean_level));
   out.width = out.height = pixels;
   out.grey.resize(static_cast<std::size_t>(pixels) * static_cast<std::size_t>(pixels));
-  Row level(pixels), end(pixels);
+  Row level(pixels);
   for (int row = 0; row < pixels; ++row) {
-    // A curve of slope 1 at the middle that approaches black and white asymptotically: x / sqrt(1 + (x / end)^2).
-    level = contrast * (logarithm.row(row) - mean - share * (slow.row(row) - mean));
-    end = (level > 0).select(Row::Constant(pixels, 1 / (1 - middle)), 1 / middle);
-    level = middle + level / (1 + (level * end).square()).sqrt();
+    // x / (1 + x^4)^(1/4) has slope 1 at black and approaches white asymptotically.
+    level = (middle + gamma * (logarithm.row(row) - mean - share * (slow.row(row) - mean))).exp();
+    level /= (1 + level.square().square()).sqrt().sqrt();
     if (!open) level *= exposed.row(row).min(1.0f);
     std::uint8_t* grey = out.grey.data() + std::size_t(row) * std::size_t(pixels);
     for (int column = 0; column < pixels; ++column)

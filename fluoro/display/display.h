@@ -13,20 +13,24 @@ struct Picture {
   std::vector<std::uint8_t> grey;
 };
 
+/// Set so that pictures have the tone and grain of cine frames of two makers' systems (the page's table).
 struct DisplaySettings {
-  double compression = 0.55;  ///< share of the logarithmic picture's low frequencies that is removed
-  double slow_m = 0.012;      ///< low-pass width: standard deviation at the detector
-  double mean_level = 0.66;   ///< grey level of the mean signal, 0 to 1
-  double contrast = 0.42;     ///< grey levels (of 1) per unit of natural logarithm
+  double smooth_m = 0.2e-3;  ///< the system's noise filter: standard deviation at the detector
+  double compression = 0.5;  ///< share of the logarithmic picture's low frequencies that is removed
+  double slow_m = 0.006;     ///< low-pass width: standard deviation at the detector
+  double mean_level = 0.44;  ///< grey level of the mean signal, 0 to 1
+  double gamma = 0.54;       ///< grey level is the signal to this power
 };
 
 /// Scratch planes for `display`, kept from frame to frame to avoid reallocation.
 struct DisplayScratch {
-  Plane logarithm, slow, blurred;
+  Plane smooth, logarithm, slow, blurred;
 };
 
-/// Logarithm (equal thickness gives an equal step), range compression (so that lung and spine fit in one picture), then
-/// a curve with soft ends. `exposed`: area within the shutters, 0 to 1; the rest is black.
+/// A low-pass against noise, which leaves grains of some pixels; range compression of the logarithm (so that lung and
+/// spine fit in one picture); a power law (what is dark shows less noise than by a logarithm, which would make it grow
+/// with the square root of what the patient absorbs), with a soft end towards white. `exposed`: area within the
+/// shutters, 0 to 1; the rest is black.
 void display(const Plane& signal, const Plane& exposed, double field_m, const DisplaySettings& settings,
              DisplayScratch& scratch, Picture& out);
 

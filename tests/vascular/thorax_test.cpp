@@ -8,7 +8,9 @@
 #include "core/base/units.h"
 #include "vascular/geometry/mesh/bounding_volume_hierarchy.h"
 #include "vascular/geometry/mesh/surface_check.h"
+#include "vascular/thorax/lung_vessels.h"
 #include "vascular/thorax/shapes.h"
+#include "vascular/twigs/twigs.h"
 
 namespace ostium::vascular {
 
@@ -78,6 +80,65 @@ TEST(Thorax, SpongyBoneLiesInsideItsCortex) {
     }
     EXPECT_GT(least, 0.2e-3) << name;
   }
+}
+
+TEST(Thorax, ARodHasTheVolumeOfARoundOne) {
+  using units::pi;
+  // A cylinder, and at each end a cone as high as it is wide.
+  const Mesh five = rod({0, 0, 0}, {0.04, 0, 0}, 1e-3, 1e-3, 5);
+  EXPECT_TRUE(check_surface(five).sound());
+  EXPECT_NEAR(volume_m3(five) / (pi * 1e-6 * (0.04 + 2.0 / 3 * 1e-3)), 1, 1e-6);
+}
+
+TEST(Thorax, LungVesselsFillALungByTheirLaw) {
+  // A lung that is a box to the left and one to the right.
+  const auto lung = [](const Eigen::Vector3d& p) {
+    return std::max(
+        {30e-3 - std::fabs(p.x()), std::fabs(p.x()) - 110e-3, std::fabs(p.y()) - 100e-3, std::fabs(p.z()) - 70e-3});
+  };
+  LungVesselOptions few;
+  few.ends = 60;
+  const std::vector<LungVessel> vessels = grow_lung_vessels(lung, few);
+  ASSERT_GT(vessels.size(), 4u * 60);
+  // Where one piece ends and others begin, r^3 is kept, except for what ends there itself.
+  const auto same = [](const Eigen::Vector3d& a, const Eigen::Vector3d& b) { return (a - b).norm() < 1e-12; };
+  double thickest = 0;
+  for (const LungVessel& v : vessels) {
+    thickest = std::max(thickest, v.radius_a_m);
+    double on = 0;
+    for (const LungVessel& next : vessels)
+      if (same(next.a, v.b)) on += std::pow(next.radius_a_m, 3);
+    const double own = std::pow(v.radius_a_m, 3) - on;
+    const double least = std::pow(0.59 * few.end_radius_m, 3), most = std::pow(1.41 * few.end_radius_m, 3);
+    EXPECT_TRUE(std::fabs(own) < 1e-3 * most || (own > least && own < most)) << own / most;
+  }
+  // Each of four trees carries its ends: 60^(1/3) times as thick as one of them, at most.
+  EXPECT_LT(thickest, 1.41 * few.end_radius_m * std::pow(60, 1.0 / 3));
+  const std::vector<LungVessel> again = grow_lung_vessels(lung, few);
+  EXPECT_EQ(again.back().b, vessels.back().b);
+}
+
+TEST(Thorax, TwigsAreThinClosedAndMoveWithTheirVessel) {
+  const Patient patient = make_patient({}, {});
+  const Twigs twigs = grow_twigs(patient);
+  ASSERT_GT(twigs.size(), 200u);
+  EXPECT_TRUE(check_surface(twigs.mesh).closed());
+  ASSERT_EQ(twigs.first.size(), twigs.size() + 1);
+  EXPECT_EQ(twigs.first.back(), static_cast<int>(twigs.mesh.vertices.size()));
+  for (double d : twigs.diameter_m) {
+    EXPECT_GT(d, 0.25e-3);
+    EXPECT_LT(d, 1.61e-3);
+  }
+  std::vector<Eigen::Vector3d> rest, systole;
+  at(twigs, patient.lumen, 0, 0, rest);
+  at(twigs, patient.lumen, 0.36, 0, systole);
+  double most = 0;
+  for (std::size_t i = 0; i < rest.size(); ++i) {
+    EXPECT_LT((rest[i] - twigs.mesh.vertices[i]).norm(), 1e-6);
+    most = std::max(most, (systole[i] - rest[i]).norm());
+  }
+  EXPECT_GT(most, 5e-3);
+  EXPECT_LT(most, 40e-3);
 }
 
 }  // namespace

@@ -100,6 +100,30 @@ Mesh swept_ellipse(const std::vector<Eigen::Vector3d>& line, const std::vector<E
   return from_rings(rings, line[0] - first * start, line[n - 1] + last * stop);
 }
 
+Mesh rod(const Eigen::Vector3d& a, const Eigen::Vector3d& b, double radius_a, double radius_b, int sides) {
+  return rod({a, b}, {radius_a, radius_b}, sides);
+}
+
+Mesh rod(const std::vector<Eigen::Vector3d>& line, const std::vector<double>& radius, int sides) {
+  // The polygon's area is that of the circle.
+  const double wider = std::sqrt(2 * pi / (sides * std::sin(2 * pi / sides)));
+  const std::size_t n = line.size();
+  std::vector<std::vector<Eigen::Vector3d>> rings;
+  Eigen::Vector3d u = (line[1] - line[0]).unitOrthogonal();
+  for (std::size_t i = 0; i < n; ++i) {
+    const Eigen::Vector3d along = (line[std::min(i + 1, n - 1)] - line[i ? i - 1 : 0]).normalized();
+    u = (u - u.dot(along) * along).normalized();  // turned with the line, not about it
+    const Eigen::Vector3d v = along.cross(u);
+    rings.emplace_back();
+    for (int j = 0; j < sides; ++j) {
+      const double a = 2 * pi * j / sides;
+      rings.back().push_back(line[i] + wider * radius[i] * (std::sin(a) * u + std::cos(a) * v));
+    }
+  }
+  return from_rings(rings, line.front() - radius.front() * (line[1] - line[0]).normalized(),
+                    line.back() + radius.back() * (line[n - 1] - line[n - 2]).normalized());
+}
+
 double joined(double a, double b, double k) {
   const double h = std::max(k - std::fabs(a - b), 0.0) / k;
   return std::min(a, b) - h * h * h * k / 6;

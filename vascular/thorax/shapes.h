@@ -16,6 +16,11 @@ Mesh swept_ellipse(const std::vector<Eigen::Vector3d>& line, double tall, double
 Mesh swept_ellipse(const std::vector<Eigen::Vector3d>& line, const std::vector<Eigen::Vector2d>& tall_thick,
                    const Eigen::Vector3d& up);
 
+/// A straight rod of `sides` flat sides with pointed ends, which encloses the round rod's volume.
+Mesh rod(const Eigen::Vector3d& a, const Eigen::Vector3d& b, double radius_a, double radius_b, int sides);
+/// The same along several points.
+Mesh rod(const std::vector<Eigen::Vector3d>& line, const std::vector<double>& radius, int sides);
+
 /// The surface of {inside < 0}, by surface nets with cells of `cell_m` (Gibson, MERL 1999); `inside` must be positive
 /// on the box's boundary.
 Mesh surface_net(const std::function<double(const Eigen::Vector3d&)>& inside, const Eigen::Vector3d& low,

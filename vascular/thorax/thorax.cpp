@@ -6,10 +6,14 @@
 #include <memory>
 #include <numeric>
 
+#include "core/base/fields.h"
 #include "core/base/units.h"
 #include "vascular/geometry/implicit/contour.h"
+#include "vascular/geometry/implicit/draws.h"
 #include "vascular/motion/heart_motion.h"
+#include "vascular/thorax/lung_vessels.h"
 #include "vascular/thorax/shapes.h"
+#include "vascular/thorax/soft_parts.h"
 #include "vascular/thorax/vertebra.h"
 
 namespace ostium::vascular {
@@ -110,12 +114,15 @@ void add_bone(std::vector<XrayBody>& bodies, const std::string& name, Mesh outer
   bodies.push_back({name + ", inside", marrow, BodyTissue::cortical_bone, std::move(inner), {}, {}});
 }
 
+/// Of thoracic bodies and end plates 0.25 to 0.5 mm (Silva 1994, Bone 15:617) [from memory].
+constexpr double vertebral_cortex_mm = 0.35;
+
 void add_spine(std::vector<XrayBody>& bodies) {
   const auto shape = [](double inset_mm) {
     return surface_net([=](const Eigen::Vector3d& p) { return mm * (from_vertebra_mm(p / mm) + inset_mm); },
                        at_mm(-36, -28.5, -61), at_mm(36, 16.5, 18), 1.5 * mm);
   };
-  const Mesh outer_shape = shape(0), inner_shape = shape(0.85);
+  const Mesh outer_shape = shape(0), inner_shape = shape(vertebral_cortex_mm);
   constexpr double half_height_mm = 10.9, half_width_mm = 16.2;  // of that shape's body
   Mesh outer, inner;
   for (const Vertebra& v : vertebrae) {
@@ -152,7 +159,7 @@ void add_ribs(std::vector<XrayBody>& bodies) {
         const double front = std::clamp((t - 0.72) / 0.28, 0.0, 1.0), neck = std::clamp(t / 0.12, 0.0, 1.0);
         const double tall = ((rib == 1 ? 4.8 : 5.4) + 0.3 * std::sin(3.1 * rib)) * (0.65 + 0.35 * neck) *
                             (1 + 0.05 * std::sin(11 * t + rib)) * (1 - 0.8 * front * front * front),
-                     shell = 0.55 - 0.3 * std::sqrt(front);
+                     shell = 0.45 - 0.2 * std::sqrt(front);
         half.push_back(Eigen::Vector2d(tall, 0.58 * tall) * mm);
         inside.push_back(half.back().array() - shell * mm);
       }
@@ -212,9 +219,22 @@ double diaphragm_mm(double x_mm, double z_mm) {
   return -158 + 70 * right + 58 * left - 50 * std::pow((z_mm - 5) / 100, 2);
 }
 
-void add_lungs(std::vector<XrayBody>& bodies, const Heart& heart, const std::vector<Displacing>& vessels,
-               const HeartMotion& motion) {
-  const auto lung = [&](const Eigen::Vector3d& p) {
+/// What moves about the heart: near it with the beat, everything by the breath.
+void move_with_heart_and_breath(const Heart& heart, const HeartMotion& motion, XrayBody& body) {
+  for (const Eigen::Vector3d& p : body.mesh.vertices) {
+    const double near = 1 - smooth_step(2 * mm, 30 * mm, std::fabs(heart.distance(p)));
+    body.beat.push_back(near > 0 ? Eigen::Vector3d(near * motion.displacement(p)) : Eigen::Vector3d::Zero());
+    // The diaphragm descends 18 mm; the heart follows by a factor of 0.27 (Keegan 2002).
+    body.breath.push_back(at_mm(0, -18 * (1 - smooth_step(-100 * mm, 40 * mm, p.y())), 0));
+  }
+}
+
+class Lungs {
+ public:
+  Lungs(const Heart& heart, const std::vector<Displacing>& vessels) : heart_(heart), vessels_(vessels) {}
+
+  /// Distance, negative inside, m.
+  double operator()(const Eigen::Vector3d& p) const {
     const Eigen::Vector3d q = p / mm;
     const double x = q.x() - middle_x / mm, z = q.z() - cage_z_mm;
     const double width = cage_width_mm(q.y()) - 5, depth = cage_depth_mm(q.y()) - 5;
@@ -222,23 +242,46 @@ void add_lungs(std::vector<XrayBody>& bodies, const Heart& heart, const std::vec
     const double base = diaphragm_mm(q.x(), q.z()) - q.y();
     // The mediastinum: oesophagus, spine, great vessels, heart; wider at the top. In front the lungs almost meet.
     double solid = std::fabs(x) - 17 + 12 * smooth_step(5, 60, q.z()) - 12 * smooth_step(30, 100, q.y());
-    solid = heart.shape().joined_to(solid, p, 3, 40);
-    for (const Displacing& vessel : vessels) solid = vessel.joined_to(solid, p, 3, 12);
+    // The spine with the muscles beside and behind it.
+    const double bulge = 1 + 0.05 * std::cos(2 * units::pi * (q.y() - 4) / 25);  // fuller beside each body
+    const double column = (std::hypot(x / 42, (q.z() - spine_z_mm(q.y()) + 18) / 42) - bulge) * 42;
+    solid = joined(solid, column, 14);
+    solid = heart_.shape().joined_to(solid, p, 1, 20);
+    for (const Displacing& vessel : vessels_) solid = vessel.joined_to(solid, p, 3, 12);
     return mm * std::max({cage, base, -solid, q.y() - 122});
-  };
-  XrayBody body{"lungs",
-                BodyTissue::lung,
-                BodyTissue::soft_tissue,
-                surface_net(lung, at_mm(-165, -200, -125), at_mm(155, 130, 110), 4 * mm),
-                {},
-                {}};
-  for (const Eigen::Vector3d& p : body.mesh.vertices) {
-    const double near = 1 - smooth_step(2 * mm, 30 * mm, std::fabs(heart.distance(p)));
-    body.beat.push_back(near > 0 ? Eigen::Vector3d(near * motion.displacement(p)) : Eigen::Vector3d::Zero());
-    // The diaphragm descends 18 mm; the heart follows by a factor of 0.27 (Keegan 2002).
-    body.breath.push_back(at_mm(0, -18 * (1 - smooth_step(-100 * mm, 40 * mm, p.y())), 0));
   }
+
+ private:
+  const Heart& heart_;
+  const std::vector<Displacing>& vessels_;
+};
+
+void add_lungs(std::vector<XrayBody>& bodies, const Heart& heart, const Lungs& lungs, const HeartMotion& motion,
+               Draws& draw) {
+  XrayBody body{.name = "lungs",
+                .tissue = BodyTissue::lung,
+                .within = BodyTissue::soft_tissue,
+                .mesh = surface_net(lungs, at_mm(-165, -200, -125), at_mm(155, 130, 110), 5 * mm),
+                .density = draw.between(0.8, 1.25)};
+  move_with_heart_and_breath(heart, motion, body);
   bodies.push_back(std::move(body));
+  LungVesselOptions options;
+  options.seed = static_cast<std::uint64_t>(draw.between(1, 1e6));
+  // Those beside the heart move with it; the others are drawn once for a pose of the C-arm.
+  std::vector<LungVessel> still, moving;
+  for (const LungVessel& v : grow_lung_vessels(lungs, options))
+    (std::min(heart.distance(v.a), heart.distance(v.b)) < 22 * mm ? moving : still).push_back(v);
+  XrayBody quiet{
+      .name = "lung vessels", .tissue = BodyTissue::blood, .within = BodyTissue::lung, .mesh = mesh_of(still)};
+  XrayBody beside{.name = "lung vessels beside the heart",
+                  .tissue = BodyTissue::blood,
+                  .within = BodyTissue::lung,
+                  .mesh = mesh_of(moving)};
+  move_with_heart_and_breath(heart, motion, quiet);
+  move_with_heart_and_breath(heart, motion, beside);
+  quiet.beat.clear();
+  bodies.push_back(std::move(quiet));
+  bodies.push_back(std::move(beside));
 }
 
 /// The pulmonary trunk with its branches, and the venae cavae.
@@ -258,34 +301,43 @@ std::vector<std::vector<Tube>> great_vessels() {
                  {{at_mm(-38, -62, -4), 12 * mm}, {at_mm(-34, -85, -16), 12 * mm}, {at_mm(-30, -130, -34), 11 * mm}})}};
 }
 
-void add_blood(std::vector<XrayBody>& bodies, const Heart& heart, const std::vector<TubeUnion>& vessels,
-               const HeartMotion& motion) {
+/// Walls and blood of the heart differ by a hundredth and are one body.
+void add_heart(std::vector<XrayBody>& bodies, const Heart& heart, const std::vector<TubeUnion>& vessels,
+               const HeartMotion& motion, Draws& draw) {
   const Eigen::AlignedBox3d box = heart.box();
-  const auto pool = [&](const Eigen::Vector3d& p) { return heart.distance(p) + 7 * mm; };
-  XrayBody body{"blood in the heart",
-                BodyTissue::blood,
-                BodyTissue::soft_tissue,
-                surface_net(pool, box.min(), box.max(), 3 * mm),
-                {},
-                {}};
-  for (const Eigen::Vector3d& p : body.mesh.vertices) {
-    body.beat.push_back(motion.displacement(p));
-    body.breath.push_back(motion.breath_displacement(p, 1));
+  const auto wall = [&](const Eigen::Vector3d& p) { return heart.distance(p); };
+  XrayBody body{.name = "heart",
+                .tissue = BodyTissue::muscle,
+                .within = BodyTissue::soft_tissue,
+                .mesh = surface_net(wall, box.min(), box.max(), 5 * mm)};
+  XrayBody fat = heart_fat(wall, box, 110, draw);
+  for (XrayBody* b : {&body, &fat}) {
+    for (const Eigen::Vector3d& p : b->mesh.vertices) {
+      b->beat.push_back(motion.displacement(p));
+      b->breath.push_back(motion.breath_displacement(p, 1));
+    }
+    bodies.push_back(std::move(*b));
   }
-  bodies.push_back(std::move(body));
   Mesh great;
   for (const TubeUnion& vessel : vessels) append(great, contour(vessel).mesh);
   bodies.push_back({"great vessels", BodyTissue::blood, BodyTissue::soft_tissue, std::move(great), {}, {}});
 }
 
-void add_trunk(std::vector<XrayBody>& bodies) {
-  bodies.push_back(
-      {"trunk",
-       BodyTissue::soft_tissue,
-       BodyTissue::air,
-       superellipsoid(at_mm(middle_x / mm, -70, -12), at_mm(182, 420, 128), 2.7, Eigen::Matrix3d::Identity(), 48),
-       {},
-       {}});
+constexpr double trunk_width_mm = 182, trunk_depth_mm = 128, trunk_z_mm = -12;
+
+void add_trunk(std::vector<XrayBody>& bodies, Draws& draw) {
+  bodies.push_back({"trunk",
+                    BodyTissue::soft_tissue,
+                    BodyTissue::air,
+                    superellipsoid(at_mm(middle_x / mm, -70, trunk_z_mm), at_mm(trunk_width_mm, 420, trunk_depth_mm),
+                                   2.7, Eigen::Matrix3d::Identity(), 48),
+                    {},
+                    {}});
+  ChestWall wall;
+  wall.middle_x_mm = middle_x / mm;
+  wall.inner_mm = [](double y) { return Eigen::Vector2d(cage_width_mm(y) + 9, cage_depth_mm(y) + 9); };
+  wall.outer_mm = [](double) { return Eigen::Vector2d(trunk_width_mm - 6, trunk_depth_mm - 8); };
+  bodies.push_back(wall_fat(wall, 480, draw));
 }
 
 /// Every fourth node: enough for a vessel's imprint on the lung.
@@ -301,15 +353,18 @@ Tube coarse(const Tube& tube) {
 std::vector<XrayBody> make_thorax(const Anatomy& anatomy) {
   const Heart heart(anatomy);
   const HeartMotion motion(anatomy.landmarks);
+  const auto seed = core::hash_numbers(std::span<const double>(anatomy.landmarks.p_lv_apex.data(), 3), 0);
+  Draws draw(seed);
   std::vector<XrayBody> bodies;
-  add_trunk(bodies);
+  add_trunk(bodies, draw);
   const std::vector<std::vector<Tube>> tubes = great_vessels();
   const std::vector<TubeUnion> vessels(tubes.begin(), tubes.end());
   const std::vector<Tube> aorta = {coarse(anatomy.tubes.front())};
   std::vector<Displacing> displacing(tubes.begin(), tubes.end());
   displacing.emplace_back(aorta);
-  add_lungs(bodies, heart, displacing, motion);
-  add_blood(bodies, heart, vessels, motion);
+  add_lungs(bodies, heart, Lungs(heart, displacing), motion, draw);
+  add_heart(bodies, heart, vessels, motion, draw);
+  bodies.push_back(stomach_gas(diaphragm_mm, draw));
   add_spine(bodies);
   add_ribs(bodies);
   add_front(bodies);

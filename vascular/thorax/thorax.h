@@ -1,6 +1,8 @@
 #pragma once
-/// The surroundings that an X-ray passes: trunk, lungs, heart, great vessels, spine, ribs, sternum, clavicles. For
-/// imaging only: simple shapes of published or typical size [from memory: the skeleton's dimensions].
+/// The surroundings that an X-ray passes: trunk, lungs with their vessels, heart, great vessels, fat, gas, spine,
+/// ribs, sternum, clavicles. For imaging only: simple shapes of published or typical size [from memory: the skeleton's
+/// dimensions]. What anatomy does not say (build, density of the lungs, gas, fat) is drawn by chance from a seed that
+/// the heart's landmarks make: one person, one chest.
 ///
 /// Each body is a closed surface that replaces its surroundings, so that path lengths add up: the attenuation along a
 /// ray is the sum over bodies of length times (attenuation of `tissue` minus that of `within`).
@@ -11,15 +13,16 @@
 
 namespace ostium::vascular {
 
-enum class BodyTissue { air, soft_tissue, lung, blood, cortical_bone, spongy_bone, loose_bone };
+enum class BodyTissue { air, soft_tissue, lung, blood, muscle, fat, cortical_bone, spongy_bone, loose_bone };
 
 struct XrayBody {
   std::string name;
   BodyTissue tissue = BodyTissue::soft_tissue;  ///< inside
   BodyTissue within = BodyTissue::air;          ///< the tissue it replaces
-  Mesh mesh;                                    ///< at end-diastole, breathed out
-  std::vector<Eigen::Vector3d> beat;            ///< per vertex: displacement at end-systole; empty: none
-  std::vector<Eigen::Vector3d> breath;          ///< per vertex: displacement at full inspiration; empty: none
+  Mesh mesh = {};                               ///< at end-diastole, breathed out
+  std::vector<Eigen::Vector3d> beat = {};       ///< per vertex: displacement at end-systole; empty: none
+  std::vector<Eigen::Vector3d> breath = {};     ///< per vertex: displacement at full inspiration; empty: none
+  double density = 1;                           ///< of `tissue`, relative to its usual
 };
 
 /// Vertebrae, ribs and shoulders have two layers: cortical bone in soft tissue, and inside that spongy or loose bone

@@ -9,6 +9,7 @@ namespace ostium::app {
 
 struct TreatArguments {
   std::string of = "rca-mid-focal";   ///< case
+  std::vector<std::string> set;       ///< which person
   double hold_s = 20;                 ///< of each inflation
   double pressure = 1, oversize = 1;  ///< factors on the usual pressure and diameter
   double shift_mm = 0;                ///< offset from the lesion, positive distally

@@ -6,6 +6,7 @@
 #include "app/command_line/arguments.h"
 #include "app/command_line/command.h"
 #include "app/command_line/common_options.h"
+#include "app/command_line/patient_options.h"
 #include "app/command_line/pictures.h"
 #include "app/command_line/progress.h"
 #include "app/commands/treat/report.h"
@@ -25,6 +26,7 @@ using json = nlohmann::ordered_json;
 
 void declare(Options& options, TreatArguments& a) {
   add_case_option(options, a.of);
+  add_patient_option(options, a.set);
   options.add("--hold", a.hold_s, "Seconds of each inflation").range(0.0, 600.0).show_default();
   options.add("--pressure", a.pressure, "Of what is usual").range(0.1, 3.0).show_default();
   options.add("--oversize", a.oversize, "Of every device's diameter").range(0.5, 2.0).show_default();
@@ -132,7 +134,7 @@ json treat_lesion(TreatmentRoom& room, const Plan& plan, std::vector<fluoro::Pic
 int run(const TreatArguments& a) {
   require_ending(a.out, {".png"});
   if (!a.view.empty()) named_view(a.view);
-  const data::Case c = data::find_case(a.of);
+  const data::Case c = case_with(a.of, a.set);
   show_progress("building " + c.name);
   TreatmentRoom room(c, a);
   prepare(room);

@@ -36,7 +36,7 @@ std::optional<fluoro::Exposure> Dosimeter::exposure(fluoro::Imager& imager, cons
   return imager.exposure(
       {.scene = scene_,
        .view = view,
-       .collimator = {},
+       .collimator = fluoro::to_field,
        .programme = arm.cine ? fluoro::cine(dose_frames_per_s) : fluoro::fluoroscopy(dose_frames_per_s),
        .seed = 1});
 }

@@ -43,8 +43,9 @@ Film::Film(const SessionModel& model, const FilmOptions& options, const PatientS
     : parts_(std::make_unique<Parts>(options)) {
   fluoro::require_rate(options.frames_per_s);
   if (model.has_patient())
-    parts_->patient = same ? std::make_unique<PatientScene>(*same, model.physiology)
-                           : std::make_unique<PatientScene>(*model.vessel->patient, model.physiology);
+    parts_->patient =
+        same ? std::make_unique<PatientScene>(*same, model.physiology)
+             : std::make_unique<PatientScene>(*model.vessel->patient, model.physiology, model.breaths_1_min > 0);
   else if (model.vessel->patient)
     parts_->no_blood =
         std::make_unique<const XrayPatient>(model.vessel->patient, options.fill, model.breaths_1_min > 0);
@@ -80,7 +81,7 @@ const fluoro::Picture& Film::frame(const SessionModel& model, const SessionState
   p.is_cine = o.mode ? *o.mode == fluoro::Mode::cine : arm.cine;
   const fluoro::FluoroscopeInput in{.scene = scene,
                                     .view = p.view,
-                                    .collimator = {},
+                                    .collimator = fluoro::to_field,
                                     .pedals = {.fluoroscopy = on && !p.is_cine, .cine = on && p.is_cine},
                                     .fluoroscopy_per_s = o.frames_per_s,
                                     .cine_per_s = o.frames_per_s,

@@ -208,6 +208,9 @@ void XrayPatient::fill(Fill which) {
     ++lid;
   }
   filled_.triangles = triangles_of(triangles);
+  twigs_ = grow_twigs(*patient_);
+  twig_filled_.resize(lumen.vertices());
+  for (int root : twigs_->root) twig_filled_[static_cast<std::size_t>(root)] = belongs(root);
 }
 
 fluoro::Scene XrayPatient::at(double phase, double breath) const {
@@ -234,11 +237,16 @@ fluoro::Scene XrayPatient::at(double phase, double breath) const {
   body.contrast.iodine_kg_m3 = Eigen::VectorXf::Constant(body.p_P.cols(), iodine_kg_m3);
   body.contrast.p_PC = body.p_P.col(0).replicate(1, body.p_P.cols());
   scene.moving.push_back(std::move(body));
+  fluoro::Body twigs = body_of(*twigs_);
+  app::fill(
+      *twigs_, [&](int root) { return twig_filled_[static_cast<std::size_t>(root)] ? iodine_kg_m3 : 0; }, twigs);
+  vascular::at(*twigs_, patient_->lumen, phase, breath, vertices);
+  place(*twigs_, vertices, twigs);
+  scene.moving.push_back(std::move(twigs));
   return scene;
 }
 
-CaseScene scene_of_case(const std::string& name, Fill fill, Vector3d& middle) {
-  const data::Case c = data::find_case(name);
+CaseScene scene_of_case(const data::Case& c, Fill fill, Vector3d& middle) {
   const auto patient = std::make_shared<const vascular::Patient>(patient_of(c));
   const auto xray = std::make_shared<const XrayPatient>(patient, fill);
   middle = heart_middle(*patient);

@@ -1,11 +1,13 @@
 #pragma once
 /// The X-ray scene of a patient or a session, as fluoro draws it.
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include "app/session/model/session.h"
 #include "fluoro/matter/scene.h"
 #include "vascular/thorax/thorax.h"
+#include "vascular/twigs/twigs.h"
 
 namespace ostium::app {
 
@@ -40,6 +42,8 @@ class XrayPatient {
   std::vector<vascular::XrayBody> moving_;
   std::vector<std::shared_ptr<const fluoro::Triangles>> moving_triangles_;
   Filled filled_;
+  std::optional<vascular::Twigs> twigs_;  ///< if filled
+  std::vector<bool> twig_filled_;         ///< by the lumen's vertex from which it comes
 };
 
 /// A case without a session: a scene for each cardiac phase.
@@ -47,8 +51,8 @@ struct CaseScene {
   std::function<fluoro::Scene(double phase)> at;
   std::function<double(double phase, double seconds)> later;  ///< the phase after some time at the case's heart rate
 };
-/// By name; `middle` is set to the heart's. Throws LoadError.
-CaseScene scene_of_case(const std::string& name, Fill fill, Eigen::Vector3d& middle);
+/// `middle` is set to the heart's.
+CaseScene scene_of_case(const data::Case& c, Fill fill, Eigen::Vector3d& middle);
 
 /// Any mesh, embedded in a block of soft tissue.
 fluoro::Scene scene_of_mesh(const Vessel& vessel);
