@@ -139,7 +139,7 @@ TEST(Provoked, FibrillationEndsByAShockOrNotAtAll) {
 
 TEST(Drugs, ProtamineTakesHeparinAwayInMinutes) {
   DrugModel m;
-  m.others = {{"protamine", "", "mg", 5, 50, 450, {{DrugTarget::heparin, 100, 1, 100}}}};
+  m.others = {{"protamine", "", "mg", 5, 50, 450, {{DrugTarget::heparin, 100, 1, 60}}}};
   DrugState s = make_state(m);
   step(m, {.heparin_U = 5000}, 1e-3, s);
   EXPECT_GT(act_s(m, s), 290);
