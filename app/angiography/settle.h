@@ -15,6 +15,7 @@ inline vascular::PhysiologyState at_rest(const vascular::PhysiologyModel& model,
     before = state.heart.phase;
     step(model, inputs, 1e-3, state, scratch);
   }
+  settle_reflex(state.heart.circulation);
   return state;
 }
 

@@ -161,7 +161,8 @@ vascular::TreatmentReport Bedside::step(double dt_s) {
   device.shaft_m = shaft_m;
   const vascular::TreatmentReport report =
       vascular::step(treatment, device, dt_s, state, {physiology.flow.tree, blood, inputs.occupied_m}, scratch);
-  inputs.heart.dilation = treatment.drugs.nitrate_lowers * state.drugs.nitrate;
+  act(treatment.drugs, state.drugs, inputs.heart.body);
+  inputs.heart.body.leak_m3_s = leak_m3_s(state);
   inputs.hyperaemia = state.drugs.adenosine;
   vascular::step(physiology, inputs, dt_s, blood, blood_scratch);
   if (each_step) each_step(*this);

@@ -96,7 +96,7 @@ std::string pressure_words(const Snapshot& now) {
 }
 
 void draw_strips(const Pen& pen, const PanelTexts& texts, const Snapshot& now, double x, double y, double w) {
-  const double rate = now.inputs.rate_1_min;
+  const double rate = 60 / now.state.blood.heart.cycle_s;
   draw_strip(pen, now.ecg_mV, green, -0.6, 1.6, "II", fmt::format("{:.0f}", rate), x, y, w, 74);
   draw_strip(pen, now.line_mmHg, red, 0, 180, "guide, mmHg", pressure_words(now), x, y + 78, w, 88);
   const double trace = signal(texts, now, "trace");

@@ -29,6 +29,7 @@ struct MetricDefinition {
 };
 
 std::vector<MetricDefinition> procedure_metrics();          ///< time, radiation, forces, paths, handling
+std::vector<MetricDefinition> patient_metrics();            ///< the patient's answer, and how soon it was met
 std::vector<MetricDefinition> treatment_metrics();          ///< contrast, lesion, balloon, stent, flow, injury
 const std::vector<MetricDefinition>& metric_definitions();  ///< all, in the order of metrics.json
 

@@ -8,6 +8,7 @@
 #include "data/catalogue/case/anatomy_keys.h"
 #include "data/catalogue/case/case_keys.h"
 #include "data/catalogue/case/tree_keys.h"
+#include "data/catalogue/drug/drug_keys.h"
 #include "data/catalogue/instrument/instrument_keys.h"
 #include "data/catalogue/script/script_keys.h"
 #include "data/formats/json_schema.h"
@@ -21,6 +22,7 @@ inline std::vector<JsonFormat> json_formats() {
   std::vector<JsonFormat> formats = {
       {"ostium-script/1", "What an operator does", script_keys::all},
       {"ostium-case/1", "A case to rehearse on", case_keys::all},
+      {"ostium-drug/1", "A drug of the catalogue, with a source for every number", drug_keys::all},
       {"ostium-instrument/1",
        "An instrument of the catalogue. The reader also refuses gaps, and numbers that do not go together.",
        instrument_keys::all},

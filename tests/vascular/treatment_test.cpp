@@ -262,7 +262,7 @@ TEST(Injury, AWirePerforatesByForceAndTimeSoonerInASmallArtery) {
 TEST(Injury, ContrastLeavesThroughAHoleAndIsAccountedFor) {
   Bench bench({});
   Injury& hole = bench.state.injury.injuries[0];
-  hole.kind = InjuryKind::perforation, hole.cell = 60, hole.grade = 3;
+  hole.kind = InjuryKind::perforation, hole.cell = 60, hole.grade = 3, hole.hole_m2 = 0.4e-6;
   bench.state.injury.count = 1;
   bench.inputs.contrast.tip = {TipPlace::coronary, 0, 1};
   bench.inputs.contrast.injection_m3_s = 2e-6;

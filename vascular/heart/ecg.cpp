@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/base/random.h"
+#include "core/base/units.h"
 #include "vascular/motion/heart_cycle.h"
 
 namespace ostium::vascular {
@@ -58,8 +59,42 @@ void step(const IschaemiaModel& model, const std::array<double, territories>& su
   }
 }
 
-std::array<double, leads> ecg(const HeartState& heart, double rate_1_min, const IschaemiaModel& model,
+void weaken(const IschaemiaState& s, CirculationInputs& body) {
+  constexpr double left[territories] = {0.45, 0.25, 0.3}, right[territories] = {0.1, 0, 0.7};
+  constexpr double all_lost = 0.65;  // of `early`, which a closed artery reaches after a time constant
+  body.left_lost = body.right_lost = 0;
+  for (std::size_t i = 0; i < territories; ++i) {
+    const double lost = smooth(0.1, all_lost, s.early[i]);
+    body.left_lost += left[i] * lost, body.right_lost += right[i] * lost;
+  }
+}
+
+namespace {
+
+/// Coarse fibrillation: three sines whose periods have nothing in common.
+std::array<double, leads> fibrillating(double t) {
+  const double v = 0.4 * std::sin(2 * units::pi * 4.7 * t) + 0.25 * std::sin(2 * units::pi * 5.9 * t + 1) +
+                   0.2 * std::sin(2 * units::pi * 3.3 * t + 2);
+  std::array<double, leads> out{};
+  for (std::size_t k = 0; k < leads; ++k) out[k] = v * std::clamp(R.mV[k], -1.0, 1.0);
+  return out;
+}
+
+/// Time to the next P wave of atria that do not lead.
+double to_own_P_s(const HeartState& heart) {
+  const double cycle_s = 60 / heart.circulation.rate_1_min;
+  return cycle_s / 2 - std::fmod(heart.time_s, cycle_s);
+}
+
+}  // namespace
+
+std::array<double, leads> ecg(const HeartModel& heart_model, const HeartState& heart, const IschaemiaModel& model,
                               const IschaemiaState& ischaemia) {
+  if (heart.rhythm == Rhythm::asystole) return {};
+  if (heart.rhythm == Rhythm::fibrillation) return fibrillating(heart.time_s);
+  const double rate_1_min = vascular::rate_1_min(heart_model, heart);
+  // Low voltage: halved by 250 mL [estimate].
+  const double voltage = 1 / (1 + heart.circulation.pericardium_m3 / 250e-6);
   const double t = heart.since_R_s;
   // Time to the next R wave.
   const double left = (heart.next_ectopic ? 0.33 : 1) * (time_at(1, rate_1_min) - time_at(heart.phase, rate_1_min));
@@ -74,7 +109,8 @@ std::array<double, leads> ecg(const HeartState& heart, double rate_1_min, const 
     v += R.mV[k] * sign * bump(t, R.width_s * spread) +
          R.mV[k] * (coming > 1 ? -0.9 : 1) * bump(left, R.width_s * coming);
     v += S.mV[k] * bump(t - S_s * spread, S.width_s * spread);
-    if (!heart.next_ectopic) v += P.mV[k] * bump(left - PR_s, P.width_s);
+    if (!heart.next_ectopic)
+      v += P.mV[k] * bump(heart.rhythm == Rhythm::block ? to_own_P_s(heart) : left - PR_s, P.width_s);
     double shift = 0, early = 0;
     for (std::size_t i = 0; i < territories; ++i) {
       shift += model.ST_mV[i] * ischaemia.late[i] * ST[i][k];
@@ -83,7 +119,7 @@ std::array<double, leads> ecg(const HeartState& heart, double rate_1_min, const 
     // T peaks first, then ST follows and lifts it.
     v += (T.mV[k] * (wide ? -1.3 : 1) + 0.25 * early) * bump(t - T_s, T.width_s * (t > T_s ? 0.75 : 1.1));
     v += shift * smooth(J_s - 0.02, J_s, t) * (1 - smooth(T_s, T_s + 0.08, t));
-    out[k] = v;
+    out[k] = voltage * v;
   }
   return out;
 }

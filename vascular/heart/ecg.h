@@ -36,8 +36,13 @@ constexpr auto fields(const IschaemiaState*) {
 /// `supply`: ratio of flow to need per territory; 1 or more is enough.
 void step(const IschaemiaModel& model, const std::array<double, territories>& supply, double dt_s, IschaemiaState& s);
 
-/// mV.
-std::array<double, leads> ecg(const HeartState& heart, double rate_1_min, const IschaemiaModel& model,
+/// What of the ventricles' muscle no longer contracts, sets `body`'s losses: dyskinesis 15 s after a closure, function
+/// back within 40 s of its end (Am J Cardiol 1987;60:460), by territory. Shares of the left ventricle: LAD 0.45, LCx
+/// 0.25, RCA 0.3; of the right one the RCA 0.7 [estimates, from the 17 segments].
+void weaken(const IschaemiaState& ischaemia, CirculationInputs& body);
+
+/// mV. Fluid in the pericardium makes it low; fibrillation and asystole have their own.
+std::array<double, leads> ecg(const HeartModel& model, const HeartState& heart, const IschaemiaModel& ischaemia_model,
                               const IschaemiaState& ischaemia);
 
 /// Largest absolute ST shift, mV.

@@ -1,44 +1,61 @@
 #pragma once
-/// The heart: phase, ejection and pressures. Wall, flow, ECG and every pressure trace follow its phase.
-///
-/// The left ventricle ejects its stroke volume, while the valve is open, into a three-element windkessel (Westerhof
-/// 1969):
-///   C dP/dt = Q - P / R,   p_aorta = P + Z Q
-/// so that pressure responds to rate, extrasystoles and vasodilators. R, C and Z give 120/80 mmHg, mean 93, at 70 beats
-/// a minute and 5 L/min. Ventricular pressure equals the aorta's during ejection, and filling pressure in diastole.
+/// The heart: rhythm, phase, and the circulation that it drives. Wall, flow, ECG and every pressure trace follow its
+/// phase; pressures and volumes are those of the closed circulation (circulation.h).
 #include <cstdint>
 
 #include "core/base/fields.h"
+#include "vascular/heart/circulation.h"
 
 namespace ostium::vascular {
 
+enum class Rhythm {
+  sinus,
+  block,         ///< third-degree: the ventricles beat by themselves, slowly
+  fibrillation,  ///< of the ventricles, which eject nothing
+  asystole
+};
+inline constexpr const char* rhythm_names[] = {"sinus", "AV block", "VF", "asystole"};
+
 struct HeartModel {
-  double stroke_m3 = 71e-6;            ///< stroke volume after complete filling at 70 beats a minute
-  double resistance_Pa_s_m3 = 1.53e8;  ///< R: 93 mmHg at 5 L/min
-  double compliance_m3_Pa = 1.27e-8;   ///< C: 1.7 mL/mmHg
-  double impedance_Pa_s_m3 = 5.3e6;    ///< Z: 0.04 mmHg s/mL
+  CirculationModel circulation;
   /// Extrasystoles per second of late diastole while something touches the ventricle's wall: about every second beat
   /// then is one [estimate].
   double ectopic_per_s = 5;
-  std::uint64_t seed = 1;  ///< determines when they occur
+  double escape_1_min = 40;  ///< rate of the ventricles in a block [textbook: 20 to 40, 40 to 60 from the junction]
+  /// A beat below this makes no pulse [estimate: a carotid pulse is felt down to about 60 mmHg, or less].
+  double pulse_Pa = 50 * units::mmHg;
+  double dies_s = 180;     ///< without a pulse, until the heart stops [estimate: 3 to 5 minutes]
+  std::uint64_t seed = 1;  ///< determines when extrasystoles occur
 };
 
 struct HeartInputs {
-  double rate_1_min = 70;  ///< of the sinus node; clamped as in heart_cycle.h
-  double irritation = 0;   ///< [0, 1]: contact of a wire or catheter with the ventricle's wall
-  double dilation = 0;     ///< [0, 1]: of systemic arterioles, by drugs: fraction taken off the resistance
+  double rate_1_min = 70;       ///< of the sinus node at rest; clamped as in heart_cycle.h
+  double irritation = 0;        ///< [0, 1]: contact of a wire or catheter with the ventricle's wall
+  CirculationInputs body = {};  ///< its phase, resting rate and stopped contraction are set by the step
 };
 
+/// Of the last complete beat.
+struct BeatSummary {
+  double systolic_Pa = 15600, diastolic_Pa = 10100, mean_Pa = 12500;  ///< in the aorta
+  double stroke_m3 = 73e-6;                                           ///< net
+};
+constexpr auto fields(const BeatSummary*) {
+  using S = BeatSummary;
+  return std::tuple{core::field("systolic_Pa", &S::systolic_Pa), core::field("diastolic_Pa", &S::diastolic_Pa),
+                    core::field("mean_Pa", &S::mean_Pa), core::field("stroke_m3", &S::stroke_m3)};
+}
+
 struct HeartState {
-  double phase = 0;              ///< [0, 1), 0 is the R wave
-  double windkessel_Pa = 11300;  ///< P
-  double ejection_m3_s = 0;      ///< Q; negative while the valve closes
-  double stroke_m3 = 71e-6;      ///< of the current beat
-  double filled_s = 0.55;        ///< diastole so far in this cycle
-  bool ectopic = false;          ///< the current beat is an extrasystole
-  bool next_ectopic = false;     ///< the next beat is an extrasystole, which comes early
-  std::uint64_t draws = 0;       ///< random numbers drawn
-  double time_s = 0;             ///< since the start
+  double phase = 0;  ///< [0, 1), 0 is the R wave
+  Rhythm rhythm = Rhythm::sinus;
+  CirculationState circulation;
+  BeatSummary beat;
+  double high_Pa = 0, low_Pa = 1e6, sum_Pa_s = 0, ejected_m3 = 0;  ///< of the current beat
+  double pulseless_s = 0;                                          ///< since the last beat with a pulse
+  bool ectopic = false;                                            ///< the current beat is an extrasystole
+  bool next_ectopic = false;  ///< the next beat is an extrasystole, which comes early
+  std::uint64_t draws = 0;    ///< random numbers drawn
+  double time_s = 0;          ///< since the start
   double since_R_s = 0;
   double cycle_s = 60.0 / 70;  ///< length of the last complete beat
   int beats = 0;               ///< R waves so far
@@ -46,10 +63,14 @@ struct HeartState {
 constexpr auto fields(const HeartState*) {
   using S = HeartState;
   return std::tuple{core::field("phase", &S::phase),
-                    core::field("windkessel_Pa", &S::windkessel_Pa),
-                    core::field("ejection_m3_s", &S::ejection_m3_s),
-                    core::field("stroke_m3", &S::stroke_m3),
-                    core::field("filled_s", &S::filled_s),
+                    core::field("rhythm", &S::rhythm),
+                    core::field("circulation", &S::circulation),
+                    core::field("beat", &S::beat),
+                    core::field("high_Pa", &S::high_Pa),
+                    core::field("low_Pa", &S::low_Pa),
+                    core::field("sum_Pa_s", &S::sum_Pa_s),
+                    core::field("ejected_m3", &S::ejected_m3),
+                    core::field("pulseless_s", &S::pulseless_s),
                     core::field("ectopic", &S::ectopic),
                     core::field("next_ectopic", &S::next_ectopic),
                     core::field("draws", &S::draws),
@@ -70,11 +91,10 @@ void step(const HeartModel& model, const HeartInputs& inputs, double dt_s, Heart
 
 Pressures pressures(const HeartModel& model, const HeartState& state);
 
-/// Share of the stroke volume ejected per unit of phase: integrates to 1, with a short return flow as the valve closes.
-double ejection_shape(double phase);
-/// Share of the ventricle's pressure generated by contraction: 0 in diastole, 1 during ejection.
-double ventricle_activity(double phase);
-/// Filling pressure in diastole, with the atrial kick before the R wave.
-double filling_pressure_Pa(double phase);
+/// Rate of the ventricles, per minute.
+double rate_1_min(const HeartModel& model, const HeartState& state);
+
+/// Phases between which the aortic valve's leaflets stand open for a wire.
+inline constexpr double valve_opens = 0.07, valve_closes = 0.35;
 
 }  // namespace ostium::vascular

@@ -88,7 +88,7 @@ Tube course_of(const Landmarks& m) {
 
 }  // namespace
 
-bool valve_is_open(double phase) { return ejection_shape(phase) > 0; }
+bool valve_is_open(double phase) { return phase > valve_opens && phase < valve_closes; }
 
 Ventricle add_ventricle(const Patient& patient, core::SurfaceDescription& wall) {
   const Landmarks& marks = patient.anatomy.landmarks;

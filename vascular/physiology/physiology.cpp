@@ -24,7 +24,9 @@ PhysiologyState make_state(const PhysiologyModel& model) {
 ContrastReport step(const PhysiologyModel& model, const PhysiologyInputs& in, double dt_s, PhysiologyState& s,
                     PhysiologyScratch& x) {
   const int before = s.heart.beats;
-  step(model.heart, in.heart, dt_s, s.heart);
+  HeartInputs heart = in.heart;
+  weaken(s.ischaemia, heart.body);
+  step(model.heart, heart, dt_s, s.heart);
   return circulate(model, in, dt_s, s.heart.beats > before, s, x);
 }
 
@@ -44,7 +46,7 @@ ContrastReport circulate(const PhysiologyModel& model, const PhysiologyInputs& i
   const FlowInputs lumen{now, s.radius_m, in.occupied_m, in.hyperaemia};
   step(model.flow, lumen, dt, s.flow, x.flow);
   step(model.ischaemia, supply(model.flow, s.flow), dt, s.ischaemia);
-  return step(model.contrast, {model.flow, s.flow, lumen, s.heart.ejection_m3_s}, in.contrast, dt, s.contrast,
+  return step(model.contrast, {model.flow, s.flow, lumen, s.heart.circulation.aortic_m3_s}, in.contrast, dt, s.contrast,
               x.contrast);
 }
 

@@ -5,6 +5,60 @@
 
 namespace ostium::vascular {
 
+namespace {
+
+void step_others(const DrugModel& m, const Doses& doses, double dt, DrugState& s) {
+  if (doses.drug >= 0 && static_cast<std::size_t>(doses.drug) < m.others.size() && doses.dose > 0 &&
+      std::isfinite(doses.dose))
+    s.amount[static_cast<std::size_t>(doses.drug)] += doses.dose;
+  std::size_t e = 0;
+  for (std::size_t d = 0; d < m.others.size(); ++d) {
+    const Drug& drug = m.others[d];
+    s.amount[d] *= std::exp2(-dt / drug.half_life_s);
+    for (const DrugEffect& one : drug.effects) {
+      const double share = -std::expm1(-dt / one.onset_s);
+      if (one.target == DrugTarget::heparin) {
+        // It is used up by what it binds.
+        const double used = std::min(share * s.amount[d], s.heparin_U / one.most);
+        s.amount[d] -= used, s.heparin_U -= used * one.most;
+      }
+      const double want =
+          one.target == DrugTarget::heparin ? 0 : one.most * s.amount[d] / (s.amount[d] + one.half_dose);
+      s.effect[e] += share * (want - s.effect[e]);
+      ++e;
+    }
+  }
+}
+
+}  // namespace
+
+DrugState make_state(const DrugModel& m) {
+  DrugState s;
+  s.amount.assign(m.others.size(), 0);
+  for (const Drug& drug : m.others) s.effect.resize(s.effect.size() + drug.effects.size(), 0);
+  return s;
+}
+
+double effect_on(DrugTarget target, const DrugModel& m, const DrugState& s) {
+  double sum = 0;
+  std::size_t e = 0;
+  for (const Drug& drug : m.others)
+    for (const DrugEffect& one : drug.effects) {
+      if (one.target == target) sum += s.effect[e];
+      ++e;
+    }
+  return sum;
+}
+
+void act(const DrugModel& m, const DrugState& s, CirculationInputs& body) {
+  const auto sum = [&](DrugTarget target) { return effect_on(target, m, s); };
+  body.dilation = m.nitrate_lowers * s.nitrate + sum(DrugTarget::dilation);
+  body.constriction = sum(DrugTarget::resistance);
+  body.contraction = 1 + sum(DrugTarget::contraction);
+  body.rate_effect = sum(DrugTarget::rate);
+  body.vagal_block = sum(DrugTarget::vagus);
+}
+
 void step(const DrugModel& m, const Doses& doses, double dt, DrugState& s) {
   const auto given = [](double dose) { return dose > 0 && std::isfinite(dose) ? dose : 0; };
   s.heparin_U = (s.heparin_U + given(doses.heparin_U)) * std::exp2(-dt / m.heparin_half_life_s);
@@ -13,6 +67,7 @@ void step(const DrugModel& m, const Doses& doses, double dt, DrugState& s) {
   s.nitrate += -std::expm1(-dt / m.nitrate_in_s) * (s.nitrate_ug / (s.nitrate_ug + m.nitrate_half_ug) - s.nitrate);
   s.adenosine +=
       -std::expm1(-dt / m.adenosine_in_s) * (s.adenosine_ug / (s.adenosine_ug + m.adenosine_half_ug) - s.adenosine);
+  step_others(m, doses, dt, s);
 }
 
 double act_s(const DrugModel& m, const DrugState& s) {

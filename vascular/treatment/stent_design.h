@@ -8,6 +8,7 @@ struct StentDesign {
   int crowns = 0;                  ///< distal crowns per ring; 0: 6, or 9 above 3.3 mm
   int rings = 0;                   ///< 0: as many as fit 1.3 mm apart
   int links = 3;                   ///< between two rings; must divide the crowns
+  int covered = 0;                 ///< 1: a membrane closes the wall behind it, and the branches that it crosses
   double strut_m = 81e-6;          ///< thickness (XIENCE Sierra)
   double height_m = 1.1e-3;        ///< of a ring, crimped
   double crimped_m = 0.45e-3;      ///< radius

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/random.h"
 #include "core/base/units.h"
 
 namespace ostium::vascular {
@@ -10,9 +11,15 @@ namespace ostium::vascular {
 namespace {
 
 constexpr double pool_m3 = 1.5e-6;               // blood beside a hole
+constexpr double muscle_opens_s = 20;            // under the full effect of a drug [estimate: onset 30 to 60 s]
+constexpr double tight_m = 20e-6;                // a balloon with less play lies on the wall
+constexpr double closed_m = 1e-6;                // radius of a branch that is shut
+constexpr double flap_m = 5e-3;                  // half of a flap's length [estimate]
 constexpr double fills_s = 0.4, empties_s = 15;  // filling and emptying of a pocket beside the lumen
 
-void run_injuries(const FlowTree& tree, double dt, TreatmentState& s, PhysiologyState& physiology) {
+void run_injuries(const TreatmentModel& model, const FlowTree& tree, double dt, TreatmentState& s,
+                  PhysiologyState& physiology) {
+  const double outside_Pa = physiology.heart.circulation.pericardium_Pa, act = act_s(model.drugs, s.drugs);
   ContrastState& contrast = physiology.contrast;
   const std::size_t n = tree.cells.size();
   for (Injury& injury : s.injury.injuries) {
@@ -24,9 +31,11 @@ void run_injuries(const FlowTree& tree, double dt, TreatmentState& s, Physiology
     const double here = all / std::max(V, 1e-12), pocket = pocket_m3(injury);
     injury.outside_m3 = std::max(injury.outside_m3, pocket);
     const double inside = injury.outside_kg / injury.outside_m3;
-    double kg = leak_m3_s(injury) * dt * here;
+    age(act, dt, injury);
+    injury.leak_m3_s = leak_m3_s(injury, physiology.flow.pressure_Pa[cell] - outside_Pa);
+    double kg = injury.leak_m3_s * dt * here;
     // A pool beside the hole; the excess flows into the pericardium and is diluted.
-    const double leaked = leak_m3_s(injury) * dt, over = std::max(0.0, injury.outside_m3 + leaked - pool_m3);
+    const double leaked = injury.leak_m3_s * dt, over = std::max(0.0, injury.outside_m3 + leaked - pool_m3);
     injury.outside_kg *= 1 - over / (injury.outside_m3 + leaked);
     injury.outside_m3 += leaked - over;
     kg += here > inside ? (here - inside) * pocket * dt / fills_s : (here - inside) * pocket * dt / empties_s;
@@ -36,6 +45,109 @@ void run_injuries(const FlowTree& tree, double dt, TreatmentState& s, Physiology
     injury.outside_kg += kg;
     contrast.outside_kg += kg;
   }
+}
+
+/// Whether a covered stent's membrane lies over a cell.
+bool is_under_membrane(const TreatmentModel& model, const TreatmentState& s, int cell) {
+  for (std::size_t i = 0; i < s.stents.size(); ++i) {
+    const StentState& stent = s.stents[i];
+    if (!model.stents[i].covered || stent.where != StentState::deployed || stent.branch < 0) continue;
+    const VesselPath& path = model.paths[static_cast<std::size_t>(stent.branch)];
+    const auto at = std::find(path.cells.begin(), path.cells.end(), cell);
+    if (at == path.cells.end()) continue;
+    const double along = path.s_m[static_cast<std::size_t>(at - path.cells.begin())];
+    const auto [from, to] = span_of(stent);
+    if (along >= from && along <= to) return true;
+  }
+  return false;
+}
+
+bool is_stented(const TreatmentModel& model, const TreatmentState& s, int cell) {
+  for (std::size_t i = 0; i < s.stents.size(); ++i) {
+    const StentState& stent = s.stents[i];
+    if (stent.where != StentState::deployed || stent.branch < 0) continue;
+    const VesselPath& path = model.paths[static_cast<std::size_t>(stent.branch)];
+    const auto at = std::find(path.cells.begin(), path.cells.end(), cell);
+    if (at != path.cells.end() &&
+        inner_radius_at(model.stents[i], stent, path.s_m[static_cast<std::size_t>(at - path.cells.begin())]) > 0)
+      return true;
+  }
+  return false;
+}
+
+/// A flap narrows its artery over its length, where no stent holds it; a balloon pushes it aside.
+void narrow_by_flaps(const TreatmentModel& model, const FlowTree& tree, const std::vector<double>& occupied_m,
+                     TreatmentState& s) {
+  for (const Injury& injury : s.injury.injuries) {
+    if (injury.cell < 0 || injury.kind != InjuryKind::dissection || injury.narrows < 1e-3) continue;
+    const FlowCell& torn = tree.cells[static_cast<std::size_t>(injury.cell)];
+    const FlowBranch& branch = tree.branches[static_cast<std::size_t>(torn.branch)];
+    for (int c = branch.first; c < branch.last; ++c) {
+      const auto cell = static_cast<std::size_t>(c);
+      if (std::fabs(tree.cells[cell].s_m - torn.s_m) > flap_m || is_stented(model, s, c)) continue;
+      const double balloon = occupied_m.empty() ? 0 : occupied_m[cell];
+      s.wall.radius_m[cell] =
+          std::max(s.wall.radius_m[cell] * std::sqrt(1 - injury.narrows), std::min(balloon, s.wall.radius_m[cell]));
+    }
+  }
+}
+
+/// What lies over each hole, as the last step left the lumen.
+void cover_holes(const TreatmentModel& model, const std::vector<double>& occupied_m, const PhysiologyState& physiology,
+                 TreatmentState& s) {
+  for (Injury& injury : s.injury.injuries) {
+    if (injury.kind != InjuryKind::perforation || injury.cell < 0) continue;
+    const auto cell = static_cast<std::size_t>(injury.cell);
+    const bool balloon = !occupied_m.empty() && occupied_m[cell] > physiology.radius_m[cell] - tight_m;
+    injury.covered = balloon || is_under_membrane(model, s, injury.cell);
+  }
+}
+
+/// Branches that leave an artery under a covered stent are closed.
+void close_branches(const TreatmentModel& model, const FlowTree& tree, const TreatmentState& s,
+                    PhysiologyState& physiology) {
+  bool any = false;
+  for (std::size_t i = 0; i < s.stents.size(); ++i)
+    any = any || (model.stents[i].covered && s.stents[i].where == StentState::deployed);
+  if (!any) return;
+  for (const FlowBranch& branch : tree.branches)
+    if (branch.parent_cell >= 0 && tree.cells[static_cast<std::size_t>(branch.parent_cell)].branch == branch.parent &&
+        branch.parent_cell + 1 < tree.branches[static_cast<std::size_t>(branch.parent)].last &&
+        is_under_membrane(model, s, branch.parent_cell))
+      physiology.radius_m[static_cast<std::size_t>(branch.first)] = closed_m;
+}
+
+void provoke(const TreatmentModel& model, const FlowTree& tree, const Provocation& what, TreatmentState& s,
+             PhysiologyState& physiology) {
+  const double time_s = physiology.heart.time_s;
+  if (what.kind == Provoked::fibrillation) physiology.heart.rhythm = Rhythm::fibrillation;
+  if (what.kind == Provoked::block) physiology.heart.rhythm = Rhythm::block;
+  if (what.cell < 0 || static_cast<std::size_t>(what.cell) >= tree.cells.size()) return;
+  const int branch = tree.cells[static_cast<std::size_t>(what.cell)].branch;
+  const double share = std::clamp(what.size, 0.0, 0.98);
+  if (what.kind == Provoked::perforation)
+    injure(model.injury, InjuryKind::perforation, what.cell, 3, what.size, time_s, s.injury);
+  if (what.kind == Provoked::dissection)
+    injure(model.injury, InjuryKind::dissection, what.cell, std::clamp(static_cast<int>(what.size), 0, 5), 0, time_s,
+           s.injury);
+  if (what.kind == Provoked::spasm) s.spasm[static_cast<std::size_t>(branch)] = share;
+  if (what.kind == Provoked::no_reflow)
+    for (std::size_t b = 0; b < tree.branches.size(); ++b)
+      if (tree.is_downstream(tree.branches[b].first, tree.branches[static_cast<std::size_t>(branch)].first))
+        physiology.flow.no_reflow[b] = share;
+}
+
+/// A shock ends fibrillation by a chance that falls with every minute without flow: 94 % at once, 64 % after some
+/// (first shocks in hospital: OAEM 2017;9:9); an asystole it does not change.
+void shock(const TreatmentModel& model, double joule, TreatmentState& s, PhysiologyState& physiology) {
+  HeartState& heart = physiology.heart;
+  s.shocks += 1;
+  if (heart.rhythm == Rhythm::asystole) return;
+  const double chance = 0.94 * std::exp(-heart.pulseless_s / 600) * std::min(1.0, joule / 120);
+  if (heart.rhythm != Rhythm::fibrillation)
+    heart.next_ectopic = true;
+  else if (core::uniform(model.injury.seed, 51, static_cast<std::uint64_t>(s.shocks)) < chance)
+    heart.rhythm = Rhythm::sinus;
 }
 
 void set_radii(const TreatmentModel& model, const FlowTree& tree, const TreatmentState& s,
@@ -167,6 +279,7 @@ TreatmentState make_state(const TreatmentModel& model, const FlowTree& tree) {
   s.balloon.radius_m.assign(balloon_spheres, 0);
   for (const StentModel& stent : model.stents) s.stents.push_back(make_stent_state(stent));
   s.spasm.assign(tree.branches.size(), 0);
+  s.drugs = make_state(model.drugs);
   return s;
 }
 
@@ -174,6 +287,10 @@ TreatmentReport step(const TreatmentModel& model, const TreatmentInputs& in, dou
                      const TreatedVessels& vessels, TreatmentScratch& x) {
   TreatmentReport report;
   step(model.drugs, in.doses, dt, s.drugs);
+  if (in.provocation.kind != Provoked::nothing) provoke(model, vessels.tree, in.provocation, s, vessels.physiology);
+  if (in.shock_J > 0) shock(model, in.shock_J, s, vessels.physiology);
+  if (const double opens = effect_on(DrugTarget::muscle, model.drugs, s.drugs) + s.drugs.adenosine; opens > 0)
+    for (double& lost : vessels.physiology.flow.no_reflow) lost *= std::exp(-dt * opens / muscle_opens_s);
   for (double& spasm : s.spasm) spasm *= std::exp(-dt * s.drugs.nitrate / model.drugs.spasm_yields_s);
   std::copy(s.wall.rest_m.begin(), s.wall.rest_m.end(), s.wall.radius_m.begin());
   change_balloon(model, in, s);
@@ -185,10 +302,19 @@ TreatmentReport step(const TreatmentModel& model, const TreatmentInputs& in, dou
     judge_wire(model.injury, in.wire_tip_cell, s.wall.radius_m[in.wire_tip_cell], in.wire_tip_N, dt,
                vessels.physiology.heart.time_s, s.injury);
   report.tore = s.injury.count > injured;
-  set_radii(model, vessels.tree, s, vessels.physiology);
-  run_injuries(vessels.tree, dt, s, vessels.physiology);
   fill_lumen(model, in, report.blocked, s, vessels);
+  if (s.injury.count > 0) narrow_by_flaps(model, vessels.tree, vessels.occupied_m, s);
+  set_radii(model, vessels.tree, s, vessels.physiology);
+  close_branches(model, vessels.tree, s, vessels.physiology);
+  if (s.injury.count > 0) cover_holes(model, vessels.occupied_m, vessels.physiology, s);
+  run_injuries(model, vessels.tree, dt, s, vessels.physiology);
   return report;
+}
+
+double leak_m3_s(const TreatmentState& state) {
+  double sum = 0;
+  for (const Injury& injury : state.injury.injuries) sum += injury.leak_m3_s;
+  return sum;
 }
 
 }  // namespace ostium::vascular

@@ -18,6 +18,18 @@ struct TreatmentModel {
   std::vector<VesselPath> paths;       ///< all_paths of the flow tree
 };
 
+/// A complication that a trainer asks for.
+enum class Provoked { nothing, perforation, dissection, spasm, no_reflow, fibrillation, block };
+inline constexpr int provocations = 7;
+inline constexpr const char* provocation_names[provocations] = {"nothing",   "perforation", "dissection", "spasm",
+                                                                "no-reflow", "VF",          "AV block"};
+
+struct Provocation {
+  Provoked kind = Provoked::nothing;
+  int cell = -1;    ///< of the flow tree; not for rhythms
+  double size = 0;  ///< hole's diameter, m; grade of a dissection, 0 to 5; share taken by spasm or no-reflow, [0, 1)
+};
+
 struct TreatmentInputs {
   int balloon = -1;     ///< index of the balloon in the vessel; -1: none. A new one starts deflated
   int branch = -1;      ///< branch whose path contains it (from cell_locator.h); -1: not in the coronaries
@@ -29,6 +41,8 @@ struct TreatmentInputs {
   double wire_tip_N = 0;                 ///< and its force
   std::span<const double> shaft_m = {};  ///< (#cells) radius of other instruments in the lumen; empty: none
   Doses doses = {};
+  Provocation provocation = {};
+  double shock_J = 0;  ///< a defibrillator's, in this step
 };
 
 struct TreatmentState {
@@ -39,13 +53,14 @@ struct TreatmentState {
   std::vector<double> spasm;       ///< (#branches) [0, 1): of the diameter; may be set from outside
   InjuryState injury;
   DrugState drugs;
+  int shocks = 0;  ///< given so far
 };
 constexpr auto fields(const TreatmentState*) {
   using S = TreatmentState;
   return std::tuple{
       core::field("wall", &S::wall),     core::field("balloon", &S::balloon), core::field("balloon_in", &S::balloon_in),
       core::field("stents", &S::stents), core::field("spasm", &S::spasm),     core::field("injury", &S::injury),
-      core::field("drugs", &S::drugs)};
+      core::field("drugs", &S::drugs),   core::field("shocks", &S::shocks)};
 }
 TreatmentState make_state(const TreatmentModel& model, const FlowTree& tree);
 
@@ -60,7 +75,11 @@ struct TreatmentReport {
   bool tore = false;     ///< an injury occurred in this step
 };
 
-/// What a treatment changes: `physiology`'s radii, and contrast that leaves through injuries; sets `occupied_m`
+/// What leaks out of all holes, m3/s.
+double leak_m3_s(const TreatmentState& state);
+
+/// What a treatment changes: `physiology`'s radii, contrast that leaves through injuries, rhythm, lost muscle; sets
+/// `occupied_m`
 /// (#cells) to the radius of everything in the lumen besides blood.
 struct TreatedVessels {
   const FlowTree& tree;

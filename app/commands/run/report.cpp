@@ -5,6 +5,8 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "app/session/model/outcome.h"
+
 namespace ostium::app {
 
 nlohmann::ordered_json to_json(const BoxDriver& hand) {
@@ -54,6 +56,8 @@ void print_report(const ScriptedRun& run, const PlayReport& r, const std::string
              r.times.p50_ms, r.times.p99_ms, r.times.p999_ms, r.times.most_ms);
   if (r.times.behind_most_ms > 0)
     fmt::print("{} steps began over a millisecond late, at most {:.1f} ms\n", r.times.overruns, r.times.behind_most_ms);
+  if (const std::string patient = run.model.has_patient() ? patient_words(run.state) : ""; !patient.empty())
+    fmt::print("patient: {}\n", patient);
   if (run.troubled) fmt::print("{} steps had to give way: {}\n", run.troubled, trouble_words(run.troubles));
   for (const data::Metric& m : r.metrics)
     if (std::isfinite(m.value)) fmt::print("  {:<32} {:.4g} {}\n", m.name, m.value, m.unit == "1" ? "" : m.unit);

@@ -40,7 +40,7 @@ void InflationStrips::end(double seconds) {
 
 void InflationStrips::listen(const Bedside& bed) {
   if (step++ % 4) return;
-  const auto leads = ecg(bed.blood.heart, bed.inputs.heart.rate_1_min, bed.physiology.ischaemia, bed.blood.ischaemia);
+  const auto leads = ecg(bed.physiology.heart, bed.blood.heart, bed.physiology.ischaemia, bed.blood.ischaemia);
   for (int k = 0; k < 2; ++k) strips[k].samples.push_back(static_cast<float>(leads[static_cast<int>(which[k])]));
   const vascular::Pressures p = pressures(bed.physiology.heart, bed.blood.heart);
   strips[2].samples.push_back(static_cast<float>(p.aorta_Pa / mmHg));

@@ -124,6 +124,11 @@ void press_with_wire(const CouplingModel& model, const core::StepReport& report,
   if (s.wire_tip_N < 1e-6) s.wire_tip_N = 0;
 }
 
+void forget_what_is_given_once(DeliveryInputs& inputs) {
+  inputs.heparin_U = inputs.nitrate_ug = inputs.adenosine_ug = inputs.drug_dose = inputs.shock_J = 0;
+  inputs.drug = inputs.provoked_cell = -1, inputs.provoked = 0, inputs.provoked_size = 0;
+}
+
 vascular::TreatmentInputs treatment_inputs(const DeliveryInputs& inputs, const CouplingState& s) {
   vascular::TreatmentInputs out;
   out.balloon = s.balloon;
@@ -135,7 +140,10 @@ vascular::TreatmentInputs treatment_inputs(const DeliveryInputs& inputs, const C
   out.wire_tip_cell = s.wire_cell;
   out.wire_tip_N = s.wire_tip_N;
   out.shaft_m = s.shaft_m;
-  out.doses = {inputs.heparin_U, inputs.nitrate_ug, inputs.adenosine_ug};
+  out.doses = {inputs.heparin_U, inputs.nitrate_ug, inputs.adenosine_ug, inputs.drug, inputs.drug_dose};
+  const int kind = std::clamp(inputs.provoked, 0, vascular::provocations - 1);
+  out.provocation = {static_cast<vascular::Provoked>(kind), inputs.provoked_cell, inputs.provoked_size};
+  out.shock_J = inputs.shock_J;
   return out;
 }
 

@@ -17,8 +17,9 @@ struct SessionTool {
   data::Instrument instrument;
 };
 
-inline constexpr double undiluted_kg_m3 = 350;  ///< iodine in the syringe unless something else is said
-inline constexpr double visible_kg_m3 = 60;     ///< of iodine in an artery, from which on contrast is seen there
+inline constexpr double undiluted_kg_m3 = 350;        ///< iodine in the syringe unless something else is said
+inline constexpr double visible_kg_m3 = 60;           ///< of iodine in an artery, from which on contrast is seen there
+inline constexpr double visible_leak_m3_s = 0.02e-6;  ///< out of an artery, that a film shows
 inline constexpr int look_every = 8;  ///< steps; as often as blood and contrast are updated (circulation_step_s)
 
 /// What the operator gives: contrast, pressure and drugs. All are recorded inputs.
@@ -27,6 +28,14 @@ struct DeliveryInputs {
   double iodine_kg_m3 = 350;  ///< of the syringe's contents; 0: saline
   double gauge_Pa = 0;        ///< of the inflation device, on the balloon in the body; below 0: vacuum
   double heparin_U = 0, nitrate_ug = 0, adenosine_ug = 0;  ///< given in this step
+  int drug = -1;             ///< of the catalogue (vascular::DrugModel::others), given in this step; -1: none
+  double drug_dose = 0;      ///< of that, in its unit
+  double infusion_m3_s = 0;  ///< of fluid, into a vein
+  double drain_m3_s = 0;     ///< out of the pericardium, through a drain
+  double shock_J = 0;        ///< of a defibrillator, in this step
+  // What a trainer provokes, in this step (vascular::Provocation):
+  int provoked = 0, provoked_cell = -1;
+  double provoked_size = 0;
 };
 constexpr auto fields(const DeliveryInputs*) {
   using S = DeliveryInputs;
@@ -35,8 +44,18 @@ constexpr auto fields(const DeliveryInputs*) {
                     core::field("gauge_Pa", &S::gauge_Pa),
                     core::field("heparin_U", &S::heparin_U),
                     core::field("nitrate_ug", &S::nitrate_ug),
-                    core::field("adenosine_ug", &S::adenosine_ug)};
+                    core::field("adenosine_ug", &S::adenosine_ug),
+                    core::field("drug", &S::drug),
+                    core::field("drug_dose", &S::drug_dose),
+                    core::field("infusion_m3_s", &S::infusion_m3_s),
+                    core::field("drain_m3_s", &S::drain_m3_s),
+                    core::field("shock_J", &S::shock_J),
+                    core::field("provoked", &S::provoked),
+                    core::field("provoked_cell", &S::provoked_cell),
+                    core::field("provoked_size", &S::provoked_size)};
 }
+/// What is given in one step and not in the next: doses, a shock, a provocation.
+void forget_what_is_given_once(DeliveryInputs& inputs);
 
 struct CouplingState {
   // The balloon in the body:

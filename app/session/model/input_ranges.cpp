@@ -37,6 +37,14 @@ constexpr NamedRange table[] = {
     {"heparin_U", {0, 30000, true}},
     {"nitrate_ug", {0, 1000, true}},
     {"adenosine_ug", {0, 1000, true}},
+    {"drug", {-1, 100, true}},
+    {"drug_dose", {0, 1000, true}},
+    {"infusion_m3_s", {0, 20e-6}},
+    {"drain_m3_s", {0, 10e-6}},
+    {"shock_J", {0, 360, true}},
+    {"provoked", {0, vascular::provocations - 1, true}},
+    {"provoked_cell", {-1, 1e6, true}},
+    {"provoked_size", {0, 10, true}},
 };
 
 std::string_view without_owner_and_index(std::string_view name) {

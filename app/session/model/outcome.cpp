@@ -1,5 +1,7 @@
 #include "app/session/model/outcome.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <limits>
 
@@ -148,6 +150,27 @@ bool is_unharmed(const SessionModel& model, const SessionState& state) {
                         return kind == vascular::InjuryKind::perforation ||
                                (injury.grade >= type_C && !lies_under_a_stent(injury.cell));
                       });
+}
+
+std::string patient_words(const SessionState& state) {
+  using units::mmHg, units::mL;
+  const vascular::HeartState& heart = state.blood.heart;
+  const double round_mL = heart.circulation.pericardium_m3 / mL, leak_mL_s = leak_m3_s(state.treatment) / mL;
+  const bool perforated = std::any_of(
+      state.treatment.injury.injuries.begin(), state.treatment.injury.injuries.end(),
+      [](const vascular::Injury& one) { return one.kind == vascular::InjuryKind::perforation && one.hole_m2 > 0; });
+  if (!perforated && round_mL < 1 && heart.pulseless_s == 0 && heart.rhythm == vascular::Rhythm::sinus) return "";
+  std::string words = heart.rhythm == vascular::Rhythm::asystole ? "dead: the heart stands still"
+                      : heart.pulseless_s > 0 ? fmt::format("without a pulse for {:.0f} s", heart.pulseless_s)
+                                              : "alive";
+  words += fmt::format(": {:.0f}/{:.0f} mmHg, {:.0f} beats a minute ({})", heart.beat.systolic_Pa / mmHg,
+                       heart.beat.diastolic_Pa / mmHg, 60 / heart.cycle_s,
+                       vascular::rhythm_names[static_cast<std::size_t>(heart.rhythm)]);
+  if (round_mL >= 1) words += fmt::format(", {:.0f} mL round the heart", round_mL);
+  if (perforated)
+    words += leak_m3_s(state.treatment) > visible_leak_m3_s ? fmt::format(", perforation leaks {:.2f} mL/s", leak_mL_s)
+                                                            : ", perforation closed";
+  return words;
 }
 
 std::optional<StentNow> stent_now(const SessionModel& model, const SessionState& state, int lesion) {

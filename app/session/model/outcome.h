@@ -2,6 +2,7 @@
 /// The current result of treating a lesion, in numbers: the ground truth for signals and metrics. Lesions are counted
 /// from 0 in the case's order; the lesion must exist in the model.
 #include <optional>
+#include <string>
 
 #include "app/session/model/session.h"
 
@@ -52,6 +53,10 @@ WorstOfLesions worst_of_lesions(const SessionModel& model, const SessionState& s
 
 /// No artery is perforated, and every dissection of type C to F is covered by a stent.
 bool is_unharmed(const SessionModel& model, const SessionState& state);
+
+/// What it came to for the patient: "alive: 112/70 mmHg, 92 beats a minute, 45 mL round the heart, perforation closed";
+/// empty while nothing has happened to them.
+std::string patient_words(const SessionState& state);
 
 /// Expansion of these stents as seen by intravascular ultrasound; the worst of them.
 struct StentNow {

@@ -46,10 +46,9 @@ std::vector<core::Nesting> nestings_of(const std::vector<SessionTool>& tools) {
   return nestings;
 }
 
-std::shared_ptr<const core::Surface> with_friction(const core::Surface& surface, double friction) {
-  const auto other = std::make_shared<core::Surface>(surface);
-  other->friction = friction;
-  return other;
+std::shared_ptr<const core::Surface> with_friction(core::Surface surface, double friction) {
+  surface.friction = friction;
+  return std::make_shared<core::Surface>(std::move(surface));
 }
 
 void require_order(const std::vector<SessionTool>& tools) {
@@ -74,6 +73,7 @@ SessionModel make_session(std::shared_ptr<const Vessel> vessel, std::vector<Sess
     model.physiology = model.vessel->coronaries->physiology;
     model.treatment = model.vessel->coronaries->treatment;
     model.treatment.injury.seed = options.seed;
+    model.treatment.drugs.others = options.drugs;
     model.balloon_of = add_devices(model.tools, options.seed, model.treatment);
   } else {
     model.balloon_of.assign(model.tools.size(), -1);
@@ -216,6 +216,19 @@ double vessel_frame(const Vessel& vessel, double phase) {
 
 namespace {
 
+/// What instruments, drugs, bleeding and lack of blood do to the heart; in a mesh it beats for itself.
+vascular::HeartInputs heart_inputs(const SessionModel& model, const SessionInputs& inputs, const SessionState& state,
+                                   double breath) {
+  vascular::HeartInputs heart{inputs.rate_1_min, state.coupling.irritation};
+  if (!model.has_patient()) return heart;
+  heart.body.breath = breath;
+  act(model.treatment.drugs, state.treatment.drugs, heart.body);
+  weaken(state.blood.ischaemia, heart.body);
+  heart.body.leak_m3_s = leak_m3_s(state.treatment), heart.body.reflexes = true;
+  heart.body.infusion_m3_s = inputs.delivery.infusion_m3_s, heart.body.drain_m3_s = inputs.delivery.drain_m3_s;
+  return heart;
+}
+
 /// Advances heart and breath, and moves the wall. Returns true at an R wave.
 bool beat(const SessionModel& model, const SessionInputs& inputs, SessionState& state, core::SurfaceMotion& motion) {
   vascular::HeartState& heart = state.blood.heart;
@@ -223,10 +236,7 @@ bool beat(const SessionModel& model, const SessionInputs& inputs, SessionState& 
   motion.frame_before = vessel_frame(*model.vessel, heart.phase);
   motion.sway_before = breath_after(model, state.rods.step);
   motion.sway_after = breath_after(model, state.rods.step + 1);
-  step(model.physiology.heart,
-       {inputs.rate_1_min, state.coupling.irritation,
-        model.treatment.drugs.nitrate_lowers * state.treatment.drugs.nitrate},
-       model.step_s(), heart);
+  step(model.physiology.heart, heart_inputs(model, inputs, state, motion.sway_after), model.step_s(), heart);
   motion.door_open = vascular::valve_is_open(heart.phase) || state.coupling.through_valve;
   motion.frame_after = vessel_frame(*model.vessel, heart.phase + (heart.beats - beats));
   return heart.beats > beats;
@@ -236,8 +246,8 @@ bool beat(const SessionModel& model, const SessionInputs& inputs, SessionState& 
 /// stent.
 ToolInputs allowed(const SessionModel& model, const SessionState& state, int tool, const ToolInputs& hand,
                    SessionReport& report) {
+  if (!(hand.feed_m_s > 0)) return hand;
   ToolInputs out = hand;
-  if (!(hand.feed_m_s > 0)) return out;
   const auto t = static_cast<std::size_t>(tool);
   if (!in_body(model.rods.rods[t], state.rods.rods[t]))
     if (const int other = in_the_way(model, state.rods, tool); other >= 0)

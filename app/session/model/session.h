@@ -36,6 +36,7 @@ struct SessionOptions {
   double breaths_1_min = 0;        ///< of a case's patient, 4 to 60; 0: the breath is held
   std::optional<double> friction;  ///< of the vessel's wall, overrides vessel_friction; [0, 1]
   std::string begin;  ///< an artery: the introducer is placed before its ostium (entry_ahead_of); empty: at the access
+  std::vector<vascular::Drug> drugs;  ///< of the catalogue, that may be given
 };
 
 /// Tools are nested where one fits through the other's lumen. Two that do not fit (two balloons for one wire) are

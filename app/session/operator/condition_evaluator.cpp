@@ -108,7 +108,28 @@ constexpr TestOfKind tests[] = {
     {data::ConditionKind::stent_beyond, [](const Evaluator& e, const Condition& c,
                                      int) { return lesion_is_covered(e.model, e.session, c.value, c.lesion); }},
     {data::ConditionKind::unharmed,
-     [](const Evaluator& e, const Condition&, int) { return is_unharmed(e.model, e.session); }}};
+     [](const Evaluator& e, const Condition&, int) { return is_unharmed(e.model, e.session); }},
+    {data::ConditionKind::systolic_below,
+     [](const Evaluator& e, const Condition& c, int) { return e.session.blood.heart.beat.systolic_Pa < c.value; }},
+    {data::ConditionKind::systolic_exceeds,
+     [](const Evaluator& e, const Condition& c, int) { return e.session.blood.heart.beat.systolic_Pa > c.value; }},
+    {data::ConditionKind::rate_below, [](const Evaluator& e, const Condition& c,
+                                   int) { return 60 / e.session.blood.heart.cycle_s < c.value; }},
+    {data::ConditionKind::rate_exceeds, [](const Evaluator& e, const Condition& c,
+                                     int) { return 60 / e.session.blood.heart.cycle_s > c.value; }},
+    {data::ConditionKind::pericardium_below,
+     [](const Evaluator& e, const Condition& c,
+        int) { return e.session.blood.heart.circulation.pericardium_m3 < c.value; }},
+    {data::ConditionKind::pericardium_exceeds,
+     [](const Evaluator& e, const Condition& c,
+        int) { return e.session.blood.heart.circulation.pericardium_m3 > c.value; }},
+    {data::ConditionKind::sealed, [](const Evaluator& e, const Condition&,
+                               int) { return leak_m3_s(e.session.treatment) < visible_leak_m3_s; }},
+    {data::ConditionKind::pulseless,
+     [](const Evaluator& e, const Condition&, int) { return e.session.blood.heart.pulseless_s > 0; }},
+    {data::ConditionKind::stopped, [](const Evaluator& e, const Condition&, int) {
+       return e.session.blood.heart.rhythm == vascular::Rhythm::asystole;
+     }}};
 
 /// Indexed by kind. Does not compile if a kind has no test, or two.
 constexpr std::array<Test, data::condition_kinds> test_of = [] {

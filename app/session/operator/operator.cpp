@@ -11,6 +11,7 @@
 #include "app/session/operator/operator_actions.h"
 #include "core/base/units.h"
 #include "data/assessment/metrics.h"
+#include "data/formats/load_error.h"
 
 namespace ostium::app {
 
@@ -89,6 +90,27 @@ int place_of(const data::Script& script, const data::ScriptCondition& c, const S
   return cell;
 }
 
+[[noreturn]] void refuse_step(const data::Script& script, const data::ScriptStep& step, const std::string& what) {
+  throw data::LoadError(fmt::format("{}:{}: {}", script.file, step.line, what));
+}
+
+/// The flow cell of a step's `at`, or the index of its drug; refuses what this session does not have.
+int subject_of(const data::Script& script, const data::ScriptStep& step, const SessionModel& model) {
+  if (needs_patient(step.action) && !model.has_patient())
+    refuse_step(script, step, step.words() + ": a mesh has no circulation; expected a case");
+  if (step.action == data::ScriptAction::give) return find_drug(step, model.treatment.drugs, script);
+  if (step.at.empty()) return -1;
+  const VesselIndex& way = *model.vessel->way;
+  const int place = place_called(script, step.at, way);
+  const int cell = place < 0 ? -1 : cell_at(*model.vessel->coronaries, way, place);
+  if (cell < 0)
+    refuse_step(script, step,
+                step.at +
+                    ": there is no such place in a coronary artery; expected millimetres beyond a "
+                    "branch's origin, as RCA+20");
+  return cell;
+}
+
 std::vector<int> places(const data::Script& script, const std::vector<data::ScriptCondition>& conditions,
                         const SessionModel& model) {
   std::vector<int> out;
@@ -135,22 +157,24 @@ void feel(const SessionModel& model, const SessionReport& report, OperatorState&
   }
 }
 
-void begin(const data::ScriptStep& step, const SessionModel& model, const SessionState& session, OperatorState& state) {
+void begin(const ScriptPlan& plan, const SessionModel& model, const SessionState& session, OperatorState& state) {
+  const data::ScriptStep& step = plan.script.steps[static_cast<std::size_t>(state.step)];
   state.began = false;
   state.began_s = seconds(model, session);
   state.began_beats = session.blood.heart.beats + session.blood.heart.phase;
   for (std::size_t t = 0; t < model.tools.size(); ++t)
     state.began_fed_m[t] = session.hands[t].fed_m, state.began_turned_rad[t] = session.hands[t].turned_rad;
   forget_tips(state);
-  begin_action(step, session, state);
+  begin_action(step, plan.subjects[static_cast<std::size_t>(state.step)], session, state);
 }
 
 void ask(const ScriptPlan& plan, const OperatorState& state, SessionInputs& inputs) {
   for (ToolInputs& tool : inputs.tools) tool = {};
   inputs.rate_1_min = state.rate_1_min;
   inputs.c_arm = {state.lao_rad, state.cran_rad, state.field_m, state.p_PI, state.fluoroscopy, state.cine};
-  inputs.delivery = {state.injection_m3_s, state.iodine_kg_m3, state.gauge_Pa,
-                     state.heparin_U,      state.nitrate_ug,   state.adenosine_ug};
+  inputs.delivery = state.given;
+  inputs.delivery.injection_m3_s = state.injection_m3_s, inputs.delivery.iodine_kg_m3 = state.iodine_kg_m3;
+  inputs.delivery.gauge_Pa = state.gauge_Pa;
   const auto s = static_cast<std::size_t>(state.step);
   if (state.outcome != Outcome::running || s >= plan.script.steps.size()) return;
   const double factor = plan.hand_speed * hand_factor(plan.seed, static_cast<int>(s));
@@ -189,10 +213,12 @@ int leads_to(const data::Script& script, int s, int& tries) {
 }  // namespace
 
 ScriptPlan make_plan(const data::Script& script, const SessionModel& model, std::uint64_t seed) {
-  ScriptPlan plan{.script = script, .until_places = {}, .unless_places = {}, .seed = seed, .hand_speed = 1};
+  ScriptPlan plan{
+      .script = script, .until_places = {}, .unless_places = {}, .subjects = {}, .seed = seed, .hand_speed = 1};
   for (const data::ScriptStep& step : script.steps) {
     plan.until_places.push_back(places(script, step.until, model));
     plan.unless_places.push_back(places(script, step.unless, model));
+    plan.subjects.push_back(subject_of(script, step, model));
   }
   return plan;
 }
@@ -226,7 +252,8 @@ Outcome decide(const ScriptPlan& plan, const SessionModel& model, const SessionS
                std::vector<OperatorEvent>& events) {
   events.clear();
   feel(model, report, state);
-  state.heparin_U = state.nitrate_ug = state.adenosine_ug = 0;
+  forget_what_is_given_once(state.given);
+  state.given.infusion_m3_s = state.given.drain_m3_s = 0;
   using Kind = OperatorEvent::Kind;
   const ConditionEvaluator evaluator(plan, model, session, report, state);
   const int count = static_cast<int>(plan.script.steps.size());
@@ -239,7 +266,7 @@ Outcome decide(const ScriptPlan& plan, const SessionModel& model, const SessionS
     }
     const data::ScriptStep& step = plan.script.steps[static_cast<std::size_t>(s)];
     if (state.began) {
-      begin(step, model, session, state);
+      begin(plan, model, session, state);
       events.push_back({step.action == data::ScriptAction::mark ? Kind::marked : Kind::begins, s, -1});
       if (takes_time(step)) break;
     }

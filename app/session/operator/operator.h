@@ -13,8 +13,9 @@ namespace ostium::app {
 struct ScriptPlan {
   data::Script script;
   std::vector<std::vector<int>> until_places, unless_places;  ///< of each step's conditions; -1 if they have none
-  std::uint64_t seed = 0;  ///< 0: exact speeds; otherwise they vary from step to step, standard deviation 15 %
-  double hand_speed = 1;   ///< factor on the script's speeds
+  std::vector<int> subjects;  ///< of each step: the flow cell of its `at`, the index of the drug that it gives; -1
+  std::uint64_t seed = 0;     ///< 0: exact speeds; otherwise they vary from step to step, standard deviation 15 %
+  double hand_speed = 1;      ///< factor on the script's speeds
 };
 
 /// Throws LoadError with the script's line for a place that the vessel does not have.
@@ -39,9 +40,10 @@ struct OperatorState {
   Eigen::Vector3d p_PI = Eigen::Vector3d::Zero();
   double iodine_kg_m3 = 350, injection_m3_s = 0;  ///< of the syringe
   double began_injected_m3 = 0;
-  double gauge_Pa = 0, began_gauge_Pa = 0;                 ///< of the inflation device
-  double heparin_U = 0, nitrate_ug = 0, adenosine_ug = 0;  ///< to be given in the next step
-  int in_the_way = -1;  ///< the tool that ended the script: another could not enter beside it
+  double gauge_Pa = 0, began_gauge_Pa = 0;  ///< of the inflation device
+  DeliveryInputs given;                     ///< to be given in the next step: doses, fluid, drain, shock, provocation
+  double began_gained_m3 = 0;               ///< by the circulation
+  int in_the_way = -1;                      ///< the tool that ended the script: another could not enter beside it
   Outcome outcome = Outcome::running;
   int by_condition = -1;  ///< index of the `unless` condition that held; -1: the timeout
 };
@@ -69,9 +71,8 @@ constexpr auto fields(const OperatorState*) {
                     core::field("began_injected_m3", &S::began_injected_m3),
                     core::field("gauge_Pa", &S::gauge_Pa),
                     core::field("began_gauge_Pa", &S::began_gauge_Pa),
-                    core::field("heparin_U", &S::heparin_U),
-                    core::field("nitrate_ug", &S::nitrate_ug),
-                    core::field("adenosine_ug", &S::adenosine_ug),
+                    core::field("given", &S::given),
+                    core::field("began_gained_m3", &S::began_gained_m3),
                     core::field("in_the_way", &S::in_the_way),
                     core::field("outcome", &S::outcome),
                     core::field("by_condition", &S::by_condition)};

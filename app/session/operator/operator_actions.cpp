@@ -1,7 +1,11 @@
 #include "app/session/operator/operator_actions.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
+
+#include "data/formats/load_error.h"
 
 namespace ostium::app {
 
@@ -42,7 +46,25 @@ void screw_inflation_device(const Step& step, const SessionState&, double now_s,
 }
 
 void give_drug(const Step& step, const SessionState&, OperatorState& state) {
-  state.heparin_U = step.heparin_U, state.nitrate_ug = step.nitrate_ug, state.adenosine_ug = step.adenosine_ug;
+  state.given.heparin_U = step.heparin_U, state.given.nitrate_ug = step.nitrate_ug;
+  state.given.adenosine_ug = step.adenosine_ug;
+}
+
+void note_fluids(const Step&, const SessionState& session, OperatorState& state) {
+  state.began_gained_m3 = session.blood.heart.circulation.gained_m3;
+}
+
+double gained_m3(const SessionState& session, const OperatorState& state) {
+  return session.blood.heart.circulation.gained_m3 - state.began_gained_m3;
+}
+
+bool is_drained(const Step& step, const ConditionEvaluator& e) {
+  return -gained_m3(e.session, e.state) >= step.volume_m3 || e.session.blood.heart.circulation.pericardium_m3 <= 0;
+}
+
+void provoke(const Step& step, const SessionState&, OperatorState& state) {
+  state.given.provoked = step.complication;
+  state.given.provoked_size = step.size;
 }
 
 /// One per action, in any order.
@@ -74,7 +96,23 @@ constexpr Handling handlings[] = {
          [](const Step&, const ConditionEvaluator& e) {
            return !e.balloon() || is_empty(*e.balloon(), e.session.treatment.balloon);
          }},
-    {.action = data::ScriptAction::drug, .begin = give_drug}};
+    {.action = data::ScriptAction::drug, .begin = give_drug},
+    {.action = data::ScriptAction::give,
+     .begin = [](const Step& step, const SessionState&, OperatorState& state) { state.given.drug_dose = step.dose; }},
+    {.action = data::ScriptAction::infuse,
+     .begin = note_fluids,
+     .go_on = [](const Step& step, const SessionState&, double,
+                 OperatorState& state) { state.given.infusion_m3_s = step.rate_m3_s; },
+     .is_over = [](const Step& step,
+                   const ConditionEvaluator& e) { return gained_m3(e.session, e.state) >= step.volume_m3; }},
+    {.action = data::ScriptAction::drain,
+     .begin = note_fluids,
+     .go_on = [](const Step& step, const SessionState&, double,
+                 OperatorState& state) { state.given.drain_m3_s = step.rate_m3_s; },
+     .is_over = is_drained},
+    {.action = data::ScriptAction::shock,
+     .begin = [](const Step& step, const SessionState&, OperatorState& state) { state.given.shock_J = step.energy_J; }},
+    {.action = data::ScriptAction::provoke, .begin = provoke}};
 
 /// Indexed by action. Does not compile if an action has no handling, or two.
 constexpr std::array<Handling, data::action_kinds> handling_of = [] {
@@ -93,8 +131,27 @@ const Handling& handling(const data::ScriptStep& step) { return handling_of[stat
 
 }  // namespace
 
-void begin_action(const data::ScriptStep& step, const SessionState& session, OperatorState& state) {
+int find_drug(const data::ScriptStep& step, const vascular::DrugModel& drugs, const data::Script& script) {
+  std::string known;
+  for (std::size_t d = 0; d < drugs.others.size(); ++d) {
+    const vascular::Drug& drug = drugs.others[d];
+    known += (known.empty() ? "" : ", ") + drug.name;
+    if (drug.name != step.drug) continue;
+    if (drug.unit != step.dose_unit || step.dose < drug.least || step.dose > drug.most)
+      throw data::LoadError(fmt::format("{}:{}: {} {} of {}; expected dose_{}, {:g} to {:g}", script.file, step.line,
+                                        step.dose, step.dose_unit, drug.name, drug.unit, drug.least, drug.most));
+    return static_cast<int>(d);
+  }
+  throw data::LoadError(
+      fmt::format("{}:{}: there is no drug \"{}\"; expected one of {}, or the action drug with "
+                  "heparin_U, nitrate_ug or adenosine_ug",
+                  script.file, step.line, step.drug, known));
+}
+
+void begin_action(const data::ScriptStep& step, int subject, const SessionState& session, OperatorState& state) {
   if (handling(step).begin) handling(step).begin(step, session, state);
+  if (step.action == data::ScriptAction::provoke) state.given.provoked_cell = subject;
+  if (step.action == data::ScriptAction::give) state.given.drug = subject;
 }
 
 void continue_action(const data::ScriptStep& step, const SessionState& session, double now_s, OperatorState& state) {

@@ -5,7 +5,11 @@
 namespace ostium::app {
 
 /// Called once, when the step begins.
-void begin_action(const data::ScriptStep& step, const SessionState& session, OperatorState& state);
+/// `subject`: of ScriptPlan.
+void begin_action(const data::ScriptStep& step, int subject, const SessionState& session, OperatorState& state);
+
+/// Index of the step's drug. Throws LoadError with the script's line for a drug, a unit or a dose that there is not.
+int find_drug(const data::ScriptStep& step, const vascular::DrugModel& drugs, const data::Script& script);
 
 /// Called every millisecond of the step: pressurises the inflation device, presses the syringe.
 void continue_action(const data::ScriptStep& step, const SessionState& session, double now_s, OperatorState& state);

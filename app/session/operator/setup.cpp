@@ -12,6 +12,7 @@
 #include <nlohmann/json.hpp>
 
 #include "data/catalogue/catalogue.h"
+#include "data/catalogue/drug/drug_file.h"
 #include "data/catalogue/instrument/instrument_reader.h"
 #include "data/formats/decimal.h"
 #include "data/formats/load_error.h"
@@ -65,6 +66,8 @@ void set_script(const data::Script& script, RunSetup& setup) {
     setup.tool_files.push_back(data::instrument_file(tool.instrument, folder_of(script)));
     setup.tool_texts.push_back(all_of(setup.tool_files.back()));
   }
+  setup.drug_files = data::drug_files(), setup.drug_texts.clear();
+  for (const std::string& file : setup.drug_files) setup.drug_texts.push_back(all_of(file));
 }
 
 namespace {
@@ -178,9 +181,15 @@ SessionModel make_session(const RunSetup& setup, std::shared_ptr<const Vessel> v
   std::vector<SessionTool> tools;
   for (std::size_t t = 0; t < setup.script.tools.size(); ++t)
     tools.push_back({setup.script.tools[t].name, data::read_instrument(setup.tool_files[t], setup.tool_texts[t])});
-  return make_session(
-      std::move(vessel), std::move(tools),
-      {.seed = setup.seed, .breaths_1_min = setup.breaths_1_min, .friction = setup.friction, .begin = setup.begin});
+  std::vector<vascular::Drug> drugs;
+  for (std::size_t d = 0; d < setup.drug_texts.size(); ++d)
+    drugs.push_back(data::read_drug(setup.drug_files[d], setup.drug_texts[d]));
+  return make_session(std::move(vessel), std::move(tools),
+                      {.seed = setup.seed,
+                       .breaths_1_min = setup.breaths_1_min,
+                       .friction = setup.friction,
+                       .begin = setup.begin,
+                       .drugs = std::move(drugs)});
 }
 
 std::string to_json(const RunSetup& setup) {
@@ -199,6 +208,8 @@ std::string to_json(const RunSetup& setup) {
   out["script"] = {{"file", fs::path(setup.script.file).filename()}, {"text", setup.script.source}};
   for (std::size_t t = 0; t < setup.tool_texts.size(); ++t)
     out["tools"].push_back({{"file", fs::path(setup.tool_files[t]).filename()}, {"text", setup.tool_texts[t]}});
+  for (std::size_t d = 0; d < setup.drug_texts.size(); ++d)
+    out["drugs"].push_back({{"file", fs::path(setup.drug_files[d]).filename()}, {"text", setup.drug_texts[d]}});
   return out.dump(2);
 }
 
@@ -222,6 +233,11 @@ RunSetup setup_from_json(const std::string& file, const std::string& text) {
       setup.tool_files.push_back(tool.at("file"));
       setup.tool_texts.push_back(tool.at("text"));
     }
+    if (in.contains("drugs"))
+      for (const auto& drug : in.at("drugs")) {
+        setup.drug_files.push_back(drug.at("file"));
+        setup.drug_texts.push_back(drug.at("text"));
+      }
     if (setup.tool_texts.size() != setup.script.tools.size())
       throw data::LoadError(file + ": has another number of instruments than its script has tools");
     return setup;

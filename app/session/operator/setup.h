@@ -19,6 +19,8 @@ struct RunSetup {
   data::Script script;
   std::vector<std::string> tool_texts;  ///< the instrument's file, for each of the script's tools
   std::vector<std::string> tool_files;  ///< and its name
+  std::vector<std::string> drug_texts;  ///< the catalogue's drugs
+  std::vector<std::string> drug_files;  ///< and their names
   std::uint64_t seed = 0;
   double hand_speed = 1;           ///< factor on the script's speeds; (0, 10]
   double breaths_1_min = 0;        ///< for a case's patient; 0: the breath is held

@@ -91,6 +91,8 @@ void EventWatch::look_at_stents(const SessionModel& model, const SessionState& s
       say(data::EventCode::stent_elsewhere, -1,
           model.physiology.flow.tree.branches[static_cast<std::size_t>(own.branch)].tree_branch);
     stents_[i] = where;
+    if (model.treatment.stents[i].covered && where == vascular::StentState::deployed)
+      say(data::EventCode::covered_stent, -1, perforated_s_ < 0 ? -1 : seconds(model, state) - perforated_s_);
   }
 }
 
@@ -103,11 +105,12 @@ void EventWatch::look_at_flow(const SessionModel& model, const SessionState& sta
   closed_ = closed;
 }
 
-void EventWatch::look_at_injuries(const SessionState& state, const EventSink& say) {
+void EventWatch::look_at_injuries(const SessionState& state, double time_s, const EventSink& say) {
   const auto& injuries = state.treatment.injury.injuries;
   for (std::size_t i = 0; i < injuries.size(); ++i) {
     const double value = injuries[i].cell < 0 ? 0 : 10 * static_cast<int>(injuries[i].kind) + injuries[i].grade;
     if (value > injuries_[i]) {
+      if (injuries[i].kind == vascular::InjuryKind::perforation) perforated_s_ = time_s;
       say(data::EventCode::injury, -1, value);
       if (injuries[i].kind == vascular::InjuryKind::perforation)
         say(data::EventCode::perforation, -1, injuries[i].grade);
@@ -171,8 +174,10 @@ void EventWatch::look(const SessionModel& model, const SessionInputs& inputs, co
   look_at_balloon(model, inputs, state, say);
   look_at_stents(model, state, say);
   look_at_flow(model, state, say);
-  look_at_injuries(state, say);
+  look_at_injuries(state, seconds(model, state), say);
   look_at_entry(report, say);
+  look_at_patient(model, state, say);
+  look_at_care(model, inputs, state, say);
 }
 
 }  // namespace ostium::app

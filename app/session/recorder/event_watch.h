@@ -29,11 +29,14 @@ class EventWatch {
   void look_at_beam(const CArmInputs& arm, const EventSink& say);
   void look_at_syringe(const SessionInputs& inputs, const SessionState& state, const EventSink& say);
   void look_at_heart(const SessionState& state, const EventSink& say);
+  void look_at_patient(const SessionModel& model, const SessionState& state, const EventSink& say);
+  void look_at_care(const SessionModel& model, const SessionInputs& inputs, const SessionState& state,
+                    const EventSink& say);
   void look_at_balloon(const SessionModel& model, const SessionInputs& inputs, const SessionState& state,
                        const EventSink& say);
   void look_at_stents(const SessionModel& model, const SessionState& state, const EventSink& say);
   void look_at_flow(const SessionModel& model, const SessionState& state, const EventSink& say);
-  void look_at_injuries(const SessionState& state, const EventSink& say);
+  void look_at_injuries(const SessionState& state, double time_s, const EventSink& say);
   void look_at_entry(const SessionReport& report, const EventSink& say);
 
   // Values at the step before:
@@ -43,6 +46,9 @@ class EventWatch {
   std::array<double, vascular::most_injuries> injuries_{};
   bool injects_ = false, inflated_ = false, filled_ = false, over_ = false, closed_ = false;
   double inflated_since_s_ = 0, closed_since_s_ = 0;
+  bool leaks_ = false, leaked_ = false, low_ = false, pulseless_ = false, drains_ = false, infuses_ = false;
+  double leaks_since_s_ = 0, pulseless_since_s_ = 0, perforated_s_ = -1;
+  vascular::Rhythm rhythm_ = vascular::Rhythm::sinus;
   bool ectopic_ = false, burst_ = false;
   vascular::Trace trace_ = vascular::Trace::absent;
   int refused_ = -1;

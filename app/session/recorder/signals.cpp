@@ -89,7 +89,7 @@ PatientNow::PatientNow(const SessionModel& own_model, const SessionState& own_st
       state(own_state),
       inputs(own_inputs),
       blood(state.blood),
-      ecg_mV(ecg(blood.heart, inputs.rate_1_min, model.physiology.ischaemia, blood.ischaemia)),
+      ecg_mV(ecg(model.physiology.heart, blood.heart, model.physiology.ischaemia, blood.ischaemia)),
       has_lesion(!model.vessel->coronaries->lesions.empty()) {
   if (state.coupling.balloon >= 0)
     balloon = &model.treatment.balloons[static_cast<std::size_t>(state.coupling.balloon)];
@@ -180,6 +180,20 @@ constexpr Signal<PatientNow> of_a_patient[] = {
      [](const PatientNow& x) { return 100 * x.worst.stenosis; }},
     {"stent_margin_least_mm", "mm", "least that stents reach beyond a lesion; not a number: one has none",
      [](const PatientNow& x) { return x.worst.margin_m ? 1e3 * *x.worst.margin_m : none; }},
+    {"systolic_mmHg", "mmHg", "highest pressure in the aorta in the last beat",
+     [](const PatientNow& x) { return x.blood.heart.beat.systolic_Pa / mmHg; }},
+    {"heart_rate_1_min", "1/min", "of the ventricles, by the last beat",
+     [](const PatientNow& x) { return 60 / x.blood.heart.cycle_s; }},
+    {"output_L_min", "L/min", "stroke volume of the last beat times that",
+     [](const PatientNow& x) { return 60e3 * x.blood.heart.beat.stroke_m3 / x.blood.heart.cycle_s; }},
+    {"pericardium_mL", "mL", "fluid round the heart",
+     [](const PatientNow& x) { return x.blood.heart.circulation.pericardium_m3 / units::mL; }},
+    {"pericardium_mmHg", "mmHg", "pressure in the pericardium",
+     [](const PatientNow& x) { return x.blood.heart.circulation.pericardium_Pa / mmHg; }},
+    {"leak_mL_s", "mL/s", "out of the arteries, through all holes",
+     [](const PatientNow& x) { return leak_m3_s(x.state.treatment) / units::mL; }},
+    {"rhythm", "1", "0 sinus, 1 AV block, 2 VF, 3 asystole",
+     [](const PatientNow& x) { return static_cast<double>(x.blood.heart.rhythm); }},
     {"wire_hazard", "1", "hazard so far that the wire's tip perforates",
      [](const PatientNow& x) -> double { return x.state.treatment.injury.wire_H; }},
 };

@@ -107,7 +107,7 @@ void FreeRun::step(int count, const std::function<bool()>& stop) {
   for (int i = 0; i < count; ++i) {
     if (i % 1000 == 999 && stop && stop()) break;
     app::step(model->session, inputs_, state, borrowed.scratch(), report_);
-    inputs_.delivery.heparin_U = inputs_.delivery.nitrate_ug = inputs_.delivery.adenosine_ug = 0;
+    forget_what_is_given_once(inputs_.delivery);
     trouble |= report_.rods.trouble;
     deepest_m = std::max(deepest_m, report_.rods.deepest_m);
     for (std::size_t t = 0; t < peaks.size(); ++t) {

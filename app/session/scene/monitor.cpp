@@ -21,7 +21,7 @@ void add(fluoro::Strip& strip, double value) {
 void Monitor::listen(const SessionModel& model, const SessionState& state, const SessionInputs& inputs) {
   const auto every = static_cast<std::uint64_t>(std::llround(1 / (samples_per_s * model.step_s())));
   if (!model.has_patient() || state.rods.step % every != 0) return;
-  const auto leads = ecg(state.blood.heart, inputs.rate_1_min, model.physiology.ischaemia, state.blood.ischaemia);
+  const auto leads = ecg(model.physiology.heart, state.blood.heart, model.physiology.ischaemia, state.blood.ischaemia);
   // With contrast in the line, or a thick wire, there is no pressure trace.
   const bool damped_out = inputs.delivery.injection_m3_s > 0 || state.coupling.thick_wire;
   add(II, leads[static_cast<int>(vascular::Lead::II)]), add(V2, leads[static_cast<int>(vascular::Lead::V2)]);

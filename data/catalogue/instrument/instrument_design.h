@@ -26,7 +26,8 @@ struct StentCount {
 inline const std::vector<StentCount> stent_design_counts = {
     {"crowns", &vascular::StentDesign::crowns, 3, 24, "crowns of a ring that point distally"},
     {"rings", &vascular::StentDesign::rings, 2, 100, "rings of struts"},
-    {"links", &vascular::StentDesign::links, 1, 24, "links between two rings, which divide its crowns"}};
+    {"links", &vascular::StentDesign::links, 1, 24, "links between two rings, which divide its crowns"},
+    {"covered", &vascular::StentDesign::covered, 0, 1, "1: a membrane covers it"}};
 
 inline const std::vector<DesignNumber<vascular::StentDesign>> stent_design_numbers = {
     {"strut_mm", &vascular::StentDesign::strut_m, 1e-3, 0.03, 0.3, "a strut's thickness in mm"},

@@ -50,6 +50,12 @@ struct ScriptStep {
   double rate_m3_s = 0, volume_m3 = 0, iodine_kg_m3 = 350;  ///< inject
   double gauge_Pa = 0, over_s = 0;                          ///< inflate
   double heparin_U = 0, nitrate_ug = 0, adenosine_ug = 0;   ///< drug
+  std::string drug, dose_unit;                              ///< give
+  double dose = 0;                                          ///< give, in that unit
+  double energy_J = 0;                                      ///< shock
+  int complication = 0;                                     ///< provoke: vascular::Provoked
+  std::string at;                                           ///< provoke: a place in a coronary artery
+  double size = 0;                                          ///< provoke: vascular::Provocation::size
   int line = 0;                                             ///< line in the file
   std::string words() const;                                ///< "advance", or "advance (label)"
 };

@@ -23,7 +23,12 @@ enum class ScriptAction {
   inject,
   inflate,
   deflate,
-  drug
+  drug,
+  give,
+  infuse,
+  drain,
+  shock,
+  provoke
 };
 
 /// Every step may have a `label` and be a `detour`; one that can fail may also have `unless`, `timeout_s`, `otherwise`,
@@ -48,7 +53,12 @@ inline constexpr ScriptActionRow script_actions[] = {
     {ScriptAction::inject, "inject", {"rate_mL_s", "volume_mL"}, {"iodine_mg_mL", "until"}, true},
     {ScriptAction::inflate, "inflate", {"gauge_atm", "over_s"}, {"until"}, true},
     {ScriptAction::deflate, "deflate", {}, {"until"}, true},
-    {ScriptAction::drug, "drug", {}, {"heparin_U", "nitrate_ug", "adenosine_ug"}, false}};
+    {ScriptAction::drug, "drug", {}, {"heparin_U", "nitrate_ug", "adenosine_ug"}, false},
+    {ScriptAction::give, "give", {"drug"}, {"dose_ug", "dose_mg"}, false},
+    {ScriptAction::infuse, "infuse", {"rate_mL_s", "volume_mL"}, {"until"}, true},
+    {ScriptAction::drain, "drain", {"rate_mL_s", "volume_mL"}, {"until"}, true},
+    {ScriptAction::shock, "shock", {"energy_J"}, {}, false},
+    {ScriptAction::provoke, "provoke", {"complication"}, {"at", "hole_mm", "grade", "share"}, false}};
 
 inline constexpr int action_kinds = static_cast<int>(std::size(script_actions));
 
@@ -65,6 +75,12 @@ constexpr bool each_action_has_a_row() {
   return true;
 }
 static_assert(each_action_has_a_row());
+
+/// Whether the action needs a circulation, which a mesh does not have.
+constexpr bool needs_patient(ScriptAction action) {
+  return action == ScriptAction::give || action == ScriptAction::infuse || action == ScriptAction::drain ||
+         action == ScriptAction::shock || action == ScriptAction::provoke;
+}
 
 /// The value of "do" for a step that stands for the steps of another script.
 inline constexpr const char* stands_for_steps = "script";

@@ -41,7 +41,16 @@ enum class ConditionKind {
   act_exceeds,
   stenosis_below,
   stent_beyond,
-  unharmed
+  unharmed,
+  systolic_below,
+  systolic_exceeds,
+  rate_below,
+  rate_exceeds,
+  pericardium_below,
+  pericardium_exceeds,
+  sealed,
+  pulseless,
+  stopped
 };
 
 /// The type of the condition key's value.
@@ -71,7 +80,8 @@ struct ConditionRow {
 };
 
 namespace condition_units {
-inline constexpr double none = 1, mm = 1e-3, deg = units::pi / 180, N = 1, mNm = 1e-3, s = 1, percent = 1e-2, mV = 1e-3;
+inline constexpr double none = 1, mm = 1e-3, deg = units::pi / 180, N = 1, mNm = 1e-3, s = 1, percent = 1e-2, mV = 1e-3,
+                        mmHg = units::mmHg, mL = units::mL;
 }
 
 // clang-format off
@@ -143,7 +153,25 @@ inline constexpr ConditionRow condition_rows[] = {
      "stents cover the lesion without a gap and reach so far beyond it at both ends, in mm, > 0; no farther than the "
      "artery goes"},
     {ConditionKind::unharmed, "unharmed", ConditionValue::only_true, ConditionOf::patient, 0, {}, "",
-     "true: no artery is perforated, no dissection of type C to F lies outside a stent"}};
+     "true: no artery is perforated, no dissection of type C to F lies outside a stent"},
+    {ConditionKind::systolic_below, "systolic_below_mmHg", ConditionValue::number, ConditionOf::patient, condition_units::mmHg, above_zero, "",
+     "the aorta's pressure in the last beat, > 0"},
+    {ConditionKind::systolic_exceeds, "systolic_exceeds_mmHg", ConditionValue::number, ConditionOf::patient, condition_units::mmHg, above_zero, "",
+     "the aorta's pressure in the last beat, > 0"},
+    {ConditionKind::rate_below, "rate_below_1_min", ConditionValue::number, ConditionOf::patient, condition_units::none, above_zero, "",
+     "beats a minute, > 0"},
+    {ConditionKind::rate_exceeds, "rate_exceeds_1_min", ConditionValue::number, ConditionOf::patient, condition_units::none, above_zero, "",
+     "beats a minute, > 0"},
+    {ConditionKind::pericardium_below, "pericardium_below_mL", ConditionValue::number, ConditionOf::patient, condition_units::mL, above_zero, "",
+     "fluid round the heart, as an echo shows it, in mL, > 0"},
+    {ConditionKind::pericardium_exceeds, "pericardium_exceeds_mL", ConditionValue::number, ConditionOf::patient, condition_units::mL, above_zero, "",
+     "fluid round the heart, as an echo shows it, in mL, > 0"},
+    {ConditionKind::sealed, "sealed", ConditionValue::only_true, ConditionOf::patient, 0, {}, "",
+     "true: no hole leaks more than a film shows, 0.02 mL/s"},
+    {ConditionKind::pulseless, "pulseless", ConditionValue::only_true, ConditionOf::patient, 0, {}, "",
+     "true: the last beat made no pulse"},
+    {ConditionKind::stopped, "stopped", ConditionValue::only_true, ConditionOf::patient, 0, {}, "",
+     "true: the heart stands still"}};
 // clang-format on
 
 inline constexpr int condition_kinds = static_cast<int>(std::size(condition_rows));

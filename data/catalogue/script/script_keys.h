@@ -5,8 +5,14 @@
 #include "data/catalogue/script/script_actions.h"
 #include "data/catalogue/script/script_condition_reader.h"
 #include "data/formats/json_object.h"
+#include "vascular/treatment/treatment.h"
 
 namespace ostium::data::script_keys {
+
+/// All but "nothing".
+inline std::vector<std::string> complication_names() {
+  return {std::begin(vascular::provocation_names) + 1, std::end(vascular::provocation_names)};
+}
 
 inline const JsonObjectKeys root = {
     "script",
@@ -114,14 +120,26 @@ inline const JsonObjectKeys step = {
       json_type::text()},
      {"rate_mL_s", false, "how fast the thumb pushes, in mL/s, > 0 and at most 20",
       json_type::number(above_zero_to(20))},
-     {"volume_mL", false, "how much, in mL, > 0 and at most 60", json_type::number(above_zero_to(60))},
+     {"volume_mL", false, "how much, in mL, > 0 and at most 60; of fluid and of a drain, at most 1000",
+      json_type::number(above_zero_to(1000))},
      {"iodine_mg_mL", false, "of what is in the syringe, 0 (saline) to 400; 350 if it is not said",
       json_type::number(from_to(0, 400))},
      {"gauge_atm", false, "pressure at the inflation device in atm, 0 to 30", json_type::number(from_to(0, 30))},
      {"over_s", false, "in how many seconds that is reached, > 0 and at most 60", json_type::number(above_zero_to(60))},
      {"heparin_U", false, "dose, > 0 and at most 20000", json_type::number(above_zero_to(20000))},
      {"nitrate_ug", false, "dose, into the coronary, > 0 and at most 1000", json_type::number(above_zero_to(1000))},
-     {"adenosine_ug", false, "dose, into the coronary, > 0 and at most 1000", json_type::number(above_zero_to(1000))}},
+     {"adenosine_ug", false, "dose, into the coronary, > 0 and at most 1000", json_type::number(above_zero_to(1000))},
+     {"drug", false, "a name of data/drugs", json_type::text()},
+     {"dose_ug", false, "dose, > 0; the drug's file has its limits", json_type::number(above_zero_to(10000))},
+     {"dose_mg", false, "dose, > 0; the drug's file has its limits", json_type::number(above_zero_to(1000))},
+     {"energy_J", false, "of a defibrillator, 1 to 360", json_type::number(from_to(1, 360))},
+     {"complication", false, "what a trainer provokes", json_type::choice(complication_names())},
+     {"at", false, "where: millimetres beyond the origin of a coronary branch, as RCA+40", json_type::text()},
+     {"hole_mm", false, "diameter of a perforation, 0.1 to 2; 0.8 if it is not said",
+      json_type::number(from_to(0.1, 2))},
+     {"grade", false, "of a dissection", json_type::choice({"A", "B", "C", "D", "E", "F"})},
+     {"share", false, "of the diameter that spasm takes, of the muscle that no-reflow closes, 0.1 to 0.98",
+      json_type::number(from_to(0.1, 0.98))}},
     {},
     true};
 

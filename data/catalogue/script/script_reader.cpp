@@ -54,10 +54,46 @@ void read_treatment(const JsonObject& object, ScriptStep& step) {
   number("heparin_U", 1, step.heparin_U);
   number("nitrate_ug", 1, step.nitrate_ug);
   number("adenosine_ug", 1, step.adenosine_ug);
+  number("dose_ug", 1, step.dose);
+  number("dose_mg", 1, step.dose);
+  number("energy_J", 1, step.energy_J);
   number("iodine_mg_mL", 1, step.iodine_kg_m3);
   number("gauge_atm", 101325, step.gauge_Pa);
   if (step.action == ScriptAction::drug && step.heparin_U + step.nitrate_ug + step.adenosine_ug == 0)
     object.value().fail(object.value().path() + " gives nothing; expected heparin_U, nitrate_ug or adenosine_ug");
+}
+
+/// What of a complication is asked for beside its name and place.
+void read_complication(const JsonObject& object, ScriptStep& step) {
+  using vascular::Provoked;
+  if (object.has("at")) step.at = object.text("at");
+  const auto kind = static_cast<Provoked>(1 + object.choice("complication", keys::complication_names()));
+  step.complication = static_cast<int>(kind);
+  const bool rhythm = kind == Provoked::fibrillation || kind == Provoked::block;
+  if (rhythm == object.has("at"))
+    object.value().fail(object.value().path() + (rhythm ? " has a place; a rhythm has none"
+                                                        : ".at is missing; expected a place in a coronary artery"));
+  const auto only_of = [&](const char* key, bool own) {
+    if (object.has(key) && !own) object.refuse(key);
+    return object.has(key);
+  };
+  step.size = kind == Provoked::perforation ? 0.8e-3 : kind == Provoked::dissection ? 2 : 0.9;
+  if (only_of("hole_mm", kind == Provoked::perforation)) step.size = 1e-3 * object.number("hole_mm");
+  if (only_of("grade", kind == Provoked::dissection))
+    step.size = static_cast<double>(object.choice("grade", {"A", "B", "C", "D", "E", "F"}));
+  if (only_of("share", kind == Provoked::spasm || kind == Provoked::no_reflow)) step.size = object.number("share");
+}
+
+/// What is given in an emergency.
+void read_emergency(const JsonObject& object, ScriptStep& step) {
+  constexpr double most_injected_m3 = 60e-6;
+  if (step.action == ScriptAction::inject && step.volume_m3 > most_injected_m3) object.refuse("volume_mL");
+  if (step.action == ScriptAction::provoke) read_complication(object, step);
+  if (step.action != ScriptAction::give) return;
+  step.drug = object.text("drug");
+  if (object.has("dose_ug") == object.has("dose_mg"))
+    object.value().fail(object.value().path() + " has no dose, or two; expected dose_ug or dose_mg");
+  step.dose_unit = object.has("dose_ug") ? "ug" : "mg";
 }
 
 std::vector<int> read_tools(const JsonObject& object, const Script& script) {
@@ -107,6 +143,7 @@ ScriptStep read_step(const JsonValue& value, const Script& script) {
   if (step.action == ScriptAction::mark && step.text.empty() && step.label.empty())
     value.fail(value.path() + " marks nothing; expected text or label");
   read_treatment(object, step);
+  read_emergency(object, step);
   return step;
 }
 

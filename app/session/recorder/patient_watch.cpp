@@ -1,0 +1,63 @@
+/// Events of the patient's answer and of what is done about it.
+#include <algorithm>
+
+#include "app/session/recorder/event_watch.h"
+#include "core/base/units.h"
+
+namespace ostium::app {
+
+using units::mL, units::mmHg;
+
+namespace {
+
+constexpr double low_Pa = 80 * mmHg, low_no_more_Pa = 90 * mmHg;
+
+}  // namespace
+
+void EventWatch::look_at_patient(const SessionModel& model, const SessionState& state, const EventSink& say) {
+  const vascular::HeartState& heart = state.blood.heart;
+  const double time_s = seconds(model, state), leak_m3_s = vascular::leak_m3_s(state.treatment);
+  const bool leaks = leak_m3_s > visible_leak_m3_s;
+  if (leaks && !leaks_) {
+    if (leaked_) say(data::EventCode::leak_goes_on, -1, leak_m3_s / mL);
+    leaks_since_s_ = time_s, leaked_ = true;
+  }
+  if (!leaks && leaks_) say(data::EventCode::leak_stops, -1, time_s - leaks_since_s_);
+  leaks_ = leaks;
+  const double systolic = heart.beat.systolic_Pa;
+  if (!low_ && systolic < low_Pa) say(data::EventCode::pressure_low, -1, systolic / mmHg), low_ = true;
+  if (systolic > low_no_more_Pa) low_ = false;
+  const bool pulseless = heart.pulseless_s > 0;
+  if (pulseless && !pulseless_) say(data::EventCode::pulse_lost, -1, systolic / mmHg), pulseless_since_s_ = time_s;
+  if (!pulseless && pulseless_) say(data::EventCode::pulse_back, -1, time_s - pulseless_since_s_);
+  pulseless_ = pulseless;
+  if (heart.rhythm != rhythm_) {
+    say(data::EventCode::rhythm_changes, -1, static_cast<double>(heart.rhythm));
+    if (heart.rhythm == vascular::Rhythm::asystole) say(data::EventCode::heart_stops, -1, heart.pulseless_s);
+  }
+  rhythm_ = heart.rhythm;
+}
+
+void EventWatch::look_at_care(const SessionModel& model, const SessionInputs& inputs, const SessionState& state,
+                              const EventSink& say) {
+  const DeliveryInputs& hand = inputs.delivery;
+  const double round_mL = state.blood.heart.circulation.pericardium_m3 / mL;
+  const bool drains = hand.drain_m3_s > 0, infuses = hand.infusion_m3_s > 0;
+  if (drains != drains_) say(drains ? data::EventCode::drain_begins : data::EventCode::drain_ends, -1, round_mL);
+  if (infuses && !infuses_) say(data::EventCode::infusion_begins, -1, hand.infusion_m3_s / mL);
+  drains_ = drains, infuses_ = infuses;
+  if (hand.shock_J > 0) say(data::EventCode::shock, -1, hand.shock_J);
+  if (hand.provoked > 0) say(data::EventCode::provoked, -1, hand.provoked);
+  if (hand.drug_dose <= 0 || hand.drug < 0) return;
+  say(data::EventCode::drug_given, -1, hand.drug);
+  const auto& drugs = model.treatment.drugs.others;
+  if (static_cast<std::size_t>(hand.drug) >= drugs.size()) return;
+  const auto& effects = drugs[static_cast<std::size_t>(hand.drug)].effects;
+  const bool reverses = std::any_of(effects.begin(), effects.end(), [](const vascular::DrugEffect& one) {
+    return one.target == vascular::DrugTarget::heparin;
+  });
+  if (const int inside = (state.coupling.wire_cell >= 0) + (state.coupling.branch >= 0); reverses && inside > 0)
+    say(data::EventCode::protamine_over_devices, -1, inside);
+}
+
+}  // namespace ostium::app
