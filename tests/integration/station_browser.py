@@ -181,7 +181,7 @@ def main(ostium, picture=None):
         tube(folder / "tube.stl")
         (folder / "watched.json").write_text(json.dumps(SCRIPT))
         out = folder / "out"
-        run = subprocess.Popen([ostium, "serve", folder / "tube.stl", "--unit", "mm", "--entry", "0,0,0", "--towards",
+        run = subprocess.Popen([ostium, "serve", folder / "tube.stl", "--units", "mm", "--entry", "0,0,0", "--towards",
                                 "50,0,0", "--script", folder / "watched.json", "--out", out, "--no-report"],
                                stdout=subprocess.PIPE, text=True)
         browser = None
