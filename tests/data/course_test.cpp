@@ -40,7 +40,7 @@ TEST(Course, AFaultyOneNamesFileLineKeyAndCure) {
     std::string from, to, says;
   };
   const Fault faults[] = {
-      {"\"goal\": \"done\", ", "", "mine.json:4: lessons[0] has no \"goal\""},
+      {"\"goal\": \"done\", ", "", "mine.json:4: lessons[0].goal is missing"},
       {"[\"push\"]", "[]", "mine.json:4: lessons[0].instructions"},
       {"[\"push\"]", "[7]", "mine.json:4: lessons[0].instructions[0] is 7; expected a text"},
       {"rca-mid-focal", "rca-nowhere", "mine.json:5: lessons[0].case is \"rca-nowhere\": there is no case"},
