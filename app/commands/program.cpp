@@ -19,6 +19,8 @@ Command predict_command();
 Command explain_command();
 Command characterise_command();
 Command run_command();
+Command serve_command();
+Command learn_command();
 Command report_command();
 Command scripts_command();
 Command sweep_command();
@@ -32,9 +34,9 @@ Command program() {
   ostium.subcommands = {verify_command(),  instruments_command(),  cases_command(),      check_command(),
                         import_command(),  frame_command(),        inject_command(),     treat_command(),
                         views_command(),   picture_command(),      centreline_command(), predict_command(),
-                        explain_command(), characterise_command(), run_command(),        report_command(),
-                        scripts_command(), sweep_command(),        dataset_command(),    replay_command(),
-                        device_command()};
+                        explain_command(), characterise_command(), run_command(),        serve_command(),
+                        learn_command(),   report_command(),       scripts_command(),    sweep_command(),
+                        dataset_command(), replay_command(),       device_command()};
   return ostium;
 }
 

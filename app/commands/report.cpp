@@ -111,11 +111,12 @@ data::ReportRun run_of(Replay& replay, const std::string& code, const data::Scor
 
 }  // namespace
 
-void report_folder(const std::string& folder, std::shared_ptr<const Vessel> vessel) {
+void report_folder(const std::string& folder, std::shared_ptr<const Vessel> vessel, const std::string& recording,
+                   const std::string& scoring) {
   namespace fs = std::filesystem;
   const fs::path at(folder);
-  Replay replay((at / "run.h5").string(), std::move(vessel));
-  const data::ScoreList list = data::find_score_list("pci-elective");
+  Replay replay((at / recording).string(), std::move(vessel));
+  const data::ScoreList list = data::find_score_list(scoring);
   const std::vector<data::ReportRun> runs = {run_of(replay, "this run", list, true)};
   data::write_file((at / "report.html").string(), report_page(runs, list));
   data::write_file((at / "events.csv").string(), events_csv(runs[0]));

@@ -105,14 +105,14 @@ void draw_strips(const Pen& pen, const PanelTexts& texts, const Snapshot& now, d
 }
 
 void draw_tray(const Pen& pen, const PanelTexts& texts, const Snapshot& now, double x, double y, double w) {
-  pen.write(dim, 12, x, y, texts.plays ? "tools (left hand, right hand; Tab changes)" : "tools");
+  pen.write(dim, 12, x, y, now.hands == Hands::seats ? "tools (left hand, right hand; Tab changes)" : "tools");
   y += 6;
   for (std::size_t t = 0; t < texts.tools.size(); ++t) {
     const bool left = static_cast<int>(t) == texts.left_hand, right = static_cast<int>(t) == now.right_hand;
     const double inserted = 100 * now.state.rods.rods[t].inserted_m;
-    const bool in = now.in_body[t];
+    const bool in = now.tools[t].in_body;
     pen.fill(box, x, y, w, 22);
-    if (texts.plays && (left || right)) pen.write(yellow, 12, x + 5, y + 15, left ? "L" : "R");
+    if (now.hands == Hands::seats && (left || right)) pen.write(yellow, 12, x + 5, y + 15, left ? "L" : "R");
     pen.write(in ? pale : dim, 12.5, x + 22, y + 15.5, texts.tools[t]);
     pen.write_to(in ? pale : dim, 12.5, x + w - 8, y + 15.5, in ? fmt::format("{:.1f} cm", inserted) : "out");
     y += 24;
@@ -154,44 +154,35 @@ void draw_numbers(const Pen& pen, const PanelTexts& texts, const Snapshot& now, 
   }
 }
 
-void draw_help(const Pen& pen, const PanelTexts& texts) {
+void draw_help(const Pen& pen, const PanelTexts& texts, const Snapshot& now) {
   cairo_set_source_rgba(pen.cr(), 0.03, 0.04, 0.05, 0.88);
-  cairo_rectangle(pen.cr(), 60, 60, 650, 640);
+  cairo_rectangle(pen.cr(), 30, 30, 710, 720);
   cairo_fill(pen.cr());
-  double y = 96;
-  pen.write(pale, 18, 84, y, "Keys");
-  for (const KeyHelp& help : key_help()) {
-    if ((help.needs == KeyNeeds::hands && !texts.plays) ||
-        (help.needs == KeyNeeds::hands_and_patient && !(texts.plays && texts.has_patient)))
-      continue;
-    y += 25;
-    pen.write(yellow, 14, 84, y, help.keys);
-    pen.write(pale, 14, 270, y, help.what);
+  double y = 62;
+  pen.write(pale, 18, 54, y, "Keys");
+  y += 6;
+  for (const KeyHelp& help : key_help(now.hands, texts.has_patient)) {
+    y += 19;
+    pen.write(yellow, 13, 54, y, help.keys);
+    pen.write(pale, 13, 210, y, help.what);
   }
 }
 
 }  // namespace
 
-const std::vector<KeyHelp>& key_help() {
-  using enum KeyNeeds;
-  static const std::vector<KeyHelp> all = {
-      {"W / S, A / D", "guide: push / pull, turn (left stick)", hands},
-      {"I / K, J / L", "right hand: push / pull, turn (right stick)", hands},
-      {"Tab", "right hand: next tool (button A)", hands},
-      {"Shift", "fine (LB)", hands},
-      {"Space", "fluoroscopy, while held (RT)", hands},
-      {"V", "cine, while held (RB)", hands},
-      {"F, G", "contrast, saline, while held (LT, B)", hands_and_patient},
-      {"[  ]  \\", "gauge: 1 atm less, more; vacuum while held (X, Y)", hands_and_patient},
-      {"Backspace", "gauge: back to 0", hands_and_patient},
-      {"arrows; Ctrl + arrows", "C-arm by 5 degrees; table by 1 cm (D-pad)", hands},
-      {"1 to 8, Z", "standard views; field", hands},
-      {"N, E", "nitrate 200 ug; heparin 5000 U", hands_and_patient},
-      {"H", "this picture becomes the reference", nothing},
-      {"B", "marks this moment: an event, and a picture in the report", nothing},
-      {"P, Escape", "pause; end", nothing},
-      {"F1", "these keys", nothing},
-  };
+std::vector<KeyHelp> key_help(Hands hands, bool has_patient) {
+  std::vector<KeyHelp> all;
+  for (const data::ConsoleRow& row : data::console_rows) {
+    const bool of_hands = row.needs == data::ConsoleNeeds::hands;
+    const bool in_the_way = (row.held && of_hands && !row.patient && hands != Hands::seats) ||
+                            (of_hands && hands == Hands::script) || (row.patient && !has_patient) ||
+                            (row.command == ConsoleCommand::take_over && hands != Hands::script);
+    std::string keys;
+    for (const data::ConsoleKey& key : data::console_keys)
+      if (key.order.command == row.command)
+        keys += (keys.empty() ? "" : "  ") + std::string(key.ctrl ? "Ctrl+" : "") + key.key;
+    if (!keys.empty() && !in_the_way) all.push_back({keys, row.what});
+  }
   return all;
 }
 
@@ -201,14 +192,14 @@ double signal(const PanelTexts& texts, const Snapshot& now, const std::string& n
   return now.signals[static_cast<std::size_t>(at - texts.signal_names.begin())];
 }
 
-PanelTexts panel_texts(const SessionModel& model, const ScriptPlan& plan, const LiveDriver& hand, bool plays) {
+PanelTexts panel_texts(const SessionModel& model, const ScriptPlan& plan, const LiveDriver& hand) {
   PanelTexts texts;
-  texts.title = model.vessel->name + (plays ? "" : ", " + plan.script.name);
+  texts.title = model.vessel->name + (plan.script.by_hand ? "" : ", " + plan.script.name);
   for (const SessionTool& tool : model.tools) texts.tools.push_back(tool.name + ": " + tool.instrument.title);
   for (std::size_t s = 0; s < plan.script.steps.size(); ++s) texts.steps.push_back(plan.script.steps[s].words());
   texts.signal_names = signal_names(model);
   texts.left_hand = hand.left_hand();
-  texts.plays = plays, texts.has_patient = model.has_patient();
+  texts.has_patient = model.has_patient();
   return texts;
 }
 
@@ -244,11 +235,13 @@ void draw_panel(const PanelTexts& texts, const Snapshot& now, const PanelView& v
     pen.write({1, 1, 1}, 18, 24, 368, view.problem.substr(0, end == std::string::npos ? end : end + 1));
     if (end != std::string::npos) pen.write({1, 1, 1}, 18, 24, 392, view.problem.substr(end + 2));
   }
+  if (view.review_frames > 0)
+    pen.write(yellow, 16, 16, 36, fmt::format("cine review {} of {}", view.review_frame, view.review_frames));
   if (now.paused) {
     pen.fill(yellow, 324, 20, 128, 30);
     pen.write({0, 0, 0}, 16, 350, 41, "PAUSED");
   }
-  if (view.help) draw_help(pen, texts);
+  if (view.help) draw_help(pen, texts, now);
 }
 
 }  // namespace ostium::app

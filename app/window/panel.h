@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "app/window/live_driver.h"
+#include "app/session/live/live_driver.h"
 #include "fluoro/detector/exposure.h"
 #include "fluoro/display/display.h"
 
@@ -20,9 +20,9 @@ struct PanelTexts {
   std::vector<std::string> steps;         ///< of the script
   std::vector<std::string> signal_names;  ///< of Snapshot::signals
   int left_hand = 0;
-  bool plays = false, has_patient = false;
+  bool has_patient = false;
 };
-PanelTexts panel_texts(const SessionModel& model, const ScriptPlan& plan, const LiveDriver& hand, bool plays);
+PanelTexts panel_texts(const SessionModel& model, const ScriptPlan& plan, const LiveDriver& hand);
 
 /// One of Snapshot::signals; not a number where the run has none of that name.
 double signal(const PanelTexts& texts, const Snapshot& now, const std::string& name);
@@ -31,7 +31,8 @@ struct PanelView {
   const fluoro::Picture* picture = nullptr;    ///< live; null: none yet
   const fluoro::Picture* reference = nullptr;  ///< null: none
   fluoro::DoseMeter dose;
-  std::string problem;  ///< in red: a lost wire, an unplugged cable; empty: none
+  int review_frame = 0, review_frames = 0;  ///< of a stored cine run; 0: live
+  std::string problem;                      ///< in red: a lost wire, an unplugged cable; empty: none
   bool help = false;
 };
 
@@ -39,15 +40,11 @@ struct PanelView {
 void draw_panel(const PanelTexts& texts, const Snapshot& now, const PanelView& view,
                 std::vector<std::uint32_t>& pixels);
 
-/// When a key does something: always, where the keys move the instruments, or only if there is a patient as well.
-enum class KeyNeeds { nothing, hands, hands_and_patient };
-
-/// What a key does. The help lists those that do something in this run.
+/// A command's keys and what it does.
 struct KeyHelp {
-  const char* keys;
-  const char* what;
-  KeyNeeds needs;
+  std::string keys, what;
 };
-const std::vector<KeyHelp>& key_help();
+/// Of the commands that do something in this run, in the console's order.
+std::vector<KeyHelp> key_help(Hands hands, bool has_patient);
 
 }  // namespace ostium::app

@@ -7,9 +7,7 @@
 #include <optional>
 #include <stdexcept>
 
-#include "app/session/scene/film.h"
-#include "app/window/live_picture.h"
-#include "app/window/reference.h"
+#include "app/session/live/live_picture.h"
 #include "core/base/thread_priority.h"
 #include "data/formats/png.h"
 
@@ -29,56 +27,19 @@ struct Video {
 template <class T>
 using Owned = std::unique_ptr<T, void (*)(T*)>;
 
-struct HeldKey {
-  SDL_Keycode key;
-  Level level;
-  double value;
-};
-constexpr HeldKey held_keys[] = {
-    {SDLK_w, Level::guide_feed, 1},  {SDLK_s, Level::guide_feed, -1},     {SDLK_d, Level::guide_turn, 1},
-    {SDLK_a, Level::guide_turn, -1}, {SDLK_i, Level::device_feed, 1},     {SDLK_k, Level::device_feed, -1},
-    {SDLK_l, Level::device_turn, 1}, {SDLK_j, Level::device_turn, -1},    {SDLK_LSHIFT, Level::fine, 1},
-    {SDLK_RSHIFT, Level::fine, 1},   {SDLK_SPACE, Level::fluoroscopy, 1}, {SDLK_v, Level::cine, 1},
-    {SDLK_f, Level::contrast, 1},    {SDLK_g, Level::flush, 1},           {SDLK_BACKSLASH, Level::vacuum, 1}};
-
-struct PressedKey {
-  SDL_Keycode key;
-  bool ctrl;
-  Action action;
-};
-constexpr PressedKey pressed_keys[] = {{SDLK_TAB, false, Action::swap},
-                                       {SDLK_RIGHTBRACKET, false, Action::atm_up},
-                                       {SDLK_LEFTBRACKET, false, Action::atm_down},
-                                       {SDLK_BACKSPACE, false, Action::release},
-                                       {SDLK_LEFT, false, Action::left},
-                                       {SDLK_RIGHT, false, Action::right},
-                                       {SDLK_UP, false, Action::cranial},
-                                       {SDLK_DOWN, false, Action::caudal},
-                                       {SDLK_LEFT, true, Action::table_left},
-                                       {SDLK_RIGHT, true, Action::table_right},
-                                       {SDLK_UP, true, Action::table_up},
-                                       {SDLK_DOWN, true, Action::table_down},
-                                       {SDLK_z, false, Action::zoom},
-                                       {SDLK_h, false, Action::reference},
-                                       {SDLK_e, false, Action::heparin},
-                                       {SDLK_n, false, Action::nitrate},
-                                       {SDLK_b, false, Action::mark},
-                                       {SDLK_p, false, Action::pause},
-                                       {SDLK_F1, false, Action::help},
-                                       {SDLK_ESCAPE, false, Action::quit}};
-
 /// SDL's events of keys, mouse buttons and a gamepad, as Controls.
 class Events {
  public:
-  explicit Events(LiveDriver& hand) : hand_(hand) {}
+  explicit Events(LiveDriver& hand) : controls_(hand.controls(Seat::window)) {
+    for (const data::ConsoleKey& key : data::console_keys) codes_.push_back(SDL_GetKeyFromName(key.key));
+  }
 
-  bool reference = false;  ///< was asked for
   bool help = false;
 
   void take(const SDL_Event& event) {
     switch (event.type) {
       case SDL_QUIT:
-        press(Action::quit);
+        controls_.order(ConsoleCommand::end);
         break;
       case SDL_KEYDOWN:
       case SDL_KEYUP:
@@ -90,8 +51,16 @@ class Events {
         break;
       case SDL_MOUSEBUTTONDOWN:
       case SDL_MOUSEBUTTONUP:
-        hand_.controls.set(event.button.button == SDL_BUTTON_RIGHT ? Level::cine : Level::fluoroscopy,
-                           event.type == SDL_MOUSEBUTTONDOWN);
+        controls_.set(event.button.button == SDL_BUTTON_RIGHT ? ConsoleCommand::cine : ConsoleCommand::fluoroscopy,
+                      event.type == SDL_MOUSEBUTTONDOWN);
+        break;
+      case SDL_MOUSEWHEEL:
+        if (event.wheel.y != 0) controls_.order(ConsoleCommand::next_field);
+        break;
+      case SDL_MOUSEMOTION:
+        // The table is dragged with the middle button: about as far as the picture moves.
+        if (event.motion.state & SDL_BUTTON_MMASK)
+          controls_.order({ConsoleCommand::move_table, {-table_mm * event.motion.xrel, table_mm * event.motion.yrel}});
         break;
       case SDL_CONTROLLERDEVICEADDED:
         if (!pad_) pad_.reset(SDL_GameControllerOpen(event.cdevice.which));
@@ -113,73 +82,71 @@ class Events {
   }
 
  private:
-  void press(Action action) {
-    if (action == Action::reference) reference = true;
-    if (action == Action::help) help = !help;
-    hand_.controls.press(action);
-  }
+  static constexpr double table_mm = 0.2;  ///< a pixel of the window
   void let_all_go() {
-    for (int i = 0; i < levels; ++i) hand_.controls.set(static_cast<Level>(i), 0);
+    controls_.let_all_go();
     down_.clear();
   }
   void key(const SDL_KeyboardEvent& event) {
     const bool down = event.type == SDL_KEYDOWN;
     if (event.repeat) return;
-    for (const HeldKey& held : held_keys)
-      if (held.key == event.keysym.sym) {
-        // The opposite key, if it is still down, has the say again.
-        std::erase(down_, &held);
-        if (down) down_.push_back(&held);
-        double value = 0;
-        for (const HeldKey* other : down_)
-          if (other->level == held.level) value = other->value;
-        hand_.controls.set(held.level, value);
-        return;
-      }
-    if (!down) return;
+    if (event.keysym.sym == SDLK_F1 && down) help = !help;
     const bool ctrl = (event.keysym.mod & KMOD_CTRL) != 0;
-    for (const PressedKey& pressed : pressed_keys)
-      if (pressed.key == event.keysym.sym && pressed.ctrl == ctrl) return press(pressed.action);
-    if (event.keysym.sym >= SDLK_1 && event.keysym.sym <= SDLK_8)
-      press(static_cast<Action>(static_cast<int>(Action::view_1) + event.keysym.sym - SDLK_1));
+    for (std::size_t i = 0; i < codes_.size(); ++i) {
+      const data::ConsoleKey& key = data::console_keys[i];
+      const bool held = data::row_of(key.order.command).held;
+      if (codes_[i] != event.keysym.sym || (!held && (key.ctrl != ctrl || !down))) continue;
+      return held ? hold(key, down) : controls_.order(key.order);
+    }
+  }
+  void hold(const data::ConsoleKey& key, bool down) {
+    // The opposite key, if it is still down, has the say again.
+    std::erase(down_, &key);
+    if (down) down_.push_back(&key);
+    double value = 0;
+    for (const data::ConsoleKey* other : down_)
+      if (other->order.command == key.order.command) value = other->order.values[0];
+    controls_.set(key.order.command, value);
   }
   void axis(const SDL_ControllerAxisEvent& event) {
     const double raw = event.value / 32767.0, value = std::fabs(raw) < 0.12 ? 0 : raw;
-    Controls& c = hand_.controls;
+    Controls& c = controls_;
+    using enum ConsoleCommand;
     switch (event.axis) {
       case SDL_CONTROLLER_AXIS_LEFTY:
-        return c.set(Level::guide_feed, -value);
+        return c.set(guide_feed, -value);
       case SDL_CONTROLLER_AXIS_LEFTX:
-        return c.set(Level::guide_turn, value);
+        return c.set(guide_turn, value);
       case SDL_CONTROLLER_AXIS_RIGHTY:
-        return c.set(Level::device_feed, -value);
+        return c.set(device_feed, -value);
       case SDL_CONTROLLER_AXIS_RIGHTX:
-        return c.set(Level::device_turn, value);
+        return c.set(device_turn, value);
       case SDL_CONTROLLER_AXIS_TRIGGERRIGHT:
-        return c.set(Level::fluoroscopy, value);
+        return c.set(fluoroscopy, value);
       case SDL_CONTROLLER_AXIS_TRIGGERLEFT:
-        return c.set(Level::contrast, value);
+        return c.set(contrast, value);
       default:
         return;
     }
   }
   void button(const SDL_ControllerButtonEvent& event) {
     const bool down = event.type == SDL_CONTROLLERBUTTONDOWN;
-    Controls& c = hand_.controls;
+    Controls& c = controls_;
+    using enum ConsoleCommand;
     switch (event.button) {
       case SDL_CONTROLLER_BUTTON_RIGHTSHOULDER:
-        return c.set(Level::cine, down);
+        return c.set(cine, down);
       case SDL_CONTROLLER_BUTTON_LEFTSHOULDER:
-        return c.set(Level::fine, down);
+        return c.set(fine, down);
       case SDL_CONTROLLER_BUTTON_B:
-        return c.set(Level::flush, down);
+        return c.set(saline, down);
       case SDL_CONTROLLER_BUTTON_X:
         // A tap is one atmosphere less; held, it draws the plunger back.
         if (down) {
-          press(Action::atm_down);
+          c.order(change_gauge, -1);
           x_since_ = event.timestamp;
         } else {
-          c.set(Level::vacuum, 0);
+          c.set(vacuum, 0);
           x_since_ = 0;
         }
         return;
@@ -187,22 +154,22 @@ class Events {
         break;
     }
     if (!down) return;
-    const bool arm = c.get(Level::fine) > 0.5;
+    const bool arm = c.get(fine) > 0.5;
     switch (event.button) {
       case SDL_CONTROLLER_BUTTON_A:
-        return press(Action::swap);
+        return c.order(next_device);
       case SDL_CONTROLLER_BUTTON_Y:
-        return press(Action::atm_up);
+        return c.order(change_gauge, 1);
       case SDL_CONTROLLER_BUTTON_DPAD_LEFT:
-        return press(arm ? Action::left : Action::view_1);
+        return arm ? c.order(turn_arm, 5) : c.order(view, 1);
       case SDL_CONTROLLER_BUTTON_DPAD_RIGHT:
-        return press(arm ? Action::right : Action::view_2);
+        return arm ? c.order(turn_arm, -5) : c.order(view, 2);
       case SDL_CONTROLLER_BUTTON_DPAD_UP:
-        return press(arm ? Action::cranial : Action::zoom);
+        return arm ? c.order(turn_arm, 0, 5) : c.order(next_field);
       case SDL_CONTROLLER_BUTTON_DPAD_DOWN:
-        return press(arm ? Action::caudal : Action::view_3);
+        return arm ? c.order(turn_arm, 0, -5) : c.order(view, 3);
       case SDL_CONTROLLER_BUTTON_START:
-        return press(Action::pause);
+        return c.order(pause);
       default:
         return;
     }
@@ -211,12 +178,13 @@ class Events {
  public:
   /// Now and then: what is long enough held.
   void look(Uint32 now) {
-    if (x_since_ && now - x_since_ > 400) hand_.controls.set(Level::vacuum, 1);
+    if (x_since_ && now - x_since_ > 400) controls_.set(ConsoleCommand::vacuum, 1);
   }
 
  private:
-  LiveDriver& hand_;
-  std::vector<const HeldKey*> down_;
+  Controls& controls_;
+  std::vector<SDL_Keycode> codes_;  ///< of console_keys
+  std::vector<const data::ConsoleKey*> down_;
   Uint32 x_since_ = 0;
   Owned<SDL_GameController> pad_{nullptr, SDL_GameControllerClose};
 };
@@ -258,16 +226,15 @@ long show_window(const SessionModel& model, const ScriptPlan& plan, LiveDriver& 
                                    SDL_DestroyTexture);
   if (!texture) give_up("the window cannot be drawn in");
 
-  LivePicture live(model, {options.filmed, options.has_pedals, options.frames_per_s, options.pixels});
-  const PanelTexts texts = panel_texts(model, plan, hand, options.plays);
+  LivePicture live(model, {options.filmed, options.has_pedals, options.pixels});
+  const PanelTexts texts = panel_texts(model, plan, hand);
   Events events(hand);
   fluoro::Picture faded;
-  Reference reference;
   double shown_brightness = 1;
   bool shown_help = false;
   std::string shown_problem;
   std::vector<std::uint32_t> pixels;
-  core::TripleBuffer<Snapshot>& latest = hand.snapshots();
+  core::TripleBuffer<Snapshot>& latest = hand.snapshots(Seat::window);
   long shown = 0;
   bool over = false;
   while (!over) {
@@ -288,14 +255,14 @@ long show_window(const SessionModel& model, const ScriptPlan& plan, LiveDriver& 
         events.help == shown_help)
       continue;
     shown_brightness = brightness, shown_problem = problem, shown_help = events.help;
-    if (live_is_new) reference.take(live.picture(), live.cine(), signal(texts, now, "contrast_landmark"));
-    if (events.reference) reference.freeze(live.picture()), events.reference = false;
     faded = live.picture();
     for (std::uint8_t& grey : faded.grey) grey = static_cast<std::uint8_t>(brightness * grey);
     draw_panel(texts, now,
                {.picture = faded.grey.empty() ? nullptr : &faded,
-                .reference = reference.picture(),
+                .reference = live.reference().picture(),
                 .dose = live.dose(),
+                .review_frame = live.review_frame(),
+                .review_frames = live.review_frames(),
                 .problem = problem,
                 .help = events.help},
                pixels);

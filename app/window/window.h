@@ -5,8 +5,8 @@
 #include <functional>
 #include <string>
 
+#include "app/session/live/live_driver.h"
 #include "app/session/run/filming.h"
-#include "app/window/live_driver.h"
 #include "app/window/panel.h"
 
 namespace ostium::app {
@@ -15,9 +15,7 @@ namespace ostium::app {
 bool has_display(std::string& why);
 
 struct WindowOptions {
-  bool plays = false;      ///< keys and gamepad move the instruments
   bool has_pedals = true;  ///< false: nobody has any, neither keys nor box nor script; then the beam is always on
-  double frames_per_s = 15;
   int pixels = 512;
   core::TripleBuffer<Filmed>* filmed =
       nullptr;  ///< of a film that is made as well; null: the window takes its own pictures

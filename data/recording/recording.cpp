@@ -7,6 +7,7 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <filesystem>
 #include <string_view>
 #include <utility>
 
@@ -95,6 +96,56 @@ RecordingWriter::RecordingWriter(std::string path, const RecordingHeader& header
       file.add_table(table.layout);
       file.append(table.layout.name, table.rows, table.count);
     }
+    file.close();
+    if (first) take_place();
+  }
+}
+
+namespace {
+
+/// Rows of a table whose steps are not later than this; steps rise from row to row.
+std::size_t rows_until(const TableFile& file, const char* table, std::size_t steps) {
+  const std::size_t rows = file.rows(table), width = static_cast<std::size_t>(file.width(table));
+  const std::vector<double> all = file.numbers(table, 0, rows);
+  std::size_t count = rows;
+  while (count > 0 && all[(count - 1) * width] > static_cast<double>(steps)) --count;
+  return count;
+}
+
+void cut_short(TableFile& file, const RecordingHeader& header, std::size_t steps) {
+  file.shorten("inputs", steps), file.shorten("hash", steps);
+  file.shorten("signals", steps / steps_per_signal);
+  file.shorten("events", rows_until(file, "events", steps));
+  if (header.full)
+    file.shorten("state", steps / steps_per_state + 1), file.shorten("hands", steps / steps_per_state + 1);
+  if (header.steps_per_shape > 0 && !header.shapes.empty()) {
+    const std::size_t rows = rows_until(file, "shapes_step", steps);
+    file.shorten("shapes_step", rows), file.shorten("shapes_inserted", rows);
+    for (const RecordedShape& shape : header.shapes) file.shorten(shape_table(shape.tool), rows);
+  }
+  file.remove("end");
+}
+
+}  // namespace
+
+RecordingWriter::RecordingWriter(std::string path, const RecordingHeader& header, const std::string& from,
+                                 std::size_t steps)
+    : path_(std::move(path)), next_(path_ + ".next"), header_(header) {
+  {
+    const RecordingReader before(from);
+    if (before.input_columns() != header.input_columns || before.signal_columns() != header.signal_columns ||
+        before.tables().has("state") != header.full || (header.full && before.state_width() != header.state_width) ||
+        before.steps() < steps || steps % steps_per_state != 0 ||
+        (header.full && before.states() < steps / steps_per_state + 1))
+      throw LoadError(fmt::format("{}: is not {} whole seconds of this run; expected its own recording", from,
+                                  steps / steps_per_state));
+  }
+  for (const bool first : {true, false}) {
+    std::error_code problem;
+    std::filesystem::copy_file(from, next_, std::filesystem::copy_options::overwrite_existing, problem);
+    if (problem) throw LoadError(fmt::format("{}: cannot be written: {}", next_, problem.message()));
+    TableFile file = TableFile::open(next_, true);
+    cut_short(file, header_, steps);
     file.close();
     if (first) take_place();
   }

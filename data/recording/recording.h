@@ -69,6 +69,9 @@ class RecordingWriter {
  public:
   /// Creates both files. Throws WriteError or LoadError.
   RecordingWriter(std::string path, const RecordingHeader& header, const std::vector<FixedTable>& tables = {});
+  /// Goes on after the first `steps` of another recording of the same run, a multiple of steps_per_state. That one is
+  /// left as it is. Throws LoadError too if it is not of this header's layout, or shorter.
+  RecordingWriter(std::string path, const RecordingHeader& header, const std::string& from, std::size_t steps);
   ~RecordingWriter();  ///< removes the other file; the recording stays as last committed
   RecordingWriter(const RecordingWriter&) = delete;
   RecordingWriter& operator=(const RecordingWriter&) = delete;

@@ -233,6 +233,17 @@ void TableFile::append(const std::string& name, const void* rows, std::size_t co
                  "table " + name + " cannot be written; is the disk full?");
 }
 
+void TableFile::shorten(const std::string& name, std::size_t rows) {
+  const Id set(file_->table(name), H5Dclose);
+  const Extent before = file_->extent(set);
+  const hsize_t whole[3] = {std::min<hsize_t>(rows, before.rows()), before.sizes[1], before.sizes[2]};
+  file_->require(H5Dset_extent(set, whole) >= 0, "table " + name + " cannot be cut short");
+}
+
+void TableFile::remove(const std::string& name) {
+  if (has(name)) file_->require(H5Ldelete(file_->id, name.c_str(), H5P_DEFAULT) >= 0, name + " cannot be removed");
+}
+
 void TableFile::set_number(const std::string& name, double number) {
   const Id space(H5Screate(H5S_SCALAR), H5Sclose);
   const Id set(H5Dcreate2(file_->id, name.c_str(), H5T_IEEE_F64LE, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
@@ -242,7 +253,7 @@ void TableFile::set_number(const std::string& name, double number) {
 }
 
 void TableFile::set_text(const std::string& name, const std::string& text) {
-  if (has(name)) file_->require(H5Ldelete(file_->id, name.c_str(), H5P_DEFAULT) >= 0, name + " cannot be replaced");
+  remove(name);
   const Id type(text_type(std::max<std::size_t>(1, text.size())), H5Tclose);
   const Id space(H5Screate(H5S_SCALAR), H5Sclose);
   const Id set(H5Dcreate2(file_->id, name.c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Dclose);

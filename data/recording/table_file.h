@@ -42,6 +42,9 @@ class TableFile {
   void add_table(const TableLayout& layout);
   /// `count` rows of the table's type, row-major.
   void append(const std::string& table, const void* rows, std::size_t count);
+  /// Cuts off all but the first rows.
+  void shorten(const std::string& table, std::size_t rows);
+  void remove(const std::string& name);  ///< does nothing if there is none
   /// Creates or replaces a text.
   void set_text(const std::string& name, const std::string& text);
   void set_number(const std::string& name, double number);  ///< creates it

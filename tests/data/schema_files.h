@@ -8,9 +8,11 @@
 #include "data/catalogue/case/anatomy_keys.h"
 #include "data/catalogue/case/case_keys.h"
 #include "data/catalogue/case/tree_keys.h"
+#include "data/catalogue/course/course_keys.h"
 #include "data/catalogue/drug/drug_keys.h"
 #include "data/catalogue/instrument/instrument_keys.h"
 #include "data/catalogue/script/script_keys.h"
+#include "data/console/console_order.h"
 #include "data/formats/json_schema.h"
 #include "data/identification/curves/kinds.h"
 #include "data/identification/measurement/measurement_keys.h"
@@ -38,7 +40,9 @@ inline std::vector<JsonFormat> json_formats() {
        "Tubes, names and landmarks of an imported lumen; patient frame (x left, y head, z front), mm",
        anatomy_keys::all},
       {"ostium-tree/1", "A centreline-sphere tree; patient frame (x left, y head, z front), mm", tree_keys::all},
-      {"ostium-scoring/1", "Steps, errors and critical errors of a procedure (data/scoring)", scoring_keys::all}};
+      {"ostium-scoring/1", "Steps, errors and critical errors of a procedure (data/scoring)", scoring_keys::all},
+      {"ostium-course/1", "Lessons in their order, and what must hold to go on (data/courses)", course_keys::all},
+      {"ostium-console/1", "What is asked of an operator's console, by a browser", console_keys_of_messages::all}};
   for (const curves::Kind& kind : curves::kinds())
     formats.push_back({"ostium-measurement/2", "A measured set: " + kind.what, kind.keys, kind.name});
   return formats;

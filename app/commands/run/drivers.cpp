@@ -1,6 +1,9 @@
 #include "app/commands/run/drivers.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <cstdio>
 #include <exception>
 #include <filesystem>
 #include <thread>
@@ -34,9 +37,40 @@ std::unique_ptr<BoxRun> device_of(const RunArguments& a, RunSetup& setup) {
   return run_at_usb(a.serial, settings, &interrupted);
 }
 
+namespace {
+
+bool uses_the_beam(const data::Script& script) {
+  return std::any_of(script.steps.begin(), script.steps.end(), [](const data::ScriptStep& step) {
+    return step.action == data::ScriptAction::fluoroscopy || step.action == data::ScriptAction::cine;
+  });
+}
+
+bool has_pedals(const RunArguments& a, const BoxRun* device, const data::Script& script) {
+  return a.device == "keyboard" || device || uses_the_beam(script);
+}
+
+}  // namespace
+
+void tell_links(const Station& station, bool open) {
+  fmt::print("trainer: {}\nviewers: {}\n", station.trainer_link(), station.viewer_link());
+  std::fflush(stdout);
+  if (open)
+    fmt::print(stderr,
+               "ostium: others in this network can reach the station, and what it sends is not encrypted: whoever has "
+               "the trainer's link has the console\n");
+}
+
 Drivers::Drivers(const RunArguments& a, BoxRun* device, ScriptedRun& run) {
   Driver* driver = device ? &device->driver() : nullptr;
-  if (a.in_window()) hand.emplace(run.model, a.device == "keyboard", 15, driver), driver = &*hand;
+  const Hands hands = a.device == "keyboard" ? Hands::seats : device ? Hands::box : Hands::script;
+  if (a.in_window() || a.serve) hand.emplace(run.model, hands, 15, driver), driver = &*hand;
+  if (a.serve) {
+    StationSettings settings;
+    settings.port = static_cast<std::uint16_t>(*a.serve);
+    settings.has_pedals = has_pedals(a, device, run.plan.script);
+    station.emplace(run, *hand, data::find_score_list("pci-elective"), settings);
+    tell_links(*station, false);
+  }
   if (a.film && !a.folder.empty()) {
     FilmOptions look;
     look.always_on = false, look.monitor = run.model.has_patient();
@@ -48,17 +82,10 @@ Drivers::Drivers(const RunArguments& a, BoxRun* device, ScriptedRun& run) {
 
 namespace {
 
-bool uses_the_beam(const data::Script& script) {
-  return std::any_of(script.steps.begin(), script.steps.end(), [](const data::ScriptStep& step) {
-    return step.action == data::ScriptAction::fluoroscopy || step.action == data::ScriptAction::cine;
-  });
-}
-
 WindowOptions window_of(const RunArguments& a, const data::Script& script, BoxRun* device, Filming* film,
                         std::atomic<bool>& over) {
   WindowOptions window;
-  window.plays = a.device == "keyboard";
-  window.has_pedals = window.plays || device || uses_the_beam(script);
+  window.has_pedals = has_pedals(a, device, script);
   window.over = &over, window.last_frame_png = a.last_frame;
   if (film) window.filmed = &film->pictures();
   if (device) {
@@ -87,7 +114,7 @@ PlayReport play_in_window(const RunArguments& a, ScriptedRun& run, const RunSetu
   try {
     show_window(run.model, run.plan, hand, window_of(a, run.plan.script, device, film, over));
   } catch (...) {
-    hand.controls.press(Action::quit);
+    hand.controls(Seat::window).order(ConsoleCommand::end);
     steps.join();
     throw;
   }
@@ -100,7 +127,7 @@ PlayReport play_in_window(const RunArguments& a, ScriptedRun& run, const RunSetu
 
 PlayReport play_with(Drivers& drivers, const RunArguments& a, BoxRun* device, ScriptedRun& run, const RunSetup& setup,
                      const PlayOptions& options) {
-  if (!drivers.hand) return play(run, setup, options);
+  if (!a.in_window()) return play(run, setup, options);
   return play_in_window(a, run, setup, device, *drivers.hand, drivers.film ? &*drivers.film : nullptr, options);
 }
 

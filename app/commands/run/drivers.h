@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "app/commands/run/run.h"
+#include "app/serve/station/station.h"
 #include "app/session/device/box_run.h"
 #include "app/session/run/filming.h"
 #include "app/session/run/play.h"
@@ -15,9 +16,13 @@ namespace ostium::app {
 /// `setup`'s script.
 std::unique_ptr<BoxRun> device_of(const RunArguments& arguments, RunSetup& setup);
 
+/// Says where the station's page is, and warns where others can reach it. `open`: whether it listens to them.
+void tell_links(const Station& station, bool open);
+
 /// Drivers are chained: the film sees the inputs of the live driver, which sees those of the box.
 struct Drivers {
   std::optional<LiveDriver> hand;
+  std::optional<Station> station;
   std::optional<Filming> film;
 
   Drivers(const RunArguments& arguments, BoxRun* device, ScriptedRun& run);

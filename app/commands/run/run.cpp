@@ -46,6 +46,9 @@ void declare(Options& options, RunArguments& a) {
       .one_of({"auto", "usb", "emulator", "keyboard"});
   options.add("--display", a.display, "window: watch it live, in real time").one_of({"none", "window"}).show_default();
   options.add("--last-frame", a.last_frame, "The window's last picture").type("FILE.png");
+  options.add("--serve", a.serve, "A trainer's station in the browser beside it, at this port (0: any), in real time")
+      .type("PORT")
+      .range(0.0, 65535.0);
   add_box_serial_option(options, a.serial);
   options.flag("--film", a.film, "Film it as it goes: DIR/procedure.mp4");
   options.flag("--report", a.report, "DIR/report.html, events.csv and key-frames/");
@@ -71,17 +74,6 @@ RecorderOptions recorder_options_of(const RunArguments& a) {
   else
     recorder.file = (fs::path(a.folder) / "run.h5").string();
   return recorder;
-}
-
-/// Builds the vessel; chooses the tool sizes that fit it.
-std::shared_ptr<const Vessel> build_vessel(RunSetup& setup) {
-  show_progress("building " + setup.vessel);
-  std::string warnings;
-  const auto vessel = make_vessel(setup, warnings);
-  if (!warnings.empty())
-    fmt::print(stderr, "ostium run: of {}, near whose faults nothing is held back:\n{}", setup.vessel, warnings);
-  for (const std::string& size : choose_sizes(*vessel, setup)) fmt::print(stderr, "{}, chosen by the vessel\n", size);
-  return vessel;
 }
 
 PlayOptions play_options(const RunArguments& a, BoxRun* device) {
@@ -124,6 +116,17 @@ void require_arguments(const RunArguments& a) {
 
 }  // namespace
 
+std::shared_ptr<const Vessel> build_vessel(RunSetup& setup, const std::string& command) {
+  show_progress("building " + setup.vessel);
+  std::string warnings;
+  const auto vessel = make_vessel(setup, warnings);
+  if (!warnings.empty())
+    fmt::print(stderr, "ostium {}: of {}, near whose faults nothing is held back:\n{}", command, setup.vessel,
+               warnings);
+  for (const std::string& size : choose_sizes(*vessel, setup)) fmt::print(stderr, "{}, chosen by the vessel\n", size);
+  return vessel;
+}
+
 int run_script(const RunArguments& a) {
   require_arguments(a);
   if (std::string why; a.in_window() && !has_display(why))
@@ -132,11 +135,12 @@ int run_script(const RunArguments& a) {
   if (!a.folder.empty()) make_folder(a.folder);
   const FolderLock lock = a.folder.empty() ? FolderLock() : FolderLock(a.folder);
   const auto device = device_of(a, setup);
-  const PlayOptions options = play_options(a, device.get());
-  const auto vessel = build_vessel(setup);
+  PlayOptions options = play_options(a, device.get());
+  const auto vessel = build_vessel(setup, "run");
   ScriptedRun run(setup, vessel);
   stop_on_signals();
   Drivers drivers(a, device.get(), run);
+  if (drivers.station) options.recorder.heard = drivers.station->ear(), options.real = true;
   const PlayReport report = play_with(drivers, a, device.get(), run, setup, options);
   const std::string film_problem = drivers.film ? drivers.film->finish() : "";
   show_progress("");

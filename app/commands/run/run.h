@@ -1,4 +1,8 @@
 #pragma once
+#include <memory>
+#include <optional>
+#include <string>
+
 #include "app/commands/run/session_arguments.h"
 
 namespace ostium::app {
@@ -16,9 +20,13 @@ struct RunArguments {
   bool film = false;             ///< write DIR/procedure.mp4
   bool report = false;           ///< write DIR/report.html, events.csv, key-frames/
   bool json = false;
+  std::optional<double> serve;  ///< port of a trainer's station beside the run; 0: any that is free
 
   bool in_window() const { return display == "window" || device == "keyboard"; }
 };
+
+/// Builds the vessel; chooses the tool sizes that fit it, and says what was chosen. Throws LoadError or MeshError.
+std::shared_ptr<const Vessel> build_vessel(RunSetup& setup, const std::string& command);
 
 /// Exit code: 0 if the script succeeded. Throws LoadError or MeshError.
 int run_script(const RunArguments& arguments);

@@ -35,7 +35,7 @@ Recorder::Recorder(const RecorderOptions& options, const SessionModel& model, co
       operator_width_(operator_count),
       shape_width_(shape_count(model)),
       slots_(slots),
-      watch_(model),
+      watch_(options.watch ? options.watch : std::make_shared<EventWatch>(model)),
       looked_at_(make_state(model, 0)) {
   const bool full = options.mode == RecordMode::full;
   const data::RecordingHeader header = header_of(model, setup, operator_count, full, options.shapes_Hz);
@@ -69,8 +69,13 @@ Recorder::Recorder(const RecorderOptions& options, const SessionModel& model, co
                  vertices.data(),
                  vertices.size() / 3},
                 {{"mesh_triangles", data::NumberType::uint64, {}, 3, 4096}, triangles.data(), triangles.size() / 3}};
-    writer_ = std::make_unique<data::RecordingWriter>(options.file, header, tables);
+    if (options.continues)
+      writer_ = std::make_unique<data::RecordingWriter>(options.file, header, options.continues->file,
+                                                        options.continues->steps);
+    else
+      writer_ = std::make_unique<data::RecordingWriter>(options.file, header, tables);
   }
+  if (options.continues) take_before(*options.continues);
   thread_ = std::thread([this] { follow(); });
 }
 
@@ -79,6 +84,19 @@ Recorder::~Recorder() {
     over_.store(true, std::memory_order_release);
     thread_.join();
   }
+}
+
+/// What has been recorded before is part of this run's record.
+void Recorder::take_before(const Continued& before) {
+  const data::RecordingReader reader(before.file);
+  record_.steps = before.steps;
+  const std::vector<double> signals =
+      reader.tables().numbers("signals", 0, before.steps / static_cast<std::size_t>(data::steps_per_signal));
+  record_.signals.assign(signals.begin(), signals.end());
+  const std::vector<double> events = reader.events();
+  for (std::size_t at = 0; at + 4 <= events.size() && events[at] <= static_cast<double>(before.steps); at += 4)
+    record_.events.insert(record_.events.end(), events.begin() + static_cast<std::ptrdiff_t>(at),
+                          events.begin() + static_cast<std::ptrdiff_t>(at + 4));
 }
 
 void Recorder::put_state(const SessionState& state, const OperatorState& hands) {
@@ -112,7 +130,10 @@ void Recorder::add(const SessionInputs& inputs, const SessionState& state, const
     if (state.rods.step % data::steps_per_signal == 0)
       put_signals(model_, state, inputs, report, slot.block.signals.data() + signal_width_ * slot.signal_rows++);
     put_shape(state);
-    if (slot.events.size() + 16 < events_a_block) watch_.look(model_, inputs, state, report, script, slot.events);
+    const std::size_t before = slot.events.size();
+    if (before + 16 < events_a_block) watch_->look(model_, inputs, state, report, script, slot.events);
+    if (options_.heard)
+      for (std::size_t at = before; at < slot.events.size(); ++at) options_.heard(slot.events[at]);
     if (slot.steps == data::steps_per_block) hand_over();
   }
   if (state.rods.step % data::steps_per_state == 0) put_state(state, hands);

@@ -5,7 +5,9 @@
 /// thread owns the file. If that thread falls behind by all blocks, the simulation waits and `waits` counts it: nothing
 /// of a run is lost.
 #include <atomic>
+#include <functional>
 #include <memory>
+#include <optional>
 #include <thread>
 
 #include "app/session/model/penetration.h"
@@ -19,11 +21,21 @@ namespace ostium::app {
 
 enum class RecordMode { none, events, full };
 
+/// A recording goes on where another one was at a whole second.
+struct Continued {
+  std::string file;       ///< the other one; finished
+  std::size_t steps = 0;  ///< a multiple of data::steps_per_state
+};
+
 struct RecorderOptions {
   RecordMode mode = RecordMode::full;
-  std::string file;         ///< empty if RecordMode::none
-  bool penetration = true;  ///< measure it once a second
-  double shapes_Hz = 0;     ///< how often the tools' nodes are recorded, to the nearest whole number of steps; 0: never
+  std::string file;                    ///< empty if RecordMode::none
+  bool penetration = true;             ///< measure it once a second
+  std::optional<Continued> continues;  ///< then `begin` is not called
+  std::shared_ptr<EventWatch> watch;   ///< that has seen the seconds before
+  /// Told of each event by the thread that steps; must not wait for anything. May be empty.
+  std::function<void(const SessionEvent&)> heard;
+  double shapes_Hz = 0;  ///< how often the tools' nodes are recorded, to the nearest whole number of steps; 0: never
 };
 
 class Recorder {
@@ -63,6 +75,7 @@ class Recorder {
   void put_shape(const SessionState& state);
   void part_shapes(const Slot& slot, data::RecordingBlock& block) const;
   void hand_over();
+  void take_before(const Continued& before);
   void follow();
   void take(Slot& slot);
   void look(const Slot& slot, std::vector<double>& events);
@@ -75,7 +88,7 @@ class Recorder {
   std::atomic<std::size_t> filled_{0}, taken_{0};
   std::atomic<bool> over_{false};
   long waits_ = 0;
-  EventWatch watch_;
+  std::shared_ptr<EventWatch> watch_;
   // Used by the writing thread:
   std::unique_ptr<data::RecordingWriter> writer_;
   SessionState looked_at_;

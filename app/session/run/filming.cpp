@@ -84,6 +84,8 @@ Filming::~Filming() { finish(); }
 
 bool Filming::marks() { return parts_->inner && parts_->inner->marks(); }
 
+bool Filming::holds_script() const { return parts_->inner && parts_->inner->holds_script(); }
+
 Driven Filming::drive(const ScriptedRun& run, SessionInputs& inputs) {
   Parts& p = *parts_;
   const Driven driven = p.inner ? p.inner->drive(run, inputs) : Driven::on;

@@ -11,6 +11,7 @@
 namespace ostium::app {
 
 struct PlayOptions {
+  /// Where it continues another recording, the run has gone back to that second (branch.h).
   RecorderOptions recorder;
   /// true: one step per millisecond of clock time; after a slow step the next ones follow faster until it has caught
   /// up. false: as fast as possible, with the same result.

@@ -29,7 +29,13 @@ ScriptedRun::ScriptedRun(const RunSetup& setup, std::shared_ptr<const Vessel> ve
 }
 
 bool ScriptedRun::tick() {
-  outcome = decide(plan, model, state, report, hands, inputs, events);
+  const bool holds = driver_ && driver_->holds_script();
+  if (held_ && !holds) hands.began = true;
+  held_ = holds;
+  if (holds)
+    events.clear();
+  else
+    outcome = decide(plan, model, state, report, hands, inputs, events);
   if (outcome != Outcome::running) return false;
   const Driven driven = driver_ ? driver_->drive(*this, inputs) : Driven::on;
   if (driver_ && driver_->marks()) events.push_back({OperatorEvent::Kind::marked, hands.step, -1});
@@ -39,11 +45,21 @@ bool ScriptedRun::tick() {
     return false;
   }
   if (stuck_ >= 0) inputs.tools[stuck_] = {};
+  advance();
+  return true;
+}
+
+void ScriptedRun::repeat(const SessionInputs& recorded) {
+  inputs = recorded;
+  events.clear();
+  advance();
+}
+
+void ScriptedRun::advance() {
   step(model, inputs, state, scratch_, report);
   xrays.add(inputs.c_arm, state.rods.step, model.step_s());
   const std::uint32_t trouble = report.rods.trouble & ~static_cast<std::uint32_t>(core::feed_stopped);
   if (trouble) ++troubled, troubles |= trouble;
-  return true;
 }
 
 std::string trouble_words(std::uint32_t trouble) {

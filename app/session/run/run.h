@@ -18,6 +18,8 @@ class Driver {
   virtual Driven drive(const ScriptedRun& run, SessionInputs& inputs) = 0;
   /// Whether this moment has been marked since the last call.
   virtual bool marks() { return false; }
+  /// Whether the script waits meanwhile: somebody has taken over. It then begins its step anew.
+  virtual bool holds_script() const { return false; }
 };
 
 class ScriptedRun {
@@ -31,6 +33,8 @@ class ScriptedRun {
 
   /// One decision of the operator, then one step. False: the script has ended.
   bool tick();
+  /// One step of a recording, in which nobody decides anything.
+  void repeat(const SessionInputs& recorded);
 
   const SessionModel model;
   const ScriptPlan plan;
@@ -48,7 +52,9 @@ class ScriptedRun {
 
  private:
   SessionScratch scratch_;
-  int stuck_ = -1;  ///< the tool with a failed drive
+  void advance();
+  bool held_ = false;  ///< the script waited in the last tick
+  int stuck_ = -1;     ///< the tool with a failed drive
   Driver* driver_;
 };
 

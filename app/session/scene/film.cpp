@@ -18,8 +18,10 @@ vascular::PhysiologyState blood_to_show(const SessionModel& model, const Session
 }  // namespace
 
 struct Film::Parts {
-  explicit Parts(const FilmOptions& o) : options(o), imager({}, fluoro::make_scanline_renderer()) {}
+  explicit Parts(const FilmOptions& o)
+      : options(o), settings{{}, o.frames_per_s, false}, imager({}, fluoro::make_scanline_renderer()) {}
   FilmOptions options;
+  FilmSettings settings;
   std::unique_ptr<PatientScene> patient;        ///< with the session's blood and contrast,
   std::unique_ptr<const XrayPatient> no_blood;  ///< or without any,
   fluoro::Scene mesh;                           ///< or a mesh
@@ -35,7 +37,7 @@ struct Film::Parts {
   bool is_cine = false;
 
   fluoro::Programme programme() const {
-    return is_cine ? fluoro::cine(options.frames_per_s) : fluoro::fluoroscopy(options.frames_per_s);
+    return is_cine ? fluoro::cine(settings.frames_per_s) : fluoro::fluoroscopy(settings.frames_per_s);
   }
 };
 
@@ -81,11 +83,12 @@ const fluoro::Picture& Film::frame(const SessionModel& model, const SessionState
   p.is_cine = o.mode ? *o.mode == fluoro::Mode::cine : arm.cine;
   const fluoro::FluoroscopeInput in{.scene = scene,
                                     .view = p.view,
-                                    .collimator = fluoro::to_field,
+                                    .collimator = p.settings.shutters,
                                     .pedals = {.fluoroscopy = on && !p.is_cine, .cine = on && p.is_cine},
-                                    .fluoroscopy_per_s = o.frames_per_s,
-                                    .cine_per_s = o.frames_per_s,
+                                    .fluoroscopy_per_s = p.settings.frames_per_s,
+                                    .cine_per_s = p.settings.frames_per_s,
                                     .beat_phase = state.blood.heart.phase,
+                                    .show_roadmap = p.settings.roadmap,
                                     .seed = o.seed};
   const fluoro::TickReport report = tick(p.imager, in, p.state, p.scratch);
   if (report.xray_on) p.report = report.frame;
@@ -108,6 +111,8 @@ void Film::restart(std::uint64_t seed) {
   parts_->options.seed = seed;
   parts_->state = {};
 }
+
+void Film::set(const FilmSettings& settings) { parts_->settings = settings; }
 
 void Film::listen(const SessionModel& model, const SessionState& state, const SessionInputs& inputs) {
   if (parts_->options.monitor) parts_->monitor.listen(model, state, inputs);

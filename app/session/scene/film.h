@@ -25,6 +25,13 @@ struct FilmOptions {
   std::uint64_t seed = 1;  ///< of the noise
 };
 
+/// What an operator changes between two frames.
+struct FilmSettings {
+  fluoro::Collimator shutters = fluoro::to_field;
+  double frames_per_s = 15;  ///< 3.75, 7.5, 15, 30
+  bool roadmap = false;      ///< over fluoroscopy in the view of the last cine run
+};
+
 inline constexpr int monitor_pixels = 144;  ///< height of the monitor's strips
 
 class Film {
@@ -35,6 +42,8 @@ class Film {
   ~Film();
   /// As if no picture had been taken yet: noise of that seed, no lag.
   void restart(std::uint64_t seed);
+  /// From the next frame on.
+  void set(const FilmSettings& settings);
   /// Call after every step that is to appear on the monitor.
   void listen(const SessionModel& model, const SessionState& state, const SessionInputs& inputs);
   Monitor& monitor();  ///< the strips recorded so far

@@ -6,21 +6,21 @@
 #include <thread>
 
 #include "app/session/device/box_driver.h"
-#include "app/window/live_picture.h"
+#include "app/session/live/live_picture.h"
+#include "app/session/live/reference.h"
 #include "app/window/panel.h"
-#include "app/window/reference.h"
+#include "core/base/units.h"
 #include "tests/app/session/tube_vessel.h"
 
 namespace ostium::app {
 namespace {
 
-TEST(Controls, KeepActionsInOrderAndDropWhatNobodyCouldPress) {
+TEST(Controls, KeepOrdersInOrderAndDropWhatNobodyCouldPress) {
   Controls controls;
   EXPECT_FALSE(controls.next());
-  for (int i = 0; i < 100; ++i) controls.press(i % 2 ? Action::atm_up : Action::swap);
+  for (int i = 0; i < 100; ++i) controls.order(ConsoleCommand::change_gauge, i);
   int taken = 0;
-  for (auto action = controls.next(); action; action = controls.next())
-    EXPECT_EQ(*action, taken++ % 2 ? Action::atm_up : Action::swap);
+  for (auto order = controls.next(); order; order = controls.next()) EXPECT_EQ(order->values[0], taken++);
   EXPECT_EQ(taken, 63);
 }
 
@@ -34,7 +34,8 @@ struct Played {
     "tools": [ { "name": "wire", "instrument": "cook-j" } ],
     "steps": [ { "do": "wait", "timeout_s": 100, "until": [{ "seconds": 90, "of": "wire" }] } ] })"));
   ScriptedRun run{setup, tube_vessel()};
-  LiveDriver hand{run.model, true, 15};
+  LiveDriver hand{run.model, Hands::seats, 15};
+  Controls& keys = hand.controls(Seat::window);
   Played() { run.take_over(&hand); }
   void steps(int n) {
     for (int i = 0; i < n; ++i) ASSERT_TRUE(run.tick());
@@ -43,14 +44,14 @@ struct Played {
 
 TEST(LiveDriver, KeysMoveTheInstrumentAndLettingGoStopsIt) {
   Played p;
-  p.hand.controls.set(Level::guide_feed, 1);
+  p.keys.set(ConsoleCommand::guide_feed, 1);
   p.steps(1000);
   EXPECT_NEAR(p.run.state.hands[0].fed_m, hand_feed_m_s, 1e-4);
-  p.hand.controls.set(Level::fine, 1);
+  p.keys.set(ConsoleCommand::fine, 1);
   p.steps(1000);
   EXPECT_NEAR(p.run.state.hands[0].fed_m, hand_feed_m_s * (1 + fine_share), 1e-4);
-  p.hand.controls.set(Level::guide_feed, 0);
-  p.hand.controls.set(Level::guide_turn, -1);
+  p.keys.set(ConsoleCommand::guide_feed, 0);
+  p.keys.set(ConsoleCommand::guide_turn, -1);
   p.steps(500);
   EXPECT_NEAR(p.run.state.hands[0].fed_m, hand_feed_m_s * (1 + fine_share), 1e-4);
   EXPECT_NEAR(p.run.state.hands[0].turned_rad, -0.5 * fine_share * hand_turn_rad_s, 1e-3);
@@ -58,7 +59,7 @@ TEST(LiveDriver, KeysMoveTheInstrumentAndLettingGoStopsIt) {
 
 TEST(LiveDriver, AKeyHeldForLongFeedsOnAndNothingElse) {
   Played p;
-  p.hand.controls.set(Level::guide_feed, 1);
+  p.keys.set(ConsoleCommand::guide_feed, 1);
   p.steps(6000);
   EXPECT_NEAR(p.run.state.hands[0].fed_m, 6 * hand_feed_m_s, 1e-3);
   EXPECT_LE(p.run.state.rods.rods[0].inserted_m, p.run.model.tools[0].instrument.length_m);
@@ -66,30 +67,30 @@ TEST(LiveDriver, AKeyHeldForLongFeedsOnAndNothingElse) {
 
 TEST(LiveDriver, TheArmGoesNoFurtherThanItCan) {
   Played p;
-  for (int i = 0; i < 60; ++i) p.hand.controls.press(Action::left);
+  for (int i = 0; i < 60; ++i) p.keys.order(ConsoleCommand::turn_arm, 5);
   p.steps(2);
   EXPECT_NEAR(p.run.inputs.c_arm.lao_rad, fluoro::CArmLimits{}.lao_rad, 1e-12);
-  p.hand.controls.press(Action::view_1);
+  p.keys.order(ConsoleCommand::view, 1);
   p.steps(2);
   EXPECT_LT(p.run.inputs.c_arm.lao_rad, 1.5);
-  p.hand.controls.set(Level::fluoroscopy, 1);
+  p.keys.set(ConsoleCommand::fluoroscopy, 1);
   p.steps(1000);
   EXPECT_NEAR(p.run.state.c_arm.fluoroscopy_s, 1, 2e-3);
 }
 
 TEST(LiveDriver, PauseStandsAndTheEndEnds) {
   Played p;
-  p.hand.controls.set(Level::guide_feed, 1);
+  p.keys.set(ConsoleCommand::guide_feed, 1);
   p.steps(100);
-  p.hand.controls.press(Action::pause);
+  p.keys.order(ConsoleCommand::pause);
   std::thread other([&] {
     std::this_thread::sleep_for(std::chrono::milliseconds(60));
-    p.hand.controls.press(Action::pause);
+    p.keys.order(ConsoleCommand::pause);
   });
   p.steps(1);  // paused until the key is pressed again
   other.join();
   EXPECT_EQ(p.run.state.rods.step, 101u);
-  p.hand.controls.press(Action::quit);
+  p.keys.order(ConsoleCommand::end);
   EXPECT_FALSE(p.run.tick());
   EXPECT_EQ(p.run.outcome, Outcome::ended) << "by the one who played";
   EXPECT_EQ(reason(p.run.plan, p.run.hands), "");
@@ -104,11 +105,77 @@ TEST(LiveDriver, AMarkIsAnEventOfItsStep) {
   };
   p.steps(10);
   EXPECT_EQ(marked(), 0);
-  p.hand.controls.press(Action::mark);
+  p.keys.order(ConsoleCommand::mark);
   p.steps(1);
   EXPECT_EQ(marked(), 1);
   p.steps(1);
   EXPECT_EQ(marked(), 0);
+}
+
+/// Stands for a tracking box: its view, its pedal.
+struct Box : Driver {
+  Driven drive(const ScriptedRun&, SessionInputs& inputs) override {
+    inputs.c_arm.lao_rad = lao_rad, inputs.c_arm.fluoroscopy = pedal, inputs.c_arm.cine = false;
+    inputs.tools[0] = {0.01, 0};
+    return Driven::on;
+  }
+  double lao_rad = 0.1;
+  bool pedal = false;
+};
+
+TEST(LiveDriver, AtTheBoxTheConsoleIsEverybodysAndTheInstrumentsAreNot) {
+  RunSetup setup = Played().setup;
+  ScriptedRun run(setup, tube_vessel());
+  Box box;
+  LiveDriver hand(run.model, Hands::box, 15, &box);
+  run.take_over(&hand);
+  Controls &keys = hand.controls(Seat::window), &browser = hand.controls(Seat::browser);
+  const auto step = [&] { ASSERT_TRUE(run.tick()); };
+  step();
+  const Eigen::Vector3d before = run.inputs.c_arm.p_PI;
+  EXPECT_EQ(run.inputs.c_arm.lao_rad, 0.1);
+  keys.order({ConsoleCommand::move_table, {10, -20, 0}});
+  browser.order(ConsoleCommand::turn_arm, 5);
+  keys.set(ConsoleCommand::guide_feed, -1);
+  step();
+  EXPECT_NEAR((run.inputs.c_arm.p_PI - before - Eigen::Vector3d(0.01, -0.02, 0)).norm(), 0, 1e-12) << "the table";
+  EXPECT_NEAR(run.inputs.c_arm.lao_rad, 0.1 + 5 * units::degree, 1e-12) << "from where the box had it";
+  EXPECT_EQ(run.inputs.tools[0].feed_m_s, 0.01) << "the hand at the box";
+  box.lao_rad = 0.3, box.pedal = true;
+  step();
+  EXPECT_EQ(run.inputs.c_arm.lao_rad, 0.3) << "whoever asks last has the say";
+  EXPECT_TRUE(run.inputs.c_arm.fluoroscopy);
+  EXPECT_NEAR(run.inputs.c_arm.p_PI.x(), before.x() + 0.01, 1e-12) << "the table stays";
+  box.pedal = false;
+  browser.set(ConsoleCommand::cine, 1);
+  step();
+  EXPECT_FALSE(run.inputs.c_arm.fluoroscopy);
+  EXPECT_TRUE(run.inputs.c_arm.cine) << "anybody's pedal";
+}
+
+TEST(LiveDriver, TheScriptWaitsForWhoTakesOverAndBeginsItsStepAnew) {
+  const RunSetup setup = tube_setup(R"({ "schema": "ostium-script/1", "name": "waits", "title": "A test",
+    "tools": [ { "name": "wire", "instrument": "cook-j" } ],
+    "steps": [ { "do": "advance", "tool": "wire", "speed_mm_s": 10, "timeout_s": 2, "until": [{ "inserted_mm": 15 }] } ] })");
+  ScriptedRun run(setup, tube_vessel());
+  LiveDriver hand(run.model, Hands::script, 15);
+  run.take_over(&hand);
+  Controls& keys = hand.controls(Seat::browser);
+  const auto steps = [&](int n) {
+    for (int i = 0; i < n; ++i) ASSERT_TRUE(run.tick());
+  };
+  steps(1000);
+  EXPECT_NEAR(run.state.hands[0].fed_m, 0.010, 2e-4);
+  keys.order(ConsoleCommand::take_over);
+  steps(3000);
+  EXPECT_NEAR(run.state.hands[0].fed_m, 0.010, 2e-4) << "nobody moves it";
+  EXPECT_EQ(run.outcome, Outcome::running) << "its time is over, and does not count";
+  keys.order(ConsoleCommand::hand_back);
+  steps(400);
+  EXPECT_NEAR(run.state.hands[0].fed_m, 0.014, 3e-4);
+  while (run.tick()) {
+  }
+  EXPECT_EQ(run.outcome, Outcome::success);
 }
 
 TEST(Panel, TheReferenceIsTheFullestOfTheLastCineUntilSomebodyChooses) {
@@ -137,24 +204,24 @@ TEST(Panel, TheReferenceIsTheFullestOfTheLastCineUntilSomebodyChooses) {
 
 /// Any picture of a film that nobody exposes is black or the one before.
 TEST(LivePicture, FollowsThePedalsWhoeverPressesThem) {
-  for (const Level pedal : {Level::fluoroscopy, Level::cine}) {
+  for (const ConsoleCommand pedal : {ConsoleCommand::fluoroscopy, ConsoleCommand::cine}) {
     Played p;
-    LivePicture live(p.run.model, {.filmed = nullptr, .has_pedals = true, .frames_per_s = 15, .pixels = 64});
+    LivePicture live(p.run.model, {.filmed = nullptr, .has_pedals = true, .pixels = 64});
     const auto look = [&] {
       p.steps(70);
-      ASSERT_TRUE(p.hand.snapshots().update());
-      live.look(p.hand.snapshots().front(), true);
+      ASSERT_TRUE(p.hand.snapshots(Seat::window).update());
+      live.look(p.hand.snapshots(Seat::window).front(), true);
     };
     look();
     EXPECT_TRUE(live.picture().grey.empty()) << "no pedal has been pressed";
-    p.hand.controls.set(pedal, 1);
+    p.keys.set(pedal, 1);
     look();
     ASSERT_FALSE(live.picture().grey.empty()) << "a pedal alone";
     const std::vector<std::uint8_t> last = live.picture().grey;
     EXPECT_GT(*std::max_element(last.begin(), last.end()), 0);
-    EXPECT_EQ(live.cine(), pedal == Level::cine);
-    p.hand.controls.set(pedal, 0);
-    p.hand.controls.set(Level::guide_feed, 1);
+    EXPECT_EQ(live.cine(), pedal == ConsoleCommand::cine);
+    p.keys.set(pedal, 0);
+    p.keys.set(ConsoleCommand::guide_feed, 1);
     look();
     EXPECT_EQ(live.picture().grey, last) << "last image hold";
   }
@@ -162,22 +229,28 @@ TEST(LivePicture, FollowsThePedalsWhoeverPressesThem) {
 
 TEST(Panel, ShowsPictureToolsAndWhatIsWrong) {
   Played p;
-  p.hand.controls.set(Level::guide_feed, 1);
+  p.keys.set(ConsoleCommand::guide_feed, 1);
   p.steps(400);
-  ASSERT_TRUE(p.hand.snapshots().update());
-  const PanelTexts texts = panel_texts(p.run.model, p.run.plan, p.hand, true);
+  ASSERT_TRUE(p.hand.snapshots(Seat::window).update());
+  const PanelTexts texts = panel_texts(p.run.model, p.run.plan, p.hand);
   fluoro::Picture grey;
   grey.width = grey.height = 64;
   grey.grey.assign(64 * 64, 200);
   std::vector<std::uint32_t> calm, red;
-  PanelView view{.picture = &grey, .reference = nullptr, .dose = {}, .problem = "", .help = false};
-  draw_panel(texts, p.hand.snapshots().front(), view, calm);
+  PanelView view{.picture = &grey,
+                 .reference = nullptr,
+                 .dose = {},
+                 .review_frame = 0,
+                 .review_frames = 0,
+                 .problem = "",
+                 .help = false};
+  draw_panel(texts, p.hand.snapshots(Seat::window).front(), view, calm);
   const auto at = [](const std::vector<std::uint32_t>& pixels, int x, int y) {
     return pixels[static_cast<std::size_t>(y * panel_width + x)] & 0xffffffu;
   };
   EXPECT_EQ(at(calm, 300, 200), 0xc8c8c8u) << "the picture";
   view.problem = "wire lost";
-  draw_panel(texts, p.hand.snapshots().front(), view, red);
+  draw_panel(texts, p.hand.snapshots(Seat::window).front(), view, red);
   EXPECT_GT(at(red, 700, 380) >> 16, 2 * (at(red, 700, 380) & 0xffu)) << "a red bar";
   EXPECT_NE(calm, red);
 }

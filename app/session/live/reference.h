@@ -12,19 +12,21 @@ class Reference {
   void take(const fluoro::Picture& picture, bool cine, double seen) {
     if (cine && seen >= visible_share && seen > most_seen_) best_ = picture, most_seen_ = seen;
     if (cine || best_.grey.empty()) return;
-    if (!chosen_) frozen_ = best_;
+    if (!chosen_) frozen_ = best_, ++changes_;
     best_ = {}, most_seen_ = 0;
   }
   /// By the operator, from now on.
-  void freeze(const fluoro::Picture& picture) { frozen_ = picture, chosen_ = true; }
+  void freeze(const fluoro::Picture& picture) { frozen_ = picture, chosen_ = true, ++changes_; }
   /// Null: there is none yet.
   const fluoro::Picture* picture() const { return frozen_.grey.empty() ? nullptr : &frozen_; }
+  int changes() const { return changes_; }
 
  private:
   static constexpr double visible_share = visible_kg_m3 / undiluted_kg_m3;
   fluoro::Picture frozen_, best_;
   double most_seen_ = 0;
   bool chosen_ = false;
+  int changes_ = 0;
 };
 
 }  // namespace ostium::app

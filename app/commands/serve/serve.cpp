@@ -1,0 +1,230 @@
+#include "app/commands/serve/serve.h"
+
+#include <fmt/format.h>
+#include <stdlib.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <nlohmann/json.hpp>
+
+#include "app/command_line/arguments.h"
+#include "app/command_line/command.h"
+#include "app/command_line/common_options.h"
+#include "app/command_line/folder_lock.h"
+#include "app/command_line/interrupt.h"
+#include "app/command_line/progress.h"
+#include "app/commands/report.h"
+#include "app/commands/run/drivers.h"
+#include "app/session/run/branch.h"
+#include "data/catalogue/catalogue.h"
+#include "data/formats/load_error.h"
+#include "data/formats/write_file.h"
+
+namespace ostium::app {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+void declare(Options& options, ServeArguments& a) {
+  a.session.script = "";
+  options.add("vessel", a.session.vessel, "A case (`ostium cases`, or a file), or a closed mesh")
+      .type("CASE|MESH")
+      .required();
+  add_session_options(options, a.session);
+  options.add("--seed", a.session.seed, "0: exactly as the script says").show_default();
+  options.add("--out", a.folder, "Where run.h5, the branches, notes and the report stay").type("DIR");
+  options.add("--port", a.port, "0: any that is free").range(0, 65535).show_default();
+  options.add("--address", a.address, "Where it listens; anything but 127.0.0.1 lets others in")
+      .type("IP")
+      .show_default();
+  options
+      .add("--hands", a.hands,
+           "Who begins with the instruments: the script (until somebody takes over), or the browser")
+      .one_of({"script", "browser"})
+      .show_default();
+  options.add("--scoring", a.scoring, "Steps and errors: a list of data/scoring, or a file")
+      .type("NAME|FILE.json")
+      .show_default();
+  options.flag("--go", a.at_once, "Begins at once, instead of when the trainer says so");
+  options.flag("--report,!--no-report", a.report, "DIR/report.html with pictures at the end (default)");
+}
+
+/// A folder of its own, which goes with it.
+class PassingFolder {
+ public:
+  PassingFolder() {
+    std::string name = (fs::temp_directory_path() / "ostium-serve-XXXXXX").string();
+    if (!mkdtemp(name.data())) throw data::LoadError(name + ": cannot be made; expected --out DIR");
+    path_ = name;
+  }
+  ~PassingFolder() {
+    std::error_code none;
+    fs::remove_all(path_, none);
+  }
+  PassingFolder(const PassingFolder&) = delete;
+  const std::string& path() const { return path_; }
+
+ private:
+  std::string path_;
+};
+
+/// The angioplasty that is written for the case, if there is one.
+std::string script_for(const std::string& vessel) {
+  const std::string own = "pci-" + vessel;
+  return fs::is_regular_file(fs::path(data::data_folder()) / "scripts" / (own + ".json")) ? own : "aorta-arch-wire";
+}
+
+std::vector<data::Score> scores_of(const std::string& file, const SessionModel& model, const data::ScoreList& list,
+                                   const std::vector<data::Metric>& metrics) {
+  const data::RecordingReader recording(file);
+  data::RunRecord record{.step_s = recording.step_s(),
+                         .steps = recording.steps(),
+                         .signal_columns = recording.signal_columns(),
+                         .signals = recording.signals(),
+                         .events = recording.events(),
+                         .branches = {}};
+  for (const vascular::TreeBranch& branch : model.vessel->way->branches()) record.branches.push_back(branch.name);
+  return score(list, record, metrics);
+}
+
+void write_notes(const std::string& file, const std::vector<Note>& notes) {
+  if (notes.empty()) return;
+  auto all = nlohmann::ordered_json::array();
+  for (const Note& note : notes) all.push_back({{"second", note.second}, {"note", note.text}});
+  data::write_file(file, all.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
+}
+
+std::string text_of(const fs::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+/// A run and its branches, one after another, in a folder.
+class Sitting {
+ public:
+  Sitting(const ServeArguments& a, const std::string& folder, const RunSetup& setup, ScriptedRun& run, LiveDriver& hand,
+          Station& station)
+      : a_(a),
+        folder_(folder),
+        setup_(setup),
+        run_(run),
+        hand_(hand),
+        station_(station),
+        dosimeter_(std::make_shared<const Dosimeter>(*run.model.vessel)) {}
+
+  /// Until the trainer leaves, or the program is asked to end.
+  Served play_all() {
+    Wish wish = play_once();
+    while (wish.kind == Wish::Kind::go_back && !interrupted) {
+      const Continued from{(fs::path(folder_) / recording_).string(),
+                           wish.second * static_cast<std::size_t>(data::steps_per_state)};
+      try {
+        watch_ = go_back(run_, from);
+      } catch (const data::LoadError& error) {
+        station_.tell_problem(error.what());
+        wish = station_.wait(interrupted);
+        continue;
+      }
+      continues_ = from;
+      recording_ = fmt::format("branch-{}.h5", ++branches_ + 1);
+      hand_.restart(run_);
+      station_.gone_back(wish.second, recording_);
+      wish = play_once();
+    }
+    return {last_, scores_};
+  }
+
+ private:
+  Wish play_once() {
+    PlayOptions options;
+    options.recorder.file = (fs::path(folder_) / recording_).string();
+    options.recorder.continues = continues_, options.recorder.watch = watch_;
+    options.recorder.heard = station_.ear();
+    options.real = true;
+    options.seconds = a_.session.seconds;
+    options.dosimeter = dosimeter_;
+    options.stop = &interrupted;
+    last_ = play(run_, setup_, options);
+    if (!last_.problem.empty()) station_.tell_problem("the recording ends early: " + last_.problem);
+    const Wish wish = station_.wish();
+    if (wish.kind != Wish::Kind::none || interrupted) return wish;
+    finish(options.recorder.file);
+    return station_.wait(interrupted);
+  }
+
+  void finish(const std::string& file) {
+    const data::ScoreList list = data::find_score_list(a_.scoring);
+    scores_ = scores_of(file, run_.model, list, last_.metrics);
+    station_.ended(last_, scores_);
+    data::write_file((fs::path(folder_) / "metrics.json").string(),
+                     metrics_json(setup_.vessel, setup_.seed, last_.outcome, last_.reason, last_.metrics));
+    write_notes((fs::path(folder_) / "notes.json").string(), station_.notes());
+    if (!a_.report) return;
+    try {
+      report_folder(folder_, run_.model.vessel, recording_, a_.scoring);
+      station_.reported(text_of(fs::path(folder_) / "report.html"));
+    } catch (const data::LoadError& error) {
+      station_.tell_problem(error.what());
+    }
+  }
+
+  const ServeArguments& a_;
+  const std::string& folder_;
+  const RunSetup& setup_;
+  ScriptedRun& run_;
+  LiveDriver& hand_;
+  Station& station_;
+  std::shared_ptr<const Dosimeter> dosimeter_;
+  std::string recording_ = "run.h5";
+  int branches_ = 0;
+  std::optional<Continued> continues_;
+  std::shared_ptr<EventWatch> watch_;
+  PlayReport last_;
+  std::vector<data::Score> scores_;
+};
+
+int run(const ServeArguments& a) {
+  const Served served = serve(a);
+  return served.report.outcome == "success" || served.report.outcome == "ended" ? 0 : 1;
+}
+
+}  // namespace
+
+Served serve(const ServeArguments& arguments) {
+  ServeArguments a = arguments;
+  if (a.session.script.empty()) a.session.script = script_for(a.session.vessel);
+  RunSetup setup = setup_of(a.session);
+  const bool by_hand = a.hands == "browser";
+  if (by_hand) setup.script = free_hands(setup.script);
+  std::optional<PassingFolder> passing;
+  if (a.folder.empty()) a.folder = passing.emplace().path();
+  make_folder(a.folder);
+  const FolderLock lock(a.folder);
+  const auto vessel = build_vessel(setup, "serve");
+  ScriptedRun session(setup, vessel);
+  LiveDriver hand(session.model, by_hand ? Hands::seats : Hands::script, 15);
+  session.take_over(&hand);
+  if (!a.at_once) hand.controls(Seat::window).order(ConsoleCommand::pause);
+  StationSettings settings;
+  settings.address = a.address, settings.port = static_cast<std::uint16_t>(a.port), settings.goes_back = true;
+  settings.lesson = a.lesson;
+  Station station(session, hand, data::find_score_list(a.scoring), settings);
+  stop_on_signals();
+  show_progress("");
+  tell_links(station, !is_loopback(a.address));
+  const Served served = Sitting(a, a.folder, setup, session, hand, station).play_all();
+  if (!passing) fmt::print(stderr, "{}: recordings, metrics{}\n", a.folder, a.report ? ", report.html" : "");
+  return served;
+}
+
+Command serve_command() {
+  return make_command("serve", "A run with a trainer's station: a page in the browser",
+                      {"ostium serve rca-mid-focal", "ostium serve rca-mid-focal --hands browser --out out --port 8100",
+                       "ostium serve lad-proximal-eccentric --address 192.168.1.20"},
+                      declare, run);
+}
+
+}  // namespace ostium::app

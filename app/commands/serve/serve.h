@@ -1,0 +1,28 @@
+#pragma once
+/// A run with a trainer's station that can go back; `learn` sits learners down at the same.
+#include "app/commands/run/session_arguments.h"
+#include "app/serve/station/station.h"
+
+namespace ostium::app {
+
+struct ServeArguments {
+  SessionArguments session;           ///< without a script: the angioplasty that is written for the case
+  std::string folder;                 ///< empty: one that is removed at the end
+  std::string address = "127.0.0.1";  ///< where it listens
+  int port = 0;
+  std::string hands = "script";  ///< or browser
+  std::string scoring = "pci-elective";
+  bool at_once = false;  ///< does not wait for the trainer's "go on"
+  bool report = true;
+  LessonWords lesson;  ///< empty: none
+};
+
+struct Served {
+  PlayReport report;                ///< of the last branch
+  std::vector<data::Score> scores;  ///< of it; empty: it did not come to its end
+};
+
+/// Prints the links; returns when the trainer leaves. Throws LoadError or MeshError.
+Served serve(const ServeArguments& arguments);
+
+}  // namespace ostium::app

@@ -1,0 +1,86 @@
+#include "app/serve/messages/words.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace ostium::app {
+
+namespace {
+
+template <std::size_t n>
+std::string one_of(const char* const (&words)[n], double value) {
+  return value >= 0 && value < static_cast<double>(n) ? words[static_cast<std::size_t>(value)] : "";
+}
+
+std::string step_words(const ScriptPlan& plan, double value) {
+  const auto& steps = plan.script.steps;
+  return value >= 0 && value < static_cast<double>(steps.size()) ? steps[static_cast<std::size_t>(value)].words() : "";
+}
+
+std::string branch_name(const SessionModel& model, double value) {
+  const auto& branches = model.vessel->way->branches();
+  return value >= 0 && value < static_cast<double>(branches.size()) ? branches[static_cast<std::size_t>(value)].name
+                                                                    : "";
+}
+
+std::string injury_words(double value) {
+  static constexpr const char* dissections[] = {"dissection A", "dissection B", "dissection C",
+                                                "dissection D", "dissection E", "dissection F"};
+  static constexpr const char* perforations[] = {
+      "", "perforation, Ellis I", "perforation, Ellis II", "perforation, Ellis III", "", "perforation, Ellis V"};
+  return value < 20 ? one_of(dissections, value - 10) : one_of(perforations, value - 20);
+}
+
+/// A value with the unit that the event's definition begins with.
+std::string value_words(const data::EventDefinition& definition, double value) {
+  const std::string& unit = definition.value;
+  const std::string first = unit.substr(0, unit.find_first_of(" ,"));
+  for (const char* known : {"N", "mm", "s", "mL/s", "mL", "U", "ug", "atm", "degrees"})
+    if (first == known) return fmt::format(", {:.3g} {}", value, first);
+  return "";
+}
+
+std::string name_words(std::string name) {
+  std::replace(name.begin(), name.end(), '_', ' ');
+  return name;
+}
+
+}  // namespace
+
+std::string words_of(const SessionEvent& event, const SessionModel& model, const ScriptPlan& plan) {
+  using data::EventCode;
+  static constexpr const char* traces[] = {"normal", "damped", "ventricularised", "that of the ventricle", "absent"};
+  const data::EventDefinition* definition = data::definition_of(static_cast<EventCode>(event.code));
+  if (!definition) return "";
+  std::string what = name_words(definition->name) + value_words(*definition, event.value);
+  switch (definition->code) {
+    case EventCode::script_step_begins:
+      return step_words(plan, event.value);
+    case EventCode::script_step_done:
+    case EventCode::ffr_changes:
+    case EventCode::step_trouble:
+      return "";
+    case EventCode::script_step_failed:
+      return "script: not done: " + step_words(plan, event.value);
+    case EventCode::script_step_timed_out:
+      return "script: takes too long: " + step_words(plan, event.value);
+    case EventCode::tip_enters:
+      what = "enters " + branch_name(model, event.value);
+      break;
+    case EventCode::trace_changes:
+      what = "guide pressure " + one_of(traces, event.value);
+      break;
+    case EventCode::injury:
+      return injury_words(event.value);
+    case EventCode::stent_elsewhere:
+      what = "stent left in " + branch_name(model, event.value);
+      break;
+    default:
+      break;
+  }
+  const auto tool = static_cast<std::size_t>(event.tool);
+  return event.tool >= 0 && tool < model.tools.size() ? model.tools[tool].name + ": " + what : what;
+}
+
+}  // namespace ostium::app

@@ -1,0 +1,223 @@
+import { Console } from '/console.js';
+import { Picture } from '/picture.js';
+import { Socket } from '/socket.js';
+import { drawStrip } from '/strips.js';
+import { Timeline, clock } from '/timeline.js';
+import { Truth, toolColours } from '/truth.js';
+
+const $ = (id) => document.getElementById(id);
+const token = new URLSearchParams(location.hash.slice(1)).get('token') ?? sessionStorage.getItem('token') ?? '';
+sessionStorage.setItem('token', token);
+history.replaceState(null, '', '/'); // not for shoulders, nor for the history
+
+let welcome = null, now = null, console_ = null, ended = null, refusedUntil = 0;
+const truth = new Truth($('truth'));
+const picture = new Picture($('picture'), () => { $('empty').hidden = true; });
+const reference = new Picture($('reference'), () => { $('reference').hidden = false; });
+
+function ask(words, yes) {
+  const dialog = $('ask');
+  dialog.querySelector('p').textContent = words;
+  const [a, b] = dialog.querySelectorAll('button');
+  a.onclick = () => { dialog.close(); yes(); };
+  b.onclick = () => dialog.close();
+  dialog.showModal();
+}
+
+const timeline = new Timeline($('events'), $('bar'), (second) =>
+  ask(`Go back to ${clock(second)} and go on from there? What came later stays recorded.`, () => socket.order('rewind', second)));
+
+function refuse(why) {
+  $('refused').textContent = why.replace(/^message:\d+: /, '');
+  refusedUntil = performance.now() + 5000;
+}
+setInterval(() => { if (performance.now() > refusedUntil) $('refused').textContent = ''; }, 500);
+
+const trackers = {
+  welcome(message) {
+    welcome = message;
+    $('gone').hidden = true;
+    document.title = `Ostium: ${message.case}`;
+    $('title').textContent = message.title;
+    $('who').textContent = message.role === 'trainer' ? 'Trainer' : 'Viewer';
+    const viewer = message.role !== 'trainer';
+    for (const id of ['pause', 'hands', 'end', 'note']) $(id).disabled = viewer;
+    $('marks').querySelector('button').disabled = viewer;
+    $('copy-link').hidden = viewer;
+    const lesson = message.lesson;
+    $('lesson').hidden = !lesson.title;
+    $('lesson').querySelector('h2').textContent = lesson.title;
+    $('lesson').querySelector('p').textContent = `Goal: ${lesson.goal}`;
+    $('lesson').querySelector('ol').replaceChildren(...lesson.instructions.map((words) => Object.assign(document.createElement('li'), { textContent: words })));
+    truth.tree = message.tree;
+    timeline.clear();
+    timeline.enabled = !viewer && message.goes_back;
+    ended = null;
+    if (!console_) {
+      console_ = new Console($('console-panel'), $('stage'), socket, message);
+      $('stage').focus();
+    }
+    $('tools').tBodies[0].replaceChildren(...message.tools.map((tool, t) => {
+      const row = document.createElement('tr');
+      for (let i = 0; i < 6; ++i) row.append(document.createElement('td'));
+      row.cells[0].textContent = `■ ${tool.name}`;
+      row.cells[0].title = tool.title;
+      row.cells[0].style.color = toolColours[t % toolColours.length];
+      return row;
+    }));
+    showScores(null);
+  },
+  now(message) { now = message; show(); },
+  events(message) { timeline.add(message.events); },
+  branch(message) { timeline.goneBack(message.from_s); ended = null; },
+  scores(message) { showScores(message.items); },
+  refused(message) { refuse(message.why); },
+  ended(message) { ended = message; show(); choose('scores'); },
+  reported() { $('report').hidden = false; },
+  report(message) {
+    const link = document.createElement('a');
+    link.href = URL.createObjectURL(new Blob([message.html], { type: 'text/html' }));
+    link.download = 'report.html';
+    link.click();
+  },
+};
+
+const socket = new Socket(token, {
+  text: (message) => trackers[message.type]?.(message),
+  bytes: (data) => {
+    const bytes = new Uint8Array(data);
+    if (bytes[0] === 1) picture.take(bytes);
+    else if (bytes[0] === 2) reference.take(bytes);
+    else if (bytes[0] === 3) truth.take(data);
+  },
+  gone: () => {
+    $('gone').textContent = welcome ? 'The connection is gone; trying again …' : 'This link is not (or no longer) valid for this run. Trying again …';
+    $('gone').hidden = false;
+  },
+});
+
+const fixed = (value, digits) => value === null || value === undefined ? '–' : value.toFixed(digits);
+
+function show() {
+  if (!now || !welcome) return;
+  const script = now.hands === 'script';
+  $('clock').textContent = clock(now.s);
+  const state = ended ? `Ended: ${ended.outcome}` : now.paused ? 'Paused' : 'Running';
+  const by = script ? 'the script has the instruments' : now.hands === 'box' ? 'hands at the box' : 'you have the instruments';
+  const words = ended ? state : `${state}, ${by.replace('you', welcome.role === 'trainer' ? 'you' : 'the trainer')}`;
+  if ($('state').textContent !== words) $('state').textContent = words;
+  $('state').classList.toggle('loud', now.paused || !!ended);
+  $('pause').textContent = now.paused ? 'Go on' : 'Pause';
+  $('hands').textContent = script ? 'Take over' : 'Hand back';
+  $('hands').hidden = now.step < 0;
+  const reviewing = now.picture.review_frames > 0;
+  const beam = now.arm.fluoroscopy || now.arm.cine;
+  $('beam').hidden = !beam || now.paused || reviewing;
+  $('beam').lastChild.textContent = now.arm.cine ? ' Cine' : ' X-ray on';
+  $('held').hidden = !$('beam').hidden || !$('empty').hidden;
+  $('held').textContent = reviewing ? `cine review ${now.picture.review_frame} of ${now.picture.review_frames}` : 'last image held';
+  if (now.patient) {
+    drawStrip($('ecg'), now.ecg_10uV, -60, 160, '#4fd97f');
+    drawStrip($('pressure'), now.line_mmHg, 0, 180, '#ff7a6b');
+    $('rate').textContent = now.patient.rate;
+    $('mmhg').textContent = now.patient.high_mmHg === null ? '–' : `${now.patient.high_mmHg}/${now.patient.low_mmHg}`;
+  }
+  $('monitor').hidden = !now.patient;
+  [...$('tools').tBodies[0].rows].forEach((row, t) => {
+    const tool = now.tools[t], cells = row.cells;
+    row.className = tool.in ? '' : 'out';
+    cells[1].textContent = tool.in ? fixed(tool.inserted_mm / 10, 1) : 'out';
+    cells[2].textContent = tool.in ? `${Math.round(tool.turned_deg)}°` : '';
+    cells[3].textContent = tool.in ? fixed(tool.push_N, 2) : '';
+    cells[4].textContent = tool.in ? fixed(tool.wall_N, 2) : '';
+    cells[5].textContent = tool.in ? fixed(tool.tip_N, 2) : '';
+  });
+  const p = now.patient, x = now.xray;
+  const arm = [['C-arm', now.arm.words], ['field', `${now.arm.field_mm / 10} cm`], ['fluoroscopy', clock(x.fluoroscopy_s)],
+    ['cine', `${x.runs} in ${fixed(x.cine_s, 1)} s`], ['dose', `${fixed(x.dap_Gycm2, 2)} Gy cm²`]];
+  const numbers = p ? [['gauge', `${fixed(p.gauge_atm, 1)} atm`], ['balloon', `${fixed(p.balloon_mm, 2)} mm`], ['contrast', `${fixed(p.contrast_mL, 1)} mL`], ['ACT', `${fixed(p.act_s, 0)} s`],
+    ['ST', `${fixed(p.ST_mV, 2)} mV`], ['flow', p.flow_share === null ? '–' : `${Math.round(100 * p.flow_share)} %`], ['lesion', `${fixed(p.lesion_mld_mm, 2)} mm`], ['tear hazard', fixed(p.hazard, 3)], ...arm] : arm;
+  if (now.late > 0) numbers.push(['late steps', now.late]);
+  $('numbers').replaceChildren(...numbers.map(([name, value]) => {
+    const pair = document.createElement('div'), dt = document.createElement('dt'), dd = document.createElement('dd');
+    dt.textContent = name;
+    dd.textContent = value;
+    pair.append(dt, dd);
+    return pair;
+  }));
+  $('step').textContent = script && now.step >= 0 ? welcome.steps[now.step] ?? '' : now.refused >= 0 && now.in_its_way >= 0
+    ? `${welcome.tools[now.refused].name} cannot enter: ${welcome.tools[now.in_its_way].name} is in its place` : '';
+  timeline.tick(now.s);
+  console_.show(now, welcome);
+}
+
+function showScores(items) {
+  const panel = $('scores-panel'), made = [];
+  const add = (tag, words) => { const element = document.createElement(tag); element.textContent = words; made.push(element); return element; };
+  add('p', `${welcome.scoring.title}. ${welcome.scoring.note}`);
+  let phase = null, list = null;
+  welcome.scoring.items.forEach((item, i) => {
+    if (item.phase !== phase) { phase = item.phase; add('h3', phase); list = add('ul', ''); }
+    const score = items?.[i], row = document.createElement('li');
+    const holds = score ? score.holds : null;
+    // An error that has not come yet, and a step that may still come, are open until the end.
+    const open = holds === null || (!ended && (item.kind === 'step' ? !holds : holds));
+    row.className = open ? 'open' : holds ? 'yes' : 'no';
+    const sign = open ? '○' : holds ? '✔' : item.kind === 'step' ? '–' : '✖';
+    const when = score?.at_s?.length ? score.at_s.slice(0, 3).map(clock).join(' ') + (score.at_s.length > 3 ? ` … ${score.at_s.length} times` : '') : score?.value ?? '';
+    for (const words of [sign, item.what, when]) { const span = document.createElement('span'); span.textContent = words; row.append(span); }
+    row.title = item.when;
+    list.append(row);
+  });
+  if (ended) {
+    add('h3', 'numbers of the run');
+    const table = document.createElement('table');
+    for (const metric of ended.metrics) {
+      const row = table.insertRow();
+      row.insertCell().textContent = metric.name.replaceAll('_', ' ');
+      row.insertCell().textContent = `${Number(metric.value.toPrecision(4))} ${metric.unit === '1' ? '' : metric.unit}`;
+    }
+    made.push(table);
+  }
+  panel.replaceChildren(...made);
+}
+
+const tabs = ['events', 'console', 'scores'];
+function choose(name) {
+  for (const one of tabs) {
+    $(`tab-${one}`).setAttribute('aria-selected', one === name);
+    $(`tab-${one}`).tabIndex = one === name ? 0 : -1;
+    $(`${one}-panel`).hidden = one !== name;
+  }
+}
+tabs.forEach((name, i) => {
+  $(`tab-${name}`).onclick = () => choose(name);
+  $(`tab-${name}`).onkeydown = (event) => {
+    const by = { ArrowRight: 1, ArrowLeft: -1 }[event.key];
+    if (!by) return;
+    const next = tabs[(i + by + tabs.length) % tabs.length];
+    choose(next);
+    $(`tab-${next}`).focus();
+  };
+});
+$('pause').onclick = () => socket.order('pause');
+$('hands').onclick = () => {
+  const take = now?.hands === 'script';
+  socket.order(take ? 'take_over' : 'hand_back');
+  if (take) { choose('console'); $('stage').focus(); }
+};
+$('end').onclick = () => ask(ended ? 'Close the session?' : 'End the run?', () => socket.order('end'));
+$('report').onclick = () => socket.order('report');
+$('marks').onsubmit = (event) => {
+  event.preventDefault();
+  socket.send({ do: 'mark', text: $('note').value });
+  $('note').value = '';
+};
+$('truth-follow').onclick = () => {
+  truth.follow = !truth.follow;
+  $('truth-follow').setAttribute('aria-pressed', truth.follow);
+};
+$('copy-link').onclick = () => navigator.clipboard.writeText(location.origin + '/' + welcome.viewer_link);
+$('help').onclick = () => { console_?.help($('keys').querySelector('tbody')); $('keys').showModal(); };
+$('keys').querySelector('button').onclick = () => $('keys').close();
+$('legend').append('wall force 0', document.createElement('i'), '0.3 N and more');

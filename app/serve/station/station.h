@@ -1,0 +1,98 @@
+#pragma once
+/// A trainer's station beside a run: a server, a thread that draws and tells, and what the trainer asks for. The thread
+/// that steps only publishes snapshots and events; it waits for nobody here.
+#include <atomic>
+#include <condition_variable>
+#include <functional>
+#include <mutex>
+#include <optional>
+#include <thread>
+
+#include "app/serve/messages/messages.h"
+#include "app/session/run/play.h"
+#include "core/base/ring.h"
+
+namespace ostium::app {
+
+struct StationSettings {
+  std::string address = "127.0.0.1";
+  std::uint16_t port = 0;
+  bool goes_back = false;  ///< whether the owner answers `wait` by going back
+  bool has_pedals = true;
+  int pixels = 512;
+  LessonWords lesson;
+};
+
+/// What the trainer wants of a run that has ended, or has been ended for it.
+struct Wish {
+  enum class Kind { none, go_back, leave } kind = Kind::none;
+  std::size_t second = 0;
+};
+
+struct Note {
+  double second = 0;
+  std::string text;
+};
+
+class Station : public Listener {
+ public:
+  /// Both must outlive this. Throws std::runtime_error if the address cannot be listened at.
+  Station(const ScriptedRun& run, LiveDriver& hand, data::ScoreList scoring, const StationSettings& settings);
+  ~Station() override;
+
+  std::string trainer_link() const;
+  std::string viewer_link() const;
+  std::uint16_t port() const { return server_->port(); }
+
+  /// For RecorderOptions::heard, on the thread that steps.
+  std::function<void(const SessionEvent&)> ear();
+
+  // --- of the owner, between two plays
+  /// What has been asked for since; none: the run came to its own end.
+  Wish wish();
+  /// Until the trainer asks for something, or `stop`.
+  Wish wait(const std::atomic<bool>& stop);
+  /// The run goes on from that second, as another recording.
+  void gone_back(std::size_t second, const std::string& recording);
+  void ended(const PlayReport& report, const std::vector<data::Score>& scores);
+  void reported(const std::string& html);  ///< the report's page
+  void tell_problem(const std::string& what);
+  std::vector<Note> notes() const;
+
+  // --- Listener, on the server's thread
+  std::vector<std::string> greet(Role role) override;
+  std::string hear(Role role, const std::string& text) override;
+  void lost_trainer() override;
+
+ private:
+  void follow();
+  void take_events();
+  void tell_scores();
+  std::string obey(const std::string& what, const data::JsonValue& message);
+  std::string ask_to_go_back(const data::JsonValue& message);
+  std::string link(const std::string& token) const;
+
+  const ScriptedRun& run_;
+  LiveDriver& hand_;
+  StationSettings settings_;
+  Setting setting_;
+  std::string trainer_token_, viewer_token_;
+  core::Ring<SessionEvent, 4096> heard_;
+  std::atomic<bool> over_{false};
+  std::atomic<int> hands_{0};
+  std::atomic<double> now_s_{0};
+  mutable std::mutex mutex_;  ///< of what follows; never taken by the thread that steps
+  std::condition_variable asked_;
+  std::vector<TimelineEntry> moments_;
+  std::vector<SessionEvent> events_;
+  std::vector<Note> notes_;
+  std::vector<std::string> unplaced_notes_;  ///< whose mark has not come yet
+  std::vector<std::string> sticky_;          ///< what those who come later must know: branches, the end
+  std::string end_, final_scores_, report_;
+  Wish wish_;
+  bool has_ended_ = false;
+  std::unique_ptr<Server> server_;
+  std::thread thread_;
+};
+
+}  // namespace ostium::app

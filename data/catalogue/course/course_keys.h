@@ -1,0 +1,31 @@
+#pragma once
+/// The keys of a course, object by object: what the reader accepts, and how each is described. The schema
+/// (data/schemas/course.schema.json) is generated from them.
+#include "data/formats/json_object.h"
+
+namespace ostium::data::course_keys {
+
+inline const JsonObjectKeys root = {
+    "course",
+    {{"schema", true, "\"ostium-course/1\"", json_type::constant("ostium-course/1")},
+     {"name", true, "the file's name without .json", json_type::text()},
+     {"title", true, "what people call it, a text", json_type::text()},
+     {"note", true, "what it is worth, a text", json_type::text()},
+     {"lessons", true, "a list of at least one, in their order", json_type::list_of(json_type::object("lesson"), 1)}}};
+
+inline const JsonObjectKeys lesson = {
+    "lesson",
+    {{"name", true, "a name of its own: small letters, digits and -", json_type::text()},
+     {"title", true, "what people call it, a text", json_type::text()},
+     {"goal", true, "what has been done at its end, a text", json_type::text()},
+     {"instructions", true, "what to do, texts in their order", json_type::list_of(json_type::text(), 1)},
+     {"case", true, "a case of data/cases, or a file", json_type::text()},
+     {"person", false, "a whole number from 0 on: another person with this case", json_type::whole(from_zero)},
+     {"script", true, "a script whose instruments lie ready, and whose expert shows how", json_type::text()},
+     {"scoring", true, "a scoring list of data/scoring, or a file", json_type::text()},
+     {"must_hold", true, "ids of the list's items that must be done to go on",
+      json_type::list_of(json_type::text(), 1)}}};
+
+inline const std::vector<const JsonObjectKeys*> all = {&root, &lesson};
+
+}  // namespace ostium::data::course_keys

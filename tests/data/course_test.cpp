@@ -1,0 +1,71 @@
+/// Courses: those that ship can be read, and a faulty one says where and what it should be.
+#include "data/catalogue/course/course.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <string>
+
+#include "data/assessment/score_list.h"
+#include "data/formats/load_error.h"
+
+namespace ostium::data {
+namespace {
+
+const std::string good = R"({
+  "schema": "ostium-course/1", "name": "mine", "title": "Mine", "note": "a draft",
+  "lessons": [
+    { "name": "one", "title": "One", "goal": "done", "instructions": ["push"],
+      "case": "rca-mid-focal", "script": "iliac-wire", "scoring": "lesson-feed-and-turn",
+      "must_hold": ["1"] } ] })";
+
+TEST(Course, ThoseThatShipHaveWhatTheyName) {
+  ASSERT_FALSE(course_names().empty());
+  for (const std::string& name : course_names()) {
+    const Course course = find_course(name);
+    EXPECT_EQ(course.name, name);
+    for (const Lesson& lesson : course.lessons) {
+      const ScoreList list = find_score_list(lesson.scoring);
+      for (const std::string& id : lesson.must_hold)
+        EXPECT_TRUE(std::any_of(list.items.begin(), list.items.end(),
+                                [&](const ScoreItem& item) { return item.id == id && item.check; }))
+            << lesson.name << ", " << id;
+    }
+  }
+}
+
+TEST(Course, AFaultyOneNamesFileLineKeyAndCure) {
+  EXPECT_EQ(read_course("mine.json", good).lessons[0].must_hold, std::vector<std::string>{"1"});
+  struct Fault {
+    std::string from, to, says;
+  };
+  const Fault faults[] = {
+      {"\"goal\": \"done\", ", "", "mine.json:4: lessons[0].goal is missing"},
+      {"[\"push\"]", "[]", "mine.json:4: lessons[0].instructions"},
+      {"[\"push\"]", "[7]", "mine.json:4: lessons[0].instructions[0] is 7; expected a text"},
+      {"rca-mid-focal", "rca-nowhere", "mine.json:5: lessons[0].case is \"rca-nowhere\": there is no case"},
+      {"iliac-wire", "no-script", "mine.json:5: lessons[0].script is \"no-script\": there is no script"},
+      {"\"name\": \"one\"", "\"name\": \"../one\"", "mine.json:4: lessons[0].name"},
+      {"\"must_hold\"", "\"must_be\"", "must_be"},
+      {"\"name\": \"mine\"", "\"name\": \"other\"", "the file's name without .json"},
+      {"ostium-course/1", "ostium-course/9", "ostium-course/1"}};
+  for (const Fault& fault : faults) {
+    std::string text = good;
+    text.replace(text.find(fault.from), fault.from.size(), fault.to);
+    try {
+      read_course("mine.json", text);
+      ADD_FAILURE() << fault.to;
+    } catch (const LoadError& error) {
+      EXPECT_NE(std::string(error.what()).find(fault.says), std::string::npos) << fault.says << "\n" << error.what();
+    }
+  }
+  try {
+    find_course("nothing");
+    ADD_FAILURE();
+  } catch (const LoadError& error) {
+    EXPECT_NE(std::string(error.what()).find("first-steps"), std::string::npos) << error.what();
+  }
+}
+
+}  // namespace
+}  // namespace ostium::data
