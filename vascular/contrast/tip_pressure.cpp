@@ -7,11 +7,13 @@ namespace ostium::vascular {
 
 namespace {
 
+/// In the place of a beat's lowest reading: the line was blocked. Readings in a ventricle may be below 0.
+constexpr double was_blocked_Pa = -1e6;
 constexpr double narrow_pulse = 0.6, deep_diastole = 0.65;  // of the aorta's pulse and pressure
 
 Trace judged(const TipPressureState& s, const TipPressureInputs& in) {
   // A line that fills again after an injection rises from 0, which is no diastole.
-  if (in.blocked || s.low_Pa < 0) return Trace::absent;
+  if (in.blocked || s.low_Pa == was_blocked_Pa) return Trace::absent;
   const double pulse = s.high_Pa - s.low_Pa, aorta_pulse = s.aorta_high_Pa - s.aorta_low_Pa;
   if (s.low_Pa < 0.25 * s.aorta_low_Pa && s.high_Pa > 0.92 * s.aorta_high_Pa) return Trace::ventricle;
   if (s.low_Pa < deep_diastole * s.aorta_low_Pa && pulse > aorta_pulse) return Trace::ventricularised;
@@ -30,7 +32,7 @@ void step(const TipPressureModel& model, const TipPressureInputs& in, double dt_
   // The line fills through the open part of the hole: fourth power of its radius.
   const double open = (1 - covered) * (1 - covered);
   s.reading_Pa += -std::expm1(-dt_s * open / model.line_s) * (there - s.reading_Pa);
-  s.low_Pa = in.blocked ? -1 : std::min(s.low_Pa, s.reading_Pa), s.high_Pa = std::max(s.high_Pa, s.reading_Pa);
+  s.low_Pa = in.blocked ? was_blocked_Pa : std::min(s.low_Pa, s.reading_Pa), s.high_Pa = std::max(s.high_Pa, s.reading_Pa);
   s.sum_Pa += s.reading_Pa, s.count += 1;
   s.aorta_low_Pa = std::min(s.aorta_low_Pa, in.pressures.aorta_Pa);
   s.aorta_high_Pa = std::max(s.aorta_high_Pa, in.pressures.aorta_Pa);
@@ -38,8 +40,8 @@ void step(const TipPressureModel& model, const TipPressureInputs& in, double dt_
   s.trace = judged(s, in);
   if (s.trace != Trace::absent) s.mean_Pa = s.sum_Pa / s.count, s.pulse_Pa = s.high_Pa - s.low_Pa;
   // The line may still fill again as the next beat begins.
-  const bool fills = in.blocked || (s.low_Pa < 0 && s.reading_Pa < 0.95 * there);
-  s.low_Pa = fills ? -1 : 1e6, s.aorta_low_Pa = 1e6, s.high_Pa = s.aorta_high_Pa = 0, s.sum_Pa = 0, s.count = 0;
+  const bool fills = in.blocked || (s.low_Pa == was_blocked_Pa && there - s.reading_Pa > 0.05 * in.pressures.aorta_Pa);
+  s.low_Pa = fills ? was_blocked_Pa : 1e6, s.aorta_low_Pa = 1e6, s.high_Pa = s.aorta_high_Pa = 0, s.sum_Pa = 0, s.count = 0;
 }
 
 const char* trace_name(Trace trace) {

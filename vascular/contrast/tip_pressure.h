@@ -27,7 +27,7 @@ struct TipPressureInputs {
 
 struct TipPressureState {
   double reading_Pa = 0;
-  double low_Pa = 1e6, high_Pa = 0, sum_Pa = 0;  ///< of the current beat; low_Pa < 0: it has been blocked
+  double low_Pa = 1e6, high_Pa = 0, sum_Pa = 0;  ///< of the current beat; low_Pa -1e6: it has been blocked
   int count = 0;                                 ///< number of readings in it
   double aorta_low_Pa = 1e6, aorta_high_Pa = 0;
   Trace trace = Trace::normal;       ///< of the last complete beat

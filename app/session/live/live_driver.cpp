@@ -107,7 +107,7 @@ void LiveDriver::read_pressure(const SessionModel& model, const SessionState& st
   if (!model.has_patient()) return;
   const vascular::TipPressureState& line = state.blood.line;
   if (line.count < line_count_) {
-    const bool has_trace = line_low_Pa_ >= 0 && state.coupling.guide >= 0;
+    const bool has_trace = line_low_Pa_ > -1e5 && state.coupling.guide >= 0;
     guide_low_mmHg_ = has_trace ? line_low_Pa_ / mmHg : NAN, guide_high_mmHg_ = has_trace ? line_high_Pa_ / mmHg : NAN;
   }
   line_count_ = line.count, line_low_Pa_ = line.low_Pa, line_high_Pa_ = line.high_Pa;

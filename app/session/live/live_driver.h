@@ -67,7 +67,7 @@ class LiveDriver : public Driver {
   bool paused_ = false, over_ = false, marks_ = false;
   int begun_ = 0;
   int line_count_ = 0;
-  double line_low_Pa_ = -1, line_high_Pa_ = 0;  ///< of the beat that goes on
+  double line_low_Pa_ = -1e6, line_high_Pa_ = 0;  ///< of the beat that goes on
   double guide_low_mmHg_ = NAN, guide_high_mmHg_ = NAN;
   int refused_ = -1, in_its_way_ = -1;
   std::uint64_t refused_at_ = 0;
