@@ -47,8 +47,8 @@ expect 3 "there is no case" "$ostium" inject no-such-case -o "$dir/inject.png"
 expect 3 "png and .mp4" "$ostium" inject -o "$dir/inject.jpg"
 expect 2 "volume" "$ostium" inject --volume -3 -o "$dir/inject.png"
 # Ctrl-C, which ffmpeg gets too, leaves a film of what there was.
-expect 0 "^130$" bash -mc '"$ostium" frame --pixels 64 --frames 9000 -o "$0/cut.mp4" & p=$!
-  until [[ -s $0/cut.mp4.unfinished ]]; do sleep 0.05; done; kill -INT -- -$p; wait $p; echo $?' "$dir"
+expect 0 "^130$" bash -c 'setsid "$ostium" frame --pixels 64 --frames 9000 -o "$0/cut.mp4" & p=$!
+  until [[ -e $0/cut.mp4.unfinished ]]; do sleep 0.05; done; sleep 0.3; kill -INT -- -$p; wait $p; echo $?' "$dir"
 [[ -s $dir/cut.mp4 && ! -e $dir/cut.mp4.unfinished ]]
 # Every option of every command that takes a number: finite decimals only.
 tried=0
