@@ -32,7 +32,8 @@ void step(const TipPressureModel& model, const TipPressureInputs& in, double dt_
   // The line fills through the open part of the hole: fourth power of its radius.
   const double open = (1 - covered) * (1 - covered);
   s.reading_Pa += -std::expm1(-dt_s * open / model.line_s) * (there - s.reading_Pa);
-  s.low_Pa = in.blocked ? was_blocked_Pa : std::min(s.low_Pa, s.reading_Pa), s.high_Pa = std::max(s.high_Pa, s.reading_Pa);
+  s.low_Pa = in.blocked ? was_blocked_Pa : std::min(s.low_Pa, s.reading_Pa),
+  s.high_Pa = std::max(s.high_Pa, s.reading_Pa);
   s.sum_Pa += s.reading_Pa, s.count += 1;
   s.aorta_low_Pa = std::min(s.aorta_low_Pa, in.pressures.aorta_Pa);
   s.aorta_high_Pa = std::max(s.aorta_high_Pa, in.pressures.aorta_Pa);
@@ -41,7 +42,8 @@ void step(const TipPressureModel& model, const TipPressureInputs& in, double dt_
   if (s.trace != Trace::absent) s.mean_Pa = s.sum_Pa / s.count, s.pulse_Pa = s.high_Pa - s.low_Pa;
   // The line may still fill again as the next beat begins.
   const bool fills = in.blocked || (s.low_Pa == was_blocked_Pa && there - s.reading_Pa > 0.05 * in.pressures.aorta_Pa);
-  s.low_Pa = fills ? was_blocked_Pa : 1e6, s.aorta_low_Pa = 1e6, s.high_Pa = s.aorta_high_Pa = 0, s.sum_Pa = 0, s.count = 0;
+  s.low_Pa = fills ? was_blocked_Pa : 1e6, s.aorta_low_Pa = 1e6, s.high_Pa = s.aorta_high_Pa = 0, s.sum_Pa = 0,
+  s.count = 0;
 }
 
 const char* trace_name(Trace trace) {
