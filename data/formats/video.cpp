@@ -112,7 +112,7 @@ void VideoWriter::stop(const std::string& why) {
 std::string VideoWriter::ffmpegs_words() {
   std::string words;
   char buffer[512];
-  for (ssize_t n; (n = read(words_, buffer, sizeof buffer)) > 0 || (n < 0 && errno == EINTR);)
+  for (ssize_t n; (n = ::read(words_, buffer, sizeof buffer)) > 0 || (n < 0 && errno == EINTR);)
     if (n > 0 && words.size() < 300) words.append(buffer, static_cast<std::size_t>(n));
   while (!words.empty() && words.back() == '\n') words.pop_back();
   for (char& c : words)

@@ -67,7 +67,7 @@ void read_treatment(const JsonObject& object, ScriptStep& step) {
 void read_complication(const JsonObject& object, ScriptStep& step) {
   using vascular::Provoked;
   if (object.has("at")) step.at = object.text("at");
-  const auto kind = static_cast<Provoked>(1 + object.choice("complication", keys::complication_names()));
+  const auto kind = static_cast<Provoked>(1 + object.choice("complication", script_keys::complication_names()));
   step.complication = static_cast<int>(kind);
   const bool rhythm = kind == Provoked::fibrillation || kind == Provoked::block;
   if (rhythm == object.has("at"))
