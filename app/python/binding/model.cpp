@@ -65,7 +65,8 @@ ModelRecipe recipe_of(std::shared_ptr<VesselHandle> vessel, const NamedTools& to
     throw py::value_error(fmt::format("breathing is {}; expected breaths a minute, 4 to 60, or 0", breathing));
   if (friction && !(*friction >= 0 && *friction <= 1))
     throw py::value_error(fmt::format("friction is {}; expected a number from 0 to 1", *friction));
-  recipe.options = {.seed = seed, .breaths_1_min = breathing, .friction = friction, .begin = begin.value_or("")};
+  recipe.options = {
+      .seed = seed, .breaths_1_min = breathing, .friction = friction, .begin = begin.value_or(""), .drugs = {}};
   return recipe;
 }
 
@@ -87,7 +88,8 @@ std::shared_ptr<ModelHandle> from_python(const py::tuple& r) {
   recipe.options = {.seed = r[2].cast<std::uint64_t>(),
                     .breaths_1_min = r[3].cast<double>(),
                     .friction = r[4].cast<std::optional<double>>(),
-                    .begin = r[5].cast<std::string>()};
+                    .begin = r[5].cast<std::string>(),
+                    .drugs = {}};
   const OthersRun others_run;
   return std::make_shared<ModelHandle>(std::move(recipe));
 }
