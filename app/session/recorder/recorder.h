@@ -29,13 +29,13 @@ struct Continued {
 
 struct RecorderOptions {
   RecordMode mode = RecordMode::full;
-  std::string file;                    ///< empty if RecordMode::none
-  bool penetration = true;             ///< measure it once a second
-  std::optional<Continued> continues;  ///< then `begin` is not called
-  std::shared_ptr<EventWatch> watch;   ///< that has seen the seconds before
+  std::string file;         ///< empty if RecordMode::none
+  bool penetration = true;  ///< measure it once a second
+  double shapes_Hz = 0;     ///< how often the tools' nodes are recorded, to the nearest whole number of steps; 0: never
+  std::optional<Continued> continues = {};  ///< then `begin` is not called
+  std::shared_ptr<EventWatch> watch = {};   ///< that has seen the seconds before
   /// Told of each event by the thread that steps; must not wait for anything. May be empty.
-  std::function<void(const SessionEvent&)> heard;
-  double shapes_Hz = 0;  ///< how often the tools' nodes are recorded, to the nearest whole number of steps; 0: never
+  std::function<void(const SessionEvent&)> heard = {};
 };
 
 class Recorder {
