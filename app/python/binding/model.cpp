@@ -13,6 +13,7 @@
 #include "app/session/recorder/signals.h"
 #include "core/base/field_numbers.h"
 #include "data/catalogue/catalogue.h"
+#include "data/catalogue/drug/drug_file.h"
 #include "data/catalogue/instrument/instrument_reader.h"
 
 namespace ostium::python {
@@ -31,7 +32,9 @@ std::shared_ptr<const app::FreeRunModel> model_of(const ModelRecipe& recipe) {
   std::vector<app::SessionTool> tools;
   for (const ModelRecipe::Tool& tool : recipe.tools)
     tools.push_back({tool.name, data::read_instrument(tool.file, tool.text)});
-  return std::make_shared<app::FreeRunModel>(make_session(recipe.vessel->vessel, std::move(tools), recipe.options),
+  app::SessionOptions options = recipe.options;
+  for (const ModelRecipe::DrugFile& drug : recipe.drugs) options.drugs.push_back(data::read_drug(drug.file, drug.text));
+  return std::make_shared<app::FreeRunModel>(make_session(recipe.vessel->vessel, std::move(tools), options),
                                              recipe.options.seed);
 }
 
@@ -43,6 +46,7 @@ double checksum(const void* first, std::size_t doubles) {
 double fingerprint_of(const ModelRecipe& recipe) {
   std::string all = recipe.vessel->key;
   for (const ModelRecipe::Tool& tool : recipe.tools) all += '\0' + tool.name + '\0' + tool.text;
+  for (const ModelRecipe::DrugFile& drug : recipe.drugs) all += '\0' + drug.text;
   all += fmt::format("{} {} {} {}", recipe.options.seed, recipe.options.breaths_1_min,
                      recipe.options.friction.value_or(-1), recipe.options.begin);
   return static_cast<double>(core::hash_bytes(all.data(), all.size(), 0) >> 11);
@@ -50,7 +54,7 @@ double fingerprint_of(const ModelRecipe& recipe) {
 
 ModelRecipe recipe_of(std::shared_ptr<VesselHandle> vessel, const NamedTools& tools, std::uint64_t seed,
                       const std::optional<std::string>& begin, std::optional<double> friction, double breathing) {
-  ModelRecipe recipe{.vessel = std::move(vessel), .tools = {}, .options = {}};
+  ModelRecipe recipe{.vessel = std::move(vessel), .tools = {}, .drugs = {}, .options = {}};
   if (tools.empty()) throw py::value_error("tools is empty; expected (name, instrument) for one tool at least");
   for (const auto& [name, instrument] : tools) {
     const auto same = [&](const ModelRecipe::Tool& other) { return other.name == name; };
@@ -61,6 +65,7 @@ ModelRecipe recipe_of(std::shared_ptr<VesselHandle> vessel, const NamedTools& to
     const std::string file = data::instrument_file(instrument);
     recipe.tools.push_back({name, file, all_of(file)});
   }
+  for (const std::string& file : data::drug_files()) recipe.drugs.push_back({file, all_of(file)});
   if (!(breathing == 0 || (breathing >= 4 && breathing <= 60)))
     throw py::value_error(fmt::format("breathing is {}; expected breaths a minute, 4 to 60, or 0", breathing));
   if (friction && !(*friction >= 0 && *friction <= 1))
@@ -73,17 +78,23 @@ ModelRecipe recipe_of(std::shared_ptr<VesselHandle> vessel, const NamedTools& to
 py::tuple recipe_to_python(const ModelHandle& self) {
   py::list tools;
   for (const ModelRecipe::Tool& tool : self.recipe.tools) tools.append(py::make_tuple(tool.name, tool.file, tool.text));
+  py::list drugs;
+  for (const ModelRecipe::DrugFile& drug : self.recipe.drugs) drugs.append(py::make_tuple(drug.file, drug.text));
   const app::SessionOptions& o = self.recipe.options;
   return py::make_tuple(std::const_pointer_cast<VesselHandle>(self.recipe.vessel), tools, o.seed, o.breaths_1_min,
-                        o.friction, o.begin);
+                        o.friction, o.begin, drugs);
 }
 
 std::shared_ptr<ModelHandle> from_python(const py::tuple& r) {
-  if (r.size() != 6) throw py::value_error("this is no model of this version");
-  ModelRecipe recipe{.vessel = r[0].cast<std::shared_ptr<VesselHandle>>(), .tools = {}, .options = {}};
+  if (r.size() != 7) throw py::value_error("this is no model of this version");
+  ModelRecipe recipe{.vessel = r[0].cast<std::shared_ptr<VesselHandle>>(), .tools = {}, .drugs = {}, .options = {}};
   for (const py::handle tool : r[1]) {
     const auto parts = tool.cast<py::tuple>();
     recipe.tools.push_back({parts[0].cast<std::string>(), parts[1].cast<std::string>(), parts[2].cast<std::string>()});
+  }
+  for (const py::handle drug : r[6]) {
+    const auto parts = drug.cast<py::tuple>();
+    recipe.drugs.push_back({parts[0].cast<std::string>(), parts[1].cast<std::string>()});
   }
   recipe.options = {.seed = r[2].cast<std::uint64_t>(),
                     .breaths_1_min = r[3].cast<double>(),

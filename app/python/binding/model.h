@@ -16,7 +16,11 @@ struct ModelRecipe {
     std::string name, file, text;  ///< the instrument's file, and what it held
   };
   std::vector<Tool> tools;  ///< outermost first
-  app::SessionOptions options;
+  struct DrugFile {
+    std::string file, text;
+  };
+  std::vector<DrugFile> drugs;  ///< those of the catalogue, as `ostium run` has them
+  app::SessionOptions options;  ///< but for the drugs
 };
 
 class ModelHandle : public MadeByInit {
