@@ -153,15 +153,15 @@ TEST(Outcomes, DissectionsAndPerforationsFollowStretchLengthAndCalcium) {
 }
 
 TEST(Outcomes, MoreIsLostThroughALargerHole) {
-  const auto outside_m3 = [](double grade) {
-    Bench bench({});
-    Injury& hole = bench.state.injury.injuries[0];
-    hole.kind = InjuryKind::perforation, hole.cell = 60, hole.grade = grade;
-    bench.state.injury.count = 1, bench.device.balloon = -1;
-    bench.run(0, 1);
-    return hole.outside_m3;
-  };
-  expect_grows({outside_m3(1), outside_m3(2), outside_m3(3)}, "grade");
+  expect_grows(with_cause([](double x) {
+                 Bench bench({});
+                 Injury& hole = bench.state.injury.injuries[0];
+                 hole.kind = InjuryKind::perforation, hole.cell = 60, hole.hole_m2 = x * 0.3e-6;
+                 bench.state.injury.count = 1, bench.device.balloon = -1;
+                 bench.run(0, 1);
+                 return hole.outside_m3;
+               }),
+               "area");
 }
 
 TEST(Outcomes, NitrateWidensByItsDoseHeparinThinsByIts) {

@@ -48,10 +48,14 @@ void hear(const CirculationModel& model, const CirculationInputs& in, Circulatio
   follow(m.veins_after_s, m.veins_in_s, s.veins_Pa);
   const double mobilised = m.veins_m3_Pa * s.veins_Pa + model.constricted_m3 * in.constriction - s.venous_tone_m3;
   s.veins_m3 += mobilised, s.venous_tone_m3 += mobilised;
+}
+
+/// Of the sinus node, as rest, reflex and drugs have it now.
+double rate_1_min(const BaroreflexModel& m, const CirculationInputs& in, const CirculationState& s) {
   const double block = std::clamp(in.vagal_block, 0.0, 1.0);
   const double period = 60 / in.resting_rate_1_min - (1 - block) * m.vagal_s_Pa * s.vagal_Pa -
                         m.sympathetic_s_Pa * s.sympathetic_Pa - block * m.vagal_tone_s;
-  s.rate_1_min = 60 / std::clamp(period / (1 + in.rate_effect), fastest_s, slowest_s);
+  return 60 / std::clamp(period / (1 + in.rate_effect), fastest_s, slowest_s);
 }
 
 void flow_on(const CirculationModel& m, const CirculationInputs& in, double active, double kick, double dt,
@@ -114,6 +118,7 @@ void step(const CirculationModel& model, const CirculationInputs& in, double dt_
   s.mean_Pa += -std::expm1(-dt_s / model.reflex.averaging_s) * (s.arteries_m3 / model.arteries_m3_Pa - s.mean_Pa);
   s.heard_s += dt_s;
   while (s.heard_s >= heard_every_s * (1 - 1e-9)) s.heard_s -= heard_every_s, hear(model, in, s);
+  s.rate_1_min = rate_1_min(model.reflex, in, s);
 }
 
 void settle_reflex(CirculationState& s) {

@@ -36,7 +36,7 @@ void step(const HeartModel& model, const HeartInputs& inputs, double dt_s, Heart
     if (core::uniform(model.seed, 11, s.draws) < p) s.next_ectopic = true;
     s.draws += 1;
   }
-  if (!inputs.body.reflexes) s.circulation.rate_1_min = inputs.rate_1_min;
+  if (!inputs.body.reflexes || s.time_s == 0) s.circulation.rate_1_min = inputs.rate_1_min;
   double speed = phase_speed(s.phase, rate_1_min(model, s));
   if (s.next_ectopic)
     speed *= hurry;
