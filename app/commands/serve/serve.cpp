@@ -18,6 +18,7 @@
 #include "app/commands/report.h"
 #include "app/commands/run/drivers.h"
 #include "app/session/run/branch.h"
+#include "app/session/run/replay.h"
 #include "data/catalogue/catalogue.h"
 #include "data/formats/load_error.h"
 #include "data/formats/write_file.h"
@@ -80,14 +81,7 @@ std::string script_for(const std::string& vessel) {
 std::vector<data::Score> scores_of(const std::string& file, const SessionModel& model, const data::ScoreList& list,
                                    const std::vector<data::Metric>& metrics) {
   const data::RecordingReader recording(file);
-  data::RunRecord record{.step_s = recording.step_s(),
-                         .steps = recording.steps(),
-                         .signal_columns = recording.signal_columns(),
-                         .signals = recording.signals(),
-                         .events = recording.events(),
-                         .branches = {}};
-  for (const vascular::TreeBranch& branch : model.vessel->way->branches()) record.branches.push_back(branch.name);
-  return score(list, record, metrics);
+  return score(list, record_of(recording, model), metrics);
 }
 
 void write_notes(const std::string& file, const std::vector<Note>& notes) {

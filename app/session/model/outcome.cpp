@@ -163,9 +163,9 @@ std::string patient_words(const SessionState& state) {
   std::string words = heart.rhythm == vascular::Rhythm::asystole ? "dead: the heart stands still"
                       : heart.pulseless_s > 0 ? fmt::format("without a pulse for {:.0f} s", heart.pulseless_s)
                                               : "alive";
-  words += fmt::format(": {:.0f}/{:.0f} mmHg, {:.0f} beats a minute ({})", heart.beat.systolic_Pa / mmHg,
-                       heart.beat.diastolic_Pa / mmHg, 60 / heart.cycle_s,
-                       vascular::rhythm_names[static_cast<std::size_t>(heart.rhythm)]);
+  words += fmt::format(": {:.0f}/{:.0f} mmHg, ", heart.beat.systolic_Pa / mmHg, heart.beat.diastolic_Pa / mmHg);
+  if (heart.pulseless_s == 0) words += fmt::format("{:.0f} beats a minute, ", 60 / heart.cycle_s);
+  words += vascular::rhythm_names[static_cast<std::size_t>(heart.rhythm)];
   if (round_mL >= 1) words += fmt::format(", {:.0f} mL round the heart", round_mL);
   if (perforated)
     words += leak_m3_s(state.treatment) > visible_leak_m3_s ? fmt::format(", perforation leaks {:.2f} mL/s", leak_mL_s)
