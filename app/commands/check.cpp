@@ -13,9 +13,9 @@
 #include "vascular/geometry/mesh/patient_frame.h"
 #include "vascular/geometry/mesh/surface_check.h"
 #include "vascular/geometry/mesh_files/rounding.h"
+#include "vascular/geometry/remesh/smooth.h"
 #include "vascular/geometry/repair/calibre.h"
 #include "vascular/geometry/repair/double_wall.h"
-#include "vascular/geometry/repair/smooth.h"
 
 namespace ostium::app {
 

@@ -13,7 +13,7 @@
 #include "app/command_line/progress.h"
 #include "app/session/scene/xray_scene.h"
 #include "core/base/units.h"
-#include "data/formats/dicom.h"
+#include "data/formats/dicom/dicom.h"
 #include "data/formats/load_error.h"
 #include "data/formats/png.h"
 #include "data/formats/video.h"
@@ -168,16 +168,16 @@ fluoro::Picture shown(const Arguments& a, const fluoro::FluoroscopeInput& in, co
 constexpr double spoiled_share = 1e-3;
 
 /// The frames taken one after the other.
-struct Filmed {
+struct FilmedFrames {
   fluoro::FluoroscopeState state;
   fluoro::FrameReport report;
   std::vector<fluoro::Picture> kept;  ///< for DICOM
   long most_leaking = 0;              ///< pixels of a frame in which a surface is open; a few cannot be seen
 };
 
-Filmed film(const Arguments& a, const Scenes& scenes, const fluoro::FluoroscopeInput& in, fluoro::Scene& scene,
-            std::optional<data::VideoWriter>& writer) {
-  Filmed out;
+FilmedFrames film(const Arguments& a, const Scenes& scenes, const fluoro::FluoroscopeInput& in, fluoro::Scene& scene,
+                  std::optional<data::VideoWriter>& writer) {
+  FilmedFrames out;
   fluoro::Imager imager({}, a.renderer == "osmesa" ? fluoro::make_osmesa_renderer() : fluoro::make_scanline_renderer());
   fluoro::DisplayScratch scratch;
   const int frames = a.frames ? a.frames : a.video() ? 30 : 8;
@@ -222,7 +222,7 @@ int run(const Arguments& a) {
                                     .seed = a.seed};
   std::optional<data::VideoWriter> writer;
   if (a.video()) writer.emplace(a.out, a.pixels, a.pixels, a.frames_per_s);
-  const Filmed filmed = film(a, scenes, in, scene, writer);
+  const FilmedFrames filmed = film(a, scenes, in, scene, writer);
   if (!finish_film(writer, "frame")) return 1;
   if (a.dicom())
     data::write_dicom(a.out, fluoro::CineRun{view, a.programme(), filmed.report.exposure, filmed.kept});

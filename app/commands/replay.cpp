@@ -15,7 +15,7 @@
 #include "app/reader/read_apart.h"
 #include "app/session/scene/film.h"
 #include "core/base/units.h"
-#include "data/formats/dicom_runs.h"
+#include "data/formats/dicom/dicom_runs.h"
 #include "data/formats/load_error.h"
 #include "data/formats/png.h"
 #include "data/formats/video.h"

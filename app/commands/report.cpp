@@ -27,13 +27,13 @@ std::string words_of_mark(const data::ScriptStep& step) {
 }
 
 /// A moment worth a picture: marks of the script, the end of each injection and inflation, the last moment.
-struct Moment {
+struct KeyMoment {
   std::uint64_t step;
   std::string caption;
 };
-std::vector<Moment> moments(const data::RunRecord& record, const data::Script& script) {
+std::vector<KeyMoment> key_moments(const data::RunRecord& record, const data::Script& script) {
   constexpr std::size_t most = 12;
-  std::vector<Moment> out;
+  std::vector<KeyMoment> out;
   for (const data::RecordedEvent& e : events_of(record)) {
     const auto step = static_cast<std::uint64_t>(e.step);
     const auto of = static_cast<std::size_t>(e.value);
@@ -45,7 +45,7 @@ std::vector<Moment> moments(const data::RunRecord& record, const data::Script& s
       out.push_back({step, "stent in the wall"});
   }
   if (out.size() >= most) {
-    std::vector<Moment> some;
+    std::vector<KeyMoment> some;
     for (std::size_t i = 0; i < most - 1; ++i) some.push_back(out[i * out.size() / (most - 1)]);
     out = some;
   }
@@ -58,7 +58,7 @@ std::vector<data::ReportPicture> pictures_of(Replay& replay, const data::RunReco
   FilmOptions options;
   options.pixels = 384, options.overlay = false;
   Film film(replay.model, options);
-  for (const Moment& moment : moments(record, replay.setup.script)) {
+  for (const KeyMoment& moment : key_moments(record, replay.setup.script)) {
     // Recursive filter and exposure take some frames to settle.
     const double second = static_cast<double>(moment.step) * record.step_s, before = std::max(second - 0.4, 0.0);
     show_progress(fmt::format("picture at {:.1f} s", second));

@@ -1,7 +1,7 @@
 #pragma once
 /// Metrics of a run. A metric is a pure function of the recording's signals and events: one row in the table of
 /// procedure_metrics.cpp or treatment_metrics.cpp, its function above it, and its number in
-/// tests/data/metrics_test.cpp.
+/// tests/data/assessment/metrics_test.cpp.
 #include <cstdint>
 #include <functional>
 #include <string>

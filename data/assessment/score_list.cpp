@@ -10,7 +10,7 @@
 
 #include "data/assessment/scoring_keys.h"
 #include "data/catalogue/catalogue.h"
-#include "data/formats/json_object.h"
+#include "data/formats/json/json_object.h"
 #include "data/formats/load_error.h"
 
 namespace ostium::data {

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "data/console/console_commands.h"
-#include "data/formats/json_object.h"
+#include "data/formats/json/json_object.h"
 
 namespace ostium::data {
 

@@ -7,8 +7,8 @@ namespace ostium::fluoro {
 
 /// Ratio of scatter to primary signal behind a thickness T of soft tissue, A(T) = per_m T + per_m2 T^2, spread over the
 /// detector as two Gaussians. Fitted to photon transport through slabs of 5 to 30 cm at 80 kV with an opaque focused
-/// grid of ratio 12, isocentre to detector 33 cm (app/gates/photon_transport.h); from 65 to 110 kV A changes by less
-/// than 14 %.
+/// grid of ratio 12, isocentre to detector 33 cm (app/gates/xray/photon_transport.h); from 65 to 110 kV A changes by
+/// less than 14 %.
 struct ScatterKernel {
   double per_m = 0.875, per_m2 = 3.8;
   double narrow_m = 0.030, wide_m = 0.160;  ///< standard deviations at the detector

@@ -12,8 +12,8 @@
 #include <stdexcept>
 #include <thread>
 
-#include "tests/support/judged.h"
-#include "tests/support/undeclared.h"
+#include "tests/support/sets/judged.h"
+#include "tests/support/sets/undeclared.h"
 
 namespace {
 

@@ -9,7 +9,7 @@
 #include <thread>
 
 #include "data/identification/curves/curve_explanation.h"
-#include "tests/support/bench_set.h"
+#include "tests/support/sets/bench_set.h"
 
 namespace {
 

@@ -10,12 +10,12 @@
 #include "data/catalogue/instrument/instrument_reader.h"
 #include "data/formats/write_file.h"
 #include "data/identification/characterisation/characterisation_report.h"
-#include "tests/support/bend_set.h"
 #include "tests/support/dice.h"
-#include "tests/support/push_set.h"
-#include "tests/support/synthetic_set.h"
-#include "tests/support/torque_set.h"
-#include "tests/support/undeclared_views.h"
+#include "tests/support/sets/bend_set.h"
+#include "tests/support/sets/push_set.h"
+#include "tests/support/sets/synthetic_set.h"
+#include "tests/support/sets/torque_set.h"
+#include "tests/support/sets/undeclared_views.h"
 
 namespace {
 

@@ -5,7 +5,7 @@
 #include <initializer_list>
 #include <string>
 
-#include "data/formats/json_object.h"
+#include "data/formats/json/json_object.h"
 #include "data/formats/load_error.h"
 
 namespace ostium::data {

@@ -14,7 +14,7 @@
 #include "data/catalogue/script/script.h"
 #include "data/identification/measurement/measurement_reader.h"
 #include "tests/fuzz/target.h"
-#include "tests/support/synthetic_set.h"
+#include "tests/support/sets/synthetic_set.h"
 
 namespace ostium::fuzz {
 

@@ -5,8 +5,8 @@
 #include <cstring>
 
 #include "tests/fuzz/target.h"
-#include "tests/vascular/shapes.h"
-#include "tests/vascular/vtk_files.h"
+#include "tests/vascular/geometry/shapes.h"
+#include "tests/vascular/geometry/vtk_files.h"
 #include "vascular/geometry/mesh/mesh.h"
 
 namespace ostium::fuzz {

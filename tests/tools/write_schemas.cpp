@@ -3,7 +3,7 @@
 #include <fstream>
 #include <iostream>
 
-#include "tests/data/schema_files.h"
+#include "tests/data/formats/schema_files.h"
 
 int main(int argc, char** argv) {
   if (argc != 2) {

@@ -13,7 +13,7 @@
 /// The atria have no volume of their own: their contraction adds to the pressure of the veins before the R wave.
 ///
 /// Constants are Smith's and Heldt's, in mmHg and mL, but those that were moved, so that a person at rest has 120/78
-/// mmHg and 5.2 L/min at 70 beats a minute, and tamponade comes out as in tests/vascular/circulation_test.cpp:
+/// mmHg and 5.2 L/min at 70 beats a minute, and tamponade comes out as in tests/vascular/flow/circulation_test.cpp:
 ///   pericardium  lambda 0.030 -> 0.034 per mL, V0 200 -> 180 mL: an acute 150 to 250 mL, not 300, is the end
 ///   chest        -4 -> -2 mmHg, and -8 more in a full breath: supine; pulsus of 4 mmHg at rest, above 10 in tamponade
 ///   right side   P1 0.216 -> 0.30 mmHg; venous compliance (Heldt's 112, 64 in postoperative patients) -> 30 mL/mmHg,

@@ -1,6 +1,6 @@
 #pragma once
 /// The keys of an anatomy file; data/schemas/anatomy.schema.json is made of them.
-#include "data/formats/json_object.h"
+#include "data/formats/json/json_object.h"
 
 namespace ostium::data::anatomy_keys {
 

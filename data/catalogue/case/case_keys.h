@@ -2,7 +2,7 @@
 /// The keys of a case file, object by object: what the reader accepts, and how each is described. The schema
 /// (data/schemas/case.schema.json) is generated from them.
 #include "data/catalogue/case/case.h"
-#include "data/formats/json_object.h"
+#include "data/formats/json/json_object.h"
 
 namespace ostium::data::case_keys {
 

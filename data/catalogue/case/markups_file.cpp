@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "core/base/units.h"
-#include "data/formats/json_value.h"
+#include "data/formats/json/json_value.h"
 #include "vascular/geometry/mesh_files/formats.h"
 
 namespace ostium::data {

@@ -7,7 +7,7 @@
 
 #include "core/base/units.h"
 #include "data/catalogue/case/tree_keys.h"
-#include "data/formats/json_object.h"
+#include "data/formats/json/json_object.h"
 #include "data/formats/write_file.h"
 #include "vascular/geometry/mesh/patient_frame.h"
 

@@ -1,7 +1,7 @@
 #pragma once
 /// The keys of a course, object by object: what the reader accepts, and how each is described. The schema
 /// (data/schemas/course.schema.json) is generated from them.
-#include "data/formats/json_object.h"
+#include "data/formats/json/json_object.h"
 
 namespace ostium::data::course_keys {
 

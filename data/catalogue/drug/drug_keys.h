@@ -3,7 +3,7 @@
 /// (data/schemas/drug.schema.json) is generated from them.
 #include <iterator>
 
-#include "data/formats/json_object.h"
+#include "data/formats/json/json_object.h"
 #include "vascular/treatment/drugs.h"
 
 namespace ostium::data::drug_keys {

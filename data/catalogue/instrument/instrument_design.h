@@ -1,7 +1,7 @@
 #pragma once
 /// The numbers of a balloon's or stent's `design` block, one row each: key, member and limits. The reader loops over
 /// these rows and the keys are generated from them, so a new number is one new row.
-#include "data/formats/json_object.h"
+#include "data/formats/json/json_object.h"
 #include "vascular/treatment/balloon_design.h"
 #include "vascular/treatment/stent_design.h"
 

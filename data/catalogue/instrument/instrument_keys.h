@@ -7,7 +7,7 @@
 
 #include "data/catalogue/instrument/instrument.h"
 #include "data/catalogue/instrument/instrument_design.h"
-#include "data/formats/json_object.h"
+#include "data/formats/json/json_object.h"
 
 namespace ostium::data::instrument_keys {
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "data/formats/json_object.h"
+#include "data/formats/json/json_object.h"
 
 namespace ostium::data {
 

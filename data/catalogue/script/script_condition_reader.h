@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "data/catalogue/script/script.h"
-#include "data/formats/json_object.h"
+#include "data/formats/json/json_object.h"
 
 namespace ostium::data {
 

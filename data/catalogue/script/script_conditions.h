@@ -4,7 +4,7 @@
 #include <iterator>
 
 #include "core/base/units.h"
-#include "data/formats/json_type.h"
+#include "data/formats/json/json_type.h"
 
 namespace ostium::data {
 

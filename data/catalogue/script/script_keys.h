@@ -4,7 +4,7 @@
 #include "data/catalogue/case/case.h"
 #include "data/catalogue/script/script_actions.h"
 #include "data/catalogue/script/script_condition_reader.h"
-#include "data/formats/json_object.h"
+#include "data/formats/json/json_object.h"
 #include "vascular/treatment/treatment.h"
 
 namespace ostium::data::script_keys {

@@ -1,6 +1,6 @@
 #pragma once
 /// Scripts within scripts: a step that names another script is replaced by its steps.
-#include "data/formats/json_value.h"
+#include "data/formats/json/json_value.h"
 
 namespace ostium::data {
 

@@ -1,6 +1,6 @@
 #pragma once
 /// Values of a script: parameters of its steps, so that one script serves where others would differ only by a number.
-#include "data/formats/json_value.h"
+#include "data/formats/json/json_value.h"
 
 namespace ostium::data {
 

@@ -1,6 +1,6 @@
 #pragma once
 /// A measured set with its instrument's stiffness, and the friction of its rig, from elsewhere.
-#include "data/formats/json_value.h"
+#include "data/formats/json/json_value.h"
 #include "data/identification/characterisation/characterised_wire.h"
 
 namespace ostium::data {

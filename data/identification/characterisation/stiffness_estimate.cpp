@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "core/base/units.h"
-#include "data/formats/json_object.h"
+#include "data/formats/json/json_object.h"
 #include "data/identification/forward/setup.h"
 
 namespace ostium::data {

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "data/formats/json_value.h"
+#include "data/formats/json/json_value.h"
 #include "data/identification/curves/curve_explanation.h"
 #include "data/identification/selection/explanation.h"
 

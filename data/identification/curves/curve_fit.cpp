@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "core/math/dense.h"
-#include "data/identification/estimation/least_squares.h"
+#include "data/identification/minimisation/least_squares.h"
 
 namespace ostium::data::curves {
 

@@ -1,8 +1,8 @@
 #pragma once
 /// Fits a model to the experiments of a set: weighted least squares with priors.
 #include "data/identification/estimation/forward_model.h"
-#include "data/identification/estimation/noise_model.h"
 #include "data/identification/estimation/parameters.h"
+#include "data/identification/residuals/noise_model.h"
 
 namespace ostium::data {
 

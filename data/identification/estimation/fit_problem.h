@@ -2,9 +2,9 @@
 /// One fit as a least-squares problem. Residuals: the misfits over sigma, and the deviations from the priors over their
 /// spreads.
 #include "data/identification/estimation/forward_model.h"
-#include "data/identification/estimation/noise.h"
 #include "data/identification/estimation/parameters.h"
-#include "data/identification/estimation/secant_descent.h"
+#include "data/identification/minimisation/secant_descent.h"
+#include "data/identification/residuals/noise.h"
 
 namespace ostium::data {
 

@@ -1,9 +1,9 @@
 #pragma once
 /// The result of fitting one model.
 #include "data/identification/estimation/learned_law.h"
-#include "data/identification/estimation/noise.h"
 #include "data/identification/estimation/parameters.h"
-#include "data/identification/estimation/residual_tests.h"
+#include "data/identification/residuals/noise.h"
+#include "data/identification/residuals/residual_tests.h"
 
 namespace ostium::data {
 

@@ -2,8 +2,8 @@
 /// Computes the shapes that a fit needs.
 #include <map>
 
-#include "data/identification/estimation/workers.h"
 #include "data/identification/forward/shape.h"
+#include "data/identification/parallel/workers.h"
 
 namespace ostium::data {
 

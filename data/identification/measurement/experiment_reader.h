@@ -1,6 +1,6 @@
 #pragma once
 /// Reads one experiment of a measured set.
-#include "data/formats/json_object.h"
+#include "data/formats/json/json_object.h"
 #include "data/identification/measurement/measurement_set.h"
 
 namespace ostium::data {

@@ -1,7 +1,7 @@
 #pragma once
 /// What sets of every kind declare alike: instruments, gravity and vessel, effects, and the setting of an experiment.
 /// Each throws LoadError.
-#include "data/formats/json_object.h"
+#include "data/formats/json/json_object.h"
 #include "data/identification/measurement/measurement_set.h"
 
 namespace ostium::data {

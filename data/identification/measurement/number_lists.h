@@ -5,7 +5,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "data/formats/json_value.h"
+#include "data/formats/json/json_value.h"
 
 namespace ostium::data {
 

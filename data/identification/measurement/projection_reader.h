@@ -1,6 +1,6 @@
 #pragma once
 /// Reads a set of projections: a wire seen by the views of a C-arm, as pixels along it without correspondence.
-#include "data/formats/json_value.h"
+#include "data/formats/json/json_value.h"
 #include "data/identification/measurement/measurement_set.h"
 
 namespace ostium::data {

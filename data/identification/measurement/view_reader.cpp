@@ -6,7 +6,7 @@
 #include <filesystem>
 
 #include "core/base/units.h"
-#include "data/formats/dicom_geometry.h"
+#include "data/formats/dicom/dicom_geometry.h"
 #include "data/identification/measurement/number_lists.h"
 #include "data/identification/measurement/projection_keys.h"
 

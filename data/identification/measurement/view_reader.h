@@ -1,6 +1,6 @@
 #pragma once
 /// Reads one view of a set of projections: its geometry, written out or from the tags of a DICOM frame.
-#include "data/formats/json_object.h"
+#include "data/formats/json/json_object.h"
 #include "data/identification/measurement/measurement_set.h"
 
 namespace ostium::data {

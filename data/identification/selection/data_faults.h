@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "data/identification/estimation/fitted_model.h"
-#include "data/identification/estimation/workers.h"
+#include "data/identification/parallel/workers.h"
 #include "data/identification/selection/data_fault.h"
 
 namespace ostium::data {

@@ -7,8 +7,8 @@
 #include <stdexcept>
 
 #include "core/base/units.h"
-#include "data/identification/estimation/workers.h"
 #include "data/identification/forward/projected.h"
+#include "data/identification/parallel/workers.h"
 
 namespace ostium::data {
 

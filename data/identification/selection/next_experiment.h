@@ -1,7 +1,7 @@
 #pragma once
 /// The next experiment to make: the setting at which two explanations of a set predict the most different shapes.
 #include "data/identification/estimation/fitted_model.h"
-#include "data/identification/estimation/workers.h"
+#include "data/identification/parallel/workers.h"
 
 namespace ostium::data {
 

@@ -4,7 +4,7 @@
 #include <functional>
 
 #include "data/identification/estimation/fitted_model.h"
-#include "data/identification/estimation/workers.h"
+#include "data/identification/parallel/workers.h"
 
 namespace ostium::data {
 

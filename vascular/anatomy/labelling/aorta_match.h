@@ -3,8 +3,8 @@
 #include <optional>
 
 #include "vascular/anatomy/labelling/fit.h"
-#include "vascular/anatomy/labelling/lumen_parts.h"
-#include "vascular/anatomy/labelling/mean_courses.h"
+#include "vascular/anatomy/lumen/lumen_parts.h"
+#include "vascular/anatomy/lumen/mean_courses.h"
 
 namespace ostium::vascular {
 

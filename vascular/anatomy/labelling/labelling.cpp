@@ -8,7 +8,7 @@
 #include "vascular/anatomy/labelling/branch_names.h"
 #include "vascular/anatomy/labelling/heart_match.h"
 #include "vascular/anatomy/labelling/landmarks.h"
-#include "vascular/anatomy/labelling/tubes_of_tree.h"
+#include "vascular/anatomy/lumen/tubes_of_tree.h"
 #include "vascular/geometry/centreline/centreline.h"
 
 namespace ostium::vascular {

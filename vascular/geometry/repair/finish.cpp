@@ -5,8 +5,8 @@
 
 #include "core/base/units.h"
 #include "vascular/geometry/mesh/surface_check.h"
+#include "vascular/geometry/remesh/decimate.h"
 #include "vascular/geometry/repair/calibre.h"
-#include "vascular/geometry/repair/decimate.h"
 
 namespace ostium::vascular {
 

@@ -10,15 +10,15 @@
 #include "core/base/units.h"
 #include "vascular/geometry/mesh/bounding_volume_hierarchy.h"
 #include "vascular/geometry/mesh/surface_check.h"
+#include "vascular/geometry/remesh/level_set.h"
+#include "vascular/geometry/remesh/smooth.h"
 #include "vascular/geometry/repair/bridges.h"
 #include "vascular/geometry/repair/calibre.h"
 #include "vascular/geometry/repair/double_wall.h"
 #include "vascular/geometry/repair/facing_ends.h"
 #include "vascular/geometry/repair/finish.h"
-#include "vascular/geometry/repair/level_set.h"
 #include "vascular/geometry/repair/prolong.h"
 #include "vascular/geometry/repair/sheets.h"
-#include "vascular/geometry/repair/smooth.h"
 #include "vascular/geometry/repair/taper.h"
 
 namespace ostium::vascular {

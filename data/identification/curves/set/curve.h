@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "data/formats/json_value.h"
+#include "data/formats/json/json_value.h"
 
 namespace ostium::data::curves {
 

@@ -1,6 +1,6 @@
 #pragma once
 /// The instrument of kinds that bend, turn or push one: its keys, and how they are read.
-#include "data/formats/json_object.h"
+#include "data/formats/json/json_object.h"
 
 namespace ostium::data::curves {
 

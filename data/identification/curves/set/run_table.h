@@ -1,6 +1,6 @@
 #pragma once
 /// Runs whose samples are the columns of a table: `"csv": "run1.csv"` in a run, in place of its lists.
-#include "data/formats/json_value.h"
+#include "data/formats/json/json_value.h"
 
 namespace ostium::data::curves {
 

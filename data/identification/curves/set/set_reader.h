@@ -2,7 +2,7 @@
 /// What sets of all kinds of curves share in their files (schema ostium-measurement/2).
 #include <memory>
 
-#include "data/formats/json_object.h"
+#include "data/formats/json/json_object.h"
 #include "data/identification/curves/set/curve_kind.h"
 
 namespace ostium::data::curves {

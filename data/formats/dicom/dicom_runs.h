@@ -1,0 +1,23 @@
+#pragma once
+/// A film as DICOM, whose header is one for all frames: each change of view, field or programme begins a new run, and
+/// each run is a file of its own.
+#include <string>
+#include <vector>
+
+#include "data/formats/dicom/dicom.h"
+
+namespace ostium::data {
+
+class DicomRuns {
+ public:
+  /// `exposed`: how `picture` was taken; its frames are not looked at.
+  void add(const fluoro::CineRun& exposed, const fluoro::Picture& picture);
+  /// Writes FILE.dcm, and FILE-2.dcm, ... for further runs. Returns the names. Throws WriteError.
+  std::vector<std::string> write(const std::string& file, const DicomPatient& patient = {}) const;
+  const std::vector<fluoro::CineRun>& runs() const { return runs_; }
+
+ private:
+  std::vector<fluoro::CineRun> runs_;
+};
+
+}  // namespace ostium::data

@@ -1,0 +1,17 @@
+/// DICOM in a build without DCMTK: nothing is read or written, and it says so.
+#include "data/formats/dicom/dicom.h"
+#include "data/formats/dicom/dicom_geometry.h"
+#include "data/formats/load_error.h"
+#include "data/formats/write_file.h"
+
+namespace ostium::data {
+
+DicomGeometry read_dicom_geometry(const std::string& file) {
+  throw LoadError(file + ": this build reads no DICOM; expected the geometry as numbers, or a build with OSTIUM_DICOM");
+}
+
+void write_dicom(const std::string& file, const fluoro::CineRun&, const DicomPatient&) {
+  throw WriteError(file + ": this build writes no DICOM; build with OSTIUM_DICOM");
+}
+
+}  // namespace ostium::data

@@ -1,0 +1,58 @@
+#include "data/identification/minimisation/least_squares.h"
+
+#include <ceres/ceres.h>
+
+namespace ostium::data {
+
+namespace {
+
+class Cost : public ceres::CostFunction {
+ public:
+  explicit Cost(const LeastSquares& problem) : problem_(problem) {
+    set_num_residuals(problem.residuals);
+    mutable_parameter_block_sizes()->push_back(static_cast<int>(problem.start.size()));
+  }
+  bool Evaluate(double const* const* parameters, double* residuals, double** jacobians) const override {
+    const Eigen::VectorXd x = Eigen::Map<const Eigen::VectorXd>(parameters[0], problem_.start.size());
+    Eigen::VectorXd r;
+    Eigen::MatrixXd J;
+    const bool wants = jacobians && jacobians[0];
+    if (!problem_.evaluate(x, r, wants ? &J : nullptr)) return false;
+    Eigen::Map<Eigen::VectorXd>(residuals, r.size()) = r;
+    if (wants)
+      Eigen::Map<Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>(jacobians[0], J.rows(),
+                                                                                         J.cols()) = J;
+    return true;
+  }
+
+ private:
+  const LeastSquares& problem_;
+};
+
+}  // namespace
+
+LeastSquaresResult minimise(const LeastSquares& problem) {
+  LeastSquaresResult out;
+  out.x = problem.start;
+  ceres::Problem ceres_problem;
+  ceres_problem.AddResidualBlock(new Cost(problem), nullptr, out.x.data());
+  for (int i = 0; i < out.x.size(); ++i) {
+    ceres_problem.SetParameterLowerBound(out.x.data(), i, problem.least[i]);
+    ceres_problem.SetParameterUpperBound(out.x.data(), i, problem.most[i]);
+  }
+  ceres::Solver::Options options;
+  options.linear_solver_type = ceres::DENSE_QR;
+  options.max_num_iterations = problem.most_iterations;
+  options.function_tolerance = problem.tolerance;
+  options.parameter_tolerance = problem.tolerance;
+  options.gradient_tolerance = 1e-12;
+  options.logging_type = ceres::SILENT;
+  ceres::Solver::Summary summary;
+  ceres::Solve(options, &ceres_problem, &summary);
+  out.converged = summary.termination_type == ceres::CONVERGENCE;
+  out.iterations = static_cast<int>(summary.iterations.size());
+  out.cost = summary.final_cost;
+  return out;
+}
+
+}  // namespace ostium::data

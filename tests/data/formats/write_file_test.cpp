@@ -1,0 +1,138 @@
+/// Files appear whole or not at all, whatever their format.
+#include "data/formats/write_file.h"
+
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <random>
+#include <sstream>
+
+#include "data/catalogue/case/tree_file.h"
+#include "data/formats/dicom/dicom.h"
+#include "data/formats/mesh_writer.h"
+#include "data/formats/png.h"
+#include "data/formats/svg.h"
+
+namespace ostium::data {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string text_of(const fs::path& file) {
+  std::stringstream text;
+  text << std::ifstream(file, std::ios::binary).rdbuf();
+  return text.str();
+}
+
+/// No file of this process grows beyond so many bytes, as on a disk that is full: writes fail with EFBIG.
+class FullDisk {
+ public:
+  explicit FullDisk(rlim_t bytes) {
+    std::signal(SIGXFSZ, SIG_IGN);
+    getrlimit(RLIMIT_FSIZE, &before_);
+    rlimit limit = before_;
+    limit.rlim_cur = bytes;
+    setrlimit(RLIMIT_FSIZE, &limit);
+  }
+  ~FullDisk() { setrlimit(RLIMIT_FSIZE, &before_); }
+
+ private:
+  rlimit before_{};
+};
+
+struct Written {
+  std::string file;
+  std::function<void(const std::string& path)> write;
+};
+
+std::vector<Written> writers() {
+  fluoro::Picture picture;
+  picture.width = picture.height = 64;
+  std::mt19937 noise(1);  // so that no compression makes it small
+  for (int i = 0; i < 64 * 64; ++i) picture.grey.push_back(static_cast<std::uint8_t>(noise()));
+  vascular::Mesh mesh;
+  for (int i = 0; i < 300; ++i) mesh.vertices.emplace_back(1e-3 * i, 1e-3 * (i % 7), 1e-3 * (i % 11));
+  for (int i = 0; i + 2 < 300; ++i) mesh.triangles.push_back({i, i + 1, i + 2});
+  Drawing drawing(100, 100);
+  for (int i = 0; i < 200; ++i) drawing.text({1.0 * i, 2}, "words");
+  vascular::SphereTree tree;
+  tree.branches.resize(1);
+  for (int i = 0; i < 200; ++i) tree.branches[0].spheres.push_back({{1e-3 * i, 0, 0}, 1e-3, 1e-3 * i});
+  fluoro::CineRun run;
+  run.view.pixels = 64, run.programme = fluoro::cine(15), run.frames = {picture, picture};
+  const auto mesh_writer = [mesh](const std::string& path) {
+    write_mesh(path, mesh, vascular::LengthUnit::millimetre);
+  };
+  return {{"a.txt", [](const std::string& path) { write_file(path, std::string(10'000, 'x')); }},
+          {"a.png", [picture](const std::string& path) { write_png(path, picture); }},
+          {"a.dcm", [run](const std::string& path) { write_dicom(path, run); }},
+          {"a.svg", [drawing](const std::string& path) { drawing.write(path); }},
+          {"a.json", [tree](const std::string& path) { write_tree(path, tree); }},
+          {"a.vtp", [tree](const std::string& path) { write_tree(path, tree); }},
+          {"a.obj", mesh_writer},
+          {"a.stl", mesh_writer},
+          {"a.ply", mesh_writer}};
+}
+
+class WriteFile : public testing::Test {
+ protected:
+  WriteFile() { fs::create_directories(folder_); }
+  ~WriteFile() override { fs::remove_all(folder_); }
+  std::string in(const std::string& name) const { return (folder_ / name).string(); }
+  int files() const { return static_cast<int>(std::distance(fs::directory_iterator(folder_), {})); }
+
+ private:
+  fs::path folder_ = fs::temp_directory_path() / ("ostium-write-" + std::to_string(getpid()));
+};
+
+TEST_F(WriteFile, OnAFullDiskWhatWasThereStays) {
+  for (const Written& w : writers()) {
+    std::ofstream(in(w.file)) << "before";
+    {
+      const FullDisk full(1000);
+      EXPECT_THROW(w.write(in(w.file)), WriteError) << w.file;
+    }
+    EXPECT_EQ(text_of(in(w.file)), "before") << w.file;
+    EXPECT_EQ(files(), 1) << w.file << ": nothing is left beside it";
+    w.write(in(w.file));
+    EXPECT_GT(fs::file_size(in(w.file)), 1000u) << w.file;
+    EXPECT_EQ(files(), 1) << w.file;
+    fs::remove(in(w.file));
+  }
+}
+
+TEST_F(WriteFile, WhereNothingCanBeWrittenItSaysSo) {
+  for (const Written& w : writers()) {
+    EXPECT_THROW(w.write("/proc/nowhere/" + w.file), WriteError) << w.file;
+    fs::create_directory(in(w.file));
+    EXPECT_THROW(w.write(in(w.file)), WriteError) << w.file << ": a folder of its name";
+    EXPECT_TRUE(fs::is_directory(in(w.file)));
+    fs::remove(in(w.file));
+  }
+}
+
+TEST_F(WriteFile, ALinkStaysOneAndLeadsToTheNewFile) {
+  std::ofstream(in("target")) << "before";
+  fs::create_symlink("target", in("link"));
+  write_file(in("link"), "after");
+  EXPECT_TRUE(fs::is_symlink(in("link")));
+  EXPECT_EQ(text_of(in("target")), "after");
+}
+
+TEST_F(WriteFile, WhatIsNotFinishedIsNotThere) {
+  std::ofstream(in("a")) << "before";
+  {
+    const NewFile file(in("a"));
+    std::ofstream(file.beside()) << "half";
+  }
+  EXPECT_EQ(text_of(in("a")), "before");
+  EXPECT_EQ(files(), 1);
+}
+
+}  // namespace
+}  // namespace ostium::data

@@ -1,0 +1,137 @@
+/// Centrelines found in a mesh, compared with those the mesh was made from.
+#include "vascular/geometry/centreline/centreline.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+
+#include "tests/vascular/geometry/shapes.h"
+#include "vascular/anatomy/anatomy.h"
+#include "vascular/geometry/implicit/contour.h"
+#include "vascular/geometry/repair/sheets.h"
+
+namespace ostium::vascular {
+namespace {
+
+std::vector<Tube> fork() {
+  return {make_tube("trunk", -1, {{{0, 0, 0}, 2.4e-3}, {{0.02, 0.004, 0}, 2e-3}, {{0.05, 0, 0.01}, 1.2e-3}}),
+          make_tube("branch", 0, {{{0.02, 0.004, 0}, 1.4e-3}, {{0.03, 0.02, 0}, 1.2e-3}, {{0.034, 0.04, 0}, 1e-3}})};
+}
+
+/// Largest deviations of a branch's spheres from a tube's line, and of their radii from its radius.
+std::pair<double, double> worst(const TreeBranch& branch, const Tube& tube, double from_m, double to_m) {
+  double off = 0, radius = 0;
+  for (const TreeSphere& sphere : branch.spheres) {
+    const double s = nearest_s(tube, sphere.p);
+    if (s < from_m || s > to_m) continue;
+    off = std::max(off, (sphere.p - tube.at(s).p).norm());
+    radius = std::max(radius, std::fabs(sphere.radius_m - tube.at(s).radius_m));
+  }
+  return {off, radius};
+}
+
+TEST(Centreline, OfAForkIsFoundUnasked) {
+  const std::vector<Tube> tubes = fork();
+  const CentrelineResult found =
+      find_centrelines(contour(TubeUnion(tubes)).mesh, {.start = {}, .ends = {}, .most_voxels = 1'500'000});
+  ASSERT_EQ(found.tree.branches.size(), 2u);
+  const TreeBranch &first = found.tree.branches[0], &second = found.tree.branches[1];
+  EXPECT_EQ(second.parent, 0);
+  EXPECT_LT((first.spheres.front().p - tubes[0].nodes.front().p).norm(), 3e-3);  // it begins at the wide end
+  const bool trunk_first = (first.spheres.back().p - tubes[0].nodes.back().p).norm() < 3e-3;
+  const Tube& other = trunk_first ? tubes[1] : tubes[0];
+  const auto [off, radius] = worst(second, other, trunk_first ? 4e-3 : 25e-3, other.length_m() - 1e-3);
+  EXPECT_LT(off, 0.15e-3);
+  EXPECT_LT(radius, 0.15e-3);
+  const auto [off_trunk, radius_trunk] = worst(first, tubes[0], 1e-3, 15e-3);
+  EXPECT_LT(off_trunk, 0.15e-3);
+  EXPECT_LT(radius_trunk, 0.15e-3);
+}
+
+TEST(Centreline, PickedPointsDecide) {
+  const std::vector<Tube> tubes = fork();
+  const Mesh mesh = contour(TubeUnion(tubes)).mesh;
+  const CentrelineResult found = find_centrelines(
+      mesh, {.start = tubes[1].nodes.back().p, .ends = {tubes[0].nodes.back().p}, .most_voxels = 1'500'000});
+  ASSERT_EQ(found.tree.branches.size(), 1u);
+  EXPECT_LT((found.tree.branches[0].spheres.front().p - tubes[1].nodes.back().p).norm(), 1.5e-3);
+  EXPECT_LT((found.tree.branches[0].spheres.back().p - tubes[0].nodes.back().p).norm(), 1.5e-3);
+}
+
+TEST(Centreline, AllBranchesOfTheLeftCoronaryTree) {
+  const Anatomy anatomy = build_anatomy({});
+  std::vector<Tube> left;
+  const int trunk = find_branch(anatomy, "LM")->tube;
+  std::vector<int> index(anatomy.tubes.size(), -1);
+  for (std::size_t t = 0; t < anatomy.tubes.size(); ++t) {
+    const int parent = anatomy.tubes[t].parent;
+    if (static_cast<int>(t) != trunk && (parent < 0 || index[parent] < 0)) continue;
+    index[t] = static_cast<int>(left.size());
+    left.push_back(anatomy.tubes[t]);
+    left.back().parent = static_cast<int>(t) == trunk ? -1 : index[parent];
+  }
+  const CentrelineResult found = find_centrelines(contour(TubeUnion(left)).mesh);
+  EXPECT_EQ(found.tree.branches.size(), left.size());
+  int reached = 0;
+  for (const Tube& tube : left)
+    for (const TreeBranch& branch : found.tree.branches)
+      if ((branch.spheres.back().p - tube.nodes.back().p).norm() < 2e-3) {
+        ++reached;
+        EXPECT_LT(worst(branch, tube, 6e-3, tube.length_m() - 1e-3).first, 0.45e-3) << tube.name;
+      }
+  EXPECT_EQ(reached, static_cast<int>(left.size()));
+  EXPECT_LT((found.tree.branches[0].spheres.front().p - left[0].nodes.front().p).norm(), 4e-3);
+}
+
+TEST(Centreline, OfATubeGoesFromLidToLidHoweverItLiesOpenOrClosed) {
+  constexpr double radius = 2.5e-3, length = 100e-3;
+  for (bool open : {false, true})
+    for (int turn = 0; turn < 4; ++turn) {
+      Mesh mesh = test::tube(radius, length, 32, 100, open);
+      const Eigen::Matrix3d R = Eigen::AngleAxisd(turn == 3 ? 0.7 : turn * units::pi / 2,
+                                                  Eigen::Vector3d(turn == 1, turn != 1, turn == 3).normalized())
+                                    .matrix();
+      for (Eigen::Vector3d& p : mesh.vertices) p = R * p;
+      EXPECT_EQ(close_all(mesh).size(), open ? 2u : 0u);
+      const CentrelineResult found = find_centrelines(mesh, {.start = {}, .ends = {}, .most_voxels = 200'000});
+      ASSERT_EQ(found.tree.branches.size(), 1u);
+      const std::vector<TreeSphere>& spheres = found.tree.branches[0].spheres;
+      EXPECT_NEAR(spheres.back().s_m, length, 0.2e-3);
+      // 32 flat strips are inscribed: 0.5 % narrower.
+      for (const TreeSphere& sphere : spheres) {
+        EXPECT_NEAR(sphere.radius_m, radius * std::cos(units::pi / 32), 0.01 * radius) << turn << " at " << sphere.s_m;
+        EXPECT_LT((R.transpose() * sphere.p).head<2>().norm(), 0.02 * radius) << turn << " at " << sphere.s_m;
+      }
+    }
+}
+
+/// Steps towards a lid go by the radius, and here there is none at the end of ever smaller ones.
+TEST(Centreline, OfASpikeEnds) {
+  Mesh mesh = test::tube(3e-3, 60e-3, 32, 60);
+  for (Eigen::Vector3d& p : mesh.vertices) p.head<2>() *= std::max(1e-7, 1 - p.z() / 60e-3);
+  const CentrelineResult found = find_centrelines(mesh, {.start = {}, .ends = {}, .most_voxels = 200'000});
+  ASSERT_FALSE(found.tree.branches.empty());
+  EXPECT_GT(found.tree.branches[0].spheres.back().s_m, 30e-3);
+}
+
+TEST(Centreline, OfPiecesThatOverlapRunsThroughBoth) {
+  Mesh mesh = test::tube(2e-3, 40e-3, 32, 40), other = mesh;
+  for (Eigen::Vector3d& p : other.vertices) p += Eigen::Vector3d(1e-4, 2e-4, 30e-3);
+  append(mesh, other);
+  const CentrelineResult found = find_centrelines(mesh, {.start = {}, .ends = {}, .most_voxels = 200'000});
+  ASSERT_FALSE(found.tree.branches.empty());
+  EXPECT_GT(found.tree.branches[0].spheres.back().s_m, 65e-3);
+}
+
+TEST(Centreline, WhatHasNoInsideOrIsInPiecesIsRefused) {
+  EXPECT_THROW(find_centrelines({{{0, 0, 0}, {1, 0, 0}, {0, 1, 0.1}}, {{0, 1, 2}}}), MeshError);
+  Mesh two = test::sphere(0.01, 16);
+  append(two, test::sphere(0.01, 16, {0.05, 0, 0}));
+  EXPECT_THROW(
+      find_centrelines(
+          two, {.start = Eigen::Vector3d(0, 0, 0), .ends = {Eigen::Vector3d(0.05, 0, 0)}, .most_voxels = 200'000}),
+      MeshError);
+}
+
+}  // namespace
+}  // namespace ostium::vascular

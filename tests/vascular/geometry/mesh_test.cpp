@@ -1,0 +1,210 @@
+/// Meshes survive writing and reading; invalid ones are refused.
+#include "vascular/geometry/mesh/mesh.h"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "tests/vascular/geometry/shapes.h"
+#include "vascular/geometry/mesh/surface_check.h"
+#include "vascular/geometry/mesh_files/rounding.h"
+#include "vascular/geometry/mesh_files/written_mesh.h"
+
+namespace ostium::vascular {
+namespace {
+
+std::string temporary(const std::string& name) {
+  return (std::filesystem::path(testing::TempDir()) / ("ostium_" + std::to_string(getpid()) + "_" + name)).string();
+}
+
+std::string written(const std::string& name, const std::string& text) {
+  const std::string path = temporary(name);
+  std::ofstream(path) << text;
+  return path;
+}
+
+std::string refusal(const std::string& path) {
+  try {
+    read_mesh(path, LengthUnit::millimetre);
+  } catch (const MeshError& error) {
+    return error.what();
+  }
+  return "accepted";
+}
+
+void write_mesh(const std::string& path, const Mesh& mesh, LengthUnit unit) {
+  std::ofstream(path, std::ios::binary) << mesh_bytes(path, mesh, unit);
+}
+
+TEST(Mesh, VolumeAndAreaOfACube) {
+  const Mesh cube = test::cube(0.02);
+  EXPECT_NEAR(volume_m3(cube), 8e-6, 1e-18);
+  EXPECT_NEAR(area_m2(cube), 6 * 4e-4, 1e-15);
+}
+
+TEST(Mesh, VolumeIsTheSameFarFromTheOrigin) {
+  Mesh mesh = test::sphere(0.03, 24);
+  const double volume = volume_m3(mesh);
+  for (Eigen::Vector3d& p : mesh.vertices) p += Eigen::Vector3d(4000, -3000, 5000);
+  // What is left is the rounding of the coordinates themselves, 1e-12 m.
+  EXPECT_NEAR(volume_m3(mesh), volume, 1e-9 * volume);
+  EXPECT_TRUE(check_surface(mesh).sound());
+}
+
+TEST(Mesh, RoundingIsThatOfTheFilesNumbers) {
+  Mesh mesh = test::sphere(10, 16);
+  EXPECT_LT(rounding_step(mesh), 1e-14);
+  for (Eigen::Vector3d& p : mesh.vertices) p.x() += 4e6;
+  mesh = test::in_single(mesh);
+  EXPECT_EQ(rounding_step(mesh), 0.25);  // 24 bits for 2^21 to 2^22
+  for (Eigen::Vector3d& p : mesh.vertices) p.x() -= 4e6;
+  for (Eigen::Vector3d& p : mesh.vertices) p = (p * 100).array().round() / 100;
+  EXPECT_NEAR(rounding_step(mesh), 0.01, 1e-12);
+}
+
+TEST(Mesh, EveryFormatBringsBackWhatWasWritten) {
+  const Mesh sphere = test::sphere(0.01, 24);
+  for (const char* name : {"a.obj", "a.stl", "a.ply"}) {
+    write_mesh(temporary(name), sphere, LengthUnit::millimetre);
+    const MeshFile back = read_mesh(temporary(name), LengthUnit::millimetre);
+    EXPECT_EQ(back.mesh.vertices.size(), sphere.vertices.size()) << name;
+    EXPECT_EQ(back.mesh.triangles.size(), sphere.triangles.size()) << name;
+    EXPECT_EQ(back.dropped_triangles, 0) << name;
+    // Single precision: 2^-24 relative.
+    EXPECT_NEAR(volume_m3(back.mesh), volume_m3(sphere), 1e-6 * volume_m3(sphere)) << name;
+  }
+}
+
+/// A corner of a cube, 90 mm, in the metres of glTF.
+const std::string corner_gltf =
+    R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],"nodes":[{"mesh":0}],"meshes":[{"primi)"
+    R"(tives":[{"attributes":{"POSITION":0},"indices":1}]}],"accessors":[{"bufferView":0,"componentType":51)"
+    R"(26,"count":4,"type":"VEC3"},{"bufferView":1,"componentType":5123,"count":12,"type":"SCALAR"}],"buffe)"
+    R"(rViews":[{"buffer":0,"byteLength":48},{"buffer":0,"byteOffset":48,"byteLength":24}],"buffers":[{"byt)"
+    R"(eLength":72,"uri":"data:application/octet-stream;base64,AAAAAAAAAAAAAAAA7FG4PQAAAAAAAAAAAAAAAOxRuD0A)"
+    R"(AAAAAAAAAAAAAADsUbg9AAACAAEAAAABAAMAAQACAAMAAAADAAIA"}]})";
+
+TEST(Mesh, GltfIsReadInItsMetres) {
+  const Mesh mesh = read_mesh(written("corner.gltf", corner_gltf), LengthUnit::metre).mesh;
+  EXPECT_EQ(mesh.vertices.size(), 4u);
+  EXPECT_EQ(mesh.triangles.size(), 4u);
+  EXPECT_NEAR(volume_m3(mesh), 0.09 * 0.09 * 0.09 / 6, 1e-9);
+}
+
+TEST(Mesh, WhatWasCutShortOrBrokenIsRefused) {
+  const std::string ascii =
+      "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\n"
+      "element face 2\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n9 0 0\n0 9 0\n0 0 9\n3 0 1 2\n";
+  EXPECT_NE(refusal(written("cut.ply", ascii)).find("5 of the 6 lines"), std::string::npos);
+  EXPECT_EQ(refusal(written("whole.ply", ascii + "3 0 2 3\n")), "accepted");
+  EXPECT_NE(refusal(written("index.ply", ascii + "3 0 2 77\n")).find("vertex 77 of 4"), std::string::npos);
+  EXPECT_NE(refusal(written("header.ply", ascii.substr(0, 60))).find("is cut short"), std::string::npos);
+  // Binary formats, truncated anywhere.
+  for (const char* name : {"binary.ply", "binary.stl"}) {
+    write_mesh(temporary(name), test::sphere(0.01, 6), LengthUnit::millimetre);
+    std::ifstream file(temporary(name), std::ios::binary);
+    const std::string whole((std::istreambuf_iterator<char>(file)), {});
+    EXPECT_EQ(refusal(temporary(name)), "accepted");
+    for (double share : {0.01, 0.3, 0.6, 0.999}) {
+      const std::string cut = whole.substr(0, static_cast<std::size_t>(share * static_cast<double>(whole.size())));
+      EXPECT_NE(refusal(written(std::string("cut_") + name, cut)), "accepted") << name << " " << share;
+    }
+  }
+  EXPECT_NE(refusal(written("zero.stl", std::string(84, '\0'))), "accepted");
+  for (std::size_t length : {0u, 40u, 300u, 500u})
+    EXPECT_NE(refusal(written("cut.gltf", corner_gltf.substr(0, length))), "accepted");
+  for (const char* broken : {"\"bufferView\":1", "\"POSITION\":0", "\"count\":4,"}) {
+    std::string text = corner_gltf;
+    const std::size_t at =
+        text.find(broken) + std::string(broken).size() - (text.find(broken) == text.find("\"count") ? 2 : 1);
+    text[at] = '9';
+    EXPECT_NE(refusal(written("broken.gltf", text)), "accepted") << broken;
+  }
+}
+
+TEST(Mesh, AFaceThatWouldBeLeftOutIsRefused) {
+  const std::string points = "0 0 0\n9 0 0\n0 9 0\n0 0 9\n";
+  const std::string off = "OFF\n4 2 0\n" + points + "3 0 1 2\n";
+  EXPECT_EQ(refusal(written("whole.off", off + "3 0 2 3\n")), "accepted");
+  EXPECT_NE(refusal(written("none.off", off + "0\n")).find("promises 2 faces, and 1 could be read"), std::string::npos);
+  EXPECT_NE(refusal(written("ten.off", off + "10 0 1 2 3 0 1 2 3 0 1\n")).find("export it as triangles"),
+            std::string::npos);
+  const std::string ply =
+      "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\nelement face 2\n"
+      "property list uchar int vertex_indices\nend_header\n" +
+      points + "3 0 1 2\n";
+  EXPECT_NE(refusal(written("none.ply", ply + "0\n")).find("face 1 has no corners"), std::string::npos);
+}
+
+TEST(Mesh, ARefusalIsShortWhateverTheFileHolds) {
+  const std::string stl = "solid a\n facet normal 0 0 1\n  outer loop\n   vertex \x1b[2J" + std::string(20000, 'x') +
+                          "\n  endloop\n endfacet\nendsolid a\n";
+  const std::string said = refusal(written("words.stl", stl));
+  EXPECT_LT(said.size(), 1000u);
+  EXPECT_EQ(said.find('\x1b'), std::string::npos);
+}
+
+TEST(Mesh, OnlyTheFormatsThatAreListedAreTried) {
+  for (const char* name : {"a.blend", "a.assbin", "a.3mf", "a.zip", "a"})
+    EXPECT_NE(refusal(written(name, "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")).find("names no format"), std::string::npos)
+        << name;
+}
+
+TEST(Mesh, AsWrittenIsWhatAFileBringsBack) {
+  Mesh mesh = test::sphere(0.0123456789, 8, {0.3, -0.1, 0.7});
+  const std::string path = testing::TempDir() + "ostium_as_written.ply";
+  write_mesh(path, mesh, LengthUnit::millimetre);
+  const Mesh read = read_mesh(path, LengthUnit::millimetre).mesh, said = as_written(mesh, LengthUnit::millimetre);
+  ASSERT_EQ(read.vertices.size(), said.vertices.size());
+  for (std::size_t t = 0; t < said.triangles.size(); ++t)
+    for (int k = 0; k < 3; ++k)
+      EXPECT_EQ((read.vertices[read.triangles[t][k]] - said.vertices[said.triangles[t][k]]).norm(), 0);
+}
+
+TEST(Mesh, UnitsAreThoseThatAreNamed) {
+  write_mesh(temporary("unit.obj"), test::cube(0.02), LengthUnit::millimetre);
+  EXPECT_NEAR(volume_m3(read_mesh(temporary("unit.obj"), LengthUnit::centimetre).mesh), 8e-3, 1e-9);
+}
+
+TEST(Mesh, CornersWithinTheToleranceBecomeOne) {
+  // A tetrahedron whose corners are written slightly differently each time (0.0002 mm apart), and a sliver.
+  const std::string path = written("weld.obj",
+                                   "v 0 0 0\nv 0 10 0\nv 10 0 0\nv 0 0 10\nv 0.0002 0 0\nv 10 0.0002 0\n"
+                                   "f 1 2 3\nf 5 3 4\nf 1 4 2\nf 6 2 4\nf 1 5 4\n");
+  const MeshFile file = read_mesh(path, LengthUnit::millimetre);
+  EXPECT_EQ(file.mesh.vertices.size(), 4u);
+  EXPECT_EQ(file.mesh.triangles.size(), 4u);
+  EXPECT_EQ(file.welded_vertices, 2);
+  EXPECT_EQ(file.dropped_triangles, 1);
+  EXPECT_NEAR(volume_m3(file.mesh), 1e-6 / 6, 1e-10);
+}
+
+TEST(Mesh, ASequenceKeepsItsVerticesWhereverTheyMove) {
+  // In the second frame two vertices meet, which must not make them one.
+  const std::string a = written("0.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n");
+  const std::string b = written("1.obj", "v 0 0 0\nv 1 0 0\nv 1 0 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n");
+  const std::vector<Mesh> frames = read_mesh_sequence({a, b}, LengthUnit::metre);
+  ASSERT_EQ(frames.size(), 2u);
+  EXPECT_EQ(frames[0].vertices.size(), 4u);
+  EXPECT_EQ(frames[1].vertices.size(), 4u);
+  EXPECT_EQ(frames[0].triangles, frames[1].triangles);
+  EXPECT_NEAR(volume_m3(frames[0]), 1.0 / 6, 1e-12);
+  const std::string c = written("2.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  EXPECT_THROW(read_mesh_sequence({a, c}, LengthUnit::metre), MeshError);
+}
+
+TEST(Mesh, WhatIsNoSurfaceIsRefused) {
+  EXPECT_NE(refusal("/nowhere.obj").find("is no file"), std::string::npos);
+  EXPECT_NE(refusal(written("text.stl", "hello")).find("cannot be read as a mesh"), std::string::npos);
+  EXPECT_NE(refusal(written("empty.obj", "v 0 0 0\nv 1 0 0\n")).find(".obj"), std::string::npos);
+  EXPECT_EQ(
+      read_mesh(written("line.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nl 1 2\n"), LengthUnit::metre).skipped_faces,
+      1);
+  EXPECT_NE(refusal(written("nan.obj", "v nan 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")).find("finite"), std::string::npos);
+  EXPECT_THROW(mesh_bytes("a.docx", test::cube(1), LengthUnit::metre), MeshError);
+}
+
+}  // namespace
+}  // namespace ostium::vascular

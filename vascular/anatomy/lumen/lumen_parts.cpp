@@ -1,0 +1,46 @@
+#include "vascular/anatomy/lumen/lumen_parts.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "core/base/units.h"
+#include "vascular/geometry/centreline/centreline.h"
+#include "vascular/geometry/repair/repair.h"
+
+namespace ostium::vascular {
+
+namespace {
+
+using units::mm;
+constexpr double vessel_shape = 6;  // a vessel is longer than this many of its widths
+
+}  // namespace
+
+std::vector<LumenPart> lumen_parts(const Mesh& lumen, const Progress& say) {
+  std::vector<LumenPart> parts;
+  double longest = 0, widest = 0;
+  for (Mesh& mesh : components_of(lumen)) {
+    say(fmt::format("looking for centrelines in lumen {}", parts.size() + 1));
+    LumenPart part{.mesh = std::move(mesh), .tree = {}, .courses = {}, .root = {}, .roles = {}};
+    part.tree = find_centrelines(part.mesh, {.start = {}, .ends = {}, .to_lids = false}).tree;
+    if (part.tree.branches.empty() || part.tree.branches[0].spheres.size() < 2) continue;
+    part.courses = courses_of(part.tree);
+    part.root = part.tree.branches[0].spheres.front().p;
+    for (const TreeBranch& branch : part.tree.branches)
+      for (const TreeSphere& sphere : branch.spheres) part.widest_m = std::max(part.widest_m, sphere.radius_m);
+    for (const Course& course : part.courses) longest = std::max(longest, course.length_m());
+    widest = std::max(widest, part.widest_m);
+    parts.push_back(std::move(part));
+  }
+  if (parts.empty() || longest < vessel_shape * 2 * widest)
+    throw MeshError(fmt::format(
+        "this is no vessel: the longest way through it is {:.0f} mm, its widest place {:.0f} mm; expected a way at "
+        "least {:.0f} times as long as wide",
+        longest / mm, 2 * widest / mm, vessel_shape));
+  std::stable_sort(parts.begin(), parts.end(),
+                   [](const LumenPart& a, const LumenPart& b) { return a.widest_m > b.widest_m; });
+  return parts;
+}
+
+}  // namespace ostium::vascular
