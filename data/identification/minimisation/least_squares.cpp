@@ -6,6 +6,8 @@ namespace ostium::data {
 
 namespace {
 
+/// Keeps the last evaluation: where there are bounds Ceres looks along a line first, with the derivatives, and then asks
+/// for the same place twice more.
 class Cost : public ceres::CostFunction {
  public:
   explicit Cost(const LeastSquares& problem) : problem_(problem) {
@@ -14,19 +16,24 @@ class Cost : public ceres::CostFunction {
   }
   bool Evaluate(double const* const* parameters, double* residuals, double** jacobians) const override {
     const Eigen::VectorXd x = Eigen::Map<const Eigen::VectorXd>(parameters[0], problem_.start.size());
-    Eigen::VectorXd r;
-    Eigen::MatrixXd J;
     const bool wants = jacobians && jacobians[0];
-    if (!problem_.evaluate(x, r, wants ? &J : nullptr)) return false;
-    Eigen::Map<Eigen::VectorXd>(residuals, r.size()) = r;
+    if (x_.size() != x.size() || x_ != x || (wants && !has_J_)) {
+      x_.resize(0);
+      if (!problem_.evaluate(x, r_, wants ? &J_ : nullptr)) return false;
+      x_ = x, has_J_ = wants;
+    }
+    Eigen::Map<Eigen::VectorXd>(residuals, r_.size()) = r_;
     if (wants)
-      Eigen::Map<Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>(jacobians[0], J.rows(),
-                                                                                         J.cols()) = J;
+      Eigen::Map<Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>(jacobians[0], J_.rows(),
+                                                                                         J_.cols()) = J_;
     return true;
   }
 
  private:
   const LeastSquares& problem_;
+  mutable Eigen::VectorXd x_, r_;
+  mutable Eigen::MatrixXd J_;
+  mutable bool has_J_ = false;
 };
 
 }  // namespace
