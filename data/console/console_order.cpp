@@ -30,19 +30,46 @@ const std::vector<double>* choices(ConsoleCommand command) {
   }
 }
 
-bool is_whole(ConsoleCommand command) {
-  return command == ConsoleCommand::view || command == ConsoleCommand::review || command == ConsoleCommand::review_step;
+std::string expected_of(const ConsoleRow& row) {
+  const int count = row.count();
+  if (count == 0) return fmt::format("no values, as \"{}\" has none", row.name);
+  std::string of;
+  for (int i = 0; i < count; ++i) {
+    const ConsoleValue& value = row.values[static_cast<std::size_t>(i)];
+    of += fmt::format("{}{}: ", i > 0 ? ", " : "", value.name);
+    if (const std::vector<double>* some = choices(row.command))
+      of += fmt::format("one of {:g}", fmt::join(*some, " "));
+    else
+      of += fmt::format("{:g} to {:g}", value.least, value.most);
+    if (std::string(value.unit) != "1") of += fmt::format(" {}", value.unit);
+  }
+  return fmt::format("{} number{} for \"{}\" ({}); {}", count, count == 1 ? "" : "s", row.name, row.what, of);
 }
 
-std::string expected_of(const ConsoleRow& row) {
-  if (row.values == 0) return fmt::format("no values, as \"{}\" has none", row.name);
-  std::string of = fmt::format("{:g} to {:g}", row.least, row.most);
-  if (const std::vector<double>* some = choices(row.command)) {
-    of = "one of";
-    for (const double one : *some) of += fmt::format(" {:g}", one);
+/// Of value `i` of a command.
+JsonType type_of(const ConsoleRow& row, int i) {
+  const ConsoleValue& value = row.values[static_cast<std::size_t>(i)];
+  if (const std::vector<double>* some = choices(row.command)) return json_type::one_of_numbers(*some);
+  return value.whole ? json_type::whole(from_to(value.least, value.most))
+                     : json_type::number(from_to(value.least, value.most));
+}
+
+/// The list of a command's values; those of one kind are told once.
+JsonValue values_schema(const ConsoleRow& row) {
+  const int count = row.count();
+  if (count == 0) return json_object({{"maxItems", json_number(0)}});
+  bool alike = true;
+  for (int i = 1; i < count; ++i) {
+    const ConsoleValue &a = row.values[0], &b = row.values[static_cast<std::size_t>(i)];
+    alike = alike && a.least == b.least && a.most == b.most && a.whole == b.whole;
   }
-  return fmt::format("{} number{} for \"{}\" ({}), each {} {}", row.values, row.values == 1 ? "" : "s", row.name,
-                     row.what, of, row.unit[0] == '1' && row.unit[1] == 0 ? "" : row.unit);
+  if (alike) return json_object(json_type::list_of(type_of(row, 0), count, count).schema);
+  std::vector<JsonValue> each;
+  for (int i = 0; i < count; ++i) each.push_back(json_object(type_of(row, i).schema));
+  return json_object({{"type", json_text("array")},
+                      {"prefixItems", json_list(std::move(each))},
+                      {"minItems", json_number(count)},
+                      {"maxItems", json_number(count)}});
 }
 
 /// Each command with its numbers, for the schema.
@@ -50,14 +77,9 @@ SchemaKeyword forms() {
   std::vector<JsonValue> all;
   for (const ConsoleRow& row : console_rows) {
     std::vector<SchemaKeyword> keys = {{"do", json_object({{"const", json_text(row.name)}})}};
-    const std::vector<double>* some = choices(row.command);
-    JsonType number = some                    ? json_type::one_of_numbers(*some)
-                      : is_whole(row.command) ? json_type::whole(from_to(row.least, row.most))
-                                              : json_type::number(from_to(row.least, row.most));
-    keys.emplace_back("values", json_object(json_type::list_of(number, row.values, row.values).schema));
-    if (row.values == 0) keys.back().second = json_object({{"maxItems", json_number(0)}});
+    keys.emplace_back("values", values_schema(row));
     std::vector<SchemaKeyword> form = {{"title", json_text(row.what)}, {"properties", json_object(std::move(keys))}};
-    if (row.values > 0) form.emplace_back("required", json_list(std::vector<std::string>{"values"}));
+    if (row.count() > 0) form.emplace_back("required", json_list(std::vector<std::string>{"values"}));
     all.push_back(json_object(std::move(form)));
   }
   return {"oneOf", json_list(std::move(all))};
@@ -85,14 +107,15 @@ ConsoleOrder read_console_order(const JsonValue& message) {
   ConsoleOrder order{row.command, {}};
   const std::size_t count = object.has("values") ? object.list("values").size() : 0;
   const auto refuse = [&] { (object.has("values") ? object["values"] : object["do"]).refuse(expected_of(row)); };
-  if (count != static_cast<std::size_t>(row.values)) refuse();
+  if (count != static_cast<std::size_t>(row.count())) refuse();
   for (std::size_t i = 0; i < count; ++i) {
     const JsonValue& value = object.list("values")[i];
     const double number = value.number;
+    const ConsoleValue& expected = row.values[i];
     const std::vector<double>* some = choices(row.command);
-    if (value.type != JsonValue::Type::number || !(number >= row.least && number <= row.most) ||
+    if (value.type != JsonValue::Type::number || !(number >= expected.least && number <= expected.most) ||
         (some && std::find(some->begin(), some->end(), number) == some->end()) ||
-        (is_whole(row.command) && number != std::floor(number)))
+        (expected.whole && number != std::floor(number)))
       refuse();
     order.values[i] = number;
   }

@@ -60,11 +60,12 @@ Json tree_of(const Setting& setting) {
   int first = 0;
   for (const vascular::TreeBranch& branch : branches) {
     const int end = first + static_cast<int>(branch.spheres.size());
-    Json radii = Json::array();
-    for (; at < setting.spheres.size() && setting.spheres[at] < end; ++at)
-      radii.push_back(
-          number(1e3 * branch.spheres[static_cast<std::size_t>(setting.spheres[at] - first)].radius_m, 0.01));
-    out.push_back({{"name", branch.name}, {"parent", branch.parent}, {"radius_mm", radii}});
+    Json radii = Json::array(), places = Json::array();
+    for (; at < setting.spheres.size() && setting.spheres[at] < end; ++at) {
+      const vascular::TreeSphere& sphere = branch.spheres[static_cast<std::size_t>(setting.spheres[at] - first)];
+      radii.push_back(number(1e3 * sphere.radius_m, 0.01)), places.push_back(number(1e3 * sphere.s_m, 0.1));
+    }
+    out.push_back({{"name", branch.name}, {"parent", branch.parent}, {"radius_mm", radii}, {"s_mm", places}});
     first = end;
   }
   return out;
@@ -75,10 +76,6 @@ Json console_table() {
   for (const data::ConsoleRow& row : data::console_rows)
     rows.push_back({{"do", row.name},
                     {"held", row.held},
-                    {"values", row.values},
-                    {"least", row.least},
-                    {"most", row.most},
-                    {"unit", row.unit},
                     {"needs", word(row.needs)},
                     {"patient", row.patient},
                     {"what", row.what}});
@@ -87,9 +84,27 @@ Json console_table() {
     keys.push_back({{"key", key.key},
                     {"ctrl", key.ctrl},
                     {"do", row.name},
-                    {"values", std::vector<double>(key.order.values.begin(), key.order.values.begin() + row.values)}});
+                    {"values", std::vector<double>(key.order.values.begin(), key.order.values.begin() + row.count())}});
   }
   return {{"rows", rows}, {"keys", keys}};
+}
+
+/// What can be given and provoked, and where: arteries with their length, lesions as a place in one.
+Json emergency_of(const SessionModel& model) {
+  Json arteries = Json::array(), lesions = Json::array(), drugs = Json::array();
+  const vascular::FlowTree& tree = model.vessel->coronaries->tree();
+  for (const vascular::FlowBranch& branch : tree.branches)
+    arteries.push_back({{"name", branch.name},
+                        {"tree_branch", branch.tree_branch},
+                        {"from_mm", number(1e3 * tree.s_of(branch.first), 0.1)},
+                        {"to_mm", number(1e3 * tree.s_of(branch.last - 1), 0.1)}});
+  for (const Plan& plan : model.vessel->coronaries->lesions)
+    lesions.push_back({{"artery", tree.branch(plan.lesion.branch)},
+                       {"mm", number(1e3 * (plan.lesion.from_m + plan.lesion.length_m / 2), 0.1)}});
+  for (const vascular::Drug& drug : model.treatment.drugs.others)
+    drugs.push_back(
+        {{"name", drug.name}, {"title", drug.title}, {"unit", drug.unit}, {"least", drug.least}, {"most", drug.most}});
+  return {{"arteries", arteries}, {"lesions", lesions}, {"drugs", drugs}};
 }
 
 const char* kind_of(data::ScoreKind kind) {
@@ -143,6 +158,7 @@ std::string welcome(const Setting& setting, Role role, const std::string& viewer
     views.push_back({{"name", view.name}, {"angles", fluoro::angles_text(view.lao_deg, view.cran_deg)}});
   for (const data::ScoreItem& item : setting.scoring.items)
     items.push_back({{"phase", item.phase}, {"kind", kind_of(item.kind)}, {"what", item.what}, {"when", item.when}});
+  const Json emergency = model.has_patient() ? emergency_of(model) : Json(nullptr);
   return Json({{"type", "welcome"},
                {"protocol", 1},
                {"role", role == Role::trainer ? "trainer" : "viewer"},
@@ -159,6 +175,7 @@ std::string welcome(const Setting& setting, Role role, const std::string& viewer
                {"steps", steps},
                {"views", views},
                {"console", console_table()},
+               {"emergency", emergency},
                {"tree", tree_of(setting)},
                {"scoring", {{"title", setting.scoring.title}, {"note", setting.scoring.note}, {"items", items}}}})
       .dump();
@@ -231,7 +248,13 @@ std::string message_of(const Setting& setting, const Snapshot& now, const LivePi
                       {"contrast_mL", number(signal("contrast_mL"), 0.1)},
                       {"gauge_atm", number(signal("gauge_atm"), 0.1)},
                       {"balloon_mm", number(signal("balloon_mm"), 0.01)},
-                      {"lesion_mld_mm", number(signal("lesion_mld_mm"), 0.01)}};
+                      {"lesion_mld_mm", number(signal("lesion_mld_mm"), 0.01)},
+                      {"pericardium_mL", number(signal("pericardium_mL"), 1)},
+                      {"pericardium_mmHg", number(signal("pericardium_mmHg"), 0.1)},
+                      {"leak_mL_s", number(signal("leak_mL_s"), 0.01)},
+                      {"rhythm", number(signal("rhythm"), 1)},
+                      {"infusion_mL_min", number(now.inputs.delivery.infusion_m3_s / units::mL_min, 1)},
+                      {"drain_mL_min", number(now.inputs.delivery.drain_m3_s / units::mL_min, 1)}};
     out["ecg_10uV"] = trace_of(now.ecg_mV, 0.01);
     out["line_mmHg"] = trace_of(now.line_mmHg, 1);
   }

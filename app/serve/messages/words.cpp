@@ -24,6 +24,11 @@ std::string branch_name(const SessionModel& model, double value) {
                                                                     : "";
 }
 
+std::string drug_name(const SessionModel& model, double value) {
+  const auto& drugs = model.treatment.drugs.others;
+  return value >= 0 && value < static_cast<double>(drugs.size()) ? drugs[static_cast<std::size_t>(value)].name : "";
+}
+
 std::string injury_words(double value) {
   static constexpr const char* dissections[] = {"dissection A", "dissection B", "dissection C",
                                                 "dissection D", "dissection E", "dissection F"};
@@ -36,7 +41,7 @@ std::string injury_words(double value) {
 std::string value_words(const data::EventDefinition& definition, double value) {
   const std::string& unit = definition.value;
   const std::string first = unit.substr(0, unit.find_first_of(" ,"));
-  for (const char* known : {"N", "mm", "s", "mL/s", "mL", "U", "ug", "atm", "degrees"})
+  for (const char* known : {"N", "mm", "s", "mL/s", "mL", "U", "ug", "atm", "degrees", "J"})
     if (first == known) return fmt::format(", {:.3g} {}", value, first);
   return "";
 }
@@ -51,6 +56,7 @@ std::string name_words(std::string name) {
 std::string words_of(const SessionEvent& event, const SessionModel& model, const ScriptPlan& plan) {
   using data::EventCode;
   static constexpr const char* traces[] = {"normal", "damped", "ventricularised", "that of the ventricle", "absent"};
+  static constexpr const char* rhythms[] = {"sinus", "AV block", "ventricular fibrillation", "asystole"};
   const data::EventDefinition* definition = data::definition_of(static_cast<EventCode>(event.code));
   if (!definition) return "";
   std::string what = name_words(definition->name) + value_words(*definition, event.value);
@@ -73,6 +79,12 @@ std::string words_of(const SessionEvent& event, const SessionModel& model, const
       break;
     case EventCode::injury:
       return injury_words(event.value);
+    case EventCode::provoked:
+      return "provoked: " + one_of(vascular::provocation_names, event.value);
+    case EventCode::rhythm_changes:
+      return "rhythm: " + one_of(rhythms, event.value);
+    case EventCode::drug_given:
+      return drug_name(model, event.value) + " given";
     case EventCode::stent_elsewhere:
       what = "stent left in " + branch_name(model, event.value);
       break;

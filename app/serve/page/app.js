@@ -1,4 +1,5 @@
 import { Console } from '/console.js';
+import { Emergency } from '/emergency.js';
 import { Picture } from '/picture.js';
 import { Socket } from '/socket.js';
 import { drawStrip } from '/strips.js';
@@ -10,7 +11,7 @@ const token = new URLSearchParams(location.hash.slice(1)).get('token') ?? sessio
 sessionStorage.setItem('token', token);
 history.replaceState(null, '', '/'); // not for shoulders, nor for the history
 
-let welcome = null, now = null, console_ = null, ended = null, refusedUntil = 0;
+let welcome = null, now = null, console_ = null, emergency = null, ended = null, refusedUntil = 0;
 const truth = new Truth($('truth'));
 const picture = new Picture($('picture'), () => { $('empty').hidden = true; });
 const reference = new Picture($('reference'), () => { $('reference').hidden = false; });
@@ -55,6 +56,7 @@ const trackers = {
     ended = null;
     if (!console_) {
       console_ = new Console($('console-panel'), $('stage'), socket, message);
+      emergency = new Emergency(console_, socket, message, (place) => { truth.mark = place; truth.draw(); });
       $('stage').focus();
     }
     $('tools').tBodies[0].replaceChildren(...message.tools.map((tool, t) => {
@@ -137,6 +139,9 @@ function show() {
     ['cine', `${x.runs} in ${fixed(x.cine_s, 1)} s`], ['dose', `${fixed(x.dap_Gycm2, 2)} Gy cm²`]];
   const numbers = p ? [['gauge', `${fixed(p.gauge_atm, 1)} atm`], ['balloon', `${fixed(p.balloon_mm, 2)} mm`], ['contrast', `${fixed(p.contrast_mL, 1)} mL`], ['ACT', `${fixed(p.act_s, 0)} s`],
     ['ST', `${fixed(p.ST_mV, 2)} mV`], ['flow', p.flow_share === null ? '–' : `${Math.round(100 * p.flow_share)} %`], ['lesion', `${fixed(p.lesion_mld_mm, 2)} mm`], ['tear hazard', fixed(p.hazard, 3)], ...arm] : arm;
+  if (p?.pericardium_mL > 0) numbers.unshift(['round the heart', `${p.pericardium_mL} mL, ${fixed(p.pericardium_mmHg, 1)} mmHg`]);
+  if (p?.leak_mL_s > 0.005) numbers.unshift(['leak', `${fixed(p.leak_mL_s, 2)} mL/s`]);
+  if (p?.rhythm > 0) numbers.unshift(['rhythm', ['sinus', 'AV block', 'fibrillation', 'asystole'][p.rhythm]]);
   if (now.late > 0) numbers.push(['late steps', now.late]);
   $('numbers').replaceChildren(...numbers.map(([name, value]) => {
     const pair = document.createElement('div'), dt = document.createElement('dt'), dd = document.createElement('dd');
@@ -149,6 +154,7 @@ function show() {
     ? `${welcome.tools[now.refused].name} cannot enter: ${welcome.tools[now.in_its_way].name} is in its place` : '';
   timeline.tick(now.s);
   console_.show(now, welcome);
+  emergency.show(now, welcome);
 }
 
 function showScores(items) {

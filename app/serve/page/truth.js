@@ -16,6 +16,7 @@ export class Truth {
     this.follow = true;
     this.middle = null;
     this.tree = [];
+    this.mark = null; // a place that is shown: {tree_branch, mm}
     let last = null;
     canvas.addEventListener('pointerdown', (e) => { last = e; canvas.setPointerCapture(e.pointerId); });
     canvas.addEventListener('pointerup', () => { last = null; });
@@ -63,6 +64,18 @@ export class Truth {
     if (!tip) tip = [this.spheres[0], this.spheres[1], this.spheres[2]];
     if (!this.middle) this.middle = tip;
     if (this.follow) this.middle = this.middle.map((m, i) => m + 0.15 * (tip[i] - m));
+  }
+  ring(pen, place) {
+    const branch = this.mark && this.tree[this.mark.tree_branch];
+    if (!branch) return;
+    let first = 0;
+    for (const other of this.tree.slice(0, this.mark.tree_branch)) first += other.s_mm.length;
+    let k = branch.s_mm.findIndex((s) => s >= this.mark.mm);
+    if (k < 0) k = branch.s_mm.length - 1;
+    const [x, y] = place(this.spheres, 3 * (first + k));
+    pen.strokeStyle = '#f2b84b';
+    pen.lineWidth = 2;
+    pen.beginPath(); pen.arc(x, y, Math.max(7, 1.6 * this.scale * branch.radius_mm[k]), 0, 7); pen.stroke();
   }
   draw() {
     if (!this.spheres || !this.spheres.length) return;
@@ -113,6 +126,7 @@ export class Truth {
         first += n;
       }
     }
+    this.ring(pen, place);
     this.tools.forEach((tool, t) => {
       const base = toolColours[t % toolColours.length];
       for (let i = 0; i + 8 <= tool.length; i += 4) {

@@ -273,7 +273,7 @@ std::string Station::obey(const std::string& what, const data::JsonValue& messag
   const auto hands = static_cast<Hands>(hands_.load());
   if (row.needs == data::ConsoleNeeds::hands && hands == Hands::script && order.values[0] != 0)
     return refusal(what, "the script has the instruments; take over first");
-  if (row.patient && !run_.model.has_patient()) return refusal(what, "a mesh has no circulation");
+  if (const std::string why = why_not(run_.model, order); !why.empty()) return refusal(what, why);
   if (order.command == ConsoleCommand::end) {
     const std::lock_guard lock(mutex_);
     wish_ = {has_ended_ ? Wish::Kind::leave : Wish::Kind::none, 0};

@@ -51,6 +51,7 @@ double Console::level(ConsoleCommand held) const {
 void Console::restart(const SessionInputs& inputs, const CArmInputs& asked) {
   arm_ = inputs.c_arm, asked_ = asked, arm_is_set_ = true;
   gauge_Pa_ = inputs.delivery.gauge_Pa;
+  emergency_.restart(inputs.delivery);
 }
 
 void Console::move_arm(const SessionModel& model, const ConsoleOrder& order) {
@@ -95,6 +96,7 @@ void Console::take(const SessionModel& model, const ConsoleOrder& order, Hands h
   using enum ConsoleCommand;
   const auto& [a, b, c, d] = order.values;
   if (data::row_of(order.command).needs == data::ConsoleNeeds::hands && hands == Hands::script) return;
+  if (emergency_.take(model, order)) return;
   switch (order.command) {
     case next_device:
       right_ = next_tool(model, left_, right_);
@@ -169,6 +171,7 @@ void Console::give(Hands hands, DeliveryInputs& to) {
   if (hands == Hands::seats) to = {};
   to.heparin_U += heparin_U_, to.nitrate_ug += nitrate_ug_, to.adenosine_ug += adenosine_ug_;
   heparin_U_ = nitrate_ug_ = adenosine_ug_ = 0;
+  emergency_.fill(to);
   if (hands == Hands::script) return;
   const double dye = level(ConsoleCommand::contrast), flush = level(ConsoleCommand::saline);
   if (to.injection_m3_s == 0) {

@@ -5,6 +5,7 @@
 #include <array>
 
 #include "app/session/live/controls.h"
+#include "app/session/live/emergency.h"
 #include "app/session/live/picture_settings.h"
 #include "app/session/model/session.h"
 
@@ -51,6 +52,7 @@ class Console {
   int left_ = 0, right_ = -1;
   CArmInputs arm_, asked_;  ///< pose as it is, and as script or box asked for it last
   bool arm_is_set_ = false;
+  Emergency emergency_;
   double gauge_Pa_ = 0, heparin_U_ = 0, nitrate_ug_ = 0, adenosine_ug_ = 0;
   PictureSettings picture_;
 };

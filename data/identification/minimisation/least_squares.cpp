@@ -6,8 +6,8 @@ namespace ostium::data {
 
 namespace {
 
-/// Keeps the last evaluation: where there are bounds Ceres looks along a line first, with the derivatives, and then asks
-/// for the same place twice more.
+/// Keeps the last evaluation: where there are bounds Ceres looks along a line first, with the derivatives, and then
+/// asks for the same place twice more.
 class Cost : public ceres::CostFunction {
  public:
   explicit Cost(const LeastSquares& problem) : problem_(problem) {

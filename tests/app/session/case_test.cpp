@@ -3,7 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 
+#include "app/session/live/live_driver.h"
+#include "app/session/run/play.h"
+#include "app/session/run/replay.h"
 #include "app/session/run/run.h"
 #include "app/session/scene/xray_scene.h"
 #include "core/base/units.h"
@@ -114,6 +118,73 @@ TEST(CaseVessel, ShaftsHaveTheSteelThatTheCatalogueSays) {
     EXPECT_NEAR(area, wire.opaque[s].thickness_m * wire.outer_diameter_m, 1e-12);
     EXPECT_LE(o.outer_radius_m, 0.5 * wire.outer_diameter_m);
   }
+}
+
+TEST(CaseVessel, AProvocationThatThePatientCannotHaveIsRefusedWithTheReason) {
+  const ScriptedRun run(case_setup(), case_vessel());
+  const auto why = [&](ConsoleCommand command, std::array<double, 4> values) {
+    return why_not(run.model, {command, values});
+  };
+  const int rca = case_vessel()->coronaries->tree().branch("RCA");
+  ASSERT_GE(rca, 0);
+  const double artery = rca;
+  EXPECT_EQ(why(ConsoleCommand::provoke, {1, artery, 40, 0.8}), "");
+  EXPECT_EQ(why(ConsoleCommand::provoke, {5, 0, 0, 0}), "") << "a rhythm has no place";
+  EXPECT_NE(why(ConsoleCommand::provoke, {1, artery, 40, 4}).find("0.1 to 3, the hole's diameter"), std::string::npos);
+  EXPECT_NE(why(ConsoleCommand::provoke, {1, artery, 390, 0.8}).find("RCA has no place 390 mm; expected"),
+            std::string::npos);
+  EXPECT_NE(why(ConsoleCommand::provoke, {3, 999, 40, 0.5}).find("there is no artery 999"), std::string::npos);
+  EXPECT_NE(why(ConsoleCommand::give, {99, 1, 0, 0}).find("protamine"), std::string::npos) << "says what there is";
+  const auto& drugs = run.model.treatment.drugs.others;
+  for (std::size_t d = 0; d < drugs.size(); ++d) {
+    const double drug = static_cast<double>(d);
+    EXPECT_EQ(why(ConsoleCommand::give, {drug, drugs[d].most, 0, 0}), "");
+    EXPECT_NE(why(ConsoleCommand::give, {drug, 2 * drugs[d].most, 0, 0}).find(drugs[d].name), std::string::npos);
+  }
+}
+
+/// A trainer's hole bleeds, what answers it is done, all of it is a recorded input, and replays to the bit.
+TEST(CaseVessel, WhatIsProvokedAndGivenAtAConsoleReplays) {
+  const std::string file =
+      (std::filesystem::temp_directory_path() / ("ostium-provoked-" + std::to_string(getpid()) + ".h5")).string();
+  ScriptedRun run(case_setup(), case_vessel());
+  LiveDriver hand(run.model, Hands::script, 15);
+  run.take_over(&hand);
+  Controls& trainer = hand.controls(Seat::browser);
+  const double rca = case_vessel()->coronaries->tree().branch("RCA");
+  std::size_t phenylephrine = 0;
+  while (run.model.treatment.drugs.others[phenylephrine].name != "phenylephrine") ++phenylephrine;
+  trainer.order({ConsoleCommand::provoke, {1, rca, 40, 1.5}});
+  trainer.order({ConsoleCommand::provoke, {3, rca, 20, 0.5}});
+  trainer.order({ConsoleCommand::give, {static_cast<double>(phenylephrine), 100}});
+  trainer.order({ConsoleCommand::infuse, {120}});
+  trainer.order({ConsoleCommand::drain, {60}});
+  std::vector<SessionEvent> heard;
+  PlayOptions options;
+  options.recorder.file = file, options.recorder.penetration = false, options.seconds = 0.9;
+  options.recorder.heard = [&](const SessionEvent& event) { heard.push_back(event); };
+  play(run, case_setup(), options);
+  const auto of = [&](data::EventCode code) {
+    return std::count_if(heard.begin(), heard.end(),
+                         [&](const SessionEvent& e) { return e.code == static_cast<int>(code); });
+  };
+  EXPECT_EQ(of(data::EventCode::provoked), 2);
+  EXPECT_EQ(of(data::EventCode::drug_given), 1);
+  EXPECT_EQ(of(data::EventCode::infusion_begins), 1);
+  EXPECT_EQ(of(data::EventCode::drain_begins), 1);
+  for (const SessionEvent& e : heard) {
+    if (e.code == static_cast<int>(data::EventCode::provoked)) {
+      EXPECT_LE(e.step, 50u) << "ms from order to event";
+    }
+  }
+  EXPECT_GT(vascular::leak_m3_s(run.state.treatment), 0.5e-6) << "a hole of 1.5 mm";
+  EXPECT_NEAR(run.inputs.delivery.infusion_m3_s, 2e-6, 1e-12);
+  EXPECT_NEAR(run.inputs.delivery.drain_m3_s, 1e-6, 1e-12);
+  Replay replay(file, case_vessel());
+  const VerifyReport report = verify(replay);
+  EXPECT_FALSE(report.first_step) << report.field;
+  EXPECT_EQ(report.steps, 900u);
+  std::filesystem::remove(file);
 }
 
 }  // namespace

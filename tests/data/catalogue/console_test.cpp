@@ -25,6 +25,8 @@ TEST(ConsoleOrder, WhatIsWrongIsNamedWithItsCure) {
                                                        {R"({"do":"frame_rate","values":[12]})", "3.75 7.5 15 30"},
                                                        {R"({"do":"view","values":[1.5]})", "1 to 8"},
                                                        {R"({"do":"pause","values":[1]})", "no values"},
+                                                       {R"({"do":"provoke","values":[7,0,20,1]})", "what: 1 to 6"},
+                                                       {R"({"do":"drain","values":[-1]})", "0 to 300 mL/min"},
                                                        {R"({"do":"pause","at":1})", "at"},
                                                        {R"({"values":[1]})", "do"},
                                                        {R"({"do":"gamma","values":["1"]})", "0.3 to 3"},
@@ -45,9 +47,9 @@ TEST(ConsoleTable, EveryKeyGivesAnOrderThatAMessageCouldGiveAndNoKeyTwo) {
   for (const ConsoleKey& key : console_keys) {
     EXPECT_TRUE(keys.emplace(key.key, key.ctrl).second) << key.key;
     const ConsoleRow& row = row_of(key.order.command);
-    for (int i = 0; i < row.values; ++i) {
-      EXPECT_GE(key.order.values[static_cast<std::size_t>(i)], row.least) << key.key;
-      EXPECT_LE(key.order.values[static_cast<std::size_t>(i)], row.most) << key.key;
+    for (std::size_t i = 0; i < static_cast<std::size_t>(row.count()); ++i) {
+      EXPECT_GE(key.order.values[i], row.values[i].least) << key.key;
+      EXPECT_LE(key.order.values[i], row.values[i].most) << key.key;
     }
   }
   for (const ConsoleCommand needed :

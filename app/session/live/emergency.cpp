@@ -1,0 +1,125 @@
+#include "app/session/live/emergency.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "core/base/units.h"
+
+namespace ostium::app {
+
+namespace {
+
+using data::ConsoleCommand, data::ConsoleOrder, vascular::Provoked;
+
+constexpr std::size_t most_waiting = 100;  // a thousand steps a second: nobody asks faster
+
+struct Size {
+  double least, most;
+  const char* what;
+};
+
+/// What may be asked of a provocation's size, as a console counts it.
+Size size_of(Provoked kind) {
+  switch (kind) {
+    case Provoked::perforation:
+      return {0.1, 3, "the hole's diameter in mm"};
+    case Provoked::dissection:
+      return {0, 5, "the grade, 0 (A) to 5 (F)"};
+    case Provoked::spasm:
+      return {0, 0.98, "the share of the diameter that it takes"};
+    case Provoked::no_reflow:
+      return {0, 0.98, "the share of the flow that it takes"};
+    default:
+      return {0, 6, "none"};
+  }
+}
+
+std::string why_no_provocation(const vascular::FlowTree& tree, const ConsoleOrder& order) {
+  const auto& [kind, artery, place_mm, size] = order.values;
+  const auto what = static_cast<Provoked>(static_cast<int>(kind));
+  const Size of = size_of(what);
+  if (size < of.least || size > of.most)
+    return fmt::format("{} has no size {:g}; expected {:g} to {:g}, {}",
+                       vascular::provocation_names[static_cast<int>(kind)], size, of.least, of.most, of.what);
+  if (what == Provoked::fibrillation || what == Provoked::block) return "";
+  if (artery >= static_cast<double>(tree.branches.size()))
+    return fmt::format("there is no artery {:g}; expected 0 to {}", artery, tree.branches.size() - 1);
+  const vascular::FlowBranch& branch = tree.branches[static_cast<std::size_t>(artery)];
+  const double from_mm = 1e3 * tree.s_of(branch.first), to_mm = 1e3 * tree.s_of(branch.last - 1);
+  if (place_mm < from_mm - 1 || place_mm > to_mm + 1)
+    return fmt::format("{} has no place {:g} mm; expected {:.0f} to {:.0f} mm from its beginning", branch.name,
+                       place_mm, from_mm, to_mm);
+  return "";
+}
+
+}  // namespace
+
+std::string why_not(const SessionModel& model, const ConsoleOrder& order) {
+  if (data::row_of(order.command).patient && !model.has_patient()) return "a mesh has no circulation";
+  if (order.command == ConsoleCommand::provoke) return why_no_provocation(model.vessel->coronaries->tree(), order);
+  if (order.command != ConsoleCommand::give) return "";
+  const auto& drugs = model.treatment.drugs.others;
+  if (order.values[0] >= static_cast<double>(drugs.size())) {
+    std::string known;
+    for (std::size_t d = 0; d < drugs.size(); ++d) known += fmt::format("{}{} {}", d > 0 ? ", " : "", d, drugs[d].name);
+    return fmt::format("there is no drug {:g}; expected one of {}", order.values[0], known);
+  }
+  const vascular::Drug& drug = drugs[static_cast<std::size_t>(order.values[0])];
+  if (order.values[1] < drug.least || order.values[1] > drug.most)
+    return fmt::format("{:g} {} of {}; expected {:g} to {:g} {}", order.values[1], drug.unit, drug.name, drug.least,
+                       drug.most, drug.unit);
+  return "";
+}
+
+bool Emergency::take(const SessionModel& model, const ConsoleOrder& order) {
+  switch (order.command) {
+    case ConsoleCommand::infuse:
+      infusion_m3_s_ = order.values[0] * units::mL_min;
+      return true;
+    case ConsoleCommand::drain:
+      drain_m3_s_ = order.values[0] * units::mL_min;
+      return true;
+    case ConsoleCommand::give:
+    case ConsoleCommand::shock:
+    case ConsoleCommand::provoke:
+      if (model.has_patient()) tree_ = &model.vessel->coronaries->tree();
+      if (why_not(model, order).empty() && once_.size() < most_waiting) once_.push_back(order);
+      return true;
+    default:
+      return false;
+  }
+}
+
+void Emergency::fill(DeliveryInputs& to) {
+  to.infusion_m3_s = std::max(to.infusion_m3_s, infusion_m3_s_);
+  to.drain_m3_s = std::max(to.drain_m3_s, drain_m3_s_);
+  if (once_.empty()) return;
+  const auto& [a, b, c, d] = once_.front().values;
+  switch (once_.front().command) {
+    case ConsoleCommand::give:
+      if (to.drug >= 0) return;  // the script's own first
+      to.drug = static_cast<int>(a), to.drug_dose = b;
+      break;
+    case ConsoleCommand::shock:
+      if (to.shock_J > 0) return;
+      to.shock_J = a;
+      break;
+    default: {
+      if (to.provoked > 0) return;
+      const auto kind = static_cast<Provoked>(static_cast<int>(a));
+      to.provoked = static_cast<int>(kind);
+      to.provoked_size = kind == Provoked::perforation ? 1e-3 * d : d;
+      const bool has_place = kind != Provoked::fibrillation && kind != Provoked::block;
+      to.provoked_cell = has_place ? tree_->cell_at(static_cast<int>(b), 1e-3 * c) : -1;
+    }
+  }
+  once_.pop_front();
+}
+
+void Emergency::restart(const DeliveryInputs& inputs) {
+  once_.clear();
+  infusion_m3_s_ = inputs.infusion_m3_s, drain_m3_s_ = inputs.drain_m3_s;
+}
+
+}  // namespace ostium::app
