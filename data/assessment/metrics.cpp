@@ -1,5 +1,7 @@
 #include "data/assessment/metrics.h"
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -19,6 +21,12 @@ std::vector<Metric> metrics_of(const RunRecord& record) {
   std::vector<Metric> out;
   for (const MetricDefinition& d : metric_definitions()) out.push_back({d.name, d.of(record), d.unit});
   return out;
+}
+
+std::string value_text(const Metric& metric) {
+  if (!std::isfinite(metric.value)) return "";
+  if (metric.unit == "s" && metric.value >= never_s) return "never";
+  return fmt::format("{:.4g}{}", metric.value, metric.unit == "1" ? "" : " " + metric.unit);
 }
 
 std::string metrics_json(const std::string& case_name, std::uint64_t seed, const std::string& outcome,

@@ -17,6 +17,11 @@ struct Metric {
   std::string unit;
 };
 
+/// Of a time until something that never came: more than any limit.
+inline constexpr double never_s = 1e6;
+/// For people: "2.51 N", "never"; "" if it does not apply.
+std::string value_text(const Metric& metric);
+
 /// Whether lower or higher is better, all else being equal. `neither`: descriptive, or the best lies in between.
 enum class Better { lower, higher, neither };
 

@@ -12,6 +12,9 @@ namespace ostium::data {
 namespace {
 
 std::string number(double value) { return std::isfinite(value) ? fmt::format("{:.4g}", value) : "&ndash;"; }
+std::string number(const Metric& metric) {
+  return metric.unit == "s" && metric.value >= never_s ? "never" : number(metric.value);
+}
 
 std::string score_cell(const ScoreItem& item, const Score& score) {
   if (score.holds == Ticked::not_seen) return "<td class=\"open\"><input type=\"checkbox\"> not seen</td>";
@@ -40,7 +43,7 @@ std::string metrics_table(const std::vector<ReportRun>& runs) {
     for (const ReportRun& run : runs) {
       const auto it = std::find_if(run.metrics.begin(), run.metrics.end(),
                                    [&](const Metric& m) { return m.name == definition.name; });
-      out += "<td class=\"n\">" + (it == run.metrics.end() ? "&ndash;" : number(it->value)) + "</td>";
+      out += "<td class=\"n\">" + (it == run.metrics.end() ? "&ndash;" : number(*it)) + "</td>";
     }
     out += "<td>" + (definition.unit == "1" ? "" : definition.unit) + "</td><td class=\"small\">" +
            escaped(definition.definition) + "</td></tr>\n";

@@ -15,7 +15,6 @@ MetricFunction from_first_to(EventCode cause, EventCode answer) {
     if (causes.empty()) return does_not_apply;
     const auto after = std::find_if(answers.begin(), answers.end(),
                                     [&](const RecordedEvent& one) { return one.step >= causes.front().step; });
-    constexpr double never_s = 1e6;
     return after == answers.end() ? never_s : after->time_s - causes.front().time_s;
   };
 }
@@ -28,7 +27,7 @@ double to_shock_s(const RunRecord& r) {
     if (one.value != fibrillation) continue;
     for (const RecordedEvent& shock : shocks)
       if (shock.step >= one.step) return shock.time_s - one.time_s;
-    return 1e6;
+    return never_s;
   }
   return does_not_apply;
 }

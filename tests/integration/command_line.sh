@@ -130,7 +130,6 @@ for command in "import -o $folder/case" check "centreline -o $folder/tree.json";
 done
 (printf '# unit: mm\n'; cat "$folder/vessel.obj") >"$folder/marked.obj"
 # It is no heart, unless somebody says so.
-expect 0 "vessel 1" "$ostium" import "$folder/marked.obj" -o "$folder/single"
 expect 0 '"beats": false' "$ostium" import "$folder/marked.obj" -o "$folder/single" --motion none --json
 expect 0 '"beats": true' "$ostium" import "$folder/marked.obj" -o "$folder/single" --motion coronary --json
 expect 3 "an RCA beats" "$ostium" import "$folder/marked.obj" -o "$folder/case" --rename "vessel 1=RCA"
@@ -192,7 +191,6 @@ expect 0 "recorded in" "$ostium" run rca-mid-focal --script iliac-wire --out "$o
 grep -q '"outcome": "success"' "$out/metrics.json"
 expect 0 "bit for bit" "$ostium" replay "$out/run.h5" --verify
 expect 0 '"same": true' "$ostium" replay "$out/run.h5" --from 1 --json
-expect 0 "start.png" "$ostium" replay "$out/run.h5" --pixels 128 --png "$out/start.png"
 expect 0 "moment.png" "$ostium" replay "$out/run.h5" --from 0.5 --view lao --pixels 128 --png "$out/moment.png"
 expect 0 "run.html" "$ostium" report "$out/run.h5" -o "$out/run.html" --csv "$out/runs.csv" --events "$out/events.csv"
 grep -q "not for decisions on a patient" "$out/run.html"
@@ -200,8 +198,6 @@ grep -q "tool_in" "$out/events.csv"
 expect 3 "2 recordings" "$ostium" report "$out/run.h5" "$out/run.h5" --code A -o "$out/none.html"
 expect 3 "no-such-list" "$ostium" report "$out/run.h5" --scoring no-such-list -o "$out/none.html"
 expect 0 "" "$ostium" report --questionnaire "$out/forms.html"
-SDL_VIDEODRIVER=dummy expect 1 "time limit" "$ostium" run rca-mid-focal --display window --seconds 0.5 --last-frame "$out/window.png"
-[[ -s $out/window.png ]]
 SDL_VIDEODRIVER=dummy expect 1 "time limit" "$ostium" run rca-mid-focal --script iliac-wire --display window --seconds 0.5 --film --out "$out/shown" \
   --last-frame "$out/shown.png"
 [[ -s $out/shown.png ]]
@@ -209,7 +205,6 @@ SDL_VIDEODRIVER=none expect 3 "there is no window here" "$ostium" run rca-mid-fo
 expect 1 "time limit" "$ostium" run rca-mid-focal --script iliac-wire --seconds 0.4 --out "$out/filmed" --film --report
 [[ -s $out/filmed/procedure.mp4 && -s $out/filmed/report.html && -s $out/filmed/key-frames/01.png ]]
 expect 1 "time limit" "$ostium" run rca-mid-focal --seconds 0.2 --speed real --record none --out "$out"
-expect 1 '"outcome": "aborted"' "$ostium" run rca-mid-focal --seconds 0.1 --json
 for record in all shapes=0 shapes=1e9 shapes=x full,; do
   expect 3 "expected none|events|full|shapes" "$ostium" run rca-mid-focal --record "$record" --out "$out"
 done

@@ -2,19 +2,16 @@
 """station_browser.py OSTIUM [PICTURE.png]: the trainer's station in a real Chromium, moved by WebDriver.
 
 Skipped (exit code 77) where there is no chromium or chromedriver; with CI=true that is a failure."""
-import base64
 import json
 import math
 import os
 import pathlib
-import re
-import shutil
 import struct
 import subprocess
 import sys
 import tempfile
-import time
-import urllib.request
+
+from browser import CLOCK, DRAWN, Browser, programs, text
 
 
 def tube(path):
@@ -42,68 +39,6 @@ SCRIPT = {
     "tools": [{"name": "wire", "instrument": "cook-j"}],
     "steps": [{"do": "fluoroscopy", "on": True},
               {"do": "advance", "tool": "wire", "speed_mm_s": 20, "until": [{"inserted_mm": 200}], "timeout_s": 60}]}
-
-
-class Browser:
-    def __init__(self, driver, binary):
-        self.process = subprocess.Popen([driver, "--port=0"], stdout=subprocess.PIPE, text=True)
-        for line in self.process.stdout:
-            if found := re.search(r"successfully on port (\d+)", line):
-                self.url = f"http://127.0.0.1:{found[1]}"
-                break
-        options = {"binary": binary, "args": ["--headless=new", "--no-sandbox", "--disable-gpu",
-                                              "--disable-dev-shm-usage", "--window-size=1600,900"]}
-        wanted = {"alwaysMatch": {"goog:chromeOptions": options, "goog:loggingPrefs": {"browser": "ALL"}}}
-        session = self.ask("POST", "/session", {"capabilities": wanted})["sessionId"]
-        self.url += f"/session/{session}"
-
-    def ask(self, method, path, body=None):
-        data = None if body is None else json.dumps(body).encode()
-        request = urllib.request.Request(self.url + path, data, {"Content-Type": "application/json"}, method=method)
-        with urllib.request.urlopen(request, timeout=60) as answer:
-            return json.load(answer)["value"]
-
-    def open(self, link):
-        self.ask("POST", "/url", {"url": "about:blank"})
-        self.ask("POST", "/url", {"url": link})
-
-    def run(self, script, *arguments):
-        return self.ask("POST", "/execute/sync", {"script": script, "args": list(arguments)})
-
-    def wait(self, what, script, seconds=20):
-        end = time.monotonic() + seconds
-        while time.monotonic() < end:
-            if found := self.run("return " + script):
-                return found
-            time.sleep(0.1)
-        raise AssertionError(f"never: {what} ({script}); the page says: {self.run('return document.body.innerText')[:600]}")
-
-    def click(self, name):
-        self.run("document.getElementById(arguments[0]).click()", name)
-
-    def picture(self, path):
-        pathlib.Path(path).write_bytes(base64.b64decode(self.ask("GET", "/screenshot")))
-
-    def complaints(self):
-        return [entry["message"] for entry in self.ask("POST", "/se/log", {"type": "browser"})
-                if entry["level"] in ("SEVERE", "WARNING")]
-
-    def close(self):
-        try:
-            self.ask("DELETE", "")
-        finally:
-            self.process.terminate()
-            self.process.wait()
-
-
-def text(name):
-    return f"document.getElementById('{name}').textContent"
-
-
-CLOCK = f"(([m, s]) => 60 * m + 1 * s)({text('clock')}.split(':'))"
-# Whether a canvas shows anything but one colour.
-DRAWN = """(() => { const c = document.getElementById('%s'), p = c.getContext('2d').getImageData(0, 0, c.width, c.height).data;
-  for (let i = 4; i < p.length; i += 4) if (p[i] !== p[0] || p[i + 1] !== p[1]) return true; return false; })()"""
 
 
 def try_page(browser, trainer, viewer, folder, picture):
@@ -172,9 +107,7 @@ def try_page(browser, trainer, viewer, folder, picture):
 
 
 def main(ostium, picture=None):
-    driver, binary = shutil.which("chromedriver"), shutil.which("chromium")
-    if not driver or not binary:
-        print("there is no chromium with chromedriver; expected packages chromium and chromium-driver")
+    if not programs():
         return 1 if os.environ.get("CI") == "true" else 77
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
@@ -188,7 +121,7 @@ def main(ostium, picture=None):
         try:
             trainer = run.stdout.readline().split(": ", 1)[1].strip()
             viewer = run.stdout.readline().split(": ", 1)[1].strip()
-            browser = Browser(driver, binary)
+            browser = Browser()
             try_page(browser, trainer, viewer, out, picture)
             assert run.wait(30) in (0, 1)
         finally:

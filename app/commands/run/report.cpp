@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "app/session/model/outcome.h"
@@ -60,7 +59,7 @@ void print_report(const ScriptedRun& run, const PlayReport& r, const std::string
     fmt::print("patient: {}\n", patient);
   if (run.troubled) fmt::print("{} steps had to give way: {}\n", run.troubled, trouble_words(run.troubles));
   for (const data::Metric& m : r.metrics)
-    if (std::isfinite(m.value)) fmt::print("  {:<32} {:.4g} {}\n", m.name, m.value, m.unit == "1" ? "" : m.unit);
+    if (const std::string value = value_text(m); !value.empty()) fmt::print("  {:<32} {}\n", m.name, value);
   fmt::print("state {:016x}{}{}\n", r.hash, file.empty() ? "" : ", recorded in ", file);
 }
 

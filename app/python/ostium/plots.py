@@ -1,5 +1,6 @@
 """The five plots that people make first of a recording: python3 -m ostium.plots out/run.h5 -o plots.png
 
+With --patient: pressure, rate and output, what is round the heart, what leaks. Several recordings stand side by side.
 Needs matplotlib (python3-matplotlib).
 """
 
@@ -49,7 +50,49 @@ def lumen(axes, run):
     axes.set_ylim(bottom=0)
 
 
+def blood_pressure(axes, run):
+    """The aorta's, and when something was given."""
+    axes.plot(run.signals["time_s"], run.signals["aorta_mmHg"], color="C3", linewidth=0.3)
+    axes.set_ylabel("in the aorta, mmHg")
+    axes.set_ylim(0, 220)
+    for event in run.events:
+        if word := GIVEN.get(event["name"]):
+            axes.axvline(event["time_s"], color="0.4", linewidth=0.7)
+            axes.text(event["time_s"], 216, word, rotation=90, fontsize=7, va="top", ha="right")
+
+
+def rate(axes, run):
+    """The heart's rate, and what it puts out."""
+    axes.plot(run.signals["time_s"], run.signals["heart_rate_1_min"], color="C2")
+    axes.set_ylabel("rate, 1/min", color="C2")
+    axes.set_ylim(0, 180)
+    output = axes.twinx()
+    output.plot(run.signals["time_s"], run.signals["output_L_min"], color="C0")
+    output.set_ylabel("output, L/min", color="C0")
+    output.set_ylim(0, 8)
+
+
+def round_the_heart(axes, run):
+    """Volume and pressure in the pericardium."""
+    axes.plot(run.signals["time_s"], run.signals["pericardium_mL"], color="C4")
+    axes.set_ylabel("pericardium, mL", color="C4")
+    axes.set_ylim(bottom=0)
+    inside = axes.twinx()
+    inside.plot(run.signals["time_s"], smoothed(run.signals["pericardium_mmHg"], 1000), color="C1")
+    inside.set_ylabel("and mmHg", color="C1")
+
+
+def leak(axes, run):
+    """Out of the arteries."""
+    axes.plot(run.signals["time_s"], smoothed(run.signals["leak_mL_s"], 100), color="C3")
+    axes.set_ylabel("leak, mL/s")
+    axes.set_ylim(bottom=0)
+
+
 PLOTS = (depth, hands, walls, pressure, lumen)
+OF_THE_PATIENT = (blood_pressure, rate, round_the_heart, leak)
+GIVEN = {"perforation": "perforation", "drain_begins": "drain", "infusion_begins": "fluid", "drug_given": "drug",
+         "covered_stent": "covered stent", "shock": "shock", "pulse_lost": "no pulse", "heart_stops": "asystole"}
 
 
 def tools_of(run):
@@ -58,13 +101,16 @@ def tools_of(run):
 
 
 def smoothed(signal, samples=10):
-    return np.convolve(signal, np.ones(samples) / samples, mode="same")
+    """The mean of so many samples round each; at the ends, of those that there are."""
+    weight = np.ones(samples)
+    return np.convolve(signal, weight, mode="same") / np.convolve(np.ones(len(signal)), weight, mode="same")
 
 
 def main(arguments=None):
     parser = argparse.ArgumentParser(prog="python3 -m ostium.plots", description=__doc__.split(":")[0] + ".",
                                      epilog="example: python3 -m ostium.plots out/run.h5 -o plots.png")
-    parser.add_argument("recording")
+    parser.add_argument("recordings", nargs="+", metavar="recording")
+    parser.add_argument("--patient", action="store_true", help="how the patient does, instead of the instruments")
     parser.add_argument("-o", "--out", default="plots.png")
     a = parser.parse_args(arguments)
     import matplotlib
@@ -72,13 +118,20 @@ def main(arguments=None):
     matplotlib.use("Agg")
     from matplotlib import pyplot
 
-    run = ostium.Recording(a.recording)
-    drawn = [plot for plot in PLOTS if plot not in (pressure, lumen) or "guide_mmHg" in run.signals.names]
-    figure, rows = pyplot.subplots(len(drawn), 1, sharex=True, figsize=(9, 1.9 * len(drawn)))
-    for axes, plot in zip(np.atleast_1d(rows), drawn):
-        plot(axes, run)
-        axes.grid(alpha=0.3)
-    np.atleast_1d(rows)[-1].set_xlabel("time, s")
+    runs = [ostium.Recording(name) for name in a.recordings]
+    with_patient = all("guide_mmHg" in run.signals.names for run in runs)
+    if a.patient and not with_patient:
+        parser.error("a mesh has no circulation; expected a recording of a case")
+    drawn = OF_THE_PATIENT if a.patient else [p for p in PLOTS if with_patient or p not in (pressure, lumen)]
+    figure, grid = pyplot.subplots(len(drawn), len(runs), sharex="col", squeeze=False,
+                                   figsize=(max(9, 6 * len(runs)), 1.9 * len(drawn)))
+    for column, run in zip(grid.T, runs):
+        for axes, plot in zip(column, drawn):
+            plot(axes, run)
+            axes.grid(alpha=0.3)
+        column[-1].set_xlabel("time, s")
+        if len(runs) > 1 and a.patient:
+            column[0].set_title(run.setup["script"]["file"].removesuffix(".json"), fontsize=10)
     figure.tight_layout()
     figure.savefig(a.out, dpi=100)
     print(f"wrote {a.out}")

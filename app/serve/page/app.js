@@ -139,7 +139,7 @@ function show() {
     ['cine', `${x.runs} in ${fixed(x.cine_s, 1)} s`], ['dose', `${fixed(x.dap_Gycm2, 2)} Gy cm²`]];
   const numbers = p ? [['gauge', `${fixed(p.gauge_atm, 1)} atm`], ['balloon', `${fixed(p.balloon_mm, 2)} mm`], ['contrast', `${fixed(p.contrast_mL, 1)} mL`], ['ACT', `${fixed(p.act_s, 0)} s`],
     ['ST', `${fixed(p.ST_mV, 2)} mV`], ['flow', p.flow_share === null ? '–' : `${Math.round(100 * p.flow_share)} %`], ['lesion', `${fixed(p.lesion_mld_mm, 2)} mm`], ['tear hazard', fixed(p.hazard, 3)], ...arm] : arm;
-  if (p?.pericardium_mL > 0) numbers.unshift(['round the heart', `${p.pericardium_mL} mL, ${fixed(p.pericardium_mmHg, 1)} mmHg`]);
+  if (p?.pericardium_mL > 0) numbers.unshift(['pericardium', `${p.pericardium_mL} mL`], ['its pressure', `${fixed(p.pericardium_mmHg, 1)} mmHg`]);
   if (p?.leak_mL_s > 0.005) numbers.unshift(['leak', `${fixed(p.leak_mL_s, 2)} mL/s`]);
   if (p?.rhythm > 0) numbers.unshift(['rhythm', ['sinus', 'AV block', 'fibrillation', 'asystole'][p.rhythm]]);
   if (now.late > 0) numbers.push(['late steps', now.late]);
@@ -181,7 +181,7 @@ function showScores(items) {
     for (const metric of ended.metrics) {
       const row = table.insertRow();
       row.insertCell().textContent = metric.name.replaceAll('_', ' ');
-      row.insertCell().textContent = `${Number(metric.value.toPrecision(4))} ${metric.unit === '1' ? '' : metric.unit}`;
+      row.insertCell().textContent = metric.words;
     }
     made.push(table);
   }

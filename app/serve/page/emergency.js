@@ -44,7 +44,7 @@ export class Emergency {
     const drug = select(this.has.drugs.map((one) => one.name)), dose = field(0, 0, 'any', 0), unit = document.createElement('span');
     const choose = () => {
       const one = this.has.drugs[drug.value];
-      Object.assign(dose, { min: one.least, max: one.most, value: Number(Math.sqrt(one.least * one.most).toPrecision(1)) });
+      Object.assign(dose, { min: one.least, max: one.most, value: one.least });
       unit.textContent = one.unit === 'ug' ? 'µg' : one.unit;
       drug.title = `${one.title}: ${one.least} to ${one.most} ${unit.textContent}`;
     };

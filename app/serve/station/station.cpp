@@ -192,7 +192,8 @@ void Station::ended(const PlayReport& report, const std::vector<data::Score>& sc
   take_events();
   Json metrics = Json::array();
   for (const data::Metric& m : report.metrics)
-    if (std::isfinite(m.value)) metrics.push_back({{"name", m.name}, {"value", m.value}, {"unit", m.unit}});
+    if (const std::string words = value_text(m); !words.empty())
+      metrics.push_back({{"name", m.name}, {"words", words}});
   const std::string end =
       Json({{"type", "ended"}, {"outcome", report.outcome}, {"reason", report.reason}, {"metrics", metrics}}).dump();
   const std::string last = scores_message(setting_.scoring, scores);

@@ -220,5 +220,12 @@ TEST(Metrics, NamesAreSnakeCaseWithTheirUnitLast) {
   for (const EventDefinition& d : event_definitions()) EXPECT_EQ(code(d.code), next++) << d.name;
 }
 
+TEST(Metrics, ForPeopleTheyHaveTheirUnitOrSayNever) {
+  EXPECT_EQ(value_text({"wall_force_max_N", 2.5071, "N"}), "2.507 N");
+  EXPECT_EQ(value_text({"cine_runs", 3, "1"}), "3");
+  EXPECT_EQ(value_text({"perforation_to_covered_stent_s", never_s, "s"}), "never");
+  EXPECT_EQ(value_text({"ascent_time_s", NAN, "s"}), "");
+}
+
 }  // namespace
 }  // namespace ostium::data
