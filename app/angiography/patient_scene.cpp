@@ -10,7 +10,9 @@ PatientScene::PatientScene(const vascular::Patient& patient, const vascular::Phy
     : patient_(patient),
       physiology_(physiology),
       map_(make_lumen_map(patient, physiology.flow)),
-      shape_(patient, map_, physiology.flow.tree) {
+      shape_(patient, map_, physiology.flow.tree),
+      breathes_(breathes),
+      twigs_(std::make_shared<const vascular::Twigs>(grow_twigs(patient))) {
   std::vector<fluoro::Body> still;
   std::vector<vascular::XrayBody> moving;
   for (vascular::XrayBody& body : make_thorax(patient.anatomy)) {
@@ -18,6 +20,7 @@ PatientScene::PatientScene(const vascular::Patient& patient, const vascular::Phy
       still.push_back(body_of(body));
     } else {
       scene_.moving.push_back(body_of(body));
+      set_still(body, breathes, scene_.moving.back());
       moving.push_back(std::move(body));
     }
   }
@@ -33,9 +36,8 @@ PatientScene::PatientScene(const vascular::Patient& patient, const vascular::Phy
   lumen.contrast.iodine_kg_m3 = Eigen::VectorXf::Zero(n);
   lumen.contrast.p_PC = lumen.contrast.along_kg_m2 = Eigen::Matrix3Xf::Zero(3, n);
   scene_.moving.push_back(std::move(lumen));
-  twigs_ = std::make_shared<const vascular::Twigs>(grow_twigs(patient));
-  scene_.moving.push_back(body_of(*twigs_));
   own_ = scene_.moving.size();
+  set_still_lumen();
 }
 
 PatientScene::PatientScene(const PatientScene& same, const vascular::PhysiologyModel& physiology)
@@ -44,6 +46,7 @@ PatientScene::PatientScene(const PatientScene& same, const vascular::PhysiologyM
       map_(same.map_),
       shape_(patient_, map_, physiology.flow.tree),
       thorax_(same.thorax_),
+      breathes_(same.breathes_),
       twigs_(same.twigs_),
       scene_(same.scene_),
       own_(same.own_) {
@@ -51,35 +54,46 @@ PatientScene::PatientScene(const PatientScene& same, const vascular::PhysiologyM
   scene_.shafts.clear();
 }
 
+/// Coronaries do not rest, even where nothing beats: treatment changes them.
+void PatientScene::set_still_lumen() {
+  const vascular::MovingLumen& from = patient_.lumen;
+  fluoro::Body& body = lumen();
+  for (std::size_t v = 0; v < from.vertices(); ++v)
+    body.p_P.col(static_cast<Eigen::Index>(v)) = from.healthy(v, 0, 0).cast<float>();
+  fluoro::set_still(
+      [&](int vertex) {
+        const auto v = static_cast<std::size_t>(vertex);
+        return v >= from.moving && map_.sources[v].first.part != vascular::VertexSource::coronary &&
+               (!breathes_ || from.breath[v].isZero(0));
+      },
+      body);
+}
+
 const fluoro::Scene& PatientScene::at(const vascular::PhysiologyState& state, std::span<const double> occupied_m,
-                                      double breath) {
-  const double phase = state.heart.phase;
+                                      double breath_depth) {
+  const double phase = state.heart.phase, breath = breathes_ ? breath_depth : 0;
   scene_.moving.resize(own_);
   scene_.shafts.clear();
   for (std::size_t b = 0; b < thorax_->size(); ++b)
-    scene_.moving[b].p_P = points_of(vascular::at((*thorax_)[b], vascular::contraction(phase), breath).vertices);
-  fluoro::Body& lumen = scene_.moving[thorax_->size()];
-  shape_.at(state.radius_m, phase, breath, vertices_);
-  lumen.p_P = points_of(vertices_);
+    move((*thorax_)[b], vascular::contraction(phase), breath, scene_.moving[b]);
+  fluoro::Body& body = lumen();
+  shape_.at(*body.corners, state.radius_m, phase, breath, body.p_P);
   const vascular::FlowInputs in{{}, state.radius_m, occupied_m, 0};
-  opacify(map_, {physiology_.flow, physiology_.contrast, state.contrast, in, phase, breath},
-          {{lumen.contrast.iodine_kg_m3.data(), static_cast<std::size_t>(lumen.contrast.iodine_kg_m3.size())},
-           lumen.contrast.p_PC,
-           lumen.contrast.along_kg_m2},
+  opacify(map_,
+          {physiology_.flow, physiology_.contrast, state.contrast, in, phase, breath, fluoro::faintest_iodine_kg_m3},
+          {{body.contrast.iodine_kg_m3.data(), static_cast<std::size_t>(body.contrast.iodine_kg_m3.size())},
+           body.contrast.p_PC,
+           body.contrast.along_kg_m2},
           scratch_);
-  fill_twigs(phase, breath);
+  add_twigs(phase, breath);
   return scene_;
 }
 
 /// As dense as the blood where each leaves its vessel.
-void PatientScene::fill_twigs(double phase, double breath) {
+void PatientScene::add_twigs(double phase, double breath) {
   const fluoro::Contrast& from = lumen().contrast;
-  fluoro::Body& body = scene_.moving[thorax_->size() + 1];
-  fill(
-      *twigs_, [&](int root) { return from.iodine_kg_m3[root]; }, body);
-  if (!is_seen(body.contrast)) return;  // they have no tissue of their own
-  vascular::at(*twigs_, patient_.lumen, phase, breath, vertices_);
-  place(*twigs_, vertices_, body);
+  twigs_.fill([&](int root) { return from.iodine_kg_m3[root]; });
+  if (!twigs_.empty()) scene_.moving.push_back(twigs_.at(patient_.lumen, phase, breath));
 }
 
 }  // namespace ostium::app

@@ -1,13 +1,13 @@
 #pragma once
 /// A patient under X-rays: thorax, lumen and its twigs as bodies, moved by heartbeat and breath, with the iodine in the
 /// vessels.
+#include "app/angiography/twig_body.h"
 #include "fluoro/matter/scene.h"
 #include "vascular/contrast/opacity.h"
 #include "vascular/patient/patient.h"
 #include "vascular/physiology/physiology.h"
 #include "vascular/thorax/thorax.h"
 #include "vascular/treatment/wall_shape.h"
-#include "vascular/twigs/twigs.h"
 
 namespace ostium::app {
 
@@ -19,7 +19,9 @@ class PatientScene {
   /// The same patient with another session's physiology, in milliseconds: what is contoured is shared.
   PatientScene(const PatientScene& same, const vascular::PhysiologyModel& physiology);
 
-  /// The patient at this moment; removes whatever the caller has added to `scene()` since the last call.
+  bool breathes() const { return breathes_; }
+  /// The patient at this moment; removes whatever the caller has added to `scene()` since the last call. `breath_depth`
+  /// counts if the patient breathes.
   const fluoro::Scene& at(const vascular::PhysiologyState& state, std::span<const double> occupied_m,
                           double breath_depth = 0);
   fluoro::Scene& scene() { return scene_; }
@@ -28,18 +30,19 @@ class PatientScene {
   const vascular::WallShape& shape() const { return shape_; }
 
  private:
-  void fill_twigs(double phase, double breath);
+  void set_still_lumen();
+  void add_twigs(double phase, double breath);
 
   const vascular::Patient& patient_;
   const vascular::PhysiologyModel& physiology_;
   vascular::LumenMap map_;
   vascular::WallShape shape_;
   std::shared_ptr<const std::vector<vascular::XrayBody>> thorax_;  ///< the thorax bodies that move
-  std::shared_ptr<const vascular::Twigs> twigs_;
+  bool breathes_ = false;
+  TwigBody twigs_;
   fluoro::Scene scene_;
   std::size_t own_ = 0;  ///< number of the patient's bodies; added ones follow
   vascular::OpacityScratch scratch_;
-  std::vector<Eigen::Vector3d> vertices_;
 };
 
 }  // namespace ostium::app

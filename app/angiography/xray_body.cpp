@@ -64,23 +64,23 @@ fluoro::Body body_of(const vascular::XrayBody& body) {
   return body_of(body, triangles_of(body.mesh.triangles), body.mesh.vertices);
 }
 
-fluoro::Body body_of(const vascular::Twigs& twigs) {
-  fluoro::Body body{.name = "twigs",
-                    .triangles = triangles_of(twigs.mesh.triangles),
-                    .p_P = points_of(twigs.mesh.vertices),
-                    .tissue = fluoro::tissue::blood,
-                    .within = fluoro::tissue::blood,
-                    .contrast = {}};
-  body.contrast.iodine_kg_m3 = Eigen::VectorXf::Zero(body.p_P.cols());
-  body.contrast.p_PC = body.p_P;
-  return body;
+void set_still(const vascular::XrayBody& from, bool breathes, fluoro::Body& body) {
+  fluoro::set_still(
+      [&](int vertex) {
+        const auto v = static_cast<std::size_t>(vertex);
+        return (from.beat.empty() || from.beat[v].isZero(0)) &&
+               (!breathes || from.breath.empty() || from.breath[v].isZero(0));
+      },
+      body);
 }
 
-void place(const vascular::Twigs& twigs, const std::vector<Eigen::Vector3d>& vertices, fluoro::Body& body) {
-  body.p_P = points_of(vertices);
-  for (std::size_t t = 0; t < twigs.size(); ++t) {
-    const Eigen::Index first = twigs.first[t], count = twigs.first[t + 1] - first;
-    body.contrast.p_PC.middleCols(first, count).colwise() = Eigen::Vector3f(body.p_P.col(first));
+void move(const vascular::XrayBody& from, double contraction, double breath_depth, fluoro::Body& body) {
+  for (int vertex : *body.corners) {
+    const auto v = static_cast<std::size_t>(vertex);
+    Eigen::Vector3d p = from.mesh.vertices[v];
+    if (!from.beat.empty()) p += contraction * from.beat[v];
+    if (!from.breath.empty()) p += breath_depth * from.breath[v];
+    body.p_P.col(vertex) = p.cast<float>();
   }
 }
 

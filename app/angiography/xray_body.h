@@ -5,7 +5,6 @@
 
 #include "fluoro/matter/scene.h"
 #include "vascular/thorax/thorax.h"
-#include "vascular/twigs/twigs.h"
 
 namespace ostium::app {
 
@@ -17,16 +16,9 @@ fluoro::Body body_of(const vascular::XrayBody& body);
 fluoro::Body body_of(const vascular::XrayBody& body, std::shared_ptr<const fluoro::Triangles> triangles,
                      const std::vector<Eigen::Vector3d>& points);
 
-/// Twigs are contrast alone: without any they are not seen.
-fluoro::Body body_of(const vascular::Twigs& twigs);
-/// Sets the iodine of each twig by the lumen's vertex from which it comes.
-template <class IodineAt>
-void fill(const vascular::Twigs& twigs, IodineAt iodine_at, fluoro::Body& body) {
-  for (std::size_t t = 0; t < twigs.size(); ++t)
-    body.contrast.iodine_kg_m3.segment(twigs.first[t], twigs.first[t + 1] - twigs.first[t])
-        .setConstant(static_cast<float>(iodine_at(twigs.root[t])));
-}
-/// Moves them there. Each is filled evenly, so its depths are counted from any point of it.
-void place(const vascular::Twigs& twigs, const std::vector<Eigen::Vector3d>& vertices, fluoro::Body& body);
+/// Sets what of a body rests (Body::still): vertices without beat and, if the patient breathes, without breath.
+void set_still(const vascular::XrayBody& from, bool breathes, fluoro::Body& body);
+/// Moves its other vertices, by a contraction (heart_cycle.h) and a depth of breath.
+void move(const vascular::XrayBody& from, double contraction, double breath_depth, fluoro::Body& body);
 
 }  // namespace ostium::app

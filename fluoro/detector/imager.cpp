@@ -6,6 +6,13 @@
 
 namespace ostium::fluoro {
 
+namespace {
+
+/// For automatic brightness vessels are too thin to matter.
+bool is_wide(const Body& body) { return body.contrast.iodine_kg_m3.size() == 0; }
+
+}  // namespace
+
 Imager::Imager(const ImagerModel& model, std::unique_ptr<PathLengthRenderer> renderer)
     : model_(model),
       renderer_(std::move(renderer)),
@@ -58,12 +65,14 @@ Exposure Imager::exposure(const FrameInput& in) {
   if (!(coarse_view == coarse_view_) || in.scene.fixed != coarse_fixed_) {
     coarse_fixed_lengths_ = PathLengths(coarse_pixels);
     if (in.scene.fixed) coarse_renderer_->add(coarse_view, *in.scene.fixed, coarse_fixed_lengths_);
+    for (const Body& body : in.scene.moving)
+      if (is_wide(body)) coarse_renderer_->add(coarse_view, {&body, 1}, coarse_fixed_lengths_, Parts::still);
     coarse_view_ = coarse_view;
     coarse_fixed_ = in.scene.fixed;
   }
   coarse_ = coarse_fixed_lengths_;
-  for (const Body& body : in.scene.moving)  // vessels are too thin to matter
-    if (body.contrast.iodine_kg_m3.size() == 0) coarse_renderer_->add(coarse_view, {&body, 1}, coarse_);
+  for (const Body& body : in.scene.moving)
+    if (is_wide(body)) coarse_renderer_->add(coarse_view, {&body, 1}, coarse_, Parts::moving);
   return automatic_exposure(in.programme, in.view, in.collimator, coarse_, model_.scatter, model_.grid_transmission,
                             beams_);
 }
@@ -72,13 +81,14 @@ void Imager::draw(const FrameInput& in) {
   if (!(in.view == view_) || in.scene.fixed != fixed_) {
     fixed_lengths_ = PathLengths(in.view.pixels);
     if (in.scene.fixed) renderer_->add(in.view, *in.scene.fixed, fixed_lengths_);
+    renderer_->add(in.view, in.scene.moving, fixed_lengths_, Parts::still);
     stretch_ = ray_stretch(in.view);
     exposed_.resize(0, 0);
     view_ = in.view;
     fixed_ = in.scene.fixed;
   }
   lengths_ = fixed_lengths_;
-  if (!in.scene.moving.empty()) renderer_->add(in.view, in.scene.moving, lengths_);
+  if (!in.scene.moving.empty()) renderer_->add(in.view, in.scene.moving, lengths_, Parts::moving);
 }
 
 void Imager::collimate(const FrameInput& in) {

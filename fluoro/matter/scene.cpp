@@ -47,6 +47,26 @@ bool is_seen(const Contrast& contrast) {
   return contrast.iodine_kg_m3.size() > 0 && contrast.iodine_kg_m3.maxCoeff() > faintest_iodine_kg_m3;
 }
 
+void set_still(const std::function<bool(int vertex)>& rests, Body& body) {
+  Triangles sorted(3, body.triangles->cols());
+  std::vector<int> corners;
+  std::vector<bool> is_listed(static_cast<std::size_t>(body.p_P.cols()), false);
+  Eigen::Index first = 0, last = sorted.cols();
+  for (const auto& t : body.triangles->colwise()) {
+    if (rests(t[0]) && rests(t[1]) && rests(t[2])) {
+      sorted.col(first++) = t;
+      continue;
+    }
+    sorted.col(--last) = t;
+    for (int v : t)
+      if (!is_listed[static_cast<std::size_t>(v)]) is_listed[static_cast<std::size_t>(v)] = true, corners.push_back(v);
+  }
+  std::sort(corners.begin(), corners.end());
+  body.triangles = std::make_shared<const Triangles>(std::move(sorted));
+  body.still = static_cast<int>(first);
+  body.corners = std::make_shared<const std::vector<int>>(std::move(corners));
+}
+
 void check(const Body& body) {
   if (!body.triangles || body.triangles->cols() == 0) refuse(body.name, "has no triangles");
   if (body.triangles->minCoeff() < 0 || body.triangles->maxCoeff() >= body.p_P.cols())
@@ -59,13 +79,18 @@ void check(const Body& body) {
   if (c.along_kg_m2.size() && c.along_kg_m2.cols() != c.p_PC.cols())
     refuse(body.name, "has contrast along its centreline that is not given at each vertex");
   if (c.iodine_kg_m3.size() && !(c.iodine_kg_m3.minCoeff() >= 0)) refuse(body.name, "has a negative concentration");
+  if (body.still < 0 || body.still > body.triangles->cols() || (body.still > 0 && !body.corners))
+    refuse(body.name, "has triangles that rest, but not the corners of the others; set_still sets both");
   require_closed(body);
 }
 
 void check(const Scene& scene) {
   if (scene.fixed)
     for (const Body& body : *scene.fixed) check(body);
-  for (const Body& body : scene.moving) check(body);
+  for (const Body& body : scene.moving) {
+    check(body);
+    if (body.still > 0 && !scene.fixed) refuse(body.name, "has triangles that rest, in a scene without fixed bodies");
+  }
   for (const Shaft& shaft : scene.shafts)
     if (shaft.p_P.cols() < 2 || !shaft.p_P.allFinite() ||
         (shaft.lumen_iodine_kg_m3.size() && shaft.lumen_iodine_kg_m3.size() != shaft.p_P.cols()))

@@ -2,6 +2,7 @@
 /// The objects in the beam: closed surfaces with one tissue each, iodine in some of them, instruments as lines. Frame P
 /// of the patient (c_arm.h), metres. This is fluoro's only input from an anatomy.
 #include <Eigen/Core>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -45,7 +46,14 @@ struct Body {
   Tissue tissue;         ///< inside
   Tissue within;         ///< surrounding tissue that it displaces; zero: air
   Contrast contrast;     ///< empty: none
+  /// So many of its first triangles join vertices that rest: the same in all scenes with the same `fixed`. Their tissue
+  /// is drawn once for a pose of the C-arm, as the sum over triangles can be split anywhere.
+  int still = 0;
+  std::shared_ptr<const std::vector<int>> corners = {};  ///< vertices of the other triangles; if `still` is above 0
 };
+
+/// Sorts the triangles, those first whose corners all rest, and sets `still` and `corners`.
+void set_still(const std::function<bool(int vertex)>& rests, Body& body);
 
 /// A section of an instrument, measured along it from its tip.
 struct OpaqueSection {
@@ -73,7 +81,8 @@ struct Scene {
 };
 
 /// Throws std::invalid_argument naming the body and the problem: indices out of range, a surface that is not closed
-/// (how many edges are open, and where the first is), or a contrast array whose size differs from the vertices.
+/// (how many edges are open, and where the first is), a contrast array whose size differs from the vertices, or
+/// triangles that rest without the corners of the others, or in a scene without `fixed`.
 void check(const Body& body);
 void check(const Scene& scene);
 

@@ -40,13 +40,14 @@ void main() {
 
 /// Image axes look at the patient from the detector, so triangles facing the source are clockwise in the picture.
 constexpr const char* fragment_shader = R"(#version 130
-uniform vec2 tissue;  // soft, bone
+uniform vec2 tissue;    // soft, bone
+uniform float counted;  // 0 where the triangle is counted with its tissue, elsewhere
 in float depth;
 in vec3 iodine;
 out vec4 lengths;
 void main() {
   float leaves = gl_FrontFacing ? 1.0 : -1.0;
-  lengths = leaves * vec4(depth * tissue, iodine.x * (depth - iodine.y) + iodine.z, 1.0);
+  lengths = leaves * vec4(depth * tissue, iodine.x * (depth - iodine.y) + iodine.z, counted);
 })";
 
 GLuint compiled(GLenum kind, const char* text) {
@@ -78,11 +79,11 @@ class OSMesaRenderer final : public PathLengthRenderer {
   }
   ~OSMesaRenderer() override { OSMesaDestroyContext(context_); }
 
-  void add(const View& view, std::span<const Body> bodies, PathLengths& out) override {
+  void add(const View& view, std::span<const Body> bodies, PathLengths& out, Parts parts) override {
     make_current();
     aim(view);
     glClear(GL_COLOR_BUFFER_BIT);
-    for (const Body& body : bodies) draw(view, body);
+    for (const Body& body : bodies) draw(view, body, parts);
     read_back(out);
   }
 
@@ -138,11 +139,10 @@ class OSMesaRenderer final : public PathLengthRenderer {
     glEnableVertexAttribArray(0);
   }
 
-  void draw(const View& view, const Body& body) {
+  void draw(const View& view, const Body& body, Parts parts) {
     const Tissue net{body.tissue.soft - body.within.soft, body.tissue.bone - body.within.bone};
-    const bool filled = is_seen(body.contrast);
+    const bool filled = parts != Parts::still && is_seen(body.contrast);
     if (net.soft == 0 && net.bone == 0 && !filled) return;
-    glUniform2f(uniform("tissue"), net.soft, net.bone);
     glVertexAttribPointer(0, 3, GL_FLOAT, GL_FALSE, 0, body.p_P.data());
     if (filled) {
       const Eigen::Vector3f outwards = towards_detector(view.arm).cast<float>();
@@ -159,7 +159,16 @@ class OSMesaRenderer final : public PathLengthRenderer {
       glDisableVertexAttribArray(1);
       glVertexAttrib3f(1, 0, 0, 0);
     }
-    glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(body.triangles->size()), GL_UNSIGNED_INT, body.triangles->data());
+    const auto triangles = [&](int from, int to, const Tissue& tissue, float counted) {
+      glUniform2f(uniform("tissue"), tissue.soft, tissue.bone);
+      glUniform1f(uniform("counted"), counted);
+      glDrawElements(GL_TRIANGLES, 3 * (to - from), GL_UNSIGNED_INT, body.triangles->data() + 3 * from);
+    };
+    const auto all = static_cast<int>(body.triangles->cols());
+    if (parts == Parts::still) return triangles(0, body.still, net, 1);
+    const int first = parts == Parts::all ? 0 : body.still;
+    if (filled && first > 0) triangles(0, first, {}, 0);
+    triangles(first, all, net, 1);
   }
 
   void read_back(PathLengths& out) {

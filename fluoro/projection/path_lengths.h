@@ -64,12 +64,19 @@ inline constexpr float leak_iodine_kg_m3 = 350;
 inline constexpr float leak_m = -1e-5f;  ///< a path below this is a leak: rounding errors are 100 times smaller
 Leak find_leak(const PathLengths& lengths);
 
+/// What of a body is drawn (Body::still): `still` and `moving` together are `all`.
+enum class Parts {
+  all,
+  still,  ///< the tissue of the triangles that rest
+  moving  ///< the tissue of the others, and all contrast
+};
+
 /// A drawing method. Virtual because hardware varies; each instance is used by one thread at a time.
 class PathLengthRenderer {
  public:
   virtual ~PathLengthRenderer() = default;
   /// Adds the bodies' path lengths to `out` (view.pixels square).
-  virtual void add(const View& view, std::span<const Body> bodies, PathLengths& out) = 0;
+  virtual void add(const View& view, std::span<const Body> bodies, PathLengths& out, Parts parts = Parts::all) = 0;
   virtual const char* name() const = 0;
 };
 

@@ -5,6 +5,7 @@
 /// that edge, so that both its triangles get the same bits, and a span's sign depends on which of its two crossings is
 /// on the left. So entries and exits of a closed surface cancel exactly in every pixel.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 
@@ -18,13 +19,15 @@ namespace {
 struct Corner {
   double x, y;
   float depth;
-  float iodine, from_centreline;  // of contrast: concentration; depth minus that of its centreline;
-  float along;                    // and the integral along the centreline, kg/m2
 };
 
-/// value = at + per_x column + per_y row.
+/// Contrast of a vertex: concentration times depth from its centreline, and the integral along that, kg/m2.
+using Filling = float;
+
+/// value = at + per_x column + per_y row, in whole pixels.
 struct Linear {
-  float at = 0, per_x = 0, per_y = 0;
+  double at = 0, per_x = 0, per_y = 0;
+  double operator()(int column, int row) const { return at + per_x * column + per_y * row; }
 };
 
 struct Slopes {
@@ -33,14 +36,13 @@ struct Slopes {
   Slopes(const Corner& a, const Corner& b, const Corner& c)
       : x1(b.x - a.x), y1(b.y - a.y), x2(c.x - a.x), y2(c.y - a.y) {
     const double area = x1 * y2 - x2 * y1;
-    over_area = std::fabs(area) > 1e-12 ? 1 / area : 0;  // for a sliver: constant, the first corner's value
+    over_area = std::fabs(area) > 1e-9 ? 1 / area : 0;  // for a sliver: constant, the first corner's value
   }
 
   Linear through(const Corner& a, double va, double vb, double vc) const {
     const double per_x = ((vb - va) * y2 - (vc - va) * y1) * over_area;
     const double per_y = ((vc - va) * x1 - (vb - va) * x2) * over_area;
-    return {static_cast<float>(va - per_x * (a.x - 0.5) - per_y * (a.y - 0.5)), static_cast<float>(per_x),
-            static_cast<float>(per_y)};
+    return {va - per_x * (a.x - 0.5) - per_y * (a.y - 0.5), per_x, per_y};
   }
 };
 
@@ -52,8 +54,10 @@ struct Edge {
   double crossing(int row) const { return x + slope * (row + 0.5 - y); }
 };
 
-int first_centre_from(double position, int pixels) {
-  return static_cast<int>(std::clamp(std::ceil(position - 0.5), 0.0, static_cast<double>(pixels)));
+/// Also of what is no number: 0.
+int first_centre_from(double position, double pixels) {
+  const double centre = std::ceil(position - 0.5), positive = centre > 0 ? centre : 0;
+  return static_cast<int>(positive < pixels ? positive : pixels);
 }
 
 /// The first row and column of pixel centres at or after a vertex.
@@ -99,23 +103,47 @@ void for_each_span(const Corner& a, const Corner& b, const Corner& c, int pixels
   if (turn < last) rows(turn, last, Edge(*middle, *bottom));
 }
 
+using Four = Eigen::Array4f;
+using Eight = Eigen::Array<float, 8, 1>;  // two pixels fill one register and need one store
+
+/// Adds first, first + step, first + 2 step ... to n pixels.
+void add_ramp(float* pixel, int n, const Four& first, const Four& step) {
+  if (n == 1) {
+    Eigen::Map<Four>(pixel) += first;
+    return;
+  }
+  Eight value, by;
+  value << first, first + step;
+  by << 2 * step, 2 * step;
+  for (; n >= 2; n -= 2, pixel += 8) {
+    Eigen::Map<Eight>(pixel) += value;
+    value += by;
+  }
+  if (n) Eigen::Map<Four>(pixel) += value.head<4>();
+}
+
+/// A triangle of fewer millimetres of depth is drawn with a depth that is linear in the picture, rather than its
+/// inverse: off by a quarter of the square of this over the distance, 1.3 um.
+constexpr float flat_m = 2e-3f;
+
 class ScanlineRenderer final : public PathLengthRenderer {
  public:
-  void add(const View& view, std::span<const Body> bodies, PathLengths& out) override {
+  void add(const View& view, std::span<const Body> bodies, PathLengths& out, Parts parts) override {
+    isocentre_ = view.arm.source_to_isocentre_m;
     for (const Body& body : bodies) {
       const Tissue net{body.tissue.soft - body.within.soft, body.tissue.bone - body.within.bone};
-      const bool filled = is_seen(body.contrast);
-      if (net.soft == 0 && net.bone == 0 && !filled) continue;
-      project(view, body, filled);
-      isocentre_ = static_cast<float>(view.arm.source_to_isocentre_m);
-      for (const auto& t : body.triangles->colwise()) {
-        const auto i = std::size_t(t[0]), j = std::size_t(t[1]), k = std::size_t(t[2]);
-        if (!meets_a_centre(cells_[i], cells_[j], cells_[k])) continue;
-        const Corner &a = corners_[i], &b = corners_[j], &c = corners_[k];
-        if (a.depth < nearest_m || b.depth < nearest_m || c.depth < nearest_m) continue;
-        if (net.soft != 0 || net.bone != 0) add_tissue(a, b, c, net, out);
-        if (filled) add_iodine(a, b, c, out);
-      }
+      const bool has_tissue = net.soft != 0 || net.bone != 0, filled = parts != Parts::still && is_seen(body.contrast);
+      const auto all = static_cast<int>(body.triangles->cols());
+      const int still = parts == Parts::all ? 0 : body.still, first = parts == Parts::still ? 0 : still,
+                last = parts == Parts::still ? still : all;
+      if (first == last || (!has_tissue && !filled)) continue;
+      project(view, body, still > 0 && parts == Parts::moving && !filled ? body.corners.get() : nullptr);
+      if (filled) project_contrast(view, body);
+      // An entry or exit is counted where its tissue is drawn; where there is none, with its contrast.
+      if (has_tissue && filled) draw<true, true>(body, first, last, net, 1, out);
+      if (has_tissue && !filled) draw<true, false>(body, first, last, net, 1, out);
+      if (!has_tissue) draw<false, true>(body, first, last, net, 1, out);
+      if (has_tissue && filled && first > 0) draw<false, true>(body, 0, first, net, 0, out);
     }
   }
 
@@ -124,91 +152,140 @@ class ScanlineRenderer final : public PathLengthRenderer {
  private:
   static constexpr float nearest_m = 0.05f;  // no part of a patient is nearer to the source
 
-  void project(const View& view, const Body& body, bool filled) {
+  /// All vertices, or those listed. Each comes out with the same bits in any list: no operations are fused.
+  void project(const View& view, const Body& body, const std::vector<int>* listed) {
+    constexpr int block = 128;
     const ImageAxes axes(view.arm);
-    const Eigen::Vector3d p_PS = source(view.arm);
-    const double scale = view.arm.source_to_detector_m / view.field_m * view.pixels, half = 0.5 * view.pixels;
-    corners_.resize(static_cast<std::size_t>(body.p_P.cols()));
-    cells_.resize(corners_.size());
-    for (Eigen::Index i = 0; i < body.p_P.cols(); ++i) {
-      const Eigen::Vector3d ray = body.p_P.col(i).cast<double>() - p_PS;
-      const double depth = ray.dot(axes.outwards), over = scale / depth;
-      Corner& corner = corners_[std::size_t(i)];
-      corner = {half + over * ray.dot(axes.right), half - over * ray.dot(axes.up), static_cast<float>(depth), 0, 0, 0};
-      cells_[std::size_t(i)] = {static_cast<std::int16_t>(first_centre_from(corner.y, view.pixels)),
-                                static_cast<std::int16_t>(first_centre_from(corner.x, view.pixels))};
-      if (filled) {
-        corner.iodine = body.contrast.iodine_kg_m3[i];
-        corner.from_centreline =
-            static_cast<float>(depth - axes.outwards.dot(body.contrast.p_PC.col(i).cast<double>() - p_PS));
-        if (body.contrast.along_kg_m2.size() > 0)
-          corner.along = static_cast<float>(axes.outwards.dot(body.contrast.along_kg_m2.col(i).cast<double>()));
+    const Eigen::Vector3d s = source(view.arm), &r = axes.right, &u = axes.up, &o = axes.outwards;
+    const double scale = view.arm.source_to_detector_m / view.field_m * view.pixels, half = 0.5 * view.pixels,
+                 pixels = view.pixels;
+    const std::size_t vertices = static_cast<std::size_t>(body.p_P.cols()), count = listed ? listed->size() : vertices;
+    corners_.resize(vertices);
+    cells_.resize(vertices);
+    std::array<double, block> x, y, z, depth;
+    std::array<std::int32_t, block> row, column;
+    for (std::size_t begin = 0; begin < count; begin += block) {
+      const int n = static_cast<int>(std::min<std::size_t>(block, count - begin));
+      const auto vertex = [&](int i) {
+        const std::size_t k = begin + static_cast<std::size_t>(i);
+        return listed ? static_cast<std::size_t>((*listed)[k]) : k;
+      };
+      for (int i = 0; i < n; ++i) {
+        const float* const p = body.p_P.data() + 3 * vertex(i);
+        x[i] = p[0], y[i] = p[1], z[i] = p[2];
+      }
+      for (int i = 0; i < n; ++i) {
+        const double a = x[i] - s[0], b = y[i] - s[1], c = z[i] - s[2];
+        depth[i] = a * o[0] + b * o[1] + c * o[2];
+        const double over = scale / depth[i];
+        x[i] = half + over * (a * r[0] + b * r[1] + c * r[2]);
+        y[i] = half - over * (a * u[0] + b * u[1] + c * u[2]);
+        column[i] = first_centre_from(x[i], pixels);
+        row[i] = first_centre_from(y[i], pixels);
+      }
+      for (int i = 0; i < n; ++i) {
+        corners_[vertex(i)] = {x[i], y[i], static_cast<float>(depth[i])};
+        cells_[vertex(i)] = {static_cast<std::int16_t>(row[i]), static_cast<std::int16_t>(column[i])};
       }
     }
   }
 
-  /// The inverse of the depth is linear in the picture.
-  void add_tissue(const Corner& a, const Corner& b, const Corner& c, Tissue net, PathLengths& out) {
-    const Linear inverse = Slopes(a, b, c).through(a, 1.0 / a.depth, 1.0 / b.depth, 1.0 / c.depth);
-    const float nearest = std::min({a.depth, b.depth, c.depth}), farthest = std::max({a.depth, b.depth, c.depth});
-    // Two pixels fill one register and need one store.
-    using Pair = Eigen::Array<float, 8, 1>;
-    const Pair per_depth{{net.soft, net.bone, 0, 0, net.soft, net.bone, 0, 0}}, once{{0, 0, 0, 1, 0, 0, 0, 1}};
-    const float isocentre = isocentre_;
+  void project_contrast(const View& view, const Body& body) {
+    const Eigen::Vector3f outwards = towards_detector(view.arm).cast<float>();
+    const Contrast& c = body.contrast;
+    fillings_.resize(corners_.size());
+    for (Eigen::Index i = 0; i < body.p_P.cols(); ++i) {
+      float& filling = fillings_[static_cast<std::size_t>(i)];
+      filling = c.iodine_kg_m3[i] > 0 ? c.iodine_kg_m3[i] * outwards.dot(body.p_P.col(i) - c.p_PC.col(i)) : 0.0f;
+      if (c.along_kg_m2.size() > 0) filling += outwards.dot(c.along_kg_m2.col(i));
+    }
+  }
+
+  template <bool has_tissue, bool filled>
+  void draw(const Body& body, int first, int last, Tissue net, float counted, PathLengths& out) {
+    for (int n = first; n < last; ++n) {
+      const auto t = body.triangles->col(n);
+      const auto i = std::size_t(t[0]), j = std::size_t(t[1]), k = std::size_t(t[2]);
+      if (!meets_a_centre(cells_[i], cells_[j], cells_[k])) continue;
+      const Corner &a = corners_[i], &b = corners_[j], &c = corners_[k];
+      const auto [least, most] = std::minmax({a.depth, b.depth, c.depth});
+      if (least < nearest_m) continue;
+      if (has_tissue && most - least > flat_m) {
+        add_deep(a, b, c, net, counted, out);
+        if (filled) add_flat<false, true>(a, b, c, {fillings_[i], fillings_[j], fillings_[k]}, net, 0, out);
+      } else {
+        add_flat<has_tissue, filled>(a, b, c, filled ? Three{fillings_[i], fillings_[j], fillings_[k]} : Three{}, net,
+                                     counted, out);
+      }
+    }
+  }
+
+  using Three = std::array<float, 3>;
+
+  /// What is crossed is linear in the picture. Vessels are finely meshed: that holds for their contrast to a
+  /// thousandth.
+  template <bool has_tissue, bool filled>
+  void add_flat(const Corner& a, const Corner& b, const Corner& c, const Three& filling, Tissue net, float counted,
+                PathLengths& out) {
+    const Slopes slopes(a, b, c);
+    const Linear depth = has_tissue ? slopes.through(a, a.depth, b.depth, c.depth) : Linear{};
+    const Linear iodine = filled ? slopes.through(a, filling[0], filling[1], filling[2]) : Linear{};
+    // Of a sliver the slopes are steep and what is rounded matters: nothing beyond the corners' values is added.
+    const auto [near, far] = std::minmax({a.depth, b.depth, c.depth});
+    const auto [few, many] = std::minmax({filling[0], filling[1], filling[2]});
+    const float near_ = near, far_ = far, few_ = few, many_ = many;
+    const auto isocentre = static_cast<float>(isocentre_);
     const int side = out.side();
     float* const pixels = out.pixels().data();
+    const auto per_x = static_cast<float>(depth.per_x), iodine_per_x = static_cast<float>(iodine.per_x);
+    const Four step(net.soft * per_x, net.bone * per_x, iodine_per_x, 0);
     // Captured by value, so that the compiler need not reload them after each store into a pixel.
     for_each_span(a, b, c, side, [=](int row, int from, int to, float sign) {
-      const float start = inverse.at + inverse.per_y * static_cast<float>(row);
-      const auto depth_at = [&](float x) {
-        return std::min(std::max(1 / (start + inverse.per_x * x), nearest), farthest) - isocentre;
-      };
-      float* pixel = pixels + 4 * (std::ptrdiff_t(row) * side + from);
-      int x = from;
-      const Pair per_m = sign * per_depth, exits = sign * once;
-      for (; x + 2 <= to; x += 2, pixel += 8) {
-        const float first = depth_at(static_cast<float>(x)), second = depth_at(static_cast<float>(x + 1));
-        const Pair depth{{first, first, first, first, second, second, second, second}};
-        Eigen::Map<Pair> sums(pixel);
-        sums += per_m * depth + exits;
+      Four first(0, 0, 0, counted);
+      if (has_tissue) {
+        const float m = std::clamp(static_cast<float>(depth(from, row)), near_, far_) - isocentre;
+        first[0] = net.soft * m, first[1] = net.bone * m;
       }
-      if (x == to) return;
-      Eigen::Map<Eigen::Array4f> sums(pixel);
-      sums += per_m.head<4>() * depth_at(static_cast<float>(x)) + exits.head<4>();
+      if (filled) first[2] = std::clamp(static_cast<float>(iodine(from, row)), few_, many_);
+      add_ramp(pixels + 4 * (std::ptrdiff_t(row) * side + from), to - from, sign * first, sign * step);
     });
   }
 
-  /// Vessels are finely meshed: taking the depth from the centreline as linear in the picture is accurate to a
-  /// micrometre.
-  void add_iodine(const Corner& a, const Corner& b, const Corner& c, PathLengths& out) {
-    const Slopes slopes(a, b, c);
-    const Linear iodine = slopes.through(a, a.iodine, b.iodine, c.iodine);
-    const Linear depth = slopes.through(a, a.from_centreline, b.from_centreline, c.from_centreline);
-    const Linear along = slopes.through(a, a.along, b.along, c.along);
-    const auto [few, many] = std::minmax({a.along, b.along, c.along});
-    const float few_ = few, many_ = many;
-    const auto [least, most] = std::minmax({a.from_centreline, b.from_centreline, c.from_centreline});
-    const auto [thin, dense] = std::minmax({a.iodine, b.iodine, c.iodine});
-    const float thin_ = thin, dense_ = dense, least_ = least, most_ = most;
+  /// The inverse of the depth is linear in the picture.
+  void add_deep(const Corner& a, const Corner& b, const Corner& c, Tissue net, float counted, PathLengths& out) {
+    const Linear inverse = Slopes(a, b, c).through(a, 1.0 / a.depth, 1.0 / b.depth, 1.0 / c.depth);
+    const auto [near, far] = std::minmax({a.depth, b.depth, c.depth});
+    const float near_ = near, far_ = far, per_x = static_cast<float>(inverse.per_x);
+    const auto isocentre = static_cast<float>(isocentre_);
     const int side = out.side();
     float* const pixels = out.pixels().data();
     for_each_span(a, b, c, side, [=](int row, int from, int to, float sign) {
-      const auto y = static_cast<float>(row);
+      constexpr int at_once = 8;
+      static const Eight steps{{0, 1, 2, 3, 4, 5, 6, 7}};
+      const auto start = static_cast<float>(inverse(from, row));
+      const Four per_m(sign * net.soft, sign * net.bone, 0, 0), once(0, 0, 0, sign * counted);
+      Eight per_m_twice, once_twice;
+      per_m_twice << per_m, per_m;
+      once_twice << once, once;
       float* pixel = pixels + 4 * (std::ptrdiff_t(row) * side + from);
-      for (int column = from; column < to; ++column, pixel += 4) {
-        const auto x = static_cast<float>(column);
-        const float kg_m3 = std::min(std::max(iodine.at + iodine.per_x * x + iodine.per_y * y, thin_), dense_);
-        const float m = std::min(std::max(depth.at + depth.per_x * x + depth.per_y * y, least_), most_);
-        const float kg_m2 = std::min(std::max(along.at + along.per_x * x + along.per_y * y, few_), many_);
-        pixel[2] += sign * (kg_m3 * m + kg_m2);
-        pixel[3] += sign;
+      for (int x = 0; x < to - from; x += at_once, pixel += 4 * at_once) {
+        const Eight depth =
+            (start + per_x * (static_cast<float>(x) + steps)).inverse().max(near_).min(far_) - isocentre;
+        const int n = std::min(at_once, to - from - x);
+        for (int i = 0; i + 2 <= n; i += 2) {
+          Eight twice;
+          twice << depth[i], depth[i], depth[i], depth[i], depth[i + 1], depth[i + 1], depth[i + 1], depth[i + 1];
+          Eigen::Map<Eight>(pixel + 4 * i) += per_m_twice * twice + once_twice;
+        }
+        if (n % 2) Eigen::Map<Four>(pixel + 4 * (n - 1)) += per_m * depth[n - 1] + once;
       }
     });
   }
 
   std::vector<Corner> corners_;
   std::vector<Cell> cells_;
-  float isocentre_ = 0;
+  std::vector<Filling> fillings_;
+  double isocentre_ = 0;
 };
 
 }  // namespace

@@ -117,11 +117,13 @@ Row frame_row(const std::string& name, int pixels, bool rotating, bool quick) {
   row.name = name;
   row.ms = std::accumulate(times.begin(), times.end(), 0.0) / double(times.size());
   row.p999_ms = times.back();
-  row.yardstick_ms = yardstick_ms(pixels, quick ? 2 : 6);
+  row.yardstick_ms = shader_ms(pixels, quick);
   const data::GateResult gate = app::gates::xray_thickness(true).front();
   row.gate = {gate.gate, gate.value, gate.unit, gate.pass()};
   return row;
 }
+
+double shader_ms(int pixels, bool quick) { return yardstick_ms(pixels, quick ? 2 : 6); }
 
 void print_late_ticks(double seconds) {
   long fixed = 0, moving = 0;

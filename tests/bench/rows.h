@@ -13,6 +13,7 @@ struct Row {
   double ms = 0;            ///< CPU time per simulated millisecond, mean
   double p999_ms = 0;       ///< its 99.9th percentile
   double most_ms = 0;       ///< of the slowest step or frame; 0: not measured
+  double least_ms = 0;      ///< of the fastest frame; 0: not measured
   double yardstick_ms = 0;  ///< time of the reference implementation, if it has its own
   struct {
     std::string name;
@@ -65,6 +66,15 @@ void print_stretch_table(bool quick);
 /// CPU time of one fluoroscopy frame from scene to grey levels (`ms`; p999_ms is the slowest of 150), beside the
 /// angle-opacity shader. `rotating`: the C-arm turns between frames, so that nothing can be cached.
 Row frame_row(const std::string& name, int pixels, bool rotating, bool quick);
+
+/// CPU time of frames of a session, from its state to grey levels: median (`ms`), fastest and slowest of 90, without
+/// and with a full artery, the C-arm at rest and turning by 0.1 degrees a frame, and small as environments ask for.
+/// Beside the angle-opacity shader on the test chest.
+std::vector<Row> session_frame_rows(bool quick);
+/// What they draw: triangles by body, a line each.
+std::string session_triangles();
+/// The angle-opacity shader's time.
+double shader_ms(int pixels, bool quick);
 
 /// CPU time of flow and contrast per frame at 15 a second (`ms`; p999_ms is the slowest), while both coronaries fill.
 Row circulation_row(bool quick);

@@ -117,6 +117,38 @@ TEST(PathLengths, TwoHalvesMakeAWhole) {
   }
 }
 
+TEST(PathLengths, WhatRestsAndWhatMovesMakeAWhole) {
+  Body heart = phantom::body("heart", phantom::ellipsoid({0.01, 0, 0}, {0.04, 0.03, 0.03}, 60), tissue::muscle, {});
+  Body vessel = phantom::body("vessel", phantom::ellipsoid({-0.01, 0, 0.01}, {0.02, 0.01, 0.01}, 60), tissue::blood,
+                              tissue::muscle);
+  vessel.contrast.iodine_kg_m3 = (200 + 5e3 * vessel.p_P.row(0).array()).transpose();
+  vessel.contrast.p_PC = 0.5 * vessel.p_P;
+  vessel.contrast.along_kg_m2 = 100 * vessel.contrast.p_PC;
+  const std::vector<Body> whole{heart, vessel};
+  for (Body* body : {&heart, &vessel}) set_still([&](int v) { return body->p_P(1, v) > 0.004f; }, *body);
+  EXPECT_GT(heart.still, 1000);
+  EXPECT_LT(heart.still, heart.triangles->cols() - 1000);
+  EXPECT_LT(heart.corners->size(), static_cast<std::size_t>(heart.p_P.cols()) - 500);
+  const std::vector<Body> split{heart, vessel};
+  EXPECT_THROW(check(Scene{{}, split, {}}), std::invalid_argument) << "nothing is fixed with which they could rest";
+  EXPECT_NO_THROW(check(Scene{std::make_shared<const std::vector<Body>>(), split, {}}));
+  View view;
+  view.arm.lao_rad = 0.6;
+  for (const auto& renderer : renderers()) {
+    const PathLengths one = drawn(*renderer, whole, view);
+    PathLengths two(view.pixels);
+    renderer->add(view, split, two, Parts::still);
+    EXPECT_TRUE((two.unmatched() != 0).any()) << "half a surface is open";
+    renderer->add(view, split, two, Parts::moving);
+    EXPECT_FALSE(find_leak(two)) << renderer->name();
+    // The same triangles in another order: sums of floats of 0.1 m, 30 at most.
+    EXPECT_LT((one.soft_m() - two.soft_m()).abs().maxCoeff(), 1e-6f) << renderer->name();
+    EXPECT_LT((one.bone_m() - two.bone_m()).abs().maxCoeff(), 1e-8f) << renderer->name();
+    EXPECT_LT((one.iodine_kg_m2() - two.iodine_kg_m2()).abs().maxCoeff(), 3e-5f) << renderer->name();
+    EXPECT_GT(one.iodine_kg_m2().maxCoeff(), 2) << renderer->name();
+  }
+}
+
 TEST(PathLengths, TheRayIsLongerThanItsDepth) {
   View view;
   view.pixels = 2;

@@ -85,10 +85,22 @@ void add(const OpacityInputs& in, const OpacityScratch& x, const VertexSource& f
   sum.along += weight * so_far;
 }
 
+float densest(const OpacityInputs& in, const OpacityScratch& x) {
+  float most = 0;
+  for (const std::vector<float>* cells : {&x.coronary, &x.aorta})
+    for (float kg_m3 : *cells) most = std::max(most, kg_m3);
+  for (double kg : in.state.sinus_kg) most = std::max(most, static_cast<float>(kg / in.model.sinus_m3));
+  return most;
+}
+
 }  // namespace
 
 void opacify(const LumenMap& map, const OpacityInputs& in, Opacity out, OpacityScratch& x) {
   measure_cells(map, in, x);
+  if (densest(in, x) <= in.faintest_kg_m3) {
+    std::fill(out.iodine_kg_m3.begin(), out.iodine_kg_m3.end(), 0.0f);
+    return;
+  }
   integrate_along(in, x);
   for (std::size_t v = 0; v < map.sources.size(); ++v) {
     const LumenMap::Vertex& from = map.sources[v];

@@ -12,6 +12,7 @@ struct OpacityInputs {
   const ContrastState& state;
   const FlowInputs& lumen;  ///< uses its radius_m and occupied_m
   double phase = 0, breath = 0;
+  float faintest_kg_m3 = 0;  ///< where blood is nowhere denser, there is none; >= 0
 };
 
 /// All (#vertices).
@@ -27,6 +28,7 @@ struct OpacityScratch {
   Eigen::Matrix3Xf coronary_p, aorta_p, coronary_along, aorta_along;
 };
 
+/// Without contrast (faintest_kg_m3) only the concentration is set, to zero.
 void opacify(const LumenMap& map, const OpacityInputs& inputs, Opacity out, OpacityScratch& scratch);
 
 }  // namespace ostium::vascular

@@ -9,8 +9,8 @@
 
 namespace ostium::vascular {
 
-Eigen::Vector3d MovingLumen::healthy(std::size_t vertex, double phase, double depth) const {
-  const Eigen::Vector3d p = vertex < moving ? beat.position(vertex, phase) : still[vertex - moving];
+Eigen::Vector3d MovingLumen::healthy(std::size_t vertex, const PeriodicPoints::Moment& moment, double depth) const {
+  const Eigen::Vector3d p = vertex < moving ? beat.position(vertex, moment) : still[vertex - moving];
   return p + depth * breath[vertex];
 }
 

@@ -20,7 +20,11 @@ struct MovingLumen {
 
   std::size_t vertices() const { return breath.size(); }
   /// `depth`: breath_depth, 0 without breathing.
-  Eigen::Vector3d healthy(std::size_t vertex, double phase, double depth) const;
+  Eigen::Vector3d healthy(std::size_t vertex, double phase, double depth) const {
+    return healthy(vertex, vertex < moving ? beat.moment(phase) : PeriodicPoints::Moment{}, depth);
+  }
+  /// For many vertices at one moment, which is that of `beat`.
+  Eigen::Vector3d healthy(std::size_t vertex, const PeriodicPoints::Moment& moment, double depth) const;
   /// Position of vertex narrowed[i] on the diseased wall.
   Eigen::Vector3d diseased(std::size_t i, double phase, double depth) const;
   /// The whole surface; `opened`: 0 with lesions as they are, 1 healthy.

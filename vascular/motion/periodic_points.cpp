@@ -29,26 +29,29 @@ PeriodicPoints::PeriodicPoints(const std::vector<std::vector<Eigen::Vector3d>>& 
   });
 }
 
-Eigen::Vector3d PeriodicPoints::blended(std::size_t i, int first, const Eigen::Vector4d& weights) const {
+PeriodicPoints::Moment PeriodicPoints::moment_from(int first, const Eigen::Vector4d& weights) const {
+  return {{first % frames_, (first + 1) % frames_, (first + 2) % frames_, (first + 3) % frames_}, weights};
+}
+
+Eigen::Vector3d PeriodicPoints::blended(std::size_t i, const Moment& moment) const {
+  const float* const own = &offsets_[i * static_cast<std::size_t>(frames_) * 3];
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-  for (int k = 0; k < 4; ++k) {
-    const std::size_t f = static_cast<std::size_t>((first + k) % frames_);
-    sum += weights[k] *
-           Eigen::Map<const Eigen::Vector3f>(&offsets_[(i * static_cast<std::size_t>(frames_) + f) * 3]).cast<double>();
-  }
+  for (std::size_t k = 0; k < 4; ++k)
+    sum += moment.weights[static_cast<Eigen::Index>(k)] *
+           Eigen::Map<const Eigen::Vector3f>(own + 3 * moment.frames[k]).cast<double>();
   return sum;
 }
 
-Eigen::Vector3d PeriodicPoints::position(std::size_t i, double phase) const {
+PeriodicPoints::Moment PeriodicPoints::moment(double phase) const {
   const double u = (phase - std::floor(phase)) * frames_;
   const int f = static_cast<int>(u) % frames_;
-  return mean_[i] + blended(i, f + frames_ - 1, b_spline_weights(u - std::floor(u)));
+  return moment_from(f + frames_ - 1, b_spline_weights(u - std::floor(u)));
 }
 
 Eigen::Vector3d PeriodicPoints::velocity(std::size_t i, double phase) const {
   const double u = (phase - std::floor(phase)) * frames_;
   const int f = static_cast<int>(u) % frames_;
-  return frames_ * blended(i, f + frames_ - 1, b_spline_slopes(u - std::floor(u)));
+  return frames_ * blended(i, moment_from(f + frames_ - 1, b_spline_slopes(u - std::floor(u))));
 }
 
 std::vector<std::vector<Eigen::Vector3d>> resampled(const std::vector<std::vector<Eigen::Vector3d>>& frames,

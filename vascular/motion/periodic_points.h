@@ -3,6 +3,7 @@
 /// so that velocity and acceleration are continuous. Each point is evaluated separately, so only those needed cost
 /// time.
 #include <Eigen/Core>
+#include <array>
 #include <vector>
 
 namespace ostium::vascular {
@@ -18,13 +19,21 @@ class PeriodicPoints {
 
   std::size_t size() const { return mean_.size(); }
   int frames() const { return frames_; }
-  Eigen::Vector3d position(std::size_t i, double phase) const;
+  Eigen::Vector3d position(std::size_t i, double phase) const { return position(i, moment(phase)); }
+  /// The same for many points at one phase: what they have in common.
+  struct Moment {
+    std::array<int, 4> frames;
+    Eigen::Vector4d weights;
+  };
+  Moment moment(double phase) const;
+  Eigen::Vector3d position(std::size_t i, const Moment& moment) const { return mean_[i] + blended(i, moment); }
   /// d position / d phase.
   Eigen::Vector3d velocity(std::size_t i, double phase) const;
   std::size_t memory() const { return offsets_.size() * sizeof(float) + mean_.size() * sizeof(Eigen::Vector3d); }
 
  private:
-  Eigen::Vector3d blended(std::size_t i, int first, const Eigen::Vector4d& weights) const;
+  Moment moment_from(int first, const Eigen::Vector4d& weights) const;
+  Eigen::Vector3d blended(std::size_t i, const Moment& moment) const;
 
   int frames_ = 0;
   std::vector<Eigen::Vector3d> mean_;

@@ -1,7 +1,9 @@
 #include "vascular/thorax/lung_vessels.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <map>
 
 #include "core/base/units.h"
 #include "vascular/geometry/implicit/draws.h"
@@ -86,9 +88,38 @@ std::vector<LungVessel> grow_lung_vessels(const std::function<double(const Vecto
 }
 
 Mesh mesh_of(const std::vector<LungVessel>& vessels) {
+  const auto key = [](const Vector3d& p) { return std::array{p.x(), p.y(), p.z()}; };
+  const auto thicker = [&](int a, int b) { return vessels[a].radius_a_m < vessels[b].radius_a_m; };
+  // Of the pieces that begin where one ends, the thickest goes on from it.
+  std::map<std::array<double, 3>, std::vector<int>> begin_at;
+  std::map<std::array<double, 3>, double> radius_at;
+  for (int i = 0; i < static_cast<int>(vessels.size()); ++i) {
+    begin_at[key(vessels[i].a)].push_back(i);
+    double& radius = radius_at[key(vessels[i].b)];
+    radius = std::max(radius, vessels[i].radius_b_m);
+  }
+  for (auto& [p, pieces] : begin_at)
+    std::swap(pieces.front(), *std::max_element(pieces.begin(), pieces.end(), thicker));
   Mesh out;
-  for (const LungVessel& v : vessels)
-    append(out, rod(v.a, v.b, v.radius_a_m, v.radius_b_m, v.radius_a_m > 1.5 * mm ? 10 : 5));
+  for (const auto& [p, pieces] : begin_at)
+    for (int first : pieces) {
+      const auto stem = radius_at.find(p);
+      if (stem != radius_at.end() && first == pieces.front()) continue;  // it goes on from the one before
+      const LungVessel& head = vessels[first];
+      // From within the wall of the one it leaves, so that what both hold is not counted twice.
+      const double length = (head.b - head.a).norm(),
+                   inside = stem == radius_at.end() ? 0 : std::min(0.9 * stem->second, 0.8 * length);
+      std::vector<Vector3d> line{head.a + inside / length * (head.b - head.a), head.b};
+      std::vector<double> radius{head.radius_a_m, head.radius_b_m};
+      for (auto next = begin_at.find(key(head.b)); next != begin_at.end();) {
+        const LungVessel& piece = vessels[next->second.front()];
+        radius.back() = 0.5 * (radius.back() + piece.radius_a_m);
+        line.push_back(piece.b);
+        radius.push_back(piece.radius_b_m);
+        next = begin_at.find(key(piece.b));
+      }
+      append(out, rod(line, radius, head.radius_a_m > 1.5 * mm ? 8 : 5));
+    }
   return out;
 }
 

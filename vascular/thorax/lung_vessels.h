@@ -28,7 +28,9 @@ struct LungVesselOptions {
 std::vector<LungVessel> grow_lung_vessels(const std::function<double(const Eigen::Vector3d&)>& lung,
                                           const LungVesselOptions& options);
 
-/// Closed five-sided rods, about as thick.
+/// Closed rods of five or eight sides, about as thick: where a vessel divides, the thicker branch goes on in the same
+/// rod, the others begin within its wall. One rod a piece would count twice what they share, and vessels seen end-on
+/// would be rows of dark discs.
 Mesh mesh_of(const std::vector<LungVessel>& vessels);
 
 }  // namespace ostium::vascular

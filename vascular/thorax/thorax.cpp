@@ -33,7 +33,9 @@ constexpr Vertebra vertebrae[] = {{118, 8.5},   {96, 9},     {73, 9.2},   {50, 9
                                   {4, 10},      {-20, 10.2}, {-44, 10.4}, {-68, 10.6},  {-93, 11},
                                   {-119, 11.5}, {-146, 12},  {-176, 13},  {-208, 13.5}, {-242, 14}};
 
-double spine_z_mm(double y_mm) { return -89 + 12 * std::pow((y_mm + 10) / 190, 2); }
+/// The bodies touch the descending aorta, which lies to the left of their front from T5 to T9, as CT shows it: 27 mm
+/// between the axes, for radii of 12 and 15.
+double spine_z_mm(double y_mm) { return -78 + 12 * std::pow((y_mm + 10) / 190, 2); }
 
 /// The rib cage as an ellipse at each height: half width and half depth.
 double cage_width_mm(double y_mm) { return 147 * std::sqrt(std::max(0.05, 1 - std::pow((y_mm + 90) / 245, 2))); }
@@ -148,6 +150,13 @@ void add_ribs(std::vector<XrayBody>& bodies) {
     for (double side : {-1.0, 1.0}) {
       std::vector<Eigen::Vector3d> line;
       std::vector<Eigen::Vector2d> half, inside;
+      // The head at the disc above its vertebra, and the neck, which runs back to the transverse process.
+      for (const auto& [x, above, behind] : {std::array{19.0, 4.0, 9.0}, std::array{27.0, 2.5, 19.0}}) {
+        const double y = y0 + above, tall = 3.8;
+        line.push_back(middle_x * Eigen::Vector3d::UnitX() + at_mm(side * x, y, spine_z_mm(y) - behind));
+        half.push_back(Eigen::Vector2d(tall, 0.7 * tall) * mm);
+        inside.push_back(half.back().array() - 0.45 * mm);
+      }
       for (int i = 0; i <= 48; ++i) {
         // Horizontal behind, steep at the side, flatter in front.
         const double t = i / 48.0, theta = (14 + (last_deg - 14) * t) * degree,

@@ -7,6 +7,15 @@
 
 namespace ostium::vascular {
 
+namespace {
+
+/// A mesh may not beat at all.
+PeriodicPoints::Moment moment_of(const MovingLumen& lumen, double phase) {
+  return lumen.moving > 0 ? lumen.beat.moment(phase) : PeriodicPoints::Moment{};
+}
+
+}  // namespace
+
 WallShape::WallShape(const Patient& patient, const LumenMap& map, const FlowTree& tree)
     : patient_(patient), map_(map), tree_(tree), narrowed_(patient.lumen.vertices(), -1) {
   for (std::size_t i = 0; i < patient.lumen.narrowed.size(); ++i)
@@ -14,9 +23,14 @@ WallShape::WallShape(const Patient& patient, const LumenMap& map, const FlowTree
 }
 
 Eigen::Vector3d WallShape::vertex(std::size_t v, std::span<const double> radius_m, double phase, double breath) const {
+  return vertex(v, radius_m, phase, moment_of(patient_.lumen, phase), breath);
+}
+
+Eigen::Vector3d WallShape::vertex(std::size_t v, std::span<const double> radius_m, double phase,
+                                  const PeriodicPoints::Moment& moment, double breath) const {
   const MovingLumen& lumen = patient_.lumen;
   const VertexSource& from = map_.sources[v].first;
-  const Eigen::Vector3d healthy = lumen.healthy(v, phase, breath);
+  const Eigen::Vector3d healthy = lumen.healthy(v, moment, breath);
   if (from.part != VertexSource::coronary) return healthy;
   const FlowCell &a = tree_.cells[from.below], &b = tree_.cells[from.above];
   const double w = double(from.share), own = 1 - double(map_.sources[v].second_share);
@@ -40,7 +54,14 @@ Eigen::Vector3d WallShape::vertex(std::size_t v, std::span<const double> radius_
 void WallShape::at(std::span<const double> radius_m, double phase, double breath,
                    std::vector<Eigen::Vector3d>& vertices) const {
   vertices.resize(patient_.lumen.vertices());
-  for (std::size_t v = 0; v < vertices.size(); ++v) vertices[v] = vertex(v, radius_m, phase, breath);
+  const PeriodicPoints::Moment moment = moment_of(patient_.lumen, phase);
+  for (std::size_t v = 0; v < vertices.size(); ++v) vertices[v] = vertex(v, radius_m, phase, moment, breath);
+}
+
+void WallShape::at(std::span<const int> which, std::span<const double> radius_m, double phase, double breath,
+                   Eigen::Matrix3Xf& out) const {
+  const PeriodicPoints::Moment moment = moment_of(patient_.lumen, phase);
+  for (int v : which) out.col(v) = vertex(static_cast<std::size_t>(v), radius_m, phase, moment, breath).cast<float>();
 }
 
 core::SurfaceDescription WallShape::wall(std::span<const double> radius_m) const {

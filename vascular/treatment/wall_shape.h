@@ -16,12 +16,18 @@ class WallShape {
 
   /// Vertices at a cardiac phase and depth of breath, for given cell radii. `vertices`: (#vertices of MovingLumen).
   void at(std::span<const double> radius_m, double phase, double breath, std::vector<Eigen::Vector3d>& vertices) const;
+  /// Those vertices alone, into their columns of `out`.
+  void at(std::span<const int> which, std::span<const double> radius_m, double phase, double breath,
+          Eigen::Matrix3Xf& out) const;
   /// A single vertex.
   Eigen::Vector3d vertex(std::size_t v, std::span<const double> radius_m, double phase, double breath) const;
   /// The surface as a contact wall, from which a session rebuilds it after a vessel was opened.
   core::SurfaceDescription wall(std::span<const double> radius_m) const;
 
  private:
+  Eigen::Vector3d vertex(std::size_t v, std::span<const double> radius_m, double phase,
+                         const PeriodicPoints::Moment& moment, double breath) const;
+
   const Patient& patient_;
   const LumenMap& map_;
   const FlowTree& tree_;

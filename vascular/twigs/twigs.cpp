@@ -47,7 +47,7 @@ class Growth {
                     (parent >= 0 && coronary[static_cast<std::size_t>(parent)]);
       if (coronary[b] && branches[b].spheres.size() > 4) along(branches[b]);
     }
-    twigs_.first.push_back(static_cast<int>(twigs_.mesh.vertices.size()));
+    begin_twig();
     return std::move(twigs_);
   }
 
@@ -149,11 +149,16 @@ class Growth {
   void add(const std::vector<Vector3d>& line, const std::vector<double>& radius, int root) {
     const Vector3d of_root = motion_.displacement(patient_.lumen.healthy(static_cast<std::size_t>(root), 0, 0));
     const Mesh one = rod(line, radius, sides);
-    twigs_.first.push_back(static_cast<int>(twigs_.mesh.vertices.size()));
+    begin_twig();
     twigs_.root.push_back(root);
     twigs_.diameter_m.push_back(2 * radius.front());
     for (const Vector3d& p : one.vertices) twigs_.beat.push_back(motion_.displacement(p) - of_root);
     append(twigs_.mesh, one);
+  }
+
+  void begin_twig() {
+    twigs_.first.push_back(static_cast<int>(twigs_.mesh.vertices.size()));
+    twigs_.first_triangle.push_back(static_cast<int>(twigs_.mesh.triangles.size()));
   }
 
   const Patient& patient_;
@@ -170,15 +175,15 @@ Twigs grow_twigs(const Patient& patient) {
   return Growth(patient, core::hash_numbers(std::span<const double>(marks.p_lv_base.data(), 3), 1)).grow();
 }
 
-void at(const Twigs& twigs, const MovingLumen& lumen, double phase, double breath, std::vector<Vector3d>& out) {
-  out.resize(twigs.mesh.vertices.size());
+void at(const Twigs& twigs, std::size_t twig, const MovingLumen& lumen, double phase, double breath,
+        std::vector<Vector3d>& out) {
+  out.clear();
   const double contracted = contraction(phase);
-  for (std::size_t t = 0; t < twigs.size(); ++t) {
-    const auto root = static_cast<std::size_t>(twigs.root[t]);
-    const Vector3d shift = lumen.healthy(root, phase, breath) - lumen.healthy(root, 0, 0);
-    for (int v = twigs.first[t]; v < twigs.first[t + 1]; ++v)
-      out[static_cast<std::size_t>(v)] = twigs.mesh.vertices[static_cast<std::size_t>(v)] + shift +
-                                         contracted * twigs.beat[static_cast<std::size_t>(v)];
+  const auto root = static_cast<std::size_t>(twigs.root[twig]);
+  const Vector3d shift = lumen.healthy(root, phase, breath) - lumen.healthy(root, 0, 0);
+  for (int i = twigs.first[twig]; i < twigs.first[twig + 1]; ++i) {
+    const auto v = static_cast<std::size_t>(i);
+    out.push_back(twigs.mesh.vertices[v] + shift + contracted * twigs.beat[v]);
   }
 }
 

@@ -14,17 +14,21 @@ namespace ostium::vascular {
 struct Twigs {
   Mesh mesh;                          ///< closed rods, at end-diastole, breathed out
   std::vector<int> first;             ///< (#twigs + 1) vertices of each: [first[i], first[i + 1])
+  std::vector<int> first_triangle;    ///< (#twigs + 1) likewise
   std::vector<int> root;              ///< (#twigs) vertex of the lumen from whose vessel it comes
   std::vector<Eigen::Vector3d> beat;  ///< per vertex: displacement at end-systole beyond that of its root
   std::vector<double> diameter_m;     ///< (#twigs) where it begins
 
   std::size_t size() const { return root.size(); }
+  int vertices_of(std::size_t twig) const { return first[twig + 1] - first[twig]; }
+  int triangles_of(std::size_t twig) const { return first_triangle[twig + 1] - first_triangle[twig]; }
 };
 
 /// The seed is made from the heart's landmarks: one person, one tree.
 Twigs grow_twigs(const Patient& patient);
 
-/// Vertices at a phase and a depth of breath; `out`: (#vertices).
-void at(const Twigs& twigs, const MovingLumen& lumen, double phase, double breath, std::vector<Eigen::Vector3d>& out);
+/// Vertices of one twig at a phase and a depth of breath.
+void at(const Twigs& twigs, std::size_t twig, const MovingLumen& lumen, double phase, double breath,
+        std::vector<Eigen::Vector3d>& out);
 
 }  // namespace ostium::vascular

@@ -46,8 +46,9 @@ Film::Film(const SessionModel& model, const FilmOptions& options, const PatientS
   fluoro::require_rate(options.frames_per_s);
   if (model.has_patient())
     parts_->patient =
-        same ? std::make_unique<PatientScene>(*same, model.physiology)
-             : std::make_unique<PatientScene>(*model.vessel->patient, model.physiology, model.breaths_1_min > 0);
+        same && same->breathes() == (model.breaths_1_min > 0)
+            ? std::make_unique<PatientScene>(*same, model.physiology)
+            : std::make_unique<PatientScene>(*model.vessel->patient, model.physiology, model.breaths_1_min > 0);
   else if (model.vessel->patient)
     parts_->no_blood =
         std::make_unique<const XrayPatient>(model.vessel->patient, options.fill, model.breaths_1_min > 0);

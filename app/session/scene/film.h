@@ -36,8 +36,8 @@ inline constexpr int monitor_pixels = 144;  ///< height of the monitor's strips
 
 class Film {
  public:
-  /// `same`: the scene of the vessel's patient, if there is one already, which saves a second. Throws
-  /// std::invalid_argument for an impossible rate or pose.
+  /// `same`: the scene of the vessel's patient, if there is one already, which saves a second if it breathes or not as
+  /// the model does. Throws std::invalid_argument for an impossible rate or pose.
   Film(const SessionModel& model, const FilmOptions& options, const PatientScene* same = nullptr);
   ~Film();
   /// As if no picture had been taken yet: noise of that seed, no lag.

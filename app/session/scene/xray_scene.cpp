@@ -145,14 +145,14 @@ std::vector<fluoro::Shaft> shafts_of(const SessionModel& model, const SessionSta
 }
 
 XrayPatient::XrayPatient(std::shared_ptr<const vascular::Patient> patient, Fill which, bool breathes)
-    : patient_(std::move(patient)) {
+    : patient_(std::move(patient)), breathes_(breathes) {
   auto fixed = std::make_shared<std::vector<fluoro::Body>>();
   for (vascular::XrayBody& body : make_thorax(patient_->anatomy)) {
-    std::shared_ptr<const fluoro::Triangles> triangles = triangles_of(body.mesh.triangles);
     if (body.beat.empty() && !(breathes && !body.breath.empty())) {
-      fixed->push_back(body_of(body, triangles, body.mesh.vertices));
+      fixed->push_back(body_of(body));
     } else {
-      moving_triangles_.push_back(triangles);
+      moving_bodies_.push_back(body_of(body));
+      set_still(body, breathes, moving_bodies_.back());
       moving_.push_back(std::move(body));
     }
   }
@@ -208,16 +208,15 @@ void XrayPatient::fill(Fill which) {
     ++lid;
   }
   filled_.triangles = triangles_of(triangles);
-  twigs_ = grow_twigs(*patient_);
-  twig_filled_.resize(lumen.vertices());
-  for (int root : twigs_->root) twig_filled_[static_cast<std::size_t>(root)] = belongs(root);
+  twigs_.emplace(std::make_shared<const vascular::Twigs>(grow_twigs(*patient_)));
+  twigs_->fill([&](int root) { return belongs(root) ? iodine_kg_m3 : 0; });
 }
 
-fluoro::Scene XrayPatient::at(double phase, double breath) const {
-  fluoro::Scene scene{fixed_, {}, {}};
+fluoro::Scene XrayPatient::at(double phase, double breath_depth) const {
+  const double breath = breathes_ ? breath_depth : 0;
+  fluoro::Scene scene{fixed_, moving_bodies_, {}};
   for (std::size_t b = 0; b < moving_.size(); ++b)
-    scene.moving.push_back(body_of(moving_[b], moving_triangles_[b],
-                                   vascular::at(moving_[b], vascular::contraction(phase), breath).vertices));
+    move(moving_[b], vascular::contraction(phase), breath, scene.moving[b]);
   if (filled_.vertices.empty()) return scene;
   const vascular::Mesh lumen = patient_->lumen.at(phase, breath);
   std::vector<Vector3d> vertices;
@@ -237,12 +236,7 @@ fluoro::Scene XrayPatient::at(double phase, double breath) const {
   body.contrast.iodine_kg_m3 = Eigen::VectorXf::Constant(body.p_P.cols(), iodine_kg_m3);
   body.contrast.p_PC = body.p_P.col(0).replicate(1, body.p_P.cols());
   scene.moving.push_back(std::move(body));
-  fluoro::Body twigs = body_of(*twigs_);
-  app::fill(
-      *twigs_, [&](int root) { return twig_filled_[static_cast<std::size_t>(root)] ? iodine_kg_m3 : 0; }, twigs);
-  vascular::at(*twigs_, patient_->lumen, phase, breath, vertices);
-  place(*twigs_, vertices, twigs);
-  scene.moving.push_back(std::move(twigs));
+  if (!twigs_->empty()) scene.moving.push_back(twigs_->at(patient_->lumen, phase, breath));
   return scene;
 }
 

@@ -4,10 +4,10 @@
 #include <optional>
 #include <vector>
 
+#include "app/angiography/twig_body.h"
 #include "app/session/model/session.h"
 #include "fluoro/matter/scene.h"
 #include "vascular/thorax/thorax.h"
-#include "vascular/twigs/twigs.h"
 
 namespace ostium::app {
 
@@ -38,12 +38,12 @@ class XrayPatient {
   void fill(Fill which);
 
   std::shared_ptr<const vascular::Patient> patient_;
+  bool breathes_ = false;
   std::shared_ptr<const std::vector<fluoro::Body>> fixed_;
   std::vector<vascular::XrayBody> moving_;
-  std::vector<std::shared_ptr<const fluoro::Triangles>> moving_triangles_;
+  std::vector<fluoro::Body> moving_bodies_;  ///< at end-diastole
   Filled filled_;
-  std::optional<vascular::Twigs> twigs_;  ///< if filled
-  std::vector<bool> twig_filled_;         ///< by the lumen's vertex from which it comes
+  std::optional<TwigBody> twigs_;  ///< if filled
 };
 
 /// A case without a session: a scene for each cardiac phase.

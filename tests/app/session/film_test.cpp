@@ -64,6 +64,33 @@ TEST(Film, FollowsThePedalUnlessItIsOfOneMode) {
   EXPECT_EQ(mode_of(fluoro::Mode::cine, 0), fluoro::Mode::cine);
 }
 
+TEST(Film, OfAPatientIsTheSameWhateverIsDrawnOnce) {
+  // Frames of a beat with what rests drawn once, beside frames of the same scenes in which nothing rests.
+  const auto patient =
+      std::make_shared<const vascular::Patient>(vascular::make_patient(data::find_case("rca-mid-focal").anatomy, {}));
+  const XrayPatient xray(patient, Fill::right);
+  fluoro::Imager one({}, fluoro::make_scanline_renderer()), other({}, fluoro::make_scanline_renderer());
+  fluoro::ImagerState a, b;
+  fluoro::View view;
+  view.pixels = 256;
+  view.arm.lao_rad = 0.7;
+  view.arm.p_PI = heart_middle(*patient);
+  for (double phase : {0.0, 0.35, 0.6}) {
+    const fluoro::Scene scene = xray.at(phase);
+    EXPECT_NO_THROW(check(scene));
+    fluoro::Scene whole = scene;
+    long still = 0, all = 0;
+    for (fluoro::Body& body : whole.moving) still += body.still, all += body.triangles->cols(), body.still = 0;
+    EXPECT_GT(still, all / 10);
+    const fluoro::FrameReport report = one.frame({scene, view, {}, fluoro::cine(), 1}, a);
+    EXPECT_FALSE(report.leak) << report.leaking;
+    EXPECT_FALSE(other.frame({whole, view, {}, fluoro::cine(), 1}, b).leak);
+    EXPECT_EQ(report.exposure.tube, other.exposure({whole, view, {}, fluoro::cine(), 1}).tube);
+    // Sums of the same lengths in another order: micrometres of tissue at most, of which 20 um are a thousandth.
+    EXPECT_LT(((a.lag.shown - b.lag.shown).abs() / b.lag.shown.max(1.0f)).maxCoeff(), 1e-3f);
+  }
+}
+
 TEST(Filming, ShowsEachPictureToWhoeverWatchesAlsoWhereTheVideoCannotBeWritten) {
   ScriptedRun run(tube_setup(), tube_vessel());
   FilmOptions options;

@@ -130,13 +130,20 @@ TEST(Thorax, TwigsAreThinClosedAndMoveWithTheirVessel) {
     EXPECT_GT(d, 0.25e-3);
     EXPECT_LT(d, 1.61e-3);
   }
+  EXPECT_EQ(twigs.first_triangle.back(), static_cast<int>(twigs.mesh.triangles.size()));
   std::vector<Eigen::Vector3d> rest, systole;
-  at(twigs, patient.lumen, 0, 0, rest);
-  at(twigs, patient.lumen, 0.36, 0, systole);
   double most = 0;
-  for (std::size_t i = 0; i < rest.size(); ++i) {
-    EXPECT_LT((rest[i] - twigs.mesh.vertices[i]).norm(), 1e-6);
-    most = std::max(most, (systole[i] - rest[i]).norm());
+  for (std::size_t t = 0; t < twigs.size(); ++t) {
+    at(twigs, t, patient.lumen, 0, 0, rest);
+    at(twigs, t, patient.lumen, 0.36, 0, systole);
+    ASSERT_EQ(static_cast<int>(rest.size()), twigs.vertices_of(t));
+    for (std::size_t i = 0; i < rest.size(); ++i) {
+      EXPECT_LT((rest[i] - twigs.mesh.vertices[static_cast<std::size_t>(twigs.first[t]) + i]).norm(), 1e-6);
+      most = std::max(most, (systole[i] - rest[i]).norm());
+    }
+    for (int i = twigs.first_triangle[t]; i < twigs.first_triangle[t + 1]; ++i)
+      for (int v : twigs.mesh.triangles[static_cast<std::size_t>(i)])
+        EXPECT_TRUE(v >= twigs.first[t] && v < twigs.first[t + 1]);
   }
   EXPECT_GT(most, 5e-3);
   EXPECT_LT(most, 40e-3);
