@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "app/command_line/arguments.h"
 #include "app/command_line/command.h"
 #include "app/command_line/common_options.h"
@@ -9,6 +11,7 @@
 #include "app/command_line/progress.h"
 #include "app/command_line/read_vessel.h"
 #include "data/catalogue/case/tree_file.h"
+#include "vascular/anatomy/lumen/lumen_parts.h"
 #include "vascular/geometry/mesh/surface_check.h"
 #include "vascular/geometry/repair/double_wall.h"
 #include "vascular/geometry/repair/sheets.h"
@@ -35,6 +38,15 @@ void declare(Options& options, Arguments& a) {
       .required();
 }
 
+/// Between ends that somebody chose a line may be short.
+void require_long(const vascular::SphereTree& tree) {
+  double longest = 0, widest = 0;
+  for (const vascular::Course& course : courses_of(tree)) longest = std::max(longest, course.length_m());
+  for (const vascular::TreeBranch& branch : tree.branches)
+    for (const vascular::TreeSphere& sphere : branch.spheres) widest = std::max(widest, 2 * sphere.radius_m);
+  vascular::require_vessel(longest, widest);
+}
+
 int run(const Arguments& a) {
   const bool in_json = data::writes_tree_as_json(a.output);
   const MeshUnit found_unit = unit_of({a.mesh}, read_vessel(a.mesh, vascular::LengthUnit::metre, 0).mesh, a.unit);
@@ -53,6 +65,7 @@ int run(const Arguments& a) {
     throw vascular::MeshError(a.mesh +
                               ": has a double wall; expected the lumen, which `ostium import` takes out of it");
   const vascular::CentrelineResult found = find_centrelines(mesh, wanted);
+  if (wanted.ends.empty()) require_long(found.tree);
   data::write_tree(a.output, found.tree, unit);
   show_progress("");
   for (const vascular::Opening& opening : openings) {

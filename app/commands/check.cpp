@@ -9,6 +9,7 @@
 #include "app/command_line/read_vessel.h"
 #include "data/catalogue/case/mesh_picture.h"
 #include "data/formats/load_error.h"
+#include "vascular/anatomy/lumen/lumen_parts.h"
 #include "vascular/geometry/mesh/mesh.h"
 #include "vascular/geometry/mesh/patient_frame.h"
 #include "vascular/geometry/mesh/surface_check.h"
@@ -56,6 +57,7 @@ struct Checked {
   vascular::Roughness rough;
   double rounding_m = 0;          ///< between neighbouring numbers of the file
   std::vector<double> diameters;  ///< below which 2, 25, 50, 75, 98 % of the wall's area lies, m
+  std::string no_vessel;          ///< why a surface without fault is none
 };
 
 constexpr double shares[] = {0.02, 0.25, 0.5, 0.75, 0.98};
@@ -80,6 +82,15 @@ void measure_diameters(const vascular::Mesh& mesh, Checked& c) {
   for (double share : shares) c.diameters.push_back(vascular::percentile(all, areas, share));
 }
 
+/// As `import` asks it.
+void find_vessel(Checked& c) {
+  try {
+    lumen_parts(c.mesh.mesh, [](const std::string&) {});
+  } catch (const vascular::MeshError& error) {
+    c.no_vessel = error.what();
+  }
+}
+
 Checked look_at(const std::string& file, const Arguments& a) {
   Checked c;
   c.file = file;
@@ -98,11 +109,15 @@ Checked look_at(const std::string& file, const Arguments& a) {
   c.wall = find_double_wall(turned, sheets);
   c.rough = roughness(turned);
   measure_diameters(turned, c);
+  if (c.report.sound() && !c.wall.triangles) {
+    progress("looking for a vessel");
+    find_vessel(c);
+  }
   show_progress("");
   return c;
 }
 
-bool sound(const Checked& c) { return c.report.sound() && !c.wall.triangles; }
+bool sound(const Checked& c) { return c.report.sound() && !c.wall.triangles && c.no_vessel.empty(); }
 
 nlohmann::ordered_json openings_json(const std::vector<vascular::Opening>& openings) {
   nlohmann::ordered_json list = nlohmann::ordered_json::array();
@@ -149,6 +164,7 @@ nlohmann::ordered_json report_json(const Checked& c) {
             {"50 %", 1e3 * c.diameters[2]},
             {"75 %", 1e3 * c.diameters[3]},
             {"98 %", 1e3 * c.diameters[4]}}},
+          {"no_vessel", c.no_vessel.empty() ? nlohmann::ordered_json() : nlohmann::ordered_json(c.no_vessel)},
           {"sound", sound(c)}};
 }
 
@@ -197,7 +213,10 @@ void print_faults(const Checked& c) {
         c.wall.triangles, 1e3 * c.wall.thickness_m, p.x(), p.y(), p.z());
   }
   if (c.rough.noisy(c.diameters[2] / 2)) fmt::print("rough: vertices stand out by {:.2f} mm\n", 1e3 * c.rough.height_m);
-  if (!c.report.sound() || !c.wall.triangles) fmt::print("{}", describe(c.report));
+  if (!c.no_vessel.empty())
+    fmt::print("the surface has no fault, but {}\n", c.no_vessel);
+  else if (!c.report.sound() || !c.wall.triangles)
+    fmt::print("{}", describe(c.report));
 }
 
 void draw(const Checked& c, const std::string& picture) {

@@ -98,12 +98,12 @@ folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 printf 'v 0 0 0\nv 9 0 0\nv 0 9 0\nv 0 0 9\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n' >"$folder/whole.obj"
 printf 'v 0 0 0\nv 9 0 0\nv 0 9 0\nv 0 0 9\nf 1 3 2\nf 1 2 4\nf 2 3 4\n' >"$folder/open.obj"
-expect 0 "sound" "$ostium" check "$folder/whole.obj"
+expect 1 "no fault, but this is no vessel" "$ostium" check "$folder/whole.obj"
 expect 1 "3 open edges" "$ostium" check "$folder/open.obj"
 expect 1 '"sound": false' "$ostium" check --json --units cm "$folder/open.obj"
 expect 3 "is no file" "$ostium" check "$folder/none.obj"
-expect 0 '"unit": "cm"' "$ostium" check --json --units cm "$folder/whole.obj"
-expect 0 "sound" "$ostium" check "$folder/whole.obj" --picture "$folder/whole.svg"
+expect 1 '"no_vessel": "this is no vessel' "$ostium" check --json --units cm "$folder/whole.obj"
+expect 1 "no vessel" "$ostium" check "$folder/whole.obj" --picture "$folder/whole.svg"
 expect 3 "png and .svg are known" "$ostium" check "$folder/whole.obj" --picture "$folder/whole.bmp"
 sed 's/9/900000/g' "$folder/whole.obj" >"$folder/huge.obj"
 expect 3 "expected vessels" "$ostium" import "$folder/huge.obj" -o "$folder/case"
@@ -125,6 +125,10 @@ awk 'BEGIN { n = 24; r = 60; for (j = 0; j < r; ++j) for (i = 0; i < n; ++i)
     print "v", 1.5 * cos(6.2831853 * i / n), 1.5 * sin(6.2831853 * i / n), 40 * j / (r - 1)
   for (j = 0; j + 1 < r; ++j) for (i = 0; i < n; ++i) { a = 1 + j * n; b = (i + 1) % n
     print "f", a + i, a + b, a + n + b, a + n + i } }' >"$folder/vessel.obj"
+awk -v n=24 -v r=60 '{ print } END { for (i = 1; i < n - 1; ++i) { print "f", 1, 2 + i, 1 + i; a = 1 + (r - 1) * n; print "f", a, a + i, a + i + 1 } }' \
+  "$folder/vessel.obj" >"$folder/closed.obj"
+expect 0 '"sound": true' "$ostium" check --json --units mm "$folder/closed.obj"
+expect 0 "sound" "$ostium" check --units cm "$folder/closed.obj"
 for command in "import -o $folder/case" check "centreline -o $folder/tree.json"; do
   expect 3 "its numbers may be mm or cm" "$ostium" $command "$folder/vessel.obj"
 done
@@ -176,8 +180,9 @@ expect 3 "right-handed" "$ostium" import "$folder/whole.obj" --axes LPI -o "$fol
 expect 3 "FOUND=WANTED" "$ostium" import "$folder/whole.obj" --rename x -o "$folder/case"
 expect 3 "BRANCH:FROM" "$ostium" import "$folder/whole.obj" --lesion RCA -o "$folder/case"
 [[ ! -e $folder/case && ! -e $folder/case.unfinished ]] || { echo "a refused import left something"; exit 1; }
-expect 0 "branches" "$ostium" centreline "$folder/whole.obj" -o "$folder/tree.json"
-expect 0 "in the mesh's axes and in cm;" "$ostium" centreline "$folder/whole.obj" --units cm -o "$folder/tree.vtp"
+expect 3 "this is no vessel" "$ostium" centreline "$folder/whole.obj" -o "$folder/tree.json"
+expect 0 "1 branches.*in the mesh's axes and in mm" "$ostium" centreline --units mm "$folder/closed.obj" -o "$folder/tree.json"
+expect 0 "in the mesh's axes and in cm;" "$ostium" centreline "$folder/closed.obj" --units cm -o "$folder/tree.vtp"
 sed -E 's/^v ([^ ]*) ([^ ]*) (.*)/v \1e4 \2e4 \3e4/' "$folder/whole.obj" >"$folder/huge.obj"
 expect 3 "expected vessels" "$ostium" check --units mm "$folder/huge.obj"
 expect 3 "three numbers" "$ostium" centreline "$folder/whole.obj" --start 1,2 -o "$folder/tree.json"
@@ -237,6 +242,7 @@ soon "cannot be reached" replay "$out/run.h5" --lao 300 --png "$out/moment.png"
 soon "png is known" replay "$out/run.h5" --png "$out/moment.bmp"
 soon "mp4 is known" replay "$out/run.h5" --video "$out/moment.avi"
 soon "dcm is known" replay "$out/run.h5" --dicom "$out/moment.png"
+soon "LM or RCA" run rca-mid-focal --set begin=LAD2
 soon "there is no view" inject --view upwards -o "$out/inject.png"
 soon "has no place" run rca-mid-focal --film
 soon "has no place" run rca-mid-focal --report
@@ -261,6 +267,8 @@ export -f sweep
 expect 0 "4 runs" sweep -o "$out/one.csv" --jobs 1
 expect 0 "4 runs" sweep -o "$out/two.csv" --jobs 2
 cmp "$out/one.csv" "$out/two.csv"
+expect 3 "another ostium writes there" bash -c "sweep -o '$out/twice.csv' & p=\$!
+  trap 'kill -TERM \$p; wait \$p' EXIT; while ! grep -q . '$out/twice.csv.part'; do sleep 0.05; done 2>/dev/null; sweep -o '$out/twice.csv' --resume"
 sweep -o "$out/three.csv" & child=$!
 for _ in $(seq 100); do
   if [[ -e $out/three.csv.part ]] && (($(wc -l <"$out/three.csv.part") > 2)); then break; fi

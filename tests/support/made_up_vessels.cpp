@@ -200,6 +200,29 @@ std::vector<Tube> iliac(Dice& dice) {
   return g.tubes;
 }
 
+/// As wide as an aorta and bent like an arch: a leg, an arc, another leg.
+std::vector<Tube> wide_bent(Dice& dice, int branches) {
+  const double radius = dice.uniform(25, 60), arc = dice.uniform(1.8, 3.6), step = 8;
+  const double legs[] = {dice.uniform(20, 90), dice.uniform(20, 300)};
+  const double from = dice.uniform(16, 32), to = from * dice.uniform(0.6, 1);
+  const double length = legs[0] + arc * radius + legs[1];
+  Eigen::Vector3d p = Eigen::Vector3d::Zero(), along = Eigen::Vector3d::UnitY();
+  const double twist = dice.uniform(-0.3, 0.3);  // of the second leg's plane, rad
+  std::vector<vascular::CoursePoint> course;
+  for (double s = 0; s <= length; s += step) {
+    course.push_back({p, (from + (to - from) * s / length) / 2 * mm});
+    if (s > legs[0] && s < legs[0] + arc * radius)
+      along = Eigen::AngleAxisd(step / radius, Eigen::Vector3d(std::sin(twist), 0, std::cos(twist))) * along;
+    p += step * mm * (along + 0.03 * dice.normals()).normalized();
+  }
+  Growth g(dice);
+  g.tubes.push_back(make_tube("", -1, course));
+  for (int i = 0; i < branches; ++i)
+    g.branch(0, dice.uniform(0.1, 0.9), dice.uniform(0.6, 1.4),
+             {dice.uniform(30, 90), dice.uniform(4, 11), dice.uniform(3, 9), 0, 0.1});
+  return g.tubes;
+}
+
 MadeUpVessels straight(const std::string& kind, Dice& dice) {
   if (kind == "coronary arteries") return {trees_of(person_of(dice), {"LM", "RCA"}), true, false};
   if (kind == "left coronary artery") return {trees_of(person_of(dice), {"LM"}), true, false};
@@ -214,6 +237,8 @@ MadeUpVessels straight(const std::string& kind, Dice& dice) {
     return made;
   }
   if (kind == "tube") return {tube(dice), false, false};
+  if (kind == "wide bent tube") return {wide_bent(dice, 0), false, false};
+  if (kind == "wide bent vessel") return {wide_bent(dice, dice.whole(1, 4)), false, false};
   if (kind == "wandering vessel") return {wandering(dice), false, false};
   if (kind == "carotid arteries") return {carotid(dice), false, false};
   if (kind == "cerebral arteries") return {cerebral(dice), false, false};
@@ -225,11 +250,21 @@ MadeUpVessels straight(const std::string& kind, Dice& dice) {
 }  // namespace
 
 const std::vector<std::string>& made_up_kinds() {
-  static const std::vector<std::string> kinds = {
-      "coronary arteries",     "left coronary artery",     "aorta and coronary arteries", "aorta",
-      "right coronary artery", "distal coronary arteries", "mirrored coronary arteries",  "tube",
-      "wandering vessel",      "carotid arteries",         "cerebral arteries",           "renal arteries",
-      "iliac arteries"};
+  static const std::vector<std::string> kinds = {"coronary arteries",
+                                                 "left coronary artery",
+                                                 "aorta and coronary arteries",
+                                                 "aorta",
+                                                 "right coronary artery",
+                                                 "distal coronary arteries",
+                                                 "mirrored coronary arteries",
+                                                 "tube",
+                                                 "wide bent tube",
+                                                 "wide bent vessel",
+                                                 "wandering vessel",
+                                                 "carotid arteries",
+                                                 "cerebral arteries",
+                                                 "renal arteries",
+                                                 "iliac arteries"};
   return kinds;
 }
 

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "vascular/flow/coronary_roots.h"
+
 namespace ostium::vascular {
 
 namespace {
@@ -108,7 +110,7 @@ FlowTree flow_tree_of(const Patient& patient) {
   for (std::size_t t = 0; t < spheres.branches.size(); ++t) {
     const TreeBranch& from = spheres.branches[t];
     const NamedBranch& named = anatomy.branches[t];
-    const bool root = from.name == "LM" || from.name == "RCA";
+    const bool root = is_coronary_root(from.name);
     if (!root && (from.parent < 0 || flow_branch[from.parent] < 0)) continue;
     FlowBranch b{.name = from.name,
                  .first = static_cast<int>(tree.cells.size()),

@@ -92,6 +92,7 @@ SweepJournal::SweepJournal(const std::string& file, const JournalHead& head, boo
   const std::string first = to_line(head);
   std::string kept = first + "\n";
   if (fs::exists(file)) {
+    lock_.emplace(file);
     if (!resume)
       throw data::LoadError(
           fmt::format("{} is of a sweep that was not finished; --resume goes on with it, or remove it", file));
@@ -105,6 +106,7 @@ SweepJournal::SweepJournal(const std::string& file, const JournalHead& head, boo
   data::write_file(file, kept);  // without what was cut off
   out_.open(file, std::ios::app | std::ios::binary);
   if (!out_) throw data::write_error(file);
+  lock_.emplace(file);  // of the file that is there now
 }
 
 void SweepJournal::add(std::size_t run, const std::string& line) {

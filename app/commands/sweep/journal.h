@@ -3,7 +3,9 @@
 /// of which sweep it is.
 #include <fstream>
 #include <map>
+#include <optional>
 
+#include "app/command_line/folder_lock.h"
 #include "app/commands/sweep/part.h"
 #include "app/commands/sweep/plan.h"
 
@@ -30,7 +32,8 @@ StoredJournal read_journal(const std::string& file);
 
 class SweepJournal {
  public:
-  /// Throws LoadError if the file is of another sweep, or of this one without `resume`; WriteError.
+  /// Throws LoadError if the file is of another sweep, of this one without `resume`, or written by another program;
+  /// WriteError.
   SweepJournal(const std::string& file, const JournalHead& head, bool resume);
   bool has(std::size_t run) const { return lines_.count(run) > 0; }
   /// Throws WriteError.
@@ -42,6 +45,7 @@ class SweepJournal {
  private:
   std::string file_;
   std::ofstream out_;
+  std::optional<FolderLock> lock_;
   std::map<std::size_t, std::string> lines_;
 };
 

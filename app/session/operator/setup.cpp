@@ -16,6 +16,7 @@
 #include "data/catalogue/instrument/instrument_reader.h"
 #include "data/formats/decimal.h"
 #include "data/formats/load_error.h"
+#include "vascular/flow/coronary_roots.h"
 #include "vascular/geometry/mesh_files/formats.h"
 
 namespace ostium::app {
@@ -126,6 +127,16 @@ double number(const std::string& key, const std::string& text, double least, dou
   return *value;
 }
 
+/// Before anything is built.
+void require_root(const std::string& artery, const RunSetup& setup) {
+  std::vector<std::string> known;
+  if (!setup.is_mesh()) known = coronary_roots(anatomy_of(data::read_case(setup.vessel + ".json", setup.case_text)));
+  if (std::ranges::find(known, artery) != known.end()) return;
+  const std::string expected = known.empty() ? "this vessel has none" : fmt::format("{}", fmt::join(known, " or "));
+  throw data::LoadError(
+      fmt::format("begin is \"{}\"; expected a coronary artery that leaves the aorta: {}", artery, expected));
+}
+
 }  // namespace
 
 void set_value(const std::string& key, const std::string& value, RunSetup& setup) {
@@ -156,6 +167,7 @@ void set_value(const std::string& key, const std::string& value, RunSetup& setup
   } else if (key == "friction") {
     setup.friction = number(key, value, 0, 1, "the wall's coefficient of friction, 0 to 1");
   } else if (key == "begin") {
+    require_root(value, setup);
     setup.begin = value;
   } else if (key == "stuck") {
     const auto named = [&](const data::ScriptTool& tool) { return tool.name == value; };

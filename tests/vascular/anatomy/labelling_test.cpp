@@ -41,11 +41,21 @@ TEST(Labelling, ASingleArteryIsAVesselAndStill) {
 
 /// Its widest place may be found two radii before a lid.
 TEST(Labelling, ASingleArteryIsStoredFromLidToLid) {
-  for (const auto& [length, diameter] : {std::pair{0.05, 0.0065}, {0.05, 0.006}, {0.1, 0.012}}) {
+  for (const auto& [length, diameter] : {std::pair{0.05, 0.0065}, {0.05, 0.006}, {0.1, 0.012}, {0.03, 0.003}}) {
     const LabelledVessels found = label_vessels(mesh_of(test::BentTube{length, diameter, 0.1}));
     ASSERT_EQ(found.anatomy.branches.size(), 1U);
     EXPECT_NEAR(found.anatomy.branches[0].length_m(), length, 0.01 * length) << length << " " << diameter;
   }
+}
+
+/// An aorta's width and bend are no aorta; nor is it cut where one would have begun.
+TEST(Labelling, ATubeAsWideAndBentAsAnAortaIsAVessel) {
+  const test::BentTube tube{0.2, 0.025, 0.06};
+  const Mesh mesh = mesh_of(tube);
+  const LabelledVessels found = label_vessels(mesh);
+  expect_as_it_was(found, found.lumen);
+  ASSERT_EQ(found.anatomy.branches.size(), 1U);
+  EXPECT_NEAR(found.anatomy.branches[0].length_m(), tube.length, 0.01 * tube.length);
 }
 
 TEST(Labelling, AHeartIsOneIfSomebodySaysSo) {

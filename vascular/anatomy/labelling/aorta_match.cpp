@@ -14,6 +14,9 @@ namespace {
 using units::mm;
 constexpr double aorta_radius_m = 7e-3;  // lower limit for an aorta
 constexpr double unlike_any = 1e9;       // m: no fit is possible
+constexpr double least_branch_m = 10 * mm, one_origin_m = 4 * mm;
+// A branch of an arch leaves this near to where the mean one's would, at the mean's size, and about as it does.
+constexpr double arch_reach_m = 25 * mm, arch_cosine = 0.5;
 
 /// Distance of a course from the mean aorta, m; `fit` receives the transform of the mean aorta.
 double unlike_aorta(const MeanCourses& mean, const Course& course, Similarity& fit) {
@@ -104,6 +107,25 @@ void begin_at_root(const MeanCourses& mean, const Progress& say, LumenPart& part
   }
 }
 
+/// Whether the branches of an arch leave a course that `fit` lays the mean aorta along.
+bool has_arch(const MeanCourses& mean, const LumenPart& part, const AortaMatch& match) {
+  std::vector<Eigen::Vector3d> origins;
+  for (const Course& course : part.courses) {
+    const Course rest = beyond(course, match.course);
+    if (rest.spheres.size() < 2 || rest.length_m() < least_branch_m) continue;
+    const Eigen::Vector3d from = rest.spheres.front().p;
+    const Eigen::Vector3d along = (rest.points(0, 2 * least_branch_m, 2 * least_branch_m).back() - from).normalized();
+    const bool like = std::ranges::any_of(mean.arch, [&](const MeanCourses::Leaving& theirs) {
+      return (from - match.fit * theirs.p).norm() < arch_reach_m * match.fit.scale &&
+             along.dot(match.fit.R * theirs.direction) > arch_cosine;
+    });
+    const bool there = std::ranges::any_of(
+        origins, [&](const Eigen::Vector3d& other) { return (other - from).norm() < one_origin_m; });
+    if (like && !there) origins.push_back(from);
+  }
+  return std::ssize(origins) >= least_arch_branches;
+}
+
 }  // namespace
 
 std::optional<AortaMatch> match_aorta(LumenPart& part, const MeanCourses& mean, const Progress& say) {
@@ -128,7 +150,7 @@ std::optional<AortaMatch> match_aorta(LumenPart& part, const MeanCourses& mean, 
   if (farthest == 0 || best >= unlike_any) return std::nullopt;
   match.course = part.courses[chosen];
   match.doubt = aorta_doubt(match.fit, match.course.length_m());
-  if (match.doubt < 1) part.roles.push_back({match.course.spheres.back().p, "aorta"});
+  match.arch = has_arch(mean, part, match);
   return match;
 }
 

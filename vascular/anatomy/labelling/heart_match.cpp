@@ -129,7 +129,7 @@ double doubt_of(const HeartFit& best, const HeartTrunks& known) {
       heart_doubt(fit, {.left = left,
                         .circumflex = left && best.circumflex && whole(known.mean.lcx, best.left, best.lcx),
                         .right = best.right >= 0 && whole(known.mean.rca, best.right, best.rca),
-                        .aorta = known.aorta != nullptr});
+                        .aorta = known.aorta && known.aorta->arch});
   return std::max(doubt, best.score / worst_score_m);
 }
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 
 #include "core/base/units.h"
 #include "vascular/anatomy/labelling/branch_names.h"
@@ -42,11 +43,15 @@ Eigen::Matrix3d settled_axes(const LabellingOptions& options, const Similarity* 
   return R;
 }
 
-/// Recomputes the tree with its ends in order of importance: the first ones become the main branches.
+/// Recomputes the tree with its ends in order of importance: the first ones become the main branches. A part in which
+/// nothing was recognised goes from lid to lid, wherever its aorta or artery was thought to begin.
 void find_tree_anew(LumenPart& part) {
-  CentrelineOptions wanted;
-  wanted.to_lids = part.roles.empty();            // an aorta's valve and an artery's bed are not where a lid was put
-  if (!wanted.to_lids) wanted.start = part.root;  // else the widest end, once more, which has a lid of its own
+  if (part.roles.empty()) {
+    part.tree = find_centrelines(part.mesh).tree;
+    return;
+  }
+  // An aorta's valve and an artery's bed are not where a lid was put.
+  CentrelineOptions wanted{.start = part.root, .ends = {}, .to_lids = false};
   for (const LumenPart::Role& role : part.roles) wanted.ends.push_back(role.end);
   std::vector<const Course*> rest;
   for (const Course& course : part.courses) rest.push_back(&course);
@@ -98,10 +103,22 @@ LabelledVessels label_vessels(const Mesh& lumen, const LabellingOptions& options
     if (out.aorta_doubt >= 1) aorta.reset();
     const bool assumed = options.heart == HeartSearch::assumed;
     heart = match_heart(parts, aorta ? &*aorta : nullptr, mean, assumed, out.notes);
-    if (assumed && !heart)
+    if (aorta && !aorta->arch && !assumed && !(heart && heart->doubt < 1)) {
+      out.notes.push_back(
+          "the widest vessel is bent like an aorta, but no branches leave it as an arch's and coronary arteries do: it "
+          "is not named one; --motion coronary takes it for one all the same");
+      out.aorta_doubt = std::numeric_limits<double>::infinity();
+      aorta.reset();
+      heart = match_heart(parts, nullptr, mean, assumed, out.notes);
+    }
+    if (assumed && !heart && !aorta)
       throw MeshError(
-          "nothing in it can be a coronary artery, at least 25 mm long and less than 7 mm wide; expected one, or that "
-          "none is assumed");
+          "nothing in it can be a coronary artery, at least 25 mm long and less than 7 mm wide, or is bent like an "
+          "aorta; expected one of them, or that none is assumed");
+    if (aorta) {
+      std::vector<LumenPart::Role>& roles = parts.front().roles;
+      roles.insert(roles.begin(), {aorta->course.spheres.back().p, "aorta"});
+    }
     if (heart) out.heart_doubt = heart->doubt;
     if (out.heart_doubt >= 1 && !assumed) heart.reset();
   }

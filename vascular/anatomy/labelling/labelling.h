@@ -14,7 +14,7 @@
 namespace ostium::vascular {
 
 /// Whether aorta and coronary arteries are looked for, and found where they are like ours, or coronary arteries
-/// whatever is most like them.
+/// whatever is most like them, and an aorta without any branch of one.
 enum class HeartSearch { none, recognised, assumed };
 
 struct LabellingOptions {
@@ -41,7 +41,7 @@ struct LabelledVessels {
 
 /// `lumen`: closed, in the file's axes. Throws MeshError if it contains no vessel (its longest path is shorter than six
 /// times its width), if a name to be changed does not exist, or if coronary arteries are assumed and no vessel can be
-/// one.
+/// one, or an aorta.
 LabelledVessels label_vessels(const Mesh& lumen, const LabellingOptions& options = {});
 
 }  // namespace ostium::vascular

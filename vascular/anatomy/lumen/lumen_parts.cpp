@@ -17,6 +17,14 @@ constexpr double vessel_shape = 6;  // a vessel is longer than this many of its 
 
 }  // namespace
 
+void require_vessel(double longest_m, double widest_m) {
+  if (longest_m <= 0 || longest_m < vessel_shape * widest_m)
+    throw MeshError(fmt::format(
+        "this is no vessel: the longest way through it is {:.3g} mm, its widest place {:.3g} mm; expected a way at "
+        "least {:.0f} times as long as wide",
+        longest_m / mm, widest_m / mm, vessel_shape));
+}
+
 std::vector<LumenPart> lumen_parts(const Mesh& lumen, const Progress& say) {
   std::vector<LumenPart> parts;
   double longest = 0, widest = 0;
@@ -33,11 +41,7 @@ std::vector<LumenPart> lumen_parts(const Mesh& lumen, const Progress& say) {
     widest = std::max(widest, part.widest_m);
     parts.push_back(std::move(part));
   }
-  if (parts.empty() || longest < vessel_shape * 2 * widest)
-    throw MeshError(fmt::format(
-        "this is no vessel: the longest way through it is {:.0f} mm, its widest place {:.0f} mm; expected a way at "
-        "least {:.0f} times as long as wide",
-        longest / mm, 2 * widest / mm, vessel_shape));
+  require_vessel(longest, 2 * widest);
   std::stable_sort(parts.begin(), parts.end(),
                    [](const LumenPart& a, const LumenPart& b) { return a.widest_m > b.widest_m; });
   return parts;

@@ -24,6 +24,9 @@ struct LumenPart {
   std::vector<Role> roles;  ///< identified ends, most important first
 };
 
+/// Throws MeshError if the longest way through a lumen is not several times as long as its widest place, a diameter.
+void require_vessel(double longest_m, double widest_m);
+
 /// Widest first. Throws MeshError if none contains a vessel.
 std::vector<LumenPart> lumen_parts(const Mesh& lumen, const Progress& say);
 

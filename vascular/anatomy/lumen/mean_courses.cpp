@@ -1,8 +1,12 @@
 #include "vascular/anatomy/lumen/mean_courses.h"
 
+#include "core/base/units.h"
+
 namespace ostium::vascular {
 
 namespace {
+
+using units::mm;
 
 Course part_of(const Tube& tube, double from_m, double to_m) {
   Course course;
@@ -11,10 +15,17 @@ Course part_of(const Tube& tube, double from_m, double to_m) {
   return course;
 }
 
+/// Of a tube that leaves the aorta.
+MeanCourses::Leaving leaving(const Tube& tube, const Course& aorta) {
+  const Course rest = beyond(part_of(tube, 0, tube.length_m()), aorta);
+  const std::vector<Eigen::Vector3d> ends = rest.points(0, 20 * mm, 20 * mm);
+  return {ends.front(), (ends.back() - ends.front()).normalized()};
+}
+
 }  // namespace
 
 MeanCourses mean_courses() {
-  MeanCourses mean{.anatomy = build_anatomy({}), .aorta = {}, .lad = {}, .lcx = {}, .rca = {}};
+  MeanCourses mean{.anatomy = build_anatomy({}), .aorta = {}, .lad = {}, .lcx = {}, .rca = {}, .arch = {}};
   const Anatomy& a = mean.anatomy;
   mean.aorta = part_of(a.tubes[0], 0, a.tubes[0].length_m());
   const NamedBranch &lm = *find_branch(a, "LM"), &lcx = *find_branch(a, "LCx"), &rca = *find_branch(a, "RCA");
@@ -27,6 +38,9 @@ MeanCourses mean_courses() {
     const double step = (sphere.p - last.p).norm();
     if (step > 0) mean.lcx.spheres.push_back({sphere.p, sphere.radius_m, last.s_m + step});
   }
+  for (const Tube& tube : a.tubes)
+    if (tube.name == "right subclavian" || tube.name == "left carotid" || tube.name == "left subclavian")
+      mean.arch.push_back(leaving(tube, mean.aorta));
   return mean;
 }
 

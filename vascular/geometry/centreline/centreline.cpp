@@ -59,7 +59,10 @@ struct Strand {
 class Skeleton {
  public:
   Skeleton(const Voxels& voxels, int root)
-      : voxels_(voxels), paths_(cheapest_paths(voxels, root)), owner_(voxels.count(), -1), near_(voxels.count()) {}
+      : voxels_(voxels),
+        paths_(cheapest_paths(voxels, root)),
+        owner_(voxels.count(), -1),
+        reserve_m_(voxels.count(), -1) {}
 
   bool reaches(int voxel) const { return paths_.length_m[voxel] < unreached; }
 
@@ -78,7 +81,7 @@ class Skeleton {
     // Not from every voxel: neighbours cover much the same.
     int last = -1;
     for (int s : strand.voxels) {
-      near_[s] = true;
+      reserve_m_[s] = std::max(reserve_m_[s], 0.0F);
       if (last >= 0 && s != strand.voxels.back() &&
           (voxels_.place(s) - voxels_.place(last)).norm() < voxels_.to_wall_m(s) / 3)
         continue;
@@ -95,7 +98,7 @@ class Skeleton {
     std::sort(by_length.begin(), by_length.end(),
               [&](int a, int b) { return paths_.length_m[a] > paths_.length_m[b]; });
     for (int v : by_length)
-      if (!near_[v] && stands_out(v)) add(v);
+      if (reserve_m_[v] < 0 && stands_out(v)) add(v);
   }
 
   const std::vector<Strand>& strands() const { return strands_; }
@@ -110,19 +113,19 @@ class Skeleton {
     return length > 2 * voxels_.to_wall_m(v) + 4 * voxels_.size_m();
   }
 
+  /// Spreads from a voxel as far as its sphere reaches, and not where another's reaches farther beyond.
   void come_near(int from) {
     const double radius = reach * voxels_.to_wall_m(from) + 2 * voxels_.size_m();
+    if (radius <= reserve_m_[from]) return;
+    reserve_m_[from] = static_cast<float>(radius);
     std::vector<int> open = {from};
-    ++round_;
-    if (seen_.empty()) seen_.assign(near_.size(), 0);
-    seen_[from] = round_;
     while (!open.empty()) {
       const int v = open.back();
       open.pop_back();
-      near_[v] = true;
       voxels_.neighbours(v, [&](int next, double) {
-        if (seen_[next] == round_ || (voxels_.place(next) - voxels_.place(from)).norm() > radius) return;
-        seen_[next] = round_;
+        const float left = static_cast<float>(radius - (voxels_.place(next) - voxels_.place(from)).norm());
+        if (left < 0 || left <= reserve_m_[next]) return;
+        reserve_m_[next] = left;
         open.push_back(next);
       });
     }
@@ -131,9 +134,7 @@ class Skeleton {
   const Voxels& voxels_;
   Paths paths_;
   std::vector<int> owner_;
-  std::vector<bool> near_;
-  std::vector<int> seen_;
-  int round_ = 0;
+  std::vector<float> reserve_m_;  ///< how much farther than to a voxel a path's sphere reaches; below 0: none does
   std::vector<Strand> strands_;
 };
 
