@@ -46,11 +46,12 @@ struct Server::Parts {
 
   void accept() {
     acceptor.async_accept([this](beast::error_code error, tcp::socket socket) {
-      if (error == asio::error::operation_aborted) return;
+      // Closed: perhaps after this one had come in, and then without an error here.
+      if (error == asio::error::operation_aborted || !acceptor.is_open()) return;
       if (error) {  // out of descriptors, say: not at once again
         retry.expires_after(std::chrono::milliseconds(100));
         retry.async_wait([this](beast::error_code stopped) {
-          if (!stopped) accept();
+          if (!stopped && acceptor.is_open()) accept();
         });
         return;
       }

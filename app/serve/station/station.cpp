@@ -153,7 +153,9 @@ void Station::tell_scores() {
     events = events_;
   }
   const auto scores = score(setting_.scoring, record_of_events(events, run_.model.step_s()), {});
-  server_->send(Channel::all, {scores_message(setting_.scoring, scores), false});
+  std::string message = scores_message(setting_.scoring, scores);
+  const std::lock_guard lock(mutex_);  // the final ones may have been told meanwhile, and are the last
+  if (!has_ended_) server_->send(Channel::all, {std::move(message), false});
 }
 
 Wish Station::wish() {
@@ -197,11 +199,9 @@ void Station::ended(const PlayReport& report, const std::vector<data::Score>& sc
   const std::string end =
       Json({{"type", "ended"}, {"outcome", report.outcome}, {"reason", report.reason}, {"metrics", metrics}}).dump();
   const std::string last = scores_message(setting_.scoring, scores);
-  {
-    const std::lock_guard lock(mutex_);
-    has_ended_ = true;
-    end_ = end, final_scores_ = last;
-  }
+  const std::lock_guard lock(mutex_);
+  has_ended_ = true;
+  end_ = end, final_scores_ = last;
   server_->send(Channel::all, {end, false});
   server_->send(Channel::all, {last, false});
 }

@@ -35,7 +35,7 @@ struct BoxDriverSettings {
 /// shafts the shaft.
 std::vector<device::Tool> tools_at_the_box(const SessionModel& model);
 
-/// The how-manieth of its kind each is, and how many there are.
+/// Place of each among those of its kind, counted from 0, and how many there are.
 struct ToolTurn {
   std::uint32_t place = 0, count = 1;
 };
