@@ -267,8 +267,12 @@ export -f sweep
 expect 0 "4 runs" sweep -o "$out/one.csv" --jobs 1
 expect 0 "4 runs" sweep -o "$out/two.csv" --jobs 2
 cmp "$out/one.csv" "$out/two.csv"
-expect 3 "another ostium writes there" bash -c "sweep -o '$out/twice.csv' & p=\$!
-  trap 'kill -TERM \$p; wait \$p' EXIT; while ! grep -q . '$out/twice.csv.part'; do sleep 0.05; done 2>/dev/null; sweep -o '$out/twice.csv' --resume"
+# Two into one table: the first goes on for minutes, and is ended here.
+"$ostium" sweep rca-mid-focal --script iliac-wire --seeds 1..400 -o "$out/twice.csv" & child=$!
+for _ in $(seq 600); do [[ ! -s $out/twice.csv.part ]] || break; sleep 0.1; done
+expect 3 "another ostium writes there" sweep -o "$out/twice.csv" --resume
+kill -TERM "$child"
+wait "$child" || true
 sweep -o "$out/three.csv" & child=$!
 for _ in $(seq 100); do
   if [[ -e $out/three.csv.part ]] && (($(wc -l <"$out/three.csv.part") > 2)); then break; fi

@@ -11,7 +11,7 @@ import sys
 
 from browser import CLOCK, Browser, programs, text
 
-PAGE = """<body style="margin: 0; background: #05070a; color: #c8d0d8; font: 22px 'DejaVu Sans'; display: flex; gap: 16px">
+PAGE = """<body style="margin: 0; background: #05070a; color: #c8d0d8; font: 22px 'DejaVu Sans'; display: flex; gap: 16px; overflow: hidden">
   <figure style="margin: 0"><img src="window.png" height="700"><figcaption>&nbsp;The trainee's window</figcaption></figure>
   <figure style="margin: 0"><img src="page.png" height="700"><figcaption>&nbsp;The trainer's page</figcaption></figure>"""
 
@@ -38,7 +38,7 @@ def main(ostium, name):
         page.click("tab-events")
         page.wait("the film", text("events") + ".includes('injection begins')", 300)
         begun = page.run("return " + CLOCK)
-        page.wait("contrast in the artery", f"{CLOCK} >= {begun} + 2", 100)
+        page.wait("contrast in the artery", f"{CLOCK} >= {begun} + 4", 100)
         page.click("pause")
         page.wait("time stands", text("state") + ".startsWith('Paused')")
         page.picture(folder / "page.png")
@@ -47,7 +47,7 @@ def main(ostium, name):
         run.wait(60)
         (folder / "both.html").write_text(PAGE)
         page.close()
-        page = Browser(2600, 900)
+        page = Browser(2720, 890)
         page.open((folder / "both.html").as_uri())
         page.wait("both", "[...document.images].every((one) => one.complete && one.naturalWidth > 0)")
         page.picture(folder / "two-seats.png")
