@@ -173,6 +173,7 @@ struct FilmedFrames {
   fluoro::FrameReport report;
   std::vector<fluoro::Picture> kept;  ///< for DICOM
   long most_leaking = 0;              ///< pixels of a frame in which a surface is open; a few cannot be seen
+  std::string leaking;                ///< names of the bodies that leaked first
 };
 
 FilmedFrames film(const Arguments& a, const Scenes& scenes, const fluoro::FluoroscopeInput& in, fluoro::Scene& scene,
@@ -187,12 +188,14 @@ FilmedFrames film(const Arguments& a, const Scenes& scenes, const fluoro::Fluoro
   for (int i = 0; i < frames && !interrupted; ++i) {
     if (moves) scene = scenes(i);
     out.report = tick(imager, in, out.state, scratch).frame;
+    if (out.report.leak && out.leaking.empty())
+      out.leaking = imager.leaking({scene, in.view, in.collimator, a.programme(), in.seed});
     if (const auto& leak = out.report.leak;
         leak && static_cast<double>(leak.pixels) > spoiled_share * a.pixels * a.pixels)
       throw data::LoadError(
           fmt::format("X-ray scene: {} of {} pixels leak (worst {:.2f} mm): {}; mend that mesh "
                       "(ostium check), or import it again",
-                      leak.pixels, a.pixels * a.pixels, 1e3 * double(leak.worst_m), out.report.leaking));
+                      leak.pixels, a.pixels * a.pixels, 1e3 * double(leak.worst_m), out.leaking));
     out.most_leaking = std::max(out.most_leaking, out.report.leak.pixels);
     if (writer) writer->add(shown(a, in, out.state, out.report));
     if (a.dicom() && (a.frames || i + 1 == frames)) out.kept.push_back(out.state.live);
@@ -231,8 +234,7 @@ int run(const Arguments& a) {
   print_numbers(a, in, filmed.state, filmed.report);
   if (filmed.most_leaking > 0)
     fmt::print(stderr, "ostium frame: {} of {} pixels lie where a surface is open ({}); they are too few to be seen\n",
-               filmed.most_leaking, a.pixels * a.pixels,
-               filmed.report.leaking.empty() ? "a body" : filmed.report.leaking);
+               filmed.most_leaking, a.pixels * a.pixels, filmed.leaking);
   return 0;
 }
 

@@ -28,10 +28,7 @@ FrameReport Imager::frame(const FrameInput& in, ImagerState& state) {
   draw(in);
   shafts_.draw(in.view, beam, in.scene.shafts);
   attenuate(beam, stretch_, lengths_, shafts_, primary_);
-  if (primary_.leaks) {
-    report.leak = find_leak(lengths_);
-    report.leaking = name_leaks(in);
-  }
+  if (primary_.leaks) report.leak = find_leak(lengths_);
   collimate(in);
   if (shuttered_) {
     primary_.signal_keV *= exposed_;
@@ -104,8 +101,7 @@ void Imager::collimate(const FrameInput& in) {
   gaussian_blur(exposed_, model_.shutter_blur_m / in.view.field_m * pixels, Beyond::same, scratch_);
 }
 
-/// Slow: draws each body separately.
-std::string Imager::name_leaks(const FrameInput& in) {
+std::string Imager::leaking(const FrameInput& in) {
   std::string names;
   const auto look = [&](const Body& body) {
     PathLengths alone(in.view.pixels);

@@ -36,8 +36,7 @@ struct ImagerState {
 
 struct FrameReport {
   Exposure exposure;
-  Leak leak;            ///< a surface that is open or badly placed
-  std::string leaking;  ///< names of the bodies that leak, if any
+  Leak leak;  ///< a surface that is open or badly placed
 };
 
 class Imager {
@@ -52,6 +51,9 @@ class Imager {
   /// Only dose and automatic brightness, from a coarse estimate, without a picture.
   Exposure exposure(const FrameInput& in);
 
+  /// Names of the bodies that leak in a frame. Slow: draws each of them alone.
+  std::string leaking(const FrameInput& in);
+
   const Plane& exposed() const { return exposed_; }  ///< exposed area of the last frame, 0 to 1
   /// Path lengths of the last frame, for measurements.
   const PathLengths& lengths() const { return lengths_; }
@@ -60,7 +62,6 @@ class Imager {
  private:
   void draw(const FrameInput& in);
   void collimate(const FrameInput& in);
-  std::string name_leaks(const FrameInput& in);
 
   ImagerModel model_;
   std::unique_ptr<PathLengthRenderer> renderer_, coarse_renderer_;

@@ -150,13 +150,6 @@ void add_ribs(std::vector<XrayBody>& bodies) {
     for (double side : {-1.0, 1.0}) {
       std::vector<Eigen::Vector3d> line;
       std::vector<Eigen::Vector2d> half, inside;
-      // The head at the disc above its vertebra, and the neck, which runs back to the transverse process.
-      for (const auto& [x, above, behind] : {std::array{19.0, 4.0, 9.0}, std::array{27.0, 2.5, 19.0}}) {
-        const double y = y0 + above, tall = 3.8;
-        line.push_back(middle_x * Eigen::Vector3d::UnitX() + at_mm(side * x, y, spine_z_mm(y) - behind));
-        half.push_back(Eigen::Vector2d(tall, 0.7 * tall) * mm);
-        inside.push_back(half.back().array() - 0.45 * mm);
-      }
       for (int i = 0; i <= 48; ++i) {
         // Horizontal behind, steep at the side, flatter in front.
         const double t = i / 48.0, theta = (14 + (last_deg - 14) * t) * degree,

@@ -83,7 +83,7 @@ TEST(Film, OfAPatientIsTheSameWhateverIsDrawnOnce) {
     for (fluoro::Body& body : whole.moving) still += body.still, all += body.triangles->cols(), body.still = 0;
     EXPECT_GT(still, all / 10);
     const fluoro::FrameReport report = one.frame({scene, view, {}, fluoro::cine(), 1}, a);
-    EXPECT_FALSE(report.leak) << report.leaking;
+    EXPECT_FALSE(report.leak);
     EXPECT_FALSE(other.frame({whole, view, {}, fluoro::cine(), 1}, b).leak);
     EXPECT_EQ(report.exposure.tube, other.exposure({whole, view, {}, fluoro::cine(), 1}).tube);
     // Sums of the same lengths in another order: micrometres of tissue at most, of which 20 um are a thousandth.
