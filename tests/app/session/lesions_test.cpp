@@ -170,13 +170,16 @@ TEST(ToolChoice, GuidesAreChosenByTheAorta) {
 
 TEST(ToolChoice, ABeginningThatIsNoArteryIsRefused) {
   RunSetup wrong = setup();
-  set_value("begin", "RCX", wrong);
-  try {
-    ScriptedRun run(wrong, vessel());
-    FAIL();
-  } catch (const data::LoadError& error) {
-    EXPECT_NE(std::string(error.what()).find("LM, RCA"), std::string::npos) << error.what();
+  for (const char* artery : {"RCX", "LAD"}) {
+    try {
+      set_value("begin", artery, wrong);
+      FAIL() << artery;
+    } catch (const data::LoadError& error) {
+      EXPECT_NE(std::string(error.what()).find("LM or RCA"), std::string::npos) << error.what();
+    }
   }
+  set_value("begin", "RCA", wrong);
+  set_value("begin", "", wrong);  // from the groin or the wrist again
 }
 
 }  // namespace
