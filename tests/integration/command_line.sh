@@ -272,8 +272,13 @@ export -f sweep
 expect 0 "4 runs" sweep -o "$out/one.csv" --jobs 1
 expect 0 "4 runs" sweep -o "$out/two.csv" --jobs 2
 cmp "$out/one.csv" "$out/two.csv"
-expect 3 "another ostium writes there" bash -c "sweep -o '$out/twice.csv' & p=\$!
-  trap 'kill -TERM \$p; wait \$p' EXIT; while ! grep -q . '$out/twice.csv.part'; do sleep 0.05; done 2>/dev/null; sweep -o '$out/twice.csv' --resume"
+twice=(sweep rca-mid-focal --script iliac-wire --seeds 1..50 -o "$out/twice.csv")
+"$ostium" "${twice[@]}" & child=$!
+for _ in $(seq 200); do if [[ -s $out/twice.csv.part ]]; then break; fi; sleep 0.05; done
+sleep 0.3
+expect 3 "another ostium writes there" "$ostium" "${twice[@]}" --resume
+kill -TERM "$child"
+wait "$child" || true
 sweep -o "$out/three.csv" & child=$!
 for _ in $(seq 100); do
   if [[ -e $out/three.csv.part ]] && (($(wc -l <"$out/three.csv.part") > 2)); then break; fi

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "app/session/run/run.h"
+#include "app/session/scene/film.h"
 #include "app/session/scene/xray_scene.h"
 #include "core/base/units.h"
 #include "vascular/motion/heart_cycle.h"
@@ -91,6 +92,29 @@ TEST(CaseVessel, ContrastFillsOneCoronaryTreeAndIsClosed) {
       EXPECT_GT(fill == Fill::left ? middle.x() : -middle.x(), -0.009);
     }
   }
+}
+
+/// As after a stent: pixels of 0.6 mm, a lesion some 12 mm long that is 2 mm wider.
+TEST(CaseVessel, AFilledArteryIsAsWideAsItIsNow) {
+  ScriptedRun run(case_setup(), case_vessel());
+  run.tick();
+  FilmOptions options;
+  options.pixels = 256, options.overlay = false, options.fill = Fill::right;
+  const auto picture = [&] {
+    Film film(run.model, options);
+    return film.frame(run.model, run.state, run.inputs).grey;
+  };
+  const auto narrow = picture();
+  const vascular::FlowTree& tree = run.model.vessel->coronaries->tree();
+  for (std::size_t c = 0; c < tree.cells.size(); ++c) run.state.blood.radius_m[c] = tree.cells[c].healthy_m;
+  const auto wide = picture();
+  long darker = 0, lighter = 0;
+  for (std::size_t i = 0; i < wide.size(); ++i) {
+    darker += wide[i] + 8 < narrow[i];
+    lighter += narrow[i] + 8 < wide[i];
+  }
+  EXPECT_GT(darker, 15);
+  EXPECT_LT(lighter, darker / 4);
 }
 
 TEST(CaseVessel, ShaftsHaveTheSteelThatTheCatalogueSays) {

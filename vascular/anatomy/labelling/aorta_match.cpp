@@ -15,8 +15,9 @@ using units::mm;
 constexpr double aorta_radius_m = 7e-3;  // lower limit for an aorta
 constexpr double unlike_any = 1e9;       // m: no fit is possible
 constexpr double least_branch_m = 10 * mm, one_origin_m = 4 * mm;
-// A branch of an arch leaves this near to where the mean one's would, at the mean's size, and about as it does.
-constexpr double arch_reach_m = 25 * mm, arch_cosine = 0.5;
+// A branch of an arch leaves this near to where the mean one's would, at the mean's size, and about as it does: near is
+// not nearer, since a fit may lie shifted along a course whose root is cut off somewhere.
+constexpr double arch_reach_m = 40 * mm, arch_cosine = 0.5;
 
 /// Distance of a course from the mean aorta, m; `fit` receives the transform of the mean aorta.
 double unlike_aorta(const MeanCourses& mean, const Course& course, Similarity& fit) {
@@ -114,7 +115,8 @@ bool has_arch(const MeanCourses& mean, const LumenPart& part, const AortaMatch& 
     const Course rest = beyond(course, match.course);
     if (rest.spheres.size() < 2 || rest.length_m() < least_branch_m) continue;
     const Eigen::Vector3d from = rest.spheres.front().p;
-    const Eigen::Vector3d along = (rest.points(0, 2 * least_branch_m, 2 * least_branch_m).back() - from).normalized();
+    const double first_m = std::min(rest.length_m(), 2 * least_branch_m);
+    const Eigen::Vector3d along = (rest.points(0, first_m, first_m).back() - from).normalized();
     const bool like = std::ranges::any_of(mean.arch, [&](const MeanCourses::Leaving& theirs) {
       return (from - match.fit * theirs.p).norm() < arch_reach_m * match.fit.scale &&
              along.dot(match.fit.R * theirs.direction) > arch_cosine;
