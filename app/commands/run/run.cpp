@@ -8,8 +8,8 @@
 #include "app/command_line/arguments.h"
 #include "app/command_line/command.h"
 #include "app/command_line/common_options.h"
-#include "app/command_line/folder_lock.h"
 #include "app/command_line/interrupt.h"
+#include "app/command_line/path_lock.h"
 #include "app/command_line/progress.h"
 #include "app/commands/report.h"
 #include "app/commands/run/drivers.h"
@@ -133,7 +133,7 @@ int run_script(const RunArguments& a) {
     throw data::LoadError("there is no window here (" + why + "); expected a display, or --display none with a script");
   RunSetup setup = setup_of(a.session);
   if (!a.folder.empty()) make_folder(a.folder);
-  const FolderLock lock = a.folder.empty() ? FolderLock() : FolderLock(a.folder);
+  const PathLock lock = a.folder.empty() ? PathLock() : PathLock(a.folder);
   const auto device = device_of(a, setup);
   PlayOptions options = play_options(a, device.get());
   const auto vessel = build_vessel(setup, "run");

@@ -5,7 +5,7 @@
 #include <map>
 #include <optional>
 
-#include "app/command_line/folder_lock.h"
+#include "app/command_line/path_lock.h"
 #include "app/commands/sweep/part.h"
 #include "app/commands/sweep/plan.h"
 
@@ -45,7 +45,7 @@ class SweepJournal {
  private:
   std::string file_;
   std::ofstream out_;
-  std::optional<FolderLock> lock_;
+  std::optional<PathLock> lock_;
   std::map<std::size_t, std::string> lines_;
 };
 

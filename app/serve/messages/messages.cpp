@@ -104,7 +104,16 @@ Json emergency_of(const SessionModel& model) {
   for (const vascular::Drug& drug : model.treatment.drugs.others)
     drugs.push_back(
         {{"name", drug.name}, {"title", drug.title}, {"unit", drug.unit}, {"least", drug.least}, {"most", drug.most}});
-  return {{"arteries", arteries}, {"lesions", lesions}, {"drugs", drugs}};
+  Json kinds = Json::array();
+  for (const Provocable& one : provocables)
+    kinds.push_back({{"what", static_cast<int>(one.kind)},
+                     {"name", vascular::provocation_names[static_cast<int>(one.kind)]},
+                     {"has_place", one.has_place},
+                     {"size", one.size ? Json(one.size) : Json(nullptr)},
+                     {"least", one.least},
+                     {"most", one.most},
+                     {"usual", one.usual}});
+  return {{"arteries", arteries}, {"lesions", lesions}, {"drugs", drugs}, {"provocables", kinds}};
 }
 
 const char* kind_of(data::ScoreKind kind) {

@@ -1,12 +1,5 @@
 // What a trainer provokes, and what answers it: drugs, fluid, drain, shock.
-const kinds = [
-  { id: 1, name: 'Perforation', size: 'hole, mm', least: 0.1, most: 3, step: 0.1, value: 0.8 },
-  { id: 2, name: 'Dissection', size: 'grade', options: ['A', 'B', 'C', 'D', 'E', 'F'], value: 2 },
-  { id: 3, name: 'Spasm', size: 'share of the diameter', least: 0, most: 0.98, step: 0.01, value: 0.9 },
-  { id: 4, name: 'No-reflow', size: 'share of the flow', least: 0, most: 0.98, step: 0.01, value: 0.9 },
-  { id: 5, name: 'Fibrillation' },
-  { id: 6, name: 'AV block' },
-];
+const grades = ['A', 'B', 'C', 'D', 'E', 'F']; // of a dissection
 
 function labelled(words, input, id) {
   const label = document.createElement('label');
@@ -38,7 +31,7 @@ export class Emergency {
     this.mark = mark;
     if (!this.has) return;
     this.treat(console_.group('Emergency'));
-    if (welcome.role === 'trainer') this.provoke(console_.group('Provoke'), welcome);
+    if (welcome.role === 'trainer') this.provoke(console_.group('Provoke'));
   }
   treat(add) {
     const drug = select(this.has.drugs.map((one) => one.name)), dose = field(0, 0, 'any', 0), unit = document.createElement('span');
@@ -59,35 +52,38 @@ export class Emergency {
     this.shock = button('Shock 200 J', this.rows.get('shock').what, () => this.socket.order('shock', 200));
     add(this.infuse, this.drain, this.shock);
   }
-  provoke(add, welcome) {
+  provoke(add) {
     const lesion = this.has.lesions[0];
+    const kinds = this.has.provocables;
     const kind = select(kinds.map((one) => one.name)), artery = select(this.has.arteries.map((one) => one.name));
-    const place = field(0, 100, 1, 0), number = field(0, 1, 0.1, 0), grade = select(kinds[1].options);
+    const place = field(0, 100, 1, 0), number = field(0, 1, 'any', 0), grade = select(grades);
     const where = [labelled('Artery', artery, 'provoke-artery'), labelled('mm from its beginning', place, 'provoke-place')];
-    const sizes = [labelled('', number, 'provoke-size'), labelled(kinds[1].size, grade, 'provoke-grade')];
+    const sizes = [labelled('', number, 'provoke-size'), labelled('grade', grade, 'provoke-grade')];
     const chosen = () => kinds[kind.value];
     const show = () => {
       const one = chosen(), at = this.has.arteries[artery.value];
-      where.forEach((label) => { label.hidden = one.id > 4; });
-      sizes[0].hidden = one.least === undefined;
-      sizes[1].hidden = !one.options;
-      if (one.least !== undefined) sizes[0].firstChild.textContent = one.size;
+      where.forEach((label) => { label.hidden = !one.has_place; });
+      sizes[0].hidden = !one.size || one.size === 'grade';
+      sizes[1].hidden = one.size !== 'grade';
+      sizes[0].firstChild.textContent = one.size ?? '';
       Object.assign(place, { min: Math.ceil(at.from_mm), max: Math.floor(at.to_mm) });
-      this.mark(one.id > 4 ? null : { tree_branch: at.tree_branch, mm: Number(place.value) });
+      this.mark(one.has_place ? { tree_branch: at.tree_branch, mm: Number(place.value) } : null);
     };
-    kind.onchange = () => { const one = chosen(); if (one.least !== undefined) Object.assign(number, { min: one.least, max: one.most, step: one.step, value: one.value }); show(); };
+    kind.onchange = () => {
+      const one = chosen();
+      Object.assign(number, { min: one.least, max: one.most, value: one.usual });
+      grade.value = one.usual;
+      show();
+    };
     artery.onchange = () => { place.value = Math.round((this.has.arteries[artery.value].from_mm + this.has.arteries[artery.value].to_mm) / 2); show(); };
     place.oninput = show;
     if (lesion) artery.value = lesion.artery, place.value = Math.round(lesion.mm);
-    grade.value = kinds[1].value;
     const go = button('Provoke', this.rows.get('provoke').what, () => {
-      const one = chosen();
-      const size = one.options ? Number(grade.value) : one.least !== undefined ? Number(number.value) : 0;
-      this.socket.order('provoke', one.id, Number(artery.value), Number(place.value), size);
+      const one = chosen(), size = one.size === 'grade' ? grade.value : one.size ? number.value : 0;
+      this.socket.order('provoke', one.what, Number(artery.value), Number(place.value), Number(size));
     });
     add(labelled('What', kind, 'provoke-what'), ...where);
     add(...sizes, go);
-    this.provokes = [kind, artery, place, number, grade, go];
     kind.onchange();
   }
   show(now, welcome) {

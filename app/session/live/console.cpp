@@ -167,11 +167,11 @@ void Console::move_tools(SessionInputs& inputs) const {
 }
 
 /// Syringe and indeflator of the seats; at a box its own come first, while they are used.
-void Console::give(Hands hands, DeliveryInputs& to) {
+void Console::give(const SessionModel& model, Hands hands, DeliveryInputs& to) {
   if (hands == Hands::seats) to = {};
   to.heparin_U += heparin_U_, to.nitrate_ug += nitrate_ug_, to.adenosine_ug += adenosine_ug_;
   heparin_U_ = nitrate_ug_ = adenosine_ug_ = 0;
-  emergency_.fill(to);
+  emergency_.fill(model, to);
   if (hands == Hands::script) return;
   const double dye = level(ConsoleCommand::contrast), flush = level(ConsoleCommand::saline);
   if (to.injection_m3_s == 0) {
@@ -193,7 +193,7 @@ void Console::fill(const SessionModel& model, Hands hands, SessionInputs& inputs
   if (hands == Hands::seats) move_tools(inputs);
   // Whoever takes over finds the indeflator as the script had it.
   if (hands == Hands::script) gauge_Pa_ = inputs.delivery.gauge_Pa;
-  if (model.has_patient()) give(hands, inputs.delivery);
+  if (model.has_patient()) give(model, hands, inputs.delivery);
 }
 
 void window_greys(const PictureSettings& settings, fluoro::Picture& picture) {

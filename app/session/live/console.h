@@ -47,7 +47,7 @@ class Console {
   double level(ConsoleCommand held) const;  ///< the largest of the seats'
   void move_arm(const SessionModel& model, const ConsoleOrder& order);
   void move_tools(SessionInputs& inputs) const;
-  void give(Hands hands, DeliveryInputs& to);
+  void give(const SessionModel& model, Hands hands, DeliveryInputs& to);
 
   int left_ = 0, right_ = -1;
   CArmInputs arm_, asked_;  ///< pose as it is, and as script or box asked for it last

@@ -10,39 +10,20 @@ namespace ostium::app {
 
 namespace {
 
-using data::ConsoleCommand, data::ConsoleOrder, vascular::Provoked;
+using data::ConsoleCommand, data::ConsoleOrder;
 
 constexpr std::size_t most_waiting = 100;  // a thousand steps a second: nobody asks faster
 
-struct Size {
-  double least, most;
-  const char* what;
-};
-
-/// What may be asked of a provocation's size, as a console counts it.
-Size size_of(Provoked kind) {
-  switch (kind) {
-    case Provoked::perforation:
-      return {0.1, 3, "the hole's diameter in mm"};
-    case Provoked::dissection:
-      return {0, 5, "the grade, 0 (A) to 5 (F)"};
-    case Provoked::spasm:
-      return {0, 0.98, "the share of the diameter that it takes"};
-    case Provoked::no_reflow:
-      return {0, 0.98, "the share of the flow that it takes"};
-    default:
-      return {0, 6, "none"};
-  }
-}
+const Provocable& provocable(double what) { return provocables[static_cast<std::size_t>(what) - 1]; }
 
 std::string why_no_provocation(const vascular::FlowTree& tree, const ConsoleOrder& order) {
   const auto& [kind, artery, place_mm, size] = order.values;
-  const auto what = static_cast<Provoked>(static_cast<int>(kind));
-  const Size of = size_of(what);
-  if (size < of.least || size > of.most)
-    return fmt::format("{} has no size {:g}; expected {:g} to {:g}, {}",
-                       vascular::provocation_names[static_cast<int>(kind)], size, of.least, of.most, of.what);
-  if (what == Provoked::fibrillation || what == Provoked::block) return "";
+  const Provocable& what = provocable(kind);
+  if (size < what.least || size > what.most)
+    return fmt::format("{} has no size {:g}; expected {:g} to {:g} ({})",
+                       vascular::provocation_names[static_cast<int>(what.kind)], size, what.least, what.most,
+                       what.size ? what.size : "none");
+  if (!what.has_place) return "";
   if (artery >= static_cast<double>(tree.branches.size()))
     return fmt::format("there is no artery {:g}; expected 0 to {}", artery, tree.branches.size() - 1);
   const vascular::FlowBranch& branch = tree.branches[static_cast<std::size_t>(artery)];
@@ -83,7 +64,6 @@ bool Emergency::take(const SessionModel& model, const ConsoleOrder& order) {
     case ConsoleCommand::give:
     case ConsoleCommand::shock:
     case ConsoleCommand::provoke:
-      if (model.has_patient()) tree_ = &model.vessel->coronaries->tree();
       if (why_not(model, order).empty() && once_.size() < most_waiting) once_.push_back(order);
       return true;
     default:
@@ -91,7 +71,7 @@ bool Emergency::take(const SessionModel& model, const ConsoleOrder& order) {
   }
 }
 
-void Emergency::fill(DeliveryInputs& to) {
+void Emergency::fill(const SessionModel& model, DeliveryInputs& to) {
   to.infusion_m3_s = std::max(to.infusion_m3_s, infusion_m3_s_);
   to.drain_m3_s = std::max(to.drain_m3_s, drain_m3_s_);
   if (once_.empty()) return;
@@ -107,11 +87,10 @@ void Emergency::fill(DeliveryInputs& to) {
       break;
     default: {
       if (to.provoked > 0) return;
-      const auto kind = static_cast<Provoked>(static_cast<int>(a));
-      to.provoked = static_cast<int>(kind);
-      to.provoked_size = kind == Provoked::perforation ? 1e-3 * d : d;
-      const bool has_place = kind != Provoked::fibrillation && kind != Provoked::block;
-      to.provoked_cell = has_place ? tree_->cell_at(static_cast<int>(b), 1e-3 * c) : -1;
+      const Provocable& what = provocable(a);
+      to.provoked = static_cast<int>(what.kind);
+      to.provoked_size = what.si * d;
+      to.provoked_cell = what.has_place ? model.vessel->coronaries->tree().cell_at(static_cast<int>(b), 1e-3 * c) : -1;
     }
   }
   once_.pop_front();

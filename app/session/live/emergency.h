@@ -1,12 +1,30 @@
 #pragma once
 /// What a trainer provokes and what answers it, as a console asks for them: give, infuse, drain, shock, provoke.
 #include <deque>
+#include <iterator>
 #include <string>
 
 #include "app/session/model/session.h"
 #include "data/console/console_commands.h"
 
 namespace ostium::app {
+
+/// What may be provoked, as a console asks for it: by its kind, its size counted as `size` says.
+struct Provocable {
+  vascular::Provoked kind;
+  bool has_place;
+  const char* size;  ///< null: it has none
+  double least, most, usual;
+  double si;  ///< vascular::Provocation::size of a size of 1
+};
+inline constexpr Provocable provocables[] = {
+    {vascular::Provoked::perforation, true, "hole, mm", 0.1, 3, 0.8, 1e-3},
+    {vascular::Provoked::dissection, true, "grade", 0, 5, 2, 1},
+    {vascular::Provoked::spasm, true, "share of the diameter", 0, 0.98, 0.9, 1},
+    {vascular::Provoked::no_reflow, true, "share of the flow", 0, 0.98, 0.9, 1},
+    {vascular::Provoked::fibrillation, false, nullptr, 0, 6, 0, 1},
+    {vascular::Provoked::block, false, nullptr, 0, 6, 0, 1}};
+static_assert(std::size(provocables) + 1 == vascular::provocations, "all but `nothing`");
 
 /// Empty if this patient can have it; else why not, with what could be. True of other commands, too.
 std::string why_not(const SessionModel& model, const data::ConsoleOrder& order);
@@ -16,15 +34,14 @@ class Emergency {
  public:
   /// False: another sort of command. What the patient cannot have is left out.
   bool take(const SessionModel& model, const data::ConsoleOrder& order);
-  /// Onto what script or box ask for.
-  void fill(DeliveryInputs& to);
+  /// Onto what script or box ask for. Of the same model, with a patient.
+  void fill(const SessionModel& model, DeliveryInputs& to);
   /// The run has gone back: rates as they were.
   void restart(const DeliveryInputs& inputs);
 
  private:
   std::deque<data::ConsoleOrder> once_;
   double infusion_m3_s_ = 0, drain_m3_s_ = 0;
-  const vascular::FlowTree* tree_ = nullptr;
 };
 
 }  // namespace ostium::app

@@ -154,7 +154,7 @@ TEST(CaseVessel, AProvocationThatThePatientCannotHaveIsRefusedWithTheReason) {
   const double artery = rca;
   EXPECT_EQ(why(ConsoleCommand::provoke, {1, artery, 40, 0.8}), "");
   EXPECT_EQ(why(ConsoleCommand::provoke, {5, 0, 0, 0}), "") << "a rhythm has no place";
-  EXPECT_NE(why(ConsoleCommand::provoke, {1, artery, 40, 4}).find("0.1 to 3, the hole's diameter"), std::string::npos);
+  EXPECT_NE(why(ConsoleCommand::provoke, {1, artery, 40, 4}).find("0.1 to 3 (hole, mm)"), std::string::npos);
   EXPECT_NE(why(ConsoleCommand::provoke, {1, artery, 390, 0.8}).find("RCA has no place 390 mm; expected"),
             std::string::npos);
   EXPECT_NE(why(ConsoleCommand::provoke, {3, 999, 40, 0.5}).find("there is no artery 999"), std::string::npos);

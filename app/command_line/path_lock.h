@@ -5,14 +5,14 @@ namespace ostium::app {
 
 /// Keeps a folder, or a file, for one program at a time, so that two runs do not mix their files. The lock is the
 /// kernel's (flock) and ends with the process, however that ends.
-class FolderLock {
+class PathLock {
  public:
-  FolderLock() = default;
+  PathLock() = default;
   /// Throws LoadError if another program has it. Where the file system knows no locks, there is none.
-  explicit FolderLock(const std::string& path);
-  FolderLock(FolderLock&& other) noexcept;
-  FolderLock& operator=(FolderLock&&) = delete;
-  ~FolderLock();
+  explicit PathLock(const std::string& path);
+  PathLock(PathLock&& other) noexcept;
+  PathLock& operator=(PathLock&&) = delete;
+  ~PathLock();
 
  private:
   int descriptor_ = -1;

@@ -1,4 +1,4 @@
-#include "app/command_line/folder_lock.h"
+#include "app/command_line/path_lock.h"
 
 #include <fcntl.h>
 #include <sys/file.h>
@@ -11,15 +11,15 @@
 
 namespace ostium::app {
 
-FolderLock::FolderLock(const std::string& path) : descriptor_(open(path.c_str(), O_RDONLY | O_CLOEXEC)) {
+PathLock::PathLock(const std::string& path) : descriptor_(open(path.c_str(), O_RDONLY | O_CLOEXEC)) {
   if (descriptor_ < 0 || flock(descriptor_, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) return;
   close(descriptor_);
   throw data::LoadError(path + ": another ostium writes there; wait for its end, or name another place");
 }
 
-FolderLock::FolderLock(FolderLock&& other) noexcept : descriptor_(std::exchange(other.descriptor_, -1)) {}
+PathLock::PathLock(PathLock&& other) noexcept : descriptor_(std::exchange(other.descriptor_, -1)) {}
 
-FolderLock::~FolderLock() {
+PathLock::~PathLock() {
   if (descriptor_ >= 0) close(descriptor_);
 }
 
