@@ -396,10 +396,15 @@ time.sleep(0.5)
     assert subprocess.run([sys.executable, "-c", program], capture_output=True).returncode == 0
 
 
-@pytest.mark.parametrize("call", ["data.step(10**6)", "ostium.Batch(model, 2).step(10**6)"])
-def test_ctrl_c_ends_a_step(call):
+@pytest.mark.parametrize("call", [
+    "data.step(10**6)",
+    "ostium.Batch(model, 2).step(10**6)",
+    "ostium.rollout(model, [data.get_state()] * 2, np.array([[data.inputs] * 10**4] * 2), hold=100)",
+    "ostium.run_script('rca-mid-focal', 'pci-rca-mid-focal')",
+])
+def test_ctrl_c_ends_a_call(call):  # each would take minutes
     program = f"""
-import os, signal, threading, time, ostium
+import os, signal, threading, time, numpy as np, ostium
 model = ostium.Model(ostium.Vessel("rca-mid-focal"), tools=[("w", "wire-014-workhorse")], begin="RCA")
 data = ostium.Data(model)
 threading.Timer(0.5, os.kill, (os.getpid(), signal.SIGINT)).start()
@@ -407,7 +412,7 @@ began = time.time()
 try:
     {call}
 except KeyboardInterrupt:
-    raise SystemExit(0 if time.time() - began < 10 else 2)
+    raise SystemExit(0 if time.time() - began < 30 else 2)
 """
     assert subprocess.run([sys.executable, "-c", program], capture_output=True).returncode == 0
 

@@ -4,7 +4,6 @@
 #include <pybind11/stl.h>
 
 #include <algorithm>
-#include <atomic>
 #include <functional>
 #include <stdexcept>
 #include <thread>
@@ -81,18 +80,6 @@ namespace {
 
 using SharedBatch = std::shared_ptr<BatchHandle>;
 
-/// Ctrl-C, which the main thread alone is told of, for all threads.
-class Stop {
- public:
-  bool operator()() {
-    if (!stopped_ && interrupted()) stopped_ = true;
-    return stopped_;
-  }
-
- private:
-  std::atomic<bool> stopped_{false};
-};
-
 int threads_or_all(std::optional<int> threads) {
   if (threads && *threads < 1) throw py::value_error(fmt::format("threads is {}; expected 1 or more", *threads));
   return threads ? *threads : static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
@@ -118,12 +105,7 @@ void step(BatchHandle& self, long long n,
   if (mask) require_shape(*mask, {static_cast<py::ssize_t>(self.runs.size())}, "mask", "one for each session");
   const bool* of = mask ? mask->data() : nullptr;
   const InUse used(self.used, "Batch");
-  {
-    const OthersRun others_run;
-    Stop stop;
-    self.step(count, of, std::ref(stop));
-  }
-  raise_if_interrupted();
+  run_steps(count, [&](const std::function<bool()>& stop) { self.step(count, of, stop); });
 }
 
 void reset(BatchHandle& self, std::optional<py::ssize_t> which, const py::object& to) {
@@ -169,23 +151,20 @@ py::tuple rollout(const ModelHandle& model, const Doubles& states, const Doubles
   const double *from = states.data(), *rows = inputs.data();
   float* out = signals.mutable_data();
   double* last = ends.mutable_data();
-  {
-    const OthersRun others_run;
+  run_until_interrupted([&](const std::function<bool()>& stop) {
     const app::FreeRun first(model.model);
-    Stop stop;
     core::for_each_on(most, n, [&](std::size_t i) {
       app::FreeRun e(first);
       e.set_state(from + i * model.state_size() + ModelHandle::head);
       for (std::size_t k = 0; k < steps; ++k) {
         std::copy_n(rows + (i * steps + k) * e.row.size(), e.row.size(), e.row.begin());
         if (stop()) return;
-        e.step(each, std::ref(stop));
+        e.step(each, stop);
         std::copy(e.signals.begin(), e.signals.end(), out + (i * steps + k) * e.signals.size());
       }
       model.put_state(e.state, last + i * model.state_size());
     });
-  }
-  raise_if_interrupted();
+  });
   return py::make_tuple(signals, ends);
 }
 

@@ -25,6 +25,12 @@ int require_steps(long long n) {
   return static_cast<int>(n);
 }
 
+void run_steps(int count, const std::function<void(const std::function<bool()>& stop)>& work) {
+  if (count > app::FreeRun::steps_unasked) return run_until_interrupted(work);
+  const OthersRun others_run;
+  work({});
+}
+
 py::object nodes_of(const ModelHandle& model, app::SessionState& state, const std::string& tool,
                     const py::object& owner) {
   const auto t = static_cast<std::size_t>(model.tool(tool));
@@ -46,11 +52,7 @@ void step(const ModelHandle& model, DataHandle& data, long long n) {
   if (model.fingerprint != data.model->fingerprint) throw py::value_error("this Data is one of another model");
   const int count = require_steps(n);
   const InUse used(data.used, "Data");
-  {
-    const OthersRun others_run;
-    data.run.step(count, interrupted);
-  }
-  raise_if_interrupted();
+  run_steps(count, [&](const std::function<bool()>& stop) { data.run.step(count, stop); });
 }
 
 py::array_t<double> get_state(const DataHandle& self) {

@@ -1,6 +1,7 @@
 #pragma once
 /// One session of a model, for Python.
 #include <atomic>
+#include <functional>
 
 #include "app/python/binding/model.h"
 
@@ -32,5 +33,7 @@ pybind11::object nodes_of(const ModelHandle& model, app::SessionState& state, co
                           const pybind11::object& owner);
 /// Number of steps of a call: 1 to a day. Throws ValueError.
 int require_steps(long long n);
+/// work(stop) of `count` steps; Ctrl-C ends it (run_until_interrupted) where it is long enough for it to be asked for.
+void run_steps(int count, const std::function<void(const std::function<bool()>& stop)>& work);
 
 }  // namespace ostium::python

@@ -34,18 +34,19 @@ std::vector<std::vector<std::string>> together(const std::vector<std::string>& t
 }
 
 /// explanation.json.
-std::string explanation_of(const std::string& path, const std::vector<std::string>& tries, int threads) {
+std::string explanation_of(const std::string& path, const std::vector<std::string>& tries, int threads,
+                           const std::function<bool()>& stop) {
   const data::JsonValue root = data::load_json(data::measurement_file(path));
   if (data::curves::kind_of(root)) {
     data::curves::CurveOptions options;
     options.tries = together(tries);
-    options.stop = interrupted;
+    options.stop = stop;
     return to_json(data::curves::explain_curves(data::curves::with_tables(root), options));
   }
   data::ExplainOptions options;
   options.threads = threads, options.library = tries.empty();
   options.tries = together(tries);
-  options.stop = interrupted;
+  options.stop = stop;
   return to_json(explain(data::load_measurement(path), options));
 }
 
@@ -56,11 +57,8 @@ void bind_explain(py::module_& module) {
       "explain",
       [](const std::filesystem::path& set, const std::vector<std::string>& tries, int threads) {
         std::string text;
-        {
-          const OthersRun others_run;
-          text = explanation_of(set.string(), tries, threads);
-        }
-        raise_if_interrupted();
+        run_until_interrupted(
+            [&](const std::function<bool()>& stop) { text = explanation_of(set.string(), tries, threads, stop); });
         return py::module_::import("json").attr("loads")(text);
       },
       py::arg("set"), py::arg("tries") = std::vector<std::string>{}, py::arg("threads") = 0,

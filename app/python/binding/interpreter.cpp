@@ -1,6 +1,9 @@
 #include "app/python/binding/interpreter.h"
 
+#include <atomic>
 #include <chrono>
+#include <exception>
+#include <future>
 #include <thread>
 
 // In 3.13 it lost its underscore.
@@ -15,18 +18,36 @@ OthersRun::~OthersRun() {
   PyEval_RestoreThread(mine_);
 }
 
-bool interrupted() {
-  static const std::thread::id main = [] {
-    const pybind11::gil_scoped_acquire lock;
-    return std::this_thread::get_id();
-  }();
-  if (std::this_thread::get_id() != main || Py_IsFinalizing()) return false;
-  const pybind11::gil_scoped_acquire lock;
-  return PyErr_CheckSignals() != 0;
+namespace {
+
+bool is_main_thread() {
+  const pybind11::object main = pybind11::module_::import("threading").attr("main_thread")();
+  return main.attr("ident").cast<unsigned long>() == PyThread_get_thread_ident();
 }
 
-void raise_if_interrupted() {
+}  // namespace
+
+void run_until_interrupted(const std::function<void(const std::function<bool()>& stop)>& work) {
+  using namespace std::chrono_literals;
+  const bool is_told = is_main_thread();
+  std::atomic<bool> stopped{false};
+  std::exception_ptr failed;
+  {
+    const OthersRun others_run;
+    std::future<void> done = std::async(std::launch::async, [&] { work([&] { return stopped.load(); }); });
+    while (is_told && !stopped && done.wait_for(20ms) != std::future_status::ready) {
+      if (Py_IsFinalizing()) continue;
+      const pybind11::gil_scoped_acquire lock;
+      stopped = PyErr_CheckSignals() != 0;
+    }
+    try {
+      done.get();
+    } catch (...) {
+      failed = std::current_exception();
+    }
+  }
   if (PyErr_Occurred()) throw pybind11::error_already_set();
+  if (failed) std::rethrow_exception(failed);
 }
 
 }  // namespace ostium::python

@@ -3,6 +3,7 @@
 #include <pybind11/pybind11.h>
 
 #include <cstddef>
+#include <functional>
 #include <string>
 
 namespace ostium::python {
@@ -19,10 +20,10 @@ class OthersRun {
   PyThreadState* mine_;
 };
 
-/// Whether somebody pressed Ctrl-C; only the main thread is told. For code without the interpreter's lock.
-bool interrupted();
-/// Throws KeyboardInterrupt if so, after `interrupted` was true. With the lock.
-void raise_if_interrupted();
+/// Runs work(stop) on another thread; this one lets other Python threads run and listens for Ctrl-C, of which Python
+/// tells its main thread alone. Once somebody pressed it, stop() is true on every thread that work uses, and
+/// KeyboardInterrupt is thrown when work returns. Else throws what work threw. With the interpreter's lock.
+void run_until_interrupted(const std::function<void(const std::function<bool()>& stop)>& work);
 
 /// Base of classes that only their __init__ makes. pybind11 would hand out raw memory for what CLASS.__new__ alone
 /// made.

@@ -25,7 +25,8 @@ struct Played {
 };
 
 Played play_script(const std::string& vessel, const std::string& script, std::uint64_t seed, const Values& values,
-                   double seconds, const std::optional<std::filesystem::path>& recording) {
+                   double seconds, const std::optional<std::filesystem::path>& recording,
+                   const std::function<bool()>& stop) {
   app::RunSetup setup;
   setup.seed = seed;
   set_vessel(vessel, vascular::LengthUnit::millimetre, setup);
@@ -37,14 +38,14 @@ Played play_script(const std::string& vessel, const std::string& script, std::ui
   const auto handle = VesselHandle::of(std::move(of_vessel));
   Played played{.report = {}, .chosen = choose_sizes(*handle->vessel, setup)};
   app::ScriptedRun run(setup, handle->vessel);
-  std::atomic<bool> stop{false};
+  std::atomic<bool> stopped{false};
   app::PlayOptions options;
   options.recorder.mode = recording ? app::RecordMode::full : app::RecordMode::none;
   if (recording) options.recorder.file = recording->string();
   options.seconds = seconds;
-  options.stop = &stop;
+  options.stop = &stopped;
   options.progress = [&](const app::ScriptedRun&) {
-    if (interrupted()) stop = true;
+    if (stop()) stopped = true;
   };
   played.report = play(run, setup, options);
   return played;
@@ -61,11 +62,9 @@ void bind_script(py::module_& module) {
         Values texts;
         for (const auto& [key, value] : values) texts[py::str(key)] = py::str(value);
         Played played;
-        {
-          const OthersRun others_run;
-          played = play_script(case_name, script, seed, texts, seconds, recording);
-        }
-        raise_if_interrupted();
+        run_until_interrupted([&](const std::function<bool()>& stop) {
+          played = play_script(case_name, script, seed, texts, seconds, recording, stop);
+        });
         const app::PlayReport& report = played.report;
         if (!report.problem.empty())
           throw py::value_error("the recording could not be written to its end: " + report.problem);

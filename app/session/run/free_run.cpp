@@ -105,7 +105,7 @@ void FreeRun::step(int count, const std::function<bool()>& stop) {
   FreeRunModel::Borrowed borrowed(*model, scratch_);
   scratch_ = borrowed.number();
   for (int i = 0; i < count; ++i) {
-    if (i % 1000 == 999 && stop && stop()) break;
+    if (stop && i > 0 && i % steps_unasked == 0 && stop()) break;
     app::step(model->session, inputs_, state, borrowed.scratch(), report_);
     forget_what_is_given_once(inputs_.delivery);
     trouble |= report_.rods.trouble;

@@ -58,6 +58,8 @@ struct ToolForces {
 /// Not for two threads at once.
 class FreeRun {
  public:
+  static constexpr int steps_unasked = 100;
+
   explicit FreeRun(std::shared_ptr<const FreeRunModel> model);
   FreeRun(const FreeRun& other);
 
@@ -66,7 +68,7 @@ class FreeRun {
   /// `count` steps with the inputs of `row`; doses are given by the first. Afterwards signals, forces, peaks and
   /// trouble are those of these steps. Throws std::invalid_argument, and does nothing, where an input is out of its
   /// range.
-  /// `stop`: asked every 1000 steps; true: those so far were all.
+  /// `stop`: asked every `steps_unasked` steps; true: those so far were all.
   void step(int count, const std::function<bool()>& stop = {});
   /// To a state of the same model (put_state); the model's count.
   void set_state(const double* numbers);
