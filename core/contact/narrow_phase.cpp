@@ -1,6 +1,7 @@
 #include "core/contact/narrow_phase.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 
 #include "core/base/tolerances.h"
@@ -40,20 +41,48 @@ double away(const WallPlane& plane) { return std::fabs(plane.gap); }
 /// (join_soft_walls).
 bool turns_its_back(double gap, bool soft) { return !soft && gap < 0; }
 
+/// Of a full list's planes and a new one at `at`, sorted by distance, the one to leave out: the farthest. But in a
+/// passage as narrow as the node, walls face each other, and the nearest may all lie on one side, so that the node
+/// would evade through the other: there, of the two that face most alike, the farther.
+int least_needed(const NodeWalls& walls, const V3<double>& normal, int at) {
+  std::array<V3<double>, max_planes + 1> faces;
+  for (int k = 0; k < max_planes; ++k) faces[k < at ? k : k + 1] = walls.planes[k].normal;
+  faces[at] = normal;
+  int least = max_planes;
+  double most_alike = -1;
+  bool enclosed = false;
+  for (int k = 1; k <= max_planes; ++k)
+    for (int j = 0; j < k; ++j) {
+      const double alike = dot(faces[k], faces[j]);
+      enclosed = enclosed || alike < -tolerances::same_side;
+      if (alike > most_alike) most_alike = alike, least = k;
+    }
+  return enclosed ? least : max_planes;
+}
+
 /// Makes room among a node's planes, sorted by distance, at most one per direction. Index of the new one; -1 if it is
 /// not needed.
 int make_room(const SeenTriangle& sight, bool soft, NodeWalls& walls) {
   const auto as_it_faces = [&](const WallPlane& w) { return dot(w.normal, sight.normal) > tolerances::same_wall; };
+  WallPlane* const planes = walls.planes;
   int at = walls.count;
-  while (at > 0 && away(walls.planes[at - 1]) > std::fabs(sight.gap)) --at;
-  if (at == max_planes || (at > 0 && turns_its_back(sight.gap, soft))) return -1;
-  if (std::any_of(walls.planes, walls.planes + at, as_it_faces)) return -1;
+  while (at > 0 && away(planes[at - 1]) > std::fabs(sight.gap)) --at;
+  if (at > 0 && turns_its_back(sight.gap, soft)) return -1;
+  if (std::any_of(planes, planes + at, as_it_faces)) return -1;
   // It replaces farther planes with the same direction.
-  const WallPlane* end = std::remove_if(walls.planes + at, walls.planes + walls.count, [&](const WallPlane& w) {
+  const WallPlane* end = std::remove_if(planes + at, planes + walls.count, [&](const WallPlane& w) {
     return turns_its_back(w.gap, w.soft) || as_it_faces(w);
   });
-  walls.count = std::min(static_cast<int>(end - walls.planes), max_planes - 1);
-  std::copy_backward(walls.planes + at, walls.planes + walls.count, walls.planes + walls.count + 1);
+  walls.count = static_cast<int>(end - planes);
+  if (walls.count == max_planes) {
+    const int spare = least_needed(walls, sight.normal, at);
+    if (spare == at) return -1;
+    const int gone = spare < at ? spare : spare - 1;
+    std::copy(planes + gone + 1, planes + walls.count, planes + gone);
+    --walls.count;
+    if (spare < at) --at;
+  }
+  std::copy_backward(planes + at, planes + walls.count, planes + walls.count + 1);
   ++walls.count;
   return at;
 }

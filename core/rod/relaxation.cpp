@@ -9,7 +9,7 @@ namespace ostium::core {
 void recall_creep(const Rod& rod, const RodState& state, Rod& inside) {
   Relaxing* law = std::get_if<Relaxing>(&inside.law);
   if (!law) return;
-  const auto& [fast, slow] = rod.relaxation.branches;
+  const auto &fast = rod.relaxation.branches[0], &slow = rod.relaxation.branches[1];
   for_packs(0, rod.nodes(), [&]<class T>(T, int i) {
     store3(law->crept, i,
            splat<T>(fast.fraction) * load3<T>(state.crept_fast, i) +

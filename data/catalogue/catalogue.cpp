@@ -45,6 +45,7 @@ std::vector<Instrument> load_catalogue(const std::string& folder) {
     throw LoadError(folder + ": has no instrument file; expected a folder with at least one NAME.json");
   std::sort(files.begin(), files.end());
   std::vector<Instrument> catalogue;
+  catalogue.reserve(files.size());
   for (const fs::path& file : files) catalogue.push_back(load_instrument(file.string()));
   return catalogue;
 }

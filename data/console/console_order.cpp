@@ -73,12 +73,12 @@ JsonValue values_schema(const ConsoleRow& row) {
 }
 
 /// Each command with its numbers, for the schema.
-SchemaKeyword forms() {
+JsonMember forms() {
   std::vector<JsonValue> all;
   for (const ConsoleRow& row : console_rows) {
-    std::vector<SchemaKeyword> keys = {{"do", json_object({{"const", json_text(row.name)}})}};
+    std::vector<JsonMember> keys = {{"do", json_object({{"const", json_text(row.name)}})}};
     keys.emplace_back("values", values_schema(row));
-    std::vector<SchemaKeyword> form = {{"title", json_text(row.what)}, {"properties", json_object(std::move(keys))}};
+    std::vector<JsonMember> form = {{"title", json_text(row.what)}, {"properties", json_object(std::move(keys))}};
     if (row.count() > 0) form.emplace_back("required", json_list(std::vector<std::string>{"values"}));
     all.push_back(json_object(std::move(form)));
   }

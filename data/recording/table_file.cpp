@@ -285,6 +285,7 @@ std::vector<std::string> TableFile::texts(const std::string& table, const std::s
   std::vector<char*> pointers(static_cast<std::size_t>(count), nullptr);
   file_->require(H5Aread(names, type, pointers.data()) >= 0, what + " is damaged; copy the file again");
   std::vector<std::string> out;
+  out.reserve(pointers.size());
   for (const char* p : pointers) out.emplace_back(p ? p : "");
   H5Dvlen_reclaim(type, space, H5P_DEFAULT, pointers.data());
   return out;

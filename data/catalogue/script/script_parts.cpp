@@ -35,10 +35,10 @@ void lead_out(const JsonObject& step, JsonValue& one) {
   const JsonValue* action = one.find("do");
   if (!action || !may_fail(action->text)) return;
   if (const JsonValue* own = one.find("otherwise")) {
-    if (is_label(own->text) && !one.find("last_resort")) one.members.emplace_back("last_resort", step["otherwise"]);
+    if (is_label(own->text) && !one.find("last_resort")) one.members.push_back({"last_resort", step["otherwise"]});
   } else if (!one.find("tries")) {  // `tries` without `otherwise` is left for the reader to refuse
     for (const char* key : {"otherwise", "tries"})
-      if (step.has(key)) one.members.emplace_back(key, step[key]);
+      if (step.has(key)) one.members.push_back({key, step[key]});
   }
 }
 
@@ -73,7 +73,7 @@ void say_in_steps(const JsonObject& step, JsonValue& part) {
       for (JsonValue& condition : list->items) {
         if (JsonValue* of = member(condition, "of")) rename(*of);
         if (step.has("lesion") && has_condition_about_a_lesion(condition) && !condition.find("lesion"))
-          condition.members.emplace_back("lesion", step["lesion"]);
+          condition.members.push_back({"lesion", step["lesion"]});
       }
     }
   }

@@ -36,12 +36,12 @@ void require_object(const JsonValue& values) {
 JsonValue merged(JsonValue own, const JsonValue& given) {
   require_object(given);
   for (const auto& [name, value] : given.members) {
-    const auto is_it = [&, n = &name](const auto& member) { return member.first == *n; };
+    const auto is_it = [&, n = &name](const auto& member) { return member.key == *n; };
     const auto found = std::find_if(own.members.begin(), own.members.end(), is_it);
     if (found == own.members.end())
       value.fail(fmt::format("{} is no value of {}; expected one of {}", value.path(), *own.file, names_of(own)));
-    if (value.type != found->second.type) value.refuse(word_for(found->second.type));
-    found->second = value;
+    if (value.type != found->value.type) value.refuse(word_for(found->value.type));
+    found->value = value;
   }
   return own;
 }
@@ -70,7 +70,7 @@ bool stays(JsonValue& step) {
     if (!says) continue;
     if (says->type != Type::boolean) says->refuse("a value that is true or false");
     stays = stays && (says->number != 0) == wanted;
-    std::erase_if(step.members, [&](const auto& member) { return member.first == key; });
+    std::erase_if(step.members, [&](const auto& member) { return member.key == key; });
   }
   return stays;
 }
@@ -99,7 +99,7 @@ bool write_out_values(JsonValue& script, const JsonValue* given) {
   for (JsonValue& step : steps->items)
     if (stays(step)) kept.push_back(std::move(step));
   steps->items = std::move(kept);
-  std::erase_if(script.members, [](const auto& member) { return member.first == "values"; });
+  std::erase_if(script.members, [](const auto& member) { return member.key == "values"; });
   return true;
 }
 

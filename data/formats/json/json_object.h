@@ -19,8 +19,8 @@ struct JsonKey {
 struct JsonObjectKeys {
   std::string object;
   std::vector<JsonKey> keys;
-  std::vector<SchemaKeyword> rules = {};  ///< which keys go together; the reader checks this itself
-  bool values_stand_in = false;           ///< "$NAME" may stand for a number, a boolean or a choice (script_values.h)
+  std::vector<JsonMember> rules = {};  ///< which keys go together; the reader checks this itself
+  bool values_stand_in = false;        ///< "$NAME" may stand for a number, a boolean or a choice (script_values.h)
 };
 
 class JsonObject {

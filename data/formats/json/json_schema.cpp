@@ -16,20 +16,20 @@ JsonType or_a_values_name(const JsonType& type) {
 }
 
 JsonValue property(const JsonKey& key, bool values_stand_in) {
-  std::vector<SchemaKeyword> words =
+  std::vector<JsonMember> words =
       (values_stand_in && is_plain(key.type) ? or_a_values_name(key.type) : key.type).schema;
   words.emplace_back("description", json_text(key.expected));
   return json_object(std::move(words));
 }
 
 JsonValue definition(const JsonObjectKeys& object) {
-  std::vector<SchemaKeyword> properties;
+  std::vector<JsonMember> properties;
   std::vector<std::string> required;
   for (const JsonKey& key : object.keys) {
     properties.emplace_back(key.name, property(key, object.values_stand_in));
     if (key.required) required.push_back(key.name);
   }
-  std::vector<SchemaKeyword> words = {
+  std::vector<JsonMember> words = {
       {"type", json_text("object")}, {"additionalProperties", json_boolean(false)}, {"required", json_list(required)}};
   words.insert(words.end(), object.rules.begin(), object.rules.end());
   words.emplace_back("properties", json_object(std::move(properties)));
@@ -39,7 +39,7 @@ JsonValue definition(const JsonObjectKeys& object) {
 }  // namespace
 
 JsonValue schema_of(const JsonFormat& format) {
-  std::vector<SchemaKeyword> objects;
+  std::vector<JsonMember> objects;
   for (const JsonObjectKeys* object : format.objects) objects.emplace_back(object->object, definition(*object));
   return json_object({{"$schema", json_text("https://json-schema.org/draft/2020-12/schema")},
                       {"$id", json_text(format.id)},

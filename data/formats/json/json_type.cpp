@@ -34,23 +34,23 @@ JsonValue json_list(const std::vector<std::string>& texts) {
   return json_list(std::move(items));
 }
 
-JsonValue json_object(std::vector<SchemaKeyword> members) {
+JsonValue json_object(std::vector<JsonMember> members) {
   JsonValue value;
   value.type = JsonValue::Type::object, value.members = std::move(members);
   return value;
 }
 
-SchemaKeyword one_of_required(const std::vector<std::vector<std::string>>& sets) {
+JsonMember one_of_required(const std::vector<std::vector<std::string>>& sets) {
   std::vector<JsonValue> items;
   for (const std::vector<std::string>& set : sets) items.push_back(json_object({{"required", json_list(set)}}));
   return {"oneOf", json_list(std::move(items))};
 }
 
-SchemaKeyword required_together(const std::string& a, const std::string& b) {
+JsonMember required_together(const std::string& a, const std::string& b) {
   return {"dependentRequired", json_object({{a, json_list({json_text(b)})}, {b, json_list({json_text(a)})}})};
 }
 
-SchemaKeyword at_least_properties(int count) { return {"minProperties", json_number(count)}; }
+JsonMember at_least_properties(int count) { return {"minProperties", json_number(count)}; }
 
 namespace json_type {
 

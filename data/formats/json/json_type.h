@@ -20,10 +20,9 @@ constexpr JsonRange above_zero_to(double most) { return {.above = 0, .most = mos
 constexpr JsonRange from_to(double least, double most) { return {.least = least, .most = most}; }
 
 /// A keyword of a schema and its value.
-using SchemaKeyword = std::pair<std::string, JsonValue>;
 
 struct JsonType {
-  std::vector<SchemaKeyword> schema;
+  std::vector<JsonMember> schema;
   JsonRange range = {};  ///< of a number; JsonObject::number refuses values outside
 };
 
@@ -47,9 +46,9 @@ JsonType null_or(const JsonType& type);
 }  // namespace json_type
 
 /// Rules on which keys of an object go together.
-SchemaKeyword one_of_required(const std::vector<std::vector<std::string>>& sets);
-SchemaKeyword required_together(const std::string& a, const std::string& b);
-SchemaKeyword at_least_properties(int count);
+JsonMember one_of_required(const std::vector<std::vector<std::string>>& sets);
+JsonMember required_together(const std::string& a, const std::string& b);
+JsonMember at_least_properties(int count);
 
 /// JSON values for schemas.
 JsonValue json_text(const std::string& text);
@@ -57,6 +56,6 @@ JsonValue json_number(double number);
 JsonValue json_boolean(bool value);
 JsonValue json_list(std::vector<JsonValue> items);
 JsonValue json_list(const std::vector<std::string>& texts);
-JsonValue json_object(std::vector<SchemaKeyword> members);
+JsonValue json_object(std::vector<JsonMember> members);
 
 }  // namespace ostium::data

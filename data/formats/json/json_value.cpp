@@ -144,7 +144,8 @@ class Builder {
     if (open_.empty()) return root_ = std::move(value);
     JsonValue& parent = *open_.back();
     if (parent.type == JsonValue::Type::array) return parent.items.emplace_back(std::move(value));
-    return parent.members.emplace_back(key_, std::move(value)).second;
+    parent.members.push_back({key_, std::move(value)});
+    return parent.members.back().value;
   }
 
   bool add(JsonValue::Type type, double number, const std::string& text) {

@@ -30,13 +30,15 @@ struct JsonPlace {
   std::optional<std::size_t> index;  ///< of an element of an array, which has no key
 };
 
+struct JsonMember;
+
 struct JsonValue {
   enum class Type { null, boolean, number, text, array, object };
   Type type = Type::null;
-  double number = 0;                                       ///< number, or 0 or 1 for a boolean
-  std::string text;                                        ///< text, UTF-8
-  std::vector<JsonValue> items;                            ///< elements of an array
-  std::vector<std::pair<std::string, JsonValue>> members;  ///< members of an object, in file order
+  double number = 0;                ///< number, or 0 or 1 for a boolean
+  std::string text;                 ///< text, UTF-8
+  std::vector<JsonValue> items;     ///< elements of an array
+  std::vector<JsonMember> members;  ///< of an object, in file order
 
   int line = 0;                             ///< where the value begins, from 1
   std::shared_ptr<const JsonPlace> place;   ///< null for the whole file
@@ -49,6 +51,11 @@ struct JsonValue {
   [[noreturn]] void refuse(const std::string& expected) const;
   /// Throws LoadError "FILE:LINE: WHAT".
   [[noreturn]] void fail(const std::string& what) const;
+};
+
+struct JsonMember {
+  std::string key;
+  JsonValue value;
 };
 
 /// Throws LoadError if `text` is not JSON in UTF-8, repeats a key, or goes beyond a limit.

@@ -65,7 +65,7 @@ TEST(Json, OnlyUtf8IsReadAndOnlyUtf8IsShown) {
   std::string text;
   for (int i = 0; i < 30; ++i) text += "\xe2\x82\xac";
   const JsonValue value = parse_json("a.json", "{\"\\u001b[2Jx\": \"" + text + "\"}");
-  EXPECT_EQ(refusal_of([&] { value.members[0].second.refuse("less"); }),
+  EXPECT_EQ(refusal_of([&] { value.members[0].value.refuse("less"); }),
             "a.json:1: ?[2Jx is \"" + text.substr(0, 39) + "...\"; expected less");
 }
 

@@ -33,7 +33,8 @@ Paths cheapest_paths(const Voxels& voxels, int root) {
   cost[root] = paths.length_m[root] = 0;
   open.push({0, root});
   while (!open.empty()) {
-    const auto [c, v] = open.top();
+    const double c = open.top().first;
+    const int v = open.top().second;
     open.pop();
     if (c > cost[v]) continue;
     voxels.neighbours(v, [&](int next, double step) {

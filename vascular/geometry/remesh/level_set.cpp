@@ -94,11 +94,13 @@ Mesh outer_surface(const Mesh& closed, double voxel_m) {
   const Eigen::Vector3d origin = box.min() - voxel_m * Eigen::Vector3d(0.137, 0.271, 0.313);
   // With these very types OpenVDB's functions are in its library, and need not be compiled here.
   std::vector<openvdb::Vec3s> corners;
+  corners.reserve(closed.vertices.size());
   for (const Eigen::Vector3d& p : closed.vertices) {
     const Eigen::Vector3f at = ((p - origin) / voxel_m).cast<float>();
     corners.emplace_back(at.x(), at.y(), at.z());
   }
   std::vector<openvdb::Vec3I> faces;
+  faces.reserve(wall.size());
   for (const auto& t : wall)
     faces.emplace_back(static_cast<unsigned>(t[0]), static_cast<unsigned>(t[1]), static_cast<unsigned>(t[2]));
   openvdb::util::NullInterrupter never;

@@ -57,16 +57,16 @@ class WrittenOut {
   JsonValue& list_of(const std::string& key, std::size_t column) {
     if (key.empty()) refuse(table_.columns[column], "expected a key of the run");
     const auto known =
-        std::find_if(run_.members.begin(), run_.members.end(), [&](const auto& m) { return m.first == key; });
+        std::find_if(run_.members.begin(), run_.members.end(), [&](const auto& m) { return m.key == key; });
     if (known != run_.members.end()) {
-      if (known->second.file != file_) refuse(table_.columns[column], "the run has that key itself, too");
-      return known->second;
+      if (known->value.file != file_) refuse(table_.columns[column], "the run has that key itself, too");
+      return known->value;
     }
     JsonValue list;
     list.type = JsonValue::Type::array, list.line = table_.header_line, list.file = file_;
     list.place = std::make_shared<const JsonPlace>(JsonPlace{run_.place, key, {}});
-    run_.members.emplace_back(key, list);
-    return run_.members.back().second;
+    run_.members.push_back({key, list});
+    return run_.members.back().value;
   }
 
   std::vector<JsonValue> numbers(std::size_t column, const std::shared_ptr<const JsonPlace>& list) const {
@@ -93,9 +93,9 @@ JsonValue with_tables(JsonValue root) {
     if (key != "runs") continue;
     for (JsonValue& run : runs.items) {
       const auto table =
-          std::find_if(run.members.begin(), run.members.end(), [](const auto& m) { return m.first == "csv"; });
+          std::find_if(run.members.begin(), run.members.end(), [](const auto& m) { return m.key == "csv"; });
       if (table == run.members.end()) continue;
-      const JsonValue name = table->second;
+      const JsonValue name = table->value;
       run.members.erase(table);
       WrittenOut(run, name);
     }
