@@ -129,6 +129,10 @@ awk -v n=24 -v r=60 '{ print } END { for (i = 1; i < n - 1; ++i) { print "f", 1,
   "$folder/vessel.obj" >"$folder/closed.obj"
 expect 0 '"sound": true' "$ostium" check --json --units mm "$folder/closed.obj"
 expect 0 "sound" "$ostium" check --units cm "$folder/closed.obj"
+(printf '# unit: mm\n'; cat "$folder/closed.obj"; awk -v n=1440 '/^v/ { $2 += 20; print } /^f/ { print "f", $2 + n, $3 + n, $4 + n, $5 ? $5 + n : "" }' "$folder/closed.obj") >"$folder/pair.obj"
+expect 0 "2 separate pieces" "$ostium" centreline "$folder/pair.obj" -o "$folder/pair.json"
+printf 'v 0 0 0\nv 1 0 0\nf 1 2 2\n' >"$folder/flat.obj"
+expect 3 "no triangle in it has a width" "$ostium" check --units mm "$folder/flat.obj"
 for command in "import -o $folder/case" check "centreline -o $folder/tree.json"; do
   expect 3 "its numbers may be mm or cm" "$ostium" $command "$folder/vessel.obj"
 done
