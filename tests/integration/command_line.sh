@@ -140,6 +140,8 @@ done
 # It is no heart, unless somebody says so.
 expect 0 '"beats": false' "$ostium" import "$folder/marked.obj" -o "$folder/single" --motion none --json
 expect 0 '"beats": true' "$ostium" import "$folder/marked.obj" -o "$folder/single" --motion coronary --json
+expect 2 "it is empty" "$ostium" import "$folder/marked.obj" -o ""
+expect 2 "it is empty" "$ostium" run ""
 # What is not an import's own is never lost to one.
 echo mine >"$folder/mine.txt"
 for place in mine.txt not-there/../mine.txt; do
