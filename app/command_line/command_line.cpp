@@ -19,7 +19,10 @@
 
 namespace ostium::app {
 
-Option Option::required() { return option_->required(), *this; }
+Option Option::required() {
+  const auto not_empty = [](const std::string& value) { return std::string(value.empty() ? "it is empty" : ""); };
+  return option_->required()->check(not_empty, ""), *this;
+}
 Option Option::show_default() { return option_->capture_default_str(), *this; }
 Option Option::type(const std::string& name) { return option_->type_name(name), *this; }
 Option Option::count(int values) { return option_->expected(values)->delimiter(','), *this; }

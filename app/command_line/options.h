@@ -17,7 +17,7 @@ class Option {
  public:
   explicit Option(CLI::Option* option) : option_(option) {}
 
-  Option required();
+  Option required();                     ///< and not empty
   Option show_default();                 ///< shows the variable's current value in --help
   Option type(const std::string& name);  ///< shown in --help instead of TEXT
   Option count(int values);              ///< this many values, separated by commas

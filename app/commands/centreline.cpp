@@ -66,6 +66,12 @@ int run(const Arguments& a) {
                               ": has a double wall; expected the lumen, which `ostium import` takes out of it");
   const vascular::CentrelineResult found = find_centrelines(mesh, wanted);
   if (wanted.ends.empty()) require_long(found.tree);
+  if (report.components > 1)
+    fmt::print(
+        stderr,
+        "{}: {} separate pieces; the lines are of what hangs together with their beginning, --start X,Y,Z chooses "
+        "another\n",
+        a.mesh, report.components);
   data::write_tree(a.output, found.tree, unit);
   show_progress("");
   for (const vascular::Opening& opening : openings) {

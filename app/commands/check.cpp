@@ -99,6 +99,9 @@ Checked look_at(const std::string& file, const Arguments& a) {
   read(a, c);
   progress("looking for faults");
   c.report = check_surface(c.mesh.mesh);
+  if (c.report.triangles == 0)
+    throw vascular::MeshError(file +
+                              ": no triangle in it has a width; expected the surface of a vessel, export it again");
   vascular::Mesh turned = c.mesh.mesh;
   vascular::Sheets sheets = sheets_of(turned);
   const vascular::Orientation orientation = orient(turned, sheets);

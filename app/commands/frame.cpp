@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <nlohmann/json.hpp>
@@ -163,9 +164,9 @@ fluoro::Picture shown(const Arguments& a, const fluoro::FluoroscopeInput& in, co
   return picture;
 }
 
-/// A picture with more leaking pixels than this is spoiled; fewer, as where two vessels of an imported mesh touch, are
-/// told and not seen.
-constexpr double spoiled_share = 1e-3;
+/// A picture with more leaking pixels than either is spoiled; fewer, as where two vessels of an imported mesh touch,
+/// are told and not seen.
+constexpr double spoiled_share = 1e-3, spoiled_pixels = 20;
 
 /// The frames taken one after the other.
 struct FilmedFrames {
@@ -191,7 +192,7 @@ FilmedFrames film(const Arguments& a, const Scenes& scenes, const fluoro::Fluoro
     if (out.report.leak && out.leaking.empty())
       out.leaking = imager.leaking({scene, in.view, in.collimator, a.programme(), in.seed});
     if (const auto& leak = out.report.leak;
-        leak && static_cast<double>(leak.pixels) > spoiled_share * a.pixels * a.pixels)
+        leak && static_cast<double>(leak.pixels) > std::max(spoiled_pixels, spoiled_share * a.pixels * a.pixels))
       throw data::LoadError(
           fmt::format("X-ray scene: {} of {} pixels leak (worst {:.2f} mm): {}; mend that mesh "
                       "(ostium check), or import it again",

@@ -161,27 +161,51 @@ void draw_help(const Pen& pen, const PanelTexts& texts, const Snapshot& now) {
   double y = 62;
   pen.write(pale, 18, 54, y, "Keys");
   y += 6;
-  for (const KeyHelp& help : key_help(now.hands, texts.has_patient)) {
+  for (const KeyHelp& help : key_help(texts, now)) {
     y += 19;
     pen.write(yellow, 13, 54, y, help.keys);
     pen.write(pale, 13, 210, y, help.what);
   }
 }
 
+/// Whether the console carries it out, as this run stands.
+bool does_something(const data::ConsoleRow& row, const PanelTexts& texts, const Snapshot& now) {
+  using enum ConsoleCommand;
+  if (row.patient && !texts.has_patient) return false;
+  if (row.needs == data::ConsoleNeeds::hands && now.hands == Hands::script) return false;
+  switch (row.command) {
+    case guide_feed:
+    case guide_turn:
+    case fine:
+      return now.hands == Hands::seats;
+    case device_feed:
+    case device_turn:
+      return now.hands == Hands::seats && now.right_hand >= 0;
+    case next_device:
+      return now.hands == Hands::seats && texts.tools.size() > 2;
+    case vacuum:
+    case gauge:
+    case change_gauge:
+      return texts.has_balloon;
+    case take_over:
+      return now.hands == Hands::script;
+    case hand_back:
+      return now.script_step >= 0 && now.hands != Hands::script;
+    default:
+      return true;
+  }
+}
+
 }  // namespace
 
-std::vector<KeyHelp> key_help(Hands hands, bool has_patient) {
+std::vector<KeyHelp> key_help(const PanelTexts& texts, const Snapshot& now) {
   std::vector<KeyHelp> all;
   for (const data::ConsoleRow& row : data::console_rows) {
-    const bool of_hands = row.needs == data::ConsoleNeeds::hands;
-    const bool in_the_way = (row.held && of_hands && !row.patient && hands != Hands::seats) ||
-                            (of_hands && hands == Hands::script) || (row.patient && !has_patient) ||
-                            (row.command == ConsoleCommand::take_over && hands != Hands::script);
     std::string keys;
     for (const data::ConsoleKey& key : data::console_keys)
       if (key.order.command == row.command)
         keys += (keys.empty() ? "" : "  ") + std::string(key.ctrl ? "Ctrl+" : "") + key.key;
-    if (!keys.empty() && !in_the_way) all.push_back({keys, row.what});
+    if (!keys.empty() && does_something(row, texts, now)) all.push_back({keys, row.what});
   }
   return all;
 }
@@ -200,6 +224,8 @@ PanelTexts panel_texts(const SessionModel& model, const ScriptPlan& plan, const 
   texts.signal_names = signal_names(model);
   texts.left_hand = hand.left_hand();
   texts.has_patient = model.has_patient();
+  texts.has_balloon = std::any_of(model.tools.begin(), model.tools.end(),
+                                  [](const SessionTool& tool) { return tool.instrument.balloon.has_value(); });
   return texts;
 }
 

@@ -21,6 +21,7 @@ struct PanelTexts {
   std::vector<std::string> signal_names;  ///< of Snapshot::signals
   int left_hand = 0;
   bool has_patient = false;
+  bool has_balloon = false;  ///< one that an indeflator opens, alone or in a stent
 };
 PanelTexts panel_texts(const SessionModel& model, const ScriptPlan& plan, const LiveDriver& hand);
 
@@ -44,7 +45,7 @@ void draw_panel(const PanelTexts& texts, const Snapshot& now, const PanelView& v
 struct KeyHelp {
   std::string keys, what;
 };
-/// Of the commands that do something in this run, in the console's order.
-std::vector<KeyHelp> key_help(Hands hands, bool has_patient);
+/// Of the commands that do something in this run as it stands, in the console's order.
+std::vector<KeyHelp> key_help(const PanelTexts& texts, const Snapshot& now);
 
 }  // namespace ostium::app

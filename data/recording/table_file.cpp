@@ -158,6 +158,8 @@ TableFile TableFile::open(const std::string& path, bool to_write) {
   auto handle = std::make_unique<Handle>();
   handle->path = path;
   std::error_code none;
+  if (std::filesystem::is_directory(path, none))
+    throw LoadError(path + ": is a folder; expected a recording, as run.h5 in a folder of `ostium run --out`");
   if (!std::filesystem::is_regular_file(path, none)) throw LoadError(path + ": there is no such file");
   const htri_t hdf5 = H5Fis_hdf5(path.c_str());
   if (hdf5 == 0) throw LoadError(path + ": is no HDF5 file; expected a recording of `ostium run`");

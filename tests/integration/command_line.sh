@@ -129,6 +129,10 @@ awk -v n=24 -v r=60 '{ print } END { for (i = 1; i < n - 1; ++i) { print "f", 1,
   "$folder/vessel.obj" >"$folder/closed.obj"
 expect 0 '"sound": true' "$ostium" check --json --units mm "$folder/closed.obj"
 expect 0 "sound" "$ostium" check --units cm "$folder/closed.obj"
+(printf '# unit: mm\n'; cat "$folder/closed.obj"; awk -v n=1440 '/^v/ { $2 += 20; print } /^f/ { print "f", $2 + n, $3 + n, $4 + n, $5 ? $5 + n : "" }' "$folder/closed.obj") >"$folder/pair.obj"
+expect 0 "2 separate pieces" "$ostium" centreline "$folder/pair.obj" -o "$folder/pair.json"
+printf 'v 0 0 0\nv 1 0 0\nf 1 2 2\n' >"$folder/flat.obj"
+expect 3 "no triangle in it has a width" "$ostium" check --units mm "$folder/flat.obj"
 for command in "import -o $folder/case" check "centreline -o $folder/tree.json"; do
   expect 3 "its numbers may be mm or cm" "$ostium" $command "$folder/vessel.obj"
 done
@@ -136,6 +140,24 @@ done
 # It is no heart, unless somebody says so.
 expect 0 '"beats": false' "$ostium" import "$folder/marked.obj" -o "$folder/single" --motion none --json
 expect 0 '"beats": true' "$ostium" import "$folder/marked.obj" -o "$folder/single" --motion coronary --json
+expect 2 "it is empty" "$ostium" import "$folder/marked.obj" -o ""
+expect 2 "it is empty" "$ostium" run ""
+# What is not an import's own is never lost to one.
+echo mine >"$folder/mine.txt"
+for place in mine.txt not-there/../mine.txt; do
+  expect 3 "is no folder" "$ostium" import "$folder/marked.obj" -o "$folder/$place"
+done
+cp "$folder/mine.txt" "$folder/single/run.h5"
+expect 3 "holds run.h5, too" "$ostium" import "$folder/marked.obj" -o "$folder/single"
+[[ $(cat "$folder/mine.txt" "$folder/single/run.h5") == $'mine\nmine' && ! -e $folder/not-there ]]
+expect 3 "is a folder; expected a recording" "$ostium" report "$folder/single"
+rm "$folder/single/run.h5"
+mkdir "$folder/twice.unfinished"
+expect 3 "another ostium writes there" flock "$folder/twice.unfinished" "$ostium" import "$folder/marked.obj" -o "$folder/twice"
+rmdir "$folder/twice.unfinished"
+mv "$folder/single" "$folder/renamed"
+expect 3 "has no renamed.json" "$ostium" cases "$folder/renamed"
+mv "$folder/renamed" "$folder/single"
 expect 3 "an RCA beats" "$ostium" import "$folder/marked.obj" -o "$folder/case" --rename "vessel 1=RCA"
 expect 3 "add --sequence" "$ostium" import "$folder/marked.obj" -o "$folder/case" --motion own
 expect 3 "leave one of them out" "$ostium" import "$folder/marked.obj" -o "$folder/case" --motion none --sequence
@@ -215,7 +237,7 @@ for record in all shapes=0 shapes=1e9 shapes=x full,; do
 done
 sed 's/"name": "iliac-wire"/"name": "mine"/' "$(dirname "$0")/../../data/scripts/iliac-wire.json" >"$folder/copy-2.json"
 expect 1 '"script": "mine"' "$ostium" run rca-mid-focal --script "$folder/copy-2.json" --seconds 0.1 --json
-expect 130 "stopped by the operator" timeout -s INT 120 bash -c "'$ostium' run rca-mid-focal --speed real --out '$out/int' & p=\$!
+expect 130 "ended by the operator" timeout -s INT 120 bash -c "'$ostium' run rca-mid-focal --speed real --out '$out/int' & p=\$!
   while [[ ! -e '$out/int/run.h5' ]]; do sleep 0.05; done; sleep 0.7; kill -INT \$p; wait \$p"
 expect 0 "bit for bit" "$ostium" replay "$out/int/run.h5"
 expect 3 "another ostium writes there" bash -c "'$ostium' run rca-mid-focal --speed real --record none --out '$out/two' & p=\$!

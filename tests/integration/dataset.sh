@@ -26,5 +26,21 @@ expect 0 "two: 8 pictures" dataset -o two
 rm -r two/before
 diff -r one two
 expect 3 "another set of pictures" dataset -o two --set hand_speed=2
+# One program at a time makes a run; others may make the others. The lock ends with the program, however that ends.
+"$ostium" dataset rca-mid-focal --script rca-from-the-ostium --set begin=RCA --seconds 2 --pixels 128 --every 0.8 \
+  --vary person=0,1,2,3 --seeds 1 -o three --part 1/2 >/dev/null 2>&1 &
+first=$!
+trap 'kill -9 $first 2>/dev/null || true; rm -rf "$work"' EXIT
+until [[ -s three/set.txt ]]; do sleep 0.05; done
+sleep 0.2
+kill -STOP $first
+expect 3 "three: another ostium makes these pictures" dataset -o three
+expect 3 "three: another ostium makes these pictures" dataset -o three --part 1/2
+expect 3 "another set of pictures" dataset -o three --part 2/2 --set hand_speed=2
+expect 0 "2 runs are not done" dataset -o three --part 2/2
+kill -9 $first
+wait $first || true
+expect 0 "three: 8 pictures" dataset -o three
+diff -r one three
 # A case whose vessel has no room for the lesion is a run without pictures.
 expect 3 "there is no case" "$ostium" dataset no-such-case -o none

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <set>
 
 #include "app/command_line/arguments.h"
@@ -13,6 +14,7 @@
 #include "app/command_line/progress.h"
 #include "app/commands/dataset/coco.h"
 #include "app/commands/dataset/frames.h"
+#include "app/commands/dataset/run_locks.h"
 #include "app/commands/dataset/splits.h"
 #include "app/commands/sweep/journal.h"
 #include "data/formats/load_error.h"
@@ -55,8 +57,13 @@ class Dataset {
                       arguments.runs.session.seconds);
   }
 
-  /// One vessel at a time, so that only one is in memory.
+  /// One vessel at a time, so that only one is in memory. Throws LoadError if the folder is of another set, or another
+  /// program makes some of these runs.
   void run() {
+    std::vector<std::size_t> own;
+    for (std::size_t run = 0; run < part_of_.size(); ++run)
+      if (part_of_[run] == head_.part.number) own.push_back(run);
+    locks_.emplace(file("set.txt"), id_, own);
     for (std::size_t v = 0; v < sweep_.vessels.size() && !interrupted; ++v) {
       std::shared_ptr<const Vessel> vessel;
       for (std::size_t run = 0; run < part_of_.size() && !interrupted; ++run) {
@@ -78,6 +85,7 @@ class Dataset {
 
   /// Once all runs are done. Returns the number of pictures.
   std::size_t finish() const {
+    locks_->keep_others_from_finishing();
     std::vector<Json> runs;
     std::vector<std::string> groups;
     std::set<std::string> names;
@@ -186,6 +194,7 @@ class Dataset {
   const JournalHead head_;
   const std::vector<std::size_t> part_of_;
   std::string id_;
+  std::optional<RunLocks> locks_;
 };
 
 /// Exit code: 0 if every run of this part is done.

@@ -150,11 +150,11 @@ class Import {
     const bool name_only = options_.output.find('/') == std::string::npos && !options_.output.starts_with(".");
     made_.folder = name_only ? fs::path(data::imported_folder()) / options_.output : fs::path(options_.output);
     if (!made_.folder.has_filename()) made_.folder = made_.folder.parent_path();
+    // Where a folder on the way is made first, ".." leads elsewhere than it seems to.
+    for (const fs::path& part : fs::path(made_.folder))
+      if (part == "..") made_.folder = fs::weakly_canonical(made_.folder);
     made_.the_case.name = fs::absolute(made_.folder).filename().string();
-    if (fs::exists(made_.folder) && !fs::exists(made_.folder / (made_.the_case.name + ".json")) &&
-        !fs::is_empty(made_.folder))
-      throw data::LoadError(made_.folder.string() +
-                            ": is there and holds no imported case; expected a new folder, or one to renew");
+    require_new_or_case(made_.folder, made_.the_case.name);
   }
 
   void choose_motion() {

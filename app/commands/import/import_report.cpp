@@ -45,7 +45,11 @@ Json report_of(const Imported& x) {
                         {"proximal_mm", end_calibre_m(a, b, true) / mm},
                         {"distal_mm", end_calibre_m(a, b, false) / mm}});
   for (const vascular::FoundNarrowing& n : x.narrowings)
-    narrow.push_back({{"branch", n.branch}, {"at_mm", n.at_m / mm}, {"stenosis_percent", 100 * n.stenosis}});
+    narrow.push_back({{"branch", n.branch},
+                      {"at_mm", n.at_m / mm},
+                      {"from_mm", n.from_m / mm},
+                      {"length_mm", (n.to_m - n.from_m) / mm},
+                      {"stenosis_percent", 100 * n.stenosis}});
   const Eigen::Matrix3d& R = x.found.R_PF;
   return {{"case", x.the_case.name},
           {"files", x.files},
@@ -84,7 +88,9 @@ void tell(const Imported& x, const std::string& called) {
   for (const vascular::RepairNote& note : x.repaired.notes) {
     fmt::print("mended: {} x {}", note.count, note.what);
     if (!note.where.empty()) {
-      const Eigen::Vector3d p = note.where.front() / metres(x.unit.unit);
+      // A millionth of the size is rounding, and is written as 0.
+      const Eigen::Vector3d p = (note.where.front().array().abs() < 1e-6 * x.unit.extent_m)
+                                    .select(Eigen::Vector3d::Zero(), note.where.front() / metres(x.unit.unit));
       fmt::print(", the first at {:.4g} {:.4g} {:.4g}", p.x(), p.y(), p.z());
     }
     fmt::print("\n");
@@ -102,8 +108,9 @@ void tell(const Imported& x, const std::string& called) {
     fmt::print("  {:<18} {:9.1f} {:12.2f} {:10.2f}\n", b.name, b.length_m() / mm, end_calibre_m(a, b, true) / mm,
                end_calibre_m(a, b, false) / mm);
   for (const vascular::FoundNarrowing& n : x.narrowings)
-    fmt::print("narrowing kept: {} at {:.0f} mm, {:.0f} % of {:.1f} mm\n", n.branch, n.at_m / mm, 100 * n.stenosis,
-               n.reference_m / mm);
+    fmt::print(
+        "narrowing kept: {} from {:.0f} mm, {:.0f} mm long, the diameter of {:.1f} mm less by {:.0f} % at {:.0f} mm\n",
+        n.branch, n.from_m / mm, (n.to_m - n.from_m) / mm, n.reference_m / mm, 100 * n.stenosis, n.at_m / mm);
   for (const std::string& note : x.found.notes) fmt::print("note: {}\n", note);
   fmt::print("rehearse on it as on any case: ostium cases {}\n", called);
 }

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "app/command_line/path_lock.h"
 #include "app/commands/import/imported.h"
 #include "core/base/units.h"
 #include "data/catalogue/case/anatomy_file.h"
@@ -50,17 +51,53 @@ std::string case_json(const Imported& x) {
   return json.dump(2) + "\n";
 }
 
+/// Whether an import of this name writes it.
+bool is_ours(const fs::path& file, const std::string& name) {
+  const std::string is = file.filename().string();
+  for (const std::string& own : {name + ".json", std::string("anatomy.json"), std::string("import.json"),
+                                 std::string("tree.json"), std::string("tree.vtp"), frame_name(0)})
+    if (is == own) return true;
+  return is.starts_with("lumen-") && is.ends_with(".ply");
+}
+
+void empty(const fs::path& folder) {
+  std::error_code error;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder, error)) fs::remove_all(entry.path(), error);
+}
+
 }  // namespace
+
+void require_new_or_case(const fs::path& folder, const std::string& name) {
+  std::error_code none;
+  if (!fs::exists(fs::symlink_status(folder, none))) return;
+  if (!fs::is_directory(folder, none))
+    throw data::LoadError(folder.string() + ": is there and is no folder; expected a new one, or an imported case");
+  bool empty = true, of_a_case = false;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder, none)) {
+    empty = false;
+    of_a_case |= entry.path().filename() == name + ".json";
+  }
+  if (!empty && !of_a_case)
+    throw data::LoadError(folder.string() +
+                          ": is there and holds no imported case; expected a new folder, or one to renew");
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder, none))
+    if (!entry.is_regular_file(none) || !is_ours(entry.path(), name))
+      throw data::LoadError(
+          fmt::format("{}: holds {}, too, which would be lost as the case is renewed; move it, or name "
+                      "another folder",
+                      folder.string(), entry.path().filename().string()));
+}
 
 void write_case(const Imported& x, const Json& report, const std::string& picture) {
   std::error_code error;
   if (x.folder.has_parent_path()) fs::create_directories(x.folder.parent_path(), error);
   const fs::path unfinished = x.folder.string() + ".unfinished";
-  fs::remove_all(unfinished, error);
   fs::create_directory(unfinished, error);
   if (error)
     throw data::WriteError(
         fmt::format("{}: cannot be made ({}); expected a folder", unfinished.string(), error.message()));
+  const PathLock lock(unfinished.string());
+  empty(unfinished);  // of an import that was killed
   try {
     data::write_file((unfinished / (x.the_case.name + ".json")).string(), case_json(x));
     data::write_file((unfinished / "anatomy.json").string(), data::anatomy_to_json(x.found.anatomy));
@@ -71,6 +108,12 @@ void write_case(const Imported& x, const Json& report, const std::string& pictur
     data::write_tree((unfinished / "tree.json").string(), x.patient.tree);
     data::write_tree((unfinished / "tree.vtp").string(), x.patient.tree);
     if (!picture.empty()) draw(x, picture);
+  } catch (...) {
+    fs::remove_all(unfinished, error);
+    throw;
+  }
+  try {
+    require_new_or_case(x.folder, x.the_case.name);  // it took a while
   } catch (...) {
     fs::remove_all(unfinished, error);
     throw;

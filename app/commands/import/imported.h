@@ -34,8 +34,11 @@ nlohmann::ordered_json report_of(const Imported& imported);
 /// The same for a person, on stdout; `called`: what `ostium cases` knows the case by.
 void tell(const Imported& imported, const std::string& called);
 
+/// Throws LoadError unless the folder is not there, or holds at most what an import of that name writes: the rest would
+/// be lost when it is renewed.
+void require_new_or_case(const std::filesystem::path& folder, const std::string& name);
 /// Writes the case beside its place and moves it there when it is whole, so that it is there whole or not at all;
-/// `picture`: a file, or empty. Throws LoadError.
+/// `picture`: a file, or empty. Throws LoadError, also if another import writes there; WriteError.
 void write_case(const Imported& imported, const nlohmann::ordered_json& report, const std::string& picture);
 
 void draw(const Imported& imported, const std::string& file);

@@ -318,7 +318,8 @@ std::string words_for(Outcome outcome) {
 std::string reason(const ScriptPlan& plan, const OperatorState& state) {
   const auto outcome = state.outcome;
   const auto s = static_cast<std::size_t>(state.step);
-  if (outcome == Outcome::success || outcome == Outcome::ended || s >= plan.script.steps.size()) return "";
+  if (outcome == Outcome::ended) return "by the operator";
+  if (outcome == Outcome::success || s >= plan.script.steps.size()) return "";
   const data::ScriptStep& step = plan.script.steps[s];
   const std::string where = fmt::format("step {} of {}, {}", s + 1, plan.script.steps.size(), step.words());
   if (outcome == Outcome::timed_out) return fmt::format("{}: timed out after {:g} s", where, step.timeout_s);
@@ -327,7 +328,7 @@ std::string reason(const ScriptPlan& plan, const OperatorState& state) {
                        plan.script.tools[static_cast<std::size_t>(state.in_the_way)].name);
   if (outcome == Outcome::failure)
     return fmt::format("{}: {}", where, step.unless[static_cast<std::size_t>(state.by_condition)].words);
-  return where;
+  return outcome == Outcome::aborted ? "ended by the operator, in " + where : where;
 }
 
 std::string where_tips_lie(const SessionModel& model, const SessionState& session, const SessionReport& report) {

@@ -86,6 +86,7 @@ PlayReport play(ScriptedRun& run, const RunSetup& setup, const PlayOptions& opti
   PlayReport out;
   DepthJudge judge;
   const auto begin = Clock::now();
+  const bool by_hand = run.plan.script.by_hand;
   std::string aborted;
   const auto step_length =
       std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(run.model.step_s()));
@@ -93,7 +94,8 @@ PlayReport play(ScriptedRun& run, const RunSetup& setup, const PlayOptions& opti
   while (true) {
     const auto now = Clock::now();
     const double cpu = thread_cpu_s();
-    if (options.stop && options.stop->load(std::memory_order_relaxed)) aborted = "stopped by the operator";
+    if (options.stop && options.stop->load(std::memory_order_relaxed))
+      aborted = by_hand ? "by the operator" : "ended by the operator";
     if (options.seconds > 0 && seconds(run.model, run.state) >= options.seconds - 1e-9) aborted = "time limit";
     if (options.give_up_s > 0 && seconds_between(begin, now) > options.give_up_s) aborted = "gave up waiting";
     if (!aborted.empty() || !run.tick()) break;
@@ -114,7 +116,6 @@ PlayReport play(ScriptedRun& run, const RunSetup& setup, const PlayOptions& opti
   out.clock_s = seconds_between(begin, Clock::now());
   recorder.stop();
   out.simulated_s = seconds(run.model, run.state);
-  const bool by_hand = run.plan.script.by_hand;
   out.outcome = words_for(aborted.empty() ? run.outcome : by_hand ? Outcome::ended : Outcome::aborted);
   out.reason = aborted.empty() ? reason(run.plan, run.hands)
                : by_hand       ? aborted

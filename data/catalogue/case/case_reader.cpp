@@ -142,6 +142,12 @@ std::string case_file(const std::string& name) {
   for (const fs::path& file :
        {shipped, case_file_in(fs::path(imported_folder()) / name), case_file_in(name), fs::path(name)})
     if (fs::is_regular_file(file)) return file.string();
+  for (const fs::path& folder : {fs::path(imported_folder()) / name, fs::path(name)})
+    if (fs::is_directory(folder) && fs::is_regular_file(folder / "anatomy.json"))
+      throw LoadError(
+          fmt::format("{}: has no {}; expected a case's file with its folder's name: name the case's file, "
+                      "or the folder as it was",
+                      folder.string(), case_file_in(folder).filename().string()));
   std::string known;
   for (const Case& c : load_cases()) known += "\n  " + c.name;
   throw LoadError(fmt::format("there is no case \"{}\"; expected a case's file or folder, or one of:{}", name, known));

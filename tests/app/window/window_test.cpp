@@ -93,7 +93,7 @@ TEST(LiveDriver, PauseStandsAndTheEndEnds) {
   p.keys.order(ConsoleCommand::end);
   EXPECT_FALSE(p.run.tick());
   EXPECT_EQ(p.run.outcome, Outcome::ended) << "by the one who played";
-  EXPECT_EQ(reason(p.run.plan, p.run.hands), "");
+  EXPECT_EQ(reason(p.run.plan, p.run.hands), "by the operator");
   EXPECT_EQ(p.run.state.rods.step, 101u);
 }
 

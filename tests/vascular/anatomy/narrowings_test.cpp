@@ -38,6 +38,9 @@ TEST(Narrowings, OneWithThreeTightPlacesIsOne) {
   EXPECT_NEAR(found[0].at_m, 50e-3, 0.6e-3);
   EXPECT_NEAR(found[0].stenosis, 0.7, 0.05);
   EXPECT_NEAR(found[0].reference_m, 3e-3, 0.3e-3);
+  // 1 - 0.6 notch is 0.7 half way, 1.5 mm from its middle; 1 - 0.55 notch is that 1.4 mm from its middle.
+  EXPECT_NEAR(found[0].from_m, 41.5e-3, 0.6e-3);
+  EXPECT_NEAR(found[0].to_m, 58.4e-3, 0.6e-3);
 }
 
 TEST(Narrowings, ThreeDiametersApartTheyAreTwo) {
@@ -46,6 +49,9 @@ TEST(Narrowings, ThreeDiametersApartTheyAreTwo) {
   ASSERT_EQ(found.size(), 2u);
   EXPECT_NEAR(found[0].at_m, 35e-3, 0.6e-3);
   EXPECT_NEAR(found[1].at_m, 60e-3, 0.6e-3);
+  EXPECT_NEAR(found[0].to_m - found[0].from_m, 4e-3, 1.1e-3);
+  // 1 - 0.5 notch is 0.7 where cos is 0.2, 1.74 mm from its middle.
+  EXPECT_NEAR(found[1].to_m - found[1].from_m, 3.5e-3, 1.1e-3);
 }
 
 TEST(Narrowings, AHealthyVesselHasNone) {

@@ -35,11 +35,17 @@ std::vector<FoundNarrowing> find_narrowings(const SphereTree& tree, double least
       if (behind < 0.5 * before || before < 0.5 * behind) continue;
       const double reference = (before + behind) / 2, stenosis = 1 - sphere.radius_m / reference;
       if (stenosis < least) continue;
-      const FoundNarrowing here = {branch.name, sphere.s_m, stenosis, 2 * reference, sphere.p};
-      if (last_m < 0 || sphere.s_m - last_m > apart_diameters * here.reference_m)
-        found.push_back(here);
-      else if (stenosis > found.back().stenosis)
-        found.back() = here;
+      FoundNarrowing here = {.branch = branch.name,
+                             .at_m = sphere.s_m,
+                             .from_m = sphere.s_m,
+                             .to_m = sphere.s_m,
+                             .stenosis = stenosis,
+                             .reference_m = 2 * reference,
+                             .p = sphere.p};
+      if (last_m < 0 || sphere.s_m - last_m > apart_diameters * here.reference_m) found.push_back(here);
+      here.from_m = found.back().from_m;
+      if (stenosis > found.back().stenosis) found.back() = here;
+      found.back().to_m = sphere.s_m;
       last_m = sphere.s_m;
     }
   }
