@@ -75,7 +75,8 @@ int make_room(const SeenTriangle& sight, bool soft, NodeWalls& walls) {
   });
   walls.count = static_cast<int>(end - planes);
   if (walls.count == max_planes) {
-    const int spare = least_needed(walls, sight.normal, at);
+    // The nearest planes of a soft wall push as one (join_soft_walls).
+    const int spare = soft ? max_planes : least_needed(walls, sight.normal, at);
     if (spare == at) return -1;
     const int gone = spare < at ? spare : spare - 1;
     std::copy(planes + gone + 1, planes + walls.count, planes + gone);
