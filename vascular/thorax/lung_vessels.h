@@ -19,8 +19,8 @@ struct LungVessel {
 };
 
 struct LungVesselOptions {
-  int ends = 800;  ///< of each of the four trees
-  double end_radius_m = 0.48e-3;
+  int ends = 1600;  ///< of each of the four trees
+  double end_radius_m = 0.46e-3;
   std::uint64_t seed = 1;
 };
 

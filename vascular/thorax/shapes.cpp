@@ -48,17 +48,18 @@ bool simple(int corners) {
   return true;
 }
 
-double power(double x, double e) { return std::copysign(std::pow(std::fabs(x), e), x); }
-
 }  // namespace
+
+double signed_power(double x, double e) { return std::copysign(std::pow(std::fabs(x), e), x); }
 
 Mesh superellipsoid(const Eigen::Vector3d& middle, const Eigen::Vector3d& half_axes, double exponent,
                     const Eigen::Matrix3d& axes, int rows) {
   const double e = 2 / exponent;
   std::vector<std::vector<Eigen::Vector3d>> rings;
   const auto place = [&](double theta, double phi) {
-    const Eigen::Vector3d p(power(std::sin(theta), e) * power(std::cos(phi), e),
-                            power(std::sin(theta), e) * power(std::sin(phi), e), power(std::cos(theta), e));
+    const Eigen::Vector3d p(signed_power(std::sin(theta), e) * signed_power(std::cos(phi), e),
+                            signed_power(std::sin(theta), e) * signed_power(std::sin(phi), e),
+                            signed_power(std::cos(theta), e));
     return Eigen::Vector3d(middle + axes * p.cwiseProduct(half_axes));
   };
   for (int i = 1; i < rows; ++i) {
@@ -144,7 +145,8 @@ Mesh surface_net(const std::function<double(const Eigen::Vector3d&)>& inside, co
   for (int z = 0; z < n[2]; ++z)
     for (int y = 0; y < n[1]; ++y)
       for (int x = 0; x < n[0]; ++x) f[index(x, y, z)] = inside(place(x, y, z));
-  // Where two sheets pass through one cell, the corner nearest to the surface changes sides.
+  // Where two sheets pass through one cell, its inner corner nearest to the surface goes outside: the thinnest is cut.
+  // No corner ever comes back, so this ends.
   std::array<bool, 256> is_simple;
   for (int c = 0; c < 256; ++c) is_simple[static_cast<std::size_t>(c)] = simple(c);
   for (bool changed = true; changed;) {
@@ -152,15 +154,15 @@ Mesh surface_net(const std::function<double(const Eigen::Vector3d&)>& inside, co
     for (int z = 0; z + 1 < n[2]; ++z)
       for (int y = 0; y + 1 < n[1]; ++y)
         for (int x = 0; x + 1 < n[0]; ++x) {
-          int corners = 0, nearest = index(x, y, z);
+          int corners = 0, nearest = -1;
           for (int k = 0; k < 8; ++k) {
             const int i = index(x + (k & 1), y + (k >> 1 & 1), z + (k >> 2));
-            corners |= (f[i] < 0) << k;
-            if (std::fabs(f[i]) < std::fabs(f[nearest])) nearest = i;
+            if (!(f[i] < 0)) continue;
+            corners |= 1 << k;
+            if (nearest < 0 || f[i] > f[nearest]) nearest = i;
           }
           if (is_simple[static_cast<std::size_t>(corners)]) continue;
-          // Put it slightly farther from the surface than before, so that another corner is chosen next time.
-          f[nearest] = f[nearest] < 0 ? 0.1 * cell_m - 0.5 * f[nearest] : -0.1 * cell_m - 0.5 * f[nearest];
+          f[nearest] = 0.1 * cell_m - 0.5 * f[nearest];
           changed = true;
         }
   }

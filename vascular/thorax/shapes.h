@@ -6,6 +6,8 @@
 
 namespace ostium::vascular {
 
+double signed_power(double x, double e);  ///< |x|^e with the sign of x
+
 /// |x/a|^e + |y/b|^e + |z/c|^e = 1 about `middle`, turned by `axes`; e = 2: an ellipsoid, larger: rounder boxes.
 Mesh superellipsoid(const Eigen::Vector3d& middle, const Eigen::Vector3d& half_axes, double exponent,
                     const Eigen::Matrix3d& axes = Eigen::Matrix3d::Identity(), int rows = 20);

@@ -11,6 +11,7 @@
 #include "vascular/geometry/implicit/contour.h"
 #include "vascular/geometry/implicit/draws.h"
 #include "vascular/motion/heart_motion.h"
+#include "vascular/thorax/chest_wall.h"
 #include "vascular/thorax/lung_vessels.h"
 #include "vascular/thorax/shapes.h"
 #include "vascular/thorax/soft_parts.h"
@@ -21,8 +22,6 @@ namespace ostium::vascular {
 namespace {
 
 using units::mm, units::degree;
-constexpr double middle_x = -6 * mm;  // the sagittal plane: the left ostium is slightly to the left of it
-
 Eigen::Vector3d at_mm(double x, double y, double z) { return Eigen::Vector3d(x, y, z) * mm; }
 
 /// Centres of the vertebral bodies from T1 to L3, and half their heights.
@@ -35,12 +34,7 @@ constexpr Vertebra vertebrae[] = {{118, 8.5},   {96, 9},     {73, 9.2},   {50, 9
 
 /// The bodies touch the descending aorta, which lies to the left of their front from T5 to T9, as CT shows it: 27 mm
 /// between the axes, for radii of 12 and 15.
-double spine_z_mm(double y_mm) { return -78 + 12 * std::pow((y_mm + 10) / 190, 2); }
-
-/// The rib cage as an ellipse at each height: half width and half depth.
-double cage_width_mm(double y_mm) { return 147 * std::sqrt(std::max(0.05, 1 - std::pow((y_mm + 90) / 245, 2))); }
-double cage_depth_mm(double y_mm) { return 103 * std::sqrt(std::max(0.05, 1 - std::pow((y_mm + 70) / 260, 2))); }
-constexpr double cage_z_mm = -8;
+double spine_z_mm(double y_mm) { return -73 + 12 * std::pow((y_mm + 10) / 190, 2); }
 
 /// Tubes whose distance is wanted at many points, most of them far away.
 class Displacing {
@@ -141,6 +135,21 @@ void add_spine(std::vector<XrayBody>& bodies) {
   add_bone(bodies, "spine", outer, inner);
 }
 
+/// Those that hold the spine upright, beside the spinous processes: 54 mm wide and 34 thick [usual, from memory].
+void add_muscles_of_the_back(std::vector<XrayBody>& bodies) {
+  Mesh both;
+  for (double side : {-1.0, 1.0}) {
+    std::vector<Eigen::Vector3d> line;
+    for (double y_mm = 130; y_mm > -280; y_mm -= 20)
+      line.push_back(middle_x * Eigen::Vector3d::UnitX() + at_mm(side * 36, y_mm, spine_z_mm(y_mm) - 53));
+    append(both, swept_ellipse(line, 27 * mm, 17 * mm, Eigen::Vector3d::UnitX()));
+  }
+  bodies.push_back({.name = "muscles of the back",
+                    .tissue = BodyTissue::muscle,
+                    .within = BodyTissue::soft_tissue,
+                    .mesh = std::move(both)});
+}
+
 /// Ribs from their heads at the spine to the costal cartilage, where cortex and height taper out.
 void add_ribs(std::vector<XrayBody>& bodies) {
   Mesh outer, inner;
@@ -155,9 +164,8 @@ void add_ribs(std::vector<XrayBody>& bodies) {
         const double t = i / 48.0, theta = (14 + (last_deg - 14) * t) * degree,
                      y = y0 + 3 * std::sin(units::pi * std::min(1.0, 3 * t)) -
                          drop * (0.7 * t * t * (3 - 2 * t) + 0.3 * t) + 1.5 * std::sin(6 * t + 1.7 * rib + side);
-        const double width = cage_width_mm(y) + 2, depth = cage_depth_mm(y) + 2;
-        line.push_back(middle_x * Eigen::Vector3d::UnitX() +
-                       at_mm(side * width * std::sin(theta), y, cage_z_mm - depth * std::cos(theta)));
+        const Eigen::Vector2d on = cage_mm(theta, y, 2);
+        line.push_back(middle_x * Eigen::Vector3d::UnitX() + at_mm(side * on[0], y, on[1]));
         const double front = std::clamp((t - 0.72) / 0.28, 0.0, 1.0), neck = std::clamp(t / 0.12, 0.0, 1.0);
         const double tall = ((rib == 1 ? 4.8 : 5.4) + 0.3 * std::sin(3.1 * rib)) * (0.65 + 0.35 * neck) *
                             (1 + 0.05 * std::sin(11 * t + rib)) * (1 - 0.8 * front * front * front),
@@ -218,7 +226,7 @@ void add_front(std::vector<XrayBody>& bodies) {
 /// Height of the diaphragm: two domes, the right one higher, with the heart's bed in between.
 double diaphragm_mm(double x_mm, double z_mm) {
   const double right = std::exp(-std::pow((x_mm + 82) / 68, 2)), left = std::exp(-std::pow((x_mm - 78) / 62, 2));
-  return -158 + 70 * right + 58 * left - 50 * std::pow((z_mm - 5) / 100, 2);
+  return -112 + 36 * right + 26 * left - 50 * std::pow((z_mm - 5) / 100, 2);
 }
 
 /// What moves about the heart: near it with the beat, everything by the breath.
@@ -238,9 +246,7 @@ class Lungs {
   /// Distance, negative inside, m.
   double operator()(const Eigen::Vector3d& p) const {
     const Eigen::Vector3d q = p / mm;
-    const double x = q.x() - middle_x / mm, z = q.z() - cage_z_mm;
-    const double width = cage_width_mm(q.y()) - 5, depth = cage_depth_mm(q.y()) - 5;
-    const double cage = (std::sqrt(x * x / (width * width) + z * z / (depth * depth)) - 1) * std::min(width, depth);
+    const double x = q.x() - middle_x / mm, cage = from_cage_mm(q, -5);
     const double base = diaphragm_mm(q.x(), q.z()) - q.y();
     // The mediastinum: oesophagus, spine, great vessels, heart; wider at the top. In front the lungs almost meet.
     double solid = std::fabs(x) - 17 + 12 * smooth_step(5, 60, q.z()) - 12 * smooth_step(30, 100, q.y());
@@ -325,20 +331,12 @@ void add_heart(std::vector<XrayBody>& bodies, const Heart& heart, const std::vec
   bodies.push_back({"great vessels", BodyTissue::blood, BodyTissue::soft_tissue, std::move(great), {}, {}});
 }
 
-constexpr double trunk_width_mm = 182, trunk_depth_mm = 128, trunk_z_mm = -12;
-
 void add_trunk(std::vector<XrayBody>& bodies, Draws& draw) {
-  bodies.push_back({"trunk",
-                    BodyTissue::soft_tissue,
-                    BodyTissue::air,
-                    superellipsoid(at_mm(middle_x / mm, -70, trunk_z_mm), at_mm(trunk_width_mm, 420, trunk_depth_mm),
-                                   2.7, Eigen::Matrix3d::Identity(), 48),
-                    {},
-                    {}});
+  bodies.push_back({"trunk", BodyTissue::soft_tissue, BodyTissue::air, skin(), {}, {}});
   ChestWall wall;
   wall.middle_x_mm = middle_x / mm;
-  wall.inner_mm = [](double y) { return Eigen::Vector2d(cage_width_mm(y) + 9, cage_depth_mm(y) + 9); };
-  wall.outer_mm = [](double) { return Eigen::Vector2d(trunk_width_mm - 6, trunk_depth_mm - 8); };
+  wall.inner_mm = [](double y) { return Eigen::Vector2d(cage_half_axes_mm(y).array() + 9); };
+  wall.outer_mm = [](double) { return within_skin_mm(); };
   bodies.push_back(wall_fat(wall, 480, draw));
 }
 
@@ -368,6 +366,7 @@ std::vector<XrayBody> make_thorax(const Anatomy& anatomy) {
   add_heart(bodies, heart, vessels, motion, draw);
   bodies.push_back(stomach_gas(diaphragm_mm, draw));
   add_spine(bodies);
+  add_muscles_of_the_back(bodies);
   add_ribs(bodies);
   add_front(bodies);
   return bodies;
