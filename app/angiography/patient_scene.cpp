@@ -1,7 +1,6 @@
 #include "app/angiography/patient_scene.h"
 
 #include "app/angiography/xray_body.h"
-#include "fluoro/matter/tissue.h"
 #include "vascular/motion/heart_cycle.h"
 
 namespace ostium::app {
@@ -30,8 +29,8 @@ PatientScene::PatientScene(const vascular::Patient& patient, const vascular::Phy
   fluoro::Body lumen{.name = "lumen",
                      .triangles = triangles_of(patient.lumen.triangles),
                      .p_P = Eigen::Matrix3Xf(3, n),
-                     .tissue = fluoro::tissue::blood,
-                     .within = fluoro::tissue::soft,
+                     .tissue = {},  // a coronary artery of 3 mm differs from what is round it by half a percent
+                     .within = {},
                      .contrast = {}};
   lumen.contrast.iodine_kg_m3 = Eigen::VectorXf::Zero(n);
   lumen.contrast.p_PC = lumen.contrast.along_kg_m2 = Eigen::Matrix3Xf::Zero(3, n);
@@ -67,6 +66,7 @@ void PatientScene::set_still_lumen() {
                (!breathes_ || from.breath[v].isZero(0));
       },
       body);
+  body.still = 0;  // contrast fills what rests, too
 }
 
 const fluoro::Scene& PatientScene::at(const vascular::PhysiologyState& state, std::span<const double> occupied_m,
@@ -77,7 +77,6 @@ const fluoro::Scene& PatientScene::at(const vascular::PhysiologyState& state, st
   for (std::size_t b = 0; b < thorax_->size(); ++b)
     move((*thorax_)[b], vascular::contraction(phase), breath, scene_.moving[b]);
   fluoro::Body& body = lumen();
-  shape_.at(*body.corners, state.radius_m, phase, breath, body.p_P);
   const vascular::FlowInputs in{{}, state.radius_m, occupied_m, 0};
   opacify(map_,
           {physiology_.flow, physiology_.contrast, state.contrast, in, phase, breath, fluoro::faintest_iodine_kg_m3},
@@ -85,6 +84,7 @@ const fluoro::Scene& PatientScene::at(const vascular::PhysiologyState& state, st
            body.contrast.p_PC,
            body.contrast.along_kg_m2},
           scratch_);
+  if (fluoro::is_seen(body.contrast)) shape_.at(*body.corners, state.radius_m, phase, breath, body.p_P);
   add_twigs(phase, breath);
   return scene_;
 }

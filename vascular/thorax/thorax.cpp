@@ -292,7 +292,7 @@ void add_lungs(std::vector<XrayBody>& bodies, const Heart& heart, const Lungs& l
   bodies.push_back(std::move(beside));
 }
 
-/// The pulmonary trunk with its branches, and the venae cavae.
+/// The pulmonary trunk with its branches, and the venae cavae; the aorta is the anatomy's.
 std::vector<std::vector<Tube>> great_vessels() {
   return {
       {make_tube("pulmonary trunk", -1,
@@ -340,7 +340,7 @@ void add_trunk(std::vector<XrayBody>& bodies, Draws& draw) {
   bodies.push_back(wall_fat(wall, 480, draw));
 }
 
-/// Every fourth node: enough for a vessel's imprint on the lung.
+/// Every fourth node: enough for a shadow.
 Tube coarse(const Tube& tube) {
   Tube few{.name = tube.name, .nodes = {}};
   for (std::size_t i = 0; i < tube.nodes.size(); i += 4)
@@ -357,11 +357,10 @@ std::vector<XrayBody> make_thorax(const Anatomy& anatomy) {
   Draws draw(seed);
   std::vector<XrayBody> bodies;
   add_trunk(bodies, draw);
-  const std::vector<std::vector<Tube>> tubes = great_vessels();
+  std::vector<std::vector<Tube>> tubes = great_vessels();
+  tubes.push_back({coarse(anatomy.tubes.front())});
   const std::vector<TubeUnion> vessels(tubes.begin(), tubes.end());
-  const std::vector<Tube> aorta = {coarse(anatomy.tubes.front())};
   std::vector<Displacing> displacing(tubes.begin(), tubes.end());
-  displacing.emplace_back(aorta);
   add_lungs(bodies, heart, Lungs(heart, displacing), motion, draw);
   add_heart(bodies, heart, vessels, motion, draw);
   bodies.push_back(stomach_gas(diaphragm_mm, draw));
