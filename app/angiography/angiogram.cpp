@@ -45,14 +45,14 @@ Injection usual_injection(const vascular::FlowTree& tree, bool left) {
 }
 
 Angiogram::Angiogram(const vascular::PhysiologyModel& model, PatientScene& scene, const fluoro::View& view,
-                     double frames_per_s, std::uint64_t seed)
+                     double frames_per_s, std::uint64_t seed, fluoro::Renderer renderer)
     : model_(model),
       scene_(scene),
       view_(view),
       frames_per_s_(frames_per_s),
       seed_(seed),
-      imager_({}, fluoro::make_scanline_renderer()),
-      mask_imager_({}, fluoro::make_scanline_renderer()) {}
+      imager_({}, fluoro::make_renderer(renderer)),
+      mask_imager_({}, fluoro::make_renderer(renderer)) {}
 
 void Angiogram::wait_for(double phase, double rate_1_min, vascular::PhysiologyState& state) {
   vascular::PhysiologyInputs inputs;

@@ -26,7 +26,7 @@ class Angiogram {
  public:
   /// Keeps references. `state`: of a circulation in its periodic state.
   Angiogram(const vascular::PhysiologyModel& model, PatientScene& scene, const fluoro::View& view, double frames_per_s,
-            std::uint64_t seed = 1);
+            std::uint64_t seed = 1, fluoro::Renderer renderer = fluoro::Renderer::scanline);
 
   /// Runs without contrast until the heart is at that phase.
   void wait_for(double phase, double rate_1_min, vascular::PhysiologyState& state);

@@ -31,6 +31,10 @@ void add_fill_option(Options& options, std::string& fill) {
   options.add("--fill", fill, "Coronary full of contrast").one_of({"none", "left", "right"}).show_default();
 }
 
+void add_renderer_option(Options& options, std::string& renderer) {
+  options.add("--renderer", renderer, "What draws path lengths").one_of({"scanline", "osmesa"}).show_default();
+}
+
 fluoro::StandardView named_view(const std::string& name) {
   if (const auto view = fluoro::find_view(name)) return *view;
   throw data::LoadError("there is no view \"" + name + "\"; `ostium views` lists them");
@@ -38,6 +42,20 @@ fluoro::StandardView named_view(const std::string& name) {
 
 Fill fill_named(const std::string& name) {
   return name == "left" ? Fill::left : name == "right" ? Fill::right : Fill::none;
+}
+
+fluoro::Renderer renderer_named(const std::string& name) {
+  if (name != "osmesa") return fluoro::Renderer::scanline;
+  static const bool is_there = [] {
+    try {
+      fluoro::make_osmesa_renderer();
+      return true;
+    } catch (const std::runtime_error& missing) {
+      fmt::print(stderr, "{}; drawn by scanline instead\n", missing.what());
+      return false;
+    }
+  }();
+  return is_there ? fluoro::Renderer::osmesa : fluoro::Renderer::scanline;
 }
 
 bool finish_film(std::optional<data::VideoWriter>& writer, const char* command) {

@@ -88,7 +88,7 @@ void declare(Options& options, Arguments& a) {
       .one_of({"left", "right", "none"})
       .show_default();
   options.add("--seed", a.seed, "Of the noise").show_default();
-  options.add("--renderer", a.renderer, "What draws path lengths").one_of({"scanline", "osmesa"}).show_default();
+  add_renderer_option(options, a.renderer);
   options.flag("--overlay", a.overlay, "Angles, rate, times and dose on the picture (not in DICOM)");
   options.flag("--json", a.json, "Exposure and dose, machine-readable, see data/schemas/frame.schema.json");
   options.add("-o,--out", a.out, "FILE.png, FILE.dcm or FILE.mp4").show_default();
@@ -180,7 +180,7 @@ struct FilmedFrames {
 FilmedFrames film(const Arguments& a, const Scenes& scenes, const fluoro::FluoroscopeInput& in, fluoro::Scene& scene,
                   std::optional<data::VideoWriter>& writer) {
   FilmedFrames out;
-  fluoro::Imager imager({}, a.renderer == "osmesa" ? fluoro::make_osmesa_renderer() : fluoro::make_scanline_renderer());
+  fluoro::Imager imager({}, fluoro::make_renderer(renderer_named(a.renderer)));
   fluoro::DisplayScratch scratch;
   const int frames = a.frames ? a.frames : a.video() ? 30 : 8;
   // A still picture stays at its phase; the frames before it only build up the lag.

@@ -39,6 +39,7 @@ struct Arguments {
   bool plain = false;    ///< no text on the pictures
   bool count = false, json = false;
   std::uint64_t seed = 1;
+  std::string renderer = "scanline";
   std::string out = "inject.png";  ///< .png: several moments side by side; .mp4: a film
 
   bool left() const { return at.starts_with("left") || at == "aorta"; }
@@ -58,6 +59,7 @@ void declare(Options& options, Arguments& a) {
   add_frame_rate_option(options, "--rate-fps", a.frames_per_s);
   add_view_option(options, a.view);
   add_pixels_option(options, a.pixels, 256);
+  add_renderer_option(options, a.renderer);
   options.flag("--healthy", a.healthy, "The same person without lesions");
   options.flag("--plain", a.plain, "No text on the pictures");
   options.flag("--count", a.count, "TIMI frame counts too (30 frames/s, a run for each artery)");
@@ -115,7 +117,7 @@ int run(const Arguments& a) {
                                                          : "lao",
                                          patient, a.left(), a.pixels);
   require_reachable(view.arm);
-  Angiogram angiogram(model, scene, view, a.frames_per_s, a.seed);
+  Angiogram angiogram(model, scene, view, a.frames_per_s, a.seed, renderer_named(a.renderer));
   angiogram.wait_for(a.phase, c.rate_1_min, state);
   const double before_kg = accounted_kg(state.contrast);
   const Injection injection = injection_of(a, model);

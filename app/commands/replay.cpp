@@ -36,12 +36,12 @@ struct PictureArguments {
   bool cine = false, plain = false;  ///< plain: without overlay
   bool monitor = false;              ///< ECG, pressure and gauge below the picture
   double frames_per_s = 15;
-  std::string fill = "none";
+  std::string fill = "none", renderer = "scanline";
 
   /// Whether something was asked for that only a picture shows.
   bool asked_for() const {
     return !view.view.empty() || !std::isnan(view.lao_deg) || !std::isnan(view.cran_deg) || !std::isnan(field_mm) ||
-           !table_mm.empty() || cine || plain || monitor || fill != "none";
+           !table_mm.empty() || cine || plain || monitor || fill != "none" || renderer != "scanline";
   }
 };
 
@@ -66,6 +66,7 @@ void declare_picture(Options& options, PictureArguments& a) {
       .range(-table_reach_mm, table_reach_mm);
   add_pixels_option(options, a.pixels, 64);
   add_cine_flag(options, a.cine);
+  add_renderer_option(options, a.renderer);
   options.flag("--plain", a.plain, "Without angles, times and dose on the picture");
   options.flag("--monitor", a.monitor, "ECG, pressure and gauge under the picture");
   add_frame_rate_option(options, "--rate", a.frames_per_s);
@@ -108,6 +109,7 @@ FilmOptions film_options(const PictureArguments& a) {
   film.overlay = !a.plain;
   film.monitor = a.monitor;
   film.fill = fill_named(a.fill);
+  film.renderer = renderer_named(a.renderer);
   return film;
 }
 

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/command_line/command.h"
+#include "app/command_line/pictures.h"
 #include "app/command_line/progress.h"
 #include "app/reader/read_apart.h"
 #include "app/session/run/replay.h"
@@ -53,9 +54,10 @@ std::vector<KeyMoment> key_moments(const data::RunRecord& record, const data::Sc
   return out;
 }
 
-std::vector<data::ReportPicture> pictures_of(Replay& replay, const data::RunRecord& record) {
+std::vector<data::ReportPicture> pictures_of(Replay& replay, const data::RunRecord& record, fluoro::Renderer renderer) {
   std::vector<data::ReportPicture> out;
   FilmOptions options;
+  options.renderer = renderer;
   options.pixels = 384, options.overlay = false;
   Film film(replay.model, options);
   for (const KeyMoment& moment : key_moments(record, replay.setup.script)) {
@@ -87,7 +89,8 @@ void add_end(const std::string& end, data::ReportRun& run) {
         mine.value = metric["value"].get<double>();
 }
 
-data::ReportRun run_of(Replay& replay, const std::string& code, const data::ScoreList& list, bool pictures) {
+data::ReportRun run_of(Replay& replay, const std::string& code, const data::ScoreList& list,
+                       std::optional<fluoro::Renderer> pictures) {
   data::ReportRun run;
   run.code = code;
   run.case_name = replay.setup.vessel, run.script = replay.setup.script.name, run.seed = replay.setup.seed;
@@ -104,7 +107,7 @@ data::ReportRun run_of(Replay& replay, const std::string& code, const data::Scor
                                       replay.recording.path(), error.what()));
   }
   run.scores = score(list, run.record, run.metrics);
-  if (pictures && replay.recording.states() > 0) run.pictures = pictures_of(replay, run.record);
+  if (pictures && replay.recording.states() > 0) run.pictures = pictures_of(replay, run.record, *pictures);
   show_progress("");
   return run;
 }
@@ -112,12 +115,12 @@ data::ReportRun run_of(Replay& replay, const std::string& code, const data::Scor
 }  // namespace
 
 void report_folder(const std::string& folder, std::shared_ptr<const Vessel> vessel, const std::string& recording,
-                   const std::string& scoring) {
+                   const std::string& scoring, fluoro::Renderer renderer) {
   namespace fs = std::filesystem;
   const fs::path at(folder);
   Replay replay((at / recording).string(), std::move(vessel));
   const data::ScoreList list = data::find_score_list(scoring);
-  const std::vector<data::ReportRun> runs = {run_of(replay, "this run", list, true)};
+  const std::vector<data::ReportRun> runs = {run_of(replay, "this run", list, renderer)};
   data::write_file((at / "report.html").string(), report_page(runs, list));
   data::write_file((at / "events.csv").string(), events_csv(runs[0]));
   for (std::size_t i = 0; i < runs[0].pictures.size(); ++i) {
@@ -137,6 +140,7 @@ struct Arguments {
   std::string scoring = "pci-elective";  ///< a list of data/scoring, or a file
   std::vector<std::string> codes;        ///< one per recording; default: run 1, run 2, ...
   bool pictures = true;
+  std::string renderer = "scanline";
 };
 
 void declare(Options& options, Arguments& a) {
@@ -151,6 +155,7 @@ void declare(Options& options, Arguments& a) {
   options.add("--questionnaire", a.questionnaire, "Face and content questionnaires, a page with forms")
       .type("FILE.html");
   options.flag("--pictures,!--no-pictures", a.pictures, "Pictures of key moments (default)");
+  add_renderer_option(options, a.renderer);
 }
 
 int run(const Arguments& a) {
@@ -168,7 +173,8 @@ int run(const Arguments& a) {
     show_progress("reading " + a.files[i]);
     require_whole_recording(a.files[i]);
     Replay replay(a.files[i]);
-    runs.push_back(run_of(replay, a.codes.empty() ? fmt::format("run {}", i + 1) : a.codes[i], list, a.pictures));
+    runs.push_back(run_of(replay, a.codes.empty() ? fmt::format("run {}", i + 1) : a.codes[i], list,
+                          a.pictures ? std::optional(renderer_named(a.renderer)) : std::nullopt));
     if (i == 0 && !a.events.empty()) data::write_file(a.events, events_csv(runs[0]));
   }
   if (!a.page.empty()) data::write_file(a.page, report_page(runs, list));

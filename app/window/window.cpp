@@ -226,7 +226,7 @@ long show_window(const SessionModel& model, const ScriptPlan& plan, LiveDriver& 
                                    SDL_DestroyTexture);
   if (!texture) give_up("the window cannot be drawn in");
 
-  LivePicture live(model, {options.filmed, options.has_pedals, options.pixels});
+  LivePicture live(model, {options.filmed, options.has_pedals, options.pixels, options.renderer});
   const PanelTexts texts = panel_texts(model, plan, hand);
   Events events(hand);
   fluoro::Picture faded;

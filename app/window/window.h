@@ -17,6 +17,7 @@ bool has_display(std::string& why);
 struct WindowOptions {
   bool has_pedals = true;  ///< false: nobody has any, neither keys nor box nor script; then the beam is always on
   int pixels = 512;
+  fluoro::Renderer renderer = fluoro::Renderer::scanline;
   core::TripleBuffer<Filmed>* filmed =
       nullptr;  ///< of a film that is made as well; null: the window takes its own pictures
   /// Of whoever else drives: shown in red; may be empty.

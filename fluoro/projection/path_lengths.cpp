@@ -32,4 +32,8 @@ Leak find_leak(const PathLengths& lengths) {
   return leak;
 }
 
+std::unique_ptr<PathLengthRenderer> make_renderer(Renderer which) {
+  return which == Renderer::osmesa ? make_osmesa_renderer() : make_scanline_renderer();
+}
+
 }  // namespace ostium::fluoro

@@ -85,4 +85,8 @@ std::unique_ptr<PathLengthRenderer> make_osmesa_renderer();
 /// By our own scanline rasteriser.
 std::unique_ptr<PathLengthRenderer> make_scanline_renderer();
 
+enum class Renderer { scanline, osmesa };
+/// Throws what the maker throws.
+std::unique_ptr<PathLengthRenderer> make_renderer(Renderer which);
+
 }  // namespace ostium::fluoro

@@ -251,7 +251,7 @@ class Lungs {
     // The mediastinum: oesophagus, spine, great vessels, heart; wider at the top. In front the lungs almost meet.
     double solid = std::fabs(x) - 17 + 12 * smooth_step(5, 60, q.z()) - 12 * smooth_step(30, 100, q.y());
     // The spine with the muscles beside and behind it.
-    const double bulge = 1 + 0.05 * std::cos(2 * units::pi * (q.y() - 4) / 25);  // fuller beside each body
+    const double bulge = 1 + 0.02 * std::cos(2 * units::pi * (q.y() - 4) / 25);  // fuller beside each body
     const double column = (std::hypot(x / 42, (q.z() - spine_z_mm(q.y()) + 18) / 42) - bulge) * 42;
     solid = joined(solid, column, 14);
     solid = heart_.shape().joined_to(solid, p, 1, 20);

@@ -9,6 +9,7 @@
 #include <thread>
 
 #include "app/command_line/interrupt.h"
+#include "app/command_line/pictures.h"
 #include "app/command_line/progress.h"
 #include "core/base/units.h"
 #include "device/transport/usb_port.h"
@@ -68,12 +69,14 @@ Drivers::Drivers(const RunArguments& a, BoxRun* device, ScriptedRun& run) {
     StationSettings settings;
     settings.port = static_cast<std::uint16_t>(*a.serve);
     settings.has_pedals = has_pedals(a, device, run.plan.script);
+    settings.renderer = renderer_named(a.renderer);
     station.emplace(run, *hand, data::find_score_list("pci-elective"), settings);
     tell_links(*station, false);
   }
   if (a.film && !a.folder.empty()) {
     FilmOptions look;
     look.always_on = false, look.monitor = run.model.has_patient();
+    look.renderer = renderer_named(a.renderer);
     film.emplace(run.model, (std::filesystem::path(a.folder) / "procedure.mp4").string(), look, driver);
     driver = &*film;
   }
@@ -87,6 +90,7 @@ WindowOptions window_of(const RunArguments& a, const data::Script& script, BoxRu
   WindowOptions window;
   window.has_pedals = has_pedals(a, device, script);
   window.over = &over, window.last_frame_png = a.last_frame;
+  window.renderer = renderer_named(a.renderer);
   if (film) window.filmed = &film->pictures();
   if (device) {
     window.problem = [device] { return std::string(advice(device->hand().shown())); };

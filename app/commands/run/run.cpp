@@ -10,6 +10,7 @@
 #include "app/command_line/common_options.h"
 #include "app/command_line/interrupt.h"
 #include "app/command_line/path_lock.h"
+#include "app/command_line/pictures.h"
 #include "app/command_line/progress.h"
 #include "app/commands/report.h"
 #include "app/commands/run/drivers.h"
@@ -51,6 +52,7 @@ void declare(Options& options, RunArguments& a) {
       .range(0.0, 65535.0);
   add_box_serial_option(options, a.serial);
   options.flag("--film", a.film, "Film it as it goes: DIR/procedure.mp4");
+  add_renderer_option(options, a.renderer);
   options.flag("--report", a.report, "DIR/report.html, events.csv and key-frames/");
   add_json_flag(options, a.json, "run.schema.json");
 }
@@ -150,7 +152,8 @@ int run_script(const RunArguments& a) {
                      metrics_json(setup.vessel, setup.seed, report.outcome, report.reason, report.metrics));
   tell(a, setup, run, report, recorded ? options.recorder.file : "", device.get());
   if (!film_problem.empty()) fmt::print(stderr, "ostium run: no film: {}\n", film_problem);
-  if (a.report && recorded && report.problem.empty()) report_folder(a.folder, vessel);
+  if (a.report && recorded && report.problem.empty())
+    report_folder(a.folder, vessel, "run.h5", "pci-elective", renderer_named(a.renderer));
   if (!report.problem.empty()) {
     fmt::print(stderr, "ostium run: the recording ends early: {}\n", report.problem);
     return 1;

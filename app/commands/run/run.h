@@ -17,8 +17,9 @@ struct RunArguments {
   std::string display = "none";  ///< or window
   std::string last_frame;        ///< PNG file for the window's last picture; empty: none
   std::string serial;            ///< serial number of the box
-  bool film = false;             ///< write DIR/procedure.mp4
-  bool report = false;           ///< write DIR/report.html, events.csv, key-frames/
+  std::string renderer = "scanline";
+  bool film = false;    ///< write DIR/procedure.mp4
+  bool report = false;  ///< write DIR/report.html, events.csv, key-frames/
   bool json = false;
   std::optional<double> serve;  ///< port of a trainer's station beside the run; 0: any that is free
 

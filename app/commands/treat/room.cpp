@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/angiography/settle.h"
+#include "app/command_line/pictures.h"
 #include "app/command_line/progress.h"
 #include "fluoro/display/overlay.h"
 
@@ -79,7 +80,7 @@ Bedside TreatmentRoom::opacified(Angiogram& angiogram, bool left) const {
 
 fluoro::Picture TreatmentRoom::picture(const Plan& p, const std::string& words, bool with_contrast) {
   const fluoro::View view = view_on(p);
-  Angiogram angiogram(physiology, scene, view, 15, arguments.seed + 1);
+  Angiogram angiogram(physiology, scene, view, 15, arguments.seed + 1, renderer_named(arguments.renderer));
   const auto take = [&](const Bedside& now, bool wire) {
     scene.at(now.blood, now.inputs.occupied_m);
     add_devices(now, p, patient, scene, wire);

@@ -17,6 +17,7 @@ struct TreatArguments {
   std::string view;
   int pixels = 512;
   std::uint64_t seed = 0;
+  std::string renderer = "scanline";
   std::string out = "treat.png";
 };
 

@@ -37,6 +37,7 @@ void declare(Options& options, TreatArguments& a) {
   options.flag("--no-pictures", a.no_pictures, "Numbers alone, without frame counts");
   add_view_option(options, a.view);
   add_pixels_option(options, a.pixels, 256);
+  add_renderer_option(options, a.renderer);
   options.add("--seed", a.seed, "Of what happens by chance").show_default();
   add_json_flag(options, a.json);
   options.add("-o,--out", a.out, "FILE.png: before, while inflating, after, and the strips").show_default();

@@ -85,7 +85,7 @@ std::function<void(const SessionEvent&)> Station::ear() {
 /// Draws and tells, as fast as snapshots come; nobody waits for it.
 void Station::follow() {
   core::give_way_to_steps();
-  LivePicture live(run_.model, {nullptr, settings_.has_pedals, settings_.pixels});
+  LivePicture live(run_.model, {nullptr, settings_.has_pedals, settings_.pixels, settings_.renderer});
   core::TripleBuffer<Snapshot>& latest = hand_.snapshots(Seat::browser);
   double told_s = -1, truth_s = -1;
   int references = 0, begun = 0;

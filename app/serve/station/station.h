@@ -20,6 +20,7 @@ struct StationSettings {
   bool goes_back = false;  ///< whether the owner answers `wait` by going back
   bool has_pedals = true;
   int pixels = 512;
+  fluoro::Renderer renderer = fluoro::Renderer::scanline;
   LessonWords lesson;
 };
 

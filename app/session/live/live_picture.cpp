@@ -23,7 +23,7 @@ LivePicture::LivePicture(const SessionModel& model, const LivePictureOptions& op
   if (filmed_) return;
   FilmOptions look;
   look.always_on = !has_pedals_;
-  look.pixels = options.pixels;
+  look.pixels = options.pixels, look.renderer = options.renderer;
   own_.emplace(model, look);
 }
 

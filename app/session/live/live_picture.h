@@ -16,6 +16,7 @@ struct LivePictureOptions {
   core::TripleBuffer<Filmed>* filmed = nullptr;  ///< null: takes its own pictures
   bool has_pedals = true;                        ///< false: nobody has any, so the beam is always on
   int pixels = 512;
+  fluoro::Renderer renderer = fluoro::Renderer::scanline;
 };
 
 class LivePicture {

@@ -19,7 +19,7 @@ vascular::PhysiologyState blood_to_show(const SessionModel& model, const Session
 
 struct Film::Parts {
   explicit Parts(const FilmOptions& o)
-      : options(o), settings{{}, o.frames_per_s, false}, imager({}, fluoro::make_scanline_renderer()) {}
+      : options(o), settings{fluoro::to_field, o.frames_per_s, false}, imager({}, fluoro::make_renderer(o.renderer)) {}
   FilmOptions options;
   FilmSettings settings;
   std::unique_ptr<PatientScene> patient;        ///< with the session's blood and contrast,

@@ -23,6 +23,7 @@ struct FilmOptions {
   bool monitor = false;  ///< ECG, pressure and gauge below the picture; for cases only
   Fill fill = Fill::none;
   std::uint64_t seed = 1;  ///< of the noise
+  fluoro::Renderer renderer = fluoro::Renderer::scanline;
 };
 
 /// What an operator changes between two frames.

@@ -91,6 +91,27 @@ TEST(Film, OfAPatientIsTheSameWhateverIsDrawnOnce) {
   }
 }
 
+TEST(Film, OfAPatientIsTheSameByEitherRenderer) {
+  const auto patient =
+      std::make_shared<const vascular::Patient>(vascular::make_patient(data::find_case("rca-mid-focal").anatomy, {}));
+  const XrayPatient xray(patient, Fill::right);
+  fluoro::View view;
+  view.pixels = 256;
+  view.arm.lao_rad = 0.7;
+  view.arm.p_PI = heart_middle(*patient);
+  const fluoro::Scene scene = xray.at(0.6);
+  std::vector<fluoro::Plane> shown;
+  for (fluoro::Renderer which : {fluoro::Renderer::scanline, fluoro::Renderer::osmesa}) {
+    fluoro::Imager imager({}, fluoro::make_renderer(which));
+    fluoro::ImagerState state;
+    EXPECT_FALSE(imager.frame({scene, view, {}, fluoro::cine(), 1}, state).leak);
+    shown.push_back(state.lag.shown);
+  }
+  const fluoro::Plane off = (shown[1] / shown[0] - 1).abs();
+  EXPECT_LT(off.mean(), 2e-4f);  // 5e-5 seen
+  EXPECT_LT(off.maxCoeff(), 0.05f) << "of a pixel on the edge of a rib";
+}
+
 TEST(Filming, ShowsEachPictureToWhoeverWatchesAlsoWhereTheVideoCannotBeWritten) {
   ScriptedRun run(tube_setup(), tube_vessel());
   FilmOptions options;
