@@ -41,7 +41,7 @@ namespace {
 template <class Value>
 void check_number(CLI::Option& option) {
   constexpr bool is_unsigned = std::is_same_v<Value, std::uint64_t>,
-                 is_whole = is_unsigned || std::is_same_v<Value, int>;
+                 is_whole = is_unsigned || std::is_same_v<Value, int> || std::is_same_v<Value, std::optional<int>>;
   constexpr bool is_number = is_whole || std::is_same_v<Value, double> ||
                              std::is_same_v<Value, std::optional<double>> || std::is_same_v<Value, std::vector<double>>;
   if constexpr (is_number)
@@ -68,6 +68,7 @@ template Option Options::add(const std::string&, std::string&, const std::string
 template Option Options::add(const std::string&, int&, const std::string&);
 template Option Options::add(const std::string&, double&, const std::string&);
 template Option Options::add(const std::string&, std::uint64_t&, const std::string&);
+template Option Options::add(const std::string&, std::optional<int>&, const std::string&);
 template Option Options::add(const std::string&, std::optional<double>&, const std::string&);
 template Option Options::add(const std::string&, std::vector<std::string>&, const std::string&);
 template Option Options::add(const std::string&, std::vector<double>&, const std::string&);

@@ -2,9 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Geometry>
 #include <optional>
 
+#include "app/command_line/arguments.h"
 #include "data/catalogue/case/markups_file.h"
+#include "data/formats/load_error.h"
 #include "vascular/geometry/mesh_files/unit_mark.h"
 #include "vascular/geometry/repair/double_wall.h"
 
@@ -45,12 +48,9 @@ std::optional<vascular::LengthUnit> marked_unit(const std::vector<std::string>& 
 }  // namespace
 
 MeshUnit unit_of(const std::vector<std::string>& files, const vascular::Mesh& raw, const std::string& said) {
-  vascular::VesselSize size = vessel_size(raw);
-  std::vector<vascular::UnitReading> readings = unit_readings(size);
-  if (readings.empty() && size.extent > 0) {
-    size = vessel_size(without_outer_wall(raw));
-    readings = unit_readings(size);
-  }
+  // Of a thick wall the lumen inside it counts: as it is, its calibre would be the wall's thickness.
+  const vascular::VesselSize size = vessel_size(without_outer_wall(raw));
+  const std::vector<vascular::UnitReading> readings = unit_readings(size);
   MeshUnit unit;
   if (said != "auto") {
     unit.unit = vascular::unit_named(said), unit.source = MeshUnit::Source::option;
@@ -71,6 +71,19 @@ MeshUnit unit_of(const std::vector<std::string>& files, const vascular::Mesh& ra
                     "with --units, or is the file damaged?",
                     files.front(), unit.extent_m, name_of(unit.unit), largest_m));
   return unit;
+}
+
+Eigen::Vector3d point_of(const vascular::Mesh& mesh, vascular::LengthUnit unit, const std::string& text) {
+  Eigen::AlignedBox3d box;
+  for (const Eigen::Vector3d& p : mesh.vertices) box.extend(p);
+  const double scale = metres(unit);
+  const Eigen::Vector3d point = scale * mesh_point(text);
+  if (box.exteriorDistance(point) <= 0.1 * box.diagonal().norm()) return point;
+  const Eigen::Vector3d least = box.min() / scale, most = box.max() / scale;
+  throw data::LoadError(fmt::format(
+      "the point {} lies far outside the mesh, which goes from {:.4g},{:.4g},{:.4g} to {:.4g},{:.4g},{:.4g} "
+      "{}; expected a point of it, in its axes and its unit",
+      text, least.x(), least.y(), least.z(), most.x(), most.y(), most.z(), name_of(unit)));
 }
 
 std::string describe(const MeshUnit& unit) {

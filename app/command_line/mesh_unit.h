@@ -18,6 +18,10 @@ struct MeshUnit {
 /// units are possible, if two files say different ones, or if it is longer than any body.
 MeshUnit unit_of(const std::vector<std::string>& files, const vascular::Mesh& raw, const std::string& said);
 
+/// "X,Y,Z" in the unit of the file that `mesh` (in metres) is of, in metres. Throws LoadError if it is no point, or
+/// farther outside the mesh than a tenth of its size: nothing there is nearest to it.
+Eigen::Vector3d point_of(const vascular::Mesh& mesh, vascular::LengthUnit unit, const std::string& text);
+
 /// "mm, as you said".
 std::string describe(const MeshUnit& unit);
 /// For JSON: option, file, size or none.

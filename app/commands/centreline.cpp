@@ -53,9 +53,11 @@ int run(const Arguments& a) {
   if (!found_unit.known()) fmt::print(stderr, "{}: units: {}\n", a.mesh, describe(found_unit));
   const vascular::LengthUnit unit = found_unit.unit;
   vascular::CentrelineOptions wanted;
-  if (!a.start.empty()) wanted.start = metres(unit) * mesh_point(a.start);
-  for (const std::string& end : a.ends) wanted.ends.push_back(metres(unit) * mesh_point(end));
+  if (!a.start.empty()) mesh_point(a.start);
+  for (const std::string& end : a.ends) mesh_point(end);
   vascular::Mesh mesh = read_vessel(a.mesh, unit, found_unit.known() ? vascular::default_weld_m : 0).mesh;
+  if (!a.start.empty()) wanted.start = point_of(mesh, unit, a.start);
+  for (const std::string& end : a.ends) wanted.ends.push_back(point_of(mesh, unit, end));
   vascular::SurfaceReport report = check_surface(mesh);
   report.open_edges = {};  // get lids
   if (!report.sound()) fmt::print(stderr, "{}: not sound, so parts may be missing:\n{}", a.mesh, describe(report));

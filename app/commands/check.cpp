@@ -111,7 +111,8 @@ Checked look_at(const std::string& file, const Arguments& a) {
   progress("looking for double walls");
   c.wall = find_double_wall(turned, sheets);
   c.rough = roughness(turned);
-  measure_diameters(turned, c);
+  // Of a thick wall the lumen inside it counts.
+  measure_diameters(c.wall.triangles ? without_outer_wall(turned) : turned, c);
   if (c.report.sound() && !c.wall.triangles) {
     progress("looking for a vessel");
     find_vessel(c);

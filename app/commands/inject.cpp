@@ -13,6 +13,7 @@
 #include "app/command_line/pictures.h"
 #include "app/command_line/progress.h"
 #include "core/base/units.h"
+#include "data/formats/load_error.h"
 #include "data/formats/png.h"
 #include "data/formats/video.h"
 #include "fluoro/display/overlay.h"
@@ -80,7 +81,9 @@ Injection injection_of(const Arguments& a, const vascular::PhysiologyModel& mode
   return injection;
 }
 
-/// Six moments in two rows of three.
+constexpr int moments = 6;  ///< of a sheet
+
+/// They stand in two rows of three.
 fluoro::Picture sheet_of(const std::vector<fluoro::Picture>& kept) {
   const auto row = [&](std::size_t from) { return beside(beside(kept[from], kept[from + 1]), kept[from + 2]); };
   return stacked(row(0), row(3));
@@ -103,6 +106,12 @@ int run(const Arguments& a) {
   require_ending(a.out, {".png", ".mp4"});
   if (!a.view.empty()) named_view(a.view);
   fluoro::require_rate(a.frames_per_s);
+  const int frames = static_cast<int>(std::lround(a.seconds * a.frames_per_s));
+  if (!video && frames < moments)
+    throw data::LoadError(
+        fmt::format("{} s at {} frames/s are {} pictures, and {} shows {} moments; expected {:g} s at "
+                    "least, or a film (.mp4)",
+                    a.seconds, a.frames_per_s, frames, a.out, moments, moments / a.frames_per_s));
   data::Case c = case_with(a.of, a.set);
   if (a.healthy) c.lesions.clear();
   show_progress("building " + c.name);
@@ -125,7 +134,6 @@ int run(const Arguments& a) {
   inputs.heart.rate_1_min = c.rate_1_min;
   std::optional<data::VideoWriter> writer;
   if (video) writer.emplace(a.out, a.pixels, a.pixels, a.frames_per_s);
-  const int frames = static_cast<int>(std::lround(a.seconds * a.frames_per_s));
   std::vector<fluoro::Picture> kept;
   double in_line_kg = 0;
   if (video) stop_on_signals();  // a film ends with the frames that it has
@@ -137,7 +145,7 @@ int run(const Arguments& a) {
                     true, "", c.name},
                    picture);
     if (writer) writer->add(picture);
-    if (n * 6 / frames != (n - 1) * 6 / frames || n == 0) kept.push_back(picture);
+    if (n * moments / frames != (n - 1) * moments / frames || n == 0) kept.push_back(picture);
     show_progress(fmt::format("frame {} of {}", n + 1, frames));
   }
   show_progress("");

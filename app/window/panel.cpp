@@ -14,6 +14,8 @@ namespace {
 struct Colour {
   double r, g, b;
 };
+constexpr double mark_shown_s = 2;
+
 constexpr Colour paper{0.07, 0.08, 0.09}, pale{0.86, 0.88, 0.89}, dim{0.52, 0.56, 0.58}, green{0.35, 0.85, 0.45},
     red{0.95, 0.33, 0.28}, yellow{0.96, 0.80, 0.30}, box{0.12, 0.135, 0.15};
 
@@ -261,6 +263,8 @@ void draw_panel(const PanelTexts& texts, const Snapshot& now, const PanelView& v
     pen.write({1, 1, 1}, 18, 24, 368, view.problem.substr(0, end == std::string::npos ? end : end + 1));
     if (end != std::string::npos) pen.write({1, 1, 1}, 18, 24, 392, view.problem.substr(end + 2));
   }
+  if (now.marks > 0 && signal(texts, now, "time_s") < now.marked_s + mark_shown_s)
+    pen.write(yellow, 16, 16, 60, fmt::format("mark {} at {:.1f} s", now.marks, now.marked_s));
   if (view.review_frames > 0)
     pen.write(yellow, 16, 16, 36, fmt::format("cine review {} of {}", view.review_frame, view.review_frames));
   if (now.paused) {

@@ -7,14 +7,47 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <array>
 #include <cerrno>
+#include <cstdint>
 #include <cstdlib>
 #include <cstring>
+#include <fstream>
 #include <vector>
 
 extern char** environ;
 
 namespace ostium::data {
+
+namespace {
+
+/// Whether the boxes of an MP4 file fill it to its end, and one says where the frames are (ISO/IEC 14496-12, 4.2):
+/// ffmpeg exits with 0 where it could not write the last of them.
+bool whole_mp4(const std::string& path) {
+  std::ifstream file(path, std::ios::binary | std::ios::ate);
+  const auto size = static_cast<std::uint64_t>(std::max<std::streamoff>(0, file.tellg()));
+  bool has_frames = false;
+  std::uint64_t at = 0;
+  while (at < size) {
+    std::array<unsigned char, 16> head{};
+    file.seekg(static_cast<std::streamoff>(at));
+    file.read(reinterpret_cast<char*>(head.data()), size - at < 16 ? 8 : 16);
+    if (!file) return false;
+    const auto number = [&](int from, int to) {
+      std::uint64_t n = 0;
+      for (int i = from; i < to; ++i) n = n << 8 | head[static_cast<std::size_t>(i)];
+      return n;
+    };
+    const std::uint64_t length = number(0, 4) == 1 ? number(8, 16) : number(0, 4);  // 1: a longer number follows
+    has_frames |= std::memcmp(head.data() + 4, "moov", 4) == 0;
+    if (length < 8 || length > size - at) return false;
+    at += length;
+  }
+  return has_frames;
+}
+
+}  // namespace
 
 VideoWriter::VideoWriter(const std::string& file, int width, int height, double frames_per_s)
     : file_(file), out_(file), width_(width), height_(height) {
@@ -90,7 +123,7 @@ bool VideoWriter::finish() {
   while (waitpid(process_, &status, 0) < 0 && errno == EINTR) {
   }
   process_ = -1;
-  const bool good = WIFEXITED(status) && WEXITSTATUS(status) == 0;
+  const bool good = WIFEXITED(status) && WEXITSTATUS(status) == 0 && whole_mp4(out_.beside());
   if (good && problem_.empty()) try {
       out_.finish();
       return true;

@@ -42,7 +42,8 @@ export ostium
 expect 0 "kV" frame --view spider --fill left --overlay -o "$dir/frame.png"
 expect 0 '"dap_per_frame_Gy_cm2"' frame --json -o "$dir/frame.png"
 expect 0 "run.dcm" frame --frames 3 --fill right --guide right -o "$dir/run.dcm"
-expect 0 '"iodine_balance"' "$ostium" inject --pixels 256 --seconds 0.3 --json -o "$dir/inject.png"
+expect 0 '"iodine_balance"' "$ostium" inject --pixels 256 --seconds 0.4 --json -o "$dir/inject.png"
+expect 3 "3 pictures, and .* shows 6 moments; expected 0.4 s" "$ostium" inject --seconds 0.2 -o "$dir/inject.png"
 expect 3 "there is no case" "$ostium" inject no-such-case -o "$dir/inject.png"
 expect 3 "png and .mp4" "$ostium" inject -o "$dir/inject.jpg"
 expect 2 "volume" "$ostium" inject --volume -3 -o "$dir/inject.png"
@@ -208,6 +209,13 @@ expect 0 "in the mesh's axes and in cm;" "$ostium" centreline "$folder/closed.ob
 sed -E 's/^v ([^ ]*) ([^ ]*) (.*)/v \1e4 \2e4 \3e4/' "$folder/whole.obj" >"$folder/huge.obj"
 expect 3 "expected vessels" "$ostium" check --units mm "$folder/huge.obj"
 expect 3 "three numbers" "$ostium" centreline "$folder/whole.obj" --start 1,2 -o "$folder/tree.json"
+for option in --start --end; do
+  for point in 1e300,0,0 0,500,0; do
+    expect 3 "lies far outside the mesh" "$ostium" centreline --units mm "$folder/closed.obj" "$option" "$point" -o "$folder/far.json"
+  done
+done
+[[ ! -e $folder/far.json ]]
+expect 3 "lies far outside the mesh" "$ostium" import --units mm "$folder/closed.obj" --entry 1e300,0,0 -o "$folder/case"
 expect 3 "no format of a tree" "$ostium" centreline "$folder/whole.obj" -o "$folder/tree.txt"
 
 # Sessions: run, record, replay, sweep.

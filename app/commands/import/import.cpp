@@ -178,7 +178,12 @@ class Import {
     }
     const double scale = metres(find_unit(options_.files, raw));
     for (Eigen::Vector3d& p : raw.vertices) p *= scale;
+    place_entry(raw);
     mesh_ = welded(raw);
+  }
+
+  void place_entry(const vascular::Mesh& mesh) {
+    if (!options_.entry.empty()) wanted_.entry = point_of(mesh, made_.unit.unit, options_.entry);
   }
 
   vascular::LengthUnit find_unit(const std::vector<std::string>& files, const vascular::Mesh& raw) {
@@ -191,7 +196,6 @@ class Import {
           "unit with --units",
           files.front(), name_of(made_.unit.unit), made_.unit.extent_m / mm, made_.unit.calibre_m / mm));
     rounding_m_ = metres(made_.unit.unit) * rounding_step(raw);
-    if (!options_.entry.empty()) wanted_.entry = metres(made_.unit.unit) * mesh_point(options_.entry);
     return made_.unit.unit;
   }
 
@@ -207,6 +211,7 @@ class Import {
     const double scale = metres(find_unit(files_, made_.frames.front()));
     for (vascular::Mesh& frame : made_.frames)
       for (Eigen::Vector3d& p : frame.vertices) p *= scale;
+    place_entry(made_.frames.front());
     if (volume_m3(made_.frames.front()) < 0)
       for (vascular::Mesh& frame : made_.frames)
         for (auto& t : frame.triangles) std::swap(t[1], t[2]);

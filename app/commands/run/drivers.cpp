@@ -65,6 +65,7 @@ Drivers::Drivers(const RunArguments& a, BoxRun* device, ScriptedRun& run) {
   Driver* driver = device ? &device->driver() : nullptr;
   const Hands hands = a.device == "keyboard" ? Hands::seats : device ? Hands::box : Hands::script;
   if (a.in_window() || a.serve) hand.emplace(run.model, hands, 15, driver), driver = &*hand;
+  if (hand) hand->end_on(interrupted);
   if (a.serve) {
     StationSettings settings;
     settings.port = static_cast<std::uint16_t>(*a.serve);

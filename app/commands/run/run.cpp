@@ -49,7 +49,7 @@ void declare(Options& options, RunArguments& a) {
   options.add("--last-frame", a.last_frame, "The window's last picture").type("FILE.png");
   options.add("--serve", a.serve, "A trainer's station in the browser beside it, at this port (0: any), in real time")
       .type("PORT")
-      .range(0.0, 65535.0);
+      .range(0, 65535);
   add_box_serial_option(options, a.serial);
   options.flag("--film", a.film, "Film it as it goes: DIR/procedure.mp4");
   add_renderer_option(options, a.renderer);

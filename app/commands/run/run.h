@@ -21,7 +21,7 @@ struct RunArguments {
   bool film = false;    ///< write DIR/procedure.mp4
   bool report = false;  ///< write DIR/report.html, events.csv, key-frames/
   bool json = false;
-  std::optional<double> serve;  ///< port of a trainer's station beside the run; 0: any that is free
+  std::optional<int> serve;  ///< port of a trainer's station beside the run; 0: any that is free
 
   bool in_window() const { return display == "window" || device == "keyboard"; }
 };

@@ -201,6 +201,7 @@ Served serve(const ServeArguments& arguments) {
   ScriptedRun session(setup, vessel);
   LiveDriver hand(session.model, by_hand ? Hands::seats : Hands::script, 15);
   session.take_over(&hand);
+  hand.end_on(interrupted);
   if (!a.at_once) hand.controls(Seat::window).order(ConsoleCommand::pause);
   StationSettings settings;
   settings.address = a.address, settings.port = static_cast<std::uint16_t>(a.port), settings.goes_back = true;

@@ -56,8 +56,10 @@ Driven LiveDriver::drive(const ScriptedRun& run, SessionInputs& inputs) {
   const SessionState& state = run.state;
   const SessionReport& report = run.report;
   Driven driven = Driven::on;
+  step_ = state.rods.step;
   console_.begin(inputs.c_arm);
   do {
+    over_ |= asked_to_end_ && *asked_to_end_;
     for (Controls& seat : console_.controls)
       while (const std::optional<ConsoleOrder> order = seat.next()) act(model, *order);
     if (paused_ && !over_) {
@@ -80,8 +82,9 @@ Driven LiveDriver::drive(const ScriptedRun& run, SessionInputs& inputs) {
 }
 
 bool LiveDriver::marks() {
-  const bool own = std::exchange(marks_, false);
-  return (inner_ && inner_->marks()) || own;
+  const bool own = std::exchange(marks_, false), any = (inner_ && inner_->marks()) || own;
+  if (any) ++marked_, marked_at_ = step_;
+  return any;
 }
 
 void LiveDriver::restart(const ScriptedRun& run) {
@@ -89,7 +92,7 @@ void LiveDriver::restart(const ScriptedRun& run) {
     while (seat.next()) {  // what was asked for is over with the run that it was asked of
     }
   hands_ = began_as_;
-  over_ = marks_ = false, paused_ = true;
+  over_ = marks_ = false, paused_ = true, marked_ = 0;
   ++begun_;
   const OperatorState& script = run.hands;
   CArmInputs asked;
@@ -168,6 +171,7 @@ void LiveDriver::show(const ScriptedRun& run, const SessionInputs& inputs) {
     s.right_hand = console_.right_hand();
     s.script_step = began_as_ != Hands::script ? -1 : static_cast<int>(run.hands.step);
     s.refused = refused_, s.in_its_way = in_its_way_;
+    s.marks = marked_, s.marked_s = static_cast<double>(marked_at_) * run.model.step_s();
     s.hands = hands_, s.paused = paused_, s.begun = begun_;
     s.overruns = run.overruns;
     snapshots_[seat].publish();

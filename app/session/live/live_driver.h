@@ -1,6 +1,7 @@
 #pragma once
 /// The driver of a run that somebody watches: it shows the run to windows and browsers, and does what their console
 /// asks. All that it does to the simulation is SessionInputs, so a recording of it replays like any other.
+#include <atomic>
 #include <cmath>
 #include <string>
 #include <vector>
@@ -29,6 +30,8 @@ struct Snapshot {
   int right_hand = -1;  ///< tool
   int script_step = -1;
   int refused = -1, in_its_way = -1;  ///< tools, of the last second
+  int marks = 0;                      ///< set by then
+  double marked_s = 0;                ///< when the last was
   Hands hands = Hands::script;
   bool paused = false;
   int begun = 0;  ///< how often the run has gone back
@@ -49,6 +52,8 @@ class LiveDriver : public Driver {
 
   Controls& controls(Seat seat) { return console_.controls[static_cast<std::size_t>(seat)]; }
   core::TripleBuffer<Snapshot>& snapshots(Seat seat) { return snapshots_[static_cast<std::size_t>(seat)]; }
+  /// Before the run: it ends when that becomes true, even while it stands paused. It must outlive the run.
+  void end_on(const std::atomic<bool>& asked) { asked_to_end_ = &asked; }
   /// Before the run: from then on its snapshots are filled, too. The window's always are.
   void show_to(Seat seat) { shown_to_[static_cast<std::size_t>(seat)] = true; }
   /// The guide, or the first tool.
@@ -71,6 +76,9 @@ class LiveDriver : public Driver {
   double guide_low_mmHg_ = NAN, guide_high_mmHg_ = NAN;
   int refused_ = -1, in_its_way_ = -1;
   std::uint64_t refused_at_ = 0;
+  const std::atomic<bool>* asked_to_end_ = nullptr;
+  int marked_ = 0;
+  std::uint64_t marked_at_ = 0, step_ = 0;
   std::size_t ecg_at_, line_at_;
   std::vector<float> row_, ecg_, line_;
   std::array<core::TripleBuffer<Snapshot>, seats> snapshots_;

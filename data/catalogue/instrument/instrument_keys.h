@@ -76,7 +76,7 @@ inline const JsonObjectKeys section = {
      {"EI2_Nmm2", false, "bending stiffness about d2 in N mm2, > 0; with EI1_Nmm2, without EI_Nmm2",
       json_type::number(above_zero)},
      {"GJ_Nmm2", true, "torsional stiffness in N mm2, > 0", json_type::number(above_zero)},
-     {"kg_per_m", true, "weight in kg/m, > 0", json_type::number(above_zero)},
+     {"kg_per_m", true, "weight in kg/m, > 0, at most osmium's in its cross-section", json_type::number(above_zero)},
      {"EI_sigma_Nmm2", false, "the standard error of the bending stiffness in N mm2, > 0, if it was measured",
       json_type::number(above_zero)},
      {"GJ_sigma_Nmm2", false, "the standard error of the torsional stiffness in N mm2, > 0, if it was measured",
@@ -118,10 +118,11 @@ inline const JsonObjectKeys piece = {
     "piece",
     {{"name", false, "what people call it, a text", json_type::text()},
      {"length_mm", true, "the piece's length along the centreline in mm, > 0", json_type::number(above_zero)},
-     {"radius_mm", false, "the arc's radius in mm, > 0, together with plane_deg; neither for a straight piece",
+     {"radius_mm", false,
+      "the arc's radius in mm, at least half the outer diameter, together with plane_deg; neither for a straight piece",
       json_type::number(above_zero)},
-     {"plane_deg", false, "the side it bends to in degrees, 0 to d1, 90 to d2; together with radius_mm",
-      json_type::number()}},
+     {"plane_deg", false, "the side it bends to in degrees, -360 to 360: 0 to d1, 90 to d2; together with radius_mm",
+      json_type::number(from_to(-360, 360))}},
     {required_together("radius_mm", "plane_deg"),
      {"description",
       json_text("of the shape at rest, from the tip backwards: straight, or an arc with radius and plane")}}};
@@ -144,7 +145,7 @@ inline const JsonObjectKeys stretch = {
     "stretch",
     {{"from_tip_mm", true, stretch_text, json_type::numbers(2, from_zero)},
      {"material", true, "what absorbs X-rays", json_type::choice(opaque_materials())},
-     {"thickness_mm", true, "its cross-section divided by the outer diameter, in mm, >= 0",
+     {"thickness_mm", true, "its cross-section divided by the outer diameter, in mm, >= 0, at most pi/4 of that",
       json_type::number(from_zero)},
      {"source", false, source_text, json_type::text()}}};
 

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <filesystem>
+#include <numbers>
 #include <stdexcept>
 
 #include "core/base/units.h"
@@ -77,6 +78,8 @@ core::BendingCurve read_curve(const JsonObject& entry) {
   return out;
 }
 
+constexpr double densest_kg_m3 = 22'590;  ///< osmium: Arblaster 2014, Platinum Metals Rev 58:137
+
 core::Section read_section(const JsonObject& entry, const Instrument& instrument, double& reached_mm) {
   core::Section s;
   std::tie(s.from_tip_m, s.to_tip_m) = next_stretch(entry, instrument.length_m / mm, reached_mm);
@@ -95,6 +98,7 @@ core::Section read_section(const JsonObject& entry, const Instrument& instrument
   if (entry.has("inner_diameter_mm")) inner = entry.not_negative("inner_diameter_mm") * mm;
   if (inner >= outer) entry.refuse(entry.has("inner_diameter_mm") ? "inner_diameter_mm" : "outer_diameter_mm");
   s.radius_m = outer / 2, s.inner_radius_m = inner / 2;
+  if (s.kg_per_m > densest_kg_m3 * std::numbers::pi / 4 * (outer * outer - inner * inner)) entry.refuse("kg_per_m");
   if (entry.has("rest_curvature_per_mm")) {
     const std::vector<double> u = entry.numbers("rest_curvature_per_mm", 3);
     s.rest_curvature_per_m = Eigen::Vector3d(u[0], u[1], u[2]) * per_mm;
@@ -145,7 +149,7 @@ void read_sections(const JsonObject& group, Instrument& instrument) {
   if (group.has("relaxation")) instrument.relaxation = read_relaxation(group);
 }
 
-std::vector<ShapePiece> read_pieces(const JsonObject& group, double longest_m) {
+std::vector<ShapePiece> read_pieces(const JsonObject& group, double longest_m, const Instrument& instrument) {
   std::vector<ShapePiece> pieces;
   for (const JsonValue& value : group.list("pieces")) {
     const JsonObject piece(value, instrument_keys::piece);
@@ -155,6 +159,8 @@ std::vector<ShapePiece> read_pieces(const JsonObject& group, double longest_m) {
       piece.refuse(piece.has("radius_mm") ? "radius_mm" : "plane_deg");
     if (piece.has("radius_mm")) {
       read.radius_m = piece.positive("radius_mm") * mm;
+      if (read.radius_m < instrument.outer_diameter_m / 2) piece.refuse("radius_mm");
+      if (!(std::fabs(piece.number("plane_deg")) <= 360)) piece.refuse("plane_deg");
       read.plane_rad = piece.number("plane_deg") * degree;
     }
     pieces.push_back(read);
@@ -171,7 +177,7 @@ void read_rest_shape(const JsonObject& root, Instrument& instrument) {
     if (root.has("shapeable_tip")) root.refuse("shape");
     const JsonObject shape(root["shape"], instrument_keys::shape);
     keep_source(shape, instrument);
-    instrument.shape = read_pieces(shape, instrument.length_m);
+    instrument.shape = read_pieces(shape, instrument.length_m, instrument);
     if (shape.has("width_mm")) instrument.width_m = shape.positive("width_mm") * mm;
     instrument.sections = bent(instrument.sections, instrument.shape);
   }
@@ -181,7 +187,7 @@ void read_rest_shape(const JsonObject& root, Instrument& instrument) {
     keep_source(tip, instrument);
     ShapeableTip read{.length_m = tip.positive("length_mm") * mm, .default_shape = {}};
     if (read.length_m > instrument.length_m) tip.refuse("length_mm");
-    read.default_shape = read_pieces(tip, read.length_m);
+    read.default_shape = read_pieces(tip, read.length_m, instrument);
     instrument.shapeable_tip = std::move(read);
     instrument = with_tip_shape(instrument, instrument.shapeable_tip->default_shape);
   }
@@ -198,7 +204,9 @@ void read_radiopacity(const JsonObject& group, Instrument& instrument) {
     const JsonObject entry(value, instrument_keys::stretch);
     keep_source(entry, instrument);
     const auto [from, to] = next_stretch(entry, instrument.length_m / mm, reached_mm);
-    instrument.opaque.push_back({from, to, read_material(entry), entry.not_negative("thickness_mm") * mm});
+    const double thickness_m = entry.not_negative("thickness_mm") * mm;
+    if (thickness_m > std::numbers::pi / 4 * instrument.outer_diameter_m) entry.refuse("thickness_mm");
+    instrument.opaque.push_back({from, to, read_material(entry), thickness_m});
   }
   require_whole_length(group, reached_mm, instrument.length_m / mm);
 }

@@ -97,6 +97,21 @@ TEST(LiveDriver, PauseStandsAndTheEndEnds) {
   EXPECT_EQ(p.run.state.rods.step, 101u);
 }
 
+TEST(LiveDriver, WhoAsksTheProgramToEndNeedNotWaitForAPausedRun) {
+  Played p;
+  std::atomic<bool> asked = false;
+  p.hand.end_on(asked);
+  p.steps(20);
+  p.keys.order(ConsoleCommand::pause);
+  std::thread other([&] {
+    std::this_thread::sleep_for(std::chrono::milliseconds(60));
+    asked = true;
+  });
+  EXPECT_FALSE(p.run.tick());
+  other.join();
+  EXPECT_EQ(p.run.outcome, Outcome::ended);
+}
+
 TEST(LiveDriver, AMarkIsAnEventOfItsStep) {
   Played p;
   const auto marked = [&] {
@@ -253,6 +268,33 @@ TEST(Panel, ShowsPictureToolsAndWhatIsWrong) {
   draw_panel(texts, p.hand.snapshots(Seat::window).front(), view, red);
   EXPECT_GT(at(red, 700, 380) >> 16, 2 * (at(red, 700, 380) & 0xffu)) << "a red bar";
   EXPECT_NE(calm, red);
+}
+
+TEST(Panel, ShowsThatAMarkIsSetForAWhile) {
+  Played p;
+  const PanelTexts texts = panel_texts(p.run.model, p.run.plan, p.hand);
+  const PanelView view;
+  // Where a mark is told, which nothing else is: beside the same run without one.
+  const auto shown = [&] {
+    p.hand.snapshots(Seat::window).update();
+    std::vector<std::uint32_t> pixels;
+    draw_panel(texts, p.hand.snapshots(Seat::window).front(), view, pixels);
+    long bright = 0;
+    for (int y = 44; y < 64; ++y)
+      for (int x = 16; x < 200; ++x)
+        bright += (pixels[static_cast<std::size_t>(y * panel_width + x)] & 0xff00u) > 0x8000u;
+    return bright;
+  };
+  p.steps(200);
+  EXPECT_EQ(shown(), 0);
+  p.keys.order(ConsoleCommand::mark);
+  p.steps(100);
+  EXPECT_GT(shown(), 50);
+  const Snapshot& now = p.hand.snapshots(Seat::window).front();
+  EXPECT_EQ(now.marks, 1);
+  EXPECT_NEAR(now.marked_s, 0.2, 2e-3);
+  p.steps(2100);
+  EXPECT_EQ(shown(), 0) << "two seconds later";
 }
 
 }  // namespace

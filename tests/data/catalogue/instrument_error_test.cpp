@@ -69,6 +69,18 @@ TEST(InstrumentErrors, WrongTypes) {
   expect_words(refusal("\"name\": \"hook\"", "\"name\": \"crook\""), {":3: name is \"crook\"", "file's name"});
 }
 
+TEST(InstrumentErrors, WhatNoMatterIsMadeOf) {
+  // A tube of 2 and 1.8 mm has 0.597 mm2: of osmium 0.0135 kg/m.
+  EXPECT_EQ(refusal(R"("kg_per_m": 0.001)", R"("kg_per_m": 0.0134)"), "accepted");
+  expect_words(refusal(R"("kg_per_m": 0.001)", R"("kg_per_m": 0.0136)"), {"sections.list[0].kg_per_m is 0.0136"});
+  expect_words(refusal(R"("kg_per_m": 0.001)", R"("kg_per_m": 1)"), {"at most osmium's in its cross-section"});
+  expect_words(refusal(R"("thickness_mm": 0.05)", R"("thickness_mm": 1.58)"),
+               {"radiopacity.list[0].thickness_mm is 1.58", "at most pi/4"});
+  expect_words(refusal(R"("thickness_mm": 0.05)", R"("thickness_mm": 1e300)"), {"at most pi/4"});
+  expect_words(refusal(R"("radius_mm": 20)", R"("radius_mm": 1e-300)"), {"at least half the outer diameter"});
+  expect_words(refusal(R"("plane_deg": 0)", R"("plane_deg": -1e300)"), {"-360 to 360"});
+}
+
 TEST(InstrumentErrors, TheLineIsThatOfTheValueWhereverItStands) {
   // After a number at the end of its line, before its comma, the parser has already read ahead.
   expect_words(refusal(R"("EI_Nmm2": 30,)", "\"EI_Nmm2\":\n  -30\n,"),

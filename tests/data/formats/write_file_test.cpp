@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include <csignal>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <functional>
@@ -17,6 +18,7 @@
 #include "data/formats/mesh_writer.h"
 #include "data/formats/png.h"
 #include "data/formats/svg.h"
+#include "data/formats/video.h"
 
 namespace ostium::data {
 namespace {
@@ -103,6 +105,32 @@ TEST_F(WriteFile, OnAFullDiskWhatWasThereStays) {
     EXPECT_GT(fs::file_size(in(w.file)), 1000u) << w.file;
     EXPECT_EQ(files(), 1) << w.file;
     fs::remove(in(w.file));
+  }
+}
+
+/// ffmpeg ends well even where it could not write a film's last part.
+TEST_F(WriteFile, AFilmCutShortIsNone) {
+  if (std::system("ffmpeg -version >/dev/null 2>&1")) GTEST_SKIP() << "ffmpeg is not there";
+  const auto film = [&] {
+    VideoWriter writer(in("a.mp4"), 64, 64, 15);
+    std::mt19937 noise(2);
+    fluoro::Picture picture;
+    picture.width = picture.height = 64;
+    for (int frame = 0; frame < 9; ++frame) {
+      picture.grey.clear();
+      for (int i = 0; i < 64 * 64; ++i) picture.grey.push_back(static_cast<std::uint8_t>(noise()));
+      writer.add(picture);
+    }
+    return writer.finish();
+  };
+  ASSERT_TRUE(film());
+  const auto whole = fs::file_size(in("a.mp4"));
+  std::ofstream(in("a.mp4")) << "before";
+  for (const auto bytes : {whole / 5, whole / 2, 4 * whole / 5, whole - 1}) {
+    const FullDisk full(bytes);
+    EXPECT_FALSE(film()) << bytes << " of " << whole;
+    EXPECT_EQ(text_of(in("a.mp4")), "before");
+    EXPECT_EQ(files(), 1);
   }
 }
 

@@ -221,13 +221,18 @@ DoubleWall find_double_wall(const Mesh& mesh, const Sheets& sheets) {
 Mesh without_outer_wall(Mesh mesh) {
   Eigen::AlignedBox3d box;
   for (const Eigen::Vector3d& p : mesh.vertices) box.extend(p);
+  if (!(box.sizes().maxCoeff() > 0)) return mesh;
   Mesh usual = mesh;
   for (Eigen::Vector3d& p : usual.vertices) p = usual_extent_m / box.sizes().maxCoeff() * (p - box.center());
   Sheets sheets = sheets_of(usual);
   orient(usual, sheets);
   const DoubleWall wall = find_double_wall(usual, sheets);
+  if (wall.triangles == 0) return mesh;
   std::size_t t = 0;
-  std::erase_if(mesh.triangles, [&](const std::array<int, 3>&) { return wall.outer[t++]; });
+  std::erase_if(usual.triangles, [&](const std::array<int, 3>&) { return wall.outer[t++]; });
+  sheets = sheets_of(usual);
+  orient(usual, sheets);
+  mesh.triangles = usual.triangles;
   return mesh;
 }
 

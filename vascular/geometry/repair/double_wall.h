@@ -17,7 +17,8 @@ struct DoubleWall {
 /// patches count, not single triangles. `mesh` is oriented.
 DoubleWall find_double_wall(const Mesh& mesh, const Sheets& sheets);
 
-/// The same mesh without its outer shells, in whatever unit: it is looked at as if it were as long as vessels are.
+/// The same mesh without its outer shells, in whatever unit: it is looked at as if it were as long as vessels are. The
+/// lumen that is left faces outwards, unlike the inside of a wall that was drawn as one solid.
 Mesh without_outer_wall(Mesh mesh);
 
 }  // namespace ostium::vascular
