@@ -168,6 +168,16 @@ fluoro::Picture shown(const Arguments& a, const fluoro::FluoroscopeInput& in, co
 /// are told and not seen.
 constexpr double spoiled_share = 1e-3, spoiled_pixels = 20;
 
+std::unique_ptr<fluoro::PathLengthRenderer> renderer_named(const std::string& name) {
+  if (name == "scanline") return fluoro::make_scanline_renderer();
+  try {
+    return fluoro::make_osmesa_renderer();
+  } catch (const std::runtime_error& missing) {
+    fmt::print(stderr, "{}; drawn by scanline instead\n", missing.what());
+  }
+  return fluoro::make_scanline_renderer();
+}
+
 /// The frames taken one after the other.
 struct FilmedFrames {
   fluoro::FluoroscopeState state;
@@ -180,7 +190,7 @@ struct FilmedFrames {
 FilmedFrames film(const Arguments& a, const Scenes& scenes, const fluoro::FluoroscopeInput& in, fluoro::Scene& scene,
                   std::optional<data::VideoWriter>& writer) {
   FilmedFrames out;
-  fluoro::Imager imager({}, a.renderer == "osmesa" ? fluoro::make_osmesa_renderer() : fluoro::make_scanline_renderer());
+  fluoro::Imager imager({}, renderer_named(a.renderer));
   fluoro::DisplayScratch scratch;
   const int frames = a.frames ? a.frames : a.video() ? 30 : 8;
   // A still picture stays at its phase; the frames before it only build up the lag.
