@@ -53,17 +53,17 @@ void main() {
 })";
 
 /// The functions that are used below, by their own names.
-#define OSTIUM_OSMESA_FUNCTIONS(X)                                                                                     \
-  X(OSMesaCreateContextExt)                                                                                            \
-  X(OSMesaMakeCurrent)                                                                                                 \
-  X(OSMesaDestroyContext) X(glAttachShader) X(glBindAttribLocation) X(glBindFramebuffer) X(glBindTexture)              \
-      X(glBlendFunc) X(glCheckFramebufferStatus) X(glClear) X(glClearColor) X(glCompileShader) X(glCreateProgram)      \
-          X(glCreateShader) X(glDisable) X(glDisableVertexAttribArray) X(glDrawElements) X(glEnable)                   \
-              X(glEnableVertexAttribArray) X(glFramebufferTexture2D) X(glGenFramebuffers) X(glGenTextures)             \
-                  X(glGetProgramiv) X(glGetShaderInfoLog) X(glGetShaderiv) X(glGetString) X(glGetUniformLocation)      \
-                      X(glLinkProgram) X(glReadPixels) X(glShaderSource) X(glTexImage2D) X(glUniform1f) X(glUniform2f) \
-                          X(glUniform3fv) X(glUniformMatrix3fv) X(glUseProgram) X(glVertexAttrib3f)                    \
-                              X(glVertexAttribPointer) X(glViewport)
+// clang-format off
+#define OSTIUM_OSMESA_FUNCTIONS(X) \
+  X(OSMesaCreateContextExt) X(OSMesaMakeCurrent) X(OSMesaDestroyContext) X(glAttachShader) \
+  X(glBindAttribLocation) X(glBindFramebuffer) X(glBindTexture) X(glBlendFunc) X(glCheckFramebufferStatus) \
+  X(glClear) X(glClearColor) X(glCompileShader) X(glCreateProgram) X(glCreateShader) X(glDisable) \
+  X(glDisableVertexAttribArray) X(glDrawElements) X(glEnable) X(glEnableVertexAttribArray) \
+  X(glFramebufferTexture2D) X(glGenFramebuffers) X(glGenTextures) X(glGetProgramiv) X(glGetShaderInfoLog) \
+  X(glGetShaderiv) X(glGetString) X(glGetUniformLocation) X(glLinkProgram) X(glReadPixels) X(glShaderSource) \
+  X(glTexImage2D) X(glUniform1f) X(glUniform2f) X(glUniform3fv) X(glUniformMatrix3fv) X(glUseProgram) \
+  X(glVertexAttrib3f) X(glVertexAttribPointer) X(glViewport)
+// clang-format on
 
 struct OSMesa {
   OSMesa() {
