@@ -47,6 +47,12 @@ expect 3 "3 pictures, and .* shows 6 moments; expected 0.4 s" "$ostium" inject -
 expect 3 "there is no case" "$ostium" inject no-such-case -o "$dir/inject.png"
 expect 3 "png and .mp4" "$ostium" inject -o "$dir/inject.jpg"
 expect 2 "volume" "$ostium" inject --volume -3 -o "$dir/inject.png"
+# Libraries that are loaded when they are used are named where they are missing.
+mkdir "$dir/damaged"
+touch "$dir/damaged/libOSMesa.so.8" "$dir/damaged/libostium-openvdb.so"
+expect 0 "install libosmesa6; drawn by scanline instead" env LD_LIBRARY_PATH="$dir/damaged" \
+  "$ostium" frame --pixels 64 --frames 1 --renderer osmesa -o "$dir/frame.png"
+expect 0 "^AP" frame --frames 1 --renderer osmesa -o "$dir/frame.png"
 # Ctrl-C, which ffmpeg gets too, leaves a film of what there was.
 expect 0 "^130$" bash -c 'setsid "$ostium" frame --pixels 64 --frames 9000 -o "$0/cut.mp4" & p=$!
   until [[ -e $0/cut.mp4.unfinished ]]; do sleep 0.05; done; sleep 0.3; kill -INT -- -$p; wait $p; echo $?' "$dir"
@@ -138,6 +144,8 @@ for command in "import -o $folder/case" check "centreline -o $folder/tree.json";
   expect 3 "its numbers may be mm or cm" "$ostium" $command "$folder/vessel.obj"
 done
 (printf '# unit: mm\n'; cat "$folder/vessel.obj") >"$folder/marked.obj"
+expect 3 "install libostium-openvdb.so beside ostium" env LD_LIBRARY_PATH="$dir/damaged" \
+  "$ostium" import "$folder/marked.obj" -o "$folder/single" --motion none
 # It is no heart, unless somebody says so.
 expect 0 '"beats": false' "$ostium" import "$folder/marked.obj" -o "$folder/single" --motion none --json
 expect 0 '"beats": true' "$ostium" import "$folder/marked.obj" -o "$folder/single" --motion coronary --json

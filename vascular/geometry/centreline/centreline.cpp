@@ -38,6 +38,7 @@ Paths cheapest_paths(const Voxels& voxels, int root) {
     open.pop();
     if (c > cost[v]) continue;
     voxels.neighbours(v, [&](int next, double step) {
+      if (cost[next] <= c) return;  // no way from here is cheaper
       const double d = std::max((voxels.to_wall_m(v) + voxels.to_wall_m(next)) / 2, voxels.size_m() / 4);
       const double through = c + step / (d * d);
       if (through >= cost[next]) return;
@@ -63,7 +64,8 @@ class Skeleton {
       : voxels_(voxels),
         paths_(cheapest_paths(voxels, root)),
         owner_(voxels.count(), -1),
-        reserve_m_(voxels.count(), -1) {}
+        reserve_m_(voxels.count(), -1),
+        looked_from_(voxels.count(), -1) {}
 
   bool reaches(int voxel) const { return paths_.length_m[voxel] < unreached; }
 
@@ -119,11 +121,14 @@ class Skeleton {
     const double radius = reach * voxels_.to_wall_m(from) + 2 * voxels_.size_m();
     if (radius <= reserve_m_[from]) return;
     reserve_m_[from] = static_cast<float>(radius);
+    looked_from_[from] = from;
     std::vector<int> open = {from};
     while (!open.empty()) {
       const int v = open.back();
       open.pop_back();
       voxels_.neighbours(v, [&](int next, double) {
+        if (looked_from_[next] == from) return;  // by another neighbour
+        looked_from_[next] = from;
         const float left = static_cast<float>(radius - (voxels_.place(next) - voxels_.place(from)).norm());
         if (left < 0 || left <= reserve_m_[next]) return;
         reserve_m_[next] = left;
@@ -136,6 +141,7 @@ class Skeleton {
   Paths paths_;
   std::vector<int> owner_;
   std::vector<float> reserve_m_;  ///< how much farther than to a voxel a path's sphere reaches; below 0: none does
+  std::vector<int> looked_from_;  ///< the last voxel whose sphere was compared there
   std::vector<Strand> strands_;
 };
 
