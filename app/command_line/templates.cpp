@@ -2,11 +2,10 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
-#include <sstream>
 
 #include "data/catalogue/catalogue.h"
 #include "data/formats/load_error.h"
+#include "data/formats/read_file.h"
 #include "data/formats/write_file.h"
 
 namespace ostium::app {
@@ -42,9 +41,7 @@ std::vector<std::string> write_template(const std::string& kind, const std::stri
   for (const fs::path& file : files) {
     const fs::path to = fs::path(folder) / file.filename();
     if (fs::exists(to)) throw data::LoadError(to.string() + " is there already; expected a folder without it");
-    std::stringstream text;
-    text << std::ifstream(file, std::ios::binary).rdbuf();
-    data::write_file(to.string(), text.str());
+    data::write_file(to.string(), data::read_file(file.string()));
     written.push_back(to.string());
   }
   return written;

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <filesystem>
-#include <fstream>
 #include <sstream>
 
 #include "app/command_line/arguments.h"
@@ -14,6 +13,7 @@
 #include "app/command_line/progress.h"
 #include "app/command_line/templates.h"
 #include "app/commands/explain_curves.h"
+#include "data/formats/read_file.h"
 #include "data/formats/write_file.h"
 #include "data/identification/curves/kinds.h"
 #include "data/identification/measurement/measurement_reader.h"
@@ -49,12 +49,6 @@ void declare(Options& options, Arguments& a) {
   options.flag("--json", a.json, "Print explanation.json, see data/schemas/explanation.schema.json");
 }
 
-std::string contents(const std::string& file) {
-  std::stringstream text;
-  text << std::ifstream(file, std::ios::binary).rdbuf();
-  return text.str();
-}
-
 void print(const data::Explanation& x) {
   fmt::print("verdict: {}\n", to_string(x.verdict));
   for (const std::string& sentence : x.verdict_text) fmt::print("  {}\n", sentence);
@@ -68,7 +62,7 @@ void write_found(const Arguments& a, const data::MeasurementSet& set, const data
   const std::filesystem::path folder(a.folder);
   data::write_file((folder / "explanation.json").string(), to_json(found));
   data::write_file((folder / "explanation.html").string(), to_html(set, found));
-  data::write_file((folder / "amended" / "measurement.json").string(), amended(contents(set.file), set, found));
+  data::write_file((folder / "amended" / "measurement.json").string(), amended(data::read_file(set.file), set, found));
   for (std::size_t i = 0; i < set.instruments.size(); ++i) {
     const bool one = set.instruments.size() == 1, innermost = i + 1 == set.instruments.size();
     // Instruments are found by their file's name.

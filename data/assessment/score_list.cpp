@@ -5,13 +5,12 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
-#include <sstream>
 
 #include "data/assessment/scoring_keys.h"
 #include "data/catalogue/catalogue.h"
 #include "data/formats/json/json_object.h"
 #include "data/formats/load_error.h"
+#include "data/formats/read_file.h"
 
 namespace ostium::data {
 
@@ -113,11 +112,7 @@ ScoreList read_score_list(const std::string& file, const std::string& text) {
 ScoreList find_score_list(const std::string& name_or_file) {
   const fs::path known = fs::path(data_folder()) / "scoring" / (name_or_file + ".json");
   const std::string file = fs::is_regular_file(known) ? known.string() : name_or_file;
-  std::ifstream in(file);
-  std::stringstream text;
-  text << in.rdbuf();
-  if (!in) throw LoadError(file + ": cannot be read; expected a scoring list, or a name in data/scoring");
-  return read_score_list(file, text.str());
+  return read_score_list(file, read_file(file, "a scoring list, or a name in data/scoring", json_limits::bytes));
 }
 
 std::vector<Score> score(const ScoreList& list, const RunRecord& record, const std::vector<Metric>& metrics) {

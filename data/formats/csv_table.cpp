@@ -3,10 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <fstream>
+#include <sstream>
 
 #include "data/formats/decimal.h"
 #include "data/formats/load_error.h"
+#include "data/formats/read_file.h"
 
 namespace ostium::data {
 
@@ -43,8 +44,7 @@ std::string listed(const std::vector<std::string>& names) {
 }  // namespace
 
 CsvTable load_csv(const std::string& file, const std::string& expected) {
-  std::ifstream in(file, std::ios::binary);
-  if (!in) throw LoadError(file + " cannot be read; expected a table with the columns " + expected);
+  std::istringstream in(read_file(file, "a table with the columns " + expected));
   CsvTable out;
   char separator = ',';
   int number = 0;

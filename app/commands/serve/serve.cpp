@@ -5,7 +5,6 @@
 
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <iterator>
 #include <nlohmann/json.hpp>
 
@@ -21,6 +20,7 @@
 #include "app/session/run/replay.h"
 #include "data/catalogue/catalogue.h"
 #include "data/formats/load_error.h"
+#include "data/formats/read_file.h"
 #include "data/formats/write_file.h"
 
 namespace ostium::app {
@@ -91,11 +91,6 @@ void write_notes(const std::string& file, const std::vector<Note>& notes) {
   data::write_file(file, all.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
 }
 
-std::string text_of(const fs::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
-
 /// A run and its branches, one after another, in a folder.
 class Sitting {
  public:
@@ -159,7 +154,7 @@ class Sitting {
     if (!a_.report) return;
     try {
       report_folder(folder_, run_.model.vessel, recording_, a_.scoring);
-      station_.reported(text_of(fs::path(folder_) / "report.html"));
+      station_.reported(data::read_file((fs::path(folder_) / "report.html").string()));
     } catch (const data::LoadError& error) {
       station_.tell_problem(error.what());
     }

@@ -5,7 +5,6 @@
 #include <pybind11/stl.h>
 
 #include <algorithm>
-#include <fstream>
 #include <iterator>
 
 #include "app/python/binding/arrays.h"
@@ -15,18 +14,13 @@
 #include "data/catalogue/catalogue.h"
 #include "data/catalogue/drug/drug_file.h"
 #include "data/catalogue/instrument/instrument_reader.h"
+#include "data/formats/read_file.h"
 
 namespace ostium::python {
 
 namespace {
 
 using NamedTools = std::vector<std::pair<std::string, std::string>>;
-
-std::string all_of(const std::string& file) {
-  std::ifstream in(file, std::ios::binary);
-  if (!in) throw data::LoadError(file + ": cannot be read; expected a file");
-  return {std::istreambuf_iterator<char>(in), {}};
-}
 
 std::shared_ptr<const app::FreeRunModel> model_of(const ModelRecipe& recipe) {
   std::vector<app::SessionTool> tools;
@@ -63,9 +57,9 @@ ModelRecipe recipe_of(std::shared_ptr<VesselHandle> vessel, const NamedTools& to
       throw py::value_error(
           fmt::format("a tool is called \"{}\"; expected a name of its own for each, without a dot", name));
     const std::string file = data::instrument_file(instrument);
-    recipe.tools.push_back({name, file, all_of(file)});
+    recipe.tools.push_back({name, file, data::read_file(file)});
   }
-  for (const std::string& file : data::drug_files()) recipe.drugs.push_back({file, all_of(file)});
+  for (const std::string& file : data::drug_files()) recipe.drugs.push_back({file, data::read_file(file)});
   if (!(breathing == 0 || (breathing >= 4 && breathing <= 60)))
     throw py::value_error(fmt::format("breathing is {}; expected breaths a minute, 4 to 60, or 0", breathing));
   if (friction && !(*friction >= 0 && *friction <= 1))

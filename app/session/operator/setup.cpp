@@ -7,7 +7,6 @@
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
-#include <fstream>
 #include <iterator>
 #include <nlohmann/json.hpp>
 
@@ -16,6 +15,7 @@
 #include "data/catalogue/instrument/instrument_reader.h"
 #include "data/formats/decimal.h"
 #include "data/formats/load_error.h"
+#include "data/formats/read_file.h"
 #include "vascular/flow/coronary_roots.h"
 #include "vascular/geometry/mesh_files/formats.h"
 
@@ -24,12 +24,6 @@ namespace ostium::app {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string all_of(const std::string& file) {
-  std::ifstream in(file, std::ios::binary);
-  if (!in) throw data::LoadError(file + ": cannot be read; expected a file");
-  return {std::istreambuf_iterator<char>(in), {}};
-}
 
 fs::path folder_of(const data::Script& script) { return fs::path(script.file).parent_path(); }
 
@@ -50,7 +44,7 @@ void set_vessel(const std::string& case_or_mesh, vascular::LengthUnit unit, RunS
   }
   const fs::path file = fs::absolute(data::case_file(case_or_mesh));
   const data::Case c = data::load_case(file.string());
-  setup.case_text = all_of(file.string());
+  setup.case_text = data::read_file(file.string());
   if (!c.imported) setup.access = c.anatomy.access;
   // An imported case's vessels are stored beside its file, where replay finds them.
   setup.vessel = c.imported ? (file.parent_path() / c.name).string() : c.name;
@@ -65,10 +59,10 @@ void set_script(const data::Script& script, RunSetup& setup) {
   setup.tool_texts.clear(), setup.tool_files.clear();
   for (const data::ScriptTool& tool : script.tools) {
     setup.tool_files.push_back(data::instrument_file(tool.instrument, folder_of(script)));
-    setup.tool_texts.push_back(all_of(setup.tool_files.back()));
+    setup.tool_texts.push_back(data::read_file(setup.tool_files.back()));
   }
   setup.drug_files = data::drug_files(), setup.drug_texts.clear();
-  for (const std::string& file : setup.drug_files) setup.drug_texts.push_back(all_of(file));
+  for (const std::string& file : setup.drug_files) setup.drug_texts.push_back(data::read_file(file));
 }
 
 namespace {
@@ -105,7 +99,7 @@ std::vector<std::string> choose_sizes(const Vessel& vessel, RunSetup& setup) {
     if (!most_m) continue;
     double best_m = 0;
     for (const std::string& size : tool.sizes) {
-      const std::string file = data::instrument_file(size, folder_of(setup.script)), text = all_of(file);
+      const std::string file = data::instrument_file(size, folder_of(setup.script)), text = data::read_file(file);
       const double own_m = width_of(data::read_instrument(file, text), setup.script, tool);
       const bool better = best_m == 0 || (own_m <= *most_m ? best_m > *most_m || own_m > best_m : own_m < best_m);
       if (!better) continue;
@@ -145,7 +139,7 @@ void set_value(const std::string& key, const std::string& value, RunSetup& setup
     known += setup.script.tools[t].name + ", ";
     if (setup.script.tools[t].name != key) continue;
     setup.tool_files[t] = data::instrument_file(value);
-    setup.tool_texts[t] = all_of(setup.tool_files[t]);
+    setup.tool_texts[t] = data::read_file(setup.tool_files[t]);
     setup.script.tools[t].sizes.clear();
     return;
   }

@@ -47,7 +47,7 @@ class EventWatch {
   bool injects_ = false, inflated_ = false, filled_ = false, over_ = false, closed_ = false;
   double inflated_since_s_ = 0, closed_since_s_ = 0;
   bool leaks_ = false, leaked_ = false, low_ = false, pulseless_ = false, drains_ = false, infuses_ = false;
-  double leaks_since_s_ = 0, pulseless_since_s_ = 0, perforated_s_ = -1;
+  double leaks_since_s_ = 0, leak_seen_s_ = 0, pulseless_since_s_ = 0, perforated_s_ = -1;
   vascular::Rhythm rhythm_ = vascular::Rhythm::sinus;
   bool ectopic_ = false, burst_ = false;
   vascular::Trace trace_ = vascular::Trace::absent;

@@ -10,6 +10,8 @@ using units::mL, units::mmHg;
 
 namespace {
 
+/// As the heart fails, a hole bleeds in systole only: that is one leak, which has not stopped.
+constexpr double longest_beat_s = 1.5;
 constexpr double low_Pa = 80 * mmHg, low_no_more_Pa = 90 * mmHg;
 
 }  // namespace
@@ -17,13 +19,14 @@ constexpr double low_Pa = 80 * mmHg, low_no_more_Pa = 90 * mmHg;
 void EventWatch::look_at_patient(const SessionModel& model, const SessionState& state, const EventSink& say) {
   const vascular::HeartState& heart = state.blood.heart;
   const double time_s = seconds(model, state), leak_m3_s = vascular::leak_m3_s(state.treatment);
-  const bool leaks = leak_m3_s > visible_leak_m3_s;
-  if (leaks && !leaks_) {
-    if (leaked_) say(data::EventCode::leak_goes_on, -1, leak_m3_s / mL);
-    leaks_since_s_ = time_s, leaked_ = true;
+  if (leak_m3_s > visible_leak_m3_s) {
+    if (!leaks_ && leaked_) say(data::EventCode::leak_goes_on, -1, leak_m3_s / mL);
+    if (!leaks_) leaks_since_s_ = time_s;
+    leaks_ = leaked_ = true, leak_seen_s_ = time_s;
+  } else if (leaks_ && time_s - leak_seen_s_ > longest_beat_s) {
+    say(data::EventCode::leak_stops, -1, leak_seen_s_ - leaks_since_s_);
+    leaks_ = false;
   }
-  if (!leaks && leaks_) say(data::EventCode::leak_stops, -1, time_s - leaks_since_s_);
-  leaks_ = leaks;
   const double systolic = heart.beat.systolic_Pa;
   if (!low_ && systolic < low_Pa) say(data::EventCode::pressure_low, -1, systolic / mmHg), low_ = true;
   if (systolic > low_no_more_Pa) low_ = false;

@@ -2,14 +2,13 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
-#include <sstream>
 
 #include "data/catalogue/case/case.h"
 #include "data/catalogue/catalogue.h"
 #include "data/catalogue/course/course.h"
 #include "data/catalogue/course/course_keys.h"
 #include "data/catalogue/script/script.h"
+#include "data/formats/read_file.h"
 
 namespace ostium::data {
 
@@ -90,16 +89,13 @@ std::vector<std::string> course_names() {
 Course find_course(const std::string& name_or_file) {
   const fs::path known = fs::path(data_folder()) / "courses" / (name_or_file + ".json");
   const std::string file = fs::is_regular_file(known) ? known.string() : name_or_file;
-  std::ifstream in(file);
-  std::stringstream text;
-  text << in.rdbuf();
-  if (!in) {
+  if (!fs::exists(file)) {
     std::string names;
     for (const std::string& name : course_names()) names += "\n  " + name;
     throw LoadError(
         fmt::format("there is no course \"{}\"; expected a file NAME.json or one of:{}", name_or_file, names));
   }
-  return read_course(file, text.str());
+  return read_course(file, read_file(file, "a course", json_limits::bytes));
 }
 
 }  // namespace ostium::data

@@ -4,7 +4,6 @@
 #include <cassert>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <iterator>
 
 #include "core/base/units.h"
@@ -15,6 +14,7 @@
 #include "data/catalogue/script/script_condition_reader.h"
 #include "data/catalogue/script/script_keys.h"
 #include "data/catalogue/script/script_parts.h"
+#include "data/formats/read_file.h"
 #include "fluoro/projection/views.h"
 
 namespace ostium::data {
@@ -222,11 +222,6 @@ Script read(JsonValue file, const std::string& text) {
   return script;
 }
 
-std::string all_of(const std::string& file) {
-  std::ifstream in(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
-
 }  // namespace
 
 std::string ScriptStep::words() const {
@@ -236,7 +231,7 @@ std::string ScriptStep::words() const {
 
 Script read_script(const std::string& file, const std::string& text) { return read(parse_json(file, text), text); }
 
-Script load_script(const std::string& file) { return read(load_json(file), all_of(file)); }
+Script load_script(const std::string& file) { return read(load_json(file), read_file(file)); }
 
 std::vector<Script> load_scripts() {
   const fs::path folder = fs::path(data_folder()) / "scripts";

@@ -4,11 +4,12 @@
 
 #include <cmath>
 #include <cstdint>
-#include <fstream>
 #include <iterator>
 #include <nlohmann/json.hpp>
 #include <string_view>
 #include <unordered_set>
+
+#include "data/formats/read_file.h"
 
 namespace ostium::data {
 
@@ -266,15 +267,8 @@ JsonValue parse_json(const std::string& file, const std::string& text) {
 }
 
 JsonValue load_json(const std::string& file) {
-  std::ifstream stream(file, std::ios::binary);
-  std::string text;
-  // No more than is needed to see that it is too long: the file may be a device without end.
-  std::vector<char> block(65536);
-  while (stream.read(block.data(), static_cast<std::streamsize>(block.size())) || stream.gcount() > 0) {
-    text.append(block.data(), static_cast<std::size_t>(stream.gcount()));
-    if (text.size() > json_limits::bytes) break;
-  }
-  if (text.empty()) throw LoadError(file + ": cannot be read; is it there, and a file with something in it?");
+  const std::string text = read_file(file, "a file of JSON", json_limits::bytes);
+  if (text.empty()) throw LoadError(file + ": holds nothing; expected a file of JSON");
   return parse_json(file, text);
 }
 

@@ -62,5 +62,26 @@ TEST(EventWatch, AWallThatEachBeatPressesIsPressedOnce) {
   EXPECT_EQ(times(0, 2.5) + times(2, 0.3), 1u) << "it had been let go";
 }
 
+TEST(EventWatch, AHoleThatBleedsInSystoleLeaksOnce) {
+  Watched w;
+  w.run.state.treatment.injury.injuries[0] = {.kind = vascular::InjuryKind::perforation, .cell = 5, .grade = 3};
+  std::size_t stops = 0, again = 0;
+  const auto leak = [&](double mL_s, double time_s) {
+    w.run.state.treatment.injury.injuries[0].leak_m3_s = 1e-6 * mL_s;
+    const auto steps = static_cast<std::uint64_t>(time_s / w.run.model.step_s());
+    for (std::uint64_t n = 0; n < steps; ++n) {
+      ++w.run.state.rods.step;
+      w.look();
+      stops += w.values(data::EventCode::leak_stops).size(), again += w.values(data::EventCode::leak_goes_on).size();
+    }
+  };
+  for (int beat = 0; beat < 5; ++beat) leak(0.1, 0.25), leak(0, 0.2);
+  EXPECT_EQ(stops + again, 0u);
+  leak(0, 2);
+  EXPECT_EQ(stops, 1u);
+  leak(0.1, 0.2);
+  EXPECT_EQ(again, 1u) << "it had stopped";
+}
+
 }  // namespace
 }  // namespace ostium::app

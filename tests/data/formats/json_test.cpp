@@ -1,6 +1,8 @@
 /// JSON has limits, and each refusal names file, place and limit; nothing of a file ends up in a terminal as it is.
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
+#include "data/assessment/score_list.h"
 #include "data/formats/json/json_value.h"
 #include "tests/data/refusals.h"
 
@@ -36,7 +38,17 @@ TEST(Json, EveryLimitIsNamedWithFilePlaceAndNumber) {
 }
 
 TEST(Json, AFileWithoutEndIsRefused) {
-  expect_words(refusal_of([] { load_json("/dev/zero"); }), {"/dev/zero: has more than 16 MiB"});
+  expect_words(refusal_of([] { load_json("/dev/zero"); }),
+               {"/dev/zero: cannot be read, it is a folder, a pipe or a device"});
+}
+
+TEST(Json, APipeThatNobodyFillsIsRefused) {
+  const std::string pipe = testing::TempDir() + "pipe.json";
+  std::remove(pipe.c_str());
+  ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+  expect_words(refusal_of([&] { load_json(pipe); }), {"pipe.json: cannot be read, it is a folder, a pipe or a device"});
+  expect_words(refusal_of([&] { find_score_list(pipe); }), {"pipe", "expected a scoring list"});
+  std::remove(pipe.c_str());
 }
 
 TEST(Json, APathIsWrittenWhereItIsWanted) {
