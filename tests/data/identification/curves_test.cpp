@@ -152,7 +152,7 @@ TEST_F(Tabled, AreReadStrictly) {
   table_ = table, file_["runs"][0]["time_s"] = {1, 2, 3};
   expect_refused({"run 1.csv:2: column \"time_s\"", "itself"});
   file_["runs"][0].erase("time_s"), file_["runs"][0]["csv"] = "run 2.csv";
-  expect_refused({"run 2.csv cannot be read"});
+  expect_refused({"run 2.csv: cannot be read"});
 }
 
 TEST(Curves, BadInputIsNamed) {

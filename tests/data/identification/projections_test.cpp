@@ -218,7 +218,7 @@ TEST(Projections, ATableIsReadStrictly) {
   expect_words(said("x0,A,", "x0,A,x"), {"clicks.csv:3: column_px is \"x", "a number"});
   expect_words(said("x0,A,", "x0,A,9"), {"clicks.csv: experiment \"x0\", view \"A\", point 1"});
   std::filesystem::remove(folder.path / "clicks.csv");
-  expect_words(refusal_of([&] { load_measurement(set); }), {"clicks.csv cannot be read"});
+  expect_words(refusal_of([&] { load_measurement(set); }), {"clicks.csv: cannot be read"});
   Json both = seen_file();
   both["polylines_csv"] = "clicks.csv";
   expect_words(seen_refusal(both), {"polylines_csv", "experiments[0].projections", "one of them"});
