@@ -15,7 +15,6 @@ struct Primary {
 
 /// Beer-Lambert attenuation at each of the beam's energies (beam.h). All planes have the same size. Negative lengths
 /// count as zero.
-/// as none.
 void attenuate(const Beam& beam, const Plane& stretch, const PathLengths& lengths, const ShaftLayer& shafts,
                Primary& out);
 

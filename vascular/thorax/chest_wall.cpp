@@ -15,11 +15,11 @@ constexpr double trunk_width_mm = 182, trunk_height_mm = 420, trunk_depth_mm = 1
 constexpr double square_behind = 3;  // exponent of the cage's contour behind; in front 2, an ellipse
 
 /// The contour's half axes, and its exponent, on that side of its widest line.
-struct Contour {
+struct CageOutline {
   Eigen::Vector2d half_mm;
   double exponent;
 };
-Contour contour_mm(double y_mm, double margin_mm, double forward) {
+CageOutline outline_mm(double y_mm, double margin_mm, double forward) {
   Eigen::Vector2d half = cage_half_axes_mm(y_mm).array() + margin_mm;
   if (forward >= 0) return {half, 2};
   half[1] += 5;
@@ -37,14 +37,14 @@ Eigen::Vector2d cage_half_axes_mm(double y_mm) {
 }
 
 Eigen::Vector2d cage_mm(double angle_rad, double y_mm, double margin_mm) {
-  const auto [half, exponent] = contour_mm(y_mm, margin_mm, -std::cos(angle_rad));
+  const auto [half, exponent] = outline_mm(y_mm, margin_mm, -std::cos(angle_rad));
   const double e = 2 / exponent;
   return {half[0] * signed_power(std::sin(angle_rad), e), cage_z_mm - half[1] * signed_power(std::cos(angle_rad), e)};
 }
 
 double from_cage_mm(const Eigen::Vector3d& p_mm, double margin_mm) {
   const double z = p_mm.z() - cage_z_mm;
-  const auto [half, n] = contour_mm(p_mm.y(), margin_mm, z);
+  const auto [half, n] = outline_mm(p_mm.y(), margin_mm, z);
   const double out = std::pow(std::fabs(p_mm.x() - middle_x / mm) / half[0], n) + std::pow(std::fabs(z) / half[1], n);
   return (std::pow(out, 1 / n) - 1) * half.minCoeff();
 }
