@@ -13,6 +13,7 @@
 
 #include "data/formats/decimal.h"
 #include "data/formats/load_error.h"
+#include "data/formats/write_file.h"
 
 namespace ostium::data {
 
@@ -76,13 +77,26 @@ void append(TableFile& file, const char* table, const std::vector<T>& numbers, s
   file.append(table, numbers.data(), numbers.size() / width);
 }
 
+void rename_to(const std::string& path, const std::string& from) {
+  if (std::rename(from.c_str(), path.c_str()) != 0)
+    throw WriteError(fmt::format("{}: cannot take the place of what was there: {}", path, std::strerror(errno)));
+}
+
 }  // namespace
 
+RecordingWriter::Beside::~Beside() { std::remove(path.c_str()); }
+
+/// Each file is complete and closed before one gets the recording's name.
+void RecordingWriter::write_both(const std::function<void(const std::string& path)>& write) {
+  write(next_.path);
+  write(before_.path);
+  rename_to(path_, before_.path);
+}
+
 RecordingWriter::RecordingWriter(std::string path, const RecordingHeader& header, const std::vector<FixedTable>& tables)
-    : path_(std::move(path)), next_(path_ + ".next"), header_(header) {
-  // Each file is complete and closed before it gets the recording's name.
-  for (const bool first : {true, false}) {
-    TableFile file = TableFile::create(next_);
+    : path_(std::move(path)), next_{path_ + ".next"}, before_{path_ + ".before"}, header_(header) {
+  write_both([&](const std::string& to) {
+    TableFile file = TableFile::create(to);
     file.set_text("schema", schema + std::to_string(recording_version));
     file.set_text("software", header.software);
     file.set_text("setup", header.setup);
@@ -97,8 +111,7 @@ RecordingWriter::RecordingWriter(std::string path, const RecordingHeader& header
       file.append(table.layout.name, table.rows, table.count);
     }
     file.close();
-    if (first) take_place();
-  }
+  });
 }
 
 namespace {
@@ -130,7 +143,7 @@ void cut_short(TableFile& file, const RecordingHeader& header, std::size_t steps
 
 RecordingWriter::RecordingWriter(std::string path, const RecordingHeader& header, const std::string& from,
                                  std::size_t steps)
-    : path_(std::move(path)), next_(path_ + ".next"), header_(header) {
+    : path_(std::move(path)), next_{path_ + ".next"}, before_{path_ + ".before"}, header_(header) {
   {
     const RecordingReader before(from);
     if (before.input_columns() != header.input_columns || before.signal_columns() != header.signal_columns ||
@@ -140,22 +153,14 @@ RecordingWriter::RecordingWriter(std::string path, const RecordingHeader& header
       throw LoadError(fmt::format("{}: is not {} whole seconds of this run; expected its own recording", from,
                                   steps / steps_per_state));
   }
-  for (const bool first : {true, false}) {
+  write_both([&](const std::string& to) {
     std::error_code problem;
-    std::filesystem::copy_file(from, next_, std::filesystem::copy_options::overwrite_existing, problem);
-    if (problem) throw LoadError(fmt::format("{}: cannot be written: {}", next_, problem.message()));
-    TableFile file = TableFile::open(next_, true);
+    std::filesystem::copy_file(from, to, std::filesystem::copy_options::overwrite_existing, problem);
+    if (problem) throw write_error(to, problem.message());
+    TableFile file = TableFile::open(to, true);
     cut_short(file, header_, steps);
     file.close();
-    if (first) take_place();
-  }
-}
-
-RecordingWriter::~RecordingWriter() { std::remove(next_.c_str()); }
-
-void RecordingWriter::take_place() const {
-  if (std::rename(next_.c_str(), path_.c_str()) != 0)
-    throw LoadError(fmt::format("{}: cannot take the place of what was there: {}", path_, std::strerror(errno)));
+  });
 }
 
 void RecordingWriter::write(TableFile& file, const RecordingBlock& block) const {
@@ -178,15 +183,14 @@ void RecordingWriter::write(TableFile& file, const RecordingBlock& block) const 
 /// Swaps the two files. The recording's name moves to the newer file in one rename; the older one keeps a second name
 /// until then.
 void RecordingWriter::take_turns() const {
-  const std::string before = path_ + ".before";
-  std::remove(before.c_str());
-  if (link(path_.c_str(), before.c_str()) != 0 || std::rename(next_.c_str(), path_.c_str()) != 0 ||
-      std::rename(before.c_str(), next_.c_str()) != 0)
-    throw LoadError(fmt::format("{}: cannot take the place of what was there: {}", path_, std::strerror(errno)));
+  std::remove(before_.path.c_str());
+  if (link(path_.c_str(), before_.path.c_str()) != 0) throw write_error(path_, std::strerror(errno));
+  rename_to(path_, next_.path);
+  rename_to(next_.path, before_.path);
 }
 
 void RecordingWriter::commit(RecordingBlock block) {
-  TableFile file = TableFile::open(next_, true);
+  TableFile file = TableFile::open(next_.path, true);
   write(file, last_);
   write(file, block);
   file.close();
@@ -195,11 +199,11 @@ void RecordingWriter::commit(RecordingBlock block) {
 }
 
 void RecordingWriter::finish(const std::string& end) {
-  TableFile file = TableFile::open(next_, true);
+  TableFile file = TableFile::open(next_.path, true);
   write(file, last_);
   file.set_text("end", end);
   file.close();
-  take_place();
+  rename_to(path_, next_.path);
 }
 
 RecordingReader::RecordingReader(const std::string& path) : path_(path), file_(TableFile::open(path)) {

@@ -6,6 +6,7 @@
 /// and closed under the recording's name, while the other, NAME.next, is opened, brought up to date, closed and renamed
 /// to take its place.
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -67,25 +68,32 @@ struct FixedTable {
 
 class RecordingWriter {
  public:
-  /// Creates both files. Throws WriteError or LoadError.
+  /// Creates both files. Throws WriteError, and leaves neither; what was there is then as it was.
   RecordingWriter(std::string path, const RecordingHeader& header, const std::vector<FixedTable>& tables = {});
   /// Goes on after the first `steps` of another recording of the same run, a multiple of steps_per_state. That one is
-  /// left as it is. Throws LoadError too if it is not of this header's layout, or shorter.
+  /// left as it is. Throws LoadError if it is not of this header's layout, or shorter.
   RecordingWriter(std::string path, const RecordingHeader& header, const std::string& from, std::size_t steps);
-  ~RecordingWriter();  ///< removes the other file; the recording stays as last committed
   RecordingWriter(const RecordingWriter&) = delete;
   RecordingWriter& operator=(const RecordingWriter&) = delete;
-  /// Throws LoadError if it cannot be written; the recording then stays as it was.
+  /// Removes the other file; the recording stays as last committed.
+  ~RecordingWriter() = default;
+  /// Throws WriteError; the recording then stays as it was.
   void commit(RecordingBlock block);
   /// Writes the end of the run: outcome, reason, metrics, as JSON. Removes the other file.
   void finish(const std::string& end);
 
  private:
   void write(TableFile& file, const RecordingBlock& block) const;
-  void take_place() const;
+  void write_both(const std::function<void(const std::string& path)>& write);
   void take_turns() const;
 
-  std::string path_, next_;
+  /// A file's second name, removed at the end.
+  struct Beside {
+    std::string path;
+    ~Beside();
+  };
+  std::string path_;
+  Beside next_, before_;  ///< the other file; one that is about to be renamed
   RecordingHeader header_;
   RecordingBlock last_;  ///< in the recording, but not yet in the other file
 };

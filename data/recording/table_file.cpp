@@ -94,12 +94,15 @@ struct TableFile::Handle {
   ~Handle() {
     if (id >= 0) H5Fclose(id);
   }
-  [[noreturn]] void fail(const std::string& what) const {
+  std::string complaint(const std::string& what) const {
     const std::string words = last_words();
-    throw LoadError(fmt::format("{}: {}{}", path, what, words.empty() ? "" : " (" + words + ")"));
+    return fmt::format("{}: {}{}", path, what, words.empty() ? "" : " (" + words + ")");
   }
   void require(bool ok, const std::string& what) const {
-    if (!ok) fail(what);
+    if (!ok) throw LoadError(complaint(what));
+  }
+  void require_written(bool ok, const std::string& what) const {
+    if (!ok) throw WriteError(complaint(what + "; is the disk full?"));
   }
   hid_t table(const std::string& name) const {
     const hid_t set = H5Dopen2(id, name.c_str(), H5P_DEFAULT);
@@ -173,7 +176,7 @@ void TableFile::close() {
   const hid_t id = std::exchange(file_->id, -1);
   const bool flushed = H5Fflush(id, H5F_SCOPE_LOCAL) >= 0;
   const bool closed = H5Fclose(id) >= 0;
-  file_->require(flushed && closed, "could not be written to its end; is the disk full?");
+  file_->require_written(flushed && closed, "cannot be written to its end");
 }
 
 void TableFile::add_table(const TableLayout& layout) {
@@ -190,7 +193,7 @@ void TableFile::add_table(const TableLayout& layout) {
   {
     const Id set(H5Dcreate2(file_->id, layout.name.c_str(), in_file(layout.type), space, link, how, H5P_DEFAULT),
                  H5Dclose);
-    file_->require(set.ok(), "table " + layout.name + " cannot be made");
+    file_->require_written(set.ok(), "table " + layout.name + " cannot be made");
   }
   set_attribute(layout.name, {"columns", layout.columns});
   for (const TableAttribute& attribute : layout.attributes) set_attribute(layout.name, attribute);
@@ -216,8 +219,8 @@ void TableFile::set_attribute(const std::string& table, const TableAttribute& at
   const void* const bytes = number    ? static_cast<const void*>(number)
                             : numbers ? static_cast<const void*>(numbers->data())
                                       : static_cast<const void*>(pointers.data());
-  file_->require(made.ok() && H5Awrite(made, pointers.empty() ? H5T_NATIVE_DOUBLE : hid_t(type), bytes) >= 0,
-                 fmt::format("\"{}\" of table {} cannot be written", attribute.name, table));
+  file_->require_written(made.ok() && H5Awrite(made, pointers.empty() ? H5T_NATIVE_DOUBLE : hid_t(type), bytes) >= 0,
+                         fmt::format("\"{}\" of table {} cannot be written", attribute.name, table));
 }
 
 void TableFile::append(const std::string& name, const void* rows, std::size_t count) {
@@ -227,31 +230,32 @@ void TableFile::append(const std::string& name, const void* rows, std::size_t co
   const hsize_t columns = before.sizes[1], depth = before.sizes[2];
   const hsize_t start[3] = {before.rows(), 0, 0}, size[3] = {count, columns, depth},
                 whole[3] = {before.rows() + count, columns, depth};
-  file_->require(H5Dset_extent(set, whole) >= 0, "table " + name + " cannot grow");
+  file_->require_written(H5Dset_extent(set, whole) >= 0, "table " + name + " cannot grow");
   const Id space(H5Dget_space(set), H5Sclose), memory(H5Screate_simple(before.rank, size, nullptr), H5Sclose);
   H5Sselect_hyperslab(space, H5S_SELECT_SET, start, nullptr, size, nullptr);
   const Id type(H5Dget_type(set), H5Tclose), native(H5Tget_native_type(type, H5T_DIR_ASCEND), H5Tclose);
-  file_->require(H5Dwrite(set, native, memory, space, H5P_DEFAULT, rows) >= 0,
-                 "table " + name + " cannot be written; is the disk full?");
+  file_->require_written(H5Dwrite(set, native, memory, space, H5P_DEFAULT, rows) >= 0,
+                         "table " + name + " cannot be written");
 }
 
 void TableFile::shorten(const std::string& name, std::size_t rows) {
   const Id set(file_->table(name), H5Dclose);
   const Extent before = file_->extent(set);
   const hsize_t whole[3] = {std::min<hsize_t>(rows, before.rows()), before.sizes[1], before.sizes[2]};
-  file_->require(H5Dset_extent(set, whole) >= 0, "table " + name + " cannot be cut short");
+  file_->require_written(H5Dset_extent(set, whole) >= 0, "table " + name + " cannot be cut short");
 }
 
 void TableFile::remove(const std::string& name) {
-  if (has(name)) file_->require(H5Ldelete(file_->id, name.c_str(), H5P_DEFAULT) >= 0, name + " cannot be removed");
+  if (has(name))
+    file_->require_written(H5Ldelete(file_->id, name.c_str(), H5P_DEFAULT) >= 0, name + " cannot be removed");
 }
 
 void TableFile::set_number(const std::string& name, double number) {
   const Id space(H5Screate(H5S_SCALAR), H5Sclose);
   const Id set(H5Dcreate2(file_->id, name.c_str(), H5T_IEEE_F64LE, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
                H5Dclose);
-  file_->require(set.ok() && H5Dwrite(set, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, &number) >= 0,
-                 name + " cannot be written; is the disk full?");
+  file_->require_written(set.ok() && H5Dwrite(set, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, &number) >= 0,
+                         name + " cannot be written");
 }
 
 void TableFile::set_text(const std::string& name, const std::string& text) {
@@ -259,8 +263,9 @@ void TableFile::set_text(const std::string& name, const std::string& text) {
   const Id type(text_type(std::max<std::size_t>(1, text.size())), H5Tclose);
   const Id space(H5Screate(H5S_SCALAR), H5Sclose);
   const Id set(H5Dcreate2(file_->id, name.c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Dclose);
-  file_->require(set.ok() && H5Dwrite(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, text.empty() ? "" : text.data()) >= 0,
-                 name + " cannot be written; is the disk full?");
+  file_->require_written(
+      set.ok() && H5Dwrite(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, text.empty() ? "" : text.data()) >= 0,
+      name + " cannot be written");
 }
 
 bool TableFile::has(const std::string& name) const { return H5Lexists(file_->id, name.c_str(), H5P_DEFAULT) > 0; }

@@ -28,10 +28,11 @@ struct TableLayout {
   std::vector<TableAttribute> attributes = {};
 };
 
-/// All errors throw LoadError naming the file. Not for the simulation thread. One file, one thread.
+/// All errors name the file: LoadError what cannot be read, WriteError what cannot be written. Not for the simulation
+/// thread. One file, one thread.
 class TableFile {
  public:
-  /// Creates the file, replacing an existing one. Throws WriteError.
+  /// Creates the file, replacing an existing one.
   static TableFile create(const std::string& path);
   /// Opens an existing file; refuses one that is not HDF5, or is truncated.
   static TableFile open(const std::string& path, bool to_write = false);

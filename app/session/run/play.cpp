@@ -5,8 +5,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-
-#include "data/formats/load_error.h"
+#include <stdexcept>
 
 namespace ostium::app {
 
@@ -140,7 +139,7 @@ PlayReport play(ScriptedRun& run, const RunSetup& setup, const PlayOptions& opti
   out.problem = recorder.problem();
   try {
     recorder.finish(metrics_json(setup.vessel, setup.seed, out.outcome, out.reason, out.metrics));
-  } catch (const data::LoadError& error) {
+  } catch (const std::runtime_error& error) {
     out.problem = error.what();
   }
   return out;

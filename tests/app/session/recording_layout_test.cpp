@@ -1,11 +1,16 @@
 /// What a recording says of itself, and that what it holds is what happened.
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
 #include <algorithm>
 #include <cmath>
+#include <csignal>
+#include <filesystem>
+#include <fstream>
 
 #include "app/session/run/replay.h"
 #include "core/rod/introducer.h"
+#include "data/formats/write_file.h"
 #include "tests/app/session/recorded.h"
 
 namespace ostium::app {
@@ -133,6 +138,28 @@ TEST(TableFile, BringsBackWhatWasWritten) {
   EXPECT_FALSE(file.has("none/points"));
   EXPECT_THROW(file.numbers("rows", 2, 2), data::LoadError);
   EXPECT_THROW(file.rows("none"), data::LoadError);
+}
+
+/// With room for one of its two files, or for none, a recording is refused; an older one stays, and nothing beside it.
+TEST(TableFile, WithoutRoomToBeginARecordingIsRefused) {
+  const Folder folder;
+  std::ofstream(folder("run.h5")) << "older";
+  data::RecordingHeader header;
+  header.input_columns = header.signal_columns = {"x"};
+  header.setup = std::string(100'000, ' ');
+  rlimit before{};
+  getrlimit(RLIMIT_FSIZE, &before);
+  const auto handler = std::signal(SIGXFSZ, SIG_IGN);
+  for (const rlim_t most : {rlim_t{0}, rlim_t{50'000}}) {
+    const rlimit limit{most, before.rlim_max};  // of a file's size, which for this program acts like a full disk
+    setrlimit(RLIMIT_FSIZE, &limit);
+    EXPECT_THROW(data::RecordingWriter(folder("run.h5"), header), data::WriteError) << most;
+    setrlimit(RLIMIT_FSIZE, &before);
+    EXPECT_EQ(std::filesystem::file_size(folder("run.h5")), 5u);
+    EXPECT_FALSE(std::filesystem::exists(folder("run.h5.next")));
+    EXPECT_FALSE(std::filesystem::exists(folder("run.h5.before")));
+  }
+  std::signal(SIGXFSZ, handler);
 }
 
 }  // namespace
