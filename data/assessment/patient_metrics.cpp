@@ -32,16 +32,32 @@ double to_shock_s(const RunRecord& r) {
   return does_not_apply;
 }
 
-/// Time from `begins` to the next `ends`, or to the end of the run, added up.
-MetricFunction time_between(EventCode begins, EventCode ends) {
-  return [=](const RunRecord& r) {
-    double sum = 0, since = -1;
-    for (const RecordedEvent& one : events_of(r)) {
-      if (one.code == begins && since < 0) since = one.time_s;
-      if (one.code == ends && since >= 0) sum += one.time_s - since, since = -1;
-    }
-    return since < 0 ? sum : sum + r.step_s * static_cast<double>(r.steps) - since;
-  };
+/// When something was going on: from each `begins` to the next `ends`, or to the end of the run.
+std::vector<std::pair<double, double>> spans(const RunRecord& r, EventCode begins, EventCode ends) {
+  std::vector<std::pair<double, double>> out;
+  bool on = false;
+  for (const RecordedEvent& one : events_of(r)) {
+    if (one.code == begins && !on) out.emplace_back(one.time_s, 0), on = true;
+    if (one.code == ends && on) out.back().second = one.time_s, on = false;
+  }
+  if (on) out.back().second = r.step_s * static_cast<double>(r.steps);
+  return out;
+}
+
+double pulseless_s(const RunRecord& r) {
+  double sum = 0;
+  for (const auto& [lost_s, back_s] : spans(r, EventCode::pulse_lost, EventCode::pulse_back)) sum += back_s - lost_s;
+  return sum;
+}
+
+double compressed_share(const RunRecord& r) {
+  double without = 0, both = 0;
+  for (const auto& [lost_s, back_s] : spans(r, EventCode::pulse_lost, EventCode::pulse_back)) {
+    without += back_s - lost_s;
+    for (const auto& [from_s, to_s] : spans(r, EventCode::compressions_begin, EventCode::compressions_end))
+      both += std::max(0.0, std::min(back_s, to_s) - std::max(lost_s, from_s));
+  }
+  return without > 0 ? both / without : does_not_apply;
 }
 
 double least_systolic(const RunRecord& r) {
@@ -56,7 +72,9 @@ std::vector<MetricDefinition> patient_metrics() {
   return {
       {"systolic_least_mmHg", "mmHg", higher, "least systolic pressure of a beat in the aorta", least_systolic},
       {"pericardium_most_mL", "mL", lower, "most fluid round the heart", most("pericardium_mL")},
-      {"pulseless_time_s", "s", lower, "without a pulse", time_between(EventCode::pulse_lost, EventCode::pulse_back)},
+      {"pulseless_time_s", "s", lower, "without a pulse", pulseless_s},
+      {"compressed_share", "1", higher, "of that, in which the chest was compressed; null: there was none",
+       compressed_share},
       {"perforation_to_balloon_s", "s", lower,
        "from the first perforation until a balloon is inflated; null: there was none; 1e6: it never was",
        from_first_to(EventCode::perforation, EventCode::inflation_begins)},

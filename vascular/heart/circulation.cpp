@@ -60,10 +60,11 @@ double rate_1_min(const BaroreflexModel& m, const CirculationInputs& in, const C
 
 void flow_on(const CirculationModel& m, const CirculationInputs& in, double active, double kick, double dt,
              CirculationState& s) {
-  const double chest = m.chest_Pa + m.breath_Pa * in.breath;
-  const double peri =
-      chest + m.pericardium_Pa *
-                  std::expm1(m.pericardium_1_m3 * (s.left_m3 + s.right_m3 + s.pericardium_m3 - m.pericardium_m3));
+  const double of_vessels = m.compressions.of_vessels;
+  const double chest = m.chest_Pa + m.breath_Pa * in.breath + of_vessels * in.pressed_Pa;
+  const double peri = chest + (1 - of_vessels) * in.pressed_Pa +
+                      m.pericardium_Pa * std::expm1(m.pericardium_1_m3 *
+                                                    (s.left_m3 + s.right_m3 + s.pericardium_m3 - m.pericardium_m3));
   const double strength = in.contraction * (1 + m.reflex.contractility_1_Pa * s.contractility_Pa);
   const double left = ventricle_Pa(m.left, active, strength * (1 - in.left_lost), s.left_m3, peri);
   const double right = ventricle_Pa(m.right, active, strength * (1 - in.right_lost), s.right_m3, peri);

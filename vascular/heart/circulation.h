@@ -26,6 +26,7 @@
 
 #include "core/base/fields.h"
 #include "core/base/units.h"
+#include "vascular/heart/compressions.h"
 
 namespace ostium::vascular {
 
@@ -78,6 +79,7 @@ struct CirculationModel {
   double venous_return_Pa_s_m3 = 0.055 * units::mmHg / units::mL;          ///< from small veins to the right atrium
   double left_kick_Pa = 6 * units::mmHg, right_kick_Pa = 3 * units::mmHg;  ///< of the atria
   BaroreflexModel reflex;
+  CompressionModel compressions;
 };
 
 /// What comes from outside, in a step.
@@ -89,6 +91,7 @@ struct CirculationInputs {
   double dilation = 0;       ///< [0, 1]: of systemic arterioles, by drugs: 1 takes half the resistance off
   double constriction = 0;   ///< of them, by drugs: share added to the resistance
   double breath = 0;         ///< [0, 1]: depth
+  double pressed_Pa = 0;     ///< on the heart, by a hand's compression
   double leak_m3_s = 0;      ///< from the arteries into the pericardium
   double drain_m3_s = 0;     ///< from the pericardium out of the body
   double infusion_m3_s = 0;  ///< into the veins, from outside

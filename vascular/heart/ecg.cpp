@@ -80,6 +80,10 @@ std::array<double, leads> fibrillating(double t) {
   return out;
 }
 
+/// A pacemaker's spike before its beat, and what compressions add: the heart moves under the leads [sizes estimated].
+double spike_mV(double t) { return 1.5 * bump(t + 0.03, 0.0015); }
+double shaken_mV(double compression) { return compression > 0 ? 0.4 * std::sin(2 * units::pi * compression) : 0; }
+
 /// Time to the next P wave of atria that do not lead.
 double to_own_P_s(const HeartState& heart) {
   const double cycle_s = 60 / heart.circulation.rate_1_min;
@@ -90,8 +94,12 @@ double to_own_P_s(const HeartState& heart) {
 
 std::array<double, leads> ecg(const HeartModel& heart_model, const HeartState& heart, const IschaemiaModel& model,
                               const IschaemiaState& ischaemia) {
-  if (heart.rhythm == Rhythm::asystole) return {};
-  if (heart.rhythm == Rhythm::fibrillation) return fibrillating(heart.time_s);
+  std::array<double, leads> out{};
+  if (!beats(heart)) {
+    if (heart.rhythm == Rhythm::fibrillation) out = fibrillating(heart.time_s);
+    for (double& v : out) v += shaken_mV(heart.compression);
+    return out;
+  }
   const double rate_1_min = vascular::rate_1_min(heart_model, heart);
   // Low voltage: halved by 250 mL [estimate].
   const double voltage = 1 / (1 + heart.circulation.pericardium_m3 / 250e-6);
@@ -99,18 +107,16 @@ std::array<double, leads> ecg(const HeartModel& heart_model, const HeartState& h
   // Time to the next R wave.
   const double left = (heart.next_ectopic ? 0.33 : 1) * (time_at(1, rate_1_min) - time_at(heart.phase, rate_1_min));
   const double T_s = 0.86 * time_at(end_systole, rate_1_min) + 0.03;
-  const bool wide = heart.ectopic;
+  const bool wide = heart.ectopic || heart.paced, apart = heart.rhythm == Rhythm::block || heart.paced;
   const double spread = wide ? 3.2 : 1, coming = heart.next_ectopic ? 3.2 : 1;
-  std::array<double, leads> out{};
   for (std::size_t k = 0; k < leads; ++k) {
-    double v = 0;
+    double v = shaken_mV(heart.compression) + (heart.paced ? spike_mV(t) + spike_mV(-left) : 0);
     const double sign = wide ? -0.9 : 1;
     v += Q.mV[k] * (bump(t - Q_s * spread, Q.width_s * spread) + bump(left + Q_s * coming, Q.width_s * coming));
     v += R.mV[k] * sign * bump(t, R.width_s * spread) +
          R.mV[k] * (coming > 1 ? -0.9 : 1) * bump(left, R.width_s * coming);
     v += S.mV[k] * bump(t - S_s * spread, S.width_s * spread);
-    if (!heart.next_ectopic)
-      v += P.mV[k] * bump(heart.rhythm == Rhythm::block ? to_own_P_s(heart) : left - PR_s, P.width_s);
+    if (!heart.next_ectopic) v += P.mV[k] * bump(apart ? to_own_P_s(heart) : left - PR_s, P.width_s);
     double shift = 0, early = 0;
     for (std::size_t i = 0; i < territories; ++i) {
       shift += model.ST_mV[i] * ischaemia.late[i] * ST[i][k];

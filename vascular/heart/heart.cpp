@@ -15,28 +15,62 @@ using units::mmHg;
 constexpr double earliest_ectopic = 0.52, latest_ectopic = 0.72, hurry = 4, pause_slowing = 0.6;
 constexpr double ectopic_strength = 0.7;  // an early beat has had little time to recover [estimate]
 
-/// Beats with no pulse add up; after too many the heart stops.
+/// Of the ventricles without a pacemaker.
+double own_rate_1_min(const HeartModel& model, const HeartState& s) {
+  return s.rhythm == Rhythm::block ? model.escape_1_min : s.circulation.rate_1_min;
+}
+
+/// Beats with no pulse add up; after too many the heart stops. Whether it has one of its own is not known while the
+/// chest is compressed.
 void end_beat(const HeartModel& model, HeartState& s) {
   s.beat = {s.high_Pa, s.low_Pa, s.sum_Pa_s / std::max(s.cycle_s, 1e-3), s.ejected_m3};
   s.high_Pa = 0, s.low_Pa = 1e6, s.sum_Pa_s = 0, s.ejected_m3 = 0;
-  s.pulseless_s = s.beat.systolic_Pa < model.pulse_Pa ? s.pulseless_s + s.cycle_s : 0;
+  const bool pulse = beats(s) && s.beat.systolic_Pa >= model.pulse_Pa;
+  if (!s.compressed)
+    s.pulseless_s = pulse ? 0 : s.pulseless_s + s.cycle_s;
+  else if (!pulse || s.pulseless_s > 0)
+    s.pulseless_s += model.circulation.compressions.fails * s.cycle_s;
+  s.compressed = false;
   if (s.pulseless_s > model.dies_s) s.rhythm = Rhythm::asystole;
+}
+
+/// Arterioles without oxygen give way, against what the reflex asks of them, so that little pressure is left of a small
+/// flow [estimate; how much is set with the compressions' pressure].
+double dilation_without_pulse(double pulseless_s) {
+  constexpr double most = 0.75, time_s = 20;
+  return most * -std::expm1(-pulseless_s / time_s);
+}
+
+void compress(const CompressionModel& model, double rate_1_min, double dt_s, CirculationInputs& body, HeartState& s) {
+  if (rate_1_min <= 0) {
+    s.compression = 0;
+    return;
+  }
+  s.compressed = true;
+  s.compression = std::fmod(s.compression + rate_1_min / 60 * dt_s, 1.0);
+  body.pressed_Pa = pressed_Pa(model, s.compression);
 }
 
 }  // namespace
 
 double rate_1_min(const HeartModel& model, const HeartState& s) {
-  return s.rhythm == Rhythm::block ? model.escape_1_min : s.circulation.rate_1_min;
+  return std::max(own_rate_1_min(model, s), s.paced_1_min);
+}
+
+HeartModel heart_of(std::uint64_t seed, HeartModel mean) {
+  mean.seed = seed;
+  if (seed > 0) mean.paces_from_mA = 0.3 + 0.4 * core::uniform(seed, 24, 0);
+  return mean;
 }
 
 void step(const HeartModel& model, const HeartInputs& inputs, double dt_s, HeartState& s) {
-  const bool beats = s.rhythm == Rhythm::sinus || s.rhythm == Rhythm::block;
-  if (inputs.irritation > 0 && beats && !s.next_ectopic && s.phase > earliest_ectopic && s.phase < latest_ectopic) {
+  if (inputs.irritation > 0 && beats(s) && !s.next_ectopic && s.phase > earliest_ectopic && s.phase < latest_ectopic) {
     const double p = 1 - std::exp(-model.ectopic_per_s * std::min(inputs.irritation, 1.0) * dt_s);
     if (core::uniform(model.seed, 11, s.draws) < p) s.next_ectopic = true;
     s.draws += 1;
   }
   if (!inputs.body.reflexes || s.time_s == 0) s.circulation.rate_1_min = inputs.rate_1_min;
+  s.paced_1_min = beats(s) && inputs.pacing_mA >= model.paces_from_mA ? inputs.pacing_1_min : 0;
   double speed = phase_speed(s.phase, rate_1_min(model, s));
   if (s.next_ectopic)
     speed *= hurry;
@@ -49,7 +83,9 @@ void step(const HeartModel& model, const HeartInputs& inputs, double dt_s, Heart
   if (next) s.phase -= 1;
   CirculationInputs body = inputs.body;
   body.phase = s.phase, body.resting_rate_1_min = inputs.rate_1_min;
-  if (!beats) body.contraction = 0;
+  if (!beats(s)) body.contraction = 0;
+  body.dilation = std::max(body.dilation, dilation_without_pulse(s.pulseless_s));
+  compress(model.circulation.compressions, inputs.compressions_1_min, dt_s, body, s);
   if (next ? s.next_ectopic : s.ectopic) body.contraction *= ectopic_strength;
   step(model.circulation, body, dt_s, s.circulation);
   const double aorta = pressures(model, s).aorta_Pa;
@@ -60,6 +96,7 @@ void step(const HeartModel& model, const HeartInputs& inputs, double dt_s, Heart
   s.cycle_s = s.since_R_s;
   s.since_R_s = s.phase / speed;
   s.ectopic = s.next_ectopic, s.next_ectopic = false;
+  s.paced = s.paced_1_min > own_rate_1_min(model, s);
   end_beat(model, s);
 }
 

@@ -24,14 +24,20 @@ struct HeartModel {
   double escape_1_min = 40;  ///< rate of the ventricles in a block [textbook: 20 to 40, 40 to 60 from the junction]
   /// A beat below this makes no pulse [estimate: a carotid pulse is felt down to about 60 mmHg, or less].
   double pulse_Pa = 50 * units::mmHg;
-  double dies_s = 180;     ///< without a pulse, until the heart stops [estimate: 3 to 5 minutes]
-  std::uint64_t seed = 1;  ///< determines when extrasystoles occur
+  double paces_from_mA = 0.5;  ///< a wire's current that the right ventricle follows (0.3 to 0.7: usually below 1)
+  double dies_s = 180;         ///< without a pulse, until the heart stops [estimate: 3 to 5 minutes]
+  std::uint64_t seed = 1;      ///< determines when extrasystoles occur
 };
 
+/// A person's: what the heart of a seed differs in. Seed 0 is the mean.
+HeartModel heart_of(std::uint64_t seed, HeartModel mean = {});
+
 struct HeartInputs {
-  double rate_1_min = 70;       ///< of the sinus node at rest; clamped as in heart_cycle.h
-  double irritation = 0;        ///< [0, 1]: contact of a wire or catheter with the ventricle's wall
-  CirculationInputs body = {};  ///< its phase, resting rate and stopped contraction are set by the step
+  double rate_1_min = 70;                  ///< of the sinus node at rest; clamped as in heart_cycle.h
+  double compressions_1_min = 0;           ///< of the chest; 0: none
+  double pacing_1_min = 0, pacing_mA = 0;  ///< of a temporary pacemaker's wire in the right ventricle
+  double irritation = 0;                   ///< [0, 1]: contact of a wire or catheter with the ventricle's wall
+  CirculationInputs body = {};             ///< its phase, resting rate and stopped contraction are set by the step
 };
 
 /// Of the last complete beat.
@@ -51,8 +57,12 @@ struct HeartState {
   CirculationState circulation;
   BeatSummary beat;
   double high_Pa = 0, low_Pa = 1e6, sum_Pa_s = 0, ejected_m3 = 0;  ///< of the current beat
-  double pulseless_s = 0;                                          ///< since the last beat with a pulse
-  bool ectopic = false;                                            ///< the current beat is an extrasystole
+  double pulseless_s = 0;     ///< since the last beat with a pulse; under compressions it runs slower
+  double compression = 0;     ///< [0, 1): of the period of a compression
+  bool compressed = false;    ///< the chest was, in the current beat
+  double paced_1_min = 0;     ///< rate at which a pacemaker is followed; 0: it is not
+  bool paced = false;         ///< the current beat is its
+  bool ectopic = false;       ///< the current beat is an extrasystole
   bool next_ectopic = false;  ///< the next beat is an extrasystole, which comes early
   std::uint64_t draws = 0;    ///< random numbers drawn
   double time_s = 0;          ///< since the start
@@ -71,6 +81,10 @@ constexpr auto fields(const HeartState*) {
                     core::field("sum_Pa_s", &S::sum_Pa_s),
                     core::field("ejected_m3", &S::ejected_m3),
                     core::field("pulseless_s", &S::pulseless_s),
+                    core::field("compression", &S::compression),
+                    core::field("compressed", &S::compressed),
+                    core::field("paced_1_min", &S::paced_1_min),
+                    core::field("paced", &S::paced),
                     core::field("ectopic", &S::ectopic),
                     core::field("next_ectopic", &S::next_ectopic),
                     core::field("draws", &S::draws),
@@ -90,6 +104,9 @@ struct Pressures {
 void step(const HeartModel& model, const HeartInputs& inputs, double dt_s, HeartState& state);
 
 Pressures pressures(const HeartModel& model, const HeartState& state);
+
+/// Whether the ventricles beat, as they do not in fibrillation and asystole.
+inline bool beats(const HeartState& s) { return s.rhythm == Rhythm::sinus || s.rhythm == Rhythm::block; }
 
 /// Rate of the ventricles, per minute.
 double rate_1_min(const HeartModel& model, const HeartState& state);

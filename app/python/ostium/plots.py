@@ -92,7 +92,8 @@ def leak(axes, run):
 PLOTS = (depth, hands, walls, pressure, lumen)
 OF_THE_PATIENT = (blood_pressure, rate, round_the_heart, leak)
 GIVEN = {"perforation": "perforation", "drain_begins": "drain", "infusion_begins": "fluid", "drug_given": "drug",
-         "covered_stent": "covered stent", "shock": "shock", "pulse_lost": "no pulse", "heart_stops": "asystole"}
+         "covered_stent": "covered stent", "shock": "shock",
+         "compressions_begin": "compressions", "pacing_captures": "paced", "pulse_lost": "no pulse", "heart_stops": "asystole"}
 
 
 def tools_of(run):

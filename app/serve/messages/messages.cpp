@@ -262,6 +262,8 @@ std::string message_of(const Setting& setting, const Snapshot& now, const LivePi
                       {"pericardium_mmHg", number(signal("pericardium_mmHg"), 0.1)},
                       {"leak_mL_s", number(signal("leak_mL_s"), 0.01)},
                       {"rhythm", number(signal("rhythm"), 1)},
+                      {"compressions_1_min", number(now.inputs.delivery.compressions_1_min, 1)},
+                      {"pacing_mA", number(now.inputs.delivery.pacing_mA, 0.1)},
                       {"infusion_mL_min", number(now.inputs.delivery.infusion_m3_s / units::mL_min, 1)},
                       {"drain_mL_min", number(now.inputs.delivery.drain_m3_s / units::mL_min, 1)}};
     out["ecg_10uV"] = trace_of(now.ecg_mV, 0.01);

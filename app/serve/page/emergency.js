@@ -1,4 +1,4 @@
-// What a trainer provokes, and what answers it: drugs, fluid, drain, shock.
+// What a trainer provokes, and what answers it: drugs, fluid, drain, shock, compressions, pacemaker.
 const grades = ['A', 'B', 'C', 'D', 'E', 'F']; // of a dissection
 
 function labelled(words, input, id) {
@@ -45,12 +45,14 @@ export class Emergency {
     choose();
     this.dose = [drug, dose, button('Give', this.rows.get('give').what, () => this.socket.order('give', Number(drug.value), Number(dose.value)))];
     add(labelled('Drug', drug, 'drug'), labelled('Dose', dose, 'dose'), unit, this.dose[2]);
-    const running = (words, command, rate) => button(words, this.rows.get(command).what, () =>
-      this.socket.order(command, this[command].getAttribute('aria-pressed') === 'true' ? 0 : rate));
-    this.infuse = running('Fluid 100 mL/min', 'infuse', 100);
-    this.drain = running('Drain 100 mL/min', 'drain', 100);
+    const running = (words, command, on, off = [0]) => button(words, this.rows.get(command).what, () =>
+      this.socket.order(command, ...(this[command].getAttribute('aria-pressed') === 'true' ? off : on)));
+    this.infuse = running('Fluid 100 mL/min', 'infuse', [100]);
+    this.drain = running('Drain 100 mL/min', 'drain', [100]);
     this.shock = button('Shock 200 J', this.rows.get('shock').what, () => this.socket.order('shock', 200));
-    add(this.infuse, this.drain, this.shock);
+    this.compress = running('Compress 110/min', 'compress', [110]);
+    this.pace = running('Pace 80/min, 3 mA', 'pace', [80, 3], [80, 0]);
+    add(this.infuse, this.drain, this.shock, this.compress, this.pace);
   }
   provoke(add) {
     const lesion = this.has.lesions[0];
@@ -89,8 +91,10 @@ export class Emergency {
   show(now, welcome) {
     if (!this.has) return;
     const viewer = welcome.role !== 'trainer';
-    for (const one of [...this.dose, this.infuse, this.drain, this.shock]) one.disabled = viewer;
+    for (const one of [...this.dose, this.infuse, this.drain, this.shock, this.compress, this.pace]) one.disabled = viewer;
     this.infuse.setAttribute('aria-pressed', now.patient.infusion_mL_min > 0);
     this.drain.setAttribute('aria-pressed', now.patient.drain_mL_min > 0);
+    this.compress.setAttribute('aria-pressed', now.patient.compressions_1_min > 0);
+    this.pace.setAttribute('aria-pressed', now.patient.pacing_mA > 0);
   }
 }

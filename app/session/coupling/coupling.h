@@ -28,11 +28,13 @@ struct DeliveryInputs {
   double iodine_kg_m3 = 350;  ///< of the syringe's contents; 0: saline
   double gauge_Pa = 0;        ///< of the inflation device, on the balloon in the body; below 0: vacuum
   double heparin_U = 0, nitrate_ug = 0, adenosine_ug = 0;  ///< given in this step
-  int drug = -1;             ///< of the catalogue (vascular::DrugModel::others), given in this step; -1: none
-  double drug_dose = 0;      ///< of that, in its unit
-  double infusion_m3_s = 0;  ///< of fluid, into a vein
-  double drain_m3_s = 0;     ///< out of the pericardium, through a drain
-  double shock_J = 0;        ///< of a defibrillator, in this step
+  int drug = -1;                  ///< of the catalogue (vascular::DrugModel::others), given in this step; -1: none
+  double drug_dose = 0;           ///< of that, in its unit
+  double infusion_m3_s = 0;       ///< of fluid, into a vein
+  double drain_m3_s = 0;          ///< out of the pericardium, through a drain
+  double shock_J = 0;             ///< of a defibrillator, in this step
+  double compressions_1_min = 0;  ///< of the chest
+  double pacing_1_min = 0, pacing_mA = 0;  ///< of a temporary pacemaker, by a wire in the right ventricle
   // What a trainer provokes, in this step (vascular::Provocation):
   int provoked = 0, provoked_cell = -1;
   double provoked_size = 0;
@@ -50,6 +52,9 @@ constexpr auto fields(const DeliveryInputs*) {
                     core::field("infusion_m3_s", &S::infusion_m3_s),
                     core::field("drain_m3_s", &S::drain_m3_s),
                     core::field("shock_J", &S::shock_J),
+                    core::field("compressions_1_min", &S::compressions_1_min),
+                    core::field("pacing_1_min", &S::pacing_1_min),
+                    core::field("pacing_mA", &S::pacing_mA),
                     core::field("provoked", &S::provoked),
                     core::field("provoked_cell", &S::provoked_cell),
                     core::field("provoked_size", &S::provoked_size)};

@@ -61,6 +61,12 @@ bool Emergency::take(const SessionModel& model, const ConsoleOrder& order) {
     case ConsoleCommand::drain:
       drain_m3_s_ = order.values[0] * units::mL_min;
       return true;
+    case ConsoleCommand::compress:
+      compressions_1_min_ = order.values[0];
+      return true;
+    case ConsoleCommand::pace:
+      pacing_ = {order.values[0], order.values[1]};
+      return true;
     case ConsoleCommand::give:
     case ConsoleCommand::shock:
     case ConsoleCommand::provoke:
@@ -74,6 +80,8 @@ bool Emergency::take(const SessionModel& model, const ConsoleOrder& order) {
 void Emergency::fill(const SessionModel& model, DeliveryInputs& to) {
   to.infusion_m3_s = std::max(to.infusion_m3_s, infusion_m3_s_);
   to.drain_m3_s = std::max(to.drain_m3_s, drain_m3_s_);
+  to.compressions_1_min = std::max(to.compressions_1_min, compressions_1_min_);
+  if (pacing_) to.pacing_1_min = (*pacing_)[0], to.pacing_mA = (*pacing_)[1];
   if (once_.empty()) return;
   const auto& [a, b, c, d] = once_.front().values;
   switch (once_.front().command) {
@@ -99,6 +107,9 @@ void Emergency::fill(const SessionModel& model, DeliveryInputs& to) {
 void Emergency::restart(const DeliveryInputs& inputs) {
   once_.clear();
   infusion_m3_s_ = inputs.infusion_m3_s, drain_m3_s_ = inputs.drain_m3_s;
+  compressions_1_min_ = inputs.compressions_1_min;
+  pacing_.reset();
+  if (inputs.pacing_mA > 0) pacing_ = {inputs.pacing_1_min, inputs.pacing_mA};
 }
 
 }  // namespace ostium::app

@@ -1,7 +1,10 @@
 #pragma once
-/// What a trainer provokes and what answers it, as a console asks for them: give, infuse, drain, shock, provoke.
+/// What a trainer provokes and what answers it, as a console asks for them: give, infuse, drain, shock, compress,
+/// pace, provoke.
+#include <array>
 #include <deque>
 #include <iterator>
+#include <optional>
 #include <string>
 
 #include "app/session/model/session.h"
@@ -41,7 +44,8 @@ class Emergency {
 
  private:
   std::deque<data::ConsoleOrder> once_;
-  double infusion_m3_s_ = 0, drain_m3_s_ = 0;
+  double infusion_m3_s_ = 0, drain_m3_s_ = 0, compressions_1_min_ = 0;
+  std::optional<std::array<double, 2>> pacing_;  ///< rate, 1/min, and current, mA, once asked for
 };
 
 }  // namespace ostium::app

@@ -79,7 +79,7 @@ SessionModel make_session(std::shared_ptr<const Vessel> vessel, std::vector<Sess
     model.balloon_of.assign(model.tools.size(), -1);
   }
   model.physiology.ischaemia = vascular::ischaemia_of(options.seed);
-  model.physiology.heart.seed = options.seed;
+  model.physiology.heart = vascular::heart_of(options.seed, model.physiology.heart);
   for (const SessionTool& tool : model.tools) model.rods.rods.push_back(rod_of(tool.instrument));
   model.rods.nestings = nestings_of(model.tools);
   model.rods.surfaces = {options.friction ? with_friction(*model.vessel->surface, *options.friction)
@@ -225,6 +225,8 @@ vascular::HeartInputs heart_inputs(const SessionModel& model, const SessionInput
   act(model.treatment.drugs, state.treatment.drugs, heart.body);
   weaken(state.blood.ischaemia, heart.body);
   heart.body.leak_m3_s = leak_m3_s(state.treatment), heart.body.reflexes = true;
+  heart.compressions_1_min = inputs.delivery.compressions_1_min;
+  heart.pacing_1_min = inputs.delivery.pacing_1_min, heart.pacing_mA = inputs.delivery.pacing_mA;
   heart.body.infusion_m3_s = inputs.delivery.infusion_m3_s, heart.body.drain_m3_s = inputs.delivery.drain_m3_s;
   return heart;
 }

@@ -253,7 +253,7 @@ Outcome decide(const ScriptPlan& plan, const SessionModel& model, const SessionS
   events.clear();
   feel(model, report, state);
   forget_what_is_given_once(state.given);
-  state.given.infusion_m3_s = state.given.drain_m3_s = 0;
+  state.given.infusion_m3_s = state.given.drain_m3_s = state.given.compressions_1_min = 0;
   using Kind = OperatorEvent::Kind;
   const ConditionEvaluator evaluator(plan, model, session, report, state);
   const int count = static_cast<int>(plan.script.steps.size());

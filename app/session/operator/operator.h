@@ -41,7 +41,7 @@ struct OperatorState {
   double iodine_kg_m3 = 350, injection_m3_s = 0;  ///< of the syringe
   double began_injected_m3 = 0;
   double gauge_Pa = 0, began_gauge_Pa = 0;  ///< of the inflation device
-  DeliveryInputs given;                     ///< to be given in the next step: doses, fluid, drain, shock, provocation
+  DeliveryInputs given;                     ///< to be given in the next step: doses, fluid, drain, what the heart needs
   double began_gained_m3 = 0;               ///< by the circulation
   int in_the_way = -1;                      ///< the tool that ended the script: another could not enter beside it
   Outcome outcome = Outcome::running;

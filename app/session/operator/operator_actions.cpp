@@ -112,6 +112,14 @@ constexpr Handling handlings[] = {
      .is_over = is_drained},
     {.action = data::ScriptAction::shock,
      .begin = [](const Step& step, const SessionState&, OperatorState& state) { state.given.shock_J = step.energy_J; }},
+    {.action = data::ScriptAction::compress,
+     .go_on = [](const Step& step, const SessionState&, double,
+                 OperatorState& state) { state.given.compressions_1_min = step.rate_1_min; }},
+    {.action = data::ScriptAction::pace,
+     .begin =
+         [](const Step& step, const SessionState&, OperatorState& state) {
+           state.given.pacing_1_min = step.rate_1_min, state.given.pacing_mA = step.current_mA;
+         }},
     {.action = data::ScriptAction::provoke, .begin = provoke}};
 
 /// Indexed by action. Does not compile if an action has no handling, or two.

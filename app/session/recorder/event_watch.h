@@ -46,7 +46,9 @@ class EventWatch {
   std::array<double, vascular::most_injuries> injuries_{};
   bool injects_ = false, inflated_ = false, filled_ = false, over_ = false, closed_ = false;
   double inflated_since_s_ = 0, closed_since_s_ = 0;
-  bool leaks_ = false, leaked_ = false, low_ = false, pulseless_ = false, drains_ = false, infuses_ = false;
+  bool leaks_ = false, leaked_ = false, low_ = false, pulseless_ = false, drains_ = false, infuses_ = false,
+       compressed_ = false, paced_ = false;
+  double compressed_since_s_ = 0;
   double leaks_since_s_ = 0, leak_seen_s_ = 0, pulseless_since_s_ = 0, perforated_s_ = -1;
   vascular::Rhythm rhythm_ = vascular::Rhythm::sinus;
   bool ectopic_ = false, burst_ = false;

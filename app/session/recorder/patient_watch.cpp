@@ -34,6 +34,10 @@ void EventWatch::look_at_patient(const SessionModel& model, const SessionState& 
   if (pulseless && !pulseless_) say(data::EventCode::pulse_lost, -1, systolic / mmHg), pulseless_since_s_ = time_s;
   if (!pulseless && pulseless_) say(data::EventCode::pulse_back, -1, time_s - pulseless_since_s_);
   pulseless_ = pulseless;
+  if (heart.paced != paced_)
+    say(heart.paced ? data::EventCode::pacing_captures : data::EventCode::pacing_ends, -1,
+        vascular::rate_1_min(model.physiology.heart, heart));
+  paced_ = heart.paced;
   if (heart.rhythm != rhythm_) {
     say(data::EventCode::rhythm_changes, -1, static_cast<double>(heart.rhythm));
     if (heart.rhythm == vascular::Rhythm::asystole) say(data::EventCode::heart_stops, -1, heart.pulseless_s);
@@ -49,6 +53,12 @@ void EventWatch::look_at_care(const SessionModel& model, const SessionInputs& in
   if (drains != drains_) say(drains ? data::EventCode::drain_begins : data::EventCode::drain_ends, -1, round_mL);
   if (infuses && !infuses_) say(data::EventCode::infusion_begins, -1, hand.infusion_m3_s / mL);
   drains_ = drains, infuses_ = infuses;
+  if (const bool presses = hand.compressions_1_min > 0; presses != compressed_) {
+    if (presses) compressed_since_s_ = seconds(model, state);
+    say(presses ? data::EventCode::compressions_begin : data::EventCode::compressions_end, -1,
+        presses ? hand.compressions_1_min : seconds(model, state) - compressed_since_s_);
+    compressed_ = presses;
+  }
   if (hand.shock_J > 0) say(data::EventCode::shock, -1, hand.shock_J);
   if (hand.provoked > 0) say(data::EventCode::provoked, -1, hand.provoked);
   if (hand.drug_dose <= 0 || hand.drug < 0) return;

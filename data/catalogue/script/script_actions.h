@@ -28,6 +28,8 @@ enum class ScriptAction {
   infuse,
   drain,
   shock,
+  compress,
+  pace,
   provoke
 };
 
@@ -58,6 +60,8 @@ inline constexpr ScriptActionRow script_actions[] = {
     {ScriptAction::infuse, "infuse", {"rate_mL_s", "volume_mL"}, {"until"}, true},
     {ScriptAction::drain, "drain", {"rate_mL_s", "volume_mL"}, {"until"}, true},
     {ScriptAction::shock, "shock", {"energy_J"}, {}, false},
+    {ScriptAction::compress, "compress", {"rate_1_min", "until"}, {}, true},
+    {ScriptAction::pace, "pace", {"rate_1_min", "current_mA"}, {}, false},
     {ScriptAction::provoke, "provoke", {"complication"}, {"at", "hole_mm", "grade", "share"}, false}};
 
 inline constexpr int action_kinds = static_cast<int>(std::size(script_actions));
@@ -79,7 +83,8 @@ static_assert(each_action_has_a_row());
 /// Whether the action needs a circulation, which a mesh does not have.
 constexpr bool needs_patient(ScriptAction action) {
   return action == ScriptAction::give || action == ScriptAction::infuse || action == ScriptAction::drain ||
-         action == ScriptAction::shock || action == ScriptAction::provoke;
+         action == ScriptAction::shock || action == ScriptAction::compress || action == ScriptAction::pace ||
+         action == ScriptAction::provoke;
 }
 
 /// The value of "do" for a step that stands for the steps of another script.

@@ -57,6 +57,7 @@ void read_treatment(const JsonObject& object, ScriptStep& step) {
   number("dose_ug", 1, step.dose);
   number("dose_mg", 1, step.dose);
   number("energy_J", 1, step.energy_J);
+  number("current_mA", 1, step.current_mA);
   number("iodine_mg_mL", 1, step.iodine_kg_m3);
   number("gauge_atm", 101325, step.gauge_Pa);
   if (step.action == ScriptAction::drug && step.heparin_U + step.nitrate_ug + step.adenosine_ug == 0)

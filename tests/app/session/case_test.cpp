@@ -183,6 +183,8 @@ TEST(CaseVessel, WhatIsProvokedAndGivenAtAConsoleReplays) {
   trainer.order({ConsoleCommand::give, {static_cast<double>(phenylephrine), 100}});
   trainer.order({ConsoleCommand::infuse, {120}});
   trainer.order({ConsoleCommand::drain, {60}});
+  trainer.order({ConsoleCommand::compress, {110}});
+  trainer.order({ConsoleCommand::pace, {80, 3}});
   std::vector<SessionEvent> heard;
   PlayOptions options;
   options.recorder.file = file, options.recorder.penetration = false, options.seconds = 0.9;
@@ -196,6 +198,8 @@ TEST(CaseVessel, WhatIsProvokedAndGivenAtAConsoleReplays) {
   EXPECT_EQ(of(data::EventCode::drug_given), 1);
   EXPECT_EQ(of(data::EventCode::infusion_begins), 1);
   EXPECT_EQ(of(data::EventCode::drain_begins), 1);
+  EXPECT_EQ(of(data::EventCode::compressions_begin), 1);
+  EXPECT_EQ(of(data::EventCode::pacing_captures), 1);
   for (const SessionEvent& e : heard) {
     if (e.code == static_cast<int>(data::EventCode::provoked)) {
       EXPECT_LE(e.step, 50u) << "ms from order to event";
@@ -204,6 +208,8 @@ TEST(CaseVessel, WhatIsProvokedAndGivenAtAConsoleReplays) {
   EXPECT_GT(vascular::leak_m3_s(run.state.treatment), 0.5e-6) << "a hole of 1.5 mm";
   EXPECT_NEAR(run.inputs.delivery.infusion_m3_s, 2e-6, 1e-12);
   EXPECT_NEAR(run.inputs.delivery.drain_m3_s, 1e-6, 1e-12);
+  EXPECT_EQ(run.inputs.delivery.compressions_1_min, 110);
+  EXPECT_EQ(run.inputs.delivery.pacing_mA, 3);
   Replay replay(file, case_vessel());
   const VerifyReport report = verify(replay);
   EXPECT_FALSE(report.first_step) << report.field;
