@@ -36,9 +36,10 @@ void end_beat(const HeartModel& model, HeartState& s) {
 
 /// Arterioles without oxygen give way, against what the reflex asks of them, so that little pressure is left of a small
 /// flow [estimate; how much is set with the compressions' pressure].
-double dilation_without_pulse(double pulseless_s) {
+void dilate(double dt_s, CirculationInputs& body, HeartState& s) {
   constexpr double most = 0.75, time_s = 20;
-  return most * -std::expm1(-pulseless_s / time_s);
+  s.anoxia += -std::expm1(-dt_s / time_s) * ((s.pulseless_s > 0 ? 1 : 0) - s.anoxia);
+  body.dilation = std::max(body.dilation, most * s.anoxia);
 }
 
 void compress(const CompressionModel& model, double rate_1_min, double dt_s, CirculationInputs& body, HeartState& s) {
@@ -84,7 +85,7 @@ void step(const HeartModel& model, const HeartInputs& inputs, double dt_s, Heart
   CirculationInputs body = inputs.body;
   body.phase = s.phase, body.resting_rate_1_min = inputs.rate_1_min;
   if (!beats(s)) body.contraction = 0;
-  body.dilation = std::max(body.dilation, dilation_without_pulse(s.pulseless_s));
+  dilate(dt_s, body, s);
   compress(model.circulation.compressions, inputs.compressions_1_min, dt_s, body, s);
   if (next ? s.next_ectopic : s.ectopic) body.contraction *= ectopic_strength;
   step(model.circulation, body, dt_s, s.circulation);

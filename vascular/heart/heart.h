@@ -58,6 +58,7 @@ struct HeartState {
   BeatSummary beat;
   double high_Pa = 0, low_Pa = 1e6, sum_Pa_s = 0, ejected_m3 = 0;  ///< of the current beat
   double pulseless_s = 0;     ///< since the last beat with a pulse; under compressions it runs slower
+  double anoxia = 0;          ///< [0, 1): of the arterioles
   double compression = 0;     ///< [0, 1): of the period of a compression
   bool compressed = false;    ///< the chest was, in the current beat
   double paced_1_min = 0;     ///< rate at which a pacemaker is followed; 0: it is not
@@ -81,6 +82,7 @@ constexpr auto fields(const HeartState*) {
                     core::field("sum_Pa_s", &S::sum_Pa_s),
                     core::field("ejected_m3", &S::ejected_m3),
                     core::field("pulseless_s", &S::pulseless_s),
+                    core::field("anoxia", &S::anoxia),
                     core::field("compression", &S::compression),
                     core::field("compressed", &S::compressed),
                     core::field("paced_1_min", &S::paced_1_min),

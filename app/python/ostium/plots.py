@@ -55,10 +55,14 @@ def blood_pressure(axes, run):
     axes.plot(run.signals["time_s"], run.signals["aorta_mmHg"], color="C3", linewidth=0.3)
     axes.set_ylabel("in the aorta, mmHg")
     axes.set_ylim(0, 220)
+    close_s, last_s, side = run.signals["time_s"][-1] / 25, -np.inf, "right"
     for event in run.events:
         if word := GIVEN.get(event["name"]):
-            axes.axvline(event["time_s"], color="0.4", linewidth=0.7)
-            axes.text(event["time_s"], 216, word, rotation=90, fontsize=7, va="top", ha="right")
+            at_s = event["time_s"]
+            side = "left" if at_s - last_s < close_s and side == "right" else "right"
+            last_s = at_s
+            axes.axvline(at_s, color="0.4", linewidth=0.7)
+            axes.text(at_s, 216, word, rotation=90, fontsize=7, va="top", ha=side)
 
 
 def rate(axes, run):
@@ -92,8 +96,8 @@ def leak(axes, run):
 PLOTS = (depth, hands, walls, pressure, lumen)
 OF_THE_PATIENT = (blood_pressure, rate, round_the_heart, leak)
 GIVEN = {"perforation": "perforation", "drain_begins": "drain", "infusion_begins": "fluid", "drug_given": "drug",
-         "covered_stent": "covered stent", "shock": "shock",
-         "compressions_begin": "compressions", "pacing_captures": "paced", "pulse_lost": "no pulse", "heart_stops": "asystole"}
+         "covered_stent": "covered stent", "shock": "shock", "compressions_begin": "compressions",
+         "pacing_captures": "paced", "pulse_lost": "no pulse", "heart_stops": "asystole"}
 
 
 def tools_of(run):
