@@ -211,6 +211,11 @@ int run(const Arguments& a) {
   fluoro::View view = view_of(a);
   require_reachable(view.arm);
   fluoro::require_rate(a.frames_per_s);
+  if (a.dicom() && std::uint64_t(a.frames) * std::uint64_t(a.pixels * a.pixels) > data::dicom_most_bytes)
+    throw data::LoadError(fmt::format("--frames {} of {} pixels a side are more than the 4 GB of a DICOM file; "
+                                      "expected at most {}",
+                                      a.frames, a.pixels,
+                                      data::dicom_most_bytes / std::uint64_t(a.pixels * a.pixels)));
   Eigen::Vector3d middle = Eigen::Vector3d::Zero();
   if (a.of == "phantom" && !a.set.empty()) throw data::LoadError("--set is for a case; the phantom is nobody");
   const Scenes scenes = a.of == "phantom" ? phantom_scenes(a) : patient_scenes(a, middle);
