@@ -69,8 +69,8 @@ for command in $("$ostium" --help | awk '/^Subcommands:/ { on = 1; next } on && 
 done
 ((tried > 40)) || { echo "only $tried options were tried"; exit 1; }
 # An empty text is mostly a variable that is not set, and is never taken as "not given".
-for option in --out= --entry= --record= --serial= --script= --units= --set=; do
-  expect 2 "it is empty" "$ostium" run rca-mid-focal --script iliac-wire --seconds 0.1 "$option"
+for option in --out --entry --record --serial --script --units --set; do
+  expect 2 "it is empty" "$ostium" run rca-mid-focal --seconds 0.1 "$option" ""
 done
 expect 2 "it is not UTF-8" "$ostium" import nothing.stl -o "$dir/nobody" --title $'A\xff'
 for value in inf 0x10 1e999 " 7" 7mm ""; do expect 2 "" "$ostium" inject "--volume=$value"; done
