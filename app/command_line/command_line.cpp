@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <cstdio>
 #include <exception>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <type_traits>
 
@@ -19,10 +20,7 @@
 
 namespace ostium::app {
 
-Option Option::required() {
-  const auto not_empty = [](const std::string& value) { return std::string(value.empty() ? "it is empty" : ""); };
-  return option_->required()->check(not_empty, ""), *this;
-}
+Option Option::required() { return option_->required(), *this; }
 Option Option::show_default() { return option_->capture_default_str(), *this; }
 Option Option::type(const std::string& name) { return option_->type_name(name), *this; }
 Option Option::count(int values) { return option_->expected(values)->delimiter(','), *this; }
@@ -56,12 +54,31 @@ void check_number(CLI::Option& option) {
         ""));
 }
 
+/// An empty one is mostly a shell's variable that is not set: taken as not given, a run would be kept nowhere. What is
+/// no UTF-8 could not be written into JSON, hours later.
+template <class Value>
+void check_text(CLI::Option& option) {
+  if constexpr (std::is_same_v<Value, std::string> || std::is_same_v<Value, std::vector<std::string>>)
+    option.check(CLI::Validator(
+        [](const std::string& text) -> std::string {
+          if (text.empty()) return "it is empty";
+          try {
+            (void)nlohmann::json(text).dump();
+          } catch (const nlohmann::json::exception&) {
+            return "it is not UTF-8";
+          }
+          return "";
+        },
+        ""));
+}
+
 }  // namespace
 
 template <class Value>
 Option Options::add(const std::string& names, Value& value, const std::string& help) {
   CLI::Option* option = app_.add_option(names, value, help);
   check_number<Value>(*option);
+  check_text<Value>(*option);
   return Option(option);
 }
 template Option Options::add(const std::string&, std::string&, const std::string&);

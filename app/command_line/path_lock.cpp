@@ -11,8 +11,9 @@
 
 namespace ostium::app {
 
-PathLock::PathLock(const std::string& path) : descriptor_(open(path.c_str(), O_RDONLY | O_CLOEXEC)) {
-  if (descriptor_ < 0 || flock(descriptor_, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) return;
+PathLock::PathLock(const std::string& path, bool shared) : descriptor_(open(path.c_str(), O_RDONLY | O_CLOEXEC)) {
+  if (descriptor_ < 0 || flock(descriptor_, (shared ? LOCK_SH : LOCK_EX) | LOCK_NB) == 0 || errno != EWOULDBLOCK)
+    return;
   close(descriptor_);
   throw data::LoadError(path + ": another ostium writes there; wait for its end, or name another place");
 }

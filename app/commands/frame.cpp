@@ -185,7 +185,7 @@ FilmedFrames film(const Arguments& a, const Scenes& scenes, const fluoro::Fluoro
   const int frames = a.frames ? a.frames : a.video() ? 30 : 8;
   // A still picture stays at its phase; the frames before it only build up the lag.
   const bool moves = a.video() || (a.dicom() && a.frames);
-  if (a.video()) stop_on_signals();  // a film ends with the frames that it has
+  if (moves) stop_on_signals();  // a film ends with the frames that it has
   for (int i = 0; i < frames && !interrupted; ++i) {
     if (moves) scene = scenes(i);
     out.report = tick(imager, in, out.state, scratch).frame;
@@ -211,6 +211,11 @@ int run(const Arguments& a) {
   fluoro::View view = view_of(a);
   require_reachable(view.arm);
   fluoro::require_rate(a.frames_per_s);
+  if (a.dicom() && std::uint64_t(a.frames) * std::uint64_t(a.pixels * a.pixels) > data::dicom_most_bytes)
+    throw data::LoadError(
+        fmt::format("--frames {} of {} pixels a side are more than the 4 GB of a DICOM file; "
+                    "expected at most {}",
+                    a.frames, a.pixels, data::dicom_most_bytes / std::uint64_t(a.pixels * a.pixels)));
   Eigen::Vector3d middle = Eigen::Vector3d::Zero();
   if (a.of == "phantom" && !a.set.empty()) throw data::LoadError("--set is for a case; the phantom is nobody");
   const Scenes scenes = a.of == "phantom" ? phantom_scenes(a) : patient_scenes(a, middle);
@@ -228,6 +233,7 @@ int run(const Arguments& a) {
   if (a.video()) writer.emplace(a.out, a.pixels, a.pixels, a.frames_per_s);
   const FilmedFrames filmed = film(a, scenes, in, scene, writer);
   if (!finish_film(writer, "frame")) return 1;
+  if (a.dicom() && filmed.kept.empty()) return 1;  // it was ended before the first
   if (a.dicom())
     data::write_dicom(a.out, fluoro::CineRun{view, a.programme(), filmed.report.exposure, filmed.kept});
   else if (!a.video())

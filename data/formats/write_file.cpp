@@ -1,5 +1,10 @@
 #include "data/formats/write_file.h"
 
+#include <fcntl.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
@@ -14,6 +19,26 @@ WriteError write_error(const std::string& path, const std::string& why) {
                     "; does its folder exist, may you write there, and is there room?");
 }
 
+namespace {
+
+/// Makes the file and locks it; -1 where it cannot be made, which its writer finds and says. Throws WriteError.
+int locked(const std::string& beside, const std::string& path) {
+  for (;;) {
+    const int file = open(beside.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0666);
+    if (file < 0) return -1;
+    if (flock(file, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
+      close(file);
+      throw WriteError(path + ": another program is writing it; wait for its end, or name another file");
+    }
+    struct stat mine {
+    }, there{};
+    if (fstat(file, &mine) == 0 && stat(beside.c_str(), &there) == 0 && mine.st_ino == there.st_ino) return file;
+    close(file);  // whoever wrote it gave it its name just now
+  }
+}
+
+}  // namespace
+
 NewFile::NewFile(const std::string& path) : path_(path), beside_(path + ".unfinished") {
   std::error_code none;
   if (fs::is_symlink(path, none))
@@ -22,10 +47,12 @@ NewFile::NewFile(const std::string& path) : path_(path), beside_(path + ".unfini
   if (const fs::path folder = fs::path(path_).parent_path(); !folder.empty()) fs::create_directories(folder, none);
   // Neither a device nor a folder can be replaced; what is written to a folder fails.
   if (fs::exists(path_, none) && !fs::is_regular_file(path_, none)) beside_ = path_;
+  if (beside_ != path_) lock_ = locked(beside_, path_);
 }
 
 NewFile::~NewFile() {
   if (!over_ && beside_ != path_) std::remove(beside_.c_str());
+  if (lock_ >= 0) close(lock_);
 }
 
 void NewFile::finish() {

@@ -11,11 +11,13 @@ struct WriteError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// A file that is being written. What has its name stays as it is until `finish`, and if that is never called. A device
+/// A file that is being written. What has its name stays as it is until `finish`, and if that is never called. One
+/// program writes it at a time; the lock is the kernel's (flock) and leaves nothing behind a program killed. A device
 /// such as /dev/stdout is written to directly; of a link, the file that it leads to is replaced. Folders are made as
 /// needed.
 class NewFile {
  public:
+  /// Throws WriteError if it is being written already.
   explicit NewFile(const std::string& path);
   NewFile(const NewFile&) = delete;
   NewFile& operator=(const NewFile&) = delete;
@@ -29,6 +31,7 @@ class NewFile {
  private:
   std::string path_, beside_;
   bool over_ = false;
+  int lock_ = -1;  ///< descriptor of `beside`
 };
 
 /// Writes `bytes`. Throws WriteError; what was there is then as it was.

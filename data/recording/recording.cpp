@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <cmath>
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
@@ -245,6 +246,17 @@ double RecordingReader::step_s() const {
     throw LoadError(fmt::format("{}: its step is {:.40} s; expected a number above 0, up to 0.01: it is damaged", path_,
                                 as_text ? file_.text("step_s") : fmt::format("{}", *step_s)));
   return *step_s;
+}
+
+std::vector<double> RecordingReader::inputs(std::size_t first, std::size_t count) const {
+  std::vector<double> rows = file_.numbers("inputs", first, count);
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    if (!std::isfinite(rows[i])) {
+      const std::vector<std::string> names = input_columns();
+      throw LoadError(fmt::format("{}: {} is {} in step {}; it is damaged", path_, names[i % names.size()], rows[i],
+                                  first + i / names.size() + 1));
+    }
+  return rows;
 }
 
 std::optional<std::string> RecordingReader::end() const {

@@ -113,9 +113,8 @@ class RecordingReader {
   int state_width() const { return file_.width("state"); }
   std::vector<std::string> input_columns() const { return file_.columns("inputs"); }
   std::vector<std::string> signal_columns() const { return file_.columns("signals"); }
-  std::vector<double> inputs(std::size_t first, std::size_t count) const {
-    return file_.numbers("inputs", first, count);
-  }
+  /// Throws LoadError if one is no finite number, which no step can be made of.
+  std::vector<double> inputs(std::size_t first, std::size_t count) const;
   std::vector<std::uint64_t> hashes(std::size_t first, std::size_t count) const {
     return file_.integers("hash", first, count);
   }

@@ -68,6 +68,11 @@ for command in $("$ostium" --help | awk '/^Subcommands:/ { on = 1; next } on && 
   done
 done
 ((tried > 40)) || { echo "only $tried options were tried"; exit 1; }
+# An empty text is mostly a variable that is not set, and is never taken as "not given".
+for option in --out --entry --record --serial --script --units --set; do
+  expect 2 "it is empty" "$ostium" run rca-mid-focal --seconds 0.1 "$option" ""
+done
+expect 2 "it is not UTF-8" "$ostium" import nothing.stl -o "$dir/nobody" --title $'A\xff'
 for value in inf 0x10 1e999 " 7" 7mm ""; do expect 2 "" "$ostium" inject "--volume=$value"; done
 expect 2 "not a whole number from 0 on" "$ostium" frame --seed=-1
 expect 3 "at most 1000000 of them" "$ostium" sweep rca-mid-focal --seeds 0..18446744073709551615 -o "$dir/sweep.csv"
@@ -311,6 +316,13 @@ twice=(sweep rca-mid-focal --script iliac-wire --seeds 1..200 -o "$out/twice.csv
 for _ in $(seq 600); do if [[ -s $out/twice.csv.part ]]; then break; fi; sleep 0.1; done
 sleep 0.3
 expect 3 "another ostium writes there" "$ostium" "${twice[@]}" --resume
+kill -TERM "$child"
+wait "$child" || true
+# Two that keep their recordings in one folder: runs of the same names would be mixed.
+"$ostium" "${twice[@]}" --keep "$out/kept" & child=$!
+for _ in $(seq 600); do if [[ -e $out/kept ]]; then break; fi; sleep 0.1; done
+sleep 0.3
+expect 3 "kept: another ostium writes there" sweep -o "$out/other.csv" --keep "$out/kept"
 kill -TERM "$child"
 wait "$child" || true
 sweep -o "$out/three.csv" & child=$!

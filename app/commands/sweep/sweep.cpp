@@ -1,7 +1,9 @@
 #include <fmt/format.h>
 
+#include "app/command_line/arguments.h"
 #include "app/command_line/command.h"
 #include "app/command_line/interrupt.h"
+#include "app/command_line/path_lock.h"
 #include "app/commands/run/record_option.h"
 #include "app/commands/sweep/merge.h"
 #include "app/commands/sweep/sweeper.h"
@@ -66,6 +68,8 @@ int run(const SweepArguments& a) {
   const SweepPart part = part_from(a.part);
   const Sweep sweep = plan_sweep(a);
   const JournalHead head = head_of(sweep, part);
+  if (!a.keep.empty()) make_folder(a.keep);
+  const PathLock lock = a.keep.empty() ? PathLock() : PathLock(a.keep, /*shared=*/!part.is_all);
   SweepJournal journal(part_file(a.table, part), head, a.resume);
   stop_on_signals();
   Sweeper sweeper(a, sweep, head, journal);

@@ -9,9 +9,11 @@
 
 #include "app/command_line/arguments.h"
 #include "app/command_line/interrupt.h"
+#include "app/command_line/path_lock.h"
 #include "app/command_line/progress.h"
 #include "app/commands/run/record_option.h"
 #include "app/commands/sweep/table.h"
+#include "data/formats/load_error.h"
 #include "data/formats/write_file.h"
 
 namespace ostium::app {
@@ -24,6 +26,15 @@ std::size_t threads_for(const SweepArguments& a, std::size_t open) {
   const std::size_t jobs =
       a.jobs > 0 ? static_cast<std::size_t>(a.jobs) : std::max(1u, std::thread::hardware_concurrency());
   return std::min(jobs, open);
+}
+
+/// Parts share the folder of recordings, and a part of another sweep may be at a run of the same name. That is nothing
+/// of the run: the sweep ends.
+PathLock lock_of(const fs::path& folder) try {
+  make_folder(folder);
+  return PathLock(folder.string());
+} catch (const data::LoadError& error) {
+  throw data::WriteError(error.what());
 }
 
 }  // namespace
@@ -105,7 +116,7 @@ std::string Sweeper::line_for(std::size_t run, const RunSetup& vessel_setup,
     if (kept) setup.mesh = vessel_setup.mesh;  // a recording holds it
     choose_sizes(*vessel, setup);
     ScriptedRun scripted(setup, vessel);
-    if (kept) make_folder(folder);
+    const PathLock lock = kept ? lock_of(folder) : PathLock();
     const PlayReport report = play(scripted, setup, options);
     if (kept && !interrupted) keep(folder.string(), setup, report);
     return line_of(sweep_.grid, run, scripted, report);

@@ -27,8 +27,6 @@ namespace fs = std::filesystem;
 
 fs::path folder_of(const data::Script& script) { return fs::path(script.file).parent_path(); }
 
-const std::string& name_of(vascular::Access access) { return data::access_names()[static_cast<std::size_t>(access)]; }
-
 nlohmann::json numbers(const Eigen::Vector3d& p) { return nlohmann::json::array({p.x(), p.y(), p.z()}); }
 Eigen::Vector3d point(const nlohmann::json& p) {
   return {p.at(0).get<double>(), p.at(1).get<double>(), p.at(2).get<double>()};
@@ -51,10 +49,7 @@ void set_vessel(const std::string& case_or_mesh, vascular::LengthUnit unit, RunS
 }
 
 void set_script(const data::Script& script, RunSetup& setup) {
-  if (script.access && setup.access && *script.access != *setup.access)
-    throw data::LoadError(
-        fmt::format("{}: is for {} access, and {} has {} access; expected a case and a script of one access",
-                    script.file, name_of(*script.access), setup.vessel, name_of(*setup.access)));
+  data::require_access(script, setup.access, setup.vessel);
   setup.script = script;
   setup.tool_texts.clear(), setup.tool_files.clear();
   for (const data::ScriptTool& tool : script.tools) {

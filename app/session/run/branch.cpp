@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "app/session/run/replay.h"
 #include "data/formats/load_error.h"
 
 namespace ostium::app {
@@ -36,7 +37,8 @@ std::shared_ptr<EventWatch> go_back(ScriptedRun& run, const Continued& to) {
     throw data::LoadError(fmt::format("{}: has no state at {} s; expected a whole second of this run's recording",
                                       to.file, to.steps / second));
   run.report = {};
-  take_state(recording.state(before).data(), run.state);
+  take_recorded_state(recording, run.model, setup_from_json(recording.path(), recording.setup()).seed, before,
+                      run.state);
   run.xrays = xrays_until(recording, run.inputs, before * second);
   auto watch = std::make_shared<EventWatch>(run.model);
   std::vector<SessionEvent> seen;

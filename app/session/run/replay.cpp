@@ -77,18 +77,27 @@ void require_within(const data::RecordingReader& recording, double second) {
     throw data::LoadError(recording.path() + ": holds no states (--record events); replay it from 0");
 }
 
+void take_recorded_state(const data::RecordingReader& recording, const SessionModel& model, std::uint64_t seed,
+                         std::size_t second, SessionState& state) {
+  if (second == 0) {  // which no hash was made of
+    state = make_state(model, seed);
+    return;
+  }
+  take_state(recording.state(second).data(), state);
+  const std::size_t step = second * data::steps_per_state;
+  if (state.rods.step != step || recording.steps() < step || recording.hashes(step - 1, 1).front() != hash(state))
+    throw data::LoadError(
+        fmt::format("{}: its state at {:g} s is not the one that its hash was made of; the file is "
+                    "damaged, replay it from 0",
+                    recording.path(), recording.step_s() * static_cast<double>(step)));
+}
+
 void Replay::go_to(double second) {
   require_within(recording, second);
   if (recording.states() == 0) return;
   const double apart_s = recording.step_s() * data::steps_per_state;
   const std::size_t row = std::min(static_cast<std::size_t>(second / apart_s + 1e-9), recording.states() - 1);
-  take_state(recording.state(row).data(), state);
-  const std::size_t step = row * data::steps_per_state;
-  if (state.rods.step != step || (step > 0 && recording.hashes(step - 1, 1).front() != hash(state)))
-    throw data::LoadError(
-        fmt::format("{}: its state at {:g} s is not the one that its hash was made of; the file is "
-                    "damaged, replay it from 0",
-                    recording.path(), apart_s * static_cast<double>(row)));
+  take_recorded_state(recording, model, setup.seed, row, state);
 }
 
 void Replay::read_ahead() {

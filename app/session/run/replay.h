@@ -13,6 +13,11 @@ namespace ostium::app {
 /// Throws LoadError unless a replay can begin at this second.
 void require_within(const data::RecordingReader& recording, double second);
 
+/// The state at the end of that many seconds, of a recording laid out as the model's; at 0 the one that this model
+/// begins with. Throws LoadError if it is not the one that its hash was made of: its indices would lead anywhere.
+void take_recorded_state(const data::RecordingReader& recording, const SessionModel& model, std::uint64_t seed,
+                         std::size_t second, SessionState& state);
+
 class Replay {
  public:
   /// Reads the recording and rebuilds its vessel and tools. Throws LoadError or MeshError. `vessel`: one made from the

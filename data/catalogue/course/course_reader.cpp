@@ -50,8 +50,13 @@ Lesson read_lesson(const JsonValue& value) {
   lesson.instructions = texts(object, "instructions");
   lesson.case_name = object.text("case"), lesson.script = object.text("script");
   lesson.scoring = object.text("scoring");
-  require(object, "case", [](const std::string& name) { case_file(name); });
-  require(object, "script", [](const std::string& name) { find_script(name); });
+  std::optional<vascular::Access> access;
+  require(object, "case", [&](const std::string& name) {
+    const Case of_lesson = find_case(name);
+    if (!of_lesson.imported) access = of_lesson.anatomy.access;
+  });
+  require(object, "script",
+          [&](const std::string& name) { require_access(find_script(name), access, lesson.case_name); });
   if (object.has("person")) lesson.person = static_cast<std::uint64_t>(object.whole("person"));
   lesson.must_hold = texts(object, "must_hold");
   lesson.line = object["must_hold"].line;

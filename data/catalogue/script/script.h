@@ -98,6 +98,9 @@ Script load_script(const std::string& file);
 Script find_script(const std::string& name_or_file);
 std::vector<Script> load_scripts();
 
+/// Throws LoadError naming both if the script is for another access than the case; `of_case` none: any will do.
+void require_access(const Script& script, std::optional<vascular::Access> of_case, const std::string& case_name);
+
 /// Throws LoadError "FILE:LINE: WHAT".
 [[noreturn]] void refuse(const ScriptCondition& condition, const std::string& what);
 

@@ -246,6 +246,14 @@ std::vector<Script> load_scripts() {
   return scripts;
 }
 
+void require_access(const Script& script, std::optional<vascular::Access> of_case, const std::string& case_name) {
+  const auto name_of = [](vascular::Access access) { return access_names()[static_cast<std::size_t>(access)]; };
+  if (script.access && of_case && *script.access != *of_case)
+    throw LoadError(
+        fmt::format("{}: is for {} access, and {} has {} access; expected a case and a script of one access",
+                    script.file, name_of(*script.access), case_name, name_of(*of_case)));
+}
+
 Script find_script(const std::string& name_or_file) {
   const fs::path known = fs::path(data_folder()) / "scripts" / (name_or_file + ".json");
   if (fs::is_regular_file(known)) return load_script(known.string());

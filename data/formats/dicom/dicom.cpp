@@ -30,6 +30,11 @@ std::string orientation(const Eigen::Vector3d& direction) {
   return letters;
 }
 
+std::string unique(const char* root) {
+  char uid[100];
+  return dcmGenerateUniqueIdentifier(uid, root);
+}
+
 class Writer {
  public:
   void text(const DcmTagKey& tag, const std::string& value) {
@@ -43,10 +48,7 @@ class Writer {
     require(dataset().putAndInsertUint8Array(tag, value.data(), value.size()), tag);
   }
   void pointer(const DcmTagKey& tag, const DcmTagKey& to) { require(dataset().putAndInsertTagKey(tag, to), tag); }
-  void unique_id(const DcmTagKey& tag, const char* root) {
-    char uid[100];
-    text(tag, dcmGenerateUniqueIdentifier(uid, root));
-  }
+  void unique_id(const DcmTagKey& tag, const char* root) { text(tag, unique(root)); }
   void save(const std::string& file) {
     NewFile out(file);
     const OFCondition saved = format_.saveFile(out.beside().c_str(), EXS_LittleEndianExplicit);
@@ -70,7 +72,7 @@ class Writer {
   DcmFileFormat format_;
 };
 
-void write_patient_and_study(Writer& out, const DicomPatient& patient) {
+void write_patient_and_study(Writer& out, const DicomPatient& patient, const DicomPlace& place) {
   OFString date, time;
   DcmDate::getCurrentDate(date);
   DcmTime::getCurrentTime(time, /*seconds=*/OFTrue, /*fraction=*/OFFalse);
@@ -78,7 +80,7 @@ void write_patient_and_study(Writer& out, const DicomPatient& patient) {
   out.text(DCM_PatientID, patient.id);
   out.text(DCM_PatientBirthDate, "");
   out.text(DCM_PatientSex, "");
-  out.unique_id(DCM_StudyInstanceUID, SITE_STUDY_UID_ROOT);
+  out.text(DCM_StudyInstanceUID, place.study_uid.empty() ? new_study_uid() : place.study_uid);
   out.text(DCM_StudyDate, date.c_str());
   out.text(DCM_StudyTime, time.c_str());
   out.text(DCM_ReferringPhysicianName, "");
@@ -86,7 +88,7 @@ void write_patient_and_study(Writer& out, const DicomPatient& patient) {
   out.text(DCM_AccessionNumber, "");
   out.text(DCM_Modality, "XA");
   out.unique_id(DCM_SeriesInstanceUID, SITE_SERIES_UID_ROOT);
-  out.text(DCM_SeriesNumber, "1");
+  out.text(DCM_SeriesNumber, std::to_string(place.series));
   out.text(DCM_SeriesDescription, patient.series);
   out.text(DCM_PatientPosition, "HFS");
   out.text(DCM_BodyPartExamined, "HEART");
@@ -151,13 +153,18 @@ void write_pixels(Writer& out, const fluoro::CineRun& run) {
 
 }  // namespace
 
-void write_dicom(const std::string& file, const fluoro::CineRun& run, const DicomPatient& patient) {
+std::string new_study_uid() { return unique(SITE_STUDY_UID_ROOT); }
+
+void write_dicom(const std::string& file, const fluoro::CineRun& run, const DicomPatient& patient,
+                 const DicomPlace& place) {
   if (run.frames.empty()) throw std::invalid_argument("DICOM: a run without frames");
+  if (run.frames.size() * run.frames.front().grey.size() > dicom_most_bytes)
+    throw write_error(file, "a DICOM file holds no more than 4 GB; expected fewer frames, or fewer pixels");
   Writer out;
   out.text(DCM_SOPClassUID, UID_XRayAngiographicImageStorage);
   out.unique_id(DCM_SOPInstanceUID, SITE_INSTANCE_UID_ROOT);
   out.text(DCM_ImageType, "ORIGINAL\\PRIMARY\\SINGLE PLANE");
-  write_patient_and_study(out, patient);
+  write_patient_and_study(out, patient, place);
   write_acquisition(out, run);
   write_pixels(out, run);
   out.save(file);

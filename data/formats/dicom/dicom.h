@@ -1,5 +1,6 @@
 #pragma once
 /// X-ray angiography in DICOM (X-Ray Angiographic Image Storage; PS3.3 A.14), written with DCMTK.
+#include <cstdint>
 #include <string>
 
 #include "fluoro/console/fluoroscope.h"
@@ -12,8 +13,20 @@ struct DicomPatient {
   std::string series = "Simulated coronary angiography";
 };
 
+/// Where a file stands among those of one film: one study, a series for each file.
+struct DicomPlace {
+  std::string study_uid;  ///< of `new_study_uid`; empty: a study of its own
+  int series = 1;         ///< counted from 1
+};
+
+std::string new_study_uid();
+
+/// Bytes of pixels that one file can hold: its lengths have 32 bits, of which some are for the rest.
+inline constexpr std::uint64_t dicom_most_bytes = 0xFFFF0000;
+
 /// A run of one or more frames of one size: 8 bits as displayed, with positioner angles, SID, pixel spacing at the
-/// detector, frame time, tube voltage and dose-area product. Throws WriteError.
-void write_dicom(const std::string& file, const fluoro::CineRun& run, const DicomPatient& patient = {});
+/// detector, frame time, tube voltage and dose-area product. Throws WriteError, also beyond `dicom_most_bytes`.
+void write_dicom(const std::string& file, const fluoro::CineRun& run, const DicomPatient& patient = {},
+                 const DicomPlace& place = {});
 
 }  // namespace ostium::data

@@ -20,7 +20,8 @@ bool same_header(const fluoro::CineRun& a, const fluoro::CineRun& b) {
 }  // namespace
 
 void DicomRuns::add(const fluoro::CineRun& exposed, const fluoro::Picture& picture) {
-  if (runs_.empty() || !same_header(runs_.back(), exposed))
+  const bool full = !runs_.empty() && (runs_.back().frames.size() + 1) * picture.grey.size() > most_bytes_;
+  if (runs_.empty() || full || !same_header(runs_.back(), exposed))
     runs_.push_back({exposed.view, exposed.programme, exposed.exposure, {}});
   runs_.back().exposure = exposed.exposure;
   runs_.back().frames.push_back(picture);
@@ -29,11 +30,13 @@ void DicomRuns::add(const fluoro::CineRun& exposed, const fluoro::Picture& pictu
 std::vector<std::string> DicomRuns::write(const std::string& file, const DicomPatient& patient) const {
   std::vector<std::string> names;
   const std::filesystem::path path = file;
+  DicomPlace place{new_study_uid(), 0};
   for (const fluoro::CineRun& run : runs_) {
     std::filesystem::path name = path;
     if (!names.empty())
       name.replace_filename(fmt::format("{}-{}{}", path.stem().string(), names.size() + 1, path.extension().string()));
-    write_dicom(name.string(), run, patient);
+    ++place.series;
+    write_dicom(name.string(), run, patient, place);
     names.push_back(name.string());
   }
   return names;

@@ -10,7 +10,9 @@ DicomGeometry read_dicom_geometry(const std::string& file) {
   throw LoadError(file + ": this build reads no DICOM; expected the geometry as numbers, or a build with OSTIUM_DICOM");
 }
 
-void write_dicom(const std::string& file, const fluoro::CineRun&, const DicomPatient&) {
+std::string new_study_uid() { return ""; }
+
+void write_dicom(const std::string& file, const fluoro::CineRun&, const DicomPatient&, const DicomPlace&) {
   throw WriteError(file + ": this build writes no DICOM; build with OSTIUM_DICOM");
 }
 

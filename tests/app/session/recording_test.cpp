@@ -83,6 +83,37 @@ TEST(Recording, AStateThatWasChangedIsRefused) {
   }
 }
 
+/// No hash was made of the state at 0, whose indices may lead anywhere: it is not taken from the file.
+TEST(Recording, BeginsAsTheModelDoesWhateverItsFirstStateSays) {
+  const Folder folder;
+  const PlayReport report = recorded(folder("run.h5"), RecordMode::full);
+  const int width = data::RecordingReader(folder("run.h5")).state_width();
+  copy_with(folder("run.h5"), folder("changed.h5"), "state",
+            [&](std::vector<double>& states) { std::fill_n(states.begin(), width, 1e6); });
+  Replay changed(folder("changed.h5"), tube_vessel());
+  changed.go_to(0.5);
+  EXPECT_FALSE(verify(changed).first_step);
+  EXPECT_EQ(hash(changed.state), report.hash);
+}
+
+TEST(Recording, AnInputThatIsNoNumberIsRefused) {
+  const Folder folder;
+  recorded(folder("run.h5"), RecordMode::full);
+  const std::size_t width = data::RecordingReader(folder("run.h5")).input_columns().size();
+  for (const double no_number : {std::nan(""), HUGE_VAL, -HUGE_VAL}) {
+    copy_with(folder("run.h5"), folder("changed.h5"), "inputs",
+              [&](std::vector<double>& inputs) { inputs[700 * width + 1] = no_number; });
+    Replay changed(folder("changed.h5"), tube_vessel());
+    try {
+      verify(changed);
+      ADD_FAILURE() << no_number << " was accepted";
+    } catch (const data::LoadError& error) {
+      EXPECT_NE(std::string(error.what()).find("wire.turn_rad_s is "), std::string::npos) << error.what();
+      EXPECT_NE(std::string(error.what()).find(" in step 701; it is damaged"), std::string::npos) << error.what();
+    }
+  }
+}
+
 /// The overlay's clocks and dose are those of the whole run, however little of it is drawn.
 TEST(Recording, AFilmOfItsEndSaysWhatTheWholeRunHasUsed) {
   const Folder folder;

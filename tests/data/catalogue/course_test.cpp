@@ -67,5 +67,25 @@ TEST(Course, AFaultyOneNamesFileLineKeyAndCure) {
   }
 }
 
+/// Not only when the lesson begins.
+TEST(Course, ALessonWhoseScriptComesInElsewhereThanItsCaseIsRefused) {
+  const auto with = [](const std::string& of_case, const std::string& script) {
+    std::string text = good;
+    text.replace(text.find("rca-mid-focal"), 13, of_case);
+    text.replace(text.find("iliac-wire"), 10, script);
+    return read_course("mine.json", text);
+  };
+  EXPECT_NO_THROW(with("rca-mid-focal-radial", "pci-rca-mid-focal-radial"));
+  EXPECT_NO_THROW(with("rca-mid-focal-radial", "fibrillation-shocked")) << "in any case";
+  try {
+    with("rca-mid-focal-radial", "pci-rca-mid-focal");
+    ADD_FAILURE();
+  } catch (const LoadError& error) {
+    for (const char* word : {"mine.json:5: lessons[0].script is \"pci-rca-mid-focal\"", "for femoral access",
+                             "rca-mid-focal-radial has radial access"})
+      EXPECT_NE(std::string(error.what()).find(word), std::string::npos) << error.what();
+  }
+}
+
 }  // namespace
 }  // namespace ostium::data

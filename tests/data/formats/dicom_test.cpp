@@ -131,5 +131,38 @@ TEST(DicomRuns, AnotherViewOrFieldIsAnotherFile) {
   for (const std::string& name : names) EXPECT_TRUE(std::filesystem::remove(name)) << name;
 }
 
+/// A viewer shows the views of one film under one study, a series each.
+TEST(DicomRuns, AFilmIsOneStudyWithASeriesForEachFile) {
+  if (!there_is("dcmdump")) GTEST_SKIP() << "dcmdump (dcmtk) is not installed";
+  const fluoro::CineRun first = ramp(1, 8, 8);
+  fluoro::CineRun turned = first;
+  turned.view.arm.lao_rad += 0.1;
+  DicomRuns runs;
+  runs.add(first, first.frames[0]), runs.add(turned, first.frames[0]);
+  const auto value = [](const std::string& name, const std::string& tag) {
+    const std::string words = run("dcmdump +P " + tag + " " + name).words;
+    return words.substr(0, words.find(']'));
+  };
+  const std::vector<std::string> names = runs.write(file_for("study.dcm"));
+  ASSERT_EQ(names.size(), 2u);
+  EXPECT_EQ(value(names[0], "0020,000d"), value(names[1], "0020,000d")) << "study";
+  EXPECT_NE(value(names[0], "0020,000e"), value(names[1], "0020,000e")) << "series";
+  EXPECT_NE(value(names[0], "0008,0018"), value(names[1], "0008,0018")) << "instance";
+  EXPECT_NE(value(names[0], "0020,0011").find("IS [1"), std::string::npos);
+  EXPECT_NE(value(names[1], "0020,0011").find("IS [2"), std::string::npos);
+  for (const std::string& name : names) EXPECT_TRUE(std::filesystem::remove(name)) << name;
+}
+
+/// Lengths in DICOM have 32 bits.
+TEST(DicomRuns, AFilmLongerThanAFileCanHoldGoesOnInTheNext) {
+  const fluoro::CineRun some = ramp(1, 8, 8);
+  DicomRuns runs(3 * 64 + 63);
+  for (int i = 0; i < 7; ++i) runs.add(some, some.frames[0]);
+  ASSERT_EQ(runs.runs().size(), 3u);
+  EXPECT_EQ(runs.runs()[0].frames.size(), 3u);
+  EXPECT_EQ(runs.runs()[2].frames.size(), 1u);
+  EXPECT_LT(dicom_most_bytes, std::uint64_t{1} << 32);
+}
+
 }  // namespace
 }  // namespace ostium::data

@@ -162,5 +162,25 @@ TEST_F(WriteFile, WhatIsNotFinishedIsNotThere) {
   EXPECT_EQ(files(), 1);
 }
 
+/// Two films into one file would end as frames of both, under one name.
+TEST_F(WriteFile, OneProgramWritesAFileAtATime) {
+  std::ofstream(in("a")) << "before";
+  {
+    NewFile first(in("a"));
+    std::ofstream(first.beside()) << "first";
+    EXPECT_THROW(NewFile(in("a")), WriteError);
+    EXPECT_THROW(write_file(in("a"), "second"), WriteError);
+    EXPECT_EQ(text_of(first.beside()), "first");
+    first.finish();
+  }
+  EXPECT_EQ(text_of(in("a")), "first");
+  write_file(in("a"), "second");  // the lock ended with its holder
+  EXPECT_EQ(text_of(in("a")), "second");
+  std::ofstream(in("a.unfinished")) << "left behind by a kill";
+  write_file(in("a"), "third");
+  EXPECT_EQ(text_of(in("a")), "third");
+  EXPECT_EQ(files(), 1);
+}
+
 }  // namespace
 }  // namespace ostium::data
