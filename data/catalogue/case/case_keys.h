@@ -45,12 +45,13 @@ inline const JsonObjectKeys lesion = {
     "lesion",
     {{"branch", true, "the name of a coronary artery", json_type::text()},
      {"from_mm", true, "the proximal end in mm from the branch's origin, >= 0", json_type::number(from_zero)},
-     {"length_mm", true, "the length in mm, > 0, within the branch", json_type::number(above_zero)},
+     {"length_mm", true, "the length in mm, at least 0.5, within the branch", json_type::number({.least = 0.5})},
      {"stenosis_percent", true, "what is missing of the diameter where it is narrowest, in %, > 0 and at most 95",
       json_type::number(above_zero_to(95))},
      {"shape", true, "on all sides or on one", json_type::choice({"concentric", "eccentric"})},
-     {"side_deg", false, "an eccentric plaque's side in degrees, 0 towards the heart; for eccentric ones only",
-      json_type::number()},
+     {"side_deg", false,
+      "an eccentric plaque's side in degrees, -360 to 360, 0 towards the heart; for eccentric ones only",
+      json_type::number(from_to(-360, 360))},
      {"calcified", true, "true or false", json_type::boolean()}}};
 
 inline const std::vector<const JsonObjectKeys*> all = {&root, &card, &anatomy, &imported, &lesion};

@@ -55,7 +55,8 @@ inline const JsonObjectKeys tool = {
 inline const JsonObjectKeys landmark = {
     "landmark",
     {{"name", true, "what the script calls it", json_type::text()},
-     {"at_mm", true, "a point of the patient frame in mm, three numbers: left, head, front", json_type::numbers(3)}}};
+     {"at_mm", true, "a point of the patient frame in mm, three numbers from -3000 to 3000: left, head, front",
+      json_type::numbers(3, from_to(-3000, 3000))}}};
 
 inline const JsonObjectKeys step = {
     "step",
@@ -111,7 +112,8 @@ inline const JsonObjectKeys step = {
       json_type::number(from_to(-120, 120))},
      {"cran_deg", false, "the C-arm's angle in degrees, -55 to 55; negative: caudal",
       json_type::number(from_to(-55, 55))},
-     {"table_mm", false, "the isocentre in the patient in mm, three numbers: left, head, front", json_type::numbers(3)},
+     {"table_mm", false, "the isocentre in the patient in mm, three numbers from -1000 to 1000: left, head, front",
+      json_type::numbers(3, from_to(-1000, 1000))},
      {"field_mm", false, "side of the detector's field in mm: 200, 160 or 130",
       json_type::one_of_numbers({200, 160, 130})},
      {"on", false, "true or false", json_type::boolean()},

@@ -39,9 +39,24 @@ const JsonKey& JsonObject::known(const std::string& key) const {
 
 void JsonObject::refuse(const std::string& key) const { (*this)[key].refuse(known(key).expected); }
 
+namespace {
+
+/// Where no range was said: nothing in any unit of a file is as large, and sums of squares stay finite.
+void require_sound(const JsonValue& value, const JsonKey& key) {
+  constexpr double most = 1e12;
+  const JsonRange& range = key.type.range;
+  const bool endless_up = std::isinf(std::min(range.most, range.below)),
+             endless_down = std::isinf(std::max(range.least, range.above));
+  if ((endless_up && !(value.number <= most)) || (endless_down && !(value.number >= -most)))
+    value.refuse(key.expected + "; no number beyond 1e12 is");
+}
+
+}  // namespace
+
 double JsonObject::number(const std::string& key) const {
   const JsonValue& value = (*this)[key];
   if (value.type != JsonValue::Type::number || !known(key).type.range.holds(value.number)) refuse(key);
+  require_sound(value, known(key));
   return value.number;
 }
 
@@ -70,7 +85,8 @@ std::vector<double> JsonObject::numbers(const std::string& key, std::size_t coun
   const std::vector<JsonValue>& items = list(key);
   std::vector<double> result;
   for (const JsonValue& item : items) {
-    if (item.type != JsonValue::Type::number) refuse(key);
+    if (item.type != JsonValue::Type::number || !known(key).type.range.holds(item.number)) refuse(key);
+    require_sound(item, known(key));
     result.push_back(item.number);
   }
   if (result.size() != count) refuse(key);

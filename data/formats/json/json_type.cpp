@@ -118,7 +118,11 @@ JsonType list_of(const JsonType& item, int at_least, int at_most) {
   return out;
 }
 
-JsonType numbers(int count, const JsonRange& range) { return list_of(number(range), count, count); }
+JsonType numbers(int count, const JsonRange& range) {
+  JsonType type = list_of(number(range), count, count);
+  type.range = range;
+  return type;
+}
 
 JsonType either(const std::vector<JsonType>& types) { return {{{"oneOf", schemas_of(types)}}}; }
 

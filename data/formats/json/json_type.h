@@ -23,7 +23,7 @@ constexpr JsonRange from_to(double least, double most) { return {.least = least,
 
 struct JsonType {
   std::vector<JsonMember> schema;
-  JsonRange range = {};  ///< of a number; JsonObject::number refuses values outside
+  JsonRange range = {};  ///< of a number, or of each of `numbers`; JsonObject refuses values outside
 };
 
 namespace json_type {

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "data/formats/csv.h"
 #include "data/identification/curves/curve_report.h"
 #include "data/identification/report/law_report.h"
 
@@ -154,12 +155,13 @@ std::string prediction_csv(const Set& set) {
   for (const EffectParameter& p : set.free()) free.push_back(p.prior);
   const std::vector<Curves> predicted = set.predict(free, {});
   const Run& first = set.runs()[0];
-  std::string out = fmt::format("run,{}_{}", first.along_label, first.along_unit);
-  for (const Channel& channel : first.channels) out += fmt::format(",{},{}_measured", channel.key, channel.key);
+  std::string out = "run," + csv_field(first.along_label + "_" + first.along_unit);
+  for (const Channel& channel : first.channels)
+    out += fmt::format(",{},{}", csv_field(channel.key), csv_field(channel.key + "_measured"));
   out += "\n";
   for (std::size_t r = 0; r < predicted.size(); ++r)
     for (Eigen::Index k = 0; k < set.runs()[r].samples(); ++k) {
-      out += fmt::format("{},{:.9g}", set.runs()[r].id, set.runs()[r].along[k]);
+      out += fmt::format("{},{:.9g}", csv_field(set.runs()[r].id), set.runs()[r].along[k]);
       for (std::size_t c = 0; c < predicted[r].size(); ++c)
         out += fmt::format(",{:.9g},{:.9g}", predicted[r][c][k], set.runs()[r].channels[c].measured[k]);
       out += "\n";

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/base/units.h"
+#include "data/formats/csv.h"
 #include "data/identification/effects/effect_list.h"
 #include "data/identification/forward/insertion.h"
 #include "data/identification/forward/misfit.h"
@@ -105,11 +106,7 @@ std::string to_json(const std::vector<Prediction>& predictions) {
 std::string to_csv(const std::vector<Prediction>& predictions) {
   std::string out = "experiment,s_mm,x_mm,y_mm,z_mm\n";
   for (const Prediction& p : predictions) {
-    std::string id = p.id;
-    if (id.find_first_of(",\"\n") != std::string::npos) {
-      for (std::size_t at = 0; (at = id.find('"', at)) != std::string::npos; at += 2) id.insert(at, 1, '"');
-      id = '"' + id + '"';
-    }
+    const std::string id = csv_field(p.id);
     double s = 0;
     for (std::size_t i = 0; i < p.shape.points_m.size(); ++i) {
       const Eigen::Vector3d& q = p.shape.points_m[i];

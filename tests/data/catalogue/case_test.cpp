@@ -73,6 +73,8 @@ TEST(Case, TheTenOfTheProductAreThere) {
 
 TEST(Case, ALesionThatDoesNotFitIsRefusedWithWhatExists) {
   EXPECT_EQ(case_refusal("A test", "Another test"), "accepted");
+  for (const char* length_mm : {"1e-300", "0.4", "1e300"})
+    expect_words(case_refusal("\"length_mm\": 9", std::string("\"length_mm\": ") + length_mm), {"length_mm"});
   expect_words(case_refusal("\"length_mm\": 9", "\"length_mm\": 90"),
                {"folder/small.json:9: lesions[0]", "from 40 to 130 mm of RCA", "within the branch's 101."});
   expect_words(case_refusal("\"stenosis_percent\": 70", "\"stenosis_percent\": 120"),

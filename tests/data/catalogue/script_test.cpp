@@ -83,6 +83,9 @@ TEST(Script, MistakesAreNamedByLine) {
   expect_words(script_refusal("\"speed_mm_s\": 50", "\"speed_mm_s\": -50"), {"small.json:8:", "is -50", "> 0"});
   expect_words(script_refusal("\"do\": \"advance\"", "\"do\": \"push\""), {"small.json:8:", "advance, withdraw, turn"});
   expect_words(script_refusal("\"view\": \"spider\"", "\"view\": \"spyder\""), {"small.json:7:", "ostium views"});
+  EXPECT_EQ(script_refusal("\"view\": \"spider\"", "\"table_mm\": [-1000, 0, 1000]"), "accepted");
+  expect_words(script_refusal("\"view\": \"spider\"", "\"table_mm\": [1e9, 0, 0]"),
+               {"small.json:7:", "table_mm", "three numbers from -1000 to 1000"});
   expect_words(script_refusal("\"view\": \"spider\"", "\"view\": \"spider\", \"on\": true"),
                {"small.json:7:", "no meaning for \"view\""});
   expect_words(script_refusal("\"otherwise\": \"up\"", "\"otherwise\": \"down\""),

@@ -12,6 +12,8 @@ TEST(Csv, FieldsAreQuotedWhereTheyHaveToBeAndNeverFormulas) {
   EXPECT_EQ(csv_field("@SUM(A1,A2)"), "\"'@SUM(A1,A2)\"");
   EXPECT_EQ(csv_field("-cmd"), "'-cmd");
   EXPECT_EQ(csv_field("\t=1"), "'\t=1");
+  EXPECT_EQ(csv_field("\uff1d1+1"), "'\uff1d1+1") << "wide";
+  EXPECT_EQ(csv_field("\u00c4sthetik"), "\u00c4sthetik") << "a letter beyond ASCII is none";
   EXPECT_EQ(csv_field(""), "");
 }
 

@@ -54,5 +54,30 @@ TEST(JsonRange, IsWhatANumberIsHeldTo) {
   EXPECT_THROW(read(R"({ "of_mm": 3.1 })"), LoadError);
 }
 
+/// Whatever its unit: sums of squares of such numbers are no numbers any more.
+TEST(JsonRange, NoNumberIsBeyondAllMeasure) {
+  const JsonObjectKeys keys{"thing", {{"of_mm", true, "a number", json_type::number()}}};
+  const auto read = [&](const std::string& text) {
+    const JsonValue value = parse_json("thing.json", text);
+    return JsonObject(value, keys).number("of_mm");
+  };
+  EXPECT_EQ(read(R"({ "of_mm": -1e12 })"), -1e12);
+  EXPECT_THROW(read(R"({ "of_mm": 1e13 })"), LoadError);
+  EXPECT_THROW(read(R"({ "of_mm": -1e300 })"), LoadError);
+}
+
+TEST(JsonRange, IsWhatEachOfSeveralNumbersIsHeldTo) {
+  const JsonObjectKeys keys{"thing",
+                            {{"at_mm", true, "three numbers from -2 to 2", json_type::numbers(3, from_to(-2, 2))}}};
+  const auto read = [&](const std::string& text) {
+    const JsonValue value = parse_json("thing.json", text);
+    return JsonObject(value, keys).numbers("at_mm", 3);
+  };
+  EXPECT_EQ(read(R"({ "at_mm": [-2, 0, 2] })").size(), 3u);
+  EXPECT_THROW(read(R"({ "at_mm": [-2, 0, 2.1] })"), LoadError);
+  EXPECT_THROW(read(R"({ "at_mm": [-1e308, 0, 0] })"), LoadError);
+  EXPECT_THROW(read(R"({ "at_mm": [0, 0] })"), LoadError);
+}
+
 }  // namespace
 }  // namespace ostium::data

@@ -142,6 +142,9 @@ TEST(Prediction, FilesHaveTheSchema) {
   EXPECT_NEAR((before - 1e3 * predictions[1].shape.points_m.back()).norm(), 0, 1e-5);
   EXPECT_TRUE(json["experiments"][0]["rms_to_measured_mm"].is_number());
   EXPECT_EQ(to_csv(predictions).substr(0, 30), "experiment,s_mm,x_mm,y_mm,z_mm");
+  auto named = predictions;
+  named[0].id = "=1,\"2\"";
+  EXPECT_NE(to_csv(named).find("\n\"'=1,\"\"2\"\"\",0.000000,"), std::string::npos) << "no formula, and one field";
 }
 
 TEST(Prediction, WhatIsNotKnownYetIsSaid) {

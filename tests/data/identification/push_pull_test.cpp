@@ -258,6 +258,14 @@ TEST(PushPull, BadInputIsNamed) {
   expect_words(refused([](Json& f) { f["runs"][0]["path"]["bore_mm"] = 0.3; }), {"runs[0].path.bore_mm", "0.356"});
   expect_words(refused([](Json& f) { f["runs"][0]["path"]["bends"][1]["angle_deg"] = 1.57; }),
                {"runs[0].path.bends[1].angle_deg", "radians"});
+  // A tube of a bend of no radius would take for ever.
+  expect_words(refused([](Json& f) { f["runs"][0]["path"]["bends"][1]["radius_mm"] = 1e-300; }),
+               {"runs[0].path.bends[1].radius_mm", "at least half the bore"});
+  expect_words(refused([](Json& f) { f["runs"][0]["path"]["bends"][1]["angle_deg"] = 1e9; }),
+               {"runs[0].path.bends[1].angle_deg", "at most 3600"});
+  for (const double radius_mm : {1e-300, 0.009, 11.0, 1e300})
+    expect_words(refused([&](Json& f) { f["instruments"][0]["outer_radius_mm"] = radius_mm; }),
+                 {"instruments[0].outer_radius_mm", "0.01 to 10"});
   expect_words(refused([](Json& f) { f["runs"][0]["path"]["bends"][0]["length_mm"] = 30; }),
                {"runs[0].path.bends[0]", "either"});
   expect_words(refused([](Json& f) { f["runs"][4]["time_s"][7] = 0; }), {"runs[4].time_s[7]"});

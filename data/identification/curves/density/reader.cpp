@@ -37,8 +37,8 @@ const JsonObjectKeys set_keys = {
 const JsonObjectKeys artery_keys = {"density_artery",
                                     {{"from_ostium_mm", true, "places along it in mm, rising from 0, two or more",
                                       json_type::list_of(json_type::number(from_zero), 2)},
-                                     {"diameter_mm", true, "of the lumen in mm, > 0, one a place",
-                                      json_type::list_of(json_type::number(above_zero), 2)}}};
+                                     {"diameter_mm", true, "of the lumen in mm, > 0 and at most 100, one a place",
+                                      json_type::list_of(json_type::number(above_zero_to(100)), 2)}}};
 
 const JsonObjectKeys shape_keys = {
     "density_flow_shape",
@@ -94,7 +94,7 @@ void read_artery(const JsonObject& root, Setup& setup) {
   setup.diameter_m = curves::read_samples_like(artery, "diameter_mm", setup.place_m, "from_ostium_mm") * mm;
   must_rise(artery, "from_ostium_mm", setup.place_m / mm);
   if (setup.place_m[0] != 0) artery.refuse("from_ostium_mm");
-  if (!(setup.diameter_m.minCoeff() > 0)) artery.refuse("diameter_mm");
+  if (!(setup.diameter_m.minCoeff() > 0 && setup.diameter_m.maxCoeff() <= 100 * mm)) artery.refuse("diameter_mm");
   setup.site_m = curves::read_samples(root, "sites_mm", 1) * mm;
   must_rise(root, "sites_mm", setup.site_m / mm);
   for (Eigen::Index k = 0; k < setup.site_m.size(); ++k)

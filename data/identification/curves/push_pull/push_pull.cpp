@@ -49,16 +49,20 @@ const JsonObjectKeys run_keys = curves::run_keys(
 const JsonObjectKeys path_keys = {
     "push_path",
     {{"name", false, "what it is called, a text", json_type::text()},
-     {"bore_mm", true, "inner diameter of the tube in mm, wider than the instrument", json_type::number(above_zero)},
+     {"bore_mm", true, "inner diameter of the tube in mm, wider than the instrument, at most 100",
+      json_type::number(above_zero_to(100))},
      {"bends", true, "bends from the entrance on, a list", json_type::list_of(json_type::object("push_bend"))}}};
 
 const JsonObjectKeys bend_keys = {
     "push_bend",
-    {{"at_mm", true, "where it begins, from the entrance in mm, >= 0, behind the bend before",
-      json_type::number(from_zero)},
-     {"radius_mm", true, "of its axis in mm, > 0", json_type::number(above_zero)},
-     {"angle_deg", false, "by which it turns in degrees, > 0; or length_mm", json_type::number(above_zero)},
-     {"length_mm", false, "of its arc in mm, > 0; or angle_deg", json_type::number(above_zero)}}};
+    {{"at_mm", true, "where it begins, from the entrance in mm, 0 to 10000, behind the bend before",
+      json_type::number(from_to(0, 10000))},
+     {"radius_mm", true, "of its axis in mm, > 0 and at most 100000, at least half the bore",
+      json_type::number(above_zero_to(100000))},
+     {"angle_deg", false, "by which it turns in degrees, > 0 and at most 3600; or length_mm",
+      json_type::number(above_zero_to(3600))},
+     {"length_mm", false, "of its arc in mm, > 0 and at most 10000; or angle_deg",
+      json_type::number(above_zero_to(10000))}}};
 
 void read_path(const JsonValue& value, double radius_m, Passage& passage) {
   const JsonObject path(value, path_keys);
@@ -68,6 +72,9 @@ void read_path(const JsonValue& value, double radius_m, Passage& passage) {
   for (const JsonValue& item : path.list("bends")) {
     const JsonObject entry(item, bend_keys);
     Bend bend{entry.not_negative("at_mm") * mm, entry.positive("radius_mm") * mm, 0};
+    if (bend.radius_m < passage.bore_radius_m)
+      entry["radius_mm"].refuse(fmt::format("at least half the bore, {:g} mm: a tube that bends more crosses itself",
+                                            passage.bore_radius_m / mm));
     if (entry.has("angle_deg") == entry.has("length_mm"))
       entry.value().fail(entry.value().path() + ": expected either angle_deg or length_mm");
     bend.angle_rad = entry.has("angle_deg") ? entry.positive("angle_deg") * degree

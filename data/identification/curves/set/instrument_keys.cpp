@@ -12,23 +12,26 @@ namespace {
 
 using units::mm, units::Nmm2;
 
-constexpr double touching_mm = 1e-6;  // sections that are so close have no gap
+constexpr double touching_mm = 1e-6;                 // sections that are so close have no gap
+constexpr JsonRange stiffness = from_to(1e-6, 1e6);  // N mm2; of instruments 0.1 to 10000
 
 }  // namespace
 
 InstrumentKeys::InstrumentKeys(const InstrumentNeeds& needs)
     : needs_(needs),
-      instrument_{"instrument",
-                  {{"name", true, "what people call it, a text", json_type::text()},
-                   {"outer_radius_mm", true, "its outer radius in mm, > 0", json_type::number(above_zero)},
-                   {"length_mm", needs.length, "from the distal tip to where it is held in mm, > 0",
-                    json_type::number(above_zero)},
-                   {"sections", true, needs.no_gaps ? "sections from the tip backwards, without gaps" : "its sections",
-                    json_type::list_of(json_type::object("section"), 1)}}},
-      section_{"section",
-               {{"from_tip_mm", true, "two distances from the distal tip in mm, [from, to]", json_type::numbers(2)},
-                {"EI_Nmm2", true, "bending stiffness in N mm2, > 0", json_type::number(above_zero)},
-                {"GJ_Nmm2", needs.torsion, "torsional stiffness in N mm2, > 0", json_type::number(above_zero)}}} {}
+      instrument_{
+          "instrument",
+          {{"name", true, "what people call it, a text", json_type::text()},
+           {"outer_radius_mm", true, "its outer radius in mm, 0.01 to 10", json_type::number(from_to(0.01, 10))},
+           {"length_mm", needs.length, "from the distal tip to where it is held in mm, > 0 and at most 10000",
+            json_type::number(above_zero_to(10000))},
+           {"sections", true, needs.no_gaps ? "sections from the tip backwards, without gaps" : "its sections",
+            json_type::list_of(json_type::object("section"), 1)}}},
+      section_{
+          "section",
+          {{"from_tip_mm", true, "two distances from the distal tip in mm, [from, to]", json_type::numbers(2)},
+           {"EI_Nmm2", true, "bending stiffness in N mm2, 1e-6 to 1e6", json_type::number(stiffness)},
+           {"GJ_Nmm2", needs.torsion, "torsional stiffness in N mm2, 1e-6 to 1e6", json_type::number(stiffness)}}} {}
 
 JsonKey InstrumentKeys::in_set() const {
   return {"instruments", true, "the instrument, one", json_type::list_of(json_type::object("instrument"), 1, 1)};

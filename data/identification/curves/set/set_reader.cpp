@@ -57,6 +57,7 @@ Eigen::VectorXd read_samples(const JsonObject& run, const std::string& key, Eige
   Eigen::VectorXd out(static_cast<Eigen::Index>(list.size()));
   for (std::size_t k = 0; k < list.size(); ++k) {
     if (list[k].type != JsonValue::Type::number) list[k].refuse("a number");
+    if (!(std::fabs(list[k].number) <= 1e12)) list[k].refuse("a number up to 1e12");
     out[static_cast<Eigen::Index>(k)] = list[k].number;
   }
   if (out.size() < least)

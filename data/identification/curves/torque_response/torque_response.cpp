@@ -52,7 +52,8 @@ const JsonObjectKeys run_keys = curves::run_keys(
 const JsonObjectKeys bend_keys = {
     "torque_bend",
     {{"at_mm", true, "where it begins, from the drive in mm, >= 0", json_type::number(from_zero)},
-     {"radius_mm", true, "of the path's axis in mm, > 0", json_type::number(above_zero)},
+     {"radius_mm", true, "of the path's axis in mm, > 0 and at most 100000, at least the instrument's",
+      json_type::number(above_zero_to(100000))},
      {"length_mm", true, "of its arc in mm, > 0", json_type::number(above_zero)},
      {"plane_deg", false, "how far its plane is turned about the wire in degrees, 0 if not given",
       json_type::number()}}};
@@ -71,12 +72,14 @@ double read_instrument(const JsonObject& root, Setup& setup) {
   return instrument.length_m / mm;
 }
 
-void read_path(const JsonObject& entry, double length_mm, Turning& turning) {
+void read_path(const JsonObject& entry, double length_mm, const Setup& setup, Turning& turning) {
   for (const JsonValue& item : entry.list("bends")) {
     const JsonObject bend(item, bend_keys);
     turning.bends.push_back({bend.not_negative("at_mm") * mm, bend.positive("length_mm") * mm,
                              bend.positive("radius_mm") * mm,
                              bend.has("plane_deg") ? bend.number("plane_deg") * degree : 0});
+    if (turning.bends.back().radius_m < setup.radius_m)
+      bend["radius_mm"].refuse(fmt::format("at least the instrument's radius, {:g} mm", setup.radius_m / mm));
     const double end_mm = (turning.bends.back().at_m + turning.bends.back().length_m) / mm;
     if (end_mm > length_mm + 1e-6)
       bend["length_mm"].refuse(fmt::format("a bend that ends within the instrument's {:g} mm", length_mm));
@@ -102,7 +105,7 @@ curves::Run read_run(const JsonValue& value, const JsonObject& noise, double len
   const JsonObject entry(value, run_keys);
   curves::Run run = curves::begin_run(entry, others);
   Turning turning;
-  read_path(entry, length_mm, turning);
+  read_path(entry, length_mm, setup, turning);
   run.along = curves::read_samples(entry, "proximal_deg");
   turning.proximal_rad = run.along * degree;
   curves::Channel distal{"distal_deg", "distal angle", "deg", {}, {}}, torque{"torque_Nmm", "torque", "N mm", {}, {}};
