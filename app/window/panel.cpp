@@ -7,6 +7,8 @@
 #include <cmath>
 #include <memory>
 
+#include "data/console/console_keys.h"
+
 namespace ostium::app {
 
 namespace {

@@ -9,6 +9,7 @@
 
 #include "app/session/live/live_picture.h"
 #include "core/base/thread_priority.h"
+#include "data/console/console_keys.h"
 #include "data/formats/png.h"
 
 namespace ostium::app {

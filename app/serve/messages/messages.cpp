@@ -8,6 +8,7 @@
 #include "app/serve/messages/jpeg.h"
 #include "core/base/units.h"
 #include "core/rod/introducer.h"
+#include "data/console/console_keys.h"
 #include "fluoro/projection/views.h"
 
 namespace ostium::app {

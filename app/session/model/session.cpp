@@ -199,22 +199,16 @@ const char* phase_name(int phase) {
   return phase < first ? core::step_phase_names[phase] : own[phase - first];
 }
 
+double vessel_frame(const Vessel& vessel, double phase) {
+  return vessel.beats() ? phase * static_cast<double>(vessel.wall.frames.size()) : 0;
+}
+
 namespace {
 
 double breath_after(const SessionModel& model, std::uint64_t steps) {
   if (!(model.breaths_1_min > 0)) return 0;
   return vascular::breath_depth(model.breaths_1_min / 60 * model.step_s() * static_cast<double>(steps));
 }
-
-}  // namespace
-
-double breath(const SessionModel& model, const SessionState& state) { return breath_after(model, state.rods.step); }
-
-double vessel_frame(const Vessel& vessel, double phase) {
-  return vessel.beats() ? phase * static_cast<double>(vessel.wall.frames.size()) : 0;
-}
-
-namespace {
 
 /// What instruments, drugs, bleeding and lack of blood do to the heart; in a mesh it beats for itself.
 vascular::HeartInputs heart_inputs(const SessionModel& model, const SessionInputs& inputs, const SessionState& state,
@@ -359,6 +353,8 @@ void report_tools(const SessionModel& model, const SessionState& state, SessionR
 }
 
 }  // namespace
+
+double breath(const SessionModel& model, const SessionState& state) { return breath_after(model, state.rods.step); }
 
 void step(const SessionModel& model, const SessionInputs& inputs, SessionState& state, SessionScratch& scratch,
           SessionReport& report) {

@@ -9,6 +9,7 @@
 
 #include "app/session/device/box_driver.h"
 #include "app/window/panel.h"
+#include "data/console/console_keys.h"
 #include "tests/app/session/tube_vessel.h"
 
 namespace ostium::app {

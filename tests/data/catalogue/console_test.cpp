@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <set>
 
+#include "data/console/console_keys.h"
 #include "data/console/console_order.h"
 
 namespace ostium::data {
