@@ -4,8 +4,8 @@
 
 #include "app/command_line/arguments.h"
 #include "app/command_line/command.h"
+#include "app/command_line/filled_folder.h"
 #include "app/command_line/interrupt.h"
-#include "app/command_line/path_lock.h"
 #include "app/command_line/progress.h"
 #include "core/base/units.h"
 #include "data/catalogue/catalogue.h"
@@ -93,8 +93,7 @@ int run(const Arguments& a) {
     data::load_instrument(file);
     like = to_json(data::load_json(file));
   }
-  if (!a.folder.empty()) make_folder(a.folder);
-  const PathLock lock = a.folder.empty() ? PathLock() : PathLock(a.folder);
+  const FilledFolder folder(a.folder);
   data::CharacteriseOptions options;
   options.threads = a.threads;
   options.progress = TimedProgress("", 60, 60);

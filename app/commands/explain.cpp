@@ -8,8 +8,8 @@
 #include "app/command_line/arguments.h"
 #include "app/command_line/command.h"
 #include "app/command_line/common_options.h"
+#include "app/command_line/filled_folder.h"
 #include "app/command_line/interrupt.h"
-#include "app/command_line/path_lock.h"
 #include "app/command_line/progress.h"
 #include "app/command_line/templates.h"
 #include "app/commands/explain_curves.h"
@@ -83,8 +83,7 @@ int write_a_template(const Arguments& a) {
 /// A set of curves is quick: the first rank does it all.
 int run_curves(const Arguments& a, const data::JsonValue& root) {
   if (data::rank() != 0) return 0;
-  make_folder(a.folder);
-  const PathLock lock(a.folder);
+  const FilledFolder folder(a.folder);
   data::curves::CurveOptions options;
   for (const std::string& words : a.tries) options.tries.push_back(split(words, '+'));
   options.progress = TimedProgress(*root.file + ": ", 60, 60);
@@ -105,8 +104,7 @@ int run(const Arguments& a) {
   const data::JsonValue root = data::load_json(data::measurement_file(a.set));
   if (data::curves::kind_of(root)) return run_curves(a, root);
   const data::MeasurementSet set = data::load_measurement(a.set);
-  if (data::rank() == 0) make_folder(a.folder);
-  const PathLock lock = data::rank() == 0 ? PathLock(a.folder) : PathLock();
+  const FilledFolder folder(data::rank() == 0 ? a.folder : "");
   data::ExplainOptions explain_options;
   explain_options.threads = a.threads, explain_options.library = a.tries.empty();
   for (const std::string& words : a.tries) explain_options.tries.push_back(split(words, '+'));

@@ -180,7 +180,8 @@ expect 1 '"unit": "cm"' "$ostium" check --json --units cm "$folder/marked.obj"
 (printf '# unit: cm\n'; cat "$folder/vessel.obj") >"$folder/other.obj"
 expect 3 "expected files of one unit" "$ostium" import "$folder/marked.obj" "$folder/other.obj" -o "$folder/case"
 expect 3 "its numbers may be mm or cm" "$ostium" run "$folder/vessel.obj" --entry 0,0,1 --towards 0,0,9
-expect 3 "has no inside" "$ostium" run "$folder/marked.obj" --entry 0,0,1 --towards 0,0,9
+expect 3 "has no inside" "$ostium" run "$folder/marked.obj" --entry 0,0,1 --towards 0,0,9 --out "$dir/left/behind"
+[[ ! -e $dir/left ]] || { echo "a run that is refused leaves folders behind"; exit 1; }
 # 3D Slicer's centrelines, with radii.
 cat >"$folder/lines.mrk.json" <<'END'
 {"markups": [{"type": "Curve", "coordinateUnits": "mm", "controlPoints": [{"position": [0, 0, 0]}, {"position": [20, 5, 0]},
@@ -319,7 +320,7 @@ expect 3 "another ostium writes there" "$ostium" "${twice[@]}" --resume
 kill -TERM "$child"
 wait "$child" || true
 # Two that keep their recordings in one folder: runs of the same names would be mixed.
-"$ostium" "${twice[@]}" --keep "$out/kept" & child=$!
+"$ostium" sweep rca-mid-focal --script iliac-wire --seeds 1..200 -o "$out/keeps.csv" --keep "$out/kept" & child=$!
 for _ in $(seq 600); do if [[ -e $out/kept ]]; then break; fi; sleep 0.1; done
 sleep 0.3
 expect 3 "kept: another ostium writes there" sweep -o "$out/other.csv" --keep "$out/kept"

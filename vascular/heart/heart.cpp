@@ -20,18 +20,18 @@ double own_rate_1_min(const HeartModel& model, const HeartState& s) {
   return s.rhythm == Rhythm::block ? model.escape_1_min : s.circulation.rate_1_min;
 }
 
-/// Beats with no pulse add up; after too many the heart stops. Whether it has one of its own is not known while the
-/// chest is compressed.
+/// Beats with no pulse add up; after too many the heart stops. One that has come back under compressions is found when
+/// they cease.
 void end_beat(const HeartModel& model, HeartState& s) {
   s.beat = {s.high_Pa, s.low_Pa, s.sum_Pa_s / std::max(s.cycle_s, 1e-3), s.ejected_m3};
   s.high_Pa = 0, s.low_Pa = 1e6, s.sum_Pa_s = 0, s.ejected_m3 = 0;
   const bool pulse = beats(s) && s.beat.systolic_Pa >= model.pulse_Pa;
-  if (!s.compressed)
-    s.pulseless_s = pulse ? 0 : s.pulseless_s + s.cycle_s;
-  else if (!pulse || s.pulseless_s > 0)
-    s.pulseless_s += model.circulation.compressions.fails * s.cycle_s;
+  if (!pulse)
+    s.pulseless_s += (s.compressed ? model.circulation.compressions.fails : 1) * s.cycle_s;
+  else if (!s.compressed)
+    s.pulseless_s = 0;
   s.compressed = false;
-  if (s.pulseless_s > model.dies_s) s.rhythm = Rhythm::asystole;
+  if (!pulse && s.pulseless_s > model.dies_s) s.rhythm = Rhythm::asystole;
 }
 
 /// Arterioles without oxygen give way, against what the reflex asks of them, so that little pressure is left of a small

@@ -8,7 +8,7 @@
 
 #include "app/command_line/arguments.h"
 #include "app/command_line/command.h"
-#include "app/command_line/path_lock.h"
+#include "app/command_line/filled_folder.h"
 #include "app/commands/serve/serve.h"
 #include "data/catalogue/course/course.h"
 #include "data/formats/load_error.h"
@@ -140,8 +140,7 @@ int run(const Arguments& a) {
     list_lessons(course, progress);
     return 0;
   }
-  make_folder(folder);
-  const PathLock lock(folder);
+  const FilledFolder filled(folder);
   const data::Lesson& lesson = chosen(course, progress, a.lesson);
   const auto place = static_cast<std::size_t>(&lesson - course.lessons.data());
   ServeArguments serving;

@@ -8,8 +8,8 @@
 #include "app/command_line/arguments.h"
 #include "app/command_line/command.h"
 #include "app/command_line/common_options.h"
+#include "app/command_line/filled_folder.h"
 #include "app/command_line/interrupt.h"
-#include "app/command_line/path_lock.h"
 #include "app/command_line/pictures.h"
 #include "app/command_line/progress.h"
 #include "app/commands/report.h"
@@ -134,8 +134,7 @@ int run_script(const RunArguments& a) {
   if (std::string why; a.in_window() && !has_display(why))
     throw data::LoadError("there is no window here (" + why + "); expected a display, or --display none with a script");
   RunSetup setup = setup_of(a.session);
-  if (!a.folder.empty()) make_folder(a.folder);
-  const PathLock lock = a.folder.empty() ? PathLock() : PathLock(a.folder);
+  const FilledFolder folder(a.folder);
   const auto device = device_of(a, setup);
   PlayOptions options = play_options(a, device.get());
   const auto vessel = build_vessel(setup, "run");

@@ -11,8 +11,8 @@
 #include "app/command_line/arguments.h"
 #include "app/command_line/command.h"
 #include "app/command_line/common_options.h"
+#include "app/command_line/filled_folder.h"
 #include "app/command_line/interrupt.h"
-#include "app/command_line/path_lock.h"
 #include "app/command_line/progress.h"
 #include "app/commands/report.h"
 #include "app/commands/run/drivers.h"
@@ -190,8 +190,7 @@ Served serve(const ServeArguments& arguments) {
   if (by_hand) setup.script = free_hands(setup.script);
   std::optional<PassingFolder> passing;
   if (a.folder.empty()) a.folder = passing.emplace().path();
-  make_folder(a.folder);
-  const PathLock lock(a.folder);
+  const FilledFolder filled(a.folder);
   const auto vessel = build_vessel(setup, "serve");
   ScriptedRun session(setup, vessel);
   LiveDriver hand(session.model, by_hand ? Hands::seats : Hands::script, 15);

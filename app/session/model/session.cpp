@@ -213,7 +213,7 @@ double breath_after(const SessionModel& model, std::uint64_t steps) {
 /// What instruments, drugs, bleeding and lack of blood do to the heart; in a mesh it beats for itself.
 vascular::HeartInputs heart_inputs(const SessionModel& model, const SessionInputs& inputs, const SessionState& state,
                                    double breath) {
-  vascular::HeartInputs heart{inputs.rate_1_min, state.coupling.irritation};
+  vascular::HeartInputs heart{.rate_1_min = inputs.rate_1_min, .irritation = state.coupling.irritation};
   if (!model.has_patient()) return heart;
   heart.body.breath = breath;
   act(model.treatment.drugs, state.treatment.drugs, heart.body);
