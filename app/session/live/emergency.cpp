@@ -54,6 +54,10 @@ std::string why_not(const SessionModel& model, const ConsoleOrder& order) {
 }
 
 bool Emergency::take(const SessionModel& model, const ConsoleOrder& order) {
+  // An order counts for more than how it was.
+  if (gone_back_to_ && order.command == ConsoleCommand::infuse) gone_back_to_->infusion_m3_s = 0;
+  if (gone_back_to_ && order.command == ConsoleCommand::drain) gone_back_to_->drain_m3_s = 0;
+  if (gone_back_to_ && order.command == ConsoleCommand::compress) gone_back_to_->compressions_1_min = 0;
   switch (order.command) {
     case ConsoleCommand::infuse:
       infusion_m3_s_ = order.values[0] * units::mL_min;
@@ -78,6 +82,17 @@ bool Emergency::take(const SessionModel& model, const ConsoleOrder& order) {
 }
 
 void Emergency::fill(const SessionModel& model, DeliveryInputs& to) {
+  if (gone_back_to_) {
+    const DeliveryInputs& was = *gone_back_to_;
+    const auto take = [](double& own, double then, double of_script) {
+      if (own == 0 && then > of_script) own = then;
+    };
+    take(infusion_m3_s_, was.infusion_m3_s, to.infusion_m3_s), take(drain_m3_s_, was.drain_m3_s, to.drain_m3_s);
+    take(compressions_1_min_, was.compressions_1_min, to.compressions_1_min);
+    if (!pacing_ && (was.pacing_mA != to.pacing_mA || was.pacing_1_min != to.pacing_1_min))
+      pacing_ = {was.pacing_1_min, was.pacing_mA};
+    gone_back_to_.reset();
+  }
   to.infusion_m3_s = std::max(to.infusion_m3_s, infusion_m3_s_);
   to.drain_m3_s = std::max(to.drain_m3_s, drain_m3_s_);
   to.compressions_1_min = std::max(to.compressions_1_min, compressions_1_min_);
@@ -106,10 +121,9 @@ void Emergency::fill(const SessionModel& model, DeliveryInputs& to) {
 
 void Emergency::restart(const DeliveryInputs& inputs) {
   once_.clear();
-  infusion_m3_s_ = inputs.infusion_m3_s, drain_m3_s_ = inputs.drain_m3_s;
-  compressions_1_min_ = inputs.compressions_1_min;
+  infusion_m3_s_ = drain_m3_s_ = compressions_1_min_ = 0;
   pacing_.reset();
-  if (inputs.pacing_mA > 0) pacing_ = {inputs.pacing_1_min, inputs.pacing_mA};
+  gone_back_to_ = inputs;
 }
 
 }  // namespace ostium::app

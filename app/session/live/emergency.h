@@ -39,13 +39,14 @@ class Emergency {
   bool take(const SessionModel& model, const data::ConsoleOrder& order);
   /// Onto what script or box ask for. Of the same model, with a patient.
   void fill(const SessionModel& model, DeliveryInputs& to);
-  /// The run has gone back: rates as they were.
+  /// The run has gone back: rates as they were. What the script gives by itself then is not the console's.
   void restart(const DeliveryInputs& inputs);
 
  private:
   std::deque<data::ConsoleOrder> once_;
   double infusion_m3_s_ = 0, drain_m3_s_ = 0, compressions_1_min_ = 0;
   std::optional<std::array<double, 2>> pacing_;  ///< rate, 1/min, and current, mA, once asked for
+  std::optional<DeliveryInputs> gone_back_to_;   ///< until the script has said what of it is its own
 };
 
 }  // namespace ostium::app

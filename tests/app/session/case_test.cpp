@@ -5,6 +5,7 @@
 #include <cmath>
 #include <filesystem>
 
+#include "app/session/live/emergency.h"
 #include "app/session/live/live_driver.h"
 #include "app/session/run/play.h"
 #include "app/session/run/replay.h"
@@ -215,6 +216,29 @@ TEST(CaseVessel, WhatIsProvokedAndGivenAtAConsoleReplays) {
   EXPECT_FALSE(report.first_step) << report.field;
   EXPECT_EQ(report.steps, 900u);
   std::filesystem::remove(file);
+}
+
+/// After going back, what a script gives ends when the script ends it; what a console gave goes on.
+TEST(CaseVessel, GoingBackLeavesAScriptWhatIsItsOwn) {
+  const ScriptedRun run(case_setup(), case_vessel());
+  Emergency console;
+  const DeliveryInputs was{.infusion_m3_s = 2e-6, .compressions_1_min = 110, .pacing_1_min = 80, .pacing_mA = 5};
+  const DeliveryInputs of_script{.compressions_1_min = 110, .pacing_1_min = 80, .pacing_mA = 5};
+  console.restart(was);
+  DeliveryInputs to = of_script;
+  console.fill(run.model, to);
+  EXPECT_EQ(to.infusion_m3_s, 2e-6);
+  EXPECT_EQ(to.compressions_1_min, 110);
+  to = {.pacing_1_min = 80, .pacing_mA = 1.4};
+  console.fill(run.model, to);
+  EXPECT_EQ(to.infusion_m3_s, 2e-6);
+  EXPECT_EQ(to.compressions_1_min, 0);
+  EXPECT_EQ(to.pacing_mA, 1.4);
+  console.restart(was);
+  console.take(run.model, {data::ConsoleCommand::infuse, {0}});
+  to = of_script;
+  console.fill(run.model, to);
+  EXPECT_EQ(to.infusion_m3_s, 0) << "an order before time goes on";
 }
 
 }  // namespace
