@@ -171,7 +171,7 @@ int run_command_line(const Command& program, int argc, char** argv) {
   } catch (const std::exception& error) {
     if (std::ferror(stdout)) return with_output_checked(failed);  // fmt throws where it cannot print
     fmt::print(stderr, "{}: {}\n", program.name, error.what());
-    return bad_input;
+    return interrupting_signal ? 128 + interrupting_signal : bad_input;  // what lacks as it was ended is no bad input
   }
 }
 

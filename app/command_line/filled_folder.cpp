@@ -1,6 +1,7 @@
 #include "app/command_line/filled_folder.h"
 
 #include "app/command_line/arguments.h"
+#include "app/command_line/interrupt.h"
 
 namespace ostium::app {
 
@@ -26,7 +27,9 @@ PathLock lock_of(const std::string& path) {
 
 }  // namespace
 
-FilledFolder::FilledFolder(const std::string& path) : made_(missing(path)), lock_(lock_of(path)) {}
+FilledFolder::FilledFolder(const std::string& path) : made_(missing(path)), lock_(lock_of(path)) {
+  leave_no_empty(made_);
+}
 
 FilledFolder::~FilledFolder() {
   std::error_code none;

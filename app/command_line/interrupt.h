@@ -1,5 +1,7 @@
 #pragma once
 #include <atomic>
+#include <filesystem>
+#include <vector>
 
 namespace ostium::app {
 
@@ -10,6 +12,9 @@ inline std::atomic<int> interrupting_signal{0};
 /// From this call on, Ctrl-C, SIGTERM and SIGHUP (a closed terminal) set both instead of killing the process. A second
 /// one kills it.
 void stop_on_signals();
+
+/// A signal that kills the process at once first removes these folders where they are empty.
+void leave_no_empty(const std::vector<std::filesystem::path>& folders);
 
 /// While it lives, they kill the process at once, whatever stop_on_signals says: for what takes seconds and leaves
 /// nothing, as a vessel that is built.

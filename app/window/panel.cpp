@@ -43,11 +43,14 @@ class Pen {
     cairo_move_to(cr(), x, y);
     cairo_show_text(cr(), words.c_str());
   }
-  void write_to(const Colour& c, double size, double right, double y, const std::string& words) const {
+  double width(double size, const std::string& words) const {
     cairo_set_font_size(cr(), size);
     cairo_text_extents_t e;
     cairo_text_extents(cr(), words.c_str(), &e);
-    write(c, size, right - e.x_advance, y, words);
+    return e.x_advance;
+  }
+  void write_to(const Colour& c, double size, double right, double y, const std::string& words) const {
+    write(c, size, right - width(size, words), y, words);
   }
   void show(const fluoro::Picture& picture, double x, double y, double side) const {
     std::vector<std::uint32_t> grey(picture.grey.size());
@@ -165,10 +168,13 @@ void draw_help(const Pen& pen, const PanelTexts& texts, const Snapshot& now) {
   double y = 62;
   pen.write(pale, 18, 54, y, "Keys");
   y += 6;
-  for (const KeyHelp& help : key_help(texts, now)) {
+  const std::vector<KeyHelp> keys = key_help(texts, now);
+  double widest = 140;
+  for (const KeyHelp& help : keys) widest = std::max(widest, pen.width(13, help.keys));
+  for (const KeyHelp& help : keys) {
     y += 19;
     pen.write(yellow, 13, 54, y, help.keys);
-    pen.write(pale, 13, 210, y, help.what);
+    pen.write(pale, 13, 54 + widest + 16, y, help.what);
   }
 }
 

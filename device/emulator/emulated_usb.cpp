@@ -169,7 +169,7 @@ ControlReply EmulatedUsb::control(std::span<const std::uint8_t> setup, std::span
 
 EmulatedUsb::Sample EmulatedUsb::sample() {
   const std::lock_guard guard(mutex_);
-  if (hand) hand(box_);
+  if (hand_) hand_(box_);
   const auto report = box_.sample();
   if (faults_.stalled) return {true, false, {}};
   if (faults_.garbled) return {false, true, {}};

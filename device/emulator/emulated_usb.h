@@ -35,8 +35,11 @@ class EmulatedUsb {
     return change(box_, faults_);
   }
 
-  /// Called before each sample, under the mutex, to move tools by the box's clock.
-  std::function<void(EmulatedBox&)> hand;
+  /// What is called before each sample, under the mutex, to move tools by the box's clock; may be empty.
+  void set_hand(std::function<void(EmulatedBox&)> hand) {
+    const std::lock_guard guard(mutex_);
+    hand_ = std::move(hand);
+  }
 
   /// A control transfer: 8 bytes of setup, and data if its direction is to the box.
   ControlReply control(std::span<const std::uint8_t> setup, std::span<const std::uint8_t> data);
@@ -54,6 +57,7 @@ class EmulatedUsb {
   ControlReply descriptor(std::uint16_t value) const;
 
   std::mutex mutex_;
+  std::function<void(EmulatedBox&)> hand_;
   EmulatedBox box_;
   EmulatedFaults faults_;
   std::uint8_t configuration_ = 0;

@@ -41,7 +41,7 @@ int run(const Arguments& a) {
   for (device::TrackCalibration& track : c.track) track.before_introducer_mm = 20;
   device::EmulatedUsb usb(c);
   device::StrokingHand hand;
-  if (!a.still) usb.hand = [&](device::EmulatedBox& box) { hand.move(box); };
+  if (!a.still) usb.set_hand([&](device::EmulatedBox& box) { hand.move(box); });
   const auto server = make_server(a, usb);
   fmt::print(stderr,
              "an emulated box on port {}; on Linux, as root:\n  modprobe vhci_hcd && usbip attach -r {} -b 1-1\n"

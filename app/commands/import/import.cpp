@@ -155,6 +155,7 @@ class Import {
       if (part == "..") made_.folder = fs::weakly_canonical(made_.folder);
     made_.the_case.name = fs::absolute(made_.folder).filename().string();
     require_new_or_case(made_.folder, made_.the_case.name);
+    made_.folder_written_at = written_at(made_.folder);
   }
 
   void choose_motion() {

@@ -88,6 +88,12 @@ void require_new_or_case(const fs::path& folder, const std::string& name) {
                       folder.string(), entry.path().filename().string()));
 }
 
+std::optional<fs::file_time_type> written_at(const fs::path& folder) {
+  std::error_code none;
+  const fs::file_time_type at = fs::last_write_time(folder, none);
+  return none ? std::nullopt : std::optional(at);
+}
+
 void write_case(const Imported& x, const Json& report, const std::string& picture) {
   std::error_code error;
   if (x.folder.has_parent_path()) fs::create_directories(x.folder.parent_path(), error);
@@ -114,6 +120,9 @@ void write_case(const Imported& x, const Json& report, const std::string& pictur
   }
   try {
     require_new_or_case(x.folder, x.the_case.name);  // it took a while
+    if (written_at(x.folder) != x.folder_written_at)
+      throw data::LoadError(x.folder.string() +
+                            ": somebody wrote there meanwhile, which is kept; call again, or name another folder");
   } catch (...) {
     fs::remove_all(unfinished, error);
     throw;

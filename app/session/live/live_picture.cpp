@@ -60,7 +60,8 @@ bool LivePicture::look(const Snapshot& now, bool fresh) {
 
 void LivePicture::take(const fluoro::Picture& picture, const fluoro::DoseMeter& dose, bool xray_on, bool cine,
                        double seen) {
-  if (xray_on || !has_pedals_) picture_ = picture;
+  // With the beam off it is the last image, held and marked so; before the first there is none.
+  if (xray_on || !has_pedals_ || !picture_.grey.empty()) picture_ = picture;
   store(picture_, cine);
   xray_on_ = xray_on || !has_pedals_, dose_ = dose, cine_ = cine;
   reference_.take(picture_, cine, seen);

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <stdexcept>
 
 #include "core/base/units.h"
 #include "data/identification/characterisation/characterisation_report.h"
@@ -201,6 +202,8 @@ Characterisation characterise(const std::vector<std::string>& files, const std::
     if (c.like.empty() && s.used())
       if (const auto* x = std::get_if<Explanation>(&s.found)) c.like = instrument_json(s.shapes, *x, 0);
   }
+  if (c.like.empty() && options.stop && options.stop())
+    throw std::runtime_error("ended before a set that gives weight and sizes was explained: nothing is known so far");
   if (c.like.empty())
     throw LoadError(
         "none of the sets gives weight and sizes, as explained sets of shapes do: name an instrument that has them "

@@ -42,7 +42,7 @@ struct Characterisation {
 /// `files`: each a set's folder or its measurement.json, all of one instrument. `like`: text of an instrument's file
 /// that gives what was not measured, weight and sizes say; empty: that of the first set of shapes. Throws LoadError for
 /// a set that cannot be read, that is of several instruments, or of no instrument with sections; and if nothing gives
-/// what was not measured.
+/// what was not measured. Throws std::runtime_error if it was ended before any set did.
 Characterisation characterise(const std::vector<std::string>& files, const std::string& like,
                               const CharacteriseOptions& options);
 

@@ -21,7 +21,7 @@ double now_s() { return std::chrono::duration<double>(std::chrono::steady_clock:
 
 struct Usb : testing::Test {
   void SetUp() override {
-    bench().usb.hand = {};
+    bench().usb.set_hand({});
     bench().usb.with([](device::EmulatedBox& box, device::EmulatedFaults& faults) {
       faults = {};
       box.station = {};
@@ -198,9 +198,8 @@ TEST_F(Usb, SilenceIsShownAndOpensTheClamps) {
   bench().usb.with([](device::EmulatedBox& b, device::EmulatedFaults&) {
     b.station[0] = {device::Tool::wire, 200, 0, 0};
   });
-  bench().usb.hand = [](device::EmulatedBox& b) {
-    b.station[0].advanced_mm += b.station[0].advanced_mm < 200 ? 0.05 : 0;
-  };
+  bench().usb.set_hand(
+      [](device::EmulatedBox& b) { b.station[0].advanced_mm += b.station[0].advanced_mm < 200 ? 0.05 : 0; });
   request.arm = true;
   request.load[wire] = {3, 0};
   ASSERT_TRUE(until([&] {
@@ -235,11 +234,11 @@ TEST_F(Usb, TheWatchdogOpensTheClampsOfAHostThatHangs) {
     b.station[0] = {device::Tool::wire, 200, 0, 0};
   });
   std::atomic<double> closed_s = 0, open_s = 0;
-  bench().usb.hand = [&](device::EmulatedBox& b) {
+  bench().usb.set_hand([&](device::EmulatedBox& b) {
     b.station[0].advanced_mm += b.station[0].advanced_mm < 200 ? 0.05 : 0;
     if (b.clamp()[0] > 0) closed_s = b.time_s();
     if (b.clamp()[0] == 0 && closed_s > 0 && open_s == 0) open_s = b.time_s();
-  };
+  });
   request.arm = true;
   request.load[wire] = {3, 0};
   ASSERT_TRUE(until([&] {
@@ -254,7 +253,7 @@ TEST_F(Usb, TheWatchdogOpensTheClampsOfAHostThatHangs) {
   ASSERT_GT(open_s, 0);
   EXPECT_LE(open_s - last_out_s, 0.060);
   std::printf("watchdog: clamps open %.0f ms of the box's time after the last answer\n", 1e3 * (open_s - last_out_s));
-  bench().usb.hand = {};
+  bench().usb.set_hand({});
 }
 
 /// Half of them keep all rules, half have bytes inverted: exactly those that keep the rules are accepted.
@@ -377,7 +376,7 @@ TEST_F(Usb, OnAThreadOfItsOwn) {
   bench().usb.with([](device::EmulatedBox& b, device::EmulatedFaults&) {
     b.station[0] = {device::Tool::guide, 200, 0, 0};
   });
-  bench().usb.hand = [](device::EmulatedBox& b) { b.station[0].advanced_mm += 0.1; };
+  bench().usb.set_hand([](device::EmulatedBox& b) { b.station[0].advanced_mm += 0.1; });
   double fed_m = 0;
   for (const double end = now_s() + 5; now_s() < end && fed_m < 0.1;) {
     const device::BoxSnapshot& now = thread.newest();

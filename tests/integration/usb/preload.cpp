@@ -23,7 +23,7 @@ struct Plugged {
     }
     const char* asked = std::getenv("OSTIUM_BENCH_FAULT");
     const std::string fault = asked ? asked : "";
-    bench->usb.hand = [this, fault](ostium::device::EmulatedBox& box) {
+    bench->usb.set_hand([this, fault](ostium::device::EmulatedBox& box) {
       if (fault != "" && box.time_s() < 10) return;
       if (fault == "full" && box.station[1].advanced_mm > 318) return;
       if (fault != "" && fault != "full" && box.time_s() > 12) {
@@ -31,7 +31,7 @@ struct Plugged {
         return;
       }
       hand.move(box);
-    };
+    });
     bench->plug();
     if (fault == "unplugged")
       std::thread([this] {

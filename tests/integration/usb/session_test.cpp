@@ -40,13 +40,13 @@ struct RunAtBench {
 
   RunAtBench() {
     bench().set_pace(Bench::Pace::stepped);
-    bench().usb.hand = [this](device::EmulatedBox& box) { fingers.move(box); };
+    bench().usb.set_hand([this](device::EmulatedBox& box) { fingers.move(box); });
     bench().plug();
   }
   ~RunAtBench() {
     bench().unplug();
     bench().usb.with([](device::EmulatedBox& box, device::EmulatedFaults&) { box.station = {}; });
-    bench().usb.hand = {};
+    bench().usb.set_hand({});
   }
 };
 
