@@ -163,7 +163,7 @@ void draw_numbers(const Pen& pen, const PanelTexts& texts, const Snapshot& now, 
 
 void draw_help(const Pen& pen, const PanelTexts& texts, const Snapshot& now) {
   cairo_set_source_rgba(pen.cr(), 0.03, 0.04, 0.05, 0.88);
-  cairo_rectangle(pen.cr(), 30, 30, 710, 720);
+  cairo_rectangle(pen.cr(), 30, 30, 735, 720);
   cairo_fill(pen.cr());
   double y = 62;
   pen.write(pale, 18, 54, y, "Keys");

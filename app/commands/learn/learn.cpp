@@ -146,6 +146,7 @@ int run(const Arguments& a) {
   ServeArguments serving;
   serving.session.vessel = lesson.case_name, serving.session.script = lesson.script;
   if (lesson.person) serving.session.set.push_back(fmt::format("person={}", *lesson.person));
+  if (!lesson.begin.empty()) serving.session.set.push_back("begin=" + lesson.begin);
   serving.folder = (fs::path(folder) / fmt::format("{}-{}", lesson.name, progress.attempts(lesson.name) + 1)).string();
   serving.port = a.port, serving.hands = "browser", serving.scoring = lesson.scoring, serving.report = false;
   serving.lesson = {fmt::format("{} of {}: {}", place + 1, course.lessons.size(), lesson.title), lesson.goal,

@@ -12,6 +12,7 @@ struct Lesson {
   std::vector<std::string> instructions;
   std::string case_name, script, scoring;
   std::optional<std::uint64_t> person;
+  std::string begin;                   ///< "LM" or "RCA": the guide's tip lies before it; empty: nothing is in yet
   std::vector<std::string> must_hold;  ///< ids of the scoring list's items
   int line = 0;                        ///< where `must_hold` stands
 };

@@ -5,6 +5,9 @@
 
 namespace ostium::data::course_keys {
 
+/// Arteries before which a guide can lie as a lesson begins.
+inline const std::vector<std::string> beginnings = {"LM", "RCA"};
+
 inline const JsonObjectKeys root = {
     "course",
     {{"schema", true, "\"ostium-course/1\"", json_type::constant("ostium-course/1")},
@@ -21,6 +24,7 @@ inline const JsonObjectKeys lesson = {
      {"instructions", true, "what to do, texts in their order", json_type::list_of(json_type::text(), 1)},
      {"case", true, "a case of data/cases, or a file", json_type::text()},
      {"person", false, "a whole number from 0 on: another person with this case", json_type::whole(from_zero)},
+     {"begin", false, "LM or RCA: the guide lies before it, ready", json_type::choice(beginnings)},
      {"script", true, "a script whose instruments lie ready, and whose expert shows how", json_type::text()},
      {"scoring", true, "a scoring list of data/scoring, or a file", json_type::text()},
      {"must_hold", true, "ids of the list's items that must be done to go on",

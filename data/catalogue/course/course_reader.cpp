@@ -58,6 +58,7 @@ Lesson read_lesson(const JsonValue& value) {
   require(object, "script",
           [&](const std::string& name) { require_access(find_script(name), access, lesson.case_name); });
   if (object.has("person")) lesson.person = static_cast<std::uint64_t>(object.whole("person"));
+  if (object.has("begin")) lesson.begin = course_keys::beginnings[object.choice("begin", course_keys::beginnings)];
   lesson.must_hold = texts(object, "must_hold");
   lesson.line = object["must_hold"].line;
   return lesson;
