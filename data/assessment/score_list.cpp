@@ -76,7 +76,7 @@ Score judge(const ScoreItem& item, const RunRecord& record, const std::vector<Me
     std::vector<double> limit;
     for (const EventDefinition& e : event_definitions())
       if (e.name == check.before) limit = times(record, e.code);
-    if (limit.empty()) return out;  // that event never occurred
+    if (limit.empty()) return out;                                   // that event never occurred
     out.holds = ticked(!at.empty() && at.front() <= limit.front());  // a script may give both in one step
   } else {
     out.holds = ticked(within(static_cast<double>(at.size()), check));
