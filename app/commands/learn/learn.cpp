@@ -25,7 +25,7 @@ struct Arguments {
   std::string course = "first-steps", lesson;  ///< lesson empty: the first that has not been done
   std::string folder = "ostium-learn";
   int port = 0;
-  bool list = false;
+  bool list = false, show = false;
 };
 
 void declare(Options& options, Arguments& a) {
@@ -33,6 +33,7 @@ void declare(Options& options, Arguments& a) {
   options.add("--lesson", a.lesson, "By name; without it the first that has not been done").type("NAME");
   options.add("--out", a.folder, "Where attempts and progress.json stay").type("DIR").show_default();
   options.add("--port", a.port, "Of the page; 0: any that is free").range(0, 65535).show_default();
+  options.flag("--show", a.show, "The expert does the lesson, and you watch: no attempt, and nothing is kept");
   options.flag("--list", a.list, "What lessons there are, and what has been done");
 }
 
@@ -129,6 +130,16 @@ bool tell(const data::ScoreList& list, const std::vector<std::size_t>& needed, c
   return done;
 }
 
+ServeArguments serving_of(const data::Lesson& lesson, int port) {
+  ServeArguments serving;
+  serving.session.vessel = lesson.case_name, serving.session.script = lesson.script;
+  if (lesson.person) serving.session.set.push_back(fmt::format("person={}", *lesson.person));
+  if (!lesson.begin.empty()) serving.session.set.push_back("begin=" + lesson.begin);
+  serving.port = port, serving.hands = "browser", serving.scoring = lesson.scoring, serving.report = false;
+  serving.lesson = {lesson.title, lesson.goal, lesson.instructions};
+  return serving;
+}
+
 int run(const Arguments& a) {
   const data::Course course = data::find_course(a.course);
   std::vector<std::vector<std::size_t>> needed;
@@ -140,17 +151,19 @@ int run(const Arguments& a) {
     list_lessons(course, progress);
     return 0;
   }
-  const FilledFolder filled(folder);
   const data::Lesson& lesson = chosen(course, progress, a.lesson);
   const auto place = static_cast<std::size_t>(&lesson - course.lessons.data());
-  ServeArguments serving;
-  serving.session.vessel = lesson.case_name, serving.session.script = lesson.script;
-  if (lesson.person) serving.session.set.push_back(fmt::format("person={}", *lesson.person));
-  if (!lesson.begin.empty()) serving.session.set.push_back("begin=" + lesson.begin);
+  ServeArguments serving = serving_of(lesson, a.port);
+  serving.lesson.title = fmt::format("{} of {}: {}", place + 1, course.lessons.size(), lesson.title);
+  if (a.show) {
+    serving.hands = "script";
+    serving.lesson.title += " (shown by the expert)";
+    fmt::print("{}\nOpen the first of these links in a browser, and press Go on.\n", serving.lesson.title);
+    tell(data::find_score_list(lesson.scoring), needed[place], serve(serving));
+    return 0;
+  }
+  const FilledFolder filled(folder);
   serving.folder = (fs::path(folder) / fmt::format("{}-{}", lesson.name, progress.attempts(lesson.name) + 1)).string();
-  serving.port = a.port, serving.hands = "browser", serving.scoring = lesson.scoring, serving.report = false;
-  serving.lesson = {fmt::format("{} of {}: {}", place + 1, course.lessons.size(), lesson.title), lesson.goal,
-                    lesson.instructions};
   fmt::print("{}\nGoal: {}\nOpen the first of these links in a browser.\n", serving.lesson.title, lesson.goal);
   const Served served = serve(serving);
   const bool done = tell(data::find_score_list(lesson.scoring), needed[place], served);
@@ -167,7 +180,8 @@ int run(const Arguments& a) {
 
 Command learn_command() {
   return make_command("learn", "Lessons in the browser, one after another",
-                      {"ostium learn", "ostium learn --list", "ostium learn my-course.json --lesson over-the-arch"},
+                      {"ostium learn", "ostium learn --show", "ostium learn --list",
+                       "ostium learn my-course.json --lesson over-the-arch"},
                       declare, run);
 }
 
