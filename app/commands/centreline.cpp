@@ -12,6 +12,7 @@
 #include "app/command_line/read_vessel.h"
 #include "data/catalogue/case/tree_file.h"
 #include "vascular/anatomy/lumen/lumen_parts.h"
+#include "vascular/geometry/centreline/reach.h"
 #include "vascular/geometry/mesh/surface_check.h"
 #include "vascular/geometry/repair/double_wall.h"
 #include "vascular/geometry/repair/sheets.h"
@@ -68,12 +69,20 @@ int run(const Arguments& a) {
                               ": has a double wall; expected the lumen, which `ostium import` takes out of it");
   const vascular::CentrelineResult found = find_centrelines(mesh, wanted);
   if (wanted.ends.empty()) require_long(found.tree);
+  if (found.tree.spheres() < 2)
+    throw vascular::MeshError(a.mesh + ": --start and --end are one point of the vessel; expected points apart");
   if (report.components > 1)
     fmt::print(
         stderr,
         "{}: {} separate pieces; the lines are of what hangs together with their beginning, --start X,Y,Z chooses "
         "another\n",
         a.mesh, report.components);
+  if (const vascular::Unreached rest = unreached(mesh, found.tree);
+      report.components == 1 && wanted.ends.empty() && rest.share > vascular::unreached_matters) {
+    const Eigen::Vector3d p = rest.p / metres(unit);
+    fmt::print(stderr, "{}: {:.0f} % of the wall has no line: it hangs on too finely, near {:.2f} {:.2f} {:.2f} {}\n",
+               a.mesh, 100 * rest.share, p.x(), p.y(), p.z(), name_of(unit));
+  }
   data::write_tree(a.output, found.tree, unit);
   show_progress("");
   for (const vascular::Opening& opening : openings) {

@@ -25,7 +25,7 @@ std::string journal(const app::SweepPart& part) {
   const InputFile file({"journal", ""});
   {
     std::filesystem::remove(file.path());
-    app::SweepJournal written(file.path(), head, false);
+    app::SweepJournal written(file.path(), file.path() + ".csv", head, false);
     for (const std::size_t run : {0U, 3U, 12U, 23U}) written.add(run, "rca-mid-focal,iliac-wire,rosen,1,success\n");
   }
   std::ifstream in(file.path(), std::ios::binary);

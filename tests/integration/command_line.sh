@@ -172,7 +172,9 @@ rmdir "$folder/twice.unfinished"
 mv "$folder/single" "$folder/renamed"
 expect 3 "has no renamed.json" "$ostium" cases "$folder/renamed"
 mv "$folder/renamed" "$folder/single"
-expect 3 "an RCA beats" "$ostium" import "$folder/marked.obj" -o "$folder/case" --rename "vessel 1=RCA"
+for name in RCA LM; do
+  expect 3 "a coronary artery beats" "$ostium" import "$folder/marked.obj" -o "$folder/case" --rename "vessel 1=$name"
+done
 expect 3 "add --sequence" "$ostium" import "$folder/marked.obj" -o "$folder/case" --motion own
 expect 3 "leave one of them out" "$ostium" import "$folder/marked.obj" -o "$folder/case" --motion none --sequence
 expect 1 '"unit_from": "file"' "$ostium" check --json "$folder/marked.obj"
@@ -215,6 +217,10 @@ expect 3 "names nothing that is read .*\.vtp.*\.mrk\.json" "$ostium" check "$fol
 expect 3 "names nothing that is read" "$ostium" import "$folder/whole.blend" -o "$folder/case"
 expect 3 "right-handed" "$ostium" import "$folder/whole.obj" --axes LPI -o "$folder/case"
 expect 3 "FOUND=WANTED" "$ostium" import "$folder/whole.obj" --rename x -o "$folder/case"
+expect 3 "expected a name of at most" "$ostium" import "$folder/whole.obj" --rename "1=../x" -o "$folder/case"
+expect 3 "a case that ships" "$ostium" import "$folder/whole.obj" -o rca-mid-focal
+expect 3 "units is for a mesh" "$ostium" run rca-mid-focal --units cm
+expect 3 "are one point" "$ostium" centreline --units mm "$folder/closed.obj" --start 0,0,0 --end 0,0,0 -o "$folder/point.json"
 expect 3 "BRANCH:FROM" "$ostium" import "$folder/whole.obj" --lesion RCA -o "$folder/case"
 [[ ! -e $folder/case && ! -e $folder/case.unfinished ]] || { echo "a refused import left something"; exit 1; }
 expect 3 "this is no vessel" "$ostium" centreline "$folder/whole.obj" -o "$folder/tree.json"
@@ -338,6 +344,7 @@ if [[ -e $out/three.csv.part ]]; then
   expect 3 "not finished" sweep -o "$out/three.csv"
   expect 3 "another sweep" "$ostium" sweep rca-mid-focal --resume --script iliac-wire --seeds 1..2 -o "$out/three.csv"
   expect 0 "4 runs" sweep -o "$out/three.csv" --resume
+  expect 3 "to go on with" sweep -o "$out/three.csv" --resume
 fi
 cmp "$out/one.csv" "$out/three.csv"
 # A lesion as long as the mean's artery: nobody whose own is shorter has room for it, and the sweep goes on.

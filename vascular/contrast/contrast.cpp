@@ -46,12 +46,12 @@ ContrastModel make_contrast_model(const FlowModel& flow) {
 
 ContrastModel make_contrast_model(const FlowModel& flow, const Patient& patient) {
   ContrastModel model = make_contrast_model(flow);
-  model.aorta_length_m.clear(), model.aorta_radius_m.clear();
   model.coronary_branch = {flow.tree.branch("LM"), flow.tree.branch("RCA")};
   const auto& branches = patient.tree.branches;
   for (std::size_t t = 0; t < branches.size(); ++t) {
     if (branches[t].name != "aorta") continue;
     const auto& spheres = branches[t].spheres;
+    model.aorta_length_m.clear(), model.aorta_radius_m.clear();  // without an aorta they are one cell
     for (std::size_t i = 0; i < spheres.size(); ++i) {
       const double below = i ? spheres[i].s_m - spheres[i - 1].s_m : 0;
       const double above = i + 1 < spheres.size() ? spheres[i + 1].s_m - spheres[i].s_m : 0;

@@ -1,5 +1,7 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <filesystem>
 #include <map>
@@ -14,10 +16,12 @@
 #include "app/commands/import/mesh_files.h"
 #include "core/base/units.h"
 #include "data/catalogue/case/case.h"
+#include "data/catalogue/catalogue.h"
 #include "data/formats/decimal.h"
 #include "data/formats/load_error.h"
 #include "vascular/anatomy/labelling/labelling.h"
 #include "vascular/anatomy/labelling/narrowings.h"
+#include "vascular/geometry/centreline/reach.h"
 #include "vascular/geometry/mesh/patient_frame.h"
 #include "vascular/geometry/mesh/surface_check.h"
 #include "vascular/geometry/mesh_files/rounding.h"
@@ -108,6 +112,12 @@ std::map<std::string, std::string> names_of(const std::vector<std::string>& rena
     const auto [found, wanted] = key_and_value(rename);
     if (found.empty() || wanted.empty())
       throw data::LoadError(fmt::format("\"{}\" is not FOUND=WANTED; expected for instance --rename 3=OM1", rename));
+    const auto fits = [](char c) {
+      return std::isalnum(static_cast<unsigned char>(c)) || c == ' ' || c == '-' || c == '_';
+    };
+    if (wanted.size() > 40 || !std::all_of(wanted.begin(), wanted.end(), fits))
+      throw data::LoadError(
+          fmt::format("--rename \"{}\": expected a name of at most 40 letters, digits, spaces, - and _", rename));
     names[found] = wanted;
   }
   return names;
@@ -154,6 +164,9 @@ class Import {
     for (const fs::path& part : fs::path(made_.folder))
       if (part == "..") made_.folder = fs::weakly_canonical(made_.folder);
     made_.the_case.name = fs::absolute(made_.folder).filename().string();
+    if (name_only && fs::exists(fs::path(data::data_folder()) / "cases" / (options_.output + ".json")))
+      throw data::LoadError(fmt::format(
+          "-o {}: is a case that ships, and would hide this one; expected another name, or a folder", options_.output));
     require_new_or_case(made_.folder, made_.the_case.name);
     made_.folder_written_at = written_at(made_.folder);
   }
@@ -236,13 +249,15 @@ class Import {
   void label() {
     wanted_.progress = std::ref(progress_);
     made_.found = label_vessels(made_.repaired.lumen, wanted_);
-    // A right coronary artery is known by its name.
+    // Coronary arteries are known by their names.
     if (!made_.found.heart)
       for (const auto& [found, wanted] : wanted_.names)
-        if (wanted == "RCA")
-          throw data::LoadError(fmt::format(
-              "--rename {}=RCA: no heart was recognised, and an RCA beats; expected another name, or --motion coronary",
-              found));
+        for (const char* beating : {"LM", "LAD", "LCx", "RCA"})
+          if (wanted == beating)
+            throw data::LoadError(
+                fmt::format("--rename {}={}: no heart was recognised, and a coronary artery beats; expected another "
+                            "name, or --motion coronary",
+                            found, wanted));
     made_.found.lumen = as_written(std::move(made_.found.lumen), vascular::LengthUnit::millimetre);
     const vascular::SurfaceReport report = check_surface(made_.found.lumen);
     if (!report.sound())
@@ -275,6 +290,14 @@ class Import {
     for (const vascular::FoundNarrowing& narrowing : find_narrowings(made_.patient.tree))
       if (is_coronary(made_.found.anatomy, find_branch(made_.found.anatomy, narrowing.branch)->tube))
         made_.narrowings.push_back(narrowing);
+    if (const vascular::Unreached rest = unreached(made_.found.lumen, made_.patient.tree);
+        rest.share > vascular::unreached_matters) {
+      const Eigen::Vector3d p = rest.p / mm;
+      made_.found.notes.push_back(fmt::format(
+          "{:.0f} % of the lumen's wall has no centreline, so nothing gets there: it hangs on by less than {:.1f} mm, "
+          "near {:.1f} {:.1f} {:.1f} mm of the patient frame; a finer --voxel may find the way",
+          100 * rest.share, 2 * made_.repaired.voxel_m / mm, p.x(), p.y(), p.z()));
+    }
     const vascular::SurfaceReport systole = vascular::check_surface(made_.patient.lumen.at(vascular::end_systole, 0));
     if (systole.crossings.count > 0) {
       const Eigen::Vector3d p = systole.crossings.where.front() / mm;

@@ -53,13 +53,28 @@ class Progress {
     if (!right)
       throw data::LoadError(file_ + ": is no list of attempts; expected what `ostium learn` wrote, or no file");
   }
+  /// Number of the next attempt, from 1: also after one that was cut off before it could be noted.
+  std::size_t next(const std::string& lesson) const {
+    std::size_t number = attempts(lesson) + 1;
+    while (fs::exists(folder_of(lesson, number))) ++number;
+    return number;
+  }
+  fs::path folder_of(const std::string& lesson, std::size_t number) const {
+    return fs::path(file_).parent_path() / fmt::format("{}-{}", lesson, number);
+  }
   std::size_t attempts(const std::string& lesson) const { return all_.contains(lesson) ? all_[lesson].size() : 0; }
   bool done(const std::string& lesson) const {
     return all_.contains(lesson) && std::any_of(all_[lesson].begin(), all_[lesson].end(),
                                                 [](const Json& one) { return one["done"].get<bool>(); });
   }
-  void add(const std::string& lesson, bool done, const Served& served) {
-    all_[lesson].push_back({{"attempt", attempts(lesson) + 1}, {"done", done}, {"seconds", served.report.simulated_s}});
+  /// What an attempt has come to so far; one that has been done stays so, whatever a later branch of it does.
+  void note(const std::string& lesson, std::size_t number, bool done, const Served& served) {
+    Json& all = all_[lesson];
+    if (all.empty() || all.back().value("attempt", Json()) != Json(number))
+      all.push_back({{"attempt", number}, {"done", false}});
+    Json& attempt = all.back();
+    attempt["done"] = attempt["done"].get<bool>() || done;
+    attempt["seconds"] = served.report.simulated_s;
     data::write_file(file_, all_.dump(2) + "\n");
   }
 
@@ -107,18 +122,22 @@ void list_lessons(const data::Course& course, const Progress& progress) {
                progress.attempts(lesson.name), progress.attempts(lesson.name) == 1 ? "" : "s");
 }
 
-/// What was expected and what happened. Whether everything that must hold did.
-bool tell(const data::ScoreList& list, const std::vector<std::size_t>& needed, const Served& served) {
+/// Whether everything that must hold did.
+bool is_done(const std::vector<std::size_t>& needed, const Served& served) {
+  return !served.scores.empty() &&
+         std::ranges::all_of(needed, [&](std::size_t item) { return served.scores[item].holds == data::Ticked::yes; });
+}
+
+/// What was expected and what happened.
+void tell(const data::ScoreList& list, const std::vector<std::size_t>& needed, const Served& served) {
   if (served.scores.empty()) {
     fmt::print("The lesson was left before its end.\n");
-    return false;
+    return;
   }
-  bool done = true;
   for (std::size_t i = 0; i < list.items.size(); ++i) {
     const data::Score& score = served.scores[i];
     const bool holds = score.holds == data::Ticked::yes;
     const bool must = std::find(needed.begin(), needed.end(), i) != needed.end();
-    done &= holds || !must;
     const bool step = list.items[i].kind == data::ScoreKind::step;
     fmt::print("  {:<14} {}{}{}\n",
                score.holds == data::Ticked::not_seen ? "cannot tell"
@@ -127,7 +146,6 @@ bool tell(const data::ScoreList& list, const std::vector<std::size_t>& needed, c
                                                      : "happened",
                list.items[i].what, score.value.empty() ? "" : ": " + score.value, must ? " (needed to go on)" : "");
   }
-  return done;
 }
 
 ServeArguments serving_of(const data::Lesson& lesson, int port) {
@@ -163,11 +181,17 @@ int run(const Arguments& a) {
     return 0;
   }
   const FilledFolder filled(folder);
-  serving.folder = (fs::path(folder) / fmt::format("{}-{}", lesson.name, progress.attempts(lesson.name) + 1)).string();
+  const std::size_t attempt = progress.next(lesson.name);
+  serving.folder = progress.folder_of(lesson.name, attempt).string();
+  bool done = false;
+  serving.ended = [&](const Served& served) {
+    done |= is_done(needed[place], served);
+    progress.note(lesson.name, attempt, done, served);
+  };
   fmt::print("{}\nGoal: {}\nOpen the first of these links in a browser.\n", serving.lesson.title, lesson.goal);
   const Served served = serve(serving);
-  const bool done = tell(data::find_score_list(lesson.scoring), needed[place], served);
-  progress.add(lesson.name, done, served);
+  tell(data::find_score_list(lesson.scoring), needed[place], served);
+  progress.note(lesson.name, attempt, done, served);
   const bool last = place + 1 == course.lessons.size();
   if (done)
     fmt::print("Done.{}\n", last ? "" : " Next: " + course.lessons[place + 1].title + " (the same command)");

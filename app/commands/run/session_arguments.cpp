@@ -47,6 +47,8 @@ RunSetup setup_of(const SessionArguments& a) {
     setup.entry = {point(a.entry, "--entry", unit), point(a.towards, "--towards", unit)};
   } else if (!a.entry.empty() || !a.towards.empty()) {
     throw data::LoadError("--entry and --towards are for a mesh; a case has its access");
+  } else if (a.unit != "auto") {
+    throw data::LoadError("--units is for a mesh; a case has its own");
   } else {
     set_vessel(a.vessel, {}, setup);
   }

@@ -148,6 +148,7 @@ class Sitting {
     const data::ScoreList list = data::find_score_list(a_.scoring);
     scores_ = scores_of(file, run_.model, list, last_.metrics);
     station_.ended(last_, scores_);
+    if (a_.ended) a_.ended({last_, scores_});
     data::write_file((fs::path(folder_) / "metrics.json").string(),
                      metrics_json(setup_.vessel, setup_.seed, last_.outcome, last_.reason, last_.metrics));
     write_notes((fs::path(folder_) / "notes.json").string(), station_.notes());
@@ -205,7 +206,11 @@ Served serve(const ServeArguments& arguments) {
   show_progress("");
   tell_links(station, !is_loopback(a.address));
   const Served served = Sitting(a, a.folder, setup, session, hand, station).play_all();
-  if (!passing) fmt::print(stderr, "{}: recordings, metrics{}\n", a.folder, a.report ? ", report.html" : "");
+  if (!passing)
+    fmt::print(stderr, "{}: {}\n", a.folder,
+               served.scores.empty() ? "what was recorded until it was left"
+               : a.report            ? "recordings, metrics, report.html"
+                                     : "recordings, metrics");
   return served;
 }
 

@@ -1,5 +1,7 @@
 #pragma once
 /// A run with a trainer's station that can go back; `learn` sits learners down at the same.
+#include <functional>
+
 #include "app/commands/run/session_arguments.h"
 #include "app/serve/station/station.h"
 
@@ -15,6 +17,8 @@ struct ServeArguments {
   bool at_once = false;  ///< does not wait for the trainer's "go on"
   bool report = true;
   LessonWords lesson;  ///< empty: none
+  /// Called each time a run or a branch has come to its end, before anybody leaves; may be empty.
+  std::function<void(const struct Served&)> ended;
 };
 
 struct Served {

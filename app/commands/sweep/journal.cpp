@@ -88,7 +88,8 @@ StoredJournal read_journal(const std::string& file) {
   return out;
 }
 
-SweepJournal::SweepJournal(const std::string& file, const JournalHead& head, bool resume) : file_(file) {
+SweepJournal::SweepJournal(const std::string& file, const std::string& table, const JournalHead& head, bool resume)
+    : file_(file) {
   const std::string first = to_line(head);
   std::string kept = first + "\n";
   if (fs::exists(file)) {
@@ -102,6 +103,10 @@ SweepJournal::SweepJournal(const std::string& file, const JournalHead& head, boo
           fmt::format("{} is of another sweep; expected the same ostium, cases, script, seeds and parameters", file));
     lines_ = std::move(stored.lines);
     for (const auto& [run, line] : lines_) kept += fmt::format("{} {}", run, line);
+  } else if (resume && fs::exists(table)) {
+    throw data::LoadError(fmt::format(
+        "{} is there, and no {} to go on with: it is finished, or another table; without --resume it is made anew",
+        table, file));
   }
   data::write_file(file, kept);  // without what was cut off
   out_.open(file, std::ios::app | std::ios::binary);

@@ -32,9 +32,9 @@ StoredJournal read_journal(const std::string& file);
 
 class SweepJournal {
  public:
-  /// Throws LoadError if the file is of another sweep, of this one without `resume`, or written by another program;
-  /// WriteError.
-  SweepJournal(const std::string& file, const JournalHead& head, bool resume);
+  /// Throws LoadError if the file is of another sweep, of this one without `resume`, or written by another program, or
+  /// if `resume` finds a table and nothing to go on with; WriteError.
+  SweepJournal(const std::string& file, const std::string& table, const JournalHead& head, bool resume);
   bool has(std::size_t run) const { return lines_.count(run) > 0; }
   /// Throws WriteError.
   void add(std::size_t run, const std::string& line);

@@ -70,7 +70,7 @@ int run(const SweepArguments& a) {
   const JournalHead head = head_of(sweep, part);
   if (!a.keep.empty()) make_folder(a.keep);
   const PathLock lock = a.keep.empty() ? PathLock() : PathLock(a.keep, /*shared=*/!part.is_all);
-  SweepJournal journal(part_file(a.table, part), head, a.resume);
+  SweepJournal journal(part_file(a.table, part), a.table, head, a.resume);
   stop_on_signals();
   Sweeper sweeper(a, sweep, head, journal);
   sweeper.run();

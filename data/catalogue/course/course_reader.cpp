@@ -31,11 +31,17 @@ bool is_name(const std::string& text) {
                      [](char c) { return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '-'; });
 }
 
+/// What a course names is looked for where the course is, then as everything is; so a folder can be handed on.
+std::string from_course(const JsonObject& object, const char* key) {
+  const fs::path beside = fs::path(*object[key].file).parent_path() / object.text(key);
+  return fs::exists(beside) ? beside.string() : object.text(key);
+}
+
 /// Says where in the course it was asked for.
 template <class Find>
 void require(const JsonObject& object, const char* key, const Find& find) {
   try {
-    find(object.text(key));
+    find(from_course(object, key));
   } catch (const LoadError& error) {
     object[key].fail(fmt::format("{} is \"{}\": {}", object[key].path(), object.text(key), error.what()));
   }
@@ -48,8 +54,8 @@ Lesson read_lesson(const JsonValue& value) {
   if (!is_name(lesson.name)) object.refuse("name");
   lesson.title = object.text("title"), lesson.goal = object.text("goal");
   lesson.instructions = texts(object, "instructions");
-  lesson.case_name = object.text("case"), lesson.script = object.text("script");
-  lesson.scoring = object.text("scoring");
+  lesson.case_name = from_course(object, "case"), lesson.script = from_course(object, "script");
+  lesson.scoring = from_course(object, "scoring");
   std::optional<vascular::Access> access;
   require(object, "case", [&](const std::string& name) {
     const Case of_lesson = find_case(name);
