@@ -33,7 +33,7 @@ Link link(const LinkState& state) {
 std::string_view advice(Link link) {
   switch (link) {
     case Link::unplugged:
-      return "The tracking box is not plugged in. Plug it in: the session goes on where it was.";
+      return "The tracking box is not plugged in. Plug it in: a session goes on where it was.";
     case Link::silent:
       return "The tracking box is plugged in but says nothing. Unplug it and plug it in again.";
     case Link::wrong_version:
