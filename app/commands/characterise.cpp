@@ -101,8 +101,8 @@ int run(const Arguments& a) {
   options.stop = [] { return interrupted.load(); };
   const data::Characterisation found = data::characterise(a.sets, like, options);
   show_progress("");
-  data::write_file(a.file, instrument_json(found, std::filesystem::path(a.file).stem().string()));
   if (!a.folder.empty()) write_report(found, a.folder);
+  data::write_file(a.file, instrument_json(found, std::filesystem::path(a.file).stem().string()));
   if (a.json)
     fmt::print("{}", to_json(found));
   else
