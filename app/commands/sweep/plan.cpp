@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <map>
 
 #include "app/command_line/arguments.h"
@@ -23,13 +24,26 @@ void read_seeds(const std::string& text, SweepGrid& grid) {
   grid.first_seed = *from, grid.last_seed = *to;
 }
 
+/// What is there twice would make the same runs twice.
+void require_distinct(std::vector<std::string> values, const std::string& option) {
+  std::ranges::sort(values);
+  if (const auto twice = std::ranges::adjacent_find(values); twice != values.end())
+    throw data::LoadError(fmt::format("{} has {} twice; expected each once", option, *twice));
+}
+
 void read_values(const SweepArguments& a, SweepGrid& grid) {
   for (const std::string& vary : a.vary) {
     const auto [key, list] = key_and_value(vary);
     if (key.empty() || list.empty()) throw data::LoadError(fmt::format("--vary {}: expected KEY=A,B,C", vary));
     grid.keys.push_back(key);
     grid.values.push_back(split(list, ','));
+    require_distinct(grid.values.back(), "--vary " + key);
+    for (const std::string& set : a.session.set)
+      if (key_and_value(set).first == key)
+        throw data::LoadError(fmt::format("--set and --vary both give {}; expected one of them", key));
   }
+  require_distinct(grid.keys, "--vary");
+  require_distinct(a.vessels, "the list of cases");
 }
 
 }  // namespace

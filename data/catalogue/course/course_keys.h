@@ -18,7 +18,7 @@ inline const JsonObjectKeys root = {
 
 inline const JsonObjectKeys lesson = {
     "lesson",
-    {{"name", true, "a name of its own: small letters, digits and -", json_type::text()},
+    {{"name", true, "a name of its own: at most 60 small letters, digits and -", json_type::text()},
      {"title", true, "what people call it, a text", json_type::text()},
      {"goal", true, "what has been done at its end, a text", json_type::text()},
      {"instructions", true, "what to do, texts in their order", json_type::list_of(json_type::text(), 1)},
