@@ -28,8 +28,9 @@ std::vector<std::string> texts(const JsonObject& object, const char* key) {
 
 bool is_name(const std::string& text) {
   constexpr std::size_t longest = 60;  // a folder is called so
-  return text.size() <= longest && std::all_of(text.begin(), text.end(),
-                     [](char c) { return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '-'; });
+  return text.size() <= longest && std::all_of(text.begin(), text.end(), [](char c) {
+           return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '-';
+         });
 }
 
 /// What a course names is looked for where the course is, then as everything is; so a folder can be handed on.
