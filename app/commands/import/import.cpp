@@ -113,7 +113,8 @@ std::map<std::string, std::string> names_of(const std::vector<std::string>& rena
     if (found.empty() || wanted.empty())
       throw data::LoadError(fmt::format("\"{}\" is not FOUND=WANTED; expected for instance --rename 3=OM1", rename));
     const auto fits = [](char c) {
-      return std::isalnum(static_cast<unsigned char>(c)) || c == ' ' || c == '-' || c == '_';
+      const auto byte = static_cast<unsigned char>(c);  // of any alphabet
+      return byte >= 0x80 || std::isalnum(byte) || c == ' ' || c == '-' || c == '_';
     };
     if (wanted.size() > 40 || !std::all_of(wanted.begin(), wanted.end(), fits))
       throw data::LoadError(
