@@ -123,6 +123,10 @@ bool VideoWriter::finish() {
   while (waitpid(process_, &status, 0) < 0 && errno == EINTR) {
   }
   process_ = -1;
+  if (frames_ == 0 && problem_.empty()) {
+    problem_ = file_ + ": no film was made: there was no frame for it";
+    return false;
+  }
   const bool good = WIFEXITED(status) && WEXITSTATUS(status) == 0 && whole_mp4(out_.beside());
   if (good && problem_.empty()) try {
       out_.finish();

@@ -23,6 +23,7 @@ class NewFile {
   NewFile& operator=(const NewFile&) = delete;
   ~NewFile();  ///< removes what was written, unless it is finished
 
+  const std::string& path() const { return path_; }
   /// Where to write: `path` + ".unfinished", in the same folder.
   const std::string& beside() const { return beside_; }
   /// Gives the file its name. Throws WriteError.

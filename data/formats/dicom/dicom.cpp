@@ -49,11 +49,10 @@ class Writer {
   }
   void pointer(const DcmTagKey& tag, const DcmTagKey& to) { require(dataset().putAndInsertTagKey(tag, to), tag); }
   void unique_id(const DcmTagKey& tag, const char* root) { text(tag, unique(root)); }
-  void save(const std::string& file) {
-    NewFile out(file);
+  void save(const NewFile& out) {
     const OFCondition saved = format_.saveFile(out.beside().c_str(), EXS_LittleEndianExplicit);
-    if (saved.bad() || !whole(out.beside())) throw write_error(file, saved.bad() ? saved.text() : "it was cut short");
-    out.finish();
+    if (saved.bad() || !whole(out.beside()))
+      throw write_error(out.path(), saved.bad() ? saved.text() : "it was cut short");
   }
 
  private:
@@ -157,9 +156,16 @@ std::string new_study_uid() { return unique(SITE_STUDY_UID_ROOT); }
 
 void write_dicom(const std::string& file, const fluoro::CineRun& run, const DicomPatient& patient,
                  const DicomPlace& place) {
+  NewFile out(file);
+  write_dicom(out, run, patient, place);
+  out.finish();
+}
+
+void write_dicom(const NewFile& file, const fluoro::CineRun& run, const DicomPatient& patient,
+                 const DicomPlace& place) {
   if (run.frames.empty()) throw std::invalid_argument("DICOM: a run without frames");
   if (run.frames.size() * run.frames.front().grey.size() > dicom_most_bytes)
-    throw write_error(file, "a DICOM file holds no more than 4 GB; expected fewer frames, or fewer pixels");
+    throw write_error(file.path(), "a DICOM file holds no more than 4 GB; expected fewer frames, or fewer pixels");
   Writer out;
   out.text(DCM_SOPClassUID, UID_XRayAngiographicImageStorage);
   out.unique_id(DCM_SOPInstanceUID, SITE_INSTANCE_UID_ROOT);

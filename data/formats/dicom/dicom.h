@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <string>
 
+#include "data/formats/write_file.h"
 #include "fluoro/console/fluoroscope.h"
 
 namespace ostium::data {
@@ -28,5 +29,7 @@ inline constexpr std::uint64_t dicom_most_bytes = 0xFFFF0000;
 /// detector, frame time, tube voltage and dose-area product. Throws WriteError, also beyond `dicom_most_bytes`.
 void write_dicom(const std::string& file, const fluoro::CineRun& run, const DicomPatient& patient = {},
                  const DicomPlace& place = {});
+/// The same without a name yet, which the caller gives it: for several that appear together.
+void write_dicom(const NewFile& file, const fluoro::CineRun& run, const DicomPatient& patient, const DicomPlace& place);
 
 }  // namespace ostium::data

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <filesystem>
+#include <list>
 
 namespace ostium::data {
 
@@ -31,14 +32,16 @@ std::vector<std::string> DicomRuns::write(const std::string& file, const DicomPa
   std::vector<std::string> names;
   const std::filesystem::path path = file;
   DicomPlace place{new_study_uid(), 0};
+  std::list<NewFile> files;  // all or none of them
   for (const fluoro::CineRun& run : runs_) {
     std::filesystem::path name = path;
     if (!names.empty())
       name.replace_filename(fmt::format("{}-{}{}", path.stem().string(), names.size() + 1, path.extension().string()));
     ++place.series;
-    write_dicom(name.string(), run, patient, place);
+    write_dicom(files.emplace_back(name.string()), run, patient, place);
     names.push_back(name.string());
   }
+  for (NewFile& one : files) one.finish();
   return names;
 }
 

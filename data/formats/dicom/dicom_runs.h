@@ -14,7 +14,8 @@ class DicomRuns {
   explicit DicomRuns(std::uint64_t most_bytes = dicom_most_bytes) : most_bytes_(most_bytes) {}
   /// `exposed`: how `picture` was taken; its frames are not looked at.
   void add(const fluoro::CineRun& exposed, const fluoro::Picture& picture);
-  /// Writes FILE.dcm, and FILE-2.dcm, ... for further runs. Returns the names. Throws WriteError.
+  /// Writes FILE.dcm, and FILE-2.dcm, ... for further runs. Returns the names. Throws WriteError: then none of them is
+  /// there, or what was.
   std::vector<std::string> write(const std::string& file, const DicomPatient& patient = {}) const;
   const std::vector<fluoro::CineRun>& runs() const { return runs_; }
 

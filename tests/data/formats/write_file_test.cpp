@@ -134,6 +134,14 @@ TEST_F(WriteFile, AFilmCutShortIsNone) {
   }
 }
 
+TEST_F(WriteFile, AFilmWithoutFramesIsNone) {
+  if (std::system("ffmpeg -version >/dev/null 2>&1")) GTEST_SKIP() << "ffmpeg is not there";
+  VideoWriter writer(in("none.mp4"), 64, 64, 15);
+  EXPECT_FALSE(writer.finish());
+  EXPECT_NE(writer.problem().find("no frame"), std::string::npos) << writer.problem();
+  EXPECT_FALSE(std::filesystem::exists(in("none.mp4")));
+}
+
 TEST_F(WriteFile, WhereNothingCanBeWrittenItSaysSo) {
   for (const Written& w : writers()) {
     EXPECT_THROW(w.write("/proc/nowhere/" + w.file), WriteError) << w.file;
