@@ -37,8 +37,8 @@ class Options {
   explicit Options(CLI::App& app) : app_(app) {}
 
   /// `names`: "--units", "-o,--out", or "mesh" for a positional argument. `value` keeps its value if the option is not
-  /// given. Texts that are given are not empty, and UTF-8. For text, int, double, std::uint64_t, std::optional<int or
-  /// double>, or a vector of texts or doubles.
+  /// given. Texts that are given are not empty, and UTF-8. For text, int, double, std::uint64_t, an optional int or
+  /// double, or a vector of texts or doubles.
   template <class Value>
   Option add(const std::string& names, Value& value, const std::string& help);
   void flag(const std::string& names, bool& value, const std::string& help);
