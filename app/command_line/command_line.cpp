@@ -146,6 +146,13 @@ int with_output_checked(int code) {
   return failed;
 }
 
+/// Files whose names look like options.
+void explain_dashes(int argc, char** argv) {
+  for (int i = 1; i < argc; ++i)
+    if (argv[i][0] == '-' && access(argv[i], F_OK) == 0)
+      fmt::print(stderr, "{} is a file, too; to name it, write ./{}\n", argv[i], argv[i]);
+}
+
 }  // namespace
 
 int run_command_line(const Command& program, int argc, char** argv) {
@@ -160,7 +167,9 @@ int run_command_line(const Command& program, int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    return with_output_checked(app.exit(error) == 0 ? done : usage);
+    const int code = app.exit(error) == 0 ? done : usage;
+    if (code == usage) explain_dashes(argc, argv);
+    return with_output_checked(code);
   }
   try {
     const int code = with_output_checked(chosen->run());

@@ -96,7 +96,11 @@ void check(const RodDescription& d) {
     require_between(d, i, "radius", s.radius_m, 1e-6, 0.1, "m");
     if (!(s.inner_radius_m >= 0 && s.inner_radius_m < s.radius_m))
       refuse(d, i, "inner radius is " + text(s.inner_radius_m) + " m; it must lie between 0 and the outer radius");
-    if (!s.rest_curvature_per_m.allFinite()) refuse(d, i, "rest curvature is not finite");
+    const double curled = s.rest_curvature_per_m.norm();
+    if (!(curled * s.radius_m < 1))
+      refuse(d, i,
+             "rest curvature is " + text(curled) + " 1/m; it must be below " + text(1 / s.radius_m) +
+                 ", one by the outer radius");
     if (!(s.softening_per_m == 0 || (s.softening_per_m >= 1e-3 && s.softening_per_m <= 1e6)))
       refuse(d, i, "softens at " + text(s.softening_per_m) + " 1/m; it must be 0 or between 0.001 and 1e6");
     if (!(s.softened_ratio >= 0.01 && s.softened_ratio <= 1))
@@ -107,8 +111,9 @@ void check(const RodDescription& d) {
   const auto in_name = [&](const std::string& what) {
     return std::invalid_argument("rod \"" + d.name + "\": " + what);
   };
-  if (d.element_lengths_m.size() < 16 || d.element_lengths_m.size() > 4096)
-    throw in_name(std::to_string(d.element_lengths_m.size()) + " elements; 16 to 4096 are possible");
+  if (d.element_lengths_m.size() < least_elements || d.element_lengths_m.size() > most_elements)
+    throw in_name(std::to_string(d.element_lengths_m.size()) + " elements; " + std::to_string(least_elements) + " to " +
+                  std::to_string(most_elements) + " are possible");
   double total = 0;
   for (double length : d.element_lengths_m) {
     if (!(length > 0) || !std::isfinite(length)) throw in_name("an element's length must be positive and finite");

@@ -19,7 +19,7 @@ struct Section {
   double radius_m = 0;        ///< outer radius; > 0
   double inner_radius_m = 0;  ///< of the lumen; 0 for a wire
   /// Darboux vector of the unloaded shape in the material frame, 1/m: d_i' = u x d_i towards the tip, so that u1 > 0
-  /// turns d3 towards -d2, u2 > 0 turns d3 towards d1, and u3 is a twist.
+  /// turns d3 towards -d2, u2 > 0 turns d3 towards d1, and u3 is a twist. Its norm is below 1 / radius_m.
   Eigen::Vector3d rest_curvature_per_m = Eigen::Vector3d::Zero();
   /// Curvature beyond rest at which bending softens (core/material/superelastic.h), 1/m; 0: never. In superelastic
   /// nitinol this begins at a strain of about 1 %: 0.01 / r for a wire of radius r.
@@ -49,12 +49,14 @@ struct Relaxation {
   bool any() const { return branches[0].fraction > 0 || branches[1].fraction > 0; }
 };
 
+inline constexpr std::size_t least_elements = 16, most_elements = 4096;  ///< of a rod
+
 /// Input for make_rod.
 struct RodDescription {
   std::string name;
   std::vector<Section> sections;  ///< from the distal tip backwards, without gaps
-  /// From the base to the tip, 16 to 4,096 of them; their sum is at most the sections' length (the rest stays behind
-  /// the base).
+  /// From the base to the tip, least_elements to most_elements; their sum is at most the sections' length (the rest
+  /// stays behind the base).
   std::vector<double> element_lengths_m;
   Damping damping;
   Relaxation relaxation;

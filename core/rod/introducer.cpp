@@ -16,7 +16,7 @@ using Eigen::Vector3d;
 // Share of an element at which it enters, and at which it leaves; different, so that a trembling hand does not switch
 // elements back and forth.
 constexpr double enters_at = 0.6, leaves_at = 0.4;
-constexpr int least_elements = 3;
+constexpr int least_inserted_elements = 3;
 constexpr double slack_kept = 0.8;  // per step
 
 /// q turned by theta in its own material frame.
@@ -100,7 +100,7 @@ void leave_element(const Rod& rod, RodState& s) {
 
 /// Lets the tip appear at the introducer, unloaded and moving with the hand.
 void appear(const Rod& rod, const RodInputs& inputs, double step_s, RodState& s) {
-  const int first = rod.elements - least_elements, N = rod.elements;
+  const int first = rod.elements - least_inserted_elements, N = rod.elements;
   s.first = first, s.slack_m = 0;
   const Vector3d velocity = inputs.base.velocity_W_m_s + inputs.feed_m_s * axis(s.base);
   Q4<double> q = s.base.frame();
@@ -130,12 +130,12 @@ bool in_body(const Rod& rod, const RodState& state) { return state.first < rod.e
 
 Vector3d axis(const EndState& end) { return to_eigen(director3(end.frame())); }
 
-double least_inserted_m(const Rod& rod) { return rod.node_from_tip_m[rod.elements - least_elements]; }
+double least_inserted_m(const Rod& rod) { return rod.node_from_tip_m[rod.elements - least_inserted_elements]; }
 
 int first_element_for(const Rod& rod, double inserted_m) {
   if (inserted_m < least_inserted_m(rod)) return rod.elements;
   int first = 0;
-  while (first < rod.elements - least_elements &&
+  while (first < rod.elements - least_inserted_elements &&
          inserted_m - rod.node_from_tip_m[first + 1] < leaves_at * rod.length.at(0)[first])
     ++first;
   return first;
@@ -150,7 +150,8 @@ void renew_elements(const Rod& rod, const RodInputs& inputs, double step_s, RodS
   const auto first = [&] { return s.first; };
   while (first() > 0 && base_length(rod, s) > rod.length.at(0)[first()] + enters_at * rod.length.at(0)[first() - 1])
     enter_element(rod, inputs, step_s, s);
-  while (first() < rod.elements - least_elements && base_length(rod, s) < leaves_at * rod.length.at(0)[first()])
+  while (first() < rod.elements - least_inserted_elements &&
+         base_length(rod, s) < leaves_at * rod.length.at(0)[first()])
     leave_element(rod, s);
 }
 
@@ -164,7 +165,7 @@ void feed(const Rod& rod, const RodInputs& inputs, double step_s, RodState& s, s
   if (s.inserted_m < least_inserted_m(rod))
     s.first = rod.elements, s.slack_m = 0;
   else if (!in_body(rod, s) &&
-           s.inserted_m > least_inserted_m(rod) + rod.length.at(0)[rod.elements - least_elements] / 10)
+           s.inserted_m > least_inserted_m(rod) + rod.length.at(0)[rod.elements - least_inserted_elements] / 10)
     appear(rod, inputs, step_s, s);
 }
 

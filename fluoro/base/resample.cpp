@@ -1,6 +1,7 @@
 #include "fluoro/base/resample.h"
 
 #include <algorithm>
+#include <boost/math/special_functions/bessel.hpp>
 #include <cmath>
 #include <vector>
 
@@ -42,8 +43,9 @@ std::vector<float> gaussian(double sigma) {
   std::vector<double> weights;
   double sum = 0;
   for (int n = 0; n == 0 || weights.back() > 1e-4 * weights[0]; ++n) {
-    // Beyond t = 700 the Bessel function overflows; there the sampled Gaussian differs by only 1 / (8 t).
-    weights.push_back(t < 500 ? std::exp(-t) * std::cyl_bessel_i(n, t) : std::exp(-0.5 * n * n / t));
+    // Boost's, as libm's writes a global (signgam) from every thread. Beyond t = 700 the Bessel function overflows;
+    // there the sampled Gaussian differs by only 1 / (8 t).
+    weights.push_back(t < 500 ? std::exp(-t) * boost::math::cyl_bessel_i(n, t) : std::exp(-0.5 * n * n / t));
     sum += (n ? 2 : 1) * weights.back();
   }
   std::vector<float> out;

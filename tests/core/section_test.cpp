@@ -46,6 +46,8 @@ TEST(Section, RefusalsNameTheRodTheSectionAndTheValue) {
   expect(refusal([](RodDescription& d) { d.sections[0].inner_radius_m = 0.2e-3; }), {"section 0", "inner radius"});
   expect(refusal([](RodDescription& d) { d.sections[0].rest_curvature_per_m.x() = INFINITY; }),
          {"section 0", "curvature"});
+  expect(refusal([](RodDescription& d) { d.sections[0].rest_curvature_per_m.y() = 1.1e4; }),
+         {"section 0", "curvature", "11000", "below 10000", "outer radius"});
   expect(refusal([](RodDescription& d) { d.sections.clear(); }), {"test wire", "no section"});
   expect(refusal([](RodDescription& d) { d.element_lengths_m.resize(15); }), {"15 elements", "16 to 4096"});
   expect(refusal([](RodDescription& d) { d.element_lengths_m.assign(5000, 1e-5); }), {"5000 elements"});

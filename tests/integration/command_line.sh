@@ -26,6 +26,8 @@ expect 3 "" bash -c "'$ostium' check no-such.stl 2>&-"
 expect 0 "of [0-9]* pass" bash -c "'$ostium' verify --only rod-static-0.4m-100 2> /dev/full"
 expect 2 "not expected" "$ostium" verify --quik
 expect 2 "not expected" "$ostium" nonsense
+: > "$dir/-dash.obj"
+(cd "$dir" && expect 2 "write ./-dash.obj" "$ostium" check -dash.obj)
 
 expect 0 "guide-jl4-6f" "$ostium" instruments
 expect 0 "sources:" "$ostium" instruments guide-jl4-6f

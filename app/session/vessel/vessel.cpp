@@ -10,6 +10,7 @@
 #include "vascular/geometry/centreline/centreline.h"
 #include "vascular/geometry/mesh/patient_frame.h"
 #include "vascular/geometry/mesh/surface_check.h"
+#include "vascular/geometry/repair/repair.h"
 #include "vascular/patient/wall.h"
 
 namespace ostium::app {
@@ -186,6 +187,12 @@ std::shared_ptr<const Vessel> vessel_of(const std::string& name, vascular::Mesh 
   }
   if (!((entry.towards_P - entry.p_P).norm() > 1e-4))
     throw data::LoadError(name + ": the entry and the point it leads towards are the same; expected two points");
+  for (const vascular::Mesh& piece : vascular::components_of(mesh))
+    if (winding_number(piece, entry.p_P) >= 0.5 && winding_number(piece, entry.towards_P) < 0.5 &&
+        winding_number(mesh, entry.towards_P) >= 0.5)
+      throw data::LoadError(name +
+                            ": the entry leads towards a point that lies in another piece of the mesh; expected "
+                            "one in the same piece");
   auto vessel = std::make_shared<Vessel>();
   vessel->name = name;
   vessel->wall.frames = {mesh.vertices};

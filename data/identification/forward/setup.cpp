@@ -1,5 +1,9 @@
 #include "data/identification/forward/setup.h"
 
+#include <fmt/format.h>
+
+#include "core/base/units.h"
+
 namespace ostium::data {
 
 namespace {
@@ -18,6 +22,19 @@ core::ConcentricPart part_of(const MeasurementSet& set, const Experiment& e, std
       *stiffness *= changes.stiffness_scale[i][s];
   }
   return part;
+}
+
+/// Full turns that the most curled instrument makes at rest.
+double turns_at_rest(const ExperimentSetup& setup) {
+  double most_rad = 0;
+  for (const core::ConcentricPart& part : setup.nest.parts) {
+    double rad = 0;
+    for (const core::Section& s : part.sections)
+      rad += s.rest_curvature_per_m.norm() *
+             (std::min(s.to_tip_m, part.inserted_m) - std::min(s.from_tip_m, part.inserted_m));
+    most_rad = std::max(most_rad, rad);
+  }
+  return most_rad / (2 * units::pi);
 }
 
 }  // namespace
@@ -39,6 +56,12 @@ ExperimentSetup setup_of(const MeasurementSet& set, const Experiment& experiment
     if (active.effect->apply) active.effect->apply(active, set, experiment, setup);
   for (std::size_t i = 0; i < declared.size(); ++i) declared[i].inserted_m = setup.nest.parts[i].inserted_m;
   setup.nest.element_lengths_m = concentric_elements(declared, longest_element_m, longest_element_rad);
+  if (setup.nest.element_lengths_m.size() > core::most_elements)
+    throw LoadError(fmt::format(
+        "{}: {} (\"{}\"): what is inserted would need {} elements, more than the {} of a rod; expected less length "
+        "(inserted_mm), or less rest curvature: {:.0f} turns are none of a wire",
+        set.file, experiment.place, experiment.id, setup.nest.element_lengths_m.size(), core::most_elements,
+        turns_at_rest(setup)));
   return setup;
 }
 

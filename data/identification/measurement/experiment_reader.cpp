@@ -64,9 +64,15 @@ void read_specimen(const JsonObject& entry, const MeasurementSet& set, Experimen
   if (list.size() != set.instruments.size())
     entry["specimen"].refuse(
         fmt::format("one entry for each of {} instruments, got {}", set.instruments.size(), list.size()));
-  for (std::size_t i = 0; i < list.size(); ++i)
-    if (list[i].type != JsonValue::Type::null)
-      e.specimen[i] = vector2(JsonObject(list[i], measurement_keys::specimen)["rest_curvature_per_mm"]) * per_mm;
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    if (list[i].type == JsonValue::Type::null) continue;
+    const JsonObject specimen(list[i], measurement_keys::specimen);
+    e.specimen[i] = vector2(specimen["rest_curvature_per_mm"]) * per_mm;
+    const double most_per_m = 1 / set.instruments[i].radius_m;
+    if (!(e.specimen[i]->norm() < most_per_m))
+      specimen["rest_curvature_per_mm"].refuse(
+          fmt::format("less than {:.3g}, one by the outer radius", most_per_m / per_mm));
+  }
 }
 
 void read_measured(const JsonObject& entry, Experiment& e) {

@@ -86,16 +86,21 @@ double cost_of(double square, double numbers, double degrees) {
   return std::isfinite(degrees) ? (degrees + numbers) * std::log1p(square / degrees) : square;
 }
 
+/// std::lgamma for any number of threads: that one keeps its sign in a global.
+double log_gamma(double x) {
+  int sign = 0;
+  return lgamma_r(x, &sign);
+}
+
 double constant_of(double numbers, double degrees) {
   if (!std::isfinite(degrees)) return numbers * std::log(2 * units::pi);
-  return -2 * (std::lgamma((degrees + numbers) / 2) - std::lgamma(degrees / 2)) +
-         numbers * std::log(degrees * units::pi);
+  return -2 * (log_gamma((degrees + numbers) / 2) - log_gamma(degrees / 2)) + numbers * std::log(degrees * units::pi);
 }
 
 /// The derivative of log Gamma, to eight figures.
 double digamma(double x) {
   constexpr double step = 1e-4;
-  return (std::lgamma(x + step) - std::lgamma(x - step)) / (2 * step);
+  return (log_gamma(x + step) - log_gamma(x - step)) / (2 * step);
 }
 
 double likelihood_of(const std::vector<ResidualTrace>& traces, const Decorrelated& d, const NoiseModel& m) {

@@ -140,6 +140,15 @@ TEST(Session, AMeshThatFacesInwardsIsTurnedAndAnEntryOutsideRefused) {
   EXPECT_THROW(vessel_of("tube", mesh, {Eigen::Vector3d(0, 0.02, 0), entry.towards_P}, warnings), data::LoadError);
 }
 
+TEST(Session, AnEntryLeadsOnInItsOwnPiece) {
+  vascular::Mesh mesh = bent_tube(), other = bent_tube();
+  for (Eigen::Vector3d& p : other.vertices) p.z() += 0.2;
+  append(mesh, other);
+  std::string warnings;
+  EXPECT_NO_THROW(vessel_of("tubes", mesh, {Eigen::Vector3d::Zero(), {0.02, 0, 0}}, warnings));
+  EXPECT_THROW(vessel_of("tubes", mesh, {Eigen::Vector3d::Zero(), {0.02, 0, 0.2}}, warnings), data::LoadError);
+}
+
 TEST(Session, AMeshThatIsFoldedThroughItselfIsRefused) {
   vascular::Mesh mesh = bent_tube();
   for (std::size_t v = 1; v < mesh.vertices.size(); v += 2) mesh.vertices[v].tail<2>() *= -0.5;

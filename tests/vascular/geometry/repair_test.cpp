@@ -263,11 +263,14 @@ TEST(Repair, OfAWallThatIsASolidTheLumenIsWhatItHolds) {
 }
 
 TEST(Repair, TwoTubesSideBySideAreNoWall) {
-  Mesh mesh = test::tube(5 * mm, 0.2, 36, 80, true), other = mesh;
-  for (Eigen::Vector3d& p : other.vertices) p.x() += 20 * mm;
-  append(mesh, other);
-  const Sheets sheets = sheets_of(mesh);
-  EXPECT_EQ(find_double_wall(mesh, sheets).triangles, 0);
+  for (const double apart : {20 * mm, 10.05 * mm}) {  // the second almost touch
+    Mesh mesh = test::tube(5 * mm, 0.2, 36, 80, true), other = mesh;
+    for (Eigen::Vector3d& p : other.vertices) p.x() += apart;
+    append(mesh, other);
+    Sheets sheets = sheets_of(mesh);
+    orient(mesh, sheets);
+    EXPECT_EQ(find_double_wall(mesh, sheets).triangles, 0) << apart;
+  }
 }
 
 TEST(Repair, AWallsUnitIsThatOfItsLumen) {

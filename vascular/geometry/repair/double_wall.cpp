@@ -44,7 +44,10 @@ class ShellFinder {
       const bool solid = side > 0 && solid_wall(t, inside);
       if (wall < 2e-5 || wall > (solid ? thickest_solid_m : thickest_m)) continue;
       if (lumen < (solid ? narrowest_solid : narrowest) * wall) continue;
-      if (std::fabs(normals_[inside[0].triangle].dot(normals_[t])) < 0.7) continue;
+      const double aligned = normals_[inside[0].triangle].dot(normals_[t]);
+      if (std::fabs(aligned) < 0.7) continue;
+      // Seen outwards, a surface that faces this one is a neighbour (a coil, an artery beside an artery), no lumen.
+      if (side < 0 && aligned < 0 && sides_known(sheets_)) continue;
       // Of the two sides of a solid, the lumen is the narrower.
       const double free = solid ? std::max(2 * wall, lumen) : 2 * wall;
       if (!tree_.hits(middles_[t] - 1e-7 * in, -in, free).empty()) continue;

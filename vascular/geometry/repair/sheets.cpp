@@ -114,6 +114,8 @@ Sheets sheets_of(const Mesh& mesh) {
   return sheets;
 }
 
+bool sides_known(const Sheets& sheets) { return sheets.pieces < 2000; }
+
 Orientation orient(Mesh& mesh, Sheets& sheets) {
   Orientation result;
   const int n = static_cast<int>(mesh.triangles.size());
@@ -155,7 +157,7 @@ Orientation orient(Mesh& mesh, Sheets& sheets) {
   std::vector<int> first(static_cast<std::size_t>(sheets.pieces), -1);
   bool any = false;
   for (int t = n - 1; t >= 0; --t) first[sheets.piece[t]] = t;
-  if (sheets.pieces < 2000)  // a soup of loose triangles has no sides
+  if (sides_known(sheets))
     for (int p = 0; p < sheets.pieces; ++p)
       if (six_volumes(mesh, openings, sheets, p) < 0) {
         inverted[p] = any = true;

@@ -17,6 +17,9 @@ struct Sheets {
 /// Where more than two triangles share an edge, the flattest pairs belong together; an odd one stays open.
 Sheets sheets_of(const Mesh& mesh);
 
+/// False of a soup of loose triangles: `orient` leaves it as it is.
+bool sides_known(const Sheets& sheets);
+
 /// What `orient` changed.
 struct Orientation {
   std::vector<Eigen::Vector3d> flipped;   ///< centres of triangles that faced differently from most of their piece
