@@ -12,7 +12,7 @@ namespace ostium::data {
 namespace {
 
 /// Compresses in memory first: given a file name, libpng would on failure remove whatever has that name.
-std::vector<std::uint8_t> compressed(int width, int height, png_uint_32 format, const std::uint8_t* pixels) {
+std::vector<std::uint8_t> compressed(int width, int height, png_uint_32 format, const void* pixels) {
   png_image image{};
   image.version = PNG_IMAGE_VERSION;
   image.width = static_cast<png_uint_32>(width);
@@ -40,6 +40,10 @@ void write_png(const std::string& file, const fluoro::Picture& picture) { write_
 
 void write_rgb_png(const std::string& file, int width, int height, const std::vector<std::uint8_t>& rgb) {
   write_bytes(file, rgb_png_of(width, height, rgb));
+}
+
+void write_grey16_png(const std::string& file, int width, int height, const std::vector<std::uint16_t>& grey) {
+  write_bytes(file, compressed(width, height, PNG_FORMAT_LINEAR_Y, grey.data()));
 }
 
 std::vector<std::uint8_t> rgb_png_of(int width, int height, const std::vector<std::uint8_t>& rgb) {

@@ -11,6 +11,8 @@ namespace ostium::data {
 void write_png(const std::string& file, const fluoro::Picture& picture);
 /// The same in colour: `rgb` has 3 * width * height bytes, rows from the top.
 void write_rgb_png(const std::string& file, int width, int height, const std::vector<std::uint8_t>& rgb);
+/// Numbers of 16 bits in grey, rows from the top.
+void write_grey16_png(const std::string& file, int width, int height, const std::vector<std::uint16_t>& grey);
 /// The bytes of the PNG file.
 std::vector<std::uint8_t> png_of(const fluoro::Picture& picture);
 std::vector<std::uint8_t> rgb_png_of(int width, int height, const std::vector<std::uint8_t>& rgb);

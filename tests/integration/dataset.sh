@@ -42,5 +42,18 @@ kill -9 $first
 wait $first || true
 expect 0 "three: 8 pictures" dataset -o three
 diff -r one three
+# As DICOM: a film of each run, and what is where in it.
+expect 0 "films: 2 pictures" "$ostium" dataset rca-mid-focal --script rca-from-the-ostium --set begin=RCA --seconds 1.5 \
+  --pixels 128 --every 0.6 --seeds 1 --dicom -o films
+film=$(echo films/dicom/*-1.dcm) segmentation=$(echo films/dicom/*-1-seg.dcm)
+if command -v dcmdump >/dev/null; then
+  expect 0 "0008,0016.*XRayAngiographicImageStorage" dcmdump "$film"
+  expect 0 "0062,0005.*guide" dcmdump "$segmentation"
+  uid=$(dcmdump +P 0008,0018 "$film" | grep -o '\[.*\]')
+  expect 0 "0008,1155.*${uid//[\[\]]/}" dcmdump "$segmentation"
+fi
+if command -v dciodvfy >/dev/null; then
+  dciodvfy "$film" 2>&1 | (! grep Error) && dciodvfy "$segmentation" 2>&1 | (! grep Error)
+fi
 # A case whose vessel has no room for the lesion is a run without pictures.
 expect 3 "there is no case" "$ostium" dataset no-such-case -o none

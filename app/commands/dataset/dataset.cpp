@@ -5,18 +5,17 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <optional>
-#include <set>
 
 #include "app/command_line/arguments.h"
 #include "app/command_line/command.h"
 #include "app/command_line/interrupt.h"
 #include "app/command_line/pictures.h"
 #include "app/command_line/progress.h"
-#include "app/commands/dataset/coco.h"
-#include "app/commands/dataset/frames.h"
 #include "app/commands/dataset/run_locks.h"
-#include "app/commands/dataset/splits.h"
 #include "app/commands/sweep/journal.h"
+#include "app/session/labelling/label_set.h"
+#include "app/session/labelling/labelled_run.h"
+#include "app/session/labelling/splits.h"
 #include "data/formats/load_error.h"
 #include "data/formats/write_file.h"
 
@@ -42,6 +41,7 @@ void declare(Options& options, Arguments& a) {
       .range(0.05, 3600.0)
       .show_default();
   add_pixels_option(options, a.frames.pixels, 64);
+  options.flag("--dicom", a.frames.dicom, "The pictures as DICOM films, too, each with a segmentation (DICOM SEG)");
   options.add("--part", a.runs.part, "Only this part of the runs; auto: by the rank that Slurm or mpirun gives")
       .type("K/N|auto");
   options.add("-o,--output", a.folder, "Where it goes; runs that are done there are left as they are")
@@ -53,8 +53,8 @@ class Dataset {
  public:
   Dataset(const Arguments& arguments, Sweep sweep, const SweepPart& part)
       : arguments_(arguments), sweep_(std::move(sweep)), head_(head_of(sweep_, part)), part_of_(parts_of_runs(head_)) {
-    id_ = fmt::format("{} {:g} {} {:g}", head_.sweep, arguments.frames.every_s, arguments.frames.pixels,
-                      arguments.runs.session.seconds);
+    id_ = fmt::format("{} {:g} {} {:g}{}", head_.sweep, arguments.frames.every_s, arguments.frames.pixels,
+                      arguments.runs.session.seconds, arguments.frames.dicom ? " dicom" : "");
   }
 
   /// One vessel at a time, so that only one is in memory. Throws LoadError if the folder is of another set, or another
@@ -87,35 +87,9 @@ class Dataset {
   std::size_t finish() const {
     locks_->keep_others_from_finishing();
     std::vector<Json> runs;
-    std::vector<std::string> groups;
-    std::set<std::string> names;
-    for (std::size_t run = 0; run < part_of_.size(); ++run) {
-      runs.push_back(stored(run));
-      groups.push_back(runs.back().at("person"));
-      for (const Json& picture : runs.back().at("pictures"))
-        for (const Json& one : picture.at("annotations")) names.insert(one.at("category_id"));
-    }
-    const Json categories = categories_of({names.begin(), names.end()});
-    const std::vector<Split> split_of = splits_of(groups);
-    std::size_t pictures = 0;
-    Json listed = Json::array();
-    for (const Split split : {Split::train, Split::val, Split::test}) {
-      std::vector<Json> own;
-      for (std::size_t run = 0; run < runs.size(); ++run)
-        if (split_of[run] == split) own.push_back(runs[run]);
-      const Json coco = coco_of(own, categories);
-      pictures += coco.at("images").size();
-      data::write_file(file(fmt::format("{}.json", split_name(split))), coco.dump() + "\n");
-    }
-    for (std::size_t run = 0; run < runs.size(); ++run) {
-      Json one = runs[run];
-      one["pictures"] = one.at("pictures").size();
-      one["split"] = split_name(split_of[run]);
-      one.erase("dataset");
-      listed.push_back(one);
-    }
-    data::write_file(file("manifest.json"), manifest(listed).dump(2) + "\n");
-    return pictures;
+    for (std::size_t run = 0; run < part_of_.size(); ++run) runs.push_back(stored(run));
+    return write_label_set(arguments_.folder, {arguments_.frames.every_s, arguments_.frames.pixels, sweep_.grid.keys},
+                           runs);
   }
 
  private:
@@ -159,6 +133,7 @@ class Dataset {
       choose_sizes(*vessel, setup);
       FrameOptions options = arguments_.frames;
       options.seconds = arguments_.runs.session.seconds;
+      options.stop = [] { return interrupted.load(); };
       const Json made = frames_of_run(setup, vessel, sweep_.grid.name_of(run), arguments_.folder, options);
       if (made.empty()) return;
       out.update(made);
@@ -175,20 +150,6 @@ class Dataset {
     data::write_file(run_file(run), out.dump() + "\n");
   }
 
-  Json manifest(const Json& runs) const {
-    Json classes = Json::array();
-    for (const char* name : label_class_names) classes.push_back(name);
-    return {{"software", "ostium " OSTIUM_VERSION},
-            {"every_s", arguments_.frames.every_s},
-            {"pixels", arguments_.frames.pixels},
-            {"units",
-             "px from the upper left corner, centres of pixels at one half; mm in the patient's frame: x left, y "
-             "head, z front"},
-            {"mask_values", classes},
-            {"keys", sweep_.grid.keys},
-            {"runs", runs}};
-  }
-
   const Arguments& arguments_;
   const Sweep sweep_;
   const JournalHead head_;
@@ -201,7 +162,7 @@ class Dataset {
 int run(const Arguments& a) {
   const SweepPart part = part_from(a.runs.part);
   Dataset dataset(a, plan_sweep(a.runs), part);
-  for (const char* folder : {"images", "masks", "runs"}) make_folder(fs::path(a.folder) / folder);
+  for (const char* folder : {"images", "masks", "depth", "runs"}) make_folder(fs::path(a.folder) / folder);
   stop_on_signals();
   dataset.run();
   const std::size_t missing = dataset.missing();

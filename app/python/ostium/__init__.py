@@ -18,13 +18,13 @@ from ._ostium import (
     Batch, Data, Imager, Model, Vessel, cases, explain, instruments, rollout, run_script, scripts, step, views,
 )
 from .recording import Recording
-from . import sweep
+from . import dataset, sweep
 from . import vessel_file as _vessel_file  # Vessel.save, Vessel.load
 
 __version__ = _ostium.__version__
 __all__ = [
-    "Batch", "Data", "Imager", "Model", "OstiumError", "Recording", "Vessel", "cases", "explain", "instruments", "rollout",
-    "run_script", "scripts", "step", "sweep", "views",
+    "Batch", "Data", "Imager", "Model", "OstiumError", "Recording", "Vessel", "cases", "dataset", "explain", "instruments",
+    "rollout", "run_script", "scripts", "step", "sweep", "views",
 ]
 
 _here = _Path(__file__).parent

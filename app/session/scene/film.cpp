@@ -76,10 +76,7 @@ const fluoro::Picture& Film::frame(const SessionModel& model, const SessionState
   scene.shafts = shafts_of(model, state);
   if (model.has_patient()) add_treatment(model, state, scene);
   const CArmInputs& arm = inputs.c_arm;
-  p.view.arm.lao_rad = o.lao_rad.value_or(arm.lao_rad), p.view.arm.cran_rad = o.cran_rad.value_or(arm.cran_rad);
-  p.view.arm.p_PI = o.p_PI.value_or(arm.p_PI);
-  p.view.field_m = o.field_m.value_or(arm.field_m);
-  p.view.pixels = o.pixels;
+  p.view = view(inputs);
   const bool on = o.always_on || arm.beam();
   p.is_cine = o.mode ? *o.mode == fluoro::Mode::cine : arm.cine;
   const fluoro::FluoroscopeInput in{.scene = scene,
@@ -106,6 +103,17 @@ const fluoro::Picture& Film::frame(const SessionModel& model, const SessionState
   if (o.monitor && model.has_patient())
     append_strips({p.monitor.II, p.monitor.V2, p.monitor.guide, p.monitor.gauge}, monitor_s, monitor_pixels, p.picture);
   return p.picture;
+}
+
+fluoro::View Film::view(const SessionInputs& inputs) const {
+  const FilmOptions& o = parts_->options;
+  const CArmInputs& arm = inputs.c_arm;
+  fluoro::View view = parts_->view;
+  view.arm.lao_rad = o.lao_rad.value_or(arm.lao_rad), view.arm.cran_rad = o.cran_rad.value_or(arm.cran_rad);
+  view.arm.p_PI = o.p_PI.value_or(arm.p_PI);
+  view.field_m = o.field_m.value_or(arm.field_m);
+  view.pixels = o.pixels;
+  return view;
 }
 
 void Film::restart(std::uint64_t seed) {

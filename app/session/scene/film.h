@@ -53,6 +53,8 @@ class Film {
   /// fluoro's `tick` does.
   const fluoro::Picture& frame(const SessionModel& model, const SessionState& state, const SessionInputs& inputs,
                                const XrayUse& xrays = {});
+  /// The view that `frame` takes.
+  fluoro::View view(const SessionInputs& inputs) const;
   fluoro::CineRun run() const;            ///< with the last exposure, without frames
   const fluoro::DoseMeter& dose() const;  ///< as shown in the last overlay
 

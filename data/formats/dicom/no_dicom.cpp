@@ -1,6 +1,7 @@
 /// DICOM in a build without DCMTK: nothing is read or written, and it says so.
 #include "data/formats/dicom/dicom.h"
 #include "data/formats/dicom/dicom_geometry.h"
+#include "data/formats/dicom/segmentation.h"
 #include "data/formats/load_error.h"
 #include "data/formats/write_file.h"
 
@@ -13,6 +14,15 @@ DicomGeometry read_dicom_geometry(const std::string& file) {
 std::string new_study_uid() { return ""; }
 
 void write_dicom(const std::string& file, const fluoro::CineRun&, const DicomPatient&, const DicomPlace&) {
+  throw WriteError(file + ": this build writes no DICOM; build with OSTIUM_DICOM");
+}
+
+void write_dicom(const NewFile& file, const fluoro::CineRun&, const DicomPatient&, const DicomPlace&) {
+  throw WriteError(file.path() + ": this build writes no DICOM; build with OSTIUM_DICOM");
+}
+
+void write_segmentation(const std::string& file, const std::string&, const std::string&,
+                        const std::vector<DicomSegment>&, const std::vector<SegmentedFrame>&) {
   throw WriteError(file + ": this build writes no DICOM; build with OSTIUM_DICOM");
 }
 

@@ -5,9 +5,11 @@
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
+#include <fstream>
 
 #include "core/base/units.h"
 #include "data/formats/dicom/dicom_runs.h"
+#include "data/formats/dicom/segmentation.h"
 #include "data/formats/png.h"
 #include "data/formats/write_file.h"
 
@@ -162,6 +164,57 @@ TEST(DicomRuns, AFilmLongerThanAFileCanHoldGoesOnInTheNext) {
   EXPECT_EQ(runs.runs()[0].frames.size(), 3u);
   EXPECT_EQ(runs.runs()[2].frames.size(), 1u);
   EXPECT_LT(dicom_most_bytes, std::uint64_t{1} << 32);
+}
+
+const DicomSegment wire = {"wire", {"260787004", "SCT", "Physical object"}, {"WIRE", "99OSTIUM", "Guide wire"}, "wire"},
+                   artery = {"Arterie ä",
+                             {"91723000", "SCT", "Anatomical Structure"},
+                             {"13647002", "SCT", "Right Coronary Artery"},
+                             "RCA"};
+
+TEST(DicomSegmentation, BitsAreThePixels) {
+  constexpr int side = 64, bytes = side * side / 8;
+  for (const std::size_t frames : {1u, 3u}) {
+    const std::string film = file_for("film.dcm"), file = file_for("film-seg.dcm");
+    write_dicom(film, ramp(frames, side, side));
+    // Column 2 from row 5 on, seven pixels; and the last pixel of all.
+    const int last = static_cast<int>(frames);
+    write_segmentation(file, film, "1", {wire, artery},
+                       {{1, 2, {2 * side + 5, 7, side * side - 2 * side - 12}}, {last, 1, {side * side - 1, 1}}});
+    std::ifstream in(file, std::ios::binary | std::ios::ate);
+    ASSERT_GT(in.tellg(), 2 * bytes);
+    in.seekg(-2 * bytes,
+             std::ios::end);  // the pixels are the last of a file: eight in a byte, the first lowest (PS3.5 8.1.1)
+    std::vector<char> packed(2 * bytes);
+    in.read(packed.data(), 2 * bytes);
+    for (int frame = 0; frame < 2; ++frame)
+      for (int row = 0; row < side; ++row)
+        for (int column = 0; column < side; ++column) {
+          const int at = row * side + column;
+          const bool set = packed[static_cast<std::size_t>(frame * bytes + at / 8)] >> (at % 8) & 1;
+          EXPECT_EQ(set, frame == 0 ? column == 2 && row >= 5 && row < 12 : at == side * side - 1) << row << column;
+        }
+    if (there_is("dciodvfy")) {
+      const Outcome checked = run("dciodvfy " + file);
+      EXPECT_EQ(checked.words.find("Error"), std::string::npos) << checked.words;
+      EXPECT_EQ(checked.words.find("Segmentation\n"), 0u) << checked.words;
+    }
+    if (there_is("dcmdump")) {
+      EXPECT_NE(run("dcmdump +U8 +P 0062,0005 " + file).words.find("[Arterie ä]"), std::string::npos);
+    }
+    std::filesystem::remove(film), std::filesystem::remove(file);
+  }
+}
+
+TEST(DicomSegmentation, WhatIsNotThereIsRefusedAndLeavesNothing) {
+  const std::string film = file_for("film.dcm"), file = file_for("film-seg.dcm");
+  write_dicom(film, ramp(2, 8, 8));
+  EXPECT_THROW(write_segmentation(file, film, "1", {wire}, {{3, 1, {64}}}), std::invalid_argument);
+  EXPECT_THROW(write_segmentation(file, film, "1", {wire}, {{1, 2, {64}}}), std::invalid_argument);
+  EXPECT_THROW(write_segmentation(file, film, "1", {wire}, {{1, 1, {60, 5}}}), std::invalid_argument);
+  EXPECT_THROW(write_segmentation(file, film + ".none", "1", {wire}, {{1, 1, {63, 1}}}), WriteError);
+  EXPECT_FALSE(std::filesystem::exists(file) || std::filesystem::exists(file + ".unfinished"));
+  std::filesystem::remove(film);
 }
 
 }  // namespace

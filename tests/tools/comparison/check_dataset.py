@@ -3,7 +3,8 @@
 
 Run lengths add up to the picture; area and box are those of the mask; a pixel of the mask's PNG has the highest class
 whose run lengths cover it; points in mm, projected by the C-arm's matrix, are where the pixels say; ids are unique; no
-person is in two splits. Exit code 1, and the first thing that is not so.
+person is in two splits; a pixel has a depth where its mask has something, and at a point that nothing else covers it is
+the point's. Exit code 1, and the first thing that is not so.
 """
 import json
 import os
@@ -16,8 +17,8 @@ CLASS_OF = {"wire": "wire", "balloon": "balloon", "stent": "stent", "balloon sha
             "sheath": "catheter"}
 
 
-def read_png(path):
-    """Width, height and rows of an 8-bit grey PNG."""
+def read_png(path, bits=8):
+    """Width, height and rows of a grey PNG."""
     with open(path, "rb") as file:
         data = file.read()
     assert data[:8] == b"\x89PNG\r\n\x1a\n", path
@@ -27,19 +28,22 @@ def read_png(path):
         body = data[at + 8:at + 8 + length]
         if kind == b"IHDR":
             width, height, depth, colour = struct.unpack(">IIBB", body[:10])
-            assert (depth, colour) == (8, 0), path
+            assert (depth, colour) == (bits, 0), path
         pixels += body if kind == b"IDAT" else b""
         at += 12 + length
-    raw, rows = zlib.decompress(pixels), []
+    raw, rows, apart = zlib.decompress(pixels), [], bits // 8
+    wide = width * apart
     for y in range(height):
-        line = bytearray(raw[y * (width + 1) + 1:(y + 1) * (width + 1)])
-        above = rows[-1] if rows else bytearray(width)
-        for x in range(width):
-            a, b, c = line[x - 1] if x else 0, above[x], above[x - 1] if x else 0
+        line = bytearray(raw[y * (wide + 1) + 1:(y + 1) * (wide + 1)])
+        above = rows[-1] if rows else bytearray(wide)
+        for x in range(wide):
+            a, b, c = line[x - apart] if x >= apart else 0, above[x], above[x - apart] if x >= apart else 0
             p = a + b - c
             nearest = min((abs(p - a), 0, a), (abs(p - b), 1, b), (abs(p - c), 2, c))[2]
-            line[x] = (line[x] + (0, a, b, (a + b) // 2, nearest)[raw[y * (width + 1)]]) & 255
+            line[x] = (line[x] + (0, a, b, (a + b) // 2, nearest)[raw[y * (wide + 1)]]) & 255
         rows.append(line)
+    if bits == 16:
+        rows = [struct.unpack(f">{width}H", row) for row in rows]
     return width, height, rows
 
 
@@ -65,11 +69,27 @@ def check_points(image):
         assert inside == point["in_picture"], point
 
 
+def check_depth(image, mask, depth, unit_mm):
+    """How many key points it was compared at: markers and tips lie on axes of tools, of which it is the axis' depth."""
+    for mask_row, depth_row in zip(mask, depth):
+        assert all((value > 0) == (far > 0) for value, far in zip(mask_row, depth_row)), image["depth"]
+    compared = 0
+    for point in image["points"]:
+        if not point["in_picture"] or not point["name"].startswith("tip of"):
+            continue
+        column, row = (int(at) for at in point["px"])
+        off = abs(unit_mm * depth[row][column] - point["depth_mm"])
+        # What lies over it in the picture is another tool, which is beside it in space as well.
+        assert off < 30, (point, unit_mm * depth[row][column])
+        compared += off < 2
+    return compared
+
+
 def main(folder):
     with open(os.path.join(folder, "manifest.json"), encoding="utf-8") as file:
         manifest = json.load(file)
     classes = manifest["mask_values"]
-    split_of, pictures, devices = {}, 0, 0
+    split_of, pictures, devices, deep = {}, 0, 0, 0
     for run in manifest["runs"]:
         assert split_of.setdefault(run["person"], run["split"]) == run["split"], run
     for split in ("train", "val", "test"):
@@ -83,6 +103,8 @@ def main(folder):
             check_points(image)
             width, height, picture = read_png(os.path.join(folder, image["file_name"]))
             _, _, mask = read_png(os.path.join(folder, image["mask"]))
+            _, _, depth = read_png(os.path.join(folder, image["depth"]), bits=16)
+            deep += check_depth(image, mask, depth, manifest["depth_unit_mm"])
             assert (width, height) == (image["width"], image["height"]) and len(set(map(bytes, picture))) > 1
             expected = [[0] * width for _ in range(height)]
             for one in (a for a in coco["annotations"] if a["image_id"] == image["id"]):
@@ -108,8 +130,8 @@ def main(folder):
                     assert here == own if own not in (1, 2) else here in (1, 2), (image["mask"], row, column)
             pictures += 1
     assert pictures == sum(run["pictures"] for run in manifest["runs"]) > 0
-    assert devices > 0
-    print(f"{pictures} pictures, {devices} devices")
+    assert devices > 0 and deep > 0
+    print(f"{pictures} pictures, {devices} devices, depth at {deep} tips")
 
 
 if __name__ == "__main__":

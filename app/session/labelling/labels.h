@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "app/session/model/session.h"
+#include "fluoro/display/display.h"
 #include "fluoro/projection/silhouette.h"
 
 namespace ostium::app {
@@ -31,6 +32,15 @@ struct Labels {
   std::vector<LabelledThing> things;  ///< those that cover at least a pixel, lowest class first
   std::vector<LabelledPoint> points;
 };
+
+/// What a pixel shows: the highest class that covers it, and how far that is from the source.
+struct LabelledPixels {
+  fluoro::Picture mask;              ///< LabelClass of each pixel
+  std::vector<std::uint16_t> depth;  ///< in units of depth_unit_m, along the axis of the beam; 0: nothing
+};
+inline constexpr double depth_unit_m = 20e-6;
+
+LabelledPixels pixels_of(const fluoro::View& view, const Labels& labels);
 
 class Labeller {
  public:

@@ -3,7 +3,7 @@
 /// lengths, tips as key points. What COCO has no place for (C-arm, forces, centrelines, depth) stands beside it.
 #include <nlohmann/json_fwd.hpp>
 
-#include "app/commands/dataset/labels.h"
+#include "app/session/labelling/labels.h"
 #include "fluoro/display/display.h"
 
 namespace ostium::app {
@@ -14,15 +14,19 @@ struct PictureName {
   std::uint64_t step = 0;
   std::string picture() const;  ///< "images/RUN-001234.png", from the set's folder
   std::string mask() const;     ///< "masks/RUN-001234.png"
+  std::string depth() const;    ///< "depth/RUN-001234.png"
 };
 
+/// Angles, distances in mm, and the matrix from mm to pixels.
+nlohmann::ordered_json c_arm_of(const fluoro::View& view);
+nlohmann::ordered_json points_of(const fluoro::View& view, const Labels& labels);
 /// Of one picture; ids count within a run, and categories are names: `coco_of` numbers them.
 nlohmann::ordered_json image_of(const PictureName& name, const SessionModel& model, const SessionState& state,
                                 const SessionReport& report, const fluoro::View& view, const Labels& labels);
 std::vector<nlohmann::ordered_json> annotations_of(const fluoro::View& view, const Labels& labels);
 
-/// Each pixel has the number of the highest class that covers it (LabelClass).
-fluoro::Picture mask_of(const fluoro::View& view, const Labels& labels);
+/// Run lengths down the columns, of what is not covered first.
+std::vector<long> run_lengths(const fluoro::View& view, const fluoro::Silhouette& covered);
 
 /// The category of each name, from 1.
 nlohmann::ordered_json categories_of(const std::vector<std::string>& names);

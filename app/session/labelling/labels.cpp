@@ -1,4 +1,4 @@
-#include "app/commands/dataset/labels.h"
+#include "app/session/labelling/labels.h"
 
 #include <fmt/format.h>
 
@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 
+#include "app/session/coupling/tool_geometry.h"
 #include "app/session/scene/xray_scene.h"
 #include "core/rod/introducer.h"
 
@@ -31,19 +32,21 @@ const std::vector<std::array<int, 3>>& triangles_of(const Vessel& vessel) {
   return vessel.patient ? vessel.patient->lumen.triangles : vessel.wall.triangles;
 }
 
-/// The point of a rod so far from its tip; the first in the body if it is not.
-Vector3d point_from_tip(const core::Rod& rod, const core::RodState& state, double from_tip_m) {
-  for (int i = rod.elements; i > state.first; --i) {
-    const double near = rod.node_from_tip_m[static_cast<std::size_t>(i)],
-                 far = rod.node_from_tip_m[static_cast<std::size_t>(i) - 1];
-    if (from_tip_m > far) continue;
-    const double share = (from_tip_m - near) / (far - near);
-    return (1 - share) * state.position[i] + share * state.position[i - 1];
-  }
-  return state.position[state.first];
-}
-
 }  // namespace
+
+LabelledPixels pixels_of(const fluoro::View& view, const Labels& labels) {
+  const std::size_t count = static_cast<std::size_t>(view.pixels) * static_cast<std::size_t>(view.pixels);
+  LabelledPixels out{{view.pixels, view.pixels, std::vector<std::uint8_t>(count)}, std::vector<std::uint16_t>(count)};
+  for (const LabelledThing& thing : labels.things) {  // the lowest class first
+    const float* depth_m = thing.covered.depth_m().data();
+    for (std::size_t i = 0; i < count; ++i) {
+      if (!(depth_m[i] > 0)) continue;
+      out.mask.grey[i] = static_cast<std::uint8_t>(thing.of_class);
+      out.depth[i] = static_cast<std::uint16_t>(std::clamp(std::lround(depth_m[i] / depth_unit_m), 1L, 65535L));
+    }
+  }
+  return out;
+}
 
 Labeller::Labeller(const SessionModel& model) : model_(model), triangles_(triangles_of(*model.vessel)) {
   const VesselIndex& way = *model.vessel->way;

@@ -1,12 +1,12 @@
-#include "app/commands/dataset/frames.h"
+#include "app/session/labelling/labelled_run.h"
 
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
-#include "app/command_line/interrupt.h"
-#include "app/commands/dataset/coco.h"
+#include "app/session/labelling/coco.h"
+#include "app/session/labelling/dicom_film.h"
 #include "app/session/run/run.h"
 #include "app/session/scene/film.h"
 #include "data/formats/png.h"
@@ -21,13 +21,6 @@ using Json = nlohmann::ordered_json;
 constexpr double frames_per_s = 15;
 /// Frames drawn before one that is kept, in which exposure, noise filter and lag settle.
 constexpr long settling = 5;
-
-fluoro::View view_of(const CArmInputs& arm, int pixels) {
-  fluoro::View view;
-  view.arm.lao_rad = arm.lao_rad, view.arm.cran_rad = arm.cran_rad, view.arm.p_PI = arm.p_PI;
-  view.field_m = arm.field_m, view.pixels = pixels;
-  return view;
-}
 
 bool any_in_body(const SessionReport& report) {
   return std::any_of(report.tools.begin(), report.tools.end(), [](const ToolReport& tool) { return tool.in_body; });
@@ -44,8 +37,9 @@ Json frames_of_run(const RunSetup& setup, std::shared_ptr<const Vessel> vessel, 
   Film film(run.model, film_options);
   const long apart = std::max(1L, std::lround(options.every_s * frames_per_s));
   Json pictures = Json::array();
+  DicomFilm dicom;
   std::string reason;
-  for (long frame = 0; !interrupted && run.tick();) {
+  for (long frame = 0; !options.stop() && run.tick();) {
     if (options.seconds > 0 && seconds(run.model, run.state) >= options.seconds - 1e-9) {
       reason = "time limit";
       break;
@@ -55,19 +49,26 @@ Json frames_of_run(const RunSetup& setup, std::shared_ptr<const Vessel> vessel, 
     if (ahead > settling) continue;
     const fluoro::Picture& picture = film.frame(run.model, run.state, run.inputs);
     if (ahead > 0 || !any_in_body(run.report)) continue;
-    const fluoro::View view = view_of(run.inputs.c_arm, options.pixels);
+    const fluoro::View view = film.view(run.inputs);
     const Labels labels = labeller.at(run.state, view);
     const PictureName name{run_name, run.state.rods.step};
     data::write_png((fs::path(folder) / name.picture()).string(), picture);
-    data::write_png((fs::path(folder) / name.mask()).string(), mask_of(view, labels));
+    const LabelledPixels pixels = pixels_of(view, labels);
+    data::write_png((fs::path(folder) / name.mask()).string(), pixels.mask);
+    data::write_grey16_png((fs::path(folder) / name.depth()).string(), options.pixels, options.pixels, pixels.depth);
+    if (options.dicom) dicom.add(film.run(), frames_per_s / static_cast<double>(apart), picture, labels, view);
     pictures.push_back({{"image", image_of(name, run.model, run.state, run.report, view, labels)},
                         {"annotations", annotations_of(view, labels)}});
   }
-  if (interrupted) return {};
-  return {{"outcome", reason.empty() ? words_for(run.outcome) : "aborted"},
-          {"reason", reason.empty() ? app::reason(run.plan, run.hands) : reason},
-          {"simulated_s", seconds(run.model, run.state)},
-          {"pictures", pictures}};
+  if (options.stop()) return {};
+  Json files = Json::array();
+  if (options.dicom) files = dicom.write(folder, run_name);
+  Json out = {{"outcome", reason.empty() ? words_for(run.outcome) : "aborted"},
+              {"reason", reason.empty() ? app::reason(run.plan, run.hands) : reason},
+              {"simulated_s", seconds(run.model, run.state)},
+              {"pictures", pictures}};
+  if (options.dicom) out["dicom"] = files;
+  return out;
 }
 
 }  // namespace ostium::app

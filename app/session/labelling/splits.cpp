@@ -1,4 +1,4 @@
-#include "app/commands/dataset/splits.h"
+#include "app/session/labelling/splits.h"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "app/commands/dataset/coco.h"
+#include "app/session/labelling/coco.h"
 
 #include <fmt/format.h>
 
@@ -25,20 +25,6 @@ bool is_in(const fluoro::View& view, const fluoro::PicturePoint& p) {
   return p.at.minCoeff() >= 0 && p.at.maxCoeff() < view.pixels;
 }
 
-/// Run lengths down the columns, of what is not covered first.
-Json run_lengths(const fluoro::View& view, const fluoro::Silhouette& covered) {
-  std::vector<long> counts;
-  bool now = false;
-  long length = 0;
-  for (int column = 0; column < view.pixels; ++column)
-    for (int row = 0; row < view.pixels; ++row) {
-      if (covered.covers(row, column) != now) counts.push_back(length), length = 0, now = !now;
-      ++length;
-    }
-  counts.push_back(length);
-  return {{"size", {view.pixels, view.pixels}}, {"counts", counts}};
-}
-
 Json box_of(const fluoro::View& view, const fluoro::Silhouette& covered) {
   int left = view.pixels, right = -1, top = view.pixels, bottom = -1;
   for (int row = 0; row < view.pixels; ++row)
@@ -63,6 +49,25 @@ Json centreline_of(const fluoro::View& view, const Eigen::Matrix3Xd& line_P) {
   return {{"px", at}, {"depth_mm", depth}, {"mm", space}};
 }
 
+}  // namespace
+
+std::string PictureName::picture() const { return fmt::format("images/{}-{:07}.png", run, step); }
+std::string PictureName::mask() const { return fmt::format("masks/{}-{:07}.png", run, step); }
+std::string PictureName::depth() const { return fmt::format("depth/{}-{:07}.png", run, step); }
+
+std::vector<long> run_lengths(const fluoro::View& view, const fluoro::Silhouette& covered) {
+  std::vector<long> counts;
+  bool now = false;
+  long length = 0;
+  for (int column = 0; column < view.pixels; ++column)
+    for (int row = 0; row < view.pixels; ++row) {
+      if (covered.covers(row, column) != now) counts.push_back(length), length = 0, now = !now;
+      ++length;
+    }
+  counts.push_back(length);
+  return counts;
+}
+
 Json c_arm_of(const fluoro::View& view) {
   Eigen::Matrix<double, 3, 4> P = projection_matrix(view);
   P.rightCols<1>() *= 1e3;  // of points in mm
@@ -78,14 +83,8 @@ Json c_arm_of(const fluoro::View& view) {
           {"projection", rows}};
 }
 
-}  // namespace
-
-std::string PictureName::picture() const { return fmt::format("images/{}-{:07}.png", run, step); }
-std::string PictureName::mask() const { return fmt::format("masks/{}-{:07}.png", run, step); }
-
-Json image_of(const PictureName& name, const SessionModel& model, const SessionState& state,
-              const SessionReport& report, const fluoro::View& view, const Labels& labels) {
-  Json points = Json::array(), tools = Json::array();
+Json points_of(const fluoro::View& view, const Labels& labels) {
+  Json points = Json::array();
   for (const LabelledPoint& point : labels.points)
     if (const auto p = picture_point(view, point.p_P))
       points.push_back({{"name", point.name},
@@ -93,6 +92,12 @@ Json image_of(const PictureName& name, const SessionModel& model, const SessionS
                         {"in_picture", is_in(view, *p)},
                         {"depth_mm", in_mm(p->depth_m)},
                         {"mm", in_mm(point.p_P)}});
+  return points;
+}
+
+Json image_of(const PictureName& name, const SessionModel& model, const SessionState& state,
+              const SessionReport& report, const fluoro::View& view, const Labels& labels) {
+  Json tools = Json::array();
   for (std::size_t t = 0; t < model.tools.size(); ++t) {
     const ToolReport& tool = report.tools[t];
     if (!tool.in_body) continue;
@@ -108,6 +113,7 @@ Json image_of(const PictureName& name, const SessionModel& model, const SessionS
   return {{"id", 0},
           {"file_name", name.picture()},
           {"mask", name.mask()},
+          {"depth", name.depth()},
           {"width", view.pixels},
           {"height", view.pixels},
           {"run", name.run},
@@ -116,7 +122,7 @@ Json image_of(const PictureName& name, const SessionModel& model, const SessionS
           {"breath_depth", breath(model, state)},
           {"c_arm", c_arm_of(view)},
           {"tools", tools},
-          {"points", points}};
+          {"points", points_of(view, labels)}};
 }
 
 std::vector<Json> annotations_of(const fluoro::View& view, const Labels& labels) {
@@ -126,7 +132,7 @@ std::vector<Json> annotations_of(const fluoro::View& view, const Labels& labels)
                 {"image_id", 0},
                 {"category_id", thing.category},
                 {"name", thing.name},
-                {"segmentation", run_lengths(view, thing.covered)},
+                {"segmentation", {{"size", {view.pixels, view.pixels}}, {"counts", run_lengths(view, thing.covered)}}},
                 {"area", thing.covered.pixels()},
                 {"bbox", box_of(view, thing.covered)},
                 {"iscrowd", 0}};
@@ -139,17 +145,6 @@ std::vector<Json> annotations_of(const fluoro::View& view, const Labels& labels)
     if (thing.line_P.cols() > 0) one["centreline"] = centreline_of(view, thing.line_P);
     out.push_back(std::move(one));
   }
-  return out;
-}
-
-fluoro::Picture mask_of(const fluoro::View& view, const Labels& labels) {
-  fluoro::Picture out{view.pixels, view.pixels,
-                      std::vector<std::uint8_t>(static_cast<std::size_t>(view.pixels) * view.pixels)};
-  for (const LabelledThing& thing : labels.things)
-    for (int row = 0; row < view.pixels; ++row)
-      for (int column = 0; column < view.pixels; ++column)
-        if (thing.covered.covers(row, column))
-          out.grey[static_cast<std::size_t>(row * view.pixels + column)] = static_cast<std::uint8_t>(thing.of_class);
   return out;
 }
 

@@ -1,0 +1,84 @@
+"""Labels of single moments, and sets of labelled pictures: as `ostium dataset` makes them."""
+
+import json
+import os
+import subprocess
+
+import numpy as np
+import ostium
+import pytest
+
+
+@pytest.fixture(scope="module")
+def seen():
+    """A wire at the ostium, and the labels of its picture."""
+    model = ostium.Model(ostium.Vessel("rca-mid-focal"), tools=[("wire", "wire-014-workhorse")], begin="RCA")
+    data = ostium.Data(model)
+    data.inputs[0] = 0.03
+    ostium.step(model, data, n=1000)
+    imager = ostium.Imager(model, lao=40, pixels=128)
+    return data, imager, imager.labels(data)
+
+
+def test_masks_say_where_the_wire_is(seen):
+    data, imager, labels = seen
+    assert labels["mask"].shape == labels["depth_mm"].shape == imager.frame(data).shape
+    assert ((labels["mask"] > 0) == (labels["depth_mm"] > 0)).all()
+    wire = next(thing for thing in labels["things"] if thing["name"] == "wire")
+    assert wire["class"] == "wire" and wire["mask"].sum() == wire["area"] > 20
+    assert (ostium.dataset.CLASSES.index("wire") == labels["mask"][wire["mask"]]).all()  # nothing is higher
+    rows, columns = np.nonzero(wire["mask"])
+    left, top, wide, high = wire["bbox"]
+    assert (left, top, left + wide - 1, top + high - 1) == (columns.min(), rows.min(), columns.max(), rows.max())
+    assert {"RCA", "aorta"} <= {thing["name"] for thing in labels["things"]}
+
+
+def test_points_project_as_the_c_arm_says(seen):
+    data, _, labels = seen
+    tip = next(point for point in labels["points"] if point["name"] == "tip of wire")
+    assert np.array(tip["mm"]) == pytest.approx(1e3 * data.tip("wire"), abs=1e-3)
+    x, y, w = np.array(labels["c_arm"]["projection"]) @ [*tip["mm"], 1]
+    assert [x / w, y / w] == pytest.approx(tip["px"], abs=0.02)
+    assert w == pytest.approx(tip["depth_mm"], abs=0.01)  # its third row is the depth
+    # A pixel shows what is nearest: the wire's axis, or where the wire passes twice, that of its nearer part.
+    line = next(thing for thing in labels["things"] if thing["name"] == "wire")["centreline"]
+    columns, rows = np.array(line["px"]).astype(int).T
+    off = labels["depth_mm"][rows, columns] - line["depth_mm"]
+    assert off.max() < 0.5 and np.mean(np.abs(off) < 0.5) > 0.5
+
+
+def test_looking_changes_nothing(seen):
+    data, imager, labels = seen
+    before = data.hash()
+    again = imager.labels(data)
+    assert data.hash() == before and (again["mask"] == labels["mask"]).all()
+
+
+def test_a_set_is_that_of_the_command(tmp_path):
+    tasks = ostium.sweep.tasks("rca-mid-focal", "rca-from-the-ostium", seeds=[1], vary={"person": [0, 1]},
+                               values={"begin": "RCA"}, seconds=1.2)
+    made = ostium.dataset.make(tasks, tmp_path / "python", every_s=0.6, pixels=64)
+    assert made == 2
+    stamps = {path: path.stat().st_mtime_ns for path in (tmp_path / "python" / "runs").iterdir()}
+    assert ostium.dataset.make(tasks, tmp_path / "python", every_s=0.6, pixels=64) == 2
+    assert stamps == {path: path.stat().st_mtime_ns for path in (tmp_path / "python" / "runs").iterdir()}
+    with pytest.raises(ostium.OstiumError, match="another set"):
+        ostium.dataset.make(tasks, tmp_path / "python", every_s=0.3, pixels=64)
+    subprocess.run([os.environ["OSTIUM"], "dataset", "rca-mid-focal", "--script", "rca-from-the-ostium", "--set",
+                    "begin=RCA", "--seconds", "1.2", "--vary", "person=0,1", "--seeds", "1", "--every", "0.6",
+                    "--pixels", "64", "-o", tmp_path / "command"], check=True, capture_output=True)
+    for kind in ("images", "masks", "depth"):
+        python, command = (sorted((tmp_path / who / kind).iterdir()) for who in ("python", "command"))
+        assert [one.read_bytes() for one in python] == [one.read_bytes() for one in command] and python
+    coco = json.loads((tmp_path / "python" / "train.json").read_text())
+    theirs = json.loads((tmp_path / "command" / "train.json").read_text())
+    assert coco["categories"] == theirs["categories"]
+    for mine, other in zip(coco["annotations"], theirs["annotations"], strict=True):
+        assert mine == other
+
+
+def test_a_run_that_cannot_be_is_one_without_pictures(tmp_path):
+    tasks = ostium.sweep.tasks("rca-mid-focal", "rca-from-the-ostium", seeds=[1], values={"wire": "no-such-wire"})
+    assert ostium.dataset.make(tasks, tmp_path) == 0
+    run = json.loads((tmp_path / "manifest.json").read_text())["runs"][0]
+    assert run["outcome"] == "aborted" and "no-such-wire" in run["reason"]
