@@ -8,7 +8,7 @@ namespace ostium::device {
 namespace {
 
 using Reply = std::optional<std::vector<std::uint8_t>>;
-constexpr std::uint16_t firmware_version = 1;
+constexpr std::uint16_t firmware_version = 2;
 
 /// Rounded, and wrapped like a 32-bit counter.
 std::int32_t counter(double counts) {
@@ -65,7 +65,7 @@ std::array<std::uint8_t, in_report_bytes> EmulatedBox::sample() {
 
 void EmulatedBox::take(std::span<const std::uint8_t> bytes) {
   const auto out = parse_out_report(bytes);
-  if (!out) {
+  if (!out || (out->rotary && !separate_brakes)) {
     ++ignored_;
     return;
   }
@@ -78,11 +78,11 @@ void EmulatedBox::take(std::span<const std::uint8_t> bytes) {
   } else if (arm_was_low_ && !emergency_stop && !over_temperature) {
     armed_ = true, watchdog_released_ = false, arm_was_low_ = false;
   }
-  if (armed_) clamp_ = out->clamp;
+  if (armed_) clamp_ = out->clamp, rotary_ = out->rotary.value_or(out->clamp);
 }
 
 void EmulatedBox::release() {
-  clamp_ = {};
+  clamp_ = rotary_ = {};
   armed_ = arm_was_low_ = false;
 }
 
@@ -92,7 +92,8 @@ Reply EmulatedBox::control(std::uint8_t request, std::uint16_t value, std::span<
   const auto answer = [](const auto& bytes) { return std::vector<std::uint8_t>(bytes.begin(), bytes.end()); };
   switch (static_cast<Request>(request)) {
     case Request::info:
-      return answer(bytes_of(BoxInfo{device_protocol_version, 4, firmware_version, rate_Hz_, watchdog_ms_}));
+      return answer(
+          bytes_of(BoxInfo{device_protocol_version, 4, firmware_version, rate_Hz_, watchdog_ms_, separate_brakes}));
     case Request::read_calibration:
       return answer(bytes_of(calibration_));
     case Request::write_calibration:

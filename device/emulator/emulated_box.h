@@ -29,6 +29,7 @@ class EmulatedBox {
   double pressure_atm = 0, flow_mL_s = 0;
   std::uint16_t pedals = 0;
   bool emergency_stop = false, over_temperature = false;
+  bool separate_brakes = false;  ///< what it is built with; without them it knows no reports for them
 
   /// The next sample: advances time by 1 / rate.
   std::array<std::uint8_t, in_report_bytes> sample();
@@ -43,8 +44,10 @@ class EmulatedBox {
   /// Suspended, reset or unplugged: the clamps open. Counts, time and calibration are kept.
   void release();
 
-  /// Levels of the clamps; 0 unless armed.
+  /// Levels of the clamps, or of the brakes for pushing; 0 unless armed.
   const std::array<std::uint16_t, 4>& clamp() const { return clamp_; }
+  /// Of the brakes for turning: the same as `clamp` where one clamp does both.
+  const std::array<std::uint16_t, 4>& rotary() const { return rotary_; }
   const Calibration& calibration() const { return calibration_; }
   double time_s() const { return 1e-6 * static_cast<double>(time_us_); }
 
@@ -55,7 +58,7 @@ class EmulatedBox {
   Calibration calibration_;
   std::vector<std::uint8_t> written_calibration_;
   std::array<std::array<std::int32_t, 2>, 4> zero_{};
-  std::array<std::uint16_t, 4> clamp_{};
+  std::array<std::uint16_t, 4> clamp_{}, rotary_{};
   bool armed_ = false, watchdog_released_ = false;
   bool arm_was_low_ = false;  ///< an OUT report without ARM has come since the clamps opened
   std::uint64_t time_us_ = 0, last_out_us_ = 0;

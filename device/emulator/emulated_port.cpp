@@ -23,7 +23,7 @@ PortState EmulatedPort::poll(double, ReportSink& sink) {
     ++counts_.departures;
   }
   Underway& due = underway_[++samples_ % underway_.size()];
-  if (due.at == samples_) box_.take(due.bytes), ++counts_.out;
+  if (due.at == samples_) box_.take(std::span(due.bytes).first(due.count)), ++counts_.out;
   if (hand_) hand_(box_);
   const auto bytes = box_.sample();
   if (!state_.open) return state_;
@@ -33,10 +33,11 @@ PortState EmulatedPort::poll(double, ReportSink& sink) {
 }
 
 void EmulatedPort::send(std::span<const std::uint8_t> bytes) {
-  if (!state_.open || bytes.size() != out_report_bytes) return;
+  if (!state_.open || bytes.size() > brake_report_bytes) return;
   const std::uint64_t at = samples_ + static_cast<std::uint64_t>(delay_);
   Underway& u = underway_[at % underway_.size()];
   u.at = at;
+  u.count = bytes.size();
   std::copy(bytes.begin(), bytes.end(), u.bytes.begin());
 }
 

@@ -35,7 +35,8 @@ class EmulatedPort : public Port {
   /// OUT reports in flight: a ring, indexed by the sample before which each arrives.
   struct Underway {
     std::uint64_t at = 0;
-    std::array<std::uint8_t, out_report_bytes> bytes{};
+    std::size_t count = 0;
+    std::array<std::uint8_t, brake_report_bytes> bytes{};
   };
   std::array<Underway, longest_delay> underway_{};
   std::uint64_t samples_ = 0;

@@ -2,7 +2,7 @@
 
 #include <string.h>
 
-enum { VERSION = 1, IN_TYPE = 0x01, OUT_TYPE = 0x81, KEY = 0x5443, LAST_TOOL = 4 };
+enum { VERSION = 1, IN_TYPE = 0x01, OUT_TYPE = 0x81, BRAKE_TYPE = 0x82, KEY = 0x5443, LAST_TOOL = 4 };
 
 static void put16(uint8_t* at, uint16_t v) { at[0] = (uint8_t)v, at[1] = (uint8_t)(v >> 8); }
 static void put32(uint8_t* at, uint32_t v) { put16(at, (uint16_t)v), put16(at + 2, (uint16_t)(v >> 16)); }
@@ -56,10 +56,12 @@ void box_init(struct box* box, const uint8_t* record) {
 
 void box_release(struct box* box) {
   memset(box->clamp, 0, sizeof box->clamp);
+  memset(box->rotary, 0, sizeof box->rotary);
   box->armed = box->arm_was_low = 0;
 }
 
 uint16_t box_clamp(const struct box* box, int track) { return box->armed ? box->clamp[track] : 0; }
+uint16_t box_rotary_clamp(const struct box* box, int track) { return box->armed ? box->rotary[track] : 0; }
 
 /* --- reports --------------------------------------------------------------------------------------------------------
  */
@@ -100,8 +102,9 @@ void box_sample(struct box* box, const struct box_sensors* s, uint32_t now_us, u
 
 void box_take(struct box* box, const uint8_t* b, size_t count) {
   int k;
-  const int valid =
-      count == BOX_OUT_BYTES && b[0] == OUT_TYPE && b[1] == VERSION && (get16(b + 12) & ~3u) == 0 && get16(b + 14) == 0;
+  const int brakes = box->separate_brakes && count == BOX_BRAKE_BYTES && b[0] == BRAKE_TYPE;
+  const int valid = (brakes || (count == BOX_OUT_BYTES && b[0] == OUT_TYPE)) && b[1] == VERSION &&
+                    (get16(b + count - 4) & ~3u) == 0 && get16(b + count - 2) == 0;
   if (!valid) {
     ++box->ignored;
     return;
@@ -110,13 +113,16 @@ void box_take(struct box* box, const uint8_t* b, size_t count) {
   box->any_out = 1;
   box->last_out_us = box->now_us;
   box->last_out_sequence = get16(b + 2);
-  if (!(b[12] & 1)) {
+  if (!(b[count - 4] & 1)) {
     box_release(box);
     box->arm_was_low = 1;
   } else if (box->arm_was_low && !box->stopped) {
     box->armed = 1, box->watchdog_released = 0, box->arm_was_low = 0;
   }
-  for (k = 0; k < BOX_TRACKS && box->armed; ++k) box->clamp[k] = get16(b + 4 + 2 * k);
+  for (k = 0; k < BOX_TRACKS && box->armed; ++k) {
+    box->clamp[k] = get16(b + 4 + 2 * k);
+    box->rotary[k] = brakes ? get16(b + 12 + 2 * k) : box->clamp[k];
+  }
 }
 
 /* --- control requests -----------------------------------------------------------------------------------------------
@@ -130,7 +136,8 @@ int box_control(struct box* box, uint8_t request, uint16_t value, const uint8_t*
     case BOX_INFO:
       reply[0] = VERSION, reply[1] = BOX_TRACKS;
       put16(reply + 2, BOX_FIRMWARE), put16(reply + 4, box->rate_hz), put16(reply + 6, box->watchdog_ms);
-      return 8;
+      put16(reply + 8, box->separate_brakes != 0);
+      return 10;
     case BOX_READ_CALIBRATION:
       memcpy(reply, box->record, BOX_RECORD_BYTES);
       return BOX_RECORD_BYTES;

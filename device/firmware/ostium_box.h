@@ -5,7 +5,8 @@
  * A board's program does this:
  *   - at power-up: box_init with the record that flash holds; the clamps' outputs open in hardware;
  *   - every 1 / rate_hz, by a timer: reads its sensors, box_sample, puts the 64 bytes into the IN endpoint in place of
- *     what the host has not fetched (counting that in `overruns`), and drives the clamps by box_clamp;
+ *     what the host has not fetched (counting that in `overruns`), and drives the clamps by box_clamp (and by
+ *     box_rotary_clamp where turning has a brake of its own: the program then sets separate_brakes after box_init);
  *   - for each packet of the OUT endpoint: box_take;
  *   - for each vendor request to the interface: box_control; -1 is a stall; after BOX_COMMIT_CALIBRATION writes
  * `record` to flash;
@@ -20,7 +21,14 @@
 extern "C" {
 #endif
 
-enum { BOX_TRACKS = 4, BOX_IN_BYTES = 64, BOX_OUT_BYTES = 16, BOX_RECORD_BYTES = 128, BOX_FIRMWARE = 1 };
+enum {
+  BOX_TRACKS = 4,
+  BOX_IN_BYTES = 64,
+  BOX_OUT_BYTES = 16,
+  BOX_BRAKE_BYTES = 24,
+  BOX_RECORD_BYTES = 128,
+  BOX_FIRMWARE = 2
+};
 
 enum {
   BOX_INFO = 1,
@@ -47,7 +55,8 @@ struct box {
   uint8_t record[BOX_RECORD_BYTES], written[BOX_RECORD_BYTES];
   uint8_t calibrated, has_written;
   uint8_t armed, arm_was_low, watchdog_released, any_out, stopped;
-  uint16_t clamp[BOX_TRACKS];
+  uint8_t separate_brakes; /* set by the board's program */
+  uint16_t clamp[BOX_TRACKS], rotary[BOX_TRACKS];
   uint16_t rate_hz, watchdog_ms, overruns, last_out_sequence;
   uint32_t sequence, now_us, last_out_us;
   uint32_t sent, taken, ignored, releases;
@@ -64,8 +73,10 @@ void box_take(struct box* box, const uint8_t* bytes, size_t count);
 int box_control(struct box* box, uint8_t request, uint16_t value, const uint8_t* data, uint16_t count,
                 uint8_t reply[BOX_RECORD_BYTES]);
 void box_release(struct box* box);
-/* What the track's clamp is to hold, of 65535; 0 is open. */
+/* What the track's clamp is to hold, of 65535; 0 is open. With separate brakes: that for pushing, and that for turning.
+ */
 uint16_t box_clamp(const struct box* box, int track);
+uint16_t box_rotary_clamp(const struct box* box, int track);
 
 #ifdef __cplusplus
 }

@@ -29,12 +29,26 @@ double hold(const ClampSettings& s, double load, double least, double elapsed_s,
   return l.held = l.smooth;
 }
 
-double wanted_N(const ClampSettings& s, const ClampLoad& load, double elapsed_s, ClampState& state, std::size_t i) {
+/// What pushing and turning are to be held with, N at the tool's surface.
+struct Held {
+  double along_N = 0, around_N = 0;
+};
+
+Held wanted(const ClampSettings& s, const ClampLoad& load, double elapsed_s, ClampState& state, std::size_t i) {
   const double along_N =
       hold(s, resisted(state.along[i].sign, load.push_N), s.least_push_N, elapsed_s, state.push_N[i]);
   const double around_Nm =
       hold(s, resisted(state.around[i].sign, load.torque_Nm), s.least_torque_Nm, elapsed_s, state.torque_Nm[i]);
-  return std::min(s.most_N, std::hypot(along_N, around_Nm / s.radius_m[i]));
+  return {along_N, around_Nm / s.radius_m[i]};
+}
+
+void approach(const ClampSettings& s, double wanted_N, double elapsed_s, double& level_N) {
+  level_N =
+      std::clamp(std::min(s.most_N, wanted_N), level_N - s.fall_N_s * elapsed_s, level_N + s.rise_N_s * elapsed_s);
+}
+
+std::uint16_t level_of(double N, double full_scale_N) {
+  return static_cast<std::uint16_t>(std::lround(65535 * std::clamp(N / full_scale_N, 0.0, 1.0)));
 }
 
 }  // namespace
@@ -45,14 +59,15 @@ void advance_clamps(const ClampSettings& s, const ClampRequest& request, const M
     if (!m.tool[i].seen) {
       state.along[i] = state.around[i] = {};
       state.push_N[i] = state.torque_Nm[i] = {};
-      state.level_N[i] = 0;
+      state.level_N[i] = state.rotary_N[i] = 0;
       continue;
     }
     follow(state.along[i], m.tool[i].advance_mm, s.reversal_mm);
     follow(state.around[i], m.tool[i].turn_deg, s.reversal_deg);
-    const double wanted = wanted_N(s, open ? ClampLoad{} : request.load[i], m.elapsed_s, state, i);
-    double& level = state.level_N[i];
-    level = std::clamp(wanted, level - s.fall_N_s * m.elapsed_s, level + s.rise_N_s * m.elapsed_s);
+    const Held held = wanted(s, open ? ClampLoad{} : request.load[i], m.elapsed_s, state, i);
+    const bool apart = request.separate_brakes;
+    approach(s, apart ? held.along_N : std::hypot(held.along_N, held.around_N), m.elapsed_s, state.level_N[i]);
+    approach(s, apart ? held.around_N : 0, m.elapsed_s, state.rotary_N[i]);
   }
 }
 
@@ -70,10 +85,13 @@ OutReport clamp_report(const ClampRequest& request, const Calibration& calibrati
   out.arm = request.arm && !state.stopped && !refused;
   if (out.arm && !state.arm) state.arm_sequence = out.sequence;
   state.arm = out.arm;
+  if (request.separate_brakes) out.rotary.emplace();
   for (std::size_t k = 0; k < 4; ++k) {
     if (report.tool[k] == Tool::none || !out.arm) continue;
-    const double share = state.level_N[index_of(report.tool[k])] / calibration.clamp_full_scale_N[k];
-    out.clamp[k] = static_cast<std::uint16_t>(std::lround(65535 * std::clamp(share, 0.0, 1.0)));
+    const std::size_t tool = index_of(report.tool[k]);
+    const double full_scale_N = calibration.clamp_full_scale_N[k];
+    out.clamp[k] = level_of(state.level_N[tool], full_scale_N);
+    if (out.rotary) (*out.rotary)[k] = level_of(state.rotary_N[tool], full_scale_N);
   }
   return out;
 }

@@ -4,6 +4,8 @@
 /// A clamp is a brake: it resists pushing and turning alike, and cannot push back. So it closes only against the hand's
 /// last direction, and only as far as the instrument resists that direction:
 ///   level_N = |(max(0, s push), max(0, c torque / r))|,  s, c: signs of the last push and turn, r: the tool's radius.
+/// A box with a brake for pushing and one for turning gets the two parts apart: a guide whose turning is resisted then
+/// slides as freely as before (with one clamp for both it does not, which the thesis found: Korzeniowski 2015).
 /// A brake only dissipates energy, so nothing can build up. The possible fault is a clamp that opens and closes in turn
 /// (a buzz), because releasing it lets the hand spring, or because it follows sensor noise: with a stiff instrument,
 /// 0.02 mm of sensor noise makes a load noise that drowns small loads. Therefore a direction counts as reversed only
@@ -51,19 +53,21 @@ struct HeldLoad {
 struct ClampState {
   std::array<Direction, tools> along{}, around{};
   std::array<HeldLoad, tools> push_N{}, torque_Nm{};
-  std::array<double, tools> level_N{};
-  std::uint16_t sequence = 0;      ///< of the last OUT report
-  std::uint16_t arm_sequence = 0;  ///< sequence of the report that raised ARM
-  bool arm = false;                ///< as last sent
-  bool stopped = false;            ///< the box was stopped: it is armed again only after `arm` was withdrawn
+  std::array<double, tools> level_N{};   ///< of the one clamp, or of the brake for pushing
+  std::array<double, tools> rotary_N{};  ///< of the brake for turning, at the tool's surface; 0 where there is none
+  std::uint16_t sequence = 0;            ///< of the last OUT report
+  std::uint16_t arm_sequence = 0;        ///< sequence of the report that raised ARM
+  bool arm = false;                      ///< as last sent
+  bool stopped = false;                  ///< the box was stopped: it is armed again only after `arm` was withdrawn
 };
 
 /// What the clamps are to do now.
 struct ClampRequest {
   bool arm = false;  ///< the operator wants force feedback
   std::array<ClampLoad, tools> load{};
-  double load_age_s = 0;  ///< time since the step that gave the loads
-  bool paused = false;    ///< the simulation stands still: clamps open, so that the operator can draw back
+  double load_age_s = 0;         ///< time since the step that gave the loads
+  bool paused = false;           ///< the simulation stands still: clamps open, so that the operator can draw back
+  bool separate_brakes = false;  ///< the box has them
 };
 
 /// Updates each tool's level over the box time between two reports. NaN loads count as zero. The clamp of a tool that

@@ -23,9 +23,8 @@ void TrackingBox::begin() {
   clamp_ = {};
   clamp_.sequence = out_sequence;
   sent_ = {};
-  std::array<std::uint8_t, info_bytes> info{};
-  info_ = parse_info(std::span(info).first(port_.read(static_cast<std::uint8_t>(Request::info), info).value_or(0)))
-              .value_or(BoxInfo{});
+  info_ = read_info(port_).value_or(BoxInfo{});
+  wanted_.separate_brakes = info_.separate_brakes;
   link_.wrong_version = info_.version != 0 && info_.version != device_protocol_version;
   try {
     calibration_ = parse_calibration(read_calibration(port_));
@@ -58,7 +57,7 @@ void TrackingBox::poll(double wait_s, const BoxRequest& request) {
   if (!state.open && link_.plugged) {
     unplugged(link_);
     tracking_ = {};
-    clamp_.level_N = {};
+    clamp_.level_N = clamp_.rotary_N = {};
   }
   now_.trouble = state.trouble;
   if (some_came_) answer();
@@ -104,7 +103,10 @@ void TrackingBox::answer() {
   OutReport out = clamp_report(wanted_, calibration_, report_, clamp_);
   out.identify = request_.identify;
   sent_[out.sequence % sent_.size()] = {out.sequence, port_.now_s()};
-  port_.send(bytes_of(out));
+  if (out.rotary)
+    port_.send(brake_bytes_of(out));
+  else
+    port_.send(bytes_of(out));
 }
 
 void TrackingBox::publish() {
@@ -124,6 +126,7 @@ void TrackingBox::publish() {
     tool.sight = hand.sight, tool.arrivals = hand.arrivals;
     tool.in_box_m = 1e-3 * hand.in_box_mm, tool.inserted_m = 1e-3 * hand.inserted_mm;
     tool.clamp_N = clamp_.level_N[i];
+    tool.brake_Nm = settings_.clamp.radius_m[i] * clamp_.rotary_N[i];
     tool.quality = 0;
     for (std::size_t k = 0; k < 4; ++k)
       if (report_.tool[k] == static_cast<Tool>(i + 1)) tool.quality = std::max(tool.quality, report_.quality[k]);

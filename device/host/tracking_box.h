@@ -40,6 +40,7 @@ struct ToolSnapshot {
   std::uint32_t arrivals = 0;           ///< number of instruments so far
   double in_box_m = 0, inserted_m = 0;  ///< tip of the tool, and of its instrument
   double clamp_N = 0;                   ///< force its clamp is asked to hold
+  double brake_Nm = 0;                  ///< torque its rotary brake is asked to hold, where it has one
 };
 
 struct RoundTrip {

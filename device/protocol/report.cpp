@@ -6,7 +6,7 @@ namespace ostium::device {
 
 namespace {
 
-constexpr std::uint8_t in_type = 0x01, out_type = 0x81;
+constexpr std::uint8_t in_type = 0x01, out_type = 0x81, brake_type = 0x82;
 constexpr std::uint16_t status_bits = 0b11111, out_flag_bits = 0b11;
 
 Flaw first_flaw(std::span<const std::uint8_t> bytes, std::size_t length, std::uint8_t type) {
@@ -15,6 +15,13 @@ Flaw first_flaw(std::span<const std::uint8_t> bytes, std::size_t length, std::ui
   if (bytes.size() != length) return Flaw::length;
   if (bytes[1] != device_protocol_version) return Flaw::version;
   return Flaw::none;
+}
+
+bool is_brake_report(std::span<const std::uint8_t> bytes) { return !bytes.empty() && bytes[0] == brake_type; }
+
+/// What ends an OUT report of either type: flags, and two bytes of zeros.
+void put_flags(std::span<std::uint8_t> bytes, const OutReport& r) {
+  put<std::uint16_t>(bytes, bytes.size() - 4, static_cast<std::uint16_t>(r.arm | r.identify << 1));
 }
 
 }  // namespace
@@ -28,8 +35,10 @@ Flaw flaw_of_in_report(std::span<const std::uint8_t> bytes) {
 }
 
 Flaw flaw_of_out_report(std::span<const std::uint8_t> bytes) {
-  if (const Flaw flaw = first_flaw(bytes, out_report_bytes, out_type); flaw != Flaw::none) return flaw;
-  if ((get<std::uint16_t>(bytes, 12) & ~out_flag_bits) || get<std::uint16_t>(bytes, 14) != 0)
+  const bool brakes = is_brake_report(bytes);
+  const std::size_t length = brakes ? brake_report_bytes : out_report_bytes;
+  if (const Flaw flaw = first_flaw(bytes, length, brakes ? brake_type : out_type); flaw != Flaw::none) return flaw;
+  if ((get<std::uint16_t>(bytes, length - 4) & ~out_flag_bits) || get<std::uint16_t>(bytes, length - 2) != 0)
     return Flaw::reserved_bits;
   return Flaw::none;
 }
@@ -59,10 +68,14 @@ std::optional<InReport> parse_in_report(std::span<const std::uint8_t> bytes) {
 
 std::optional<OutReport> parse_out_report(std::span<const std::uint8_t> bytes) {
   if (flaw_of_out_report(bytes) != Flaw::none) return {};
-  const auto flags = get<std::uint16_t>(bytes, 12);
+  const auto flags = get<std::uint16_t>(bytes, bytes.size() - 4);
   OutReport r;
   r.sequence = get<std::uint16_t>(bytes, 2);
   for (std::size_t k = 0; k < 4; ++k) r.clamp[k] = get<std::uint16_t>(bytes, 4 + 2 * k);
+  if (is_brake_report(bytes)) {
+    r.rotary.emplace();
+    for (std::size_t k = 0; k < 4; ++k) (*r.rotary)[k] = get<std::uint16_t>(bytes, 12 + 2 * k);
+  }
   r.arm = flags & 1, r.identify = flags & 2;
   return r;
 }
@@ -93,7 +106,16 @@ std::array<std::uint8_t, out_report_bytes> bytes_of(const OutReport& r) {
   std::array<std::uint8_t, out_report_bytes> bytes{out_type, device_protocol_version};
   put(bytes, 2, r.sequence);
   for (std::size_t k = 0; k < 4; ++k) put(bytes, 4 + 2 * k, r.clamp[k]);
-  put<std::uint16_t>(bytes, 12, static_cast<std::uint16_t>(r.arm | r.identify << 1));
+  put_flags(bytes, r);
+  return bytes;
+}
+
+std::array<std::uint8_t, brake_report_bytes> brake_bytes_of(const OutReport& r) {
+  std::array<std::uint8_t, brake_report_bytes> bytes{brake_type, device_protocol_version};
+  put(bytes, 2, r.sequence);
+  const auto& rotary = r.rotary ? *r.rotary : r.clamp;
+  for (std::size_t k = 0; k < 4; ++k) put(bytes, 4 + 2 * k, r.clamp[k]), put(bytes, 12 + 2 * k, rotary[k]);
+  put_flags(bytes, r);
   return bytes;
 }
 

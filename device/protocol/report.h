@@ -9,7 +9,7 @@
 
 namespace ostium::device {
 
-inline constexpr std::size_t in_report_bytes = 64, out_report_bytes = 16;
+inline constexpr std::size_t in_report_bytes = 64, out_report_bytes = 16, brake_report_bytes = 24;
 inline constexpr std::uint8_t device_protocol_version = 1;
 
 /// The kind of tool at a track's sensor station.
@@ -37,6 +37,8 @@ struct OutReport {
   std::uint16_t sequence = 0;
   std::array<std::uint16_t, 4> clamp{};  ///< 0: free
   bool arm = false, identify = false;
+  /// Where pushing and turning have brakes of their own: that of turning; `clamp` is then that of pushing alone.
+  std::optional<std::array<std::uint16_t, 4>> rotary = std::nullopt;
 };
 
 /// The first protocol rule that the bytes break.
@@ -51,6 +53,10 @@ std::optional<InReport> parse_in_report(std::span<const std::uint8_t> bytes);
 std::optional<OutReport> parse_out_report(std::span<const std::uint8_t> bytes);
 
 std::array<std::uint8_t, in_report_bytes> bytes_of(const InReport& report);
+/// Of a report for one brake a track; `rotary` is left out.
 std::array<std::uint8_t, out_report_bytes> bytes_of(const OutReport& report);
+/// Of one for two brakes a track, for a box whose info says that it has them (BoxInfo::separate_brakes). Without
+/// `rotary` both are as `clamp` says.
+std::array<std::uint8_t, brake_report_bytes> brake_bytes_of(const OutReport& report);
 
 }  // namespace ostium::device

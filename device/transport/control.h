@@ -9,7 +9,7 @@
 namespace ostium::device {
 
 enum class Request : std::uint8_t {
-  info = 1,            ///< in, 8 bytes: BoxInfo
+  info = 1,            ///< in, 10 bytes: BoxInfo; 8 of a box without abilities
   read_calibration,    ///< in, 128 bytes
   write_calibration,   ///< out, 128 bytes, stored temporarily; value = calibration_key, only while disarmed
   commit_calibration,  ///< activates the written record if it is valid; value = calibration_key, only while disarmed
@@ -23,6 +23,7 @@ inline constexpr std::uint16_t calibration_key = 0x5443;
 struct BoxInfo {
   std::uint8_t version = 0, tracks = 0;
   std::uint16_t firmware = 0, rate_Hz = 0, watchdog_ms = 0;
+  bool separate_brakes = false;  ///< takes OUT reports of type 0x82 (bit 0 of its abilities)
 };
 
 struct BoxStatistics {
@@ -30,15 +31,18 @@ struct BoxStatistics {
   std::uint32_t watchdog_releases = 0;
 };
 
-inline constexpr std::size_t info_bytes = 8, statistics_bytes = 16;
+inline constexpr std::size_t info_bytes = 10, least_info_bytes = 8, statistics_bytes = 16;
 
 std::array<std::uint8_t, info_bytes> bytes_of(const BoxInfo& info);
 std::array<std::uint8_t, statistics_bytes> bytes_of(const BoxStatistics& statistics);
-/// Empty if the length is wrong.
+/// Empty if there are too few bytes.
 std::optional<BoxInfo> parse_info(std::span<const std::uint8_t> bytes);
+/// Empty if the length is wrong.
 std::optional<BoxStatistics> parse_statistics(std::span<const std::uint8_t> bytes);
 
 class Port;
+/// Empty if the box refused, or answered too little.
+std::optional<BoxInfo> read_info(Port& port);
 /// The record as the box returns it, complete or not; parse_calibration checks it.
 std::vector<std::uint8_t> read_calibration(Port& port);
 /// Writes and commits the record. False: the box refused, because it is armed or the record is invalid.

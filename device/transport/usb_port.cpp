@@ -40,7 +40,10 @@ struct UsbPort::Driver {
   };
   std::array<In, in_transfers> in;
   libusb_transfer* out = nullptr;
-  std::array<std::uint8_t, out_report_bytes> out_bytes{}, next_out{};
+  struct Out {
+    std::array<std::uint8_t, brake_report_bytes> bytes{};
+    std::size_t count = 0;
+  } sending, next_out;
   bool out_in_flight = false, out_waits = false;
 
   libusb_hotplug_callback_handle hotplug = 0;
@@ -151,9 +154,9 @@ struct UsbPort::Driver {
 
   void start_out() {
     out_waits = false;
-    out_bytes = next_out;
-    libusb_fill_interrupt_transfer(out, box.handle, box.interface.out, out_bytes.data(),
-                                   static_cast<int>(out_bytes.size()), out_done, this, 0);
+    sending = next_out;
+    libusb_fill_interrupt_transfer(out, box.handle, box.interface.out, sending.bytes.data(),
+                                   static_cast<int>(sending.count), out_done, this, 0);
     out_in_flight = submitted(out);
   }
 
@@ -265,9 +268,10 @@ PortState UsbPort::poll(double wait_s, ReportSink& sink) {
 
 void UsbPort::send(std::span<const std::uint8_t> bytes) {
   Driver& d = *driver_;
-  if (!d.state.open || d.gone || bytes.size() != out_report_bytes) return;
+  if (!d.state.open || d.gone || bytes.size() > brake_report_bytes) return;
   if (d.out_waits) ++d.counts.replaced;
-  std::copy(bytes.begin(), bytes.end(), d.next_out.begin());
+  std::copy(bytes.begin(), bytes.end(), d.next_out.bytes.begin());
+  d.next_out.count = bytes.size();
   d.out_waits = true;
   if (!d.out_in_flight && !d.out_halted && clock_s() >= d.retry_s) d.start_out();
 }
@@ -297,7 +301,8 @@ std::vector<FoundBox> find_boxes() {
     found.identity = box.identity;
     if (box.handle) {
       std::array<std::uint8_t, info_bytes> info{};
-      if (box.read(static_cast<std::uint8_t>(Request::info), info) == info.size()) found.info = parse_info(info);
+      found.info =
+          parse_info(std::span(info).first(box.read(static_cast<std::uint8_t>(Request::info), info).value_or(0)));
       std::array<std::uint8_t, calibration_bytes> record{};
       const auto count = box.read(static_cast<std::uint8_t>(Request::read_calibration), record);
       try {

@@ -44,6 +44,35 @@ TEST(Clamp, ResistsTheWayTheHandGoes) {
   EXPECT_DOUBLE_EQ(settled_N(0, 0, {2, 1}), 0);
 }
 
+/// Where turning has a brake of its own, what resists turning does not hold back a push, as one clamp for both does.
+TEST(Clamp, SeparateBrakesHoldTheirOwnPart) {
+  const double r = ClampSettings{}.radius_m[wire];
+  for (const bool separate : {false, true}) {
+    ClampState state;
+    ClampRequest request;
+    request.arm = true, request.separate_brakes = separate;
+    request.load[wire] = {4, 3 * r};
+    for (int i = 0; i < 1000; ++i) advance_clamps({}, request, moved(0.1, 1), state);
+    EXPECT_NEAR(state.level_N[wire], separate ? 4 : 5, 5e-3);
+    EXPECT_NEAR(state.rotary_N[wire], separate ? 3 : 0, 3e-3);
+    InReport report;
+    report.tool[1] = Tool::wire;
+    const OutReport out = clamp_report(request, {}, report, state);  // 10 N at full scale
+    EXPECT_NEAR(out.clamp[1], separate ? 26214 : 32768, 50);
+    ASSERT_EQ(out.rotary.has_value(), separate);
+    if (separate) {
+      EXPECT_NEAR((*out.rotary)[1], 19661, 50);
+    }
+    request.load[wire] = {0, 3 * r};
+    for (int i = 0; i < 1000; ++i) advance_clamps({}, request, moved(0.1, 1), state);
+    EXPECT_NEAR(state.level_N[wire], separate ? 0 : 3, 3e-3);
+    Movements lost = moved(0, 0);
+    lost.tool[wire].seen = false;
+    advance_clamps({}, request, lost, state);
+    EXPECT_EQ(state.level_N[wire] + state.rotary_N[wire], 0);
+  }
+}
+
 TEST(Clamp, KeepsItsLimits) {
   EXPECT_DOUBLE_EQ(settled_N(0.1, 0, {1e9, 0}), ClampSettings{}.most_N);
   EXPECT_DOUBLE_EQ(settled_N(0.1, 0, {std::nan(""), 0}), 0);

@@ -28,6 +28,26 @@ TEST(EmulatedBox, IsOpenUntilArmGoesUp) {
   EXPECT_TRUE(read(box).armed);
 }
 
+TEST(EmulatedBox, HasBrakesForPushingAndTurningOrOneForBoth) {
+  OutReport report{1, levels, false, false, {}};
+  report.rotary = {5, 6, 7, 8};
+  for (const bool separate : {false, true}) {
+    EmulatedBox box{Calibration{}};
+    box.separate_brakes = separate;
+    EXPECT_EQ(parse_info(*box.control(1, 0))->separate_brakes, separate);
+    for (const bool arm : {false, true}) report.arm = arm, box.take(brake_bytes_of(report));
+    EXPECT_EQ(box.clamp()[2], separate ? levels[2] : 0) << "a box without them knows no such reports";
+    EXPECT_EQ(box.rotary()[2], separate ? 7 : 0);
+    send(box, false), send(box, true);
+    EXPECT_EQ(box.clamp(), levels) << "it takes those for one clamp, too";
+    EXPECT_EQ(box.rotary(), levels);
+    box.release();
+    EXPECT_EQ(box.clamp()[0] + box.rotary()[0], 0);
+  }
+  EXPECT_FALSE(parse_info(std::vector<std::uint8_t>{1, 4, 1, 0, 0, 0, 0, 0})->separate_brakes) << "of a first box";
+  EXPECT_FALSE(parse_info(std::vector<std::uint8_t>(7, 1)));
+}
+
 TEST(EmulatedBox, WatchdogOpensWithinItsTimeAndStaysOpen) {
   EmulatedBox box = armed_box();
   int ms = 0;

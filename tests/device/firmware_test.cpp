@@ -27,7 +27,11 @@ struct Both {
   box_sensors sensors{};
   std::uint16_t out_sequence = 0;
 
-  explicit Both(unsigned seed) : generator(seed) { box_init(&firmware, bytes_of(by_counts()).data()); }
+  explicit Both(unsigned seed) : generator(seed) {
+    box_init(&firmware, bytes_of(by_counts()).data());
+    emulated.separate_brakes = seed % 2;
+    firmware.separate_brakes = seed % 2;
+  }
 
   unsigned any(unsigned below) { return static_cast<unsigned>(generator() % below); }
 
@@ -36,7 +40,10 @@ struct Both {
     const auto theirs = emulated.sample();
     box_sample(&firmware, &sensors, static_cast<std::uint32_t>(std::llround(1e6 * emulated.time_s())), mine.data());
     ASSERT_EQ(mine, theirs);
-    for (int k = 0; k < 4; ++k) ASSERT_EQ(box_clamp(&firmware, k), emulated.clamp()[static_cast<std::size_t>(k)]);
+    for (int k = 0; k < 4; ++k) {
+      ASSERT_EQ(box_clamp(&firmware, k), emulated.clamp()[static_cast<std::size_t>(k)]);
+      ASSERT_EQ(box_rotary_clamp(&firmware, k), emulated.rotary()[static_cast<std::size_t>(k)]);
+    }
   }
 
   void move_world() {
@@ -59,9 +66,16 @@ struct Both {
     report.sequence = ++out_sequence;
     report.arm = any(4) != 0, report.identify = any(2) == 0;
     for (std::uint16_t& level : report.clamp) level = static_cast<std::uint16_t>(any(65536));
-    const auto whole = bytes_of(report);
-    std::vector<std::uint8_t> bytes(whole.begin(), whole.end());
-    if (any(5) == 0) bytes[any(16)] = static_cast<std::uint8_t>(any(256));
+    std::vector<std::uint8_t> bytes;
+    const auto put = [&](const auto& whole) { bytes.assign(whole.begin(), whole.end()); };
+    if (any(2) == 0) {
+      report.rotary.emplace();
+      for (std::uint16_t& level : *report.rotary) level = static_cast<std::uint16_t>(any(65536));
+      put(brake_bytes_of(report));
+    } else {
+      put(bytes_of(report));
+    }
+    if (any(5) == 0) bytes[any(static_cast<unsigned>(bytes.size()))] = static_cast<std::uint8_t>(any(256));
     if (any(40) == 0) bytes.resize(any(80));
     emulated.take(bytes);
     box_take(&firmware, bytes.data(), bytes.size());

@@ -62,6 +62,25 @@ TEST(Report, WhatBreaksARuleIsIgnoredWhole) {
   EXPECT_FALSE(parse_in_report({}));
 }
 
+TEST(Report, BrakesForPushingAndTurningGoThereAndBack) {
+  OutReport asked{0xabcd, {0, 1, 0x1234, 0xffff}, false, true, {}};
+  asked.rotary = {9, 8, 7, 0x0506};
+  auto bytes = brake_bytes_of(asked);
+  const ReportBytes expected = {0x82, 1, 0xcd, 0xab, 0, 0, 1, 0, 0x34, 0x12, 0xff, 0xff,
+                                9,    0, 8,    0,    7, 0, 6, 5, 2,    0,    0,    0};
+  EXPECT_EQ(ReportBytes(bytes.begin(), bytes.end()), expected);
+  const auto read = parse_out_report(bytes);
+  ASSERT_TRUE(read);
+  EXPECT_EQ(read->clamp, asked.clamp);
+  EXPECT_EQ(read->rotary, asked.rotary);
+  EXPECT_TRUE(!read->arm && read->identify);
+  EXPECT_EQ(flaw_of_out_report(std::span(bytes).first(16)), Flaw::length);
+  bytes[22] = 1;
+  EXPECT_EQ(flaw_of_out_report(bytes), Flaw::reserved_bits);
+  asked.rotary.reset();
+  EXPECT_EQ(parse_out_report(brake_bytes_of(asked))->rotary, asked.clamp) << "one level for both";
+}
+
 TEST(Report, OutReportsGoThereAndBack) {
   const OutReport asked{0xabcd, {0, 1, 0x1234, 0xffff}, true, false};
   auto bytes = bytes_of(asked);
@@ -70,6 +89,7 @@ TEST(Report, OutReportsGoThereAndBack) {
   const auto read = parse_out_report(bytes);
   ASSERT_TRUE(read);
   EXPECT_EQ(read->clamp, asked.clamp);
+  EXPECT_FALSE(read->rotary);
   EXPECT_TRUE(read->arm && !read->identify);
   bytes[12] = 4;
   EXPECT_FALSE(parse_out_report(bytes));

@@ -100,6 +100,25 @@ TEST(TrackingBox, ClosesAClampAndKnowsItsRoundTrip) {
   }
 }
 
+TEST(TrackingBox, AsksABoxForItsBrakesAndUsesThem) {
+  for (const bool separate : {false, true}) {
+    EmulatedBox box{{}};
+    box.separate_brakes = separate;
+    box.station[2] = {Tool::wire, 200, 0, 0};
+    EmulatedPort port{box, [](EmulatedBox& b) { b.station[2].advanced_mm += 0.05, b.station[2].turned_deg += 1; }};
+    const TrackingBoxSettings settings;
+    TrackingBox host{port, settings};
+    BoxRequest request;
+    request.arm = true;
+    request.load[wire_at] = {1.5, 2 * settings.clamp.radius_m[wire_at]};
+    for (int i = 0; i < 2000; ++i) request.step_s += 1e-3, host.poll(0, request);
+    EXPECT_EQ(host.info().separate_brakes, separate);
+    EXPECT_NEAR(box.clamp()[2] / 65535.0 * 10, separate ? 1.5 : 2.5, 0.01);
+    EXPECT_NEAR(box.rotary()[2] / 65535.0 * 10, separate ? 2 : 2.5, 0.01);
+    EXPECT_NEAR(host.now().tool[wire_at].brake_Nm / settings.clamp.radius_m[wire_at], separate ? 2 : 0, 0.01);
+  }
+}
+
 /// A box with wrong scales is calibrated with a ruler, full turns and a gauge: the scales are recovered.
 TEST(Calibrating, FindsTheScalesOfABox) {
   Calibration truth;

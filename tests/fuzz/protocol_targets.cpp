@@ -32,21 +32,24 @@ std::vector<Seed> reports() {
   in.sequence = 77, in.insertion = {1, -2, 3, 4}, in.tool[1] = device::Tool::wire, in.pedals = 3;
   device::OutReport out;
   out.sequence = 5, out.clamp = {0, 100, 65535, 1}, out.arm = true;
-  return {{"in", text_of(bytes_of(in))}, {"out", text_of(bytes_of(out))}};
+  device::OutReport apart = out;
+  apart.rotary = {1, 2, 3, 65535};
+  return {{"in", text_of(bytes_of(in))}, {"out", text_of(bytes_of(out))}, {"brakes", text_of(brake_bytes_of(apart))}};
 }
 
 /// What is taken is what its bytes say: written again it gives the same bytes.
 Answer read_report(const Seed& input) {
   const Packet bytes = packet_of(input.bytes);
-  const auto same = [&](const auto& report) {
-    require(std::ranges::equal(bytes_of(report), bytes), "a report that is taken gives its bytes again");
+  const auto same = [&](const auto& written) {
+    require(std::ranges::equal(written, bytes), "a report that is taken gives its bytes again");
   };
   const auto in = device::parse_in_report(bytes);
   const auto out = device::parse_out_report(bytes);
   require(in.has_value() == (device::flaw_of_in_report(bytes) == device::Flaw::none),
           "a report without a flaw is taken");
-  if (in) same(*in);
-  if (out) same(*out);
+  if (in) same(bytes_of(*in));
+  if (out && out->rotary) same(brake_bytes_of(*out));
+  if (out && !out->rotary) same(bytes_of(*out));
   device::parse_info(bytes), device::parse_statistics(bytes);
   return in || out ? Answer::taken : Answer::refused;
 }

@@ -18,12 +18,14 @@ struct Arguments {
   int port = device::usbip_port;
   bool any_host = false;  ///< also answers other machines
   bool still = false;     ///< do not move the emulated tools
+  bool separate_brakes = false;
 };
 
 void declare(Options& options, Arguments& a) {
   options.add("--port", a.port, "TCP port").range(1, 65535).show_default();
   options.flag("--any-host", a.any_host, "For other machines too, not for this one alone");
   options.flag("--still", a.still, "Nobody moves its tools");
+  options.flag("--separate-brakes", a.separate_brakes, "With a brake for pushing and one for turning on each track");
   options.add("--seconds", a.seconds, "Then end; else at Ctrl-C").range(0.01, 1e6);
 }
 
@@ -40,6 +42,7 @@ int run(const Arguments& a) {
   c.serial = "EMULATED";
   for (device::TrackCalibration& track : c.track) track.before_introducer_mm = 20;
   device::EmulatedUsb usb(c);
+  usb.with([&](device::EmulatedBox& box, device::EmulatedFaults&) { box.separate_brakes = a.separate_brakes; });
   device::StrokingHand hand;
   if (!a.still) usb.set_hand([&](device::EmulatedBox& box) { hand.move(box); });
   const auto server = make_server(a, usb);

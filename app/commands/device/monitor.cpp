@@ -86,7 +86,8 @@ Json to_json(const device::BoxSnapshot& now, const device::RoundTrips& trips) {
                                    {"in_box_mm", 1e3 * t.in_box_m},
                                    {"fed_mm", 1e3 * t.fed_m},
                                    {"turned_deg", t.turned_rad * 180 / units::pi},
-                                   {"clamp_N", t.clamp_N}};
+                                   {"clamp_N", t.clamp_N},
+                                   {"brake_mNm", 1e3 * t.brake_Nm}};
   }
   return out;
 }
@@ -98,9 +99,9 @@ std::string table(const device::BoxSnapshot& now, const device::RoundTrips& trip
   for (std::size_t i = 0; i < device::tools; ++i) {
     const device::ToolSnapshot& t = now.tool[i];
     out += fmt::format(
-        "  {:<12} {:<7} {:>3}  inserted {:>8.2f} mm, in the box {:>7.2f} mm, turned {:>8.1f} deg, clamp {:.2f} N\n",
+        "  {:<12} {:<7} {:>3}  inserted {:>8.2f} mm, in the box {:>7.2f} mm, turned {:>8.1f} deg, clamp {:.2f} N{}\n",
         tool_names[i], words(t.sight), t.quality, 1e3 * t.inserted_m, 1e3 * t.in_box_m, t.turned_rad * 180 / units::pi,
-        t.clamp_N);
+        t.clamp_N, t.brake_Nm > 0 ? fmt::format(", brake {:.2f} mNm", 1e3 * t.brake_Nm) : "");
   }
   out += fmt::format(
       "  pressure {:.2f} atm, flow {:.2f} mL/s, pedals {:04x}; round trip median {:.2f} ms, 99 % {:.2f} ms\n",

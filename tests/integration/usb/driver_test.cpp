@@ -256,6 +256,29 @@ TEST_F(Usb, TheWatchdogOpensTheClampsOfAHostThatHangs) {
   bench().usb.set_hand({});
 }
 
+TEST_F(Usb, ABoxWithSeparateBrakesGetsThemApart) {
+  ASSERT_TRUE(running());
+  bench().unplug();
+  ASSERT_TRUE(until([&] { return box.now().link == device::Link::unplugged; }));
+  bench().usb.with([](device::EmulatedBox& b, device::EmulatedFaults&) {
+    b.separate_brakes = true;
+    b.station[0] = {device::Tool::wire, 200, 0, 0};
+  });
+  bench().plug();
+  ASSERT_TRUE(running());
+  EXPECT_TRUE(box.info().separate_brakes);
+  bench().usb.set_hand([](device::EmulatedBox& b) { b.station[0].turned_deg += 0.5; });
+  request.arm = true;
+  request.load[wire] = {0, 5e-4};
+  EXPECT_TRUE(until([&] {
+    request.step_s += 1e-3;
+    return bench().usb.with([](device::EmulatedBox& b, device::EmulatedFaults&) { return b.rotary()[0] > 0; });
+  }));
+  EXPECT_EQ(clamps()[0], 0) << "what resists turning does not hold back a push";
+  bench().usb.set_hand({});
+  bench().usb.with([](device::EmulatedBox& b, device::EmulatedFaults&) { b.separate_brakes = false; });
+}
+
 /// Half of them keep all rules, half have bytes inverted: exactly those that keep the rules are accepted.
 TEST_F(Usb, TenThousandWildReportsOnTheWire) {
   ASSERT_TRUE(running());
