@@ -5,17 +5,20 @@
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cerrno>
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
 #include <exception>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <type_traits>
 
 #include "app/command_line/interrupt.h"
 #include "data/formats/decimal.h"
+#include "data/formats/load_error.h"
 #include "data/formats/write_file.h"
 
 namespace ostium::app {
@@ -74,12 +77,17 @@ void check_text(CLI::Option& option) {
 
 }  // namespace
 
+Option Option::writes() {
+  written_->push_back(option_);
+  return *this;
+}
+
 template <class Value>
 Option Options::add(const std::string& names, Value& value, const std::string& help) {
   CLI::Option* option = app_.add_option(names, value, help);
   check_number<Value>(*option);
   check_text<Value>(*option);
-  return Option(option);
+  return {option, &written_};
 }
 template Option Options::add(const std::string&, std::string&, const std::string&);
 template Option Options::add(const std::string&, int&, const std::string&);
@@ -98,19 +106,64 @@ namespace {
 
 constexpr int done = 0, failed = 1, usage = 2, bad_input = 3;
 
-/// `chosen` is set to the command that the parsed line names.
-void declare(const Command& command, CLI::App& app, const Command*& chosen) {
-  Options options(app);
+/// `chosen` is set to the command that the parsed line names; `written` gets all options that name files to be written.
+void declare(const Command& command, CLI::App& app, const Command*& chosen, std::vector<const CLI::Option*>& written) {
+  Options options(app, written);
   if (command.declare) command.declare(options);
   for (const Command& sub : command.subcommands) {
     CLI::App* sub_app = app.add_subcommand(sub.name, sub.help);
     if (sub.run) sub_app->callback([&chosen, &sub] { chosen = &sub; });
-    declare(sub, *sub_app, chosen);
+    declare(sub, *sub_app, chosen, written);
   }
   if (!command.subcommands.empty()) app.require_subcommand(command.run ? 0 : 1, 1);
   std::string footer;
   for (const std::string& example : command.examples) footer += (footer.empty() ? "Examples:\n  " : "\n  ") + example;
   if (!footer.empty()) app.footer(footer);
+}
+
+/// What an option was given, or has by default.
+std::vector<std::string> values_of(const CLI::Option& option) {
+  if (option.count() > 0) return option.results();
+  return option.get_default_str().empty() ? std::vector<std::string>{} : std::vector{option.get_default_str()};
+}
+
+bool is_one_file(const std::string& a, const std::string& b) {
+  namespace fs = std::filesystem;
+  std::error_code none;
+  if (fs::exists(a, none) && !fs::is_regular_file(a, none)) return false;  // a device takes what comes
+  if (fs::equivalent(a, b, none)) return true;
+  // A path may lead through folders that are yet to be made.
+  const fs::path to_a = fs::weakly_canonical(fs::absolute(a, none), none),
+                 to_b = fs::weakly_canonical(fs::absolute(b, none), none);
+  return to_a == to_b || fs::equivalent(to_a, to_b, none);
+}
+
+/// Throws LoadError if a file that is to be written is named twice, or is one to read.
+void require_apart(const CLI::App& app, const std::vector<const CLI::Option*>& written) {
+  for (const CLI::App* sub : app.get_subcommands()) require_apart(*sub, written);
+  const std::vector<const CLI::Option*> options = app.get_options();
+  const auto writes = [&](const CLI::Option* o) {
+    return std::find(written.begin(), written.end(), o) != written.end();
+  };
+  for (std::size_t i = 0; i < options.size(); ++i) {
+    if (!writes(options[i])) continue;
+    for (const std::string& file : values_of(*options[i]))
+      for (std::size_t j = 0; j < options.size(); ++j) {
+        const bool both = writes(options[j]);
+        if (j == i || (both && j < i)) continue;
+        for (std::string other : values_of(*options[j])) {
+          if (!both && other.find('=') != std::string::npos && !std::filesystem::exists(other))
+            other = other.substr(other.find('=') + 1);  // --set wire=FILE
+          if (!is_one_file(file, other)) continue;
+          if (both)
+            throw data::LoadError(fmt::format("{} and {} are one file, {}; expected one for each",
+                                              options[i]->get_name(), options[j]->get_name(), file));
+          if (std::filesystem::is_regular_file(other))
+            throw data::LoadError(fmt::format("{} {} would take the place of what is read, {}; expected another name",
+                                              options[i]->get_name(), file, other));
+        }
+      }
+  }
 }
 
 /// A stream that whoever calls has closed becomes one that nothing can be written to; else the first file that is
@@ -163,7 +216,8 @@ int run_command_line(const Command& program, int argc, char** argv) {
   // Also used for commands declared later that have no examples.
   app.footer("Exit codes: 0 done, 1 failed or did not hold, 2 usage, 3 bad input, 128 + N ended by signal N.");
   const Command* chosen = &program;
-  declare(program, app, chosen);
+  std::vector<const CLI::Option*> written;
+  declare(program, app, chosen, written);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -172,6 +226,7 @@ int run_command_line(const Command& program, int argc, char** argv) {
     return with_output_checked(code);
   }
   try {
+    require_apart(app, written);
     const int code = with_output_checked(chosen->run());
     return interrupting_signal ? 128 + interrupting_signal : code;
   } catch (const data::WriteError& error) {

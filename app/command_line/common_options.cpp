@@ -1,5 +1,11 @@
 #include "app/command_line/common_options.h"
 
+#include <filesystem>
+
+#include "data/formats/load_error.h"
+#include "data/formats/read_file.h"
+#include "data/identification/measurement/measurement_reader.h"
+
 namespace ostium::app {
 
 void add_case_option(Options& options, std::string& name) {
@@ -8,6 +14,21 @@ void add_case_option(Options& options, std::string& name) {
 
 void add_measured_set_option(Options& options, std::string& set) {
   options.add("set", set, "The set's folder, or its measurement.json").required().type("SET");
+}
+
+void require_not_of_set(const std::string& set, const std::string& option, const std::string& output) {
+  namespace fs = std::filesystem;
+  std::error_code none;
+  if (output.empty() || !fs::exists(output, none)) return;
+  const fs::path told = data::measurement_file(set), folder = told.has_parent_path() ? told.parent_path() : ".";
+  const fs::path file = fs::absolute(output, none);
+  const bool beside = fs::equivalent(file.parent_path(), folder, none);
+  const auto names = [&](const std::string& name) {  // measurement.json names the tables and meshes that belong to it
+    return data::read_file(told.string()).find("\"" + name + "\"") != std::string::npos;
+  };
+  if (!fs::equivalent(file, told, none) && !(beside && names(file.filename().string()))) return;
+  throw data::LoadError(option + " " + output + " would take the place of a file of the measured set " + set +
+                        "; expected another name");
 }
 
 void add_json_flag(Options& options, bool& json, const std::string& schema) {

@@ -6,6 +6,8 @@ namespace ostium::app {
 
 void add_case_option(Options& options, std::string& name);
 void add_measured_set_option(Options& options, std::string& set);
+/// Throws LoadError if `output`, the value of an option, is a file of the measured set.
+void require_not_of_set(const std::string& set, const std::string& option, const std::string& output);
 /// `schema`: a file of data/schemas, or empty if there is none.
 void add_json_flag(Options& options, bool& json, const std::string& schema = "");
 void add_box_serial_option(Options& options, std::string& serial);

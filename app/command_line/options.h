@@ -15,8 +15,6 @@ namespace ostium::app {
 /// Further properties of an option; each call returns the option again.
 class Option {
  public:
-  explicit Option(CLI::Option* option) : option_(option) {}
-
   Option required();
   Option show_default();                 ///< shows the variable's current value in --help
   Option type(const std::string& name);  ///< shown in --help instead of TEXT
@@ -27,14 +25,21 @@ class Option {
   Option range(int least, int most);
   Option not_negative();
   Option positive();
+  /// Names a file that the command writes: refused where the line names it twice, or as something to read, too.
+  Option writes();
 
  private:
+  friend class Options;
+  Option(CLI::Option* option, std::vector<const CLI::Option*>* written) : option_(option), written_(written) {}
+
   CLI::Option* option_;
+  std::vector<const CLI::Option*>* written_;
 };
 
 class Options {
  public:
-  explicit Options(CLI::App& app) : app_(app) {}
+  /// `written`: gets the options that name files to be written.
+  Options(CLI::App& app, std::vector<const CLI::Option*>& written) : app_(app), written_(written) {}
 
   /// `names`: "--units", "-o,--out", or "mesh" for a positional argument. `value` keeps its value if the option is not
   /// given. Texts that are given are not empty, and UTF-8. For text, int, double, std::uint64_t, an optional int or
@@ -45,6 +50,7 @@ class Options {
 
  private:
   CLI::App& app_;
+  std::vector<const CLI::Option*>& written_;
 };
 
 }  // namespace ostium::app

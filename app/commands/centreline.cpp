@@ -15,6 +15,7 @@
 #include "vascular/geometry/centreline/reach.h"
 #include "vascular/geometry/mesh/surface_check.h"
 #include "vascular/geometry/repair/double_wall.h"
+#include "vascular/geometry/repair/repair.h"
 #include "vascular/geometry/repair/sheets.h"
 
 namespace ostium::app {
@@ -36,7 +37,8 @@ void declare(Options& options, Arguments& a) {
   options.add("--end", a.ends, "Where branches end; else all that stand out").type("X,Y,Z");
   options.add("-o,--output", a.output, "In the mesh's axes: .json, in mm, or .vtp, in the mesh's unit")
       .type("FILE.json|FILE.vtp")
-      .required();
+      .required()
+      .writes();
 }
 
 /// Between ends that somebody chose a line may be short.
@@ -46,6 +48,16 @@ void require_long(const vascular::SphereTree& tree) {
   for (const vascular::TreeBranch& branch : tree.branches)
     for (const vascular::TreeSphere& sphere : branch.spheres) widest = std::max(widest, 2 * sphere.radius_m);
   vascular::require_vessel(longest, widest);
+}
+
+/// The piece that holds the start, or the largest.
+vascular::Mesh piece_of(const vascular::Mesh& mesh, const vascular::CentrelineOptions& wanted) {
+  std::vector<vascular::Mesh> pieces = vascular::components_of(mesh);
+  const auto rank = [&](const vascular::Mesh& piece) {
+    return wanted.start ? winding_number(piece, *wanted.start) : volume_m3(piece);
+  };
+  return *std::max_element(pieces.begin(), pieces.end(),
+                           [&](const auto& a, const auto& b) { return rank(a) < rank(b); });
 }
 
 int run(const Arguments& a) {
@@ -67,11 +79,15 @@ int run(const Arguments& a) {
   if (find_double_wall(mesh, sheets_of(mesh)).triangles)
     throw vascular::MeshError(a.mesh +
                               ": has a double wall; expected the lumen, which `ostium import` takes out of it");
-  const vascular::CentrelineResult found = find_centrelines(mesh, wanted);
+  // Pieces that do not cross are vessels of their own, however near to one another.
+  const bool apart = report.components > 1 && report.crossings.count == 0;
+  const vascular::CentrelineResult found = find_centrelines(apart ? piece_of(mesh, wanted) : mesh, wanted);
   if (wanted.ends.empty()) require_long(found.tree);
   if (found.tree.spheres() < 2)
     throw vascular::MeshError(a.mesh + ": --start and --end are one point of the vessel; expected points apart");
-  if (report.components > 1)
+  if (report.components > 1 && !apart)
+    fmt::print(stderr, "{}: {} pieces, of which those that cross are taken for one\n", a.mesh, report.components);
+  if (apart)
     fmt::print(
         stderr,
         "{}: {} separate pieces; the lines are of what hangs together with their beginning, --start X,Y,Z chooses "

@@ -4,6 +4,7 @@
 
 #include "app/command_line/arguments.h"
 #include "app/command_line/command.h"
+#include "app/command_line/common_options.h"
 #include "app/command_line/filled_folder.h"
 #include "app/command_line/interrupt.h"
 #include "app/command_line/progress.h"
@@ -32,7 +33,8 @@ void declare(Options& options, Arguments& a) {
   options.add("sets", a.sets, "Sets of one instrument: their folders, or measurement.json").type("SET...").required();
   options.add("-o,--out", a.file, "The instrument as it was found, for ostium run, predict --with and the catalogue")
       .type("FILE.json")
-      .required();
+      .required()
+      .writes();
   options
       .add("--like", a.like,
            "An instrument of the catalogue, or its file: weight, sizes and what else is not measured; without, the "
@@ -87,6 +89,7 @@ void write_report(const data::Characterisation& c, const std::filesystem::path& 
 
 int run(const Arguments& a) {
   require_ending(a.file, {".json"});
+  for (const std::string& set : a.sets) require_not_of_set(set, "--out", a.file);
   std::string like;
   if (!a.like.empty()) {
     const std::string file = data::instrument_file(a.like);

@@ -33,7 +33,7 @@ void declare(Options& options, Arguments& a) {
   options.add("mesh", a.files, "STL, PLY, OBJ, VTP, ...").type("MESH").required();
   add_unit_option(options, a.unit, "What a number in the file means");
   add_json_flag(options, a.json);
-  options.add("--picture", a.picture, "The mesh with its faults (one file only)").type("FILE.png|FILE.svg");
+  options.add("--picture", a.picture, "The mesh with its faults (one file only)").type("FILE.png|FILE.svg").writes();
 }
 
 nlohmann::ordered_json fault_json(const vascular::SurfaceFault& fault) {
@@ -186,7 +186,7 @@ void print_size(const Checked& c) {
   const vascular::SurfaceReport& r = c.report;
   fmt::print("{}: {} triangles, {} vertices, {} component{}, {:.2f} mL, {:.1f} cm2\n", c.file, r.triangles, r.vertices,
              r.components, r.components == 1 ? "" : "s", 1e6 * r.volume_m3, 1e4 * r.area_m2);
-  fmt::print("units: {}; {:.1f} mm long{}\n", describe(c.unit), 1e3 * c.unit.extent_m,
+  fmt::print("units: {}; spans {:.1f} mm{}\n", describe(c.unit), 1e3 * c.unit.extent_m,
              c.unit.vessel.empty() ? "" : ", the size of " + c.unit.vessel);
   fmt::print("vessels: {:.2f} mm wide at most of the wall (2 % below {:.2f}, 98 % below {:.2f})\n",
              1e3 * c.diameters[2], 1e3 * c.diameters[0], 1e3 * c.diameters[4]);

@@ -43,8 +43,10 @@ void declare(Options& options, Arguments& a) {
   options.add("--try", a.tries, "An effect to switch on; with + between them, several together").type("EFFECT");
   options
       .add("--write-instrument", a.instrument,
-           "Also here: the (innermost) instrument as it was found, for ostium run and the catalogue")
-      .type("FILE.json");
+           "Also here, of a set of shapes: the (innermost) instrument as it was found, for ostium run and the "
+           "catalogue")
+      .type("FILE.json")
+      .writes();
   options.add("--threads", a.threads, "Threads of each rank; 0: one for each core").range(0, 1024);
   options.flag("--json", a.json, "Print explanation.json, see data/schemas/explanation.schema.json");
 }
@@ -83,6 +85,10 @@ int write_a_template(const Arguments& a) {
 /// A set of curves is quick: the first rank does it all.
 int run_curves(const Arguments& a, const data::JsonValue& root) {
   if (data::rank() != 0) return 0;
+  if (!a.instrument.empty())
+    throw data::LoadError(*root.file +
+                          ": --write-instrument is for shapes; of a bench's curves `ostium characterise` "
+                          "makes an instrument");
   const FilledFolder folder(a.folder);
   data::curves::CurveOptions options;
   for (const std::string& words : a.tries) options.tries.push_back(split(words, '+'));
@@ -100,6 +106,7 @@ int run(const Arguments& a) {
     fmt::print(stderr, "SET is required, or --template KIND\n");
     return 2;
   }
+  require_not_of_set(a.set, "--write-instrument", a.instrument);
   const data::Ranks mpi;
   const data::JsonValue root = data::load_json(data::measurement_file(a.set));
   if (data::curves::kind_of(root)) return run_curves(a, root);

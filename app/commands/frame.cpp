@@ -91,7 +91,7 @@ void declare(Options& options, Arguments& a) {
   add_renderer_option(options, a.renderer);
   options.flag("--overlay", a.overlay, "Angles, rate, times and dose on the picture (not in DICOM)");
   options.flag("--json", a.json, "Exposure and dose, machine-readable, see data/schemas/frame.schema.json");
-  options.add("-o,--out", a.out, "FILE.png, FILE.dcm or FILE.mp4").show_default();
+  options.add("-o,--out", a.out, "FILE.png, FILE.dcm or FILE.mp4").show_default().writes();
 }
 
 fluoro::View view_of(const Arguments& a) {

@@ -66,7 +66,7 @@ void declare(Options& options, Arguments& a) {
   options.flag("--count", a.count, "TIMI frame counts too (30 frames/s, a run for each artery)");
   options.add("--seed", a.seed, "Of noise and chance").show_default();
   add_json_flag(options, a.json);
-  options.add("-o,--out", a.out, "FILE.mp4, or FILE.png: six moments").show_default();
+  options.add("-o,--out", a.out, "FILE.mp4, or FILE.png: six moments").show_default().writes();
 }
 
 Injection injection_of(const Arguments& a, const vascular::PhysiologyModel& model) {

@@ -19,7 +19,7 @@ struct Arguments {
 void declare(Options& options, Arguments& a) {
   options.add("name", a.name, "One of them, in detail and with its sources").type("NAME");
   add_json_flag(options, a.json, "instruments.schema.json");
-  options.add("--picture", a.picture, "Draw them at rest").type("FILE.svg");
+  options.add("--picture", a.picture, "Draw them at rest").type("FILE.svg").writes();
 }
 
 int run(const Arguments& a) {

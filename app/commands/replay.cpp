@@ -78,10 +78,11 @@ void declare(Options& options, Arguments& a) {
   options.flag("--verify", a.verify, "Compare every step; the default where no picture is asked for");
   options.add("--from", a.from_s, "Second to begin at").not_negative();
   options.add("--seconds", a.seconds, "Length of the film").positive();
-  options.add("--video", a.video, "Film it").type("FILE.mp4");
+  options.add("--video", a.video, "Film it").type("FILE.mp4").writes();
   options.add("--dicom", a.dicom, "Film it; each change of view, field or mode begins FILE-2.dcm, ...")
-      .type("FILE.dcm");
-  options.add("--png", a.png, "One picture, at --from").type("FILE.png");
+      .type("FILE.dcm")
+      .writes();
+  options.add("--png", a.png, "One picture, at --from").type("FILE.png").writes();
   declare_picture(options, a.picture);
   add_json_flag(options, a.json);
 }

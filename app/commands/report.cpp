@@ -145,15 +145,16 @@ struct Arguments {
 
 void declare(Options& options, Arguments& a) {
   options.add("file", a.files, "What `ostium run --out` recorded; several: side by side").type("RUN.h5");
-  options.add("-o,--output", a.page, "The page, which needs nothing else").type("FILE.html").show_default();
-  options.add("--csv", a.csv, "Metrics and ticks, a row a run").type("FILE.csv");
-  options.add("--events", a.events, "Events of the first run").type("FILE.csv");
+  options.add("-o,--output", a.page, "The page, which needs nothing else").type("FILE.html").show_default().writes();
+  options.add("--csv", a.csv, "Metrics and ticks, a row a run").type("FILE.csv").writes();
+  options.add("--events", a.events, "Events of the first run").type("FILE.csv").writes();
   options.add("--code", a.codes, "Of participants or attempts, one a recording; no names").type("CODE");
   options.add("--scoring", a.scoring, "Steps and errors: a list of data/scoring, or a file")
       .type("NAME|FILE.json")
       .show_default();
   options.add("--questionnaire", a.questionnaire, "Face and content questionnaires, a page with forms")
-      .type("FILE.html");
+      .type("FILE.html")
+      .writes();
   options.flag("--pictures,!--no-pictures", a.pictures, "Pictures of key moments (default)");
   add_renderer_option(options, a.renderer);
 }

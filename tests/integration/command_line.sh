@@ -26,8 +26,6 @@ expect 3 "" bash -c "'$ostium' check no-such.stl 2>&-"
 expect 0 "of [0-9]* pass" bash -c "'$ostium' verify --only rod-static-0.4m-100 2> /dev/full"
 expect 2 "not expected" "$ostium" verify --quik
 expect 2 "not expected" "$ostium" nonsense
-: > "$dir/-dash.obj"
-(cd "$dir" && expect 2 "write ./-dash.obj" "$ostium" check -dash.obj)
 
 expect 0 "guide-jl4-6f" "$ostium" instruments
 expect 0 "sources:" "$ostium" instruments guide-jl4-6f
@@ -38,6 +36,8 @@ expect 3 "OSTIUM_DATA" env OSTIUM_DATA=/nowhere "$ostium" instruments
 
 dir=$(mktemp -d)
 trap 'rm -rf "$dir"' EXIT
+: > "$dir/-dash.obj"
+(cd "$dir" && expect 2 "write ./-dash.obj" "$ostium" check -dash.obj)
 frame() { "$ostium" frame --pixels 128 "$@"; }
 export -f frame
 export ostium
@@ -186,6 +186,17 @@ expect 3 "expected files of one unit" "$ostium" import "$folder/marked.obj" "$fo
 expect 3 "its numbers may be mm or cm" "$ostium" run "$folder/vessel.obj" --entry 0,0,1 --towards 0,0,9
 expect 3 "has no inside" "$ostium" run "$folder/marked.obj" --entry 0,0,1 --towards 0,0,9 --out "$dir/left/behind"
 [[ ! -e $dir/left ]] || { echo "a run that is refused leaves folders behind"; exit 1; }
+# What is written takes the place of nothing that is read, nor of what else is written.
+cp "$folder/vessel.obj" "$folder/own.obj"
+ln -s own.obj "$folder/link.json"
+expect 3 "would take the place of what is read" "$ostium" centreline --units mm "$folder/own.obj" -o "$folder/link.json"
+expect 3 "would take the place of what is read" "$ostium" sweep rca-mid-focal --script "$folder/own.obj" -o "$folder/own.obj"
+expect 3 "are one file" "$ostium" report "$folder/own.obj" --csv "$folder/a" --events "$folder/./a"
+expect 3 "are one file" "$ostium" report "$folder/own.obj" --csv report.html
+"$ostium" explain --template projections -o "$folder/set" >/dev/null
+expect 3 "a file of the measured set" "$ostium" explain "$folder/set" --write-instrument "$folder/set/measurement.json"
+expect 3 "a file of the measured set" "$ostium" explain "$folder/set" --write-instrument "$folder/set/clicks.csv"
+expect 3 "is set already" "$ostium" run rca-mid-focal --set person=1 --set person=2
 # 3D Slicer's centrelines, with radii.
 cat >"$folder/lines.mrk.json" <<'END'
 {"markups": [{"type": "Curve", "coordinateUnits": "mm", "controlPoints": [{"position": [0, 0, 0]}, {"position": [20, 5, 0]},

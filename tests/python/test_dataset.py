@@ -3,6 +3,7 @@
 import json
 import os
 import subprocess
+from pathlib import Path
 
 import numpy as np
 import ostium
@@ -64,6 +65,13 @@ def test_a_set_is_that_of_the_command(tmp_path):
     assert stamps == {path: path.stat().st_mtime_ns for path in (tmp_path / "python" / "runs").iterdir()}
     with pytest.raises(ostium.OstiumError, match="another set"):
         ostium.dataset.make(tasks, tmp_path / "python", every_s=0.3, pixels=64)
+    others = ostium.sweep.tasks("rca-mid-focal", "rca-from-the-ostium", seeds=[9], values={"begin": "RCA"}, seconds=1.2)
+    with pytest.raises(ostium.OstiumError, match="another set"):
+        ostium.dataset.make(others, tmp_path / "python", every_s=0.6, pixels=64)
+    (tmp_path / "theirs").mkdir()
+    (tmp_path / "theirs" / "train.json").write_text("{}")
+    with pytest.raises(ostium.OstiumError, match="train.json: is there"):
+        ostium.dataset.make(others, tmp_path / "theirs")
     subprocess.run([os.environ["OSTIUM"], "dataset", "rca-mid-focal", "--script", "rca-from-the-ostium", "--set",
                     "begin=RCA", "--seconds", "1.2", "--vary", "person=0,1", "--seeds", "1", "--every", "0.6",
                     "--pixels", "64", "-o", tmp_path / "command"], check=True, capture_output=True)
@@ -77,8 +85,20 @@ def test_a_set_is_that_of_the_command(tmp_path):
         assert mine == other
 
 
-def test_a_run_that_cannot_be_is_one_without_pictures(tmp_path):
+def test_a_run_that_cannot_be_is_told_and_tried_again(tmp_path):
     tasks = ostium.sweep.tasks("rca-mid-focal", "rca-from-the-ostium", seeds=[1], values={"wire": "no-such-wire"})
-    assert ostium.dataset.make(tasks, tmp_path) == 0
-    run = json.loads((tmp_path / "manifest.json").read_text())["runs"][0]
+    with pytest.raises(ostium.OstiumError, match="no-such-wire"):
+        ostium.dataset.make(tasks, tmp_path / "none")
+    tasks += ostium.sweep.tasks("rca-mid-focal", "rca-from-the-ostium", seeds=[1], values={"begin": "RCA"}, seconds=0.7)
+    assert ostium.dataset.make(tasks, tmp_path / "one", every_s=0.6, pixels=64) == 1
+    run = json.loads((tmp_path / "one" / "manifest.json").read_text())["runs"][0]
     assert run["outcome"] == "aborted" and "no-such-wire" in run["reason"]
+    assert len(list((tmp_path / "one" / "runs").iterdir())) == 1  # what failed is not kept as done
+    # A script that somebody changed makes another set.
+    script = tmp_path / "mine.json"
+    script.write_bytes((Path(ostium.__file__).parent / "data/scripts/rca-from-the-ostium.json").read_bytes())
+    tasks = ostium.sweep.tasks("rca-mid-focal", str(script), seeds=[1], values={"begin": "RCA"}, seconds=0.7)
+    assert ostium.dataset.make(tasks, tmp_path / "mine", every_s=0.6, pixels=64) == 1
+    script.write_text("{ broken")
+    with pytest.raises(ostium.OstiumError, match="another set"):
+        ostium.dataset.make(tasks, tmp_path / "mine", every_s=0.6, pixels=64)

@@ -63,6 +63,7 @@ class Dataset {
     std::vector<std::size_t> own;
     for (std::size_t run = 0; run < part_of_.size(); ++run)
       if (part_of_[run] == head_.part.number) own.push_back(run);
+    require_own_folder();
     locks_.emplace(file("set.txt"), id_, own);
     for (std::size_t v = 0; v < sweep_.vessels.size() && !interrupted; ++v) {
       std::shared_ptr<const Vessel> vessel;
@@ -93,6 +94,15 @@ class Dataset {
   }
 
  private:
+  /// Throws LoadError where somebody else's lists would be replaced.
+  void require_own_folder() const {
+    if (fs::exists(file("set.txt"))) return;
+    for (const char* name : label_set_files)
+      if (fs::exists(file(name)))
+        throw data::LoadError(file(name) +
+                              ": is there, and of no set of pictures of ostium; expected a folder of its own");
+  }
+
   std::string file(const std::string& name) const { return (fs::path(arguments_.folder) / name).string(); }
   std::string run_file(std::size_t run) const { return file("runs/" + sweep_.grid.name_of(run) + ".json"); }
 
@@ -170,8 +180,10 @@ int run(const Arguments& a) {
     fmt::print("{}: {} runs are not done; the same command goes on\n", a.folder, missing);
     return interrupted ? 1 : 0;
   }
-  fmt::print("{}: {} pictures\n", a.folder, dataset.finish());
-  return 0;
+  const std::size_t pictures = dataset.finish();
+  fmt::print("{}: {} pictures\n", a.folder, pictures);
+  if (pictures == 0) fmt::print(stderr, "no tool was in the body when a picture was due, or no run could be made\n");
+  return pictures == 0 ? 1 : 0;
 }
 
 }  // namespace

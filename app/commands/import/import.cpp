@@ -77,7 +77,7 @@ void declare(Options& options, ImportArguments& a) {
   options.add("--longest-gap", a.longest_gap_mm, "No gap is bridged that is longer, mm")
       .range(0.0, 50.0)
       .show_default();
-  options.add("--picture", a.picture, "What came out of it, with mends and names").type("FILE.png|FILE.svg");
+  options.add("--picture", a.picture, "What came out of it, with mends and names").type("FILE.png|FILE.svg").writes();
   options.flag("--json", a.json, "What was found and mended, machine-readable");
 }
 
@@ -288,8 +288,11 @@ class Import {
     } catch (const std::invalid_argument& error) {
       throw data::LoadError(error.what());
     }
+    // Where vessels have their names, those of coronary arteries: others taper as they branch.
+    const bool named = find_branch(made_.found.anatomy, "aorta") || find_branch(made_.found.anatomy, "LM") ||
+                       find_branch(made_.found.anatomy, "RCA");
     for (const vascular::FoundNarrowing& narrowing : find_narrowings(made_.patient.tree))
-      if (is_coronary(made_.found.anatomy, find_branch(made_.found.anatomy, narrowing.branch)->tube))
+      if (!named || is_coronary(made_.found.anatomy, find_branch(made_.found.anatomy, narrowing.branch)->tube))
         made_.narrowings.push_back(narrowing);
     if (const vascular::Unreached rest = unreached(made_.found.lumen, made_.patient.tree);
         rest.share > vascular::unreached_matters) {

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "app/session/model/outcome.h"
@@ -60,7 +61,9 @@ void print_report(const ScriptedRun& run, const PlayReport& r, const std::string
   if (run.troubled) fmt::print("{} steps had to give way: {}\n", run.troubled, trouble_words(run.troubles));
   for (const data::Metric& m : r.metrics)
     if (const std::string value = value_text(m); !value.empty()) fmt::print("  {:<32} {}\n", m.name, value);
-  fmt::print("state {:016x}{}{}\n", r.hash, file.empty() ? "" : ", recorded in ", file);
+  // Somebody may have taken it away meanwhile.
+  const bool there = !file.empty() && std::filesystem::exists(file);
+  fmt::print("state {:016x}{}{}\n", r.hash, there ? ", recorded in " : "", there ? file : "");
 }
 
 void print_report(const BoxDriver& hand) {

@@ -46,7 +46,7 @@ void declare(Options& options, RunArguments& a) {
           "the window")
       .one_of({"auto", "usb", "emulator", "keyboard"});
   options.add("--display", a.display, "window: watch it live, in real time").one_of({"none", "window"}).show_default();
-  options.add("--last-frame", a.last_frame, "The window's last picture").type("FILE.png");
+  options.add("--last-frame", a.last_frame, "The window's last picture").type("FILE.png").writes();
   options.add("--serve", a.serve, "A trainer's station in the browser beside it, at this port (0: any), in real time")
       .type("PORT")
       .range(0, 65535);

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <set>
+
 #include "app/command_line/arguments.h"
 #include "app/command_line/common_options.h"
 #include "app/command_line/mesh_unit.h"
@@ -53,9 +55,12 @@ RunSetup setup_of(const SessionArguments& a) {
     set_vessel(a.vessel, {}, setup);
   }
   set_script(data::find_script(a.script), setup);
+  std::set<std::string> known;
   for (const std::string& set : a.set) {
     const auto [key, value] = key_and_value(set);
     if (key.empty()) throw data::LoadError(fmt::format("--set {}: expected KEY=VALUE", set));
+    if (!known.insert(key).second)
+      throw data::LoadError(fmt::format("--set {}: {} is set already; expected one value", set, key));
     set_value(key, value, setup);
   }
   return setup;

@@ -21,7 +21,7 @@ void declare(Options& options, SweepArguments& a) {
   options.add("--vary", a.vary, "What --set takes, with several values").type("KEY=A,B,C");
   options.add("--jobs", a.jobs, "Runs at the same time; 0: one for each core").range(0, 1024);
   options.flag("--resume", a.resume, "Go on with a table that was not finished");
-  options.add("-o,--output", a.table, "The table").type("TABLE.csv");
+  options.add("-o,--output", a.table, "The table").type("TABLE.csv").writes();
   options.add("--part", a.part, "Only this part of it; auto: by the rank that Slurm or mpirun gives").type("K/N|auto");
   options.add("--merge", a.merge, "Put the parts of this table together").type("TABLE.csv");
   options.add("--keep", a.keep, "Where the recording of each run goes").type("DIR");

@@ -40,7 +40,7 @@ void declare(Options& options, TreatArguments& a) {
   add_renderer_option(options, a.renderer);
   options.add("--seed", a.seed, "Of what happens by chance").show_default();
   add_json_flag(options, a.json);
-  options.add("-o,--out", a.out, "FILE.png: before, while inflating, after, and the strips").show_default();
+  options.add("-o,--out", a.out, "FILE.png: before, while inflating, after, and the strips").show_default().writes();
 }
 
 constexpr double before_s = 2, recovers_s = 10;  // shown before and after the inflation

@@ -9,9 +9,10 @@ Of single moments, ostium.Imager(model).labels(data) has the same as arrays. The
 """
 
 import builtins
+import fcntl
 import functools
+import hashlib
 import json
-import os
 import re
 from pathlib import Path
 
@@ -27,27 +28,63 @@ def _name(number, of, task):
     return f"{number:0{len(str(of))}}-{re.sub(r'[^A-Za-z0-9.-]', '_', what)[:150]}"
 
 
-def run(numbered, folder, of, every_s, pixels, dicom, identity):
+def _identity(tasks, *settings):
+    """What a set is made of; of files, what they hold."""
+    def held(value):
+        path = Path(str(value))
+        return hashlib.sha256(path.read_bytes()).hexdigest() if path.is_file() else str(value)
+
+    parts = [[held(part) for part in (task["case"], task["script"], *task["values"].values())] for task in tasks]
+    text = json.dumps([tasks, parts, settings], sort_keys=True, default=str)
+    return "python " + hashlib.sha256(text.encode()).hexdigest()
+
+
+def _claim(folder, identity):
+    """Names the set in the folder, and keeps it for this program alone, until the file that comes back is closed."""
+    path = folder / "set.txt"
+    for name in ("train.json", "val.json", "test.json", "manifest.json"):
+        if not path.exists() and (folder / name).exists():
+            raise OstiumError(f"{folder / name}: is there, and of no set of pictures of ostium; name another folder")
+    file = open(path, "a+", encoding="utf-8")
+    try:
+        fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except OSError:
+        raise OstiumError(f"{folder}: another program makes these pictures") from None
+    file.seek(0)
+    if (there := file.read().strip()) and there != identity:
+        raise OstiumError(f"{path}: the folder is of another set of pictures; name another folder")
+    if not there:
+        file.write(identity + "\n")
+        file.flush()
+    return file
+
+
+def run(numbered, folder, of, every_s, pixels, dicom):
     """Plays one task, numbered from 1, and writes its pictures and runs/NAME.json, which is there only once all of them
-    are; a run that is done is left as it is. A run that cannot be is one without pictures, with its reason."""
+    are; a run that is done is left as it is. -> that file's text. A run that cannot be is one without pictures, with its
+    reason; it is tried again the next time."""
     number, task = numbered
     name = _name(number, of, task)
     path = Path(folder) / "runs" / f"{name}.json"
     if path.exists():
-        if json.loads(path.read_text(encoding="utf-8")).get("dataset") != identity:
-            raise OstiumError(f"{path}: is of another set of pictures; remove it, or name another folder")
-        return name
+        return path.read_text(encoding="utf-8")
+    values = {key: str(value) for key, value in task["values"].items()}
     try:
         text = _label_run(**task, name=name, folder=folder, every_s=every_s, pixels=pixels, dicom=dicom)
         made = json.loads(text)
     except OstiumError as error:
-        made = {"name": name, "case": task["case"], "script": task["script"], "seed": task["seed"], "person": name,
-                "outcome": "aborted", "reason": " ".join(str(error).split()), "simulated_s": 0, "pictures": []}
-    made = {"dataset": identity, **made, "values": {key: str(value) for key, value in task["values"].items()}}
-    beside = path.with_suffix(f".{os.getpid()}.unfinished")
-    beside.write_text(json.dumps(made) + "\n", encoding="utf-8")
-    beside.replace(path)
-    return name
+        return json.dumps({"name": name, "case": task["case"], "script": task["script"], "seed": task["seed"],
+                           "person": name, "outcome": "aborted", "reason": " ".join(str(error).split()),
+                           "simulated_s": 0, "pictures": [], "values": values})
+    text = json.dumps({**made, "values": values}) + "\n"
+    beside = path.with_suffix(".unfinished")
+    try:
+        beside.write_text(text, encoding="utf-8")
+        beside.replace(path)
+    except OSError as error:
+        beside.unlink(missing_ok=True)
+        raise OSError(error.errno, error.strerror, str(path)) from None
+    return text
 
 
 def make(tasks, folder, every_s=0.5, pixels=512, dicom=False, map=None):
@@ -57,14 +94,15 @@ def make(tasks, folder, every_s=0.5, pixels=512, dicom=False, map=None):
     pixels   on a side, 64 to 1,024
     dicom    as DICOM films with segmentations, too (in builds with DICOM)
     map      what plays them: the builtin, or that of a pool of processes
-    The same call goes on where it was ended. Raises OstiumError if the folder has another set."""
+    The same call goes on where it was ended. Raises OstiumError if the folder has another set, or files of others, and
+    if none of the tasks can be played."""
     tasks, folder = list(tasks), Path(folder)
     for below in ("images", "masks", "depth", "runs"):
         (folder / below).mkdir(parents=True, exist_ok=True)
-    identity = json.dumps([tasks, every_s, pixels, dicom], sort_keys=True, default=str)
-    one = functools.partial(run, folder=folder, of=len(tasks), every_s=every_s, pixels=pixels, dicom=dicom,
-                            identity=identity)
-    names = list((map or builtins.map)(one, enumerate(tasks, 1)))
-    runs = [(folder / "runs" / f"{name}.json").read_text(encoding="utf-8") for name in names]
-    keys = list(dict.fromkeys(key for task in tasks for key in task["values"]))
-    return _write_label_set(folder, every_s, pixels, keys, runs)
+    with _claim(folder, _identity(tasks, every_s, pixels, dicom)):
+        one = functools.partial(run, folder=folder, of=len(tasks), every_s=every_s, pixels=pixels, dicom=dicom)
+        runs = list((map or builtins.map)(one, enumerate(tasks, 1)))
+        if tasks and not any((folder / "runs").glob("*.json")):
+            raise OstiumError(json.loads(runs[0])["reason"])
+        keys = list(dict.fromkeys(key for task in tasks for key in task["values"]))
+        return _write_label_set(folder, every_s, pixels, keys, runs)

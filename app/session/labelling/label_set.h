@@ -6,6 +6,8 @@
 
 namespace ostium::app {
 
+inline constexpr const char* label_set_files[] = {"train.json", "val.json", "test.json", "manifest.json"};
+
 struct LabelSetHead {
   double every_s = 0.5;
   int pixels = 512;

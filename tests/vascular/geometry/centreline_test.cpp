@@ -5,6 +5,7 @@
 
 #include <Eigen/Geometry>
 
+#include "tests/vascular/geometry/damage.h"
 #include "tests/vascular/geometry/shapes.h"
 #include "vascular/anatomy/anatomy.h"
 #include "vascular/geometry/implicit/contour.h"
@@ -102,6 +103,22 @@ TEST(Centreline, OfATubeGoesFromLidToLidHoweverItLiesOpenOrClosed) {
         EXPECT_NEAR(sphere.radius_m, radius * std::cos(units::pi / 32), 0.01 * radius) << turn << " at " << sphere.s_m;
         EXPECT_LT((R.transpose() * sphere.p).head<2>().norm(), 0.02 * radius) << turn << " at " << sphere.s_m;
       }
+    }
+}
+
+TEST(Centreline, OfATaperBeginsAtTheWideEndHoweverRough) {
+  for (const bool turned : {false, true})
+    for (const unsigned seed : {1u, 2u, 3u}) {
+      Mesh mesh = test::tube(1.7e-3, 60e-3, 32, 120);
+      for (Eigen::Vector3d& p : mesh.vertices) {
+        p.head<2>() *= 1 - 0.3 * p.z() / 60e-3;  // 1.7 to 1.2 mm
+        if (turned) p = Eigen::Vector3d(p.y(), p.x(), 60e-3 - p.z()), p.x() = -p.x();
+      }
+      const CentrelineResult found = find_centrelines(test::with_noise(mesh, 0.05e-3, seed));
+      ASSERT_EQ(found.tree.branches.size(), 1u);
+      const std::vector<TreeSphere>& spheres = found.tree.branches[0].spheres;
+      EXPECT_GT(spheres.front().radius_m, spheres.back().radius_m + 0.3e-3) << turned << seed;
+      EXPECT_NEAR(spheres.back().s_m, 60e-3, 1e-3);
     }
 }
 

@@ -263,7 +263,7 @@ TEST(Repair, OfAWallThatIsASolidTheLumenIsWhatItHolds) {
 }
 
 TEST(Repair, TwoTubesSideBySideAreNoWall) {
-  for (const double apart : {20 * mm, 10.05 * mm}) {  // the second almost touch
+  for (const double apart : {20 * mm, 10.05 * mm, 9.95 * mm}) {  // almost touch; cross
     Mesh mesh = test::tube(5 * mm, 0.2, 36, 80, true), other = mesh;
     for (Eigen::Vector3d& p : other.vertices) p.x() += apart;
     append(mesh, other);

@@ -145,8 +145,20 @@ class Skeleton {
   std::vector<Strand> strands_;
 };
 
+/// Mean distance to the wall over the last third of a strand, without what is nearer to its end than to the wall: there
+/// it is the lid that is near.
+double width_of_end_m(const Voxels& voxels, const Strand& strand) {
+  const Eigen::Vector3d end = voxels.place(strand.voxels.back());
+  std::size_t last = strand.voxels.size() - 1;
+  while (last > 0 && (voxels.place(strand.voxels[last]) - end).norm() < voxels.to_wall_m(strand.voxels[last])) --last;
+  const std::size_t first = std::min(last, 2 * strand.voxels.size() / 3);
+  double sum = 0;
+  for (std::size_t i = first; i <= last; ++i) sum += voxels.to_wall_m(strand.voxels[i]);
+  return sum / static_cast<double>(last + 1 - first);
+}
+
 /// The widest end: the widest point itself if only one strand leaves it, otherwise the end of the strand from there
-/// whose last third is widest.
+/// that is widest.
 int widest_end(const Voxels& voxels) {
   int widest = 0;
   for (int v = 1; v < voxels.count(); ++v)
@@ -157,14 +169,17 @@ int widest_end(const Voxels& voxels) {
   for (const Strand& strand : skeleton.strands())
     if ((voxels.place(strand.voxels.front()) - voxels.place(widest)).norm() < 2 * voxels.to_wall_m(widest)) ++leaving;
   if (leaving < 2) return widest;
+  // A widest place just inside an end has a stub to it, which is no branch: it is wide halfway.
+  const double radius = voxels.to_wall_m(widest);
+  for (const Strand& strand : skeleton.strands())
+    if ((voxels.place(strand.voxels.back()) - voxels.place(widest)).norm() < widest_from_lid * radius &&
+        voxels.to_wall_m(strand.voxels[strand.voxels.size() / 2]) > 0.4 * radius)
+      return strand.voxels.back();
   int end = widest;
   double best = 0;
   for (const Strand& strand : skeleton.strands()) {
-    const std::size_t n = strand.voxels.size();
-    double sum = 0;
-    for (std::size_t i = 2 * n / 3; i < n; ++i) sum += voxels.to_wall_m(strand.voxels[i]);
-    const double mean = sum / static_cast<double>(n - 2 * n / 3);
-    if (mean > best) best = mean, end = strand.voxels.back();
+    const double width = width_of_end_m(voxels, strand);
+    if (width > best) best = width, end = strand.voxels.back();
   }
   return end;
 }

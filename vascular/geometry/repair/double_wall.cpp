@@ -46,8 +46,10 @@ class ShellFinder {
       if (lumen < (solid ? narrowest_solid : narrowest) * wall) continue;
       const double aligned = normals_[inside[0].triangle].dot(normals_[t]);
       if (std::fabs(aligned) < 0.7) continue;
-      // Seen outwards, a surface that faces this one is a neighbour (a coil, an artery beside an artery), no lumen.
-      if (side < 0 && aligned < 0 && sides_known(sheets_)) continue;
+      // A surface that faces this one, seen outwards or of another piece, is a neighbour's (a coil, an artery beside an
+      // artery, or through it).
+      const bool another = sheets_.piece[inside[0].triangle] != sheets_.piece[t];
+      if (aligned < 0 && (side < 0 || another) && sides_known(sheets_)) continue;
       // Of the two sides of a solid, the lumen is the narrower.
       const double free = solid ? std::max(2 * wall, lumen) : 2 * wall;
       if (!tree_.hits(middles_[t] - 1e-7 * in, -in, free).empty()) continue;

@@ -48,6 +48,7 @@ class Mender {
     say("filling the lumen");
     Mesh lumen = outer_surface(mesh_, result_.voxel_m);
     std::vector<Mesh> lumens = whole_lumens(lumen);
+    note_joined_pieces(static_cast<int>(lumens.size()));
     if (lumens.size() > 1 && prolong(lumens)) {
       say("filling the lumen to its new end");
       lumen = outer_surface(mesh_, result_.voxel_m);
@@ -232,6 +233,25 @@ class Mender {
     std::erase_if(lumens, [](const Mesh& part) { return volume_m3(part) < crumb_m3; });
     left_out_ = static_cast<int>(before - lumens.size());
     return lumens;
+  }
+
+  /// Pieces that touch, cross, or come nearer to one another than is looked at, are one lumen.
+  void note_joined_pieces(int lumens) {
+    constexpr int most_pieces = 50;  // beyond, it is a soup of triangles
+    if (sheets_.pieces < 2 || sheets_.pieces > most_pieces) return;
+    const std::vector<Mesh> pieces = components_of(mesh_);
+    const auto on_its_own = [&](const Mesh& piece) {  // and not within another
+      return volume_m3(piece) > crumb_m3 && std::none_of(pieces.begin(), pieces.end(), [&](const Mesh& other) {
+               return &other != &piece && winding_number(other, piece.vertices.front()) > 0.5;
+             });
+    };
+    const auto count = static_cast<int>(std::count_if(pieces.begin(), pieces.end(), on_its_own));
+    if (count > lumens)
+      note(fmt::format("piece joined to another that it crosses, or comes nearer to than {:.2f} mm (a finer --voxel "
+                       "keeps apart what "
+                       "does not cross)",
+                       result_.voxel_m / mm),
+           count - lumens, {});
   }
 
   bool bridge(const std::vector<Mesh>& lumens) {
