@@ -77,7 +77,7 @@ Eigen::Vector3d point_of(const vascular::Mesh& mesh, vascular::LengthUnit unit, 
   Eigen::AlignedBox3d box;
   for (const Eigen::Vector3d& p : mesh.vertices) box.extend(p);
   const double scale = metres(unit);
-  const Eigen::Vector3d point = scale * mesh_point(text);
+  Eigen::Vector3d point = scale * mesh_point(text);
   if (box.exteriorDistance(point) <= 0.1 * box.diagonal().norm()) return point;
   const Eigen::Vector3d least = box.min() / scale, most = box.max() / scale;
   throw data::LoadError(fmt::format(

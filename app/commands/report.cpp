@@ -71,9 +71,8 @@ std::vector<data::ReportPicture> pictures_of(Replay& replay, const data::RunReco
           is_frame(replay.state.rods.step, options.frames_per_s, record.step_s))
         last = film.frame(replay.model, replay.state, replay.inputs);
     if (last.grey.empty()) continue;
-    out.push_back({fmt::format("{}:{:04.1f} {}", static_cast<int>(second) / 60,
-                               second - 60 * (static_cast<int>(second) / 60), moment.caption),
-                   data::png_of(last)});
+    const int minute = static_cast<int>(second) / 60;
+    out.push_back({fmt::format("{}:{:04.1f} {}", minute, second - 60 * minute, moment.caption), data::png_of(last)});
   }
   return out;
 }

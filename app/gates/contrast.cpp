@@ -21,7 +21,8 @@ data::GateResult balance(const vascular::PhysiologyModel& model, vascular::Physi
   vascular::PhysiologyInputs inputs;
   double worst = 0;
   for (int n = 0; n < 12000; ++n) {
-    inputs.contrast.injection_m3_s = n % 4000 < 2500 ? (1 + n / 4000) * 1.5e-6 : 0;
+    const int injection = 1 + n / 4000;
+    inputs.contrast.injection_m3_s = n % 4000 < 2500 ? injection * 1.5e-6 : 0;
     inputs.contrast.aspiration_m3_s = n % 4000 > 3000 ? 1e-6 : 0;
     inputs.contrast.tip.where = n < 6000 ? vascular::TipPlace::coronary : vascular::TipPlace::left_sinus;
     inputs.contrast.tip.cell =

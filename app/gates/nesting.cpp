@@ -41,7 +41,7 @@ core::RodDescription uniform(const Shape& shape, int elements, double drag) {
 /// Two rods at one introducer, the second nested in the first if `bound`; no weight.
 struct Pair {
   Pair(const core::RodDescription& outer, const core::RodDescription& inner, bool bound,
-       std::vector<double> inserted_m = {})
+       const std::vector<double>& inserted_m = {})
       : model(make(outer, inner, bound)),
         state(make_state_at_rest_shape(model, {core::along_x(), core::along_x()}, inserted_m)),
         scratch(model) {

@@ -130,7 +130,7 @@ std::string read_apart(const ReaderCall& call, const std::string& file) {
                                       WTERMSIG(status), strsignal(WTERMSIG(status)), call.cure));
   }
   if (WEXITSTATUS(status) == 0) return bytes;
-  const std::string said = bytes.substr(0, longest_refusal).c_str();  // to the first zero
+  const std::string said = bytes.substr(0, std::min(longest_refusal, bytes.find('\0')));
   throw data::LoadError(!said.empty() ? said
                                       : fmt::format("{}: could not be read (its reader ended with code {}); {}", file,
                                                     WEXITSTATUS(status), call.cure));

@@ -155,7 +155,8 @@ void draw_numbers(const Pen& pen, const PanelTexts& texts, const Snapshot& now, 
   if (now.overruns > 0) entries.push_back({"late steps", std::to_string(now.overruns)});
   const double column = w / 2;
   for (std::size_t i = 0; i < entries.size(); ++i) {
-    const double ex = x + (i % 2) * column, ey = y + static_cast<double>(i / 2) * 22;
+    const std::size_t row = i / 2;
+    const double ex = x + (i % 2) * column, ey = y + static_cast<double>(row) * 22;
     pen.write(dim, 12, ex, ey, entries[i].what);
     pen.write(pale, 14, ex + 74, ey, entries[i].value);
   }

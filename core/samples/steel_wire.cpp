@@ -7,7 +7,7 @@
 
 namespace ostium::core {
 
-Bench::Bench(Model m, EndState base) : model(std::move(m)), state(make_state(model, {base})), scratch(model) {
+Bench::Bench(Model m, const EndState& base) : model(std::move(m)), state(make_state(model, {base})), scratch(model) {
   inputs.rods.resize(1);
 }
 

@@ -15,7 +15,7 @@ struct WireOptions {
 
 /// A model with one wire, its state and its working memory.
 struct Bench {
-  explicit Bench(Model m, EndState base);
+  explicit Bench(Model m, const EndState& base);
 
   void step();
   RodEquilibrium settle();

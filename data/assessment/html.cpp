@@ -52,7 +52,8 @@ std::string html_page(const std::string& title, const std::string& body) {
 }
 
 std::string time_text(double s) {
-  return fmt::format("{}:{:04.1f}", static_cast<int>(s) / 60, s - 60 * (static_cast<int>(s) / 60));
+  const int minutes = static_cast<int>(s) / 60;
+  return fmt::format("{}:{:04.1f}", minutes, s - 60 * minutes);
 }
 
 }  // namespace ostium::data

@@ -19,7 +19,7 @@ int word(DcmDataset& dataset, const DcmTagKey& tag, int otherwise) {
 std::string text(DcmDataset& dataset, const DcmTagKey& tag) {
   OFString value;
   dataset.findAndGetOFString(tag, value);
-  return value.c_str();
+  return value.c_str();  // NOLINT(readability-redundant-string-cstr): OFString may be a string of its own
 }
 
 }  // namespace

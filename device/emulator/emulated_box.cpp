@@ -87,7 +87,7 @@ void EmulatedBox::release() {
 }
 
 Reply EmulatedBox::control(std::uint8_t request, std::uint16_t value, std::span<const std::uint8_t> data) {
-  const Reply stall, done{std::in_place};
+  Reply stall, done{std::in_place};
   const bool may_calibrate = value == calibration_key && !armed_;
   const auto answer = [](const auto& bytes) { return std::vector<std::uint8_t>(bytes.begin(), bytes.end()); };
   switch (static_cast<Request>(request)) {

@@ -121,7 +121,7 @@ void require_arguments(const RunArguments& a) {
 std::shared_ptr<const Vessel> build_vessel(RunSetup& setup, const std::string& command) {
   show_progress("building " + setup.vessel);
   std::string warnings;
-  const auto vessel = make_vessel(setup, warnings);
+  auto vessel = make_vessel(setup, warnings);
   if (!warnings.empty())
     fmt::print(stderr, "ostium {}: of {}, near whose faults nothing is held back:\n{}", command, setup.vessel,
                warnings);

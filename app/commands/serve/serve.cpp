@@ -1,9 +1,9 @@
 #include "app/commands/serve/serve.h"
 
 #include <fmt/format.h>
-#include <stdlib.h>
 
 #include <cmath>
+#include <cstdlib>
 #include <filesystem>
 #include <iterator>
 #include <nlohmann/json.hpp>
@@ -205,7 +205,7 @@ Served serve(const ServeArguments& arguments) {
   stop_on_signals();
   show_progress("");
   tell_links(station, !is_loopback(a.address));
-  const Served served = Sitting(a, a.folder, setup, session, hand, station).play_all();
+  Served served = Sitting(a, a.folder, setup, session, hand, station).play_all();
   if (!passing)
     fmt::print(stderr, "{}: {}\n", a.folder,
                served.scores.empty() ? "what was recorded until it was left"

@@ -85,8 +85,8 @@ Command sweep_command() {
   return make_command(
       "sweep", "A script many times: cases, seeds, parameters; one table",
       {"ostium sweep rca-mid-focal --seeds 1..100 -o table.csv",
-       "ostium sweep rca-mid-focal lcx-tubular --vary wire=cook-j,rosen,bentson --vary person=0,1,2 "
-       "--seeds 1..10 -o table.csv",
+       ("ostium sweep rca-mid-focal lcx-tubular --vary wire=cook-j,rosen,bentson --vary person=0,1,2 "
+        "--seeds 1..10 -o table.csv"),
        "ostium sweep rca-mid-focal --vary person=0,1,2,3 --part 1/4 -o table.csv", "ostium sweep --merge table.csv",
        "ostium sweep rca-mid-focal --seeds 1..20 -o table.csv --keep runs --record full"},
       declare, run);

@@ -68,7 +68,7 @@ std::vector<data::GateResult> xray_stenosis(bool) {
     const double pixel_m = view.field_m / view.pixels;
     const double magnified = view.arm.source_to_detector_m / view.arm.source_to_isocentre_m;
     const auto column = [&](double x_m) {
-      return static_cast<int>(std::lround(view.pixels / 2 + x_m * magnified / pixel_m));
+      return static_cast<int>(std::lround(0.5 * view.pixels + x_m * magnified / pixel_m));
     };
     const double throat = width_m(state.lag.shown, column(-0.0015), column(0.0015), pixel_m);
     const double healthy = 0.5 * (width_m(state.lag.shown, column(-0.03), column(-0.015), pixel_m) +

@@ -51,7 +51,7 @@ ModelRecipe recipe_of(std::shared_ptr<VesselHandle> vessel, const NamedTools& to
   ModelRecipe recipe{.vessel = std::move(vessel), .tools = {}, .drugs = {}, .options = {}};
   if (tools.empty()) throw py::value_error("tools is empty; expected (name, instrument) for one tool at least");
   for (const auto& [name, instrument] : tools) {
-    const auto same = [&](const ModelRecipe::Tool& other) { return other.name == name; };
+    const auto same = [&, &wanted = name](const ModelRecipe::Tool& other) { return other.name == wanted; };
     if (name.empty() || name.find('.') != std::string::npos ||
         std::any_of(recipe.tools.begin(), recipe.tools.end(), same))
       throw py::value_error(

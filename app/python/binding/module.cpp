@@ -15,7 +15,7 @@ namespace py = pybind11;
 namespace {
 
 /// Bad input as ostium.OstiumError, which knows file and line from the message.
-void raise_as_ostium_error(std::exception_ptr thrown) {
+void raise_as_ostium_error(std::exception_ptr thrown) {  // NOLINT(performance-unnecessary-value-param): so pybind11
   const auto raise = [](const std::exception& error) {
     const py::object type = py::module_::import("ostium.errors").attr("OstiumError");
     PyErr_SetString(type.ptr(), error.what());

@@ -261,7 +261,7 @@ bool ConditionEvaluator::contrast_is_seen(int cell) const {
 
 /// How far the tip moved since the oldest note, beyond the hand's movement.
 double ConditionEvaluator::dropped_m(int tool) const {
-  const double* notes = &state.tips[static_cast<std::size_t>(4 * noted_tips * tool)];
+  const double* notes = &state.tips[std::size_t{4} * noted_tips * static_cast<std::size_t>(tool)];
   if (!(notes[3] == notes[3])) return 0;  // NaN: not noted for long enough
   const Eigen::Vector3d then(notes[0], notes[1], notes[2]);
   const double hand = std::fabs(session.hands[static_cast<std::size_t>(tool)].fed_m - notes[3]);

@@ -137,7 +137,7 @@ void note_tips(const SessionModel& model, const SessionState& session, OperatorS
   if (now < state.next_s - 1e-9) return;
   state.next_s = now + note_every_s;
   for (int t = 0; t < static_cast<int>(model.tools.size()); ++t) {
-    double* notes = &state.tips[static_cast<std::size_t>(4 * noted_tips * t)];
+    double* notes = &state.tips[std::size_t{4} * noted_tips * static_cast<std::size_t>(t)];
     std::copy(notes + 4, notes + 4 * noted_tips, notes);
     double* last = notes + 4 * (noted_tips - 1);
     const Vector3d p = tip(model, session, t);

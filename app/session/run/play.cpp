@@ -1,10 +1,9 @@
 #include "app/session/run/play.h"
 
-#include <time.h>
-
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <ctime>
 #include <stdexcept>
 
 namespace ostium::app {

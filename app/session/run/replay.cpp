@@ -27,7 +27,7 @@ RunSetup setup_of(const data::RecordingReader& recording) {
   return setup;
 }
 
-std::shared_ptr<const Vessel> vessel_for(const RunSetup& setup, std::shared_ptr<const Vessel> made) {
+std::shared_ptr<const Vessel> vessel_for(const RunSetup& setup, const std::shared_ptr<const Vessel>& made) {
   std::string warnings;
   return made ? made : make_vessel(setup, warnings);
 }

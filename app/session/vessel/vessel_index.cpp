@@ -12,7 +12,8 @@ namespace ostium::app {
 using Eigen::Vector3d;
 
 VesselIndex::VesselIndex(std::vector<vascular::SphereTree> frames, const Vector3d& p_access,
-                         std::vector<std::pair<std::string, Vector3d>> named, std::vector<std::vector<Vector3d>> breath)
+                         const std::vector<std::pair<std::string, Vector3d>>& named,
+                         std::vector<std::vector<Vector3d>> breath)
     : frames_(std::move(frames)), breath_(std::move(breath)) {
   const std::vector<vascular::TreeBranch>& all = branches();
   for (std::size_t b = 0; b < all.size(); ++b) {

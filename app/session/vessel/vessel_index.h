@@ -14,7 +14,7 @@ class VesselIndex {
   /// branches' own names, each at the sphere nearest to a point (m, at end-diastole). `breath`: [branch][sphere]
   /// displacement at full inspiration, m; empty: none.
   VesselIndex(std::vector<vascular::SphereTree> frames, const Eigen::Vector3d& p_access,
-              std::vector<std::pair<std::string, Eigen::Vector3d>> named,
+              const std::vector<std::pair<std::string, Eigen::Vector3d>>& named,
               std::vector<std::vector<Eigen::Vector3d>> breath = {});
 
   /// Index of the sphere that contains a point, or is nearest to it; `phase` in [0, 1), `breath` the depth of breath.

@@ -223,9 +223,10 @@ void draw_instruments(const std::vector<Instrument>& instruments, const std::str
   for (const Instrument& instrument : instruments) order.push_back(&instrument);
   std::stable_sort(order.begin(), order.end(),
                    [&](const Instrument* a, const Instrument* b) { return rank(*a) < rank(*b); });
-  for (int k = 0; k < count; ++k)
-    Cell(drawing, *order[k], Vector2d(margin + (k % columns) * cell_width, heading + (k / columns) * cell_height))
-        .draw();
+  for (int k = 0; k < count; ++k) {
+    const int row = k / columns, column = k % columns;
+    Cell(drawing, *order[k], Vector2d(margin + column * cell_width, heading + row * cell_height)).draw();
+  }
   drawing.write(file);
 }
 

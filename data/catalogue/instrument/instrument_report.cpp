@@ -110,7 +110,7 @@ std::string instrument_details(const Instrument& i) {
 std::string to_json(const std::vector<Instrument>& instruments) {
   auto array = nlohmann::ordered_json::array();
   for (const Instrument& i : instruments) {
-    auto sections = nlohmann::ordered_json::array(), sources = sections;
+    auto sections = nlohmann::ordered_json::array(), sources = nlohmann::ordered_json::array();
     for (const core::Section& s : i.sections) {
       const Eigen::Vector3d u = s.rest_curvature_per_m / m_in_mm;
       sections.push_back({{"from_tip_mm", {s.from_tip_m * m_in_mm, s.to_tip_m * m_in_mm}},

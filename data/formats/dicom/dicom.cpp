@@ -13,6 +13,9 @@
 #include "data/formats/load_error.h"
 #include "data/formats/write_file.h"
 
+// Where DCMTK is built without the standard library's, OFString is a string of its own.
+// NOLINTBEGIN(readability-redundant-string-cstr)
+
 namespace ostium::data {
 
 namespace {
@@ -177,3 +180,5 @@ void write_dicom(const NewFile& file, const fluoro::CineRun& run, const DicomPat
 }
 
 }  // namespace ostium::data
+
+// NOLINTEND(readability-redundant-string-cstr)

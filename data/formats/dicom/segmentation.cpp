@@ -18,6 +18,9 @@
 #include "core/base/units.h"
 #include "fluoro/console/fluoroscope.h"
 
+// Where DCMTK is built without the standard library's, OFString is a string of its own.
+// NOLINTBEGIN(readability-redundant-string-cstr)
+
 namespace ostium::data {
 
 namespace {
@@ -230,3 +233,5 @@ void write_segmentation(const std::string& file, const std::string& film, const 
 }
 
 }  // namespace ostium::data
+
+// NOLINTEND(readability-redundant-string-cstr)

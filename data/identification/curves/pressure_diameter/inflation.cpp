@@ -1,5 +1,5 @@
 // Boost's pchip.hpp takes isnan from here.
-#include <math.h>
+#include <math.h>  // NOLINT(modernize-deprecated-headers)
 
 #include <algorithm>
 #include <boost/math/interpolators/pchip.hpp>
