@@ -92,11 +92,12 @@ class SetOf : public Set {
   using Law = std::function<Foretold(const Setup& setup)>;
   using Free = void (*)(std::span<const double> free, Setup& setup);
 
+  // Both are moved below.
+  // NOLINTNEXTLINE(performance-unnecessary-value-param)
   SetOf(Setup setup, std::vector<Run> runs, std::vector<EffectParameter> free, Free set_free, Law law,
         const std::vector<EffectOn<Setup>>& effects)
       : setup_(std::move(setup)), set_free_(set_free), law_(std::move(law)) {
-    runs_ = std::move(runs);
-    free_ = std::move(free);
+    runs_ = std::move(runs), free_ = std::move(free);
     noise_ = declared_noise(runs_);
     for (const EffectOn<Setup>& e : effects) {
       if (e.why_not && !e.why_not(setup_).empty()) continue;
