@@ -27,9 +27,10 @@ RunSetup setup_of(const data::RecordingReader& recording) {
   return setup;
 }
 
-std::shared_ptr<const Vessel> vessel_for(const RunSetup& setup, const std::shared_ptr<const Vessel>& made) {
+std::shared_ptr<const Vessel> vessel_for(const RunSetup& setup, std::shared_ptr<const Vessel> made) {
   std::string warnings;
-  return made ? made : make_vessel(setup, warnings);
+  if (!made) made = make_vessel(setup, warnings);
+  return made;
 }
 
 void require_same_layout(const data::RecordingReader& r, const SessionModel& model) {

@@ -148,7 +148,7 @@ class Skeleton {
 /// Mean distance to the wall over the last third of a strand, without what is nearer to its end than to the wall: there
 /// it is the lid that is near.
 double width_of_end_m(const Voxels& voxels, const Strand& strand) {
-  const Eigen::Vector3d end = voxels.place(strand.voxels.back());
+  const Eigen::Vector3d& end = voxels.place(strand.voxels.back());
   std::size_t last = strand.voxels.size() - 1;
   while (last > 0 && (voxels.place(strand.voxels[last]) - end).norm() < voxels.to_wall_m(strand.voxels[last])) --last;
   const std::size_t first = std::min(last, 2 * strand.voxels.size() / 3);
