@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 
 #include "app/command_line/arguments.h"
 #include "app/command_line/command.h"
@@ -50,11 +51,15 @@ void require_long(const vascular::SphereTree& tree) {
   vascular::require_vessel(longest, widest);
 }
 
-/// The piece that holds the start, or the largest.
+/// The piece that holds the start or is nearest to it; without one, the largest.
 vascular::Mesh piece_of(const vascular::Mesh& mesh, const vascular::CentrelineOptions& wanted) {
   std::vector<vascular::Mesh> pieces = vascular::components_of(mesh);
   const auto rank = [&](const vascular::Mesh& piece) {
-    return wanted.start ? winding_number(piece, *wanted.start) : volume_m3(piece);
+    if (!wanted.start) return volume_m3(piece);
+    if (winding_number(piece, *wanted.start) > 0.5) return 0.0;
+    double nearest_m = std::numeric_limits<double>::infinity();
+    for (const Eigen::Vector3d& p : piece.vertices) nearest_m = std::min(nearest_m, (p - *wanted.start).norm());
+    return -nearest_m;
   };
   return *std::max_element(pieces.begin(), pieces.end(),
                            [&](const auto& a, const auto& b) { return rank(a) < rank(b); });
