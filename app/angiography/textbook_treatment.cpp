@@ -82,7 +82,7 @@ Treatable plan_treatment(const vascular::Patient& patient, const vascular::FlowM
     plan.distal_m = mean_diameter(plan, tree, healthy, plan.to_m, plan.to_m + reference_stretch);
     plan.reference_m = (plan.proximal_m + plan.distal_m) / 2;
     plan.middle_m = (plan.from_m + plan.to_m) / 2 + o.shift_m;
-    const double hard = lesion.calcified ? 1 : 0;
+    const double hard = lesion.made_of.calcified() ? 1 : 0;
     if (o.predilate) {
       const double length = sold_length({10, 12, 15, 20, 30}, std::min(lesion.length_m, 20 * mm));
       plan.predilate =

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "core/base/random.h"
 #include "core/base/units.h"
 
 namespace ostium::vascular {
@@ -22,6 +23,8 @@ double depth_at(const Lesion& lesion, double from_branch_m) {
   return end >= shoulder ? 1 : (1 - std::cos(units::pi * end / shoulder)) / 2;
 }
 
+constexpr double calcified_from = 2 * units::pi / 3;
+
 std::string names(const Anatomy& anatomy) {
   std::string all;
   for (const NamedBranch& branch : anatomy.branches) all += (all.empty() ? "" : ", ") + branch.name;
@@ -29,6 +32,22 @@ std::string names(const Anatomy& anatomy) {
 }
 
 }  // namespace
+
+Composition typical_composition(bool calcified) {
+  if (!calcified) return {};
+  return {.calcium_arc_rad = 1.25 * units::pi, .calcium_thickness_m = 0.7 * mm, .calcium_share = 0.7};
+}
+
+Composition draw_composition(bool calcified, std::uint64_t seed, std::uint64_t lesion) {
+  constexpr std::uint64_t stream = 0x706c61717565;
+  const auto u = [&](std::uint64_t number) { return core::uniform(seed, stream + lesion, number); };
+  const double normal = std::sqrt(-2 * std::log(1 - u(0))) * std::cos(2 * units::pi * u(1)),
+               arc =
+                   calcified ? calcified_from + u(2) * 7 * units::pi / 6 : calcified_from * std::max(0.0, 2 * u(2) - 1);
+  return {std::exp(0.3 * normal), arc, (0.3 + 0.8 * u(3)) * mm, 0.4 + 0.6 * u(4)};
+}
+
+bool Composition::calcified() const { return calcium_arc_rad >= calcified_from; }
 
 Lesion typical(LesionType type, const std::string& branch, double from_m) {
   Lesion lesion{.branch = branch, .from_m = from_m};
@@ -40,7 +59,7 @@ Lesion typical(LesionType type, const std::string& branch, double from_m) {
       lesion.length_m = 15 * mm, lesion.stenosis = 0.75, lesion.eccentric = true;
       break;
     case LesionType::C:
-      lesion.length_m = 28 * mm, lesion.stenosis = 0.80, lesion.calcified = true;
+      lesion.length_m = 28 * mm, lesion.stenosis = 0.80, lesion.made_of = typical_composition(true);
       break;
   }
   return lesion;
@@ -48,7 +67,7 @@ Lesion typical(LesionType type, const std::string& branch, double from_m) {
 
 LesionType type_of(const Lesion& lesion) {
   if (lesion.length_m > 20 * mm) return LesionType::C;
-  return lesion.length_m >= 10 * mm || lesion.eccentric || lesion.calcified ? LesionType::B : LesionType::A;
+  return lesion.length_m >= 10 * mm || lesion.eccentric || lesion.made_of.calcified() ? LesionType::B : LesionType::A;
 }
 
 void check(const Anatomy& anatomy, const Lesion& lesion) {

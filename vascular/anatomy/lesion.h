@@ -1,11 +1,28 @@
 #pragma once
 /// Lesions: a length of a branch whose lumen is narrowed, all round or from one side.
+#include <cstdint>
 #include <string>
 #include <vector>
 
 #include "vascular/anatomy/anatomy.h"
 
 namespace ostium::vascular {
+
+/// What a plaque is made of, as a balloon feels it; no effect on geometry.
+struct Composition {
+  double hardness = 1;  ///< > 0, of its soft part, as a multiple of the typical plaque's
+  double calcium_arc_rad = 0, calcium_thickness_m = 0;
+  double calcium_share = 1;  ///< of the lesion's length, about its middle
+  /// More calcium than an arc of 120 degrees.
+  bool calcified() const;
+};
+/// A calcified plaque's calcium (arc 225 degrees, 0.7 mm thick, over 0.7 of the length), or none.
+Composition typical_composition(bool calcified);
+/// One person's: hardness log-normal about the typical one, with a standard deviation of its logarithm of 0.3; arc 120
+/// to 330 degrees where calcified, else none in half the persons and up to 120 degrees; thickness 0.3 to 1.1 mm over
+/// 0.4 to 1 of the length. Arc and thickness span what intravascular pictures find (Maejima et al., Circ J
+/// 2016;80:1413); the spread of the hardness is fitted (treatment/plaque.h).
+Composition draw_composition(bool calcified, std::uint64_t seed, std::uint64_t lesion);
 
 struct Lesion {
   std::string branch;      ///< name in the anatomy
@@ -14,7 +31,7 @@ struct Lesion {
   double stenosis = 0;     ///< of the diameter, in (0, 0.95]: the missing share at the narrowest point
   bool eccentric = false;  ///< plaque on one side only; the opposite wall is unchanged
   double side_rad = 0;     ///< position of an eccentric plaque: 0 towards the heart, turning towards the branch's right
-  bool calcified = false;  ///< for X-ray and balloon; no effect on geometry
+  Composition made_of = {};
 };
 
 /// Lesion types after ACC/AHA (Ryan et al., Circulation 1988;78:486): A short and concentric, B tubular or eccentric, C

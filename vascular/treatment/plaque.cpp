@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/units.h"
+
 namespace ostium::vascular {
 
 namespace {
@@ -14,9 +16,27 @@ double opened(const PlaqueCell& cell, double rest_m) {
   return lost > 1e-9 ? (rest_m - cell.diseased_m) / lost : 1;
 }
 
-double yield_of(const PlaqueModel& model, const PlaqueCell& cell, double broken, double rest_m) {
-  return cell.yield_Pa * (1 - model.law.weakening * broken) +
-         cell.hardening_Pa * std::clamp(opened(cell, rest_m), 0.0, 1.0);
+/// The pressure at which a cell's plaque yields, and its stiffness until then.
+struct Strength {
+  double yield_Pa = 0, E_Pa = 0;
+};
+
+Strength strength_of(const PlaqueModel& model, const PlaqueState& s, int i) {
+  const PlaqueCell& cell = model.cells[i];
+  const double free = std::max(model.law.least_free, 1 - cell.calcium_share * (1 - s.cracked[i])),
+               yield = cell.yield_Pa * (1 - model.law.weakening * s.broken[i]) +
+                       cell.hardening_Pa * std::clamp(opened(cell, s.rest_m[i]), 0.0, 1.0) / free;
+  return {yield, cell.E_Pa * std::max(1.0, yield / cell.yield_Pa)};
+}
+
+void compose(const Lesion& lesion, double s_m, PlaqueCell& cell, double& hardness) {
+  cell.calcified = cell.calcified || lesion.made_of.calcified();
+  cell.eccentric = cell.eccentric || lesion.eccentric;
+  hardness = std::max(hardness, lesion.made_of.hardness);
+  const double from_middle = std::fabs(s_m - lesion.from_m - lesion.length_m / 2);
+  if (from_middle > lesion.made_of.calcium_share * lesion.length_m / 2) return;
+  cell.calcium_share = std::max(cell.calcium_share, lesion.made_of.calcium_arc_rad / (2 * units::pi));
+  cell.calcium_m = std::max(cell.calcium_m, lesion.made_of.calcium_thickness_m);
 }
 
 }  // namespace
@@ -25,20 +45,18 @@ PlaqueModel make_plaque_model(const FlowTree& tree, const std::vector<Lesion>& l
   PlaqueModel model{law, {}};
   for (const FlowCell& from : tree.cells) {
     PlaqueCell cell{.diseased_m = from.diseased_m, .healthy_m = from.healthy_m};
-    for (const Lesion& lesion : lesions) {
-      if (lesion.branch != tree.branches[from.branch].name) continue;
-      if (from.s_m < lesion.from_m || from.s_m > lesion.from_m + lesion.length_m) continue;
-      cell.calcified = cell.calcified || lesion.calcified;
-      cell.eccentric = cell.eccentric || lesion.eccentric;
-    }
-    const double burden = std::clamp((1 - cell.diseased_m / cell.healthy_m) / whole_plaque, 0.0, 1.0);
-    const double c = cell.calcified;
-    const double plaque = (1 - c) * law.soft_Pa + c * law.calcified_Pa;
-    cell.E_Pa = law.healthy_Pa + burden * (plaque - law.healthy_Pa);
+    double hardness = 0;
+    for (const Lesion& lesion : lesions)
+      if (lesion.branch == tree.branches[from.branch].name && from.s_m >= lesion.from_m &&
+          from.s_m <= lesion.from_m + lesion.length_m)
+        compose(lesion, from.s_m, cell, hardness);
+    const double burden = std::clamp((1 - cell.diseased_m / cell.healthy_m) / whole_plaque, 0.0, 1.0),
+                 plaque_Pa = law.yield_Pa / law.yield_strain;
+    cell.E_Pa = law.healthy_Pa + burden * (plaque_Pa - law.healthy_Pa);
     // All plaque yields at the same strain; a healthy wall does not yield.
-    const double part = cell.E_Pa / plaque, never = 2 * std::exp(-burden / 0.08);
-    cell.yield_Pa = part * ((1 - c) * law.soft_yield_Pa + c * law.calcified_yield_Pa) + never * cell.E_Pa;
-    cell.hardening_Pa = part * ((1 - c) * law.soft_hardening_Pa + c * law.calcified_hardening_Pa);
+    const double part = cell.E_Pa / plaque_Pa, never = 2 * std::exp(-burden / 0.08);
+    cell.yield_Pa = part * law.yield_Pa + never * cell.E_Pa;
+    cell.hardening_Pa = part * law.hardening_Pa * (hardness > 0 ? hardness : 1);
     model.cells.push_back(cell);
   }
   return model;
@@ -48,16 +66,16 @@ PlaqueState make_plaque_state(const PlaqueModel& model) {
   PlaqueState s;
   for (const PlaqueCell& cell : model.cells) s.rest_m.push_back(cell.diseased_m);
   s.peak_m = s.radius_m = s.rest_m;
-  s.broken.assign(model.cells.size(), 0);
+  s.broken.assign(model.cells.size(), 0), s.cracked = s.broken;
   return s;
 }
 
 WallPressure wall_pressure(const PlaqueModel& model, const PlaqueState& s, int i, double a) {
   const PlaqueCell& cell = model.cells[i];
   if (a <= s.rest_m[i]) return {};
-  WallPressure out{cell.E_Pa * (a - s.rest_m[i]) / cell.healthy_m, cell.E_Pa / cell.healthy_m};
-  const double most = yield_of(model, cell, s.broken[i], s.rest_m[i]);
-  if (out.p_Pa > most) out = {most, 0.02 * out.slope_Pa_m};
+  const Strength is = strength_of(model, s, i);
+  WallPressure out{is.E_Pa * (a - s.rest_m[i]) / cell.healthy_m, is.E_Pa / cell.healthy_m};
+  if (out.p_Pa > is.yield_Pa) out = {is.yield_Pa, 0.02 * out.slope_Pa_m};
   if (a > cell.healthy_m) {
     const double x = a / cell.healthy_m,
                  grown = model.law.media_Pa * std::exp(std::min(30.0, model.law.media_k * (x * x - 1)));
@@ -71,9 +89,12 @@ void push_wall(const PlaqueModel& model, int i, double a, PlaqueState& s) {
   const PlaqueCell& cell = model.cells[i];
   s.peak_m[i] = std::max(s.peak_m[i], a);
   if (a > s.rest_m[i]) {
-    // Elastic up to the yield limit; the rest is permanent. Crack and hardening are taken at the beginning of the step,
-    // which is accurate enough for small steps.
-    const double elastic = yield_of(model, cell, s.broken[i], s.rest_m[i]) / cell.E_Pa * cell.healthy_m;
+    // Elastic up to the yield limit; the rest is permanent. Cracks and hardening are taken at the beginning of the
+    // step, which is accurate enough for small steps.
+    const Strength is = strength_of(model, s, i);
+    const double elastic = is.yield_Pa / is.E_Pa * cell.healthy_m,
+                 p_Pa = is.yield_Pa * std::min(1.0, (a - s.rest_m[i]) / elastic);
+    if (cell.calcium_share > 0.5 && p_Pa * a > model.law.calcium_Pa * cell.calcium_m) s.cracked[i] = 1;
     if (const double given = a - s.rest_m[i] - elastic; given > 0) {
       const double before = opened(cell, s.rest_m[i]);
       s.rest_m[i] += given;

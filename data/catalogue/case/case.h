@@ -57,8 +57,8 @@ std::string case_file(const std::string& name);
 /// ~/.local/share/ostium/cases.
 std::string imported_folder();
 
-/// Another person with the same disease; seed 0: the population mean. If that person's artery is too short for a
-/// lesion, the lesion is put at its end.
+/// Another person with the same disease, plaque of their own; seed 0: the population mean and the plaque as it is. If
+/// that person's artery is too short for a lesion, the lesion is put at its end.
 Case with_person(const Case& c, std::uint64_t seed);
 
 /// The beating vessels with the case's lesions, generated or imported. Every command makes its patient with this.

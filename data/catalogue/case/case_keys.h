@@ -52,7 +52,17 @@ inline const JsonObjectKeys lesion = {
      {"side_deg", false,
       "an eccentric plaque's side in degrees, -360 to 360, 0 towards the heart; for eccentric ones only",
       json_type::number(from_to(-360, 360))},
-     {"calcified", true, "true or false", json_type::boolean()}}};
+     {"calcified", true, "true or false", json_type::boolean()},
+     {"calcium_arc_deg", false,
+      "the calcium's arc seen along the artery, in degrees, 0 to 360: 120 or more if calcified, less if not; otherwise "
+      "225, or 0",
+      json_type::number(from_to(0, 360))},
+     {"calcium_thickness_mm", false, "its thickness in mm, > 0 and at most 2; otherwise 0.7",
+      json_type::number(above_zero_to(2))},
+     {"calcium_length_mm", false, "its length about the lesion's middle, in mm; otherwise 0.7 of the lesion's",
+      json_type::number(above_zero)},
+     {"hardness", false, "of the plaque's soft part, as a multiple of a typical plaque's, 0.2 to 5; otherwise 1",
+      json_type::number(from_to(0.2, 5))}}};
 
 inline const std::vector<const JsonObjectKeys*> all = {&root, &card, &anatomy, &imported, &lesion};
 

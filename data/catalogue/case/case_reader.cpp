@@ -32,13 +32,27 @@ void read_anatomy(const JsonObject& anatomy, Case& c) {
   c.anatomy = person(c.seed, mean_of(dominance, access));
 }
 
+vascular::Composition read_composition(const JsonObject& entry) {
+  const bool calcified = entry.boolean("calcified");
+  vascular::Composition out = vascular::typical_composition(calcified);
+  if (entry.has("calcium_arc_deg")) {
+    out.calcium_arc_rad = entry.number("calcium_arc_deg") * units::pi / 180;
+    if (out.calcified() != calcified) entry.refuse("calcium_arc_deg");
+  }
+  if (entry.has("calcium_thickness_mm")) out.calcium_thickness_m = entry.positive("calcium_thickness_mm") * 1e-3;
+  if (entry.has("calcium_length_mm"))
+    out.calcium_share = std::min(1.0, entry.positive("calcium_length_mm") / entry.positive("length_mm"));
+  if (entry.has("hardness")) out.hardness = entry.positive("hardness");
+  return out;
+}
+
 vascular::Lesion read_lesion(const JsonObject& entry, const vascular::Anatomy& anatomy) {
   vascular::Lesion lesion{.branch = entry.text("branch"),
                           .from_m = entry.not_negative("from_mm") * 1e-3,
                           .length_m = entry.positive("length_mm") * 1e-3,
                           .stenosis = entry.positive("stenosis_percent") / 100,
                           .eccentric = entry.choice("shape", {"concentric", "eccentric"}) == 1,
-                          .calcified = entry.boolean("calcified")};
+                          .made_of = read_composition(entry)};
   if (entry.has("side_deg")) {
     if (!lesion.eccentric) entry.refuse("side_deg");
     lesion.side_rad = entry.number("side_deg") * units::pi / 180;
@@ -173,10 +187,13 @@ Case with_person(const Case& c, std::uint64_t seed) {
   out.anatomy = person(seed, mean_of(c.anatomy.dominance, c.anatomy.access));
   constexpr double rounding_m = 1e-9;
   const vascular::Anatomy anatomy = anatomy_of(out);
-  for (vascular::Lesion& lesion : out.lesions)
+  std::uint64_t number = 0;
+  for (vascular::Lesion& lesion : out.lesions) {
+    if (seed != 0) lesion.made_of = vascular::draw_composition(lesion.made_of.calcified(), seed, number++);
     if (const vascular::NamedBranch* branch = find_branch(anatomy, lesion.branch);
         branch && branch->length_m() > lesion.length_m)
       lesion.from_m = std::min(lesion.from_m, branch->length_m() - lesion.length_m - rounding_m);
+  }
   return out;
 }
 

@@ -23,7 +23,7 @@ std::string dominance_text(const Case& c) {
 std::string lesion_text(const vascular::Lesion& lesion) {
   return fmt::format("{} at {:.0f} mm: {:.0f} % over {:.0f} mm, {}{}, type {}", lesion.branch, lesion.from_m * per_mm,
                      100 * lesion.stenosis, lesion.length_m * per_mm, lesion.eccentric ? "eccentric" : "concentric",
-                     lesion.calcified ? ", calcified" : "", types[static_cast<int>(type_of(lesion))]);
+                     lesion.made_of.calcified() ? ", calcified" : "", types[static_cast<int>(type_of(lesion))]);
 }
 
 }  // namespace
@@ -61,7 +61,7 @@ std::string to_json(const std::vector<Case>& cases) {
                          {"length_mm", l.length_m * per_mm},
                          {"stenosis_percent", 100 * l.stenosis},
                          {"shape", l.eccentric ? "eccentric" : "concentric"},
-                         {"calcified", l.calcified},
+                         {"calcified", l.made_of.calcified()},
                          {"type", types[static_cast<int>(type_of(l))]}});
     all.push_back({{"name", c.name},
                    {"title", c.title},

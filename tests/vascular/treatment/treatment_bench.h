@@ -49,7 +49,7 @@ struct Bench {
                         .length_m = o.length_mm * mm,
                         .stenosis = o.stenosis,
                         .eccentric = o.eccentric,
-                        .calcified = o.calcified};
+                        .made_of = typical_composition(o.calcified)};
     model.plaque = make_plaque_model(tree, {lesion});
     model.injury.seed = o.seed;
     model.balloons = {make_balloon(o.compliance, o.balloon_mm * mm, o.balloon_length_mm * mm)};
