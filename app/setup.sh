@@ -9,7 +9,7 @@ build=$root/build # build_in FOLDER OPTION... takes another
 options=()
 stamp=$build/.configured-with # written last, so present only after a whole configure
 libraries=(Eigen3 nlohmann_json CLI11 fmt assimp GTest PNG DCMTK PkgConfig GSL Ceres MPI Boost JPEG ZLIB TBB Imath pugixml) # those of packages.txt, as CMake calls them
-headers=(xxhash.h GL/osmesa.h xraylib/xraylib.h cairo/cairo.h boost/version.hpp openvdb/openvdb.h CGAL/config.h gmp.h mpfr.h hdf5/serial/hdf5.h libusb-1.0/libusb.h pybind11/pybind11.h) # and those that CMake has no name for
+headers=(xxhash.h GL/osmesa.h EGL/egl.h xraylib/xraylib.h cairo/cairo.h boost/version.hpp openvdb/openvdb.h CGAL/config.h gmp.h mpfr.h hdf5/serial/hdf5.h libusb-1.0/libusb.h pybind11/pybind11.h) # and those that CMake has no name for
 step='^\[ *[0-9]+(/[0-9]+|%)\] ' # how ninja and make begin their lines of progress
 
 # A child that catches Ctrl-C would otherwise let the script go on.

@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <map>
+
 #include "data/formats/load_error.h"
 
 namespace ostium::app {
@@ -32,7 +35,7 @@ void add_fill_option(Options& options, std::string& fill) {
 }
 
 void add_renderer_option(Options& options, std::string& renderer) {
-  options.add("--renderer", renderer, "What draws path lengths").one_of({"scanline", "osmesa"}).show_default();
+  options.add("--renderer", renderer, "What draws path lengths").one_of(fluoro::renderer_names).show_default();
 }
 
 fluoro::StandardView named_view(const std::string& name) {
@@ -45,17 +48,21 @@ Fill fill_named(const std::string& name) {
 }
 
 fluoro::Renderer renderer_named(const std::string& name) {
-  if (name != "osmesa") return fluoro::Renderer::scanline;
-  static const bool is_there = [] {
-    try {
-      fluoro::make_osmesa_renderer();
-      return true;
-    } catch (const std::runtime_error& missing) {
-      fmt::print(stderr, "{}; drawn by scanline instead\n", missing.what());
-      return false;
-    }
-  }();
-  return is_there ? fluoro::Renderer::osmesa : fluoro::Renderer::scanline;
+  const auto wanted =
+      static_cast<fluoro::Renderer>(std::ranges::find(fluoro::renderer_names, name) - fluoro::renderer_names.begin());
+  if (wanted == fluoro::Renderer::scanline) return wanted;
+  static std::map<fluoro::Renderer, fluoro::Renderer> found;  // what was said once is not said again
+  const auto [drawn_by, is_new] = found.try_emplace(wanted, fluoro::Renderer::scanline);
+  if (!is_new) return drawn_by->second;
+  std::string word;
+  try {
+    word = fmt::format("drawn by {} on {}\n", name, fluoro::make_renderer(wanted)->device());
+    drawn_by->second = wanted;
+  } catch (const std::runtime_error& missing) {
+    word = fmt::format("{}; drawn by scanline instead\n", missing.what());
+  }
+  fmt::print(stderr, "{}", word);
+  return drawn_by->second;
 }
 
 bool finish_film(std::optional<data::VideoWriter>& writer, const char* command) {

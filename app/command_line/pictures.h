@@ -29,13 +29,13 @@ void add_cine_flag(Options& options, bool& cine);
 void add_frame_rate_option(Options& options, const std::string& name, double& frames_per_s);
 void add_fill_option(Options& options, std::string& fill);
 
-/// What draws path lengths: scanline, or osmesa.
+/// What draws path lengths: scanline, osmesa or egl.
 void add_renderer_option(Options& options, std::string& renderer);
 
 /// Throws LoadError if there is no such view.
 fluoro::StandardView named_view(const std::string& name);
 Fill fill_named(const std::string& name);
-/// Where OSMesa is asked for and missing, says so and takes scanline.
+/// Says on which device OSMesa or EGL draws; where it is missing, says so and takes scanline.
 fluoro::Renderer renderer_named(const std::string& name);
 
 /// Finishes a film, if there is one. If it could not be written, prints the reason prefixed by the command's name and

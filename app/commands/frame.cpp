@@ -131,9 +131,18 @@ Scenes patient_scenes(const Arguments& a, Eigen::Vector3d& middle) {
   };
 }
 
-void print_numbers(const Arguments& a, const fluoro::FluoroscopeInput& in, const fluoro::FluoroscopeState& state,
-                   const fluoro::FrameReport& report) {
-  const fluoro::Exposure& e = report.exposure;
+/// The frames taken one after the other.
+struct FilmedFrames {
+  fluoro::FluoroscopeState state;
+  fluoro::FrameReport report;
+  std::vector<fluoro::Picture> kept;  ///< for DICOM
+  long most_leaking = 0;              ///< pixels of a frame in which a surface is open; a few cannot be seen
+  std::string leaking;                ///< names of the bodies that leaked first
+  std::string renderer, device;       ///< what drew them
+};
+
+void print_numbers(const Arguments& a, const fluoro::FluoroscopeInput& in, const FilmedFrames& filmed) {
+  const fluoro::Exposure& e = filmed.report.exposure;
   const double rate = a.frames_per_s;
   if (a.json) {
     const nlohmann::ordered_json numbers = {{"lao_deg", in.view.arm.lao_rad / degree},
@@ -145,7 +154,9 @@ void print_numbers(const Arguments& a, const fluoro::FluoroscopeInput& in, const
                                             {"kerma_per_frame_mGy", 1e3 * e.kerma_Gy},
                                             {"dap_per_frame_Gy_cm2", 1e4 * e.dose_area_Gy_m2},
                                             {"kerma_rate_mGy_min", 6e4 * e.kerma_Gy * rate},
-                                            {"frames", state.imager.frame},
+                                            {"frames", filmed.state.imager.frame},
+                                            {"renderer", filmed.renderer},
+                                            {"device", filmed.device},
                                             {"file", a.out}};
     fmt::print("{}\n", numbers.dump(2));
     return;
@@ -168,19 +179,11 @@ fluoro::Picture shown(const Arguments& a, const fluoro::FluoroscopeInput& in, co
 /// are told and not seen.
 constexpr double spoiled_share = 1e-3, spoiled_pixels = 20;
 
-/// The frames taken one after the other.
-struct FilmedFrames {
-  fluoro::FluoroscopeState state;
-  fluoro::FrameReport report;
-  std::vector<fluoro::Picture> kept;  ///< for DICOM
-  long most_leaking = 0;              ///< pixels of a frame in which a surface is open; a few cannot be seen
-  std::string leaking;                ///< names of the bodies that leaked first
-};
-
 FilmedFrames film(const Arguments& a, const Scenes& scenes, const fluoro::FluoroscopeInput& in, fluoro::Scene& scene,
                   std::optional<data::VideoWriter>& writer) {
   FilmedFrames out;
   fluoro::Imager imager({}, fluoro::make_renderer(renderer_named(a.renderer)));
+  out.renderer = imager.renderer().name(), out.device = imager.renderer().device();
   fluoro::DisplayScratch scratch;
   const int frames = a.frames ? a.frames : a.video() ? 30 : 8;
   // A still picture stays at its phase; the frames before it only build up the lag.
@@ -238,7 +241,7 @@ int run(const Arguments& a) {
     data::write_dicom(a.out, fluoro::CineRun{view, a.programme(), filmed.report.exposure, filmed.kept});
   else if (!a.video())
     data::write_png(a.out, shown(a, in, filmed.state, filmed.report));
-  print_numbers(a, in, filmed.state, filmed.report);
+  print_numbers(a, in, filmed);
   if (filmed.most_leaking > 0)
     fmt::print(stderr, "ostium frame: {} of {} pixels lie where a surface is open ({}); they are too few to be seen\n",
                filmed.most_leaking, a.pixels * a.pixels, filmed.leaking);

@@ -57,7 +57,7 @@ class Imager {
   const Plane& exposed() const { return exposed_; }  ///< exposed area of the last frame, 0 to 1
   /// Path lengths of the last frame, for measurements.
   const PathLengths& lengths() const { return lengths_; }
-  const char* renderer() const { return renderer_->name(); }
+  const PathLengthRenderer& renderer() const { return *renderer_; }
 
  private:
   void draw(const FrameInput& in);

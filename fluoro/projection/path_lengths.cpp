@@ -33,7 +33,9 @@ Leak find_leak(const PathLengths& lengths) {
 }
 
 std::unique_ptr<PathLengthRenderer> make_renderer(Renderer which) {
-  return which == Renderer::osmesa ? make_osmesa_renderer() : make_scanline_renderer();
+  return which == Renderer::osmesa ? make_osmesa_renderer()
+         : which == Renderer::egl  ? make_egl_renderer()
+                                   : make_scanline_renderer();
 }
 
 }  // namespace ostium::fluoro

@@ -1,7 +1,9 @@
 #pragma once
 /// How much of each attenuator a ray crosses: the sum of exit minus entry depths over all closed surfaces.
+#include <initializer_list>
 #include <memory>
 #include <span>
+#include <string>
 
 #include "fluoro/base/plane.h"
 #include "fluoro/matter/scene.h"
@@ -77,15 +79,20 @@ class PathLengthRenderer {
   virtual ~PathLengthRenderer() = default;
   /// Adds the bodies' path lengths to `out` (view.pixels square).
   virtual void add(const View& view, std::span<const Body> bodies, PathLengths& out, Parts parts = Parts::all) = 0;
-  virtual const char* name() const = 0;
+  virtual const char* name() const = 0;                 ///< of renderer_names
+  virtual std::string device() const { return "CPU"; }  ///< what draws: OpenGL's own name of it
 };
 
-/// By OSMesa (llvmpipe), in the calling thread. Throws std::runtime_error if it is not available.
+/// By OpenGL in OSMesa (llvmpipe), in the calling thread. Throws std::runtime_error if it is not available.
 std::unique_ptr<PathLengthRenderer> make_osmesa_renderer();
+/// By OpenGL in EGL: on a graphics card if there is one, for which the calling thread waits, else in Mesa's software.
+/// Throws std::runtime_error if neither is available.
+std::unique_ptr<PathLengthRenderer> make_egl_renderer();
 /// By our own scanline rasteriser.
 std::unique_ptr<PathLengthRenderer> make_scanline_renderer();
 
-enum class Renderer { scanline, osmesa };
+enum class Renderer { scanline, osmesa, egl };
+inline constexpr std::initializer_list<const char*> renderer_names{"scanline", "osmesa", "egl"};  ///< in that order
 /// Throws what the maker throws.
 std::unique_ptr<PathLengthRenderer> make_renderer(Renderer which);
 

@@ -1,13 +1,9 @@
 #include "tests/bench/angle_opacity.h"
 
-#define GL_GLEXT_PROTOTYPES
-#include <GL/gl.h>
-#include <GL/osmesa.h>
-
 #include <Eigen/Geometry>
-#include <cstdlib>
 #include <numeric>
-#include <stdexcept>
+
+#include "fluoro/projection/open_gl.h"
 
 namespace ostium::bench {
 
@@ -35,16 +31,6 @@ void main() {
   colour = vec4(0.0, 0.0, 0.0, opacity * pow(1.0 - along, 2.0));
 })";
 
-GLuint compiled(GLenum kind, const char* text) {
-  const GLuint shader = glCreateShader(kind);
-  glShaderSource(shader, 1, &text, nullptr);
-  glCompileShader(shader);
-  GLint good = 0;
-  glGetShaderiv(shader, GL_COMPILE_STATUS, &good);
-  if (!good) throw std::runtime_error("angle-opacity yardstick: shader refused");
-  return shader;
-}
-
 Eigen::Matrix3Xf normals_of(const fluoro::Body& body) {
   Eigen::Matrix3Xf out = Eigen::Matrix3Xf::Zero(3, body.p_P.cols());
   for (const auto& t : body.triangles->colwise()) {
@@ -58,63 +44,54 @@ Eigen::Matrix3Xf normals_of(const fluoro::Body& body) {
 
 }  // namespace
 
-struct AngleOpacity::Context {
-  OSMesaContext osmesa = nullptr;
+struct AngleOpacity::Context : fluoro::OpenGl {
+  explicit Context(std::vector<fluoro::Body> b) : OpenGl(fluoro::make_osmesa_context), bodies(std::move(b)) {
+    for (const fluoro::Body& body : bodies) normals.push_back(normals_of(body));
+    const Entered entered(*this);
+    program = linked(vertex_shader, fragment_shader, {"p_P", "normal_P"});
+  }
+  double draw(const fluoro::View& view);
+
   std::vector<fluoro::Body> bodies;
   std::vector<Eigen::Matrix3Xf> normals;
-  std::vector<GLubyte> pixels;
+  std::vector<GLubyte> grey;
   GLuint program = 0;
 };
 
-AngleOpacity::AngleOpacity(std::vector<fluoro::Body> bodies) : context_(std::make_unique<Context>()) {
-  setenv("LP_NUM_THREADS", "0", 0);
-  Context& c = *context_;
-  c.bodies = std::move(bodies);
-  for (const fluoro::Body& body : c.bodies) c.normals.push_back(normals_of(body));
-  c.osmesa = OSMesaCreateContextExt(OSMESA_RGBA, 0, 0, 0, nullptr);
-  c.pixels.resize(4);
-  if (!c.osmesa || !OSMesaMakeCurrent(c.osmesa, c.pixels.data(), GL_UNSIGNED_BYTE, 1, 1))
-    throw std::runtime_error("angle-opacity yardstick: no OSMesa");
-  c.program = glCreateProgram();
-  glAttachShader(c.program, compiled(GL_VERTEX_SHADER, vertex_shader));
-  glAttachShader(c.program, compiled(GL_FRAGMENT_SHADER, fragment_shader));
-  glBindAttribLocation(c.program, 0, "p_P");
-  glBindAttribLocation(c.program, 1, "normal_P");
-  glLinkProgram(c.program);
-}
-
-AngleOpacity::~AngleOpacity() { OSMesaDestroyContext(context_->osmesa); }
-
-double AngleOpacity::draw(const fluoro::View& view) {
-  Context& c = *context_;
-  c.pixels.resize(std::size_t(4 * view.pixels * view.pixels));
-  OSMesaMakeCurrent(c.osmesa, c.pixels.data(), GL_UNSIGNED_BYTE, view.pixels, view.pixels);
-  glViewport(0, 0, view.pixels, view.pixels);
+double AngleOpacity::Context::draw(const fluoro::View& view) {
+  const Entered entered(*this);
+  draw_to(view.pixels, GL_RGBA8);
   glClearColor(1, 1, 1, 1);
   glClear(GL_COLOR_BUFFER_BIT);
   glEnable(GL_BLEND);
   glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
-  glUseProgram(c.program);
+  glUseProgram(program);
   const fluoro::ImageAxes axes(view.arm);
   Eigen::Matrix3f R_SP;
   R_SP << axes.right.transpose().cast<float>(), axes.up.transpose().cast<float>(),
       axes.outwards.transpose().cast<float>();
   const Eigen::Vector3f p_PS = source(view.arm).cast<float>();
-  const auto uniform = [&](const char* name) { return glGetUniformLocation(c.program, name); };
+  const auto uniform = [&](const char* name) { return glGetUniformLocation(program, name); };
   glUniformMatrix3fv(uniform("R_SP"), 1, GL_FALSE, R_SP.data());
   glUniform3fv(uniform("p_PS"), 1, p_PS.data());
   glUniform1f(uniform("magnification"), float(2 * view.arm.source_to_detector_m / view.field_m));
   glUniform1f(uniform("opacity"), 0.5f);
   glEnableVertexAttribArray(0);
   glEnableVertexAttribArray(1);
-  for (std::size_t i = 0; i < c.bodies.size(); ++i) {
-    glVertexAttribPointer(0, 3, GL_FLOAT, GL_FALSE, 0, c.bodies[i].p_P.data());
-    glVertexAttribPointer(1, 3, GL_FLOAT, GL_FALSE, 0, c.normals[i].data());
-    glDrawElements(GL_TRIANGLES, GLsizei(c.bodies[i].triangles->size()), GL_UNSIGNED_INT,
-                   c.bodies[i].triangles->data());
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    glVertexAttribPointer(0, 3, GL_FLOAT, GL_FALSE, 0, bodies[i].p_P.data());
+    glVertexAttribPointer(1, 3, GL_FLOAT, GL_FALSE, 0, normals[i].data());
+    glDrawElements(GL_TRIANGLES, GLsizei(bodies[i].triangles->size()), GL_UNSIGNED_INT, bodies[i].triangles->data());
   }
-  glFinish();
-  return std::accumulate(c.pixels.begin(), c.pixels.end(), 0.0) / double(c.pixels.size());
+  grey.resize(std::size_t(4 * view.pixels * view.pixels));
+  glReadPixels(0, 0, view.pixels, view.pixels, GL_RGBA, GL_UNSIGNED_BYTE, grey.data());
+  return std::accumulate(grey.begin(), grey.end(), 0.0) / double(grey.size());
 }
+
+AngleOpacity::AngleOpacity(std::vector<fluoro::Body> bodies) : context_(std::make_unique<Context>(std::move(bodies))) {}
+
+AngleOpacity::~AngleOpacity() = default;
+
+double AngleOpacity::draw(const fluoro::View& view) { return context_->draw(view); }
 
 }  // namespace ostium::bench

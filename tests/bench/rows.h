@@ -14,6 +14,7 @@ struct Row {
   double p999_ms = 0;       ///< its 99.9th percentile
   double most_ms = 0;       ///< of the slowest step or frame; 0: not measured
   double least_ms = 0;      ///< of the fastest frame; 0: not measured
+  double wall_ms = 0;       ///< of a frame by the clock on the wall, waiting included, median; 0: not measured
   double yardstick_ms = 0;  ///< time of the reference implementation, if it has its own
   struct {
     std::string name;
@@ -69,8 +70,9 @@ Row frame_row(const std::string& name, int pixels, bool rotating, bool quick);
 
 /// CPU time of frames of a session, from its state to grey levels: median (`ms`), fastest and slowest of 90, without
 /// and with a full artery, the C-arm at rest and turning by 0.1 degrees a frame, and small as environments ask for.
-/// Beside the angle-opacity shader on the test chest.
-std::vector<Row> session_frame_rows(bool quick);
+/// Those with a full artery are drawn by all of the renderers, the others by scanline only; what is not available is
+/// left out with a word on stderr.
+std::vector<Row> session_frame_rows(const std::vector<std::string>& renderers, bool quick);
 /// What they draw: triangles by body, a line each.
 std::string session_triangles();
 /// The angle-opacity shader's time.

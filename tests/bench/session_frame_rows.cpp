@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
+#include <stdexcept>
 
 #include "app/session/scene/film.h"
 #include "data/catalogue/case/case.h"
@@ -41,9 +43,20 @@ app::SessionModel default_session() {
   return app::make_session(app::vessel_of(data::find_case("rca-mid-focal"), {}), std::move(tools), options);
 }
 
-std::vector<double> times_of(const FrameCase& c, const app::SessionModel& model, const app::PatientScene& patient,
-                             int frames) {
+fluoro::Renderer renderer_of(const std::string& name) {
+  const auto& names = fluoro::renderer_names;
+  return static_cast<fluoro::Renderer>(std::ranges::find(names, name) - names.begin());
+}
+
+double median_of(std::vector<double>& times) {
+  std::ranges::sort(times);
+  return times[times.size() / 2];
+}
+
+Row timed(const FrameCase& c, fluoro::Renderer renderer, const app::SessionModel& model,
+          const app::PatientScene& patient, int frames) {
   app::FilmOptions options;
+  options.renderer = renderer;
   options.field_m = c.field_m;
   options.pixels = c.pixels;
   options.overlay = false;
@@ -52,33 +65,42 @@ std::vector<double> times_of(const FrameCase& c, const app::SessionModel& model,
   app::SessionInputs inputs = inputs_at_rest(model);
   inputs.c_arm.lao_rad = 0.5, inputs.c_arm.cran_rad = 0.3;
   app::SessionState state = make_state(model, 0);
-  std::vector<double> times;
+  std::vector<double> times, wall_times;
   for (int i = -3; i < frames; ++i) {
     state.blood.heart.phase = 0.5 + 0.5 * std::sin(0.77 * i);
     if (c.turns) inputs.c_arm.lao_rad += 0.002;
     const double start = thread_cpu_ms();
+    const auto wall_start = std::chrono::steady_clock::now();
     film.frame(model, state, inputs);
-    if (i >= 0) times.push_back(thread_cpu_ms() - start);
+    if (i < 0) continue;
+    times.push_back(thread_cpu_ms() - start);
+    wall_times.push_back(
+        std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - wall_start).count());
   }
-  std::sort(times.begin(), times.end());
-  return times;
+  Row row;
+  row.ms = median_of(times), row.wall_ms = median_of(wall_times);
+  row.least_ms = times.front(), row.most_ms = times.back();
+  return row;
 }
 
 }  // namespace
 
-std::vector<Row> session_frame_rows(bool quick) {
+std::vector<Row> session_frame_rows(const std::vector<std::string>& renderers, bool quick) {
   const app::SessionModel model = default_session();
   const app::PatientScene patient(*model.vessel->patient, model.physiology);
   std::vector<Row> rows;
-  const double yardstick = shader_ms(512, quick);
-  for (const FrameCase& c : frame_cases) {
-    const std::vector<double> times = times_of(c, model, patient, quick ? 5 : 90);
-    Row row;
-    row.name = c.name;
-    row.ms = times[times.size() / 2];
-    row.least_ms = times.front(), row.most_ms = times.back();
-    row.yardstick_ms = yardstick;
-    rows.push_back(row);
+  for (const std::string& name : renderers) {
+    const fluoro::Renderer renderer = renderer_of(name);
+    const bool is_own = renderer == fluoro::Renderer::scanline;
+    try {
+      for (const FrameCase& c : frame_cases) {
+        if (!is_own && c.fill == app::Fill::none) continue;
+        rows.push_back(timed(c, renderer, model, patient, quick ? 5 : 90));
+        rows.back().name = is_own ? c.name : c.name + ("-" + name);
+      }
+    } catch (const std::runtime_error& missing) {
+      fmt::print(stderr, "{}; its frames are left out\n", missing.what());
+    }
   }
   return rows;
 }

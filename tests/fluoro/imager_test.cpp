@@ -10,6 +10,7 @@
 #include "fluoro/matter/tissue.h"
 #include "fluoro/phantom/chest.h"
 #include "fluoro/phantom/shapes.h"
+#include "tests/support/renderers.h"
 
 namespace ostium::fluoro {
 namespace {
@@ -28,26 +29,24 @@ Scene water(double thickness_m) {
   return {bodies, {}, {}};
 }
 
-Plane after(const Scene& scene, int frames, std::uint64_t seed, bool osmesa = false) {
-  Imager imager({}, osmesa ? make_osmesa_renderer() : make_scanline_renderer());
+Plane after(const Scene& scene, int frames, std::uint64_t seed, Renderer renderer) {
+  Imager imager({}, make_renderer(renderer));
   ImagerState state;
   for (int i = 0; i < frames; ++i) imager.frame({scene, small_view(), {}, fluoroscopy(), seed}, state);
   return state.lag.shown;
 }
 
-TEST(Imager, SameSeedSamePictureBitForBitOnAnyNumberOfThreads) {
+TEST_P(DrawnBy, SameSeedSamePictureBitForBitOnAnyNumberOfThreads) {
   phantom::ChestOptions options;
   options.filling = phantom::Filling::left;
   const Scene scene = phantom::chest(options);
-  for (const bool osmesa : {false, true}) {
-    const Plane once = after(scene, 3, 7, osmesa);
-    std::vector<Plane> together(3);
-    std::vector<std::thread> threads;
-    for (Plane& plane : together) threads.emplace_back([&] { plane = after(scene, 3, 7, osmesa); });
-    for (std::thread& thread : threads) thread.join();
-    for (const Plane& plane : together) EXPECT_TRUE((plane == once).all()) << osmesa;
-    EXPECT_FALSE((after(scene, 3, 8, osmesa) == once).all());
-  }
+  const Plane once = after(scene, 3, 7, GetParam());
+  std::vector<Plane> together(3);
+  std::vector<std::thread> threads;
+  for (Plane& plane : together) threads.emplace_back([&] { plane = after(scene, 3, 7, GetParam()); });
+  for (std::thread& thread : threads) thread.join();
+  for (const Plane& plane : together) EXPECT_TRUE((plane == once).all());
+  EXPECT_FALSE((after(scene, 3, 8, GetParam()) == once).all());
 }
 
 TEST(Imager, NoiseOfFramesAndPixelsIsIndependent) {

@@ -6,6 +6,7 @@
 #include "fluoro/matter/tissue.h"
 #include "fluoro/phantom/chest.h"
 #include "fluoro/phantom/shapes.h"
+#include "tests/support/renderers.h"
 
 namespace ostium::fluoro {
 namespace {
@@ -69,22 +70,20 @@ TEST(Scene, OtherMistakesAreNamed) {
   EXPECT_NE(complaint(body).find("contrast"), std::string::npos);
 }
 
-TEST(Scene, WhatIsDrawnOpenIsALeakThatNamesItsBody) {
-  for (const bool osmesa : {false, true}) {
-    Body sound = ball(), open = with_hole(ball(0.02));
-    open.name = "open ball";
-    open.triangles = std::make_shared<const Triangles>(open.triangles->leftCols(open.triangles->cols() / 2));
-    Imager imager({}, osmesa ? make_osmesa_renderer() : make_scanline_renderer());
-    View view;
-    view.pixels = 128;
-    ImagerState state;
-    const Scene scene{nullptr, {sound, open}, {}};
-    EXPECT_GT(imager.frame({scene, view, {}, fluoroscopy()}, state).leak.pixels, 0);
-    EXPECT_EQ(imager.leaking({scene, view, {}, fluoroscopy()}), "open ball");
-    EXPECT_TRUE(state.lag.shown.allFinite());
-    ImagerState again;
-    EXPECT_FALSE(imager.frame({{nullptr, {sound}, {}}, view, {}, fluoroscopy()}, again).leak);
-  }
+TEST_P(DrawnBy, WhatIsDrawnOpenIsALeakThatNamesItsBody) {
+  Body sound = ball(), open = with_hole(ball(0.02));
+  open.name = "open ball";
+  open.triangles = std::make_shared<const Triangles>(open.triangles->leftCols(open.triangles->cols() / 2));
+  Imager imager({}, std::move(by));
+  View view;
+  view.pixels = 128;
+  ImagerState state;
+  const Scene scene{nullptr, {sound, open}, {}};
+  EXPECT_GT(imager.frame({scene, view, {}, fluoroscopy()}, state).leak.pixels, 0);
+  EXPECT_EQ(imager.leaking({scene, view, {}, fluoroscopy()}), "open ball");
+  EXPECT_TRUE(state.lag.shown.allFinite());
+  ImagerState again;
+  EXPECT_FALSE(imager.frame({{nullptr, {sound}, {}}, view, {}, fluoroscopy()}, again).leak);
 }
 
 TEST(Scene, AHollowInNothingIsALeak) {

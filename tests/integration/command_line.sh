@@ -51,10 +51,14 @@ expect 3 "png and .mp4" "$ostium" inject -o "$dir/inject.jpg"
 expect 2 "volume" "$ostium" inject --volume -3 -o "$dir/inject.png"
 # Libraries that are loaded when they are used are named where they are missing.
 mkdir "$dir/damaged"
-touch "$dir/damaged/libOSMesa.so.8" "$dir/damaged/libostium-openvdb.so"
+touch "$dir/damaged/libOSMesa.so.8" "$dir/damaged/libEGL.so.1" "$dir/damaged/libostium-openvdb.so"
 expect 0 "install libosmesa6; drawn by scanline instead" env LD_LIBRARY_PATH="$dir/damaged" \
   "$ostium" frame --pixels 64 --frames 1 --renderer osmesa -o "$dir/frame.png"
 expect 0 "^AP" frame --frames 1 --renderer osmesa -o "$dir/frame.png"
+expect 0 "drawn by osmesa on llvmpipe" frame --frames 1 --renderer osmesa -o "$dir/frame.png"
+expect 0 "install libegl1; drawn by scanline instead" env LD_LIBRARY_PATH="$dir/damaged" \
+  "$ostium" frame --pixels 64 --frames 1 --renderer egl --json -o "$dir/frame.png"
+expect 0 "drawn by \(egl on\|scanline instead\)" frame --frames 1 --renderer egl -o "$dir/frame.png"
 # Ctrl-C, which ffmpeg gets too, leaves a film of what there was.
 expect 0 "^130$" bash -c 'setsid "$ostium" frame --pixels 64 --frames 9000 -o "$0/cut.mp4" & p=$!
   until [[ -e $0/cut.mp4.unfinished ]]; do sleep 0.05; done; sleep 0.3; kill -INT -- -$p; wait $p; echo $?' "$dir"

@@ -1,7 +1,10 @@
 /// Thickness of a sphere, a cylinder and an oblique slab along each pixel's ray, against closed forms.
+#include <fmt/format.h>
+
 #include <Eigen/Geometry>
 #include <cmath>
 #include <functional>
+#include <stdexcept>
 
 #include "app/gates/gate.h"
 #include "app/gates/xray/xray_water.h"
@@ -70,6 +73,19 @@ double rms_mm(fluoro::PathLengthRenderer& renderer, const Case& c) {
   return 1e3 * std::sqrt(squares / double(count));
 }
 
+/// EGL where there is one.
+std::vector<std::unique_ptr<fluoro::PathLengthRenderer>> renderers() {
+  std::vector<std::unique_ptr<fluoro::PathLengthRenderer>> out;
+  out.push_back(fluoro::make_scanline_renderer());
+  out.push_back(fluoro::make_osmesa_renderer());
+  try {
+    out.push_back(fluoro::make_egl_renderer());
+  } catch (const std::runtime_error& missing) {
+    fmt::print(stderr, "{}; its gates are left out\n", missing.what());
+  }
+  return out;
+}
+
 }  // namespace
 
 std::vector<data::GateResult> xray_thickness(bool quick) {
@@ -88,7 +104,7 @@ std::vector<data::GateResult> xray_thickness(bool quick) {
         {"slab", fluoro::phantom::brick({-0.4, -0.4, -0.5 * thickness}, {0.4, 0.4, 0.5 * thickness}), in_slab});
   }
   std::vector<data::GateResult> out;
-  for (const auto& renderer : {fluoro::make_scanline_renderer(), fluoro::make_osmesa_renderer()})
+  for (const auto& renderer : renderers())
     for (const Case& c : cases)
       out.push_back(
           {std::string("xray-thickness-") + c.name + "-" + renderer->name(), rms_mm(*renderer, c), 0, 0.05, "mm"});

@@ -11,9 +11,18 @@
 #include "app/session/run/filming.h"
 #include "app/session/run/run.h"
 #include "tests/app/session/tube_vessel.h"
+#include "tests/support/renderers.h"
+
+namespace ostium::fluoro {
+
+INSTANTIATE_TEST_SUITE_P(Renderers, DrawnBy, testing::Values(Renderer::osmesa, Renderer::egl), name_of);
+
+}  // namespace ostium::fluoro
 
 namespace ostium::app {
 namespace {
+
+using fluoro::DrawnBy;
 
 TEST(Film, FramesFallOnTheirSteps) {
   for (double rate : {3.75, 7.5, 15.0, 30.0}) {
@@ -91,7 +100,7 @@ TEST(Film, OfAPatientIsTheSameWhateverIsDrawnOnce) {
   }
 }
 
-TEST(Film, OfAPatientIsTheSameByEitherRenderer) {
+TEST_P(DrawnBy, OfAPatientIsAsByScanline) {
   const auto patient =
       std::make_shared<const vascular::Patient>(vascular::make_patient(data::find_case("rca-mid-focal").anatomy, {}));
   const XrayPatient xray(patient, Fill::right);
@@ -101,7 +110,7 @@ TEST(Film, OfAPatientIsTheSameByEitherRenderer) {
   view.arm.p_PI = heart_middle(*patient);
   const fluoro::Scene scene = xray.at(0.6);
   std::vector<fluoro::Plane> shown;
-  for (fluoro::Renderer which : {fluoro::Renderer::scanline, fluoro::Renderer::osmesa}) {
+  for (fluoro::Renderer which : {fluoro::Renderer::scanline, GetParam()}) {
     fluoro::Imager imager({}, fluoro::make_renderer(which));
     fluoro::ImagerState state;
     EXPECT_FALSE(imager.frame({scene, view, {}, fluoro::cine(), 1}, state).leak);
@@ -110,6 +119,8 @@ TEST(Film, OfAPatientIsTheSameByEitherRenderer) {
   const fluoro::Plane off = (shown[1] / shown[0] - 1).abs();
   EXPECT_LT(off.mean(), 2e-4f);  // 5e-5 seen
   EXPECT_LT(off.maxCoeff(), 0.05f) << "of a pixel on the edge of a rib";
+  RecordProperty("mean_share", std::to_string(off.mean()));
+  RecordProperty("most_share", std::to_string(off.maxCoeff()));
 }
 
 TEST(Filming, ShowsEachPictureToWhoeverWatchesAlsoWhereTheVideoCannotBeWritten) {
