@@ -11,22 +11,29 @@ namespace {
 
 constexpr double whole_plaque = 0.3;  // narrowing from which the wall is all plaque
 
-double opened(const PlaqueCell& cell, double rest_m) {
-  const double lost = cell.healthy_m - cell.diseased_m;
-  return lost > 1e-9 ? (rest_m - cell.diseased_m) / lost : 1;
+/// Radius up to which the plaque gave way, beyond which it is stiff.
+double open_m(const PlaqueModel& model, const PlaqueCell& cell, double rest_m) {
+  return cell.diseased_m + (rest_m - cell.diseased_m) / (1 - model.law.spring_back);
 }
 
-/// The pressure at which a cell's plaque yields, and its stiffness until then.
+/// What a cell's plaque does at its state: how far it was opened, where it yields, and its stiffness until then.
 struct Strength {
+  double open_m = 0, share = 0;  ///< of what the lumen lost
+  double spring_Pa = 0;          ///< pressure at open_m
   double yield_Pa = 0, E_Pa = 0;
 };
 
 Strength strength_of(const PlaqueModel& model, const PlaqueState& s, int i) {
   const PlaqueCell& cell = model.cells[i];
-  const double free = std::max(model.law.least_free, 1 - cell.calcium_share * (1 - s.cracked[i])),
-               yield = cell.yield_Pa * (1 - model.law.weakening * s.broken[i]) +
-                       cell.hardening_Pa * std::clamp(opened(cell, s.rest_m[i]), 0.0, 1.0) / free;
-  return {yield, cell.E_Pa * std::max(1.0, yield / cell.yield_Pa)};
+  const double lost = cell.healthy_m - cell.diseased_m;
+  Strength is{.open_m = open_m(model, cell, s.rest_m[i])};
+  is.share = lost > 1e-9 ? (is.open_m - cell.diseased_m) / lost : 1;
+  is.spring_Pa = model.law.spring_Pa * (is.open_m - s.rest_m[i]) / cell.healthy_m;
+  const double free = std::max(model.law.least_free, 1 - cell.calcium_share * (1 - s.cracked[i]));
+  is.yield_Pa = cell.yield_Pa * (1 - model.law.weakening * s.broken[i]) +
+                cell.hardening_Pa * std::clamp(is.share, 0.0, 1.0) / free;
+  is.E_Pa = cell.E_Pa * std::max(1.0, is.yield_Pa / cell.yield_Pa);
+  return is;
 }
 
 void compose(const Lesion& lesion, double s_m, PlaqueCell& cell, double& hardness) {
@@ -74,7 +81,8 @@ WallPressure wall_pressure(const PlaqueModel& model, const PlaqueState& s, int i
   const PlaqueCell& cell = model.cells[i];
   if (a <= s.rest_m[i]) return {};
   const Strength is = strength_of(model, s, i);
-  WallPressure out{is.E_Pa * (a - s.rest_m[i]) / cell.healthy_m, is.E_Pa / cell.healthy_m};
+  WallPressure out{model.law.spring_Pa * (a - s.rest_m[i]) / cell.healthy_m, model.law.spring_Pa / cell.healthy_m};
+  if (a > is.open_m) out = {is.spring_Pa + is.E_Pa * (a - is.open_m) / cell.healthy_m, is.E_Pa / cell.healthy_m};
   if (out.p_Pa > is.yield_Pa) out = {is.yield_Pa, 0.02 * out.slope_Pa_m};
   if (a > cell.healthy_m) {
     const double x = a / cell.healthy_m,
@@ -88,18 +96,16 @@ WallPressure wall_pressure(const PlaqueModel& model, const PlaqueState& s, int i
 void push_wall(const PlaqueModel& model, int i, double a, PlaqueState& s) {
   const PlaqueCell& cell = model.cells[i];
   s.peak_m[i] = std::max(s.peak_m[i], a);
-  if (a > s.rest_m[i]) {
-    // Elastic up to the yield limit; the rest is permanent. Cracks and hardening are taken at the beginning of the
-    // step, which is accurate enough for small steps.
-    const Strength is = strength_of(model, s, i);
-    const double elastic = is.yield_Pa / is.E_Pa * cell.healthy_m,
-                 p_Pa = is.yield_Pa * std::min(1.0, (a - s.rest_m[i]) / elastic);
+  // Elastic up to the yield limit; the rest is permanent. Cracks and hardening are taken at the beginning of the step,
+  // which is accurate enough for small steps.
+  if (const Strength is = strength_of(model, s, i); a > is.open_m) {
+    const double elastic_m = (is.yield_Pa - is.spring_Pa) / is.E_Pa * cell.healthy_m,
+                 p_Pa = is.spring_Pa + (is.yield_Pa - is.spring_Pa) * std::min(1.0, (a - is.open_m) / elastic_m);
     if (cell.calcium_share > 0.5 && p_Pa * a > model.law.calcium_Pa * cell.calcium_m) s.cracked[i] = 1;
-    if (const double given = a - s.rest_m[i] - elastic; given > 0) {
-      const double before = opened(cell, s.rest_m[i]);
-      s.rest_m[i] += given;
-      if (cell.healthy_m - cell.diseased_m > 1e-9)
-        s.broken[i] = std::min(1.0, s.broken[i] + (opened(cell, s.rest_m[i]) - before) / model.law.crack);
+    if (const double given_m = a - is.open_m - elastic_m; given_m > 0) {
+      s.rest_m[i] += (1 - model.law.spring_back) * given_m;
+      if (const double lost = cell.healthy_m - cell.diseased_m; lost > 1e-9)
+        s.broken[i] = std::min(1.0, s.broken[i] + given_m / lost / model.law.crack);
     }
   }
   s.radius_m[i] = std::max(a, s.rest_m[i]);

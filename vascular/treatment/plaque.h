@@ -1,15 +1,19 @@
 #pragma once
 /// The wall of the coronary arteries under a balloon, cell by cell: elastic, then yielding.
 ///
-///   p(a) = E (a - rest) / healthy + p_m (exp(k ((a / healthy)^2 - 1)) - 1)      pressure at a radius a > rest
+///   p(a) = E_s (min(a, open) - rest) / healthy + E (a - open) / healthy          pressure at a radius a > rest,
+///          + p_m (exp(k ((a / healthy)^2 - 1)) - 1)                               terms where a > open, a > healthy
 /// E increases from that of a healthy artery (distensibility 1.1 to 2.4e-3 /mmHg) to the plaque's; the exponential is
-/// media and adventitia, which resist beyond the healthy size. The first term yields at
-///   p_y = yield (1 - weakening broken) + hardening x / free,      x = (rest - diseased) / (healthy - diseased)
-/// and always at the same strain, so that E grows with p_y. Then `rest` grows: the plaque cracks, opens at less
-/// pressure at first and at more the farther it is open, and when the balloon is removed the opening remains, less the
-/// elastic part (recoil). `free` is the share of the wall without calcium: only that part stretches, the calcium goes
-/// along. Calcium of more than half the wall is a ring under p a / t; where that exceeds its strength it breaks, and
-/// the whole wall is free again. Smaller pieces hardly ever break (Zhu et al., PLOS ONE 2021;16:e0251404).
+/// media and adventitia, which resist beyond the healthy size. The plaque yields at
+///   p_y = yield (1 - weakening broken) + hardening x / free,      x = (open - diseased) / (healthy - diseased)
+/// and always at the same strain, so that E grows with p_y. Then `open` grows: the plaque cracks, opens at less
+/// pressure at first and at more the farther it is open. When the balloon is removed, that strain springs back at once;
+/// and of the opening itself a share, softly (E_s), as the stretched wall around it closes again,
+///   rest = diseased + (1 - spring_back) (open - diseased)
+/// unless a stent holds it: after plain balloons recoil is 20 to 30 % of the diameter, in stents 5 to 9 %. `free` is
+/// the share of the wall without calcium: only that part stretches, the calcium goes along. Calcium of more than half
+/// the wall is a ring under p a / t; where that exceeds its strength it breaks, and the whole wall is free again.
+/// Smaller pieces hardly ever break (Zhu et al., PLOS ONE 2021;16:e0251404).
 ///
 /// The constants are fitted to one measurement: after its delivery balloon a stent's minimal diameter is 27.2 +- 7.2 %
 /// below the balloon's chart (Aziz et al., Heart 2007;93:1562; n = 499). Recoil (5 to 9 %) and expansion after
@@ -26,7 +30,8 @@ struct PlaqueLaw {
   double crack = 0.12;                ///< share of the opening over which it breaks
   double hardening_Pa = 14 * 101325;  ///< of the typical plaque, all of it free
   double calcium_Pa = 2.4e6;          ///< a ring's strength: 0.5 mm in a lumen of 2.4 mm breaks at 10 atm
-  double least_free = 0.1;            ///< of the wall, whatever the calcium's arc
+  double spring_back = 0.2, spring_Pa = 7 * 101325;  ///< and E_s: about 1 atm holds all of it, as a stent can
+  double least_free = 0.1;                           ///< of the wall, whatever the calcium's arc
 };
 
 struct PlaqueCell {
