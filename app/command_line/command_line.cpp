@@ -17,6 +17,7 @@
 #include <type_traits>
 
 #include "app/command_line/interrupt.h"
+#include "core/base/paths.h"
 #include "data/formats/decimal.h"
 #include "data/formats/load_error.h"
 #include "data/formats/write_file.h"
@@ -135,7 +136,7 @@ bool is_one_file(const std::string& a, const std::string& b) {
   // A path may lead through folders that are yet to be made.
   const fs::path to_a = fs::weakly_canonical(fs::absolute(a, none), none),
                  to_b = fs::weakly_canonical(fs::absolute(b, none), none);
-  return to_a == to_b || fs::equivalent(to_a, to_b, none);
+  return (to_a == to_b && !to_a.empty()) || fs::equivalent(to_a, to_b, none);
 }
 
 /// Throws LoadError if a file that is to be written is named twice, or is one to read.
@@ -152,13 +153,13 @@ void require_apart(const CLI::App& app, const std::vector<const CLI::Option*>& w
         const bool both = writes(options[j]);
         if (j == i || (both && j < i)) continue;
         for (std::string other : values_of(*options[j])) {
-          if (!both && other.find('=') != std::string::npos && !std::filesystem::exists(other))
+          if (!both && other.find('=') != std::string::npos && !core::is_there(other))
             other = other.substr(other.find('=') + 1);  // --set wire=FILE
           if (!is_one_file(file, other)) continue;
           if (both)
             throw data::LoadError(fmt::format("{} and {} are one file, {}; expected one for each",
                                               options[i]->get_name(), options[j]->get_name(), file));
-          if (std::filesystem::is_regular_file(other))
+          if (core::is_file(other))
             throw data::LoadError(fmt::format("{} {} would take the place of what is read, {}; expected another name",
                                               options[i]->get_name(), file, other));
         }

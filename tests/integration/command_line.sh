@@ -115,7 +115,7 @@ printf 'v 0 0 0\nv 9 0 0\nv 0 9 0\nv 0 0 9\nf 1 3 2\nf 1 2 4\nf 2 3 4\n' >"$fold
 expect 1 "no fault, but this is no vessel" "$ostium" check "$folder/whole.obj"
 expect 1 "3 open edges" "$ostium" check "$folder/open.obj"
 expect 1 '"sound": false' "$ostium" check --json --units cm "$folder/open.obj"
-expect 3 "is no file" "$ostium" check "$folder/none.obj"
+expect 3 "there is no such file" "$ostium" check "$folder/none.obj"
 expect 1 '"no_vessel": "this is no vessel' "$ostium" check --json --units cm "$folder/whole.obj"
 expect 1 "no vessel" "$ostium" check "$folder/whole.obj" --picture "$folder/whole.svg"
 expect 3 "png and .svg are known" "$ostium" check "$folder/whole.obj" --picture "$folder/whole.bmp"
@@ -166,7 +166,7 @@ done
 cp "$folder/mine.txt" "$folder/single/run.h5"
 expect 3 "holds run.h5, too" "$ostium" import "$folder/marked.obj" -o "$folder/single"
 [[ $(cat "$folder/mine.txt" "$folder/single/run.h5") == $'mine\nmine' && ! -e $folder/not-there ]]
-expect 3 "is a folder; expected a recording" "$ostium" report "$folder/single"
+expect 3 "is a folder, not a file; expected a recording" "$ostium" report "$folder/single"
 rm "$folder/single/run.h5"
 mkdir "$folder/twice.unfinished"
 expect 3 "another ostium writes there" flock "$folder/twice.unfinished" "$ostium" import "$folder/marked.obj" -o "$folder/twice"
