@@ -10,6 +10,7 @@
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
+#include <cstring>
 #include <exception>
 #include <filesystem>
 #include <nlohmann/json.hpp>
@@ -103,6 +104,10 @@ void Options::flag(const std::string& names, bool& value, const std::string& hel
   app_.add_flag(names, value, help);
 }
 
+void Options::exclude(const std::string& one, std::initializer_list<const char*> others) {
+  for (const char* other : others) app_.get_option(one)->excludes(app_.get_option(other));
+}
+
 namespace {
 
 constexpr int done = 0, failed = 1, usage = 2, bad_input = 3;
@@ -139,7 +144,20 @@ bool is_one_file(const std::string& a, const std::string& b) {
   return (to_a == to_b && !to_a.empty()) || fs::equivalent(to_a, to_b, none);
 }
 
-/// Throws LoadError if a file that is to be written is named twice, or is one to read.
+/// Throws WriteError if a file cannot be put there: found after hours of work it would be late.
+void require_place_for(const std::string& file) {
+  namespace fs = std::filesystem;
+  std::error_code none;
+  if (core::is_folder(file)) throw data::write_error(file, "it is a folder, not a file");
+  if (fs::exists(file, none) && !core::is_file(file)) return;  // a device takes what comes
+  fs::path folder = fs::weakly_canonical(fs::absolute(file, none), none).parent_path();
+  while (folder.has_relative_path() && !core::is_there(folder)) folder = folder.parent_path();  // the rest is made
+  if (!folder.empty() && access(folder.c_str(), W_OK | X_OK) != 0)
+    throw data::write_error(file, std::strerror(core::is_folder(folder) ? errno : ENOTDIR));
+}
+
+/// Throws LoadError if a file that is to be written is named twice, or is one to read; WriteError if it cannot be
+/// written.
 void require_apart(const CLI::App& app, const std::vector<const CLI::Option*>& written) {
   for (const CLI::App* sub : app.get_subcommands()) require_apart(*sub, written);
   const std::vector<const CLI::Option*> options = app.get_options();
@@ -148,6 +166,7 @@ void require_apart(const CLI::App& app, const std::vector<const CLI::Option*>& w
   };
   for (std::size_t i = 0; i < options.size(); ++i) {
     if (!writes(options[i])) continue;
+    if (options[i]->count() > 0) require_place_for(options[i]->results().front());
     for (const std::string& file : values_of(*options[i]))
       for (std::size_t j = 0; j < options.size(); ++j) {
         const bool both = writes(options[j]);

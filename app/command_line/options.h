@@ -25,7 +25,8 @@ class Option {
   Option range(int least, int most);
   Option not_negative();
   Option positive();
-  /// Names a file that the command writes: refused where the line names it twice, or as something to read, too.
+  /// Names a file that the command writes: refused where the line names it twice, or as something to read, too, or
+  /// where it cannot be written, which else would be found after the work.
   Option writes();
 
  private:
@@ -47,6 +48,8 @@ class Options {
   template <class Value>
   Option add(const std::string& names, Value& value, const std::string& help);
   void flag(const std::string& names, bool& value, const std::string& help);
+  /// `one` beside any of `others` is a usage error: one of them would be passed over. All are declared before.
+  void exclude(const std::string& one, std::initializer_list<const char*> others);
 
  private:
   CLI::App& app_;

@@ -43,6 +43,7 @@ refused "it is a pipe" sweep --merge other.csv
 mkdir -p learnt/first-steps
 mkfifo learnt/first-steps/progress.json
 refused "it is a pipe" learn --list --out learnt
+TMPDIR=/nowhere refused "TMPDIR" serve rca-mid-focal
 # A list of values is longer than any file's name, and is none.
 expect 0 "1 runs" "$ostium" sweep rca-mid-focal --script iliac-wire --seconds 0.05 --seeds 1..1 -o many.csv --part 100/100 \
   --vary "person=$(seq -s, 1 100)"
@@ -54,6 +55,26 @@ refused "one emulated box, EMULATED" run rca-mid-focal --device emulator --seria
 refused "is of a tracking box" run rca-mid-focal --serial X
 refused "nothing of it is given" device calibrate --track 2
 refused "nothing is measured" device calibrate --seconds 3
+refused "is for a case" frame --phase 0.3 -o none.png
+refused "is for the phantom" frame rca-mid-focal --stenosis 30 -o none.png
+refused "is for the phantom" frame rca-mid-focal --guide none -o none.png
+refused "angle inf degrees cannot be reached" frame --lao 1e308 -o none.png
+expect 2 "excludes" "$ostium" treat --no-pictures -o none.png
+expect 2 "excludes" "$ostium" sweep --merge other.csv --seeds 1..4
+
+# What cannot be put where it should go is refused before the work.
+touch before
+mkdir folder.png folder.csv folder.html
+cannot() { # cannot ARGUMENTS...: within a second of processor
+  expect 1 "cannot be written" bash -c 'ulimit -t 1; "$@"' cannot "$ostium" "$@"
+}
+cannot treat -o folder.png
+cannot inject -o folder.png
+cannot sweep rca-mid-focal -o folder.csv
+cannot report none.h5 -o folder.html
+cannot treat -o before/pictures/treat.png
+cannot explain bend --write-instrument folder.png
+[[ ! -e folder.csv.part ]]
 
 # A refusal leaves everything as it was.
 "$ostium" explain --template three_point_bend -o bend >/dev/null

@@ -180,6 +180,7 @@ int run(const Arguments& a) {
     return 0;
   }
   const FilledFolder filled(folder);
+  progress = Progress(folder);  // as another left it before it was ours
   const std::size_t attempt = progress.next(lesson.name);
   serving.folder = progress.folder_of(lesson.name, attempt).string();
   bool done = false;

@@ -58,8 +58,10 @@ void declare(Options& options, ServeArguments& a) {
 class PassingFolder {
  public:
   PassingFolder() {
-    std::string name = (fs::temp_directory_path() / "ostium-serve-XXXXXX").string();
-    if (!mkdtemp(name.data())) throw data::LoadError(name + ": cannot be made; expected --out DIR");
+    std::error_code none;
+    std::string name = (fs::temp_directory_path(none) / "ostium-serve-XXXXXX").string();
+    if (none || !mkdtemp(name.data()))
+      throw data::LoadError("no folder for what passes can be made, in TMPDIR or /tmp; expected --out DIR");
     path_ = name;
   }
   ~PassingFolder() {
