@@ -89,7 +89,7 @@ Option Options::add(const std::string& names, Value& value, const std::string& h
   CLI::Option* option = app_.add_option(names, value, help);
   check_number<Value>(*option);
   check_text<Value>(*option);
-  return {option, &written_};
+  return {option, &rules_.written};
 }
 template Option Options::add(const std::string&, std::string&, const std::string&);
 template Option Options::add(const std::string&, int&, const std::string&);
@@ -105,21 +105,21 @@ void Options::flag(const std::string& names, bool& value, const std::string& hel
 }
 
 void Options::exclude(const std::string& one, std::initializer_list<const char*> others) {
-  for (const char* other : others) app_.get_option(one)->excludes(app_.get_option(other));
+  for (const char* other : others) rules_.apart.emplace_back(app_.get_option(one), app_.get_option(other));
 }
 
 namespace {
 
 constexpr int done = 0, failed = 1, usage = 2, bad_input = 3;
 
-/// `chosen` is set to the command that the parsed line names; `written` gets all options that name files to be written.
-void declare(const Command& command, CLI::App& app, const Command*& chosen, std::vector<const CLI::Option*>& written) {
-  Options options(app, written);
+/// `chosen` is set to the command that the parsed line names.
+void declare(const Command& command, CLI::App& app, const Command*& chosen, OptionRules& rules) {
+  Options options(app, rules);
   if (command.declare) command.declare(options);
   for (const Command& sub : command.subcommands) {
     CLI::App* sub_app = app.add_subcommand(sub.name, sub.help);
     if (sub.run) sub_app->callback([&chosen, &sub] { chosen = &sub; });
-    declare(sub, *sub_app, chosen, written);
+    declare(sub, *sub_app, chosen, rules);
   }
   if (!command.subcommands.empty()) app.require_subcommand(command.run ? 0 : 1, 1);
   std::string footer;
@@ -219,6 +219,17 @@ int with_output_checked(int code) {
   return failed;
 }
 
+/// (CLI11's own way says it all over the help.)
+bool are_apart(const OptionRules& rules) {
+  for (const auto& [one, other] : rules.apart)
+    if (one->count() > 0 && other->count() > 0) {
+      fmt::print(stderr, "{} beside {} would do nothing; expected one of them\nRun with --help for more information.\n",
+                 other->get_name(), one->get_name());
+      return false;
+    }
+  return true;
+}
+
 /// Files whose names look like options.
 void explain_dashes(int argc, char** argv) {
   for (int i = 1; i < argc; ++i)
@@ -236,8 +247,8 @@ int run_command_line(const Command& program, int argc, char** argv) {
   // Also used for commands declared later that have no examples.
   app.footer("Exit codes: 0 done, 1 failed or did not hold, 2 usage, 3 bad input, 128 + N ended by signal N.");
   const Command* chosen = &program;
-  std::vector<const CLI::Option*> written;
-  declare(program, app, chosen, written);
+  OptionRules rules;
+  declare(program, app, chosen, rules);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -245,8 +256,9 @@ int run_command_line(const Command& program, int argc, char** argv) {
     if (code == usage) explain_dashes(argc, argv);
     return with_output_checked(code);
   }
+  if (!are_apart(rules)) return usage;
   try {
-    require_apart(app, written);
+    require_apart(app, rules.written);
     const int code = with_output_checked(chosen->run());
     return interrupting_signal ? 128 + interrupting_signal : code;
   } catch (const data::WriteError& error) {

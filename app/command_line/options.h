@@ -3,6 +3,7 @@
 /// pay.
 #include <initializer_list>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace CLI {
@@ -37,10 +38,15 @@ class Option {
   std::vector<const CLI::Option*>* written_;
 };
 
+/// What holds of options beyond what each of them takes.
+struct OptionRules {
+  std::vector<const CLI::Option*> written;                               ///< they name files to be written
+  std::vector<std::pair<const CLI::Option*, const CLI::Option*>> apart;  ///< two that are not given together
+};
+
 class Options {
  public:
-  /// `written`: gets the options that name files to be written.
-  Options(CLI::App& app, std::vector<const CLI::Option*>& written) : app_(app), written_(written) {}
+  Options(CLI::App& app, OptionRules& rules) : app_(app), rules_(rules) {}
 
   /// `names`: "--units", "-o,--out", or "mesh" for a positional argument. `value` keeps its value if the option is not
   /// given. Texts that are given are not empty, and UTF-8. For text, int, double, std::uint64_t, an optional int or
@@ -53,7 +59,7 @@ class Options {
 
  private:
   CLI::App& app_;
-  std::vector<const CLI::Option*>& written_;
+  OptionRules& rules_;
 };
 
 }  // namespace ostium::app

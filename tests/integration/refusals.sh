@@ -59,8 +59,8 @@ refused "is for a case" frame --phase 0.3 -o none.png
 refused "is for the phantom" frame rca-mid-focal --stenosis 30 -o none.png
 refused "is for the phantom" frame rca-mid-focal --guide none -o none.png
 refused "angle inf degrees cannot be reached" frame --lao 1e308 -o none.png
-expect 2 "excludes" "$ostium" treat --no-pictures -o none.png
-expect 2 "excludes" "$ostium" sweep --merge other.csv --seeds 1..4
+expect 2 "--out beside --no-pictures would do nothing" "$ostium" treat --no-pictures -o none.png
+expect 2 "--seeds beside --merge would do nothing" "$ostium" sweep --merge other.csv --seeds 1..4
 
 # What cannot be put where it should go is refused before the work.
 touch before
