@@ -10,6 +10,7 @@
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
+#include <cstring>
 #include <exception>
 #include <filesystem>
 #include <nlohmann/json.hpp>
@@ -17,6 +18,7 @@
 #include <type_traits>
 
 #include "app/command_line/interrupt.h"
+#include "core/base/paths.h"
 #include "data/formats/decimal.h"
 #include "data/formats/load_error.h"
 #include "data/formats/write_file.h"
@@ -87,7 +89,7 @@ Option Options::add(const std::string& names, Value& value, const std::string& h
   CLI::Option* option = app_.add_option(names, value, help);
   check_number<Value>(*option);
   check_text<Value>(*option);
-  return {option, &written_};
+  return {option, &rules_.written};
 }
 template Option Options::add(const std::string&, std::string&, const std::string&);
 template Option Options::add(const std::string&, int&, const std::string&);
@@ -102,18 +104,22 @@ void Options::flag(const std::string& names, bool& value, const std::string& hel
   app_.add_flag(names, value, help);
 }
 
+void Options::exclude(const std::string& one, std::initializer_list<const char*> others) {
+  for (const char* other : others) rules_.apart.emplace_back(app_.get_option(one), app_.get_option(other));
+}
+
 namespace {
 
 constexpr int done = 0, failed = 1, usage = 2, bad_input = 3;
 
-/// `chosen` is set to the command that the parsed line names; `written` gets all options that name files to be written.
-void declare(const Command& command, CLI::App& app, const Command*& chosen, std::vector<const CLI::Option*>& written) {
-  Options options(app, written);
+/// `chosen` is set to the command that the parsed line names.
+void declare(const Command& command, CLI::App& app, const Command*& chosen, OptionRules& rules) {
+  Options options(app, rules);
   if (command.declare) command.declare(options);
   for (const Command& sub : command.subcommands) {
     CLI::App* sub_app = app.add_subcommand(sub.name, sub.help);
     if (sub.run) sub_app->callback([&chosen, &sub] { chosen = &sub; });
-    declare(sub, *sub_app, chosen, written);
+    declare(sub, *sub_app, chosen, rules);
   }
   if (!command.subcommands.empty()) app.require_subcommand(command.run ? 0 : 1, 1);
   std::string footer;
@@ -135,10 +141,23 @@ bool is_one_file(const std::string& a, const std::string& b) {
   // A path may lead through folders that are yet to be made.
   const fs::path to_a = fs::weakly_canonical(fs::absolute(a, none), none),
                  to_b = fs::weakly_canonical(fs::absolute(b, none), none);
-  return to_a == to_b || fs::equivalent(to_a, to_b, none);
+  return (to_a == to_b && !to_a.empty()) || fs::equivalent(to_a, to_b, none);
 }
 
-/// Throws LoadError if a file that is to be written is named twice, or is one to read.
+/// Throws WriteError if a file cannot be put there: found after hours of work it would be late.
+void require_place_for(const std::string& file) {
+  namespace fs = std::filesystem;
+  std::error_code none;
+  if (core::is_folder(file)) throw data::write_error(file, "it is a folder, not a file");
+  if (fs::exists(file, none) && !core::is_file(file)) return;  // a device takes what comes
+  fs::path folder = fs::weakly_canonical(fs::absolute(file, none), none).parent_path();
+  while (folder.has_relative_path() && !core::is_there(folder)) folder = folder.parent_path();  // the rest is made
+  if (!folder.empty() && access(folder.c_str(), W_OK | X_OK) != 0)
+    throw data::write_error(file, std::strerror(core::is_folder(folder) ? errno : ENOTDIR));
+}
+
+/// Throws LoadError if a file that is to be written is named twice, or is one to read; WriteError if it cannot be
+/// written.
 void require_apart(const CLI::App& app, const std::vector<const CLI::Option*>& written) {
   for (const CLI::App* sub : app.get_subcommands()) require_apart(*sub, written);
   const std::vector<const CLI::Option*> options = app.get_options();
@@ -147,18 +166,19 @@ void require_apart(const CLI::App& app, const std::vector<const CLI::Option*>& w
   };
   for (std::size_t i = 0; i < options.size(); ++i) {
     if (!writes(options[i])) continue;
+    if (options[i]->count() > 0) require_place_for(options[i]->results().front());
     for (const std::string& file : values_of(*options[i]))
       for (std::size_t j = 0; j < options.size(); ++j) {
         const bool both = writes(options[j]);
         if (j == i || (both && j < i)) continue;
         for (std::string other : values_of(*options[j])) {
-          if (!both && other.find('=') != std::string::npos && !std::filesystem::exists(other))
+          if (!both && other.find('=') != std::string::npos && !core::is_there(other))
             other = other.substr(other.find('=') + 1);  // --set wire=FILE
           if (!is_one_file(file, other)) continue;
           if (both)
             throw data::LoadError(fmt::format("{} and {} are one file, {}; expected one for each",
                                               options[i]->get_name(), options[j]->get_name(), file));
-          if (std::filesystem::is_regular_file(other))
+          if (core::is_file(other))
             throw data::LoadError(fmt::format("{} {} would take the place of what is read, {}; expected another name",
                                               options[i]->get_name(), file, other));
         }
@@ -199,6 +219,17 @@ int with_output_checked(int code) {
   return failed;
 }
 
+/// (CLI11's own way says it all over the help.)
+bool are_apart(const OptionRules& rules) {
+  for (const auto& [one, other] : rules.apart)
+    if (one->count() > 0 && other->count() > 0) {
+      fmt::print(stderr, "{} beside {} would do nothing; expected one of them\nRun with --help for more information.\n",
+                 other->get_name(), one->get_name());
+      return false;
+    }
+  return true;
+}
+
 /// Files whose names look like options.
 void explain_dashes(int argc, char** argv) {
   for (int i = 1; i < argc; ++i)
@@ -216,8 +247,8 @@ int run_command_line(const Command& program, int argc, char** argv) {
   // Also used for commands declared later that have no examples.
   app.footer("Exit codes: 0 done, 1 failed or did not hold, 2 usage, 3 bad input, 128 + N ended by signal N.");
   const Command* chosen = &program;
-  std::vector<const CLI::Option*> written;
-  declare(program, app, chosen, written);
+  OptionRules rules;
+  declare(program, app, chosen, rules);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -225,8 +256,9 @@ int run_command_line(const Command& program, int argc, char** argv) {
     if (code == usage) explain_dashes(argc, argv);
     return with_output_checked(code);
   }
+  if (!are_apart(rules)) return usage;
   try {
-    require_apart(app, written);
+    require_apart(app, rules.written);
     const int code = with_output_checked(chosen->run());
     return interrupting_signal ? 128 + interrupting_signal : code;
   } catch (const data::WriteError& error) {

@@ -5,6 +5,7 @@
 #include "data/formats/load_error.h"
 #include "data/formats/read_file.h"
 #include "data/identification/measurement/measurement_reader.h"
+#include "device/emulator/emulated_box.h"
 
 namespace ostium::app {
 
@@ -37,6 +38,12 @@ void add_json_flag(Options& options, bool& json, const std::string& schema) {
 
 void add_box_serial_option(Options& options, std::string& serial) {
   options.add("--serial", serial, "Of the box; else the first that is found");
+}
+
+void require_emulated_box(const std::string& serial) {
+  if (!serial.empty() && serial != device::emulated_serial)
+    throw data::LoadError("--serial " + serial + ": there is one emulated box, " + device::emulated_serial +
+                          "; expected that, or a real box");
 }
 
 void add_unit_option(Options& options, std::string& unit, const std::string& help) {

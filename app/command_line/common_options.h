@@ -11,6 +11,8 @@ void require_not_of_set(const std::string& set, const std::string& option, const
 /// `schema`: a file of data/schemas, or empty if there is none.
 void add_json_flag(Options& options, bool& json, const std::string& schema = "");
 void add_box_serial_option(Options& options, std::string& serial);
+/// Throws LoadError where another box is asked for; empty: none is.
+void require_emulated_box(const std::string& serial);
 
 /// mm, cm, m or in, or auto (unit_of).
 void add_unit_option(Options& options, std::string& unit, const std::string& help);

@@ -3,6 +3,7 @@
 /// pay.
 #include <initializer_list>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace CLI {
@@ -25,7 +26,8 @@ class Option {
   Option range(int least, int most);
   Option not_negative();
   Option positive();
-  /// Names a file that the command writes: refused where the line names it twice, or as something to read, too.
+  /// Names a file that the command writes: refused where the line names it twice, or as something to read, too, or
+  /// where it cannot be written, which else would be found after the work.
   Option writes();
 
  private:
@@ -36,10 +38,15 @@ class Option {
   std::vector<const CLI::Option*>* written_;
 };
 
+/// What holds of options beyond what each of them takes.
+struct OptionRules {
+  std::vector<const CLI::Option*> written;                               ///< they name files to be written
+  std::vector<std::pair<const CLI::Option*, const CLI::Option*>> apart;  ///< two that are not given together
+};
+
 class Options {
  public:
-  /// `written`: gets the options that name files to be written.
-  Options(CLI::App& app, std::vector<const CLI::Option*>& written) : app_(app), written_(written) {}
+  Options(CLI::App& app, OptionRules& rules) : app_(app), rules_(rules) {}
 
   /// `names`: "--units", "-o,--out", or "mesh" for a positional argument. `value` keeps its value if the option is not
   /// given. Texts that are given are not empty, and UTF-8. For text, int, double, std::uint64_t, an optional int or
@@ -47,10 +54,12 @@ class Options {
   template <class Value>
   Option add(const std::string& names, Value& value, const std::string& help);
   void flag(const std::string& names, bool& value, const std::string& help);
+  /// `one` beside any of `others` is a usage error: one of them would be passed over. All are declared before.
+  void exclude(const std::string& one, std::initializer_list<const char*> others);
 
  private:
   CLI::App& app_;
-  std::vector<const CLI::Option*>& written_;
+  OptionRules& rules_;
 };
 
 }  // namespace ostium::app

@@ -11,7 +11,9 @@
 
 namespace ostium::app {
 
-PathLock::PathLock(const std::string& path, bool shared) : descriptor_(open(path.c_str(), O_RDONLY | O_CLOEXEC)) {
+/// Without O_NONBLOCK a pipe of that name would wait for its other end.
+PathLock::PathLock(const std::string& path, bool shared)
+    : descriptor_(open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK)) {
   if (descriptor_ < 0 || flock(descriptor_, (shared ? LOCK_SH : LOCK_EX) | LOCK_NB) == 0 || errno != EWOULDBLOCK)
     return;
   close(descriptor_);

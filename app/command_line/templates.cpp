@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "app/command_line/arguments.h"
+#include "core/base/paths.h"
 #include "data/catalogue/catalogue.h"
 #include "data/formats/load_error.h"
 #include "data/formats/read_file.h"
@@ -39,11 +41,12 @@ std::vector<std::string> write_template(const std::string& kind, const std::stri
   std::sort(files.begin(), files.end());
   std::vector<std::string> written;
   for (const fs::path& file : files) {
-    const fs::path to = fs::path(folder) / file.filename();
-    if (fs::exists(to)) throw data::LoadError(to.string() + " is there already; expected a folder without it");
-    data::write_file(to.string(), data::read_file(file.string()));
-    written.push_back(to.string());
+    written.push_back((fs::path(folder) / file.filename()).string());
+    if (core::is_there(written.back()))
+      throw data::LoadError(written.back() + " is there already; expected a folder without it");
   }
+  make_folder(folder);
+  for (std::size_t i = 0; i < files.size(); ++i) data::write_file(written[i], data::read_file(files[i].string()));
   return written;
 }
 

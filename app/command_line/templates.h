@@ -10,7 +10,7 @@ namespace ostium::app {
 std::vector<std::string> template_kinds();
 
 /// Copies the files of a kind's template to `folder` and returns their paths. Throws LoadError for an unknown kind, and
-/// WriteError; files that are there already are not overwritten.
+/// WriteError; where one of the files is there already, nothing is written.
 std::vector<std::string> write_template(const std::string& kind, const std::string& folder);
 
 }  // namespace ostium::app

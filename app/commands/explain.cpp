@@ -77,7 +77,6 @@ void write_found(const Arguments& a, const data::MeasurementSet& set, const data
 }
 
 int write_a_template(const Arguments& a) {
-  make_folder(a.folder);
   for (const std::string& file : write_template(a.kind, a.folder)) fmt::print("{}\n", file);
   return 0;
 }
@@ -101,9 +100,12 @@ int run_curves(const Arguments& a, const data::JsonValue& root) {
 
 /// Under mpirun only the first rank writes.
 int run(const Arguments& a) {
-  if (!a.kind.empty()) return write_a_template(a);
-  if (a.set.empty()) {
-    fmt::print(stderr, "SET is required, or --template KIND\n");
+  if (!a.kind.empty() && a.set.empty()) return write_a_template(a);
+  if (a.set.empty() || !a.kind.empty()) {
+    fmt::print(stderr, "{}\n",
+               a.set.empty() ? "SET is required, or --template KIND"
+                             : "--template KIND writes a set to begin from, and SET names one to explain; expected one "
+                               "of them");
     return 2;
   }
   require_not_of_set(a.set, "--write-instrument", a.instrument);

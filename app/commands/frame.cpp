@@ -4,6 +4,7 @@
 #include <cmath>
 #include <functional>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "app/command_line/arguments.h"
 #include "app/command_line/command.h"
@@ -32,7 +33,7 @@ using units::degree;
 struct Arguments {
   std::string of = "phantom";    ///< the object: "phantom", or a case
   std::vector<std::string> set;  ///< of a case: which person
-  double phase = 0.75;           ///< cardiac phase of a case; a film starts there
+  std::optional<double> phase;   ///< cardiac phase of a case; a film starts there; usual: 0.75
   ViewArguments view{.view = "ap"};
   double sid_mm = 1100, field_mm = 200;
   std::vector<double> table_mm{0, 0, 0};  ///< isocentre in the patient: left, head, front
@@ -41,10 +42,10 @@ struct Arguments {
   int pixels = 512;
   bool cine = false;
   double frames_per_s = 15;
-  int frames = 0;             ///< 0: 8 frames before a still picture, 30 for a video
-  std::string fill = "none";  ///< left, right: coronary tree full of contrast
-  double stenosis_percent = 60;
-  std::string guide = "left";  ///< vessel that holds guide and wire: left, right, none
+  int frames = 0;                          ///< 0: 8 frames before a still picture, 30 for a video
+  std::string fill = "none";               ///< left, right: coronary tree full of contrast
+  std::optional<double> stenosis_percent;  ///< usual: 60
+  std::string guide;                       ///< vessel that holds guide and wire: left, right, none; empty: left
   std::uint64_t seed = 1;
   std::string renderer = "scanline";
   bool overlay = false, json = false;
@@ -73,20 +74,14 @@ void declare(Options& options, Arguments& a) {
   options.add("of", a.of, "What is in the beam: a case (`ostium cases`), or phantom: fluoro's test chest")
       .show_default();
   add_patient_option(options, a.set);
-  options.add("--phase", a.phase, "Of the heart, 0 is the R wave; a film begins there. Cases")
-      .range(0.0, 1.0)
-      .show_default();
+  options.add("--phase", a.phase, "Of a case's heart, 0 is the R wave; a film begins there (0.75)").range(0.0, 1.0);
   declare_geometry(options, a);
   add_cine_flag(options, a.cine);
   add_frame_rate_option(options, "--rate", a.frames_per_s);
   options.add("--frames", a.frames, "So many; of a still picture the last is shown (8)").range(1, 10'000);
   add_fill_option(options, a.fill);
-  options.add("--stenosis", a.stenosis_percent, "Of the phantom's LAD and RCA, by diameter, %")
-      .range(0.0, 99.0)
-      .show_default();
-  options.add("--guide", a.guide, "Where the phantom's guide and wire are")
-      .one_of({"left", "right", "none"})
-      .show_default();
+  options.add("--stenosis", a.stenosis_percent, "Of the phantom's LAD and RCA, by diameter, % (60)").range(0.0, 99.0);
+  options.add("--guide", a.guide, "Where the phantom's guide and wire are (left)").one_of({"left", "right", "none"});
   options.add("--seed", a.seed, "Of the noise").show_default();
   add_renderer_option(options, a.renderer);
   options.flag("--overlay", a.overlay, "Angles, rate, times and dose on the picture (not in DICOM)");
@@ -114,9 +109,9 @@ Scenes phantom_scenes(const Arguments& a) {
   chest.filling = a.fill == "left"    ? fluoro::phantom::Filling::left
                   : a.fill == "right" ? fluoro::phantom::Filling::right
                                       : fluoro::phantom::Filling::none;
-  chest.stenosis = 0.01 * a.stenosis_percent;
+  chest.stenosis = 0.01 * a.stenosis_percent.value_or(60);
   chest.instruments = a.guide != "none";
-  chest.left_instruments = a.guide == "left";
+  chest.left_instruments = (a.guide.empty() || a.guide == "left");
   return [scene = fluoro::phantom::chest(chest)](int) { return scene; };
 }
 
@@ -125,7 +120,7 @@ Scenes patient_scenes(const Arguments& a, Eigen::Vector3d& middle) {
   show_progress("building " + a.of);
   const CaseScene made = scene_of_case(case_with(a.of, a.set), fill_named(a.fill), middle);
   const double step_s = 1 / a.frames_per_s;
-  return [made, step_s, phase = a.phase, at = 0](int frame) mutable {
+  return [made, step_s, phase = a.phase.value_or(0.75), at = 0](int frame) mutable {
     for (; at < frame; ++at) phase = made.later(phase, step_s);
     return made.at(phase);
   };
@@ -220,7 +215,11 @@ int run(const Arguments& a) {
                     "expected at most {}",
                     a.frames, a.pixels, data::dicom_most_bytes / std::uint64_t(a.pixels * a.pixels)));
   Eigen::Vector3d middle = Eigen::Vector3d::Zero();
-  if (a.of == "phantom" && !a.set.empty()) throw data::LoadError("--set is for a case; the phantom is nobody");
+  if (a.of == "phantom" && (!a.set.empty() || a.phase))
+    throw data::LoadError(std::string(a.phase ? "--phase" : "--set") + " is for a case; the phantom is nobody");
+  if (a.of != "phantom" && (a.stenosis_percent || !a.guide.empty()))
+    throw data::LoadError(std::string(a.stenosis_percent ? "--stenosis" : "--guide") +
+                          " is for the phantom; a case has lesions of its own, and no tools");
   const Scenes scenes = a.of == "phantom" ? phantom_scenes(a) : patient_scenes(a, middle);
   view.arm.p_PI += middle;
   fluoro::Scene scene = scenes(0);

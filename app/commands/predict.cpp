@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <filesystem>
+#include <optional>
 
 #include "app/command_line/command.h"
 #include "app/command_line/common_options.h"
@@ -79,16 +80,17 @@ int run(const Arguments& a) {
   data::CharacterisedWire wire;
   if (!a.with.empty()) wire = data::wire_in(data::load_instrument(data::instrument_file(a.with)));
   const data::JsonValue root = a.with.empty() ? as_read : set_with(as_read, in_set(wire));
+  std::optional<data::WireCheck> found;  // before anything is written, as it may be refused
+  if (!a.with.empty()) found = check(as_read, wire, [](const std::string& words) { show_progress(words); });
+  show_progress("");
   if (data::curves::kind_of(root))
     predict_curves(root, a.folder, a.json);
   else  // as it lies there, where nothing is changed: messages have its lines
     predict_shapes(a,
                    a.with.empty() ? data::load_measurement(a.set) : data::read_measurement(*root.file, to_json(root)));
-  if (a.with.empty()) return 0;
-  const data::WireCheck found = check(as_read, wire, [](const std::string& words) { show_progress(words); });
-  show_progress("");
-  data::write_file((std::filesystem::path(a.folder) / "check.json").string(), to_json(found));
-  fmt::print(a.json ? stderr : stdout, "with {}: off by {}\n", a.with, words_of(found));
+  if (!found) return 0;
+  data::write_file((std::filesystem::path(a.folder) / "check.json").string(), to_json(*found));
+  fmt::print(a.json ? stderr : stdout, "with {}: off by {}\n", a.with, words_of(*found));
   return 0;
 }
 

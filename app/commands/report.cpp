@@ -114,11 +114,10 @@ data::ReportRun run_of(Replay& replay, const std::string& code, const data::Scor
 }  // namespace
 
 void report_folder(const std::string& folder, std::shared_ptr<const Vessel> vessel, const std::string& recording,
-                   const std::string& scoring, fluoro::Renderer renderer) {
+                   const data::ScoreList& list, fluoro::Renderer renderer) {
   namespace fs = std::filesystem;
   const fs::path at(folder);
   Replay replay((at / recording).string(), std::move(vessel));
-  const data::ScoreList list = data::find_score_list(scoring);
   const std::vector<data::ReportRun> runs = {run_of(replay, "this run", list, renderer)};
   data::write_file((at / "report.html").string(), report_page(runs, list));
   data::write_file((at / "events.csv").string(), events_csv(runs[0]));
@@ -161,10 +160,10 @@ void declare(Options& options, Arguments& a) {
 int run(const Arguments& a) {
   if (!a.codes.empty() && a.codes.size() != a.files.size())
     throw data::LoadError(fmt::format("{} codes for {} recordings; expected one each", a.codes.size(), a.files.size()));
-  if (!a.questionnaire.empty()) data::write_file(a.questionnaire, data::questionnaire_page());
   if (a.files.empty()) {
     if (a.questionnaire.empty())
       throw data::LoadError("nothing to report; expected recordings RUN.h5, or --questionnaire");
+    data::write_file(a.questionnaire, data::questionnaire_page());
     return 0;
   }
   const data::ScoreList list = data::find_score_list(a.scoring);
@@ -175,8 +174,10 @@ int run(const Arguments& a) {
     Replay replay(a.files[i]);
     runs.push_back(run_of(replay, a.codes.empty() ? fmt::format("run {}", i + 1) : a.codes[i], list,
                           a.pictures ? std::optional(renderer_named(a.renderer)) : std::nullopt));
-    if (i == 0 && !a.events.empty()) data::write_file(a.events, events_csv(runs[0]));
   }
+  // All have been read: where one is refused nothing is written.
+  if (!a.questionnaire.empty()) data::write_file(a.questionnaire, data::questionnaire_page());
+  if (!a.events.empty()) data::write_file(a.events, events_csv(runs[0]));
   if (!a.page.empty()) data::write_file(a.page, report_page(runs, list));
   if (!a.csv.empty()) data::write_file(a.csv, report_csv(runs, list));
   fmt::print("{}\n", a.page);

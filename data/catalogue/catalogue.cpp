@@ -6,7 +6,9 @@
 #include <cstdlib>
 #include <filesystem>
 
+#include "core/base/paths.h"
 #include "data/catalogue/instrument/instrument_reader.h"
+#include "data/formats/read_file.h"
 
 namespace ostium::data {
 
@@ -23,15 +25,15 @@ void set_data_folder(const std::string& folder) { folder_set = folder; }
 std::string data_folder() {
   if (!folder_set.empty()) return folder_set;
   if (const char* set = std::getenv("OSTIUM_DATA"); set && *set) {
-    if (!fs::is_directory(set))
+    if (!core::is_folder(set))
       throw LoadError(fmt::format("OSTIUM_DATA is \"{}\"; expected the folder that holds instruments/", set));
     return set;
   }
   std::error_code no_proc;
   const fs::path program = fs::read_symlink("/proc/self/exe", no_proc);
   const fs::path installed = program.parent_path().parent_path() / "share" / "ostium";
-  if (!no_proc && fs::is_directory(installed)) return installed.string();
-  if (fs::is_directory(OSTIUM_SOURCE_DATA)) return OSTIUM_SOURCE_DATA;
+  if (!no_proc && core::is_folder(installed)) return installed.string();
+  if (core::is_folder(OSTIUM_SOURCE_DATA)) return OSTIUM_SOURCE_DATA;
   throw LoadError(
       fmt::format("there is no data at {}; set OSTIUM_DATA to the folder that holds instruments/", installed.string()));
 }
@@ -62,11 +64,13 @@ const Instrument& find_instrument(const std::vector<Instrument>& catalogue, cons
 
 std::string instrument_file(const std::string& name_or_file, const std::string& folder) {
   const fs::path known = fs::path(data_folder()) / "instruments" / (name_or_file + ".json");
-  if (fs::is_regular_file(known)) return known.string();
+  if (core::is_file(known)) return known.string();
+  for (const fs::path& file : {fs::path(folder) / name_or_file, fs::path(name_or_file)}) {
+    if (!core::is_there(file) || (core::is_file(file) && !name_or_file.ends_with(".json"))) continue;
+    require_file(file.string(), "an instrument's file, or a name of `ostium instruments`");
+    return file.string();
+  }
   if (name_or_file.ends_with(".json")) {
-    std::error_code unseen;
-    for (const fs::path& file : {fs::path(folder) / name_or_file, fs::path(name_or_file)})
-      if (fs::is_regular_file(file, unseen)) return file.string();
     throw LoadError(
         fmt::format("there is no instrument file \"{}\"{}; expected a file there, or a name of `ostium instruments`",
                     name_or_file, folder.empty() ? "" : " in " + folder + " nor from here"));

@@ -6,18 +6,19 @@
 #include <fstream>
 #include <iterator>
 
+#include "core/base/paths.h"
 #include "data/formats/load_error.h"
 
 namespace ostium::data {
 
+void require_file(const std::string& file, const std::string& expected) {
+  if (const std::string why = core::why_no_file(file); !why.empty())
+    throw LoadError(fmt::format("{}: cannot be read, {}; expected {}", file, why, expected));
+}
+
 std::string read_file(const std::string& file, const std::string& expected, std::size_t most) {
+  require_file(file, expected);
   std::error_code none;
-  const auto kind = std::filesystem::status(file, none).type();
-  if (kind == std::filesystem::file_type::not_found)
-    throw LoadError(file + ": cannot be read, there is no such file; expected " + expected);
-  if (kind != std::filesystem::file_type::regular)
-    throw LoadError(file + ": cannot be read, it is a folder, a pipe or a device; expected " + expected +
-                    ", written to a file first");
   if (std::filesystem::file_size(file, none) > most && !none)
     throw LoadError(fmt::format("{}: has more than {} MiB; expected {}, at most so long", file, most >> 20, expected));
   std::ifstream in(file, std::ios::binary);

@@ -1,6 +1,7 @@
 #include "data/formats/write_file.h"
 
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -9,6 +10,8 @@
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
+
+#include "core/base/paths.h"
 
 namespace ostium::data {
 
@@ -47,7 +50,11 @@ NewFile::NewFile(const std::string& path) : path_(path), beside_(path + ".unfini
   if (const fs::path folder = fs::path(path_).parent_path(); !folder.empty()) fs::create_directories(folder, none);
   // Neither a device nor a folder can be replaced; what is written to a folder fails.
   if (fs::exists(path_, none) && !fs::is_regular_file(path_, none)) beside_ = path_;
-  if (beside_ != path_) lock_ = locked(beside_, path_);
+  if (beside_ == path_) return;
+  if (core::is_there(beside_) && !core::is_file(beside_))  // a pipe would wait for its reader
+    throw WriteError(fmt::format("{}: cannot be written, as it is made in {}, and {}; remove that", path, beside_,
+                                 core::why_no_file(beside_)));
+  lock_ = locked(beside_, path_);
 }
 
 NewFile::~NewFile() {

@@ -6,7 +6,9 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "core/base/paths.h"
 #include "data/formats/load_error.h"
+#include "data/formats/read_file.h"
 
 namespace ostium::data {
 
@@ -57,7 +59,7 @@ FramesFile read_png_frame(const std::string& file) {
 
 FramesFile read_frames(const std::string& file) {
   const std::string kind = ending(file);
-  if (!fs::is_regular_file(file)) throw LoadError(file + ": there is no such file");
+  require_file(file, "a PNG or DICOM file");
   FramesFile out = kind == ".png" ? read_png_frame(file) : read_dicom_frames(file);
   const Eigen::Index rows = out.frames.front().rows(), columns = out.frames.front().cols();
   if (std::min(rows, columns) < least_side)
@@ -86,7 +88,7 @@ bool seems_to_have_text(const Image& image) {
 }
 
 std::vector<std::string> frame_files(const std::string& file_or_folder) {
-  if (!fs::is_directory(file_or_folder)) return {file_or_folder};
+  if (!core::is_folder(file_or_folder)) return {file_or_folder};
   std::vector<std::string> out;
   for (const fs::directory_entry& entry : fs::directory_iterator(file_or_folder))
     if (const std::string kind = ending(entry.path()); entry.is_regular_file() && (kind == ".png" || kind == ".dcm"))

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "data/formats/load_error.h"
+#include "data/formats/read_file.h"
 #include "data/formats/write_file.h"
 
 namespace ostium::data {
@@ -160,10 +161,7 @@ TableFile TableFile::open(const std::string& path, bool to_write) {
   begin();
   auto handle = std::make_unique<Handle>();
   handle->path = path;
-  std::error_code none;
-  if (std::filesystem::is_directory(path, none))
-    throw LoadError(path + ": is a folder; expected a recording, as run.h5 in a folder of `ostium run --out`");
-  if (!std::filesystem::is_regular_file(path, none)) throw LoadError(path + ": there is no such file");
+  require_file(path, "a recording, as run.h5 in a folder of `ostium run --out`");
   const htri_t hdf5 = H5Fis_hdf5(path.c_str());
   if (hdf5 == 0) throw LoadError(path + ": is no HDF5 file; expected a recording of `ostium run`");
   handle->id = H5Fopen(path.c_str(), to_write ? H5F_ACC_RDWR : H5F_ACC_RDONLY, Id(unlocked(), H5Pclose));

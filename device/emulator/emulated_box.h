@@ -13,6 +13,9 @@
 
 namespace ostium::device {
 
+/// Of the boxes that `ostium` emulates.
+inline constexpr const char* emulated_serial = "EMULATED";
+
 /// What a sensor station of the box sees.
 struct EmulatedTool {
   Tool tool = Tool::none;

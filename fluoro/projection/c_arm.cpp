@@ -15,6 +15,7 @@ void require(double value, double least, double most, double unit, const char* w
   if (value >= least - 1e-9 && value <= most + 1e-9) return;
   const auto text = [&](double x) {
     const std::string number = std::to_string(std::round(x / unit * 10) / 10);
+    if (!std::isfinite(x / unit * 10)) return number;
     return number.substr(0, number.find('.') + 2);
   };
   throw std::invalid_argument(std::string("C-arm: ") + what + " " + text(value) + " " + unit_name +

@@ -119,7 +119,7 @@ printf 'v 0 0 0\nv 9 0 0\nv 0 9 0\nv 0 0 9\nf 1 3 2\nf 1 2 4\nf 2 3 4\n' >"$fold
 expect 1 "no fault, but this is no vessel" "$ostium" check "$folder/whole.obj"
 expect 1 "3 open edges" "$ostium" check "$folder/open.obj"
 expect 1 '"sound": false' "$ostium" check --json --units cm "$folder/open.obj"
-expect 3 "is no file" "$ostium" check "$folder/none.obj"
+expect 3 "there is no such file" "$ostium" check "$folder/none.obj"
 expect 1 '"no_vessel": "this is no vessel' "$ostium" check --json --units cm "$folder/whole.obj"
 expect 1 "no vessel" "$ostium" check "$folder/whole.obj" --picture "$folder/whole.svg"
 expect 3 "png and .svg are known" "$ostium" check "$folder/whole.obj" --picture "$folder/whole.bmp"
@@ -149,6 +149,15 @@ expect 0 '"sound": true' "$ostium" check --json --units mm "$folder/closed.obj"
 expect 0 "sound" "$ostium" check --units cm "$folder/closed.obj"
 (printf '# unit: mm\n'; cat "$folder/closed.obj"; awk -v n=1440 '/^v/ { $2 += 20; print } /^f/ { print "f", $2 + n, $3 + n, $4 + n, $5 ? $5 + n : "" }' "$folder/closed.obj") >"$folder/pair.obj"
 expect 0 "2 separate pieces" "$ostium" centreline "$folder/pair.obj" -o "$folder/pair.json"
+# A start in one of them, or outside of both but nearest to it, means that one: their axes are x = 0 and x = 20.
+for start in 0,0,10:0 -3,0,10:0 8,0,20:0 20,0,10:20 23,0,10:20 12,0,20:20; do
+  expect 0 "separate pieces" "$ostium" centreline "$folder/pair.obj" --start="${start%:*}" -o "$folder/pair.json"
+  python3 - "$folder/pair.json" "${start#*:}" <<'END' || { echo "a start at ${start%:*} means the other piece"; exit 1; }
+import json, sys
+spheres = [s for branch in json.load(open(sys.argv[1]))["branches"] for s in branch["spheres"]]
+sys.exit(not (spheres and all(abs(s[0] - float(sys.argv[2])) < 1.6 for s in spheres)))
+END
+done
 printf 'v 0 0 0\nv 1 0 0\nf 1 2 2\n' >"$folder/flat.obj"
 expect 3 "no triangle in it has a width" "$ostium" check --units mm "$folder/flat.obj"
 for command in "import -o $folder/case" check "centreline -o $folder/tree.json"; do
@@ -170,7 +179,7 @@ done
 cp "$folder/mine.txt" "$folder/single/run.h5"
 expect 3 "holds run.h5, too" "$ostium" import "$folder/marked.obj" -o "$folder/single"
 [[ $(cat "$folder/mine.txt" "$folder/single/run.h5") == $'mine\nmine' && ! -e $folder/not-there ]]
-expect 3 "is a folder; expected a recording" "$ostium" report "$folder/single"
+expect 3 "is a folder, not a file; expected a recording" "$ostium" report "$folder/single"
 rm "$folder/single/run.h5"
 mkdir "$folder/twice.unfinished"
 expect 3 "another ostium writes there" flock "$folder/twice.unfinished" "$ostium" import "$folder/marked.obj" -o "$folder/twice"

@@ -384,6 +384,19 @@ def test_half_made_objects_raise(kind):
             raise AssertionError(f"{kind.__name__}.{name} answered")
 
 
+def test_half_made_objects_raise_where_they_are_handed_over(model, data):
+    half = {kind: kind.__new__(kind) for kind in (ostium.Vessel, ostium.Model, ostium.Data, ostium.Batch)}
+    wire = [("wire", "wire-014-workhorse")]
+    for call in (lambda: ostium.Model(half[ostium.Vessel], wire), lambda: ostium.Data(half[ostium.Model]),
+                 lambda: ostium.Batch(half[ostium.Model], 2), lambda: ostium.Imager(half[ostium.Model]),
+                 lambda: ostium.step(half[ostium.Model], data), lambda: ostium.step(model, half[ostium.Data]),
+                 lambda: half[ostium.Batch].step(1), lambda: ostium.Imager(model).frame(half[ostium.Data]),
+                 lambda: ostium.rollout(half[ostium.Model], [data.get_state()], np.zeros((1, 2, len(data.inputs)))),
+                 lambda: copy.deepcopy(half[ostium.Model]), lambda: pickle.dumps(half[ostium.Vessel])):
+        with pytest.raises(TypeError, match="without __init__"):
+            call()
+
+
 def test_odd_arguments(model, vessel, tmp_path):
     batch = ostium.Batch(model, 2)
     for wrong in (-1, 2**64, [[1.0]]):

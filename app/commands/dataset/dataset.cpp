@@ -16,7 +16,9 @@
 #include "app/session/labelling/label_set.h"
 #include "app/session/labelling/labelled_run.h"
 #include "app/session/labelling/splits.h"
+#include "core/base/paths.h"
 #include "data/formats/load_error.h"
+#include "data/formats/read_file.h"
 #include "data/formats/write_file.h"
 
 namespace ostium::app {
@@ -96,9 +98,9 @@ class Dataset {
  private:
   /// Throws LoadError where somebody else's lists would be replaced.
   void require_own_folder() const {
-    if (fs::exists(file("set.txt"))) return;
+    if (core::is_there(file("set.txt"))) return;
     for (const char* name : label_set_files)
-      if (fs::exists(file(name)))
+      if (core::is_there(file(name)))
         throw data::LoadError(file(name) +
                               ": is there, and of no set of pictures of ostium; expected a folder of its own");
   }
@@ -107,9 +109,8 @@ class Dataset {
   std::string run_file(std::size_t run) const { return file("runs/" + sweep_.grid.name_of(run) + ".json"); }
 
   Json stored(std::size_t run) const {
-    std::ifstream in(run_file(run), std::ios::binary);
     try {
-      Json out = Json::parse(in);
+      Json out = Json::parse(data::read_file(run_file(run), "a run's list of pictures"));
       if (out.at("dataset") == id_) return out;
     } catch (const Json::exception&) {
     }
@@ -118,7 +119,7 @@ class Dataset {
   }
 
   bool is_done(std::size_t run) const {
-    if (!fs::exists(run_file(run))) return false;
+    if (!core::is_there(run_file(run))) return false;
     stored(run);
     return true;
   }

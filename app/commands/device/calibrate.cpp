@@ -26,6 +26,7 @@ struct Arguments {
   bool dry_run = false;  ///< do not write to the box
 
   bool of_a_track() const { return length_mm || turns || station_mm || clamp_N; }
+  bool measures() const { return length_mm || turns || pressure_zero || pressure_atm || flow_zero || volume_mL; }
   bool changes() const { return of_a_track() || pressure_zero || pressure_atm || flow_zero || volume_mL; }
 };
 
@@ -122,6 +123,14 @@ void write_into_box(device::UsbPort& port, const device::Calibration& c) {
 int run(const Arguments& a) {
   if (a.of_a_track() && a.track == 0)
     throw data::LoadError("--length, --turns, --station and --clamp are of a track: --track 1 to 4");
+  if (!a.of_a_track() && a.track != 0)
+    throw data::LoadError(fmt::format(
+        "--track {}: nothing of it is given; expected --length, --turns, --station or --clamp with it", a.track));
+  if (a.seconds > 0 && !a.measures())
+    throw data::LoadError(
+        fmt::format("--seconds {:g}: nothing is measured; expected --length, --turns, --pressure-zero, "
+                    "--pressure, --flow-zero or --volume with it",
+                    a.seconds));
   std::optional<device::Calibration> from_file;
   if (!a.write.empty()) {
     from_file = read_calibration_record(a.write);

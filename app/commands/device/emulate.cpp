@@ -39,7 +39,7 @@ std::unique_ptr<device::UsbipServer> make_server(const Arguments& a, device::Emu
 int run(const Arguments& a) {
   stop_on_signals();
   device::Calibration c;
-  c.serial = "EMULATED";
+  c.serial = device::emulated_serial;
   for (device::TrackCalibration& track : c.track) track.before_introducer_mm = 20;
   device::EmulatedUsb usb(c);
   usb.with([&](device::EmulatedBox& box, device::EmulatedFaults&) { box.separate_brakes = a.separate_brakes; });

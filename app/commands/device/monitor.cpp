@@ -55,7 +55,8 @@ struct Source {
       return;
     }
     device::Calibration c;
-    c.serial = "EMULATED";
+    c.serial = device::emulated_serial;
+    require_emulated_box(a.serial);
     box = std::make_unique<device::EmulatedBox>(c);
     hand = std::make_unique<device::StrokingHand>();
     port = std::make_unique<device::EmulatedPort>(*box, [h = hand.get()](device::EmulatedBox& b) { h->move(b); });

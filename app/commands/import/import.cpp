@@ -14,6 +14,7 @@
 #include "app/command_line/read_vessel.h"
 #include "app/commands/import/imported.h"
 #include "app/commands/import/mesh_files.h"
+#include "core/base/paths.h"
 #include "core/base/units.h"
 #include "data/catalogue/case/case.h"
 #include "data/catalogue/catalogue.h"
@@ -163,9 +164,10 @@ class Import {
     if (!made_.folder.has_filename()) made_.folder = made_.folder.parent_path();
     // Where a folder on the way is made first, ".." leads elsewhere than it seems to.
     for (const fs::path& part : fs::path(made_.folder))
-      if (part == "..") made_.folder = fs::weakly_canonical(made_.folder);
+      if (std::error_code none; part == "..")
+        if (const fs::path whole = fs::weakly_canonical(made_.folder, none); !none) made_.folder = whole;
     made_.the_case.name = fs::absolute(made_.folder).filename().string();
-    if (name_only && fs::exists(fs::path(data::data_folder()) / "cases" / (options_.output + ".json")))
+    if (name_only && core::is_there(fs::path(data::data_folder()) / "cases" / (options_.output + ".json")))
       throw data::LoadError(fmt::format(
           "-o {}: is a case that ships, and would hide this one; expected another name, or a folder", options_.output));
     require_new_or_case(made_.folder, made_.the_case.name);
@@ -217,7 +219,7 @@ class Import {
   /// Of one surface through a beat. Nothing is repaired: every frame would be repaired in another way.
   void read_sequence() {
     files_ = options_.files;
-    if (files_.size() == 1 && fs::is_directory(files_.front())) files_ = numbered_meshes(files_.front());
+    if (files_.size() == 1 && core::is_folder(files_.front())) files_ = numbered_meshes(files_.front());
     if (files_.size() < 4)
       throw vascular::MeshError(fmt::format("{}: a sequence has at least 4 frames of a beat, here are {}",
                                             options_.files.front(), files_.size()));

@@ -2,16 +2,16 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <nlohmann/json.hpp>
 
 #include "app/command_line/arguments.h"
 #include "app/command_line/command.h"
 #include "app/command_line/filled_folder.h"
 #include "app/commands/serve/serve.h"
+#include "core/base/paths.h"
 #include "data/catalogue/course/course.h"
 #include "data/formats/load_error.h"
+#include "data/formats/read_file.h"
 #include "data/formats/write_file.h"
 
 namespace ostium::app {
@@ -41,9 +41,8 @@ void declare(Options& options, Arguments& a) {
 class Progress {
  public:
   explicit Progress(const std::string& folder) : file_((fs::path(folder) / "progress.json").string()) {
-    std::ifstream in(file_);
-    if (!in) return;
-    all_ = Json::parse(std::string(std::istreambuf_iterator<char>(in), {}), nullptr, false);
+    if (!core::is_there(file_)) return;
+    all_ = Json::parse(data::read_file(file_, "what `ostium learn` wrote, or no file"), nullptr, false);
     const bool right =
         all_.is_object() && std::all_of(all_.begin(), all_.end(), [](const Json& attempts) {
           return attempts.is_array() && std::all_of(attempts.begin(), attempts.end(), [](const Json& one) {
@@ -56,7 +55,7 @@ class Progress {
   /// Number of the next attempt, from 1: also after one that was cut off before it could be noted.
   std::size_t next(const std::string& lesson) const {
     std::size_t number = attempts(lesson) + 1;
-    while (fs::exists(folder_of(lesson, number))) ++number;
+    while (core::is_there(folder_of(lesson, number))) ++number;
     return number;
   }
   fs::path folder_of(const std::string& lesson, std::size_t number) const {
@@ -181,6 +180,7 @@ int run(const Arguments& a) {
     return 0;
   }
   const FilledFolder filled(folder);
+  progress = Progress(folder);  // as another left it before it was ours
   const std::size_t attempt = progress.next(lesson.name);
   serving.folder = progress.folder_of(lesson.name, attempt).string();
   bool done = false;

@@ -113,6 +113,9 @@ void require_arguments(const RunArguments& a) {
     throw data::LoadError("--report is made of a recording; expected another --record than none");
   if (!a.last_frame.empty() && !a.in_window())
     throw data::LoadError("--last-frame is of the window; expected --display window with it");
+  if (!a.serial.empty() && (a.device.empty() || a.device == "keyboard"))
+    throw data::LoadError("--serial is of a tracking box; expected --device usb, or auto, with it");
+  if (a.device == "emulator") require_emulated_box(a.serial);
   if (!a.last_frame.empty()) require_ending(a.last_frame, {".png"});
 }
 
@@ -152,7 +155,7 @@ int run_script(const RunArguments& a) {
   tell(a, setup, run, report, recorded ? options.recorder.file : "", device.get());
   if (!film_problem.empty()) fmt::print(stderr, "ostium run: no film: {}\n", film_problem);
   if (a.report && recorded && report.problem.empty())
-    report_folder(a.folder, vessel, "run.h5", "pci-elective", renderer_named(a.renderer));
+    report_folder(a.folder, vessel, "run.h5", data::find_score_list("pci-elective"), renderer_named(a.renderer));
   if (!report.problem.empty()) {
     fmt::print(stderr, "ostium run: the recording ends early: {}\n", report.problem);
     return 1;

@@ -18,6 +18,7 @@
 #include "app/commands/run/drivers.h"
 #include "app/session/run/branch.h"
 #include "app/session/run/replay.h"
+#include "core/base/paths.h"
 #include "data/catalogue/catalogue.h"
 #include "data/formats/load_error.h"
 #include "data/formats/read_file.h"
@@ -57,8 +58,10 @@ void declare(Options& options, ServeArguments& a) {
 class PassingFolder {
  public:
   PassingFolder() {
-    std::string name = (fs::temp_directory_path() / "ostium-serve-XXXXXX").string();
-    if (!mkdtemp(name.data())) throw data::LoadError(name + ": cannot be made; expected --out DIR");
+    std::error_code none;
+    std::string name = (fs::temp_directory_path(none) / "ostium-serve-XXXXXX").string();
+    if (none || !mkdtemp(name.data()))
+      throw data::LoadError("no folder for what passes can be made, in TMPDIR or /tmp; expected --out DIR");
     path_ = name;
   }
   ~PassingFolder() {
@@ -75,7 +78,7 @@ class PassingFolder {
 /// The angioplasty that is written for the case, if there is one.
 std::string script_for(const std::string& vessel) {
   const std::string own = "pci-" + vessel;
-  return fs::is_regular_file(fs::path(data::data_folder()) / "scripts" / (own + ".json")) ? own : "aorta-arch-wire";
+  return core::is_file(fs::path(data::data_folder()) / "scripts" / (own + ".json")) ? own : "aorta-arch-wire";
 }
 
 std::vector<data::Score> scores_of(const std::string& file, const SessionModel& model, const data::ScoreList& list,
@@ -95,13 +98,14 @@ void write_notes(const std::string& file, const std::vector<Note>& notes) {
 class Sitting {
  public:
   Sitting(const ServeArguments& a, const std::string& folder, const RunSetup& setup, ScriptedRun& run, LiveDriver& hand,
-          Station& station)
+          Station& station, const data::ScoreList& list)
       : a_(a),
         folder_(folder),
         setup_(setup),
         run_(run),
         hand_(hand),
         station_(station),
+        list_(list),
         dosimeter_(std::make_shared<const Dosimeter>(*run.model.vessel)) {}
 
   /// Until the trainer leaves, or the program is asked to end.
@@ -145,8 +149,7 @@ class Sitting {
   }
 
   void finish(const std::string& file) {
-    const data::ScoreList list = data::find_score_list(a_.scoring);
-    scores_ = scores_of(file, run_.model, list, last_.metrics);
+    scores_ = scores_of(file, run_.model, list_, last_.metrics);
     station_.ended(last_, scores_);
     if (a_.ended) a_.ended({last_, scores_});
     data::write_file((fs::path(folder_) / "metrics.json").string(),
@@ -154,7 +157,7 @@ class Sitting {
     write_notes((fs::path(folder_) / "notes.json").string(), station_.notes());
     if (!a_.report) return;
     try {
-      report_folder(folder_, run_.model.vessel, recording_, a_.scoring);
+      report_folder(folder_, run_.model.vessel, recording_, list_);
       station_.reported(data::read_file((fs::path(folder_) / "report.html").string()));
     } catch (const data::LoadError& error) {
       station_.tell_problem(error.what());
@@ -167,6 +170,7 @@ class Sitting {
   ScriptedRun& run_;
   LiveDriver& hand_;
   Station& station_;
+  const data::ScoreList& list_;
   std::shared_ptr<const Dosimeter> dosimeter_;
   std::string recording_ = "run.h5";
   int branches_ = 0;
@@ -186,6 +190,7 @@ int run(const ServeArguments& a) {
 Served serve(const ServeArguments& arguments) {
   ServeArguments a = arguments;
   if (a.session.script.empty()) a.session.script = script_for(a.session.vessel);
+  const data::ScoreList list = data::find_score_list(a.scoring);
   RunSetup setup = setup_of(a.session);
   const bool by_hand = a.hands == "browser";
   if (by_hand) setup.script = free_hands(setup.script);
@@ -201,11 +206,11 @@ Served serve(const ServeArguments& arguments) {
   StationSettings settings;
   settings.address = a.address, settings.port = static_cast<std::uint16_t>(a.port), settings.goes_back = true;
   settings.lesson = a.lesson;
-  Station station(session, hand, data::find_score_list(a.scoring), settings);
+  Station station(session, hand, list, settings);
   stop_on_signals();
   show_progress("");
   tell_links(station, !is_loopback(a.address));
-  Served served = Sitting(a, a.folder, setup, session, hand, station).play_all();
+  Served served = Sitting(a, a.folder, setup, session, hand, station, list).play_all();
   if (!passing)
     fmt::print(stderr, "{}: {}\n", a.folder,
                served.scores.empty() ? "what was recorded until it was left"

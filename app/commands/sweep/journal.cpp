@@ -7,9 +7,12 @@
 #include <cstdio>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "app/commands/sweep/table.h"
+#include "core/base/paths.h"
 #include "data/formats/load_error.h"
+#include "data/formats/read_file.h"
 #include "data/formats/write_file.h"
 
 namespace ostium::app {
@@ -19,6 +22,7 @@ namespace fs = std::filesystem;
 namespace {
 
 const std::string schema = "ostium-sweep-part/1";
+constexpr std::size_t most_bytes = std::size_t{1} << 34;  // a line a run
 
 std::string to_line(const JournalHead& head) {
   return nlohmann::ordered_json({{"schema", schema},
@@ -70,8 +74,7 @@ JournalHead head_of(const Sweep& sweep, const SweepPart& part) {
 }
 
 StoredJournal read_journal(const std::string& file) {
-  std::ifstream in(file, std::ios::binary);
-  if (!in) throw data::LoadError(file + ": cannot be read");
+  std::istringstream in(data::read_file(file, "an unfinished table of `ostium sweep`", most_bytes));
   StoredJournal out;
   std::getline(in, out.first);
   out.head = head_from(file, out.first);
@@ -92,7 +95,8 @@ SweepJournal::SweepJournal(const std::string& file, const std::string& table, co
     : file_(file) {
   const std::string first = to_line(head);
   std::string kept = first + "\n";
-  if (fs::exists(file)) {
+  if (core::is_there(file)) {
+    data::require_file(file, "an unfinished table, or nothing");
     lock_.emplace(file);
     if (!resume)
       throw data::LoadError(
@@ -103,7 +107,7 @@ SweepJournal::SweepJournal(const std::string& file, const std::string& table, co
           fmt::format("{} is of another sweep; expected the same ostium, cases, script, seeds and parameters", file));
     lines_ = std::move(stored.lines);
     for (const auto& [run, line] : lines_) kept += fmt::format("{} {}", run, line);
-  } else if (resume && fs::exists(table)) {
+  } else if (resume && core::is_there(table)) {
     throw data::LoadError(fmt::format(
         "{} is there, and no {} to go on with: it is finished, or another table; without --resume it is made anew",
         table, file));

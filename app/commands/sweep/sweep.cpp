@@ -26,6 +26,7 @@ void declare(Options& options, SweepArguments& a) {
   options.add("--merge", a.merge, "Put the parts of this table together").type("TABLE.csv");
   options.add("--keep", a.keep, "Where the recording of each run goes").type("DIR");
   options.add("--record", a.record, record_help()).type(record_words());
+  options.exclude("--merge", {"--seeds", "--vary", "--jobs", "--resume", "--keep", "--record", "--set", "--script"});
 }
 
 void require_arguments(const SweepArguments& a) {

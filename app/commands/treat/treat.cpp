@@ -41,6 +41,7 @@ void declare(Options& options, TreatArguments& a) {
   options.add("--seed", a.seed, "Of what happens by chance").show_default();
   add_json_flag(options, a.json);
   options.add("-o,--out", a.out, "FILE.png: before, while inflating, after, and the strips").show_default().writes();
+  options.exclude("--no-pictures", {"--out", "--view", "--pixels", "--renderer"});
 }
 
 constexpr double before_s = 2, recovers_s = 10;  // shown before and after the inflation

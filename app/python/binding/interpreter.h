@@ -25,12 +25,13 @@ class OthersRun {
 /// KeyboardInterrupt is thrown when work returns. Else throws what work threw. With the interpreter's lock.
 void run_until_interrupted(const std::function<void(const std::function<bool()>& stop)>& work);
 
+/// What is said of an object that CLASS.__new__ alone made.
+inline constexpr const char* made_without_init = "this object was made without __init__, and cannot be used";
+
 /// Base of classes that only their __init__ makes. pybind11 would hand out raw memory for what CLASS.__new__ alone
 /// made.
 struct MadeByInit {
-  static void* operator new(std::size_t) {
-    throw pybind11::type_error("this object was made without __init__, and cannot be used");
-  }
+  static void* operator new(std::size_t) { throw pybind11::type_error(made_without_init); }
   static void operator delete(void*) {}
 };
 

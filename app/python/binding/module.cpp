@@ -2,8 +2,10 @@
 #include <pybind11/pybind11.h>
 
 #include <filesystem>
+#include <string_view>
 
 #include "app/python/binding/bindings.h"
+#include "app/python/binding/interpreter.h"
 #include "app/reader/read_apart.h"
 #include "data/catalogue/catalogue.h"
 #include "data/formats/load_error.h"
@@ -14,7 +16,7 @@ namespace py = pybind11;
 
 namespace {
 
-/// Bad input as ostium.OstiumError, which knows file and line from the message.
+/// Bad input as ostium.OstiumError, which knows file and line from the message; half-made objects as TypeError.
 void raise_as_ostium_error(std::exception_ptr thrown) {  // NOLINT(performance-unnecessary-value-param): so pybind11
   const auto raise = [](const std::exception& error) {
     const py::object type = py::module_::import("ostium.errors").attr("OstiumError");
@@ -28,6 +30,10 @@ void raise_as_ostium_error(std::exception_ptr thrown) {  // NOLINT(performance-u
     raise(error);
   } catch (const std::filesystem::filesystem_error& error) {
     raise(error);
+  } catch (const py::cast_error& error) {
+    // So pybind11 calls an object without __init__ where it is handed over, as a model to an imager.
+    if (std::string_view(error.what()).find("non-held") == std::string_view::npos) throw;
+    PyErr_SetString(PyExc_TypeError, ostium::python::made_without_init);
   }
 }
 

@@ -58,7 +58,7 @@ class EmulatedRun : public BoxRun {
  private:
   static device::Calibration calibration() {
     device::Calibration c;
-    c.serial = "EMULATED";
+    c.serial = device::emulated_serial;
     return c;
   }
   device::EmulatedBox box_{calibration()};

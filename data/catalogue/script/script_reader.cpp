@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <iterator>
 
+#include "core/base/paths.h"
 #include "core/base/units.h"
 #include "data/catalogue/case/case.h"
 #include "data/catalogue/catalogue.h"
@@ -232,7 +233,11 @@ std::string ScriptStep::words() const {
 
 Script read_script(const std::string& file, const std::string& text) { return read(parse_json(file, text), text); }
 
-Script load_script(const std::string& file) { return read(load_json(file), read_file(file)); }
+Script load_script(const std::string& file) {
+  const std::string text = read_file(file, "a script NAME.json", json_limits::bytes);
+  if (text.empty()) throw LoadError(file + ": holds nothing; expected a script");
+  return read(parse_json(file, text), text);
+}
 
 std::vector<Script> load_scripts() {
   const fs::path folder = fs::path(data_folder()) / "scripts";
@@ -256,8 +261,9 @@ void require_access(const Script& script, std::optional<vascular::Access> of_cas
 
 Script find_script(const std::string& name_or_file) {
   const fs::path known = fs::path(data_folder()) / "scripts" / (name_or_file + ".json");
-  if (fs::is_regular_file(known)) return load_script(known.string());
+  if (core::is_file(known)) return load_script(known.string());
   if (name_or_file.ends_with(".json")) return load_script(name_or_file);
+  if (core::is_there(name_or_file)) require_file(name_or_file, "a script's file NAME.json");
   std::string names;
   for (const Script& script : load_scripts()) names += "\n  " + script.name;
   throw LoadError(

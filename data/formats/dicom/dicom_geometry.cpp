@@ -8,6 +8,7 @@
 #include <filesystem>
 
 #include "data/formats/load_error.h"
+#include "data/formats/read_file.h"
 
 namespace ostium::data {
 
@@ -16,7 +17,7 @@ namespace {
 class TagReader {
  public:
   explicit TagReader(const std::string& file) : file_(file) {
-    if (!std::filesystem::is_regular_file(file)) throw LoadError(file + " cannot be read; expected a DICOM file");
+    require_file(file, "a DICOM file");
     const OFCondition read = format_.loadFile(file.c_str(), EXS_Unknown, EGL_noChange, 64, ERM_fileOnly);
     if (read.bad()) throw LoadError(fmt::format("{} is not a DICOM file: {}", file, read.text()));
   }

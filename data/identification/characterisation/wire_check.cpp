@@ -70,9 +70,10 @@ std::vector<Misfits> of_shapes(const JsonValue& root) {
   std::vector<Misfits> out;
   for (std::size_t i = 0; i < set.experiments.size(); ++i) {
     const Experiment& e = set.experiments[i];
-    PredictedShape shape = set.vessel ? inserted[i] : shape_from(setup_of(set, e, declared), anchors[i]);
+    const ExperimentSetup setup = setup_of(set, e, declared);
+    PredictedShape shape = set.vessel ? inserted[i] : shape_from(setup, anchors[i]);
     if (!set.vessel) add_later_views(set, e, declared, fine_elements_m, anchors[i], shape);
-    if (!shape.converged) root.fail(fmt::format("{} (\"{}\"): no static shape was found", e.place, e.id));
+    if (!shape.converged) throw LoadError(no_static_shape(set, e, setup));
     Misfits m{e.id, misfit(e, shape, seen(set, e, declared, {})) / *set.imaging.noise_sigma_m,
               static_cast<double>(numbers_measured(e))};
     if (const auto push = push_misfit_N(e, shape); push && push_sigma) {

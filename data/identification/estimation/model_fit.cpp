@@ -1,7 +1,5 @@
 #include "data/identification/estimation/model_fit.h"
 
-#include <fmt/format.h>
-
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
@@ -228,11 +226,11 @@ void ModelFit::anchor(const VectorXd& x) {
     viewed_ = true;
     return;
   }
-  std::vector<StaticEquilibrium> anchors = walk(set_, parameters_.changes(x), {}, longest_element_m_);
+  const Changes changes = parameters_.changes(x);
+  std::vector<StaticEquilibrium> anchors = walk(set_, changes, {}, longest_element_m_);
   for (std::size_t e = 0; e < anchors.size(); ++e)
-    if (!anchors[e].converged)
-      throw LoadError(fmt::format("{}: {} (\"{}\"): no static shape was found; is its load more than it can bear?",
-                                  set_.file, set_.experiments[e].place, set_.experiments[e].id));
+    if (const Experiment& asked = set_.experiments[e]; !anchors[e].converged)
+      throw LoadError(no_static_shape(set_, asked, setup_of(set_, asked, changes, longest_element_m_)));
   forward_.emplace(set_, workers_, std::move(anchors));
   forward_->set_longest_element(longest_element_m_);
   if (viewed_) return;

@@ -70,9 +70,7 @@ std::vector<Prediction> predict(const MeasurementSet& set,
     const ExperimentSetup setup = setup_of(set, e, declared);
     PredictedShape shape = set.vessel ? inserted[i] : shape_from(setup, anchors[i]);
     if (!set.vessel) add_later_views(set, e, declared, fine_elements_m, anchors[i], shape);
-    if (!shape.converged)
-      throw LoadError(fmt::format("{}: {} (\"{}\"): no static shape was found; is its load more than it can bear?",
-                                  set.file, e.place, e.id));
+    if (!shape.converged) throw LoadError(no_static_shape(set, e, setup));
     const MeasuredView view = seen(set, e, declared, {});
     Prediction p{e.id, shape, {}, set.vessel ? std::vector<double>{} : other_branches(setup, shape), set.unit(), {}};
     for (std::size_t v = 0; v < set.views.size(); ++v)

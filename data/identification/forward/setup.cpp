@@ -65,6 +65,22 @@ ExperimentSetup setup_of(const MeasurementSet& set, const Experiment& experiment
   return setup;
 }
 
+std::string no_static_shape(const MeasurementSet& set, const Experiment& experiment, const ExperimentSetup& setup) {
+  const double force_N = setup.tip_force_N.norm(), turns = turns_at_rest(setup);
+  std::string asked;
+  if (set.vessel)
+    asked = "on its way through the vessel it was lost; is it too long or too stiff for that?";
+  else if (force_N > 0)
+    asked = fmt::format("is {:.3g} N at the tip more than it can bear?", force_N);
+  else if (turns >= 1)
+    asked = fmt::format("nothing pulls at its tip, and of itself it makes {:.3g} turns; is its rest curvature right?",
+                        turns);
+  else
+    asked = "nothing pulls at its tip; are stiffness, weight and rolls right?";
+  return fmt::format("{}: {} (\"{}\"): no static shape was found with {:.4g} mm inserted: {}", set.file,
+                     experiment.place, experiment.id, 1e3 * setup.nest.parts.back().inserted_m, asked);
+}
+
 void require_known(const MeasurementSet& set) {
   if (!set.vessel) return;
   const auto refuse = [&](const Experiment& e, const std::string& what) {

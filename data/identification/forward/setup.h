@@ -16,6 +16,9 @@ inline constexpr double fine_elements_m = 1.5e-3, coarse_elements_m = 3e-3;
 ExperimentSetup setup_of(const MeasurementSet& set, const Experiment& experiment, const Changes& changes,
                          double longest_element_m = fine_elements_m, int view = 0);
 
+/// What to say where an experiment has no static shape: what was asked for, and what may be wrong with it.
+std::string no_static_shape(const MeasurementSet& set, const Experiment& experiment, const ExperimentSetup& setup);
+
 /// Refuses what the models cannot handle: in a vessel, a moving base, shafts that twist, specimens, or an innermost
 /// instrument that ends inside another; and a vessel that was not read (load_measurement reads it).
 void require_known(const MeasurementSet& set);

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <filesystem>
 
+#include "core/base/paths.h"
 #include "core/base/units.h"
 #include "data/catalogue/instrument/instrument.h"
 #include "data/identification/measurement/experiment_reader.h"
@@ -152,7 +153,7 @@ MeasurementSet read(const JsonValue& file) {
 }  // namespace
 
 std::string measurement_file(const std::string& path) {
-  return std::filesystem::is_directory(path) ? (std::filesystem::path(path) / "measurement.json").string() : path;
+  return core::is_folder(path) ? (std::filesystem::path(path) / "measurement.json").string() : path;
 }
 
 MeasurementSet read_measurement(const std::string& file, const std::string& text) {

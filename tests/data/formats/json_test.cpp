@@ -38,15 +38,14 @@ TEST(Json, EveryLimitIsNamedWithFilePlaceAndNumber) {
 }
 
 TEST(Json, AFileWithoutEndIsRefused) {
-  expect_words(refusal_of([] { load_json("/dev/zero"); }),
-               {"/dev/zero: cannot be read, it is a folder, a pipe or a device"});
+  expect_words(refusal_of([] { load_json("/dev/zero"); }), {"/dev/zero: cannot be read, it is a device, not a file"});
 }
 
 TEST(Json, APipeThatNobodyFillsIsRefused) {
   const std::string pipe = testing::TempDir() + "pipe.json";
   std::remove(pipe.c_str());
   ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
-  expect_words(refusal_of([&] { load_json(pipe); }), {"pipe.json: cannot be read, it is a folder, a pipe or a device"});
+  expect_words(refusal_of([&] { load_json(pipe); }), {"pipe.json: cannot be read, it is a pipe, not a file"});
   expect_words(refusal_of([&] { find_score_list(pipe); }), {"pipe", "expected a scoring list"});
   std::remove(pipe.c_str());
 }

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 #include <sys/resource.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <csignal>
@@ -168,6 +169,13 @@ TEST_F(WriteFile, WhatIsNotFinishedIsNotThere) {
   }
   EXPECT_EQ(text_of(in("a")), "before");
   EXPECT_EQ(files(), 1);
+}
+
+/// A pipe of that name would wait for somebody who reads it.
+TEST_F(WriteFile, APipeWhereAFileIsMadeIsRefused) {
+  ASSERT_EQ(mkfifo(in("a.unfinished").c_str(), 0600), 0);
+  EXPECT_THROW(write_file(in("a"), "text"), WriteError);
+  EXPECT_FALSE(fs::exists(in("a")));
 }
 
 /// Two films into one file would end as frames of both, under one name.

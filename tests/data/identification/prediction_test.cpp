@@ -8,7 +8,9 @@
 
 #include "core/base/units.h"
 #include "data/identification/forward/curve.h"
+#include "data/identification/forward/setup.h"
 #include "data/identification/measurement/measurement_reader.h"
+#include "tests/data/refusals.h"
 #include "tests/support/sets/synthetic_set.h"
 
 namespace ostium::data {
@@ -145,6 +147,24 @@ TEST(Prediction, FilesHaveTheSchema) {
   auto named = predictions;
   named[0].id = "=1,\"2\"";
   EXPECT_NE(to_csv(named).find("\n\"'=1,\"\"2\"\"\",0.000000,"), std::string::npos) << "no formula, and one field";
+}
+
+/// A load is spoken of only where there is one.
+TEST(Prediction, WithoutAShapeItIsSaidWhatWasAsked) {
+  MeasurementSet set = through_file(synthetic::free_wire(1));
+  for (core::Section& s : set.instruments[0].sections) s.rest_curvature_per_m = {0, 2 * units::pi / 0.3 * 25, 0};
+  set.experiments[0].set[0].inserted_m = 0.3;
+  set.experiments[0].tip_force_N.setZero();
+  expect_words(refusal_of([&] { predict(set); }),
+               {"experiments[0]", "no static shape was found with 300 mm inserted", "makes 25 turns"});
+  Experiment& e = set.experiments[0];
+  const auto words = [&] { return no_static_shape(set, e, setup_of(set, e, {})); };
+  EXPECT_EQ(words().find("load"), std::string::npos) << words();
+  e.tip_force_N = {0, 0, 2.5};
+  expect_words(words(), {"is 2.5 N at the tip more than it can bear?"});
+  for (core::Section& s : set.instruments[0].sections) s.rest_curvature_per_m.setZero();
+  e.tip_force_N.setZero();
+  expect_words(words(), {"nothing pulls at its tip; are stiffness"});
 }
 
 TEST(Prediction, WhatIsNotKnownYetIsSaid) {

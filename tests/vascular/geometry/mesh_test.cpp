@@ -196,7 +196,7 @@ TEST(Mesh, ASequenceKeepsItsVerticesWhereverTheyMove) {
 }
 
 TEST(Mesh, WhatIsNoSurfaceIsRefused) {
-  EXPECT_NE(refusal("/nowhere.obj").find("is no file"), std::string::npos);
+  EXPECT_NE(refusal("/nowhere.obj").find("there is no such file"), std::string::npos);
   EXPECT_NE(refusal(written("text.stl", "hello")).find("cannot be read as a mesh"), std::string::npos);
   EXPECT_NE(refusal(written("empty.obj", "v 0 0 0\nv 1 0 0\n")).find(".obj"), std::string::npos);
   EXPECT_EQ(

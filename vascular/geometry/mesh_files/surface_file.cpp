@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <new>
 
+#include "core/base/paths.h"
 #include "vascular/geometry/mesh/mesh.h"
 #include "vascular/geometry/mesh_files/formats.h"
 #include "vascular/geometry/mesh_files/raw_surface.h"
@@ -10,13 +11,13 @@
 namespace ostium::vascular {
 
 RawSurface read_surface(const std::string& path) {
-  std::error_code unseen;
-  if (!std::filesystem::is_regular_file(path, unseen))
-    throw MeshError(fmt::format("{}: is no file; expected a mesh ({})", path, listed_mesh_endings()));
+  if (const std::string why = core::why_no_file(path); !why.empty())
+    throw MeshError(fmt::format("{}: cannot be read, {}; expected a mesh ({})", path, why, listed_mesh_endings()));
   const std::string ending = ending_of(path);
   if (!has_mesh_ending(path))
     throw MeshError(fmt::format("{}: the ending \"{}\" names no format that is read as a mesh; expected one of {}",
                                 path, ending, listed_mesh_endings()));
+  std::error_code unseen;
   if (const std::uintmax_t bytes = std::filesystem::file_size(path, unseen); bytes > longest_mesh_file)
     throw MeshError(fmt::format("{}: has {} MB; expected at most {}: simplify the mesh", path, bytes / 1'000'000,
                                 longest_mesh_file / 1'000'000));

@@ -1,0 +1,97 @@
+#!/usr/bin/env bash
+# What is refused: said as what it is, before anything is read or written, and nothing is left behind.
+set -euo pipefail
+ostium=$1
+folder=$(mktemp -d)
+trap 'rm -rf "$folder"' EXIT
+
+. "$(dirname "$(readlink -f "$0")")/expect.sh"
+cd "$folder"
+
+# Pipes, sockets, devices and links in place of files: none is opened, as it would wait, or never end.
+python3 -c 'import socket; socket.socket(socket.AF_UNIX).bind("socket.json")'
+for ending in .json .h5 .stl .png ""; do
+  mkfifo "pipe$ending"
+  ln -s "round$ending" "round$ending"
+done
+refused() { # refused WORD ARGUMENTS...: within some seconds
+  expect 3 "$1" timeout 20 "$ostium" "${@:2}"
+}
+round="symbolic link on the way leads to itself"
+for what in "pipe:it is a pipe" "round:$round"; do
+  for command in replay report; do
+    refused "${what#*:}" "$command" "${what%:*}.h5"
+    refused "${what#*:}" "$command" "${what%:*}"
+  done
+  for ending in .json ""; do
+    file=${what%:*}$ending
+    refused "${what#*:}" run rca-mid-focal --set "wire=$file"
+    refused "${what#*:}" run rca-mid-focal --script "$file"
+    refused "${what#*:}" run "$file"
+    refused "${what#*:}" serve rca-mid-focal --scoring "$file"
+    for command in learn explain predict; do refused "${what#*:}" "$command" "$file"; done
+  done
+  refused "${what#*:}" check "${what%:*}.stl"
+  refused "${what#*:}" import "${what%:*}.stl" -o case
+  refused "${what#*:}" picture "${what%:*}.png"
+done
+refused "it is a socket" predict socket.json
+refused "it is a device" replay /dev/zero
+mkfifo table.csv.part other.csv.part-1-of-2
+refused "it is a pipe" sweep rca-mid-focal --script iliac-wire -o table.csv --resume
+refused "it is a pipe" sweep --merge other.csv
+mkdir -p learnt/first-steps
+mkfifo learnt/first-steps/progress.json
+refused "it is a pipe" learn --list --out learnt
+TMPDIR=/nowhere refused "TMPDIR" serve rca-mid-focal
+# A list of values is longer than any file's name, and is none.
+expect 0 "1 runs" "$ostium" sweep rca-mid-focal --script iliac-wire --seconds 0.05 --seeds 1..1 -o many.csv --part 100/100 \
+  --vary "person=$(seq -s, 1 100)"
+
+# What goes against what else is said is not passed over.
+refused "one emulated box, EMULATED" device monitor --emulator --serial X
+expect 0 "running" "$ostium" device monitor --emulator --serial EMULATED --seconds 0.3
+refused "one emulated box, EMULATED" run rca-mid-focal --device emulator --serial X
+refused "is of a tracking box" run rca-mid-focal --serial X
+refused "nothing of it is given" device calibrate --track 2
+refused "nothing is measured" device calibrate --seconds 3
+refused "is for a case" frame --phase 0.3 -o none.png
+refused "is for the phantom" frame rca-mid-focal --stenosis 30 -o none.png
+refused "is for the phantom" frame rca-mid-focal --guide none -o none.png
+refused "angle inf degrees cannot be reached" frame --lao 1e308 -o none.png
+expect 2 "--out beside --no-pictures would do nothing" "$ostium" treat --no-pictures -o none.png
+expect 2 "--seeds beside --merge would do nothing" "$ostium" sweep --merge other.csv --seeds 1..4
+
+# What cannot be put where it should go is refused before the work.
+touch before
+mkdir folder.png folder.csv folder.html
+cannot() { # cannot ARGUMENTS...: within a second of processor
+  expect 1 "cannot be written" bash -c 'ulimit -t 1; "$@"' cannot "$ostium" "$@"
+}
+cannot treat -o folder.png
+cannot inject -o folder.png
+cannot sweep rca-mid-focal -o folder.csv
+cannot report none.h5 -o folder.html
+cannot treat -o before/pictures/treat.png
+cannot explain bend --write-instrument folder.png
+[[ ! -e folder.csv.part ]]
+
+# A refusal leaves everything as it was.
+"$ostium" explain --template three_point_bend -o bend >/dev/null
+ls bend >before
+refused "measurement.json is there already" explain --template projections -o bend
+ls bend | cmp - before
+refused "there is no template" explain --template nothing -o none
+expect 2 "expected one of them" "$ostium" explain bend --template projections -o none
+echo none >none.h5
+refused "is no HDF5 file" report none.h5 -o none.html --questionnaire none-forms.html --events none.csv
+[[ ! -e none && ! -e none.html && ! -e none-forms.html && ! -e none.csv ]]
+"$ostium" explain --template projections -o seen >/dev/null
+python3 - <<'END'
+import json
+told = json.load(open("seen/measurement.json"))
+told["imaging"]["noise_sigma_px"] = None
+json.dump(told, open("seen/no-noise.json", "w"))
+END
+refused "its noise is not declared" predict seen/no-noise.json --with rosen -o none
+[[ ! -e none ]]
