@@ -18,9 +18,11 @@ using units::atm;
 
 using units::pi;
 constexpr int n = balloon_spheres;
-constexpr double fold_share = 0.25;  // share of the unfolding pressure needed to start opening the folds
-constexpr double sealed_m = 20e-6;   // a gap this narrow counts as sealed
-constexpr double soft_m = 30e-6;     // distance over which balloon and stent come to bear on the wall
+constexpr double fold_share = 0.25;      // share of the unfolding pressure needed to start opening the folds
+constexpr double sealed_m = 20e-6;       // a gap this narrow counts as sealed
+constexpr double soft_m = 30e-6;         // distance over which balloon and stent come to bear on the wall
+constexpr double packed_Pa = 100 * atm;  // stiffness of folds that lie one on the other [estimate]
+constexpr double wedge_ahead_m = 1.5e-3, wedge_gap_m = 30e-6;  // more than a session's wall lags
 
 double spacing(const BalloonModel& m) { return (m.length_m + 2 * m.shoulder_m) / (n - 1); }
 
@@ -38,7 +40,8 @@ WallPressure skin(const BalloonModel& m, double share, bool was_filled, double a
     return {m.unfolding_Pa + slope * (a - full), slope};
   }
   // The factory folds stay closed until a small pressure opens them; once opened, they need vacuum to fold again.
-  const double way = std::max(full - folded, 20e-6), x = (a - folded) / way;
+  const double way = std::max(full - folded, 20e-6), x = (a - folded) / way, packed = std::min(m.folded_m, full);
+  if (a < packed) return {x * 4 * atm + packed_Pa * (a / packed - 1), 4 * atm / way + packed_Pa / packed};
   if (x < 0) return {x * 4 * atm, 4 * atm / way};
   const double low = fold_share * m.unfolding_Pa - (was_filled ? 0.35 * atm : 0);
   return {low + x * (m.unfolding_Pa - low), (m.unfolding_Pa - low) / way};
@@ -135,6 +138,19 @@ void slide(const BalloonModel& m, double along_N, double pressed_N, double dt, B
   s.slip_m += std::copysign(std::fabs(wanted) - held, wanted) * dt / (m.slide_N_s_m + m.grip_N_m * dt);
 }
 
+/// The shaft's tip is a cone that opens a narrowing as it goes in, elastically, and what follows keeps it open, with a
+/// gap, so that contact's wall, which lags, does not pinch the rod. The cone's cost is small: the plaque's pressure on
+/// the ring between lumen and shaft, 0.05 N for 0.6 mm in 0.5 mm.
+void wedge(const BalloonModel& m, const PlaqueModel& plaque, const VesselPath& path, double middle_m,
+           PlaqueState& wall) {
+  if (m.tip_m <= 0) return;
+  const double from_m = middle_m - m.length_m / 2, to_m = middle_m + m.length_m / 2 + m.tip_m + wedge_ahead_m,
+               wanted_m = m.tip_radius_m + wedge_gap_m;
+  for (std::size_t k = 0; k < path.cells.size(); ++k)
+    if (path.s_m[k] > from_m && path.s_m[k] < to_m && wall.radius_m[path.cells[k]] < wanted_m)
+      push_wall(plaque, path.cells[k], wanted_m, wall);
+}
+
 }  // namespace
 
 BalloonReport step(const BalloonModel& m, const PlaqueModel& plaque, const BalloonInputs& in, double dt,
@@ -214,6 +230,7 @@ BalloonReport step(const BalloonModel& m, const PlaqueModel& plaque, const Ballo
       narrowest_gap = std::min(narrowest_gap, wall.radius_m[in.path->cells[k]] - outer);
     }
     report.seals = narrowest_gap < sealed_m;
+    wedge(m, plaque, *in.path, in.middle_m + s.slip_m, wall);
   }
   double least = 1, most = 0;
   const int first = static_cast<int>(std::ceil(m.shoulder_m / ds)), last = n - 1 - first;

@@ -29,7 +29,7 @@ Strength strength_of(const PlaqueModel& model, const PlaqueState& s, int i) {
   Strength is{.open_m = open_m(model, cell, s.rest_m[i])};
   is.share = lost > 1e-9 ? (is.open_m - cell.diseased_m) / lost : 1;
   is.spring_Pa = model.law.spring_Pa * (is.open_m - s.rest_m[i]) / cell.healthy_m;
-  const double free = std::max(model.law.least_free, 1 - cell.calcium_share * (1 - s.cracked[i]));
+  const double free = 1 - model.law.calcium_holds * cell.calcium_share * (1 - s.cracked[i]);
   is.yield_Pa = cell.yield_Pa * (1 - model.law.weakening * s.broken[i]) +
                 cell.hardening_Pa * std::clamp(is.share, 0.0, 1.0) / free;
   is.E_Pa = cell.E_Pa * std::max(1.0, is.yield_Pa / cell.yield_Pa);

@@ -10,10 +10,11 @@
 /// pressure at first and at more the farther it is open. When the balloon is removed, that strain springs back at once;
 /// and of the opening itself a share, softly (E_s), as the stretched wall around it closes again,
 ///   rest = diseased + (1 - spring_back) (open - diseased)
-/// unless a stent holds it: after plain balloons recoil is 20 to 30 % of the diameter, in stents 5 to 9 %. `free` is
-/// the share of the wall without calcium: only that part stretches, the calcium goes along. Calcium of more than half
-/// the wall is a ring under p a / t; where that exceeds its strength it breaks, and the whole wall is free again.
-/// Smaller pieces hardly ever break (Zhu et al., PLOS ONE 2021;16:e0251404).
+/// unless a stent holds it: after plain balloons recoil is 20 to 30 % of the diameter, in stents 5 to 9 %. `free`
+/// falls with the calcium's arc, since only the rest of the wall stretches, and all of it only behind the calcium
+///   free = 1 - calcium_holds arc / (2 pi)
+/// Calcium of more than half the wall is a ring under p a / t; where that exceeds its strength it breaks, and the whole
+/// wall is free again. Smaller pieces hardly ever break (Zhu et al., PLOS ONE 2021;16:e0251404).
 ///
 /// The constants are fitted to one measurement: after its delivery balloon a stent's minimal diameter is 27.2 +- 7.2 %
 /// below the balloon's chart (Aziz et al., Heart 2007;93:1562; n = 499). Recoil (5 to 9 %) and expansion after
@@ -31,7 +32,7 @@ struct PlaqueLaw {
   double hardening_Pa = 14 * 101325;  ///< of the typical plaque, all of it free
   double calcium_Pa = 2.4e6;          ///< a ring's strength: 0.5 mm in a lumen of 2.4 mm breaks at 10 atm
   double spring_back = 0.2, spring_Pa = 7 * 101325;  ///< and E_s: about 1 atm holds all of it, as a stent can
-  double least_free = 0.1;                           ///< of the wall, whatever the calcium's arc
+  double calcium_holds = 0.6;  ///< as a full ring [estimate: 180 degrees cost a fifth of the expansion, Fujino 2018]
 };
 
 struct PlaqueCell {

@@ -42,12 +42,15 @@ vascular::Line line_of(const data::Instrument& guide) {
 
 namespace {
 
+double radius_of(const data::Instrument& instrument, double from_tip_m) {
+  for (const core::Section& section : instrument.sections)
+    if (section.from_tip_m <= from_tip_m && from_tip_m < section.to_tip_m) return section.radius_m;
+  return instrument.outer_diameter_m / 2;
+}
+
 /// Radius of what lies between its markers: of a folded balloon, its profile.
 double radius_between_markers(const data::Instrument& instrument) {
-  const double middle_m = (marker_from_tip_m(instrument, 0) + marker_from_tip_m(instrument, 1)) / 2;
-  for (const core::Section& section : instrument.sections)
-    if (section.from_tip_m <= middle_m && middle_m < section.to_tip_m) return section.radius_m;
-  return instrument.outer_diameter_m / 2;
+  return radius_of(instrument, (marker_from_tip_m(instrument, 0) + marker_from_tip_m(instrument, 1)) / 2);
 }
 
 }  // namespace
@@ -65,6 +68,8 @@ std::vector<int> add_devices(const std::vector<SessionTool>& tools, std::uint64_
     balloon.name = tool.instrument.title;
     balloon.nominal_Pa = carried.nominal_Pa, balloon.rated_Pa = carried.rated_Pa;
     balloon.seed = seed + model.balloons.size() + 1;
+    balloon.tip_m = marker_from_tip_m(tool.instrument, 1);
+    balloon.tip_radius_m = std::max(radius_of(tool.instrument, 0), radius_between_markers(tool.instrument));
     // Under a stent it is as small as the makers' own balloons are; without one it is what its shaft shows.
     if (!tool.instrument.stent && !carried.own_folds) {
       const double larger_m = balloon.refolded_m - balloon.folded_m;

@@ -103,12 +103,25 @@ TEST(Case, ALesionLiesAtTheEndOfAnArteryThatIsShorterInSomebody) {
   EXPECT_GT(moved, 0);
 }
 
+TEST(Case, AnotherPersonHasPlaqueOfTheirOwn) {
+  const Case mean = find_case("rca-diffuse"), one = with_person(mean, 1), again = with_person(mean, 1);
+  EXPECT_EQ(with_person(mean, 0).lesions[0].made_of.calcium_arc_rad, mean.lesions[0].made_of.calcium_arc_rad);
+  for (std::size_t l = 0; l < mean.lesions.size(); ++l) {
+    EXPECT_NE(one.lesions[l].made_of.hardness, mean.lesions[l].made_of.hardness);
+    EXPECT_EQ(one.lesions[l].made_of.hardness, again.lesions[l].made_of.hardness);
+    EXPECT_TRUE(one.lesions[l].made_of.calcified());
+  }
+}
+
 TEST(Case, OtherMistakesAreNamed) {
   expect_words(case_refusal("\"right\"", "\"middle\""), {"small.json:6: anatomy.dominance is \"middle\"", "balanced"});
   expect_words(case_refusal("\"seed\": 0", "\"seed\": 1.5"), {"small.json:6: anatomy.seed is 1.5", "whole number"});
   expect_words(case_refusal("\"heart_rate_1_min\": 70", "\"heart_rate_1_min\": 300"), {"small.json:7:", "40 to 180"});
   expect_words(case_refusal("\"calcified\": false", "\"calcified\": 0"), {"small.json:9:", "true or false"});
   expect_words(case_refusal("\"calcified\": false", "\"calcified\": false, \"side_deg\": 3"), {"eccentric ones only"});
+  expect_words(case_refusal("\"calcified\": false", "\"calcified\": false, \"calcium_arc_deg\": 200"),
+               {"calcium_arc_deg", "120 or more if calcified"});
+  expect_words(case_refusal("\"calcified\": false", "\"calcified\": true, \"hardness\": 0"), {"hardness", "0.2 to 5"});
   expect_words(case_refusal("\"name\": \"small\"", "\"name\": \"big\""), {"small.json:3: name is \"big\""});
   expect_words(case_refusal("\"title\"", "\"titel\""), {"titel is not a key of the case", "title"});
   try {
