@@ -193,7 +193,7 @@ TEST(Case, ABrokenImportedOneIsRefused) {
     }
     return "accepted";
   };
-  expect_words(message(imported_case("none.ply")), {"mine.json:6", "none.ply", "no file"});
+  expect_words(message(imported_case("none.ply")), {"mine.json:6", "none.ply", "no such file"});
   expect_words(message(imported_case("../lumen.ply")), {"mine.json:6", "beside this one"});
   const fs::path folder = imported_case();
   std::stringstream text;
