@@ -18,9 +18,9 @@
 #include <type_traits>
 
 #include "app/command_line/interrupt.h"
-#include "core/base/paths.h"
 #include "data/formats/decimal.h"
 #include "data/formats/load_error.h"
+#include "data/formats/paths.h"
 #include "data/formats/write_file.h"
 
 namespace ostium::app {
@@ -148,12 +148,12 @@ bool is_one_file(const std::string& a, const std::string& b) {
 void require_place_for(const std::string& file) {
   namespace fs = std::filesystem;
   std::error_code none;
-  if (core::is_folder(file)) throw data::write_error(file, "it is a folder, not a file");
-  if (fs::exists(file, none) && !core::is_file(file)) return;  // a device takes what comes
+  if (data::is_folder(file)) throw data::write_error(file, "it is a folder, not a file");
+  if (fs::exists(file, none) && !data::is_file(file)) return;  // a device takes what comes
   fs::path folder = fs::weakly_canonical(fs::absolute(file, none), none).parent_path();
-  while (folder.has_relative_path() && !core::is_there(folder)) folder = folder.parent_path();  // the rest is made
+  while (folder.has_relative_path() && !data::is_there(folder)) folder = folder.parent_path();  // the rest is made
   if (!folder.empty() && access(folder.c_str(), W_OK | X_OK) != 0)
-    throw data::write_error(file, std::strerror(core::is_folder(folder) ? errno : ENOTDIR));
+    throw data::write_error(file, std::strerror(data::is_folder(folder) ? errno : ENOTDIR));
 }
 
 /// Throws LoadError if a file that is to be written is named twice, or is one to read; WriteError if it cannot be
@@ -172,13 +172,13 @@ void require_apart(const CLI::App& app, const std::vector<const CLI::Option*>& w
         const bool both = writes(options[j]);
         if (j == i || (both && j < i)) continue;
         for (std::string other : values_of(*options[j])) {
-          if (!both && other.find('=') != std::string::npos && !core::is_there(other))
+          if (!both && other.find('=') != std::string::npos && !data::is_there(other))
             other = other.substr(other.find('=') + 1);  // --set wire=FILE
           if (!is_one_file(file, other)) continue;
           if (both)
             throw data::LoadError(fmt::format("{} and {} are one file, {}; expected one for each",
                                               options[i]->get_name(), options[j]->get_name(), file));
-          if (core::is_file(other))
+          if (data::is_file(other))
             throw data::LoadError(fmt::format("{} {} would take the place of what is read, {}; expected another name",
                                               options[i]->get_name(), file, other));
         }

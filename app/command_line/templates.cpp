@@ -4,9 +4,9 @@
 #include <filesystem>
 
 #include "app/command_line/arguments.h"
-#include "core/base/paths.h"
 #include "data/catalogue/catalogue.h"
 #include "data/formats/load_error.h"
+#include "data/formats/paths.h"
 #include "data/formats/read_file.h"
 #include "data/formats/write_file.h"
 
@@ -42,7 +42,7 @@ std::vector<std::string> write_template(const std::string& kind, const std::stri
   std::vector<std::string> written;
   for (const fs::path& file : files) {
     written.push_back((fs::path(folder) / file.filename()).string());
-    if (core::is_there(written.back()))
+    if (data::is_there(written.back()))
       throw data::LoadError(written.back() + " is there already; expected a folder without it");
   }
   make_folder(folder);

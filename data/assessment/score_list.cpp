@@ -6,11 +6,11 @@
 #include <cmath>
 #include <filesystem>
 
-#include "core/base/paths.h"
 #include "data/assessment/scoring_keys.h"
 #include "data/catalogue/catalogue.h"
 #include "data/formats/json/json_object.h"
 #include "data/formats/load_error.h"
+#include "data/formats/paths.h"
 #include "data/formats/read_file.h"
 
 namespace ostium::data {
@@ -112,7 +112,7 @@ ScoreList read_score_list(const std::string& file, const std::string& text) {
 
 ScoreList find_score_list(const std::string& name_or_file) {
   const fs::path known = fs::path(data_folder()) / "scoring" / (name_or_file + ".json");
-  const std::string file = core::is_file(known) ? known.string() : name_or_file;
+  const std::string file = is_file(known) ? known.string() : name_or_file;
   return read_score_list(file, read_file(file, "a scoring list, or a name in data/scoring", json_limits::bytes));
 }
 

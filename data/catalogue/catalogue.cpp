@@ -6,8 +6,8 @@
 #include <cstdlib>
 #include <filesystem>
 
-#include "core/base/paths.h"
 #include "data/catalogue/instrument/instrument_reader.h"
+#include "data/formats/paths.h"
 #include "data/formats/read_file.h"
 
 namespace ostium::data {
@@ -25,15 +25,15 @@ void set_data_folder(const std::string& folder) { folder_set = folder; }
 std::string data_folder() {
   if (!folder_set.empty()) return folder_set;
   if (const char* set = std::getenv("OSTIUM_DATA"); set && *set) {
-    if (!core::is_folder(set))
+    if (!is_folder(set))
       throw LoadError(fmt::format("OSTIUM_DATA is \"{}\"; expected the folder that holds instruments/", set));
     return set;
   }
   std::error_code no_proc;
   const fs::path program = fs::read_symlink("/proc/self/exe", no_proc);
   const fs::path installed = program.parent_path().parent_path() / "share" / "ostium";
-  if (!no_proc && core::is_folder(installed)) return installed.string();
-  if (core::is_folder(OSTIUM_SOURCE_DATA)) return OSTIUM_SOURCE_DATA;
+  if (!no_proc && is_folder(installed)) return installed.string();
+  if (is_folder(OSTIUM_SOURCE_DATA)) return OSTIUM_SOURCE_DATA;
   throw LoadError(
       fmt::format("there is no data at {}; set OSTIUM_DATA to the folder that holds instruments/", installed.string()));
 }
@@ -64,9 +64,9 @@ const Instrument& find_instrument(const std::vector<Instrument>& catalogue, cons
 
 std::string instrument_file(const std::string& name_or_file, const std::string& folder) {
   const fs::path known = fs::path(data_folder()) / "instruments" / (name_or_file + ".json");
-  if (core::is_file(known)) return known.string();
+  if (is_file(known)) return known.string();
   for (const fs::path& file : {fs::path(folder) / name_or_file, fs::path(name_or_file)}) {
-    if (!core::is_there(file) || (core::is_file(file) && !name_or_file.ends_with(".json"))) continue;
+    if (!is_there(file) || (is_file(file) && !name_or_file.ends_with(".json"))) continue;
     require_file(file.string(), "an instrument's file, or a name of `ostium instruments`");
     return file.string();
   }

@@ -6,13 +6,13 @@
 #include <fstream>
 #include <iterator>
 
-#include "core/base/paths.h"
 #include "data/formats/load_error.h"
+#include "data/formats/paths.h"
 
 namespace ostium::data {
 
 void require_file(const std::string& file, const std::string& expected) {
-  if (const std::string why = core::why_no_file(file); !why.empty())
+  if (const std::string why = why_no_file(file); !why.empty())
     throw LoadError(fmt::format("{}: cannot be read, {}; expected {}", file, why, expected));
 }
 

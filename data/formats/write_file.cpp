@@ -11,7 +11,7 @@
 #include <cstring>
 #include <filesystem>
 
-#include "core/base/paths.h"
+#include "data/formats/paths.h"
 
 namespace ostium::data {
 
@@ -51,9 +51,9 @@ NewFile::NewFile(const std::string& path) : path_(path), beside_(path + ".unfini
   // Neither a device nor a folder can be replaced; what is written to a folder fails.
   if (fs::exists(path_, none) && !fs::is_regular_file(path_, none)) beside_ = path_;
   if (beside_ == path_) return;
-  if (core::is_there(beside_) && !core::is_file(beside_))  // a pipe would wait for its reader
+  if (is_there(beside_) && !is_file(beside_))  // a pipe would wait for its reader
     throw WriteError(fmt::format("{}: cannot be written, as it is made in {}, and {}; remove that", path, beside_,
-                                 core::why_no_file(beside_)));
+                                 why_no_file(beside_)));
   lock_ = locked(beside_, path_);
 }
 

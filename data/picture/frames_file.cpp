@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "core/base/paths.h"
 #include "data/formats/load_error.h"
+#include "data/formats/paths.h"
 #include "data/formats/read_file.h"
 
 namespace ostium::data {
@@ -88,7 +88,7 @@ bool seems_to_have_text(const Image& image) {
 }
 
 std::vector<std::string> frame_files(const std::string& file_or_folder) {
-  if (!core::is_folder(file_or_folder)) return {file_or_folder};
+  if (!is_folder(file_or_folder)) return {file_or_folder};
   std::vector<std::string> out;
   for (const fs::directory_entry& entry : fs::directory_iterator(file_or_folder))
     if (const std::string kind = ending(entry.path()); entry.is_regular_file() && (kind == ".png" || kind == ".dcm"))

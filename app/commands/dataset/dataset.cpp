@@ -16,8 +16,8 @@
 #include "app/session/labelling/label_set.h"
 #include "app/session/labelling/labelled_run.h"
 #include "app/session/labelling/splits.h"
-#include "core/base/paths.h"
 #include "data/formats/load_error.h"
+#include "data/formats/paths.h"
 #include "data/formats/read_file.h"
 #include "data/formats/write_file.h"
 
@@ -98,9 +98,9 @@ class Dataset {
  private:
   /// Throws LoadError where somebody else's lists would be replaced.
   void require_own_folder() const {
-    if (core::is_there(file("set.txt"))) return;
+    if (data::is_there(file("set.txt"))) return;
     for (const char* name : label_set_files)
-      if (core::is_there(file(name)))
+      if (data::is_there(file(name)))
         throw data::LoadError(file(name) +
                               ": is there, and of no set of pictures of ostium; expected a folder of its own");
   }
@@ -119,7 +119,7 @@ class Dataset {
   }
 
   bool is_done(std::size_t run) const {
-    if (!core::is_there(run_file(run))) return false;
+    if (!data::is_there(run_file(run))) return false;
     stored(run);
     return true;
   }

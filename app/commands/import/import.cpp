@@ -14,12 +14,12 @@
 #include "app/command_line/read_vessel.h"
 #include "app/commands/import/imported.h"
 #include "app/commands/import/mesh_files.h"
-#include "core/base/paths.h"
 #include "core/base/units.h"
 #include "data/catalogue/case/case.h"
 #include "data/catalogue/catalogue.h"
 #include "data/formats/decimal.h"
 #include "data/formats/load_error.h"
+#include "data/formats/paths.h"
 #include "vascular/anatomy/labelling/labelling.h"
 #include "vascular/anatomy/labelling/narrowings.h"
 #include "vascular/geometry/centreline/reach.h"
@@ -167,7 +167,7 @@ class Import {
       if (std::error_code none; part == "..")
         if (const fs::path whole = fs::weakly_canonical(made_.folder, none); !none) made_.folder = whole;
     made_.the_case.name = fs::absolute(made_.folder).filename().string();
-    if (name_only && core::is_there(fs::path(data::data_folder()) / "cases" / (options_.output + ".json")))
+    if (name_only && data::is_there(fs::path(data::data_folder()) / "cases" / (options_.output + ".json")))
       throw data::LoadError(fmt::format(
           "-o {}: is a case that ships, and would hide this one; expected another name, or a folder", options_.output));
     require_new_or_case(made_.folder, made_.the_case.name);
@@ -219,7 +219,7 @@ class Import {
   /// Of one surface through a beat. Nothing is repaired: every frame would be repaired in another way.
   void read_sequence() {
     files_ = options_.files;
-    if (files_.size() == 1 && core::is_folder(files_.front())) files_ = numbered_meshes(files_.front());
+    if (files_.size() == 1 && data::is_folder(files_.front())) files_ = numbered_meshes(files_.front());
     if (files_.size() < 4)
       throw vascular::MeshError(fmt::format("{}: a sequence has at least 4 frames of a beat, here are {}",
                                             options_.files.front(), files_.size()));

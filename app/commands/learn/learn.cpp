@@ -8,9 +8,9 @@
 #include "app/command_line/command.h"
 #include "app/command_line/filled_folder.h"
 #include "app/commands/serve/serve.h"
-#include "core/base/paths.h"
 #include "data/catalogue/course/course.h"
 #include "data/formats/load_error.h"
+#include "data/formats/paths.h"
 #include "data/formats/read_file.h"
 #include "data/formats/write_file.h"
 
@@ -41,7 +41,7 @@ void declare(Options& options, Arguments& a) {
 class Progress {
  public:
   explicit Progress(const std::string& folder) : file_((fs::path(folder) / "progress.json").string()) {
-    if (!core::is_there(file_)) return;
+    if (!data::is_there(file_)) return;
     all_ = Json::parse(data::read_file(file_, "what `ostium learn` wrote, or no file"), nullptr, false);
     const bool right =
         all_.is_object() && std::all_of(all_.begin(), all_.end(), [](const Json& attempts) {
@@ -55,7 +55,7 @@ class Progress {
   /// Number of the next attempt, from 1: also after one that was cut off before it could be noted.
   std::size_t next(const std::string& lesson) const {
     std::size_t number = attempts(lesson) + 1;
-    while (core::is_there(folder_of(lesson, number))) ++number;
+    while (data::is_there(folder_of(lesson, number))) ++number;
     return number;
   }
   fs::path folder_of(const std::string& lesson, std::size_t number) const {

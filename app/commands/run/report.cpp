@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/session/model/outcome.h"
-#include "core/base/paths.h"
+#include "data/formats/paths.h"
 
 namespace ostium::app {
 
@@ -63,7 +63,7 @@ void print_report(const ScriptedRun& run, const PlayReport& r, const std::string
   for (const data::Metric& m : r.metrics)
     if (const std::string value = value_text(m); !value.empty()) fmt::print("  {:<32} {}\n", m.name, value);
   // Somebody may have taken it away meanwhile.
-  const bool there = !file.empty() && core::is_there(file);
+  const bool there = !file.empty() && data::is_there(file);
   fmt::print("state {:016x}{}{}\n", r.hash, there ? ", recorded in " : "", there ? file : "");
 }
 

@@ -18,9 +18,9 @@
 #include "app/commands/run/drivers.h"
 #include "app/session/run/branch.h"
 #include "app/session/run/replay.h"
-#include "core/base/paths.h"
 #include "data/catalogue/catalogue.h"
 #include "data/formats/load_error.h"
+#include "data/formats/paths.h"
 #include "data/formats/read_file.h"
 #include "data/formats/write_file.h"
 
@@ -78,7 +78,7 @@ class PassingFolder {
 /// The angioplasty that is written for the case, if there is one.
 std::string script_for(const std::string& vessel) {
   const std::string own = "pci-" + vessel;
-  return core::is_file(fs::path(data::data_folder()) / "scripts" / (own + ".json")) ? own : "aorta-arch-wire";
+  return data::is_file(fs::path(data::data_folder()) / "scripts" / (own + ".json")) ? own : "aorta-arch-wire";
 }
 
 std::vector<data::Score> scores_of(const std::string& file, const SessionModel& model, const data::ScoreList& list,

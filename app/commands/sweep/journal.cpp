@@ -10,8 +10,8 @@
 #include <sstream>
 
 #include "app/commands/sweep/table.h"
-#include "core/base/paths.h"
 #include "data/formats/load_error.h"
+#include "data/formats/paths.h"
 #include "data/formats/read_file.h"
 #include "data/formats/write_file.h"
 
@@ -95,7 +95,7 @@ SweepJournal::SweepJournal(const std::string& file, const std::string& table, co
     : file_(file) {
   const std::string first = to_line(head);
   std::string kept = first + "\n";
-  if (core::is_there(file)) {
+  if (data::is_there(file)) {
     data::require_file(file, "an unfinished table, or nothing");
     lock_.emplace(file);
     if (!resume)
@@ -107,7 +107,7 @@ SweepJournal::SweepJournal(const std::string& file, const std::string& table, co
           fmt::format("{} is of another sweep; expected the same ostium, cases, script, seeds and parameters", file));
     lines_ = std::move(stored.lines);
     for (const auto& [run, line] : lines_) kept += fmt::format("{} {}", run, line);
-  } else if (resume && core::is_there(table)) {
+  } else if (resume && data::is_there(table)) {
     throw data::LoadError(fmt::format(
         "{} is there, and no {} to go on with: it is finished, or another table; without --resume it is made anew",
         table, file));

@@ -6,13 +6,13 @@
 #include <filesystem>
 #include <stdexcept>
 
-#include "core/base/paths.h"
 #include "core/base/units.h"
 #include "data/catalogue/case/anatomy_file.h"
 #include "data/catalogue/case/case.h"
 #include "data/catalogue/case/case_keys.h"
 #include "data/catalogue/case/markups_file.h"
 #include "data/catalogue/catalogue.h"
+#include "data/formats/paths.h"
 #include "data/formats/read_file.h"
 #include "vascular/motion/heart_cycle.h"
 
@@ -146,7 +146,7 @@ std::vector<Case> load_cases() {
     if (entry.path().extension() == ".json") files.push_back(entry.path());
   if (files.empty()) throw LoadError(folder.string() + ": has no case; expected a folder with at least one NAME.json");
   for (const fs::directory_entry& entry : fs::directory_iterator(imported_folder(), error))
-    if (const fs::path file = case_file_in(entry.path()); core::is_file(file)) files.push_back(file);
+    if (const fs::path file = case_file_in(entry.path()); is_file(file)) files.push_back(file);
   std::vector<Case> cases;
   for (const fs::path& file : files) cases.push_back(load_case(file.string()));
   std::sort(cases.begin(), cases.end(), [](const Case& a, const Case& b) { return a.name < b.name; });
@@ -157,14 +157,14 @@ std::string case_file(const std::string& name) {
   const fs::path shipped = fs::path(data_folder()) / "cases" / (name + ".json");
   for (const fs::path& file :
        {shipped, case_file_in(fs::path(imported_folder()) / name), case_file_in(name), fs::path(name)})
-    if (core::is_file(file)) return file.string();
+    if (is_file(file)) return file.string();
   for (const fs::path& folder : {fs::path(imported_folder()) / name, fs::path(name)})
-    if (core::is_folder(folder) && core::is_file(folder / "anatomy.json"))
+    if (is_folder(folder) && is_file(folder / "anatomy.json"))
       throw LoadError(
           fmt::format("{}: has no {}; expected a case's file with its folder's name: name the case's file, "
                       "or the folder as it was",
                       folder.string(), case_file_in(folder).filename().string()));
-  if (core::is_there(name) && !core::is_folder(name)) require_file(name, "a case's file or folder");
+  if (is_there(name) && !is_folder(name)) require_file(name, "a case's file or folder");
   std::string known;
   for (const Case& c : load_cases()) known += "\n  " + c.name;
   throw LoadError(fmt::format("there is no case \"{}\"; expected a case's file or folder, or one of:{}", name, known));

@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "core/base/paths.h"
 #include "data/catalogue/case/case.h"
 #include "data/catalogue/catalogue.h"
 #include "data/catalogue/course/course.h"
 #include "data/catalogue/course/course_keys.h"
 #include "data/catalogue/script/script.h"
+#include "data/formats/paths.h"
 #include "data/formats/read_file.h"
 
 namespace ostium::data {
@@ -37,7 +37,7 @@ bool is_name(const std::string& text) {
 /// What a course names is looked for where the course is, then as everything is; so a folder can be handed on.
 std::string from_course(const JsonObject& object, const char* key) {
   const fs::path beside = fs::path(*object[key].file).parent_path() / object.text(key);
-  return core::is_there(beside) ? beside.string() : object.text(key);
+  return is_there(beside) ? beside.string() : object.text(key);
 }
 
 /// Says where in the course it was asked for.
@@ -103,8 +103,8 @@ std::vector<std::string> course_names() {
 
 Course find_course(const std::string& name_or_file) {
   const fs::path known = fs::path(data_folder()) / "courses" / (name_or_file + ".json");
-  const std::string file = core::is_file(known) ? known.string() : name_or_file;
-  if (!core::is_there(file)) {
+  const std::string file = is_file(known) ? known.string() : name_or_file;
+  if (!is_there(file)) {
     std::string names;
     for (const std::string& name : course_names()) names += "\n  " + name;
     throw LoadError(

@@ -6,7 +6,6 @@
 #include <filesystem>
 #include <iterator>
 
-#include "core/base/paths.h"
 #include "core/base/units.h"
 #include "data/catalogue/case/case.h"
 #include "data/catalogue/catalogue.h"
@@ -15,6 +14,7 @@
 #include "data/catalogue/script/script_condition_reader.h"
 #include "data/catalogue/script/script_keys.h"
 #include "data/catalogue/script/script_parts.h"
+#include "data/formats/paths.h"
 #include "data/formats/read_file.h"
 #include "fluoro/projection/views.h"
 
@@ -261,9 +261,9 @@ void require_access(const Script& script, std::optional<vascular::Access> of_cas
 
 Script find_script(const std::string& name_or_file) {
   const fs::path known = fs::path(data_folder()) / "scripts" / (name_or_file + ".json");
-  if (core::is_file(known)) return load_script(known.string());
+  if (is_file(known)) return load_script(known.string());
   if (name_or_file.ends_with(".json")) return load_script(name_or_file);
-  if (core::is_there(name_or_file)) require_file(name_or_file, "a script's file NAME.json");
+  if (is_there(name_or_file)) require_file(name_or_file, "a script's file NAME.json");
   std::string names;
   for (const Script& script : load_scripts()) names += "\n  " + script.name;
   throw LoadError(

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <filesystem>
 
-#include "core/base/paths.h"
 #include "core/base/units.h"
 #include "data/catalogue/instrument/instrument.h"
+#include "data/formats/paths.h"
 #include "data/identification/measurement/experiment_reader.h"
 #include "data/identification/measurement/measured_wall.h"
 #include "data/identification/measurement/measurement_keys.h"
@@ -153,7 +153,7 @@ MeasurementSet read(const JsonValue& file) {
 }  // namespace
 
 std::string measurement_file(const std::string& path) {
-  return core::is_folder(path) ? (std::filesystem::path(path) / "measurement.json").string() : path;
+  return is_folder(path) ? (std::filesystem::path(path) / "measurement.json").string() : path;
 }
 
 MeasurementSet read_measurement(const std::string& file, const std::string& text) {

@@ -9,7 +9,7 @@ namespace ostium::app {
 
 inline const char* const predilatation = R"({
   "schema": "ostium-script/1", "name": "predilatation", "title": "A test",
-  "tools": [ { "name": "guide", "instrument": "guide-jr4-6f" }, { "name": "balloon", "instrument": "balloon-275x12" },
+  "tools": [ { "name": "guide", "instrument": "guide-jr4-6f" }, { "name": "balloon", "instrument": "balloon-nc-25x12" },
              { "name": "stent", "instrument": "stent-325x15" }, { "name": "wire", "instrument": "wire-014-workhorse" } ],
   "steps": [
     { "do": "fluoroscopy", "on": true },
@@ -20,7 +20,7 @@ inline const char* const predilatation = R"({
       "timeout_s": 8 },
     { "do": "advance", "tool": "balloon", "speed_mm_s": 30, "until": [{ "balloon_at_mm": -20 }], "timeout_s": 6 },
     { "do": "advance", "tool": "balloon", "speed_mm_s": 8, "until": [{ "balloon_at_mm": -1 }], "timeout_s": 6 },
-    { "do": "inflate", "gauge_atm": 10, "over_s": 1.5 },
+    { "do": "inflate", "gauge_atm": 20, "over_s": 1.5 },
     { "do": "wait", "until": [{ "balloon_open": true }], "timeout_s": 4 },
     { "do": "mark", "text": "open" },
     { "do": "deflate", "timeout_s": 12 },

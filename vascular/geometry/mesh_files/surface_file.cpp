@@ -3,15 +3,15 @@
 #include <filesystem>
 #include <new>
 
-#include "core/base/paths.h"
 #include "vascular/geometry/mesh/mesh.h"
 #include "vascular/geometry/mesh_files/formats.h"
+#include "vascular/geometry/mesh_files/paths.h"
 #include "vascular/geometry/mesh_files/raw_surface.h"
 
 namespace ostium::vascular {
 
 RawSurface read_surface(const std::string& path) {
-  if (const std::string why = core::why_no_file(path); !why.empty())
+  if (const std::string why = why_no_file(path); !why.empty())
     throw MeshError(fmt::format("{}: cannot be read, {}; expected a mesh ({})", path, why, listed_mesh_endings()));
   const std::string ending = ending_of(path);
   if (!has_mesh_ending(path))

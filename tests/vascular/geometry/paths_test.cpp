@@ -1,5 +1,5 @@
 /// Whatever lies where a file should be is called what it is, and is not opened.
-#include "core/base/paths.h"
+#include "vascular/geometry/mesh_files/paths.h"
 
 #include <gtest/gtest.h>
 #include <sys/socket.h>
@@ -10,7 +10,7 @@
 #include <cstring>
 #include <fstream>
 
-namespace ostium::core {
+namespace ostium::vascular {
 namespace {
 
 namespace fs = std::filesystem;
@@ -56,4 +56,4 @@ TEST(Paths, EachKindOfThingIsCalledByItsName) {
 }
 
 }  // namespace
-}  // namespace ostium::core
+}  // namespace ostium::vascular

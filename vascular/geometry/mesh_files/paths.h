@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <string>
 
-namespace ostium::core {
+namespace ostium::vascular {
 
 bool is_file(const std::filesystem::path& path);
 bool is_folder(const std::filesystem::path& path);
@@ -13,4 +13,4 @@ bool is_there(const std::filesystem::path& path);
 /// Why it cannot be read as a file, such as "it is a pipe, not a file"; empty: it is a file.
 std::string why_no_file(const std::filesystem::path& path);
 
-}  // namespace ostium::core
+}  // namespace ostium::vascular

@@ -1,6 +1,6 @@
-#include "core/base/paths.h"
+#include "vascular/geometry/mesh_files/paths.h"
 
-namespace ostium::core {
+namespace ostium::vascular {
 
 namespace fs = std::filesystem;
 
@@ -42,4 +42,4 @@ std::string why_no_file(const fs::path& path) {
   return error ? "what is there cannot be seen (" + error.message() + ")" : "it is no file";
 }
 
-}  // namespace ostium::core
+}  // namespace ostium::vascular
