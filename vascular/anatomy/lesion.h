@@ -20,8 +20,8 @@ struct Composition {
 Composition typical_composition(bool calcified);
 /// One person's: hardness log-normal about the typical one, with a standard deviation of its logarithm of 0.3; arc 120
 /// to 330 degrees where calcified, else none in half the persons and up to 120 degrees; thickness 0.3 to 1.1 mm over
-/// 0.4 to 1 of the length. Arcs, thickness and length as intravascular pictures find them
-/// [from memory]; the spread of the hardness is fitted (treatment/plaque.h).
+/// 0.4 to 1 of the length. Arcs, thickness and length as intravascular pictures find them [from memory]; the spread of
+/// the hardness is fitted (treatment/plaque.h).
 Composition draw_composition(bool calcified, std::uint64_t seed, std::uint64_t lesion);
 
 struct Lesion {
