@@ -26,8 +26,8 @@ struct BalloonModel : BalloonDesign {
   std::string name;
   double nominal_m = 3e-3, length_m = 15e-3;  ///< diameter; length between the markers' middles
   double nominal_Pa = 8 * 101325, rated_Pa = 14 * 101325;
-  double tip_m = 0;         ///< length of its shaft beyond the distal marker's middle; 0: none
-  double tip_radius_m = 0;  ///< largest radius of that shaft and of what lies between the markers
+  double tip_m = 0;           ///< length of its shaft beyond the distal marker's middle; 0: none
+  double tip_radius_m = 0;    ///< largest radius of that shaft and of what lies between the markers
   double iodine_kg_m3 = 175;  ///< half contrast, half saline
   std::uint64_t seed = 0;     ///< determines its burst pressure
 };
