@@ -77,28 +77,28 @@ void for_packs(int begin, int end, F&& f) {
 
 // --- loading and storing registers -----------------------------------------------------------------------------------
 template <class T>
-V3<T> load3(const Field<3>& f, int i) {
+[[gnu::always_inline]] inline V3<T> load3(const Field<3>& f, int i) {
   return {load<T>(f.at(0) + i), load<T>(f.at(1) + i), load<T>(f.at(2) + i)};
 }
 template <class T>
-Q4<T> load4(const Field<4>& f, int i) {
+[[gnu::always_inline]] inline Q4<T> load4(const Field<4>& f, int i) {
   return {load<T>(f.at(0) + i), load<T>(f.at(1) + i), load<T>(f.at(2) + i), load<T>(f.at(3) + i)};
 }
 template <class T>
-S3<T> load6(const Field<6>& f, int i) {
+[[gnu::always_inline]] inline S3<T> load6(const Field<6>& f, int i) {
   return {load<T>(f.at(0) + i), load<T>(f.at(1) + i), load<T>(f.at(2) + i),
           load<T>(f.at(3) + i), load<T>(f.at(4) + i), load<T>(f.at(5) + i)};
 }
 template <class T>
-void store3(Field<3>& f, int i, const V3<T>& a) {
+[[gnu::always_inline]] inline void store3(Field<3>& f, int i, const V3<T>& a) {
   store(f.at(0) + i, a.x), store(f.at(1) + i, a.y), store(f.at(2) + i, a.z);
 }
 template <class T>
-void store4(Field<4>& f, int i, const Q4<T>& a) {
+[[gnu::always_inline]] inline void store4(Field<4>& f, int i, const Q4<T>& a) {
   store(f.at(0) + i, a.w), store(f.at(1) + i, a.x), store(f.at(2) + i, a.y), store(f.at(3) + i, a.z);
 }
 template <class T>
-void store6(Field<6>& f, int i, const S3<T>& a) {
+[[gnu::always_inline]] inline void store6(Field<6>& f, int i, const S3<T>& a) {
   store(f.at(0) + i, a.xx), store(f.at(1) + i, a.xy), store(f.at(2) + i, a.xz);
   store(f.at(3) + i, a.yy), store(f.at(4) + i, a.yz), store(f.at(5) + i, a.zz);
 }

@@ -8,35 +8,35 @@
 namespace ostium::core {
 
 template <class T>
-Q4<T> operator*(const Q4<T>& a, const Q4<T>& b) {
+inline Q4<T> operator*(const Q4<T>& a, const Q4<T>& b) {
   return {nmadd(a.z, b.z, nmadd(a.y, b.y, nmadd(a.x, b.x, a.w * b.w))),
           nmadd(a.z, b.y, madd(a.y, b.z, madd(a.x, b.w, a.w * b.x))),
           nmadd(a.x, b.z, madd(a.z, b.x, madd(a.y, b.w, a.w * b.y))),
           nmadd(a.y, b.x, madd(a.x, b.y, madd(a.z, b.w, a.w * b.z)))};
 }
 template <class T>
-Q4<T> conjugate(const Q4<T>& q) {
+inline Q4<T> conjugate(const Q4<T>& q) {
   return {q.w, -q.x, -q.y, -q.z};
 }
 template <class T>
-Q4<T> normalised(const Q4<T>& q) {
+inline Q4<T> normalised(const Q4<T>& q) {
   const T scale = 1.0 / square_root(madd(q.w, q.w, madd(q.x, q.x, madd(q.y, q.y, q.z * q.z))));
   return {scale * q.w, scale * q.x, scale * q.y, scale * q.z};
 }
 /// Third director, tangent to the rod.
 template <class T>
-V3<T> director3(const Q4<T>& q) {
+inline V3<T> director3(const Q4<T>& q) {
   return {2.0 * madd(q.x, q.z, q.w * q.y), 2.0 * nmadd(q.w, q.x, q.y * q.z),
           nmadd(q.x + q.x, q.x, nmadd(q.y + q.y, q.y, T{} + 1.0))};
 }
 /// First director.
 template <class T>
-V3<T> director1(const Q4<T>& q) {
+inline V3<T> director1(const Q4<T>& q) {
   return {nmadd(q.y + q.y, q.y, nmadd(q.z + q.z, q.z, T{} + 1.0)), 2.0 * madd(q.x, q.y, q.w * q.z),
           2.0 * nmadd(q.w, q.y, q.x * q.z)};
 }
 template <class T>
-M3<T> matrix(const Q4<T>& q) {
+inline M3<T> matrix(const Q4<T>& q) {
   const T x2 = q.x + q.x, y2 = q.y + q.y, z2 = q.z + q.z, one = T{} + 1.0;
   return {{nmadd(q.y, y2, nmadd(q.z, z2, one)), nmadd(q.w, z2, q.x * y2), madd(q.w, y2, q.x * z2)},
           {madd(q.w, z2, q.x * y2), nmadd(q.x, x2, nmadd(q.z, z2, one)), nmadd(q.w, x2, q.y * z2)},
@@ -45,12 +45,12 @@ M3<T> matrix(const Q4<T>& q) {
 /// Rotation by a small vector `phi` by Cayley's map, not normalised: exact in direction, |phi|^3 / 12 short in angle,
 /// and a rotation for any phi.
 template <class T>
-Q4<T> small_rotation(const V3<T>& phi) {
+inline Q4<T> small_rotation(const V3<T>& phi) {
   return {T{} + 1.0, 0.5 * phi.x, 0.5 * phi.y, 0.5 * phi.z};
 }
 /// q turned by the small world-frame rotation vector `phi`.
 template <class T>
-Q4<T> turned(const V3<T>& phi, const Q4<T>& q) {
+inline Q4<T> turned(const V3<T>& phi, const Q4<T>& q) {
   return normalised(small_rotation(phi) * q);
 }
 
@@ -63,7 +63,7 @@ inline V3<double> rotation_vector_any(const Q4<double>& q) {
 /// Rotation vector of a unit quaternion. Up to 0.6 rad by the series of 2 asin(s) / s in s = |(x, y, z)| (error below
 /// 1e-15), beyond that by the scalar function.
 template <class T>
-V3<T> rotation_vector(const Q4<T>& q) {
+inline V3<T> rotation_vector(const Q4<T>& q) {
   const T s2 = madd(q.x, q.x, madd(q.y, q.y, q.z * q.z));
   // asin(s) / s = sum c_k s^(2k) with c_k = (2k)! / (4^k (k!)^2 (2k + 1))
   constexpr double c[] = {1.0,

@@ -165,21 +165,21 @@ M3<T> negative(const M3<T>& m) {
   return {V3<T>{} - m.r0, V3<T>{} - m.r1, V3<T>{} - m.r2};
 }
 
-template <int R>
+template <class T, int R>
 struct TridiagonalBlock {
-  Stiffness<Lanes, R> S_inv;  ///< inverse of K + G A^-1 G^T
-  S3<Lanes> A_inv;
-  Lever<Lanes, R> W;  ///< G A^-1
-  Coupling<Lanes, R> turn_coupling;
-  S3<Lanes> force_coupling;
-  Turn<Lanes, R> torque;
-  V3<Lanes> gap;
+  Stiffness<T, R> S_inv;  ///< inverse of K + G A^-1 G^T
+  S3<T> A_inv;
+  Lever<T, R> W;  ///< G A^-1
+  Coupling<T, R> turn_coupling;
+  S3<T> force_coupling;
+  Turn<T, R> torque;
+  V3<T> gap;
 };
 
-template <int R>
+template <class T, int R>
 struct EliminationHalt {
-  BlockRow<Lanes, R> carried{};   ///< Schur complement of the eliminated elements on the next
-  Lanes minor = splat<Lanes>(1);  ///< smallest of theirs
+  BlockRow<T, R> carried{};  ///< Schur complement of the eliminated elements on the next
+  T minor = splat<T>(1);     ///< smallest of theirs
 };
 
 /// D^-1 (torque, gap) for D = [K G; G^T -A].
@@ -210,70 +210,70 @@ void factorise(const BlockRow<T, R>& r, S3<T>& A_inv, Lever<T, R>& W, Stiffness<
 
 /// Eliminates a row; returns its Schur complement on the next one, -E^T D^-1 E and -E^T D^-1 b with E =
 /// diag(turn_coupling, force_coupling).
-template <int R>
-BlockRow<Lanes, R> eliminate(const BlockRow<Lanes, R>& r, TridiagonalBlock<R>& block, Lanes& minor) {
+template <class T, int R>
+BlockRow<T, R> eliminate(const BlockRow<T, R>& r, TridiagonalBlock<T, R>& block, T& minor) {
   factorise(r, block.A_inv, block.W, block.S_inv, minor);
   block.torque = r.torque, block.gap = r.gap;
-  const Stiffness<Lanes, R>& S = block.S_inv;
-  const Lever<Lanes, R>& W = block.W;
-  const Coupling<Lanes, R>& C = block.turn_coupling;
-  const S3<Lanes>& P = block.force_coupling;
+  const Stiffness<T, R>& S = block.S_inv;
+  const Lever<T, R>& W = block.W;
+  const Coupling<T, R>& C = block.turn_coupling;
+  const S3<T>& P = block.force_coupling;
 
-  BlockRow<Lanes, R> left;
+  BlockRow<T, R> left;
   // C^T S C
-  M3<Lanes> SC = S.v * C.v;
+  M3<T> SC = S.v * C.v;
   for (int m = 0; m < R; ++m) SC = outer_added(S.vr[m], C.rv[m], SC);
   left.K.v = symmetric_transpose_times(C.v, SC);
-  Rolls<V3<Lanes>, R> SC_rv;
+  Rolls<V3<T>, R> SC_rv;
   for (int m = 0; m < R; ++m) {
     SC_rv[m] = transpose_times(C.v, S.vr[m]);
     for (int l = 0; l < R; ++l) SC_rv[m] = madd(S.rr[m][l], C.rv[l], SC_rv[m]);
     left.K.v = symmetric_outer_added(C.rv[m], SC_rv[m], left.K.v);
   }
-  left.K.v = S3<Lanes>{} - left.K.v;
+  left.K.v = S3<T>{} - left.K.v;
   for (int l = 0; l < R; ++l) {
-    const V3<Lanes> SC_vr = madd(C.rr[l], S.vr[l], S.v * C.vr[l]);
-    V3<Lanes> vr = transpose_times(C.v, SC_vr);
+    const V3<T> SC_vr = madd(C.rr[l], S.vr[l], S.v * C.vr[l]);
+    V3<T> vr = transpose_times(C.v, SC_vr);
     for (int m = 0; m < R; ++m) {
-      const Lanes SC_rr = madd(S.rr[m][l], C.rr[l], dot(S.vr[m], C.vr[l]));
+      const T SC_rr = madd(S.rr[m][l], C.rr[l], dot(S.vr[m], C.vr[l]));
       vr = madd(SC_rr, C.rv[m], vr);
       left.K.rr[m][l] = -madd(C.rr[m], SC_rr, dot(C.vr[m], SC_vr));
     }
-    left.K.vr[l] = V3<Lanes>{} - vr;
+    left.K.vr[l] = V3<T>{} - vr;
   }
 
   // C^T S W P and P (W^T S W - A^-1) P
-  const M3<Lanes> WP = W.v * P;
-  M3<Lanes> SWP = S.v * WP;
-  Rolls<V3<Lanes>, R> WP_r;
+  const M3<T> WP = W.v * P;
+  M3<T> SWP = S.v * WP;
+  Rolls<V3<T>, R> WP_r;
   for (int m = 0; m < R; ++m) {
     WP_r[m] = P * W.r[m];
     SWP = outer_added(S.vr[m], WP_r[m], SWP);
   }
-  const M3<Lanes> AP{block.A_inv * V3<Lanes>{P.xx, P.xy, P.xz}, block.A_inv * V3<Lanes>{P.xy, P.yy, P.yz},
-                     block.A_inv * V3<Lanes>{P.xz, P.yz, P.zz}};
-  const M3<Lanes> P_rows{{P.xx, P.xy, P.xz}, {P.xy, P.yy, P.yz}, {P.xz, P.yz, P.zz}};
+  const M3<T> AP{block.A_inv * V3<T>{P.xx, P.xy, P.xz}, block.A_inv * V3<T>{P.xy, P.yy, P.yz},
+                 block.A_inv * V3<T>{P.xz, P.yz, P.zz}};
+  const M3<T> P_rows{{P.xx, P.xy, P.xz}, {P.xy, P.yy, P.yz}, {P.xz, P.yz, P.zz}};
   left.A = symmetric_transpose_times(WP, SWP) - symmetric_times_transpose(P_rows, AP);
-  M3<Lanes> G = transpose_times(C.v, SWP);
+  M3<T> G = transpose_times(C.v, SWP);
   for (int m = 0; m < R; ++m) {
-    V3<Lanes> SWP_r = transpose_times(WP, S.vr[m]);
+    V3<T> SWP_r = transpose_times(WP, S.vr[m]);
     for (int l = 0; l < R; ++l) SWP_r = madd(S.rr[m][l], WP_r[l], SWP_r);
     left.A = symmetric_outer_added(WP_r[m], SWP_r, left.A);
     G = outer_added(C.rv[m], SWP_r, G);
-    left.G.r[m] = V3<Lanes>{} - madd(C.rr[m], SWP_r, transpose_times(SWP, C.vr[m]));
+    left.G.r[m] = V3<T>{} - madd(C.rr[m], SWP_r, transpose_times(SWP, C.vr[m]));
   }
   left.G.v = negative(G);
 
-  Turn<Lanes, R> turn;
-  V3<Lanes> force;
+  Turn<T, R> turn;
+  V3<T> force;
   apply_inverse(S, block.A_inv, W, r.torque, r.gap, turn, force);
-  V3<Lanes> torque = transpose_times(C.v, turn.v);
+  V3<T> torque = transpose_times(C.v, turn.v);
   for (int m = 0; m < R; ++m) {
     torque = madd(turn.r[m], C.rv[m], torque);
     left.torque.r[m] = -madd(C.rr[m], turn.r[m], dot(C.vr[m], turn.v));
   }
-  left.torque.v = V3<Lanes>{} - torque;
-  left.gap = V3<Lanes>{} - P * force;
+  left.torque.v = V3<T>{} - torque;
+  left.gap = V3<T>{} - P * force;
   return left;
 }
 

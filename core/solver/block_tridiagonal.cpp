@@ -36,11 +36,20 @@ BlockRow<T, R> row(const S3<T>& P_sum, Read&& read, ReadRoll&& read_roll) {
   return out;
 }
 
-V3<double> lane_of(const V3<Lanes>& a, int l) { return {a.x[l], a.y[l], a.z[l]}; }
-S3<double> lane_of(const S3<Lanes>& a, int l) { return {a.xx[l], a.xy[l], a.xz[l], a.yy[l], a.yz[l], a.zz[l]}; }
-M3<double> lane_of(const M3<Lanes>& a, int l) { return {lane_of(a.r0, l), lane_of(a.r1, l), lane_of(a.r2, l)}; }
-template <int R>
-BlockRow<double, R> lane_of(const BlockRow<Lanes, R>& a, int l) {
+template <class T>
+V3<double> lane_of(const V3<T>& a, int l) {
+  return {a.x[l], a.y[l], a.z[l]};
+}
+template <class T>
+S3<double> lane_of(const S3<T>& a, int l) {
+  return {a.xx[l], a.xy[l], a.xz[l], a.yy[l], a.yz[l], a.zz[l]};
+}
+template <class T>
+M3<double> lane_of(const M3<T>& a, int l) {
+  return {lane_of(a.r0, l), lane_of(a.r1, l), lane_of(a.r2, l)};
+}
+template <class T, int R>
+BlockRow<double, R> lane_of(const BlockRow<T, R>& a, int l) {
   BlockRow<double, R> out;
   out.K.v = lane_of(a.K.v, l), out.G.v = lane_of(a.G.v, l), out.A = lane_of(a.A, l);
   out.torque.v = lane_of(a.torque.v, l), out.gap = lane_of(a.gap, l);
@@ -51,8 +60,12 @@ BlockRow<double, R> lane_of(const BlockRow<Lanes, R>& a, int l) {
   }
   return out;
 }
-void set_lane(V3<Lanes>& a, int l, const V3<double>& b) { a.x[l] = b.x, a.y[l] = b.y, a.z[l] = b.z; }
-void set_lane(S3<Lanes>& a, int l, const S3<double>& b) {
+template <class T>
+void set_lane(V3<T>& a, int l, const V3<double>& b) {
+  a.x[l] = b.x, a.y[l] = b.y, a.z[l] = b.z;
+}
+template <class T>
+void set_lane(S3<T>& a, int l, const S3<double>& b) {
   a.xx[l] = b.xx, a.xy[l] = b.xy, a.xz[l] = b.xz, a.yy[l] = b.yy, a.yz[l] = b.yz, a.zz[l] = b.zz;
 }
 
@@ -76,11 +89,11 @@ BlockRow<double, R> middle_row(const BlockTridiagonal& c) {
 }
 
 /// Lanes that run backward have eliminated nothing yet.
-template <int R>
-void restart_backward(EliminationHalt<R>& halt) {
+template <class T, int R>
+void restart_backward(EliminationHalt<T, R>& halt) {
   const BlockRow<double, R> nothing{};
-  BlockRow<Lanes, R>& c = halt.carried;
-  for (int l = 1; l < lane_count; l += halves) {
+  BlockRow<T, R>& c = halt.carried;
+  for (int l = 1; l < Walks<T, R>::lanes; l += halves) {
     set_lane(c.K.v, l, nothing.K.v), set_lane(c.A, l, nothing.A);
     set_lane(c.G.v.r0, l, nothing.G.v.r0), set_lane(c.G.v.r1, l, nothing.G.v.r1), set_lane(c.G.v.r2, l, nothing.G.v.r2);
     set_lane(c.torque.v, l, nothing.torque.v), set_lane(c.gap, l, nothing.gap);
@@ -101,12 +114,12 @@ struct Resume {
 
 /// Eliminates towards the meeting point from a step, or from the last halt before it, filling the blocks. Returns the
 /// Schur complements of all lanes on the elements where they meet.
-template <int R>
-[[gnu::flatten]] EliminationHalt<R> eliminate_halves(Walks<R>& walks, Resume from, TridiagonalFactors& factors) {
-  std::vector<TridiagonalBlock<R>>& blocks = factors.blocks<R>();
-  std::vector<EliminationHalt<R>>& halts = factors.halts<R>();
-  const Lanes half = 0.5 * walks.direction();
-  EliminationHalt<R> now;
+template <class T, int R>
+[[gnu::flatten]] EliminationHalt<T, R> eliminate_halves(Walks<T, R>& walks, Resume from, TridiagonalFactors& factors) {
+  std::vector<TridiagonalBlock<T, R>>& blocks = factors.blocks<T, R>();
+  std::vector<EliminationHalt<T, R>>& halts = factors.halts<T, R>();
+  const T half = 0.5 * walks.direction();
+  EliminationHalt<T, R> now;
   auto& [carried, minor] = now;
   const int begin = std::min(from.step, walks.steps() - 1) / between_halts;
   if (begin > 0) now = halts[begin];
@@ -114,17 +127,17 @@ template <int R>
   for (int t = begin * between_halts; t < walks.steps(); ++t) {
     if (t % between_halts == 0) halts[t / between_halts] = now;
     walks.move_to(t);
-    TridiagonalBlock<R>& block = blocks[t];
-    const S3<Lanes> H = walks.symmetric(at_H);
-    const V3<Lanes> m = half * walks.vector(at_m);
-    Coupling<Lanes, R>& C = block.turn_coupling;
+    TridiagonalBlock<T, R>& block = blocks[t];
+    const S3<T> H = walks.symmetric(at_H);
+    const V3<T> m = half * walks.vector(at_m);
+    Coupling<T, R>& C = block.turn_coupling;
     C.v = {{-H.xx, -H.xy - m.z, m.y - H.xz}, {m.z - H.xy, -H.yy, -H.yz - m.x}, {-H.xz - m.y, m.x - H.yz, -H.zz}};
     for (int k = 0; k < R; ++k) {
       C.vr[k] = walks.vector(walks.of_roll(k, at_u)), C.rv[k] = walks.vector(walks.of_roll(k, at_w));
       C.rr[k] = walks.read(walks.of_roll(k, at_c));
     }
     block.force_coupling = walks.symmetric(at_P_ahead);
-    const BlockRow<Lanes, R> own = row<Lanes, R>(
+    const BlockRow<T, R> own = row<T, R>(
         walks.symmetric(at_P_behind) + block.force_coupling, [&](int n) { return walks.read(n); },
         [&](int k, int n) { return walks.read(walks.of_roll(k, n)); });
     carried = eliminate(own + carried, block, minor);
@@ -141,9 +154,9 @@ void store_solution(BlockTridiagonal& chain, int j, const V3<double>& turn, cons
 
 /// Solves the element where both eliminations of a chain meet and passes its solution to both lanes; false if the
 /// matrix is not definite.
-template <int R>
-bool solve_middle(BlockTridiagonal& chain, int front, const BlockRow<Lanes, R>& carried, const Lanes& minor,
-                  TridiagonalBlock<R>& block, Turn<Lanes, R>& turn, V3<Lanes>& force) {
+template <class T, int R>
+bool solve_middle(BlockTridiagonal& chain, int front, const BlockRow<T, R>& carried, const T& minor,
+                  TridiagonalBlock<T, R>& block, Turn<T, R>& turn, V3<T>& force) {
   const BlockRow<double, R> r = middle_row<R>(chain) + lane_of(carried, front) + lane_of(carried, front + 1);
   S3<double> A_inv;
   Lever<double, R> W;
@@ -163,24 +176,23 @@ bool solve_middle(BlockTridiagonal& chain, int front, const BlockRow<Lanes, R>& 
 }
 
 /// Back substitution from the meeting point towards the ends, down to step `last`.
-template <int R>
-[[gnu::flatten]] void substitute_back(const Walks<R>& walks, const std::vector<TridiagonalBlock<R>>& blocks, int last,
-                                      BlockTridiagonal& first, BlockTridiagonal* second, Turn<Lanes, R> turn,
-                                      V3<Lanes> force) {
-  const int lanes = second ? lane_count : halves;
+template <class T, int R>
+[[gnu::flatten]] void substitute_back(const Walks<T, R>& walks, const std::vector<TridiagonalBlock<T, R>>& blocks,
+                                      int last, BlockTridiagonal& first, BlockTridiagonal* second, Turn<T, R> turn,
+                                      V3<T> force) {
   for (int t = walks.steps() - 1; t >= last; --t) {
-    const TridiagonalBlock<R>& b = blocks[t];
-    const Coupling<Lanes, R>& C = b.turn_coupling;
-    Turn<Lanes, R> torque = b.torque;
+    const TridiagonalBlock<T, R>& b = blocks[t];
+    const Coupling<T, R>& C = b.turn_coupling;
+    Turn<T, R> torque = b.torque;
     torque.v = torque.v - C.v * turn.v;
     for (int m = 0; m < R; ++m) {
       torque.v = torque.v - turn.r[m] * C.vr[m];
       torque.r[m] = torque.r[m] - madd(C.rr[m], turn.r[m], dot(C.rv[m], turn.v));
     }
-    Turn<Lanes, R> next;
+    Turn<T, R> next;
     apply_inverse(b.S_inv, b.A_inv, b.W, torque, b.gap - b.force_coupling * force, next, force);
     turn = next;
-    for (int l = 0; l < lanes; ++l) {
+    for (int l = 0; l < Walks<T, R>::lanes; ++l) {
       if (t < walks.lane(l).wait) continue;
       Rolls<double, R> rolls;
       for (int m = 0; m < R; ++m) rolls[m] = turn.r[m][l];
@@ -198,35 +210,36 @@ int negatives(const S3<double>& s) {
   return (first < 0) + (second < 0) + (third < 0);
 }
 
-/// Solves from where `resume` says, and writes the solution down to step `last`.
-template <int R>
+/// Solves one chain (T: Pair) or two (Lanes) from where `resume` says, and writes the solution down to step `last`.
+template <class T, int R>
 void solve_with(BlockTridiagonal& first, BlockTridiagonal* second, Resume resume, int last,
                 TridiagonalFactors& factors) {
-  std::vector<TridiagonalBlock<R>>& blocks = factors.blocks<R>();
-  Walks<R> walks(first, second ? *second : first);
+  std::vector<TridiagonalBlock<T, R>>& blocks = factors.blocks<T, R>();
+  Walks<T, R> walks(first, second ? *second : first);
   assert(static_cast<int>(blocks.size()) > walks.steps());
   const auto [carried, minor] = eliminate_halves(walks, resume, factors);
 
-  Turn<Lanes, R> turn{};
-  V3<Lanes> force{};
-  TridiagonalBlock<R>& middle_block = blocks[walks.steps()];
+  Turn<T, R> turn{};
+  V3<T> force{};
+  TridiagonalBlock<T, R>& middle_block = blocks[walks.steps()];
   first.definite = solve_middle(first, 0, carried, minor, middle_block, turn, force);
-  if (second) second->definite = solve_middle(*second, halves, carried, minor, middle_block, turn, force);
+  if constexpr (Walks<T, R>::lanes > halves)
+    second->definite = solve_middle(*second, halves, carried, minor, middle_block, turn, force);
   substitute_back(walks, blocks, last, first, second, turn, force);
 }
 
 /// Writes the whole solution from that of the element where the eliminations meet.
 template <int R>
 void complete_with(BlockTridiagonal& chain, const TridiagonalFactors& factors) {
-  const Walks<R> walks(chain, chain);
+  const Walks<Pair, R> walks(chain, chain);
   const V3<double> phi = load3<double>(chain.turn, chain.meets_at), n = load3<double>(chain.force, chain.meets_at);
-  Turn<Lanes, R> turn{};
-  V3<Lanes> force{};
-  for (int l = 0; l < lane_count; ++l) {
+  Turn<Pair, R> turn{};
+  V3<Pair> force{};
+  for (int l = 0; l < halves; ++l) {
     set_lane(turn.v, l, phi), set_lane(force, l, n);
     for (int m = 0; m < R; ++m) turn.r[m][l] = chain.rolls[m].turn.at(0)[chain.meets_at];
   }
-  substitute_back(walks, factors.blocks<R>(), 0, chain, nullptr, turn, force);
+  substitute_back(walks, factors.blocks<Pair, R>(), 0, chain, nullptr, turn, force);
 }
 
 /// Calls call(integral constant) with the number of rolls.
@@ -246,7 +259,10 @@ void by_rolls(int rolls, Call&& call) {
 
 void solve_from(Resume resume, int last, BlockTridiagonal& first, BlockTridiagonal* second,
                 TridiagonalFactors& factors) {
-  by_rolls(first.roll_count, [&](auto rolls) { solve_with<rolls>(first, second, resume, last, factors); });
+  by_rolls(first.roll_count, [&](auto rolls) {
+    second ? solve_with<Lanes, rolls>(first, second, resume, last, factors)
+           : solve_with<Pair, rolls>(first, nullptr, resume, last, factors);
+  });
 }
 
 }  // namespace
@@ -291,10 +307,10 @@ int negative_pivots(const BlockTridiagonal& chain, const TridiagonalFactors& fac
   assert(chain.roll_count == 0);
   // Inertia of the whole system: 3 N negative eigenvalues belong to the 3 N constraint forces; any more are
   // instabilities.
-  const Walks<0> walks(chain, chain);
+  const Walks<Pair, 0> walks(chain, chain);
   int negative = 0;
   const auto count = [&](int t, int l) {
-    const TridiagonalBlock<0>& block = factors.blocks<0>()[t];
+    const TridiagonalBlock<Pair, 0>& block = factors.blocks<Pair, 0>()[t];
     negative += negatives(lane_of(block.S_inv.v, l)) + 3 - negatives(lane_of(block.A_inv, l));
   };
   for (int t = 0; t < walks.steps(); ++t)

@@ -20,8 +20,8 @@
 /// A node that is held in a direction has a P without that direction, regardless of its mass: rigid constraints at
 /// nodes cost nothing and leave the system well conditioned.
 ///
-/// Method: block LDL^T from both ends towards the middle (a twisted factorisation). The two halves of a rod, and those
-/// of a second rod, occupy the four lanes of a register, so two rods cost as much as one.
+/// Method: block LDL^T from both ends towards the middle (a twisted factorisation). The two halves of a rod occupy the
+/// two lanes of half a register; with a second rod's they fill a whole one, so two rods cost little more than one.
 #include <memory>
 #include <vector>
 
@@ -68,11 +68,11 @@ struct BlockTridiagonal {
   bool definite = true;  ///< every motion within the constraints costs energy; else the solution is a saddle point
 };
 
-/// Factors of one element, in four chains side by side, each with R rolls.
-template <int R>
+/// Factors of one element in each half of a chain, or of two, side by side; each chain has R rolls.
+template <class T, int R>
 struct TridiagonalBlock;
 /// State of an elimination between two elements, from which it can resume.
-template <int R>
+template <class T, int R>
 struct EliminationHalt;
 
 /// Working memory of a solve; any content is fine on entry. Afterwards it holds the pivots.
@@ -85,12 +85,12 @@ class TridiagonalFactors {
 
   /// Makes room for two chains of at most `elements` and `rolls` each.
   void resize(int elements, int rolls = 0);
-  template <int R>
-  std::vector<TridiagonalBlock<R>>& blocks();
-  template <int R>
-  const std::vector<TridiagonalBlock<R>>& blocks() const;
-  template <int R>
-  std::vector<EliminationHalt<R>>& halts();
+  template <class T, int R>
+  std::vector<TridiagonalBlock<T, R>>& blocks();
+  template <class T, int R>
+  const std::vector<TridiagonalBlock<T, R>>& blocks() const;
+  template <class T, int R>
+  std::vector<EliminationHalt<T, R>>& halts();
 
  private:
   struct Blocks;

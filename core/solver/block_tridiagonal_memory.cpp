@@ -15,10 +15,13 @@ void TridiagonalFactors::resize(int elements, int rolls) {
     own.blocks.resize(std::max<std::size_t>(own.blocks.size(), elements + 1));
     own.halts.resize(own.blocks.size() / between_halts + 1);
   };
-  rolls == 0   ? make_room(std::get<0>(blocks_->by_rolls))
-  : rolls == 1 ? make_room(std::get<1>(blocks_->by_rolls))
-  : rolls == 2 ? make_room(std::get<2>(blocks_->by_rolls))
-               : make_room(std::get<3>(blocks_->by_rolls));
+  const auto by_rolls = [&]<class T>(T) {
+    rolls == 0   ? make_room(blocks_->of<T, 0>())
+    : rolls == 1 ? make_room(blocks_->of<T, 1>())
+    : rolls == 2 ? make_room(blocks_->of<T, 2>())
+                 : make_room(blocks_->of<T, 3>());
+  };
+  by_rolls(Pair{}), by_rolls(Lanes{});
 }
 
 namespace {

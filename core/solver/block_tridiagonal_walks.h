@@ -1,6 +1,6 @@
 #pragma once
-/// How the four lanes of a register run through one or two chains, from the ends towards the middle, and the numbers
-/// they read.
+/// How the lanes of a register, two a chain, run through one or two chains, from the ends towards the middle, and the
+/// numbers they read.
 #include <algorithm>
 
 #include "core/solver/block.h"
@@ -55,19 +55,22 @@ enum RollNumber {
   roll_numbers = 13
 };
 
-/// The four lanes of a solve and the numbers they read at each step.
-template <int R>
+/// The lanes of a solve and the numbers they read at each step. T: Pair for one chain, Lanes for two.
+template <class T, int R>
 class Walks {
  public:
+  static constexpr int lanes = sizeof(T) / sizeof(double);
+
+  /// `second` is not looked at where T has room for one chain alone.
   Walks(const BlockTridiagonal& first, const BlockTridiagonal& second) {
-    for (int l = 0; l < lane_count; ++l) {
+    for (int l = 0; l < lanes; ++l) {
       const bool forward = l % halves == 0;
       const BlockTridiagonal& chain = l < halves ? first : second;
       lanes_[l] = {&chain, forward, forward ? chain.meets_at - chain.first : chain.elements - 1 - chain.meets_at, 0};
       direction_[l] = forward ? 1.0 : -1.0;
       steps_ = std::max(steps_, lanes_[l].blocks);
     }
-    for (int l = 0; l < lane_count; ++l) {
+    for (int l = 0; l < lanes; ++l) {
       lanes_[l].wait = steps_ - lanes_[l].blocks;
       // Seen from an element, the node behind is its own when running forward, and the next one when running backward.
       const BlockTridiagonal& c = *lanes_[l].chain;
@@ -99,29 +102,31 @@ class Walks {
   }
 
   int steps() const { return steps_; }
-  Lanes direction() const { return direction_; }
+  T direction() const { return direction_; }
   const Walk& lane(int l) const { return lanes_[l]; }
 
   /// Sets the lanes' positions at step t.
   void move_to(int t) {
-    for (int l = 0; l < lane_count; ++l)
+    for (int l = 0; l < lanes; ++l)
       at_[l] = t < lanes_[l].wait ? idle_entry(*lanes_[l].chain, lanes_[l].forward) : lanes_[l].element(t);
   }
-  Lanes read(int n) const {
-    return Lanes{source_[n][0][at_[0]], source_[n][1][at_[1]], source_[n][2][at_[2]], source_[n][3][at_[3]]};
+  T read(int n) const {
+    const auto of = [&](int l) { return source_[n][l][at_[l]]; };
+    if constexpr (lanes == halves)
+      return T{of(0), of(1)};
+    else
+      return T{of(0), of(1), of(2), of(3)};
   }
-  V3<Lanes> vector(int n) const { return {read(n), read(n + 1), read(n + 2)}; }
-  S3<Lanes> symmetric(int n) const {
-    return {read(n), read(n + 1), read(n + 2), read(n + 3), read(n + 4), read(n + 5)};
-  }
+  V3<T> vector(int n) const { return {read(n), read(n + 1), read(n + 2)}; }
+  S3<T> symmetric(int n) const { return {read(n), read(n + 1), read(n + 2), read(n + 3), read(n + 4), read(n + 5)}; }
   static int of_roll(int m, int number) { return numbers + m * roll_numbers + number; }
 
  private:
-  Walk lanes_[lane_count];
-  Lanes direction_{};
+  Walk lanes_[lanes];
+  T direction_{};
   int steps_ = 0;
-  const double* source_[numbers + R * roll_numbers][lane_count];
-  int at_[lane_count];
+  const double* source_[numbers + R * roll_numbers][lanes];
+  int at_[lanes];
 };
 
 }  // namespace ostium::core

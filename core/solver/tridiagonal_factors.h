@@ -10,25 +10,32 @@ namespace ostium::core {
 inline constexpr int between_halts = 8;  ///< steps; a halt is as large as a block, and resumed only a few steps back
 
 struct TridiagonalFactors::Blocks {
-  template <int R>
-  struct OfRolls {
-    std::vector<TridiagonalBlock<R>> blocks;
-    std::vector<EliminationHalt<R>> halts;
+  template <class T, int R>
+  struct Of {
+    std::vector<TridiagonalBlock<T, R>> blocks;
+    std::vector<EliminationHalt<T, R>> halts;
   };
-  std::tuple<OfRolls<0>, OfRolls<1>, OfRolls<2>, OfRolls<3>> by_rolls;
+  template <class T>
+  using ByRolls = std::tuple<Of<T, 0>, Of<T, 1>, Of<T, 2>, Of<T, 3>>;
+  std::tuple<ByRolls<Pair>, ByRolls<Lanes>> by_chains;
+
+  template <class T, int R>
+  Of<T, R>& of() {
+    return std::get<R>(std::get<ByRolls<T>>(by_chains));
+  }
 };
 
-template <int R>
-std::vector<TridiagonalBlock<R>>& TridiagonalFactors::blocks() {
-  return std::get<R>(blocks_->by_rolls).blocks;
+template <class T, int R>
+std::vector<TridiagonalBlock<T, R>>& TridiagonalFactors::blocks() {
+  return blocks_->of<T, R>().blocks;
 }
-template <int R>
-const std::vector<TridiagonalBlock<R>>& TridiagonalFactors::blocks() const {
-  return std::get<R>(blocks_->by_rolls).blocks;
+template <class T, int R>
+const std::vector<TridiagonalBlock<T, R>>& TridiagonalFactors::blocks() const {
+  return blocks_->of<T, R>().blocks;
 }
-template <int R>
-std::vector<EliminationHalt<R>>& TridiagonalFactors::halts() {
-  return std::get<R>(blocks_->by_rolls).halts;
+template <class T, int R>
+std::vector<EliminationHalt<T, R>>& TridiagonalFactors::halts() {
+  return blocks_->of<T, R>().halts;
 }
 
 }  // namespace ostium::core

@@ -17,17 +17,16 @@ std::vector<double> untreated(const vascular::FlowTree& tree) {
 
 void follow_lumen(const vascular::FlowTree& tree, const std::vector<double>& radius_m, int& cursor,
                   std::vector<double>& wall_m) {
-  const std::size_t n = wall_m.size(), from = static_cast<std::size_t>(cursor) % n;
-  int moved = 0;
-  for (std::size_t k = 0; k < n; ++k) {
-    const std::size_t c = (from + k) % n;
+  const int n = static_cast<int>(wall_m.size());
+  int moved = 0, c = cursor < n ? cursor : 0;
+  for (int k = 0; k < n; ++k, c = c + 1 < n ? c + 1 : 0) {
     const vascular::FlowCell& cell = tree.cells[c];
     const double slack = cell.diseased_m < 0.98 * cell.healthy_m || radius_m[c] > 1.02 * cell.healthy_m
                              ? wall_follows_m
                              : wall_follows_share * cell.healthy_m;
     if (std::fabs(radius_m[c] - wall_m[c]) <= slack) continue;
     wall_m[c] = radius_m[c];
-    cursor = static_cast<int>((c + 1) % n);
+    cursor = c + 1 < n ? c + 1 : 0;
     if (++moved == wall_cells_a_step) return;
   }
 }
@@ -44,10 +43,10 @@ OpenedWall::OpenedWall(const Vessel& vessel, core::Surface& surface)
 }
 
 void OpenedWall::set(const std::vector<double>& wall_m) {
+  if (wall_m == now_m_) return;
   changed_.clear();
   for (std::size_t c = 0; c < now_m_.size(); ++c)
     if (wall_m[c] != now_m_[c]) changed_.push_back(static_cast<int>(c));
-  if (changed_.empty()) return;
   now_m_ = wall_m;
   for (int c : changed_)
     for (int k = coronaries_.first_vertex[c]; k < coronaries_.first_vertex[c + 1]; ++k) {
