@@ -55,10 +55,28 @@ def best_ms(work, times):
     return 1e3 * min(took), 1e3 * statistics.median(took)
 
 
+def grown_MB(resets):
+    """How much memory of the process grows over so many resets to new seeds, each with a step after it."""
+    batch = ostium.Batch(patient(TASKS["BasicWireNav"], 0).model, 2)
+    batch.inputs[:, 0] = 0.035
+
+    def work(times):
+        for _ in range(times):
+            batch.reset(0, next(seeds))
+            batch.step(1)
+
+    seeds = iter(range(1, 10**9))
+    work(500)
+    before = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
+    work(resets)
+    return (resource.getrusage(resource.RUSAGE_SELF).ru_maxrss - before) / 1024
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
     parser.add_argument("--json", action="store_true", help="print numbers instead of a table")
     parser.add_argument("--rounds", type=int, default=5)
+    parser.add_argument("--resets", type=int, default=2000, help="over which the growth of memory is measured")
     a = parser.parse_args()
     rows = []
     for name, (task, wanted) in SETUPS.items():
@@ -88,6 +106,8 @@ def main():
     batch.step(132)
     rows.append({"what": "memory of this process, 16 sessions in it", "unit": "MB",
                  "best": resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024, "at_most": 1500})
+    rows.append({"what": f"growth over {a.resets:,} resets and steps", "unit": "MB", "best": grown_MB(a.resets),
+                 "at_most": 1})
     if a.json:
         print(json.dumps(rows, indent=2))
         return

@@ -12,18 +12,7 @@ from pathlib import Path
 import numpy as np
 import ostium
 import pytest
-
-FEED = 0.02  # m/s
-
-
-def drive(data, seed, calls=10, n=20):
-    """The same drives for the same seed."""
-    random = np.random.default_rng(seed)
-    for _ in range(calls):
-        data.inputs[0], data.inputs[1] = random.uniform(-0.2, 1) * FEED, random.uniform(-3, 3)
-        ostium.step(data.model, data, n)
-    return data
-
+from helpers import FEED, drive, tube
 
 def in_a_child(pickled):
     data, seed = pickle.loads(pickled)
@@ -317,28 +306,6 @@ def test_the_types_are_those_of_the_classes():
         assert {name for name in told if not name.startswith("_")} == there, node.name
 
 
-def tube(path, length_mm=120.0, radius_mm=6.0, around=24, along=40):
-    """A closed tube along x as ASCII STL, in mm."""
-    angle = 2 * np.pi * np.arange(around) / around
-    ring = np.stack([np.zeros(around), np.cos(angle), np.sin(angle)], axis=1) * radius_mm
-    rings = [ring + [x, 0, 0] for x in np.linspace(0, length_mm, along)]
-    corners = []
-    for a, b in zip(rings, rings[1:]):
-        for i in range(around):
-            j = (i + 1) % around
-            corners += [(a[i], a[j], b[i]), (b[i], a[j], b[j])]
-    for ring, turned in ((rings[0], True), (rings[-1], False)):
-        middle = ring.mean(axis=0)
-        for i in range(around):
-            j = (i + 1) % around
-            corners.append((middle, ring[j], ring[i]) if turned else (middle, ring[i], ring[j]))
-    lines = ["solid tube"]
-    for triangle in corners:
-        lines += ["facet normal 0 0 0", "outer loop", *("vertex {:.6f} {:.6f} {:.6f}".format(*p) for p in triangle),
-                  "endloop", "endfacet"]
-    path.write_text("\n".join([*lines, "endsolid tube"]))
-
-
 def test_a_mesh_of_ones_own(tmp_path):
     tube(tmp_path / "tube.stl")
     vessel = ostium.Vessel.from_mesh(tmp_path / "tube.stl", "mm", entry=(3, 0, 0), towards=(60, 0, 0))
@@ -358,58 +325,3 @@ def test_a_mesh_of_ones_own(tmp_path):
     assert raised.value.file == str(tmp_path / "bad.stl")
     with pytest.raises(ostium.OstiumError, match="furlong"):
         ostium.Vessel.from_mesh(tmp_path / "tube.stl", "furlong", entry=(3, 0, 0), towards=(60, 0, 0))
-
-
-@pytest.mark.parametrize("protocol", range(pickle.HIGHEST_PROTOCOL + 1))
-def test_every_protocol_of_pickle(data, protocol):
-    assert pickle.loads(pickle.dumps(drive(data, 1), protocol)).hash() == data.hash()
-    for whole in (ostium.Batch(data.model, 1), ostium.Imager(data.model)):
-        with pytest.raises(TypeError, match="cannot be pickled"):
-            pickle.dumps(whole, protocol)
-
-
-def test_a_pickled_data_is_of_its_model(data):
-    other = pickle.loads(pickle.dumps(data))
-    ostium.step(data.model, other)
-    ostium.Imager(data.model, pixels=64).frame(other)
-
-
-@pytest.mark.parametrize("kind", [ostium.Vessel, ostium.Model, ostium.Data, ostium.Batch, ostium.Imager])
-def test_half_made_objects_raise(kind):
-    half = kind.__new__(kind)
-    for name in (name for name in dir(kind) if not name.startswith("_")):
-        with pytest.raises(TypeError):
-            value = getattr(half, name)
-            value()
-            raise AssertionError(f"{kind.__name__}.{name} answered")
-
-
-def test_half_made_objects_raise_where_they_are_handed_over(model, data):
-    half = {kind: kind.__new__(kind) for kind in (ostium.Vessel, ostium.Model, ostium.Data, ostium.Batch)}
-    wire = [("wire", "wire-014-workhorse")]
-    for call in (lambda: ostium.Model(half[ostium.Vessel], wire), lambda: ostium.Data(half[ostium.Model]),
-                 lambda: ostium.Batch(half[ostium.Model], 2), lambda: ostium.Imager(half[ostium.Model]),
-                 lambda: ostium.step(half[ostium.Model], data), lambda: ostium.step(model, half[ostium.Data]),
-                 lambda: half[ostium.Batch].step(1), lambda: ostium.Imager(model).frame(half[ostium.Data]),
-                 lambda: ostium.rollout(half[ostium.Model], [data.get_state()], np.zeros((1, 2, len(data.inputs)))),
-                 lambda: copy.deepcopy(half[ostium.Model]), lambda: pickle.dumps(half[ostium.Vessel])):
-        with pytest.raises(TypeError, match="without __init__"):
-            call()
-
-
-def test_odd_arguments(model, vessel, tmp_path):
-    batch = ostium.Batch(model, 2)
-    for wrong in (-1, 2**64, [[1.0]]):
-        with pytest.raises(ValueError, match="seed"):
-            batch.reset(0, wrong)
-    batch.step(1, mask=[1, 0])
-    batch.step(1, mask=np.array([1, 0]))
-    with pytest.raises(ostium.OstiumError):
-        ostium.Vessel("")
-    tube(tmp_path / "tube.stl")
-    with pytest.raises(ValueError, match="another unit"):
-        ostium.Vessel.from_mesh(tmp_path / "tube.stl", "m", entry=(3, 0, 0), towards=(60, 0, 0))
-    assert "rca-mid-focal" in ostium.cases() and "rosen" in ostium.instruments()
-    assert "aorta-arch-wire" in ostium.scripts() and "spider" in ostium.views()
-    with pytest.raises(ValueError, match="reach"):
-        ostium.Imager(model, cran=89)
