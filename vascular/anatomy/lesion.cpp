@@ -35,7 +35,7 @@ std::string names(const Anatomy& anatomy) {
 
 Composition typical_composition(bool calcified) {
   if (!calcified) return {};
-  return {.calcium_arc_rad = 1.25 * units::pi, .calcium_thickness_m = 0.7 * mm, .calcium_share = 0.7};
+  return {.calcium_arc_rad = 1.25 * units::pi, .calcium_thickness_m = 0.7 * mm, .calcium_length_share = 0.7};
 }
 
 Composition draw_composition(bool calcified, std::uint64_t seed, std::uint64_t lesion) {

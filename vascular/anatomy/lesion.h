@@ -12,7 +12,7 @@ namespace ostium::vascular {
 struct Composition {
   double hardness = 1;  ///< > 0, of its soft part, as a multiple of the typical plaque's
   double calcium_arc_rad = 0, calcium_thickness_m = 0;
-  double calcium_share = 1;  ///< of the lesion's length, about its middle
+  double calcium_length_share = 1;  ///< of the lesion's length, about its middle
   /// More calcium than an arc of 120 degrees.
   bool calcified() const;
 };

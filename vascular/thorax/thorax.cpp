@@ -113,7 +113,11 @@ void add_bone(std::vector<XrayBody>& bodies, const std::string& name, Mesh outer
 /// Of thoracic bodies and end plates 0.25 to 0.5 mm (Silva 1994, Bone 15:617) [from memory].
 constexpr double vertebral_cortex_mm = 0.35;
 
-void add_spine(std::vector<XrayBody>& bodies) {
+/// No spine is quite straight: each body leans a little from the line of all. [estimate: a curve of 10 degrees over
+/// several bodies still counts as straight]
+constexpr double vertebra_leans_deg = 2;
+
+void add_spine(std::vector<XrayBody>& bodies, Draws& draw) {
   const auto shape = [](double inset_mm) {
     return surface_net([=](const Eigen::Vector3d& p) { return mm * (from_vertebra_mm(p / mm) + inset_mm); },
                        at_mm(-36, -28.5, -61), at_mm(36, 16.5, 18), 1.5 * mm);
@@ -124,7 +128,10 @@ void add_spine(std::vector<XrayBody>& bodies) {
   for (const Vertebra& v : vertebrae) {
     const Eigen::Vector3d p = middle_x * Eigen::Vector3d::UnitX() + at_mm(0, v.y_mm, spine_z_mm(v.y_mm));
     const double wide = (12.5 + 0.36 * v.half_height_mm) / half_width_mm, slope = 24 * (v.y_mm + 10) / (190 * 190);
-    const Eigen::Affine3d place = Eigen::Translation3d(p) * Eigen::AngleAxisd(-slope, Eigen::Vector3d::UnitX()) *
+    const double forwards = vertebra_leans_deg * degree * draw.normal(),
+                 sideways = vertebra_leans_deg * degree * draw.normal();
+    const Eigen::Affine3d place = Eigen::Translation3d(p) * Eigen::AngleAxisd(sideways, Eigen::Vector3d::UnitZ()) *
+                                  Eigen::AngleAxisd(forwards - slope, Eigen::Vector3d::UnitX()) *
                                   Eigen::Scaling(wide, v.half_height_mm / half_height_mm, wide);
     for (auto [mesh, local] : {std::pair(&outer, &outer_shape), std::pair(&inner, &inner_shape)}) {
       Mesh placed = *local;
@@ -364,7 +371,7 @@ std::vector<XrayBody> make_thorax(const Anatomy& anatomy) {
   add_lungs(bodies, heart, Lungs(heart, displacing), motion, draw);
   add_heart(bodies, heart, vessels, motion, draw);
   bodies.push_back(stomach_gas(diaphragm_mm, draw));
-  add_spine(bodies);
+  add_spine(bodies, draw);
   add_muscles_of_the_back(bodies);
   add_ribs(bodies);
   add_front(bodies);

@@ -9,12 +9,12 @@ namespace ostium::vascular {
 
 double from_vertebra_mm(Eigen::Vector3d p) {
   p.x() = std::fabs(p.x());
-  constexpr double wide = 16.2, high = 10.9, deep = 14.8;
+  constexpr double wide = 16.2, high = 10.9, deep = 14.8, hollow = 2.2;
   // Waisted, with hollow end plates and a flat back.
   const double waist = 1 - 0.10 * (1 - std::pow(p.y() / high, 2));
   const double z = p.z() > 0 ? p.z() / deep : p.z() / (deep - 2);
   const double out = std::pow(std::pow(p.x() / wide, 2.9) + std::pow(std::fabs(z), 2.7), 1 / 2.7) / waist;
-  const double side = (out - 1) * 12.5, end = std::fabs(p.y()) - high + 1.3 * std::max(0.0, 1 - out * out);
+  const double side = (out - 1) * 12.5, end = std::fabs(p.y()) - high + hollow * std::max(0.0, 1 - out * out);
   const double body = -joined(-side, -end, 3.5);
   const auto rod = [&](const Eigen::Vector3d& a, const Eigen::Vector3d& b, double radius_a, double radius_b,
                        const Eigen::Vector3d& scale) {

@@ -29,7 +29,7 @@ Strength strength_of(const PlaqueModel& model, const PlaqueState& s, int i) {
   Strength is{.open_m = open_m(model, cell, s.rest_m[i])};
   is.share = lost > 1e-9 ? (is.open_m - cell.diseased_m) / lost : 1;
   is.spring_Pa = model.law.spring_Pa * (is.open_m - s.rest_m[i]) / cell.healthy_m;
-  const double free = 1 - model.law.calcium_holds * cell.calcium_share * (1 - s.cracked[i]);
+  const double free = 1 - model.law.calcium_holds * cell.calcium_arc_share * (1 - s.cracked[i]);
   is.yield_Pa = cell.yield_Pa * (1 - model.law.weakening * s.broken[i]) +
                 cell.hardening_Pa * std::clamp(is.share, 0.0, 1.0) / free;
   is.E_Pa = cell.E_Pa * std::max(1.0, is.yield_Pa / cell.yield_Pa);
@@ -41,8 +41,8 @@ void compose(const Lesion& lesion, double s_m, PlaqueCell& cell, double& hardnes
   cell.eccentric = cell.eccentric || lesion.eccentric;
   hardness = std::max(hardness, lesion.made_of.hardness);
   const double from_middle = std::fabs(s_m - lesion.from_m - lesion.length_m / 2);
-  if (from_middle > lesion.made_of.calcium_share * lesion.length_m / 2) return;
-  cell.calcium_share = std::max(cell.calcium_share, lesion.made_of.calcium_arc_rad / (2 * units::pi));
+  if (from_middle > lesion.made_of.calcium_length_share * lesion.length_m / 2) return;
+  cell.calcium_arc_share = std::max(cell.calcium_arc_share, lesion.made_of.calcium_arc_rad / (2 * units::pi));
   cell.calcium_m = std::max(cell.calcium_m, lesion.made_of.calcium_thickness_m);
 }
 
@@ -101,7 +101,7 @@ void push_wall(const PlaqueModel& model, int i, double a, PlaqueState& s) {
   if (const Strength is = strength_of(model, s, i); a > is.open_m) {
     const double elastic_m = (is.yield_Pa - is.spring_Pa) / is.E_Pa * cell.healthy_m,
                  p_Pa = is.spring_Pa + (is.yield_Pa - is.spring_Pa) * std::min(1.0, (a - is.open_m) / elastic_m);
-    if (cell.calcium_share > 0.5 && p_Pa * a > model.law.calcium_Pa * cell.calcium_m) s.cracked[i] = 1;
+    if (cell.calcium_arc_share > 0.5 && p_Pa * a > model.law.calcium_Pa * cell.calcium_m) s.cracked[i] = 1;
     if (const double given_m = a - is.open_m - elastic_m; given_m > 0) {
       s.rest_m[i] += (1 - model.law.spring_back) * given_m;
       if (const double lost = cell.healthy_m - cell.diseased_m; lost > 1e-9)

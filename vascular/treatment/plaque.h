@@ -40,7 +40,7 @@ struct PlaqueLaw {
 struct PlaqueCell {
   double diseased_m = 0, healthy_m = 0;
   double E_Pa = 0, yield_Pa = 0, hardening_Pa = 0;  ///< of the plaque as it is found
-  double calcium_share = 0, calcium_m = 0;          ///< of the circumference, [0, 1]; thickness
+  double calcium_arc_share = 0, calcium_m = 0;      ///< of the circumference, [0, 1]; thickness
   bool calcified = false, eccentric = false;
 };
 

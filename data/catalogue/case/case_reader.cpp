@@ -43,7 +43,7 @@ vascular::Composition read_composition(const JsonObject& entry) {
   }
   if (entry.has("calcium_thickness_mm")) out.calcium_thickness_m = entry.positive("calcium_thickness_mm") * 1e-3;
   if (entry.has("calcium_length_mm"))
-    out.calcium_share = std::min(1.0, entry.positive("calcium_length_mm") / entry.positive("length_mm"));
+    out.calcium_length_share = std::min(1.0, entry.positive("calcium_length_mm") / entry.positive("length_mm"));
   if (entry.has("hardness")) out.hardness = entry.positive("hardness");
   return out;
 }

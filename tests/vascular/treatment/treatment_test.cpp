@@ -59,7 +59,7 @@ TEST(Balloon, AWaistStandsAtLowPressureAndGivesWay) {
 TEST(Balloon, AThinCalciumRingBreaksAndAThickOneDoesNotYieldTo20Atm) {
   const auto waist = [](double thickness_m, double gauge_atm) {
     Bench bench({.compliance = Compliance::non, .change = [=](TreatmentModel& m) {
-                   for (PlaqueCell& cell : m.plaque.cells) cell.calcium_share = 0.95, cell.calcium_m = thickness_m;
+                   for (PlaqueCell& cell : m.plaque.cells) cell.calcium_arc_share = 0.95, cell.calcium_m = thickness_m;
                  }});
     bench.run(gauge_atm, 12);
     return bench.report.balloon.waist;
