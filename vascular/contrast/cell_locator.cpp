@@ -10,11 +10,12 @@ namespace {
 constexpr double in_vessel = 1.6;     // distance from the centreline, in radii, that still counts as inside
 constexpr double at_ostium_m = 8e-3;  // distance from an ostium within which a jet may enter it
 constexpr double in_aorta_m = 25e-3;
+constexpr std::size_t boxed = 16;  // cells, which follow one another along a branch
 
 }  // namespace
 
 CellLocator::CellLocator(const LumenMap& map, const FlowTree& tree)
-    : map_(map), tree_(tree), centres_(tree.cells.size()) {
+    : map_(map), tree_(tree), centres_(tree.cells.size()), boxes_((tree.cells.size() + boxed - 1) / boxed) {
   child_first_.assign(tree.cells.size() + 1, 0);
   for (const FlowCell& cell : tree.cells)
     if (cell.upstream >= 0) ++child_first_[cell.upstream + 1];
@@ -26,7 +27,11 @@ CellLocator::CellLocator(const LumenMap& map, const FlowTree& tree)
 }
 
 void CellLocator::set_moment(double phase, double depth) {
-  for (std::size_t c = 0; c < centres_.size(); ++c) centres_[c] = map_.centre(c, phase, depth);
+  for (Eigen::AlignedBox3d& box : boxes_) box.setEmpty();
+  for (std::size_t c = 0; c < centres_.size(); ++c) {
+    centres_[c] = map_.centre(c, phase, depth);
+    boxes_[c / boxed].extend(centres_[c]);
+  }
 }
 
 void CellLocator::measure_towards(const Eigen::Vector3d& p, int other, double sign, Found& best) const {
@@ -58,8 +63,11 @@ CellLocator::Found CellLocator::nearest(const Eigen::Vector3d& p, double limit_m
   int at = near;
   if (at < 0) {
     double least = limit_m * limit_m;
-    for (std::size_t c = 0; c < centres_.size(); ++c)
-      if (const double d = (p - centres_[c]).squaredNorm(); d < least) least = d, at = static_cast<int>(c);
+    for (std::size_t b = 0; b < boxes_.size(); ++b) {
+      if (boxes_[b].squaredExteriorDistance(p) > least * (1 + 1e-9)) continue;
+      for (std::size_t c = b * boxed; c < std::min(centres_.size(), (b + 1) * boxed); ++c)
+        if (const double d = (p - centres_[c]).squaredNorm(); d < least) least = d, at = static_cast<int>(c);
+    }
     if (at < 0) return {};
   }
   // Move to ever nearer neighbours.

@@ -1,6 +1,7 @@
 #pragma once
 /// Locates things in the coronary tree: from points in the patient frame (a rod's nodes, a marker, a tip) to cells,
 /// paths and positions, at a moment of the cardiac cycle. Cell centres are computed once per moment, for many queries.
+#include <Eigen/Geometry>
 #include <optional>
 
 #include "vascular/contrast/lumen_map.h"
@@ -33,6 +34,7 @@ class CellLocator {
   const LumenMap& map_;
   const FlowTree& tree_;
   std::vector<Eigen::Vector3d> centres_;
+  std::vector<Eigen::AlignedBox3d> boxes_;  ///< of `boxed` cells each, one after the other
   std::vector<int> child_first_, children_;
 };
 
