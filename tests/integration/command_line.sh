@@ -274,6 +274,11 @@ expect 0 "bit for bit" "$ostium" replay "$out/run.h5" --verify
 expect 0 '"same": true' "$ostium" replay "$out/run.h5" --from 1 --json
 expect 0 "moment.png" "$ostium" replay "$out/run.h5" --from 0.5 --view lao --pixels 128 --png "$out/moment.png"
 expect 0 "run.html" "$ostium" report "$out/run.h5" -o "$out/run.html" --csv "$out/runs.csv" --events "$out/events.csv"
+# One picture is of its moment, a film beside it or not; --json is JSON whatever is made.
+[[ $("$ostium" replay "$out/run.h5" --from 0.8 --pixels 64 --png "$out/alone.png") == *" at 0.800 s" ]]
+"$ostium" replay "$out/run.h5" --from 0.8 --pixels 64 --png "$out/beside.png" --video "$out/beside.mp4" --verify --json |
+  python3 -c 'import json, sys; told = json.load(sys.stdin); assert told["same"] and len(told["pictures"]) == 2'
+cmp "$out/alone.png" "$out/beside.png"
 grep -q "not for decisions on a patient" "$out/run.html"
 grep -q "tool_in" "$out/events.csv"
 expect 3 "2 recordings" "$ostium" report "$out/run.h5" "$out/run.h5" --code A -o "$out/none.html"
@@ -311,7 +316,10 @@ soon() { # soon WORD ARGUMENTS...: refused within two seconds of processor
 }
 soon "there is no view" replay "$out/run.h5" --view upwards --png "$out/moment.png"
 soon "there is no picture to show that in" replay "$out/run.h5" --view lao
-soon "there is no picture to show that in" replay "$out/run.h5" --seconds 1
+soon "there is no picture to show that in" replay "$out/run.h5" --pixels 64
+soon "there is no picture to show that in" replay "$out/run.h5" --rate 30
+soon "is the length of a film" replay "$out/run.h5" --seconds 1
+soon "is the length of a film" replay "$out/run.h5" --seconds 1 --png "$out/moment.png"
 soon "s long" replay "$out/run.h5" --from 60
 soon "no frame rate" replay "$out/run.h5" --rate 7 --video "$out/moment.mp4"
 soon "cannot be reached" replay "$out/run.h5" --lao 300 --png "$out/moment.png"
