@@ -61,6 +61,8 @@ refused "is for the phantom" frame rca-mid-focal --guide none -o none.png
 refused "angle inf degrees cannot be reached" frame --lao 1e308 -o none.png
 expect 2 "--out beside --no-pictures would do nothing" "$ostium" treat --no-pictures -o none.png
 expect 2 "--seeds beside --merge would do nothing" "$ostium" sweep --merge other.csv --seeds 1..4
+expect 2 "not in range 0.01" "$ostium" inject --rate 0 -o none.png
+expect 2 "not in range 0.01" "$ostium" inject --volume 0 -o none.png
 
 # What cannot be put where it should go is refused before the work.
 touch before
