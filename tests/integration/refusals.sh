@@ -84,6 +84,12 @@ ls bend >before
 refused "measurement.json is there already" explain --template projections -o bend
 ls bend | cmp - before
 refused "there is no template" explain --template nothing -o none
+mkdir found && cp -r bend found/amended
+refused "a file of the measured set" explain found/amended -o found
+mv found/amended/b0.csv found/amended/prediction.csv
+sed 's/b0.csv/prediction.csv/' bend/measurement.json >found/amended/measurement.json
+refused "a file of the measured set" predict found/amended -o found/amended
+cmp bend/b0.csv found/amended/prediction.csv
 expect 2 "expected one of them" "$ostium" explain bend --template projections -o none
 echo none >none.h5
 refused "is no HDF5 file" report none.h5 -o none.html --questionnaire none-forms.html --events none.csv
