@@ -242,6 +242,7 @@ cp "$folder/whole.obj" "$folder/whole.blend"
 expect 3 "names nothing that is read .*\.vtp.*\.mrk\.json" "$ostium" check "$folder/whole.blend"
 expect 3 "names nothing that is read" "$ostium" import "$folder/whole.blend" -o "$folder/case"
 expect 3 "right-handed" "$ostium" import "$folder/whole.obj" --axes LPI -o "$folder/case"
+expect 3 "gets another name already" "$ostium" import "$folder/whole.obj" --rename 1=a 1=b -o "$folder/case"
 expect 3 "FOUND=WANTED" "$ostium" import "$folder/whole.obj" --rename x -o "$folder/case"
 expect 3 "expected a name of at most" "$ostium" import "$folder/whole.obj" --rename "1=../x" -o "$folder/case"
 expect 3 "a case that ships" "$ostium" import "$folder/whole.obj" -o rca-mid-focal
@@ -273,12 +274,12 @@ grep -q '"outcome": "success"' "$out/metrics.json"
 expect 0 "bit for bit" "$ostium" replay "$out/run.h5" --verify
 expect 0 '"same": true' "$ostium" replay "$out/run.h5" --from 1 --json
 expect 0 "moment.png" "$ostium" replay "$out/run.h5" --from 0.5 --view lao --pixels 128 --png "$out/moment.png"
-expect 0 "run.html" "$ostium" report "$out/run.h5" -o "$out/run.html" --csv "$out/runs.csv" --events "$out/events.csv"
 # One picture is of its moment, a film beside it or not; --json is JSON whatever is made.
 [[ $("$ostium" replay "$out/run.h5" --from 0.8 --pixels 64 --png "$out/alone.png") == *" at 0.800 s" ]]
 "$ostium" replay "$out/run.h5" --from 0.8 --pixels 64 --png "$out/beside.png" --video "$out/beside.mp4" --verify --json |
   python3 -c 'import json, sys; told = json.load(sys.stdin); assert told["same"] and len(told["pictures"]) == 2'
 cmp "$out/alone.png" "$out/beside.png"
+expect 0 "run.html" "$ostium" report "$out/run.h5" -o "$out/run.html" --csv "$out/runs.csv" --events "$out/events.csv"
 grep -q "not for decisions on a patient" "$out/run.html"
 grep -q "tool_in" "$out/events.csv"
 expect 3 "2 recordings" "$ostium" report "$out/run.h5" "$out/run.h5" --code A -o "$out/none.html"

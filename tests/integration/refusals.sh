@@ -63,6 +63,9 @@ expect 2 "--out beside --no-pictures would do nothing" "$ostium" treat --no-pict
 expect 2 "--seeds beside --merge would do nothing" "$ostium" sweep --merge other.csv --seeds 1..4
 expect 2 "not in range 0.01" "$ostium" inject --rate 0 -o none.png
 expect 2 "not in range 0.01" "$ostium" inject --volume 0 -o none.png
+mkdir frames
+for name in 0 1 2 3 01; do echo >"frames/lumen-$name.obj"; done
+refused "has the number of" import frames --sequence -o none
 
 # What cannot be put where it should go is refused before the work.
 touch before
@@ -81,15 +84,15 @@ cannot explain bend --write-instrument folder.png
 # A refusal leaves everything as it was.
 "$ostium" explain --template three_point_bend -o bend >/dev/null
 ls bend >before
-refused "measurement.json is there already" explain --template projections -o bend
-ls bend | cmp - before
-refused "there is no template" explain --template nothing -o none
 mkdir found && cp -r bend found/amended
 refused "a file of the measured set" explain found/amended -o found
 mv found/amended/b0.csv found/amended/prediction.csv
 sed 's/b0.csv/prediction.csv/' bend/measurement.json >found/amended/measurement.json
 refused "a file of the measured set" predict found/amended -o found/amended
 cmp bend/b0.csv found/amended/prediction.csv
+refused "measurement.json is there already" explain --template projections -o bend
+ls bend | cmp - before
+refused "there is no template" explain --template nothing -o none
 expect 2 "expected one of them" "$ostium" explain bend --template projections -o none
 echo none >none.h5
 refused "is no HDF5 file" report none.h5 -o none.html --questionnaire none-forms.html --events none.csv

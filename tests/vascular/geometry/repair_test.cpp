@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "core/base/units.h"
+#include "tests/vascular/geometry/bent_tube.h"
 #include "tests/vascular/geometry/damage.h"
 #include "tests/vascular/geometry/shapes.h"
 #include "vascular/anatomy/lesion.h"
@@ -350,6 +351,23 @@ TEST(Decimate, SliversSideBySideGo) {
 
 TEST(Repair, WhatHoldsNothingIsRefused) {
   EXPECT_THROW(repair_mesh({{{0, 0, 0}, {0.01, 0, 0}, {0, 0.01, 0}}, {{0, 1, 2}}}), MeshError);
+}
+
+TEST(Repair, WhyNothingComesOutIsSaid) {
+  const auto said = [](const Mesh& mesh, double voxel_m) -> std::string {
+    RepairOptions options;
+    options.voxel_m = voxel_m;
+    try {
+      repair_mesh(mesh, options);
+    } catch (const MeshError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  const Mesh tube = mesh_of(test::BentTube{0.06, 0.003, 0.1});
+  EXPECT_EQ(said(tube, 0.1e-3), "");
+  EXPECT_NE(said(tube, 1e-6).find("expected 0.013 mm or more"), std::string::npos) << said(tube, 1e-6);
+  EXPECT_NE(said(mesh_of(test::BentTube{0.03, 0.0003, 0.1}), 0).find("smaller than 8 mm3"), std::string::npos);
 }
 
 TEST(Winding, CountsSurfacesAroundAPoint) {
