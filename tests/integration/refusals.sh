@@ -5,7 +5,8 @@ ostium=$1
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 
-. "$(dirname "$(readlink -f "$0")")/expect.sh"
+here=$(dirname "$(readlink -f "$0")")
+. "$here/expect.sh"
 cd "$folder"
 
 # Pipes, sockets, devices and links in place of files: none is opened, as it would wait, or never end.
@@ -66,6 +67,12 @@ expect 2 "not in range 0.01" "$ostium" inject --volume 0 -o none.png
 mkdir frames
 for name in 0 1 2 3 01; do echo >"frames/lumen-$name.obj"; done
 refused "has the number of" import frames --sequence -o none
+
+# Sizes that no vessel has are told as they are.
+python3 -B "$here/../tools/comparison/made_up_tube.py" micrometres.stl 1500 60000
+python3 -B "$here/../tools/comparison/made_up_tube.py" wide.stl 50 100
+refused "micrometres have to be divided by 1000" check micrometres.stl
+expect 1 "vessels: 9[0-9][.]" "$ostium" check wide.stl
 
 # What cannot be put where it should go is refused before the work.
 touch before
