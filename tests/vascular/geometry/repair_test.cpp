@@ -274,6 +274,28 @@ TEST(Repair, TwoTubesSideBySideAreNoWall) {
   }
 }
 
+TEST(Repair, TwoTubesThatShareALineStayTwo) {
+  Mesh mesh = test::tube(5 * mm, 0.2, 36, 80, true);
+  const Mesh other = mesh;
+  const auto n = static_cast<int>(mesh.vertices.size());
+  std::vector<int> number;  // of the other's vertices, where those on the line are the first one's
+  for (const Eigen::Vector3d& p : other.vertices) {
+    const Eigen::Vector3d moved = p + Eigen::Vector3d(10 * mm, 0, 0);
+    const auto same = std::find_if(mesh.vertices.begin(), mesh.vertices.begin() + n,
+                                   [&](const Eigen::Vector3d& q) { return (q - moved).norm() < 1e-9; });
+    number.push_back(same == mesh.vertices.begin() + n ? static_cast<int>(mesh.vertices.size())
+                                                       : static_cast<int>(same - mesh.vertices.begin()));
+    if (number.back() >= n) mesh.vertices.push_back(moved);
+  }
+  ASSERT_LT(mesh.vertices.size(), 2 * other.vertices.size() - 50);
+  for (const auto& [a, b, c] : other.triangles) mesh.triangles.push_back({number[a], number[b], number[c]});
+  Sheets sheets = sheets_of(mesh);
+  const Orientation orientation = orient(mesh, sheets);
+  EXPECT_EQ(sheets.pieces, 2);
+  EXPECT_TRUE(orientation.flipped.empty() && orientation.inverted.empty());
+  EXPECT_EQ(find_double_wall(mesh, sheets).triangles, 0);
+}
+
 TEST(Repair, AWallsUnitIsThatOfItsLumen) {
   const Mesh in_mm = test::scaled(test::wall(10 * mm, 2 * mm, 0.25, 36, 80), 1e3);
   EXPECT_TRUE(unit_readings(vessel_size(in_mm)).empty()) << "twice the wall's thickness is no artery's width";
