@@ -69,7 +69,7 @@ for name in 0 1 2 3 01; do echo >"frames/lumen-$name.obj"; done
 refused "has the number of" import frames --sequence -o none
 
 # Sizes that no vessel has are told as they are.
-python3 -B "$here/../tools/comparison/made_up_tube.py" micrometres.stl 1500 60000
+python3 -B "$here/../tools/comparison/made_up_tube.py" micrometres.stl 1500 12000
 python3 -B "$here/../tools/comparison/made_up_tube.py" wide.stl 50 100
 refused "micrometres have to be divided by 1000" check micrometres.stl
 expect 1 "vessels: 9[0-9][.]" "$ostium" check wide.stl
