@@ -68,6 +68,23 @@ mkdir frames
 for name in 0 1 2 3 01; do echo >"frames/lumen-$name.obj"; done
 refused "has the number of" import frames --sequence -o none
 
+# A step that no tool of the script can do was done at once, in a run that succeeded.
+script() { # script TOOL STEP: a script of one wire, called TOOL
+  cat >mine.json <<END
+{ "schema": "ostium-script/1", "name": "mine", "title": "a wire",
+  "tools": [{ "name": "$1", "instrument": "rosen" }],
+  "steps": [$2] }
+END
+}
+script wire '{ "do": "inflate", "gauge_atm": 3, "over_s": 5 }'
+refused "mine.json:3: inflate: no tool has a balloon" run rca-mid-focal --script mine.json
+script wire '{ "do": "deflate" }'
+refused "mine.json:3: deflate: no tool has a balloon" run rca-mid-focal --script mine.json
+script wire '{ "do": "inject", "rate_mL_s": 3, "volume_mL": 5 }'
+refused "mine.json:3: inject: no tool is a catheter" run rca-mid-focal --script mine.json
+script person '{ "do": "wait", "until": [{ "seconds": 1 }] }'
+refused "mine.json:2: a tool is called person" run rca-mid-focal --script mine.json
+
 # Sizes that no vessel has are told as they are.
 python3 -B "$here/../tools/comparison/made_up_tube.py" micrometres.stl 1500 12000
 python3 -B "$here/../tools/comparison/made_up_tube.py" wide.stl 50 100

@@ -25,6 +25,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// What --set gives beside the tools' instruments.
+constexpr std::string_view settings[] = {"person",   "heart_rate", "breathing", "hand_speed",
+                                         "friction", "begin",      "stuck"};
+
 fs::path folder_of(const data::Script& script) { return fs::path(script.file).parent_path(); }
 
 nlohmann::json numbers(const Eigen::Vector3d& p) { return nlohmann::json::array({p.x(), p.y(), p.z()}); }
@@ -53,6 +57,11 @@ void set_script(const data::Script& script, RunSetup& setup) {
   setup.script = script;
   setup.tool_texts.clear(), setup.tool_files.clear();
   for (const data::ScriptTool& tool : script.tools) {
+    if (std::ranges::find(settings, tool.name) != std::end(settings))
+      throw data::LoadError(
+          fmt::format("{}:{}: a tool is called {}, as what --set gives beside tools; expected another "
+                      "name",
+                      script.file, tool.line, tool.name));
     setup.tool_files.push_back(data::instrument_file(tool.instrument, folder_of(script)));
     setup.tool_texts.push_back(data::read_file(setup.tool_files.back()));
   }
@@ -165,9 +174,7 @@ void set_value(const std::string& key, const std::string& value, RunSetup& setup
     setup.stuck = value;
   } else {
     throw data::LoadError(
-        fmt::format("there is no \"{}\" to set; expected one of {}person, heart_rate, breathing, hand_speed, friction, "
-                    "begin, stuck",
-                    key, known));
+        fmt::format("there is no \"{}\" to set; expected one of {}{}", key, known, fmt::join(settings, ", ")));
   }
 }
 
