@@ -217,6 +217,13 @@ cat >"$folder/lines.mrk.json" <<'END'
 END
 expect 0 "mm, as the file says" "$ostium" check "$folder/lines.mrk.json"
 expect 0 "vessel 1" "$ostium" import "$folder/lines.mrk.json" -o "$folder/lines"
+# A run in it is of the vessels that it was made in.
+expect 1 "time limit" "$ostium" run "$folder/lines" --script iliac-wire --seconds 0.1 --out "$folder/in-lines"
+expect 0 "bit for bit" "$ostium" replay "$folder/in-lines/run.h5"
+sed 's/1.5\]/1.6]/' "$folder/lines.mrk.json" >"$folder/wider.mrk.json"
+expect 0 "vessel 1" "$ostium" import "$folder/wider.mrk.json" -o "$folder/lines"
+expect 3 "not those that the run was made in" "$ostium" replay "$folder/in-lines/run.h5"
+expect 3 "not those that the run was made in" "$ostium" report "$folder/in-lines/run.h5" -o "$folder/lines.html"
 sed 's/Radius/Curvature/' "$folder/lines.mrk.json" >"$folder/bare.mrk.json"
 expect 3 "has no radii; expected a measurement" "$ostium" centreline "$folder/bare.mrk.json" -o "$folder/tree.json"
 expect 3 "makes a case of them" "$ostium" frame "$folder/lines.mrk.json" -o "$folder/frame.png"

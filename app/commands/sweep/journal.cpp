@@ -54,21 +54,6 @@ JournalHead head_from(const std::string& file, const std::string& line) {
   }
 }
 
-/// Of a mesh, or an imported case: its files may be others while their names are the same.
-std::string shape_of(const RunSetup& vessel) {
-  std::string bytes;
-  const auto add = [&](const std::vector<Eigen::Vector3d>& points) {
-    bytes.append(reinterpret_cast<const char*>(points.data()), points.size() * sizeof(Eigen::Vector3d));
-  };
-  if (vessel.is_mesh()) {
-    add(vessel.mesh.vertices);
-  } else if (const data::Case c = data::read_case(vessel.vessel + ".json", vessel.case_text); c.imported) {
-    add(c.imported->lumen.vertices);
-    for (const auto& frame : c.imported->frames) add(frame);
-  }
-  return fmt::format(" {:016x}", std::hash<std::string>{}(bytes));
-}
-
 }  // namespace
 
 std::vector<std::size_t> parts_of_runs(const JournalHead& head) {
@@ -84,7 +69,6 @@ JournalHead head_of(const Sweep& sweep, const SweepPart& part) {
       .sweep = "", .part = part, .heading = heading(sweep.grid), .grid = sweep.grid, .vessel_of = sweep.vessel_of};
   std::string what = OSTIUM_VERSION + head.heading + to_json(sweep.grid).dump();
   for (const RunSetup& setup : sweep.settings) what += to_json(setup);
-  for (const RunSetup& vessel : sweep.vessels) what += shape_of(vessel);
   what += fmt::format(" {}", sweep.seconds);
   head.sweep = fmt::format("{:016x}", std::hash<std::string>{}(what));
   return head;
