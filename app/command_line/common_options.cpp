@@ -32,6 +32,11 @@ void require_not_of_set(const std::string& set, const std::string& option, const
                         "; expected another name");
 }
 
+void require_none_of_set(const std::string& set, const std::string& option, const std::string& folder,
+                         std::initializer_list<const char*> names) {
+  for (const char* name : names) require_not_of_set(set, option, (std::filesystem::path(folder) / name).string());
+}
+
 void add_json_flag(Options& options, bool& json, const std::string& schema) {
   options.flag("--json", json, "Machine-readable" + (schema.empty() ? "" : ", see data/schemas/" + schema));
 }

@@ -67,9 +67,11 @@ MeshUnit unit_of(const std::vector<std::string>& files, const vascular::Mesh& ra
   unit.calibre_m = metres(unit.unit) * size.wide;
   if (unit.extent_m > largest_m)
     throw vascular::MeshError(
-        fmt::format("{}: is {:.3g} m long if its numbers are {}; expected vessels, {:g} m long at most: say its unit "
-                    "with --units, or is the file damaged?",
-                    files.front(), unit.extent_m, name_of(unit.unit), largest_m));
+        fmt::format("{}: is {:.3g} m long if its numbers are {}; expected vessels, {:g} m long at most: {}",
+                    files.front(), unit.extent_m, name_of(unit.unit), largest_m,
+                    unit.unit == vascular::LengthUnit::millimetre
+                        ? "is the file damaged? numbers in micrometres have to be divided by 1000"
+                        : "say its unit with --units, or is the file damaged?"));
   return unit;
 }
 

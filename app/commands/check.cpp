@@ -78,7 +78,7 @@ void find_openings(const vascular::Mesh& turned, const vascular::Sheets& sheets,
 void measure_diameters(const vascular::Mesh& mesh, Checked& c) {
   const vascular::BoundingVolumeHierarchy tree(mesh);
   const int stride = 1 + static_cast<int>(mesh.triangles.size() / 20'000);
-  const std::vector<double> all = calibres(mesh, tree, stride), areas = areas_m2(mesh, stride);
+  const std::vector<double> all = calibres(mesh, tree, stride, c.unit.extent_m), areas = areas_m2(mesh, stride);
   for (double share : shares) c.diameters.push_back(vascular::percentile(all, areas, share));
 }
 

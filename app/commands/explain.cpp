@@ -109,6 +109,8 @@ int run(const Arguments& a) {
     return 2;
   }
   require_not_of_set(a.set, "--write-instrument", a.instrument);
+  require_none_of_set(a.set, "--out", a.folder,
+                      {"explanation.json", "explanation.html", "instrument.json", "amended/measurement.json"});
   const data::Ranks mpi;
   const data::JsonValue root = data::load_json(data::measurement_file(a.set));
   if (data::curves::kind_of(root)) return run_curves(a, root);

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "app/angiography/angiogram.h"
 #include "app/angiography/settle.h"
@@ -28,8 +29,8 @@ struct Arguments {
   std::string of = "rca-mid-focal";  ///< case
   std::vector<std::string> set;      ///< which person
   std::string at = "right";          ///< left, right: the ostium; left-sinus, right-sinus, aorta
-  double rate_mL_s = 0;              ///< 0: as measured for hand injection, 2.1 left and 1.7 right
-  double volume_mL = 0;              ///< 0: 7.1 left, 4.8 right
+  std::optional<double> rate_mL_s;   ///< usual: as measured for hand injection, 2.1 left and 1.7 right
+  std::optional<double> volume_mL;   ///< usual: 7.1 left, 4.8 right
   double iodine_mg_mL = 350;
   double phase = 0.9;  ///< cardiac phase when contrast reaches the tip
   double seconds = 5;
@@ -52,8 +53,8 @@ void declare(Options& options, Arguments& a) {
   options.add("--at", a.at, "Where the catheter's tip is")
       .one_of({"left", "right", "left-sinus", "right-sinus", "aorta"})
       .show_default();
-  options.add("--rate", a.rate_mL_s, "mL/s; as injected by hand if not given: 2.1 left, 1.7 right").range(0.0, 30.0);
-  options.add("--volume", a.volume_mL, "mL; 7.1 left, 4.8 right").range(0.0, 100.0);
+  options.add("--rate", a.rate_mL_s, "mL/s; as injected by hand if not given: 2.1 left, 1.7 right").range(0.01, 30.0);
+  options.add("--volume", a.volume_mL, "mL; 7.1 left, 4.8 right").range(0.01, 100.0);
   options.add("--iodine", a.iodine_mg_mL, "mg/mL in the syringe").range(0.0, 400.0).show_default();
   options.add("--phase", a.phase, "Of the heart as it begins; 0 is the R wave").range(0.0, 1.0).show_default();
   options.add("--seconds", a.seconds, "Length of the run").range(0.2, 60.0).show_default();
@@ -75,8 +76,8 @@ Injection injection_of(const Arguments& a, const vascular::PhysiologyModel& mode
   if (a.at == "left-sinus" || a.at == "right-sinus")
     injection.tip = {left ? vascular::TipPlace::left_sinus : vascular::TipPlace::right_sinus, 0, 0.3};
   if (a.at == "aorta") injection.tip = {vascular::TipPlace::aorta, model.contrast.ostium_cell[0] + 2, 0};
-  if (a.rate_mL_s > 0) injection.rate_m3_s = a.rate_mL_s * mL;
-  if (a.volume_mL > 0) injection.volume_m3 = a.volume_mL * mL;
+  if (a.rate_mL_s) injection.rate_m3_s = *a.rate_mL_s * mL;
+  if (a.volume_mL) injection.volume_m3 = *a.volume_mL * mL;
   injection.iodine_kg_m3 = a.iodine_mg_mL;
   return injection;
 }

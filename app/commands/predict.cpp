@@ -76,6 +76,7 @@ void predict_shapes(const Arguments& a, const data::MeasurementSet& set) {
 }
 
 int run(const Arguments& a) {
+  require_none_of_set(a.set, "--out", a.folder, {"prediction.json", "prediction.csv", "check.json"});
   const data::JsonValue as_read = data::load_json(data::measurement_file(a.set));
   data::CharacterisedWire wire;
   if (!a.with.empty()) wire = data::wire_in(data::load_instrument(data::instrument_file(a.with)));

@@ -41,7 +41,8 @@ struct PictureArguments {
   /// Whether something was asked for that only a picture shows.
   bool asked_for() const {
     return !view.view.empty() || !std::isnan(view.lao_deg) || !std::isnan(view.cran_deg) || !std::isnan(field_mm) ||
-           !table_mm.empty() || cine || plain || monitor || fill != "none" || renderer != "scanline";
+           !table_mm.empty() || cine || plain || monitor || fill != "none" || renderer != "scanline" ||
+           pixels != PictureArguments().pixels || frames_per_s != PictureArguments().frames_per_s;
   }
 };
 
@@ -116,10 +117,22 @@ FilmOptions film_options(const PictureArguments& a) {
 
 constexpr double lag_s = 0.7;  // time for the display's recursive filter to settle
 
-bool is_still(const Arguments& a) { return !a.films() && a.seconds == 0; }
+using Json = nlohmann::ordered_json;
+
+/// One picture, of the first frame from `at_s` on, or else of the last that there is.
+struct Still {
+  double at_s = -1, shown_s = -1;
+  fluoro::Picture picture;
+
+  bool waits() const { return shown_s < at_s - 1e-9; }
+  void look(double now, const fluoro::Picture& seen) {
+    if (waits()) shown_s = now, picture = seen;
+  }
+};
 
 /// Films until the recording or the time ends; a still picture needs the preceding frames, whose lag it shows.
-int make_film(const Arguments& a, Replay& replay) {
+/// `told` gets what was written.
+int make_film(const Arguments& a, Replay& replay, Json& told) {
   FilmOptions options = film_options(a.picture);
   if (!a.dicom.empty()) options.overlay = options.monitor = false;
   show_progress("building the patient's chest");
@@ -127,54 +140,59 @@ int make_film(const Arguments& a, Replay& replay) {
   std::optional<data::VideoWriter> writer;
   if (!a.video.empty()) writer.emplace(a.video, options.pixels, film.height(), options.frames_per_s);
   data::DicomRuns runs;
-  fluoro::Picture last;
+  Still still;
+  if (!a.png.empty()) still.at_s = std::max(a.from_s, lag_s);
   const auto anchor = std::llround(a.from_s / replay.model.step_s());  // of the frames: there is one at --from
-  const double from_s = is_still(a) ? a.from_s - lag_s : a.from_s;
-  const double end_s = is_still(a) ? std::max(a.from_s, lag_s) : a.seconds > 0 ? a.from_s + a.seconds : 1e300;
+  const double begin_s = a.png.empty() ? a.from_s : a.from_s - lag_s;
+  const double end_s = !a.films() ? 0 : a.seconds > 0 ? a.from_s + a.seconds : 1e300;
   long frames = 0;
   if (a.films()) stop_on_signals();  // a film ends with the frames that it has
   do {
     film.listen(replay.model, replay.state, replay.inputs);
     const double now = seconds(replay.model, replay.state);
     const auto from_anchor = std::llabs(static_cast<long long>(replay.state.rods.step) - anchor);
-    if (now < from_s - 1e-9 ||
+    if (now < begin_s - 1e-9 ||
         !is_frame(static_cast<std::uint64_t>(from_anchor), options.frames_per_s, replay.model.step_s()))
       continue;
-    last = film.frame(replay.model, replay.state, replay.inputs, replay.xrays());
+    const fluoro::Picture seen = film.frame(replay.model, replay.state, replay.inputs, replay.xrays());
+    still.look(now, seen);
+    if (now < a.from_s - 1e-9 || now > end_s + 1e-9) continue;
     ++frames;
-    if (writer) writer->add(last);
-    if (!a.dicom.empty()) runs.add(film.run(), last);
+    if (writer) writer->add(seen);
+    if (!a.dicom.empty()) runs.add(film.run(), seen);
     show_progress(fmt::format("frame {}, {:.1f} s", frames, now));
-  } while (seconds(replay.model, replay.state) < end_s - 1e-9 && !interrupted && replay.tick());
+  } while ((seconds(replay.model, replay.state) < end_s - 1e-9 || still.waits()) && !interrupted && replay.tick());
   show_progress("");
-  if (frames == 0 && interrupted) return 1;
-  if (frames == 0) throw data::LoadError(fmt::format("{}: there is no frame from {:g} s on", a.file, a.from_s));
+  const bool nothing = a.films() ? frames == 0 : still.shown_s < 0;
+  if (nothing && interrupted) return 1;
+  if (nothing) throw data::LoadError(fmt::format("{}: there is no frame from {:g} s on", a.file, a.from_s));
   if (!finish_film(writer, "replay")) return 1;
-  if (!a.png.empty()) data::write_png(a.png, last);
+  const auto tell = [&](const std::string& file, std::size_t of) {
+    told["pictures"].push_back({{"file", file}, {"frames", of}});
+    if (!a.json) fmt::print("{}: {} frames of {}\n", file, of, replay.setup.vessel);
+  };
   if (!a.dicom.empty()) {
     const std::vector<std::string> names = runs.write(a.dicom);
-    for (std::size_t n = 0; n < names.size(); ++n)
-      fmt::print("{}: {} frames of {}\n", names[n], runs.runs()[n].frames.size(), replay.setup.vessel);
+    for (std::size_t n = 0; n < names.size(); ++n) tell(names[n], runs.runs()[n].frames.size());
   }
-  for (const std::string& file : {a.video, a.png})
-    if (!file.empty()) fmt::print("{}: {} frames of {}\n", file, file == a.png ? 1 : frames, replay.setup.vessel);
+  if (writer) tell(a.video, static_cast<std::size_t>(frames));
+  if (a.png.empty() || still.shown_s < 0) return 0;
+  data::write_png(a.png, still.picture);
+  told["pictures"].push_back({{"file", a.png}, {"at_s", still.shown_s}});
+  if (!a.json) fmt::print("{}: {} at {:.3f} s\n", a.png, replay.setup.vessel, still.shown_s);
   return 0;
 }
 
-int check_same(const Arguments& a, Replay& replay) {
+/// `told` gets the result.
+int check_same(const Arguments& a, Replay& replay, Json& told) {
   const double from_s = seconds(replay.model, replay.state);
   const VerifyReport report = verify(replay, show_share);
   show_progress("");
-  if (a.json) {
-    nlohmann::ordered_json out = {{"file", a.file},
-                                  {"software", replay.recording.software()},
-                                  {"from_s", from_s},
-                                  {"steps", report.steps},
-                                  {"same", !report.first_step}};
-    if (report.first_step)
-      out["first_step"] = *report.first_step, out["field"] = report.field, out["field_step"] = report.field_step;
-    fmt::print("{}\n", out.dump(2));
-  } else if (!report.first_step) {
+  told["from_s"] = from_s, told["steps"] = report.steps, told["same"] = !report.first_step;
+  if (report.first_step)
+    told["first_step"] = *report.first_step, told["field"] = report.field, told["field_step"] = report.field_step;
+  if (a.json) return report.first_step ? 1 : 0;
+  if (!report.first_step) {
     fmt::print("{}: {} steps from {:g} s on, all bit for bit as recorded\n", a.file, report.steps, from_s);
   } else {
     fmt::print("{}: differs first after step {} ({:.3f} s)\n", a.file, *report.first_step,
@@ -191,7 +209,9 @@ void require_arguments(const Arguments& a) {
   if (!a.video.empty()) require_ending(a.video, {".mp4"});
   if (!a.dicom.empty()) require_ending(a.dicom, {".dcm"});
   if (!a.png.empty()) require_ending(a.png, {".png"});
-  if (!a.shows() && (a.picture.asked_for() || a.seconds > 0))
+  if (!a.films() && a.seconds > 0)
+    throw data::LoadError("--seconds is the length of a film; expected --video FILE.mp4 or --dicom FILE.dcm with it");
+  if (!a.shows() && a.picture.asked_for())
     throw data::LoadError(
         "there is no picture to show that in; expected --png FILE.png, --video FILE.mp4 or --dicom FILE.dcm with it");
   const FilmOptions film = film_options(a.picture);
@@ -212,13 +232,17 @@ int run(const Arguments& a) {
     fmt::print(stderr, "ostium replay: {} was cut off after {:.3f} s; what is there is whole\n", a.file,
                replay.recording.step_s() * static_cast<double>(replay.recording.steps()));
   replay.go_to(a.from_s);
+  Json told = {{"file", a.file}, {"software", replay.recording.software()}};
   int code = 0;
-  if (a.verify || !a.shows()) code = check_same(a, replay);
-  if (!a.shows()) return code;
-  // Strips also show the seconds before.
-  const double before_s = std::max(is_still(a) ? lag_s : 0, a.picture.monitor ? monitor_s : 0);
-  replay.go_to(std::max(0.0, a.from_s - before_s));
-  return std::max(code, make_film(a, replay));
+  if (a.verify || !a.shows()) code = check_same(a, replay, told);
+  if (a.shows()) {
+    // Strips also show the seconds before.
+    const double before_s = std::max(a.png.empty() ? 0 : lag_s, a.picture.monitor ? monitor_s : 0);
+    replay.go_to(std::max(0.0, a.from_s - before_s));
+    code = std::max(code, make_film(a, replay, told));
+  }
+  if (a.json) fmt::print("{}\n", told.dump(2));
+  return code;
 }
 
 }  // namespace

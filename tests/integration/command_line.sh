@@ -217,6 +217,13 @@ cat >"$folder/lines.mrk.json" <<'END'
 END
 expect 0 "mm, as the file says" "$ostium" check "$folder/lines.mrk.json"
 expect 0 "vessel 1" "$ostium" import "$folder/lines.mrk.json" -o "$folder/lines"
+# A run in it is of the vessels that it was made in.
+expect 1 "time limit" "$ostium" run "$folder/lines" --script iliac-wire --seconds 0.1 --out "$folder/in-lines"
+expect 0 "bit for bit" "$ostium" replay "$folder/in-lines/run.h5"
+sed 's/1.5\]/1.6]/' "$folder/lines.mrk.json" >"$folder/wider.mrk.json"
+expect 0 "vessel 1" "$ostium" import "$folder/wider.mrk.json" -o "$folder/lines"
+expect 3 "not those that the run was made in" "$ostium" replay "$folder/in-lines/run.h5"
+expect 3 "not those that the run was made in" "$ostium" report "$folder/in-lines/run.h5" -o "$folder/lines.html"
 sed 's/Radius/Curvature/' "$folder/lines.mrk.json" >"$folder/bare.mrk.json"
 expect 3 "has no radii; expected a measurement" "$ostium" centreline "$folder/bare.mrk.json" -o "$folder/tree.json"
 expect 3 "makes a case of them" "$ostium" frame "$folder/lines.mrk.json" -o "$folder/frame.png"
@@ -242,6 +249,7 @@ cp "$folder/whole.obj" "$folder/whole.blend"
 expect 3 "names nothing that is read .*\.vtp.*\.mrk\.json" "$ostium" check "$folder/whole.blend"
 expect 3 "names nothing that is read" "$ostium" import "$folder/whole.blend" -o "$folder/case"
 expect 3 "right-handed" "$ostium" import "$folder/whole.obj" --axes LPI -o "$folder/case"
+expect 3 "gets another name already" "$ostium" import "$folder/whole.obj" --rename 1=a 1=b -o "$folder/case"
 expect 3 "FOUND=WANTED" "$ostium" import "$folder/whole.obj" --rename x -o "$folder/case"
 expect 3 "expected a name of at most" "$ostium" import "$folder/whole.obj" --rename "1=../x" -o "$folder/case"
 expect 3 "a case that ships" "$ostium" import "$folder/whole.obj" -o rca-mid-focal
@@ -273,6 +281,11 @@ grep -q '"outcome": "success"' "$out/metrics.json"
 expect 0 "bit for bit" "$ostium" replay "$out/run.h5" --verify
 expect 0 '"same": true' "$ostium" replay "$out/run.h5" --from 1 --json
 expect 0 "moment.png" "$ostium" replay "$out/run.h5" --from 0.5 --view lao --pixels 128 --png "$out/moment.png"
+# One picture is of its moment, a film beside it or not; --json is JSON whatever is made.
+[[ $("$ostium" replay "$out/run.h5" --from 0.8 --pixels 64 --png "$out/alone.png") == *" at 0.800 s" ]]
+"$ostium" replay "$out/run.h5" --from 0.8 --pixels 64 --png "$out/beside.png" --video "$out/beside.mp4" --verify --json |
+  python3 -c 'import json, sys; told = json.load(sys.stdin); assert told["same"] and len(told["pictures"]) == 2'
+cmp "$out/alone.png" "$out/beside.png"
 expect 0 "run.html" "$ostium" report "$out/run.h5" -o "$out/run.html" --csv "$out/runs.csv" --events "$out/events.csv"
 grep -q "not for decisions on a patient" "$out/run.html"
 grep -q "tool_in" "$out/events.csv"
@@ -311,7 +324,10 @@ soon() { # soon WORD ARGUMENTS...: refused within two seconds of processor
 }
 soon "there is no view" replay "$out/run.h5" --view upwards --png "$out/moment.png"
 soon "there is no picture to show that in" replay "$out/run.h5" --view lao
-soon "there is no picture to show that in" replay "$out/run.h5" --seconds 1
+soon "there is no picture to show that in" replay "$out/run.h5" --pixels 64
+soon "there is no picture to show that in" replay "$out/run.h5" --rate 30
+soon "is the length of a film" replay "$out/run.h5" --seconds 1
+soon "is the length of a film" replay "$out/run.h5" --seconds 1 --png "$out/moment.png"
 soon "s long" replay "$out/run.h5" --from 60
 soon "no frame rate" replay "$out/run.h5" --rate 7 --video "$out/moment.mp4"
 soon "cannot be reached" replay "$out/run.h5" --lao 300 --png "$out/moment.png"

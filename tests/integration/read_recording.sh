@@ -30,3 +30,6 @@ cat >>page.py <<'END'
     print("as the page says")
 END
 expect 0 "as the page says" "$python" page.py
+# A step that is not the run's would stretch every second of a report.
+"$python" -c 'import h5py; h5py.File("out/run.h5", "r+")["step_s"][()] = 0.002'
+expect 3 "its step is 0.002 s" "$ostium" report out/run.h5 -o none.html

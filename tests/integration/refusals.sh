@@ -5,7 +5,8 @@ ostium=$1
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 
-. "$(dirname "$(readlink -f "$0")")/expect.sh"
+here=$(dirname "$(readlink -f "$0")")
+. "$here/expect.sh"
 cd "$folder"
 
 # Pipes, sockets, devices and links in place of files: none is opened, as it would wait, or never end.
@@ -61,6 +62,34 @@ refused "is for the phantom" frame rca-mid-focal --guide none -o none.png
 refused "angle inf degrees cannot be reached" frame --lao 1e308 -o none.png
 expect 2 "--out beside --no-pictures would do nothing" "$ostium" treat --no-pictures -o none.png
 expect 2 "--seeds beside --merge would do nothing" "$ostium" sweep --merge other.csv --seeds 1..4
+expect 2 "not in range 0.01" "$ostium" inject --rate 0 -o none.png
+expect 2 "not in range 0.01" "$ostium" inject --volume 0 -o none.png
+mkdir frames
+for name in 0 1 2 3 01; do echo >"frames/lumen-$name.obj"; done
+refused "has the number of" import frames --sequence -o none
+
+# A step that no tool of the script can do was done at once, in a run that succeeded.
+script() { # script TOOL STEP: a script of one wire, called TOOL
+  cat >mine.json <<END
+{ "schema": "ostium-script/1", "name": "mine", "title": "a wire",
+  "tools": [{ "name": "$1", "instrument": "rosen" }],
+  "steps": [$2] }
+END
+}
+script wire '{ "do": "inflate", "gauge_atm": 3, "over_s": 5 }'
+refused "mine.json:3: inflate: no tool has a balloon" run rca-mid-focal --script mine.json
+script wire '{ "do": "deflate" }'
+refused "mine.json:3: deflate: no tool has a balloon" run rca-mid-focal --script mine.json
+script wire '{ "do": "inject", "rate_mL_s": 3, "volume_mL": 5 }'
+refused "mine.json:3: inject: no tool is a catheter" run rca-mid-focal --script mine.json
+script person '{ "do": "wait", "until": [{ "seconds": 1 }] }'
+refused "mine.json:2: a tool is called person" run rca-mid-focal --script mine.json
+
+# Sizes that no vessel has are told as they are.
+python3 -B "$here/../tools/comparison/made_up_tube.py" micrometres.stl 1500 12000
+python3 -B "$here/../tools/comparison/made_up_tube.py" wide.stl 50 100
+refused "micrometres have to be divided by 1000" check micrometres.stl
+expect 1 "vessels: 9[0-9][.]" "$ostium" check wide.stl
 
 # What cannot be put where it should go is refused before the work.
 touch before
@@ -79,6 +108,12 @@ cannot explain bend --write-instrument folder.png
 # A refusal leaves everything as it was.
 "$ostium" explain --template three_point_bend -o bend >/dev/null
 ls bend >before
+mkdir found && cp -r bend found/amended
+refused "a file of the measured set" explain found/amended -o found
+mv found/amended/b0.csv found/amended/prediction.csv
+sed 's/b0.csv/prediction.csv/' bend/measurement.json >found/amended/measurement.json
+refused "a file of the measured set" predict found/amended -o found/amended
+cmp bend/b0.csv found/amended/prediction.csv
 refused "measurement.json is there already" explain --template projections -o bend
 ls bend | cmp - before
 refused "there is no template" explain --template nothing -o none

@@ -48,6 +48,12 @@ head -n 3 in-2.csv.part-2-of-2 >killed && mv killed in-2.csv.part-2-of-2  # howe
 printf '7 b.stl,iliac-wire,2,RCA,torn' >>in-2.csv.part-2-of-2
 expect 3 "not finished" sweep -o in-2.csv --part 2/2
 expect 3 "another sweep" sweep -o in-2.csv --part 2/2 --resume --set hand_speed=2
+expect 3 "another sweep" "$ostium" sweep a.stl b.stl --units mm --entry 5,0,0 --towards 20,0.2,0 --script iliac-wire \
+  --seconds 0.2 --vary begin=,RCA --seeds 1..2 -o in-2.csv --part 2/2 --resume
+mv b.stl kept.stl
+python3 -B "$here/../tools/comparison/made_up_tube.py" b.stl 3.6 100
+expect 3 "another sweep" sweep -o in-2.csv --part 2/2 --resume
+mv kept.stl b.stl
 expect 0 "4 runs" sweep -o in-2.csv --part 2/2 --resume
 expect 0 "8 runs" "$ostium" sweep --merge in-2.csv
 cmp one.csv in-2.csv

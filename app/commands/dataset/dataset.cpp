@@ -55,8 +55,8 @@ class Dataset {
  public:
   Dataset(const Arguments& arguments, Sweep sweep, const SweepPart& part)
       : arguments_(arguments), sweep_(std::move(sweep)), head_(head_of(sweep_, part)), part_of_(parts_of_runs(head_)) {
-    id_ = fmt::format("{} {:g} {} {:g}{}", head_.sweep, arguments.frames.every_s, arguments.frames.pixels,
-                      arguments.runs.session.seconds, arguments.frames.dicom ? " dicom" : "");
+    id_ = fmt::format("{} {:g} {}{}", head_.sweep, arguments.frames.every_s, arguments.frames.pixels,
+                      arguments.frames.dicom ? " dicom" : "");
   }
 
   /// One vessel at a time, so that only one is in memory. Throws LoadError if the folder is of another set, or another

@@ -120,7 +120,8 @@ std::map<std::string, std::string> names_of(const std::vector<std::string>& rena
     if (wanted.size() > 40 || !std::all_of(wanted.begin(), wanted.end(), fits))
       throw data::LoadError(
           fmt::format("--rename \"{}\": expected a name of at most 40 letters, digits, spaces, - and _", rename));
-    names[found] = wanted;
+    if (!names.try_emplace(found, wanted).second)
+      throw data::LoadError(fmt::format("--rename \"{}\": {} gets another name already; expected one", rename, found));
   }
   return names;
 }

@@ -1,5 +1,7 @@
 #include "app/commands/import/mesh_files.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <filesystem>
 #include <map>
@@ -17,7 +19,11 @@ std::vector<std::string> numbered_meshes(const std::string& folder) {
     const auto digits = stem.find_last_not_of("0123456789") + 1;
     if (!entry.is_regular_file() || digits == stem.size() || stem.size() - digits > 9) continue;
     if (!vascular::has_mesh_ending(entry.path().string())) continue;
-    rows[{stem.substr(0, digits), ending}][std::stol(stem.substr(digits))] = entry.path().string();
+    auto& row = rows[{stem.substr(0, digits), ending}];
+    const auto [twin, is_new] = row.try_emplace(std::stol(stem.substr(digits)), entry.path().string());
+    if (!is_new)
+      throw vascular::MeshError(fmt::format("{}: has the number of {}; expected a number for each frame, remove one",
+                                            entry.path().string(), twin->second));
   }
   const auto longest = std::max_element(rows.begin(), rows.end(),
                                         [](const auto& a, const auto& b) { return a.second.size() < b.second.size(); });

@@ -6,7 +6,6 @@
 #include <cstdlib>
 #include <filesystem>
 #include <iterator>
-#include <nlohmann/json.hpp>
 
 #include "app/command_line/arguments.h"
 #include "app/command_line/command.h"
@@ -87,13 +86,6 @@ std::vector<data::Score> scores_of(const std::string& file, const SessionModel& 
   return score(list, record_of(recording, model), metrics);
 }
 
-void write_notes(const std::string& file, const std::vector<Note>& notes) {
-  if (notes.empty()) return;
-  auto all = nlohmann::ordered_json::array();
-  for (const Note& note : notes) all.push_back({{"second", note.second}, {"note", note.text}});
-  data::write_file(file, all.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
-}
-
 /// A run and its branches, one after another, in a folder.
 class Sitting {
  public:
@@ -141,6 +133,7 @@ class Sitting {
     options.dosimeter = dosimeter_;
     options.stop = &interrupted;
     last_ = play(run_, setup_, options);
+    station_.write_notes(folder_);  // however it ended
     if (!last_.problem.empty()) station_.tell_problem("the recording ends early: " + last_.problem);
     const Wish wish = station_.wish();
     if (wish.kind != Wish::Kind::none || interrupted) return wish;
@@ -154,7 +147,6 @@ class Sitting {
     if (a_.ended) a_.ended({last_, scores_});
     data::write_file((fs::path(folder_) / "metrics.json").string(),
                      metrics_json(setup_.vessel, setup_.seed, last_.outcome, last_.reason, last_.metrics));
-    write_notes((fs::path(folder_) / "notes.json").string(), station_.notes());
     if (!a_.report) return;
     try {
       report_folder(folder_, run_.model.vessel, recording_, list_);

@@ -69,6 +69,7 @@ JournalHead head_of(const Sweep& sweep, const SweepPart& part) {
       .sweep = "", .part = part, .heading = heading(sweep.grid), .grid = sweep.grid, .vessel_of = sweep.vessel_of};
   std::string what = OSTIUM_VERSION + head.heading + to_json(sweep.grid).dump();
   for (const RunSetup& setup : sweep.settings) what += to_json(setup);
+  what += fmt::format(" {}", sweep.seconds);
   head.sweep = fmt::format("{:016x}", std::hash<std::string>{}(what));
   return head;
 }
@@ -104,7 +105,9 @@ SweepJournal::SweepJournal(const std::string& file, const std::string& table, co
     StoredJournal stored = read_journal(file);
     if (stored.first != first)
       throw data::LoadError(
-          fmt::format("{} is of another sweep; expected the same ostium, cases, script, seeds and parameters", file));
+          fmt::format("{} is of another sweep; expected the same ostium, cases, meshes, script, "
+                      "seeds, --seconds and parameters",
+                      file));
     lines_ = std::move(stored.lines);
     for (const auto& [run, line] : lines_) kept += fmt::format("{} {}", run, line);
   } else if (resume && data::is_there(table)) {

@@ -50,6 +50,7 @@ void read_values(const SweepArguments& a, SweepGrid& grid) {
 
 Sweep plan_sweep(const SweepArguments& a) {
   Sweep sweep;
+  sweep.seconds = a.session.seconds;
   SweepGrid& grid = sweep.grid;
   read_seeds(a.seeds, grid);
   read_values(a, grid);

@@ -24,6 +24,7 @@ struct Sweep {
   std::vector<RunSetup> vessels;       ///< one for each vessel to be built
   std::vector<RunSetup> settings;      ///< of the grid's, without mesh and seed
   std::vector<std::size_t> vessel_of;  ///< index into `vessels` of each setting
+  double seconds = 0;                  ///< most that are simulated of each run; 0: no limit
 };
 
 /// Throws LoadError or MeshError.

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <utility>
 
@@ -13,6 +14,7 @@
 #include "core/base/thread_priority.h"
 #include "data/console/console_order.h"
 #include "data/formats/load_error.h"
+#include "data/formats/write_file.h"
 
 namespace ostium::app {
 
@@ -183,6 +185,7 @@ void Station::gone_back(std::size_t second, const std::string& recording) {
     for (TimelineEntry& moment : moments_)
       if (moment.second > limit) moment.words.clear();
     std::erase_if(notes_, [&](const Note& note) { return note.second > limit; });
+    unplaced_notes_.clear();
     has_ended_ = false, end_.clear(), report_.clear();
     sticky_.push_back(message);
   }
@@ -216,9 +219,20 @@ void Station::reported(const std::string& html) {
 
 void Station::tell_problem(const std::string& what) { server_->send(Channel::all, {refusal("run", what), false}); }
 
-std::vector<Note> Station::notes() const {
+std::vector<Note> Station::notes() {
+  take_events();
   const std::lock_guard lock(mutex_);
-  return notes_;
+  std::vector<Note> all = notes_;
+  for (const std::string& text : unplaced_notes_) all.push_back({now_s_, text});  // while time stood
+  return all;
+}
+
+void Station::write_notes(const std::string& folder) {
+  Json all = Json::array();
+  for (const Note& note : notes()) all.push_back({{"second", note.second}, {"note", note.text}});
+  if (!all.empty())
+    data::write_file((std::filesystem::path(folder) / "notes.json").string(),
+                     all.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
 }
 
 std::vector<std::string> Station::greet(Role role) {

@@ -58,7 +58,9 @@ class Station : public Listener {
   void ended(const PlayReport& report, const std::vector<data::Score>& scores);
   void reported(const std::string& html);  ///< the report's page
   void tell_problem(const std::string& what);
-  std::vector<Note> notes() const;
+  std::vector<Note> notes();
+  /// Into the folder's notes.json, if there are any. Throws WriteError.
+  void write_notes(const std::string& folder);
 
   // --- Listener, on the server's thread
   std::vector<std::string> greet(Role role) override;

@@ -94,10 +94,22 @@ int place_of(const data::Script& script, const data::ScriptCondition& c, const S
   throw data::LoadError(fmt::format("{}:{}: {}", script.file, step.line, what));
 }
 
+/// Without, the step would be done at once, or never.
+void require_tool(const data::Script& script, const data::ScriptStep& step, const SessionModel& model) {
+  using Action = data::ScriptAction;
+  const auto none = [&](auto fits) { return std::none_of(model.tools.begin(), model.tools.end(), fits); };
+  if ((step.action == Action::inflate || step.action == Action::deflate) &&
+      none([](const SessionTool& tool) { return tool.instrument.balloon.has_value(); }))
+    refuse_step(script, step, step.words() + ": no tool has a balloon; expected a balloon or a stent among the tools");
+  if (step.action == Action::inject && none([](const SessionTool& tool) { return is_catheter(tool.instrument); }))
+    refuse_step(script, step, step.words() + ": no tool is a catheter to inject through; expected one among the tools");
+}
+
 /// The flow cell of a step's `at`, or the index of its drug; refuses what this session does not have.
 int subject_of(const data::Script& script, const data::ScriptStep& step, const SessionModel& model) {
   if (needs_patient(step.action) && !model.has_patient())
     refuse_step(script, step, step.words() + ": a mesh has no circulation; expected a case");
+  require_tool(script, step, model);
   if (step.action == data::ScriptAction::give) return find_drug(step, model.treatment.drugs, script);
   if (step.at.empty()) return -1;
   const VesselIndex& way = *model.vessel->way;

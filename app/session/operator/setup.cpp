@@ -10,6 +10,7 @@
 #include <iterator>
 #include <nlohmann/json.hpp>
 
+#include "core/base/field_numbers.h"
 #include "data/catalogue/catalogue.h"
 #include "data/catalogue/drug/drug_file.h"
 #include "data/catalogue/instrument/instrument_reader.h"
@@ -25,11 +26,31 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// What --set gives beside the tools' instruments.
+constexpr std::string_view settings[] = {"person",   "heart_rate", "breathing", "hand_speed",
+                                         "friction", "begin",      "stuck"};
+
 fs::path folder_of(const data::Script& script) { return fs::path(script.file).parent_path(); }
 
 nlohmann::json numbers(const Eigen::Vector3d& p) { return nlohmann::json::array({p.x(), p.y(), p.z()}); }
 Eigen::Vector3d point(const nlohmann::json& p) {
   return {p.at(0).get<double>(), p.at(1).get<double>(), p.at(2).get<double>()};
+}
+
+/// Names stay while what lies in their files may be another.
+std::string shape_of(const std::vector<Eigen::Vector3d>& vertices,
+                     const std::vector<std::vector<Eigen::Vector3d>>& frames = {}) {
+  std::uint64_t hash = 0;
+  const auto add = [&](const std::vector<Eigen::Vector3d>& points) {
+    hash = core::hash_bytes(points.data(), points.size() * sizeof(Eigen::Vector3d), hash);
+  };
+  add(vertices);
+  std::ranges::for_each(frames, add);
+  return fmt::format("{:016x}", hash);
+}
+
+std::string shape_of(const data::Case& c) {
+  return c.imported ? shape_of(c.imported->lumen.vertices, c.imported->frames) : "";
 }
 
 }  // namespace
@@ -38,11 +59,13 @@ void set_vessel(const std::string& case_or_mesh, vascular::LengthUnit unit, RunS
   setup.vessel = case_or_mesh;
   if (vascular::has_mesh_ending(case_or_mesh)) {
     setup.mesh = read_mesh(case_or_mesh, unit).mesh;
+    setup.shape = shape_of(setup.mesh.vertices);
     return;
   }
   const fs::path file = fs::absolute(data::case_file(case_or_mesh));
   const data::Case c = data::load_case(file.string());
   setup.case_text = data::read_file(file.string());
+  setup.shape = shape_of(c);
   if (!c.imported) setup.access = c.anatomy.access;
   // An imported case's vessels are stored beside its file, where replay finds them.
   setup.vessel = c.imported ? (file.parent_path() / c.name).string() : c.name;
@@ -53,6 +76,11 @@ void set_script(const data::Script& script, RunSetup& setup) {
   setup.script = script;
   setup.tool_texts.clear(), setup.tool_files.clear();
   for (const data::ScriptTool& tool : script.tools) {
+    if (std::ranges::find(settings, tool.name) != std::end(settings))
+      throw data::LoadError(
+          fmt::format("{}:{}: a tool is called {}, as what --set gives beside tools; expected another "
+                      "name",
+                      script.file, tool.line, tool.name));
     setup.tool_files.push_back(data::instrument_file(tool.instrument, folder_of(script)));
     setup.tool_texts.push_back(data::read_file(setup.tool_files.back()));
   }
@@ -165,15 +193,22 @@ void set_value(const std::string& key, const std::string& value, RunSetup& setup
     setup.stuck = value;
   } else {
     throw data::LoadError(
-        fmt::format("there is no \"{}\" to set; expected one of {}person, heart_rate, breathing, hand_speed, friction, "
-                    "begin, stuck",
-                    key, known));
+        fmt::format("there is no \"{}\" to set; expected one of {}{}", key, known, fmt::join(settings, ", ")));
   }
 }
 
 std::shared_ptr<const Vessel> make_vessel(const RunSetup& setup, std::string& warnings) {
-  auto vessel = setup.is_mesh() ? vessel_of(setup.vessel, setup.mesh, setup.entry, warnings)
-                                : vessel_of(data::read_case(setup.vessel + ".json", setup.case_text), setup.person);
+  std::shared_ptr<const Vessel> vessel;
+  if (setup.is_mesh()) {
+    vessel = vessel_of(setup.vessel, setup.mesh, setup.entry, warnings);
+  } else {
+    const data::Case c = data::read_case(setup.vessel + ".json", setup.case_text);
+    if (!setup.shape.empty() && setup.shape != shape_of(c))
+      throw data::LoadError(setup.vessel +
+                            ": its vessels are not those that the run was made in; expected the case as it was then, "
+                            "import it again as it was");
+    vessel = vessel_of(c, setup.person);
+  }
   malloc_trim(0);  // returns the memory used while building to the system
   return vessel;
 }
@@ -199,6 +234,7 @@ std::string to_json(const RunSetup& setup) {
     out["entry_m"] = {numbers(setup.entry.p_P), numbers(setup.entry.towards_P)};
   else
     out["case"] = setup.case_text;
+  if (!setup.shape.empty()) out["shape"] = setup.shape;
   if (setup.person) out["person"] = *setup.person;
   if (setup.rate_1_min) out["heart_rate_1_min"] = *setup.rate_1_min;
   if (setup.breaths_1_min > 0) out["breathing_1_min"] = setup.breaths_1_min;
@@ -220,6 +256,7 @@ RunSetup setup_from_json(const std::string& file, const std::string& text) {
     RunSetup setup;
     setup.vessel = in.at("vessel");
     setup.seed = in.at("seed");
+    if (in.contains("shape")) setup.shape = in.at("shape");
     if (in.contains("case")) setup.case_text = in.at("case");
     if (in.contains("entry_m")) setup.entry = {point(in.at("entry_m").at(0)), point(in.at("entry_m").at(1))};
     if (in.contains("person")) setup.person = in.at("person");

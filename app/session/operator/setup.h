@@ -11,6 +11,7 @@ namespace ostium::app {
 struct RunSetup {
   std::string vessel;                      ///< a case's name, or a mesh file
   std::string case_text;                   ///< the case's file
+  std::string shape;                       ///< a number made of a mesh's or an imported case's vertices; else empty
   std::optional<std::uint64_t> person;     ///< overrides the case's own
   std::optional<double> rate_1_min;        ///< overrides the case's own
   std::optional<vascular::Access> access;  ///< of a generated case
@@ -46,6 +47,7 @@ std::vector<std::string> choose_sizes(const Vessel& vessel, RunSetup& setup);
 /// size. Throws LoadError listing the valid keys or values.
 void set_value(const std::string& key, const std::string& value, RunSetup& setup);
 
+/// Throws LoadError where an imported case has other vessels by now than `setup` was made with.
 std::shared_ptr<const Vessel> make_vessel(const RunSetup& setup, std::string& warnings);
 /// The vessel must have been made from this setup.
 SessionModel make_session(const RunSetup& setup, std::shared_ptr<const Vessel> vessel);

@@ -41,6 +41,14 @@ void require_same_layout(const data::RecordingReader& r, const SessionModel& mod
                     r.path(), r.software()));
 }
 
+void require_same_step(const data::RecordingReader& r, const SessionModel& model) {
+  if (r.step_s() != model.step_s())
+    throw data::LoadError(
+        fmt::format("{}: its step is {:g} s, and that of its run {:g} s; the file is damaged, copy it "
+                    "again",
+                    r.path(), r.step_s(), model.step_s()));
+}
+
 /// Adds the X-ray use of the steps from `from` to `to`.
 void add_xrays(const data::RecordingReader& recording, const SessionModel& model, std::size_t from, std::size_t to,
                XrayUse& xrays) {
@@ -66,6 +74,7 @@ Replay::Replay(const std::string& file, std::shared_ptr<const Vessel> vessel)
       state(make_state(model, setup.seed)),
       scratch_(model) {
   require_same_layout(recording, model);
+  require_same_step(recording, model);
   inputs.tools.resize(model.tools.size());
 }
 

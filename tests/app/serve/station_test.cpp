@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <fstream>
 #include <nlohmann/json.hpp>
 #include <thread>
 
@@ -120,6 +121,11 @@ TEST(Station, PausesTakesOverAndTellsWhatHappens) {
   ASSERT_TRUE(taken);
   EXPECT_EQ(number_of(*taken, "s"), at) << "time stands";
   trainer.say(R"({"do":"mark","text":"so weit"})");
+  trainer.say(R"({"do":"jump"})");  // the answer to which says that the note has come
+  ASSERT_TRUE(trainer.message_with("\"refused\""));
+  s.station.write_notes(s.folder.string());
+  EXPECT_EQ(nlohmann::json::parse(std::ifstream(s.folder / "notes.json")).at(0).at("note"), "so weit")
+      << "kept, though no step has taken its mark";
   trainer.say(R"({"do":"pause"})");
   EXPECT_TRUE(trainer.message_with("mark: so weit"));
   trainer.say(R"({"do":"guide_feed","values":[-1]})");

@@ -30,6 +30,22 @@ void expect_as_it_was(const LabelledVessels& found, const Mesh& mesh) {
   EXPECT_EQ(make_patient(found.anatomy, mesh, {}).lumen.moving, 0U);
 }
 
+TEST(Labelling, NamesAreGivenAtOnceAndEachToOne) {
+  Mesh two = single_artery(), other = two;
+  for (auto& p : other.vertices) p.z() += 0.05;
+  append(two, other);
+  LabellingOptions options = looked_for(HeartSearch::none);
+  options.names = {{"vessel 1", "vessel 2"}, {"vessel 2", "vessel 1"}};
+  const LabelledVessels found = label_vessels(two, options);
+  ASSERT_EQ(found.anatomy.branches.size(), 2U);
+  EXPECT_EQ(found.anatomy.branches[0].name, "vessel 2");
+  EXPECT_EQ(found.anatomy.branches[1].name, "vessel 1");
+  options.names = {{"vessel 1", "x"}, {"vessel 2", "x"}};
+  EXPECT_THROW(label_vessels(two, options), MeshError);
+  options.names = {{"vessel 1", "vessel 2"}};
+  EXPECT_THROW(label_vessels(two, options), MeshError);
+}
+
 TEST(Labelling, ASingleArteryIsAVesselAndStill) {
   const Mesh mesh = single_artery();
   const LabelledVessels found = label_vessels(mesh);

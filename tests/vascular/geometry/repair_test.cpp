@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "core/base/units.h"
+#include "tests/vascular/geometry/bent_tube.h"
 #include "tests/vascular/geometry/damage.h"
 #include "tests/vascular/geometry/shapes.h"
 #include "vascular/anatomy/lesion.h"
@@ -14,7 +15,6 @@
 #include "vascular/geometry/mesh/bounding_volume_hierarchy.h"
 #include "vascular/geometry/mesh/surface_check.h"
 #include "vascular/geometry/remesh/decimate.h"
-#include "vascular/geometry/remesh/winding.h"
 #include "vascular/geometry/repair/bridges.h"
 #include "vascular/geometry/repair/double_wall.h"
 #include "vascular/geometry/repair/sheets.h"
@@ -352,29 +352,21 @@ TEST(Repair, WhatHoldsNothingIsRefused) {
   EXPECT_THROW(repair_mesh({{{0, 0, 0}, {0.01, 0, 0}, {0, 0.01, 0}}, {{0, 1, 2}}}), MeshError);
 }
 
-TEST(Winding, CountsSurfacesAroundAPoint) {
-  Mesh two = test::sphere(0.01, 24);
-  append(two, test::sphere(0.01, 24, {0.012, 0, 0}));
-  const WindingNumber winding(two);
-  EXPECT_NEAR(winding.at({-0.005, 0, 0}), 1, 0.02);
-  EXPECT_NEAR(winding.at({0.006, 0, 0}), 2, 0.02);
-  EXPECT_NEAR(winding.at({0, 0.03, 0}), 0, 0.02);
-}
-
-TEST(Sheets, OpeningsHaveTheirSizeAndSide) {
-  // A cube without its lid: 4 edges of the top face are open.
-  Mesh open = test::cube(0.01);
-  open.triangles.erase(open.triangles.begin() + 2, open.triangles.begin() + 4);  // z = 1
-  Sheets sheets = sheets_of(open);
-  orient(open, sheets);
-  const auto openings = openings_of(open, sheets);
-  ASSERT_EQ(openings.size(), 1u);
-  EXPECT_EQ(openings[0].half_edges.size(), 4u);
-  EXPECT_NEAR(openings[0].diameter_m, 2 * 0.01 / std::sqrt(3.14159265), 1e-9);
-  EXPECT_NEAR(openings[0].outwards.z(), 1, 1e-9);
-  cap(open, openings[0]);
-  EXPECT_NEAR(volume_m3(open), 1e-6, 1e-12);
-  EXPECT_TRUE(check_surface(open).closed());
+TEST(Repair, WhyNothingComesOutIsSaid) {
+  const auto said = [](const Mesh& mesh, double voxel_m) -> std::string {
+    RepairOptions options;
+    options.voxel_m = voxel_m;
+    try {
+      repair_mesh(mesh, options);
+    } catch (const MeshError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  const Mesh tube = mesh_of(test::BentTube{0.06, 0.003, 0.1});
+  EXPECT_EQ(said(tube, 0.1e-3), "");
+  EXPECT_NE(said(tube, 1e-6).find("expected 0.013 mm or more"), std::string::npos) << said(tube, 1e-6);
+  EXPECT_NE(said(mesh_of(test::BentTube{0.03, 0.0003, 0.1}), 0).find("smaller than 8 mm3"), std::string::npos);
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "core/base/units.h"
+#include "tests/vascular/geometry/bent_tube.h"
 #include "tests/vascular/geometry/shapes.h"
 #include "vascular/geometry/mesh/bounding_volume_hierarchy.h"
 
@@ -27,6 +28,22 @@ TEST(SurfaceCheck, AHoleHasThreeOpenEdgesAroundIt) {
   EXPECT_FALSE(r.closed());
   EXPECT_LT((r.open_edges.where[0] - where).norm(), 0.005);
   EXPECT_NE(describe(r).find("3 open edges, the first at"), std::string::npos);
+}
+
+TEST(SurfaceCheck, WhatIsOpenHasTheVolumeUnderLids) {
+  test::BentTube tube{0.09, 0.006, 0.03};  // both ends look the same way
+  const SurfaceReport closed = check_surface(mesh_of(tube));
+  tube.lids = false;
+  Mesh open = mesh_of(tube);
+  EXPECT_NEAR(check_surface(open).volume_m3, closed.volume_m3, 1e-6 * closed.volume_m3);
+  // Far from the middle of the whole, a piece faces outwards all the same.
+  Mesh other = open;
+  for (auto& p : other.vertices) p += Eigen::Vector3d(0, 0.5, 0);
+  append(open, other);
+  const SurfaceReport both = check_surface(open);
+  EXPECT_EQ(both.components, 2);
+  EXPECT_EQ(both.inverted.count, 0);
+  EXPECT_NEAR(both.volume_m3, 2 * closed.volume_m3, 2e-6 * closed.volume_m3);
 }
 
 TEST(SurfaceCheck, OneTriangleTheWrongWayRound) {

@@ -69,15 +69,17 @@ void name_aorta(const std::vector<double>& leaves_m, Anatomy& anatomy) {
 }
 
 void rename(const std::map<std::string, std::string>& names, Anatomy& anatomy) {
-  for (const auto& [found, wanted] : names) {
-    bool any = false;
-    std::string all;
-    for (NamedBranch& branch : anatomy.branches) {
-      all += (all.empty() ? "" : ", ") + branch.name;
-      if (branch.name == found) branch.name = wanted, any = true;
-    }
-    if (!any) throw MeshError(fmt::format("there is no branch \"{}\" to be called {}; found: {}", found, wanted, all));
-  }
+  std::string all;
+  for (const NamedBranch& branch : anatomy.branches) all += (all.empty() ? "" : ", ") + branch.name;
+  for (const auto& [found, wanted] : names)
+    if (std::ranges::count(anatomy.branches, found, &NamedBranch::name) == 0)
+      throw MeshError(fmt::format("there is no branch \"{}\" to be called {}; found: {}", found, wanted, all));
+  for (NamedBranch& branch : anatomy.branches)  // at once, so that names may be exchanged
+    if (const auto wanted = names.find(branch.name); wanted != names.end()) branch.name = wanted->second;
+  for (const auto& [found, wanted] : names)
+    if (std::ranges::count(anatomy.branches, wanted, &NamedBranch::name) > 1)
+      throw MeshError(
+          fmt::format("more than one branch would be called {}; expected a name for each; found: {}", wanted, all));
 }
 
 }  // namespace

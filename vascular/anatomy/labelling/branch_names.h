@@ -9,8 +9,9 @@
 
 namespace ostium::vascular {
 
-/// `leaves_m`: per tube, arc length at its parent's wall; `names`: found name to wanted name. Throws MeshError if a
-/// name to be changed does not exist.
+/// `leaves_m`: per tube, arc length at its parent's wall; `names`: found name to wanted name. all are given at
+/// once, so that names may be exchanged. Throws MeshError if a name to be changed does not exist, or two branches would
+/// have the same.
 void name_branches(const std::vector<double>& leaves_m, const std::map<std::string, std::string>& names,
                    Anatomy& anatomy, std::vector<std::string>& notes);
 

@@ -86,15 +86,45 @@ void check_vertices(const Mesh& mesh, const std::vector<Edge>& edges, SurfaceRep
   }
 }
 
-void check_components(const Mesh& mesh, bool cavities, SurfaceReport& report, Groups& connected) {
+/// Each open edge with the middle of the rim that it is part of: a triangle of that rim's lid.
+std::vector<std::pair<Edge, Eigen::Vector3d>> lids_of(const Mesh& mesh, const std::vector<Edge>& edges) {
+  std::vector<std::pair<Edge, Eigen::Vector3d>> lids;
+  Groups rims(mesh.vertices.size());
+  const auto same = [](const Edge& a, const Edge& b) { return a.low == b.low && a.high == b.high; };
+  for (std::size_t i = 0; i < edges.size(); ++i)
+    if ((i == 0 || !same(edges[i - 1], edges[i])) && (i + 1 == edges.size() || !same(edges[i], edges[i + 1])))
+      lids.emplace_back(edges[i], Eigen::Vector3d::Zero()), rims.join(edges[i].low, edges[i].high);
+  std::map<int, std::pair<Eigen::Vector3d, int>> sums;
+  for (const auto& [edge, rim] : lids) {
+    auto& [sum, count] = sums.try_emplace(rims.of(edge.low), Eigen::Vector3d::Zero(), 0).first->second;
+    sum += middle(mesh, edge), ++count;
+  }
+  for (auto& [edge, rim] : lids) {
+    const auto& [sum, count] = sums.at(rims.of(edge.low));
+    rim = sum / count;
+  }
+  return lids;
+}
+
+/// Volumes are those under lids: without, they would be of cones to wherever one counts from.
+void check_components(const Mesh& mesh, const std::vector<Edge>& edges, bool cavities, SurfaceReport& report,
+                      Groups& connected) {
   const Eigen::Vector3d origin = box_middle(mesh);
+  const auto six_volume = [&](const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c) {
+    return (a - origin).dot((b - origin).cross(c - origin));
+  };
   std::map<int, double> six_volumes;
   for (int t = 0; t < report.triangles; ++t) {
     const auto& [a, b, c] = mesh.triangles[t];
-    six_volumes[connected.of(t)] +=
-        (mesh.vertices[a] - origin).dot((mesh.vertices[b] - origin).cross(mesh.vertices[c] - origin));
+    six_volumes[connected.of(t)] += six_volume(mesh.vertices[a], mesh.vertices[b], mesh.vertices[c]);
+  }
+  for (const auto& [edge, rim] : lids_of(mesh, edges)) {
+    const double lid = six_volume(mesh.vertices[edge.high], mesh.vertices[edge.low], rim);
+    six_volumes[connected.of(edge.triangle)] += edge.forwards ? lid : -lid;
   }
   report.components = static_cast<int>(six_volumes.size());
+  report.volume_m3 = 0;
+  for (const auto& [first, volume] : six_volumes) report.volume_m3 += volume / 6;
   for (const auto& [first, volume] : six_volumes)
     if (volume < 0 && !cavities) report.inverted.add(mesh.vertices[mesh.triangles[first][0]]);
 }
@@ -128,7 +158,6 @@ SurfaceReport check_surface(const Mesh& mesh, bool cavities) {
   SurfaceReport report;
   report.vertices = static_cast<int>(mesh.vertices.size());
   report.triangles = static_cast<int>(mesh.triangles.size());
-  report.volume_m3 = volume_m3(mesh);
   report.area_m2 = area_m2(mesh);
   for (const auto& [a, b, c] : mesh.triangles)
     if ((mesh.vertices[b] - mesh.vertices[a]).cross(mesh.vertices[c] - mesh.vertices[a]).isZero(0))
@@ -137,7 +166,7 @@ SurfaceReport check_surface(const Mesh& mesh, bool cavities) {
   Groups connected(mesh.triangles.size());
   check_edges(mesh, edges, report, connected);
   check_vertices(mesh, edges, report);
-  check_components(mesh, cavities, report, connected);
+  check_components(mesh, edges, cavities, report, connected);
   for (const auto& [i, j] : crossing_triangles(mesh))
     report.crossings.add((mesh.vertices[mesh.triangles[i][0]] + mesh.vertices[mesh.triangles[j][0]]) / 2);
   return report;

@@ -21,7 +21,8 @@ struct SurfaceFault {
 
 struct SurfaceReport {
   int vertices = 0, triangles = 0, components = 0;
-  double volume_m3 = 0, area_m2 = 0;
+  double volume_m3 = 0;  ///< signed; what is open counts as under lids
+  double area_m2 = 0;
   SurfaceFault open_edges;        ///< edges of one triangle only: a hole
   SurfaceFault branching_edges;   ///< edges of more than two triangles: walls that meet inside
   SurfaceFault flipped_edges;     ///< edges whose two triangles face opposite ways

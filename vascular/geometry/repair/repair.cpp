@@ -29,6 +29,7 @@ using units::mm;
 constexpr double least_voxel_m = 0.12e-3, most_voxel_m = 0.4e-3;
 constexpr double voxels_across = 3.5;       // across the narrowest vessels
 constexpr double most_wall_voxels = 1.5e6;  // of the level set's surface
+constexpr double most_cells = 4e6;          // the same of a voxel that was asked for: 4 GB, and some minutes
 constexpr double crumb_m3 = 8e-9;           // smaller lumens are dropped
 constexpr int smoothing_rounds = 16;
 constexpr double least_missing_m = 0.8e-3;  // a larger gap between ends means a missing piece
@@ -44,7 +45,7 @@ class Mender {
     smooth_noise();
     drop_outer_walls();
     close_openings();
-    result_.voxel_m = options_.voxel_m > 0 ? options_.voxel_m : chosen_voxel();
+    result_.voxel_m = options_.voxel_m > 0 ? affordable_voxel() : chosen_voxel();
     say("filling the lumen");
     Mesh lumen = outer_surface(mesh_, result_.voxel_m);
     std::vector<Mesh> lumens = whole_lumens(lumen);
@@ -59,6 +60,8 @@ class Mender {
       lumen = outer_surface(mesh_, result_.voxel_m);
       lumens = whole_lumens(lumen);
     }
+    if (lumens.empty() && left_out_ > 0)
+      throw MeshError("what is closed in the mesh is smaller than 8 mm3; is its unit right? say it with --units");
     if (lumens.empty())
       throw MeshError(
           "nothing closed comes out of the mesh; expected the wall of a vessel, with openings narrower than itself");
@@ -217,6 +220,18 @@ class Mender {
     note(fmt::format("end carried on past a branch that begins beyond it (up to {:.1f} mm)", longest / mm),
          static_cast<int>(where.size()), where);
     return !where.empty();
+  }
+
+  /// Throws MeshError where one that was asked for would fill the memory.
+  double affordable_voxel() const {
+    const double least_m = std::sqrt(area_m2(mesh_) / most_cells);
+    if (options_.voxel_m < least_m)
+      throw MeshError(
+          fmt::format("--voxel {:g}: this mesh would have {:.2g} voxels along its wall; expected {:g} mm "
+                      "or more",
+                      options_.voxel_m / mm, area_m2(mesh_) / (options_.voxel_m * options_.voxel_m),
+                      std::ceil(1e3 * least_m / mm) / 1e3));
+    return options_.voxel_m;
   }
 
   double chosen_voxel() const {

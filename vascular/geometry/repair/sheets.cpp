@@ -29,6 +29,13 @@ Eigen::Vector3d away_from_edge(const Mesh& mesh, int h) {
   return (c - c.dot(along) * along).normalized();
 }
 
+/// How ill two half-edges of one edge go together: flat is well, and so is to face one way, as two vessels that touch
+/// along a line face each other, and a sheet across both is as flat as their own.
+double apartness(const Mesh& mesh, int h, int o) {
+  constexpr double other_way = 0.5;
+  return away_from_edge(mesh, h).dot(away_from_edge(mesh, o)) + (from_of(mesh, h) == from_of(mesh, o) ? other_way : 0);
+}
+
 void match(const Mesh& mesh, std::vector<int> around, std::vector<int>& opposite) {
   while (around.size() > 1) {
     std::size_t first = 0, second = 1;
@@ -36,9 +43,8 @@ void match(const Mesh& mesh, std::vector<int> around, std::vector<int>& opposite
     if (around.size() > 2 && around.size() <= most_around)
       for (std::size_t i = 0; i < around.size(); ++i)
         for (std::size_t j = i + 1; j < around.size(); ++j)
-          if (const double cosine = away_from_edge(mesh, around[i]).dot(away_from_edge(mesh, around[j]));
-              cosine < flattest)
-            flattest = cosine, first = i, second = j;
+          if (const double apart = apartness(mesh, around[i], around[j]); apart < flattest)
+            flattest = apart, first = i, second = j;
     opposite[around[first]] = around[second];
     opposite[around[second]] = around[first];
     around.erase(around.begin() + static_cast<long>(second));
