@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <random>
+
 #include "core/base/units.h"
 #include "tests/support/allocations.h"
 #include "vascular/treatment/treatment.h"
@@ -43,6 +45,29 @@ TEST(CellLocator, AMarkerPairIsFoundAgainAtEveryMomentOfTheBeat) {
   const int other = w.tree.cell_at(w.tree.branch("LAD"), 30e-3);
   EXPECT_FALSE(seat_of(locator, w.tree, paths, locator.centre(other), locator.centre(far)));
   EXPECT_FALSE(seat_of(locator, w.tree, paths, locator.centre(far) + Eigen::Vector3d(0.05, 0, 0), locator.centre(far)));
+}
+
+TEST(CellLocator, NoCellIsNearerThanTheOneFound) {
+  const Ward& w = ward();
+  CellLocator locator(w.map, w.tree);
+  locator.set_moment(0.3, 0.5);
+  const auto cells = static_cast<int>(w.tree.cells.size());
+  std::mt19937 random(1);
+  std::normal_distribution<double> away(0, 4e-3);
+  int found = 0;
+  for (int i = 0; i < 500; ++i) {
+    const Eigen::Vector3d p = locator.centre(i * 7 % cells) + Eigen::Vector3d(away(random), away(random), away(random));
+    double least = 1;
+    for (int c = 0; c < cells; ++c) least = std::min(least, (p - locator.centre(c)).norm());
+    const CellLocator::Found f = locator.nearest(p, 6e-3);
+    if (f.cell < 0) {
+      EXPECT_GT(least, 5.5e-3);
+      continue;
+    }
+    ++found;
+    EXPECT_EQ((p - locator.centre(f.cell)).norm(), least);
+  }
+  EXPECT_GT(found, 200);
 }
 
 TEST(CellLocator, ByAForkADeviceLiesWhereItsWireGoes) {
