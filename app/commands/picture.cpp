@@ -37,6 +37,7 @@ struct Measured {
 struct Pictures {
   std::vector<Measured> frames;
   std::vector<std::string> remarks;
+  bool lacks_one = false;  ///< a file that was named, and not only lay in a folder, could not be measured
 
   data::Likeness medians() const {
     std::vector<data::Likeness> all;
@@ -45,7 +46,7 @@ struct Pictures {
   }
 };
 
-void measure(const std::string& file, Pictures& out) {
+void measure(const std::string& file, bool was_named, Pictures& out) {
   show_progress("measuring " + file);
   try {
     const data::FramesFile read = data::read_frames(file);
@@ -55,13 +56,14 @@ void measure(const std::string& file, Pictures& out) {
                             data::measure_likeness(read.frames[i])});
   } catch (const data::LoadError& error) {
     out.remarks.push_back(error.what());
+    out.lacks_one |= was_named;
   }
 }
 
 Pictures measure_all(const std::vector<std::string>& files) {
   Pictures out;
   for (const std::string& given : files)
-    for (const std::string& file : data::frame_files(given)) measure(file, out);
+    for (const std::string& file : data::frame_files(given)) measure(file, file == given, out);
   show_progress("");
   for (const std::string& remark : out.remarks) fmt::print(stderr, "ostium picture: {}\n", remark);
   if (out.frames.empty()) throw data::LoadError(files.front() + ": no frame in it could be measured");
@@ -125,15 +127,17 @@ int run(const Arguments& a) {
   std::optional<Pictures> real;
   if (!a.against.empty()) real = measure_all({a.against});
   const Pictures pictures = measure_all(a.files);
+  constexpr int bad_input = 3;
+  const int code = pictures.lacks_one || (real && real->lacks_one) ? bad_input : 0;
   if (a.as_json) {
     json out = to_json(pictures);
     if (real) out["against"] = to_json(*real);
     fmt::print("{}\n", out.dump(2));
-    return 0;
+    return code;
   }
   print_frames(pictures);
   print_set(pictures, real ? &*real : nullptr);
-  return 0;
+  return code;
 }
 
 }  // namespace

@@ -42,11 +42,12 @@ int locked(const std::string& beside, const std::string& path) {
 
 }  // namespace
 
-NewFile::NewFile(const std::string& path) : path_(path), beside_(path + ".unfinished") {
+NewFile::NewFile(const std::string& path) : path_(path) {
   std::error_code none;
-  if (fs::is_symlink(path, none))
-    if (const fs::path target = fs::weakly_canonical(path, none); !none)
-      path_ = target.string(), beside_ = path_ + ".unfinished";
+  constexpr int most_links = 40;                                                   // as the kernel has it
+  for (int links = 0; links < most_links && fs::is_symlink(path_, none); ++links)  // whether there is a file or not yet
+    path_ = (fs::path(path_).parent_path() / fs::read_symlink(path_, none)).string();
+  beside_ = path_ + ".unfinished";
   if (const fs::path folder = fs::path(path_).parent_path(); !folder.empty()) fs::create_directories(folder, none);
   // Neither a device nor a folder can be replaced; what is written to a folder fails.
   if (fs::exists(path_, none) && !fs::is_regular_file(path_, none)) beside_ = path_;

@@ -85,6 +85,21 @@ refused "mine.json:3: inject: no tool is a catheter" run rca-mid-focal --script 
 script person '{ "do": "wait", "until": [{ "seconds": 1 }] }'
 refused "mine.json:2: a tool is called person" run rca-mid-focal --script mine.json
 
+# A picture would be in the way of the case, which appears as a whole.
+refused "holds the case alone" import pipe.stl -o ./new-case --picture new-case/picture.svg
+[[ ! -e new-case ]]
+# What is written goes where a link leads, be there a file or not yet.
+mkdir far && ln -s far/tree.json near.json && ln -s ../far.csv far/tree.json
+python3 -B "$here/../tools/comparison/made_up_tube.py" tube.stl 2 60
+expect 0 "branches" "$ostium" centreline tube.stl --units mm -o near.json
+[[ -L near.json && -L far/tree.json && -s far.csv ]]
+
+# A picture that was named and is not there is not passed over, though the others are measured.
+expect 0 "frame.png" "$ostium" frame --pixels 256 --frames 1 -o frame.png
+expect 0 "of the set are as in real ones" "$ostium" picture frame.png
+refused "of the set are as in real ones" picture frame.png none.png
+refused "none.png" picture frame.png none.png --json
+
 # Sizes that no vessel has are told as they are.
 python3 -B "$here/../tools/comparison/made_up_tube.py" micrometres.stl 1500 12000
 python3 -B "$here/../tools/comparison/made_up_tube.py" wide.stl 50 100

@@ -172,7 +172,20 @@ class Import {
       throw data::LoadError(fmt::format(
           "-o {}: is a case that ships, and would hide this one; expected another name, or a folder", options_.output));
     require_new_or_case(made_.folder, made_.the_case.name);
+    require_picture_elsewhere();
     made_.folder_written_at = written_at(made_.folder);
+  }
+
+  /// The case appears as a whole, and is renewed as a whole.
+  void require_picture_elsewhere() const {
+    if (options_.picture.empty()) return;
+    std::error_code none;
+    const fs::path picture = fs::weakly_canonical(fs::absolute(options_.picture, none), none),
+                   folder = fs::weakly_canonical(fs::absolute(made_.folder, none), none);
+    if (std::mismatch(folder.begin(), folder.end(), picture.begin(), picture.end()).first == folder.end())
+      throw data::LoadError(
+          fmt::format("--picture {}: would lie in {}, which holds the case alone; expected another place",
+                      options_.picture, made_.folder.string()));
   }
 
   void choose_motion() {

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "data/identification/curves/curve_search.h"
+#include "data/identification/residuals/noise_model.h"
 
 namespace ostium::data::curves {
 
@@ -130,6 +131,9 @@ void add_warnings(CurveExplanation& x) {
           fmt::format("{} is {:.3g}, far from the {:.3g} that was declared; is a unit or a place wrong?",
                       f.parameter.what, f.value, f.parameter.prior));
   }
+  if (const std::string doubt = doubt_of_noise(x.best().model.per_freedom(), x.best().model.degrees_of_freedom());
+      !doubt.empty())
+    x.warnings.push_back(doubt);
   for (const std::string& warning : x.warnings) x.text.push_back(warning);
 }
 

@@ -235,6 +235,15 @@ double effective_numbers(const std::vector<ResidualTrace>& traces, const NoiseMo
   return out;
 }
 
+std::string doubt_of_noise(double chi2_per_dof, double degrees_of_freedom) {
+  constexpr double far = 0.1, enough = 10;  // noise three times too large; so many leave so little once in 5000 times
+  if (!(chi2_per_dof < far) || chi2_per_dof <= 0 || degrees_of_freedom < enough) return "";
+  return fmt::format(
+      "Suspicious: the noise that is declared is {:.3g} times what is left. Is its unit right? As it stands, nothing "
+      "that is smaller can be told.",
+      1 / std::sqrt(chi2_per_dof));
+}
+
 std::string in_words(const NoiseModel& m, std::optional<double> declared, double unit, const std::string& name) {
   std::string out = fmt::format("{:.3g} {}", m.sigma / unit, name);
   if (declared && std::fabs(m.sigma / *declared - 1) > 0.1)

@@ -38,6 +38,9 @@ struct NoiseModel {
 /// points; fewer leave the declared one, or normal and uncorrelated noise.
 NoiseModel noise_model_of(const std::vector<ResidualTrace>& traces, std::optional<double> declared, double strong = 6);
 
+/// What is to be said where what is left is far smaller than the noise that was declared; else empty.
+std::string doubt_of_noise(double chi2_per_dof, double degrees_of_freedom);
+
 /// Makes the residuals of one trace independent numbers of unit variance, if the model holds; rows as in the trace. Far
 /// points of heavy tails are drawn in, so that the sum of squares is minus twice the log likelihood, up to what depends
 /// on the model alone.

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/base/units.h"
+#include "data/identification/residuals/noise_model.h"
 #include "data/identification/selection/evidence.h"
 
 namespace ostium::data {
@@ -203,6 +204,9 @@ void warn_of_scales(const FittedModel& model, std::vector<std::string>& warnings
                       "that ends elsewhere than declared, or a wrong number, looks like this.",
                       p.parameter.label, p.value, deviations));
   }
+  if (const std::string doubt = doubt_of_noise(model.chi2_per_dof.value_or(1), model.degrees_of_freedom);
+      !doubt.empty())
+    warnings.push_back(doubt);
 }
 
 void add_faults(const std::vector<DataFault>& faults, Explanation& x) {

@@ -8,7 +8,8 @@ namespace ostium::data {
 std::string remaining_text(const Explanation& explanation, const std::vector<ResidualAttribution>& fields,
                            const Remaining& left);
 
-/// Warns of stiffness beyond three of its prior's deviations: something else makes it look so.
+/// Warns of stiffness beyond three of its prior's deviations: something else makes it look so; and of a declared noise
+/// far beyond what is left.
 void warn_of_scales(const FittedModel& model, std::vector<std::string>& warnings);
 
 /// Puts faults before what was found of the mended set: they are effects of the data, so that what was explained then

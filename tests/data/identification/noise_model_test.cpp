@@ -196,6 +196,17 @@ TEST(Degrees, WhatRemovesMostIsNamedAndNoMore) {
   EXPECT_EQ(all.verdict, Verdict::effect);
 }
 
+TEST(NoiseModel, OneFarLargerThanWhatIsLeftIsSuspicious) {
+  EXPECT_EQ(doubt_of_noise(0.5, 100), "");
+  EXPECT_EQ(doubt_of_noise(1e-4, 3), "") << "by chance";
+  EXPECT_NE(doubt_of_noise(1e-4, 100).find("100 times what is left"), std::string::npos) << doubt_of_noise(1e-4, 100);
+  FittedModel m;
+  m.degrees_of_freedom = 100;
+  std::vector<std::string> warnings;
+  for (const double chi2 : {1.0, 1e-4}) m.chi2_per_dof = chi2, warn_of_scales(m, warnings);
+  EXPECT_EQ(warnings.size(), 1u);
+}
+
 /// Three deviations of 30 %: a factor of 2.46.
 TEST(Degrees, StiffnessFarFromWhatIsDeclaredIsSuspicious) {
   FittedModel m;
