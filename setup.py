@@ -35,6 +35,8 @@ class CMakeBuild(build_ext):
             ["cmake", "--install", build, "--component", "python", "--prefix", package.parent],
         ):
             subprocess.run([str(word) for word in command], check=True)
+        # What is missing in a shared object shows only when it is loaded.
+        subprocess.run([sys.executable, "-c", "import _ostium"], check=True, cwd=package)
 
 
 setup(ext_modules=[Extension("ostium._ostium", [])], cmdclass={"build_ext": CMakeBuild})

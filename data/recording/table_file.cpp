@@ -57,10 +57,11 @@ void begin() {
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
 }
 
-/// No file locking: reading a recording while it is being written must not stop the writer.
+/// No file locking: reading a recording while it is being written must not stop the writer. HDF5 opens a file again in
+/// one process only with the same two flags; these are those of h5py's locking=False.
 hid_t unlocked() {
   const hid_t access = H5Pcreate(H5P_FILE_ACCESS);
-  H5Pset_file_locking(access, false, true);
+  H5Pset_file_locking(access, false, false);
   return access;
 }
 

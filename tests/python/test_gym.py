@@ -1,6 +1,7 @@
 """Environments: bounds, seeds, determinism, what is reported, autoreset."""
 
 import dataclasses
+import time
 
 import gymnasium
 import numpy as np
@@ -154,6 +155,15 @@ def test_nan_counts_as_zero_and_is_reported():
     assert info["nan_actions"] == 1 and a.data.hash() == b.data.hash()
 
 
+@pytest.mark.filterwarnings("error")
+def test_infinity_is_as_much_as_the_task_allows():
+    a, b = NavigationEnv("CrossLesion"), NavigationEnv("CrossLesion")
+    a.reset(seed=1), b.reset(seed=1)
+    a.step(np.array([np.inf, -np.inf]))
+    b.step(np.array([1.0, -1.0]))
+    assert a.data.hash() == b.data.hash()
+
+
 def test_physical_actions_are_the_same_drives():
     a, b = NavigationEnv("CrossLesion"), NavigationEnv("CrossLesion", actions="physical")
     a.reset(seed=1), b.reset(seed=1)
@@ -169,6 +179,10 @@ def test_options_of_a_reset():
     _, info = env.reset(seed=2, options={"target": "RCA+30", "state": state})
     assert info["target"] == env.course.patient.vessel.sphere("RCA+30")
     assert (env.data.get_state().view(np.uint64) == state.view(np.uint64)).all()
+    began = time.process_time()
+    for _ in range(20):
+        env.reset(options={"state": state})
+    assert time.process_time() - began < 20 * 0.02  # nothing is simulated on the way to a state
     with pytest.raises(ValueError, match="expected person, target, state"):
         env.reset(options={"case": 1})
     with pytest.raises(ValueError, match="BasicWireNav"):

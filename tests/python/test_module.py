@@ -202,8 +202,14 @@ def test_wrong_things_raise(model, vessel, data):
         data.nodes("guide")
     with pytest.raises(ValueError, match="shape"):
         data.inputs = np.zeros(3)
-    with pytest.raises((TypeError, ValueError)):
-        data.inputs = "fast"
+    count = len(model.input_names)
+    for wrong in ("fast", ["0.1"] * count, np.zeros(count, complex), np.array([None] * count)):
+        with pytest.raises(TypeError):
+            data.inputs = wrong
+    with pytest.raises(TypeError):
+        ostium.rollout(model, [data.get_state()], np.zeros((1, 2, count), complex))
+    with pytest.raises(ValueError, match=r"shape \(3,\); expected \(\d+,\)"):
+        data.inputs = [0, 0, 0]
     with pytest.raises(ValueError, match="another model"):
         data.set_state(np.zeros(5))
     edited = data.get_state()
@@ -296,6 +302,14 @@ def test_memory_does_not_grow(model):
     before = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
     many(1000)
     assert resource.getrusage(resource.RUSAGE_SELF).ru_maxrss - before < 4000  # kB
+
+
+@pytest.mark.parametrize("kind", [ostium.Vessel, ostium.Model, ostium.Data, ostium.Batch, ostium.Imager])
+def test_everything_says_what_it_is(kind):
+    for name in (name for name in dir(kind) if not name.startswith("_")):
+        said = (getattr(kind, name).__doc__ or "").strip()
+        first, _, rest = said.partition("\n")
+        assert rest.strip() if first.startswith(f"{name}(") else first, name
 
 
 def test_the_types_are_those_of_the_classes():

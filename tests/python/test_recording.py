@@ -65,6 +65,13 @@ def test_what_is_no_recording_is_refused(tmp_path):
     assert raised.value.file == str(file)
 
 
+def test_h5py_reads_the_same_file_at_the_same_time(recording):
+    h5py = pytest.importorskip("h5py")
+    with h5py.File(recording.path, locking=False) as file:
+        assert (file["signals"][:] == recording.signals.numbers).sum() > 0
+        assert list(file.attrs["tools"]) == recording.tools
+
+
 def test_a_script_is_played_as_the_program_plays_it(recording, tmp_path):
     played = ostium.run_script("rca-mid-focal", "aorta-arch-wire", seconds=2, recording=tmp_path / "run.h5")
     assert played["outcome"] == recording.end["outcome"]

@@ -3,6 +3,7 @@
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
 
+#include <optional>
 #include <vector>
 
 namespace ostium::python {
@@ -28,10 +29,27 @@ py::array_t<T> copy_of(const std::vector<T>& numbers) {
   return py::array_t<T>(static_cast<py::ssize_t>(numbers.size()), numbers.data());
 }
 
-/// Any array-like as doubles in C order, of that many dimensions. Throws ValueError: "inputs has shape (3, 4); expected
-/// (steps, 12)". -1: any length.
-using Doubles = py::array_t<double, py::array::c_style | py::array::forcecast>;
+/// Any array-like of real numbers as doubles in C order; text and complex numbers are refused, where numpy would read
+/// the one and cut the other.
+class [[gnu::visibility("hidden")]] Doubles : public py::array_t<double, py::array::c_style | py::array::forcecast> {
+ public:
+  using array_t::array_t;
+  static std::optional<Doubles> of(py::handle numbers);
+};
+
+/// Throws ValueError: "inputs has shape (3, 4); expected (any, 12): (steps, inputs)". -1: any length.
 void require_shape(const py::array& array, const std::vector<py::ssize_t>& shape, const char* name,
                    const char* expected);
 
 }  // namespace ostium::python
+
+template <>
+struct pybind11::detail::type_caster<ostium::python::Doubles> {
+  PYBIND11_TYPE_CASTER(ostium::python::Doubles, const_name("numpy.ndarray[numpy.float64]"));
+
+  bool load(handle from, bool) {
+    const auto found = ostium::python::Doubles::of(from);
+    if (found) value = *found;
+    return found.has_value();
+  }
+};

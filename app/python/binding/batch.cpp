@@ -113,10 +113,10 @@ void reset(BatchHandle& self, std::optional<py::ssize_t> which, const py::object
   std::size_t first = 0, last = self.runs.size();
   if (which) first = index(self, *which), last = first + 1;
   if (!to.is_none() && !py::isinstance<py::int_>(to)) {
-    const auto state = Doubles::ensure(to);
-    if (!state || state.ndim() != 1)
+    const auto state = Doubles::of(to);
+    if (!state || state->ndim() != 1)
       throw py::value_error("to is no seed and no state; expected a whole number from 0 on, or what get_state gave");
-    const double* numbers = self.model->state_of(state.data(), static_cast<std::size_t>(state.size()));
+    const double* numbers = self.model->state_of(state->data(), static_cast<std::size_t>(state->size()));
     for (std::size_t i = first; i < last; ++i) self.set_state(i, numbers);
     return;
   }
@@ -185,8 +185,10 @@ or on the threads. Arrays are views, as those of Data.)")
                }),
                py::arg("model").none(false), py::arg("num"), py::arg("threads") = py::none())
           .def_property_readonly(
-              "model", [](const BatchHandle& self) { return std::const_pointer_cast<ModelHandle>(self.model); })
-          .def_property_readonly("num", [](const BatchHandle& self) { return self.runs.size(); })
+              "model", [](const BatchHandle& self) { return std::const_pointer_cast<ModelHandle>(self.model); },
+              "Of which these are sessions.")
+          .def_property_readonly(
+              "num", [](const BatchHandle& self) { return self.runs.size(); }, "How many sessions there are.")
           .def("__len__", [](const BatchHandle& self) { return self.runs.size(); })
           .def_property(
               "inputs",
@@ -266,11 +268,11 @@ or on the threads. Arrays are views, as those of Data.)")
                 self.model->put_state(self.runs[index(self, i)]->state, numbers.mutable_data());
                 return numbers;
               },
-              py::arg("i"))
+              py::arg("i"), "(Model.state_size) of session i, as Data.get_state.")
           .def(
               "hash",
               [](const BatchHandle& self, py::ssize_t i) { return app::hash(self.runs[index(self, i)]->state); },
-              py::arg("i"))
+              py::arg("i"), "As Data.hash, of session i.")
           .def(
               "nodes",
               [](const py::object& self, py::ssize_t i, const std::string& tool) {

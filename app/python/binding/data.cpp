@@ -99,7 +99,8 @@ object. One thread at a time: a second one that steps, copies, saves or restores
                }),
                py::arg("model").none(false))
           .def_property_readonly(
-              "model", [](const DataHandle& self) { return std::const_pointer_cast<ModelHandle>(self.model); })
+              "model", [](const DataHandle& self) { return std::const_pointer_cast<ModelHandle>(self.model); },
+              "Of which it is a session.")
           .def_property(
               "inputs",
               [](const py::object& self) {
@@ -112,7 +113,9 @@ object. One thread at a time: a second one that steps, copies, saves or restores
                 std::copy(to.data(), to.data() + to.size(), row.begin());
               },
               "(inputs) of the next steps, to be written to; names, units and ranges: Model.input_names, input_ranges.")
-          .def_property_readonly("input_names", [](const DataHandle& self) { return self.model->model->input_names; })
+          .def_property_readonly(
+              "input_names", [](const DataHandle& self) { return self.model->model->input_names; },
+              "As Model.input_names.")
           .def_property_readonly(
               "signals",
               [](const py::object& self) {
@@ -179,11 +182,13 @@ object. One thread at a time: a second one that steps, copies, saves or restores
               "out of its range; drives of tools are limited instead, and `trouble` says so.")
           .def("reset", reset_data, py::arg("seed") = py::none(), "To the beginning: of a seed, or the model's.")
           .def("get_state", get_state, "(Model.state_size) all that it takes to go on to the bit.")
-          .def("set_state", set_state, py::arg("state"), "Raises ValueError for the state of another model.")
+          .def("set_state", set_state, py::arg("state"),
+               "Goes on from what get_state gave. Forces and what depends on them are zero until the next step. Raises "
+               "ValueError for the state of another model.")
           .def(
               "hash", [](const DataHandle& self) { return app::hash(self.run.state); },
               "64 bits of all that affects later steps, as recordings have it.")
-          .def("copy", copy)
+          .def("copy", copy, "Another session that goes on as this one would; copy.copy and copy.deepcopy do the same.")
           .def("__copy__", copy)
           .def("__deepcopy__", [](const DataHandle& self, const py::dict&) { return copy(self); })
           .def("__repr__",

@@ -148,7 +148,8 @@ Many threads may use one. Raises OstiumError for instruments that are not there 
                py::arg("friction") = py::none(), py::arg("breathing") = 0.0)
           .def_property_readonly(
               "vessel",
-              [](const ModelHandle& self) { return std::const_pointer_cast<VesselHandle>(self.recipe.vessel); })
+              [](const ModelHandle& self) { return std::const_pointer_cast<VesselHandle>(self.recipe.vessel); },
+              "Where its tools are.")
           .def_property_readonly(
               "tools",
               [](const ModelHandle& self) {
@@ -158,7 +159,8 @@ Many threads may use one. Raises OstiumError for instruments that are not there 
                 return names;
               },
               "[(name, instrument), ...].")
-          .def_property_readonly("seed", [](const ModelHandle& self) { return self.recipe.options.seed; })
+          .def_property_readonly(
+              "seed", [](const ModelHandle& self) { return self.recipe.options.seed; }, "As it was given.")
           .def_property_readonly(
               "step_s", [](const ModelHandle& self) { return self.model->session.step_s(); }, "Length of a step, s.")
           .def_property_readonly(
@@ -175,7 +177,9 @@ Many threads may use one. Raises OstiumError for instruments that are not there 
                 return ranges;
               },
               "(inputs, 2) least and most of each.")
-          .def_property_readonly("signal_names", [](const ModelHandle& self) { return self.model->signal_names; })
+          .def_property_readonly(
+              "signal_names", [](const ModelHandle& self) { return self.model->signal_names; },
+              "Names of the columns of signals, with their units.")
           .def_property_readonly(
               "signals",
               [](const ModelHandle& self) {
@@ -185,7 +189,9 @@ Many threads may use one. Raises OstiumError for instruments that are not there 
                 return out;
               },
               "[(name, unit, what it is), ...].")
-          .def_property_readonly("state_size", [](const ModelHandle& self) { return self.state_size(); })
+          .def_property_readonly(
+              "state_size", [](const ModelHandle& self) { return self.state_size(); },
+              "How many numbers Data.get_state gives.")
           .def("__copy__", [](const std::shared_ptr<ModelHandle>& self) { return self; })
           .def("__deepcopy__", [](const std::shared_ptr<ModelHandle>& self, const py::dict&) { return self; })
           .def("__repr__",

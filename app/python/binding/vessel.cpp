@@ -186,9 +186,12 @@ left, y to the head, z to the front. Raises OstiumError for a case that is not t
               "in, "
               "and "
               "`towards` (3) a point they aim at, both in that unit and in the file's axes.")
-          .def_property_readonly("name", [](const VesselHandle& self) { return self.vessel->name; })
-          .def_property_readonly("person", [](const VesselHandle& self) { return self.setup.person; })
-          .def_property_readonly("beats", [](const VesselHandle& self) { return self.vessel->beats(); })
+          .def_property_readonly(
+              "name", [](const VesselHandle& self) { return self.vessel->name; }, "Of its case, or its mesh's file.")
+          .def_property_readonly(
+              "person", [](const VesselHandle& self) { return self.setup.person; }, "As it was given.")
+          .def_property_readonly(
+              "beats", [](const VesselHandle& self) { return self.vessel->beats(); }, "Whether it moves with a heart.")
           .def_property_readonly(
               "heart_rate", [](const VesselHandle& self) { return self.vessel->rate_1_min; },
               "Beats a minute at the start.")

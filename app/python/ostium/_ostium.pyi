@@ -29,6 +29,14 @@ def run_script(
     recording: Union[None, str, PathLike[str]] = None,
 ) -> dict[str, Any]: ...
 
+def _label_run(
+    case: str, script: str, seed: int, values: dict[str, str], seconds: float, name: str,
+    folder: Union[str, PathLike[str]], every_s: float, pixels: int, dicom: bool,
+) -> str: ...
+def _write_label_set(
+    folder: Union[str, PathLike[str]], every_s: float, pixels: int, keys: Sequence[str], runs: Sequence[str]
+) -> int: ...
+
 class Vessel:
     def __init__(self, case: Union[str, PathLike[str]], person: Optional[int] = None) -> None: ...
     @staticmethod

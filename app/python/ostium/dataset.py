@@ -8,6 +8,8 @@
 Of single moments, ostium.Imager(model).labels(data) has the same as arrays. The page of the program says what is in each file.
 """
 
+from __future__ import annotations
+
 import builtins
 import fcntl
 import functools
@@ -15,6 +17,7 @@ import hashlib
 import json
 import re
 from pathlib import Path
+from typing import Any, Callable, Iterable, Mapping, Optional, Union
 
 from ._ostium import _label_run, _write_label_set
 from .errors import OstiumError
@@ -87,7 +90,8 @@ def run(numbered, folder, of, every_s, pixels, dicom):
     return text
 
 
-def make(tasks, folder, every_s=0.5, pixels=512, dicom=False, map=None):
+def make(tasks: Iterable[Mapping[str, Any]], folder: Union[str, Path], every_s: float = 0.5, pixels: int = 512,
+         dicom: bool = False, map: Optional[Callable[..., Iterable[str]]] = None) -> int:
     """Plays `tasks` (ostium.sweep.tasks) and writes a set of labelled pictures; -> how many there are.
 
     every_s  seconds of simulated time between pictures, 0.05 to 3,600

@@ -27,4 +27,4 @@ def load(path):
     return vessel
 
 
-Vessel.save, Vessel.load = save, staticmethod(load)
+Vessel.save, Vessel.load = save, staticmethod(load)  # type: ignore[method-assign, assignment]

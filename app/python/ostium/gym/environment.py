@@ -65,15 +65,16 @@ class NavigationEnv(gymnasium.Env):
             raise ValueError(f"options has {sorted(options)}; expected person, target, state")
         if person is None:
             person = self.task.persons[self.np_random.integers(len(self.task.persons))]
-        who = patient(self.task, int(person))
+        who = patient(self.task, None if person is None else int(person))
         if who.person not in self._datas:
             self._datas[who.person] = ostium.Data(who.model)
         self.data = self._datas[who.person]
         for imager in self._imagers.values():
             imager.reset()
         self.data.reset()
-        who.begin(lambda to: self.data.reset(to) if np.isscalar(to) else self.data.set_state(to), self.data.step,
-                  self.np_random)
+        # Where a state is given, the seed still decides on the target, but nothing is waited for.
+        who.begin(lambda to: self.data.reset(to) if np.isscalar(to) else self.data.set_state(to),
+                  self.data.step if state is None else lambda steps: None, self.np_random)
         if state is not None:
             self.data.set_state(state)
         self.course = Course(self.task, who, self.np_random, *self._leading(), target)

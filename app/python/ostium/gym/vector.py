@@ -56,7 +56,7 @@ class NavigationVectorEnv(VectorEnv):
             # Each generator draws, as that of one environment would; the first decides.
             drawn = [random.integers(len(self.task.persons)) for random in self._random]
             person = self.task.persons[drawn[0]]
-        who = patient(self.task, int(person))
+        who = patient(self.task, None if person is None else int(person))
         if self.batch is None or self.batch.model is not who.model:
             self.batch = ostium.Batch(who.model, self.num_envs, self.threads)
             self._imagers = None

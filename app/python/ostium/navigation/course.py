@@ -1,6 +1,7 @@
 """One episode of a task: where to, how far it is, what was met on the way. Shared by all environments."""
 
 import functools
+from typing import Optional
 
 import numpy as np
 
@@ -12,7 +13,7 @@ from .tasks import Moment, Task, target_places
 class Patient:
     """A person's vessel and model for a task, with what its episodes share."""
 
-    def __init__(self, task: Task, person: int):
+    def __init__(self, task: Task, person: Optional[int]):
         self.person = person
         self.vessel = ostium.Vessel(task.case, person=person)
         self.model = ostium.Model(self.vessel, tools=list(task.tools), begin=task.begin)
@@ -55,7 +56,7 @@ class Patient:
 
 
 @functools.lru_cache(maxsize=32)
-def patient(task: Task, person: int) -> Patient:
+def patient(task: Task, person: Optional[int]) -> Patient:
     return Patient(task, person)
 
 
@@ -145,7 +146,10 @@ class Course:
             raise ValueError(f"the action has shape {action.shape}; expected {most.shape}")
         bad = int(np.isnan(action).sum())
         action = np.nan_to_num(action, nan=0.0)
-        drives = np.clip(action if physical else np.where(action < 0, -action * least, action * most), least, most)
+        if not physical:
+            action = np.clip(action, -1, 1)  # infinity too, before it is scaled
+            action = np.where(action < 0, -action * least, action * most)
+        drives = np.clip(action, least, most)
         self.last_action = self.task.as_unit(drives)
         return drives, bad
 

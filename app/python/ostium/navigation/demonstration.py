@@ -41,7 +41,8 @@ def demonstrate(task, script, seed=0, person=0, target=None, seconds=0.0) -> Dem
         raise ValueError("the task begins in an artery; scripts begin at the access")
     with tempfile.TemporaryDirectory() as folder:
         file = os.path.join(folder, "run.h5")
-        ostium.run_script(task.case, script, seed=seed, values={"person": person}, seconds=seconds, recording=file)
+        ostium.run_script(task.case, script, seed=seed, values={} if person is None else {"person": person},
+                          seconds=seconds, recording=file)
         recording = ostium.Recording(file)
         inputs, hashes, tools = recording.inputs, recording.hashes, recording.tools
     names = [name for name, _ in task.tools]

@@ -50,7 +50,8 @@ class Task:
     tools: Sequence[Tuple[str, str]]  # (name, instrument), outermost first
     title: str
     case: str = "rca-mid-focal"
-    persons: Sequence[int] = (0,)  # drawn by the seed of a reset
+    # Drawn by the seed of a reset; None: the case's own, the only one of an imported mesh.
+    persons: Sequence[Optional[int]] = (0,)
     begin: Optional[str] = None  # artery before whose ostium it begins; None: at the access
     targets: Sequence[str] = ARCH  # branches, or places ("RCA+40"): drawn by the seed of a reset
     beyond_m: Tuple[float, float] = (0.005, 0.04)  # of a branch: how far into it a target may lie
