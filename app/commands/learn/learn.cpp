@@ -153,7 +153,7 @@ ServeArguments serving_of(const data::Lesson& lesson, int port) {
   if (lesson.person) serving.session.set.push_back(fmt::format("person={}", *lesson.person));
   if (!lesson.begin.empty()) serving.session.set.push_back("begin=" + lesson.begin);
   serving.port = port, serving.hands = "browser", serving.scoring = lesson.scoring, serving.report = false;
-  serving.lesson = {lesson.title, lesson.goal, lesson.instructions};
+  serving.lesson = {lesson.title, lesson.goal, lesson.instructions, {}, ""};
   return serving;
 }
 
@@ -183,6 +183,9 @@ int run(const Arguments& a) {
   progress = Progress(folder);  // as another left it before it was ours
   const std::size_t attempt = progress.next(lesson.name);
   serving.folder = progress.folder_of(lesson.name, attempt).string();
+  serving.lesson.needed = needed[place];
+  const bool last = place + 1 == course.lessons.size();
+  if (!last) serving.lesson.next = course.lessons[place + 1].title;
   bool done = false;
   serving.ended = [&](const Served& served) {
     done |= is_done(needed[place], served);
@@ -192,9 +195,8 @@ int run(const Arguments& a) {
   const Served served = serve(serving);
   tell(data::find_score_list(lesson.scoring), needed[place], served);
   progress.note(lesson.name, attempt, done, served);
-  const bool last = place + 1 == course.lessons.size();
   if (done)
-    fmt::print("Done.{}\n", last ? "" : " Next: " + course.lessons[place + 1].title + " (the same command)");
+    fmt::print("Done.{}\n", last ? "" : " Next: " + serving.lesson.next + " (the same command)");
   else
     fmt::print("Not yet: once more, with the same command.\n");
   return done ? 0 : 1;

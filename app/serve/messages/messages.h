@@ -21,6 +21,8 @@ std::string message_of(const std::vector<TimelineEntry>& moments);
 struct LessonWords {
   std::string title, goal;
   std::vector<std::string> instructions;
+  std::vector<std::size_t> needed;  ///< items of the scoring list that must hold to go on; none: it is only shown
+  std::string next;                 ///< title of the lesson after it; empty: the last
 };
 
 /// What does not change during a run.

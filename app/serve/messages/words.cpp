@@ -85,6 +85,8 @@ std::string words_of(const SessionEvent& event, const SessionModel& model, const
       return "rhythm: " + one_of(rhythms, event.value);
     case EventCode::drug_given:
       return drug_name(model, event.value) + " given";
+    case EventCode::idle_beam:
+      return "X-rays for 3 s while no tool moves";
     case EventCode::stent_elsewhere:
       what = "stent left in " + branch_name(model, event.value);
       break;

@@ -11,7 +11,8 @@ const token = new URLSearchParams(location.hash.slice(1)).get('token') ?? sessio
 sessionStorage.setItem('token', token);
 history.replaceState(null, '', '/'); // not for shoulders, nor for the history
 
-let welcome = null, now = null, console_ = null, emergency = null, ended = null, refusedUntil = 0;
+let welcome = null, now = null, console_ = null, emergency = null, ended = null, closed = false, refusedUntil = 0;
+let pace = []; // [wall s, simulated s] of the last seconds
 const truth = new Truth($('truth'));
 const picture = new Picture($('picture'), () => { $('empty').hidden = true; });
 const reference = new Picture($('reference'), () => { $('reference').hidden = false; });
@@ -38,14 +39,14 @@ const trackers = {
   welcome(message) {
     welcome = message;
     $('gone').hidden = true;
-    document.title = `Ostium: ${message.case}`;
-    $('title').textContent = message.title;
-    $('who').textContent = message.role === 'trainer' ? 'Trainer' : 'Viewer';
     const viewer = message.role !== 'trainer';
     for (const id of ['pause', 'hands', 'end', 'note']) $(id).disabled = viewer;
     $('marks').querySelector('button').disabled = viewer;
     $('copy-link').hidden = viewer;
     const lesson = message.lesson;
+    document.title = `Ostium: ${lesson.title || message.case}`;
+    $('title').textContent = lesson.title || message.title;
+    $('who').textContent = viewer ? 'Viewer' : lesson.needed.length ? 'Learner' : 'Trainer';
     $('lesson').hidden = !lesson.title;
     $('lesson').querySelector('h2').textContent = lesson.title;
     $('lesson').querySelector('p').textContent = `Goal: ${lesson.goal}`;
@@ -53,7 +54,7 @@ const trackers = {
     truth.tree = message.tree;
     timeline.clear();
     timeline.enabled = !viewer && message.goes_back;
-    ended = null;
+    ended = null, closed = false;
     if (!console_) {
       console_ = new Console($('console-panel'), $('stage'), socket, message);
       emergency = new Emergency(console_, socket, message, (place) => { truth.mark = place; truth.draw(); });
@@ -71,7 +72,11 @@ const trackers = {
   },
   now(message) { now = message; show(); },
   events(message) { timeline.add(message.events); },
-  branch(message) { timeline.goneBack(message.from_s); ended = null; },
+  branch(message) {
+    timeline.goneBack(message.from_s);
+    ended = null;
+    if (welcome.lesson.needed.length) choose('events'), $('stage').focus(); // the instructions again, and the keys
+  },
   scores(message) { showScores(message.items); },
   refused(message) { refuse(message.why); },
   ended(message) { ended = message; show(); choose('scores'); },
@@ -93,31 +98,43 @@ const socket = new Socket(token, {
     else if (bytes[0] === 3) truth.take(data);
   },
   gone: () => {
-    $('gone').textContent = welcome ? 'The connection is gone; trying again …' : 'This link is not (or no longer) valid for this run. Trying again …';
+    $('gone').textContent = closed ? welcome.lesson.needed.length ? 'The lesson is closed. In the terminal, the same command goes on.' : 'The session is closed.'
+      : welcome ? 'The connection is gone; trying again …' : 'This link is not (or no longer) valid for this run. Trying again …';
     $('gone').hidden = false;
   },
 });
 
 const fixed = (value, digits) => value === null || value === undefined ? '–' : value.toFixed(digits);
 
+// How much of a second passes in one; a machine that is too slow says so.
+function speedNow() {
+  const wall = performance.now() / 1000;
+  if (now.paused || ended || now.s < pace.at(-1)?.[1]) pace = [];
+  pace = [...pace.filter(([at]) => at > wall - 3), [wall, now.s]];
+  return wall > pace[0][0] + 1 ? (now.s - pace[0][1]) / (wall - pace[0][0]) : 1;
+}
+
 function show() {
   if (!now || !welcome) return;
   const script = now.hands === 'script';
   $('clock').textContent = clock(now.s);
-  const state = ended ? `Ended: ${ended.outcome}` : now.paused ? 'Paused' : 'Running';
+  const state = ended ? ended.outcome === 'ended' ? 'Ended' : `Ended: ${ended.outcome}` : now.paused ? 'Paused' : 'Running';
   const by = script ? 'the script has the instruments' : now.hands === 'box' ? 'hands at the box' : 'you have the instruments';
   const words = ended ? state : `${state}, ${by.replace('you', welcome.role === 'trainer' ? 'you' : 'the trainer')}`;
   if ($('state').textContent !== words) $('state').textContent = words;
   $('state').classList.toggle('loud', now.paused || !!ended);
   $('pause').textContent = now.paused ? 'Go on' : 'Pause';
+  $('pause').disabled = !!ended || welcome.role !== 'trainer';
+  $('end').textContent = ended ? 'Close' : 'End run';
   $('hands').textContent = script ? 'Take over' : 'Hand back';
   $('hands').hidden = now.step < 0;
   const reviewing = now.picture.review_frames > 0;
   const beam = now.arm.fluoroscopy || now.arm.cine;
   $('beam').hidden = !beam || now.paused || reviewing;
   $('beam').lastChild.textContent = now.arm.cine ? ' Cine' : ' X-ray on';
-  $('held').hidden = !$('beam').hidden || !$('empty').hidden;
-  $('held').textContent = reviewing ? `cine review ${now.picture.review_frame} of ${now.picture.review_frames}` : 'last image held';
+  const waits = now.paused && !ended; // while it does, keys seem dead
+  $('held').hidden = !$('beam').hidden || (!$('empty').hidden && !waits);
+  $('held').textContent = reviewing ? `cine review ${now.picture.review_frame} of ${now.picture.review_frames}` : waits ? `paused${welcome.role === 'trainer' ? ': press Go on, or P' : ''}` : 'last image held';
   if (now.patient) {
     drawStrip($('ecg'), now.ecg_10uV, -60, 160, '#4fd97f');
     drawStrip($('pressure'), now.line_mmHg, 0, 180, '#ff7a6b');
@@ -142,7 +159,8 @@ function show() {
   if (p?.pericardium_mL > 0) numbers.unshift(['pericardium', `${p.pericardium_mL} mL`], ['its pressure', `${fixed(p.pericardium_mmHg, 1)} mmHg`]);
   if (p?.leak_mL_s > 0.005) numbers.unshift(['leak', `${fixed(p.leak_mL_s, 2)} mL/s`]);
   if (p?.rhythm > 0) numbers.unshift(['rhythm', ['sinus', 'AV block', 'fibrillation', 'asystole'][p.rhythm]]);
-  if (now.late > 0) numbers.push(['late steps', now.late]);
+  const speed = speedNow();
+  if (speed < 0.9) numbers.push(['speed', `${Math.round(100 * speed)} %`]);
   $('numbers').replaceChildren(...numbers.map(([name, value]) => {
     const pair = document.createElement('div'), dt = document.createElement('dt'), dd = document.createElement('dd');
     dt.textContent = name;
@@ -157,9 +175,22 @@ function show() {
   emergency.show(now, welcome);
 }
 
+// Whether the lesson is done, what is missing, and what to do next.
+function sayVerdict(items, add) {
+  const { needed, next } = welcome.lesson, missed = needed.filter((i) => items[i].holds !== true);
+  add('h2', missed.length ? 'Not yet' : 'Done');
+  for (const i of missed) {
+    const item = welcome.scoring.items[i], came = items[i].holds === null ? 'cannot be told' : item.kind === 'step' ? 'not done' : 'happened';
+    add('p', `${item.what}: ${came}${items[i].value ? ` (${items[i].value})` : ''}`).className = 'missed';
+  }
+  add('p', missed.length ? 'To try again, choose an earlier second on the bar below, then press Go on; or press Close and start ostium learn again in the terminal.'
+    : next ? `Next: ${next}. Press Close, and start ostium learn again in the terminal.` : 'That was the last lesson. Press Close.').className = 'next';
+}
+
 function showScores(items) {
   const panel = $('scores-panel'), made = [];
   const add = (tag, words) => { const element = document.createElement(tag); element.textContent = words; made.push(element); return element; };
+  if (ended && items && welcome.lesson.needed.length) sayVerdict(items, add);
   add('p', `${welcome.scoring.title}. ${welcome.scoring.note}`);
   let phase = null, list = null;
   welcome.scoring.items.forEach((item, i) => {
@@ -171,7 +202,8 @@ function showScores(items) {
     row.className = open ? 'open' : holds ? 'yes' : 'no';
     const sign = open ? '○' : holds ? '✔' : item.kind === 'step' ? '–' : '✖';
     const when = score?.at_s?.length ? score.at_s.slice(0, 3).map(clock).join(' ') + (score.at_s.length > 3 ? ` … ${score.at_s.length} times` : '') : score?.value ?? '';
-    for (const words of [sign, item.what, when]) { const span = document.createElement('span'); span.textContent = words; row.append(span); }
+    const came = open || (item.kind === 'step' && holds) ? '' : item.kind === 'step' ? ': not done' : holds ? ': did not happen' : ': happened';
+    for (const words of [sign, item.what + came, when]) { const span = document.createElement('span'); span.textContent = words; row.append(span); }
     row.title = item.when;
     list.append(row);
   });
@@ -206,13 +238,17 @@ tabs.forEach((name, i) => {
     $(`tab-${next}`).focus();
   };
 });
-$('pause').onclick = () => socket.order('pause');
+$('pause').onclick = (event) => {
+  socket.order('pause');
+  // After the mouse the keys are the picture's again, or the next Space would press this button, not the pedal.
+  if (event.detail > 0) $('stage').focus();
+};
 $('hands').onclick = () => {
   const take = now?.hands === 'script';
   socket.order(take ? 'take_over' : 'hand_back');
   if (take) { choose('console'); $('stage').focus(); }
 };
-$('end').onclick = () => ask(ended ? 'Close the session?' : 'End the run?', () => socket.order('end'));
+$('end').onclick = () => ask(ended ? 'Close the session?' : 'End the run?', () => { closed = !!ended; socket.order('end'); });
 $('report').onclick = () => socket.order('report');
 $('marks').onsubmit = (event) => {
   event.preventDefault();

@@ -23,6 +23,7 @@ export class Console {
     this.rows = new Map(welcome.console.rows.map((row) => [row.do, row]));
     this.keys = welcome.console.keys;
     this.down = [];
+    this.tableMoves = 0;
     this.watched = [];
     this.build(welcome);
     this.listen(stage);
@@ -110,7 +111,9 @@ export class Console {
       const key = find(event);
       if (!key || event.metaKey || event.altKey) return;
       event.preventDefault();
-      if (event.repeat) return;
+      // A table is far to move by taps: held, its key moves it ten times a second.
+      if (event.repeat && (key.do !== 'move_table' || event.timeStamp < this.tableMoves)) return;
+      if (key.do === 'move_table') this.tableMoves = event.timeStamp + 100;
       if (!this.rows.get(key.do).held) return this.socket.order(key.do, ...key.values);
       this.down.push(key);
       level(key.do);
