@@ -1,8 +1,8 @@
 #include "fluoro/projection/silhouette.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <vector>
 
 namespace ostium::fluoro {
 
@@ -21,13 +21,23 @@ std::pair<int, int> centres_between(double low, double high, int pixels) {
 
 }  // namespace
 
+PointProjector::PointProjector(const View& view)
+    : axes_(view.arm),
+      p_PS_(source(view.arm)),
+      middle_(0.5 * view.pixels),
+      scale_(view.pixels / view.field_m),
+      to_detector_m_(view.arm.source_to_detector_m) {}
+
+std::optional<PicturePoint> PointProjector::operator()(const Eigen::Vector3d& p_P) const {
+  const Eigen::Vector3d ray = p_P - p_PS_;
+  const double depth_m = ray.dot(axes_.outwards);
+  if (!(depth_m > 0)) return {};
+  const Vector2d on_detector = to_detector_m_ / depth_m * Vector2d(ray.dot(axes_.right), ray.dot(axes_.up));
+  return PicturePoint{Vector2d(middle_ + scale_ * on_detector.x(), middle_ - scale_ * on_detector.y()), depth_m};
+}
+
 std::optional<PicturePoint> picture_point(const View& view, const Eigen::Vector3d& p_P) {
-  const auto on_detector = project(view.arm, p_P);
-  if (!on_detector) return {};
-  const double scale = view.pixels / view.field_m;
-  return PicturePoint{
-      Vector2d(0.5 * view.pixels + scale * on_detector->x(), 0.5 * view.pixels - scale * on_detector->y()),
-      (p_P - source(view.arm)).dot(towards_detector(view.arm))};
+  return PointProjector(view)(p_P);
 }
 
 Eigen::Matrix<double, 3, 4> projection_matrix(const View& view) {
@@ -42,7 +52,8 @@ Eigen::Matrix<double, 3, 4> projection_matrix(const View& view) {
   return out;
 }
 
-Silhouette::Silhouette(const View& view) : view_(view), depth_m_(Plane::Zero(view.pixels, view.pixels)) {}
+Silhouette::Silhouette(const View& view)
+    : view_(view), to_picture_(view), depth_m_(Plane::Zero(view.pixels, view.pixels)) {}
 
 void Silhouette::cover(int row, int column, double depth_m) {
   float& own = depth_m_(row, column);
@@ -51,37 +62,42 @@ void Silhouette::cover(int row, int column, double depth_m) {
 }
 
 void Silhouette::add(const Body& body) {
+  std::vector<Corner> at;
+  at.reserve(static_cast<std::size_t>(body.p_P.cols()));
+  for (Eigen::Index v = 0; v < body.p_P.cols(); ++v) at.push_back(to_picture_(body.p_P.col(v).cast<double>()));
+  const auto of = [&](int vertex) -> const Corner& { return at[static_cast<std::size_t>(vertex)]; };
   for (Eigen::Index t = 0; t < body.triangles->cols(); ++t) {
     const Eigen::Vector3i corner = body.triangles->col(t);
-    add(body.p_P.col(corner[0]).cast<double>(), body.p_P.col(corner[1]).cast<double>(),
-        body.p_P.col(corner[2]).cast<double>());
+    add(of(corner[0]), of(corner[1]), of(corner[2]));
   }
 }
 
 void Silhouette::add(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c) {
-  const std::array<std::optional<PicturePoint>, 3> p = {picture_point(view_, a), picture_point(view_, b),
-                                                        picture_point(view_, c)};
-  if (!p[0] || !p[1] || !p[2]) return;
-  const Vector2d u = p[1]->at - p[0]->at, v = p[2]->at - p[0]->at;
+  add(to_picture_(a), to_picture_(b), to_picture_(c));
+}
+
+void Silhouette::add(const Corner& a, const Corner& b, const Corner& c) {
+  if (!a || !b || !c) return;
+  const Vector2d u = b->at - a->at, v = c->at - a->at;
   const double area = cross(u, v);
   if (area == 0) return;
-  const auto [left, right] = std::minmax({p[0]->at.x(), p[1]->at.x(), p[2]->at.x()});
-  const auto [top, bottom] = std::minmax({p[0]->at.y(), p[1]->at.y(), p[2]->at.y()});
+  const auto [left, right] = std::minmax({a->at.x(), b->at.x(), c->at.x()});
+  const auto [top, bottom] = std::minmax({a->at.y(), b->at.y(), c->at.y()});
   const auto columns = centres_between(left, right, view_.pixels), rows = centres_between(top, bottom, view_.pixels);
   for (int row = rows.first; row <= rows.second; ++row)
     for (int column = columns.first; column <= columns.second; ++column) {
-      const Vector2d from = Vector2d(column + 0.5, row + 0.5) - p[0]->at;
+      const Vector2d from = Vector2d(column + 0.5, row + 0.5) - a->at;
       const double of_c = cross(u, from) / area, of_b = cross(from, v) / area;
       if (of_b < 0 || of_c < 0 || of_b + of_c > 1) continue;
       // One over the depth is linear in the picture.
-      cover(row, column, 1 / ((1 - of_b - of_c) / p[0]->depth_m + of_b / p[1]->depth_m + of_c / p[2]->depth_m));
+      cover(row, column, 1 / ((1 - of_b - of_c) / a->depth_m + of_b / b->depth_m + of_c / c->depth_m));
     }
 }
 
 void Silhouette::add_tube(const Eigen::Matrix3Xd& points_P, std::span<const double> radius_m) {
   const double scale = view_.arm.source_to_detector_m * view_.pixels / view_.field_m;
   for (Eigen::Index i = 0; i + 1 < points_P.cols(); ++i) {
-    const auto a = picture_point(view_, points_P.col(i)), b = picture_point(view_, points_P.col(i + 1));
+    const auto a = to_picture_(points_P.col(i)), b = to_picture_(points_P.col(i + 1));
     if (!a || !b) continue;
     const Vector2d run = b->at - a->at;
     const double from_px = std::max(0.5, radius_m[static_cast<std::size_t>(i)] * scale / a->depth_m),

@@ -16,7 +16,19 @@ struct PicturePoint {
   Eigen::Vector2d at;  ///< pixels from the upper left corner: column, row; centres of pixels at one half
   double depth_m = 0;  ///< from the source, along the direction to the detector's middle
 };
-/// Empty if the point is not in front of the source. It may lie outside of the picture.
+/// Where points come to lie in the pictures of a view.
+class PointProjector {
+ public:
+  explicit PointProjector(const View& view);
+  /// Empty if the point is not in front of the source. It may lie outside of the picture.
+  std::optional<PicturePoint> operator()(const Eigen::Vector3d& p_P) const;
+
+ private:
+  ImageAxes axes_;
+  Eigen::Vector3d p_PS_;  ///< the source
+  double middle_, scale_, to_detector_m_;
+};
+/// Of a single point.
 std::optional<PicturePoint> picture_point(const View& view, const Eigen::Vector3d& p_P);
 
 /// The same as a matrix: column, row and 1 are in the ratio of P (x, y, z, 1), metres.
@@ -37,9 +49,12 @@ class Silhouette {
   const Plane& depth_m() const { return depth_m_; }
 
  private:
+  using Corner = std::optional<PicturePoint>;
   void cover(int row, int column, double depth_m);
+  void add(const Corner& a, const Corner& b, const Corner& c);
 
   View view_;
+  PointProjector to_picture_;
   Plane depth_m_;
   long pixels_ = 0;
 };
