@@ -100,6 +100,18 @@ expect 0 "of the set are as in real ones" "$ostium" picture frame.png
 refused "of the set are as in real ones" picture frame.png none.png
 refused "none.png" picture frame.png none.png --json
 
+# A material that is missing colours nothing; it is not one from elsewhere, wherever the mesh is read from.
+python3 - <<'END'
+import math
+rings = [(2 * math.cos(k * math.pi / 8), 2 * math.sin(k * math.pi / 8), z) for z in range(0, 61, 2) for k in range(16)]
+faces = [(16 * i + k, 16 * i + (k + 1) % 16, 16 * i + 16 + (k + 1) % 16, 16 * i + 16 + k) for i in range(30) for k in range(16)]
+with open("coloured.obj", "w") as file:
+    file.write("mtllib not-there.mtl\n" + "".join("v %r %r %r\n" % p for p in rings))
+    file.writelines("f " + " ".join(str(k + 1) for k in face) + "\n" for face in faces)
+END
+expect 1 "32 open edges" "$ostium" check --units mm coloured.obj
+expect 1 "32 open edges" "$ostium" check --units mm "$folder/coloured.obj"
+
 # Sizes that no vessel has are told as they are.
 python3 -B "$here/../tools/comparison/made_up_tube.py" micrometres.stl 1500 12000
 python3 -B "$here/../tools/comparison/made_up_tube.py" wide.stl 50 100
