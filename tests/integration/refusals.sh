@@ -141,6 +141,9 @@ mv found/amended/b0.csv found/amended/prediction.csv
 sed 's/b0.csv/prediction.csv/' bend/measurement.json >found/amended/measurement.json
 refused "a file of the measured set" predict found/amended -o found/amended
 cmp bend/b0.csv found/amended/prediction.csv
+ln -s bend bent
+refused "bend and bent/measurement.json are one set" characterise bend bent/measurement.json --like rosen -o wire.json
+[[ ! -e wire.json ]]
 refused "measurement.json is there already" explain --template projections -o bend
 ls bend | cmp - before
 refused "there is no template" explain --template nothing -o none
