@@ -132,6 +132,10 @@ cannot treat -o before/pictures/treat.png
 cannot explain bend --write-instrument folder.png
 [[ ! -e folder.csv.part ]]
 
+expect 1 "limited-frame.png: cannot be written .File too large" bash -c 'ulimit -f 1; exec "$@"' limited "$ostium" \
+  frame --pixels 128 --frames 1 -o limited-frame.png
+[[ ! -e limited-frame.png && ! -e limited-frame.png.unfinished ]]
+
 # A refusal leaves everything as it was.
 "$ostium" explain --template three_point_bend -o bend >/dev/null
 ls bend >before
