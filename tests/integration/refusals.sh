@@ -136,6 +136,11 @@ expect 1 "limited-frame.png: cannot be written .File too large" bash -c 'ulimit 
   frame --pixels 128 --frames 1 -o limited-frame.png
 [[ ! -e limited-frame.png && ! -e limited-frame.png.unfinished ]]
 
+# A course is refused with its file and line, and what would do nothing is not passed over.
+expect 2 "would do nothing" "$ostium" learn --list --lesson whole
+sed 's/"first-steps"/"my-steps"/; s/"lesson-film"/"no-list"/' "$here/../../data/courses/first-steps.json" >my-steps.json
+refused "my-steps.json:[0-9]*: scoring of lesson film: no-list" learn my-steps.json --list
+
 # A refusal leaves everything as it was.
 "$ostium" explain --template three_point_bend -o bend >/dev/null
 ls bend >before
