@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <cmath>
+#include <csignal>
 #include <cstdint>
 #include <cstdio>
 #include <cstring>
@@ -242,6 +243,7 @@ void explain_dashes(int argc, char** argv) {
 int run_command_line(const Command& program, int argc, char** argv) {
   hold_standard_streams();
   let_messages_be_lost();
+  std::signal(SIGXFSZ, SIG_IGN);  // a file longer than `ulimit -f` then cannot be written, as on a full disk
   CLI::App app(program.help, program.name);
   app.set_version_flag("--version", OSTIUM_VERSION);
   // Also used for commands declared later that have no examples.

@@ -11,6 +11,7 @@
 #include "core/base/units.h"
 #include "data/catalogue/catalogue.h"
 #include "data/catalogue/instrument/instrument_reader.h"
+#include "data/formats/load_error.h"
 #include "data/formats/write_file.h"
 #include "data/identification/characterisation/characterisation_report.h"
 #include "data/identification/curves/curve_report.h"
@@ -87,8 +88,23 @@ void write_report(const data::Characterisation& c, const std::filesystem::path& 
   data::write_file((folder / "characterisation.html").string(), to_html(c));
 }
 
+/// What is named twice would count as measured twice: its error would shrink, and it would agree with itself.
+void require_different(const std::vector<std::string>& sets) {
+  const auto file_of = [](const std::filesystem::path& set) {
+    std::error_code unseen;
+    return std::filesystem::is_directory(set, unseen) ? set / "measurement.json" : set;
+  };
+  for (std::size_t i = 0; i < sets.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j) {
+      std::error_code unseen;
+      if (std::filesystem::equivalent(file_of(sets[j]), file_of(sets[i]), unseen))
+        throw data::LoadError(fmt::format("{} and {} are one set; expected each set once", sets[j], sets[i]));
+    }
+}
+
 int run(const Arguments& a) {
   require_ending(a.file, {".json"});
+  require_different(a.sets);
   for (const std::string& set : a.sets) require_not_of_set(set, "--out", a.file);
   std::string like;
   if (!a.like.empty()) {

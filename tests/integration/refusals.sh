@@ -100,6 +100,18 @@ expect 0 "of the set are as in real ones" "$ostium" picture frame.png
 refused "of the set are as in real ones" picture frame.png none.png
 refused "none.png" picture frame.png none.png --json
 
+# A material that is missing colours nothing; it is not one from elsewhere, wherever the mesh is read from.
+python3 - <<'END'
+import math
+rings = [(2 * math.cos(k * math.pi / 8), 2 * math.sin(k * math.pi / 8), z) for z in range(0, 61, 2) for k in range(16)]
+faces = [(16 * i + k, 16 * i + (k + 1) % 16, 16 * i + 16 + (k + 1) % 16, 16 * i + 16 + k) for i in range(30) for k in range(16)]
+with open("coloured.obj", "w") as file:
+    file.write("mtllib not-there.mtl\n" + "".join("v %r %r %r\n" % p for p in rings))
+    file.writelines("f " + " ".join(str(k + 1) for k in face) + "\n" for face in faces)
+END
+expect 1 "32 open edges" "$ostium" check --units mm coloured.obj
+expect 1 "32 open edges" "$ostium" check --units mm "$folder/coloured.obj"
+
 # Sizes that no vessel has are told as they are.
 python3 -B "$here/../tools/comparison/made_up_tube.py" micrometres.stl 1500 12000
 python3 -B "$here/../tools/comparison/made_up_tube.py" wide.stl 50 100
@@ -120,6 +132,15 @@ cannot treat -o before/pictures/treat.png
 cannot explain bend --write-instrument folder.png
 [[ ! -e folder.csv.part ]]
 
+expect 1 "limited-frame.png: cannot be written .File too large" bash -c 'ulimit -f 1; exec "$@"' limited "$ostium" \
+  frame --pixels 128 --frames 1 -o limited-frame.png
+[[ ! -e limited-frame.png && ! -e limited-frame.png.unfinished ]]
+
+# A course is refused with its file and line, and what would do nothing is not passed over.
+expect 2 "would do nothing" "$ostium" learn --list --lesson whole
+sed 's/"first-steps"/"my-steps"/; s/"lesson-film"/"no-list"/' "$here/../../data/courses/first-steps.json" >my-steps.json
+refused "my-steps.json:[0-9]*: scoring of lesson film: no-list" learn my-steps.json --list
+
 # A refusal leaves everything as it was.
 "$ostium" explain --template three_point_bend -o bend >/dev/null
 ls bend >before
@@ -129,6 +150,9 @@ mv found/amended/b0.csv found/amended/prediction.csv
 sed 's/b0.csv/prediction.csv/' bend/measurement.json >found/amended/measurement.json
 refused "a file of the measured set" predict found/amended -o found/amended
 cmp bend/b0.csv found/amended/prediction.csv
+ln -s bend bent
+refused "bend and bent/measurement.json are one set" characterise bend bent/measurement.json --like rosen -o wire.json
+[[ ! -e wire.json ]]
 refused "measurement.json is there already" explain --template projections -o bend
 ls bend | cmp - before
 refused "there is no template" explain --template nothing -o none

@@ -35,6 +35,7 @@ void declare(Options& options, Arguments& a) {
   options.add("--port", a.port, "Of the page; 0: any that is free").range(0, 65535).show_default();
   options.flag("--show", a.show, "The expert does the lesson, and you watch: no attempt, and nothing is kept");
   options.flag("--list", a.list, "What lessons there are, and what has been done");
+  options.exclude("--list", {"--lesson", "--show", "--port"});
 }
 
 /// Attempts, by lesson: {"feed-and-turn": [{"attempt": 1, "done": false}, ...]}.
@@ -81,6 +82,15 @@ class Progress {
   std::string file_;
   Json all_ = Json::object();
 };
+
+data::ScoreList list_of(const data::Course& course, const data::Lesson& lesson) {
+  try {
+    return data::find_score_list(lesson.scoring);
+  } catch (const data::LoadError& error) {
+    throw data::LoadError(
+        fmt::format("{}:{}: scoring of lesson {}: {}", course.file, lesson.line, lesson.name, error.what()));
+  }
+}
 
 /// The items that must hold, by their place in the list.
 std::vector<std::size_t> must_hold(const data::Course& course, const data::Lesson& lesson,
@@ -161,7 +171,7 @@ int run(const Arguments& a) {
   const data::Course course = data::find_course(a.course);
   std::vector<std::vector<std::size_t>> needed;
   for (const data::Lesson& lesson : course.lessons)
-    needed.push_back(must_hold(course, lesson, data::find_score_list(lesson.scoring)));
+    needed.push_back(must_hold(course, lesson, list_of(course, lesson)));
   const std::string folder = (fs::path(a.folder) / course.name).string();
   Progress progress(folder);
   if (a.list) {

@@ -33,8 +33,9 @@ double number(const JsonValue& value, double least, double most, const char* wha
 /// What stands in "position" times this is in LPS.
 Eigen::Vector3d to_lps(const JsonValue& curve) {
   const JsonValue* const system = curve.find("coordinateSystem");
-  if (!system || system->text == "LPS" || system->text == "0") return Eigen::Vector3d::Ones();
-  if (system->text == "RAS") return {-1, -1, 1};
+  // Numbers are those of older Slicers (vtkMRMLStorageNode).
+  if (!system || system->text == "LPS" || system->text == "1") return Eigen::Vector3d::Ones();
+  if (system->text == "RAS" || system->text == "0") return {-1, -1, 1};
   system->refuse("\"LPS\" or \"RAS\"");
 }
 
@@ -46,6 +47,8 @@ const std::vector<JsonValue>& radii_of(const JsonValue& curve, std::size_t point
       const JsonValue* const name = measurement.find("name");
       if (!name || vascular::in_lower_case(name->text) != "radius") continue;
       const JsonValue& values = member(measurement, "controlPointValues", JsonValue::Type::array, wanted);
+      if (const JsonValue* const unit = measurement.find("units"); unit && !unit->text.empty() && unit->text != "mm")
+        unit->refuse("\"mm\"");
       if (values.items.size() != points) values.refuse(fmt::format("{} values, one a control point", points));
       return values.items;
     }
@@ -60,6 +63,9 @@ std::vector<vascular::CoursePoint> course_of(const JsonValue& curve) {
   std::vector<vascular::CoursePoint> course;
   double length_m = 0;
   for (std::size_t i = 0; i < points.items.size(); ++i) {
+    // A point that was not yet, or is no longer, placed has a position that means nothing.
+    if (const JsonValue* const status = points.items[i].find("positionStatus"); status && status->text != "defined")
+      continue;
     const JsonValue& position = member(points.items[i], "position", JsonValue::Type::array, "[x, y, z] in mm");
     if (position.items.size() != 3) position.refuse("[x, y, z] in mm");
     vascular::CoursePoint point;

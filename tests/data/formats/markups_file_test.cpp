@@ -53,14 +53,37 @@ TEST(Markups, OfRASGoToLPS) {
   EXPECT_LT((tubes[0].nodes.back().p - mm * Eigen::Vector3d(-40, 0, 0)).norm(), 1e-9);
 }
 
+TEST(Markups, OfOlderSlicersHaveNumbersForRASAndLPS) {
+  Json ras = trunk, lps = trunk;
+  ras["coordinateSystem"] = "0";
+  lps["coordinateSystem"] = "1";
+  EXPECT_NEAR(read({{"markups", {ras}}})[0].nodes.back().p.x(), -40 * mm, 1e-9);
+  EXPECT_NEAR(read({{"markups", {lps}}})[0].nodes.back().p.x(), 40 * mm, 1e-9);
+}
+
+TEST(Markups, PointsThatAreNotPlacedArePassedOver) {
+  for (const char* status : {"undefined", "preview", "missing"}) {
+    Json lines = trunk;
+    lines["controlPoints"][1]["positionStatus"] = status;
+    lines["controlPoints"][1]["position"] = {0, 30, 0};
+    const std::vector<vascular::Tube> tubes = read({{"markups", {lines}}});
+    EXPECT_NEAR(tubes[0].length_m(), 40 * mm, 1e-9) << status;
+    EXPECT_NEAR(tubes[0].nodes.back().radius_m, 1.5 * mm, 1e-12) << status;
+    lines["controlPoints"][1].erase("position");
+    EXPECT_NEAR(read({{"markups", {lines}}})[0].length_m(), 40 * mm, 1e-9) << status;
+  }
+}
+
 TEST(Markups, WhatMakesNoVesselIsRefusedByItsPlace) {
-  Json bare = trunk, inches = trunk, few = trunk, far = trunk, thin = trunk, one = trunk, axes = trunk;
+  Json bare = trunk, inches = trunk, few = trunk, far = trunk, thin = trunk, one = trunk, axes = trunk, wide = trunk;
   bare["measurements"] = Json::array();
   expect_words(refusal({{"markups", {bare}}}), {"lines.mrk.json:", "markups[0]", "Radius", "Extract Centerline"});
   inches["coordinateUnits"] = "in";
   expect_words(refusal({{"markups", {inches}}}), {"coordinateUnits", "mm"});
   few["measurements"][1]["controlPointValues"] = {2, 2};
   expect_words(refusal({{"markups", {few}}}), {"controlPointValues", "3 values"});
+  wide["measurements"][1]["units"] = "cm";
+  expect_words(refusal({{"markups", {wide}}}), {"measurements[1].units", "cm", "mm"});
   far["controlPoints"][1]["position"][0] = 1e9;
   expect_words(refusal({{"markups", {trunk, far}}}), {"markups[1].controlPoints[1].position[0]", "5000"});
   thin["measurements"][1]["controlPointValues"][2] = -1;

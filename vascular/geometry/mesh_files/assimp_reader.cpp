@@ -25,11 +25,12 @@ namespace fs = std::filesystem;
 /// below, and no others: a mesh from somewhere must not read what is ours.
 class FilesBeside : public Assimp::DefaultIOSystem {
  public:
-  explicit FilesBeside(const std::string& path) : folder_(fs::weakly_canonical(path).parent_path()) {}
+  explicit FilesBeside(const std::string& path) : folder_(fs::weakly_canonical(fs::absolute(path)).parent_path()) {}
 
   Assimp::IOStream* Open(const char* name, const char* mode) override {
     std::error_code unseen;
-    const fs::path file = fs::weakly_canonical(name, unseen);
+    // Absolute, as what is not there would stay relative, and so lie in no folder.
+    const fs::path file = fs::weakly_canonical(fs::absolute(name, unseen), unseen);
     const fs::path within = file.lexically_relative(folder_);
     // Assimp puts the folder before every name, so that of "/etc/x" or "http://x" has two slashes together.
     const bool elsewhere = std::string_view(name).find("//") != std::string_view::npos;
