@@ -93,6 +93,22 @@ TEST(Mesh, GltfIsReadInItsMetres) {
   EXPECT_NEAR(volume_m3(mesh), 0.09 * 0.09 * 0.09 / 6, 1e-9);
 }
 
+TEST(Mesh, PartsOfGltfLieWhereTheirNodesPlaceThem) {
+  const auto volume = [](const std::string& node) {
+    std::string file = corner_gltf;
+    file.replace(file.find(R"({"mesh":0})"), 10, node);
+    const Mesh mesh = read_mesh(written("placed.gltf", file), LengthUnit::metre).mesh;
+    return std::pair(volume_m3(mesh) / (0.09 * 0.09 * 0.09 / 6), mesh.vertices.size());
+  };
+  const auto [twice, corners] = volume(R"({"mesh":0,"scale":[2,1,1]})");
+  EXPECT_NEAR(twice, 2, 1e-6);
+  EXPECT_EQ(corners, 4u);
+  EXPECT_NEAR(volume(R"({"mesh":0,"scale":[-1,1,1]})").first, 1, 1e-6) << "mirrored, and not inside out";
+  const auto [both, eight] = volume(R"({"mesh":0,"children":[1]},{"mesh":0,"translation":[1,0,0],"scale":[1,1,-1]})");
+  EXPECT_NEAR(both, 2, 1e-5);
+  EXPECT_EQ(eight, 8u);
+}
+
 TEST(Mesh, WhatWasCutShortOrBrokenIsRefused) {
   const std::string ascii =
       "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\n"

@@ -3,6 +3,7 @@
 #include <assimp/scene.h>
 #include <fmt/format.h>
 
+#include <array>
 #include <assimp/Importer.hpp>
 #include <filesystem>
 #include <new>
@@ -95,11 +96,41 @@ std::string short_words(const std::string& words) {
                               why.empty() ? "its content is not what its ending says" : short_words(why)));
 }
 
+/// Adds a part where a node places it. A mirrored part is turned inside out again, as glTF has it; assimp's own
+/// transformation leaves it.
+void add_part(const std::string& path, const aiMesh& part, unsigned number, const aiMatrix4x4& placed,
+              RawSurface& surface) {
+  const bool mirrored = placed.Determinant() < 0;
+  for (unsigned f = 0; f < part.mNumFaces; ++f) {
+    const aiFace& face = part.mFaces[f];
+    if (face.mNumIndices < 3) {
+      ++surface.skipped;
+      continue;
+    }
+    for (const unsigned k : mirrored ? std::array{0U, 2U, 1U} : std::array{0U, 1U, 2U}) {
+      const aiVector3D p = placed * part.mVertices[face.mIndices[k]];
+      surface.corners.emplace_back(p.x, p.y, p.z);
+      if (!surface.corners.back().allFinite())
+        throw MeshError(
+            fmt::format("{}: part {} (\"{}\"), face {} has a corner that is no finite number; expected three "
+                        "coordinates",
+                        path, number, part.mName.C_Str(), f));
+    }
+  }
+}
+
+void add_below(const std::string& path, const aiScene& scene, const aiNode& node, const aiMatrix4x4& above,
+               RawSurface& surface) {
+  const aiMatrix4x4 placed = above * node.mTransformation;
+  for (unsigned m = 0; m < node.mNumMeshes; ++m)
+    add_part(path, *scene.mMeshes[node.mMeshes[m]], node.mMeshes[m], placed, surface);
+  for (unsigned c = 0; c < node.mNumChildren; ++c) add_below(path, scene, *node.mChildren[c], placed, surface);
+}
+
 }  // namespace
 
 RawSurface read_assimp(const std::string& path) {
   Assimp::Importer importer;
-  importer.SetPropertyBool(AI_CONFIG_PP_PTV_KEEP_HIERARCHY, false);
   check_whole(path);
   auto* files = new FilesBeside(path);
   importer.SetIOHandler(files);  // which owns it from now on
@@ -112,28 +143,10 @@ RawSurface read_assimp(const std::string& path) {
   if (!scene) refuse(path, importer.GetErrorString());
   check_indices(path, *scene);
   if (ending_of(path) == ".off") check_off_faces(path, faces_of(*scene));
-  scene = importer.ApplyPostProcessing(aiProcess_Triangulate | aiProcess_PreTransformVertices);
-  if (!scene) refuse(path, importer.GetErrorString());
+  scene = importer.ApplyPostProcessing(aiProcess_Triangulate);
+  if (!scene || !scene->mRootNode) refuse(path, importer.GetErrorString());
   RawSurface surface;
-  for (unsigned m = 0; m < scene->mNumMeshes; ++m) {
-    const aiMesh& part = *scene->mMeshes[m];
-    for (unsigned f = 0; f < part.mNumFaces; ++f) {
-      const aiFace& face = part.mFaces[f];
-      if (face.mNumIndices < 3) {
-        ++surface.skipped;
-        continue;
-      }
-      for (unsigned k = 0; k < 3; ++k) {
-        const aiVector3D& p = part.mVertices[face.mIndices[k]];
-        surface.corners.emplace_back(p.x, p.y, p.z);
-        if (!surface.corners.back().allFinite())
-          throw MeshError(
-              fmt::format("{}: part {} (\"{}\"), face {} has a corner that is no finite number; expected three "
-                          "coordinates",
-                          path, m, part.mName.C_Str(), f));
-      }
-    }
-  }
+  add_below(path, *scene, *scene->mRootNode, aiMatrix4x4(), surface);
   return surface;
 }
 
