@@ -217,6 +217,9 @@ cat >"$folder/lines.mrk.json" <<'END'
 END
 expect 0 "mm, as the file says" "$ostium" check "$folder/lines.mrk.json"
 expect 0 "vessel 1" "$ostium" import "$folder/lines.mrk.json" -o "$folder/lines"
+sed 's/20, 5, 0/20, 0, 0/' "$folder/lines.mrk.json" >"$folder/straight.mrk.json" # from its first point to its last
+expect 0 "spans 40.0 mm" "$ostium" check "$folder/straight.mrk.json"
+expect 0 "from   -     40.0 mm" "$ostium" centreline "$folder/straight.mrk.json" -o "$folder/straight.json"
 # A run in it is of the vessels that it was made in.
 expect 1 "time limit" "$ostium" run "$folder/lines" --script iliac-wire --seconds 0.1 --out "$folder/in-lines"
 expect 0 "bit for bit" "$ostium" replay "$folder/in-lines/run.h5"
