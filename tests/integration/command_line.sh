@@ -126,7 +126,7 @@ expect 3 "png and .svg are known" "$ostium" check "$folder/whole.obj" --picture 
 sed 's/9/900000/g' "$folder/whole.obj" >"$folder/huge.obj"
 expect 3 "expected vessels" "$ostium" import "$folder/huge.obj" -o "$folder/case"
 expect 3 "this is no vessel" "$ostium" import --units mm "$folder/whole.obj" -o "$folder/case"
-expect 3 "holds no triangle" bash -c "printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\n' > '$folder/none.obj'; '$ostium' import '$folder/none.obj' -o '$folder/case'"
+expect 3 "cannot be read as a mesh" bash -c "printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\n' > '$folder/none.obj'; '$ostium' import '$folder/none.obj' -o '$folder/case'"
 # A body of revolution with a spout: no vessel, in whatever unit.
 awk 'function row(x, z, r, n,  i) { for (i = 0; i < n; ++i) print "v", x + r * cos(6.2831853 * i / n), r * sin(6.2831853 * i / n), z }
   function tube(first, rows, n,  i, j, a, b) {
