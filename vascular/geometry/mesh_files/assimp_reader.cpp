@@ -145,9 +145,9 @@ RawSurface read_assimp(const std::string& path) {
   if (ending_of(path) == ".off") check_off_faces(path, faces_of(*scene));
   scene = importer.ApplyPostProcessing(aiProcess_Triangulate);
   if (!scene || !scene->mRootNode) refuse(path, importer.GetErrorString());
-  if (scene->mNumMeshes == 0) refuse(path, "it holds no faces");
   RawSurface surface;
   add_below(path, *scene, *scene->mRootNode, aiMatrix4x4(), surface);
+  if (surface.corners.empty() && surface.skipped == 0) refuse(path, "it holds no faces");
   return surface;
 }
 
