@@ -1,5 +1,6 @@
 """A real Chromium, moved by WebDriver, for tests and pictures of the trainer's station."""
 import base64
+import contextlib
 import json
 import pathlib
 import re
@@ -73,6 +74,22 @@ class Browser:
         finally:
             self.process.terminate()
             self.process.wait()
+
+
+@contextlib.contextmanager
+def beside(command):
+    """A program that serves a page, and a browser beside it; both are ended whatever happens."""
+    run = subprocess.Popen(command, stdout=subprocess.PIPE, text=True)
+    browser = None
+    try:
+        browser = Browser()
+        yield run, browser
+    finally:
+        if browser:
+            browser.close()
+        if run.poll() is None:
+            run.terminate()
+            run.wait(30)
 
 
 def text(name):

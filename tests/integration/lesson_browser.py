@@ -8,11 +8,10 @@ import json
 import os
 import pathlib
 import re
-import subprocess
 import sys
 import tempfile
 
-from browser import CLOCK, Browser, programs, text
+from browser import CLOCK, beside, programs, text
 
 IN_CM = "document.querySelector('#tools tbody td:nth-child(2)').textContent"
 
@@ -82,19 +81,10 @@ def main(ostium):
     if not programs():
         return 1 if os.environ.get("CI") == "true" else 77
     with tempfile.TemporaryDirectory() as folder:
-        run = subprocess.Popen([ostium, "learn", "--out", folder], stdout=subprocess.PIPE, text=True)
-        browser = None
-        try:
+        with beside([ostium, "learn", "--out", folder]) as (run, browser):
             link = next(line for line in run.stdout if line.startswith("trainer: ")).split(": ", 1)[1].strip()
-            browser = Browser()
             do_lesson(browser, link)
             assert run.wait(30) == 0, "a lesson that is done ends with 0"
-        finally:
-            if browser:
-                browser.close()
-            if run.poll() is None:
-                run.terminate()
-                run.wait(30)
         kept = json.loads((pathlib.Path(folder) / "first-steps/progress.json").read_text(encoding="utf-8"))
         assert [one["done"] for one in kept["feed-and-turn"]] == [True], kept
     print("a beginner does the first lesson by its page")

@@ -11,7 +11,7 @@ import subprocess
 import sys
 import tempfile
 
-from browser import CLOCK, DRAWN, Browser, programs, text
+from browser import CLOCK, DRAWN, beside, programs, text
 
 
 def tube(path):
@@ -114,22 +114,12 @@ def main(ostium, picture=None):
         tube(folder / "tube.stl")
         (folder / "watched.json").write_text(json.dumps(SCRIPT))
         out = folder / "out"
-        run = subprocess.Popen([ostium, "serve", folder / "tube.stl", "--units", "mm", "--entry", "0,0,0", "--towards",
-                                "50,0,0", "--script", folder / "watched.json", "--out", out, "--no-report"],
-                               stdout=subprocess.PIPE, text=True)
-        browser = None
-        try:
+        with beside([ostium, "serve", folder / "tube.stl", "--units", "mm", "--entry", "0,0,0", "--towards", "50,0,0",
+                     "--script", folder / "watched.json", "--out", out, "--no-report"]) as (run, browser):
             trainer = run.stdout.readline().split(": ", 1)[1].strip()
             viewer = run.stdout.readline().split(": ", 1)[1].strip()
-            browser = Browser()
             try_page(browser, trainer, viewer, out, picture)
             assert run.wait(30) in (0, 1)
-        finally:
-            if browser:
-                browser.close()
-            if run.poll() is None:
-                run.terminate()
-                run.wait(30)
         for recording in ("run.h5", "branch-2.h5"):
             subprocess.run([ostium, "replay", out / recording, "--verify"], check=True)
     print("the page works in a real browser")
