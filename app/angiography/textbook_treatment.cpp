@@ -160,7 +160,7 @@ StentNumbers measure(const Plan& plan, const vascular::StentModel& model, const 
 vascular::TreatmentReport Bedside::step(double dt_s) {
   device.shaft_m = shaft_m;
   const vascular::TreatmentReport report =
-      vascular::step(treatment, device, dt_s, state, {physiology.flow.tree, blood, inputs.occupied_m}, scratch);
+      vascular::step(treatment, device, dt_s, state, {physiology.flow, blood, inputs.occupied_m}, scratch);
   act(treatment.drugs, state.drugs, inputs.heart.body);
   inputs.heart.body.leak_m3_s = leak_m3_s(state);
   inputs.hyperaemia = state.drugs.adenosine;

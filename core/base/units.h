@@ -14,6 +14,7 @@ inline constexpr double Nmm2 = 1e-6;                   // N m2
 inline constexpr double N_per_mm2 = 1e6;               // Pa
 inline constexpr double mmHg = 133.322, atm = 101325;  // Pa
 inline constexpr double mL = 1e-6;                     // m3
+inline constexpr double mm3 = 1e-9;                    // m3
 inline constexpr double mL_min = mL / 60;              // m3/s
 inline constexpr double mPa_s = 1e-3;                  // Pa s; one centipoise
 

@@ -17,6 +17,7 @@ enum class ConsoleCommand {
   cine,
   contrast,
   saline,
+  aspirate,
   vacuum,
   // Done once.
   next_device,
@@ -138,6 +139,13 @@ inline constexpr ConsoleRow console_rows[] = {
      ConsoleNeeds::hands,
      true,
      "syringe: saline, 4 mL/s at most",
+     {{{"share", 0, 1, "1"}}}},
+    {ConsoleCommand::aspirate,
+     "aspirate",
+     true,
+     ConsoleNeeds::hands,
+     true,
+     "syringe: drawn back, 4 mL/s at most",
      {{{"share", 0, 1, "1"}}}},
     {ConsoleCommand::vacuum,
      "vacuum",
@@ -274,8 +282,9 @@ inline constexpr ConsoleRow console_rows[] = {
      ConsoleNeeds::console,
      true,
      "a trainer's: 1 perforation (hole in mm), 2 dissection (grade, 0 is A to 5 is F), 3 spasm, 4 no-reflow (share), "
-     "5 fibrillation, 6 AV block; in which artery, how far from its beginning, how large",
-     {{{"what", 1, 6, "1", true}, {"artery", 0, 999, "1", true}, {"place", 0, 400, "mm"}, {"size", 0, 6, "1"}}}},
+     "5 fibrillation, 6 AV block, 7 thrombus (mm3), 8 air in the line (mL); in which artery, how far from its "
+     "beginning, how large",
+     {{{"what", 1, 8, "1", true}, {"artery", 0, 999, "1", true}, {"place", 0, 400, "mm"}, {"size", 0, 200, "1"}}}},
     {ConsoleCommand::reference, "reference", false, ConsoleNeeds::nothing, false, "this picture becomes the reference"},
     {ConsoleCommand::roadmap,
      "roadmap",

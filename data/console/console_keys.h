@@ -25,6 +25,7 @@ inline constexpr ConsoleKey console_keys[] = {{"W", false, {ConsoleCommand::guid
                                               {"V", false, {ConsoleCommand::cine, {1}}},
                                               {"F", false, {ConsoleCommand::contrast, {1}}},
                                               {"G", false, {ConsoleCommand::saline, {1}}},
+                                              {"X", false, {ConsoleCommand::aspirate, {1}}},
                                               {"\\", false, {ConsoleCommand::vacuum, {1}}},
                                               {"Tab", false, {ConsoleCommand::next_device, {}}},
                                               {"Y", false, {ConsoleCommand::next_device, {}}},

@@ -76,7 +76,7 @@ Row treatment_row(bool quick) {
   for (int n = 0; n < (quick ? 1000 : 10000); ++n) {
     device.gauge_Pa = std::min(plan.stent_Pa, 2e-3 * atm * n);
     const double start = thread_ms();
-    step(t.model, device, 1e-3, state, {physiology.flow.tree, blood, occupied}, scratch);
+    step(t.model, device, 1e-3, state, {physiology.flow, blood, occupied}, scratch);
     times.push_back(thread_ms() - start);
   }
   set_times(times, 0.999, row);

@@ -23,6 +23,8 @@ struct Line {
   double length_m = 1.0;            ///< of the catheter's lumen
   double hand_Pa = 4e5;             ///< largest thumb pressure [estimate]
   double viscosity_Pa_s = 10.4e-3;  ///< of iohexol 350 at 37 C (label)
+  double vacuum_Pa = 8e4;           ///< that a syringe pulled by hand reaches [estimate], on blood:
+  double blood_Pa_s = 3.5e-3;
 };
 
 struct ContrastModel {
@@ -57,7 +59,7 @@ constexpr auto fields(const TipPlace*) {
 struct ContrastInputs {
   double injection_m3_s = 0;   ///< requested; a negative value is refused
   double iodine_kg_m3 = 350;   ///< of the syringe's contents; 0: saline
-  double aspiration_m3_s = 0;  ///< drawn back through the catheter
+  double aspiration_m3_s = 0;  ///< drawn back through the catheter (drawn_m3_s); not while something is injected
   double shaft_m = 0;          ///< radius of a shaft inside the catheter
   Line line;
   TipPlace tip;
@@ -88,9 +90,10 @@ constexpr auto fields(const ContrastState*) {
 ContrastState make_contrast_state(const ContrastModel& model, const FlowModel& flow);
 
 struct ContrastReport {
-  double rate_m3_s = 0;  ///< flow through line and catheter
-  double selective = 0;  ///< share of it that entered the coronary
-  bool refused = false;  ///< a negative or non-finite rate was taken as zero
+  double rate_m3_s = 0;   ///< flow through line and catheter
+  double selective = 0;   ///< share of it that entered the coronary
+  double drawn_m3_s = 0;  ///< aspirated
+  bool refused = false;   ///< a negative or non-finite rate was taken as zero
 };
 
 struct ContrastScratch {
@@ -109,6 +112,9 @@ struct BloodNow {
 /// One step of up to 10 ms, with the flow of that step.
 ContrastReport step(const ContrastModel& model, const BloodNow& now, const ContrastInputs& inputs, double dt_s,
                     ContrastState& state, ContrastScratch& scratch);
+
+/// What a syringe that asks for `asked_m3_s` draws of blood through a catheter, around a shaft if there is one.
+double drawn_m3_s(double asked_m3_s, const Line& line, double shaft_m);
 
 /// Mean over the cross-section of a coronary cell, kg/m3; `area_m2`: free for blood.
 double concentration(const ContrastState& state, const FlowModel& flow, int cell, double area_m2);

@@ -37,20 +37,26 @@ double draw_line(double volume_m3, double dead_m3, double tip_kg_m3, ContrastSta
   return tip_kg_m3 * volume_m3;
 }
 
-/// Poiseuille flow, around a shaft if there is one.
-double fastest_m3_s(const Line& line, double shaft_m) {
+/// Poiseuille flow through the catheter per pressure and fluidity, around a shaft if there is one, m3.
+double conductance_m3(const Line& line, double shaft_m) {
   const double r2 = line.bore_m * line.bore_m, a = std::min(shaft_m, 0.98 * line.bore_m), a2 = a * a;
   const double fourth = a > 0 ? r2 * r2 - a2 * a2 - (r2 - a2) * (r2 - a2) / std::log(line.bore_m / a) : r2 * r2;
-  return line.hand_Pa * pi * fourth / (8 * line.viscosity_Pa_s * line.length_m);
+  return pi * fourth / (8 * line.length_m);
 }
 
 }  // namespace
+
+double drawn_m3_s(double asked_m3_s, const Line& line, double shaft_m) {
+  if (!(asked_m3_s > 0) || !std::isfinite(asked_m3_s)) return 0;
+  return std::min(asked_m3_s, line.vacuum_Pa / line.blood_Pa_s * conductance_m3(line, shaft_m));
+}
 
 void ContrastStep::inject() {
   x.entering.assign(2 * n(), 0);  // at each cell's upstream face: m3, then kg
   double rate = in.injection_m3_s;
   if (!(rate >= 0) || !std::isfinite(rate) || !(in.iodine_kg_m3 >= 0)) rate = 0, report.refused = true;
-  report.rate_m3_s = rate = std::min(rate, fastest_m3_s(in.line, in.shaft_m));
+  report.rate_m3_s = rate =
+      std::min(rate, in.line.hand_Pa / in.line.viscosity_Pa_s * conductance_m3(in.line, in.shaft_m));
   if (in.aspiration_m3_s > 0 && rate == 0) return aspirate();
   if (rate == 0) return;
   const double kg = push_line(in, rate * dt, s, x);
@@ -85,7 +91,8 @@ void ContrastStep::inject() {
 }
 
 void ContrastStep::aspirate() {
-  const double wanted = in.aspiration_m3_s * dt;
+  report.drawn_m3_s = drawn_m3_s(in.aspiration_m3_s, in.line, in.shaft_m);
+  const double wanted = report.drawn_m3_s * dt;
   double there = 0, *from = nullptr;
   switch (in.tip.where) {
     case TipPlace::coronary: {

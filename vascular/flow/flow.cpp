@@ -179,7 +179,8 @@ void step(const FlowModel& model, const FlowInputs& in, double dt_s, FlowState& 
   for (std::size_t b = 0; b < tree.branches.size(); ++b) {
     const FlowBranch& branch = tree.branches[b];
     const double pz = pressure_of_no_flow(model, branch.territory, in.pressures);
-    const double tone = std::max(s.tone[b], 1 + in.hyperaemia * (model.most_dilated - 1)) * (1 - s.no_reflow[b]);
+    const double tone = std::max(s.tone[b], 1 + in.hyperaemia * (model.most_dilated - 1)) * (1 - s.no_reflow[b]) *
+                        (in.open.empty() ? 1 : in.open[b]);
     for (int c = branch.first; c < branch.last; ++c) {
       x.pz[c] = pz;
       x.g[c] = model.leak_m3_sPa[c] * tone * (s.pressure_Pa[c] > pz ? 1 : collapsed);

@@ -44,6 +44,7 @@ struct FlowInputs {
   std::span<const double> radius_m;    ///< (#cells) of the lumen
   std::span<const double> occupied_m;  ///< (#cells) radius of an instrument in it; empty: none
   double hyperaemia = 0;               ///< [0, 1]: adenosine dilates the myocardial vessels regardless of need
+  std::span<const double> open = {};   ///< (#branches) share of the muscle's arterioles without air; empty: all
 };
 
 struct FlowState {

@@ -91,15 +91,15 @@ void flow_on(const CirculationModel& m, const CirculationInputs& in, double acti
     if (s.back_m3 > m.shuts_m3) s.open = false, s.aortic_m3_s = 0;
   }
   const double leak = in.leak_m3_s * dt, drain = std::min(in.drain_m3_s * dt, s.pericardium_m3),
-               infusion = in.infusion_m3_s * dt;
+               infusion = in.infusion_m3_s * dt, drawn = in.drawn_m3_s * dt;
   s.left_m3 += dt * (mitral - s.aortic_m3_s);
-  s.arteries_m3 += dt * (s.aortic_m3_s - systemic) - leak;
+  s.arteries_m3 += dt * (s.aortic_m3_s - systemic) - leak - drawn;
   s.veins_m3 += dt * (systemic - tricuspid) + infusion;
   s.right_m3 += dt * (tricuspid - pulmonary);
   s.lung_arteries_m3 += dt * (pulmonary - lungs);
   s.lung_veins_m3 += dt * (lungs - mitral);
   s.pericardium_m3 += leak - drain;
-  s.gained_m3 += infusion - drain;
+  s.gained_m3 += infusion - drain - drawn;
   s.left_Pa = left - spent * std::max(0.0, s.aortic_m3_s), s.pericardium_Pa = peri, s.venous_Pa = veins;
 }
 

@@ -94,6 +94,7 @@ struct CirculationInputs {
   double pressed_Pa = 0;     ///< on the heart, by a hand's compression
   double leak_m3_s = 0;      ///< from the arteries into the pericardium
   double drain_m3_s = 0;     ///< from the pericardium out of the body
+  double drawn_m3_s = 0;     ///< from the arteries out of the body, through a catheter
   double infusion_m3_s = 0;  ///< into the veins, from outside
   double resting_rate_1_min = 70;
   double vagal_block = 0;  ///< [0, 1]: by atropine

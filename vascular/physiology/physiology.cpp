@@ -17,6 +17,7 @@ PhysiologyState make_state(const PhysiologyModel& model) {
   PhysiologyState s;
   s.flow = make_flow_state(model.flow);
   s.contrast = make_contrast_state(model.contrast, model.flow);
+  s.air.muscle_m3.assign(model.flow.tree.branches.size(), 0);
   for (const FlowCell& cell : model.flow.tree.cells) s.radius_m.push_back(cell.diseased_m);
   return s;
 }
@@ -43,11 +44,18 @@ ContrastReport circulate(const PhysiologyModel& model, const PhysiologyInputs& i
   if (s.circulation_s < circulation_step_s * (1 - 1e-9)) return {};
   const double dt = s.circulation_s;
   s.circulation_s = 0;
-  const FlowInputs lumen{now, s.radius_m, in.occupied_m, in.hyperaemia};
+  open_share(model.air, model.flow, s.air, x.open);
+  const FlowInputs lumen{now, s.radius_m, in.occupied_m, in.hyperaemia, x.open};
   step(model.flow, lumen, dt, s.flow, x.flow);
   step(model.ischaemia, supply(model.flow, s.flow), dt, s.ischaemia);
-  return step(model.contrast, {model.flow, s.flow, lumen, s.heart.circulation.aortic_m3_s}, in.contrast, dt, s.contrast,
-              x.contrast);
+  const ContrastReport report = step(model.contrast, {model.flow, s.flow, lumen, s.heart.circulation.aortic_m3_s},
+                                     in.contrast, dt, s.contrast, x.contrast);
+  const double pushed_m3 = dt * (report.rate_m3_s - report.drawn_m3_s);
+  const double came_m3 = step(model.air, model.contrast, model.flow, s.flow,
+                              {pushed_m3, in.contrast.line.dead_m3, in.contrast.tip, now.aorta_Pa}, dt, s.air);
+  if (came_m3 > 0 && beats(s.heart) && is_fatal(model.air, model.heart.seed, in_muscle_m3(s.air)))
+    s.heart.rhythm = Rhythm::fibrillation;
+  return report;
 }
 
 }  // namespace ostium::vascular

@@ -7,6 +7,7 @@
 #include "vascular/flow/flow.h"
 #include "vascular/heart/ecg.h"
 #include "vascular/heart/heart.h"
+#include "vascular/physiology/air.h"
 
 namespace ostium::vascular {
 
@@ -18,6 +19,7 @@ struct PhysiologyModel {
   FlowModel flow;
   ContrastModel contrast;
   TipPressureModel line;
+  AirModel air = {};
 };
 /// `seed`: for random events and for the person's ECG response (0: the mean).
 PhysiologyModel make_physiology(const Patient& patient, std::uint64_t seed = 0);
@@ -37,24 +39,23 @@ struct PhysiologyState {
   FlowState flow;
   ContrastState contrast;
   TipPressureState line;
+  AirState air;
   std::vector<double> radius_m;  ///< (#cells) of the lumen
   double circulation_s = 0;      ///< since blood and contrast last advanced
 };
 constexpr auto fields(const PhysiologyState*) {
   using S = PhysiologyState;
-  return std::tuple{core::field("heart", &S::heart),
-                    core::field("ischaemia", &S::ischaemia),
-                    core::field("flow", &S::flow),
-                    core::field("contrast", &S::contrast),
-                    core::field("line", &S::line),
-                    core::field("radius_m", &S::radius_m),
-                    core::field("circulation_s", &S::circulation_s)};
+  return std::tuple{core::field("heart", &S::heart),       core::field("ischaemia", &S::ischaemia),
+                    core::field("flow", &S::flow),         core::field("contrast", &S::contrast),
+                    core::field("line", &S::line),         core::field("air", &S::air),
+                    core::field("radius_m", &S::radius_m), core::field("circulation_s", &S::circulation_s)};
 }
 PhysiologyState make_state(const PhysiologyModel& model);
 
 struct PhysiologyScratch {
   FlowScratch flow;
   ContrastScratch contrast;
+  std::vector<double> open;
 };
 
 /// Advances by `dt_s`, up to `circulation_step_s`. Deterministic; does not allocate after the first call with the same

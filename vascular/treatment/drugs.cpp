@@ -3,9 +3,18 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/random.h"
+
 namespace ostium::vascular {
 
 namespace {
+
+constexpr std::uint64_t responds = 54;  // stream of random numbers
+
+/// Whether an effect shows in this person; of the built-in adenosine for -1.
+bool works(const DrugModel& m, int effect, double in_share) {
+  return in_share >= 1 || core::uniform(m.seed, responds, static_cast<std::uint64_t>(effect + 1)) < in_share;
+}
 
 void step_others(const DrugModel& m, const Doses& doses, double dt, DrugState& s) {
   if (doses.drug >= 0 && static_cast<std::size_t>(doses.drug) < m.others.size() && doses.dose > 0 &&
@@ -22,8 +31,9 @@ void step_others(const DrugModel& m, const Doses& doses, double dt, DrugState& s
         const double used = std::min(share * s.amount[d], s.heparin_U / one.most);
         s.amount[d] -= used, s.heparin_U -= used * one.most;
       }
-      const double want =
-          one.target == DrugTarget::heparin ? 0 : one.most * s.amount[d] / (s.amount[d] + one.half_dose);
+      const double want = one.target == DrugTarget::heparin || !works(m, static_cast<int>(e), one.works_in)
+                              ? 0
+                              : one.most * s.amount[d] / (s.amount[d] + one.half_dose);
       s.effect[e] += share * (want - s.effect[e]);
       ++e;
     }
@@ -48,6 +58,11 @@ double effect_on(DrugTarget target, const DrugModel& m, const DrugState& s) {
       ++e;
     }
   return sum;
+}
+
+double opens_muscle(const DrugModel& m, const DrugState& s) {
+  const double adenosine = s.adenosine > 0 && works(m, -1, m.adenosine_opens_in) ? s.adenosine : 0;
+  return effect_on(DrugTarget::muscle, m, s) + adenosine;
 }
 
 void act(const DrugModel& m, const DrugState& s, CirculationInputs& body) {

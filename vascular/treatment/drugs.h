@@ -3,6 +3,7 @@
 /// clotting do here, and are built in; all others are files of the catalogue (data/drugs), each a list of effects:
 ///   effect -> most * a / (a + half),  a: what is left of the doses, by its half-life; onset as a time constant
 /// All numbers except doses and ranges usual in practice are estimates.
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -27,6 +28,7 @@ inline constexpr const char* drug_target_names[drug_targets] = {"resistance", "d
 struct DrugEffect {
   DrugTarget target = DrugTarget::resistance;
   double most = 0, half_dose = 1, onset_s = 30;
+  double works_in = 1;  ///< share of people, whom the seed draws; in the others it does nothing
 };
 
 struct Drug {
@@ -37,6 +39,7 @@ struct Drug {
 };
 
 struct DrugModel {
+  std::uint64_t seed = 0;
   double weight_kg = 75;
   double act_before_s = 130, act_per_U_kg = 2.6;  ///< 70 U/kg: 310 s [practice: 250 to 350 s]
   double heparin_half_life_s = 5400;
@@ -45,7 +48,8 @@ struct DrugModel {
   double nitrate_lowers = 0.3;   ///< contribution to the arterioles' dilation, see CirculationInputs
   double spasm_yields_s = 12;    ///< under the full effect
   double adenosine_half_ug = 25, adenosine_in_s = 4, adenosine_out_s = 12;
-  std::vector<Drug> others;  ///< of the catalogue
+  double adenosine_opens_in = 0.78;  ///< of people with no-reflow (TIMI 3 in 78 % of a trial's 201: PMC8843359)
+  std::vector<Drug> others;          ///< of the catalogue
 };
 
 struct Doses {  ///< given in this step; negative counts as zero
@@ -77,6 +81,8 @@ void step(const DrugModel& model, const Doses& doses, double dt_s, DrugState& st
 double effect_on(DrugTarget target, const DrugModel& model, const DrugState& state);
 /// Sets what drugs do to heart and vessels.
 void act(const DrugModel& model, const DrugState& state, CirculationInputs& body);
+/// How much of the muscle's lost conductance opens in a time constant, by all drugs.
+double opens_muscle(const DrugModel& model, const DrugState& state);
 /// Activated clotting time, s.
 double act_s(const DrugModel& model, const DrugState& state);
 

@@ -122,6 +122,7 @@ void provoke(const TreatmentModel& model, const FlowTree& tree, const Provocatio
   const double time_s = physiology.heart.time_s;
   if (what.kind == Provoked::fibrillation) physiology.heart.rhythm = Rhythm::fibrillation;
   if (what.kind == Provoked::block) physiology.heart.rhythm = Rhythm::block;
+  if (what.kind == Provoked::air) add_to_line(what.size, physiology.air);
   if (what.cell < 0 || static_cast<std::size_t>(what.cell) >= tree.cells.size()) return;
   const int branch = tree.cells[static_cast<std::size_t>(what.cell)].branch;
   const double share = std::clamp(what.size, 0.0, 0.98);
@@ -130,6 +131,7 @@ void provoke(const TreatmentModel& model, const FlowTree& tree, const Provocatio
   if (what.kind == Provoked::dissection)
     injure(model.injury, InjuryKind::dissection, what.cell, std::clamp(static_cast<int>(what.size), 0, 5), 0, time_s,
            s.injury);
+  if (what.kind == Provoked::thrombus) form(model.thrombus, what.cell, what.size, s.thrombus);
   if (what.kind == Provoked::spasm) s.spasm[static_cast<std::size_t>(branch)] = share;
   if (what.kind == Provoked::no_reflow)
     for (std::size_t b = 0; b < tree.branches.size(); ++b)
@@ -228,7 +230,7 @@ BalloonReport inflate(const TreatmentModel& model, const TreatmentInputs& in, do
     judge_stretch(model.injury, model.plaque, s.wall, balloon.length_m, whole && s.balloon.burst,
                   vessels.physiology.heart.time_s, s.injury);
   if (report.spilt_m3 > 0 && path)
-    spill(*path, in.middle_m, report.spilt_m3, balloon.iodine_kg_m3, vessels.tree.cells.size(),
+    spill(*path, in.middle_m, report.spilt_m3, balloon.iodine_kg_m3, vessels.flow.tree.cells.size(),
           vessels.physiology.contrast);
   return report;
 }
@@ -259,7 +261,7 @@ void fill_lumen(const TreatmentModel& model, const TreatmentInputs& in, bool blo
                 const TreatedVessels& vessels) {
   std::vector<double>& occupied_m = vessels.occupied_m;
   if (in.shaft_m.empty())
-    occupied_m.assign(vessels.tree.cells.size(), 0);
+    occupied_m.assign(vessels.flow.tree.cells.size(), 0);
   else
     occupied_m.assign(in.shaft_m.begin(), in.shaft_m.end());
   const BalloonModel* balloon = balloon_of(model, in);
@@ -269,6 +271,16 @@ void fill_lumen(const TreatmentModel& model, const TreatmentInputs& in, bool blo
     double& occupied = occupied_m[path->cells[k]];
     occupied = std::max(occupied, radius_at(*balloon, s.balloon, in.middle_m, path->s_m[k]));
   }
+}
+
+/// Thrombus beside what lies in the lumen, which it then fills, too.
+bool clot(const TreatmentModel& model, const TreatmentInputs& in, double dt, TreatmentState& s,
+          const TreatedVessels& vessels) {
+  const ThrombusInputs around{act_s(model.drugs, s.drugs), vessels.flow, vessels.physiology.radius_m,
+                              vessels.occupied_m,          in.tip,       in.drawn_m3_s};
+  const bool formed = step(model.thrombus, around, dt, s.thrombus, vessels.physiology.flow);
+  fill(model.thrombus, vessels.flow.tree, vessels.physiology.radius_m, s.thrombus, vessels.occupied_m);
+  return formed;
 }
 
 }  // namespace
@@ -287,9 +299,10 @@ TreatmentReport step(const TreatmentModel& model, const TreatmentInputs& in, dou
                      const TreatedVessels& vessels, TreatmentScratch& x) {
   TreatmentReport report;
   step(model.drugs, in.doses, dt, s.drugs);
-  if (in.provocation.kind != Provoked::nothing) provoke(model, vessels.tree, in.provocation, s, vessels.physiology);
+  if (in.provocation.kind != Provoked::nothing)
+    provoke(model, vessels.flow.tree, in.provocation, s, vessels.physiology);
   if (in.shock_J > 0) shock(model, in.shock_J, s, vessels.physiology);
-  if (const double opens = effect_on(DrugTarget::muscle, model.drugs, s.drugs) + s.drugs.adenosine; opens > 0)
+  if (const double opens = opens_muscle(model.drugs, s.drugs); opens > 0)
     for (double& lost : vessels.physiology.flow.no_reflow) lost *= std::exp(-dt * opens / muscle_opens_s);
   for (double& spasm : s.spasm) spasm *= std::exp(-dt * s.drugs.nitrate / model.drugs.spasm_yields_s);
   std::copy(s.wall.rest_m.begin(), s.wall.rest_m.end(), s.wall.radius_m.begin());
@@ -303,11 +316,12 @@ TreatmentReport step(const TreatmentModel& model, const TreatmentInputs& in, dou
                vessels.physiology.heart.time_s, s.injury);
   report.tore = s.injury.count > injured;
   fill_lumen(model, in, report.blocked, s, vessels);
-  if (s.injury.count > 0) narrow_by_flaps(model, vessels.tree, vessels.occupied_m, s);
-  set_radii(model, vessels.tree, s, vessels.physiology);
-  close_branches(model, vessels.tree, s, vessels.physiology);
+  if (s.injury.count > 0) narrow_by_flaps(model, vessels.flow.tree, vessels.occupied_m, s);
+  set_radii(model, vessels.flow.tree, s, vessels.physiology);
+  close_branches(model, vessels.flow.tree, s, vessels.physiology);
+  report.clotted = clot(model, in, dt, s, vessels);
   if (s.injury.count > 0) cover_holes(model, vessels.occupied_m, vessels.physiology, s);
-  run_injuries(model, vessels.tree, dt, s, vessels.physiology);
+  run_injuries(model, vessels.flow.tree, dt, s, vessels.physiology);
   return report;
 }
 

@@ -5,12 +5,14 @@
 #include "vascular/treatment/drugs.h"
 #include "vascular/treatment/injury.h"
 #include "vascular/treatment/stent_shape.h"
+#include "vascular/treatment/thrombus.h"
 
 namespace ostium::vascular {
 
 struct TreatmentModel {
   PlaqueModel plaque;
   InjuryModel injury;
+  ThrombusModel thrombus = {};
   DrugModel drugs;
   std::vector<BalloonModel> balloons;  ///< all that may be used
   std::vector<StentModel> stents;      ///< likewise
@@ -19,15 +21,17 @@ struct TreatmentModel {
 };
 
 /// A complication that a trainer asks for.
-enum class Provoked { nothing, perforation, dissection, spasm, no_reflow, fibrillation, block };
-inline constexpr int provocations = 7;
-inline constexpr const char* provocation_names[provocations] = {"nothing",   "perforation", "dissection", "spasm",
-                                                                "no-reflow", "VF",          "AV block"};
+enum class Provoked { nothing, perforation, dissection, spasm, no_reflow, fibrillation, block, thrombus, air };
+inline constexpr int provocations = 9;
+inline constexpr const char* provocation_names[provocations] = {
+    "nothing", "perforation", "dissection", "spasm", "no-reflow", "VF", "AV block", "thrombus", "air"};
 
 struct Provocation {
   Provoked kind = Provoked::nothing;
-  int cell = -1;    ///< of the flow tree; not for rhythms
-  double size = 0;  ///< hole's diameter, m; grade of a dissection, 0 to 5; share taken by spasm or no-reflow, [0, 1)
+  int cell = -1;  ///< of the flow tree; not for rhythms, nor for air, which is in the line
+  /// Hole's diameter, m; grade of a dissection, 0 to 5; share taken by spasm or no-reflow, [0, 1); volume, m3, of
+  /// thrombus or air.
+  double size = 0;
 };
 
 struct TreatmentInputs {
@@ -42,7 +46,9 @@ struct TreatmentInputs {
   std::span<const double> shaft_m = {};  ///< (#cells) radius of other instruments in the lumen; empty: none
   Doses doses = {};
   Provocation provocation = {};
-  double shock_J = 0;  ///< a defibrillator's, in this step
+  double shock_J = 0;     ///< a defibrillator's, in this step
+  TipPlace tip = {};      ///< of the guide
+  double drawn_m3_s = 0;  ///< through it
 };
 
 struct TreatmentState {
@@ -52,6 +58,7 @@ struct TreatmentState {
   std::vector<StentState> stents;  ///< (#stents), including crimped ones
   std::vector<double> spasm;       ///< (#branches) [0, 1): of the diameter; may be set from outside
   InjuryState injury;
+  ThrombusState thrombus;
   DrugState drugs;
   int shocks = 0;  ///< given so far
 };
@@ -60,7 +67,7 @@ constexpr auto fields(const TreatmentState*) {
   return std::tuple{
       core::field("wall", &S::wall),     core::field("balloon", &S::balloon), core::field("balloon_in", &S::balloon_in),
       core::field("stents", &S::stents), core::field("spasm", &S::spasm),     core::field("injury", &S::injury),
-      core::field("drugs", &S::drugs),   core::field("shocks", &S::shocks)};
+      core::field("drugs", &S::drugs),   core::field("shocks", &S::shocks),   core::field("thrombus", &S::thrombus)};
 }
 TreatmentState make_state(const TreatmentModel& model, const FlowTree& tree);
 
@@ -73,6 +80,7 @@ struct TreatmentReport {
   BalloonReport balloon;
   bool blocked = false;  ///< an unopened stent is in the balloon's way
   bool tore = false;     ///< an injury occurred in this step
+  bool clotted = false;  ///< a thrombus formed in this step
 };
 
 /// What leaks out of all holes, m3/s.
@@ -82,7 +90,7 @@ double leak_m3_s(const TreatmentState& state);
 /// `occupied_m`
 /// (#cells) to the radius of everything in the lumen besides blood.
 struct TreatedVessels {
-  const FlowTree& tree;
+  const FlowModel& flow;
   PhysiologyState& physiology;
   std::vector<double>& occupied_m;
 };

@@ -1,6 +1,7 @@
 """The five plots that people make first of a recording: python3 -m ostium.plots out/run.h5 -o plots.png
 
-With --patient: pressure, rate and output, what is round the heart, what leaks. Several recordings stand side by side.
+With --patient: pressure, rate and output, what is round the heart, what leaks. With --artery: pressure, flow behind the
+lesion, ST, thrombus and air. Several recordings stand side by side.
 Needs matplotlib (python3-matplotlib).
 """
 
@@ -93,11 +94,36 @@ def leak(axes, run):
     axes.set_ylim(bottom=0)
 
 
+def supply(axes, run):
+    """What comes behind the lesion, over two beats, and what the ECG says to it."""
+    axes.plot(run.signals["time_s"], 100 * smoothed(run.signals["flow_share"], 170), color="C3")
+    axes.set_ylabel("flow of need, %", color="C3")
+    axes.set_ylim(0, 200)
+    shift = axes.twinx()
+    shift.plot(run.signals["time_s"], run.signals["ST_mV"], color="C2")
+    shift.set_ylabel("ST shift, mV", color="C2")
+    shift.set_ylim(0, 0.5)
+
+
+def in_the_blood(axes, run):
+    """Thrombus in the arteries, air in the muscle."""
+    axes.plot(run.signals["time_s"], run.signals["thrombus_mm3"], color="C5")
+    axes.set_ylabel("thrombus, mm3", color="C5")
+    axes.set_ylim(0, max(10, 1.1 * run.signals["thrombus_mm3"].max()))
+    air = axes.twinx()
+    air.plot(run.signals["time_s"], run.signals["air_mL"], color="C0")
+    air.set_ylabel("air, mL", color="C0")
+    air.set_ylim(0, 1)
+
+
 PLOTS = (depth, hands, walls, pressure, lumen)
 OF_THE_PATIENT = (blood_pressure, rate, round_the_heart, leak)
+OF_THE_ARTERY = (blood_pressure, supply, in_the_blood)
 GIVEN = {"perforation": "perforation", "drain_begins": "drain", "infusion_begins": "fluid", "drug_given": "drug",
          "covered_stent": "covered stent", "shock": "shock", "compressions_begin": "compressions",
-         "pacing_captures": "paced", "pulse_lost": "no pulse", "heart_stops": "asystole"}
+         "pacing_captures": "paced", "pulse_lost": "no pulse", "heart_stops": "asystole", "thrombus_forms": "thrombus",
+         "thrombus_embolises": "embolus", "aspiration_begins": "aspirated", "air_in_artery": "air",
+         "air_is_out": "air is out"}
 
 
 def tools_of(run):
@@ -116,6 +142,7 @@ def main(arguments=None):
                                      epilog="example: python3 -m ostium.plots out/run.h5 -o plots.png")
     parser.add_argument("recordings", nargs="+", metavar="recording")
     parser.add_argument("--patient", action="store_true", help="how the patient does, instead of the instruments")
+    parser.add_argument("--artery", action="store_true", help="flow, ST, thrombus and air")
     parser.add_argument("-o", "--out", default="plots.png")
     a = parser.parse_args(arguments)
     import matplotlib
@@ -125,9 +152,10 @@ def main(arguments=None):
 
     runs = [ostium.Recording(name) for name in a.recordings]
     with_patient = all("guide_mmHg" in run.signals.names for run in runs)
-    if a.patient and not with_patient:
+    of_patient = OF_THE_ARTERY if a.artery else OF_THE_PATIENT if a.patient else None
+    if of_patient and not with_patient:
         parser.error("a mesh has no circulation; expected a recording of a case")
-    drawn = OF_THE_PATIENT if a.patient else [p for p in PLOTS if with_patient or p not in (pressure, lumen)]
+    drawn = of_patient or [p for p in PLOTS if with_patient or p not in (pressure, lumen)]
     figure, grid = pyplot.subplots(len(drawn), len(runs), sharex="col", squeeze=False,
                                    figsize=(max(9, 6 * len(runs)), 1.9 * len(drawn)))
     for column, run in zip(grid.T, runs):
@@ -135,7 +163,7 @@ def main(arguments=None):
             plot(axes, run)
             axes.grid(alpha=0.3)
         column[-1].set_xlabel("time, s")
-        if len(runs) > 1 and a.patient:
+        if len(runs) > 1 and of_patient:
             column[0].set_title(run.setup["script"]["file"].removesuffix(".json"), fontsize=10)
     figure.tight_layout()
     figure.savefig(a.out, dpi=100)

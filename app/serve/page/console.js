@@ -91,7 +91,7 @@ export class Console {
       add = this.group('Drugs');
       add(this.press('Heparin 5000 U', 'heparin', 5000), this.press('Nitrate 200 µg', 'nitrate', 200), this.press('Adenosine 100 µg', 'adenosine', 100));
       add = this.group('Syringe and indeflator');
-      add(this.hold('Contrast', 'contrast'), this.hold('Saline', 'saline'), this.hold('Vacuum', 'vacuum'));
+      add(this.hold('Contrast', 'contrast'), this.hold('Saline', 'saline'), this.hold('Draw back', 'aspirate'), this.hold('Vacuum', 'vacuum'));
       add(this.press('−1 atm', 'change_gauge', -1), this.press('+1 atm', 'change_gauge', 1), this.press('Release', 'gauge', 0));
     }
     add = this.group('Hands');

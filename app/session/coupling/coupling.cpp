@@ -134,7 +134,14 @@ void forget_what_is_given_once(DeliveryInputs& inputs) {
   inputs.drug = inputs.provoked_cell = -1, inputs.provoked = 0, inputs.provoked_size = 0;
 }
 
-vascular::TreatmentInputs treatment_inputs(const DeliveryInputs& inputs, const CouplingState& s) {
+double drawn_m3_s(const CouplingModel& model, const DeliveryInputs& inputs, const CouplingState& s) {
+  if (s.guide < 0 || inputs.injection_m3_s > 0) return 0;
+  const data::Instrument& guide = model.tools[static_cast<std::size_t>(s.guide)].instrument;
+  return vascular::drawn_m3_s(inputs.aspiration_m3_s, line_of(guide), s.filled_m);
+}
+
+vascular::TreatmentInputs treatment_inputs(const CouplingModel& model, const DeliveryInputs& inputs,
+                                           const CouplingState& s) {
   vascular::TreatmentInputs out;
   out.balloon = s.balloon;
   out.branch = s.branch;
@@ -149,6 +156,7 @@ vascular::TreatmentInputs treatment_inputs(const DeliveryInputs& inputs, const C
   const int kind = std::clamp(inputs.provoked, 0, vascular::provocations - 1);
   out.provocation = {static_cast<vascular::Provoked>(kind), inputs.provoked_cell, inputs.provoked_size};
   out.shock_J = inputs.shock_J;
+  out.tip = s.tip, out.drawn_m3_s = drawn_m3_s(model, inputs, s);
   return out;
 }
 
@@ -156,6 +164,7 @@ void set_physiology_inputs(const CouplingModel& model, const DeliveryInputs& inp
                            vascular::PhysiologyInputs& to) {
   to.contrast.injection_m3_s = s.guide < 0 ? 0 : inputs.injection_m3_s;
   to.contrast.iodine_kg_m3 = inputs.iodine_kg_m3;
+  to.contrast.aspiration_m3_s = s.guide < 0 ? 0 : inputs.aspiration_m3_s;
   to.contrast.shaft_m = s.filled_m;
   to.contrast.tip = s.tip;
   if (s.guide >= 0) to.contrast.line = line_of(model.tools[static_cast<std::size_t>(s.guide)].instrument);

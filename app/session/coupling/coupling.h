@@ -24,9 +24,10 @@ inline constexpr int look_every = 8;  ///< steps; as often as blood and contrast
 
 /// What the operator gives: contrast, pressure and drugs. All are recorded inputs.
 struct DeliveryInputs {
-  double injection_m3_s = 0;  ///< from the syringe into the guide's line
-  double iodine_kg_m3 = 350;  ///< of the syringe's contents; 0: saline
-  double gauge_Pa = 0;        ///< of the inflation device, on the balloon in the body; below 0: vacuum
+  double injection_m3_s = 0;   ///< from the syringe into the guide's line
+  double iodine_kg_m3 = 350;   ///< of the syringe's contents; 0: saline
+  double aspiration_m3_s = 0;  ///< into the syringe, while nothing is injected
+  double gauge_Pa = 0;         ///< of the inflation device, on the balloon in the body; below 0: vacuum
   double heparin_U = 0, nitrate_ug = 0, adenosine_ug = 0;  ///< given in this step
   int drug = -1;                  ///< of the catalogue (vascular::DrugModel::others), given in this step; -1: none
   double drug_dose = 0;           ///< of that, in its unit
@@ -43,6 +44,7 @@ constexpr auto fields(const DeliveryInputs*) {
   using S = DeliveryInputs;
   return std::tuple{core::field("injection_m3_s", &S::injection_m3_s),
                     core::field("iodine_kg_m3", &S::iodine_kg_m3),
+                    core::field("aspiration_m3_s", &S::aspiration_m3_s),
                     core::field("gauge_Pa", &S::gauge_Pa),
                     core::field("heparin_U", &S::heparin_U),
                     core::field("nitrate_ug", &S::nitrate_ug),
@@ -154,7 +156,10 @@ void look(const CouplingModel& model, const core::State& rods, const vascular::T
 /// The force of a coronary wire's tip on the wall, low-pass filtered like all wall forces: a millisecond's peak does
 /// not perforate. Call at every step.
 void press_with_wire(const CouplingModel& model, const core::StepReport& report, double step_s, CouplingState& state);
-vascular::TreatmentInputs treatment_inputs(const DeliveryInputs& inputs, const CouplingState& state);
+/// What is drawn out of the guide, and so out of the body, m3/s: its lumen and what lies in it decide.
+double drawn_m3_s(const CouplingModel& model, const DeliveryInputs& inputs, const CouplingState& state);
+vascular::TreatmentInputs treatment_inputs(const CouplingModel& model, const DeliveryInputs& inputs,
+                                           const CouplingState& state);
 /// Sets contrast and pressure; the caller sets the heart's inputs and the occupied cross-sections.
 void set_physiology_inputs(const CouplingModel& model, const DeliveryInputs& inputs, const CouplingState& state,
                            vascular::PhysiologyInputs& to);

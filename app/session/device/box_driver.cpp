@@ -94,11 +94,12 @@ void BoxDriver::press_buttons(SessionInputs& inputs) {
     std::tie(inputs.c_arm.lao_rad, inputs.c_arm.cran_rad) = settings_.views[static_cast<std::size_t>(view_)];
 }
 
-/// What is in the syringe is not the box's to know. Nothing is drawn back out of the guide.
+/// What is in the syringe is not the box's to know.
 void BoxDriver::inflate_and_inject(SessionInputs& inputs) const {
   const double gauge_Pa = pressure_Pa(), injected_m3_s = flow_m3_s();
   inputs.delivery.gauge_Pa = std::abs(gauge_Pa) < settings_.least_pressure_Pa ? 0 : gauge_Pa;
   inputs.delivery.injection_m3_s = injected_m3_s < settings_.least_flow_m3_s ? 0 : injected_m3_s;
+  inputs.delivery.aspiration_m3_s = -injected_m3_s < settings_.least_flow_m3_s ? 0 : -injected_m3_s;
 }
 
 Driven BoxDriver::drive(const ScriptedRun& run, SessionInputs& inputs) {

@@ -63,7 +63,7 @@ void EmulatedBoxDriver::move(device::EmulatedBox& box) {
   }
   box.pedals = static_cast<std::uint16_t>(int{wish_.c_arm.fluoroscopy} | int{wish_.c_arm.cine} << 1);
   box.pressure_atm = wish_.delivery.gauge_Pa / 101'325;
-  box.flow_mL_s = 1e6 * wish_.delivery.injection_m3_s;
+  box.flow_mL_s = 1e6 * (wish_.delivery.injection_m3_s - wish_.delivery.aspiration_m3_s);
 }
 
 }  // namespace ostium::app

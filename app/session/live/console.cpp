@@ -178,6 +178,8 @@ void Console::give(const SessionModel& model, Hands hands, DeliveryInputs& to) {
     to.injection_m3_s = dye > 0.02 ? dye * hand_contrast_m3_s : flush > 0.02 ? flush * hand_flush_m3_s : 0;
     to.iodine_kg_m3 = dye > 0.02 || flush <= 0.02 ? undiluted_kg_m3 : 0;
   }
+  if (to.injection_m3_s == 0 && to.aspiration_m3_s == 0)
+    to.aspiration_m3_s = level(ConsoleCommand::aspirate) * hand_aspiration_m3_s;
   if (to.gauge_Pa == 0) to.gauge_Pa = level(ConsoleCommand::vacuum) > 0.5 ? -0.9 * atm : gauge_Pa_;
 }
 

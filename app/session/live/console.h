@@ -13,7 +13,7 @@ namespace ostium::app {
 
 /// Speeds of hands at a keyboard.
 inline constexpr double hand_feed_m_s = 0.03, hand_turn_rad_s = 3.14, fine_share = 1.0 / 6;
-inline constexpr double hand_contrast_m3_s = 4e-6, hand_flush_m3_s = 4e-6;
+inline constexpr double hand_contrast_m3_s = 4e-6, hand_flush_m3_s = 4e-6, hand_aspiration_m3_s = 4e-6;
 
 /// A place from which the console is used at the same time as from others.
 enum class Seat { window, browser };

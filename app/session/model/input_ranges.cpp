@@ -33,6 +33,7 @@ constexpr NamedRange table[] = {
     {"heart_rate_1_min", {30, 220}},
     {"injection_m3_s", {0, 20e-6}},
     {"iodine_kg_m3", {0, 400}},
+    {"aspiration_m3_s", {0, 20e-6}},
     {"gauge_Pa", {-atm, 30 * atm}},
     {"heparin_U", {0, 30000, true}},
     {"nitrate_ug", {0, 1000, true}},

@@ -72,7 +72,7 @@ SessionModel make_session(std::shared_ptr<const Vessel> vessel, std::vector<Sess
   if (model.has_patient()) {
     model.physiology = model.vessel->coronaries->physiology;
     model.treatment = model.vessel->coronaries->treatment;
-    model.treatment.injury.seed = options.seed;
+    model.treatment.injury.seed = model.treatment.thrombus.seed = model.treatment.drugs.seed = options.seed;
     model.treatment.drugs.others = options.drugs;
     model.balloon_of = add_devices(model.tools, options.seed, model.treatment);
   } else {
@@ -210,6 +210,10 @@ double breath_after(const SessionModel& model, std::uint64_t steps) {
   return vascular::breath_depth(model.breaths_1_min / 60 * model.step_s() * static_cast<double>(steps));
 }
 
+CouplingModel coupling_of(const SessionModel& model) {
+  return {*model.vessel, model.tools, model.rods, model.physiology, model.treatment, model.balloon_of};
+}
+
 /// What instruments, drugs, bleeding and lack of blood do to the heart; in a mesh it beats for itself.
 vascular::HeartInputs heart_inputs(const SessionModel& model, const SessionInputs& inputs, const SessionState& state,
                                    double breath) {
@@ -219,6 +223,7 @@ vascular::HeartInputs heart_inputs(const SessionModel& model, const SessionInput
   act(model.treatment.drugs, state.treatment.drugs, heart.body);
   weaken(state.blood.ischaemia, heart.body);
   heart.body.leak_m3_s = leak_m3_s(state.treatment), heart.body.reflexes = true;
+  heart.body.drawn_m3_s = drawn_m3_s(coupling_of(model), inputs.delivery, state.coupling);
   heart.compressions_1_min = inputs.delivery.compressions_1_min;
   heart.pacing_1_min = inputs.delivery.pacing_1_min, heart.pacing_mA = inputs.delivery.pacing_mA;
   heart.body.infusion_m3_s = inputs.delivery.infusion_m3_s, heart.body.drain_m3_s = inputs.delivery.drain_m3_s;
@@ -266,10 +271,6 @@ void move_hands(const SessionModel& model, const SessionInputs& inputs, SessionS
   }
 }
 
-CouplingModel coupling_of(const SessionModel& model) {
-  return {*model.vessel, model.tools, model.rods, model.physiology, model.treatment, model.balloon_of};
-}
-
 /// The phases at the end of the current step.
 Moment moment(const SessionModel& model, const SessionState& state, std::uint64_t steps) {
   return {state.blood.heart.phase, breath_after(model, steps)};
@@ -311,8 +312,8 @@ void treat(const SessionModel& model, const SessionInputs& inputs, bool R_wave, 
   }
   press_with_wire(coupling, report.rods, model.step_s(), state.coupling);
   report.treatment =
-      step(model.treatment, treatment_inputs(inputs.delivery, state.coupling), model.step_s(), state.treatment,
-           {model.physiology.flow.tree, state.blood, x.physiology_inputs.occupied_m}, x.treatment);
+      step(model.treatment, treatment_inputs(coupling, inputs.delivery, state.coupling), model.step_s(),
+           state.treatment, {model.physiology.flow, state.blood, x.physiology_inputs.occupied_m}, x.treatment);
   state.coupling.blocked = report.treatment.blocked;
   tie_stents(model, state);
   hold_balloon(coupling, state.rods, report.treatment.balloon, moment(model, state, state.rods.step), state.coupling);

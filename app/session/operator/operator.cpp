@@ -101,8 +101,9 @@ void require_tool(const data::Script& script, const data::ScriptStep& step, cons
   if ((step.action == Action::inflate || step.action == Action::deflate) &&
       none([](const SessionTool& tool) { return tool.instrument.balloon.has_value(); }))
     refuse_step(script, step, step.words() + ": no tool has a balloon; expected a balloon or a stent among the tools");
-  if (step.action == Action::inject && none([](const SessionTool& tool) { return is_catheter(tool.instrument); }))
-    refuse_step(script, step, step.words() + ": no tool is a catheter to inject through; expected one among the tools");
+  if ((step.action == Action::inject || step.action == Action::aspirate) &&
+      none([](const SessionTool& tool) { return is_catheter(tool.instrument); }))
+    refuse_step(script, step, step.words() + ": no tool is a catheter for it; expected one among the tools");
 }
 
 /// The flow cell of a step's `at`, or the index of its drug; refuses what this session does not have.
@@ -266,6 +267,7 @@ Outcome decide(const ScriptPlan& plan, const SessionModel& model, const SessionS
   feel(model, report, state);
   forget_what_is_given_once(state.given);
   state.given.infusion_m3_s = state.given.drain_m3_s = state.given.compressions_1_min = 0;
+  state.given.aspiration_m3_s = 0;
   using Kind = OperatorEvent::Kind;
   const ConditionEvaluator evaluator(plan, model, session, report, state);
   const int count = static_cast<int>(plan.script.steps.size());

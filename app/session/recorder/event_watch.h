@@ -32,6 +32,7 @@ class EventWatch {
   void look_at_patient(const SessionModel& model, const SessionState& state, const EventSink& say);
   void look_at_care(const SessionModel& model, const SessionInputs& inputs, const SessionState& state,
                     const EventSink& say);
+  void look_at_clots(const SessionState& state, const EventSink& say);
   void look_at_balloon(const SessionModel& model, const SessionInputs& inputs, const SessionState& state,
                        const EventSink& say);
   void look_at_stents(const SessionModel& model, const SessionState& state, const EventSink& say);
@@ -47,7 +48,9 @@ class EventWatch {
   bool injects_ = false, inflated_ = false, filled_ = false, over_ = false, closed_ = false;
   double inflated_since_s_ = 0, closed_since_s_ = 0;
   bool leaks_ = false, leaked_ = false, low_ = false, pulseless_ = false, drains_ = false, infuses_ = false,
-       compressed_ = false, paced_ = false;
+       compressed_ = false, paced_ = false, draws_ = false;
+  int thrombi_ = 0;
+  double embolised_m3_ = 0, aspirated_m3_ = 0, air_m3_ = 0, line_air_m3_ = 0;
   double compressed_since_s_ = 0;
   double leaks_since_s_ = 0, leak_seen_s_ = 0, pulseless_since_s_ = 0, perforated_s_ = -1;
   vascular::Rhythm rhythm_ = vascular::Rhythm::sinus;

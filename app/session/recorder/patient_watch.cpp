@@ -6,7 +6,7 @@
 
 namespace ostium::app {
 
-using units::mL, units::mmHg;
+using units::mL, units::mm3, units::mmHg;
 
 namespace {
 
@@ -45,6 +45,21 @@ void EventWatch::look_at_patient(const SessionModel& model, const SessionState& 
   rhythm_ = heart.rhythm;
 }
 
+void EventWatch::look_at_clots(const SessionState& state, const EventSink& say) {
+  const vascular::ThrombusState& clot = state.treatment.thrombus;
+  const vascular::AirState& air = state.blood.air;
+  const double embolised = clot.embolised_m3, in_muscle = in_muscle_m3(air);
+  if (clot.formed > thrombi_) say(data::EventCode::thrombus_forms, -1, volume_m3(clot) / mm3);
+  if (embolised > embolised_m3_ + 0.5 * mm3) {
+    say(data::EventCode::thrombus_embolises, -1, (embolised - embolised_m3_) / mm3);
+    embolised_m3_ = embolised;
+  }
+  if (in_muscle > air_m3_ + 0.01 * mL) say(data::EventCode::air_in_artery, -1, in_muscle / mL);
+  if (air.line_m3 <= 0 && line_air_m3_ > 0 && in_muscle <= air_m3_)
+    say(data::EventCode::air_is_out, -1, line_air_m3_ / mL);
+  thrombi_ = clot.formed, air_m3_ = in_muscle, line_air_m3_ = air.line_m3;
+}
+
 void EventWatch::look_at_care(const SessionModel& model, const SessionInputs& inputs, const SessionState& state,
                               const EventSink& say) {
   const DeliveryInputs& hand = inputs.delivery;
@@ -58,6 +73,13 @@ void EventWatch::look_at_care(const SessionModel& model, const SessionInputs& in
     say(presses ? data::EventCode::compressions_begin : data::EventCode::compressions_end, -1,
         presses ? hand.compressions_1_min : seconds(model, state) - compressed_since_s_);
     compressed_ = presses;
+  }
+  if (const bool draws = hand.aspiration_m3_s > 0; draws != draws_) {
+    const double out = state.treatment.thrombus.aspirated_m3;
+    if (draws) aspirated_m3_ = out;
+    say(draws ? data::EventCode::aspiration_begins : data::EventCode::aspiration_ends, -1,
+        draws ? hand.aspiration_m3_s / mL : (out - aspirated_m3_) / mm3);
+    draws_ = draws;
   }
   if (hand.shock_J > 0) say(data::EventCode::shock, -1, hand.shock_J);
   if (hand.provoked > 0) say(data::EventCode::provoked, -1, hand.provoked);

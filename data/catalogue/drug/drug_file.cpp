@@ -33,6 +33,7 @@ vascular::Drug read_drug(const std::string& file, const std::string& text) {
     if (object.has("half_dose") == (effect.target == vascular::DrugTarget::heparin))
       one.fail(one.path() + ".half_dose: expected for every effect but one on heparin");
     if (object.has("half_dose")) effect.half_dose = object.positive("half_dose");
+    if (object.has("works_in")) effect.works_in = object.number("works_in");
     drug.effects.push_back(effect);
   }
   return drug;

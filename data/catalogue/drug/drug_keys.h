@@ -33,6 +33,8 @@ inline const JsonObjectKeys effect = {
      {"most", true, "the largest effect, a share; on heparin, the units that one unit of the drug takes away; > 0",
       json_type::number(above_zero)},
      {"half_dose", false, "dose of half the largest effect, > 0; not on heparin", json_type::number(above_zero)},
+     {"works_in", false, "share of people in whom it works, > 0 and at most 1, which it is if it is not said",
+      json_type::number(above_zero_to(1))},
      {"onset_s", true, "time constant of its onset in s, > 0", json_type::number(above_zero)},
      {"source", true, source_text, json_type::text()}}};
 

@@ -21,6 +21,7 @@ enum class ScriptAction {
   heart_rate,
   mark,
   inject,
+  aspirate,
   inflate,
   deflate,
   drug,
@@ -53,6 +54,7 @@ inline constexpr ScriptActionRow script_actions[] = {
     {ScriptAction::heart_rate, "heart rate", {"rate_1_min"}, {}, false},
     {ScriptAction::mark, "mark", {}, {"text"}, false},
     {ScriptAction::inject, "inject", {"rate_mL_s", "volume_mL"}, {"iodine_mg_mL", "until"}, true},
+    {ScriptAction::aspirate, "aspirate", {"rate_mL_s", "volume_mL"}, {"until"}, true},
     {ScriptAction::inflate, "inflate", {"gauge_atm", "over_s"}, {"until"}, true},
     {ScriptAction::deflate, "deflate", {}, {"until"}, true},
     {ScriptAction::drug, "drug", {}, {"heparin_U", "nitrate_ug", "adenosine_ug"}, false},
@@ -62,7 +64,11 @@ inline constexpr ScriptActionRow script_actions[] = {
     {ScriptAction::shock, "shock", {"energy_J"}, {}, false},
     {ScriptAction::compress, "compress", {"rate_1_min", "until"}, {}, true},
     {ScriptAction::pace, "pace", {"rate_1_min", "current_mA"}, {}, false},
-    {ScriptAction::provoke, "provoke", {"complication"}, {"at", "hole_mm", "grade", "share"}, false}};
+    {ScriptAction::provoke,
+     "provoke",
+     {"complication"},
+     {"at", "hole_mm", "grade", "share", "clot_mm3", "air_mL"},
+     false}};
 
 inline constexpr int action_kinds = static_cast<int>(std::size(script_actions));
 
@@ -82,9 +88,9 @@ static_assert(each_action_has_a_row());
 
 /// Whether the action needs a circulation, which a mesh does not have.
 constexpr bool needs_patient(ScriptAction action) {
-  return action == ScriptAction::give || action == ScriptAction::infuse || action == ScriptAction::drain ||
-         action == ScriptAction::shock || action == ScriptAction::compress || action == ScriptAction::pace ||
-         action == ScriptAction::provoke;
+  return action == ScriptAction::aspirate || action == ScriptAction::give || action == ScriptAction::infuse ||
+         action == ScriptAction::drain || action == ScriptAction::shock || action == ScriptAction::compress ||
+         action == ScriptAction::pace || action == ScriptAction::provoke;
 }
 
 /// The value of "do" for a step that stands for the steps of another script.

@@ -48,6 +48,8 @@ enum class ConditionKind {
   rate_exceeds,
   pericardium_below,
   pericardium_exceeds,
+  thrombus_below,
+  thrombus_exceeds,
   sealed,
   pulseless,
   stopped
@@ -81,7 +83,7 @@ struct ConditionRow {
 
 namespace condition_units {
 inline constexpr double none = 1, mm = 1e-3, deg = units::pi / 180, N = 1, mNm = 1e-3, s = 1, percent = 1e-2, mV = 1e-3,
-                        mmHg = units::mmHg, mL = units::mL;
+                        mmHg = units::mmHg, mL = units::mL, mm3 = units::mm3;
 }
 
 // clang-format off
@@ -166,6 +168,10 @@ inline constexpr ConditionRow condition_rows[] = {
      "fluid round the heart, as an echo shows it, in mL, > 0"},
     {ConditionKind::pericardium_exceeds, "pericardium_exceeds_mL", ConditionValue::number, ConditionOf::patient, condition_units::mL, above_zero, "",
      "fluid round the heart, as an echo shows it, in mL, > 0"},
+    {ConditionKind::thrombus_below, "thrombus_below_mm3", ConditionValue::number, ConditionOf::patient, condition_units::mm3, above_zero, "",
+     "in the coronary arteries, in mm3, > 0"},
+    {ConditionKind::thrombus_exceeds, "thrombus_exceeds_mm3", ConditionValue::number, ConditionOf::patient, condition_units::mm3, above_zero, "",
+     "in the coronary arteries, in mm3, > 0"},
     {ConditionKind::sealed, "sealed", ConditionValue::only_true, ConditionOf::patient, 0, {}, "",
      "true: no hole leaks more than a film shows, 0.02 mL/s"},
     {ConditionKind::pulseless, "pulseless", ConditionValue::only_true, ConditionOf::patient, 0, {}, "",

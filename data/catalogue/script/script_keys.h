@@ -121,7 +121,7 @@ inline const JsonObjectKeys step = {
       json_type::number(from_to(40, 180))},
      {"text", false, "what the report says of the moment that is marked; its label, if it is not said",
       json_type::text()},
-     {"rate_mL_s", false, "how fast the thumb pushes, in mL/s, > 0 and at most 20",
+     {"rate_mL_s", false, "how fast the thumb pushes, or draws, in mL/s, > 0 and at most 20",
       json_type::number(above_zero_to(20))},
      {"volume_mL", false, "how much, in mL, > 0 and at most 60; of fluid and of a drain, at most 1000",
       json_type::number(above_zero_to(1000))},
@@ -144,7 +144,9 @@ inline const JsonObjectKeys step = {
       json_type::number(from_to(0.1, 2))},
      {"grade", false, "of a dissection", json_type::choice({"A", "B", "C", "D", "E", "F"})},
      {"share", false, "of the diameter that spasm takes, of the muscle that no-reflow closes, 0.1 to 0.98",
-      json_type::number(from_to(0.1, 0.98))}},
+      json_type::number(from_to(0.1, 0.98))},
+     {"clot_mm3", false, "of a thrombus, 1 to 200; 25 if it is not said", json_type::number(from_to(1, 200))},
+     {"air_mL", false, "of air in the line, 0.05 to 5; 0.5 if it is not said", json_type::number(from_to(0.05, 5))}},
     {},
     true};
 

@@ -71,25 +71,33 @@ void read_complication(const JsonObject& object, ScriptStep& step) {
   if (object.has("at")) step.at = object.text("at");
   const auto kind = static_cast<Provoked>(1 + object.choice("complication", script_keys::complication_names()));
   step.complication = static_cast<int>(kind);
-  const bool rhythm = kind == Provoked::fibrillation || kind == Provoked::block;
-  if (rhythm == object.has("at"))
-    object.value().fail(object.value().path() + (rhythm ? " has a place; a rhythm has none"
-                                                        : ".at is missing; expected a place in a coronary artery"));
+  const bool nowhere = kind == Provoked::fibrillation || kind == Provoked::block || kind == Provoked::air;
+  if (nowhere == object.has("at"))
+    object.value().fail(object.value().path() + (nowhere ? " has a place; a rhythm has none, and air is in the line"
+                                                         : ".at is missing; expected a place in a coronary artery"));
   const auto only_of = [&](const char* key, bool own) {
     if (object.has(key) && !own) object.refuse(key);
     return object.has(key);
   };
-  step.size = kind == Provoked::perforation ? 0.8e-3 : kind == Provoked::dissection ? 2 : 0.9;
+  step.size = kind == Provoked::perforation  ? 0.8e-3
+              : kind == Provoked::dissection ? 2
+              : kind == Provoked::thrombus   ? 25e-9
+              : kind == Provoked::air        ? 0.5e-6
+                                             : 0.9;
   if (only_of("hole_mm", kind == Provoked::perforation)) step.size = 1e-3 * object.number("hole_mm");
   if (only_of("grade", kind == Provoked::dissection))
     step.size = static_cast<double>(object.choice("grade", {"A", "B", "C", "D", "E", "F"}));
   if (only_of("share", kind == Provoked::spasm || kind == Provoked::no_reflow)) step.size = object.number("share");
+  if (only_of("clot_mm3", kind == Provoked::thrombus)) step.size = 1e-9 * object.number("clot_mm3");
+  if (only_of("air_mL", kind == Provoked::air)) step.size = 1e-6 * object.number("air_mL");
 }
 
 /// What is given in an emergency.
 void read_emergency(const JsonObject& object, ScriptStep& step) {
   constexpr double most_injected_m3 = 60e-6;
-  if (step.action == ScriptAction::inject && step.volume_m3 > most_injected_m3) object.refuse("volume_mL");
+  if ((step.action == ScriptAction::inject || step.action == ScriptAction::aspirate) &&
+      step.volume_m3 > most_injected_m3)
+    object.refuse("volume_mL");
   if (step.action == ScriptAction::provoke) read_complication(object, step);
   if (step.action != ScriptAction::give) return;
   step.drug = object.text("drug");

@@ -9,8 +9,8 @@ using units::mL, units::mmHg;
 namespace {
 
 /// The bench with the rest of the body: what leaks leaves its arteries, reflexes act, ischaemia weakens.
-struct Patient : Bench {
-  explicit Patient(const Setting& setting = {.stenosis = 0.1}) : Bench(setting) {
+struct SickPerson : Bench {
+  explicit SickPerson(const Setting& setting = {.stenosis = 0.1}) : Bench(setting) {
     device.balloon = -1;
     live(30);
     settle_reflex(blood.heart.circulation);
@@ -21,7 +21,7 @@ struct Patient : Bench {
     for (int n = 0; n < 1000 * seconds; ++n) {
       act(model.drugs, state.drugs, inputs.heart.body);
       inputs.heart.body.leak_m3_s = leak_m3_s(state);
-      report = step(model, device, 1e-3, state, {physiology.flow.tree, blood, inputs.occupied_m}, scratch);
+      report = step(model, device, 1e-3, state, {physiology.flow, blood, inputs.occupied_m}, scratch);
       step(physiology, inputs, 1e-3, blood, blood_scratch);
       device.provocation = {}, device.shock_J = 0, device.doses = {};
     }
@@ -52,7 +52,7 @@ TEST(Leak, IsTheOrificeLaws) {
 }
 
 TEST(Leak, ABalloonHoldsItAndOnlyWhileItIsUp) {
-  Patient p;
+  SickPerson p;
   p.perforate(1e-3);
   EXPECT_GT(p.leak_mL_s(), 1.5);
   p.device.balloon = 0;
@@ -64,7 +64,7 @@ TEST(Leak, ABalloonHoldsItAndOnlyWhileItIsUp) {
 
 TEST(Leak, ACoveredStentKeepsItClosed) {
   for (const int covered : {0, 1}) {
-    Patient p({.stenosis = 0.1, .stent = true, .change = [&](TreatmentModel& m) { m.stents[0].covered = covered; }});
+    SickPerson p({.stenosis = 0.1, .stent = true, .change = [&](TreatmentModel& m) { m.stents[0].covered = covered; }});
     p.perforate(1e-3);
     p.device.balloon = 0;
     p.live(6, 12), p.live(9, -1);
@@ -77,7 +77,7 @@ TEST(Leak, ACoveredStentKeepsItClosed) {
 /// Twice the area at least halves the time: 80 mmHg of systolic pressure.
 TEST(Leak, TwiceTheHoleHalvesTheTimeToTamponade) {
   const auto time_s = [](double area_mm2) {
-    Patient p;
+    SickPerson p;
     p.state.drugs.heparin_U = 10000;  // no clot
     p.perforate(std::sqrt(4 / units::pi * area_mm2) * 1e-3);
     double s = 0;
@@ -106,7 +106,7 @@ TEST(Leak, WithoutHeparinASmallHoleClots) {
 /// A and B change the reserve by at most 0.02, C by a loss of up to 35 % of the area, F stops flow; a stent holds it.
 TEST(Flap, TheReserveFollowsTheLumenThatItLeaves) {
   const auto ffr = [](int grade) {
-    Patient p;
+    SickPerson p;
     p.device.provocation = {Provoked::dissection, 100, static_cast<double>(grade)};
     p.live(0.01);
     for (Injury& one : p.state.injury.injuries) one.narrows = one.will_narrow;  // an hour later
@@ -124,7 +124,7 @@ TEST(Provoked, FibrillationEndsByAShockOrNotAtAll) {
   int ended = 0;
   constexpr int persons = 20;
   for (int seed = 1; seed <= persons; ++seed) {
-    Patient p({.stenosis = 0.1, .seed = static_cast<std::uint64_t>(seed)});
+    SickPerson p({.stenosis = 0.1, .seed = static_cast<std::uint64_t>(seed)});
     p.device.provocation = {Provoked::fibrillation};
     p.live(10);
     EXPECT_GT(p.blood.heart.pulseless_s, 0);

@@ -151,7 +151,7 @@ TEST(CellLocator, StepsOfPhysiologyAndTreatmentAllocateNothing) {
   TreatmentScratch scratch;
   const auto run = [&](int steps) {
     for (int n = 0; n < steps; ++n) {
-      step(model, device, 1e-3, state, {w.tree, blood, inputs.occupied_m}, scratch);
+      step(model, device, 1e-3, state, {w.physiology.flow, blood, inputs.occupied_m}, scratch);
       step(w.physiology, inputs, 1e-3, blood, blood_scratch);
     }
   };

@@ -14,7 +14,7 @@
 namespace ostium::vascular {
 namespace {
 
-std::string written(const std::string& name, const std::string& bytes) {
+std::string as_file(const std::string& name, const std::string& bytes) {
   const std::string path =
       (std::filesystem::path(testing::TempDir()) / ("ostium_" + std::to_string(getpid()) + "_" + name)).string();
   std::ofstream(path, std::ios::binary) << bytes;
@@ -22,7 +22,7 @@ std::string written(const std::string& name, const std::string& bytes) {
 }
 
 std::string refusal(const std::string& name, const std::string& bytes) {
-  const std::string path = written(name, bytes);
+  const std::string path = as_file(name, bytes);
   try {
     read_mesh(path, LengthUnit::millimetre);
   } catch (const MeshError& error) {
@@ -77,8 +77,8 @@ TEST(Vtk, XmlIsReadInEveryEncoding) {
   for (const test::VtkEncoding& e : encodings()) {
     SCOPED_TRACE(e.format + (e.base64 ? " base64" : "") + (e.zlib ? " zlib" : "") + (e.big_endian ? " big" : "") +
                  (e.wide ? " 64" : " 32"));
-    expect_cube(written("cube.vtp", test::vtp(e)));
-    expect_cube(written("cube.vtu", test::vtu(e)));
+    expect_cube(as_file("cube.vtp", test::vtp(e)));
+    expect_cube(as_file("cube.vtu", test::vtu(e)));
   }
 }
 
@@ -87,15 +87,15 @@ TEST(Vtk, LegacyFilesAreReadInEveryVersion) {
     for (const bool binary : {false, true})
       for (const bool grid : {false, true}) {
         SCOPED_TRACE(std::string(version) + (binary ? " binary" : " ascii") + (grid ? " grid" : " polydata"));
-        expect_cube(written("cube.vtk", test::VtkLegacyWriter(binary, version).file(grid)));
+        expect_cube(as_file("cube.vtk", test::VtkLegacyWriter(binary, version).file(grid)));
       }
 }
 
 TEST(Vtk, EndingsInUpperCaseAreTheSame) {
-  expect_cube(written("CUBE.VTP", test::vtp({})));
+  expect_cube(as_file("CUBE.VTP", test::vtp({})));
   const Mesh sphere = test::sphere(0.01, 6);
   for (const std::string name : {"S.STL", "S.PLY", "S.Obj"}) {
-    const std::string path = written(name, "");
+    const std::string path = as_file(name, "");
     std::ofstream(path, std::ios::binary) << mesh_bytes(path, sphere, LengthUnit::millimetre);
     EXPECT_EQ(read_mesh(path, LengthUnit::millimetre).mesh.triangles.size(), sphere.triangles.size()) << name;
     EXPECT_TRUE(has_mesh_ending(path));
@@ -112,7 +112,7 @@ TEST(Vtk, AFileCutAnywhereIsRefusedOrWhole) {
   for (const auto& [name, text] : files)
     for (std::size_t length = 0; length < text.size(); length += 31) {
       const std::string answer = refusal(name, text.substr(0, length));
-      if (answer == "accepted") expect_cube(written(name, text.substr(0, length)));
+      if (answer == "accepted") expect_cube(as_file(name, text.substr(0, length)));
     }
 }
 
@@ -173,7 +173,7 @@ TEST(Stl, SaysWhatIsMissing) {
   EXPECT_EQ(refusal("a.stl", text + "endsolid a\n"), "accepted");
   EXPECT_TRUE(says(refusal("a.stl", text), "cut short: no \"endsolid\" stands after its 4 whole facets"));
 
-  const std::string path = written("b.stl", "");
+  const std::string path = as_file("b.stl", "");
   std::ofstream(path, std::ios::binary) << mesh_bytes(path, test::cube(0.01), LengthUnit::millimetre);
   std::ifstream file(path, std::ios::binary);
   const std::string binary((std::istreambuf_iterator<char>(file)), {});

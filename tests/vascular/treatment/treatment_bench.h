@@ -65,7 +65,7 @@ struct Bench {
   void run(double gauge_atm, double seconds) {
     device.gauge_Pa = gauge_atm * atm;
     for (int n = 0; n < 1000 * seconds; ++n) {
-      report = step(model, device, 1e-3, state, {physiology.flow.tree, blood, inputs.occupied_m}, scratch);
+      report = step(model, device, 1e-3, state, {physiology.flow, blood, inputs.occupied_m}, scratch);
       step(physiology, inputs, 1e-3, blood, blood_scratch);
     }
   }
