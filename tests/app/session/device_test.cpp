@@ -226,7 +226,7 @@ TEST(BoxDriver, PedalsButtonsPressureAndFlow) {
 }
 
 /// In a patient, the box's indeflator and syringe set the delivery inputs.
-TEST(BoxDriver, PressureInflatesAndFlowInjects) {
+TEST(BoxDriver, PressureInflatesAndFlowInjectsOrDrawsBack) {
   RunSetup setup;
   set_vessel("rca-mid-focal", vascular::LengthUnit::millimetre, setup);
   set_script(data::find_script("iliac-wire"), setup);
@@ -249,10 +249,12 @@ TEST(BoxDriver, PressureInflatesAndFlowInjects) {
   EXPECT_NEAR(run.inputs.delivery.injection_m3_s, 3e-6, 1e-8);
   ticks(12, -2);
   EXPECT_NEAR(run.inputs.delivery.gauge_Pa, 12 * 101'325, 60);
-  EXPECT_EQ(run.inputs.delivery.injection_m3_s, 0) << "nothing is drawn back out of the guide";
+  EXPECT_EQ(run.inputs.delivery.injection_m3_s, 0);
+  EXPECT_NEAR(run.inputs.delivery.aspiration_m3_s, 2e-6, 1e-8);
   ticks(0.03, 0.03);
   EXPECT_EQ(run.inputs.delivery.gauge_Pa, 0) << "an offset is no hand";
   EXPECT_EQ(run.inputs.delivery.injection_m3_s, 0);
+  EXPECT_EQ(run.inputs.delivery.aspiration_m3_s, 0);
 }
 
 TEST(BoxDriver, DoesNotAllocate) {
