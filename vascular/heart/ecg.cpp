@@ -60,12 +60,12 @@ void step(const IschaemiaModel& model, const std::array<double, territories>& su
 }
 
 void weaken(const IschaemiaState& s, CirculationInputs& body) {
-  constexpr double left[territories] = {0.45, 0.25, 0.3}, right[territories] = {0.1, 0, 0.7};
+  constexpr double right[territories] = {0.1, 0, 0.7};
   constexpr double all_lost = 0.65;  // of `early`, which a closed artery reaches after a time constant
   body.left_lost = body.right_lost = 0;
   for (std::size_t i = 0; i < territories; ++i) {
     const double lost = smooth(0.1, all_lost, s.early[i]);
-    body.left_lost += left[i] * lost, body.right_lost += right[i] * lost;
+    body.left_lost += left_share[i] * lost, body.right_lost += right[i] * lost;
   }
 }
 

@@ -10,6 +10,8 @@ namespace ostium::vascular {
 /// Coronary territories.
 enum class Territory { lad, lcx, rca };
 inline constexpr int territories = 3;
+/// Of the left ventricle's muscle [estimates, from the 17 segments].
+inline constexpr double left_share[territories] = {0.45, 0.25, 0.3};
 inline constexpr const char* territory_names[territories] = {"LAD", "LCx", "RCA"};
 
 enum class Lead { II, III, aVF, aVL, V2, V5 };
@@ -37,8 +39,8 @@ constexpr auto fields(const IschaemiaState*) {
 void step(const IschaemiaModel& model, const std::array<double, territories>& supply, double dt_s, IschaemiaState& s);
 
 /// What of the ventricles' muscle no longer contracts, sets `body`'s losses: dyskinesis 15 s after a closure, function
-/// back within 40 s of its end (Am J Cardiol 1987;60:460), by territory. Shares of the left ventricle: LAD 0.45, LCx
-/// 0.25, RCA 0.3; of the right one the RCA 0.7 [estimates, from the 17 segments].
+/// back within 40 s of its end (Am J Cardiol 1987;60:460), by territory (left_share); of the
+/// right ventricle the RCA has 0.7 [estimate].
 void weaken(const IschaemiaState& ischaemia, CirculationInputs& body);
 
 /// mV. Fluid in the pericardium makes it low; fibrillation and asystole have their own.

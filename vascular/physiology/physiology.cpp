@@ -48,6 +48,7 @@ ContrastReport circulate(const PhysiologyModel& model, const PhysiologyInputs& i
   const FlowInputs lumen{now, s.radius_m, in.occupied_m, in.hyperaemia, x.open};
   step(model.flow, lumen, dt, s.flow, x.flow);
   step(model.ischaemia, supply(model.flow, s.flow), dt, s.ischaemia);
+  step(model.awareness, s.ischaemia, s.heart.circulation.mean_Pa, dt, s.awareness);
   const ContrastReport report = step(model.contrast, {model.flow, s.flow, lumen, s.heart.circulation.aortic_m3_s},
                                      in.contrast, dt, s.contrast, x.contrast);
   const double pushed_m3 = dt * (report.rate_m3_s - report.drawn_m3_s);

@@ -8,6 +8,7 @@
 #include "vascular/heart/ecg.h"
 #include "vascular/heart/heart.h"
 #include "vascular/physiology/air.h"
+#include "vascular/physiology/awareness.h"
 
 namespace ostium::vascular {
 
@@ -20,6 +21,7 @@ struct PhysiologyModel {
   ContrastModel contrast;
   TipPressureModel line;
   AirModel air = {};
+  AwarenessModel awareness = {};
 };
 /// `seed`: for random events and for the person's ECG response (0: the mean).
 PhysiologyModel make_physiology(const Patient& patient, std::uint64_t seed = 0);
@@ -40,15 +42,21 @@ struct PhysiologyState {
   ContrastState contrast;
   TipPressureState line;
   AirState air;
+  AwarenessState awareness;
   std::vector<double> radius_m;  ///< (#cells) of the lumen
   double circulation_s = 0;      ///< since blood and contrast last advanced
 };
 constexpr auto fields(const PhysiologyState*) {
   using S = PhysiologyState;
-  return std::tuple{core::field("heart", &S::heart),       core::field("ischaemia", &S::ischaemia),
-                    core::field("flow", &S::flow),         core::field("contrast", &S::contrast),
-                    core::field("line", &S::line),         core::field("air", &S::air),
-                    core::field("radius_m", &S::radius_m), core::field("circulation_s", &S::circulation_s)};
+  return std::tuple{core::field("heart", &S::heart),
+                    core::field("ischaemia", &S::ischaemia),
+                    core::field("flow", &S::flow),
+                    core::field("contrast", &S::contrast),
+                    core::field("line", &S::line),
+                    core::field("air", &S::air),
+                    core::field("awareness", &S::awareness),
+                    core::field("radius_m", &S::radius_m),
+                    core::field("circulation_s", &S::circulation_s)};
 }
 PhysiologyState make_state(const PhysiologyModel& model);
 

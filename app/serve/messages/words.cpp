@@ -41,7 +41,7 @@ std::string injury_words(double value) {
 std::string value_words(const data::EventDefinition& definition, double value) {
   const std::string& unit = definition.value;
   const std::string first = unit.substr(0, unit.find_first_of(" ,"));
-  for (const char* known : {"N", "mm", "s", "mL/s", "mL", "U", "ug", "atm", "degrees", "J"})
+  for (const char* known : {"N", "mm", "mm3", "s", "mL/s", "mL", "U", "ug", "atm", "degrees", "J"})
     if (first == known) return fmt::format(", {:.3g} {}", value, first);
   return "";
 }
@@ -85,6 +85,14 @@ std::string words_of(const SessionEvent& event, const SessionModel& model, const
       return "rhythm: " + one_of(rhythms, event.value);
     case EventCode::drug_given:
       return drug_name(model, event.value) + " given";
+    case EventCode::chest_pain:
+      return fmt::format("patient: \u201cMy chest hurts.\u201d ({:.0f} of 10)", event.value);
+    case EventCode::pain_is_gone:
+      return "patient: \u201cThe pain is gone.\u201d";
+    case EventCode::faints:
+      return fmt::format("the patient no longer answers (mean pressure {:.0f} mmHg)", event.value);
+    case EventCode::wakes:
+      return "the patient answers again";
     case EventCode::idle_beam:
       return "X-rays for 3 s while no tool moves";
     case EventCode::stent_elsewhere:

@@ -79,6 +79,7 @@ SessionModel make_session(std::shared_ptr<const Vessel> vessel, std::vector<Sess
     model.balloon_of.assign(model.tools.size(), -1);
   }
   model.physiology.ischaemia = vascular::ischaemia_of(options.seed);
+  model.physiology.awareness = vascular::awareness_of(options.seed);
   model.physiology.heart = vascular::heart_of(options.seed, model.physiology.heart);
   for (const SessionTool& tool : model.tools) model.rods.rods.push_back(rod_of(tool.instrument));
   model.rods.nestings = nestings_of(model.tools);

@@ -178,6 +178,7 @@ void EventWatch::look(const SessionModel& model, const SessionInputs& inputs, co
   look_at_entry(report, say);
   look_at_patient(model, state, say);
   look_at_clots(state, say);
+  look_at_awareness(state, seconds(model, state), say);
   look_at_care(model, inputs, state, say);
 }
 

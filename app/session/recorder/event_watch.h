@@ -33,6 +33,7 @@ class EventWatch {
   void look_at_care(const SessionModel& model, const SessionInputs& inputs, const SessionState& state,
                     const EventSink& say);
   void look_at_clots(const SessionState& state, const EventSink& say);
+  void look_at_awareness(const SessionState& state, double time_s, const EventSink& say);
   void look_at_balloon(const SessionModel& model, const SessionInputs& inputs, const SessionState& state,
                        const EventSink& say);
   void look_at_stents(const SessionModel& model, const SessionState& state, const EventSink& say);
@@ -49,6 +50,8 @@ class EventWatch {
   double inflated_since_s_ = 0, closed_since_s_ = 0;
   bool leaks_ = false, leaked_ = false, low_ = false, pulseless_ = false, drains_ = false, infuses_ = false,
        compressed_ = false, paced_ = false, draws_ = false;
+  bool hurts_ = false, awake_ = true;
+  double hurts_since_s_ = 0, fainted_s_ = 0;
   int thrombi_ = 0;
   double embolised_m3_ = 0, aspirated_m3_ = 0, air_m3_ = 0, line_air_m3_ = 0;
   double compressed_since_s_ = 0;

@@ -60,6 +60,19 @@ void EventWatch::look_at_clots(const SessionState& state, const EventSink& say) 
   thrombi_ = clot.formed, air_m3_ = in_muscle, line_air_m3_ = air.line_m3;
 }
 
+void EventWatch::look_at_awareness(const SessionState& state, double time_s, const EventSink& say) {
+  constexpr double hurts = 2, hurts_no_more = 1;  // of 10
+  const vascular::AwarenessState& now = state.blood.awareness;
+  if (now.awake && !hurts_ && now.pain >= hurts)
+    say(data::EventCode::chest_pain, -1, now.pain), hurts_ = true, hurts_since_s_ = time_s;
+  if (hurts_ && now.pain < hurts_no_more)
+    say(data::EventCode::pain_is_gone, -1, time_s - hurts_since_s_), hurts_ = false;
+  if (awake_ && !now.awake)
+    say(data::EventCode::faints, -1, state.blood.heart.circulation.mean_Pa / mmHg), fainted_s_ = time_s;
+  if (!awake_ && now.awake) say(data::EventCode::wakes, -1, time_s - fainted_s_);
+  awake_ = now.awake;
+}
+
 void EventWatch::look_at_care(const SessionModel& model, const SessionInputs& inputs, const SessionState& state,
                               const EventSink& say) {
   const DeliveryInputs& hand = inputs.delivery;

@@ -196,6 +196,8 @@ constexpr Signal<PatientNow> of_a_patient[] = {
      [](const PatientNow& x) { return volume_m3(x.state.treatment.thrombus) / units::mm3; }},
     {"air_mL", "mL", "in the arterioles of the heart's muscle",
      [](const PatientNow& x) { return in_muscle_m3(x.blood.air) / units::mL; }},
+    {"pain", "1", "of the patient's chest, 0 to 10", [](const PatientNow& x) { return x.blood.awareness.pain; }},
+    {"awake", "1", "1 or 0", [](const PatientNow& x) { return x.blood.awareness.awake ? 1.0 : 0.0; }},
     {"rhythm", "1", "0 sinus, 1 AV block, 2 VF, 3 asystole",
      [](const PatientNow& x) { return static_cast<double>(x.blood.heart.rhythm); }},
     {"wire_hazard", "1", "hazard so far that the wire's tip perforates",
