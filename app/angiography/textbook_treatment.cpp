@@ -80,6 +80,9 @@ Treatable plan_treatment(const vascular::Patient& patient, const vascular::FlowM
     plan.to_m = plan.from_m + lesion.length_m;
     plan.proximal_m = mean_diameter(plan, tree, healthy, plan.from_m - reference_stretch, plan.from_m);
     plan.distal_m = mean_diameter(plan, tree, healthy, plan.to_m, plan.to_m + reference_stretch);
+    // Where the artery begins or ends there is one side only.
+    if (plan.proximal_m == 0) plan.proximal_m = plan.distal_m;
+    if (plan.distal_m == 0) plan.distal_m = plan.proximal_m;
     plan.reference_m = (plan.proximal_m + plan.distal_m) / 2;
     plan.middle_m = (plan.from_m + plan.to_m) / 2 + o.shift_m;
     const double hard = lesion.made_of.calcified() ? 1 : 0;

@@ -14,7 +14,8 @@ namespace ostium::vascular {
 namespace {
 
 using units::mm;
-constexpr double shoulder = 0.3;  // share of the length over which the narrowing sets in, at either end
+constexpr double rounding_m = 1e-9;  // of lengths given in mm
+constexpr double shoulder = 0.3;     // share of the length over which the narrowing sets in, at either end
 
 /// 0 at the ends, 1 between the shoulders, with a continuous slope.
 double depth_at(const Lesion& lesion, double from_branch_m) {
@@ -78,10 +79,27 @@ void check(const Anatomy& anatomy, const Lesion& lesion) {
   if (!(lesion.stenosis > 0 && lesion.stenosis <= 0.95))
     throw std::invalid_argument(fmt::format("a stenosis of {:g} % of the diameter; expected more than 0 and at most 95",
                                             100 * lesion.stenosis));
-  if (!(lesion.length_m > 0 && lesion.from_m >= 0 && lesion.from_m + lesion.length_m <= branch->length_m()))
+  if (!(lesion.length_m >= shortest_lesion_m - rounding_m))
+    throw std::invalid_argument(
+        fmt::format("a lesion {:g} mm long; expected at least {:g} mm", lesion.length_m / mm, shortest_lesion_m / mm));
+  if (!(lesion.from_m >= 0 && lesion.from_m + lesion.length_m <= branch->length_m()))
     throw std::invalid_argument(fmt::format(
         "a lesion from {:g} to {:g} mm of {}; expected it within the branch's {:.1f} mm", lesion.from_m / mm,
         (lesion.from_m + lesion.length_m) / mm, lesion.branch, branch->length_m() / mm));
+}
+
+void check_apart(const std::vector<Lesion>& lesions) {
+  for (std::size_t i = 0; i < lesions.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j) {
+      const Lesion &a = lesions[j], &b = lesions[i];
+      if (a.branch != b.branch || a.from_m + a.length_m <= b.from_m + rounding_m ||
+          b.from_m + b.length_m <= a.from_m + rounding_m)
+        continue;
+      throw std::invalid_argument(fmt::format(
+          "lesions {} and {} of {} share a stretch ({:g} to {:g} mm and {:g} to {:g} mm); expected one, or both apart",
+          j + 1, i + 1, a.branch, a.from_m / mm, (a.from_m + a.length_m) / mm, b.from_m / mm,
+          (b.from_m + b.length_m) / mm));
+    }
 }
 
 Narrowing narrowing_at(const Anatomy& anatomy, const std::vector<Lesion>& lesions, int tube, double s_m) {

@@ -27,7 +27,7 @@ Composition draw_composition(bool calcified, std::uint64_t seed, std::uint64_t l
 struct Lesion {
   std::string branch;      ///< name in the anatomy
   double from_m = 0;       ///< proximal end, from the branch's origin
-  double length_m = 0;     ///< > 0
+  double length_m = 0;     ///< at least shortest_lesion_m
   double stenosis = 0;     ///< of the diameter, in (0, 0.95]: the missing share at the narrowest point
   bool eccentric = false;  ///< plaque on one side only; the opposite wall is unchanged
   double side_rad = 0;     ///< position of an eccentric plaque: 0 towards the heart, turning towards the branch's right
@@ -40,9 +40,14 @@ enum class LesionType { A, B, C };
 Lesion typical(LesionType type, const std::string& branch, double from_m);
 LesionType type_of(const Lesion& lesion);
 
+/// A shorter one would lie between the cells (0.7 mm) and triangles that carry an artery, and show less than it says.
+inline constexpr double shortest_lesion_m = 3e-3;
+
 /// Throws std::invalid_argument listing valid values: unknown branch, a lesion that does not fit it, a stenosis out of
 /// range.
 void check(const Anatomy& anatomy, const Lesion& lesion);
+/// Throws std::invalid_argument if two share a stretch of a branch, where both would narrow what the other leaves.
+void check_apart(const std::vector<Lesion>& lesions);
 
 /// Effect of lesions on a tube's cross-section.
 struct Narrowing {

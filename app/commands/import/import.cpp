@@ -159,6 +159,11 @@ class Import {
     wanted_.names = names_of(options_.renames);
     if (!options_.entry.empty()) mesh_point(options_.entry);
     for (const std::string& text : options_.lesions) made_.the_case.lesions.push_back(lesion_of(text));
+    try {
+      vascular::check_apart(made_.the_case.lesions);
+    } catch (const std::invalid_argument& error) {
+      throw data::LoadError(fmt::format("--lesion: {}", error.what()));
+    }
     if (!options_.picture.empty()) require_ending(options_.picture, {".png", ".svg"});
     const bool name_only = options_.output.find('/') == std::string::npos && !options_.output.starts_with(".");
     made_.folder = name_only ? fs::path(data::imported_folder()) / options_.output : fs::path(options_.output);

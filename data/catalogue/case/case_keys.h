@@ -45,7 +45,7 @@ inline const JsonObjectKeys lesion = {
     "lesion",
     {{"branch", true, "the name of a coronary artery", json_type::text()},
      {"from_mm", true, "the proximal end in mm from the branch's origin, >= 0", json_type::number(from_zero)},
-     {"length_mm", true, "the length in mm, at least 0.5, within the branch", json_type::number({.least = 0.5})},
+     {"length_mm", true, "the length in mm, at least 3, within the branch", json_type::number({.least = 3})},
      {"stenosis_percent", true, "what is missing of the diameter where it is narrowest, in %, > 0 and at most 95",
       json_type::number(above_zero_to(95))},
      {"shape", true, "on all sides or on one", json_type::choice({"concentric", "eccentric"})},

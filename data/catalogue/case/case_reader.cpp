@@ -113,6 +113,11 @@ Case case_of(const JsonValue& file) {
   const vascular::Anatomy anatomy = anatomy_of(c);
   for (const JsonValue& value : root.list("lesions"))
     c.lesions.push_back(read_lesion(JsonObject(value, case_keys::lesion), anatomy));
+  try {
+    vascular::check_apart(c.lesions);
+  } catch (const std::invalid_argument& error) {
+    root["lesions"].fail(fmt::format("{}: {}", root["lesions"].path(), error.what()));
+  }
   return c;
 }
 

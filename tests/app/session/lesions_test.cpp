@@ -1,6 +1,7 @@
 /// Which lesions a treatment is judged by, and which sizes and guides are chosen for a vessel.
 #include <gtest/gtest.h>
 
+#include "app/angiography/textbook_treatment.h"
 #include "app/session/model/outcome.h"
 #include "app/session/run/run.h"
 #include "data/assessment/metrics.h"
@@ -51,6 +52,23 @@ TEST(Lesions, AScriptIsRefusedOnACaseWithAnotherAccess) {
   } catch (const data::LoadError& error) {
     for (const char* word : {"pci-lcx-tubular-radial.json", "radial access", "lcx-tubular has femoral access"})
       EXPECT_NE(std::string(error.what()).find(word), std::string::npos) << error.what();
+  }
+}
+
+/// At an artery's origin and end, too, where there is healthy wall on one side only.
+TEST(Lesions, ALesionIsAsNarrowAsItsFileSaysWhereverItLies) {
+  const vascular::Anatomy anatomy = vascular::make_patient(vascular::AnatomyParameters{}, {}).anatomy;
+  for (const char* branch : {"LM", "LAD", "LCx", "RCA"}) {
+    const double length_m = find_branch(anatomy, branch)->length_m();
+    for (const double from_m : {0.0, length_m - 6e-3}) {
+      const vascular::Lesion lesion{.branch = branch, .from_m = from_m, .length_m = 6e-3, .stenosis = 0.6};
+      if (from_m < 0 || from_m + lesion.length_m > length_m) continue;
+      const vascular::Patient patient = vascular::make_patient(vascular::AnatomyParameters{}, {lesion});
+      const vascular::FlowModel flow = vascular::make_flow_model(vascular::flow_tree_of(patient));
+      const Treatable plan = plan_treatment(patient, flow, 0);
+      const LesionNumbers before = measure(plan.plans[0], flow, make_plaque_state(plan.model.plaque));
+      EXPECT_NEAR(before.stenosis_percent, 60, 8) << branch << " from " << 1e3 * from_m << " mm";
+    }
   }
 }
 

@@ -73,7 +73,7 @@ TEST(Case, TheTenOfTheProductAreThere) {
 
 TEST(Case, ALesionThatDoesNotFitIsRefusedWithWhatExists) {
   EXPECT_EQ(case_refusal("A test", "Another test"), "accepted");
-  for (const char* length_mm : {"1e-300", "0.4", "1e300"})
+  for (const char* length_mm : {"1e-300", "0.4", "2.9", "1e300"})
     expect_words(case_refusal("\"length_mm\": 9", std::string("\"length_mm\": ") + length_mm), {"length_mm"});
   expect_words(case_refusal("\"length_mm\": 9", "\"length_mm\": 90"),
                {"folder/small.json:9: lesions[0]", "from 40 to 130 mm of RCA", "within the branch's 101."});
@@ -81,6 +81,19 @@ TEST(Case, ALesionThatDoesNotFitIsRefusedWithWhatExists) {
                {"folder/small.json:9: lesions[0].stenosis_percent", "120", "at most 95"});
   expect_words(case_refusal("\"RCA\"", "\"RAC\""),
                {"folder/small.json:9: lesions[0]", "no branch \"RAC\"", "LAD", "LCx", "RCA", "PDA"});
+}
+
+TEST(Case, LesionsThatShareAStretchAreRefused) {
+  const auto second = [](const std::string& from_mm) {
+    const std::string one = R"("concentric", "calcified": false })";
+    return case_refusal(
+        one, one + R"(,
+    { "branch": "RCA", "from_mm": )" +
+                 from_mm + R"(, "length_mm": 9, "stenosis_percent": 70, "shape": "concentric", "calcified": false })");
+  };
+  for (const char* at : {"40", "48.9", "31.1"})
+    expect_words(second(at), {"folder/small.json:8: lesions", "lesions 1 and 2 of RCA share a stretch", "40 to 49 mm"});
+  for (const char* at : {"49", "31", "60"}) EXPECT_EQ(second(at), "accepted");
 }
 
 TEST(Case, ALesionLiesAtTheEndOfAnArteryThatIsShorterInSomebody) {
