@@ -47,7 +47,7 @@ ScoreCheck read_check(const JsonValue& value) {
   if (!check.before.empty() && (!check.metric.empty() || check.least || check.most))
     object["before"].fail(object["before"].path() +
                           " stands beside what it does not go with; expected an event, alone");
-  if (check.least && check.most && *check.least > *check.most) object.refuse("most");
+  if (check.least && check.most && *check.least > *check.most) object["most"].refuse("a number not below least");
   if (check.before.empty() && !check.least && !check.most)
     value.fail(value.path() + " has no bound; expected least, most or before");
   return check;
