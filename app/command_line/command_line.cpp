@@ -220,6 +220,13 @@ int with_output_checked(int code) {
   return failed;
 }
 
+/// Names and words of files without what moves a terminal's cursor.
+std::string shown(std::string words) {
+  for (char& c : words)
+    if ((static_cast<unsigned char>(c) < ' ' && c != '\n' && c != '\t') || c == 0x7f) c = '?';
+  return words;
+}
+
 /// (CLI11's own way says it all over the help.)
 bool are_apart(const OptionRules& rules) {
   for (const auto& [one, other] : rules.apart)
@@ -264,11 +271,11 @@ int run_command_line(const Command& program, int argc, char** argv) {
     const int code = with_output_checked(chosen->run());
     return interrupting_signal ? 128 + interrupting_signal : code;
   } catch (const data::WriteError& error) {
-    fmt::print(stderr, "{}: {}\n", program.name, error.what());
+    fmt::print(stderr, "{}: {}\n", program.name, shown(error.what()));
     return failed;
   } catch (const std::exception& error) {
     if (std::ferror(stdout)) return with_output_checked(failed);  // fmt throws where it cannot print
-    fmt::print(stderr, "{}: {}\n", program.name, error.what());
+    fmt::print(stderr, "{}: {}\n", program.name, shown(error.what()));
     return interrupting_signal ? 128 + interrupting_signal : bad_input;  // what lacks as it was ended is no bad input
   }
 }

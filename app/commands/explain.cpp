@@ -58,6 +58,7 @@ void print(const data::Explanation& x) {
   for (const data::FittedParameter& p : x.best().parameters)
     fmt::print("{:<40} {:>12.5g} {:>12.2g} {:>8.0f} %  {}\n", p.parameter.name, p.value, p.sigma, 100 * p.informed,
                p.parameter.unit == "1" ? "" : p.parameter.unit);
+  fmt::print("{}\n", data::sigma_is);
 }
 
 void write_found(const Arguments& a, const data::MeasurementSet& set, const data::Explanation& found) {

@@ -22,6 +22,7 @@ void print(const data::curves::CurveExplanation& x) {
   for (const data::curves::Fitted& f : x.best().parameters)
     fmt::print("{:<40} {:>12.5g} {:>12.2g} {:>8.0f} %  {}\n", f.label, f.value, f.sigma, 100 * f.informed,
                f.parameter.unit == "1" ? "" : f.parameter.unit);
+  fmt::print("{}\n", data::sigma_is);
 }
 
 }  // namespace

@@ -1,7 +1,9 @@
 #include <fmt/format.h>
 
+#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <set>
 
 #include "app/command_line/command.h"
 #include "app/command_line/common_options.h"
@@ -123,7 +125,20 @@ void print_set(const Pictures& pictures, const Pictures* real) {
   fmt::print("{} of {} numbers of the set are as in real ones\n", verdict.held, verdict.ranges);
 }
 
+/// A frame that is named twice would count twice, and frames are always as like themselves as can be.
+void require_each_once(std::vector<std::string> given, const std::string& against) {
+  if (!against.empty()) given.push_back(against);
+  std::set<std::filesystem::path> seen;
+  for (const std::string& name : given)
+    for (const std::string& file : data::frame_files(name)) {
+      std::error_code unseen;
+      if (!seen.insert(std::filesystem::weakly_canonical(file, unseen)).second)
+        throw data::LoadError(file + " is named twice; expected each frame once, here or in --against");
+    }
+}
+
 int run(const Arguments& a) {
+  require_each_once(a.files, a.against);
   std::optional<Pictures> real;
   if (!a.against.empty()) real = measure_all({a.against});
   const Pictures pictures = measure_all(a.files);

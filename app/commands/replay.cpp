@@ -207,7 +207,7 @@ int check_same(const Arguments& a, Replay& replay, Json& told) {
 /// Before the vessel is built, which takes seconds.
 void require_arguments(const Arguments& a) {
   if (!a.video.empty()) require_ending(a.video, {".mp4"});
-  if (!a.dicom.empty()) require_ending(a.dicom, {".dcm"});
+  if (!a.dicom.empty()) require_ending(a.dicom, {".dcm"}), data::require_dicom();
   if (!a.png.empty()) require_ending(a.png, {".png"});
   if (!a.films() && a.seconds > 0)
     throw data::LoadError("--seconds is the length of a film; expected --video FILE.mp4 or --dicom FILE.dcm with it");

@@ -44,6 +44,10 @@ ScoreCheck read_check(const JsonValue& value) {
   }
   if (object.has("least")) check.least = object.number("least");
   if (object.has("most")) check.most = object.number("most");
+  if (!check.before.empty() && (!check.metric.empty() || check.least || check.most))
+    object["before"].fail(object["before"].path() +
+                          " stands beside what it does not go with; expected an event, alone");
+  if (check.least && check.most && *check.least > *check.most) object["most"].refuse("a number not below least");
   if (check.before.empty() && !check.least && !check.most)
     value.fail(value.path() + " has no bound; expected least, most or before");
   return check;
@@ -102,7 +106,10 @@ ScoreList read_score_list(const std::string& file, const std::string& text) {
   for (const JsonValue& entry : object.list("items")) {
     const JsonObject of(entry, scoring_keys::item);
     ScoreItem item;
-    item.id = of.text("id"), item.phase = of.text("phase"), item.what = of.text("what"), item.when = of.text("when");
+    item.id = of.text("id");
+    if (std::any_of(list.items.begin(), list.items.end(), [&](const ScoreItem& i) { return i.id == item.id; }))
+      of["id"].refuse("an id that no other item has");
+    item.phase = of.text("phase"), item.what = of.text("what"), item.when = of.text("when");
     item.kind = static_cast<ScoreKind>(of.choice("kind", {"step", "error", "critical"}));
     if (of.has("check")) item.check = read_check(of["check"]);
     list.items.push_back(std::move(item));

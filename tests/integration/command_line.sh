@@ -86,6 +86,13 @@ expect 3 "FROM..TO" "$ostium" sweep rca-mid-focal --seeds=-1 -o "$dir/sweep.csv"
 expect 3 'heart_rate is " 70"' "$ostium" run rca-mid-focal --set "heart_rate= 70"
 expect 0 '"ffr_model"' "$ostium" treat --no-pictures --no-predilatation --no-postdilatation --hold 1 --json
 expect 3 "there is no case" "$ostium" serve no-such-case
+# Ended while dose and picture are still made ready, for seconds: at once, and nothing was recorded.
+"$ostium" serve rca-mid-focal --out "$dir/served" >"$dir/links" &
+served=$!
+until grep -q viewers "$dir/links"; do sleep 0.01; done
+kill -TERM "$served"
+code=0 && wait "$served" || code=$?
+((code == 143)) && [[ ! -e $dir/served ]]
 expect 3 "there is no view" "$ostium" treat --view upwards -o "$dir/treat.png"
 expect 3 "png is known" "$ostium" treat -o "$dir/treat.mp4"
 expect 3 "there is no view" frame --view upwards -o "$dir/frame.png"

@@ -99,6 +99,11 @@ expect 0 "frame.png" "$ostium" frame --pixels 256 --frames 1 -o frame.png
 expect 0 "of the set are as in real ones" "$ostium" picture frame.png
 refused "of the set are as in real ones" picture frame.png none.png
 refused "none.png" picture frame.png none.png --json
+# Nor is one that is named twice: it would count twice, and is always as like itself as can be.
+refused "is named twice" picture frame.png "$folder/frame.png"
+mkdir like && cp frame.png like && ln -s like alike
+refused "is named twice" picture like --against alike
+refused "is named twice" picture like like/frame.png
 
 # A material that is missing colours nothing; it is not one from elsewhere, wherever the mesh is read from.
 python3 - <<'END'
@@ -131,6 +136,12 @@ cannot report none.h5 -o folder.html
 cannot treat -o before/pictures/treat.png
 cannot explain bend --write-instrument folder.png
 [[ ! -e folder.csv.part ]]
+# A device gets what is written, and nothing is kept beside it.
+expect 1 "/dev/full: cannot be written" "$ostium" sweep rca-mid-focal --script iliac-wire --seconds 0.05 -o /dev/full
+refused "keeps nothing" sweep rca-mid-focal --script iliac-wire --seconds 0.05 -o /dev/full --part 1/2
+[[ ! -e /dev/full.part && ! -e /dev/full.part-1-of-2 ]]
+# What names a file has does not reach the terminal as it is.
+expect 3 "no-[?][[]2Jsuch.stl" "$ostium" check $'no-\x1b[2Jsuch.stl'
 
 expect 1 "limited-frame.png: cannot be written .File too large" bash -c 'ulimit -f 1; exec "$@"' limited "$ostium" \
   frame --pixels 128 --frames 1 -o limited-frame.png
@@ -152,7 +163,17 @@ refused "a file of the measured set" predict found/amended -o found/amended
 cmp bend/b0.csv found/amended/prediction.csv
 ln -s bend bent
 refused "bend and bent/measurement.json are one set" characterise bend bent/measurement.json --like rosen -o wire.json
+# Nor under another name, as a whole or in part: what was measured counts once.
+cp -r bend copied
+refused "b0 is the same measurement as b0 of bend/measurement.json" characterise bend copied --like rosen -o wire.json
 [[ ! -e wire.json ]]
+sed 's/"b1"/"again"/; s/"b1.csv"/"b0.csv"/' bend/measurement.json >copied/measurement.json
+expect 0 "b0 and again are the same measurement" "$ostium" explain copied -o none
+rm -r none
+# Noise below what the numbers' own digits make kept the search busy for minutes.
+sed 's/"force_N": 0[.][0-9]*/"force_N": 1e-9/; s/"displacement_mm": 0[.][0-9]*/"displacement_mm": 0/' bend/measurement.json \
+  >copied/measurement.json
+refused "all are written to 1e-05 N: rounding alone" explain copied -o none
 refused "measurement.json is there already" explain --template projections -o bend
 ls bend | cmp - before
 refused "there is no template" explain --template nothing -o none
@@ -164,8 +185,11 @@ refused "is no HDF5 file" report none.h5 -o none.html --questionnaire none-forms
 python3 - <<'END'
 import json
 told = json.load(open("seen/measurement.json"))
-told["imaging"]["noise_sigma_px"] = None
-json.dump(told, open("seen/no-noise.json", "w"))
+for name, noise in ("no-noise", None), ("tiny", 1e-9), ("digits", 0.02):
+    told["imaging"]["noise_sigma_px"] = noise
+    json.dump(told, open(f"seen/{name}.json", "w"))
 END
+refused "imaging.noise_sigma_px is 1e-09; expected .* 1e-3 or more" explain seen/tiny.json -o none
+refused "written to 0.1 px: rounding alone makes 0.029" explain seen/digits.json -o none
 refused "its noise is not declared" predict seen/no-noise.json --with rosen -o none
 [[ ! -e none ]]

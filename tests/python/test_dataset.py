@@ -85,6 +85,17 @@ def test_a_set_is_that_of_the_command(tmp_path):
         assert mine == other
 
 
+def test_a_build_without_dicom_says_so_before_the_work(tmp_path, monkeypatch):
+    def lacking():
+        raise ostium.OstiumError("this build writes no DICOM")
+
+    monkeypatch.setattr(ostium.dataset, "_require_dicom", lacking)
+    tasks = ostium.sweep.tasks("rca-mid-focal", "rca-from-the-ostium", seeds=[1], values={"begin": "RCA"}, seconds=0.7)
+    with pytest.raises(ostium.OstiumError, match="no DICOM"):
+        ostium.dataset.make(tasks, tmp_path / "set", dicom=True, map=None)
+    assert not (tmp_path / "set").exists()
+
+
 def test_a_run_that_cannot_be_is_told_and_tried_again(tmp_path):
     tasks = ostium.sweep.tasks("rca-mid-focal", "rca-from-the-ostium", seeds=[1], values={"wire": "no-such-wire"})
     with pytest.raises(ostium.OstiumError, match="no-such-wire"):

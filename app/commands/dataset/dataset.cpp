@@ -16,6 +16,7 @@
 #include "app/session/labelling/label_set.h"
 #include "app/session/labelling/labelled_run.h"
 #include "app/session/labelling/splits.h"
+#include "data/formats/dicom/dicom.h"
 #include "data/formats/load_error.h"
 #include "data/formats/paths.h"
 #include "data/formats/read_file.h"
@@ -171,6 +172,7 @@ class Dataset {
 
 /// Exit code: 0 if every run of this part is done.
 int run(const Arguments& a) {
+  if (a.frames.dicom) data::require_dicom();
   const SweepPart part = part_from(a.runs.part);
   Dataset dataset(a, plan_sweep(a.runs), part);
   for (const char* folder : {"images", "masks", "depth", "runs"}) make_folder(fs::path(a.folder) / folder);

@@ -98,7 +98,9 @@ class Sitting {
         hand_(hand),
         station_(station),
         list_(list),
-        dosimeter_(std::make_shared<const Dosimeter>(*run.model.vessel)) {}
+        dosimeter_(std::make_shared<const Dosimeter>(*run.model.vessel)) {
+    station.wait_for_picture();
+  }
 
   /// Until the trainer leaves, or the program is asked to end.
   Served play_all() {
@@ -189,6 +191,7 @@ Served serve(const ServeArguments& arguments) {
   std::optional<PassingFolder> passing;
   if (a.folder.empty()) a.folder = passing.emplace().path();
   const FilledFolder filled(a.folder);
+  if (passing) leave_no_empty({a.folder});
   const auto vessel = build_vessel(setup, "serve");
   ScriptedRun session(setup, vessel);
   LiveDriver hand(session.model, by_hand ? Hands::seats : Hands::script, 15);
@@ -198,11 +201,13 @@ Served serve(const ServeArguments& arguments) {
   StationSettings settings;
   settings.address = a.address, settings.port = static_cast<std::uint16_t>(a.port), settings.goes_back = true;
   settings.lesson = a.lesson;
+  std::optional<EndsAtOnce> nothing_yet(std::in_place);  // is recorded: dose and picture take seconds to prepare
   Station station(session, hand, list, settings);
-  stop_on_signals();
   show_progress("");
   tell_links(station, !is_loopback(a.address));
-  Served served = Sitting(a, a.folder, setup, session, hand, station, list).play_all();
+  Sitting sitting(a, a.folder, setup, session, hand, station, list);
+  nothing_yet.reset();
+  const Served served = sitting.play_all();
   if (!passing)
     fmt::print(stderr, "{}: {}\n", a.folder,
                served.scores.empty() ? "what was recorded until it was left"

@@ -92,8 +92,16 @@ StoredJournal read_journal(const std::string& file) {
   return out;
 }
 
+bool has_journal(const std::string& table) {
+  return fs::path(table).parent_path() != "/dev" && (!data::is_there(table) || data::is_file(table));
+}
+
 SweepJournal::SweepJournal(const std::string& file, const std::string& table, const JournalHead& head, bool resume)
-    : file_(file) {
+    : file_(has_journal(table) ? file : "") {
+  if (file_.empty()) {
+    if (head.part.is_all && !resume) return;
+    throw data::LoadError(table + " is no file, and keeps nothing; expected a file with --part or --resume");
+  }
   const std::string first = to_line(head);
   std::string kept = first + "\n";
   if (data::is_there(file)) {
@@ -123,13 +131,14 @@ SweepJournal::SweepJournal(const std::string& file, const std::string& table, co
 
 void SweepJournal::add(std::size_t run, const std::string& line) {
   lines_[run] = line;
+  if (file_.empty()) return;
   out_ << run << " " << line << std::flush;
   if (!out_) throw data::write_error(file_);
 }
 
 void SweepJournal::remove() {
   out_.close();
-  std::remove(file_.c_str());
+  if (!file_.empty()) std::remove(file_.c_str());
 }
 
 void write_table(const std::string& table, const std::string& head, const std::map<std::size_t, std::string>& lines) {

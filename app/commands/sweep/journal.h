@@ -30,6 +30,9 @@ struct StoredJournal {
 /// Throws LoadError if it is none. A last line that was cut off is left out.
 StoredJournal read_journal(const std::string& file);
 
+/// Nothing is kept beside a device or a pipe: what they get is written to them at the end.
+bool has_journal(const std::string& table);
+
 class SweepJournal {
  public:
   /// Throws LoadError if the file is of another sweep, of this one without `resume`, or written by another program, or

@@ -76,7 +76,8 @@ int run(const SweepArguments& a) {
   Sweeper sweeper(a, sweep, head, journal);
   sweeper.run();
   if (!interrupted) return end_of(a, part, journal, sweeper);
-  fmt::print(stderr, "ostium sweep: stopped after {} of {} runs; --resume goes on\n", journal.done(), sweeper.runs());
+  fmt::print(stderr, "ostium sweep: stopped after {} of {} runs{}\n", journal.done(), sweeper.runs(),
+             has_journal(a.table) ? "; --resume goes on" : "");
   return 1;
 }
 

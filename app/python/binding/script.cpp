@@ -14,6 +14,7 @@
 #include "app/session/labelling/labelled_run.h"
 #include "app/session/labelling/splits.h"
 #include "app/session/run/play.h"
+#include "data/formats/dicom/dicom.h"
 
 namespace ostium::python {
 
@@ -146,6 +147,7 @@ not apply). Other Python threads run meanwhile. Raises OstiumError.)");
       },
       py::arg("case"), py::arg("script"), py::arg("seed"), py::arg("values"), py::arg("seconds"), py::arg("name"),
       py::arg("folder"), py::arg("every_s"), py::arg("pixels"), py::arg("dicom"));
+  module.def("_require_dicom", &data::require_dicom);
   module.def(
       "_write_label_set",
       [](const std::filesystem::path& folder, double every_s, int pixels, const std::vector<std::string>& keys,

@@ -19,7 +19,7 @@ import re
 from pathlib import Path
 from typing import Any, Callable, Iterable, Mapping, Optional, Union
 
-from ._ostium import _label_run, _write_label_set
+from ._ostium import _label_run, _require_dicom, _write_label_set
 from .errors import OstiumError
 
 CLASSES = ("background", "vessel", "coronary artery", "catheter", "wire", "device shaft", "balloon", "stent")
@@ -98,9 +98,11 @@ def make(tasks: Iterable[Mapping[str, Any]], folder: Union[str, Path], every_s: 
     pixels   on a side, 64 to 1,024
     dicom    as DICOM films with segmentations, too (in builds with DICOM)
     map      what plays them: the builtin, or that of a pool of processes
-    The same call goes on where it was ended. Raises OstiumError if the folder has another set, or files of others, and
-    if none of the tasks can be played."""
+    The same call goes on where it was ended. Raises OstiumError if the folder has another set, or files of others, if
+    none of the tasks can be played, and at once for dicom in a build without."""
     tasks, folder = list(tasks), Path(folder)
+    if dicom:
+        _require_dicom()
     for below in ("images", "masks", "depth", "runs"):
         (folder / below).mkdir(parents=True, exist_ok=True)
     with _claim(folder, _identity(tasks, every_s, pixels, dicom)):

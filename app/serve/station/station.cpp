@@ -88,6 +88,7 @@ std::function<void(const SessionEvent&)> Station::ear() {
 void Station::follow() {
   core::give_way_to_steps();
   LivePicture live(run_.model, {nullptr, settings_.has_pedals, settings_.pixels, settings_.renderer});
+  drawing_.set_value();
   core::TripleBuffer<Snapshot>& latest = hand_.snapshots(Seat::browser);
   double told_s = -1, truth_s = -1;
   int references = 0, begun = 0;

@@ -4,6 +4,7 @@
 #include <atomic>
 #include <condition_variable>
 #include <functional>
+#include <future>
 #include <mutex>
 #include <optional>
 #include <thread>
@@ -44,6 +45,8 @@ class Station : public Listener {
   std::string trainer_link() const;
   std::string viewer_link() const;
   std::uint16_t port() const { return server_->port(); }
+  /// Until the picture is ready, which takes some seconds.
+  void wait_for_picture() const { drawn_.wait(); }
 
   /// For RecorderOptions::heard, on the thread that steps.
   std::function<void(const SessionEvent&)> ear();
@@ -95,6 +98,8 @@ class Station : public Listener {
   Wish wish_;
   bool has_ended_ = false;
   std::unique_ptr<Server> server_;
+  std::promise<void> drawing_;
+  std::future<void> drawn_ = drawing_.get_future();
   std::thread thread_;
 };
 

@@ -55,12 +55,29 @@ const std::vector<JsonValue>& radii_of(const JsonValue& curve, std::size_t point
   curve.fail(fmt::format("{} has no radii; expected {}", curve.path(), wanted));
 }
 
+/// A line that turns back on itself at once, by more than its calibre, joins points out of order: the tube would run to
+/// and fro in itself. `at`: which control points the course is made of.
+void require_in_order(const std::vector<vascular::CoursePoint>& course, const std::vector<std::size_t>& at,
+                      const JsonValue& points) {
+  constexpr double back = -0.85;  // cosine: a turn by 148 degrees from one control point to the next
+  for (std::size_t i = 1; i + 1 < course.size(); ++i) {
+    const Eigen::Vector3d in = course[i].p - course[i - 1].p, out = course[i + 1].p - course[i].p;
+    if (std::min(in.norm(), out.norm()) < course[i].radius_m || in.dot(out) > back * in.norm() * out.norm()) continue;
+    const JsonValue& point = points.items[at[i]];
+    point.fail(fmt::format(
+        "the line turns back at {}, {:.3g} mm after {:.3g} mm: its points are not in order along the vessel; "
+        "expected them in order, as Extract Centerline (SlicerVMTK) makes them",
+        point.path(), out.norm() / mm, in.norm() / mm));
+  }
+}
+
 std::vector<vascular::CoursePoint> course_of(const JsonValue& curve) {
   if (const JsonValue* const unit = curve.find("coordinateUnits"); unit && unit->text != "mm") unit->refuse("\"mm\"");
   const Eigen::Vector3d lps = to_lps(curve);
   const JsonValue& points = member(curve, "controlPoints", JsonValue::Type::array, "a list of control points");
   const std::vector<JsonValue>& radii = radii_of(curve, points.items.size());
   std::vector<vascular::CoursePoint> course;
+  std::vector<std::size_t> at;
   double length_m = 0;
   for (std::size_t i = 0; i < points.items.size(); ++i) {
     // A point that was not yet, or is no longer, placed has a position that means nothing.
@@ -76,9 +93,10 @@ std::vector<vascular::CoursePoint> course_of(const JsonValue& curve) {
     const double step_m = course.empty() ? 1 : (point.p - course.back().p).norm();
     if (step_m < apart_m) continue;
     if (!course.empty()) length_m += step_m;
-    course.push_back(point);
+    course.push_back(point), at.push_back(i);
   }
   if (course.size() < 2) points.refuse("two control points at least, at different places");
+  require_in_order(course, at, points);
   if (length_m > longest_m)
     points.refuse(fmt::format("a vessel {:g} m long at most, it has {:.3g}", longest_m, length_m));
   return course;

@@ -20,6 +20,9 @@ struct DicomPlace {
   int series = 1;         ///< counted from 1
 };
 
+/// Throws LoadError in a build that writes none: before the work, as nothing comes of it.
+void require_dicom();
+
 std::string new_study_uid();
 
 /// Bytes of pixels that one file can hold: its lengths have 32 bits, of which some are for the rest.

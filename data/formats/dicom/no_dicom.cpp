@@ -11,6 +11,8 @@ DicomGeometry read_dicom_geometry(const std::string& file) {
   throw LoadError(file + ": this build reads no DICOM; expected the geometry as numbers, or a build with OSTIUM_DICOM");
 }
 
+void require_dicom() { throw LoadError("this build writes no DICOM; expected one with OSTIUM_DICOM"); }
+
 std::string new_study_uid() { return ""; }
 
 void write_dicom(const std::string& file, const fluoro::CineRun&, const DicomPatient&, const DicomPlace&) {

@@ -161,6 +161,9 @@ void put_into_words(Characterisation& c) {
   if (c.wire.friction.disagree()) c.text.push_back(disagreement(c, "friction", c.wire.friction));
   c.text.insert(c.text.begin(), fmt::format("EI was measured on {:.0f} of {:.0f} mm; the rest is as declared.",
                                             measured / mm, c.declared.back().to_tip_m / mm));
+  c.text.insert(c.text.begin() + 1,
+                fmt::format("Each error holds {:g} % of calibration, which no fit sees, besides what `explain` gives.",
+                            100 * calibrated_to));
   for (const CharacterisedSet& s : c.sets)
     if (s.check)
       c.text.push_back(s.name + ", predicted by the others with nothing fitted: off by " + words_of(*s.check) + ".");
@@ -178,10 +181,27 @@ std::vector<std::string> CharacterisedSet::effects() const {
   return x.found() ? x.best().effects : std::vector<std::string>{};
 }
 
+namespace {
+
+/// What is in two sets would count as measured twice: its error would shrink, and it would agree with itself.
+void require_no_copies(const std::vector<std::vector<MeasuredNumbers>>& of_sets, const Characterisation& c) {
+  for (std::size_t k = 0; k < of_sets.size(); ++k)
+    for (std::size_t l = 0; l < k; ++l)
+      for (const MeasuredNumbers& one : of_sets[l])
+        for (const MeasuredNumbers& other : of_sets[k])
+          if (!one.numbers.empty() && one.numbers == other.numbers)
+            throw LoadError(fmt::format(
+                "{}: {} is the same measurement as {} of {}, number for number; expected each measurement once",
+                *c.sets[k].root.file, other.id, one.id, *c.sets[l].root.file));
+}
+
+}  // namespace
+
 Characterisation characterise(const std::vector<std::string>& files, const std::string& like,
                               const CharacteriseOptions& options) {
   Characterisation c;
   c.like = like;
+  std::vector<std::vector<MeasuredNumbers>> measured;
   // All are read before the first is explained, so that a mistake in the last costs no time.
   for (const std::string& file : files) {
     CharacterisedSet s;
@@ -189,12 +209,15 @@ Characterisation characterise(const std::vector<std::string>& files, const std::
     s.name = name_of(*s.root.file, c.sets);
     s.why_unused = "it was not reached";
     set_with(s.root, {});
-    if (curves::kind_of(s.root))
-      s.root = curves::with_tables(s.root), curves::read_set(s.root);
-    else
-      load_measurement(file);
+    if (curves::kind_of(s.root)) {
+      s.root = curves::with_tables(s.root);
+      measured.push_back(curves::measured_numbers(curves::read_set(s.root)->runs()));
+    } else {
+      measured.push_back(measured_numbers(load_measurement(file)));
+    }
     c.sets.push_back(std::move(s));
   }
+  require_no_copies(measured, c);
   for (CharacterisedSet& s : c.sets) {
     if (options.stop && options.stop()) break;
     if (options.progress) options.progress(s.name);

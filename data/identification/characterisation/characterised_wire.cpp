@@ -10,9 +10,6 @@ namespace {
 
 constexpr double same_place_m = 1e-6;
 constexpr double rare = 0.01;
-/// No fit sees the gain of a load cell, a weight or the size of a pixel, and a bench of a laboratory is calibrated to
-/// about this.
-constexpr double calibrated_to = 0.01;
 
 struct OfSet {
   std::size_t set;

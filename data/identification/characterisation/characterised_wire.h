@@ -6,8 +6,12 @@
 
 namespace ostium::data {
 
+/// No fit sees the gain of a load cell, a weight or the size of a pixel, and a bench of a laboratory is calibrated to
+/// about this.
+inline constexpr double calibrated_to = 0.01;
+
 /// A number that several sets were combined to: the mean of their logarithms, weighted by the inverse of their
-/// variances, to each of which 1 % of calibration is added, since no fit sees the gain of its bench. Where they differ
+/// variances, to each of which that of calibration is added. Where they differ
 /// by more than their errors say, the error is widened by the root of chi-square per degree of freedom (Birge 1932,
 /// Phys Rev 40:207).
 struct Combined {

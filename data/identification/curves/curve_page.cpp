@@ -108,8 +108,8 @@ std::string to_html(const CurveExplanation& x) {
   out += "<h2>Parameters of the declared model</h2>\n" + parameter_table(x.declared);
   for (const Candidate& c : x.candidates)
     out += "<h2>Parameters with " + escaped(c.name) + "</h2>\n" + parameter_table(c);
-  return out +
-         "<p class=\"source\">Made by ostium explain. For training and research, not for decisions on a "
+  return out + "<p class=\"source\">" + sigma_is +
+         " Made by ostium explain. For training and research, not for decisions on a "
          "patient.</p>\n</body></html>\n";
 }
 

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "data/identification/curves/curve_search.h"
+#include "data/identification/curves/set/set_reader.h"
 #include "data/identification/residuals/noise_model.h"
 
 namespace ostium::data::curves {
@@ -123,6 +124,7 @@ void add_noise(CurveExplanation& x) {
 }
 
 void add_warnings(CurveExplanation& x) {
+  x.warnings = copies_in_words(measured_numbers(x.set->runs()));
   for (std::size_t i = 0; i < x.set->free().size() && i < x.best().parameters.size(); ++i) {
     const Fitted& f = x.best().parameters[i];
     const double off = f.parameter.logarithmic ? std::log(f.value / f.parameter.prior) : f.value - f.parameter.prior;

@@ -52,8 +52,8 @@ inline const JsonObjectKeys vessel = {
 
 inline const JsonObjectKeys imaging = {
     "imaging",
-    {{"noise_sigma_mm", true, "the noise of a coordinate in mm, > 0, or null if it is unknown",
-      json_type::null_or(json_type::number(above_zero))},
+    {{"noise_sigma_mm", true, "the noise of a coordinate in mm, 1e-6 or more, or null if it is unknown",
+      json_type::null_or(json_type::number({.least = 1e-6}))},
      {"registration", true, "whether the measuring frame is known", json_type::choice({"given", "free"})},
      {"tip_offset", true, "whether the tracked point sits off the tip", json_type::choice({"none", "free"})}}};
 

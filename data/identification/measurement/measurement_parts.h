@@ -10,5 +10,7 @@ namespace ostium::data {
 void read_instruments(const JsonObject& root, MeasurementSet& set);
 void read_environment(const JsonValue& environment, MeasurementSet& set);
 void read_effects(const JsonObject& root, MeasurementSet& set);
+/// Once the experiments are read. `noise`: the key that declares it.
+void require_noise_above_rounding(const JsonValue& noise, const MeasurementSet& set);
 
 }  // namespace ostium::data

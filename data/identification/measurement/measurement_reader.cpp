@@ -9,6 +9,7 @@
 #include "data/catalogue/instrument/instrument.h"
 #include "data/formats/paths.h"
 #include "data/identification/measurement/experiment_reader.h"
+#include "data/identification/measurement/measured_numbers.h"
 #include "data/identification/measurement/measured_wall.h"
 #include "data/identification/measurement/measurement_keys.h"
 #include "data/identification/measurement/measurement_parts.h"
@@ -120,6 +121,13 @@ DeclaredEffect read_effect(const JsonValue& value, const MeasurementSet& set) {
 
 }  // namespace
 
+void require_noise_above_rounding(const JsonValue& noise, const MeasurementSet& set) {
+  if (!set.imaging.noise_sigma_m) return;
+  const std::string doubt = doubt_of_noise_below_rounding(
+      measured_numbers(set), *set.imaging.noise_sigma_m / set.unit().size, set.unit().name);
+  if (!doubt.empty()) noise.fail(noise.path() + " " + doubt + "; expected the scatter of repeats, or null");
+}
+
 void read_effects(const JsonObject& root, MeasurementSet& set) {
   if (!root.has("effects")) return;
   for (const JsonValue& value : root.list("effects")) set.effects.push_back(read_effect(value, set));
@@ -147,6 +155,7 @@ MeasurementSet read(const JsonValue& file) {
   read_effects(root, set);
   for (const JsonValue& value : root.list("experiments")) set.experiments.push_back(read_experiment(value, set));
   if (set.experiments.empty()) root.refuse("experiments");
+  require_noise_above_rounding(*root["imaging"].find("noise_sigma_mm"), set);
   return set;
 }
 

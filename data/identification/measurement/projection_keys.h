@@ -38,8 +38,8 @@ inline const JsonObjectKeys set = {
 
 inline const JsonObjectKeys imaging = {
     "imaging",
-    {{"noise_sigma_px", true, "the noise of a clicked coordinate in px, > 0, or null if it is unknown",
-      json_type::null_or(json_type::number(above_zero))},
+    {{"noise_sigma_px", true, "the noise of a clicked coordinate in px, 1e-3 or more, or null if it is unknown",
+      json_type::null_or(json_type::number({.least = 1e-3}))},
      {"views", true, "\"given\": the views are where they are declared", json_type::choice({"given"})}}};
 
 inline const JsonObjectKeys view = {

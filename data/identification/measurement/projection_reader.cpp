@@ -125,6 +125,7 @@ MeasurementSet read_projections(const JsonValue& file) {
     if (e.polylines.empty())
       root["experiments"].fail(e.place + " has no polyline; expected one of at least one view" +
                                (table ? " in " + root.text("polylines_csv") : ", its projections"));
+  require_noise_above_rounding(*root["imaging"].find("noise_sigma_px"), set);
   return set;
 }
 

@@ -112,8 +112,8 @@ std::string to_html(const MeasurementSet& as_read, const Explanation& x) {
     out += "<h2>What the residual with " + escaped(c.name) + " goes with</h2>\n" + residual_test_table(c);
   out += "<h2>Parameters of the declared model</h2>\n" + parameters(x.declared);
   for (const FittedModel& c : x.candidates) out += "<h2>Parameters with " + escaped(c.name) + "</h2>\n" + parameters(c);
-  return out +
-         "<p class=\"source\">Made by ostium explain. For training and research, not for decisions on a "
+  return out + "<p class=\"source\">" + sigma_is +
+         " Made by ostium explain. For training and research, not for decisions on a "
          "patient.</p>\n</body></html>\n";
 }
 

@@ -8,6 +8,7 @@
 #include "data/identification/effects/effect_list.h"
 #include "data/identification/estimation/model_fit.h"
 #include "data/identification/forward/setup.h"
+#include "data/identification/measurement/measured_numbers.h"
 #include "data/identification/selection/data_faults.h"
 #include "data/identification/selection/residual_attribution.h"
 #include "data/identification/selection/search.h"
@@ -217,7 +218,7 @@ Explanation explain_mended(const MeasurementSet& set, const ExplainOptions& opti
 }
 
 Explanation explain_with_library(const MeasurementSet& set, const ExplainOptions& options) {
-  std::vector<std::string> warnings;
+  std::vector<std::string> warnings = copies_in_words(measured_numbers(set));
   const std::optional<Mended> lengths = mend_lengths(set, warnings);
   Explanation out = explain_mended(lengths ? lengths->set : set, options, true);
   if (lengths && !out.mended) out.mended = std::make_shared<const MeasurementSet>(lengths->set);
@@ -276,6 +277,7 @@ Explanation explain(const MeasurementSet& set, const ExplainOptions& options) {
   if (out.verdict == Verdict::cannot_be_judged) out.next_experiment = repeat_for_noise(set);
   out.signature = out.declared.residual_tests.signature;
   describe_remaining(set, workers, options, out);
+  out.warnings = copies_in_words(measured_numbers(set));
   if (const std::optional<Mended> lengths = mend_lengths(set, out.warnings))
     for (const DataFault& f : lengths->faults) out.warnings.push_back(f.what + ": " + f.mend + ".");
   warn_of_scales(out.best(), out.warnings);

@@ -9,6 +9,11 @@
 
 namespace ostium::data {
 
+/// Of every standard error that is printed: what it is of.
+inline constexpr const char* sigma_is =
+    "The standard error is that of scatter; what is wrong in all of a bench (load cell, weights, size of a pixel) is "
+    "not in it.";
+
 /// `mostly`: an effect removes most of what is beyond noise, and something is left (`remaining`). `cannot_be_judged`:
 /// the noise is unknown, so nothing says whether what is left is more than that.
 enum class Verdict { explained, effect, mostly, ambiguous, unexplained, cannot_be_judged };

@@ -73,6 +73,11 @@ TEST(ScoreList, MistakesAreNamed) {
   };
   says(report_refusal("\"heparin\"", "\"heparine\""), "small.json:4:");
   says(report_refusal("\"heparin\"", "\"heparine\""), "one of: script_step_begins");
+  says(report_refusal("\"id\": \"2\"", "\"id\": \"1\""), "items[1].id is \"1\"; expected an id that no other item has");
+  says(report_refusal("\"most\": 20", "\"most\": 4"), "items[2].check.most is 4; expected a number not below least");
+  says(report_refusal("\"before\": \"inflation", "\"least\": 1, \"before\": \"inflation"), "expected an event, alone");
+  says(report_refusal("\"procedure_time_s\"", "7"), "items[2].check.metric is 7");
+  says(report_refusal("\"least\": 5", "\"least\": \"5\""), "items[2].check.least is \"5\"");
   says(report_refusal("\"procedure_time_s\"", "\"procedure_time\""), "small.json:8:");
   says(report_refusal("\"most\": 0", "\"mosst\": 0"), "mosst is not a key");
   says(report_refusal(", \"most\": 0 }", " }"), "no bound");

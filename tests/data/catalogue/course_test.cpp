@@ -47,6 +47,9 @@ TEST(Course, AFaultyOneNamesFileLineKeyAndCure) {
       {"iliac-wire", "no-script", "mine.json:5: lessons[0].script is \"no-script\": there is no script"},
       {"\"name\": \"one\"", "\"name\": \"../one\"", "mine.json:4: lessons[0].name"},
       {"\"must_hold\"", "\"must_be\"", "must_be"},
+      {"[\"1\"]", "[\"1\", \"1\"]", "mine.json:6: lessons[0].must_hold[1] is \"1\"; expected each id once"},
+      {"\"Mine\"", R"("Mi\u001b[2Jne")", "mine.json:2: title \"Mi?[2Jne\" holds a control character"},
+      {"\"Mine\"", R"("Mi\u009b2Jne")", "mine.json:2: title \"Mi?2Jne\" holds a control character"},
       {"\"name\": \"mine\"", "\"name\": \"other\"", "the file's name without .json"},
       {"ostium-course/1", "ostium-course/9", "ostium-course/1"}};
   for (const Fault& fault : faults) {

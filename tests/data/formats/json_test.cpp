@@ -75,9 +75,14 @@ TEST(Json, OnlyUtf8IsReadAndOnlyUtf8IsShown) {
   // A text is cut between its letters (here of three bytes), and what steers a terminal is taken out.
   std::string text;
   for (int i = 0; i < 30; ++i) text += "\xe2\x82\xac";
-  const JsonValue value = parse_json("a.json", "{\"\\u001b[2Jx\": \"" + text + "\"}");
+  const JsonValue value = parse_json("a.json", "{\"x\": \"" + text + "\"}");
   EXPECT_EQ(refusal_of([&] { value.members[0].value.refuse("less"); }),
-            "a.json:1: ?[2Jx is \"" + text.substr(0, 39) + "...\"; expected less");
+            "a.json:1: x is \"" + text.substr(0, 39) + "...\"; expected less");
+  for (const char* steers : {"\\u001b[2J", "\\u0007", "\\u007f", "\\u009b2J"}) {
+    expect_words(refusal("{\"" + std::string(steers) + "x\": 1}"), {"thing.json:1: the key \"?", "control character"});
+    expect_words(refusal("[\"" + std::string(steers) + "x\"]"), {"thing.json:1: [0] \"?", "control character"});
+  }
+  EXPECT_EQ(parse_json("a.json", R"("a\tb\nc\u00e9")").text, "a\tb\nc\u00e9");
 }
 
 }  // namespace

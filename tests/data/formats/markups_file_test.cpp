@@ -74,6 +74,18 @@ TEST(Markups, PointsThatAreNotPlacedArePassedOver) {
   }
 }
 
+/// They took minutes: a tube that runs to and fro in itself.
+TEST(Markups, PointsOutOfOrderAreRefusedAtTheFirst) {
+  std::vector<std::array<double, 3>> points;
+  for (int k = 0; k < 60; ++k) points.push_back({20 * std::cos(0.1 * k), 20 * std::sin(0.1 * k), 0.3 * k});
+  const std::vector<double> radii(points.size(), 1.5);
+  EXPECT_EQ(read({{"markups", {curve(points, radii)}}}).size(), 1u);
+  std::swap(points[20], points[40]);
+  expect_words(refusal({{"markups", {curve(points, radii)}}}), {"lines.mrk.json:", "controlPoints[20]", "in order"});
+  for (std::size_t k = 0; k < points.size(); ++k) std::swap(points[k], points[(37 * k) % points.size()]);
+  expect_words(refusal({{"markups", {curve(points, radii)}}}), {"lines.mrk.json:", "not in order along the vessel"});
+}
+
 TEST(Markups, WhatMakesNoVesselIsRefusedByItsPlace) {
   Json bare = trunk, inches = trunk, few = trunk, far = trunk, thin = trunk, one = trunk, axes = trunk, wide = trunk;
   bare["measurements"] = Json::array();

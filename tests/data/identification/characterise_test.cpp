@@ -82,6 +82,28 @@ TEST_F(Characterise, AWireFromThreeBenchesPredictsWhatItsBenchesDidNotSee) {
   EXPECT_FALSE(check(turned, falsified(known, 1, 1.3, 1)).agrees());
 }
 
+/// The error of `explain` is that of scatter, over sets made with other dice. That of `characterise` holds calibration,
+/// too, and says so.
+TEST_F(Characterise, ErrorsAreOfScatterAndThenOfCalibration) {
+  double squares = 0;
+  constexpr unsigned sets = 10;
+  for (unsigned seed = 100; seed < 100 + sets; ++seed) {
+    const auto x = curves::explain_curves(parse_json("set.json", synthetic::bend_of(wire, seed).json), {});
+    const curves::Fitted& EI = x.declared.parameters[0];
+    ASSERT_EQ(EI.label, "EI_scale[0]");
+    const double off = (EI.value * wire.declared_EI - wire.EI) / (EI.sigma * wire.declared_EI);
+    squares += off * off;
+  }
+  // Chi-square of so many numbers, within three of its standard deviations.
+  EXPECT_NEAR(squares / sets, 1, 3 * std::sqrt(2.0 / sets));
+  const Characterisation together =
+      characterise({write("bend", synthetic::bend_of(wire, 1).json)}, to_json(load_json(instrument_file("rosen"))), {});
+  const curves::Fitted& alone = std::get<curves::CurveExplanation>(together.sets[0].found).declared.parameters[0];
+  const LogScale own = without_prior(alone.value, alone.sigma, alone.parameter.spread);
+  EXPECT_NEAR(together.wire.stretches[0].EI_N_m2.sigma, std::hypot(own.sigma, 0.01), 1e-9);
+  EXPECT_NE(together.text[1].find("1 % of calibration"), std::string::npos);
+}
+
 TEST_F(Characterise, SetsThatDisagreeAreSaidToAndWidenTheError) {
   BenchWire other = wire;
   other.EI *= 1.3;

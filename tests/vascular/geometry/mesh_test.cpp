@@ -4,8 +4,10 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <numbers>
 
 #include "tests/vascular/geometry/shapes.h"
 #include "vascular/geometry/mesh/surface_check.h"
@@ -144,14 +146,60 @@ TEST(Mesh, AFaceThatWouldBeLeftOutIsRefused) {
   const std::string points = "0 0 0\n9 0 0\n0 9 0\n0 0 9\n";
   const std::string off = "OFF\n4 2 0\n" + points + "3 0 1 2\n";
   EXPECT_EQ(refusal(written("whole.off", off + "3 0 2 3\n")), "accepted");
-  EXPECT_NE(refusal(written("none.off", off + "0\n")).find("promises 2 faces, and 1 could be read"), std::string::npos);
-  EXPECT_NE(refusal(written("ten.off", off + "10 0 1 2 3 0 1 2 3 0 1\n")).find("export it as triangles"),
+  EXPECT_NE(refusal(written("none.off", off + "0\n")).find("face 1 has 0 corners"), std::string::npos);
+  EXPECT_NE(refusal(written("cut.off", off)).find("promises 2 faces, and 1 could be read"), std::string::npos);
+  EXPECT_NE(refusal(written("index.off", off + "3 0 2 4\n")).find("face 1 names vertex 4 of 4"), std::string::npos);
+  EXPECT_NE(refusal(written("flat.off", "OFF\n4 1 0\n0 0\n9 0 0\n0 9 0\n")).find("for a coordinate"),
             std::string::npos);
   const std::string ply =
       "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\nelement face 2\n"
       "property list uchar int vertex_indices\nend_header\n" +
       points + "3 0 1 2\n";
   EXPECT_NE(refusal(written("none.ply", ply + "0\n")).find("face 1 has no corners"), std::string::npos);
+}
+
+/// As tools for making tubes write it: two lids of forty corners, colours, comments, a normal behind each vertex.
+TEST(Mesh, AnOFFHasFacesOfAnyNumberOfCorners) {
+  constexpr int round = 40;
+  std::string vertices, side, lids[2];
+  for (int k = 0; k < round; ++k) {
+    const double angle = 2 * std::numbers::pi * k / round;
+    // The lid has dents, which a fan would fill.
+    const double r = k % 2 ? 3 : 2;
+    for (const int z : {0, 10})
+      vertices += std::to_string(r * std::cos(angle)) + " " + std::to_string(r * std::sin(angle)) + " " +
+                  std::to_string(z) + " 0 0 1\n";
+    const int next = (k + 1) % round;
+    side += "4 " + std::to_string(2 * k) + " " + std::to_string(2 * next) + " " + std::to_string(2 * next + 1) + " " +
+            std::to_string(2 * k + 1) + " 255 0 0 # red\n";
+    lids[0] = " " + std::to_string(2 * k) + lids[0], lids[1] += " " + std::to_string(2 * k + 1);
+  }
+  const std::string text = "# made by hand\nNOFF 80 42 0\r\n" + vertices + side + "40" + lids[0] + "\n40" + lids[1];
+  const Mesh mesh = read_mesh(written("lids.off", text), LengthUnit::metre).mesh;
+  const double star = 0.5 * round * 2 * 3 * std::sin(2 * std::numbers::pi / round);
+  EXPECT_NEAR(volume_m3(mesh), 10 * star, 1e-3);
+  double lid = 0;  // the area that looks up
+  for (const auto& t : mesh.triangles) {
+    const Eigen::Vector3d a = mesh.vertices[t[0]], normal = (mesh.vertices[t[1]] - a).cross(mesh.vertices[t[2]] - a);
+    if (a.z() > 9 && normal.norm() > 0 && normal.normalized().z() > 0.99) lid += normal.norm() / 2;
+    EXPECT_GT(normal.z(), -1e-9 - 100 * (a.z() < 1)) << "a triangle of the upper lid looks down";
+  }
+  EXPECT_NEAR(lid, star, 1e-3);
+}
+
+TEST(Mesh, AnSTLMayBeInCapitals) {
+  std::string text = "SOLID TUBE\n";
+  const Mesh sphere = test::sphere(0.01, 6);
+  for (const auto& t : sphere.triangles) {
+    text += "FACET NORMAL 0 0 1\nOUTER LOOP\n";
+    for (const int v : t)
+      text += "VERTEX " + std::to_string(sphere.vertices[v].x()) + " " + std::to_string(sphere.vertices[v].y()) + " " +
+              std::to_string(sphere.vertices[v].z()) + "E0\n";
+    text += "ENDLOOP\nENDFACET\n";
+  }
+  EXPECT_EQ(read_mesh(written("capitals.stl", text + "ENDSOLID TUBE\n"), LengthUnit::metre).mesh.triangles.size(),
+            sphere.triangles.size());
+  EXPECT_NE(refusal(written("capitals.stl", text)).find("is cut short"), std::string::npos);
 }
 
 TEST(Mesh, ARefusalIsShortWhateverTheFileHolds) {

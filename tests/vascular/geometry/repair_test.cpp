@@ -37,6 +37,22 @@ TEST(Repair, ATubeKeepsItsCalibre) {
   }
 }
 
+/// Also where the first corner of one lies within the other.
+TEST(Repair, TubesThatTouchOrCrossAreJoinedAndItIsSaid) {
+  for (const double apart : {3.9 * mm, 4 * mm, 4.1 * mm}) {
+    const Mesh one = test::tube(2 * mm, 30 * mm, 32, 20);
+    Mesh both = one;
+    const auto count = static_cast<int>(one.vertices.size());
+    for (const Eigen::Vector3d& p : one.vertices) both.vertices.push_back(p + Eigen::Vector3d(apart, 0, -1 * mm));
+    for (const auto& [a, b, c] : one.triangles) both.triangles.push_back({a + count, b + count, c + count});
+    const RepairedMesh repaired = repair_mesh(both);
+    EXPECT_EQ(repaired.lumens, 1);
+    EXPECT_TRUE(std::any_of(repaired.notes.begin(), repaired.notes.end(), [](const RepairNote& n) {
+      return n.what.starts_with("piece joined to another");
+    })) << apart / mm;
+  }
+}
+
 /// The first 80 mm of the left coronary tree: left main and LAD, circumflex, a diagonal, from an aorta 30 mm long.
 class OwnAnatomy : public testing::Test {
  protected:

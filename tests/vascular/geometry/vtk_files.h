@@ -207,8 +207,11 @@ class VtkLegacyWriter {
     const std::size_t a = new_ ? offsets.size() : last - first, b = new_ ? connectivity.size() : counted.size();
     text_ += name + ' ' + std::to_string(a) + ' ' + std::to_string(b) + '\n';
     if (!new_) return integers(counted, 4);
-    text_ += "OFFSETS vtktypeint64\n", integers(offsets, 8);
-    text_ += "CONNECTIVITY vtktypeint64\n", integers(connectivity, 8);
+    // As VTK writes them on this machine, and with ids of 32 bits.
+    const int size = name == "LINES" ? 4 : 8;
+    const std::string type = " vtktypeint" + std::to_string(8 * size) + "\n";
+    text_ += "OFFSETS" + type, integers(offsets, size);
+    text_ += "CONNECTIVITY" + type, integers(connectivity, size);
   }
 
   bool binary_, new_;

@@ -12,7 +12,6 @@
 #include "vascular/geometry/mesh/mesh.h"
 #include "vascular/geometry/mesh_files/formats.h"
 #include "vascular/geometry/mesh_files/raw_surface.h"
-#include "vascular/geometry/mesh_files/whole_off.h"
 #include "vascular/geometry/mesh_files/whole_ply.h"
 #include "vascular/geometry/mesh_files/whole_stl.h"
 
@@ -67,18 +66,11 @@ void check_indices(const std::string& path, const aiScene& scene) {
   }
 }
 
-std::size_t faces_of(const aiScene& scene) {
-  std::size_t faces = 0;
-  for (unsigned m = 0; m < scene.mNumMeshes; ++m) faces += scene.mMeshes[m]->mNumFaces;
-  return faces;
-}
-
 /// What assimp would take as a smaller mesh, or as a reason to ask for more memory than there is.
 void check_whole(const std::string& path) {
   const std::string ending = ending_of(path);
   if (ending == ".ply") check_ply_whole(path);
   if (ending == ".stl") check_stl_whole(path);
-  if (ending == ".off") check_off_whole(path);
 }
 
 /// Assimp's words, which may hold all that is left of the file.
@@ -134,7 +126,9 @@ RawSurface read_assimp(const std::string& path) {
   check_whole(path);
   auto* files = new FilesBeside(path);
   importer.SetIOHandler(files);  // which owns it from now on
-  const aiScene* scene = importer.ReadFile(fs::path(path).lexically_normal().string(), 0);
+  const std::string capitals = ending_of(path) == ".stl" ? stl_in_capitals(path) : "";
+  const aiScene* scene = capitals.empty() ? importer.ReadFile(fs::path(path).lexically_normal().string(), 0)
+                                          : importer.ReadFileFromMemory(capitals.data(), capitals.size(), 0, "stl");
   if (!files->outside().empty())
     throw MeshError(
         fmt::format("{}: names the file \"{}\", which does not lie in its folder; expected all of a mesh in "
@@ -142,7 +136,6 @@ RawSurface read_assimp(const std::string& path) {
                     path, files->outside()));
   if (!scene) refuse(path, importer.GetErrorString());
   check_indices(path, *scene);
-  if (ending_of(path) == ".off") check_off_faces(path, faces_of(*scene));
   scene = importer.ApplyPostProcessing(aiProcess_Triangulate);
   if (!scene || !scene->mRootNode) refuse(path, importer.GetErrorString());
   RawSurface surface;

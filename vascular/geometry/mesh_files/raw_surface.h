@@ -25,6 +25,8 @@ void read_meshes_with(RawSurface (*reader)(const std::string& path));
 
 /// What assimp makes of it. Files that it names are opened only beside it. Throws MeshError.
 RawSurface read_assimp(const std::string& path);
+/// OFF as a text, with faces of any number of corners; assimp leaves out those of more than nine. Throws MeshError.
+RawSurface read_off(const std::string& path);
 /// VTK's files, XML or legacy: their first bytes decide, not their ending. Throws MeshError.
 RawSurface read_vtk(const std::string& path);
 

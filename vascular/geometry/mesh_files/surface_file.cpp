@@ -22,6 +22,7 @@ RawSurface read_surface(const std::string& path) {
     throw MeshError(fmt::format("{}: has {} MB; expected at most {}: simplify the mesh", path, bytes / 1'000'000,
                                 longest_mesh_file / 1'000'000));
   try {
+    if (ending == ".off") return read_off(path);
     return ending == ".vtp" || ending == ".vtu" || ending == ".vtk" ? read_vtk(path) : read_assimp(path);
   } catch (const MeshError&) {
     throw;

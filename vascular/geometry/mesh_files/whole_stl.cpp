@@ -5,6 +5,7 @@
 #include <array>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 
 #include "vascular/geometry/mesh/mesh.h"
 #include "vascular/geometry/mesh_files/formats.h"
@@ -80,6 +81,13 @@ void check_stl_whole(const std::string& path) {
     check_text(path, file);
   else
     check_binary(path, file);
+}
+
+std::string stl_in_capitals(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  if (!is_text(file)) return "";
+  std::string text(std::istreambuf_iterator<char>(file), {});
+  return text.find("facet") == std::string::npos ? in_lower_case(std::move(text)) : "";
 }
 
 }  // namespace ostium::vascular

@@ -255,9 +255,15 @@ class Mender {
     constexpr int most_pieces = 50;  // beyond, it is a soup of triangles
     if (sheets_.pieces < 2 || sheets_.pieces > most_pieces) return;
     const std::vector<Mesh> pieces = components_of(mesh_);
-    const auto on_its_own = [&](const Mesh& piece) {  // and not within another
+    const auto is_within = [](const Mesh& piece, const Mesh& other) {  // not with a part of it alone
+      constexpr std::size_t looked_at = 16;
+      for (std::size_t k = 0; k < looked_at; ++k)
+        if (winding_number(other, piece.vertices[k * piece.vertices.size() / looked_at]) < 0.5) return false;
+      return true;
+    };
+    const auto on_its_own = [&](const Mesh& piece) {
       return volume_m3(piece) > crumb_m3 && std::none_of(pieces.begin(), pieces.end(), [&](const Mesh& other) {
-               return &other != &piece && winding_number(other, piece.vertices.front()) > 0.5;
+               return &other != &piece && is_within(piece, other);
              });
     };
     const auto count = static_cast<int>(std::count_if(pieces.begin(), pieces.end(), on_its_own));

@@ -128,6 +128,21 @@ void read_fitted(const JsonValue& fitted, std::vector<EffectParameter>& free) {
   }
 }
 
+void require_noise_above_rounding(const JsonValue& root, const std::vector<Run>& runs) {
+  for (std::size_t c = 0; c < runs[0].channels.size(); ++c) {
+    std::vector<MeasuredNumbers> list;
+    double sigma = 0;
+    for (const Run& run : runs) {
+      const Channel& channel = run.channels[c];
+      list.push_back({run.id, {channel.measured.begin(), channel.measured.end()}});
+      sigma = std::max(sigma, channel.sigma.maxCoeff());
+    }
+    const Channel& first = runs[0].channels[c];
+    if (const std::string doubt = doubt_of_noise_below_rounding(list, sigma, first.unit); !doubt.empty())
+      root.fail(fmt::format("the noise of the {} {}; expected the scatter of repeats, or null", first.label, doubt));
+  }
+}
+
 }  // namespace
 
 void declare(const JsonObject& root, Set& set) {
@@ -136,6 +151,17 @@ void declare(const JsonObject& root, Set& set) {
   if (root.has("source")) set.source = root.text("source");
   if (root.has("fitted")) read_fitted(root["fitted"], set.free_);
   set.declared_ = read_effects(root, set);
+  if (set.noise_.declared) require_noise_above_rounding(root.value(), set.runs());
+}
+
+std::vector<MeasuredNumbers> measured_numbers(const std::vector<Run>& runs) {
+  std::vector<MeasuredNumbers> out;
+  for (const Run& run : runs) {
+    out.push_back({run.id, {run.along.begin(), run.along.end()}});
+    for (const Channel& channel : run.channels)
+      out.back().numbers.insert(out.back().numbers.end(), channel.measured.begin(), channel.measured.end());
+  }
+  return out;
 }
 
 }  // namespace ostium::data::curves

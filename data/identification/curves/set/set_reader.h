@@ -4,6 +4,7 @@
 
 #include "data/formats/json/json_object.h"
 #include "data/identification/curves/set/curve_kind.h"
+#include "data/identification/measurement/measured_numbers.h"
 
 namespace ostium::data::curves {
 
@@ -23,6 +24,8 @@ inline constexpr const char* one_or_more = "runs in the order in which they were
 
 /// What every kind has: title, source, what a fit found before, and the effects that the file declares.
 void declare(const JsonObject& root, Set& set);
+
+std::vector<MeasuredNumbers> measured_numbers(const std::vector<Run>& runs);
 
 /// A run's list, or LoadError if it has none.
 const JsonValue& samples(const JsonObject& run, const std::string& key);

@@ -6,6 +6,7 @@
 #include <span>
 
 #include "vascular/geometry/mesh/mesh.h"
+#include "vascular/geometry/mesh/polygon.h"
 
 namespace ostium::vascular {
 
@@ -13,7 +14,7 @@ namespace {
 
 using Points = std::span<const std::int64_t>;
 
-enum class Kind { nothing, skipped, fan, pixel, strip, volume, curved };
+enum class Kind { nothing, skipped, polygon, pixel, strip, volume, curved };
 
 Kind kind_of(std::int64_t type) {
   switch (type) {
@@ -27,7 +28,7 @@ Kind kind_of(std::int64_t type) {
     case 5:  // a triangle
     case vtk_cell::polygon:
     case 9:  // a quad
-      return Kind::fan;
+      return Kind::polygon;
     case vtk_cell::strip:
       return Kind::strip;
     case 8:  // a rectangle whose last two points are exchanged
@@ -102,12 +103,13 @@ void add_cells(const std::string& path, const std::vector<Eigen::Vector3d>& poin
     } else if (kind == Kind::pixel && p.size() == 4) {
       add_triangle(points, p[0], p[1], p[3], surface);
       add_triangle(points, p[0], p[3], p[2], surface);
+    } else if (kind == Kind::strip) {
+      for (std::size_t k = 2; k < p.size(); ++k)  // every second one runs the other way round
+        add_triangle(points, p[k - 2 + k % 2], p[k - 1 - k % 2], p[k], surface);
     } else {
-      for (std::size_t k = 2; k < p.size(); ++k)
-        if (kind != Kind::strip)
-          add_triangle(points, p[0], p[k - 1], p[k], surface);
-        else  // every second one runs the other way round
-          add_triangle(points, p[k - 2 + k % 2], p[k - 1 - k % 2], p[k], surface);
+      std::vector<Eigen::Vector3d> corners;
+      for (const std::int64_t i : p) corners.push_back(points[static_cast<std::size_t>(i)]);
+      for (const auto& [a, b, c] : triangulated(corners)) add_triangle(points, p[a], p[b], p[c], surface);
     }
   }
 }
