@@ -36,6 +36,7 @@ struct DeliveryInputs {
   double shock_J = 0;             ///< of a defibrillator, in this step
   double compressions_1_min = 0;  ///< of the chest
   double pacing_1_min = 0, pacing_mA = 0;  ///< of a temporary pacemaker, by a wire in the right ventricle
+  int breath_asked = 0;                    ///< vascular::BreathAsked: 0 breathe, 1 in and hold, 2 out and hold
   // What a trainer provokes, in this step (vascular::Provocation):
   int provoked = 0, provoked_cell = -1;
   double provoked_size = 0;
@@ -57,6 +58,7 @@ constexpr auto fields(const DeliveryInputs*) {
                     core::field("compressions_1_min", &S::compressions_1_min),
                     core::field("pacing_1_min", &S::pacing_1_min),
                     core::field("pacing_mA", &S::pacing_mA),
+                    core::field("breath_asked", &S::breath_asked),
                     core::field("provoked", &S::provoked),
                     core::field("provoked_cell", &S::provoked_cell),
                     core::field("provoked_size", &S::provoked_size)};

@@ -39,6 +39,8 @@ std::string why_no_provocation(const vascular::FlowTree& tree, const ConsoleOrde
 std::string why_not(const SessionModel& model, const ConsoleOrder& order) {
   if (data::row_of(order.command).patient && !model.has_patient()) return "a mesh has no circulation";
   if (order.command == ConsoleCommand::provoke) return why_no_provocation(model.vessel->coronaries->tree(), order);
+  if (order.command == ConsoleCommand::breath && !(model.breaths_1_min > 0))
+    return "this patient does not breathe; expected --set breathing=12 or so";
   if (order.command != ConsoleCommand::give) return "";
   const auto& drugs = model.treatment.drugs.others;
   if (order.values[0] >= static_cast<double>(drugs.size())) {
@@ -71,6 +73,9 @@ bool Emergency::take(const SessionModel& model, const ConsoleOrder& order) {
     case ConsoleCommand::pace:
       pacing_ = {order.values[0], order.values[1]};
       return true;
+    case ConsoleCommand::breath:
+      if (why_not(model, order).empty()) breath_asked_ = static_cast<int>(order.values[0]);
+      return true;
     case ConsoleCommand::give:
     case ConsoleCommand::shock:
     case ConsoleCommand::provoke:
@@ -91,12 +96,14 @@ void Emergency::fill(const SessionModel& model, DeliveryInputs& to) {
     take(compressions_1_min_, was.compressions_1_min, to.compressions_1_min);
     if (!pacing_ && (was.pacing_mA != to.pacing_mA || was.pacing_1_min != to.pacing_1_min))
       pacing_ = {was.pacing_1_min, was.pacing_mA};
+    if (!breath_asked_ && was.breath_asked != to.breath_asked) breath_asked_ = was.breath_asked;
     gone_back_to_.reset();
   }
   to.infusion_m3_s = std::max(to.infusion_m3_s, infusion_m3_s_);
   to.drain_m3_s = std::max(to.drain_m3_s, drain_m3_s_);
   to.compressions_1_min = std::max(to.compressions_1_min, compressions_1_min_);
   if (pacing_) to.pacing_1_min = (*pacing_)[0], to.pacing_mA = (*pacing_)[1];
+  if (breath_asked_) to.breath_asked = *breath_asked_;
   if (once_.empty()) return;
   const auto& [a, b, c, d] = once_.front().values;
   switch (once_.front().command) {
@@ -122,7 +129,7 @@ void Emergency::fill(const SessionModel& model, DeliveryInputs& to) {
 void Emergency::restart(const DeliveryInputs& inputs) {
   once_.clear();
   infusion_m3_s_ = drain_m3_s_ = compressions_1_min_ = 0;
-  pacing_.reset();
+  pacing_.reset(), breath_asked_.reset();
   gone_back_to_ = inputs;
 }
 

@@ -1,6 +1,6 @@
 #pragma once
 /// What a trainer provokes and what answers it, as a console asks for them: give, infuse, drain, shock, compress,
-/// pace, provoke.
+/// pace, breath, provoke.
 #include <array>
 #include <deque>
 #include <iterator>
@@ -48,6 +48,7 @@ class Emergency {
   std::deque<data::ConsoleOrder> once_;
   double infusion_m3_s_ = 0, drain_m3_s_ = 0, compressions_1_min_ = 0;
   std::optional<std::array<double, 2>> pacing_;  ///< rate, 1/min, and current, mA, once asked for
+  std::optional<int> breath_asked_;              ///< once it was
   std::optional<DeliveryInputs> gone_back_to_;   ///< until the script has said what of it is its own
 };
 

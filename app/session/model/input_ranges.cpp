@@ -46,6 +46,7 @@ constexpr NamedRange table[] = {
     {"compressions_1_min", {0, 180}},
     {"pacing_1_min", {0, 180}},
     {"pacing_mA", {0, 20}},
+    {"breath_asked", {0, 2, true}},
     {"provoked", {0, vascular::provocations - 1, true}},
     {"provoked_cell", {-1, 1e6, true}},
     {"provoked_size", {0, 10, true}},

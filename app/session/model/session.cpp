@@ -206,11 +206,6 @@ double vessel_frame(const Vessel& vessel, double phase) {
 
 namespace {
 
-double breath_after(const SessionModel& model, std::uint64_t steps) {
-  if (!(model.breaths_1_min > 0)) return 0;
-  return vascular::breath_depth(model.breaths_1_min / 60 * model.step_s() * static_cast<double>(steps));
-}
-
 CouplingModel coupling_of(const SessionModel& model) {
   return {*model.vessel, model.tools, model.rods, model.physiology, model.treatment, model.balloon_of};
 }
@@ -236,8 +231,11 @@ bool beat(const SessionModel& model, const SessionInputs& inputs, SessionState& 
   vascular::HeartState& heart = state.blood.heart;
   const int beats = heart.beats;
   motion.frame_before = vessel_frame(*model.vessel, heart.phase);
-  motion.sway_before = breath_after(model, state.rods.step);
-  motion.sway_after = breath_after(model, state.rods.step + 1);
+  motion.sway_before = breath(model, state);
+  const int asked = std::clamp(inputs.delivery.breath_asked, 0, 2);
+  step(model.breaths_1_min, static_cast<vascular::BreathAsked>(asked), state.blood.awareness.awake, model.step_s(),
+       state.breath);
+  motion.sway_after = breath(model, state);
   step(model.physiology.heart, heart_inputs(model, inputs, state, motion.sway_after), model.step_s(), heart);
   motion.door_open = vascular::valve_is_open(heart.phase) || state.coupling.through_valve;
   motion.frame_after = vessel_frame(*model.vessel, heart.phase + (heart.beats - beats));
@@ -273,13 +271,13 @@ void move_hands(const SessionModel& model, const SessionInputs& inputs, SessionS
 }
 
 /// The phases at the end of the current step.
-Moment moment(const SessionModel& model, const SessionState& state, std::uint64_t steps) {
-  return {state.blood.heart.phase, breath_after(model, steps)};
+Moment moment(const SessionModel& model, const SessionState& state) {
+  return {state.blood.heart.phase, breath(model, state)};
 }
 
 void hold_shafts(const SessionModel& model, const SessionState& state, core::Inputs& core) {
   const CouplingModel coupling = coupling_of(model);
-  const Moment end = moment(model, state, state.rods.step + 1);
+  const Moment end = moment(model, state);
   for (std::size_t t = 0; t < model.tools.size(); ++t) {
     const int tool = static_cast<int>(t);
     core.rods[t].load = load_on_shaft(coupling, state.rods, state.coupling, tool);
@@ -317,7 +315,7 @@ void treat(const SessionModel& model, const SessionInputs& inputs, bool R_wave, 
            state.treatment, {model.physiology.flow, state.blood, x.physiology_inputs.occupied_m}, x.treatment);
   state.coupling.blocked = report.treatment.blocked;
   tie_stents(model, state);
-  hold_balloon(coupling, state.rods, report.treatment.balloon, moment(model, state, state.rods.step), state.coupling);
+  hold_balloon(coupling, state.rods, report.treatment.balloon, moment(model, state), state.coupling);
   set_physiology_inputs(coupling, inputs.delivery, state.coupling, x.physiology_inputs);
   x.physiology_inputs.hyperaemia = state.treatment.drugs.adenosine;
   const core::InPhase blood_phase(x.rods.clock, moving_blood);
@@ -356,7 +354,9 @@ void report_tools(const SessionModel& model, const SessionState& state, SessionR
 
 }  // namespace
 
-double breath(const SessionModel& model, const SessionState& state) { return breath_after(model, state.rods.step); }
+double breath(const SessionModel& model, const SessionState& state) {
+  return model.breaths_1_min > 0 ? vascular::breath_depth(state.breath.phase) : 0;
+}
 
 void step(const SessionModel& model, const SessionInputs& inputs, SessionState& state, SessionScratch& scratch,
           SessionReport& report) {

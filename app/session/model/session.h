@@ -14,6 +14,7 @@
 #include "core/step/phases.h"
 #include "core/step/step.h"
 #include "fluoro/projection/c_arm.h"
+#include "vascular/motion/breathing.h"
 
 namespace ostium::app {
 
@@ -123,13 +124,14 @@ struct SessionState {
   vascular::TreatmentState treatment;
   CouplingState coupling;
   std::vector<double> wall_m;  ///< (#cells) radius of contact's wall (opened_wall.h)
+  vascular::BreathState breath;
 };
 constexpr auto fields(const SessionState*) {
   using S = SessionState;
   return std::tuple{core::field("rods", &S::rods),           core::field("hands", &S::hands),
                     core::field("c_arm", &S::c_arm),         core::field("blood", &S::blood),
                     core::field("treatment", &S::treatment), core::field("bedside", &S::coupling),
-                    core::field("wall_m", &S::wall_m)};
+                    core::field("wall_m", &S::wall_m),       core::field("breath", &S::breath)};
 }
 
 /// The initial state: a circulation in its periodic state. Seed 0: the heart at its R wave, tools as packaged; other
@@ -210,7 +212,7 @@ Eigen::Vector3d tip_direction(const SessionModel& model, const SessionState& sta
 /// Waist of a balloon between its markers: smallest over largest diameter.
 double waist(const vascular::BalloonModel& model, const vascular::BalloonState& state);
 
-/// Depth of the patient's breath at the end of a step (0: expiration, 1: full inspiration): a function of time alone.
+/// Depth of the patient's breath at the end of a step (0: expiration, 1: full inspiration).
 double breath(const SessionModel& model, const SessionState& state);
 
 /// The vessel's frame number at a phase, for SurfaceDescription.

@@ -101,6 +101,8 @@ void require_tool(const data::Script& script, const data::ScriptStep& step, cons
   if ((step.action == Action::inflate || step.action == Action::deflate) &&
       none([](const SessionTool& tool) { return tool.instrument.balloon.has_value(); }))
     refuse_step(script, step, step.words() + ": no tool has a balloon; expected a balloon or a stent among the tools");
+  if (step.action == Action::breathe && !(model.breaths_1_min > 0))
+    refuse_step(script, step, step.words() + ": this patient does not breathe; expected --set breathing=12 or so");
   if ((step.action == Action::inject || step.action == Action::aspirate) &&
       none([](const SessionTool& tool) { return is_catheter(tool.instrument); }))
     refuse_step(script, step, step.words() + ": no tool is a catheter for it; expected one among the tools");

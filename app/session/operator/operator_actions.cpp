@@ -126,6 +126,9 @@ constexpr Handling handlings[] = {
          [](const Step& step, const SessionState&, OperatorState& state) {
            state.given.pacing_1_min = step.rate_1_min, state.given.pacing_mA = step.current_mA;
          }},
+    {.action = data::ScriptAction::breathe,
+     .begin = [](const Step& step, const SessionState&,
+                 OperatorState& state) { state.given.breath_asked = step.breath_asked; }},
     {.action = data::ScriptAction::provoke, .begin = provoke}};
 
 /// Indexed by action. Does not compile if an action has no handling, or two.

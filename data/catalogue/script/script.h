@@ -53,6 +53,7 @@ struct ScriptStep {
   std::string drug, dose_unit;                              ///< give
   double dose = 0;                                          ///< give, in that unit
   double energy_J = 0;                                      ///< shock
+  int breath_asked = 0;                                     ///< breathe: vascular::BreathAsked
   double current_mA = 0;                                    ///< pace
   int complication = 0;                                     ///< provoke: vascular::Provoked
   std::string at;                                           ///< provoke: a place in a coronary artery

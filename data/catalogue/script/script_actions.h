@@ -31,6 +31,7 @@ enum class ScriptAction {
   shock,
   compress,
   pace,
+  breathe,
   provoke
 };
 
@@ -64,6 +65,7 @@ inline constexpr ScriptActionRow script_actions[] = {
     {ScriptAction::shock, "shock", {"energy_J"}, {}, false},
     {ScriptAction::compress, "compress", {"rate_1_min", "until"}, {}, true},
     {ScriptAction::pace, "pace", {"rate_1_min", "current_mA"}, {}, false},
+    {ScriptAction::breathe, "breathe", {}, {"hold"}, false},
     {ScriptAction::provoke,
      "provoke",
      {"complication"},
@@ -90,7 +92,7 @@ static_assert(each_action_has_a_row());
 constexpr bool needs_patient(ScriptAction action) {
   return action == ScriptAction::aspirate || action == ScriptAction::give || action == ScriptAction::infuse ||
          action == ScriptAction::drain || action == ScriptAction::shock || action == ScriptAction::compress ||
-         action == ScriptAction::pace || action == ScriptAction::provoke;
+         action == ScriptAction::pace || action == ScriptAction::breathe || action == ScriptAction::provoke;
 }
 
 /// The value of "do" for a step that stands for the steps of another script.

@@ -137,6 +137,8 @@ inline const JsonObjectKeys step = {
      {"dose_mg", false, "dose, > 0; the drug's file has its limits", json_type::number(above_zero_to(1000))},
      {"current_mA", false, "of a pacemaker, 0 (off) to 20; usually it is followed from 0.3 to 0.7 on",
       json_type::number(from_to(0, 20))},
+     {"hold", false, "a breath, drawn in or out first; without it, breathing goes on",
+      json_type::choice({"in", "out"})},
      {"energy_J", false, "of a defibrillator, 1 to 360", json_type::number(from_to(1, 360))},
      {"complication", false, "what a trainer provokes", json_type::choice(complication_names())},
      {"at", false, "where: millimetres beyond the origin of a coronary branch, as RCA+40", json_type::text()},

@@ -99,6 +99,7 @@ void read_emergency(const JsonObject& object, ScriptStep& step) {
       step.volume_m3 > most_injected_m3)
     object.refuse("volume_mL");
   if (step.action == ScriptAction::provoke) read_complication(object, step);
+  if (object.has("hold")) step.breath_asked = 1 + static_cast<int>(object.choice("hold", {"in", "out"}));
   if (step.action != ScriptAction::give) return;
   step.drug = object.text("drug");
   if (object.has("dose_ug") == object.has("dose_mg"))

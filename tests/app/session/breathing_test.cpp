@@ -13,6 +13,7 @@
 #include "core/base/units.h"
 #include "data/formats/load_error.h"
 #include "tests/app/session/tube_vessel.h"
+#include "vascular/motion/heart_cycle.h"
 
 namespace ostium::app {
 namespace {
@@ -74,6 +75,29 @@ TEST(Breathing, InstrumentsStayInsideAndTheRecordingReplays) {
   fs::remove_all(folder);
 }
 
+TEST(Breathing, AnAwakePatientHoldsItForAWhileWhenAsked) {
+  using vascular::BreathAsked, vascular::BreathState;
+  const auto after = [](BreathAsked asked, double seconds, bool awake = true, double phase = 0.2) {
+    BreathState s{.phase = phase};
+    for (int n = 0; n < 1000 * seconds; ++n) vascular::step(12, asked, awake, 1e-3, s);
+    return s;
+  };
+  EXPECT_NEAR(after(BreathAsked::free, 5).phase, 0.2, 1e-9) << "five seconds a breath";
+  EXPECT_EQ(after(BreathAsked::in, 3).phase, 0.5) << "at the top after 1.5 s";
+  EXPECT_NEAR(after(BreathAsked::in, 1).phase, 0.4, 1e-9);
+  EXPECT_EQ(after(BreathAsked::out, 5).phase, 0);
+  EXPECT_EQ(after(BreathAsked::in, 3, true, 0.5).phase, 0.5) << "it was there";
+  EXPECT_EQ(after(BreathAsked::out, 3, true, 0).phase, 0);
+  EXPECT_NE(after(BreathAsked::in, 3.3, false).phase, 0.5) << "does not hear";
+  const BreathState tired = after(BreathAsked::in, 1.5 + vascular::longest_hold_s + 1);
+  EXPECT_TRUE(tired.tired);
+  EXPECT_NEAR(tired.phase, 0.7, 0.01);
+  BreathState again = tired;
+  vascular::step(12, BreathAsked::free, true, 1e-3, again);
+  EXPECT_FALSE(again.tired);
+  EXPECT_EQ(vascular::breath_depth(after(BreathAsked::in, 3).phase), 1);
+}
+
 TEST(Breathing, HeldItIsTheRunThatItWas) {
   const auto hash_of = [](const char* breathing) {
     ScriptedRun run(breathing_setup(breathing), breathing_vessel());
@@ -90,7 +114,7 @@ TEST(Breathing, WallWayAndPictureMoveAsTheAnatomySays) {
   const RunSetup s = breathing_setup("40");
   const SessionModel model = make_session(s, breathing_vessel());
   SessionState out = make_state(model, 0), in = out;
-  in.rods.step = 750;
+  in.breath.phase = 0.5;
   EXPECT_EQ(breath(model, out), 0);
   EXPECT_EQ(breath(model, in), 1);
 

@@ -257,8 +257,13 @@ void spoil(const std::string& content, Dice& dice, Json& runs, BenchSet& out) {
   if (content == "fault:gram_force") scaled("hand_force_N", 1 / 9.80665e-3);
   if (content == "fault:inserted_cm") scaled("inserted_mm", 0.1);
   if (content == "fault:swapped") {
-    const std::size_t other = (r + 1) % 6;
-    std::swap(runs[r]["hand_force_N"], runs[other]["hand_force_N"]);
+    // What was measured in one tube is filed under another.
+    std::size_t other = (r + 1) % runs.size();
+    while (other != r && (runs[other]["path"] == runs[r]["path"] ||
+                          runs[other].contains("tip_force_N") != runs[r].contains("tip_force_N")))
+      other = (other + 1) % runs.size();
+    for (const char* key : {"time_s", "inserted_mm", "hand_force_N", "tip_force_N"})
+      if (runs[r].contains(key)) std::swap(runs[r][key], runs[other][key]);
     out.effects = {"swapped_experiments"};
   }
   if (content == "fault:outlier") scaled("hand_force_N", dice.uniform(1.2, 1.4)), out.effects = {"outlier_experiment"};
