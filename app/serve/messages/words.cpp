@@ -65,6 +65,7 @@ std::string words_of(const SessionEvent& event, const SessionModel& model, const
       return step_words(plan, event.value);
     case EventCode::script_step_done:
     case EventCode::ffr_changes:
+    case EventCode::instruction_done:  // ticked in the list of instructions
     case EventCode::step_trouble:
       return "";
     case EventCode::script_step_failed:
