@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace ostium::app {
 
@@ -42,7 +43,9 @@ std::string value_words(const data::EventDefinition& definition, double value) {
   const std::string& unit = definition.value;
   const std::string first = unit.substr(0, unit.find_first_of(" ,"));
   for (const char* known : {"N", "mm", "s", "mL/s", "mL", "U", "ug", "atm", "degrees", "J"})
-    if (first == known) return fmt::format(", {:.3g} {}", value, first);
+    if (first == known)
+      return std::fabs(value) < 1000 ? fmt::format(", {:.3g} {}", value, first)
+                                     : fmt::format(", {:.0f} {}", value, first);
   return "";
 }
 
@@ -62,6 +65,7 @@ std::string words_of(const SessionEvent& event, const SessionModel& model, const
   std::string what = name_words(definition->name) + value_words(*definition, event.value);
   switch (definition->code) {
     case EventCode::script_step_begins:
+      if (plan.script.by_hand) return "";
       return step_words(plan, event.value);
     case EventCode::script_step_done:
     case EventCode::ffr_changes:

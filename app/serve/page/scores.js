@@ -60,7 +60,8 @@ export class Scores {
       const sign = open ? '○' : holds ? '✔' : item.kind === 'step' ? '–' : '✖';
       const when = score?.at_s?.length ? score.at_s.slice(0, 3).map(clock).join(' ') + (score.at_s.length > 3 ? ` … ${score.at_s.length} times` : '') : score?.value ?? '';
       const came = open || (item.kind === 'step' && holds) ? '' : item.kind === 'step' ? ': not done' : holds ? ': did not happen' : ': happened';
-      for (const words of [sign, item.what + came, when]) row.append(Object.assign(document.createElement('span'), { textContent: words }));
+      const what = open && item.kind !== 'step' ? `Must not happen: ${item.what}` : item.what;
+      for (const words of [sign, what + came, when]) row.append(Object.assign(document.createElement('span'), { textContent: words }));
       row.title = item.when;
       list.append(row);
     });

@@ -58,6 +58,7 @@ Station::Station(const ScriptedRun& run, LiveDriver& hand, data::ScoreList scori
       viewer_token_(settings.server ? settings.viewer_token : make_token()),
       server_(settings.server) {
   setting_.lesson = settings.lesson;
+  hands_ = static_cast<int>(hand.began_as());  // until a snapshot says more: keys may come before
   hand_.show_to(Seat::browser);
   if (!server_) {
     ServerSettings server;

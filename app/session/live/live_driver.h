@@ -62,6 +62,8 @@ class LiveDriver : public Driver {
   void follow(Checklist* checklist) { checklist_ = checklist; }
   /// From any thread: a hint on that instruction is recorded with the next step.
   void hinted(int instruction) { hinted_ = instruction; }
+  /// Who moved the instruments at first.
+  Hands began_as() const { return began_as_; }
   /// The guide, or the first tool.
   int left_hand() const { return console_.left_hand(); }
 

@@ -201,6 +201,11 @@ TEST(Station, HintsAreOnWhatIsNotDoneAndAreRecorded) {
   Client learner(s.station.port());
   ASSERT_TRUE(learner.come_in(Sitting::token(s.station.trainer_link())));
   EXPECT_TRUE(learner.message_with(R"("type":"ticks","at":[null,null])"));
+  learner.say(R"({"do":"guide_feed","values":[1]})");
+  learner.say(R"({"do":"jump"})");
+  const auto refused = learner.message_with("\"refused\"");
+  ASSERT_TRUE(refused);
+  EXPECT_EQ(refused->find("take over"), std::string::npos) << "keys are taken before the first snapshot, too";
   for (const char* words :
        {R"("instruction":0,"words":"first","more":true)", R"("words":"second","more":false)", R"("words":"second")"}) {
     learner.say(R"({"do":"hint"})");
