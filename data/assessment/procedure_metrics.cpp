@@ -170,6 +170,11 @@ double idle_beam_s(const RunRecord& r) {
   return sum;
 }
 
+double hints_asked(const RunRecord& r) {
+  const auto asked = events_of(r, EventCode::hint_asked).size();
+  return asked == 0 && events_of(r, EventCode::instruction_done).empty() ? does_not_apply : static_cast<double>(asked);
+}
+
 double tip_reached_mm(const RunRecord& r) {
   double most = 0;
   for (const SignalColumn& along : tool_columns(r, "tip_along_mm"))
@@ -233,6 +238,7 @@ std::vector<MetricDefinition> procedure_metrics() {
        errors_of(Severity::error)},
       {"handling_errors_critical", "1", lower, "those that are critical", errors_of(Severity::critical)},
       {"wall_force_high_count", "1", lower, "events wall_force_high", count_of(wall_force_high)},
+      {"hints_asked", "1", lower, "how often a learner asked how the expert does it; in lessons", hints_asked},
       {"step_trouble_count", "1", lower, "events step_trouble", count_of(step_trouble)},
   };
 }

@@ -2,27 +2,21 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <nlohmann/json.hpp>
 
 #include "app/command_line/arguments.h"
 #include "app/command_line/command.h"
 #include "app/command_line/filled_folder.h"
-#include "app/commands/serve/serve.h"
-#include "data/catalogue/course/course.h"
+#include "app/commands/learn/schooling.h"
 #include "data/formats/load_error.h"
-#include "data/formats/paths.h"
-#include "data/formats/read_file.h"
-#include "data/formats/write_file.h"
 
 namespace ostium::app {
 
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::ordered_json;
 
 struct Arguments {
-  std::string course = "first-steps", lesson;  ///< lesson empty: the first that has not been done
+  std::string course = "first-steps", lesson;  ///< lesson empty: the page lists them
   std::string folder = "ostium-learn";
   int port = 0;
   bool list = false, show = false;
@@ -30,58 +24,14 @@ struct Arguments {
 
 void declare(Options& options, Arguments& a) {
   options.add("course", a.course, "One of data/courses, or a file").type("NAME|FILE.json").show_default();
-  options.add("--lesson", a.lesson, "By name; without it the first that has not been done").type("NAME");
+  options.add("--lesson", a.lesson, "Opens at once, locked or not; by name").type("NAME");
   options.add("--out", a.folder, "Where attempts and progress.json stay").type("DIR").show_default();
   options.add("--port", a.port, "Of the page; 0: any that is free").range(0, 65535).show_default();
-  options.flag("--show", a.show, "The expert does the lesson, and you watch: no attempt, and nothing is kept");
+  options.flag("--show", a.show,
+               "The expert does the lesson (the next one), and you watch: no attempt, and nothing is kept");
   options.flag("--list", a.list, "What lessons there are, and what has been done");
   options.exclude("--list", {"--lesson", "--show", "--port"});
 }
-
-/// Attempts, by lesson: {"feed-and-turn": [{"attempt": 1, "done": false}, ...]}.
-class Progress {
- public:
-  explicit Progress(const std::string& folder) : file_((fs::path(folder) / "progress.json").string()) {
-    if (!data::is_there(file_)) return;
-    all_ = Json::parse(data::read_file(file_, "what `ostium learn` wrote, or no file"), nullptr, false);
-    const bool right =
-        all_.is_object() && std::all_of(all_.begin(), all_.end(), [](const Json& attempts) {
-          return attempts.is_array() && std::all_of(attempts.begin(), attempts.end(), [](const Json& one) {
-                   return one.is_object() && one.contains("done") && one["done"].is_boolean();
-                 });
-        });
-    if (!right)
-      throw data::LoadError(file_ + ": is no list of attempts; expected what `ostium learn` wrote, or no file");
-  }
-  /// Number of the next attempt, from 1: also after one that was cut off before it could be noted.
-  std::size_t next(const std::string& lesson) const {
-    std::size_t number = attempts(lesson) + 1;
-    while (data::is_there(folder_of(lesson, number))) ++number;
-    return number;
-  }
-  fs::path folder_of(const std::string& lesson, std::size_t number) const {
-    return fs::path(file_).parent_path() / fmt::format("{}-{}", lesson, number);
-  }
-  std::size_t attempts(const std::string& lesson) const { return all_.contains(lesson) ? all_[lesson].size() : 0; }
-  bool done(const std::string& lesson) const {
-    return all_.contains(lesson) && std::any_of(all_[lesson].begin(), all_[lesson].end(),
-                                                [](const Json& one) { return one["done"].get<bool>(); });
-  }
-  /// What an attempt has come to so far; one that has been done stays so, whatever a later branch of it does.
-  void note(const std::string& lesson, std::size_t number, bool done, const Served& served) {
-    Json& all = all_[lesson];
-    if (all.empty() || all.back().value("attempt", Json()) != Json(number))
-      all.push_back({{"attempt", number}, {"done", false}});
-    Json& attempt = all.back();
-    attempt["done"] = attempt["done"].get<bool>() || done;
-    attempt["seconds"] = served.report.simulated_s;
-    data::write_file(file_, all_.dump(2) + "\n");
-  }
-
- private:
-  std::string file_;
-  Json all_ = Json::object();
-};
 
 data::ScoreList list_of(const data::Course& course, const data::Lesson& lesson) {
   try {
@@ -114,108 +64,66 @@ std::vector<std::size_t> must_hold(const data::Course& course, const data::Lesso
   return out;
 }
 
-const data::Lesson& chosen(const data::Course& course, const Progress& progress, const std::string& name) {
-  std::string known;
-  for (const data::Lesson& lesson : course.lessons) {
-    if (name.empty() ? !progress.done(lesson.name) : lesson.name == name) return lesson;
-    known += "\n  " + lesson.name;
-  }
-  if (name.empty()) return course.lessons.back();
-  throw data::LoadError(fmt::format("{} has no lesson \"{}\"; expected one of:{}", course.name, name, known));
+void require_events(const data::Course& course, const data::Lesson& lesson) {
+  for (const data::Instruction& one : lesson.instructions)
+    if (!one.event.empty() && !event_called(one.event))
+      throw data::LoadError(
+          fmt::format("{}:{}: an instruction of lesson {} waits for the event \"{}\"; expected a name "
+                      "of data/assessment/events.def, as tool_in, nitrate, cine_on, stent_deployed",
+                      course.file, one.line, lesson.name, one.event));
 }
 
 void list_lessons(const data::Course& course, const Progress& progress) {
   fmt::print("{}: {}\n{}\n", course.name, course.title, course.note);
-  for (const data::Lesson& lesson : course.lessons)
+  for (const data::Lesson& lesson : course.lessons) {
+    const std::size_t attempts = progress.attempts(lesson.name).size();
     fmt::print("  {} {:<22} {}, {} attempt{}\n", progress.done(lesson.name) ? "x" : " ", lesson.name, lesson.title,
-               progress.attempts(lesson.name), progress.attempts(lesson.name) == 1 ? "" : "s");
-}
-
-/// Whether everything that must hold did.
-bool is_done(const std::vector<std::size_t>& needed, const Served& served) {
-  return !served.scores.empty() &&
-         std::ranges::all_of(needed, [&](std::size_t item) { return served.scores[item].holds == data::Ticked::yes; });
-}
-
-/// What was expected and what happened.
-void tell(const data::ScoreList& list, const std::vector<std::size_t>& needed, const Served& served) {
-  if (served.scores.empty()) {
-    fmt::print("The lesson was left before its end.\n");
-    return;
-  }
-  for (std::size_t i = 0; i < list.items.size(); ++i) {
-    const data::Score& score = served.scores[i];
-    const bool holds = score.holds == data::Ticked::yes;
-    const bool must = std::find(needed.begin(), needed.end(), i) != needed.end();
-    const bool step = list.items[i].kind == data::ScoreKind::step;
-    fmt::print("  {:<14} {}{}{}\n",
-               score.holds == data::Ticked::not_seen ? "cannot tell"
-               : step                                ? holds ? "done" : "not done"
-               : holds                               ? "did not happen"
-                                                     : "happened",
-               list.items[i].what, score.value.empty() ? "" : ": " + score.value, must ? " (needed to go on)" : "");
+               attempts, attempts == 1 ? "" : "s");
   }
 }
 
-ServeArguments serving_of(const data::Lesson& lesson, int port) {
-  ServeArguments serving;
-  serving.session.vessel = lesson.case_name, serving.session.script = lesson.script;
-  if (lesson.person) serving.session.set.push_back(fmt::format("person={}", *lesson.person));
-  if (!lesson.begin.empty()) serving.session.set.push_back("begin=" + lesson.begin);
-  serving.port = port, serving.hands = "browser", serving.scoring = lesson.scoring, serving.report = false;
-  serving.lesson = {lesson.title, lesson.goal, lesson.instructions, {}, ""};
-  return serving;
+/// Place of a lesson in the course; of the first that has not been done, or the last.
+std::size_t place_of(const data::Course& course, const Progress& progress, const std::string& name) {
+  std::string known;
+  for (std::size_t i = 0; i < course.lessons.size(); ++i) {
+    const data::Lesson& lesson = course.lessons[i];
+    if (name.empty() ? !progress.done(lesson.name) : lesson.name == name) return i;
+    known += "\n  " + lesson.name;
+  }
+  if (name.empty()) return course.lessons.size() - 1;
+  throw data::LoadError(fmt::format("{} has no lesson \"{}\"; expected one of:{}", course.name, name, known));
 }
 
 int run(const Arguments& a) {
   const data::Course course = data::find_course(a.course);
-  std::vector<std::vector<std::size_t>> needed;
-  for (const data::Lesson& lesson : course.lessons)
-    needed.push_back(must_hold(course, lesson, list_of(course, lesson)));
+  std::vector<CheckedLesson> lessons;
+  for (const data::Lesson& lesson : course.lessons) {
+    data::ScoreList list = list_of(course, lesson);
+    std::vector<std::size_t> needed = must_hold(course, lesson, list);
+    require_events(course, lesson);
+    lessons.push_back({std::move(list), std::move(needed)});
+  }
   const std::string folder = (fs::path(a.folder) / course.name).string();
-  Progress progress(folder);
   if (a.list) {
-    list_lessons(course, progress);
+    list_lessons(course, Progress(folder));
     return 0;
   }
-  const data::Lesson& lesson = chosen(course, progress, a.lesson);
-  const auto place = static_cast<std::size_t>(&lesson - course.lessons.data());
-  ServeArguments serving = serving_of(lesson, a.port);
-  serving.lesson.title = fmt::format("{} of {}: {}", place + 1, course.lessons.size(), lesson.title);
-  if (a.show) {
-    serving.hands = "script";
-    serving.lesson.title += " (shown by the expert)";
-    fmt::print("{}\nOpen the first of these links in a browser, and press Go on.\n", serving.lesson.title);
-    tell(data::find_score_list(lesson.scoring), needed[place], serve(serving));
-    return 0;
-  }
+  place_of(course, Progress(folder), a.lesson);  // what is refused leaves no folder
   const FilledFolder filled(folder);
-  progress = Progress(folder);  // as another left it before it was ours
-  const std::size_t attempt = progress.next(lesson.name);
-  serving.folder = progress.folder_of(lesson.name, attempt).string();
-  serving.lesson.needed = needed[place];
-  const bool last = place + 1 == course.lessons.size();
-  if (!last) serving.lesson.next = course.lessons[place + 1].title;
-  bool done = false;
-  serving.ended = [&](const Served& served) {
-    done |= is_done(needed[place], served);
-    progress.note(lesson.name, attempt, done, served);
-  };
-  fmt::print("{}\nGoal: {}\nOpen the first of these links in a browser.\n", serving.lesson.title, lesson.goal);
-  const Served served = serve(serving);
-  tell(data::find_score_list(lesson.scoring), needed[place], served);
-  progress.note(lesson.name, attempt, done, served);
-  if (done)
-    fmt::print("Done.{}\n", last ? "" : " Next: " + serving.lesson.next + " (the same command)");
-  else
-    fmt::print("Not yet: once more, with the same command.\n");
-  return done ? 0 : 1;
+  Progress progress(folder);
+  const bool opens = a.show || !a.lesson.empty();
+  Ask first;
+  if (opens)
+    first = {Ask::Kind::lesson, place_of(course, progress, a.lesson), a.show ? Ask::How::shown : Ask::How::go_on};
+  else if (const std::string open = progress.open_lesson(); !open.empty())
+    first = {Ask::Kind::lesson, place_of(course, progress, open), Ask::How::go_on};
+  return Schooling(course, lessons, progress).attend(static_cast<std::uint16_t>(a.port), first);
 }
 
 }  // namespace
 
 Command learn_command() {
-  return make_command("learn", "Lessons in the browser, one after another",
+  return make_command("learn", "A course of lessons in the browser",
                       {"ostium learn", "ostium learn --show", "ostium learn --list",
                        "ostium learn my-course.json --lesson over-the-arch"},
                       declare, run);

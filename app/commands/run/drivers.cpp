@@ -52,8 +52,8 @@ bool has_pedals(const RunArguments& a, const BoxRun* device, const data::Script&
 
 }  // namespace
 
-void tell_links(const Station& station, bool open) {
-  fmt::print("trainer: {}\nviewers: {}\n", station.trainer_link(), station.viewer_link());
+void tell_links(const std::string& trainer, const std::string& viewers, bool open) {
+  fmt::print("trainer: {}\nviewers: {}\n", trainer, viewers);
   std::fflush(stdout);
   if (open)
     fmt::print(stderr,
@@ -72,7 +72,7 @@ Drivers::Drivers(const RunArguments& a, BoxRun* device, ScriptedRun& run) {
     settings.has_pedals = has_pedals(a, device, run.plan.script);
     settings.renderer = renderer_named(a.renderer);
     station.emplace(run, *hand, data::find_score_list("pci-elective"), settings);
-    tell_links(*station, false);
+    tell_links(station->trainer_link(), station->viewer_link(), false);
   }
   if (a.film && !a.folder.empty()) {
     FilmOptions look;

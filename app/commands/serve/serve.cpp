@@ -2,10 +2,8 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
 #include <cstdlib>
 #include <filesystem>
-#include <iterator>
 
 #include "app/command_line/arguments.h"
 #include "app/command_line/command.h"
@@ -13,15 +11,11 @@
 #include "app/command_line/filled_folder.h"
 #include "app/command_line/interrupt.h"
 #include "app/command_line/progress.h"
-#include "app/commands/report.h"
 #include "app/commands/run/drivers.h"
-#include "app/session/run/branch.h"
-#include "app/session/run/replay.h"
+#include "app/commands/serve/sitting.h"
 #include "data/catalogue/catalogue.h"
 #include "data/formats/load_error.h"
 #include "data/formats/paths.h"
-#include "data/formats/read_file.h"
-#include "data/formats/write_file.h"
 
 namespace ostium::app {
 
@@ -80,15 +74,18 @@ std::string script_for(const std::string& vessel) {
   return data::is_file(fs::path(data::data_folder()) / "scripts" / (own + ".json")) ? own : "aorta-arch-wire";
 }
 
-std::vector<data::Score> scores_of(const std::string& file, const SessionModel& model, const data::ScoreList& list,
-                                   const std::vector<data::Metric>& metrics) {
-  const data::RecordingReader recording(file);
-  return score(list, record_of(recording, model), metrics);
+StationSettings settings_of(const ServeArguments& a) {
+  StationSettings settings;
+  settings.address = a.address, settings.port = static_cast<std::uint16_t>(a.port), settings.goes_back = true;
+  settings.lesson = a.lesson;
+  if (a.classroom) settings.server = &a.classroom->server(), settings.viewer_token = a.classroom->viewer_token();
+  return settings;
 }
 
-/// A run and its branches, one after another, in a folder.
-class Sitting {
+/// The station is in its classroom, if it has one.
+class Seated {
  public:
+<<<<<<< HEAD
   Sitting(const ServeArguments& a, const std::string& folder, const RunSetup& setup, ScriptedRun& run, LiveDriver& hand,
           Station& station, const data::ScoreList& list)
       : a_(a),
@@ -122,56 +119,18 @@ class Sitting {
       wish = play_once();
     }
     return {last_, scores_};
+=======
+  Seated(Classroom* classroom, Station& station) : classroom_(classroom) {
+    if (classroom_) classroom_->enter(station);
+>>>>>>> 4fa83d60f397f617924a9f3ee70c1094ecaf098c
   }
+  ~Seated() {
+    if (classroom_) classroom_->leave();
+  }
+  Seated(const Seated&) = delete;
 
  private:
-  Wish play_once() {
-    PlayOptions options;
-    options.recorder.file = (fs::path(folder_) / recording_).string();
-    options.recorder.continues = continues_, options.recorder.watch = watch_;
-    options.recorder.heard = station_.ear();
-    options.real = true;
-    options.seconds = a_.session.seconds;
-    options.dosimeter = dosimeter_;
-    options.stop = &interrupted;
-    last_ = play(run_, setup_, options);
-    station_.write_notes(folder_);  // however it ended
-    if (!last_.problem.empty()) station_.tell_problem("the recording ends early: " + last_.problem);
-    const Wish wish = station_.wish();
-    if (wish.kind != Wish::Kind::none || interrupted) return wish;
-    finish(options.recorder.file);
-    return station_.wait(interrupted);
-  }
-
-  void finish(const std::string& file) {
-    scores_ = scores_of(file, run_.model, list_, last_.metrics);
-    station_.ended(last_, scores_);
-    if (a_.ended) a_.ended({last_, scores_});
-    data::write_file((fs::path(folder_) / "metrics.json").string(),
-                     metrics_json(setup_.vessel, setup_.seed, last_.outcome, last_.reason, last_.metrics));
-    if (!a_.report) return;
-    try {
-      report_folder(folder_, run_.model.vessel, recording_, list_);
-      station_.reported(data::read_file((fs::path(folder_) / "report.html").string()));
-    } catch (const data::LoadError& error) {
-      station_.tell_problem(error.what());
-    }
-  }
-
-  const ServeArguments& a_;
-  const std::string& folder_;
-  const RunSetup& setup_;
-  ScriptedRun& run_;
-  LiveDriver& hand_;
-  Station& station_;
-  const data::ScoreList& list_;
-  std::shared_ptr<const Dosimeter> dosimeter_;
-  std::string recording_ = "run.h5";
-  int branches_ = 0;
-  std::optional<Continued> continues_;
-  std::shared_ptr<EventWatch> watch_;
-  PlayReport last_;
-  std::vector<data::Score> scores_;
+  Classroom* classroom_;
 };
 
 int run(const ServeArguments& a) {
@@ -187,6 +146,7 @@ Served serve(const ServeArguments& arguments) {
   const data::ScoreList list = data::find_score_list(a.scoring);
   RunSetup setup = setup_of(a.session);
   const bool by_hand = a.hands == "browser";
+  const data::Script script = setup.script;
   if (by_hand) setup.script = free_hands(setup.script);
   std::optional<PassingFolder> passing;
   if (a.folder.empty()) a.folder = passing.emplace().path();
@@ -197,6 +157,7 @@ Served serve(const ServeArguments& arguments) {
   LiveDriver hand(session.model, by_hand ? Hands::seats : Hands::script, 15);
   session.take_over(&hand);
   hand.end_on(interrupted);
+<<<<<<< HEAD
   if (!a.at_once) hand.controls(Seat::window).order(ConsoleCommand::pause);
   StationSettings settings;
   settings.address = a.address, settings.port = static_cast<std::uint16_t>(a.port), settings.goes_back = true;
@@ -208,6 +169,18 @@ Served serve(const ServeArguments& arguments) {
   Sitting sitting(a, a.folder, setup, session, hand, station, list);
   nothing_yet.reset();
   const Served served = sitting.play_all();
+=======
+  Checklist checklist(a.instructions, script, session.model);
+  hand.follow(&checklist);
+  Station station(session, hand, list, settings_of(a));
+  stop_on_signals();
+  show_progress("");
+  Sitting sitting(a, setup, session, hand, station, checklist, list);
+  if (!a.at_once && !a.resumes) hand.controls(Seat::window).order(ConsoleCommand::pause);
+  if (!a.classroom) tell_links(station.trainer_link(), station.viewer_link(), !is_loopback(a.address));
+  const Seated seated(a.classroom, station);
+  Served served = sitting.play_all();
+>>>>>>> 4fa83d60f397f617924a9f3ee70c1094ecaf098c
   if (!passing)
     fmt::print(stderr, "{}: {}\n", a.folder,
                served.scores.empty() ? "what was recorded until it was left"

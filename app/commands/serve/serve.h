@@ -3,7 +3,8 @@
 #include <functional>
 
 #include "app/commands/run/session_arguments.h"
-#include "app/serve/station/station.h"
+#include "app/serve/classroom/classroom.h"
+#include "data/catalogue/course/course.h"
 
 namespace ostium::app {
 
@@ -16,7 +17,10 @@ struct ServeArguments {
   std::string scoring = "pci-elective";
   bool at_once = false;  ///< does not wait for the trainer's "go on"
   bool report = true;
-  LessonWords lesson;  ///< empty: none
+  LessonWords lesson;                                ///< empty: none
+  std::vector<data::Instruction> instructions = {};  ///< the lesson's, which are ticked
+  Classroom* classroom = nullptr;                    ///< it sits in there; null: it has a server and links of its own
+  std::optional<Continued> resumes = {};             ///< a recording in the folder, which goes on from there
   /// Called each time a run or a branch has come to its end, before anybody leaves; may be empty.
   std::function<void(const struct Served&)> ended;
 };
@@ -26,7 +30,7 @@ struct Served {
   std::vector<data::Score> scores;  ///< of it; empty: it did not come to its end
 };
 
-/// Prints the links; returns when the trainer leaves. Throws LoadError or MeshError.
+/// Prints the links, unless in a classroom; returns when the trainer leaves. Throws LoadError or MeshError.
 Served serve(const ServeArguments& arguments);
 
 }  // namespace ostium::app

@@ -173,11 +173,17 @@ bool Connection::let_in(const std::string& text) {
   if (is_trainer())
     for (const auto& other : std::vector(hub_.connections.begin(), hub_.connections.end()))
       if (other.get() != this && other->is_trainer()) other->close();
-  for (std::string& greeting : hub_.listener.greet(*role_))
-    send(Channel::all, std::make_shared<const Message>(Message{std::move(greeting), false}));
+  greet();
   for (std::size_t i = 0; i < hub_.newest.size(); ++i)
     if (hub_.newest[i]) send(static_cast<Channel>(i + 1), hub_.newest[i]);
   return true;
+}
+
+void Connection::greet() {
+  if (!role_ || closed_) return;
+  newest_ = {};
+  for (std::string& greeting : hub_.listener.greet(*role_))
+    send(Channel::all, std::make_shared<const Message>(Message{std::move(greeting), false}));
 }
 
 void Connection::hear(beast::error_code error) {

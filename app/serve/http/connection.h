@@ -36,6 +36,7 @@ class Connection : public std::enable_shared_from_this<Connection> {
   Connection(tcp::socket socket, Hub& hub);
   void begin();
   void send(Channel channel, const SharedMessage& message);
+  void greet();  ///< if it has said hello
   void close();  ///< at once
   bool is_in() const { return role_.has_value(); }
   bool is_trainer() const { return role_ == Role::trainer; }

@@ -111,6 +111,14 @@ void Server::forget(Channel channel) {
              [p = parts_.get(), channel] { p->hub.newest[static_cast<std::size_t>(channel) - 1].reset(); });
 }
 
+void Server::greet_all() {
+  asio::post(parts_->context, [p = parts_.get()] {
+    p->hub.newest = {};
+    for (const auto& connection : std::vector(p->hub.connections.begin(), p->hub.connections.end()))
+      connection->greet();
+  });
+}
+
 std::string make_token() {
   std::random_device random;  // the system's
   std::string token;

@@ -65,6 +65,7 @@ class Server {
   // From any thread; never waits for a client:
   void send(Channel channel, Message message);
   void forget(Channel channel);  ///< those who come later do not get its last message
+  void greet_all();              ///< afresh: something else is played from here on; what was newest is forgotten
   int connections() const;       ///< that have said hello
 
  private:

@@ -159,15 +159,24 @@ std::string message_of(const std::vector<TimelineEntry>& moments) {
   return Json({{"type", "events"}, {"events", all}}).dump();
 }
 
+std::string ticks_message(const std::vector<std::optional<double>>& at_s) {
+  Json at = Json::array();
+  for (const auto& one : at_s) at.push_back(one ? number(*one, 0.1) : Json(nullptr));
+  return Json({{"type", "ticks"}, {"at", at}}).dump();
+}
+
 std::string welcome(const Setting& setting, Role role, const std::string& viewer_link, bool goes_back) {
   const SessionModel& model = setting.model;
-  Json tools = Json::array(), steps = Json::array(), views = Json::array(), items = Json::array();
+  Json tools = Json::array(), steps = Json::array(), views = Json::array(), items = Json::array(),
+       instructions = Json::array();
   for (const SessionTool& tool : model.tools) tools.push_back({{"name", tool.name}, {"title", tool.instrument.title}});
   for (const data::ScriptStep& step : setting.plan.script.steps) steps.push_back(step.words());
   for (const fluoro::StandardView& view : fluoro::standard_views())
     views.push_back({{"name", view.name}, {"angles", fluoro::angles_text(view.lao_deg, view.cran_deg)}});
   for (const data::ScoreItem& item : setting.scoring.items)
     items.push_back({{"phase", item.phase}, {"kind", kind_of(item.kind)}, {"what", item.what}, {"when", item.when}});
+  for (const LessonWords::Instruction& one : setting.lesson.instructions)
+    instructions.push_back({{"text", one.text}, {"ticks", one.ticks}, {"hints", one.hints.size()}});
   const Json emergency = model.has_patient() ? emergency_of(model) : Json(nullptr);
   return Json({{"type", "welcome"},
                {"protocol", 1},
@@ -178,7 +187,7 @@ std::string welcome(const Setting& setting, Role role, const std::string& viewer
                {"lesson",
                 {{"title", setting.lesson.title},
                  {"goal", setting.lesson.goal},
-                 {"instructions", setting.lesson.instructions},
+                 {"instructions", instructions},
                  {"needed", setting.lesson.needed},
                  {"next", setting.lesson.next}}},
                {"goes_back", goes_back},

@@ -1,6 +1,7 @@
 #pragma once
 /// What the trainer's station tells its page: JSON texts, and bytes that begin with their kind (app/serve/README.md).
 #include <map>
+#include <optional>
 
 #include "app/serve/http/server.h"
 #include "app/session/live/live_picture.h"
@@ -19,8 +20,13 @@ std::string message_of(const std::vector<TimelineEntry>& moments);
 
 /// What a beginner is told beside the run; no title: it is no lesson.
 struct LessonWords {
+  struct Instruction {
+    std::string text;
+    bool ticks = false;              ///< whether anything ticks it
+    std::vector<std::string> hints;  ///< how the expert does it, step by step
+  };
   std::string title, goal;
-  std::vector<std::string> instructions;
+  std::vector<Instruction> instructions;
   std::vector<std::size_t> needed;  ///< items of the scoring list that must hold to go on; none: it is only shown
   std::string next;                 ///< title of the lesson after it; empty: the last
 };
@@ -42,6 +48,8 @@ std::string welcome(const Setting& setting, Role role, const std::string& viewer
 /// Numbers and traces of a moment.
 std::string message_of(const Setting& setting, const Snapshot& now, const LivePicture& live);
 std::string scores_message(const data::ScoreList& list, const std::vector<data::Score>& scores);
+/// When each of the lesson's instructions was ticked.
+std::string ticks_message(const std::vector<std::optional<double>>& at_s);
 std::string refusal(const std::string& what, const std::string& why);
 
 /// Kind 1 (live) or 2 (reference), then at byte 8 the second, at 16 a JPEG.

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace ostium::app {
 
@@ -41,8 +42,15 @@ std::string injury_words(double value) {
 std::string value_words(const data::EventDefinition& definition, double value) {
   const std::string& unit = definition.value;
   const std::string first = unit.substr(0, unit.find_first_of(" ,"));
+<<<<<<< HEAD
   for (const char* known : {"N", "mm", "mm3", "s", "mL/s", "mL", "U", "ug", "atm", "degrees", "J"})
     if (first == known) return fmt::format(", {:.3g} {}", value, first);
+=======
+  for (const char* known : {"N", "mm", "s", "mL/s", "mL", "U", "ug", "atm", "degrees", "J"})
+    if (first == known)
+      return std::fabs(value) < 1000 ? fmt::format(", {:.3g} {}", value, first)
+                                     : fmt::format(", {:.0f} {}", value, first);
+>>>>>>> 4fa83d60f397f617924a9f3ee70c1094ecaf098c
   return "";
 }
 
@@ -62,9 +70,11 @@ std::string words_of(const SessionEvent& event, const SessionModel& model, const
   std::string what = name_words(definition->name) + value_words(*definition, event.value);
   switch (definition->code) {
     case EventCode::script_step_begins:
+      if (plan.script.by_hand) return "";
       return step_words(plan, event.value);
     case EventCode::script_step_done:
     case EventCode::ffr_changes:
+    case EventCode::instruction_done:  // ticked in the list of instructions
     case EventCode::step_trouble:
       return "";
     case EventCode::script_step_failed:

@@ -1,10 +1,14 @@
 import { Console } from '/console.js';
+import { Course } from '/course.js';
 import { Emergency } from '/emergency.js';
+import { Lesson } from '/lesson.js';
 import { Picture } from '/picture.js';
+import { Scores } from '/scores.js';
 import { Socket } from '/socket.js';
 import { drawStrip } from '/strips.js';
 import { Timeline, clock } from '/timeline.js';
 import { Truth, toolColours } from '/truth.js';
+import { fillGlossary } from '/words.js';
 
 const $ = (id) => document.getElementById(id);
 const token = new URLSearchParams(location.hash.slice(1)).get('token') ?? sessionStorage.getItem('token') ?? '';
@@ -43,23 +47,23 @@ const trackers = {
     for (const id of ['pause', 'hands', 'end', 'note']) $(id).disabled = viewer;
     $('marks').querySelector('button').disabled = viewer;
     $('copy-link').hidden = viewer;
-    const lesson = message.lesson;
-    document.title = `Ostium: ${lesson.title || message.case}`;
-    $('title').textContent = lesson.title || message.title;
-    $('who').textContent = viewer ? 'Viewer' : lesson.needed.length ? 'Learner' : 'Trainer';
-    $('lesson').hidden = !lesson.title;
-    $('lesson').querySelector('h2').textContent = lesson.title;
-    $('lesson').querySelector('p').textContent = `Goal: ${lesson.goal}`;
-    $('lesson').querySelector('ol').replaceChildren(...lesson.instructions.map((words) => Object.assign(document.createElement('li'), { textContent: words })));
+    document.title = `Ostium: ${message.lesson.title || message.case}`;
+    $('title').textContent = message.lesson.title || message.title;
+    $('who').textContent = viewer ? 'Viewer' : course.board ? 'Learner' : 'Trainer';
+    lesson.welcome(message);
+    showList(false);
     truth.tree = message.tree;
     timeline.clear();
     timeline.enabled = !viewer && message.goes_back;
-    ended = null, closed = false;
-    if (!console_) {
-      console_ = new Console($('console-panel'), $('stage'), socket, message);
-      emergency = new Emergency(console_, socket, message, (place) => { truth.mark = place; truth.draw(); });
-      $('stage').focus();
-    }
+    truth.spheres = truth.middle = truth.mark = null;
+    now = null, ended = null, closed = false, pace = [];
+    for (const id of ['empty', 'reference']) $(id).hidden = id === 'reference';
+    $('picture').width = $('picture').width; // empty
+    if (console_) console_.build(message);
+    else console_ = new Console($('console-panel'), $('stage'), socket, message);
+    emergency = new Emergency(console_, socket, message, (place) => { truth.mark = place; truth.draw(); });
+    choose('events');
+    $('stage').focus();
     $('tools').tBodies[0].replaceChildren(...message.tools.map((tool, t) => {
       const row = document.createElement('tr');
       for (let i = 0; i < 6; ++i) row.append(document.createElement('td'));
@@ -68,18 +72,33 @@ const trackers = {
       row.cells[0].style.color = toolColours[t % toolColours.length];
       return row;
     }));
-    showScores(null);
+    scores.show(welcome, null, null);
   },
+  role(message) {
+    course.learns = message.role === 'trainer';
+    $('who').textContent = course.learns ? 'Learner' : 'Viewer';
+  },
+  course(message) {
+    course.take(message);
+    if (welcome && message.at !== null && !message.opening) return; // news of the lesson that is open
+    welcome = null;
+    if (message.at !== null) course.wait();
+    $('gone').hidden = true;
+    $('title').textContent = document.title = message.title;
+    showList(true);
+  },
+  ticks(message) { lesson.ticks(message.at); },
+  hint(message) { lesson.hint(message); },
   now(message) { now = message; show(); },
   events(message) { timeline.add(message.events); },
   branch(message) {
     timeline.goneBack(message.from_s);
     ended = null;
-    if (welcome.lesson.needed.length) choose('events'), $('stage').focus(); // the instructions again, and the keys
+    if (welcome.lesson.title) choose('events'), $('stage').focus(); // the instructions again, and the keys
   },
-  scores(message) { showScores(message.items); },
+  scores(message) { if (welcome) scores.show(welcome, ended, message.items); },
   refused(message) { refuse(message.why); },
-  ended(message) { ended = message; show(); choose('scores'); },
+  ended(message) { ended = message; show(); choose('scores'); if (course.board) $('scores-panel').focus(); },
   reported() { $('report').hidden = false; },
   report(message) {
     const link = document.createElement('a');
@@ -98,11 +117,25 @@ const socket = new Socket(token, {
     else if (bytes[0] === 3) truth.take(data);
   },
   gone: () => {
-    $('gone').textContent = closed ? welcome.lesson.needed.length ? 'The lesson is closed. In the terminal, the same command goes on.' : 'The session is closed.'
+    $('gone').textContent = closed ? 'The session is closed.'
+      : course.board ? 'The course is closed, or its program has ended. Nothing is lost: start ostium learn again, and open the new link.'
       : welcome ? 'The connection is gone; trying again …' : 'This link is not (or no longer) valid for this run. Trying again …';
     $('gone').hidden = false;
   },
 });
+
+const lesson = new Lesson($('lesson'), $('stage'), socket);
+const course = new Course($('course'), socket);
+const scores = new Scores($('scores-panel'), lesson, course);
+
+// The list of lessons, or the run.
+function showList(listed) {
+  const panel = $('course');
+  panel.hidden = !listed;
+  for (const part of document.querySelectorAll('main, footer, #clock, #state, #help')) part.hidden = listed;
+  $('to-lessons').hidden = listed || !course.board;
+  if (listed) (panel.querySelector('button.on') ?? panel).focus();
+}
 
 const fixed = (value, digits) => value === null || value === undefined ? '–' : value.toFixed(digits);
 
@@ -125,7 +158,7 @@ function show() {
   $('state').classList.toggle('loud', now.paused || !!ended);
   $('pause').textContent = now.paused ? 'Go on' : 'Pause';
   $('pause').disabled = !!ended || welcome.role !== 'trainer';
-  $('end').textContent = ended ? 'Close' : 'End run';
+  $('end').textContent = ended ? course.board ? 'All lessons' : 'Close' : 'End run';
   $('hands').textContent = script ? 'Take over' : 'Hand back';
   $('hands').hidden = now.step < 0;
   const reviewing = now.picture.review_frames > 0;
@@ -145,6 +178,7 @@ function show() {
   [...$('tools').tBodies[0].rows].forEach((row, t) => {
     const tool = now.tools[t], cells = row.cells;
     row.className = tool.in ? '' : 'out';
+    cells[0].textContent = `■ ${welcome.tools[t].name}${t === now.right_hand && now.hands !== 'script' ? ' R' : ''}`;
     cells[1].textContent = tool.in ? fixed(tool.inserted_mm / 10, 1) : 'out';
     cells[2].textContent = tool.in ? `${Math.round(tool.turned_deg)}°` : '';
     cells[3].textContent = tool.in ? fixed(tool.push_N, 2) : '';
@@ -175,51 +209,6 @@ function show() {
   emergency.show(now, welcome);
 }
 
-// Whether the lesson is done, what is missing, and what to do next.
-function sayVerdict(items, add) {
-  const { needed, next } = welcome.lesson, missed = needed.filter((i) => items[i].holds !== true);
-  add('h2', missed.length ? 'Not yet' : 'Done');
-  for (const i of missed) {
-    const item = welcome.scoring.items[i], came = items[i].holds === null ? 'cannot be told' : item.kind === 'step' ? 'not done' : 'happened';
-    add('p', `${item.what}: ${came}${items[i].value ? ` (${items[i].value})` : ''}`).className = 'missed';
-  }
-  add('p', missed.length ? 'To try again, choose an earlier second on the bar below, then press Go on; or press Close and start ostium learn again in the terminal.'
-    : next ? `Next: ${next}. Press Close, and start ostium learn again in the terminal.` : 'That was the last lesson. Press Close.').className = 'next';
-}
-
-function showScores(items) {
-  const panel = $('scores-panel'), made = [];
-  const add = (tag, words) => { const element = document.createElement(tag); element.textContent = words; made.push(element); return element; };
-  if (ended && items && welcome.lesson.needed.length) sayVerdict(items, add);
-  add('p', `${welcome.scoring.title}. ${welcome.scoring.note}`);
-  let phase = null, list = null;
-  welcome.scoring.items.forEach((item, i) => {
-    if (item.phase !== phase) { phase = item.phase; add('h3', phase); list = add('ul', ''); }
-    const score = items?.[i], row = document.createElement('li');
-    const holds = score ? score.holds : null;
-    // An error that has not come yet, and a step that may still come, are open until the end.
-    const open = holds === null || (!ended && (item.kind === 'step' ? !holds : holds));
-    row.className = open ? 'open' : holds ? 'yes' : 'no';
-    const sign = open ? '○' : holds ? '✔' : item.kind === 'step' ? '–' : '✖';
-    const when = score?.at_s?.length ? score.at_s.slice(0, 3).map(clock).join(' ') + (score.at_s.length > 3 ? ` … ${score.at_s.length} times` : '') : score?.value ?? '';
-    const came = open || (item.kind === 'step' && holds) ? '' : item.kind === 'step' ? ': not done' : holds ? ': did not happen' : ': happened';
-    for (const words of [sign, item.what + came, when]) { const span = document.createElement('span'); span.textContent = words; row.append(span); }
-    row.title = item.when;
-    list.append(row);
-  });
-  if (ended) {
-    add('h3', 'numbers of the run');
-    const table = document.createElement('table');
-    for (const metric of ended.metrics) {
-      const row = table.insertRow();
-      row.insertCell().textContent = metric.name.replaceAll('_', ' ');
-      row.insertCell().textContent = metric.words;
-    }
-    made.push(table);
-  }
-  panel.replaceChildren(...made);
-}
-
 const tabs = ['events', 'console', 'scores'];
 function choose(name) {
   for (const one of tabs) {
@@ -248,7 +237,14 @@ $('hands').onclick = () => {
   socket.order(take ? 'take_over' : 'hand_back');
   if (take) { choose('console'); $('stage').focus(); }
 };
-$('end').onclick = () => ask(ended ? 'Close the session?' : 'End the run?', () => { closed = !!ended; socket.order('end'); });
+$('end').onclick = () => {
+  if (ended && course.board) return socket.order('course');
+  ask(ended ? 'Close the session?' : 'End the run?', () => { closed = !!ended; socket.order('end'); });
+};
+$('to-lessons').onclick = () => (ended ? socket.order('course')
+  : ask('Leave this attempt? It is kept, and can go on from here later.', () => socket.order('course')));
+$('words').onclick = () => { fillGlossary($('glossary').querySelector('tbody')); $('glossary').showModal(); };
+$('glossary').querySelector('button').onclick = () => $('glossary').close();
 $('report').onclick = () => socket.order('report');
 $('marks').onsubmit = (event) => {
   event.preventDefault();
@@ -260,6 +256,15 @@ $('truth-follow').onclick = () => {
   $('truth-follow').setAttribute('aria-pressed', truth.follow);
 };
 $('copy-link').onclick = () => navigator.clipboard.writeText(location.origin + '/' + welcome.viewer_link);
-$('help').onclick = () => { console_?.help($('keys').querySelector('tbody')); $('keys').showModal(); };
+$('help').onclick = () => {
+  const table = $('keys').querySelector('tbody');
+  console_?.help(table, now?.step >= 0);
+  if (!$('hint').hidden) {
+    const line = table.insertRow(0);
+    line.insertCell().textContent = 'Q';
+    line.insertCell().textContent = 'hint: how the expert does what comes next';
+  }
+  $('keys').showModal();
+};
 $('keys').querySelector('button').onclick = () => $('keys').close();
 $('legend').append('wall force 0', document.createElement('i'), '0.3 N and more');

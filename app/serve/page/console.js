@@ -24,7 +24,6 @@ export class Console {
     this.keys = welcome.console.keys;
     this.down = [];
     this.tableMoves = 0;
-    this.watched = [];
     this.build(welcome);
     this.listen(stage);
   }
@@ -67,6 +66,7 @@ export class Console {
   }
   build(welcome) {
     this.panel.replaceChildren();
+    this.watched = [];
     let add = this.group('Pedals');
     add(this.hold('Fluoroscopy', 'fluoroscopy'), this.hold('Cine', 'cine'), this.press('Reference', 'reference'));
     add = this.group('C-arm and table');
@@ -147,9 +147,11 @@ export class Console {
     this.right.textContent = now.right_hand >= 0 ? `right hand: ${welcome.tools[now.right_hand].name}` : '';
     this.field = now.arm.field_mm;
   }
-  help(table) {
+  // `hands`: whether there is a script to take over from.
+  help(table, hands) {
     table.replaceChildren();
     for (const row of this.rows.values()) {
+      if (!hands && ['take_over', 'hand_back'].includes(row.do)) continue;
       const keys = this.keys.filter((key) => key.do === row.do && !skips(key)).map((key) => (key.ctrl ? 'Ctrl+' : '') + key.key);
       if (!keys.length) continue;
       const line = table.insertRow();

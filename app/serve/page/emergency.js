@@ -31,7 +31,7 @@ export class Emergency {
     this.mark = mark;
     if (!this.has) return;
     this.treat(console_.group('Emergency'));
-    if (welcome.role === 'trainer') this.provoke(console_.group('Provoke'));
+    if (welcome.role === 'trainer' && !welcome.lesson.title) this.provoke(console_.group('Provoke'));
   }
   treat(add) {
     const drug = select(this.has.drugs.map((one) => one.name)), dose = field(0, 0, 'any', 0), unit = document.createElement('span');

@@ -55,30 +55,34 @@ Station::Station(const ScriptedRun& run, LiveDriver& hand, data::ScoreList scori
       settings_(settings),
       setting_(run.model, run.plan, std::move(scoring)),
       trainer_token_(make_token()),
-      viewer_token_(make_token()) {
+      viewer_token_(settings.server ? settings.viewer_token : make_token()),
+      server_(settings.server) {
   setting_.lesson = settings.lesson;
+  hands_ = static_cast<int>(hand.began_as());  // until a snapshot says more: keys may come before
   hand_.show_to(Seat::browser);
-  ServerSettings server;
-  server.address = settings.address, server.port = settings.port;
-  server.trainer_token = trainer_token_, server.viewer_token = viewer_token_;
-  server.pages = page_files();
-  server_ = std::make_unique<Server>(std::move(server), *this);
+  if (!server_) {
+    ServerSettings server;
+    server.address = settings.address, server.port = settings.port;
+    server.trainer_token = trainer_token_, server.viewer_token = viewer_token_;
+    server.pages = page_files();
+    own_server_ = std::make_unique<Server>(std::move(server), *this);
+    server_ = own_server_.get();
+  }
   thread_ = std::thread([this] { follow(); });
 }
 
 Station::~Station() {
   over_ = true;
   thread_.join();
-  server_.reset();
+  own_server_.reset();
 }
 
-std::string Station::link(const std::string& token) const {
-  const bool six = settings_.address.find(':') != std::string::npos;
-  return fmt::format("http://{}:{}/#token={}", six ? "[" + settings_.address + "]" : settings_.address, server_->port(),
-                     token);
+std::string page_link(const std::string& address, std::uint16_t port, const std::string& token) {
+  const bool six = address.find(':') != std::string::npos;
+  return fmt::format("http://{}:{}/#token={}", six ? "[" + address + "]" : address, port, token);
 }
-std::string Station::trainer_link() const { return link(trainer_token_); }
-std::string Station::viewer_link() const { return link(viewer_token_); }
+std::string Station::trainer_link() const { return page_link(settings_.address, port(), trainer_token_); }
+std::string Station::viewer_link() const { return page_link(settings_.address, port(), viewer_token_); }
 
 std::function<void(const SessionEvent&)> Station::ear() {
   return [this](const SessionEvent& event) { heard_.put(event); };
@@ -122,30 +126,57 @@ void Station::follow() {
   }
 }
 
+/// With the mutex. What the timeline gets of it.
+std::optional<TimelineEntry> Station::take_event(const SessionEvent& event) {
+  events_.push_back(event);
+  TimelineEntry moment{static_cast<int>(moments_.size()) + 1, static_cast<double>(event.step) * run_.model.step_s(),
+                       kind_of(event), words_of(event, run_.model, run_.plan)};
+  if (moment.kind == "mark" && !unplaced_notes_.empty()) {
+    notes_.push_back({moment.second, unplaced_notes_.front()});
+    moment.words = "mark: " + unplaced_notes_.front();
+    unplaced_notes_.erase(unplaced_notes_.begin());
+  }
+  if (moment.words.empty()) return {};
+  moments_.push_back(moment);
+  return moment;
+}
+
 void Station::take_events() {
   std::vector<TimelineEntry> fresh;
+  bool ticked = false;
   {
     const std::lock_guard lock(mutex_);
     bool changed = false;
     while (const std::optional<SessionEvent> event = heard_.next()) {
-      events_.push_back(*event);
       changed = true;
-      TimelineEntry moment{static_cast<int>(moments_.size()) + 1,
-                           static_cast<double>(event->step) * run_.model.step_s(), kind_of(*event),
-                           words_of(*event, run_.model, run_.plan)};
-      if (moment.kind == "mark" && !unplaced_notes_.empty()) {
-        notes_.push_back({moment.second, unplaced_notes_.front()});
-        moment.words = "mark: " + unplaced_notes_.front();
-        unplaced_notes_.erase(unplaced_notes_.begin());
-      }
-      if (moment.words.empty()) continue;
-      moments_.push_back(moment);
-      fresh.push_back(moment);
+      ticked |= event->code == static_cast<int>(data::EventCode::instruction_done);
+      if (const auto moment = take_event(*event)) fresh.push_back(*moment);
     }
     if (!changed) return;
   }
   if (!fresh.empty()) server_->send(Channel::all, {message_of(fresh), false});
+  if (ticked) tell_ticks();
   tell_scores();
+}
+
+void Station::recall(const std::vector<SessionEvent>& events) {
+  const std::lock_guard lock(mutex_);
+  for (const SessionEvent& event : events) take_event(event);
+}
+
+/// With the mutex.
+std::vector<std::optional<double>> Station::ticks() const {
+  std::vector<std::optional<double>> at(setting_.lesson.instructions.size());
+  for (const SessionEvent& event : events_)
+    if (event.code == static_cast<int>(data::EventCode::instruction_done) && event.value >= 0 &&
+        event.value < static_cast<double>(at.size()))
+      at[static_cast<std::size_t>(event.value)] = static_cast<double>(event.step) * run_.model.step_s();
+  return at;
+}
+
+void Station::tell_ticks() {
+  const std::lock_guard lock(mutex_);
+  server_->send(Channel::all, {ticks_message(ticks()), false});
 }
 
 void Station::tell_scores() {
@@ -191,6 +222,7 @@ void Station::gone_back(std::size_t second, const std::string& recording) {
     sticky_.push_back(message);
   }
   server_->send(Channel::all, {message, false});
+  tell_ticks();
   tell_scores();
 }
 
@@ -245,6 +277,7 @@ std::vector<std::string> Station::greet(Role role) {
   for (const TimelineEntry& moment : moments_)
     if (!moment.words.empty()) told.push_back(moment);
   out.push_back(message_of(told));
+  if (!setting_.lesson.instructions.empty()) out.push_back(ticks_message(ticks()));
   if (!end_.empty()) out.push_back(end_);
   out.push_back(has_ended_
                     ? final_scores_
@@ -272,9 +305,36 @@ std::string Station::ask_to_go_back(const data::JsonValue& message) {
   return "";
 }
 
+void Station::leave() {
+  {
+    const std::lock_guard lock(mutex_);
+    wish_ = {Wish::Kind::leave, 0};
+  }
+  asked_.notify_all();
+  hand_.controls(Seat::browser).order(ConsoleCommand::end);
+}
+
+/// How the expert does the first instruction that is not done; asked again, the expert's step after it.
+std::string Station::hint() {
+  const std::lock_guard lock(mutex_);
+  if (has_ended_) return refusal("hint", "the run has ended");
+  const auto done = ticks();
+  const auto& all = setting_.lesson.instructions;
+  std::size_t at = 0;
+  while (at < all.size() && (all[at].hints.empty() || done[at])) ++at;
+  if (at == all.size()) return refusal("hint", "there is no hint on what is left to do");
+  if (const int on = static_cast<int>(at); on != hint_on_) hint_on_ = on, hints_told_ = 0;
+  const std::vector<std::string>& hints = all[at].hints;
+  const std::size_t which = std::min(hints_told_++, hints.size() - 1);
+  hand_.hinted(hint_on_);
+  return Json({{"type", "hint"}, {"instruction", at}, {"words", hints[which]}, {"more", which + 1 < hints.size()}})
+      .dump();
+}
+
 std::string Station::obey(const std::string& what, const data::JsonValue& message) {
   Controls& controls = hand_.controls(Seat::browser);
   if (what == "rewind") return ask_to_go_back(message);
+  if (what == "hint") return hint();
   if (what == "mark") {
     const data::JsonValue* text = message.find("text");
     const std::lock_guard lock(mutex_);

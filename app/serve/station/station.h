@@ -23,7 +23,12 @@ struct StationSettings {
   int pixels = 512;
   fluoro::Renderer renderer = fluoro::Renderer::scanline;
   LessonWords lesson;
+  Server* server = nullptr;  ///< of a classroom, which tells this what it hears; null: one of its own
+  std::string viewer_token;  ///< of that server
 };
+
+/// "http://127.0.0.1:8100/#token=...".
+std::string page_link(const std::string& address, std::uint16_t port, const std::string& token);
 
 /// What the trainer wants of a run that has ended, or has been ended for it.
 struct Wish {
@@ -42,7 +47,7 @@ class Station : public Listener {
   Station(const ScriptedRun& run, LiveDriver& hand, data::ScoreList scoring, const StationSettings& settings);
   ~Station() override;
 
-  std::string trainer_link() const;
+  std::string trainer_link() const;  ///< of a server of its own
   std::string viewer_link() const;
   std::uint16_t port() const { return server_->port(); }
   /// Until the picture is ready, which takes some seconds.
@@ -51,7 +56,12 @@ class Station : public Listener {
   /// For RecorderOptions::heard, on the thread that steps.
   std::function<void(const SessionEvent&)> ear();
 
+  /// From any thread: the run ends where it is, and its owner gets the wish to leave.
+  void leave();
+
   // --- of the owner, between two plays
+  /// Before the first: what had come before, in the recording that this run continues.
+  void recall(const std::vector<SessionEvent>& events);
   /// What has been asked for since; none: the run came to its own end.
   Wish wish();
   /// Until the trainer asks for something, or `stop`.
@@ -74,9 +84,12 @@ class Station : public Listener {
   void follow();
   void take_events();
   void tell_scores();
+  void tell_ticks();
+  std::optional<TimelineEntry> take_event(const SessionEvent& event);
+  std::vector<std::optional<double>> ticks() const;
+  std::string hint();
   std::string obey(const std::string& what, const data::JsonValue& message);
   std::string ask_to_go_back(const data::JsonValue& message);
-  std::string link(const std::string& token) const;
 
   const ScriptedRun& run_;
   LiveDriver& hand_;
@@ -97,7 +110,10 @@ class Station : public Listener {
   std::string end_, final_scores_, report_;
   Wish wish_;
   bool has_ended_ = false;
-  std::unique_ptr<Server> server_;
+  std::size_t hints_told_ = 0;  ///< on this instruction
+  int hint_on_ = -1;
+  std::unique_ptr<Server> own_server_;
+  Server* server_;
   std::promise<void> drawing_;
   std::future<void> drawn_ = drawing_.get_future();
   std::thread thread_;

@@ -42,8 +42,10 @@ std::vector<ToolTurn> turns_at_the_box(const std::vector<device::Tool>& held) {
 
 data::Script free_hands(data::Script script) {
   std::erase_if(script.steps, [moved = false](const data::ScriptStep& step) mutable {
+    using enum data::ScriptAction;
     moved |= !step.until.empty();
-    return moved;
+    return moved ||
+           (step.action != view && step.action != fluoroscopy && step.action != cine && step.action != heart_rate);
   });
   data::ScriptStep wait;
   wait.label = "moved by hand";

@@ -86,8 +86,8 @@ class BoxDriver : public Driver {
   long stood_ = 0;
 };
 
-/// The script without what it does to tools: its views and switches up to the first movement, then it waits. For a run
-/// in which people do the rest.
+/// The script without what it does to tools and the patient: its views and switches up to the first movement, then it
+/// waits. For a run in which people do the rest, heparin among it.
 data::Script free_hands(data::Script script);
 
 }  // namespace ostium::app

@@ -16,7 +16,7 @@ namespace {
 
 using units::mmHg;
 
-constexpr std::uint64_t steps_a_trace = 10;
+constexpr std::uint64_t steps_a_trace = 10, steps_a_look = 100;
 
 std::size_t signal_place(const SessionModel& model, const std::string& name) {
   const std::vector<std::string> names = signal_names(model);
@@ -71,6 +71,7 @@ Driven LiveDriver::drive(const ScriptedRun& run, SessionInputs& inputs) {
   if (over_) return Driven::over;
   if (const Driven inner = inner_ ? inner_->drive(run, inputs) : Driven::on; inner != Driven::on) driven = inner;
   if (driven == Driven::over) return driven;
+  if (checklist_ && step_ % steps_a_look == 0) checklist_->look(run);
   console_.fill(model, hands_, inputs);
   read_pressure(model, state);
   if (report.refused >= 0) refused_ = report.refused, in_its_way_ = report.in_its_way, refused_at_ = state.rods.step;
@@ -87,12 +88,17 @@ bool LiveDriver::marks() {
   return any;
 }
 
+void LiveDriver::remark(std::vector<OperatorEvent>& events) {
+  if (checklist_) checklist_->take_done(events);
+  if (const int asked = hinted_.exchange(-1); asked >= 0) events.push_back({OperatorEvent::Kind::hinted, asked, -1});
+}
+
 void LiveDriver::restart(const ScriptedRun& run) {
   for (Controls& seat : console_.controls)
     while (seat.next()) {  // what was asked for is over with the run that it was asked of
     }
   hands_ = began_as_;
-  over_ = marks_ = false, paused_ = true, marked_ = 0;
+  over_ = marks_ = false, paused_ = true, marked_ = 0, hinted_ = -1;
   ++begun_;
   const OperatorState& script = run.hands;
   CArmInputs asked;

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "app/session/live/checklist.h"
 #include "app/session/live/console.h"
 #include "app/session/recorder/signals.h"
 #include "app/session/run/run.h"
@@ -46,6 +47,7 @@ class LiveDriver : public Driver {
 
   Driven drive(const ScriptedRun& run, SessionInputs& inputs) override;
   bool marks() override;
+  void remark(std::vector<OperatorEvent>& events) override;
   bool holds_script() const override { return hands_ == Hands::seats && began_as_ == Hands::script; }
   /// Between two plays: the run has gone back to this moment.
   void restart(const ScriptedRun& run);
@@ -56,6 +58,12 @@ class LiveDriver : public Driver {
   void end_on(const std::atomic<bool>& asked) { asked_to_end_ = &asked; }
   /// Before the run: from then on its snapshots are filled, too. The window's always are.
   void show_to(Seat seat) { shown_to_[static_cast<std::size_t>(seat)] = true; }
+  /// Before the run: these instructions are looked at as it goes; they must outlive it.
+  void follow(Checklist* checklist) { checklist_ = checklist; }
+  /// From any thread: a hint on that instruction is recorded with the next step.
+  void hinted(int instruction) { hinted_ = instruction; }
+  /// Who moved the instruments at first.
+  Hands began_as() const { return began_as_; }
   /// The guide, or the first tool.
   int left_hand() const { return console_.left_hand(); }
 
@@ -77,6 +85,8 @@ class LiveDriver : public Driver {
   int refused_ = -1, in_its_way_ = -1;
   std::uint64_t refused_at_ = 0;
   const std::atomic<bool>* asked_to_end_ = nullptr;
+  Checklist* checklist_ = nullptr;
+  std::atomic<int> hinted_{-1};
   int marked_ = 0;
   std::uint64_t marked_at_ = 0, step_ = 0;
   std::size_t ecg_at_, line_at_;

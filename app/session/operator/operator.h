@@ -85,10 +85,10 @@ std::vector<double> save(const OperatorState& state);
 /// Throws std::invalid_argument if the number of values does not match the script.
 void restore(const std::vector<double>& saved, OperatorState& state);
 
-/// An event of the operator's decisions.
+/// An event of the operator's decisions, or of a lesson beside them.
 struct OperatorEvent {
-  enum class Kind { begins, done, failed, timed_out, marked } kind = Kind::begins;
-  int step = 0;
+  enum class Kind { begins, done, failed, timed_out, marked, instructed, hinted } kind = Kind::begins;
+  int step = 0;        ///< of the script; of the last two kinds the lesson's instruction
   int condition = -1;  ///< index in `until` (done) or `unless` (failed)
 };
 

@@ -14,11 +14,13 @@ using units::atm;
 
 data::EventCode code_of(OperatorEvent::Kind kind) {
   using Kind = OperatorEvent::Kind;
-  return kind == Kind::begins   ? data::EventCode::script_step_begins
-         : kind == Kind::done   ? data::EventCode::script_step_done
-         : kind == Kind::failed ? data::EventCode::script_step_failed
-         : kind == Kind::marked ? data::EventCode::mark
-                                : data::EventCode::script_step_timed_out;
+  return kind == Kind::begins       ? data::EventCode::script_step_begins
+         : kind == Kind::done       ? data::EventCode::script_step_done
+         : kind == Kind::failed     ? data::EventCode::script_step_failed
+         : kind == Kind::marked     ? data::EventCode::mark
+         : kind == Kind::instructed ? data::EventCode::instruction_done
+         : kind == Kind::hinted     ? data::EventCode::hint_asked
+                                    : data::EventCode::script_step_timed_out;
 }
 
 }  // namespace

@@ -84,6 +84,10 @@ Filming::~Filming() { finish(); }
 
 bool Filming::marks() { return parts_->inner && parts_->inner->marks(); }
 
+void Filming::remark(std::vector<OperatorEvent>& events) {
+  if (parts_->inner) parts_->inner->remark(events);
+}
+
 bool Filming::holds_script() const { return parts_->inner && parts_->inner->holds_script(); }
 
 Driven Filming::drive(const ScriptedRun& run, SessionInputs& inputs) {

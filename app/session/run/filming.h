@@ -25,6 +25,7 @@ class Filming : public Driver {
 
   Driven drive(const ScriptedRun& run, SessionInputs& inputs) override;
   bool marks() override;
+  void remark(std::vector<OperatorEvent>& events) override;
   bool holds_script() const override;
 
   /// The newest picture, for one other thread, from this call on: what is filmed need not be taken twice. They go on

@@ -39,6 +39,7 @@ bool ScriptedRun::tick() {
   if (outcome != Outcome::running) return false;
   const Driven driven = driver_ ? driver_->drive(*this, inputs) : Driven::on;
   if (driver_ && driver_->marks()) events.push_back({OperatorEvent::Kind::marked, hands.step, -1});
+  if (driver_) driver_->remark(events);
   stood = driven == Driven::after_a_stand;
   if (driven == Driven::over) {
     outcome = hands.outcome = plan.script.by_hand ? Outcome::ended : Outcome::aborted;

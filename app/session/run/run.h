@@ -18,6 +18,8 @@ class Driver {
   virtual Driven drive(const ScriptedRun& run, SessionInputs& inputs) = 0;
   /// Whether this moment has been marked since the last call.
   virtual bool marks() { return false; }
+  /// Adds what else is to be recorded of this moment: a lesson's instructions and hints.
+  virtual void remark(std::vector<OperatorEvent>& /*events*/) {}
   /// Whether the script waits meanwhile: somebody has taken over. It then begins its step anew.
   virtual bool holds_script() const { return false; }
 };

@@ -5,11 +5,23 @@
 #include <string>
 #include <vector>
 
+#include "data/catalogue/script/script.h"
+
 namespace ostium::data {
+
+struct Instruction {
+  std::string text;
+  std::vector<ScriptCondition> until;  ///< it has been done once one of them holds, or once `event` comes
+  std::string event;                   ///< of data/assessment/events.def; empty: none
+  bool in_turn = false;                ///< only after the one before it with a condition
+  int expert_step = -1;                ///< of the lesson's script: how the expert does it; -1: it is not said
+  int line = 0;
+  bool ticks() const { return !until.empty() || !event.empty(); }
+};
 
 struct Lesson {
   std::string name, title, goal;
-  std::vector<std::string> instructions;
+  std::vector<Instruction> instructions;
   std::string case_name, script, scoring;
   std::optional<std::uint64_t> person;
   std::string begin;                   ///< "LM" or "RCA": the guide's tip lies before it; empty: nothing is in yet

@@ -1,6 +1,7 @@
 #pragma once
 /// The keys of a course, object by object: what the reader accepts, and how each is described. The schema
 /// (data/schemas/course.schema.json) is generated from them.
+#include "data/catalogue/script/script_keys.h"
 #include "data/formats/json/json_object.h"
 
 namespace ostium::data::course_keys {
@@ -21,7 +22,8 @@ inline const JsonObjectKeys lesson = {
     {{"name", true, "a name of its own: at most 60 small letters, digits and -", json_type::text()},
      {"title", true, "what people call it, a text", json_type::text()},
      {"goal", true, "what has been done at its end, a text", json_type::text()},
-     {"instructions", true, "what to do, texts in their order", json_type::list_of(json_type::text(), 1)},
+     {"instructions", true, "what to do, in its order: a text, or a text that ticks itself (see instruction)",
+      json_type::list_of(json_type::either({json_type::text(), json_type::object("instruction")}), 1)},
      {"case", true, "a case of data/cases, or a file", json_type::text()},
      {"person", false, "a whole number from 0 on: another person with this case", json_type::whole(from_zero)},
      {"begin", false, "LM or RCA: the guide lies before it, ready", json_type::choice(beginnings)},
@@ -30,6 +32,20 @@ inline const JsonObjectKeys lesson = {
      {"must_hold", true, "ids of the list's items that must be done to go on",
       json_type::list_of(json_type::text(), 1)}}};
 
-inline const std::vector<const JsonObjectKeys*> all = {&root, &lesson};
+/// Ticked once: by `until` or `event`, or by what the expert's step at `label` waits for.
+inline const JsonObjectKeys instruction = {
+    "instruction",
+    {{"text", true, "what to do, a text", json_type::text()},
+     {"until", false, "a list of a script's conditions; it is ticked once one of them holds",
+      json_type::list_of(json_type::object("condition"), 1)},
+     {"event", false, "an event of a recording; it is ticked once that has come", json_type::text()},
+     {"label", false,
+      "a label of the script: hints begin at that step; without until and event it is ticked by what that step "
+      "waits for",
+      json_type::text()},
+     {"in_turn", false, "true: not before the one before it; what is counted is counted from then",
+      json_type::boolean()}}};
+
+inline const std::vector<const JsonObjectKeys*> all = {&root, &lesson, &instruction, &script_keys::condition};
 
 }  // namespace ostium::data::course_keys

@@ -7,7 +7,7 @@
 #include "data/catalogue/catalogue.h"
 #include "data/catalogue/course/course.h"
 #include "data/catalogue/course/course_keys.h"
-#include "data/catalogue/script/script.h"
+#include "data/catalogue/script/script_condition_reader.h"
 #include "data/formats/paths.h"
 #include "data/formats/read_file.h"
 
@@ -50,22 +50,71 @@ void require(const JsonObject& object, const char* key, const Find& find) {
   }
 }
 
+/// Index of the script's step with this label.
+int step_at(const Script& script, const JsonObject& object) {
+  std::string known;
+  for (std::size_t i = 0; i < script.steps.size(); ++i) {
+    const std::string& label = script.steps[i].label;
+    if (label == object.text("label")) return static_cast<int>(i);
+    if (!label.empty()) known += (known.empty() ? "" : ", ") + label;
+  }
+  object["label"].refuse("a label of the lesson's script: " + known);
+}
+
+Instruction read_instruction(const JsonValue& value, const Script& script, bool first) {
+  Instruction out;
+  out.line = value.line;
+  if (value.type == JsonValue::Type::text && !value.text.empty()) {
+    out.text = value.text;
+    return out;
+  }
+  if (value.type != JsonValue::Type::object) value.refuse("a text, or an object with text and until, event or label");
+  const JsonObject object(value, course_keys::instruction);
+  out.text = object.text("text");
+  out.until = read_conditions(object, "until", script, {});
+  if (object.has("event")) out.event = object.text("event");
+  if (object.has("label")) out.expert_step = step_at(script, object);
+  if (out.expert_step >= 0 && !out.ticks()) out.until = script.steps[static_cast<std::size_t>(out.expert_step)].until;
+  if (!out.ticks())
+    value.fail(value.path() + (out.expert_step < 0
+                                   ? " says nothing that ticks it; expected until, event or label"
+                                   : ".label is of a step without until; expected until or event, too"));
+  out.in_turn = object.has("in_turn") && object.boolean("in_turn");
+  if (out.in_turn && first) object["in_turn"].refuse("false: it is the first that ticks itself");
+  return out;
+}
+
+std::vector<Instruction> read_instructions(const JsonObject& object, const Script& script) {
+  std::vector<Instruction> out;
+  if (object.list("instructions").empty()) object.refuse("instructions");
+  bool first = true;
+  for (const JsonValue& one : object.list("instructions")) {
+    out.push_back(read_instruction(one, script, first));
+    first &= !out.back().ticks();
+  }
+  return out;
+}
+
 Lesson read_lesson(const JsonValue& value) {
   const JsonObject object(value, course_keys::lesson);
   Lesson lesson;
   lesson.name = object.text("name");
   if (!is_name(lesson.name)) object.refuse("name");
   lesson.title = object.text("title"), lesson.goal = object.text("goal");
-  lesson.instructions = texts(object, "instructions");
   lesson.case_name = from_course(object, "case"), lesson.script = from_course(object, "script");
   lesson.scoring = from_course(object, "scoring");
   std::optional<vascular::Access> access;
+  Script expert;
   require(object, "case", [&](const std::string& name) {
     const Case of_lesson = find_case(name);
     if (!of_lesson.imported) access = of_lesson.anatomy.access;
   });
-  require(object, "script",
-          [&](const std::string& name) { require_access(find_script(name), access, lesson.case_name); });
+  require(object, "script", [&](const std::string& name) {
+    Script script = find_script(name);
+    require_access(script, access, lesson.case_name);
+    expert = std::move(script);
+  });
+  lesson.instructions = read_instructions(object, expert);
   if (object.has("person")) lesson.person = static_cast<std::uint64_t>(object.whole("person"));
   if (object.has("begin")) lesson.begin = course_keys::beginnings[object.choice("begin", course_keys::beginnings)];
   lesson.must_hold = texts(object, "must_hold");

@@ -67,10 +67,10 @@ class Client {
                        "Sec-WebSocket-Version: 13\r\n",
                    host_header);
   }
-  bool come_in(const std::string& token) {
+  bool come_in(const std::string& token, const std::string& greeted = "\"welcome\"") {
     if (open_socket("http://" + host()).find(" 101 ") == std::string::npos) return false;
     say(R"({"do":"hello","token":")" + token + "\"}");
-    return message([](const std::string& text) { return text.find("\"welcome\"") != std::string::npos; }).has_value();
+    return message_with(greeted).has_value();
   }
   /// One frame, masked with zeros.
   void say(const std::string& text, char opcode = 1) {

@@ -52,6 +52,7 @@ struct Sitting {
   static StationSettings settings() {
     StationSettings s;
     s.goes_back = true, s.pixels = 64;
+    s.lesson = {"One", "it is out", {{"push", true, {"first", "second"}}, {"draw", true, {"third"}}}, {0}, ""};
     return s;
   }
   std::string file(const char* name) const { return (folder / name).string(); }
@@ -142,6 +143,14 @@ TEST(Station, PausesTakesOverAndTellsWhatHappens) {
   EXPECT_NEAR(s.station.notes()[0].second, at, 0.2);
 }
 
+int count(const data::RecordingReader& recording, data::EventCode code) {
+  int found = 0;
+  const std::vector<double> events = recording.events();
+  for (std::size_t at = 0; at < events.size(); at += 4)
+    found += events[at + 1] == static_cast<double>(static_cast<int>(code));
+  return found;
+}
+
 TEST(Station, GoesBackAndTheBranchReplaysAlone) {
   Sitting s(Hands::seats);
   Client trainer(s.station.port());
@@ -184,11 +193,34 @@ TEST(Station, GoesBackAndTheBranchReplaysAlone) {
   EXPECT_NE(a.hashes(1200, 1), b.hashes(1200, 1));
   EXPECT_EQ(b.states(), b.steps() / 1000 + 1);
   EXPECT_EQ(b.signals().size(), b.steps() / 10 * b.signal_columns().size());
-  int entered = 0;
-  const std::vector<double> events = b.events();
-  for (std::size_t at = 0; at < events.size(); at += 4)
-    entered += events[at + 1] == static_cast<double>(static_cast<int>(data::EventCode::tool_in));
-  EXPECT_EQ(entered, 1);
+  EXPECT_EQ(count(b, data::EventCode::tool_in), 1);
+}
+
+TEST(Station, HintsAreOnWhatIsNotDoneAndAreRecorded) {
+  Sitting s(Hands::seats);
+  Client learner(s.station.port());
+  ASSERT_TRUE(learner.come_in(Sitting::token(s.station.trainer_link())));
+  EXPECT_TRUE(learner.message_with(R"("type":"ticks","at":[null,null])"));
+  learner.say(R"({"do":"guide_feed","values":[1]})");
+  learner.say(R"({"do":"jump"})");
+  const auto refused = learner.message_with("\"refused\"");
+  ASSERT_TRUE(refused);
+  EXPECT_EQ(refused->find("take over"), std::string::npos) << "keys are taken before the first snapshot, too";
+  for (const char* words :
+       {R"("instruction":0,"words":"first","more":true)", R"("words":"second","more":false)", R"("words":"second")"}) {
+    learner.say(R"({"do":"hint"})");
+    EXPECT_TRUE(learner.message_with(words)) << words;
+  }
+  s.station.ear()({500, static_cast<int>(data::EventCode::instruction_done), -1, 0});
+  EXPECT_TRUE(learner.message_with(R"("at":[0.5,null])"));
+  learner.say(R"({"do":"hint"})");
+  EXPECT_TRUE(learner.message_with(R"("instruction":1,"words":"third")"));
+  s.play("run.h5");
+  EXPECT_TRUE(learner.message_with("hint asked"));
+  s.hand.controls(Seat::window).order(ConsoleCommand::end);
+  s.steps.join();
+  EXPECT_EQ(count(data::RecordingReader(s.file("run.h5")), data::EventCode::hint_asked), 1)
+      << "time stood for all of them";
 }
 
 }  // namespace

@@ -68,6 +68,13 @@ struct AtTheBox {
   double turned_deg() const { return run.state.hands[0].turned_rad * 180 / units::pi; }
 };
 
+TEST(Device, PeopleDoTheRestAndGiveTheHeparinThemselves) {
+  for (const data::ScriptStep& step : free_hands(data::find_script("rca-from-the-ostium")).steps)
+    EXPECT_TRUE(step.action == data::ScriptAction::view || step.action == data::ScriptAction::fluoroscopy ||
+                step.action == data::ScriptAction::wait)
+        << step.words();
+}
+
 TEST(BoxDriver, TheInstrumentIsWhereTheHandHasIt) {
   AtTheBox at;
   at.ticks(5);

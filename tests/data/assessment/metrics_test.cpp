@@ -193,6 +193,16 @@ TEST(Metrics, OfARecordMadeByHand) {
   EXPECT_NEAR(value(r, "idle_beam_time_s"), 1.5 + 1, 0.03) << "cine from 6 s, fluoroscopy from 9 s";
 }
 
+TEST(Metrics, HintsAreCountedInLessons) {
+  RunRecord r = record();
+  EXPECT_TRUE(std::isnan(value(r, "hints_asked"))) << "no lesson";
+  const auto add = [&](EventCode code) { r.events.insert(r.events.end(), {9000, double(int(code)), -1, 0}); };
+  add(EventCode::instruction_done);
+  EXPECT_EQ(value(r, "hints_asked"), 0);
+  add(EventCode::hint_asked), add(EventCode::hint_asked);
+  EXPECT_EQ(value(r, "hints_asked"), 2);
+}
+
 TEST(Metrics, WhatDoesNotApplyIsNoNumber) {
   RunRecord r = record();
   r.branches = {"aorta", "left renal"};

@@ -43,6 +43,16 @@ TEST(Course, AFaultyOneNamesFileLineKeyAndCure) {
       {"\"goal\": \"done\", ", "", "mine.json:4: lessons[0].goal is missing"},
       {"[\"push\"]", "[]", "mine.json:4: lessons[0].instructions"},
       {"[\"push\"]", "[7]", "mine.json:4: lessons[0].instructions[0] is 7; expected a text"},
+      {"\"push\"", R"({ "text": "push" })",
+       "mine.json:4: lessons[0].instructions[0] says nothing that ticks it; expected until, event or label"},
+      {"\"push\"", R"({ "text": "push", "until": [{ "fed": 7 }] })", "mine.json:4: lessons[0].instructions[0].until"},
+      {"\"push\"", R"({ "text": "push", "until": [{ "out": true, "of": "balloon" }] })",
+       "expected one of the script's tools: wire"},
+      {"\"push\"", R"({ "text": "push", "label": "nowhere" })",
+       "mine.json:4: lessons[0].instructions[0].label is \"nowhere\"; expected a label of the lesson's script: "},
+      {"\"push\"", R"({ "text": "push", "event": "tool_in", "in_turn": true })",
+       "lessons[0].instructions[0].in_turn is true; expected false"},
+      {"\"push\"", R"({ "text": "push", "when": "now" })", "when"},
       {"rca-mid-focal", "rca-nowhere", "mine.json:5: lessons[0].case is \"rca-nowhere\": there is no case"},
       {"iliac-wire", "no-script", "mine.json:5: lessons[0].script is \"no-script\": there is no script"},
       {"\"name\": \"one\"", "\"name\": \"../one\"", "mine.json:4: lessons[0].name"},
@@ -68,6 +78,24 @@ TEST(Course, AFaultyOneNamesFileLineKeyAndCure) {
   } catch (const LoadError& error) {
     EXPECT_NE(std::string(error.what()).find("first-steps"), std::string::npos) << error.what();
   }
+}
+
+TEST(Course, AnInstructionIsTickedByConditionsAnEventOrTheExpertsStep) {
+  std::string text = good;
+  text.replace(text.find("\"push\""), 6, R"("look", { "text": "in", "until": [{ "inserted_mm": 50 }] },
+    { "text": "seen", "event": "fluoroscopy_on" }, { "text": "up", "label": "up" },
+    { "text": "out", "label": "out", "until": [{ "out": true }], "in_turn": true })");
+  text.replace(text.find("iliac-wire"), 10, "wire-in-and-out");
+  const std::vector<Instruction> all = read_course("mine.json", text).lessons[0].instructions;
+  ASSERT_EQ(all.size(), 5u);
+  EXPECT_FALSE(all[0].ticks());
+  EXPECT_EQ(all[1].until.at(0).kind, ConditionKind::inserted);
+  EXPECT_EQ(all[1].until.at(0).value, 0.05);
+  EXPECT_EQ(all[2].event, "fluoroscopy_on");
+  EXPECT_EQ(all[3].until.at(0).value, 0.25) << "what the expert's step waits for";
+  EXPECT_EQ(all[3].expert_step, 2);
+  EXPECT_TRUE(all[4].in_turn);
+  EXPECT_EQ(all[4].until.size(), 1u);
 }
 
 /// Not only when the lesson begins.

@@ -1,0 +1,167 @@
+#include "app/commands/learn/schooling.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "app/command_line/interrupt.h"
+#include "app/commands/run/drivers.h"
+#include "app/serve/messages/hints.h"
+#include "data/formats/load_error.h"
+
+namespace ostium::app {
+
+namespace {
+
+/// What the page says of the instructions: each with the expert's steps up to those of the next.
+std::vector<LessonWords::Instruction> words_of(const data::Lesson& lesson) {
+  const data::Script script = data::find_script(lesson.script);
+  std::vector<LessonWords::Instruction> out;
+  for (std::size_t i = 0; i < lesson.instructions.size(); ++i) {
+    const data::Instruction& one = lesson.instructions[i];
+    int end = -1;
+    for (std::size_t k = i + 1; k < lesson.instructions.size() && end < 0; ++k)
+      if (lesson.instructions[k].expert_step > one.expert_step) end = lesson.instructions[k].expert_step;
+    std::vector<std::string> hints;
+    if (one.expert_step >= 0) hints = hints_of(script, one.expert_step, end);
+    out.push_back({one.text, one.ticks(), std::move(hints)});
+  }
+  return out;
+}
+
+/// An item of the list that must hold, as a condition.
+std::string needed_words(const data::ScoreItem& item) {
+  return (item.kind == data::ScoreKind::step ? "" : "Must not happen: ") + item.what;
+}
+
+/// What was expected and what happened.
+void tell(const CheckedLesson& lesson, const Served& served) {
+  for (std::size_t i = 0; i < lesson.list.items.size(); ++i) {
+    const data::Score& score = served.scores[i];
+    const bool holds = score.holds == data::Ticked::yes;
+    const bool must = std::ranges::find(lesson.needed, i) != lesson.needed.end();
+    const bool step = lesson.list.items[i].kind == data::ScoreKind::step;
+    fmt::print("  {:<14} {}{}{}\n",
+               score.holds == data::Ticked::not_seen ? "cannot tell"
+               : step                                ? holds ? "done" : "not done"
+               : holds                               ? "did not happen"
+                                                     : "happened",
+               lesson.list.items[i].what, score.value.empty() ? "" : ": " + score.value,
+               must ? " (needed to go on)" : "");
+  }
+  std::fflush(stdout);
+}
+
+}  // namespace
+
+ServeArguments Schooling::serving_of(std::size_t place) const {
+  const data::Lesson& lesson = course_.lessons[place];
+  ServeArguments serving;
+  serving.session.vessel = lesson.case_name, serving.session.script = lesson.script;
+  if (lesson.person) serving.session.set.push_back(fmt::format("person={}", *lesson.person));
+  if (!lesson.begin.empty()) serving.session.set.push_back("begin=" + lesson.begin);
+  serving.hands = "browser", serving.scoring = lesson.scoring, serving.report = false;
+  serving.lesson = {fmt::format("{} of {}: {}", place + 1, course_.lessons.size(), lesson.title),
+                    lesson.goal,
+                    words_of(lesson),
+                    {},
+                    ""};
+  serving.instructions = lesson.instructions;
+  return serving;
+}
+
+Progress::Verdict Schooling::verdict(std::size_t place, const Served& served) const {
+  const CheckedLesson& lesson = lessons_[place];
+  Progress::Verdict out;
+  for (const std::size_t item : lesson.needed)
+    if (served.scores[item].holds != data::Ticked::yes) out.missed.push_back(needed_words(lesson.list.items[item]));
+  out.done = out.missed.empty(), out.seconds = served.report.simulated_s;
+  for (const data::Metric& metric : served.report.metrics)
+    if (metric.name == "hints_asked" && metric.value > 0) out.hints = static_cast<int>(metric.value);
+  return out;
+}
+
+CourseBoard Schooling::board(std::optional<std::size_t> at) const {
+  CourseBoard board;
+  board.title = course_.title, board.note = course_.note, board.at = at;
+  bool before = true;
+  board.next = course_.lessons.size();
+  for (std::size_t i = 0; i < course_.lessons.size(); ++i) {
+    const data::Lesson& lesson = course_.lessons[i];
+    CourseBoard::Lesson own;
+    own.title = lesson.title, own.goal = lesson.goal;
+    for (const std::size_t item : lessons_[i].needed)
+      own.must_hold.push_back(needed_words(lessons_[i].list.items[item]));
+    for (const auto& one : progress_.attempts(lesson.name))
+      own.attempts.push_back({one.value("attempt", std::size_t{0}), one["done"].get<bool>(), one.value("ended", false),
+                              one.value("seconds", 0.0), one.value("hints_asked", 0),
+                              one.value("missed", std::vector<std::string>{})});
+    own.done = progress_.done(lesson.name);
+    own.locked = !before && own.attempts.empty();
+    own.goes_on = progress_.unfinished(lesson.name).has_value();
+    before = own.done;
+    if (!own.done) board.next = std::min(board.next, i);
+    board.lessons.push_back(std::move(own));
+  }
+  return board;
+}
+
+/// An attempt that was left or cut off goes on, unless a new one is asked for, or it cannot.
+void Schooling::attempt(ServeArguments& serving, std::size_t place, const Ask& ask) {
+  const data::Lesson& lesson = course_.lessons[place];
+  const auto unfinished = ask.how == Ask::How::go_on ? progress_.unfinished(lesson.name) : std::nullopt;
+  const std::size_t number = unfinished ? unfinished->number : progress_.next(lesson.name);
+  serving.folder = progress_.folder_of(lesson.name, number).string();
+  serving.lesson.needed = lessons_[place].needed;
+  if (place + 1 < course_.lessons.size()) serving.lesson.next = course_.lessons[place + 1].title;
+  if (unfinished) serving.resumes = unfinished->from;
+  Classroom& room = *serving.classroom;
+  serving.ended = [&, place, number](const Served& served) {
+    progress_.note(lesson.name, number, verdict(place, served));
+    room.show(board(place));
+    tell(lessons_[place], served);
+  };
+  progress_.begin(lesson.name, number);
+  try {
+    fmt::print("{}, attempt {}{}\n", serving.lesson.title, number, unfinished ? " goes on" : "");
+    std::fflush(stdout);
+    serve(serving);
+  } catch (...) {
+    progress_.leave(lesson.name, number);  // or the next start would come back to what cannot be opened
+    throw;
+  }
+  if (!interrupted) progress_.leave(lesson.name, number);
+}
+
+void Schooling::open(Classroom& room, const Ask& ask) {
+  ServeArguments serving = serving_of(ask.lesson);
+  serving.classroom = &room;
+  if (ask.how != Ask::How::shown) return attempt(serving, ask.lesson, ask);
+  serving.hands = "script";
+  serving.lesson.title += " (shown by the expert)";
+  serve(serving);
+}
+
+int Schooling::attend(std::uint16_t port, const Ask& first) {
+  Classroom room("127.0.0.1", port);
+  room.show(board({}));
+  stop_on_signals();
+  fmt::print("{}\nOpen the first of these links in a browser; lessons are chosen there.\n", course_.title);
+  tell_links(room.trainer_link(), room.viewer_link(), false);
+  Ask ask = first;
+  while (!interrupted && ask.kind != Ask::Kind::close) {
+    if (ask.kind == Ask::Kind::lesson) {
+      CourseBoard opening = board(ask.lesson);
+      opening.opening = true;
+      room.show(opening);
+      open(room, ask);
+      ask = room.take();
+    } else {
+      room.show(board({}));
+      ask = room.wait(interrupted);
+    }
+  }
+  return 0;
+}
+
+}  // namespace ostium::app

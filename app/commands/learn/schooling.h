@@ -1,0 +1,36 @@
+#pragma once
+/// A learner in a course: one page, on which lessons are chosen, played, judged and tried again.
+#include "app/commands/learn/progress.h"
+#include "app/commands/serve/serve.h"
+#include "data/catalogue/course/course.h"
+
+namespace ostium::app {
+
+/// What a lesson is judged by.
+struct CheckedLesson {
+  data::ScoreList list;
+  std::vector<std::size_t> needed;  ///< places in the list of what must hold to go on
+};
+
+class Schooling {
+ public:
+  /// All must outlive it.
+  Schooling(const data::Course& course, const std::vector<CheckedLesson>& lessons, Progress& progress)
+      : course_(course), lessons_(lessons), progress_(progress) {}
+
+  /// Until the learner closes the course, or the program is asked to end. `first`: what is opened at once.
+  int attend(std::uint16_t port, const Ask& first);
+
+ private:
+  CourseBoard board(std::optional<std::size_t> at) const;
+  void open(Classroom& room, const Ask& ask);
+  void attempt(ServeArguments& serving, std::size_t place, const Ask& ask);
+  ServeArguments serving_of(std::size_t place) const;
+  Progress::Verdict verdict(std::size_t place, const Served& served) const;
+
+  const data::Course& course_;
+  const std::vector<CheckedLesson>& lessons_;
+  Progress& progress_;
+};
+
+}  // namespace ostium::app
