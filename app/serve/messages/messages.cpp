@@ -114,7 +114,11 @@ Json emergency_of(const SessionModel& model) {
                      {"least", one.least},
                      {"most", one.most},
                      {"usual", one.usual}});
-  return {{"arteries", arteries}, {"lesions", lesions}, {"drugs", drugs}, {"provocables", kinds}};
+  return {{"arteries", arteries},
+          {"lesions", lesions},
+          {"drugs", drugs},
+          {"provocables", kinds},
+          {"breathes", model.breaths_1_min > 0}};
 }
 
 const char* kind_of(data::ScoreKind kind) {

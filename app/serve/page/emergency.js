@@ -53,6 +53,9 @@ export class Emergency {
     this.compress = running('Compress 110/min', 'compress', [110]);
     this.pace = running('Pace 80/min, 3 mA', 'pace', [80, 3], [80, 0]);
     add(this.infuse, this.drain, this.shock, this.compress, this.pace);
+    this.breath = [['Breathe in, hold', 1], ['Breathe out, hold', 2], ['Breathe', 0]].map(([words, asked]) =>
+      button(words, this.rows.get('breath').what, () => this.socket.order('breath', asked)));
+    if (this.has.breathes) add(...this.breath);
   }
   provoke(add) {
     const lesion = this.has.lesions[0];
@@ -91,7 +94,7 @@ export class Emergency {
   show(now, welcome) {
     if (!this.has) return;
     const viewer = welcome.role !== 'trainer';
-    for (const one of [...this.dose, this.infuse, this.drain, this.shock, this.compress, this.pace]) one.disabled = viewer;
+    for (const one of [...this.dose, this.infuse, this.drain, this.shock, this.compress, this.pace, ...this.breath]) one.disabled = viewer;
     this.infuse.setAttribute('aria-pressed', now.patient.infusion_mL_min > 0);
     this.drain.setAttribute('aria-pressed', now.patient.drain_mL_min > 0);
     this.compress.setAttribute('aria-pressed', now.patient.compressions_1_min > 0);
