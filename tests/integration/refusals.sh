@@ -151,6 +151,8 @@ expect 1 "limited-frame.png: cannot be written .File too large" bash -c 'ulimit 
 expect 2 "would do nothing" "$ostium" learn --list --lesson whole
 sed 's/"first-steps"/"my-steps"/; s/"lesson-film"/"no-list"/' "$here/../../data/courses/first-steps.json" >my-steps.json
 refused "my-steps.json:[0-9]*: scoring of lesson film: no-list" learn my-steps.json --list
+sed 's/"first-steps"/"my-steps"/; s/"event": "nitrate"/"event": "nitrat"/' "$here/../../data/courses/first-steps.json" >my-steps.json
+refused "my-steps.json:[0-9]*: an instruction of lesson film waits for the event .nitrat.; expected a name of" learn my-steps.json --list
 
 # A refusal leaves everything as it was.
 "$ostium" explain --template three_point_bend -o bend >/dev/null

@@ -126,8 +126,14 @@ void Schooling::attempt(ServeArguments& serving, std::size_t place, const Ask& a
     fmt::print("{}, attempt {}{}\n", serving.lesson.title, number, unfinished ? " goes on" : "");
     std::fflush(stdout);
     serve(serving);
-  } catch (...) {
+  } catch (const data::LoadError& error) {
     progress_.leave(lesson.name, number);  // or the next start would come back to what cannot be opened
+    if (!unfinished) throw;
+    fmt::print(stderr, "{}\nostium: attempt {} cannot go on; a new one begins\n", error.what(), number);
+    serving.resumes.reset();
+    return attempt(serving, place, {Ask::Kind::lesson, place, Ask::How::afresh});
+  } catch (...) {
+    progress_.leave(lesson.name, number);
     throw;
   }
   if (!interrupted) progress_.leave(lesson.name, number);

@@ -133,7 +133,7 @@ function showList(listed) {
   const panel = $('course');
   panel.hidden = !listed;
   for (const part of document.querySelectorAll('main, footer, #clock, #state, #help')) part.hidden = listed;
-  $('to-lessons').hidden = listed || !course.board;
+  $('to-lessons').hidden = listed || !course.board || !course.learns;
   if (listed) (panel.querySelector('button.on') ?? panel).focus();
 }
 
@@ -241,7 +241,7 @@ $('end').onclick = () => {
   if (ended && course.board) return socket.order('course');
   ask(ended ? 'Close the session?' : 'End the run?', () => { closed = !!ended; socket.order('end'); });
 };
-$('to-lessons').onclick = () => (ended ? socket.order('course')
+$('to-lessons').onclick = () => (ended || !welcome?.lesson.needed.length ? socket.order('course')
   : ask('Leave this attempt? It is kept, and can go on from here later.', () => socket.order('course')));
 $('words').onclick = () => { fillGlossary($('glossary').querySelector('tbody')); $('glossary').showModal(); };
 $('glossary').querySelector('button').onclick = () => $('glossary').close();
