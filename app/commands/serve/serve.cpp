@@ -85,44 +85,8 @@ StationSettings settings_of(const ServeArguments& a) {
 /// The station is in its classroom, if it has one.
 class Seated {
  public:
-<<<<<<< HEAD
-  Sitting(const ServeArguments& a, const std::string& folder, const RunSetup& setup, ScriptedRun& run, LiveDriver& hand,
-          Station& station, const data::ScoreList& list)
-      : a_(a),
-        folder_(folder),
-        setup_(setup),
-        run_(run),
-        hand_(hand),
-        station_(station),
-        list_(list),
-        dosimeter_(std::make_shared<const Dosimeter>(*run.model.vessel)) {
-    station.wait_for_picture();
-  }
-
-  /// Until the trainer leaves, or the program is asked to end.
-  Served play_all() {
-    Wish wish = play_once();
-    while (wish.kind == Wish::Kind::go_back && !interrupted) {
-      const Continued from{(fs::path(folder_) / recording_).string(),
-                           wish.second * static_cast<std::size_t>(data::steps_per_state)};
-      try {
-        watch_ = go_back(run_, from);
-      } catch (const data::LoadError& error) {
-        station_.tell_problem(error.what());
-        wish = station_.wait(interrupted);
-        continue;
-      }
-      continues_ = from;
-      recording_ = fmt::format("branch-{}.h5", ++branches_ + 1);
-      hand_.restart(run_);
-      station_.gone_back(wish.second, recording_);
-      wish = play_once();
-    }
-    return {last_, scores_};
-=======
   Seated(Classroom* classroom, Station& station) : classroom_(classroom) {
     if (classroom_) classroom_->enter(station);
->>>>>>> 4fa83d60f397f617924a9f3ee70c1094ecaf098c
   }
   ~Seated() {
     if (classroom_) classroom_->leave();
@@ -157,30 +121,23 @@ Served serve(const ServeArguments& arguments) {
   LiveDriver hand(session.model, by_hand ? Hands::seats : Hands::script, 15);
   session.take_over(&hand);
   hand.end_on(interrupted);
-<<<<<<< HEAD
-  if (!a.at_once) hand.controls(Seat::window).order(ConsoleCommand::pause);
-  StationSettings settings;
-  settings.address = a.address, settings.port = static_cast<std::uint16_t>(a.port), settings.goes_back = true;
-  settings.lesson = a.lesson;
-  std::optional<EndsAtOnce> nothing_yet(std::in_place);  // is recorded: dose and picture take seconds to prepare
-  Station station(session, hand, list, settings);
-  show_progress("");
-  tell_links(station, !is_loopback(a.address));
-  Sitting sitting(a, a.folder, setup, session, hand, station, list);
-  nothing_yet.reset();
-  const Served served = sitting.play_all();
-=======
   Checklist checklist(a.instructions, script, session.model);
   hand.follow(&checklist);
+  // Dose and picture take seconds to prepare, in which a server of its own has nothing to keep yet.
+  std::optional<EndsAtOnce> nothing_yet;
+  if (a.classroom)
+    stop_on_signals();
+  else
+    nothing_yet.emplace();
   Station station(session, hand, list, settings_of(a));
-  stop_on_signals();
   show_progress("");
-  Sitting sitting(a, setup, session, hand, station, checklist, list);
-  if (!a.at_once && !a.resumes) hand.controls(Seat::window).order(ConsoleCommand::pause);
   if (!a.classroom) tell_links(station.trainer_link(), station.viewer_link(), !is_loopback(a.address));
+  Sitting sitting(a, setup, session, hand, station, checklist, list);
+  station.wait_for_picture();
+  nothing_yet.reset();
+  if (!a.at_once && !a.resumes) hand.controls(Seat::window).order(ConsoleCommand::pause);
   const Seated seated(a.classroom, station);
   Served served = sitting.play_all();
->>>>>>> 4fa83d60f397f617924a9f3ee70c1094ecaf098c
   if (!passing)
     fmt::print(stderr, "{}: {}\n", a.folder,
                served.scores.empty() ? "what was recorded until it was left"

@@ -42,15 +42,10 @@ std::string injury_words(double value) {
 std::string value_words(const data::EventDefinition& definition, double value) {
   const std::string& unit = definition.value;
   const std::string first = unit.substr(0, unit.find_first_of(" ,"));
-<<<<<<< HEAD
   for (const char* known : {"N", "mm", "mm3", "s", "mL/s", "mL", "U", "ug", "atm", "degrees", "J"})
-    if (first == known) return fmt::format(", {:.3g} {}", value, first);
-=======
-  for (const char* known : {"N", "mm", "s", "mL/s", "mL", "U", "ug", "atm", "degrees", "J"})
     if (first == known)
       return std::fabs(value) < 1000 ? fmt::format(", {:.3g} {}", value, first)
                                      : fmt::format(", {:.0f} {}", value, first);
->>>>>>> 4fa83d60f397f617924a9f3ee70c1094ecaf098c
   return "";
 }
 

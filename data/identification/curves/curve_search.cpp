@@ -200,13 +200,15 @@ void Search::add_laws(std::vector<Candidate>& list, const Candidate& declared) c
   }
 }
 
-void Search::add_faults(std::vector<Candidate>& list, const Candidate& declared) const {
+/// Against the noise as it was before effects grew: what they leave of wrong data is no noise.
+void Search::add_faults(std::vector<Candidate>& list, const Candidate& declared, const Noise& noise) const {
   const std::size_t runs = set_->runs().size();
   if (runs < 3) return;
   const auto tried = [&](const Fault& fault) {
     Candidate c;
     c.name = fault.what, c.effects = {fault.id}, c.set = fault.set, c.fault = fault;
-    c.model = Fit(*fault.set, noise_, fault.chosen).run({}, &declared.model);
+    // From what is declared: a fit to data that are wrong is no place to begin at.
+    c.model = Fit(*fault.set, noise, fault.chosen).run({}, nullptr);
     // What was chosen among many is paid for: one of so many runs, and of so many mends.
     c.paid = 2 * std::log(static_cast<double>(runs)) + 2 * std::log(20.0);
     return c;
@@ -252,11 +254,12 @@ void Search::run(CurveExplanation& out) {
     if (again.is_noise) noise_ = own, out.declared = again;
   }
   std::vector<Candidate>& list = out.candidates;
+  const Noise before = noise_;
   if (options_.tries.empty()) {
     grow(list, out.declared);
     prune(list);
     if (!out.declared.is_noise) add_laws(list, out.declared);
-    if (!out.declared.is_noise) add_faults(list, out.declared);
+    if (!out.declared.is_noise) add_faults(list, out.declared, before);
   }
   for (const std::vector<std::string>& ids : options_.tries)
     for (const std::vector<std::size_t>& effects : combinations(*set_, ids))
@@ -265,7 +268,7 @@ void Search::run(CurveExplanation& out) {
   // One noise for all: that which the best model leaves.
   const bool better = !list.empty() && list.front().bic() < out.declared.bic();
   const Candidate& best = better ? list.front() : out.declared;
-  if (!best.fault) noise_ = noise_of(set_->runs(), best.model.standardised(), noise_);
+  noise_ = best.fault ? before : noise_of(set_->runs(), best.model.standardised(), noise_);
   out.noise = noise_;
   if (list.size() > looked_at) list.resize(looked_at);
   const auto again = [&](Candidate& c) {

@@ -22,7 +22,7 @@ class Search {
   /// Laws that are learned from the data, where no effect alone leaves only noise; with the best model where they leave
   /// more than noise.
   void add_laws(std::vector<Candidate>& list, const Candidate& declared) const;
-  void add_faults(std::vector<Candidate>& list, const Candidate& declared) const;
+  void add_faults(std::vector<Candidate>& list, const Candidate& declared, const Noise& noise) const;
   void judge(Candidate& c, const Candidate& declared, const Noise& noise) const;
   bool stopped() const { return options_.stop && options_.stop(); }
   void say(const std::string& what) const;
