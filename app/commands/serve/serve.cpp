@@ -125,10 +125,7 @@ Served serve(const ServeArguments& arguments) {
   hand.follow(&checklist);
   // Dose and picture take seconds to prepare, in which a server of its own has nothing to keep yet.
   std::optional<EndsAtOnce> nothing_yet;
-  if (a.classroom)
-    stop_on_signals();
-  else
-    nothing_yet.emplace();
+  if (!a.classroom) nothing_yet.emplace();
   Station station(session, hand, list, settings_of(a));
   show_progress("");
   if (!a.classroom) tell_links(station.trainer_link(), station.viewer_link(), !is_loopback(a.address));
