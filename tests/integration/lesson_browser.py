@@ -67,8 +67,11 @@ def begin(browser):
     assert browser.run("return " + text("who")) == "Learner"
     assert ticks(browser) == "▸○○○○○·"
     wanted_cm = float(re.search(r"(\d+) cm in", browser.run("return " + text("lesson")))[1])
+    click(browser, "#sound")
     click(browser, "#pause")
     browser.wait("time goes on", f"{CLOCK} >= 1", 40)
+    browser.wait("a tone at each R wave", "document.getElementById('sound').dataset.tones >= 2", 30)
+    click(browser, "#sound")
     keys(browser, (True, " "))
     browser.wait("the pedal is down", "!document.getElementById('beam').hidden")
     assert browser.run("return " + text("state")).startswith("Running"), "Space paused the run"

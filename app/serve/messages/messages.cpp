@@ -278,6 +278,8 @@ std::string message_of(const Setting& setting, const Snapshot& now, const LivePi
                       {"pericardium_mmHg", number(signal("pericardium_mmHg"), 0.1)},
                       {"leak_mL_s", number(signal("leak_mL_s"), 0.01)},
                       {"rhythm", number(signal("rhythm"), 1)},
+                      {"systolic_mmHg", number(signal("systolic_mmHg"), 1)},
+                      {"awake", number(signal("awake"), 1)},
                       {"compressions_1_min", number(now.inputs.delivery.compressions_1_min, 1)},
                       {"pacing_mA", number(now.inputs.delivery.pacing_mA, 0.1)},
                       {"infusion_mL_min", number(now.inputs.delivery.infusion_m3_s / units::mL_min, 1)},

@@ -5,6 +5,7 @@ import { Lesson } from '/lesson.js';
 import { Picture } from '/picture.js';
 import { Scores } from '/scores.js';
 import { Socket } from '/socket.js';
+import { Sound } from '/sound.js';
 import { drawStrip } from '/strips.js';
 import { Timeline, clock } from '/timeline.js';
 import { Truth, toolColours } from '/truth.js';
@@ -18,6 +19,7 @@ history.replaceState(null, '', '/'); // not for shoulders, nor for the history
 let welcome = null, now = null, console_ = null, emergency = null, ended = null, closed = false, refusedUntil = 0;
 let pace = []; // [wall s, simulated s] of the last seconds
 const truth = new Truth($('truth'));
+const sound = new Sound($('sound'), () => $('stage').focus());
 const picture = new Picture($('picture'), () => { $('empty').hidden = true; });
 const reference = new Picture($('reference'), () => { $('reference').hidden = false; });
 
@@ -175,6 +177,7 @@ function show() {
     $('mmhg').textContent = now.patient.high_mmHg === null ? '–' : `${now.patient.high_mmHg}/${now.patient.low_mmHg}`;
   }
   $('monitor').hidden = !now.patient;
+  sound.show(now, !!ended);
   [...$('tools').tBodies[0].rows].forEach((row, t) => {
     const tool = now.tools[t], cells = row.cells;
     row.className = tool.in ? '' : 'out';
@@ -192,6 +195,7 @@ function show() {
     ['ST', `${fixed(p.ST_mV, 2)} mV`], ['flow', p.flow_share === null ? '–' : `${Math.round(100 * p.flow_share)} %`], ['lesion', `${fixed(p.lesion_mld_mm, 2)} mm`], ['tear hazard', fixed(p.hazard, 3)], ...arm] : arm;
   if (p?.pericardium_mL > 0) numbers.unshift(['pericardium', `${p.pericardium_mL} mL`], ['its pressure', `${fixed(p.pericardium_mmHg, 1)} mmHg`]);
   if (p?.leak_mL_s > 0.005) numbers.unshift(['leak', `${fixed(p.leak_mL_s, 2)} mL/s`]);
+  if (p?.awake === 0) numbers.unshift(['patient', 'does not answer']);
   if (p?.rhythm > 0) numbers.unshift(['rhythm', ['sinus', 'AV block', 'fibrillation', 'asystole'][p.rhythm]]);
   const speed = speedNow();
   if (speed < 0.9) numbers.push(['speed', `${Math.round(100 * speed)} %`]);
