@@ -126,7 +126,11 @@ JsonType numbers(int count, const JsonRange& range) {
 
 JsonType either(const std::vector<JsonType>& types) { return {{{"oneOf", schemas_of(types)}}}; }
 
-JsonType null_or(const JsonType& type) { return either({named("null"), type}); }
+JsonType null_or(const JsonType& type) {
+  JsonType out = either({named("null"), type});
+  out.range = type.range;
+  return out;
+}
 
 }  // namespace json_type
 
