@@ -82,6 +82,7 @@ class FaultFinder {
 
   std::optional<Mended> find() const {
     if (std::optional<Mended> views = exchanged_views()) return views;
+    if (set_.experiments.size() < fewest_experiments) return {};
     std::optional<Mended> mended = exchanged();
     double least = mended ? chi2_of(mended->set) : std::numeric_limits<double>::infinity();
     std::optional<Mended> left_out;
@@ -217,7 +218,7 @@ class FaultFinder {
 
 std::optional<Mended> find_fault(const MeasurementSet& set, const Workers& workers, const FittedModel& declared,
                                  const Noise& noise, const std::function<void(const std::string&)>& progress) {
-  if (set.vessel || !noise.sigma_m || set.experiments.size() < fewest_experiments) return {};
+  if (set.vessel || !noise.sigma_m) return {};
   return FaultFinder(set, workers, declared, noise, progress).find();
 }
 

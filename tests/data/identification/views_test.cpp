@@ -69,6 +69,7 @@ TEST(Views, AnAngleIsFoundAmongAllEffects) {
 TEST(Views, ExchangedOnesAreNamed) {
   MeasurementSet set = synthetic::undeclared_set("views:clean", 1).set;
   std::swap(set.views[0].camera, set.views[1].camera);
+  set.experiments.resize(4);
   ExplainOptions options;
   options.library = true;
   const Explanation x = explain(set, options);
